@@ -1,0 +1,40 @@
+# Third-party libraries come as wheels (the list is in pyproject.toml). Inside `pip install` they are already on the
+# path of the building Python. A plain CMake build uses those of the given Python if it has them, and otherwise puts them
+# into a virtual environment of its own below the build folder.
+
+function(kinegraph_find_prefix result python)
+  execute_process(
+    COMMAND "${python}" -c "import cmeel, pathlib; print((pathlib.Path(cmeel.__file__).parent.parent / 'cmeel.prefix').as_posix())"
+    OUTPUT_VARIABLE prefix OUTPUT_STRIP_TRAILING_WHITESPACE RESULT_VARIABLE status ERROR_QUIET)
+  if(status EQUAL 0 AND EXISTS "${prefix}/lib/cmake/coal")
+    set(${result} "${prefix}" PARENT_SCOPE)
+  else()
+    set(${result} "" PARENT_SCOPE)
+  endif()
+endfunction()
+
+kinegraph_find_prefix(KINEGRAPH_PREFIX "${Python_EXECUTABLE}")
+if(NOT KINEGRAPH_PREFIX)
+  set(venv "${CMAKE_BINARY_DIR}/requirements")
+  if(NOT EXISTS "${venv}/bin/python")
+    message(STATUS "Installing the build requirements into ${venv}")
+    execute_process(COMMAND "${Python_EXECUTABLE}" -m venv "${venv}" COMMAND_ERROR_IS_FATAL ANY)
+  endif()
+  file(READ "${PROJECT_SOURCE_DIR}/pyproject.toml" pyproject)
+  string(REGEX MATCH "requires = \\[([^]]*)\\]" _ "${pyproject}")
+  string(REGEX MATCHALL "\"[^\"]+\"" quoted "${CMAKE_MATCH_1}")
+  list(TRANSFORM quoted REPLACE "\"" "" OUTPUT_VARIABLE requirements)
+  execute_process(COMMAND "${venv}/bin/python" -m pip install --quiet --disable-pip-version-check ${requirements}
+                  COMMAND_ERROR_IS_FATAL ANY)
+  kinegraph_find_prefix(KINEGRAPH_PREFIX "${venv}/bin/python")
+  if(NOT KINEGRAPH_PREFIX)
+    message(FATAL_ERROR "The build requirements in ${venv} are incomplete; delete that folder and configure again.")
+  endif()
+endif()
+list(PREPEND CMAKE_PREFIX_PATH "${KINEGRAPH_PREFIX}")
+
+set(Boost_NO_WARN_NEW_VERSIONS ON)  # coal asks for a newer Boost than CMake 3.25 knows
+find_package(Eigen3 3.4 CONFIG REQUIRED)
+find_package(assimp CONFIG REQUIRED)
+find_package(coal 3 CONFIG REQUIRED)
+find_package(Threads REQUIRED)

@@ -1,0 +1,34 @@
+#pragma once
+
+#include <sstream>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace kinegraph {
+
+/// Concatenates anything that streams.
+template <class... Args>
+std::string cat(const Args&... args) {
+  std::ostringstream out;
+  (out << ... << args);
+  return out.str();
+}
+
+/// The shortest decimal text that reads back as exactly `value`.
+std::string exact(double value);
+
+std::string join(const std::vector<std::string>& words, std::string_view separator = ", ");
+
+/// Number of insertions, deletions, replacements and swaps of neighbours that turn `a` into `b`.
+/// Upper and lower case count as equal up to a small cost, so that `Box` is near `box`.
+double editDistance(std::string_view a, std::string_view b);
+
+/// The candidates nearest to `word`, best first: those that a typing mistake away or that contain it.
+std::vector<std::string> similarWords(std::string_view word, const std::vector<std::string>& candidates,
+                                      std::size_t at_most = 3);
+
+/// "; similar names: a, b", or "" if nothing is near. Appended to error messages.
+std::string similarHint(std::string_view word, const std::vector<std::string>& candidates);
+
+}  // namespace kinegraph

@@ -1,0 +1,53 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "kinegraph/math/pose.h"
+
+namespace kinegraph {
+
+/// Kinds of shapes. The numbers are those of the Python enum `ry.ST`.
+enum class ShapeType : int {
+  none = -1,
+  box = 0,
+  sphere = 1,
+  capsule = 2,
+  mesh = 3,
+  cylinder = 4,
+  marker = 5,
+  pointCloud = 6,
+  ssCvx = 7,
+  ssBox = 8,
+  ssCylinder = 9,
+  ssBoxElip = 10,
+  quad = 11,
+  camera = 12,
+  sdf = 13,
+  tensor = 14,
+  lines = 15,
+};
+
+/// Triangles, or only points where `triangles` is empty. Local coordinates, m.
+struct Mesh {
+  std::vector<Vector3d> vertices;
+  std::vector<std::array<std::uint32_t, 3>> triangles;
+  std::vector<std::array<std::uint8_t, 4>> colors;  ///< rgba: one per vertex, one in all, or none
+};
+
+/// A shape without pose, colour or owner: type, size, and mesh or core points where the type needs them.
+/// `size` has exactly the entries that the type wants (m):
+///   box x y z | sphere r | capsule length r | cylinder length r | ssBox x y z r | ssCylinder length R r
+///   ssBoxElip x y z ex ey ez r | ssCvx r | quad x y | marker length | sdf, tensor x y z | others none
+/// Boxes give full outer widths including rounding; the axis of capsule and cylinder is z; a capsule's length is that
+/// of its core segment.
+struct Geometry {
+  ShapeType type = ShapeType::none;
+  std::vector<double> size;
+  std::shared_ptr<const Mesh> mesh;  ///< mesh, pointCloud, lines; core points of ssCvx (its vertices)
+};
+
+}  // namespace kinegraph

@@ -1,0 +1,75 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "kinegraph/base/random.h"
+#include "kinegraph/math/pose.h"
+
+namespace kinegraph {
+
+/// What a residual phi_i means to the problem. The numbers are those of the Python enum `ry.OT`.
+enum class ObjectiveType : int {
+  f = 0,      ///< cost: phi
+  sos = 1,    ///< cost: phi^2
+  ineq = 2,   ///< constraint: phi <= 0
+  eq = 3,     ///< constraint: phi = 0
+  ineqB = 4,  ///< constraint phi <= 0, as explicit log barrier
+  ineqP = 5,  ///< constraint phi <= 0, as plain squared penalty
+  none = 6,
+};
+
+/// A Jacobian whose pattern is fixed while its values change. Each row is a list of segments of consecutive columns:
+/// one segment for a dense row or one of a path, several where far columns are touched as well.
+struct Jacobian {
+  struct Segment {
+    int column;  ///< first column
+    int width;   ///< number of columns
+    int offset;  ///< of its first value in `values`
+  };
+  int columns = 0;
+  std::vector<int> row_start = {0};  ///< row i owns segments row_start[i] .. row_start[i+1]-1
+  std::vector<Segment> segments;
+  std::vector<double> values;
+
+  int rows() const { return int(row_start.size()) - 1; }
+  static Jacobian dense(int rows, int columns);
+  void addRow(std::initializer_list<std::pair<int, int>> column_and_width);  ///< appends a row of zeros
+  MatrixXd toDense() const;
+};
+
+/// Minimize  sum_f phi_i + sum_sos phi_i^2  subject to  phi_ineq <= 0,  phi_eq = 0,  lower <= x <= upper.
+/// It is all a solver sees.
+class Nlp {
+ public:
+  virtual ~Nlp() = default;
+
+  int dimension() const { return int(lower_.size()); }
+  const std::vector<ObjectiveType>& types() const { return types_; }  ///< one per entry of phi
+  const VectorXd& lower() const { return lower_; }                    ///< -infinity where there is no bound
+  const VectorXd& upper() const { return upper_; }                    ///< +infinity where there is no bound
+
+  /// A Jacobian with this problem's pattern and zero values.
+  virtual Jacobian makeJacobian() const { return Jacobian::dense(int(types_.size()), dimension()); }
+
+  /// Computes phi(x), and its Jacobian where `J` (made by makeJacobian) is given. x has `dimension()` entries,
+  /// phi has one per type. Requests no memory where it can be avoided.
+  virtual void evaluate(const VectorXd& x, VectorXd& phi, Jacobian* J) = 0;
+
+  /// Adds the Hessian of sum_f phi_i to `H` (n x n). False if the problem has none to offer; it is then taken as zero.
+  virtual bool addCostHessian(const VectorXd& x, MatrixXd& H);
+
+  /// Where a solver starts if the user gives no point. Default: uniform in the bounds, [-1, 1] where there are none.
+  virtual VectorXd initialPoint(Rng& rng);
+
+  /// Name of a row of phi in reports: "position-l_gripper [slice 0] z".
+  virtual std::string rowName(int row) const;
+
+  virtual std::string report(int verbose) const;
+
+ protected:
+  std::vector<ObjectiveType> types_;
+  VectorXd lower_, upper_;
+};
+
+}  // namespace kinegraph
