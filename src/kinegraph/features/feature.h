@@ -1,0 +1,31 @@
+#pragma once
+
+#include <span>
+
+#include "kinegraph/kinematics/state.h"
+
+namespace kinegraph {
+
+/// A differentiable function of configurations: y(q), with J = dy/dq.
+///
+/// Most features look at one configuration (order 0); velocities and higher orders of those are backward differences,
+/// which `Residual` makes. A feature that defines its own velocity (angularVel) looks at order() + 1 of them.
+class Feature {
+ public:
+  virtual ~Feature() = default;
+
+  virtual int rows() const = 0;
+
+  /// Number of configurations that eval takes, minus one.
+  virtual int order() const { return 0; }
+
+  /// Value and Jacobian at `states`, oldest first: order() + 1 of them, `tau` seconds apart. `y` has rows() entries. `J`,
+  /// where given, has rows() rows and a block of columns per state, in the same order; it comes filled with zeros.
+  virtual void eval(std::span<const State* const> states, double tau, Eigen::Ref<VectorXd> y, JacobianRows* J) const = 0;
+
+  /// First of four rows that are a quaternion, or -1. Its sign carries no meaning, and targets and differences pick the
+  /// nearer one.
+  virtual int quaternionRow() const { return -1; }
+};
+
+}  // namespace kinegraph

@@ -1,0 +1,184 @@
+#include "kinegraph/kinematics/joint.h"
+
+#include <cctype>
+#include <cmath>
+
+#include "kinegraph/base/errors.h"
+#include "kinegraph/base/text.h"
+
+namespace kinegraph {
+
+namespace {
+
+using Kind = MotionStep::Kind;
+
+constexpr MotionStep kTransX{Kind::translate, 0}, kTransY{Kind::translate, 1}, kTransZ{Kind::translate, 2};
+constexpr MotionStep kRotX{Kind::rotate, 0}, kRotY{Kind::rotate, 1}, kRotZ{Kind::rotate, 2};
+constexpr MotionStep kQuaternion{Kind::quaternion};
+
+std::vector<MotionStep> genericSteps(std::string_view code) {
+  std::vector<MotionStep> steps;
+  for (std::size_t i = 0; i < code.size(); ++i) {
+    if (code.substr(i) == "wxyz") {
+      steps.push_back(kQuaternion);
+      return steps;
+    }
+    const char letter = char(std::tolower(static_cast<unsigned char>(code[i])));
+    const double sign = letter == code[i] ? 1. : -1.;
+    if (letter >= 'x' && letter <= 'z') {
+      steps.push_back({Kind::translate, letter - 'x', sign});
+    } else if (letter >= 'a' && letter <= 'c') {
+      steps.push_back({Kind::rotate, letter - 'a', sign});
+    } else if (code[i] == 't') {
+      steps.push_back({Kind::time});
+    } else {
+      throw ValueError(cat("generic joint code '", code, "': '", code[i],
+                           "' is none of x y z a b c (capitals negate), t, or a final wxyz"));
+    }
+  }
+  return steps;
+}
+
+Quaterniond aboutAxis(int axis, double angle) {
+  Quaterniond q(std::cos(.5 * angle), 0., 0., 0.);
+  q.vec()[axis] = std::sin(.5 * angle);
+  return q;
+}
+
+/// Rotation angle about the unit axis `a` that brings the identity nearest to `q`, in (-pi, pi].
+double twistAngle(const Quaterniond& q, const Vector3d& a) {
+  const double along = q.vec().dot(a);
+  if (std::abs(along) + std::abs(q.w()) < 1e-12) return 0.;
+  const double angle = 2. * std::atan2(along, q.w());
+  return std::remainder(angle, 2. * M_PI) == -M_PI ? M_PI : std::remainder(angle, 2. * M_PI);
+}
+
+}  // namespace
+
+const std::vector<std::pair<std::string, JointType>>& jointTypeNames() {
+  static const std::vector<std::pair<std::string, JointType>> names = {
+      {"none", JointType::none},           {"hingeX", JointType::hingeX},         {"hingeY", JointType::hingeY},
+      {"hingeZ", JointType::hingeZ},       {"transX", JointType::transX},         {"transY", JointType::transY},
+      {"transZ", JointType::transZ},       {"hinge", JointType::hinge},           {"circleZ", JointType::circleZ},
+      {"transXY", JointType::transXY},     {"trans3", JointType::trans3},         {"transXYPhi", JointType::transXYPhi},
+      {"transYPhi", JointType::transYPhi}, {"universal", JointType::universal},   {"rigid", JointType::rigid},
+      {"quatBall", JointType::quatBall},   {"phiTransXY", JointType::phiTransXY}, {"XBall", JointType::XBall},
+      {"free", JointType::free},           {"generic", JointType::generic},       {"tau", JointType::tau}};
+  return names;
+}
+
+std::string jointTypeName(JointType type) {
+  for (const auto& [name, value] : jointTypeNames()) {
+    if (value == type) return name;
+  }
+  return cat("joint type ", int(type));
+}
+
+JointType jointTypeFromName(std::string_view name) {
+  const std::string_view word = name.starts_with("JT_") ? name.substr(3) : name;
+  std::vector<std::string> words;
+  for (const auto& [known, value] : jointTypeNames()) {
+    if (known == word) return value;
+    words.push_back(known);
+  }
+  throw ValueError(
+      cat("unknown joint type '", name, "'; expected one of ", join(words), similarHint(word, words)));
+}
+
+std::vector<MotionStep> motionSteps(JointType type, std::string_view code) {
+  switch (type) {
+    case JointType::none:
+    case JointType::rigid: return {};
+    case JointType::hingeX: return {kRotX};
+    case JointType::hingeY: return {kRotY};
+    case JointType::hingeZ: return {kRotZ};
+    case JointType::transX: return {kTransX};
+    case JointType::transY: return {kTransY};
+    case JointType::transZ: return {kTransZ};
+    case JointType::hinge: return {{Kind::rotateAbout}};
+    case JointType::circleZ: return {{Kind::circle}};
+    case JointType::transXY: return {kTransX, kTransY};
+    case JointType::trans3: return {kTransX, kTransY, kTransZ};
+    case JointType::transXYPhi: return {kTransX, kTransY, kRotZ};
+    case JointType::transYPhi: return {kTransY, kRotZ};
+    case JointType::universal: return {kRotX, kRotY};
+    case JointType::quatBall: return {kQuaternion};
+    case JointType::phiTransXY: return {kRotZ, kTransX, kTransY};
+    case JointType::XBall: return {kTransX, kQuaternion};
+    case JointType::free: return {kTransX, kTransY, kTransZ, kQuaternion};
+    case JointType::generic: return genericSteps(code);
+    case JointType::tau: return {{Kind::time}};
+  }
+  throw ValueError(cat("joint type ", int(type), " does not exist"));
+}
+
+int motionDofs(const std::vector<MotionStep>& steps) {
+  int dofs = 0;
+  for (const MotionStep& step : steps) dofs += step.dofs();
+  return dofs;
+}
+
+VectorXd motionIdentity(const std::vector<MotionStep>& steps) {
+  VectorXd q = VectorXd::Zero(motionDofs(steps));
+  int i = 0;
+  for (const MotionStep& step : steps) {
+    if (step.dofs() > 1) q[i] = 1.;
+    i += step.dofs();
+  }
+  return q;
+}
+
+Pose motionPose(const std::vector<MotionStep>& steps, const Vector3d& axis, double scale, const double* q) {
+  Pose X;
+  for (const MotionStep& step : steps) {
+    const double value = step.sign * scale * q[0];
+    switch (step.kind) {
+      case Kind::translate: X.p += X.q * (value * Vector3d::Unit(step.axis)); break;
+      case Kind::rotate: X.q = X.q * aboutAxis(step.axis, value); break;
+      case Kind::rotateAbout: X.q = X.q * Quaterniond(Eigen::AngleAxisd(value, axis)); break;
+      case Kind::quaternion: X.q = X.q * unitQuaternion({q[0], q[1], q[2], q[3]}, "quaternion of a joint"); break;
+      case Kind::circle: X.q = X.q * unitQuaternion({q[0], 0., 0., q[1]}, "(c, s) of a circleZ joint"); break;
+      case Kind::time: break;
+    }
+    q += step.dofs();
+  }
+  return X;
+}
+
+VectorXd motionProject(const std::vector<MotionStep>& steps, const Vector3d& axis, double scale, const Pose& X) {
+  VectorXd q = motionIdentity(steps);
+  Pose rest = X;  // what the steps from here on have to make
+  int i = 0;
+  for (const MotionStep& step : steps) {
+    const double factor = step.sign * (scale == 0. ? 1. : scale);
+    switch (step.kind) {
+      case Kind::translate:
+        q[i] = rest.p[step.axis] / factor;
+        rest.p[step.axis] = 0.;
+        break;
+      case Kind::rotate:
+      case Kind::rotateAbout: {
+        const Vector3d a = step.kind == Kind::rotate ? Vector3d(Vector3d::Unit(step.axis)) : axis;
+        const double angle = twistAngle(rest.q, a);
+        q[i] = angle / factor;
+        rest = Pose(Vector3d::Zero(), Quaterniond(Eigen::AngleAxisd(-angle, a))) * rest;
+        break;
+      }
+      case Kind::quaternion:
+        q.segment<4>(i) = wxyz(rest.q);
+        rest.q.setIdentity();
+        break;
+      case Kind::circle: {
+        const double norm = std::hypot(rest.q.w(), rest.q.z());
+        q[i] = norm > 1e-12 ? rest.q.w() / norm : 1.;
+        q[i + 1] = norm > 1e-12 ? rest.q.z() / norm : 0.;
+        break;
+      }
+      case Kind::time: break;
+    }
+    i += step.dofs();
+  }
+  return q;
+}
+
+}  // namespace kinegraph

@@ -1,0 +1,64 @@
+#pragma once
+
+#include <memory>
+#include <utility>
+#include <vector>
+
+#include "kinegraph/geometry/geometry.h"
+#include "kinegraph/kinematics/joint.h"
+#include "kinegraph/math/pose.h"
+
+namespace kinegraph {
+
+class CollisionBody;
+
+/// The compiled structure of a scene: what moves what. Immutable and shared by everything that computes; all numbers that
+/// people change between computations are in `Parameters` and in q.
+///
+/// Frames between which no active joint lies move as one *link*. Link 0 is the world with everything fixed to it. Every
+/// other link is moved, relative to its parent link, by one active joint. Links are in topological order.
+struct Program {
+  struct Link {
+    int parent = 0;
+    int frame = -1;      ///< the frame that carries the joint; its pose is the link's pose
+    int first_step = 0;  ///< its steps: [first_step, first_step + steps)
+    int steps = 0;
+    int dof = 0;           ///< first entry in q; a mimicking link has that of its source
+    int first_column = 0;  ///< its twist columns: [first_column, first_column + dofs)
+    double scale = 1.;
+    Vector3d axis = Vector3d::UnitX();
+  };
+  struct DofRange {
+    int first = 0;
+    int count = 0;
+  };
+
+  int dofs = 0;             ///< length of q
+  std::vector<Link> links;  ///< links[0] is the world
+  std::vector<MotionStep> steps;
+  std::vector<int> column_dof;   ///< entry of q that drives a twist column
+  std::vector<int> chain_start;  ///< the columns that move link l: chain[chain_start[l]] .. chain[chain_start[l+1]-1]
+  std::vector<int> chain;
+
+  std::vector<int> frame_link;       ///< per frame
+  std::vector<DofRange> frame_dofs;  ///< per frame: the dofs of its own active joint (of the source if it mimics)
+  VectorXd lower, upper;             ///< per dof; -inf, +inf where there is no limit
+  VectorXd home;                     ///< per dof: the q that the joint had when it was made
+  VectorXd control_weight;           ///< per dof
+  std::vector<DofRange> unit_norms;  ///< dofs that form a quaternion or circle
+
+  std::vector<std::shared_ptr<const Geometry>> geometry;   ///< per frame, null without a shape
+  std::vector<std::shared_ptr<const CollisionBody>> body;  ///< per frame, null without a shape
+  std::vector<std::pair<int, int>> collidable;             ///< frame pairs (a < b) that may collide
+};
+
+/// The constant transforms of a Program: where joints sit on their parent link and frames on their link.
+struct Parameters {
+  std::vector<RigidTransform> joint_base;    ///< per link: X_PJ, base of its joint in the parent link
+  std::vector<RigidTransform> frame_offset;  ///< per frame: X_LF, the frame in its link
+};
+
+/// Fills `chain_start`, `chain` and `column_dof` from `links` and `steps`.
+void connectChains(Program& program);
+
+}  // namespace kinegraph

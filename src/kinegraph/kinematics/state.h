@@ -1,0 +1,64 @@
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "kinegraph/kinematics/program.h"
+
+namespace kinegraph {
+
+/// Rows of a Jacobian in row-major order, as a view: features write or add into it.
+using JacobianRows =
+    Eigen::Ref<Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>, 0, Eigen::OuterStride<>>;
+
+/// What a joint vector q makes of a Program: link poses and the twist of every dof. One State is one page of the book.
+/// After construction nothing here requests memory.
+class State {
+ public:
+  State(std::shared_ptr<const Program> program, std::shared_ptr<const Parameters> parameters);
+
+  const Program& program() const { return *program_; }
+  const std::shared_ptr<const Program>& sharedProgram() const { return program_; }
+  const Parameters& parameters() const { return *parameters_; }
+  int dofs() const { return program_->dofs; }
+
+  /// Sets q (program().dofs numbers) and computes all link poses and twists.
+  void setJoints(const double* q);
+
+  /// Replaces the constant transforms and recomputes.
+  void setParameters(std::shared_ptr<const Parameters> parameters);
+
+  const VectorXd& q() const { return q_; }
+  int link(int frame) const { return program_->frame_link[frame]; }
+  const RigidTransform& linkPose(int link) const { return link_pose_[link]; }
+
+  /// X_WF of a frame.
+  RigidTransform pose(int frame) const { return link_pose_[link(frame)] * parameters_->frame_offset[frame]; }
+
+  /// p_WF of a frame.
+  Vector3d position(int frame) const { return link_pose_[link(frame)] * parameters_->frame_offset[frame].p; }
+
+  /// J += factor * d p_WQ / dq for point Q (world coordinates, m) fixed to a frame's link. J is 3 x dofs.
+  void addPointJacobian(int frame, const Vector3d& p_WQ, double factor, JacobianRows J) const;
+
+  /// J += factor * d w / d(dq/dt), the angular velocity of the frame in world coordinates. J is 3 x dofs.
+  void addAngularJacobian(int frame, double factor, JacobianRows J) const;
+
+  /// J += A * (point Jacobian at p_WQ) + B * (angular Jacobian). A, B are m x 3, J is m x dofs.
+  void addJacobian(int frame, const Vector3d& p_WQ, const Eigen::Ref<const MatrixXd>& A,
+                   const Eigen::Ref<const MatrixXd>& B, JacobianRows J) const;
+
+ private:
+  struct Twist {  ///< velocity field of a dof: omega, and v at the world's origin
+    Vector3d angular, linear;
+  };
+  void update();
+
+  std::shared_ptr<const Program> program_;
+  std::shared_ptr<const Parameters> parameters_;
+  VectorXd q_;
+  std::vector<RigidTransform> link_pose_;
+  std::vector<Twist> twists_;  ///< per column
+};
+
+}  // namespace kinegraph

@@ -1,0 +1,51 @@
+#include "kinegraph/kinematics/joint.h"
+
+#include <gtest/gtest.h>
+
+#include "kinegraph/base/errors.h"
+#include "kinegraph/base/random.h"
+
+using namespace kinegraph;
+
+namespace {
+const Vector3d kAxis = Vector3d(0, 1, 1).normalized();
+
+Vector7d poseOf(JointType type, std::vector<double> q, const char* code = "") {
+  return motionPose(motionSteps(type, code), kAxis, 1., q.data()).numbers();
+}
+}  // namespace
+
+TEST(Joint, PosesAreThoseRecordedFromTheReference) {
+  EXPECT_LT((poseOf(JointType::phiTransXY, {.1, .2, .3}).head<3>() - Vector3d(.16905, .31847, 0)).norm(), 1e-5);
+  EXPECT_LT((poseOf(JointType::universal, {.1, .2}).tail<4>() - Vector4d(.99376, .04973, .09971, .00499)).norm(), 1e-5);
+  EXPECT_LT((poseOf(JointType::hinge, {.5}).tail<4>() - Vector4d(.9689, 0, .1749, .1749)).norm(), 1e-4);
+  const Vector7d generic = poseOf(JointType::generic, {.1, .2, .3, .4, .5, .6}, "zxyABC");
+  EXPECT_LT((generic.head<3>() - Vector3d(.2, .3, .1)).norm(), 1e-15);
+  EXPECT_LT((generic.tail<4>() - Vector4d(.92171, -.11224, -.28853, -.23367)).norm(), 1e-5);
+}
+
+TEST(Joint, ProjectionFindsTheDofsAgain) {
+  Rng rng(3);
+  for (const auto& [name, type] : jointTypeNames()) {
+    const auto steps = motionSteps(type, "xyZaBc");
+    for (double scale : {1., -1., .5}) {
+      VectorXd q = motionIdentity(steps);
+      for (double& x : q) x += rng.uniform(-.4, .4);
+      const Pose X = motionPose(steps, kAxis, scale, q.data());
+      const VectorXd found = motionProject(steps, kAxis, scale, X);
+      const Pose again = motionPose(steps, kAxis, scale, found.data());
+      EXPECT_TRUE((X.inverse() * again).isIdentity(1e-12)) << name << " scale " << scale;
+    }
+  }
+}
+
+TEST(Joint, NamesRoundTripAndMistakesAreExplained) {
+  for (const auto& [name, type] : jointTypeNames()) EXPECT_EQ(jointTypeFromName("JT_" + name), type);
+  try {
+    jointTypeFromName("hingZ");
+    FAIL();
+  } catch (const ValueError& error) {
+    EXPECT_NE(std::string(error.what()).find("similar names: hingeZ"), std::string::npos) << error.what();
+  }
+  EXPECT_THROW(motionSteps(JointType::generic, "xq"), ValueError);
+}
