@@ -1,5 +1,7 @@
 #include "kinegraph/kinematics/joint.h"
 
+#include <Eigen/Cholesky>
+#include <algorithm>
 #include <cctype>
 #include <cmath>
 
@@ -145,7 +147,10 @@ Pose motionPose(const std::vector<MotionStep>& steps, const Vector3d& axis, doub
   return X;
 }
 
-VectorXd motionProject(const std::vector<MotionStep>& steps, const Vector3d& axis, double scale, const Pose& X) {
+namespace {
+
+/// Each step in turn takes what it can of the pose. Exact for all types but generic ones with several rotations.
+VectorXd projectInSequence(const std::vector<MotionStep>& steps, const Vector3d& axis, double scale, const Pose& X) {
   VectorXd q = motionIdentity(steps);
   Pose rest = X;  // what the steps from here on have to make
   int i = 0;
@@ -177,6 +182,34 @@ VectorXd motionProject(const std::vector<MotionStep>& steps, const Vector3d& axi
       case Kind::time: break;
     }
     i += step.dofs();
+  }
+  return q;
+}
+
+}  // namespace
+
+VectorXd motionProject(const std::vector<MotionStep>& steps, const Vector3d& axis, double scale, const Pose& X) {
+  VectorXd q = projectInSequence(steps, axis, scale, X);
+  const auto rotates = [](const MotionStep& step) { return step.kind == Kind::rotate || step.kind == Kind::rotateAbout; };
+  if (std::count_if(steps.begin(), steps.end(), rotates) < 2) return q;
+  const auto error = [&](const VectorXd& at) {
+    const Pose E = X.inverse() * motionPose(steps, axis, scale, at.data());
+    Vector6d e;
+    e << E.p, 2. * (E.q.w() < 0. ? -1. : 1.) * E.q.vec();
+    return e;
+  };
+  for (int iteration = 0; iteration < 30; ++iteration) {  // Levenberg's method from there
+    const Vector6d e = error(q);
+    if (e.norm() < 1e-14) break;
+    MatrixXd J(6, q.size());
+    for (int i = 0; i < q.size(); ++i) {
+      const VectorXd h = 1e-6 * VectorXd::Unit(q.size(), i);
+      J.col(i) = (error(q + h) - error(q - h)) / 2e-6;
+    }
+    const MatrixXd H = J.transpose() * J + 1e-12 * MatrixXd::Identity(q.size(), q.size());
+    const VectorXd step = H.ldlt().solve(J.transpose() * e);
+    if (error(q - step).norm() >= e.norm()) break;
+    q -= step;
   }
   return q;
 }

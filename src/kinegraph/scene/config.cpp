@@ -1,0 +1,301 @@
+#include "kinegraph/scene/config.h"
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+
+#include "kinegraph/base/errors.h"
+#include "kinegraph/base/text.h"
+#include "kinegraph/geometry/proximity.h"
+#include "kinegraph/gfile/parser.h"
+#include "kinegraph/scene/reader.h"
+
+namespace kinegraph {
+
+Config::Config(const Config& other) : Config() { scene_->append(*other.scene_, ""); }
+
+Config& Config::operator=(const Config& other) {
+  if (this != &other) *this = Config(other);
+  return *this;
+}
+
+std::optional<Frame> Config::addFile(const std::string& path, const std::string& prefix) {
+  SceneTree scratch;
+  readSceneFile(path, scratch, warnings_);
+  FrameData* first = scene_->append(scratch, prefix);
+  if (!first) return std::nullopt;
+  return Frame(scene_, *first);
+}
+
+std::optional<Frame> Config::addText(std::string_view text, const std::string& name, const std::string& folder) {
+  SceneTree scratch;
+  readSceneText(text, name, folder, scratch, warnings_);
+  FrameData* first = scene_->append(scratch, "");
+  if (!first) return std::nullopt;
+  return Frame(scene_, *first);
+}
+
+Frame Config::addFrame(const std::string& name, const std::string& parent, const std::string& attributes) {
+  if (FrameData* existing = name.empty() ? nullptr : scene_->find(name)) {
+    warnings_.push_back(cat("addFrame: a frame named '", name, "' exists already and is returned as it is"));
+    return Frame(scene_, *existing);
+  }
+  FrameData* parent_data = parent.empty() ? nullptr : &scene_->get(parent, cat("addFrame('", name, "'): parent"));
+  Graph graph;
+  if (!attributes.empty()) graph = parse(attributes, cat("attributes of '", name, "'"));
+  FrameData& frame = scene_->add(name, parent_data);
+  try {
+    if (!attributes.empty()) applyAttributes(graph, std::filesystem::current_path().string(), frame, warnings_);
+  } catch (...) {
+    scene_->remove(frame);
+    throw;
+  }
+  return Frame(scene_, frame);
+}
+
+std::optional<Frame> Config::addConfigurationCopy(const Config& other, const std::string& prefix) {
+  FrameData* first = scene_->append(*other.scene_, prefix);
+  if (!first) return std::nullopt;
+  return Frame(scene_, *first);
+}
+
+void Config::delFrame(const std::string& name) { scene_->remove(scene_->get(name, "delFrame")); }
+
+void Config::attach(const std::string& parent, const std::string& child) {
+  FrameData& target = scene_->get(parent, "attach");
+  FrameData* top = &scene_->get(child, "attach");
+  while (!top->joint && top->parent) top = top->parent;
+  const Pose world = scene_->worldPose(*top);
+  const std::optional<Joint> former_joint = top->joint;
+  FrameData* former_parent = top->parent;
+  const Pose former_pose = top->pose;
+  if (top->parent) scene_->unlink(*top);
+  top->joint = Joint(JointType::rigid);
+  try {
+    scene_->link(*top, target);
+  } catch (const Error&) {
+    top->joint = former_joint;
+    top->pose = former_pose;
+    if (former_parent) scene_->link(*top, *former_parent);
+    throw;
+  }
+  Frame(scene_, *top).setPose(world);
+}
+
+Frame Config::getFrame(std::string_view name) const { return Frame(scene_, scene_->get(name, "getFrame")); }
+
+std::optional<Frame> Config::findFrame(std::string_view name) const {
+  FrameData* frame = scene_->find(name);
+  if (!frame) return std::nullopt;
+  return Frame(scene_, *frame);
+}
+
+Frame Config::getFrame(int id) const {
+  if (id < 0 || id >= getFrameDimension()) {
+    throw ValueError(cat("getFrame: id ", id, " is not in 0..", getFrameDimension() - 1));
+  }
+  return Frame(scene_, *scene_->frames()[id]);
+}
+
+std::vector<Frame> Config::getFrames() const {
+  std::vector<Frame> frames;
+  for (const auto& frame : scene_->frames()) frames.emplace_back(scene_, *frame);
+  return frames;
+}
+
+std::vector<Frame> Config::getRoots() const {
+  std::vector<Frame> frames;
+  for (const auto& frame : scene_->frames()) {
+    if (!frame->parent) frames.emplace_back(scene_, *frame);
+  }
+  return frames;
+}
+
+std::vector<Frame> Config::getJoints() const {
+  std::vector<Frame> frames;
+  for (const auto& frame : scene_->frames()) {
+    if (frame->moves() && dofSource(*frame).joint->active) frames.emplace_back(scene_, *frame);
+  }
+  return frames;
+}
+
+MatrixXd Config::getFrameState() const {
+  const State& state = scene_->state();
+  MatrixXd poses(getFrameDimension(), 7);
+  for (int i = 0; i < poses.rows(); ++i) {
+    Pose X(state.pose(i));
+    const Vector4d q = wxyz(X.q);
+    for (int k = 0; k < 4; ++k) {
+      if (q[k] == 0.) continue;
+      if (q[k] < 0.) X.q.coeffs() *= -1.;
+      break;
+    }
+    poses.row(i) = X.numbers();
+  }
+  return poses;
+}
+
+void Config::setFrameState(const MatrixXd& poses, const std::vector<std::string>& names) {
+  std::vector<Frame> frames;
+  for (const std::string& name : names) frames.push_back(Frame(scene_, scene_->get(name, "setFrameState")));
+  if (names.empty()) frames = getFrames();
+  if (poses.rows() != Eigen::Index(frames.size()) || poses.cols() != 7) {
+    throw ValueError(cat("setFrameState: got ", poses.rows(), " x ", poses.cols(), " numbers; expected ", frames.size(),
+                         " x 7, a row x y z qw qx qy qz per frame"));
+  }
+  for (std::size_t i = 0; i < frames.size(); ++i) frames[i].setPose(Pose::fromNumbers(poses.row(i).transpose()));
+}
+
+VectorXd Config::getJointState(const std::vector<std::string>& names) const {
+  std::vector<double> values;
+  for (const std::string& name : names) {
+    const FrameData& frame = scene_->get(name, "getJointState");
+    if (!frame.moves()) continue;
+    const VectorXd& q = dofSource(frame).joint->q;
+    values.insert(values.end(), q.begin(), q.end());
+  }
+  return Eigen::Map<VectorXd>(values.data(), Eigen::Index(values.size()));
+}
+
+void Config::setJointState(const VectorXd& q) {
+  const auto program = scene_->program();
+  if (q.size() != program->dofs) {
+    throw ValueError(cat("setJointState: got ", q.size(), " numbers; the configuration has ", program->dofs,
+                         " active dofs: ", join(getJointNames())));
+  }
+  if (!q.allFinite()) throw ValueError(cat("setJointState: numbers that are not finite: ", q.transpose()));
+  scene_->setJointState(q.data());
+}
+
+void Config::setJointState(const VectorXd& q, const std::vector<std::string>& names) {
+  std::vector<FrameData*> frames;
+  int dofs = 0;
+  for (const std::string& name : names) {
+    FrameData& frame = scene_->get(name, "setJointState");
+    if (!frame.moves() || frame.joint->mimic) continue;
+    frames.push_back(&frame);
+    dofs += frame.joint->dofs();
+  }
+  if (q.size() != dofs || !q.allFinite()) {
+    throw ValueError(cat("setJointState: got ", q.size(), " numbers; the joints of ", join(names), " take ", dofs,
+                         " finite ones"));
+  }
+  int first = 0;
+  for (FrameData* frame : frames) {
+    Frame(scene_, *frame).setJointState(q.segment(first, frame->joint->dofs()));
+    first += frame->joint->dofs();
+  }
+}
+
+std::vector<std::string> Config::getJointNames() const {
+  const auto program = scene_->program();
+  std::vector<std::string> names(program->dofs);
+  for (const auto& frame : scene_->frames()) {
+    if (!frame->joint || frame->joint->mimic) continue;
+    const Program::DofRange dofs = program->frame_dofs[frame->id];
+    for (int i = 0; i < dofs.count; ++i) {
+      names[dofs.first + i] = dofs.count == 1 ? frame->name : cat(frame->name, ":", i);
+    }
+  }
+  return names;
+}
+
+std::vector<int> Config::getJointIDs() const {
+  std::vector<int> ids;
+  for (const Frame& frame : getJoints()) ids.push_back(frame.id());
+  return ids;
+}
+
+MatrixXd Config::getJointLimits() const {
+  const auto program = scene_->program();
+  MatrixXd limits(2, program->dofs);
+  for (int i = 0; i < program->dofs; ++i) {
+    const bool limited = std::isfinite(program->lower[i]);
+    limits(0, i) = limited ? program->lower[i] : 0.;
+    limits(1, i) = limited ? program->upper[i] : -1.;
+  }
+  return limits;
+}
+
+void Config::selectJoints(const std::vector<std::string>& names, bool not_those) {
+  std::vector<FrameData*> named;
+  for (const std::string& name : names) {
+    FrameData& given = scene_->get(name, "selectJoints");
+    FrameData* frame = &given;
+    while (frame && !frame->moves()) frame = frame->parent;
+    if (!frame) throw ValueError(cat("selectJoints: neither '", given.name, "' nor any frame above it has a joint"));
+    named.push_back(&dofSource(*frame));
+  }
+  for (const auto& frame : scene_->frames()) {
+    if (!frame->moves() || frame->joint->mimic) continue;
+    const bool is_named = std::find(named.begin(), named.end(), frame.get()) != named.end();
+    frame->joint->active = is_named != not_those;
+  }
+  scene_->structureChanged();
+}
+
+void Config::setRandom(Rng& rng) {
+  for (const auto& frame : scene_->frames()) {
+    if (!frame->moves() || !frame->joint->active || frame->joint->mimic) continue;
+    Joint& joint = *frame->joint;
+    const bool limited = joint.lower.size() > 0;
+    const bool uniform = limited && joint.sample_uniform > 0. && rng.uniform() < joint.sample_uniform;
+    for (int i = 0; i < joint.dofs(); ++i) {
+      if (uniform) {
+        joint.q[i] = rng.uniform(joint.lower[i], joint.upper[i]);
+      } else {
+        joint.q[i] = joint.home[i] + joint.sample_deviation * rng.normal();
+        if (limited) joint.q[i] = std::clamp(joint.q[i], joint.lower[i], joint.upper[i]);
+      }
+    }
+    if (!uniform) continue;
+    int first = 0;
+    for (const MotionStep& step : joint.steps) {  // uniform on the sphere
+      if (step.kind == MotionStep::Kind::quaternion) {
+        for (int i = 0; i < 4; ++i) joint.q[first + i] = rng.normal();
+        joint.q.segment<4>(first).normalize();
+      }
+      first += step.dofs();
+    }
+  }
+  scene_->jointsChanged();
+}
+
+std::vector<Config::NearPair> Config::getCollisions(double margin) const {
+  const State& state = scene_->state();
+  const Program& program = state.program();
+  std::vector<NearPair> near;
+  for (const auto& [a, b] : program.collidable) {
+    const RigidTransform X_WA = state.pose(a), X_WB = state.pose(b);
+    if (farApart(*program.body[a], X_WA, *program.body[b], X_WB, margin)) continue;
+    const double distance = proximity(*program.body[a], X_WA, *program.body[b], X_WB).distance;
+    if (distance <= margin) near.push_back({a, b, distance});
+  }
+  return near;
+}
+
+double Config::getTotalPenetration(bool largest_only) const {
+  double sum = 0., largest = 0.;
+  for (const NearPair& pair : getCollisions(0.)) {
+    sum -= pair.distance;
+    largest = std::max(largest, -pair.distance);
+  }
+  return largest_only ? largest : sum;
+}
+
+std::vector<int> Config::frameIds(const std::vector<std::string>& names, std::string_view who) const {
+  std::vector<int> ids;
+  for (const std::string& name : names) ids.push_back(scene_->get(name, who).id);
+  return ids;
+}
+
+std::string Config::report() const {
+  int shapes = 0;
+  for (const auto& frame : scene_->frames()) shapes += frame->shape != nullptr;
+  return cat("Configuration: q.N=", getJointDimension(), " #frames=", getFrameDimension(), " #joints=", getJoints().size(),
+             " #shapes=", shapes, " #pairs=", getCollidablePairs().size());
+}
+
+std::vector<std::string> Config::takeWarnings() { return std::exchange(warnings_, {}); }
+
+}  // namespace kinegraph

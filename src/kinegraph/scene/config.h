@@ -1,0 +1,127 @@
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <tuple>
+#include <vector>
+
+#include "kinegraph/base/random.h"
+#include "kinegraph/scene/frame.h"
+
+namespace kinegraph {
+
+/// A scene as a person edits it: named frames with joints, shapes and masses, and the joint vector q.
+/// Copies are deep. Everything that is derived (world poses, the compiled Program) follows by itself.
+class Config {
+ public:
+  Config() : scene_(std::make_shared<SceneTree>()) {}
+  Config(const Config& other);
+  Config& operator=(const Config& other);
+  Config(Config&&) = default;
+  Config& operator=(Config&&) = default;
+
+  // --- building --------------------------------------------------------------------------------------------------
+
+  /// Adds the frames of a scene file; `prefix` is put before their names. Returns the first of them, if any. On an error
+  /// (FileError, ParseError) the configuration is unchanged. Warnings go to `takeWarnings`.
+  std::optional<Frame> addFile(const std::string& path, const std::string& prefix = {});
+
+  /// The same for text; `name` stands for the file in messages, and files included are relative to `folder`.
+  std::optional<Frame> addText(std::string_view text, const std::string& name = "text", const std::string& folder = {});
+
+  /// Appends a frame. It sits at its parent's pose, or at the world's origin without one. `attributes` is text as inside
+  /// the braces of a `.g` file. A name that exists already gives that frame, unchanged, with a warning. Throws
+  /// FrameNotFound for an unknown parent.
+  Frame addFrame(const std::string& name, const std::string& parent = {}, const std::string& attributes = {});
+
+  /// Appends copies of all frames of `other`, names prefixed. Returns the first, if any.
+  std::optional<Frame> addConfigurationCopy(const Config& other, const std::string& prefix = {});
+
+  void delFrame(const std::string& name);
+  void clear() { scene_->clear(); }
+
+  /// Re-attaches the link that `child` belongs to: its topmost frame is cut off and hangs, rigidly and where it is, below
+  /// `parent`.
+  void attach(const std::string& parent, const std::string& child);
+
+  // --- frames ----------------------------------------------------------------------------------------------------
+
+  Frame getFrame(std::string_view name) const;               ///< the first of that name; throws FrameNotFound
+  std::optional<Frame> findFrame(std::string_view name) const;
+  Frame getFrame(int id) const;                              ///< throws ValueError
+  std::vector<Frame> getFrames() const;
+  std::vector<Frame> getRoots() const;
+  std::vector<Frame> getJoints() const;                      ///< frames whose joint is active and has dofs
+  std::vector<std::string> getFrameNames() const { return scene_->names(); }
+  int getFrameDimension() const { return int(scene_->frames().size()); }
+
+  /// World poses, one row (x y z qw qx qy qz) per frame, qw >= 0.
+  MatrixXd getFrameState() const;
+
+  /// Sets the world poses of all frames, or of the named ones. Joints take the nearest poses that they can reach.
+  void setFrameState(const MatrixXd& poses, const std::vector<std::string>& names = {});
+
+  // --- joints ----------------------------------------------------------------------------------------------------
+
+  int getJointDimension() const { return scene_->program()->dofs; }
+  VectorXd getJointState() const { return scene_->jointState(); }
+  VectorXd getJointState(const std::vector<std::string>& names) const;
+
+  /// Sets q, or the dofs of the named frames in that order, active or not. Throws ValueError for a wrong length or numbers
+  /// that are not finite.
+  void setJointState(const VectorXd& q);
+  void setJointState(const VectorXd& q, const std::vector<std::string>& names);
+
+  /// One name per entry of q: the frame's, with ":i" where its joint has several dofs.
+  std::vector<std::string> getJointNames() const;
+  std::vector<int> getJointIDs() const;  ///< ids of the frames of getJoints
+
+  /// 2 x n: row 0 lower, row 1 upper limits; 0 and -1 for a dof without limits.
+  MatrixXd getJointLimits() const;
+
+  /// Makes the joints at or above the named frames the active ones, or all others.
+  void selectJoints(const std::vector<std::string>& names, bool not_those = false);
+
+  /// Draws q: per joint uniform within its limits, or Gaussian around its home and clipped, as its sampling attributes say.
+  void setRandom(Rng& rng);
+
+  // --- collisions ------------------------------------------------------------------------------------------------
+
+  struct NearPair {
+    int a, b;         ///< frame ids, a < b
+    double distance;  ///< m, negative: penetration depth
+  };
+
+  /// Pairs of frames that may collide. Both have a shape and a contact flag other than 0, they belong to different links,
+  /// and a negative flag -k excludes contacts with the links above within k joints.
+  std::vector<std::pair<int, int>> getCollidablePairs() const { return scene_->program()->collidable; }
+
+  /// All collidable pairs whose distance is at most `margin`, by id.
+  std::vector<NearPair> getCollisions(double margin = 0.) const;
+
+  /// Sum of the penetration depths of all pairs, or the largest one, in m.
+  double getTotalPenetration(bool largest_only = false) const;
+
+  // --- for computing ---------------------------------------------------------------------------------------------
+
+  std::shared_ptr<const Program> program() const { return scene_->program(); }
+  std::shared_ptr<const Parameters> parameters() const { return scene_->parameters(); }
+  const State& state() const { return scene_->state(); }
+  const std::shared_ptr<SceneTree>& scene() const { return scene_; }
+
+  /// Ids of the named frames; throws FrameNotFound, naming `who` asks.
+  std::vector<int> frameIds(const std::vector<std::string>& names, std::string_view who) const;
+
+  std::string report() const;
+
+  /// What was odd but not wrong in what was read since the last call.
+  std::vector<std::string> takeWarnings();
+
+ private:
+  std::shared_ptr<SceneTree> scene_;
+  std::vector<std::string> warnings_;
+};
+
+}  // namespace kinegraph

@@ -1,0 +1,84 @@
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "kinegraph/scene/scene_tree.h"
+
+namespace kinegraph {
+
+/// A handle on one frame of a Config. Copies name the same frame. It keeps the scene alive, and once its frame is deleted
+/// every call throws FrameDeleted. Setters return the frame, so that calls can be chained.
+/// Poses are (x y z qw qx qy qz) in m; quaternions are normalized when given.
+class Frame {
+ public:
+  Frame(std::shared_ptr<SceneTree> scene, FrameData& data);
+
+  int id() const { return data().id; }  ///< place in the list of frames
+  const std::string& getName() const { return data().name; }
+  Frame& setName(std::string name);
+  bool operator==(const Frame& other) const { return data_ == other.data_; }
+
+  std::optional<Frame> getParent() const;
+  std::vector<Frame> getChildren() const;
+  std::vector<Frame> getSubtree() const;  ///< all descendants, depth first, without this frame
+
+  /// World pose, or the pose relative to another frame.
+  Pose getPose() const;
+  Pose getPose(const Frame& relative_to) const { return relative_to.getPose().inverse() * getPose(); }
+  Pose getRelativePose() const;  ///< in the parent; identity for a root
+
+  /// Sets the world pose. A frame with a joint takes the nearest pose that the joint can reach.
+  Frame& setPose(const Pose& pose);
+  Frame& setPosition(const Vector3d& position);
+  Frame& setQuaternion(const Quaterniond& rotation);
+
+  /// Sets the pose in the parent. Throws ValueError for a root.
+  Frame& setRelativePose(const Pose& pose);
+  Frame& setRelativePosition(const Vector3d& position);
+  Frame& setRelativeQuaternion(const Quaterniond& rotation);
+
+  /// Attaches this frame below `parent`. The relative pose stays (so the frame moves in the world), or, with
+  /// `keep_world_pose`, the world pose. Throws ValueError for a loop or a frame of another Config.
+  Frame& setParent(const Frame& parent, bool keep_world_pose = false);
+
+  /// Cuts the frame from its parent. It stays where it is; its joint is removed. Throws ValueError for a root.
+  Frame& unLink();
+
+  /// Gives the frame a shape, or changes its type and size. `size` as in Geometry, or in the counts of older files.
+  Frame& setShape(ShapeType type, const std::vector<double>& size);
+  Frame& setMesh(Mesh mesh);                                       ///< triangles; points only where there are none
+  Frame& setConvexCore(std::vector<Vector3d> points, double radius);  ///< ssCvx: convex hull of the points swept by a ball
+  Frame& setColor(const std::vector<double>& color);               ///< 1 grey, 2 grey alpha, 3 rgb, 4 rgba, in 0..1
+  Frame& setContact(int contact);                                  ///< see Config::getCollidablePairs
+  ShapeType getShapeType() const;                                  ///< ShapeType::none without a shape
+  std::vector<double> getSize() const;                             ///< empty without a shape
+
+  /// Gives the frame a joint to its parent. `limits` are all lower, then all upper bounds, or empty. The pose is kept as
+  /// far as the joint can reach it. JointType::none removes the joint. Throws ValueError for a root.
+  Frame& setJoint(JointType type, const std::vector<double>& limits = {}, const std::vector<double>& axis = {},
+                  double scale = 1., std::optional<Frame> mimic = std::nullopt, const std::string& code = {});
+  JointType getJointType() const;  ///< JointType::none without a joint
+  VectorXd getJointState() const;  ///< throws ValueError without a joint
+  Frame& setJointState(const VectorXd& q);
+
+  /// Mass in kg; the inertia is that of the shape's surface, or `matrix` (3 diagonal, 6 or 9 numbers). 0 removes it.
+  Frame& setMass(double mass, const std::vector<double>& matrix = {});
+  double getMass() const;
+  std::optional<Inertia> getInertia() const { return data().inertia; }
+
+  Graph& attributes() const { return data().attributes; }
+
+  FrameData& data() const;  ///< throws FrameDeleted
+  const std::shared_ptr<SceneTree>& scene() const { return scene_; }
+
+ private:
+  Shape& editableShape();
+
+  std::shared_ptr<SceneTree> scene_;
+  std::shared_ptr<FrameData> data_;
+};
+
+}  // namespace kinegraph

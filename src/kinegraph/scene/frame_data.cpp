@@ -1,0 +1,38 @@
+#include "kinegraph/scene/frame_data.h"
+
+namespace kinegraph {
+
+Joint::Joint(JointType joint_type, std::string joint_code)
+    : type(joint_type), code(std::move(joint_code)), steps(motionSteps(type, code)) {
+  q = home = motionIdentity(steps);
+}
+
+const std::shared_ptr<const CollisionBody>& Shape::body() const {
+  if (body_of_ != geometry) {
+    body_ = makeCollisionBody(*geometry);
+    body_of_ = geometry;
+  }
+  return body_;
+}
+
+Pose FrameData::relativePose() const {
+  if (!moves()) return pose;
+  const Joint& source = *dofSource(*this).joint;
+  return motionPose(joint->steps, joint->axis, joint->scale, source.q.data());
+}
+
+Pose FrameData::worldPose() const {
+  Pose X = relativePose();
+  for (const FrameData* frame = parent; frame; frame = frame->parent) X = frame->relativePose() * X;
+  return X;
+}
+
+const FrameData& dofSource(const FrameData& frame) {
+  const FrameData* source = &frame;
+  while (source->joint && source->joint->mimic) source = source->joint->mimic;
+  return *source;
+}
+
+FrameData& dofSource(FrameData& frame) { return const_cast<FrameData&>(dofSource(std::as_const(frame))); }
+
+}  // namespace kinegraph

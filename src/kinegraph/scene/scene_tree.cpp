@@ -1,0 +1,188 @@
+#include "kinegraph/scene/scene_tree.h"
+
+#include <algorithm>
+#include <unordered_map>
+
+#include "kinegraph/base/errors.h"
+#include "kinegraph/base/text.h"
+
+namespace kinegraph {
+
+SceneTree::~SceneTree() { clear(); }
+
+FrameData& SceneTree::add(std::string name, FrameData* parent) {
+  auto frame = std::make_shared<FrameData>();
+  frame->name = std::move(name);
+  frame->id = int(frames_.size());
+  frame->tree = this;
+  frames_.push_back(frame);
+  if (parent) link(*frame, *parent);
+  structureChanged();
+  return *frame;
+}
+
+void SceneTree::remove(FrameData& frame) {
+  for (FrameData* child : std::vector<FrameData*>(frame.children)) {
+    const Pose X = child->worldPose();
+    unlink(*child);
+    child->joint.reset();
+    child->pose = X;
+  }
+  if (frame.parent) unlink(frame);
+  for (const auto& other : frames_) {
+    if (!other->joint || other->joint->mimic != &frame) continue;
+    other->joint->q = dofSource(frame).joint ? dofSource(frame).joint->q : other->joint->home;
+    other->joint->mimic = nullptr;
+  }
+  const auto place = frames_.begin() + frame.id;
+  frame.tree = nullptr;
+  for (auto later = place + 1; later != frames_.end(); ++later) --(*later)->id;
+  frames_.erase(place);
+  structureChanged();
+}
+
+void SceneTree::clear() {
+  for (const auto& frame : frames_) {
+    frame->tree = nullptr;
+    frame->parent = nullptr;
+    frame->children.clear();
+    if (frame->joint) frame->joint->mimic = nullptr;
+  }
+  frames_.clear();
+  structureChanged();
+}
+
+FrameData* SceneTree::find(std::string_view name) const {
+  for (const auto& frame : frames_) {
+    if (frame->name == name) return frame.get();
+  }
+  return nullptr;
+}
+
+FrameData& SceneTree::get(std::string_view name, std::string_view who) const {
+  if (FrameData* frame = find(name)) return *frame;
+  throw FrameNotFound(cat(who, ": frame name '", name, "' doesn't exist", similarHint(name, names())));
+}
+
+std::vector<std::string> SceneTree::names() const {
+  std::vector<std::string> names;
+  for (const auto& frame : frames_) names.push_back(frame->name);
+  return names;
+}
+
+void SceneTree::link(FrameData& frame, FrameData& parent) {
+  for (const FrameData* above = &parent; above; above = above->parent) {
+    if (above == &frame) {
+      throw ValueError(cat("frame '", frame.name, "' cannot be attached to '", parent.name, "', which is ",
+                           &frame == &parent ? "the same frame" : "one of its descendants"));
+    }
+  }
+  if (frame.parent) unlink(frame);
+  frame.parent = &parent;
+  parent.children.push_back(&frame);
+  structureChanged();
+}
+
+void SceneTree::unlink(FrameData& frame) {
+  std::erase(frame.parent->children, &frame);
+  frame.parent = nullptr;
+  structureChanged();
+}
+
+FrameData* SceneTree::append(const SceneTree& other, const std::string& prefix) {
+  const std::vector<std::shared_ptr<FrameData>> originals = other.frames_;
+  std::unordered_map<const FrameData*, FrameData*> copies;
+  std::unordered_map<const Shape*, std::shared_ptr<Shape>> shapes;
+  for (const auto& original : originals) {
+    FrameData& copy = add(prefix + original->name, nullptr);
+    copy.pose = original->pose;
+    copy.joint = original->joint;
+    copy.inertia = original->inertia;
+    copy.attributes = original->attributes;
+    if (original->shape) {
+      std::shared_ptr<Shape>& shape = shapes[original->shape.get()];
+      if (!shape) {
+        shape = std::make_shared<Shape>(*original->shape);
+        looksChanged(*shape);
+      }
+      copy.shape = shape;
+    }
+    copies[original.get()] = &copy;
+  }
+  for (const auto& original : originals) {
+    FrameData& copy = *copies[original.get()];
+    if (original->parent) {
+      copy.parent = copies[original->parent];
+    }
+    for (const FrameData* child : original->children) copy.children.push_back(copies[child]);
+    if (copy.joint && copy.joint->mimic) copy.joint->mimic = copies[original->joint->mimic];
+  }
+  structureChanged();
+  return originals.empty() ? nullptr : copies[originals.front().get()];
+}
+
+bool SceneTree::stateIsFresh() const {
+  return state_ && compiled_revision_ == structure_revision_ && !poses_stale_ && !q_stale_;
+}
+
+std::shared_ptr<const Program> SceneTree::program() {
+  if (compiled_revision_ != structure_revision_) {
+    program_ = compileProgram(*this);
+    compiled_revision_ = structure_revision_;
+    parameters_.reset();
+    state_.reset();
+    poses_stale_ = q_stale_ = true;
+  }
+  return program_;
+}
+
+std::shared_ptr<const Parameters> SceneTree::parameters() {
+  program();
+  if (poses_stale_) {
+    parameters_ = collectParameters(*this, *program_);
+    if (state_) state_->setParameters(parameters_);
+    poses_stale_ = false;
+  }
+  return parameters_;
+}
+
+const State& SceneTree::state() {
+  parameters();
+  if (!state_) {
+    state_ = std::make_unique<State>(program_, parameters_);
+    q_stale_ = true;
+  }
+  if (q_stale_) {
+    const VectorXd q = jointState();
+    state_->setJoints(q.data());
+    q_stale_ = false;
+  }
+  return *state_;
+}
+
+Pose SceneTree::worldPose(const FrameData& frame) const {
+  return stateIsFresh() ? Pose(state_->pose(frame.id)) : frame.worldPose();
+}
+
+VectorXd SceneTree::jointState() {
+  const auto compiled = program();
+  VectorXd q(compiled->dofs);
+  for (const auto& frame : frames_) {
+    if (frame->moves() && frame->joint->active && !frame->joint->mimic) {
+      q.segment(compiled->frame_dofs[frame->id].first, frame->joint->dofs()) = frame->joint->q;
+    }
+  }
+  return q;
+}
+
+void SceneTree::setJointState(const double* q) {
+  const auto compiled = program();
+  for (const auto& frame : frames_) {
+    if (frame->moves() && frame->joint->active && !frame->joint->mimic) {
+      frame->joint->q = Eigen::Map<const VectorXd>(q + compiled->frame_dofs[frame->id].first, frame->joint->dofs());
+    }
+  }
+  jointsChanged();
+}
+
+}  // namespace kinegraph

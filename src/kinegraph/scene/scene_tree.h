@@ -1,0 +1,86 @@
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "kinegraph/kinematics/state.h"
+#include "kinegraph/scene/frame_data.h"
+
+namespace kinegraph {
+
+/// The frames of a configuration and what is compiled from them. Config and Frame are handles on it.
+///
+/// Whoever changes a frame says which of three things is no longer true: the structure (frames, parents, joints, shapes,
+/// contacts), the constant poses, or q. The Program, its Parameters and the State follow when they are asked for.
+class SceneTree {
+ public:
+  SceneTree() = default;
+  SceneTree(const SceneTree&) = delete;
+  SceneTree& operator=(const SceneTree&) = delete;
+  ~SceneTree();
+
+  const std::vector<std::shared_ptr<FrameData>>& frames() const { return frames_; }
+
+  /// Appends a frame; `parent` may be null.
+  FrameData& add(std::string name, FrameData* parent);
+
+  /// Removes a frame. Its children become roots and stay where they are; joints that mimic it become joints of their own.
+  void remove(FrameData& frame);
+  void clear();
+
+  /// The first frame of that name, or null.
+  FrameData* find(std::string_view name) const;
+
+  /// The first frame of that name. Throws FrameNotFound with similar names; `who` is the call that asks.
+  FrameData& get(std::string_view name, std::string_view who) const;
+  std::vector<std::string> names() const;
+
+  /// Links `frame` below `parent` keeping its relative pose. Throws ValueError if that closes a loop.
+  void link(FrameData& frame, FrameData& parent);
+
+  /// Cuts `frame` from its parent; the pose is left as it is.
+  void unlink(FrameData& frame);
+
+  /// Appends deep copies of all frames of `other`, names prefixed. Returns the first, or null if there is none.
+  FrameData* append(const SceneTree& other, const std::string& prefix);
+
+  void structureChanged() { ++structure_revision_; }
+  void posesChanged() { poses_stale_ = true; }
+  void jointsChanged() { q_stale_ = true; }
+  void looksChanged(Shape& shape) { shape.revision = ++looks_revision_; }
+
+  std::uint64_t structureRevision() const { return structure_revision_; }
+
+  /// Compiled on demand and shared until the structure changes.
+  std::shared_ptr<const Program> program();
+  std::shared_ptr<const Parameters> parameters();
+  const State& state();
+
+  /// World pose of a frame: from the State if it is up to date, else composed along the parents.
+  Pose worldPose(const FrameData& frame) const;
+
+  VectorXd jointState();
+  void setJointState(const double* q);
+
+ private:
+  bool stateIsFresh() const;
+
+  std::vector<std::shared_ptr<FrameData>> frames_;
+  std::uint64_t structure_revision_ = 1, compiled_revision_ = 0, looks_revision_ = 0;
+  bool poses_stale_ = true, q_stale_ = true;
+  std::shared_ptr<const Program> program_;
+  std::shared_ptr<const Parameters> parameters_;
+  std::unique_ptr<State> state_;
+};
+
+/// Compiles the structure of a scene.
+std::shared_ptr<const Program> compileProgram(const SceneTree& scene);
+
+/// Collects the constant transforms that belong to a compiled Program.
+std::shared_ptr<const Parameters> collectParameters(const SceneTree& scene, const Program& program);
+
+/// The collidable pairs (a < b) of a scene; the rule is at Config::getCollidablePairs.
+std::vector<std::pair<int, int>> collidablePairs(const SceneTree& scene);
+
+}  // namespace kinegraph
