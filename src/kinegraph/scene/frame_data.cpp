@@ -1,5 +1,7 @@
 #include "kinegraph/scene/frame_data.h"
 
+#include <utility>
+
 namespace kinegraph {
 
 Joint::Joint(JointType joint_type, std::string joint_code)

@@ -1,0 +1,54 @@
+#pragma once
+
+#include <nanobind/nanobind.h>
+
+#include <string>
+#include <vector>
+
+#include "kinegraph/math/pose.h"
+
+namespace kinegraph::python {
+
+namespace nb = nanobind;
+
+/// Numbers as a user passes them: a number, a list, a nested list, a numpy array of any dtype. `shape` is empty for a
+/// single number. Values are row-major.
+struct Numbers {
+  VectorXd values;
+  std::vector<std::size_t> shape;
+
+  std::vector<double> list() const { return {values.begin(), values.end()}; }
+  MatrixXd matrix() const;  ///< rank 2 as it is, rank 1 as one row
+};
+
+/// A new numpy array (float64, C order) with these contents.
+nb::object toNumpy(const double* values, std::size_t size);
+nb::object toNumpy(const VectorXd& vector);
+nb::object toNumpy(const MatrixXd& matrix);
+nb::object toNumpy(const Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>& matrix);
+
+/// A new numpy array of that size or shape (rows, columns), and where its numbers are.
+struct NewArray {
+  nb::object array;
+  double* data;
+};
+NewArray newArray(std::size_t size);
+NewArray newArray(std::size_t rows, std::size_t columns);
+
+/// Reads numbers; false if `source` is none.
+bool readNumbers(nb::handle source, Numbers& target);
+
+}  // namespace kinegraph::python
+
+namespace nanobind::detail {
+
+template <>
+struct type_caster<kinegraph::python::Numbers> {
+  NB_TYPE_CASTER(kinegraph::python::Numbers, const_name("float | collections.abc.Sequence | numpy.typing.ArrayLike"))
+
+  bool from_python(handle source, uint8_t, cleanup_list*) noexcept {
+    return kinegraph::python::readNumbers(source, value);
+  }
+};
+
+}  // namespace nanobind::detail

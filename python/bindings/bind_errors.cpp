@@ -1,0 +1,60 @@
+#include "bindings.h"
+#include "kinegraph/base/errors.h"
+
+namespace kinegraph::python {
+
+namespace {
+
+/// The exception class of that name in kinegraph.errors.
+nb::object errorClass(const char* name) { return nb::module_::import_("kinegraph.errors").attr(name); }
+
+void raise(const char* class_name, const std::exception& error) {
+  PyErr_SetString(errorClass(class_name).ptr(), error.what());
+}
+
+void raiseParseError(const ParseError& error) {
+  nb::object instance = errorClass("ParseError")(error.what());
+  instance.attr("file") = error.where().file;
+  instance.attr("line") = error.where().line;
+  instance.attr("column") = error.where().column;
+  PyErr_SetObject(errorClass("ParseError").ptr(), instance.ptr());
+}
+
+void translate(const std::exception_ptr& pointer, void*) {
+  try {
+    std::rethrow_exception(pointer);
+  } catch (const ParseError& error) {
+    raiseParseError(error);
+  } catch (const FrameNotFound& error) {
+    raise("FrameNotFound", error);
+  } catch (const NameError& error) {
+    raise("NotFound", error);
+  } catch (const FrameDeleted& error) {
+    raise("FrameDeleted", error);
+  } catch (const ValueError& error) {
+    raise("ArgumentError", error);
+  } catch (const FileError& error) {
+    raise("FileError", error);
+  } catch (const Error& error) {
+    raise("Error", error);
+  }
+}
+
+}  // namespace
+
+void bindErrors(nb::module_&) { nb::register_exception_translator(translate); }
+
+void emitWarning(const std::string& message) {
+  if (PyErr_WarnEx(errorClass("KinegraphWarning").ptr(), message.c_str(), 1) != 0) throw nb::python_error();
+}
+
+void emitWarnings(Config& config) {
+  for (const std::string& warning : config.takeWarnings()) emitWarning(warning);
+}
+
+void checkInterrupt() {
+  const nb::gil_scoped_acquire lock;
+  if (PyErr_CheckSignals() != 0) throw nb::python_error();
+}
+
+}  // namespace kinegraph::python

@@ -1,0 +1,45 @@
+#pragma once
+
+#include <nanobind/nanobind.h>
+
+#include <functional>
+#include <memory>
+#include <string>
+
+#include "arrays.h"
+#include "kinegraph/scene/config.h"
+
+namespace kinegraph {
+class ConfigViewer;
+}
+
+namespace kinegraph::python {
+
+namespace nb = nanobind;
+using namespace nb::literals;
+
+/// What Python calls a Config: the scene, and the viewer that `view()` opens at first use.
+struct PyConfig : Config {
+  std::shared_ptr<ConfigViewer> viewer;
+};
+
+void bindErrors(nb::module_& m);
+void bindScene(nb::module_& m);
+void bindFrame(nb::module_& m, nb::class_<Frame>& frame);
+void bindFeatures(nb::module_& m, nb::class_<PyConfig>& config);
+void bindNlp(nb::module_& m);
+void bindSolvers(nb::module_& m);
+void bindKomo(nb::module_& m);
+void bindViewer(nb::module_& m, nb::class_<PyConfig>& config);
+
+/// Passes on what was odd about a scene through Python's `warnings`.
+void emitWarnings(Config& config);
+void emitWarning(const std::string& message);
+
+/// A Frame or a frame's name, id in the configuration.
+Frame toFrame(const Config& config, nb::handle name_or_id);
+
+/// For long calls that run without the interpreter lock: takes it, and throws KeyboardInterrupt if Ctrl-C was pressed.
+void checkInterrupt();
+
+}  // namespace kinegraph::python

@@ -1,0 +1,69 @@
+"""Kinegraph: robot scenes, differentiable features, inverse kinematics and k-order motion optimisation.
+
+    import kinegraph as ry
+    C = ry.Config()
+    C.addFile(ry.raiPath("scenarios/pandaSingle.g"))
+    C.view()
+
+The package `robotic` hands on the same names: `from robotic import ry` and `import robotic as ry` work as well.
+Lengths are in m, angles in rad, quaternions (w, x, y, z), poses (x, y, z, qw, qx, qy, qz).
+"""
+
+from . import models as _models
+from . import test
+from ._core import (
+    FS,
+    JT,
+    KOMO,
+    NLP,
+    OT,
+    ST,
+    Config,
+    ConfigurationViewer,
+    Feature,
+    Frame,
+    NLP_Factory,
+    NLP_Solver,
+    NLP_SolverOptions,
+    OptMethod,
+    SolverReturn,
+    __version__,
+)
+from .errors import (
+    ArgumentError,
+    Error,
+    FileError,
+    FrameDeleted,
+    FrameNotFound,
+    KinegraphWarning,
+    NotFound,
+    ParseError,
+)
+from .models import raiPath, setRaiPath
+from .parameters import (
+    clear_params,
+    get_params,
+    params_add,
+    params_clear,
+    params_file,
+    params_get,
+    params_print,
+    rnd_seed,
+    rnd_seed_random,
+    set_params,
+)
+
+_models.announce()
+
+
+def version() -> str:
+    """The version of this package."""
+    return __version__
+
+
+def compiled() -> str:
+    """One line about the build."""
+    return f"kinegraph {__version__}"
+
+
+__all__ = [name for name in dir() if not name.startswith("_") and name not in ("models", "errors", "parameters")]

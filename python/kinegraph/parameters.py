@@ -1,0 +1,52 @@
+"""Defaults that scripts set by name, kept as the reference's global parameters were: `params_add({'opt/damping': .1})`."""
+
+from __future__ import annotations
+
+import secrets
+from pathlib import Path
+from typing import Any
+
+from ._core import parseText, setDefaultSeed
+
+_values: dict[str, Any] = {}
+
+
+def params_add(values: dict[str, Any] | None = None, **more: Any) -> None:
+    """Sets parameters, from a dict or from keyword arguments."""
+    _values.update(values or {}, **more)
+
+
+def params_file(filename: str) -> None:
+    """Adds the parameters of a file in .g syntax. A missing file is an error."""
+    params_add(parseText(Path(filename).read_text(), str(filename)))
+
+
+def params_get() -> dict[str, Any]:
+    """A copy of all parameters that have been set."""
+    return dict(_values)
+
+
+def params_clear() -> None:
+    """Forgets all parameters."""
+    _values.clear()
+
+
+def params_print() -> None:
+    """Prints all parameters, one per line; true as `name`, false as `name!`."""
+    for name, value in sorted(_values.items()):
+        print(name if value is True else f"{name}!" if value is False else f"{name}: {value}")
+
+
+set_params = params_add
+get_params = params_get
+clear_params = params_clear
+
+
+def rnd_seed(seed: int) -> None:
+    """Seeds what is random from here on: sampled joint states, initial points of solvers."""
+    setDefaultSeed(int(seed))
+
+
+def rnd_seed_random() -> None:
+    """Seeds it with a number that differs in every run."""
+    setDefaultSeed(secrets.randbits(63))

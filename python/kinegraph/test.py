@@ -1,0 +1,33 @@
+"""Scenes to look at, as in the tutorial's first command: `ry.test.RndScene()`."""
+
+from __future__ import annotations
+
+import math
+import random
+
+from ._core import ST, Config
+from .models import raiPath
+
+
+def randomScene(seed: int = 0, boxes: int = 30) -> Config:
+    """Two robot arms at a table, and many rounded boxes of random size, colour and pose around them."""
+    rng = random.Random(seed)
+    C = Config()
+    C.addFile(raiPath("scenarios/pandasTable.g"))
+    for i in range(boxes):
+        size = [rng.uniform(0.1, 0.4), rng.uniform(0.05, 0.3), rng.uniform(0.05, 0.2), 0.01]
+        axis = [rng.gauss(0, 1) for _ in range(4)]
+        norm = math.sqrt(sum(x * x for x in axis))
+        angle, radius = rng.uniform(0, 2 * math.pi), rng.uniform(0.6, 1.8)
+        frame = C.addFrame(f"obj{i}").setShape(ST.ssBox, size)
+        frame.setPosition([radius * math.cos(angle), radius * math.sin(angle), rng.uniform(0.9, 2.4)])
+        frame.setQuaternion([x / norm for x in axis])
+        frame.setColor([rng.uniform(0.2, 1) for _ in range(3)]).setMass(0.2).setContact(1)
+    return C
+
+
+def RndScene() -> None:
+    """Shows a random scene and waits for a key (not where there is nobody to press one)."""
+    C = randomScene()
+    print(C.report())
+    C.view(True, "ry.test.RndScene: a random scene")

@@ -1,0 +1,10 @@
+"""The name under which the tutorials import the package: `from robotic import ry` or `import robotic as ry`."""
+
+import sys as _sys
+
+import kinegraph as ry
+from kinegraph import *  # noqa: F403
+from kinegraph import __version__, test
+
+_sys.modules[__name__ + ".ry"] = ry
+_sys.modules[__name__ + ".test"] = test

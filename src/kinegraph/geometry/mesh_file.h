@@ -1,0 +1,13 @@
+#pragma once
+
+#include <string>
+
+#include "kinegraph/geometry/geometry.h"
+
+namespace kinegraph {
+
+/// Reads a mesh file (stl, obj, ply, dae, glb and whatever else assimp knows) as one mesh, node transforms applied, with
+/// a colour per vertex from vertex colours or materials. Throws FileError.
+Mesh readMeshFile(const std::string& path);
+
+}  // namespace kinegraph

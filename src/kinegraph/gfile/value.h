@@ -1,0 +1,76 @@
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <variant>
+#include <vector>
+
+#include "kinegraph/base/errors.h"
+
+namespace kinegraph {
+
+struct Node;
+struct Value;
+
+/// The entries of a `{ ... }`, or of a whole file, in order. Keys may repeat; lookups find the first.
+struct Graph {
+  std::vector<Node> nodes;
+
+  const Node* find(std::string_view key) const;
+  Node* find(std::string_view key);
+  void set(Node node);                ///< replaces the first node of that key, or appends
+  void erase(std::string_view key);   ///< removes all nodes of that key
+  bool operator==(const Graph& other) const;
+};
+
+/// `<text>`: a file, or a pose in files of older years. Whoever reads the key knows which.
+struct AngleText {
+  std::string text;
+  bool operator==(const AngleText&) const = default;
+};
+
+/// `(a b)`: names.
+struct NameTuple {
+  std::vector<std::string> names;
+  bool operator==(const NameTuple&) const = default;
+};
+
+/// `[1 2; 3 4]`: numbers in row-major order; `rows` is 1 unless `;` separated rows of equal length.
+struct NumberArray {
+  std::vector<double> numbers;
+  int rows = 1;
+  bool operator==(const NumberArray&) const = default;
+};
+
+using StringArray = std::vector<std::string>;
+using ValueList = std::vector<Value>;  ///< arrays of arrays, and mixed ones
+
+/// A value and where it stands in its text. Positions do not take part in comparisons.
+struct Value {
+  std::variant<bool, double, std::string, NumberArray, StringArray, ValueList, AngleText, NameTuple, Graph> data = true;
+  SourcePosition where;
+
+  template <class T>
+  const T* as() const {
+    return std::get_if<T>(&data);
+  }
+  bool operator==(const Value& other) const { return data == other.data; }
+};
+
+/// One entry: `tags key (parents) : value`. Only graphs have tags.
+struct Node {
+  std::string key;
+  std::vector<std::string> tags;
+  std::vector<std::string> parents;
+  Value value;
+  SourcePosition where;
+
+  bool operator==(const Node& other) const {
+    return key == other.key && tags == other.tags && parents == other.parents && value == other.value;
+  }
+};
+
+/// "a number", "a list of 3 numbers", "a word": for messages.
+std::string describe(const Value& value);
+
+}  // namespace kinegraph

@@ -1,0 +1,184 @@
+#include "kinegraph/scene/config.h"
+
+#include <gtest/gtest.h>
+
+#include "kinegraph/base/errors.h"
+
+using namespace kinegraph;
+
+namespace {
+
+constexpr const char* kArm = R"(
+base: { shape: ssBox, size: [.4 .4 .1 .01], contact: 1 }
+j1(base): { pre: [0 0 .1], joint: hingeZ, limits: [-2 2] }
+link1(j1): { Q: [.2 0 .1], shape: capsule, size: [.3 .05], contact: 1 }
+j2(link1): { pre: [.2 0 0], joint: hingeY, limits: [-2 2], q: .3 }
+link2(j2): { Q: [.2 0 .05], shape: ssBox, size: [.3 .08 .06 .01], contact: 1, mass: .5 }
+ball(link2): { joint: quatBall, shape: sphere, size: [.05] }
+free(base): { joint: free }
+)";
+
+Config arm() {
+  Config config;
+  config.addText(kArm);
+  return config;
+}
+
+Config chain(int contact) {
+  Config config;
+  config.addText("base: { shape: sphere, size: [.1], contact: 1 }");
+  std::string parent = "base";
+  for (const char* name : {"l1", "l2", "l3", "l4"}) {
+    config.addFrame(name, parent, "joint: hingeX, shape: sphere, size: [.1], contact: " + std::to_string(contact));
+    parent = name;
+  }
+  return config;
+}
+
+std::vector<std::string> pairs(const Config& config) {
+  std::vector<std::string> names;
+  for (auto [a, b] : config.getCollidablePairs()) names.push_back(config.getFrame(a).getName() + "-" + config.getFrame(b).getName());
+  return names;
+}
+
+}  // namespace
+
+TEST(Config, WorldPosesOfStateAndOfTheTreeAgree) {
+  Config config = arm();
+  Rng rng(1);
+  for (int sample = 0; sample < 10; ++sample) {
+    VectorXd q = config.getJointState();
+    for (double& x : q) x += .3 * rng.normal();
+    config.setJointState(q);
+    const State& state = config.state();
+    for (const auto& frame : config.scene()->frames()) {
+      EXPECT_LT((frame->worldPose().transform().R - state.pose(frame->id).R).norm(), 1e-13) << frame->name;
+      EXPECT_LT((frame->worldPose().p - state.pose(frame->id).p).norm(), 1e-13) << frame->name;
+    }
+  }
+}
+
+TEST(Config, SettingAWorldPoseOfAFreeJointReachesIt) {
+  Config config = arm();
+  const Pose target = Pose::fromNumbers((VectorXd(7) << 1, 2, 3, .5, .5, -.5, .5).finished());
+  config.getFrame("free").setPose(target);
+  EXPECT_TRUE((config.getFrame("free").getPose().inverse() * target).isIdentity(1e-14));
+}
+
+TEST(Config, JointNamesMatchQOneToOne) {
+  EXPECT_EQ(arm().getJointNames(), (std::vector<std::string>{"j1", "j2", "ball:0", "ball:1", "ball:2", "ball:3", "free:0", "free:1",
+                                                             "free:2", "free:3", "free:4", "free:5", "free:6"}));
+  EXPECT_EQ(arm().getJointLimits().col(0), Eigen::Vector2d(-2, 2));
+  EXPECT_EQ(arm().getJointLimits().col(5), Eigen::Vector2d(0, -1));
+}
+
+TEST(Config, SelectJointsChangesQAndKeepsTheOthersWhereTheyAre) {
+  Config config = arm();
+  config.setJointState(config.getJointState() + VectorXd::Constant(13, .1));
+  const Vector3d before = config.getFrame("link2").getPose().p;
+  config.selectJoints({"link1"});
+  EXPECT_EQ(config.getJointNames(), std::vector<std::string>{"j1"});
+  EXPECT_LT((config.getFrame("link2").getPose().p - before).norm(), 1e-14);
+  config.selectJoints({}, true);
+  EXPECT_EQ(config.getJointDimension(), 13);
+}
+
+TEST(Config, CollidablePairsFollowTheContactFlags) {
+  EXPECT_EQ(pairs(chain(1)).size(), 10u);
+  EXPECT_EQ(pairs(chain(-1)), (std::vector<std::string>{"base-l3", "base-l4", "l1-l3", "l1-l4", "l2-l4"}));
+  EXPECT_EQ(pairs(chain(-2)), (std::vector<std::string>{"base-l4", "l1-l4"}));
+  EXPECT_TRUE(pairs(chain(-3)).empty());
+}
+
+TEST(Config, CollisionsAreNeverStale) {
+  Config config;
+  config.addText("a: { shape: sphere, size: [.1], contact: 1 }  b: { X: [.15 0 0], shape: sphere, size: [.1], contact: 1 }");
+  config.addText("c: { X: [1 0 0], shape: marker, size: [.1] }");
+  ASSERT_EQ(config.getCollisions().size(), 1u);
+  EXPECT_NEAR(config.getCollisions()[0].distance, -.05, 1e-14);
+  config.getFrame("b").setPosition({.5, 0, 0});
+  EXPECT_TRUE(config.getCollisions().empty());
+  EXPECT_NEAR(config.getCollisions(1.).at(0).distance, .3, 1e-14);
+  config.getFrame("b").setContact(0);
+  EXPECT_TRUE(config.getCollisions(1.).empty());
+  config.getFrame("c").setShape(ShapeType::sphere, {.5}).setContact(1);
+  EXPECT_TRUE(config.getCollisions().empty());
+  config.delFrame("b");
+  EXPECT_NEAR(config.getCollisions(1.).at(0).distance, .4, 1e-14);
+}
+
+TEST(Config, CopiesAreDeep) {
+  Config original = arm();
+  Config copy = original;
+  copy.getFrame("base").setPosition({5, 0, 0});
+  copy.setJointState(copy.getJointState() + VectorXd::Ones(13));
+  EXPECT_EQ(original.getFrame("base").getPose().p.x(), 0.);
+  EXPECT_EQ(original.getJointState()[0], 0.);
+  EXPECT_EQ(copy.getFrame("link1").getPose().p.x() > 4., true);
+}
+
+TEST(Config, AttachKeepsTheFrameWhereItIs) {
+  Config config = arm();
+  const Vector3d before = config.getFrame("free").getPose().p;
+  config.attach("link2", "free");
+  EXPECT_EQ(config.getFrame("free").getParent()->getName(), "link2");
+  EXPECT_EQ(config.getJointDimension(), 6);
+  EXPECT_LT((config.getFrame("free").getPose().p - before).norm(), 1e-14);
+  EXPECT_THROW(config.attach("link2", "base"), ValueError);
+  EXPECT_EQ(config.getFrame("base").getParent(), std::nullopt);
+}
+
+TEST(Frame, HandlesOfDeletedFramesThrow) {
+  Config config = arm();
+  Frame tip = config.getFrame("ball");
+  config.delFrame("ball");
+  EXPECT_THROW(tip.getPose(), FrameDeleted);
+  Frame base = config.getFrame("base");
+  config.clear();
+  EXPECT_THROW(base.setPosition({0, 0, 0}), FrameDeleted);
+  std::optional<Frame> orphan;
+  {
+    Config short_lived = arm();
+    orphan = short_lived.getFrame("link1");
+  }
+  EXPECT_EQ(orphan->getName(), "link1");
+}
+
+TEST(Frame, MistakesAreExplained) {
+  Config config = arm();
+  const auto expectError = [](auto call, const char* part) {
+    try {
+      call();
+      ADD_FAILURE() << "no error; expected " << part;
+    } catch (const Error& error) {
+      EXPECT_NE(std::string(error.what()).find(part), std::string::npos) << error.what();
+    }
+  };
+  expectError([&] { config.getFrame("lnik2"); }, "similar names: link2");
+  expectError([&] { config.addFrame("x", "bsae"); }, "similar names: base");
+  expectError([&] { config.setJointState(VectorXd::Zero(3)); }, "got 3 numbers; the configuration has 13");
+  expectError([&] { config.getFrame("base").setParent(config.getFrame("link2")); }, "one of its descendants");
+  expectError([&] { config.getFrame("base").setRelativePosition({0, 0, 0}); }, "has no parent");
+  expectError([&] { config.getFrame("base").setJoint(JointType::hingeX); }, "cannot have a joint");
+  expectError([&] { config.addFrame("y", "base", "shape: bax"); }, "similar names: box");
+  EXPECT_FALSE(config.findFrame("y")) << "a frame whose attributes are wrong is not added";
+  expectError([&] { config.getFrame("free").setContact(1); }, "has no shape");
+}
+
+TEST(Frame, ReattachingKeepsTheRelativeOrTheWorldPose) {
+  Config config;
+  config.addText("a: { X: [1 0 0] }  b: { X: [0 1 0] }");
+  config.getFrame("b").setParent(config.getFrame("a"), true);
+  EXPECT_LT((config.getFrame("b").getPose().p - Vector3d(0, 1, 0)).norm(), 1e-15);
+  config.getFrame("b").unLink();
+  EXPECT_LT((config.getFrame("b").getPose().p - Vector3d(0, 1, 0)).norm(), 1e-15);
+  config.getFrame("b").setParent(config.getFrame("a"));
+  EXPECT_LT((config.getFrame("b").getPose().p - Vector3d(1, 0, 0)).norm(), 1e-15);
+}
+
+TEST(Frame, MassesAreThoseOfTheSurface) {
+  Config config;
+  config.addText("a: { shape: box, size: [1 2 3], mass: 1 }  b: { shape: sphere, size: [.5], mass: 1 }");
+  EXPECT_LT((config.getFrame("a").getInertia()->matrix.diagonal() - Vector3d(1.537879, 1.196970, .689394)).norm(), 2e-6);
+  EXPECT_NEAR(config.getFrame("b").getInertia()->matrix(0, 0), 1. / 6., 1e-12);
+}
