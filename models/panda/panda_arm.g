@@ -1,8 +1,8 @@
 # The seven-joint Panda arm, from its base to the mechanical flange.
 #
-# Each joint is a pair of frames: `..._origin` is where the joint sits on the link before it (the constant part, from the
-# manufacturer's Denavit-Hartenberg table: d1 .333, d3 .316, a4 .0825, a5 -.0825, d5 .384, a7 .088, flange .107), and the
-# joint frame itself, which turns about its z axis and carries the link behind it.
+# Each joint is a pair of frames: `..._origin` is where the joint sits on the link before it (the constant part, from
+# the manufacturer's Denavit-Hartenberg table: d1 .333, d3 .316, a4 .0825, a5 -.0825, d5 .384, a7 .088, flange .107),
+# and the joint frame itself, which turns about its z axis and carries the link behind it.
 #
 # Shapes of joint frames are for the eye only: rounded convex hulls with contact 0. A viewer shows `visual_mesh`
 # instead when the Python package example-robot-data is installed; those meshes sit in the same frames.

@@ -4,7 +4,9 @@
 # [length of its core segment, radius], along its z axis.
 
 # base
-panda_coll0 (panda_link0): { Q: "t(-.04 0 .03) d(90 0 1 0)", shape: capsule, size: [.1 .11], color: [1 1 1 .1], contact: -2 }
+panda_coll0 (panda_link0): {
+  Q: "t(-.04 0 .03) d(90 0 1 0)", shape: capsule, size: [.1 .11], color: [1 1 1 .1], contact: -2
+}
 
 # long links, below their joints
 panda_coll1 (panda_joint1): { Q: [0 0 -.15], shape: capsule, size: [.2 .08], color: [1 1 1 .1], contact: -2 }

@@ -1,7 +1,7 @@
 # The two-finger hand, mounted on the flange `panda_joint8` with an eighth of a turn.
 #
-# Both fingers slide along y by 0 to 4 cm. The second follows the first in the opposite direction. The fingers are not part
-# of q (`joint_active: False`), as a real hand is commanded separately; `selectJoints` adds them.
+# Both fingers slide along y by 0 to 4 cm. The second follows the first in the opposite direction. The fingers are not
+# part of q (`joint_active: False`), as a real hand is commanded separately; `selectJoints` adds them.
 
 panda_hand_joint_origin (panda_joint8): { Q: "d(-45 0 0 1)" }
 panda_hand_joint (panda_hand_joint_origin): {
