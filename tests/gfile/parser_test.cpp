@@ -59,6 +59,7 @@ TEST(Parser, ReadsArraysOverLinesAndOfAllKinds) {
   EXPECT_EQ(valueOf("x: [0, 0.008 .045]"), "x=[0 0.008 0.045]");
   EXPECT_EQ(valueOf("x: [1,\n1,\n1]"), "x=[1 1 1]");
   EXPECT_EQ(valueOf("x: [1 2; 3 4]"), "x=[1 2; 3 4]");
+  EXPECT_EQ(valueOf("x:\n[1 2]"), "x=[1 2]") << "nothing else can start with [";
   EXPECT_EQ(valueOf("x: []"), "x=[]");
   EXPECT_EQ(valueOf("x: [a, b c]"), "x=[\"a\" \"b\" \"c\"]");
   EXPECT_EQ(valueOf("x: [a, 1]"), "x=[\"a\" \"1\"]");

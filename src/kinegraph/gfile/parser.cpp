@@ -137,6 +137,7 @@ class Parser {
       marked = true;
       ++at_;
       skipBlanks();
+      skipToWrappedArray();
     }
     node.value.where = position(at_);
     const bool flag = atEnd() || isOneOf(peek(), "\n,;}#") || (!marked && !isOneOf(peek(), "{[<'\"!~"));
@@ -151,6 +152,13 @@ class Parser {
     if (negated) node.value.data = false;
     if (node.value.as<Graph>()) splitTags(node);
     return node;
+  }
+
+  /// A value stands on the line of its key; but as no entry can start with '[', an array may also follow on the next.
+  void skipToWrappedArray() {
+    std::size_t next = at_;
+    while (next < text_.size() && isSpace(text_[next])) ++next;
+    if (next < text_.size() && text_[next] == '[') at_ = next;
   }
 
   std::string parseKey() {

@@ -1,6 +1,17 @@
 #include "kinegraph/kinematics/program.h"
 
+#include <algorithm>
+
+#include "kinegraph/base/errors.h"
+#include "kinegraph/base/text.h"
+
 namespace kinegraph {
+
+int frameId(const Program& program, std::string_view name, std::string_view who) {
+  const auto place = std::find(program.frame_name.begin(), program.frame_name.end(), name);
+  if (place != program.frame_name.end()) return int(place - program.frame_name.begin());
+  throw FrameNotFound(cat(who, ": frame name '", name, "' doesn't exist", similarHint(name, program.frame_name)));
+}
 
 void connectChains(Program& program) {
   program.column_dof.clear();

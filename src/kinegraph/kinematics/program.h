@@ -1,6 +1,8 @@
 #pragma once
 
 #include <memory>
+#include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -40,7 +42,8 @@ struct Program {
   std::vector<int> chain_start;  ///< the columns that move link l: chain[chain_start[l]] .. chain[chain_start[l+1]-1]
   std::vector<int> chain;
 
-  std::vector<int> frame_link;       ///< per frame
+  std::vector<std::string> frame_name;  ///< per frame
+  std::vector<int> frame_link;          ///< per frame
   std::vector<DofRange> frame_dofs;  ///< per frame: the dofs of its own active joint (of the source if it mimics)
   VectorXd lower, upper;             ///< per dof; -inf, +inf where there is no limit
   VectorXd home;                     ///< per dof: the q that the joint had when it was made
@@ -57,6 +60,9 @@ struct Parameters {
   std::vector<RigidTransform> joint_base;    ///< per link: X_PJ, base of its joint in the parent link
   std::vector<RigidTransform> frame_offset;  ///< per frame: X_LF, the frame in its link
 };
+
+/// The first frame of that name. Throws FrameNotFound with similar names; `who` is what asks for it.
+int frameId(const Program& program, std::string_view name, std::string_view who);
 
 /// Fills `chain_start`, `chain` and `column_dof` from `links` and `steps`.
 void connectChains(Program& program);

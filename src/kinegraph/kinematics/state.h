@@ -45,8 +45,22 @@ class State {
   void addAngularJacobian(int frame, double factor, JacobianRows J) const;
 
   /// J += A * (point Jacobian at p_WQ) + B * (angular Jacobian). A, B are m x 3, J is m x dofs.
-  void addJacobian(int frame, const Vector3d& p_WQ, const Eigen::Ref<const MatrixXd>& A,
-                   const Eigen::Ref<const MatrixXd>& B, JacobianRows J) const;
+  template <class DerivedA, class DerivedB>
+  void addJacobian(int frame, const Vector3d& p_WQ, const Eigen::MatrixBase<DerivedA>& A_given,
+                   const Eigen::MatrixBase<DerivedB>& B_given, JacobianRows J) const {
+    const typename DerivedA::PlainObject A = A_given;
+    const typename DerivedB::PlainObject B = B_given;
+    const int l = link(frame);
+    for (int i = program_->chain_start[l]; i < program_->chain_start[l + 1]; ++i) {
+      const Twist& twist = twists_[program_->chain[i]];
+      const int dof = program_->column_dof[program_->chain[i]];
+      const Vector3d velocity = twist.linear + twist.angular.cross(p_WQ);
+      for (int r = 0; r < A.rows(); ++r) {
+        J(r, dof) += A(r, 0) * velocity[0] + A(r, 1) * velocity[1] + A(r, 2) * velocity[2] + B(r, 0) * twist.angular[0] +
+                     B(r, 1) * twist.angular[1] + B(r, 2) * twist.angular[2];
+      }
+    }
+  }
 
  private:
   struct Twist {  ///< velocity field of a dof: omega, and v at the world's origin

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <span>
 #include <string>
 #include <vector>
 
@@ -19,6 +20,8 @@ enum class ObjectiveType : int {
   none = 6,
 };
 
+std::string objectiveTypeName(ObjectiveType type);
+
 /// A Jacobian whose pattern is fixed while its values change. Each row is a list of segments of consecutive columns:
 /// one segment for a dense row or one of a path, several where far columns are touched as well.
 struct Jacobian {
@@ -36,6 +39,12 @@ struct Jacobian {
   static Jacobian dense(int rows, int columns);
   void addRow(std::initializer_list<std::pair<int, int>> column_and_width);  ///< appends a row of zeros
   MatrixXd toDense() const;
+
+  std::span<const Segment> row_segments(int row) const {
+    return {segments.data() + row_start[row], std::size_t(row_start[row + 1] - row_start[row])};
+  }
+  double rowTimes(int row, const VectorXd& x) const;                  ///< J_row x
+  void addRowTo(int row, double factor, VectorXd& x) const;           ///< x += factor J_row^T
 };
 
 /// Minimize  sum_f phi_i + sum_sos phi_i^2  subject to  phi_ineq <= 0,  phi_eq = 0,  lower <= x <= upper.
@@ -62,6 +71,9 @@ class Nlp {
   /// Where a solver starts if the user gives no point. Default: uniform in the bounds, [-1, 1] where there are none.
   virtual VectorXd initialPoint(Rng& rng);
 
+  /// Uniform in the bounds, in [-1, 1] where there are none.
+  VectorXd uniformPoint(Rng& rng) const;
+
   /// Name of a row of phi in reports: "position-l_gripper [slice 0] z".
   virtual std::string rowName(int row) const;
 
@@ -71,5 +83,22 @@ class Nlp {
   std::vector<ObjectiveType> types_;
   VectorXd lower_, upper_;
 };
+
+/// Sums over residuals: phi (f), phi^2 (sos), max(0, phi) (ineq), |phi| (eq).
+struct ErrorSums {
+  double f = 0., sos = 0., ineq = 0., eq = 0.;
+};
+ErrorSums sumErrors(const std::vector<ObjectiveType>& types, const VectorXd& phi);
+
+/// How much a constraint is violated; 0 for costs.
+double violation(ObjectiveType type, double phi);
+
+/// The largest relative difference of a Jacobian from central differences, and where it is.
+struct JacobianCheck {
+  double error = 0.;  ///< |analytic - numeric| / max(1, |numeric|)
+  int row = -1, column = -1;
+  double analytic = 0., numeric = 0.;
+};
+JacobianCheck checkJacobian(Nlp& nlp, const VectorXd& x, double step = 1e-5);
 
 }  // namespace kinegraph

@@ -283,12 +283,6 @@ double Config::getTotalPenetration(bool largest_only) const {
   return largest_only ? largest : sum;
 }
 
-std::vector<int> Config::frameIds(const std::vector<std::string>& names, std::string_view who) const {
-  std::vector<int> ids;
-  for (const std::string& name : names) ids.push_back(scene_->get(name, who).id);
-  return ids;
-}
-
 std::string Config::report() const {
   int shapes = 0;
   for (const auto& frame : scene_->frames()) shapes += frame->shape != nullptr;

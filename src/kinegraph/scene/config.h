@@ -111,9 +111,6 @@ class Config {
   const State& state() const { return scene_->state(); }
   const std::shared_ptr<SceneTree>& scene() const { return scene_; }
 
-  /// Ids of the named frames; throws FrameNotFound, naming `who` asks.
-  std::vector<int> frameIds(const std::vector<std::string>& names, std::string_view who) const;
-
   std::string report() const;
 
   /// What was odd but not wrong in what was read since the last call.

@@ -19,6 +19,7 @@ FrameData& Frame::data() const {
 
 Frame& Frame::setName(std::string name) {
   data().name = std::move(name);
+  scene_->structureChanged();
   return *this;
 }
 

@@ -1,0 +1,132 @@
+#include "kinegraph/features/distance.h"
+
+#include <algorithm>
+
+namespace kinegraph {
+
+namespace {
+
+const CollisionBody& bodyOf(const State& state, int frame) {
+  static const std::shared_ptr<const CollisionBody> point = pointBody();
+  const auto& body = state.program().body[frame];
+  return body ? *body : *point;
+}
+
+Proximity proximityOf(const State& state, int a, int b) {
+  return proximity(bodyOf(state, a), state.pose(a), bodyOf(state, b), state.pose(b));
+}
+
+/// J += factor * d distance / dq.
+void addDistanceGradient(const State& state, int a, int b, const Proximity& near, double factor, JacobianRows& J) {
+  const Eigen::RowVector3d n = factor * near.normal.transpose(), none = Eigen::RowVector3d::Zero();
+  state.addJacobian(a, near.point_a, n, none, J);
+  state.addJacobian(b, near.point_b, -n, none, J);
+}
+
+/// d / (|d| + eps) and its derivative.
+Vector3d softDirection(const Vector3d& d, double eps, Matrix3d& derivative) {
+  const double norm = d.norm(), soft = norm + eps;
+  derivative = Matrix3d::Identity() / soft;
+  if (norm > 0.) derivative -= d * d.transpose() / (norm * soft * soft);
+  return d / soft;
+}
+
+}  // namespace
+
+void NegDistance::eval(std::span<const State* const> states, double, Eigen::Ref<VectorXd> y, JacobianRows* J) const {
+  const Proximity near = proximityOf(*states[0], a_, b_);
+  y[0] = -near.distance;
+  if (J) addDistanceGradient(*states[0], a_, b_, near, -1., *J);
+}
+
+Vector3d Witness::value(const Proximity& near) const {
+  switch (kind_) {
+    case Kind::vector: return near.point_a - near.point_b;
+    case Kind::normal: return near.normal;
+    case Kind::point_a: return near.point_a;
+    case Kind::point_b: return near.point_b;
+    case Kind::core_vector: return near.core_a - near.core_b;
+  }
+  return Vector3d::Zero();
+}
+
+void Witness::eval(std::span<const State* const> states, double, Eigen::Ref<VectorXd> y, JacobianRows* J) const {
+  const State& state = *states[0];
+  const CollisionBody &body_a = bodyOf(state, a_), &body_b = bodyOf(state, b_);
+  const RigidTransform X_WA = state.pose(a_), X_WB = state.pose(b_);
+  const Proximity near = proximity(body_a, X_WA, body_b, X_WB);
+  const Vector3d at = value(near);
+  y = at;
+  if (!J) return;
+  const double h = 1e-6;
+  Matrix3d linear, angular;  // of A moving about `center` while B rests
+  const Vector3d center = near.core_a;
+  for (int i = 0; i < 3; ++i) {
+    const auto moved = [&](double step, bool turn) {
+      RigidTransform X = X_WA;
+      if (turn) {
+        const Matrix3d R = axisRotation(i, step);
+        X = {R * X_WA.R, center + R * (X_WA.p - center)};
+      } else {
+        X.p[i] += step;
+      }
+      return value(proximity(body_a, X, body_b, X_WB));
+    };
+    linear.col(i) = (moved(h, false) - moved(-h, false)) / (2. * h);
+    angular.col(i) = (moved(h, true) - moved(-h, true)) / (2. * h);
+  }
+  state.addJacobian(a_, center, linear, angular, *J);
+  state.addJacobian(b_, center, -linear, -angular, *J);
+  if (kind_ == Kind::point_a || kind_ == Kind::point_b) {
+    state.addPointJacobian(b_, at, 1., *J);
+  } else {
+    state.addJacobian(b_, center, Matrix3d::Zero(), -skew(at), *J);
+  }
+}
+
+void Oppose::eval(std::span<const State* const> states, double tau, Eigen::Ref<VectorXd> y, JacobianRows* J) const {
+  using Rows = Eigen::Matrix<double, 3, Eigen::Dynamic, Eigen::RowMajor>;
+  const int columns = J ? int(J->cols()) : 0;
+  Rows J1 = Rows::Zero(3, columns), J2 = Rows::Zero(3, columns);
+  JacobianRows rows1 = J1, rows2 = J2;
+  VectorXd v1(3), v2(3);
+  first_.eval(states, tau, v1, J ? &rows1 : nullptr);
+  second_.eval(states, tau, v2, J ? &rows2 : nullptr);
+  y.head<3>() = v1 + v2;
+  if (J) J->topRows(3) += J1 + J2;
+  if (!central_) return;
+  const State& state = *states[0];
+  const Vector3d p1 = state.position(finger1_), p2 = state.position(finger2_);
+  Matrix3d D, D1, D2;
+  const Vector3d direction = softDirection(p2 - p1, 1e-3, D), n1 = softDirection(v1, 1e-3, D1), n2 = softDirection(v2, 1e-3, D2);
+  y.tail<3>() = .01 * (2. * direction + n1 - n2);
+  if (!J) return;
+  JacobianRows below = J->bottomRows(3);
+  const Matrix3d none = Matrix3d::Zero();
+  state.addJacobian(finger2_, p2, .02 * D, none, below);
+  state.addJacobian(finger1_, p1, -.02 * D, none, below);
+  below += .01 * (D1 * J1 - D2 * J2);
+}
+
+AccumulatedCollisions::AccumulatedCollisions(const std::vector<int>& frames, const Program& program) {
+  const auto named = [&](int frame) { return std::find(frames.begin(), frames.end(), frame) != frames.end(); };
+  for (const auto& pair : program.collidable) {
+    if (frames.empty() || named(pair.first) || named(pair.second)) pairs_.push_back(pair);
+  }
+}
+
+void AccumulatedCollisions::eval(std::span<const State* const> states, double, Eigen::Ref<VectorXd> y, JacobianRows* J) const {
+  const State& state = *states[0];
+  y[0] = 0.;
+  for (const auto& [a, b] : pairs_) {
+    const RigidTransform X_WA = state.pose(a), X_WB = state.pose(b);
+    const CollisionBody &body_a = bodyOf(state, a), &body_b = bodyOf(state, b);
+    if (farApart(body_a, X_WA, body_b, X_WB, 0.)) continue;
+    const Proximity near = proximity(body_a, X_WA, body_b, X_WB);
+    if (near.distance >= 0.) continue;
+    y[0] -= near.distance;
+    if (J) addDistanceGradient(state, a, b, near, -1., *J);
+  }
+}
+
+}  // namespace kinegraph

@@ -1,0 +1,27 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "kinegraph/features/registry.h"
+#include "kinegraph/features/residual.h"
+#include "kinegraph/scene/config.h"
+
+namespace kinegraph {
+
+/// A feature's value and its Jacobian with respect to the configuration's q.
+struct Evaluation {
+  VectorXd y;
+  Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor> J;
+};
+
+/// The residual of a feature of named frames. Errors name the feature, the frames and similar names.
+Residual makeResidual(const Program& program, FeatureSymbol symbol, const std::vector<std::string>& frames,
+                      const MatrixXd& scale = {}, const VectorXd& target = {}, int order = -1);
+
+/// Evaluates a feature at the present q. Throws ValueError for features that need several configurations.
+Evaluation eval(const Config& config, FeatureSymbol symbol, const std::vector<std::string>& frames,
+                const MatrixXd& scale = {}, const VectorXd& target = {}, int order = -1);
+Evaluation eval(const Config& config, Residual& residual);
+
+}  // namespace kinegraph

@@ -1,0 +1,26 @@
+#include "kinegraph/features/position.h"
+
+namespace kinegraph {
+
+void Position::eval(std::span<const State* const> states, double, Eigen::Ref<VectorXd> y, JacobianRows* J) const {
+  const State& state = *states[0];
+  const Vector3d p_WA = state.position(a_);
+  if (kind_ == Kind::relative) {
+    const RigidTransform X_WB = state.pose(b_);
+    const Eigen::Matrix<double, Eigen::Dynamic, 3, 0, 3, 3> R_BW = X_WB.R.transpose().topRows(rows_);
+    y = R_BW * (p_WA - X_WB.p);
+    if (!J) return;
+    const Matrix3d zero = Matrix3d::Zero();
+    state.addJacobian(a_, p_WA, R_BW, zero, *J);
+    state.addJacobian(b_, p_WA, -R_BW, zero, *J);
+    return;
+  }
+  y = p_WA;
+  if (J) state.addPointJacobian(a_, p_WA, 1., *J);
+  if (kind_ == Kind::world) return;
+  const Vector3d p_WB = state.position(b_);
+  y -= p_WB;
+  if (J) state.addPointJacobian(b_, p_WB, -1., *J);
+}
+
+}  // namespace kinegraph

@@ -1,0 +1,116 @@
+#include "kinegraph/features/residual.h"
+
+#include <cmath>
+
+#include "kinegraph/base/errors.h"
+#include "kinegraph/base/text.h"
+
+namespace kinegraph {
+
+Residual::Residual(std::unique_ptr<Feature> feature, MatrixXd scale, VectorXd target, int order, std::string name)
+    : feature_(std::move(feature)), name_(std::move(name)) {
+  if (order < 0) order = feature_->order();
+  if (order < feature_->order()) {
+    throw ValueError(cat(name_, " is defined on ", feature_->order() + 1, " consecutive configurations: its order is at least ",
+                         feature_->order(), ", not ", order));
+  }
+  differences_ = order - feature_->order();
+  setScale(std::move(scale));
+  setTarget(std::move(target));
+  values_.resize(differences_ + 1, VectorXd(feature_->rows()));
+  jacobians_.resize(differences_ + 1);
+}
+
+void Residual::setScale(MatrixXd scale) {
+  const int raw_rows = feature_->rows();
+  if (scale.size() > 1 && scale.cols() != raw_rows) {
+    throw ValueError(cat("scale of ", name_, " has shape ", scale.rows(), " x ", scale.cols(),
+                         "; expected 1 number, ", raw_rows, " numbers, or a matrix with ", raw_rows, " columns"));
+  }
+  if (!scale.allFinite()) throw ValueError(cat("scale of ", name_, " has numbers that are not finite"));
+  scale_ = std::move(scale);
+  rows_ = scale_.size() > 1 && scale_.rows() > 1 ? int(scale_.rows()) : raw_rows;
+}
+
+void Residual::setTarget(VectorXd target) {
+  const int raw_rows = feature_->rows();
+  if (target.size() > 1 && target.size() != raw_rows) {
+    throw ValueError(cat("target of ", name_, " has ", target.size(), " numbers; expected 1 or ", raw_rows));
+  }
+  if (!target.allFinite()) throw ValueError(cat("target of ", name_, " has numbers that are not finite"));
+  target_ = std::move(target);
+}
+
+void Residual::eval(std::span<const State* const> states, double tau, Eigen::Ref<VectorXd> y, JacobianRows* J) {
+  const bool matrix = scale_.rows() > 1;
+  if (matrix) {
+    raw_.resize(feature_->rows());
+    JacobianRows* rows = nullptr;
+    if (J) {
+      raw_jacobian_.setZero(feature_->rows(), J->cols());
+      JacobianRows view = raw_jacobian_;
+      evalRaw(states, tau, raw_, &view);
+      *J += scale_ * raw_jacobian_;
+    } else {
+      evalRaw(states, tau, raw_, rows);
+    }
+    y = scale_ * raw_;
+    return;
+  }
+  evalRaw(states, tau, y, J);
+  if (scale_.size() == 1) {
+    y *= scale_(0, 0);
+    if (J) *J *= scale_(0, 0);
+  } else if (scale_.size() > 1) {
+    for (int row = 0; row < rows_; ++row) {
+      y[row] *= scale_(0, row);
+      if (J) J->row(row) *= scale_(0, row);
+    }
+  }
+}
+
+void Residual::evalRaw(std::span<const State* const> states, double tau, Eigen::Ref<VectorXd> y, JacobianRows* J) {
+  if (differences_ > 0) {
+    evalDifference(states, tau, y, J);
+  } else {
+    feature_->eval(states, tau, y, J);
+    const int row = feature_->quaternionRow();
+    if (row >= 0 && target_.size() == y.size() && y.segment<4>(row).dot(target_.segment<4>(row)) < 0.) {
+      y.segment<4>(row) *= -1.;
+      if (J) J->middleRows(row, 4) *= -1.;
+    }
+  }
+  if (target_.size() == 1) {
+    y.array() -= target_[0];
+  } else if (target_.size() > 1) {
+    y -= target_;
+  }
+}
+
+void Residual::evalDifference(std::span<const State* const> states, double tau, Eigen::Ref<VectorXd> y, JacobianRows* J) {
+  const int own = feature_->order(), n = J ? int(J->cols()) / int(states.size()) : 0;
+  const int quaternion = feature_->quaternionRow();
+  y.setZero();
+  double factor = 1. / std::pow(tau, differences_);
+  if (time_integral_) factor *= std::sqrt(tau);
+  for (int i = 0; i <= differences_; ++i) {  // from the newest back
+    const int first = differences_ - i;
+    VectorXd& value = values_[i];
+    if (J) {
+      jacobians_[i].setZero(feature_->rows(), (own + 1) * n);
+      JacobianRows view = jacobians_[i];
+      feature_->eval(states.subspan(first, own + 1), tau, value, &view);
+    } else {
+      feature_->eval(states.subspan(first, own + 1), tau, value, nullptr);
+    }
+    if (quaternion >= 0 && i > 0 && value.segment<4>(quaternion).dot(values_[i - 1].segment<4>(quaternion)) < 0.) {
+      value.segment<4>(quaternion) *= -1.;
+      if (J) jacobians_[i].middleRows(quaternion, 4) *= -1.;
+    }
+    y += factor * value;
+    if (J) J->middleCols(first * n, (own + 1) * n) += factor * jacobians_[i];
+    factor *= -double(differences_ - i) / double(i + 1);  // binomial coefficients with alternating signs
+  }
+}
+
+}  // namespace kinegraph

@@ -1,0 +1,57 @@
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "kinegraph/features/feature.h"
+
+namespace kinegraph {
+
+/// What an optimizer sees of a feature y:  scale * (d^k y / dt^k - target).
+///
+/// The derivative is a backward difference over consecutive configurations. Where the sign of a quaternion carries no
+/// meaning, the nearer one to the target, or to the next configuration, is taken.
+class Residual {
+ public:
+  /// `scale`: empty (1), 1 x 1, 1 x rows (per row), or m x rows. `target`: empty, 1 number (for all rows), or one per row.
+  /// `order`: -1 takes that of the feature itself; else the highest derivative. `name` is for messages. Throws ValueError
+  /// for sizes that do not fit, and for an order below the feature's own.
+  Residual(std::unique_ptr<Feature> feature, MatrixXd scale, VectorXd target, int order, std::string name);
+
+  int rows() const { return rows_; }
+
+  /// Number of configurations that eval takes, minus one.
+  int order() const { return feature_->order() + differences_; }
+
+  /// In the outermost difference, divides by sqrt(tau) in place of tau: sums of squares then approximate time integrals.
+  void setTimeIntegral(bool on) { time_integral_ = on; }
+
+  void setScale(MatrixXd scale);
+  void setTarget(VectorXd target);
+
+  const std::string& name() const { return name_; }
+  const MatrixXd& scale() const { return scale_; }
+  const VectorXd& target() const { return target_; }
+
+  /// Value and Jacobian at order() + 1 configurations, oldest first, `tau` seconds apart. `y` has rows() entries; `J`, where
+  /// given, rows() rows and a block of columns per configuration, and comes filled with zeros.
+  void eval(std::span<const State* const> states, double tau, Eigen::Ref<VectorXd> y, JacobianRows* J);
+
+ private:
+  using RowMajor = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+  void evalDifference(std::span<const State* const> states, double tau, Eigen::Ref<VectorXd> y, JacobianRows* J);
+  void evalRaw(std::span<const State* const> states, double tau, Eigen::Ref<VectorXd> y, JacobianRows* J);
+
+  std::unique_ptr<Feature> feature_;
+  std::string name_;
+  MatrixXd scale_;
+  VectorXd target_;
+  int differences_ = 0, rows_ = 0;
+  bool time_integral_ = false;
+  std::vector<VectorXd> values_;    ///< workspace: the feature at each configuration
+  std::vector<RowMajor> jacobians_;
+  VectorXd raw_;                    ///< workspace: before a matrix scale
+  RowMajor raw_jacobian_;
+};
+
+}  // namespace kinegraph

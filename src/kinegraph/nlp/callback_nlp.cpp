@@ -1,0 +1,38 @@
+#include "kinegraph/nlp/callback_nlp.h"
+
+#include <limits>
+
+#include "kinegraph/base/errors.h"
+#include "kinegraph/base/text.h"
+
+namespace kinegraph {
+
+CallbackNlp::CallbackNlp(int dimension, std::vector<ObjectiveType> types, VectorXd lower, VectorXd upper, Function function)
+    : function_(std::move(function)) {
+  const double inf = std::numeric_limits<double>::infinity();
+  if (lower.size() == 0) lower = VectorXd::Constant(dimension, -inf);
+  if (upper.size() == 0) upper = VectorXd::Constant(dimension, inf);
+  if (lower.size() != dimension || upper.size() != dimension) {
+    throw ValueError(cat("an NLP of dimension ", dimension, " has as many lower and upper bounds, not ", lower.size(), " and ", upper.size()));
+  }
+  types_ = std::move(types);
+  lower_ = std::move(lower);
+  upper_ = std::move(upper);
+}
+
+void CallbackNlp::evaluate(const VectorXd& x, VectorXd& phi, Jacobian* J) {
+  const int rows = int(types_.size());
+  phi.resize(rows);
+  dense_.setZero(rows, dimension());
+  function_(x, phi, dense_);
+  if (phi.size() != rows || dense_.rows() != rows || dense_.cols() != dimension()) {
+    throw ValueError(cat("the problem's function returned phi of size ", phi.size(), " and J of shape ", dense_.rows(), " x ", dense_.cols(),
+                         "; expected ", rows, " and ", rows, " x ", dimension()));
+  }
+  if (!J) return;
+  for (int row = 0; row < rows; ++row) {
+    for (int i = 0; i < dimension(); ++i) J->values[std::size_t(row) * dimension() + i] = dense_(row, i);
+  }
+}
+
+}  // namespace kinegraph

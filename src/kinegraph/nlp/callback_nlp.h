@@ -1,0 +1,24 @@
+#pragma once
+
+#include <functional>
+
+#include "kinegraph/nlp/nlp.h"
+
+namespace kinegraph {
+
+/// A problem whose residuals a user's function computes: (x, phi, J), with J dense.
+class CallbackNlp final : public Nlp {
+ public:
+  using Function = std::function<void(const VectorXd& x, VectorXd& phi, MatrixXd& J)>;
+
+  /// `lower`, `upper`: empty for none. Throws ValueError for sizes that do not fit.
+  CallbackNlp(int dimension, std::vector<ObjectiveType> types, VectorXd lower, VectorXd upper, Function function);
+
+  void evaluate(const VectorXd& x, VectorXd& phi, Jacobian* J) override;
+
+ private:
+  Function function_;
+  MatrixXd dense_;
+};
+
+}  // namespace kinegraph

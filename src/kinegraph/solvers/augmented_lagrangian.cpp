@@ -1,0 +1,348 @@
+#include "kinegraph/solvers/augmented_lagrangian.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <cstdio>
+#include <limits>
+
+#include "kinegraph/base/errors.h"
+#include "kinegraph/base/text.h"
+#include "kinegraph/solvers/local_model.h"
+
+namespace kinegraph {
+
+namespace {
+
+std::vector<int> rowsOf(const Nlp& nlp, std::initializer_list<ObjectiveType> wanted) {
+  std::vector<int> rows;
+  for (int row = 0; row < int(nlp.types().size()); ++row) {
+    if (std::find(wanted.begin(), wanted.end(), nlp.types()[row]) != wanted.end()) rows.push_back(row);
+  }
+  return rows;
+}
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+class AugmentedLagrangian {
+ public:
+  AugmentedLagrangian(Nlp& nlp, const SolverOptions& options, const EvaluationHook& hook)
+      : nlp_(nlp), options_(options), hook_(hook),
+        model_(nlp, rowsOf(nlp, {ObjectiveType::f, ObjectiveType::sos, ObjectiveType::ineqP}),
+               rowsOf(nlp, {ObjectiveType::eq, ObjectiveType::ineq, ObjectiveType::ineqB})),
+        constraints_(model_.constraints()), J_(nlp.makeJacobian()),
+        phi_(VectorXd::Zero(Eigen::Index(nlp.types().size()))), trial_phi_(phi_), lambda_(VectorXd::Zero(Eigen::Index(constraints_.size()))),
+        next_lambda_(lambda_), tolerance_(options.constraintTolerance()) {
+    if (options_.boundedNewton) {
+      lower_ = nlp.lower();
+      upper_ = nlp.upper();
+    } else {
+      lower_ = VectorXd::Constant(nlp.dimension(), -kInfinity);
+      upper_ = -lower_;
+    }
+  }
+
+  SolverResult run(const VectorXd& x0, const VectorXd& dual) {
+    const auto start = std::chrono::steady_clock::now();
+    x_ = x0.cwiseMax(lower_).cwiseMin(upper_);
+    mu_ = options_.muInit;
+    if (dual.size() == phi_.size()) {
+      for (std::size_t j = 0; j < constraints_.size(); ++j) lambda_[j] = dual[constraints_[j]];
+    }
+    evaluate(x_, phi_, &J_);
+    if (!phi_.allFinite()) throw ValueError(cat("residuals at the start are not finite: ", firstNonFinite()));
+    remember();
+    if (nlp_.dimension() == 0) {
+      stop(violationAt(phi_) <= tolerance_ ? SolverStatus::converged : SolverStatus::infeasible, "there is nothing to vary");
+    } else {
+      iterate();
+    }
+    if (status_ != SolverStatus::converged) restoreBest();
+    return result(std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count());
+  }
+
+ private:
+  void iterate();
+  void endRound(double vc, double step_size);
+  bool locallyInfeasible();
+  void reduceViolation();
+
+  void stop(SolverStatus status, std::string message) {
+    status_ = status;
+    message_ = std::move(message);
+    stopped_ = true;
+  }
+
+  bool evaluate(const VectorXd& x, VectorXd& phi, Jacobian* J) {
+    nlp_.evaluate(x, phi, J);
+    ++evals_;
+    if (hook_ && !hook_(x, phi)) {
+      stop(SolverStatus::cancelled, "cancelled by the caller");
+      return false;
+    }
+    return true;
+  }
+
+  int firstNonFinite() const {
+    for (int i = 0; i < phi_.size(); ++i) {
+      if (!std::isfinite(phi_[i])) return i;
+    }
+    return -1;
+  }
+
+  double cost(const VectorXd& phi) const {
+    double sum = 0.;
+    for (int row = 0; row < phi.size(); ++row) {
+      const ObjectiveType type = nlp_.types()[row];
+      if (type == ObjectiveType::f) sum += phi[row];
+      if (type == ObjectiveType::sos || (type == ObjectiveType::ineqP && phi[row] > 0.)) sum += phi[row] * phi[row];
+    }
+    return sum;
+  }
+
+  double penalty(int j, double c) const {  // 1/(2 mu) t^2, without the constant -lambda^2
+    const double t = model_.isEquality(j) ? lambda_[j] + mu_ * c : std::max(0., lambda_[j] + mu_ * c);
+    return t * t / (2. * mu_);
+  }
+
+  double lagrangian(const VectorXd& phi) const {
+    double sum = cost(phi);
+    for (int j = 0; j < lambda_.size(); ++j) sum += penalty(j, phi[constraints_[j]]);
+    return sum;
+  }
+
+  double violationAt(const VectorXd& phi) const {
+    double worst = 0.;
+    for (int row : constraints_) worst = std::max(worst, violation(nlp_.types()[row], phi[row]));
+    return worst;
+  }
+
+  /// Violation and failure of complementarity.
+  double optimalityError() const {
+    double worst = 0.;
+    for (int j = 0; j < lambda_.size(); ++j) {
+      const double c = phi_[constraints_[j]];
+      worst = std::max(worst, std::abs(model_.isEquality(j) ? c : std::max(c, -lambda_[j] / mu_)));
+    }
+    return worst;
+  }
+
+  void remember() {
+    const double v = violationAt(phi_), c = cost(phi_);
+    const bool better = best_x_.size() == 0 || (v <= tolerance_ && best_violation_ <= tolerance_ ? c < best_cost_ : v < best_violation_);
+    if (!better) return;
+    best_x_ = x_;
+    best_phi_ = phi_;
+    best_violation_ = v;
+    best_cost_ = c;
+  }
+
+  void restoreBest() {
+    x_ = best_x_;
+    phi_ = best_phi_;
+  }
+
+  void box() {
+    low_ = (lower_ - x_).cwiseMax(-options_.stepMax);
+    high_ = (upper_ - x_).cwiseMin(options_.stepMax);
+  }
+
+  SolverResult result(double seconds);
+
+  Nlp& nlp_;
+  const SolverOptions& options_;
+  const EvaluationHook& hook_;
+  LocalModel model_;
+  const std::vector<int>& constraints_;
+  Jacobian J_;
+  VectorXd x_, phi_, trial_, trial_phi_, lambda_, next_lambda_, lower_, upper_, low_, high_;
+  VectorXd best_x_, best_phi_;
+  double best_violation_ = 0., best_cost_ = 0.;
+  double tolerance_;
+  double mu_ = 1., omega_ = .1, last_violation_ = kInfinity, rel_ = .02;
+  int rounds_ = 0, bad_rounds_ = 0, failed_tests_ = 0;
+  bool round_just_ended_ = false;
+  int evals_ = 0;
+  bool stopped_ = false;
+  SolverStatus status_ = SolverStatus::stalled;
+  std::string message_;
+};
+
+void AugmentedLagrangian::iterate() {
+  double nu = options_.damping, growth = 2., last_relative = 1.;
+  bool damped_step_retried = false, costs_stale = true;
+  int given_up = 0;
+  const double tolerance = options_.stopTolerance;
+  const int passes = nlp_.dimension() > 100 ? 3 : 12;
+  for (int step = 0; !stopped_; ++step) {
+    if (evals_ >= options_.stopEvals) return stop(SolverStatus::limit, cat("limit of ", options_.stopEvals, " evaluations"));
+    if (step >= 20 * options_.stopInners) return stop(SolverStatus::limit, cat("limit of ", options_.stopInners, " steps"));
+    if (rounds_ >= options_.stopOuters) return stop(SolverStatus::limit, cat("limit of ", options_.stopOuters, " rounds"));
+    if (costs_stale) model_.setCosts(nlp_, x_, phi_, J_);
+    costs_stale = false;
+    const double h = model_.largestCurvature();
+    box();
+    const VectorXd& d = model_.minimize({phi_, J_, lambda_, mu_, nu, low_, high_, passes});
+    const double size = d.lpNorm<Eigen::Infinity>();
+    double predicted = -model_.costChange();
+    for (int j = 0; j < lambda_.size(); ++j) predicted += penalty(j, phi_[constraints_[j]]) - penalty(j, model_.linearized()[j]);
+    const double vc = optimalityError();
+    const double scale = std::max(std::abs(cost(phi_)), 1e-4);
+    const bool tiny = size <= tolerance || predicted <= .01 * tolerance * scale;
+    if (options_.verbose > 2) {
+      std::printf("    step %3d  evals %3d  |d| %.3g  predicted %.3g  violation %.3g  mu %.3g  nu %.3g\n", step, evals_, size, predicted, vc, mu_, nu);
+    }
+    if (tiny && nu > .1 * h && !damped_step_retried && nu < 1e8) {  // small because of the damping, not because of the problem
+      nu = .1 * h;
+      damped_step_retried = true;
+      continue;
+    }
+    if (tiny && vc <= tolerance_) {
+      return stop(SolverStatus::converged, cat("step ", size, " and violation ", vc, " are within tolerances"));
+    }
+    const bool solved = (size <= omega_ && nu <= .1 * h) || last_relative <= rel_ || tiny || nu > 1e10 || predicted <= 0.;
+    if (solved && !(vc <= tolerance_ && round_just_ended_ && predicted > 0.)) {
+      if (nu > 1e10) {
+        nu = options_.damping;
+        if (++given_up == 3) return stop(SolverStatus::stalled, "no step decreases the objective as predicted, as at a kink");
+      }
+      endRound(vc, size);
+      last_relative = 1.;
+      continue;
+    }
+    trial_ = (x_ + d).cwiseMax(lower_).cwiseMin(upper_);
+    const double before = lagrangian(phi_);
+    if (!evaluate(trial_, trial_phi_, &J_)) return;
+    const double after = trial_phi_.allFinite() ? lagrangian(trial_phi_) : kInfinity;
+    double ratio = (before - after) / predicted;
+    const double noise = std::max(1e-12, 1e-10 * std::abs(before));
+    if (std::abs(before - after) < noise && predicted < noise) ratio = .3;
+    if (ratio > options_.wolfe) {
+      x_.swap(trial_);
+      phi_.swap(trial_phi_);
+      nu = std::max(1e-6, nu * std::max(.1, 1. - std::pow(2. * std::min(ratio, 1.2) - 1., 3)));
+      growth = 2.;
+      last_relative = (before - after) / std::max(std::abs(before), .01);
+      damped_step_retried = round_just_ended_ = false;
+      costs_stale = true;
+      remember();
+    } else {
+      nlp_.evaluate(x_, phi_, &J_);  // the Jacobian of the point that is kept
+      nu = std::max({nu * growth, .01 * h, 1e-3});
+      growth *= 2.;
+    }
+  }
+}
+
+/// An inner problem is solved well enough: new multipliers, and a larger penalty if the violation has not fallen.
+void AugmentedLagrangian::endRound(double vc, double step_size) {
+  ++rounds_;
+  round_just_ended_ = true;
+  if (options_.verbose > 1) std::printf("  round %d  evals %d  cost %.6g  violation %.3g  mu %.3g\n", rounds_, evals_, cost(phi_), vc, mu_);
+  if (vc > tolerance_) {
+    bad_rounds_ = vc > .7 * last_violation_ && mu_ >= 1e3 * options_.muInit ? bad_rounds_ + 1 : 0;
+    if (bad_rounds_ >= 2) {
+      if (locallyInfeasible()) {
+        reduceViolation();
+        return stop(SolverStatus::infeasible, cat("the constraints contradict each other here; least violation found ", best_violation_));
+      }
+      bad_rounds_ = 0;
+      if (++failed_tests_ == 6) return stop(SolverStatus::stalled, cat("the violation no longer falls; it is ", vc));
+    }
+  }
+  if (step_size <= .5 * options_.stepMax) {
+    for (int j = 0; j < lambda_.size(); ++j) {
+      const double t = lambda_[j] + mu_ * model_.linearized()[j];
+      lambda_[j] = model_.isEquality(j) ? t : std::max(0., t);
+    }
+    if (options_.lambdaMax > 0.) lambda_ = lambda_.cwiseMin(options_.lambdaMax).cwiseMax(-options_.lambdaMax);
+  }
+  if (vc > .25 * last_violation_ && vc > tolerance_) mu_ = std::min(options_.muMax, options_.muInc * mu_);
+  last_violation_ = std::min(last_violation_, vc);
+  omega_ = std::max(.3 * omega_, options_.stopTolerance);
+  if (vc <= tolerance_) rel_ = std::max(.5 * rel_, 1e-6);
+}
+
+/// True if no step reduces the linearized violation by a tenth.
+bool AugmentedLagrangian::locallyInfeasible() {
+  next_lambda_.setZero();
+  double largest_row = 1e-6;
+  for (double value : J_.values) largest_row = std::max(largest_row, value * value);
+  model_.setNoCosts(1e-6 * largest_row);
+  box();
+  model_.minimize({phi_, J_, next_lambda_, 1., 0., low_, high_, 12});
+  double before = 0., after = 0.;
+  for (int j = 0; j < lambda_.size(); ++j) {
+    const double c = phi_[constraints_[j]], linear = model_.linearized()[j];
+    before += model_.isEquality(j) ? c * c : std::pow(std::max(0., c), 2);
+    after += model_.isEquality(j) ? linear * linear : std::pow(std::max(0., linear), 2);
+  }
+  model_.setCosts(nlp_, x_, phi_, J_);
+  return std::sqrt(after) >= .9 * std::sqrt(before);
+}
+
+/// Gauss-Newton steps on the violation alone, so that the answer is the least one and no compromise with the costs.
+void AugmentedLagrangian::reduceViolation() {
+  const auto square = [&](const VectorXd& phi) {
+    double sum = 0.;
+    for (int row : constraints_) sum += std::pow(violation(nlp_.types()[row], phi[row]), 2);
+    return sum;
+  };
+  next_lambda_.setZero();
+  double damping = 1e-4;
+  for (int step = 0; step < 15 && evals_ < options_.stopEvals; ++step) {
+    model_.setNoCosts(0.);
+    box();
+    trial_ = (x_ + model_.minimize({phi_, J_, next_lambda_, 1., damping, low_, high_, 12})).cwiseMax(lower_).cwiseMin(upper_);
+    if (!evaluate(trial_, trial_phi_, &J_)) return;
+    const double before = square(phi_), after = square(trial_phi_);
+    if (!(after < before)) {
+      nlp_.evaluate(x_, phi_, &J_);
+      damping *= 10.;
+      continue;
+    }
+    x_.swap(trial_);
+    phi_.swap(trial_phi_);
+    best_x_ = x_;
+    best_phi_ = phi_;
+    best_violation_ = violationAt(phi_);
+    best_cost_ = cost(phi_);
+    damping *= .1;
+    if (after > .98 * before) return;
+  }
+}
+
+SolverResult AugmentedLagrangian::result(double seconds) {
+  SolverResult out;
+  out.x = x_;
+  out.dual = VectorXd::Zero(phi_.size());
+  for (std::size_t j = 0; j < constraints_.size(); ++j) out.dual[constraints_[j]] = lambda_[j];
+  out.evals = evals_;
+  out.time = seconds;
+  const ErrorSums sums = sumErrors(nlp_.types(), phi_);
+  out.f = sums.f;
+  out.sos = sums.sos;
+  out.ineq = sums.ineq;
+  out.eq = sums.eq;
+  out.violation = violationAt(phi_);
+  out.feasible = out.violation <= std::max(1e-3, 10. * tolerance_);
+  out.done = true;
+  out.status = status_;
+  out.message = message_;
+  nlp_.evaluate(x_, phi_, nullptr);  // leaves the problem at the point that is returned
+  return out;
+}
+
+}  // namespace
+
+SolverResult solveAugmentedLagrangian(Nlp& nlp, const VectorXd& x0, const SolverOptions& options, const VectorXd& dual,
+                                      const EvaluationHook& hook) {
+  options.validate();
+  if (x0.size() != nlp.dimension()) {
+    throw ValueError(cat("the start has ", x0.size(), " numbers; the problem has ", nlp.dimension(), " variables"));
+  }
+  if (!x0.allFinite()) throw ValueError("the start has numbers that are not finite");
+  return AugmentedLagrangian(nlp, options, hook).run(x0, dual);
+}
+
+}  // namespace kinegraph

@@ -1,0 +1,64 @@
+#pragma once
+
+#include <vector>
+
+#include "kinegraph/math/skyline.h"
+#include "kinegraph/nlp/nlp.h"
+
+namespace kinegraph {
+
+/// The augmented Lagrangian around a point, with linearized residuals, as a function of a step d in a box:
+///
+///     m(d) = g^T d + 1/2 d^T (H + shift I) d + 1/(2 mu) sum_j t_j(d)^2,     t_j = lambda_j + mu (c_j + J_j d)
+///
+/// with t_j cut off at zero for inequalities. It is piecewise quadratic, and minimized by a semismooth Newton method.
+/// Holds all its memory; minimizing requests none.
+class LocalModel {
+ public:
+  /// `costs` are the rows whose squares are in H, `constraints` those of the sum.
+  LocalModel(const Nlp& nlp, std::vector<int> costs, std::vector<int> constraints);
+
+  /// Takes g and H = 2 Js^T Js (+ the Hessian of the f terms) from residuals at a point.
+  void setCosts(Nlp& nlp, const VectorXd& x, const VectorXd& phi, const Jacobian& J);
+
+  /// No costs, H = weight I: the model of the violation alone.
+  void setNoCosts(double weight);
+
+  double largestCurvature() const;  ///< of the costs: largest diagonal entry of H
+
+  struct Problem {
+    const VectorXd& phi;
+    const Jacobian& J;
+    const VectorXd& lambda;  ///< per constraint
+    double mu;
+    double shift;
+    const VectorXd& low;     ///< box of d
+    const VectorXd& high;
+    int max_passes;
+  };
+
+  /// The minimizing step; its parts can be asked for then. Counts factorizations.
+  const VectorXd& minimize(const Problem& problem);
+  const VectorXd& step() const { return d_; }
+  const VectorXd& linearized() const { return linear_; }  ///< c + J d per constraint
+  double costChange() const;                              ///< g^T d + 1/2 d^T H d, without the shift
+  int factorizations() const { return factorizations_; }
+
+  const std::vector<int>& constraints() const { return constraints_; }
+  bool isEquality(int constraint) const { return equality_[constraint]; }
+
+ private:
+  double multiplier(int j, double value, const Problem& problem) const;
+  double value(const VectorXd& d, const VectorXd& linear, const Problem& problem);
+  void linearize(const VectorXd& d, const Problem& problem, VectorXd& linear) const;
+  void addRow(SkylineMatrix& matrix, const Jacobian& J, int row, double weight) const;
+  bool factorize(const Problem& problem);
+
+  std::vector<int> costs_, constraints_;
+  std::vector<bool> equality_, active_, factored_active_, fixed_, factored_fixed_;
+  SkylineMatrix H_, K_;
+  VectorXd g_, d_, trial_, r_, s_, Hd_, linear_, trial_linear_;
+  int factorizations_ = 0;
+};
+
+}  // namespace kinegraph

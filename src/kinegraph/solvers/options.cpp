@@ -1,0 +1,28 @@
+#include "kinegraph/solvers/options.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "kinegraph/base/errors.h"
+#include "kinegraph/base/text.h"
+
+namespace kinegraph {
+
+double SolverOptions::constraintTolerance() const {
+  return stopGTolerance >= 0. ? std::max(stopGTolerance, 1e-12) : std::min(stopTolerance, 1e-4);
+}
+
+void SolverOptions::validate() const {
+  const auto positive = [](const char* name, double value) {
+    if (!(value > 0.) || !std::isfinite(value)) throw ValueError(cat("option ", name, " is ", value, "; expected a positive number"));
+  };
+  positive("stopTolerance", stopTolerance);
+  positive("stepMax", stepMax);
+  positive("muInit", muInit);
+  positive("muMax", muMax);
+  if (!(damping >= 0.)) throw ValueError(cat("option damping is ", damping, "; expected a number >= 0"));
+  if (!(muInc > 1.)) throw ValueError(cat("option muInc is ", muInc, "; expected a number > 1"));
+  if (stopEvals < 1) throw ValueError(cat("option stopEvals is ", stopEvals, "; expected at least 1"));
+}
+
+}  // namespace kinegraph

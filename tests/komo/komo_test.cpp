@@ -1,0 +1,172 @@
+#include "kinegraph/komo/komo.h"
+
+#include <gtest/gtest.h>
+
+#include <chrono>
+
+#include "kinegraph/base/errors.h"
+#include "kinegraph/solvers/augmented_lagrangian.h"
+
+using namespace kinegraph;
+
+namespace {
+
+Config panda() {
+  Config config;
+  config.addFile(std::string(KINEGRAPH_SOURCE_DIR) + "/models/scenarios/pandaSingle.g");
+  config.addFrame("target", "table").setShape(ShapeType::marker, {.1}).setRelativePosition({0., .3, .3});
+  return config;
+}
+
+MatrixXd scale(double s) { return MatrixXd::Constant(1, 1, s); }
+
+std::shared_ptr<Komo> tutorialIk(const Config& config) {
+  const VectorXd home = (VectorXd(7) << 0., -.5, 0., -2., 0., 2., -.5).finished();
+  auto komo = std::make_shared<Komo>(config, 1., 1, 0);
+  komo->addObjective({}, FeatureSymbol::qItself, {}, ObjectiveType::sos, scale(.1), config.getJointState());
+  komo->addObjective({}, FeatureSymbol::qItself, {}, ObjectiveType::sos, scale(.1), home);
+  komo->addObjective({}, FeatureSymbol::positionDiff, {"l_gripper", "target"}, ObjectiveType::eq, scale(10.));
+  return komo;
+}
+
+}  // namespace
+
+TEST(Komo, TheTutorialsInverseKinematicsReachesEveryTarget) {
+  Config config = panda();
+  Rng rng(5);
+  const Vector3d center = config.getFrame("target").getPose().p;
+  Vector3d position = center;
+  int evals = 0;
+  for (int i = 0; i < 20; ++i) {
+    for (int k = 0; k < 3; ++k) position[k] = center[k] + .98 * (position[k] - center[k]) + .02 * rng.normal();
+    config.getFrame("target").setPosition(position);
+    const auto komo = tutorialIk(config);
+    const auto nlp = makeNlp(komo);
+    Rng noise(0);
+    const SolverResult result = solveAugmentedLagrangian(*nlp, nlp->initialPoint(noise), SolverOptions{});
+    EXPECT_TRUE(result.feasible);
+    EXPECT_EQ(result.status, SolverStatus::converged) << result.message;
+    config.setJointState(komo->getPath().row(0));
+    EXPECT_LT((config.getFrame("l_gripper").getPose().p - position).norm(), 1e-5);
+    evals += result.evals;
+  }
+  EXPECT_LT(evals / 20., 8.);
+  RecordProperty("evaluations", evals);
+}
+
+TEST(Komo, ReachesAllFarTargetsFromRandomStarts) {
+  Config config = panda();
+  Rng rng(1);
+  int solved = 0, evals = 0;
+  for (int i = 0; i < 20; ++i) {
+    const auto nlp = makeNlp(tutorialIk(config));
+    VectorXd x(7);
+    for (int k = 0; k < 7; ++k) x[k] = rng.uniform(.9 * nlp->lower()[k] + .1 * nlp->upper()[k], .1 * nlp->lower()[k] + .9 * nlp->upper()[k]);
+    const SolverResult result = solveAugmentedLagrangian(*nlp, x, SolverOptions{});
+    solved += result.feasible;
+    evals += result.evals;
+  }
+  EXPECT_GE(solved, 19);
+  EXPECT_LT(evals / 20., 30.);
+  RecordProperty("evaluations", evals);
+}
+
+TEST(Komo, SaysThatATargetOutOfReachIsInfeasible) {
+  Config config = panda();
+  config.getFrame("target").setPosition({3., 0., 1.});
+  const auto komo = tutorialIk(config);
+  const auto nlp = makeNlp(komo);
+  const SolverResult result = solveAugmentedLagrangian(*nlp, nlp->lower(), SolverOptions{});
+  EXPECT_FALSE(result.feasible);
+  EXPECT_EQ(result.status, SolverStatus::infeasible) << result.message << " after " << result.evals;
+  EXPECT_LE(result.evals, 120);
+  VectorXd phi(Eigen::Index(nlp->types().size()));
+  nlp->evaluate(result.x, phi, nullptr);
+  EXPECT_NE(explain(*nlp, phi, 1e-3).find("positionDiff of l_gripper, target"), std::string::npos);
+}
+
+TEST(Komo, JacobiansOfPathsEqualCentralDifferences) {
+  Config config = panda();
+  auto komo = std::make_shared<Komo>(config, 1., 5, 2);
+  komo->addControlObjective({}, 2, 1e-1);
+  komo->addControlObjective({}, 1, 1e-1);
+  komo->addControlObjective({}, 0, 1e-1);
+  komo->addObjective({.5, 1.}, FeatureSymbol::poseDiff, {"l_gripper", "target"}, ObjectiveType::sos, {}, {}, 1);
+  komo->addObjective({}, FeatureSymbol::angularVel, {"l_gripper"}, ObjectiveType::sos);
+  komo->addObjective({}, FeatureSymbol::linangVel, {"l_gripper"}, ObjectiveType::eq, scale(2.), {}, 2);
+  komo->addObjective({1.}, FeatureSymbol::positionDiff, {"l_gripper", "target"}, ObjectiveType::eq, scale(10.));
+  const auto nlp = makeNlp(komo);
+  Rng rng(3);
+  VectorXd x = nlp->initialPoint(rng);
+  for (double& value : x) value += .2 * rng.normal();
+  const JacobianCheck check = checkJacobian(*nlp, x);
+  EXPECT_LT(check.error, 1e-6) << nlp->rowName(check.row) << " column " << check.column << ": " << check.analytic << " " << check.numeric;
+}
+
+TEST(Komo, LongerPathsTakeNoMoreEvaluations) {
+  Config config = panda();
+  double previous = 0.;
+  for (int slices : {32, 128}) {
+    auto komo = std::make_shared<Komo>(config, 1., slices, 2);
+    komo->addControlObjective({}, 2);
+    komo->addObjective({1.}, FeatureSymbol::positionDiff, {"l_gripper", "target"}, ObjectiveType::eq, scale(10.));
+    komo->addObjective({1.}, FeatureSymbol::qItself, {}, ObjectiveType::eq, {}, {}, 1);
+    const auto nlp = makeNlp(komo);
+    Rng rng(0);
+    const SolverResult result = solveAugmentedLagrangian(*nlp, nlp->initialPoint(rng), SolverOptions{});
+    EXPECT_TRUE(result.feasible) << result.message;
+    if (previous > 0.) {
+      EXPECT_LT(result.evals, 2. * previous + 10.);
+    }
+    previous = result.evals;
+  }
+}
+
+TEST(Komo, TimesSelectTheSlicesOfTheSpecification) {
+  const Komo komo(panda(), 2., 10, 0);
+  using Slices = std::pair<int, int>;
+  EXPECT_EQ(komo.selectSlices({}), Slices(0, 19));
+  EXPECT_EQ(komo.selectSlices({1.}), Slices(9, 9));
+  EXPECT_EQ(komo.selectSlices({.05}), Slices(0, 0));
+  EXPECT_EQ(komo.selectSlices({1.04}), Slices(9, 9));
+  EXPECT_EQ(komo.selectSlices({1.05}), Slices(10, 10));
+  EXPECT_EQ(komo.selectSlices({0., 1.}), Slices(0, 9));
+  EXPECT_EQ(komo.selectSlices({1., 2.}), Slices(9, 19));
+  EXPECT_EQ(komo.selectSlices({.95, 1.05}), Slices(9, 10));
+  EXPECT_EQ(komo.selectSlices({.5, 3.}), Slices(4, 19));
+  EXPECT_EQ(komo.selectSlices({1., -1.}), Slices(9, 19));
+  for (std::vector<double> times : {std::vector<double>{0.}, {3.}, {2., 1.}}) {
+    const auto [from, to] = komo.selectSlices(times);
+    EXPECT_GT(from, to);
+  }
+  EXPECT_THROW(komo.selectSlices({1., 2., 3.}), ValueError);
+}
+
+TEST(Komo, WarnsOfObjectivesThatSelectNothingAndExplainsMistakes) {
+  Config config = panda();
+  Komo komo(config, 1., 10, 1);
+  komo.addObjective({3.}, FeatureSymbol::position, {"l_gripper"}, ObjectiveType::eq);
+  ASSERT_EQ(komo.takeWarnings().size(), 1u);
+  EXPECT_THROW(komo.addObjective({}, FeatureSymbol::position, {"l_griper"}, ObjectiveType::eq), FrameNotFound);
+  EXPECT_THROW(komo.addObjective({}, FeatureSymbol::position, {}, ObjectiveType::eq), ValueError);
+  EXPECT_THROW(komo.addObjective({}, FeatureSymbol::position, {"l_gripper"}, ObjectiveType::eq, {}, VectorXd::Zero(2)), ValueError);
+  EXPECT_THROW(komo.addObjective({}, FeatureSymbol::position, {"l_gripper"}, ObjectiveType::eq, {}, {}, 2), ValueError);
+  EXPECT_THROW(Komo().addObjective({}, FeatureSymbol::position, {"a"}, ObjectiveType::eq), Error);
+}
+
+TEST(Komo, ControlObjectivesAreScaledByTime) {
+  Config config;
+  config.addText("a: {} b(a): { joint: transX }");
+  for (const auto& [slices, first, second] : {std::tuple{4, .2, .8}, std::tuple{10, .31623, 3.16228}}) {
+    auto komo = std::make_shared<Komo>(config, 1., slices, 2);
+    komo->addControlObjective({}, 1);
+    komo->addControlObjective({}, 2);
+    const auto nlp = makeNlp(komo);
+    VectorXd x(slices), phi(2 * slices);
+    for (int t = 0; t < slices; ++t) x[t] = .1 * (t + 1);
+    nlp->evaluate(x, phi, nullptr);
+    EXPECT_NEAR(phi[0], first, 1e-5);
+    EXPECT_NEAR(phi[slices], second, 1e-5);
+    EXPECT_NEAR(phi[slices + 1], 0., 1e-12);
+  }
+}
