@@ -9,7 +9,7 @@ namespace {
 using RowMajor = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 
 /// numpy functions, looked up once and kept for the life of the interpreter.
-PyObject* numpyFunction(const char* name) { return nb::module_::import_("numpy").attr(name).release().ptr(); }
+PyObject* numpyFunction(const char* name) { return nb::object(nb::module_::import_("numpy").attr(name)).release().ptr(); }
 
 PyObject* numpyEmpty() {
   static PyObject* const function = numpyFunction("empty");

@@ -1,6 +1,11 @@
+#include <nanobind/stl/string.h>
+
 #include "bindings.h"
+#include "kinegraph/gfile/parser.h"
+#include "scene_values.h"
 
 using namespace kinegraph::python;
+using namespace nanobind::literals;
 
 NB_MODULE(_core, m) {
   m.doc() = "The compiled part of kinegraph.";
@@ -10,4 +15,6 @@ NB_MODULE(_core, m) {
   bindNlp(m);
   bindSolvers(m);
   bindKomo(m);
+  m.def("parseText", [](const std::string& text, const std::string& name) { return toDict(kinegraph::parse(text, name)); },
+        "text"_a, "name"_a = "text", "Text in .g syntax as a dict.");
 }

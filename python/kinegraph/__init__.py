@@ -9,7 +9,7 @@ The package `robotic` hands on the same names: `from robotic import ry` and `imp
 Lengths are in m, angles in rad, quaternions (w, x, y, z), poses (x, y, z, qw, qx, qy, qz).
 """
 
-from . import models as _models
+from . import model_paths as _model_paths
 from . import test
 from ._core import (
     FS,
@@ -39,7 +39,7 @@ from .errors import (
     NotFound,
     ParseError,
 )
-from .models import raiPath, setRaiPath
+from .model_paths import raiPath, setRaiPath
 from .parameters import (
     clear_params,
     get_params,
@@ -53,7 +53,7 @@ from .parameters import (
     set_params,
 )
 
-_models.announce()
+_model_paths.announce()
 
 
 def version() -> str:
@@ -66,4 +66,4 @@ def compiled() -> str:
     return f"kinegraph {__version__}"
 
 
-__all__ = [name for name in dir() if not name.startswith("_") and name not in ("models", "errors", "parameters")]
+__all__ = [name for name in dir() if not name.startswith("_") and name not in ("model_paths", "errors", "parameters")]

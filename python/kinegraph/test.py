@@ -6,7 +6,7 @@ import math
 import random
 
 from ._core import ST, Config
-from .models import raiPath
+from .model_paths import raiPath
 
 
 def randomScene(seed: int = 0, boxes: int = 30) -> Config:

@@ -27,6 +27,9 @@ class Komo {
   };
 
   Komo() = default;
+  Komo(Komo&&) = default;
+  Komo(const Komo&) = delete;
+  Komo& operator=(Komo&&) = default;
   Komo(const Config& config, double phases, int slices_per_phase, int order);
 
   /// In either order, for a Komo made without arguments; before the first objective.

@@ -233,6 +233,12 @@ SceneSource readSource(const std::string& path) {
   return source;
 }
 
+std::vector<std::string> sourceFiles(const std::string& path) {
+  std::vector<std::string> files;
+  for (const auto& [file, text] : readSource(path).texts) files.push_back(file);
+  return files;
+}
+
 SceneSource readSource(std::string_view text, const std::string& name, const std::string& folder) {
   SceneSource source;
   const std::string base = folder.empty() ? fs::current_path().string() : folder;

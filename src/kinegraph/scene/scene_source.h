@@ -27,6 +27,9 @@ struct SceneSource {
 SceneSource readSource(const std::string& path);
 SceneSource readSource(std::string_view text, const std::string& name, const std::string& folder);
 
+/// The scene file and all files that it includes, as paths. Throws as readSource.
+std::vector<std::string> sourceFiles(const std::string& path);
+
 /// An absolute path: `path` with $NAME expanded from the environment, relative to `folder`. A path package://NAME/rest is
 /// looked up in the folders of KINEGRAPH_PACKAGE_PATH, ROS_PACKAGE_PATH and AMENT_PREFIX_PATH; empty if it is in none.
 std::string resolvePath(const std::string& path, const std::string& folder);

@@ -1,0 +1,84 @@
+#include <nanobind/stl/optional.h>
+#include <nanobind/stl/string.h>
+#include <nanobind/stl/variant.h>
+#include <nanobind/stl/vector.h>
+
+#include "bindings.h"
+#include "feature_arguments.h"
+#include "kinegraph/base/errors.h"
+#include "kinegraph/base/text.h"
+#include "kinegraph/features/eval.h"
+
+namespace kinegraph::python {
+
+std::vector<std::string> toNames(const FrameNames& frames) {
+  if (const auto* name = std::get_if<std::string>(&frames)) return {*name};
+  return std::get<std::vector<std::string>>(frames);
+}
+
+MatrixXd toScale(const std::optional<Numbers>& scale) { return scale ? scale->matrix() : MatrixXd(); }
+
+VectorXd toTarget(const std::optional<Numbers>& target) { return target ? target->values : VectorXd(); }
+
+namespace {
+
+/// A feature of named frames that is evaluated on whatever configuration is passed.
+struct NamedFeature {
+  FeatureSymbol symbol;
+  std::vector<std::string> frames;
+  MatrixXd scale;
+  VectorXd target;
+  int order = -1;
+};
+
+nb::tuple toPython(const Evaluation& evaluation) { return nb::make_tuple(toNumpy(evaluation.y), toNumpy(evaluation.J)); }
+
+nb::tuple evalFeature(const PyConfig& config, FeatureSymbol symbol, const FrameNames& frames, const std::optional<Numbers>& scale,
+                      const std::optional<Numbers>& target, int order) {
+  return toPython(eval(config, symbol, toNames(frames), toScale(scale), toTarget(target), order));
+}
+
+std::string describe(const NamedFeature& f) {
+  return cat(featureInfo(f.symbol).name, "(", join(f.frames), ")", f.order > 0 ? cat(", order ", f.order) : "");
+}
+
+}  // namespace
+
+void bindFeatures(nb::module_& m, nb::class_<PyConfig>& config) {
+  auto symbols = nb::enum_<FeatureSymbol>(m, "FS", nb::is_arithmetic(), "Feature symbols.");
+  for (const FeatureInfo& info : featureRegistry()) symbols.value(info.name.c_str(), info.symbol);
+
+  nb::class_<NamedFeature>(m, "Feature", "A feature of named frames, evaluated on the configuration that is passed.")
+      .def("eval", [](const NamedFeature& f, const PyConfig& c) { return toPython(eval(c, f.symbol, f.frames, f.scale, f.target, f.order)); },
+           "config"_a, "Value (d,) and Jacobian (d, n) at the configuration's q.")
+      .def("setScale", [](NamedFeature& f, const Numbers& scale) -> NamedFeature& { return f.scale = scale.matrix(), f; }, "scale"_a,
+           nb::rv_policy::none, "A number, one per row, or a matrix.")
+      .def("setTarget", [](NamedFeature& f, const Numbers& target) -> NamedFeature& { return f.target = target.values, f; },
+           "target"_a, nb::rv_policy::none, "Subtracted before the scale: a number, or one per row.")
+      .def("setOrder", [](NamedFeature& f, int order) -> NamedFeature& { return f.order = order, f; }, "order"_a,
+           nb::rv_policy::none, "Order of the time derivative.")
+      .def("dim", [](const NamedFeature& f, const PyConfig& c) {
+             return makeResidual(*c.program(), f.symbol, f.frames, f.scale, f.target, f.order).rows();
+           }, "config"_a, "Number of rows.")
+      .def("description", [](const NamedFeature& f, const PyConfig&) { return describe(f); }, "config"_a, "The feature in words.")
+      .def("__repr__", [](const NamedFeature& f) { return cat("<Feature ", describe(f), ">"); });
+
+  config
+      .def("eval", evalFeature, "featureSymbol"_a, "frames"_a = std::vector<std::string>(), "scale"_a = nb::none(),
+           "target"_a = nb::none(), "order"_a = -1,
+           "A feature's value (d,) and Jacobian (d, n): scale * (feature - target).\n"
+           "frames: names. scale: a number, one per row, or a matrix. target: a number, or one per row.")
+      .def("evalFeature", evalFeature, "featureSymbol"_a, "frames"_a = std::vector<std::string>(), "scale"_a = nb::none(),
+           "target"_a = nb::none(), "order"_a = -1, "The same as eval.")
+      .def("feature",
+           [](const PyConfig& c, FeatureSymbol symbol, const FrameNames& frames, const std::optional<Numbers>& scale,
+              const std::optional<Numbers>& target, int order) {
+             NamedFeature f{symbol, toNames(frames), toScale(scale), toTarget(target), order};
+             makeResidual(*c.program(), f.symbol, f.frames, f.scale, f.target, f.order);  // reports mistakes here
+             return f;
+           },
+           "featureSymbol"_a, "frames"_a = std::vector<std::string>(), "scale"_a = nb::none(), "target"_a = nb::none(),
+           "order"_a = -1, "A feature object with eval(config), setScale, setTarget and setOrder.");
+}
+
+}  // namespace kinegraph::python

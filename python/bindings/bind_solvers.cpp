@@ -1,0 +1,224 @@
+#include <nanobind/stl/optional.h>
+#include <nanobind/stl/shared_ptr.h>
+#include <nanobind/stl/string.h>
+#include <nanobind/stl/vector.h>
+
+#include <variant>
+
+#include "bindings.h"
+#include "defaults.h"
+#include "kinegraph/base/errors.h"
+#include "kinegraph/base/text.h"
+#include "kinegraph/nlp/callback_nlp.h"
+#include "kinegraph/solvers/nlp_solver.h"
+#include "nlp_objects.h"
+
+namespace kinegraph::python {
+
+Defaults& defaults() {
+  static Defaults values;
+  return values;
+}
+
+namespace {
+
+using OptionField = std::variant<double SolverOptions::*, int SolverOptions::*, bool SolverOptions::*, OptMethod SolverOptions::*>;
+
+const std::vector<std::pair<std::string, OptionField>>& optionFields() {
+  using O = SolverOptions;
+  static const std::vector<std::pair<std::string, OptionField>> fields = {
+      {"verbose", &O::verbose}, {"stopTolerance", &O::stopTolerance}, {"stopFTolerance", &O::stopFTolerance},
+      {"stopGTolerance", &O::stopGTolerance}, {"stopEvals", &O::stopEvals}, {"stopInners", &O::stopInners}, {"stopOuters", &O::stopOuters},
+      {"stepMax", &O::stepMax}, {"damping", &O::damping}, {"stepInc", &O::stepInc}, {"stepDec", &O::stepDec}, {"wolfe", &O::wolfe},
+      {"muInit", &O::muInit}, {"muInc", &O::muInc}, {"muMax", &O::muMax}, {"muLBInit", &O::muLBInit}, {"muLBDec", &O::muLBDec},
+      {"lambdaMax", &O::lambdaMax}, {"interiorPadding", &O::interiorPadding}, {"boundedNewton", &O::boundedNewton},
+      {"finiteDifference", &O::finiteDifference}, {"method", &O::method}};
+  return fields;
+}
+
+void setOption(SolverOptions& options, const std::string& name, nb::handle value) {
+  std::vector<std::string> names;
+  for (const auto& [known, field] : optionFields()) {
+    names.push_back(known);
+    if (known != name) continue;
+    std::visit([&](auto member) { options.*member = nb::cast<std::decay_t<decltype(options.*member)>>(value); }, field);
+    return;
+  }
+  if (name.starts_with("stop") || name == "stepInit" || name == "stepMin") return;  // of older packages, without meaning here
+  throw ValueError(cat("there is no solver option '", name, "'", similarHint(name, names)));
+}
+
+nb::dict optionDict(const SolverOptions& options) {
+  nb::dict dict;
+  for (const auto& [name, field] : optionFields()) {
+    std::visit([&](auto member) { dict[name.c_str()] = nb::cast(options.*member); }, field);
+  }
+  return dict;
+}
+
+/// Every option that is not named goes to its default, as scripts expect; the verbosity of the solver stays.
+NlpSolver& setOptions(NlpSolver& solver, nb::kwargs given) {
+  SolverOptions options = defaults().solver;
+  options.verbose = solver.options.verbose;
+  options.method = solver.options.method;
+  for (const auto& [name, value] : given) setOption(options, nb::cast<std::string>(name), value);
+  options.validate();
+  solver.options = options;
+  return solver;
+}
+
+SolverResult solve(NlpSolver& solver, int resample, int verbose) {
+  if (verbose > -100) solver.options.verbose = verbose;
+  Rng rng(defaults().seed);
+  int calls = 0;
+  const nb::gil_scoped_release unlock;
+  return solver.solve(resample > 0, rng, [&calls] {
+    if (++calls % 64 == 0) checkInterrupt();
+    return false;
+  });
+}
+
+/// A problem that is a Python object with `dimension`, `types`, `bounds` and `evaluate(x) -> (phi, J)`.
+std::shared_ptr<Nlp> fromPythonProblem(nb::object problem) {
+  const int n = nb::cast<int>(problem.attr("dimension"));
+  const char* types_name = nb::hasattr(problem, "types") ? "types" : "featureTypes";
+  std::vector<ObjectiveType> types;
+  for (nb::handle type : problem.attr(types_name)) {
+    types.push_back(nb::isinstance<ObjectiveType>(type) ? nb::cast<ObjectiveType>(type) : ObjectiveType(nb::cast<int>(nb::int_(nb::borrow(type)))));
+  }
+  VectorXd lower, upper;
+  if (nb::hasattr(problem, "bounds")) {
+    const MatrixXd bounds = nb::cast<Numbers>(problem.attr("bounds")).matrix();
+    if (bounds.rows() == 2 && bounds.cols() == n) {
+      lower = bounds.row(0);
+      upper = bounds.row(1);
+      for (int i = 0; i < n; ++i) {
+        if (lower[i] <= upper[i]) continue;
+        lower[i] = -std::numeric_limits<double>::infinity();
+        upper[i] = std::numeric_limits<double>::infinity();
+      }
+    }
+  }
+  return std::make_shared<CallbackNlp>(n, std::move(types), lower, upper, [problem, n](const VectorXd& x, VectorXd& phi, MatrixXd& J) {
+    const nb::gil_scoped_acquire lock;
+    readPythonEvaluation(problem.attr("evaluate")(toNumpy(x)), n, phi, J);
+  });
+}
+
+nb::object stack(const std::vector<VectorXd>& rows) {
+  NewArray array = newArray(rows.size(), rows.empty() ? 0 : std::size_t(rows[0].size()));
+  double* data = array.data;
+  for (const VectorXd& row : rows) data = std::copy(row.begin(), row.end(), data);
+  return array.array;
+}
+
+nb::object errorTrace(const NlpSolver& solver) {
+  std::vector<VectorXd> rows;
+  for (const ErrorSums& e : solver.traceErrors()) rows.push_back(Vector4d(e.f, e.sos, e.ineq, e.eq));
+  return stack(rows);
+}
+
+void bindOptions(nb::module_& m) {
+  nb::enum_<OptMethod>(m, "OptMethod", nb::is_arithmetic(), "Solution methods; augmentedLag is the one that is available.")
+      .value("none", OptMethod::none).value("gradientDescent", OptMethod::gradientDescent).value("rprop", OptMethod::rprop)
+      .value("LBFGS", OptMethod::LBFGS).value("newton", OptMethod::newton).value("augmentedLag", OptMethod::augmentedLag)
+      .value("AugmentedLag", OptMethod::augmentedLag).value("logBarrier", OptMethod::logBarrier)
+      .value("slackGN_logBarrier", OptMethod::slackGN_logBarrier).value("squaredPenalty", OptMethod::squaredPenalty)
+      .value("singleSquaredPenalty", OptMethod::singleSquaredPenalty).value("slackGN", OptMethod::slackGN)
+      .value("NLopt", OptMethod::NLopt).value("Ipopt", OptMethod::Ipopt).value("slackGN_Ipopt", OptMethod::slackGN_Ipopt)
+      .value("Ceres", OptMethod::Ceres).value("LSBO", OptMethod::LSBO).value("greedy", OptMethod::greedy)
+      .value("NelderMead", OptMethod::NelderMead).value("CMA", OptMethod::CMA).value("LS_CMA", OptMethod::LS_CMA).value("ES", OptMethod::ES);
+
+  nb::class_<SolverOptions> options(m, "NLP_SolverOptions", "Settings of a solver.");
+  options.def(nb::init<>()).def("dict", optionDict, "All settings as a dict.");
+  for (const auto& [name, field] : optionFields()) {
+    const std::string setter = "set_" + name, doc = "Sets " + name + "; returns the options.";
+    options.def(setter.c_str(), [name = name](SolverOptions& o, nb::object value) -> SolverOptions& {
+      setOption(o, name, value);
+      return o;
+    }, "value"_a, nb::rv_policy::none, doc.c_str());
+  }
+}
+
+}  // namespace
+
+void bindSolvers(nb::module_& m) {
+  bindOptions(m);
+  m.def("setDefaultSeed", [](std::uint64_t seed) { defaults().seed = seed; }, "seed"_a, "Seed of everything random from here on.");
+  m.def("setDefaultOption", [](const std::string& name, nb::object value) { setOption(defaults().solver, name, value); }, "name"_a,
+        "value"_a, "Default of a solver option from here on.");
+  m.def("resetDefaultOptions", [] { defaults().solver = {}; }, "Defaults of all solver options as they were at import.");
+
+  nb::enum_<SolverStatus>(m, "SolverStatus", "Why a solver stopped.")
+      .value("converged", SolverStatus::converged).value("infeasible", SolverStatus::infeasible)
+      .value("stalled", SolverStatus::stalled).value("limit", SolverStatus::limit).value("cancelled", SolverStatus::cancelled);
+
+  nb::class_<SolverResult>(m, "SolverReturn", "How a solve ended.")
+      .def(nb::init<>())
+      .def_prop_ro("x", [](const SolverResult& r) { return toNumpy(r.x); }, "The solution, (n,).")
+      .def_prop_ro("dual", [](const SolverResult& r) { return toNumpy(r.dual); }, "A multiplier per residual.")
+      .def_ro("evals", &SolverResult::evals, "Number of evaluations.")
+      .def_ro("time", &SolverResult::time, "Seconds.")
+      .def_ro("feasible", &SolverResult::feasible, "No (scaled) constraint is violated by more than 1e-3, or ten tolerances.")
+      .def_ro("done", &SolverResult::done, "The solver has run.")
+      .def_ro("f", &SolverResult::f, "Sum of f residuals.")
+      .def_ro("sos", &SolverResult::sos, "Sum of squares.")
+      .def_ro("ineq", &SolverResult::ineq, "Sum of violations of inequalities.")
+      .def_ro("eq", &SolverResult::eq, "Sum of violations of equalities.")
+      .def_ro("violation", &SolverResult::violation, "Violation of the worst constraint.")
+      .def_ro("status", &SolverResult::status, "Why it stopped.")
+      .def_ro("message", &SolverResult::message, "Why it stopped, in a line.")
+      .def("dict", [](const SolverResult& r) {
+             nb::dict d;
+             d["evals"] = r.evals; d["time"] = r.time; d["done"] = r.done; d["feasible"] = r.feasible;
+             d["f"] = r.f; d["sos"] = r.sos; d["ineq"] = r.ineq; d["eq"] = r.eq;
+             return d;
+           }, "evals, time, done, feasible, f, sos, ineq, eq.")
+      .def("__str__", &SolverResult::str)
+      .def("__repr__", [](const SolverResult& r) { return cat("<SolverReturn ", solverStatusName(r.status), ": ", r.str(), ">"); });
+
+  constexpr auto chain = nb::rv_policy::none;
+  nb::class_<NlpSolver>(m, "NLP_Solver", "Solves an NLP. A second solve() goes on from where the first ended.")
+      .def("__init__", [](NlpSolver* self) {
+        new (self) NlpSolver();
+        self->options = defaults().solver;
+      })
+      .def("__init__", [](NlpSolver* self, std::shared_ptr<Nlp> problem, int verbose) {
+             new (self) NlpSolver(std::move(problem), verbose);
+             self->options = defaults().solver;
+             self->options.verbose = verbose;
+           }, "problem"_a, "verbose"_a = 0)
+      .def("__init__", [](NlpSolver* self, const PyNlpFactory& factory, int verbose) {
+             new (self) NlpSolver(factory.make(), verbose);
+             self->options = defaults().solver;
+             self->options.verbose = verbose;
+           }, "problem"_a, "verbose"_a = 0)
+      .def("setProblem", [](NlpSolver& s, std::shared_ptr<Nlp> p) -> NlpSolver& { return s.setProblem(std::move(p)), s; }, "problem"_a,
+           chain, "The problem to solve; once.")
+      .def("setProblem", [](NlpSolver& s, const PyNlpFactory& f) -> NlpSolver& { return s.setProblem(f.make()), s; }, "problem"_a, chain,
+           "The problem to solve; once.")
+      .def("setPyProblem", [](NlpSolver& s, nb::object p) -> NlpSolver& { return s.setProblem(fromPythonProblem(p)), s; }, "problem"_a,
+           chain, "A Python object with dimension, types, bounds and evaluate(x) -> (phi, J).")
+      .def("setOptions", setOptions, "options"_a, chain, "Sets options by name; all others go to their defaults.")
+      .def("setSolver", [](NlpSolver& s, OptMethod method) -> NlpSolver& { return s.options.method = method, s; }, "method"_a, chain,
+           "The method.")
+      .def("setInitialization", [](NlpSolver& s, const Numbers& x) -> NlpSolver& { return s.setInitialization(x.values), s; }, "x"_a,
+           chain, "Where to start; clipped to the bounds.")
+      .def("setTracing", [](NlpSolver& s, bool x, bool e, bool phi, bool) -> NlpSolver& { return s.setTracing(x, e, phi), s; },
+           "trace_x"_a = true, "trace_errs"_a = true, "trace_phi"_a = false, "trace_J"_a = false, chain,
+           "Records what is evaluated.")
+      .def("clearTracing", [](NlpSolver& s) -> NlpSolver& { return s.clearTracing(), s; }, chain, "Forgets what was recorded.")
+      .def("solve", solve, "resampleInitialization"_a = -1, "verbose"_a = -100,
+           "Solves, from the last x or the problem's initial point. Ctrl-C stops it.")
+      .def("getProblem", &NlpSolver::problem, "The problem.")
+      .def("getOptions", [](NlpSolver& s) -> SolverOptions& { return s.options; }, nb::rv_policy::reference_internal, "The options; changes take effect.")
+      .def_prop_rw("x", [](const NlpSolver& s) { return toNumpy(s.x); }, [](NlpSolver& s, const Numbers& x) { s.x = x.values; }, "The point reached.")
+      .def_prop_rw("dual", [](const NlpSolver& s) { return toNumpy(s.dual); }, [](NlpSolver& s, const Numbers& d) { s.dual = d.values; },
+                   "A multiplier per residual.")
+      .def("getTrace_x", [](const NlpSolver& s) { return stack(s.traceX()); }, "(evaluations, n).")
+      .def("getTrace_phi", [](const NlpSolver& s) { return stack(s.tracePhi()); }, "(evaluations, d).")
+      .def("getTrace_errs", errorTrace, "(evaluations, 4): sums of f, sos, ineq, eq.")
+      .def("getTrace_costs", errorTrace, "The same as getTrace_errs.");
+}
+
+}  // namespace kinegraph::python

@@ -1,0 +1,52 @@
+#pragma once
+
+#include <map>
+#include <optional>
+#include <string>
+
+#include "kinegraph/scene/config.h"
+#include "kinegraph/viewer/server.h"
+
+namespace kinegraph {
+
+/// Shows a configuration in the browser. The server starts, and a browser opens, when there is first something to show.
+class ConfigViewer {
+ public:
+  explicit ConfigViewer(ViewerOptions options = {}) : options_(std::move(options)) {}
+
+  /// Shows the configuration as it is now. With `pause`, waits for a key: in the browser, or Enter on the terminal. Returns
+  /// the key pressed since the last call, or 0. `stop` is asked while waiting; it may throw. Where KINEGRAPH_HEADLESS is set,
+  /// or no browser is connected and there is no terminal, nothing waits.
+  int view(const Config& config, bool pause, const std::optional<std::string>& message, const std::function<bool()>& stop);
+
+  /// Shows, without looking at keys.
+  void update(const Config& config);
+
+  void setMessage(const std::string& text) { server().setMessage(text); }
+  void setError(const std::string& text) { server().setError(text); }
+  void setTitle(const std::string& text) { server().setTitle(text); }
+  void setCamera(const Vector3d& position, const Vector3d& target) { server().setCamera(position, target); }
+  std::string url() { return server().url(); }
+  int clients() const { return server_ ? server_->clients() : 0; }
+  int takeKey() { return server_ ? server_->takeKey() : 0; }
+  bool isOpen() const { return server_ != nullptr; }
+  void close() { server_.reset(); }
+
+  /// True if somebody can press a key: a browser is connected, or there is a terminal to press Enter on.
+  bool canWait() const;
+
+  ViewerServer& server();
+
+ private:
+  std::shared_ptr<const Geometry> visualMesh(const Shape& shape);
+
+  ViewerOptions options_;
+  std::unique_ptr<ViewerServer> server_;
+  std::vector<ViewItem> items_;
+  std::map<std::string, std::shared_ptr<const Geometry>> visual_meshes_;  ///< by path and pose; null: not to be had
+};
+
+/// True if Enter was pressed on the terminal since the last call.
+bool enterWasPressed();
+
+}  // namespace kinegraph

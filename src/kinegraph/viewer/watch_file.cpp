@@ -1,0 +1,73 @@
+#include "kinegraph/viewer/watch_file.h"
+
+#include <chrono>
+#include <filesystem>
+#include <map>
+#include <thread>
+
+#include "kinegraph/base/errors.h"
+#include "kinegraph/base/text.h"
+#include "kinegraph/scene/scene_source.h"
+
+namespace kinegraph {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+using Stamps = std::map<std::string, std::pair<fs::file_time_type, std::uintmax_t>>;
+
+/// When each file was last written, and its size; a missing one has neither.
+Stamps stampsOf(const std::vector<std::string>& files) {
+  Stamps stamps;
+  for (const std::string& file : files) {
+    std::error_code error;
+    const auto time = fs::last_write_time(file, error);
+    stamps[file] = {error ? fs::file_time_type::min() : time, error ? 0 : fs::file_size(file, error)};
+  }
+  return stamps;
+}
+
+}  // namespace
+
+void watchFile(Config& config, ConfigViewer& viewer, const std::string& path, const std::function<void(const std::string&)>& report,
+               const std::function<bool()>& stop) {
+  const std::string hint = cat(path, "\nwaiting for changes of the file; q: quit");
+  std::vector<std::string> files = {path};
+  viewer.setTitle(cat("ConfigView <", path, ">"));
+  const auto load = [&] {
+    try {
+      Config fresh;
+      fresh.addFile(path);
+      files = sourceFiles(path);
+      config.clear();
+      config.addConfigurationCopy(fresh);
+      viewer.setError("");
+      viewer.setMessage(hint);
+      report(config.report());
+      for (const std::string& warning : fresh.takeWarnings()) report(warning);
+    } catch (const Error& error) {
+      viewer.setError(error.what());
+      viewer.setMessage(cat(path, "\nthe last scene without a mistake; waiting for the file to be mended; q: quit"));
+      report(error.what());
+    }
+    viewer.update(config);
+  };
+  Stamps before = stampsOf(files);
+  load();
+  before = stampsOf(files);
+  while (!isHeadless() && !stop()) {
+    const int key = viewer.takeKey();
+    if (key == 'q' || key == 27 || enterWasPressed()) break;
+    const Stamps now = stampsOf(files);
+    if (now != before || key == 13) {
+      before = now;
+      load();
+      before.merge(stampsOf(files));
+    }
+    std::this_thread::sleep_for(std::chrono::milliseconds(20));
+  }
+  viewer.setMessage("");
+}
+
+}  // namespace kinegraph

@@ -1,0 +1,88 @@
+import * as THREE from "three";
+import { BinaryKind, type FrameMessage, type SceneMessage } from "./messages";
+import { makeMeshData, makeShape, type MeshData } from "./shapes";
+
+interface Shown {
+  message: FrameMessage;
+  object: THREE.Object3D | null;
+}
+
+/** The frames of the scene as three.js objects, kept as the server's messages say. */
+export class ShownScene {
+  private readonly shown = new Map<number, Shown>();
+  private readonly meshes = new Map<number, MeshData>();
+  private readonly poses = new Map<number, Float32Array>();
+
+  constructor(private readonly parent: THREE.Group) {}
+
+  get frameCount(): number {
+    return this.shown.size;
+  }
+
+  get objectCount(): number {
+    return this.parent.children.length;
+  }
+
+  clear(): void {
+    for (const id of [...this.shown.keys()]) this.remove(id);
+    this.meshes.clear();
+    this.poses.clear();
+  }
+
+  readScene(message: SceneMessage): void {
+    for (const id of [...this.shown.keys()]) if (id >= message.count) this.remove(id);
+    for (const frame of message.frames) {
+      this.remove(frame.id);
+      const object = frame.shape ? makeShape(frame.shape, this.meshes) : null;
+      if (object) {
+        object.name = frame.name;
+        this.parent.add(object);
+      }
+      this.shown.set(frame.id, { message: frame, object });
+      this.place(frame.id);
+    }
+  }
+
+  readBinary(data: ArrayBuffer): void {
+    const view = new DataView(data);
+    const kind = view.getUint32(0, true);
+    if (kind === BinaryKind.poses) this.readPoses(view);
+    if (kind === BinaryKind.mesh) this.readMesh(data, view);
+  }
+
+  private readPoses(view: DataView): void {
+    const count = view.getUint32(4, true);
+    for (let i = 0; i < count; ++i) {
+      const at = 8 + 32 * i;
+      const pose = new Float32Array(7);
+      for (let k = 0; k < 7; ++k) pose[k] = view.getFloat32(at + 4 + 4 * k, true);
+      const id = view.getUint32(at, true);
+      this.poses.set(id, pose);
+      this.place(id);
+    }
+  }
+
+  private readMesh(data: ArrayBuffer, view: DataView): void {
+    const [index, vertices, triangles, colors] = [4, 8, 12, 16].map((at) => view.getUint32(at, true)) as [number, number, number, number];
+    let at = 20;
+    const positions = new Float32Array(data, at, 3 * vertices);
+    at += positions.byteLength;
+    const indices = new Uint32Array(data, at, 3 * triangles);
+    at += indices.byteLength;
+    this.meshes.set(index, makeMeshData(positions, indices, new Uint8Array(data, at, 4 * colors)));
+  }
+
+  private place(id: number): void {
+    const object = this.shown.get(id)?.object;
+    const pose = this.poses.get(id);
+    if (!object || !pose) return;
+    object.position.set(pose[0]!, pose[1]!, pose[2]!);
+    object.quaternion.set(pose[4]!, pose[5]!, pose[6]!, pose[3]!);
+  }
+
+  private remove(id: number): void {
+    const object = this.shown.get(id)?.object;
+    if (object) this.parent.remove(object);
+    this.shown.delete(id);
+  }
+}
