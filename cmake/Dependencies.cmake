@@ -38,3 +38,21 @@ find_package(Eigen3 3.4 CONFIG REQUIRED)
 find_package(assimp CONFIG REQUIRED)
 find_package(coal 3 CONFIG REQUIRED)
 find_package(Threads REQUIRED)
+
+# Installs the shared libraries of KINEGRAPH_PREFIX that `target` needs into `folder`.
+function(kinegraph_install_libraries target folder component)
+  install(CODE "set(prefix [[${KINEGRAPH_PREFIX}]])\nset(binary [[$<TARGET_FILE:${target}>]])\nset(folder [[${folder}]])" COMPONENT ${component})
+  install(CODE [[
+    file(GET_RUNTIME_DEPENDENCIES LIBRARIES "${binary}" RESOLVED_DEPENDENCIES_VAR libraries UNRESOLVED_DEPENDENCIES_VAR missing
+         DIRECTORIES "${prefix}/lib" PRE_EXCLUDE_REGEXES "^ld-linux" "^lib(c|m|dl|rt|pthread|gcc_s|stdc\\+\\+)\\.so")
+    foreach(library IN LISTS libraries)
+      string(FIND "${library}" "${prefix}" place)
+      if(place EQUAL 0)
+        file(INSTALL DESTINATION "${CMAKE_INSTALL_PREFIX}/${folder}" TYPE SHARED_LIBRARY FILES "${library}" FOLLOW_SYMLINK_CHAIN)
+      endif()
+    endforeach()
+    if(missing)
+      message(FATAL_ERROR "libraries not found: ${missing}")
+    endif()
+  ]] COMPONENT ${component})
+endfunction()

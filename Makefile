@@ -1,0 +1,23 @@
+# make demo    installs into .venv and runs the main job
+# make test    installs what the tests need, and runs everything
+# PYTHON=...   the Python to use (3.10 or newer)
+
+PYTHON ?= python3
+VENV := .venv
+
+.PHONY: demo install test clean
+
+demo: install
+	$(VENV)/bin/kinegraph demo $(ARGS)
+
+install: $(VENV)/bin/python
+	$(VENV)/bin/python -m pip install --quiet --disable-pip-version-check .
+
+test:
+	PYTHON="$(PYTHON)" bash tools/test.sh
+
+$(VENV)/bin/python:
+	bash tools/make_venv.sh "$(PYTHON)" $(VENV)
+
+clean:
+	rm -rf build $(VENV)

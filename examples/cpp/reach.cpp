@@ -1,0 +1,29 @@
+// Inverse kinematics from C++: brings the gripper of a Franka Panda to a position.
+//     reach MODELS_FOLDER
+#include <cstdio>
+
+#include "kinegraph/base/errors.h"
+#include "kinegraph/komo/komo.h"
+#include "kinegraph/solvers/nlp_solver.h"
+
+using namespace kinegraph;
+
+int main(int argc, char** argv) try {
+  Config C;
+  C.addFile(std::string(argc > 1 ? argv[1] : "models") + "/scenarios/pandaSingle.g");
+  C.addFrame("target", "table").setRelativePosition({.2, .4, .5});
+
+  const auto komo = std::make_shared<Komo>(C, 1., 1, 0);
+  komo->addObjective({}, FeatureSymbol::qItself, {}, ObjectiveType::sos, MatrixXd::Constant(1, 1, .1), C.getJointState());
+  komo->addObjective({}, FeatureSymbol::positionDiff, {"l_gripper", "target"}, ObjectiveType::eq, MatrixXd::Constant(1, 1, 10.));
+
+  Rng rng(0);
+  const SolverResult result = NlpSolver(makeNlp(komo), 0).solve(false, rng);
+  C.setJointState(komo->getPath().row(0));
+  const double error = (C.getFrame("l_gripper").getPose().p - C.getFrame("target").getPose().p).norm();
+  std::printf("%s\ngripper is %.2g m from the target\n", result.message.c_str(), error);
+  return result.feasible && error < 1e-4 ? 0 : 1;
+} catch (const Error& error) {
+  std::fprintf(stderr, "%s\n", error.what());
+  return 1;
+}

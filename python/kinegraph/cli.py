@@ -1,0 +1,60 @@
+"""The command `kinegraph`."""
+
+from __future__ import annotations
+
+import argparse
+import sys
+
+from . import __version__
+from ._core import Config
+from .errors import Error
+
+
+def _parser() -> argparse.ArgumentParser:
+    parser = argparse.ArgumentParser(prog="kinegraph", description="Robot scenes, inverse kinematics and motion optimisation.")
+    parser.add_argument("--version", action="version", version=f"kinegraph {__version__}")
+    commands = parser.add_subparsers(dest="command", required=True, metavar="COMMAND")
+
+    demo = commands.add_parser("demo", help="a Franka Panda follows a wandering target, live in the browser")
+    demo.add_argument("--forever", action="store_true", help="go on until Ctrl-C")
+    demo.add_argument("--seconds", type=float, default=20.0, help="how long (default: 20)")
+    demo.add_argument("--rate", type=float, default=60.0, help="targets per second; 0: as many as possible (default: 60)")
+    demo.add_argument("--seed", type=int, default=0, help="of the target's way (default: 0)")
+    demo.add_argument("--no-view", action="store_true", help="compute only")
+
+    view = commands.add_parser("view", help="shows a scene file, and again whenever it changes")
+    view.add_argument("file")
+
+    info = commands.add_parser("info", help="what a scene file contains")
+    info.add_argument("file")
+    return parser
+
+
+def _info(file: str) -> None:
+    config = Config()
+    config.addFile(file)
+    print(config.report())
+    for frame in config:
+        print(" ", frame)
+
+
+def main(arguments: list[str] | None = None) -> int:
+    """Runs the command. Returns its exit status: 0, 1 for a mistake in a file, 2 for one in the arguments."""
+    options = _parser().parse_args(arguments)
+    try:
+        if options.command == "demo":
+            from .demo import followTarget
+
+            seconds = float("inf") if options.forever else options.seconds
+            return 0 if followTarget(seconds, options.rate, options.seed, not options.no_view).worst_error < 1e-3 else 1
+        if options.command == "view":
+            Config().watchFile(options.file)
+        if options.command == "info":
+            _info(options.file)
+    except KeyboardInterrupt:
+        print()
+    except Error as error:
+        print(f"kinegraph: {error}", file=sys.stderr)
+        return 1
+    return 0
+
