@@ -11,14 +11,15 @@ namespace kinegraph::python {
 
 namespace nb = nanobind;
 
-/// Numbers as a user passes them: a number, a list, a nested list, a numpy array of any dtype. `shape` is empty for a
-/// single number. Values are row-major.
+/// Numbers as a user passes them: a number, a list, a nested list, a numpy array of any dtype. Values are row-major.
 struct Numbers {
   VectorXd values;
-  std::vector<std::size_t> shape;
+  int rank = 0;          ///< 0: a single number
+  std::size_t rows = 0;  ///< first extent
 
   std::vector<double> list() const { return {values.begin(), values.end()}; }
-  MatrixXd matrix() const;  ///< rank 2 as it is, rank 1 as one row
+  std::size_t columns() const { return rank < 2 || rows == 0 ? std::size_t(values.size()) : std::size_t(values.size()) / rows; }
+  MatrixXd matrix() const;  ///< rank 2 as it is, less as one row
 };
 
 /// A new numpy array (float64, C order) with these contents.

@@ -31,11 +31,21 @@ struct NamedFeature {
   int order = -1;
 };
 
-nb::tuple toPython(const Evaluation& evaluation) { return nb::make_tuple(toNumpy(evaluation.y), toNumpy(evaluation.J)); }
+/// Evaluates straight into the arrays that are returned.
+nb::tuple evalInto(const PyConfig& config, Residual residual) {
+  using RowMajor = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+  const std::size_t rows = std::size_t(residual.rows()), columns = std::size_t(config.getJointDimension());
+  const NewArray y = newArray(rows), J = newArray(rows, columns);
+  Eigen::Map<RowMajor> jacobian(J.data, Eigen::Index(rows), Eigen::Index(columns));
+  jacobian.setZero();
+  JacobianRows view = jacobian;
+  eval(config, residual, Eigen::Map<VectorXd>(y.data, Eigen::Index(rows)), view);
+  return nb::make_tuple(y.array, J.array);
+}
 
 nb::tuple evalFeature(const PyConfig& config, FeatureSymbol symbol, const FrameNames& frames, const std::optional<Numbers>& scale,
                       const std::optional<Numbers>& target, int order) {
-  return toPython(eval(config, symbol, toNames(frames), toScale(scale), toTarget(target), order));
+  return evalInto(config, makeResidual(*config.program(), symbol, toNames(frames), toScale(scale), toTarget(target), order));
 }
 
 std::string describe(const NamedFeature& f) {
@@ -49,7 +59,7 @@ void bindFeatures(nb::module_& m, nb::class_<PyConfig>& config) {
   for (const FeatureInfo& info : featureRegistry()) symbols.value(info.name.c_str(), info.symbol);
 
   nb::class_<NamedFeature>(m, "Feature", "A feature of named frames, evaluated on the configuration that is passed.")
-      .def("eval", [](const NamedFeature& f, const PyConfig& c) { return toPython(eval(c, f.symbol, f.frames, f.scale, f.target, f.order)); },
+      .def("eval", [](const NamedFeature& f, const PyConfig& c) { return evalInto(c, makeResidual(*c.program(), f.symbol, f.frames, f.scale, f.target, f.order)); },
            "config"_a, "Value (d,) and Jacobian (d, n) at the configuration's q.")
       .def("setScale", [](NamedFeature& f, const Numbers& scale) -> NamedFeature& { return f.scale = scale.matrix(), f; }, "scale"_a,
            nb::rv_policy::none, "A number, one per row, or a matrix.")

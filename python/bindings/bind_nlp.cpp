@@ -74,7 +74,7 @@ void readPythonEvaluation(nb::handle returned, int dimension, VectorXd& phi, Mat
   const Numbers values = nb::cast<Numbers>(pair[0]), jacobian = nb::cast<Numbers>(pair[1]);
   phi = values.values;
   const int rows = int(phi.size());
-  const bool triplets = jacobian.shape.size() == 2 && jacobian.shape[1] == 3 && int(jacobian.shape[0]) != rows;
+  const bool triplets = jacobian.rank == 2 && jacobian.columns() == 3 && int(jacobian.rows) != rows;
   if (!triplets && jacobian.values.size() != Eigen::Index(rows) * dimension) {
     throw ValueError(cat("the problem's function returned a Jacobian with ", jacobian.values.size(), " entries; expected ", rows, " x ", dimension));
   }

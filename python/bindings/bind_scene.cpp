@@ -56,7 +56,7 @@ nb::list collisions(const PyConfig& config, double margin) {
 }
 
 void setJointState(PyConfig& config, const Numbers& q, const std::optional<std::vector<std::string>>& joints) {
-  if (q.shape.empty() && config.getJointDimension() != 1) {
+  if (q.rank == 0 && config.getJointDimension() != 1) {
     throw ValueError(cat("setJointState: got a single number; the configuration has ", config.getJointDimension(), " dofs"));
   }
   joints && !joints->empty() ? config.setJointState(q.values, *joints) : config.setJointState(q.values);

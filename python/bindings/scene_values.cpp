@@ -68,7 +68,7 @@ Value toValue(nb::handle value, const std::string& name) {
     }
     out.data = std::move(graph);
   } else if (readNumbers(value, numbers)) {
-    if (numbers.shape.empty()) {
+    if (numbers.rank == 0) {
       out.data = numbers.values[0];
     } else {
       out.data = NumberArray{numbers.list(), 1};

@@ -22,21 +22,20 @@ Residual makeResidual(const Program& program, FeatureSymbol symbol, const std::v
 Evaluation eval(const Config& config, FeatureSymbol symbol, const std::vector<std::string>& frames, const MatrixXd& scale,
                 const VectorXd& target, int order) {
   Residual residual = makeResidual(*config.program(), symbol, frames, scale, target, order);
-  return eval(config, residual);
+  Evaluation out;
+  out.y.resize(residual.rows());
+  out.J.setZero(residual.rows(), config.getJointDimension());
+  eval(config, residual, out.y, out.J);
+  return out;
 }
 
-Evaluation eval(const Config& config, Residual& residual) {
+void eval(const Config& config, Residual& residual, Eigen::Ref<VectorXd> y, JacobianRows J) {
   if (residual.order() > 0) {
     throw ValueError(cat(residual.name(), " of order ", residual.order(), " needs ", residual.order() + 1,
                          " consecutive configurations; evaluate it in a KOMO"));
   }
   const State* state = &config.state();
-  Evaluation out;
-  out.y.resize(residual.rows());
-  out.J.setZero(residual.rows(), state->dofs());
-  JacobianRows rows = out.J;
-  residual.eval({&state, 1}, 1., out.y, &rows);
-  return out;
+  residual.eval({&state, 1}, 1., y, &J);
 }
 
 }  // namespace kinegraph

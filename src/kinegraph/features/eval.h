@@ -22,6 +22,8 @@ Residual makeResidual(const Program& program, FeatureSymbol symbol, const std::v
 /// Evaluates a feature at the present q. Throws ValueError for features that need several configurations.
 Evaluation eval(const Config& config, FeatureSymbol symbol, const std::vector<std::string>& frames,
                 const MatrixXd& scale = {}, const VectorXd& target = {}, int order = -1);
-Evaluation eval(const Config& config, Residual& residual);
+
+/// The same for a residual that has been made, into `y` (rows) and `J` (rows x dofs, filled with zeros).
+void eval(const Config& config, Residual& residual, Eigen::Ref<VectorXd> y, JacobianRows J);
 
 }  // namespace kinegraph

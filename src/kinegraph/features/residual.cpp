@@ -17,6 +17,7 @@ Residual::Residual(std::unique_ptr<Feature> feature, MatrixXd scale, VectorXd ta
   differences_ = order - feature_->order();
   setScale(std::move(scale));
   setTarget(std::move(target));
+  if (differences_ == 0) return;
   values_.resize(differences_ + 1, VectorXd(feature_->rows()));
   jacobians_.resize(differences_ + 1);
 }

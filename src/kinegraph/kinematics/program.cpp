@@ -1,15 +1,18 @@
 #include "kinegraph/kinematics/program.h"
 
-#include <algorithm>
-
 #include "kinegraph/base/errors.h"
 #include "kinegraph/base/text.h"
 
 namespace kinegraph {
 
+void nameFrames(Program& program, std::vector<std::string> names) {
+  program.frame_name = std::move(names);
+  for (std::size_t i = 0; i < program.frame_name.size(); ++i) program.frame_index.try_emplace(program.frame_name[i], int(i));
+}
+
 int frameId(const Program& program, std::string_view name, std::string_view who) {
-  const auto place = std::find(program.frame_name.begin(), program.frame_name.end(), name);
-  if (place != program.frame_name.end()) return int(place - program.frame_name.begin());
+  const auto place = program.frame_index.find(name);
+  if (place != program.frame_index.end()) return place->second;
   throw FrameNotFound(cat(who, ": frame name '", name, "' doesn't exist", similarHint(name, program.frame_name)));
 }
 

@@ -3,6 +3,7 @@
 #include <memory>
 #include <string>
 #include <string_view>
+#include <unordered_map>
 #include <utility>
 #include <vector>
 
@@ -43,6 +44,7 @@ struct Program {
   std::vector<int> chain;
 
   std::vector<std::string> frame_name;  ///< per frame
+  std::unordered_map<std::string_view, int> frame_index;  ///< of names: the first frame of that name
   std::vector<int> frame_link;          ///< per frame
   std::vector<DofRange> frame_dofs;  ///< per frame: the dofs of its own active joint (of the source if it mimics)
   VectorXd lower, upper;             ///< per dof; -inf, +inf where there is no limit
@@ -60,6 +62,9 @@ struct Parameters {
   std::vector<RigidTransform> joint_base;    ///< per link: X_PJ, base of its joint in the parent link
   std::vector<RigidTransform> frame_offset;  ///< per frame: X_LF, the frame in its link
 };
+
+/// Sets `frame_name` and `frame_index`.
+void nameFrames(Program& program, std::vector<std::string> names);
 
 /// The first frame of that name. Throws FrameNotFound with similar names; `who` is what asks for it.
 int frameId(const Program& program, std::string_view name, std::string_view who);

@@ -64,7 +64,7 @@ std::shared_ptr<const Program> compileProgram(const SceneTree& scene) {
   const std::size_t count = scene.frames().size();
   compileDofs(scene, *program);
   program->links.push_back({});
-  program->frame_name = scene.names();
+  nameFrames(*program, scene.names());
   program->frame_link.resize(count);
   for (const FrameData* frame : topologicalOrder(scene)) {
     const int parent_link = frame->parent ? program->frame_link[frame->parent->id] : 0;

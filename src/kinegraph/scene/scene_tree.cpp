@@ -129,6 +129,10 @@ std::shared_ptr<const Program> SceneTree::program() {
   if (compiled_revision_ != structure_revision_) {
     program_ = compileProgram(*this);
     compiled_revision_ = structure_revision_;
+    dof_frames_.clear();
+    for (const auto& frame : frames_) {
+      if (frame->moves() && frame->joint->active && !frame->joint->mimic) dof_frames_.push_back(frame.get());
+    }
     parameters_.reset();
     state_.reset();
     poses_stale_ = q_stale_ = true;
@@ -165,22 +169,20 @@ Pose SceneTree::worldPose(const FrameData& frame) const {
 }
 
 VectorXd SceneTree::jointState() {
-  const auto compiled = program();
-  VectorXd q(compiled->dofs);
-  for (const auto& frame : frames_) {
-    if (frame->moves() && frame->joint->active && !frame->joint->mimic) {
-      q.segment(compiled->frame_dofs[frame->id].first, frame->joint->dofs()) = frame->joint->q;
-    }
+  VectorXd q(program()->dofs);
+  int first = 0;
+  for (const FrameData* frame : dof_frames_) {
+    q.segment(first, frame->joint->dofs()) = frame->joint->q;
+    first += frame->joint->dofs();
   }
   return q;
 }
 
 void SceneTree::setJointState(const double* q) {
-  const auto compiled = program();
-  for (const auto& frame : frames_) {
-    if (frame->moves() && frame->joint->active && !frame->joint->mimic) {
-      frame->joint->q = Eigen::Map<const VectorXd>(q + compiled->frame_dofs[frame->id].first, frame->joint->dofs());
-    }
+  program();
+  for (FrameData* frame : dof_frames_) {
+    frame->joint->q = Eigen::Map<const VectorXd>(q, frame->joint->dofs());
+    q += frame->joint->dofs();
   }
   jointsChanged();
 }

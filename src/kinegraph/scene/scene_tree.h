@@ -69,6 +69,7 @@ class SceneTree {
   std::vector<std::shared_ptr<FrameData>> frames_;
   std::uint64_t structure_revision_ = 1, compiled_revision_ = 0, looks_revision_ = 0;
   bool poses_stale_ = true, q_stale_ = true;
+  std::vector<FrameData*> dof_frames_;  ///< those whose joints make up q, in its order
   std::shared_ptr<const Program> program_;
   std::shared_ptr<const Parameters> parameters_;
   std::unique_ptr<State> state_;
