@@ -39,4 +39,3 @@ step "C++ tests"
 ctest --test-dir build/dev --output-on-failure --no-tests=error
 step "Python and browser tests"
 "$tests/bin/python" -m pytest -q
-step "done"
