@@ -20,10 +20,12 @@ def reaching() -> ry.Config:
     C = ry.Config()
     C.addFile(ry.raiPath("scenarios/pandaSingle.g"))
     C.addFrame("target", "table").setShape(ry.ST.marker, [0.2]).setRelativePosition([0.25, 0.35, 0.35])
-    C.addFrame("box", "table").setShape(ry.ST.ssBox, [0.12, 0.12, 0.16, 0.02]).setRelativePosition([-0.25, 0.3, 0.13]).setColor(
-        [1.0, 0.5, 0.1]
+    C.addFrame("box", "table").setShape(ry.ST.ssBox, [0.12, 0.12, 0.16, 0.02]).setRelativePosition(
+        [-0.25, 0.3, 0.13]
+    ).setColor([1.0, 0.5, 0.1])
+    C.addFrame("ball", "table").setShape(ry.ST.sphere, [0.06]).setRelativePosition([-0.05, 0.45, 0.11]).setColor(
+        [0.2, 0.6, 0.9]
     )
-    C.addFrame("ball", "table").setShape(ry.ST.sphere, [0.06]).setRelativePosition([-0.05, 0.45, 0.11]).setColor([0.2, 0.6, 0.9])
     komo = ry.KOMO(C, 1, 1, 0, False)
     komo.addObjective([], ry.FS.jointState, [], ry.OT.sos, [1e-1], C.getJointState())
     komo.addObjective([], ry.FS.positionDiff, ["l_gripper", "target"], ry.OT.eq, [1e1])

@@ -171,6 +171,7 @@ void bindScene(nb::module_& m) {
 
   bindFrame(m, frame);
   bindFeatures(m, config);
+  bindDynamics(config);
   bindViewer(m, config);
 }
 

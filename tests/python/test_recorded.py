@@ -164,3 +164,14 @@ def test_an_inverse_kinematics_problem_has_the_recorded_residuals_and_a_solution
     for run in numbers["runs"]:
         y = np.array(nlp.evaluate(run["x"])[0])
         assert np.isclose(np.sum(y[:7] ** 2), run["sos"], atol=1e-5)
+
+
+def test_the_equation_of_motion_of_a_double_pendulum_is_as_recorded():
+    numbers = recorded("tutorial_arm")["dynamics"]
+    C = ry.Config()
+    C.addText(numbers["scene"])
+    C.setJointState(numbers["q"])
+    M, F = C.dyn_MF(numbers["qdot"])
+    assert np.allclose(M, numbers["M"], rtol=1e-6) and np.allclose(F, numbers["F"], rtol=1e-6)
+    assert np.allclose(C.dyn_F0(), numbers["F0"], rtol=1e-6)
+    assert np.allclose(C.inverseDynamics(numbers["qdot"], [1, 2]), M @ [1, 2] + F)

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "kinegraph/kinematics/dynamics.h"
 #include "kinegraph/kinematics/state.h"
 #include "kinegraph/scene/frame_data.h"
 
@@ -80,6 +81,9 @@ std::shared_ptr<const Program> compileProgram(const SceneTree& scene);
 
 /// Collects the constant transforms that belong to a compiled Program.
 std::shared_ptr<const Parameters> collectParameters(const SceneTree& scene, const Program& program);
+
+/// What each link of a compiled Program weighs: the sum of its frames' inertias.
+std::vector<LinkInertia> collectInertias(const SceneTree& scene, const Program& program, const Parameters& parameters);
 
 /// The collidable pairs (a < b) of a scene; the rule is at Config::getCollidablePairs.
 std::vector<std::pair<int, int>> collidablePairs(const SceneTree& scene);
