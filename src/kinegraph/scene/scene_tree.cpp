@@ -121,10 +121,6 @@ FrameData* SceneTree::append(const SceneTree& other, const std::string& prefix) 
   return originals.empty() ? nullptr : copies[originals.front().get()];
 }
 
-bool SceneTree::stateIsFresh() const {
-  return state_ && compiled_revision_ == structure_revision_ && !poses_stale_ && !q_stale_;
-}
-
 std::shared_ptr<const Program> SceneTree::program() {
   if (compiled_revision_ != structure_revision_) {
     program_ = compileProgram(*this);
@@ -164,8 +160,10 @@ const State& SceneTree::state() {
   return *state_;
 }
 
-Pose SceneTree::worldPose(const FrameData& frame) const {
-  return stateIsFresh() ? Pose(state_->pose(frame.id)) : frame.worldPose();
+Pose SceneTree::worldPose(const FrameData& frame) {
+  if (asked_since_edit_) return Pose(state().pose(frame.id));
+  asked_since_edit_ = true;
+  return frame.worldPose();
 }
 
 VectorXd SceneTree::jointState() {
