@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "tests/features/worked_scene.h"
+#include "tests/support/differences.h"
 
 using namespace kinegraph;
 
@@ -24,6 +25,39 @@ TEST(NegDistance, IsPositiveWhereShapesPenetrateByThatDepth) {
   config.addText("c: { shape: ssBox, size: [1 1 1 .1] }  d: { X: [0 0 .55], shape: ssBox, size: [.4 .4 .4 .05] }");
   EXPECT_NEAR(value(config, "distance", {"a", "b"})[0], .05, 1e-12);
   EXPECT_NEAR(value(config, "distance", {"c", "d"})[0], .15, 1e-6);
+}
+
+TEST(NegDistance, HasTheJacobianOfCentralDifferencesInPenetrationToo) {
+  Rng rng(21);
+  struct Body {
+    const char* shape;
+    double tolerance = 1e-6;
+  };
+  const Body bodies[] = {{"shape: sphere, size: [.1]"}, {"shape: capsule, size: [.2 .05]"}, {"shape: ssBox, size: [.2 .2 .3 .03]"},
+                         {"shape: box, size: [.1 .3 .2]"},
+                         {"shape: cylinder, size: [.2 .1]", 2e-4}};  // its depth is iterated to 1e-8 m, the normal to the root of it
+  for (const auto& [shape, tolerance] : bodies) {
+    Config config;
+    config.addText(std::string("box: { shape: ssBox, size: [.5 .4 .3 .02] }  base: {}  body(base): { joint: free, ") + shape + " }");
+    const auto distance = [&](const VectorXd& q) {
+      config.setJointState(q);
+      return value(config, "distance", {"body", "box"});
+    };
+    int deep = 0, used = 0;
+    for (int sample = 0; sample < 40; ++sample) {
+      VectorXd q(7);
+      for (double& x : q) x = rng.normal();
+      q.head(3) = q.head(3).normalized() * rng.uniform(.1, .25);
+      const Differences numeric = differences(distance, q);
+      if (distance(q)[0] < .01) continue;
+      ++deep;
+      if (!numeric.differentiable) continue;
+      ++used;
+      EXPECT_LE(relativeError(eval(config, FeatureSymbol::distance, {"body", "box"}).J, numeric.D), tolerance) << shape << ", sample " << sample;
+    }
+    EXPECT_GE(deep, 20) << shape;
+    EXPECT_GE(used, .8 * deep) << shape;
+  }
 }
 
 TEST(Witness, PointsNormalAndVectorAreThoseOfTheNearestSurfaces) {

@@ -50,7 +50,7 @@ TEST(Registry, AWrongNumberOfFramesIsAnErrorThatSaysHowManyItTakes) {
     if (info.max_frames >= 0) wrong.push_back(info.max_frames + 1);
     for (int count : wrong) {
       const std::vector<std::string> frames(std::size_t(count), "A");
-      const std::string takes = info.name + " takes " + std::to_string(info.min_frames), got = "got " + std::to_string(count);
+      const std::string takes = featureInfo(info.symbol).name + " takes " + std::to_string(info.min_frames), got = "got " + std::to_string(count);
       expectError<ValueError>([&] { value(config, info.name.c_str(), frames); }, {takes.c_str(), got.c_str()});
       ++checked;
     }
