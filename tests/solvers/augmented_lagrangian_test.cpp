@@ -134,6 +134,18 @@ TEST(AugmentedLagrangian, SolvesLinearPrograms) {
   EXPECT_TRUE(near(result.dual, vec({0., 2., 2.}), 1e-5));
 }
 
+TEST(AugmentedLagrangian, TakesStepsBelowTheirToleranceWhereTheViolationIsAboveIts) {
+  const double root = std::asin(.5);
+  CallbackNlp steep(1, {sos, eq}, {}, {}, [](const VectorXd& x, VectorXd& phi, MatrixXd& J) {
+    phi << x[0], 1e3 * (std::sin(x[0]) - .5);
+    J << 1., 1e3 * std::cos(x[0]);
+  });
+  const SolverResult result = solveAugmentedLagrangian(steep, vec({root + 5e-5}), SolverOptions{});
+  EXPECT_EQ(result.status, SolverStatus::converged) << result.message;
+  EXPECT_LE(result.violation, 1e-4);
+  EXPECT_LE(result.evals, 4);
+}
+
 TEST(AugmentedLagrangian, RowOrderAndDuplicatedEqualitiesDoNotMoveTheSolution) {
   const MatrixXd C = randomMatrix(2, 5, 7);
   const VectorXd target = randomMatrix(5, 1, 8), c = randomMatrix(2, 1, 9);

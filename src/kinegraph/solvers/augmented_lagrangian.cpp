@@ -130,6 +130,15 @@ class AugmentedLagrangian {
     return worst;
   }
 
+  /// The violation that the model expects after its step.
+  double linearizedViolation() const {
+    double worst = 0.;
+    for (int j = 0; j < lambda_.size(); ++j) {
+      worst = std::max(worst, model_.isEquality(j) ? std::abs(model_.linearized()[j]) : model_.linearized()[j]);
+    }
+    return worst;
+  }
+
   /// Largest entry of the gradient of the Lagrangian, as far as the bounds leave room to go down.
   double gradientNorm(const VectorXd& x, const VectorXd& phi, const Jacobian& J) {
     gradient_.setZero(x.size());
@@ -212,7 +221,7 @@ void AugmentedLagrangian::iterate() {
     const double size = d.lpNorm<Eigen::Infinity>();
     double predicted = -model_.costChange();
     for (int j = 0; j < lambda_.size(); ++j) predicted += penalty(j, phi_[constraints_[j]]) - penalty(j, model_.linearized()[j]);
-    const double vc = optimalityError();
+    const double vc = optimalityError(), violation = violationAt(phi_);
     const double scale = std::max(std::abs(cost(phi_)), 1e-4);
     const bool tiny = size <= tolerance || predicted <= std::max(tolerance * tolerance, 1e-16) * scale;
     if (options_.verbose > 2) {
@@ -232,7 +241,8 @@ void AugmentedLagrangian::iterate() {
       return stop(SolverStatus::converged, cat("step ", size, ", its predicted decrease ", predicted, ", and violation ", vc, " are within tolerances"));
     }
     const bool solved = (size <= omega_ && nu <= .1 * h) || last_relative <= rel_ || tiny || nu > 1e10 || predicted <= 0.;
-    if (solved && !(vc <= tolerance_ && round_just_ended_ && predicted > 0.)) {
+    const bool helps = vc <= tolerance_ || (violation > tolerance_ && linearizedViolation() < .5 * violation);
+    if (solved && !(round_just_ended_ && helps && predicted > 0. && nu <= 1e10)) {
       if (nu > 1e10) {
         nu = options_.damping;
         if (++given_up == 3) return stop(SolverStatus::stalled, cat("no step decreases the objective as predicted", trouble_));
