@@ -162,6 +162,31 @@ TEST(AugmentedLagrangian, RowOrderAndDuplicatedEqualitiesDoNotMoveTheSolution) {
   EXPECT_TRUE(near(solveAugmentedLagrangian(other, VectorXd::Zero(5), tight()).x, expected, 1e-8));
 }
 
+TEST(AugmentedLagrangian, TheFirstPenaltyDoesNotMoveTheSolution) {
+  for (double mu : {1e-2, 1., 1e3}) {
+    SolverOptions options = tight();
+    options.muInit = mu;
+    CallbackNlp nlp = kOne.nlp(eq);
+    const SolverResult result = solveAugmentedLagrangian(nlp, VectorXd::Zero(3), options);
+    EXPECT_EQ(result.status, SolverStatus::converged) << result.message;
+    EXPECT_TRUE(near(result.x, kOne.solution(), 1e-8)) << "mu " << mu;
+    EXPECT_NEAR(result.dual[3], kOne.multiplier(), 1e-6) << "mu " << mu;
+  }
+}
+
+TEST(AugmentedLagrangian, AConstraintScaledUpHasTheSameSolutionAndAMultiplierScaledDown) {
+  for (double scale : {.01, 1., 100.}) {
+    OneConstraint scaled = kOne;
+    scaled.a *= scale;
+    scaled.b *= scale;
+    CallbackNlp nlp = scaled.nlp(ineq);
+    const SolverResult result = solveAugmentedLagrangian(nlp, VectorXd::Zero(3), tight(1e-10));
+    EXPECT_EQ(result.status, SolverStatus::converged) << result.message;
+    EXPECT_TRUE(near(result.x, kOne.solution(), 1e-7)) << "scale " << scale;
+    EXPECT_NEAR(scale * result.dual[3], kOne.multiplier(), 1e-6) << "scale " << scale;
+  }
+}
+
 TEST(AugmentedLagrangian, TheSameCallTwiceGivesTheSameBits) {
   for (const KnownProblem& problem : knownProblems()) {
     KnownNlp first(problem), second(problem);
@@ -357,6 +382,16 @@ TEST(AugmentedLagrangian, RecoversFromATrialPointThatIsNotFinite) {
   EXPECT_GT(outside, 0);
   EXPECT_EQ(result.status, SolverStatus::converged) << result.message;
   EXPECT_NEAR(result.x[0], std::exp(-1.), 1e-7);
+}
+
+TEST(AugmentedLagrangian, AWrongJacobianIsNotCalledConverged) {
+  CallbackNlp nlp(2, {sos, sos}, {}, {}, [](const VectorXd& x, VectorXd& phi, MatrixXd& J) {
+    phi << x[0] - 3., x[1];
+    J << -1., 0., 0., 1.;
+  });
+  const SolverResult result = solveAugmentedLagrangian(nlp, vec({1., 1.}), SolverOptions{});
+  EXPECT_EQ(result.status, SolverStatus::stalled) << result.message;
+  EXPECT_NE(result.message.find("no step decreases the objective as predicted"), std::string::npos) << result.message;
 }
 
 TEST(AugmentedLagrangian, NamesTheResidualThatIsNotFiniteWhereverItTriesToGo) {
