@@ -18,13 +18,16 @@ struct Case {
   MatrixXd A = MatrixXd(kRows, kVariables);
   VectorXd b = VectorXd(kRows), lambda = VectorXd(4), low = VectorXd(kVariables), high = VectorXd(kVariables);
 
-  explicit Case(int seed) {
+  /// With `at_bounds`, every second variable starts at one of its bounds, and all are strongly coupled.
+  explicit Case(int seed, bool at_bounds = false) {
     Rng rng{std::uint64_t(seed)};
     for (double& x : A.reshaped()) x = rng.normal();
     for (double& x : b) x = rng.normal();
     for (double& x : lambda) x = rng.uniform(0., 2.);
     for (double& x : low) x = -rng.uniform(.1, .5);
     for (double& x : high) x = rng.uniform(.1, .5);
+    if (at_bounds) A.colwise() += 3. * A.rowwise().sum().eval();
+    for (int i = 0; at_bounds && i < kVariables; i += 2) (i % 4 == 0 ? low : high)[i] = 0.;
   }
 
   /// The model by its definition.
@@ -43,8 +46,8 @@ struct Case {
 }  // namespace
 
 TEST(LocalModel, TheStepThatItFindsIsTheLeastInTheBox) {
-  for (int seed = 0; seed < 30; ++seed) {
-    const Case c(seed);
+  for (int seed = 0; seed < 60; ++seed) {
+    const Case c(seed, seed % 2 == 1);
     CallbackNlp nlp(Case::kVariables, c.types, {}, {}, [&](const VectorXd& x, VectorXd& phi, MatrixXd& J) {
       phi = c.b + c.A * x;
       J = c.A;
@@ -72,6 +75,34 @@ TEST(LocalModel, TheStepThatItFindsIsTheLeastInTheBox) {
     EXPECT_NEAR(model.costChange(), costs, 1e-12);
     EXPECT_LT(least, c.value(at_zero, mu, shift));
   }
+}
+
+TEST(LocalModel, GoesDownAlsoWhereTheCurvatureIsNegative) {
+  class Hilltop final : public Nlp {
+   public:
+    Hilltop() {
+      lower_ = VectorXd::Constant(2, -1.);
+      upper_ = VectorXd::Constant(2, 1.);
+      types_ = {f};
+    }
+    void evaluate(const VectorXd& x, VectorXd& phi, Jacobian* J) override {
+      phi.setConstant(1, -.5 * x[0] * x[0] - x[1] * x[1]);
+      if (J) J->values = {-x[0], -2. * x[1]};
+    }
+    bool addCostHessian(const VectorXd&, MatrixXd& H) override {
+      H += Eigen::Vector2d(-1., -2.).asDiagonal();
+      return true;
+    }
+  } nlp;
+  Jacobian J = nlp.makeJacobian();
+  VectorXd phi;
+  const VectorXd x = Eigen::Vector2d(.25, .5), low = nlp.lower() - x, high = nlp.upper() - x;
+  nlp.evaluate(x, phi, &J);
+  LocalModel model(nlp, {0}, {});
+  model.setCosts(nlp, x, phi, J);
+  const VectorXd d = model.minimize({phi, J, VectorXd(), 1., 0., low, high, 12});
+  EXPECT_EQ(d, high);
+  EXPECT_NEAR(model.costChange(), -1.5 + .5 * .25 * .25 + .5 * .5, 1e-12);
 }
 
 TEST(LocalModel, FactorizesOnlyWhereTheActiveRowsChange) {

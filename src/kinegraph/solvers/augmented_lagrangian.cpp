@@ -193,7 +193,7 @@ class AugmentedLagrangian {
   VectorXd best_x_, best_phi_;
   double best_violation_ = 0., best_cost_ = 0.;
   double tolerance_;
-  double mu_ = 1., omega_ = .1, last_violation_ = kInfinity, rel_ = .02;
+  double mu_ = 1., omega_ = .1, last_violation_ = kInfinity, violation_at_tests_ = kInfinity, rel_ = .02;
   int rounds_ = 0, bad_rounds_ = 0, failed_tests_ = 0;
   bool round_just_ended_ = false;
   int evals_ = 0;
@@ -293,6 +293,10 @@ void AugmentedLagrangian::endRound(double vc, double step_size) {
         return stop(SolverStatus::infeasible, cat("the constraints contradict each other here; least violation found ", best_violation_));
       }
       bad_rounds_ = 0;
+      if (vc < .5 * violation_at_tests_) {  // slow, but it falls
+        violation_at_tests_ = vc;
+        failed_tests_ = 0;
+      }
       if (++failed_tests_ == 6) return stop(SolverStatus::stalled, cat("the violation no longer falls; it is ", vc));
     }
   }
