@@ -100,7 +100,7 @@ void Komo::addControlObjective(const std::vector<double>& times, int order, doub
   if (frames.size() == joint_frames_.size()) frames.clear();
   VectorXd to = target;
   if (order == 0 && target.size() == 0) to = vector(home);
-  add({"qItself", FeatureSymbol::qItself, frames, ObjectiveType::sos, vector(weights).transpose(), to, order, times, 0, 0, order > 0},
+  add({"qItself", FeatureSymbol::qItself, frames, ObjectiveType::sos, vector(weights), to, order, times, 0, 0, order > 0},
       delta_from, delta_to);
 }
 

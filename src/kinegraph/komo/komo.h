@@ -86,6 +86,7 @@ class Komo {
   int slicesPerPhase() const { return slices_per_phase_; }
   double phases() const { return phases_; }
   int dofs() const { return program_->dofs; }            ///< of the given configuration
+  int jointCount() const { return int(joint_frames_.size()); }  ///< joints of the given configuration
   double tau() const { return tau_; }                    ///< s per slice
   const Program& program() const { return *program_; }   ///< of the given configuration
   const std::vector<Objective>& objectives() const { return objectives_; }
