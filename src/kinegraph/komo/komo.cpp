@@ -16,7 +16,10 @@ Komo::Komo(const Config& config, double phases, int slices_per_phase, int order)
 
 void Komo::setConfig(const Config& config) {
   if (!objectives_.empty() || !modes_.empty()) throw Error("KOMO: the configuration is set before the first objective or switch");
-  base_ = std::make_shared<const Config>(config);
+  Config base;
+  base.scene()->append(*config.scene(), {}, false);
+  base_ = std::make_shared<const Config>(std::move(base));
+  source_ = config.scene();
   program_ = config.program();
   parameters_ = config.parameters();
   start_ = config.getJointState();
@@ -131,11 +134,13 @@ std::unique_ptr<Feature> Komo::featureIn(const Objective& objective, int slice) 
     }
     case FeatureSymbol::jointLimits: {
       if (!ids.empty() || layout_.plain) break;
-      std::vector<int> dofs;
-      for (const auto& [first, count] : layout_.owned[slice + order_]) {
-        for (int i = first; i < first + count; ++i) dofs.push_back(i);
-      }
-      return std::make_unique<JointLimits>(dofs, program);
+      std::set<int> dofs;
+      const auto insert = [&](const Program::DofRange& range) {
+        for (int i = range.first; i < range.first + range.count; ++i) dofs.insert(i);
+      };
+      for (const Program::DofRange& range : layout_.owned[slice + order_]) insert(range);
+      for (int frame : stable_) insert(program.frame_dofs[frame]);
+      return std::make_unique<JointLimits>(std::vector<int>(dofs.begin(), dofs.end()), program);
     }
     default: break;
   }

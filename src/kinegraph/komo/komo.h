@@ -162,7 +162,8 @@ class Komo {
   std::vector<int> dofsOf(const std::vector<int>& frames, int slice) const;
   void writeJoints(int slice, const VectorXd& q);
 
-  std::shared_ptr<const Config> base_;  ///< the configuration as given
+  std::shared_ptr<const Config> base_;       ///< the configuration as given, without the frames' attributes
+  std::shared_ptr<const SceneTree> source_;  ///< where it came from, for the attributes
   std::shared_ptr<const Program> program_;
   std::shared_ptr<const Parameters> parameters_;
   VectorXd start_;

@@ -85,6 +85,10 @@ Config Komo::configuration(int slice) const {
   if (slice < -order_ || slice >= slices_) throw ValueError(cat("KOMO: slice ", slice, " is not in ", -order_, " .. ", slices_ - 1));
   Config config = modes_.empty() ? *base_ : modes_[mode_of_[slice + order_]]->config;
   config.setJointState(state(slice).q());
+  const auto& frames = config.scene()->frames();
+  for (const auto& source : source_->frames()) {
+    if (source->id < int(frames.size()) && frames[source->id]->name == source->name) frames[source->id]->attributes = source->attributes;
+  }
   return config;
 }
 
