@@ -89,7 +89,7 @@ void SceneTree::unlink(FrameData& frame) {
   structureChanged();
 }
 
-FrameData* SceneTree::append(const SceneTree& other, const std::string& prefix) {
+FrameData* SceneTree::append(const SceneTree& other, const std::string& prefix, bool with_attributes) {
   const std::vector<std::shared_ptr<FrameData>> originals = other.frames_;
   std::unordered_map<const FrameData*, FrameData*> copies;
   std::unordered_map<const Shape*, std::shared_ptr<Shape>> shapes;
@@ -98,7 +98,7 @@ FrameData* SceneTree::append(const SceneTree& other, const std::string& prefix) 
     copy.pose = original->pose;
     copy.joint = original->joint;
     copy.inertia = original->inertia;
-    copy.attributes = original->attributes;
+    if (with_attributes) copy.attributes = original->attributes;
     if (original->shape) {
       std::shared_ptr<Shape>& shape = shapes[original->shape.get()];
       if (!shape) {

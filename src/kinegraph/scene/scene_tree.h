@@ -43,8 +43,9 @@ class SceneTree {
   /// Cuts `frame` from its parent; the pose is left as it is.
   void unlink(FrameData& frame);
 
-  /// Appends deep copies of all frames of `other`, names prefixed. Returns the first, or null if there is none.
-  FrameData* append(const SceneTree& other, const std::string& prefix);
+  /// Appends deep copies of all frames of `other`, names prefixed. Returns the first, or null if there is none. Attributes as
+  /// read, which nothing here interprets, are most of the work and can be left out.
+  FrameData* append(const SceneTree& other, const std::string& prefix, bool with_attributes = true);
 
   void structureChanged() {
     ++structure_revision_;
