@@ -117,6 +117,27 @@ TEST(Config, CopiesAreDeep) {
   EXPECT_EQ(copy.getFrame("link1").getPose().p.x() > 4., true);
 }
 
+TEST(Config, SnapshotsKeepWhatTheSceneWasAndAreUsedAgain) {
+  Config config = arm();
+  const auto first = config.scene()->snapshot();
+  const VectorXd q = config.getJointState();
+  config.setJointState(q + VectorXd::Ones(13));
+  config.getFrame("base").setPosition({5, 0, 0});
+  auto second = config.scene()->snapshot();
+  EXPECT_NE(first, second);
+  EXPECT_EQ(Config(*first).getJointState(), q);
+  EXPECT_EQ(Config(*first).getFrame("base").getPose().p.x(), 0.);
+  EXPECT_EQ(Config(*second).getJointState(), q + VectorXd::Ones(13));
+  const SceneTree* address = second.get();
+  second.reset();
+  config.getFrame("base").setPosition({6, 0, 0});
+  second = config.scene()->snapshot();
+  EXPECT_EQ(second.get(), address);
+  EXPECT_EQ(Config(*second).getFrame("base").getPose().p.x(), 6.);
+  config.addFrame("new");
+  EXPECT_EQ(Config(*config.scene()->snapshot()).getFrameDimension(), config.getFrameDimension());
+}
+
 TEST(Config, AttachKeepsTheFrameWhereItIs) {
   Config config = arm();
   const Vector3d before = config.getFrame("free").getPose().p;

@@ -16,9 +16,7 @@ Komo::Komo(const Config& config, double phases, int slices_per_phase, int order)
 
 void Komo::setConfig(const Config& config) {
   if (!objectives_.empty() || !modes_.empty()) throw Error("KOMO: the configuration is set before the first objective or switch");
-  Config base;
-  base.scene()->append(*config.scene(), {}, false);
-  base_ = std::make_shared<const Config>(std::move(base));
+  base_ = config.scene()->snapshot();
   source_ = config.scene();
   program_ = config.program();
   parameters_ = config.parameters();

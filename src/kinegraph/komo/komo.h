@@ -162,7 +162,7 @@ class Komo {
   std::vector<int> dofsOf(const std::vector<int>& frames, int slice) const;
   void writeJoints(int slice, const VectorXd& q);
 
-  std::shared_ptr<const Config> base_;       ///< the configuration as given, without the frames' attributes
+  std::shared_ptr<const SceneTree> base_;    ///< the scene as given, without the frames' attributes
   std::shared_ptr<const SceneTree> source_;  ///< where it came from, for the attributes
   std::shared_ptr<const Program> program_;
   std::shared_ptr<const Parameters> parameters_;

@@ -15,7 +15,7 @@ void requireFrame(const Program& program, const std::string& name, const char* c
 /// Until the first change all slices share the given configuration's Program; from then on each has a mode.
 void Komo::makeModes() {
   if (!modes_.empty()) return;
-  modes_.push_back(std::make_shared<Mode>(Mode{*base_, {}}));
+  modes_.push_back(std::make_shared<Mode>(Mode{Config(*base_), {}}));
 }
 
 int Komo::addHiddenFrame(const std::string& name) {

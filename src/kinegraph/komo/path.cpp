@@ -83,7 +83,7 @@ MatrixXd Komo::getFrameState(int slice) const {
 Config Komo::configuration(int slice) const {
   requireBuilt("getConfiguration");
   if (slice < -order_ || slice >= slices_) throw ValueError(cat("KOMO: slice ", slice, " is not in ", -order_, " .. ", slices_ - 1));
-  Config config = modes_.empty() ? *base_ : modes_[mode_of_[slice + order_]]->config;
+  Config config = modes_.empty() ? Config(*base_) : modes_[mode_of_[slice + order_]]->config;
   config.setJointState(state(slice).q());
   const auto& frames = config.scene()->frames();
   for (const auto& source : source_->frames()) {
@@ -124,19 +124,20 @@ void Komo::updateRootObjects(const Config& config) {
   if (program != program_ && (program->frame_name != program_->frame_name || program->dofs != program_->dofs)) {
     throw ValueError("KOMO: updateRootObjects needs the configuration that the KOMO was made from, with the same frames, joints and shapes");
   }
-  const auto takeOver = [&](Config& target) {
+  const auto takeOver = [&](SceneTree& target) {
     for (const auto& source : config.scene()->frames()) {
-      FrameData& frame = *target.scene()->frames()[source->id];
+      FrameData& frame = *target.frames()[source->id];
       const int parent = source->parent ? source->parent->id : -1, parent_here = frame.parent ? frame.parent->id : -1;
       if (!source->moves() && !frame.moves() && parent == parent_here) frame.pose = source->pose;
     }
-    target.scene()->posesChanged();
+    target.posesChanged();
   };
-  auto base = std::make_shared<Config>(*base_);
+  const auto base = std::make_shared<SceneTree>();
+  base->append(*base_, {}, false);
   takeOver(*base);
   base_ = base;
   parameters_ = config.parameters();
-  for (const auto& mode : modes_) takeOver(mode->config);
+  for (const auto& mode : modes_) takeOver(*mode->config.scene());
   for (std::size_t i = 0; i < states_.size(); ++i) {
     states_[i].setParameters(modes_.empty() ? parameters_ : modes_[mode_of_[i]]->config.parameters());
   }

@@ -12,7 +12,9 @@
 
 namespace kinegraph {
 
-Config::Config(const Config& other) : Config() { scene_->append(*other.scene_, ""); }
+Config::Config(const SceneTree& scene) : Config() { scene_->append(scene, ""); }
+
+Config::Config(const Config& other) : Config(*other.scene_) {}
 
 Config& Config::operator=(const Config& other) {
   if (this != &other) *this = Config(other);

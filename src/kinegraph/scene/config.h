@@ -18,6 +18,7 @@ class Config {
  public:
   Config() : scene_(std::make_shared<SceneTree>()) {}
   Config(const Config& other);
+  explicit Config(const SceneTree& scene);  ///< a deep copy
   Config& operator=(const Config& other);
   Config(Config&&) = default;
   Config& operator=(Config&&) = default;

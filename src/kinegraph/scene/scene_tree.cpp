@@ -121,6 +121,35 @@ FrameData* SceneTree::append(const SceneTree& other, const std::string& prefix, 
   return originals.empty() ? nullptr : copies[originals.front().get()];
 }
 
+/// Takes over what edits change that keep the structure.
+void SceneTree::copyValues(const SceneTree& other) {
+  for (std::size_t i = 0; i < frames_.size(); ++i) {
+    FrameData& frame = *frames_[i];
+    const FrameData& source = *other.frames_[i];
+    frame.pose = source.pose;
+    frame.inertia = source.inertia;
+    if (frame.joint) frame.joint->q = source.joint->q;
+    if (frame.shape && frame.shape->revision != source.shape->revision) *frame.shape = *source.shape;
+  }
+  posesChanged();
+  jointsChanged();
+}
+
+std::shared_ptr<const SceneTree> SceneTree::snapshot() {
+  constexpr std::size_t kKept = 4;
+  if (snapshot_revision_ != structure_revision_) snapshots_.clear();
+  snapshot_revision_ = structure_revision_;
+  for (const auto& kept : snapshots_) {
+    if (kept.use_count() > 1) continue;
+    kept->copyValues(*this);
+    return kept;
+  }
+  const auto copy = std::make_shared<SceneTree>();
+  copy->append(*this, {}, false);
+  if (snapshots_.size() < kKept) snapshots_.push_back(copy);
+  return copy;
+}
+
 std::shared_ptr<const Program> SceneTree::program() {
   if (compiled_revision_ != structure_revision_) {
     program_ = compileProgram(*this);

@@ -47,6 +47,10 @@ class SceneTree {
   /// read, which nothing here interprets, are most of the work and can be left out.
   FrameData* append(const SceneTree& other, const std::string& prefix, bool with_attributes = true);
 
+  /// A copy without attributes that later edits do not touch. Copies that nobody holds any more are used again while the
+  /// structure stays: then only values are copied.
+  std::shared_ptr<const SceneTree> snapshot();
+
   void structureChanged() {
     ++structure_revision_;
     asked_since_edit_ = false;
@@ -73,6 +77,8 @@ class SceneTree {
   void setJointState(const double* q);
 
  private:
+  void copyValues(const SceneTree& other);
+
   std::vector<std::shared_ptr<FrameData>> frames_;
   std::uint64_t structure_revision_ = 1, compiled_revision_ = 0, looks_revision_ = 0;
   bool poses_stale_ = true, q_stale_ = true, asked_since_edit_ = false;
@@ -80,6 +86,8 @@ class SceneTree {
   std::shared_ptr<const Program> program_;
   std::shared_ptr<const Parameters> parameters_;
   std::unique_ptr<State> state_;
+  std::vector<std::shared_ptr<SceneTree>> snapshots_;
+  std::uint64_t snapshot_revision_ = 0;
 };
 
 /// Compiles the structure of a scene.
