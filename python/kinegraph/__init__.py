@@ -28,6 +28,7 @@ from ._core import (
     OptMethod,
     SolverReturn,
     __version__,
+    checkFile,
 )
 from .errors import (
     ArgumentError,

@@ -7,7 +7,6 @@
 #include "kinegraph/base/errors.h"
 #include "kinegraph/base/text.h"
 #include "kinegraph/geometry/proximity.h"
-#include "kinegraph/gfile/parser.h"
 #include "kinegraph/scene/reader.h"
 
 namespace kinegraph {
@@ -41,11 +40,9 @@ Frame Config::addFrame(const std::string& name, const std::string& parent, const
     return Frame(scene_, *existing);
   }
   FrameData* parent_data = parent.empty() ? nullptr : &scene_->get(parent, cat("addFrame('", name, "'): parent"));
-  Graph graph;
-  if (!attributes.empty()) graph = parse(attributes, cat("attributes of '", name, "'"));
   FrameData& frame = scene_->add(name, parent_data);
   try {
-    if (!attributes.empty()) applyAttributes(graph, std::filesystem::current_path().string(), frame, warnings_);
+    if (!attributes.empty()) readAttributes(attributes, std::filesystem::current_path().string(), frame, warnings_);
   } catch (...) {
     scene_->remove(frame);
     throw;
