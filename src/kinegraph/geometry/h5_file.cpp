@@ -12,8 +12,7 @@ namespace kinegraph {
 
 namespace {
 
-constexpr int kMaxDepth = 32;             // of a group's tree
-constexpr std::size_t kMaxEntries = 4096;  // of one group, and of one object header
+constexpr std::size_t kMaxEntries = 4096;  // of one group, of its tree, and of one object header
 
 enum MessageType { kDataspace = 0x01, kDatatype = 0x03, kLayout = 0x08, kContinuation = 0x10, kSymbolTable = 0x11 };
 
@@ -82,20 +81,21 @@ std::vector<H5File::Message> H5File::messages(std::uint64_t header) const {
 
 std::vector<H5File::Link> H5File::links(std::uint64_t header) const {
   std::vector<Link> links;
+  std::size_t visits = 0;
   for (const Message& message : messages(header)) {
     if (message.type != kSymbolTable) continue;
     const std::uint64_t heap = number(message.at + 8, 8);
     expectMark(heap, "HEAP");
-    collectLinks(number(message.at, 8), number(heap + 24, 8), 0, links);
+    collectLinks(number(message.at, 8), number(heap + 24, 8), visits, links);
   }
   return links;
 }
 
-void H5File::collectLinks(std::uint64_t node, std::uint64_t names, int depth, std::vector<Link>& links) const {
-  if (depth > kMaxDepth) fail("a group's tree is too deep; the file is damaged");
+void H5File::collectLinks(std::uint64_t node, std::uint64_t names, std::size_t& visits, std::vector<Link>& links) const {
+  if (++visits > kMaxEntries) fail(cat("a group of more than ", kMaxEntries, " nodes"));
   if (number(node, 4) == 0x45455254) {  // "TREE"
     const std::uint64_t count = number(node + 6, 2);
-    for (std::uint64_t i = 0; i < count; ++i) collectLinks(number(node + 24 + 8 + 16 * i, 8), names, depth + 1, links);
+    for (std::uint64_t i = 0; i < count; ++i) collectLinks(number(node + 24 + 8 + 16 * i, 8), names, visits, links);
     return;
   }
   expectMark(node, "SNOD");

@@ -44,7 +44,7 @@ class H5File {
   void expectMark(std::uint64_t at, std::string_view mark) const;
   std::vector<Message> messages(std::uint64_t header) const;
   std::vector<Link> links(std::uint64_t header) const;
-  void collectLinks(std::uint64_t node, std::uint64_t names, int depth, std::vector<Link>& links) const;
+  void collectLinks(std::uint64_t node, std::uint64_t names, std::size_t& visits, std::vector<Link>& links) const;
   std::uint64_t find(std::string_view name) const;  ///< address of an object header, or 0
 
   std::string path_;

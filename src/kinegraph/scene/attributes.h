@@ -20,7 +20,7 @@ class AttributeReader {
 
   /// What moves the frame: the joint, and the constant transforms before and behind it, where given.
   std::optional<Joint> readJoint();
-  std::optional<Pose> readBefore() { return readPose({"pre", "A", "from", "origin"}); }
+  std::optional<Pose> readBefore() { return readPose({"pre", "A", "origin"}); }
   std::optional<Pose> readBehind();
 
   /// Sets joint and pose.

@@ -7,7 +7,7 @@ namespace kinegraph {
 
 std::optional<Pose> AttributeReader::readBehind() {
   const auto before = find({"BinvA"}) ? readBefore() : std::nullopt;
-  return before ? before->inverse() : readPose({"post", "B", "to"});
+  return before ? before->inverse() : readPose({"post", "B"});
 }
 
 std::optional<Joint> AttributeReader::readJoint() {

@@ -147,13 +147,16 @@ void SceneBuilder::interpret(FrameData& frame, const SourceFrame& source) {
   AttributeReader read = reader(frame, source);
   if (!frame.parent && !source.node.parents.empty()) return read.applyBody(frame);  // the parent was not found, which is enough
   const std::optional<Pose> before = read.readBefore(), behind = read.readBehind();
-  const Node* joint_node = read.find({"joint"});
-  const bool has_joint = joint_node && frame.parent;
+  if (const Node* node = read.find({"from", "to"})) {
+    diagnostics_.warning(node->where, cat("frame '", frame.name, "': '", node->key, "' has a meaning only for a joint between two frames; write '",
+                                          node->key == "to" ? "post" : "pre", "'"));
+  }
+  const bool has_joint = read.find({"joint"}) && frame.parent;
   if (has_joint && behind && !behind->isIdentity(0.)) {  // the joint gets a frame of its own, and this one sits behind it
-    if (std::optional<Joint> joint = read.readJoint()) {
+    if (read.readJoint()) {
       FrameData& joint_frame = scene_.add("|" + frame.name, frame.parent);
       index(joint_frame);
-      joint_frame.joint = std::move(joint);
+      read.applyJoint(joint_frame);
       if (before && !before->isIdentity(0.)) addOrigin(joint_frame, *before);
       scene_.link(frame, joint_frame);
       frame.pose = *behind;
@@ -162,7 +165,7 @@ void SceneBuilder::interpret(FrameData& frame, const SourceFrame& source) {
     return;
   }
   read.applyJoint(frame);
-  const bool always = read.find({"origin"}) && !read.find({"pre", "A", "from"});
+  const bool always = read.find({"origin"}) && !read.find({"pre", "A"});
   if (before && frame.parent && (frame.joint || always) && !before->isIdentity(0.)) addOrigin(frame, *before);
   read.applyBody(frame);
 }
@@ -174,8 +177,8 @@ void SceneBuilder::insertJoint(FrameData& frame, const SourceFrame& source) {
   FrameData* below = find(source.node.parents[1], source.prefix, source.node.where, role);
   if (!above || !below) return;
   AttributeReader read = reader(frame, source);
-  const Pose before = read.readBefore().value_or(Pose());
-  const std::optional<Pose> behind = read.readBehind();
+  const auto before = read.find({"from"}) ? read.readPose({"from"}) : read.readBefore();
+  const auto behind = read.find({"to"}) ? read.readPose({"to"}) : read.readBehind();
   const bool was_root = below->parent == nullptr;
   if (!link(frame, *above, source.node.where) || !link(*below, frame, source.node.where)) return;
   if (behind && !behind->isIdentity(0.)) {
@@ -184,7 +187,7 @@ void SceneBuilder::insertJoint(FrameData& frame, const SourceFrame& source) {
     below->pose = Pose();
   }
   read.applyJoint(frame);
-  if (!before.isIdentity(0.)) addOrigin(frame, before);
+  if (before && !before->isIdentity(0.)) addOrigin(frame, *before);
   read.applyBody(frame);
 }
 

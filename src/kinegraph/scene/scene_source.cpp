@@ -187,6 +187,7 @@ class SourceReader {
       diagnostics_.warning(node.where, cat(branch ? "DeleteBranch" : "Delete", ": there is no frame '", name, "' up to here", similarHint(name, known)));
     }
     for (SourceFrame& frame : frames) std::erase(frame.node.parents, name);
+    deleted_.insert(name);
   }
 
   /// The frames of the file that is being read if there is one of that name, else those of the file that includes it, ...
@@ -221,12 +222,13 @@ class SourceReader {
       if (!parents.empty()) frame.node.parents = parents;
       for (const Node& attribute : edit.value.as<Graph>()->nodes) std::get_if<Graph>(&frame.node.value.data)->set(attribute);
     }
-    if (!found) diagnostics_.warning(edit.where, cat("Edit: there is no frame '", name, "'", similarHint(name, names(frames))));
+    if (!found && !deleted_.contains(name)) diagnostics_.warning(edit.where, cat("Edit: there is no frame '", name, "'", similarHint(name, names(frames))));
   }
 
   SceneDiagnostics& diagnostics_;
   std::vector<std::string> open_;                   ///< files that are being read
   std::vector<std::vector<SourceFrame>*> scopes_;  ///< what each of them has so far
+  std::set<std::string> deleted_;  ///< names that Delete removed: edits of them may have stood before
   std::size_t files_ = 0, bytes_ = 0;
 };
 
