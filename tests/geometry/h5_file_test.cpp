@@ -42,9 +42,11 @@ TEST(H5File, SaysWhatItCannotRead) {
     return "no error";
   };
   EXPECT_NE(message([&] { file.dataset("packed"); }).find("compressed"), std::string::npos);
-  EXPECT_NE(message([&] { file.dataset("mesh/normals"); }).find("available: mesh/colors, mesh/faces"), std::string::npos);
+  EXPECT_NE(message([&] { file.dataset("mesh/normals"); }).find("available: mesh/colors, mesh/faces"),
+            std::string::npos);
   EXPECT_NE(message([&] { file.dataset("mesh"); }).find("not a dataset"), std::string::npos);
-  EXPECT_NE(message([&] { H5File(KINEGRAPH_SOURCE_DIR "/tests/data/scenes/joints.g"); }).find("not an HDF5 file"), std::string::npos);
+  EXPECT_NE(message([&] { H5File(KINEGRAPH_SOURCE_DIR "/tests/data/scenes/joints.g"); }).find("not an HDF5 file"),
+            std::string::npos);
 }
 
 TEST(MeshFile, ReadsMeshesFromHdf5) {

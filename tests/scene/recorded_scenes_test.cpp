@@ -14,8 +14,8 @@ using namespace kinegraph;
 
 namespace {
 
-constexpr double kExact = 1e-6;         // the recording has 9 digits
-constexpr double kTessellation = .02;   // the recorded inertias of round shapes are those of coarse meshes
+constexpr double kExact = 1e-6;        // the recording has 9 digits
+constexpr double kTessellation = .02;  // the recorded inertias of round shapes are those of coarse meshes
 
 const std::string kFolder = KINEGRAPH_SOURCE_DIR "/tests/data/scenes/";
 
@@ -44,7 +44,8 @@ std::string wordOf(const Graph& graph, const char* key) {
 /// Largest difference of two poses, up to the sign of the quaternion.
 double poseDifference(const Vector7d& a, const Vector7d& b) {
   const double sign = a.tail<4>().dot(b.tail<4>()) < 0. ? -1. : 1.;
-  return std::max((a.head<3>() - b.head<3>()).cwiseAbs().maxCoeff(), (a.tail<4>() - sign * b.tail<4>()).cwiseAbs().maxCoeff());
+  return std::max((a.head<3>() - b.head<3>()).cwiseAbs().maxCoeff(),
+                  (a.tail<4>() - sign * b.tail<4>()).cwiseAbs().maxCoeff());
 }
 
 void expectShape(const Frame& frame, const Graph& expected) {
@@ -73,7 +74,9 @@ void expectInertia(const Frame& frame, const Graph& expected) {
 
 class RecordedScene : public testing::TestWithParam<const char*> {
  protected:
-  RecordedScene() : expected(recording(std::filesystem::path(GetParam()).stem())) { scene.addFile(kFolder + GetParam()); }
+  RecordedScene() : expected(recording(std::filesystem::path(GetParam()).stem())) {
+    scene.addFile(kFolder + GetParam());
+  }
 
   const ValueList& frames() const { return *expected.find("frames")->value.as<ValueList>(); }
 
@@ -91,7 +94,8 @@ TEST_P(RecordedScene, HasTheFramesInTheirOrderWithTheirParentsAndPoses) {
     EXPECT_EQ(frame.getParent() ? frame.getParent()->id() : -1, numberOf(recorded, "parent_id"));
     EXPECT_EQ(jointTypeName(frame.getJointType()), wordOf(recorded, "joint"));
     EXPECT_LT(poseDifference(frame.getPose().numbers(), vectorOf(recorded, "pose")), kExact);
-    if (recorded.find("rel")) EXPECT_LT(poseDifference(frame.getRelativePose().numbers(), vectorOf(recorded, "rel")), kExact);
+    if (recorded.find("rel"))
+      EXPECT_LT(poseDifference(frame.getRelativePose().numbers(), vectorOf(recorded, "rel")), kExact);
     expectShape(frame, recorded);
     expectInertia(frame, recorded);
   }
@@ -112,7 +116,8 @@ TEST_P(RecordedScene, MovesToTheRecordedPoses) {
   const ValueList& poses = *expected.find("random_poses")->value.as<ValueList>();
   for (int i = 0; i < scene.getFrameDimension(); ++i) {
     const NumberArray& pose = *poses[i].as<NumberArray>();
-    EXPECT_LT(poseDifference(scene.getFrame(i).getPose().numbers(), Vector7d(pose.numbers.data())), kExact) << scene.getFrame(i).getName();
+    EXPECT_LT(poseDifference(scene.getFrame(i).getPose().numbers(), Vector7d(pose.numbers.data())), kExact)
+        << scene.getFrame(i).getName();
   }
 }
 
@@ -129,5 +134,6 @@ TEST_P(RecordedScene, HasTheCollidablePairs) {
   EXPECT_EQ(pairs, recorded);
 }
 
-INSTANTIATE_TEST_SUITE_P(Scenes, RecordedScene, testing::Values("joints.g", "contacts.g", "shapes.g", "specials.g", "blocks.yml"),
+INSTANTIATE_TEST_SUITE_P(Scenes, RecordedScene,
+                         testing::Values("joints.g", "contacts.g", "shapes.g", "specials.g", "blocks.yml"),
                          [](const auto& info) { return std::filesystem::path(info.param).stem().string(); });

@@ -36,7 +36,8 @@ H5File::H5File(std::string path) : path_(std::move(path)) {
 void H5File::fail(const std::string& what) const { throw FileError(cat("HDF5 file '", path_, "': ", what)); }
 
 std::uint64_t H5File::number(std::uint64_t at, int bytes) const {
-  if (at > bytes_.size() || bytes_.size() - at < std::uint64_t(bytes)) fail("an address beyond the end; the file is damaged");
+  if (at > bytes_.size() || bytes_.size() - at < std::uint64_t(bytes))
+    fail("an address beyond the end; the file is damaged");
   std::uint64_t value = 0;
   for (int i = bytes - 1; i >= 0; --i) value = value << 8 | static_cast<unsigned char>(bytes_[at + i]);
   return value;
@@ -52,7 +53,8 @@ double H5File::element(std::uint64_t at, int bytes, bool floating, bool is_signe
 
 void H5File::expectMark(std::uint64_t at, std::string_view mark) const {
   number(at, 1);
-  if (bytes_.compare(at, mark.size(), mark) != 0) fail(at == 0 ? "this is not an HDF5 file" : cat("no '", mark, "' at ", at, "; the file is damaged"));
+  if (bytes_.compare(at, mark.size(), mark) != 0)
+    fail(at == 0 ? "this is not an HDF5 file" : cat("no '", mark, "' at ", at, "; the file is damaged"));
 }
 
 std::vector<H5File::Message> H5File::messages(std::uint64_t header) const {
@@ -91,7 +93,8 @@ std::vector<H5File::Link> H5File::links(std::uint64_t header) const {
   return links;
 }
 
-void H5File::collectLinks(std::uint64_t node, std::uint64_t names, std::size_t& visits, std::vector<Link>& links) const {
+void H5File::collectLinks(std::uint64_t node, std::uint64_t names, std::size_t& visits,
+                          std::vector<Link>& links) const {
   if (++visits > kMaxEntries) fail(cat("a group of more than ", kMaxEntries, " nodes"));
   if (number(node, 4) == 0x45455254) {  // "TREE"
     const std::uint64_t count = number(node + 6, 2);
@@ -158,11 +161,13 @@ H5Dataset H5File::dataset(std::string_view name) const {
       bytes = int(number(message.at + 4, 4));
       floating = kind == 1;
       is_signed = flags & 8;
-      const bool known = floating ? bytes == 4 || bytes == 8 : kind == 0 && (bytes == 1 || bytes == 2 || bytes == 4 || bytes == 8);
+      const bool known =
+          floating ? bytes == 4 || bytes == 8 : kind == 0 && (bytes == 1 || bytes == 2 || bytes == 4 || bytes == 8);
       if (!known || (flags & 1)) fail(cat("'", name, "' is not of little-endian integers or floats of 32 or 64 bits"));
     } else if (message.type == kLayout) {
       const std::uint64_t version = number(message.at, 1), kind = number(message.at + 1, 1);
-      if (version < 3 || version > 4 || kind > 1) fail(cat("'", name, "' is stored in chunks or compressed, which is not supported"));
+      if (version < 3 || version > 4 || kind > 1)
+        fail(cat("'", name, "' is stored in chunks or compressed, which is not supported"));
       at = kind == 0 ? message.at + 4 : number(message.at + 2, 8);
       length = kind == 0 ? number(message.at + 2, 2) : number(message.at + 10, 8);
       placed = true;
@@ -174,7 +179,8 @@ H5Dataset H5File::dataset(std::string_view name) const {
   number(at, 1);
   number(at + count * std::uint64_t(bytes) - 1, 1);
   data.numbers.reserve(count);
-  for (std::uint64_t i = 0; i < count; ++i) data.numbers.push_back(element(at + i * std::uint64_t(bytes), bytes, floating, is_signed));
+  for (std::uint64_t i = 0; i < count; ++i)
+    data.numbers.push_back(element(at + i * std::uint64_t(bytes), bytes, floating, is_signed));
   return data;
 }
 

@@ -38,7 +38,8 @@ void append(const aiScene& scene, const aiNode& node, const aiMatrix4x4& above, 
     }
     for (unsigned f = 0; f < part.mNumFaces; ++f) {
       const aiFace& face = part.mFaces[f];
-      if (face.mNumIndices == 3) mesh.triangles.push_back({first + face.mIndices[0], first + face.mIndices[1], first + face.mIndices[2]});
+      if (face.mNumIndices == 3)
+        mesh.triangles.push_back({first + face.mIndices[0], first + face.mIndices[1], first + face.mIndices[2]});
     }
   }
   for (unsigned child = 0; child < node.mNumChildren; ++child) append(scene, *node.mChildren[child], transform, mesh);
@@ -67,7 +68,8 @@ Mesh readH5Mesh(const std::string& path, const std::string& group) {
         throw FileError(cat("mesh file '", path, "': a face names vertex ", f[i], " of ", mesh.vertices.size()));
       }
     }
-    for (std::size_t i = 0; i < f.size(); i += 3) mesh.triangles.push_back({std::uint32_t(f[i]), std::uint32_t(f[i + 1]), std::uint32_t(f[i + 2])});
+    for (std::size_t i = 0; i < f.size(); i += 3)
+      mesh.triangles.push_back({std::uint32_t(f[i]), std::uint32_t(f[i + 1]), std::uint32_t(f[i + 2])});
   }
   if (file.contains(cat(group, "/colors"))) {
     const H5Dataset colors = table("colors", 3, 4);

@@ -154,9 +154,11 @@ Node Grammar::parseEntry() {
     node.value = yaml_ && braces_ == 0 ? parseScalar() : parseValue();
   } else if (start == at_) {
     fail(at_, cat("'", peek(), "' cannot start an entry; expected a name, or 'key: value'"));
-  } else if (!marked && !node.key.empty() && (std::isdigit(static_cast<unsigned char>(node.key[0])) || node.key[0] == '.')) {
+  } else if (!marked && !node.key.empty() &&
+             (std::isdigit(static_cast<unsigned char>(node.key[0])) || node.key[0] == '.')) {
     report(Diagnostic::Severity::warning, start,
-           cat("'", node.key, "' stands alone and is taken as a flag of that name; numbers that belong together stand in [ ]"));
+           cat("'", node.key,
+               "' stands alone and is taken as a flag of that name; numbers that belong together stand in [ ]"));
   }
   if (negated) node.value.data = false;
   splitHead(node);

@@ -30,7 +30,7 @@ class Grammar : private Scanner {
   };
 
   void report(Diagnostic::Severity severity, std::size_t at, std::string message);
-  bool hopeless() const;            ///< so many errors that going on helps nobody
+  bool hopeless() const;  ///< so many errors that going on helps nobody
   void recover(std::size_t from);
 
   // grammar.cpp
@@ -53,11 +53,11 @@ class Grammar : private Scanner {
   Value parseBlock(std::size_t indent);
   void parseBlockEntries(Graph& graph, std::size_t indent);
   Value parseSequence(std::size_t indent);
-  bool startsItem() const;          ///< "- " of a YAML sequence
-  Value parseScalar();              ///< a value that may be followed by more words on its line, where the file is YAML
+  bool startsItem() const;  ///< "- " of a YAML sequence
+  Value parseScalar();      ///< a value that may be followed by more words on its line, where the file is YAML
   bool skipDocumentMark();
 
-  bool yaml_;                       ///< by the name of the file
+  bool yaml_;  ///< by the name of the file
   int depth_ = 0, braces_ = 0, errors_ = 0;
   ParseResult result_;
 };

@@ -19,7 +19,8 @@ bool Grammar::blockFollows(std::size_t key_at, std::size_t& indent) {
     }
   }
   if (next >= text_.size() || !startsLine(next, indent)) return false;
-  const bool item_below_key = indent == key_indent && text_.substr(next, 2) == "- ";  // YAML lets "- " stand below its key
+  const bool item_below_key =
+      indent == key_indent && text_.substr(next, 2) == "- ";  // YAML lets "- " stand below its key
   if (indent <= key_indent && !item_below_key) return false;
   at_ = next;
   return true;
@@ -47,9 +48,7 @@ void Grammar::parseBlockEntries(Graph& graph, std::size_t indent) {
   }
 }
 
-bool Grammar::startsItem() const {
-  return peek() == '-' && at_ + 1 < text_.size() && isSpace(text_[at_ + 1]);
-}
+bool Grammar::startsItem() const { return peek() == '-' && at_ + 1 < text_.size() && isSpace(text_[at_ + 1]); }
 
 Value Grammar::parseSequence(std::size_t indent) {
   Value value;

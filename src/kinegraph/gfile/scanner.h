@@ -32,18 +32,18 @@ class Scanner {
   [[noreturn]] void fail(std::size_t at, std::string message) const { throw Failure{at, std::move(message)}; }
 
   void skipBlanks();
-  void skipComment();       ///< to the end of the line
-  void skipSeparators();    ///< between entries: blanks, lines, commas, semicolons, comments
-  void skipInArray();       ///< the same but semicolons, which end a row
+  void skipComment();     ///< to the end of the line
+  void skipSeparators();  ///< between entries: blanks, lines, commas, semicolons, comments
+  void skipInArray();     ///< the same but semicolons, which end a row
 
   /// Is there nothing but blanks between the start of its line and `at`? Then the number of them.
   bool startsLine(std::size_t at, std::size_t& indent) const;
 
   std::string parseWord(std::string_view stop);
   std::string parseQuoted(char quote);
-  std::string parseAngle();                 ///< < ... > on one line
+  std::string parseAngle();  ///< < ... > on one line
   double parseNumber(std::string_view stop);
-  std::vector<std::string> parseNames();    ///< (a b)
+  std::vector<std::string> parseNames();  ///< (a b)
 
   std::string_view text_;
   const std::string& file_;

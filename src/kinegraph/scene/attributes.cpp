@@ -13,22 +13,22 @@ namespace kinegraph {
 
 namespace {
 
+// clang-format off
 /// Attributes that mean something here or elsewhere in the library; a near miss of one of them is worth a warning.
-const std::vector<std::string>& knownAttributes() {
-  static const std::vector<std::string> known = {
-      "X", "Q", "pose", "rel", "joint", "q", "limits", "ctrl_limits", "ctrl_H", "joint_scale", "axis", "mimic", "pre", "post", "A", "B",
-      "from", "to", "origin", "BinvA", "joint_active", "joint_stable", "sampleUniform", "sampleSdv", "shape", "type", "size", "color",
-      "mesh", "meshscale", "mesh_decomp", "mesh_points", "mesh_rope", "core", "sdf", "texture", "aruco_id", "mimic_shape", "contact",
-      "mass", "inertia", "com", "visual_mesh", "visual_pose", "logical", "multibody", "multibody_fixedBase", "multibody_gravity",
-      "simulate", "friction", "restitution", "motorKp", "motorKd", "motorLambda", "motorMass", "gains", "drive", "noMotor",
-      "angularDamping", "focalLength", "fxycxy", "orthoAbsHeight", "heightAngle", "heightAbs", "zRange", "width", "height", "label",
-      "part", "visual", "noVisual", "franka", "parent"};
-  return known;
-}
+constexpr const char* kKnownAttributes[] = {
+    "X", "Q", "pose", "rel", "joint", "q", "limits", "ctrl_limits", "ctrl_H", "joint_scale", "axis", "mimic", "pre",
+    "post", "A", "B", "from", "to", "origin", "BinvA", "joint_active", "joint_stable", "sampleUniform", "sampleSdv",
+    "shape", "type", "size", "color", "mesh", "meshscale", "mesh_decomp", "mesh_points", "mesh_rope", "core", "sdf",
+    "texture", "aruco_id", "mimic_shape", "contact", "mass", "inertia", "com", "visual_mesh", "visual_pose",
+    "logical", "multibody", "multibody_fixedBase", "multibody_gravity", "simulate", "friction", "restitution",
+    "motorKp", "motorKd", "motorLambda", "motorMass", "gains", "drive", "noMotor", "angularDamping", "focalLength",
+    "fxycxy", "orthoAbsHeight", "heightAngle", "heightAbs", "zRange", "width", "height", "label", "part", "visual",
+    "noVisual", "franka", "parent",
+};
+// clang-format on
 
 bool isKnown(const std::string& key) {
-  const auto& known = knownAttributes();
-  return std::find(known.begin(), known.end(), key) != known.end();
+  return std::any_of(std::begin(kKnownAttributes), std::end(kKnownAttributes), [&](const char* word) { return key == word; });
 }
 
 }  // namespace
@@ -105,7 +105,8 @@ std::optional<Pose> AttributeReader::readPose(std::initializer_list<const char*>
     } else if (const std::string* word = node->value.as<std::string>()) {
       pose = parsePose(*word);
     } else if (const auto list = numbers(*node)) {
-      pose = list->empty() ? Pose() : Pose::fromNumbers(Eigen::Map<const VectorXd>(list->data(), Eigen::Index(list->size())));
+      pose = list->empty() ? Pose()
+                           : Pose::fromNumbers(Eigen::Map<const VectorXd>(list->data(), Eigen::Index(list->size())));
     }
   });
   return pose;
@@ -115,7 +116,8 @@ void AttributeReader::applyPose(FrameData& frame) {
   const auto world = readPose({"X"}), relative = readPose({"Q", "rel"}), pose = readPose({"pose"});
   if (!frame.parent) {
     if (const Node* node = find({"Q", "rel"}); node && relative && !relative->isIdentity(0.)) {
-      error(*node, cat("a frame without a parent has no relative pose; write 'name (parent): { ... }', or ", node->key, " as X"));
+      error(*node, cat("a frame without a parent has no relative pose; write 'name (parent): { ... }', or ", node->key,
+                       " as X"));
     }
     if (world) frame.pose = *world;
     if (pose) frame.pose = *pose;
@@ -178,7 +180,7 @@ void AttributeReader::applyInertia(FrameData& frame) {
 void AttributeReader::checkSpelling() {
   for (const Node& node : attributes_.nodes) {
     if (node.key.size() < 4 || node.value.as<Graph>() || isKnown(node.key)) continue;
-    for (const std::string& word : knownAttributes()) {
+    for (const std::string word : kKnownAttributes) {
       if (word.size() < 4 || editDistance(node.key, word) > 1.2) continue;
       warning(node, cat("unknown attribute '", node.key, "'; did you mean '", word, "'?"));
       break;

@@ -15,7 +15,8 @@ namespace kinegraph {
 class AttributeReader {
  public:
   /// `folder` is where the files that the attributes name are.
-  AttributeReader(const Graph& attributes, const std::string& folder, const std::string& frame_name, SceneDiagnostics& diagnostics)
+  AttributeReader(const Graph& attributes, const std::string& folder, const std::string& frame_name,
+                  SceneDiagnostics& diagnostics)
       : attributes_(attributes), folder_(folder), frame_name_(frame_name), diagnostics_(diagnostics) {}
 
   /// What moves the frame: the joint, and the constant transforms before and behind it, where given.
@@ -48,11 +49,12 @@ class AttributeReader {
   void readDofs(Joint& joint);
   void applyInertia(FrameData& frame);
   void applyShape(FrameData& frame);
+  bool readGeometry(Geometry& geometry);
   bool readShapeType(Geometry& geometry);
-  void readMesh(Geometry& geometry);
-  void readCore(Geometry& geometry);
-  void readRope(Geometry& geometry);
-  void readSize(Geometry& geometry);
+  bool readMesh(Geometry& geometry);
+  bool readCore(Geometry& geometry);
+  bool readRope(Geometry& geometry);
+  bool readSize(Geometry& geometry);
   void checkSpelling();
   template <class Function>
   bool guarded(const Node& node, Function function);

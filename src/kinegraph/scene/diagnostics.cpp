@@ -10,7 +10,8 @@ void SceneDiagnostics::add(Diagnostic diagnostic) {
   if (diagnostic.severity == Diagnostic::Severity::error && ++errors_ > kMaxErrors) return;
   if (diagnostic.severity == Diagnostic::Severity::warning && found_.size() >= kMaxKept) return;
   const auto same = [&](const Diagnostic& other) {
-    return other.severity == diagnostic.severity && other.message == diagnostic.message && other.where.str() == diagnostic.where.str();
+    return other.severity == diagnostic.severity && other.message == diagnostic.message &&
+           other.where.str() == diagnostic.where.str();
   };
   if (std::none_of(found_.begin(), found_.end(), same)) found_.push_back(std::move(diagnostic));
 }
@@ -50,7 +51,8 @@ void SceneDiagnostics::throwErrors() const {
   std::string message;
   for (const Diagnostic& d : found_) {
     if (d.severity != Diagnostic::Severity::error) continue;
-    message += first ? cat("\n", ParseError(d.where, withExcerpt(d)).what()) : withExcerpt(d);  // the exception puts its place before it
+    message += first ? cat("\n", ParseError(d.where, withExcerpt(d)).what())
+                     : withExcerpt(d);  // the exception puts its place before it
     if (!first) first = &d;
   }
   if (errors_ > kMaxErrors) message += cat("\n... and ", errors_ - kMaxErrors, " more errors");

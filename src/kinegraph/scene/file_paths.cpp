@@ -52,7 +52,8 @@ std::string resolvePath(const std::string& path, const std::string& folder) {
   const std::string package = "package://";
   if (path.starts_with(package)) return findInPackages(path.substr(package.size()));
   const fs::path expanded = expandEnvironment(path);
-  return expanded.is_absolute() ? expanded.lexically_normal().string() : (fs::path(folder) / expanded).lexically_normal().string();
+  return expanded.is_absolute() ? expanded.lexically_normal().string()
+                                : (fs::path(folder) / expanded).lexically_normal().string();
 }
 
 std::string similarFilesHint(const std::string& path) {

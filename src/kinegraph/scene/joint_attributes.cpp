@@ -24,7 +24,8 @@ std::optional<Joint> AttributeReader::readJoint() {
     if (!word || *word == "none" || *word == "JT_none") return;
     joint = word->starts_with("_") ? Joint(JointType::generic, word->substr(1)) : Joint(jointTypeFromName(*word));
     if (joint->type == JointType::generic && joint->dofs() == 0) {
-      throw ValueError("a generic joint is given by its code, a letter per dof: '_xyc' moves along x, then y, then turns about z");
+      throw ValueError(
+          "a generic joint is given by its code, a letter per dof: '_xyc' moves along x, then y, then turns about z");
     }
   });
   if (!joint) return std::nullopt;
@@ -62,7 +63,8 @@ void AttributeReader::readLimits(Joint& joint) {
   if (!v || v->empty()) return;
   const std::size_t dofs = std::size_t(joint.dofs());
   if (v->size() < 2 * dofs) {
-    return error(*limits, cat("a ", jointTypeName(joint.type), " joint has ", 2 * dofs, " limits (all lower, then all upper), got ", v->size()));
+    return error(*limits, cat("a ", jointTypeName(joint.type), " joint has ", 2 * dofs,
+                              " limits (all lower, then all upper), got ", v->size()));
   }
   joint.lower = Eigen::Map<const VectorXd>(v->data(), Eigen::Index(dofs));
   joint.upper = Eigen::Map<const VectorXd>(v->data() + dofs, Eigen::Index(dofs));
@@ -79,7 +81,8 @@ void AttributeReader::readDofs(Joint& joint) {
   } else if (int(v->size()) == joint.dofs()) {
     joint.q = Eigen::Map<const VectorXd>(v->data(), Eigen::Index(v->size()));
   } else {
-    return error(*q, cat("a ", jointTypeName(joint.type), " joint has ", joint.dofs(), " dofs, got ", v->size(), " numbers"));
+    return error(
+        *q, cat("a ", jointTypeName(joint.type), " joint has ", joint.dofs(), " dofs, got ", v->size(), " numbers"));
   }
   if (!joint.q.allFinite()) error(*q, "expected finite numbers");
   int first = 0;

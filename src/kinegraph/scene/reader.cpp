@@ -36,10 +36,12 @@ SceneCheck checkSceneFile(const std::string& path) {
   SceneSource source = readSource(path, diagnostics);
   if (!diagnostics.failed()) SceneBuilder(scene, diagnostics).build(source);
   using Severity = Diagnostic::Severity;
-  return {diagnostics.report(), diagnostics.count(Severity::error), diagnostics.count(Severity::warning), int(scene.frames().size())};
+  return {diagnostics.report(), diagnostics.count(Severity::error), diagnostics.count(Severity::warning),
+          int(scene.frames().size())};
 }
 
-void readAttributes(std::string_view text, const std::string& folder, FrameData& frame, std::vector<std::string>& warnings) {
+void readAttributes(std::string_view text, const std::string& folder, FrameData& frame,
+                    std::vector<std::string>& warnings) {
   SceneDiagnostics diagnostics;
   SourceFrame source{{}, folder, ""};
   const std::string name = "attributes of '" + frame.name + "'";

@@ -78,7 +78,8 @@ void SceneBuilder::addFrame(SourceFrame& source) {
                                               " parents; one, or two for a joint between them, are possible"));
   }
   if (name != source.prefix && first_.contains(name)) {
-    diagnostics_.warning(source.node.where, cat("there is a frame named '", name, "' already; names that refer to it find the first"));
+    diagnostics_.warning(source.node.where,
+                         cat("there is a frame named '", name, "' already; names that refer to it find the first"));
   }
   index(frame);
 }
@@ -88,9 +89,10 @@ void SceneBuilder::index(FrameData& frame) {
   last_[frame.name] = &frame;
 }
 
-/// The first (or last) frame of that name, or with the prefix that holds where the name stands. If there is none: an error.
-FrameData* SceneBuilder::find(const std::string& name, const std::string& prefix, const SourcePosition& where, const std::string& role,
-                              bool last) {
+/// The first (or last) frame of that name, or with the prefix that holds where the name stands. If there is none: an
+/// error.
+FrameData* SceneBuilder::find(const std::string& name, const std::string& prefix, const SourcePosition& where,
+                              const std::string& role, bool last) {
   const auto& frames = last ? last_ : first_;
   for (const std::string& candidate : {name, prefix + name}) {
     if (const auto found = frames.find(candidate); found != frames.end()) return found->second;
@@ -118,15 +120,16 @@ void SceneBuilder::linkToParent(FrameData& frame, const SourceFrame& source, int
     if (const StringArray* names = attribute->value.as<StringArray>()) parents = *names;
     if (const std::string* name = attribute->value.as<std::string>()) parents = {*name};
     if (const NameTuple* tuple = attribute->value.as<NameTuple>()) parents = tuple->names;
-    if (parents.size() != 1) return diagnostics_.error(where, cat("frame '", frame.name, "', parent: expected the name of one frame"));
+    if (parents.size() != 1)
+      return diagnostics_.error(where, cat("frame '", frame.name, "', parent: expected the name of one frame"));
   }
   if (parents.size() != 1) return;
   if (FrameData* parent = findParent(parents[0], frame, source, where, place)) link(frame, *parent, where);
 }
 
 /// By name; or, as in old files, by a number that counts back from here: -1 is the entry before.
-FrameData* SceneBuilder::findParent(const std::string& name, const FrameData& frame, const SourceFrame& source, const SourcePosition& where,
-                                    int place) {
+FrameData* SceneBuilder::findParent(const std::string& name, const FrameData& frame, const SourceFrame& source,
+                                    const SourcePosition& where, int place) {
   int back = 0;
   const auto [end, error] = std::from_chars(name.data(), name.data() + name.size(), back);
   const bool counts = error == std::errc{} && end == name.data() + name.size() && back < 0 && back >= -place;
@@ -145,14 +148,17 @@ FrameData& SceneBuilder::addOrigin(FrameData& joint_frame, const Pose& before) {
 
 void SceneBuilder::interpret(FrameData& frame, const SourceFrame& source) {
   AttributeReader read = reader(frame, source);
-  if (!frame.parent && !source.node.parents.empty()) return read.applyBody(frame);  // the parent was not found, which is enough
+  if (!frame.parent && !source.node.parents.empty())
+    return read.applyBody(frame);  // the parent was not found, which is enough
   const std::optional<Pose> before = read.readBefore(), behind = read.readBehind();
   if (const Node* node = read.find({"from", "to"})) {
-    diagnostics_.warning(node->where, cat("frame '", frame.name, "': '", node->key, "' has a meaning only for a joint between two frames; write '",
+    diagnostics_.warning(node->where, cat("frame '", frame.name, "': '", node->key,
+                                          "' has a meaning only for a joint between two frames; write '",
                                           node->key == "to" ? "post" : "pre", "'"));
   }
   const bool has_joint = read.find({"joint"}) && frame.parent;
-  if (has_joint && behind && !behind->isIdentity(0.)) {  // the joint gets a frame of its own, and this one sits behind it
+  if (has_joint && behind &&
+      !behind->isIdentity(0.)) {  // the joint gets a frame of its own, and this one sits behind it
     if (read.readJoint()) {
       FrameData& joint_frame = scene_.add("|" + frame.name, frame.parent);
       index(joint_frame);
@@ -205,7 +211,8 @@ void SceneBuilder::resolveMimicShape(FrameData& frame, const SourceFrame& source
   if (!name) return;
   const FrameData* other = find(*name, source.prefix, node->value.where, cat("frame '", frame.name, "', mimic_shape:"));
   if (other && !other->shape) {
-    diagnostics_.warning(node->value.where, cat("frame '", frame.name, "', mimic_shape: frame '", *name, "' has no shape"));
+    diagnostics_.warning(node->value.where,
+                         cat("frame '", frame.name, "', mimic_shape: frame '", *name, "' has no shape"));
   }
   if (other) frame.shape = other->shape;
 }
@@ -220,10 +227,14 @@ void SceneBuilder::resolveMimic(FrameData& frame, const SourceFrame& source) {
   FrameData* other = find(*name, source.prefix, node->value.where, cat("frame '", frame.name, "', mimic:"), true);
   if (!other) return;
   FrameData* leader = jointFrame(*other);
-  const bool same_kind = leader && leader->joint->type == follower->joint->type && leader->joint->code == follower->joint->code;
+  const bool same_kind =
+      leader && leader->joint->type == follower->joint->type && leader->joint->code == follower->joint->code;
   if (!same_kind || &dofSource(*leader) == follower) {
-    return read.error(*node, cat("'", *name, "' has ", leader ? "a joint of type " + jointTypeName(leader->joint->type) : std::string("no joint"),
-                                 "; expected another frame with a ", jointTypeName(follower->joint->type), " joint that does not mimic this one"));
+    return read.error(*node,
+                      cat("'", *name, "' has ",
+                          leader ? "a joint of type " + jointTypeName(leader->joint->type) : std::string("no joint"),
+                          "; expected another frame with a ", jointTypeName(follower->joint->type),
+                          " joint that does not mimic this one"));
   }
   follower->joint->mimic = leader;
 }
@@ -240,7 +251,8 @@ void SceneBuilder::setJointState(const Node& node) {
     dofs += frame->joint->dofs();
   }
   if (int(q.size()) != dofs) {
-    return diagnostics_.error(node.value.where, cat("q has ", q.size(), " numbers; the scene has ", dofs, " active dofs"));
+    return diagnostics_.error(node.value.where,
+                              cat("q has ", q.size(), " numbers; the scene has ", dofs, " active dofs"));
   }
   const double* next = q.data();
   for (FrameData* frame : joints) {

@@ -31,10 +31,11 @@ class SceneBuilder {
 
   void addFrame(SourceFrame& source);
   void index(FrameData& frame);
-  FrameData* find(const std::string& name, const std::string& prefix, const SourcePosition& where, const std::string& role,
-                  bool last = false);
+  FrameData* find(const std::string& name, const std::string& prefix, const SourcePosition& where,
+                  const std::string& role, bool last = false);
   void linkToParent(FrameData& frame, const SourceFrame& source, int place);
-  FrameData* findParent(const std::string& name, const FrameData& frame, const SourceFrame& source, const SourcePosition& where, int place);
+  FrameData* findParent(const std::string& name, const FrameData& frame, const SourceFrame& source,
+                        const SourcePosition& where, int place);
   bool link(FrameData& frame, FrameData& parent, const SourcePosition& where);
   FrameData& addOrigin(FrameData& joint_frame, const Pose& before);
   void interpret(FrameData& frame, const SourceFrame& source);
@@ -46,7 +47,7 @@ class SceneBuilder {
 
   SceneTree& scene_;
   SceneDiagnostics& diagnostics_;
-  std::vector<FrameData*> frames_;  ///< one per source frame
+  std::vector<FrameData*> frames_;                            ///< one per source frame
   std::unordered_map<std::string, FrameData*> first_, last_;  ///< of a name
 };
 

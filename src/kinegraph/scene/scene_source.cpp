@@ -38,11 +38,13 @@ class SourceReader {
       return refuse(cat("scene file '", path, "' ", fs::exists(absolute, error) ? "is not a file" : "does not exist",
                         similarFilesHint(absolute.string())));
     }
-    if (std::find(open_.begin(), open_.end(), absolute.string()) != open_.end()) return refuse(cat("'", path, "' includes itself"));
+    if (std::find(open_.begin(), open_.end(), absolute.string()) != open_.end())
+      return refuse(cat("'", path, "' includes itself"));
     if (open_.size() == kMaxNesting) return refuse(cat("files are included deeper than ", kMaxNesting, " levels"));
     bytes_ += fs::file_size(absolute, error);
     if (++files_ > kMaxFiles || error || bytes_ > kMaxBytes) {
-      return refuse(cat("the scene has grown beyond ", kMaxFiles, " files or ", kMaxBytes >> 20, " MB of text with '", path, "'"));
+      return refuse(cat("the scene has grown beyond ", kMaxFiles, " files or ", kMaxBytes >> 20, " MB of text with '",
+                        path, "'"));
     }
     std::ifstream stream(absolute, std::ios::binary);
     std::stringstream text;
@@ -72,7 +74,8 @@ class SourceReader {
         const std::string* text_value = node.value.as<std::string>();
         prefix = text_value ? *text_value : "";
       } else if (node.key == "ChDir") {
-        if (const std::string* given = textOf(node, "a folder: 'ChDir: <folder/>'")) folder = resolvePath(*given, folder);
+        if (const std::string* given = textOf(node, "a folder: 'ChDir: <folder/>'"))
+          folder = resolvePath(*given, folder);
       } else if (isDeletion(node, "DeleteBranch") || isDeletion(node, "Delete")) {
         deleteFrames(node);
       } else if (isEdit(node)) {
@@ -102,7 +105,8 @@ class SourceReader {
     if (!file) return {};
     const std::string path = resolvePath(*file, folder);
     if (!path.empty()) return readFile(path, node.value.where);
-    diagnostics_.error(node.value.where, cat("'", *file, "' is in none of the folders of KINEGRAPH_PACKAGE_PATH and ROS_PACKAGE_PATH"));
+    diagnostics_.error(node.value.where,
+                       cat("'", *file, "' is in none of the folders of KINEGRAPH_PACKAGE_PATH and ROS_PACKAGE_PATH"));
     return {};
   }
 
@@ -117,22 +121,28 @@ class SourceReader {
   void refuseEntry(const Node& node) {
     std::string hint = similarHint(node.key, {"Include", "Prefix", "Edit", "Delete", "DeleteBranch", "ChDir"});
     if (node.key.find(' ') != std::string::npos && hint.empty()) hint = "; is there a line end or a comma missing?";
-    diagnostics_.error(node.where, cat("'", node.key, "' is ", describe(node.value),
-                                       "; at the top of a scene stand frames 'name (parent): { ... }', q: [joint state], or Include, Prefix, "
-                                       "Edit, Delete", hint));
+    diagnostics_.error(
+        node.where,
+        cat("'", node.key, "' is ", describe(node.value),
+            "; at the top of a scene stand frames 'name (parent): { ... }', q: [joint state], or Include, Prefix, "
+            "Edit, Delete",
+            hint));
   }
 
   /// `Edit` and its like are words before a name; `edit` would silently make a frame.
   void checkTags(const Node& node) {
     for (const std::string& tag : node.tags) {
       for (const char* word : {"Edit", "Include", "Prefix", "Delete", "DeleteBranch"}) {
-        if (editDistance(tag, word) < 1.2) diagnostics_.warning(node.where, cat("'", tag, "' before a frame's name has no effect; did you mean '", word, "'?"));
+        if (editDistance(tag, word) < 1.2)
+          diagnostics_.warning(node.where,
+                               cat("'", tag, "' before a frame's name has no effect; did you mean '", word, "'?"));
       }
     }
   }
 
   static bool isEdit(const Node& node) {
-    return node.value.as<Graph>() && ((!node.tags.empty() && node.tags.front() == "Edit") || (node.key == "Edit" && !node.parents.empty()));
+    return node.value.as<Graph>() &&
+           ((!node.tags.empty() && node.tags.front() == "Edit") || (node.key == "Edit" && !node.parents.empty()));
   }
 
   /// `Delete: name`, or `Delete name` alone.
@@ -155,8 +165,10 @@ class SourceReader {
         Node* reference = std::get_if<Graph>(&frame.node.value.data)->find(key);
         if (!reference) continue;
         if (auto* text = std::get_if<std::string>(&reference->value.data)) rename(*text);
-        if (auto* list = std::get_if<StringArray>(&reference->value.data)) std::for_each(list->begin(), list->end(), rename);
-        if (auto* tuple = std::get_if<NameTuple>(&reference->value.data)) std::for_each(tuple->names.begin(), tuple->names.end(), rename);
+        if (auto* list = std::get_if<StringArray>(&reference->value.data))
+          std::for_each(list->begin(), list->end(), rename);
+        if (auto* tuple = std::get_if<NameTuple>(&reference->value.data))
+          std::for_each(tuple->names.begin(), tuple->names.end(), rename);
       }
     }
   }
@@ -184,13 +196,15 @@ class SourceReader {
     }
     const auto known = names(frames);
     if (std::erase_if(frames, [&](const SourceFrame& frame) { return doomed.contains(frame.node.key); }) == 0) {
-      diagnostics_.warning(node.where, cat(branch ? "DeleteBranch" : "Delete", ": there is no frame '", name, "' up to here", similarHint(name, known)));
+      diagnostics_.warning(node.where, cat(branch ? "DeleteBranch" : "Delete", ": there is no frame '", name,
+                                           "' up to here", similarHint(name, known)));
     }
     for (SourceFrame& frame : frames) std::erase(frame.node.parents, name);
     deleted_.insert(name);
   }
 
-  /// The frames of the file that is being read if there is one of that name, else those of the file that includes it, ...
+  /// The frames of the file that is being read if there is one of that name, else those of the file that includes it,
+  /// ...
   std::vector<SourceFrame>& scopeOf(const std::string& name) {
     for (auto scope = scopes_.rbegin(); scope != scopes_.rend(); ++scope) {
       for (const SourceFrame& frame : **scope) {
@@ -220,15 +234,17 @@ class SourceReader {
       if (frame.node.key != name) continue;
       found = true;
       if (!parents.empty()) frame.node.parents = parents;
-      for (const Node& attribute : edit.value.as<Graph>()->nodes) std::get_if<Graph>(&frame.node.value.data)->set(attribute);
+      for (const Node& attribute : edit.value.as<Graph>()->nodes)
+        std::get_if<Graph>(&frame.node.value.data)->set(attribute);
     }
-    if (!found && !deleted_.contains(name)) diagnostics_.warning(edit.where, cat("Edit: there is no frame '", name, "'", similarHint(name, names(frames))));
+    if (!found && !deleted_.contains(name))
+      diagnostics_.warning(edit.where, cat("Edit: there is no frame '", name, "'", similarHint(name, names(frames))));
   }
 
   SceneDiagnostics& diagnostics_;
-  std::vector<std::string> open_;                   ///< files that are being read
+  std::vector<std::string> open_;                  ///< files that are being read
   std::vector<std::vector<SourceFrame>*> scopes_;  ///< what each of them has so far
-  std::set<std::string> deleted_;  ///< names that Delete removed: edits of them may have stood before
+  std::set<std::string> deleted_;                  ///< names that Delete removed: edits of them may have stood before
   std::size_t files_ = 0, bytes_ = 0;
 };
 
@@ -242,7 +258,8 @@ SceneSource readSource(const std::string& path, SceneDiagnostics& diagnostics) {
   return source;
 }
 
-SceneSource readSource(std::string_view text, const std::string& name, const std::string& folder, SceneDiagnostics& diagnostics) {
+SceneSource readSource(std::string_view text, const std::string& name, const std::string& folder,
+                       SceneDiagnostics& diagnostics) {
   SourceReader reader(diagnostics);
   SceneSource source;
   source.frames = reader.readText(std::string(text), name, folder.empty() ? fs::current_path().string() : folder);

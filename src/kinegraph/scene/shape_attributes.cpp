@@ -26,25 +26,26 @@ bool isMeshFile(const Node& node) { return node.value.as<AngleText>() || node.va
 bool AttributeReader::readShapeType(Geometry& geometry) {
   const Node* node = find({"shape", "type"});
   return node && guarded(*node, [&] {
-    if (const double* code = node->value.as<double>()) {
-      if (!(*code >= 0. && *code <= 1000.)) throw ValueError(cat("shape type ", *code, " does not exist"));
-      geometry.type = ShapeType(int(*code));
-      shapeTypeName(geometry.type);  // throws for other numbers
-    } else if (const std::string* word = node->value.as<std::string>()) {
-      geometry.type = shapeTypeFromName(*word);
-    } else {
-      throw ValueError(cat("expected a shape type, got ", describe(node->value)));
-    }
-  });
+           if (const double* code = node->value.as<double>()) {
+             if (!(*code >= 0. && *code <= 1000.)) throw ValueError(cat("shape type ", *code, " does not exist"));
+             geometry.type = ShapeType(int(*code));
+             shapeTypeName(geometry.type);  // throws for other numbers
+           } else if (const std::string* word = node->value.as<std::string>()) {
+             geometry.type = shapeTypeFromName(*word);
+           } else {
+             throw ValueError(cat("expected a shape type, got ", describe(node->value)));
+           }
+         });
 }
 
-void AttributeReader::readMesh(Geometry& geometry) {
+bool AttributeReader::readMesh(Geometry& geometry) {
   const Node* node = find({"mesh", "mesh_decomp", "mesh_points"});
-  guarded(*node, [&] {
+  return guarded(*node, [&] {
     const std::string file = path(*node);
     Mesh mesh;
     try {
-      mesh = node->key == "mesh" ? readMeshFile(file) : readH5Mesh(file, node->key == "mesh_decomp" ? "decomp" : "points");
+      mesh =
+          node->key == "mesh" ? readMeshFile(file) : readH5Mesh(file, node->key == "mesh_decomp" ? "decomp" : "points");
     } catch (const FileError& e) {
       throw FileError(cat(e.what(), std::string(e.what()).ends_with("does not exist") ? similarFilesHint(file) : ""));
     }
@@ -63,9 +64,9 @@ void AttributeReader::readMesh(Geometry& geometry) {
 }
 
 /// Core points of a convex shape: numbers, or the points of a mesh file.
-void AttributeReader::readCore(Geometry& geometry) {
+bool AttributeReader::readCore(Geometry& geometry) {
   const Node* node = find({"core"});
-  guarded(*node, [&] {
+  return guarded(*node, [&] {
     Mesh core;
     if (isMeshFile(*node)) {
       core.vertices = readMeshFile(path(*node)).vertices;
@@ -78,42 +79,50 @@ void AttributeReader::readCore(Geometry& geometry) {
 }
 
 /// `mesh_rope: [x y z n]`: points on the way from the origin to x y z.
-void AttributeReader::readRope(Geometry& geometry) {
+bool AttributeReader::readRope(Geometry& geometry) {
   const Node* node = find({"mesh_rope"});
   const auto v = numbers(*node);
-  if (!v) return;
+  if (!v) return false;
   if (v->size() != 4 || !((*v)[3] >= 1. && (*v)[3] <= kMaxRopeSegments)) {
-    return error(*node, cat("expected [x y z n], n segments to the point x y z, n from 1 to ", kMaxRopeSegments));
+    error(*node, cat("expected [x y z n], n segments to the point x y z, n from 1 to ", kMaxRopeSegments));
+    return false;
   }
   Mesh rope;
   const int segments = int((*v)[3]);
   for (int i = 0; i <= segments; ++i) rope.vertices.push_back(Vector3d((*v)[0], (*v)[1], (*v)[2]) * i / segments);
   geometry.mesh = std::make_shared<Mesh>(std::move(rope));
+  return true;
 }
 
-void AttributeReader::readSize(Geometry& geometry) {
+bool AttributeReader::readSize(Geometry& geometry) {
   const Node* size = find({"size"});
   const Node& blamed = size ? *size : *find({"shape", "type", "mesh", "mesh_decomp", "mesh_points"});
-  guarded(blamed, [&] {
+  return guarded(blamed, [&] {
     std::string enlarged;
-    geometry.size = checkedSize(geometry.type, size ? numbers(*size).value_or(std::vector<double>{}) : std::vector<double>{}, &enlarged);
+    geometry.size = checkedSize(
+        geometry.type, size ? numbers(*size).value_or(std::vector<double>{}) : std::vector<double>{}, &enlarged);
     if (!enlarged.empty()) warning(blamed, enlarged);
   });
+}
+
+/// Type, mesh and size. False if there is a mistake in them.
+bool AttributeReader::readGeometry(Geometry& geometry) {
+  if (find({"shape", "type"}) && !readShapeType(geometry)) return false;
+  bool good = true;
+  if (find({"mesh", "mesh_decomp", "mesh_points"})) {
+    good = readMesh(geometry);
+  } else if (geometry.type == ShapeType::ssCvx && find({"core"})) {
+    good = readCore(geometry);
+  } else if (find({"mesh_rope"})) {
+    good = readRope(geometry);
+  }
+  return readSize(geometry) && good;
 }
 
 void AttributeReader::applyShape(FrameData& frame) {
   if (find({"shape", "type", "mesh", "mesh_decomp", "mesh_points"})) {
     Geometry geometry;
-    const bool typed = find({"shape", "type"});
-    if (typed && !readShapeType(geometry)) return;
-    if (find({"mesh", "mesh_decomp", "mesh_points"})) {
-      readMesh(geometry);
-    } else if (geometry.type == ShapeType::ssCvx && find({"core"})) {
-      readCore(geometry);
-    } else if (find({"mesh_rope"})) {
-      readRope(geometry);
-    }
-    readSize(geometry);
+    if (!readGeometry(geometry)) return;
     frame.shape = std::make_shared<Shape>();
     frame.shape->geometry = std::make_shared<Geometry>(std::move(geometry));
     frame.tree->looksChanged(*frame.shape);
@@ -121,13 +130,15 @@ void AttributeReader::applyShape(FrameData& frame) {
   if (const Node* sdf = find({"sdf"})) warning(*sdf, "signed distance grids are not read; the attribute is kept");
   if (!frame.shape) {
     const Node* stray = find({"size", "contact"});
-    if (stray && !find({"mimic_shape", "sdf"})) warning(*stray, cat("'", stray->key, "' has no effect without a shape"));
+    if (stray && !find({"mimic_shape", "sdf"}))
+      warning(*stray, cat("'", stray->key, "' has no effect without a shape"));
     return;
   }
   if (const Node* color = find({"color"})) {
     const auto c = numbers(*color);
     const std::size_t n = c ? c->size() : 0;
-    if (c && (n < 1 || n > 4)) error(*color, cat("expected 1 (grey), 2 (grey alpha), 3 (rgb) or 4 (rgba) numbers, got ", n));
+    if (c && (n < 1 || n > 4))
+      error(*color, cat("expected 1 (grey), 2 (grey alpha), 3 (rgb) or 4 (rgba) numbers, got ", n));
     if (n == 1 || n == 2) frame.shape->color = Vector4d((*c)[0], (*c)[0], (*c)[0], n == 2 ? (*c)[1] : 1.);
     if (n == 3 || n == 4) frame.shape->color = Vector4d((*c)[0], (*c)[1], (*c)[2], n == 4 ? (*c)[3] : 1.);
     if (frame.shape->color && !frame.shape->color->allFinite()) error(*color, "expected finite numbers");
