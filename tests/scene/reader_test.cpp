@@ -101,7 +101,8 @@ TEST(Reader, OnePostTransformMakesAJointFrameOfItsOwn) {
 }
 
 TEST(Reader, AcceptsForwardReferencesAndPosesOfAllSpellings) {
-  Config config = scene(R"g(b(a): { Q: [1 0 0] }  a: { X: <t(0 0 1)> }  c(a): { rel: "t(0 1 0)" }  d(a): { pose: [0 0 2] }
+  Config config =
+      scene(R"g(b(a): { Q: [1 0 0] }  a: { X: <t(0 0 1)> }  c(a): { rel: "t(0 1 0)" }  d(a): { pose: [0 0 2] }
       e(a): { X: [0 0 5] })g");
   EXPECT_LT((config.getFrame("b").getPose().p - Vector3d(1, 0, 1)).norm(), 1e-15);
   EXPECT_LT((config.getFrame("c").getPose().p - Vector3d(0, 1, 1)).norm(), 1e-15);
@@ -110,7 +111,8 @@ TEST(Reader, AcceptsForwardReferencesAndPosesOfAllSpellings) {
 }
 
 TEST(Reader, MimicJointsFollowWithAnyScale) {
-  Config config = scene(R"g(a: {} j(a): { joint: transX, limits: [0 1] } k(a): { joint: transX, joint_scale: -2, mimic: (j) })g");
+  Config config =
+      scene(R"g(a: {} j(a): { joint: transX, limits: [0 1] } k(a): { joint: transX, joint_scale: -2, mimic: (j) })g");
   ASSERT_EQ(config.getJointDimension(), 1);
   config.setJointState(VectorXd::Constant(1, .3));
   EXPECT_NEAR(config.getFrame("k").getPose().p.x(), -.6, 1e-15);
@@ -120,9 +122,11 @@ TEST(Reader, MimicJointsFollowWithAnyScale) {
 TEST(Reader, IncludesEditsAndPrefixesAreCarriedOut) {
   const std::filesystem::path folder = std::filesystem::temp_directory_path() / "kinegraph_reader_test";
   std::filesystem::create_directories(folder / "sub");
-  std::ofstream(folder / "sub" / "arm.g") << "base: {}\n link(base): { joint: hingeZ, q: .5 }\n tip(link): { mimic_shape: base }";
-  std::ofstream(folder / "scene.g") << "Edit l_link: { joint: hingeX }\n Prefix: l_\n Include: <sub/arm.g>\n"
-                                       "Prefix: r_\n Include <sub/arm.g>\n Delete: r_tip\n world: {}\n Edit r_base (world): {}";
+  std::ofstream(folder / "sub" / "arm.g")
+      << "base: {}\n link(base): { joint: hingeZ, q: .5 }\n tip(link): { mimic_shape: base }";
+  std::ofstream(folder / "scene.g")
+      << "Edit l_link: { joint: hingeX }\n Prefix: l_\n Include: <sub/arm.g>\n"
+         "Prefix: r_\n Include <sub/arm.g>\n Delete: r_tip\n world: {}\n Edit r_base (world): {}";
   Config config;
   config.addFile((folder / "scene.g").string(), "x_");
   EXPECT_EQ(config.getFrameNames(),
@@ -204,7 +208,9 @@ TEST(Reader, MistakesOfAllFilesAreReportedTogether) {
 
 TEST(Reader, OneMistakeDoesNotMakeOthersAppear) {
   const std::string message = messageOf("a: {} b(c): { joint: hingeX, Q: [0 0 1] }");
-  EXPECT_EQ(message, "s.g:1:7: parent of 'b': 'c' is not a frame of this scene\n    a: {} b(c): { joint: hingeX, Q: [0 0 1] }\n          ^");
+  EXPECT_EQ(message,
+            "s.g:1:7: parent of 'b': 'c' is not a frame of this scene\n    a: {} b(c): { joint: hingeX, Q: [0 0 1] }\n "
+            "         ^");
 }
 
 TEST(Reader, MoreMistakesAreExplained) {
@@ -258,9 +264,10 @@ TEST(Reader, EditsReachTheFramesOfTheIncludingFileAndTheLastWins) {
   SceneFolder folder("kinegraph_edits");
   folder.write("edits.g", "Edit arm: { q: .5, limits: [-1 1] }");
   Config config;
-  config.addFile(folder.write("scene.g",
-                              "Edit (arm): { q: .1 }\n base: {}\n arm (base): { joint: hingeX, q: .2 }\n hand (arm): {}\n"
-                              "Include: <edits.g>\n Edit arm: { q: .3 }\n Edit arm: { q: .4 }\n Edit (hand base): {}"));
+  config.addFile(
+      folder.write("scene.g",
+                   "Edit (arm): { q: .1 }\n base: {}\n arm (base): { joint: hingeX, q: .2 }\n hand (arm): {}\n"
+                   "Include: <edits.g>\n Edit arm: { q: .3 }\n Edit arm: { q: .4 }\n Edit (hand base): {}"));
   EXPECT_DOUBLE_EQ(config.getJointState()[0], .4);
   EXPECT_DOUBLE_EQ(config.getJointLimits()(1, 0), 1.);
   EXPECT_EQ(config.getFrame("hand").getParent()->getName(), "base");
@@ -283,8 +290,8 @@ joint shoulder (world arm) { type=JT_hingeX A=<T t(0 0 1)> B=<T t(0 0 .5)> }
 joint (arm hand) { type=3 from=<T t(0 1 0)> to=<T t(0 0 .2)> }
 relative (-1) { Q:<t(0 0 1)> }
 )g");
-  EXPECT_EQ(config.getFrameNames(), (std::vector<std::string>{"world", "arm", "hand", "plate", "", "shoulder", "|hand", "relative",
-                                                              "shoulder_origin", "|hand_origin"}));
+  EXPECT_EQ(config.getFrameNames(), (std::vector<std::string>{"world", "arm", "hand", "plate", "", "shoulder", "|hand",
+                                                              "relative", "shoulder_origin", "|hand_origin"}));
   EXPECT_EQ(config.getFrame("plate").getSize(), (std::vector<double>{.1, .2, .3}));
   EXPECT_EQ(config.getFrame(4).getSize(), std::vector<double>{.2});
   EXPECT_EQ(config.getFrame("|hand").getJointType(), JointType::hingeZ);
@@ -305,7 +312,8 @@ marker { shape:marker size:[.3 0 0 0] }
   EXPECT_EQ(config.getFrame("b").getSize(), (std::vector<double>{2., .1}));
   EXPECT_EQ(config.getFrame("marker").getSize(), std::vector<double>{.3});
   EXPECT_EQ(config.getFrame("b").getParent()->getName(), "c");
-  EXPECT_LT((config.getFrame("b").getRelativePose().p - Vector3d(1, 0, 0)).norm(), 1e-12) << "b keeps its relative pose";
+  EXPECT_LT((config.getFrame("b").getRelativePose().p - Vector3d(1, 0, 0)).norm(), 1e-12)
+      << "b keeps its relative pose";
   EXPECT_EQ(config.getFrame("c").getParent()->getName(), "c_origin");
 }
 
@@ -314,7 +322,8 @@ TEST(Reader, IncludesThatFormALoopOrAreTooDeepAreErrors) {
   folder.write("a.g", "Include: <b.g>");
   const std::string loop = folder.write("b.g", "Include: <a.g>");
   EXPECT_THROW(Config().addFile(loop), ParseError);
-  for (int i = 0; i < 60; ++i) folder.write("deep" + std::to_string(i) + ".g", "Include: <deep" + std::to_string(i + 1) + ".g>");
+  for (int i = 0; i < 60; ++i)
+    folder.write("deep" + std::to_string(i) + ".g", "Include: <deep" + std::to_string(i + 1) + ".g>");
   EXPECT_THROW(Config().addFile(folder.write("deep.g", "Include: <deep0.g>")), ParseError);
   EXPECT_THROW(Config().addFile(loop + ".missing"), FileError);
 }
@@ -335,6 +344,19 @@ TEST(Reader, SmallFilesCannotIncludeTheirWayToHugeScenes) {
   }
 }
 
+TEST(Reader, LoadingTheSameNamesTwiceIsWarnedOf) {
+  SceneFolder folder("kinegraph_twice");
+  const std::string path = folder.write("scene.g", "a: {}\n b: {}\n {x}");
+  Config config;
+  config.addFile(path);
+  config.addFile(path, "other_");
+  EXPECT_TRUE(config.takeWarnings().empty());
+  config.addFile(path);
+  const auto warnings = config.takeWarnings();
+  ASSERT_EQ(warnings.size(), 1u);
+  EXPECT_NE(warnings[0].find("2 of its frames have names that exist already (a, b)"), std::string::npos) << warnings[0];
+}
+
 TEST(Reader, CheckReportsErrorsAndWarningsInOrder) {
   SceneFolder folder("kinegraph_check");
   const SceneCheck check = checkSceneFile(folder.write("scene.g", "a: { colour: [1] }\nb(c): {}\nd: { shape: bax }"));
@@ -342,8 +364,10 @@ TEST(Reader, CheckReportsErrorsAndWarningsInOrder) {
   EXPECT_EQ(check.errors, 2);
   EXPECT_EQ(check.warnings, 1);
   EXPECT_NE(check.messages[0].find("scene.g:2:1: error: parent of 'b'"), std::string::npos) << check.messages[0];
-  EXPECT_NE(check.messages[1].find("warning: frame 'a': unknown attribute 'colour'; did you mean 'color'?\n    a: { colour: [1] }\n         ^"),
-            std::string::npos)
+  EXPECT_NE(
+      check.messages[1].find(
+          "warning: frame 'a': unknown attribute 'colour'; did you mean 'color'?\n    a: { colour: [1] }\n         ^"),
+      std::string::npos)
       << check.messages[1];
   EXPECT_EQ(checkSceneFile(KINEGRAPH_SOURCE_DIR "/models/panda/panda.g").messages, std::vector<std::string>());
 }
@@ -351,8 +375,8 @@ TEST(Reader, CheckReportsErrorsAndWarningsInOrder) {
 TEST(Reader, AttributesOfOneFrameLeaveNothingBehindWhenTheyFail) {
   Config config;
   config.addFrame("base", "", "pose: [0 0 1]");
-  for (const char* attributes : {"joint: hingeX, pre: [0 0 1], shape: bax", "joint: hingeX, post: [0 0 1], mass: heavy", "joint: {", "x: 1.2.3",
-                                 "joint: hingeX, mimic: base"}) {
+  for (const char* attributes : {"joint: hingeX, pre: [0 0 1], shape: bax", "joint: hingeX, post: [0 0 1], mass: heavy",
+                                 "joint: {", "x: 1.2.3", "joint: hingeX, mimic: base"}) {
     EXPECT_THROW(config.addFrame("arm", "base", attributes), ParseError) << attributes;
     EXPECT_EQ(config.getFrameNames(), std::vector<std::string>{"base"}) << attributes;
     EXPECT_TRUE(config.getFrame("base").getChildren().empty()) << attributes;
@@ -365,9 +389,10 @@ TEST(Reader, AttributesOfOneFrameLeaveNothingBehindWhenTheyFail) {
 TEST(Reader, MeshesComeFromFiles) {
   const std::string folder = KINEGRAPH_SOURCE_DIR "/tests/data";
   Config config;
-  config.addText("m: { mesh: <tetrahedron.h5>, meshscale: [1 2 3] }\n p: { mesh_points: <tetrahedron.h5>, meshscale: .5 }\n"
-                 "c: { shape: ssCvx, size: [.1], core: <tetrahedron.h5> }\n r: { shape: lines, mesh_rope: [1 0 0 4] }",
-                 "s.g", folder);
+  config.addText(
+      "m: { mesh: <tetrahedron.h5>, meshscale: [1 2 3] }\n p: { mesh_points: <tetrahedron.h5>, meshscale: .5 }\n"
+      "c: { shape: ssCvx, size: [.1], core: <tetrahedron.h5> }\n r: { shape: lines, mesh_rope: [1 0 0 4] }",
+      "s.g", folder);
   EXPECT_EQ(config.getFrame("m").data().shape->geometry->mesh->vertices[3], Vector3d(0, 0, 3));
   EXPECT_EQ(config.getFrame("p").getShapeType(), ShapeType::pointCloud);
   EXPECT_EQ(config.getFrame("p").data().shape->geometry->mesh->vertices[0], Vector3d(0, 0, .25));
@@ -380,7 +405,8 @@ TEST(Reader, EveryShapeTypeCanBeAskedForCollisionsEvenWithoutItsMesh) {
     for (const char* size : {"[1]", "[1 1]", "[1 1 1]", "[1 1 1 .1]", "[1 1 1 .1 .1 .1 .1]", "[]"}) {
       Config config;
       try {
-        config.addText("a: { shape: " + name + ", size: " + size + ", contact: 1 }\n b(a): { joint: free, shape: sphere, size: [1], contact: 1 }");
+        config.addText("a: { shape: " + name + ", size: " + size +
+                       ", contact: 1 }\n b(a): { joint: free, shape: sphere, size: [1], contact: 1 }");
       } catch (const ParseError&) {
         continue;
       }
@@ -395,9 +421,11 @@ TEST(Reader, MutatedScenesLoadOrFailButNeverWorse) {
       kTutorialArm,
       "base: { X: \"t(0 0 .5)\", shape: ssBox, size: [1 1 1 .1], mass: 2, contact: -1 }\n"
       "arm (base): { joint: _xyc, pre: [0 0 1], post: \"d(90 1 0 0)\", q: [.1 .2 .3], limits: [-1 -1 -1 1 1 1] }\n"
-      "hand (arm): { joint: hinge, axis: [0 1 1], mimic: arm2, joint_scale: 2 }\n Prefix: p_\n arm2 (base): { joint: hinge }\n"
+      "hand (arm): { joint: hinge, axis: [0 1 1], mimic: arm2, joint_scale: 2 }\n Prefix: p_\n arm2 (base): { joint: "
+      "hinge }\n"
       "Edit p_arm2 (arm): { Q: [0 0 1], color: [1 0 0] }\n Delete: hand\n q: [1 2 3 4]\n",
-      "base:\n  shape: capsule\n  size: [1, .1]\narm(base):\n  origin: [0, 0, 1]\n  joint: quatBall\n  q: [1, 0, 0, 0]\n"};
+      "base:\n  shape: capsule\n  size: [1, .1]\narm(base):\n  origin: [0, 0, 1]\n  joint: quatBall\n  q: [1, 0, 0, "
+      "0]\n"};
   const std::string alphabet = "{}[]()<>:=,;!~#'\"\\ \n\t.+-e09azT_\xff";
   Rng rng(12);
   int loaded = 0;

@@ -148,6 +148,7 @@ Node Grammar::parseEntry() {
     }
     skipToWrappedArray();
   }
+  if (!marked) skipToBraceOfHead();
   node.value.where = position(at_);
   const bool flag = atEnd() || isOneOf(peek(), "\n,;}#") || (!marked && !isOneOf(peek(), "{[<'\"!~"));
   if (!flag) {
@@ -170,6 +171,13 @@ void Grammar::skipToWrappedArray() {
   std::size_t next = at_;
   while (next < text_.size() && isSpace(text_[next])) ++next;
   if (next < text_.size() && text_[next] == '[') at_ = next;
+}
+
+/// Outside of braces a flag means nothing, so that a '{' below a head is its value.
+void Grammar::skipToBraceOfHead() {
+  std::size_t next = at_;
+  while (next < text_.size() && isSpace(text_[next])) ++next;
+  if (braces_ == 0 && next < text_.size() && text_[next] == '{') at_ = next;
 }
 
 std::string Grammar::parseKey() {

@@ -40,6 +40,7 @@ class Grammar : private Scanner {
   std::string parseKey();
   void splitHead(Node& node) const;
   void skipToWrappedArray();
+  void skipToBraceOfHead();
   Value parseValue();
 
   // grammar_arrays.cpp

@@ -28,7 +28,8 @@ constexpr const char* kKnownAttributes[] = {
 // clang-format on
 
 bool isKnown(const std::string& key) {
-  return std::any_of(std::begin(kKnownAttributes), std::end(kKnownAttributes), [&](const char* word) { return key == word; });
+  return std::any_of(std::begin(kKnownAttributes), std::end(kKnownAttributes),
+                     [&](const char* word) { return key == word; });
 }
 
 }  // namespace
@@ -86,13 +87,17 @@ std::optional<std::string> AttributeReader::text(const Node& node) {
   return std::nullopt;
 }
 
-/// An absolute path. Throws FileError if nothing is there.
+std::string AttributeReader::givenPath(const Node& node) {
+  if (const AngleText* angle = node.value.as<AngleText>()) return angle->text;
+  if (const std::string* word = node.value.as<std::string>(); word && !word->empty()) return *word;
+  throw ValueError(cat("expected a file <path>, got ", describe(node.value)));
+}
+
 std::string AttributeReader::path(const Node& node) {
-  std::string given;
-  if (const AngleText* angle = node.value.as<AngleText>()) given = angle->text;
-  if (const std::string* word = node.value.as<std::string>()) given = *word;
-  if (given.empty()) throw ValueError(cat("expected a file <path>, got ", describe(node.value)));
-  return resolvePath(given, folder_);
+  const std::string given = givenPath(node), absolute = resolvePath(given, folder_);
+  if (!absolute.empty()) return absolute;
+  throw FileError(
+      cat("'", given, "' is in none of the folders of KINEGRAPH_PACKAGE_PATH, ROS_PACKAGE_PATH and AMENT_PREFIX_PATH"));
 }
 
 std::optional<Pose> AttributeReader::readPose(std::initializer_list<const char*> keys) {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <set>
 
 #include "kinegraph/base/errors.h"
 #include "kinegraph/base/text.h"
@@ -18,9 +19,29 @@ Config& Config::operator=(const Config& other) {
   return *this;
 }
 
+namespace {
+
+/// Names of `added` that `scene` has already, as a warning; empty if there are none.
+std::string duplicatesWarning(const SceneTree& scene, const SceneTree& added, const std::string& prefix, std::string_view file) {
+  const std::vector<std::string> names = scene.names();
+  const std::set<std::string> known(names.begin(), names.end());
+  std::vector<std::string> twice;
+  for (const std::string& name : added.names()) {
+    if (!name.empty() && known.contains(prefix + name)) twice.push_back(prefix + name);
+  }
+  if (twice.empty()) return "";
+  const std::size_t count = twice.size();
+  twice.resize(std::min<std::size_t>(count, 3));
+  return cat(file, ": ", count, " of its frames have names that exist already (", join(twice), count > 3 ? ", ..." : "",
+             "); a name finds the first frame; a prefix keeps them apart");
+}
+
+}  // namespace
+
 std::optional<Frame> Config::addFile(const std::string& path, const std::string& prefix) {
   SceneTree scratch;
   readSceneFile(path, scratch, warnings_);
+  if (std::string warning = duplicatesWarning(*scene_, scratch, prefix, path); !warning.empty()) warnings_.push_back(std::move(warning));
   FrameData* first = scene_->append(scratch, prefix);
   if (!first) return std::nullopt;
   return Frame(scene_, *first);

@@ -148,7 +148,9 @@ void AttributeReader::applyShape(FrameData& frame) {
     if (!(std::abs(flag) <= 1000.)) return error(*contact, "expected a number from -1000 to 1000");
     frame.shape->contact = int(flag);
   }
-  if (const Node* mesh = find({"visual_mesh"})) guarded(*mesh, [&] { frame.shape->visual_mesh = path(*mesh); });
+  if (const Node* mesh = find({"visual_mesh"})) {  // may be missing: what is drawn instead is the shape
+    guarded(*mesh, [&] { frame.shape->visual_mesh = resolvePath(givenPath(*mesh), folder_); });
+  }
   if (const auto pose = readPose({"visual_pose"})) frame.shape->visual_pose = *pose;
 }
 
