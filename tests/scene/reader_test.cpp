@@ -119,6 +119,17 @@ TEST(Reader, MimicJointsFollowWithAnyScale) {
   EXPECT_EQ(config.getJointNames(), std::vector<std::string>{"j"});
 }
 
+TEST(Reader, MimicScalesMultiplyTheScaleOfTheirSource) {
+  Config config =
+      scene(R"g(a: {} j(a): { joint: transX, joint_scale: -1 } k(a): { joint: transX, joint_scale: -1, mimic: j }
+      l(a): { joint: transX, joint_scale: 3, mimic: k })g");
+  config.setJointState(VectorXd::Constant(1, .3));
+  for (const auto& [name, x] : {std::pair{"j", -.3}, {"k", .3}, {"l", -.9}}) {
+    EXPECT_NEAR(config.getFrame(name).getPose().p.x(), x, 1e-15) << name;
+    EXPECT_NEAR(config.getFrame(name).data().worldPose().p.x(), x, 1e-15) << name;
+  }
+}
+
 TEST(Reader, IncludesEditsAndPrefixesAreCarriedOut) {
   const std::filesystem::path folder = std::filesystem::temp_directory_path() / "kinegraph_reader_test";
   std::filesystem::create_directories(folder / "sub");

@@ -116,7 +116,7 @@ bool AttributeReader::readGeometry(Geometry& geometry) {
   } else if (find({"mesh_rope"})) {
     good = readRope(geometry);
   }
-  return readSize(geometry) && good;
+  return good && readSize(geometry);
 }
 
 void AttributeReader::applyShape(FrameData& frame) {

@@ -23,6 +23,8 @@ fixed (base): { joint: rigid, Q: "t(0 1 0) d(45 1 0 0)" }
 asleep (fixed): { joint: hingeZ, joint_active: false, q: .7 }
 leader (base): { joint: transX, limits: [0 .04] }
 follower (base): { joint: transX, joint_scale: -1, mimic: leader, Q: "d(180 0 0 1)" }
+jaw (base): { joint: transY, joint_scale: -1, limits: [0 .05], q: .02 }
+other_jaw (base): { joint: transY, joint_scale: -1, mimic: jaw }
 early (late): { Q: "t(.1 0 0)" }
 late (base): { pose: "t(0 0 .1) E(.3 0 0)" }
 world_pose (hingeX): { X: "t(1 1 1) d(90 1 0 0)" }
