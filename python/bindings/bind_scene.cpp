@@ -185,6 +185,7 @@ void bindScene(nb::module_& m) {
 
   bindFrame(m, frame);
   bindFeatures(m, config);
+  bindFormats(m, config, frame);
   bindViewer(m, config);
 }
 
