@@ -101,24 +101,23 @@ bool AttributeReader::readRope(Geometry& geometry) {
 /// A mesh that stands in the file itself: `vertices: [x y z ...]`, `triangles: [i j k ...]`, `vertex_colors: [r g b a ...]`.
 bool AttributeReader::readVertices(Geometry& geometry) {
   bool good = true;
-  const auto list = [&](const char* key, std::size_t columns, double largest) {
+  const auto list = [&](const char* key, std::size_t columns, double lowest, double highest) {
     const Node* node = find({key});
     std::vector<double> v = node ? numbers(*node).value_or(std::vector<double>{}) : std::vector<double>{};
-    const bool in_range = std::all_of(v.begin(), v.end(), [&](double x) { return x >= -largest && x <= largest; });
-    const bool counts = largest < std::numeric_limits<double>::max();
-    const bool countable = !counts || std::all_of(v.begin(), v.end(), [](double x) { return x >= 0.; });
-    if (v.size() % columns == 0 && in_range && countable) return v;
-    error(*node, cat("expected n x ", columns, " ", counts ? cat("numbers in 0..", largest) : "finite numbers"));
+    const bool in_range = std::all_of(v.begin(), v.end(), [&](double x) { return x >= lowest && x <= highest; });
+    if (v.size() % columns == 0 && in_range) return v;
+    error(*node, cat("expected n x ", columns, " numbers", lowest == 0. ? cat(" in 0..", highest) : ""));
     good = false;
     return std::vector<double>();
   };
+  const double any = std::numeric_limits<double>::max();
   Mesh mesh;
-  mesh.vertices = triples(list("vertices", 3, std::numeric_limits<double>::max()));
-  const std::vector<double> t = list("triangles", 3, double(mesh.vertices.size()) - 1.);
+  mesh.vertices = triples(list("vertices", 3, -any, any));
+  const std::vector<double> t = list("triangles", 3, 0., double(mesh.vertices.size()) - 1.);
   for (std::size_t i = 0; i < t.size(); i += 3) {
     mesh.triangles.push_back({std::uint32_t(t[i]), std::uint32_t(t[i + 1]), std::uint32_t(t[i + 2])});
   }
-  const std::vector<double> c = list("vertex_colors", 4, 255.);
+  const std::vector<double> c = list("vertex_colors", 4, 0., 255.);
   for (std::size_t i = 0; i < c.size(); i += 4) {
     mesh.colors.push_back({std::uint8_t(c[i]), std::uint8_t(c[i + 1]), std::uint8_t(c[i + 2]), std::uint8_t(c[i + 3])});
   }
