@@ -104,6 +104,8 @@ inline void addRandomJoint(Frame frame, Rng& rng, bool only_one_dof) {
                  type == JointType::generic ? "xZa" : "");
   Joint& joint = *frame.data().joint;
   for (double& x : joint.q) x += .1 * rng.normal();
+  joint.q = motionProject(joint.steps, joint.axis, joint.scale,
+                          motionPose(joint.steps, joint.axis, joint.scale, joint.q.data()));  // unit quaternions
   if (pick(rng, 2) == 0) joint.home = joint.q;
   if (pick(rng, 4) == 0) joint.active = false;
   if (pick(rng, 4) == 0) joint.stable = true;

@@ -43,8 +43,8 @@ void expectSameJoint(const Joint& a, const Joint& b) {
   if (a.mimic) {
     EXPECT_EQ(a.mimic->id, b.mimic->id);
   } else {
-    EXPECT_EQ(a.q, b.q);
-    EXPECT_EQ(a.home, b.home);
+    EXPECT_LT((a.q - b.q).norm(), kRounding);
+    EXPECT_LT((a.home - b.home).norm(), kRounding);
   }
 }
 

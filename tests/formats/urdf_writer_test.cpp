@@ -20,8 +20,9 @@ Config scene(const std::string& text) {
 }
 
 Config fromUrdf(const std::string& text) {
-  std::vector<std::string> warnings;
-  return scene(writeFile(readUrdf(text, "r.urdf", "/", warnings)));
+  const ParseResult read = readUrdf(text, "r.urdf", "/");
+  for (const Diagnostic& diagnostic : read.diagnostics) ADD_FAILURE() << diagnostic.message;
+  return scene(writeFile(read.graph));
 }
 
 constexpr const char* kRobot = R"(<robot name="r">

@@ -79,11 +79,11 @@ def assertSame(one: ry.Config, other: ry.Config) -> None:
     for name in a:
         assert list(a[name]) == list(b[name])
         for key, value in a[name].items():
-            if key in ("pose", "axis"):
+            if key in ("pose", "axis", "q"):
                 np.testing.assert_allclose(b[name][key], value, rtol=1e-14, atol=1e-14)
             else:
                 assert b[name][key] == value
-    np.testing.assert_array_equal(other.getJointState(), one.getJointState())
+    np.testing.assert_allclose(other.getJointState(), one.getJointState(), rtol=1e-14, atol=1e-14)
     np.testing.assert_array_equal(other.getJointLimits(), one.getJointLimits())
     np.testing.assert_allclose(other.getFrameState(), one.getFrameState(), rtol=1e-12, atol=1e-7)
 
