@@ -119,6 +119,15 @@ TEST_F(UrdfReader, MimicsFollowWithMultiplierAndOffsetThroughOthers) {
   EXPECT_LT((config.getFrame("l_c").getPose().transform().R - axisRotation(1, -c)).norm(), 1e-14);
 }
 
+TEST_F(UrdfReader, AMimicFollowsASourceThatSlidesBackwards) {
+  Config config = load(joint("prismatic", "<axis xyz='-1 0 0'/><limit lower='0' upper='1'/>") +
+                       "<link name='c'/><joint name='m' type='prismatic'><parent link='a'/><child link='c'/>"
+                       "<axis xyz='0 1 0'/><limit lower='0' upper='1'/><mimic joint='j' multiplier='2'/></joint>");
+  config.setJointState(VectorXd::Constant(1, .25));
+  expectPosition(config, "b", -.25, 0, 0);
+  expectPosition(config, "c", 0, .5, 0);
+}
+
 TEST_F(UrdfReader, AMimicOfNothingMovesByItselfAndOneOfAFixedJointIsFixed) {
   Config config = load(joint("continuous", "<mimic joint='nothing'/>") +
                        "<link name='c'/><joint name='f' type='fixed'><parent link='b'/><child link='c'/></joint>"

@@ -312,7 +312,8 @@ class UrdfReader {
       attributes.add("joint", std::string(motion.type));
       if (std::string_view(motion.type) == "hinge")
         attributes.addNumbers("axis", {joint.axis.begin(), joint.axis.end()});
-      const double scale = motion.scale * (joint.mimic ? joint.mimic->multiplier : 1.);
+      double scale = motion.scale;  // of a mimic it multiplies the motion of its source, that one's scale included
+      if (joint.mimic) scale *= joint.mimic->multiplier * motionOf(*findJoint(joint.mimic->joint)).scale;
       if (scale != 1.) attributes.add("joint_scale", scale);
       if (joint.limited) attributes.addNumbers("limits", {joint.lower, joint.upper});
       if (joint.effort != 0. || joint.velocity != 0.)

@@ -188,7 +188,7 @@ class UrdfWriter {
     }
     int dof = 0;
     for (const MotionStep& step : joint.steps) {
-      const double scale = joint.scale * step.sign;
+      const double scale = motionScale(frame) * step.sign;
       switch (step.kind) {
         case MotionStep::Kind::translate:
           chain.push_back(oneDof(frame, dof, "prismatic", Vector3d::Unit(step.axis), scale));
