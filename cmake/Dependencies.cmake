@@ -6,7 +6,7 @@ function(kinegraph_find_prefix result python)
   execute_process(
     COMMAND "${python}" -c "import cmeel, pathlib; print((pathlib.Path(cmeel.__file__).parent.parent / 'cmeel.prefix').as_posix())"
     OUTPUT_VARIABLE prefix OUTPUT_STRIP_TRAILING_WHITESPACE RESULT_VARIABLE status ERROR_QUIET)
-  if(status EQUAL 0 AND EXISTS "${prefix}/lib/cmake/coal")
+  if(status EQUAL 0 AND EXISTS "${prefix}/lib/cmake/coal" AND EXISTS "${prefix}/lib/cmake/tinyxml2")
     set(${result} "${prefix}" PARENT_SCOPE)
   else()
     set(${result} "" PARENT_SCOPE)
@@ -37,6 +37,7 @@ set(Boost_NO_WARN_NEW_VERSIONS ON)  # coal asks for a newer Boost than CMake 3.2
 find_package(Eigen3 3.4 CONFIG REQUIRED)
 find_package(assimp CONFIG REQUIRED)
 find_package(coal 3 CONFIG REQUIRED)
+find_package(tinyxml2 CONFIG REQUIRED)
 find_package(Threads REQUIRED)
 
 # Installs the shared libraries of KINEGRAPH_PREFIX that `target` needs into `folder`.

@@ -16,6 +16,7 @@ BELOW: dict[str, list[str]] = {
     "solvers": ["base", "math", "nlp"],
     "kinematics": ["base", "math", "geometry"],
     "scene": ["base", "math", "gfile", "geometry", "kinematics"],
+    "formats": ["base", "math", "gfile", "geometry", "kinematics", "scene"],
     "features": ["base", "math", "geometry", "kinematics", "scene"],
     "komo": ["base", "math", "geometry", "kinematics", "scene", "features", "nlp"],
     "viewer": ["base", "math", "geometry", "kinematics", "scene"],

@@ -265,9 +265,7 @@ void bindFrame(nb::module_&, nb::class_<Frame>& frame) {
       .def("setAttributes", [](Frame& f, nb::dict d) -> Frame& { return setAttributes(f, d), f; }, "attributes"_a, kChain,
            "Adds attributes that the library keeps but does not interpret.")
       .def("addAttributes", [](Frame& f, nb::dict d) -> Frame& { return setAttributes(f, d), f; }, "attributes"_a, kChain,
-           "The same as setAttributes.")
-      .def("asDict", [](const Frame& f) { return toDict(f.attributes()); }, "The attributes, as a dict.")
-      .def("info", [](const Frame& f) { return toDict(f.attributes()); }, "The same as asDict.");
+           "The same as setAttributes.");
 }
 
 }  // namespace kinegraph::python

@@ -117,7 +117,7 @@ void bindScene(nb::module_& m) {
              return withWarnings(c, c.addFile(pathText(file), prefix.value_or("")));
            },
            "filename"_a, "namePrefix"_a = nb::none(),
-           "Adds the frames of a scene file, names prefixed. Returns the first of them, or None.\n"
+           "Adds the frames of a scene file (.g, .yml, .urdf), names prefixed. Returns the first of them, or None.\n"
            "An error (FileError, ParseError with file:line:column) leaves the configuration as it was.")
       .def("addText",
            [](PyConfig& c, const std::string& text, const std::string& name) { return withWarnings(c, c.addText(text, name)); },
@@ -186,6 +186,7 @@ void bindScene(nb::module_& m) {
   bindFrame(m, frame);
   bindFeatures(m, config);
   bindDynamics(config);
+  bindFormats(m, config, frame);
   bindViewer(m, config);
 }
 

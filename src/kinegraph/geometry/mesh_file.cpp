@@ -1,5 +1,6 @@
 #include "kinegraph/geometry/mesh_file.h"
 
+#include <assimp/config.h>
 #include <assimp/material.h>
 #include <assimp/postprocess.h>
 #include <assimp/scene.h>
@@ -88,6 +89,7 @@ Mesh readMeshFile(const std::string& path) {
   if (!std::filesystem::is_regular_file(path)) throw FileError(cat("mesh file '", path, "' does not exist"));
   if (path.ends_with(".h5")) return readH5Mesh(path, "mesh");
   Assimp::Importer importer;
+  importer.SetPropertyBool(AI_CONFIG_IMPORT_COLLADA_IGNORE_UP_DIRECTION, true);  // as robot descriptions mean it
   const aiScene* scene = importer.ReadFile(path, aiProcess_Triangulate | aiProcess_JoinIdenticalVertices);
   if (!scene || !scene->mRootNode) {
     throw FileError(cat("mesh file '", path, "' cannot be read: ", importer.GetErrorString()));

@@ -23,7 +23,7 @@ constexpr const char* kKnownAttributes[] = {
     "logical", "multibody", "multibody_fixedBase", "multibody_gravity", "simulate", "friction", "restitution",
     "motorKp", "motorKd", "motorLambda", "motorMass", "gains", "drive", "noMotor", "angularDamping", "focalLength",
     "fxycxy", "orthoAbsHeight", "heightAngle", "heightAbs", "zRange", "width", "height", "label", "part", "visual",
-    "noVisual", "franka", "parent",
+    "noVisual", "franka", "parent", "home", "vertices", "triangles", "vertex_colors",
 };
 // clang-format on
 
@@ -161,7 +161,8 @@ void AttributeReader::applyInertia(FrameData& frame) {
   inertia.mass = *kilograms;
   guarded(*mass, [&] {
     const bool solid = frame.shape && frame.shape->geometry->type != ShapeType::marker;
-    const ShellMass shell = solid ? shellMass(*frame.shape->geometry) : ShellMass{};
+    const bool all_given = inertia.mass > 0. && find({"inertia"}) && find({"com"});
+    const ShellMass shell = solid && !all_given ? shellMass(*frame.shape->geometry) : ShellMass{};
     if (solid && inertia.mass <= 0.) inertia.mass = 5. * shell.area;
     inertia.com = shell.com;
     inertia.matrix = inertia.mass * (solid ? shell.inertia_per_mass : Matrix3d(1e-4 * Matrix3d::Identity()));

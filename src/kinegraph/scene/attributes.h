@@ -48,6 +48,7 @@ class AttributeReader {
   void applyPose(FrameData& frame);
   void readLimits(Joint& joint);
   void readDofs(Joint& joint);
+  std::optional<VectorXd> readDofValues(const char* key, const Joint& joint);
   void applyInertia(FrameData& frame);
   void applyShape(FrameData& frame);
   bool readGeometry(Geometry& geometry);
@@ -55,6 +56,7 @@ class AttributeReader {
   bool readMesh(Geometry& geometry);
   bool readCore(Geometry& geometry);
   bool readRope(Geometry& geometry);
+  bool readVertices(Geometry& geometry);
   bool readSize(Geometry& geometry);
   void checkSpelling();
   template <class Function>

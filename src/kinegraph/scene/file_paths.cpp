@@ -2,6 +2,7 @@
 #include <cctype>
 #include <cstdlib>
 #include <filesystem>
+#include <fstream>
 #include <sstream>
 
 #include "kinegraph/base/text.h"
@@ -33,13 +34,34 @@ std::string expandEnvironment(const std::string& path) {
   return out;
 }
 
-std::string findInPackages(const std::string& rest) {
+/// Is `folder` the package of that name? Its own name says so, or its package.xml.
+bool isPackage(const fs::path& folder, const std::string& name) {
+  if (folder.filename() == name) return true;
+  std::ifstream stream(folder / "package.xml", std::ios::binary);
+  std::stringstream text;
+  text << stream.rdbuf();
+  return text.str().find(cat("<name>", name, "</name>")) != std::string::npos;
+}
+
+/// The file NAME/rest of a package: in a folder around `folder`, or below the folders that the environment names.
+std::string findInPackages(const std::string& path, const std::string& folder) {
+  const std::size_t slash = std::min(path.find('/'), path.size());
+  const std::string name = path.substr(0, slash), rest = path.substr(std::min(slash + 1, path.size()));
+  std::error_code error;
+  for (fs::path above = folder; !above.empty(); above = above.parent_path()) {
+    if (fs::exists(above / path, error)) return (above / path).string();
+    if (isPackage(above, name) && fs::exists(above / rest, error)) return (above / rest).string();
+    if (above == above.root_path()) break;
+  }
   for (const char* variable : {"KINEGRAPH_PACKAGE_PATH", "ROS_PACKAGE_PATH", "AMENT_PREFIX_PATH"}) {
     std::stringstream folders(environment(variable));
-    for (std::string folder; std::getline(folders, folder, ':');) {
-      for (const fs::path& base : {fs::path(folder), fs::path(folder) / "share"}) {
-        std::error_code error;
-        if (!folder.empty() && fs::exists(base / rest, error)) return (base / rest).string();
+    for (std::string entry; std::getline(folders, entry, ':');) {
+      if (entry.empty()) continue;
+      for (const fs::path& base : {fs::path(entry), fs::path(entry) / "share"}) {
+        if (fs::exists(base / path, error)) return (base / path).string();
+      }
+      if (isPackage(entry, name) && fs::exists(fs::path(entry) / rest, error)) {
+        return (fs::path(entry) / rest).string();
       }
     }
   }
@@ -49,9 +71,11 @@ std::string findInPackages(const std::string& rest) {
 }  // namespace
 
 std::string resolvePath(const std::string& path, const std::string& folder) {
-  const std::string package = "package://";
-  if (path.starts_with(package)) return findInPackages(path.substr(package.size()));
-  const fs::path expanded = expandEnvironment(path);
+  for (const std::string scheme : {"package://", "model://"}) {
+    if (path.starts_with(scheme)) return findInPackages(path.substr(scheme.size()), folder);
+  }
+  const std::string file_scheme = "file://";
+  const fs::path expanded = expandEnvironment(path.starts_with(file_scheme) ? path.substr(file_scheme.size()) : path);
   return expanded.is_absolute() ? expanded.lexically_normal().string()
                                 : (fs::path(folder) / expanded).lexically_normal().string();
 }

@@ -72,34 +72,40 @@ void AttributeReader::readLimits(Joint& joint) {
 }
 
 void AttributeReader::readDofs(Joint& joint) {
-  const Node* q = find({"q"});
-  if (!q) return;
-  const auto v = numbers(*q);
-  if (!v) return;
+  if (const auto q = readDofValues("q", joint)) joint.q = joint.home = *q;
+  if (const auto home = readDofValues("home", joint)) joint.home = *home;
+}
+
+/// Values of all dofs; quaternions among them are normalized.
+std::optional<VectorXd> AttributeReader::readDofValues(const char* key, const Joint& joint) {
+  const Node* node = find({key});
+  const auto v = node ? numbers(*node) : std::nullopt;
+  if (!v) return std::nullopt;
+  VectorXd q(joint.dofs());
   if (v->size() == 1) {
-    joint.q.setConstant(v->front());
+    q.setConstant(v->front());
   } else if (int(v->size()) == joint.dofs()) {
-    joint.q = Eigen::Map<const VectorXd>(v->data(), Eigen::Index(v->size()));
+    q = Eigen::Map<const VectorXd>(v->data(), Eigen::Index(v->size()));
   } else {
-    return error(
-        *q, cat("a ", jointTypeName(joint.type), " joint has ", joint.dofs(), " dofs, got ", v->size(), " numbers"));
+    error(*node,
+          cat("a ", jointTypeName(joint.type), " joint has ", joint.dofs(), " dofs, got ", v->size(), " numbers"));
+    return std::nullopt;
   }
-  if (!joint.q.allFinite()) error(*q, "expected finite numbers");
+  if (!q.allFinite()) error(*node, "expected finite numbers");
   int first = 0;
   for (const MotionStep& step : joint.steps) {
     if (step.dofs() > 1) {
-      auto part = joint.q.segment(first, step.dofs());
+      auto part = q.segment(first, step.dofs());
       const double norm = part.norm();
       if (!(norm > 1e-10)) {
-        error(*q, step.dofs() == 4 ? "the quaternion in it is zero" : "the (c, s) in it is zero");
-        joint.q = motionIdentity(joint.steps);
-      } else {
-        part /= norm;
+        error(*node, step.dofs() == 4 ? "the quaternion in it is zero" : "the (c, s) in it is zero");
+        return std::nullopt;
       }
+      if (std::abs(norm - 1.) > 1e-15) part /= norm;
     }
     first += step.dofs();
   }
-  joint.home = joint.q;
+  return q;
 }
 
 void AttributeReader::applyJoint(FrameData& frame) {

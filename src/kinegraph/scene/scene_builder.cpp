@@ -227,9 +227,10 @@ void SceneBuilder::resolveMimic(FrameData& frame, const SourceFrame& source) {
   FrameData* other = find(*name, source.prefix, node->value.where, cat("frame '", frame.name, "', mimic:"), true);
   if (!other) return;
   FrameData* leader = jointFrame(*other);
+  const bool both_have_one_dof = leader && leader->joint->dofs() == 1 && follower->joint->dofs() == 1;
   const bool same_kind =
       leader && leader->joint->type == follower->joint->type && leader->joint->code == follower->joint->code;
-  if (!same_kind || &dofSource(*leader) == follower) {
+  if (!(same_kind || both_have_one_dof) || &dofSource(*leader) == follower) {
     return read.error(*node,
                       cat("'", *name, "' has ",
                           leader ? "a joint of type " + jointTypeName(leader->joint->type) : std::string("no joint"),

@@ -8,6 +8,7 @@
 #include <sstream>
 
 #include "kinegraph/base/text.h"
+#include "kinegraph/scene/scene_format.h"
 
 namespace kinegraph {
 
@@ -58,7 +59,8 @@ class SourceReader {
 
   std::vector<SourceFrame> readText(const std::string& text, const std::string& name, std::string folder) {
     diagnostics_.addText(name, text);
-    ParseResult parsed = parseAll(text, name);
+    const SceneFormat* format = sceneFormatOf(name);
+    ParseResult parsed = format ? format->read(text, name, folder) : parseAll(text, name);
     for (Diagnostic& diagnostic : parsed.diagnostics) diagnostics_.add(std::move(diagnostic));
     std::vector<SourceFrame> frames;
     std::vector<Node> edits;

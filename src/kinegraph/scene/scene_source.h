@@ -30,9 +30,9 @@ SceneSource readSource(std::string_view text, const std::string& name, const std
 /// The scene file and all files that it includes, as paths, mistakes in them or not. Throws FileError.
 std::vector<std::string> sourceFiles(const std::string& path);
 
-/// An absolute path: `path` with $NAME expanded from the environment, relative to `folder`. A path package://NAME/rest
-/// is looked up in the folders of KINEGRAPH_PACKAGE_PATH, ROS_PACKAGE_PATH and AMENT_PREFIX_PATH; empty if it is in
-/// none.
+/// An absolute path: `path` with $NAME expanded from the environment, relative to `folder`; file:// in front is dropped.
+/// A path package://NAME/rest (or model://) is looked up in `folder` and all folders above it, then in those of
+/// KINEGRAPH_PACKAGE_PATH, ROS_PACKAGE_PATH and AMENT_PREFIX_PATH; empty if it is in none.
 std::string resolvePath(const std::string& path, const std::string& folder);
 
 /// "; similar names: ..." of the files beside a missing one, or that its folder does not exist.

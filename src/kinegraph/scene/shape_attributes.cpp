@@ -1,4 +1,6 @@
+#include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "kinegraph/base/text.h"
 #include "kinegraph/geometry/mesh_file.h"
@@ -54,11 +56,13 @@ bool AttributeReader::readMesh(Geometry& geometry) {
       if (s.size() == 1 || s.size() == 3) {
         const Vector3d factors = s.size() == 3 ? Vector3d(s[0], s[1], s[2]) : Vector3d::Constant(s[0]).eval();
         for (Vector3d& p : mesh.vertices) p = p.cwiseProduct(factors);
+        geometry.mesh_scale = factors;
       } else {
         error(*scale, cat("expected 1 or 3 numbers, got ", s.size()));
       }
     }
     geometry.type = mesh.triangles.empty() ? ShapeType::pointCloud : ShapeType::mesh;
+    if (node->key == "mesh") geometry.mesh_file = file;
     geometry.mesh = std::make_shared<Mesh>(std::move(mesh));
   });
 }
@@ -94,6 +98,33 @@ bool AttributeReader::readRope(Geometry& geometry) {
   return true;
 }
 
+/// A mesh that stands in the file itself: `vertices: [x y z ...]`, `triangles: [i j k ...]`, `vertex_colors: [r g b a ...]`.
+bool AttributeReader::readVertices(Geometry& geometry) {
+  bool good = true;
+  const auto list = [&](const char* key, std::size_t columns, double lowest, double highest) {
+    const Node* node = find({key});
+    std::vector<double> v = node ? numbers(*node).value_or(std::vector<double>{}) : std::vector<double>{};
+    const bool in_range = std::all_of(v.begin(), v.end(), [&](double x) { return x >= lowest && x <= highest; });
+    if (v.size() % columns == 0 && in_range) return v;
+    error(*node, cat("expected n x ", columns, " numbers", lowest == 0. ? cat(" in 0..", highest) : ""));
+    good = false;
+    return std::vector<double>();
+  };
+  const double any = std::numeric_limits<double>::max();
+  Mesh mesh;
+  mesh.vertices = triples(list("vertices", 3, -any, any));
+  const std::vector<double> t = list("triangles", 3, 0., double(mesh.vertices.size()) - 1.);
+  for (std::size_t i = 0; i < t.size(); i += 3) {
+    mesh.triangles.push_back({std::uint32_t(t[i]), std::uint32_t(t[i + 1]), std::uint32_t(t[i + 2])});
+  }
+  const std::vector<double> c = list("vertex_colors", 4, 0., 255.);
+  for (std::size_t i = 0; i < c.size(); i += 4) {
+    mesh.colors.push_back({std::uint8_t(c[i]), std::uint8_t(c[i + 1]), std::uint8_t(c[i + 2]), std::uint8_t(c[i + 3])});
+  }
+  geometry.mesh = std::make_shared<Mesh>(std::move(mesh));
+  return good;
+}
+
 bool AttributeReader::readSize(Geometry& geometry) {
   const Node* size = find({"size"});
   const Node& blamed = size ? *size : *find({"shape", "type", "mesh", "mesh_decomp", "mesh_points"});
@@ -113,6 +144,8 @@ bool AttributeReader::readGeometry(Geometry& geometry) {
     good = readMesh(geometry);
   } else if (geometry.type == ShapeType::ssCvx && find({"core"})) {
     good = readCore(geometry);
+  } else if (find({"vertices"})) {
+    good = readVertices(geometry);
   } else if (find({"mesh_rope"})) {
     good = readRope(geometry);
   }
