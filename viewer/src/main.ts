@@ -68,6 +68,7 @@ Object.assign(window, {
   kinegraph: {
     frames: () => shown.frameCount,
     objects: () => shown.objectCount,
+    meshes: () => shown.meshCount,
     drawn: () => stage.drawn,
     position: (name: string) => stage.frames.getObjectByName(name)?.position.toArray() ?? null,
     message: () => element("message").textContent,

@@ -7,6 +7,15 @@ interface Shown {
   object: THREE.Object3D | null;
 }
 
+/** Frees what the graphics card holds of an object; `kept` is a geometry that others use too. */
+function release(object: THREE.Object3D, kept: THREE.BufferGeometry | undefined): void {
+  object.traverse((part) => {
+    if (!(part instanceof THREE.Mesh || part instanceof THREE.Points || part instanceof THREE.LineSegments)) return;
+    if (part.geometry !== kept) part.geometry.dispose();
+    part.material.dispose();
+  });
+}
+
 /** The frames of the scene as three.js objects, kept as the server's messages say. */
 export class ShownScene {
   private readonly shown = new Map<number, Shown>();
@@ -23,9 +32,13 @@ export class ShownScene {
     return this.parent.children.length;
   }
 
+  get meshCount(): number {
+    return this.meshes.size;
+  }
+
   clear(): void {
     for (const id of [...this.shown.keys()]) this.remove(id);
-    this.meshes.clear();
+    this.dropUnusedMeshes();
     this.poses.clear();
   }
 
@@ -41,6 +54,7 @@ export class ShownScene {
       this.shown.set(frame.id, { message: frame, object });
       this.place(frame.id);
     }
+    this.dropUnusedMeshes();
   }
 
   readBinary(data: ArrayBuffer): void {
@@ -81,8 +95,21 @@ export class ShownScene {
   }
 
   private remove(id: number): void {
-    const object = this.shown.get(id)?.object;
-    if (object) this.parent.remove(object);
+    const shown = this.shown.get(id);
+    if (shown?.object) {
+      this.parent.remove(shown.object);
+      release(shown.object, this.meshes.get(shown.message.shape!.mesh)?.geometry);
+    }
     this.shown.delete(id);
+  }
+
+  /** The server keeps no other meshes than those in use, and counts on the same here. */
+  private dropUnusedMeshes(): void {
+    const used = new Set([...this.shown.values()].map((shown) => shown.message.shape?.mesh));
+    for (const [number, mesh] of this.meshes) {
+      if (used.has(number)) continue;
+      mesh.geometry.dispose();
+      this.meshes.delete(number);
+    }
   }
 }
