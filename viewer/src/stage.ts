@@ -10,7 +10,6 @@ export class Stage {
   private readonly controls: OrbitControls;
   private readonly sun = new THREE.DirectionalLight(0xffffff, 2.4);
   private dirty = true;
-  drawn = 0;
 
   constructor(private readonly canvas: HTMLCanvasElement) {
     this.renderer = new THREE.WebGLRenderer({ canvas, antialias: true, preserveDrawingBuffer: true });
@@ -48,6 +47,11 @@ export class Stage {
 
   redraw(): void {
     this.dirty = true;
+  }
+
+  /** True if what is on the screen is up to date. */
+  get idle(): boolean {
+    return !this.dirty;
   }
 
   private addLights(): void {
@@ -112,6 +116,5 @@ export class Stage {
     if (!this.dirty) return;
     this.dirty = false;
     this.renderer.render(this.scene, this.camera);
-    ++this.drawn;
   }
 }

@@ -7,6 +7,7 @@
 #include <set>
 #include <sstream>
 
+#include "kinegraph/base/errors.h"
 #include "kinegraph/base/text.h"
 #include "kinegraph/gfile/parser.h"
 
@@ -55,6 +56,7 @@ class SourceReader {
   explicit SourceReader(SceneSource& source) : source_(source) {}
 
   std::vector<SourceFrame> readFile(const std::string& path, const SourcePosition& included_at) {
+    source_.files.push_back(path);
     const fs::path absolute = fs::absolute(path).lexically_normal();
     std::error_code error;
     if (!fs::is_regular_file(absolute, error)) {
@@ -234,9 +236,12 @@ SceneSource readSource(const std::string& path) {
 }
 
 std::vector<std::string> sourceFiles(const std::string& path) {
-  std::vector<std::string> files;
-  for (const auto& [file, text] : readSource(path).texts) files.push_back(file);
-  return files;
+  SceneSource source;
+  try {
+    SourceReader(source).readFile(expandEnvironment(path), {});
+  } catch (const Error&) {  // told by who reads the scene itself
+  }
+  return source.files;
 }
 
 SceneSource readSource(std::string_view text, const std::string& name, const std::string& folder) {

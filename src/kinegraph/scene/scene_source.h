@@ -19,6 +19,7 @@ struct SourceFrame {
 struct SceneSource {
   std::vector<SourceFrame> frames;
   std::vector<Node> joint_states;            ///< `q: [...]`
+  std::vector<std::string> files;            ///< asked for, in order, whether they exist or not
   std::map<std::string, std::string> texts;  ///< of every file read, for messages
   std::vector<std::string> warnings;
 };
@@ -27,7 +28,8 @@ struct SceneSource {
 SceneSource readSource(const std::string& path);
 SceneSource readSource(std::string_view text, const std::string& name, const std::string& folder);
 
-/// The scene file and all files that it includes, as paths. Throws as readSource.
+/// The scene file and all files that it includes, as paths: as many as are named before the first mistake, and also one that
+/// does not exist.
 std::vector<std::string> sourceFiles(const std::string& path);
 
 /// An absolute path: `path` with $NAME expanded from the environment, relative to `folder`. A path package://NAME/rest is

@@ -1,7 +1,5 @@
 #include "kinegraph/viewer/server.h"
 
-#include <unistd.h>
-
 #include <boost/asio.hpp>
 #include <boost/beast.hpp>
 #include <condition_variable>
@@ -214,11 +212,6 @@ class ViewerServer::Impl {
   }
 
   ~Impl() {
-    if (getpid() != owner_) {  // a forked child has no such thread; closing its copies must not disturb the parent
-      context_.notify_fork(asio::execution_context::fork_child);
-      thread_.detach();
-      return;
-    }
     asio::post(context_, [this] {
       beast::error_code ignored;
       acceptor_.close(ignored);
@@ -273,7 +266,6 @@ class ViewerServer::Impl {
   bool loopback_only_ = true;
   std::list<std::shared_ptr<Session>> sessions_;  ///< touched by the server's thread only
   std::thread thread_;
-  const pid_t owner_ = getpid();
 };
 
 ViewerServer::ViewerServer(const ViewerOptions& options) : impl_(std::make_shared<Impl>(options)) {}
