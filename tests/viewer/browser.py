@@ -41,6 +41,11 @@ def find() -> str | None:
     return next((path for name in NAMES if (path := shutil.which(name))), None)
 
 
+def reason(details: dict[str, Any]) -> str:
+    """What went wrong in a script."""
+    return details.get("exception", {}).get("description", details["text"])
+
+
 class Browser:
     """One page. Use as a context manager."""
 
@@ -88,8 +93,7 @@ class Browser:
         while True:
             answer = json.loads(self._socket.recv(60))
             if answer.get("method") == "Runtime.exceptionThrown":
-                details = answer["params"]["exceptionDetails"]
-                self.errors.append(details.get("exception", {}).get("description", details["text"]))
+                self.errors.append(reason(answer["params"]["exceptionDetails"]))
             if answer.get("id") == self._next_id:
                 if "error" in answer:
                     raise RuntimeError(answer["error"])
@@ -110,25 +114,34 @@ class Browser:
     def evaluate(self, script: str) -> Any:
         result = self.call("Runtime.evaluate", expression=script, returnByValue=True, awaitPromise=True)
         if "exceptionDetails" in result:
-            raise RuntimeError(result["exceptionDetails"]["text"])
+            raise RuntimeError(reason(result["exceptionDetails"]))
         return result["result"].get("value")
 
-    def wait_for(self, script: str, seconds: float = 30) -> Any:
+    def wait_for(self, script: str, seconds: float = 60) -> Any:
         """Waits until `script` is true; returns its value."""
         deadline = time.monotonic() + seconds
+        state: Any = None
         while time.monotonic() < deadline:
             try:
-                if value := self.evaluate(script):
-                    return value
-            except RuntimeError:
-                pass
+                if state := self.evaluate(script):
+                    return state
+            except RuntimeError as error:  # the page may not be there yet
+                state = error
             time.sleep(0.05)
-        raise TimeoutError(f"never true: {script}")
+        raise TimeoutError(f"never true, but {state!r}: {script}")
 
     def press(self, key: str, **more: Any) -> None:
         """Presses a key, as KeyboardEvent.key names it."""
         for kind in ("keyDown", "keyUp"):
             self.call("Input.dispatchKeyEvent", type=kind, key=key, **more)
+
+    def press_alt(self, letter: str) -> None:
+        self.press(letter.lower(), code=f"Key{letter}", modifiers=1)
+
+    def type(self, text: str) -> None:
+        """Types into what has the focus."""
+        for letter in text:
+            self.press(letter, text=letter)
 
     def is_visible(self, selector: str) -> bool:
         return self.evaluate(f"document.querySelector({json.dumps(selector)}).checkVisibility()")

@@ -9,7 +9,7 @@ import sys
 import threading
 from pathlib import Path
 
-PATIENCE = 30.0  # s; much more than a busy machine needs
+PATIENCE = 60.0  # s; much more than a busy machine needs
 
 
 class Program:

@@ -15,7 +15,7 @@ from camera import HEIGHT, WIDTH, Camera
 from program import Program
 
 Start = Callable[..., Program]
-PAPER = (244, 245, 247)
+PAPER = (236, 238, 242)
 LINKS = [f"l_panda_joint{i}" for i in range(1, 8)]
 
 
