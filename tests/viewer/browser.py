@@ -14,8 +14,9 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
-from camera import HEIGHT, WIDTH
 from websockets.sync.client import connect
+
+from camera import HEIGHT, WIDTH
 
 NAMES = ("chromium", "chromium-browser", "google-chrome", "chrome")
 FLAGS = [

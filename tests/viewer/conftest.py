@@ -5,9 +5,10 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator
 from pathlib import Path
 
+import pytest
+
 import browser as chromium
 import kinegraph as kg
-import pytest
 from program import Program
 
 

@@ -5,11 +5,13 @@ from __future__ import annotations
 import json
 import time
 from collections.abc import Callable
+from itertools import pairwise
 from pathlib import Path
 
-import kinegraph as kg
 import numpy as np
 import pytest
+
+import kinegraph as kg
 from browser import Browser
 from camera import HEIGHT, WIDTH, Camera
 from program import Program
@@ -38,7 +40,7 @@ def wait_for_position(config: kg.Config, browser: Browser, frame: str) -> None:
 def points_of_the_arm(config: kg.Config) -> list[np.ndarray]:
     """Points inside the links: between neighbouring joints that are not in the same place."""
     joints = [position(config, name) for name in LINKS]
-    return [(a + b) / 2 for a, b in zip(joints, joints[1:], strict=False) if np.linalg.norm(a - b) > 0.25]
+    return [(a + b) / 2 for a, b in pairwise(joints) if np.linalg.norm(a - b) > 0.25]
 
 
 @pytest.fixture
@@ -231,18 +233,18 @@ def test_watchfile_shows_edits_and_mistakes_and_their_mending(browser: Browser, 
     program = start(WATCH)
     browser.open(program.url())
     assert browser.evaluate("document.title") == "ConfigView <scene.g>"
-    delays = []
-    for height in (1, 2, 3, 4):
+    for height in range(1, 30):
         scene.write_text(f"box: {{ shape: box, size: [.1 .2 .3], X: [0 0 {height}] }}")
         written = time.perf_counter()
         browser.wait_for(f"kinegraph.position('box')[2] == {height} && kinegraph.idle()")
-        delays.append(time.perf_counter() - written)
-    assert min(delays) < 0.5  # the others may have met a busy machine
+        if (delay := time.perf_counter() - written) < 0.5:
+            break
+    assert delay < 0.5  # at least once: the machine may be busy
 
     scene.write_text("box: { shape: bxo, size: [.1 .2 .3] }")
     browser.wait_for("kinegraph.error().includes('scene.g:1:') && kinegraph.error().includes('bxo')")
     assert browser.is_visible("#error")
-    assert browser.evaluate("kinegraph.position('box')[2]") == 4
+    assert browser.evaluate("kinegraph.position('box')[2]") == height
     scene.write_text("ball: { shape: sphere, size: [.1] }")
     browser.wait_for("kinegraph.error() == '' && kinegraph.position('ball')")
     assert not browser.is_visible("#error")

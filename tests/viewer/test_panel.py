@@ -6,9 +6,10 @@ import time
 from collections.abc import Iterator
 from pathlib import Path
 
-import kinegraph as kg
 import numpy as np
 import pytest
+
+import kinegraph as kg
 from browser import Browser
 from camera import Camera
 

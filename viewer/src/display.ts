@@ -1,6 +1,7 @@
 import * as THREE from "three";
 import { CSS2DObject } from "three/addons/renderers/CSS2DRenderer.js";
 import type { ShapeMessage } from "./messages";
+import { AXIS_COLORS } from "./shapes";
 import type { Shown } from "./shown";
 
 /** What people can switch on and off; a letter with Alt does it on the keyboard. */
@@ -39,7 +40,7 @@ export class Display {
       const { shape, name } = shown.message;
       shown.anchor.visible = !this.isHidden(shown, frames);
       if (shown.object && shape) shown.object.visible = this.on.has(kindOf(shape));
-      this.attach(shown.anchor, "axes", () => new THREE.AxesHelper(AXES_LENGTH));
+      this.attach(shown.anchor, "axes", () => new THREE.AxesHelper(AXES_LENGTH).setColors(...AXIS_COLORS));
       this.attach(shown.anchor, "names", () => label(name));
     }
   }

@@ -14,7 +14,7 @@ export class Stage {
   readonly renderer: THREE.WebGLRenderer;
   private readonly controls: OrbitControls;
   private readonly labels = new CSS2DRenderer();
-  private readonly sun = new THREE.DirectionalLight(0xffffff, 2.4);
+  private readonly sun = new THREE.DirectionalLight(0xffffff, 2.1);
   private dirty = true;
 
   constructor(private readonly canvas: HTMLCanvasElement) {
@@ -31,7 +31,7 @@ export class Stage {
     this.addLights();
     this.addFloor();
     this.scene.add(this.frames);
-    this.lookFrom(new THREE.Vector3(1.5, 2.6, 1.8), new THREE.Vector3(0, 0, 0.8));
+    this.lookFrom(new THREE.Vector3(1.5, 2.6, 1.8), new THREE.Vector3(0, 0, 0.9));
     addEventListener("resize", () => this.resize());
     matchMedia("(prefers-color-scheme: dark)").addEventListener("change", () => this.paper());
     canvas.addEventListener("dblclick", (event) => this.focus(event));
@@ -63,7 +63,7 @@ export class Stage {
   }
 
   private addLights(): void {
-    this.scene.add(new THREE.HemisphereLight(0xffffff, 0xb9b4aa, 1.5));
+    this.scene.add(new THREE.HemisphereLight(0xffffff, 0xb9b4aa, 1.7));
     this.sun.position.set(-2.5, 2.2, 5);
     this.sun.target.position.set(0, 0, 0.5);
     this.sun.castShadow = true;
