@@ -53,15 +53,8 @@ def worker(options):
 
 
 def versions(ry):
-    import importlib.metadata as metadata
-
-    found = {}
-    for name in ("kinegraph", "robotic"):
-        try:
-            found[name] = metadata.version(name)
-        except metadata.PackageNotFoundError:
-            pass
-    return {"distributions": found, "module": os.path.dirname(ry.__file__), "python": platform.python_version()}
+    version = getattr(ry, "__version__", None) or ry.version()
+    return {"version": version, "module": os.path.dirname(ry.__file__), "python": platform.python_version()}
 
 
 def timeLoads(ry, scene, count):
@@ -206,12 +199,11 @@ def main():
                 run = runWorker(pythons[who], "measure", folder, scene, options.targets, who == "reference")
                 reports[who].append(run)
 
-    print("command: ", " ".join(["python"] + sys.argv))
+    print("command: ", " ".join(["python", *sys.argv]))
     print("machine: ", machine())
     for who in pythons:
         described = about[who]["versions"]
-        packages = ", ".join(" ".join(item) for item in described["distributions"].items()) or "not installed"
-        print(f"{who}: {packages} (python {described['python']}, numpy {about[who]['numpy']})")
+        print(f"{who}: {described['version']} (python {described['python']}, numpy {about[who]['numpy']})")
     if about["kinegraph"]["versions"]["module"] == about["reference"]["versions"]["module"]:
         print("NOTE: both pythons import the same package; every ratio should be 1")
     print(f"rounds:   {options.rounds}, {options.targets} targets each\n")

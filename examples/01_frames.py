@@ -17,7 +17,7 @@ def printFrames(C):
     for frame in C.getFrames():
         parent = frame.getParent()
         relative = frame.getRelativePosition().round(3) if parent else ""
-        print(f"{frame.name:14} {parent.name if parent else '-':14} {str(frame.getPosition().round(3)):28} {relative}")
+        print(f"{frame.name:14} {parent.name if parent else '-':14} {frame.getPosition().round(3)!s:28} {relative}")
 
 
 C = ry.Config()

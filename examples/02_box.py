@@ -5,6 +5,7 @@ import sys
 from pathlib import Path
 
 import numpy as np
+
 from robotic import ry
 
 SCENE = str(Path(__file__).with_name("box.g"))
@@ -37,5 +38,5 @@ assert np.allclose(from_file.getPosition(), [0, 0, 0.25])
 assert np.allclose(from_file.getSize(), [0.5, 0.5, 0.5, 0.05])
 
 if sys.stdin.isatty() and not os.environ.get("KINEGRAPH_HEADLESS"):
-    print(f"\nwatching {SCENE}: try X: \"t(1 1 .25)\" and save; close the view to end")
+    print(f'\nwatching {SCENE}: try X: "t(1 1 .25)" and save; close the view to end')
     D.watchFile(SCENE)

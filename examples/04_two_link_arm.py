@@ -10,6 +10,7 @@ where .35 and .33 m are the distances between its hinges. The third hinge only t
 from pathlib import Path
 
 import numpy as np
+
 from robotic import ry
 
 C = ry.Config()

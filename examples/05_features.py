@@ -4,6 +4,7 @@ Evaluates the features on two Panda arms, and compares every J with finite diffe
 """
 
 import numpy as np
+
 from robotic import ry
 
 FS = ry.FS

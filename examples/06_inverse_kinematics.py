@@ -8,6 +8,7 @@ Of all that do, we want those near the present posture and near the home posture
 import time
 
 import numpy as np
+
 from robotic import ry
 
 np.set_printoptions(suppress=True)
@@ -46,7 +47,7 @@ C.view(True, "the gripper is at the target")
 # The target strolls; each answer starts from the one before.
 rng = np.random.default_rng(0)
 position = center.copy()
-for step in range(20):
+for _ in range(20):
     position = center + 0.98 * (position - center) + 0.02 * rng.standard_normal(3)
     target.setPosition(position)
     start = time.perf_counter()

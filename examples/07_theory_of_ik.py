@@ -10,6 +10,7 @@ The damping w keeps the inverse finite where J loses rank, as it does for a stre
 from pathlib import Path
 
 import numpy as np
+
 from robotic import ry
 
 K = ry.Config()

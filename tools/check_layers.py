@@ -32,7 +32,9 @@ def main() -> int:
             for number, line in enumerate(file.read_text().splitlines(), 1):
                 match = re.match(r'#include "kinegraph/([^/"]+)/', line)
                 if match and match[1] != folder and match[1] not in BELOW[folder]:
-                    problems.append(f"{file.relative_to(SOURCE.parent.parent)}:{number}: {folder} must not include {match[1]}")
+                    problems.append(
+                        f"{file.relative_to(SOURCE.parent.parent)}:{number}: {folder} must not include {match[1]}"
+                    )
     print("\n".join(problems) if problems else f"layers: {len(BELOW)} folders, all includes point down")
     return 1 if problems else 0
 

@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
 """Makes the message types of the viewer, for its server (C++) and its client (TypeScript), from viewer/messages.json.
 
-    python tools/generate_messages.py            writes both files
-    python tools/generate_messages.py --check    fails if they are not what the schema says
+python tools/generate_messages.py            writes both files
+python tools/generate_messages.py --check    fails if they are not what the schema says
 """
 
 import json
@@ -36,11 +36,23 @@ def tag(message: str) -> str:
 
 def make_cpp(schema: dict) -> str:
     out = [
-        "#pragma once", "", f"// {NOTE}", "",
-        "#include <cstdint>", "#include <optional>", "#include <string>", "#include <vector>", "",
-        '#include "kinegraph/viewer/json.h"', "", "namespace kinegraph {", "",
-        "/// First 4 bytes of a binary message.", "enum class BinaryKind : std::uint32_t {",
-        *[f"  {name} = {value}," for name, value in schema["binary"].items()], "};",
+        "#pragma once",
+        "",
+        f"// {NOTE}",
+        "",
+        "#include <cstdint>",
+        "#include <optional>",
+        "#include <string>",
+        "#include <vector>",
+        "",
+        '#include "kinegraph/viewer/json.h"',
+        "",
+        "namespace kinegraph {",
+        "",
+        "/// First 4 bytes of a binary message.",
+        "enum class BinaryKind : std::uint32_t {",
+        *[f"  {name} = {value}," for name, value in schema["binary"].items()],
+        "};",
     ]
     for name, fields in {**schema["types"], **schema["messages"]}.items():
         out += ["", f"struct {name} {{"]

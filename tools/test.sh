@@ -1,23 +1,42 @@
 #!/usr/bin/env bash
-# Everything that is tested, from a fresh clone: layers, message types, C++ (ctest), TypeScript, Python and the browser (pytest).
+# Everything that is tested, from a fresh clone: layers, message types, C++ (ctest), TypeScript, Python and the browser
+# (pytest). The Python tests run in an environment that has the wheel, numpy and the test runners, and nothing else.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 export KINEGRAPH_HEADLESS=1 CMAKE_BUILD_PARALLEL_LEVEL="${CMAKE_BUILD_PARALLEL_LEVEL:-$(nproc)}"
+export CXX="${CXX:-g++}"  # one name for both builds, so that ccache knows their objects as the same
+export PIP_DISABLE_PIP_VERSION_CHECK=1 PIP_QUIET=1
+step() { echo "== $* ($((SECONDS / 60)) min $((SECONDS % 60)) s)"; }
+quietly() { "$@" >build/last.log 2>&1 || { tail -80 build/last.log; exit 1; }; }
 
-bash tools/apt_install.sh libgtest-dev chromium
-venv=build/test_venv
-[ -x $venv/bin/python ] || bash tools/make_venv.sh "${PYTHON:-python3}" $venv
-$venv/bin/python -m pip install --quiet --disable-pip-version-check "cmake>=3.25" ninja ruff
-PATH="$PWD/$venv/bin:$PATH"
+step "tools"
+bash tools/apt_install.sh libgtest-dev chromium ccache
+tools=$PWD/build/tools_venv
+[ -x "$tools/bin/python" ] || bash tools/make_venv.sh "${PYTHON:-python3}" "$tools"
+"$tools/bin/python" tools/build_requirements.py >build/requirements.txt
+"$tools/bin/python" -m pip install -r build/requirements.txt "cmake>=3.25,<4.4" "ninja>=1.11" ruff==0.17.5
+PATH="$tools/bin:$PATH"
 
+step "layers, generated files, lint"
 python tools/check_layers.py
 python tools/generate_messages.py --check
 ruff check --quiet .
+ruff format --quiet --check .
 
-cmake --preset dev -DPython_EXECUTABLE="$PWD/$venv/bin/python" >build/configure.log || { cat build/configure.log; exit 1; }
-cmake --build --preset dev --parallel "$CMAKE_BUILD_PARALLEL_LEVEL" >build/build.log || { tail -60 build/build.log; exit 1; }
+step "building the library and its C++ tests"
+quietly cmake --preset dev -DPython_EXECUTABLE="$tools/bin/python"
+quietly cmake --build --preset dev --parallel "$CMAKE_BUILD_PARALLEL_LEVEL"
 (cd build/dev/viewer_client && cp -r ../../../viewer/src . && node_modules/.bin/tsc --noEmit)
-python -m pip install --quiet --disable-pip-version-check '.[test]'
 
+step "building the wheel"
+rm -rf build/wheel
+quietly python -m pip wheel --no-build-isolation --no-deps --wheel-dir build/wheel .
+tests=$PWD/build/test_venv
+[ -x "$tests/bin/python" ] || bash tools/make_venv.sh "${PYTHON:-python3}" "$tests"
+"$tests/bin/python" -m pip install --force-reinstall --no-deps build/wheel/*.whl
+"$tests/bin/python" -m pip install "kinegraph[test]"
+
+step "C++ tests"
 ctest --test-dir build/dev --output-on-failure --no-tests=error
-python -m pytest -q
+step "Python and browser tests"
+"$tests/bin/python" -m pytest -q

@@ -1,3 +1,5 @@
+#include <nanobind/stl/string.h>
+
 #include "bindings.h"
 #include "kinegraph/base/errors.h"
 

@@ -4,6 +4,7 @@
 #include <nanobind/stl/vector.h>
 
 #include "bindings.h"
+#include "defaults.h"
 #include "kinegraph/base/errors.h"
 #include "kinegraph/base/text.h"
 #include "kinegraph/geometry/shape_types.h"
@@ -37,6 +38,8 @@ nb::object getFrame(const PyConfig& config, const std::string& name, bool warn) 
   if (!warn) return nb::none();
   return nb::cast(config.getFrame(name));  // throws, with similar names
 }
+
+Frame frameOf(const PyConfig& config, nb::handle name_or_id) { return toFrame(config, name_or_id); }
 
 nb::object pairList(const PyConfig& config) {
   nb::list names;
@@ -125,8 +128,8 @@ void bindScene(nb::module_& m) {
 
       .def("getFrame", getFrame, "frameName"_a, "warnIfNotExist"_a = true,
            "The first frame of that name. Unknown: FrameNotFound, or None with warnIfNotExist=False.")
-      .def("frame", toFrame, "frame"_a, "The frame of that name or id.")
-      .def("__getitem__", toFrame, "frame"_a, "The frame of that name or id.")
+      .def("frame", frameOf, "frame"_a, "The frame of that name or id.")
+      .def("__getitem__", frameOf, "frame"_a, "The frame of that name or id.")
       .def("getFrames", &PyConfig::getFrames, "All frames, in order.")
       .def("frames", &PyConfig::getFrames, "All frames, in order.")
       .def("getRoots", &PyConfig::getRoots, "Frames without a parent.")
@@ -145,6 +148,9 @@ void bindScene(nb::module_& m) {
            "joints"_a = nb::none(), "q (rad, m): (n,), a copy. Or the dofs of the named frames.")
       .def("setJointState", setJointState, "q"_a, "joints"_a = nb::none(),
            "Sets q (rad, m), or the dofs of the named frames, in that order.")
+      .def("setRandom", [](PyConfig& c, int, int) { c.setRandom(defaults().random); }, "timeSlices_d1"_a = 0, "verbose"_a = 0,
+           "Draws q: per joint near its home with sampleSdv, or uniform within its limits with probability sampleUniform.\n"
+           "ry.rnd_seed seeds it.")
       .def("getJointNames", &PyConfig::getJointNames, "One name per entry of q.")
       .def("getJointIDs", &PyConfig::getJointIDs, "Ids of the frames with active joints.")
       .def("getDofIDs", &PyConfig::getJointIDs, "The same as getJointIDs.")
@@ -165,6 +171,7 @@ void bindScene(nb::module_& m) {
 
   bindFrame(m, frame);
   bindFeatures(m, config);
+  bindDynamics(config);
   bindViewer(m, config);
 }
 

@@ -130,7 +130,8 @@ void bindOptions(nb::module_& m) {
       .value("NelderMead", OptMethod::NelderMead).value("CMA", OptMethod::CMA).value("LS_CMA", OptMethod::LS_CMA).value("ES", OptMethod::ES);
 
   nb::class_<SolverOptions> options(m, "NLP_SolverOptions", "Settings of a solver.");
-  options.def(nb::init<>()).def("dict", optionDict, "All settings as a dict.");
+  options.def("__init__", [](SolverOptions* self) { new (self) SolverOptions(defaults().solver); }, "The defaults, as params_add may have set them.")
+      .def("dict", optionDict, "All settings as a dict.");
   for (const auto& [name, field] : optionFields()) {
     const std::string setter = "set_" + name, doc = "Sets " + name + "; returns the options.";
     options.def(setter.c_str(), [name = name](SolverOptions& o, nb::object value) -> SolverOptions& {
@@ -144,7 +145,7 @@ void bindOptions(nb::module_& m) {
 
 void bindSolvers(nb::module_& m) {
   bindOptions(m);
-  m.def("setDefaultSeed", [](std::uint64_t seed) { defaults().seed = seed; }, "seed"_a, "Seed of everything random from here on.");
+  m.def("setDefaultSeed", [](std::uint64_t seed) { defaults().seed = seed; defaults().random = Rng(seed); }, "seed"_a, "Seed of everything random from here on.");
   m.def("setDefaultOption", [](const std::string& name, nb::object value) { setOption(defaults().solver, name, value); }, "name"_a,
         "value"_a, "Default of a solver option from here on.");
   m.def("resetDefaultOptions", [] { defaults().solver = {}; }, "Defaults of all solver options as they were at import.");

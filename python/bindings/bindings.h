@@ -30,6 +30,7 @@ void bindFeatures(nb::module_& m, nb::class_<PyConfig>& config);
 void bindNlp(nb::module_& m);
 void bindSolvers(nb::module_& m);
 void bindKomo(nb::module_& m);
+void bindDynamics(nb::class_<PyConfig>& config);
 void bindViewer(nb::module_& m, nb::class_<PyConfig>& config);
 
 /// Passes on what was odd about a scene through Python's `warnings`.

@@ -11,14 +11,18 @@ from .errors import Error
 
 
 def _parser() -> argparse.ArgumentParser:
-    parser = argparse.ArgumentParser(prog="kinegraph", description="Robot scenes, inverse kinematics and motion optimisation.")
+    parser = argparse.ArgumentParser(
+        prog="kinegraph", description="Robot scenes, inverse kinematics and motion optimisation."
+    )
     parser.add_argument("--version", action="version", version=f"kinegraph {__version__}")
     commands = parser.add_subparsers(dest="command", required=True, metavar="COMMAND")
 
     demo = commands.add_parser("demo", help="a Franka Panda follows a wandering target, live in the browser")
     demo.add_argument("--forever", action="store_true", help="go on until Ctrl-C")
     demo.add_argument("--seconds", type=float, default=20.0, help="how long (default: 20)")
-    demo.add_argument("--rate", type=float, default=60.0, help="targets per second; 0: as many as possible (default: 60)")
+    demo.add_argument(
+        "--rate", type=float, default=60.0, help="targets per second; 0: as many as possible (default: 60)"
+    )
     demo.add_argument("--seed", type=int, default=0, help="of the target's way (default: 0)")
     demo.add_argument("--no-view", action="store_true", help="compute only")
 
@@ -57,4 +61,3 @@ def main(arguments: list[str] | None = None) -> int:
         print(f"kinegraph: {error}", file=sys.stderr)
         return 1
     return 0
-

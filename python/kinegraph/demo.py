@@ -31,7 +31,9 @@ class Summary:
 
     def __str__(self) -> str:
         median = statistics.median(self.times) * 1e6 if self.times else 0.0
-        text = f"{self.solves} solves, worst position error {self.worst_error * 1e3:.2g} mm, median time {median:.0f} µs"
+        text = (
+            f"{self.solves} solves, worst position error {self.worst_error * 1e3:.2g} mm, median time {median:.0f} µs"
+        )
         return text + (f", {self.infeasible} infeasible" if self.infeasible else "")
 
 

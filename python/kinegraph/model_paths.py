@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import difflib
 import os
+import sys
 from pathlib import Path
 
 from .errors import FileError
@@ -12,8 +13,12 @@ _SHIPPED = Path(__file__).parent / "models"
 
 
 def announce() -> None:
-    """Lets `$RAI_PATH` in scene files mean the models that come with the package, unless the user has set it."""
+    """Tells scene files where things are, unless the user has: `$RAI_PATH` is the model collection that comes with the
+    package, and `package://` finds what installed packages such as example-robot-data bring along."""
     os.environ.setdefault("RAI_PATH", str(_SHIPPED))
+    shares = [str(share) for folder in sys.path if (share := Path(folder) / "cmeel.prefix" / "share").is_dir()]
+    if shares:
+        os.environ.setdefault("KINEGRAPH_PACKAGE_PATH", os.pathsep.join(shares))
 
 
 def setRaiPath(folder: str | os.PathLike[str]) -> None:

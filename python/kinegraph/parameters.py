@@ -6,14 +6,20 @@ import secrets
 from pathlib import Path
 from typing import Any
 
-from ._core import parseText, setDefaultSeed
+from ._core import parseText, resetDefaultOptions, setDefaultOption, setDefaultSeed
 
 _values: dict[str, Any] = {}
 
 
 def params_add(values: dict[str, Any] | None = None, **more: Any) -> None:
-    """Sets parameters, from a dict or from keyword arguments."""
-    _values.update(values or {}, **more)
+    """Sets parameters, from a dict or from keyword arguments.
+
+    Those named 'opt/<field>' are defaults of NLP_SolverOptions; an unknown field there is an error.
+    """
+    for name, value in {**(values or {}), **more}.items():
+        if name.startswith("opt/"):
+            setDefaultOption(name.removeprefix("opt/"), value)
+        _values[name] = value
 
 
 def params_file(filename: str) -> None:
@@ -29,6 +35,7 @@ def params_get() -> dict[str, Any]:
 def params_clear() -> None:
     """Forgets all parameters."""
     _values.clear()
+    resetDefaultOptions()
 
 
 def params_print() -> None:

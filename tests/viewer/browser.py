@@ -20,9 +20,19 @@ from camera import HEIGHT, WIDTH
 
 NAMES = ("chromium", "chromium-browser", "google-chrome", "chrome")
 FLAGS = [
-    "--headless=new", "--no-sandbox", "--disable-quic", "--no-first-run", "--disable-background-networking",
-    "--disable-component-update", "--disable-sync", "--disable-extensions", "--mute-audio", "--use-gl=angle",
-    "--use-angle=swiftshader", "--enable-unsafe-swiftshader", "--remote-debugging-port=0",
+    "--headless=new",
+    "--no-sandbox",
+    "--disable-quic",
+    "--no-first-run",
+    "--disable-background-networking",
+    "--disable-component-update",
+    "--disable-sync",
+    "--disable-extensions",
+    "--mute-audio",
+    "--use-gl=angle",
+    "--use-angle=swiftshader",
+    "--enable-unsafe-swiftshader",
+    "--remote-debugging-port=0",
 ]
 
 # the browser decodes its own pictures: rgba bytes in base64
@@ -56,19 +66,24 @@ class Browser:
 
     def __enter__(self) -> Browser:
         with ExitStack() as cleanup:
-            self._profile = cleanup.enter_context(tempfile.TemporaryDirectory(prefix="browser-", ignore_cleanup_errors=True))
+            self._profile = cleanup.enter_context(
+                tempfile.TemporaryDirectory(prefix="browser-", ignore_cleanup_errors=True)
+            )
             program = find()
             assert program, "no Chromium found"
             process = subprocess.Popen(
                 [program, *FLAGS, f"--user-data-dir={self._profile}", "about:blank"],
-                stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL,
+                stdout=subprocess.DEVNULL,
+                stderr=subprocess.DEVNULL,
             )
             cleanup.callback(process.wait, 20)
             cleanup.callback(process.terminate)
             self._socket = cleanup.enter_context(connect(self._page_address(), max_size=None, open_timeout=30))
             self.call("Page.enable")
             self.call("Runtime.enable")
-            self.call("Emulation.setDeviceMetricsOverride", width=WIDTH, height=HEIGHT, deviceScaleFactor=1, mobile=False)
+            self.call(
+                "Emulation.setDeviceMetricsOverride", width=WIDTH, height=HEIGHT, deviceScaleFactor=1, mobile=False
+            )
             self.call("Emulation.setEmulatedMedia", features=[{"name": "prefers-color-scheme", "value": "light"}])
             self._cleanup = cleanup.pop_all()
         return self

@@ -19,8 +19,13 @@ class Program:
         hidden = ("KINEGRAPH_HEADLESS", "DISPLAY", "WAYLAND_DISPLAY")
         inherited = {name: value for name, value in os.environ.items() if name not in hidden}
         self._process = subprocess.Popen(
-            [sys.executable, "-u", "-c", "import kinegraph as kg\n" + code], cwd=folder, text=True, env=inherited | environment,
-            stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=subprocess.STDOUT,
+            [sys.executable, "-u", "-c", "import kinegraph as kg\n" + code],
+            cwd=folder,
+            text=True,
+            env=inherited | environment,
+            stdin=subprocess.DEVNULL,
+            stdout=subprocess.PIPE,
+            stderr=subprocess.STDOUT,
         )
         self._lines: queue.Queue[str | None] = queue.Queue()
         self._reader = threading.Thread(target=self._read, daemon=True)
@@ -39,7 +44,7 @@ class Program:
         while (line := self._lines.get(timeout=PATIENCE)) is not None:
             self.output += line + "\n"
             if line.startswith(start):
-                return line[len(start):].strip()
+                return line[len(start) :].strip()
         raise AssertionError(f"the program ended without printing {start!r}; it printed:\n{self.output}")
 
     def url(self) -> str:

@@ -49,7 +49,9 @@ def panda(config: kg.Config) -> kg.Config:
     return config
 
 
-def test_shapes_appear_where_the_camera_sees_them_in_their_colors_and_sizes(config: kg.Config, browser: Browser) -> None:
+def test_shapes_appear_where_the_camera_sees_them_in_their_colors_and_sizes(
+    config: kg.Config, browser: Browser
+) -> None:
     camera = Camera([0, -3, 1], [0, 0, 1])
     colors = {"red": [1, 0, 0], "green": [0, 1, 0], "blue": [0, 0, 1]}
     for column, (name, color) in enumerate(colors.items()):
@@ -173,7 +175,16 @@ print('end', C.view())
 """)
     browser.open(program.url())
     browser.wait_for("kinegraph.message() == 'a question\\n[press key to continue]'")
-    for key, code in {"x": 120, "X": 120, "7": 55, " ": 32, "Enter": 13, "Escape": 27, "ArrowUp": 265, "F1": 290}.items():
+    for key, code in {
+        "x": 120,
+        "X": 120,
+        "7": 55,
+        " ": 32,
+        "Enter": 13,
+        "Escape": 27,
+        "ArrowUp": 265,
+        "F1": 290,
+    }.items():
         browser.press("Shift")
         browser.press(key)
         assert program.line("key") == str(code)

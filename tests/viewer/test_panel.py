@@ -20,8 +20,12 @@ LEAVES = "[...document.querySelectorAll('#tree .leaf, #tree summary')].filter((x
 def page(config: kg.Config, browser: Browser) -> Iterator[Browser]:
     """Shows a table with a box and a ghost on it, and a marker."""
     config.addFrame("table").setShape(kg.ST.ssBox, [1, 1, 0.1, 0.02]).setColor([0, 0.7, 0])
-    config.addFrame("box", "table").setShape(kg.ST.box, [0.3, 0.3, 0.3]).setColor([1, 0, 0]).setRelativePosition([0, 0, 0.5])
-    config.addFrame("ghost", "table").setShape(kg.ST.sphere, [0.2]).setColor([0, 0, 1, 0.5]).setRelativePosition([0.4, 0, 0.9])
+    config.addFrame("box", "table").setShape(kg.ST.box, [0.3, 0.3, 0.3]).setColor([1, 0, 0]).setRelativePosition(
+        [0, 0, 0.5]
+    )
+    config.addFrame("ghost", "table").setShape(kg.ST.sphere, [0.2]).setColor([0, 0, 1, 0.5]).setRelativePosition(
+        [0.4, 0, 0.9]
+    )
     config.addFrame("target").setShape(kg.ST.marker, [0.5]).setPosition([-0.5, 0, 1])
     config.view()
     config.viewer().setCamera(CAMERA.position, CAMERA.target)
@@ -31,7 +35,12 @@ def page(config: kg.Config, browser: Browser) -> Iterator[Browser]:
 
 
 # a point of each thing that nothing is in front of, and the channel of its color
-PLACES = {"table": ([0.3, 0.4, 0.05], 1), "box": ([0, 0.15, 0.5], 0), "ghost": ([0.4, 0, 0.9], 2), "target": ([-0.5, 0, 1.2], 2)}
+PLACES = {
+    "table": ([0.3, 0.4, 0.05], 1),
+    "box": ([0, 0.15, 0.5], 0),
+    "ghost": ([0.4, 0, 0.9], 2),
+    "target": ([-0.5, 0, 1.2], 2),
+}
 CAMERA = Camera([0, 3, 1], [0, 0, 0.5])
 
 
@@ -61,7 +70,9 @@ def test_switches_hide_and_show_kinds_of_shapes(page: Browser) -> None:
 
 def test_names_and_axes_of_frames_can_be_shown(page: Browser) -> None:
     page.press_alt("N")
-    page.wait_for("[...document.querySelectorAll('.name')].map((x) => x.textContent).join() == 'table,box,ghost,target'")
+    page.wait_for(
+        "[...document.querySelectorAll('.name')].map((x) => x.textContent).join() == 'table,box,ghost,target'"
+    )
     assert page.is_visible(".name")
     geometries = page.evaluate("kinegraph.geometries()")
     page.press_alt("N")
@@ -78,7 +89,9 @@ def test_the_tree_shows_hides_and_searches_frames(page: Browser) -> None:
     page.wait_for(f"{LEAVES} == 'table box'")
     page.type("xyz")
     page.wait_for("document.querySelector('#tree').textContent == 'no such frame'")
-    page.evaluate("document.querySelector('#search').value = ''; document.querySelector('#search').dispatchEvent(new Event('input'))")
+    page.evaluate(
+        "document.querySelector('#search').value = ''; document.querySelector('#search').dispatchEvent(new Event('input'))"
+    )
     page.evaluate("document.querySelector('[aria-label=\"show box\"]').click()")
     assert seen(page) >= {"table", "ghost"}
     assert "box" not in seen(page)
@@ -106,7 +119,11 @@ def test_everything_in_the_panel_is_reached_by_the_tab_key(page: Browser) -> Non
     reached = set()
     for _ in range(20):
         page.press("Tab", code="Tab", windowsVirtualKeyCode=9)
-        reached.add(page.evaluate("document.activeElement.ariaLabel || document.activeElement.id || document.activeElement.tagName"))
+        reached.add(
+            page.evaluate(
+                "document.activeElement.ariaLabel || document.activeElement.id || document.activeElement.tagName"
+            )
+        )
     assert {"show table", "show box", "show ghost", "show target", "SUMMARY", "search frames", "picture"} <= reached
 
 

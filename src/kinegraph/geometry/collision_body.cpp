@@ -5,6 +5,7 @@
 
 #include "kinegraph/base/errors.h"
 #include "kinegraph/geometry/collision_body_convex.h"
+#include "kinegraph/geometry/convex_hull.h"
 #include "kinegraph/geometry/tessellation.h"
 
 namespace kinegraph {
@@ -12,13 +13,10 @@ namespace kinegraph {
 namespace {
 
 /// The hull of points; where they lie in a plane or fewer, a hull that is thickened by a hair.
-std::unique_ptr<coal::CollisionGeometry> hullOf(std::vector<Vector3d> points) {
-  auto given = std::make_shared<std::vector<coal::Vec3s>>(points.begin(), points.end());
-  try {
-    if (points.size() >= 4) {
-      return std::unique_ptr<coal::CollisionGeometry>(coal::ConvexBase::convexHull(given, unsigned(points.size()), false));
-    }
-  } catch (const std::exception&) {
+std::unique_ptr<coal::CollisionGeometry> hullOf(const std::vector<Vector3d>& points) {
+  if (spanVolume(points)) {
+    auto given = std::make_shared<std::vector<coal::Vec3s>>(points.begin(), points.end());
+    return std::unique_ptr<coal::CollisionGeometry>(coal::ConvexBase::convexHull(given, unsigned(points.size()), false));
   }
   auto thick = std::make_shared<std::vector<coal::Vec3s>>();
   const double hair = 1e-6;
@@ -41,7 +39,8 @@ std::shared_ptr<const CollisionBody> makeCollisionBody(const Geometry& geometry)
   const std::shared_ptr<CollisionBody> body(new CollisionBody);
   const std::vector<double>& s = geometry.size;
   const auto setBox = [&](const Vector3d& half) {
-    body->core_ = CollisionBody::Core::other;
+    body->core_ = CollisionBody::Core::box;
+    body->half_sides_ = half;
     body->convex_->shape = std::make_unique<coal::Box>(2. * half.x(), 2. * half.y(), 2. * half.z());
     body->bound_radius_ = half.norm();
   };
@@ -74,11 +73,12 @@ std::shared_ptr<const CollisionBody> makeCollisionBody(const Geometry& geometry)
     case ShapeType::cylinder:
     case ShapeType::ssCylinder: {
       const double r = geometry.type == ShapeType::ssCylinder ? s[2] : 0.;
-      const double core_radius = std::max(s[1] - r, 1e-9), core_length = std::max(s[0] - 2. * r, 1e-9);
       body->radius_ = r;
-      body->core_ = CollisionBody::Core::other;
-      body->convex_->shape = std::make_unique<coal::Cylinder>(core_radius, core_length);
-      body->bound_radius_ = std::hypot(core_radius, .5 * core_length);
+      body->core_ = CollisionBody::Core::cylinder;
+      body->core_radius_ = std::max(s[1] - r, 1e-9);
+      body->half_length_ = std::max(.5 * s[0] - r, 1e-9);
+      body->convex_->shape = std::make_unique<coal::Cylinder>(body->core_radius_, 2. * body->half_length_);
+      body->bound_radius_ = std::hypot(body->core_radius_, body->half_length_);
       break;
     }
     case ShapeType::ssCvx:

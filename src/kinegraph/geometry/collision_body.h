@@ -12,14 +12,16 @@ namespace kinegraph {
 /// ssCvx: the convex hull of the points; ssBoxElip: the hull of its surface points.
 class CollisionBody {
  public:
-  enum class Core { point, segment, other };  ///< `segment` runs along z
+  enum class Core { point, segment, box, cylinder, other };  ///< `segment` and `cylinder` run along z
 
   CollisionBody(const CollisionBody&) = delete;
   ~CollisionBody();
 
   Core core() const { return core_; }
   double radius() const { return radius_; }            ///< of the ball, m
-  double halfLength() const { return half_length_; }   ///< of a segment
+  double halfLength() const { return half_length_; }   ///< of a segment or cylinder
+  double coreRadius() const { return core_radius_; }   ///< of a cylinder
+  const Vector3d& halfSides() const { return half_sides_; }  ///< of a box
   const Vector3d& boundCenter() const { return bound_center_; }  ///< bounding sphere of the whole body, local
   double boundRadius() const { return bound_radius_; }
 
@@ -32,8 +34,8 @@ class CollisionBody {
   CollisionBody();
 
   Core core_ = Core::point;
-  double radius_ = 0., half_length_ = 0.;
-  Vector3d bound_center_ = Vector3d::Zero();
+  double radius_ = 0., half_length_ = 0., core_radius_ = 0.;
+  Vector3d half_sides_ = Vector3d::Zero(), bound_center_ = Vector3d::Zero();
   double bound_radius_ = 0.;
   std::unique_ptr<Convex> convex_;
 };

@@ -13,6 +13,7 @@ namespace {
 
 ShellMass boxShell(double a, double b, double c) {
   const double x = b * c, y = a * c, z = a * b, sum = x + y + z;  // half the areas of the faces across each axis
+  if (sum <= 0.) throw ValueError(cat("a box of ", a, " x ", b, " x ", c, " has no surface to carry a mass"));
   const auto about = [&](double own, double p, double q, double across_p, double across_q) {
     return (own * (p * p + q * q) / 12. + across_p * (p * p / 4. + q * q / 12.) + across_q * (p * p / 12. + q * q / 4.)) / sum;
   };

@@ -4,6 +4,7 @@
 #include <assimp/postprocess.h>
 #include <assimp/scene.h>
 
+#include <algorithm>
 #include <assimp/Importer.hpp>
 #include <cmath>
 #include <filesystem>
@@ -53,6 +54,13 @@ Mesh readMeshFile(const std::string& path) {
   }
   Mesh mesh;
   append(*scene, *scene->mRootNode, aiMatrix4x4(), mesh);
+  if (mesh.vertices.empty()) throw FileError(cat("mesh file '", path, "' holds no vertices"));
+  const auto broken =
+      std::find_if_not(mesh.vertices.begin(), mesh.vertices.end(), [](const Vector3d& p) { return p.allFinite(); });
+  if (broken != mesh.vertices.end()) {
+    throw FileError(cat("mesh file '", path, "': vertex ", broken - mesh.vertices.begin(), " is (", broken->transpose(),
+                        "); coordinates must be finite"));
+  }
   return mesh;
 }
 

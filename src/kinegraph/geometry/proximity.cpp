@@ -5,7 +5,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "kinegraph/geometry/box_box_distance.h"
 #include "kinegraph/geometry/collision_body_convex.h"
+#include "kinegraph/geometry/cylinder_distance.h"
 
 namespace kinegraph {
 
@@ -13,20 +15,14 @@ namespace {
 
 using Core = CollisionBody::Core;
 
-/// A point of a segment core, at `s` in [-half, half] along its axis.
-struct Segment {
-  Vector3d center, axis;
-  double half;
-  Vector3d at(double s) const { return center + s * axis; }
-};
-
-Segment segmentOf(const CollisionBody& body, const RigidTransform& X) {
+/// The core as a segment; a point is one without length.
+SegmentCore segmentOf(const CollisionBody& body, const RigidTransform& X) {
   return {X.p, X.R.col(2), body.core() == Core::segment ? body.halfLength() : 0.};
 }
 
 /// Nearest points of two segments. For parallel ones the middle of the stretch where they run side by side.
 /// Source: Ericson, Real-Time Collision Detection, 5.1.9.
-void nearestPoints(const Segment& a, const Segment& b, Vector3d& on_a, Vector3d& on_b) {
+void nearestPoints(const SegmentCore& a, const SegmentCore& b, Vector3d& on_a, Vector3d& on_b) {
   const Vector3d r = a.center - b.center;
   const double along = a.axis.dot(b.axis), ra = a.axis.dot(r), rb = b.axis.dot(r), denominator = 1. - along * along;
   const auto clampTo = [](double s, double half) { return std::clamp(s, -half, half); };
@@ -74,7 +70,7 @@ Proximity fromCores(const CollisionBody& a, const CollisionBody& b, const Vector
 }
 
 Proximity ofSegments(const CollisionBody& a, const RigidTransform& X_WA, const CollisionBody& b, const RigidTransform& X_WB) {
-  const Segment segment_a = segmentOf(a, X_WA), segment_b = segmentOf(b, X_WB);
+  const SegmentCore segment_a = segmentOf(a, X_WA), segment_b = segmentOf(b, X_WB);
   Vector3d core_a, core_b;
   nearestPoints(segment_a, segment_b, core_a, core_b);
   const Vector3d gap = core_a - core_b;
@@ -89,14 +85,30 @@ Proximity ofSegments(const CollisionBody& a, const RigidTransform& X_WA, const C
   return fromCores(a, b, core_a, core_b, normal, distance);
 }
 
+/// `a` may be a point, a segment or a box.
+NearestPoints toBox(const CollisionBody& a, const RigidTransform& X_WA, const CollisionBody& b, const RigidTransform& X_WB) {
+  const BoxCore box{X_WB, b.halfSides()};
+  switch (a.core()) {
+    case Core::point: return pointToBox(X_WA.p, box);
+    case Core::segment: return segmentToBox(segmentOf(a, X_WA), box);
+    default: return boxToBox({X_WA, a.halfSides()}, box);
+  }
+}
+
 Proximity ofConvexes(const CollisionBody& a, const RigidTransform& X_WA, const CollisionBody& b, const RigidTransform& X_WB) {
   coal::DistanceRequest request;
   request.enable_signed_distance = true;
   request.gjk_tolerance = 1e-10;
-  request.epa_tolerance = 1e-8;
+  request.epa_max_iterations = 512;
   coal::DistanceResult result;
   const coal::Transform3s T_A(X_WA.R, X_WA.p), T_B(X_WB.R, X_WB.p);
-  const double distance = coal::distance(a.convex().shape.get(), T_A, b.convex().shape.get(), T_B, request, result);
+  double distance = 0.;
+  for (const double tolerance : {1e-8, 1e-6, 1e-4, 1e-2}) {  // of the depth, which round shapes may not reach
+    request.epa_tolerance = tolerance;
+    result.clear();
+    distance = coal::distance(a.convex().shape.get(), T_A, b.convex().shape.get(), T_B, request, result);
+    if (distance > -a.boundRadius() - b.boundRadius()) break;
+  }
   const Vector3d core_a = result.nearest_points[0], core_b = result.nearest_points[1];
   const Vector3d gap = core_a - core_b;
   Vector3d normal = -result.normal;
@@ -111,7 +123,20 @@ Proximity ofConvexes(const CollisionBody& a, const RigidTransform& X_WA, const C
 }  // namespace
 
 Proximity proximity(const CollisionBody& a, const RigidTransform& X_WA, const CollisionBody& b, const RigidTransform& X_WB) {
-  if (a.core() != Core::other && b.core() != Core::other) return ofSegments(a, X_WA, b, X_WB);
+  const auto isSegment = [](Core core) { return core == Core::point || core == Core::segment; };
+  const auto fromNearest = [&](const NearestPoints& near) {
+    return fromCores(a, b, near.point_a, near.point_b, near.normal, near.distance);
+  };
+  const bool small_a = isSegment(a.core()), small_b = isSegment(b.core());
+  if (small_a && small_b) return ofSegments(a, X_WA, b, X_WB);
+  if (b.core() == Core::box && (small_a || a.core() == Core::box)) return fromNearest(toBox(a, X_WA, b, X_WB));
+  if (a.core() == Core::box && small_b) return fromNearest(toBox(b, X_WB, a, X_WA).swapped());
+  if (a.core() == Core::point && b.core() == Core::cylinder) {
+    return fromNearest(pointToCylinder(X_WA.p, {X_WB, b.coreRadius(), b.halfLength()}));
+  }
+  if (a.core() == Core::cylinder && b.core() == Core::point) {
+    return fromNearest(pointToCylinder(X_WB.p, {X_WA, a.coreRadius(), a.halfLength()}).swapped());
+  }
   return ofConvexes(a, X_WA, b, X_WB);
 }
 

@@ -15,6 +15,11 @@ using JacobianRows =
 /// After construction nothing here requests memory.
 class State {
  public:
+  /// Velocity field of a dof: angular, rad/s, and linear at the world's origin, m/s, per unit of the dof's velocity.
+  struct Twist {
+    Vector3d angular, linear;
+  };
+
   State(std::shared_ptr<const Program> program, std::shared_ptr<const Parameters> parameters);
 
   const Program& program() const { return *program_; }
@@ -31,6 +36,9 @@ class State {
   const VectorXd& q() const { return q_; }
   int link(int frame) const { return program_->frame_link[frame]; }
   const RigidTransform& linkPose(int link) const { return link_pose_[link]; }
+
+  /// The velocity field of a twist column (see Program::chain and Program::column_dof).
+  const Twist& twist(int column) const { return twists_[column]; }
 
   /// X_WF of a frame.
   RigidTransform pose(int frame) const { return link_pose_[link(frame)] * parameters_->frame_offset[frame]; }
@@ -63,9 +71,6 @@ class State {
   }
 
  private:
-  struct Twist {  ///< velocity field of a dof: omega, and v at the world's origin
-    Vector3d angular, linear;
-  };
   void update();
 
   std::shared_ptr<const Program> program_;

@@ -109,6 +109,16 @@ std::shared_ptr<const Parameters> collectParameters(const SceneTree& scene, cons
   return parameters;
 }
 
+std::vector<LinkInertia> collectInertias(const SceneTree& scene, const Program& program, const Parameters& parameters) {
+  std::vector<LinkInertia> links(program.links.size());
+  for (const auto& frame : scene.frames()) {
+    if (!frame->inertia) continue;
+    links[program.frame_link[frame->id]].add({frame->inertia->mass, frame->inertia->com, frame->inertia->matrix},
+                                             parameters.frame_offset[frame->id]);
+  }
+  return links;
+}
+
 namespace {
 
 const FrameData* linkFrame(const FrameData* frame) {

@@ -261,6 +261,27 @@ void Config::setRandom(Rng& rng) {
   scene_->jointsChanged();
 }
 
+namespace {
+
+void checkVelocity(const VectorXd& velocity, int dofs, const char* call) {
+  if (velocity.size() != dofs || !velocity.allFinite()) {
+    throw ValueError(cat("Config::", call, ": got ", velocity.size(), " numbers; expected ", dofs, " finite ones, one per dof"));
+  }
+}
+
+}  // namespace
+
+EquationOfMotion Config::equationOfMotion(const VectorXd& velocity) const {
+  checkVelocity(velocity, getJointDimension(), "equationOfMotion");
+  return kinegraph::equationOfMotion(scene_->state(), inertias(), velocity);
+}
+
+VectorXd Config::inverseDynamics(const VectorXd& velocity, const VectorXd& acceleration) const {
+  checkVelocity(velocity, getJointDimension(), "inverseDynamics");
+  checkVelocity(acceleration, getJointDimension(), "inverseDynamics");
+  return kinegraph::inverseDynamics(scene_->state(), inertias(), velocity, acceleration);
+}
+
 std::vector<Config::NearPair> Config::getCollisions(double margin) const {
   const State& state = scene_->state();
   const Program& program = state.program();

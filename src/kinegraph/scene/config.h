@@ -87,6 +87,20 @@ class Config {
   /// Draws q: per joint uniform within its limits, or Gaussian around its home and clipped, as its sampling attributes say.
   void setRandom(Rng& rng);
 
+  // --- dynamics ---------------------------------------------------------------------------------------------------
+
+  /// What each link weighs; links as in program().
+  std::vector<LinkInertia> inertias() const { return collectInertias(*scene_, *scene_->program(), *scene_->parameters()); }
+
+  /// M(q) and F(q, dq) of u = M ddq + F at the present q, with gravity 9.81 m/s^2 along -z.
+  EquationOfMotion equationOfMotion(const VectorXd& velocity) const;
+
+  /// Generalized forces u (N m, N) for a velocity and an acceleration of q.
+  VectorXd inverseDynamics(const VectorXd& velocity, const VectorXd& acceleration) const;
+
+  /// Total mass of everything that moves, kg, and its centre, world coordinates, m.
+  std::pair<double, Vector3d> centerOfMass() const { return kinegraph::centerOfMass(scene_->state(), inertias()); }
+
   // --- collisions ------------------------------------------------------------------------------------------------
 
   struct NearPair {

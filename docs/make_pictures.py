@@ -1,0 +1,51 @@
+#!/usr/bin/env python3
+"""Makes the pictures of the documentation: the viewer's page in a headless Chromium. Needs the package, and `websockets`."""
+
+import sys
+import time
+from pathlib import Path
+
+import numpy as np
+
+import kinegraph as ry
+
+HERE = Path(__file__).parent
+sys.path.append(str(HERE.parent / "tests" / "viewer"))
+
+from browser import Browser  # noqa: E402
+
+
+def reaching() -> ry.Config:
+    """A Panda whose gripper is at a target, and what it went through on its way."""
+    C = ry.Config()
+    C.addFile(ry.raiPath("scenarios/pandaSingle.g"))
+    C.addFrame("target", "table").setShape(ry.ST.marker, [0.2]).setRelativePosition([0.25, 0.35, 0.35])
+    C.addFrame("box", "table").setShape(ry.ST.ssBox, [0.12, 0.12, 0.16, 0.02]).setRelativePosition(
+        [-0.25, 0.3, 0.13]
+    ).setColor([1.0, 0.5, 0.1])
+    C.addFrame("ball", "table").setShape(ry.ST.sphere, [0.06]).setRelativePosition([-0.05, 0.45, 0.11]).setColor(
+        [0.2, 0.6, 0.9]
+    )
+    komo = ry.KOMO(C, 1, 1, 0, False)
+    komo.addObjective([], ry.FS.jointState, [], ry.OT.sos, [1e-1], C.getJointState())
+    komo.addObjective([], ry.FS.positionDiff, ["l_gripper", "target"], ry.OT.eq, [1e1])
+    assert ry.NLP_Solver(komo.nlp(), verbose=0).solve().feasible
+    C.setJointState(komo.getPath()[0])
+    return C
+
+
+def main() -> None:
+    C = reaching()
+    viewer = C.viewer()
+    C.view()
+    with Browser() as browser:
+        browser.open(viewer.url)
+        viewer.waitForClient(60)
+        center = C.getFrame("l_gripper").getPosition() * [0.4, 0.4, 0.85]
+        viewer.setCamera(center + np.array([1.35, 1.35, 0.65]), center)
+        time.sleep(5)  # software rendering takes its time
+        browser.screenshot(HERE / "panda.png")
+
+
+if __name__ == "__main__":
+    main()

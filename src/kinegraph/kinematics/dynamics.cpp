@@ -1,0 +1,168 @@
+#include "kinegraph/kinematics/dynamics.h"
+
+namespace kinegraph {
+
+namespace {
+
+/// Velocity field of a rigid body, or its rate: angular, and linear at the world's origin.
+struct Motion {
+  Vector3d angular = Vector3d::Zero(), linear = Vector3d::Zero();
+
+  void add(double factor, const Motion& other) {
+    angular += factor * other.angular;
+    linear += factor * other.linear;
+  }
+};
+
+/// Rate of a velocity field B that is carried along by A: their Lie bracket.
+Motion carried(const Motion& A, const Motion& B) {
+  return {A.angular.cross(B.angular), A.angular.cross(B.linear) + A.linear.cross(B.angular)};
+}
+
+/// Momentum or force: angular about the world's origin, and linear.
+struct Wrench {
+  Vector3d angular = Vector3d::Zero(), linear = Vector3d::Zero();
+};
+
+struct WorldInertia {
+  double mass;
+  Vector3d com;
+  Matrix3d matrix;
+
+  WorldInertia(const LinkInertia& inertia, const RigidTransform& X_WL)
+      : mass(inertia.mass), com(X_WL * inertia.com), matrix(X_WL.R * inertia.matrix * X_WL.R.transpose()) {}
+
+  Wrench times(const Motion& motion) const {
+    const Vector3d linear = mass * (motion.linear + motion.angular.cross(com));
+    return {matrix * motion.angular + com.cross(linear), linear};
+  }
+};
+
+Motion column(const State& state, int index) { return {state.twist(index).angular, state.twist(index).linear}; }
+
+double power(const Motion& motion, const Wrench& wrench) {
+  return motion.angular.dot(wrench.angular) + motion.linear.dot(wrench.linear);
+}
+
+/// Velocities of all links, and accelerations for the given ddq; the world accelerates against gravity.
+struct LinkMotions {
+  std::vector<Motion> velocity, acceleration;
+};
+
+LinkMotions propagate(const State& state, const VectorXd& dq, const VectorXd* ddq, const Vector3d& gravity) {
+  const Program& program = state.program();
+  LinkMotions motions{std::vector<Motion>(program.links.size()), std::vector<Motion>(program.links.size())};
+  motions.acceleration[0].linear = -gravity;
+  for (std::size_t l = 1; l < program.links.size(); ++l) {
+    const Program::Link& link = program.links[l];
+    Motion V = motions.velocity[link.parent], A = motions.acceleration[link.parent];
+    int index = link.first_column;
+    for (int s = link.first_step; s < link.first_step + link.steps; ++s) {
+      Motion own;  // velocity that this step adds
+      double norm_rate = 0., square = 0.;
+      for (int k = 0; k < program.steps[s].dofs(); ++k, ++index) {
+        const int dof = program.column_dof[index];
+        own.add(dq[dof], column(state, index));
+        if (ddq) A.add((*ddq)[dof], column(state, index));
+        norm_rate += state.q()[dof] * dq[dof];
+        square += state.q()[dof] * state.q()[dof];
+      }
+      A.add(1., carried(V, own));
+      // Of a quaternion, w = 2 vec(dq q*) / |q|^2 also changes with the norm.
+      if (program.steps[s].dofs() > 1) A.add(-2. * norm_rate / std::max(square, 1e-100), own);
+      V.add(1., own);
+    }
+    motions.velocity[l] = V;
+    motions.acceleration[l] = A;
+  }
+  return motions;
+}
+
+VectorXd newtonEuler(const State& state, const std::vector<LinkInertia>& inertias, const VectorXd& dq, const VectorXd* ddq,
+                     const Vector3d& gravity) {
+  const Program& program = state.program();
+  const LinkMotions motions = propagate(state, dq, ddq, gravity);
+  std::vector<Wrench> wrench(program.links.size());
+  VectorXd force = VectorXd::Zero(program.dofs);
+  for (std::size_t l = program.links.size() - 1; l > 0; --l) {
+    const Program::Link& link = program.links[l];
+    const WorldInertia inertia(inertias[l], state.linkPose(int(l)));
+    const Motion& V = motions.velocity[l];
+    const Wrench rate = inertia.times(motions.acceleration[l]), momentum = inertia.times(V);
+    wrench[l].linear += rate.linear + V.angular.cross(momentum.linear);
+    wrench[l].angular += rate.angular + V.angular.cross(momentum.angular) + V.linear.cross(momentum.linear);
+    const bool last = l + 1 == program.links.size();
+    const int end = last ? int(program.column_dof.size()) : program.links[l + 1].first_column;
+    for (int index = link.first_column; index < end; ++index) {
+      force[program.column_dof[index]] += power(column(state, index), wrench[l]);
+    }
+    wrench[link.parent].linear += wrench[l].linear;
+    wrench[link.parent].angular += wrench[l].angular;
+  }
+  return force;
+}
+
+}  // namespace
+
+void LinkInertia::add(const LinkInertia& part, const RigidTransform& X_LF) {
+  if (part.mass == 0. && part.matrix.isZero(0.)) return;
+  const double total = mass + part.mass;
+  const Vector3d part_com = X_LF * part.com;
+  const Vector3d common = total > 0. ? Vector3d((mass * com + part.mass * part_com) / total) : com;
+  const auto about = [&](double m, const Vector3d& c) {  // parallel axes
+    const Vector3d r = c - common;
+    return Matrix3d(m * (r.squaredNorm() * Matrix3d::Identity() - r * r.transpose()));
+  };
+  matrix += about(mass, com) + X_LF.R * part.matrix * X_LF.R.transpose() + about(part.mass, part_com);
+  mass = total;
+  com = common;
+}
+
+VectorXd inverseDynamics(const State& state, const std::vector<LinkInertia>& inertias, const VectorXd& velocity,
+                         const VectorXd& acceleration, const Vector3d& gravity) {
+  return newtonEuler(state, inertias, velocity, &acceleration, gravity);
+}
+
+EquationOfMotion equationOfMotion(const State& state, const std::vector<LinkInertia>& inertias, const VectorXd& velocity,
+                                  const Vector3d& gravity) {
+  const Program& program = state.program();
+  EquationOfMotion equation{MatrixXd::Zero(program.dofs, program.dofs), newtonEuler(state, inertias, velocity, nullptr, gravity)};
+  for (std::size_t l = 1; l < program.links.size(); ++l) {
+    const WorldInertia inertia(inertias[l], state.linkPose(int(l)));
+    if (inertia.mass == 0. && inertia.matrix.isZero(0.)) continue;
+    for (int i = program.chain_start[l]; i < program.chain_start[l + 1]; ++i) {
+      const Wrench momentum = inertia.times(column(state, program.chain[i]));
+      for (int k = program.chain_start[l]; k < program.chain_start[l + 1]; ++k) {
+        equation.M(program.column_dof[program.chain[i]], program.column_dof[program.chain[k]]) +=
+            power(column(state, program.chain[k]), momentum);
+      }
+    }
+  }
+  return equation;
+}
+
+std::pair<double, Vector3d> centerOfMass(const State& state, const std::vector<LinkInertia>& inertias) {
+  double mass = 0.;
+  Vector3d moment = Vector3d::Zero();
+  for (std::size_t l = 1; l < inertias.size(); ++l) {
+    mass += inertias[l].mass;
+    moment += inertias[l].mass * (state.linkPose(int(l)) * inertias[l].com);
+  }
+  return {mass, mass > 0. ? Vector3d(moment / mass) : moment};
+}
+
+double kineticEnergy(const State& state, const std::vector<LinkInertia>& inertias, const VectorXd& velocity) {
+  const LinkMotions motions = propagate(state, velocity, nullptr, Vector3d::Zero());
+  double twice = 0.;
+  for (std::size_t l = 1; l < inertias.size(); ++l) {
+    twice += power(motions.velocity[l], WorldInertia(inertias[l], state.linkPose(int(l))).times(motions.velocity[l]));
+  }
+  return .5 * twice;
+}
+
+double potentialEnergy(const State& state, const std::vector<LinkInertia>& inertias, const Vector3d& gravity) {
+  const auto [mass, com] = centerOfMass(state, inertias);
+  return -mass * gravity.dot(com);
+}
+
+}  // namespace kinegraph

@@ -1,0 +1,27 @@
+"""Nothing here opens a browser or waits for a key."""
+
+import os
+
+os.environ["KINEGRAPH_HEADLESS"] = "1"
+
+import json
+from pathlib import Path
+
+import pytest
+
+import kinegraph as ry
+
+DATA = Path(__file__).parent.parent / "data"
+
+
+def recorded(name: str) -> dict:
+    """Numbers recorded from another implementation; the file says which."""
+    return json.loads((DATA / f"{name}.json").read_text())
+
+
+@pytest.fixture
+def panda() -> ry.Config:
+    """A Panda at a table."""
+    C = ry.Config()
+    C.addFile(ry.raiPath("scenarios/pandaSingle.g"))
+    return C

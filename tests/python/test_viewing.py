@@ -1,0 +1,95 @@
+"""view() and watchFile() without a browser: they never wait where nobody can answer, and Ctrl-C ends them where they do."""
+
+import os
+import signal
+import subprocess
+import sys
+import time
+
+import pytest
+from websockets.sync.client import connect
+
+import kinegraph as ry
+
+PROGRAM = """
+import kinegraph as ry
+C = ry.Config()
+C.addFile(ry.raiPath('scenarios/pandaSingle.g'))
+print('READY', C.viewer().url, flush=True)
+try:
+    key = {call}
+    print('KEY', key, flush=True)
+except KeyboardInterrupt:
+    print('INTERRUPTED', C.getJointDimension(), flush=True)
+"""
+
+
+class Viewing:
+    """A program that has a page open; it ends with the block."""
+
+    def __init__(self, call):
+        environment = {
+            name: value
+            for name, value in os.environ.items()
+            if name not in ("KINEGRAPH_HEADLESS", "DISPLAY", "WAYLAND_DISPLAY")
+        }
+        self.program = subprocess.Popen(
+            [sys.executable, "-c", PROGRAM.replace("{call}", call)],
+            env=environment,
+            stdin=subprocess.DEVNULL,
+            stdout=subprocess.PIPE,
+            stderr=subprocess.PIPE,
+            text=True,
+        )
+        self.url = self.line("READY").split()[1]
+
+    def line(self, start):
+        for line in self.program.stdout:
+            if line.startswith(start):
+                return line
+        raise AssertionError(self.program.communicate()[1])
+
+    def connect(self):
+        return connect(self.url.replace("http", "ws").rstrip("/") + "/ws", max_size=None, origin=self.url.rstrip("/"))
+
+    def __enter__(self):
+        return self
+
+    def __exit__(self, *_):
+        self.program.kill()
+        self.program.communicate()
+
+
+def test_nothing_waits_without_a_display():
+    C = ry.Config()
+    C.addFrame("a").setShape("box", [1, 1, 1])
+    started = time.monotonic()
+    assert C.view(True, "press a key") == 0
+    C.watchFile(ry.raiPath("panda/panda.g"))
+    C.view_close()
+    assert time.monotonic() - started < 20
+
+
+def test_two_viewers_take_two_ports():
+    one, two = ry.Config(), ry.Config()
+    one.view()
+    two.view()
+    assert one.viewer().url != two.viewer().url
+
+
+def test_a_configuration_can_be_shown_in_anothers_viewer():
+    one, two = ry.Config(), ry.Config()
+    two.set_viewer(one.get_viewer())
+    assert one.viewer().url == two.viewer().url
+
+
+@pytest.mark.parametrize("call", ["C.view(True)", "C.watchFile(ry.raiPath('scenarios/pandaSingle.g'))"])
+def test_ctrl_c_ends_the_waiting(call):
+    waiting = "C.view(), C.viewer().waitForClient(60), print('WAITING', flush=True)"
+    with Viewing(f"({waiting}, {call})") as viewing, viewing.connect():
+        viewing.line("WAITING")
+        time.sleep(0.3)
+        assert viewing.program.poll() is None
+        viewing.program.send_signal(signal.SIGINT)
+        assert viewing.line("INTERRUPTED") == "INTERRUPTED 7\n"
+        assert viewing.program.wait(20) == 0

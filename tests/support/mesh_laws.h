@@ -1,0 +1,33 @@
+#pragma once
+
+#include <map>
+#include <utility>
+
+#include "kinegraph/geometry/geometry.h"
+
+namespace kinegraph::testing {
+
+/// Edges that are not run through exactly once in each direction: 0 for a closed surface of one orientation.
+inline int openEdges(const Mesh& mesh) {
+  std::map<std::pair<std::uint32_t, std::uint32_t>, int> count;
+  for (const auto& triangle : mesh.triangles) {
+    for (int i = 0; i < 3; ++i) ++count[{triangle[i], triangle[(i + 1) % 3]}];
+  }
+  int open = 0;
+  for (const auto& [edge, times] : count) {
+    const auto back = count.find({edge.second, edge.first});
+    if (times != 1 || back == count.end() || back->second != 1) ++open;
+  }
+  return open;
+}
+
+/// Positive for a closed mesh whose triangles look outward, m^3.
+inline double volume(const Mesh& mesh) {
+  double sum = 0.;
+  for (const auto& [i, j, k] : mesh.triangles) {
+    sum += mesh.vertices[i].dot(mesh.vertices[j].cross(mesh.vertices[k])) / 6.;
+  }
+  return sum;
+}
+
+}  // namespace kinegraph::testing
