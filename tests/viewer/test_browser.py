@@ -16,6 +16,8 @@ from browser import Browser
 from camera import HEIGHT, WIDTH, Camera
 from program import Program
 
+pytest_plugins = ["fixtures"]
+
 Start = Callable[..., Program]
 PAPER = (236, 238, 242)
 LINKS = [f"l_panda_joint{i}" for i in range(1, 8)]

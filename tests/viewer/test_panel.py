@@ -13,6 +13,8 @@ import kinegraph as kg
 from browser import Browser
 from camera import Camera
 
+pytest_plugins = ["fixtures"]
+
 LEAVES = "[...document.querySelectorAll('#tree .leaf, #tree summary')].filter((x) => x.checkVisibility()).map((x) => x.textContent).join(' ')"
 
 
