@@ -14,7 +14,7 @@ namespace {
 constexpr double kTolerance = 1e-6;    ///< of a Jacobian, relative
 constexpr double kTau = .3;            ///< s
 constexpr int kSamples = 4;            ///< random joint vectors per feature, frames and order
-constexpr double kLeastUsed = .95;     ///< part of the samples of a symbol that must be differentiable
+constexpr double kLeastUsed = .9;     ///< part of the samples of a symbol that must be differentiable
 
 /// Two chains whose joints are given, with a shape at the end of each, and a third body on the first chain. All of them
 /// are turned against each other, so that no faces are parallel, and near enough to touch for some q.

@@ -32,14 +32,15 @@ TEST(Residual, SubtractsTheTargetFirstAndScalesThen) {
   EXPECT_TRUE(near(scaled(config, position, {"A"}, row({2})), numbers({2, 4, 6}), 1e-14));
   EXPECT_TRUE(near(scaled(config, position, {"A"}, row({2}), numbers({1, 1, 1})), numbers({0, 2, 4}), 1e-14));
   EXPECT_TRUE(near(scaled(config, position, {"A"}, {}, numbers({1})), numbers({0, 1, 2}), 1e-14));
-  EXPECT_TRUE(near(scaled(config, position, {"A"}, row({1, 0, -1})), numbers({1, 0, -3}), 1e-14));
+  EXPECT_TRUE(near(scaled(config, position, {"A"}, numbers({1, 0, -1})), numbers({1, 0, -3}), 1e-14));
+  EXPECT_TRUE(near(scaled(config, position, {"A"}, row({1, 0, -1})), numbers({-2}), 1e-14));  // one row is a matrix
   const MatrixXd matrix = (MatrixXd(2, 3) << 1, 1, 1, 0, 2, 0).finished();
   EXPECT_TRUE(near(scaled(config, position, {"A"}, matrix, numbers({0, 0, 1})), numbers({5, 4}), 1e-14));
 }
 
 TEST(Residual, ScalesWhatACameraSeesInTwoRows) {
   const Config config = workedScene();
-  EXPECT_TRUE(near(scaled(config, FeatureSymbol::gazeAt, {"B", "A"}, row({3, 2})), numbers({0, -1}), 1e-14));
+  EXPECT_TRUE(near(scaled(config, FeatureSymbol::gazeAt, {"B", "A"}, numbers({3, 2})), numbers({0, -1}), 1e-14));
 }
 
 TEST(Residual, TakesTheSignOfAQuaternionThatIsNearerToTheTarget) {

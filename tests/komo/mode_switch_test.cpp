@@ -26,7 +26,6 @@ Config armAndBox() {
   return config;
 }
 
-MatrixXd scale(double s) { return MatrixXd::Constant(1, 1, s); }
 
 /// The largest relative difference of the Jacobian from central differences at three random points.
 double jacobianError(Nlp& nlp, const Komo& komo, std::string& where) {

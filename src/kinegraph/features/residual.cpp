@@ -24,7 +24,7 @@ Residual::Residual(std::unique_ptr<Feature> feature, MatrixXd scale, VectorXd ta
 
 void Residual::setScale(MatrixXd scale) {
   const int raw_rows = feature_->rows();
-  const bool vector = scale.size() > 1 && scale.cols() == 1;
+  const bool vector = scale.size() > 1 && scale.cols() == 1 && raw_rows != 1;
   if (scale.size() > 1 && (vector ? scale.rows() : scale.cols()) != raw_rows) {
     throw ValueError(cat("scale of ", name_, " has shape ", scale.rows(), " x ", scale.cols(),
                          "; expected 1 number, ", raw_rows, " numbers, or a matrix with ", raw_rows, " columns"));

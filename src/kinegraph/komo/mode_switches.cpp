@@ -8,8 +8,6 @@ namespace kinegraph {
 
 namespace {
 
-constexpr double kGravity = 9.81;  // m/s^2
-
 void requireFrame(const Program& program, const std::string& name, const char* call) { frameId(program, name, call); }
 
 }  // namespace
@@ -110,7 +108,7 @@ void Komo::addModeSwitch(const std::vector<double>& times, SwitchMode mode, cons
   }
   if (dynamic) {
     if (order_ < 2 || from + 1 > to) return;
-    const double gravity = mode == SwitchMode::dynamic ? kGravity : 0.;
+    const double gravity = mode == SwitchMode::dynamic ? -kGravity.z() : 0.;
     add({"physics", FeatureSymbol::physics, {object}, ObjectiveType::eq, MatrixXd::Constant(1, 1, 1e2), {}, 2,
          {double(from + 2) / slices_per_phase_, double(to + 1) / slices_per_phase_}, 0, 0, false, gravity}, 0, 0);
     return;
