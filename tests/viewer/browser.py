@@ -16,7 +16,7 @@ from typing import Any
 import numpy as np
 from websockets.sync.client import connect
 
-from camera import HEIGHT, WIDTH
+from .camera import HEIGHT, WIDTH
 
 NAMES = ("chromium", "chromium-browser", "google-chrome", "chrome")
 FLAGS = [

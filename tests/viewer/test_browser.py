@@ -12,11 +12,10 @@ import numpy as np
 import pytest
 
 import kinegraph as kg
-from browser import Browser
-from camera import HEIGHT, WIDTH, Camera
-from program import Program
 
-pytest_plugins = ["fixtures"]
+from .browser import Browser
+from .camera import HEIGHT, WIDTH, Camera
+from .program import Program
 
 Start = Callable[..., Program]
 PAPER = (236, 238, 242)
@@ -171,6 +170,8 @@ def test_view_returns_the_key_that_was_pressed_on_the_page(browser: Browser, sta
     program = start("""
 C = kg.Config()
 C.addFile(kg.raiPath('scenarios/pandaSingle.g'))
+C.view()
+C.viewer().waitForClient(60)
 while (key := C.view(True, 'a question')) != ord('q'):
     print('key', key)
 print('end', C.view())
@@ -202,7 +203,7 @@ import sys, time
 C = kg.Config()
 C.addFrame('world')
 C.view()
-C.viewer().waitForClient(30)
+C.viewer().waitForClient(60)
 while C.view() != ord('a'):
     time.sleep(.01)
 print('before', flush=True)

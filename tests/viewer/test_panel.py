@@ -10,10 +10,9 @@ import numpy as np
 import pytest
 
 import kinegraph as kg
-from browser import Browser
-from camera import Camera
 
-pytest_plugins = ["fixtures"]
+from .browser import Browser
+from .camera import Camera
 
 LEAVES = "[...document.querySelectorAll('#tree .leaf, #tree summary')].filter((x) => x.checkVisibility()).map((x) => x.textContent).join(' ')"
 

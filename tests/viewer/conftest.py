@@ -7,9 +7,10 @@ from pathlib import Path
 
 import pytest
 
-import browser as chromium
 import kinegraph as kg
-from program import Program
+
+from . import browser as chromium
+from .program import Program
 
 
 @pytest.fixture(scope="session")
