@@ -7,6 +7,7 @@
 #include <set>
 #include <sstream>
 
+#include "kinegraph/base/errors.h"
 #include "kinegraph/base/text.h"
 #include "kinegraph/scene/scene_format.h"
 
@@ -25,9 +26,11 @@ class SourceReader {
   explicit SourceReader(SceneDiagnostics& diagnostics) : diagnostics_(diagnostics) {}
 
   std::vector<Node> joint_states;
+  std::vector<std::string> files;  ///< asked for, in order, whether they exist or not
 
   /// `included_at` is where the file is named, if it is.
   std::vector<SourceFrame> readFile(const std::string& path, const SourcePosition& included_at) {
+    files.push_back(path);
     const fs::path absolute = fs::absolute(path).lexically_normal();
     std::error_code error;
     const auto refuse = [&](const std::string& message) {
@@ -43,7 +46,7 @@ class SourceReader {
       return refuse(cat("'", path, "' includes itself"));
     if (open_.size() == kMaxNesting) return refuse(cat("files are included deeper than ", kMaxNesting, " levels"));
     bytes_ += fs::file_size(absolute, error);
-    if (++files_ > kMaxFiles || error || bytes_ > kMaxBytes) {
+    if (files.size() > kMaxFiles || error || bytes_ > kMaxBytes) {
       return refuse(cat("the scene has grown beyond ", kMaxFiles, " files or ", kMaxBytes >> 20, " MB of text with '",
                         path, "'"));
     }
@@ -247,7 +250,7 @@ class SourceReader {
   std::vector<std::string> open_;                  ///< files that are being read
   std::vector<std::vector<SourceFrame>*> scopes_;  ///< what each of them has so far
   std::set<std::string> deleted_;                  ///< names that Delete removed: edits of them may have stood before
-  std::size_t files_ = 0, bytes_ = 0;
+  std::size_t bytes_ = 0;
 };
 
 }  // namespace
@@ -271,10 +274,12 @@ SceneSource readSource(std::string_view text, const std::string& name, const std
 
 std::vector<std::string> sourceFiles(const std::string& path) {
   SceneDiagnostics diagnostics;
-  readSource(path, diagnostics);
-  std::vector<std::string> files;
-  for (const auto& [file, text] : diagnostics.texts()) files.push_back(file);
-  return files;
+  SourceReader reader(diagnostics);
+  try {
+    reader.readFile(resolvePath(path, ""), {});
+  } catch (const Error&) {  // told by who reads the scene itself
+  }
+  return std::move(reader.files);
 }
 
 }  // namespace kinegraph

@@ -27,7 +27,7 @@ SceneSource readSource(const std::string& path, SceneDiagnostics& diagnostics);
 SceneSource readSource(std::string_view text, const std::string& name, const std::string& folder,
                        SceneDiagnostics& diagnostics);
 
-/// The scene file and all files that it includes, as paths, mistakes in them or not. Throws FileError.
+/// The scene file and all files that it includes, as paths, mistakes in them or not, and also those that do not exist.
 std::vector<std::string> sourceFiles(const std::string& path);
 
 /// An absolute path: `path` with $NAME expanded from the environment, relative to `folder`; file:// in front is dropped.

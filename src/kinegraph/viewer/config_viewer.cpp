@@ -3,6 +3,7 @@
 #include <poll.h>
 #include <unistd.h>
 
+#include <chrono>
 #include <cstdio>
 
 #include "kinegraph/base/errors.h"
@@ -59,8 +60,6 @@ void ConfigViewer::update(const Config& config) {
   to.update(items_);
 }
 
-bool ConfigViewer::canWait() const { return !isHeadless() && (clients() > 0 || isatty(STDIN_FILENO)); }
-
 int ConfigViewer::view(const Config& config, bool pause, const std::optional<std::string>& message, const std::function<bool()>& stop) {
   update(config);
   if (!pause) {
@@ -69,22 +68,28 @@ int ConfigViewer::view(const Config& config, bool pause, const std::optional<std
   }
   std::string text = message.value_or("");
   if (!text.ends_with("]")) text += text.empty() ? "[press key to continue]" : "\n[press key to continue]";
-  server().setMessage(text);
   int key = server().takeKey();
-  if (key == 0 && !isHeadless()) {
-    if (clients() == 0) server().waitForClient(isatty(STDIN_FILENO) ? 0. : 5.);
-    if (canWait()) {
-      if (isatty(STDIN_FILENO)) {
-        std::printf("%s (in the browser, or Enter here)\n", text.c_str());
-        std::fflush(stdout);
-      }
-      bool entered = false;
-      key = server().waitKey([&] { return (entered = enterWasPressed()) || stop(); });
-      if (entered) key = 13;
-    }
-  }
+  server().setMessage(text);
+  if (!isHeadless()) key = waitKey(text, stop);
   server().setMessage(message.value_or(""));
   return key;
+}
+
+int ConfigViewer::waitKey(const std::string& prompt, const std::function<bool()>& stop) {
+  constexpr auto kPatience = std::chrono::seconds(5);  // a page that is loaded again is back sooner
+  const bool terminal = isatty(STDIN_FILENO);
+  if (terminal) {
+    std::printf("%s (in the browser, or Enter here)\n", prompt.c_str());
+    std::fflush(stdout);
+  }
+  bool entered = false;
+  auto last_seen = std::chrono::steady_clock::now();
+  const int key = server().waitKey([&] {
+    const auto now = std::chrono::steady_clock::now();
+    if (clients() > 0) last_seen = now;
+    return (entered = enterWasPressed()) || (!terminal && now - last_seen > kPatience) || stop();
+  });
+  return entered ? 13 : key;
 }
 
 bool enterWasPressed() {
