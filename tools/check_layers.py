@@ -18,6 +18,7 @@ BELOW: dict[str, list[str]] = {
     "scene": ["base", "math", "gfile", "geometry", "kinematics"],
     "features": ["base", "math", "geometry", "kinematics", "scene"],
     "komo": ["base", "math", "geometry", "kinematics", "scene", "features", "nlp"],
+    "rendering": ["base", "math", "geometry", "kinematics", "scene"],
     "viewer": ["base", "math", "geometry", "kinematics", "scene"],
 }
 
