@@ -16,7 +16,10 @@ std::vector<std::string> toNames(const FrameNames& frames) {
   return std::get<std::vector<std::string>>(frames);
 }
 
-MatrixXd toScale(const std::optional<Numbers>& scale) { return scale ? scale->matrix() : MatrixXd(); }
+MatrixXd toScale(const std::optional<Numbers>& scale) {
+  if (!scale) return MatrixXd();
+  return scale->rank < 2 ? MatrixXd(scale->values) : scale->matrix();
+}
 
 VectorXd toTarget(const std::optional<Numbers>& target) { return target ? target->values : VectorXd(); }
 
@@ -61,7 +64,7 @@ void bindFeatures(nb::module_& m, nb::class_<PyConfig>& config) {
   nb::class_<NamedFeature>(m, "Feature", "A feature of named frames, evaluated on the configuration that is passed.")
       .def("eval", [](const NamedFeature& f, const PyConfig& c) { return evalInto(c, makeResidual(*c.program(), f.symbol, f.frames, f.scale, f.target, f.order)); },
            "config"_a, "Value (d,) and Jacobian (d, n) at the configuration's q.")
-      .def("setScale", [](NamedFeature& f, const Numbers& scale) -> NamedFeature& { return f.scale = scale.matrix(), f; }, "scale"_a,
+      .def("setScale", [](NamedFeature& f, const Numbers& scale) -> NamedFeature& { return f.scale = toScale(scale), f; }, "scale"_a,
            nb::rv_policy::none, "A number, one per row, or a matrix.")
       .def("setTarget", [](NamedFeature& f, const Numbers& target) -> NamedFeature& { return f.target = target.values, f; },
            "target"_a, nb::rv_policy::none, "Subtracted before the scale: a number, or one per row.")

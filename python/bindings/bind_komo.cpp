@@ -4,101 +4,241 @@
 #include <nanobind/stl/variant.h>
 #include <nanobind/stl/vector.h>
 
+#include <cmath>
+
 #include "bindings.h"
+#include "defaults.h"
 #include "feature_arguments.h"
 #include "kinegraph/base/errors.h"
 #include "kinegraph/base/text.h"
 #include "kinegraph/features/registry.h"
-#include "kinegraph/komo/komo.h"
-#include "kinegraph/solvers/result.h"
+#include "kinegraph/komo/report.h"
+#include "kinegraph/solvers/nlp_solver.h"
+#include "py_komo.h"
 
 namespace kinegraph::python {
 
 namespace {
 
-std::vector<double> toTimes(const std::optional<Numbers>& times) { return times ? times->list() : std::vector<double>(); }
+using Optional = const std::optional<Numbers>&;
+
+std::vector<double> toTimes(Optional times) { return times ? times->list() : std::vector<double>(); }
 
 void warn(Komo& komo) {
   for (const std::string& warning : komo.takeWarnings()) emitWarning(warning);
 }
 
-void addObjective(Komo& komo, const std::optional<Numbers>& times, FeatureSymbol feature, const FrameNames& frames, ObjectiveType type,
-                  const std::optional<Numbers>& scale, const std::optional<Numbers>& target, int order) {
+void addObjective(PyKomo& komo, Optional times, FeatureSymbol feature, const FrameNames& frames, ObjectiveType type, Optional scale,
+                  Optional target, int order) {
   komo.addObjective(toTimes(times), feature, toNames(frames), type, toScale(scale), toTarget(target), order);
   warn(komo);
 }
 
-nb::dict report(const Komo& komo) {
-  nb::dict out;
-  int index = 0;
-  for (const Komo::Objective& objective : komo.objectives()) {
-    nb::dict entry;
-    entry["name"] = objective.residual.name();
-    entry["frames"] = objective.frames;
-    entry["order"] = objective.residual.order();
-    entry["type"] = objectiveTypeName(objective.type);
-    entry["scale"] = toNumpy(objective.residual.scale().data(), std::size_t(objective.residual.scale().size()));
-    entry["target"] = toNumpy(objective.residual.target());
-    entry["times"] = objective.times;
-    entry["slices"] = std::vector<int>{objective.from, objective.to};
-    out[cat("o", index++).c_str()] = entry;
-  }
-  return out;
+void addControl(PyKomo& komo, Optional times, int order, double scale, Optional target, int from, int to) {
+  komo.addControlObjective(toTimes(times), order, scale, toTarget(target), from, to);
+  warn(komo);
 }
 
-std::string explainPath(const std::shared_ptr<Komo>& komo, double tolerance) {
+Frame addFrameDof(PyKomo& komo, const std::string& name, const std::string& parent, JointType type, bool stable,
+                  const std::optional<std::string>& origin_name, const std::optional<Frame>& origin) {
+  komo.addFrameDof(name, parent, type, stable, origin ? origin->getName() : origin_name.value_or(""));
+  return komo.configuration(-komo.order()).getFrame(name);
+}
+
+nb::object pathFrames(const PyKomo& komo) {
+  nb::list slices;
+  for (int t = 0; t < komo.slices(); ++t) slices.append(toNumpy(komo.getFrameState(t)));
+  return nb::module_::import_("numpy").attr("stack")(slices);
+}
+
+nb::list ownDofs(const PyKomo& komo) {
+  nb::list slices;
+  for (int t = 0; t < komo.slices(); ++t) slices.append(toNumpy(komo.ownDofs(t)));
+  return slices;
+}
+
+nb::tuple subProblem(const PyKomo& komo, int phase) {
+  Komo::SubProblem sub = komo.subProblem(phase);
+  return nb::make_tuple(PyConfig{std::move(sub.config), nullptr}, toNumpy(sub.start), toNumpy(sub.end));
+}
+
+/// A sequence of vectors, an array with a row per waypoint, or an array of arrays.
+std::vector<int> initWithWaypoints(PyKomo& komo, nb::iterable waypoints, int per_phase, bool interpolate, double towards_home, int) {
+  std::vector<VectorXd> list;
+  for (nb::handle waypoint : waypoints) list.push_back(nb::cast<Numbers>(waypoint).values);
+  return komo.setWaypoints(list, per_phase, interpolate, towards_home);
+}
+
+SolverResult optimize(const std::shared_ptr<PyKomo>& komo, double noise, int verbose) {
   const auto nlp = makeNlp(komo);
-  const MatrixXd path = komo->getPath();
-  VectorXd x(path.size()), phi(Eigen::Index(nlp->types().size()));
-  Eigen::Map<Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>>(x.data(), path.rows(), path.cols()) = path;
-  nlp->evaluate(x, phi, nullptr);
+  NlpSolver solver(nlp, verbose);
+  solver.options = defaults().solver;
+  solver.options.verbose = verbose;
+  VectorXd x = komo->variables();
+  Rng rng(defaults().seed);
+  for (double& value : x) value += noise * rng.normal();
+  solver.setInitialization(x);
+  int calls = 0;
+  const nb::gil_scoped_release unlock;
+  return solver.solve(false, rng, [&calls] {
+    if (++calls % 64 == 0) checkInterrupt();
+    return false;
+  });
+}
+
+std::string explainPath(const std::shared_ptr<PyKomo>& komo, double tolerance) {
+  const auto nlp = makeNlp(komo);
+  VectorXd phi(Eigen::Index(nlp->types().size()));
+  nlp->evaluate(komo->variables(), phi, nullptr);
   return explain(*nlp, phi, tolerance);
+}
+
+double costs(const PyKomo& komo) {
+  const ErrorSums sums = measurePath(komo).totals;
+  return sums.sos + sums.f;
+}
+
+double violations(const PyKomo& komo) {
+  const ErrorSums sums = measurePath(komo).totals;
+  return sums.eq + sums.ineq;
+}
+
+std::shared_ptr<PyKomo> pathProblem(const PyConfig& config, double phases, int slices, double time, int order) {
+  auto komo = std::make_shared<PyKomo>();
+  komo->setConfig(config);
+  komo->setTiming(phases, slices, time, order);
+  return komo;
+}
+
+/// The shorthands of older scripts, on Config.
+void bindOldConstructors() {
+  nb::object config = nb::borrow(nb::type<PyConfig>());
+  nb::setattr(config, "komo_IK", nb::cpp_function([](const PyConfig& c, nb::args, nb::kwargs) {
+    auto komo = pathProblem(c, 1., 1, 1., 1);
+    komo->addControlObjective({}, 1, 1e-1);
+    komo->addQuaternionNorms();
+    return komo;
+  }, nb::is_method(), nb::name("komo_IK"), nb::scope(config), "A KOMO of one slice with a cost on leaving the present posture (older scripts)."));
+  nb::setattr(config, "komo_path", nb::cpp_function([](const PyConfig& c, double phases, int slices, double time, nb::args, nb::kwargs) {
+    auto komo = pathProblem(c, phases, slices, time, 2);
+    komo->addControlObjective({}, 2, 1e-1);
+    komo->addQuaternionNorms();
+    return komo;
+  }, nb::is_method(), nb::name("komo_path"), nb::scope(config), "phases"_a, "stepsPerPhase"_a = 20, "timePerPhase"_a = 5., "args"_a,
+     "kwargs"_a, "A KOMO of a path with a cost on accelerations (older scripts)."));
+}
+
+void bindSwitchModes(nb::module_& m) {
+  nb::enum_<SwitchMode> modes(m, "SY", nb::is_arithmetic(), "Symbols of skeletons and mode switches.");
+  for (const auto& [name, value] : switchModeNames()) modes.value(name.c_str(), value);
+}
+
+void bindObjectives(nb::class_<PyKomo>& komo) {
+  const char* doc =
+      "Adds scale * (feature - target) in the slices of `times`: [] all, [t] one, [from, to] both included, in phases.\n"
+      "type: OT.sos, OT.eq, OT.ineq, OT.f, OT.ineqB or OT.ineqP. scale: a number, one per row, or a matrix. order: of the time\n"
+      "derivative.";
+  komo.def("addObjective", addObjective, "times"_a, "feature"_a, "frames"_a, "type"_a, "scale"_a = nb::none(), "target"_a = nb::none(),
+           "order"_a = -1, doc)
+      .def("addObjective", addObjective, "time"_a = nb::none(), "feature"_a, "frames"_a = std::vector<std::string>(), "type"_a,
+           "scale"_a = nb::none(), "target"_a = nb::none(), "order"_a = -1, doc)
+      .def("addControlObjective", addControl, "times"_a, "order"_a, "scale"_a = 1., "target"_a = nb::none(), "deltaFromSlice"_a = 0,
+           "deltaToSlice"_a = 0, "Sum of squares of the order-th derivative of all dofs; order 0: of the distance from home.")
+      .def("add_qControlObjective", addControl, "times"_a = nb::none(), "order"_a = 2, "scale"_a = 1., "target"_a = nb::none(),
+           "deltaFromSlice"_a = 0, "deltaToSlice"_a = 0, "The same as addControlObjective.")
+      .def("addQuaternionNorms", [](PyKomo& k, Optional times, double scale, bool hard) {
+             k.addQuaternionNorms(toTimes(times), scale, hard);
+             warn(k);
+           }, "times"_a = nb::none(), "scale"_a = 3., "hard"_a = true, "Keeps quaternion dofs at norm one.")
+      .def("clearObjectives", &Komo::clearObjectives, "Removes all objectives.")
+      .def("addModeSwitch", [](PyKomo& k, const Numbers& times, SwitchMode mode, const std::vector<std::string>& frames, bool first) {
+             k.addModeSwitch(times.list(), mode, frames, first);
+             warn(k);
+           }, "times"_a, "newMode"_a, "frames"_a, "firstSwitch"_a = true,
+           "From times[0] on, frames[1] hangs below frames[0]: SY.stable (a grasp), stableOn (on a box), stableOnX, stableOnY,\n"
+           "stableYPhi, stableZero, dynamic (flies) or dynamicOn (slides). times[1]: when the next switch follows, or -1.")
+      .def("addRigidSwitch", [](PyKomo& k, double time, const std::vector<std::string>& frames, bool no_jump) {
+             if (frames.size() != 2) throw ValueError(cat("addRigidSwitch: frames are [parent, object], got ", frames.size()));
+             k.addRigidSwitch(time, frames[0], frames[1], no_jump);
+             warn(k);
+           }, "times"_a, "frames"_a, "noJumpStart"_a = true, "From that time on, frames[1] sits at frames[0].")
+      .def("addFrameDof", addFrameDof, "name"_a, "parent"_a, "jointType"_a, "stable"_a, "originFrameName"_a = nb::none(),
+           "originFrame"_a = nb::none(), "Adds a frame with a joint to all slices. Returns a copy of it.")
+      .def("addContactForceFrame", [](PyKomo&, nb::args, nb::kwargs) {
+             throw Error("addContactForceFrame: contact forces are not available; geometric contact is FS.distance with OT.eq");
+           }, "Not available.")
+      .def("addContact_WithPoaFrame", [](PyKomo&, nb::args, nb::kwargs) {
+             throw Error("addContact_WithPoaFrame: contact forces are not available; geometric contact is FS.distance with OT.eq");
+           }, "Not available.")
+      .def("addTimeOptimization", [](PyKomo&) { throw Error("addTimeOptimization: durations are fixed; give them with setTiming"); },
+           "Not available.");
+}
+
+void bindPath(nb::class_<PyKomo>& komo) {
+  komo.def("getT", &Komo::slices, "Number of slices.")
+      .def("getPath", [](const PyKomo& k, const std::vector<int>& frames) { return toNumpy(k.getPath(frames)); },
+           "dofIndices"_a = std::vector<int>(), "(T, n): the joint states of all slices, or of the joints of the frames with these ids.")
+      .def("getPath_qOrg", [](const PyKomo& k) { return toNumpy(k.getPath()); }, "The same as getPath.")
+      .def("getPath_qAll", ownDofs, "A vector per slice: the dofs that belong to it, those of mode switches included.")
+      .def("getPathTau", [](const PyKomo& k) { return toNumpy(VectorXd(VectorXd::Constant(k.slices(), k.tau()))); }, "(T,): duration of each slice, s.")
+      .def("getPathFrames", pathFrames, "(T, frames, 7): world poses of all frames in all slices.")
+      .def("getFrameState", [](const PyKomo& k, int t) { return toNumpy(k.getFrameState(t)); }, "t"_a,
+           "(frames, 7): world poses of all frames in a slice.")
+      .def("getFrame", [](const PyKomo& k, const std::string& name, double time) {
+             return k.configuration(k.sliceAt(time)).getFrame(name);
+           }, "frameName"_a, "phaseTime"_a, "A frame as it is in the slice at a phase time; a copy.")
+      .def("getConfig", [](const PyKomo& k) { return PyConfig{k.configuration(-k.order()), nullptr}; },
+           "The scene with the frames that were added, as it is before the path; a copy.")
+      .def("getConfiguration", [](const PyKomo& k, int t) { return PyConfig{k.configuration(t), nullptr}; }, "t"_a,
+           "The scene in slice t, a copy; -1 is the one before the first.")
+      .def("getSubProblem", subProblem, "phase"_a,
+           "For one slice per phase: (configuration at the beginning of a phase, its q at the beginning, at the end).")
+      .def("getForceInteractions", [](const PyKomo&) { return nb::list(); }, "Contact forces; there are none.")
+      .def("initWithConstant", [](PyKomo& k, const Numbers& q) { k.setConstantPath(q.values); }, "q"_a, "Starts with q in all slices.")
+      .def("initWithPath", [](PyKomo& k, const Numbers& q) { k.setPath(q.matrix()); }, "q"_a, "Starts with a path (T, n).")
+      .def("initWithWaypoints", initWithWaypoints, "waypoints"_a, "waypointSlicesPerPhase"_a = 1, "interpolate"_a = false,
+           "qHomeInterpolate"_a = 0., "verbose"_a = -1, "Starts with waypoint i at phase time (i+1)/waypointSlicesPerPhase. Returns their slices.")
+      .def("initPhaseWithDofsPath", [](PyKomo& k, int phase, const std::vector<int>& dofs, const Numbers& path, bool resample) {
+             k.setPhasePath(phase, dofs, path.matrix(), resample);
+           }, "t_phase"_a, "dofIDs"_a, "path"_a, "autoResamplePath"_a = false, "Starts a phase with a path for the joints of these frames.")
+      .def("initRandom", [](PyKomo& k, int) { k.setRandomPath(defaults().random); }, "verbose"_a = 0, "Starts at random joint states.")
+      .def("initOrg", [](PyKomo& k) { k.resetPath(); }, "Starts with the given configuration in all slices.")
+      .def("updateRootObjects", [](PyKomo& k, const PyConfig& config) { k.updateRootObjects(config); }, "config"_a,
+           "Takes over the constant poses of the configuration; the path stays, for a warm start.");
 }
 
 }  // namespace
 
 void bindKomo(nb::module_& m) {
-  using Optional = const std::optional<Numbers>&;
-  nb::class_<Komo>(m, "KOMO", "A motion problem: slices of a configuration, tied together by objectives.")
-      .def(nb::init<>(), "An empty problem; call setConfig and setTiming.")
-      .def("__init__", [](Komo* self, const PyConfig& config, double phases, int slices, int order, bool) {
-             new (self) Komo(config, phases, slices, order);
+  bindSwitchModes(m);
+  nb::class_<PyKomo> komo(m, "KOMO", "A motion problem: slices of a configuration, tied together by objectives.");
+  komo.def(nb::init<>(), "An empty problem; call setConfig and setTiming.")
+      .def("__init__", [](PyKomo* self, const PyConfig& config, double phases, int slices, int order, bool) {
+             new (self) PyKomo{Komo(config, phases, slices, order), nullptr};
            }, "config"_a, "phases"_a, "slicesPerPhase"_a, "kOrder"_a, "enableCollisions"_a,
            "phases x slicesPerPhase configurations; features of up to kOrder + 1 consecutive ones. With (1, 1, 0) it is inverse\n"
            "kinematics. Collisions are computed where objectives ask for them, whatever enableCollisions says.")
-      .def("setConfig", [](Komo& k, const PyConfig& config, bool) { k.setConfig(config); }, "config"_a, "enableCollisions"_a = false,
+      .def("setConfig", [](PyKomo& k, const PyConfig& config, bool) { k.setConfig(config); }, "config"_a, "enableCollisions"_a = false,
            "The configuration that moves.")
-      .def("setTiming", [](Komo& k, double phases, int slices, double duration, int order) { k.setTiming(phases, slices, duration, order); },
+      .def("setModel", [](PyKomo& k, const PyConfig& config, bool) { k.setConfig(config); }, "config"_a, "enableCollisions"_a = false,
+           "The same as setConfig.")
+      .def("setTiming", [](PyKomo& k, double phases, int slices, double duration, int order) { k.setTiming(phases, slices, duration, order); },
            "phases"_a, "slicesPerPhase"_a, "durationPerPhase"_a, "kOrder"_a, "The time grid; durations in s.")
-      .def("addObjective", addObjective, "times"_a, "feature"_a, "frames"_a, "type"_a, "scale"_a = nb::none(), "target"_a = nb::none(),
-           "order"_a = -1,
-           "Adds scale * (feature - target) in the slices of `times`: [] all, [t] one, [from, to] both included, in phases.\n"
-           "type: OT.sos, OT.eq, OT.ineq or OT.f. scale: a number, one per row, or a matrix. order: of the time derivative.")
-      .def("addControlObjective", [](Komo& k, Optional times, int order, double scale, Optional target, int from, int to) {
-             k.addControlObjective(toTimes(times), order, scale, toTarget(target), from, to);
-             warn(k);
-           }, "times"_a, "order"_a, "scale"_a = 1., "target"_a = nb::none(), "deltaFromSlice"_a = 0, "deltaToSlice"_a = 0,
-           "Sum of squares of the order-th derivative of all dofs; order 0: of the distance from home.")
-      .def("addQuaternionNorms", [](Komo& k, Optional times, double scale, bool hard) { k.addQuaternionNorms(toTimes(times), scale, hard); },
-           "times"_a = nb::none(), "scale"_a = 3., "hard"_a = true, "Keeps quaternion dofs at norm one.")
-      .def("clearObjectives", &Komo::clearObjectives, "Removes all objectives.")
-      .def("nlp", [](std::shared_ptr<Komo> k) { return makeNlp(std::move(k)); },
+      .def("setSkeleton", [](PyKomo&, nb::args, nb::kwargs) { throw Error("setSkeleton: skeletons are not available; use addModeSwitch and addObjective"); },
+           "Not available.")
+      .def("nlp", [](std::shared_ptr<PyKomo> k) { return makeNlp(std::move(k)); },
            "The problem for a solver. It keeps this object alive, which then holds the solution.")
-      .def("getT", &Komo::slices, "Number of slices.")
-      .def("getPath", [](const Komo& k) { return toNumpy(k.getPath()); }, "(T, n): the joint states of all slices.")
-      .def("getPathTau", [](const Komo& k) { return toNumpy(VectorXd(VectorXd::Constant(k.slices(), k.tau()))); }, "(T,): duration of each slice, s.")
-      .def("getFrameState", [](const Komo& k, int t) { return toNumpy(k.getFrameState(t)); }, "t"_a,
-           "(frames, 7): world poses of all frames in a slice.")
-      .def("initWithConstant", [](Komo& k, const Numbers& q) { k.setConstantPath(q.values); }, "q"_a, "Starts with q in all slices.")
-      .def("initWithPath", [](Komo& k, const Numbers& q) { k.setPath(q.matrix()); }, "q"_a, "Starts with a path (T, n).")
-      .def("updateRootObjects", [](Komo& k, const PyConfig& config) { k.updateRootObjects(config); }, "config"_a,
-           "Takes over the constant poses of the configuration; the path stays, for a warm start.")
-      .def("report", [](const Komo& k, bool, bool, bool, bool) { return report(k); }, "specs"_a = false, "listObjectives"_a = true,
-           "plotOverTime"_a = false, "sortByError"_a = true, "The objectives as a dict.")
+      .def("optimize", optimize, "addInitializationNoise"_a = .01, "verbose"_a = 0, "Solves from the present path, moved by a little noise.")
+      .def("getCosts", costs, "Sum of the costs (f and sos) of the present path.")
+      .def("getConstraintViolations", violations, "Sum of the violations of all constraints (eq and ineq) at the present path.")
       .def("explain", explainPath, "tolerance"_a = 1e-3, "In words: which constraints the present path violates, the worst first.")
-      .def("__repr__", [](const Komo& k) {
+      .def("__repr__", [](const PyKomo& k) {
         return cat("<KOMO: ", k.slices(), " slices, order ", k.order(), ", ", k.objectives().size(), " objectives>");
       });
+  bindObjectives(komo);
+  bindPath(komo);
+  bindKomoReports(komo);
+  bindOldConstructors();
 }
 
 }  // namespace kinegraph::python

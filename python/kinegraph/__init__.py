@@ -18,6 +18,7 @@ from ._core import (
     NLP,
     OT,
     ST,
+    SY,
     Config,
     ConfigurationViewer,
     Feature,

@@ -34,7 +34,7 @@ std::vector<int> dofsOf(const std::vector<int>& frames, const Program& program, 
   }
   for (int frame : frames) {
     const Program::DofRange range = program.frame_dofs[frame];
-    if (range.count == 0) throw ValueError(cat(info.name, ": frame ", frame, " has no active joint of its own"));
+    if (range.count == 0) throw ValueError(cat(info.name, ": frame '", program.frame_name[frame], "' has no active joint of its own"));
     for (int i = 0; i < range.count; ++i) dofs.push_back(range.first + i);
   }
   return dofs;
@@ -43,7 +43,7 @@ std::vector<int> dofsOf(const std::vector<int>& frames, const Program& program, 
 const Geometry& boxOf(int frame, const Program& program, const FeatureInfo& info) {
   const auto& geometry = program.geometry[frame];
   if (!geometry || (geometry->type != ShapeType::ssBox && geometry->type != ShapeType::box)) {
-    throw ValueError(cat(info.name, ": the second frame must have a shape of type ssBox or box"));
+    throw ValueError(cat(info.name, ": frame '", program.frame_name[frame], "' must have a shape of type ssBox or box"));
   }
   return *geometry;
 }

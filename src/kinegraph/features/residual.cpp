@@ -24,13 +24,15 @@ Residual::Residual(std::unique_ptr<Feature> feature, MatrixXd scale, VectorXd ta
 
 void Residual::setScale(MatrixXd scale) {
   const int raw_rows = feature_->rows();
-  if (scale.size() > 1 && scale.cols() != raw_rows) {
+  const bool vector = scale.size() > 1 && scale.cols() == 1 && raw_rows != 1;
+  if (scale.size() > 1 && (vector ? scale.rows() : scale.cols()) != raw_rows) {
     throw ValueError(cat("scale of ", name_, " has shape ", scale.rows(), " x ", scale.cols(),
                          "; expected 1 number, ", raw_rows, " numbers, or a matrix with ", raw_rows, " columns"));
   }
   if (!scale.allFinite()) throw ValueError(cat("scale of ", name_, " has numbers that are not finite"));
   scale_ = std::move(scale);
-  rows_ = scale_.size() > 1 && scale_.rows() > 1 ? int(scale_.rows()) : raw_rows;
+  scales_rows_ = vector;
+  rows_ = scale_.size() > 1 && !vector ? int(scale_.rows()) : raw_rows;
 }
 
 void Residual::setTarget(VectorXd target) {
@@ -43,8 +45,7 @@ void Residual::setTarget(VectorXd target) {
 }
 
 void Residual::eval(std::span<const State* const> states, double tau, Eigen::Ref<VectorXd> y, JacobianRows* J) {
-  const bool matrix = scale_.rows() > 1;
-  if (matrix) {
+  if (scale_.size() > 1 && !scales_rows_) {
     raw_.resize(feature_->rows());
     JacobianRows* rows = nullptr;
     if (J) {
@@ -64,8 +65,8 @@ void Residual::eval(std::span<const State* const> states, double tau, Eigen::Ref
     if (J) *J *= scale_(0, 0);
   } else if (scale_.size() > 1) {
     for (int row = 0; row < rows_; ++row) {
-      y[row] *= scale_(0, row);
-      if (J) J->row(row) *= scale_(0, row);
+      y[row] *= scale_(row, 0);
+      if (J) J->row(row) *= scale_(row, 0);
     }
   }
 }

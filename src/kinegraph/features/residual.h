@@ -13,7 +13,7 @@ namespace kinegraph {
 /// meaning, the nearer one to the target, or to the next configuration, is taken.
 class Residual {
  public:
-  /// `scale`: empty (1), 1 x 1, 1 x rows (per row), or m x rows. `target`: empty, 1 number (for all rows), or one per row.
+  /// `scale`: empty (1), 1 x 1, a column (one per row), or m x rows, which gives m rows. `target`: empty, 1 number (for all rows), or one per row.
   /// `order`: -1 takes that of the feature itself; else the highest derivative. `name` is for messages. Throws ValueError
   /// for sizes that do not fit, and for an order below the feature's own.
   Residual(std::unique_ptr<Feature> feature, MatrixXd scale, VectorXd target, int order, std::string name);
@@ -47,7 +47,7 @@ class Residual {
   MatrixXd scale_;
   VectorXd target_;
   int differences_ = 0, rows_ = 0;
-  bool time_integral_ = false;
+  bool time_integral_ = false, scales_rows_ = false;
   std::vector<VectorXd> values_;    ///< workspace: the feature at each configuration
   std::vector<RowMajor> jacobians_;
   VectorXd raw_;                    ///< workspace: before a matrix scale

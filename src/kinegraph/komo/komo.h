@@ -1,11 +1,15 @@
 #pragma once
 
-#include <map>
 #include <memory>
+#include <optional>
+#include <set>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "kinegraph/features/eval.h"
+#include "kinegraph/komo/mode.h"
+#include "kinegraph/komo/path_layout.h"
 #include "kinegraph/nlp/nlp.h"
 
 namespace kinegraph {
@@ -14,16 +18,23 @@ namespace kinegraph {
 /// With one phase of one slice and order 0 it is inverse kinematics.
 ///
 /// T = ceil(phases * slices_per_phase); slice t is at phase time (t+1) / slices_per_phase. Before slice 0 lie `order`
-/// copies of the given configuration, so that motions start there, at rest. The scene's Program is shared by all slices.
+/// copies of the given configuration, so that motions start there, at rest. Slices share the Program of their mode: what
+/// hangs where may change along the path (`addModeSwitch`), as when an object is grasped and put down.
 /// Source: Toussaint, A tutorial on Newton methods for constrained trajectory optimization, 2017.
 class Komo {
  public:
   struct Objective {
-    Residual residual;
-    ObjectiveType type;
+    std::string name;  ///< of the feature
+    FeatureSymbol feature;
     std::vector<std::string> frames;
+    ObjectiveType type;
+    MatrixXd scale;
+    VectorXd target;
+    int order;  ///< number of slices it looks at, minus one
     std::vector<double> times;
     int from, to;  ///< slices, inclusive; none if from > to
+    bool time_integral = false;
+    std::optional<double> free_fall = {};  ///< gravity, m/s^2: the feature is FreeFlight of the frame
   };
 
   Komo() = default;
@@ -36,47 +47,104 @@ class Komo {
   void setConfig(const Config& config);
   void setTiming(double phases, int slices_per_phase, double duration_per_phase, int order);
 
+  // --- objectives -------------------------------------------------------------------------------------------------
+
   /// Adds scale * (d^order feature / dt^order - target) in the slices that `times` selects: empty all, {a} the one at time a,
-  /// {a, b} those from a to b inclusive; negative: the last. `order` -1: the feature's own.
+  /// {a, b} those from a to b inclusive; negative: the last. `order` -1: the feature's own. For joint features no frames are
+  /// the joints of the configuration as it was given.
   void addObjective(const std::vector<double>& times, FeatureSymbol feature, const std::vector<std::string>& frames,
                     ObjectiveType type, const MatrixXd& scale = {}, const VectorXd& target = {}, int order = -1);
 
-  /// Sum of squares of the order-th derivative of all dofs, weighted by their control weights and integrated over time;
-  /// order 0 is the distance from home.
+  /// Sum of squares of the order-th derivative of the given configuration's dofs, weighted by their control weights and
+  /// integrated over time; order 0 is the distance from home.
   void addControlObjective(const std::vector<double>& times, int order, double scale = 1., const VectorXd& target = {},
                            int delta_from = 0, int delta_to = 0);
 
-  /// Keeps quaternions among the dofs at norm one.
+  /// Keeps quaternions among the dofs of a slice at norm one.
   void addQuaternionNorms(const std::vector<double>& times = {}, double scale = 3., bool hard = true);
 
+  /// Removes the objectives, those of mode switches included; what the switches attached stays attached.
   void clearObjectives() { objectives_.clear(); }
 
-  int slices() const { return slices_; }             ///< T
-  int order() const { return order_; }               ///< k
-  int dofs() const { return program_->dofs; }        ///< per slice
-  double tau() const { return tau_; }                ///< s per slice
-  const Program& program() const { return *program_; }
-  const std::vector<Objective>& objectives() const { return objectives_; }
-  std::vector<Objective>& objectives() { return objectives_; }
+  // --- changes of the structure along the path ---------------------------------------------------------------------
 
-  /// T x n: the joint states of the slices.
-  MatrixXd getPath() const;
-  void setPath(const MatrixXd& path);   ///< T x n; throws ValueError
-  void setConstantPath(const VectorXd& q);
+  /// From time `times[0]` on, `frames[1]` hangs below `frames[0]` by a joint that `mode` says. Adds what keeps the motion
+  /// continuous there (if `first`) and at times[1], where a next switch takes over; negative: it holds to the end.
+  void addModeSwitch(const std::vector<double>& times, SwitchMode mode, const std::vector<std::string>& frames, bool first = true);
+
+  /// From `time` on, `object` sits at `parent`, without a joint. `no_jump`: it does not jump there.
+  void addRigidSwitch(double time, const std::string& parent, const std::string& object, bool no_jump = true);
+
+  /// Adds a frame to all slices, with a joint whose dofs are the same in all of them (`stable`) or one set per slice. It moves
+  /// relative to `parent` (empty: the world), or to where `origin` is relative to it now. JointType::none: it does not move.
+  void addFrameDof(const std::string& name, const std::string& parent, JointType type, bool stable, const std::string& origin = {});
+
+  // --- the path ---------------------------------------------------------------------------------------------------
+
+  int slices() const { return slices_; }                 ///< T
+  int order() const { return order_; }                   ///< k
+  int slicesPerPhase() const { return slices_per_phase_; }
+  double phases() const { return phases_; }
+  int dofs() const { return program_->dofs; }            ///< of the given configuration
+  int jointCount() const { return int(joint_frames_.size()); }  ///< joints of the given configuration
+  double tau() const { return tau_; }                    ///< s per slice
+  const Program& program() const { return *program_; }   ///< of the given configuration
+  const std::vector<Objective>& objectives() const { return objectives_; }
+  const PathLayout& layout() const { return layout_; }
+  int structureRevision() const { return structure_revision_; }  ///< changes with every change of the structure
+
+  /// T x n: the dofs of the given configuration in all slices; or those of the joints of the frames with these ids.
+  MatrixXd getPath(const std::vector<int>& frames = {}) const;
+  VectorXd ownDofs(int slice) const;         ///< those entries of x that belong to the slice
+  VectorXd variables() const;                ///< x
+  void setVariables(const VectorXd& x);      ///< of layout().dimension entries
   const State& state(int slice) const { return states_[slice + order_]; }  ///< -order .. T-1
 
   /// World poses of all frames in a slice, rows x y z qw qx qy qz.
   MatrixXd getFrameState(int slice) const;
+  int frameCount() const { return int(shown_frames_.size()); }
 
-  /// Takes over the constant poses (root objects, markers) of the configuration. Throws ValueError if its structure is no
-  /// longer the one that this problem was made from.
+  /// A copy of the scene as it is in a slice.
+  Config configuration(int slice) const;
+
+  /// For one slice per phase: the scene at the beginning of a phase, only the given configuration's joints active, and
+  /// its q at the beginning and at the end.
+  struct SubProblem {
+    Config config;
+    VectorXd start, end;
+  };
+  SubProblem subProblem(int phase) const;
+
+  /// Takes over the constant poses (root objects, markers) of the configuration. Throws ValueError if its frames and joints
+  /// are not those that this problem was made from.
   void updateRootObjects(const Config& config);
+
+  // --- where a solver starts ---------------------------------------------------------------------------------------
+
+  void setPath(const MatrixXd& path);        ///< T x n; throws ValueError
+  void setConstantPath(const VectorXd& q);   ///< n numbers, or T*n for a path
+  void resetPath();                          ///< all slices as given
+  void setRandomPath(Rng& rng);              ///< as Config::setRandom, slice after slice
+
+  /// Puts waypoint i into the slice at phase time (i+1) / per_phase: the given configuration's dofs, or all that the slice
+  /// owns. Between them: the one before, or with `interpolate` a cosine blend, moved towards home by `towards_home` (0..1)
+  /// in the middle. Returns the slices.
+  std::vector<int> setWaypoints(const std::vector<VectorXd>& waypoints, int per_phase, bool interpolate, double towards_home = 0.);
+
+  /// Writes rows of `path` into the slices of a phase, for the joints of these frames. `resample`: whatever their number.
+  void setPhasePath(int phase, const std::vector<int>& frames, const MatrixXd& path, bool resample);
+
+  // --- for the Nlp -------------------------------------------------------------------------------------------------
 
   /// The selected slices [from, to], clipped to the horizon; empty if from > to.
   std::pair<int, int> selectSlices(const std::vector<double>& times) const;
 
-  /// Residual of the objective in a slice, at the present path. Rows of J, where given: order+1 blocks of dofs columns.
-  void evaluate(Objective& objective, int slice, Eigen::Ref<VectorXd> y, JacobianRows* J);
+  /// The slice at a phase time; -order .. beyond the horizon.
+  int sliceAt(double time) const;
+
+  /// An objective's residual in a slice. Where the dofs do not matter it is the same in all slices.
+  Residual residualIn(const Objective& objective, int slice) const;
+
   void setSlice(int slice, const double* q) { states_[slice + order_].setJoints(q); }
 
   std::vector<std::string> takeWarnings() { return std::exchange(warnings_, {}); }
@@ -84,22 +152,36 @@ class Komo {
  private:
   void build();
   void requireBuilt(const char* call) const;
-  void add(Residual residual, const std::vector<double>& times, std::vector<std::string> frames, ObjectiveType type, int delta_from,
-           int delta_to);
+  std::unique_ptr<Feature> featureIn(const Objective& objective, int slice) const;
+  void add(Objective objective, int delta_from, int delta_to);
+  void addContinuity(FeatureSymbol feature, const std::vector<std::string>& frames, double scale, int order, int slice);
+  void makeModes();
+  int addHiddenFrame(const std::string& name);
+  void switchFrom(int slice, const std::string& parent, const std::string& object, const Attachment& attachment);
+  void rebuildStates();
+  std::vector<int> dofsOf(const std::vector<int>& frames, int slice) const;
+  void writeJoints(int slice, const VectorXd& q);
 
+  std::shared_ptr<const Config> base_;       ///< the configuration as given, without the frames' attributes
+  std::shared_ptr<const SceneTree> source_;  ///< where it came from, for the attributes
   std::shared_ptr<const Program> program_;
   std::shared_ptr<const Parameters> parameters_;
   VectorXd start_;
-  int slices_ = 0, slices_per_phase_ = 0, order_ = 0;
-  double tau_ = 1.;
+  std::set<int> stable_;           ///< frames whose original joints are the same in all slices
+  std::vector<int> joint_frames_;  ///< those whose joints make up the given q
+  std::vector<int> shown_frames_;  ///< without those that mode switches need
+  int slices_ = 0, slices_per_phase_ = 0, order_ = 0, structure_revision_ = 0, next_joint_ = 1;
+  double phases_ = 0., tau_ = 1.;
+  std::vector<std::shared_ptr<Mode>> modes_;  ///< empty until the structure changes
+  std::vector<int> mode_of_;                  ///< per slice, those before the start first
   std::vector<State> states_;
-  std::vector<const State*> window_;
+  PathLayout layout_;
   std::vector<Objective> objectives_;
   std::vector<std::string> warnings_;
 };
 
 /// The problem of a Komo, for a solver. It keeps the Komo alive, and leaves it at the point last evaluated. Objectives that
-/// are added to the Komo later are not part of it.
+/// are added to the Komo later are not part of it; after a later change of the structure it throws Error.
 std::shared_ptr<Nlp> makeNlp(std::shared_ptr<Komo> komo);
 
 }  // namespace kinegraph

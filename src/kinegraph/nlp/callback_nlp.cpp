@@ -9,6 +9,7 @@ namespace kinegraph {
 
 CallbackNlp::CallbackNlp(int dimension, std::vector<ObjectiveType> types, VectorXd lower, VectorXd upper, Function function)
     : function_(std::move(function)) {
+  if (dimension < 0) throw ValueError(cat("the dimension of an NLP is ", dimension, "; expected a number >= 0"));
   const double inf = std::numeric_limits<double>::infinity();
   if (lower.size() == 0) lower = VectorXd::Constant(dimension, -inf);
   if (upper.size() == 0) upper = VectorXd::Constant(dimension, inf);

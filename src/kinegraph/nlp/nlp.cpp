@@ -60,7 +60,10 @@ VectorXd Nlp::initialPoint(Rng& rng) { return uniformPoint(rng); }
 VectorXd Nlp::uniformPoint(Rng& rng) const {
   VectorXd x(dimension());
   for (int i = 0; i < dimension(); ++i) {
-    x[i] = std::isfinite(lower_[i]) && std::isfinite(upper_[i]) ? rng.uniform(lower_[i], upper_[i]) : rng.uniform(-1., 1.);
+    double low = lower_[i], high = upper_[i];
+    if (!std::isfinite(low)) low = std::isfinite(high) ? std::min(-1., high - 2.) : -1.;
+    if (!std::isfinite(high)) high = std::max(1., low + 2.);
+    x[i] = rng.uniform(low, high);
   }
   return x;
 }

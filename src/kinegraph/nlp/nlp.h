@@ -71,7 +71,8 @@ class Nlp {
   /// Where a solver starts if the user gives no point. Default: uniform in the bounds, [-1, 1] where there are none.
   virtual VectorXd initialPoint(Rng& rng);
 
-  /// Uniform in the bounds, in [-1, 1] where there are none.
+  /// Uniform in the bounds, in [-1, 1] where there are none. Where one is missing, it is taken as 1 or -1, at least 2 apart
+  /// from the other.
   VectorXd uniformPoint(Rng& rng) const;
 
   /// Name of a row of phi in reports: "position-l_gripper [slice 0] z".

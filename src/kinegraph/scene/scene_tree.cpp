@@ -89,7 +89,7 @@ void SceneTree::unlink(FrameData& frame) {
   structureChanged();
 }
 
-FrameData* SceneTree::append(const SceneTree& other, const std::string& prefix) {
+FrameData* SceneTree::append(const SceneTree& other, const std::string& prefix, bool with_attributes) {
   const std::vector<std::shared_ptr<FrameData>> originals = other.frames_;
   std::unordered_map<const FrameData*, FrameData*> copies;
   std::unordered_map<const Shape*, std::shared_ptr<Shape>> shapes;
@@ -98,7 +98,7 @@ FrameData* SceneTree::append(const SceneTree& other, const std::string& prefix) 
     copy.pose = original->pose;
     copy.joint = original->joint;
     copy.inertia = original->inertia;
-    copy.attributes = original->attributes;
+    if (with_attributes) copy.attributes = original->attributes;
     if (original->shape) {
       std::shared_ptr<Shape>& shape = shapes[original->shape.get()];
       if (!shape) {
@@ -119,10 +119,6 @@ FrameData* SceneTree::append(const SceneTree& other, const std::string& prefix) 
   }
   structureChanged();
   return originals.empty() ? nullptr : copies[originals.front().get()];
-}
-
-bool SceneTree::stateIsFresh() const {
-  return state_ && compiled_revision_ == structure_revision_ && !poses_stale_ && !q_stale_;
 }
 
 std::shared_ptr<const Program> SceneTree::program() {
@@ -164,8 +160,10 @@ const State& SceneTree::state() {
   return *state_;
 }
 
-Pose SceneTree::worldPose(const FrameData& frame) const {
-  return stateIsFresh() ? Pose(state_->pose(frame.id)) : frame.worldPose();
+Pose SceneTree::worldPose(const FrameData& frame) {
+  if (asked_since_edit_) return Pose(state().pose(frame.id));
+  asked_since_edit_ = true;
+  return frame.worldPose();
 }
 
 VectorXd SceneTree::jointState() {

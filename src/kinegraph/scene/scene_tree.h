@@ -43,11 +43,18 @@ class SceneTree {
   /// Cuts `frame` from its parent; the pose is left as it is.
   void unlink(FrameData& frame);
 
-  /// Appends deep copies of all frames of `other`, names prefixed. Returns the first, or null if there is none.
-  FrameData* append(const SceneTree& other, const std::string& prefix);
+  /// Appends deep copies of all frames of `other`, names prefixed. Returns the first, or null if there is none. Attributes as
+  /// read, which nothing here interprets, are most of the work and can be left out.
+  FrameData* append(const SceneTree& other, const std::string& prefix, bool with_attributes = true);
 
-  void structureChanged() { ++structure_revision_; }
-  void posesChanged() { poses_stale_ = true; }
+  void structureChanged() {
+    ++structure_revision_;
+    asked_since_edit_ = false;
+  }
+  void posesChanged() {
+    poses_stale_ = true;
+    asked_since_edit_ = false;
+  }
   void jointsChanged() { q_stale_ = true; }
   void looksChanged(Shape& shape) { shape.revision = ++looks_revision_; }
 
@@ -58,18 +65,17 @@ class SceneTree {
   std::shared_ptr<const Parameters> parameters();
   const State& state();
 
-  /// World pose of a frame: from the State if it is up to date, else composed along the parents.
-  Pose worldPose(const FrameData& frame) const;
+  /// World pose of a frame. The first question after an edit is answered along the parents, so that scenes can be built
+  /// frame by frame without compiling them at every step; those that follow are answered by the State.
+  Pose worldPose(const FrameData& frame);
 
   VectorXd jointState();
   void setJointState(const double* q);
 
  private:
-  bool stateIsFresh() const;
-
   std::vector<std::shared_ptr<FrameData>> frames_;
   std::uint64_t structure_revision_ = 1, compiled_revision_ = 0, looks_revision_ = 0;
-  bool poses_stale_ = true, q_stale_ = true;
+  bool poses_stale_ = true, q_stale_ = true, asked_since_edit_ = false;
   std::vector<FrameData*> dof_frames_;  ///< those whose joints make up q, in its order
   std::shared_ptr<const Program> program_;
   std::shared_ptr<const Parameters> parameters_;

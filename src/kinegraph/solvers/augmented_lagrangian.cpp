@@ -30,7 +30,7 @@ class AugmentedLagrangian {
       : nlp_(nlp), options_(options), hook_(hook),
         model_(nlp, rowsOf(nlp, {ObjectiveType::f, ObjectiveType::sos, ObjectiveType::ineqP}),
                rowsOf(nlp, {ObjectiveType::eq, ObjectiveType::ineq, ObjectiveType::ineqB})),
-        constraints_(model_.constraints()), J_(nlp.makeJacobian()),
+        constraints_(model_.constraints()), J_(nlp.makeJacobian()), trial_J_(J_),
         phi_(VectorXd::Zero(Eigen::Index(nlp.types().size()))), trial_phi_(phi_), lambda_(VectorXd::Zero(Eigen::Index(constraints_.size()))),
         next_lambda_(lambda_), tolerance_(options.constraintTolerance()) {
     if (options_.boundedNewton) {
@@ -49,8 +49,8 @@ class AugmentedLagrangian {
     if (dual.size() == phi_.size()) {
       for (std::size_t j = 0; j < constraints_.size(); ++j) lambda_[j] = dual[constraints_[j]];
     }
-    evaluate(x_, phi_, &J_);
-    if (!phi_.allFinite()) throw ValueError(cat("residuals at the start are not finite: ", firstNonFinite()));
+    evaluate(x_, phi_, J_);
+    if (const std::string what = notFinite(phi_, J_); !what.empty()) throw ValueError(cat("at the start, ", what));
     remember();
     if (nlp_.dimension() == 0) {
       stop(violationAt(phi_) <= tolerance_ ? SolverStatus::converged : SolverStatus::infeasible, "there is nothing to vary");
@@ -73,8 +73,8 @@ class AugmentedLagrangian {
     stopped_ = true;
   }
 
-  bool evaluate(const VectorXd& x, VectorXd& phi, Jacobian* J) {
-    nlp_.evaluate(x, phi, J);
+  bool evaluate(const VectorXd& x, VectorXd& phi, Jacobian& J) {
+    nlp_.evaluate(x, phi, &J);
     ++evals_;
     if (hook_ && !hook_(x, phi)) {
       stop(SolverStatus::cancelled, "cancelled by the caller");
@@ -83,11 +83,20 @@ class AugmentedLagrangian {
     return true;
   }
 
-  int firstNonFinite() const {
-    for (int i = 0; i < phi_.size(); ++i) {
-      if (!std::isfinite(phi_[i])) return i;
+  /// Which residual, or row of J, has a number that is not finite; empty if none has.
+  std::string notFinite(const VectorXd& phi, const Jacobian& J) const {
+    for (int row = 0; row < phi.size(); ++row) {
+      if (!std::isfinite(phi[row])) return cat(nlp_.rowName(row), " is not finite: ", phi[row]);
+      for (const Jacobian::Segment& segment : J.row_segments(row)) {
+        const double* values = J.values.data() + segment.offset;
+        for (int i = 0; i < segment.width; ++i) {
+          if (!std::isfinite(values[i])) {
+            return cat("the Jacobian of ", nlp_.rowName(row), " is not finite: ", values[i], " in column ", segment.column + i);
+          }
+        }
+      }
     }
-    return -1;
+    return {};
   }
 
   double cost(const VectorXd& phi) const {
@@ -100,8 +109,12 @@ class AugmentedLagrangian {
     return sum;
   }
 
+  double multiplier(int j, double c) const {
+    return model_.isEquality(j) ? lambda_[j] + mu_ * c : std::max(0., lambda_[j] + mu_ * c);
+  }
+
   double penalty(int j, double c) const {  // 1/(2 mu) t^2, without the constant -lambda^2
-    const double t = model_.isEquality(j) ? lambda_[j] + mu_ * c : std::max(0., lambda_[j] + mu_ * c);
+    const double t = multiplier(j, c);
     return t * t / (2. * mu_);
   }
 
@@ -115,6 +128,27 @@ class AugmentedLagrangian {
     double worst = 0.;
     for (int row : constraints_) worst = std::max(worst, violation(nlp_.types()[row], phi[row]));
     return worst;
+  }
+
+  /// The violation that the model expects after its step.
+  double linearizedViolation() const {
+    double worst = 0.;
+    for (int j = 0; j < lambda_.size(); ++j) {
+      worst = std::max(worst, model_.isEquality(j) ? std::abs(model_.linearized()[j]) : model_.linearized()[j]);
+    }
+    return worst;
+  }
+
+  /// Largest entry of the gradient of the Lagrangian, as far as the bounds leave room to go down.
+  double gradientNorm(const VectorXd& x, const VectorXd& phi, const Jacobian& J) {
+    gradient_.setZero(x.size());
+    for (int row = 0; row < phi.size(); ++row) {
+      const ObjectiveType type = nlp_.types()[row];
+      if (type == ObjectiveType::f) J.addRowTo(row, 1., gradient_);
+      if (type == ObjectiveType::sos || (type == ObjectiveType::ineqP && phi[row] > 0.)) J.addRowTo(row, 2. * phi[row], gradient_);
+    }
+    for (int j = 0; j < lambda_.size(); ++j) J.addRowTo(constraints_[j], multiplier(j, phi[constraints_[j]]), gradient_);
+    return ((x - gradient_).cwiseMax(lower_).cwiseMin(upper_) - x).lpNorm<Eigen::Infinity>();
   }
 
   /// Violation and failure of complementarity.
@@ -154,18 +188,19 @@ class AugmentedLagrangian {
   const EvaluationHook& hook_;
   LocalModel model_;
   const std::vector<int>& constraints_;
-  Jacobian J_;
-  VectorXd x_, phi_, trial_, trial_phi_, lambda_, next_lambda_, lower_, upper_, low_, high_;
+  Jacobian J_, trial_J_;
+  VectorXd x_, phi_, trial_, trial_phi_, lambda_, next_lambda_, lower_, upper_, low_, high_, gradient_;
   VectorXd best_x_, best_phi_;
   double best_violation_ = 0., best_cost_ = 0.;
   double tolerance_;
-  double mu_ = 1., omega_ = .1, last_violation_ = kInfinity, rel_ = .02;
+  double mu_ = 1., omega_ = .1, last_violation_ = kInfinity, violation_at_tests_ = kInfinity, rel_ = .02;
   int rounds_ = 0, bad_rounds_ = 0, failed_tests_ = 0;
   bool round_just_ended_ = false;
   int evals_ = 0;
   bool stopped_ = false;
   SolverStatus status_ = SolverStatus::stalled;
   std::string message_;
+  std::string trouble_;  ///< why the last step was rejected; empty if it was not
 };
 
 void AugmentedLagrangian::iterate() {
@@ -186,25 +221,31 @@ void AugmentedLagrangian::iterate() {
     const double size = d.lpNorm<Eigen::Infinity>();
     double predicted = -model_.costChange();
     for (int j = 0; j < lambda_.size(); ++j) predicted += penalty(j, phi_[constraints_[j]]) - penalty(j, model_.linearized()[j]);
-    const double vc = optimalityError();
+    const double vc = optimalityError(), violation = violationAt(phi_);
     const double scale = std::max(std::abs(cost(phi_)), 1e-4);
-    const bool tiny = size <= tolerance || predicted <= .01 * tolerance * scale;
+    const bool tiny = size <= tolerance || predicted <= std::max(tolerance * tolerance, 1e-16) * scale;
     if (options_.verbose > 2) {
       std::printf("    step %3d  evals %3d  |d| %.3g  predicted %.3g  violation %.3g  mu %.3g  nu %.3g\n", step, evals_, size, predicted, vc, mu_, nu);
     }
-    if (tiny && nu > .1 * h && !damped_step_retried && nu < 1e8) {  // small because of the damping, not because of the problem
-      nu = .1 * h;
+    if (tiny && nu > .1 * h && nu < 1e8 && (!damped_step_retried || trouble_.empty())) {
+      nu = std::max(.1 * h, .01 * nu);  // it may be small because of the damping, not because of the problem
+      growth = 2.;
       damped_step_retried = true;
+      trouble_.clear();
       continue;
     }
     if (tiny && vc <= tolerance_) {
-      return stop(SolverStatus::converged, cat("step ", size, " and violation ", vc, " are within tolerances"));
+      if (nu > .1 * h && !trouble_.empty() && predicted > .1 * size * std::max(scale, .01)) {  // larger steps were refused
+        return stop(SolverStatus::stalled, cat("no step decreases the objective as predicted", trouble_));
+      }
+      return stop(SolverStatus::converged, cat("step ", size, ", its predicted decrease ", predicted, ", and violation ", vc, " are within tolerances"));
     }
     const bool solved = (size <= omega_ && nu <= .1 * h) || last_relative <= rel_ || tiny || nu > 1e10 || predicted <= 0.;
-    if (solved && !(vc <= tolerance_ && round_just_ended_ && predicted > 0.)) {
+    const bool helps = vc <= tolerance_ || (violation > tolerance_ && linearizedViolation() < .5 * violation);
+    if (solved && !(round_just_ended_ && helps && predicted > 0. && nu <= 1e10)) {
       if (nu > 1e10) {
         nu = options_.damping;
-        if (++given_up == 3) return stop(SolverStatus::stalled, "no step decreases the objective as predicted, as at a kink");
+        if (++given_up == 3) return stop(SolverStatus::stalled, cat("no step decreases the objective as predicted", trouble_));
       }
       endRound(vc, size);
       last_relative = 1.;
@@ -212,22 +253,27 @@ void AugmentedLagrangian::iterate() {
     }
     trial_ = (x_ + d).cwiseMax(lower_).cwiseMin(upper_);
     const double before = lagrangian(phi_);
-    if (!evaluate(trial_, trial_phi_, &J_)) return;
-    const double after = trial_phi_.allFinite() ? lagrangian(trial_phi_) : kInfinity;
+    if (!evaluate(trial_, trial_phi_, trial_J_)) return;
+    const std::string not_finite = notFinite(trial_phi_, trial_J_);
+    const double after = not_finite.empty() ? lagrangian(trial_phi_) : kInfinity;
     double ratio = (before - after) / predicted;
     const double noise = std::max(1e-12, 1e-10 * std::abs(before));
-    if (std::abs(before - after) < noise && predicted < noise) ratio = .3;
+    if (std::abs(before - after) < noise && predicted < noise) {  // only gradients tell which point is better
+      ratio = gradientNorm(trial_, trial_phi_, trial_J_) < gradientNorm(x_, phi_, J_) ? .3 : -1.;
+    }
     if (ratio > options_.wolfe) {
       x_.swap(trial_);
       phi_.swap(trial_phi_);
+      std::swap(J_, trial_J_);
       nu = std::max(1e-6, nu * std::max(.1, 1. - std::pow(2. * std::min(ratio, 1.2) - 1., 3)));
       growth = 2.;
       last_relative = (before - after) / std::max(std::abs(before), .01);
       damped_step_retried = round_just_ended_ = false;
+      trouble_.clear();
       costs_stale = true;
       remember();
     } else {
-      nlp_.evaluate(x_, phi_, &J_);  // the Jacobian of the point that is kept
+      trouble_ = not_finite.empty() ? ", as at a kink" : cat(": where it would go, ", not_finite);
       nu = std::max({nu * growth, .01 * h, 1e-3});
       growth *= 2.;
     }
@@ -247,14 +293,15 @@ void AugmentedLagrangian::endRound(double vc, double step_size) {
         return stop(SolverStatus::infeasible, cat("the constraints contradict each other here; least violation found ", best_violation_));
       }
       bad_rounds_ = 0;
+      if (vc < .5 * violation_at_tests_) {  // slow, but it falls
+        violation_at_tests_ = vc;
+        failed_tests_ = 0;
+      }
       if (++failed_tests_ == 6) return stop(SolverStatus::stalled, cat("the violation no longer falls; it is ", vc));
     }
   }
   if (step_size <= .5 * options_.stepMax) {
-    for (int j = 0; j < lambda_.size(); ++j) {
-      const double t = lambda_[j] + mu_ * model_.linearized()[j];
-      lambda_[j] = model_.isEquality(j) ? t : std::max(0., t);
-    }
+    for (int j = 0; j < lambda_.size(); ++j) lambda_[j] = multiplier(j, model_.linearized()[j]);
     if (options_.lambdaMax > 0.) lambda_ = lambda_.cwiseMin(options_.lambdaMax).cwiseMax(-options_.lambdaMax);
   }
   if (vc > .25 * last_violation_ && vc > tolerance_) mu_ = std::min(options_.muMax, options_.muInc * mu_);
@@ -294,15 +341,15 @@ void AugmentedLagrangian::reduceViolation() {
     model_.setNoCosts(0.);
     box();
     trial_ = (x_ + model_.minimize({phi_, J_, next_lambda_, 1., damping, low_, high_, 12})).cwiseMax(lower_).cwiseMin(upper_);
-    if (!evaluate(trial_, trial_phi_, &J_)) return;
+    if (!evaluate(trial_, trial_phi_, trial_J_)) return;
     const double before = square(phi_), after = square(trial_phi_);
-    if (!(after < before)) {
-      nlp_.evaluate(x_, phi_, &J_);
+    if (!(after < before) || !notFinite(trial_phi_, trial_J_).empty()) {
       damping *= 10.;
       continue;
     }
     x_.swap(trial_);
     phi_.swap(trial_phi_);
+    std::swap(J_, trial_J_);
     best_x_ = x_;
     best_phi_ = phi_;
     best_violation_ = violationAt(phi_);

@@ -7,6 +7,8 @@ namespace kinegraph {
 
 namespace {
 
+constexpr double kAtBound = 1e-14;  ///< an entry of the step this near to a bound is put on it
+
 /// The first column that any row connects each variable to.
 std::vector<int> profileOf(const Nlp& nlp, const Jacobian& pattern) {
   std::vector<int> first(nlp.dimension());
@@ -118,7 +120,8 @@ double LocalModel::costChange() const {
 
 /// Factorizes H + shift I + mu J_A^T J_A, with the rows of fixed variables replaced by the identity.
 bool LocalModel::factorize(const Problem& problem) {
-  double extra = 0.;
+  double extra = 0., magnitude = 1e-6;  // of the curvatures, which may be negative
+  for (int i = 0; i < H_.size(); ++i) magnitude = std::max(magnitude, std::abs(H_.at(i, i)));
   for (int attempt = 0; attempt < 12; ++attempt) {
     K_.copyFrom(H_);
     K_.addToDiagonal(problem.shift + extra);
@@ -132,9 +135,40 @@ bool LocalModel::factorize(const Problem& problem) {
     }
     ++factorizations_;
     if (K_.factorize()) return true;
-    extra = extra == 0. ? 1e-3 * largestCurvature() : 4. * extra;
+    extra = extra == 0. ? 1e-3 * magnitude : 4. * extra;
   }
   return false;
+}
+
+/// s = -K^-1 r among the variables that are free. One that sits at a bound and would be pushed out is fixed as well.
+bool LocalModel::newtonStep(const Problem& problem) {
+  for (bool pushed_out = true; pushed_out;) {
+    if (!factored_ || active_ != factored_active_ || fixed_ != factored_fixed_) {
+      factored_ = factorize(problem);
+      if (!factored_) return false;
+      factored_active_ = active_;
+      factored_fixed_ = fixed_;
+    }
+    const int n = int(s_.size());
+    for (int i = 0; i < n; ++i) s_[i] = fixed_[i] ? 0. : -r_[i];
+    K_.solveInPlace(s_);
+    pushed_out = false;
+    for (int i = 0; i < n; ++i) {
+      if (fixed_[i] || !((d_[i] <= problem.low[i] && s_[i] < 0.) || (d_[i] >= problem.high[i] && s_[i] > 0.))) continue;
+      fixed_[i] = pushed_out = true;
+    }
+  }
+  return true;
+}
+
+/// The part of the step s that leads to the first bound, at most 1.
+double LocalModel::roomAlong(const Problem& problem) const {
+  double room = 1.;
+  for (int i = 0; i < s_.size(); ++i) {
+    if (s_[i] < 0.) room = std::min(room, (problem.low[i] - d_[i]) / s_[i]);
+    if (s_[i] > 0.) room = std::min(room, (problem.high[i] - d_[i]) / s_[i]);
+  }
+  return room;
 }
 
 const VectorXd& LocalModel::minimize(const Problem& problem) {
@@ -142,7 +176,7 @@ const VectorXd& LocalModel::minimize(const Problem& problem) {
   d_.setZero();
   linearize(d_, problem, linear_);
   double current = value(d_, linear_, problem), reference = 0.;
-  bool factored = false;
+  factored_ = false;
   for (int pass = 0; pass < problem.max_passes; ++pass) {
     r_ = g_ + problem.shift * d_;
     H_.addProduct(d_, r_);
@@ -158,18 +192,17 @@ const VectorXd& LocalModel::minimize(const Problem& problem) {
     }
     if (pass == 0) reference = std::max(remaining, 1e-30);
     if (remaining <= 1e-11 * reference) break;
-    if (!factored || active_ != factored_active_ || fixed_ != factored_fixed_) {
-      if (!factorize(problem)) break;
-      factored = true;
-      factored_active_ = active_;
-      factored_fixed_ = fixed_;
-    }
-    for (int i = 0; i < n; ++i) s_[i] = fixed_[i] ? 0. : -r_[i];
-    K_.solveInPlace(s_);
+    if (!newtonStep(problem)) break;
+    const double first_hit = roomAlong(problem);
     double alpha = 1., moved = 0.;
     bool accepted = false;
-    for (int halving = 0; halving < 20 && !accepted; ++halving, alpha *= .5) {
+    for (int attempt = 0; attempt < 20 && !accepted; ++attempt) {
       trial_ = (d_ + alpha * s_).cwiseMax(problem.low).cwiseMin(problem.high);
+      alpha = attempt == 0 && first_hit < 1. ? first_hit : .5 * alpha;  // cut off at the box first; then without leaving it
+      for (int i = 0; i < n; ++i) {
+        if (trial_[i] < problem.low[i] + kAtBound) trial_[i] = problem.low[i];
+        if (trial_[i] > problem.high[i] - kAtBound) trial_[i] = problem.high[i];
+      }
       linearize(trial_, problem, trial_linear_);
       const double next = value(trial_, trial_linear_, problem);
       if (next > current + 1e-4 * r_.dot(trial_ - d_)) continue;

@@ -53,11 +53,14 @@ class LocalModel {
   void linearize(const VectorXd& d, const Problem& problem, VectorXd& linear) const;
   void addRow(SkylineMatrix& matrix, const Jacobian& J, int row, double weight) const;
   bool factorize(const Problem& problem);
+  bool newtonStep(const Problem& problem);
+  double roomAlong(const Problem& problem) const;
 
   std::vector<int> costs_, constraints_;
   std::vector<bool> equality_, active_, factored_active_, fixed_, factored_fixed_;
   SkylineMatrix H_, K_;
   VectorXd g_, d_, trial_, r_, s_, Hd_, linear_, trial_linear_;
+  bool factored_ = false;
   int factorizations_ = 0;
 };
 

@@ -40,7 +40,7 @@ void NlpSolver::clearTracing() {
 SolverResult NlpSolver::solve(bool resample, Rng& rng, const std::function<bool()>& should_stop) {
   if (!problem_) throw Error("NLP_Solver: there is no problem to solve; call setProblem first");
   if (options.method != OptMethod::augmentedLag) {
-    throw ValueError(cat("NLP_Solver: method ", int(options.method), " is not available; use OptMethod.augmentedLag"));
+    throw ValueError(cat("NLP_Solver: method ", optMethodName(options.method), " is not available; use OptMethod.augmentedLag"));
   }
   if (resample || x.size() == 0) {
     x = problem_->initialPoint(rng);

@@ -8,6 +8,14 @@
 
 namespace kinegraph {
 
+std::string optMethodName(OptMethod method) {
+  constexpr const char* names[] = {"none", "gradientDescent", "rprop", "LBFGS", "newton", "augmentedLag", "logBarrier",
+                                   "slackGN_logBarrier", "squaredPenalty", "singleSquaredPenalty", "slackGN", "NLopt", "Ipopt",
+                                   "slackGN_Ipopt", "Ceres", "LSBO", "greedy", "NelderMead", "CMA", "LS_CMA", "ES"};
+  const int number = int(method);
+  return number >= 0 && number < int(std::size(names)) ? names[number] : cat(number);
+}
+
 double SolverOptions::constraintTolerance() const {
   return stopGTolerance >= 0. ? std::max(stopGTolerance, 1e-12) : std::min(stopTolerance, 1e-4);
 }
@@ -22,6 +30,8 @@ void SolverOptions::validate() const {
   positive("muMax", muMax);
   if (!(damping >= 0.)) throw ValueError(cat("option damping is ", damping, "; expected a number >= 0"));
   if (!(muInc > 1.)) throw ValueError(cat("option muInc is ", muInc, "; expected a number > 1"));
+  if (!(wolfe >= 0. && wolfe < 1.)) throw ValueError(cat("option wolfe is ", wolfe, "; expected a number >= 0 and < 1"));
+  if (std::isnan(stopGTolerance)) throw ValueError("option stopGTolerance is nan; expected a number, < 0 for the default");
   if (stopEvals < 1) throw ValueError(cat("option stopEvals is ", stopEvals, "; expected at least 1"));
 }
 

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <string>
+
 namespace kinegraph {
 
 /// Solution methods. The numbers are those of the Python enum `ry.OptMethod`.
@@ -8,6 +10,8 @@ enum class OptMethod : int {
   squaredPenalty = 8, singleSquaredPenalty = 9, slackGN = 10, NLopt = 11, Ipopt = 12, slackGN_Ipopt = 13, Ceres = 14, LSBO = 15,
   greedy = 16, NelderMead = 17, CMA = 18, LS_CMA = 19, ES = 20,
 };
+
+std::string optMethodName(OptMethod method);
 
 /// Settings of a solver. Names and roles are those that scripts know; where a default differs from older packages, it is
 /// because the method converges where theirs stopped.

@@ -1,0 +1,18 @@
+#pragma once
+
+#include <memory>
+
+#include "bindings.h"
+#include "kinegraph/komo/komo.h"
+
+namespace kinegraph::python {
+
+/// What Python calls a KOMO: the motion problem, and the viewer that `view()` opens at first use.
+struct PyKomo : Komo {
+  std::shared_ptr<ConfigViewer> viewer;
+};
+
+/// What a KOMO says about itself, in words, numbers and pictures.
+void bindKomoReports(nb::class_<PyKomo>& komo);
+
+}  // namespace kinegraph::python

@@ -1,0 +1,208 @@
+#include "kinegraph/komo/mode.h"
+
+#include <algorithm>
+#include <numbers>
+
+#include "kinegraph/base/errors.h"
+#include "kinegraph/base/text.h"
+
+namespace kinegraph {
+
+const std::vector<std::pair<std::string, SwitchMode>>& switchModeNames() {
+  using M = SwitchMode;
+  static const std::vector<std::pair<std::string, SwitchMode>> names = {
+      {"touch", M::touch}, {"above", M::above}, {"inside", M::inside}, {"oppose", M::oppose}, {"restingOn", M::restingOn},
+      {"poseEq", M::poseEq}, {"positionEq", M::positionEq}, {"stableRelPose", M::stableRelPose}, {"stablePose", M::stablePose},
+      {"stable", M::stable}, {"stableOn", M::stableOn}, {"dynamic", M::dynamic}, {"dynamicOn", M::dynamicOn},
+      {"dynamicTrans", M::dynamicTrans}, {"quasiStatic", M::quasiStatic}, {"quasiStaticOn", M::quasiStaticOn},
+      {"downUp", M::downUp}, {"stableZero", M::stableZero}, {"contact", M::contact}, {"contactStick", M::contactStick},
+      {"contactComplementary", M::contactComplementary}, {"bounce", M::bounce}, {"push", M::push}, {"magic", M::magic},
+      {"magicTrans", M::magicTrans}, {"pushAndPlace", M::pushAndPlace}, {"topBoxGrasp", M::topBoxGrasp},
+      {"topBoxPlace", M::topBoxPlace}, {"dampMotion", M::dampMotion}, {"identical", M::identical}, {"alignByInt", M::alignByInt},
+      {"makeFree", M::makeFree}, {"forceBalance", M::forceBalance}, {"relPosY", M::relPosY},
+      {"touchBoxNormalX", M::touchBoxNormalX}, {"touchBoxNormalY", M::touchBoxNormalY}, {"touchBoxNormalZ", M::touchBoxNormalZ},
+      {"boxGraspX", M::boxGraspX}, {"boxGraspY", M::boxGraspY}, {"boxGraspZ", M::boxGraspZ}, {"lift", M::lift},
+      {"stableYPhi", M::stableYPhi}, {"stableOnX", M::stableOnX}, {"stableOnY", M::stableOnY}, {"end", M::end}};
+  return names;
+}
+
+std::string switchModeName(SwitchMode mode) {
+  for (const auto& [name, value] : switchModeNames()) {
+    if (value == mode) return name;
+  }
+  return cat(int(mode));
+}
+
+namespace {
+
+bool isBox(const Frame& frame) { return frame.getShapeType() == ShapeType::ssBox || frame.getShapeType() == ShapeType::box; }
+
+bool isRound(ShapeType type) {
+  return type == ShapeType::sphere || type == ShapeType::cylinder || type == ShapeType::ssCylinder || type == ShapeType::capsule;
+}
+
+/// Largest extent of a frame's shape, m; 0 without one.
+double extent(const Frame& frame) {
+  const ShapeType type = frame.getShapeType();
+  const std::vector<double> size = frame.getSize();
+  if (size.empty() || type == ShapeType::marker) return 0.;
+  return isRound(type) ? 2. * size[0] : *std::max_element(size.begin(), size.end());
+}
+
+/// Extent of a frame's shape along its own z axis, m; 0 without one.
+double height(const Frame& frame) {
+  const std::vector<double> size = frame.getSize();
+  switch (frame.getShapeType()) {
+    case ShapeType::box:
+    case ShapeType::ssBox: return size[2];
+    case ShapeType::sphere: return 2. * size[0];
+    case ShapeType::capsule: return size[0] + 2. * size[1];
+    case ShapeType::cylinder:
+    case ShapeType::ssCylinder: return size[0];
+    default: return 0.;
+  }
+}
+
+/// The pose of a joint on the face of `box` along an axis, for an object of that height; its z axis points outwards.
+Pose faceBase(const std::vector<double>& box, int axis, double object_height) {
+  Pose base;
+  base.p[axis] = .5 * (box[axis] + object_height);
+  const double quarter = .5 * std::numbers::pi;
+  if (axis == 0) base.q = Eigen::AngleAxisd(quarter, Vector3d::UnitY());
+  if (axis == 1) base.q = Eigen::AngleAxisd(-quarter, Vector3d::UnitX());
+  return base;
+}
+
+}  // namespace
+
+void limitFreeJoint(Attachment& attachment, const Frame& parent, const Frame* object) {
+  const double range = .9 * (extent(parent) + (object ? extent(*object) : 0.));
+  if (range <= 0.) return;
+  attachment.upper = (Eigen::Matrix<double, 7, 1>() << range, range, range, 1.1, 1.1, 1.1, 1.1).finished();
+  attachment.lower = -attachment.upper;
+}
+
+void limitSliding(Attachment& attachment, double half_x, double half_y) {
+  attachment.upper = Vector3d(half_x, half_y, 2. * std::numbers::pi);
+  attachment.lower = -attachment.upper;
+}
+
+Attachment attachmentOf(SwitchMode mode, const Frame& parent, const Frame& object) {
+  using M = SwitchMode;
+  const std::vector<double> box = parent.getSize();
+  const auto requireBox = [&] {
+    if (isBox(parent)) return;
+    throw ValueError(cat("addModeSwitch: ", switchModeName(mode), " needs a box (ssBox) to place '", object.getName(), "' on; '",
+                         parent.getName(), "' has ", parent.getShapeType() == ShapeType::none ? "no shape" : "another shape"));
+  };
+  Attachment a;
+  switch (mode) {
+    case M::stable:
+      a.type = JointType::free;
+      a.starts_here = true;
+      a.zero_home = false;
+      limitFreeJoint(a, parent, &object);
+      return a;
+    case M::stableOn:
+    case M::stableOnX:
+    case M::stableOnY: {
+      requireBox();
+      const int axis = mode == M::stableOnX ? 0 : mode == M::stableOnY ? 1 : 2;
+      a.type = JointType::transXYPhi;
+      a.starts_here = axis == 2;
+      a.uniform = true;
+      a.base = faceBase(box, axis, height(object));
+      limitSliding(a, .5 * box[axis == 0 ? 2 : 0], .5 * box[axis == 1 ? 2 : 1]);
+      return a;
+    }
+    case M::stableYPhi:
+      a.type = JointType::transY;
+      a.starts_here = true;
+      a.zero_home = false;
+      return a;
+    case M::stableZero: return a;
+    case M::dynamic:
+      a.type = JointType::free;
+      a.stable = false;
+      a.starts_here = true;
+      a.zero_home = false;
+      return a;
+    case M::dynamicOn:
+      requireBox();
+      a.type = JointType::transXYPhi;
+      a.stable = false;
+      a.starts_here = true;
+      a.zero_home = false;
+      a.base = faceBase(box, 2, height(object));
+      return a;
+    case M::quasiStatic:
+    case M::quasiStaticOn:
+      throw ValueError(cat("addModeSwitch: ", switchModeName(mode), " needs contact forces, which are not available; stable and "
+                           "stableOn hold an object without them"));
+    default:
+      throw ValueError(cat("addModeSwitch: ", switchModeName(mode), " does not attach an object; available are stable, stableOn, "
+                           "stableOnX, stableOnY, stableYPhi, stableZero, dynamic and dynamicOn"));
+  }
+}
+
+void addJoint(FrameData& frame, const Attachment& attachment, const Pose& relative) {
+  Joint joint(attachment.type);
+  frame.pose = Pose();
+  if (joint.dofs() > 0) {
+    if (attachment.starts_here) joint.q = motionProject(joint.steps, joint.axis, joint.scale, relative);
+    if (!attachment.zero_home) joint.home = joint.q;
+    joint.lower = attachment.lower;
+    joint.upper = attachment.upper;
+    joint.stable = attachment.stable;
+    joint.sample_uniform = attachment.uniform ? 1. : 0.;
+  }
+  frame.joint = std::move(joint);
+}
+
+const FrameData& Mode::movableRoot(const std::string& object, const std::string& parent) const {
+  const SceneTree& scene = *config.scene();
+  const FrameData& named = scene.get(object, "mode switch");
+  const FrameData* root = &named;
+  while (!root->joint && root->parent) root = root->parent;
+  for (const FrameData* above = &scene.get(parent, "mode switch"); above; above = above->parent) {
+    if (above == root) return named;
+  }
+  return *root;
+}
+
+void Mode::attach(const std::string& parent, const std::string& object, const Attachment& attachment, int base_frame, int id) {
+  SceneTree& scene = *config.scene();
+  FrameData& below = scene.get(parent, "mode switch");
+  FrameData& named = scene.get(object, "mode switch");
+  const FrameData& root = movableRoot(object, parent);
+  const Pose X_WO = named.worldPose();
+  std::vector<FrameData*> chain;  // from the object up to its movable root
+  for (FrameData* frame = &named;; frame = frame->parent) {
+    chain.push_back(frame);
+    if (frame == &root) break;
+  }
+  std::vector<Pose> upwards;  // each frame of the chain, in the one before
+  for (std::size_t i = 0; i + 1 < chain.size(); ++i) upwards.push_back(chain[i]->relativePose().inverse());
+  for (FrameData* frame : chain) {
+    if (frame->parent) scene.unlink(*frame);
+    frame->joint.reset();
+    added.erase(frame->id);
+  }
+  for (std::size_t i = 0; i < upwards.size(); ++i) {
+    scene.link(*chain[i + 1], *chain[i]);
+    chain[i + 1]->pose = upwards[i];
+  }
+  FrameData* seat = &below;
+  if (attachment.base) {
+    seat = scene.frames()[base_frame].get();
+    scene.link(*seat, below);
+    seat->pose = *attachment.base;
+  }
+  named.pose = X_WO;
+  scene.link(named, *seat);
+  addJoint(named, attachment, seat->worldPose().inverse() * X_WO);
+  added[named.id] = {id, attachment.stable, parent};
+  scene.structureChanged();
+}
+
+}  // namespace kinegraph

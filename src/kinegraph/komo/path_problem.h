@@ -1,0 +1,52 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "kinegraph/komo/komo.h"
+
+namespace kinegraph {
+
+/// The objectives of a Komo, laid out: which rows of phi each has in each slice, and where its Jacobian goes. Evaluates at the
+/// Komo's present path. It is of the structure and the objectives that the Komo has when this is made.
+class PathProblem {
+ public:
+  /// An objective in a slice.
+  struct Term {
+    int objective;
+    int slice;
+    int residual;
+    int first_row, rows;
+    int first_run, runs;
+  };
+
+  explicit PathProblem(const Komo& komo);
+
+  const std::vector<Term>& terms() const { return terms_; }
+  const std::vector<ObjectiveType>& types() const { return types_; }
+  const std::vector<Komo::Objective>& objectives() const { return objectives_; }
+  int rows() const { return int(types_.size()); }
+  const Term& termOf(int row) const;
+
+  Jacobian makeJacobian() const;
+  void evaluate(const Komo& komo, VectorXd& phi, Jacobian* J);
+
+ private:
+  /// Consecutive columns of the window of slices, and where they go in the row.
+  struct Run {
+    int from, to, width;
+  };
+  void layOut(const Komo& komo, Term& term, std::vector<std::pair<int, int>>& segments);
+
+  std::vector<Komo::Objective> objectives_;
+  std::vector<Term> terms_;
+  std::vector<Residual> residuals_;
+  std::vector<ObjectiveType> types_;
+  std::vector<Run> runs_;
+  std::vector<std::vector<std::pair<int, int>>> segments_;  ///< per term: columns and widths
+  std::vector<double> window_jacobian_;
+  std::vector<const State*> window_;
+  int widest_state_ = 0, dimension_ = 0;
+};
+
+}  // namespace kinegraph

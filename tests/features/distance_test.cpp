@@ -1,0 +1,110 @@
+#include "kinegraph/features/distance.h"
+
+#include <gtest/gtest.h>
+
+#include "tests/features/worked_scene.h"
+#include "tests/support/differences.h"
+
+using namespace kinegraph;
+
+TEST(NegDistance, OfShapesApartIsMinusTheirGap) {
+  const Config config = workedScene();
+  for (const char* name : {"distance", "negDistance", "pairCollision_negScalar"}) {
+    EXPECT_NEAR(value(config, name, {"A", "B"})[0], -.2, 1e-9) << name;
+    EXPECT_NEAR(value(config, name, {"B", "A"})[0], -.2, 1e-9) << name;
+    EXPECT_NEAR(value(config, name, {"A", "C"})[0], -.1, 1e-9) << name;
+    EXPECT_NEAR(value(config, name, {"A", "P"})[0], -.1, 1e-9) << name;
+    EXPECT_NEAR(value(config, name, {"A", "D"})[0], 0., 1e-9) << name;
+    EXPECT_NEAR(value(config, name, {"C", "D"})[0], 0., 1e-9) << name;
+  }
+}
+
+TEST(NegDistance, IsPositiveWhereShapesPenetrateByThatDepth) {
+  Config config;
+  config.addText("a: { shape: sphere, size: [.1] }  b: { X: [.15 0 0], shape: sphere, size: [.1] }");
+  config.addText("c: { shape: ssBox, size: [1 1 1 .1] }  d: { X: [0 0 .55], shape: ssBox, size: [.4 .4 .4 .05] }");
+  EXPECT_NEAR(value(config, "distance", {"a", "b"})[0], .05, 1e-12);
+  EXPECT_NEAR(value(config, "distance", {"c", "d"})[0], .15, 1e-6);
+}
+
+TEST(NegDistance, HasTheJacobianOfCentralDifferencesInPenetrationToo) {
+  Rng rng(21);
+  struct Body {
+    const char* shape;
+    double tolerance = 1e-6;
+  };
+  const Body bodies[] = {{"shape: sphere, size: [.1]"}, {"shape: capsule, size: [.2 .05]"}, {"shape: ssBox, size: [.2 .2 .3 .03]"},
+                         {"shape: box, size: [.1 .3 .2]"},
+                         {"shape: cylinder, size: [.2 .1]", 2e-4}};  // its depth is iterated to 1e-8 m, the normal to the root of it
+  for (const auto& [shape, tolerance] : bodies) {
+    Config config;
+    config.addText(std::string("box: { shape: ssBox, size: [.5 .4 .3 .02] }  base: {}  body(base): { joint: free, ") + shape + " }");
+    const auto distance = [&](const VectorXd& q) {
+      config.setJointState(q);
+      return value(config, "distance", {"body", "box"});
+    };
+    int deep = 0, used = 0;
+    for (int sample = 0; sample < 40; ++sample) {
+      VectorXd q(7);
+      for (double& x : q) x = rng.normal();
+      q.head(3) = q.head(3).normalized() * rng.uniform(.1, .25);
+      const Differences numeric = differences(distance, q);
+      if (distance(q)[0] < .01) continue;
+      ++deep;
+      if (!numeric.differentiable) continue;
+      ++used;
+      EXPECT_LE(relativeError(eval(config, FeatureSymbol::distance, {"body", "box"}).J, numeric.D), tolerance) << shape << ", sample " << sample;
+    }
+    EXPECT_GE(deep, 20) << shape;
+    EXPECT_GE(used, .8 * deep) << shape;
+  }
+}
+
+TEST(Witness, PointsNormalAndVectorAreThoseOfTheNearestSurfaces) {
+  const Config config = workedScene();
+  EXPECT_TRUE(near(value(config, "pairCollision_vector", {"A", "B"}), numbers({-.2, 0, 0}), 1e-6));
+  EXPECT_TRUE(near(value(config, "pairCollision_normal", {"A", "B"}), numbers({-1, 0, 0}), 1e-6));
+  EXPECT_TRUE(near(value(config, "pairCollision_p1", {"A", "B"}), numbers({1.2, 2, 3}), 1e-6));
+  EXPECT_TRUE(near(value(config, "pairCollision_p2", {"A", "B"}), numbers({1.4, 2, 3}), 1e-6));
+  EXPECT_TRUE(near(value(config, "pairCollision_vector", {"A", "C"}), numbers({0, 0, -.1}), 1e-6));
+  EXPECT_TRUE(near(value(config, "pairCollision_normal", {"A", "C"}), numbers({0, 0, -1}), 1e-6));
+}
+
+TEST(Witness, VectorReversesWhereShapesPenetrate) {
+  Config config;
+  config.addText("a: { shape: sphere, size: [.1] }  b: { X: [.15 0 0], shape: sphere, size: [.1] }");
+  EXPECT_TRUE(near(value(config, "pairCollision_vector", {"a", "b"}), numbers({.05, 0, 0}), 1e-12));
+  EXPECT_TRUE(near(value(config, "pairCollision_normal", {"a", "b"}), numbers({-1, 0, 0}), 1e-12));
+}
+
+TEST(Oppose, SumsTheVectorsFromTheObjectToTheFingers) {
+  const Config config = workedScene();
+  EXPECT_TRUE(near(value(config, "oppose", {"B", "D", "A"}), numbers({.35, 0, .1}), 1e-5));
+  EXPECT_TRUE(near(value(config, "opposeCentral", {"B", "D", "A"}), numbers({.35, 0, .1, -.00661, .00497, .00005}), 1e-5));
+}
+
+TEST(Oppose, IsZeroForFingersOnOppositeSides) {
+  Config config;
+  config.addText("l: { X: [-.3 0 0], shape: sphere, size: [.02] }  r: { X: [.3 0 0], shape: sphere, size: [.02] }");
+  config.addText("o: { shape: sphere, size: [.1] }");
+  EXPECT_TRUE(near(value(config, "opposeCentral", {"l", "r", "o"}), VectorXd::Zero(6), 1e-4));
+}
+
+TEST(AccumulatedCollisions, SumTheDepthsOfAllCollidablePairs) {
+  Config config;
+  config.addText("a: { shape: sphere, size: [.1], contact: 1 }  b: { X: [.15 0 0], shape: sphere, size: [.1], contact: 1 }");
+  EXPECT_NEAR(value(config, "accumulatedCollisions", {})[0], .05, 1e-12);
+  config.addText("c: { X: [0 .18 0], shape: sphere, size: [.1], contact: 1 }  d: { shape: sphere, size: [.1] }");
+  EXPECT_NEAR(value(config, "accumulatedCollisions", {})[0], .07, 1e-12);
+  config.getFrame("b").setPosition({3, 0, 0});
+  EXPECT_NEAR(value(config, "accumulatedCollisions", {})[0], .02, 1e-12) << "never stale";
+}
+
+TEST(AccumulatedCollisions, OfNamedFramesLookAtThoseAndNoOthers) {
+  Config config;
+  config.addText("a: { shape: sphere, size: [.1], contact: 1 }  b: { X: [.15 0 0], shape: sphere, size: [.1], contact: 1 }");
+  config.addText("c: { X: [0 .18 0], shape: sphere, size: [.1], contact: 1 }");
+  EXPECT_NEAR(value(config, "accumulatedCollisions", {"b"})[0], .05, 1e-12);
+  EXPECT_NEAR(value(config, "accumulatedCollisions", {"c"})[0], .02, 1e-12);
+  EXPECT_NEAR(value(config, "accumulatedCollisions", {"b", "c"})[0], .07, 1e-12);
+}

@@ -1,0 +1,189 @@
+#include <gtest/gtest.h>
+
+#include "kinegraph/base/errors.h"
+#include "kinegraph/base/text.h"
+#include "kinegraph/features/registry.h"
+#include "kinegraph/features/residual.h"
+#include "kinegraph/scene/config.h"
+#include "tests/support/differences.h"
+
+using namespace kinegraph;
+
+namespace {
+
+constexpr double kTolerance = 1e-6;    ///< of a Jacobian, relative
+constexpr double kTau = .3;            ///< s
+constexpr int kSamples = 4;            ///< random joint vectors per feature, frames and order
+constexpr double kLeastUsed = .9;     ///< part of the samples of a symbol that must be differentiable
+
+/// Two chains whose joints are given, with a shape at the end of each, and a third body on the first chain. All of them
+/// are turned against each other, so that no faces are parallel, and near enough to touch for some q.
+std::string scene(const std::string& first, const std::string& second) {
+  return "base: { X: \"t(.1 -.2 .3) d(25 .3 1 .2)\" }\n"
+         "upper(base): { pre: \"t(.1 .1 0) d(70 1 .2 .5)\", " + first + " }\n"
+         "lower(upper): { pre: \"t(.15 0 .1) d(-50 .4 1 .3)\", " + second + " }\n"
+         "finger(lower): { Q: \"t(.03 .02 .04) d(35 1 .6 .2)\", shape: capsule, size: [.2 .03], contact: 1, mass: .7 }\n"
+         "other(base): { pre: \"t(.2 .25 .05) d(-40 .2 .3 1)\", " + second + " }\n"
+         "box(other): { Q: \"t(-.05 .06 .02) d(20 .5 1 .1)\", shape: ssBox, size: [.3 .24 .2 .02], contact: 1, mass: 1.3 }\n"
+         "block(base): { pre: \"t(.25 -.05 .3) d(65 .1 .3 .4)\", " + first + ", shape: ssBox, size: [.2 .16 .1 .03], contact: 1, mass: .4 }\n";
+}
+
+struct Scene {
+  const char* name;
+  const char* first;
+  const char* second;
+  const char* more = "";
+};
+
+constexpr Scene kScenes[] = {
+    {"hinges", "joint: hingeX, limits: [-2 2]", "joint: hingeY"},
+    {"hingesZ", "joint: hingeZ, joint_scale: 1.7", "joint: hinge, axis: [1 2 -1], limits: [-1 1.5]"},
+    {"prismatic", "joint: transX, limits: [-.3 .3]", "joint: transZ"},
+    {"trans3AndTransY", "joint: trans3", "joint: transY"},
+    {"planarBase", "joint: transXYPhi, limits: [-1 -1 -2 1 1 2]", "joint: hingeX"},
+    {"planarOthers", "joint: phiTransXY", "joint: transYPhi"},
+    {"universal", "joint: universal", "joint: transXY"},
+    {"quatBall", "joint: quatBall", "joint: hingeY"},
+    {"free", "joint: hingeZ", "joint: free"},
+    {"circleAndXBall", "joint: circleZ", "joint: XBall"},
+    {"generic", "joint: _xAzb", "joint: hingeX"},
+    {"mimic", "joint: hingeX, limits: [-2 2]", "joint: hingeY",
+     "follower(finger): { pre: \"t(.1 0 0) d(30 1 1 0)\", joint: hingeX, mimic: upper, joint_scale: -.6, shape: sphere, size: [.05], contact: 1 }"},
+};
+
+Config makeScene(const Scene& joints) {
+  Config config;
+  config.addText(scene(joints.first, joints.second) + joints.more);
+  return config;
+}
+
+/// The frames that a symbol is tried on: every choice that fits the number it takes.
+std::vector<std::vector<int>> frameChoices(const FeatureInfo& info, const Config& config) {
+  const auto id = [&](const char* name) { return config.getFrame(name).id(); };
+  const std::vector<std::vector<int>> all = {{},
+                                             {id("finger")},
+                                             {id("lower")},
+                                             {id("finger"), id("box")},
+                                             {id("block"), id("box")},
+                                             {id("finger"), id("box"), id("block")}};
+  std::vector<std::vector<int>> fitting;
+  for (const auto& frames : all) {
+    const int count = int(frames.size());
+    if (count >= info.min_frames && (info.max_frames < 0 || count <= info.max_frames)) fitting.push_back(frames);
+  }
+  return fitting;
+}
+
+VectorXd randomJoints(const Config& config, Rng& rng) {
+  VectorXd q = config.program()->home;
+  for (double& x : q) x += .3 * rng.normal();
+  return q;
+}
+
+struct Count {
+  int tried = 0, used = 0;
+  double largest = 0.;  ///< entry of all Jacobians
+};
+
+/// The residual of consecutive configurations as a function of all their joint vectors.
+void checkSamples(Residual& residual, const Config& config, Rng& rng, const std::string& what, Count& count) {
+  const int n = config.getJointDimension(), slices = residual.order() + 1;
+  std::vector<State> states(slices, config.state());
+  std::vector<const State*> view;
+  for (State& state : states) view.push_back(&state);
+  const auto value = [&](const VectorXd& x) {
+    for (int t = 0; t < slices; ++t) states[t].setJoints(x.data() + t * n);
+    VectorXd y(residual.rows());
+    residual.eval(view, kTau, y, nullptr);
+    return y;
+  };
+  for (int sample = 0; sample < kSamples; ++sample) {
+    VectorXd x(slices * n);
+    for (int t = 0; t < slices; ++t) x.segment(t * n, n) = randomJoints(config, rng);
+    const Differences numeric = differences(value, x);
+    ++count.tried;
+    if (!numeric.differentiable) continue;
+    ++count.used;
+    const VectorXd without_jacobian = value(x);
+    Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor> J;
+    J.setZero(residual.rows(), slices * n);
+    VectorXd y(residual.rows());
+    JacobianRows rows = J;
+    residual.eval(view, kTau, y, &rows);
+    EXPECT_EQ(y, without_jacobian) << what;
+    EXPECT_LE(relativeError(J, numeric.D), kTolerance) << what << ", sample " << sample;
+    if (J.size() > 0) count.largest = std::max(count.largest, J.cwiseAbs().maxCoeff());
+  }
+}
+
+/// For the names of tests.
+struct Symbol {
+  FeatureInfo info;
+  friend void PrintTo(const Symbol& symbol, std::ostream* out) { *out << symbol.info.name; }
+};
+
+std::vector<Symbol> availableFeatures() {
+  std::vector<Symbol> list;
+  for (const FeatureInfo& info : featureRegistry()) {
+    if (info.available) list.push_back({info});
+  }
+  return list;
+}
+
+class EveryFeature : public testing::TestWithParam<Symbol> {};
+
+}  // namespace
+
+TEST_P(EveryFeature, HasTheJacobianOfCentralDifferences) {
+  const FeatureInfo& info = GetParam().info;
+  Rng rng(11);
+  Count count;
+  for (const Scene& joints : kScenes) {
+    const Config config = makeScene(joints);
+    int made = 0;
+    std::string refusal;
+    for (const std::vector<int>& frames : frameChoices(info, config)) {
+      for (int order = 0; order <= 2; ++order) {
+        std::unique_ptr<Residual> residual;
+        try {
+          residual = std::make_unique<Residual>(makeFeature(info.symbol, frames, *config.program()), MatrixXd(), VectorXd(),
+                                                order, info.name);
+        } catch (const ValueError& error) {  // frames without a joint, an order below the feature's own
+          refusal = error.what();
+          continue;
+        }
+        ++made;
+        checkSamples(*residual, config, rng, cat(info.name, " of order ", order, " with ", joints.name), count);
+      }
+    }
+    EXPECT_GE(made, 2) << "the scene of " << joints.name << " lacks frames that it takes: " << refusal;
+  }
+  EXPECT_GE(count.used, kLeastUsed * count.tried) << count.used << " of " << count.tried << " samples are differentiable";
+  EXPECT_GT(count.largest, 1e-3) << "no joint of any scene changes it";
+  RecordProperty("used", count.used);
+  RecordProperty("tried", count.tried);
+}
+
+TEST_P(EveryFeature, HasAJacobianThatScaleAndTargetTransformLikeTheValue) {
+  const FeatureInfo& info = GetParam().info;
+  Rng rng(12);
+  Count count;
+  for (const Scene& joints : kScenes) {
+    const Config config = makeScene(joints);
+    auto feature = makeFeature(info.symbol, frameChoices(info, config).front(), *config.program());
+    const int rows = feature->rows();
+    if (rows == 0) continue;
+    VectorXd target(rows);
+    for (double& x : target) x = rng.normal();
+    MatrixXd scale(2, rows);
+    for (double& x : scale.reshaped()) x = rng.normal();
+    Residual residual(std::move(feature), scale, target, -1, info.name);
+    ASSERT_EQ(residual.rows(), 2);
+    checkSamples(residual, config, rng, cat(info.name, " with a matrix as scale and ", joints.name), count);
+  }
+  EXPECT_GE(count.used, kLeastUsed * count.tried);
+  EXPECT_GT(count.used, 0);
+}
+
+INSTANTIATE_TEST_SUITE_P(Registry, EveryFeature, testing::ValuesIn(availableFeatures()),
+                         [](const auto& info) { return info.param.info.name; });

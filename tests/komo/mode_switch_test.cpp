@@ -1,0 +1,210 @@
+#include <gtest/gtest.h>
+
+#include "kinegraph/base/errors.h"
+#include "kinegraph/komo/komo.h"
+#include "kinegraph/komo/report.h"
+#include "kinegraph/solvers/augmented_lagrangian.h"
+
+using namespace kinegraph;
+
+namespace {
+
+Config armAndBox() {
+  Config config;
+  config.addText(R"(
+    world: {}
+    table (world): { Q: [0, 0, .5], joint: rigid, shape: ssBox, size: [1.6, 1.2, .1, .01], contact: 1 }
+    base (table): { Q: [-.3, 0, .05] }
+    l1 (base): { joint: hingeZ, q: .3, limits: [-2, 2] }
+    l1b (l1): { Q: [0, 0, .3] }
+    l2 (l1b): { joint: hingeY, q: .4, limits: [-2, 2], ctrl_H: 2. }
+    grip (l2): { Q: [.5, 0, 0], shape: ssBox, size: [.1, .08, .06, .01] }
+    fixed (table): { Q: [.2, -.3, .1], shape: ssBox, size: [.1, .1, .1, .01] }
+  )");
+  config.addFrame("box").setShape(ShapeType::ssBox, {.12, .1, .16, .01}).setPose({Vector3d(.3, .2, .63), unitQuaternion({.9, .1, -.2, .3})});
+  config.addFrame("handle", "box").setRelativePosition({0., 0., .1});
+  return config;
+}
+
+
+/// The largest relative difference of the Jacobian from central differences at three random points.
+double jacobianError(Nlp& nlp, const Komo& komo, std::string& where) {
+  Rng rng(7);
+  double worst = 0.;
+  for (int sample = 0; sample < 3; ++sample) {
+    VectorXd x = komo.variables();
+    for (double& value : x) value += .1 * rng.normal();
+    const JacobianCheck check = checkJacobian(nlp, x);
+    if (check.error <= worst) continue;
+    worst = check.error;
+    where = nlp.rowName(check.row) + ", column " + std::to_string(check.column);
+  }
+  return worst;
+}
+
+}  // namespace
+
+TEST(ModeSwitch, JacobiansOfEveryKindEqualCentralDifferences) {
+  const std::vector<std::pair<SwitchMode, std::string>> kinds = {
+      {SwitchMode::stable, "grip"},     {SwitchMode::stableOn, "table"},  {SwitchMode::stableOnX, "table"},
+      {SwitchMode::stableOnY, "table"}, {SwitchMode::stableYPhi, "grip"}, {SwitchMode::stableZero, "grip"},
+      {SwitchMode::dynamic, "grip"},    {SwitchMode::dynamicOn, "table"}};
+  for (const auto& [mode, parent] : kinds) {
+    for (const std::string object : {"box", "handle"}) {
+      auto komo = std::make_shared<Komo>(armAndBox(), 3., 2, 2);
+      komo->addModeSwitch({1., 2.}, mode, {parent, object});
+      komo->addModeSwitch({2., -1.}, SwitchMode::stable, {"l2", object});
+      komo->addQuaternionNorms();
+      komo->addControlObjective({}, 2);
+      komo->addObjective({}, FeatureSymbol::jointLimits, {}, ObjectiveType::ineq);
+      komo->addObjective({}, FeatureSymbol::poseDiff, {"box", "grip"}, ObjectiveType::sos);
+      komo->addObjective({}, FeatureSymbol::poseRel, {"grip", "handle"}, ObjectiveType::sos, {}, {}, 1);
+      komo->addObjective({}, FeatureSymbol::linangVel, {"box"}, ObjectiveType::sos, {}, {}, 2);
+      std::string where;
+      EXPECT_LT(jacobianError(*makeNlp(komo), *komo, where), 2e-6) << switchModeName(mode) << " of " << object << ": " << where;
+    }
+  }
+}
+
+TEST(ModeSwitch, JacobiansOfAddedFramesEqualCentralDifferences) {
+  for (bool stable : {true, false}) {
+    auto komo = std::make_shared<Komo>(armAndBox(), 2., 3, 2);
+    komo->addFrameDof("grasp", "grip", JointType::free, stable, "box");
+    komo->addFrameDof("spot", "table", JointType::transXYPhi, stable);
+    komo->addFrameDof("knob", "grip", JointType::hingeX, stable);
+    komo->addRigidSwitch(1., "grasp", "box");
+    komo->addRigidSwitch(1.6, "spot", "box");
+    komo->addQuaternionNorms();
+    komo->addObjective({}, FeatureSymbol::poseDiff, {"box", "knob"}, ObjectiveType::sos);
+    std::string where;
+    EXPECT_LT(jacobianError(*makeNlp(komo), *komo, where), 2e-6) << stable << ": " << where;
+  }
+}
+
+TEST(ModeSwitch, AFlyingBodyFallsWithGravity) {
+  auto komo = std::make_shared<Komo>(armAndBox(), 2., 10, 2);
+  komo->addModeSwitch({.5, -1.}, SwitchMode::dynamic, {"world", "box"});
+  const auto nlp = makeNlp(komo);
+  const double tau = komo->tau();
+  VectorXd x = komo->variables();
+  const auto column = [&](int slice, int i) { return komo->layout().column[slice + 2][2 + i]; };  // after two hinges
+  const Vector3d start(.3, .2, .63), velocity(1., -.5, 2.);
+  for (int slice = 4; slice < 20; ++slice) {
+    const double t = (slice - 4) * tau;
+    // backward differences: a parabola with v_t - v_{t-1} = -g tau
+    const Vector3d p = start + velocity * t - Vector3d(0., 0., .5 * 9.81 * t * t);
+    for (int i = 0; i < 3; ++i) x[column(slice, i)] = p[i];
+  }
+  nlp->evaluate(x, *std::make_unique<VectorXd>(VectorXd::Zero(Eigen::Index(nlp->types().size()))), nullptr);
+  const PathErrors errors = measurePath(*komo);
+  for (std::size_t o = 0; o < komo->objectives().size(); ++o) {
+    if (komo->objectives()[o].name != "physics") continue;
+    EXPECT_LT(errors.per_slice.col(Eigen::Index(o)).tail(14).maxCoeff(), 1e-9);
+    EXPECT_EQ(komo->objectives()[o].from, 5);
+    return;
+  }
+  FAIL() << "there is no objective on the flight";
+}
+
+TEST(ModeSwitch, WhatIsFixedToALargerTreeCanBeSwitched) {
+  Komo komo(armAndBox(), 2., 1, 1);
+  komo.addModeSwitch({1., -1.}, SwitchMode::stable, {"grip", "fixed"});
+  EXPECT_EQ(komo.configuration(0).getFrame("fixed").getParent()->getName(), "grip");
+  EXPECT_EQ(komo.configuration(-1).getFrame("fixed").getParent()->getName(), "table");
+  const Pose before = komo.configuration(-1).getFrame("fixed").getPose(), after = komo.configuration(1).getFrame("fixed").getPose();
+  EXPECT_LT((before.p - after.p).norm(), 1e-12);
+}
+
+TEST(ModeSwitch, AHandleTakesItsObjectAlong) {
+  Komo komo(armAndBox(), 2., 1, 1);
+  komo.addModeSwitch({1., -1.}, SwitchMode::stableZero, {"grip", "handle"});
+  const Config held = komo.configuration(1);
+  const Pose grip = held.getFrame("grip").getPose();
+  EXPECT_LT((held.getFrame("handle").getPose().p - grip.p).norm(), 1e-12);
+  EXPECT_LT((held.getFrame("box").getPose().p - (grip * Pose(Vector3d(0., 0., -.1), Quaterniond::Identity())).p).norm(), 1e-12);
+}
+
+TEST(ModeSwitch, JointFeaturesMeanTheGivenJointsWhateverWasSwitchedBefore) {
+  auto komo = std::make_shared<Komo>(armAndBox(), 2., 1, 1);
+  komo->addModeSwitch({1., -1.}, SwitchMode::stable, {"grip", "box"});
+  komo->addObjective({}, FeatureSymbol::qItself, {}, ObjectiveType::sos, {}, VectorXd::Zero(2));
+  const auto nlp = makeNlp(komo);
+  EXPECT_EQ(nlp->dimension(), 2 + 7 + 2);
+  EXPECT_EQ(std::count(nlp->types().begin(), nlp->types().end(), ObjectiveType::sos), 4);
+}
+
+TEST(ModeSwitch, MistakesAreExplained) {
+  Komo komo(armAndBox(), 2., 2, 1);
+  EXPECT_THROW(komo.addModeSwitch({1., -1.}, SwitchMode::stable, {"grip", "bix"}), FrameNotFound);
+  EXPECT_THROW(komo.addModeSwitch({1., -1.}, SwitchMode::stable, {"grip"}), ValueError);
+  EXPECT_THROW(komo.addModeSwitch({1., -1.}, SwitchMode::quasiStatic, {"grip", "box"}), ValueError);
+  EXPECT_THROW(komo.addModeSwitch({1., -1.}, SwitchMode::quasiStaticOn, {"table", "box"}), ValueError);
+  EXPECT_THROW(komo.addModeSwitch({1., -1.}, SwitchMode::dynamicTrans, {"grip", "box"}), ValueError);
+  EXPECT_THROW(komo.addModeSwitch({1., -1.}, SwitchMode::touch, {"grip", "box"}), ValueError);
+  EXPECT_THROW(komo.addModeSwitch({1., -1.}, SwitchMode::stableOn, {"l1b", "box"}), ValueError);
+  EXPECT_THROW(komo.addModeSwitch({2., 1.}, SwitchMode::stable, {"grip", "box"}), ValueError);
+  EXPECT_THROW(komo.addModeSwitch({1., -1.}, SwitchMode::stable, {"handle", "box"}), ValueError);
+  EXPECT_THROW(komo.addFrameDof("box", "grip", JointType::free, true), ValueError);
+  EXPECT_THROW(komo.addFrameDof("new", "gripp", JointType::free, true), FrameNotFound);
+  EXPECT_THROW(Komo(armAndBox(), 1., 1, 0).addModeSwitch({1., -1.}, SwitchMode::stable, {"grip", "box"}), ValueError);
+  EXPECT_TRUE(komo.objectives().empty());
+  EXPECT_EQ(komo.layout().dimension, 8);
+  komo.addModeSwitch({4., -1.}, SwitchMode::stable, {"grip", "box"});
+  EXPECT_EQ(komo.takeWarnings().size(), 1u);
+}
+
+TEST(ModeSwitch, AnNlpMadeBeforeAChangeOfTheStructureSaysSo) {
+  auto komo = std::make_shared<Komo>(armAndBox(), 2., 1, 1);
+  komo->addControlObjective({}, 1);
+  const auto nlp = makeNlp(komo);
+  const VectorXd x = komo->variables();
+  komo->addModeSwitch({1., -1.}, SwitchMode::stable, {"grip", "box"});
+  VectorXd phi(Eigen::Index(nlp->types().size()));
+  EXPECT_THROW(nlp->evaluate(x, phi, nullptr), Error);
+}
+
+TEST(ModeSwitch, MovedObjectsAreTakenOverInEveryMode) {
+  Config config = armAndBox();
+  auto komo = std::make_shared<Komo>(config, 3., 1, 1);
+  komo->addModeSwitch({2., -1.}, SwitchMode::stable, {"grip", "box"});
+  komo->setConstantPath(Eigen::Vector2d(.1, .2));
+  config.getFrame("box").setPosition({.5, .1, .7});
+  config.getFrame("table").setPosition({.1, 0., .5});
+  komo->updateRootObjects(config);
+  EXPECT_LT((komo->configuration(0).getFrame("box").getPose().p - Vector3d(.5, .1, .7)).norm(), 1e-12);
+  for (int slice = -1; slice < 3; ++slice) {
+    EXPECT_LT((komo->configuration(slice).getFrame("table").getPose().p - Vector3d(.1, 0., .5)).norm(), 1e-12) << slice;
+  }
+  EXPECT_NEAR(komo->getPath()(2, 0), .1, 1e-12);
+  EXPECT_THROW(komo->updateRootObjects(Config()), ValueError);
+}
+
+TEST(ModeSwitch, SwitchedPathsGrowLinearlyInVariables) {
+  for (int slices : {8, 32}) {
+    auto komo = std::make_shared<Komo>(armAndBox(), 2., slices, 2);
+    komo->addModeSwitch({1., -1.}, SwitchMode::stable, {"grip", "box"});
+    EXPECT_EQ(komo->layout().dimension, 2 * slices * 2 + 7);
+  }
+}
+
+TEST(ModeSwitch, StableJointsOfTheSceneAreOneSetOfVariables) {
+  Config config;
+  config.addText("w: {} a(w): { joint: hingeX, q: .3 } b(a): { joint: transX, q: .5, joint_stable: true, limits: [-1, 1] } c(b): { joint: hingeY, q: .1 }");
+  for (int order : {0, 1, 2}) {
+    auto komo = std::make_shared<Komo>(config, 3., 1, order);
+    komo->addControlObjective({}, 0);
+    komo->addObjective({}, FeatureSymbol::jointLimits, {}, ObjectiveType::ineq);
+    const auto nlp = makeNlp(komo);
+    ASSERT_EQ(nlp->dimension(), 7);
+    EXPECT_EQ(nlp->types().size(), 6u + 6u);
+    VectorXd x = komo->variables(), phi(12);
+    const int stable = order > 0 ? 0 : 1;
+    x[stable] = .25;
+    nlp->evaluate(x, phi, nullptr);
+    for (int t = 0; t < 3; ++t) EXPECT_EQ(komo->state(t).q()[1], .25);
+    EXPECT_NEAR(phi[6], -1.25, 1e-12);
+    EXPECT_NEAR(phi[11], -.75, 1e-12);
+    std::string where;
+    EXPECT_LT(jacobianError(*nlp, *komo, where), 1e-8) << where;
+  }
+}

@@ -1,0 +1,177 @@
+#include "kinegraph/nlp/nlp.h"
+
+#include <gtest/gtest.h>
+
+#include "kinegraph/nlp/callback_nlp.h"
+#include "tests/support/expect_error.h"
+#include "tests/support/near.h"
+
+using namespace kinegraph;
+
+namespace {
+
+using enum ObjectiveType;
+
+/// Rows over windows of three variables, one of them with a second window far away: as in a path with a goal.
+class Windows final : public Nlp {
+ public:
+  static constexpr int kVariables = 9;
+
+  Windows() {
+    lower_ = VectorXd::Constant(kVariables, -1.);
+    upper_ = VectorXd::Constant(kVariables, 2.);
+    types_ = {sos, eq, ineq, sos};
+  }
+
+  Jacobian makeJacobian() const override {
+    Jacobian J;
+    J.columns = kVariables;
+    J.addRow({{0, 3}});
+    J.addRow({{1, 3}});
+    J.addRow({{6, 3}});
+    J.addRow({{5, 2}, {0, 2}});
+    return J;
+  }
+
+  void evaluate(const VectorXd& x, VectorXd& phi, Jacobian* J) override {
+    phi << x[0] * x[1] + x[2], x[1] - x[2] * x[3], std::sin(x[6]) + x[7] * x[8], x[5] * x[6] - x[0] * x[1] * x[1];
+    if (!J) return;
+    J->values = {x[1], x[0], 1., 1., -x[3], -x[2], std::cos(x[6]), x[8], x[7], x[6], x[5], -x[1] * x[1], -2. * x[0] * x[1]};
+  }
+};
+
+/// The same residuals with a dense Jacobian.
+CallbackNlp denseWindows() {
+  return CallbackNlp(9, {sos, eq, ineq, sos}, VectorXd::Constant(9, -1.), VectorXd::Constant(9, 2.),
+                     [](const VectorXd& x, VectorXd& phi, MatrixXd& J) {
+                       phi << x[0] * x[1] + x[2], x[1] - x[2] * x[3], std::sin(x[6]) + x[7] * x[8], x[5] * x[6] - x[0] * x[1] * x[1];
+                       J.row(0).head(3) << x[1], x[0], 1.;
+                       J.row(1).segment(1, 3) << 1., -x[3], -x[2];
+                       J.row(2).tail(3) << std::cos(x[6]), x[8], x[7];
+                       J.row(3).segment(5, 2) << x[6], x[5];
+                       J.row(3).head(2) << -x[1] * x[1], -2. * x[0] * x[1];
+                     });
+}
+
+VectorXd somewhere(const Nlp& nlp, int seed) {
+  Rng rng(std::uint64_t(seed) + 1);
+  return nlp.uniformPoint(rng);
+}
+
+}  // namespace
+
+TEST(Jacobian, InSegmentsEqualsTheDenseOne) {
+  Windows windows;
+  CallbackNlp dense = denseWindows();
+  Jacobian J = windows.makeJacobian(), J_dense = dense.makeJacobian();
+  VectorXd phi(4), phi_dense(4);
+  for (int sample = 0; sample < 5; ++sample) {
+    const VectorXd x = somewhere(windows, sample), v = somewhere(windows, sample + 100);
+    windows.evaluate(x, phi, &J);
+    dense.evaluate(x, phi_dense, &J_dense);
+    EXPECT_EQ(phi, phi_dense);
+    EXPECT_EQ(J.toDense(), J_dense.toDense());
+    for (int row = 0; row < J.rows(); ++row) {
+      EXPECT_NEAR(J.rowTimes(row, v), J_dense.toDense().row(row).dot(v), 1e-14);
+      VectorXd sum = v;
+      J.addRowTo(row, -2., sum);
+      EXPECT_TRUE(near(sum, v - 2. * J_dense.toDense().row(row).transpose(), 1e-14));
+    }
+  }
+}
+
+TEST(Jacobian, SegmentsThatOverlapAddUp) {
+  Jacobian J;
+  J.columns = 4;
+  J.addRow({{0, 3}, {2, 2}});
+  J.values = {1, 2, 3, 4, 5};
+  EXPECT_EQ(J.toDense(), (MatrixXd(1, 4) << 1, 2, 7, 5).finished());
+}
+
+TEST(CheckJacobian, OfARightOneFindsNothing) {
+  Windows windows;
+  for (int sample = 0; sample < 5; ++sample) EXPECT_LT(checkJacobian(windows, somewhere(windows, sample)).error, 1e-9);
+}
+
+TEST(CheckJacobian, FindsAPlantedErrorAndSaysWhereItIs) {
+  CallbackNlp wrong(3, {sos, eq}, {}, {}, [](const VectorXd& x, VectorXd& phi, MatrixXd& J) {
+    phi << x[0] * x[1], x[1] * x[2];
+    J << x[1], x[0], 0., 0., x[2], x[1] + .01;
+  });
+  const JacobianCheck check = checkJacobian(wrong, Vector3d(1., 2., 3.));
+  EXPECT_NEAR(check.error, .01 / 2., 1e-8);
+  EXPECT_EQ(check.row, 1);
+  EXPECT_EQ(check.column, 2);
+  EXPECT_NEAR(check.analytic, 2.01, 1e-12);
+  EXPECT_NEAR(check.numeric, 2., 1e-8);
+}
+
+TEST(CheckJacobian, ReportsNumbersThatAreNotFinite) {
+  CallbackNlp nan(2, {sos, sos}, {}, {}, [](const VectorXd& x, VectorXd& phi, MatrixXd& J) {
+    phi = x;
+    J << 1., 0., NAN, 1.;
+  });
+  const JacobianCheck check = checkJacobian(nan, Eigen::Vector2d(1., 1.));
+  EXPECT_FALSE(check.error < 1.);
+  EXPECT_EQ(check.row, 1);
+  EXPECT_EQ(check.column, 0);
+}
+
+TEST(CheckJacobian, LeavesTheProblemAtThePointThatWasGiven) {
+  VectorXd last;
+  CallbackNlp nlp(2, {sos}, {}, {}, [&](const VectorXd& x, VectorXd& phi, MatrixXd& J) {
+    last = x;
+    phi << x.squaredNorm();
+    J = 2. * x.transpose();
+  });
+  checkJacobian(nlp, Eigen::Vector2d(1., 2.));
+  EXPECT_EQ(last, Eigen::Vector2d(1., 2.));
+}
+
+TEST(CallbackNlp, SizesThatDoNotFitSayWhatWasExpected) {
+  const auto nothing = [](const VectorXd&, VectorXd&, MatrixXd&) {};
+  expectError<ValueError>([&] { CallbackNlp(3, {sos}, VectorXd::Zero(2), VectorXd::Ones(3), nothing); }, {"dimension 3", "not 2 and 3"});
+  expectError<ValueError>([&] { CallbackNlp(-1, {}, {}, {}, nothing); }, {"dimension", "-1"});
+  CallbackNlp wrong_rows(2, {sos, sos}, {}, {}, [](const VectorXd&, VectorXd& phi, MatrixXd&) { phi.setZero(3); });
+  CallbackNlp wrong_columns(2, {sos}, {}, {}, [](const VectorXd&, VectorXd&, MatrixXd& J) { J.setZero(1, 5); });
+  VectorXd phi;
+  expectError<ValueError>([&] { wrong_rows.evaluate(VectorXd::Zero(2), phi, nullptr); }, {"size 3", "expected 2"});
+  expectError<ValueError>([&] { wrong_columns.evaluate(VectorXd::Zero(2), phi, nullptr); }, {"1 x 5", "1 x 2"});
+}
+
+TEST(Nlp, PointsAreDrawnWithinTheBounds) {
+  const double inf = std::numeric_limits<double>::infinity();
+  CallbackNlp nlp(3, {sos}, Vector3d(2., -inf, -inf), Vector3d(3., inf, .5), [](const VectorXd&, VectorXd&, MatrixXd&) {});
+  Rng rng(3);
+  VectorXd lowest = VectorXd::Constant(3, inf), highest = -lowest;
+  for (int sample = 0; sample < 200; ++sample) {
+    const VectorXd x = nlp.uniformPoint(rng);
+    lowest = lowest.cwiseMin(x);
+    highest = highest.cwiseMax(x);
+  }
+  EXPECT_GE(lowest[0], 2.);
+  EXPECT_LE(highest[0], 3.);
+  EXPECT_GT(highest[0] - lowest[0], .9);
+  EXPECT_GE(lowest[1], -1.);
+  EXPECT_LE(highest[1], 1.);
+  EXPECT_LE(highest[2], .5) << "a bound on one side only";
+}
+
+TEST(SumErrors, AddsUpByType) {
+  const std::vector<ObjectiveType> types = {f, sos, ineq, ineq, eq, eq, ineqB, ineqP, none};
+  const VectorXd phi = (VectorXd(9) << -3, 2, .5, -4, -1, 2, .25, -1, 100).finished();
+  const ErrorSums sums = sumErrors(types, phi);
+  EXPECT_EQ(sums.f, -3.);
+  EXPECT_EQ(sums.sos, 4.);
+  EXPECT_EQ(sums.ineq, .75);
+  EXPECT_EQ(sums.eq, 3.);
+}
+
+TEST(Violation, IsThatOfConstraintsOnly) {
+  EXPECT_EQ(violation(eq, -.5), .5);
+  EXPECT_EQ(violation(ineq, -.5), 0.);
+  EXPECT_EQ(violation(ineq, .5), .5);
+  EXPECT_EQ(violation(ineqB, .5), .5);
+  EXPECT_EQ(violation(sos, .5), 0.);
+  EXPECT_EQ(violation(f, .5), 0.);
+}

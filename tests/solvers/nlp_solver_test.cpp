@@ -1,0 +1,84 @@
+#include "kinegraph/solvers/nlp_solver.h"
+
+#include <gtest/gtest.h>
+
+#include "tests/solvers/hock_schittkowski.h"
+#include "tests/support/expect_error.h"
+#include "tests/support/near.h"
+
+using namespace kinegraph;
+
+namespace {
+
+KnownProblem byName(const char* name) {
+  for (const KnownProblem& problem : knownProblems()) {
+    if (problem.name == name) return problem;
+  }
+  throw std::runtime_error(name);
+}
+
+NlpSolver quiet(const KnownProblem& problem) { return NlpSolver(std::make_shared<KnownNlp>(problem), 0); }
+
+}  // namespace
+
+TEST(NlpSolver, ASecondSolveGoesOnFromTheFirst) {
+  const KnownProblem problem = byName("HS43");
+  NlpSolver solver = quiet(problem);
+  solver.setInitialization(problem.start);
+  Rng rng(0);
+  const SolverResult first = solver.solve(false, rng), second = solver.solve(false, rng);
+  EXPECT_TRUE(near(first.x, problem.optimum, 1e-3));
+  EXPECT_LE(second.evals - first.evals, 3) << "evaluations of one solver add up";
+  EXPECT_TRUE(near(second.x, problem.optimum, 1e-3));
+}
+
+TEST(NlpSolver, StartsAfreshFromAnInitializationOrASample) {
+  const KnownProblem problem = byName("HS71");
+  NlpSolver solver = quiet(problem);
+  solver.setTracing(true, false, false);
+  Rng rng(1);
+  solver.solve(false, rng);
+  const VectorXd first_start = solver.traceX().front();
+  EXPECT_TRUE((first_start.array() >= 1.).all() && (first_start.array() <= 5.).all());
+  solver.clearTracing();
+  solver.solve(true, rng);
+  EXPECT_NE(solver.traceX().front(), first_start);
+  solver.clearTracing();
+  solver.setInitialization(problem.start);
+  solver.solve(false, rng);
+  EXPECT_EQ(solver.traceX().front(), problem.start);
+}
+
+TEST(NlpSolver, TracesEveryEvaluation) {
+  const KnownProblem problem = byName("HS14");
+  NlpSolver solver = quiet(problem);
+  solver.setInitialization(problem.start);
+  solver.setTracing(true, true, true);
+  Rng rng(0);
+  const SolverResult result = solver.solve(false, rng);
+  EXPECT_EQ(int(solver.traceX().size()), result.evals);
+  EXPECT_EQ(int(solver.tracePhi().size()), result.evals);
+  EXPECT_EQ(int(solver.traceErrors().size()), result.evals);
+  EXPECT_EQ(solver.traceErrors().front().sos, 1.) << "at (2, 2)";
+  EXPECT_EQ(solver.tracePhi().front()[2], 4.);
+}
+
+TEST(NlpSolver, StopsWhenAskedTo) {
+  NlpSolver solver = quiet(byName("Rosenbrock"));
+  Rng rng(0);
+  int asked = 0;
+  const SolverResult result = solver.solve(false, rng, [&] { return ++asked == 3; });
+  EXPECT_EQ(result.status, SolverStatus::cancelled);
+  EXPECT_EQ(result.evals, 3);
+}
+
+TEST(NlpSolver, MistakesAreExplained) {
+  Rng rng(0);
+  NlpSolver none;
+  expectError([&] { none.solve(false, rng); }, {"no problem"});
+  NlpSolver solver = quiet(byName("HS6"));
+  expectError([&] { solver.setProblem(solver.problem()); }, {"already"});
+  expectError<ValueError>([&] { solver.setInitialization(VectorXd::Zero(5)); }, {"5 numbers", "2 variables"});
+  solver.options.method = OptMethod::Ipopt;
+  expectError<ValueError>([&] { solver.solve(false, rng); }, {"Ipopt", "not available", "augmentedLag"});
+}
