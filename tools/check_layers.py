@@ -19,6 +19,7 @@ BELOW: dict[str, list[str]] = {
     "formats": ["base", "math", "gfile", "geometry", "kinematics", "scene"],
     "features": ["base", "math", "geometry", "kinematics", "scene"],
     "komo": ["base", "math", "geometry", "kinematics", "scene", "features", "nlp"],
+    "rendering": ["base", "math", "geometry", "kinematics", "scene"],
     "viewer": ["base", "math", "geometry", "kinematics", "scene"],
 }
 

@@ -6,10 +6,6 @@
 #include <chrono>
 #include <cstdio>
 
-#include "kinegraph/base/errors.h"
-#include "kinegraph/base/text.h"
-#include "kinegraph/geometry/mesh_file.h"
-
 namespace kinegraph {
 
 ViewerServer& ConfigViewer::server() {
@@ -20,24 +16,6 @@ ViewerServer& ConfigViewer::server() {
     openBrowser(server_->url());
   }
   return *server_;
-}
-
-/// The mesh that a frame is shown with in place of its shape, if its file can be had.
-std::shared_ptr<const Geometry> ConfigViewer::visualMesh(const Shape& shape) {
-  if (shape.visual_mesh.empty()) return nullptr;
-  const std::string key = cat(shape.visual_mesh, " ", shape.visual_pose.numbers().transpose());
-  const auto [place, is_new] = visual_meshes_.try_emplace(key);
-  if (!is_new) return place->second;
-  try {
-    Mesh mesh = readMeshFile(shape.visual_mesh);
-    for (Vector3d& p : mesh.vertices) p = shape.visual_pose.p + shape.visual_pose.q * p;
-    auto geometry = std::make_shared<Geometry>();
-    geometry->type = ShapeType::mesh;
-    geometry->mesh = std::make_shared<Mesh>(std::move(mesh));
-    place->second = geometry;
-  } catch (const FileError&) {  // optional: the shape itself is shown
-  }
-  return place->second;
 }
 
 void ConfigViewer::update(const Config& config) {
@@ -53,7 +31,7 @@ void ConfigViewer::update(const Config& config) {
     item.pose = Pose(state.pose(int(i)));
     item.geometry = nullptr;
     if (!frame.shape) continue;
-    const std::shared_ptr<const Geometry> visual = visualMesh(*frame.shape);
+    const std::shared_ptr<const Geometry> visual = visual_meshes_.of(*frame.shape);
     item.geometry = visual ? visual : frame.shape->geometry;
     item.color = frame.shape->color.value_or(Vector4d(.8, .8, .8, 1.));
   }

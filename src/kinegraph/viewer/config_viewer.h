@@ -1,10 +1,10 @@
 #pragma once
 
-#include <map>
 #include <optional>
 #include <string>
 
 #include "kinegraph/scene/config.h"
+#include "kinegraph/scene/visual_meshes.h"
 #include "kinegraph/viewer/server.h"
 
 namespace kinegraph {
@@ -35,13 +35,12 @@ class ConfigViewer {
   ViewerServer& server();
 
  private:
-  std::shared_ptr<const Geometry> visualMesh(const Shape& shape);
   int waitKey(const std::string& prompt, const std::function<bool()>& stop);
 
   ViewerOptions options_;
   std::unique_ptr<ViewerServer> server_;
   std::vector<ViewItem> items_;
-  std::map<std::string, std::shared_ptr<const Geometry>> visual_meshes_;  ///< by path and pose; null: not to be had
+  VisualMeshes visual_meshes_;
 };
 
 /// True if Enter was pressed on the terminal since the last call.
