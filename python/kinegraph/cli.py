@@ -32,7 +32,9 @@ def _parser() -> argparse.ArgumentParser:
     info = commands.add_parser("info", help="what a scene file contains")
     info.add_argument("file")
 
-    check = commands.add_parser("check", help="mistakes and oddities in scene files; exit status 1 if there is a mistake")
+    check = commands.add_parser(
+        "check", help="mistakes and oddities in scene files; exit status 1 if there is a mistake"
+    )
     check.add_argument("files", nargs="+", metavar="FILE")
     check.add_argument("--strict", action="store_true", help="a warning counts as a mistake")
     return parser
