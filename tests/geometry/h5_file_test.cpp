@@ -49,7 +49,7 @@ TEST(H5File, SaysWhatItCannotRead) {
             std::string::npos);
 }
 
-TEST(MeshFile, ReadsMeshesFromHdf5) {
+TEST(H5MeshFile, ReadsMeshesFromHdf5) {
   const Mesh mesh = readMeshFile(kFile);
   EXPECT_EQ(mesh.vertices.size(), 4u);
   EXPECT_EQ(mesh.triangles[3], (std::array<std::uint32_t, 3>{1, 2, 3}));

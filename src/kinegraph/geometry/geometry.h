@@ -48,7 +48,7 @@ struct Geometry {
   ShapeType type = ShapeType::none;
   std::vector<double> size;
   std::shared_ptr<const Mesh> mesh;  ///< mesh, pointCloud, lines; core points of ssCvx (its vertices)
-  std::string mesh_file;                   ///< path of the file that `mesh` was read from, or empty
+  std::string mesh_file = {};              ///< path of the file that `mesh` was read from, or empty
   Vector3d mesh_scale = Vector3d::Ones();  ///< by which its points were multiplied
 };
 
