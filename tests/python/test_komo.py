@@ -1,12 +1,10 @@
 """Motion problems: recorded numbers, mode switches, solutions that are checked without the problem that produced them."""
 
-import warnings
-
 import numpy as np
 import pytest
-from conftest import recorded
 
 import kinegraph as ry
+from conftest import recorded
 
 FS, OT, SY, JT = ry.FS, ry.OT, ry.SY, ry.JT
 
