@@ -20,7 +20,7 @@ class MujocoErrors {
 
 using MujocoModel = std::unique_ptr<mjModel, decltype(&mj_deleteModel)>;
 
-/// A model of nothing but a sky in one colour (rgb in 0..1): what a rendering context is made from.
-MujocoModel emptyModel(const double* sky);
+/// A model of nothing: what a rendering context is made from.
+MujocoModel emptyModel();
 
 }  // namespace kinegraph
