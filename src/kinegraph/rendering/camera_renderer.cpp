@@ -181,7 +181,7 @@ mjvGeom& CameraRenderer::Impl::addGeom(int type, const Vector3d& size, const Rig
   mjv_initGeom(&geom, type, size.data(), X_WG.p.data(), R.data(), rgba.data());
   geom.segid = segment;
   geom.transparent = color[3] < 1.;
-  geom.castshadow = !geom.transparent;
+  setCastsShadow(geom, !geom.transparent);
   geom.specular = .4f;
   geom.shininess = 50.f / 128.f;
   geom.reflectance = 0.f;
@@ -193,7 +193,8 @@ void CameraRenderer::Impl::addMarker(double length, const RigidTransform& X_WG, 
   for (int axis = 0; axis < 3; ++axis) {
     Matrix3d R;  // z along the axis
     R << Vector3d::Unit((axis + 1) % 3), Vector3d::Unit((axis + 2) % 3), Vector3d::Unit(axis);
-    addGeom(mjGEOM_ARROW, {.02 * length, .02 * length, length}, X_WG * RigidTransform{R, Vector3d::Zero()}, colors[axis], segment).castshadow = false;
+    const RigidTransform X_WA = X_WG * RigidTransform{R, Vector3d::Zero()};
+    setCastsShadow(addGeom(mjGEOM_ARROW, {.02 * length, .02 * length, length}, X_WA, colors[axis], segment), false);
   }
 }
 
