@@ -61,7 +61,7 @@ void jacobian(Bench& bench, int count) {
 }
 
 void evaluate(Bench& bench, int count, FeatureSymbol feature, const std::vector<std::string>& frames) {
-  Residual residual = makeResidual(*bench.config.program(), feature, frames);
+  Residual residual = makeResidual(bench.config.state(), feature, frames);
   VectorXd y(residual.rows());
   Matrix J(residual.rows(), bench.config.getJointDimension());
   for (int i = 0; i < count; ++i) {

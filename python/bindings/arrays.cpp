@@ -90,6 +90,19 @@ NewArray newArray(std::size_t rows, std::size_t columns) {
   return newArray(2, shape);
 }
 
+NewArray newArray(std::size_t layers, std::size_t rows, std::size_t columns) {
+  npy_intp shape[] = {npy_intp(layers), npy_intp(rows), npy_intp(columns)};
+  return newArray(3, shape);
+}
+
+NewFlags newFlags(std::size_t size) {
+  requireNumpy();
+  npy_intp shape[] = {npy_intp(size)};
+  PyObject* array = PyArray_SimpleNew(1, shape, NPY_BOOL);
+  if (!array) throw nb::python_error();
+  return {nb::steal(array), static_cast<bool*>(PyArray_DATA(reinterpret_cast<PyArrayObject*>(array)))};
+}
+
 nb::object toNumpy(const double* values, std::size_t size) {
   NewArray array = newArray(size);
   std::copy_n(values, size, array.data);

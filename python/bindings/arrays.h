@@ -35,6 +35,14 @@ struct NewArray {
 };
 NewArray newArray(std::size_t size);
 NewArray newArray(std::size_t rows, std::size_t columns);
+NewArray newArray(std::size_t layers, std::size_t rows, std::size_t columns);
+
+/// A new numpy array of truth values, and where they are.
+struct NewFlags {
+  nb::object array;
+  bool* data;
+};
+NewFlags newFlags(std::size_t size);
 
 /// Reads numbers; false if `source` is none.
 bool readNumbers(nb::handle source, Numbers& target);

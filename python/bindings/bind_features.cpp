@@ -11,6 +11,8 @@
 
 namespace kinegraph::python {
 
+FeatureSource FeatureArgument::source() const { return function.is_valid() ? ownFeature(function) : FeatureSource(symbol); }
+
 std::vector<std::string> toNames(const FrameNames& frames) {
   if (const auto* name = std::get_if<std::string>(&frames)) return {*name};
   return std::get<std::vector<std::string>>(frames);
@@ -27,7 +29,7 @@ namespace {
 
 /// A feature of named frames that is evaluated on whatever configuration is passed.
 struct NamedFeature {
-  FeatureSymbol symbol;
+  FeatureSource source;
   std::vector<std::string> frames;
   MatrixXd scale;
   VectorXd target;
@@ -35,7 +37,7 @@ struct NamedFeature {
 };
 
 /// Evaluates straight into the arrays that are returned.
-nb::tuple evalInto(const PyConfig& config, Residual residual) {
+nb::tuple evalInto(const PyConfig& config, Residual& residual) {
   using RowMajor = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
   const std::size_t rows = std::size_t(residual.rows()), columns = std::size_t(config.getJointDimension());
   const NewArray y = newArray(rows), J = newArray(rows, columns);
@@ -46,13 +48,27 @@ nb::tuple evalInto(const PyConfig& config, Residual residual) {
   return nb::make_tuple(y.array, J.array);
 }
 
-nb::tuple evalFeature(const PyConfig& config, FeatureSymbol symbol, const FrameNames& frames, const std::optional<Numbers>& scale,
+nb::tuple evalFeature(const PyConfig& config, const FeatureArgument& feature, const FrameNames& frames, const std::optional<Numbers>& scale,
                       const std::optional<Numbers>& target, int order) {
-  return evalInto(config, makeResidual(*config.program(), symbol, toNames(frames), toScale(scale), toTarget(target), order));
+  const auto* list = std::get_if<std::vector<std::string>>(&frames);
+  const std::vector<std::string> names = list ? std::vector<std::string>() : toNames(frames);
+  if (!feature.function.is_valid()) {
+    return evalInto(config, config.residuals.get(config.state(), feature.symbol, list ? *list : names, toScale(scale), toTarget(target), order));
+  }
+  Residual own = makeResidual(config.state(), feature.source(), list ? *list : names, toScale(scale), toTarget(target), order);
+  return evalInto(config, own);
+}
+
+nb::tuple evalNamed(const NamedFeature& f, const PyConfig& config) {
+  if (const auto symbol = f.source.symbol()) {
+    return evalInto(config, config.residuals.get(config.state(), *symbol, f.frames, f.scale, f.target, f.order));
+  }
+  Residual own = makeResidual(config.state(), f.source, f.frames, f.scale, f.target, f.order);
+  return evalInto(config, own);
 }
 
 std::string describe(const NamedFeature& f) {
-  return cat(featureInfo(f.symbol).name, "(", join(f.frames), ")", f.order > 0 ? cat(", order ", f.order) : "");
+  return cat(f.source.name(), "(", join(f.frames), ")", f.order > 0 ? cat(", order ", f.order) : "");
 }
 
 }  // namespace
@@ -61,9 +77,9 @@ void bindFeatures(nb::module_& m, nb::class_<PyConfig>& config) {
   auto symbols = nb::enum_<FeatureSymbol>(m, "FS", nb::is_arithmetic(), "Feature symbols.");
   for (const FeatureInfo& info : featureRegistry()) symbols.value(info.name.c_str(), info.symbol);
 
+  bindOwnFeatures(m);
   nb::class_<NamedFeature>(m, "Feature", "A feature of named frames, evaluated on the configuration that is passed.")
-      .def("eval", [](const NamedFeature& f, const PyConfig& c) { return evalInto(c, makeResidual(*c.program(), f.symbol, f.frames, f.scale, f.target, f.order)); },
-           "config"_a, "Value (d,) and Jacobian (d, n) at the configuration's q.")
+      .def("eval", evalNamed, "config"_a, "Value (d,) and Jacobian (d, n) at the configuration's q.")
       .def("setScale", [](NamedFeature& f, const Numbers& scale) -> NamedFeature& { return f.scale = toScale(scale), f; }, "scale"_a,
            nb::rv_policy::none, "A number, one per row, or a matrix.")
       .def("setTarget", [](NamedFeature& f, const Numbers& target) -> NamedFeature& { return f.target = target.values, f; },
@@ -71,7 +87,7 @@ void bindFeatures(nb::module_& m, nb::class_<PyConfig>& config) {
       .def("setOrder", [](NamedFeature& f, int order) -> NamedFeature& { return f.order = order, f; }, "order"_a,
            nb::rv_policy::none, "Order of the time derivative.")
       .def("dim", [](const NamedFeature& f, const PyConfig& c) {
-             return makeResidual(*c.program(), f.symbol, f.frames, f.scale, f.target, f.order).rows();
+             return makeResidual(c.state(), f.source, f.frames, f.scale, f.target, f.order).rows();
            }, "config"_a, "Number of rows.")
       .def("description", [](const NamedFeature& f, const PyConfig&) { return describe(f); }, "config"_a, "The feature in words.")
       .def("__repr__", [](const NamedFeature& f) { return cat("<Feature ", describe(f), ">"); });
@@ -80,14 +96,16 @@ void bindFeatures(nb::module_& m, nb::class_<PyConfig>& config) {
       .def("eval", evalFeature, "featureSymbol"_a, "frames"_a = std::vector<std::string>(), "scale"_a = nb::none(),
            "target"_a = nb::none(), "order"_a = -1,
            "A feature's value (d,) and Jacobian (d, n): scale * (feature - target).\n"
+           "featureSymbol: a symbol of FS, or a function of your own: it is called with a FrameView per frame (without frames with\n"
+           "q) and returns y, or y and its Jacobian dy/dq (d, n), which central differences replace where it is left out.\n"
            "frames: names. scale: a number, one per row, or a matrix. target: a number, or one per row.")
       .def("evalFeature", evalFeature, "featureSymbol"_a, "frames"_a = std::vector<std::string>(), "scale"_a = nb::none(),
            "target"_a = nb::none(), "order"_a = -1, "The same as eval.")
       .def("feature",
-           [](const PyConfig& c, FeatureSymbol symbol, const FrameNames& frames, const std::optional<Numbers>& scale,
+           [](const PyConfig& c, const FeatureArgument& feature, const FrameNames& frames, const std::optional<Numbers>& scale,
               const std::optional<Numbers>& target, int order) {
-             NamedFeature f{symbol, toNames(frames), toScale(scale), toTarget(target), order};
-             makeResidual(*c.program(), f.symbol, f.frames, f.scale, f.target, f.order);  // reports mistakes here
+             NamedFeature f{feature.source(), toNames(frames), toScale(scale), toTarget(target), order};
+             makeResidual(c.state(), f.source, f.frames, f.scale, f.target, f.order);  // reports mistakes here
              return f;
            },
            "featureSymbol"_a, "frames"_a = std::vector<std::string>(), "scale"_a = nb::none(), "target"_a = nb::none(),

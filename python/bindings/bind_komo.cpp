@@ -28,9 +28,9 @@ void warn(Komo& komo) {
   for (const std::string& warning : komo.takeWarnings()) emitWarning(warning);
 }
 
-void addObjective(PyKomo& komo, Optional times, FeatureSymbol feature, const FrameNames& frames, ObjectiveType type, Optional scale,
+void addObjective(PyKomo& komo, Optional times, const FeatureArgument& feature, const FrameNames& frames, ObjectiveType type, Optional scale,
                   Optional target, int order) {
-  komo.addObjective(toTimes(times), feature, toNames(frames), type, toScale(scale), toTarget(target), order);
+  komo.addObjective(toTimes(times), feature.source(), toNames(frames), type, toScale(scale), toTarget(target), order);
   warn(komo);
 }
 
@@ -136,8 +136,8 @@ void bindSwitchModes(nb::module_& m) {
 void bindObjectives(nb::class_<PyKomo>& komo) {
   const char* doc =
       "Adds scale * (feature - target) in the slices of `times`: [] all, [t] one, [from, to] both included, in phases.\n"
-      "type: OT.sos, OT.eq, OT.ineq, OT.f, OT.ineqB or OT.ineqP. scale: a number, one per row, or a matrix. order: of the time\n"
-      "derivative.";
+      "feature: a symbol of FS, or a function of your own, as for Config.eval. type: OT.sos, OT.eq, OT.ineq, OT.f, OT.ineqB or\n"
+      "OT.ineqP. scale: a number, one per row, or a matrix. order: of the time derivative.";
   komo.def("addObjective", addObjective, "times"_a, "feature"_a, "frames"_a, "type"_a, "scale"_a = nb::none(), "target"_a = nb::none(),
            "order"_a = -1, doc)
       .def("addObjective", addObjective, "time"_a = nb::none(), "feature"_a, "frames"_a = std::vector<std::string>(), "type"_a,

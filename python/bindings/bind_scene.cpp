@@ -52,6 +52,12 @@ nb::dict checkFile(nb::handle file) {
 
 Frame frameOf(const PyConfig& config, nb::handle name_or_id) { return toFrame(config, name_or_id); }
 
+/// A MotionContact with names.
+struct Contact {
+  double time, distance;
+  std::pair<std::string, std::string> frames;
+};
+
 nb::object pairList(const PyConfig& config) {
   nb::list names;
   for (const auto& [a, b] : config.getCollidablePairs()) {
@@ -67,6 +73,12 @@ nb::list collisions(const PyConfig& config, double margin) {
     near.append(nb::make_tuple(config.getFrame(pair.a).getName(), config.getFrame(pair.b).getName(), pair.distance));
   }
   return near;
+}
+
+nb::object checkMotion(const PyConfig& config, const Numbers& start, const Numbers& end, double margin, double tolerance) {
+  const std::optional<MotionContact> contact = config.checkMotion(start.values, end.values, margin, tolerance);
+  if (!contact) return nb::none();
+  return nb::cast(Contact{contact->time, contact->distance, {config.getFrame(contact->a).getName(), config.getFrame(contact->b).getName()}});
 }
 
 void setJointState(PyConfig& config, const Numbers& q, const std::optional<std::vector<std::string>>& joints) {
@@ -99,6 +111,13 @@ void bindScene(nb::module_& m) {
         "All that is wrong or odd about a scene file. Returns a dict: messages (list of str, with file:line:column, the line and\n"
         "a caret), and the numbers of errors, warnings and frames. Raises FileError if the file cannot be read.");
   nb::class_<Frame> frame(m, "Frame", "A handle on one frame of a Config. Setters return it, so that calls can be chained.");
+  nb::class_<Contact>(m, "MotionContact", "Where a motion of q first brings two frames too near.")
+      .def_ro("time", &Contact::time, "In [0, 1]: 0 is the start of the motion, 1 its end. Until then it is free.")
+      .def_ro("distance", &Contact::distance, "Of the two at that time, m; negative: penetration depth.")
+      .def_ro("frames", &Contact::frames, "Their names.")
+      .def("__repr__", [](const Contact& c) {
+        return cat("<MotionContact: ", c.frames.first, " and ", c.frames.second, " at time ", c.time, ", distance ", c.distance, ">");
+      });
   nb::class_<PyConfig> config(m, "Config", "A scene: named frames with joints and shapes, and the joint vector q.");
   using Names = std::vector<std::string>;
 
@@ -181,10 +200,15 @@ void bindScene(nb::module_& m) {
            "The same as coll_totalViolation().")
       .def("computeCollisions", [](const PyConfig& c) { c.state(); },
            "Kept for older scripts: collisions are always computed for the present state.")
+      .def("checkMotion", checkMotion, "start"_a, "end"_a, "margin"_a = 0., "tolerance"_a = 1e-4,
+           "The first MotionContact on the straight motion of q from start (n,) to end (n,), or None where all collidable pairs keep\n"
+           "margin (m) apart: at all times of the motion, not just at samples of it. A pair that comes within margin + tolerance may\n"
+           "be reported as a contact.")
       .def("report", &PyConfig::report, "A line about the configuration.");
 
   bindFrame(m, frame);
   bindFeatures(m, config);
+  bindBatch(config);
   bindDynamics(config);
   bindFormats(m, config, frame);
   bindViewer(m, config);

@@ -7,6 +7,7 @@
 #include <string>
 
 #include "arrays.h"
+#include "kinegraph/features/residual_cache.h"
 #include "kinegraph/scene/config.h"
 
 namespace kinegraph::python {
@@ -16,15 +17,18 @@ using namespace nb::literals;
 
 struct PyViewer;
 
-/// What Python calls a Config: the scene, and the viewer that `view()` opens at first use.
+/// What Python calls a Config: the scene, the viewer that `view()` opens at first use, and what was last asked of `eval`.
 struct PyConfig : Config {
   std::shared_ptr<PyViewer> viewer;
+  mutable ResidualCache residuals = {};
 };
 
 void bindErrors(nb::module_& m);
 void bindScene(nb::module_& m);
 void bindFrame(nb::module_& m, nb::class_<Frame>& frame);
 void bindFeatures(nb::module_& m, nb::class_<PyConfig>& config);
+void bindOwnFeatures(nb::module_& m);
+void bindBatch(nb::class_<PyConfig>& config);
 void bindNlp(nb::module_& m);
 void bindSolvers(nb::module_& m);
 void bindKomo(nb::module_& m);

@@ -6,8 +6,20 @@
 #include <vector>
 
 #include "arrays.h"
+#include "kinegraph/features/feature_source.h"
 
 namespace kinegraph::python {
+
+/// A feature as users give it: a symbol of FS, or a function of frames.
+struct FeatureArgument {
+  FeatureSymbol symbol = FeatureSymbol::position;
+  nb::object function;  ///< null: the symbol
+
+  FeatureSource source() const;
+};
+
+/// Features that a Python function computes; `name` is for messages.
+FeatureSource ownFeature(nb::object function);
 
 /// Frames as users give them: a name or a list of names.
 using FrameNames = std::variant<std::vector<std::string>, std::string>;
@@ -17,3 +29,24 @@ MatrixXd toScale(const std::optional<Numbers>& scale);
 VectorXd toTarget(const std::optional<Numbers>& target);
 
 }  // namespace kinegraph::python
+
+namespace nanobind::detail {
+
+template <>
+struct type_caster<kinegraph::python::FeatureArgument> {
+  NB_TYPE_CASTER(kinegraph::python::FeatureArgument, const_name("FS | collections.abc.Callable"))
+
+  bool from_python(handle source, uint8_t flags, cleanup_list* cleanup) noexcept {
+    make_caster<kinegraph::FeatureSymbol> symbol;
+    if (symbol.from_python(source, flags, cleanup)) {
+      value.symbol = symbol.operator cast_t<kinegraph::FeatureSymbol>();
+      return true;
+    }
+    PyErr_Clear();
+    if (!PyCallable_Check(source.ptr())) return false;
+    value.function = borrow(source);
+    return true;
+  }
+};
+
+}  // namespace nanobind::detail

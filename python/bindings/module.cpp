@@ -9,6 +9,9 @@ using namespace nanobind::literals;
 
 NB_MODULE(_core, m) {
   m.doc() = "The compiled part of kinegraph.";
+  // A function of the user's that a problem calls keeps its module alive, and that the problem: the end of the process, not a
+  // leak, resolves such circles.
+  nb::set_leak_warnings(false);
   m.attr("__version__") = KINEGRAPH_VERSION;
   bindErrors(m);
   bindScene(m);

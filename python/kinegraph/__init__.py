@@ -25,6 +25,8 @@ from ._core import (
     ConfigurationViewer,
     Feature,
     Frame,
+    FrameView,
+    MotionContact,
     NLP_Factory,
     NLP_Solver,
     NLP_SolverOptions,

@@ -108,3 +108,22 @@ TEST(AccumulatedCollisions, OfNamedFramesLookAtThoseAndNoOthers) {
   EXPECT_NEAR(value(config, "accumulatedCollisions", {"c"})[0], .02, 1e-12);
   EXPECT_NEAR(value(config, "accumulatedCollisions", {"b", "c"})[0], .07, 1e-12);
 }
+
+TEST(PairCollisions, HasARowForEachPairThatIsItsNegativeDistance) {
+  Config config;
+  config.addText("a: { shape: sphere, size: [.1], contact: 1 }  b: { X: [.15 0 0], shape: sphere, size: [.1], contact: 1 }");
+  config.addText("c: { X: [0 .26 0], shape: sphere, size: [.1], contact: 1 }");
+  EXPECT_TRUE(near(value(config, "pairCollisions", {}), numbers({.05, -.06, -.1}), 1e-12));
+  EXPECT_TRUE(near(value(config, "pairCollisions", {"c"}), numbers({-.06, -.1}), 1e-12));
+  config.getFrame("b").setPosition({3, 0, 0});
+  EXPECT_TRUE(near(value(config, "pairCollisions", {"b"}), numbers({-.1, -.1}), 1e-12)) << "no farther than it looks";
+}
+
+TEST(PairCollisions, ThatArePositiveSumToTheAccumulatedOnes) {
+  Config config;
+  config.addText("a: { shape: sphere, size: [.1], contact: 1 }  b: { X: [.15 0 0], shape: sphere, size: [.1], contact: 1 }");
+  config.addText("c: { X: [0 .18 0], shape: ssBox, size: [.2 .2 .2 .02], contact: 1 }");
+  const VectorXd each = value(config, "pairCollisions", {});
+  EXPECT_NEAR(each.cwiseMax(0.).sum(), value(config, "accumulatedCollisions", {})[0], 1e-12);
+  EXPECT_GT(each.maxCoeff(), .04);
+}

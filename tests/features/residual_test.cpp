@@ -57,20 +57,20 @@ TEST(Residual, DifferencesAlignTheSignsOfQuaternions) {
   const auto at = [](double angle, double sign) {
     return numbers({sign * std::cos(.5 * angle), 0, 0, sign * std::sin(.5 * angle), 0.});
   };
-  Residual velocity = makeResidual(*config.program(), FeatureSymbol::quaternion, {"ball"}, {}, {}, 1);
+  Residual velocity = makeResidual(config.state(), FeatureSymbol::quaternion, {"ball"}, {}, {}, 1);
   const VectorXd same = overSlices(config, velocity, {at(3.0, 1.), at(3.3, 1.)}, .5);
   EXPECT_NEAR(same.norm(), 2. * std::sin(.075) / .5, 1e-12) << "across the angle where w changes its sign";
   EXPECT_TRUE(near(overSlices(config, velocity, {at(3.0, 1.), at(3.3, -1.)}, .5).cwiseAbs(), same.cwiseAbs(), 1e-12));
-  Residual acceleration = makeResidual(*config.program(), FeatureSymbol::pose, {"ball"}, {}, {}, 2);
+  Residual acceleration = makeResidual(config.state(), FeatureSymbol::pose, {"ball"}, {}, {}, 2);
   EXPECT_LT(overSlices(config, acceleration, {at(3.0, 1.), at(3.14, -1.), at(3.28, 1.)}, 1.).norm(), .01);
 }
 
 TEST(Residual, OrdersAreBackwardDifferencesOverTheLastDuration) {
   const Config config = ball();
   const auto at = [](double x) { return numbers({1, 0, 0, 0, x}); };
-  Residual velocity = makeResidual(*config.program(), FeatureSymbol::qItself, {"slide"}, {}, {}, 1);
-  Residual acceleration = makeResidual(*config.program(), FeatureSymbol::qItself, {"slide"}, {}, {}, 2);
-  Residual jerk = makeResidual(*config.program(), FeatureSymbol::qItself, {"slide"}, {}, {}, 3);
+  Residual velocity = makeResidual(config.state(), FeatureSymbol::qItself, {"slide"}, {}, {}, 1);
+  Residual acceleration = makeResidual(config.state(), FeatureSymbol::qItself, {"slide"}, {}, {}, 2);
+  Residual jerk = makeResidual(config.state(), FeatureSymbol::qItself, {"slide"}, {}, {}, 3);
   EXPECT_NEAR(overSlices(config, velocity, {at(1), at(4)}, .5)[0], 6., 1e-14);
   EXPECT_NEAR(overSlices(config, acceleration, {at(1), at(4), at(9)}, .5)[0], 8., 1e-14);
   EXPECT_NEAR(overSlices(config, jerk, {at(0), at(1), at(8), at(27)}, 1.)[0], 6., 1e-13);
@@ -79,10 +79,10 @@ TEST(Residual, OrdersAreBackwardDifferencesOverTheLastDuration) {
 TEST(Residual, OfATimeIntegralDividesOnceByTheRootOfTheDuration) {
   const Config config = ball();
   const auto at = [](double x) { return numbers({1, 0, 0, 0, x}); };
-  Residual velocity = makeResidual(*config.program(), FeatureSymbol::qItself, {"slide"}, {}, {}, 1);
+  Residual velocity = makeResidual(config.state(), FeatureSymbol::qItself, {"slide"}, {}, {}, 1);
   velocity.setTimeIntegral(true);
   EXPECT_NEAR(overSlices(config, velocity, {at(1), at(4)}, .25)[0], 6., 1e-13);
-  Residual acceleration = makeResidual(*config.program(), FeatureSymbol::qItself, {"slide"}, {}, {}, 2);
+  Residual acceleration = makeResidual(config.state(), FeatureSymbol::qItself, {"slide"}, {}, {}, 2);
   acceleration.setTimeIntegral(true);
   EXPECT_NEAR(overSlices(config, acceleration, {at(1), at(4), at(9)}, .25)[0], 2. / std::pow(.25, 1.5), 1e-12);
 }
@@ -99,6 +99,6 @@ TEST(Residual, ScalesAndTargetsOfAWrongSizeSayWhatWasExpected) {
 
 TEST(Residual, AnOrderBelowTheFeaturesOwnIsAnError) {
   const Config config = ball();
-  expectError<ValueError>([&] { makeResidual(*config.program(), FeatureSymbol::linangVel, {"ball"}, {}, {}, 0); },
+  expectError<ValueError>([&] { makeResidual(config.state(), FeatureSymbol::linangVel, {"ball"}, {}, {}, 0); },
                           {"linangVel", "at least 1", "not 0"});
 }

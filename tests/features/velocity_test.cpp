@@ -13,7 +13,7 @@ namespace {
 /// Value of a feature over consecutive joint vectors of a scene, `tau` seconds apart.
 VectorXd over(const Config& config, const char* feature, const std::vector<std::string>& frames, const std::vector<VectorXd>& q,
               double tau, int order = -1) {
-  Residual residual = makeResidual(*config.program(), featureSymbolFromName(feature), frames, {}, {}, order);
+  Residual residual = makeResidual(config.state(), featureSymbolFromName(feature), frames, {}, {}, order);
   return overSlices(config, residual, q, tau);
 }
 

@@ -251,14 +251,23 @@ TEST(Proximity, CoincidingBodiesAreAsDeepAsTheShortestPush) {
   }
 }
 
-TEST(FarApart, IsNeverSaidOfBodiesWithinTheMargin) {
-  int far = 0;
-  for (const double margin : {0., .1, -.1}) {
-    for (const Pair& pair : randomPairs(10, 7)) {
-      if (!farApart(*pair.a.body, pair.X_WA, *pair.b.body, pair.X_WB, margin)) continue;
-      ++far;
-      EXPECT_GT(pair.near().distance, margin - kGeneral) << pair.what;
+TEST(PointToCore, IsTheDistanceOfAPointFromTheCoreOrLessForHulls) {
+  Rng rng(8);
+  int outside = 0, inside = 0;
+  for (const Named& named : bodies()) {
+    for (int i = 0; i < 200; ++i) {
+      const RigidTransform X = randomTransform(rng, .1);
+      const Vector3d point = randomVector(rng, .3);
+      const double bound = pointToCore(*named.body, X, point);
+      const double exact = std::max(proximity(*pointBody(), {Matrix3d::Identity(), point}, *named.body, X).core_distance, 0.);
+      if (named.body->core() == CollisionBody::Core::other) {
+        EXPECT_LE(bound, exact + kGeneral) << named.name;
+      } else {
+        EXPECT_NEAR(bound, exact, kRounding) << named.name;
+      }
+      ++(bound > 0. ? outside : inside);
     }
   }
-  EXPECT_GT(far, 100);
+  EXPECT_GT(outside, 500);
+  EXPECT_GT(inside, 50);
 }

@@ -1,6 +1,7 @@
 #include "kinegraph/features/distance.h"
 
 #include <algorithm>
+#include <array>
 
 namespace kinegraph {
 
@@ -85,48 +86,79 @@ void Witness::eval(std::span<const State* const> states, double, Eigen::Ref<Vect
 }
 
 void Oppose::eval(std::span<const State* const> states, double tau, Eigen::Ref<VectorXd> y, JacobianRows* J) const {
-  using Rows = Eigen::Matrix<double, 3, Eigen::Dynamic, Eigen::RowMajor>;
-  const int columns = J ? int(J->cols()) : 0;
-  Rows J1 = Rows::Zero(3, columns), J2 = Rows::Zero(3, columns);
-  JacobianRows rows1 = J1, rows2 = J2;
-  VectorXd v1(3), v2(3);
-  first_.eval(states, tau, v1, J ? &rows1 : nullptr);
-  second_.eval(states, tau, v2, J ? &rows2 : nullptr);
-  y.head<3>() = v1 + v2;
-  if (J) J->topRows(3) += J1 + J2;
-  if (!central_) return;
   const State& state = *states[0];
-  const Vector3d p1 = state.position(finger1_), p2 = state.position(finger2_);
+  Vector3d v1, v2;
   Matrix3d D, D1, D2;
-  const Vector3d direction = softDirection(p2 - p1, 1e-3, D), n1 = softDirection(v1, 1e-3, D1), n2 = softDirection(v2, 1e-3, D2);
-  y.tail<3>() = .01 * (2. * direction + n1 - n2);
+  if (!J) {
+    first_.eval(states, tau, v1, nullptr);
+    second_.eval(states, tau, v2, nullptr);
+  } else {  // the rows above hold J1, then J1 + J2; the ones below D1 J1 - D2 J2 = (D1 + D2) J1 - D2 (J1 + J2)
+    JacobianRows above = J->topRows(3);
+    first_.eval(states, tau, v1, &above);
+    if (central_) {
+      second_.eval(states, tau, v2, nullptr);
+      softDirection(v1, 1e-3, D1);
+      softDirection(v2, 1e-3, D2);
+      J->bottomRows(3) += (.01 * (D1 + D2)).lazyProduct(above);
+    }
+    second_.eval(states, tau, v2, &above);
+    if (central_) J->bottomRows(3) -= (.01 * D2).lazyProduct(above);
+  }
+  y.head<3>() = v1 + v2;
+  if (!central_) return;
+  const Vector3d p1 = state.position(finger1_), p2 = state.position(finger2_);
+  y.tail<3>() = .01 * (2. * softDirection(p2 - p1, 1e-3, D) + softDirection(v1, 1e-3, D1) - softDirection(v2, 1e-3, D2));
   if (!J) return;
-  JacobianRows below = J->bottomRows(3);
   const Matrix3d none = Matrix3d::Zero();
-  state.addJacobian(finger2_, p2, .02 * D, none, below);
-  state.addJacobian(finger1_, p1, -.02 * D, none, below);
-  below += .01 * (D1 * J1 - D2 * J2);
+  state.addJacobian(finger2_, p2, .02 * D, none, J->bottomRows(3));
+  state.addJacobian(finger1_, p1, -.02 * D, none, J->bottomRows(3));
 }
 
-AccumulatedCollisions::AccumulatedCollisions(const std::vector<int>& frames, const Program& program) {
+BodyPairs pairsWith(const Program& program, const std::vector<int>& frames) {
   const auto named = [&](int frame) { return std::find(frames.begin(), frames.end(), frame) != frames.end(); };
+  std::vector<std::pair<int, int>> pairs;
   for (const auto& pair : program.collidable) {
-    if (frames.empty() || named(pair.first) || named(pair.second)) pairs_.push_back(pair);
+    if (frames.empty() || named(pair.first) || named(pair.second)) pairs.push_back(pair);
+  }
+  return {program, pairs};
+}
+
+namespace {
+
+/// Calls visit(pair, a, b, proximity) for the pairs nearer than `margin`; a and b are the frames.
+template <class Visit>
+void forNearPairs(const BodyPairs& pairs, const State& state, double margin, const Visit& visit) {
+  std::array<std::byte, 16384> buffer;  // enough for a hundred bodies without a request for memory
+  std::pmr::monotonic_buffer_resource memory(buffer.data(), buffer.size());
+  PlacedBodies bodies(pairs, &memory);
+  bodies.place(state);
+  for (int pair = 0; pair < bodies.pairs(); ++pair) {
+    if (!bodies.mayBeNear(pair, margin)) continue;
+    const Proximity near = bodies.proximity(pair);
+    if (near.distance < margin) visit(pair, pairs.frames[pairs.pairs[pair].first], pairs.frames[pairs.pairs[pair].second], near);
   }
 }
+
+}  // namespace
 
 void AccumulatedCollisions::eval(std::span<const State* const> states, double, Eigen::Ref<VectorXd> y, JacobianRows* J) const {
   const State& state = *states[0];
   y[0] = 0.;
-  for (const auto& [a, b] : pairs_) {
-    const RigidTransform X_WA = state.pose(a), X_WB = state.pose(b);
-    const CollisionBody &body_a = bodyOf(state, a), &body_b = bodyOf(state, b);
-    if (farApart(body_a, X_WA, body_b, X_WB, 0.)) continue;
-    const Proximity near = proximity(body_a, X_WA, body_b, X_WB);
-    if (near.distance >= 0.) continue;
+  forNearPairs(pairs_, state, 0., [&](int, int a, int b, const Proximity& near) {
     y[0] -= near.distance;
     if (J) addDistanceGradient(state, a, b, near, -1., *J);
-  }
+  });
+}
+
+void PairCollisions::eval(std::span<const State* const> states, double, Eigen::Ref<VectorXd> y, JacobianRows* J) const {
+  const State& state = *states[0];
+  y.setConstant(-kFar);
+  forNearPairs(pairs_, state, kFar, [&](int pair, int a, int b, const Proximity& near) {
+    y[pair] = -near.distance;
+    if (!J) return;
+    JacobianRows row = J->middleRows(pair, 1);
+    addDistanceGradient(state, a, b, near, -1., row);
+  });
 }
 
 }  // namespace kinegraph

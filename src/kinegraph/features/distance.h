@@ -3,7 +3,7 @@
 #include <vector>
 
 #include "kinegraph/features/feature.h"
-#include "kinegraph/geometry/proximity.h"
+#include "kinegraph/kinematics/near_pairs.h"
 
 namespace kinegraph {
 
@@ -62,17 +62,36 @@ class Oppose final : public Feature {
   bool central_;
 };
 
+/// The collidable pairs, or those of them that involve one of the given frames.
+BodyPairs pairsWith(const Program& program, const std::vector<int>& frames);
+
 /// Sum of the penetration depths of all collidable pairs, or of those that involve one of the given frames:
 ///     y = sum max(0, -distance)      1 row, m
 class AccumulatedCollisions final : public Feature {
  public:
-  AccumulatedCollisions(const std::vector<int>& frames, const Program& program);
+  AccumulatedCollisions(const std::vector<int>& frames, const Program& program) : pairs_(pairsWith(program, frames)) {}
 
   int rows() const override { return 1; }
   void eval(std::span<const State* const> states, double tau, Eigen::Ref<VectorXd> y, JacobianRows* J) const override;
 
  private:
-  std::vector<std::pair<int, int>> pairs_;
+  BodyPairs pairs_;
+};
+
+/// The same pairs with a row each, so that an optimizer sees which are in trouble:
+///     y_i = max(-distance_i, -0.1 m)      m, positive where they penetrate
+/// Pairs farther apart than that are not looked at any closer. As inequality with target -m it keeps them m apart.
+class PairCollisions final : public Feature {
+ public:
+  static constexpr double kFar = .1;  ///< m
+
+  PairCollisions(const std::vector<int>& frames, const Program& program) : pairs_(pairsWith(program, frames)) {}
+
+  int rows() const override { return int(pairs_.pairs.size()); }
+  void eval(std::span<const State* const> states, double tau, Eigen::Ref<VectorXd> y, JacobianRows* J) const override;
+
+ private:
+  BodyPairs pairs_;
 };
 
 }  // namespace kinegraph

@@ -5,23 +5,17 @@
 
 namespace kinegraph {
 
-Residual makeResidual(const Program& program, FeatureSymbol symbol, const std::vector<std::string>& frames,
+Residual makeResidual(const State& scene, const FeatureSource& feature, const std::vector<std::string>& frames,
                       const MatrixXd& scale, const VectorXd& target, int order) {
-  const FeatureInfo& info = featureInfo(symbol);
   std::vector<int> ids;
-  for (const std::string& name : frames) ids.push_back(frameId(program, name, info.name));
-  std::unique_ptr<Feature> feature;
-  try {
-    feature = makeFeature(symbol, ids, program);
-  } catch (const ValueError& error) {
-    throw ValueError(frames.empty() ? error.what() : cat(error.what(), " (frames: ", join(frames), ")"));
-  }
-  return Residual(std::move(feature), scale, target, order, info.name);
+  ids.reserve(frames.size());
+  for (const std::string& name : frames) ids.push_back(frameId(scene.program(), name, feature.name()));
+  return Residual(feature.make(ids, scene), scale, target, order, feature.name());
 }
 
-Evaluation eval(const Config& config, FeatureSymbol symbol, const std::vector<std::string>& frames, const MatrixXd& scale,
+Evaluation eval(const Config& config, const FeatureSource& feature, const std::vector<std::string>& frames, const MatrixXd& scale,
                 const VectorXd& target, int order) {
-  Residual residual = makeResidual(*config.program(), symbol, frames, scale, target, order);
+  Residual residual = makeResidual(config.state(), feature, frames, scale, target, order);
   Evaluation out;
   out.y.resize(residual.rows());
   out.J.setZero(residual.rows(), config.getJointDimension());

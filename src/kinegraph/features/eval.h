@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "kinegraph/features/registry.h"
+#include "kinegraph/features/feature_source.h"
 #include "kinegraph/features/residual.h"
 #include "kinegraph/scene/config.h"
 
@@ -15,12 +15,12 @@ struct Evaluation {
   Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor> J;
 };
 
-/// The residual of a feature of named frames. Errors name the feature, the frames and similar names.
-Residual makeResidual(const Program& program, FeatureSymbol symbol, const std::vector<std::string>& frames,
+/// The residual of a feature of named frames of a scene. Errors name the feature, the frames and similar names.
+Residual makeResidual(const State& scene, const FeatureSource& feature, const std::vector<std::string>& frames,
                       const MatrixXd& scale = {}, const VectorXd& target = {}, int order = -1);
 
 /// Evaluates a feature at the present q. Throws ValueError for features that need several configurations.
-Evaluation eval(const Config& config, FeatureSymbol symbol, const std::vector<std::string>& frames,
+Evaluation eval(const Config& config, const FeatureSource& feature, const std::vector<std::string>& frames,
                 const MatrixXd& scale = {}, const VectorXd& target = {}, int order = -1);
 
 /// The same for a residual that has been made, into `y` (rows) and `J` (rows x dofs, filled with zeros).

@@ -6,7 +6,8 @@
 
 namespace kinegraph {
 
-/// A differentiable function of configurations: y(q), with J = dy/dq.
+/// A differentiable function of configurations: y(q), with J = dy/dq. Evaluating it does not change it, so that threads can
+/// share it.
 ///
 /// Most features look at one configuration (order 0); velocities and higher orders of those are backward differences,
 /// which `Residual` makes. A feature that defines its own velocity (angularVel) looks at order() + 1 of them.

@@ -7,10 +7,12 @@
 #include "kinegraph/features/box.h"
 #include "kinegraph/features/distance.h"
 #include "kinegraph/features/joints.h"
+#include "kinegraph/features/masses.h"
 #include "kinegraph/features/orientation.h"
 #include "kinegraph/features/position.h"
 #include "kinegraph/features/stacked.h"
 #include "kinegraph/features/velocity.h"
+#include "kinegraph/kinematics/dynamics.h"
 
 namespace kinegraph {
 
@@ -96,6 +98,7 @@ std::vector<FeatureInfo> makeRegistry() {
   add(S::gazeAt, "gazeAt", 2, 2);
   add(S::angularVel, "angularVel", 1, 1);
   add(S::accumulatedCollisions, "accumulatedCollisions", 0, -1);
+  add(S::pairCollisions, "pairCollisions", 0, -1);
   add(S::jointLimits, "jointLimits", 0, -1);
   add(S::distance, "distance", 2, 2);
   add(S::distance, "negDistance", 2, 2);
@@ -111,10 +114,10 @@ std::vector<FeatureInfo> makeRegistry() {
   add(S::pairCollision_p2, "pairCollision_p2", 2, 2);
   add(S::standingAbove, "standingAbove", 2, 2);
   add(S::totalForce, "totalForce", 1, 1, false);
-  add(S::physics, "physics", 1, 1, false);
+  add(S::physics, "physics", 1, 1);
   add(S::contactConstraints, "contactConstraints", 2, 2, false);
-  add(S::energy, "energy", 1, -1, false);
-  add(S::EqCenterOfMass, "EqCenterOfMass", 2, -1, false);
+  add(S::energy, "energy", 1, -1);
+  add(S::EqCenterOfMass, "EqCenterOfMass", 1, -1);
   add(S::transAccelerations, "transAccelerations", 0, -1, false);
   add(S::transVelocities, "transVelocities", 0, -1, false);
   add(S::qQuaternionNorms, "qQuaternionNorms", 0, 0);
@@ -138,9 +141,17 @@ const std::vector<FeatureInfo>& featureRegistry() {
 }
 
 const FeatureInfo& featureInfo(FeatureSymbol symbol) {
-  for (const FeatureInfo& info : featureRegistry()) {
-    if (info.symbol == symbol) return info;
-  }
+  static const std::vector<const FeatureInfo*> by_number = [] {
+    std::vector<const FeatureInfo*> list;
+    for (const FeatureInfo& info : featureRegistry()) {
+      const auto number = std::size_t(info.symbol);
+      list.resize(std::max(list.size(), number + 1));
+      if (!list[number]) list[number] = &info;  // before its aliases
+    }
+    return list;
+  }();
+  const auto number = std::size_t(symbol);
+  if (number < by_number.size() && by_number[number]) return *by_number[number];
   throw NameError(cat("feature symbol ", int(symbol), " does not exist"));
 }
 
@@ -162,7 +173,7 @@ std::unique_ptr<Feature> makeFeature(FeatureSymbol symbol, const std::vector<int
   if (!info.available) {
     const bool obsolete = symbol == S::transAccelerations || symbol == S::transVelocities;
     throw ValueError(obsolete ? cat(info.name, " is obsolete; use position with order 1 or 2")
-                              : cat(info.name, " needs masses and forces, which are not available as features yet"));
+                              : cat(info.name, " is about contact forces, which are not available; geometric contact is distance with OT.eq"));
   }
   const int a = count > 0 ? frames[0] : -1, b = count > 1 ? frames[1] : -1, c = count > 2 ? frames[2] : -1;
   switch (symbol) {
@@ -199,9 +210,14 @@ std::unique_ptr<Feature> makeFeature(FeatureSymbol symbol, const std::vector<int
     case S::gazeAt: return std::make_unique<Position>(Position::Kind::relative, a, b, 2);
     case S::angularVel: return std::make_unique<AngularVelocity>(a);
     case S::linangVel: return stack(std::make_unique<LinearVelocity>(a), std::make_unique<AngularVelocity>(a));
+    case S::energy: return std::make_unique<Energy>(frames);
+    case S::EqCenterOfMass:
+      return std::make_unique<CenterOfMassOffset>(a, std::vector<int>(frames.begin() + 1, frames.end()));
+    case S::physics: return std::make_unique<FreeFlight>(a, -kGravity.z());
     case S::AlignXWithDiff: return std::make_unique<AlignWithMotion>(0, a, b);
     case S::AlignYWithDiff: return std::make_unique<AlignWithMotion>(1, a, b);
     case S::accumulatedCollisions: return std::make_unique<AccumulatedCollisions>(frames, program);
+    case S::pairCollisions: return std::make_unique<PairCollisions>(frames, program);
     case S::jointLimits: return std::make_unique<JointLimits>(dofsOf(frames, program, info), program);
     case S::qItself: return std::make_unique<JointState>(dofsOf(frames, program, info));
     case S::qQuaternionNorms: return std::make_unique<QuaternionNorms>(program.unit_norms);

@@ -24,7 +24,7 @@ enum class FeatureSymbol : int {
   pairCollision_negScalar = 35, pairCollision_vector = 36, pairCollision_normal = 37, pairCollision_p1 = 38, pairCollision_p2 = 39,
   standingAbove = 40, totalForce = 41, physics = 42, contactConstraints = 43, energy = 44, EqCenterOfMass = 45,
   transAccelerations = 46, transVelocities = 47, qQuaternionNorms = 48, opposeCentral = 49, linangVel = 50,
-  AlignXWithDiff = 51, AlignYWithDiff = 52, scalarProductZX = 53, scalarProductZY = 54,
+  AlignXWithDiff = 51, AlignYWithDiff = 52, scalarProductZX = 53, scalarProductZY = 54, pairCollisions = 55,
 };
 
 /// What the registry knows of a symbol.

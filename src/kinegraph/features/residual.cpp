@@ -7,7 +7,7 @@
 
 namespace kinegraph {
 
-Residual::Residual(std::unique_ptr<Feature> feature, MatrixXd scale, VectorXd target, int order, std::string name)
+Residual::Residual(std::shared_ptr<const Feature> feature, MatrixXd scale, VectorXd target, int order, std::string name)
     : feature_(std::move(feature)), name_(std::move(name)) {
   if (order < 0) order = feature_->order();
   if (order < feature_->order()) {
@@ -52,11 +52,11 @@ void Residual::eval(std::span<const State* const> states, double tau, Eigen::Ref
       raw_jacobian_.setZero(feature_->rows(), J->cols());
       JacobianRows view = raw_jacobian_;
       evalRaw(states, tau, raw_, &view);
-      *J += scale_ * raw_jacobian_;
+      *J += scale_.lazyProduct(raw_jacobian_);
     } else {
       evalRaw(states, tau, raw_, rows);
     }
-    y = scale_ * raw_;
+    y.noalias() = scale_ * raw_;
     return;
   }
   evalRaw(states, tau, y, J);

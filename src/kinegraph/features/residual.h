@@ -10,13 +10,14 @@ namespace kinegraph {
 /// What an optimizer sees of a feature y:  scale * (d^k y / dt^k - target).
 ///
 /// The derivative is a backward difference over consecutive configurations. Where the sign of a quaternion carries no
-/// meaning, the nearer one to the target, or to the next configuration, is taken.
+/// meaning, the nearer one to the target, or to the next configuration, is taken. Copies share the feature and have a
+/// workspace of their own, so that several threads can evaluate one each.
 class Residual {
  public:
   /// `scale`: empty (1), 1 x 1, a column (one per row), or m x rows, which gives m rows. `target`: empty, 1 number (for all rows), or one per row.
   /// `order`: -1 takes that of the feature itself; else the highest derivative. `name` is for messages. Throws ValueError
   /// for sizes that do not fit, and for an order below the feature's own.
-  Residual(std::unique_ptr<Feature> feature, MatrixXd scale, VectorXd target, int order, std::string name);
+  Residual(std::shared_ptr<const Feature> feature, MatrixXd scale, VectorXd target, int order, std::string name);
 
   int rows() const { return rows_; }
 
@@ -42,7 +43,7 @@ class Residual {
   void evalDifference(std::span<const State* const> states, double tau, Eigen::Ref<VectorXd> y, JacobianRows* J);
   void evalRaw(std::span<const State* const> states, double tau, Eigen::Ref<VectorXd> y, JacobianRows* J);
 
-  std::unique_ptr<Feature> feature_;
+  std::shared_ptr<const Feature> feature_;
   std::string name_;
   MatrixXd scale_;
   VectorXd target_;

@@ -140,10 +140,17 @@ Proximity proximity(const CollisionBody& a, const RigidTransform& X_WA, const Co
   return ofConvexes(a, X_WA, b, X_WB);
 }
 
-bool farApart(const CollisionBody& a, const RigidTransform& X_WA, const CollisionBody& b, const RigidTransform& X_WB,
-              double margin) {
-  const double reach = a.boundRadius() + b.boundRadius() + margin;
-  return (X_WA * a.boundCenter() - X_WB * b.boundCenter()).squaredNorm() > reach * reach && reach >= 0.;
+double pointToCore(const CollisionBody& body, const RigidTransform& X_WB, const Vector3d& point) {
+  const Vector3d p = X_WB.R.transpose() * (point - X_WB.p);
+  switch (body.core()) {
+    case Core::point: return p.norm();
+    case Core::segment: return Vector3d(p.x(), p.y(), std::max(std::abs(p.z()) - body.halfLength(), 0.)).norm();
+    case Core::box: return (p.cwiseAbs() - body.halfSides()).cwiseMax(0.).norm();
+    case Core::cylinder:
+      return std::hypot(std::max(std::hypot(p.x(), p.y()) - body.coreRadius(), 0.), std::max(std::abs(p.z()) - body.halfLength(), 0.));
+    case Core::other: break;
+  }
+  return std::max((p - body.boundCenter()).norm() - body.boundRadius(), 0.);
 }
 
 }  // namespace kinegraph

@@ -16,8 +16,7 @@ struct Proximity {
 
 Proximity proximity(const CollisionBody& a, const RigidTransform& X_WA, const CollisionBody& b, const RigidTransform& X_WB);
 
-/// True if the bounding spheres show that the bodies are farther apart than `margin`.
-bool farApart(const CollisionBody& a, const RigidTransform& X_WA, const CollisionBody& b, const RigidTransform& X_WB,
-              double margin);
+/// Distance of a point (world) from a body's core, m: 0 inside; for hulls a lower bound.
+double pointToCore(const CollisionBody& body, const RigidTransform& X_WB, const Vector3d& point);
 
 }  // namespace kinegraph

@@ -130,11 +130,10 @@ EquationOfMotion equationOfMotion(const State& state, const std::vector<LinkIner
   for (std::size_t l = 1; l < program.links.size(); ++l) {
     const WorldInertia inertia(inertias[l], state.linkPose(int(l)));
     if (inertia.mass == 0. && inertia.matrix.isZero(0.)) continue;
-    for (int i = program.chain_start[l]; i < program.chain_start[l + 1]; ++i) {
-      const Wrench momentum = inertia.times(column(state, program.chain[i]));
-      for (int k = program.chain_start[l]; k < program.chain_start[l + 1]; ++k) {
-        equation.M(program.column_dof[program.chain[i]], program.column_dof[program.chain[k]]) +=
-            power(column(state, program.chain[k]), momentum);
+    for (int c = program.last_column[l]; c >= 0; c = program.column_before[c]) {
+      const Wrench momentum = inertia.times(column(state, c));
+      for (int d = program.last_column[l]; d >= 0; d = program.column_before[d]) {
+        equation.M(program.column_dof[c], program.column_dof[d]) += power(column(state, d), momentum);
       }
     }
   }

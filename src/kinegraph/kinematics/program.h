@@ -40,8 +40,8 @@ struct Program {
   std::vector<Link> links;  ///< links[0] is the world
   std::vector<MotionStep> steps;
   std::vector<int> column_dof;   ///< entry of q that drives a twist column
-  std::vector<int> chain_start;  ///< the columns that move link l: chain[chain_start[l]] .. chain[chain_start[l+1]-1]
-  std::vector<int> chain;
+  std::vector<int> column_before;  ///< of a twist column: the one before it in its chain, or -1
+  std::vector<int> last_column;    ///< of link l: c = last_column[l], column_before[c], ... until -1 are those that move it
 
   std::vector<std::string> frame_name;  ///< per frame
   std::unordered_map<std::string_view, int> frame_index;  ///< of names: the first frame of that name
@@ -57,10 +57,17 @@ struct Program {
   std::vector<std::pair<int, int>> collidable;             ///< frame pairs (a < b) that may collide
 };
 
-/// The constant transforms of a Program: where joints sit on their parent link and frames on their link.
+/// What a frame weighs, as a point.
+struct FrameMass {
+  double mass = 0.;                  ///< kg
+  Vector3d com = Vector3d::Zero();  ///< centre of mass in the frame, m
+};
+
+/// The constants of a Program: where joints sit on their parent link and frames on their link, and what frames weigh.
 struct Parameters {
   std::vector<RigidTransform> joint_base;    ///< per link: X_PJ, base of its joint in the parent link
   std::vector<RigidTransform> frame_offset;  ///< per frame: X_LF, the frame in its link
+  std::vector<FrameMass> frame_mass;         ///< per frame
 };
 
 /// Sets `frame_name` and `frame_index`.
@@ -69,7 +76,7 @@ void nameFrames(Program& program, std::vector<std::string> names);
 /// The first frame of that name. Throws FrameNotFound with similar names; `who` is what asks for it.
 int frameId(const Program& program, std::string_view name, std::string_view who);
 
-/// Fills `chain_start`, `chain` and `column_dof` from `links` and `steps`.
+/// Fills `last_column`, `column_before` and `column_dof` from `links` and `steps`.
 void connectChains(Program& program);
 
 }  // namespace kinegraph

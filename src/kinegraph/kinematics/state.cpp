@@ -103,10 +103,9 @@ void State::update() {
 }
 
 void State::addPointJacobian(int frame, const Vector3d& p_WQ, double factor, JacobianRows J) const {
-  const int l = link(frame);
-  for (int i = program_->chain_start[l]; i < program_->chain_start[l + 1]; ++i) {
-    const Twist& twist = twists_[program_->chain[i]];
-    const int dof = program_->column_dof[program_->chain[i]];
+  for (int c = program_->last_column[link(frame)]; c >= 0; c = program_->column_before[c]) {
+    const Twist& twist = twists_[c];
+    const int dof = program_->column_dof[c];
     const Vector3d velocity = twist.linear + twist.angular.cross(p_WQ);
     J(0, dof) += factor * velocity[0];
     J(1, dof) += factor * velocity[1];
@@ -115,10 +114,9 @@ void State::addPointJacobian(int frame, const Vector3d& p_WQ, double factor, Jac
 }
 
 void State::addAngularJacobian(int frame, double factor, JacobianRows J) const {
-  const int l = link(frame);
-  for (int i = program_->chain_start[l]; i < program_->chain_start[l + 1]; ++i) {
-    const Twist& twist = twists_[program_->chain[i]];
-    const int dof = program_->column_dof[program_->chain[i]];
+  for (int c = program_->last_column[link(frame)]; c >= 0; c = program_->column_before[c]) {
+    const Twist& twist = twists_[c];
+    const int dof = program_->column_dof[c];
     J(0, dof) += factor * twist.angular[0];
     J(1, dof) += factor * twist.angular[1];
     J(2, dof) += factor * twist.angular[2];

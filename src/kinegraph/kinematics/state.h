@@ -37,7 +37,7 @@ class State {
   int link(int frame) const { return program_->frame_link[frame]; }
   const RigidTransform& linkPose(int link) const { return link_pose_[link]; }
 
-  /// The velocity field of a twist column (see Program::chain and Program::column_dof).
+  /// The velocity field of a twist column (see Program::last_column and Program::column_dof).
   const Twist& twist(int column) const { return twists_[column]; }
 
   /// X_WF of a frame.
@@ -58,10 +58,9 @@ class State {
                    const Eigen::MatrixBase<DerivedB>& B_given, JacobianRows J) const {
     const typename DerivedA::PlainObject A = A_given;
     const typename DerivedB::PlainObject B = B_given;
-    const int l = link(frame);
-    for (int i = program_->chain_start[l]; i < program_->chain_start[l + 1]; ++i) {
-      const Twist& twist = twists_[program_->chain[i]];
-      const int dof = program_->column_dof[program_->chain[i]];
+    for (int c = program_->last_column[link(frame)]; c >= 0; c = program_->column_before[c]) {
+      const Twist& twist = twists_[c];
+      const int dof = program_->column_dof[c];
       const Vector3d velocity = twist.linear + twist.angular.cross(p_WQ);
       for (int r = 0; r < A.rows(); ++r) {
         J(r, dof) += A(r, 0) * velocity[0] + A(r, 1) * velocity[1] + A(r, 2) * velocity[2] + B(r, 0) * twist.angular[0] +

@@ -76,10 +76,10 @@ std::pair<int, int> Komo::selectSlices(const std::vector<double>& times) const {
   return {std::max(from, 0), std::min(to, slices_ - 1)};
 }
 
-void Komo::addObjective(const std::vector<double>& times, FeatureSymbol feature, const std::vector<std::string>& frames,
+void Komo::addObjective(const std::vector<double>& times, const FeatureSource& feature, const std::vector<std::string>& frames,
                         ObjectiveType type, const MatrixXd& scale, const VectorXd& target, int order) {
   requireBuilt("addObjective");
-  add({featureInfo(feature).name, feature, frames, type, scale, target, order, times, 0, 0}, 0, 0);
+  add({feature.name(), feature, frames, type, scale, target, order, times, 0, 0}, 0, 0);
 }
 
 void Komo::addControlObjective(const std::vector<double>& times, int order, double scale, const VectorXd& target, int delta_from,
@@ -115,8 +115,8 @@ std::unique_ptr<Feature> Komo::featureIn(const Objective& objective, int slice) 
   const Program& program = state(slice).program();
   std::vector<int> ids;
   for (const std::string& name : objective.frames) ids.push_back(frameId(program, name, objective.name));
-  if (objective.free_fall) return std::make_unique<FreeFlight>(ids.at(0), *objective.free_fall);
-  switch (objective.feature) {
+  if (!objective.feature.symbol()) return objective.feature.make(ids, state(slice));
+  switch (*objective.feature.symbol()) {
     case FeatureSymbol::qItself: {
       std::vector<JointsOfFrames::Part> parts;
       for (int frame : ids.empty() ? joint_frames_ : ids) {
@@ -142,11 +142,7 @@ std::unique_ptr<Feature> Komo::featureIn(const Objective& objective, int slice) 
     }
     default: break;
   }
-  try {
-    return makeFeature(objective.feature, ids, program);
-  } catch (const ValueError& error) {
-    throw ValueError(ids.empty() ? error.what() : cat(error.what(), " (frames: ", join(objective.frames), ")"));
-  }
+  return objective.feature.make(ids, state(slice));
 }
 
 Residual Komo::residualIn(const Objective& objective, int slice) const {

@@ -25,7 +25,7 @@ class Komo {
  public:
   struct Objective {
     std::string name;  ///< of the feature
-    FeatureSymbol feature;
+    FeatureSource feature;
     std::vector<std::string> frames;
     ObjectiveType type;
     MatrixXd scale;
@@ -34,7 +34,6 @@ class Komo {
     std::vector<double> times;
     int from, to;  ///< slices, inclusive; none if from > to
     bool time_integral = false;
-    std::optional<double> free_fall = {};  ///< gravity, m/s^2: the feature is FreeFlight of the frame
   };
 
   Komo() = default;
@@ -52,7 +51,7 @@ class Komo {
   /// Adds scale * (d^order feature / dt^order - target) in the slices that `times` selects: empty all, {a} the one at time a,
   /// {a, b} those from a to b inclusive; negative: the last. `order` -1: the feature's own. For joint features no frames are
   /// the joints of the configuration as it was given.
-  void addObjective(const std::vector<double>& times, FeatureSymbol feature, const std::vector<std::string>& frames,
+  void addObjective(const std::vector<double>& times, const FeatureSource& feature, const std::vector<std::string>& frames,
                     ObjectiveType type, const MatrixXd& scale = {}, const VectorXd& target = {}, int order = -1);
 
   /// Sum of squares of the order-th derivative of the given configuration's dofs, weighted by their control weights and

@@ -2,6 +2,7 @@
 
 #include "kinegraph/base/errors.h"
 #include "kinegraph/base/text.h"
+#include "kinegraph/features/masses.h"
 #include "kinegraph/komo/komo.h"
 
 namespace kinegraph {
@@ -108,9 +109,10 @@ void Komo::addModeSwitch(const std::vector<double>& times, SwitchMode mode, cons
   }
   if (dynamic) {
     if (order_ < 2 || from + 1 > to) return;
-    const double gravity = mode == SwitchMode::dynamic ? -kGravity.z() : 0.;
-    add({"physics", FeatureSymbol::physics, {object}, ObjectiveType::eq, MatrixXd::Constant(1, 1, 1e2), {}, 2,
-         {double(from + 2) / slices_per_phase_, double(to + 1) / slices_per_phase_}, 0, 0, false, gravity}, 0, 0);
+    const FeatureSource sliding("physics", [](const std::vector<int>& ids, const State&) { return std::make_unique<FreeFlight>(ids.at(0), 0.); });
+    const FeatureSource physics = mode == SwitchMode::dynamic ? FeatureSource(FeatureSymbol::physics) : sliding;
+    add({"physics", physics, {object}, ObjectiveType::eq, MatrixXd::Constant(1, 1, 1e2), {}, 2,
+         {double(from + 2) / slices_per_phase_, double(to + 1) / slices_per_phase_}, 0, 0}, 0, 0);
     return;
   }
   if (!ends) return;

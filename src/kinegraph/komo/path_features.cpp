@@ -18,26 +18,4 @@ void JointsOfFrames::eval(std::span<const State* const> states, double, Eigen::R
   }
 }
 
-void FreeFlight::eval(std::span<const State* const> states, double tau, Eigen::Ref<VectorXd> y, JacobianRows* J) const {
-  VectorXd before(6), now(6);
-  const int n = J ? int(J->cols()) / 3 : 0;
-  const auto velocity = [&](int first, VectorXd& V, double sign) {
-    if (!J) {
-      linear_.eval(states.subspan(first, 2), tau, V.head(3), nullptr);
-      angular_.eval(states.subspan(first, 2), tau, V.tail(3), nullptr);
-      return;
-    }
-    using Rows = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
-    Rows columns = Rows::Zero(6, 2 * n);
-    JacobianRows top = columns.topRows(3), bottom = columns.bottomRows(3);
-    linear_.eval(states.subspan(first, 2), tau, V.head(3), &top);
-    angular_.eval(states.subspan(first, 2), tau, V.tail(3), &bottom);
-    J->middleCols(first * n, 2 * n) += sign * columns;
-  };
-  velocity(0, before, -1.);
-  velocity(1, now, 1.);
-  y = now - before;
-  y[2] += gravity_ * tau;
-}
-
 }  // namespace kinegraph

@@ -4,7 +4,6 @@
 #include <vector>
 
 #include "kinegraph/features/feature.h"
-#include "kinegraph/features/velocity.h"
 
 namespace kinegraph {
 
@@ -25,23 +24,6 @@ class JointsOfFrames final : public Feature {
  private:
   std::vector<Part> parts_;
   int rows_ = 0;
-};
-
-/// Change of a frame's velocity less that of free fall, over one step (an impulse per mass, m/s and rad/s):
-///     y = (v_t - v_{t-1} + (0, 0, g) tau,  w_t - w_{t-1})      6 rows; zero in free flight
-/// With g = 0 it is zero for a body that slides on without friction.
-class FreeFlight final : public Feature {
- public:
-  FreeFlight(int frame, double gravity) : linear_(frame), angular_(frame), gravity_(gravity) {}
-
-  int rows() const override { return 6; }
-  int order() const override { return 2; }
-  void eval(std::span<const State* const> states, double tau, Eigen::Ref<VectorXd> y, JacobianRows* J) const override;
-
- private:
-  LinearVelocity linear_;
-  AngularVelocity angular_;
-  double gravity_;  ///< m/s^2
 };
 
 }  // namespace kinegraph

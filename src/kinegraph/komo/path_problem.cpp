@@ -9,10 +9,11 @@ namespace {
 
 using RowMajor = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 
-/// Does the feature depend on which dofs there are, and so on the slice?
-bool dependsOnDofs(FeatureSymbol feature) {
-  return feature == FeatureSymbol::jointLimits || feature == FeatureSymbol::qQuaternionNorms ||
-         feature == FeatureSymbol::accumulatedCollisions || feature == FeatureSymbol::qItself;
+/// May the feature depend on which dofs there are, and so on the slice?
+bool dependsOnDofs(const FeatureSource& feature) {
+  return !feature.symbol() || feature == FeatureSymbol::jointLimits || feature == FeatureSymbol::qQuaternionNorms ||
+         feature == FeatureSymbol::accumulatedCollisions || feature == FeatureSymbol::pairCollisions ||
+         feature == FeatureSymbol::qItself;
 }
 
 }  // namespace

@@ -26,7 +26,8 @@ double sizeOf(ObjectiveType type, double phi) {
 /// What the recorded reports call a feature.
 std::string className(const Komo::Objective& objective) {
   using S = FeatureSymbol;
-  switch (objective.feature) {
+  if (objective.name == "physics") return "F_NewtonEuler";
+  if (const auto symbol = objective.feature.symbol()) switch (*symbol) {
     case S::distance:
     case S::pairCollision_negScalar:
     case S::pairCollision_vector:
@@ -36,7 +37,6 @@ std::string className(const Komo::Objective& objective) {
     case S::jointLimits: return "F_qLimits";
     case S::angularVel: return "F_AngVel";
     case S::linangVel: return "F_LinAngVel";
-    case S::physics: return "F_NewtonEuler";
     default: break;
   }
   std::string name = objective.name;

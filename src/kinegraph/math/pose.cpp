@@ -39,6 +39,14 @@ Vector7d Pose::numbers() const {
   return out;
 }
 
+Pose Pose::canonical() const {
+  for (double entry : wxyz(q)) {
+    if (entry < 0.) return {p, Quaterniond(-q.coeffs())};
+    if (entry > 0.) break;
+  }
+  return *this;
+}
+
 bool Pose::isIdentity(double tolerance) const {
   return p.cwiseAbs().maxCoeff() <= tolerance && q.vec().cwiseAbs().maxCoeff() <= tolerance &&
          std::abs(std::abs(q.w()) - 1.) <= tolerance;

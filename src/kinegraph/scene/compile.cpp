@@ -98,6 +98,7 @@ std::shared_ptr<const Parameters> collectParameters(const SceneTree& scene, cons
   auto parameters = std::make_shared<Parameters>();
   parameters->joint_base.resize(program.links.size());
   parameters->frame_offset.resize(scene.frames().size());
+  parameters->frame_mass.resize(scene.frames().size());
   for (const FrameData* frame : topologicalOrder(scene)) {
     const RigidTransform base = frame->parent ? parameters->frame_offset[frame->parent->id] : RigidTransform{};
     if (isLinkFrame(*frame)) {
@@ -105,6 +106,7 @@ std::shared_ptr<const Parameters> collectParameters(const SceneTree& scene, cons
     } else {
       parameters->frame_offset[frame->id] = base * frame->relativePose().transform();
     }
+    if (frame->inertia) parameters->frame_mass[frame->id] = {frame->inertia->mass, frame->inertia->com};
   }
   return parameters;
 }

@@ -7,7 +7,6 @@
 
 #include "kinegraph/base/errors.h"
 #include "kinegraph/base/text.h"
-#include "kinegraph/geometry/proximity.h"
 #include "kinegraph/scene/reader.h"
 
 namespace kinegraph {
@@ -143,14 +142,7 @@ MatrixXd Config::getFrameState() const {
   const State& state = scene_->state();
   MatrixXd poses(getFrameDimension(), 7);
   for (int i = 0; i < poses.rows(); ++i) {
-    Pose X(state.pose(i));
-    const Vector4d q = wxyz(X.q);
-    for (int k = 0; k < 4; ++k) {
-      if (q[k] == 0.) continue;
-      if (q[k] < 0.) X.q.coeffs() *= -1.;
-      break;
-    }
-    poses.row(i) = X.numbers();
+    poses.row(i) = Pose(state.pose(i)).canonical().numbers();
   }
   return poses;
 }
@@ -302,26 +294,46 @@ VectorXd Config::inverseDynamics(const VectorXd& velocity, const VectorXd& accel
   return kinegraph::inverseDynamics(scene_->state(), inertias(), velocity, acceleration);
 }
 
-std::vector<Config::NearPair> Config::getCollisions(double margin) const {
-  const State& state = scene_->state();
-  const Program& program = state.program();
-  std::vector<NearPair> near;
-  for (const auto& [a, b] : program.collidable) {
-    const RigidTransform X_WA = state.pose(a), X_WB = state.pose(b);
-    if (farApart(*program.body[a], X_WA, *program.body[b], X_WB, margin)) continue;
-    const double distance = proximity(*program.body[a], X_WA, *program.body[b], X_WB).distance;
-    if (distance <= margin) near.push_back({a, b, distance});
+namespace {
+
+/// Calls visit(a, b, distance) for the frames of all collidable pairs whose distance is at most `margin`.
+template <class Visit>
+void forNearPairs(SceneTree& scene, double margin, const Visit& visit) {
+  PlacedBodies& bodies = scene.placedBodies();
+  const auto program = scene.program();
+  for (int pair = 0; pair < bodies.pairs(); ++pair) {
+    if (!bodies.mayBeNear(pair, margin)) continue;
+    const double distance = bodies.proximity(pair).distance;
+    if (distance <= margin) visit(program->collidable[pair].first, program->collidable[pair].second, distance);
   }
+}
+
+}  // namespace
+
+std::vector<Config::NearPair> Config::getCollisions(double margin) const {
+  std::vector<NearPair> near;
+  forNearPairs(*scene_, margin, [&](int a, int b, double distance) { near.push_back({a, b, distance}); });
   return near;
 }
 
 double Config::getTotalPenetration(bool largest_only) const {
   double sum = 0., largest = 0.;
-  for (const NearPair& pair : getCollisions(0.)) {
-    sum -= pair.distance;
-    largest = std::max(largest, -pair.distance);
-  }
+  forNearPairs(*scene_, 0., [&](int, int, double distance) {
+    sum -= distance;
+    largest = std::max(largest, -distance);
+  });
   return largest_only ? largest : sum;
+}
+
+std::optional<MotionContact> Config::checkMotion(const VectorXd& from, const VectorXd& to, double margin, double tolerance) const {
+  for (const VectorXd* q : {&from, &to}) {
+    if (q->size() == getJointDimension() && q->allFinite()) continue;
+    throw ValueError(cat("checkMotion: ", q == &from ? "the start" : "the end", " has ", q->size(), " numbers; expected ",
+                         getJointDimension(), " finite ones, one per active dof"));
+  }
+  if (!std::isfinite(margin)) throw ValueError(cat("checkMotion: margin is ", margin, "; expected a distance in m"));
+  if (!(tolerance > 0.)) throw ValueError(cat("checkMotion: tolerance is ", tolerance, "; expected a distance > 0 in m"));
+  return MotionChecker(scene_->state()).firstContact(from.data(), to.data(), margin, tolerance);
 }
 
 std::string Config::report() const {

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "kinegraph/base/random.h"
+#include "kinegraph/kinematics/motion_check.h"
 #include "kinegraph/scene/frame.h"
 
 namespace kinegraph {
@@ -119,6 +120,11 @@ class Config {
 
   /// Sum of the penetration depths of all pairs, or the largest one, in m.
   double getTotalPenetration(bool largest_only = false) const;
+
+  /// The first pair that comes nearer than `margin` (m) on the straight motion of q between two joint vectors, at any time of
+  /// it and not just at samples; none if all pairs keep apart. Pairs within margin + tolerance may count as too near. Throws
+  /// ValueError for joint vectors of a wrong length, and for a tolerance that is not positive.
+  std::optional<MotionContact> checkMotion(const VectorXd& from, const VectorXd& to, double margin = 0., double tolerance = 1e-4) const;
 
   // --- for computing ---------------------------------------------------------------------------------------------
 

@@ -258,6 +258,7 @@ Frame& Frame::setMass(double mass, const std::vector<double>& matrix) {
   if (!(mass >= 0.)) throw ValueError(cat("frame '", frame.name, "': mass ", mass, " kg is not zero or positive"));
   if (mass == 0.) {
     frame.inertia.reset();
+    scene_->posesChanged();
     return *this;
   }
   Inertia inertia;
@@ -280,6 +281,7 @@ Frame& Frame::setMass(double mass, const std::vector<double>& matrix) {
     inertia.matrix = 1e-4 * mass * Matrix3d::Identity();
   }
   frame.inertia = inertia;
+  scene_->posesChanged();
   return *this;
 }
 

@@ -160,6 +160,8 @@ std::shared_ptr<const Program> SceneTree::program() {
     }
     parameters_.reset();
     state_.reset();
+    collisions_.reset();
+    q_.resize(program_->dofs);
     poses_stale_ = q_stale_ = true;
   }
   return program_;
@@ -171,6 +173,7 @@ std::shared_ptr<const Parameters> SceneTree::parameters() {
     parameters_ = collectParameters(*this, *program_);
     if (state_) state_->setParameters(parameters_);
     poses_stale_ = false;
+    bodies_stale_ = true;
   }
   return parameters_;
 }
@@ -182,11 +185,20 @@ const State& SceneTree::state() {
     q_stale_ = true;
   }
   if (q_stale_) {
-    const VectorXd q = jointState();
-    state_->setJoints(q.data());
+    gatherJointState(q_.data());
+    state_->setJoints(q_.data());
     q_stale_ = false;
+    bodies_stale_ = true;
   }
   return *state_;
+}
+
+PlacedBodies& SceneTree::placedBodies() {
+  const State& now = state();
+  if (!collisions_) collisions_ = std::make_unique<Collisions>(*program_);
+  if (bodies_stale_) collisions_->bodies.place(now);
+  bodies_stale_ = false;
+  return collisions_->bodies;
 }
 
 Pose SceneTree::worldPose(const FrameData& frame) {
@@ -195,20 +207,20 @@ Pose SceneTree::worldPose(const FrameData& frame) {
   return frame.worldPose();
 }
 
+void SceneTree::gatherJointState(double* q) const {
+  for (const FrameData* frame : dof_frames_) q = std::copy(frame->joint->q.begin(), frame->joint->q.end(), q);
+}
+
 VectorXd SceneTree::jointState() {
   VectorXd q(program()->dofs);
-  int first = 0;
-  for (const FrameData* frame : dof_frames_) {
-    q.segment(first, frame->joint->dofs()) = frame->joint->q;
-    first += frame->joint->dofs();
-  }
+  gatherJointState(q.data());
   return q;
 }
 
 void SceneTree::setJointState(const double* q) {
   program();
   for (FrameData* frame : dof_frames_) {
-    frame->joint->q = Eigen::Map<const VectorXd>(q, frame->joint->dofs());
+    std::copy_n(q, frame->joint->dofs(), frame->joint->q.data());
     q += frame->joint->dofs();
   }
   jointsChanged();

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "kinegraph/kinematics/dynamics.h"
+#include "kinegraph/kinematics/near_pairs.h"
 #include "kinegraph/kinematics/state.h"
 #include "kinegraph/scene/frame_data.h"
 
@@ -13,7 +14,7 @@ namespace kinegraph {
 /// The frames of a configuration and what is compiled from them. Config and Frame are handles on it.
 ///
 /// Whoever changes a frame says which of three things is no longer true: the structure (frames, parents, joints, shapes,
-/// contacts), the constant poses, or q. The Program, its Parameters and the State follow when they are asked for.
+/// contacts), the constant poses and masses, or q. The Program, its Parameters and the State follow when they are asked for.
 class SceneTree {
  public:
   SceneTree() = default;
@@ -69,6 +70,9 @@ class SceneTree {
   std::shared_ptr<const Parameters> parameters();
   const State& state();
 
+  /// The bodies of the collidable pairs, placed by state().
+  PlacedBodies& placedBodies();
+
   /// World pose of a frame. The first question after an edit is answered along the parents, so that scenes can be built
   /// frame by frame without compiling them at every step; those that follow are answered by the State.
   Pose worldPose(const FrameData& frame);
@@ -77,15 +81,24 @@ class SceneTree {
   void setJointState(const double* q);
 
  private:
+  struct Collisions {
+    explicit Collisions(const Program& program) : pairs(program, program.collidable), bodies(pairs) {}
+    BodyPairs pairs;
+    PlacedBodies bodies;
+  };
+
   void copyValues(const SceneTree& other);
+  void gatherJointState(double* q) const;
 
   std::vector<std::shared_ptr<FrameData>> frames_;
   std::uint64_t structure_revision_ = 1, compiled_revision_ = 0, looks_revision_ = 0;
-  bool poses_stale_ = true, q_stale_ = true, asked_since_edit_ = false;
+  bool poses_stale_ = true, q_stale_ = true, bodies_stale_ = true, asked_since_edit_ = false;
   std::vector<FrameData*> dof_frames_;  ///< those whose joints make up q, in its order
   std::shared_ptr<const Program> program_;
   std::shared_ptr<const Parameters> parameters_;
   std::unique_ptr<State> state_;
+  VectorXd q_;  ///< as last given to `state_`
+  std::unique_ptr<Collisions> collisions_;
   std::vector<std::shared_ptr<SceneTree>> snapshots_;
   std::uint64_t snapshot_revision_ = 0;
 };
@@ -93,7 +106,7 @@ class SceneTree {
 /// Compiles the structure of a scene.
 std::shared_ptr<const Program> compileProgram(const SceneTree& scene);
 
-/// Collects the constant transforms that belong to a compiled Program.
+/// Collects the constants that belong to a compiled Program.
 std::shared_ptr<const Parameters> collectParameters(const SceneTree& scene, const Program& program);
 
 /// What each link of a compiled Program weighs: the sum of its frames' inertias.

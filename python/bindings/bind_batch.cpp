@@ -1,0 +1,119 @@
+#include <nanobind/stl/optional.h>
+#include <nanobind/stl/string.h>
+#include <nanobind/stl/variant.h>
+#include <nanobind/stl/vector.h>
+
+#include <chrono>
+
+#include "bindings.h"
+#include "feature_arguments.h"
+#include "kinegraph/base/errors.h"
+#include "kinegraph/base/text.h"
+#include "kinegraph/features/batch.h"
+#include "kinegraph/features/eval.h"
+
+namespace kinegraph::python {
+
+namespace {
+
+Eigen::Map<const RowMatrix> jointRows(const Numbers& Q, const PyConfig& config, const char* call, const char* name = "Q") {
+  const int n = config.getJointDimension();
+  if (Q.rank != 2 || (Q.rows > 0 && Q.columns() != std::size_t(n))) {
+    throw ValueError(cat(call, ": ", name, " has ", Q.rank == 2 ? cat("shape (", Q.rows, ", ", Q.columns(), ")") : cat(Q.rank, " dimensions"),
+                         "; expected (N, ", n, "), a joint vector per row"));
+  }
+  return {Q.values.data(), Eigen::Index(Q.rows), n};
+}
+
+/// Runs without the interpreter lock; from time to time, looks for Ctrl-C.
+template <class Work>
+void unlocked(int threads, const char* call, const Work& work) {
+  using Clock = std::chrono::steady_clock;
+  if (threads < 1) throw ValueError(cat(call, ": threads is ", threads, "; expected 1 or more"));
+  const nb::gil_scoped_release unlock;
+  auto checked = Clock::now();
+  work(BatchOptions{threads, [&checked] {
+                      const auto now = Clock::now();
+                      if (now - checked < std::chrono::milliseconds(50)) return;
+                      checked = now;
+                      checkInterrupt();
+                    }});
+}
+
+Eigen::Map<RowMatrix> rowsOf(const NewArray& array, std::size_t rows, std::size_t columns) {
+  return {array.data, Eigen::Index(rows), Eigen::Index(columns)};
+}
+
+nb::tuple evalBatch(const PyConfig& config, const FeatureArgument& feature, const FrameNames& frames, const Numbers& Q,
+                    const std::optional<Numbers>& scale, const std::optional<Numbers>& target, int threads) {
+  const auto joints = jointRows(Q, config, "evalBatch");
+  const State scene = config.state();
+  const Residual residual = makeResidual(scene, feature.source(), toNames(frames), toScale(scale), toTarget(target));
+  const std::size_t count = Q.rows, rows = std::size_t(residual.rows()), n = std::size_t(scene.dofs());
+  const NewArray y = newArray(count, rows), J = newArray(count, rows, n);
+  auto values = rowsOf(y, count, rows), jacobians = rowsOf(J, count * rows, n);
+  JacobianRows view = jacobians;
+  unlocked(threads, "evalBatch", [&](const BatchOptions& options) { kinegraph::evalBatch(scene, residual, joints, values, &view, options); });
+  return nb::make_tuple(y.array, J.array);
+}
+
+nb::object getFramePoses(const PyConfig& config, const Numbers& Q, const FrameNames& frames, int threads) {
+  const auto joints = jointRows(Q, config, "getFramePoses");
+  const State scene = config.state();
+  std::vector<int> ids;
+  for (const std::string& name : toNames(frames)) ids.push_back(frameId(scene.program(), name, "getFramePoses"));
+  const NewArray poses = newArray(Q.rows, ids.size(), 7);
+  auto rows = rowsOf(poses, Q.rows, 7 * ids.size());
+  unlocked(threads, "getFramePoses", [&](const BatchOptions& options) { framePoses(scene, ids, joints, rows, options); });
+  return poses.array;
+}
+
+nb::object getDistances(const PyConfig& config, const Numbers& Q, int threads) {
+  const auto joints = jointRows(Q, config, "getDistances");
+  const State scene = config.state();
+  const std::size_t pairs = scene.program().collidable.size();
+  const NewArray distances = newArray(Q.rows, pairs);
+  auto rows = rowsOf(distances, Q.rows, pairs);
+  unlocked(threads, "getDistances", [&](const BatchOptions& options) { pairDistances(scene, joints, rows, options); });
+  return distances.array;
+}
+
+nb::object isValid(const PyConfig& config, const Numbers& Q, double margin, int threads) {
+  const auto joints = jointRows(Q, config, "isValid");
+  if (!std::isfinite(margin)) throw ValueError(cat("isValid: margin is ", margin, "; expected a distance in m"));
+  const State scene = config.state();
+  const NewFlags valid = newFlags(Q.rows);
+  unlocked(threads, "isValid", [&](const BatchOptions& options) { areValid(scene, joints, margin, {valid.data, Q.rows}, options); });
+  return valid.array;
+}
+
+nb::object isMotionFree(const PyConfig& config, const Numbers& from, const Numbers& to, double margin, double tolerance, int threads) {
+  const auto starts = jointRows(from, config, "isMotionFree", "start"), ends = jointRows(to, config, "isMotionFree", "end");
+  if (from.rows != to.rows) throw ValueError(cat("isMotionFree: ", from.rows, " starts and ", to.rows, " ends"));
+  const State scene = config.state();
+  const NewFlags free = newFlags(from.rows);
+  unlocked(threads, "isMotionFree", [&](const BatchOptions& options) {
+    areMotionsFree(scene, starts, ends, margin, tolerance, {free.data, from.rows}, options);
+  });
+  return free.array;
+}
+
+}  // namespace
+
+void bindBatch(nb::class_<PyConfig>& config) {
+  config
+      .def("evalBatch", evalBatch, "feature"_a, "frames"_a, "Q"_a, "scale"_a = nb::none(), "target"_a = nb::none(), "threads"_a = 1,
+           "eval at each row of Q (N, n): y (N, d) and J (N, d, n). The configuration's own q stays as it is. Runs without the\n"
+           "interpreter lock; the result does not depend on the number of threads.")
+      .def("getFramePoses", getFramePoses, "Q"_a, "frames"_a, "threads"_a = 1,
+           "World poses of f frames at each row of Q (N, n): (N, f, 7), x y z (m) qw qx qy qz with qw >= 0.")
+      .def("getDistances", getDistances, "Q"_a, "threads"_a = 1,
+           "Signed distances (m) of the p collidable pairs, as in getCollidablePairs, at each row of Q (N, n): (N, p). Negative:\n"
+           "penetration depth.")
+      .def("isValid", isValid, "Q"_a, "margin"_a = 0., "threads"_a = 1,
+           "For each row of Q (N, n): is q within its limits, and is no collidable pair nearer than margin (m)? (N,) bool.")
+      .def("isMotionFree", isMotionFree, "start"_a, "end"_a, "margin"_a = 0., "tolerance"_a = 1e-4, "threads"_a = 1,
+           "checkMotion for N straight motions, between the rows of start and end (N, n): (N,) bool, True where it finds no contact.");
+}
+
+}  // namespace kinegraph::python

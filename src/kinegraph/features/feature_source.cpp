@@ -1,0 +1,30 @@
+#include "kinegraph/features/feature_source.h"
+
+#include "kinegraph/base/errors.h"
+#include "kinegraph/base/text.h"
+
+namespace kinegraph {
+
+std::optional<FeatureSymbol> FeatureSource::symbol() const {
+  const auto* symbol = std::get_if<FeatureSymbol>(&source_);
+  return symbol ? std::optional(*symbol) : std::nullopt;
+}
+
+const std::string& FeatureSource::name() const {
+  if (const auto* symbol = std::get_if<FeatureSymbol>(&source_)) return featureInfo(*symbol).name;
+  return std::get<1>(source_)->name;
+}
+
+std::unique_ptr<Feature> FeatureSource::make(const std::vector<int>& frames, const State& state) const {
+  if (const auto* own = std::get_if<1>(&source_)) return (*own)->make(frames, state);
+  try {
+    return makeFeature(std::get<0>(source_), frames, state.program());
+  } catch (const ValueError& error) {
+    if (frames.empty()) throw;
+    std::vector<std::string> names;
+    for (int frame : frames) names.push_back(state.program().frame_name[frame]);
+    throw ValueError(cat(error.what(), " (frames: ", join(names), ")"));
+  }
+}
+
+}  // namespace kinegraph

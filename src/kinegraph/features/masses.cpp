@@ -1,0 +1,84 @@
+#include "kinegraph/features/masses.h"
+
+#include "kinegraph/base/errors.h"
+#include "kinegraph/base/text.h"
+#include "kinegraph/kinematics/dynamics.h"
+
+namespace kinegraph {
+
+namespace {
+
+const FrameMass& massOf(const State& state, int frame) { return state.parameters().frame_mass[frame]; }
+
+Vector3d centerOf(const State& state, int frame) { return state.pose(frame) * massOf(state, frame).com; }
+
+}  // namespace
+
+void Energy::eval(std::span<const State* const> states, double tau, Eigen::Ref<VectorXd> y, JacobianRows* J) const {
+  const Eigen::RowVector3d none = Eigen::RowVector3d::Zero();
+  y[0] = 0.;
+  for (int frame : frames_) {
+    const double given = massOf(*states[1], frame).mass, mass = given > 0. ? given : 1.;
+    const Vector3d before = centerOf(*states[0], frame), now = centerOf(*states[1], frame), velocity = (now - before) / tau;
+    y[0] += mass * (.5 * velocity.squaredNorm() - kGravity.dot(now));
+    if (!J) continue;
+    const Eigen::RowVector3d momentum = mass / tau * velocity.transpose(), weight = mass * kGravity.transpose();
+    const Eigen::Index n = J->cols() / 2;
+    states[0]->addJacobian(frame, before, -momentum, none, J->leftCols(n));
+    states[1]->addJacobian(frame, now, momentum - weight, none, J->rightCols(n));
+  }
+}
+
+void CenterOfMassOffset::eval(std::span<const State* const> states, double, Eigen::Ref<VectorXd> y, JacobianRows* J) const {
+  const State& state = *states[0];
+  double total = 0.;
+  Vector3d moment = Vector3d::Zero();
+  const auto forEachOther = [&](const auto& visit) {
+    if (!others_.empty()) {
+      for (int frame : others_) visit(frame, massOf(state, frame).mass);
+      return;
+    }
+    for (std::size_t frame = 0; frame < state.parameters().frame_mass.size(); ++frame) {
+      if (state.link(int(frame)) > 0) visit(int(frame), massOf(state, int(frame)).mass);
+    }
+  };
+  forEachOther([&](int frame, double mass) {
+    if (mass == 0.) return;
+    total += mass;
+    moment += mass * centerOf(state, frame);
+  });
+  if (!(total > 0.)) {
+    const std::string& name = state.program().frame_name[frame_];
+    throw ValueError(cat("EqCenterOfMass of '", name, "': ", others_.empty() ? "nothing that moves" : "none of the other frames",
+                         " has a mass; give them `mass: ..` or call setMass"));
+  }
+  y = state.position(frame_) - moment / total;
+  if (!J) return;
+  state.addPointJacobian(frame_, state.position(frame_), 1., *J);
+  forEachOther([&](int frame, double mass) {
+    if (mass > 0.) state.addPointJacobian(frame, centerOf(state, frame), -mass / total, *J);
+  });
+}
+
+void FreeFlight::eval(std::span<const State* const> states, double tau, Eigen::Ref<VectorXd> y, JacobianRows* J) const {
+  const Vector3d c[] = {centerOf(*states[0], frame_), centerOf(*states[1], frame_), centerOf(*states[2], frame_)};
+  Vector3d before, now;
+  y.head<3>() = (c[2] - 2. * c[1] + c[0]) / tau;
+  y[2] += gravity_ * tau;
+  if (!J) {
+    angular_.eval(states.first(2), tau, before, nullptr);
+    angular_.eval(states.last(2), tau, now, nullptr);
+    y.tail<3>() = now - before;
+    return;
+  }
+  const Eigen::Index n = J->cols() / 3;
+  const double factor[] = {1. / tau, -2. / tau, 1. / tau};
+  for (int i = 0; i < 3; ++i) states[i]->addPointJacobian(frame_, c[i], factor[i], J->block(0, i * n, 3, n));
+  JacobianRows earlier = J->block(3, 0, 3, 2 * n), later = J->block(3, n, 3, 2 * n);
+  angular_.eval(states.first(2), tau, before, &earlier);
+  earlier *= -1.;
+  angular_.eval(states.last(2), tau, now, &later);
+  y.tail<3>() = now - before;
+}
+
+}  // namespace kinegraph

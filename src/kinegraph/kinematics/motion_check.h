@@ -1,0 +1,62 @@
+#pragma once
+
+#include <optional>
+
+#include "kinegraph/kinematics/near_pairs.h"
+
+namespace kinegraph {
+
+/// The first pair that a motion brings too near.
+struct MotionContact {
+  double time = 0.;      ///< s in [0, 1]: until then all pairs keep apart
+  int a = 0, b = 0;      ///< frame ids
+  double distance = 0.;  ///< of the pair at `time`, m
+};
+
+/// Checks straight motions q(s) = (1 - s) from + s to, 0 <= s <= 1, at all times and not just at samples of them.
+///
+/// Conservative advancement: no point of a body moves, relative to the other one, faster than the sum over the joints
+/// between them of |dq_j| r_j, with r_j a bound of its distance from the axis (1 for a translation). So a pair whose distance
+/// is d need not be looked at again before s + (d - margin) / speed. Of all pairs, the one that is due next is looked at.
+/// Source: Mirtich, Impulse-based dynamic simulation of rigid body systems, 1996, ch. 2; Schwarzer, Saha, Latombe, Adaptive
+/// dynamic collision checking for single and multiple articulated robots, 2005.
+class MotionChecker {
+ public:
+  /// For the collidable pairs of a scene, of which `scene` is any State.
+  explicit MotionChecker(const State& scene);
+
+  MotionChecker(const MotionChecker& other) : MotionChecker(other.state_) {}
+
+  /// The first pair nearer than `margin` + `tolerance` that could not be shown to keep `margin` (m) apart; none if all do for
+  /// the whole motion. A larger tolerance (m, > 0) takes fewer steps along surfaces that slide past each other.
+  std::optional<MotionContact> firstContact(const double* from, const double* to, double margin, double tolerance);
+
+ private:
+  struct Due {
+    double time;
+    int pair;
+    bool operator<(const Due& other) const { return time > other.time || (time == other.time && pair > other.pair); }
+  };
+
+  struct StepBound {
+    double turn = 0.;  ///< rad per unit of s
+    double move = 0.;  ///< m per unit of s
+    double reach = 0.;  ///< largest distance that it moves what follows, m
+  };
+
+  void moveTo(double time);
+  void boundSteps(const double* to);
+  double relativeSpeed(int pair) const;
+  double climb(int link, double& reach) const;
+
+  State state_;
+  BodyPairs pairs_;
+  PlacedBodies bodies_;
+  VectorXd from_, change_, q_;
+  double time_ = 0.;
+  std::vector<StepBound> steps_;  ///< as the Program's
+  std::vector<double> speed_;     ///< per pair, m per unit of s
+  std::vector<Due> due_;          ///< a heap, the earliest first
+};
+
+}  // namespace kinegraph

@@ -1,0 +1,65 @@
+#pragma once
+
+#include <memory>
+#include <memory_resource>
+#include <utility>
+#include <vector>
+
+#include "kinegraph/geometry/proximity.h"
+#include "kinegraph/kinematics/state.h"
+
+namespace kinegraph {
+
+/// Pairs of frames with shapes, and each of their bodies once.
+struct BodyPairs {
+  /// Pairs of frame ids; frames without a shape count as points.
+  BodyPairs(const Program& program, const std::vector<std::pair<int, int>>& frame_pairs);
+
+  std::vector<int> frames;                                   ///< ids
+  std::vector<std::shared_ptr<const CollisionBody>> bodies;  ///< of those frames
+  std::vector<std::pair<int, int>> pairs;                    ///< places in `frames`
+};
+
+/// The bodies of pairs where a State puts them. Before a pair's exact distance is computed, bounds may show
+/// that it is far: those of the bounding spheres, then those of one's sphere and the other one's core.
+class PlacedBodies {
+ public:
+  /// `pairs` must stay. Memory for the poses comes from `memory`.
+  explicit PlacedBodies(const BodyPairs& pairs, std::pmr::memory_resource* memory = std::pmr::get_default_resource())
+      : pairs_(&pairs), placed_(pairs.frames.size(), memory) {}
+
+  /// `state` must stay while this is asked.
+  void place(const State& state);
+
+  int pairs() const { return int(pairs_->pairs.size()); }
+
+  Proximity proximity(int pair) {
+    const auto [a, b] = pairs_->pairs[pair];
+    return kinegraph::proximity(*pairs_->bodies[a], pose(a), *pairs_->bodies[b], pose(b));
+  }
+
+  /// May the pair be nearer than `margin`, or that near? False is certain.
+  bool mayBeNear(int pair, double margin);
+
+ private:
+  struct Placed {
+    Vector3d center;  ///< of the bounding sphere
+    RigidTransform pose;
+    bool posed;
+  };
+
+  const RigidTransform& pose(int place) {
+    Placed& placed = placed_[place];
+    if (!placed.posed) {
+      placed.pose = state_->pose(pairs_->frames[place]);
+      placed.posed = true;
+    }
+    return placed.pose;
+  }
+
+  const BodyPairs* pairs_;
+  const State* state_ = nullptr;
+  std::pmr::vector<Placed> placed_;
+};
+
+}  // namespace kinegraph

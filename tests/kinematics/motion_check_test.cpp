@@ -1,0 +1,155 @@
+#include "kinegraph/kinematics/motion_check.h"
+
+#include <gtest/gtest.h>
+
+#include "kinegraph/scene/config.h"
+
+using namespace kinegraph;
+
+namespace {
+
+constexpr double kTolerance = 1e-4;  ///< m
+
+/// A ball that slides along x at the height of a wall that is 1 cm thin.
+Config slider() {
+  Config config;
+  config.addText(R"g(
+    world: {}
+    ball(world): { joint: transX, shape: sphere, size: [.1], contact: 1 }
+    wall: { X: "t(1 0 0)", shape: box, size: [.01 1 1], contact: 1 }
+  )g");
+  return config;
+}
+
+VectorXd numbers(std::initializer_list<double> values) { return Eigen::Map<const VectorXd>(values.begin(), Eigen::Index(values.size())); }
+
+/// Distances of the collidable pairs at q.
+VectorXd distancesAt(const Config& config, const VectorXd& q) {
+  State state = config.state();
+  state.setJoints(q.data());
+  const auto pairs = config.getCollidablePairs();
+  VectorXd distances(Eigen::Index(pairs.size()));
+  for (std::size_t i = 0; i < pairs.size(); ++i) {
+    const auto [a, b] = pairs[i];
+    distances[Eigen::Index(i)] = proximity(*state.program().body[a], state.pose(a), *state.program().body[b], state.pose(b)).distance;
+  }
+  return distances;
+}
+
+std::string scene(const std::string& first, const std::string& second) {
+  return "world: {}\n"
+         "upper(world): { pre: \"t(.1 .1 0) d(70 1 .2 .5)\", " + first + ", shape: capsule, size: [.2 .05], contact: 1 }\n"
+         "lower(upper): { pre: \"t(.15 0 .2) d(-50 .4 1 .3)\", " + second + " }\n"
+         "finger(lower): { Q: \"t(.05 .02 .15) d(35 1 .6 .2)\", shape: capsule, size: [.2 .03], contact: 1 }\n"
+         "other(world): { pre: \"t(.2 .25 .05) d(-40 .2 .3 1)\", " + second + " }\n"
+         "box(other): { Q: \"t(-.05 .06 .02) d(20 .5 1 .1)\", shape: ssBox, size: [.15 .12 .1 .02], contact: 1 }\n"
+         "ball: { X: \"t(.35 -.05 .3)\", shape: sphere, size: [.06], contact: 1 }\n";
+}
+
+struct Joints {
+  const char* first;
+  const char* second;
+};
+
+constexpr Joints kJoints[] = {
+    {"joint: hingeX", "joint: hingeY"},
+    {"joint: hingeZ, joint_scale: 1.7", "joint: hinge, axis: [1 2 -1]"},
+    {"joint: transX", "joint: transZ"},
+    {"joint: transXYPhi", "joint: hingeX"},
+    {"joint: phiTransXY", "joint: transYPhi"},
+    {"joint: universal", "joint: trans3"},
+    {"joint: quatBall", "joint: hingeY"},
+    {"joint: hingeZ", "joint: free"},
+    {"joint: circleZ", "joint: XBall"},
+    {"joint: hingeX", "joint: hingeY, mimic: upper, joint_scale: -.6"},
+};
+
+}  // namespace
+
+TEST(MotionChecker, FindsWhenABallMeetsAWall) {
+  const Config config = slider();
+  const auto contact = config.checkMotion(numbers({0.}), numbers({2.}), 0., kTolerance);
+  ASSERT_TRUE(contact);
+  EXPECT_NEAR(contact->time, .895 / 2., kTolerance / 2.);
+  EXPECT_LE(contact->time, .895 / 2.) << "until then it is free";
+  EXPECT_NEAR(contact->distance, .895 - 2. * contact->time, 1e-12);
+  EXPECT_EQ(config.getFrame(contact->a).getName(), "ball");
+  EXPECT_EQ(config.getFrame(contact->b).getName(), "wall");
+  EXPECT_TRUE(config.checkMotion(numbers({2.}), numbers({0.})));
+  EXPECT_FALSE(config.checkMotion(numbers({0.}), numbers({.89})));
+}
+
+TEST(MotionChecker, KeepsTheMargin) {
+  const Config config = slider();
+  EXPECT_FALSE(config.checkMotion(numbers({0.}), numbers({.79}), .1, kTolerance));
+  const auto contact = config.checkMotion(numbers({0.}), numbers({1.}), .1, kTolerance);
+  ASSERT_TRUE(contact);
+  EXPECT_NEAR(contact->time, .795, kTolerance);
+  const auto deep = config.checkMotion(numbers({0.}), numbers({1.}), -.05, kTolerance);
+  ASSERT_TRUE(deep);
+  EXPECT_NEAR(deep->time, .945, kTolerance);
+}
+
+TEST(MotionChecker, ReportsAContactAtTheStart) {
+  const Config config = slider();
+  const auto contact = config.checkMotion(numbers({.95}), numbers({0.}));
+  ASSERT_TRUE(contact);
+  EXPECT_EQ(contact->time, 0.);
+  EXPECT_NEAR(contact->distance, -.055, 1e-12);
+  EXPECT_TRUE(config.checkMotion(numbers({.95}), numbers({.95})));
+  EXPECT_FALSE(config.checkMotion(numbers({.5}), numbers({.5})));
+}
+
+TEST(MotionChecker, PairsThatMoveAsOneAreLookedAtOnce) {
+  Config config = slider();
+  config.addFrame("rider", "ball", "Q: \"t(0 0 .151)\", joint: rigid, shape: sphere, size: [.05], contact: 1");
+  const auto pairs = config.getCollidablePairs();
+  ASSERT_EQ(pairs.size(), 3u);
+  EXPECT_FALSE(config.checkMotion(numbers({0.}), numbers({.8})));
+  EXPECT_TRUE(config.checkMotion(numbers({0.}), numbers({.8}), .002));
+}
+
+TEST(MotionChecker, AQuaternionThatPassesZeroIsNotCalledFree) {
+  Config config;
+  config.addText("world: {}\n"
+                 "stick(world): { joint: quatBall, shape: capsule, size: [1 .1], contact: 1 } \n"
+                 "ball: { X: \"t(.5 0 0)\", shape: sphere, size: [.1], contact: 1 }");
+  EXPECT_TRUE(config.checkMotion(numbers({1., 0., 0., 0.}), numbers({-1., 0., 0., 0.})));
+  EXPECT_FALSE(config.checkMotion(numbers({1., 0., 0., 0.}), numbers({2., 0., 0., 0.}))) << "only the norm changes";
+}
+
+TEST(MotionChecker, AgreesWithManySamplesForEveryJointType) {
+  constexpr int kSamples = 400;
+  Rng rng(5);
+  for (const Joints& joints : kJoints) {
+    Config config;
+    config.addText(scene(joints.first, joints.second));
+    MotionChecker checker(config.state());
+    const int n = config.getJointDimension();
+    int free = 0, hit = 0;
+    for (int motion = 0; motion < 40; ++motion) {
+      VectorXd from = config.program()->home, to = from;
+      for (double& x : from) x += .6 * rng.normal();
+      for (double& x : to) x += .6 * rng.normal();
+      const double margin = motion % 2 == 0 ? 0. : .01;
+      if (n == 0 || distancesAt(config, from).minCoeff() < margin + kTolerance) continue;
+      const auto contact = checker.firstContact(from.data(), to.data(), margin, kTolerance);
+      const double until = contact ? contact->time : 1.;
+      for (int i = 0; i <= kSamples; ++i) {
+        const double s = until * i / kSamples;
+        EXPECT_GE(distancesAt(config, from + s * (to - from)).minCoeff(), margin - 1e-9)
+            << joints.first << ", " << joints.second << " at " << s << " of " << until;
+      }
+      if (!contact) {
+        ++free;
+        continue;
+      }
+      ++hit;
+      const double nearest = distancesAt(config, from + until * (to - from)).minCoeff();
+      EXPECT_EQ(contact->distance, nearest) << joints.first;
+      EXPECT_LT(nearest, margin + kTolerance) << joints.first;
+    }
+    EXPECT_GT(free, 2) << joints.first;
+    EXPECT_GT(hit, 2) << joints.first;
+  }
+}
