@@ -7,6 +7,7 @@
 
 #include "bindings.h"
 #include "defaults.h"
+#include "explanation_dicts.h"
 #include "kinegraph/base/errors.h"
 #include "kinegraph/base/text.h"
 #include "kinegraph/nlp/callback_nlp.h"
@@ -105,6 +106,11 @@ std::shared_ptr<Nlp> fromPythonProblem(nb::object problem) {
   });
 }
 
+Explanation explanationOf(const SolverResult& result, double tolerance) {
+  if (!result.problem) throw Error("SolverReturn: nothing was solved, so there is nothing to explain");
+  return explain(*result.problem, result.x, tolerance);
+}
+
 nb::object stack(const std::vector<VectorXd>& rows) {
   NewArray array = newArray(rows.size(), rows.empty() ? 0 : std::size_t(rows[0].size()));
   double* data = array.data;
@@ -175,6 +181,12 @@ void bindSolvers(nb::module_& m) {
              d["f"] = r.f; d["sos"] = r.sos; d["ineq"] = r.ineq; d["eq"] = r.eq;
              return d;
            }, "evals, time, done, feasible, f, sos, ineq, eq.")
+      .def("explain", [](const SolverResult& r, double tolerance) { return explanationOf(r, tolerance).str(); }, "tolerance"_a = 1e-3,
+           "In words: which objectives and limits contradict each other where this ended, in which slices, by how many m or rad,\n"
+           "and which single one helps most if it gives way. Solves small problems; leaves a KOMO at this solution.")
+      .def("conflicts", [](const SolverResult& r, double tolerance) { return toDicts(explanationOf(r, tolerance)); }, "tolerance"_a = 1e-3,
+           "What explain says, as a list of dicts: name, type, frames, slices, metres, radians, scaled, details, pull, and of\n"
+           "giving way: suffices, by_metres, by_radians, by_scaled, best. Empty if all constraints hold.")
       .def("__str__", &SolverResult::str)
       .def("__repr__", [](const SolverResult& r) { return cat("<SolverReturn ", solverStatusName(r.status), ": ", r.str(), ">"); });
 

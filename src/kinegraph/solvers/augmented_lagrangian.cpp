@@ -50,7 +50,7 @@ class AugmentedLagrangian {
       for (std::size_t j = 0; j < constraints_.size(); ++j) lambda_[j] = dual[constraints_[j]];
     }
     evaluate(x_, phi_, J_);
-    if (const std::string what = notFinite(phi_, J_); !what.empty()) throw ValueError(cat("at the start, ", what));
+    if (const std::string what = describeNotFinite(nlp_, phi_, &J_); !what.empty()) throw ValueError(cat("at the start, ", what));
     remember();
     if (nlp_.dimension() == 0) {
       stop(violationAt(phi_) <= tolerance_ ? SolverStatus::converged : SolverStatus::infeasible, "there is nothing to vary");
@@ -81,22 +81,6 @@ class AugmentedLagrangian {
       return false;
     }
     return true;
-  }
-
-  /// Which residual, or row of J, has a number that is not finite; empty if none has.
-  std::string notFinite(const VectorXd& phi, const Jacobian& J) const {
-    for (int row = 0; row < phi.size(); ++row) {
-      if (!std::isfinite(phi[row])) return cat(nlp_.rowName(row), " is not finite: ", phi[row]);
-      for (const Jacobian::Segment& segment : J.row_segments(row)) {
-        const double* values = J.values.data() + segment.offset;
-        for (int i = 0; i < segment.width; ++i) {
-          if (!std::isfinite(values[i])) {
-            return cat("the Jacobian of ", nlp_.rowName(row), " is not finite: ", values[i], " in column ", segment.column + i);
-          }
-        }
-      }
-    }
-    return {};
   }
 
   double cost(const VectorXd& phi) const {
@@ -254,7 +238,7 @@ void AugmentedLagrangian::iterate() {
     trial_ = (x_ + d).cwiseMax(lower_).cwiseMin(upper_);
     const double before = lagrangian(phi_);
     if (!evaluate(trial_, trial_phi_, trial_J_)) return;
-    const std::string not_finite = notFinite(trial_phi_, trial_J_);
+    const std::string not_finite = describeNotFinite(nlp_, trial_phi_, &trial_J_);
     const double after = not_finite.empty() ? lagrangian(trial_phi_) : kInfinity;
     double ratio = (before - after) / predicted;
     const double noise = std::max(1e-12, 1e-10 * std::abs(before));
@@ -343,7 +327,7 @@ void AugmentedLagrangian::reduceViolation() {
     trial_ = (x_ + model_.minimize({phi_, J_, next_lambda_, 1., damping, low_, high_, 12})).cwiseMax(lower_).cwiseMin(upper_);
     if (!evaluate(trial_, trial_phi_, trial_J_)) return;
     const double before = square(phi_), after = square(trial_phi_);
-    if (!(after < before) || !notFinite(trial_phi_, trial_J_).empty()) {
+    if (!(after < before) || !describeNotFinite(nlp_, trial_phi_, &trial_J_).empty()) {
       damping *= 10.;
       continue;
     }

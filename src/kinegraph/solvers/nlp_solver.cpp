@@ -58,6 +58,7 @@ SolverResult NlpSolver::solve(bool resample, Rng& rng, const std::function<bool(
   dual = result.dual;
   evals_ += result.evals;
   result.evals = evals_;
+  result.problem = problem_;
   if (options.verbose > 0) std::printf("==nlp== %s: %s  %s\n", solverStatusName(result.status).c_str(), result.message.c_str(), result.str().c_str());
   return result;
 }
