@@ -350,14 +350,7 @@ SolverResult AugmentedLagrangian::result(double seconds) {
   for (std::size_t j = 0; j < constraints_.size(); ++j) out.dual[constraints_[j]] = lambda_[j];
   out.evals = evals_;
   out.time = seconds;
-  const ErrorSums sums = sumErrors(nlp_.types(), phi_);
-  out.f = sums.f;
-  out.sos = sums.sos;
-  out.ineq = sums.ineq;
-  out.eq = sums.eq;
-  out.violation = violationAt(phi_);
-  out.feasible = out.violation <= std::max(1e-3, 10. * tolerance_);
-  out.done = true;
+  out.setSums(nlp_.types(), phi_, tolerance_);
   out.status = status_;
   out.message = message_;
   nlp_.evaluate(x_, phi_, nullptr);  // leaves the problem at the point that is returned
@@ -366,13 +359,26 @@ SolverResult AugmentedLagrangian::result(double seconds) {
 
 }  // namespace
 
-SolverResult solveAugmentedLagrangian(Nlp& nlp, const VectorXd& x0, const SolverOptions& options, const VectorXd& dual,
-                                      const EvaluationHook& hook) {
-  options.validate();
+void requireStart(const Nlp& nlp, const VectorXd& x0) {
   if (x0.size() != nlp.dimension()) {
     throw ValueError(cat("the start has ", x0.size(), " numbers; the problem has ", nlp.dimension(), " variables"));
   }
   if (!x0.allFinite()) throw ValueError("the start has numbers that are not finite");
+}
+
+void requireNoConstraints(const Nlp& nlp, const char* method) {
+  for (int row = 0; row < int(nlp.types().size()); ++row) {
+    const ObjectiveType type = nlp.types()[row];
+    if (type != ObjectiveType::eq && type != ObjectiveType::ineq && type != ObjectiveType::ineqB) continue;
+    throw ValueError(cat("OptMethod.", method, " takes no constraints; ", nlp.rowName(row),
+                         " is one; use augmentedLag, squaredPenalty, logBarrier or slackGN_logBarrier"));
+  }
+}
+
+SolverResult solveAugmentedLagrangian(Nlp& nlp, const VectorXd& x0, const SolverOptions& options, const VectorXd& dual,
+                                      const EvaluationHook& hook) {
+  options.validate();
+  requireStart(nlp, x0);
   return AugmentedLagrangian(nlp, options, hook).run(x0, dual);
 }
 

@@ -4,6 +4,7 @@
 
 #include "kinegraph/base/errors.h"
 #include "kinegraph/base/text.h"
+#include "kinegraph/solvers/methods.h"
 
 namespace kinegraph {
 
@@ -39,9 +40,6 @@ void NlpSolver::clearTracing() {
 
 SolverResult NlpSolver::solve(bool resample, Rng& rng, const std::function<bool()>& should_stop) {
   if (!problem_) throw Error("NLP_Solver: there is no problem to solve; call setProblem first");
-  if (options.method != OptMethod::augmentedLag) {
-    throw ValueError(cat("NLP_Solver: method ", optMethodName(options.method), " is not available; use OptMethod.augmentedLag"));
-  }
   if (resample || x.size() == 0) {
     x = problem_->initialPoint(rng);
     dual.resize(0);
@@ -53,7 +51,7 @@ SolverResult NlpSolver::solve(bool resample, Rng& rng, const std::function<bool(
     return !should_stop || !should_stop();
   };
   const bool needs_hook = tracing_x_ || tracing_phi_ || tracing_errors_ || should_stop;
-  SolverResult result = solveAugmentedLagrangian(*problem_, x, options, dual, needs_hook ? EvaluationHook(hook) : EvaluationHook());
+  SolverResult result = kinegraph::solve(*problem_, x, options, dual, needs_hook ? EvaluationHook(hook) : EvaluationHook());
   x = result.x;
   dual = result.dual;
   evals_ += result.evals;

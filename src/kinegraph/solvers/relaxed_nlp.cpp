@@ -41,6 +41,9 @@ void RelaxedNlp::evaluate(const VectorXd& x, VectorXd& phi, Jacobian* J) {
   nlp_.evaluate(x, inner_phi_, J ? &inner_ : nullptr);
   phi.resize(Eigen::Index(types_.size()));
   phi.head(inner_phi_.size()) = inner_phi_;
+  for (int row = 0; padding_ != 0. && row < inner_phi_.size(); ++row) {
+    if (types_[row] == ObjectiveType::ineqP) phi[row] += padding_;
+  }
   if (J) std::copy(inner_.values.begin(), inner_.values.end(), J->values.begin());
   if (variable_ < 0) return;
   const double low = nlp_.lower()[variable_], high = nlp_.upper()[variable_], far = -1.;

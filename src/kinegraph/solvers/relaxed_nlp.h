@@ -11,6 +11,9 @@ class RelaxedNlp final : public Nlp {
   /// `relaxed` has an entry per residual. `variable`: its bounds are relaxed too, to a penalty; -1: none.
   RelaxedNlp(Nlp& nlp, const std::vector<bool>& relaxed, int variable = -1);
 
+  /// Relaxed inequalities count as violated from -padding on.
+  void setPadding(double padding) { padding_ = padding; }
+
   Jacobian makeJacobian() const override;
   void evaluate(const VectorXd& x, VectorXd& phi, Jacobian* J) override;
   std::string rowName(int row) const override { return row < int(nlp_.types().size()) ? nlp_.rowName(row) : "bound"; }
@@ -18,6 +21,7 @@ class RelaxedNlp final : public Nlp {
  private:
   Nlp& nlp_;
   int variable_;
+  double padding_ = 0.;
   VectorXd inner_phi_;
   Jacobian inner_;
 };

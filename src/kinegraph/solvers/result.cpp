@@ -1,5 +1,7 @@
 #include "kinegraph/solvers/result.h"
 
+#include <algorithm>
+
 #include "kinegraph/base/text.h"
 
 namespace kinegraph {
@@ -13,6 +15,17 @@ std::string solverStatusName(SolverStatus status) {
     case SolverStatus::cancelled: return "cancelled";
   }
   return "";
+}
+
+void SolverResult::setSums(const std::vector<ObjectiveType>& types, const VectorXd& phi, double tolerance) {
+  const ErrorSums sums = sumErrors(types, phi);
+  f = sums.f;
+  sos = sums.sos;
+  ineq = sums.ineq;
+  eq = sums.eq;
+  violation = largestViolation(types, phi);
+  feasible = violation <= std::max(1e-3, 10. * tolerance);
+  done = true;
 }
 
 std::string SolverResult::str() const {

@@ -32,6 +32,9 @@ struct SolverResult {
   std::string message;  ///< one line: why it stopped
   std::shared_ptr<Nlp> problem;  ///< what NlpSolver solved, for `explain`; null from the functions that solve
 
+  /// Fills f .. eq, violation, feasible and done from the residuals at x.
+  void setSums(const std::vector<ObjectiveType>& types, const VectorXd& phi, double tolerance);
+
   /// "{ time: .., evals: .., done: 1, feasible: 1, eq: .., ineq: .., sos: .., f: .., x-dim: [7] }"
   std::string str() const;
 };
