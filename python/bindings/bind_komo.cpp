@@ -16,6 +16,7 @@
 #include "kinegraph/komo/report.h"
 #include "kinegraph/solvers/nlp_solver.h"
 #include "py_komo.h"
+#include "solving.h"
 
 namespace kinegraph::python {
 
@@ -79,12 +80,7 @@ SolverResult optimize(const std::shared_ptr<PyKomo>& komo, double noise, int ver
   Rng rng(defaults().seed);
   for (double& value : x) value += noise * rng.normal();
   solver.setInitialization(x);
-  int calls = 0;
-  const nb::gil_scoped_release unlock;
-  return solver.solve(false, rng, [&calls] {
-    if (++calls % 64 == 0) checkInterrupt();
-    return false;
-  });
+  return solveInterruptibly(solver, false);
 }
 
 Explanation explainPath(const std::shared_ptr<PyKomo>& komo, double tolerance) {

@@ -15,6 +15,7 @@
 #include "explanation_dicts.h"
 #include "kinegraph/solvers/explanation.h"
 #include "nlp_objects.h"
+#include "solving.h"
 
 namespace kinegraph::python {
 
@@ -144,8 +145,7 @@ std::shared_ptr<Nlp> PyNlpFactory::make() const {
   if (!function.is_valid()) throw Error("NLP_Factory: there is no function; call setEvalCallback first");
   const int n = dimension;
   return std::make_shared<CallbackNlp>(n, types, lower, upper, [function = function, n](const VectorXd& x, VectorXd& phi, MatrixXd& J) {
-    const nb::gil_scoped_acquire lock;
-    readPythonEvaluation(function(toNumpy(x)), n, phi, J);
+    if (!callUser([&] { readPythonEvaluation(function(toNumpy(x)), n, phi, J); })) phi.setConstant(J.rows(), std::nan(""));
   });
 }
 

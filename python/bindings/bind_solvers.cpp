@@ -3,6 +3,8 @@
 #include <nanobind/stl/string.h>
 #include <nanobind/stl/vector.h>
 
+#include <algorithm>
+#include <limits>
 #include <variant>
 
 #include "bindings.h"
@@ -13,6 +15,7 @@
 #include "kinegraph/nlp/callback_nlp.h"
 #include "kinegraph/solvers/nlp_solver.h"
 #include "nlp_objects.h"
+#include "solving.h"
 
 namespace kinegraph::python {
 
@@ -70,13 +73,23 @@ NlpSolver& setOptions(NlpSolver& solver, nb::kwargs given) {
 
 SolverResult solve(NlpSolver& solver, int resample, int verbose) {
   if (verbose > -100) solver.options.verbose = verbose;
-  Rng rng(defaults().seed);
-  int calls = 0;
-  const nb::gil_scoped_release unlock;
-  return solver.solve(resample > 0, rng, [&calls] {
-    if (++calls % 64 == 0) checkInterrupt();
-    return false;
-  });
+  return solveInterruptibly(solver, resample > 0);
+}
+
+NlpSolver& setProgress(NlpSolver& solver, nb::object function, double seconds) {
+  if (function.is_none()) {
+    solver.setProgress({}, seconds);
+    return solver;
+  }
+  solver.setProgress([function](int evals, const VectorXd& x, const ErrorSums& e) {
+    bool go_on = true;
+    return callUser([&] {
+      nb::dict now;
+      now["evals"] = evals; now["x"] = toNumpy(x); now["f"] = e.f; now["sos"] = e.sos; now["ineq"] = e.ineq; now["eq"] = e.eq;
+      go_on = !function(now).is(nb::handle(Py_False));
+    }) && go_on;
+  }, seconds);
+  return solver;
 }
 
 /// A problem that is a Python object with `dimension`, `types`, `bounds` and `evaluate(x) -> (phi, J)`.
@@ -101,8 +114,7 @@ std::shared_ptr<Nlp> fromPythonProblem(nb::object problem) {
     }
   }
   return std::make_shared<CallbackNlp>(n, std::move(types), lower, upper, [problem, n](const VectorXd& x, VectorXd& phi, MatrixXd& J) {
-    const nb::gil_scoped_acquire lock;
-    readPythonEvaluation(problem.attr("evaluate")(toNumpy(x)), n, phi, J);
+    if (!callUser([&] { readPythonEvaluation(problem.attr("evaluate")(toNumpy(x)), n, phi, J); })) phi.setConstant(J.rows(), std::nan(""));
   });
 }
 
@@ -125,7 +137,10 @@ nb::object errorTrace(const NlpSolver& solver) {
 }
 
 void bindOptions(nb::module_& m) {
-  nb::enum_<OptMethod>(m, "OptMethod", nb::is_arithmetic(), "Solution methods; augmentedLag is the one that is available.")
+  nb::enum_<OptMethod>(m, "OptMethod", nb::is_arithmetic(), "Solution methods. Those for problems with constraints: augmentedLag (default), squaredPenalty, singleSquaredPenalty,\n"
+          "logBarrier, slackGN (constraints only), slackGN_logBarrier, and with the extras ipopt and nlopt: Ipopt, NLopt,\n"
+          "slackGN_Ipopt. Without constraints: newton, LBFGS, gradientDescent, rprop, NelderMead, CMA.\n"
+          "The other names are those of older scripts; using them is an error.")
       .value("none", OptMethod::none).value("gradientDescent", OptMethod::gradientDescent).value("rprop", OptMethod::rprop)
       .value("LBFGS", OptMethod::LBFGS).value("newton", OptMethod::newton).value("augmentedLag", OptMethod::augmentedLag)
       .value("AugmentedLag", OptMethod::augmentedLag).value("logBarrier", OptMethod::logBarrier)
@@ -217,12 +232,16 @@ void bindSolvers(nb::module_& m) {
            "The method.")
       .def("setInitialization", [](NlpSolver& s, const Numbers& x) -> NlpSolver& { return s.setInitialization(x.values), s; }, "x"_a,
            chain, "Where to start; clipped to the bounds.")
-      .def("setTracing", [](NlpSolver& s, bool x, bool e, bool phi, bool) -> NlpSolver& { return s.setTracing(x, e, phi), s; },
+      .def("setProgress", setProgress, "function"_a.none(), "seconds"_a = .1, chain,
+           "Calls function(dict of evals, x, f, sos, ineq, eq) while solving, at most once in that time; returning False stops it.\n"
+           "None: no more calls.")
+      .def("setTracing", [](NlpSolver& s, bool x, bool e, bool phi, bool J) -> NlpSolver& { return s.setTracing(x, e, phi, J), s; },
            "trace_x"_a = true, "trace_errs"_a = true, "trace_phi"_a = false, "trace_J"_a = false, chain,
            "Records what is evaluated.")
       .def("clearTracing", [](NlpSolver& s) -> NlpSolver& { return s.clearTracing(), s; }, chain, "Forgets what was recorded.")
       .def("solve", solve, "resampleInitialization"_a = -1, "verbose"_a = -100,
-           "Solves, from the last x or the problem's initial point. Ctrl-C stops it.")
+           "Solves, from the last x or the problem's initial point. Ctrl-C ends it: the result is then the best so far, with\n"
+           "status cancelled.")
       .def("getProblem", &NlpSolver::problem, "The problem.")
       .def("getOptions", [](NlpSolver& s) -> SolverOptions& { return s.options; }, nb::rv_policy::reference_internal, "The options; changes take effect.")
       .def_prop_rw("x", [](const NlpSolver& s) { return toNumpy(s.x); }, [](NlpSolver& s, const Numbers& x) { s.x = x.values; }, "The point reached.")
@@ -230,6 +249,17 @@ void bindSolvers(nb::module_& m) {
                    "A multiplier per residual.")
       .def("getTrace_x", [](const NlpSolver& s) { return stack(s.traceX()); }, "(evaluations, n).")
       .def("getTrace_phi", [](const NlpSolver& s) { return stack(s.tracePhi()); }, "(evaluations, d).")
+      .def("getTrace_J", [](const NlpSolver& s) {
+             nb::list list;
+             for (const MatrixXd& J : s.traceJacobian()) list.append(toNumpy(J));
+             return list;
+           }, "A dense Jacobian per evaluation.")
+      .def("getTrace_best", [](const NlpSolver& s) {
+             std::vector<VectorXd> rows;
+             double best = std::numeric_limits<double>::infinity();
+             for (const ErrorSums& e : s.traceErrors()) rows.push_back(VectorXd::Constant(1, best = std::min(best, e.f + e.sos + e.ineq + e.eq)));
+             return stack(rows);
+           }, "(evaluations, 1): the least sum of all errors so far.")
       .def("getTrace_errs", errorTrace, "(evaluations, 4): sums of f, sos, ineq, eq.")
       .def("getTrace_costs", errorTrace, "The same as getTrace_errs.");
 }
