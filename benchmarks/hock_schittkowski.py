@@ -87,7 +87,7 @@ def problem_names():
 def solve_kinegraph(problem, method="augmentedLag"):
     import kinegraph as ry
 
-    f, _, g, _, h, _ = problem.evaluate(problem.x0)
+    _, _, g, _, h, _ = problem.evaluate(problem.x0)
 
     class Described:
         dimension = len(problem.x0)
@@ -200,7 +200,9 @@ def main():
     parser.add_argument("--solvers", default=",".join(SOLVERS))
     parser.add_argument("--save", type=Path, help="writes the results as JSON")
     parser.add_argument("--load", type=Path, nargs="*", default=[], help="results of solvers that are not run again")
-    parser.add_argument("--failures", action="store_true", help="lists what kinegraph does not solve in the development half")
+    parser.add_argument(
+        "--failures", action="store_true", help="lists what kinegraph does not solve in the development half"
+    )
     options = parser.parse_args()
     warnings.simplefilter("ignore")
     names = problem_names()
@@ -222,7 +224,9 @@ def main():
         failed, best = report(results, half, title)
         for name in failed if options.failures and title == "development" else []:
             r = results[f"kinegraph/{name}"]
-            print(f"    {name:9} cost {r['cost']} best {best[name]} violation {r['violation']} evals {r['evals']} {r['message'][:90]}")
+            print(
+                f"    {name:9} cost {r['cost']} best {best[name]} violation {r['violation']} evals {r['evals']} {r['message'][:90]}"
+            )
 
 
 if __name__ == "__main__":

@@ -144,7 +144,9 @@ def ipopt(problem: dict[str, Any]) -> dict[str, Any]:
     )
     x, _, code = solver.solve(x0.copy())
     status = {0: "converged", 1: "converged", 2: "infeasible", -1: "limit"}.get(int(code), "stalled")
-    return functions.answer(np.clip(x, problem["lower"], problem["upper"]), status, f"Ipopt ended with code {int(code)}")
+    return functions.answer(
+        np.clip(x, problem["lower"], problem["upper"]), status, f"Ipopt ended with code {int(code)}"
+    )
 
 
 def nlopt(problem: dict[str, Any]) -> dict[str, Any]:

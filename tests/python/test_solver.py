@@ -34,7 +34,11 @@ class Free(Circle):
 
 
 def solver(problem, method: str = "augmentedLag", x0=(0.1, 0.2)) -> ry.NLP_Solver:
-    s = ry.NLP_Solver().setPyProblem(problem).setOptions(verbose=0, stopTolerance=1e-6, stopEvals=10000, stopGTolerance=1e-5)
+    s = (
+        ry.NLP_Solver()
+        .setPyProblem(problem)
+        .setOptions(verbose=0, stopTolerance=1e-6, stopEvals=10000, stopGTolerance=1e-5)
+    )
     return s.setSolver(getattr(ry.OptMethod, method)).setInitialization(np.array(x0))
 
 
