@@ -8,6 +8,7 @@
 
 #include "bindings.h"
 #include "defaults.h"
+#include "explanation_dicts.h"
 #include "feature_arguments.h"
 #include "kinegraph/base/errors.h"
 #include "kinegraph/base/text.h"
@@ -15,6 +16,7 @@
 #include "kinegraph/komo/report.h"
 #include "kinegraph/solvers/nlp_solver.h"
 #include "py_komo.h"
+#include "solving.h"
 
 namespace kinegraph::python {
 
@@ -78,19 +80,12 @@ SolverResult optimize(const std::shared_ptr<PyKomo>& komo, double noise, int ver
   Rng rng(defaults().seed);
   for (double& value : x) value += noise * rng.normal();
   solver.setInitialization(x);
-  int calls = 0;
-  const nb::gil_scoped_release unlock;
-  return solver.solve(false, rng, [&calls] {
-    if (++calls % 64 == 0) checkInterrupt();
-    return false;
-  });
+  return solveInterruptibly(solver, false);
 }
 
-std::string explainPath(const std::shared_ptr<PyKomo>& komo, double tolerance) {
-  const auto nlp = makeNlp(komo);
-  VectorXd phi(Eigen::Index(nlp->types().size()));
-  nlp->evaluate(komo->variables(), phi, nullptr);
-  return explain(*nlp, phi, tolerance);
+Explanation explainPath(const std::shared_ptr<PyKomo>& komo, double tolerance) {
+  const VectorXd x = komo->variables();
+  return explain(*makeNlp(komo), x, tolerance);
 }
 
 double costs(const PyKomo& komo) {
@@ -231,7 +226,12 @@ void bindKomo(nb::module_& m) {
       .def("optimize", optimize, "addInitializationNoise"_a = .01, "verbose"_a = 0, "Solves from the present path, moved by a little noise.")
       .def("getCosts", costs, "Sum of the costs (f and sos) of the present path.")
       .def("getConstraintViolations", violations, "Sum of the violations of all constraints (eq and ineq) at the present path.")
-      .def("explain", explainPath, "tolerance"_a = 1e-3, "In words: which constraints the present path violates, the worst first.")
+      .def("explain", [](const std::shared_ptr<PyKomo>& k, double tolerance) { return explainPath(k, tolerance).str(); },
+           "tolerance"_a = 1e-3,
+           "In words: which objectives and limits contradict each other around the present path, in which slices, by how many m\n"
+           "or rad, and which single one helps most if it gives way. Solves small problems; the path stays.")
+      .def("conflicts", [](const std::shared_ptr<PyKomo>& k, double tolerance) { return toDicts(explainPath(k, tolerance)); },
+           "tolerance"_a = 1e-3, "What explain says, as a list of dicts, as SolverReturn.conflicts.")
       .def("__repr__", [](const PyKomo& k) {
         return cat("<KOMO: ", k.slices(), " slices, order ", k.order(), ", ", k.objectives().size(), " objectives>");
       });

@@ -12,8 +12,10 @@
 #include "kinegraph/base/errors.h"
 #include "kinegraph/base/text.h"
 #include "kinegraph/nlp/callback_nlp.h"
-#include "kinegraph/solvers/result.h"
+#include "explanation_dicts.h"
+#include "kinegraph/solvers/explanation.h"
 #include "nlp_objects.h"
+#include "solving.h"
 
 namespace kinegraph::python {
 
@@ -118,12 +120,10 @@ void bindNlp(nb::module_& m) {
              const ErrorSums s = sumErrors(nlp.types(), phi.values);
              return toNumpy(VectorXd(Vector4d(s.f, s.sos, s.ineq, s.eq)));
            }, "phi"_a, "Sums over residuals: f, sos, ineq, eq.")
-      .def("explain", [](Nlp& nlp, const Numbers& x, double tolerance) {
-             checkSize(nlp, x);
-             VectorXd phi(Eigen::Index(nlp.types().size()));
-             nlp.evaluate(x.values, phi, nullptr);
-             return explain(nlp, phi, tolerance);
-           }, "x"_a, "tolerance"_a = 1e-3, "In words: which constraints are violated at x, the worst first.")
+      .def("explain", [](Nlp& nlp, const Numbers& x, double tolerance) { return explain(nlp, x.values, tolerance).str(); }, "x"_a,
+           "tolerance"_a = 1e-3, "In words: which constraints contradict each other around x, by how much, and what helps.")
+      .def("conflicts", [](Nlp& nlp, const Numbers& x, double tolerance) { return toDicts(explain(nlp, x.values, tolerance)); }, "x"_a,
+           "tolerance"_a = 1e-3, "What explain says, as a list of dicts.")
       .def("report", &Nlp::report, "verbose"_a = 1, "A line about the problem.");
 
   nb::class_<PyNlpFactory>(m, "NLP_Factory", "A problem whose residuals a Python function computes.")
@@ -145,8 +145,7 @@ std::shared_ptr<Nlp> PyNlpFactory::make() const {
   if (!function.is_valid()) throw Error("NLP_Factory: there is no function; call setEvalCallback first");
   const int n = dimension;
   return std::make_shared<CallbackNlp>(n, types, lower, upper, [function = function, n](const VectorXd& x, VectorXd& phi, MatrixXd& J) {
-    const nb::gil_scoped_acquire lock;
-    readPythonEvaluation(function(toNumpy(x)), n, phi, J);
+    if (!callUser([&] { readPythonEvaluation(function(toNumpy(x)), n, phi, J); })) phi.setConstant(J.rows(), std::nan(""));
   });
 }
 

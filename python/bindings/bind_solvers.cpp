@@ -3,15 +3,19 @@
 #include <nanobind/stl/string.h>
 #include <nanobind/stl/vector.h>
 
+#include <algorithm>
+#include <limits>
 #include <variant>
 
 #include "bindings.h"
 #include "defaults.h"
+#include "explanation_dicts.h"
 #include "kinegraph/base/errors.h"
 #include "kinegraph/base/text.h"
 #include "kinegraph/nlp/callback_nlp.h"
 #include "kinegraph/solvers/nlp_solver.h"
 #include "nlp_objects.h"
+#include "solving.h"
 
 namespace kinegraph::python {
 
@@ -69,13 +73,23 @@ NlpSolver& setOptions(NlpSolver& solver, nb::kwargs given) {
 
 SolverResult solve(NlpSolver& solver, int resample, int verbose) {
   if (verbose > -100) solver.options.verbose = verbose;
-  Rng rng(defaults().seed);
-  int calls = 0;
-  const nb::gil_scoped_release unlock;
-  return solver.solve(resample > 0, rng, [&calls] {
-    if (++calls % 64 == 0) checkInterrupt();
-    return false;
-  });
+  return solveInterruptibly(solver, resample > 0);
+}
+
+NlpSolver& setProgress(NlpSolver& solver, nb::object function, double seconds) {
+  if (function.is_none()) {
+    solver.setProgress({}, seconds);
+    return solver;
+  }
+  solver.setProgress([function](int evals, const VectorXd& x, const ErrorSums& e) {
+    bool go_on = true;
+    return callUser([&] {
+      nb::dict now;
+      now["evals"] = evals; now["x"] = toNumpy(x); now["f"] = e.f; now["sos"] = e.sos; now["ineq"] = e.ineq; now["eq"] = e.eq;
+      go_on = !function(now).is(nb::handle(Py_False));
+    }) && go_on;
+  }, seconds);
+  return solver;
 }
 
 /// A problem that is a Python object with `dimension`, `types`, `bounds` and `evaluate(x) -> (phi, J)`.
@@ -100,9 +114,13 @@ std::shared_ptr<Nlp> fromPythonProblem(nb::object problem) {
     }
   }
   return std::make_shared<CallbackNlp>(n, std::move(types), lower, upper, [problem, n](const VectorXd& x, VectorXd& phi, MatrixXd& J) {
-    const nb::gil_scoped_acquire lock;
-    readPythonEvaluation(problem.attr("evaluate")(toNumpy(x)), n, phi, J);
+    if (!callUser([&] { readPythonEvaluation(problem.attr("evaluate")(toNumpy(x)), n, phi, J); })) phi.setConstant(J.rows(), std::nan(""));
   });
+}
+
+Explanation explanationOf(const SolverResult& result, double tolerance) {
+  if (!result.problem) throw Error("SolverReturn: nothing was solved, so there is nothing to explain");
+  return explain(*result.problem, result.x, tolerance);
 }
 
 nb::object stack(const std::vector<VectorXd>& rows) {
@@ -119,7 +137,10 @@ nb::object errorTrace(const NlpSolver& solver) {
 }
 
 void bindOptions(nb::module_& m) {
-  nb::enum_<OptMethod>(m, "OptMethod", nb::is_arithmetic(), "Solution methods; augmentedLag is the one that is available.")
+  nb::enum_<OptMethod>(m, "OptMethod", nb::is_arithmetic(), "Solution methods. Those for problems with constraints: augmentedLag (default), squaredPenalty, singleSquaredPenalty,\n"
+          "logBarrier, slackGN (constraints only), slackGN_logBarrier, and with the extras ipopt and nlopt: Ipopt, NLopt,\n"
+          "slackGN_Ipopt. Without constraints: newton, LBFGS, gradientDescent, rprop, NelderMead, CMA.\n"
+          "The other names are those of older scripts; using them is an error.")
       .value("none", OptMethod::none).value("gradientDescent", OptMethod::gradientDescent).value("rprop", OptMethod::rprop)
       .value("LBFGS", OptMethod::LBFGS).value("newton", OptMethod::newton).value("augmentedLag", OptMethod::augmentedLag)
       .value("AugmentedLag", OptMethod::augmentedLag).value("logBarrier", OptMethod::logBarrier)
@@ -175,6 +196,12 @@ void bindSolvers(nb::module_& m) {
              d["f"] = r.f; d["sos"] = r.sos; d["ineq"] = r.ineq; d["eq"] = r.eq;
              return d;
            }, "evals, time, done, feasible, f, sos, ineq, eq.")
+      .def("explain", [](const SolverResult& r, double tolerance) { return explanationOf(r, tolerance).str(); }, "tolerance"_a = 1e-3,
+           "In words: which objectives and limits contradict each other where this ended, in which slices, by how many m or rad,\n"
+           "and which single one helps most if it gives way. Solves small problems; leaves a KOMO at this solution.")
+      .def("conflicts", [](const SolverResult& r, double tolerance) { return toDicts(explanationOf(r, tolerance)); }, "tolerance"_a = 1e-3,
+           "What explain says, as a list of dicts: name, type, frames, slices, metres, radians, scaled, details, pull, and of\n"
+           "giving way: suffices, by_metres, by_radians, by_scaled, best. Empty if all constraints hold.")
       .def("__str__", &SolverResult::str)
       .def("__repr__", [](const SolverResult& r) { return cat("<SolverReturn ", solverStatusName(r.status), ": ", r.str(), ">"); });
 
@@ -205,12 +232,16 @@ void bindSolvers(nb::module_& m) {
            "The method.")
       .def("setInitialization", [](NlpSolver& s, const Numbers& x) -> NlpSolver& { return s.setInitialization(x.values), s; }, "x"_a,
            chain, "Where to start; clipped to the bounds.")
-      .def("setTracing", [](NlpSolver& s, bool x, bool e, bool phi, bool) -> NlpSolver& { return s.setTracing(x, e, phi), s; },
+      .def("setProgress", setProgress, "function"_a.none(), "seconds"_a = .1, chain,
+           "Calls function(dict of evals, x, f, sos, ineq, eq) while solving, at most once in that time; returning False stops it.\n"
+           "None: no more calls.")
+      .def("setTracing", [](NlpSolver& s, bool x, bool e, bool phi, bool J) -> NlpSolver& { return s.setTracing(x, e, phi, J), s; },
            "trace_x"_a = true, "trace_errs"_a = true, "trace_phi"_a = false, "trace_J"_a = false, chain,
            "Records what is evaluated.")
       .def("clearTracing", [](NlpSolver& s) -> NlpSolver& { return s.clearTracing(), s; }, chain, "Forgets what was recorded.")
       .def("solve", solve, "resampleInitialization"_a = -1, "verbose"_a = -100,
-           "Solves, from the last x or the problem's initial point. Ctrl-C stops it.")
+           "Solves, from the last x or the problem's initial point. Ctrl-C ends it: the result is then the best so far, with\n"
+           "status cancelled.")
       .def("getProblem", &NlpSolver::problem, "The problem.")
       .def("getOptions", [](NlpSolver& s) -> SolverOptions& { return s.options; }, nb::rv_policy::reference_internal, "The options; changes take effect.")
       .def_prop_rw("x", [](const NlpSolver& s) { return toNumpy(s.x); }, [](NlpSolver& s, const Numbers& x) { s.x = x.values; }, "The point reached.")
@@ -218,6 +249,17 @@ void bindSolvers(nb::module_& m) {
                    "A multiplier per residual.")
       .def("getTrace_x", [](const NlpSolver& s) { return stack(s.traceX()); }, "(evaluations, n).")
       .def("getTrace_phi", [](const NlpSolver& s) { return stack(s.tracePhi()); }, "(evaluations, d).")
+      .def("getTrace_J", [](const NlpSolver& s) {
+             nb::list list;
+             for (const MatrixXd& J : s.traceJacobian()) list.append(toNumpy(J));
+             return list;
+           }, "A dense Jacobian per evaluation.")
+      .def("getTrace_best", [](const NlpSolver& s) {
+             std::vector<VectorXd> rows;
+             double best = std::numeric_limits<double>::infinity();
+             for (const ErrorSums& e : s.traceErrors()) rows.push_back(VectorXd::Constant(1, best = std::min(best, e.f + e.sos + e.ineq + e.eq)));
+             return stack(rows);
+           }, "(evaluations, 1): the least sum of all errors so far.")
       .def("getTrace_errs", errorTrace, "(evaluations, 4): sums of f, sos, ineq, eq.")
       .def("getTrace_costs", errorTrace, "The same as getTrace_errs.");
 }

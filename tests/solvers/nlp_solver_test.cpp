@@ -67,9 +67,51 @@ TEST(NlpSolver, StopsWhenAskedTo) {
   NlpSolver solver = quiet(byName("Rosenbrock"));
   Rng rng(0);
   int asked = 0;
-  const SolverResult result = solver.solve(false, rng, [&] { return ++asked == 3; });
+  const SolverResult result = solver.solve(false, rng, [&](const VectorXd&, const VectorXd&) { return ++asked < 3; });
   EXPECT_EQ(result.status, SolverStatus::cancelled);
   EXPECT_EQ(result.evals, 3);
+}
+
+TEST(NlpSolver, ProgressIsToldAndMayStopIt) {
+  NlpSolver solver = quiet(byName("Rosenbrock"));
+  Rng rng(0);
+  std::vector<int> evals;
+  solver.setProgress([&](int count, const VectorXd& x, const ErrorSums& errors) {
+    EXPECT_EQ(x.size(), 2);
+    EXPECT_GE(errors.sos, 0.);
+    evals.push_back(count);
+    return count < 5;
+  }, 0.);
+  EXPECT_EQ(solver.solve(false, rng).status, SolverStatus::cancelled);
+  EXPECT_EQ(evals, (std::vector<int>{1, 2, 3, 4, 5}));
+  solver.setProgress([&](int, const VectorXd&, const ErrorSums&) { return false; }, 1e9);
+  EXPECT_EQ(solver.solve(true, rng).status, SolverStatus::converged) << "it is not the time to tell yet";
+}
+
+TEST(NlpSolver, TracesJacobians) {
+  NlpSolver solver = quiet(byName("HS6"));
+  solver.setInitialization(Eigen::Vector2d(2., 1.));
+  solver.setTracing(true, false, false, true);
+  Rng rng(0);
+  const SolverResult result = solver.solve(false, rng);
+  ASSERT_EQ(int(solver.traceJacobian().size()), result.evals);
+  EXPECT_TRUE(near(solver.traceJacobian().front(), (MatrixXd(2, 2) << -1., 0., -40., 10.).finished(), 1e-12));
+}
+
+TEST(NlpSolver, MethodsCanBeAdded) {
+  const KnownProblem problem = byName("HS6");
+  NlpSolver solver = quiet(problem);
+  solver.addMethod(OptMethod::Ipopt, [&](Nlp& nlp, const VectorXd&, const SolverOptions&, const EvaluationHook&) {
+    SolverResult result;
+    result.x = problem.optimum;
+    VectorXd phi(Eigen::Index(nlp.types().size()));
+    nlp.evaluate(result.x, phi, nullptr);
+    result.setSums(nlp.types(), phi, 1e-6);
+    return result;
+  });
+  solver.options.method = OptMethod::Ipopt;
+  Rng rng(0);
+  EXPECT_TRUE(near(solver.solve(false, rng).x, problem.optimum, 0.));
 }
 
 TEST(NlpSolver, MistakesAreExplained) {

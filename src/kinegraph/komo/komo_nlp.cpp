@@ -1,6 +1,6 @@
 #include "kinegraph/base/errors.h"
 #include "kinegraph/base/text.h"
-#include "kinegraph/komo/path_problem.h"
+#include "kinegraph/komo/path_description.h"
 
 namespace kinegraph {
 
@@ -35,10 +35,12 @@ class KomoNlp final : public Nlp {
     if (row < 0 || row >= problem_.rows()) return Nlp::rowName(row);
     const PathProblem::Term& term = problem_.termOf(row);
     const Komo::Objective& objective = problem_.objectives()[term.objective];
-    std::string name = objective.name;
-    if (!objective.frames.empty()) name += cat(" of ", join(objective.frames, ", "));
-    return cat(name, ", row ", row - term.first_row, ", slice ", term.slice, " (", objectiveTypeName(objective.type), ")");
+    return cat(objectiveName(objective), ", row ", row - term.first_row, ", slice ", term.slice, " (", objectiveTypeName(objective.type), ")");
   }
+
+  RowDescription describeRow(int row) const override { return describePathRow(*komo_, problem_, row); }
+  VariableDescription describeVariable(int variable) const override { return describePathVariable(*komo_, variable); }
+  std::vector<std::string> detailsOf(int row) const override { return pathRowDetails(*komo_, problem_, row); }
 
   std::string report(int) const override {
     return cat("KOMO: ", komo_->slices(), " slices of ", komo_->dofs(), " dofs, order ", komo_->order(), ", ", dimension(),

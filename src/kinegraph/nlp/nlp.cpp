@@ -70,6 +70,21 @@ VectorXd Nlp::uniformPoint(Rng& rng) const {
 
 std::string Nlp::rowName(int row) const { return cat("row ", row, " (", objectiveTypeName(types_[row]), ")"); }
 
+RowDescription Nlp::describeRow(int row) const {
+  RowDescription description;
+  description.objective = cat("row ", row);
+  description.group = row;
+  return description;
+}
+
+VariableDescription Nlp::describeVariable(int variable) const {
+  VariableDescription description;
+  description.name = cat("variable ", variable);
+  return description;
+}
+
+std::vector<std::string> Nlp::detailsOf(int) const { return {}; }
+
 std::string Nlp::report(int) const { return cat("NLP: ", dimension(), " variables, ", types_.size(), " residuals"); }
 
 ErrorSums sumErrors(const std::vector<ObjectiveType>& types, const VectorXd& phi) {
@@ -93,6 +108,27 @@ double violation(ObjectiveType type, double phi) {
   if (type == ObjectiveType::eq) return std::abs(phi);
   if (type == ObjectiveType::ineq || type == ObjectiveType::ineqB) return std::max(0., phi);
   return 0.;
+}
+
+double largestViolation(const std::vector<ObjectiveType>& types, const VectorXd& phi) {
+  double worst = 0.;
+  for (std::size_t row = 0; row < types.size(); ++row) worst = std::max(worst, violation(types[row], phi[Eigen::Index(row)]));
+  return worst;
+}
+
+std::string describeNotFinite(const Nlp& nlp, const VectorXd& phi, const Jacobian* J) {
+  for (int row = 0; row < phi.size(); ++row) {
+    if (!std::isfinite(phi[row])) return cat(nlp.rowName(row), " is not finite: ", phi[row]);
+    if (!J) continue;
+    for (const Jacobian::Segment& segment : J->row_segments(row)) {
+      const double* values = J->values.data() + segment.offset;
+      for (int i = 0; i < segment.width; ++i) {
+        if (std::isfinite(values[i])) continue;
+        return cat("the Jacobian of ", nlp.rowName(row), " is not finite: ", values[i], " in column ", segment.column + i);
+      }
+    }
+  }
+  return {};
 }
 
 JacobianCheck checkJacobian(Nlp& nlp, const VectorXd& x, double step) {

@@ -6,6 +6,7 @@
 
 #include "kinegraph/base/random.h"
 #include "kinegraph/math/pose.h"
+#include "kinegraph/nlp/row_description.h"
 
 namespace kinegraph {
 
@@ -78,6 +79,13 @@ class Nlp {
   /// Name of a row of phi in reports: "position-l_gripper [slice 0] z".
   virtual std::string rowName(int row) const;
 
+  /// The same as data, with its unit. Default: every residual is a group of its own.
+  virtual RowDescription describeRow(int row) const;
+  virtual VariableDescription describeVariable(int variable) const;
+
+  /// What can be said of a residual at the point last evaluated: "box - camera: 3 mm deep". Default: nothing.
+  virtual std::vector<std::string> detailsOf(int row) const;
+
   virtual std::string report(int verbose) const;
 
  protected:
@@ -93,6 +101,12 @@ ErrorSums sumErrors(const std::vector<ObjectiveType>& types, const VectorXd& phi
 
 /// How much a constraint is violated; 0 for costs.
 double violation(ObjectiveType type, double phi);
+
+/// The largest violation of a constraint.
+double largestViolation(const std::vector<ObjectiveType>& types, const VectorXd& phi);
+
+/// Which residual, or row of J (which may be null), has a number that is not finite, in words; empty if none has.
+std::string describeNotFinite(const Nlp& nlp, const VectorXd& phi, const Jacobian* J);
 
 /// The largest relative difference of a Jacobian from central differences, and where it is.
 struct JacobianCheck {

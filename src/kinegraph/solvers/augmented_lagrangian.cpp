@@ -9,6 +9,7 @@
 #include "kinegraph/base/errors.h"
 #include "kinegraph/base/text.h"
 #include "kinegraph/solvers/local_model.h"
+#include "kinegraph/solvers/quasi_newton.h"
 
 namespace kinegraph {
 
@@ -44,14 +45,16 @@ class AugmentedLagrangian {
 
   SolverResult run(const VectorXd& x0, const VectorXd& dual) {
     const auto start = std::chrono::steady_clock::now();
-    x_ = x0.cwiseMax(lower_).cwiseMin(upper_);
-    mu_ = options_.muInit;
+    x_ = start_ = x0.cwiseMax(lower_).cwiseMin(upper_);
+    if (std::find(nlp_.types().begin(), nlp_.types().end(), ObjectiveType::f) != nlp_.types().end()) curvature_.reset(nlp_.dimension());
     if (dual.size() == phi_.size()) {
       for (std::size_t j = 0; j < constraints_.size(); ++j) lambda_[j] = dual[constraints_[j]];
     }
     evaluate(x_, phi_, J_);
-    if (const std::string what = notFinite(phi_, J_); !what.empty()) throw ValueError(cat("at the start, ", what));
+    if (const std::string what = describeNotFinite(nlp_, phi_, &J_); !what.empty()) throw ValueError(cat("at the start, ", what));
     remember();
+    weight_ = costWeight();
+    mu_ = weight_ * options_.muInit;
     if (nlp_.dimension() == 0) {
       stop(violationAt(phi_) <= tolerance_ ? SolverStatus::converged : SolverStatus::infeasible, "there is nothing to vary");
     } else {
@@ -65,6 +68,7 @@ class AugmentedLagrangian {
   void iterate();
   void endRound(double vc, double step_size);
   bool locallyInfeasible();
+  bool restored();
   void reduceViolation();
 
   void stop(SolverStatus status, std::string message) {
@@ -81,22 +85,6 @@ class AugmentedLagrangian {
       return false;
     }
     return true;
-  }
-
-  /// Which residual, or row of J, has a number that is not finite; empty if none has.
-  std::string notFinite(const VectorXd& phi, const Jacobian& J) const {
-    for (int row = 0; row < phi.size(); ++row) {
-      if (!std::isfinite(phi[row])) return cat(nlp_.rowName(row), " is not finite: ", phi[row]);
-      for (const Jacobian::Segment& segment : J.row_segments(row)) {
-        const double* values = J.values.data() + segment.offset;
-        for (int i = 0; i < segment.width; ++i) {
-          if (!std::isfinite(values[i])) {
-            return cat("the Jacobian of ", nlp_.rowName(row), " is not finite: ", values[i], " in column ", segment.column + i);
-          }
-        }
-      }
-    }
-    return {};
   }
 
   double cost(const VectorXd& phi) const {
@@ -176,9 +164,44 @@ class AugmentedLagrangian {
     phi_ = best_phi_;
   }
 
+  void setCosts() { learns_curvature_ = !model_.setCosts(nlp_, x_, phi_, J_, &curvature_.matrix()); }
+
+  /// Gradient of the f terms and of the constraints times `multipliers`.
+  void lagrangianGradient(const Jacobian& J, const VectorXd& multipliers, VectorXd& gradient) const {
+    gradient.setZero(x_.size());
+    for (int row = 0; row < phi_.size(); ++row) {
+      if (nlp_.types()[row] == ObjectiveType::f) J.addRowTo(row, 1., gradient);
+    }
+    for (int j = 0; j < multipliers.size(); ++j) J.addRowTo(constraints_[j], multipliers[j], gradient);
+  }
+
+  /// Where the problem does not tell the curvature of its f terms, that of the Lagrangian is learnt from accepted steps.
+  void learnCurvature(const VectorXd& before, const Jacobian& J_before) {
+    if (!learns_curvature_) return;
+    for (int j = 0; j < lambda_.size(); ++j) next_lambda_[j] = multiplier(j, model_.linearized()[j]);
+    VectorXd old_gradient;
+    lagrangianGradient(J_before, next_lambda_, old_gradient);
+    lagrangianGradient(J_, next_lambda_, gradient_);
+    curvature_.update(x_ - before, gradient_ - old_gradient);
+  }
+
   void box() {
-    low_ = (lower_ - x_).cwiseMax(-options_.stepMax);
-    high_ = (upper_ - x_).cwiseMin(options_.stepMax);
+    low_ = (lower_ - x_).cwiseMax(-radius_);
+    high_ = (upper_ - x_).cwiseMin(radius_);
+  }
+
+  /// Steps that reach the edge of the box and do what was predicted, twice in a row, may become longer.
+  void adaptRadius(double size, bool good, bool rejected) {
+    if (rejected) radius_ = std::max(options_.stepMax, .25 * radius_);
+    steps_at_edge_ = good && size >= .99 * radius_ ? steps_at_edge_ + 1 : 0;
+    if (steps_at_edge_ >= 2) radius_ = std::min(2. * radius_, 1e6 * options_.stepMax);
+  }
+
+  /// Where the costs are steep, as numbers without a unit may be, penalties must be as well. 1 for sums of squares.
+  double costWeight() {
+    if (std::find(nlp_.types().begin(), nlp_.types().end(), ObjectiveType::f) == nlp_.types().end()) return 1.;
+    lagrangianGradient(J_, VectorXd(), gradient_);
+    return std::max(1., .01 * gradient_.lpNorm<Eigen::Infinity>());
   }
 
   SolverResult result(double seconds);
@@ -187,12 +210,16 @@ class AugmentedLagrangian {
   const SolverOptions& options_;
   const EvaluationHook& hook_;
   LocalModel model_;
+  QuasiNewton curvature_;
+  bool learns_curvature_ = false;
   const std::vector<int>& constraints_;
   Jacobian J_, trial_J_;
-  VectorXd x_, phi_, trial_, trial_phi_, lambda_, next_lambda_, lower_, upper_, low_, high_, gradient_;
+  VectorXd x_, start_, phi_, trial_, trial_phi_, lambda_, next_lambda_, lower_, upper_, low_, high_, gradient_;
   VectorXd best_x_, best_phi_;
   double best_violation_ = 0., best_cost_ = 0.;
   double tolerance_;
+  double weight_ = 1., radius_ = options_.stepMax;
+  int steps_at_edge_ = 0, restorations_ = 0;
   double mu_ = 1., omega_ = .1, last_violation_ = kInfinity, violation_at_tests_ = kInfinity, rel_ = .02;
   int rounds_ = 0, bad_rounds_ = 0, failed_tests_ = 0;
   bool round_just_ended_ = false;
@@ -204,7 +231,8 @@ class AugmentedLagrangian {
 };
 
 void AugmentedLagrangian::iterate() {
-  double nu = options_.damping, growth = 2., last_relative = 1.;
+  const double first_nu = weight_ * options_.damping;
+  double nu = first_nu, growth = 2., last_relative = 1.;
   bool damped_step_retried = false, costs_stale = true;
   int given_up = 0;
   const double tolerance = options_.stopTolerance;
@@ -213,7 +241,7 @@ void AugmentedLagrangian::iterate() {
     if (evals_ >= options_.stopEvals) return stop(SolverStatus::limit, cat("limit of ", options_.stopEvals, " evaluations"));
     if (step >= 20 * options_.stopInners) return stop(SolverStatus::limit, cat("limit of ", options_.stopInners, " steps"));
     if (rounds_ >= options_.stopOuters) return stop(SolverStatus::limit, cat("limit of ", options_.stopOuters, " rounds"));
-    if (costs_stale) model_.setCosts(nlp_, x_, phi_, J_);
+    if (costs_stale) setCosts();
     costs_stale = false;
     const double h = model_.largestCurvature();
     box();
@@ -244,7 +272,7 @@ void AugmentedLagrangian::iterate() {
     const bool helps = vc <= tolerance_ || (violation > tolerance_ && linearizedViolation() < .5 * violation);
     if (solved && !(round_just_ended_ && helps && predicted > 0. && nu <= 1e10)) {
       if (nu > 1e10) {
-        nu = options_.damping;
+        nu = first_nu;
         if (++given_up == 3) return stop(SolverStatus::stalled, cat("no step decreases the objective as predicted", trouble_));
       }
       endRound(vc, size);
@@ -254,7 +282,7 @@ void AugmentedLagrangian::iterate() {
     trial_ = (x_ + d).cwiseMax(lower_).cwiseMin(upper_);
     const double before = lagrangian(phi_);
     if (!evaluate(trial_, trial_phi_, trial_J_)) return;
-    const std::string not_finite = notFinite(trial_phi_, trial_J_);
+    const std::string not_finite = describeNotFinite(nlp_, trial_phi_, &trial_J_);
     const double after = not_finite.empty() ? lagrangian(trial_phi_) : kInfinity;
     double ratio = (before - after) / predicted;
     const double noise = std::max(1e-12, 1e-10 * std::abs(before));
@@ -268,11 +296,14 @@ void AugmentedLagrangian::iterate() {
       nu = std::max(1e-6, nu * std::max(.1, 1. - std::pow(2. * std::min(ratio, 1.2) - 1., 3)));
       growth = 2.;
       last_relative = (before - after) / std::max(std::abs(before), .01);
+      learnCurvature(trial_, trial_J_);
+      adaptRadius(size, ratio > .75, false);
       damped_step_retried = round_just_ended_ = false;
       trouble_.clear();
       costs_stale = true;
       remember();
     } else {
+      adaptRadius(size, false, true);
       trouble_ = not_finite.empty() ? ", as at a kink" : cat(": where it would go, ", not_finite);
       nu = std::max({nu * growth, .01 * h, 1e-3});
       growth *= 2.;
@@ -286,10 +317,9 @@ void AugmentedLagrangian::endRound(double vc, double step_size) {
   round_just_ended_ = true;
   if (options_.verbose > 1) std::printf("  round %d  evals %d  cost %.6g  violation %.3g  mu %.3g\n", rounds_, evals_, cost(phi_), vc, mu_);
   if (vc > tolerance_) {
-    bad_rounds_ = vc > .7 * last_violation_ && mu_ >= 1e3 * options_.muInit ? bad_rounds_ + 1 : 0;
+    bad_rounds_ = vc > .7 * last_violation_ && mu_ >= 1e3 * weight_ * options_.muInit ? bad_rounds_ + 1 : 0;
     if (bad_rounds_ >= 2) {
-      if (locallyInfeasible()) {
-        reduceViolation();
+      if (locallyInfeasible() && !restored()) {
         return stop(SolverStatus::infeasible, cat("the constraints contradict each other here; least violation found ", best_violation_));
       }
       bad_rounds_ = 0;
@@ -300,11 +330,11 @@ void AugmentedLagrangian::endRound(double vc, double step_size) {
       if (++failed_tests_ == 6) return stop(SolverStatus::stalled, cat("the violation no longer falls; it is ", vc));
     }
   }
-  if (step_size <= .5 * options_.stepMax) {
+  if (step_size <= .5 * radius_) {
     for (int j = 0; j < lambda_.size(); ++j) lambda_[j] = multiplier(j, model_.linearized()[j]);
     if (options_.lambdaMax > 0.) lambda_ = lambda_.cwiseMin(options_.lambdaMax).cwiseMax(-options_.lambdaMax);
   }
-  if (vc > .25 * last_violation_ && vc > tolerance_) mu_ = std::min(options_.muMax, options_.muInc * mu_);
+  if (vc > .25 * last_violation_ && vc > tolerance_) mu_ = std::min(weight_ * options_.muMax, options_.muInc * mu_);
   last_violation_ = std::min(last_violation_, vc);
   omega_ = std::max(.3 * omega_, options_.stopTolerance);
   if (vc <= tolerance_) rel_ = std::max(.5 * rel_, 1e-6);
@@ -324,8 +354,35 @@ bool AugmentedLagrangian::locallyInfeasible() {
     before += model_.isEquality(j) ? c * c : std::pow(std::max(0., c), 2);
     after += model_.isEquality(j) ? linear * linear : std::pow(std::max(0., linear), 2);
   }
-  model_.setCosts(nlp_, x_, phi_, J_);
+  setCosts();
   return std::sqrt(after) >= .9 * std::sqrt(before);
+}
+
+/// Goes to a point of least violation, from here or else from the start. True if the violation is much less there, so that it
+/// can go on, with a larger penalty.
+bool AugmentedLagrangian::restored() {
+  const double before = violationAt(phi_), enough = std::max(.5 * before, .1 * tolerance_);
+  reduceViolation();
+  if (!stopped_ && ++restorations_ == 1 && violationAt(phi_) > enough) {
+    const VectorXd here = x_, phi_here = phi_;
+    x_ = start_;
+    if (!evaluate(x_, phi_, J_)) return false;
+    reduceViolation();
+    if (!stopped_ && violationAt(phi_) > enough && violationAt(phi_here) <= violationAt(phi_)) {
+      x_ = here;
+      phi_ = phi_here;
+    }
+  }
+  best_x_ = x_;
+  best_phi_ = phi_;
+  best_violation_ = violationAt(phi_);
+  best_cost_ = cost(phi_);
+  if (stopped_ || restorations_ > 5 || best_violation_ > enough) return false;
+  lambda_.setZero();
+  mu_ = std::min(weight_ * options_.muMax, std::pow(10., restorations_) * weight_ * options_.muInit);
+  last_violation_ = violation_at_tests_ = kInfinity;
+  setCosts();
+  return true;
 }
 
 /// Gauss-Newton steps on the violation alone, so that the answer is the least one and no compromise with the costs.
@@ -337,25 +394,30 @@ void AugmentedLagrangian::reduceViolation() {
   };
   next_lambda_.setZero();
   double damping = 1e-4;
-  for (int step = 0; step < 15 && evals_ < options_.stopEvals; ++step) {
+  for (int step = 0; step < 30 && evals_ < options_.stopEvals; ++step) {
     model_.setNoCosts(0.);
     box();
     trial_ = (x_ + model_.minimize({phi_, J_, next_lambda_, 1., damping, low_, high_, 12})).cwiseMax(lower_).cwiseMin(upper_);
     if (!evaluate(trial_, trial_phi_, trial_J_)) return;
     const double before = square(phi_), after = square(trial_phi_);
-    if (!(after < before) || !notFinite(trial_phi_, trial_J_).empty()) {
+    double expected = 0.;
+    for (int j = 0; j < lambda_.size(); ++j) {
+      const double c = model_.linearized()[j];
+      expected += model_.isEquality(j) ? c * c : std::pow(std::max(0., c), 2);
+    }
+    const bool at_edge = model_.step().lpNorm<Eigen::Infinity>() >= .99 * radius_, good = before - after > .5 * (before - expected);
+    if (at_edge && good) radius_ *= 4.;
+    if (!good) radius_ = std::max(options_.stepMax, .25 * radius_);
+    if (before - expected < .02 * before && !at_edge && damping <= 1e-4 * (1. + before)) return;
+    if (!(after < before) || !describeNotFinite(nlp_, trial_phi_, &trial_J_).empty()) {
       damping *= 10.;
       continue;
     }
     x_.swap(trial_);
     phi_.swap(trial_phi_);
     std::swap(J_, trial_J_);
-    best_x_ = x_;
-    best_phi_ = phi_;
-    best_violation_ = violationAt(phi_);
-    best_cost_ = cost(phi_);
     damping *= .1;
-    if (after > .98 * before) return;
+    if (std::sqrt(after) < .1 * tolerance_) return;
   }
 }
 
@@ -366,14 +428,7 @@ SolverResult AugmentedLagrangian::result(double seconds) {
   for (std::size_t j = 0; j < constraints_.size(); ++j) out.dual[constraints_[j]] = lambda_[j];
   out.evals = evals_;
   out.time = seconds;
-  const ErrorSums sums = sumErrors(nlp_.types(), phi_);
-  out.f = sums.f;
-  out.sos = sums.sos;
-  out.ineq = sums.ineq;
-  out.eq = sums.eq;
-  out.violation = violationAt(phi_);
-  out.feasible = out.violation <= std::max(1e-3, 10. * tolerance_);
-  out.done = true;
+  out.setSums(nlp_.types(), phi_, tolerance_);
   out.status = status_;
   out.message = message_;
   nlp_.evaluate(x_, phi_, nullptr);  // leaves the problem at the point that is returned
@@ -382,13 +437,26 @@ SolverResult AugmentedLagrangian::result(double seconds) {
 
 }  // namespace
 
-SolverResult solveAugmentedLagrangian(Nlp& nlp, const VectorXd& x0, const SolverOptions& options, const VectorXd& dual,
-                                      const EvaluationHook& hook) {
-  options.validate();
+void requireStart(const Nlp& nlp, const VectorXd& x0) {
   if (x0.size() != nlp.dimension()) {
     throw ValueError(cat("the start has ", x0.size(), " numbers; the problem has ", nlp.dimension(), " variables"));
   }
   if (!x0.allFinite()) throw ValueError("the start has numbers that are not finite");
+}
+
+void requireNoConstraints(const Nlp& nlp, const char* method) {
+  for (int row = 0; row < int(nlp.types().size()); ++row) {
+    const ObjectiveType type = nlp.types()[row];
+    if (type != ObjectiveType::eq && type != ObjectiveType::ineq && type != ObjectiveType::ineqB) continue;
+    throw ValueError(cat("OptMethod.", method, " takes no constraints; ", nlp.rowName(row),
+                         " is one; use augmentedLag, squaredPenalty, logBarrier or slackGN_logBarrier"));
+  }
+}
+
+SolverResult solveAugmentedLagrangian(Nlp& nlp, const VectorXd& x0, const SolverOptions& options, const VectorXd& dual,
+                                      const EvaluationHook& hook) {
+  options.validate();
+  requireStart(nlp, x0);
   return AugmentedLagrangian(nlp, options, hook).run(x0, dual);
 }
 

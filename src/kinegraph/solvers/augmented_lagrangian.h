@@ -22,4 +22,10 @@ using EvaluationHook = std::function<bool(const VectorXd& x, const VectorXd& phi
 SolverResult solveAugmentedLagrangian(Nlp& nlp, const VectorXd& x0, const SolverOptions& options, const VectorXd& dual = {},
                                       const EvaluationHook& hook = {});
 
+/// Throws ValueError if `x0` has another size than the problem, or numbers that are not finite.
+void requireStart(const Nlp& nlp, const VectorXd& x0);
+
+/// Throws ValueError if there are constraints, naming the method and the first of them.
+void requireNoConstraints(const Nlp& nlp, const char* method);
+
 }  // namespace kinegraph

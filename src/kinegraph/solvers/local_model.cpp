@@ -125,7 +125,7 @@ void LocalModel::solve(VectorXd& x) {
   for (Eigen::Index i = 0; i < x.size(); ++i) x[i] = placed_[place_[i]];
 }
 
-void LocalModel::setCosts(Nlp& nlp, const VectorXd& x, const VectorXd& phi, const Jacobian& J) {
+bool LocalModel::setCosts(Nlp& nlp, const VectorXd& x, const VectorXd& phi, const Jacobian& J, const MatrixXd* curvature) {
   g_.setZero();
   H_.setZero();
   bool has_f = false;
@@ -138,12 +138,14 @@ void LocalModel::setCosts(Nlp& nlp, const VectorXd& x, const VectorXd& phi, cons
       addRow(H_, J, row, 2.);
     }
   }
-  if (!has_f) return;
+  if (!has_f) return true;
   MatrixXd hessian = MatrixXd::Zero(nlp.dimension(), nlp.dimension());
-  if (!nlp.addCostHessian(x, hessian)) return;
+  const bool known = nlp.addCostHessian(x, hessian);
+  if (!known && curvature) hessian = *curvature;
   for (int i = 0; i < nlp.dimension(); ++i) {
     for (int j = H_.first(i); j <= i; ++j) H_.at(i, j) += hessian(i, j);
   }
+  return known;
 }
 
 void LocalModel::setNoCosts(double weight) {

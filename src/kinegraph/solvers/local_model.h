@@ -18,8 +18,9 @@ class LocalModel {
   /// `costs` are the rows whose squares are in H, `constraints` those of the sum.
   LocalModel(const Nlp& nlp, std::vector<int> costs, std::vector<int> constraints);
 
-  /// Takes g and H = 2 Js^T Js (+ the Hessian of the f terms) from residuals at a point.
-  void setCosts(Nlp& nlp, const VectorXd& x, const VectorXd& phi, const Jacobian& J);
+  /// Takes g and H = 2 Js^T Js (+ the Hessian of the f terms, or where the problem has none to offer `curvature`, if given)
+  /// from residuals at a point. False if the Hessian of the f terms would be needed and is missing.
+  bool setCosts(Nlp& nlp, const VectorXd& x, const VectorXd& phi, const Jacobian& J, const MatrixXd* curvature = nullptr);
 
   /// No costs, H = weight I: the model of the violation alone.
   void setNoCosts(double weight);

@@ -1,9 +1,11 @@
 #include "kinegraph/solvers/nlp_solver.h"
 
+#include <chrono>
 #include <cstdio>
 
 #include "kinegraph/base/errors.h"
 #include "kinegraph/base/text.h"
+#include "kinegraph/solvers/methods.h"
 
 namespace kinegraph {
 
@@ -25,39 +27,67 @@ void NlpSolver::setInitialization(const VectorXd& given) {
   dual.resize(0);
 }
 
-void NlpSolver::setTracing(bool trace_x, bool errors, bool phi) {
+void NlpSolver::setTracing(bool trace_x, bool errors, bool phi, bool jacobian) {
   tracing_x_ = trace_x;
   tracing_errors_ = errors;
   tracing_phi_ = phi;
+  tracing_jacobian_ = jacobian;
+}
+
+void NlpSolver::setProgress(Progress progress, double seconds) {
+  progress_ = std::move(progress);
+  progress_seconds_ = seconds;
 }
 
 void NlpSolver::clearTracing() {
   trace_x_.clear();
   trace_phi_.clear();
+  trace_jacobian_.clear();
   trace_errors_.clear();
 }
 
-SolverResult NlpSolver::solve(bool resample, Rng& rng, const std::function<bool()>& should_stop) {
+SolverResult NlpSolver::solve(bool resample, Rng& rng, const EvaluationHook& hook) {
   if (!problem_) throw Error("NLP_Solver: there is no problem to solve; call setProblem first");
-  if (options.method != OptMethod::augmentedLag) {
-    throw ValueError(cat("NLP_Solver: method ", optMethodName(options.method), " is not available; use OptMethod.augmentedLag"));
-  }
   if (resample || x.size() == 0) {
     x = problem_->initialPoint(rng);
     dual.resize(0);
   }
-  const auto hook = [&](const VectorXd& at, const VectorXd& phi) {
+  using Clock = std::chrono::steady_clock;
+  const Clock::time_point start = Clock::now();
+  Clock::time_point told = start;
+  int calls = 0;
+  const EvaluationHook watch = [&](const VectorXd& at, const VectorXd& phi) {
+    ++calls;
     if (tracing_x_) trace_x_.push_back(at);
     if (tracing_phi_) trace_phi_.push_back(phi);
     if (tracing_errors_) trace_errors_.push_back(sumErrors(problem_->types(), phi));
-    return !should_stop || !should_stop();
+    if (tracing_jacobian_) {
+      Jacobian J = problem_->makeJacobian();
+      VectorXd again = phi;
+      problem_->evaluate(at, again, &J);
+      trace_jacobian_.push_back(J.toDense());
+    }
+    if (hook && !hook(at, phi)) return false;
+    if (!progress_ || std::chrono::duration<double>(Clock::now() - told).count() < progress_seconds_) return true;
+    told = Clock::now();
+    return progress_(evals_ + calls, at, sumErrors(problem_->types(), phi));
   };
-  const bool needs_hook = tracing_x_ || tracing_phi_ || tracing_errors_ || should_stop;
-  SolverResult result = solveAugmentedLagrangian(*problem_, x, options, dual, needs_hook ? EvaluationHook(hook) : EvaluationHook());
+  const bool needs_watch = tracing_x_ || tracing_phi_ || tracing_errors_ || tracing_jacobian_ || progress_ || hook;
+  const auto method = methods_.find(options.method);
+  SolverResult result;
+  if (method != methods_.end()) {
+    options.validate();
+    requireStart(*problem_, x);
+    result = method->second(*problem_, x, options, needs_watch ? watch : EvaluationHook());
+    result.time = std::chrono::duration<double>(Clock::now() - start).count();
+  } else {
+    result = kinegraph::solve(*problem_, x, options, dual, needs_watch ? watch : EvaluationHook());
+  }
   x = result.x;
   dual = result.dual;
   evals_ += result.evals;
   result.evals = evals_;
+  result.problem = problem_;
   if (options.verbose > 0) std::printf("==nlp== %s: %s  %s\n", solverStatusName(result.status).c_str(), result.message.c_str(), result.str().c_str());
   return result;
 }

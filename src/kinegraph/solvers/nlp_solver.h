@@ -1,5 +1,6 @@
 #pragma once
 
+#include <map>
 #include <memory>
 #include <vector>
 
@@ -16,16 +17,25 @@ class NlpSolver {
   /// Throws Error if there is a problem already.
   void setProblem(std::shared_ptr<Nlp> problem);
   void setInitialization(const VectorXd& x);
-  void setTracing(bool x, bool errors, bool phi);
+  void setTracing(bool x, bool errors, bool phi, bool jacobian = false);
   void clearTracing();
 
-  /// Solves from x, or from the problem's initial point if there is none yet or `resample` is set. `should_stop` is asked at
-  /// every evaluation. Throws Error without a problem or for a method that is not available.
-  SolverResult solve(bool resample, Rng& rng, const std::function<bool()>& should_stop = {});
+  /// Called during solve with the number of evaluations and the point, at most once in `seconds`; returning false stops it.
+  using Progress = std::function<bool(int evals, const VectorXd& x, const ErrorSums& errors)>;
+  void setProgress(Progress progress, double seconds);
+
+  /// A method that is not among availableMethods(), as for solvers of other packages.
+  using Method = std::function<SolverResult(Nlp& nlp, const VectorXd& x0, const SolverOptions& options, const EvaluationHook& hook)>;
+  void addMethod(OptMethod name, Method method) { methods_[name] = std::move(method); }
+
+  /// Solves from x, or from the problem's initial point if there is none yet or `resample` is set. `hook` is asked at every
+  /// evaluation. Throws Error without a problem or for a method that is not available.
+  SolverResult solve(bool resample, Rng& rng, const EvaluationHook& hook = {});
 
   const std::shared_ptr<Nlp>& problem() const { return problem_; }
   const std::vector<VectorXd>& traceX() const { return trace_x_; }
   const std::vector<VectorXd>& tracePhi() const { return trace_phi_; }
+  const std::vector<MatrixXd>& traceJacobian() const { return trace_jacobian_; }
   const std::vector<ErrorSums>& traceErrors() const { return trace_errors_; }
 
   SolverOptions options;
@@ -33,9 +43,13 @@ class NlpSolver {
 
  private:
   std::shared_ptr<Nlp> problem_;
-  bool tracing_x_ = false, tracing_errors_ = false, tracing_phi_ = false;
+  bool tracing_x_ = false, tracing_errors_ = false, tracing_phi_ = false, tracing_jacobian_ = false;
   std::vector<VectorXd> trace_x_, trace_phi_;
+  std::vector<MatrixXd> trace_jacobian_;
   std::vector<ErrorSums> trace_errors_;
+  Progress progress_;
+  double progress_seconds_ = 0.;
+  std::map<OptMethod, Method> methods_;
   int evals_ = 0;
 };
 

@@ -28,6 +28,10 @@ void SolverOptions::validate() const {
   positive("stepMax", stepMax);
   positive("muInit", muInit);
   positive("muMax", muMax);
+  positive("muLBInit", muLBInit);
+  if (!(muLBDec > 0. && muLBDec < 1.)) throw ValueError(cat("option muLBDec is ", muLBDec, "; expected a number > 0 and < 1"));
+  if (!(stepInc >= 1.)) throw ValueError(cat("option stepInc is ", stepInc, "; expected a number >= 1"));
+  if (!(stepDec > 0. && stepDec < 1.)) throw ValueError(cat("option stepDec is ", stepDec, "; expected a number > 0 and < 1"));
   if (!(damping >= 0.)) throw ValueError(cat("option damping is ", damping, "; expected a number >= 0"));
   if (!(muInc > 1.)) throw ValueError(cat("option muInc is ", muInc, "; expected a number > 1"));
   if (!(wolfe >= 0. && wolfe < 1.)) throw ValueError(cat("option wolfe is ", wolfe, "; expected a number >= 0 and < 1"));

@@ -26,18 +26,18 @@ struct SolverOptions {
   int stopOuters = 1000;          ///< limit on multiplier updates
   double stepMax = 1.;            ///< largest entry of a step (rad, m)
   double damping = .1;            ///< initial Levenberg damping; it is adapted from there on
-  double stepInc = 1.5;           ///< kept for scripts
-  double stepDec = .5;            ///< kept for scripts
+  double stepInc = 1.5;           ///< growth of the step of gradientDescent
+  double stepDec = .5;            ///< and how it shrinks
   double wolfe = 1e-3;            ///< a step is taken if the decrease is at least this part of the predicted one
   double muInit = 1.;             ///< first penalty weight
   double muInc = 10.;             ///< its growth, where a round did not reduce the violation enough
   double muMax = 1e7;             ///< its largest value
-  double muLBInit = .1;           ///< kept for scripts (log barrier)
-  double muLBDec = .2;            ///< kept for scripts (log barrier)
+  double muLBInit = .1;           ///< first weight of the log barrier
+  double muLBDec = .2;            ///< its factor from round to round
   double lambdaMax = -1.;         ///< bound on multipliers; < 0: none
-  double interiorPadding = .01;   ///< kept for scripts (slack methods)
+  double interiorPadding = .01;   ///< how far inside of inequalities slackGN aims
   bool boundedNewton = true;      ///< respect the bounds of the problem
-  double finiteDifference = -1.;  ///< kept for scripts
+  double finiteDifference = -1.;  ///< > 0: the Jacobian by central differences with this step
 
   double constraintTolerance() const;
 

@@ -17,26 +17,21 @@ std::string solverStatusName(SolverStatus status) {
   return "";
 }
 
+void SolverResult::setSums(const std::vector<ObjectiveType>& types, const VectorXd& phi, double tolerance) {
+  const ErrorSums sums = sumErrors(types, phi);
+  f = sums.f;
+  sos = sums.sos;
+  ineq = sums.ineq;
+  eq = sums.eq;
+  violation = largestViolation(types, phi);
+  feasible = violation <= std::max(1e-3, 10. * tolerance);
+  done = true;
+}
+
 std::string SolverResult::str() const {
   std::string dimension = x.size() > 0 ? cat(x.size()) : "";
   return cat("{ time: ", time, ", evals: ", evals, ", done: ", int(done), ", feasible: ", int(feasible), ", eq: ", eq, ", ineq: ", ineq,
              ", sos: ", sos, ", f: ", f, ", x-dim: [", dimension, "] }");
-}
-
-std::string explain(const Nlp& nlp, const VectorXd& phi, double tolerance, int at_most) {
-  std::vector<std::pair<double, int>> violated;
-  for (int row = 0; row < int(nlp.types().size()); ++row) {
-    const double v = violation(nlp.types()[row], phi[row]);
-    if (v > tolerance) violated.emplace_back(v, row);
-  }
-  if (violated.empty()) return cat("All constraints hold to ", tolerance, ".");
-  std::stable_sort(violated.begin(), violated.end(), [](const auto& a, const auto& b) { return a.first > b.first; });
-  std::string text = cat(violated.size(), violated.size() == 1 ? " constraint is" : " constraints are", " violated (scaled values):");
-  for (int i = 0; i < int(violated.size()) && i < at_most; ++i) {
-    text += cat("\n  ", nlp.rowName(violated[i].second), ": ", violated[i].first);
-  }
-  if (int(violated.size()) > at_most) text += cat("\n  and ", int(violated.size()) - at_most, " more");
-  return text;
 }
 
 }  // namespace kinegraph

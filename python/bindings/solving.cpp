@@ -1,0 +1,131 @@
+#include "solving.h"
+
+#include <nanobind/stl/function.h>
+#include <nanobind/stl/string.h>
+#include <nanobind/stl/vector.h>
+
+#include <utility>
+
+#include "defaults.h"
+#include "kinegraph/base/errors.h"
+#include "kinegraph/base/text.h"
+#include "kinegraph/solvers/penalty_methods.h"
+
+namespace kinegraph::python {
+
+namespace {
+
+/// Evaluates for a Python program: (phi, J), J dense. False in place of it: stop.
+nb::object evaluateFor(Nlp& nlp, const EvaluationHook& hook, const VectorXd& x, int& evals) {
+  VectorXd phi(Eigen::Index(nlp.types().size()));
+  Jacobian J = nlp.makeJacobian();
+  nlp.evaluate(x, phi, &J);
+  ++evals;
+  if (hook && !hook(x, phi)) return nb::bool_(false);
+  if (const std::string what = describeNotFinite(nlp, phi, &J); !what.empty() && evals == 1) throw ValueError(cat("at the start, ", what));
+  return nb::make_tuple(toNumpy(phi), toNumpy(J.toDense()));
+}
+
+SolverResult solveOutside(const char* name, Nlp& nlp, const VectorXd& x0, const SolverOptions& options, const EvaluationHook& hook) {
+  const nb::gil_scoped_acquire lock;
+  SolverResult out;
+  nb::dict problem;
+  problem["types"] = nlp.types();
+  problem["lower"] = toNumpy(nlp.lower());
+  problem["upper"] = toNumpy(nlp.upper());
+  problem["x0"] = toNumpy(VectorXd(x0.cwiseMax(nlp.lower()).cwiseMin(nlp.upper())));
+  problem["evaluate"] = nb::cpp_function([&](const Numbers& x) { return evaluateFor(nlp, hook, x.values, out.evals); });
+  problem["tolerance"] = options.stopTolerance;
+  problem["constraint_tolerance"] = options.constraintTolerance();
+  problem["max_evals"] = options.stopEvals;
+  problem["verbose"] = options.verbose;
+  const nb::object answer = nb::module_::import_("kinegraph.external_solvers").attr(name)(problem);
+  out.x = nb::cast<Numbers>(answer["x"]).values;
+  out.message = nb::cast<std::string>(answer["message"]);
+  const std::string status = nb::cast<std::string>(answer["status"]);
+  for (SolverStatus s : {SolverStatus::converged, SolverStatus::infeasible, SolverStatus::stalled, SolverStatus::limit, SolverStatus::cancelled}) {
+    if (status == solverStatusName(s)) out.status = s;
+  }
+  out.dual = VectorXd::Zero(Eigen::Index(nlp.types().size()));
+  VectorXd phi(out.dual.size());
+  nlp.evaluate(out.x, phi, nullptr);
+  out.setSums(nlp.types(), phi, options.constraintTolerance());
+  return out;
+}
+
+}  // namespace
+
+bool& Interruption::pending() {
+  thread_local bool pending = false;
+  return pending;
+}
+
+bool& Interruption::solving() {
+  thread_local bool solving = false;
+  return solving;
+}
+
+bool Interruption::operator()(const VectorXd&, const VectorXd&) {
+  if (pending()) return false;
+  const auto now = std::chrono::steady_clock::now();
+  if (now - asked_ < std::chrono::milliseconds(20)) return true;
+  asked_ = now;
+  const nb::gil_scoped_acquire lock;
+  if (PyErr_CheckSignals() == 0) return true;
+  if (!PyErr_ExceptionMatches(PyExc_KeyboardInterrupt)) throw nb::python_error();
+  PyErr_Clear();
+  pending() = true;
+  return false;
+}
+
+bool callUser(const std::function<void()>& call) {
+  const nb::gil_scoped_acquire lock;
+  try {
+    call();
+    return true;
+  } catch (nb::python_error& error) {
+    if (!error.matches(PyExc_KeyboardInterrupt) || !Interruption::solving()) throw;
+    Interruption::pending() = true;
+    return false;
+  }
+}
+
+SolverResult solveInterruptibly(NlpSolver& solver, bool resample) {
+  addExternalMethods(solver);
+  Rng rng(defaults().seed);
+  Interruption::pending() = false;
+  Interruption interruption;
+  struct Solving {
+    bool before = std::exchange(Interruption::solving(), true);
+    ~Solving() { Interruption::solving() = before; }
+  } solving;
+  const nb::gil_scoped_release unlock;
+  try {
+    SolverResult result = solver.solve(resample, rng, std::ref(interruption));
+    if (std::exchange(Interruption::pending(), false)) result.message = "interrupted by Ctrl-C";
+    return result;
+  } catch (const Error&) {
+    if (!std::exchange(Interruption::pending(), false)) throw;
+    const nb::gil_scoped_acquire lock;  // before there was anything to give
+    PyErr_SetNone(PyExc_KeyboardInterrupt);
+    throw nb::python_error();
+  }
+}
+
+void addExternalMethods(NlpSolver& solver) {
+  if (solver.options.method != OptMethod::Ipopt && solver.options.method != OptMethod::NLopt && solver.options.method != OptMethod::slackGN_Ipopt) return;
+  for (const auto& [method, name] : {std::pair{OptMethod::Ipopt, "ipopt"}, std::pair{OptMethod::NLopt, "nlopt"}}) {
+    solver.addMethod(method, [name = name](Nlp& nlp, const VectorXd& x0, const SolverOptions& options, const EvaluationHook& hook) {
+      return solveOutside(name, nlp, x0, options, hook);
+    });
+  }
+  solver.addMethod(OptMethod::slackGN_Ipopt, [](Nlp& nlp, const VectorXd& x0, const SolverOptions& options, const EvaluationHook& hook) {
+    const SolverResult first = solveSlack(nlp, x0, options, hook);
+    if (first.status == SolverStatus::cancelled) return first;
+    SolverResult second = solveOutside("ipopt", nlp, first.x, options, hook);
+    second.evals += first.evals;
+    return second;
+  });
+}
+
+}  // namespace kinegraph::python

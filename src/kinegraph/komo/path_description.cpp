@@ -1,0 +1,143 @@
+#include "kinegraph/komo/path_description.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "kinegraph/base/text.h"
+
+namespace kinegraph {
+
+namespace {
+
+/// What each dof of a program is.
+std::vector<Measure> measuresOfDofs(const Program& program) {
+  std::vector<Measure> measures(program.dofs, Measure::number);
+  for (std::size_t l = 1; l < program.links.size(); ++l) {
+    const Program::Link& link = program.links[l];
+    int dof = link.dof;
+    for (int s = link.first_step; s < link.first_step + link.steps; ++s) {
+      const MotionStep& step = program.steps[s];
+      using Kind = MotionStep::Kind;
+      const bool turns = step.kind == Kind::rotate || step.kind == Kind::rotateAbout;
+      const Measure measure = step.kind == Kind::translate ? Measure::length : turns ? Measure::angle : Measure::number;
+      for (int i = 0; i < step.dofs(); ++i) measures[dof++] = measure;
+    }
+  }
+  return measures;
+}
+
+std::string frameOfDof(const Program& program, int dof) {
+  for (std::size_t frame = 0; frame < program.frame_dofs.size(); ++frame) {
+    const auto [first, count] = program.frame_dofs[frame];
+    if (dof >= first && dof < first + count) return program.frame_name[frame];
+  }
+  return {};
+}
+
+bool isJointFeature(FeatureSymbol feature) { return feature == FeatureSymbol::qItself || feature == FeatureSymbol::jointLimits; }
+
+/// The unit that all rows of an objective about joints have; number if they differ.
+Measure measureOfJoints(const Komo& komo, const Komo::Objective& objective, int slice) {
+  const Program& program = komo.state(slice).program();
+  const std::vector<Measure> all = measuresOfDofs(program);
+  std::vector<Measure> used;
+  for (const std::string& name : objective.frames) {
+    const auto [first, count] = program.frame_dofs[frameId(program, name, objective.name)];
+    used.insert(used.end(), all.begin() + first, all.begin() + first + count);
+  }
+  if (used.empty()) used = all;
+  const bool same = !used.empty() && std::all_of(used.begin(), used.end(), [&](Measure m) { return m == used[0]; });
+  return same ? used[0] : Measure::number;
+}
+
+/// What entry `row` of a feature is.
+Measure measureOfFeature(FeatureSymbol feature, int row) {
+  using S = FeatureSymbol;
+  switch (feature) {
+    case S::position: case S::positionDiff: case S::positionRel: case S::gazeAt: case S::accumulatedCollisions: case S::distance:
+    case S::oppose: case S::aboveBox: case S::insideBox: case S::pairCollision_negScalar: case S::pairCollision_vector:
+    case S::pairCollision_p1: case S::pairCollision_p2: case S::standingAbove: return Measure::length;
+    case S::quaternion: case S::quaternionDiff: case S::quaternionRel: return Measure::quaternion;
+    case S::pose: case S::poseDiff: case S::poseRel: return row < 3 ? Measure::length : Measure::quaternion;
+    case S::vectorX: case S::vectorXDiff: case S::vectorXRel: case S::vectorY: case S::vectorYDiff: case S::vectorYRel:
+    case S::vectorZ: case S::vectorZDiff: case S::vectorZRel: return Measure::axis;
+    case S::angularVel: return Measure::angle;
+    case S::linangVel: return row < 3 ? Measure::length : Measure::angle;
+    default: break;
+  }
+  return int(feature) >= int(S::scalarProductXX) && int(feature) <= int(S::scalarProductZZ) ? Measure::cosine : Measure::number;
+}
+
+}  // namespace
+
+std::string objectiveName(const Komo::Objective& objective) {
+  return objective.frames.empty() ? objective.name : cat(objective.name, " of ", join(objective.frames, ", "));
+}
+
+RowDescription describePathRow(const Komo& komo, const PathProblem& problem, int row) {
+  const PathProblem::Term& term = problem.termOf(row);
+  const Komo::Objective& objective = problem.objectives()[term.objective];
+  RowDescription out;
+  out.objective = objectiveName(objective);
+  out.group = term.objective;
+  out.frames = objective.frames;
+  out.slice = term.slice;
+  out.time_order = objective.order;
+  const int r = row - term.first_row;
+  const MatrixXd& scale = objective.scale;
+  const bool mixes_rows = scale.size() > 1 && (scale.cols() > 1 || scale.rows() != term.rows);
+  if (scale.size() == 1) out.scale = scale(0, 0);
+  if (scale.size() > 1) out.scale = mixes_rows ? scale.row(r).norm() : scale(r, 0);
+  int raw = r;  // the entry of the feature
+  if (mixes_rows) scale.row(r).cwiseAbs().maxCoeff(&raw);
+  if (isJointFeature(objective.feature)) {
+    out.measure = measureOfJoints(komo, objective, term.slice);
+  } else if (!objective.free_fall) {
+    out.measure = measureOfFeature(objective.feature, raw);
+  }
+  if (out.measure == Measure::cosine && objective.target.size() > 0) out.target = objective.target[0];
+  return out;
+}
+
+VariableDescription describePathVariable(const Komo& komo, int variable) {
+  VariableDescription out;
+  const PathLayout& layout = komo.layout();
+  const Program* program = &komo.program();
+  int dof = -1;
+  if (layout.plain) {
+    out.slice = variable / komo.dofs();
+    dof = variable % komo.dofs();
+  } else {
+    for (std::size_t i = 0; i < layout.column.size() && dof < 0; ++i) {
+      const auto place = std::find(layout.column[i].begin(), layout.column[i].end(), variable);
+      if (place == layout.column[i].end()) continue;
+      dof = int(place - layout.column[i].begin());
+      out.slice = int(i) - komo.order();
+      program = &komo.state(out.slice).program();
+    }
+  }
+  if (dof < 0) return out;
+  out.frame = frameOfDof(*program, dof);
+  out.name = cat("joint of ", out.frame);
+  out.measure = measuresOfDofs(*program)[dof];
+  return out;
+}
+
+std::vector<std::string> pathRowDetails(const Komo& komo, const PathProblem& problem, int row) {
+  const PathProblem::Term& term = problem.termOf(row);
+  const Komo::Objective& objective = problem.objectives()[term.objective];
+  if (objective.feature != FeatureSymbol::accumulatedCollisions) return {};
+  const Config config = komo.configuration(term.slice);
+  std::vector<Config::NearPair> near = config.getCollisions(0.);
+  std::stable_sort(near.begin(), near.end(), [](const auto& a, const auto& b) { return a.distance < b.distance; });
+  std::vector<std::string> pairs;
+  for (const Config::NearPair& pair : near) {
+    const std::string a = config.getFrame(pair.a).getName(), b = config.getFrame(pair.b).getName();
+    const auto named = [&](const std::string& name) { return std::find(objective.frames.begin(), objective.frames.end(), name) != objective.frames.end(); };
+    if (!objective.frames.empty() && !named(a) && !named(b)) continue;
+    pairs.push_back(cat(a, " and ", b, " overlap by ", std::round(-1e4 * pair.distance) / 10., " mm"));
+  }
+  return pairs;
+}
+
+}  // namespace kinegraph

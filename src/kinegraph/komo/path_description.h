@@ -1,0 +1,19 @@
+#pragma once
+
+#include "kinegraph/komo/path_problem.h"
+
+namespace kinegraph {
+
+/// "positionDiff of l_gripper, target"
+std::string objectiveName(const Komo::Objective& objective);
+
+/// A residual of a motion problem in a person's terms. The group is the objective's index.
+RowDescription describePathRow(const Komo& komo, const PathProblem& problem, int row);
+
+/// An entry of x: the joint's frame, its slice and unit.
+VariableDescription describePathVariable(const Komo& komo, int variable);
+
+/// The pairs of shapes that overlap, where the residual is about collisions, at the present path.
+std::vector<std::string> pathRowDetails(const Komo& komo, const PathProblem& problem, int row);
+
+}  // namespace kinegraph

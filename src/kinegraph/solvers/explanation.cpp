@@ -1,0 +1,285 @@
+#include "kinegraph/solvers/explanation.h"
+
+#include <algorithm>
+#include <cmath>
+#include <iomanip>
+#include <map>
+#include <sstream>
+
+#include "kinegraph/base/errors.h"
+#include "kinegraph/base/text.h"
+#include "kinegraph/solvers/augmented_lagrangian.h"
+#include "kinegraph/solvers/relaxed_nlp.h"
+
+namespace kinegraph {
+
+namespace {
+
+constexpr int kMostTrials = 12;       // relaxations tried, the most promising first
+constexpr double kNoSlack = 1e-9;     // distance from a bound that counts as at the bound
+constexpr double kWeakPull = 1e-3;    // a bound that presses less than this part of the strongest is no part of a conflict
+
+double angleOfChord(double chord) { return 2. * std::asin(std::min(1., .5 * chord)); }
+
+void raise(double& value, double to) { value = std::isnan(value) ? to : std::max(value, to); }
+
+/// How far these residuals of one demand and one slice are missed. Equalities of lengths count as a vector.
+Amount amountOf(const Nlp& nlp, const VectorXd& phi, const std::vector<int>& rows) {
+  Amount out;
+  double length = -1., quaternion = -1., axis = -1.;
+  for (int row : rows) {
+    const RowDescription what = nlp.describeRow(row);
+    const bool equality = nlp.types()[row] == ObjectiveType::eq;
+    const double missed = equality ? std::abs(phi[row]) : std::max(0., phi[row]);
+    out.scaled = std::max(out.scaled, missed);
+    out.time_order = what.time_order;
+    if (what.scale == 0.) continue;
+    const double value = missed / std::abs(what.scale), square = value * value;
+    switch (what.measure) {
+      case Measure::number: break;
+      case Measure::length: length = equality ? std::max(length, 0.) + square : std::max(length, square); break;
+      case Measure::angle: raise(out.radians, value); break;
+      case Measure::quaternion: quaternion = std::max(quaternion, 0.) + square; break;
+      case Measure::axis: axis = std::max(axis, 0.) + square; break;
+      case Measure::cosine: {
+        const auto angle = [](double cosine) { return std::acos(std::clamp(cosine, -1., 1.)); };
+        raise(out.radians, std::abs(angle(what.target + phi[row] / what.scale) - angle(what.target)));
+        break;
+      }
+    }
+  }
+  if (length >= 0.) out.metres = std::sqrt(length);
+  if (quaternion >= 0.) raise(out.radians, 2. * angleOfChord(std::sqrt(quaternion)));
+  if (axis >= 0.) raise(out.radians, angleOfChord(std::sqrt(axis)));
+  return out;
+}
+
+/// The worst slice decides.
+Amount amountOfSlices(const Nlp& nlp, const VectorXd& phi, const std::vector<int>& rows) {
+  std::map<int, std::vector<int>> by_slice;
+  for (int row : rows) by_slice[nlp.describeRow(row).slice].push_back(row);
+  Amount out;
+  for (const auto& [slice, some] : by_slice) {
+    const Amount here = amountOf(nlp, phi, some);
+    out.scaled = std::max(out.scaled, here.scaled);
+    out.time_order = here.time_order;
+    if (!std::isnan(here.metres)) raise(out.metres, here.metres);
+    if (!std::isnan(here.radians)) raise(out.radians, here.radians);
+  }
+  return out;
+}
+
+/// With three digits.
+std::string rounded(double value) {
+  std::ostringstream out;
+  out << std::setprecision(3) << value;
+  return out.str();
+}
+
+std::string withUnit(double metres) {
+  if (metres >= 1.) return rounded(metres) + " m";
+  return metres >= .01 ? rounded(1e2 * metres) + " cm" : rounded(1e3 * metres) + " mm";
+}
+
+std::string slicesText(const std::vector<int>& slices) {
+  if (slices.empty() || slices.front() < 0) return {};
+  if (slices.size() == 1) return cat(" in slice ", slices[0]);
+  return cat(" in ", slices.size(), " slices, ", slices.front(), " to ", slices.back());
+}
+
+/// Groups the violated rows by what the user demanded.
+std::vector<Conflict> violatedDemands(const Nlp& nlp, const VectorXd& phi, double tolerance) {
+  std::map<int, Conflict> by_group;
+  for (int row = 0; row < int(nlp.types().size()); ++row) {
+    const double v = violation(nlp.types()[row], phi[row]);
+    if (v <= tolerance) continue;
+    const RowDescription what = nlp.describeRow(row);
+    Conflict& conflict = by_group[what.group];
+    conflict.name = what.objective;
+    conflict.type = nlp.types()[row];
+    conflict.frames = what.frames;
+    conflict.rows.push_back(row);
+    if (conflict.slices.empty() || conflict.slices.back() != what.slice) {
+      conflict.slices.push_back(what.slice);
+      for (std::string& detail : nlp.detailsOf(row)) conflict.details.push_back(std::move(detail));
+    }
+    conflict.pull = std::max(conflict.pull, 2. * v);
+  }
+  std::vector<Conflict> conflicts;
+  for (auto& [group, conflict] : by_group) {
+    if (conflict.slices.front() < 0) conflict.slices.clear();
+    conflict.violation = amountOfSlices(nlp, phi, conflict.rows);
+    conflicts.push_back(std::move(conflict));
+  }
+  std::stable_sort(conflicts.begin(), conflicts.end(),
+                   [](const Conflict& a, const Conflict& b) { return a.violation.scaled > b.violation.scaled; });
+  return conflicts;
+}
+
+/// The bounds that keep x from going on down the sum of squared violations.
+std::vector<Conflict> pressingBounds(Nlp& nlp, const VectorXd& x, const VectorXd& phi, const Jacobian& J, double tolerance) {
+  VectorXd gradient = VectorXd::Zero(x.size());
+  for (int row = 0; row < phi.size(); ++row) {
+    if (violation(nlp.types()[row], phi[row]) > tolerance) J.addRowTo(row, 2. * phi[row], gradient);
+  }
+  std::vector<Conflict> bounds;
+  for (int i = 0; i < x.size(); ++i) {
+    const bool below = x[i] <= nlp.lower()[i] + kNoSlack && gradient[i] > 0., above = x[i] >= nlp.upper()[i] - kNoSlack && gradient[i] < 0.;
+    if (!below && !above) continue;
+    const VariableDescription what = nlp.describeVariable(i);
+    Conflict conflict;
+    conflict.name = cat(below ? "lower" : "upper", " limit of ", what.name);
+    conflict.is_bound = true;
+    if (!what.frame.empty()) conflict.frames = {what.frame};
+    if (what.slice >= 0) conflict.slices = {what.slice};
+    conflict.variable = i;
+    conflict.bound = below ? nlp.lower()[i] : nlp.upper()[i];
+    conflict.pull = std::abs(gradient[i]);
+    bounds.push_back(std::move(conflict));
+  }
+  std::stable_sort(bounds.begin(), bounds.end(), [](const Conflict& a, const Conflict& b) { return a.pull > b.pull; });
+  while (!bounds.empty() && bounds.back().pull < kWeakPull * bounds.front().pull) bounds.pop_back();
+  return bounds;
+}
+
+Amount amountOfBound(const Nlp& nlp, int variable, double beyond) {
+  Amount out;
+  out.scaled = beyond;
+  const Measure measure = nlp.describeVariable(variable).measure;
+  if (measure == Measure::length) out.metres = beyond;
+  if (measure == Measure::angle) out.radians = beyond;
+  return out;
+}
+
+/// Gives one demand up, as far as needed, and looks whether the others can hold.
+void tryRelaxing(Nlp& nlp, const VectorXd& x, double tolerance, Conflict& conflict) {
+  const std::size_t rows = nlp.types().size();
+  std::vector<bool> relaxed(rows, false);
+  std::vector<int> group_rows;
+  if (!conflict.is_bound) {
+    const int group = nlp.describeRow(conflict.rows[0]).group;
+    for (int row = 0; row < int(rows); ++row) {
+      relaxed[row] = nlp.describeRow(row).group == group;
+      if (relaxed[row]) group_rows.push_back(row);
+    }
+  }
+  RelaxedNlp problem(nlp, relaxed, conflict.variable);
+  SolverOptions options;
+  options.verbose = 0;
+  options.stopEvals = 100;
+  options.stopGTolerance = .1 * tolerance;
+  const SolverResult result = solveAugmentedLagrangian(problem, x, options);
+  VectorXd phi(Eigen::Index(problem.types().size()));
+  problem.evaluate(result.x, phi, nullptr);
+  conflict.remaining = result.violation;
+  conflict.suffices = result.violation <= tolerance;
+  if (conflict.is_bound) {
+    const double at = result.x[conflict.variable];
+    conflict.relaxation = amountOfBound(nlp, conflict.variable, std::abs(at - std::clamp(at, nlp.lower()[conflict.variable], nlp.upper()[conflict.variable])));
+  } else {
+    conflict.relaxation = amountOfSlices(nlp, phi.head(Eigen::Index(rows)), group_rows);
+  }
+}
+
+/// In m or rad where it has a unit, so that the scales of objectives do not matter.
+double sizeOf(const Amount& amount) {
+  double size = 0.;
+  if (!std::isnan(amount.metres)) size = amount.metres;
+  if (!std::isnan(amount.radians)) size = std::max(size, amount.radians);
+  return size > 0. ? size : amount.scaled;
+}
+
+/// The one that lets all others hold and gives way least; else the one that leaves least.
+int mostHelpful(const std::vector<Conflict>& conflicts, double violation_now) {
+  int best = -1;
+  for (int i = 0; i < int(conflicts.size()); ++i) {
+    const Conflict& c = conflicts[i];
+    if (!c.suffices && c.remaining > .9 * violation_now) continue;
+    if (best < 0) {
+      best = i;
+      continue;
+    }
+    const Conflict& b = conflicts[best];
+    const bool better = c.suffices != b.suffices ? c.suffices
+                        : c.suffices             ? sizeOf(c.relaxation) < .999 * sizeOf(b.relaxation)
+                                                 : c.remaining < .999 * b.remaining;
+    if (better) best = i;
+  }
+  return best;
+}
+
+}  // namespace
+
+std::string Amount::str() const {
+  const std::string per = time_order == 0 ? "" : time_order == 1 ? "/s" : cat("/s^", time_order);
+  std::vector<std::string> words;
+  if (!std::isnan(metres) && (metres > 0. || std::isnan(radians))) words.push_back(withUnit(metres) + per);
+  if (!std::isnan(radians) && (radians > 0. || words.empty())) words.push_back(cat(rounded(radians), " rad", per));
+  return words.empty() ? cat(rounded(scaled), " (scaled)") : join(words, " and ");
+}
+
+Explanation explain(Nlp& nlp, const VectorXd& x, double tolerance) {
+  if (x.size() != nlp.dimension()) throw ValueError(cat("explain: x has ", x.size(), " numbers; the problem has ", nlp.dimension(), " variables"));
+  Explanation out;
+  out.tolerance = tolerance;
+  out.x = x;
+  VectorXd phi(Eigen::Index(nlp.types().size()));
+  nlp.evaluate(x, phi, nullptr);
+  if (const std::string what = describeNotFinite(nlp, phi, nullptr); !what.empty()) throw ValueError(cat("explain: ", what));
+  out.violation = out.least_violation = largestViolation(nlp.types(), phi);
+  if (out.violation <= tolerance) return out;
+  out.conflicts = violatedDemands(nlp, phi, tolerance);
+
+  RelaxedNlp least(nlp, std::vector<bool>(nlp.types().size(), true));
+  SolverOptions options;
+  options.verbose = 0;
+  options.stopEvals = 200;
+  options.stopTolerance = 1e-6;
+  if (nlp.dimension() > 0) out.x = solveAugmentedLagrangian(least, x.cwiseMax(nlp.lower()).cwiseMin(nlp.upper()), options).x;
+  Jacobian J = nlp.makeJacobian();
+  nlp.evaluate(out.x, phi, &J);
+  out.least_violation = largestViolation(nlp.types(), phi);
+  if (out.least_violation <= tolerance) {
+    out.verdict = Explanation::Verdict::not_reached;
+    nlp.evaluate(x, phi, nullptr);
+    return out;
+  }
+  out.verdict = Explanation::Verdict::conflict;
+  out.conflicts = violatedDemands(nlp, phi, tolerance);
+  for (Conflict& bound : pressingBounds(nlp, out.x, phi, J, tolerance)) out.conflicts.push_back(std::move(bound));
+  for (int i = 0; i < int(out.conflicts.size()); ++i) {
+    if (i < kMostTrials) {
+      tryRelaxing(nlp, out.x, tolerance, out.conflicts[i]);
+    } else {
+      out.conflicts[i].remaining = out.least_violation;
+    }
+  }
+  out.best = mostHelpful(out.conflicts, out.least_violation);
+  nlp.evaluate(x, phi, nullptr);
+  return out;
+}
+
+std::string Explanation::str(int at_most) const {
+  if (verdict == Verdict::holds) return cat("All constraints hold to ", tolerance, ".");
+  std::string text = verdict == Verdict::not_reached
+                         ? "The constraints can all hold near here, but at this point they do not; solve (again) from here:"
+                         : "The constraints contradict each other. Where they are violated least:";
+  int shown = 0;
+  for (const Conflict& conflict : conflicts) {
+    if (shown++ == at_most) {
+      text += cat("\n  and ", int(conflicts.size()) - at_most, " more");
+      break;
+    }
+    text += cat("\n  ", conflict.name, slicesText(conflict.slices));
+    text += conflict.is_bound ? cat(" holds at ", conflict.bound, " and is pressed on") : cat(" (", objectiveTypeName(conflict.type), ") is missed by ", conflict.violation.str());
+    if (!conflict.details.empty()) text += cat(": ", join({conflict.details.begin(), conflict.details.begin() + std::min<std::ptrdiff_t>(3, std::ptrdiff_t(conflict.details.size()))}));
+  }
+  if (verdict == Verdict::not_reached) return text;
+  if (best < 0) return text + "\nGiving up any single one of these does not help.";
+  const Conflict& c = conflicts[best];
+  if (c.suffices) return text + cat("\nIf ", c.name, " gives way by ", c.relaxation.str(), ", all others can hold.");
+  return text + cat("\nNo single one can be given up to let all others hold; giving up ", c.name, " helps most: the largest violation falls from ",
+                    least_violation, " to ", c.remaining, " (scaled).");
+}
+
+}  // namespace kinegraph

@@ -1,0 +1,72 @@
+#include "kinegraph/solvers/methods.h"
+
+#include <chrono>
+
+#include "kinegraph/base/errors.h"
+#include "kinegraph/base/text.h"
+#include "kinegraph/nlp/finite_difference_nlp.h"
+#include "kinegraph/solvers/derivative_free.h"
+#include "kinegraph/solvers/first_order.h"
+#include "kinegraph/solvers/penalty_methods.h"
+
+namespace kinegraph {
+
+namespace {
+
+/// Each part gets the evaluations that the one before left.
+SolverResult slackThenBarrier(Nlp& nlp, const VectorXd& x0, const SolverOptions& options, const EvaluationHook& hook) {
+  SolverResult first = solveSlack(nlp, x0, options, hook);
+  if (first.status != SolverStatus::converged || first.evals >= options.stopEvals) return first;
+  SolverOptions rest = options;
+  rest.stopEvals -= first.evals;
+  SolverResult second = solveLogBarrier(nlp, first.x, rest, hook);
+  second.evals += first.evals;
+  return second;
+}
+
+SolverResult dispatch(Nlp& nlp, const VectorXd& x0, const SolverOptions& options, const VectorXd& dual, const EvaluationHook& hook) {
+  switch (options.method) {
+    case OptMethod::augmentedLag: return solveAugmentedLagrangian(nlp, x0, options, dual, hook);
+    case OptMethod::newton:
+      requireNoConstraints(nlp, "newton");
+      return solveAugmentedLagrangian(nlp, x0, options, {}, hook);
+    case OptMethod::gradientDescent: return solveGradientDescent(nlp, x0, options, hook);
+    case OptMethod::rprop: return solveRprop(nlp, x0, options, hook);
+    case OptMethod::LBFGS: return solveLbfgs(nlp, x0, options, hook);
+    case OptMethod::NelderMead: return solveNelderMead(nlp, x0, options, hook);
+    case OptMethod::CMA: return solveCma(nlp, x0, options, hook);
+    case OptMethod::squaredPenalty: return solveSquaredPenalty(nlp, x0, options, hook, false);
+    case OptMethod::singleSquaredPenalty: return solveSquaredPenalty(nlp, x0, options, hook, true);
+    case OptMethod::logBarrier: return solveLogBarrier(nlp, x0, options, hook);
+    case OptMethod::slackGN: return solveSlack(nlp, x0, options, hook);
+    case OptMethod::slackGN_logBarrier: return slackThenBarrier(nlp, x0, options, hook);
+    default: break;
+  }
+  std::vector<std::string> names;
+  for (OptMethod method : availableMethods()) names.push_back(optMethodName(method));
+  throw ValueError(cat("OptMethod.", optMethodName(options.method), " is not available; there are ", join(names)));
+}
+
+}  // namespace
+
+const std::vector<OptMethod>& availableMethods() {
+  using M = OptMethod;
+  static const std::vector<M> methods = {M::augmentedLag, M::squaredPenalty, M::singleSquaredPenalty, M::logBarrier, M::slackGN,
+                                         M::slackGN_logBarrier, M::newton, M::LBFGS, M::gradientDescent, M::rprop, M::NelderMead, M::CMA};
+  return methods;
+}
+
+SolverResult solve(Nlp& nlp, const VectorXd& x0, const SolverOptions& options, const VectorXd& dual, const EvaluationHook& hook) {
+  const auto start = std::chrono::steady_clock::now();
+  SolverResult result;
+  if (options.finiteDifference > 0.) {
+    FiniteDifferenceNlp numeric(nlp, options.finiteDifference);
+    result = dispatch(numeric, x0, options, dual, hook);
+  } else {
+    result = dispatch(nlp, x0, options, dual, hook);
+  }
+  result.time = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  return result;
+}
+
+}  // namespace kinegraph

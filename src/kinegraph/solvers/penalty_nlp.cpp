@@ -1,0 +1,68 @@
+#include "kinegraph/solvers/penalty_nlp.h"
+
+#include <cmath>
+
+namespace kinegraph {
+
+bool isInequality(ObjectiveType type) { return type == ObjectiveType::ineq || type == ObjectiveType::ineqB; }
+
+PenaltyNlp::PenaltyNlp(Nlp& nlp) : nlp_(nlp) {
+  types_ = nlp.types();
+  for (ObjectiveType& type : types_) {
+    if (type == ObjectiveType::eq) type = ObjectiveType::sos;
+    if (isInequality(type)) type = ObjectiveType::ineqP;
+  }
+  lower_ = nlp.lower();
+  upper_ = nlp.upper();
+}
+
+void PenaltyNlp::setWeight(double mu) { root_ = std::sqrt(mu); }
+
+void PenaltyNlp::evaluate(const VectorXd& x, VectorXd& phi, Jacobian* J) {
+  nlp_.evaluate(x, phi, J);
+  for (int row = 0; row < phi.size(); ++row) {
+    if (types_[row] == nlp_.types()[row]) continue;
+    phi[row] *= root_;
+    if (!J) continue;
+    for (const Jacobian::Segment& segment : J->row_segments(row)) {
+      for (int i = 0; i < segment.width; ++i) J->values[segment.offset + i] *= root_;
+    }
+  }
+}
+
+BarrierNlp::BarrierNlp(Nlp& nlp) : nlp_(nlp), J_(nlp.makeJacobian()), phi_(Eigen::Index(nlp.types().size())) {
+  types_ = nlp.types();
+  for (ObjectiveType& type : types_) {
+    if (isInequality(type)) type = ObjectiveType::f;
+  }
+  lower_ = nlp.lower();
+  upper_ = nlp.upper();
+}
+
+void BarrierNlp::evaluate(const VectorXd& x, VectorXd& phi, Jacobian* J) {
+  nlp_.evaluate(x, phi, J);
+  for (int row = 0; row < phi.size(); ++row) {
+    if (!isInequality(nlp_.types()[row])) continue;
+    const double room = -phi[row];
+    phi[row] = room > 0. ? -mu_ * std::log(room) : std::nan("");
+    if (!J) continue;
+    for (const Jacobian::Segment& segment : J->row_segments(row)) {
+      for (int i = 0; i < segment.width; ++i) J->values[segment.offset + i] *= mu_ / room;
+    }
+  }
+}
+
+bool BarrierNlp::addCostHessian(const VectorXd& x, MatrixXd& H) {
+  nlp_.addCostHessian(x, H);
+  nlp_.evaluate(x, phi_, &J_);
+  VectorXd row_vector(x.size());
+  for (int row = 0; row < phi_.size(); ++row) {
+    if (!isInequality(nlp_.types()[row])) continue;
+    row_vector.setZero();
+    J_.addRowTo(row, 1. / phi_[row], row_vector);
+    H.noalias() += mu_ * row_vector * row_vector.transpose();
+  }
+  return true;
+}
+
+}  // namespace kinegraph

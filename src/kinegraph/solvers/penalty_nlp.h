@@ -1,0 +1,45 @@
+#pragma once
+
+#include "kinegraph/nlp/nlp.h"
+
+namespace kinegraph {
+
+/// Another problem with its constraints as costs: eq -> mu phi^2, ineq -> mu max(0, phi)^2.
+class PenaltyNlp final : public Nlp {
+ public:
+  explicit PenaltyNlp(Nlp& nlp);
+  void setWeight(double mu);
+
+  Jacobian makeJacobian() const override { return nlp_.makeJacobian(); }
+  void evaluate(const VectorXd& x, VectorXd& phi, Jacobian* J) override;
+  bool addCostHessian(const VectorXd& x, MatrixXd& H) override { return nlp_.addCostHessian(x, H); }
+  std::string rowName(int row) const override { return nlp_.rowName(row); }
+
+ private:
+  Nlp& nlp_;
+  double root_ = 1.;  ///< of mu
+};
+
+/// Another problem with its inequalities as costs -mu log(-phi); equalities stay. Not a number outside.
+class BarrierNlp final : public Nlp {
+ public:
+  explicit BarrierNlp(Nlp& nlp);
+  void setWeight(double mu) { mu_ = mu; }
+
+  Jacobian makeJacobian() const override { return nlp_.makeJacobian(); }
+  void evaluate(const VectorXd& x, VectorXd& phi, Jacobian* J) override;
+
+  /// With mu / phi^2 J^T J of each inequality.
+  bool addCostHessian(const VectorXd& x, MatrixXd& H) override;
+  std::string rowName(int row) const override { return nlp_.rowName(row); }
+
+ private:
+  Nlp& nlp_;
+  Jacobian J_;
+  VectorXd phi_;
+  double mu_ = 1.;
+};
+
+bool isInequality(ObjectiveType type);
+
+}  // namespace kinegraph

@@ -1,0 +1,196 @@
+"""Methods of NLP_Solver, how a solve is watched and ended, and what goes wrong in a user's function."""
+
+import signal
+
+import numpy as np
+import pytest
+
+import kinegraph as ry
+
+UNCONSTRAINED = ["newton", "LBFGS", "gradientDescent", "rprop", "NelderMead", "CMA"]
+CONSTRAINED = ["augmentedLag", "squaredPenalty", "logBarrier", "slackGN_logBarrier"]
+
+
+class Circle:
+    """min (x-2)^2 + (y-1)^2 with x^2 + y^2 <= 1: the optimum is (2, 1) / sqrt(5)."""
+
+    dimension = 2
+    types = (ry.OT.sos, ry.OT.sos, ry.OT.ineq)
+    bounds = np.array([[-2.0, -2.0], [2.0, 2.0]])
+    evals = 0
+
+    def evaluate(self, x):
+        self.evals += 1
+        phi = np.array([x[0] - 2, x[1] - 1, x @ x - 1])
+        return phi, np.array([[1, 0], [0, 1], 2 * x])
+
+
+class Free(Circle):
+    types = (ry.OT.sos, ry.OT.sos)
+
+    def evaluate(self, x):
+        phi, J = super().evaluate(x)
+        return phi[:2], J[:2]
+
+
+def solver(problem, method: str = "augmentedLag", x0=(0.1, 0.2)) -> ry.NLP_Solver:
+    s = (
+        ry.NLP_Solver()
+        .setPyProblem(problem)
+        .setOptions(verbose=0, stopTolerance=1e-6, stopEvals=10000, stopGTolerance=1e-5)
+    )
+    return s.setSolver(getattr(ry.OptMethod, method)).setInitialization(np.array(x0))
+
+
+@pytest.mark.parametrize("method", UNCONSTRAINED)
+def test_a_method_without_constraints_finds_the_minimum_and_refuses_constraints(method):
+    ret = solver(Free(), method).solve()
+    assert ret.status.name == "converged"
+    np.testing.assert_allclose(ret.x, [2, 1], atol=1e-3)
+    with pytest.raises(ry.ArgumentError, match=rf"{method} takes no constraints; row 2 \(ineq\)"):
+        solver(Circle(), method).solve()
+
+
+@pytest.mark.parametrize("method", CONSTRAINED)
+def test_a_method_with_constraints_finds_the_constrained_minimum(method):
+    ret = solver(Circle(), method).solve()
+    assert ret.feasible
+    np.testing.assert_allclose(ret.x, np.array([2, 1]) / np.sqrt(5), atol=1e-3)
+
+
+@pytest.mark.parametrize(("method", "package", "extra"), [("Ipopt", "ipyopt", "ipopt"), ("NLopt", "nlopt", "nlopt")])
+def test_solvers_of_other_packages_solve_or_say_what_to_install(method, package, extra):
+    try:
+        __import__(package)
+    except ImportError:
+        with pytest.raises(ry.Error, match=rf"{method} needs the package {package}.*kinegraph\[{extra}\]"):
+            solver(Circle(), method).solve()
+        return
+    ret = solver(Circle(), method).solve()
+    assert ret.feasible, ret.message
+    np.testing.assert_allclose(ret.x, np.array([2, 1]) / np.sqrt(5), atol=1e-4)
+
+
+def test_methods_that_do_not_exist_are_refused_with_those_that_do():
+    with pytest.raises(ry.ArgumentError, match="Ceres is not available; there are augmentedLag, .*CMA"):
+        solver(Circle(), "Ceres").solve()
+
+
+@pytest.mark.parametrize("method", CONSTRAINED + UNCONSTRAINED)
+def test_what_is_not_a_number_is_named(method):
+    class Broken(Free):
+        def evaluate(self, x):
+            return np.array([x[0], np.nan]), np.eye(2)
+
+    with pytest.raises(ry.ArgumentError, match=r"at the start, row 1 \(sos\) is not finite: nan"):
+        solver(Broken(), method).solve()
+
+
+def test_infinities_on_the_way_are_stepped_around_or_named():
+    class Wall(Free):
+        def evaluate(self, x):
+            phi, J = super().evaluate(x)
+            return (phi, J) if x[0] < 0.5 else (np.array([np.inf, phi[1]]), J)
+
+    ret = solver(Wall()).solve()
+    assert ret.x[0] < 0.5
+    assert ret.status.name == "stalled"
+    assert "row 0 (sos) is not finite: inf" in ret.message
+
+
+def test_a_mistake_in_the_function_reaches_the_caller():
+    class Wrong(Free):
+        def evaluate(self, x):
+            raise RuntimeError("no such thing")
+
+    with pytest.raises(RuntimeError, match="no such thing"):
+        solver(Wrong()).solve()
+
+
+@pytest.mark.parametrize("method", ["augmentedLag", "LBFGS", "NelderMead"])
+def test_ctrl_c_in_a_users_function_ends_it_with_the_best_so_far(method):
+    class Slow(Free):
+        def evaluate(self, x):
+            if self.evals == 2:
+                signal.raise_signal(signal.SIGINT)
+            return super().evaluate(x)
+
+    problem = Slow()
+    ret = solver(problem, method).solve()
+    assert ret.status.name == "cancelled"
+    assert ret.message == "interrupted by Ctrl-C"
+    assert problem.evals <= 6
+    assert np.linalg.norm(ret.x - [2, 1]) <= np.linalg.norm(np.array([0.1, 0.2]) - [2, 1])
+
+
+def test_ctrl_c_before_the_first_value_is_an_interrupt():
+    class Slow(Free):
+        def evaluate(self, x):
+            signal.raise_signal(signal.SIGINT)
+            return super().evaluate(x)
+
+    with pytest.raises(KeyboardInterrupt):
+        solver(Slow()).solve()
+
+
+def test_ctrl_c_ends_a_long_motion_problem_which_then_holds_the_best_path(panda):
+    panda.addFrame("target").setPosition([0.4, 0.3, 1.2])
+    komo = ry.KOMO(panda, 1, 200, 2, False)
+    komo.addControlObjective([], 2, 1e-1)
+    komo.addObjective([1.0], ry.FS.positionDiff, ["l_gripper", "target"], ry.OT.eq, [10.0])
+
+    def interrupt(now):
+        if now["evals"] == 2:
+            signal.raise_signal(signal.SIGINT)
+
+    s = ry.NLP_Solver(komo.nlp(), verbose=0).setProgress(interrupt, 0.0)
+    ret = s.solve()
+    assert ret.status.name == "cancelled"
+    assert ret.evals == 2
+    np.testing.assert_array_equal(komo.getPath().ravel(), ret.x)
+    assert s.setProgress(None).solve().feasible, "and it can go on"
+
+
+def test_progress_is_told_and_may_stop():
+    seen = []
+    ret = solver(Circle()).setProgress(lambda now: seen.append(now), 0.0).solve()
+    assert [now["evals"] for now in seen] == list(range(1, ret.evals + 1))
+    assert set(seen[0]) == {"evals", "x", "f", "sos", "ineq", "eq"}
+    np.testing.assert_array_equal(seen[0]["x"], [0.1, 0.2])
+    ret = solver(Circle()).setProgress(lambda now: now["evals"] < 3, 0.0).solve()
+    assert (ret.status.name, ret.evals) == ("cancelled", 3)
+
+
+def test_traces_hold_every_evaluation():
+    s = solver(Circle()).setTracing(True, True, True, True)
+    ret = s.solve()
+    assert s.getTrace_x().shape == (ret.evals, 2)
+    assert s.getTrace_phi().shape == (ret.evals, 3)
+    assert s.getTrace_errs().shape == s.getTrace_costs().shape == (ret.evals, 4)
+    np.testing.assert_allclose(s.getTrace_best()[:, 0], np.minimum.accumulate(s.getTrace_errs().sum(1)))
+    assert len(s.getTrace_J()) == ret.evals
+    np.testing.assert_allclose(s.getTrace_J()[0], [[1, 0], [0, 1], [0.2, 0.4]])
+    assert len(s.clearTracing().getTrace_J()) == 0
+
+
+def test_the_same_problem_gives_the_same_bits(panda):
+    paths = []
+    for _ in range(2):
+        panda.addFrame("target").setPosition([0.4, 0.3, 1.2])
+        komo = ry.KOMO(panda, 1, 10, 2, False)
+        komo.addControlObjective([], 2, 1e-1)
+        komo.addObjective([1.0], ry.FS.positionDiff, ["l_gripper", "target"], ry.OT.eq, [10.0])
+        ry.NLP_Solver(komo.nlp(), verbose=0).solve()
+        paths.append(komo.getPath())
+        panda.delFrame("target")
+    np.testing.assert_array_equal(*paths)
+
+
+def test_a_numeric_jacobian_replaces_one_that_is_missing():
+    class Numeric(Circle):
+        def evaluate(self, x):
+            return super().evaluate(x)[0], np.zeros((3, 2))
+
+    s = solver(Numeric())
+    s.getOptions().set_finiteDifference(1e-5)
+    np.testing.assert_allclose(s.solve().x, np.array([2, 1]) / np.sqrt(5), atol=1e-3)
