@@ -58,7 +58,10 @@ export class Exports {
     this.video.disabled = true;
     recorder.start();
     this.timeline.playFromStart();
-    while (this.timeline.isPlaying) await new Promise((resolve) => setTimeout(resolve, 50));
+    for (let rest = FRAMES_PER_SECOND / 2; rest > 0; rest -= this.timeline.isPlaying ? 0 : 1) { // the end stays for a moment
+      this.stage.redraw();
+      await new Promise(requestAnimationFrame);
+    }
     recorder.stop();
     await stopped;
     this.refresh();
