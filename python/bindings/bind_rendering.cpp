@@ -43,7 +43,7 @@ struct PyCameraView {
     start.height = 480;
     return start;
   }()};
-  CameraRenderer renderer;
+  CameraRenderer renderer{};
 };
 
 SceneTree& sceneOf(const PyCameraView& view, nb::handle config) {
@@ -213,7 +213,7 @@ void bindRendering(nb::module_& m) {
                            "Images from cameras in a configuration; they need neither display nor browser. A camera looks along the z\n"
                            "axis of its frame, x to the right and y down.")
       .def("__init__", [](PyCameraView* self, nb::object config, bool, int) {
-             nb::cast<PyConfig&>(config);
+             if (!nb::isinstance<PyConfig>(config)) throw nb::type_error("CameraView: expected a Config");
              new (self) PyCameraView{std::move(config)};
            }, "config"_a, "offscreen"_a = true, "verbose"_a = 0, "Sees the configuration as it is whenever an image is computed.")
       .def("setCamera",

@@ -45,7 +45,7 @@ struct PyViewer : ConfigViewer {
   bool camera_is_set = false;
   bool visuals_only = false;
   int saved = 0;                              ///< pictures
-  CameraRenderer renderer{{.samples = 4}};
+  CameraRenderer renderer{{.supersampling = 2}};
 };
 
 /// The picture calls of a viewer.

@@ -22,7 +22,7 @@ Camera forwardCamera() {
   return camera;
 }
 
-constexpr const char* kWall = "wall: { Q: [2.5 0 1], shape: box, size: [1 8 8], color: [1 0 0] }";
+constexpr const char* kWall = "wall: { X: [2.5 0 1], shape: box, size: [1 8 8], color: [1 0 0] }";
 
 class Rendering : public testing::Test {
  protected:
@@ -72,10 +72,10 @@ TEST_F(Rendering, ImagesOfAnySizeFollowEachOther) {
 
 TEST_F(Rendering, SmoothedEdgesDoNotMixFrames) {
   Config config;
-  config.addText("near: { Q: \"t(2 0 1) d(30 1 0 0)\", shape: box, size: [.1 .4 .4] }");
+  config.addText("near: { X: \"t(2 0 1) d(30 1 0 0)\", shape: box, size: [.1 .4 .4] }");
   for (int i = 1; i < 200; ++i) config.addFrame("nothing" + std::to_string(i));
-  config.addText("behind: { Q: [3 0 1], shape: box, size: [1 1 1] }");
-  CameraRenderer smooth({.samples = 4});
+  config.addText("behind: { X: [3 0 1], shape: box, size: [1 1 1] }");
+  CameraRenderer smooth({.supersampling = 2});
   std::set<std::int32_t> seen;
   for (const std::int32_t id : smooth.segment(config, forwardCamera())) seen.insert(id);
   EXPECT_EQ(seen, (std::set<std::int32_t>{-1, 0, 200}));
@@ -83,7 +83,7 @@ TEST_F(Rendering, SmoothedEdgesDoNotMixFrames) {
 
 TEST_F(Rendering, ShadowsDarkenWhatTheLightDoesNotReach) {
   Config config;
-  config.addText("plate: { Q: [0 0 1], shape: box, size: [1 1 .05] }");
+  config.addText("plate: { X: [0 0 1], shape: box, size: [1 1 .05] }");
   Camera camera;
   camera.pose = lookAt({.7, -1.5, 2.5}, {.7, -.6, 0.});
   const auto mean = [&](bool shadows) {

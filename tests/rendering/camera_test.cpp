@@ -18,7 +18,7 @@ Camera cameraWith(const std::string& attributes) {
 }  // namespace
 
 TEST(Camera, AttributesOfAFrameDescribeIt) {
-  const Camera camera = cameraWith("Q: [1 2 3], width: 320, height: 200, focalLength: .8, zRange: [.5 7]");
+  const Camera camera = cameraWith("X: [1 2 3], width: 320, height: 200, focalLength: .8, zRange: [.5 7]");
   EXPECT_EQ(camera.width, 320);
   EXPECT_EQ(camera.height, 200);
   EXPECT_EQ(camera.near, .5);
