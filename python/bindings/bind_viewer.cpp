@@ -35,6 +35,7 @@ bool interrupted() {
 int view(PyConfig& config, bool pause, const std::optional<std::string>& message, bool offscreen) {
   const std::shared_ptr<PyViewer> viewer = showIn(config);
   if (offscreen) return 0;
+  if (!viewer->isOpen()) nb::module_::import_("kinegraph.notebook").attr("showInline")(viewer);
   const nb::gil_scoped_release unlock;
   return viewer->view(config, pause, message, interrupted);
 }
@@ -94,12 +95,15 @@ void bindViewer(nb::module_& m, nb::class_<PyConfig>& config) {
       .def("saveHtml", [](PyViewer& v, nb::handle path) {
              nb::module_::import_("pathlib").attr("Path")(path).attr("write_text")(v.recording(), "encoding"_a = "utf-8");
            }, "path"_a, "Saves asHtml() as a file, to be opened in any browser, or sent to somebody.")
+      .def("_repr_html_", [](PyViewer& v) { return nb::module_::import_("kinegraph.notebook").attr("inlineFrame")(v.recording()); },
+           "What notebooks show: the scene as it is now.")
       .def("close", &PyViewer::close, "Ends the viewer.");
   bindPictures(viewer);
 
   config
       .def("view", view, "pause"_a = false, "message"_a = nb::none(), "offscreen"_a = false,
            "Shows the configuration in the browser; opens one at the first call if there is a display, and prints its address.\n"
+           "In a notebook it appears below the cell.\n"
            "pause: waits for a key in the browser, or Enter on the terminal. Returns the code of the key pressed since the last\n"
            "call (ord('a'), 13 Enter, 27 Escape ...), or 0. With KINEGRAPH_HEADLESS=1 nothing opens and nothing waits.\n"
            "offscreen: opens nothing; viewer().getRgb() and the other pictures do without a browser.")

@@ -44,6 +44,7 @@ from .errors import (
     NotFound,
     ParseError,
 )
+from .interactive import interactiveIk
 from .model_paths import raiPath, setRaiPath
 from .parameters import (
     clear_params,
@@ -71,4 +72,8 @@ def compiled() -> str:
     return f"kinegraph {__version__}"
 
 
-__all__ = [name for name in dir() if not name.startswith("_") and name not in ("model_paths", "errors", "parameters")]
+__all__ = [
+    name
+    for name in dir()
+    if not name.startswith("_") and name not in ("model_paths", "errors", "parameters", "interactive")
+]

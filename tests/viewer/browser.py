@@ -174,7 +174,9 @@ class Browser:
 
     def click_button(self, text: str) -> None:
         """Clicks the button with that text."""
-        self.evaluate(f"[...document.querySelectorAll('button')].find((x) => x.textContent === {json.dumps(text)}).click()")
+        self.evaluate(
+            f"[...document.querySelectorAll('button')].find((x) => x.textContent === {json.dumps(text)}).click()"
+        )
 
     def pixel(self, point: Any) -> tuple[float, float]:
         """Where a point of the scene is on the page: x and y."""
