@@ -133,7 +133,7 @@ class Browser:
             raise RuntimeError(reason(result["exceptionDetails"]))
         return result["result"].get("value")
 
-    def wait_for(self, script: str, seconds: float = 12) -> Any:
+    def wait_for(self, script: str, seconds: float = 60) -> Any:
         """Waits until `script` is true; returns its value."""
         deadline = time.monotonic() + seconds
         state: Any = None
