@@ -7,6 +7,7 @@ import sys
 import pytest
 
 import kinegraph as ry
+from kinegraph.demo import followTarget
 
 
 def kinegraph(*arguments):
@@ -22,6 +23,13 @@ def test_the_demo_follows_its_target_within_a_tenth_of_a_millimetre():
     assert len(seconds) >= 2
     assert total.startswith("total: ") and "infeasible" not in total
     assert float(total.split("worst position error ")[1].split(" mm")[0]) < 0.1
+
+
+@pytest.mark.parametrize("seed", [0, 1, 2])
+def test_the_demos_target_never_leaves_the_arms_reach(seed):
+    summary = followTarget(1.0, rate=0, seed=seed, view=False)  # as many as possible: thousands of targets
+    assert summary.solves > 100
+    assert summary.infeasible == 0 and summary.worst_error < 1e-4
 
 
 def test_info_lists_the_frames_of_a_file():
