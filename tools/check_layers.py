@@ -20,7 +20,7 @@ BELOW: dict[str, list[str]] = {
     "features": ["base", "math", "geometry", "kinematics", "scene"],
     "komo": ["base", "math", "geometry", "kinematics", "scene", "features", "nlp"],
     "rendering": ["base", "math", "geometry", "kinematics", "scene"],
-    "viewer": ["base", "math", "geometry", "kinematics", "scene"],
+    "viewer": ["base", "math", "gfile", "geometry", "kinematics", "scene", "formats"],
 }
 
 

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Makes the message types of the viewer, for its server (C++) and its client (TypeScript), from viewer/messages.json.
 
-python tools/generate_messages.py            writes both files
+python tools/generate_messages.py            writes the files
 python tools/generate_messages.py --check    fails if they are not what the schema says
 """
 
@@ -34,6 +34,14 @@ def tag(message: str) -> str:
     return message.removesuffix("Message").lower()
 
 
+def cpp_struct(name: str, fields: dict, inside: list[str] | None = None) -> list[str]:
+    out = ["", f"struct {name} {{", *(inside or [])]
+    for field, kind in fields.items():
+        initial = " = 0" if kind in ("int", "number") else ""
+        out.append(f"  {cpp_type(kind)} {field}{initial};")
+    return [*out, "};"]
+
+
 def make_cpp(schema: dict) -> str:
     out = [
         "#pragma once",
@@ -49,17 +57,14 @@ def make_cpp(schema: dict) -> str:
         "",
         "namespace kinegraph {",
         "",
-        "/// First 4 bytes of a binary message.",
+        "/// First 4 bytes of a binary message to the client.",
         "enum class BinaryKind : std::uint32_t {",
         *[f"  {name} = {value}," for name, value in schema["binary"].items()],
         "};",
     ]
     for name, fields in {**schema["types"], **schema["messages"]}.items():
-        out += ["", f"struct {name} {{"]
-        for field, kind in fields.items():
-            initial = " = 0" if kind in ("int", "number") else ""
-            out.append(f"  {cpp_type(kind)} {field}{initial};")
-        out += ["};", "", f"inline void writeJson(JsonWriter& json, const {name}& m) {{", "  json.beginObject();"]
+        out += cpp_struct(name, fields)
+        out += ["", f"inline void writeJson(JsonWriter& json, const {name}& m) {{", "  json.beginObject();"]
         if name in schema["messages"]:
             out.append(f'  json.field("kind", std::string("{tag(name)}"));')
         out += [f'  json.field("{field}", m.{field});' for field in fields]
@@ -67,8 +72,47 @@ def make_cpp(schema: dict) -> str:
     return "\n".join([*out, "", "}  // namespace kinegraph", ""])
 
 
+def make_commands_cpp(schema: dict) -> str:
+    out = [
+        "#pragma once",
+        "",
+        f"// {NOTE}",
+        "",
+        "#include <optional>",
+        "#include <string_view>",
+        "#include <variant>",
+        "",
+    ]
+    out += ['#include "kinegraph/viewer/command_reader.h"', "", "namespace kinegraph {"]
+    for number, (name, fields) in enumerate(schema["commands"].items(), 1):
+        out += cpp_struct(name, fields, [f"  static constexpr int kKind = {number};"])
+    names = ", ".join(schema["commands"])
+    out += ["", "/// What a browser asks for.", f"using Command = std::variant<{names}>;"]
+    out += ["", "/// Reads a binary message from a browser; nothing if it is not exactly one command."]
+    out += ["inline std::optional<Command> readCommand(std::string_view data) {", "  CommandReader reader(data);"]
+    out += ["  int kind;", "  if (!reader.read(kind)) return std::nullopt;", "  switch (kind) {"]
+    for name, fields in schema["commands"].items():
+        reads = " && ".join([f"reader.read(m.{field})" for field in fields] + ["reader.atEnd()"])
+        out += [
+            f"    case {name}::kKind: {{",
+            f"      {name} m;",
+            f"      if ({reads}) return m;",
+            "      break;",
+            "    }",
+        ]
+    out += ["  }", "  return std::nullopt;", "}", "", "}  // namespace kinegraph", ""]
+    return "\n".join(out)
+
+
 def make_ts(schema: dict) -> str:
-    out = [f"// {NOTE}", "", "/** First 4 bytes of a binary message. */", "export const BinaryKind = {"]
+    out = [
+        f"// {NOTE}",
+        "",
+        'import { writeCommand } from "./commands";',
+        "",
+        "/** First 4 bytes of a binary message from the server. */",
+        "export const BinaryKind = {",
+    ]
     out += [f"  {name}: {value}," for name, value in schema["binary"].items()]
     out += ["} as const;"]
     for name, fields in {**schema["types"], **schema["messages"]}.items():
@@ -77,6 +121,12 @@ def make_ts(schema: dict) -> str:
             out.append(f'  kind: "{tag(name)}";')
         out += [f"  {field}: {ts_type(kind)};" for field, kind in fields.items()]
         out += ["}"]
+    for number, (name, fields) in enumerate(schema["commands"].items(), 1):
+        arguments = ", ".join(f"{field}: {ts_type(kind)}" for field, kind in fields.items())
+        values = "".join(f', ["{kind}", {field}]' for field, kind in fields.items())
+        function = name[0].lower() + name[1:]
+        out += ["", f"export const {function} = ({arguments}): Uint8Array<ArrayBuffer> =>"]
+        out += [f'  writeCommand(["int", {number}]{values});']
     out += ["", "export type ServerMessage = " + " | ".join(schema["messages"]) + ";", ""]
     return "\n".join(out)
 
@@ -85,6 +135,7 @@ def main() -> int:
     schema = json.loads((ROOT / "viewer/messages.json").read_text())
     files = {
         ROOT / "src/kinegraph/viewer/messages.h": make_cpp(schema),
+        ROOT / "src/kinegraph/viewer/commands.h": make_commands_cpp(schema),
         ROOT / "viewer/src/messages.ts": make_ts(schema),
     }
     drifted = [file for file, text in files.items() if not file.exists() or file.read_text() != text]

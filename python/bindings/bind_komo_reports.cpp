@@ -78,35 +78,66 @@ std::vector<std::string> objectiveTags(const PyKomo& komo) {
   return tags;
 }
 
-int show(PyKomo& komo, const Config& config, bool pause, const std::string& text) {
+/// The path as a motion of the scene as it is before it; texts tell the objectives that are violated in a slice.
+ShownMotion motionOf(const PyKomo& komo) {
+  ShownMotion motion;
+  motion.seconds = komo.tau() * komo.slices();
+  motion.q = komo.getPath();
+  const MatrixXd errors = measurePath(komo).per_slice;
+  for (int t = 0; t < komo.slices(); ++t) {
+    const MatrixXd poses = komo.getFrameState(t);
+    std::vector<Pose>& slice = motion.poses.emplace_back();
+    for (Eigen::Index i = 0; i < poses.rows(); ++i) slice.push_back(Pose::fromNumbers(poses.row(i)));
+    motion.texts.push_back(sliceErrors(komo, t, errors));
+    double& violation = motion.violations.emplace_back(0.);
+    for (std::size_t o = 0; o < komo.objectives().size(); ++o) {
+      const ObjectiveType type = komo.objectives()[o].type;
+      if (type == ObjectiveType::eq || type == ObjectiveType::ineq) violation += errors(t, Eigen::Index(o));
+    }
+  }
+  return motion;
+}
+
+int show(PyKomo& komo, const ShownMotion& motion, bool pause, const std::string& text) {
   if (!komo.viewer) komo.viewer = std::make_shared<PyViewer>();
   const std::shared_ptr<PyViewer> viewer = komo.viewer;
+  const Config config = komo.configuration(-komo.order());
   viewer->scene = config.scene();
   const nb::gil_scoped_release unlock;
-  return viewer->view(config, pause, text, [] {
+  return viewer->showMotion(config, motion, pause, text, [] {
     checkInterrupt();
     return false;
   });
 }
 
 int view(PyKomo& komo, bool pause, Message text) {
-  Config all;
-  for (int t = 0; t < komo.slices(); ++t) all.addConfigurationCopy(komo.configuration(t), t == 0 ? "" : cat("slice", t, "_"));
-  return show(komo, all, pause, text.value_or(cat("all ", komo.slices(), " slices")));
+  return show(komo, motionOf(komo), pause, text.value_or(cat("all ", komo.slices(), " slices")));
 }
 
-int viewSlice(PyKomo& komo, int slice, bool pause) { return show(komo, komo.configuration(slice), pause, cat("slice ", slice)); }
+int viewSlice(PyKomo& komo, int slice, bool pause) {
+  if (slice < 0 || slice >= komo.slices()) throw ValueError(cat("view_slice: t is ", slice, "; there are slices 0 to ", komo.slices() - 1));
+  ShownMotion motion = motionOf(komo);
+  motion.start = ShownMotion::Start::pause;
+  motion.first = slice;
+  return show(komo, motion, pause, cat("slice ", slice));
+}
 
-int viewPlay(PyKomo& komo, bool pause, Message text, double delay, const std::optional<std::string>& video) {
-  if (video) throw ValueError("view_play: saving a video is not available");
-  int key = 0;
+/// A picture of each slice as PREFIX000000.png and so on, without a browser.
+void savePictures(PyKomo& komo, const std::string& prefix) {
+  if (!komo.viewer) komo.viewer = std::make_shared<PyViewer>();
   for (int t = 0; t < komo.slices(); ++t) {
-    key = show(komo, komo.configuration(t), pause && t + 1 == komo.slices(), cat(text.value_or(""), " slice ", t));
-    const nb::gil_scoped_release unlock;
-    std::this_thread::sleep_for(std::chrono::duration<double>(std::clamp(delay, 0., 10.)));
+    komo.viewer->scene = komo.configuration(t).scene();
+    savePicture(*komo.viewer, prefix, t);
     checkInterrupt();
   }
-  return key;
+}
+
+int viewPlay(PyKomo& komo, bool pause, Message text, double delay, const std::optional<std::string>& video) {
+  if (video) savePictures(komo, *video);
+  ShownMotion motion = motionOf(komo);
+  motion.start = ShownMotion::Start::play;
+  motion.seconds = std::clamp(delay, .01, 10.) * komo.slices();
+  return show(komo, motion, pause, text.value_or(cat(komo.slices(), " slices")));
 }
 
 }  // namespace
@@ -122,10 +153,12 @@ void bindKomoReports(nb::class_<PyKomo>& komo) {
            "errorTraces"_a, "The objectives with errors in a slice, largest first, a line each.")
       .def("info_sliceCollisions", [](const PyKomo& k, int t, double margin) { return sliceCollisions(k, t, margin); }, "t"_a,
            "belowMargin"_a, "The pairs of shapes nearer than a margin in a slice, a line each.")
-      .def("view", view, "pause"_a = false, "txt"_a = nb::none(), "Shows all slices at once, in the browser.")
-      .def("view_slice", viewSlice, "t"_a, "pause"_a = false, "Shows a slice.")
+      .def("view", view, "pause"_a = false, "txt"_a = nb::none(), "Shows all slices at once, in the browser, with a time slider and the violated\n"
+           "objectives. pause: waits for a key. Returns the key that was pressed, or 0.")
+      .def("view_slice", viewSlice, "t"_a, "pause"_a = false, "Shows a slice; the others are at the time slider. Returns the key, or 0.")
       .def("view_play", viewPlay, "pause"_a = false, "txt"_a = nb::none(), "delay"_a = .1, "saveVideoPath"_a = nb::none(),
-           "Shows one slice after the other.")
+           "Plays the slices, `delay` seconds each, and waits until they have been played once; a key ends it. saveVideoPath: saves\n"
+           "a picture of each slice as <saveVideoPath>000000.png and so on. Returns the key, or 0.")
       .def("view_close", [](PyKomo& k) { if (k.viewer) k.viewer->close(); }, "Ends the viewer.")
       .def("get_viewer", [](PyKomo& k) {
              if (!k.viewer) k.viewer = std::make_shared<PyViewer>();

@@ -46,6 +46,7 @@ from .errors import (
     NotFound,
     ParseError,
 )
+from .interactive import interactiveIk
 from .model_paths import raiPath, setRaiPath
 from .parameters import (
     clear_params,
@@ -73,4 +74,8 @@ def compiled() -> str:
     return f"kinegraph {__version__}"
 
 
-__all__ = [name for name in dir() if not name.startswith("_") and name not in ("model_paths", "errors", "parameters")]
+__all__ = [
+    name
+    for name in dir()
+    if not name.startswith("_") and name not in ("model_paths", "errors", "parameters", "interactive")
+]

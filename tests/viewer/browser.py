@@ -159,6 +159,29 @@ class Browser:
         for letter in text:
             self.press(letter, text=letter)
 
+    def click(self, x: float, y: float) -> None:
+        for kind in ("mousePressed", "mouseReleased"):
+            self.call("Input.dispatchMouseEvent", type=kind, x=x, y=y, button="left", clickCount=1)
+
+    def drag(self, start: tuple[float, float], end: tuple[float, float], steps: int = 8) -> None:
+        """Moves the pointer there, presses, moves on in steps, and lets go."""
+        points = np.linspace(start, end, steps + 1)
+        self.call("Input.dispatchMouseEvent", type="mouseMoved", x=points[0][0], y=points[0][1])
+        self.call("Input.dispatchMouseEvent", type="mousePressed", x=points[0][0], y=points[0][1], button="left")
+        for x, y in points[1:]:
+            self.call("Input.dispatchMouseEvent", type="mouseMoved", x=x, y=y, button="left", buttons=1)
+        self.call("Input.dispatchMouseEvent", type="mouseReleased", x=end[0], y=end[1], button="left")
+
+    def click_button(self, text: str) -> None:
+        """Clicks the button with that text."""
+        self.evaluate(
+            f"[...document.querySelectorAll('button')].find((x) => x.textContent === {json.dumps(text)}).click()"
+        )
+
+    def pixel(self, point: Any) -> tuple[float, float]:
+        """Where a point of the scene is on the page: x and y."""
+        return tuple(self.evaluate(f"kinegraph.pixel(...{json.dumps(list(point))})"))
+
     def is_visible(self, selector: str) -> bool:
         return self.evaluate(f"document.querySelector({json.dumps(selector)}).checkVisibility()")
 

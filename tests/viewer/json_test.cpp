@@ -27,12 +27,12 @@ std::string quoted(const std::string& title) {
 TEST(JsonWriter, NestsObjectsAndListsAndSeparatesThem) {
   SceneMessage scene;
   scene.count = 2;
-  scene.frames = {{0, "world", -1, std::nullopt}, {1, "box", 0, ShapeMessage{"box", {1., .25}, {}, -1}}};
+  scene.frames = {{0, "world", -1, "", std::nullopt}, {1, "box", 0, "contact: 1", ShapeMessage{"box", {1., .25}, {}, -1}}};
   JsonWriter json;
   writeJson(json, scene);
   EXPECT_EQ(json.text(),
-            R"({"kind":"scene","count":2,"frames":[{"id":0,"name":"world","parent":-1,"shape":null},)"
-            R"({"id":1,"name":"box","parent":0,"shape":{"type":"box","size":[1,0.25],"color":[],"mesh":-1}}]})");
+            R"({"kind":"scene","count":2,"frames":[{"id":0,"name":"world","parent":-1,"details":"","shape":null},)"
+            R"({"id":1,"name":"box","parent":0,"details":"contact: 1","shape":{"type":"box","size":[1,0.25],"color":[],"mesh":-1}}]})");
 }
 
 TEST(JsonWriter, EscapesQuotesBackslashesAndControlCharacters) {

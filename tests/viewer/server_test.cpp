@@ -8,6 +8,7 @@
 #include "kinegraph/base/errors.h"
 #include "kinegraph/base/random.h"
 #include "kinegraph/viewer/client_page.h"
+#include "kinegraph/viewer/messages.h"
 #include "tests/viewer/websocket_client.h"
 
 using namespace kinegraph;
@@ -160,6 +161,82 @@ TEST(ViewerServer, HostAndPortThatCannotBeAreErrors) {
   options = {};
   options.host = "192.0.2.1";  // for documentation: no machine has it
   EXPECT_THROW(ViewerServer{options}, Error);
+}
+
+TEST(ViewerServer, AsksForATokenWhereOthersCanReachIt) {
+  ViewerOptions options = anyPort();
+  options.host = "0.0.0.0";
+  const ViewerServer open(options), other(options);
+  const std::string url = open.url();
+  const std::size_t question = url.find("?token=");
+  ASSERT_NE(question, std::string::npos) << url;
+  const std::string token = url.substr(question);
+  EXPECT_EQ(token.size(), 7u + 32u);
+  EXPECT_NE(other.url().substr(other.url().find('?')), token);
+  const int port = portOf(url.substr(0, question));
+  const std::string host = "localhost:" + std::to_string(port);
+  EXPECT_TRUE(answerTo(port, get("/" + token, host)).starts_with("HTTP/1.1 200 "));
+  for (const std::string& wrong : std::vector<std::string>{"", "?token=", "?token=" + std::string(32, '0'), token + "0", token.substr(0, 38)}) {
+    EXPECT_TRUE(answerTo(port, get("/" + wrong, host)).starts_with("HTTP/1.1 403 ")) << wrong;
+    EXPECT_TRUE(answerTo(port, get("/scene.html" + wrong, host)).starts_with("HTTP/1.1 403 ")) << wrong;
+  }
+  EXPECT_TRUE(answerTo(port, WebsocketClient::request(host, "")).starts_with("HTTP/1.1 403 "));
+}
+
+TEST_F(ViewerServerTest, GivesThePageWithAllThatIsShown) {
+  server.update(frames(3));
+  server.setMessage("hello");
+  const std::string answer = answerTo(port, get("/scene.html", host));
+  EXPECT_TRUE(answer.starts_with("HTTP/1.1 200 "));
+  EXPECT_NE(answer.find("frame2"), std::string::npos);
+  EXPECT_TRUE(answer.ends_with(server.recording()));
+}
+
+TEST_F(ViewerServerTest, WhatOneBrowserChangesAllBrowsersSee) {
+  server.update(frames(2));
+  server.onCommand([](const Command& command) -> std::optional<EditedScene> {
+    const auto* set = std::get_if<SetJointCommand>(&command);
+    if (!set) throw Error("not this one");
+    return EditedScene{{Pose(), Pose(Vector3d(set->value, 0., 0.), Quaterniond::Identity())}, VectorXd::Constant(1, set->value)};
+  });
+  WebsocketClient one(port), two(port);
+  for (WebsocketClient* client : {&one, &two}) {
+    while (!client->next()->binary) {
+    }
+  }
+  one.sendBinary(std::string("\3\0\0\0\1\0\0\0", 8));  // throws
+  std::string data("\2\0\0\0\1\0\0\0\0\0\0\0", 12);
+  const double value = .5;
+  one.sendBinary(data.append(reinterpret_cast<const char*>(&value), sizeof value));
+  for (WebsocketClient* client : {&one, &two}) {
+    const auto poses = client->next(), q = client->next();
+    ASSERT_TRUE(poses && q);
+    EXPECT_EQ(poses->number(1), 1u);  // frame
+    EXPECT_EQ(poses->number(2), 1u);  // its id
+    double received;
+    std::memcpy(&received, q->data.data() + 8, sizeof received);
+    EXPECT_EQ(received, value);
+  }
+}
+
+TEST_F(ViewerServerTest, AMotionIsSentAsAWholeAndEnds) {
+  server.update(frames(2));
+  ShownMotion motion;
+  motion.seconds = 1.5;
+  motion.poses.assign(3, std::vector<Pose>(2));
+  motion.q = MatrixXd::Constant(3, 1, .25);
+  motion.texts = {"a", "b", "c"};
+  server.showMotion(motion);
+  WebsocketClient late(port);
+  readUntil(late, R"("kind":"motion","slices":3,"seconds":1.5,"start":"all")");
+  const auto data = late.next();
+  ASSERT_TRUE(data && data->binary);
+  EXPECT_EQ(data->data.size(), 4u * (4 + 3 * 2 * 7 + 3));
+  EXPECT_EQ(data->number(0), std::uint32_t(BinaryKind::motion));
+  server.endMotion();
+  readUntil(late, R"("kind":"motion","slices":0)");
+  server.endMotion();
+  EXPECT_FALSE(late.next(kQuiet));
 }
 
 TEST_F(ViewerServerTest, AMovedFrameSendsOnePoseAndAnUnchangedSceneNothing) {

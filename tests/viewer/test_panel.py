@@ -118,14 +118,20 @@ def test_the_tree_follows_the_scene(page: Browser, config: kg.Config) -> None:
 def test_everything_in_the_panel_is_reached_by_the_tab_key(page: Browser) -> None:
     page.press_alt("T")
     reached = set()
-    for _ in range(20):
+    for _ in range(25):
         page.press("Tab", code="Tab", windowsVirtualKeyCode=9)
         reached.add(
             page.evaluate(
                 "document.activeElement.ariaLabel || document.activeElement.id || document.activeElement.tagName"
             )
         )
-    assert {"show table", "show box", "show ghost", "show target", "SUMMARY", "search frames", "picture"} <= reached
+    assert {"show table", "show box", "show ghost", "show target", "SUMMARY", "search frames"} <= reached
+    page.press_alt("O")
+    page.wait_for("document.activeElement.closest('#tab-view')")
+    for _ in range(25):
+        page.press("Tab", code="Tab", windowsVirtualKeyCode=9)
+        reached.add(page.evaluate("document.activeElement.id || document.activeElement.textContent"))
+    assert {"front", "aslant", "picture", "model", "page", "help-button"} <= reached
 
 
 def test_the_question_mark_shows_and_hides_the_help(page: Browser) -> None:

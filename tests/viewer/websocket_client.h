@@ -13,6 +13,8 @@
 #include <string>
 #include <utility>
 
+#include "kinegraph/viewer/commands.h"
+
 namespace kinegraph::test {
 
 constexpr int kPatience = 20000;  // ms; much more than a busy machine needs
@@ -113,7 +115,7 @@ class WebsocketClient : public TcpClient {
   void sendText(const std::string& data) { send(data, 1); }
   void sendBinary(const std::string& data) { send(data, 2); }
   void sendKey(std::uint32_t code) {
-    const std::uint32_t numbers[] = {3, code};
+    const std::uint32_t numbers[] = {KeyCommand::kKind, code};
     sendBinary(std::string(reinterpret_cast<const char*>(numbers), sizeof numbers));
   }
 

@@ -11,12 +11,19 @@ export const OPTIONS = {
   markers: { label: "markers", letter: "M", initially: true },
   axes: { label: "axes of all frames", letter: "A", initially: false },
   names: { label: "names of frames", letter: "N", initially: false },
+  wireframe: { label: "triangles only", letter: "W", initially: false },
+  xray: { label: "see through everything", letter: "X", initially: false },
 } as const;
 
 export type Option = keyof typeof OPTIONS;
 export const optionNames = Object.keys(OPTIONS) as Option[];
 
 const AXES_LENGTH = 0.1; // m
+const XRAY_OPACITY = 0.4;
+
+export function isSeen(object: THREE.Object3D): boolean {
+  return object.visible && (object.parent === null || isSeen(object.parent));
+}
 
 function kindOf(shape: ShapeMessage): Option {
   if (shape.type === "marker" || shape.type === "camera") return "markers";
@@ -39,10 +46,22 @@ export class Display {
     for (const shown of frames.values()) {
       const { shape, name } = shown.message;
       shown.anchor.visible = !this.isHidden(shown, frames);
-      if (shown.object && shape) shown.object.visible = this.on.has(kindOf(shape));
+      if (shown.object && shape) {
+        shown.object.visible = this.on.has(kindOf(shape));
+        this.paint(shown.object, shape);
+      }
       this.attach(shown.anchor, "axes", () => new THREE.AxesHelper(AXES_LENGTH).setColors(...AXIS_COLORS));
       this.attach(shown.anchor, "names", () => label(name));
     }
+  }
+
+  private paint(object: THREE.Object3D, shape: ShapeMessage): void {
+    if (!(object instanceof THREE.Mesh) || !(object.material instanceof THREE.MeshStandardMaterial)) return;
+    const alpha = shape.color[3] ?? 1;
+    const opacity = this.on.has("xray") ? Math.min(alpha, XRAY_OPACITY) : alpha;
+    Object.assign(object.material, { wireframe: this.on.has("wireframe"), transparent: opacity < 1, opacity, depthWrite: opacity === 1 });
+    object.castShadow = object.receiveShadow = opacity === 1;
+    object.material.needsUpdate = true;
   }
 
   private isHidden(shown: Shown, frames: ReadonlyMap<number, Shown>): boolean {

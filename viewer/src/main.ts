@@ -1,29 +1,59 @@
 import * as THREE from "three";
-import { Connection } from "./connection";
+import { Connection, type Listener, recordedMessages, replay } from "./connection";
 import { Display } from "./display";
+import { find, make } from "./element";
+import { Exports } from "./exports";
+import { Help } from "./help";
+import { JointPanel } from "./joints";
 import { keyCode } from "./keys";
-import type { ServerMessage } from "./messages";
+import { Measure } from "./measure";
+import { BinaryKind, keyCommand, type MotionMessage, type ServerMessage } from "./messages";
+import { Motion } from "./motion";
 import { Panel } from "./panel";
+import { Selection } from "./selection";
 import { ShownScene } from "./shown";
 import { Stage } from "./stage";
+import { Timeline } from "./timeline";
 
-const element = <T extends HTMLElement>(id: string): T => document.getElementById(id) as T;
+const PRESETS: Record<string, [number, number, number]> = { front: [1, 0, 0.001], side: [0, 1, 0.001], above: [0, -0.001, 1], aslant: [1, 1, 0.8] };
 
-const stage = new Stage(element<HTMLCanvasElement>("canvas"));
+const recorded = recordedMessages();
+let connection: Connection | null = null;
+const send = (command: Uint8Array<ArrayBuffer>): void => connection?.send(command);
+
+const stage = new Stage(find<HTMLCanvasElement>("canvas"));
 const shown = new ShownScene(stage.frames);
-const help = element("help");
 const display = new Display();
-const panel = new Panel(element, display, shown.frames, redisplay, () => stage.savePicture(`${document.title}.png`));
-element("scale").textContent = "grid: 1 m, 0.2 m";
+const joints = new JointPanel(send);
+const help = new Help();
+const measure = new Measure(stage);
+const panel = new Panel(display, shown.frames, redisplay, (id) => selection.select(id));
+const selection = new Selection(stage, shown.frames, joints, recorded ? null : send, (id) => panel.select(id));
+const timeline = new Timeline(stage, shown, joints, moved);
+const exports = new Exports(stage, timeline, recorded !== null);
+let announced: MotionMessage | null = null; // its slices are still to come
+find("scale").textContent = "grid: 1 m, 0.2 m";
+find("presets").append(...Object.keys(PRESETS).map((name) => make("button", { textContent: name, onclick: () => lookFrom(name) })));
+find("tab-joints").classList.toggle("fixed", recorded !== null);
+
+function lookFrom(preset: string): void {
+  stage.lookAlong(new THREE.Vector3(...PRESETS[preset]!));
+}
 
 function redisplay(): void {
   display.apply(shown.frames);
   stage.redraw();
 }
 
+/** Frames have moved. */
+function moved(): void {
+  selection.follow();
+  stage.redraw();
+}
+
 function show(id: string, text: string): void {
-  element(id).textContent = text;
-  element(id).hidden = text === "";
+  find(id).textContent = text;
+  find(id).hidden = text === "";
 }
 
 function receive(message: ServerMessage): void {
@@ -32,6 +62,10 @@ function receive(message: ServerMessage): void {
       shown.readScene(message);
       redisplay();
       panel.refresh();
+      selection.refresh();
+      break;
+    case "joints":
+      joints.setJoints(message.structure, message.joints);
       break;
     case "text":
       document.title = message.title;
@@ -41,52 +75,95 @@ function receive(message: ServerMessage): void {
     case "camera":
       stage.lookFrom(new THREE.Vector3(...message.position), new THREE.Vector3(...message.target));
       break;
+    case "motion":
+      announced = message.slices > 0 ? message : null;
+      timeline.end();
+      exports.refresh();
+      break;
+    case "select":
+      selection.select(message.frame, "translate");
+      break;
   }
   stage.redraw();
 }
 
-const connection = new Connection({
+function receiveBinary(data: ArrayBuffer): void {
+  const kind = new DataView(data).getUint32(0, true);
+  if (kind === BinaryKind.joints) {
+    joints.setState(new Float64Array(data, 8));
+  } else if (kind === BinaryKind.motion && announced) {
+    timeline.start(new Motion(announced, data));
+    exports.refresh();
+  } else if (shown.readBinary(data)) {
+    moved();
+  }
+}
+
+const listener: Listener = {
   opened() {
+    timeline.end();
     shown.clear();
-    element("ended").hidden = true;
+    find("ended").hidden = true;
   },
   message: receive,
-  binary(data) {
-    shown.readBinary(data);
-    stage.redraw();
-  },
+  binary: receiveBinary,
   closed() {
-    element("ended").hidden = false;
+    find("ended").hidden = false;
   },
+};
+if (recorded) replay(recorded, listener);
+else connection = new Connection(listener);
+
+stage.onClick((event) => {
+  if (selection.isHeld) return;
+  const hit = stage.pick(event);
+  if (measure.on) measure.click(hit);
+  else if (hit) selection.select(hit.id);
+  else selection.close();
 });
 
-const toggleHelp = (): void => {
-  help.hidden = !help.hidden;
-};
-element("help-button").addEventListener("click", toggleHelp);
+/** What Alt and a key do. */
+function takeAlt(code: string): boolean {
+  const digit = /^Digit([1-4])$/.exec(code);
+  if (digit) lookFrom(Object.keys(PRESETS)[Number(digit[1]) - 1]!);
+  else if (code === "KeyP") exports.savePicture();
+  else if (code === "KeyR") measure.toggle();
+  else if (code === "KeyK") timeline.toggle();
+  else if (code === "KeyG") selection.toggleHandles("translate");
+  else if (code === "KeyB") selection.toggleHandles("rotate");
+  else return panel.takeKey(code);
+  return true;
+}
 
-/** Keys that people type into the panel are not for the program. */
-const isTyping = (target: EventTarget | null): boolean => target instanceof HTMLElement && target.closest("input, summary, button") !== null;
+/** Closes what is open, the topmost first. */
+function closeTopmost(): boolean {
+  if (help.isOpen) help.toggle();
+  else if (measure.on) measure.toggle();
+  else if (selection.selected !== null) selection.close();
+  else if (panel.isOpen) panel.close();
+  else return false;
+  leaveControls();
+  return true;
+}
+
+/** Keys that people type into controls are not for the program. */
+const isTyping = (target: EventTarget | null): boolean => target instanceof HTMLElement && target.closest("input, select, summary, button") !== null;
 const leaveControls = (): void => (document.activeElement as HTMLElement | null)?.blur();
 
 addEventListener("keydown", (event) => {
-  if (event.altKey && panel.takeKey(event.code)) return event.preventDefault();
-  if (event.key === "Tab" && panel.isOpen) return; // moves on in the panel
-  if (isTyping(event.target)) {
-    if (event.key === "Escape") {
-      panel.close();
-      leaveControls();
-    }
-    return;
-  }
-  if (event.key === "?") return toggleHelp();
+  if (event.altKey && takeAlt(event.code)) return event.preventDefault();
+  if (event.key === "Escape" && closeTopmost()) return;
+  if (event.key === "Tab" && (panel.isOpen || selection.selected !== null || timeline.current)) return; // moves on between controls
+  if (isTyping(event.target)) return;
+  if (event.key === "?") return help.toggle();
   if (event.key === "Home") return stage.home();
+  if (timeline.takeKey(event.key)) return event.preventDefault();
   const code = keyCode(event);
   if (code === 0) return;
-  connection.sendKey(code);
+  send(keyCommand(code));
   if (["Tab", "Backspace", " ", "'", "/"].includes(event.key) || event.key.startsWith("Arrow")) event.preventDefault();
 });
-element("canvas").addEventListener("pointerdown", leaveControls);
+stage.canvas.addEventListener("pointerdown", leaveControls);
 for (const button of document.querySelectorAll("body > button")) button.addEventListener("click", () => (button as HTMLElement).blur());
 
 /** For tests: what is on the page. */
@@ -97,8 +174,17 @@ Object.assign(window, {
     geometries: () => stage.renderer.info.memory.geometries,
     idle: () => stage.idle,
     position: (name: string) => stage.frames.getObjectByName(name)?.position.toArray() ?? null,
-    message: () => element("message").textContent,
-    error: () => element("error").textContent,
-    ended: () => !element("ended").hidden,
+    message: () => find("message").textContent,
+    error: () => find("error").textContent,
+    ended: () => !find("ended").hidden,
+    selected: () => (selection.selected === null ? null : shown.frames.get(selection.selected)!.message.name),
+    asText: () => selection.asText(),
+    joints: () => Array.from(joints.current.q),
+    slice: () => (timeline.current ? timeline.slice : null),
+    playing: () => timeline.isPlaying,
+    pixel: (x: number, y: number, z: number) => {
+      const p = new THREE.Vector3(x, y, z).project(stage.camera);
+      return [((p.x + 1) / 2) * stage.canvas.clientWidth, ((1 - p.y) / 2) * stage.canvas.clientHeight];
+    },
   },
 });

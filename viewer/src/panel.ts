@@ -1,27 +1,32 @@
 import { type Display, OPTIONS, type Option, optionNames } from "./display";
+import { find, make } from "./element";
 import type { Shown } from "./shown";
 import { SceneTree } from "./tree";
 
-/** The panel at the side: switches, the tree of frames, and saving a picture. */
+const TABS = { frames: "T", joints: "J", view: "O" } as const;
+type Tab = keyof typeof TABS;
+const tabNames = Object.keys(TABS) as Tab[];
+
+/** The panel at the side: frames, joints, and how the scene is shown. */
 export class Panel {
-  private readonly root: HTMLElement;
-  private readonly search: HTMLInputElement;
+  private readonly root = find("panel");
+  private readonly button = find("panel-button");
   private readonly tree: SceneTree;
   private readonly boxes = new Map<Option, HTMLInputElement>();
+  private readonly tabs = new Map<Tab, HTMLButtonElement>();
+  private tab: Tab = "frames";
 
   constructor(
-    find: <T extends HTMLElement>(id: string) => T,
     private readonly display: Display,
     private readonly frames: ReadonlyMap<number, Shown>,
     private readonly changed: () => void,
-    private readonly savePicture: () => void,
+    select: (id: number) => void,
   ) {
-    this.root = find("panel");
-    this.search = find<HTMLInputElement>("search");
-    this.tree = new SceneTree(find("tree"), this.search, display.hidden, changed);
+    this.tree = new SceneTree(find("tree"), find<HTMLInputElement>("search"), display.hidden, changed, select);
     for (const option of optionNames) find("options").append(this.makeBox(option));
-    find("picture").addEventListener("click", savePicture);
-    find("panel-button").addEventListener("click", () => this.toggle());
+    for (const name of tabNames) find("tabs").append(this.makeTab(name));
+    this.button.addEventListener("click", () => (this.isOpen ? this.close() : this.open(this.tab)));
+    this.mark();
   }
 
   get isOpen(): boolean {
@@ -30,28 +35,51 @@ export class Panel {
 
   /** Call when frames have come, gone or changed. */
   refresh(): void {
-    if (this.isOpen) this.tree.show(this.frames);
+    if (this.isOpen && this.tab === "frames") this.tree.show(this.frames);
+  }
+
+  select(id: number | null): void {
+    this.tree.select(id);
   }
 
   /** True if the key, pressed with Alt, was for the panel. */
   takeKey(code: string): boolean {
     const letter = code.replace("Key", "");
     const option = optionNames.find((name) => OPTIONS[name].letter === letter);
+    const tab = tabNames.find((name) => TABS[name] === letter);
     if (option) this.set(option, !this.display.on.has(option));
-    else if (letter === "T") this.toggle();
-    else if (letter === "P") this.savePicture();
+    else if (tab) this.isOpen && this.tab === tab ? this.close() : this.open(tab);
     else return false;
     return true;
   }
 
   close(): void {
     this.root.hidden = true;
+    this.mark();
   }
 
-  private toggle(): void {
-    this.root.hidden = !this.root.hidden;
+  private open(tab: Tab): void {
+    this.tab = tab;
+    this.root.hidden = false;
+    this.mark();
     this.refresh();
-    if (this.isOpen) this.search.focus();
+    find(`tab-${tab}`).querySelector<HTMLElement>("input, button")?.focus();
+  }
+
+  private mark(): void {
+    this.button.ariaExpanded = String(this.isOpen);
+    for (const [name, button] of this.tabs) {
+      button.ariaSelected = String(name === this.tab);
+      find(`tab-${name}`).hidden = name !== this.tab;
+    }
+  }
+
+  private makeTab(name: Tab): HTMLElement {
+    const button = make("button", { textContent: name, title: `Alt ${TABS[name]}`, onclick: () => this.open(name) });
+    button.setAttribute("role", "tab");
+    button.setAttribute("aria-controls", `tab-${name}`);
+    this.tabs.set(name, button);
+    return button;
   }
 
   private set(option: Option, on: boolean): void {
@@ -62,15 +90,9 @@ export class Panel {
   }
 
   private makeBox(option: Option): HTMLElement {
-    const box = document.createElement("input");
-    box.type = "checkbox";
-    box.checked = this.display.on.has(option);
+    const box = make("input", { type: "checkbox", checked: this.display.on.has(option) });
     box.addEventListener("change", () => this.set(option, box.checked));
     this.boxes.set(option, box);
-    const label = document.createElement("label");
-    const key = document.createElement("kbd");
-    key.textContent = `Alt ${OPTIONS[option].letter}`;
-    label.append(box, OPTIONS[option].label, key);
-    return label;
+    return make("label", {}, box, OPTIONS[option].label, make("kbd", { textContent: `Alt ${OPTIONS[option].letter}` }));
   }
 }

@@ -25,6 +25,9 @@ export class ShownScene {
   private readonly meshes = new Map<number, MeshData>();
   private readonly poses = new Map<number, Float32Array>();
 
+  /** While a motion is shown, poses that arrive wait. */
+  held = false;
+
   constructor(private readonly parent: THREE.Group) {}
 
   get meshCount(): number {
@@ -43,6 +46,7 @@ export class ShownScene {
       this.remove(frame.id);
       const anchor = new THREE.Group();
       anchor.name = frame.name;
+      anchor.userData.id = frame.id;
       this.parent.add(anchor);
       const object = frame.shape ? makeShape(frame.shape, this.meshes) : null;
       if (object) anchor.add(object);
@@ -52,11 +56,19 @@ export class ShownScene {
     this.dropUnusedMeshes();
   }
 
-  readBinary(data: ArrayBuffer): void {
+  /** Reads poses and meshes; false for other messages. */
+  readBinary(data: ArrayBuffer): boolean {
     const view = new DataView(data);
     const kind = view.getUint32(0, true);
     if (kind === BinaryKind.poses) this.readPoses(view);
-    if (kind === BinaryKind.mesh) this.readMesh(data, view);
+    else if (kind === BinaryKind.mesh) this.readMesh(data, view);
+    else return false;
+    return true;
+  }
+
+  /** Puts all frames where the last message said. */
+  placeAll(): void {
+    for (const id of this.shown.keys()) this.place(id);
   }
 
   private readPoses(view: DataView): void {
@@ -67,7 +79,7 @@ export class ShownScene {
       for (let k = 0; k < 7; ++k) pose[k] = view.getFloat32(at + 4 + 4 * k, true);
       const id = view.getUint32(at, true);
       this.poses.set(id, pose);
-      this.place(id);
+      if (!this.held) this.place(id);
     }
   }
 

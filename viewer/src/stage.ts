@@ -1,10 +1,15 @@
 import * as THREE from "three";
 import { OrbitControls } from "three/addons/controls/OrbitControls.js";
 import { CSS2DRenderer } from "three/addons/renderers/CSS2DRenderer.js";
+import { isSeen } from "./display";
 
-function isSeen(object: THREE.Object3D): boolean {
-  return object.visible && (object.parent === null || isSeen(object.parent));
+/** A point on a shape. */
+export interface Hit {
+  id: number; // of the frame
+  point: THREE.Vector3;
 }
+
+const STILL = 5; // pixels: a pointer that moves less has clicked
 
 /** Canvas, camera, lights and floor: everything but the scene itself. Draws only when something has changed. */
 export class Stage {
@@ -12,12 +17,14 @@ export class Stage {
   readonly frames = new THREE.Group();
   readonly camera = new THREE.PerspectiveCamera(40, 1, 0.01, 200);
   readonly renderer: THREE.WebGLRenderer;
-  private readonly controls: OrbitControls;
+  readonly controls: OrbitControls;
   private readonly labels = new CSS2DRenderer();
   private readonly sun = new THREE.DirectionalLight(0xffffff, 2.1);
+  private readonly ticks: ((seconds: number) => void)[] = [];
+  private readonly timer = new THREE.Timer();
   private dirty = true;
 
-  constructor(private readonly canvas: HTMLCanvasElement) {
+  constructor(readonly canvas: HTMLCanvasElement) {
     this.renderer = new THREE.WebGLRenderer({ canvas, antialias: true });
     this.renderer.setPixelRatio(Math.min(devicePixelRatio, 2));
     this.renderer.shadowMap.enabled = true;
@@ -37,7 +44,29 @@ export class Stage {
     canvas.addEventListener("dblclick", (event) => this.focus(event));
     this.paper();
     this.resize();
-    this.renderer.setAnimationLoop(() => this.draw());
+    this.renderer.setAnimationLoop((time) => {
+      this.timer.update(time);
+      const seconds = this.timer.getDelta();
+      for (const tick of this.ticks) tick(seconds);
+      this.draw();
+    });
+  }
+
+  /** Called before every picture with the time since the one before. */
+  onTick(tick: (seconds: number) => void): void {
+    this.ticks.push(tick);
+  }
+
+  /** Called when the canvas is clicked, or touched, without a drag. */
+  onClick(click: (event: PointerEvent) => void): void {
+    let down: PointerEvent | null = null;
+    this.canvas.addEventListener("pointerdown", (event) => {
+      down = event.isPrimary && event.button === 0 ? event : null;
+    });
+    this.canvas.addEventListener("pointerup", (event) => {
+      if (down && Math.hypot(event.clientX - down.clientX, event.clientY - down.clientY) < STILL) click(event);
+      down = null;
+    });
   }
 
   lookFrom(position: THREE.Vector3, target: THREE.Vector3): void {
@@ -45,6 +74,22 @@ export class Stage {
     this.controls.target.copy(target);
     this.controls.update();
     this.controls.saveState();
+    this.redraw();
+  }
+
+  /** Looks at all that is there from a direction. */
+  lookAlong(direction: THREE.Vector3): void {
+    const box = new THREE.Box3();
+    this.frames.traverse((object) => {
+      if (object instanceof THREE.Mesh && isSeen(object)) box.expandByObject(object);
+    });
+    if (box.isEmpty()) box.set(new THREE.Vector3(-1, -1, 0), new THREE.Vector3(1, 1, 1));
+    const sphere = box.getBoundingSphere(new THREE.Sphere());
+    const half = THREE.MathUtils.degToRad(this.camera.fov / 2);
+    const distance = sphere.radius / Math.sin(Math.min(half, Math.atan(Math.tan(half) * this.camera.aspect)));
+    this.controls.target.copy(sphere.center);
+    this.camera.position.copy(sphere.center).addScaledVector(direction.clone().normalize(), distance);
+    this.controls.update();
     this.redraw();
   }
 
@@ -60,6 +105,18 @@ export class Stage {
   /** True if what is on the screen is up to date. */
   get idle(): boolean {
     return !this.dirty;
+  }
+
+  /** What is to be seen at a place of the canvas. */
+  pick(event: MouseEvent): Hit | null {
+    const at = new THREE.Vector2((2 * event.offsetX) / this.canvas.clientWidth - 1, 1 - (2 * event.offsetY) / this.canvas.clientHeight);
+    const ray = new THREE.Raycaster();
+    ray.setFromCamera(at, this.camera);
+    const hit = ray.intersectObject(this.frames, true).find(({ object }) => object instanceof THREE.Mesh && isSeen(object));
+    for (let object = hit?.object ?? null; object; object = object.parent) {
+      if (typeof object.userData.id === "number") return { id: object.userData.id, point: hit!.point };
+    }
+    return null;
   }
 
   private addLights(): void {
@@ -109,29 +166,17 @@ export class Stage {
     this.redraw();
   }
 
-  /** Lets the browser save what is seen, without names and panels, as a PNG file. */
-  savePicture(file: string): void {
-    this.redraw();
-    this.draw();
-    const link = document.createElement("a");
-    link.href = this.canvas.toDataURL("image/png");
-    link.download = file;
-    link.click();
-  }
-
   /** A double click turns about the point that was hit from there on. */
   private focus(event: MouseEvent): void {
-    const at = new THREE.Vector2((2 * event.offsetX) / this.canvas.clientWidth - 1, 1 - (2 * event.offsetY) / this.canvas.clientHeight);
-    const ray = new THREE.Raycaster();
-    ray.setFromCamera(at, this.camera);
-    const hit = ray.intersectObject(this.frames, true).find(({ object }) => object instanceof THREE.Mesh && isSeen(object));
+    const hit = this.pick(event);
     if (!hit) return;
     this.controls.target.copy(hit.point);
     this.controls.update();
     this.redraw();
   }
 
-  private draw(): void {
+  /** Draws if something has changed. */
+  draw(): void {
     if (!this.dirty) return;
     this.dirty = false;
     this.renderer.render(this.scene, this.camera);

@@ -1,15 +1,18 @@
+import { make } from "./element";
 import type { Shown } from "./shown";
 
-/** The frames as a collapsible tree with a box each that hides a frame and all below it. */
+/** The frames as a collapsible tree with a box each that hides a frame and all below it; a click on a name selects it. */
 export class SceneTree {
   private readonly collapsed = new Set<string>();
   private frames: ReadonlyMap<number, Shown> = new Map();
+  private selected: number | null = null;
 
   constructor(
     private readonly element: HTMLElement,
     private readonly search: HTMLInputElement,
     private readonly hidden: Set<string>,
     private readonly changed: () => void,
+    private readonly onSelect: (id: number) => void,
   ) {
     search.addEventListener("input", () => this.fill());
   }
@@ -17,6 +20,15 @@ export class SceneTree {
   show(frames: ReadonlyMap<number, Shown>): void {
     this.frames = frames;
     this.fill();
+  }
+
+  select(id: number | null): void {
+    this.selected = id;
+    for (const button of this.element.querySelectorAll<HTMLElement>(".frame")) {
+      const selected = button.dataset.id === String(id);
+      button.classList.toggle("selected", selected);
+      if (selected) button.scrollIntoView({ block: "nearest" });
+    }
   }
 
   private fill(): void {
@@ -31,6 +43,7 @@ export class SceneTree {
       (children.get(parent) ?? []).filter((id) => !found || found.has(id)).map((id) => this.item(id, branch(id), found !== null));
     this.element.replaceChildren(...branch(-1));
     if (this.element.childElementCount === 0) this.element.textContent = wanted ? "no such frame" : "no frames";
+    this.select(this.selected);
   }
 
   /** The frames whose name contains the text, and all above them. */
@@ -45,25 +58,20 @@ export class SceneTree {
 
   private item(id: number, below: HTMLElement[], searching: boolean): HTMLElement {
     const { name } = this.frames.get(id)!.message;
-    const box = document.createElement("input");
-    box.type = "checkbox";
-    box.checked = !this.hidden.has(name);
-    box.ariaLabel = `show ${name}`;
+    const box = make("input", { type: "checkbox", checked: !this.hidden.has(name), ariaLabel: `show ${name}` });
     box.addEventListener("change", () => {
       if (box.checked) this.hidden.delete(name);
       else this.hidden.add(name);
       this.changed();
     });
-    if (below.length === 0) {
-      const leaf = document.createElement("div");
-      leaf.className = "leaf";
-      leaf.append(box, name);
-      return leaf;
-    }
-    const details = document.createElement("details");
-    const summary = document.createElement("summary");
-    summary.append(box, name);
-    details.append(summary, ...below);
+    const frame = make("button", { className: "frame", textContent: name, title: `select ${name}` });
+    frame.dataset.id = String(id);
+    frame.addEventListener("click", (event) => {
+      event.preventDefault(); // does not fold the branch
+      this.onSelect(id);
+    });
+    if (below.length === 0) return make("div", { className: "leaf" }, box, frame);
+    const details = make("details", {}, make("summary", {}, box, frame), ...below);
     details.open = searching || !this.collapsed.has(name);
     details.addEventListener("toggle", () => {
       if (this.search.value.trim() !== "") return;

@@ -11,6 +11,7 @@ namespace kinegraph {
 ViewerServer& ConfigViewer::server() {
   if (!server_) {
     server_ = std::make_unique<ViewerServer>(options_);
+    server_->onCommand([edits = edits_](const Command& command) { return edits->apply(command); });
     std::printf("Viewer: %s\n", server_->url().c_str());
     std::fflush(stdout);
     openBrowser(server_->url());
@@ -20,30 +21,43 @@ ViewerServer& ConfigViewer::server() {
 
 void ConfigViewer::update(const Config& config) {
   ViewerServer& to = server();
-  const auto& frames = config.scene()->frames();
-  const State& state = config.state();
-  items_.resize(frames.size());
-  for (std::size_t i = 0; i < frames.size(); ++i) {
-    const FrameData& frame = *frames[i];
-    ViewItem& item = items_[i];
-    if (item.name != frame.name) item.name = frame.name;
-    item.parent = frame.parent ? frame.parent->id : -1;
-    item.pose = Pose(state.pose(int(i)));
-    item.geometry = nullptr;
-    if (!frame.shape) continue;
-    const std::shared_ptr<const Geometry> visual = visual_meshes_.of(*frame.shape);
-    item.geometry = visual ? visual : frame.shape->geometry;
-    item.color = frame.shape->color.value_or(Vector4d(.8, .8, .8, 1.));
-  }
-  to.update(items_);
+  items_.read(config);
+  to.endMotion();
+  to.update(items_.items());
+  to.setJoints(items_.structure(), items_.joints(), config.getJointState());
+  edits_->setScene(config.scene()->snapshot(), items_.structure());
 }
 
-int ConfigViewer::view(const Config& config, bool pause, const std::optional<std::string>& message, const std::function<bool()>& stop) {
+bool ConfigViewer::takeEdits(Config& config) { return items_.isOf(config) && edits_->takeInto(config); }
+
+int ConfigViewer::view(Config& config, bool pause, const std::optional<std::string>& message, const Stop& stop) {
+  takeEdits(config);
   update(config);
   if (!pause) {
     if (message) server().setMessage(*message);
     return server().takeKey();
   }
+  const int key = ask(message, stop);
+  if (takeEdits(config)) update(config);
+  return key;
+}
+
+int ConfigViewer::showMotion(const Config& config, const ShownMotion& motion, bool pause, const std::optional<std::string>& message,
+                             const Stop& stop) {
+  update(config);
+  server().showMotion(motion);
+  if (message) server().setMessage(*message);
+  int key = server().takeKey();
+  if (isHeadless()) return key;
+  if (motion.start == ShownMotion::Start::play) {
+    using Clock = std::chrono::steady_clock;
+    const auto end = Clock::now() + std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(motion.seconds));
+    key = waitKey(message.value_or(""), [&] { return Clock::now() >= end || stop(); });
+  }
+  return pause && key == 0 ? ask(message, stop) : key;
+}
+
+int ConfigViewer::ask(const std::optional<std::string>& message, const Stop& stop) {
   std::string text = message.value_or("");
   if (!text.ends_with("]")) text += text.empty() ? "[press key to continue]" : "\n[press key to continue]";
   int key = server().takeKey();
@@ -53,7 +67,7 @@ int ConfigViewer::view(const Config& config, bool pause, const std::optional<std
   return key;
 }
 
-int ConfigViewer::waitKey(const std::string& prompt, const std::function<bool()>& stop) {
+int ConfigViewer::waitKey(const std::string& prompt, const Stop& stop) {
   constexpr auto kPatience = std::chrono::seconds(5);  // a page that is loaded again is back sooner
   const bool terminal = isatty(STDIN_FILENO);
   if (terminal) {

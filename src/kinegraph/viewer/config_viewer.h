@@ -4,8 +4,8 @@
 #include <string>
 
 #include "kinegraph/scene/config.h"
-#include "kinegraph/scene/visual_meshes.h"
-#include "kinegraph/viewer/server.h"
+#include "kinegraph/viewer/scene_edits.h"
+#include "kinegraph/viewer/scene_items.h"
 
 namespace kinegraph {
 
@@ -14,17 +14,33 @@ class ConfigViewer {
  public:
   explicit ConfigViewer(ViewerOptions options = {}) : options_(std::move(options)) {}
 
-  /// Shows the configuration as it is now. Returns the key pressed since the last call, or 0. With `pause`, waits for a new
-  /// key: in the browser, or Enter on the terminal. `stop` is asked while waiting; it may throw. Nothing waits where
-  /// KINEGRAPH_HEADLESS is set; without a terminal, nothing waits for more than 5 s in which no browser is connected.
-  int view(const Config& config, bool pause, const std::optional<std::string>& message, const std::function<bool()>& stop);
+  using Stop = std::function<bool()>;  ///< asked while waiting; true ends it; it may throw
 
-  /// Shows, without looking at keys.
+  /// Takes over what people have changed in browsers (see `takeEdits`), and shows the configuration as it is then. Returns
+  /// the key pressed since the last call, or 0. With `pause`, waits for a new key: in the browser, or Enter on the terminal.
+  /// Nothing waits where KINEGRAPH_HEADLESS is set; without a terminal, nothing waits for more than 5 s in which no browser
+  /// is connected.
+  int view(Config& config, bool pause, const std::optional<std::string>& message, const Stop& stop);
+
+  /// Shows, without looking at keys and edits.
   void update(const Config& config);
+
+  /// Moves joint values and poses that people have set in browsers into the configuration, if it is the one that is shown,
+  /// with the same structure. True if there were any.
+  bool takeEdits(Config& config);
+
+  /// True if people have changed something that takeEdits has not taken over.
+  bool hasEdits() const { return edits_->hasAny(); }
+
+  /// Shows a motion of the configuration, with a time slider. Waits until it has been played once, if it plays by itself,
+  /// then, with `pause`, for a key; a key ends both. Waits as view does. Returns the key, or 0.
+  int showMotion(const Config& config, const ShownMotion& motion, bool pause, const std::optional<std::string>& message, const Stop& stop);
 
   void setMessage(const std::string& text) { server().setMessage(text); }
   void setError(const std::string& text) { server().setError(text); }
   void setTitle(const std::string& text) { server().setTitle(text); }
+  void select(int frame) { server().select(frame); }  ///< shows the card of a frame, with handles to move it
+  std::string recording() { return server().recording(); }  ///< an HTML page with all that is shown inside
   void setCamera(const Vector3d& position, const Vector3d& target) { server().setCamera(position, target); }
   std::string url() { return server().url(); }
   int clients() const { return server_ ? server_->clients() : 0; }
@@ -35,12 +51,14 @@ class ConfigViewer {
   ViewerServer& server();
 
  private:
-  int waitKey(const std::string& prompt, const std::function<bool()>& stop);
+  /// Shows the message with a request for a key, and waits for one.
+  int ask(const std::optional<std::string>& message, const Stop& stop);
+  int waitKey(const std::string& prompt, const Stop& stop);
 
   ViewerOptions options_;
   std::unique_ptr<ViewerServer> server_;
-  std::vector<ViewItem> items_;
-  VisualMeshes visual_meshes_;
+  SceneItems items_;
+  std::shared_ptr<SceneEdits> edits_ = std::make_shared<SceneEdits>();
 };
 
 /// True if Enter was pressed on the terminal since the last call.

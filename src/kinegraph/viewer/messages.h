@@ -11,11 +11,12 @@
 
 namespace kinegraph {
 
-/// First 4 bytes of a binary message.
+/// First 4 bytes of a binary message to the client.
 enum class BinaryKind : std::uint32_t {
   poses = 1,
   mesh = 2,
-  key = 3,
+  joints = 3,
+  motion = 4,
 };
 
 struct ShapeMessage {
@@ -38,6 +39,7 @@ struct FrameMessage {
   int id = 0;
   std::string name;
   int parent = 0;
+  std::string details;
   std::optional<ShapeMessage> shape;
 };
 
@@ -46,7 +48,26 @@ inline void writeJson(JsonWriter& json, const FrameMessage& m) {
   json.field("id", m.id);
   json.field("name", m.name);
   json.field("parent", m.parent);
+  json.field("details", m.details);
   json.field("shape", m.shape);
+  json.endObject();
+}
+
+struct JointMessage {
+  std::string name;
+  int frame = 0;
+  std::string unit;
+  double lower = 0;
+  double upper = 0;
+};
+
+inline void writeJson(JsonWriter& json, const JointMessage& m) {
+  json.beginObject();
+  json.field("name", m.name);
+  json.field("frame", m.frame);
+  json.field("unit", m.unit);
+  json.field("lower", m.lower);
+  json.field("upper", m.upper);
   json.endObject();
 }
 
@@ -60,6 +81,19 @@ inline void writeJson(JsonWriter& json, const SceneMessage& m) {
   json.field("kind", std::string("scene"));
   json.field("count", m.count);
   json.field("frames", m.frames);
+  json.endObject();
+}
+
+struct JointsMessage {
+  int structure = 0;
+  std::vector<JointMessage> joints;
+};
+
+inline void writeJson(JsonWriter& json, const JointsMessage& m) {
+  json.beginObject();
+  json.field("kind", std::string("joints"));
+  json.field("structure", m.structure);
+  json.field("joints", m.joints);
   json.endObject();
 }
 
@@ -88,6 +122,38 @@ inline void writeJson(JsonWriter& json, const CameraMessage& m) {
   json.field("kind", std::string("camera"));
   json.field("position", m.position);
   json.field("target", m.target);
+  json.endObject();
+}
+
+struct SelectMessage {
+  int frame = 0;
+};
+
+inline void writeJson(JsonWriter& json, const SelectMessage& m) {
+  json.beginObject();
+  json.field("kind", std::string("select"));
+  json.field("frame", m.frame);
+  json.endObject();
+}
+
+struct MotionMessage {
+  int slices = 0;
+  double seconds = 0;
+  std::string start;
+  int first = 0;
+  std::vector<std::string> texts;
+  std::vector<double> violations;
+};
+
+inline void writeJson(JsonWriter& json, const MotionMessage& m) {
+  json.beginObject();
+  json.field("kind", std::string("motion"));
+  json.field("slices", m.slices);
+  json.field("seconds", m.seconds);
+  json.field("start", m.start);
+  json.field("first", m.first);
+  json.field("texts", m.texts);
+  json.field("violations", m.violations);
   json.endObject();
 }
 

@@ -8,12 +8,14 @@
 #include <deque>
 #include <list>
 #include <mutex>
+#include <random>
 #include <thread>
 
 #include "kinegraph/base/errors.h"
 #include "kinegraph/base/text.h"
 #include "kinegraph/viewer/client_page.h"
 #include "kinegraph/viewer/messages.h"
+#include "kinegraph/viewer/recorded_page.h"
 #include "kinegraph/viewer/shown_scene.h"
 
 namespace kinegraph {
@@ -35,6 +37,17 @@ struct Shared {
   ShownScene scene;
   int key = 0;
   int clients = 0;
+
+  /// The page with all that is shown now.
+  std::string recording() const {
+    std::vector<Outgoing> messages;
+    {
+      const std::lock_guard lock(mutex);
+      ShownScene::Seen nothing;
+      messages = scene.messagesSince(nothing);
+    }
+    return recordedPage(messages);
+  }
 };
 
 bool isLoopbackName(std::string_view host) {
@@ -43,10 +56,43 @@ bool isLoopbackName(std::string_view host) {
   return name == "localhost" || name == "127.0.0.1" || name == "[::1]";
 }
 
+/// Who may connect.
+struct Access {
+  bool loopback_only = true;
+  std::string token;  ///< empty: none is asked for
+
+  /// A page from elsewhere must not drive a viewer on this machine: its Origin, or a Host that merely resolves to it, differs.
+  bool allows(const http::request<http::string_body>& request) const {
+    const std::string_view host = request[http::field::host], origin = request[http::field::origin];
+    if (loopback_only && !isLoopbackName(host)) return false;
+    if (!origin.empty() && origin != cat("http://", host)) return false;
+    const std::string_view target = request.target();
+    return token.empty() || isSame(target.substr(std::min(target.find('?'), target.size())), cat("?token=", token));
+  }
+
+ private:
+  /// In a time that does not tell how much of them is the same.
+  static bool isSame(std::string_view a, std::string_view b) {
+    if (a.size() != b.size()) return false;
+    unsigned difference = 0;
+    for (std::size_t i = 0; i < a.size(); ++i) difference |= static_cast<unsigned>(a[i] ^ b[i]);
+    return difference == 0;
+  }
+};
+
+std::string randomToken() {
+  std::random_device random;
+  std::string token;
+  for (int i = 0; i < 32; ++i) token += "0123456789abcdef"[random() % 16];
+  return token;
+}
+
 /// One browser tab: sends what has changed since it was last told, one batch after the other.
 class Session : public std::enable_shared_from_this<Session> {
  public:
-  Session(tcp::socket socket, std::shared_ptr<Shared> shared) : socket_(std::move(socket)), shared_(std::move(shared)) {}
+  using OnCommand = std::function<void(const Command&)>;
+  Session(tcp::socket socket, std::shared_ptr<Shared> shared, OnCommand on_command)
+      : socket_(std::move(socket)), shared_(std::move(shared)), on_command_(std::move(on_command)) {}
 
   void start(http::request<http::string_body> request) {
     socket_.set_option(websocket::stream_base::timeout::suggested(beast::role_type::server));
@@ -92,19 +138,10 @@ class Session : public std::enable_shared_from_this<Session> {
     });
   }
 
-  /// A binary message of 8 bytes: kind and key code. Anything else is ignored.
+  /// Anything but a command is ignored.
   void receive() {
-    const std::string data = beast::buffers_to_string(buffer_.data());
-    std::uint32_t kind, code;
-    if (!socket_.got_binary() || data.size() != sizeof kind + sizeof code) return;
-    std::memcpy(&kind, data.data(), sizeof kind);
-    std::memcpy(&code, data.data() + sizeof kind, sizeof code);
-    if (kind != std::uint32_t(BinaryKind::key) || code == 0 || code > 1000) return;
-    {
-      const std::lock_guard lock(shared_->mutex);
-      shared_->key = int(code);
-    }
-    shared_->changed.notify_all();
+    if (!socket_.got_binary()) return;
+    if (const auto command = readCommand(beast::buffers_to_string(buffer_.data()))) on_command_(*command);
   }
 
   void write() {
@@ -125,6 +162,7 @@ class Session : public std::enable_shared_from_this<Session> {
 
   websocket::stream<beast::tcp_stream> socket_;
   std::shared_ptr<Shared> shared_;
+  OnCommand on_command_;
   beast::flat_buffer buffer_;
   std::deque<Outgoing> sending_;
   ShownScene::Seen seen_;
@@ -135,8 +173,8 @@ class Session : public std::enable_shared_from_this<Session> {
 class Connection : public std::enable_shared_from_this<Connection> {
  public:
   using OnUpgrade = std::function<void(tcp::socket, http::request<http::string_body>)>;
-  Connection(tcp::socket socket, bool loopback_only, OnUpgrade on_upgrade)
-      : stream_(std::move(socket)), loopback_only_(loopback_only), on_upgrade_(std::move(on_upgrade)) {
+  Connection(tcp::socket socket, const Access& access, std::shared_ptr<const Shared> shared, OnUpgrade on_upgrade)
+      : stream_(std::move(socket)), access_(access), shared_(std::move(shared)), on_upgrade_(std::move(on_upgrade)) {
     parser_.body_limit(1024);
     parser_.header_limit(16 * 1024);
   }
@@ -149,16 +187,10 @@ class Connection : public std::enable_shared_from_this<Connection> {
   }
 
  private:
-  /// A page from elsewhere must not drive a viewer on this machine: its Origin, or a Host that merely resolves to it, differs.
-  bool isTrusted(const http::request<http::string_body>& request) const {
-    const std::string_view host = request[http::field::host], origin = request[http::field::origin];
-    if (loopback_only_ && !isLoopbackName(host)) return false;
-    return origin.empty() || origin == cat("http://", host);
-  }
-
   void answer() {
     http::request<http::string_body> request = parser_.release();
-    const bool trusted = isTrusted(request);
+    const bool trusted = access_.allows(request);
+    const std::string_view path = std::string_view(request.target()).substr(0, request.target().find('?'));
     if (trusted && websocket::is_upgrade(request)) {
       stream_.expires_never();
       on_upgrade_(stream_.release_socket(), std::move(request));
@@ -171,10 +203,10 @@ class Connection : public std::enable_shared_from_this<Connection> {
     response_.keep_alive(false);
     if (!trusted) {
       response_.result(http::status::forbidden);
-      response_.body() = "This viewer answers pages of its own only.";
-    } else if (request.method() == http::verb::get && (request.target() == "/" || request.target().starts_with("/?"))) {
+      response_.body() = "This viewer answers pages of its own only, at the address that it printed.";
+    } else if (request.method() == http::verb::get && (path == "/" || path == "/scene.html")) {
       response_.set(http::field::content_type, "text/html; charset=utf-8");
-      response_.body() = std::string(clientPage());
+      response_.body() = path == "/" ? std::string(clientPage()) : shared_->recording();
     } else {
       response_.result(http::status::not_found);
       response_.body() = "There is nothing here.";
@@ -187,7 +219,8 @@ class Connection : public std::enable_shared_from_this<Connection> {
   }
 
   beast::tcp_stream stream_;
-  bool loopback_only_;
+  const Access& access_;
+  std::shared_ptr<const Shared> shared_;
   OnUpgrade on_upgrade_;
   beast::flat_buffer buffer_;
   http::request_parser<http::string_body> parser_;
@@ -204,9 +237,11 @@ class ViewerServer::Impl {
     const asio::ip::address address = asio::ip::make_address(options.host, error);
     if (error) throw ValueError(cat("ViewerOptions: host is '", options.host, "'; expected an IP address, for instance 127.0.0.1 or 0.0.0.0"));
     if (options.port < 0 || options.port > 65535) throw ValueError(cat("ViewerOptions: port is ", options.port, "; expected 0 to 65535"));
-    loopback_only_ = address.is_loopback();
+    access_.loopback_only = address.is_loopback();
+    access_.token = options.token.empty() && !access_.loopback_only ? randomToken() : options.token;
     listen(address, options.port);
-    url_ = cat("http://", loopback_only_ ? "localhost" : options.host, ":", acceptor_.local_endpoint().port(), "/");
+    url_ = cat("http://", access_.loopback_only ? "localhost" : options.host, ":", acceptor_.local_endpoint().port(), "/");
+    if (!access_.token.empty()) url_ += "?token=" + access_.token;
     accept();
     thread_ = std::thread([this] { context_.run(); });
   }
@@ -221,6 +256,17 @@ class ViewerServer::Impl {
     thread_.join();
   }
 
+  /// The change is made with the scene locked; all browsers are told if it says that there is something to tell.
+  template <class Change>
+  void changeScene(const Change& change) {
+    bool changed;
+    {
+      const std::lock_guard lock(shared_->mutex);
+      changed = change(shared_->scene);
+    }
+    if (changed) wakeSessions();
+  }
+
   void wakeSessions() {
     asio::post(context_, [this] {
       for (const auto& session : sessions_) session->wake();
@@ -229,8 +275,36 @@ class ViewerServer::Impl {
 
   std::shared_ptr<Shared> shared_ = std::make_shared<Shared>();
   std::string url_;
+  std::function<std::optional<EditedScene>(const Command&)> answer_;  ///< guarded by `answer_mutex_`
+  std::mutex answer_mutex_;
 
  private:
+  /// On the server's thread.
+  void receive(const Command& command) {
+    if (const auto* key = std::get_if<KeyCommand>(&command)) return press(key->code);
+    std::optional<EditedScene> edited;
+    try {
+      const std::lock_guard lock(answer_mutex_);
+      if (answer_) edited = answer_(command);
+    } catch (const Error&) {  // what cannot be done is not done
+    }
+    if (!edited) return;
+    changeScene([&](ShownScene& scene) {
+      scene.setEdited(*edited);
+      return true;
+    });
+    shared_->changed.notify_all();
+  }
+
+  void press(int code) {
+    if (code <= 0 || code > 1000) return;
+    {
+      const std::lock_guard lock(shared_->mutex);
+      shared_->key = code;
+    }
+    shared_->changed.notify_all();
+  }
+
   void listen(const asio::ip::address& address, int first_port) {
     beast::error_code error;
     for (int port = first_port; port < first_port + 200 && port <= 65535; ++port) {
@@ -250,8 +324,8 @@ class ViewerServer::Impl {
       if (error == asio::error::operation_aborted) return;
       if (!error) {
         socket.set_option(tcp::no_delay(true), error);
-        std::make_shared<Connection>(std::move(socket), loopback_only_, [this](tcp::socket upgraded, http::request<http::string_body> request) {
-          auto session = std::make_shared<Session>(std::move(upgraded), shared_);
+        std::make_shared<Connection>(std::move(socket), access_, shared_, [this](tcp::socket upgraded, http::request<http::string_body> request) {
+          auto session = std::make_shared<Session>(std::move(upgraded), shared_, [this](const Command& command) { receive(command); });
           sessions_.remove_if([](const auto& old) { return old.use_count() == 1; });  // those whose browser has gone
           sessions_.push_back(session);
           session->start(std::move(request));
@@ -263,7 +337,7 @@ class ViewerServer::Impl {
 
   asio::io_context context_{1};
   tcp::acceptor acceptor_;
-  bool loopback_only_ = true;
+  Access access_;
   std::list<std::shared_ptr<Session>> sessions_;  ///< touched by the server's thread only
   std::thread thread_;
 };
@@ -280,42 +354,55 @@ int ViewerServer::clients() const {
 }
 
 void ViewerServer::update(std::span<const ViewItem> items) {
-  bool changed;
-  {
-    const std::lock_guard lock(impl_->shared_->mutex);
-    changed = impl_->shared_->scene.update(items);
-  }
-  if (changed) impl_->wakeSessions();
+  impl_->changeScene([&](ShownScene& scene) { return scene.update(items); });
 }
 
-namespace {
-
-/// Sets one of the texts; true if it differs from before.
-bool setText(Shared& shared, std::string ShownScene::*field, const std::string& text) {
-  const std::lock_guard lock(shared.mutex);
-  return shared.scene.setText(field, text);
+void ViewerServer::setJoints(int structure, const std::vector<ShownJoint>& joints, const VectorXd& q) {
+  impl_->changeScene([&](ShownScene& scene) { return scene.setJoints(structure, joints, q); });
 }
 
-}  // namespace
+void ViewerServer::showMotion(const ShownMotion& motion) {
+  impl_->changeScene([&](ShownScene& scene) {
+    scene.setMotion(motion);
+    return true;
+  });
+}
+
+void ViewerServer::endMotion() {
+  impl_->changeScene([](ShownScene& scene) { return scene.endMotion(); });
+}
+
+void ViewerServer::select(int item) {
+  impl_->changeScene([&](ShownScene& scene) {
+    scene.select(item);
+    return true;
+  });
+}
+
+std::string ViewerServer::recording() const { return impl_->shared_->recording(); }
+
+void ViewerServer::onCommand(std::function<std::optional<EditedScene>(const Command&)> answer) {
+  const std::lock_guard lock(impl_->answer_mutex_);
+  impl_->answer_ = std::move(answer);
+}
 
 void ViewerServer::setMessage(const std::string& text) {
-  if (setText(*impl_->shared_, &ShownScene::message, text)) impl_->wakeSessions();
+  impl_->changeScene([&](ShownScene& scene) { return scene.setText(&ShownScene::message, text); });
 }
 
 void ViewerServer::setError(const std::string& text) {
-  if (setText(*impl_->shared_, &ShownScene::error, text)) impl_->wakeSessions();
+  impl_->changeScene([&](ShownScene& scene) { return scene.setText(&ShownScene::error, text); });
 }
 
 void ViewerServer::setTitle(const std::string& text) {
-  if (setText(*impl_->shared_, &ShownScene::title, text)) impl_->wakeSessions();
+  impl_->changeScene([&](ShownScene& scene) { return scene.setText(&ShownScene::title, text); });
 }
 
 void ViewerServer::setCamera(const Vector3d& position, const Vector3d& target) {
-  {
-    const std::lock_guard lock(impl_->shared_->mutex);
-    impl_->shared_->scene.setCamera(position, target);
-  }
-  impl_->wakeSessions();
+  impl_->changeScene([&](ShownScene& scene) {
+    scene.setCamera(position, target);
+    return true;
+  });
 }
 
 int ViewerServer::takeKey() {

@@ -7,6 +7,8 @@
 #include <string>
 
 #include "kinegraph/geometry/geometry.h"
+#include "kinegraph/viewer/commands.h"
+#include "kinegraph/viewer/shown_motion.h"
 
 namespace kinegraph {
 
@@ -17,12 +19,29 @@ struct ViewItem {
   Pose pose;                                 ///< in the world
   std::shared_ptr<const Geometry> geometry;  ///< null: nothing to see
   Vector4d color{.8, .8, .8, 1.};            ///< rgba in 0..1
+  std::string details;                       ///< what else there is to say, as attributes of a .g file
+};
+
+/// A dof that people can move in the browser.
+struct ShownJoint {
+  std::string name;
+  int frame = 0;                ///< index of the item that carries it
+  std::string unit;             ///< rad, m, or nothing
+  double lower = 0, upper = 0;  ///< no limits if lower > upper
+  bool operator==(const ShownJoint&) const = default;
+};
+
+/// What a command of a browser makes of the scene.
+struct EditedScene {
+  std::vector<Pose> poses;  ///< of all items, in the world
+  VectorXd q;
 };
 
 struct ViewerOptions {
   std::string host = "127.0.0.1";  ///< only this machine, unless told otherwise
   int port = 7000;                 ///< first one tried; those in use are passed over; 0: any free one
   std::string title = "Kinegraph";
+  std::string token;               ///< that browsers have to send, as in url(); empty: none on this machine, else a random one
 };
 
 /// Shows items in any number of browsers: an HTTP server for the page, and a websocket each for what changes. It has a
@@ -39,6 +58,24 @@ class ViewerServer {
 
   /// Sends what differs from the last call: nothing if nothing does.
   void update(std::span<const ViewItem> items);
+
+  /// The dofs, and their values. Browsers send `structure` with their commands: the scene that they refer to.
+  void setJoints(int structure, const std::vector<ShownJoint>& joints, const VectorXd& q);
+
+  /// Shows a motion of the items that were given last, with a time slider, until `endMotion`.
+  void showMotion(const ShownMotion& motion);
+  void endMotion();
+
+  /// Shows the card of an item, with handles to move it.
+  void select(int item);
+
+  /// The page with all that is shown inside: an HTML file that opens without this server.
+  std::string recording() const;
+
+  /// Answers commands other than keys, on the server's thread; nothing for those that mean nothing. All browsers see the
+  /// answer.
+  void onCommand(std::function<std::optional<EditedScene>(const Command&)> answer);
+
   void setMessage(const std::string& text);  ///< in the corner; may have several lines
   void setError(const std::string& text);    ///< in a box; empty removes it
   void setTitle(const std::string& text);

@@ -33,6 +33,39 @@ std::string encodeMesh(int number, const Mesh& mesh) {
   return data;
 }
 
+void appendPose(std::string& data, const Pose& pose) {
+  const Vector7d numbers = pose.numbers();
+  for (int k = 0; k < 7; ++k) append(data, float(numbers[k]));
+}
+
+/// kind, slices, frames, dofs, then float32 poses and joint values, slice after slice.
+std::string encodeMotion(const ShownMotion& motion) {
+  std::string data;
+  append(data, BinaryKind::motion);
+  append(data, std::uint32_t(motion.poses.size()));
+  append(data, std::uint32_t(motion.poses.empty() ? 0 : motion.poses[0].size()));
+  append(data, std::uint32_t(motion.q.cols()));
+  for (const auto& slice : motion.poses) {
+    for (const Pose& pose : slice) appendPose(data, pose);
+  }
+  for (Eigen::Index t = 0; t < motion.q.rows(); ++t) {
+    for (Eigen::Index i = 0; i < motion.q.cols(); ++i) append(data, float(motion.q(t, i)));
+  }
+  return data;
+}
+
+MotionMessage headOf(const ShownMotion& motion) {
+  const char* start = motion.start == ShownMotion::Start::all ? "all" : motion.start == ShownMotion::Start::play ? "play" : "pause";
+  return {int(motion.poses.size()), motion.seconds, start, motion.first, motion.texts, motion.violations};
+}
+
+template <class T>
+Outgoing textOf(const T& message) {
+  JsonWriter json;
+  writeJson(json, message);
+  return {std::make_shared<std::string>(json.text()), false};
+}
+
 /// Shapes that the client does not build by itself are sent as triangles.
 bool isSentAsMesh(ShapeType type) {
   switch (type) {
@@ -71,7 +104,7 @@ bool ShownScene::update(std::span<const ViewItem> items) {
     Shown& shown = frames_[i];
     const ViewItem& item = items[i];
     const bool same_look = shown.look_revision > 0 && shown.item.geometry == item.geometry && shown.item.color == item.color &&
-                           shown.item.parent == item.parent && shown.item.name == item.name;
+                           shown.item.parent == item.parent && shown.item.name == item.name && shown.item.details == item.details;
     if (!same_look) {
       shown.mesh = meshOf(item);
       shown.look_revision = next;
@@ -86,6 +119,50 @@ bool ShownScene::update(std::span<const ViewItem> items) {
   if (looks_changed) std::erase_if(meshes_, [](const auto& entry) { return entry.second.use_count() == 1; });
   if (changed) revision_ = next;
   return changed;
+}
+
+bool ShownScene::setJoints(int structure, const std::vector<ShownJoint>& joints, const VectorXd& q) {
+  const std::uint64_t before = revision_;
+  if (structure != structure_ || joints != joints_) {
+    structure_ = structure;
+    joints_ = joints;
+    joints_revision_ = ++revision_;
+  }
+  if (q.size() != q_.size() || q != q_) {
+    q_ = q;
+    q_revision_ = ++revision_;
+  }
+  return revision_ != before;
+}
+
+void ShownScene::setEdited(const EditedScene& edited) {
+  if (edited.poses.size() != frames_.size()) return;
+  ++revision_;
+  for (std::size_t i = 0; i < frames_.size(); ++i) {
+    Shown& shown = frames_[i];
+    const Pose& pose = edited.poses[i];
+    if (shown.item.pose.p == pose.p && shown.item.pose.q.coeffs() == pose.q.coeffs()) continue;
+    shown.item.pose = pose;
+    shown.pose_revision = revision_;
+  }
+  setJoints(structure_, joints_, edited.q);
+}
+
+void ShownScene::select(int frame) {
+  selected_ = frame;
+  select_revision_ = ++revision_;
+}
+
+void ShownScene::setMotion(const ShownMotion& motion) {
+  motion_ = {textOf(headOf(motion)), {std::make_shared<std::string>(encodeMotion(motion)), true}};
+  motion_revision_ = ++revision_;
+}
+
+bool ShownScene::endMotion() {
+  if (motion_.empty()) return false;
+  motion_.clear();
+  motion_revision_ = ++revision_;
+  return true;
 }
 
 bool ShownScene::setText(std::string ShownScene::*field, const std::string& text) {
@@ -103,11 +180,7 @@ void ShownScene::setCamera(const Vector3d& position, const Vector3d& target) {
 
 std::vector<Outgoing> ShownScene::messagesSince(Seen& seen) const {
   std::vector<Outgoing> out;
-  const auto send = [&](const auto& message) {
-    JsonWriter json;
-    writeJson(json, message);
-    out.push_back({std::make_shared<std::string>(json.text()), false});
-  };
+  const auto send = [&](const auto& message) { out.push_back(textOf(message)); };
   if (text_revision_ > seen.revision) send(TextMessage{title, message, error});
   if (camera_revision_ > seen.revision) {
     const Vector3d &p = camera_position_, &t = camera_target_;
@@ -121,7 +194,7 @@ std::vector<Outgoing> ShownScene::messagesSince(Seen& seen) const {
   for (std::size_t i = 0; i < frames_.size(); ++i) {
     const Shown& shown = frames_[i];
     if (shown.look_revision > seen.revision) {
-      FrameMessage frame{int(i), shown.item.name, shown.item.parent, std::nullopt};
+      FrameMessage frame{int(i), shown.item.name, shown.item.parent, shown.item.details, std::nullopt};
       if (shown.item.geometry && shown.item.geometry->type != ShapeType::none) {
         const Vector4d& c = shown.item.color;
         frame.shape = ShapeMessage{shapeTypeName(shown.item.geometry->type), shown.item.geometry->size, {c[0], c[1], c[2], c[3]},
@@ -134,8 +207,7 @@ std::vector<Outgoing> ShownScene::messagesSince(Seen& seen) const {
     }
     if (shown.pose_revision > seen.revision) {
       append(poses, std::uint32_t(i));
-      const Vector7d numbers = shown.item.pose.numbers();
-      for (int k = 0; k < 7; ++k) append(poses, float(numbers[k]));
+      appendPose(poses, shown.item.pose);
       ++moved;
     }
   }
@@ -145,6 +217,23 @@ std::vector<Outgoing> ShownScene::messagesSince(Seen& seen) const {
     append(data, BinaryKind::poses);
     append(data, moved);
     out.push_back({std::make_shared<std::string>(data + poses), true});
+  }
+  if (joints_revision_ > seen.revision) {
+    JointsMessage message{structure_, {}};
+    for (const ShownJoint& j : joints_) message.joints.push_back({j.name, j.frame, j.unit, j.lower, j.upper});
+    send(message);
+  }
+  if (q_revision_ > seen.revision) {
+    std::string data;
+    append(data, BinaryKind::joints);
+    append(data, std::uint32_t(q_.size()));
+    for (const double value : q_) append(data, value);
+    out.push_back({std::make_shared<std::string>(std::move(data)), true});
+  }
+  if (select_revision_ > seen.revision) send(SelectMessage{selected_});
+  if (motion_revision_ > seen.revision) {
+    if (motion_.empty()) send(MotionMessage{});
+    out.insert(out.end(), motion_.begin(), motion_.end());
   }
   seen.meshes = std::move(meshes);
   seen.revision = revision_;

@@ -29,6 +29,16 @@ class ShownScene {
 
   /// True if anything differs from before.
   bool update(std::span<const ViewItem> items);
+  bool setJoints(int structure, const std::vector<ShownJoint>& joints, const VectorXd& q);
+
+  /// New poses of all items, and joint values.
+  void setEdited(const EditedScene& edited);
+
+  /// Browsers show this frame with handles to move it.
+  void select(int frame);
+
+  void setMotion(const ShownMotion& motion);
+  bool endMotion();
   bool setText(std::string ShownScene::*field, const std::string& text);
   void setCamera(const Vector3d& position, const Vector3d& target);
 
@@ -54,6 +64,12 @@ class ShownScene {
   std::vector<Shown> frames_;
   std::map<std::shared_ptr<const Geometry>, std::shared_ptr<const SentMesh>> meshes_;  ///< those that frames show
   int next_mesh_ = 0;
+  int structure_ = 0;
+  std::vector<ShownJoint> joints_;
+  VectorXd q_;
+  std::uint64_t joints_revision_ = 0, q_revision_ = 0, motion_revision_ = 0, select_revision_ = 0;
+  int selected_ = -1;
+  std::vector<Outgoing> motion_;  ///< as it is sent; empty: there is none
   Vector3d camera_position_ = Vector3d::Zero(), camera_target_ = Vector3d::Zero();
 };
 

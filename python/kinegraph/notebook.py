@@ -1,0 +1,29 @@
+"""Viewers in notebooks (Jupyter, VS Code)."""
+
+from __future__ import annotations
+
+import html
+import sys
+from typing import Any
+
+_HEIGHT = 480  # pixels
+
+
+def isNotebook() -> bool:
+    """True in a kernel that shows rich output."""
+    ipython = sys.modules.get("IPython")
+    shell = ipython.get_ipython() if ipython else None
+    return shell is not None and "IPKernelApp" in shell.config
+
+
+def showInline(viewer: Any) -> None:
+    """Shows the viewer's page below the cell, if this is a notebook."""
+    if isNotebook():
+        from IPython.display import IFrame, display
+
+        display(IFrame(viewer.url, "100%", _HEIGHT))
+
+
+def inlineFrame(page: str) -> str:
+    """A page as an element of another one."""
+    return f'<iframe srcdoc="{html.escape(page)}" width="100%" height="{_HEIGHT}" style="border: 0"></iframe>'

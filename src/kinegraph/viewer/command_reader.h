@@ -1,0 +1,46 @@
+#pragma once
+
+#include <cmath>
+#include <cstdint>
+#include <cstring>
+#include <string_view>
+#include <vector>
+
+namespace kinegraph {
+
+/// Reads the fields of a command from a browser, one after the other: int32, float64, and arrays as their length and
+/// float64s. False for what is not there, and for numbers that are not finite.
+class CommandReader {
+ public:
+  explicit CommandReader(std::string_view data) : rest_(data) {}
+
+  bool read(int& value) {
+    std::int32_t number;
+    if (!take(&number, sizeof number)) return false;
+    value = number;
+    return true;
+  }
+  bool read(double& value) { return take(&value, sizeof value) && std::isfinite(value); }
+  bool read(std::vector<double>& values) {
+    int count;
+    if (!read(count) || count < 0 || std::size_t(count) > rest_.size() / sizeof(double)) return false;
+    values.resize(std::size_t(count));
+    for (double& value : values) {
+      if (!read(value)) return false;
+    }
+    return true;
+  }
+  bool atEnd() const { return rest_.empty(); }
+
+ private:
+  bool take(void* to, std::size_t size) {
+    if (rest_.size() < size) return false;
+    std::memcpy(to, rest_.data(), size);
+    rest_.remove_prefix(size);
+    return true;
+  }
+
+  std::string_view rest_;
+};
+
+}  // namespace kinegraph

@@ -1,0 +1,80 @@
+#pragma once
+
+// Made by tools/generate_messages.py from viewer/messages.json; change that file instead.
+
+#include <optional>
+#include <string_view>
+#include <variant>
+
+#include "kinegraph/viewer/command_reader.h"
+
+namespace kinegraph {
+
+struct KeyCommand {
+  static constexpr int kKind = 1;
+  int code = 0;
+};
+
+struct SetJointCommand {
+  static constexpr int kKind = 2;
+  int structure = 0;
+  int joint = 0;
+  double value = 0;
+};
+
+struct ResetJointsCommand {
+  static constexpr int kKind = 3;
+  int structure = 0;
+};
+
+struct RandomJointsCommand {
+  static constexpr int kKind = 4;
+  int structure = 0;
+};
+
+struct MoveFrameCommand {
+  static constexpr int kKind = 5;
+  int structure = 0;
+  int frame = 0;
+  std::vector<double> pose;
+};
+
+/// What a browser asks for.
+using Command = std::variant<KeyCommand, SetJointCommand, ResetJointsCommand, RandomJointsCommand, MoveFrameCommand>;
+
+/// Reads a binary message from a browser; nothing if it is not exactly one command.
+inline std::optional<Command> readCommand(std::string_view data) {
+  CommandReader reader(data);
+  int kind;
+  if (!reader.read(kind)) return std::nullopt;
+  switch (kind) {
+    case KeyCommand::kKind: {
+      KeyCommand m;
+      if (reader.read(m.code) && reader.atEnd()) return m;
+      break;
+    }
+    case SetJointCommand::kKind: {
+      SetJointCommand m;
+      if (reader.read(m.structure) && reader.read(m.joint) && reader.read(m.value) && reader.atEnd()) return m;
+      break;
+    }
+    case ResetJointsCommand::kKind: {
+      ResetJointsCommand m;
+      if (reader.read(m.structure) && reader.atEnd()) return m;
+      break;
+    }
+    case RandomJointsCommand::kKind: {
+      RandomJointsCommand m;
+      if (reader.read(m.structure) && reader.atEnd()) return m;
+      break;
+    }
+    case MoveFrameCommand::kKind: {
+      MoveFrameCommand m;
+      if (reader.read(m.structure) && reader.read(m.frame) && reader.read(m.pose) && reader.atEnd()) return m;
+      break;
+    }
+  }
+  return std::nullopt;
+}
+
+}  // namespace kinegraph

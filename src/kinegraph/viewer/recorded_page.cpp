@@ -1,0 +1,57 @@
+#include "kinegraph/viewer/recorded_page.h"
+
+#include "kinegraph/viewer/client_page.h"
+#include "kinegraph/viewer/json.h"
+
+namespace kinegraph {
+
+namespace {
+
+std::string base64(std::string_view data) {
+  constexpr char kLetters[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+  std::string text;
+  text.reserve(data.size() / 3 * 4 + 4);
+  for (std::size_t i = 0; i < data.size(); i += 3) {
+    const auto byte = [&](std::size_t k) { return k < data.size() ? std::uint32_t(static_cast<unsigned char>(data[k])) : 0u; };
+    const std::uint32_t bits = byte(i) << 16 | byte(i + 1) << 8 | byte(i + 2);
+    for (int k = 0; k < 4; ++k) text += i + std::size_t(k) > data.size() ? '=' : kLetters[bits >> (18 - 6 * k) & 63];
+  }
+  return text;
+}
+
+struct Recorded {
+  const Outgoing& message;
+};
+
+void writeJson(JsonWriter& json, const Recorded& recorded) {
+  const Outgoing& message = recorded.message;
+  json.beginObject();
+  json.field(message.binary ? "binary" : "text", message.binary ? base64(*message.data) : *message.data);
+  json.endObject();
+}
+
+/// Text that may stand inside a script element: "<" only occurs in strings, where it may be escaped.
+std::string insideScript(const std::string& json) {
+  std::string text;
+  for (const char c : json) c == '<' ? text += "\\u003c" : text += c;
+  return text;
+}
+
+}  // namespace
+
+std::string recordedPage(const std::vector<Outgoing>& messages) {
+  constexpr std::string_view kPlace = "<!-- RECORDING -->";
+  std::string recording = "[";
+  for (const Outgoing& message : messages) {
+    JsonWriter json;
+    writeJson(json, Recorded{message});
+    if (recording.size() > 1) recording += ',';
+    recording += insideScript(json.text());
+  }
+  recording += "]";
+  std::string page(clientPage());
+  page.replace(page.find(kPlace), kPlace.size(), "<script type=\"application/json\" id=\"recording\">" + recording + "</script>");
+  return page;
+}
+
+}  // namespace kinegraph

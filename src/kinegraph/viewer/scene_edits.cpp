@@ -1,0 +1,113 @@
+#include "kinegraph/viewer/scene_edits.h"
+
+#include <algorithm>
+
+#include "kinegraph/viewer/motions.h"
+#include "kinegraph/viewer/scene_items.h"
+
+namespace kinegraph {
+
+namespace {
+
+void place(Config& config, int id, const Pose& pose) {
+  Frame frame = config.getFrame(id);
+  frame.getParent() ? frame.setRelativePose(pose) : frame.setPose(pose);
+}
+
+}  // namespace
+
+void SceneEdits::setScene(std::shared_ptr<const SceneTree> scene, int structure) {
+  const std::lock_guard lock(mutex_);
+  if (structure != structure_) {
+    joints_.clear();
+    frames_.clear();
+  }
+  structure_ = structure;
+  scene_ = std::move(scene);
+  edited_.reset();
+}
+
+std::optional<EditedScene> SceneEdits::apply(const Command& command) {
+  const std::lock_guard lock(mutex_);
+  if (!scene_ || !change(command)) return std::nullopt;
+  return EditedScene{posesOf(*edited_), edited_->getJointState()};
+}
+
+bool SceneEdits::takeInto(Config& config) {
+  const std::lock_guard lock(mutex_);
+  if (joints_.empty() && frames_.empty()) return false;
+  for (const auto& [id, pose] : frames_) place(config, id, pose);
+  VectorXd q = config.getJointState();
+  for (const auto& [joint, value] : joints_) q[joint] = value;
+  config.setJointState(q);
+  joints_.clear();
+  frames_.clear();
+  return true;
+}
+
+bool SceneEdits::hasAny() const {
+  const std::lock_guard lock(mutex_);
+  return !joints_.empty() || !frames_.empty();
+}
+
+Config& SceneEdits::edited() {
+  if (!edited_) {
+    edited_.emplace(*scene_);
+    for (const auto& [id, pose] : frames_) place(*edited_, id, pose);
+    VectorXd q = edited_->getJointState();
+    for (const auto& [joint, value] : joints_) q[joint] = value;
+    edited_->setJointState(q);
+  }
+  return *edited_;
+}
+
+bool SceneEdits::change(const Command& command) {
+  const bool current = std::visit([&](const auto& c) {
+    if constexpr (requires { c.structure; }) return c.structure == structure_;
+    return false;
+  }, command);
+  if (!current) return false;
+  Config& config = edited();
+  if (const auto* set = std::get_if<SetJointCommand>(&command)) {
+    if (set->joint < 0 || set->joint >= config.getJointDimension()) return false;
+    setJoint(set->joint, set->value);
+  } else if (std::get_if<ResetJointsCommand>(&command)) {
+    setAllJoints(config.program()->home);
+  } else if (std::get_if<RandomJointsCommand>(&command)) {
+    setAllJoints(randomJointState(config, random_));
+  } else if (const auto* move = std::get_if<MoveFrameCommand>(&command)) {
+    return moveFrame(move->frame, move->pose);
+  }
+  return true;
+}
+
+void SceneEdits::setJoint(int joint, double value) {
+  const Program& program = *edited_->program();
+  VectorXd q = edited_->getJointState();
+  q[joint] = joints_[joint] = std::clamp(value, program.lower[joint], program.upper[joint]);
+  edited_->setJointState(q);
+}
+
+void SceneEdits::setAllJoints(const VectorXd& q) {
+  edited_->setJointState(q);
+  for (int i = 0; i < q.size(); ++i) joints_[i] = q[i];
+}
+
+/// A frame with a joint takes the nearest pose that the joint can reach: then joint values have changed, and no pose.
+bool SceneEdits::moveFrame(int id, const std::vector<double>& numbers) {
+  constexpr double kFar = 1e6;  // m: nothing of use is there
+  if (id < 0 || id >= edited_->getFrameDimension() || numbers.size() != 7) return false;
+  const Eigen::Map<const Vector7d> pose(numbers.data());
+  if (pose.cwiseAbs().maxCoeff() > kFar || pose.tail<4>().norm() < 1e-3) return false;
+  Frame frame = edited_->getFrame(id);
+  const VectorXd before = edited_->getJointState();
+  frame.setPose(Pose::fromNumbers(pose));
+  const VectorXd after = edited_->getJointState();
+  for (int i = 0; i < after.size(); ++i) {
+    if (after[i] != before[i]) setJoint(i, after[i]);
+  }
+  if (!frame.data().moves() || !frame.data().joint->active) frames_[id] = frame.data().relativePose();
+  return true;
+}
+
+}  // namespace kinegraph

@@ -1,0 +1,96 @@
+#include "kinegraph/viewer/scene_items.h"
+
+#include <algorithm>
+
+#include "kinegraph/base/text.h"
+#include "kinegraph/formats/scene_writer.h"
+#include "kinegraph/gfile/writer.h"
+
+namespace kinegraph {
+
+namespace {
+
+/// What a `.g` file would say of a frame, but for its pose and joint values, which change, and long lists of numbers.
+std::string detailsOf(const FrameData& frame) {
+  constexpr std::size_t kLongest = 40;
+  Graph graph = describeFrame(frame);
+  for (const char* key : {"pose", "q"}) graph.erase(key);
+  std::erase_if(graph.nodes, [](const Node& node) {
+    const auto* numbers = node.value.as<NumberArray>();
+    return numbers && numbers->numbers.size() > kLongest;
+  });
+  return writeEntries(graph);
+}
+
+/// The unit of each dof of a joint.
+std::vector<std::string> unitsOf(const Joint& joint) {
+  std::vector<std::string> units;
+  for (const MotionStep& step : joint.steps) {
+    const bool turns = step.kind == MotionStep::Kind::rotate || step.kind == MotionStep::Kind::rotateAbout;
+    const char* unit = turns ? "rad" : step.kind == MotionStep::Kind::translate ? "m" : "";
+    units.insert(units.end(), std::size_t(step.dofs()), unit);
+  }
+  return units;
+}
+
+std::vector<ShownJoint> jointsOf(const Config& config) {
+  const auto program = config.program();
+  const std::vector<std::string> names = config.getJointNames();
+  const MatrixXd limits = config.getJointLimits();
+  std::vector<ShownJoint> joints(names.size());
+  for (const auto& frame : config.scene()->frames()) {
+    if (!frame->joint || frame->joint->mimic) continue;
+    const Program::DofRange dofs = program->frame_dofs[frame->id];
+    const std::vector<std::string> units = unitsOf(*frame->joint);
+    for (int i = 0; i < dofs.count; ++i) {
+      const int dof = dofs.first + i;
+      joints[dof] = {names[dof], frame->id, units[i], limits(0, dof), limits(1, dof)};
+    }
+  }
+  return joints;
+}
+
+}  // namespace
+
+std::vector<Pose> posesOf(const Config& config) {
+  const State& state = config.state();
+  std::vector<Pose> poses;
+  for (int i = 0; i < config.getFrameDimension(); ++i) poses.push_back(Pose(state.pose(i)));
+  return poses;
+}
+
+bool SceneItems::isOf(const Config& config) const {
+  return scene_.lock() == config.scene() && scene_structure_ == config.scene()->structureRevision();
+}
+
+void SceneItems::read(const Config& config) {
+  const bool same = structure_ > 0 && isOf(config);
+  const auto& frames = config.scene()->frames();
+  const State& state = config.state();
+  if (!same) {
+    scene_ = config.scene();
+    scene_structure_ = config.scene()->structureRevision();
+    ++structure_;
+    joints_ = jointsOf(config);
+    items_.resize(frames.size());
+    looks_.assign(frames.size(), 0);
+  }
+  for (std::size_t i = 0; i < frames.size(); ++i) {
+    const FrameData& frame = *frames[i];
+    ViewItem& item = items_[i];
+    if (item.name != frame.name) item.name = frame.name;
+    item.parent = frame.parent ? frame.parent->id : -1;
+    item.pose = Pose(state.pose(int(i)));
+    const std::uint64_t look = frame.shape ? frame.shape->revision : 0;
+    if (same && look == looks_[i]) continue;
+    looks_[i] = look;
+    item.details = detailsOf(frame);
+    item.geometry = nullptr;
+    if (!frame.shape) continue;
+    const std::shared_ptr<const Geometry> visual = visual_meshes_.of(*frame.shape);
+    item.geometry = visual ? visual : frame.shape->geometry;
+    item.color = frame.shape->color.value_or(Vector4d(.8, .8, .8, 1.));
+  }
+}
+
+}  // namespace kinegraph

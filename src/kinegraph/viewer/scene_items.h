@@ -1,0 +1,38 @@
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "kinegraph/scene/config.h"
+#include "kinegraph/scene/visual_meshes.h"
+#include "kinegraph/viewer/server.h"
+
+namespace kinegraph {
+
+/// A configuration as a viewer shows it. What follows from the structure is kept until that changes.
+class SceneItems {
+ public:
+  void read(const Config& config);
+
+  /// One more than before whenever frames, joints or shapes have changed, or another scene is shown.
+  int structure() const { return structure_; }
+  const std::vector<ViewItem>& items() const { return items_; }
+  const std::vector<ShownJoint>& joints() const { return joints_; }
+
+  /// True if `config` is the scene that was read last, and has the same structure.
+  bool isOf(const Config& config) const;
+
+ private:
+  std::weak_ptr<const SceneTree> scene_;
+  std::uint64_t scene_structure_ = 0;
+  int structure_ = 0;
+  std::vector<ViewItem> items_;
+  std::vector<std::uint64_t> looks_;  ///< of each frame's shape, when its details were written
+  std::vector<ShownJoint> joints_;
+  VisualMeshes visual_meshes_;
+};
+
+/// World poses of all frames.
+std::vector<Pose> posesOf(const Config& config);
+
+}  // namespace kinegraph

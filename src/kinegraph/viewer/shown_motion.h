@@ -1,0 +1,23 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "kinegraph/math/pose.h"
+
+namespace kinegraph {
+
+/// A motion that is sent as a whole, and played in the browser.
+struct ShownMotion {
+  enum class Start { all, play, pause };  ///< all slices at once, playing, or at `first`
+
+  double seconds = 0.;                    ///< duration of all slices together
+  Start start = Start::all;
+  int first = 0;                          ///< slice that is shown first
+  std::vector<std::vector<Pose>> poses;   ///< per slice: of all frames, in the world
+  MatrixXd q;                             ///< slices x dofs; may be empty
+  std::vector<std::string> texts;         ///< per slice, or none
+  std::vector<double> violations;         ///< per slice: how much of the constraints is violated; or none
+};
+
+}  // namespace kinegraph

@@ -1,0 +1,155 @@
+#include "kinegraph/viewer/scene_edits.h"
+
+#include <gtest/gtest.h>
+
+#include "kinegraph/base/random.h"
+#include "kinegraph/viewer/scene_items.h"
+
+using namespace kinegraph;
+
+namespace {
+
+constexpr double kExact = 1e-12;
+
+/// A box on the floor, and an arm of two joints with limits that carries a camera.
+Config scene() {
+  Config config;
+  config.addText(R"(
+box: { pose: [1 0 0], shape: box, size: [.1 .1 .1] }
+base: { pose: [0 0 .5] }
+one (base): { joint: hingeZ, limits: [-1 2] }
+reach (one): { pose: [1 0 0] }
+two (reach): { joint: transX, limits: [0 .5], q: .25 }
+camera (two): { pose: [0 0 .1] }
+)");
+  return config;
+}
+
+struct SceneEditsTest : testing::Test {
+  Config config = scene();
+  SceneEdits edits;
+
+  void show(int structure = 1) { edits.setScene(config.scene()->snapshot(), structure); }
+  std::vector<double> numbers(const Vector3d& p) const { return {p.x(), p.y(), p.z(), 1., 0., 0., 0.}; }
+  int id(const char* name) const { return config.getFrame(name).id(); }
+};
+
+}  // namespace
+
+TEST_F(SceneEditsTest, AJointIsSeenAtOnceAndTakenWhenAsked) {
+  show();
+  const auto edited = edits.apply(SetJointCommand{1, 0, .5});
+  ASSERT_TRUE(edited);
+  EXPECT_EQ(edited->q, Eigen::Vector2d(.5, .25));
+  EXPECT_NEAR(edited->poses[std::size_t(id("one"))].q.z(), std::sin(.25), kExact);
+  EXPECT_EQ(config.getJointState()[0], 0.);
+  EXPECT_TRUE(edits.hasAny());
+  EXPECT_TRUE(edits.takeInto(config));
+  EXPECT_EQ(config.getJointState(), Eigen::Vector2d(.5, .25));
+  EXPECT_FALSE(edits.takeInto(config));
+}
+
+TEST_F(SceneEditsTest, JointsStayWithinTheirLimits) {
+  show();
+  EXPECT_EQ(edits.apply(SetJointCommand{1, 0, 100.})->q[0], 2.);
+  EXPECT_EQ(edits.apply(SetJointCommand{1, 1, -100.})->q[1], 0.);
+  for (int i = 0; i < 50; ++i) {
+    const VectorXd q = edits.apply(RandomJointsCommand{1})->q;
+    EXPECT_TRUE(-1. <= q[0] && q[0] <= 2. && 0. <= q[1] && q[1] <= .5) << q.transpose();
+  }
+}
+
+TEST_F(SceneEditsTest, ResetIsHome) {
+  const VectorXd home = config.program()->home;
+  config.setJointState(Eigen::Vector2d(1.5, .1));
+  show();
+  EXPECT_EQ(edits.apply(ResetJointsCommand{1})->q, home);
+}
+
+TEST_F(SceneEditsTest, OnlyWhatPeopleChangedIsTaken) {
+  show();
+  edits.apply(SetJointCommand{1, 0, .5});
+  config.setJointState(Eigen::Vector2d(-.5, .4));
+  edits.takeInto(config);
+  EXPECT_EQ(config.getJointState(), Eigen::Vector2d(.5, .4));
+}
+
+TEST_F(SceneEditsTest, AMovedFrameTakesThoseBelowItAlong) {
+  show();
+  const auto edited = edits.apply(MoveFrameCommand{1, id("base"), numbers({2, 3, 4})});
+  ASSERT_TRUE(edited);
+  EXPECT_NEAR((edited->poses[std::size_t(id("camera"))].p - Vector3d(3.25, 3, 4.1)).norm(), 0., kExact);
+  edits.takeInto(config);
+  EXPECT_NEAR((config.getFrame("camera").getPose().p - Vector3d(3.25, 3, 4.1)).norm(), 0., kExact);
+}
+
+TEST_F(SceneEditsTest, AFrameOnAJointTakesTheNearestPoseWithinItsLimits) {
+  show();
+  EXPECT_NEAR(edits.apply(MoveFrameCommand{1, id("two"), numbers({1.375, 9, .5})})->q[1], .375, kExact);
+  EXPECT_NEAR(edits.apply(MoveFrameCommand{1, id("two"), numbers({7, 0, .5})})->q[1], .5, kExact);
+  edits.takeInto(config);
+  EXPECT_EQ(config.getJointState()[1], .5);
+}
+
+TEST_F(SceneEditsTest, WhatMeansNothingChangesNothing) {
+  EXPECT_FALSE(edits.apply(SetJointCommand{0, 0, .5}));  // nothing is shown yet
+  show();
+  EXPECT_FALSE(edits.apply(SetJointCommand{2, 0, .5}));  // of another structure
+  for (const int joint : {-1, 2, 1 << 30}) EXPECT_FALSE(edits.apply(SetJointCommand{1, joint, .5}));
+  for (const int frame : {-1, 6, 1 << 30}) EXPECT_FALSE(edits.apply(MoveFrameCommand{1, frame, numbers({1, 2, 3})}));
+  EXPECT_FALSE(edits.apply(MoveFrameCommand{1, 0, {1, 2, 3}}));
+  EXPECT_FALSE(edits.apply(MoveFrameCommand{1, 0, {1, 2, 3, 0, 0, 0, 0}}));
+  EXPECT_FALSE(edits.apply(MoveFrameCommand{1, 0, {1e300, 2, 3, 1, 0, 0, 0}}));
+  EXPECT_FALSE(edits.apply(KeyCommand{'a'}));
+  EXPECT_FALSE(edits.hasAny());
+}
+
+TEST_F(SceneEditsTest, ChangesOfAnotherStructureAreDropped) {
+  show();
+  edits.apply(SetJointCommand{1, 0, .5});
+  show(1);
+  EXPECT_TRUE(edits.hasAny());
+  show(2);
+  EXPECT_FALSE(edits.takeInto(config));
+}
+
+TEST_F(SceneEditsTest, RandomCommandsKeepTheSceneWithinItsLimits) {
+  show();
+  Rng rng(0);
+  for (int i = 0; i < 500; ++i) {
+    const int which = int(rng.uniform(-2., 7.));
+    edits.apply(SetJointCommand{1, which, rng.uniform(-5., 5.)});
+    const auto edited = edits.apply(MoveFrameCommand{1, which, {rng.normal(), rng.normal(), rng.normal(), rng.normal(), rng.normal(), rng.normal(), rng.normal()}});
+    if (edited) EXPECT_TRUE(-1. <= edited->q[0] && edited->q[0] <= 2. && 0. <= edited->q[1] && edited->q[1] <= .5);
+  }
+}
+
+TEST(SceneItems, CountAStructureForEveryChangeOfFramesAndNoneForPoses) {
+  Config config = scene();
+  SceneItems items;
+  items.read(config);
+  const int first = items.structure();
+  config.setJointState(Eigen::Vector2d(.1, .2));
+  items.read(config);
+  EXPECT_EQ(items.structure(), first);
+  EXPECT_TRUE(items.isOf(config));
+  config.addFrame("new");
+  EXPECT_FALSE(items.isOf(config));
+  items.read(config);
+  EXPECT_EQ(items.structure(), first + 1);
+  Config other(config);
+  EXPECT_FALSE(items.isOf(other));
+}
+
+TEST(SceneItems, TellTheJointsAndWhatElseThereIsToSay) {
+  Config config = scene();
+  SceneItems items;
+  items.read(config);
+  ASSERT_EQ(items.joints().size(), 2u);
+  EXPECT_EQ(items.joints()[0], (ShownJoint{"one", config.getFrame("one").id(), "rad", -1., 2.}));
+  EXPECT_EQ(items.joints()[1].unit, "m");
+  EXPECT_EQ(items.items()[0].details, "shape: box, size: [0.1 0.1 0.1]");
+  config.getFrame("box").setColor({1., 0., 0.});
+  items.read(config);
+  EXPECT_EQ(items.items()[0].details, "shape: box, size: [0.1 0.1 0.1], color: [1 0 0]");
+}

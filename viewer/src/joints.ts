@@ -1,0 +1,86 @@
+import { find, make } from "./element";
+import { type JointMessage, randomJointsCommand, resetJointsCommand, setJointCommand } from "./messages";
+
+const TURN = Math.PI; // rad: of dofs without limits, to each side
+const REACH = 1; // m, or of dofs without unit
+
+interface Row {
+  slider: HTMLInputElement;
+  number: HTMLInputElement;
+}
+
+/** The dofs with a slider and a number each. What people do here goes to the server, which tells all browsers. */
+export class JointPanel {
+  private structure = 0;
+  private joints: JointMessage[] = [];
+  private q: Float64Array<ArrayBufferLike> = new Float64Array();
+  private rows: Row[] = [];
+  private readonly list = make("div", { id: "joint-rows" });
+  private readonly waiting = new Map<number, number>(); // dof -> value, sent with the next picture
+
+  constructor(private readonly send: (command: Uint8Array<ArrayBuffer>) => void) {
+    const button = (text: string, title: string, command: (structure: number) => Uint8Array<ArrayBuffer>): HTMLElement =>
+      make("button", { textContent: text, title, onclick: () => send(command(this.structure)) });
+    find("tab-joints").append(
+      make("div", { className: "buttons" },
+        button("reset", "to where the joints are at home", resetJointsCommand),
+        button("random", "anywhere within the limits", randomJointsCommand)),
+      this.list,
+    );
+  }
+
+  get current(): { structure: number; joints: JointMessage[]; q: ArrayLike<number> } {
+    return { structure: this.structure, joints: this.joints, q: this.q };
+  }
+
+  setJoints(structure: number, joints: JointMessage[]): void {
+    this.structure = structure;
+    this.joints = joints;
+    this.waiting.clear();
+    this.rows = joints.map((joint, i) => this.makeRow(joint, i));
+    if (joints.length === 0) this.list.replaceChildren("no joints");
+    this.showState(this.q);
+  }
+
+  /** Shows joint values: those of the program, or of a moment of a motion. */
+  showState(q: ArrayLike<number>): void {
+    this.rows.forEach(({ slider, number }, i) => {
+      const value = q[i] ?? 0;
+      if (document.activeElement !== slider || !this.waiting.has(i)) slider.value = String(value);
+      slider.ariaValueText = `${value.toFixed(3)} ${this.joints[i]!.unit}`;
+      if (document.activeElement !== number) number.value = value.toFixed(3);
+    });
+  }
+
+  setState(q: Float64Array<ArrayBufferLike>): void {
+    this.q = q;
+    this.showState(q);
+  }
+
+  private makeRow(joint: JointMessage, index: number): Row {
+    const limited = joint.lower <= joint.upper;
+    const reach = joint.unit === "rad" ? TURN : REACH;
+    const middle = this.q[index] ?? 0;
+    const [min, max] = limited ? [joint.lower, joint.upper] : [Math.min(-reach, middle - reach), Math.max(reach, middle + reach)];
+    const slider = make("input", { type: "range", min: String(min), max: String(max), step: "any", ariaLabel: joint.name });
+    slider.addEventListener("input", () => this.ask(index, slider.valueAsNumber));
+    const number = make("input", { type: "number", min: String(min), max: String(max), step: "0.01", ariaLabel: `${joint.name}, value` });
+    number.addEventListener("change", () => Number.isFinite(number.valueAsNumber) && this.ask(index, number.valueAsNumber));
+    const limits = limited ? `${joint.lower} to ${joint.upper} ${joint.unit}` : "without limits";
+    if (index === 0) this.list.replaceChildren();
+    this.list.append(make("div", { className: "joint", title: `${joint.name}: ${limits}` },
+      make("span", { className: "joint-name", textContent: joint.name }), number, make("span", { className: "unit", textContent: joint.unit }), slider));
+    return { slider, number };
+  }
+
+  /** At most one command per dof and picture. */
+  private ask(index: number, value: number): void {
+    if (this.waiting.size === 0) requestAnimationFrame(() => this.flush());
+    this.waiting.set(index, value);
+  }
+
+  private flush(): void {
+    for (const [index, value] of this.waiting) this.send(setJointCommand(this.structure, index, value));
+    this.waiting.clear();
+  }
+}

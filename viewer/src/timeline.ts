@@ -1,0 +1,183 @@
+import * as THREE from "three";
+import { find, make } from "./element";
+import type { JointPanel } from "./joints";
+import { Motion } from "./motion";
+import { colorOf, drawCurves, drawViolations, isViolated } from "./plot";
+import type { ShownScene } from "./shown";
+import type { Stage } from "./stage";
+
+const SPEEDS = [0.1, 0.25, 0.5, 1, 2, 4];
+
+/** Plays a motion: a bar with a time slider, speed, curves of the joints, and all slices at once. */
+export class Timeline {
+  private motion: Motion | null = null;
+  private moment = 0; // slice, and how far to the next
+  private playing = false;
+  private speed = 1;
+  private loop = false;
+  private ghosts: THREE.Group | null = null;
+  private readonly root = find("motion");
+  private readonly playButton = make("button", { className: "play", ariaLabel: "play", onclick: () => this.toggle() });
+  private readonly slider = make("input", { type: "range", min: "0", step: "any", ariaLabel: "time" });
+  private readonly time = make("output");
+  private readonly text = make("pre", { className: "slice-text" });
+  private readonly marks = make("canvas", { className: "marks" });
+  private readonly curves = make("canvas", { className: "curves" });
+  private readonly plot = make("div", { className: "plot", hidden: true });
+  private readonly legend = make("div", { className: "legend" });
+  private readonly ghostBox = make("input", { type: "checkbox", onchange: () => this.showGhosts(this.ghostBox.checked) });
+
+  constructor(
+    private readonly stage: Stage,
+    private readonly shown: ShownScene,
+    private readonly joints: JointPanel,
+    private readonly moved: () => void,
+  ) {
+    const speed = make("select", { ariaLabel: "speed" }, ...SPEEDS.map((x) => make("option", { value: String(x), textContent: `${x}×`, selected: x === 1 })));
+    speed.addEventListener("change", () => (this.speed = Number(speed.value)));
+    const loopBox = make("input", { type: "checkbox", onchange: () => (this.loop = loopBox.checked) });
+    const plotBox = make("input", { type: "checkbox", onchange: () => this.showPlot(plotBox.checked) });
+    this.slider.addEventListener("input", () => this.goTo(this.slider.valueAsNumber));
+    this.plot.append(this.curves, this.legend);
+    this.root.append(this.text, this.plot,
+      make("div", { className: "transport" },
+        this.playButton,
+        make("div", { className: "track" }, this.marks, this.slider),
+        this.time, speed,
+        make("label", {}, loopBox, "loop"), make("label", {}, this.ghostBox, "all slices"), make("label", {}, plotBox, "curves")));
+    stage.onTick((seconds) => this.advance(seconds));
+    stage.canvas.addEventListener("wheel", (event) => {
+      if (!event.shiftKey || !this.motion) return;
+      event.preventDefault();
+      event.stopImmediatePropagation();
+      this.step(Math.sign(event.deltaY || event.deltaX));
+    }, { capture: true, passive: false });
+    addEventListener("resize", () => this.draw());
+  }
+
+  get current(): Motion | null {
+    return this.motion;
+  }
+
+  get slice(): number {
+    return this.moment;
+  }
+
+  get isPlaying(): boolean {
+    return this.playing;
+  }
+
+  start(motion: Motion): void {
+    this.end();
+    this.motion = motion;
+    this.shown.held = true;
+    this.root.hidden = false;
+    document.body.classList.add("has-motion");
+    this.slider.max = String(motion.slices - 1);
+    this.legend.replaceChildren(...this.joints.current.joints.slice(0, motion.dofs).map(({ name }, i) => {
+      const item = make("span", { textContent: name });
+      item.style.setProperty("--color", colorOf(i));
+      return item;
+    }));
+    const { start, first } = motion.message;
+    this.showGhosts(start === "all");
+    this.setPlaying(start === "play");
+    this.goTo(start === "all" ? motion.slices - 1 : first);
+  }
+
+  end(): void {
+    if (!this.motion) return;
+    this.showGhosts(false);
+    this.setPlaying(false);
+    this.motion = null;
+    this.shown.held = false;
+    this.root.hidden = true;
+    document.body.classList.remove("has-motion");
+    this.shown.placeAll();
+    this.joints.showState(this.joints.current.q);
+    this.moved();
+  }
+
+  /** True if the key was for the motion: arrows step through the slices. */
+  takeKey(key: string): boolean {
+    if (!this.motion || (key !== "ArrowLeft" && key !== "ArrowRight")) return false;
+    this.step(key === "ArrowLeft" ? -1 : 1);
+    return true;
+  }
+
+  toggle(): void {
+    if (!this.motion) return;
+    if (!this.playing && this.moment >= this.motion.slices - 1) this.goTo(0);
+    this.setPlaying(!this.playing);
+  }
+
+  playFromStart(): void {
+    this.goTo(0);
+    this.setPlaying(true);
+  }
+
+  goTo(moment: number): void {
+    if (!this.motion) return;
+    this.moment = Math.max(0, Math.min(moment, this.motion.slices - 1));
+    for (const [id, { anchor }] of this.shown.frames) this.motion.place(anchor, id, this.moment);
+    if (this.motion.dofs > 0) this.joints.showState(this.motion.state(this.moment));
+    this.draw();
+    this.moved();
+  }
+
+  private step(by: number): void {
+    this.setPlaying(false);
+    this.goTo(by > 0 ? Math.floor(this.moment) + 1 : Math.ceil(this.moment) - 1);
+  }
+
+  private advance(seconds: number): void {
+    if (!this.motion || !this.playing) return;
+    const last = this.motion.slices - 1;
+    const rate = last / Math.max(this.motion.message.seconds, 1e-3);
+    const next = this.moment + seconds * rate * this.speed;
+    if (next < last) return this.goTo(next);
+    this.goTo(this.loop ? 0 : last);
+    if (!this.loop) this.setPlaying(false);
+  }
+
+  private setPlaying(playing: boolean): void {
+    this.playing = playing;
+    this.playButton.textContent = playing ? "❚❚" : "▶";
+    this.playButton.ariaLabel = playing ? "pause" : "play";
+  }
+
+  private showGhosts(on: boolean): void {
+    this.ghostBox.checked = on;
+    if (this.ghosts) {
+      this.stage.scene.remove(this.ghosts);
+      for (const ghost of this.ghosts.children) if (ghost instanceof THREE.Mesh) (ghost.material as THREE.Material).dispose();
+      this.ghosts = null;
+    }
+    if (on && this.motion) {
+      this.ghosts = this.motion.ghosts(this.shown.frames);
+      this.stage.scene.add(this.ghosts);
+    }
+    this.stage.redraw();
+  }
+
+  private showPlot(on: boolean): void {
+    this.plot.hidden = !on;
+    this.draw();
+  }
+
+  private draw(): void {
+    if (!this.motion) return;
+    const { slices, message } = this.motion;
+    const slice = Math.round(this.moment);
+    const last = Math.max(slices - 1, 1);
+    this.slider.value = String(this.moment);
+    this.slider.ariaValueText = `slice ${slice} of ${slices}`;
+    this.time.textContent = `${slice}/${slices - 1}   ${((this.moment / last) * message.seconds).toFixed(2)} s`;
+    const text = message.texts[slice] ?? "";
+    this.text.textContent = text;
+    this.text.hidden = text === "";
+    this.text.classList.toggle("violated", isViolated(message.violations[slice]));
+    drawViolations(this.marks, message.violations, slices);
+    if (!this.plot.hidden) drawCurves(this.curves, this.motion, this.moment);
+  }
+}
