@@ -34,7 +34,7 @@ std::string frameOfDof(const Program& program, int dof) {
   return {};
 }
 
-bool isJointFeature(FeatureSymbol feature) { return feature == FeatureSymbol::qItself || feature == FeatureSymbol::jointLimits; }
+bool isJointFeature(const FeatureSource& feature) { return feature == FeatureSymbol::qItself || feature == FeatureSymbol::jointLimits; }
 
 /// The unit that all rows of an objective about joints have; number if they differ.
 Measure measureOfJoints(const Komo& komo, const Komo::Objective& objective, int slice) {
@@ -54,7 +54,7 @@ Measure measureOfJoints(const Komo& komo, const Komo::Objective& objective, int 
 Measure measureOfFeature(FeatureSymbol feature, int row) {
   using S = FeatureSymbol;
   switch (feature) {
-    case S::position: case S::positionDiff: case S::positionRel: case S::gazeAt: case S::accumulatedCollisions: case S::distance:
+    case S::position: case S::positionDiff: case S::positionRel: case S::gazeAt: case S::accumulatedCollisions: case S::pairCollisions: case S::distance:
     case S::oppose: case S::aboveBox: case S::insideBox: case S::pairCollision_negScalar: case S::pairCollision_vector:
     case S::pairCollision_p1: case S::pairCollision_p2: case S::standingAbove: return Measure::length;
     case S::quaternion: case S::quaternionDiff: case S::quaternionRel: return Measure::quaternion;
@@ -92,8 +92,8 @@ RowDescription describePathRow(const Komo& komo, const PathProblem& problem, int
   if (mixes_rows) scale.row(r).cwiseAbs().maxCoeff(&raw);
   if (isJointFeature(objective.feature)) {
     out.measure = measureOfJoints(komo, objective, term.slice);
-  } else if (!objective.free_fall) {
-    out.measure = measureOfFeature(objective.feature, raw);
+  } else if (const auto symbol = objective.feature.symbol()) {
+    out.measure = measureOfFeature(*symbol, raw);
   }
   if (out.measure == Measure::cosine && objective.target.size() > 0) out.target = objective.target[0];
   return out;
