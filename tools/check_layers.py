@@ -18,6 +18,7 @@ BELOW: dict[str, list[str]] = {
     "scene": ["base", "math", "gfile", "geometry", "kinematics"],
     "features": ["base", "math", "geometry", "kinematics", "scene"],
     "komo": ["base", "math", "geometry", "kinematics", "scene", "features", "nlp"],
+    "planning": ["base", "math", "geometry", "kinematics", "scene", "features", "nlp", "komo", "solvers"],
     "viewer": ["base", "math", "geometry", "kinematics", "scene"],
 }
 
