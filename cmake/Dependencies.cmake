@@ -6,7 +6,7 @@ function(kinegraph_find_prefix result python)
   execute_process(
     COMMAND "${python}" -c "import cmeel, pathlib; print((pathlib.Path(cmeel.__file__).parent.parent / 'cmeel.prefix').as_posix())"
     OUTPUT_VARIABLE prefix OUTPUT_STRIP_TRAILING_WHITESPACE RESULT_VARIABLE status ERROR_QUIET)
-  if(status EQUAL 0 AND EXISTS "${prefix}/lib/cmake/coal")
+  if(status EQUAL 0 AND EXISTS "${prefix}/lib/cmake/coal" AND EXISTS "${prefix}/lib/cmake/tinyxml2" AND EXISTS "${prefix}/../mujoco/include")
     set(${result} "${prefix}" PARENT_SCOPE)
   else()
     set(${result} "" PARENT_SCOPE)
@@ -37,17 +37,26 @@ set(Boost_NO_WARN_NEW_VERSIONS ON)  # coal asks for a newer Boost than CMake 3.2
 find_package(Eigen3 3.4 CONFIG REQUIRED)
 find_package(assimp CONFIG REQUIRED)
 find_package(coal 3 CONFIG REQUIRED)
+find_package(tinyxml2 CONFIG REQUIRED)
 find_package(Threads REQUIRED)
 
-# Installs the shared libraries of KINEGRAPH_PREFIX that `target` needs into `folder`.
+# MuJoCo draws camera images. Its wheel has the headers and one library, which needs the C library only.
+get_filename_component(KINEGRAPH_MUJOCO "${KINEGRAPH_PREFIX}/../mujoco" ABSOLUTE)
+file(GLOB library "${KINEGRAPH_MUJOCO}/libmujoco.so.*")
+add_library(mujoco::mujoco SHARED IMPORTED)
+set_target_properties(mujoco::mujoco PROPERTIES IMPORTED_LOCATION "${library}"
+                      INTERFACE_INCLUDE_DIRECTORIES "${KINEGRAPH_MUJOCO}/include")
+
+# Installs the shared libraries of KINEGRAPH_PREFIX and MuJoCo's that `target` needs into `folder`.
 function(kinegraph_install_libraries target folder component)
-  install(CODE "set(prefix [[${KINEGRAPH_PREFIX}]])\nset(binary [[$<TARGET_FILE:${target}>]])\nset(folder [[${folder}]])" COMPONENT ${component})
+  install(CODE "set(prefix [[${KINEGRAPH_PREFIX}]])\nset(mujoco [[${KINEGRAPH_MUJOCO}]])\nset(binary [[$<TARGET_FILE:${target}>]])\nset(folder [[${folder}]])" COMPONENT ${component})
   install(CODE [[
     file(GET_RUNTIME_DEPENDENCIES LIBRARIES "${binary}" RESOLVED_DEPENDENCIES_VAR libraries UNRESOLVED_DEPENDENCIES_VAR missing
-         DIRECTORIES "${prefix}/lib" PRE_EXCLUDE_REGEXES "^ld-linux" "^lib(c|m|dl|rt|pthread|gcc_s|stdc\\+\\+)\\.so")
+         DIRECTORIES "${prefix}/lib" "${mujoco}" PRE_EXCLUDE_REGEXES "^ld-linux" "^lib(c|m|dl|rt|pthread|gcc_s|stdc\\+\\+)\\.so")
     foreach(library IN LISTS libraries)
-      string(FIND "${library}" "${prefix}" place)
-      if(place EQUAL 0)
+      string(FIND "${library}" "${prefix}" in_prefix)
+      string(FIND "${library}" "${mujoco}" in_mujoco)
+      if(in_prefix EQUAL 0 OR in_mujoco EQUAL 0)
         file(INSTALL DESTINATION "${CMAKE_INSTALL_PREFIX}/${folder}" TYPE SHARED_LIBRARY FILES "${library}" FOLLOW_SYMLINK_CHAIN)
       endif()
     endforeach()

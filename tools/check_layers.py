@@ -16,9 +16,11 @@ BELOW: dict[str, list[str]] = {
     "solvers": ["base", "math", "nlp"],
     "kinematics": ["base", "math", "geometry"],
     "scene": ["base", "math", "gfile", "geometry", "kinematics"],
+    "formats": ["base", "math", "gfile", "geometry", "kinematics", "scene"],
     "features": ["base", "math", "geometry", "kinematics", "scene"],
     "komo": ["base", "math", "geometry", "kinematics", "scene", "features", "nlp"],
     "planning": ["base", "math", "geometry", "kinematics", "scene", "features", "nlp", "komo", "solvers"],
+    "rendering": ["base", "math", "geometry", "kinematics", "scene"],
     "viewer": ["base", "math", "geometry", "kinematics", "scene"],
 }
 

@@ -212,6 +212,13 @@ void bindFrame(nb::module_&, nb::class_<Frame>& frame) {
            },
            "mass"_a, "inertiaMatrix"_a = nb::none(), kChain,
            "Mass in kg. The inertia is that of the shape's surface, or 3, 6 or 9 numbers in kg m^2. 0 removes it.")
+      .def("getInertia",
+           [](const Frame& f) {
+             const std::optional<Inertia> inertia = f.getInertia();
+             if (!inertia) return nb::make_tuple(0., nb::list(), nb::list());
+             return nb::make_tuple(inertia->mass, toNumpy(inertia->com.data(), 3), toNumpy(MatrixXd(inertia->matrix)));
+           },
+           "(mass in kg, centre of mass (3,) in m, inertia about it (3, 3) in kg m^2), in the frame; (0, [], []) without a mass.")
       .def("getMass", &Frame::getMass, "Mass in kg, 0 if none.")
       .def("setMesh",
            [](Frame& f, const Numbers& vertices, const Numbers& triangles, nb::object, nb::object) -> Frame& {
@@ -258,9 +265,7 @@ void bindFrame(nb::module_&, nb::class_<Frame>& frame) {
       .def("setAttributes", [](Frame& f, nb::dict d) -> Frame& { return setAttributes(f, d), f; }, "attributes"_a, kChain,
            "Adds attributes that the library keeps but does not interpret.")
       .def("addAttributes", [](Frame& f, nb::dict d) -> Frame& { return setAttributes(f, d), f; }, "attributes"_a, kChain,
-           "The same as setAttributes.")
-      .def("asDict", [](const Frame& f) { return toDict(f.attributes()); }, "The attributes, as a dict.")
-      .def("info", [](const Frame& f) { return toDict(f.attributes()); }, "The same as asDict.");
+           "The same as setAttributes.");
 }
 
 }  // namespace kinegraph::python

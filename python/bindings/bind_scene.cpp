@@ -8,6 +8,7 @@
 #include "kinegraph/base/errors.h"
 #include "kinegraph/base/text.h"
 #include "kinegraph/geometry/shape_types.h"
+#include "kinegraph/scene/reader.h"
 #include "scene_values.h"
 
 namespace kinegraph::python {
@@ -37,6 +38,16 @@ nb::object getFrame(const PyConfig& config, const std::string& name, bool warn) 
   if (frame) return nb::cast(*frame);
   if (!warn) return nb::none();
   return nb::cast(config.getFrame(name));  // throws, with similar names
+}
+
+nb::dict checkFile(nb::handle file) {
+  const SceneCheck check = checkSceneFile(pathText(file));
+  nb::dict result;
+  result["messages"] = check.messages;
+  result["errors"] = check.errors;
+  result["warnings"] = check.warnings;
+  result["frames"] = check.frames;
+  return result;
 }
 
 Frame frameOf(const PyConfig& config, nb::handle name_or_id) { return toFrame(config, name_or_id); }
@@ -84,6 +95,9 @@ void bindEnums(nb::module_& m) {
 
 void bindScene(nb::module_& m) {
   bindEnums(m);
+  m.def("checkFile", checkFile, "filename"_a,
+        "All that is wrong or odd about a scene file. Returns a dict: messages (list of str, with file:line:column, the line and\n"
+        "a caret), and the numbers of errors, warnings and frames. Raises FileError if the file cannot be read.");
   nb::class_<Frame> frame(m, "Frame", "A handle on one frame of a Config. Setters return it, so that calls can be chained.");
   nb::class_<PyConfig> config(m, "Config", "A scene: named frames with joints and shapes, and the joint vector q.");
   using Names = std::vector<std::string>;
@@ -103,7 +117,7 @@ void bindScene(nb::module_& m) {
              return withWarnings(c, c.addFile(pathText(file), prefix.value_or("")));
            },
            "filename"_a, "namePrefix"_a = nb::none(),
-           "Adds the frames of a scene file, names prefixed. Returns the first of them, or None.\n"
+           "Adds the frames of a scene file (.g, .yml, .urdf), names prefixed. Returns the first of them, or None.\n"
            "An error (FileError, ParseError with file:line:column) leaves the configuration as it was.")
       .def("addText",
            [](PyConfig& c, const std::string& text, const std::string& name) { return withWarnings(c, c.addText(text, name)); },
@@ -172,6 +186,7 @@ void bindScene(nb::module_& m) {
   bindFrame(m, frame);
   bindFeatures(m, config);
   bindDynamics(config);
+  bindFormats(m, config, frame);
   bindViewer(m, config);
 }
 

@@ -31,6 +31,7 @@ void bindNlp(nb::module_& m);
 void bindSolvers(nb::module_& m);
 void bindKomo(nb::module_& m);
 void bindDynamics(nb::class_<PyConfig>& config);
+void bindFormats(nb::module_& m, nb::class_<PyConfig>& config, nb::class_<Frame>& frame);
 void bindViewer(nb::module_& m, nb::class_<PyConfig>& config);
 
 /// Passes on what was odd about a scene through Python's `warnings`.

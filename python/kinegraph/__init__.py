@@ -29,6 +29,7 @@ from ._core import (
     OptMethod,
     SolverReturn,
     __version__,
+    checkFile,
 )
 from .errors import (
     ArgumentError,

@@ -6,7 +6,7 @@ import argparse
 import sys
 
 from . import __version__
-from ._core import Config
+from ._core import Config, checkFile
 from .errors import Error
 
 
@@ -31,7 +31,30 @@ def _parser() -> argparse.ArgumentParser:
 
     info = commands.add_parser("info", help="what a scene file contains")
     info.add_argument("file")
+
+    check = commands.add_parser(
+        "check", help="mistakes and oddities in scene files; exit status 1 if there is a mistake"
+    )
+    check.add_argument("files", nargs="+", metavar="FILE")
+    check.add_argument("--strict", action="store_true", help="a warning counts as a mistake")
     return parser
+
+
+def _check(files: list[str], strict: bool) -> int:
+    errors = warnings = 0
+    for file in files:
+        try:
+            found = checkFile(file)
+        except Error as error:
+            print(f"{file}: error: {error}")
+            errors += 1
+            continue
+        for message in found["messages"]:
+            print(message)
+        errors += found["errors"]
+        warnings += found["warnings"]
+    print(f"{len(files)} checked: {errors} errors, {warnings} warnings")
+    return 1 if errors or (strict and warnings) else 0
 
 
 def _info(file: str) -> None:
@@ -55,6 +78,8 @@ def main(arguments: list[str] | None = None) -> int:
             Config().watchFile(options.file)
         if options.command == "info":
             _info(options.file)
+        if options.command == "check":
+            return _check(options.files, options.strict)
     except KeyboardInterrupt:
         print()
     except Error as error:

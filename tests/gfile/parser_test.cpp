@@ -85,7 +85,12 @@ TEST(Parser, ReadsHeadsWithParentsAndTags) {
 
 TEST(Parser, SkipsByteOrderMarksCarriageReturnsAndOuterBraces) {
   EXPECT_EQ(parse("\xEF\xBB\xBF{ a: {x: 1}\r\nb: {}\r\n}", "").nodes.size(), 2u);
-  EXPECT_EQ(parse("\xEF\xBB\xBF" "a: {}", "").nodes[0].key, "a");
+  EXPECT_EQ(parse("\xEF\xBB\xBF"
+                  "a: {}",
+                  "")
+                .nodes[0]
+                .key,
+            "a");
   EXPECT_EQ(parse("{ a } b", "").nodes.size(), 2u) << "a first entry without a name";
 }
 
@@ -157,9 +162,15 @@ Graph randomGraph(Rng& rng, int depth) {
 Value randomValue(Rng& rng, int depth) {
   Value value;
   switch (int(rng.uniform(0, depth > 0 ? 9 : 7))) {
-    case 0: value.data = rng.uniform() < .5; break;
-    case 1: value.data = std::ldexp(rng.normal(), int(rng.uniform(-60, 60))); break;
-    case 2: value.data = randomWord(rng); break;
+    case 0:
+      value.data = rng.uniform() < .5;
+      break;
+    case 1:
+      value.data = std::ldexp(rng.normal(), int(rng.uniform(-60, 60)));
+      break;
+    case 2:
+      value.data = randomWord(rng);
+      break;
     case 3: {
       NumberArray array;
       for (int i = int(rng.uniform(0, 6)); i > 0; --i) array.numbers.push_back(rng.normal());
@@ -167,16 +178,24 @@ Value randomValue(Rng& rng, int depth) {
       value.data = array;
       break;
     }
-    case 4: value.data = StringArray{randomWord(rng), randomWord(rng)}; break;
-    case 5: value.data = AngleText{randomWord(rng)}; break;
-    case 6: value.data = NameTuple{{"a", "b_c"}}; break;
+    case 4:
+      value.data = StringArray{randomWord(rng), randomWord(rng)};
+      break;
+    case 5:
+      value.data = AngleText{randomWord(rng)};
+      break;
+    case 6:
+      value.data = NameTuple{{"a", "b_c"}};
+      break;
     case 7: {
       ValueList list(1 + std::size_t(rng.uniform(0, 3)));
       for (Value& element : list) element.data = NumberArray{{rng.normal(), rng.normal()}, 1};
       value.data = list;
       break;
     }
-    default: value.data = randomGraph(rng, depth); break;
+    default:
+      value.data = randomGraph(rng, depth);
+      break;
   }
   return value;
 }
@@ -194,8 +213,10 @@ TEST(Writer, WhatItWritesParsesToTheSame) {
 
 TEST(Parser, SurvivesRandomMutationsOfSceneText) {
   const std::string samples[] = {
-      "zero { X:\"T t(0 0 0) d(180 0 0 1)\" shape:sphere mass=1 size=[0. 0. .2 .05]}\n(a b) { joint:hingeX, pre:\"T t(0 0 .00)\" }",
-      "# comment\nInclude: <x.g>\nPrefix!\nEdit a(b): { color: [1 2; 3 4], s: ['a', \"b\"], f: [[1 2] [3]] }\n{ x: ~, y!, z: (a b) }"};
+      "zero { X:\"T t(0 0 0) d(180 0 0 1)\" shape:sphere mass=1 size=[0. 0. .2 .05]}\n(a b) { joint:hingeX, pre:\"T "
+      "t(0 0 .00)\" }",
+      "# comment\nInclude: <x.g>\nPrefix!\nEdit a(b): { color: [1 2; 3 4], s: ['a', \"b\"], f: [[1 2] [3]] }\n{ x: ~, "
+      "y!, z: (a b) }"};
   const std::string alphabet = "{}[]()<>:=,;!~#'\"\\ \n\t.+-e09azT_\xff";
   Rng rng(11);
   for (int i = 0; i < 20000; ++i) {
@@ -217,4 +238,74 @@ TEST(Parser, SurvivesRandomMutationsOfSceneText) {
   std::string deep(100000, '[');
   EXPECT_FALSE(parseAll("a: " + deep, "").diagnostics.empty());
   EXPECT_FALSE(parseAll(std::string(100000, '{'), "").diagnostics.empty());
+}
+
+namespace {
+
+std::string block(const std::string& text, const std::string& file = "b.yml") { return writeFile(parse(text, file)); }
+
+}  // namespace
+
+TEST(Blocks, MapsByIndentationAreGraphs) {
+  EXPECT_EQ(block("a(b):\n  shape: box\n  size: [1, 2,\n     3]\n\nc: {}\n"),
+            "a (b): { shape: box, size: [1 2 3] }\nc: {  }\n");
+  EXPECT_EQ(block("a:\n  logical:\n    deep: 1\n  x: 2\n# end\nb:\n\n   y: 3"),
+            "a: { logical: { deep: 1 }, x: 2 }\nb: { y: 3 }\n");
+  EXPECT_EQ(block("---\na:\n  flag:\n  x: ~\n...\n"), "a: { flag, x }\n") << "an empty value is true";
+  EXPECT_EQ(block("a:\n  { x: 1,\n y: 2 }\nb:\n  [1, 2]"), "a: { x: 1, y: 2 }\nb: [1 2]\n")
+      << "braces may follow on the next line";
+  EXPECT_EQ(block("a: { k:\n  x: 1 }"), "a: { k, x: 1 }\n") << "within braces, lines mean nothing";
+  EXPECT_EQ(block("a:\n  x: 1\n", "scene.g"), "a: { x: 1 }\n") << "whatever the file is called";
+}
+
+TEST(Blocks, SequencesAreArrays) {
+  EXPECT_EQ(block("a:\n  size:\n    - 1\n    - 2.5\n  words:\n  - x\n  - y z\n  q: 3"),
+            "a: { size: [1 2.5], words: [\"x\" \"y z\"], q: 3 }\n");
+  EXPECT_EQ(block("a:\n  rows:\n    - [1, 2]\n    - [3]\n"), "a: { rows: [[1 2], [3]] }\n");
+  EXPECT_NE(parseAll("a:\n  x:\n    - k: 1\n", "b.yml").diagnostics.size(), 0u)
+      << "maps in a sequence mean nothing in a scene";
+}
+
+TEST(Blocks, PlainTextOfYamlMayHaveBlanks) {
+  EXPECT_EQ(block("a:\n  note: two words # comment\n  version: 1.2.3\n  shape: box size: [1]"),
+            "a: { note: \"two words\", version: \"1.2.3\", shape: box, size: [1] }\n");
+  EXPECT_NE(parseAll("a: { version: 1.2.3 }", "b.yml").diagnostics.size(), 0u);
+}
+
+TEST(Parser, ReadsHeadsThatOtherProgramsWrite) {
+  EXPECT_EQ(block("\"b(a)\": {}, \"c (a, b)\": {}, 'x': 1", "f.json").substr(0, 12), "b (a): {  }\n");
+  EXPECT_EQ(parse("j(a>b): {}", "").nodes[0].parents, std::vector<std::string>{"a>b"});
+}
+
+TEST(Parser, TheBraceOfAFrameMayStandOnTheNextLine) {
+  EXPECT_EQ(writeFile(parse("body a\n{ x: 1 }\nb (a)\n  { y }\n", "")), "body a: { x: 1 }\nb (a): { y }\n");
+  EXPECT_EQ(valueOf("x\n y: 3"), "x=true | y=3");
+}
+
+TEST(Parser, DecodesTypedArrays) {
+  EXPECT_EQ(valueOf("x: [\"float64\", [2], \"AAAAAAAA4D8AAAAAAADwPw==\"]"), "x=[0.5 1]");
+  EXPECT_EQ(valueOf("x: [\"uint8\", [2, 2], \"AQIDBA==\"]"), "x=[1 2; 3 4]");
+  EXPECT_EQ(valueOf("x: [\"double\", [2, 1], [5 6]]"), "x=[5; 6]");
+  EXPECT_EQ(valueOf("x: [\"other\", [2], [5 6]]"), "x=[other, [2], [5 6]]");
+  EXPECT_EQ(errorOf("a: { x: [\"float64\", [3], \"AAAAAAAA4D8=\"] }"), "f.g:1:9: an array of 3 entries has data for 1");
+}
+
+TEST(Parser, AMistakeInAHeadDoesNotMakeItsBracesMistakes) {
+  const ParseResult result = parseAll("a(b=): { x: 1,\n y: { z: 2 }\n}\nb: {}\nc(: {}", "f.g");
+  ASSERT_EQ(result.diagnostics.size(), 2u);
+  EXPECT_EQ(result.diagnostics[0].where.line, 1);
+  EXPECT_EQ(result.diagnostics[1].where.line, 5);
+}
+
+TEST(Parser, StopsAtAHundredErrors) {
+  std::string text;
+  for (int i = 0; i < 100000; ++i) text += "a: { x: 1.2.3 }\n";
+  EXPECT_EQ(parseAll(text, "f.g").diagnostics.size(), 100u);
+}
+
+TEST(Parser, ErrorsDoNotUseUpTheDepthOfNesting) {
+  std::string text;
+  for (int i = 0; i < 90; ++i) text += "a: { b: { c: { x: [[1 2} } } }\n";
+  for (const Diagnostic& d : parseAll(text, "f.g").diagnostics)
+    EXPECT_EQ(d.message.find("nested"), std::string::npos) << d.message;
 }

@@ -1,5 +1,8 @@
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <ctime>
+
 #include "kinegraph/base/errors.h"
 #include "kinegraph/komo/komo.h"
 #include "kinegraph/komo/report.h"
@@ -207,4 +210,22 @@ TEST(ModeSwitch, StableJointsOfTheSceneAreOneSetOfVariables) {
     std::string where;
     EXPECT_LT(jacobianError(*nlp, *komo, where), 1e-8) << where;
   }
+}
+
+TEST(ModeSwitch, TheCostPerEvaluationGrowsLinearlyWithTheSlicesThatShareAGrasp) {
+  const auto secondsPerEvaluation = [](int slices) {
+    auto komo = std::make_shared<Komo>(armAndBox(), 2., slices, 2);
+    komo->addControlObjective({}, 2, 1e-1);
+    komo->addModeSwitch({1., -1.}, SwitchMode::stable, {"grip", "box"});
+    komo->addQuaternionNorms();
+    komo->addObjective({2.}, FeatureSymbol::position, {"box"}, ObjectiveType::eq, {}, Vector3d(.2, .3, .9));
+    const auto nlp = makeNlp(komo);
+    SolverOptions options;
+    options.stopEvals = 12;
+    const std::clock_t start = std::clock();
+    const SolverResult result = solveAugmentedLagrangian(*nlp, komo->variables(), options);
+    return double(std::clock() - start) / CLOCKS_PER_SEC / result.evals;
+  };
+  const double few = secondsPerEvaluation(100), many = secondsPerEvaluation(800);
+  EXPECT_LT(many, 24. * few) << "8 times the slices";  // 8 if linear; 64 and more with a factor that fills in
 }

@@ -42,3 +42,23 @@ def test_a_file_that_is_wrong_gives_status_1_and_says_why(tmp_path, text, words)
 
 def test_an_unknown_command_gives_status_2():
     assert kinegraph("dmeo").returncode == 2
+
+
+def test_check_shows_mistakes_and_oddities_with_their_lines(tmp_path):
+    scene = tmp_path / "scene.g"
+    scene.write_text("a: { colour: [1 0 0] }\nb (c): {}\nd: { shape: bax }\n")
+    program = kinegraph("check", str(scene), ry.raiPath("panda/panda.g"))
+    assert program.returncode == 1
+    assert f"{scene}:2:1: error: parent of 'b': 'c' is not a frame of this scene" in program.stdout
+    assert "    b (c): {}\n    ^" in program.stdout
+    assert f"{scene}:1:6: warning: frame 'a': unknown attribute 'colour'; did you mean 'color'?" in program.stdout
+    assert f"{scene}:3:13: error: frame 'd', shape: unknown shape type 'bax'" in program.stdout
+    assert program.stdout.endswith("2 checked: 2 errors, 1 warnings\n")
+
+
+def test_check_gives_status_0_for_oddities_unless_strict(tmp_path):
+    scene = tmp_path / "scene.g"
+    scene.write_text("a: { shpae: 3 }\n")
+    assert kinegraph("check", str(scene)).returncode == 0
+    assert kinegraph("check", "--strict", str(scene)).returncode == 1
+    assert kinegraph("check", str(tmp_path / "missing.g")).returncode == 1

@@ -1,12 +1,10 @@
 """Motion problems: recorded numbers, mode switches, solutions that are checked without the problem that produced them."""
 
-import warnings
-
 import numpy as np
 import pytest
-from conftest import recorded
 
 import kinegraph as ry
+from conftest import recorded
 
 FS, OT, SY, JT = ry.FS, ry.OT, ry.SY, ry.JT
 
@@ -14,7 +12,9 @@ FS, OT, SY, JT = ry.FS, ry.OT, ry.SY, ry.JT
 def small_scene() -> ry.Config:
     C = ry.Config()
     C.addText(recorded("komo_modes")["scene"])
-    C.addFrame("box").setPosition([0.3, 0.2, 0.63]).setQuaternion([0.9, 0.1, -0.2, 0.3]).setShape(ry.ST.ssBox, [0.12, 0.1, 0.16, 0.01]).setMass(0.7)
+    C.addFrame("box").setPosition([0.3, 0.2, 0.63]).setQuaternion([0.9, 0.1, -0.2, 0.3]).setShape(
+        ry.ST.ssBox, [0.12, 0.1, 0.16, 0.01]
+    ).setMass(0.7)
     C.addFrame("handle", "box").setRelativePosition([0, 0, 0.1])
     return C
 
@@ -107,7 +107,9 @@ def test_problems_with_mode_switches_have_the_recorded_variables_residuals_and_j
 
 
 def panda_and_box(panda, size=0.06) -> ry.Config:
-    panda.addFrame("box").setPosition([-0.3, 0.2, 0.65 + size / 2]).setShape(ry.ST.ssBox, [size, size, size, 0.005]).setContact(1)
+    panda.addFrame("box").setPosition([-0.3, 0.2, 0.65 + size / 2]).setShape(
+        ry.ST.ssBox, [size, size, size, 0.005]
+    ).setContact(1)
     panda.addFrame("goal").setPosition([0.3, 0.3, 0.65 + size / 2]).setShape(ry.ST.marker, [0.1])
     return panda
 
@@ -285,7 +287,11 @@ def test_waypoints_start_a_path_with_the_same_switches(panda):
     komo.addQuaternionNorms()
     add_pick_and_place(komo)
     cold = komo.report()["totals"]["eq"]
-    for form in (waypoints.getPath_qAll(), [list(q) for q in waypoints.getPath_qAll()], tuple(waypoints.getPath_qAll())):
+    for form in (
+        waypoints.getPath_qAll(),
+        [list(q) for q in waypoints.getPath_qAll()],
+        tuple(waypoints.getPath_qAll()),
+    ):
         assert list(komo.initWithWaypoints(form, 1, True)) == [7, 15, 23]
     np.testing.assert_allclose(komo.getPath()[[7, 15, 23]], waypoints.getPath(), atol=1e-12)
     assert komo.report()["totals"]["eq"] < 0.7 * cold

@@ -9,10 +9,14 @@ import subprocess
 import tempfile
 import time
 import urllib.request
+from contextlib import ExitStack
 from pathlib import Path
 from typing import Any
 
+import numpy as np
 from websockets.sync.client import connect
+
+from .camera import HEIGHT, WIDTH
 
 NAMES = ("chromium", "chromium-browser", "google-chrome", "chrome")
 FLAGS = [
@@ -29,8 +33,18 @@ FLAGS = [
     "--use-angle=swiftshader",
     "--enable-unsafe-swiftshader",
     "--remote-debugging-port=0",
-    "--window-size=1000,750",
 ]
+
+# the browser decodes its own pictures: rgba bytes in base64
+DECODE_PNG = """(async () => {
+  const picture = await createImageBitmap(await (await fetch("data:image/png;base64,PNG")).blob());
+  const context = new OffscreenCanvas(picture.width, picture.height).getContext("2d");
+  context.drawImage(picture, 0, 0);
+  const bytes = context.getImageData(0, 0, picture.width, picture.height).data;
+  let text = "";
+  for (let i = 0; i < bytes.length; i += 8192) text += String.fromCharCode(...bytes.subarray(i, i + 8192));
+  return btoa(text);
+})()"""
 
 
 def find() -> str | None:
@@ -38,29 +52,44 @@ def find() -> str | None:
     return next((path for name in NAMES if (path := shutil.which(name))), None)
 
 
+def reason(details: dict[str, Any]) -> str:
+    """What went wrong in a script."""
+    return details.get("exception", {}).get("description", details["text"])
+
+
 class Browser:
     """One page. Use as a context manager."""
 
     def __init__(self) -> None:
-        self._profile = tempfile.mkdtemp(prefix="kinegraph-browser-")
-        program = find()
-        assert program, "no Chromium found"
-        self._process = subprocess.Popen(
-            [program, *FLAGS, f"--user-data-dir={self._profile}", "about:blank"],
-            stdout=subprocess.DEVNULL,
-            stderr=subprocess.DEVNULL,
-        )
         self._next_id = 0
-        self._socket = connect(self._page_address(), max_size=None, open_timeout=30)
+        self.errors: list[str] = []  # thrown by scripts of the page
 
     def __enter__(self) -> Browser:
+        with ExitStack() as cleanup:
+            self._profile = cleanup.enter_context(
+                tempfile.TemporaryDirectory(prefix="browser-", ignore_cleanup_errors=True)
+            )
+            program = find()
+            assert program, "no Chromium found"
+            process = subprocess.Popen(
+                [program, *FLAGS, f"--user-data-dir={self._profile}", "about:blank"],
+                stdout=subprocess.DEVNULL,
+                stderr=subprocess.DEVNULL,
+            )
+            cleanup.callback(process.wait, 20)
+            cleanup.callback(process.terminate)
+            self._socket = cleanup.enter_context(connect(self._page_address(), max_size=None, open_timeout=30))
+            self.call("Page.enable")
+            self.call("Runtime.enable")
+            self.call(
+                "Emulation.setDeviceMetricsOverride", width=WIDTH, height=HEIGHT, deviceScaleFactor=1, mobile=False
+            )
+            self.call("Emulation.setEmulatedMedia", features=[{"name": "prefers-color-scheme", "value": "light"}])
+            self._cleanup = cleanup.pop_all()
         return self
 
     def __exit__(self, *_: object) -> None:
-        self._socket.close()
-        self._process.terminate()
-        self._process.wait(20)
-        shutil.rmtree(self._profile, ignore_errors=True)
+        self._cleanup.close()
 
     def _page_address(self) -> str:
         port_file = Path(self._profile) / "DevToolsActivePort"
@@ -79,41 +108,63 @@ class Browser:
         self._socket.send(json.dumps({"id": self._next_id, "method": method, "params": parameters}))
         while True:
             answer = json.loads(self._socket.recv(60))
+            if answer.get("method") == "Runtime.exceptionThrown":
+                self.errors.append(reason(answer["params"]["exceptionDetails"]))
             if answer.get("id") == self._next_id:
                 if "error" in answer:
                     raise RuntimeError(answer["error"])
                 return answer["result"]
 
-    def open(self, url: str) -> None:
-        self.call("Page.enable")
+    def open_page(self, url: str) -> None:
         self.call("Page.navigate", url=url)
+        self.wait_for("window.kinegraph && !kinegraph.ended()")
+
+    def open(self, url: str) -> None:
+        """Opens a viewer's page, and waits until it shows a scene."""
+        self.open_page(url)
+        self.wait_for("kinegraph.frames() > 0 && kinegraph.idle()")
+
+    def close_page(self) -> None:
+        self.call("Page.navigate", url="about:blank")
 
     def evaluate(self, script: str) -> Any:
         result = self.call("Runtime.evaluate", expression=script, returnByValue=True, awaitPromise=True)
         if "exceptionDetails" in result:
-            raise RuntimeError(result["exceptionDetails"]["text"])
+            raise RuntimeError(reason(result["exceptionDetails"]))
         return result["result"].get("value")
 
-    def wait_for(self, script: str, seconds: float = 30) -> Any:
+    def wait_for(self, script: str, seconds: float = 60) -> Any:
         """Waits until `script` is true; returns its value."""
         deadline = time.monotonic() + seconds
+        state: Any = None
         while time.monotonic() < deadline:
             try:
-                if value := self.evaluate(script):
-                    return value
-            except RuntimeError:
-                pass
+                if state := self.evaluate(script):
+                    return state
+            except RuntimeError as error:  # the page may not be there yet
+                state = error
             time.sleep(0.05)
-        raise TimeoutError(f"never true: {script}")
+        raise TimeoutError(f"never true, but {state!r}: {script}")
 
-    def press(self, key: str) -> None:
+    def press(self, key: str, **more: Any) -> None:
         """Presses a key, as KeyboardEvent.key names it."""
         for kind in ("keyDown", "keyUp"):
-            self.call("Input.dispatchKeyEvent", type=kind, key=key)
+            self.call("Input.dispatchKeyEvent", type=kind, key=key, **more)
 
-    def screenshot(self, path: Path | None = None) -> bytes:
-        """The page as PNG."""
-        png = base64.b64decode(self.call("Page.captureScreenshot", format="png")["data"])
-        if path:
-            path.write_bytes(png)
-        return png
+    def press_alt(self, letter: str) -> None:
+        self.press(letter.lower(), code=f"Key{letter}", modifiers=1)
+
+    def type(self, text: str) -> None:
+        """Types into what has the focus."""
+        for letter in text:
+            self.press(letter, text=letter)
+
+    def is_visible(self, selector: str) -> bool:
+        return self.evaluate(f"document.querySelector({json.dumps(selector)}).checkVisibility()")
+
+    def picture(self) -> np.ndarray:
+        """The page as people see it: rgb bytes, shape (HEIGHT, WIDTH, 3)."""
+        self.wait_for("kinegraph.idle()")
+        png = self.call("Page.captureScreenshot", format="png")["data"]
+        pixels = self.evaluate(DECODE_PNG.replace("PNG", png))
+        return np.frombuffer(base64.b64decode(pixels), np.uint8).reshape(HEIGHT, WIDTH, 4)[..., :3]

@@ -10,6 +10,9 @@ export interface MeshData {
   hasColors: boolean;
 }
 
+/** Of x, y and z. */
+export const AXIS_COLORS = [0xd64545, 0x3f9c4b, 0x3b6fd6] as const;
+
 const CREASE = 0.7; // rad: edges sharper than this stay sharp
 const LARGEST_CREASED = 60000; // triangles
 
@@ -74,7 +77,7 @@ function marker(length: number): THREE.Object3D {
   const shaft = new THREE.CylinderGeometry(0.02 * length, 0.02 * length, 0.8 * length, 12).translate(0, 0.4 * length, 0);
   const tip = new THREE.ConeGeometry(0.06 * length, 0.2 * length, 20).translate(0, 0.9 * length, 0);
   const turns: [number, number, number][] = [[0, 0, -Math.PI / 2], [0, 0, 0], [Math.PI / 2, 0, 0]];
-  [0xd64545, 0x3f9c4b, 0x3b6fd6].forEach((color, axis) => {
+  AXIS_COLORS.forEach((color, axis) => {
     const material = new THREE.MeshBasicMaterial({ color });
     for (const geometry of [shaft, tip]) {
       const part = new THREE.Mesh(geometry, material);

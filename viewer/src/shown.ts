@@ -2,30 +2,38 @@ import * as THREE from "three";
 import { BinaryKind, type FrameMessage, type SceneMessage } from "./messages";
 import { makeMeshData, makeShape, type MeshData } from "./shapes";
 
-interface Shown {
+/** A frame: `anchor` has its pose; `object` is the shape on it, if there is something to see. */
+export interface Shown {
   message: FrameMessage;
+  anchor: THREE.Group;
   object: THREE.Object3D | null;
+}
+
+/** Frees what the graphics card holds of an object; `kept` is a geometry that others use too. */
+function release(object: THREE.Object3D, kept: THREE.BufferGeometry | undefined): void {
+  object.traverse((part) => {
+    if (!(part instanceof THREE.Mesh || part instanceof THREE.Points || part instanceof THREE.LineSegments)) return;
+    if (part.geometry !== kept) part.geometry.dispose();
+    part.material.dispose();
+  });
 }
 
 /** The frames of the scene as three.js objects, kept as the server's messages say. */
 export class ShownScene {
   private readonly shown = new Map<number, Shown>();
+  readonly frames: ReadonlyMap<number, Shown> = this.shown;
   private readonly meshes = new Map<number, MeshData>();
   private readonly poses = new Map<number, Float32Array>();
 
   constructor(private readonly parent: THREE.Group) {}
 
-  get frameCount(): number {
-    return this.shown.size;
-  }
-
-  get objectCount(): number {
-    return this.parent.children.length;
+  get meshCount(): number {
+    return this.meshes.size;
   }
 
   clear(): void {
     for (const id of [...this.shown.keys()]) this.remove(id);
-    this.meshes.clear();
+    this.dropUnusedMeshes();
     this.poses.clear();
   }
 
@@ -33,14 +41,15 @@ export class ShownScene {
     for (const id of [...this.shown.keys()]) if (id >= message.count) this.remove(id);
     for (const frame of message.frames) {
       this.remove(frame.id);
+      const anchor = new THREE.Group();
+      anchor.name = frame.name;
+      this.parent.add(anchor);
       const object = frame.shape ? makeShape(frame.shape, this.meshes) : null;
-      if (object) {
-        object.name = frame.name;
-        this.parent.add(object);
-      }
-      this.shown.set(frame.id, { message: frame, object });
+      if (object) anchor.add(object);
+      this.shown.set(frame.id, { message: frame, anchor, object });
       this.place(frame.id);
     }
+    this.dropUnusedMeshes();
   }
 
   readBinary(data: ArrayBuffer): void {
@@ -73,16 +82,29 @@ export class ShownScene {
   }
 
   private place(id: number): void {
-    const object = this.shown.get(id)?.object;
+    const anchor = this.shown.get(id)?.anchor;
     const pose = this.poses.get(id);
-    if (!object || !pose) return;
-    object.position.set(pose[0]!, pose[1]!, pose[2]!);
-    object.quaternion.set(pose[4]!, pose[5]!, pose[6]!, pose[3]!);
+    if (!anchor || !pose) return;
+    anchor.position.set(pose[0]!, pose[1]!, pose[2]!);
+    anchor.quaternion.set(pose[4]!, pose[5]!, pose[6]!, pose[3]!);
   }
 
   private remove(id: number): void {
-    const object = this.shown.get(id)?.object;
-    if (object) this.parent.remove(object);
+    const shown = this.shown.get(id);
+    if (!shown) return;
+    this.parent.remove(shown.anchor);
+    release(shown.anchor, this.meshes.get(shown.message.shape?.mesh ?? -1)?.geometry);
+    shown.anchor.clear();
     this.shown.delete(id);
+  }
+
+  /** The server keeps no other meshes than those in use, and counts on the same here. */
+  private dropUnusedMeshes(): void {
+    const used = new Set([...this.shown.values()].map((shown) => shown.message.shape?.mesh));
+    for (const [number, mesh] of this.meshes) {
+      if (used.has(number)) continue;
+      mesh.geometry.dispose();
+      this.meshes.delete(number);
+    }
   }
 }

@@ -1,5 +1,10 @@
 import * as THREE from "three";
 import { OrbitControls } from "three/addons/controls/OrbitControls.js";
+import { CSS2DRenderer } from "three/addons/renderers/CSS2DRenderer.js";
+
+function isSeen(object: THREE.Object3D): boolean {
+  return object.visible && (object.parent === null || isSeen(object.parent));
+}
 
 /** Canvas, camera, lights and floor: everything but the scene itself. Draws only when something has changed. */
 export class Stage {
@@ -8,23 +13,25 @@ export class Stage {
   readonly camera = new THREE.PerspectiveCamera(40, 1, 0.01, 200);
   readonly renderer: THREE.WebGLRenderer;
   private readonly controls: OrbitControls;
-  private readonly sun = new THREE.DirectionalLight(0xffffff, 2.4);
+  private readonly labels = new CSS2DRenderer();
+  private readonly sun = new THREE.DirectionalLight(0xffffff, 2.1);
   private dirty = true;
-  drawn = 0;
 
   constructor(private readonly canvas: HTMLCanvasElement) {
-    this.renderer = new THREE.WebGLRenderer({ canvas, antialias: true, preserveDrawingBuffer: true });
+    this.renderer = new THREE.WebGLRenderer({ canvas, antialias: true });
     this.renderer.setPixelRatio(Math.min(devicePixelRatio, 2));
     this.renderer.shadowMap.enabled = true;
     this.renderer.shadowMap.type = THREE.PCFShadowMap;
     this.renderer.toneMapping = THREE.NeutralToneMapping;
+    this.labels.domElement.className = "labels";
+    canvas.after(this.labels.domElement);
     this.camera.up.set(0, 0, 1);
     this.controls = new OrbitControls(this.camera, canvas);
     this.controls.addEventListener("change", () => this.redraw());
     this.addLights();
     this.addFloor();
     this.scene.add(this.frames);
-    this.lookFrom(new THREE.Vector3(1.7, 3.1, 2.0), new THREE.Vector3(0, 0, 0.8));
+    this.lookFrom(new THREE.Vector3(1.5, 2.6, 1.8), new THREE.Vector3(0, 0, 0.9));
     addEventListener("resize", () => this.resize());
     matchMedia("(prefers-color-scheme: dark)").addEventListener("change", () => this.paper());
     canvas.addEventListener("dblclick", (event) => this.focus(event));
@@ -50,8 +57,13 @@ export class Stage {
     this.dirty = true;
   }
 
+  /** True if what is on the screen is up to date. */
+  get idle(): boolean {
+    return !this.dirty;
+  }
+
   private addLights(): void {
-    this.scene.add(new THREE.HemisphereLight(0xffffff, 0xb9b4aa, 1.5));
+    this.scene.add(new THREE.HemisphereLight(0xffffff, 0xb9b4aa, 1.7));
     this.sun.position.set(-2.5, 2.2, 5);
     this.sun.target.position.set(0, 0, 0.5);
     this.sun.castShadow = true;
@@ -91,9 +103,20 @@ export class Stage {
   private resize(): void {
     const { clientWidth: width, clientHeight: height } = this.canvas;
     this.renderer.setSize(width, height, false);
+    this.labels.setSize(width, height);
     this.camera.aspect = width / Math.max(height, 1);
     this.camera.updateProjectionMatrix();
     this.redraw();
+  }
+
+  /** Lets the browser save what is seen, without names and panels, as a PNG file. */
+  savePicture(file: string): void {
+    this.redraw();
+    this.draw();
+    const link = document.createElement("a");
+    link.href = this.canvas.toDataURL("image/png");
+    link.download = file;
+    link.click();
   }
 
   /** A double click turns about the point that was hit from there on. */
@@ -101,7 +124,7 @@ export class Stage {
     const at = new THREE.Vector2((2 * event.offsetX) / this.canvas.clientWidth - 1, 1 - (2 * event.offsetY) / this.canvas.clientHeight);
     const ray = new THREE.Raycaster();
     ray.setFromCamera(at, this.camera);
-    const hit = ray.intersectObject(this.frames, true)[0];
+    const hit = ray.intersectObject(this.frames, true).find(({ object }) => object instanceof THREE.Mesh && isSeen(object));
     if (!hit) return;
     this.controls.target.copy(hit.point);
     this.controls.update();
@@ -112,6 +135,6 @@ export class Stage {
     if (!this.dirty) return;
     this.dirty = false;
     this.renderer.render(this.scene, this.camera);
-    ++this.drawn;
+    this.labels.render(this.scene, this.camera);
   }
 }

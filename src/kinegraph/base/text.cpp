@@ -50,7 +50,8 @@ std::vector<std::string> similarWords(std::string_view word, const std::vector<s
     double distance = editDistance(word, candidate);
     const bool contains = candidate.find(word) != std::string::npos || word.find(candidate) != std::string_view::npos;
     const double limit = std::max(1., double(std::max(word.size(), candidate.size())) / 3.);
-    if (distance > limit && !(contains && std::min(word.size(), candidate.size()) >= 3)) continue;
+    const bool nothing_in_common = distance >= double(std::max(word.size(), candidate.size()));
+    if ((distance > limit || nothing_in_common) && !(contains && std::min(word.size(), candidate.size()) >= 3)) continue;
     if (contains) distance = std::min(distance, limit);
     near.emplace_back(distance, candidate);
   }

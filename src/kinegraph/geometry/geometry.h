@@ -41,13 +41,15 @@ struct Mesh {
 /// A shape without pose, colour or owner: type, size, and mesh or core points where the type needs them.
 /// `size` has exactly the entries that the type wants (m):
 ///   box x y z | sphere r | capsule length r | cylinder length r | ssBox x y z r | ssCylinder length R r
-///   ssBoxElip x y z ex ey ez r | ssCvx r | quad x y | marker length | sdf, tensor x y z | others none
+///   ssBoxElip x y z ex ey ez r | ssCvx r | quad x y | marker length | sdf, tensor x y z | camera none, or its symbol's length | others none
 /// Boxes give full outer widths including rounding; the axis of capsule and cylinder is z; a capsule's length is that
 /// of its core segment.
 struct Geometry {
   ShapeType type = ShapeType::none;
   std::vector<double> size;
   std::shared_ptr<const Mesh> mesh;  ///< mesh, pointCloud, lines; core points of ssCvx (its vertices)
+  std::string mesh_file = {};              ///< path of the file that `mesh` was read from, or empty
+  Vector3d mesh_scale = Vector3d::Ones();  ///< by which its points were multiplied
 };
 
 }  // namespace kinegraph

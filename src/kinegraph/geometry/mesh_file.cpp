@@ -1,5 +1,6 @@
 #include "kinegraph/geometry/mesh_file.h"
 
+#include <assimp/config.h>
 #include <assimp/material.h>
 #include <assimp/postprocess.h>
 #include <assimp/scene.h>
@@ -11,6 +12,7 @@
 
 #include "kinegraph/base/errors.h"
 #include "kinegraph/base/text.h"
+#include "kinegraph/geometry/h5_file.h"
 
 namespace kinegraph {
 
@@ -37,7 +39,8 @@ void append(const aiScene& scene, const aiNode& node, const aiMatrix4x4& above, 
     }
     for (unsigned f = 0; f < part.mNumFaces; ++f) {
       const aiFace& face = part.mFaces[f];
-      if (face.mNumIndices == 3) mesh.triangles.push_back({first + face.mIndices[0], first + face.mIndices[1], first + face.mIndices[2]});
+      if (face.mNumIndices == 3)
+        mesh.triangles.push_back({first + face.mIndices[0], first + face.mIndices[1], first + face.mIndices[2]});
     }
   }
   for (unsigned child = 0; child < node.mNumChildren; ++child) append(scene, *node.mChildren[child], transform, mesh);
@@ -45,9 +48,48 @@ void append(const aiScene& scene, const aiNode& node, const aiMatrix4x4& above, 
 
 }  // namespace
 
+Mesh readH5Mesh(const std::string& path, const std::string& group) {
+  if (!std::filesystem::is_regular_file(path)) throw FileError(cat("mesh file '", path, "' does not exist"));
+  const H5File file(path);
+  const auto table = [&](const std::string& name, std::uint64_t at_least, std::uint64_t at_most) {
+    H5Dataset data = file.dataset(cat(group, "/", name));
+    if (data.dims.size() != 2 || data.dims[1] < at_least || data.dims[1] > at_most) {
+      throw FileError(cat("mesh file '", path, "': '", group, "/", name, "' is not a table of ", at_least, " columns"));
+    }
+    return data;
+  };
+  Mesh mesh;
+  const H5Dataset vertices = table("vertices", 3, 3);
+  const std::vector<double>& v = vertices.numbers;
+  for (std::size_t i = 0; i < v.size(); i += 3) mesh.vertices.emplace_back(v[i], v[i + 1], v[i + 2]);
+  if (file.contains(cat(group, "/faces"))) {
+    const std::vector<double> f = table("faces", 3, 3).numbers;
+    for (std::size_t i = 0; i < f.size(); ++i) {
+      if (!(f[i] >= 0. && f[i] < double(mesh.vertices.size()))) {
+        throw FileError(cat("mesh file '", path, "': a face names vertex ", f[i], " of ", mesh.vertices.size()));
+      }
+    }
+    for (std::size_t i = 0; i < f.size(); i += 3)
+      mesh.triangles.push_back({std::uint32_t(f[i]), std::uint32_t(f[i + 1]), std::uint32_t(f[i + 2])});
+  }
+  if (file.contains(cat(group, "/colors"))) {
+    const H5Dataset colors = table("colors", 3, 4);
+    const std::size_t columns = colors.dims[1];
+    const auto byte = [](double x) { return std::uint8_t(std::lround(std::clamp(x, 0., 255.))); };
+    for (std::size_t i = 0; i < colors.numbers.size(); i += columns) {
+      const double* c = colors.numbers.data() + i;
+      mesh.colors.push_back({byte(c[0]), byte(c[1]), byte(c[2]), columns == 4 ? byte(c[3]) : std::uint8_t(255)});
+    }
+    if (mesh.colors.size() != 1 && mesh.colors.size() != mesh.vertices.size()) mesh.colors.clear();
+  }
+  return mesh;
+}
+
 Mesh readMeshFile(const std::string& path) {
   if (!std::filesystem::is_regular_file(path)) throw FileError(cat("mesh file '", path, "' does not exist"));
+  if (path.ends_with(".h5")) return readH5Mesh(path, "mesh");
   Assimp::Importer importer;
+  importer.SetPropertyBool(AI_CONFIG_IMPORT_COLLADA_IGNORE_UP_DIRECTION, true);  // as robot descriptions mean it
   const aiScene* scene = importer.ReadFile(path, aiProcess_Triangulate | aiProcess_JoinIdenticalVertices);
   if (!scene || !scene->mRootNode) {
     throw FileError(cat("mesh file '", path, "' cannot be read: ", importer.GetErrorString()));

@@ -1,5 +1,6 @@
 #include "kinegraph/geometry/shape_types.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "kinegraph/base/errors.h"
@@ -48,10 +49,10 @@ void modernize(ShapeType type, std::vector<double>& size) {
   if (round && size.size() == 4) size.erase(size.begin(), size.begin() + 2);
   if (type == ShapeType::sphere && size.size() == 2) size.erase(size.begin());
   if (type == ShapeType::box && size.size() == 4) size.pop_back();
-  if (type == ShapeType::marker && size.size() > 1) size = {size.back()};
+  if (type == ShapeType::marker && size.size() > 1) size = {*std::max_element(size.begin(), size.end())};
   if (size.empty() && type == ShapeType::sphere) size = {1.};
   if (size.empty() && type == ShapeType::marker) size = {.1};
-  if (kindOf(type).entries == 0) size.clear();
+  if (kindOf(type).entries == 0) size.resize(type == ShapeType::camera ? std::min<std::size_t>(size.size(), 1) : 0);
 }
 
 }  // namespace
@@ -81,7 +82,7 @@ std::vector<double> checkedSize(ShapeType type, std::vector<double> size, std::s
   const std::size_t given = size.size();
   modernize(type, size);
   const Kind& kind = kindOf(type);
-  if (size.size() != std::size_t(kind.entries)) {
+  if (size.size() != std::size_t(kind.entries) && type != ShapeType::camera) {
     throw ValueError(cat("size of a ", kind.name, " has ", kind.entries, " numbers [", kind.meaning, "], not ", given));
   }
   for (double x : size) {

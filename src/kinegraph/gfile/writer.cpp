@@ -24,7 +24,7 @@ std::string quoted(const std::string& text) {
   throw ValueError(cat("text with both kinds of quotes cannot be written: ", text));
 }
 
-std::string number(double x) { return std::isnan(x) ? "nan" : std::isinf(x) ? (x > 0 ? "inf" : "-inf") : exact(x); }
+std::string number(double x) { return std::isnan(x) ? "+nan" : std::isinf(x) ? (x > 0 ? "+inf" : "-inf") : exact(x); }
 
 struct Writer {
   std::string operator()(bool b) const { return b ? "true" : "false"; }
@@ -59,8 +59,13 @@ std::string writeKey(const Node& node) {
   for (const std::string& tag : node.tags) key += tag + " ";
   const bool needs_quotes = node.key.find_first_of(":\t\n\r,;[]{}()<=!~'#") != std::string::npos;
   key += needs_quotes ? quoted(node.key) : node.key;
-  if (!node.parents.empty()) key += cat(" (", join(node.parents, " "), ")");
-  return key;
+  if (node.parents.empty()) return key;
+  std::vector<std::string> parents;
+  for (const std::string& parent : node.parents) {
+    const bool special = parent.empty() || parent.find_first_of(" \t\r\n,(){}[]<>:=\"'") != std::string::npos;
+    parents.push_back(special ? quoted(parent) : parent);
+  }
+  return cat(key, " (", join(parents, " "), ")");
 }
 
 std::string writeEntry(const Node& node) {

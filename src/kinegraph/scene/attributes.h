@@ -1,47 +1,85 @@
 #pragma once
 
+#include <initializer_list>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "kinegraph/gfile/value.h"
-#include "kinegraph/scene/scene_tree.h"
+#include "kinegraph/scene/diagnostics.h"
+#include "kinegraph/scene/frame_data.h"
 
 namespace kinegraph {
 
 /// The attributes of one frame, read with checks. Mistakes are collected, so that all of a file are reported together.
 class AttributeReader {
  public:
+  /// `folder` is where the files that the attributes name are.
   AttributeReader(const Graph& attributes, const std::string& folder, const std::string& frame_name,
-                  const SourcePosition& where, std::vector<ParseError>& errors, std::vector<std::string>& warnings);
+                  SceneDiagnostics& diagnostics)
+      : attributes_(attributes), folder_(folder), frame_name_(frame_name), diagnostics_(diagnostics) {}
 
-  /// Joint, pose, shape and inertia, in that order; `joint_keys` false leaves joint, pose and `pre`, `post` to others.
-  void apply(FrameData& frame, bool joint_keys = true);
-
+  /// What moves the frame: the joint, and the constant transforms before and behind it, where given.
   std::optional<Joint> readJoint();
+  std::optional<Pose> readBefore() { return readPose({"pre", "A", "origin"}); }
+  std::optional<Pose> readBehind();
+
+  /// Sets joint and pose.
+  void applyJoint(FrameData& frame);
+
+  /// Sets shape and inertia, and warns of attributes that look misspelt.
+  void applyBody(FrameData& frame);
+
+  const Node* find(std::initializer_list<const char*> keys) const;
   std::optional<Pose> readPose(std::initializer_list<const char*> keys);
 
-  /// Warns of attributes that look like misspelt ones.
-  void checkSpelling();
+  /// A word, or one name in parentheses.
+  std::optional<std::string> text(const Node& node);
+  void error(const Node& node, const std::string& message);
 
  private:
-  const Node* find(std::initializer_list<const char*> keys) const;
-  void error(const Node& node, const std::string& message);
+  void warning(const Node& node, const std::string& message);
   std::optional<double> number(const Node& node);
+  double numberOr(const char* key, double otherwise);
   std::optional<std::vector<double>> numbers(const Node& node);
-  std::optional<std::string> text(const Node& node);
-  std::string path(const Node& node);
+  std::optional<Vector3d> vector3(const Node& node);
+  static std::string givenPath(const Node& node);
+  std::string path(const Node& node);  ///< absolute; throws FileError for a package that is not installed
   void applyPose(FrameData& frame);
-  void applyShape(FrameData& frame);
-  std::shared_ptr<Geometry> readGeometry();
+  void readLimits(Joint& joint);
+  void readDofs(Joint& joint);
+  std::optional<VectorXd> readDofValues(const char* key, const Joint& joint);
   void applyInertia(FrameData& frame);
+  void applyShape(FrameData& frame);
+  bool readGeometry(Geometry& geometry);
+  bool readShapeType(Geometry& geometry);
+  bool readMesh(Geometry& geometry);
+  bool readCore(Geometry& geometry);
+  bool readRope(Geometry& geometry);
+  bool readVertices(Geometry& geometry);
+  bool readSize(Geometry& geometry);
+  void checkSpelling();
   template <class Function>
-  void guarded(const Node& node, Function function);
+  bool guarded(const Node& node, Function function);
 
   const Graph& attributes_;
-  std::string folder_, frame_name_;
-  SourcePosition where_;
-  std::vector<ParseError>& errors_;
-  std::vector<std::string>& warnings_;
+  const std::string& folder_;
+  const std::string& frame_name_;
+  SceneDiagnostics& diagnostics_;
 };
+
+/// Runs a function whose errors belong to an attribute. Returns whether there was none.
+template <class Function>
+bool AttributeReader::guarded(const Node& node, Function function) {
+  try {
+    function();
+    return true;
+  } catch (const ParseError& e) {
+    error(node, e.reason());
+  } catch (const Error& e) {
+    error(node, e.what());
+  }
+  return false;
+}
 
 }  // namespace kinegraph

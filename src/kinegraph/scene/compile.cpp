@@ -76,7 +76,7 @@ std::shared_ptr<const Program> compileProgram(const SceneTree& scene) {
     link.first_step = int(program->steps.size());
     link.steps = int(frame->joint->steps.size());
     link.dof = program->frame_dofs[frame->id].first;
-    link.scale = frame->joint->scale;
+    link.scale = motionScale(*frame);
     link.axis = frame->joint->axis;
     program->steps.insert(program->steps.end(), frame->joint->steps.begin(), frame->joint->steps.end());
     program->frame_link[frame->id] = int(program->links.size());

@@ -3,11 +3,11 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <set>
 
 #include "kinegraph/base/errors.h"
 #include "kinegraph/base/text.h"
 #include "kinegraph/geometry/proximity.h"
-#include "kinegraph/gfile/parser.h"
 #include "kinegraph/scene/reader.h"
 
 namespace kinegraph {
@@ -21,9 +21,29 @@ Config& Config::operator=(const Config& other) {
   return *this;
 }
 
+namespace {
+
+/// Names of `added` that `scene` has already, as a warning; empty if there are none.
+std::string duplicatesWarning(const SceneTree& scene, const SceneTree& added, const std::string& prefix, std::string_view file) {
+  const std::vector<std::string> names = scene.names();
+  const std::set<std::string> known(names.begin(), names.end());
+  std::vector<std::string> twice;
+  for (const std::string& name : added.names()) {
+    if (!name.empty() && known.contains(prefix + name)) twice.push_back(prefix + name);
+  }
+  if (twice.empty()) return "";
+  const std::size_t count = twice.size();
+  twice.resize(std::min<std::size_t>(count, 3));
+  return cat(file, ": ", count, " of its frames have names that exist already (", join(twice), count > 3 ? ", ..." : "",
+             "); a name finds the first frame; a prefix keeps them apart");
+}
+
+}  // namespace
+
 std::optional<Frame> Config::addFile(const std::string& path, const std::string& prefix) {
   SceneTree scratch;
   readSceneFile(path, scratch, warnings_);
+  if (std::string warning = duplicatesWarning(*scene_, scratch, prefix, path); !warning.empty()) warnings_.push_back(std::move(warning));
   FrameData* first = scene_->append(scratch, prefix);
   if (!first) return std::nullopt;
   return Frame(scene_, *first);
@@ -43,11 +63,9 @@ Frame Config::addFrame(const std::string& name, const std::string& parent, const
     return Frame(scene_, *existing);
   }
   FrameData* parent_data = parent.empty() ? nullptr : &scene_->get(parent, cat("addFrame('", name, "'): parent"));
-  Graph graph;
-  if (!attributes.empty()) graph = parse(attributes, cat("attributes of '", name, "'"));
   FrameData& frame = scene_->add(name, parent_data);
   try {
-    if (!attributes.empty()) applyAttributes(graph, std::filesystem::current_path().string(), frame, warnings_);
+    if (!attributes.empty()) readAttributes(attributes, std::filesystem::current_path().string(), frame, warnings_);
   } catch (...) {
     scene_->remove(frame);
     throw;

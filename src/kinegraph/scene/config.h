@@ -25,8 +25,9 @@ class Config {
 
   // --- building --------------------------------------------------------------------------------------------------
 
-  /// Adds the frames of a scene file; `prefix` is put before their names. Returns the first of them, if any. On an error
-  /// (FileError, ParseError) the configuration is unchanged. Warnings go to `takeWarnings`.
+  /// Adds the frames of a scene file, in the .g language or of a format that its extension tells (.urdf); `prefix` is put
+  /// before their names. Returns the first of them, if any. On an error (FileError, ParseError) the configuration is
+  /// unchanged. Warnings go to `takeWarnings`.
   std::optional<Frame> addFile(const std::string& path, const std::string& prefix = {});
 
   /// The same for text; `name` stands for the file in messages, and files included are relative to `folder`.

@@ -70,7 +70,7 @@ Frame& Frame::setRelativePose(const Pose& pose) {
   if (frame.moves()) {
     const Joint& joint = *frame.joint;
     Joint& source = *dofSource(frame).joint;
-    source.q = motionProject(joint.steps, joint.axis, joint.scale, pose);
+    source.q = motionProject(joint.steps, joint.axis, motionScale(frame), pose);
     scene_->jointsChanged();
     if (!source.active) scene_->posesChanged();
   } else {

@@ -20,7 +20,7 @@ const std::shared_ptr<const CollisionBody>& Shape::body() const {
 Pose FrameData::relativePose() const {
   if (!moves()) return pose;
   const Joint& source = *dofSource(*this).joint;
-  return motionPose(joint->steps, joint->axis, joint->scale, source.q.data());
+  return motionPose(joint->steps, joint->axis, motionScale(*this), source.q.data());
 }
 
 Pose FrameData::worldPose() const {
@@ -33,6 +33,11 @@ const FrameData& dofSource(const FrameData& frame) {
   const FrameData* source = &frame;
   while (source->joint && source->joint->mimic) source = source->joint->mimic;
   return *source;
+}
+
+double motionScale(const FrameData& frame) {
+  const double own = frame.joint->scale;
+  return frame.joint->mimic ? own * dofSource(frame).joint->scale : own;
 }
 
 FrameData& dofSource(FrameData& frame) { return const_cast<FrameData&>(dofSource(std::as_const(frame))); }

@@ -23,7 +23,7 @@ struct Joint {
   JointType type = JointType::rigid;
   std::string code;                    ///< of JointType::generic
   Vector3d axis = Vector3d::UnitX();   ///< of JointType::hinge, unit length
-  double scale = 1.;                   ///< the motion is that of scale * q
+  double scale = 1.;                   ///< the motion is that of scale * q; of a mimic, of scale * the source's motion
   VectorXd q;                          ///< current dofs; unused while mimicking
   VectorXd home;                       ///< dofs when the joint was made; mean of random sampling
   VectorXd lower, upper;               ///< limits in units of q; both empty: none
@@ -83,5 +83,8 @@ struct FrameData {
 /// The joint whose dofs drive `frame`: its own, or the one that it mimics, through any number of steps.
 FrameData& dofSource(FrameData& frame);
 const FrameData& dofSource(const FrameData& frame);
+
+/// What multiplies the dofs of the source to make the motion of a joint: its own scale, and if it mimics, times the source's.
+double motionScale(const FrameData& frame);
 
 }  // namespace kinegraph

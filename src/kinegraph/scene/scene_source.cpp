@@ -1,14 +1,15 @@
 #include "kinegraph/scene/scene_source.h"
 
 #include <algorithm>
-#include <cstdlib>
 #include <filesystem>
 #include <fstream>
+#include <iterator>
 #include <set>
 #include <sstream>
 
+#include "kinegraph/base/errors.h"
 #include "kinegraph/base/text.h"
-#include "kinegraph/gfile/parser.h"
+#include "kinegraph/scene/scene_format.h"
 
 namespace kinegraph {
 
@@ -16,59 +17,43 @@ namespace fs = std::filesystem;
 
 namespace {
 
-std::string environment(const std::string& name) {
-  const char* value = std::getenv(name.c_str());
-  return value ? value : "";
-}
+// What all files of one scene may have together: so that a small file cannot include its way to a huge scene.
+constexpr std::size_t kMaxNesting = 50, kMaxFiles = 2000, kMaxBytes = std::size_t(64) << 20;
 
-std::string expandEnvironment(const std::string& path) {
-  std::string out;
-  for (std::size_t i = 0; i < path.size();) {
-    if (path[i] != '$') {
-      out += path[i++];
-      continue;
-    }
-    std::size_t end = i + 1;
-    while (end < path.size() && (std::isalnum(static_cast<unsigned char>(path[end])) || path[end] == '_')) ++end;
-    out += environment(path.substr(i + 1, end - i - 1));
-    i = end;
-  }
-  return out;
-}
-
-std::string findInPackages(const std::string& rest) {
-  for (const char* variable : {"KINEGRAPH_PACKAGE_PATH", "ROS_PACKAGE_PATH", "AMENT_PREFIX_PATH"}) {
-    std::stringstream folders(environment(variable));
-    for (std::string folder; std::getline(folders, folder, ':');) {
-      for (const fs::path& base : {fs::path(folder), fs::path(folder) / "share"}) {
-        std::error_code error;
-        if (!folder.empty() && fs::exists(base / rest, error)) return (base / rest).string();
-      }
-    }
-  }
-  return "";
-}
-
-/// Reads one file after the other into a SceneSource.
+/// Reads one file after the other.
 class SourceReader {
  public:
-  explicit SourceReader(SceneSource& source) : source_(source) {}
+  explicit SourceReader(SceneDiagnostics& diagnostics) : diagnostics_(diagnostics) {}
 
+  std::vector<Node> joint_states;
+  std::vector<std::string> files;  ///< asked for, in order, whether they exist or not
+
+  /// `included_at` is where the file is named, if it is.
   std::vector<SourceFrame> readFile(const std::string& path, const SourcePosition& included_at) {
+    files.push_back(path);
     const fs::path absolute = fs::absolute(path).lexically_normal();
     std::error_code error;
+    const auto refuse = [&](const std::string& message) {
+      if (!included_at.known()) throw FileError(message);
+      diagnostics_.error(included_at, message);
+      return std::vector<SourceFrame>();
+    };
     if (!fs::is_regular_file(absolute, error)) {
-      const std::string message = cat("scene file '", path, "' does not exist", similarFiles(absolute));
-      if (included_at.known()) throw ParseError(included_at, withExcerpt(included_at, message));
-      throw FileError(message);
+      return refuse(cat("scene file '", path, "' ", fs::exists(absolute, error) ? "is not a file" : "does not exist",
+                        similarFilesHint(absolute.string())));
     }
-    if (std::find(open_.begin(), open_.end(), absolute.string()) != open_.end()) {
-      throw ParseError(included_at, withExcerpt(included_at, cat("'", path, "' includes itself")));
+    if (std::find(open_.begin(), open_.end(), absolute.string()) != open_.end())
+      return refuse(cat("'", path, "' includes itself"));
+    if (open_.size() == kMaxNesting) return refuse(cat("files are included deeper than ", kMaxNesting, " levels"));
+    bytes_ += fs::file_size(absolute, error);
+    if (files.size() > kMaxFiles || error || bytes_ > kMaxBytes) {
+      return refuse(cat("the scene has grown beyond ", kMaxFiles, " files or ", kMaxBytes >> 20, " MB of text with '",
+                        path, "'"));
     }
     std::ifstream stream(absolute, std::ios::binary);
     std::stringstream text;
     text << stream.rdbuf();
-    if (!stream) throw FileError(cat("scene file '", path, "' cannot be read"));
+    if (!stream) return refuse(cat("scene file '", path, "' cannot be read"));
     open_.push_back(absolute.string());
     auto frames = readText(text.str(), path, absolute.parent_path().string());
     open_.pop_back();
@@ -76,14 +61,17 @@ class SourceReader {
   }
 
   std::vector<SourceFrame> readText(const std::string& text, const std::string& name, std::string folder) {
-    source_.texts[name] = text;
-    const Graph graph = parse(text, name, &source_.warnings);
+    diagnostics_.addText(name, text);
+    const SceneFormat* format = sceneFormatOf(name);
+    ParseResult parsed = format ? format->read(text, name, folder) : parseAll(text, name);
+    for (Diagnostic& diagnostic : parsed.diagnostics) diagnostics_.add(std::move(diagnostic));
     std::vector<SourceFrame> frames;
     std::vector<Node> edits;
     std::string prefix;
-    for (const Node& node : graph.nodes) {
+    scopes_.push_back(&frames);
+    for (Node& node : parsed.graph.nodes) {
       if (node.key == "Include") {
-        std::vector<SourceFrame> included = readFile(resolvePath(fileName(node), folder), node.value.where);
+        std::vector<SourceFrame> included = include(node, folder);
         if (!prefix.empty()) addPrefix(included, prefix);
         prefix.clear();
         std::move(included.begin(), included.end(), std::back_inserter(frames));
@@ -91,95 +79,119 @@ class SourceReader {
         const std::string* text_value = node.value.as<std::string>();
         prefix = text_value ? *text_value : "";
       } else if (node.key == "ChDir") {
-        folder = resolvePath(fileName(node), folder);
-      } else if (node.key == "Delete" && !node.value.as<Graph>()) {
-        deleteFrames(frames, nameOf(node), node);
-      } else if (node.key.starts_with("DeleteBranch")) {
-        deleteBranch(frames, node);
+        if (const std::string* given = textOf(node, "a folder: 'ChDir: <folder/>'"))
+          folder = resolvePath(*given, folder);
+      } else if (isDeletion(node, "DeleteBranch") || isDeletion(node, "Delete")) {
+        deleteFrames(node);
       } else if (isEdit(node)) {
-        edits.push_back(node);
-      } else if (node.key == "Quit") {
-        source_.warnings.push_back(cat(node.where.str(), ": 'Quit' has no effect; what follows is read"));
+        edits.push_back(std::move(node));
+      } else if (node.key == "Quit" && !node.value.as<Graph>()) {
+        diagnostics_.warning(node.where, "'Quit' has no effect; what follows is read");
       } else if (node.key == "q" && (node.value.as<NumberArray>() || node.value.as<double>())) {
-        source_.joint_states.push_back(node);
-      } else if (node.value.as<Graph>()) {
-        frames.push_back({node, folder});
-        frames.back().node.key = prefix + node.key;
+        joint_states.push_back(std::move(node));
+      } else if (const Graph* attributes = node.value.as<Graph>()) {
+        const bool nothing = attributes->nodes.empty() && node.key.empty() && node.parents.empty();
+        if (nothing && node.where.str() == node.value.where.str()) continue;  // { } without even a colon
+        checkTags(node);
+        node.key = prefix + node.key;
+        frames.push_back({std::move(node), folder, prefix});
       } else {
-        throw ParseError(node.where, withExcerpt(node.where, cat("'", node.key, "' is ", describe(node.value),
-                                                                 "; at the top of a scene stand frames 'name: { ... }', q: [joint state], or Include, "
-                                                                 "Prefix, Edit, Delete", similarHint(node.key, {"Include", "Prefix", "Edit", "Delete"}))));
+        refuseEntry(node);
       }
     }
-    for (const Node& edit : edits) applyEdit(frames, edit);
+    for (const Node& edit : edits) applyEdit(edit);
+    scopes_.pop_back();
     return frames;
   }
 
  private:
-  std::string withExcerpt(const SourcePosition& where, const std::string& message) const {
-    const auto text = source_.texts.find(where.file);
-    return text == source_.texts.end() ? message : cat(message, "\n", excerpt(text->second, where));
+  std::vector<SourceFrame> include(const Node& node, const std::string& folder) {
+    const std::string* file = textOf(node, "a file: 'Include: <path>'");
+    if (!file) return {};
+    const std::string path = resolvePath(*file, folder);
+    if (!path.empty()) return readFile(path, node.value.where);
+    diagnostics_.error(node.value.where,
+                       cat("'", *file, "' is in none of the folders of KINEGRAPH_PACKAGE_PATH and ROS_PACKAGE_PATH"));
+    return {};
   }
 
-  [[noreturn]] void fail(const Node& node, const std::string& message) const {
-    throw ParseError(node.where, withExcerpt(node.where, message));
+  /// The text of a word, a string or <...>; anything else is an error.
+  const std::string* textOf(const Node& node, const char* expected) {
+    if (const AngleText* angle = node.value.as<AngleText>()) return &angle->text;
+    if (const std::string* text = node.value.as<std::string>()) return text;
+    diagnostics_.error(node.where, cat(node.key, " takes ", expected, ", not ", describe(node.value)));
+    return nullptr;
   }
 
-  static std::string similarFiles(const fs::path& path) {
-    std::vector<std::string> names;
-    std::error_code error;
-    for (const auto& entry : fs::directory_iterator(path.parent_path(), error)) names.push_back(entry.path().filename().string());
-    if (error) return cat("; there is no folder '", path.parent_path().string(), "'");
-    return similarHint(path.filename().string(), names);
+  void refuseEntry(const Node& node) {
+    std::string hint = similarHint(node.key, {"Include", "Prefix", "Edit", "Delete", "DeleteBranch", "ChDir"});
+    if (node.key.find(' ') != std::string::npos && hint.empty()) hint = "; is there a line end or a comma missing?";
+    diagnostics_.error(
+        node.where,
+        cat("'", node.key, "' is ", describe(node.value),
+            "; at the top of a scene stand frames 'name (parent): { ... }', q: [joint state], or Include, Prefix, "
+            "Edit, Delete",
+            hint));
   }
 
-  std::string fileName(const Node& node) const {
-    if (const AngleText* angle = node.value.as<AngleText>()) return angle->text;
-    if (const std::string* text = node.value.as<std::string>()) return *text;
-    fail(node, cat(node.key, " takes a file: '", node.key, ": <path>', not ", describe(node.value)));
-  }
-
-  std::string nameOf(const Node& node) const {
-    if (const std::string* text = node.value.as<std::string>()) return *text;
-    fail(node, cat(node.key, " takes the name of a frame: '", node.key, ": name'"));
+  /// `Edit` and its like are words before a name; `edit` would silently make a frame.
+  void checkTags(const Node& node) {
+    for (const std::string& tag : node.tags) {
+      for (const char* word : {"Edit", "Include", "Prefix", "Delete", "DeleteBranch"}) {
+        if (editDistance(tag, word) < 1.2)
+          diagnostics_.warning(node.where,
+                               cat("'", tag, "' before a frame's name has no effect; did you mean '", word, "'?"));
+      }
+    }
   }
 
   static bool isEdit(const Node& node) {
-    return node.value.as<Graph>() && ((!node.tags.empty() && node.tags.front() == "Edit") || node.key == "Edit");
+    return node.value.as<Graph>() &&
+           ((!node.tags.empty() && node.tags.front() == "Edit") || (node.key == "Edit" && !node.parents.empty()));
+  }
+
+  /// `Delete: name`, or `Delete name` alone.
+  static bool isDeletion(const Node& node, const std::string& word) {
+    if (node.value.as<Graph>()) return false;
+    return node.key == word || (node.value.as<bool>() && node.key.starts_with(word + " "));
   }
 
   static void addPrefix(std::vector<SourceFrame>& frames, const std::string& prefix) {
     std::set<std::string> names;
     for (const SourceFrame& frame : frames) names.insert(frame.node.key);
+    const auto rename = [&](std::string& name) {
+      if (names.contains(name)) name = prefix + name;
+    };
     for (SourceFrame& frame : frames) {
       frame.node.key = prefix + frame.node.key;
-      for (std::string& parent : frame.node.parents) {
-        if (names.contains(parent)) parent = prefix + parent;
-      }
-      Graph& attributes = *std::get_if<Graph>(&frame.node.value.data);
-      for (const char* key : {"mimic", "mimic_shape"}) {
-        Node* reference = attributes.find(key);
+      frame.prefix = prefix + frame.prefix;
+      for (std::string& parent : frame.node.parents) rename(parent);
+      for (const char* key : {"mimic", "mimic_shape", "parent"}) {
+        Node* reference = std::get_if<Graph>(&frame.node.value.data)->find(key);
         if (!reference) continue;
-        if (auto* text = std::get_if<std::string>(&reference->value.data)) *text = prefix + *text;
-        if (auto* tuple = std::get_if<NameTuple>(&reference->value.data)) {
-          for (std::string& name : tuple->names) name = prefix + name;
-        }
+        if (auto* text = std::get_if<std::string>(&reference->value.data)) rename(*text);
+        if (auto* list = std::get_if<StringArray>(&reference->value.data))
+          std::for_each(list->begin(), list->end(), rename);
+        if (auto* tuple = std::get_if<NameTuple>(&reference->value.data))
+          std::for_each(tuple->names.begin(), tuple->names.end(), rename);
       }
     }
   }
 
-  void deleteFrames(std::vector<SourceFrame>& frames, const std::string& name, const Node& node) {
-    const auto removed = std::erase_if(frames, [&](const SourceFrame& frame) { return frame.node.key == name; });
-    if (removed == 0) {
-      source_.warnings.push_back(cat(node.where.str(), ": Delete: there is no frame '", name, "' up to here", similarHint(name, names(frames))));
+  /// Removes the frames that a deletion names, and with DeleteBranch all below them.
+  void deleteFrames(const Node& node) {
+    const bool branch = node.key.starts_with("DeleteBranch");
+    std::string name;
+    if (const std::size_t space = node.key.find(' '); space != std::string::npos) {
+      name = node.key.substr(space + 1);
+    } else if (const std::string* text = textOf(node, "the name of a frame: 'Delete: name'")) {
+      name = *text;
+    } else {
+      return;
     }
-    for (SourceFrame& frame : frames) std::erase(frame.node.parents, name);
-  }
-
-  void deleteBranch(std::vector<SourceFrame>& frames, const Node& node) {
-    const std::string top = node.key == "DeleteBranch" ? nameOf(node) : node.key.substr(std::string("DeleteBranch ").size());
-    std::set<std::string> doomed = {top};
-    for (bool grew = true; grew;) {
+    std::vector<SourceFrame>& frames = scopeOf(name);
+    std::set<std::string> doomed = {name};
+    for (bool grew = branch; grew;) {
       grew = false;
       for (const SourceFrame& frame : frames) {
         for (const std::string& parent : frame.node.parents) {
@@ -187,9 +199,24 @@ class SourceReader {
         }
       }
     }
+    const auto known = names(frames);
     if (std::erase_if(frames, [&](const SourceFrame& frame) { return doomed.contains(frame.node.key); }) == 0) {
-      source_.warnings.push_back(cat(node.where.str(), ": DeleteBranch: there is no frame '", top, "' up to here"));
+      diagnostics_.warning(node.where, cat(branch ? "DeleteBranch" : "Delete", ": there is no frame '", name,
+                                           "' up to here", similarHint(name, known)));
     }
+    for (SourceFrame& frame : frames) std::erase(frame.node.parents, name);
+    deleted_.insert(name);
+  }
+
+  /// The frames of the file that is being read if there is one of that name, else those of the file that includes it,
+  /// ...
+  std::vector<SourceFrame>& scopeOf(const std::string& name) {
+    for (auto scope = scopes_.rbegin(); scope != scopes_.rend(); ++scope) {
+      for (const SourceFrame& frame : **scope) {
+        if (frame.node.key == name) return **scope;
+      }
+    }
+    return *scopes_.back();
   }
 
   static std::vector<std::string> names(const std::vector<SourceFrame>& frames) {
@@ -198,52 +225,61 @@ class SourceReader {
     return list;
   }
 
-  void applyEdit(std::vector<SourceFrame>& frames, const Node& edit) {
-    const bool named_in_parentheses = edit.key == "Edit";
-    if (named_in_parentheses && edit.parents.size() != 1) fail(edit, "Edit takes the name of one frame: Edit name: { ... }");
-    const std::string name = named_in_parentheses ? edit.parents.front() : edit.key;
+  /// `Edit name (new parent): {}`, `Edit (name): {}` or `Edit (name new_parent): {}`.
+  void applyEdit(const Node& edit) {
+    std::vector<std::string> parents = edit.parents;
+    std::string name = edit.key;
+    if (edit.key == "Edit") {
+      name = parents.front();
+      parents.erase(parents.begin());
+    }
+    std::vector<SourceFrame>& frames = scopeOf(name);
     bool found = false;
     for (SourceFrame& frame : frames) {
       if (frame.node.key != name) continue;
       found = true;
-      if (!named_in_parentheses && !edit.parents.empty()) frame.node.parents = edit.parents;
-      for (const Node& attribute : edit.value.as<Graph>()->nodes) std::get_if<Graph>(&frame.node.value.data)->set(attribute);
+      if (!parents.empty()) frame.node.parents = parents;
+      for (const Node& attribute : edit.value.as<Graph>()->nodes)
+        std::get_if<Graph>(&frame.node.value.data)->set(attribute);
     }
-    if (!found) {
-      source_.warnings.push_back(cat(edit.where.str(), ": Edit: there is no frame '", name, "'", similarHint(name, names(frames))));
-    }
+    if (!found && !deleted_.contains(name))
+      diagnostics_.warning(edit.where, cat("Edit: there is no frame '", name, "'", similarHint(name, names(frames))));
   }
 
-  SceneSource& source_;
-  std::vector<std::string> open_;  ///< files that are being read
+  SceneDiagnostics& diagnostics_;
+  std::vector<std::string> open_;                  ///< files that are being read
+  std::vector<std::vector<SourceFrame>*> scopes_;  ///< what each of them has so far
+  std::set<std::string> deleted_;                  ///< names that Delete removed: edits of them may have stood before
+  std::size_t bytes_ = 0;
 };
 
 }  // namespace
 
-std::string resolvePath(const std::string& path, const std::string& folder) {
-  const std::string package = "package://";
-  if (path.starts_with(package)) return findInPackages(path.substr(package.size()));
-  const fs::path expanded = expandEnvironment(path);
-  return expanded.is_absolute() ? expanded.lexically_normal().string() : (fs::path(folder) / expanded).lexically_normal().string();
+SceneSource readSource(const std::string& path, SceneDiagnostics& diagnostics) {
+  SourceReader reader(diagnostics);
+  SceneSource source;
+  source.frames = reader.readFile(resolvePath(path, ""), {});
+  source.joint_states = std::move(reader.joint_states);
+  return source;
 }
 
-SceneSource readSource(const std::string& path) {
+SceneSource readSource(std::string_view text, const std::string& name, const std::string& folder,
+                       SceneDiagnostics& diagnostics) {
+  SourceReader reader(diagnostics);
   SceneSource source;
-  source.frames = SourceReader(source).readFile(expandEnvironment(path), {});
+  source.frames = reader.readText(std::string(text), name, folder.empty() ? fs::current_path().string() : folder);
+  source.joint_states = std::move(reader.joint_states);
   return source;
 }
 
 std::vector<std::string> sourceFiles(const std::string& path) {
-  std::vector<std::string> files;
-  for (const auto& [file, text] : readSource(path).texts) files.push_back(file);
-  return files;
-}
-
-SceneSource readSource(std::string_view text, const std::string& name, const std::string& folder) {
-  SceneSource source;
-  const std::string base = folder.empty() ? fs::current_path().string() : folder;
-  source.frames = SourceReader(source).readText(std::string(text), name, base);
-  return source;
+  SceneDiagnostics diagnostics;
+  SourceReader reader(diagnostics);
+  try {
+    reader.readFile(resolvePath(path, ""), {});
+  } catch (const Error&) {  // told by who reads the scene itself
+  }
+  return std::move(reader.files);
 }
 
 }  // namespace kinegraph

@@ -1,37 +1,41 @@
 #pragma once
 
-#include <map>
 #include <string>
 #include <vector>
 
 #include "kinegraph/gfile/value.h"
+#include "kinegraph/scene/diagnostics.h"
 
 namespace kinegraph {
 
-/// A frame as it stands in a scene file, with the folder that its own file names are relative to.
+/// A frame as it stands in a scene file.
 struct SourceFrame {
   Node node;
-  std::string folder;
+  std::string folder;  ///< that its own file names are relative to
+  std::string prefix;  ///< that was put before its name; parents may be written without it
 };
 
 /// The frames of a scene file and of all that it includes, in order, after its special keys (Include, Prefix, Edit,
 /// Delete, ...) have been carried out.
 struct SceneSource {
   std::vector<SourceFrame> frames;
-  std::vector<Node> joint_states;            ///< `q: [...]`
-  std::map<std::string, std::string> texts;  ///< of every file read, for messages
-  std::vector<std::string> warnings;
+  std::vector<Node> joint_states;  ///< `q: [...]`
 };
 
-/// Throws FileError, ParseError.
-SceneSource readSource(const std::string& path);
-SceneSource readSource(std::string_view text, const std::string& name, const std::string& folder);
+/// Reads what it can; mistakes go to `diagnostics`. Throws FileError if `path` itself cannot be read.
+SceneSource readSource(const std::string& path, SceneDiagnostics& diagnostics);
+SceneSource readSource(std::string_view text, const std::string& name, const std::string& folder,
+                       SceneDiagnostics& diagnostics);
 
-/// The scene file and all files that it includes, as paths. Throws as readSource.
+/// The scene file and all files that it includes, as paths, mistakes in them or not, and also those that do not exist.
 std::vector<std::string> sourceFiles(const std::string& path);
 
-/// An absolute path: `path` with $NAME expanded from the environment, relative to `folder`. A path package://NAME/rest is
-/// looked up in the folders of KINEGRAPH_PACKAGE_PATH, ROS_PACKAGE_PATH and AMENT_PREFIX_PATH; empty if it is in none.
+/// An absolute path: `path` with $NAME expanded from the environment, relative to `folder`; file:// in front is dropped.
+/// A path package://NAME/rest (or model://) is looked up in `folder` and all folders above it, then in those of
+/// KINEGRAPH_PACKAGE_PATH, ROS_PACKAGE_PATH and AMENT_PREFIX_PATH; empty if it is in none.
 std::string resolvePath(const std::string& path, const std::string& folder);
+
+/// "; similar names: ..." of the files beside a missing one, or that its folder does not exist.
+std::string similarFilesHint(const std::string& path);
 
 }  // namespace kinegraph

@@ -9,20 +9,49 @@ namespace {
 
 constexpr double kAtBound = 1e-14;  ///< an entry of the step this near to a bound is put on it
 
-/// The first column that any row connects each variable to.
-std::vector<int> profileOf(const Nlp& nlp, const Jacobian& pattern) {
-  std::vector<int> first(nlp.dimension());
-  for (int i = 0; i < nlp.dimension(); ++i) first[i] = i;
-  bool couples_all = false;
+bool hasRowsOfTypeF(const Nlp& nlp) {
+  return std::find(nlp.types().begin(), nlp.types().end(), ObjectiveType::f) != nlp.types().end();
+}
+
+/// Where each variable goes. Variables that rows connect to others much farther on than is usual (dofs that many slices of a
+/// path share) go to the end: the matrix is then a band with a border, and its factor has no other entries.
+std::vector<int> placesOf(int n, const Jacobian& pattern) {
+  std::vector<int> reach(n, 0), place(n);
   for (int row = 0; row < pattern.rows(); ++row) {
-    couples_all = couples_all || nlp.types()[row] == ObjectiveType::f;
-    int leftmost = nlp.dimension();
-    for (const Jacobian::Segment& segment : pattern.row_segments(row)) leftmost = std::min(leftmost, segment.column);
-    for (const Jacobian::Segment& segment : pattern.row_segments(row)) {
-      for (int i = segment.column; i < segment.column + segment.width; ++i) first[i] = std::min(first[i], leftmost);
+    const auto segments = pattern.row_segments(row);
+    int last = 0;
+    for (const Jacobian::Segment& segment : segments) last = std::max(last, segment.column + segment.width - 1);
+    for (const Jacobian::Segment& segment : segments) {
+      for (int i = segment.column; i < segment.column + segment.width; ++i) reach[i] = std::max(reach[i], last - i);
     }
   }
-  if (couples_all) std::fill(first.begin(), first.end(), 0);  // the Hessian of f terms may be full
+  std::vector<int> sorted = reach;
+  std::nth_element(sorted.begin(), sorted.begin() + n / 2, sorted.end());
+  const int usual = n > 0 ? 4 * sorted[n / 2] + 16 : 0;
+  int next = 0;
+  for (int i = 0; i < n; ++i) {
+    if (reach[i] <= usual) place[i] = next++;
+  }
+  for (int i = 0; i < n; ++i) {
+    if (reach[i] > usual) place[i] = next++;
+  }
+  return place;
+}
+
+/// The first place that any row connects each place to.
+std::vector<int> profileOf(const Jacobian& pattern, const std::vector<int>& place, bool couples_all) {
+  const int n = int(place.size());
+  std::vector<int> first(n);
+  for (int i = 0; i < n; ++i) first[i] = couples_all ? 0 : i;
+  for (int row = 0; row < pattern.rows(); ++row) {
+    int leftmost = n;
+    for (const Jacobian::Segment& segment : pattern.row_segments(row)) {
+      for (int i = segment.column; i < segment.column + segment.width; ++i) leftmost = std::min(leftmost, place[i]);
+    }
+    for (const Jacobian::Segment& segment : pattern.row_segments(row)) {
+      for (int i = segment.column; i < segment.column + segment.width; ++i) first[place[i]] = std::min(first[place[i]], leftmost);
+    }
+  }
   return first;
 }
 
@@ -31,30 +60,69 @@ std::vector<int> profileOf(const Nlp& nlp, const Jacobian& pattern) {
 LocalModel::LocalModel(const Nlp& nlp, std::vector<int> costs, std::vector<int> constraints)
     : costs_(std::move(costs)), constraints_(std::move(constraints)) {
   const Jacobian pattern = nlp.makeJacobian();
-  H_ = SkylineMatrix(profileOf(nlp, pattern));
-  K_ = H_;
   const int n = nlp.dimension(), m = int(constraints_.size());
+  const bool couples_all = hasRowsOfTypeF(nlp);  // their Hessian may be full
+  place_.resize(n);
+  for (int i = 0; i < n; ++i) place_[i] = i;
+  if (!couples_all) {
+    std::vector<int> places = placesOf(n, pattern);
+    reordered_ = places != place_;
+    place_ = std::move(places);
+  }
+  H_ = SkylineMatrix(profileOf(pattern, place_, couples_all));
+  K_ = H_;
   for (int row : constraints_) equality_.push_back(nlp.types()[row] == ObjectiveType::eq);
   active_.assign(m, false);
   factored_active_ = active_;
   fixed_.assign(n, false);
-  factored_fixed_ = fixed_;
-  for (VectorXd* v : {&g_, &d_, &trial_, &r_, &s_, &Hd_}) v->setZero(n);
+  factored_fixed_ = fixed_place_ = fixed_;
+  for (VectorXd* v : {&g_, &d_, &trial_, &r_, &s_, &Hd_, &placed_, &placed_sum_}) v->setZero(n);
   linear_.setZero(m);
   trial_linear_.setZero(m);
 }
 
-void LocalModel::addRow(SkylineMatrix& matrix, const Jacobian& J, int row, double weight) const {
-  const auto segments = J.row_segments(row);
-  for (std::size_t a = 0; a < segments.size(); ++a) {
-    const double* u = J.values.data() + segments[a].offset;
-    matrix.addOuterProduct(u, segments[a].column, segments[a].width, weight);
-    for (std::size_t b = 0; b < segments.size(); ++b) {
-      if (segments[b].column >= segments[a].column) continue;
-      const double* v = J.values.data() + segments[b].offset;
-      matrix.addCrossProduct(u, segments[a].column, segments[a].width, v, segments[b].column, segments[b].width, weight);
+void LocalModel::addRow(SkylineMatrix& matrix, const Jacobian& J, int row, double weight) {
+  runs_.clear();
+  for (const Jacobian::Segment& segment : J.row_segments(row)) {
+    const double* values = J.values.data() + segment.offset;
+    for (int start = 0, end; start < segment.width; start = end) {
+      const int place = place_[segment.column + start];
+      end = reordered_ ? start + 1 : segment.width;
+      while (end < segment.width && place_[segment.column + end] == place + end - start) ++end;
+      runs_.push_back({values + start, place, end - start});
     }
   }
+  if (runs_.size() > 1) std::sort(runs_.begin(), runs_.end(), [](const Run& a, const Run& b) { return a.place < b.place; });
+  for (std::size_t a = 0; a < runs_.size(); ++a) {
+    const Run& u = runs_[a];
+    matrix.addOuterProduct(u.values, u.place, u.width, weight);
+    for (std::size_t b = 0; b < a; ++b) {
+      matrix.addCrossProduct(u.values, u.place, u.width, runs_[b].values, runs_[b].place, runs_[b].width, weight);
+    }
+  }
+}
+
+/// sum += H d
+void LocalModel::addHessianProduct(const VectorXd& d, VectorXd& sum) {
+  if (!reordered_) {
+    H_.addProduct(d, sum);
+    return;
+  }
+  for (Eigen::Index i = 0; i < d.size(); ++i) placed_[place_[i]] = d[i];
+  placed_sum_.setZero();
+  H_.addProduct(placed_, placed_sum_);
+  for (Eigen::Index i = 0; i < d.size(); ++i) sum[i] += placed_sum_[place_[i]];
+}
+
+/// x <- K^-1 x, with the factor.
+void LocalModel::solve(VectorXd& x) {
+  if (!reordered_) {
+    K_.solveInPlace(x);
+    return;
+  }
+  for (Eigen::Index i = 0; i < x.size(); ++i) placed_[place_[i]] = x[i];
+  K_.solveInPlace(placed_);
+  for (Eigen::Index i = 0; i < x.size(); ++i) x[i] = placed_[place_[i]];
 }
 
 void LocalModel::setCosts(Nlp& nlp, const VectorXd& x, const VectorXd& phi, const Jacobian& J) {
@@ -103,7 +171,7 @@ void LocalModel::linearize(const VectorXd& d, const Problem& problem, VectorXd& 
 
 double LocalModel::value(const VectorXd& d, const VectorXd& linear, const Problem& problem) {
   Hd_.setZero();
-  H_.addProduct(d, Hd_);
+  addHessianProduct(d, Hd_);
   double sum = g_.dot(d) + .5 * d.dot(Hd_) + .5 * problem.shift * d.squaredNorm();
   for (int j = 0; j < linear.size(); ++j) {
     const double t = multiplier(j, linear[j], problem);
@@ -112,10 +180,10 @@ double LocalModel::value(const VectorXd& d, const VectorXd& linear, const Proble
   return sum;
 }
 
-double LocalModel::costChange() const {
-  VectorXd Hd = VectorXd::Zero(d_.size());
-  H_.addProduct(d_, Hd);
-  return g_.dot(d_) + .5 * d_.dot(Hd);
+double LocalModel::costChange() {
+  Hd_.setZero();
+  addHessianProduct(d_, Hd_);
+  return g_.dot(d_) + .5 * d_.dot(Hd_);
 }
 
 /// Factorizes H + shift I + mu J_A^T J_A, with the rows of fixed variables replaced by the identity.
@@ -128,9 +196,10 @@ bool LocalModel::factorize(const Problem& problem) {
     for (std::size_t j = 0; j < constraints_.size(); ++j) {
       if (active_[j]) addRow(K_, problem.J, constraints_[j], problem.mu);
     }
+    for (int i = 0; i < K_.size(); ++i) fixed_place_[place_[i]] = fixed_[i];
     for (int i = 0; i < K_.size(); ++i) {
       for (int j = K_.first(i); j <= i; ++j) {
-        if (fixed_[i] || fixed_[j]) K_.at(i, j) = i == j ? 1. : 0.;
+        if (fixed_place_[i] || fixed_place_[j]) K_.at(i, j) = i == j ? 1. : 0.;
       }
     }
     ++factorizations_;
@@ -151,7 +220,7 @@ bool LocalModel::newtonStep(const Problem& problem) {
     }
     const int n = int(s_.size());
     for (int i = 0; i < n; ++i) s_[i] = fixed_[i] ? 0. : -r_[i];
-    K_.solveInPlace(s_);
+    solve(s_);
     pushed_out = false;
     for (int i = 0; i < n; ++i) {
       if (fixed_[i] || !((d_[i] <= problem.low[i] && s_[i] < 0.) || (d_[i] >= problem.high[i] && s_[i] > 0.))) continue;
@@ -179,7 +248,7 @@ const VectorXd& LocalModel::minimize(const Problem& problem) {
   factored_ = false;
   for (int pass = 0; pass < problem.max_passes; ++pass) {
     r_ = g_ + problem.shift * d_;
-    H_.addProduct(d_, r_);
+    addHessianProduct(d_, r_);
     for (int j = 0; j < m; ++j) {
       const double t = multiplier(j, linear_[j], problem);
       active_[j] = equality_[j] || t > 0.;

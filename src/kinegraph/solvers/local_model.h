@@ -41,7 +41,7 @@ class LocalModel {
   const VectorXd& minimize(const Problem& problem);
   const VectorXd& step() const { return d_; }
   const VectorXd& linearized() const { return linear_; }  ///< c + J d per constraint
-  double costChange() const;                              ///< g^T d + 1/2 d^T H d, without the shift
+  double costChange();                              ///< g^T d + 1/2 d^T H d, without the shift
   int factorizations() const { return factorizations_; }
 
   const std::vector<int>& constraints() const { return constraints_; }
@@ -51,13 +51,25 @@ class LocalModel {
   double multiplier(int j, double value, const Problem& problem) const;
   double value(const VectorXd& d, const VectorXd& linear, const Problem& problem);
   void linearize(const VectorXd& d, const Problem& problem, VectorXd& linear) const;
-  void addRow(SkylineMatrix& matrix, const Jacobian& J, int row, double weight) const;
+  void addRow(SkylineMatrix& matrix, const Jacobian& J, int row, double weight);
+  void addHessianProduct(const VectorXd& d, VectorXd& sum);
+  void solve(VectorXd& x);
   bool factorize(const Problem& problem);
   bool newtonStep(const Problem& problem);
   double roomAlong(const Problem& problem) const;
 
+  /// Part of a row of J whose columns follow one another in the matrices.
+  struct Run {
+    const double* values;
+    int place, width;
+  };
+
   std::vector<int> costs_, constraints_;
-  std::vector<bool> equality_, active_, factored_active_, fixed_, factored_fixed_;
+  std::vector<int> place_;  ///< of each variable in H and K: those that couple to far ones come last, which keeps the rest a band
+  bool reordered_ = false;
+  std::vector<Run> runs_;
+  VectorXd placed_, placed_sum_;
+  std::vector<bool> equality_, active_, factored_active_, fixed_, factored_fixed_, fixed_place_;
   SkylineMatrix H_, K_;
   VectorXd g_, d_, trial_, r_, s_, Hd_, linear_, trial_linear_;
   bool factored_ = false;

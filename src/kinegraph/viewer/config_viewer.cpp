@@ -3,11 +3,8 @@
 #include <poll.h>
 #include <unistd.h>
 
+#include <chrono>
 #include <cstdio>
-
-#include "kinegraph/base/errors.h"
-#include "kinegraph/base/text.h"
-#include "kinegraph/geometry/mesh_file.h"
 
 namespace kinegraph {
 
@@ -19,24 +16,6 @@ ViewerServer& ConfigViewer::server() {
     openBrowser(server_->url());
   }
   return *server_;
-}
-
-/// The mesh that a frame is shown with in place of its shape, if its file can be had.
-std::shared_ptr<const Geometry> ConfigViewer::visualMesh(const Shape& shape) {
-  if (shape.visual_mesh.empty()) return nullptr;
-  const std::string key = cat(shape.visual_mesh, " ", shape.visual_pose.numbers().transpose());
-  const auto [place, is_new] = visual_meshes_.try_emplace(key);
-  if (!is_new) return place->second;
-  try {
-    Mesh mesh = readMeshFile(shape.visual_mesh);
-    for (Vector3d& p : mesh.vertices) p = shape.visual_pose.p + shape.visual_pose.q * p;
-    auto geometry = std::make_shared<Geometry>();
-    geometry->type = ShapeType::mesh;
-    geometry->mesh = std::make_shared<Mesh>(std::move(mesh));
-    place->second = geometry;
-  } catch (const FileError&) {  // optional: the shape itself is shown
-  }
-  return place->second;
 }
 
 void ConfigViewer::update(const Config& config) {
@@ -52,14 +31,12 @@ void ConfigViewer::update(const Config& config) {
     item.pose = Pose(state.pose(int(i)));
     item.geometry = nullptr;
     if (!frame.shape) continue;
-    const std::shared_ptr<const Geometry> visual = visualMesh(*frame.shape);
+    const std::shared_ptr<const Geometry> visual = visual_meshes_.of(*frame.shape);
     item.geometry = visual ? visual : frame.shape->geometry;
     item.color = frame.shape->color.value_or(Vector4d(.8, .8, .8, 1.));
   }
   to.update(items_);
 }
-
-bool ConfigViewer::canWait() const { return !isHeadless() && (clients() > 0 || isatty(STDIN_FILENO)); }
 
 int ConfigViewer::view(const Config& config, bool pause, const std::optional<std::string>& message, const std::function<bool()>& stop) {
   update(config);
@@ -69,22 +46,28 @@ int ConfigViewer::view(const Config& config, bool pause, const std::optional<std
   }
   std::string text = message.value_or("");
   if (!text.ends_with("]")) text += text.empty() ? "[press key to continue]" : "\n[press key to continue]";
-  server().setMessage(text);
   int key = server().takeKey();
-  if (key == 0 && !isHeadless()) {
-    if (clients() == 0) server().waitForClient(isatty(STDIN_FILENO) ? 0. : 5.);
-    if (canWait()) {
-      if (isatty(STDIN_FILENO)) {
-        std::printf("%s (in the browser, or Enter here)\n", text.c_str());
-        std::fflush(stdout);
-      }
-      bool entered = false;
-      key = server().waitKey([&] { return (entered = enterWasPressed()) || stop(); });
-      if (entered) key = 13;
-    }
-  }
+  server().setMessage(text);
+  if (!isHeadless()) key = waitKey(text, stop);
   server().setMessage(message.value_or(""));
   return key;
+}
+
+int ConfigViewer::waitKey(const std::string& prompt, const std::function<bool()>& stop) {
+  constexpr auto kPatience = std::chrono::seconds(5);  // a page that is loaded again is back sooner
+  const bool terminal = isatty(STDIN_FILENO);
+  if (terminal) {
+    std::printf("%s (in the browser, or Enter here)\n", prompt.c_str());
+    std::fflush(stdout);
+  }
+  bool entered = false;
+  auto last_seen = std::chrono::steady_clock::now();
+  const int key = server().waitKey([&] {
+    const auto now = std::chrono::steady_clock::now();
+    if (clients() > 0) last_seen = now;
+    return (entered = enterWasPressed()) || (!terminal && now - last_seen > kPatience) || stop();
+  });
+  return entered ? 13 : key;
 }
 
 bool enterWasPressed() {

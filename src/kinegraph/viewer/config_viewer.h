@@ -1,10 +1,10 @@
 #pragma once
 
-#include <map>
 #include <optional>
 #include <string>
 
 #include "kinegraph/scene/config.h"
+#include "kinegraph/scene/visual_meshes.h"
 #include "kinegraph/viewer/server.h"
 
 namespace kinegraph {
@@ -14,9 +14,9 @@ class ConfigViewer {
  public:
   explicit ConfigViewer(ViewerOptions options = {}) : options_(std::move(options)) {}
 
-  /// Shows the configuration as it is now. With `pause`, waits for a key: in the browser, or Enter on the terminal. Returns
-  /// the key pressed since the last call, or 0. `stop` is asked while waiting; it may throw. Where KINEGRAPH_HEADLESS is set,
-  /// or no browser is connected and there is no terminal, nothing waits.
+  /// Shows the configuration as it is now. Returns the key pressed since the last call, or 0. With `pause`, waits for a new
+  /// key: in the browser, or Enter on the terminal. `stop` is asked while waiting; it may throw. Nothing waits where
+  /// KINEGRAPH_HEADLESS is set; without a terminal, nothing waits for more than 5 s in which no browser is connected.
   int view(const Config& config, bool pause, const std::optional<std::string>& message, const std::function<bool()>& stop);
 
   /// Shows, without looking at keys.
@@ -32,18 +32,15 @@ class ConfigViewer {
   bool isOpen() const { return server_ != nullptr; }
   void close() { server_.reset(); }
 
-  /// True if somebody can press a key: a browser is connected, or there is a terminal to press Enter on.
-  bool canWait() const;
-
   ViewerServer& server();
 
  private:
-  std::shared_ptr<const Geometry> visualMesh(const Shape& shape);
+  int waitKey(const std::string& prompt, const std::function<bool()>& stop);
 
   ViewerOptions options_;
   std::unique_ptr<ViewerServer> server_;
   std::vector<ViewItem> items_;
-  std::map<std::string, std::shared_ptr<const Geometry>> visual_meshes_;  ///< by path and pose; null: not to be had
+  VisualMeshes visual_meshes_;
 };
 
 /// True if Enter was pressed on the terminal since the last call.

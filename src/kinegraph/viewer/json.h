@@ -1,7 +1,6 @@
 #pragma once
 
 #include <cmath>
-#include <cstdio>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -11,7 +10,7 @@
 
 namespace kinegraph {
 
-/// Writes JSON text. A type T takes part by a function writeJson(JsonWriter&, const T&).
+/// Writes JSON text. Bytes that are not UTF-8, which browsers would refuse, become U+FFFD. A type T takes part by a function writeJson(JsonWriter&, const T&).
 class JsonWriter {
  public:
   void beginObject() {
@@ -64,22 +63,7 @@ class JsonWriter {
   void append(const T& value) {
     writeJson(*this, value);
   }
-  void appendString(std::string_view value) {
-    text_ += '"';
-    for (const char c : value) {
-      if (c == '"' || c == '\\') {
-        text_ += '\\';
-        text_ += c;
-      } else if (static_cast<unsigned char>(c) < 0x20) {
-        char escape[8];
-        std::snprintf(escape, sizeof escape, "\\u%04x", c);
-        text_ += escape;
-      } else {
-        text_ += c;
-      }
-    }
-    text_ += '"';
-  }
+  void appendString(std::string_view value);
 
   std::string text_;
   bool first_ = true;

@@ -1,6 +1,5 @@
 #include "kinegraph/viewer/server.h"
 
-#include <atomic>
 #include <boost/asio.hpp>
 #include <boost/beast.hpp>
 #include <condition_variable>
@@ -52,6 +51,7 @@ class Session : public std::enable_shared_from_this<Session> {
   void start(http::request<http::string_body> request) {
     socket_.set_option(websocket::stream_base::timeout::suggested(beast::role_type::server));
     socket_.read_message_max(4096);
+    socket_.auto_fragment(false);
     socket_.async_accept(request, [self = shared_from_this()](beast::error_code error) {
       if (error) return;
       self->open_ = true;
@@ -82,8 +82,6 @@ class Session : public std::enable_shared_from_this<Session> {
     beast::get_lowest_layer(socket_).socket().close(ignored);
   }
 
-  bool isOpen() const { return open_; }
-
  private:
   void read() {
     socket_.async_read(buffer_, [self = shared_from_this()](beast::error_code error, std::size_t) {
@@ -111,7 +109,7 @@ class Session : public std::enable_shared_from_this<Session> {
 
   void write() {
     socket_.binary(sending_.front().binary);
-    socket_.async_write(asio::buffer(sending_.front().data), [self = shared_from_this()](beast::error_code error, std::size_t) {
+    socket_.async_write(asio::buffer(*sending_.front().data), [self = shared_from_this()](beast::error_code error, std::size_t) {
       if (error) return self->leave();
       self->sending_.pop_front();
       self->sending_.empty() ? self->wake() : self->write();
@@ -202,7 +200,10 @@ class ViewerServer::Impl {
  public:
   explicit Impl(const ViewerOptions& options) : acceptor_(context_) {
     shared_->scene.title = options.title;
-    const asio::ip::address address = asio::ip::make_address(options.host);
+    beast::error_code error;
+    const asio::ip::address address = asio::ip::make_address(options.host, error);
+    if (error) throw ValueError(cat("ViewerOptions: host is '", options.host, "'; expected an IP address, for instance 127.0.0.1 or 0.0.0.0"));
+    if (options.port < 0 || options.port > 65535) throw ValueError(cat("ViewerOptions: port is ", options.port, "; expected 0 to 65535"));
     loopback_only_ = address.is_loopback();
     listen(address, options.port);
     url_ = cat("http://", loopback_only_ ? "localhost" : options.host, ":", acceptor_.local_endpoint().port(), "/");
@@ -222,7 +223,6 @@ class ViewerServer::Impl {
 
   void wakeSessions() {
     asio::post(context_, [this] {
-      sessions_.remove_if([](const auto& session) { return session.use_count() == 1 && !session->isOpen(); });
       for (const auto& session : sessions_) session->wake();
     });
   }
@@ -233,10 +233,11 @@ class ViewerServer::Impl {
  private:
   void listen(const asio::ip::address& address, int first_port) {
     beast::error_code error;
-    for (int port = first_port; port < first_port + 200; ++port) {
+    for (int port = first_port; port < first_port + 200 && port <= 65535; ++port) {
       const tcp::endpoint endpoint(address, static_cast<unsigned short>(port));
       acceptor_ = tcp::acceptor(context_);
       acceptor_.open(endpoint.protocol(), error);
+      if (!error) acceptor_.set_option(asio::socket_base::reuse_address(true), error);  // a program that is started again gets its port back
       if (!error) acceptor_.bind(endpoint, error);
       if (!error) acceptor_.listen(asio::socket_base::max_listen_connections, error);
       if (!error) return;
@@ -251,6 +252,7 @@ class ViewerServer::Impl {
         socket.set_option(tcp::no_delay(true), error);
         std::make_shared<Connection>(std::move(socket), loopback_only_, [this](tcp::socket upgraded, http::request<http::string_body> request) {
           auto session = std::make_shared<Session>(std::move(upgraded), shared_);
+          sessions_.remove_if([](const auto& old) { return old.use_count() == 1; });  // those whose browser has gone
           sessions_.push_back(session);
           session->start(std::move(request));
         })->start();

@@ -21,7 +21,7 @@ struct ViewItem {
 
 struct ViewerOptions {
   std::string host = "127.0.0.1";  ///< only this machine, unless told otherwise
-  int port = 7000;                 ///< first one tried; those in use are passed over
+  int port = 7000;                 ///< first one tried; those in use are passed over; 0: any free one
   std::string title = "Kinegraph";
 };
 
@@ -29,7 +29,7 @@ struct ViewerOptions {
 /// thread of its own; a slow browser misses intermediate poses and never holds the program up.
 class ViewerServer {
  public:
-  /// Throws Error if no port can be had.
+  /// Throws ValueError for a host or port that cannot be, Error if no port can be had.
   explicit ViewerServer(const ViewerOptions& options = {});
   ~ViewerServer();
   ViewerServer(const ViewerServer&) = delete;

@@ -15,13 +15,13 @@ void append(std::string& data, const T& value) {
   data.append(reinterpret_cast<const char*>(&value), sizeof value);
 }
 
-/// kind, index, vertices, triangles, colors (0, 1 or as many as vertices), then float32 positions, uint32 indices, rgba bytes.
-std::string encodeMesh(int index, const Mesh& mesh) {
+/// kind, number, vertices, triangles, colors (0, 1 or as many as vertices), then float32 positions, uint32 indices, rgba bytes.
+std::string encodeMesh(int number, const Mesh& mesh) {
   std::string data;
   const std::size_t vertices = mesh.vertices.size();
   const std::size_t colors = mesh.colors.size() == vertices || mesh.colors.size() == 1 ? mesh.colors.size() : 0;
   append(data, BinaryKind::mesh);
-  append(data, std::uint32_t(index));
+  append(data, std::uint32_t(number));
   append(data, std::uint32_t(vertices));
   append(data, std::uint32_t(mesh.triangles.size()));
   append(data, std::uint32_t(colors));
@@ -47,23 +47,25 @@ bool isSentAsMesh(ShapeType type) {
 
 }  // namespace
 
-int ShownScene::meshOf(const ViewItem& item) {
-  if (!item.geometry || !isSentAsMesh(item.geometry->type)) return -1;
-  const auto [place, is_new] = mesh_index_.try_emplace(item.geometry, int(meshes_.size()));
+std::shared_ptr<const ShownScene::SentMesh> ShownScene::meshOf(const ViewItem& item) {
+  if (!item.geometry || !isSentAsMesh(item.geometry->type)) return nullptr;
+  const auto [place, is_new] = meshes_.try_emplace(item.geometry);
   if (is_new) {
     const bool has_own = item.geometry->type != ShapeType::ssCvx && item.geometry->mesh;
-    meshes_.push_back(encodeMesh(place->second, has_own ? *item.geometry->mesh : tessellate(*item.geometry)));
+    const Mesh& mesh = has_own ? *item.geometry->mesh : tessellate(*item.geometry);
+    place->second = std::make_shared<SentMesh>(SentMesh{next_mesh_, std::make_shared<std::string>(encodeMesh(next_mesh_, mesh))});
+    ++next_mesh_;
   }
   return place->second;
 }
 
 bool ShownScene::update(std::span<const ViewItem> items) {
   const std::uint64_t next = revision_ + 1;
-  bool changed = false;
+  bool changed = false, looks_changed = false;
   if (frames_.size() != items.size()) {
     frames_.resize(items.size());
     count_revision_ = next;
-    changed = true;
+    changed = looks_changed = true;
   }
   for (std::size_t i = 0; i < items.size(); ++i) {
     Shown& shown = frames_[i];
@@ -73,7 +75,7 @@ bool ShownScene::update(std::span<const ViewItem> items) {
     if (!same_look) {
       shown.mesh = meshOf(item);
       shown.look_revision = next;
-      changed = true;
+      changed = looks_changed = true;
     }
     if (!same_look || shown.item.pose.p != item.pose.p || shown.item.pose.q.coeffs() != item.pose.q.coeffs()) {
       shown.pose_revision = next;
@@ -81,6 +83,7 @@ bool ShownScene::update(std::span<const ViewItem> items) {
       shown.item = item;
     }
   }
+  if (looks_changed) std::erase_if(meshes_, [](const auto& entry) { return entry.second.use_count() == 1; });
   if (changed) revision_ = next;
   return changed;
 }
@@ -103,7 +106,7 @@ std::vector<Outgoing> ShownScene::messagesSince(Seen& seen) const {
   const auto send = [&](const auto& message) {
     JsonWriter json;
     writeJson(json, message);
-    out.push_back({json.text(), false});
+    out.push_back({std::make_shared<std::string>(json.text()), false});
   };
   if (text_revision_ > seen.revision) send(TextMessage{title, message, error});
   if (camera_revision_ > seen.revision) {
@@ -112,7 +115,7 @@ std::vector<Outgoing> ShownScene::messagesSince(Seen& seen) const {
   }
   SceneMessage scene;
   scene.count = int(frames_.size());
-  seen.meshes.resize(meshes_.size());
+  std::set<int> meshes;
   std::string poses;
   std::uint32_t moved = 0;
   for (std::size_t i = 0; i < frames_.size(); ++i) {
@@ -121,13 +124,13 @@ std::vector<Outgoing> ShownScene::messagesSince(Seen& seen) const {
       FrameMessage frame{int(i), shown.item.name, shown.item.parent, std::nullopt};
       if (shown.item.geometry && shown.item.geometry->type != ShapeType::none) {
         const Vector4d& c = shown.item.color;
-        frame.shape = ShapeMessage{shapeTypeName(shown.item.geometry->type), shown.item.geometry->size, {c[0], c[1], c[2], c[3]}, shown.mesh};
+        frame.shape = ShapeMessage{shapeTypeName(shown.item.geometry->type), shown.item.geometry->size, {c[0], c[1], c[2], c[3]},
+                                   shown.mesh ? shown.mesh->number : -1};
       }
       scene.frames.push_back(frame);
-      if (shown.mesh >= 0 && !seen.meshes[shown.mesh]) {
-        seen.meshes[shown.mesh] = true;
-        out.push_back({meshes_[shown.mesh], true});
-      }
+    }
+    if (shown.mesh && meshes.insert(shown.mesh->number).second && !seen.meshes.contains(shown.mesh->number)) {
+      out.push_back({shown.mesh->data, true});
     }
     if (shown.pose_revision > seen.revision) {
       append(poses, std::uint32_t(i));
@@ -141,8 +144,9 @@ std::vector<Outgoing> ShownScene::messagesSince(Seen& seen) const {
     std::string data;
     append(data, BinaryKind::poses);
     append(data, moved);
-    out.push_back({data + poses, true});
+    out.push_back({std::make_shared<std::string>(data + poses), true});
   }
+  seen.meshes = std::move(meshes);
   seen.revision = revision_;
   return out;
 }

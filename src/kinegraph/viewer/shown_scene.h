@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <map>
 #include <memory>
+#include <set>
 #include <span>
 #include <string>
 #include <vector>
@@ -11,9 +12,9 @@
 
 namespace kinegraph {
 
-/// A message for a browser.
+/// A message for a browser. Large ones are shared by all browsers.
 struct Outgoing {
-  std::string data;
+  std::shared_ptr<const std::string> data;
   bool binary;
 };
 
@@ -23,7 +24,7 @@ class ShownScene {
   /// What one browser has got so far.
   struct Seen {
     std::uint64_t revision = 0;
-    std::vector<bool> meshes;
+    std::set<int> meshes;  ///< those in use at that revision; a browser forgets the others
   };
 
   /// True if anything differs from before.
@@ -37,17 +38,22 @@ class ShownScene {
   std::vector<Outgoing> messagesSince(Seen& seen) const;
 
  private:
+  /// A mesh as it is sent, under a number that is never used again.
+  struct SentMesh {
+    int number;
+    std::shared_ptr<const std::string> data;
+  };
   struct Shown {
     ViewItem item;
-    int mesh = -1;
+    std::shared_ptr<const SentMesh> mesh;
     std::uint64_t look_revision = 0, pose_revision = 0;
   };
-  int meshOf(const ViewItem& item);
+  std::shared_ptr<const SentMesh> meshOf(const ViewItem& item);
 
   std::uint64_t revision_ = 1, count_revision_ = 1, text_revision_ = 1, camera_revision_ = 0;
   std::vector<Shown> frames_;
-  std::map<std::shared_ptr<const Geometry>, int> mesh_index_;
-  std::vector<std::string> meshes_;  ///< encoded
+  std::map<std::shared_ptr<const Geometry>, std::shared_ptr<const SentMesh>> meshes_;  ///< those that frames show
+  int next_mesh_ = 0;
   Vector3d camera_position_ = Vector3d::Zero(), camera_target_ = Vector3d::Zero();
 };
 

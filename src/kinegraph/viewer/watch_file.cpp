@@ -15,16 +15,20 @@ namespace fs = std::filesystem;
 
 namespace {
 
-using Stamps = std::map<std::string, std::pair<fs::file_time_type, std::uintmax_t>>;
+/// When a file was last written, and its size; a missing one has neither.
+using Stamp = std::pair<fs::file_time_type, std::uintmax_t>;
 
-/// When each file was last written, and its size; a missing one has neither.
+Stamp stampOf(const std::string& file) {
+  std::error_code error;
+  const auto time = fs::last_write_time(file, error);
+  return {error ? fs::file_time_type::min() : time, error ? 0 : fs::file_size(file, error)};
+}
+
+using Stamps = std::map<std::string, Stamp>;
+
 Stamps stampsOf(const std::vector<std::string>& files) {
   Stamps stamps;
-  for (const std::string& file : files) {
-    std::error_code error;
-    const auto time = fs::last_write_time(file, error);
-    stamps[file] = {error ? fs::file_time_type::min() : time, error ? 0 : fs::file_size(file, error)};
-  }
+  for (const std::string& file : files) stamps[file] = stampOf(file);
   return stamps;
 }
 
@@ -33,13 +37,12 @@ Stamps stampsOf(const std::vector<std::string>& files) {
 void watchFile(Config& config, ConfigViewer& viewer, const std::string& path, const std::function<void(const std::string&)>& report,
                const std::function<bool()>& stop) {
   const std::string hint = cat(path, "\nwaiting for changes of the file; q: quit");
-  std::vector<std::string> files = {path};
+  Stamps stamps = stampsOf({path});
   viewer.setTitle(cat("ConfigView <", path, ">"));
   const auto load = [&] {
     try {
       Config fresh;
       fresh.addFile(path);
-      files = sourceFiles(path);
       config.clear();
       config.addConfigurationCopy(fresh);
       viewer.setError("");
@@ -52,22 +55,26 @@ void watchFile(Config& config, ConfigViewer& viewer, const std::string& path, co
       report(error.what());
     }
     viewer.update(config);
+    Stamps fresh_stamps = stampsOf(sourceFiles(path));
+    for (auto& [file, stamp] : fresh_stamps) {
+      if (const auto before = stamps.find(file); before != stamps.end()) stamp = before->second;  // it may have changed meanwhile
+    }
+    stamps = fresh_stamps;
   };
-  Stamps before = stampsOf(files);
   load();
-  before = stampsOf(files);
   while (!isHeadless() && !stop()) {
     const int key = viewer.takeKey();
     if (key == 'q' || key == 27 || enterWasPressed()) break;
-    const Stamps now = stampsOf(files);
-    if (now != before || key == 13) {
-      before = now;
+    Stamps now = stamps;
+    for (auto& [file, stamp] : now) stamp = stampOf(file);
+    if (now != stamps || key == 13) {
+      stamps = now;
       load();
-      before.merge(stampsOf(files));
     }
     std::this_thread::sleep_for(std::chrono::milliseconds(20));
   }
   viewer.setMessage("");
+  viewer.setError("");
 }
 
 }  // namespace kinegraph

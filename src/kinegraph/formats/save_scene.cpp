@@ -1,0 +1,46 @@
+#include <algorithm>
+#include <cctype>
+#include <filesystem>
+#include <fstream>
+
+#include "kinegraph/base/errors.h"
+#include "kinegraph/base/text.h"
+#include "kinegraph/formats/scene_writer.h"
+#include "kinegraph/formats/urdf_writer.h"
+
+namespace kinegraph {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+void writeText(const std::string& text, const std::string& path) {
+  std::ofstream stream(path, std::ios::binary);
+  stream << text;
+  stream.flush();
+  if (!stream) throw FileError(cat("scene file '", path, "' cannot be written"));
+}
+
+}  // namespace
+
+std::string saveUrdf(const Config& config, const std::string& path, std::vector<std::string>* warnings) {
+  UrdfOptions options;
+  options.robot_name = fs::path(path).stem().string();
+  options.mesh_folder = (fs::path(path).parent_path() / (options.robot_name + "_meshes")).string();
+  const std::string text = writeUrdf(config, options, warnings);
+  writeText(text, path);
+  return text;
+}
+
+std::string saveScene(const Config& config, const std::string& path, std::vector<std::string>* warnings) {
+  std::string extension = fs::path(path).extension().string();
+  std::transform(extension.begin(), extension.end(), extension.begin(),
+                 [](unsigned char c) { return char(std::tolower(c)); });
+  if (extension == ".urdf") return saveUrdf(config, path, warnings);
+  const bool yaml = extension == ".yml" || extension == ".yaml";
+  const std::string text = yaml ? writeYaml(config, false, warnings) : writeScene(config, warnings);
+  writeText(text, path);
+  return text;
+}
+
+}  // namespace kinegraph

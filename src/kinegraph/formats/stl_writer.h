@@ -1,0 +1,12 @@
+#pragma once
+
+#include <string>
+
+#include "kinegraph/geometry/geometry.h"
+
+namespace kinegraph {
+
+/// Writes the triangles of a mesh as a binary STL file. Throws FileError.
+void writeStl(const Mesh& mesh, const std::string& path);
+
+}  // namespace kinegraph

@@ -1,0 +1,363 @@
+#include "kinegraph/formats/urdf_writer.h"
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <set>
+
+#include "kinegraph/base/text.h"
+#include "kinegraph/formats/stl_writer.h"
+#include "kinegraph/formats/urdf_model.h"
+#include "kinegraph/formats/xml.h"
+#include "kinegraph/geometry/shape_types.h"
+#include "kinegraph/geometry/tessellation.h"
+
+namespace kinegraph {
+
+namespace {
+
+std::string numbers(std::initializer_list<double> values) {
+  std::vector<std::string> words;
+  for (const double x : values) words.push_back(exact(x));
+  return join(words, " ");
+}
+
+std::string numbers(const Vector3d& v) { return numbers({v[0], v[1], v[2]}); }
+
+/// The rotation as R_z(yaw) R_y(pitch) R_x(roll). Exact at a pitch of 90 degrees as well.
+Vector3d rollPitchYaw(const Matrix3d& R) {
+  const double yaw = std::hypot(R(0, 0), R(1, 0)) < 1e-14 ? 0. : std::atan2(R(1, 0), R(0, 0));
+  const Matrix3d rest = axisRotation(2, -yaw) * R;
+  return {std::atan2(-rest(1, 2), rest(1, 1)), std::atan2(-rest(2, 0), rest(0, 0)), yaw};
+}
+
+std::string originElement(const Pose& pose) {
+  if (pose.isIdentity(0.)) return "";
+  return cat("<origin xyz=\"", numbers(pose.p), "\" rpy=\"", numbers(rollPitchYaw(pose.q.toRotationMatrix())), "\"/>");
+}
+
+bool isVisible(const FrameData& frame) {
+  return frame.shape && frame.shape->geometry->type != ShapeType::none &&
+         frame.shape->geometry->type != ShapeType::marker && frame.shape->geometry->type != ShapeType::camera;
+}
+
+bool isBare(const FrameData& frame) { return !isVisible(frame) && !frame.inertia; }
+
+/// Is this one of the frames <link>_0, <link>_1, ... that hold the shapes of a link?
+bool isShapeOfLink(const FrameData& frame) {
+  if (!frame.parent || frame.joint || frame.inertia || !frame.children.empty() || !isVisible(frame)) return false;
+  const std::string stem = frame.parent->name + "_";
+  const std::string number = frame.name.starts_with(stem) ? frame.name.substr(stem.size()) : "";
+  return !number.empty() && number.find_first_not_of("0123456789") == std::string::npos;
+}
+
+bool isOriginOfJoint(const FrameData& frame) {
+  return frame.parent && !frame.joint && isBare(frame) && frame.children.size() == 1 && frame.children[0]->moves() &&
+         frame.name == frame.children[0]->name + "_origin";
+}
+
+/// The child that is the link of this frame's joint, or null.
+const FrameData* linkOfJoint(const FrameData& frame) {
+  if (!frame.parent || !isBare(frame) || frame.children.size() != 1) return nullptr;
+  const FrameData& child = *frame.children[0];
+  if (child.joint || isShapeOfLink(child) || isOriginOfJoint(child) || !child.pose.p.isZero(0.)) return nullptr;
+  const bool turnable = frame.moves() && frame.joint->steps.size() == 1 && frame.joint->dofs() == 1;
+  return turnable || child.pose.isIdentity(0.) ? &child : nullptr;
+}
+
+/// One joint of a URDF file.
+struct JointElement {
+  std::string name, type, parent, child;
+  Pose origin;
+  Vector3d axis = Vector3d::Zero();  ///< zero: none is written
+  double lower = -kUrdfUnlimited, upper = kUrdfUnlimited, effort = 0., velocity = 0.;
+  std::string mimic;
+  double multiplier = 1.;
+};
+
+class UrdfWriter {
+ public:
+  UrdfWriter(const Config& config, const UrdfOptions& options, std::vector<std::string>* warnings)
+      : config_(config), options_(options), warnings_(warnings) {}
+
+  std::string write() {
+    for (const auto& frame : config_.scene()->frames()) reserved_.insert(frame->name);
+    std::vector<const FrameData*> roots;
+    for (const auto& frame : config_.scene()->frames()) {
+      if (!frame->parent) roots.push_back(frame.get());
+    }
+    if (roots.size() == 1 && roots[0]->pose.isIdentity(0.)) {
+      addFrames(*roots[0], linkName(roots[0]->name));
+    } else {
+      const std::string world = unused(links_, reserved_.contains("world") ? "world_" : "world");
+      text_ += cat("  <link name=\"", xmlEscaped(world), "\"/>\n");
+      for (const FrameData* root : roots) addFixed(*root, world, root->pose);
+    }
+    return cat("<?xml version=\"1.0\"?>\n<robot name=\"", xmlEscaped(options_.robot_name), "\">\n", text_,
+               "</robot>\n");
+  }
+
+ private:
+  void warn(const std::string& message) {
+    if (warnings_) warnings_->push_back(message);
+  }
+
+  static std::string unused(std::set<std::string>& taken, std::string name) {
+    if (name.empty()) name = "frame";
+    while (!taken.insert(name).second) name += "_";
+    return name;
+  }
+  std::string linkName(const std::string& name) { return unused(links_, name); }
+  std::string jointName(const std::string& name) { return unused(joints_, name); }
+
+  /// A name for a link that is no frame's.
+  std::string newLinkName(std::string name) {
+    while (reserved_.contains(name)) name += "_";
+    return linkName(std::move(name));
+  }
+
+  /// The link of a frame, with the shapes that belong to it, and all that hangs on it.
+  void addFrames(const FrameData& frame, const std::string& link) {
+    std::string inside;
+    if (frame.inertia) inside += inertial(*frame.inertia);
+    if (isVisible(frame)) inside += shape(frame, Pose());
+    for (const FrameData* child : frame.children) {
+      if (isShapeOfLink(*child)) inside += shape(*child, child->pose);
+    }
+    text_ += inside.empty() ? cat("  <link name=\"", xmlEscaped(link), "\"/>\n")
+                            : cat("  <link name=\"", xmlEscaped(link), "\">\n", inside, "  </link>\n");
+    for (const FrameData* child : frame.children) {
+      if (!isShapeOfLink(*child)) addChild(*child, link);
+    }
+  }
+
+  void addChild(const FrameData& frame, const std::string& parent) {
+    if (isOriginOfJoint(frame)) {
+      addMoving(*frame.children[0], parent, frame.pose);
+    } else if (frame.moves() && frame.joint->type != JointType::tau) {
+      addMoving(frame, parent, Pose());
+    } else {
+      addFixed(frame, parent, frame.relativePose());
+    }
+  }
+
+  void addFixed(const FrameData& frame, const std::string& parent, const Pose& origin) {
+    const FrameData* behind = linkOfJoint(frame);
+    JointElement joint;
+    joint.name = jointName(behind ? frame.name : frame.name + "_joint");
+    joint.type = "fixed";
+    joint.parent = parent;
+    joint.child = linkName(behind ? behind->name : frame.name);
+    joint.origin = origin;
+    addJoint(joint);
+    addFrames(behind ? *behind : frame, joint.child);
+  }
+
+  void addMoving(const FrameData& frame, const std::string& parent, const Pose& origin) {
+    const FrameData* behind = linkOfJoint(frame);
+    const std::string link = behind ? linkName(behind->name) : newLinkName(frame.name + "_link");
+    std::vector<JointElement> chain = jointsOf(frame);
+    for (std::size_t i = 0; i < chain.size(); ++i) {
+      JointElement& joint = chain[i];
+      joint.name = chain.size() == 1 ? jointName(frame.name) : jointName(cat(frame.name, "_", i));
+      joint.parent = i == 0 ? parent : chain[i - 1].child;
+      if (i == 0) joint.origin = origin;
+      joint.child = i + 1 == chain.size() ? link : newLinkName(cat(joint.name, "_link"));
+      if (behind && !behind->pose.isIdentity(0.)) {  // the link is turned against the joint frame: turn both
+        joint.origin = joint.origin * behind->pose;
+        joint.axis = behind->pose.q.conjugate() * joint.axis;
+      }
+      addJoint(joint);
+      if (i + 1 < chain.size()) text_ += cat("  <link name=\"", xmlEscaped(joint.child), "\"/>\n");
+    }
+    addFrames(behind ? *behind : frame, link);
+  }
+
+  /// The joints that make up the motion of a frame, without names and places.
+  std::vector<JointElement> jointsOf(const FrameData& frame) {
+    const Joint& joint = *frame.joint;
+    std::vector<JointElement> chain;
+    if (joint.type == JointType::free || (joint.type == JointType::transXYPhi && joint.scale == 1.)) {
+      JointElement element;
+      element.type = joint.type == JointType::free ? "floating" : "planar";
+      if (element.type == "planar") element.axis = Vector3d::UnitZ();
+      if (joint.mimic)
+        warn(cat("joint '", frame.name, "' of type ", jointTypeName(joint.type),
+                 " mimics another, which URDF has no way to say"));
+      return {element};
+    }
+    int dof = 0;
+    for (const MotionStep& step : joint.steps) {
+      const double scale = motionScale(frame) * step.sign;
+      switch (step.kind) {
+        case MotionStep::Kind::translate:
+          chain.push_back(oneDof(frame, dof, "prismatic", Vector3d::Unit(step.axis), scale));
+          break;
+        case MotionStep::Kind::rotate:
+          chain.push_back(oneDof(frame, dof, "revolute", Vector3d::Unit(step.axis), scale));
+          break;
+        case MotionStep::Kind::rotateAbout:
+          chain.push_back(oneDof(frame, dof, "revolute", joint.axis, scale));
+          break;
+        case MotionStep::Kind::quaternion:
+          for (int i = 0; i < 3; ++i) chain.push_back(continuous(Vector3d::Unit(i)));
+          break;
+        case MotionStep::Kind::circle:
+          chain.push_back(continuous(Vector3d::UnitZ()));
+          break;
+        case MotionStep::Kind::time:
+          break;
+      }
+      dof += step.dofs();
+    }
+    if (chain.empty()) {  // time only
+      chain.emplace_back();
+      chain.back().type = "fixed";
+    }
+    return chain;
+  }
+
+  static JointElement continuous(const Vector3d& axis) {
+    JointElement element;
+    element.type = "continuous";
+    element.axis = axis;
+    return element;
+  }
+
+  JointElement oneDof(const FrameData& frame, int dof, const char* type, const Vector3d& axis, double scale) {
+    const Joint& joint = *frame.joint;
+    JointElement element;
+    element.type = type;
+    element.axis = scale < 0. ? Vector3d(-axis) : axis;
+    const double unit = std::abs(scale);
+    if (joint.lower.size() > dof && std::isfinite(joint.lower[dof]) && std::isfinite(joint.upper[dof])) {
+      element.lower = unit * joint.lower[dof];
+      element.upper = unit * joint.upper[dof];
+    } else if (element.type == "revolute") {
+      element.type = "continuous";
+    }
+    if (const Node* node = frame.attributes.find("ctrl_limits")) {
+      const NumberArray* limits = node->value.as<NumberArray>();
+      if (limits && limits->numbers.size() >= 2) {
+        element.velocity = limits->numbers[0];
+        element.effort = limits->numbers[1];
+      }
+    }
+    if (joint.mimic) {
+      const FrameData& source = dofSource(frame);
+      const int parts = int(source.joint->steps.size());
+      element.mimic = parts == 1 ? source.name : cat(source.name, "_", dof);
+      element.multiplier = unit / std::abs(source.joint->scale);
+    }
+    return element;
+  }
+
+  void addJoint(const JointElement& joint) {
+    text_ += cat("  <joint name=\"", xmlEscaped(joint.name), "\" type=\"", joint.type, "\">\n");
+    if (const std::string origin = originElement(joint.origin); !origin.empty()) text_ += cat("    ", origin, "\n");
+    text_ += cat("    <parent link=\"", xmlEscaped(joint.parent), "\"/>\n    <child link=\"", xmlEscaped(joint.child),
+                 "\"/>\n");
+    if (!joint.axis.isZero(0.)) text_ += cat("    <axis xyz=\"", numbers(joint.axis), "\"/>\n");
+    const bool bounded = joint.type == "revolute" || joint.type == "prismatic";
+    if (bounded || joint.effort != 0. || joint.velocity != 0.) {
+      text_ += "    <limit";
+      if (bounded) text_ += cat(" lower=\"", exact(joint.lower), "\" upper=\"", exact(joint.upper), "\"");
+      text_ += cat(" effort=\"", exact(joint.effort), "\" velocity=\"", exact(joint.velocity), "\"/>\n");
+    }
+    if (!joint.mimic.empty())
+      text_ += cat("    <mimic joint=\"", xmlEscaped(joint.mimic), "\" multiplier=\"", exact(joint.multiplier),
+                   "\" offset=\"0\"/>\n");
+    text_ += "  </joint>\n";
+  }
+
+  static std::string inertial(const Inertia& inertia) {
+    const Matrix3d& m = inertia.matrix;
+    return cat("    <inertial>\n      <origin xyz=\"", numbers(inertia.com), "\"/>\n      <mass value=\"",
+               exact(inertia.mass), "\"/>\n      <inertia ixx=\"", exact(m(0, 0)), "\" ixy=\"", exact(m(0, 1)),
+               "\" ixz=\"", exact(m(0, 2)), "\" iyy=\"", exact(m(1, 1)), "\" iyz=\"", exact(m(1, 2)), "\" izz=\"",
+               exact(m(2, 2)), "\"/>\n    </inertial>\n");
+  }
+
+  /// The shape of a frame at `pose` in its link: as visual, collision, or both.
+  std::string shape(const FrameData& frame, const Pose& pose) {
+    const Shape& shape = *frame.shape;
+    const bool transparent = shape.color && (*shape.color)[3] < 1.;
+    const auto element = [&](const char* kind, const Pose& at, const std::string& geometry,
+                             const std::string& material) {
+      const std::string origin = originElement(at);
+      return cat("    <", kind, " name=\"", xmlEscaped(frame.name), "\">\n",
+                 origin.empty() ? "" : cat("      ", origin, "\n"), "      <geometry>", geometry, "</geometry>\n",
+                 material, "    </", kind, ">\n");
+    };
+    std::string material;
+    if (shape.color) {
+      const Vector4d& c = *shape.color;
+      material = cat("      <material name=\"", xmlEscaped(frame.name), "_color\"><color rgba=\"",
+                     numbers({c[0], c[1], c[2], c[3]}), "\"/></material>\n");
+    }
+    std::string out;
+    for (const auto& [at, geometry] : geometryElements(frame)) {
+      if (shape.contact == 0 || !transparent) out += element("visual", pose * at, geometry, material);
+      if (shape.contact != 0) out += element("collision", pose * at, geometry, "");
+    }
+    return out;
+  }
+
+  /// The shape as URDF elements, with their poses in the frame.
+  std::vector<std::pair<Pose, std::string>> geometryElements(const FrameData& frame) {
+    const Geometry& geometry = *frame.shape->geometry;
+    const std::vector<double>& s = geometry.size;
+    const auto cylinder = [](double length, double radius) {
+      return cat("<cylinder length=\"", exact(length), "\" radius=\"", exact(radius), "\"/>");
+    };
+    switch (geometry.type) {
+      case ShapeType::box:
+      case ShapeType::ssBox:
+        return {{Pose(), cat("<box size=\"", numbers({s[0], s[1], s[2]}), "\"/>")}};
+      case ShapeType::sphere:
+        return {{Pose(), cat("<sphere radius=\"", exact(s[0]), "\"/>")}};
+      case ShapeType::cylinder:
+      case ShapeType::ssCylinder:
+        return {{Pose(), cylinder(s[0], s[1])}};
+      case ShapeType::capsule: {
+        const std::string ball = cat("<sphere radius=\"", exact(s[1]), "\"/>");
+        const Vector3d end(0., 0., .5 * s[0]);
+        return {{Pose(), cylinder(s[0], s[1])},
+                {Pose(end, Quaterniond::Identity()), ball},
+                {Pose(-end, Quaterniond::Identity()), ball}};
+      }
+      default:
+        break;
+    }
+    if (!geometry.mesh_file.empty()) {
+      const std::string scale =
+          geometry.mesh_scale == Vector3d::Ones() ? "" : cat(" scale=\"", numbers(geometry.mesh_scale), "\"");
+      return {{Pose(), cat("<mesh filename=\"file://", xmlEscaped(geometry.mesh_file), "\"", scale, "/>")}};
+    }
+    const Mesh mesh = tessellate(geometry);
+    if (mesh.triangles.empty() || options_.mesh_folder.empty()) {
+      warn(cat("the ", shapeTypeName(geometry.type), " of frame '", frame.name, "' is left out: URDF has ",
+               mesh.triangles.empty() ? "nothing like it" : "it only as a mesh file, and no folder is given for that"));
+      return {};
+    }
+    std::filesystem::create_directories(options_.mesh_folder);
+    const std::filesystem::path path = std::filesystem::absolute(options_.mesh_folder) / cat(frame.id, ".stl");
+    writeStl(mesh, path.string());
+    return {{Pose(), cat("<mesh filename=\"file://", xmlEscaped(path.string()), "\"/>")}};
+  }
+
+  const Config& config_;
+  const UrdfOptions& options_;
+  std::vector<std::string>* warnings_;
+  std::string text_;
+  std::set<std::string> reserved_;  ///< names of frames
+  std::set<std::string> links_, joints_;
+};
+
+}  // namespace
+
+std::string writeUrdf(const Config& config, const UrdfOptions& options, std::vector<std::string>* warnings) {
+  return UrdfWriter(config, options, warnings).write();
+}
+
+}  // namespace kinegraph

@@ -1,0 +1,117 @@
+#include <algorithm>
+
+#include "kinegraph/base/text.h"
+#include "kinegraph/gfile/grammar.h"
+
+namespace kinegraph {
+
+/// Behind `key:` of the entry at `key_at`: is the rest of its line empty and the next line that says something indented
+/// deeper? Only for keys that start their line, outside of braces.
+bool Grammar::blockFollows(std::size_t key_at, std::size_t& indent) {
+  std::size_t key_indent = 0, next = at_;
+  if (braces_ > 0 || (!atEnd() && !isOneOf(peek(), "\n#"))) return false;
+  if (!startsLine(key_at, key_indent)) return false;
+  while (next < text_.size() && (isSpace(text_[next]) || text_[next] == '#')) {
+    if (text_[next] == '#') {
+      next = std::min(text_.find('\n', next), text_.size());
+    } else {
+      ++next;
+    }
+  }
+  if (next >= text_.size() || !startsLine(next, indent)) return false;
+  const bool item_below_key =
+      indent == key_indent && text_.substr(next, 2) == "- ";  // YAML lets "- " stand below its key
+  if (indent <= key_indent && !item_below_key) return false;
+  at_ = next;
+  return true;
+}
+
+Value Grammar::parseBlock(std::size_t indent) {
+  const Level level(*this, false);
+  if (isOneOf(peek(), "{[<'(")) return parseScalar();
+  if (startsItem()) return parseSequence(indent);
+  Value value;
+  value.where = position(at_);
+  Graph graph;
+  parseBlockEntries(graph, indent);
+  value.data = std::move(graph);
+  return value;
+}
+
+/// Entries down to the first line that is indented less.
+void Grammar::parseBlockEntries(Graph& graph, std::size_t indent) {
+  for (;;) {
+    skipSeparators();
+    std::size_t here = 0;
+    if (atEnd() || (startsLine(at_, here) && here < indent)) return;
+    parseEntryInto(graph);
+  }
+}
+
+bool Grammar::startsItem() const { return peek() == '-' && at_ + 1 < text_.size() && isSpace(text_[at_ + 1]); }
+
+Value Grammar::parseSequence(std::size_t indent) {
+  Value value;
+  value.where = position(at_);
+  NumberArray numbers;
+  StringArray words;
+  ValueList list;
+  for (;;) {
+    skipSeparators();
+    std::size_t here = 0;
+    if (atEnd() || !startsLine(at_, here) || here != indent || !startsItem()) break;
+    ++at_;
+    skipBlanks();
+    Value item = parseScalar();
+    if (const double* number = item.as<double>()) numbers.numbers.push_back(*number);
+    if (const std::string* word = item.as<std::string>()) words.push_back(*word);
+    list.push_back(std::move(item));
+    skipBlanks();
+    if (!atEnd() && !isOneOf(peek(), "\n,#")) fail(at_, "an item of a sequence is one number, word or [array]");
+  }
+  if (numbers.numbers.size() == list.size()) {
+    value.data = std::move(numbers);
+  } else if (words.size() == list.size()) {
+    value.data = std::move(words);
+  } else {
+    value.data = std::move(list);
+  }
+  return value;
+}
+
+Value Grammar::parseScalar() {
+  const std::size_t start = at_;
+  const std::size_t line_end = std::min(text_.find('\n', start), text_.size());
+  std::string_view line = text_.substr(start, line_end - start);
+  line = line.substr(0, std::min(line.find(" #"), line.size()));
+  while (!line.empty() && (isBlank(line.back()) || line.back() == ',')) line.remove_suffix(1);
+  const bool plain = yaml_ && !line.empty() && (startsWord(line[0]) || startsNumber(line[0]));
+  const bool has_more = line.find_first_of(" \t,;:{}[]") != std::string_view::npos;
+  const bool is_text = plain && has_more && line.find_first_of(",;:{}[]") == std::string_view::npos;
+  if (!is_text) {
+    try {
+      return parseValue();
+    } catch (const Failure&) {
+      if (!plain || has_more) throw;
+    }
+  }
+  Value value;
+  value.where = position(start);
+  value.data = std::string(line);
+  at_ = start + line.size();
+  return value;
+}
+
+/// A line "---" or "..." between YAML documents.
+bool Grammar::skipDocumentMark() {
+  std::size_t indent = 0;
+  const std::string_view mark = text_.substr(at_, 3);
+  if (!(mark == "---" || mark == "...") || !startsLine(at_, indent) || indent != 0) return false;
+  const std::size_t line_end = std::min(text_.find('\n', at_), text_.size());
+  const std::string_view rest = text_.substr(at_ + 3, line_end - at_ - 3);
+  if (!std::all_of(rest.begin(), rest.end(), isBlank)) return false;
+  at_ = line_end;
+  return true;
+}
+
+}  // namespace kinegraph

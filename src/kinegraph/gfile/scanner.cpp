@@ -1,0 +1,125 @@
+#include "kinegraph/gfile/scanner.h"
+
+#include <algorithm>
+#include <charconv>
+
+#include "kinegraph/base/text.h"
+
+namespace kinegraph {
+
+bool startsWord(char c) {
+  return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || isOneOf(c, "_/$") || static_cast<unsigned char>(c) >= 0x80;
+}
+
+Scanner::Scanner(std::string_view text, const std::string& file) : text_(text), file_(file) {
+  line_starts_.push_back(0);
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    if (text[i] == '\n') line_starts_.push_back(i + 1);
+  }
+  if (text_.starts_with("\xEF\xBB\xBF")) at_ = 3;  // a byte-order mark
+}
+
+SourcePosition Scanner::position(std::size_t at) const {
+  const auto line = std::upper_bound(line_starts_.begin(), line_starts_.end(), at) - line_starts_.begin();
+  return {file_, int(line), int(at - line_starts_[line - 1]) + 1};
+}
+
+bool Scanner::startsLine(std::size_t at, std::size_t& indent) const {
+  const std::size_t start = *(std::upper_bound(line_starts_.begin(), line_starts_.end(), at) - 1);
+  indent = at - start;
+  return std::all_of(text_.begin() + start, text_.begin() + at, isBlank);
+}
+
+void Scanner::skipBlanks() {
+  while (!atEnd() && isBlank(peek())) ++at_;
+}
+
+void Scanner::skipComment() {
+  while (!atEnd() && peek() != '\n') ++at_;
+}
+
+void Scanner::skipSeparators() {
+  while (!atEnd() && (isSpace(peek()) || isOneOf(peek(), ",;#"))) {
+    if (peek() == '#') {
+      skipComment();
+    } else {
+      ++at_;
+    }
+  }
+}
+
+void Scanner::skipInArray() {
+  while (!atEnd() && (isSpace(peek()) || isOneOf(peek(), ",#"))) {
+    if (peek() == '#') {
+      skipComment();
+    } else {
+      ++at_;
+    }
+  }
+}
+
+std::string Scanner::parseWord(std::string_view stop) {
+  const std::size_t start = at_;
+  while (!atEnd() && !isOneOf(peek(), stop)) ++at_;
+  return std::string(text_.substr(start, at_ - start));
+}
+
+std::string Scanner::parseQuoted(char quote) {
+  const std::size_t opened_at = at_++;
+  const std::size_t end = text_.find(quote, at_);
+  if (end == std::string_view::npos) fail(opened_at, cat("this ", quote, " is never closed"));
+  std::string content(text_.substr(at_, end - at_));
+  at_ = end + 1;
+  return content;
+}
+
+std::string Scanner::parseAngle() {
+  const std::size_t opened_at = at_++;
+  const std::size_t end = text_.find_first_of(">\n", at_);
+  if (end == std::string_view::npos || text_[end] == '\n') fail(opened_at, "this '<' is never closed on its line");
+  std::string content(text_.substr(at_, end - at_));
+  at_ = end + 1;
+  return content;
+}
+
+double Scanner::parseNumber(std::string_view stop) {
+  const std::size_t start = at_;
+  const char* first = text_.data() + at_;
+  const char* last = text_.data() + text_.size();
+  if (*first == '+') ++first;
+  double number = 0.;
+  const auto [end, error] = std::from_chars(first, last, number);
+  const bool complete = end == last || isOneOf(*end, stop);
+  if (error == std::errc::invalid_argument || !complete) {
+    const std::string word = parseWord(stop);
+    fail(start, cat("'", word, "' is not a number"));
+  }
+  if (error == std::errc::result_out_of_range) {
+    fail(start, cat("'", std::string(first, end), "' is too large or too small for a number"));
+  }
+  at_ = std::size_t(end - text_.data());
+  return number;
+}
+
+std::vector<std::string> Scanner::parseNames() {
+  const std::size_t opened_at = at_++;
+  std::vector<std::string> names;
+  for (;;) {
+    while (!atEnd() && (isSpace(peek()) || peek() == ',')) ++at_;
+    if (atEnd()) fail(opened_at, "this '(' is never closed");
+    if (peek() == ')') {
+      ++at_;
+      return names;
+    }
+    if (peek() == '"') {
+      names.push_back(parseQuoted('"'));
+      continue;
+    }
+    const std::size_t start = at_;
+    while (!atEnd() && !isSpace(peek()) && !isOneOf(peek(), ",(){}[]<:=\"'")) ++at_;
+    if (at_ == start) fail(at_, cat("'", peek(), "' in a list of names (a b)"));
+    names.emplace_back(text_.substr(start, at_ - start));
+  }
+}
+
+}  // namespace kinegraph

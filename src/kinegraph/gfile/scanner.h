@@ -1,0 +1,56 @@
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "kinegraph/base/errors.h"
+
+namespace kinegraph {
+
+inline bool isBlank(char c) { return c == ' ' || c == '\t' || c == '\r'; }
+inline bool isSpace(char c) { return isBlank(c) || c == '\n'; }
+inline bool isOneOf(char c, std::string_view set) { return set.find(c) != std::string_view::npos; }
+inline bool startsNumber(char c) { return (c >= '0' && c <= '9') || isOneOf(c, "+-."); }
+bool startsWord(char c);
+
+/// A place in a text of the .g language, and the tokens that begin there. Knows nothing of entries.
+class Scanner {
+ public:
+  Scanner(std::string_view text, const std::string& file);
+
+  SourcePosition position(std::size_t at) const;
+  bool atEnd() const { return at_ >= text_.size(); }
+  char peek() const { return atEnd() ? '\0' : text_[at_]; }
+
+ protected:
+  /// What is thrown at a mistake, and caught by the entry that it is in.
+  struct Failure {
+    std::size_t at;
+    std::string message;
+  };
+  [[noreturn]] void fail(std::size_t at, std::string message) const { throw Failure{at, std::move(message)}; }
+
+  void skipBlanks();
+  void skipComment();     ///< to the end of the line
+  void skipSeparators();  ///< between entries: blanks, lines, commas, semicolons, comments
+  void skipInArray();     ///< the same but semicolons, which end a row
+
+  /// Is there nothing but blanks between the start of its line and `at`? Then the number of them.
+  bool startsLine(std::size_t at, std::size_t& indent) const;
+
+  std::string parseWord(std::string_view stop);
+  std::string parseQuoted(char quote);
+  std::string parseAngle();  ///< < ... > on one line
+  double parseNumber(std::string_view stop);
+  std::vector<std::string> parseNames();  ///< (a b)
+
+  std::string_view text_;
+  const std::string& file_;
+  std::size_t at_ = 0;
+
+ private:
+  std::vector<std::size_t> line_starts_;
+};
+
+}  // namespace kinegraph

@@ -1,0 +1,292 @@
+#include "kinegraph/rendering/camera_renderer.h"
+
+#include <cmath>
+#include <optional>
+
+#include "kinegraph/base/text.h"
+#include "kinegraph/rendering/gl_context.h"
+#include "kinegraph/rendering/mesh_library.h"
+#include "kinegraph/scene/visual_meshes.h"
+
+namespace kinegraph {
+
+namespace {
+
+constexpr int kSlices = 48;             // around builtin round shapes
+constexpr float kShadowHalfWidth = 2.5;  // m, of what the first light's shadow map covers
+const Vector4d kDefaultColor(.8, .8, .8, 1.);
+
+mjvLight directionalLight(int id, const Vector3d& from, const Vector3d& to, bool shadow) {
+  mjvLight light{};
+  light.id = id;
+  light.type = mjLIGHT_DIRECTIONAL;
+  light.castshadow = shadow;
+  light.attenuation[0] = 1.;
+  light.cutoff = 180.;
+  const Vector3d direction = (to - from).normalized();
+  for (int i = 0; i < 3; ++i) {
+    light.pos[i] = float(from[i]);
+    light.dir[i] = float(direction[i]);
+    light.ambient[i] = .15f;  // of each of two
+    light.diffuse[i] = .6f;
+    light.specular[i] = .2f;
+  }
+  return light;
+}
+
+bool isMarker(ShapeType type) { return type == ShapeType::marker || type == ShapeType::camera; }
+
+/// Which of MuJoCo's own shapes a type is drawn with, if any.
+std::optional<mjtGeom> builtinShape(ShapeType type) {
+  switch (type) {
+    case ShapeType::box:
+    case ShapeType::sdf:
+    case ShapeType::tensor: return mjGEOM_BOX;
+    case ShapeType::sphere: return mjGEOM_SPHERE;
+    case ShapeType::capsule: return mjGEOM_CAPSULE;
+    case ShapeType::cylinder: return mjGEOM_CYLINDER;
+    default: return std::nullopt;
+  }
+}
+
+/// Half sides of a box; radius and half length of what is round.
+Vector3d builtinSize(const Geometry& shape) {
+  const std::vector<double>& s = shape.size;
+  switch (shape.type) {
+    case ShapeType::sphere: return {s[0], s[0], s[0]};
+    case ShapeType::capsule:
+    case ShapeType::cylinder: return {s[1], .5 * s[0], 0.};
+    default: return .5 * Vector3d(s[0], s[1], s[2]);
+  }
+}
+
+}  // namespace
+
+struct CameraRenderer::Impl {
+  explicit Impl(const RendererOptions& renderer_options) : options(renderer_options) {
+    mjr_defaultContext(context.get());
+    mjv_defaultScene(scene.get());
+  }
+  ~Impl();
+
+  void draw(SceneTree& tree, const Camera& camera, bool visuals_only, bool segmentation);
+  void read(const Camera& camera, std::uint8_t* rgb, float* depth);
+
+  RendererOptions options;
+  std::optional<GlContext> gl;
+
+ private:
+  struct Item {
+    int frame;
+    const Shape* shape;
+    std::shared_ptr<const Geometry> geometry;
+  };
+  std::vector<Item> visibleItems(const SceneTree& tree, bool visuals_only);
+  void makeContext();
+  void placeGeoms(const std::vector<Item>& items, const State& state, const Camera& camera, int frames);
+  void placeCamera(const Camera& camera);
+  mjvGeom& addGeom(int type, const Vector3d& size, const RigidTransform& X_WG, const Vector4d& color, int segment);
+  void addMarker(double length, const RigidTransform& X_WG, int segment);
+
+  std::optional<MujocoModel> model;
+  std::unique_ptr<mjrContext> context = std::make_unique<mjrContext>();
+  std::unique_ptr<mjvScene> scene = std::make_unique<mjvScene>();
+  MeshLibrary meshes;
+  VisualMeshes visual_meshes;
+};
+
+CameraRenderer::Impl::~Impl() {
+  if (!gl) return;
+  try {
+    const GlContext::Use use(*gl);
+    const MujocoErrors errors;
+    mjr_freeContext(context.get());
+    mjv_freeScene(scene.get());
+  } catch (const Error&) {  // the driver is gone, and its memory with it
+  }
+}
+
+std::vector<CameraRenderer::Impl::Item> CameraRenderer::Impl::visibleItems(const SceneTree& tree, bool visuals_only) {
+  std::vector<Item> items;
+  for (const auto& frame : tree.frames()) {
+    if (!frame->shape || frame->shape->geometry->type == ShapeType::none) continue;
+    const Shape& shape = *frame->shape;
+    const bool is_helper = isMarker(shape.geometry->type) || (shape.color && (*shape.color)[3] < 1.);
+    const bool is_invisible = shape.color && (*shape.color)[3] <= 0.;
+    if ((visuals_only && is_helper) || is_invisible) continue;
+    const std::shared_ptr<const Geometry> visual = visual_meshes.of(shape);
+    items.push_back({frame->id, &shape, visual ? visual : shape.geometry});
+  }
+  return items;
+}
+
+void CameraRenderer::Impl::makeContext() {
+  mjr_freeContext(context.get());
+  mjModel listed = **model;  // the arrays are the model's or the library's
+  listed.vis.quality.offsamples = options.samples;
+  listed.vis.quality.shadowsize = options.shadows ? 2048 : 0;
+  listed.vis.quality.numslices = kSlices;
+  listed.vis.quality.numstacks = kSlices / 2;
+  listed.vis.quality.numquads = 1;
+  listed.stat.extent = 1.;
+  listed.vis.map.shadowclip = kShadowHalfWidth;
+  meshes.fill(listed);
+  mjr_makeContext(&listed, context.get(), mjFONTSCALE_50);
+  mjr_setBuffer(mjFB_OFFSCREEN, context.get());
+  context->readDepthMap = mjDEPTH_ZEROFAR;
+}
+
+mjvGeom& CameraRenderer::Impl::addGeom(int type, const Vector3d& size, const RigidTransform& X_WG, const Vector4d& color, int segment) {
+  mjvGeom& geom = scene->geoms[scene->ngeom++];
+  const Eigen::Matrix<double, 3, 3, Eigen::RowMajor> R = X_WG.R;
+  const Eigen::Vector4f rgba = color.cast<float>();
+  mjv_initGeom(&geom, type, size.data(), X_WG.p.data(), R.data(), rgba.data());
+  geom.segid = segment;
+  geom.transparent = color[3] < 1.;
+  geom.castshadow = !geom.transparent;
+  geom.specular = .4f;
+  geom.shininess = 50.f / 128.f;
+  geom.reflectance = 0.f;
+  return geom;
+}
+
+void CameraRenderer::Impl::addMarker(double length, const RigidTransform& X_WG, int segment) {
+  const Vector4d colors[] = {{.84, .27, .27, 1.}, {.25, .61, .29, 1.}, {.23, .44, .84, 1.}};
+  for (int axis = 0; axis < 3; ++axis) {
+    Matrix3d R;  // z along the axis
+    R << Vector3d::Unit((axis + 1) % 3), Vector3d::Unit((axis + 2) % 3), Vector3d::Unit(axis);
+    addGeom(mjGEOM_ARROW, {.02 * length, .02 * length, length}, X_WG * RigidTransform{R, Vector3d::Zero()}, colors[axis], segment).castshadow = false;
+  }
+}
+
+void CameraRenderer::Impl::placeGeoms(const std::vector<Item>& items, const State& state, const Camera& camera, int frames) {
+  std::size_t count = 1;
+  for (const Item& item : items) count += std::max<std::size_t>(3, isMarker(item.geometry->type) || builtinShape(item.geometry->type) ? 0 : meshes.parts(item.geometry).size());
+  if (std::size_t(scene->maxgeom) < count) {
+    mjv_freeScene(scene.get());
+    mjv_makeScene(model->get(), scene.get(), int(2 * count));
+  }
+  scene->ngeom = 0;
+  if (options.floor) {
+    Vector4d color;
+    color << options.floor_color, 1.;
+    mjvGeom& floor = addGeom(mjGEOM_MESH, Vector3d::Ones(), {}, color, frames);
+    floor.dataid = 0;
+    floor.specular = 0.f;
+  }
+  for (const Item& item : items) {
+    const RigidTransform& X_WG = state.pose(item.frame);
+    const Vector4d color = item.shape->color.value_or(kDefaultColor);
+    const int first = scene->ngeom;
+    if (isMarker(item.geometry->type)) {
+      addMarker(item.geometry->size.empty() ? .1 : item.geometry->size.back(), X_WG, item.frame);
+    } else if (const auto builtin = builtinShape(item.geometry->type)) {
+      addGeom(*builtin, builtinSize(*item.geometry), X_WG, color, item.frame);
+    } else {
+      const std::vector<MeshLibrary::Part>& parts = meshes.parts(item.geometry);
+      for (const MeshLibrary::Part& part : parts) {
+        const bool own = part.color && (parts.size() > 1 || !item.shape->color);
+        Vector4d shown = own ? *part.color : color;
+        if (own) shown[3] *= color[3];
+        addGeom(mjGEOM_MESH, Vector3d::Ones(), X_WG, shown, item.frame).dataid = 2 * part.mesh;
+      }
+    }
+    for (int i = first; i < scene->ngeom; ++i) scene->geoms[i].camdist = float((X_WG.p - camera.pose.p).norm());
+  }
+}
+
+void CameraRenderer::Impl::placeCamera(const Camera& camera) {
+  const Matrix3d R = camera.pose.q.toRotationMatrix();
+  for (mjvGLCamera& eye : scene->camera) {
+    for (int i = 0; i < 3; ++i) {
+      eye.pos[i] = float(camera.pose.p[i]);
+      eye.forward[i] = float(R(i, 2));
+      eye.up[i] = float(-R(i, 1));
+    }
+    const double half = camera.ortho_height > 0. ? .5 * camera.ortho_height : .5 * camera.near / camera.focal_length;
+    eye.orthographic = camera.ortho_height > 0.;
+    eye.frustum_center = 0.f;
+    eye.frustum_width = float(half * camera.width / camera.height);
+    eye.frustum_bottom = float(-half);
+    eye.frustum_top = float(half);
+    eye.frustum_near = float(camera.near);
+    eye.frustum_far = float(camera.far);
+  }
+}
+
+void CameraRenderer::Impl::draw(SceneTree& tree, const Camera& camera, bool visuals_only, bool segmentation) {
+  const std::vector<Item> items = visibleItems(tree, visuals_only);
+  MeshLibrary::Shapes shapes;
+  for (const Item& item : items) {
+    if (!isMarker(item.geometry->type) && !builtinShape(item.geometry->type)) shapes.insert(item.geometry);
+  }
+  if (!model) model = emptyModel(options.background.data());
+  if (meshes.update(shapes)) makeContext();
+  if (camera.width > context->offWidth || camera.height > context->offHeight) {
+    mjr_resizeOffscreen(std::max(camera.width, context->offWidth), std::max(camera.height, context->offHeight), context.get());
+  }
+  placeGeoms(items, tree.state(), camera, int(tree.frames().size()));
+  placeCamera(camera);
+  scene->nlight = 2;
+  scene->lights[0] = directionalLight(0, {-3., 2., 3.}, {0., 0., .8}, options.shadows);
+  scene->lights[1] = directionalLight(1, {3., 0., 4.}, {0., 0., .8}, false);
+  scene->stereo = mjSTEREO_NONE;
+  std::fill(std::begin(scene->flags), std::end(scene->flags), mjtByte(0));
+  scene->flags[mjRND_CULL_FACE] = 1;
+  scene->flags[mjRND_SHADOW] = options.shadows && !segmentation;
+  scene->flags[mjRND_SKYBOX] = !segmentation;
+  scene->flags[mjRND_SEGMENT] = scene->flags[mjRND_IDCOLOR] = segmentation;
+  mjr_setBuffer(mjFB_OFFSCREEN, context.get());
+  mjr_render({0, 0, camera.width, camera.height}, scene.get(), context.get());
+}
+
+void CameraRenderer::Impl::read(const Camera& camera, std::uint8_t* rgb, float* depth) {
+  mjr_readPixels(rgb, depth, {0, 0, camera.width, camera.height}, context.get());
+  const std::size_t row = std::size_t(camera.width);  // OpenGL's rows run from bottom to top
+  for (std::size_t top = 0, bottom = std::size_t(camera.height) - 1; top < bottom; ++top, --bottom) {
+    std::swap_ranges(rgb + 3 * row * top, rgb + 3 * row * (top + 1), rgb + 3 * row * bottom);
+    if (depth) std::swap_ranges(depth + row * top, depth + row * (top + 1), depth + row * bottom);
+  }
+}
+
+CameraRenderer::CameraRenderer(const RendererOptions& options) : impl_(std::make_unique<Impl>(options)) {}
+CameraRenderer::~CameraRenderer() = default;
+
+CameraImage CameraRenderer::render(SceneTree& scene, const Camera& camera, bool visuals_only) {
+  camera.validate();
+  CameraImage image{camera.width, camera.height, {}, {}};
+  image.depth.resize(std::size_t(camera.width) * std::size_t(camera.height));
+  image.rgb.resize(3 * image.depth.size());
+  if (!impl_->gl) impl_->gl.emplace();
+  const GlContext::Use use(*impl_->gl);
+  const MujocoErrors errors;
+  impl_->draw(scene, camera, visuals_only, false);
+  impl_->read(camera, image.rgb.data(), image.depth.data());
+  // 1 is near and 0 is far: 1/z is linear in the values, or z is.
+  const double near = camera.near, far = camera.far;
+  for (float& d : image.depth) {
+    if (d <= 0.f) d = -1.f;
+    else if (camera.ortho_height > 0.) d = float(far - d * (far - near));
+    else d = float(near * far / (near + d * (far - near)));
+  }
+  return image;
+}
+
+std::vector<std::int32_t> CameraRenderer::segment(SceneTree& scene, const Camera& camera, bool visuals_only) {
+  camera.validate();
+  std::vector<std::int32_t> ids(std::size_t(camera.width) * std::size_t(camera.height));
+  std::vector<std::uint8_t> rgb(3 * ids.size());
+  if (!impl_->gl) impl_->gl.emplace();
+  const GlContext::Use use(*impl_->gl);
+  const MujocoErrors errors;
+  impl_->draw(scene, camera, visuals_only, true);
+  impl_->read(camera, rgb.data(), nullptr);
+  const int frames = int(scene.frames().size());
+  for (std::size_t i = 0; i < ids.size(); ++i) {
+    const int id = rgb[3 * i] + (rgb[3 * i + 1] << 8) + (rgb[3 * i + 2] << 16) - 1;
+    ids[i] = id < frames ? id : -1;  // the floor counts as the frame after the last
+  }
+  return ids;
+}
+
+}  // namespace kinegraph

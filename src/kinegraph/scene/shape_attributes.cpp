@@ -1,0 +1,190 @@
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "kinegraph/base/text.h"
+#include "kinegraph/geometry/mesh_file.h"
+#include "kinegraph/geometry/shape_types.h"
+#include "kinegraph/scene/attributes.h"
+#include "kinegraph/scene/scene_source.h"
+#include "kinegraph/scene/scene_tree.h"
+
+namespace kinegraph {
+
+namespace {
+
+constexpr double kMaxRopeSegments = 10000.;
+
+std::vector<Vector3d> triples(const std::vector<double>& v) {
+  std::vector<Vector3d> points;
+  for (std::size_t i = 0; i + 2 < v.size(); i += 3) points.emplace_back(v[i], v[i + 1], v[i + 2]);
+  return points;
+}
+
+bool isMeshFile(const Node& node) { return node.value.as<AngleText>() || node.value.as<std::string>(); }
+
+}  // namespace
+
+bool AttributeReader::readShapeType(Geometry& geometry) {
+  const Node* node = find({"shape", "type"});
+  return node && guarded(*node, [&] {
+           if (const double* code = node->value.as<double>()) {
+             if (!(*code >= 0. && *code <= 1000.)) throw ValueError(cat("shape type ", *code, " does not exist"));
+             geometry.type = ShapeType(int(*code));
+             shapeTypeName(geometry.type);  // throws for other numbers
+           } else if (const std::string* word = node->value.as<std::string>()) {
+             geometry.type = shapeTypeFromName(*word);
+           } else {
+             throw ValueError(cat("expected a shape type, got ", describe(node->value)));
+           }
+         });
+}
+
+bool AttributeReader::readMesh(Geometry& geometry) {
+  const Node* node = find({"mesh", "mesh_decomp", "mesh_points"});
+  return guarded(*node, [&] {
+    const std::string file = path(*node);
+    Mesh mesh;
+    try {
+      mesh =
+          node->key == "mesh" ? readMeshFile(file) : readH5Mesh(file, node->key == "mesh_decomp" ? "decomp" : "points");
+    } catch (const FileError& e) {
+      throw FileError(cat(e.what(), std::string(e.what()).ends_with("does not exist") ? similarFilesHint(file) : ""));
+    }
+    if (const Node* scale = find({"meshscale"})) {
+      const auto s = numbers(*scale).value_or(std::vector<double>{1.});
+      if (s.size() == 1 || s.size() == 3) {
+        const Vector3d factors = s.size() == 3 ? Vector3d(s[0], s[1], s[2]) : Vector3d::Constant(s[0]).eval();
+        for (Vector3d& p : mesh.vertices) p = p.cwiseProduct(factors);
+        geometry.mesh_scale = factors;
+      } else {
+        error(*scale, cat("expected 1 or 3 numbers, got ", s.size()));
+      }
+    }
+    geometry.type = mesh.triangles.empty() ? ShapeType::pointCloud : ShapeType::mesh;
+    if (node->key == "mesh") geometry.mesh_file = file;
+    geometry.mesh = std::make_shared<Mesh>(std::move(mesh));
+  });
+}
+
+/// Core points of a convex shape: numbers, or the points of a mesh file.
+bool AttributeReader::readCore(Geometry& geometry) {
+  const Node* node = find({"core"});
+  return guarded(*node, [&] {
+    Mesh core;
+    if (isMeshFile(*node)) {
+      core.vertices = readMeshFile(path(*node)).vertices;
+    } else if (const auto v = numbers(*node)) {
+      if (v->size() < 3 || v->size() % 3 != 0) throw ValueError(cat("expected n x 3 numbers, got ", v->size()));
+      core.vertices = triples(*v);
+    }
+    geometry.mesh = std::make_shared<Mesh>(std::move(core));
+  });
+}
+
+/// `mesh_rope: [x y z n]`: points on the way from the origin to x y z.
+bool AttributeReader::readRope(Geometry& geometry) {
+  const Node* node = find({"mesh_rope"});
+  const auto v = numbers(*node);
+  if (!v) return false;
+  if (v->size() != 4 || !((*v)[3] >= 1. && (*v)[3] <= kMaxRopeSegments)) {
+    error(*node, cat("expected [x y z n], n segments to the point x y z, n from 1 to ", kMaxRopeSegments));
+    return false;
+  }
+  Mesh rope;
+  const int segments = int((*v)[3]);
+  for (int i = 0; i <= segments; ++i) rope.vertices.push_back(Vector3d((*v)[0], (*v)[1], (*v)[2]) * i / segments);
+  geometry.mesh = std::make_shared<Mesh>(std::move(rope));
+  return true;
+}
+
+/// A mesh that stands in the file itself: `vertices: [x y z ...]`, `triangles: [i j k ...]`, `vertex_colors: [r g b a ...]`.
+bool AttributeReader::readVertices(Geometry& geometry) {
+  bool good = true;
+  const auto list = [&](const char* key, std::size_t columns, double lowest, double highest) {
+    const Node* node = find({key});
+    std::vector<double> v = node ? numbers(*node).value_or(std::vector<double>{}) : std::vector<double>{};
+    const bool in_range = std::all_of(v.begin(), v.end(), [&](double x) { return x >= lowest && x <= highest; });
+    if (v.size() % columns == 0 && in_range) return v;
+    error(*node, cat("expected n x ", columns, " numbers", lowest == 0. ? cat(" in 0..", highest) : ""));
+    good = false;
+    return std::vector<double>();
+  };
+  const double any = std::numeric_limits<double>::max();
+  Mesh mesh;
+  mesh.vertices = triples(list("vertices", 3, -any, any));
+  const std::vector<double> t = list("triangles", 3, 0., double(mesh.vertices.size()) - 1.);
+  for (std::size_t i = 0; i < t.size(); i += 3) {
+    mesh.triangles.push_back({std::uint32_t(t[i]), std::uint32_t(t[i + 1]), std::uint32_t(t[i + 2])});
+  }
+  const std::vector<double> c = list("vertex_colors", 4, 0., 255.);
+  for (std::size_t i = 0; i < c.size(); i += 4) {
+    mesh.colors.push_back({std::uint8_t(c[i]), std::uint8_t(c[i + 1]), std::uint8_t(c[i + 2]), std::uint8_t(c[i + 3])});
+  }
+  geometry.mesh = std::make_shared<Mesh>(std::move(mesh));
+  return good;
+}
+
+bool AttributeReader::readSize(Geometry& geometry) {
+  const Node* size = find({"size"});
+  const Node& blamed = size ? *size : *find({"shape", "type", "mesh", "mesh_decomp", "mesh_points"});
+  return guarded(blamed, [&] {
+    std::string enlarged;
+    geometry.size = checkedSize(
+        geometry.type, size ? numbers(*size).value_or(std::vector<double>{}) : std::vector<double>{}, &enlarged);
+    if (!enlarged.empty()) warning(blamed, enlarged);
+  });
+}
+
+/// Type, mesh and size. False if there is a mistake in them.
+bool AttributeReader::readGeometry(Geometry& geometry) {
+  if (find({"shape", "type"}) && !readShapeType(geometry)) return false;
+  bool good = true;
+  if (find({"mesh", "mesh_decomp", "mesh_points"})) {
+    good = readMesh(geometry);
+  } else if (geometry.type == ShapeType::ssCvx && find({"core"})) {
+    good = readCore(geometry);
+  } else if (find({"vertices"})) {
+    good = readVertices(geometry);
+  } else if (find({"mesh_rope"})) {
+    good = readRope(geometry);
+  }
+  return good && readSize(geometry);
+}
+
+void AttributeReader::applyShape(FrameData& frame) {
+  if (find({"shape", "type", "mesh", "mesh_decomp", "mesh_points"})) {
+    Geometry geometry;
+    if (!readGeometry(geometry)) return;
+    frame.shape = std::make_shared<Shape>();
+    frame.shape->geometry = std::make_shared<Geometry>(std::move(geometry));
+    frame.tree->looksChanged(*frame.shape);
+  }
+  if (const Node* sdf = find({"sdf"})) warning(*sdf, "signed distance grids are not read; the attribute is kept");
+  if (!frame.shape) {
+    const Node* stray = find({"size", "contact"});
+    if (stray && !find({"mimic_shape", "sdf"}))
+      warning(*stray, cat("'", stray->key, "' has no effect without a shape"));
+    return;
+  }
+  if (const Node* color = find({"color"})) {
+    const auto c = numbers(*color);
+    const std::size_t n = c ? c->size() : 0;
+    if (c && (n < 1 || n > 4))
+      error(*color, cat("expected 1 (grey), 2 (grey alpha), 3 (rgb) or 4 (rgba) numbers, got ", n));
+    if (n == 1 || n == 2) frame.shape->color = Vector4d((*c)[0], (*c)[0], (*c)[0], n == 2 ? (*c)[1] : 1.);
+    if (n == 3 || n == 4) frame.shape->color = Vector4d((*c)[0], (*c)[1], (*c)[2], n == 4 ? (*c)[3] : 1.);
+    if (frame.shape->color && !frame.shape->color->allFinite()) error(*color, "expected finite numbers");
+  }
+  if (const Node* contact = find({"contact"})) {
+    const double flag = number(*contact).value_or(0.);
+    if (!(std::abs(flag) <= 1000.)) return error(*contact, "expected a number from -1000 to 1000");
+    frame.shape->contact = int(flag);
+  }
+  if (const Node* mesh = find({"visual_mesh"})) {  // may be missing: what is drawn instead is the shape
+    guarded(*mesh, [&] { frame.shape->visual_mesh = resolvePath(givenPath(*mesh), folder_); });
+  }
+  if (const auto pose = readPose({"visual_pose"})) frame.shape->visual_pose = *pose;
+}
+
+}  // namespace kinegraph

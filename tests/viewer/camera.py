@@ -1,0 +1,27 @@
+"""Where points of the scene appear on the page, computed without the page."""
+
+from __future__ import annotations
+
+import numpy as np
+
+WIDTH, HEIGHT = 640, 480  # of the page, pixels
+FIELD_OF_VIEW = np.deg2rad(40)  # vertical
+
+
+class Camera:
+    """A camera at `position` that looks at `target`, upright."""
+
+    def __init__(self, position: list[float], target: list[float]) -> None:
+        self.position, self.target = np.array(position, float), np.array(target, float)
+        forward = self.target - self.position
+        self._forward = forward / np.linalg.norm(forward)
+        right = np.cross(self._forward, [0.0, 0.0, 1.0])
+        self._right = right / np.linalg.norm(right)
+        self._up = np.cross(self._right, self._forward)
+        self.focal_length = HEIGHT / 2 / np.tan(FIELD_OF_VIEW / 2)
+
+    def pixel(self, point: np.ndarray) -> tuple[int, int]:
+        """Row and column."""
+        ray = np.asarray(point) - self.position
+        scale = self.focal_length / (ray @ self._forward)
+        return round(HEIGHT / 2 - scale * (ray @ self._up)), round(WIDTH / 2 + scale * (ray @ self._right))

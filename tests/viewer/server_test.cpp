@@ -1,0 +1,326 @@
+#include "kinegraph/viewer/server.h"
+
+#include <gtest/gtest.h>
+
+#include <chrono>
+#include <thread>
+
+#include "kinegraph/base/errors.h"
+#include "kinegraph/base/random.h"
+#include "kinegraph/viewer/client_page.h"
+#include "tests/viewer/websocket_client.h"
+
+using namespace kinegraph;
+using namespace kinegraph::test;
+
+namespace {
+
+constexpr int kQuiet = 100;  // ms: long enough for a message on this machine to arrive
+
+ViewerOptions anyPort() {
+  ViewerOptions options;
+  options.port = 0;
+  return options;
+}
+
+std::vector<ViewItem> frames(int count) {
+  std::vector<ViewItem> items(count);
+  for (int i = 0; i < count; ++i) items[i].name = "frame" + std::to_string(i);
+  return items;
+}
+
+/// A scene that is some megabytes to send.
+std::vector<ViewItem> largeScene() {
+  auto mesh = std::make_shared<Mesh>();
+  mesh->vertices.resize(400000);
+  auto geometry = std::make_shared<Geometry>();
+  geometry->type = ShapeType::pointCloud;
+  geometry->mesh = mesh;
+  auto items = frames(1);
+  items[0].geometry = geometry;
+  return items;
+}
+
+/// Reads messages until one contains `text`; all of them.
+std::vector<Received> readUntil(WebsocketClient& client, const std::string& text) {
+  std::vector<Received> messages;
+  while (auto message = client.next()) {
+    messages.push_back(std::move(*message));
+    if (messages.back().has(text)) return messages;
+  }
+  ADD_FAILURE() << "no message with " << text;
+  return messages;
+}
+
+std::string answerTo(int port, const std::string& request) {
+  TcpClient client(port);
+  client.send(request);
+  return client.readAll();
+}
+
+std::string get(const std::string& path, const std::string& host, const std::string& more = "") {
+  return "GET " + path + " HTTP/1.1\r\nHost: " + host + "\r\n" + more + "\r\n";
+}
+
+template <class Condition>
+bool eventually(const Condition& condition) {
+  const auto deadline = std::chrono::steady_clock::now() + std::chrono::milliseconds(kPatience);
+  while (!condition()) {
+    if (std::chrono::steady_clock::now() > deadline) return false;
+    std::this_thread::sleep_for(std::chrono::milliseconds(5));
+  }
+  return true;
+}
+
+class ViewerServerTest : public testing::Test {
+ protected:
+  ViewerServer server{anyPort()};
+  const int port = portOf(server.url());
+  const std::string host = "localhost:" + std::to_string(port);
+
+  /// The next key; 0 if none comes.
+  int waitKey() {
+    const auto deadline = std::chrono::steady_clock::now() + std::chrono::milliseconds(kPatience);
+    return server.waitKey([deadline] { return std::chrono::steady_clock::now() > deadline; });
+  }
+};
+
+}  // namespace
+
+TEST_F(ViewerServerTest, ServesThePage) {
+  const std::string answer = answerTo(port, get("/", host));
+  EXPECT_TRUE(answer.starts_with("HTTP/1.1 200 OK\r\n"));
+  EXPECT_TRUE(answer.ends_with(std::string("\r\n\r\n").append(clientPage())));
+  EXPECT_NE(clientPage().find("<!doctype html>"), std::string_view::npos);
+  EXPECT_TRUE(answerTo(port, get("/?a=b", "127.0.0.1:" + std::to_string(port))).starts_with("HTTP/1.1 200 "));
+}
+
+TEST_F(ViewerServerTest, KnowsNoOtherPathAndNoOtherMethod) {
+  EXPECT_TRUE(answerTo(port, get("/etc/passwd", host)).starts_with("HTTP/1.1 404 "));
+  EXPECT_TRUE(answerTo(port, get("/../../x", host)).starts_with("HTTP/1.1 404 "));
+  EXPECT_TRUE(answerTo(port, "POST / HTTP/1.1\r\nHost: " + host + "\r\nContent-Length: 0\r\n\r\n").starts_with("HTTP/1.1 404 "));
+}
+
+TEST_F(ViewerServerTest, ListensOnLoopbackOnly) {
+  EXPECT_TRUE(server.url().starts_with("http://localhost:"));
+  const int other = socket(AF_INET, SOCK_STREAM, 0);
+  sockaddr_in address{};
+  address.sin_family = AF_INET;
+  address.sin_port = htons(static_cast<std::uint16_t>(port));
+  address.sin_addr.s_addr = htonl(INADDR_LOOPBACK + 1);  // 127.0.0.2: this machine, but not the address listened on
+  EXPECT_NE(connect(other, reinterpret_cast<sockaddr*>(&address), sizeof address), 0);
+  close(other);
+}
+
+TEST_F(ViewerServerTest, RefusesAForeignHost) {
+  for (const std::string foreign : {"example.com", "localhost.example.com", "127.0.0.1.example.com:80", "192.168.1.5:7000", ""}) {
+    EXPECT_TRUE(answerTo(port, get("/", foreign)).starts_with("HTTP/1.1 403 ")) << foreign;
+    EXPECT_TRUE(answerTo(port, WebsocketClient::request(foreign, "")).starts_with("HTTP/1.1 403 ")) << foreign;
+  }
+}
+
+TEST_F(ViewerServerTest, RefusesAForeignOrigin) {
+  for (const std::string& origin : std::vector<std::string>{"http://example.com", "null", "https://" + host, "http://localhost", "http://localhost:1"}) {
+    EXPECT_TRUE(answerTo(port, WebsocketClient::request(host, origin)).starts_with("HTTP/1.1 403 ")) << origin;
+    EXPECT_TRUE(answerTo(port, get("/", host, "Origin: " + origin + "\r\n")).starts_with("HTTP/1.1 403 ")) << origin;
+  }
+  TcpClient own(port);
+  own.send(WebsocketClient::request(host, "http://" + host));
+  EXPECT_EQ(own.read(12), "HTTP/1.1 101");
+}
+
+TEST_F(ViewerServerTest, APortInUseIsPassedOver) {
+  ViewerOptions options;
+  options.port = port;
+  const ViewerServer second(options);
+  EXPECT_GT(portOf(second.url()), port);
+  EXPECT_LT(portOf(second.url()), port + 200);
+  EXPECT_TRUE(answerTo(portOf(second.url()), get("/", host)).starts_with("HTTP/1.1 200 "));
+}
+
+TEST(ViewerServer, GetsItsPortBackWhenItIsStartedAgain) {
+  ViewerOptions options = anyPort();
+  auto server = std::make_unique<ViewerServer>(options);
+  options.port = portOf(server->url());
+  WebsocketClient client(options.port);
+  ASSERT_TRUE(server->waitForClient(20.));
+  server.reset();  // hangs up first: the system keeps the port in TIME_WAIT
+  while (client.next()) {
+  }
+  EXPECT_EQ(portOf(ViewerServer(options).url()), options.port);
+}
+
+TEST(ViewerServer, HostAndPortThatCannotBeAreErrors) {
+  ViewerOptions options;
+  options.host = "not an address";
+  EXPECT_THROW(ViewerServer{options}, ValueError);
+  options = {};
+  options.port = 70000;
+  EXPECT_THROW(ViewerServer{options}, ValueError);
+  options = {};
+  options.host = "192.0.2.1";  // for documentation: no machine has it
+  EXPECT_THROW(ViewerServer{options}, Error);
+}
+
+TEST_F(ViewerServerTest, AMovedFrameSendsOnePoseAndAnUnchangedSceneNothing) {
+  auto items = frames(5);
+  server.update(items);
+  WebsocketClient client(port);
+  while (!client.next()->binary) {
+  }
+  items[3].pose.p.x() = 1.;
+  server.update(items);
+  const auto poses = client.next();
+  ASSERT_TRUE(poses && poses->binary);
+  EXPECT_EQ(poses->data.size(), 40u);
+  EXPECT_EQ(poses->number(0), 1u);  // poses
+  EXPECT_EQ(poses->number(1), 1u);  // one
+  EXPECT_EQ(poses->number(2), 3u);  // of frame 3
+  server.update(items);
+  server.setMessage("");
+  EXPECT_FALSE(client.next(kQuiet));
+}
+
+TEST_F(ViewerServerTest, ALateBrowserGetsTheWholeScene) {
+  auto items = frames(3);
+  server.update(items);
+  server.setMessage("hello");
+  items.pop_back();
+  server.update(items);
+  WebsocketClient client(port);
+  const auto text = client.next(), scene = client.next(), poses = client.next();
+  ASSERT_TRUE(text && scene && poses);
+  EXPECT_TRUE(text->has(R"("message":"hello")"));
+  EXPECT_TRUE(scene->has(R"("count":2)") && scene->has("frame0") && scene->has("frame1") && !scene->has("frame2")) << scene->data;
+  EXPECT_EQ(poses->number(1), 2u);
+  EXPECT_FALSE(client.next(kQuiet));
+}
+
+TEST_F(ViewerServerTest, ServesSeveralBrowsersAndCountsThem) {
+  auto first = std::make_unique<WebsocketClient>(port);
+  WebsocketClient second(port);
+  EXPECT_TRUE(eventually([&] { return server.clients() == 2; }));
+  server.setMessage("to both");
+  readUntil(*first, "to both");
+  readUntil(second, "to both");
+  first.reset();
+  EXPECT_TRUE(eventually([&] { return server.clients() == 1; }));
+  server.setMessage("to one");
+  readUntil(second, "to one");
+}
+
+TEST_F(ViewerServerTest, KeysArriveOnceAndTheLastOneCounts) {
+  WebsocketClient client(port);
+  EXPECT_EQ(server.takeKey(), 0);
+  client.sendKey('q');
+  EXPECT_EQ(waitKey(), 'q');
+  EXPECT_EQ(server.takeKey(), 0);
+  client.sendKey('a');
+  client.sendKey('b');
+  EXPECT_TRUE(eventually([&] { return server.takeKey() == 'b'; }));
+}
+
+TEST_F(ViewerServerTest, WaitingForAKeyEndsWhenStopSaysSo) {
+  int asked = 0;
+  EXPECT_EQ(server.waitKey([&] { return ++asked == 2; }), 0);
+  EXPECT_EQ(asked, 2);
+}
+
+TEST_F(ViewerServerTest, RandomMessagesAreIgnored) {
+  Rng rng(0);
+  WebsocketClient client(port);
+  for (int i = 0; i < 300; ++i) {
+    std::string data(std::size_t(rng.uniform(0., 200.)), '\0');
+    for (char& c : data) c = static_cast<char>(rng.uniform(0., 256.));
+    data.size() == 8 ? client.sendBinary(data + "x") : client.sendBinary(data);
+    client.sendText("{\"kind\": \"scene\"}");
+  }
+  client.sendKey(0);
+  client.sendKey(0xffffffff);
+  client.sendKey(7);
+  EXPECT_EQ(waitKey(), 7);
+}
+
+TEST_F(ViewerServerTest, AnOversizedMessageEndsThatConnectionOnly) {
+  WebsocketClient good(port), bad(port);
+  ASSERT_TRUE(eventually([&] { return server.clients() == 2; }));
+  bad.sendBinary(std::string(1 << 20, 'x'));
+  while (bad.next()) {
+  }
+  EXPECT_TRUE(eventually([&] { return server.clients() == 1; }));
+  server.setMessage("still here");
+  readUntil(good, "still here");
+}
+
+TEST_F(ViewerServerTest, GarbageInPlaceOfFramesEndsThatConnectionOnly) {
+  Rng rng(1);
+  for (int i = 0; i < 30; ++i) {
+    std::string data(1000, '\0');
+    for (char& c : data) c = static_cast<char>(rng.uniform(0., 256.));
+    WebsocketClient framed(port);
+    framed.TcpClient::send(data);
+    TcpClient raw(port);
+    raw.send(data + "\r\n\r\n");
+  }
+  EXPECT_TRUE(eventually([&] { return server.clients() == 0; }));
+  EXPECT_TRUE(answerTo(port, get("/", host)).starts_with("HTTP/1.1 200 "));
+}
+
+TEST_F(ViewerServerTest, AnOversizedRequestIsRefused) {
+  const std::string answer = answerTo(port, get("/" + std::string(100000, 'x'), host));
+  EXPECT_FALSE(answer.starts_with("HTTP/1.1 200 "));
+  EXPECT_TRUE(answerTo(port, get("/", host)).starts_with("HTTP/1.1 200 "));
+}
+
+TEST_F(ViewerServerTest, ASlowBrowserMissesIntermediateStatesAndNeverBlocks) {
+  auto items = largeScene();
+  server.update(items);
+  WebsocketClient slow(port, 4096);  // gets stuck in the point cloud
+  ASSERT_TRUE(server.waitForClient(20.));
+  const auto start = std::chrono::steady_clock::now();
+  for (int i = 1; i <= 2000; ++i) {
+    items[0].pose.p.x() = i;
+    server.update(items);
+  }
+  EXPECT_LT(std::chrono::steady_clock::now() - start, std::chrono::seconds(5));
+  server.setMessage("the end");
+  const auto messages = readUntil(slow, "the end");
+  EXPECT_LT(messages.size(), 100u);
+  auto last = slow.next();
+  ASSERT_TRUE(last && last->binary);
+  float x;
+  std::memcpy(&x, last->data.data() + 12, sizeof x);
+  EXPECT_EQ(x, 2000.f);
+}
+
+TEST_F(ViewerServerTest, ASlowBrowserDoesNotHoldUpAnother) {
+  server.update(largeScene());
+  WebsocketClient stuck(port, 4096), quick(port);
+  ASSERT_TRUE(eventually([&] { return server.clients() == 2; }));
+  server.setMessage("news");
+  readUntil(quick, "news");
+}
+
+TEST(ViewerServer, EndsWhileABrowserIsStuck) {
+  auto server = std::make_unique<ViewerServer>(anyPort());
+  server->update(largeScene());
+  WebsocketClient stuck(portOf(server->url()), 4096);
+  ASSERT_TRUE(server->waitForClient(20.));
+  const auto start = std::chrono::steady_clock::now();
+  server.reset();
+  EXPECT_LT(std::chrono::steady_clock::now() - start, std::chrono::seconds(5));
+}
+
+TEST_F(ViewerServerTest, AForkedChildThatEndsDoesNotDisturbIt) {
+  WebsocketClient client(port);
+  ASSERT_TRUE(server.waitForClient(20.));
+  EXPECT_EXIT(
+      {
+        server.~ViewerServer();
+        _exit(0);
+      },
+      testing::ExitedWithCode(0), "");
+  server.setMessage("still here");
+  readUntil(client, "still here");
+  EXPECT_TRUE(answerTo(port, get("/", host)).starts_with("HTTP/1.1 200 "));
+}

@@ -1,0 +1,147 @@
+"""The panel of the page: switches, tree of frames, keys, pictures."""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Iterator
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+import kinegraph as kg
+
+from .browser import Browser
+from .camera import Camera
+
+LEAVES = "[...document.querySelectorAll('#tree .leaf, #tree summary')].filter((x) => x.checkVisibility()).map((x) => x.textContent).join(' ')"
+
+
+@pytest.fixture
+def page(config: kg.Config, browser: Browser) -> Iterator[Browser]:
+    """Shows a table with a box and a ghost on it, and a marker."""
+    config.addFrame("table").setShape(kg.ST.ssBox, [1, 1, 0.1, 0.02]).setColor([0, 0.7, 0])
+    config.addFrame("box", "table").setShape(kg.ST.box, [0.3, 0.3, 0.3]).setColor([1, 0, 0]).setRelativePosition(
+        [0, 0, 0.5]
+    )
+    config.addFrame("ghost", "table").setShape(kg.ST.sphere, [0.2]).setColor([0, 0, 1, 0.5]).setRelativePosition(
+        [0.4, 0, 0.9]
+    )
+    config.addFrame("target").setShape(kg.ST.marker, [0.5]).setPosition([-0.5, 0, 1])
+    config.view()
+    config.viewer().setCamera(CAMERA.position, CAMERA.target)
+    browser.open(config.viewer().url)
+    yield browser
+    assert config.viewer().takeKey() == 0  # nothing that was meant for the panel reaches the program
+
+
+# a point of each thing that nothing is in front of, and the channel of its color
+PLACES = {
+    "table": ([0.3, 0.4, 0.05], 1),
+    "box": ([0, 0.15, 0.5], 0),
+    "ghost": ([0.4, 0, 0.9], 2),
+    "target": ([-0.5, 0, 1.2], 2),
+}
+CAMERA = Camera([0, 3, 1], [0, 0, 0.5])
+
+
+def seen(page: Browser) -> set[str]:
+    """Which of the things are to be seen where they are."""
+    picture = page.picture().astype(int)
+    names = set()
+    for name, (point, channel) in PLACES.items():
+        color = picture[CAMERA.pixel(np.array(point))]
+        if color[channel] > np.delete(color, channel).max() + 30:
+            names.add(name)
+    return names
+
+
+def test_switches_hide_and_show_kinds_of_shapes(page: Browser) -> None:
+    assert seen(page) == {"table", "box", "ghost", "target"}
+    page.press_alt("C")
+    assert seen(page) == {"table", "box", "target"}
+    page.press_alt("M")
+    assert seen(page) == {"table", "box"}
+    page.press_alt("V")
+    assert seen(page) == set()
+    for letter in "CMV":
+        page.press_alt(letter)
+    assert seen(page) == {"table", "box", "ghost", "target"}
+
+
+def test_names_and_axes_of_frames_can_be_shown(page: Browser) -> None:
+    page.press_alt("N")
+    page.wait_for(
+        "[...document.querySelectorAll('.name')].map((x) => x.textContent).join() == 'table,box,ghost,target'"
+    )
+    assert page.is_visible(".name")
+    geometries = page.evaluate("kinegraph.geometries()")
+    page.press_alt("N")
+    page.wait_for("[...document.querySelectorAll('.name')].every((x) => !x.checkVisibility())")
+    page.press_alt("A")
+    page.wait_for(f"kinegraph.idle() && kinegraph.geometries() > {geometries}")
+
+
+def test_the_tree_shows_hides_and_searches_frames(page: Browser) -> None:
+    page.press_alt("T")
+    page.wait_for(f"{LEAVES} == 'table box ghost target'")
+    assert page.evaluate("document.activeElement.id") == "search"
+    page.type("BO")
+    page.wait_for(f"{LEAVES} == 'table box'")
+    page.type("xyz")
+    page.wait_for("document.querySelector('#tree').textContent == 'no such frame'")
+    page.evaluate(
+        "document.querySelector('#search').value = ''; document.querySelector('#search').dispatchEvent(new Event('input'))"
+    )
+    page.evaluate("document.querySelector('[aria-label=\"show box\"]').click()")
+    assert seen(page) >= {"table", "ghost"}
+    assert "box" not in seen(page)
+    page.evaluate("document.querySelector('[aria-label=\"show table\"]').click()")
+    assert not seen(page) & {"table", "box", "ghost"}
+    page.press("Escape")
+    page.wait_for("document.querySelector('#panel').hidden")
+
+
+def test_the_tree_follows_the_scene(page: Browser, config: kg.Config) -> None:
+    page.press_alt("T")
+    page.evaluate("document.querySelector('[aria-label=\"show ghost\"]').click()")
+    page.evaluate("document.querySelector('#tree summary').click()")
+    page.wait_for(f"{LEAVES} == 'table target'")
+    config.addFrame("new", "target")
+    config.delFrame("box")
+    config.view()
+    page.wait_for(f"{LEAVES} == 'table target new'")
+    assert not page.evaluate("document.querySelector('[aria-label=\"show ghost\"]').checked")
+    assert "ghost" not in seen(page)
+
+
+def test_everything_in_the_panel_is_reached_by_the_tab_key(page: Browser) -> None:
+    page.press_alt("T")
+    reached = set()
+    for _ in range(20):
+        page.press("Tab", code="Tab", windowsVirtualKeyCode=9)
+        reached.add(
+            page.evaluate(
+                "document.activeElement.ariaLabel || document.activeElement.id || document.activeElement.tagName"
+            )
+        )
+    assert {"show table", "show box", "show ghost", "show target", "SUMMARY", "search frames", "picture"} <= reached
+
+
+def test_the_question_mark_shows_and_hides_the_help(page: Browser) -> None:
+    assert not page.is_visible("#help")
+    page.press("?")
+    assert page.is_visible("#help")
+    page.press("?")
+    assert not page.is_visible("#help")
+
+
+def test_the_picture_is_saved_as_png(page: Browser, tmp_path: Path) -> None:
+    page.call("Browser.setDownloadBehavior", behavior="allow", downloadPath=str(tmp_path))
+    page.press_alt("P")
+    deadline = time.monotonic() + 30
+    while not (files := list(tmp_path.glob("*.png"))) and time.monotonic() < deadline:
+        time.sleep(0.05)
+    assert [file.name for file in files] == ["Kinegraph.png"]
+    assert files[0].read_bytes().startswith(b"\x89PNG")
+    assert files[0].stat().st_size > 5000  # not an empty canvas

@@ -1,0 +1,65 @@
+import * as THREE from "three";
+import { CSS2DObject } from "three/addons/renderers/CSS2DRenderer.js";
+import type { ShapeMessage } from "./messages";
+import { AXIS_COLORS } from "./shapes";
+import type { Shown } from "./shown";
+
+/** What people can switch on and off; a letter with Alt does it on the keyboard. */
+export const OPTIONS = {
+  solid: { label: "shapes", letter: "V", initially: true },
+  transparent: { label: "transparent shapes", letter: "C", initially: true },
+  markers: { label: "markers", letter: "M", initially: true },
+  axes: { label: "axes of all frames", letter: "A", initially: false },
+  names: { label: "names of frames", letter: "N", initially: false },
+} as const;
+
+export type Option = keyof typeof OPTIONS;
+export const optionNames = Object.keys(OPTIONS) as Option[];
+
+const AXES_LENGTH = 0.1; // m
+
+function kindOf(shape: ShapeMessage): Option {
+  if (shape.type === "marker" || shape.type === "camera") return "markers";
+  return (shape.color[3] ?? 1) < 1 ? "transparent" : "solid";
+}
+
+function label(name: string): CSS2DObject {
+  const element = document.createElement("span");
+  element.className = "name";
+  element.textContent = name;
+  return new CSS2DObject(element);
+}
+
+/** Decides what of the scene is seen: kinds of shapes, axes, names, and frames that are hidden with all below them. */
+export class Display {
+  readonly on = new Set<Option>(optionNames.filter((name) => OPTIONS[name].initially));
+  readonly hidden = new Set<string>(); // names of frames
+
+  apply(frames: ReadonlyMap<number, Shown>): void {
+    for (const shown of frames.values()) {
+      const { shape, name } = shown.message;
+      shown.anchor.visible = !this.isHidden(shown, frames);
+      if (shown.object && shape) shown.object.visible = this.on.has(kindOf(shape));
+      this.attach(shown.anchor, "axes", () => new THREE.AxesHelper(AXES_LENGTH).setColors(...AXIS_COLORS));
+      this.attach(shown.anchor, "names", () => label(name));
+    }
+  }
+
+  private isHidden(shown: Shown, frames: ReadonlyMap<number, Shown>): boolean {
+    for (let at: Shown | undefined = shown; at; at = frames.get(at.message.parent)) {
+      if (this.hidden.has(at.message.name)) return true;
+    }
+    return false;
+  }
+
+  private attach(anchor: THREE.Object3D, option: Option, make: () => THREE.Object3D): void {
+    const present = anchor.children.find((child) => child.userData.option === option);
+    if (present) {
+      present.visible = this.on.has(option);
+    } else if (this.on.has(option)) {
+      const object = make();
+      object.userData.option = option;
+      anchor.add(object);
+    }
+  }
+}

@@ -1,0 +1,75 @@
+import type { Shown } from "./shown";
+
+/** The frames as a collapsible tree with a box each that hides a frame and all below it. */
+export class SceneTree {
+  private readonly collapsed = new Set<string>();
+  private frames: ReadonlyMap<number, Shown> = new Map();
+
+  constructor(
+    private readonly element: HTMLElement,
+    private readonly search: HTMLInputElement,
+    private readonly hidden: Set<string>,
+    private readonly changed: () => void,
+  ) {
+    search.addEventListener("input", () => this.fill());
+  }
+
+  show(frames: ReadonlyMap<number, Shown>): void {
+    this.frames = frames;
+    this.fill();
+  }
+
+  private fill(): void {
+    const children = new Map<number, number[]>();
+    for (const [id, { message }] of this.frames) {
+      const parent = this.frames.has(message.parent) ? message.parent : -1;
+      children.set(parent, [...(children.get(parent) ?? []), id]);
+    }
+    const wanted = this.search.value.trim().toLowerCase();
+    const found = wanted === "" ? null : this.matches(wanted);
+    const branch = (parent: number): HTMLElement[] =>
+      (children.get(parent) ?? []).filter((id) => !found || found.has(id)).map((id) => this.item(id, branch(id), found !== null));
+    this.element.replaceChildren(...branch(-1));
+    if (this.element.childElementCount === 0) this.element.textContent = wanted ? "no such frame" : "no frames";
+  }
+
+  /** The frames whose name contains the text, and all above them. */
+  private matches(text: string): Set<number> {
+    const found = new Set<number>();
+    for (const [id, { message }] of this.frames) {
+      if (!message.name.toLowerCase().includes(text)) continue;
+      for (let at = id; this.frames.has(at) && !found.has(at); at = this.frames.get(at)!.message.parent) found.add(at);
+    }
+    return found;
+  }
+
+  private item(id: number, below: HTMLElement[], searching: boolean): HTMLElement {
+    const { name } = this.frames.get(id)!.message;
+    const box = document.createElement("input");
+    box.type = "checkbox";
+    box.checked = !this.hidden.has(name);
+    box.ariaLabel = `show ${name}`;
+    box.addEventListener("change", () => {
+      if (box.checked) this.hidden.delete(name);
+      else this.hidden.add(name);
+      this.changed();
+    });
+    if (below.length === 0) {
+      const leaf = document.createElement("div");
+      leaf.className = "leaf";
+      leaf.append(box, name);
+      return leaf;
+    }
+    const details = document.createElement("details");
+    const summary = document.createElement("summary");
+    summary.append(box, name);
+    details.append(summary, ...below);
+    details.open = searching || !this.collapsed.has(name);
+    details.addEventListener("toggle", () => {
+      if (this.search.value.trim() !== "") return;
+      if (details.open) this.collapsed.delete(name);
+      else this.collapsed.add(name);
+    });
+    return details;
+  }
+}
