@@ -23,6 +23,10 @@ from ._core import (
     ConfigurationViewer,
     Feature,
     Frame,
+    IkOptions,
+    IkResult,
+    IkResults,
+    IkStatus,
     NLP_Factory,
     NLP_Solver,
     NLP_SolverOptions,
@@ -30,6 +34,7 @@ from ._core import (
     SolverReturn,
     __version__,
     checkFile,
+    solveIk,
 )
 from .errors import (
     ArgumentError,
@@ -68,4 +73,8 @@ def compiled() -> str:
     return f"kinegraph {__version__}"
 
 
-__all__ = [name for name in dir() if not name.startswith("_") and name not in ("model_paths", "errors", "parameters")]
+__all__ = [
+    name
+    for name in dir()
+    if not name.startswith("_") and name not in ("model_paths", "errors", "parameters", "progress")
+]

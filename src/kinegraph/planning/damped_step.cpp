@@ -71,8 +71,8 @@ void DampedStep::solveRows(const double* pull, double damping) {
   }
 }
 
-void DampedStep::solve(const double* x, const double* lower, const double* upper, double damping, const double* pull,
-                       double longest) {
+void DampedStep::solve(const double* x, const double* lower, const double* upper, const double* longest, double damping,
+                       const double* pull) {
   std::fill_n(held_.begin(), columns_, char(0));
   for (int pass = 0; pass < 4; ++pass) {
     switch (rows_) {
@@ -88,10 +88,12 @@ void DampedStep::solve(const double* x, const double* lower, const double* upper
     }
     if (!changed) break;
   }
-  double largest = 0.;
-  for (int c = 0; c < columns_; ++c) largest = std::max(largest, std::abs(step_[c]));
-  const double factor = largest > longest ? longest / largest : 1.;
-  for (int c = 0; c < columns_; ++c) step_[c] = std::clamp(x[c] + factor * step_[c], lower[c], upper[c]) - x[c];
+  double excess = 1.;
+  for (int c = 0; c < columns_; ++c) excess = std::max(excess, std::abs(step_[c]) / longest[c]);
+  for (int c = 0; c < columns_; ++c) {
+    const double step = std::isfinite(longest[c]) ? step_[c] / excess : step_[c];
+    step_[c] = std::clamp(x[c] + step, lower[c], upper[c]) - x[c];
+  }
 }
 
 }  // namespace kinegraph

@@ -23,8 +23,9 @@ class DampedStep {
   double& error(int r) { return e_[r]; }
   double multiplier(int r) const { return y_[r]; }  ///< what pulls at row r; 0 for a row that is met for free
 
-  /// Computes `step()`. No entry exceeds `longest`. `pull` may be null.
-  void solve(const double* x, const double* lower, const double* upper, double damping, const double* pull, double longest);
+  /// Computes `step()`. Where an entry exceeds its `longest`, all that have a finite one are scaled down. `pull` may be null.
+  void solve(const double* x, const double* lower, const double* upper, const double* longest, double damping,
+             const double* pull);
   const VectorXd& step() const { return step_; }
 
  private:

@@ -1,6 +1,7 @@
 #include "kinegraph/planning/ik_problem.h"
 
 #include <algorithm>
+#include <limits>
 #include <numbers>
 
 #include "kinegraph/base/errors.h"
@@ -9,6 +10,8 @@
 namespace kinegraph {
 
 namespace {
+
+constexpr double kLongestTurn = .5;  // rad
 
 IkProblem::Task makeTask(const Program& program, const IkTarget& target) {
   const int frame = frameId(program, target.frame, "solveIk");
@@ -94,18 +97,21 @@ void IkProblem::chooseVariables() {
   const std::vector<char> turns = turningDofs(*program);
   lower.resize(variables());
   upper.resize(variables());
+  longest.resize(variables());
   draw_lower_.resize(variables());
   draw_upper_.resize(variables());
   for (int v = 0; v < variables(); ++v) {
     const int dof = dofs[v];
     lower[v] = program->lower[dof];
     upper[v] = program->upper[dof];
+    longest[v] = turns[dof] ? kLongestTurn : std::numeric_limits<double>::infinity();
     const double reach = turns[dof] ? std::numbers::pi : 1.;
     draw_lower_[v] = std::isfinite(lower[v]) ? lower[v] : std::min(q[dof], upper[v]) - reach;
     draw_upper_[v] = std::isfinite(upper[v]) ? upper[v] : std::max(q[dof], lower[v]) + reach;
   }
   for (const auto& [first, count] : norms_) {
     for (int v = first; v < first + count; ++v) {
+      longest[v] = kLongestTurn;
       draw_lower_[v] = std::max(lower[v], -1.);
       draw_upper_[v] = std::min(upper[v], 1.);
     }

@@ -16,7 +16,8 @@ struct IkProblem {
     IkTarget::Kind kind;
     int frame;      ///< id
     Vector3d axis;  ///< unit, of a direction, in the frame
-    int rows() const { return kind == IkTarget::Kind::pose ? 6 : kind == IkTarget::Kind::position ? 3 : 2; }
+    bool placed() const { return kind == IkTarget::Kind::pose || kind == IkTarget::Kind::position; }
+    int rows() const { return kind == IkTarget::Kind::pose ? 6 : kind == IkTarget::Kind::direction ? 2 : 3; }
   };
 
   /// Throws FrameNotFound, and ValueError for what makes no sense.
@@ -40,6 +41,7 @@ struct IkProblem {
   std::vector<int> variable;  ///< per entry of q, -1 if it does not move
   VectorXd q;                 ///< of the Config, within the limits
   VectorXd lower, upper;      ///< per variable
+  VectorXd longest;           ///< per variable: of a step
   VectorXd nearest;           ///< per variable: where answers are wanted
   bool pulls = false;         ///< the answer is to be brought as near to `nearest` as the targets allow
   std::vector<std::pair<int, int>> pairs;  ///< of frames that the variables move relative to each other

@@ -9,11 +9,13 @@ namespace kinegraph {
 
 namespace {
 
-constexpr double kLongestStep = .5;   // of a variable, rad or m
 constexpr double kLeastDamping = 1e-9;
 constexpr double kDamping = 1e-2;     // times the sum of squares
+constexpr double kMostSquares = 10.;  // of what counts for the damping
 constexpr double kSlack = 1e-4;       // m: what colliding pairs are moved apart beyond the margin
 constexpr double kNear = .05;         // m beyond the margin: pairs whose distance a step looks at
+
+double dampingOf(double squares) { return kLeastDamping + kDamping * std::min(squares, kMostSquares); }
 
 /// The rotation vector of E = R_target R^T, in world coordinates.
 Vector3d rotationVector(const Matrix3d& R_target, const Matrix3d& R, double& angle) {
@@ -44,15 +46,18 @@ IkSearch::IkSearch(std::shared_ptr<const IkProblem> problem)
       goals_(problem_->tasks.size()),
       q_(problem_->q),
       x_(problem_->variables()),
-      pull_(problem_->variables()) {
+      pull_(problem_->variables()),
+      blocked_(problem_->pairs.size()) {
   problem_->startingPoint(0, x_.data());
 }
 
 void IkSearch::setGoals(const std::vector<IkTarget>& targets) {
   for (std::size_t i = 0; i < targets.size(); ++i) {
     goals_[i].p = targets[i].pose.p;
-    if (targets[i].kind == IkTarget::Kind::pose) goals_[i].R = targets[i].pose.q.toRotationMatrix();
-    if (targets[i].kind != IkTarget::Kind::direction) continue;
+    if (targets[i].kind != IkTarget::Kind::direction) {
+      goals_[i].R = targets[i].pose.q.normalized().toRotationMatrix();
+      continue;
+    }
     goals_[i].p = targets[i].direction.normalized();
     goals_[i].t1 = goals_[i].p.unitOrthogonal();
     goals_[i].t2 = goals_[i].p.cross(goals_[i].t1);
@@ -80,20 +85,20 @@ void IkSearch::measureTargets(bool with_jacobian) {
     Goal& goal = goals_[i];
     const RigidTransform X = state_.pose(task.frame);
     int at = row;
-    if (task.kind != Kind::direction) {
+    if (task.placed()) {
       const Vector3d missing = goal.p - X.p;
-      goal.position_error = missing.squaredNorm();
-      square_ += goal.position_error;
+      goal.position_error = missing.norm();
+      square_ += missing.squaredNorm();
       errors_.position = std::max(errors_.position, goal.position_error);
       for (int k = 0; k < 3; ++k) step_.error(at++) = missing[k];
     }
     if (task.kind != Kind::position) {
       double& angle = goal.rotation_error;
-      const bool pose = task.kind == Kind::pose;
-      const Vector3d turn = pose ? rotationVector(goal.R, X.R, angle) : turnBetween(X.R * task.axis, goal.p, angle);
+      const bool whole = task.kind != Kind::direction;
+      const Vector3d turn = whole ? rotationVector(goal.R, X.R, angle) : turnBetween(X.R * task.axis, goal.p, angle);
       square_ += angle * angle;
       errors_.rotation = std::max(errors_.rotation, angle);
-      if (pose) {
+      if (whole) {
         for (int k = 0; k < 3; ++k) step_.error(at++) = turn[k];
       } else {
         step_.error(at++) = turn.dot(goal.t1);
@@ -105,11 +110,11 @@ void IkSearch::measureTargets(bool with_jacobian) {
       const int column = program.chain[c], v = problem_->variable[program.column_dof[column]];
       const State::Twist& twist = state_.twist(column);
       double* J = step_.column(v) + row;
-      if (task.kind != Kind::direction) {
+      if (task.placed()) {
         const Vector3d velocity = twist.linear + twist.angular.cross(X.p);
         for (int k = 0; k < 3; ++k) *J++ += velocity[k];
       }
-      if (task.kind == Kind::pose) {
+      if (task.kind == Kind::pose || task.kind == Kind::rotation) {
         for (int k = 0; k < 3; ++k) *J++ += twist.angular[k];
       } else if (task.kind == Kind::direction) {
         *J++ += twist.angular.dot(goal.t1);
@@ -118,7 +123,6 @@ void IkSearch::measureTargets(bool with_jacobian) {
     }
     row = at;
   }
-  errors_.position = std::sqrt(errors_.position);
 }
 
 /// The pairs nearer than the margin and a bit, with the gradients of their distances.
@@ -154,14 +158,15 @@ void IkSearch::measureDistances() {
 }
 
 void IkSearch::stepTowardsTargets() {
-  step_.solve(x_.data(), problem_->lower.data(), problem_->upper.data(), kLeastDamping + kDamping * square_, nullptr, kLongestStep);
+  step_.solve(x_.data(), problem_->lower.data(), problem_->upper.data(), problem_->longest.data(),
+              dampingOf(square_), nullptr);
   x_ += step_.step();
   problem_->normalize(x_.data());
 }
 
 /// A step that also keeps the near pairs apart: those that it would bring too near become rows, and are let go again where
 /// the row pulls them together.
-void IkSearch::stepApart(const double* pull) {
+void IkSearch::stepApart(const double* pull, double damping) {
   const int variables = problem_->variables();
   const double wanted = problem_->options.margin + kSlack;
   for (int pass = 0; pass < 4; ++pass) {
@@ -178,7 +183,8 @@ void IkSearch::stepApart(const double* pull) {
       for (int v = 0; v < variables; ++v) step_.column(v)[row] = gradients_[n * variables + v];
       ++row;
     }
-    step_.solve(x_.data(), problem_->lower.data(), problem_->upper.data(), 1e-7 + kDamping * square, pull, kLongestStep);
+    step_.solve(x_.data(), problem_->lower.data(), problem_->upper.data(), problem_->longest.data(),
+                1e-7 + dampingOf(square) + damping, pull);
     bool changed = false;
     row = problem_->rows;
     for (std::size_t n = 0; n < near_.size(); ++n) {
@@ -205,7 +211,7 @@ void IkSearch::measure() {
 }
 
 /// From x_ to the targets; then, where pairs collide there, out of the collisions.
-IkSearch::Outcome IkSearch::attempt(const IkCancel& cancel) {
+IkSearch::Outcome IkSearch::attempt(const Stop& stop) {
   const int steps = problem_->options.steps;
   const int variables = problem_->variables();
   step_.resize(problem_->rows, variables);
@@ -226,11 +232,12 @@ IkSearch::Outcome IkSearch::attempt(const IkCancel& cancel) {
   if (problem_->pairs.empty()) return Outcome::feasible;
   measureDistances();
   if (errors_.penetration == 0.) return Outcome::feasible;
-  return moveApart(steps, cancel);
+  ++blocked_[std::ranges::min_element(near_, {}, &NearPair::distance)->pair];
+  return moveApart(steps, stop);
 }
 
 /// Steps that mind the distances, until all is well. x_ is measured.
-IkSearch::Outcome IkSearch::moveApart(int steps, const IkCancel& cancel) {
+IkSearch::Outcome IkSearch::moveApart(int steps, const Stop& stop) {
   double before = 1e300;
   for (int i = 0;; ++i) {
     if (feasible()) return Outcome::feasible;
@@ -239,7 +246,7 @@ IkSearch::Outcome IkSearch::moveApart(int steps, const IkCancel& cancel) {
       if (errors_.sum() > .8 * before) return Outcome::missed;
       before = errors_.sum();
     }
-    if (cancel && cancel()) return Outcome::cancelled;
+    if (stop()) return Outcome::cancelled;
     stepApart(nullptr);
     measure();
   }
