@@ -19,6 +19,8 @@ from ._core import (
     OT,
     ST,
     SY,
+    CameraView,
+    CameraViewSensor,
     Config,
     ConfigurationViewer,
     Feature,
@@ -34,6 +36,7 @@ from ._core import (
     SolverReturn,
     __version__,
     checkFile,
+    depthImage2PointCloud,
     solveIk,
 )
 from .errors import (
