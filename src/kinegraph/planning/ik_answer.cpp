@@ -25,48 +25,71 @@ const char* kindName(IkTarget::Kind kind) {
 }  // namespace
 
 IkResult IkSearch::solve(const std::vector<IkTarget>& targets, const Stop& stop) {
-  const IkOptions& options = problem_->options;
-  setGoals(targets);
-  std::fill(blocked_.begin(), blocked_.end(), 0);
-  evals_ = 0;
-  IkResult result;
-  bool feasible = false;
-  double least = 1e300;  // cost of the answer kept, or what the best failure misses by
-  problem_->startingPoint(0, x_.data());
-  VectorXd kept = x_;
+  IkJob job;
+  open(job, targets);
+  VectorXd x(problem_->variables());
+  for (bool decided = false; !decided;) {
+    if (stop()) return finish(job, true, stop);
+    job_ = &job;
+    problem_->startingPoint(job.attempts, x_.data());
+    IkApproach made = approach();
+    made.evals = 0;  // they are counted
+    x = x_;
+    decided = judge(job, x, made, stop);
+  }
+  return finish(job, false, stop);
+}
+
+bool IkSearch::judge(IkJob& job, const VectorXd& x, const IkApproach& made, const Stop& stop) {
+  job_ = &job;
+  job.evals += made.evals;
+  job.kept_is_present = false;
+  const int attempts = problem_->options.attempts;
+  ++job.attempts;
+  x_ = x;
+  double missed = made.missed;
   Outcome outcome = Outcome::missed;
-  while (result.attempts < options.attempts && outcome != Outcome::cancelled) {
-    if (stop()) {
-      outcome = Outcome::cancelled;
-      break;
-    }
-    problem_->startingPoint(result.attempts++, x_.data());
-    outcome = attempt(stop);
+  if (made.met) {
+    moveTo(x_);
+    step_.resize(problem_->rows, problem_->variables());
+    measureTargets(false);
+    if (targetsMet() || approach().met) outcome = avoidCollisions(stop);
     if (outcome == Outcome::feasible && problem_->pulls) outcome = bringNear(stop);
-    if (outcome != Outcome::feasible && feasible) continue;
-    const bool first = outcome == Outcome::feasible && !feasible;
-    const double value = outcome == Outcome::feasible ? costOf(x_) : errors_.sum();
-    if (!first && value >= least) continue;
-    least = value;
-    kept = x_;
-    feasible = outcome == Outcome::feasible;
-    if (feasible && !options.best) break;
+    missed = errors_.sum();
   }
-  if (!feasible || options.best) {
-    x_ = kept;
+  job.cancelled = outcome == Outcome::cancelled;
+  const bool done = job.cancelled || job.attempts == attempts;
+  if (outcome != Outcome::feasible && job.feasible) return done;
+  const bool first = outcome == Outcome::feasible && !job.feasible;
+  const double value = outcome == Outcome::feasible ? costOf(x_) : missed;
+  if (!first && value >= job.least) return done;
+  job.least = value;
+  job.kept = x_;
+  job.feasible = outcome == Outcome::feasible;
+  job.kept_is_present = job.feasible;
+  return done || (job.feasible && !problem_->options.best);
+}
+
+IkResult IkSearch::finish(IkJob& job, bool cancelled, const Stop& stop) {
+  job_ = &job;
+  job.cancelled = job.cancelled || cancelled;
+  if (cancelled || !job.kept_is_present) {
+    x_ = job.kept;
     measure();
-    if (!feasible && outcome != Outcome::cancelled) feasible = polish(stop);
   }
+  if (!job.feasible && !job.cancelled) job.feasible = polish(stop);
+  IkResult result;
   result.q = q_;
   result.position_error = errors_.position;
   result.rotation_error = errors_.rotation;
   result.penetration = errors_.penetration;
-  result.evals = evals_;
-  result.status = feasible                        ? IkStatus::solved
-                  : outcome == Outcome::cancelled ? IkStatus::cancelled
-                  : targetsMet()                  ? IkStatus::colliding
-                                                  : IkStatus::unreached;
-  if (!feasible) result.message = explain(result.attempts, outcome == Outcome::cancelled);
+  result.attempts = job.attempts;
+  result.evals = job.evals;
+  result.status = job.feasible    ? IkStatus::solved
+                  : job.cancelled ? IkStatus::cancelled
+                  : targetsMet()  ? IkStatus::colliding
+                                  : IkStatus::unreached;
+  if (!job.feasible) result.message = explain();
   return result;
 }
 
@@ -137,8 +160,8 @@ bool IkSearch::polish(const Stop& stop) {
 std::vector<std::string> IkSearch::misses() const {
   const IkOptions& options = problem_->options;
   std::vector<std::string> reasons;
-  for (std::size_t i = 0; i < goals_.size(); ++i) {
-    const double position = goals_[i].position_error, rotation = goals_[i].rotation_error;
+  for (std::size_t i = 0; i < job_->goals.size(); ++i) {
+    const double position = job_->goals[i].position_error, rotation = job_->goals[i].rotation_error;
     std::vector<std::string> amounts;
     if (problem_->tasks[i].placed() && position > options.position_tolerance) amounts.push_back(cat(position, " m"));
     if (rotation > options.rotation_tolerance) amounts.push_back(cat(rotation, " rad"));
@@ -198,13 +221,14 @@ std::string IkSearch::pairName(int pair) const {
   return cat("'", problem_->program->frame_name[a], "' and '", problem_->program->frame_name[b], "'");
 }
 
-std::string IkSearch::explain(int attempts, bool cancelled) {
-  std::string text = cat(cancelled ? "cancelled after " : "no solution in ", attempts, attempts == 1 ? " attempt" : " attempts");
-  const auto most = std::ranges::max_element(blocked_);
-  if (most != blocked_.end() && *most > 0) {
+std::string IkSearch::explain() {
+  const int attempts = job_->attempts;
+  std::string text = cat(job_->cancelled ? "cancelled after " : "no solution in ", attempts, attempts == 1 ? " attempt" : " attempts");
+  const auto most = std::ranges::max_element(job_->blocked);
+  if (most != job_->blocked.end() && *most > 0) {
     int reached = 0;
-    for (int count : blocked_) reached += count;
-    text += cat("; ", reached, " reached the targets in collision, most often of ", pairName(int(most - blocked_.begin())));
+    for (int count : job_->blocked) reached += count;
+    text += cat("; ", reached, " reached the targets in collision, most often of ", pairName(int(most - job_->blocked.begin())));
   }
   if (attempts == 0) return text;
   std::vector<std::string> reasons = misses();

@@ -4,18 +4,16 @@
 #include <cmath>
 
 #include "kinegraph/geometry/proximity.h"
+#include "kinegraph/planning/lane_kernel.h"
 
 namespace kinegraph {
 
 namespace {
 
-constexpr double kLeastDamping = 1e-9;
-constexpr double kDamping = 1e-2;     // times the sum of squares
-constexpr double kMostSquares = 10.;  // of what counts for the damping
 constexpr double kSlack = 1e-4;       // m: what colliding pairs are moved apart beyond the margin
 constexpr double kNear = .05;         // m beyond the margin: pairs whose distance a step looks at
 
-double dampingOf(double squares) { return kLeastDamping + kDamping * std::min(squares, kMostSquares); }
+double dampingOf(double squares) { return kLeastDamping + kDampingPerSquare * std::min(squares, kMostSquares); }
 
 /// The rotation vector of E = R_target R^T, in world coordinates.
 Vector3d rotationVector(const Matrix3d& R_target, const Matrix3d& R, double& angle) {
@@ -43,31 +41,35 @@ Vector3d turnBetween(const Vector3d& a, const Vector3d& b, double& angle) {
 IkSearch::IkSearch(std::shared_ptr<const IkProblem> problem)
     : problem_(std::move(problem)),
       state_(problem_->program, problem_->parameters),
-      goals_(problem_->tasks.size()),
       q_(problem_->q),
       x_(problem_->variables()),
-      pull_(problem_->variables()),
-      blocked_(problem_->pairs.size()) {
-  problem_->startingPoint(0, x_.data());
-}
+      pull_(problem_->variables()) {}
 
-void IkSearch::setGoals(const std::vector<IkTarget>& targets) {
+void IkSearch::open(IkJob& job, const std::vector<IkTarget>& targets) const {
+  job.attempts = job.evals = 0;
+  job.feasible = job.cancelled = job.kept_is_present = false;
+  job.least = std::numeric_limits<double>::infinity();
+  job.blocked.assign(problem_->pairs.size(), 0);
+  job.kept.resize(problem_->variables());
+  problem_->startingPoint(0, job.kept.data());
+  job.goals.resize(targets.size());
   for (std::size_t i = 0; i < targets.size(); ++i) {
-    goals_[i].p = targets[i].pose.p;
+    IkGoal& goal = job.goals[i];
+    goal.p = targets[i].pose.p;
     if (targets[i].kind != IkTarget::Kind::direction) {
-      goals_[i].R = targets[i].pose.q.normalized().toRotationMatrix();
+      goal.R = targets[i].pose.q.normalized().toRotationMatrix();
       continue;
     }
-    goals_[i].p = targets[i].direction.normalized();
-    goals_[i].t1 = goals_[i].p.unitOrthogonal();
-    goals_[i].t2 = goals_[i].p.cross(goals_[i].t1);
+    goal.p = targets[i].direction.normalized();
+    goal.t1 = goal.p.unitOrthogonal();
+    goal.t2 = goal.p.cross(goal.t1);
   }
 }
 
 void IkSearch::moveTo(const VectorXd& x) {
   for (int v = 0; v < problem_->variables(); ++v) q_[problem_->dofs[v]] = x[v];
   state_.setJoints(q_.data());
-  ++evals_;
+  ++job_->evals;
 }
 
 bool IkSearch::targetsMet() const {
@@ -80,9 +82,9 @@ void IkSearch::measureTargets(bool with_jacobian) {
   const Program& program = *problem_->program;
   errors_.position = errors_.rotation = square_ = 0.;
   int row = 0;
-  for (std::size_t i = 0; i < goals_.size(); ++i) {
+  for (std::size_t i = 0; i < job_->goals.size(); ++i) {
     const IkProblem::Task& task = problem_->tasks[i];
-    Goal& goal = goals_[i];
+    IkGoal& goal = job_->goals[i];
     const RigidTransform X = state_.pose(task.frame);
     int at = row;
     if (task.placed()) {
@@ -210,30 +212,36 @@ void IkSearch::measure() {
   measureTargets(false);
 }
 
-/// From x_ to the targets; then, where pairs collide there, out of the collisions.
-IkSearch::Outcome IkSearch::attempt(const Stop& stop) {
-  const int steps = problem_->options.steps;
-  const int variables = problem_->variables();
-  step_.resize(problem_->rows, variables);
+bool IkSearch::stalls(int step, double square, double& before) {
+  if (step % 5 != 4) return false;
+  if (square > .5 * before) return true;
+  before = square;
+  return false;
+}
+
+/// From x_ to the targets.
+IkApproach IkSearch::approach() {
+  const int steps = problem_->options.steps, size = problem_->rows * problem_->variables(), evals = job_->evals;
+  step_.resize(problem_->rows, problem_->variables());
   double before = 1e300;
   for (int i = 0;; ++i) {
     moveTo(x_);
-    std::fill_n(step_.column(0), problem_->rows * variables, 0.);
+    std::fill_n(step_.column(0), size, 0.);
     measureTargets(true);
-    if (targetsMet()) break;
-    if (i == steps) return Outcome::missed;
-    if (i % 5 == 4) {
-      if (square_ > .5 * before) return Outcome::missed;
-      before = square_;
-    }
+    if (targetsMet() || i == steps || stalls(i, square_, before)) break;
     stepTowardsTargets();
   }
+  return {targetsMet(), errors_.position + errors_.rotation, job_->evals - evals};
+}
+
+/// From x_ that meets the targets, and is measured, to one where also no pair collides.
+IkSearch::Outcome IkSearch::avoidCollisions(const Stop& stop) {
   errors_.penetration = 0.;
   if (problem_->pairs.empty()) return Outcome::feasible;
   measureDistances();
   if (errors_.penetration == 0.) return Outcome::feasible;
-  ++blocked_[std::ranges::min_element(near_, {}, &NearPair::distance)->pair];
-  return moveApart(steps, stop);
+  ++job_->blocked[std::ranges::min_element(near_, {}, &NearPair::distance)->pair];
+  return moveApart(problem_->options.steps, stop);
 }
 
 /// Steps that mind the distances, until all is well. x_ is measured.

@@ -15,10 +15,14 @@ class LowDiscrepancy {
  public:
   LowDiscrepancy(int dimension, std::uint64_t seed) : step_(dimension), shift_(dimension) {
     double phi = 2.;
-    for (int i = 0; i < 60; ++i) phi = std::pow(1. + phi, 1. / (dimension + 1.));
+    for (double before = 0.; std::abs(phi - before) > 1e-15;) {
+      before = phi;
+      phi = std::pow(1. + phi, 1. / (dimension + 1.));
+    }
     Rng rng(seed);
+    double power = 1.;
     for (int k = 0; k < dimension; ++k) {
-      step_[k] = std::pow(phi, -(k + 1.));
+      step_[k] = power /= phi;
       shift_[k] = rng.uniform();
     }
   }

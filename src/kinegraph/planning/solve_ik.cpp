@@ -1,5 +1,6 @@
 #include "kinegraph/planning/solve_ik.h"
 
+#include <algorithm>
 #include <atomic>
 #include <chrono>
 #include <future>
@@ -8,11 +9,13 @@
 #include "kinegraph/base/errors.h"
 #include "kinegraph/base/parallel.h"
 #include "kinegraph/base/text.h"
-#include "kinegraph/planning/ik_search.h"
+#include "kinegraph/planning/ik_lanes.h"
 
 namespace kinegraph {
 
 namespace {
+
+constexpr int kLargestPart = 64;  // problems that a thread takes at a time
 
 void requireNumbers(const IkTarget& target) {
   using Kind = IkTarget::Kind;
@@ -71,23 +74,21 @@ std::vector<IkResult> IkSolver::solve(const std::vector<std::vector<IkTarget>>& 
     for (const IkTarget& target : problems[i]) requireNumbers(target);
   }
   std::vector<IkResult> results(problems.size());
-  if (threads == 1 || problems.size() <= 1) {
-    IkSearch search(problem_);
-    for (std::size_t i = 0; i < problems.size(); ++i) {
-      results[i] = search.solve(problems[i], [&] { return watch && watch(int(i)); });
-    }
+  const int count = int(problems.size());
+  std::atomic<int> done = 0;
+  if (threads == 1 || count <= 1) {
+    IkLanes(problem_).solve(problems.data(), count, results.data(), done, [&] { return watch && watch(done); });
     return results;
   }
-  std::atomic<int> done = 0;
   std::atomic<bool> stop = false;
   const std::function<bool()> stopped = [&] { return stop.load(std::memory_order_relaxed); };
-  std::vector<std::optional<IkSearch>> searches(threads);
+  std::vector<std::optional<IkLanes>> searches(threads);
+  const int part = std::clamp(count / (4 * threads), 1, kLargestPart);
   // The calling thread does not compute, so that it can watch all the time.
   auto all = std::async(std::launch::async, [&] {
-    forParts(int(problems.size()), 1, threads, [&](int worker, int i, int) {
+    forParts(count, part, threads, [&](int worker, int from, int to) {
       if (!searches[worker]) searches[worker].emplace(problem_);
-      results[i] = searches[worker]->solve(problems[i], stopped);
-      ++done;
+      searches[worker]->solve(&problems[from], to - from, &results[from], done, stopped);
     });
   });
   try {
