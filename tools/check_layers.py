@@ -19,6 +19,7 @@ BELOW: dict[str, list[str]] = {
     "formats": ["base", "math", "gfile", "geometry", "kinematics", "scene"],
     "features": ["base", "math", "geometry", "kinematics", "scene"],
     "komo": ["base", "math", "geometry", "kinematics", "scene", "features", "nlp"],
+    "planning": ["base", "math", "geometry", "kinematics", "scene", "features", "nlp", "komo", "solvers"],
     "rendering": ["base", "math", "geometry", "kinematics", "scene"],
     "viewer": ["base", "math", "gfile", "geometry", "kinematics", "scene", "formats"],
 }

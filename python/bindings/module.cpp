@@ -19,6 +19,7 @@ NB_MODULE(_core, m) {
   bindNlp(m);
   bindSolvers(m);
   bindKomo(m);
+  bindPlanning(m);
   m.def("parseText", [](const std::string& text, const std::string& name) { return toDict(kinegraph::parse(text, name)); },
         "text"_a, "name"_a = "text", "Text in .g syntax as a dict.");
 }

@@ -27,6 +27,10 @@ from ._core import (
     Frame,
     FrameView,
     MotionContact,
+    IkOptions,
+    IkResult,
+    IkResults,
+    IkStatus,
     NLP_Factory,
     NLP_Solver,
     NLP_SolverOptions,
@@ -35,6 +39,7 @@ from ._core import (
     __version__,
     checkFile,
     depthImage2PointCloud,
+    solveIk,
 )
 from .errors import (
     ArgumentError,
@@ -77,5 +82,5 @@ def compiled() -> str:
 __all__ = [
     name
     for name in dir()
-    if not name.startswith("_") and name not in ("model_paths", "errors", "parameters", "interactive")
+    if not name.startswith("_") and name not in ("model_paths", "errors", "parameters", "interactive", "progress")
 ]

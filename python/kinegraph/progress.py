@@ -1,0 +1,17 @@
+"""A line that says how far a long computation is."""
+
+import sys
+from typing import TextIO
+
+
+def drawProgress(what: str, done: int, total: int, seconds: float, stream: TextIO | None = None) -> None:
+    """Redraws the bar on `stream` (stderr), if it is a terminal; ends the line when all is done."""
+    stream = stream or sys.stderr
+    if not stream.isatty():
+        return
+    width = 30
+    filled = width * done // max(total, 1)
+    left = f", {seconds * (total - done) / done:.0f} s left" if 0 < done < total else ""
+    bar = "█" * filled + "·" * (width - filled)
+    stream.write(f"\r{what} {bar} {done}/{total}, {seconds:.0f} s{left}\x1b[K" + ("\n" if done >= total else ""))
+    stream.flush()
