@@ -130,12 +130,12 @@ def test_playing_a_komo_saves_pictures(komo: kg.KOMO, tmp_path: Path) -> None:
 
 def test_a_key_ends_the_playing(browser: Browser, start: Callable[..., Program]) -> None:
     program = start(
-        PROGRAM + "print('animating')\nC.animate()\nprint('key', C.view_path([[0, 0], [1, 1]], 600., True, 'a path'))"
+        "C = kg.Config()" + ARM + "for i in range(100): C.addFrame(f'joint{i}', 'base').setJoint(kg.JT.hingeX)\n"
+        "C.view()\nC.viewer().waitForClient(60)\nC.animate()\n"  # 102 s, if nobody ends it
+        "print('key', C.view_path([C.getJointState()] * 2, 600., True, 'a path'))"
     )
-    url = program.url()
-    browser.open(url)
-    program.line("animating")
-    browser.wait_for("kinegraph.playing() && document.querySelector('.slice-text').textContent.startsWith('two')")
+    browser.open(program.url())
+    browser.wait_for("kinegraph.playing() && document.querySelector('.slice-text').textContent.startsWith('joint')")
     browser.press("x")
     browser.wait_for("kinegraph.message() == 'a path' && kinegraph.playing()")
     browser.press("y")

@@ -59,9 +59,9 @@ export class Display {
     if (!(object instanceof THREE.Mesh) || !(object.material instanceof THREE.MeshStandardMaterial)) return;
     const alpha = shape.color[3] ?? 1;
     const opacity = this.on.has("xray") ? Math.min(alpha, XRAY_OPACITY) : alpha;
+    object.material.needsUpdate = object.material.transparent !== opacity < 1;
     Object.assign(object.material, { wireframe: this.on.has("wireframe"), transparent: opacity < 1, opacity, depthWrite: opacity === 1 });
     object.castShadow = object.receiveShadow = opacity === 1;
-    object.material.needsUpdate = true;
   }
 
   private isHidden(shown: Shown, frames: ReadonlyMap<number, Shown>): boolean {
