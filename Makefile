@@ -1,6 +1,6 @@
 # make demo    installs into .venv and runs the main job
 # make test    installs what the tests need, and runs everything
-# PYTHON=...   the Python to use (3.11 or newer)
+# PYTHON=...   the Python to use (3.10 or newer)
 
 PYTHON ?= python3
 VENV := .venv
