@@ -88,7 +88,7 @@ Mesh worldMesh(const Config& config) {
 void writePly(const Mesh& mesh, const std::string& path) {
   std::string data = cat("ply\nformat binary_little_endian 1.0\nelement vertex ", mesh.vertices.size(),
                          "\nproperty float x\nproperty float y\nproperty float z\n");
-  const bool colored = mesh.colors.size() == mesh.vertices.size();
+  const bool one_color = mesh.colors.size() == 1, colored = one_color || mesh.colors.size() == mesh.vertices.size();
   if (colored) data += "property uchar red\nproperty uchar green\nproperty uchar blue\nproperty uchar alpha\n";
   data += cat("element face ", mesh.triangles.size(), "\nproperty list uchar int vertex_indices\nend_header\n");
   const auto add = [&](const auto& value) {
@@ -97,7 +97,7 @@ void writePly(const Mesh& mesh, const std::string& path) {
   };
   for (std::size_t v = 0; v < mesh.vertices.size(); ++v) {
     for (double x : mesh.vertices[v]) add(float(x));
-    if (colored) add(mesh.colors[v]);
+    if (colored) add(mesh.colors[one_color ? 0 : v]);
   }
   for (const auto& triangle : mesh.triangles) {
     add(std::uint8_t(3));
