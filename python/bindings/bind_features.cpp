@@ -35,7 +35,7 @@ struct NamedFeature {
 };
 
 /// Evaluates straight into the arrays that are returned.
-nb::tuple evalInto(const PyConfig& config, Residual residual) {
+nb::typed<nb::tuple, Array, Array> evalInto(const PyConfig& config, Residual residual) {
   using RowMajor = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
   const std::size_t rows = std::size_t(residual.rows()), columns = std::size_t(config.getJointDimension());
   const NewArray y = newArray(rows), J = newArray(rows, columns);
@@ -46,7 +46,7 @@ nb::tuple evalInto(const PyConfig& config, Residual residual) {
   return nb::make_tuple(y.array, J.array);
 }
 
-nb::tuple evalFeature(const PyConfig& config, FeatureSymbol symbol, const FrameNames& frames, const std::optional<Numbers>& scale,
+nb::typed<nb::tuple, Array, Array> evalFeature(const PyConfig& config, FeatureSymbol symbol, const FrameNames& frames, const std::optional<Numbers>& scale,
                       const std::optional<Numbers>& target, int order) {
   return evalInto(config, makeResidual(*config.program(), symbol, toNames(frames), toScale(scale), toTarget(target), order));
 }

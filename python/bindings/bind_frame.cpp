@@ -215,7 +215,7 @@ void bindFrame(nb::module_&, nb::class_<Frame>& frame) {
            "mass"_a, "inertiaMatrix"_a = nb::none(), kChain,
            "Mass in kg. The inertia is that of the shape's surface, or 3, 6 or 9 numbers in kg m^2. 0 removes it.")
       .def("getInertia",
-           [](const Frame& f) {
+           [](const Frame& f) -> nb::typed<nb::tuple, nb::float_, nb::any, nb::any> {
              const std::optional<Inertia> inertia = f.getInertia();
              if (!inertia) return nb::make_tuple(0., nb::list(), nb::list());
              return nb::make_tuple(inertia->mass, toNumpy(inertia->com.data(), 3), toNumpy(MatrixXd(inertia->matrix)));

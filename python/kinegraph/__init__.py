@@ -30,10 +30,11 @@ from ._core import (
     NLP_SolverOptions,
     OptMethod,
     SolverReturn,
-    __version__,
     checkFile,
     depthImage2PointCloud,
 )
+from ._core import __version__ as __version__
+from .aruco import getArucoImage
 from .errors import (
     ArgumentError,
     Error,
@@ -63,7 +64,7 @@ _model_paths.announce()
 
 def version() -> str:
     """The version of this package."""
-    return __version__
+    return str(__version__)
 
 
 def compiled() -> str:
@@ -71,4 +72,50 @@ def compiled() -> str:
     return f"kinegraph {__version__}"
 
 
-__all__ = [name for name in dir() if not name.startswith("_") and name not in ("model_paths", "errors", "parameters")]
+# Written out, so that type checkers know what is exported.
+__all__ = [
+    "FS",
+    "JT",
+    "KOMO",
+    "NLP",
+    "OT",
+    "ST",
+    "SY",
+    "ArgumentError",
+    "CameraView",
+    "CameraViewSensor",
+    "Config",
+    "ConfigurationViewer",
+    "Error",
+    "Feature",
+    "FileError",
+    "Frame",
+    "FrameDeleted",
+    "FrameNotFound",
+    "KinegraphWarning",
+    "NLP_Factory",
+    "NLP_Solver",
+    "NLP_SolverOptions",
+    "NotFound",
+    "OptMethod",
+    "ParseError",
+    "SolverReturn",
+    "checkFile",
+    "clear_params",
+    "compiled",
+    "depthImage2PointCloud",
+    "getArucoImage",
+    "get_params",
+    "params_add",
+    "params_clear",
+    "params_file",
+    "params_get",
+    "params_print",
+    "raiPath",
+    "rnd_seed",
+    "rnd_seed_random",
+    "setRaiPath",
+    "set_params",
+    "test",
+    "version",
+]
