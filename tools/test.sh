@@ -10,7 +10,7 @@ step() { echo "== $* ($((SECONDS / 60)) min $((SECONDS % 60)) s)"; }
 quietly() { "$@" >build/last.log 2>&1 || { tail -80 build/last.log; exit 1; }; }
 
 step "tools"
-bash tools/apt_install.sh libgtest-dev chromium ccache libegl1 libgl1-mesa-dri
+bash tools/apt_install.sh libgtest-dev chromium ccache libegl1 libgl1-mesa-dri valgrind
 tools=$PWD/build/tools_venv
 [ -x "$tools/bin/python" ] || bash tools/make_venv.sh "${PYTHON:-python3}" "$tools"
 "$tools/bin/python" tools/build_requirements.py >build/requirements.txt

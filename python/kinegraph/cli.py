@@ -5,10 +5,15 @@ from __future__ import annotations
 import argparse
 import re
 import sys
+from pathlib import Path
 
 from . import __version__
 from ._core import Config, checkFile
 from .errors import ArgumentError, Error
+from .model_paths import raiPath
+from .parameters import params_get
+
+_MESHES = (".h5", ".ply", ".obj", ".stl", ".dae", ".glb")
 
 
 def _parser() -> argparse.ArgumentParser:
@@ -27,8 +32,9 @@ def _parser() -> argparse.ArgumentParser:
     demo.add_argument("--seed", type=int, default=0, help="of the target's way (default: 0)")
     demo.add_argument("--no-view", action="store_true", help="compute only")
 
-    view = commands.add_parser("view", help="shows a scene file, and again whenever it changes")
+    view = commands.add_parser("view", help="shows a scene or mesh file in the browser until a key is pressed")
     view.add_argument("file")
+    view.add_argument("--watch", action="store_true", help="load the scene again whenever the file changes")
 
     render = commands.add_parser("render", help="a picture of a scene file; needs no display")
     render.add_argument("file")
@@ -64,18 +70,32 @@ def _check(files: list[str], strict: bool) -> int:
     return 1 if errors or (strict and warnings) else 0
 
 
-def _info(file: str) -> None:
+def _load(file: str) -> Config:
+    """A scene, or a mesh as a frame of its own."""
     config = Config()
-    config.addFile(file)
+    if Path(file).suffix in _MESHES:
+        config.addFrame(Path(file).stem, "", f"mesh: <{Path(file).resolve()}>")
+    else:
+        config.addFile(file)
+    return config
+
+
+def _view(file: str, watch: bool) -> None:
+    if watch:
+        Config().watchFile(file)
+    else:
+        _load(file).view(True, file)
+
+
+def _info(file: str) -> None:
+    config = _load(file)
     print(config.report())
     for frame in config:
         print(" ", frame)
 
 
 def _render(file: str, output: str, camera: str | None, size: str | None) -> None:
-    config = Config()
-    config.addFile(file)
-    viewer = config.viewer()
+    viewer = _load(file).viewer()
     if camera:
         viewer.setCamera(camera)
     if size:
@@ -98,7 +118,7 @@ def main(arguments: list[str] | None = None) -> int:
             seconds = float("inf") if options.forever else options.seconds
             return 0 if followTarget(seconds, options.rate, options.seed, not options.no_view).worst_error < 1e-3 else 1
         if options.command == "view":
-            Config().watchFile(options.file)
+            _view(options.file, options.watch)
         if options.command == "render":
             _render(options.file, options.output, options.camera, options.size)
         if options.command == "info":
@@ -110,4 +130,22 @@ def main(arguments: list[str] | None = None) -> int:
     except Error as error:
         print(f"kinegraph: {error}", file=sys.stderr)
         return 1
+    return 0
+
+
+def ry_view() -> int:
+    """The command `ry-view FILE` of the package robotic: scenes are watched while they are edited."""
+    parser = argparse.ArgumentParser(prog="ry-view", description="Shows a scene, again whenever it changes, or a mesh.")
+    parser.add_argument("file", metavar="FILE")
+    parser.add_argument("-v", "--version", action="version", version=__version__)
+    file = parser.parse_args().file
+    is_mesh = Path(file).suffix in _MESHES
+    print(f"{file}: {'a mesh' if is_mesh else 'a scene'}")
+    return main(["view", file, *([] if is_mesh else ["--watch"])])
+
+
+def ry_info() -> int:
+    """The command `ry-info` of the package robotic: what is installed, and the parameters that are set."""
+    argparse.ArgumentParser(prog="ry-info", description=ry_info.__doc__).parse_args()
+    print(f"kinegraph {__version__}, in place of robotic\nraiPath: {raiPath()}\nparameters: {params_get()}")
     return 0

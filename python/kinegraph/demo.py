@@ -12,6 +12,7 @@ from ._core import FS, KOMO, OT, ST, Config, Frame, NLP_Solver, SolverReturn
 from .model_paths import raiPath
 
 _HOME = [0.0, -0.5, 0.0, -2.0, 0.0, 2.0, -0.5]
+_REACH = 0.3  # how far the target goes from where it starts, m
 
 
 @dataclass
@@ -48,10 +49,17 @@ def _solve(config: Config) -> tuple[np.ndarray, SolverReturn]:
 
 
 def _wander(target: Frame, center: np.ndarray, rng: np.random.Generator, velocity: np.ndarray, dt: float) -> np.ndarray:
-    """Moves the target a little: it drifts at random, and is drawn back to the center. Returns its new velocity."""
-    position = target.getPosition()
-    velocity = velocity + dt * (3.0 * (center - position) - 1.5 * velocity) + np.sqrt(dt) * 0.5 * rng.standard_normal(3)
-    target.setPosition(position + dt * velocity)
+    """Moves the target a little: it drifts at random, is drawn back to the center, and never goes farther from it than the
+    arm reaches. Returns its new velocity."""
+    offset = target.getPosition() - center
+    velocity = velocity + dt * (-3.0 * offset - 1.5 * velocity) + np.sqrt(dt) * 0.5 * rng.standard_normal(3)
+    offset = offset + dt * velocity
+    distance = float(np.linalg.norm(offset))
+    if distance > _REACH:
+        outward = offset / distance
+        offset = _REACH * outward
+        velocity = velocity - max(0.0, velocity @ outward) * outward
+    target.setPosition(center + offset)
     return velocity
 
 

@@ -21,3 +21,14 @@ TEST(Text, SimilarWordsFindsTypingMistakesAndParts) {
 TEST(Text, ExactNumbersReadBackUnchanged) {
   for (double value : {.1, 1. / 3., -2.5e-300, 1e22, 0.}) EXPECT_EQ(std::stod(exact(value)), value);
 }
+
+TEST(Text, IsWithinEditDistanceAgreesWithTheDistance) {
+  const char* words[] = {"", "a", "shape", "shpae", "Shape", "shapes", "joint", "joints", "jiont", "mesh", "hinge", "hingeX", "ab", "ba"};
+  for (const char* a : words) {
+    for (const char* b : words) {
+      for (double limit : {0., .5, 1., 1.2, 2., 3.}) {
+        EXPECT_EQ(isWithinEditDistance(a, b, limit), editDistance(a, b) <= limit) << a << " " << b << " " << limit;
+      }
+    }
+  }
+}

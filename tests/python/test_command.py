@@ -7,6 +7,7 @@ import sys
 import pytest
 
 import kinegraph as ry
+from kinegraph.demo import followTarget
 
 
 def kinegraph(*arguments):
@@ -22,6 +23,13 @@ def test_the_demo_follows_its_target_within_a_tenth_of_a_millimetre():
     assert len(seconds) >= 2
     assert total.startswith("total: ") and "infeasible" not in total
     assert float(total.split("worst position error ")[1].split(" mm")[0]) < 0.1
+
+
+@pytest.mark.parametrize("seed", [0, 1, 2])
+def test_the_demos_target_never_leaves_the_arms_reach(seed):
+    summary = followTarget(1.0, rate=0, seed=seed, view=False)  # as many as possible: thousands of targets
+    assert summary.solves > 100
+    assert summary.infeasible == 0 and summary.worst_error < 1e-4
 
 
 def test_info_lists_the_frames_of_a_file():
@@ -62,3 +70,25 @@ def test_check_gives_status_0_for_oddities_unless_strict(tmp_path):
     assert kinegraph("check", str(scene)).returncode == 0
     assert kinegraph("check", "--strict", str(scene)).returncode == 1
     assert kinegraph("check", str(tmp_path / "missing.g")).returncode == 1
+
+
+def test_view_shows_scenes_and_meshes_and_ends_without_a_display(tmp_path):
+    mesh = tmp_path / "triangle.obj"
+    mesh.write_text("v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n")
+    for arguments in (
+        [mesh],
+        [ry.raiPath("scenarios/pandaSingle.g")],
+        ["--watch", ry.raiPath("scenarios/pandaSingle.g")],
+    ):
+        program = kinegraph("view", *map(str, arguments))
+        assert program.returncode == 0, program.stderr
+    assert "triangle" in kinegraph("info", str(mesh)).stdout
+
+
+@pytest.mark.parametrize("command, words", [("ry_info", "raiPath"), ("ry_view", "a scene")])
+def test_the_commands_of_robotic_are_there(command, words):
+    code = f"import sys; from kinegraph.cli import {command}; sys.exit({command}())"
+    arguments = [ry.raiPath("panda/panda.g")] if command == "ry_view" else []
+    program = subprocess.run([sys.executable, "-c", code, *arguments], capture_output=True, text=True, timeout=120)
+    assert program.returncode == 0, program.stderr
+    assert words in program.stdout

@@ -24,6 +24,9 @@ std::string join(const std::vector<std::string>& words, std::string_view separat
 /// Upper and lower case count as equal up to a small cost, so that `Box` is near `box`.
 double editDistance(std::string_view a, std::string_view b);
 
+/// Is editDistance(a, b) at most `limit`? Words that differ much are told at once.
+bool isWithinEditDistance(std::string_view a, std::string_view b, double limit);
+
 /// The candidates nearest to `word`, best first: those that a typing mistake away or that contain it.
 std::vector<std::string> similarWords(std::string_view word, const std::vector<std::string>& candidates,
                                       std::size_t at_most = 3);

@@ -185,8 +185,8 @@ void AttributeReader::applyInertia(FrameData& frame) {
 void AttributeReader::checkSpelling() {
   for (const Node& node : attributes_.nodes) {
     if (node.key.size() < 4 || node.value.as<Graph>() || isKnown(node.key)) continue;
-    for (const std::string word : kKnownAttributes) {
-      if (word.size() < 4 || editDistance(node.key, word) > 1.2) continue;
+    for (const std::string_view word : kKnownAttributes) {
+      if (word.size() < 4 || !isWithinEditDistance(node.key, word, 1.2)) continue;
       warning(node, cat("unknown attribute '", node.key, "'; did you mean '", word, "'?"));
       break;
     }

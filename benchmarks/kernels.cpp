@@ -1,0 +1,133 @@
+// What Kinegraph does most often, on the Panda: times, or runs one kernel for a profiler.
+//     kernels MODELS_FOLDER                  microseconds per call of each
+//     kernels MODELS_FOLDER KERNEL COUNT     runs one COUNT times
+//     kernels --conditions                   what instruction counts depend on besides the sources
+#include <array>
+#include <chrono>
+#include <cstdio>
+#include <functional>
+#include <map>
+#include <string>
+
+#include "kinegraph/base/errors.h"
+#include "kinegraph/base/random.h"
+#include "kinegraph/komo/komo.h"
+#include "kinegraph/solvers/nlp_solver.h"
+
+using namespace kinegraph;
+
+namespace {
+
+using Matrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+
+/// The Panda on its table, a target for its gripper, and joint vectors to go through.
+struct Bench {
+  explicit Bench(const std::string& models) : file(models + "/scenarios/pandaSingle.g") {
+    config.addFile(file);
+    config.addFrame("target", "table").setRelativePosition({.1, .4, .5});
+    home = config.getJointState();
+    Rng rng(1);
+    for (VectorXd& q : postures) {
+      q = home;
+      for (double& angle : q) angle += rng.uniform(-.3, .3);
+    }
+    gripper = config.getFrame("l_gripper").data().id;
+  }
+  const VectorXd& posture(int i) const { return postures[std::size_t(i) % postures.size()]; }
+
+  std::string file;
+  Config config;
+  VectorXd home;
+  std::array<VectorXd, 16> postures;
+  int gripper;
+};
+
+using Kernel = std::function<void(Bench&, int count)>;
+
+void forwardKinematics(Bench& bench, int count) {
+  State state = bench.config.state();
+  for (int i = 0; i < count; ++i) state.setJoints(bench.posture(i).data());
+}
+
+void jacobian(Bench& bench, int count) {
+  State state = bench.config.state();
+  Matrix J(6, state.dofs());
+  for (int i = 0; i < count; ++i) {
+    state.setJoints(bench.posture(i).data());
+    J.setZero();
+    state.addPointJacobian(bench.gripper, state.position(bench.gripper), 1., J.topRows(3));
+    state.addAngularJacobian(bench.gripper, 1., J.bottomRows(3));
+  }
+}
+
+void evaluate(Bench& bench, int count, FeatureSymbol feature, const std::vector<std::string>& frames) {
+  Residual residual = makeResidual(*bench.config.program(), feature, frames);
+  VectorXd y(residual.rows());
+  Matrix J(residual.rows(), bench.config.getJointDimension());
+  for (int i = 0; i < count; ++i) {
+    bench.config.setJointState(bench.posture(i));
+    J.setZero();
+    eval(bench.config, residual, y, J);
+  }
+}
+
+void load(Bench& bench, int count) {
+  for (int i = 0; i < count; ++i) Config().addFile(bench.file);
+}
+
+void inverseKinematics(Bench& bench, int count) {
+  Rng rng(0);
+  Config& C = bench.config;
+  for (int i = 0; i < count; ++i) {
+    C.setJointState(bench.posture(i));
+    const auto komo = std::make_shared<Komo>(C, 1., 1, 0);
+    komo->addObjective({}, FeatureSymbol::qItself, {}, ObjectiveType::sos, MatrixXd::Constant(1, 1, .1), bench.home);
+    komo->addObjective({}, FeatureSymbol::positionDiff, {"l_gripper", "target"}, ObjectiveType::eq, MatrixXd::Constant(1, 1, 10.));
+    if (!NlpSolver(makeNlp(komo), 0).solve(false, rng).feasible) throw Error("inverse kinematics: no solution");
+  }
+}
+
+const std::map<std::string, Kernel> kKernels = {
+    {"forward kinematics", forwardKinematics},
+    {"Jacobian", jacobian},
+    {"position", [](Bench& b, int count) { evaluate(b, count, FeatureSymbol::position, {"l_gripper"}); }},
+    {"collisions", [](Bench& b, int count) { evaluate(b, count, FeatureSymbol::accumulatedCollisions, {}); }},
+    {"load", load},
+    {"inverse kinematics", inverseKinematics},
+};
+
+}  // namespace
+
+int main(int argc, char** argv) try {
+  if (argc == 2 && std::string(argv[1]) == "--conditions") {
+    std::printf("GCC %s, %s\n", __VERSION__, __builtin_cpu_supports("fma") ? "fma" : "no fma");
+    return 0;
+  }
+  if (argc != 2 && argc != 4) {
+    std::fprintf(stderr, "usage: kernels MODELS_FOLDER [KERNEL COUNT]\n");
+    return 2;
+  }
+  Bench bench(argv[1]);
+  if (argc == 4) {
+    kKernels.at(argv[2])(bench, std::stoi(argv[3]));
+    return 0;
+  }
+  for (const auto& [name, kernel] : kKernels) {
+    double best = 1e9;
+    for (int round = 0, count = 1; round < 20; ++round) {
+      const auto start = std::chrono::steady_clock::now();
+      kernel(bench, count);
+      const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+      if (seconds < .01) {
+        count *= 2;
+        --round;
+      } else {
+        best = std::min(best, seconds / count);
+      }
+    }
+    std::printf("%-20s %9.3f us\n", name.c_str(), 1e6 * best);
+  }
+} catch (const Error& error) {
+  std::fprintf(stderr, "%s\n", error.what());
+  return 1;
+}
