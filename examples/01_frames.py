@@ -12,7 +12,7 @@ from robotic import ry
 SCENE = str(Path(__file__).with_name("mini.g"))
 
 
-def printFrames(C):
+def printFrames(C: ry.Config) -> None:
     print(f"{'frame':14} {'parent':14} {'position in the world, m':28} seen from the parent, m")
     for frame in C.getFrames():
         parent = frame.getParent()

@@ -7,7 +7,7 @@ import numpy as np
 from robotic import ry
 
 
-def show(frame):
+def show(frame: ry.Frame) -> None:
     print(f"  {frame.name}: position {frame.getPosition().round(3)}, orientation {frame.getQuaternion().round(3)}")
 
 

@@ -10,6 +10,7 @@ where .35 and .33 m are the distances between its hinges. The third hinge only t
 from pathlib import Path
 
 import numpy as np
+from numpy.typing import ArrayLike, NDArray
 
 from robotic import ry
 
@@ -20,8 +21,8 @@ print("frames:", C.getFrameNames())
 print("q has", C.getJointDimension(), "entries:", C.getJointState())
 
 
-def byHand(q):
-    a, ab = q[0], q[0] + q[1]
+def byHand(q: ArrayLike) -> NDArray[np.float64]:
+    a, ab, _ = np.cumsum(q)
     return np.array([0, 0.35 * np.sin(a) + 0.33 * np.sin(ab), 0.35 * np.cos(a) + 0.33 * np.cos(ab)])
 
 

@@ -4,13 +4,14 @@ Evaluates the features on two Panda arms, and compares every J with finite diffe
 """
 
 import numpy as np
+from numpy.typing import NDArray
 
 from robotic import ry
 
 FS = ry.FS
 
 
-def twoArms():
+def twoArms() -> ry.Config:
     """Two Pandas, 80 cm apart: `gripper` on the left one, `r_gripper` on the right one, and a box."""
     C = ry.Config()
     C.addFile(ry.raiPath("panda/panda.g"))
@@ -20,7 +21,9 @@ def twoArms():
     return C
 
 
-def differenceToFiniteDifferences(C, symbol, frames, J, step=1e-5):
+def differenceToFiniteDifferences(
+    C: ry.Config, symbol: ry.FS, frames: list[str], J: NDArray[np.float64], step: float = 1e-5
+) -> float:
     q = C.getJointState()
     worst = 0.0
     for i in range(q.size):

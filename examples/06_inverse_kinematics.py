@@ -8,6 +8,7 @@ Of all that do, we want those near the present posture and near the home posture
 import time
 
 import numpy as np
+from numpy.typing import NDArray
 
 from robotic import ry
 
@@ -23,7 +24,7 @@ center = target.getPosition()
 C.view(True, "the target is the marker in front of the robot")
 
 
-def inverseKinematics(C):
+def inverseKinematics(C: ry.Config) -> tuple[NDArray[np.float64], ry.SolverReturn]:
     q0 = C.getJointState()
     komo = ry.KOMO(C, 1, 1, 0, False)  # one phase with one slice; positions only, no collisions
     komo.addObjective([], ry.FS.jointState, [], ry.OT.sos, [1e-1], q0)
@@ -33,9 +34,9 @@ def inverseKinematics(C):
     return komo.getPath()[0], result
 
 
-def gap(C):
+def gap(C: ry.Config) -> float:
     """Distance of gripper and target in mm."""
-    return 1e3 * np.linalg.norm(C.eval(ry.FS.positionDiff, ["l_gripper", "target"])[0])
+    return 1e3 * float(np.linalg.norm(C.eval(ry.FS.positionDiff, ["l_gripper", "target"])[0]))
 
 
 q, result = inverseKinematics(C)

@@ -10,6 +10,7 @@ The damping w keeps the inverse finite where J loses rank, as it does for a stre
 from pathlib import Path
 
 import numpy as np
+from numpy.typing import NDArray
 
 from robotic import ry
 
@@ -19,7 +20,7 @@ W = 1e-4 * np.identity(K.getJointDimension())
 position = K.feature(ry.FS.position, ["endeffector"])
 
 
-def newton(q, y_target, steps=10):
+def newton(q: NDArray[np.float64], y_target: NDArray[np.float64], steps: int = 10) -> NDArray[np.float64]:
     print(f"\ntarget {y_target}")
     for step in range(steps):
         y, J = position.eval(K)

@@ -24,7 +24,7 @@ NewArray newArray(int rank, npy_intp* shape) {
   requireNumpy();
   PyObject* array = PyArray_SimpleNew(rank, shape, NPY_DOUBLE);
   if (!array) throw nb::python_error();
-  return {nb::steal(array), static_cast<double*>(PyArray_DATA(reinterpret_cast<PyArrayObject*>(array)))};
+  return {Array(nb::steal(array)), static_cast<double*>(PyArray_DATA(reinterpret_cast<PyArrayObject*>(array)))};
 }
 
 /// A contiguous buffer of doubles, as most arrays are.
@@ -103,21 +103,21 @@ NewFlags newFlags(std::size_t size) {
   return {nb::steal(array), static_cast<bool*>(PyArray_DATA(reinterpret_cast<PyArrayObject*>(array)))};
 }
 
-nb::object toNumpy(const double* values, std::size_t size) {
+Array toNumpy(const double* values, std::size_t size) {
   NewArray array = newArray(size);
   std::copy_n(values, size, array.data);
   return std::move(array.array);
 }
 
-nb::object toNumpy(const VectorXd& vector) { return toNumpy(vector.data(), std::size_t(vector.size())); }
+Array toNumpy(const VectorXd& vector) { return toNumpy(vector.data(), std::size_t(vector.size())); }
 
-nb::object toNumpy(const RowMajor& matrix) {
+Array toNumpy(const RowMajor& matrix) {
   NewArray array = newArray(std::size_t(matrix.rows()), std::size_t(matrix.cols()));
   std::copy_n(matrix.data(), matrix.size(), array.data);
   return std::move(array.array);
 }
 
-nb::object toNumpy(const MatrixXd& matrix) { return toNumpy(RowMajor(matrix)); }
+Array toNumpy(const MatrixXd& matrix) { return toNumpy(RowMajor(matrix)); }
 
 bool readNumbers(nb::handle source, Numbers& target) {
   PyObject* object = source.ptr();

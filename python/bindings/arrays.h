@@ -22,15 +22,35 @@ struct Numbers {
   MatrixXd matrix() const;  ///< rank 2 as it is, less as one row
 };
 
+namespace numpy {
+inline bool isArray(PyObject*) noexcept { return true; }  // only ever made here
+}  // namespace numpy
+
+/// A numpy array of float64. The name is what type checkers see.
+class Array : public nb::object {
+  NB_OBJECT_DEFAULT(Array, nb::object, "numpy.typing.NDArray[numpy.float64]", numpy::isArray)
+  explicit Array(nb::object array) : nb::object(std::move(array)) {}
+};
+
+/// A numpy array of integers: uint32, uint8.
+class IndexArray : public nb::object {
+  NB_OBJECT_DEFAULT(IndexArray, nb::object, "numpy.typing.NDArray[numpy.uint32]", numpy::isArray)
+  explicit IndexArray(nb::object array) : nb::object(std::move(array)) {}
+};
+class ByteArray : public nb::object {
+  NB_OBJECT_DEFAULT(ByteArray, nb::object, "numpy.typing.NDArray[numpy.uint8]", numpy::isArray)
+  explicit ByteArray(nb::object array) : nb::object(std::move(array)) {}
+};
+
 /// A new numpy array (float64, C order) with these contents.
-nb::object toNumpy(const double* values, std::size_t size);
-nb::object toNumpy(const VectorXd& vector);
-nb::object toNumpy(const MatrixXd& matrix);
-nb::object toNumpy(const Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>& matrix);
+Array toNumpy(const double* values, std::size_t size);
+Array toNumpy(const VectorXd& vector);
+Array toNumpy(const MatrixXd& matrix);
+Array toNumpy(const Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>& matrix);
 
 /// A new numpy array of that size or shape (rows, columns), and where its numbers are.
 struct NewArray {
-  nb::object array;
+  Array array;
   double* data;
 };
 NewArray newArray(std::size_t size);
@@ -53,7 +73,7 @@ namespace nanobind::detail {
 
 template <>
 struct type_caster<kinegraph::python::Numbers> {
-  NB_TYPE_CASTER(kinegraph::python::Numbers, const_name("float | collections.abc.Sequence | numpy.typing.ArrayLike"))
+  NB_TYPE_CASTER(kinegraph::python::Numbers, const_name("numpy.typing.ArrayLike"))
 
   bool from_python(handle source, uint8_t, cleanup_list*) noexcept {
     return kinegraph::python::readNumbers(source, value);

@@ -9,7 +9,7 @@ void bindDynamics(nb::class_<PyConfig>& config) {
       .def("dyn_MF",
            [](const PyConfig& c, const Numbers& velocity) {
              const EquationOfMotion equation = c.equationOfMotion(velocity.values);
-             return nb::make_tuple(toNumpy(equation.M), toNumpy(equation.F));
+             return nb::typed<nb::tuple, Array, Array>(nb::make_tuple(toNumpy(equation.M), toNumpy(equation.F)));
            },
            "q_dot"_a, "M (n, n) and F (n,) of the equation of motion u = M ddq + F, at q and the velocity dq. Gravity is\n"
            "9.81 m/s^2 along -z; masses, centres of mass and inertias are those of the frames.")
@@ -24,7 +24,7 @@ void bindDynamics(nb::class_<PyConfig>& config) {
       .def("getCenterOfMass",
            [](const PyConfig& c) {
              const auto [mass, center] = c.centerOfMass();
-             return nb::make_tuple(mass, toNumpy(center.data(), 3));
+             return nb::typed<nb::tuple, nb::float_, Array>(nb::make_tuple(mass, toNumpy(center.data(), 3)));
            },
            "Mass of everything that moves (kg) and its centre (3,), world coordinates, m.");
 }

@@ -37,7 +37,7 @@ struct NamedFeature {
 };
 
 /// Evaluates straight into the arrays that are returned.
-nb::tuple evalInto(const PyConfig& config, Residual& residual) {
+nb::typed<nb::tuple, Array, Array> evalInto(const PyConfig& config, Residual& residual) {
   using RowMajor = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
   const std::size_t rows = std::size_t(residual.rows()), columns = std::size_t(config.getJointDimension());
   const NewArray y = newArray(rows), J = newArray(rows, columns);
@@ -48,7 +48,7 @@ nb::tuple evalInto(const PyConfig& config, Residual& residual) {
   return nb::make_tuple(y.array, J.array);
 }
 
-nb::tuple evalFeature(const PyConfig& config, const FeatureArgument& feature, const FrameNames& frames, const std::optional<Numbers>& scale,
+nb::typed<nb::tuple, Array, Array> evalFeature(const PyConfig& config, const FeatureArgument& feature, const FrameNames& frames, const std::optional<Numbers>& scale,
                       const std::optional<Numbers>& target, int order) {
   const auto* list = std::get_if<std::vector<std::string>>(&frames);
   const std::vector<std::string> names = list ? std::vector<std::string>() : toNames(frames);
@@ -59,7 +59,7 @@ nb::tuple evalFeature(const PyConfig& config, const FeatureArgument& feature, co
   return evalInto(config, own);
 }
 
-nb::tuple evalNamed(const NamedFeature& f, const PyConfig& config) {
+nb::typed<nb::tuple, Array, Array> evalNamed(const NamedFeature& f, const PyConfig& config) {
   if (const auto symbol = f.source.symbol()) {
     return evalInto(config, config.residuals.get(config.state(), *symbol, f.frames, f.scale, f.target, f.order));
   }

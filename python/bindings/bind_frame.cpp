@@ -2,13 +2,16 @@
 #include <nanobind/stl/string.h>
 #include <nanobind/stl/vector.h>
 
+#include <cmath>
+
 #include "bindings.h"
 #include "kinegraph/base/errors.h"
 #include "kinegraph/base/text.h"
 #include "kinegraph/geometry/shape_types.h"
-#include "kinegraph/geometry/tessellation.h"
 #include "kinegraph/gfile/writer.h"
+#include "kinegraph/scene/inertia_edits.h"
 #include "kinegraph/scene/reader.h"
+#include "kinegraph/scene/tree_edits.h"
 #include "scene_values.h"
 
 namespace kinegraph::python {
@@ -19,7 +22,7 @@ Pose poseOf(const Frame& frame, const std::optional<Frame>& relative_to) {
   return relative_to ? frame.getPose(*relative_to) : frame.getPose();
 }
 
-nb::object fourByFour(const Pose& X) {
+Array fourByFour(const Pose& X) {
   Eigen::Matrix4d T = Eigen::Matrix4d::Identity();
   T.topLeftCorner<3, 3>() = X.q.toRotationMatrix();
   T.topRightCorner<3, 1>() = X.p;
@@ -34,11 +37,28 @@ Vector3d position(const Frame& frame, const Numbers& numbers, const char* call) 
   return numbers.values;
 }
 
+/// A quaternion far from unit length is often no quaternion. The text is always the same, so that Python shows it once.
+void warnOfLength(double norm) {
+  if (norm > 1e-10 && std::abs(norm - 1.) > .1) {
+    emitWarning("a quaternion that is far from length 1 is normalized; its numbers are w x y z, and those of a pose x y z qw qx qy qz");
+  }
+}
+
+Pose poseFrom(const Frame& frame, const Numbers& numbers) {
+  const VectorXd& v = numbers.values;
+  if (v.size() == 4 || v.size() == 7) {
+    warnOfLength(v.tail<4>().norm());
+    unitQuaternion(v.tail<4>(), cat("quaternion of frame '", frame.getName(), "'").c_str());
+  }
+  return Pose::fromNumbers(v);
+}
+
 Quaterniond rotation(const Frame& frame, const Numbers& numbers, const char* call) {
   if (numbers.values.size() != 4) {
     throw ValueError(cat(call, " of frame '", frame.getName(), "': got ", numbers.values.size(),
                          " numbers; expected 4, a quaternion w x y z"));
   }
+  warnOfLength(numbers.values.norm());
   return unitQuaternion(numbers.values, cat("quaternion of frame '", frame.getName(), "'").c_str());
 }
 
@@ -53,60 +73,32 @@ Quaterniond rotationFromMatrix(const Frame& frame, const Numbers& numbers) {
   return Quaterniond(R).normalized();
 }
 
-/// Mesh of a shape in local coordinates: its own, or its surface as triangles.
-Mesh meshOf(const Frame& frame) {
-  const auto& shape = frame.data().shape;
-  if (!shape) return {};
-  const Geometry& geometry = *shape->geometry;
-  if (geometry.mesh && geometry.type != ShapeType::ssCvx) return *geometry.mesh;
-  return tessellate(geometry);
-}
-
-nb::object meshPoints(const Mesh& mesh) {
-  NewArray array = newArray(mesh.vertices.size(), 3);
-  for (std::size_t i = 0; i < mesh.vertices.size(); ++i) std::copy_n(mesh.vertices[i].data(), 3, array.data + 3 * i);
-  return array.array;
-}
-
-nb::object meshTriangles(const Mesh& mesh) {
-  NewArray array = newArray(mesh.triangles.size(), 3);
-  for (std::size_t i = 0; i < mesh.triangles.size(); ++i) std::copy_n(mesh.triangles[i].data(), 3, array.data + 3 * i);
-  return array.array.attr("astype")("uint32");
-}
-
-std::vector<Vector3d> points(const Numbers& numbers, const char* what) {
-  if (numbers.values.size() % 3 != 0) throw ValueError(cat(what, " are n x 3 numbers, got ", numbers.values.size()));
-  std::vector<Vector3d> list(numbers.values.size() / 3);
-  for (std::size_t i = 0; i < list.size(); ++i) list[i] = numbers.values.segment<3>(3 * Eigen::Index(i));
-  return list;
-}
-
-Mesh meshFrom(const Numbers& vertices, const Numbers& triangles) {
-  Mesh mesh;
-  mesh.vertices = points(vertices, "mesh vertices");
-  if (triangles.values.size() % 3 != 0) throw ValueError("mesh triangles are m x 3 indices");
-  for (Eigen::Index i = 0; i < triangles.values.size(); i += 3) {
-    std::array<std::uint32_t, 3> triangle;
-    for (int k = 0; k < 3; ++k) {
-      const double index = triangles.values[i + k];
-      if (!(index >= 0. && index < double(mesh.vertices.size()))) {
-        throw ValueError(cat("mesh triangle ", i / 3, " names vertex ", index, "; there are ", mesh.vertices.size()));
-      }
-      triangle[k] = std::uint32_t(index);
-    }
-    mesh.triangles.push_back(triangle);
-  }
-  return mesh;
-}
-
 void setAttributes(Frame& frame, nb::dict attributes) {
   for (const auto& [key, value] : attributes) {
     const std::string name = nb::cast<std::string>(key);
     Node node;
     node.key = name;
     node.value = toValue(value, name);
-    frame.attributes().set(node);
+    frame.editAttributes().set(node);
   }
+}
+
+using Rows = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+
+Array positionJacobian(const Frame& frame, const std::optional<Numbers>& world_point) {
+  const State& state = frame.scene()->state();
+  const bool given = world_point && world_point->values.size() > 0;
+  const Vector3d point = given ? position(frame, *world_point, "get_Jacobian_pos") : state.position(frame.id());
+  Rows J = Rows::Zero(3, state.dofs());
+  state.addPointJacobian(frame.id(), point, 1., J);
+  return toNumpy(J);
+}
+
+Array angularJacobian(const Frame& frame) {
+  const State& state = frame.scene()->state();
+  Rows J = Rows::Zero(3, state.dofs());
+  state.addAngularJacobian(frame.id(), 1., J);
+  return toNumpy(J);
 }
 
 constexpr auto kChain = nb::rv_policy::none;  // setters return the very object they were called on
@@ -114,14 +106,15 @@ constexpr auto kChain = nb::rv_policy::none;  // setters return the very object 
 }  // namespace
 
 void bindFrame(nb::module_&, nb::class_<Frame>& frame) {
+  bindShapes(frame);
   using Relative = const std::optional<Frame>&;
   frame
       .def_prop_ro("ID", [](const Frame& f) { return f.id(); }, "Place in the list of frames.")
       .def_prop_rw("name", [](const Frame& f) { return f.getName(); }, [](Frame& f, std::string n) { f.setName(n); },
                    "The frame's name.")
       .def("getName", [](const Frame& f) { return f.getName(); }, "The frame's name.")
-      .def("__eq__", [](const Frame& a, const Frame& b) { return a == b; }, "other"_a)
-      .def("__eq__", [](const Frame&, nb::handle) { return false; }, "other"_a)
+      .def("__eq__", [](const Frame& a, const Frame& b) { return a == b; }, "other"_a, nb::sig("def __eq__(self, other: Frame, /) -> bool"))
+      .def("__eq__", [](const Frame&, nb::handle) { return false; }, "other"_a, nb::sig("def __eq__(self, other: object, /) -> bool"))
       .def("__hash__", [](const Frame& f) { return std::size_t(&f.data()); })
       .def("__repr__", [](const Frame& f) { return describe(f); })
       .def("getParent", &Frame::getParent, "The parent frame, or None.")
@@ -148,7 +141,7 @@ void bindFrame(nb::module_&, nb::class_<Frame>& frame) {
            "Pose in the parent as homogeneous matrix (4, 4).")
 
       .def("setPose",
-           [](Frame& f, const Numbers& pose) -> Frame& { return f.setPose(Pose::fromNumbers(pose.values)); }, "pose"_a,
+           [](Frame& f, const Numbers& pose) -> Frame& { return f.setPose(poseFrom(f, pose)); }, "pose"_a,
            kChain, "Sets the world pose: 7 numbers (x y z qw qx qy qz), 3 (position) or 4 (quaternion).")
       .def("setPose", [](Frame& f, const std::string& text) -> Frame& { return f.setPose(parsePose(text)); }, "pose"_a,
            kChain, "Sets the world pose from text such as \"t(0 0 1) d(90 0 0 1)\".")
@@ -164,7 +157,7 @@ void bindFrame(nb::module_&, nb::class_<Frame>& frame) {
            [](Frame& f, const Numbers& R) -> Frame& { return f.setQuaternion(rotationFromMatrix(f, R)); }, "matrix"_a,
            kChain, "Sets the world rotation: (3, 3).")
       .def("setRelativePose",
-           [](Frame& f, const Numbers& pose) -> Frame& { return f.setRelativePose(Pose::fromNumbers(pose.values)); },
+           [](Frame& f, const Numbers& pose) -> Frame& { return f.setRelativePose(poseFrom(f, pose)); },
            "pose"_a, kChain, "Sets the pose in the parent: 7, 3 or 4 numbers.")
       .def("setRelativePose", [](Frame& f, const std::string& t) -> Frame& { return f.setRelativePose(parsePose(t)); },
            "pose"_a, kChain, "Sets the pose in the parent from text.")
@@ -192,20 +185,29 @@ void bindFrame(nb::module_&, nb::class_<Frame>& frame) {
            "Loops are always refused.")
       .def("unLink", &Frame::unLink, kChain, "Cuts the frame from its parent, where it is; its joint is removed.")
 
-      .def("setShape",
-           [](Frame& f, ShapeType type, const Numbers& size) -> Frame& { return f.setShape(type, size.list()); },
-           "type"_a, "size"_a, kChain,
-           "Gives the frame a shape. Sizes in m: box [x y z], ssBox [x y z radius], sphere [r], capsule and cylinder\n"
-           "[length r], marker [length], quad [x y].")
-      .def("setShape",
-           [](Frame& f, const std::string& type, const Numbers& size) -> Frame& {
-             return f.setShape(shapeTypeFromName(type), size.list());
+      .def("makeRoot", [](Frame& f, bool until) -> Frame& { return makeRoot(*f.scene(), f.data(), until), f; },
+           "untilPartBreak"_a = false, kChain,
+           "Turns the path above the frame around, so that it becomes the root of its tree; nothing moves. Joints on the path move\n"
+           "to the frame that is below them now, with the sign of q (and the limits) changed. untilPartBreak: only up to the first\n"
+           "rigid or free joint, which is cut. ArgumentError for joints that no joint type inverts (universal, ...).")
+      .def("get_Jacobian_pos", positionJacobian, "world_pos"_a = nb::none(),
+           "d p / d q, (3, n), world coordinates: of the frame's origin, or of a world point (3,), m, that moves with the frame.")
+      .def("get_Jacobian_angular", angularJacobian,
+           "The angular velocity per velocity of q, (3, n), world coordinates, rad/s.")
+      .def("trans_rel2world",
+           [](const Frame& f, const Numbers& p) {
+             const Vector3d point = f.getPose().transform() * position(f, p, "trans_rel2world");
+             return toNumpy(point.data(), 3);
            },
-           "type"_a, "size"_a, kChain, "The same with the type's name.")
-      .def("setColor", [](Frame& f, const Numbers& color) -> Frame& { return f.setColor(color.list()); }, "color"_a, kChain,
-           "Grey, grey and alpha, rgb, or rgba; in 0..1.")
-      .def("setContact", [](Frame& f, int contact) -> Frame& { return f.setContact(contact); }, "contact"_a, kChain,
-           "0: never collides; 1: with everything outside of its link; -k: not with links within k joints above.")
+           "point"_a, "A point (3,) in the frame's coordinates, m, in those of the world.")
+      .def("computeCompoundInertia", [](Frame& f) -> Frame& { return gatherInertia(f.data()), f; }, kChain,
+           "Gathers the inertias of the frame and of all that is fixed to it from below in the frame; the others lose theirs.")
+      .def("transformToDiagInertia",
+           [](Frame& f, bool mesh) { return toNumpy(moveToPrincipalAxes(*f.scene(), f.data(), mesh).numbers().data(), 7); },
+           "transformMesh"_a = true,
+           "Moves the frame to its centre of mass and turns it to its principal axes of inertia; what is below it stays in place, and\n"
+           "with transformMesh so do the points of its mesh. Returns the motion, (7,): the new frame in the old one.\n"
+           "ArgumentError without a mass, with dofs, or with a shape that would have to move.")
       .def("setMass",
            [](Frame& f, double mass, const std::optional<Numbers>& inertia) -> Frame& {
              return f.setMass(mass, inertia ? inertia->list() : std::vector<double>());
@@ -213,40 +215,13 @@ void bindFrame(nb::module_&, nb::class_<Frame>& frame) {
            "mass"_a, "inertiaMatrix"_a = nb::none(), kChain,
            "Mass in kg. The inertia is that of the shape's surface, or 3, 6 or 9 numbers in kg m^2. 0 removes it.")
       .def("getInertia",
-           [](const Frame& f) {
+           [](const Frame& f) -> nb::typed<nb::tuple, nb::float_, nb::any, nb::any> {
              const std::optional<Inertia> inertia = f.getInertia();
              if (!inertia) return nb::make_tuple(0., nb::list(), nb::list());
              return nb::make_tuple(inertia->mass, toNumpy(inertia->com.data(), 3), toNumpy(MatrixXd(inertia->matrix)));
            },
            "(mass in kg, centre of mass (3,) in m, inertia about it (3, 3) in kg m^2), in the frame; (0, [], []) without a mass.")
       .def("getMass", &Frame::getMass, "Mass in kg, 0 if none.")
-      .def("setMesh",
-           [](Frame& f, const Numbers& vertices, const Numbers& triangles, nb::object, nb::object) -> Frame& {
-             return f.setMesh(meshFrom(vertices, triangles));
-           },
-           "vertices"_a, "triangles"_a, "colors"_a = nb::none(), "cvxParts"_a = nb::none(), kChain,
-           "Gives the frame a mesh: vertices (n, 3) in m, triangles (m, 3).")
-      .def("setConvexMesh",
-           [](Frame& f, const Numbers& core, nb::object, double radius) -> Frame& {
-             return f.setConvexCore(points(core, "core points"), radius);
-           },
-           "points"_a, "colors"_a = nb::none(), "radius"_a = 0., kChain,
-           "Gives the frame the convex hull of points (n, 3), swept by a ball of `radius`, m.")
-      .def("setPointCloud",
-           [](Frame& f, const Numbers& cloud, nb::object, nb::object) -> Frame& {
-             Mesh mesh;
-             mesh.vertices = points(cloud, "points");
-             return f.setMesh(std::move(mesh));
-           },
-           "points"_a, "colors"_a = nb::none(), "normals"_a = nb::none(), kChain, "Gives the frame points (n, 3), m.")
-      .def("getShapeType", &Frame::getShapeType, "Its ST; ST.none without a shape.")
-      .def("getSize", [](const Frame& f) { return toNumpy(f.getSize().data(), f.getSize().size()); },
-           "Sizes as for setShape; empty without a shape.")
-      .def("getMeshPoints", [](const Frame& f) { return meshPoints(meshOf(f)); },
-           "Vertices of the shape's surface, (n, 3), in the frame.")
-      .def("getMeshTriangles", [](const Frame& f) { return meshTriangles(meshOf(f)); },
-           "Triangles of the shape's surface, (m, 3) uint32.")
-
       .def("setJoint",
            [](Frame& f, JointType type, const std::optional<Numbers>& limits, const std::optional<Numbers>& axis,
               double scale, const std::optional<Frame>& mimic) -> Frame& {
@@ -261,6 +236,17 @@ void bindFrame(nb::module_&, nb::class_<Frame>& frame) {
       .def("setJointState", [](Frame& f, const Numbers& q) -> Frame& { return f.setJointState(q.values); }, "q"_a, kChain,
            "Sets the joint's dofs (rad, m).")
 
+      .def("getJointQIndex", [](const Frame& f) { return dofIndex(*f.scene(), f.data()); },
+           "Where the joint's dofs begin in q; a mimic has the index of its source. Of an inactive joint: among the dofs of the\n"
+           "inactive ones. ArgumentError without a joint.")
+      .def("setJointSampleStdDev",
+           [](Frame& f, double deviation) -> Frame& {
+             if (!f.data().joint) throw ValueError(cat("setJointSampleStdDev: frame '", f.getName(), "' has no joint"));
+             if (!(deviation >= 0.)) throw ValueError(cat("setJointSampleStdDev: ", deviation, " is not zero or positive"));
+             f.data().joint->sample_deviation = deviation;
+             return f;
+           },
+           "deviation"_a, kChain, "Standard deviation (rad, m) with which setRandom draws the joint's dofs around its home.")
       .def("getAttributes", [](const Frame& f) { return toDict(f.attributes()); }, "The attributes, as a dict.")
       .def("setAttributes", [](Frame& f, nb::dict d) -> Frame& { return setAttributes(f, d), f; }, "attributes"_a, kChain,
            "Adds attributes that the library keeps but does not interpret.")

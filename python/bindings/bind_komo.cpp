@@ -136,7 +136,10 @@ void bindObjectives(nb::class_<PyKomo>& komo) {
   komo.def("addObjective", addObjective, "times"_a, "feature"_a, "frames"_a, "type"_a, "scale"_a = nb::none(), "target"_a = nb::none(),
            "order"_a = -1, doc)
       .def("addObjective", addObjective, "time"_a = nb::none(), "feature"_a, "frames"_a = std::vector<std::string>(), "type"_a,
-           "scale"_a = nb::none(), "target"_a = nb::none(), "order"_a = -1, doc)
+           "scale"_a = nb::none(), "target"_a = nb::none(), "order"_a = -1,
+           nb::sig("def addObjective(self, *, time: numpy.typing.ArrayLike | None = None, feature: FS, frames: typing.Sequence[str] | str = [], "
+                   "type: OT, scale: numpy.typing.ArrayLike | None = None, target: numpy.typing.ArrayLike | None = None, order: int = -1) -> None"),
+           doc)
       .def("addControlObjective", addControl, "times"_a, "order"_a, "scale"_a = 1., "target"_a = nb::none(), "deltaFromSlice"_a = 0,
            "deltaToSlice"_a = 0, "Sum of squares of the order-th derivative of all dofs; order 0: of the distance from home.")
       .def("add_qControlObjective", addControl, "times"_a = nb::none(), "order"_a = 2, "scale"_a = 1., "target"_a = nb::none(),

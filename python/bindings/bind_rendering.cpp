@@ -15,24 +15,27 @@ namespace {
 
 constexpr int kNoFrame = 0xffffff;  // in segmentation images
 
+/// An array of whatever numbers an image is made of.
+using AnyArray = nb::typed<nb::object, nb::any>;
+
 /// A numpy array that owns these values.
 template <class T>
-nb::object toImage(std::vector<T> values, std::initializer_list<std::size_t> shape) {
+AnyArray toImage(std::vector<T> values, std::initializer_list<std::size_t> shape) {
   auto kept = std::make_unique<std::vector<T>>(std::move(values));
   T* data = kept->data();
   const nb::capsule owner(kept.release(), [](void* p) noexcept { delete static_cast<std::vector<T>*>(p); });
   return nb::cast(nb::ndarray<nb::numpy, T>(data, shape, owner));
 }
 
-nb::object rgbOf(CameraImage& image) {
+AnyArray rgbOf(CameraImage& image) {
   return toImage(std::move(image.rgb), {std::size_t(image.height), std::size_t(image.width), 3});
 }
 
-nb::object depthOf(CameraImage& image) {
+AnyArray depthOf(CameraImage& image) {
   return toImage(std::move(image.depth), {std::size_t(image.height), std::size_t(image.width)});
 }
 
-nb::object fxycxyOf(const Camera& camera) { return toNumpy(VectorXd(camera.fxycxy())); }
+Array fxycxyOf(const Camera& camera) { return toNumpy(VectorXd(camera.fxycxy())); }
 
 /// What Python calls a CameraView: the cameras of one configuration.
 struct PyCameraView {
@@ -65,7 +68,7 @@ DepthNoise depthNoise() {
   return noise;
 }
 
-nb::object computeImageAndDepth(PyCameraView& view, nb::handle config, bool noisy, bool visuals_only) {
+nb::typed<nb::tuple, nb::any, nb::any> computeImageAndDepth(PyCameraView& view, nb::handle config, bool noisy, bool visuals_only) {
   SceneTree& scene = sceneOf(view, config);
   const Camera camera = view.camera.now();
   const DepthNoise noise = noisy ? depthNoise() : DepthNoise{};
@@ -85,13 +88,13 @@ std::vector<std::int32_t> segment(PyCameraView& view, const Camera& camera, bool
   return view.renderer.segment(scene, camera, visuals_only);
 }
 
-nb::object segmentationIds(PyCameraView& view, bool visuals_only) {
+AnyArray segmentationIds(PyCameraView& view, bool visuals_only) {
   const Camera camera = view.camera.now();
   return toImage(segment(view, camera, visuals_only), {std::size_t(camera.height), std::size_t(camera.width)});
 }
 
 /// The first six bits of an id give the two top bits of r, g and b, so that near ids look different; the next 18 the rest.
-nb::object segmentationImage(PyCameraView& view, bool visuals_only) {
+AnyArray segmentationImage(PyCameraView& view, bool visuals_only) {
   const Camera camera = view.camera.now();
   std::vector<std::uint8_t> colors;
   for (const std::int32_t frame : segment(view, camera, visuals_only)) {
@@ -106,7 +109,7 @@ nb::object segmentationImage(PyCameraView& view, bool visuals_only) {
 
 using DepthArray = nb::ndarray<const float, nb::ndim<2>, nb::c_contig, nb::device::cpu>;
 
-nb::object depthImage2PointCloud(const DepthArray& depth, const Numbers& fxycxy) {
+AnyArray depthImage2PointCloud(const DepthArray& depth, const Numbers& fxycxy) {
   if (fxycxy.values.size() != 4) throw ValueError(cat("depthImage2PointCloud: fxycxy has ", fxycxy.values.size(), " numbers; expected 4"));
   const std::size_t height = depth.shape(0), width = depth.shape(1);
   return toImage(depthToPoints(depth.data(), int(height), int(width), Vector4d(fxycxy.values)), {height, width, 3});

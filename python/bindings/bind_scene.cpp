@@ -9,6 +9,7 @@
 #include "kinegraph/base/text.h"
 #include "kinegraph/geometry/shape_types.h"
 #include "kinegraph/scene/reader.h"
+#include "kinegraph/scene/scene_bytes.h"
 #include "scene_values.h"
 
 namespace kinegraph::python {
@@ -33,14 +34,11 @@ Result withWarnings(PyConfig& config, Result result) {
   return result;
 }
 
-nb::object getFrame(const PyConfig& config, const std::string& name, bool warn) {
-  const std::optional<Frame> frame = config.findFrame(name);
-  if (frame) return nb::cast(*frame);
-  if (!warn) return nb::none();
-  return nb::cast(config.getFrame(name));  // throws, with similar names
+std::optional<Frame> getFrame(const PyConfig& config, const std::string& name, bool warn) {
+  return warn ? config.getFrame(name) : config.findFrame(name);
 }
 
-nb::dict checkFile(nb::handle file) {
+nb::typed<nb::dict, nb::str, nb::any> checkFile(nb::handle file) {
   const SceneCheck check = checkSceneFile(pathText(file));
   nb::dict result;
   result["messages"] = check.messages;
@@ -58,7 +56,7 @@ struct Contact {
   std::pair<std::string, std::string> frames;
 };
 
-nb::object pairList(const PyConfig& config) {
+nb::typed<nb::list, nb::str> pairList(const PyConfig& config) {
   nb::list names;
   for (const auto& [a, b] : config.getCollidablePairs()) {
     names.append(config.getFrame(a).getName());
@@ -67,7 +65,7 @@ nb::object pairList(const PyConfig& config) {
   return names;
 }
 
-nb::list collisions(const PyConfig& config, double margin) {
+nb::typed<nb::list, nb::typed<nb::tuple, nb::str, nb::str, nb::float_>> collisions(const PyConfig& config, double margin) {
   nb::list near;
   for (const Config::NearPair& pair : config.getCollisions(margin)) {
     near.append(nb::make_tuple(config.getFrame(pair.a).getName(), config.getFrame(pair.b).getName(), pair.distance));
@@ -124,9 +122,19 @@ void bindScene(nb::module_& m) {
   config.def(nb::init<>(), "An empty configuration.")
       .def("__copy__", [](const PyConfig& c) { return PyConfig{Config(c), nullptr}; })
       .def("__deepcopy__", [](const PyConfig& c, nb::object) { return PyConfig{Config(c), nullptr}; }, "memo"_a)
+      .def("__getstate__",
+           [](const PyConfig& c) {
+             const std::string bytes = sceneToBytes(*c.scene());
+             return nb::bytes(bytes.data(), bytes.size());
+           })
+      .def("__setstate__",
+           [](PyConfig& c, const nb::bytes& bytes) {
+             new (&c) PyConfig{Config(sceneFromBytes({bytes.c_str(), bytes.size()})), nullptr};
+           })
       .def("__len__", &PyConfig::getFrameDimension)
-      .def("__iter__", [](const PyConfig& c) { return nb::iter(nb::cast(c.getFrames())); })
+      .def("__iter__", [](const PyConfig& c) { return nb::typed<nb::iterator, Frame>(nb::iter(nb::cast(c.getFrames()))); })
       .def("__contains__", [](const PyConfig& c, const std::string& name) { return c.findFrame(name).has_value(); }, "name"_a)
+      .def("__contains__", [](const PyConfig& c, const Frame& frame) { return frame.scene() == c.scene(); }, "frame"_a)
       .def("__repr__", [](const PyConfig& c) {
         return cat("<Config: ", c.getFrameDimension(), " frames, ", c.getJointDimension(), " dofs>");
       })
@@ -160,6 +168,7 @@ void bindScene(nb::module_& m) {
            "frame1"_a, "frame2"_a, "Cuts the link of frame2 off and attaches it, where it is, rigidly below frame1.")
 
       .def("getFrame", getFrame, "frameName"_a, "warnIfNotExist"_a = true,
+           nb::sig("def getFrame(self, frameName: str, warnIfNotExist: bool = True) -> Frame"),  // None only where a script asks for it
            "The first frame of that name. Unknown: FrameNotFound, or None with warnIfNotExist=False.")
       .def("frame", frameOf, "frame"_a, "The frame of that name or id.")
       .def("__getitem__", frameOf, "frame"_a, "The frame of that name or id.")
@@ -207,6 +216,7 @@ void bindScene(nb::module_& m) {
       .def("report", &PyConfig::report, "A line about the configuration.");
 
   bindFrame(m, frame);
+  bindStructure(config);
   bindFeatures(m, config);
   bindBatch(config);
   bindDynamics(config);

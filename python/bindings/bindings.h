@@ -26,6 +26,8 @@ struct PyConfig : Config {
 void bindErrors(nb::module_& m);
 void bindScene(nb::module_& m);
 void bindFrame(nb::module_& m, nb::class_<Frame>& frame);
+void bindShapes(nb::class_<Frame>& frame);
+void bindStructure(nb::class_<PyConfig>& config);
 void bindFeatures(nb::module_& m, nb::class_<PyConfig>& config);
 void bindOwnFeatures(nb::module_& m);
 void bindBatch(nb::class_<PyConfig>& config);

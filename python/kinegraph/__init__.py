@@ -26,21 +26,22 @@ from ._core import (
     Feature,
     Frame,
     FrameView,
-    MotionContact,
     IkOptions,
     IkResult,
     IkResults,
     IkStatus,
+    MotionContact,
     NLP_Factory,
     NLP_Solver,
     NLP_SolverOptions,
     OptMethod,
     SolverReturn,
-    __version__,
     checkFile,
     depthImage2PointCloud,
     solveIk,
 )
+from ._core import __version__ as __version__
+from .aruco import getArucoImage
 from .errors import (
     ArgumentError,
     Error,
@@ -71,7 +72,7 @@ _model_paths.announce()
 
 def version() -> str:
     """The version of this package."""
-    return __version__
+    return str(__version__)
 
 
 def compiled() -> str:
@@ -79,8 +80,58 @@ def compiled() -> str:
     return f"kinegraph {__version__}"
 
 
+# Written out, so that type checkers know what is exported.
 __all__ = [
-    name
-    for name in dir()
-    if not name.startswith("_") and name not in ("model_paths", "errors", "parameters", "interactive", "progress")
+    "FS",
+    "JT",
+    "KOMO",
+    "NLP",
+    "OT",
+    "ST",
+    "SY",
+    "ArgumentError",
+    "CameraView",
+    "CameraViewSensor",
+    "Config",
+    "ConfigurationViewer",
+    "Error",
+    "Feature",
+    "FileError",
+    "Frame",
+    "FrameDeleted",
+    "FrameNotFound",
+    "FrameView",
+    "IkOptions",
+    "IkResult",
+    "IkResults",
+    "IkStatus",
+    "KinegraphWarning",
+    "MotionContact",
+    "NLP_Factory",
+    "NLP_Solver",
+    "NLP_SolverOptions",
+    "NotFound",
+    "OptMethod",
+    "ParseError",
+    "SolverReturn",
+    "checkFile",
+    "clear_params",
+    "compiled",
+    "depthImage2PointCloud",
+    "getArucoImage",
+    "get_params",
+    "interactiveIk",
+    "params_add",
+    "params_clear",
+    "params_file",
+    "params_get",
+    "params_print",
+    "raiPath",
+    "rnd_seed",
+    "rnd_seed_random",
+    "setRaiPath",
+    "set_params",
+    "solveIk",
+    "test",
+    "version",
 ]

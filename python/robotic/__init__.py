@@ -2,9 +2,12 @@
 
 import sys as _sys
 
-import kinegraph as ry
+import kinegraph
 from kinegraph import *  # noqa: F403
-from kinegraph import __version__, test
+from kinegraph import __version__ as __version__
+from kinegraph import test as test
+
+ry = kinegraph
 
 _sys.modules[__name__ + ".ry"] = ry
 _sys.modules[__name__ + ".test"] = test

@@ -141,7 +141,7 @@ inline Config randomScene(Rng& rng, bool only_one_dof = false) {
     for (const char* key : {"label", "logical", "free 1"}) {
       if (pick(rng, 3) != 0) continue;
       Value value = randomValue(rng, std::string(key) == "free 1" ? 0 : 2);
-      frame.attributes().nodes.push_back({key, {}, {}, std::move(value), {}});
+      frame.editAttributes().nodes.push_back({key, {}, {}, std::move(value), {}});
     }
   }
   config.scene()->structureChanged();

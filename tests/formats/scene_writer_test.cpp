@@ -52,7 +52,7 @@ void expectSameJoint(const Joint& a, const Joint& b) {
 /// The attributes that the library does not interpret.
 Graph freeAttributes(const FrameData& frame) {
   Graph free;
-  for (const Node& node : frame.attributes.nodes) {
+  for (const Node& node : frame.attributes->nodes) {
     if (node.key == "label" || node.key == "logical" || node.key == "free 1") free.nodes.push_back(node);
   }
   return free;

@@ -109,7 +109,7 @@ class FrameDescription {
 
   /// The path as the scene gave it if that is independent of the scene's own place, else the absolute path.
   AngleText fileReference(const char* key, const std::string& path) const {
-    const Node* node = frame_.attributes.find(key);
+    const Node* node = frame_.attributes->find(key);
     const AngleText* given = node ? node->value.as<AngleText>() : nullptr;
     const bool portable = given && given->text.starts_with("package://") && resolvePath(given->text, "") == path;
     return portable ? *given : AngleText{path};
@@ -190,7 +190,7 @@ class FrameDescription {
                                                       "visual_pose",
                                                       "parent"};
     static const std::set<std::string> mesh_sources = {"mesh_decomp", "mesh_points", "mesh_rope"};
-    for (const Node& node : frame_.attributes.nodes) {
+    for (const Node& node : frame_.attributes->nodes) {
       const bool unresolved = node.key == "visual_mesh" && frame_.shape && frame_.shape->visual_mesh.empty();
       if (node.key.starts_with("%") || (interpreted.contains(node.key) && !unresolved)) continue;
       if (mesh_sources.contains(node.key) && frame_.shape && frame_.shape->geometry->mesh) continue;

@@ -236,7 +236,7 @@ class UrdfWriter {
     } else if (element.type == "revolute") {
       element.type = "continuous";
     }
-    if (const Node* node = frame.attributes.find("ctrl_limits")) {
+    if (const Node* node = frame.attributes->find("ctrl_limits")) {
       const NumberArray* limits = node->value.as<NumberArray>();
       if (limits && limits->numbers.size() >= 2) {
         element.velocity = limits->numbers[0];

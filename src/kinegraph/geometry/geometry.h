@@ -36,6 +36,14 @@ struct Mesh {
   std::vector<Vector3d> vertices;
   std::vector<std::array<std::uint32_t, 3>> triangles;
   std::vector<std::array<std::uint8_t, 4>> colors;  ///< rgba: one per vertex, one in all, or none
+  std::vector<std::uint32_t> parts = {};            ///< the first vertex of each convex part, ascending; empty: not divided
+};
+
+/// Numbers on a regular grid whose corners are those of a box centred at the origin; the last index runs fastest.
+struct Grid {
+  std::array<int, 3> cells = {0, 0, 0};  ///< values per axis, at least 2
+  std::vector<float> values;
+  float at(int i, int j, int k) const { return values[(std::size_t(i) * cells[1] + j) * cells[2] + k]; }
 };
 
 /// A shape without pose, colour or owner: type, size, and mesh or core points where the type needs them.
@@ -50,6 +58,7 @@ struct Geometry {
   std::shared_ptr<const Mesh> mesh;  ///< mesh, pointCloud, lines; core points of ssCvx (its vertices)
   std::string mesh_file = {};              ///< path of the file that `mesh` was read from, or empty
   Vector3d mesh_scale = Vector3d::Ones();  ///< by which its points were multiplied
+  std::shared_ptr<const Grid> grid = {};   ///< of tensor and sdf, if their values are known
 };
 
 }  // namespace kinegraph

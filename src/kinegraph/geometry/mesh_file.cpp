@@ -82,6 +82,15 @@ Mesh readH5Mesh(const std::string& path, const std::string& group) {
     }
     if (mesh.colors.size() != 1 && mesh.colors.size() != mesh.vertices.size()) mesh.colors.clear();
   }
+  if (file.contains(cat(group, "/parts"))) {
+    for (double part : file.dataset(cat(group, "/parts")).numbers) {
+      if (!(part >= 0. && part <= double(mesh.vertices.size()))) {
+        throw FileError(cat("mesh file '", path, "': a convex part begins at vertex ", part, " of ", mesh.vertices.size()));
+      }
+      mesh.parts.push_back(std::uint32_t(part));
+    }
+    std::sort(mesh.parts.begin(), mesh.parts.end());
+  }
   return mesh;
 }
 

@@ -12,8 +12,8 @@ namespace kinegraph {
 /// coordinates that are not finite.
 Mesh readMeshFile(const std::string& path);
 
-/// A group of an HDF5 file: `vertices` (n x 3), and `faces` (m x 3) and `colors` (n x 3 or n x 4, 0..255) if it has them.
-/// Throws FileError.
+/// A group of an HDF5 file: `vertices` (n x 3), and `faces` (m x 3), `colors` (n x 3 or n x 4, 0..255) and
+/// `parts` (where its convex parts begin) if it has them. Throws FileError.
 Mesh readH5Mesh(const std::string& path, const std::string& group);
 
 }  // namespace kinegraph

@@ -96,8 +96,7 @@ std::string AttributeReader::givenPath(const Node& node) {
 std::string AttributeReader::path(const Node& node) {
   const std::string given = givenPath(node), absolute = resolvePath(given, folder_);
   if (!absolute.empty()) return absolute;
-  throw FileError(
-      cat("'", given, "' is in none of the folders of KINEGRAPH_PACKAGE_PATH, ROS_PACKAGE_PATH and AMENT_PREFIX_PATH"));
+  throw FileError(missingPackageMessage(given));
 }
 
 std::optional<Pose> AttributeReader::readPose(std::initializer_list<const char*> keys) {

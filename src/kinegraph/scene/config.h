@@ -20,6 +20,7 @@ class Config {
   Config() : scene_(std::make_shared<SceneTree>()) {}
   Config(const Config& other);
   explicit Config(const SceneTree& scene);  ///< a deep copy
+  explicit Config(std::shared_ptr<SceneTree> scene) : scene_(std::move(scene)) {}
   Config& operator=(const Config& other);
   Config(Config&&) = default;
   Config& operator=(Config&&) = default;

@@ -18,6 +18,10 @@ FrameData& Frame::data() const {
 }
 
 Frame& Frame::setName(std::string name) {
+  const FrameData* taken = name.empty() ? nullptr : scene_->find(name);
+  if (taken && taken != &data()) {
+    throw ValueError(cat("frame '", data().name, "' cannot be renamed to '", name, "', which is the name of another frame"));
+  }
   data().name = std::move(name);
   scene_->structureChanged();
   return *this;
@@ -116,6 +120,12 @@ Shape& Frame::editableShape() {
   return *frame.shape;
 }
 
+Frame& Frame::setGeometry(Geometry geometry) {
+  editableShape().geometry = std::make_shared<Geometry>(std::move(geometry));
+  scene_->structureChanged();
+  return *this;
+}
+
 Frame& Frame::setShape(ShapeType type, const std::vector<double>& size) {
   if (type == ShapeType::none) throw ValueError(cat("frame '", getName(), "': setShape needs a shape type, not none"));
   Geometry geometry;
@@ -127,18 +137,14 @@ Frame& Frame::setShape(ShapeType type, const std::vector<double>& size) {
   }
   const bool has_points = data().shape && data().shape->geometry->mesh;
   if (has_points && (type == ShapeType::ssCvx || type == ShapeType::mesh)) geometry.mesh = data().shape->geometry->mesh;
-  editableShape().geometry = std::make_shared<Geometry>(std::move(geometry));
-  scene_->structureChanged();
-  return *this;
+  return setGeometry(std::move(geometry));
 }
 
 Frame& Frame::setMesh(Mesh mesh) {
   Geometry geometry;
   geometry.type = mesh.triangles.empty() ? ShapeType::pointCloud : ShapeType::mesh;
   geometry.mesh = std::make_shared<Mesh>(std::move(mesh));
-  editableShape().geometry = std::make_shared<Geometry>(std::move(geometry));
-  scene_->structureChanged();
-  return *this;
+  return setGeometry(std::move(geometry));
 }
 
 Frame& Frame::setConvexCore(std::vector<Vector3d> points, double radius) {
@@ -148,9 +154,7 @@ Frame& Frame::setConvexCore(std::vector<Vector3d> points, double radius) {
   Mesh core;
   core.vertices = std::move(points);
   geometry.mesh = std::make_shared<Mesh>(std::move(core));
-  editableShape().geometry = std::make_shared<Geometry>(std::move(geometry));
-  scene_->structureChanged();
-  return *this;
+  return setGeometry(std::move(geometry));
 }
 
 Frame& Frame::setColor(const std::vector<double>& c) {
@@ -189,6 +193,9 @@ Frame& Frame::setJoint(JointType type, const std::vector<double>& limits, const 
   FrameData& frame = data();
   const Pose relative = frame.relativePose();
   if (type == JointType::none) {
+    if (!limits.empty() || !axis.empty() || mimic) {
+      throw ValueError(cat("frame '", frame.name, "': JT.none removes the joint and takes no limits, axis or mimic"));
+    }
     frame.joint.reset();
     frame.pose = relative;
     scene_->structureChanged();

@@ -18,7 +18,7 @@ class Frame {
 
   int id() const { return data().id; }  ///< place in the list of frames
   const std::string& getName() const { return data().name; }
-  Frame& setName(std::string name);
+  Frame& setName(std::string name);  ///< throws ValueError for the name of another frame
   bool operator==(const Frame& other) const { return data_ == other.data_; }
 
   std::optional<Frame> getParent() const;
@@ -49,6 +49,7 @@ class Frame {
 
   /// Gives the frame a shape, or changes its type and size. `size` as in Geometry, or in the counts of older files.
   Frame& setShape(ShapeType type, const std::vector<double>& size);
+  Frame& setGeometry(Geometry geometry);                           ///< keeps color and contact flag
   Frame& setMesh(Mesh mesh);                                       ///< triangles; points only where there are none
   Frame& setConvexCore(std::vector<Vector3d> points, double radius);  ///< ssCvx: convex hull of the points swept by a ball
   Frame& setColor(const std::vector<double>& color);               ///< 1 grey, 2 grey alpha, 3 rgb, 4 rgba, in 0..1
@@ -69,7 +70,8 @@ class Frame {
   double getMass() const;
   std::optional<Inertia> getInertia() const { return data().inertia; }
 
-  Graph& attributes() const { return data().attributes; }
+  const Graph& attributes() const { return *data().attributes; }
+  Graph& editAttributes() const { return data().attributes.edit(); }
 
   FrameData& data() const;  ///< throws FrameDeleted
   const std::shared_ptr<SceneTree>& scene() const { return scene_; }

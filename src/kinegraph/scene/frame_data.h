@@ -62,6 +62,24 @@ struct Inertia {
   Matrix3d matrix = Matrix3d::Zero();        ///< kg m^2, about the centre of mass, in the frame's axes
 };
 
+/// Attributes as read. Copies share them until one of them is edited, so that scenes are cheap to copy.
+class SharedGraph {
+ public:
+  const Graph& operator*() const { return *graph_; }
+  const Graph* operator->() const { return graph_.get(); }
+  Graph& edit() {
+    if (graph_.use_count() > 1) graph_ = std::make_shared<Graph>(*graph_);
+    return *graph_;
+  }
+
+ private:
+  static const std::shared_ptr<Graph>& none() {
+    static const auto empty = std::make_shared<Graph>();  // never edited: everyone shares it
+    return empty;
+  }
+  std::shared_ptr<Graph> graph_ = none();
+};
+
 /// One frame of a scene. Owned by its SceneTree; everything outside of scene/ uses the handle `Frame`.
 struct FrameData {
   std::string name;
@@ -73,7 +91,7 @@ struct FrameData {
   std::optional<Joint> joint;
   std::shared_ptr<Shape> shape;    ///< may be shared between frames
   std::optional<Inertia> inertia;
-  Graph attributes;                ///< as read, interpreted ones included
+  SharedGraph attributes;          ///< as read, interpreted ones included
 
   bool moves() const { return joint && joint->dofs() > 0; }
   Pose relativePose() const;       ///< `pose`, or what the joint's dofs make

@@ -54,7 +54,7 @@ void SceneBuilder::build(SceneSource& source) {
 
 void SceneBuilder::interpretExisting(FrameData& frame, const SourceFrame& source) {
   for (const auto& other : scene_.frames()) index(*other);
-  frame.attributes = attributes(source);
+  frame.attributes.edit() = attributes(source);
   interpret(frame, source);
   resolveMimicShape(frame, source);
   resolveMimic(frame, source);
@@ -68,10 +68,13 @@ void SceneBuilder::addFrame(SourceFrame& source) {
   for (const std::string& tag : source.node.tags) {
     Node flag;
     flag.key = "%" + tag;
-    frame.attributes.nodes.push_back(flag);
+    frame.attributes.edit().nodes.push_back(flag);
   }
   const Graph& given = attributes(source);
-  frame.attributes.nodes.insert(frame.attributes.nodes.end(), given.nodes.begin(), given.nodes.end());
+  if (!given.nodes.empty()) {
+    std::vector<Node>& nodes = frame.attributes.edit().nodes;
+    nodes.insert(nodes.end(), given.nodes.begin(), given.nodes.end());
+  }
   frames_.push_back(&frame);
   if (source.node.parents.size() > 2) {
     diagnostics_.error(source.node.where, cat("frame '", name, "' has ", source.node.parents.size(),

@@ -110,8 +110,7 @@ class SourceReader {
     if (!file) return {};
     const std::string path = resolvePath(*file, folder);
     if (!path.empty()) return readFile(path, node.value.where);
-    diagnostics_.error(node.value.where,
-                       cat("'", *file, "' is in none of the folders of KINEGRAPH_PACKAGE_PATH and ROS_PACKAGE_PATH"));
+    diagnostics_.error(node.value.where, missingPackageMessage(*file));
     return {};
   }
 

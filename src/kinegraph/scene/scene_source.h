@@ -35,6 +35,9 @@ std::vector<std::string> sourceFiles(const std::string& path);
 /// KINEGRAPH_PACKAGE_PATH, ROS_PACKAGE_PATH and AMENT_PREFIX_PATH; empty if it is in none.
 std::string resolvePath(const std::string& path, const std::string& folder);
 
+/// Why resolvePath found no place for a path in a package, and what helps.
+std::string missingPackageMessage(const std::string& path);
+
 /// "; similar names: ..." of the files beside a missing one, or that its folder does not exist.
 std::string similarFilesHint(const std::string& path);
 

@@ -83,6 +83,17 @@ void SceneTree::link(FrameData& frame, FrameData& parent) {
   structureChanged();
 }
 
+void SceneTree::sortByDepth() {
+  const auto depth = [](const std::shared_ptr<FrameData>& frame) {
+    int steps = 0;
+    for (const FrameData* above = frame->parent; above; above = above->parent) ++steps;
+    return steps;
+  };
+  std::stable_sort(frames_.begin(), frames_.end(), [&](const auto& a, const auto& b) { return depth(a) < depth(b); });
+  for (std::size_t i = 0; i < frames_.size(); ++i) frames_[i]->id = int(i);
+  structureChanged();
+}
+
 void SceneTree::unlink(FrameData& frame) {
   std::erase(frame.parent->children, &frame);
   frame.parent = nullptr;
@@ -90,35 +101,35 @@ void SceneTree::unlink(FrameData& frame) {
 }
 
 FrameData* SceneTree::append(const SceneTree& other, const std::string& prefix, bool with_attributes) {
-  const std::vector<std::shared_ptr<FrameData>> originals = other.frames_;
-  std::unordered_map<const FrameData*, FrameData*> copies;
-  std::unordered_map<const Shape*, std::shared_ptr<Shape>> shapes;
-  for (const auto& original : originals) {
-    FrameData& copy = add(prefix + original->name, nullptr);
-    copy.pose = original->pose;
-    copy.joint = original->joint;
-    copy.inertia = original->inertia;
-    if (with_attributes) copy.attributes = original->attributes;
-    if (original->shape) {
-      std::shared_ptr<Shape>& shape = shapes[original->shape.get()];
-      if (!shape) {
-        shape = std::make_shared<Shape>(*original->shape);
-        looksChanged(*shape);
-      }
-      copy.shape = shape;
-    }
-    copies[original.get()] = &copy;
+  const std::size_t first = frames_.size(), count = other.frames_.size();
+  if (count == 0) return nullptr;
+  std::unordered_map<const Shape*, std::shared_ptr<Shape>> shared;
+  frames_.reserve(first + count);
+  for (std::size_t i = 0; i < count; ++i) {
+    const FrameData& original = *other.frames_[i];
+    FrameData& copy = add(prefix + original.name, nullptr);
+    copy.pose = original.pose;
+    copy.joint = original.joint;
+    copy.inertia = original.inertia;
+    if (with_attributes) copy.attributes = original.attributes;
+    if (!original.shape) continue;
+    if (original.shape.use_count() > 1) copy.shape = shared[original.shape.get()];
+    if (copy.shape) continue;
+    copy.shape = std::make_shared<Shape>(*original.shape);
+    looksChanged(*copy.shape);
+    if (original.shape.use_count() > 1) shared[original.shape.get()] = copy.shape;
   }
-  for (const auto& original : originals) {
-    FrameData& copy = *copies[original.get()];
-    if (original->parent) {
-      copy.parent = copies[original->parent];
-    }
-    for (const FrameData* child : original->children) copy.children.push_back(copies[child]);
-    if (copy.joint && copy.joint->mimic) copy.joint->mimic = copies[original->joint->mimic];
+  const auto copyOf = [&](const FrameData* original) { return frames_[first + original->id].get(); };
+  for (std::size_t i = 0; i < count; ++i) {
+    const FrameData& original = *other.frames_[i];
+    FrameData& copy = *frames_[first + i];
+    if (original.parent) copy.parent = copyOf(original.parent);
+    copy.children.reserve(original.children.size());
+    for (const FrameData* child : original.children) copy.children.push_back(copyOf(child));
+    if (copy.joint && copy.joint->mimic) copy.joint->mimic = copyOf(original.joint->mimic);
   }
   structureChanged();
-  return originals.empty() ? nullptr : copies[originals.front().get()];
+  return frames_[first].get();
 }
 
 /// Takes over what edits change that keep the structure.

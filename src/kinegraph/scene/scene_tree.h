@@ -41,6 +41,9 @@ class SceneTree {
   /// Links `frame` below `parent` keeping its relative pose. Throws ValueError if that closes a loop.
   void link(FrameData& frame, FrameData& parent);
 
+  /// Brings the frames into the order roots first, then by depth; those of one depth keep theirs. Ids follow.
+  void sortByDepth();
+
   /// Cuts `frame` from its parent; the pose is left as it is.
   void unlink(FrameData& frame);
 

@@ -1,0 +1,36 @@
+"""What a notebook shows of a Config: a table of its frames."""
+
+from __future__ import annotations
+
+from html import escape
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from . import Config, Frame
+
+_SHOWN = 20  # rows; the rest is counted
+
+
+def _row(frame: Frame) -> str:
+    parent = frame.getParent()
+    joint, shape = frame.getJointType(), frame.getShapeType()
+    cells = [
+        frame.name,
+        parent.name if parent else "",
+        "" if joint == 0 else joint.name,
+        "" if shape == -1 else shape.name,
+        " ".join(f"{x:.3g}" for x in frame.getPosition()),
+    ]
+    return "<tr>" + "".join(f"<td>{escape(cell)}</td>" for cell in cells) + "</tr>"
+
+
+def sceneHtml(config: Config) -> str:
+    """A summary line and a table with the first frames: name, parent, joint, shape, world position in m."""
+    frames = config.getFrames()
+    summary = f"Config: {len(frames)} frames, {config.getJointDimension()} dofs"
+    if not frames:
+        return f"<p>{summary}</p>"
+    head = "".join(f"<th>{title}</th>" for title in ("frame", "parent", "joint", "shape", "position"))
+    rows = "".join(_row(frame) for frame in frames[:_SHOWN])
+    more = f"<p>and {len(frames) - _SHOWN} more</p>" if len(frames) > _SHOWN else ""
+    return f"<p>{summary}</p><table><thead><tr>{head}</tr></thead><tbody>{rows}</tbody></table>{more}"
