@@ -73,6 +73,7 @@ struct FrameData {
   std::optional<Joint> joint;
   std::shared_ptr<Shape> shape;    ///< may be shared between frames
   std::optional<Inertia> inertia;
+  std::vector<FrameData*> no_contact;  ///< frames whose shapes never collide with this one's: `contact_exclude`
   Graph attributes;                ///< as read, interpreted ones included
 
   bool moves() const { return joint && joint->dofs() > 0; }

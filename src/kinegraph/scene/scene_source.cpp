@@ -64,6 +64,10 @@ class SourceReader {
     diagnostics_.addText(name, text);
     const SceneFormat* format = sceneFormatOf(name);
     ParseResult parsed = format ? format->read(text, name, folder) : parseAll(text, name);
+    for (SourceText& included : parsed.included) {
+      files.push_back(included.file);
+      diagnostics_.addText(included.file, std::move(included.text));
+    }
     for (Diagnostic& diagnostic : parsed.diagnostics) diagnostics_.add(std::move(diagnostic));
     std::vector<SourceFrame> frames;
     std::vector<Node> edits;
@@ -166,7 +170,7 @@ class SourceReader {
       frame.node.key = prefix + frame.node.key;
       frame.prefix = prefix + frame.prefix;
       for (std::string& parent : frame.node.parents) rename(parent);
-      for (const char* key : {"mimic", "mimic_shape", "parent"}) {
+      for (const char* key : {"mimic", "mimic_shape", "contact_exclude", "parent"}) {
         Node* reference = std::get_if<Graph>(&frame.node.value.data)->find(key);
         if (!reference) continue;
         if (auto* text = std::get_if<std::string>(&reference->value.data)) rename(*text);
