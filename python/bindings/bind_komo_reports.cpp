@@ -11,8 +11,8 @@
 #include "kinegraph/base/errors.h"
 #include "kinegraph/base/text.h"
 #include "kinegraph/komo/report.h"
-#include "kinegraph/viewer/config_viewer.h"
 #include "py_komo.h"
+#include "py_viewer.h"
 
 namespace kinegraph::python {
 
@@ -79,8 +79,9 @@ std::vector<std::string> objectiveTags(const PyKomo& komo) {
 }
 
 int show(PyKomo& komo, const Config& config, bool pause, const std::string& text) {
-  if (!komo.viewer) komo.viewer = std::make_shared<ConfigViewer>();
-  const std::shared_ptr<ConfigViewer> viewer = komo.viewer;
+  if (!komo.viewer) komo.viewer = std::make_shared<PyViewer>();
+  const std::shared_ptr<PyViewer> viewer = komo.viewer;
+  viewer->scene = config.scene();
   const nb::gil_scoped_release unlock;
   return viewer->view(config, pause, text, [] {
     checkInterrupt();
@@ -127,10 +128,10 @@ void bindKomoReports(nb::class_<PyKomo>& komo) {
            "Shows one slice after the other.")
       .def("view_close", [](PyKomo& k) { if (k.viewer) k.viewer->close(); }, "Ends the viewer.")
       .def("get_viewer", [](PyKomo& k) {
-             if (!k.viewer) k.viewer = std::make_shared<ConfigViewer>();
+             if (!k.viewer) k.viewer = std::make_shared<PyViewer>();
              return k.viewer;
            }, "The viewer of this problem.")
-      .def("set_viewer", [](PyKomo& k, std::shared_ptr<ConfigViewer> viewer) { k.viewer = std::move(viewer); }, "viewer"_a,
+      .def("set_viewer", [](PyKomo& k, std::shared_ptr<PyViewer> viewer) { k.viewer = std::move(viewer); }, "viewer"_a,
            "Shows this problem in another one's viewer.");
 }
 

@@ -9,18 +9,16 @@
 #include "arrays.h"
 #include "kinegraph/scene/config.h"
 
-namespace kinegraph {
-class ConfigViewer;
-}
-
 namespace kinegraph::python {
 
 namespace nb = nanobind;
 using namespace nb::literals;
 
+struct PyViewer;
+
 /// What Python calls a Config: the scene, and the viewer that `view()` opens at first use.
 struct PyConfig : Config {
-  std::shared_ptr<ConfigViewer> viewer;
+  std::shared_ptr<PyViewer> viewer;
 };
 
 void bindErrors(nb::module_& m);
@@ -32,6 +30,7 @@ void bindSolvers(nb::module_& m);
 void bindKomo(nb::module_& m);
 void bindDynamics(nb::class_<PyConfig>& config);
 void bindFormats(nb::module_& m, nb::class_<PyConfig>& config, nb::class_<Frame>& frame);
+void bindRendering(nb::module_& m);
 void bindViewer(nb::module_& m, nb::class_<PyConfig>& config);
 
 /// Passes on what was odd about a scene through Python's `warnings`.

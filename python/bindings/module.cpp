@@ -12,6 +12,7 @@ NB_MODULE(_core, m) {
   m.attr("__version__") = KINEGRAPH_VERSION;
   bindErrors(m);
   bindScene(m);
+  bindRendering(m);
   bindNlp(m);
   bindSolvers(m);
   bindKomo(m);

@@ -9,7 +9,7 @@ namespace kinegraph::python {
 
 /// What Python calls a KOMO: the motion problem, and the viewer that `view()` opens at first use.
 struct PyKomo : Komo {
-  std::shared_ptr<ConfigViewer> viewer;
+  std::shared_ptr<PyViewer> viewer;
 };
 
 /// What a KOMO says about itself, in words, numbers and pictures.

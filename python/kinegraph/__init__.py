@@ -19,6 +19,8 @@ from ._core import (
     OT,
     ST,
     SY,
+    CameraView,
+    CameraViewSensor,
     Config,
     ConfigurationViewer,
     Feature,
@@ -30,6 +32,7 @@ from ._core import (
     SolverReturn,
     __version__,
     checkFile,
+    depthImage2PointCloud,
 )
 from .errors import (
     ArgumentError,

@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 import argparse
+import re
 import sys
 
 from . import __version__
 from ._core import Config, checkFile
-from .errors import Error
+from .errors import ArgumentError, Error
 
 
 def _parser() -> argparse.ArgumentParser:
@@ -28,6 +29,12 @@ def _parser() -> argparse.ArgumentParser:
 
     view = commands.add_parser("view", help="shows a scene file, and again whenever it changes")
     view.add_argument("file")
+
+    render = commands.add_parser("render", help="a picture of a scene file; needs no display")
+    render.add_argument("file")
+    render.add_argument("-o", "--output", default="out.png", metavar="PNG", help="where to write it (default: out.png)")
+    render.add_argument("--camera", metavar="FRAME", help="a frame to look from (default: from outside)")
+    render.add_argument("--size", metavar="WIDTHxHEIGHT", help="pixels (default: as the camera says)")
 
     info = commands.add_parser("info", help="what a scene file contains")
     info.add_argument("file")
@@ -65,6 +72,22 @@ def _info(file: str) -> None:
         print(" ", frame)
 
 
+def _render(file: str, output: str, camera: str | None, size: str | None) -> None:
+    config = Config()
+    config.addFile(file)
+    viewer = config.viewer()
+    if camera:
+        viewer.setCamera(camera)
+    if size:
+        numbers = re.fullmatch(r"(\d{1,6})x(\d{1,6})", size)
+        if not numbers:
+            raise ArgumentError(f"--size is {size!r}; expected pixels as in 640x360")
+        viewer.setWindow("", int(numbers[1]), int(numbers[2]))
+    if not output.endswith(".png"):
+        raise ArgumentError(f"--output is {output!r}; expected a name that ends in .png")
+    print(viewer.savePng(output))
+
+
 def main(arguments: list[str] | None = None) -> int:
     """Runs the command. Returns its exit status: 0, 1 for a mistake in a file, 2 for one in the arguments."""
     options = _parser().parse_args(arguments)
@@ -76,6 +99,8 @@ def main(arguments: list[str] | None = None) -> int:
             return 0 if followTarget(seconds, options.rate, options.seed, not options.no_view).worst_error < 1e-3 else 1
         if options.command == "view":
             Config().watchFile(options.file)
+        if options.command == "render":
+            _render(options.file, options.output, options.camera, options.size)
         if options.command == "info":
             _info(options.file)
         if options.command == "check":

@@ -8,6 +8,7 @@
 #include "kinegraph/base/errors.h"
 #include "kinegraph/gfile/writer.h"
 #include "tests/formats/random_scene.h"
+#include "tests/support/temporary_folder.h"
 
 using namespace kinegraph;
 
@@ -154,20 +155,18 @@ TEST(WriteYaml, HasPointsInNumbersAndOneLinePerFrame) {
 }
 
 TEST(WriteScene, AMeshFromAFileStaysAFileUntilItsPointsChange) {
-  const std::filesystem::path file = std::filesystem::path(::testing::TempDir()) / "scene_writer_test.obj";
-  std::ofstream(file) << "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n";
-  Config config = scene("a: { mesh: <" + file.string() + ">, meshscale: 2 }");
-  EXPECT_NE(writeScene(config).find("mesh: <" + file.string() + ">, meshscale: [2 2 2]"), std::string::npos)
+  const TemporaryFolder folder;
+  const std::string file = folder.write("triangle.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
+  Config config = scene("a: { mesh: <" + file + ">, meshscale: 2 }");
+  EXPECT_NE(writeScene(config).find("mesh: <" + file + ">, meshscale: [2 2 2]"), std::string::npos)
       << writeScene(config);
   config.getFrame("a").setMesh({{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, {{0, 1, 2}}, {}});
   EXPECT_NE(writeScene(config).find("vertices: [0 0 0 1 0 0 0 1 0], triangles: [0 1 2]"), std::string::npos)
       << writeScene(config);
-  std::filesystem::remove(file);
 }
 
 TEST(SaveScene, TellsTheFormatByTheExtension) {
-  const std::filesystem::path folder = std::filesystem::path(::testing::TempDir()) / "save_scene_test";
-  std::filesystem::create_directories(folder);
+  const TemporaryFolder folder;
   const Config config = scene("a: { pose: [1 0 0] } j(a): { joint: hingeZ }");
   for (const auto& [name, start] :
        {std::pair("s.g", "a: { pose"), std::pair("s.yaml", "a: {pose: [1.0,"), std::pair("s.urdf", "<?xml")}) {
@@ -176,6 +175,5 @@ TEST(SaveScene, TellsTheFormatByTheExtension) {
     back.addFile((folder / name).string());
     EXPECT_LT((back.getFrame("j").getPose().p - Vector3d(1, 0, 0)).norm(), 1e-15) << name;
   }
-  EXPECT_THROW(saveScene(config, (folder / "missing" / "s.g").string()), FileError);
-  std::filesystem::remove_all(folder);
+  EXPECT_THROW(saveScene(config, (folder / "missing/s.g").string()), FileError);
 }

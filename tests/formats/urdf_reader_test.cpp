@@ -7,6 +7,7 @@
 #include <fstream>
 
 #include "kinegraph/scene/config.h"
+#include "tests/support/temporary_folder.h"
 
 using namespace kinegraph;
 
@@ -15,12 +16,6 @@ namespace {
 /// A scene read from a URDF text, through a file as users do it.
 class UrdfReader : public ::testing::Test {
  protected:
-  void SetUp() override {
-    folder_ = std::filesystem::path(::testing::TempDir()) / "urdf_reader_test";
-    std::filesystem::create_directories(folder_);
-  }
-  void TearDown() override { std::filesystem::remove_all(folder_); }
-
   Config load(const std::string& inside) {
     std::ofstream(folder_ / "r.urdf") << "<robot name='r'>\n" << inside << "\n</robot>";
     Config config;
@@ -33,7 +28,7 @@ class UrdfReader : public ::testing::Test {
     try {
       load(inside);
     } catch (const ParseError& error) {
-      const std::string message = error.what(), folder = folder_.string() + "/";
+      const std::string message = error.what(), folder = folder_.path().string() + "/";
       EXPECT_TRUE(message.starts_with(folder)) << message;
       return message.substr(folder.size());
     }
@@ -45,7 +40,7 @@ class UrdfReader : public ::testing::Test {
            "'><parent link='a'/><child link='b'/>" + more + "</joint>";
   }
 
-  std::filesystem::path folder_;
+  TemporaryFolder folder_;
 };
 
 void expectPosition(const Config& config, const char* frame, double x, double y, double z) {
@@ -178,9 +173,10 @@ TEST_F(UrdfReader, MeshesOfPackagesAreFoundAboveTheFile) {
   std::filesystem::create_directories(folder_ / "meshes");
   std::ofstream(folder_ / "meshes" / "t.obj") << "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n";
   std::ofstream(folder_ / "package.xml") << "<package><name>my_robot</name></package>";
-  for (const char* file :
-       {"meshes/t.obj", "package://my_robot/meshes/t.obj", "package://urdf_reader_test/meshes/t.obj"}) {
-    const Config config = load(std::string("<link name='a'><visual><geometry><mesh filename='") + file +
+  for (const std::string& file :
+       {std::string("meshes/t.obj"), std::string("package://my_robot/meshes/t.obj"),
+        "package://" + folder_.path().filename().string() + "/meshes/t.obj"}) {
+    const Config config = load("<link name='a'><visual><geometry><mesh filename='" + file +
                                "' scale='1 2 3'/></geometry></visual></link>");
     ASSERT_TRUE(config.getFrame("a_0").data().shape) << file;
     const Mesh& mesh = *config.getFrame("a_0").data().shape->geometry->mesh;

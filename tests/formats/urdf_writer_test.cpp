@@ -8,6 +8,7 @@
 #include "kinegraph/formats/urdf_reader.h"
 #include "kinegraph/gfile/writer.h"
 #include "tests/formats/random_scene.h"
+#include "tests/support/temporary_folder.h"
 
 using namespace kinegraph;
 
@@ -111,12 +112,11 @@ TEST(WriteUrdf, AJointOfSeveralDofsIsAChain) {
 }
 
 TEST(WriteUrdf, ShapesWithoutAnElementOfTheirOwnBecomeMeshFiles) {
-  const std::filesystem::path folder = std::filesystem::path(::testing::TempDir()) / "urdf_writer_test";
+  const TemporaryFolder folder;
   const Config config = scene("a: { shape: ssCvx, size: [.1], core: [0 0 0 1 0 0 0 1 0 0 0 1] }");
   std::vector<std::string> warnings;
   EXPECT_EQ(writeUrdf(config, {}, &warnings).find("<mesh"), std::string::npos);
   EXPECT_EQ(warnings.size(), 1u);
-  const Config back = fromUrdf(writeUrdf(config, {"r", folder.string()}));
+  const Config back = fromUrdf(writeUrdf(config, {"r", folder.path().string()}));
   EXPECT_EQ(back.getFrame("a_0").getShapeType(), ShapeType::mesh);
-  std::filesystem::remove_all(folder);
 }

@@ -9,6 +9,7 @@
 #include "kinegraph/base/errors.h"
 #include "kinegraph/base/random.h"
 #include "kinegraph/geometry/mesh_file.h"
+#include "tests/support/temporary_folder.h"
 
 using namespace kinegraph;
 
@@ -64,14 +65,14 @@ TEST(H5File, DamagedFilesAreRefusedOrReadButNeverWorse) {
   std::stringstream bytes;
   bytes << stream.rdbuf();
   const std::string good = bytes.str();
-  const std::string path = (std::filesystem::temp_directory_path() / "kinegraph_damaged.h5").string();
+  const TemporaryFolder folder;
   Rng rng(5);
   int refused = 0;
   for (int i = 0; i < 200; ++i) {
     std::string bad = good;
     for (int k = 0; k < 4; ++k) bad[std::size_t(rng.uniform(0, double(bad.size())))] = char(rng.bits());
     if (i % 4 == 0) bad.resize(std::size_t(rng.uniform(0, double(bad.size()))));
-    std::ofstream(path, std::ios::binary) << bad;
+    const std::string path = folder.write("damaged.h5", bad);
     try {
       readMeshFile(path);
     } catch (const FileError&) {
@@ -79,5 +80,4 @@ TEST(H5File, DamagedFilesAreRefusedOrReadButNeverWorse) {
     }
   }
   EXPECT_GT(refused, 50);
-  std::filesystem::remove(path);
 }

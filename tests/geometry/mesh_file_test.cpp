@@ -10,6 +10,7 @@
 
 #include "kinegraph/base/errors.h"
 #include "tests/support/mesh_laws.h"
+#include "tests/support/temporary_folder.h"
 
 using namespace kinegraph;
 using namespace kinegraph::testing;
@@ -21,20 +22,9 @@ constexpr double kFloat = 1e-6;  // mesh files store single precision
 /// A file in a folder of its own that goes away with the test.
 class MeshFile : public ::testing::Test {
  protected:
-  MeshFile() {
-    const auto* info = ::testing::UnitTest::GetInstance()->current_test_info();
-    folder_ = std::filesystem::path(::testing::TempDir()) / (std::string("kinegraph_mesh_") + info->name());
-    std::filesystem::create_directories(folder_);
-  }
-  ~MeshFile() override { std::filesystem::remove_all(folder_); }
+  std::string write(const std::string& name, const std::string& content) const { return folder_.write(name, content); }
 
-  std::string write(const std::string& name, const std::string& content) const {
-    const std::filesystem::path path = folder_ / name;
-    std::ofstream(path, std::ios::binary) << content;
-    return path.string();
-  }
-
-  std::filesystem::path folder_;
+  TemporaryFolder folder_;
 };
 
 /// A corner of a cube: four vertices, sides 1 2 3, volume 1.
@@ -96,7 +86,7 @@ TEST_F(MeshFile, VertexColorsOfAPlyFileAreKept) {
 
 TEST_F(MeshFile, AMissingFileAndAFolderAreRefusedByName) {
   EXPECT_NE(messageOf((folder_ / "nothing.stl").string()).find("nothing.stl"), std::string::npos);
-  EXPECT_NE(messageOf(folder_.string()), "");
+  EXPECT_NE(messageOf(folder_.path().string()), "");
 }
 
 TEST_F(MeshFile, EmptyFilesAreRefused) {

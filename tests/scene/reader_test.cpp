@@ -11,6 +11,7 @@
 #include "kinegraph/base/random.h"
 #include "kinegraph/geometry/shape_types.h"
 #include "kinegraph/scene/config.h"
+#include "tests/support/temporary_folder.h"
 
 using namespace kinegraph;
 
@@ -131,8 +132,8 @@ TEST(Reader, MimicScalesMultiplyTheScaleOfTheirSource) {
 }
 
 TEST(Reader, IncludesEditsAndPrefixesAreCarriedOut) {
-  const std::filesystem::path folder = std::filesystem::temp_directory_path() / "kinegraph_reader_test";
-  std::filesystem::create_directories(folder / "sub");
+  const TemporaryFolder folder;
+  std::filesystem::create_directory(folder / "sub");
   std::ofstream(folder / "sub" / "arm.g")
       << "base: {}\n link(base): { joint: hingeZ, q: .5 }\n tip(link): { mimic_shape: base }";
   std::ofstream(folder / "scene.g")
@@ -145,7 +146,6 @@ TEST(Reader, IncludesEditsAndPrefixesAreCarriedOut) {
   EXPECT_EQ(config.getFrame("x_l_link").getJointType(), JointType::hingeX);
   EXPECT_EQ(config.getFrame("x_r_base").getParent()->getName(), "x_world");
   EXPECT_EQ(config.getFrame("x_r_link").getParent()->getName(), "x_r_base");
-  std::filesystem::remove_all(folder);
 }
 
 TEST(Reader, ErrorsNameThePlaceTheFrameAndTheNearestWord) {
@@ -178,22 +178,6 @@ TEST(Reader, MisspeltAttributesAreWarnedOf) {
 
 namespace {
 
-/// A folder of scene files that disappears again.
-class SceneFolder {
- public:
-  explicit SceneFolder(const char* name) : path_(std::filesystem::temp_directory_path() / name) {
-    std::filesystem::create_directories(path_);
-  }
-  ~SceneFolder() { std::filesystem::remove_all(path_); }
-  std::string write(const std::string& name, const std::string& text) {
-    std::ofstream(path_ / name) << text;
-    return (path_ / name).string();
-  }
-
- private:
-  std::filesystem::path path_;
-};
-
 std::vector<std::string> warningsOf(const char* text) {
   Config config;
   config.addText(text, "s.g");
@@ -203,7 +187,7 @@ std::vector<std::string> warningsOf(const char* text) {
 }  // namespace
 
 TEST(Reader, MistakesOfAllFilesAreReportedTogether) {
-  SceneFolder folder("kinegraph_mistakes");
+  const TemporaryFolder folder;
   folder.write("part.g", "p: { x: 1.2.3 }\n q: { y: 0x1 }");
   const std::string path = folder.write("scene.g", "Include: <part.g>\na: { z: \"open }\n");
   try {
@@ -272,7 +256,7 @@ TEST(Reader, OdditiesAreWarnedOf) {
 }
 
 TEST(Reader, EditsReachTheFramesOfTheIncludingFileAndTheLastWins) {
-  SceneFolder folder("kinegraph_edits");
+  const TemporaryFolder folder;
   folder.write("edits.g", "Edit arm: { q: .5, limits: [-1 1] }");
   Config config;
   config.addFile(
@@ -329,7 +313,7 @@ marker { shape:marker size:[.3 0 0 0] }
 }
 
 TEST(Reader, IncludesThatFormALoopOrAreTooDeepAreErrors) {
-  SceneFolder folder("kinegraph_loops");
+  const TemporaryFolder folder;
   folder.write("a.g", "Include: <b.g>");
   const std::string loop = folder.write("b.g", "Include: <a.g>");
   EXPECT_THROW(Config().addFile(loop), ParseError);
@@ -340,7 +324,7 @@ TEST(Reader, IncludesThatFormALoopOrAreTooDeepAreErrors) {
 }
 
 TEST(Reader, SmallFilesCannotIncludeTheirWayToHugeScenes) {
-  SceneFolder folder("kinegraph_bomb");
+  const TemporaryFolder folder;
   std::string ten;
   for (int level = 0; level < 6; ++level) {
     folder.write("bomb" + std::to_string(level) + ".g", ten.empty() ? "a: {}" : ten);
@@ -356,7 +340,7 @@ TEST(Reader, SmallFilesCannotIncludeTheirWayToHugeScenes) {
 }
 
 TEST(Reader, LoadingTheSameNamesTwiceIsWarnedOf) {
-  SceneFolder folder("kinegraph_twice");
+  const TemporaryFolder folder;
   const std::string path = folder.write("scene.g", "a: {}\n b: {}\n {x}");
   Config config;
   config.addFile(path);
@@ -369,7 +353,7 @@ TEST(Reader, LoadingTheSameNamesTwiceIsWarnedOf) {
 }
 
 TEST(Reader, CheckReportsErrorsAndWarningsInOrder) {
-  SceneFolder folder("kinegraph_check");
+  const TemporaryFolder folder;
   const SceneCheck check = checkSceneFile(folder.write("scene.g", "a: { colour: [1] }\nb(c): {}\nd: { shape: bax }"));
   ASSERT_EQ(check.messages.size(), 3u);
   EXPECT_EQ(check.errors, 2);

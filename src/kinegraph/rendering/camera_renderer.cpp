@@ -1,5 +1,6 @@
 #include "kinegraph/rendering/camera_renderer.h"
 
+#include <algorithm>
 #include <cmath>
 #include <optional>
 
@@ -12,7 +13,7 @@ namespace kinegraph {
 
 namespace {
 
-constexpr int kSlices = 48;             // around builtin round shapes
+constexpr int kSlices = 64;             // around builtin round shapes
 constexpr float kShadowHalfWidth = 2.5;  // m, of what the first light's shadow map covers
 const Vector4d kDefaultColor(.8, .8, .8, 1.);
 
@@ -32,6 +33,43 @@ mjvLight directionalLight(int id, const Vector3d& from, const Vector3d& to, bool
     light.specular[i] = .2f;
   }
   return light;
+}
+
+/// Where nothing was drawn, and so the depth is that of infinity.
+void paintBackground(CameraImage& image, const Vector3d& color) {
+  std::uint8_t rgb[3];
+  for (int i = 0; i < 3; ++i) rgb[i] = std::uint8_t(std::lround(255. * std::clamp(color[i], 0., 1.)));
+  for (std::size_t i = 0; i < image.depth.size(); ++i) {
+    if (image.depth[i] <= 0.f) std::copy_n(rgb, 3, &image.rgb[3 * i]);
+  }
+}
+
+/// Each pixel the mean of factor x factor; its depth that of the one in their middle.
+CameraImage shrunk(const CameraImage& fine, int factor) {
+  CameraImage image{fine.width / factor, fine.height / factor, {}, {}};
+  const auto at = [&](int row, int column) { return std::size_t(row) * std::size_t(fine.width) + std::size_t(column); };
+  for (int row = 0; row < fine.height; row += factor) {
+    for (int column = 0; column < fine.width; column += factor) {
+      image.depth.push_back(fine.depth[at(row + factor / 2, column + factor / 2)]);
+      int sum[3] = {};
+      for (int i = 0; i < factor * factor; ++i) {
+        const std::uint8_t* rgb = &fine.rgb[3 * at(row + i / factor, column + i % factor)];
+        for (int k = 0; k < 3; ++k) sum[k] += rgb[k];
+      }
+      for (int s : sum) image.rgb.push_back(std::uint8_t((s + factor * factor / 2) / (factor * factor)));
+    }
+  }
+  return image;
+}
+
+/// From a depth buffer, in which 1 is near and 0 is far: 1/z is linear in the values, or z is.
+void toMetres(std::vector<float>& depth, const Camera& camera) {
+  const double near = camera.near, far = camera.far;
+  for (float& d : depth) {
+    if (d <= 0.f) d = -1.f;
+    else if (camera.ortho_height > 0.) d = float(far - d * (far - near));
+    else d = float(near * far / (near + d * (far - near)));
+  }
 }
 
 bool isMarker(ShapeType type) { return type == ShapeType::marker || type == ShapeType::camera; }
@@ -123,7 +161,7 @@ std::vector<CameraRenderer::Impl::Item> CameraRenderer::Impl::visibleItems(const
 void CameraRenderer::Impl::makeContext() {
   mjr_freeContext(context.get());
   mjModel listed = **model;  // the arrays are the model's or the library's
-  listed.vis.quality.offsamples = options.samples;
+  listed.vis.quality.offsamples = 0;
   listed.vis.quality.shadowsize = options.shadows ? 2048 : 0;
   listed.vis.quality.numslices = kSlices;
   listed.vis.quality.numstacks = kSlices / 2;
@@ -143,7 +181,7 @@ mjvGeom& CameraRenderer::Impl::addGeom(int type, const Vector3d& size, const Rig
   mjv_initGeom(&geom, type, size.data(), X_WG.p.data(), R.data(), rgba.data());
   geom.segid = segment;
   geom.transparent = color[3] < 1.;
-  geom.castshadow = !geom.transparent;
+  setCastsShadow(geom, !geom.transparent);
   geom.specular = .4f;
   geom.shininess = 50.f / 128.f;
   geom.reflectance = 0.f;
@@ -155,7 +193,8 @@ void CameraRenderer::Impl::addMarker(double length, const RigidTransform& X_WG, 
   for (int axis = 0; axis < 3; ++axis) {
     Matrix3d R;  // z along the axis
     R << Vector3d::Unit((axis + 1) % 3), Vector3d::Unit((axis + 2) % 3), Vector3d::Unit(axis);
-    addGeom(mjGEOM_ARROW, {.02 * length, .02 * length, length}, X_WG * RigidTransform{R, Vector3d::Zero()}, colors[axis], segment).castshadow = false;
+    const RigidTransform X_WA = X_WG * RigidTransform{R, Vector3d::Zero()};
+    setCastsShadow(addGeom(mjGEOM_ARROW, {.02 * length, .02 * length, length}, X_WA, colors[axis], segment), false);
   }
 }
 
@@ -220,7 +259,7 @@ void CameraRenderer::Impl::draw(SceneTree& tree, const Camera& camera, bool visu
   for (const Item& item : items) {
     if (!isMarker(item.geometry->type) && !builtinShape(item.geometry->type)) shapes.insert(item.geometry);
   }
-  if (!model) model = emptyModel(options.background.data());
+  if (!model) model = emptyModel();
   if (meshes.update(shapes)) makeContext();
   if (camera.width > context->offWidth || camera.height > context->offHeight) {
     mjr_resizeOffscreen(std::max(camera.width, context->offWidth), std::max(camera.height, context->offHeight), context.get());
@@ -234,7 +273,6 @@ void CameraRenderer::Impl::draw(SceneTree& tree, const Camera& camera, bool visu
   std::fill(std::begin(scene->flags), std::end(scene->flags), mjtByte(0));
   scene->flags[mjRND_CULL_FACE] = 1;
   scene->flags[mjRND_SHADOW] = options.shadows && !segmentation;
-  scene->flags[mjRND_SKYBOX] = !segmentation;
   scene->flags[mjRND_SEGMENT] = scene->flags[mjRND_IDCOLOR] = segmentation;
   mjr_setBuffer(mjFB_OFFSCREEN, context.get());
   mjr_render({0, 0, camera.width, camera.height}, scene.get(), context.get());
@@ -254,21 +292,21 @@ CameraRenderer::~CameraRenderer() = default;
 
 CameraImage CameraRenderer::render(SceneTree& scene, const Camera& camera, bool visuals_only) {
   camera.validate();
-  CameraImage image{camera.width, camera.height, {}, {}};
-  image.depth.resize(std::size_t(camera.width) * std::size_t(camera.height));
+  const int factor = impl_->options.supersampling;
+  Camera fine = camera;
+  fine.width *= factor;
+  fine.height *= factor;
+  CameraImage image{fine.width, fine.height, {}, {}};
+  image.depth.resize(std::size_t(fine.width) * std::size_t(fine.height));
   image.rgb.resize(3 * image.depth.size());
   if (!impl_->gl) impl_->gl.emplace();
   const GlContext::Use use(*impl_->gl);
   const MujocoErrors errors;
-  impl_->draw(scene, camera, visuals_only, false);
-  impl_->read(camera, image.rgb.data(), image.depth.data());
-  // 1 is near and 0 is far: 1/z is linear in the values, or z is.
-  const double near = camera.near, far = camera.far;
-  for (float& d : image.depth) {
-    if (d <= 0.f) d = -1.f;
-    else if (camera.ortho_height > 0.) d = float(far - d * (far - near));
-    else d = float(near * far / (near + d * (far - near)));
-  }
+  impl_->draw(scene, fine, visuals_only, false);
+  impl_->read(fine, image.rgb.data(), image.depth.data());
+  paintBackground(image, impl_->options.background);
+  if (factor > 1) image = shrunk(image, factor);
+  toMetres(image.depth, camera);
   return image;
 }
 

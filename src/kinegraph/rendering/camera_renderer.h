@@ -11,7 +11,7 @@ namespace kinegraph {
 
 /// How pictures look. The defaults are a sensor's: fast.
 struct RendererOptions {
-  int samples = 0;                                ///< per pixel, against jagged edges; costs time
+  int supersampling = 1;                          ///< pixels drawn per pixel, across and down, against jagged edges
   bool shadows = false;                           ///< of the first light; costs time
   bool floor = true;                              ///< a square of 10 m at z = 0, seen from above only
   Vector3d background = Vector3d::Ones();         ///< rgb in 0..1

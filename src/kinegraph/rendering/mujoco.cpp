@@ -1,7 +1,5 @@
 #include "kinegraph/rendering/mujoco.h"
 
-#include <algorithm>
-
 #include "kinegraph/base/errors.h"
 #include "kinegraph/base/text.h"
 
@@ -18,14 +16,8 @@ void throwErrors(const mjLogMessage* message) {
 MujocoErrors::MujocoErrors() : before_(mju_setLogHandler(throwErrors)) {}
 MujocoErrors::~MujocoErrors() { mju_setLogHandler(before_); }
 
-MujocoModel emptyModel(const double* sky) {
+MujocoModel emptyModel() {
   const std::unique_ptr<mjSpec, decltype(&mj_deleteSpec)> spec(mj_makeSpec(), mj_deleteSpec);
-  mjsTexture* texture = mjs_addTexture(spec.get(), nullptr);
-  texture->type = mjTEXTURE_SKYBOX;
-  texture->builtin = mjBUILTIN_FLAT;
-  texture->width = texture->height = 8;
-  for (double* color : {texture->rgb1, texture->rgb2, texture->markrgb}) std::copy_n(sky, 3, color);
-  mjs_setName(texture->element, "sky");
   MujocoModel model(mj_compile(spec.get(), nullptr), mj_deleteModel);
   if (!model) throw Error(cat("MuJoCo's renderer: ", mjs_getError(spec.get())));
   return model;

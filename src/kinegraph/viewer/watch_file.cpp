@@ -1,76 +1,72 @@
 #include "kinegraph/viewer/watch_file.h"
 
-#include <chrono>
-#include <filesystem>
-#include <map>
 #include <thread>
 
 #include "kinegraph/base/errors.h"
 #include "kinegraph/base/text.h"
 #include "kinegraph/scene/scene_source.h"
+#include "kinegraph/viewer/file_changes.h"
 
 namespace kinegraph {
 
-namespace fs = std::filesystem;
-
 namespace {
 
-/// When a file was last written, and its size; a missing one has neither.
-using Stamp = std::pair<fs::file_time_type, std::uintmax_t>;
+/// A scene file as it was at one time: its frames, or what is wrong with it.
+struct Reading {
+  Config config;
+  std::string error;
+  FileStamps stamps;
+  bool torn = false;  ///< somebody wrote while it was read
+};
 
-Stamp stampOf(const std::string& file) {
-  std::error_code error;
-  const auto time = fs::last_write_time(file, error);
-  return {error ? fs::file_time_type::min() : time, error ? 0 : fs::file_size(file, error)};
+/// The file and those that it includes, as far as they can be found.
+FileStamps stampsOfScene(const std::string& path) {
+  const std::vector<std::string> files = sourceFiles(path);
+  return stampsOf(files.empty() ? std::vector{path} : files);
 }
 
-using Stamps = std::map<std::string, Stamp>;
-
-Stamps stampsOf(const std::vector<std::string>& files) {
-  Stamps stamps;
-  for (const std::string& file : files) stamps[file] = stampOf(file);
-  return stamps;
+Reading readScene(const std::string& path) {
+  Reading reading;
+  reading.stamps = stampsOfScene(path);
+  try {
+    reading.config.addFile(path);
+  } catch (const Error& error) {
+    reading.error = error.what();
+  }
+  reading.torn = stampsOfScene(path) != reading.stamps;
+  return reading;
 }
 
 }  // namespace
 
 void watchFile(Config& config, ConfigViewer& viewer, const std::string& path, const std::function<void(const std::string&)>& report,
                const std::function<bool()>& stop) {
-  const std::string hint = cat(path, "\nwaiting for changes of the file; q: quit");
-  Stamps stamps = stampsOf({path});
-  viewer.setTitle(cat("ConfigView <", path, ">"));
+  FileChanges changes;
   const auto load = [&] {
-    try {
-      Config fresh;
-      fresh.addFile(path);
+    Reading reading = readScene(path);
+    if (reading.torn) return;  // the change is seen at the next look
+    if (reading.error.empty()) {
       config.clear();
-      config.addConfigurationCopy(fresh);
+      config.addConfigurationCopy(reading.config);
       viewer.setError("");
-      viewer.setMessage(hint);
+      viewer.setMessage(cat(path, "\nwaiting for changes of the file; q: quit"));
       report(config.report());
-      for (const std::string& warning : fresh.takeWarnings()) report(warning);
-    } catch (const Error& error) {
-      viewer.setError(error.what());
+      for (const std::string& warning : reading.config.takeWarnings()) report(warning);
+    } else {
+      viewer.setError(reading.error);
       viewer.setMessage(cat(path, "\nthe last scene without a mistake; waiting for the file to be mended; q: quit"));
-      report(error.what());
+      report(reading.error);
     }
     viewer.update(config);
-    Stamps fresh_stamps = stampsOf(sourceFiles(path));
-    for (auto& [file, stamp] : fresh_stamps) {
-      if (const auto before = stamps.find(file); before != stamps.end()) stamp = before->second;  // it may have changed meanwhile
-    }
-    stamps = fresh_stamps;
+    changes.setRead(std::move(reading.stamps));
   };
+  viewer.setTitle(cat("ConfigView <", path, ">"));
+  changes.setRead({{path, {}}});  // as if it had been missing so far
   load();
   while (!isHeadless() && !stop()) {
     const int key = viewer.takeKey();
     if (key == 'q' || key == 27 || enterWasPressed()) break;
-    Stamps now = stamps;
-    for (auto& [file, stamp] : now) stamp = stampOf(file);
-    if (now != stamps || key == 13) {
-      stamps = now;
-      load();
-    }
+    if (key == 13 || changes.settled(stampsOf(changes.files()), std::chrono::steady_clock::now())) load();
     std::this_thread::sleep_for(std::chrono::milliseconds(20));
   }
   viewer.setMessage("");
