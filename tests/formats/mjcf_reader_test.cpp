@@ -256,6 +256,25 @@ TEST_F(MjcfReader, InertiasAreAboutTheCentreOfMass) {
       near(config.getFrame("b").data().inertia->matrix, Vector3d(.2, .1, .3).asDiagonal().toDenseMatrix(), 1e-15));
 }
 
+TEST_F(MjcfReader, BodiesWithoutInertialWeighWhatTheirGeomsDo) {
+  const std::string inside =
+      "<default><geom density='500'/></default><worldbody><body name='a'><joint name='j'/>"
+      "<geom type='box' size='.1 .2 .3' pos='.1 0 0'/><geom size='.1' mass='.7' pos='0 .2 0'/>"
+      "<geom type='cylinder' size='.1 .2' euler='30 40 0'/><geom type='ellipsoid' size='.1 .2 .3' euler='0 50 0'/>"
+      "<geom type='capsule' size='.1 .2' pos='0 0 .5' euler='20 0 0' density='100'/></body></worldbody>";
+  const std::string path = file(inside);
+  const MujocoModel mujoco(path);
+  Config config;
+  config.addFile(path);
+  const LinkInertia link = config.inertias().back();
+  const double* com = mujoco.model().body_ipos + 3;
+  EXPECT_NEAR(link.mass, mujoco.model().body_mass[1], 1e-12);
+  EXPECT_TRUE(near(link.com, Vector3d(com[0], com[1], com[2]), 1e-12));
+  const double* moments = mujoco.model().body_inertia + 3;
+  EXPECT_NEAR(link.matrix.trace(), moments[0] + moments[1] + moments[2], 1e-12);
+  EXPECT_NEAR(link.matrix.determinant(), moments[0] * moments[1] * moments[2], 1e-12);
+}
+
 TEST_F(MjcfReader, MistakesSayWhereTheyAreAndWhatIsNear) {
   const auto expect = [&](const std::string& inside, std::initializer_list<const char*> parts) {
     expectError<ParseError>([&] { load(inside); }, parts);
@@ -287,6 +306,13 @@ TEST_F(MjcfReader, OneWarningTellsWhatIsNotRead) {
       "<sensor><jointpos joint='j'/></sensor>");
   ASSERT_EQ(warnings_.size(), 1u);
   EXPECT_NE(warnings_[0].find("not read: actuator/motor (2), sensor/jointpos (1)"), std::string::npos) << warnings_[0];
+}
+
+TEST_F(MjcfReader, ATextThatIsNotUtf8IsReadWithAWarning) {
+  const Config config = world("<body name='Jos\xE9'/>");
+  EXPECT_EQ(config.getFrameNames().back(), "Jos?");
+  ASSERT_EQ(warnings_.size(), 1u);
+  EXPECT_NE(warnings_[0].find("not UTF-8; 1 byte of it is read as '?'"), std::string::npos) << warnings_[0];
 }
 
 TEST_F(MjcfReader, AnXmlFileWhoseRootIsRobotIsUrdf) {

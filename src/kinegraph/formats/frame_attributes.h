@@ -27,7 +27,7 @@ class FrameAttributes {
     const Vector7d x = pose.numbers();
     addNumbers("pose", {x.begin(), x.end()});
   }
-  bool has(const char* key) const { return graph_.find(key) != nullptr; }
+  const Node* find(const char* key) const { return graph_.find(key); }
   Graph take() { return std::move(graph_); }
 
  private:

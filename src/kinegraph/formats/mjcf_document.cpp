@@ -7,6 +7,7 @@
 #include <sstream>
 
 #include "kinegraph/base/text.h"
+#include "kinegraph/base/utf8.h"
 #include "kinegraph/scene/scene_source.h"
 
 namespace kinegraph {
@@ -112,7 +113,7 @@ void MjcfDocument::include(const XmlElement& element, const std::string& folder,
   std::ifstream stream(path, std::ios::binary);
   std::stringstream text;
   text << stream.rdbuf();
-  included_.back().text = text.str();
+  included_.back().text = validUtf8(text.str());
   try {
     XmlElement root = parseXml(included_.back().text, path);
     open.push_back(absolute);

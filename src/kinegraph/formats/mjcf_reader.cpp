@@ -31,6 +31,7 @@ struct Place {
   bool on_world = true;        ///< fixed to the world
   bool hangs_on_world = true;  ///< or one joint away from it
   int contact = 1;             ///< flag of its geoms
+  bool weigh = false;          ///< they have masses
 };
 
 class MjcfReader {
@@ -188,7 +189,7 @@ class MjcfReader {
       const bool is_geom = child.name == "geom", is_site = child.name == "site";
       if (!is_geom && !is_site && child.name != "camera") continue;
       const MjcfElement described = element(child, place.childclass);
-      MjcfShapes::Placed placed = is_geom   ? shapes_.geom(described, place.contact)
+      MjcfShapes::Placed placed = is_geom   ? shapes_.geom(described, place.contact, place.weigh)
                                   : is_site ? shapes_.site(described)
                                             : shapes_.camera(described);
       placed.attributes.addPose(place.pose * placed.pose);
@@ -235,7 +236,10 @@ class MjcfReader {
     place.contact = place.hangs_on_world ? 1 : moving > 0 ? -moving : outer.contact;
     FrameAttributes attributes = own_joint ? std::move(*own_joint) : FrameAttributes(body.where);
     if (!own_joint) attributes.addPose(pose);
-    if (const XmlElement* inertial = body.child("inertial")) addInertial(*inertial, attributes);
+    const XmlElement* inertial = body.child("inertial");
+    const MjcfSettings& settings = document_.settings();
+    place.weigh = settings.masses_only_of_geoms || (settings.masses_of_geoms && !inertial);
+    if (inertial && !settings.masses_only_of_geoms) addInertial(*inertial, attributes);
     if (const auto others = excluded_.find(name); others != excluded_.end())
       attributes.add("contact_exclude", StringArray(others->second));
     addFrame(name, parent, body.where, std::move(attributes));

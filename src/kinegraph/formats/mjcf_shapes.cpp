@@ -4,6 +4,7 @@
 #include <filesystem>
 
 #include "kinegraph/base/text.h"
+#include "kinegraph/formats/mjcf_mass.h"
 #include "kinegraph/scene/scene_source.h"
 
 namespace kinegraph {
@@ -39,7 +40,7 @@ MjcfShapes::MjcfShapes(const MjcfDocument& document, MjcfValues& values, const s
     materials_.emplace(document_.element(*xml).name(), document_.element(*xml));
 }
 
-MjcfShapes::Placed MjcfShapes::geom(const MjcfElement& element, int contact) {
+MjcfShapes::Placed MjcfShapes::geom(const MjcfElement& element, int contact, bool weigh) {
   static const std::vector<std::string> types = {"plane",    "hfield", "sphere", "capsule", "ellipsoid",
                                                  "cylinder", "box",    "mesh",   "sdf"};
   Placed placed{values_.pose(element), FrameAttributes(element.where())};
@@ -53,7 +54,9 @@ MjcfShapes::Placed MjcfShapes::geom(const MjcfElement& element, int contact) {
   } else {
     addPrimitive(element, type, line ? line->second : 0., placed);
   }
-  if (placed.attributes.has("shape") || placed.attributes.has("mesh")) addLooks(element, contact, placed);
+  if (!placed.attributes.find("shape") && !placed.attributes.find("mesh")) return placed;
+  addLooks(element, contact, placed);
+  if (weigh && type != "plane") addMass(element, placed);
   return placed;
 }
 
@@ -143,6 +146,30 @@ void MjcfShapes::addInlineMesh(const MjcfElement& mesh, const Vector3d& scale, P
   placed.attributes.addNumbers(faces.empty() ? "core" : "vertices", std::move(points));
   if (faces.empty()) placed.attributes.addNumbers("size", {0.});
   if (!faces.empty()) placed.attributes.addNumbers("triangles", std::move(faces));
+}
+
+/// Of a body without <inertial>. Meshes have one only if it is given, and are then hollow.
+void MjcfShapes::addMass(const MjcfElement& element, Placed& placed) {
+  const Node* shape = placed.attributes.find("shape");
+  const Node* size = placed.attributes.find("size");
+  const auto solid =
+      shape && size ? solidMass(*shape->value.as<std::string>(), size->value.as<NumberArray>()->numbers) : std::nullopt;
+  const bool given = element.attribute("mass") != nullptr;
+  if (!given && !solid) {
+    return findings_.warn(element.where(), cat(element.describe(),
+                                               ": the mass of a mesh is not computed from its "
+                                               "density; give its 'mass', or an <inertial>"));
+  }
+  const double density = values_.number(element, "density", 1000.);
+  const double mass = given ? values_.number(element, "mass", 0.) : density * solid->volume;
+  if (mass < 0.)
+    return findings_.error(element.where(), cat(element.describe(), ": its mass, ", mass, " kg, is negative"));
+  if (mass == 0.) return;
+  placed.attributes.add("mass", mass);
+  if (!solid) return;
+  const Vector3d inertia = mass * solid->inertia_per_mass;
+  placed.attributes.addNumbers("com", {0., 0., 0.});
+  placed.attributes.addNumbers("inertia", {inertia.begin(), inertia.end()});
 }
 
 /// Colour and contact flag.

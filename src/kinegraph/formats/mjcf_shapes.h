@@ -21,8 +21,8 @@ class MjcfShapes {
     FrameAttributes attributes;
   };
 
-  /// `contact` is the flag of geoms that collide.
-  Placed geom(const MjcfElement& element, int contact);
+  /// `contact` is the flag of geoms that collide; `weigh`: it has a mass.
+  Placed geom(const MjcfElement& element, int contact, bool weigh);
   Placed site(const MjcfElement& element);
   Placed camera(const MjcfElement& element);
 
@@ -30,6 +30,7 @@ class MjcfShapes {
   void addMesh(const MjcfElement& element, Placed& placed);
   void addInlineMesh(const MjcfElement& mesh, const Vector3d& scale, Placed& placed);
   void addPrimitive(const MjcfElement& element, const std::string& type, double line_length, Placed& placed);
+  void addMass(const MjcfElement& element, Placed& placed);
   void addLooks(const MjcfElement& element, int contact, Placed& placed);
   std::vector<double> color(const MjcfElement& element);
 

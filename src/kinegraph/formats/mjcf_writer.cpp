@@ -103,7 +103,8 @@ class MjcfWriter {
 
   /// Nothing but a shape or a place, so that no body is needed for it.
   bool isLeaf(const FrameData& frame) const {
-    return frame.children.empty() && !frame.moves() && !frame.inertia && !referred_.contains(&frame);
+    const bool weighs_apart = frame.inertia && !(hasShape(frame) && frame.parent);  // of a shape, the body has the mass
+    return frame.children.empty() && !frame.moves() && !weighs_apart && !referred_.contains(&frame);
   }
 
   /// Is this frame only on the way to its child, which then needs no body above it?
@@ -261,12 +262,16 @@ class MjcfWriter {
   }
 
   void addInertial(const FrameData& frame, bool moves, int depth) {
-    const bool has_mass = frame.inertia && frame.inertia->mass > 0.;
-    if (!has_mass) {
+    LinkInertia inertia;
+    if (frame.inertia) inertia = {frame.inertia->mass, frame.inertia->com, frame.inertia->matrix};
+    for (const FrameData* child : frame.children) {
+      if (isLeaf(*child) && child->inertia)
+        inertia.add({child->inertia->mass, child->inertia->com, child->inertia->matrix}, child->pose.transform());
+    }
+    if (!(inertia.mass > 0.)) {
       if (moves) line(depth, "<inertial pos=\"0 0 0\" mass=\"0.001\" diaginertia=\"1e-6 1e-6 1e-6\"/>");
       return;
     }
-    const Inertia& inertia = *frame.inertia;
     const Matrix3d m = .5 * (inertia.matrix + inertia.matrix.transpose());
     std::string form =
         m.isDiagonal(0.)

@@ -9,6 +9,7 @@
 
 #include "kinegraph/base/errors.h"
 #include "kinegraph/base/text.h"
+#include "kinegraph/base/utf8.h"
 #include "kinegraph/scene/scene_format.h"
 
 namespace kinegraph {
@@ -60,7 +61,13 @@ class SourceReader {
     return frames;
   }
 
-  std::vector<SourceFrame> readText(const std::string& text, const std::string& name, std::string folder) {
+  std::vector<SourceFrame> readText(const std::string& bytes, const std::string& name, std::string folder) {
+    std::size_t replaced = 0;
+    const std::string text = validUtf8(bytes, &replaced);
+    if (replaced > 0) {
+      diagnostics_.warning({name, 1, 1}, cat("the text is not UTF-8; ", replaced,
+                                             replaced == 1 ? " byte of it is" : " bytes of it are", " read as '?'"));
+    }
     diagnostics_.addText(name, text);
     const SceneFormat* format = sceneFormatOf(name);
     ParseResult parsed = format ? format->read(text, name, folder) : parseAll(text, name);
