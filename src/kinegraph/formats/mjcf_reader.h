@@ -28,6 +28,7 @@ namespace kinegraph {
 ///     equality/joint       `mimic`, if the polynomial is linear; a constant makes the joint a fixed one
 ///     contact/exclude      `contact_exclude` of the first body
 ///
+/// A geom of a body without <inertial> has a mass: its own, or by its density, but for meshes.
 /// A name that is taken gets what it names behind it: <joint>_joint, <site>_site, ... Default classes, <include>,
 /// <frame> and the options of <compiler> are carried out. Actuators, sensors, tendons and the like are left out with
 /// one warning, a mesh whose file is missing with one each. With an error among the diagnostics there are no frames.
