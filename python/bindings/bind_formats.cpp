@@ -5,6 +5,8 @@
 #include "bindings.h"
 #include "kinegraph/base/errors.h"
 #include "kinegraph/base/text.h"
+#include "kinegraph/formats/gltf_writer.h"
+#include "kinegraph/formats/mjcf_writer.h"
 #include "kinegraph/formats/scene_writer.h"
 #include "kinegraph/formats/urdf_writer.h"
 #include "kinegraph/gfile/writer.h"
@@ -32,6 +34,20 @@ std::string writeURDF(const PyConfig& config, nb::handle file) {
   std::vector<std::string> warnings;
   const std::string text =
       file.is_none() ? writeUrdf(config, {}, &warnings) : saveUrdf(config, pathText(file), &warnings);
+  emitAll(warnings);
+  return text;
+}
+
+std::string asMJCF(const PyConfig& config) {
+  std::vector<std::string> warnings;
+  const std::string text = writeMjcf(config, {}, &warnings);
+  emitAll(warnings);
+  return text;
+}
+
+std::string writeMJCF(const PyConfig& config, nb::handle file) {
+  std::vector<std::string> warnings;
+  const std::string text = saveMjcf(config, pathText(file), &warnings);
   emitAll(warnings);
   return text;
 }
@@ -78,13 +94,24 @@ void bindFormats(nb::module_&, nb::class_<PyConfig>& config, nb::class_<Frame>& 
            "The scene as {'name(parent)': {attribute: value, ...}, ...}, in the order of the frames; addDict reads it.")
       .def("asYaml", asYaml, "serial"_a = false, "The scene as text that is YAML and .g at once; serial: on one line.")
       .def("write", writeG, "filename"_a = nb::none(),
-           "The scene as .g text, numbers exact. With a filename it is written there: as URDF for .urdf, as YAML for "
-           ".yml and\n"
-           ".yaml, else as .g. Returns the text.")
+           "The scene as .g text, numbers exact. With a filename it is written there: as URDF for .urdf, as MJCF for "
+           ".xml, as YAML\n"
+           "for .yml and .yaml, else as .g. Returns the text.")
       .def("writeURDF", writeURDF, "filename"_a = nb::none(),
            "The scene as URDF text. With a filename it is written there, and shapes that URDF has no element for go "
            "into .stl\n"
-           "files in a folder beside it; without one they are left out with a warning.");
+           "files in a folder beside it; without one they are left out with a warning.")
+      .def("asMJCF", asMJCF,
+           "The scene as MJCF text, which MuJoCo loads with the same poses; meshes stand in the text.")
+      .def("writeMJCF", writeMJCF, "filename"_a,
+           "Writes the scene as MJCF, which MuJoCo loads with the same poses: bodies, joints, geoms and sites have the "
+           "names of\n"
+           "their frames. Meshes that MuJoCo cannot read as they are go into a folder beside it. Returns the text.")
+      .def(
+          "writeGltf", [](const PyConfig& c, nb::handle file) { writeGltf(c, pathText(file)); }, "filename"_a,
+          "Writes the scene, as it stands, as binary glTF (.glb): a node per frame with the surface that is shown for "
+          "it, in its\n"
+          "colours, y up as glTF has it.");
 
   frame
       .def(

@@ -5,6 +5,7 @@
 
 #include "kinegraph/base/errors.h"
 #include "kinegraph/base/text.h"
+#include "kinegraph/formats/mjcf_writer.h"
 #include "kinegraph/formats/scene_writer.h"
 #include "kinegraph/formats/urdf_writer.h"
 
@@ -32,11 +33,21 @@ std::string saveUrdf(const Config& config, const std::string& path, std::vector<
   return text;
 }
 
+std::string saveMjcf(const Config& config, const std::string& path, std::vector<std::string>* warnings) {
+  MjcfOptions options;
+  options.model_name = fs::path(path).stem().string();
+  options.mesh_folder = (fs::path(path).parent_path() / (options.model_name + "_meshes")).string();
+  const std::string text = writeMjcf(config, options, warnings);
+  writeText(text, path);
+  return text;
+}
+
 std::string saveScene(const Config& config, const std::string& path, std::vector<std::string>* warnings) {
   std::string extension = fs::path(path).extension().string();
   std::transform(extension.begin(), extension.end(), extension.begin(),
                  [](unsigned char c) { return char(std::tolower(c)); });
   if (extension == ".urdf") return saveUrdf(config, path, warnings);
+  if (extension == ".xml") return saveMjcf(config, path, warnings);
   const bool yaml = extension == ".yml" || extension == ".yaml";
   const std::string text = yaml ? writeYaml(config, false, warnings) : writeScene(config, warnings);
   writeText(text, path);

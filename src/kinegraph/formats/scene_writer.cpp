@@ -29,6 +29,7 @@ class FrameDescription {
     addPose();
     if (frame_.joint) addJoint(*frame_.joint);
     if (frame_.shape) addShape(*frame_.shape);
+    addExclusions();
     if (frame_.inertia) addInertia(*frame_.inertia);
     addFreeAttributes();
     return std::move(graph_);
@@ -107,6 +108,12 @@ class FrameDescription {
     addPoseNumbers("visual_pose", shape.visual_pose);
   }
 
+  void addExclusions() {
+    StringArray names;
+    for (const FrameData* other : frame_.no_contact) names.push_back(nameOf(*other));
+    if (!names.empty()) add("contact_exclude", std::move(names));
+  }
+
   /// The path as the scene gave it if that is independent of the scene's own place, else the absolute path.
   AngleText fileReference(const char* key, const std::string& path) const {
     const Node* node = frame_.attributes->find(key);
@@ -183,6 +190,7 @@ class FrameDescription {
                                                       "vertex_colors",
                                                       "mimic_shape",
                                                       "contact",
+                                                      "contact_exclude",
                                                       "mass",
                                                       "inertia",
                                                       "com",
@@ -220,6 +228,7 @@ std::set<const FrameData*> referredTo(const SceneTree& scene, const ShapeOwners&
   for (const auto& frame : scene.frames()) {
     if (frame->parent) frames.insert(frame->parent);
     if (frame->joint && frame->joint->mimic) frames.insert(frame->joint->mimic);
+    frames.insert(frame->no_contact.begin(), frame->no_contact.end());
   }
   for (const auto& [shape, owner] : owners) frames.insert(owner);
   return frames;

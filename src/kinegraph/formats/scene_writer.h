@@ -32,8 +32,8 @@ std::string writeScene(const Config& config, std::vector<std::string>* warnings 
 /// The scene as a text that is YAML and `.g` at once. `one_line` puts all of it on one.
 std::string writeYaml(const Config& config, bool one_line = false, std::vector<std::string>* warnings = nullptr);
 
-/// Writes the scene into a file, URDF for .urdf, YAML for .yml and .yaml, else `.g`, and returns the text. Throws
-/// FileError.
+/// Writes the scene into a file, URDF for .urdf, MJCF for .xml, YAML for .yml and .yaml, else `.g`, and returns the
+/// text. Throws FileError.
 std::string saveScene(const Config& config, const std::string& path, std::vector<std::string>* warnings = nullptr);
 
 }  // namespace kinegraph

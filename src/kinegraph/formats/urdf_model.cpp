@@ -1,7 +1,6 @@
 #include "kinegraph/formats/urdf_model.h"
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <map>
 
@@ -11,25 +10,6 @@
 namespace kinegraph {
 
 namespace {
-
-/// The numbers in a text, separated by blanks; nothing if there is anything else in it.
-std::optional<std::vector<double>> numbersIn(std::string_view text) {
-  std::vector<double> numbers;
-  const char* at = text.data();
-  const char* end = at + text.size();
-  for (;;) {
-    while (at != end && std::string_view(" \t\r\n").find(*at) != std::string_view::npos) ++at;
-    if (at == end) return numbers;
-    if (*at == '+') ++at;
-    double number = 0.;
-    const auto [behind, error] = std::from_chars(at, end, number);
-    if (error == std::errc::invalid_argument || !std::isfinite(number)) return std::nullopt;
-    if (error != std::errc{}) number = 0.;  // too small for a double
-    if (behind != end && std::string_view(" \t\r\n").find(*behind) == std::string_view::npos) return std::nullopt;
-    numbers.push_back(number);
-    at = behind;
-  }
-}
 
 Quaterniond rollPitchYaw(const Vector3d& rpy) {
   const auto about = [](double angle, int axis) { return Quaterniond(Eigen::AngleAxisd(angle, Vector3d::Unit(axis))); };

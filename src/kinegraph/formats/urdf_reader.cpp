@@ -5,6 +5,8 @@
 #include <set>
 
 #include "kinegraph/base/text.h"
+#include "kinegraph/formats/axis_motion.h"
+#include "kinegraph/formats/frame_attributes.h"
 #include "kinegraph/formats/urdf_model.h"
 #include "kinegraph/scene/scene_source.h"
 
@@ -12,60 +14,15 @@ namespace kinegraph {
 
 namespace {
 
-/// The attributes of a frame that stands at one place of a file.
-class Attributes {
- public:
-  explicit Attributes(const SourcePosition& where) : where_(where) {}
-
-  template <class T>
-  void add(const char* key, T data) {
-    Node node;
-    node.key = key;
-    node.where = node.value.where = where_;
-    node.value.data = std::move(data);
-    graph_.nodes.push_back(std::move(node));
-  }
-  void addNumbers(const char* key, std::vector<double> numbers) { add(key, NumberArray{std::move(numbers), 1}); }
-  void addPose(const Pose& pose) {
-    if (pose.isIdentity(0.)) return;
-    const Vector7d x = pose.numbers();
-    addNumbers("pose", {x.begin(), x.end()});
-  }
-  Graph take() { return std::move(graph_); }
-
- private:
-  SourcePosition where_;
-  Graph graph_;
-};
-
-/// The motion of a joint in the terms of a scene.
-struct Motion {
-  const char* type;
-  double scale = 1.;
-  Quaterniond turn = Quaterniond::Identity();  ///< of the joint frame, so that its axis is a coordinate axis
-};
-
-/// 0 x, 1 y, 2 z with the sign, if `axis` is exactly one of the coordinate axes.
-std::optional<std::pair<int, double>> coordinateAxis(const Vector3d& axis) {
-  for (int i = 0; i < 3; ++i) {
-    if (std::abs(axis[i]) == 1.) return std::pair(i, axis[i]);
-  }
-  return std::nullopt;
-}
-
-Motion motionOf(const UrdfJoint& joint) {
-  static const char* const hinges[] = {"hingeX", "hingeY", "hingeZ"};
-  static const char* const slides[] = {"transX", "transY", "transZ"};
-  const auto axis = coordinateAxis(joint.axis);
+AxisMotion motionOf(const UrdfJoint& joint) {
   switch (joint.type) {
     case UrdfJointType::fixed:
       return {"none"};
     case UrdfJointType::revolute:
     case UrdfJointType::continuous:
-      return {axis && axis->second > 0. ? hinges[axis->first] : "hinge"};
+      return turningAbout(joint.axis);
     case UrdfJointType::prismatic:
-      if (axis) return {slides[axis->first], axis->second};
-      return {"transX", 1., Quaterniond::FromTwoVectors(Vector3d::UnitX(), joint.axis)};
+      return slidingAlong(joint.axis);
     case UrdfJointType::planar:
       return {"transXYPhi", 1., Quaterniond::FromTwoVectors(Vector3d::UnitZ(), joint.axis)};
     case UrdfJointType::floating:
@@ -231,7 +188,7 @@ class UrdfReader {
   }
 
   void addFrame(const std::string& name, const std::string& parent, const SourcePosition& where,
-                Attributes attributes) {
+                FrameAttributes attributes) {
     Node node;
     node.key = name;
     if (!parent.empty()) node.parents = {parent};
@@ -241,7 +198,7 @@ class UrdfReader {
   }
 
   void addLink(const UrdfLink& link, const std::string& parent, const Quaterniond& turn) {
-    Attributes attributes(link.inertial ? link.inertial->where : link.where);
+    FrameAttributes attributes(link.inertial ? link.inertial->where : link.where);
     attributes.addPose({Vector3d::Zero(), turn});
     if (link.inertial && link.inertial->mass > 0.) {
       const Matrix3d& m = link.inertial->matrix;
@@ -256,7 +213,7 @@ class UrdfReader {
   }
 
   void addShape(const UrdfShape& shape, const std::string& link, std::size_t index) {
-    Attributes attributes(shape.where);
+    FrameAttributes attributes(shape.where);
     attributes.addPose(shape.origin);
     const std::string name = unusedName(cat(link, "_", index));
     bool known = true;
@@ -294,17 +251,17 @@ class UrdfReader {
 
   void addJoint(const UrdfJoint& joint) {
     const std::string& name = frame_of_joint_.at(&joint);
-    const Motion motion = motionOf(joint);
+    const AxisMotion motion = motionOf(joint);
     Pose origin = joint.origin;
     if (joint.mimic) origin = origin * poseAt(joint, joint.mimic->offset);
     origin = origin * Pose(Vector3d::Zero(), motion.turn);
-    Attributes attributes(joint.limit_where);
+    FrameAttributes attributes(joint.limit_where);
     std::string parent = joint.parent;
     if (joint.type == UrdfJointType::fixed) {
       attributes.addPose(origin);
     } else {
       if (!origin.isIdentity(0.)) {
-        Attributes at(joint.where);
+        FrameAttributes at(joint.where);
         at.addPose(origin);
         parent = unusedName(name + "_origin");
         addFrame(parent, joint.parent, joint.where, std::move(at));

@@ -4,6 +4,9 @@
 
 #include <algorithm>
 #include <cctype>
+#include <charconv>
+#include <cmath>
+#include <cstdlib>
 
 #include "kinegraph/base/text.h"
 #include "kinegraph/gfile/parser.h"
@@ -157,6 +160,38 @@ XmlElement parseXml(std::string_view text, const std::string& file) {
     throw ParseError(where, explain(error));
   }
   return Converter(text, file).convert(*root);
+}
+
+std::string xmlRootName(std::string_view text) {
+  std::size_t at = 0;
+  while ((at = text.find('<', at)) != std::string_view::npos) {
+    const std::string_view rest = text.substr(at);
+    const char* const end = rest.starts_with("<!--") ? "-->" : rest.starts_with("<?") ? "?>" : nullptr;
+    if (!end && !rest.starts_with("<!")) return std::string(rest.substr(1, rest.find_first_of(" \t\r\n/>", 1) - 1));
+    const std::size_t behind = text.find(end ? end : ">", at);
+    if (behind == std::string_view::npos) return "";
+    at = behind;
+  }
+  return "";
+}
+
+std::optional<std::vector<double>> numbersIn(std::string_view text) {
+  std::vector<double> numbers;
+  const char* at = text.data();
+  const char* end = at + text.size();
+  for (;;) {
+    while (at != end && std::string_view(" \t\r\n").find(*at) != std::string_view::npos) ++at;
+    if (at == end) return numbers;
+    if (*at == '+') ++at;
+    double number = 0.;
+    const auto [behind, error] = std::from_chars(at, end, number);
+    if (error == std::errc::invalid_argument) return std::nullopt;
+    if (error != std::errc{}) number = std::strtod(std::string(at, behind).c_str(), nullptr);  // too large or too small
+    if (!std::isfinite(number)) return std::nullopt;
+    if (behind != end && std::string_view(" \t\r\n").find(*behind) == std::string_view::npos) return std::nullopt;
+    numbers.push_back(number);
+    at = behind;
+  }
 }
 
 std::string xmlEscaped(std::string_view text) {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -28,6 +29,12 @@ struct XmlElement {
 
 /// Parses an XML text and returns its root element. Throws ParseError, whose message has no excerpt.
 XmlElement parseXml(std::string_view text, const std::string& file);
+
+/// The name of the root element of a text that looks like XML, or "".
+std::string xmlRootName(std::string_view text);
+
+/// The numbers in a text, separated by blanks; nothing if there is anything else in it, or a number that is not finite.
+std::optional<std::vector<double>> numbersIn(std::string_view text);
 
 /// `text` with the characters that XML reserves written as entities.
 std::string xmlEscaped(std::string_view text);

@@ -97,6 +97,7 @@ Mesh readH5Mesh(const std::string& path, const std::string& group) {
 Mesh readMeshFile(const std::string& path) {
   if (!std::filesystem::is_regular_file(path)) throw FileError(cat("mesh file '", path, "' does not exist"));
   if (path.ends_with(".h5")) return readH5Mesh(path, "mesh");
+  if (path.ends_with(".msh")) return readMshMesh(path);
   Assimp::Importer importer;
   importer.SetPropertyBool(AI_CONFIG_IMPORT_COLLADA_IGNORE_UP_DIRECTION, true);  // as robot descriptions mean it
   const aiScene* scene = importer.ReadFile(path, aiProcess_Triangulate | aiProcess_JoinIdenticalVertices);

@@ -16,9 +16,15 @@ struct Diagnostic {
   std::string message;
 };
 
+/// A text that was read, and the file that it was read from.
+struct SourceText {
+  std::string file, text;
+};
+
 struct ParseResult {
   Graph graph;
-  std::vector<Diagnostic> diagnostics;  ///< in the order of the text
+  std::vector<Diagnostic> diagnostics = {};  ///< in the order of the text
+  std::vector<SourceText> included = {};     ///< further files that were read: none in the .g language
 };
 
 /// Parses text of the .g language, all dialects of its grammar. Goes on behind an error, so that all are reported.

@@ -23,7 +23,7 @@ constexpr const char* kKnownAttributes[] = {
     "logical", "multibody", "multibody_fixedBase", "multibody_gravity", "simulate", "friction", "restitution",
     "motorKp", "motorKd", "motorLambda", "motorMass", "gains", "drive", "noMotor", "angularDamping", "focalLength",
     "fxycxy", "orthoAbsHeight", "heightAngle", "heightAbs", "zRange", "width", "height", "label", "part", "visual",
-    "noVisual", "franka", "parent", "home", "vertices", "triangles", "vertex_colors",
+    "noVisual", "franka", "parent", "home", "contact_exclude", "vertices", "triangles", "vertex_colors",
 };
 // clang-format on
 

@@ -1,4 +1,6 @@
+#include <algorithm>
 #include <limits>
+#include <set>
 
 #include "kinegraph/scene/scene_tree.h"
 
@@ -138,9 +140,38 @@ bool excludedByFlag(const FrameData* link_a, int contact_a, const FrameData* lin
   return false;
 }
 
+/// Pairs of frames whose shapes are told not to collide.
+class ExcludedContacts {
+ public:
+  explicit ExcludedContacts(const SceneTree& scene) {
+    for (const auto& frame : scene.frames()) {
+      for (const FrameData* other : frame->no_contact) pairs_.insert(std::minmax<const FrameData*>(frame.get(), other));
+    }
+  }
+
+  /// A shape belongs to its frame, and to that one's parent if it is fixed to it.
+  bool contains(const FrameData& a, const FrameData& b) const {
+    if (pairs_.empty()) return false;
+    for (const FrameData* x : {&a, ownerOf(a)}) {
+      for (const FrameData* y : {&b, ownerOf(b)}) {
+        if (pairs_.contains(std::minmax(x, y))) return true;
+      }
+    }
+    return false;
+  }
+
+ private:
+  static const FrameData* ownerOf(const FrameData& frame) {
+    return frame.parent && !frame.joint ? frame.parent : &frame;
+  }
+
+  std::set<std::pair<const FrameData*, const FrameData*>> pairs_;
+};
+
 }  // namespace
 
 std::vector<std::pair<int, int>> collidablePairs(const SceneTree& scene) {
+  const ExcludedContacts excluded(scene);
   struct Candidate {
     const FrameData* frame;
     const FrameData* link;
@@ -160,6 +191,7 @@ std::vector<std::pair<int, int>> collidablePairs(const SceneTree& scene) {
       if (a.link == b.link) continue;
       if (a.contact < 0 && excludedByFlag(a.link, a.contact, b.link)) continue;
       if (b.contact < 0 && excludedByFlag(b.link, b.contact, a.link)) continue;
+      if (excluded.contains(*a.frame, *b.frame)) continue;
       pairs.emplace_back(a.frame->id, b.frame->id);
     }
   }

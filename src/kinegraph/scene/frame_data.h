@@ -92,6 +92,7 @@ struct FrameData {
   std::shared_ptr<Shape> shape;    ///< may be shared between frames
   std::optional<Inertia> inertia;
   SharedGraph attributes;          ///< as read, interpreted ones included
+  std::vector<FrameData*> no_contact;  ///< frames whose shapes never collide with this one's: `contact_exclude`
 
   bool moves() const { return joint && joint->dofs() > 0; }
   Pose relativePose() const;       ///< `pose`, or what the joint's dofs make

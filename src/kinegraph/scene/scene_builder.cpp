@@ -48,6 +48,7 @@ void SceneBuilder::build(SceneSource& source) {
   }
   for (int i : early) keepWorldPose(*frames_[i], source.frames[i]);
   for (int i = 0; i < count; ++i) resolveMimicShape(*frames_[i], source.frames[i]);
+  for (int i = 0; i < count; ++i) resolveContactExclude(*frames_[i], source.frames[i]);
   for (int i = 0; i < count; ++i) resolveMimic(*frames_[i], source.frames[i]);
   for (const Node& node : source.joint_states) setJointState(node);
 }
@@ -57,6 +58,7 @@ void SceneBuilder::interpretExisting(FrameData& frame, const SourceFrame& source
   frame.attributes.edit() = attributes(source);
   interpret(frame, source);
   resolveMimicShape(frame, source);
+  resolveContactExclude(frame, source);
   resolveMimic(frame, source);
 }
 
@@ -218,6 +220,21 @@ void SceneBuilder::resolveMimicShape(FrameData& frame, const SourceFrame& source
                          cat("frame '", frame.name, "', mimic_shape: frame '", *name, "' has no shape"));
   }
   if (other) frame.shape = other->shape;
+}
+
+void SceneBuilder::resolveContactExclude(FrameData& frame, const SourceFrame& source) {
+  AttributeReader read = reader(frame, source);
+  const Node* node = read.find({"contact_exclude"});
+  if (!node) return;
+  std::vector<std::string> names;
+  if (const StringArray* list = node->value.as<StringArray>()) names = *list;
+  if (const NameTuple* tuple = node->value.as<NameTuple>()) names = tuple->names;
+  if (const std::string* name = node->value.as<std::string>()) names = {*name};
+  if (names.empty()) read.error(*node, "expected the names of frames: [a b]");
+  for (const std::string& name : names) {
+    const std::string role = cat("frame '", frame.name, "', contact_exclude:");
+    if (FrameData* other = find(name, source.prefix, node->value.where, role)) frame.no_contact.push_back(other);
+  }
 }
 
 void SceneBuilder::resolveMimic(FrameData& frame, const SourceFrame& source) {

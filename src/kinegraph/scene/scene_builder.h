@@ -42,6 +42,7 @@ class SceneBuilder {
   void insertJoint(FrameData& frame, const SourceFrame& source);
   void keepWorldPose(FrameData& frame, const SourceFrame& source);
   void resolveMimicShape(FrameData& frame, const SourceFrame& source);
+  void resolveContactExclude(FrameData& frame, const SourceFrame& source);
   void resolveMimic(FrameData& frame, const SourceFrame& source);
   void setJointState(const Node& node);
 

@@ -318,9 +318,11 @@ std::string sceneToBytes(const SceneTree& scene) {
   for (const auto& data : scene.frames()) {
     archive(id(data->parent));
     archive(id(data->joint ? data->joint->mimic : nullptr));
-    std::vector<std::int64_t> children;
-    for (const FrameData* child : data->children) children.push_back(id(child));
-    items(archive, children);
+    for (const std::vector<FrameData*>* others : {&data->children, &data->no_contact}) {
+      std::vector<std::int64_t> ids;
+      for (const FrameData* other : *others) ids.push_back(id(other));
+      items(archive, ids);
+    }
   }
   return std::move(archive.bytes);
 }
@@ -349,11 +351,13 @@ std::shared_ptr<SceneTree> sceneFromBytes(std::string_view bytes) {
     data.parent = read();
     FrameData* mimic = read();
     if (data.joint) data.joint->mimic = mimic;
-    std::vector<std::int64_t> children;
-    items(archive, children);
-    for (std::int64_t id : children) {
-      if (id < 0 || id >= std::int64_t(count)) throw ValueError("the bytes of a scene are damaged: a child that is not there");
-      data.children.push_back(scene->frames()[std::size_t(id)].get());
+    for (std::vector<FrameData*>* others : {&data.children, &data.no_contact}) {
+      std::vector<std::int64_t> ids;
+      items(archive, ids);
+      for (std::int64_t id : ids) {
+        if (id < 0 || id >= std::int64_t(count)) throw ValueError("the bytes of a scene are damaged: a frame that is not there");
+        others->push_back(scene->frames()[std::size_t(id)].get());
+      }
     }
   }
   if (!archive.done()) throw ValueError("the bytes of a scene are damaged: there are more than it has");

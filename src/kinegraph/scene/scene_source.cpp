@@ -9,6 +9,7 @@
 
 #include "kinegraph/base/errors.h"
 #include "kinegraph/base/text.h"
+#include "kinegraph/base/utf8.h"
 #include "kinegraph/scene/scene_format.h"
 
 namespace kinegraph {
@@ -60,10 +61,20 @@ class SourceReader {
     return frames;
   }
 
-  std::vector<SourceFrame> readText(const std::string& text, const std::string& name, std::string folder) {
+  std::vector<SourceFrame> readText(const std::string& bytes, const std::string& name, std::string folder) {
+    std::size_t replaced = 0;
+    const std::string text = validUtf8(bytes, &replaced);
+    if (replaced > 0) {
+      diagnostics_.warning({name, 1, 1}, cat("the text is not UTF-8; ", replaced,
+                                             replaced == 1 ? " byte of it is" : " bytes of it are", " read as '?'"));
+    }
     diagnostics_.addText(name, text);
     const SceneFormat* format = sceneFormatOf(name);
     ParseResult parsed = format ? format->read(text, name, folder) : parseAll(text, name);
+    for (SourceText& included : parsed.included) {
+      files.push_back(included.file);
+      diagnostics_.addText(included.file, std::move(included.text));
+    }
     for (Diagnostic& diagnostic : parsed.diagnostics) diagnostics_.add(std::move(diagnostic));
     std::vector<SourceFrame> frames;
     std::vector<Node> edits;
@@ -165,7 +176,7 @@ class SourceReader {
       frame.node.key = prefix + frame.node.key;
       frame.prefix = prefix + frame.prefix;
       for (std::string& parent : frame.node.parents) rename(parent);
-      for (const char* key : {"mimic", "mimic_shape", "parent"}) {
+      for (const char* key : {"mimic", "mimic_shape", "contact_exclude", "parent"}) {
         Node* reference = std::get_if<Graph>(&frame.node.value.data)->find(key);
         if (!reference) continue;
         if (auto* text = std::get_if<std::string>(&reference->value.data)) rename(*text);

@@ -34,6 +34,7 @@ void SceneTree::remove(FrameData& frame) {
     other->joint->q = dofSource(frame).joint ? dofSource(frame).joint->q : other->joint->home;
     other->joint->mimic = nullptr;
   }
+  for (const auto& other : frames_) std::erase(other->no_contact, &frame);
   const auto place = frames_.begin() + frame.id;
   frame.tree = nullptr;
   for (auto later = place + 1; later != frames_.end(); ++later) --(*later)->id;
@@ -46,6 +47,7 @@ void SceneTree::clear() {
     frame->tree = nullptr;
     frame->parent = nullptr;
     frame->children.clear();
+    frame->no_contact.clear();
     if (frame->joint) frame->joint->mimic = nullptr;
   }
   frames_.clear();
@@ -126,6 +128,7 @@ FrameData* SceneTree::append(const SceneTree& other, const std::string& prefix, 
     if (original.parent) copy.parent = copyOf(original.parent);
     copy.children.reserve(original.children.size());
     for (const FrameData* child : original.children) copy.children.push_back(copyOf(child));
+    for (const FrameData* excluded : original.no_contact) copy.no_contact.push_back(copyOf(excluded));
     if (copy.joint && copy.joint->mimic) copy.joint->mimic = copyOf(original.joint->mimic);
   }
   structureChanged();

@@ -1,0 +1,38 @@
+#pragma once
+
+#include <utility>
+#include <vector>
+
+#include "kinegraph/gfile/value.h"
+#include "kinegraph/math/pose.h"
+
+namespace kinegraph {
+
+/// The attributes of a frame that stands at one place of a file.
+class FrameAttributes {
+ public:
+  explicit FrameAttributes(const SourcePosition& where) : where_(where) {}
+
+  template <class T>
+  void add(const char* key, T data) {
+    Node node;
+    node.key = key;
+    node.where = node.value.where = where_;
+    node.value.data = std::move(data);
+    graph_.nodes.push_back(std::move(node));
+  }
+  void addNumbers(const char* key, std::vector<double> numbers) { add(key, NumberArray{std::move(numbers), 1}); }
+  void addPose(const Pose& pose) {
+    if (pose.isIdentity(0.)) return;
+    const Vector7d x = pose.numbers();
+    addNumbers("pose", {x.begin(), x.end()});
+  }
+  const Node* find(const char* key) const { return graph_.find(key); }
+  Graph take() { return std::move(graph_); }
+
+ private:
+  SourcePosition where_;
+  Graph graph_;
+};
+
+}  // namespace kinegraph

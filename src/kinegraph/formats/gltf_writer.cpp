@@ -1,0 +1,216 @@
+#include "kinegraph/formats/gltf_writer.h"
+
+#include <array>
+#include <bit>
+#include <cmath>
+#include <cstdint>
+#include <fstream>
+#include <limits>
+#include <map>
+
+#include "kinegraph/base/text.h"
+#include "kinegraph/geometry/tessellation.h"
+#include "kinegraph/scene/visual_meshes.h"
+
+namespace kinegraph {
+
+namespace {
+
+// Numbers that glTF gives its words.
+constexpr int kFloat = 5126, kUint32 = 5125, kByte = 5121, kVertexData = 34962, kIndexData = 34963, kPoints = 0,
+              kTriangles = 4;
+constexpr std::uint32_t kGltf = 0x46546C67, kJson = 0x4E4F534A, kBinary = 0x004E4942;
+constexpr std::array<std::uint8_t, 4> kGrey = {204, 204, 204, 255};
+
+std::string quoted(const std::string& text) {
+  static const char* const digits = "0123456789abcdef";
+  std::string out = "\"";
+  for (const char c : text) {
+    const auto code = static_cast<unsigned char>(c);
+    if (c == '"' || c == '\\') {
+      out += {'\\', c};
+    } else if (code < 0x20) {
+      out += cat("\\u00", digits[code >> 4], digits[code & 15]);
+    } else {
+      out += c;
+    }
+  }
+  return out + "\"";
+}
+
+std::string list(const std::vector<double>& numbers) {
+  std::vector<std::string> words;
+  for (const double x : numbers) words.push_back(exact(x));
+  return cat("[", join(words, ","), "]");
+}
+
+void appendWord(std::string& bytes, std::uint32_t word) {
+  for (int shift = 0; shift < 32; shift += 8) bytes += char((word >> shift) & 255);
+}
+
+class GltfWriter {
+ public:
+  explicit GltfWriter(const Config& config) : config_(config) {}
+
+  std::string write() {
+    std::vector<std::string> roots;
+    for (const auto& frame : config_.scene()->frames()) {
+      addNode(*frame);
+      if (!frame->parent) roots.push_back(cat(frame->id));
+    }
+    const double half = std::sqrt(.5);
+    nodes_.push_back(cat("{\"name\":\"scene\",\"rotation\":", list({-half, 0., 0., half}), children(roots), "}"));
+    std::string json =
+        cat("{\"asset\":{\"version\":\"2.0\",\"generator\":\"Kinegraph\"},\"scene\":0,\"scenes\":[{\"nodes\":[",
+            nodes_.size() - 1, "]}],\"nodes\":[", join(nodes_, ","), "]");
+    for (const auto& [name, entries] : {std::pair("meshes", &meshes_), std::pair("materials", &materials_),
+                                        std::pair("accessors", &accessors_), std::pair("bufferViews", &views_)}) {
+      if (!entries->empty()) json += cat(",\"", name, "\":[", join(*entries, ","), "]");
+    }
+    if (!data_.empty()) json += cat(",\"buffers\":[{\"byteLength\":", data_.size(), "}]");
+    json += "}";
+    json.resize((json.size() + 3) / 4 * 4, ' ');
+    const std::size_t total = 12 + 8 + json.size() + (data_.empty() ? 0 : 8 + data_.size());
+    if (total > std::numeric_limits<std::uint32_t>::max())
+      throw FileError("the scene is too large for a .glb file of 4 GB");
+    std::string bytes;
+    bytes.reserve(total);
+    for (const std::uint32_t word : {kGltf, std::uint32_t(2), std::uint32_t(total), std::uint32_t(json.size()), kJson})
+      appendWord(bytes, word);
+    bytes += json;
+    if (!data_.empty()) {
+      appendWord(bytes, std::uint32_t(data_.size()));
+      appendWord(bytes, kBinary);
+      bytes += data_;
+    }
+    return bytes;
+  }
+
+ private:
+  /// The numbers of a mesh in the file: indices of accessors.
+  struct MeshData {
+    int positions = -1, colors = -1, triangles = -1;
+    std::array<std::uint8_t, 4> color = kGrey;  ///< where it has one in all
+  };
+
+  static std::string children(const std::vector<std::string>& ids) {
+    return ids.empty() ? "" : cat(",\"children\":[", join(ids, ","), "]");
+  }
+
+  void addNode(const FrameData& frame) {
+    const Pose pose = frame.relativePose();
+    std::string node = cat("{\"name\":", quoted(frame.name));
+    if (!pose.p.isZero(0.)) node += cat(",\"translation\":", list({pose.p[0], pose.p[1], pose.p[2]}));
+    if (!pose.q.vec().isZero(0.)) node += cat(",\"rotation\":", list({pose.q.x(), pose.q.y(), pose.q.z(), pose.q.w()}));
+    if (const int mesh = frame.shape ? addMesh(*frame.shape) : -1; mesh >= 0) node += cat(",\"mesh\":", mesh);
+    std::vector<std::string> ids;
+    for (const FrameData* child : frame.children) ids.push_back(cat(child->id));
+    nodes_.push_back(cat(node, children(ids), "}"));
+  }
+
+  /// The mesh of a shape with its material; -1 if there is nothing to see.
+  int addMesh(const Shape& shape) {
+    std::shared_ptr<const Geometry> geometry = visual_meshes_.of(shape);
+    if (!geometry) geometry = shape.geometry;
+    const MeshData& data = addData(geometry);
+    if (data.positions < 0) return -1;
+    Vector4d rgba;
+    for (int i = 0; i < 4; ++i) rgba[i] = data.colors >= 0 ? 1. : data.color[std::size_t(i)] / 255.;
+    if (shape.color) rgba = data.colors >= 0 ? Vector4d(1., 1., 1., (*shape.color)[3]) : *shape.color;
+    const std::string material = materialOf(rgba.cwiseMax(0.).cwiseMin(1.));
+    std::string primitive =
+        cat("\"mode\":", data.triangles >= 0 ? kTriangles : kPoints, ",\"attributes\":{\"POSITION\":", data.positions);
+    if (data.colors >= 0) primitive += cat(",\"COLOR_0\":", data.colors);
+    primitive += "}";
+    if (data.triangles >= 0) primitive += cat(",\"indices\":", data.triangles);
+    const std::string mesh = cat("{\"primitives\":[{", primitive, ",\"material\":", material, "}]}");
+    return indexOf(mesh, meshes_, mesh_index_);
+  }
+
+  static int indexOf(const std::string& entry, std::vector<std::string>& entries, std::map<std::string, int>& index) {
+    const auto [known, is_new] = index.emplace(entry, int(entries.size()));
+    if (is_new) entries.push_back(entry);
+    return known->second;
+  }
+
+  std::string materialOf(const Vector4d& rgba) {
+    const std::string material =
+        cat("{\"doubleSided\":true", rgba[3] < 1. ? ",\"alphaMode\":\"BLEND\"" : "",
+            ",\"pbrMetallicRoughness\":{\"metallicFactor\":0,\"roughnessFactor\":0.8,\"baseColorFactor\":",
+            list({rgba[0], rgba[1], rgba[2], rgba[3]}), "}}");
+    return cat(indexOf(material, materials_, material_index_));
+  }
+
+  const MeshData& addData(const std::shared_ptr<const Geometry>& geometry) {
+    const auto [entry, is_new] = data_of_.emplace(geometry, MeshData{});
+    MeshData& added = entry->second;
+    if (!is_new || geometry->type == ShapeType::lines) return added;
+    const Mesh surface =
+        geometry->type == ShapeType::pointCloud && geometry->mesh ? *geometry->mesh : tessellate(*geometry);
+    if (surface.vertices.empty()) return added;
+    added.positions = addPositions(surface.vertices);
+    if (surface.colors.size() == 1) added.color = surface.colors[0];
+    if (surface.colors.size() == surface.vertices.size() && surface.colors.size() > 1)
+      added.colors = addColors(surface);
+    if (!surface.triangles.empty()) added.triangles = addTriangles(surface);
+    return added;
+  }
+
+  int addAccessor(std::size_t start, int target, int component, const char* type, std::size_t count,
+                  const std::string& more) {
+    views_.push_back(cat("{\"buffer\":0,\"byteOffset\":", start, ",\"byteLength\":", data_.size() - start,
+                         ",\"target\":", target, "}"));
+    accessors_.push_back(cat("{\"bufferView\":", views_.size() - 1, ",\"componentType\":", component,
+                             ",\"count\":", count, ",\"type\":\"", type, "\"", more, "}"));
+    return int(accessors_.size()) - 1;
+  }
+
+  int addPositions(const std::vector<Vector3d>& points) {
+    const std::size_t start = data_.size();
+    Eigen::Vector3f low = points[0].cast<float>(), high = low;
+    for (const Vector3d& point : points) {
+      const Eigen::Vector3f p = point.cast<float>();
+      low = low.cwiseMin(p);
+      high = high.cwiseMax(p);
+      for (const float x : p) appendWord(data_, std::bit_cast<std::uint32_t>(x));
+    }
+    const auto bounds = [](const Eigen::Vector3f& v) { return list({v[0], v[1], v[2]}); };
+    return addAccessor(start, kVertexData, kFloat, "VEC3", points.size(),
+                       cat(",\"min\":", bounds(low), ",\"max\":", bounds(high)));
+  }
+
+  int addColors(const Mesh& mesh) {
+    const std::size_t start = data_.size();
+    for (const auto& color : mesh.colors) data_.append(color.begin(), color.end());
+    return addAccessor(start, kVertexData, kByte, "VEC4", mesh.colors.size(), ",\"normalized\":true");
+  }
+
+  int addTriangles(const Mesh& mesh) {
+    const std::size_t start = data_.size();
+    for (const auto& triangle : mesh.triangles) {
+      for (const std::uint32_t corner : triangle) appendWord(data_, corner);
+    }
+    return addAccessor(start, kIndexData, kUint32, "SCALAR", 3 * mesh.triangles.size(), "");
+  }
+
+  const Config& config_;
+  VisualMeshes visual_meshes_;
+  std::vector<std::string> nodes_, meshes_, materials_, accessors_, views_;
+  std::map<std::string, int> mesh_index_, material_index_;
+  std::map<std::shared_ptr<const Geometry>, MeshData> data_of_;
+  std::string data_;  ///< the binary part
+};
+
+}  // namespace
+
+std::string gltfBytes(const Config& config) { return GltfWriter(config).write(); }
+
+void writeGltf(const Config& config, const std::string& path) {
+  const std::string bytes = gltfBytes(config);
+  std::ofstream stream(path, std::ios::binary);
+  stream << bytes;
+  stream.flush();
+  if (!stream) throw FileError(cat("scene file '", path, "' cannot be written"));
+}
+
+}  // namespace kinegraph

@@ -1,0 +1,74 @@
+"""Compares a scene with what MuJoCo makes of an MJCF file."""
+
+import mujoco
+import numpy as np
+
+import kinegraph as ry
+
+WIDTH = {int(mujoco.mjtJoint.mjJNT_FREE): 7, int(mujoco.mjtJoint.mjJNT_BALL): 4}
+
+
+class Comparison:
+    """A scene and MuJoCo's model of a file."""
+
+    def __init__(self, file: str, config: ry.Config, seed: int) -> None:
+        self.config, self.random = config, np.random.default_rng(seed)
+        self.model = mujoco.MjModel.from_xml_path(file)
+        self.data = mujoco.MjData(self.model)
+        self.frame_index = {name: i for i, name in reversed(list(enumerate(config.getFrameNames())))}
+        model = self.model
+        self.equalities = [
+            (model.eq_obj1id[e], model.eq_obj2id[e], model.eq_data[e])
+            for e in range(model.neq)
+            if model.eq_type[e] == mujoco.mjtEq.mjEQ_JOINT and model.eq_active0[e] and not any(model.eq_data[e][2:5])
+        ]
+
+    def joint(self, j: int) -> slice:
+        """The place of a joint in qpos."""
+        start = self.model.jnt_qposadr[j]
+        return slice(start, start + WIDTH.get(int(self.model.jnt_type[j]), 1))
+
+    def drawState(self) -> None:
+        """Draws a state that fulfils the equalities, and sets it in both."""
+        model, q = self.model, self.data.qpos
+        for j in range(model.njnt):
+            place = self.joint(j)
+            limited = model.jnt_limited[j] and place.stop - place.start == 1
+            q[place] = self.random.uniform(*(model.jnt_range[j] if limited else (-2, 2)), place.stop - place.start)
+            if place.stop - place.start > 1:
+                q[place.stop - 4 : place.stop] /= np.linalg.norm(q[place.stop - 4 : place.stop])
+        for _ in self.equalities:  # chains
+            for first, second, c in self.equalities:
+                a, b = model.jnt_qposadr[[first, second]]
+                x = q[b] - model.qpos0[b] if second >= 0 else 0.0
+                q[a] = model.qpos0[a] + c[0] + c[1] * x
+        followers = {first for first, _, _ in self.equalities}
+        own = [q[self.joint(j)] for j in range(model.njnt) if j not in followers]
+        self.config.setJointState(np.concatenate(own) if own else [])
+
+    def difference(self) -> float:
+        """Sets a random state in both; the largest difference of a body's or a site's pose, in m or rad."""
+        self.drawState()
+        mujoco.mj_kinematics(self.model, self.data)
+        poses = self.config.getFrameState()
+        worst = 0.0
+        for kind, positions, rotations in [
+            (mujoco.mjtObj.mjOBJ_BODY, self.data.xpos, self.data.xmat),
+            (mujoco.mjtObj.mjOBJ_SITE, self.data.site_xpos, self.data.site_xmat),
+        ]:
+            for i in range(len(positions)):
+                name = mujoco.mj_id2name(self.model, kind, i)
+                suffixed = f"{name}_site" if kind == mujoco.mjtObj.mjOBJ_SITE else None
+                frame = self.frame_index.get(suffixed, self.frame_index.get(name))
+                if frame is None:
+                    continue
+                rotation = np.empty(9)
+                mujoco.mju_quat2Mat(rotation, poses[frame, 3:])
+                worst = max(worst, np.abs(poses[frame, :3] - positions[i]).max(), np.abs(rotation - rotations[i]).max())
+        return worst
+
+
+def largestDifference(file: str, config: ry.Config, seed: int, samples: int) -> float:
+    """The largest difference of the poses of bodies and sites at random states, in m or rad."""
+    comparison = Comparison(file, config, seed)
+    return max(comparison.difference() for _ in range(samples))

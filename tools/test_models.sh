@@ -1,0 +1,14 @@
+#!/usr/bin/env bash
+# Reads every URDF file of the package example-robot-data and every MJCF file of robosuite, and compares the poses with
+# those of Pinocchio and MuJoCo at random states. Installs this source and all of that into build/models_venv.
+# Arguments go to pytest: -k panda takes a sample.
+set -euo pipefail
+cd "$(dirname "$0")/.."
+export KINEGRAPH_HEADLESS=1 PIP_DISABLE_PIP_VERSION_CHECK=1 PIP_QUIET=1
+venv=$PWD/build/models_venv
+mkdir -p build
+[ -x "$venv/bin/python" ] || bash tools/make_venv.sh "${PYTHON:-python3}" "$venv"
+"$venv/bin/python" -m pip install .
+"$venv/bin/python" -m pip install pytest hypothesis pin==4.1.0 example-robot-data==6.0.0 mujoco==3.17.0
+"$venv/bin/python" -m pip install --no-deps robosuite==1.5.2
+"$venv/bin/python" -m pytest -q -m "robots or models" tests/python/test_urdf.py tests/python/test_mjcf.py "$@"
