@@ -6,6 +6,7 @@
 
 #include "kinegraph/geometry/mesh_file.h"
 #include "tests/support/near.h"
+#include "tests/support/temporary_folder.h"
 
 using namespace kinegraph;
 
@@ -13,10 +14,10 @@ namespace {
 
 /// What the mesh reader makes of the scene, z up again.
 Mesh readAgain(const Config& config) {
-  const std::string path = (std::filesystem::path(::testing::TempDir()) / "gltf_writer_test.glb").string();
+  const TemporaryFolder folder;
+  const std::string path = (folder / "scene.glb").string();
   writeGltf(config, path);
   Mesh mesh = readMeshFile(path);
-  std::filesystem::remove(path);
   const Matrix3d up = axisRotation(0, M_PI / 2);
   for (Vector3d& p : mesh.vertices) p = up * p;
   return mesh;

@@ -7,6 +7,7 @@
 #include "tests/formats/mujoco_model.h"
 #include "tests/support/expect_error.h"
 #include "tests/support/near.h"
+#include "tests/support/temporary_folder.h"
 
 using namespace kinegraph;
 
@@ -15,16 +16,8 @@ namespace {
 /// Scenes read from MJCF texts, through files as users do it.
 class MjcfReader : public ::testing::Test {
  protected:
-  void SetUp() override {
-    folder_ = std::filesystem::path(::testing::TempDir()) / "mjcf_reader_test";
-    std::filesystem::create_directories(folder_);
-  }
-  void TearDown() override { std::filesystem::remove_all(folder_); }
-
   std::string write(const std::string& name, const std::string& text) {
-    const std::string path = (folder_ / name).string();
-    std::ofstream(path) << text;
-    return path;
+    return folder_.write(name, text);
   }
   std::string file(const std::string& inside) { return write("m.xml", "<mujoco>\n" + inside + "\n</mujoco>"); }
 
@@ -43,7 +36,7 @@ class MjcfReader : public ::testing::Test {
     return largestDifferenceToMujoco(path, config);
   }
 
-  std::filesystem::path folder_;
+  TemporaryFolder folder_;
   std::vector<std::string> warnings_;
 };
 

@@ -6,6 +6,7 @@
 
 #include "tests/formats/mujoco_model.h"
 #include "tests/formats/random_scene.h"
+#include "tests/support/temporary_folder.h"
 
 using namespace kinegraph;
 
@@ -15,12 +16,6 @@ constexpr double kAgreement = 1e-9;
 
 class WriteMjcf : public ::testing::Test {
  protected:
-  void SetUp() override {
-    folder_ = std::filesystem::path(::testing::TempDir()) / "mjcf_writer_test";
-    std::filesystem::create_directories(folder_);
-  }
-  void TearDown() override { std::filesystem::remove_all(folder_); }
-
   static Config scene(const std::string& text) {
     Config config;
     config.addText(text);
@@ -40,7 +35,7 @@ class WriteMjcf : public ::testing::Test {
     return copy;
   }
 
-  std::filesystem::path folder_;
+  TemporaryFolder folder_;
   std::vector<std::string> warnings_;
 };
 

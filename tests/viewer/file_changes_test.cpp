@@ -1,4 +1,5 @@
 #include "kinegraph/viewer/file_changes.h"
+#include "tests/support/temporary_folder.h"
 
 #include <gtest/gtest.h>
 
@@ -76,8 +77,8 @@ TEST(FileChanges, AnUndoneEditIsNoChange) {
 }
 
 TEST(FileChanges, StampsTellFilesThatExistFromThoseThatDoNot) {
-  const std::string path = testing::TempDir() + "/stamped.g";
-  std::ofstream(path) << "a: {}";
+  const TemporaryFolder folder;
+  const std::string path = folder.write("stamped.g", "a: {}");
   const FileStamps stamps = stampsOf({path, path + ".missing"});
   EXPECT_EQ(stamps.at(path).size, 5u);
   EXPECT_EQ(stamps.at(path + ".missing"), FileStamp{});

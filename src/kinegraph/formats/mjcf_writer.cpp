@@ -184,7 +184,7 @@ class MjcfWriter {
   /// Degrees.
   static double verticalAngle(const FrameData& camera) {
     const auto number = [&](const char* key) {
-      const Node* node = camera.attributes.find(key);
+      const Node* node = camera.attributes->find(key);
       const double* value = node ? node->value.as<double>() : nullptr;
       return value ? *value : 0.;
     };

@@ -15,8 +15,7 @@ constexpr double kLongestTurn = .5;  // rad
 
 IkProblem::Task makeTask(const Program& program, const IkTarget& target) {
   const int frame = frameId(program, target.frame, "solveIk");
-  const int link = program.frame_link[frame];
-  if (program.chain_start[link] == program.chain_start[link + 1]) {
+  if (program.last_column[program.frame_link[frame]] < 0) {
     throw ValueError(cat("solveIk: no active joint moves frame '", target.frame, "'"));
   }
   const Vector3d axis = target.kind == IkTarget::Kind::direction ? target.axis.normalized() : Vector3d::UnitZ();
@@ -75,14 +74,14 @@ IkProblem::IkProblem(const Config& config, const std::vector<IkTarget>& targets,
   }
   nearest = nearest.cwiseMax(lower).cwiseMin(upper);
   if (options.collisions) choosePairs();
+  bodies.emplace(*program, pairs);
 }
 
 void IkProblem::chooseVariables() {
   variable.assign(program->dofs, -1);
   for (const Task& task : tasks) {
-    const int link = program->frame_link[task.frame];
-    for (int i = program->chain_start[link]; i < program->chain_start[link + 1]; ++i) {
-      variable[program->column_dof[program->chain[i]]] = 0;
+    for (int c = program->last_column[program->frame_link[task.frame]]; c >= 0; c = program->column_before[c]) {
+      variable[program->column_dof[c]] = 0;
     }
   }
   for (const Program::DofRange& norm : program->unit_norms) {
@@ -120,17 +119,16 @@ void IkProblem::chooseVariables() {
 }
 
 void IkProblem::choosePairs() {
-  const auto columns = [&](int frame) {
-    const int link = program->frame_link[frame];
-    return std::pair(program->chain.begin() + program->chain_start[link], program->chain.begin() + program->chain_start[link + 1]);
-  };
-  std::vector<int> between;
+  const auto moves = [&](int column) { return variable[program->column_dof[column]] >= 0; };
   for (const auto& pair : program->collidable) {
-    const auto a = columns(pair.first), b = columns(pair.second);  // both rise
-    between.clear();
-    std::set_symmetric_difference(a.first, a.second, b.first, b.second, std::back_inserter(between));
-    const auto moves = [&](int column) { return variable[program->column_dof[column]] >= 0; };
-    if (std::any_of(between.begin(), between.end(), moves)) pairs.push_back(pair);
+    // Up both chains, from the column that comes last, to the one where they meet.
+    int a = program->last_column[program->frame_link[pair.first]], b = program->last_column[program->frame_link[pair.second]];
+    while (a != b) {
+      int& later = a > b ? a : b;
+      if (moves(later)) break;
+      later = program->column_before[later];
+    }
+    if (a != b) pairs.push_back(pair);
   }
 }
 

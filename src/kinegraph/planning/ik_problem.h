@@ -1,9 +1,11 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <utility>
 #include <vector>
 
+#include "kinegraph/kinematics/near_pairs.h"
 #include "kinegraph/planning/low_discrepancy.h"
 #include "kinegraph/planning/solve_ik.h"
 
@@ -45,6 +47,7 @@ struct IkProblem {
   VectorXd nearest;           ///< per variable: where answers are wanted
   bool pulls = false;         ///< the answer is to be brought as near to `nearest` as the targets allow
   std::vector<std::pair<int, int>> pairs;  ///< of frames that the variables move relative to each other
+  std::optional<BodyPairs> bodies;         ///< of these pairs
 
  private:
   void chooseVariables();

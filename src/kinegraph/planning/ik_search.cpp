@@ -41,6 +41,7 @@ Vector3d turnBetween(const Vector3d& a, const Vector3d& b, double& angle) {
 IkSearch::IkSearch(std::shared_ptr<const IkProblem> problem)
     : problem_(std::move(problem)),
       state_(problem_->program, problem_->parameters),
+      placed_(*problem_->bodies),
       q_(problem_->q),
       x_(problem_->variables()),
       pull_(problem_->variables()) {}
@@ -108,9 +109,9 @@ void IkSearch::measureTargets(bool with_jacobian) {
       }
     }
     const int link = program.frame_link[task.frame];
-    for (int c = program.chain_start[link]; with_jacobian && c < program.chain_start[link + 1]; ++c) {
-      const int column = program.chain[c], v = problem_->variable[program.column_dof[column]];
-      const State::Twist& twist = state_.twist(column);
+    for (int c = with_jacobian ? program.last_column[link] : -1; c >= 0; c = program.column_before[c]) {
+      const int v = problem_->variable[program.column_dof[c]];
+      const State::Twist& twist = state_.twist(c);
       double* J = step_.column(v) + row;
       if (task.placed()) {
         const Vector3d velocity = twist.linear + twist.angular.cross(X.p);
@@ -135,22 +136,22 @@ void IkSearch::measureDistances() {
   gradients_.clear();
   errors_.penetration = 0.;
   const double margin = problem_->options.margin;
-  for (std::size_t i = 0; i < problem_->pairs.size(); ++i) {
-    const auto [a, b] = problem_->pairs[i];
-    const RigidTransform X_WA = state_.pose(a), X_WB = state_.pose(b);
-    if (farApart(*program.body[a], X_WA, *program.body[b], X_WB, margin + kNear)) continue;
-    const Proximity near = proximity(*program.body[a], X_WA, *program.body[b], X_WB);
+  placed_.place(state_);
+  for (int i = 0; i < placed_.pairs(); ++i) {
+    if (!placed_.mayBeNear(i, margin + kNear)) continue;
+    const Proximity near = placed_.proximity(i);
     if (near.distance > margin + kNear) continue;
+    const auto [a, b] = problem_->pairs[i];
     errors_.penetration = std::max(errors_.penetration, margin - near.distance);
-    near_.push_back({int(i), near.distance, near.distance < margin + kSlack});
+    near_.push_back({i, near.distance, near.distance < margin + kSlack});
     gradients_.resize(gradients_.size() + variables, 0.);
     double* gradient = gradients_.data() + gradients_.size() - variables;
     const auto add = [&](int frame, const Vector3d& point, double sign) {
       const int link = program.frame_link[frame];
-      for (int c = program.chain_start[link]; c < program.chain_start[link + 1]; ++c) {
-        const int column = program.chain[c], v = problem_->variable[program.column_dof[column]];
+      for (int c = program.last_column[link]; c >= 0; c = program.column_before[c]) {
+        const int v = problem_->variable[program.column_dof[c]];
         if (v < 0) continue;
-        const State::Twist& twist = state_.twist(column);
+        const State::Twist& twist = state_.twist(c);
         gradient[v] += sign * near.normal.dot(twist.linear + twist.angular.cross(point));
       }
     };

@@ -3,7 +3,7 @@
 #include <functional>
 #include <limits>
 
-#include "kinegraph/kinematics/state.h"
+#include "kinegraph/kinematics/near_pairs.h"
 #include "kinegraph/planning/damped_step.h"
 #include "kinegraph/planning/ik_problem.h"
 
@@ -96,6 +96,7 @@ class IkSearch {
 
   std::shared_ptr<const IkProblem> problem_;
   State state_;
+  PlacedBodies placed_;
   DampedStep step_;
   IkJob* job_ = nullptr;  ///< that is being worked on
   VectorXd q_;            ///< the whole joint vector, with x in it

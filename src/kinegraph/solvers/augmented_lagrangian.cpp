@@ -408,7 +408,7 @@ void AugmentedLagrangian::reduceViolation() {
     const bool at_edge = model_.step().lpNorm<Eigen::Infinity>() >= .99 * radius_, good = before - after > .5 * (before - expected);
     if (at_edge && good) radius_ *= 4.;
     if (!good) radius_ = std::max(options_.stepMax, .25 * radius_);
-    if (before - expected < .02 * before && !at_edge && damping <= 1e-4 * (1. + before)) return;
+    if (before - expected < 1e-4 * before && !at_edge && damping <= 1e-4 * (1. + before)) return;
     if (!(after < before) || !describeNotFinite(nlp_, trial_phi_, &trial_J_).empty()) {
       damping *= 10.;
       continue;
