@@ -72,7 +72,7 @@ def interactiveIk(config: Config, frame: str, target: str = "ik_target", rotatio
             break
         time.sleep(_PERIOD)
         moved = viewer.hasEdits()
-        if moved:
-            config.view()  # takes over where the target is
+        if moved and config.view() in _QUIT:  # takes over where the target is
+            break
     config.view(False, "")
     return config.getJointState()

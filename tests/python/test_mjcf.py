@@ -20,6 +20,7 @@ ARM = """<mujoco model="arm">
       <joint name="shoulder" axis="1 2 2" pos="0 .1 0" range="-2 1"/>
       <geom type="capsule" fromto="0 0 0 0 0 .4" size=".05"/>
       <body name="hand" pos="0 0 .4">
+        <inertial pos="0 0 .05" mass=".5" diaginertia=".001 .001 .001"/>
         <joint name="wrist" axis="0 0 -1"/> <site name="tcp" pos="0 0 .1"/> <camera name="eye" fovy="50"/>
         <body name="finger1" childclass="finger"><joint name="grip" axis="0 1 0"/><geom size=".01"/></body>
         <body name="finger2" childclass="finger"><joint name="follow" axis="0 -1 0"/><geom size=".01"/></body>

@@ -127,7 +127,7 @@ def test_everything_in_the_panel_is_reached_by_the_tab_key(page: Browser) -> Non
         )
     assert {"show table", "show box", "show ghost", "show target", "SUMMARY", "search frames"} <= reached
     page.press_alt("O")
-    page.wait_for("document.activeElement.closest('#tab-view')")
+    page.wait_for("document.activeElement.closest('#tab-view') !== null")
     for _ in range(25):
         page.press("Tab", code="Tab", windowsVirtualKeyCode=9)
         reached.add(page.evaluate("document.activeElement.id || document.activeElement.textContent"))
