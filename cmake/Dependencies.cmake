@@ -20,11 +20,9 @@ if(NOT KINEGRAPH_PREFIX)
     message(STATUS "Installing the build requirements into ${venv}")
     execute_process(COMMAND "${Python_EXECUTABLE}" -m venv "${venv}" COMMAND_ERROR_IS_FATAL ANY)
   endif()
-  file(READ "${PROJECT_SOURCE_DIR}/pyproject.toml" pyproject)
-  string(REGEX MATCH "requires = \\[([^]]*)\\]" _ "${pyproject}")
-  string(REGEX MATCHALL "\"[^\"]+\"" quoted "${CMAKE_MATCH_1}")
-  list(TRANSFORM quoted REPLACE "\"" "" OUTPUT_VARIABLE requirements)
-  execute_process(COMMAND "${venv}/bin/python" -m pip install --quiet --disable-pip-version-check ${requirements}
+  execute_process(COMMAND "${venv}/bin/python" "${PROJECT_SOURCE_DIR}/tools/build_requirements.py"
+                  OUTPUT_FILE "${venv}/requirements.txt" COMMAND_ERROR_IS_FATAL ANY)
+  execute_process(COMMAND "${venv}/bin/python" -m pip install --quiet --disable-pip-version-check -r "${venv}/requirements.txt"
                   COMMAND_ERROR_IS_FATAL ANY)
   kinegraph_find_prefix(KINEGRAPH_PREFIX "${venv}/bin/python")
   if(NOT KINEGRAPH_PREFIX)
