@@ -1,6 +1,7 @@
 #!/usr/bin/env python3
 """Makes the pictures of the documentation: the viewer's page in a headless Chromium. Needs the package, and `websockets`."""
 
+import base64
 import sys
 import time
 from pathlib import Path
@@ -10,9 +11,9 @@ import numpy as np
 import kinegraph as ry
 
 HERE = Path(__file__).parent
-sys.path.append(str(HERE.parent / "tests" / "viewer"))
+sys.path.append(str(HERE.parent / "tests"))
 
-from browser import Browser  # noqa: E402
+from viewer.browser import Browser  # noqa: E402
 
 
 def reaching() -> ry.Config:
@@ -44,7 +45,8 @@ def main() -> None:
         center = C.getFrame("l_gripper").getPosition() * [0.4, 0.4, 0.85]
         viewer.setCamera(center + np.array([1.35, 1.35, 0.65]), center)
         time.sleep(5)  # software rendering takes its time
-        browser.screenshot(HERE / "panda.png")
+        browser.wait_for("kinegraph.idle()")
+        (HERE / "panda.png").write_bytes(base64.b64decode(browser.call("Page.captureScreenshot", format="png")["data"]))
 
 
 if __name__ == "__main__":
