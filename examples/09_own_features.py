@@ -1,10 +1,11 @@
-"""Part 8: features of your own. A Python function of frames is a feature like any other.
+"""Part 9: features of your own. A Python function of frames is a feature like any other.
 
 It gets a view of each frame at the configuration in question and returns a value, or a value and its Jacobian. Without the
 Jacobian, central differences replace it.
 """
 
 import numpy as np
+from numpy.typing import NDArray
 
 import kinegraph as ry
 
@@ -15,13 +16,13 @@ C.addFile(ry.raiPath("scenarios/pandaSingle.g"))
 C.addFrame("post", "table").setShape(ry.ST.marker, [0.1]).setRelativePosition([0.2, 0.35, 0.4])
 
 
-def fromAxis(gripper, post):
+def fromAxis(gripper: ry.FrameView, post: ry.FrameView) -> float:
     """Distance of the gripper from the vertical line through the post, squared (m^2)."""
     d = (gripper.getPosition() - post.getPosition())[:2]
-    return d @ d
+    return float(d @ d)
 
 
-def onHeight(gripper):
+def onHeight(gripper: ry.FrameView) -> tuple[float, NDArray[np.float64]]:
     """Height of the gripper (m), with its Jacobian."""
     return gripper.getPosition()[2], gripper.getPositionJacobian()[2]
 

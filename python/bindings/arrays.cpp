@@ -100,7 +100,7 @@ NewFlags newFlags(std::size_t size) {
   npy_intp shape[] = {npy_intp(size)};
   PyObject* array = PyArray_SimpleNew(1, shape, NPY_BOOL);
   if (!array) throw nb::python_error();
-  return {nb::steal(array), static_cast<bool*>(PyArray_DATA(reinterpret_cast<PyArrayObject*>(array)))};
+  return {FlagArray(nb::steal(array)), static_cast<bool*>(PyArray_DATA(reinterpret_cast<PyArrayObject*>(array)))};
 }
 
 Array toNumpy(const double* values, std::size_t size) {

@@ -37,6 +37,10 @@ class IndexArray : public nb::object {
   NB_OBJECT_DEFAULT(IndexArray, nb::object, "numpy.typing.NDArray[numpy.uint32]", numpy::isArray)
   explicit IndexArray(nb::object array) : nb::object(std::move(array)) {}
 };
+class FlagArray : public nb::object {
+  NB_OBJECT_DEFAULT(FlagArray, nb::object, "numpy.typing.NDArray[numpy.bool_]", numpy::isArray)
+  explicit FlagArray(nb::object array) : nb::object(std::move(array)) {}
+};
 class ByteArray : public nb::object {
   NB_OBJECT_DEFAULT(ByteArray, nb::object, "numpy.typing.NDArray[numpy.uint8]", numpy::isArray)
   explicit ByteArray(nb::object array) : nb::object(std::move(array)) {}
@@ -59,7 +63,7 @@ NewArray newArray(std::size_t layers, std::size_t rows, std::size_t columns);
 
 /// A new numpy array of truth values, and where they are.
 struct NewFlags {
-  nb::object array;
+  FlagArray array;
   bool* data;
 };
 NewFlags newFlags(std::size_t size);

@@ -44,7 +44,7 @@ Eigen::Map<RowMatrix> rowsOf(const NewArray& array, std::size_t rows, std::size_
   return {array.data, Eigen::Index(rows), Eigen::Index(columns)};
 }
 
-nb::tuple evalBatch(const PyConfig& config, const FeatureArgument& feature, const FrameNames& frames, const Numbers& Q,
+nb::typed<nb::tuple, Array, Array> evalBatch(const PyConfig& config, const FeatureArgument& feature, const FrameNames& frames, const Numbers& Q,
                     const std::optional<Numbers>& scale, const std::optional<Numbers>& target, int threads) {
   const auto joints = jointRows(Q, config, "evalBatch");
   const State scene = config.state();
@@ -57,7 +57,7 @@ nb::tuple evalBatch(const PyConfig& config, const FeatureArgument& feature, cons
   return nb::make_tuple(y.array, J.array);
 }
 
-nb::object getFramePoses(const PyConfig& config, const Numbers& Q, const FrameNames& frames, int threads) {
+Array getFramePoses(const PyConfig& config, const Numbers& Q, const FrameNames& frames, int threads) {
   const auto joints = jointRows(Q, config, "getFramePoses");
   const State scene = config.state();
   std::vector<int> ids;
@@ -68,7 +68,7 @@ nb::object getFramePoses(const PyConfig& config, const Numbers& Q, const FrameNa
   return poses.array;
 }
 
-nb::object getDistances(const PyConfig& config, const Numbers& Q, int threads) {
+Array getDistances(const PyConfig& config, const Numbers& Q, int threads) {
   const auto joints = jointRows(Q, config, "getDistances");
   const State scene = config.state();
   const std::size_t pairs = scene.program().collidable.size();
@@ -78,7 +78,7 @@ nb::object getDistances(const PyConfig& config, const Numbers& Q, int threads) {
   return distances.array;
 }
 
-nb::object isValid(const PyConfig& config, const Numbers& Q, double margin, int threads) {
+FlagArray isValid(const PyConfig& config, const Numbers& Q, double margin, int threads) {
   const auto joints = jointRows(Q, config, "isValid");
   if (!std::isfinite(margin)) throw ValueError(cat("isValid: margin is ", margin, "; expected a distance in m"));
   const State scene = config.state();
@@ -87,7 +87,7 @@ nb::object isValid(const PyConfig& config, const Numbers& Q, double margin, int 
   return valid.array;
 }
 
-nb::object isMotionFree(const PyConfig& config, const Numbers& from, const Numbers& to, double margin, double tolerance, int threads) {
+FlagArray isMotionFree(const PyConfig& config, const Numbers& from, const Numbers& to, double margin, double tolerance, int threads) {
   const auto starts = jointRows(from, config, "isMotionFree", "start"), ends = jointRows(to, config, "isMotionFree", "end");
   if (from.rows != to.rows) throw ValueError(cat("isMotionFree: ", from.rows, " starts and ", to.rows, " ends"));
   const State scene = config.state();

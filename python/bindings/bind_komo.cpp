@@ -47,19 +47,19 @@ Frame addFrameDof(PyKomo& komo, const std::string& name, const std::string& pare
   return komo.configuration(-komo.order()).getFrame(name);
 }
 
-nb::object pathFrames(const PyKomo& komo) {
+Array pathFrames(const PyKomo& komo) {
   nb::list slices;
   for (int t = 0; t < komo.slices(); ++t) slices.append(toNumpy(komo.getFrameState(t)));
-  return nb::module_::import_("numpy").attr("stack")(slices);
+  return Array(nb::module_::import_("numpy").attr("stack")(slices));
 }
 
-nb::list ownDofs(const PyKomo& komo) {
+nb::typed<nb::list, Array> ownDofs(const PyKomo& komo) {
   nb::list slices;
   for (int t = 0; t < komo.slices(); ++t) slices.append(toNumpy(komo.ownDofs(t)));
   return slices;
 }
 
-nb::tuple subProblem(const PyKomo& komo, int phase) {
+nb::typed<nb::tuple, PyConfig, Array, Array> subProblem(const PyKomo& komo, int phase) {
   Komo::SubProblem sub = komo.subProblem(phase);
   return nb::make_tuple(PyConfig{std::move(sub.config), nullptr}, toNumpy(sub.start), toNumpy(sub.end));
 }

@@ -28,7 +28,7 @@ void checkSize(const Nlp& nlp, const Numbers& x) {
 }
 
 /// (phi, J): J dense for a user's problem, (row, column, value) triplets for a motion problem.
-nb::tuple evaluate(Nlp& nlp, const Numbers& x) {
+nb::typed<nb::tuple, Array, Array> evaluate(Nlp& nlp, const Numbers& x) {
   checkSize(nlp, x);
   VectorXd phi(Eigen::Index(nlp.types().size()));
   Jacobian J = nlp.makeJacobian();
@@ -49,7 +49,7 @@ nb::tuple evaluate(Nlp& nlp, const Numbers& x) {
 }
 
 /// (2, n), where a variable without bounds has lower 0 and upper -1.
-nb::object bounds(const Nlp& nlp) {
+Array bounds(const Nlp& nlp) {
   MatrixXd both(2, nlp.dimension());
   for (int i = 0; i < nlp.dimension(); ++i) {
     const bool bounded = std::isfinite(nlp.lower()[i]) || std::isfinite(nlp.upper()[i]);

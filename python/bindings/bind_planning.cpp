@@ -128,8 +128,11 @@ class Watch {
   bool drawn_ = false;
 };
 
-nb::object solve(PyConfig& config, nb::handle targets, const std::optional<IkOptions>& given, int threads, int verbose, bool apply,
-                 nb::kwargs more) {
+/// What type checkers take for anything.
+nb::any toAny(nb::object object) { return nb::steal<nb::any>(object.release()); }
+
+nb::any solve(PyConfig& config, nb::handle targets, const std::optional<IkOptions>& given, int threads, int verbose, bool apply,
+              nb::kwargs more) {
   IkOptions options = given.value_or(IkOptions());
   setFields(options, more);
   const IkRequest request = readIkTargets(config, targets);
@@ -143,19 +146,19 @@ nb::object solve(PyConfig& config, nb::handle targets, const std::optional<IkOpt
     watch.finish();
   }
   if (verbose > 0) nb::print(cat("solveIk: ", request.is_batch ? resultsText(results) : resultText(results[0]), " ", watch.seconds(), " s").c_str());
-  if (request.is_batch) return nb::cast(std::move(results));
+  if (request.is_batch) return toAny(nb::cast(std::move(results)));
   if (apply && results[0].feasible()) config.setJointState(results[0].q);
-  return nb::cast(std::move(results[0]));
+  return toAny(nb::cast(std::move(results[0])));
 }
 
 template <class Read>
-nb::object column(const IkResults& results, const char* dtype, Read read) {
+nb::any column(const IkResults& results, const char* dtype, Read read) {
   NewArray array = newArray(results.size());
   for (std::size_t i = 0; i < results.size(); ++i) array.data[i] = double(read(results[i]));
-  return array.array.attr("astype")(dtype);
+  return toAny(array.array.attr("astype")(dtype));
 }
 
-nb::object allJoints(const IkResults& results) {
+Array allJoints(const IkResults& results) {
   const std::size_t n = results.empty() ? 0 : std::size_t(results[0].q.size());
   NewArray array = newArray(results.size(), n);
   for (std::size_t i = 0; i < results.size(); ++i) std::copy_n(results[i].q.data(), n, array.data + i * n);
@@ -195,8 +198,8 @@ void bindOptions(nb::module_& m) {
         setFields(self, state);
       }, "state"_a);
   for (const NamedField& known : fields()) {
-    options.def_prop_rw(known.name, [name = known.name](const IkOptions& o) { return nb::object(toDict(o)[name]); },
-                        [name = known.name](IkOptions& o, nb::handle value) {
+    options.def_prop_rw(known.name, [name = known.name](const IkOptions& o) -> nb::any { return toAny(toDict(o)[name]); },
+                        [name = known.name](IkOptions& o, nb::any value) {
                           IkOptions changed = o;
                           setField(changed, name, value);
                           changed.validate();
@@ -240,7 +243,7 @@ void bindResults(nb::module_& m) {
       .def_prop_ro("evals", [](const IkResults& r) { return column(r, "int64", [](const IkResult& i) { return i.evals; }); },
                    "Evaluations of the kinematics: (N,).")
       .def_prop_ro("message", [](const IkResults& r) {
-             nb::list messages;
+             nb::typed<nb::list, nb::str> messages;
              for (const IkResult& result : r) messages.append(result.message);
              return messages;
            }, "One line per problem; \"\" where it is solved.")

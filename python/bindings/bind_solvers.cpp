@@ -123,14 +123,14 @@ Explanation explanationOf(const SolverResult& result, double tolerance) {
   return explain(*result.problem, result.x, tolerance);
 }
 
-nb::object stack(const std::vector<VectorXd>& rows) {
+Array stack(const std::vector<VectorXd>& rows) {
   NewArray array = newArray(rows.size(), rows.empty() ? 0 : std::size_t(rows[0].size()));
   double* data = array.data;
   for (const VectorXd& row : rows) data = std::copy(row.begin(), row.end(), data);
   return array.array;
 }
 
-nb::object errorTrace(const NlpSolver& solver) {
+Array errorTrace(const NlpSolver& solver) {
   std::vector<VectorXd> rows;
   for (const ErrorSums& e : solver.traceErrors()) rows.push_back(Vector4d(e.f, e.sos, e.ineq, e.eq));
   return stack(rows);

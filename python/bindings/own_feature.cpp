@@ -128,14 +128,14 @@ std::string nameOf(const nb::object& function) {
   return nb::cast<std::string>(nb::str(nb::getattr(function, "__name__", nb::getattr(function.type(), "__name__"))));
 }
 
-nb::object pointJacobian(const FrameView& view, const Numbers& point) {
+Array pointJacobian(const FrameView& view, const Numbers& point) {
   if (point.values.size() != 3) throw ValueError(cat("getPositionJacobian: point has ", point.values.size(), " numbers; expected 3"));
   Rows J = Rows::Zero(3, view.state->dofs());
   view.state->addPointJacobian(view.frame, view.state->pose(view.frame) * Vector3d(point.values), 1., J);
   return toNumpy(J);
 }
 
-nb::object angularJacobian(const FrameView& view) {
+Array angularJacobian(const FrameView& view) {
   Rows J = Rows::Zero(3, view.state->dofs());
   view.state->addAngularJacobian(view.frame, 1., J);
   return toNumpy(J);
