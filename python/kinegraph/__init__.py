@@ -42,6 +42,7 @@ from ._core import (
 )
 from ._core import __version__ as __version__
 from .aruco import getArucoImage
+from .enums import teach
 from .errors import (
     ArgumentError,
     Error,
@@ -79,6 +80,8 @@ def compiled() -> str:
     """One line about the build."""
     return f"kinegraph {__version__}"
 
+
+teach(FS, JT, OT, ST, SY, OptMethod)
 
 # Written out, so that type checkers know what is exported.
 __all__ = [

@@ -2,6 +2,7 @@
 
 import inspect
 import os
+import pickle
 import re
 import subprocess
 import sys
@@ -103,3 +104,13 @@ print(sorted({name.split('.')[0] for name in sys.modules} & {'scipy', 'matplotli
 """
     program = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
     assert program.stdout.splitlines() == ["[]", "[]"]
+
+
+def test_a_misspelt_symbol_names_those_that_are_near():
+    with pytest.raises(AttributeError, match="FS has no 'postion'; similar names: position"):
+        ry.FS.postion  # noqa: B018
+    with pytest.raises(AttributeError, match="OT has no 'eqq'; similar names: eq"):
+        ry.OT.eqq  # noqa: B018
+    assert not hasattr(ry.FS, "__wrapped__")
+    assert ry.FS.position == ry.FS["position"] and ry.FS.position in list(ry.FS)
+    assert pickle.loads(pickle.dumps(ry.FS.position)) is ry.FS.position

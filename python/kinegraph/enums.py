@@ -1,0 +1,25 @@
+"""Enums that say which of their names a misspelt one is near to."""
+
+from __future__ import annotations
+
+import difflib
+import enum
+from typing import Any
+
+
+class _Teaching(enum.EnumMeta):
+    def __getattr__(cls, name: str) -> Any:
+        members = cls.__members__
+        if name in members:
+            return members[name]
+        if name.startswith("_"):
+            raise AttributeError(name)
+        near = difflib.get_close_matches(name, members, 3, 0.5)
+        hint = f"; similar names: {', '.join(near)}" if near else f"; expected one of {', '.join(members)}"
+        raise AttributeError(f"{cls.__name__} has no '{name}'{hint}")
+
+
+def teach(*classes: type) -> None:
+    """Lets these enums explain names that they do not have."""
+    for each in classes:
+        each.__class__ = _Teaching  # type: ignore[assignment]
