@@ -9,11 +9,11 @@ from typing import Any
 
 class _Teaching(enum.EnumMeta):
     def __getattr__(cls, name: str) -> Any:
-        members = cls.__members__
-        if name in members:
-            return members[name]
         if name.startswith("_"):
             raise AttributeError(name)
+        members = cls._member_map_
+        if name in members:
+            return members[name]
         near = difflib.get_close_matches(name, members, 3, 0.5)
         hint = f"; similar names: {', '.join(near)}" if near else f"; expected one of {', '.join(members)}"
         raise AttributeError(f"{cls.__name__} has no '{name}'{hint}")
