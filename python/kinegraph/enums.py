@@ -22,4 +22,4 @@ class _Teaching(enum.EnumMeta):
 def teach(*classes: type) -> None:
     """Lets these enums explain names that they do not have."""
     for each in classes:
-        each.__class__ = _Teaching  # type: ignore[assignment]
+        each.__class__ = _Teaching
