@@ -359,10 +359,10 @@ TEST_F(ViewerServerTest, ASlowBrowserMissesIntermediateStatesAndNeverBlocks) {
     items[0].pose.p.x() = i;
     server.update(items);
   }
-  EXPECT_LT(std::chrono::steady_clock::now() - start, std::chrono::seconds(60));  // it would wait for ever
+  EXPECT_LT(std::chrono::steady_clock::now() - start, std::chrono::seconds(5));
   server.setMessage("the end");
   const auto messages = readUntil(slow, "the end");
-  EXPECT_LT(messages.size(), 1000u);
+  EXPECT_LT(messages.size(), 100u);
   auto last = slow.next();
   ASSERT_TRUE(last && last->binary);
   float x;
@@ -385,7 +385,7 @@ TEST(ViewerServer, EndsWhileABrowserIsStuck) {
   ASSERT_TRUE(server->waitForClient(20.));
   const auto start = std::chrono::steady_clock::now();
   server.reset();
-  EXPECT_LT(std::chrono::steady_clock::now() - start, std::chrono::seconds(60));  // it would wait for ever
+  EXPECT_LT(std::chrono::steady_clock::now() - start, std::chrono::seconds(5));
 }
 
 TEST_F(ViewerServerTest, AForkedChildThatEndsDoesNotDisturbIt) {

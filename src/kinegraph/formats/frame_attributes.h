@@ -1,5 +1,6 @@
 #pragma once
 
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -28,7 +29,15 @@ class FrameAttributes {
     addNumbers("pose", {x.begin(), x.end()});
   }
   const Node* find(const char* key) const { return graph_.find(key); }
-  Graph take() { return std::move(graph_); }
+  /// The frame with these attributes, as an entry of a scene; `parent` is empty for a root.
+  Node takeFrame(const std::string& name, const std::string& parent, const SourcePosition& where) {
+    Node node;
+    node.key = name;
+    if (!parent.empty()) node.parents = {parent};
+    node.where = node.value.where = where;
+    node.value.data = std::move(graph_);
+    return node;
+  }
 
  private:
   SourcePosition where_;

@@ -164,12 +164,7 @@ class MjcfReader {
 
   void addFrame(const std::string& name, const std::string& parent, const SourcePosition& where,
                 FrameAttributes attributes) {
-    Node node;
-    node.key = name;
-    if (!parent.empty()) node.parents = {parent};
-    node.where = node.value.where = where;
-    node.value.data = attributes.take();
-    graph_.nodes.push_back(std::move(node));
+    graph_.nodes.push_back(attributes.takeFrame(name, parent, where));
   }
 
   /// The same place, in the coordinates of a <frame>.

@@ -189,12 +189,7 @@ class UrdfReader {
 
   void addFrame(const std::string& name, const std::string& parent, const SourcePosition& where,
                 FrameAttributes attributes) {
-    Node node;
-    node.key = name;
-    if (!parent.empty()) node.parents = {parent};
-    node.where = node.value.where = where;
-    node.value.data = attributes.take();
-    graph_.nodes.push_back(std::move(node));
+    graph_.nodes.push_back(attributes.takeFrame(name, parent, where));
   }
 
   void addLink(const UrdfLink& link, const std::string& parent, const Quaterniond& turn) {

@@ -13,7 +13,7 @@ namespace kinegraph {
 
 namespace {
 
-constexpr int kSlices = 64;             // around builtin round shapes
+constexpr int kSlices = 128;            // around builtin round shapes
 constexpr float kShadowHalfWidth = 2.5;  // m, of what the first light's shadow map covers
 const Vector4d kDefaultColor(.8, .8, .8, 1.);
 
