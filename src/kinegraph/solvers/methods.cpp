@@ -8,6 +8,7 @@
 #include "kinegraph/solvers/derivative_free.h"
 #include "kinegraph/solvers/first_order.h"
 #include "kinegraph/solvers/penalty_methods.h"
+#include "kinegraph/solvers/sequential_quadratic.h"
 
 namespace kinegraph {
 
@@ -24,9 +25,25 @@ SolverResult slackThenBarrier(Nlp& nlp, const VectorXd& x0, const SolverOptions&
   return second;
 }
 
+/// The augmented Lagrangian; where the curvature has to be learnt, only if a sequence of quadratic programs does not converge.
+SolverResult solveDefault(Nlp& nlp, const VectorXd& x0, const SolverOptions& options, const VectorXd& dual, const EvaluationHook& hook) {
+  if (x0.size() != nlp.dimension() || !needsLearntCurvature(nlp, x0)) return solveAugmentedLagrangian(nlp, x0, options, dual, hook);
+  SolverResult first = solveSequentialQuadratic(nlp, x0, options, hook);
+  const bool ended = first.status == SolverStatus::converged || first.status == SolverStatus::cancelled || first.evals >= options.stopEvals;
+  if (ended) return first;
+  SolverOptions rest = options;
+  rest.stopEvals -= first.evals;
+  SolverResult second = solveAugmentedLagrangian(nlp, x0, rest, dual, hook);
+  const bool first_is_better = second.status != SolverStatus::converged && first.violation <= options.constraintTolerance() &&
+                               (second.violation > options.constraintTolerance() || first.f + first.sos < second.f + second.sos);
+  if (first_is_better) std::swap(first, second);
+  second.evals = first.evals + second.evals;
+  return second;
+}
+
 SolverResult dispatch(Nlp& nlp, const VectorXd& x0, const SolverOptions& options, const VectorXd& dual, const EvaluationHook& hook) {
   switch (options.method) {
-    case OptMethod::augmentedLag: return solveAugmentedLagrangian(nlp, x0, options, dual, hook);
+    case OptMethod::augmentedLag: return solveDefault(nlp, x0, options, dual, hook);
     case OptMethod::newton:
       requireNoConstraints(nlp, "newton");
       return solveAugmentedLagrangian(nlp, x0, options, {}, hook);
