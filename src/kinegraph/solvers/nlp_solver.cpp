@@ -56,8 +56,13 @@ SolverResult NlpSolver::solve(bool resample, Rng& rng, const EvaluationHook& hoo
   const Clock::time_point start = Clock::now();
   Clock::time_point told = start;
   int calls = 0;
-  const EvaluationHook watch = [&](const VectorXd& at, const VectorXd& phi) {
+  const auto method = methods_.find(options.method);
+  const bool is_own = method == methods_.end();
+  const Separation separation = is_own && options.method == OptMethod::augmentedLag ? problem_->separation() : Separation();
+  const auto rows = Eigen::Index(problem_->types().size());
+  const EvaluationHook watch = [&](const VectorXd& at, const VectorXd& solved_phi) {
     ++calls;
+    const VectorXd phi = separation.problem ? separation.joined(solved_phi, rows) : solved_phi;
     if (tracing_x_) trace_x_.push_back(at);
     if (tracing_phi_) trace_phi_.push_back(phi);
     if (tracing_errors_) trace_errors_.push_back(sumErrors(problem_->types(), phi));
@@ -73,15 +78,23 @@ SolverResult NlpSolver::solve(bool resample, Rng& rng, const EvaluationHook& hoo
     return progress_(evals_ + calls, at, sumErrors(problem_->types(), phi));
   };
   const bool needs_watch = tracing_x_ || tracing_phi_ || tracing_errors_ || tracing_jacobian_ || progress_ || hook;
-  const auto method = methods_.find(options.method);
   SolverResult result;
-  if (method != methods_.end()) {
+  if (!is_own) {
     options.validate();
     requireStart(*problem_, x);
     result = method->second(*problem_, x, options, needs_watch ? watch : EvaluationHook());
     result.time = std::chrono::duration<double>(Clock::now() - start).count();
   } else {
-    result = kinegraph::solve(*problem_, x, options, dual, needs_watch ? watch : EvaluationHook());
+    Nlp& solved = separation.problem ? *separation.problem : *problem_;
+    if (dual.size() == 0) solved_dual_.resize(0);
+    result = kinegraph::solve(solved, x, options, solved_dual_, needs_watch ? watch : EvaluationHook());
+    solved_dual_ = result.dual;
+  }
+  if (separation.problem) {
+    VectorXd phi(rows);
+    problem_->evaluate(result.x, phi, nullptr);
+    result.dual = separation.joinedDual(result.dual, rows);
+    result.setSums(problem_->types(), phi, options.constraintTolerance());
   }
   x = result.x;
   dual = result.dual;

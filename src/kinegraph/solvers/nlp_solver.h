@@ -50,6 +50,7 @@ class NlpSolver {
   Progress progress_;
   double progress_seconds_ = 0.;
   std::map<OptMethod, Method> methods_;
+  VectorXd solved_dual_;  ///< of the form of the problem that was solved
   int evals_ = 0;
 };
 
