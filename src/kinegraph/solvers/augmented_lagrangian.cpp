@@ -162,7 +162,7 @@ class AugmentedLagrangian {
   /// Evaluations since when the constraints hold.
   struct {
     int first = 0, refused = 0;
-    double cost = 0.;
+    double cost = kInfinity;
   } slow_;
   struct {
     int wait = 0, failures = 0;
@@ -234,7 +234,7 @@ void AugmentedLagrangian::iterate() {
     double after = not_finite.empty() ? lagrangian(trial_phi_) : kInfinity;
     const double noise = std::max(1e-12, 1e-10 * std::abs(before));
     correction_.helped = false;
-    if (not_finite.empty() && before - after < .5 * predicted && predicted > noise) {
+    if (not_finite.empty() && before - after < .5 * predicted && predicted > noise && function_.evals() < options_.stopEvals) {
       if (!correctTrial(after, size, nu, passes)) return;
     }
     double ratio = (before - after) / predicted;
@@ -301,7 +301,7 @@ bool AugmentedLagrangian::creeps(double vc) {
   constexpr int kWindow = 10, kRefused = 3;
   const int evals = function_.evals();
   const double now = cost(phi_);
-  if (vc <= tolerance_ && evals < slow_.first + kWindow) return false;
+  if (constraints_.empty() || (vc <= tolerance_ && evals < slow_.first + kWindow)) return false;
   const double least = kWindow * std::min(options_.stopTolerance, options_.stopFTolerance) * std::max(std::abs(now), 1e-4);
   const bool slow = vc <= tolerance_ && slow_.refused >= kRefused && slow_.cost - now < least;
   slow_ = {evals, 0, now};

@@ -307,6 +307,13 @@ const VectorXd& LocalModel::minimize(const Problem& problem) {
     }
     if (!accepted || (moved < 1e-10 && !reaches_bound)) break;  // where a bound is near, the next pass goes along it
   }
+  for (std::size_t j = 0, next = 0; j < constraints_.size(); ++j) {
+    if (next < within_reach_.size() && within_reach_[next] == int(j)) {
+      ++next;
+    } else {
+      linear_[Eigen::Index(j)] += problem.J.rowTimes(constraints_[j], d_);
+    }
+  }
   return d_;
 }
 

@@ -6,8 +6,15 @@
 #include "kinegraph/base/errors.h"
 #include "kinegraph/base/text.h"
 #include "kinegraph/solvers/methods.h"
+#include "kinegraph/solvers/relaxed_nlp.h"
 
 namespace kinegraph {
+
+namespace {
+
+constexpr int kMostEvalsOfReduction = 50;
+
+}  // namespace
 
 NlpSolver::NlpSolver(std::shared_ptr<Nlp> problem, int verbose) {
   options.verbose = verbose;
@@ -44,6 +51,23 @@ void NlpSolver::clearTracing() {
   trace_phi_.clear();
   trace_jacobian_.clear();
   trace_errors_.clear();
+}
+
+/// Goes on to the least violation of the problem as it is stated, with sums.
+void NlpSolver::reduceViolation(SolverResult& result) {
+  RelaxedNlp least(*problem_, std::vector<bool>(problem_->types().size(), true));
+  SolverOptions brief = options;
+  brief.verbose = 0;
+  brief.stopEvals = kMostEvalsOfReduction;
+  const SolverResult found = solveAugmentedLagrangian(least, result.x, brief);
+  result.evals += found.evals;
+  VectorXd before(Eigen::Index(problem_->types().size())), after = before;
+  problem_->evaluate(result.x, before, nullptr);
+  problem_->evaluate(found.x, after, nullptr);
+  const double violation = largestViolation(problem_->types(), after);
+  if (violation >= largestViolation(problem_->types(), before)) return;
+  result.x = found.x;
+  result.message = cat("the constraints contradict each other here; least violation found ", violation);
 }
 
 SolverResult NlpSolver::solve(bool resample, Rng& rng, const EvaluationHook& hook) {
@@ -92,6 +116,7 @@ SolverResult NlpSolver::solve(bool resample, Rng& rng, const EvaluationHook& hoo
   }
   if (separation.problem) {
     VectorXd phi(rows);
+    if (result.status == SolverStatus::infeasible) reduceViolation(result);
     problem_->evaluate(result.x, phi, nullptr);
     result.dual = separation.joinedDual(result.dual, rows);
     result.setSums(problem_->types(), phi, options.constraintTolerance());
