@@ -6,7 +6,7 @@ namespace kinegraph {
 
 namespace {
 
-constexpr int kMostSeparateRows = 20000;
+constexpr int kMostSeparateRows = 100000;
 
 /// Does the objective demand that a sum of overlaps is zero?
 bool isSumOfOverlaps(const Komo::Objective& objective) {
