@@ -28,7 +28,7 @@ using Field = std::variant<double SamplerOptions::*, int SamplerOptions::*, std:
 const std::vector<std::pair<const char*, Field>>& fields() {
   using O = SamplerOptions;
   static const std::vector<std::pair<const char*, Field>> all = {
-      {"seedMethod", &O::seedMethod}, {"seedCandidates", &O::seedCandidates}, {"tolerance", &O::tolerance},
+      {"seedMethod", &O::seedMethod}, {"seedCandidates", &O::seedCandidates}, {"seedAttempts", &O::seedAttempts}, {"tolerance", &O::tolerance},
       {"downhillMethod", &O::downhillMethod}, {"downhillMaxSteps", &O::downhillMaxSteps}, {"penaltyMu", &O::penaltyMu},
       {"slackStepAlpha", &O::slackStepAlpha}, {"slackMaxStep", &O::slackMaxStep}, {"slackRegLambda", &O::slackRegLambda},
       {"ineqOverstep", &O::ineqOverstep}, {"downhillNoiseMethod", &O::downhillNoiseMethod}, {"downhillNoiseSigma", &O::downhillNoiseSigma},
@@ -78,7 +78,7 @@ void bindSampler(nb::module_& m) {
       .def("setOptions", setOptions, "options"_a, nb::rv_policy::none,
            "Sets options by name; all others go to their defaults. Returns the sampler.\n\n"
            "    seedMethod: 'uni' in the bounds, 'gauss' at the problem's initial point, 'nov' or 'dist' away from earlier samples,\n"
-           "        chosen among seedCandidates.\n"
+           "        chosen among seedCandidates. seedAttempts: seeds tried until the way down reaches the constraints.\n"
            "    tolerance: sum of all violations that a sample may have.\n"
            "    downhillMethod: 'GN' or 'grad', in downhillMaxSteps steps no longer than slackMaxStep, with downhillNoiseMethod\n"
            "        ('none', 'iso', 'cov') of downhillNoiseSigma; downhillRejectMethod 'none', 'Wolfe' or 'MH'.\n"

@@ -36,9 +36,14 @@ SolverResult NlpSampler::sample(Rng& rng, const EvaluationHook& hook) {
   options.validate();
   const auto start = std::chrono::steady_clock::now();
   SampledProblem problem(*problem_, options, hook);
-  SampledPoint point = problem.at(seed(rng));
-  bool found = problem.goDownhill(point, rng, true);
-  if (!found && !problem.cancelled() && options.downhillNoiseMethod != "none") found = problem.goDownhill(point, rng, false);
+  SampledPoint point;
+  bool found = false;
+  for (int attempt = 0; attempt < options.seedAttempts && !found && !problem.cancelled(); ++attempt) {
+    SampledPoint next = problem.at(seed(rng));
+    found = problem.goDownhill(next, rng, true);
+    if (!found && options.downhillNoiseMethod != "none") found = problem.goDownhill(next, rng, false);
+    if (attempt == 0 || found || next.slack < point.slack) point = std::move(next);
+  }
   const int steps = options.interiorBurnInSteps + options.interiorSampleSteps;
   if (found && !problem.cancelled() && steps > 0 && options.interiorMethod != "none" && point.x.size() > 0) {
     point = walkInside(problem, point, steps, rng);

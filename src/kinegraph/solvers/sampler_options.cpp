@@ -32,6 +32,7 @@ void SamplerOptions::validate() const {
   oneOf("downhillRejectMethod", downhillRejectMethod, {"none", "Wolfe", "MH"});
   oneOf("interiorMethod", interiorMethod, {"none", "HR", "MCMC", "Langevin", "manifoldRRT"});
   atLeast("seedCandidates", seedCandidates, 1);
+  atLeast("seedAttempts", seedAttempts, 1);
   atLeast("downhillMaxSteps", downhillMaxSteps, 0);
   atLeast("interiorBurnInSteps", interiorBurnInSteps, 0);
   atLeast("interiorSampleSteps", interiorSampleSteps, 0);

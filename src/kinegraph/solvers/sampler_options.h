@@ -9,6 +9,7 @@ struct SamplerOptions {
   std::string seedMethod = "uni";  ///< where a sample starts: uni in the bounds, gauss at the problem's initial point,
                                    ///< nov far from earlier samples, dist by chance more likely far from them
   int seedCandidates = 10;         ///< points that nov and dist choose from
+  int seedAttempts = 10;           ///< seeds that are tried, one after the other, until the way down reaches the constraints
 
   double tolerance = 1e-3;            ///< sum of all violations that a sample may have
   std::string downhillMethod = "GN";  ///< to the constraints by Gauss-Newton steps (GN) or along the gradient (grad)
