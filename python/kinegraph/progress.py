@@ -17,7 +17,9 @@ def drawProgress(what: str, done: int, total: int, seconds: float, stream: TextI
     stream.flush()
 
 
-def drawSolve(what: str, evals: int, cost: float, violation: float, seconds: float, stream: TextIO | None = None) -> None:
+def drawSolve(
+    what: str, evals: int, cost: float, violation: float, seconds: float, stream: TextIO | None = None
+) -> None:
     """Redraws how far a solver is on `stream` (stderr), if it is a terminal."""
     stream = stream or sys.stderr
     if not stream.isatty():

@@ -170,7 +170,7 @@ def test_what_each_objective_pulls_at_the_solution(reach):
         solver.reportLagrangeGradients()
     solver.solve()
     report = solver.reportLagrangeGradients()
-    assert list(report) == ["positionDiff of l_gripper, goal", "qItself"] or list(report)[0] == "qItself"
+    assert set(report) == {"positionDiff of l_gripper, goal", "qItself"}
     pulls = [entry["grad"] for entry in report.values()]
     assert pulls == sorted(pulls, reverse=True)
     np.testing.assert_allclose(report["qItself"]["grad"], report["positionDiff of l_gripper, goal"]["grad"], rtol=1e-4)

@@ -6,6 +6,7 @@ import os
 import pickle
 import signal
 import threading
+import time
 
 import numpy as np
 import pytest
@@ -157,18 +158,18 @@ def test_mistakes_are_named(arm):
 
 @pytest.mark.parametrize("threads", [1, 2])
 def test_ctrl_c_ends_all_with_what_there_is(threads):
-    """The signal arrives while others compute; each ends within a few evaluations of its own."""
+    """The signal arrives while others compute, each evaluation of which takes 10 ms from then on."""
     sent = threading.Event()
     after = []
 
     def endless(x):
         if sent.is_set():
             after.append(1)
-        elif x[0] < 0:
+            time.sleep(0.01)
+        else:
             sent.set()
             os.kill(os.getpid(), signal.SIGINT)
-        sent.wait(0.001)
-        return np.array([np.sin(1e4 * x[0]) + 2 + 0.1 * x[0]]), np.array([[1e4 * np.cos(1e4 * x[0]) + 0.1]])
+        return np.array([np.sin(1e4 * x[0]) + 2]), np.array([[1e4 * np.cos(1e4 * x[0])]])
 
     problems = []
     for _ in range(8):
@@ -183,7 +184,7 @@ def test_ctrl_c_ends_all_with_what_there_is(threads):
     ended = [r for r in result if r.done]
     assert 1 <= len(ended) < 8
     assert any(r.status.name == "cancelled" and r.message == "interrupted by Ctrl-C" for r in ended)
-    assert len(after) < 20000
+    assert len(after) < 1000
 
 
 def test_a_komo_is_copied_and_pickled_exactly(panda):
