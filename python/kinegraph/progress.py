@@ -25,7 +25,7 @@ def drawSolve(
     if not stream.isatty():
         return
     stream.write(
-        f"\r{what}: {evals} evaluations, cost {cost:.4g}, violation {violation:.2g}, {seconds:.0f} s (Ctrl-C ends it)\x1b[K"
+        f"\r{what}: {evals} evaluations, cost {cost:.4g}, violation {violation:.2g}, {seconds:.0f} s (Ctrl-C ends it)\x1b[K\r"
     )
     stream.flush()
 

@@ -209,3 +209,15 @@ def test_a_kept_problem_is_solved_again_in_few_evaluations(panda):
         ret = s.solve()
         assert ret.feasible and ret.evals - evals <= limit
         evals = ret.evals
+
+
+def test_traces_and_counts_include_the_way_to_the_least_violation(panda):
+    """Of an infeasible problem with a sum of overlaps, which the solver sees pair by pair."""
+    panda.addFrame("wall").setShape(ry.ST.ssBox, [0.5, 0.5, 0.5, 0.02]).setPosition([0.4, 0.3, 0.9]).setContact(1)
+    komo = ry.KOMO(panda, 1, 1, 0, False)
+    komo.addObjective([], ry.FS.accumulatedCollisions, [], ry.OT.eq, [1.0])
+    komo.addObjective([], ry.FS.position, ["l_gripper"], ry.OT.eq, [10.0], [0.4, 0.3, 0.9])
+    s = ry.NLP_Solver(komo.nlp(), verbose=0).setTracing(True, True)
+    ret = s.solve()
+    assert ret.status.name == "infeasible"
+    assert len(s.getTrace_x()) == len(s.getTrace_errs()) == ret.evals
