@@ -66,7 +66,7 @@ bool& Interruption::solving() {
 }
 
 Interruption::~Interruption() {
-  if (!drawn_) return;
+  if (drawn_at_ == 0.) return;
   const nb::gil_scoped_acquire lock;
   nb::module_::import_("kinegraph.progress").attr("clearLine")();
 }
@@ -80,12 +80,12 @@ bool Interruption::operator()(const VectorXd&, const VectorXd& phi) {
   const nb::gil_scoped_acquire lock;
   if (pressedCtrlC()) return !(pending() = true);
   const double seconds = std::chrono::duration<double>(now - start_).count();
-  if (verbose_ > 0 && seconds > .5) draw(phi, seconds);
+  if (verbose_ > 0 && seconds > .5 && seconds - drawn_at_ > .1) draw(phi, seconds);
   return true;
 }
 
 void Interruption::draw(const VectorXd& phi, double seconds) {
-  drawn_ = true;
+  drawn_at_ = seconds;
   const ErrorSums sums = sumErrors(nlp_.types(), phi);
   nb::module_::import_("kinegraph.progress").attr("drawSolve")(what_, evals_, sums.f + sums.sos, largestViolation(nlp_.types(), phi), seconds);
 }

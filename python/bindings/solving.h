@@ -26,7 +26,7 @@ class Interruption {
   const char* what_;
   const Nlp& nlp_;
   int verbose_, evals_ = 0;
-  bool drawn_ = false;
+  double drawn_at_ = 0.;  ///< seconds after the start; 0: not yet
   Clock::time_point start_ = Clock::now(), asked_ = start_;
 };
 

@@ -204,7 +204,7 @@ def test_a_kept_problem_is_solved_again_in_few_evaluations(panda):
     s = ry.NLP_Solver(komo.nlp(), verbose=0)
     evals = s.solve().evals
     for moved, limit in ((0.0, 2), (0.001, 3), (0.01, 5)):
-        target.setPosition(target.getPosition() + [0, moved, 0])
+        target.setPosition([0.3, target.getPosition()[1] + moved, 1.0])
         komo.updateRootObjects(panda)
         ret = s.solve()
         assert ret.feasible and ret.evals - evals <= limit
