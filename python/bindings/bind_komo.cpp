@@ -241,6 +241,7 @@ void bindKomo(nb::module_& m) {
   bindObjectives(komo);
   bindPath(komo);
   bindKomoReports(komo);
+  bindKomoCopies(komo);
   bindOldConstructors();
 }
 

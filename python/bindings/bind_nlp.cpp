@@ -11,15 +11,20 @@
 #include "defaults.h"
 #include "kinegraph/base/errors.h"
 #include "kinegraph/base/text.h"
-#include "kinegraph/nlp/callback_nlp.h"
 #include "explanation_dicts.h"
+#include "kinegraph/nlp/test_problems.h"
 #include "kinegraph/solvers/explanation.h"
+#include "kinegraph/solvers/penalty_nlp.h"
 #include "nlp_objects.h"
+#include "py_komo.h"
 #include "solving.h"
 
 namespace kinegraph::python {
 
 namespace {
+
+/// x as given, or where its size does not fit a point drawn within the bounds.
+VectorXd pointOrSample(Nlp& nlp, const Numbers& x) { return x.values.size() == nlp.dimension() ? x.values : nlp.uniformPoint(defaults().random); }
 
 void checkSize(const Nlp& nlp, const Numbers& x) {
   if (x.values.size() != nlp.dimension()) {
@@ -27,13 +32,13 @@ void checkSize(const Nlp& nlp, const Numbers& x) {
   }
 }
 
-/// (phi, J): J dense for a user's problem, (row, column, value) triplets for a motion problem.
+/// (phi, J): J dense, but (row, column, value) triplets for a motion problem.
 nb::typed<nb::tuple, Array, Array> evaluate(Nlp& nlp, const Numbers& x) {
   checkSize(nlp, x);
   VectorXd phi(Eigen::Index(nlp.types().size()));
   Jacobian J = nlp.makeJacobian();
   nlp.evaluate(x.values, phi, &J);
-  if (dynamic_cast<CallbackNlp*>(&nlp)) return nb::make_tuple(toNumpy(phi), toNumpy(J.toDense()));
+  if (!komoOf(nlp)) return nb::make_tuple(toNumpy(phi), toNumpy(J.toDense()));
   std::vector<double> triplets;
   for (int row = 0; row < J.rows(); ++row) {
     for (const Jacobian::Segment& segment : J.row_segments(row)) {
@@ -59,38 +64,58 @@ Array bounds(const Nlp& nlp) {
   return toNumpy(both);
 }
 
-bool check(Nlp& nlp, const Numbers& x, double tolerance) {
-  checkSize(nlp, x);
-  const JacobianCheck result = checkJacobian(nlp, x.values);
-  if (result.error <= tolerance) return nb::print(cat("checkJacobian -- SUCCESS (max diff error=", result.error, ")").c_str()), true;
-  nb::print(cat("checkJacobian -- FAILURE: ", nlp.rowName(result.row), ", variable ", result.column, ": J is ", result.analytic,
-                ", differences give ", result.numeric).c_str());
+IndexArray typeNumbers(const Nlp& nlp) {
+  std::vector<int> numbers;
+  for (ObjectiveType type : nlp.types()) numbers.push_back(int(type));
+  return IndexArray(nb::module_::import_("numpy").attr("array")(numbers, "dtype"_a = "uint32"));
+}
+
+bool check(Nlp& nlp, const Numbers& given, double tolerance, const std::vector<std::string>& names) {
+  const VectorXd x = pointOrSample(nlp, given);
+  if (!names.empty() && names.size() != nlp.types().size()) {
+    throw ValueError(cat("checkJacobian: there are ", names.size(), " names; the problem has ", nlp.types().size(), " residuals"));
+  }
+  const auto worst = worstJacobianEntries(nlp, x, tolerance, 10);
+  if (worst.empty()) {
+    nb::print(cat("checkJacobian -- SUCCESS (max diff error=", checkJacobian(nlp, x).error, ")").c_str());
+    return true;
+  }
+  std::string text = "checkJacobian -- FAILURE; the worst entries:";
+  for (const JacobianCheck& entry : worst) {
+    text += cat("\n  ", names.empty() ? nlp.rowName(entry.row) : names[std::size_t(entry.row)], ", ", nlp.describeVariable(entry.column).name,
+                " (column ", entry.column, "): J is ", entry.analytic, ", differences give ", entry.numeric);
+  }
+  nb::print(text.c_str());
   return false;
 }
 
-}  // namespace
-
-void readPythonEvaluation(nb::handle returned, int dimension, VectorXd& phi, MatrixXd& J) {
-  const nb::tuple pair = nb::cast<nb::tuple>(nb::module_::import_("builtins").attr("tuple")(returned));
-  if (pair.size() != 2) throw ValueError(cat("the problem's function returned ", pair.size(), " values; expected (phi, J)"));
-  const Numbers values = nb::cast<Numbers>(pair[0]), jacobian = nb::cast<Numbers>(pair[1]);
-  phi = values.values;
-  const int rows = int(phi.size());
-  const bool triplets = jacobian.rank == 2 && jacobian.columns() == 3 && int(jacobian.rows) != rows;
-  if (!triplets && jacobian.values.size() != Eigen::Index(rows) * dimension) {
-    throw ValueError(cat("the problem's function returned a Jacobian with ", jacobian.values.size(), " entries; expected ", rows, " x ", dimension));
-  }
-  J.setZero(rows, dimension);
-  if (!triplets) {
-    J = Eigen::Map<const Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>>(jacobian.values.data(), rows, dimension);
-    return;
-  }
-  for (Eigen::Index i = 0; i < jacobian.values.size(); i += 3) {
-    const double row = jacobian.values[i], column = jacobian.values[i + 1];
-    if (!(row >= 0. && row < rows && column >= 0. && column < dimension)) throw ValueError("a Jacobian triplet lies outside of the matrix");
-    J(Eigen::Index(row), Eigen::Index(column)) += jacobian.values[i + 2];
-  }
+bool checkSecond(Nlp& nlp, const Numbers& given, double tolerance) {
+  const JacobianCheck result = checkHessian(nlp, pointOrSample(nlp, given));
+  if (result.error <= tolerance) return nb::print(cat("checkHessian -- SUCCESS (max diff error=", result.error, ")").c_str()), true;
+  nb::print(cat("checkHessian -- FAILURE: entry (", result.row, ", ", result.column, ") is ", result.analytic, ", differences give ", result.numeric).c_str());
+  return false;
 }
+
+nb::typed<nb::tuple, double, Array, Array> evalScalar(Nlp& nlp, const Numbers& x) {
+  checkSize(nlp, x);
+  const ScalarEvaluation at = evaluateScalar(nlp, x.values);
+  return nb::make_tuple(at.value, toNumpy(at.gradient), toNumpy(at.hessian));
+}
+
+Array costHessian(Nlp& nlp, const Numbers& x) {
+  checkSize(nlp, x);
+  MatrixXd H = MatrixXd::Zero(nlp.dimension(), nlp.dimension());
+  return nlp.addCostHessian(x.values, H) ? toNumpy(H) : toNumpy(MatrixXd(0, 0));
+}
+
+/// Of a motion problem.
+nb::object reduce(const Nlp& nlp) {
+  const std::shared_ptr<PyKomo> komo = std::static_pointer_cast<PyKomo>(komoOf(nlp));
+  if (!komo) throw nb::type_error("this NLP cannot be pickled; those of a KOMO can, and problems can be made anew where they are needed");
+  return nb::make_tuple(nb::module_::import_("operator").attr("methodcaller")("nlp"), nb::make_tuple(komo));
+}
+
+}  // namespace
 
 void bindNlp(nb::module_& m) {
   nb::enum_<ObjectiveType>(m, "OT", nb::is_arithmetic(), "What a residual means: cost or constraint.")
@@ -107,15 +132,26 @@ void bindNlp(nb::module_& m) {
       .def_prop_ro("dimension", &Nlp::dimension, "Number of variables.")
       .def("getTypes", [](const Nlp& nlp) { return nlp.types(); }, "The OT of each residual.")
       .def("getFeatureTypes", [](const Nlp& nlp) { return nlp.types(); }, "The same as getTypes.")
+      .def_prop_ro("types", typeNumbers, "The OT of each residual, as numbers.")
       .def("getBounds", bounds, "(2, n): lower and upper bounds; 0 and -1 where there is none.")
       .def_prop_ro("bounds", bounds, "(2, n): lower and upper bounds; 0 and -1 where there is none.")
       .def("evaluate", evaluate, "x"_a, "phi (d,) and J: dense (d, n), or for motion problems triplets (row, column, value).")
-      .def("getInitializationSample", [](Nlp& nlp) { Rng rng(defaults().seed); return toNumpy(nlp.initialPoint(rng)); },
-           "A point to start from.")
-      .def("getUniformSample", [](Nlp& nlp) { Rng rng(defaults().seed); return toNumpy(nlp.uniformPoint(rng)); },
-           "A point uniform in the bounds.")
-      .def("checkJacobian", [](Nlp& nlp, const Numbers& x, double tolerance, nb::object) { return check(nlp, x, tolerance); },
-           "x"_a, "tolerance"_a = 1e-4, "featureNames"_a = nb::none(), "Compares J with central differences; prints the worst entry.")
+      .def("eval_scalar", evalScalar, "x"_a,
+           "(value, gradient, Hessian) of sum f + sum sos^2, the Hessian of sos as 2 J^T J. For problems without constraints.")
+      .def("getFHessian", costHessian, "x"_a, "Hessian of sum f (n, n); (0, 0) if the problem has none to offer.")
+      .def("getInitializationSample", [](Nlp& nlp) { return toNumpy(nlp.initialPoint(defaults().random)); }, "A point to start from.")
+      .def("getUniformSample", [](Nlp& nlp) { return toNumpy(nlp.uniformPoint(defaults().random)); }, "A point uniform in the bounds.")
+      .def("checkJacobian", check, "x"_a, "tolerance"_a = 1e-4, "featureNames"_a = std::vector<std::string>(),
+           "Compares J with central differences at x, or at a sample where the size of x does not fit. Prints the ten worst entries;\n"
+           "featureNames: one per residual.")
+      .def("checkHessian", checkSecond, "x"_a, "tolerance"_a = 1e-4, "The same for getFHessian.")
+      .def("as_KOMO", [](const Nlp& nlp) { return std::static_pointer_cast<PyKomo>(komoOf(nlp)); },
+           "The KOMO that this problem was made from, or None.")
+      .def("aug_lag", [](std::shared_ptr<Nlp> nlp, double mu, double barrier) { return std::shared_ptr<Nlp>(makePenalized(std::move(nlp), mu, barrier)); },
+           "muSquaredPenalty"_a = -1., "muLogBarrier"_a = -1.,
+           "This problem with its constraints as costs: muSquaredPenalty phi^2 (inequalities: where violated), or for inequalities\n"
+           "-muLogBarrier log(-phi). A weight < 0 leaves them as they are.")
+      .def("__reduce__", reduce)
       .def("summarizeErrors", [](const Nlp& nlp, const Numbers& phi) {
              const ErrorSums s = sumErrors(nlp.types(), phi.values);
              return toNumpy(VectorXd(Vector4d(s.f, s.sos, s.ineq, s.eq)));
@@ -126,27 +162,19 @@ void bindNlp(nb::module_& m) {
            "tolerance"_a = 1e-3, "What explain says, as a list of dicts.")
       .def("report", &Nlp::report, "verbose"_a = 1, "A line about the problem.");
 
-  nb::class_<PyNlpFactory>(m, "NLP_Factory", "A problem whose residuals a Python function computes.")
+  nb::class_<PyNlpFactory, Nlp>(m, "NLP_Factory", "A problem whose residuals a Python function computes. It is an NLP once all is set.")
       .def(nb::init<>())
-      .def("setDimension", [](PyNlpFactory& f, int n) { f.dimension = n; }, "dim"_a, "Number of variables.")
-      .def("setTypes", [](PyNlpFactory& f, std::vector<ObjectiveType> types) { f.types = std::move(types); }, "featureTypes"_a,
-           "The OT of each residual.")
-      .def("setFeatureTypes", [](PyNlpFactory& f, std::vector<ObjectiveType> types) { f.types = std::move(types); }, "featureTypes"_a,
-           "The same as setTypes.")
-      .def("setBounds", [](PyNlpFactory& f, const Numbers& lower, const Numbers& upper) { f.lower = lower.values; f.upper = upper.values; },
-           "lower"_a, "upper"_a, "Bounds of the variables.")
-      .def("setEvalCallback", [](PyNlpFactory& f, nb::object function) { f.function = std::move(function); }, "fct"_a,
-           "function(x) -> (phi, J), with J dense.")
-      .def("testCallingEvalCallback", [](PyNlpFactory& f, const Numbers& x) { return evaluate(*f.make(), x); }, "x"_a,
-           "Evaluates the function once.");
-}
+      .def("setDimension", &PyNlpFactory::setDimension, "dim"_a, "Number of variables.")
+      .def("setTypes", &PyNlpFactory::setTypes, "featureTypes"_a, "The OT of each residual.")
+      .def("setFeatureTypes", &PyNlpFactory::setTypes, "featureTypes"_a, "The same as setTypes.")
+      .def("setBounds", [](PyNlpFactory& f, const Numbers& lower, const Numbers& upper) { f.setBounds(lower.values, upper.values); },
+           "lower"_a, "upper"_a, "Bounds of the variables; upper below lower: none.")
+      .def("setEvalCallback", &PyNlpFactory::setFunction, "fct"_a, "function(x) -> (phi, J), with J dense.")
+      .def("testCallingEvalCallback", [](PyNlpFactory& f, const Numbers& x) { return evaluate(f, x); }, "x"_a, "Evaluates the function once.");
 
-std::shared_ptr<Nlp> PyNlpFactory::make() const {
-  if (!function.is_valid()) throw Error("NLP_Factory: there is no function; call setEvalCallback first");
-  const int n = dimension;
-  return std::make_shared<CallbackNlp>(n, types, lower, upper, [function = function, n](const VectorXd& x, VectorXd& phi, MatrixXd& J) {
-    if (!callUser([&] { readPythonEvaluation(function(toNumpy(x)), n, phi, J); })) phi.setConstant(J.rows(), std::nan(""));
-  });
+  m.def("makeTestProblem", [](const std::string& name, int dimension, std::uint64_t seed) { return makeTestProblem(name, {dimension, seed}); },
+        "name"_a, "dimension"_a = -1, "seed"_a = 0, "A problem by name, to try solvers on.");
+  m.def("testProblemNames", testProblemNames, "The names that makeTestProblem knows.");
 }
 
 }  // namespace kinegraph::python

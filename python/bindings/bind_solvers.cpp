@@ -12,7 +12,7 @@
 #include "explanation_dicts.h"
 #include "kinegraph/base/errors.h"
 #include "kinegraph/base/text.h"
-#include "kinegraph/nlp/callback_nlp.h"
+#include "kinegraph/solvers/lagrange_gradients.h"
 #include "kinegraph/solvers/nlp_solver.h"
 #include "nlp_objects.h"
 #include "solving.h"
@@ -48,7 +48,9 @@ void setOption(SolverOptions& options, const std::string& name, nb::handle value
     std::visit([&](auto member) { options.*member = nb::cast<std::decay_t<decltype(options.*member)>>(value); }, field);
     return;
   }
-  if (name.starts_with("stop") || name == "stepInit" || name == "stepMin") return;  // of older packages, without meaning here
+  for (const char* old : {"stepInit", "stepMin", "stopLineSteps", "stopTinySteps"}) {
+    if (name == old) return;  // of older packages, without meaning here
+  }
   throw ValueError(cat("there is no solver option '", name, "'", similarHint(name, names)));
 }
 
@@ -92,35 +94,43 @@ NlpSolver& setProgress(NlpSolver& solver, nb::object function, double seconds) {
   return solver;
 }
 
-/// A problem that is a Python object with `dimension`, `types`, `bounds` and `evaluate(x) -> (phi, J)`.
-std::shared_ptr<Nlp> fromPythonProblem(nb::object problem) {
-  const int n = nb::cast<int>(problem.attr("dimension"));
-  const char* types_name = nb::hasattr(problem, "types") ? "types" : "featureTypes";
-  std::vector<ObjectiveType> types;
-  for (nb::handle type : problem.attr(types_name)) {
-    types.push_back(nb::isinstance<ObjectiveType>(type) ? nb::cast<ObjectiveType>(type) : ObjectiveType(nb::cast<int>(nb::int_(nb::borrow(type)))));
-  }
-  VectorXd lower, upper;
-  if (nb::hasattr(problem, "bounds")) {
-    const MatrixXd bounds = nb::cast<Numbers>(problem.attr("bounds")).matrix();
-    if (bounds.rows() == 2 && bounds.cols() == n) {
-      lower = bounds.row(0);
-      upper = bounds.row(1);
-      for (int i = 0; i < n; ++i) {
-        if (lower[i] <= upper[i]) continue;
-        lower[i] = -std::numeric_limits<double>::infinity();
-        upper[i] = std::numeric_limits<double>::infinity();
-      }
-    }
-  }
-  return std::make_shared<CallbackNlp>(n, std::move(types), lower, upper, [problem, n](const VectorXd& x, VectorXd& phi, MatrixXd& J) {
-    if (!callUser([&] { readPythonEvaluation(problem.attr("evaluate")(toNumpy(x)), n, phi, J); })) phi.setConstant(J.rows(), std::nan(""));
-  });
-}
-
 Explanation explanationOf(const SolverResult& result, double tolerance) {
   if (!result.problem) throw Error("SolverReturn: nothing was solved, so there is nothing to explain");
   return explain(*result.problem, result.x, tolerance);
+}
+
+/// All but the problem.
+nb::tuple resultState(const SolverResult& r) {
+  return nb::make_tuple(toNumpy(r.x), toNumpy(r.dual), r.evals, r.time, r.feasible, r.done, r.f, r.sos, r.ineq, r.eq, r.violation,
+                        int(r.status), r.message);
+}
+
+SolverResult resultFrom(nb::tuple state) {
+  SolverResult r;
+  r.x = nb::cast<Numbers>(state[0]).values;
+  r.dual = nb::cast<Numbers>(state[1]).values;
+  r.evals = nb::cast<int>(state[2]);
+  r.time = nb::cast<double>(state[3]);
+  r.feasible = nb::cast<bool>(state[4]);
+  r.done = nb::cast<bool>(state[5]);
+  double* numbers[] = {&r.f, &r.sos, &r.ineq, &r.eq, &r.violation};
+  for (int i = 0; i < 5; ++i) *numbers[i] = nb::cast<double>(state[6 + i]);
+  r.status = SolverStatus(nb::cast<int>(state[11]));
+  r.message = nb::cast<std::string>(state[12]);
+  return r;
+}
+
+nb::dict gradients(NlpSolver& solver, const std::vector<std::string>& names) {
+  if (!solver.problem() || solver.x.size() == 0) throw Error("reportLagrangeGradients: nothing has been solved yet");
+  nb::dict report;
+  for (const LagrangeGradient& entry : lagrangeGradients(*solver.problem(), solver.x, solver.dual, names)) {
+    nb::dict values;
+    values["err"] = entry.error; values["grad"] = entry.gradient; values["type"] = objectiveTypeName(entry.type);
+    std::string key = entry.name;
+    if (report.contains(key.c_str())) key += cat(" (", objectiveTypeName(entry.type), ")");
+    report[key.c_str()] = values;
+  }
+  return report;
 }
 
 Array stack(const std::vector<VectorXd>& rows) {
@@ -152,7 +162,21 @@ void bindOptions(nb::module_& m) {
 
   nb::class_<SolverOptions> options(m, "NLP_SolverOptions", "Settings of a solver.");
   options.def("__init__", [](SolverOptions* self) { new (self) SolverOptions(defaults().solver); }, "The defaults, as params_add may have set them.")
-      .def("dict", optionDict, "All settings as a dict.");
+      .def("dict", optionDict, "All settings as a dict.")
+      .def("__repr__", [](const SolverOptions& o) { return cat("NLP_SolverOptions(", nb::cast<std::string>(nb::str(optionDict(o))), ")"); })
+      .def("__getstate__", [](const SolverOptions& o) {
+             nb::dict state = optionDict(o);
+             state["method"] = int(o.method);
+             return state;
+           })
+      .def("__setstate__", [](SolverOptions& o, nb::dict state) {
+             new (&o) SolverOptions();
+             for (const auto& [name, value] : state) {
+               const std::string field = nb::cast<std::string>(name);
+               if (field == "method") o.method = OptMethod(nb::cast<int>(value));
+               else setOption(o, field, value);
+             }
+           }, "state"_a);
   for (const auto& [name, field] : optionFields()) {
     const std::string setter = "set_" + name, doc = "Sets " + name + "; returns the options.";
     options.def(setter.c_str(), [name = name](SolverOptions& o, nb::object value) -> SolverOptions& {
@@ -203,6 +227,8 @@ void bindSolvers(nb::module_& m) {
            "What explain says, as a list of dicts: name, type, frames, slices, metres, radians, scaled, details, pull, and of\n"
            "giving way: suffices, by_metres, by_radians, by_scaled, best. Empty if all constraints hold.")
       .def("__str__", &SolverResult::str)
+      .def("__getstate__", resultState)
+      .def("__setstate__", [](SolverResult& r, nb::tuple state) { new (&r) SolverResult(resultFrom(state)); }, "state"_a)
       .def("__repr__", [](const SolverResult& r) { return cat("<SolverReturn ", solverStatusName(r.status), ": ", r.str(), ">"); });
 
   constexpr auto chain = nb::rv_policy::none;
@@ -216,15 +242,8 @@ void bindSolvers(nb::module_& m) {
              self->options = defaults().solver;
              self->options.verbose = verbose;
            }, "problem"_a, "verbose"_a = 0)
-      .def("__init__", [](NlpSolver* self, const PyNlpFactory& factory, int verbose) {
-             new (self) NlpSolver(factory.make(), verbose);
-             self->options = defaults().solver;
-             self->options.verbose = verbose;
-           }, "problem"_a, "verbose"_a = 0)
       .def("setProblem", [](NlpSolver& s, std::shared_ptr<Nlp> p) -> NlpSolver& { return s.setProblem(std::move(p)), s; }, "problem"_a,
            chain, "The problem to solve; once.")
-      .def("setProblem", [](NlpSolver& s, const PyNlpFactory& f) -> NlpSolver& { return s.setProblem(f.make()), s; }, "problem"_a, chain,
-           "The problem to solve; once.")
       .def("setPyProblem", [](NlpSolver& s, nb::object p) -> NlpSolver& { return s.setProblem(fromPythonProblem(p)), s; }, "problem"_a,
            chain, "A Python object with dimension, types, bounds and evaluate(x) -> (phi, J).")
       .def("setOptions", setOptions, "options"_a, chain, "Sets options by name; all others go to their defaults.")
@@ -247,6 +266,9 @@ void bindSolvers(nb::module_& m) {
       .def_prop_rw("x", [](const NlpSolver& s) { return toNumpy(s.x); }, [](NlpSolver& s, const Numbers& x) { s.x = x.values; }, "The point reached.")
       .def_prop_rw("dual", [](const NlpSolver& s) { return toNumpy(s.dual); }, [](NlpSolver& s, const Numbers& d) { s.dual = d.values; },
                    "A multiplier per residual.")
+      .def("reportLagrangeGradients", gradients, "featureNames"_a = std::vector<std::string>(),
+           "What each objective does where this ended: a dict from its name to err (its error), grad (length of its part of the\n"
+           "Lagrangian's gradient) and type, the largest grad first, without those whose error is 0. featureNames: one per residual.")
       .def("getTrace_x", [](const NlpSolver& s) { return stack(s.traceX()); }, "(evaluations, n).")
       .def("getTrace_phi", [](const NlpSolver& s) { return stack(s.tracePhi()); }, "(evaluations, d).")
       .def("getTrace_J", [](const NlpSolver& s) {
@@ -262,6 +284,8 @@ void bindSolvers(nb::module_& m) {
            }, "(evaluations, 1): the least sum of all errors so far.")
       .def("getTrace_errs", errorTrace, "(evaluations, 4): sums of f, sos, ineq, eq.")
       .def("getTrace_costs", errorTrace, "The same as getTrace_errs.");
+
+  bindSampler(m);
 }
 
 }  // namespace kinegraph::python

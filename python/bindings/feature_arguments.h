@@ -21,6 +21,9 @@ struct FeatureArgument {
 /// Features that a Python function computes; `name` is for messages.
 FeatureSource ownFeature(nb::object function);
 
+/// The function; None for a symbol.
+nb::object functionOf(const FeatureSource& source);
+
 /// Frames as users give them: a name or a list of names.
 using FrameNames = std::variant<std::vector<std::string>, std::string>;
 

@@ -1,6 +1,7 @@
 #include <nanobind/stl/string.h>
 
 #include "bindings.h"
+#include "nlp_objects.h"
 #include "kinegraph/gfile/parser.h"
 #include "scene_values.h"
 
@@ -19,6 +20,7 @@ NB_MODULE(_core, m) {
   bindNlp(m);
   bindSolvers(m);
   bindKomo(m);
+  bindSolveMany(m);
   bindPlanning(m);
   m.def("parseText", [](const std::string& text, const std::string& name) { return toDict(kinegraph::parse(text, name)); },
         "text"_a, "name"_a = "text", "Text in .g syntax as a dict.");

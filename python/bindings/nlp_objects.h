@@ -8,17 +8,30 @@
 
 namespace kinegraph::python {
 
-/// What a user tells of a problem in Python, before it is made.
-struct PyNlpFactory {
-  int dimension = 0;
-  std::vector<ObjectiveType> types;
-  VectorXd lower, upper;
-  nb::object function;
+/// A problem that a user describes step by step, with a function x -> (phi, J).
+class PyNlpFactory final : public Nlp {
+ public:
+  void setDimension(int n);
+  void setTypes(std::vector<ObjectiveType> types) { types_ = std::move(types); }
+  void setBounds(const VectorXd& lower, const VectorXd& upper);
+  void setFunction(nb::object function) { function_ = std::move(function); }
 
-  std::shared_ptr<Nlp> make() const;
+  void evaluate(const VectorXd& x, VectorXd& phi, Jacobian* J) override;
+  std::string report(int verbose) const override;
+
+ private:
+  nb::object function_;
+  MatrixXd J_;
 };
 
-/// Reads what a user's function returned: (phi, J), J dense or triplets.
-void readPythonEvaluation(nb::handle returned, int dimension, VectorXd& phi, MatrixXd& J);
+/// A problem that is a Python object with `dimension`, `types` (or `featureTypes`), `bounds` and `evaluate(x) -> (phi, J)`, and
+/// where it has them `getFHessian(x)`, `getInitializationSample()`, `report(verbose)`.
+std::shared_ptr<Nlp> fromPythonProblem(nb::object problem);
+
+/// NLP_Sampler.
+void bindSampler(nb::module_& m);
+
+/// Several problems at once: solveAll, and KOMO.solveFromMany.
+void bindSolveMany(nb::module_& m);
 
 }  // namespace kinegraph::python

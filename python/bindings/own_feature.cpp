@@ -143,12 +143,29 @@ Array angularJacobian(const FrameView& view) {
 
 }  // namespace
 
+namespace {
+
+struct OwnFeatureMaker {
+  std::shared_ptr<const nb::object> function;
+  std::string name;
+
+  std::unique_ptr<Feature> operator()(const std::vector<int>& frames, const State& state) const {
+    const nb::gil_scoped_acquire lock;
+    return std::make_unique<OwnFeature>(function, name, frames, state);
+  }
+};
+
+}  // namespace
+
 FeatureSource ownFeature(nb::object function) {
   std::string name = nameOf(function);
-  return {name, [shared = sharedObject(std::move(function)), name](const std::vector<int>& frames, const State& state) {
-            const nb::gil_scoped_acquire lock;
-            return std::make_unique<OwnFeature>(shared, name, frames, state);
-          }};
+  return {name, OwnFeatureMaker{sharedObject(std::move(function)), name}};
+}
+
+nb::object functionOf(const FeatureSource& source) {
+  const FeatureSource::Make* make = source.maker();
+  const auto* own = make ? make->target<OwnFeatureMaker>() : nullptr;
+  return own ? *own->function : nb::none();
 }
 
 void bindOwnFeatures(nb::module_& m) {

@@ -15,4 +15,7 @@ struct PyKomo : Komo {
 /// What a KOMO says about itself, in words, numbers and pictures.
 void bindKomoReports(nb::class_<PyKomo>& komo);
 
+/// copy.copy and pickle.
+void bindKomoCopies(nb::class_<PyKomo>& komo);
+
 }  // namespace kinegraph::python

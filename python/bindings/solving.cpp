@@ -65,17 +65,37 @@ bool& Interruption::solving() {
   return solving;
 }
 
-bool Interruption::operator()(const VectorXd&, const VectorXd&) {
+Interruption::~Interruption() {
+  if (drawn_at_ == 0.) return;
+  const nb::gil_scoped_acquire lock;
+  nb::module_::import_("kinegraph.progress").attr("clearLine")();
+}
+
+bool Interruption::operator()(const VectorXd&, const VectorXd& phi) {
+  ++evals_;
   if (pending()) return false;
-  const auto now = std::chrono::steady_clock::now();
+  const auto now = Clock::now();
   if (now - asked_ < std::chrono::milliseconds(20)) return true;
   asked_ = now;
   const nb::gil_scoped_acquire lock;
-  if (PyErr_CheckSignals() == 0) return true;
+  if (pressedCtrlC()) return !(pending() = true);
+  const double seconds = std::chrono::duration<double>(now - start_).count();
+  if (verbose_ > 0 && seconds > .5 && seconds - drawn_at_ > .1) draw(phi, seconds);
+  return true;
+}
+
+void Interruption::draw(const VectorXd& phi, double seconds) {
+  drawn_at_ = seconds;
+  const ErrorSums sums = sumErrors(nlp_.types(), phi);
+  nb::module_::import_("kinegraph.progress").attr("drawSolve")(what_, evals_, sums.f + sums.sos, largestViolation(nlp_.types(), phi), seconds);
+}
+
+bool pressedCtrlC() {
+  const nb::gil_scoped_acquire lock;
+  if (PyErr_CheckSignals() == 0) return false;
   if (!PyErr_ExceptionMatches(PyExc_KeyboardInterrupt)) throw nb::python_error();
   PyErr_Clear();
-  pending() = true;
-  return false;
+  return true;
 }
 
 bool callUser(const std::function<void()>& call) {
@@ -90,18 +110,16 @@ bool callUser(const std::function<void()>& call) {
   }
 }
 
-SolverResult solveInterruptibly(NlpSolver& solver, bool resample) {
-  addExternalMethods(solver);
-  Rng rng(defaults().seed);
+SolverResult runInterruptibly(const char* what, const Nlp& nlp, int verbose, const std::function<SolverResult(const EvaluationHook&)>& run) {
   Interruption::pending() = false;
-  Interruption interruption;
   struct Solving {
     bool before = std::exchange(Interruption::solving(), true);
     ~Solving() { Interruption::solving() = before; }
   } solving;
   const nb::gil_scoped_release unlock;
+  Interruption interruption(what, nlp, verbose);
   try {
-    SolverResult result = solver.solve(resample, rng, std::ref(interruption));
+    SolverResult result = run(std::ref(interruption));
     if (std::exchange(Interruption::pending(), false)) result.message = "interrupted by Ctrl-C";
     return result;
   } catch (const Error&) {
@@ -110,6 +128,14 @@ SolverResult solveInterruptibly(NlpSolver& solver, bool resample) {
     PyErr_SetNone(PyExc_KeyboardInterrupt);
     throw nb::python_error();
   }
+}
+
+SolverResult solveInterruptibly(NlpSolver& solver, bool resample) {
+  addExternalMethods(solver);
+  if (!solver.problem()) throw Error("NLP_Solver: there is no problem to solve; call setProblem first");
+  Rng rng(defaults().seed);
+  return runInterruptibly("NLP_Solver", *solver.problem(), solver.options.verbose,
+                          [&](const EvaluationHook& hook) { return solver.solve(resample, rng, hook); });
 }
 
 void addExternalMethods(NlpSolver& solver) {

@@ -32,12 +32,15 @@ from ._core import (
     IkStatus,
     MotionContact,
     NLP_Factory,
+    NLP_Sampler,
     NLP_Solver,
     NLP_SolverOptions,
     OptMethod,
     SolverReturn,
+    SolverReturns,
     checkFile,
     depthImage2PointCloud,
+    solveAll,
     solveIk,
 )
 from ._core import __version__ as __version__
@@ -67,6 +70,7 @@ from .parameters import (
     rnd_seed_random,
     set_params,
 )
+from .problems import get_NLP_Problem_names, make_NLP_Problem
 
 _model_paths.announce()
 
@@ -111,19 +115,23 @@ __all__ = [
     "KinegraphWarning",
     "MotionContact",
     "NLP_Factory",
+    "NLP_Sampler",
     "NLP_Solver",
     "NLP_SolverOptions",
     "NotFound",
     "OptMethod",
     "ParseError",
     "SolverReturn",
+    "SolverReturns",
     "checkFile",
     "clear_params",
     "compiled",
     "depthImage2PointCloud",
     "getArucoImage",
+    "get_NLP_Problem_names",
     "get_params",
     "interactiveIk",
+    "make_NLP_Problem",
     "params_add",
     "params_clear",
     "params_file",
@@ -134,6 +142,7 @@ __all__ = [
     "rnd_seed_random",
     "setRaiPath",
     "set_params",
+    "solveAll",
     "solveIk",
     "test",
     "version",

@@ -15,3 +15,24 @@ def drawProgress(what: str, done: int, total: int, seconds: float, stream: TextI
     bar = "█" * filled + "·" * (width - filled)
     stream.write(f"\r{what} {bar} {done}/{total}, {seconds:.0f} s{left}\x1b[K" + ("\n" if done >= total else ""))
     stream.flush()
+
+
+def drawSolve(
+    what: str, evals: int, cost: float, violation: float, seconds: float, stream: TextIO | None = None
+) -> None:
+    """Redraws how far a solver is on `stream` (stderr), if it is a terminal."""
+    stream = stream or sys.stderr
+    if not stream.isatty():
+        return
+    stream.write(
+        f"\r{what}: {evals} evaluations, cost {cost:.4g}, violation {violation:.2g}, {seconds:.0f} s (Ctrl-C ends it)\x1b[K\r"
+    )
+    stream.flush()
+
+
+def clearLine(stream: TextIO | None = None) -> None:
+    """Removes the line on `stream` (stderr), if it is a terminal."""
+    stream = stream or sys.stderr
+    if stream.isatty():
+        stream.write("\r\x1b[K")
+        stream.flush()

@@ -128,6 +128,69 @@ TEST(CheckJacobian, LeavesTheProblemAtThePointThatWasGiven) {
   EXPECT_EQ(last, Eigen::Vector2d(1., 2.));
 }
 
+TEST(CheckJacobian, ListsTheWorstEntriesFirst) {
+  CallbackNlp wrong(2, {sos, eq}, {}, {}, [](const VectorXd& x, VectorXd& phi, MatrixXd& J) {
+    phi << x[0] + 2. * x[1], x[0] - x[1];
+    J << 1., 2.6, 1.25, -1.;
+  });
+  const auto entries = worstJacobianEntries(wrong, Eigen::Vector2d(1., 2.), 1e-4, 5);
+  ASSERT_EQ(entries.size(), 2u);
+  EXPECT_EQ(entries[0].row, 0) << ".6 of 2, and .25 of 1";
+  EXPECT_NEAR(entries[1].analytic, 1.25, 1e-12);
+  EXPECT_EQ(worstJacobianEntries(wrong, Eigen::Vector2d(1., 2.), 1e-4, 1).size(), 1u);
+  EXPECT_TRUE(worstJacobianEntries(wrong, Eigen::Vector2d(1., 2.), 1., 5).empty());
+}
+
+namespace {
+
+/// f = x^3 y and the square of x - y; its Hessian as it is, or doubled.
+class Cubic final : public Nlp {
+ public:
+  explicit Cubic(double factor) : factor_(factor) {
+    lower_ = VectorXd::Constant(2, -2.);
+    upper_ = VectorXd::Constant(2, 2.);
+    types_ = {f, sos};
+  }
+  void evaluate(const VectorXd& x, VectorXd& phi, Jacobian* J) override {
+    phi.resize(2);
+    phi << x[0] * x[0] * x[0] * x[1], x[0] - x[1];
+    if (J) J->values = {3. * x[0] * x[0] * x[1], x[0] * x[0] * x[0], 1., -1.};
+  }
+  bool addCostHessian(const VectorXd& x, MatrixXd& H) override {
+    H(0, 0) += factor_ * 6. * x[0] * x[1];
+    H(0, 1) += factor_ * 3. * x[0] * x[0];
+    H(1, 0) += factor_ * 3. * x[0] * x[0];
+    return true;
+  }
+
+ private:
+  double factor_;
+};
+
+}  // namespace
+
+TEST(CheckHessian, FindsAWrongOne) {
+  Cubic right(1.), wrong(2.);
+  EXPECT_LT(checkHessian(right, Eigen::Vector2d(.5, -1.)).error, 1e-8);
+  const JacobianCheck check = checkHessian(wrong, Eigen::Vector2d(.5, -1.));
+  EXPECT_NEAR(check.error, 1., 1e-6);
+  EXPECT_EQ(check.row, 0);
+  EXPECT_NEAR(check.numeric, -3., 1e-6);
+  Windows none;
+  EXPECT_EQ(checkHessian(none, somewhere(none, 0)).row, -1) << "it has no f residuals";
+}
+
+TEST(EvaluateScalar, IsTheSumWithItsDerivatives) {
+  Cubic cubic(1.);
+  const Eigen::Vector2d x(.5, -1.);
+  const ScalarEvaluation at = evaluateScalar(cubic, x);
+  EXPECT_NEAR(at.value, -.125 + 2.25, 1e-12);
+  EXPECT_TRUE(near(at.gradient, Eigen::Vector2d(-.75 + 3., .125 - 3.), 1e-12));
+  EXPECT_TRUE(near(at.hessian, (MatrixXd(2, 2) << -3. + 2., .75 - 2., .75 - 2., 2.).finished(), 1e-12));
+  Windows constrained;
+  expectError<ValueError>([&] { evaluateScalar(constrained, somewhere(constrained, 0)); }, {"f and sos only", "row 1 (eq)"});
+}
+
 TEST(CallbackNlp, SizesThatDoNotFitSayWhatWasExpected) {
   const auto nothing = [](const VectorXd&, VectorXd&, MatrixXd&) {};
   expectError<ValueError>([&] { CallbackNlp(3, {sos}, VectorXd::Zero(2), VectorXd::Ones(3), nothing); }, {"dimension 3", "not 2 and 3"});

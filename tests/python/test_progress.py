@@ -2,7 +2,7 @@
 
 import io
 
-from kinegraph.progress import drawProgress
+from kinegraph.progress import clearLine, drawProgress, drawSolve
 
 
 class Terminal(io.StringIO):
@@ -21,4 +21,14 @@ def test_the_bar_fills_and_the_line_ends_with_the_last_one():
 def test_a_file_gets_no_bar():
     file = io.StringIO()
     drawProgress("solveIk", 5, 20, 2.0, file)
+    assert file.getvalue() == ""
+
+
+def test_the_line_of_a_solver_tells_its_state_and_is_removed_at_the_end():
+    terminal, file = Terminal(), io.StringIO()
+    for stream in (terminal, file):
+        drawSolve("NLP_Solver", 120, 1.25, 3e-3, 2.0, stream)
+        clearLine(stream)
+    assert "NLP_Solver: 120 evaluations, cost 1.25, violation 0.003, 2 s" in terminal.getvalue()
+    assert terminal.getvalue().endswith("\r\x1b[K")
     assert file.getvalue() == ""

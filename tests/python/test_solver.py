@@ -194,3 +194,30 @@ def test_a_numeric_jacobian_replaces_one_that_is_missing():
     s = solver(Numeric())
     s.getOptions().set_finiteDifference(1e-5)
     np.testing.assert_allclose(s.solve().x, np.array([2, 1]) / np.sqrt(5), atol=1e-3)
+
+
+def test_a_kept_problem_is_solved_again_in_few_evaluations(panda):
+    target = panda.addFrame("target").setPosition([0.3, 0.3, 1.0])
+    komo = ry.KOMO(panda, 1, 1, 0, False)
+    komo.addObjective([], ry.FS.jointState, [], ry.OT.sos, [0.1], panda.getJointState())
+    komo.addObjective([], ry.FS.positionDiff, ["l_gripper", "target"], ry.OT.eq, [10.0])
+    s = ry.NLP_Solver(komo.nlp(), verbose=0)
+    evals = s.solve().evals
+    for moved, limit in ((0.0, 2), (0.001, 3), (0.01, 5)):
+        target.setPosition([0.3, target.getPosition()[1] + moved, 1.0])
+        komo.updateRootObjects(panda)
+        ret = s.solve()
+        assert ret.feasible and ret.evals - evals <= limit
+        evals = ret.evals
+
+
+def test_traces_and_counts_include_the_way_to_the_least_violation(panda):
+    """Of an infeasible problem with a sum of overlaps, which the solver sees pair by pair."""
+    panda.addFrame("wall").setShape(ry.ST.ssBox, [0.5, 0.5, 0.5, 0.02]).setPosition([0.4, 0.3, 0.9]).setContact(1)
+    komo = ry.KOMO(panda, 1, 1, 0, False)
+    komo.addObjective([], ry.FS.accumulatedCollisions, [], ry.OT.eq, [1.0])
+    komo.addObjective([], ry.FS.position, ["l_gripper"], ry.OT.eq, [10.0], [0.4, 0.3, 0.9])
+    s = ry.NLP_Solver(komo.nlp(), verbose=0).setTracing(True, True)
+    ret = s.solve()
+    assert ret.status.name == "infeasible"
+    assert len(s.getTrace_x()) == len(s.getTrace_errs()) == ret.evals

@@ -124,3 +124,14 @@ TEST(NlpSolver, MistakesAreExplained) {
   solver.options.method = OptMethod::Ipopt;
   expectError<ValueError>([&] { solver.solve(false, rng); }, {"Ipopt", "not available", "augmentedLag"});
 }
+
+TEST(NlpSolver, TakesMultipliersThatAreSet) {
+  const KnownProblem problem = byName("HS43");
+  NlpSolver cold = quiet(problem), warm = quiet(problem);
+  Rng rng(0);
+  cold.setInitialization(problem.start);
+  const SolverResult first = cold.solve(false, rng);
+  warm.setInitialization(first.x);
+  warm.dual = first.dual;
+  EXPECT_LE(warm.solve(false, rng).evals, 3);
+}

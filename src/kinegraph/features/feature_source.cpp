@@ -15,6 +15,11 @@ const std::string& FeatureSource::name() const {
   return std::get<1>(source_)->name;
 }
 
+const FeatureSource::Make* FeatureSource::maker() const {
+  const auto* own = std::get_if<1>(&source_);
+  return own ? &(*own)->make : nullptr;
+}
+
 std::unique_ptr<Feature> FeatureSource::make(const std::vector<int>& frames, const State& state) const {
   if (const auto* own = std::get_if<1>(&source_)) return (*own)->make(frames, state);
   try {

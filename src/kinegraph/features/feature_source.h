@@ -24,6 +24,7 @@ class FeatureSource {
   bool operator==(FeatureSymbol symbol) const { return this->symbol() == symbol; }
   std::optional<FeatureSymbol> symbol() const;  ///< none for one's own
   const std::string& name() const;              ///< for messages
+  const Make* maker() const;                    ///< of one's own; null for a symbol
 
   /// Throws ValueError for frames that do not fit, as makeFeature does; the message ends with the frames' names.
   std::unique_ptr<Feature> make(const std::vector<int>& frames, const State& state) const;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <map>
 #include <memory>
 #include <optional>
 #include <set>
@@ -38,9 +39,28 @@ class Komo {
 
   Komo() = default;
   Komo(Komo&&) = default;
-  Komo(const Komo&) = delete;
   Komo& operator=(Komo&&) = default;
   Komo(const Config& config, double phases, int slices_per_phase, int order);
+
+  /// The same problem at the same path, to be solved beside this one, as on another thread.
+  Komo clone() const;
+
+  /// All that a Komo consists of, to make it anew elsewhere, as in another process. Empty before there is a timing.
+  struct Parts {
+    struct Structure {
+      Config config;
+      std::map<int, Mode::Added> added;
+    };
+    Config config;
+    double phases = 0., duration_per_phase = 1.;
+    int slices_per_phase = 0, order = 0, next_joint = 1;
+    std::vector<Structure> modes;
+    std::vector<int> mode_of, shown_frames;
+    std::vector<Objective> objectives;
+    std::vector<VectorXd> states;  ///< q of all slices, those before the start first
+  };
+  Parts parts() const;
+  explicit Komo(Parts parts);
 
   /// In either order, for a Komo made without arguments; before the first objective.
   void setConfig(const Config& config);
@@ -149,6 +169,7 @@ class Komo {
   std::vector<std::string> takeWarnings() { return std::exchange(warnings_, {}); }
 
  private:
+  Komo(const Komo&) = default;  ///< see clone()
   void build();
   void requireBuilt(const char* call) const;
   std::unique_ptr<Feature> featureIn(const Objective& objective, int slice) const;
@@ -182,5 +203,8 @@ class Komo {
 /// The problem of a Komo, for a solver. It keeps the Komo alive, and leaves it at the point last evaluated. Objectives that
 /// are added to the Komo later are not part of it; after a later change of the structure it throws Error.
 std::shared_ptr<Nlp> makeNlp(std::shared_ptr<Komo> komo);
+
+/// The Komo that a problem was made from; null for other problems.
+std::shared_ptr<Komo> komoOf(const Nlp& nlp);
 
 }  // namespace kinegraph

@@ -26,6 +26,8 @@ class KomoNlp final : public Nlp {
     upper_ = komo_->layout().upper;
   }
 
+  const std::shared_ptr<Komo>& komo() const { return komo_; }
+
   Jacobian makeJacobian() const override { return problem_.makeJacobian(); }
 
   void evaluate(const VectorXd& x, VectorXd& phi, Jacobian* J) override {
@@ -104,6 +106,11 @@ class KomoNlp final : public Nlp {
 std::shared_ptr<Nlp> makeNlp(std::shared_ptr<Komo> komo) {
   if (komo->slices() == 0) throw Error("KOMO: there is no problem yet; call setConfig and setTiming first");
   return std::make_shared<KomoNlp>(std::move(komo));
+}
+
+std::shared_ptr<Komo> komoOf(const Nlp& nlp) {
+  const auto* problem = dynamic_cast<const KomoNlp*>(&nlp);
+  return problem ? problem->komo() : nullptr;
 }
 
 }  // namespace kinegraph

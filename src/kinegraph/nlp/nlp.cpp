@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "kinegraph/base/errors.h"
 #include "kinegraph/base/text.h"
 
 namespace kinegraph {
@@ -131,13 +132,16 @@ std::string describeNotFinite(const Nlp& nlp, const VectorXd& phi, const Jacobia
   return {};
 }
 
-JacobianCheck checkJacobian(Nlp& nlp, const VectorXd& x, double step) {
+namespace {
+
+/// Calls found(JacobianCheck) for every entry of J, and leaves the problem at x.
+template <typename Found>
+void compareWithDifferences(Nlp& nlp, const VectorXd& x, double step, const Found& found) {
   const int rows = int(nlp.types().size());
   Jacobian J = nlp.makeJacobian();
   VectorXd phi(rows), plus(rows), minus(rows);
   nlp.evaluate(x, phi, &J);
   const MatrixXd analytic = J.toDense();
-  JacobianCheck check;
   for (int i = 0; i < nlp.dimension(); ++i) {
     VectorXd moved = x;
     moved[i] = x[i] + step;
@@ -146,12 +150,87 @@ JacobianCheck checkJacobian(Nlp& nlp, const VectorXd& x, double step) {
     nlp.evaluate(moved, minus, nullptr);
     for (int row = 0; row < rows; ++row) {
       const double numeric = (plus[row] - minus[row]) / (2. * step);
-      const double error = std::abs(numeric - analytic(row, i)) / std::max(1., std::abs(numeric));
-      if (error > check.error || !std::isfinite(error)) check = {error, row, i, analytic(row, i), numeric};
+      found(JacobianCheck{std::abs(numeric - analytic(row, i)) / std::max(1., std::abs(numeric)), row, i, analytic(row, i), numeric});
     }
   }
   nlp.evaluate(x, phi, nullptr);
-  return check;
+}
+
+bool worse(const JacobianCheck& a, const JacobianCheck& b) { return a.error > b.error || (!std::isfinite(a.error) && std::isfinite(b.error)); }
+
+bool hasCostRows(const Nlp& nlp) { return std::find(nlp.types().begin(), nlp.types().end(), ObjectiveType::f) != nlp.types().end(); }
+
+VectorXd costGradient(Nlp& nlp, const VectorXd& x) {
+  Jacobian J = nlp.makeJacobian();
+  VectorXd phi(Eigen::Index(nlp.types().size())), gradient = VectorXd::Zero(x.size());
+  nlp.evaluate(x, phi, &J);
+  for (int row = 0; row < phi.size(); ++row) {
+    if (nlp.types()[row] == ObjectiveType::f) J.addRowTo(row, 1., gradient);
+  }
+  return gradient;
+}
+
+}  // namespace
+
+JacobianCheck checkJacobian(Nlp& nlp, const VectorXd& x, double step) {
+  JacobianCheck worst;
+  compareWithDifferences(nlp, x, step, [&](const JacobianCheck& entry) {
+    if (entry.error > 0. || !std::isfinite(entry.error)) worst = worst.row < 0 || worse(entry, worst) ? entry : worst;
+  });
+  return worst;
+}
+
+std::vector<JacobianCheck> worstJacobianEntries(Nlp& nlp, const VectorXd& x, double tolerance, int count, double step) {
+  std::vector<JacobianCheck> entries;
+  compareWithDifferences(nlp, x, step, [&](const JacobianCheck& entry) {
+    if (!(entry.error <= tolerance)) entries.push_back(entry);
+  });
+  std::stable_sort(entries.begin(), entries.end(), worse);
+  if (int(entries.size()) > count) entries.resize(std::size_t(count));
+  return entries;
+}
+
+JacobianCheck checkHessian(Nlp& nlp, const VectorXd& x, double step) {
+  MatrixXd H = MatrixXd::Zero(x.size(), x.size());
+  JacobianCheck worst;
+  if (!hasCostRows(nlp) || !nlp.addCostHessian(x, H)) return worst;
+  for (int i = 0; i < x.size(); ++i) {
+    VectorXd plus = x, minus = x;
+    plus[i] += step;
+    minus[i] -= step;
+    const VectorXd column = (costGradient(nlp, plus) - costGradient(nlp, minus)) / (2. * step);
+    for (int row = 0; row < x.size(); ++row) {
+      const JacobianCheck entry = {std::abs(column[row] - H(row, i)) / std::max(1., std::abs(column[row])), row, i, H(row, i), column[row]};
+      if (worst.row < 0 || worse(entry, worst)) worst = entry;
+    }
+  }
+  costGradient(nlp, x);  // leaves the problem where it was
+  return worst;
+}
+
+ScalarEvaluation evaluateScalar(Nlp& nlp, const VectorXd& x) {
+  ScalarEvaluation out{0., VectorXd::Zero(x.size()), MatrixXd::Zero(x.size(), x.size())};
+  Jacobian J = nlp.makeJacobian();
+  VectorXd phi(Eigen::Index(nlp.types().size())), dense(x.size());
+  nlp.evaluate(x, phi, &J);
+  for (int row = 0; row < phi.size(); ++row) {
+    const ObjectiveType type = nlp.types()[row];
+    if (type == ObjectiveType::f) {
+      out.value += phi[row];
+      J.addRowTo(row, 1., out.gradient);
+    } else if (type == ObjectiveType::sos) {
+      out.value += phi[row] * phi[row];
+      J.addRowTo(row, 2. * phi[row], out.gradient);
+      dense.setZero();
+      J.addRowTo(row, 1., dense);
+      out.hessian.selfadjointView<Eigen::Lower>().rankUpdate(dense, 2.);
+    } else if (type != ObjectiveType::none) {
+      throw ValueError(cat("eval_scalar is for problems of f and sos only; ", nlp.rowName(row), " is neither"));
+    }
+  }
+  out.hessian.triangularView<Eigen::StrictlyUpper>() = out.hessian.transpose();
+  if (hasCostRows(nlp)) nlp.addCostHessian(x, out.hessian);
+  return out;
 }
 
 }  // namespace kinegraph

@@ -120,4 +120,20 @@ struct JacobianCheck {
 };
 JacobianCheck checkJacobian(Nlp& nlp, const VectorXd& x, double step = 1e-5);
 
+/// All entries whose difference is above the tolerance or not a number, the worst first, at most `count`.
+std::vector<JacobianCheck> worstJacobianEntries(Nlp& nlp, const VectorXd& x, double tolerance, int count, double step = 1e-5);
+
+/// The same for addCostHessian and central differences of the gradient of sum_f phi. Nothing to find (row -1) where there are
+/// no f residuals, or no Hessian is offered.
+JacobianCheck checkHessian(Nlp& nlp, const VectorXd& x, double step = 1e-5);
+
+/// A problem without constraints as one function:  sum_f phi + sum_sos phi^2, its gradient, and 2 J_sos^T J_sos + the Hessian of
+/// the f residuals. Throws ValueError if there are other residuals.
+struct ScalarEvaluation {
+  double value = 0.;
+  VectorXd gradient;
+  MatrixXd hessian;
+};
+ScalarEvaluation evaluateScalar(Nlp& nlp, const VectorXd& x);
+
 }  // namespace kinegraph

@@ -54,12 +54,17 @@ void NlpSolver::clearTracing() {
 }
 
 /// Goes on to the least violation of the problem as it is stated, with sums.
-void NlpSolver::reduceViolation(SolverResult& result) {
+void NlpSolver::reduceViolation(SolverResult& result, const EvaluationHook& hook) {
   RelaxedNlp least(*problem_, std::vector<bool>(problem_->types().size(), true));
   SolverOptions brief = options;
   brief.verbose = 0;
   brief.stopEvals = kMostEvalsOfReduction;
-  const SolverResult found = solveAugmentedLagrangian(least, result.x, brief);
+  VectorXd phi(Eigen::Index(problem_->types().size()));
+  const EvaluationHook relay = [&](const VectorXd& at, const VectorXd&) {
+    problem_->evaluate(at, phi, nullptr);
+    return hook(at, phi);
+  };
+  const SolverResult found = solveAugmentedLagrangian(least, result.x, brief, {}, hook ? relay : EvaluationHook());
   result.evals += found.evals;
   VectorXd before(Eigen::Index(problem_->types().size())), after = before;
   problem_->evaluate(result.x, before, nullptr);
@@ -84,9 +89,8 @@ SolverResult NlpSolver::solve(bool resample, Rng& rng, const EvaluationHook& hoo
   const bool is_own = method == methods_.end();
   const Separation separation = is_own && options.method == OptMethod::augmentedLag ? problem_->separation() : Separation();
   const auto rows = Eigen::Index(problem_->types().size());
-  const EvaluationHook watch = [&](const VectorXd& at, const VectorXd& solved_phi) {
+  const EvaluationHook seen = [&](const VectorXd& at, const VectorXd& phi) {
     ++calls;
-    const VectorXd phi = separation.problem ? separation.joined(solved_phi, rows) : solved_phi;
     if (tracing_x_) trace_x_.push_back(at);
     if (tracing_phi_) trace_phi_.push_back(phi);
     if (tracing_errors_) trace_errors_.push_back(sumErrors(problem_->types(), phi));
@@ -101,22 +105,24 @@ SolverResult NlpSolver::solve(bool resample, Rng& rng, const EvaluationHook& hoo
     told = Clock::now();
     return progress_(evals_ + calls, at, sumErrors(problem_->types(), phi));
   };
+  const EvaluationHook joined = [&](const VectorXd& at, const VectorXd& solved_phi) { return seen(at, separation.joined(solved_phi, rows)); };
   const bool needs_watch = tracing_x_ || tracing_phi_ || tracing_errors_ || tracing_jacobian_ || progress_ || hook;
+  const EvaluationHook watch = !needs_watch ? EvaluationHook() : separation.problem ? joined : seen;
   SolverResult result;
   if (!is_own) {
     options.validate();
     requireStart(*problem_, x);
-    result = method->second(*problem_, x, options, needs_watch ? watch : EvaluationHook());
+    result = method->second(*problem_, x, options, watch);
     result.time = std::chrono::duration<double>(Clock::now() - start).count();
   } else {
     Nlp& solved = separation.problem ? *separation.problem : *problem_;
     if (dual.size() == 0) solved_dual_.resize(0);
-    result = kinegraph::solve(solved, x, options, solved_dual_, needs_watch ? watch : EvaluationHook());
+    result = kinegraph::solve(solved, x, options, separation.problem ? solved_dual_ : dual, watch);
     solved_dual_ = result.dual;
   }
   if (separation.problem) {
     VectorXd phi(rows);
-    if (result.status == SolverStatus::infeasible) reduceViolation(result);
+    if (result.status == SolverStatus::infeasible) reduceViolation(result, needs_watch ? seen : EvaluationHook());
     problem_->evaluate(result.x, phi, nullptr);
     result.dual = separation.joinedDual(result.dual, rows);
     result.setSums(problem_->types(), phi, options.constraintTolerance());

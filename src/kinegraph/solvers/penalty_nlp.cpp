@@ -1,6 +1,7 @@
 #include "kinegraph/solvers/penalty_nlp.h"
 
 #include <cmath>
+#include <optional>
 
 namespace kinegraph {
 
@@ -63,6 +64,26 @@ bool BarrierNlp::addCostHessian(const VectorXd& x, MatrixXd& H) {
     H.noalias() += mu_ * row_vector * row_vector.transpose();
   }
   return true;
+}
+
+std::shared_ptr<Nlp> makePenalized(std::shared_ptr<Nlp> nlp, double mu, double barrier) {
+  struct Chain {
+    std::shared_ptr<Nlp> given;
+    std::optional<BarrierNlp> barrier;
+    std::optional<PenaltyNlp> penalty;
+  };
+  auto chain = std::make_shared<Chain>();
+  Nlp* last = nlp.get();
+  chain->given = std::move(nlp);
+  if (barrier >= 0.) {
+    chain->barrier.emplace(*last).setWeight(barrier);
+    last = &*chain->barrier;
+  }
+  if (mu >= 0.) {
+    chain->penalty.emplace(*last).setWeight(mu);
+    last = &*chain->penalty;
+  }
+  return {chain, last};
 }
 
 }  // namespace kinegraph

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <memory>
+
 #include "kinegraph/nlp/nlp.h"
 
 namespace kinegraph {
@@ -41,5 +43,9 @@ class BarrierNlp final : public Nlp {
 };
 
 bool isInequality(ObjectiveType type);
+
+/// `nlp` with its inequalities as barriers of weight `barrier`, and what constraints remain as penalties of weight `mu`; each
+/// is left as it is where the weight is negative. It keeps `nlp` alive.
+std::shared_ptr<Nlp> makePenalized(std::shared_ptr<Nlp> nlp, double mu, double barrier);
 
 }  // namespace kinegraph

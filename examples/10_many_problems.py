@@ -1,0 +1,49 @@
+"""Part 10: one problem from many starts, several problems at once, and samples of what is possible.
+
+A motion problem may have many solutions, or be a choice between several problems: which hand takes the ball? All of them are
+solved in parallel, with the same answers at any number of threads.
+"""
+
+import numpy as np
+
+from robotic import ry
+
+np.set_printoptions(precision=3, suppress=True)
+
+C = ry.Config()
+C.addFile(ry.raiPath("scenarios/pandasTable.g"))
+C.addFrame("ball").setShape(ry.ST.sphere, [0.05]).setColor([1, 0.5, 0]).setPosition([0.25, 0.15, 0.9])
+
+
+def take(gripper: str) -> ry.KOMO:
+    komo = ry.KOMO(C, 1, 20, 2, False)
+    komo.addControlObjective([], 0, 1e-2)
+    komo.addControlObjective([], 2, 1e0)
+    komo.addObjective([], ry.FS.accumulatedCollisions, [], ry.OT.eq, [1e0])
+    komo.addObjective([1.0], ry.FS.positionDiff, [gripper, "ball"], ry.OT.eq, [1e1])
+    return komo
+
+
+# A discrete choice: each hand is a problem of its own; the cheapest that is feasible is chosen.
+hands = ["l_gripper", "r_gripper"]
+problems = [take(hand) for hand in hands]
+answers = ry.solveAll(problems, threads=2)
+for hand, ret in zip(hands, answers.results):
+    print(f"{hand}: {ret.status.name}, feasible: {ret.feasible}, cost {ret.sos:.3f}")
+print("taken by", hands[answers.chosen])
+problems[answers.chosen].view(True, "the motion of the hand that is chosen")
+
+# One problem from the present path and from random ones: the best of what they lead to.
+komo = problems[answers.chosen]
+result = komo.solveFromMany(6, threads=2, seed=1)
+print(result)
+print("costs:", np.array([ret.sos for ret in result.results]))
+
+# Postures that hold the gripper at the ball, drawn by chance: what the arm could do.
+hold = ry.KOMO(C, 1, 1, 0, False)
+hold.addObjective([], ry.FS.jointLimits, [], ry.OT.ineq)
+hold.addObjective([], ry.FS.positionDiff, [hands[answers.chosen], "ball"], ry.OT.eq, [1e0])
+sampler = ry.NLP_Sampler(hold.nlp()).setOptions(interiorMethod="MCMC", interiorSampleSteps=10)
+samples = [sampler.sample() for _ in range(10)]
+postures = np.array([ret.x for ret in samples if ret.feasible])
+print(len(postures), "postures; each joint spreads by", postures.std(axis=0))

@@ -1,0 +1,185 @@
+#include <nanobind/stl/shared_ptr.h>
+#include <nanobind/stl/string.h>
+#include <nanobind/stl/vector.h>
+
+#include <algorithm>
+#include <chrono>
+#include <deque>
+
+#include "bindings.h"
+#include "defaults.h"
+#include "kinegraph/base/errors.h"
+#include "kinegraph/base/text.h"
+#include "kinegraph/planning/multi_start.h"
+#include "nlp_objects.h"
+#include "py_komo.h"
+#include "solving.h"
+
+namespace kinegraph::python {
+
+namespace {
+
+/// Looks for Ctrl-C and draws a bar, on the calling thread, while others solve.
+class Watch {
+ public:
+  Watch(const char* what, std::size_t total, int verbose) : what_(what), total_(int(total)), verbose_(verbose) {}
+
+  bool operator()(int ended) {
+    if (!interrupted_) interrupted_ = pressedCtrlC();
+    if (verbose_ > 0 && seconds() > .5) draw(ended);
+    return interrupted_;
+  }
+
+  /// With the interpreter lock. Says that Ctrl-C ended those that did not come to their end, and in a line how it went.
+  void finish(SolveManyResult& all) {
+    int done = 0, feasible = 0;
+    for (SolverResult& result : all.results) {
+      if (interrupted_ && result.done && result.status == SolverStatus::cancelled) result.message = "interrupted by Ctrl-C";
+      done += result.done;
+      feasible += result.feasible;
+    }
+    if (drawn_) draw(interrupted_ ? done : total_);
+    if (interrupted_ && all.best().x.size() == 0) {
+      PyErr_SetNone(PyExc_KeyboardInterrupt);
+      throw nb::python_error();
+    }
+    if (verbose_ < 1) return;
+    nb::print(cat(what_, ": ", feasible, " of ", done, " are feasible, in ", seconds(), " s; the best: ", all.chosen, ", ", all.best().str()).c_str());
+  }
+
+ private:
+  using Clock = std::chrono::steady_clock;
+  double seconds() const { return std::chrono::duration<double>(Clock::now() - start_).count(); }
+
+  void draw(int ended) {
+    const nb::gil_scoped_acquire lock;
+    drawn_ = true;
+    nb::module_::import_("kinegraph.progress").attr("drawProgress")(what_, ended, total_, seconds());
+  }
+
+  const char* what_;
+  int total_, verbose_;
+  bool drawn_ = false, interrupted_ = false;
+  Clock::time_point start_ = Clock::now();
+};
+
+/// A number of starts: the present path and random ones; or an array of paths (K, T, n).
+std::vector<VectorXd> readStarts(PyKomo& komo, nb::handle given, std::uint64_t seed) {
+  if (nb::isinstance<nb::int_>(given)) return drawStarts(komo, nb::cast<int>(given), seed);
+  const int T = komo.slices(), n = komo.dofs();
+  const auto expected = [&] { return cat("solveFromMany: starts are a number, or paths of shape (K, ", T, ", ", n, ")"); };
+  if (!nb::isinstance<nb::iterable>(given)) throw ValueError(expected());
+  const VectorXd before = komo.variables();
+  std::vector<VectorXd> starts;
+  for (nb::handle path : given) {
+    Numbers numbers;
+    if (!readNumbers(path, numbers) || numbers.rank != 2 || int(numbers.rows) != T || int(numbers.columns()) != n) throw ValueError(expected());
+    komo.setPath(numbers.matrix());
+    starts.push_back(komo.variables());
+  }
+  komo.setVariables(before);
+  return starts;
+}
+
+SolveManyResult solveKomoFromMany(const std::shared_ptr<PyKomo>& komo, nb::handle starts, bool best, int threads, std::uint64_t seed, int verbose,
+                                  const SolverOptions* options) {
+  if (komo->slices() == 0) throw Error("KOMO: there is no problem yet; call setConfig and setTiming first");
+  const std::vector<VectorXd> points = readStarts(*komo, starts, seed);
+  Watch watch("solveFromMany", points.size(), verbose);
+  SolveManyResult all;
+  {
+    const nb::gil_scoped_release unlock;
+    all = solveFromMany(komo, points, options ? *options : defaults().solver, {best, threads}, std::ref(watch));
+  }
+  watch.finish(all);
+  return all;
+}
+
+SolveManyResult solveEach(nb::iterable problems, int threads, bool best, int verbose, const SolverOptions* options) {
+  std::deque<NlpSolver> made;
+  std::vector<NlpSolver*> solvers;
+  for (nb::handle given : problems) {
+    if (nb::isinstance<NlpSolver>(given)) {
+      solvers.push_back(&nb::cast<NlpSolver&>(given));
+    } else {
+      std::shared_ptr<Nlp> nlp;
+      if (nb::isinstance<PyKomo>(given)) {
+        nlp = makeNlp(nb::cast<std::shared_ptr<PyKomo>>(given));
+      } else if (nb::isinstance<Nlp>(given)) {
+        nlp = nb::cast<std::shared_ptr<Nlp>>(given);
+      } else {
+        throw ValueError(cat("solveAll: problem ", solvers.size(), " is a ", nb::cast<std::string>(given.type().attr("__name__")),
+                             "; expected a KOMO, an NLP or an NLP_Solver"));
+      }
+      NlpSolver& solver = made.emplace_back(std::move(nlp), 0);
+      solver.options = options ? *options : defaults().solver;
+      solver.options.verbose = 0;
+      solvers.push_back(&solver);
+    }
+    addExternalMethods(*solvers.back());
+  }
+  // two problems of one KOMO would move the same path
+  for (std::size_t i = 0; i < solvers.size(); ++i) {
+    for (std::size_t j = 0; j < i; ++j) {
+      const auto komo = solvers[i]->problem() ? komoOf(*solvers[i]->problem()) : nullptr;
+      if (!komo || !solvers[j]->problem() || komoOf(*solvers[j]->problem()) != komo) continue;
+      throw ValueError(cat("solveAll: problems ", j, " and ", i, " are of the same KOMO; copy.copy(komo) makes another one"));
+    }
+  }
+  Watch watch("solveAll", solvers.size(), verbose);
+  SolveManyResult all;
+  {
+    const nb::gil_scoped_release unlock;
+    all = solveAll(solvers, {best, threads}, defaults().seed, std::ref(watch));
+  }
+  watch.finish(all);
+  return all;
+}
+
+SolverResult resultAt(const SolveManyResult& all, Py_ssize_t i) {
+  const auto size = Py_ssize_t(all.results.size());
+  if (i < -size || i >= size) throw nb::index_error(cat("result ", i, " of ", size).c_str());
+  return all.results[std::size_t(i < 0 ? i + size : i)];
+}
+
+}  // namespace
+
+void bindSolveMany(nb::module_& m) {
+  nb::class_<SolveManyResult>(m, "SolverReturns", "How several problems, or one problem from several starts, were solved.")
+      .def_ro("results", &SolveManyResult::results, "A SolverReturn each; done is False where an earlier one sufficed, or Ctrl-C came before.")
+      .def_ro("chosen", &SolveManyResult::chosen, "Index of the best: feasible before infeasible, then by cost, or by violation.")
+      .def_prop_ro("best", [](const SolveManyResult& r) { return r.best(); }, "The SolverReturn of the best.")
+      .def_prop_ro("feasible", [](const SolveManyResult& r) { return r.best().feasible; }, "The best is feasible.")
+      .def("__bool__", [](const SolveManyResult& r) { return r.best().feasible; })
+      .def("__len__", [](const SolveManyResult& r) { return r.results.size(); })
+      .def("__getitem__", resultAt, "index"_a)
+      .def("__repr__", [](const SolveManyResult& r) {
+             const auto feasible = std::ranges::count_if(r.results, &SolverResult::feasible);
+             return cat("<SolverReturns: ", feasible, " of ", r.results.size(), " feasible; the best: ", r.chosen, ", ", r.best().str(), ">");
+           })
+      .def("__getstate__", [](const SolveManyResult& r) { return nb::make_tuple(r.results, r.chosen); })
+      .def("__setstate__", [](SolveManyResult& r, nb::tuple state) {
+             new (&r) SolveManyResult{nb::cast<std::vector<SolverResult>>(state[0]), nb::cast<int>(state[1])};
+           }, "state"_a);
+
+  m.def("solveAll", solveEach, "problems"_a, nb::kw_only(), "threads"_a = 1, "best"_a = true, "verbose"_a = 0, "options"_a.none() = nb::none(),
+        "Solves independent problems, on several threads, which do not change the answers: as the choices of a discrete decision.\n\n"
+        "Args:\n"
+        "    problems: KOMO, NLP or NLP_Solver objects, all different. A KOMO is left at its solution.\n"
+        "    threads: That share the problems.\n"
+        "    best: Solves all of them; if False, the first one in the list that is feasible ends it.\n"
+        "    verbose: 1 prints a line at the end, and shows a progress bar on the way if it takes long.\n"
+        "    options: NLP_SolverOptions of all but the NLP_Solver objects, which have their own.\n"
+        "Returns:\n"
+        "    SolverReturns: results in the order of the problems, chosen (the index of the best), best. Ctrl-C ends it with what there is.");
+
+  nb::object komo = nb::borrow(nb::type<PyKomo>());
+  nb::setattr(komo, "solveFromMany", nb::cpp_function(solveKomoFromMany, nb::is_method(), nb::name("solveFromMany"), nb::scope(komo),
+      "starts"_a = 8, nb::kw_only(), "best"_a = true, "threads"_a = 1, "seed"_a = 0, "verbose"_a = 0, "options"_a.none() = nb::none(),
+      "Solves from several starting points, and leaves the KOMO at the best solution.\n\n"
+      "starts: their number (the present path, then random ones from seed), or paths (K, T, n). best: solves from all, for the\n"
+      "feasible solution of least cost; else for the first feasible one. threads do not change the answer. options: of the\n"
+      "solver, NLP_SolverOptions. Returns SolverReturns: best, chosen, results. Ctrl-C ends it with what there is."));
+}
+
+}  // namespace kinegraph::python

@@ -1,0 +1,74 @@
+#include <nanobind/stl/pair.h>
+#include <nanobind/stl/shared_ptr.h>
+#include <nanobind/stl/string.h>
+#include <nanobind/stl/vector.h>
+
+#include "feature_arguments.h"
+#include "py_komo.h"
+
+namespace kinegraph::python {
+
+namespace {
+
+nb::tuple toTuple(const Komo::Objective& o) {
+  const nb::object feature = o.feature.symbol() ? nb::object(nb::int_(int(*o.feature.symbol()))) : functionOf(o.feature);
+  return nb::make_tuple(o.name, feature, o.frames, int(o.type), toNumpy(o.scale), toNumpy(o.target), o.order, o.times, o.from, o.to, o.time_integral);
+}
+
+/// An array of shape (rows, columns), rows or columns may be 0.
+MatrixXd toMatrix(nb::handle array) {
+  const auto [rows, columns] = nb::cast<std::pair<Eigen::Index, Eigen::Index>>(array.attr("shape"));
+  const Numbers numbers = nb::cast<Numbers>(array);
+  return Eigen::Map<const Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>>(numbers.values.data(), rows, columns);
+}
+
+Komo::Objective toObjective(nb::handle state) {
+  const nb::tuple t = nb::cast<nb::tuple>(state);
+  const FeatureSource feature = nb::isinstance<nb::int_>(t[1]) ? FeatureSource(FeatureSymbol(nb::cast<int>(t[1]))) : ownFeature(t[1]);
+  return {nb::cast<std::string>(t[0]), feature, nb::cast<std::vector<std::string>>(t[2]), ObjectiveType(nb::cast<int>(t[3])),
+          toMatrix(t[4]), nb::cast<Numbers>(t[5]).values, nb::cast<int>(t[6]), nb::cast<std::vector<double>>(t[7]),
+          nb::cast<int>(t[8]), nb::cast<int>(t[9]), nb::cast<bool>(t[10])};
+}
+
+nb::tuple komoState(const PyKomo& komo) {
+  Komo::Parts parts = komo.parts();
+  nb::list modes, objectives, states;
+  for (Komo::Parts::Structure& mode : parts.modes) {
+    nb::list added;
+    for (const auto& [frame, joint] : mode.added) added.append(nb::make_tuple(frame, joint.id, joint.stable, joint.parent));
+    modes.append(nb::make_tuple(PyConfig{std::move(mode.config), nullptr}, added));
+  }
+  for (const Komo::Objective& objective : parts.objectives) objectives.append(toTuple(objective));
+  for (const VectorXd& state : parts.states) states.append(toNumpy(state));
+  const bool has_config = komo.slices() > 0 || parts.config.getFrameDimension() > 0;
+  const nb::object config = has_config ? nb::cast(PyConfig{std::move(parts.config), nullptr}) : nb::none();
+  return nb::make_tuple(config, parts.phases, parts.duration_per_phase, parts.slices_per_phase, parts.order,
+                        parts.next_joint, modes, parts.mode_of, parts.shown_frames, objectives, states);
+}
+
+Komo fromState(nb::tuple t) {
+  if (nb::handle(t[0]).is_none()) return Komo();
+  Komo::Parts parts{nb::cast<PyConfig&>(t[0]), nb::cast<double>(t[1]), nb::cast<double>(t[2]), nb::cast<int>(t[3]), nb::cast<int>(t[4]),
+                    nb::cast<int>(t[5]), {}, nb::cast<std::vector<int>>(t[7]), nb::cast<std::vector<int>>(t[8]), {}, {}};
+  for (nb::handle mode : nb::cast<nb::list>(t[6])) {
+    Komo::Parts::Structure structure{nb::cast<PyConfig&>(mode[0]), {}};
+    for (nb::handle added : nb::cast<nb::list>(mode[1])) {
+      structure.added[nb::cast<int>(added[0])] = {nb::cast<int>(added[1]), nb::cast<bool>(added[2]), nb::cast<std::string>(added[3])};
+    }
+    parts.modes.push_back(std::move(structure));
+  }
+  for (nb::handle objective : nb::cast<nb::list>(t[9])) parts.objectives.push_back(toObjective(objective));
+  for (nb::handle state : nb::cast<nb::list>(t[10])) parts.states.push_back(nb::cast<Numbers>(state).values);
+  return Komo(std::move(parts));
+}
+
+}  // namespace
+
+void bindKomoCopies(nb::class_<PyKomo>& komo) {
+  komo.def("__copy__", [](const PyKomo& k) { return std::make_shared<PyKomo>(PyKomo{k.clone(), nullptr}); })
+      .def("__deepcopy__", [](const PyKomo& k, nb::object) { return std::make_shared<PyKomo>(PyKomo{k.clone(), nullptr}); }, "memo"_a)
+      .def("__getstate__", komoState)
+      .def("__setstate__", [](PyKomo& k, nb::tuple state) { new (&k) PyKomo{fromState(state), nullptr}; }, "state"_a);
+}
+
+}  // namespace kinegraph::python
