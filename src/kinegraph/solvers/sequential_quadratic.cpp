@@ -121,13 +121,16 @@ class SequentialQuadratic {
   std::string message_;
 };
 
-/// Gradient and Hessian of the costs, and the constraints' rows. While nothing is known of the curvature, it is such that a
-/// step without constraints would be as long as `room`.
+/// Gradient and Hessian of the costs, and the constraints' rows. While nothing is known of the curvature of the f rows, it is
+/// such that a step without constraints would be a tenth of `room`.
 void SequentialQuadratic::linearize(double room) {
   const int n = nlp_.dimension();
   function_.costGradient(phi_, J_, gradient_);
   H_ = curvature_.matrix();
-  if (curvature_.empty()) H_.diagonal().setConstant(std::max(1e-8, gradient_.lpNorm<Eigen::Infinity>() / room));
+  if (curvature_.empty()) {
+    function_.generalGradient(J_, VectorXd(), old_gradient_);
+    H_.diagonal().setConstant(std::max(1e-8, 10. * old_gradient_.lpNorm<Eigen::Infinity>() / room));
+  }
   VectorXd row_of_J = VectorXd::Zero(n);
   for (int row : function_.costs()) {
     const ObjectiveType type = nlp_.types()[row];
