@@ -186,13 +186,13 @@ void bindObjectives(nb::class_<PyKomo>& komo) {
       .def("addContactForceFrame", [](PyKomo& k, const Numbers& times, const std::string& object, const std::string& from, double friction,
                                       double mass, const std::string&) {
              return addedFrame(k, k.addContactForce(times.list(), object, from, friction, mass));
-           }, "times"_a, "obj"_a, "from"_a, "frictionCone_mu"_a, "init_objMass"_a, "obj_com_frame"_a = "",
-           "In these slices `from` pushes `obj` where they touch, along the z axis of a frame on `obj` that is added: a copy of it is\n"
+           }, "times"_a, "obj"_a, "from_"_a, "frictionCone_mu"_a, "init_objMass"_a, "obj_com_frame"_a = "",
+           "In these slices `from_` pushes `obj` where they touch, along the z axis of a frame on `obj` that is added: a copy of it is\n"
            "returned. One dof per slice is the force, in units of the weight of init_objMass. FS.totalForce and FS.physics balance it.")
       .def("addContact_WithPoaFrame", [](PyKomo& k, const Numbers& time, const std::string& object, const std::string& from, double friction,
                                          double mass, double distance) {
              return addedFrame(k, k.addFreeContactForce(time.list(), object, from, friction, mass, distance));
-           }, "time"_a, "obj"_a, "from"_a, "frictionCone_mu"_a, "init_objMass"_a, "init_POAdist"_a,
+           }, "time"_a, "obj"_a, "from_"_a, "frictionCone_mu"_a, "init_objMass"_a, "init_POAdist"_a,
            "The same with a force of any direction within the cone of friction: three dofs per slice.")
       .def("addTimeOptimization", [](PyKomo&) { throw Error("addTimeOptimization: durations are fixed; give them with setTiming"); },
            "Not available.");
