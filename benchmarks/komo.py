@@ -211,7 +211,7 @@ def timePhases(ry, np, C, problem):
     place(C, problem)
     C.setJointState(Q_HOME)
     gripper = np.array(C.getFrame("l_gripper").getPosition())
-    goals = [gripper + [0.15 * np.sin(i), 0.1 * np.cos(2 * i), -0.15 * (i % 2)] for i in range(PHASES)]
+    goals = [gripper + np.array([0.15 * np.sin(i), 0.1 * np.cos(2 * i), -0.15 * (i % 2)]) for i in range(PHASES)]
     start = process_time()
     komo = pathKomo(ry, C, PHASES, 32)
     for i, goal in enumerate(goals):
@@ -240,15 +240,15 @@ def timeBuild(ry, C, count=20):
     times = []
     for _ in range(count):
         start = process_time()
-        komo, nlp = build()
+        kept = build()
         times.append(process_time() - start)
+        del kept
     return times, megabytes
 
 
 def residentMegabytes():
-    for line in Path("/proc/self/status").read_text().splitlines():
-        if line.startswith("VmRSS"):
-            return int(line.split()[1]) / 1024
+    lines = Path("/proc/self/status").read_text().splitlines()
+    return next(int(line.split()[1]) / 1024 for line in lines if line.startswith("VmRSS"))
 
 
 def checkPaths(ry, np, task):
@@ -299,7 +299,9 @@ def machine():
 
 
 def printTable(reports, good):
-    print(f"{'µs':12}{'reference':>12}{'kinegraph':>12}{'ratio':>8}{'over the rounds':>18}{'evaluations':>14}{'good':>16}")
+    print(
+        f"{'µs':12}{'reference':>12}{'kinegraph':>12}{'ratio':>8}{'over the rounds':>18}{'evaluations':>14}{'good':>16}"
+    )
     for row in [*reports["kinegraph"][0]["times"]]:
         values = {}
         for who, runs in reports.items():
@@ -315,7 +317,9 @@ def printTable(reports, good):
             line += f"{statistics.median(ratios):8.1f}{spread:>18}"
         else:
             line += f"{'':26}"
-        medians = [f"{statistics.median(r[0]['evaluations'][row]):.0f}" for r in reports.values() if row in r[0]["evaluations"]]
+        medians = [
+            f"{statistics.median(r[0]['evaluations'][row]):.0f}" for r in reports.values() if row in r[0]["evaluations"]
+        ]
         line += f"{' / '.join(medians):>14}"
         counts = [f"{g[row][0]}/{g[row][1]}" for g in good.values() if row in g]
         counts += [f"{100 * runs[0]['feasible'][row]:.0f} %" for runs in reports.values() if row in runs[0]["feasible"]]
@@ -365,7 +369,9 @@ def main():
     printTable(reports, good)
     reference, ours = good.get("reference", {}), good["kinegraph"]
     worse = [row for row in ours if ours[row][0] < reference.get(row, [0])[0]]
-    print("answers:", f"WORSE than the reference in {', '.join(worse)}" if worse else "as good as the reference or better")
+    print(
+        "answers:", f"WORSE than the reference in {', '.join(worse)}" if worse else "as good as the reference or better"
+    )
     sys.exit(1 if worse else 0)
 
 

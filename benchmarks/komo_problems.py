@@ -279,7 +279,8 @@ def runWorker(python, name, folder, starts, is_reference):
     environment = dict(os.environ, OMP_NUM_THREADS="1", OPENBLAS_NUM_THREADS="1", KINEGRAPH_HEADLESS="1")
     if is_reference:
         environment.pop("PYTHONPATH", None)  # it may lead to Kinegraph's `robotic`
-    command = [python, os.path.abspath(__file__), "--worker", "--out", str(out), "--only", name, "--starts", str(starts)]
+    command = [python, os.path.abspath(__file__), "--worker", "--out", str(out)]
+    command += ["--only", name, "--starts", str(starts)]
     done = subprocess.run(command, cwd=folder, env=environment, capture_output=True, text=True, timeout=1800)
     if not out.exists():
         sys.exit(f"{python} failed with status {done.returncode}:\n{done.stderr[-2000:]}")
@@ -338,7 +339,7 @@ def main():
     worse = []
     with tempfile.TemporaryDirectory() as folder:
         for name in names:
-            reports = {who: runWorker(python, name, folder, options.starts, who == "reference") for who, python in pythons.items()}
+            reports = {w: runWorker(p, name, folder, options.starts, w == "reference") for w, p in pythons.items()}
             printRow(name, reports, options.starts)
             counts = {who: len(solved(runs["1e-3"], 1e-3)) for who, runs in reports.items()}
             if counts["kinegraph"] < counts.get("reference", 0):

@@ -41,10 +41,30 @@ void addControl(PyKomo& komo, Optional times, int order, double scale, Optional 
   warn(komo);
 }
 
+Frame addedFrame(PyKomo& komo, const std::string& name) {
+  warn(komo);
+  return komo.configuration(-komo.order()).getFrame(name);
+}
+
+nb::list forceInteractions(const PyKomo& komo) {
+  nb::list list;
+  for (const Komo::Interaction& interaction : komo.interactions()) {
+    nb::dict entry;
+    entry["slice"] = interaction.slice;
+    entry["onto"] = interaction.object;
+    entry["from"] = interaction.onto;
+    entry["poa"] = toNumpy(VectorXd(interaction.point));
+    entry["force"] = toNumpy(VectorXd(interaction.force));
+    entry["torque"] = toNumpy(VectorXd(VectorXd::Zero(3)));
+    list.append(entry);
+  }
+  return list;
+}
+
 Frame addFrameDof(PyKomo& komo, const std::string& name, const std::string& parent, JointType type, bool stable,
                   const std::optional<std::string>& origin_name, const std::optional<Frame>& origin) {
   komo.addFrameDof(name, parent, type, stable, origin ? origin->getName() : origin_name.value_or(""));
-  return komo.configuration(-komo.order()).getFrame(name);
+  return addedFrame(komo, name);
 }
 
 Array pathFrames(const PyKomo& komo) {
@@ -154,7 +174,8 @@ void bindObjectives(nb::class_<PyKomo>& komo) {
              warn(k);
            }, "times"_a, "newMode"_a, "frames"_a, "firstSwitch"_a = true,
            "From times[0] on, frames[1] hangs below frames[0]: SY.stable (a grasp), stableOn (on a box), stableOnX, stableOnY,\n"
-           "stableYPhi, stableZero, dynamic (flies) or dynamicOn (slides). times[1]: when the next switch follows, or -1.")
+           "stableYPhi, stableZero, dynamic (flies, or is pushed), dynamicOn (slides), dynamicTrans, quasiStatic or quasiStaticOn\n"
+           "(moves as far as contact forces push it). times[1]: when the next switch follows, or -1.")
       .def("addRigidSwitch", [](PyKomo& k, double time, const std::vector<std::string>& frames, bool no_jump) {
              if (frames.size() != 2) throw ValueError(cat("addRigidSwitch: frames are [parent, object], got ", frames.size()));
              k.addRigidSwitch(time, frames[0], frames[1], no_jump);
@@ -162,12 +183,17 @@ void bindObjectives(nb::class_<PyKomo>& komo) {
            }, "times"_a, "frames"_a, "noJumpStart"_a = true, "From that time on, frames[1] sits at frames[0].")
       .def("addFrameDof", addFrameDof, "name"_a, "parent"_a, "jointType"_a, "stable"_a, "originFrameName"_a = nb::none(),
            "originFrame"_a = nb::none(), "Adds a frame with a joint to all slices. Returns a copy of it.")
-      .def("addContactForceFrame", [](PyKomo&, nb::args, nb::kwargs) {
-             throw Error("addContactForceFrame: contact forces are not available; geometric contact is FS.distance with OT.eq");
-           }, "Not available.")
-      .def("addContact_WithPoaFrame", [](PyKomo&, nb::args, nb::kwargs) {
-             throw Error("addContact_WithPoaFrame: contact forces are not available; geometric contact is FS.distance with OT.eq");
-           }, "Not available.")
+      .def("addContactForceFrame", [](PyKomo& k, const Numbers& times, const std::string& object, const std::string& from, double friction,
+                                      double mass, const std::string&) {
+             return addedFrame(k, k.addContactForce(times.list(), object, from, friction, mass));
+           }, "times"_a, "obj"_a, "from_"_a, "frictionCone_mu"_a, "init_objMass"_a, "obj_com_frame"_a = "",
+           "In these slices `from_` pushes `obj` where they touch, along the z axis of a frame on `obj` that is added: a copy of it is\n"
+           "returned. One dof per slice is the force, in units of the weight of init_objMass. FS.totalForce and FS.physics balance it.")
+      .def("addContact_WithPoaFrame", [](PyKomo& k, const Numbers& time, const std::string& object, const std::string& from, double friction,
+                                         double mass, double distance) {
+             return addedFrame(k, k.addFreeContactForce(time.list(), object, from, friction, mass, distance));
+           }, "time"_a, "obj"_a, "from_"_a, "frictionCone_mu"_a, "init_objMass"_a, "init_POAdist"_a,
+           "The same with a force of any direction within the cone of friction: three dofs per slice.")
       .def("addTimeOptimization", [](PyKomo&) { throw Error("addTimeOptimization: durations are fixed; give them with setTiming"); },
            "Not available.");
 }
@@ -191,7 +217,8 @@ void bindPath(nb::class_<PyKomo>& komo) {
            "The scene in slice t, a copy; -1 is the one before the first.")
       .def("getSubProblem", subProblem, "phase"_a,
            "For one slice per phase: (configuration at the beginning of a phase, its q at the beginning, at the end).")
-      .def("getForceInteractions", [](const PyKomo&) { return nb::list(); }, "Contact forces; there are none.")
+      .def("getForceInteractions", forceInteractions,
+           "Contact forces, a dict per force and slice: `from` pushes `onto` at `poa` with `force` (N); all in the world.")
       .def("initWithConstant", [](PyKomo& k, const Numbers& q) { k.setConstantPath(q.values); }, "q"_a, "Starts with q in all slices.")
       .def("initWithPath", [](PyKomo& k, const Numbers& q) { k.setPath(q.matrix()); }, "q"_a, "Starts with a path (T, n).")
       .def("initWithWaypoints", initWithWaypoints, "waypoints"_a, "waypointSlicesPerPhase"_a = 1, "interpolate"_a = false,

@@ -36,8 +36,7 @@ TEST(Registry, ASymbolThatIsNotAvailableSaysSo) {
   for (const FeatureInfo& info : featureRegistry()) {
     if (info.available) continue;
     const std::vector<std::string> frames(std::size_t(std::max(info.min_frames, 0)), "A");
-    const char* reason = info.name.starts_with("trans") ? "is obsolete; use position" : "not available";
-    expectError<ValueError>([&] { eval(config, info.symbol, frames); }, {info.name.c_str(), reason});
+    expectError<ValueError>([&] { eval(config, info.symbol, frames); }, {info.name.c_str(), "is obsolete; use position"});
   }
 }
 

@@ -158,9 +158,3 @@ def test_a_name_that_is_taken_warns():
 
 def test_an_unknown_frame_is_none_where_a_script_asks_so(panda):
     assert panda.getFrame("nothing", False) is None
-
-
-@pytest.mark.parametrize("name, frames", [("totalForce", 1), ("contactConstraints", 2)])
-def test_a_feature_that_needs_forces_says_that_it_is_not_available(panda, name, frames):
-    with pytest.raises(ry.ArgumentError, match=f"{name}.*not available"):
-        panda.eval(getattr(ry.FS, name), ["l_gripper", "table"][:frames])

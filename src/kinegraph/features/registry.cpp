@@ -6,6 +6,7 @@
 #include "kinegraph/base/text.h"
 #include "kinegraph/features/box.h"
 #include "kinegraph/features/distance.h"
+#include "kinegraph/features/forces.h"
 #include "kinegraph/features/joints.h"
 #include "kinegraph/features/masses.h"
 #include "kinegraph/features/orientation.h"
@@ -113,9 +114,9 @@ std::vector<FeatureInfo> makeRegistry() {
   add(S::pairCollision_p1, "pairCollision_p1", 2, 2);
   add(S::pairCollision_p2, "pairCollision_p2", 2, 2);
   add(S::standingAbove, "standingAbove", 2, 2);
-  add(S::totalForce, "totalForce", 1, 1, false);
+  add(S::totalForce, "totalForce", 1, 1);
   add(S::physics, "physics", 1, 1);
-  add(S::contactConstraints, "contactConstraints", 2, 2, false);
+  add(S::contactConstraints, "contactConstraints", 2, 2);
   add(S::energy, "energy", 1, -1);
   add(S::EqCenterOfMass, "EqCenterOfMass", 1, -1);
   add(S::transAccelerations, "transAccelerations", 0, -1, false);
@@ -171,9 +172,7 @@ std::unique_ptr<Feature> makeFeature(FeatureSymbol symbol, const std::vector<int
     throw ValueError(cat(info.name, " takes ", framesWanted(info), ", got ", count));
   }
   if (!info.available) {
-    const bool obsolete = symbol == S::transAccelerations || symbol == S::transVelocities;
-    throw ValueError(obsolete ? cat(info.name, " is obsolete; use position with order 1 or 2")
-                              : cat(info.name, " is about contact forces, which are not available; geometric contact is distance with OT.eq"));
+    throw ValueError(cat(info.name, " is obsolete; use position with order 1 or 2"));
   }
   const int a = count > 0 ? frames[0] : -1, b = count > 1 ? frames[1] : -1, c = count > 2 ? frames[2] : -1;
   switch (symbol) {
@@ -214,6 +213,8 @@ std::unique_ptr<Feature> makeFeature(FeatureSymbol symbol, const std::vector<int
     case S::EqCenterOfMass:
       return std::make_unique<CenterOfMassOffset>(a, std::vector<int>(frames.begin() + 1, frames.end()));
     case S::physics: return std::make_unique<FreeFlight>(a, -kGravity.z());
+    case S::totalForce: return std::make_unique<TotalForce>(a, std::vector<ContactForce>());
+    case S::contactConstraints: return std::make_unique<TangentialForce>(a, b, std::vector<ContactForce>());
     case S::AlignXWithDiff: return std::make_unique<AlignWithMotion>(0, a, b);
     case S::AlignYWithDiff: return std::make_unique<AlignWithMotion>(1, a, b);
     case S::accumulatedCollisions: return std::make_unique<AccumulatedCollisions>(frames, program);

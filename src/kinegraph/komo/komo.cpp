@@ -140,6 +140,15 @@ std::unique_ptr<Feature> Komo::featureIn(const Objective& objective, int slice) 
       for (int frame : stable_) insert(program.frame_dofs[frame]);
       return std::make_unique<JointLimits>(std::vector<int>(dofs.begin(), dofs.end()), program);
     }
+    case FeatureSymbol::physics:
+      if (ids.size() == 1) return physicsOf(ids[0], objective);
+      break;
+    case FeatureSymbol::totalForce:
+      if (ids.size() == 1) return std::make_unique<TotalForce>(ids[0], contacts_);
+      break;
+    case FeatureSymbol::contactConstraints:
+      if (ids.size() == 2) return std::make_unique<TangentialForce>(ids[0], ids[1], contacts_);
+      break;
     default: break;
   }
   return objective.feature.make(ids, state(slice));

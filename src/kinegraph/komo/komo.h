@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "kinegraph/features/eval.h"
+#include "kinegraph/features/forces.h"
 #include "kinegraph/komo/mode.h"
 #include "kinegraph/komo/path_layout.h"
 #include "kinegraph/nlp/nlp.h"
@@ -35,6 +36,16 @@ class Komo {
     std::vector<double> times;
     int from, to;  ///< slices, inclusive; none if from > to
     bool time_integral = false;
+    bool without_gravity = false;  ///< of physics
+    bool damped = false;           ///< of physics: forces balance friction, not inertia
+  };
+
+  /// A contact force in a slice.
+  struct Interaction {
+    int slice;
+    std::string object, onto;
+    Vector3d point;  ///< m, in the world
+    Vector3d force;  ///< N, on the object, in the world
   };
 
   Komo() = default;
@@ -97,6 +108,20 @@ class Komo {
   /// Adds a frame to all slices, with a joint whose dofs are the same in all of them (`stable`) or one set per slice. It moves
   /// relative to `parent` (empty: the world), or to where `origin` is relative to it now. JointType::none: it does not move.
   void addFrameDof(const std::string& name, const std::string& parent, JointType type, bool stable, const std::string& origin = {});
+
+  // --- contact forces ----------------------------------------------------------------------------------------------
+
+  /// In the slices that `times` selects, `onto` pushes `object` at a point where they touch, within the cone of friction. The
+  /// point is a frame on the object, the same in all slices; its name is returned. The force is along its z axis: one more
+  /// dof per slice, in units of the weight of `mass` kg, up to ten times that. What balances it is up to totalForce and physics.
+  std::string addContactForce(const std::vector<double>& times, const std::string& object, const std::string& onto, double friction,
+                              double mass);
+
+  /// The same with a force of any direction in the cone, three dofs per slice. The point starts `distance` off the object, m.
+  std::string addFreeContactForce(const std::vector<double>& times, const std::string& object, const std::string& onto, double friction,
+                                  double mass, double distance);
+
+  std::vector<Interaction> interactions() const;
 
   // --- the path ---------------------------------------------------------------------------------------------------
 
@@ -176,6 +201,11 @@ class Komo {
   void add(Objective objective, int delta_from, int delta_to);
   void addContinuity(FeatureSymbol feature, const std::vector<std::string>& frames, double scale, int order, int slice);
   void makeModes();
+  std::string addContact(const std::vector<double>& times, const std::string& object, const std::string& onto, double friction,
+                         double mass, double distance, bool is_free);
+  int addForceDofs(const std::string& name, int from, int to, bool is_free);
+  std::unique_ptr<Feature> physicsOf(int frame, const Objective& objective) const;
+  void addPhysics(SwitchMode mode, const std::string& object, int from, int to);
   int addHiddenFrame(const std::string& name);
   void switchFrom(int slice, const std::string& parent, const std::string& object, const Attachment& attachment);
   void rebuildStates();
@@ -197,6 +227,7 @@ class Komo {
   std::vector<State> states_;
   PathLayout layout_;
   std::vector<Objective> objectives_;
+  std::vector<ContactForce> contacts_;
   std::vector<std::string> warnings_;
 };
 

@@ -122,26 +122,30 @@ Attachment attachmentOf(SwitchMode mode, const Frame& parent, const Frame& objec
       return a;
     case M::stableZero: return a;
     case M::dynamic:
-      a.type = JointType::free;
+    case M::dynamicTrans:
+    case M::quasiStatic:
+      a.type = mode == M::dynamicTrans ? JointType::trans3 : JointType::free;
       a.stable = false;
       a.starts_here = true;
       a.zero_home = false;
+      if (mode == M::dynamicTrans) {  // it keeps its orientation
+        a.base = Pose();
+        a.base->q = (parent.getPose().inverse() * object.getPose()).q;
+      }
       return a;
     case M::dynamicOn:
+    case M::quasiStaticOn:
       requireBox();
       a.type = JointType::transXYPhi;
       a.stable = false;
       a.starts_here = true;
       a.zero_home = false;
       a.base = faceBase(box, 2, height(object));
+      if (mode == M::quasiStaticOn) limitSliding(a, .5 * box[0], .5 * box[1]);
       return a;
-    case M::quasiStatic:
-    case M::quasiStaticOn:
-      throw ValueError(cat("addModeSwitch: ", switchModeName(mode), " needs contact forces, which are not available; stable and "
-                           "stableOn hold an object without them"));
     default:
       throw ValueError(cat("addModeSwitch: ", switchModeName(mode), " does not attach an object; available are stable, stableOn, "
-                           "stableOnX, stableOnY, stableYPhi, stableZero, dynamic and dynamicOn"));
+                           "stableOnX, stableOnY, stableYPhi, stableZero, dynamic, dynamicOn, dynamicTrans, quasiStatic and quasiStaticOn"));
   }
 }
 

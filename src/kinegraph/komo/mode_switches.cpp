@@ -2,7 +2,6 @@
 
 #include "kinegraph/base/errors.h"
 #include "kinegraph/base/text.h"
-#include "kinegraph/features/masses.h"
 #include "kinegraph/komo/komo.h"
 
 namespace kinegraph {
@@ -88,7 +87,8 @@ void Komo::addModeSwitch(const std::vector<double>& times, SwitchMode mode, cons
     return;
   }
   if (ends && to < from) throw ValueError(cat("addModeSwitch: times [", times[0], ", ", times[1], "] end before they begin"));
-  const bool dynamic = mode == SwitchMode::dynamic || mode == SwitchMode::dynamicOn;
+  const bool dynamic = mode == SwitchMode::dynamic || mode == SwitchMode::dynamicOn || mode == SwitchMode::dynamicTrans ||
+                       mode == SwitchMode::quasiStatic || mode == SwitchMode::quasiStaticOn;
   if (first && from >= 0 && order_ < 1) {
     throw ValueError("addModeSwitch: that the object does not jump is about velocities; it needs a KOMO with kOrder 1 or more, or firstSwitch=False");
   }
@@ -107,14 +107,7 @@ void Komo::addModeSwitch(const std::vector<double>& times, SwitchMode mode, cons
     }
     if (order_ >= 2 && !dynamic) addContinuity(FeatureSymbol::linangVel, {object}, 1., 2, from + 1);
   }
-  if (dynamic) {
-    if (order_ < 2 || from + 1 > to) return;
-    const FeatureSource sliding("physics", [](const std::vector<int>& ids, const State&) { return std::make_unique<FreeFlight>(ids.at(0), 0.); });
-    const FeatureSource physics = mode == SwitchMode::dynamic ? FeatureSource(FeatureSymbol::physics) : sliding;
-    add({"physics", physics, {object}, ObjectiveType::eq, MatrixXd::Constant(1, 1, 1e2), {}, 2,
-         {double(from + 2) / slices_per_phase_, double(to + 1) / slices_per_phase_}, 0, 0}, 0, 0);
-    return;
-  }
+  if (dynamic) return addPhysics(mode, object, from + 1, to);
   if (!ends) return;
   addContinuity(FeatureSymbol::poseRel, {object, parent}, 1e1, 1, to);
   if (order_ >= 2) addContinuity(FeatureSymbol::linangVel, {object}, 1., 2, to + 1);

@@ -26,7 +26,7 @@ double sizeOf(ObjectiveType type, double phi) {
 /// What the recorded reports call a feature.
 std::string className(const Komo::Objective& objective) {
   using S = FeatureSymbol;
-  if (objective.name == "physics") return "F_NewtonEuler";
+  if (objective.name == "physics") return objective.damped ? "F_NewtonEuler_DampedVelocities" : "F_NewtonEuler";
   if (const auto symbol = objective.feature.symbol()) switch (*symbol) {
     case S::distance:
     case S::pairCollision_negScalar:

@@ -1,0 +1,135 @@
+#pragma once
+
+#include <vector>
+
+#include "kinegraph/features/feature.h"
+#include "kinegraph/features/masses.h"
+
+namespace kinegraph {
+
+/// A force between two frames as part of a motion problem: it acts on `object` at the origin of the frame `point`, and the
+/// opposite one on `onto`. Its size is in the dofs of the joint of a frame `dofs` that stands for nothing else.
+struct ContactForce {
+  int object = -1, onto = -1, point = -1, dofs = -1;
+  double unit = 1.;      ///< N per unit of its dofs
+  bool is_free = false;  ///< three dofs, in world axes; else one, along the z axis of `point`
+
+  bool isIn(const State& state) const { return state.program().frame_dofs[dofs].count > 0; }
+  Vector3d value(const State& state) const;  ///< N, in the world; zero where the state has no such force
+
+  using Factor = Eigen::Matrix<double, Eigen::Dynamic, 3, 0, 6, 3>;  ///< of at most 6 rows
+
+  /// J += A df/dq.
+  void addJacobian(const State& state, const Factor& A, JacobianRows J) const;
+};
+
+/// Weight less contact forces on a body, and the torque of these forces about its centre of mass c (N, N m):
+///     y = (m g e_z - sum f_i,  sum (p_i - c) x f_i)      6 rows; zero where it rests
+/// Forces count for the frames that are rigidly joined with those that they act on. Throws ValueError if it has no mass.
+class TotalForce final : public Feature {
+ public:
+  TotalForce(int frame, std::vector<ContactForce> contacts) : frame_(frame), contacts_(std::move(contacts)) {}
+
+  int rows() const override { return 6; }
+  void eval(std::span<const State* const> states, double tau, Eigen::Ref<VectorXd> y, JacobianRows* J) const override;
+
+ private:
+  int frame_;
+  std::vector<ContactForce> contacts_;
+};
+
+/// Newton's and Euler's equations over one step, with the contact forces F and torques T (about the centre of mass) of the
+/// slice in the middle (m/s and rad/s):
+///     y = (v_t - v_{t-1} + (0, 0, g) tau - F tau / m,  w_t - w_{t-1} - R I^-1 R^T T tau)      6 rows
+/// Gyroscopic torques are left out. A body without a mass counts as 1 kg, without an inertia as 0.1 kg m^2.
+class NewtonEuler final : public Feature {
+ public:
+  NewtonEuler(int frame, double gravity, const Matrix3d& inertia, std::vector<ContactForce> contacts);
+
+  int rows() const override { return 6; }
+  int order() const override { return 2; }
+  void eval(std::span<const State* const> states, double tau, Eigen::Ref<VectorXd> y, JacobianRows* J) const override;
+
+ private:
+  int frame_;
+  FreeFlight flight_;
+  Matrix3d inverse_inertia_;
+  std::vector<ContactForce> contacts_;
+};
+
+/// Motion that is so slow that forces balance a friction in proportion to the velocity, with the contact forces F and torques T
+/// of the later slice (m/s and rad/s), d = 10/s:
+///     y = (v + ((0, 0, g) - F / m) / d,  w - R I^-1 R^T T / d)      6 rows; zero where nothing pushes a body that rests
+/// A body without a mass counts as 1 kg, without an inertia as 0.1 kg m^2.
+class DampedMotion final : public Feature {
+ public:
+  DampedMotion(int frame, double gravity, const Matrix3d& inertia, std::vector<ContactForce> contacts);
+
+  int rows() const override { return 6; }
+  int order() const override { return 1; }
+  void eval(std::span<const State* const> states, double tau, Eigen::Ref<VectorXd> y, JacobianRows* J) const override;
+
+ private:
+  int frame_;
+  AngularVelocity angular_;
+  double gravity_;  ///< m/s^2
+  Matrix3d inverse_inertia_;
+  std::vector<ContactForce> contacts_;
+};
+
+/// The part of a contact force along the surface, n the normal between its bodies: y = f - n n^T f      3 rows, N
+/// Zero where there is no such force.
+class TangentialForce final : public Feature {
+ public:
+  TangentialForce(int a, int b, std::vector<ContactForce> contacts) : a_(a), b_(b), contacts_(std::move(contacts)) {}
+
+  int rows() const override { return 3; }
+  void eval(std::span<const State* const> states, double tau, Eigen::Ref<VectorXd> y, JacobianRows* J) const override;
+
+ private:
+  int a_, b_;
+  std::vector<ContactForce> contacts_;
+};
+
+/// All at most 0 where a force that pushes the object away from the other body stays within the cone of friction, n the normal:
+///     one dof:  y = cos(atan mu) - n^T z                                 1 row
+///     free:     y = (-n^T f,  (|f|^2 - (1 + mu^2) (n^T f)^2) / unit) / unit    2 rows
+class FrictionCone final : public Feature {
+ public:
+  FrictionCone(const ContactForce& contact, double friction) : contact_(contact), friction_(friction) {}
+
+  int rows() const override { return contact_.is_free ? 2 : 1; }
+  void eval(std::span<const State* const> states, double tau, Eigen::Ref<VectorXd> y, JacobianRows* J) const override;
+
+ private:
+  ContactForce contact_;
+  double friction_;
+};
+
+/// Zero where a point lies between two surfaces that face each other: y = n(a, p) + n(b, p)      3 rows
+class NormalsOppose final : public Feature {
+ public:
+  NormalsOppose(int a, int b, int point) : a_(a), b_(b), point_(point) {}
+
+  int rows() const override { return 3; }
+  void eval(std::span<const State* const> states, double tau, Eigen::Ref<VectorXd> y, JacobianRows* J) const override;
+
+ private:
+  int a_, b_, point_;
+};
+
+/// Zero where the z axis of a point's frame is the direction to a body, or with sign -1 the one from it:
+///     y = z - sign n(body, p)      3 rows
+class NormalAlignment final : public Feature {
+ public:
+  NormalAlignment(int point, int body, double sign) : point_(point), body_(body), sign_(sign) {}
+
+  int rows() const override { return 3; }
+  void eval(std::span<const State* const> states, double tau, Eigen::Ref<VectorXd> y, JacobianRows* J) const override;
+
+ private:
+  int point_, body_;
+  double sign_;
+};
+
+}  // namespace kinegraph
