@@ -22,15 +22,17 @@ let connection: Connection | null = null;
 const send = (command: Uint8Array<ArrayBuffer>): void => connection?.send(command);
 
 const stage = new Stage(find<HTMLCanvasElement>("canvas"));
-const shown = new ShownScene(stage.frames);
+const shown = new ShownScene(stage.frames, stage.scene);
 const display = new Display();
 const joints = new JointPanel(send);
 const help = new Help();
 const measure = new Measure(stage);
 const panel = new Panel(display, shown.frames, redisplay, (id) => selection.select(id));
+stage.onDraw(() => shown.prepare(stage.camera.position, stage.scale));
 const selection = new Selection(stage, shown.frames, joints, recorded ? null : send, (id) => panel.select(id));
 const timeline = new Timeline(stage, shown, joints, moved);
 const exports = new Exports(stage, timeline, recorded !== null);
+let messages = 0; // that have come
 let announced: MotionMessage | null = null; // its slices are still to come
 find("scale").textContent = "grid: 1 m, 0.2 m";
 find("presets").append(...Object.keys(PRESETS).map((name) => make("button", { textContent: name, onclick: () => lookFrom(name) })));
@@ -88,6 +90,7 @@ function receive(message: ServerMessage): void {
 }
 
 function receiveBinary(data: ArrayBuffer): void {
+  ++messages;
   const kind = new DataView(data).getUint32(0, true);
   if (kind === BinaryKind.joints) {
     joints.setState(new Float64Array(data, 8));
@@ -173,6 +176,9 @@ Object.assign(window, {
     meshes: () => shown.meshCount,
     geometries: () => stage.renderer.info.memory.geometries,
     idle: () => stage.idle,
+    pictures: () => stage.renderer.info.render.frame,
+    messages: () => messages,
+    resolution: () => stage.resolution,
     position: (name: string) => stage.frames.getObjectByName(name)?.position.toArray() ?? null,
     message: () => find("message").textContent,
     error: () => find("error").textContent,

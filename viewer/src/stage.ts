@@ -2,6 +2,8 @@ import * as THREE from "three";
 import { OrbitControls } from "three/addons/controls/OrbitControls.js";
 import { CSS2DRenderer } from "three/addons/renderers/CSS2DRenderer.js";
 import { isSeen } from "./display";
+import { makeFloor } from "./floor";
+import { drawsInSoftware, Quality } from "./quality";
 
 /** A point on a shape. */
 export interface Hit {
@@ -9,6 +11,7 @@ export interface Hit {
   point: THREE.Vector3;
 }
 
+const SHADOW_PERIOD = 3; // pictures
 const STILL = 5; // pixels: a pointer that moves less has clicked
 
 /** Canvas, camera, lights and floor: everything but the scene itself. Draws only when something has changed. */
@@ -21,23 +24,28 @@ export class Stage {
   private readonly labels = new CSS2DRenderer();
   private readonly sun = new THREE.DirectionalLight(0xffffff, 2.1);
   private readonly ticks: ((seconds: number) => void)[] = [];
+  private readonly preparations: (() => void)[] = [];
   private readonly timer = new THREE.Timer();
-  private dirty = true;
+  private readonly quality: Quality;
+  private dirty = true; // the next picture differs from the last
+  private shadowsAreOld = true;
+  private picture = 0;
 
   constructor(readonly canvas: HTMLCanvasElement) {
-    this.renderer = new THREE.WebGLRenderer({ canvas, antialias: true });
-    this.renderer.setPixelRatio(Math.min(devicePixelRatio, 2));
+    const software = drawsInSoftware();
+    this.quality = new Quality(software);
+    this.renderer = new THREE.WebGLRenderer({ canvas, antialias: !software });
     this.renderer.shadowMap.enabled = true;
+    this.renderer.shadowMap.autoUpdate = false;
     this.renderer.shadowMap.type = THREE.PCFShadowMap;
     this.renderer.toneMapping = THREE.NeutralToneMapping;
     this.labels.domElement.className = "labels";
     canvas.after(this.labels.domElement);
     this.camera.up.set(0, 0, 1);
     this.controls = new OrbitControls(this.camera, canvas);
-    this.controls.addEventListener("change", () => this.redraw());
+    this.controls.addEventListener("change", () => (this.dirty = true));
     this.addLights();
-    this.addFloor();
-    this.scene.add(this.frames);
+    this.scene.add(this.frames, makeFloor());
     this.lookFrom(new THREE.Vector3(1.5, 2.6, 1.8), new THREE.Vector3(0, 0, 0.9));
     addEventListener("resize", () => this.resize());
     matchMedia("(prefers-color-scheme: dark)").addEventListener("change", () => this.paper());
@@ -48,6 +56,8 @@ export class Stage {
       this.timer.update(time);
       const seconds = this.timer.getDelta();
       for (const tick of this.ticks) tick(seconds);
+      if (this.dirty) this.quality.change(time);
+      else if (this.quality.rest(time)) this.redraw();
       this.draw();
     });
   }
@@ -55,6 +65,11 @@ export class Stage {
   /** Called before every picture with the time since the one before. */
   onTick(tick: (seconds: number) => void): void {
     this.ticks.push(tick);
+  }
+
+  /** Called before a picture that differs from the last. */
+  onDraw(prepare: () => void): void {
+    this.preparations.push(prepare);
   }
 
   /** Called when the canvas is clicked, or touched, without a drag. */
@@ -98,19 +113,28 @@ export class Stage {
     this.redraw();
   }
 
+  /** Draws now, in full resolution. */
+  drawFully(): void {
+    this.quality.setFull();
+    this.redraw();
+    this.draw();
+  }
+
+  /** Call when anything but the camera has changed. */
   redraw(): void {
-    this.dirty = true;
+    this.dirty = this.shadowsAreOld = true;
   }
 
   /** True if what is on the screen is up to date. */
   get idle(): boolean {
-    return !this.dirty;
+    return !this.dirty && this.quality.isFull;
   }
 
   /** What is to be seen at a place of the canvas. */
   pick(event: MouseEvent): Hit | null {
     const at = new THREE.Vector2((2 * event.offsetX) / this.canvas.clientWidth - 1, 1 - (2 * event.offsetY) / this.canvas.clientHeight);
     const ray = new THREE.Raycaster();
+    ray.layers.enableAll();
     ray.setFromCamera(at, this.camera);
     const hit = ray.intersectObject(this.frames, true).find(({ object }) => object instanceof THREE.Mesh && isSeen(object));
     for (let object = hit?.object ?? null; object; object = object.parent) {
@@ -136,20 +160,6 @@ export class Stage {
     this.scene.add(fill);
   }
 
-  private addFloor(): void {
-    const floor = new THREE.Mesh(new THREE.PlaneGeometry(40, 40), new THREE.ShadowMaterial({ opacity: 0.22 }));
-    floor.receiveShadow = true;
-    floor.position.z = -0.001;
-    this.scene.add(floor);
-    const fine = new THREE.GridHelper(10, 50, 0x8a93a0, 0x8a93a0).rotateX(Math.PI / 2);
-    const coarse = new THREE.GridHelper(10, 10, 0x6f7885, 0x6f7885).rotateX(Math.PI / 2);
-    for (const [grid, opacity] of [[fine, 0.16], [coarse, 0.5]] as const) {
-      Object.assign(grid.material, { transparent: true, opacity, depthWrite: false });
-      grid.position.z = -0.002;
-      this.scene.add(grid);
-    }
-  }
-
   private paper(): void {
     const color = getComputedStyle(document.documentElement).getPropertyValue("--paper").trim();
     this.scene.background = new THREE.Color(color);
@@ -166,6 +176,23 @@ export class Stage {
     this.redraw();
   }
 
+  /** In every picture, but not on slow machines while things move. */
+  private updateShadows(): void {
+    if (!this.shadowsAreOld || (!this.quality.isFull && ++this.picture % SHADOW_PERIOD !== 0)) return;
+    this.renderer.shadowMap.needsUpdate = true;
+    this.shadowsAreOld = false;
+  }
+
+  /** Pixels drawn per pixel of the page, across and down. */
+  get resolution(): number {
+    return this.quality.ratio;
+  }
+
+  /** Pixels of a metre that is a metre away. */
+  get scale(): number {
+    return (this.canvas.clientHeight * this.renderer.getPixelRatio()) / (2 * Math.tan(THREE.MathUtils.degToRad(this.camera.fov / 2)));
+  }
+
   /** A double click turns about the point that was hit from there on. */
   private focus(event: MouseEvent): void {
     const hit = this.pick(event);
@@ -179,6 +206,9 @@ export class Stage {
   draw(): void {
     if (!this.dirty) return;
     this.dirty = false;
+    if (this.renderer.getPixelRatio() !== this.quality.ratio) this.renderer.setPixelRatio(this.quality.ratio);
+    for (const prepare of this.preparations) prepare();
+    this.updateShadows();
     this.renderer.render(this.scene, this.camera);
     this.labels.render(this.scene, this.camera);
   }
