@@ -36,6 +36,7 @@ int view(PyConfig& config, bool pause, const std::optional<std::string>& message
   const std::shared_ptr<PyViewer> viewer = showIn(config);
   if (offscreen) return 0;
   if (!viewer->isOpen()) nb::module_::import_("kinegraph.notebook").attr("showInline")(viewer);
+  preparePage(*viewer);
   const nb::gil_scoped_release unlock;
   return viewer->view(config, pause, message, interrupted);
 }
@@ -99,6 +100,7 @@ void bindViewer(nb::module_& m, nb::class_<PyConfig>& config) {
            "What notebooks show: the scene as it is now.")
       .def("close", &PyViewer::close, "Ends the viewer.");
   bindPictures(viewer);
+  bindViewerInput(m, viewer);
 
   config
       .def("view", view, "pause"_a = false, "message"_a = nb::none(), "offscreen"_a = false,

@@ -28,6 +28,7 @@ from ._core import (
     FrameView,
     IkOptions,
     IkResult,
+    ImageViewer,
     IkResults,
     IkStatus,
     MotionContact,

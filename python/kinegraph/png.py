@@ -29,3 +29,12 @@ def writePng(path: str | os.PathLike[str], rgb: np.ndarray) -> None:
     with open(path, "wb") as file:
         file.write(b"\x89PNG\r\n\x1a\n" + _chunk(b"IHDR", header))
         file.write(_chunk(b"IDAT", zlib.compress(lines.tobytes(), 6)) + _chunk(b"IEND", b""))
+
+
+def removeNumbered(prefix: str) -> None:
+    """Removes the pictures that `savePng` wrote with that prefix: <prefix> and six digits."""
+    folder, start = os.path.split(prefix)
+    for file in Path(folder or ".").glob("*.png"):
+        number = file.name.removeprefix(start).removesuffix(".png")
+        if file.name.startswith(start) and len(number) == 6 and number.isdigit():
+            file.unlink()

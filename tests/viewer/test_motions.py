@@ -101,12 +101,20 @@ def test_all_slices_and_curves_can_be_shown(config: kg.Config, browser: Browser)
 def test_a_komo_shows_all_slices_and_marks_violations(komo: kg.KOMO, browser: Browser) -> None:
     assert komo.view() == 0
     browser.open(komo.get_viewer().url)
-    browser.wait_for("kinegraph.slice() === 11 && document.querySelector('#motion').checkVisibility()")
+    browser.wait_for("kinegraph.slice() === 11 && kinegraph.idle() && document.querySelector('#motion').checkVisibility()")
     assert "l_gripper" in browser.evaluate("document.querySelector('.slice-text').textContent")
     assert browser.evaluate("document.querySelector('.slice-text').classList.contains('violated')")
-    red = """((c) => [...Array(12).keys()].filter((t) =>
-      c.getContext('2d').getImageData(c.width * (t + 0.5) / 12, c.height >> 1, 1, 1).data[3] > 0))(document.querySelector('.marks'))"""
-    assert browser.evaluate(red) == [3, 11]  # the slices with an equality
+    red = """((c) => [...Array(14).keys()].filter((t) =>
+      c.getContext('2d').getImageData(c.width * (t + 0.5) / 14, c.height >> 1, 1, 1).data[3] > 0))(document.querySelector('.marks'))"""
+    assert browser.evaluate(red) == [2 + 3, 2 + 11]  # the slices with an equality; two lie before the path
+    assert browser.evaluate("kinegraph.marks()") > 0  # the gripper is red
+    browser.press("ArrowLeft")
+    browser.wait_for("kinegraph.slice() === 10 && kinegraph.marks() === 0")
+    browser.evaluate("[...document.querySelectorAll('#motion label')].find((x) => x.textContent === 'errors').click()")
+    assert "F_Position" in browser.evaluate("document.querySelector('.legend').textContent")
+    browser.evaluate("document.activeElement.blur()")
+    browser.press("ArrowRight")
+    browser.wait_for("kinegraph.slice() === 11")
     gripper = komo.getPathFrames()[11][komo.getConfig().getFrameNames().index("l_gripper")]
     assert browser.evaluate("kinegraph.position('l_gripper')") == pytest.approx(list(gripper[:3]), abs=1e-5)
 
@@ -117,14 +125,20 @@ def test_a_slice_of_a_komo_is_shown(komo: kg.KOMO, browser: Browser) -> None:
     browser.wait_for("kinegraph.slice() === 3 && !kinegraph.playing()")
     gripper = komo.getPathFrames()[3][komo.getConfig().getFrameNames().index("l_gripper")]
     assert browser.evaluate("kinegraph.position('l_gripper')") == pytest.approx(list(gripper[:3]), abs=1e-5)
-    with pytest.raises(ValueError, match="slices 0 to 11"):
-        komo.view_slice(12)
+    assert komo.view_slice(-2) == 0
+    browser.wait_for("kinegraph.slice() === -2")
+    for t in (12, -3):
+        with pytest.raises(ValueError, match="slices 0 to 11, and before them -2 to -1"):
+            komo.view_slice(t)
 
 
 def test_playing_a_komo_saves_pictures(komo: kg.KOMO, tmp_path: Path) -> None:
+    (tmp_path / "slice000099.png").touch()
+    (tmp_path / "slice_of_cake.png").touch()
     assert komo.view_play(delay=0.01, saveVideoPath=str(tmp_path / "slice")) == 0
-    files = sorted(tmp_path.glob("slice*.png"))
-    assert [file.name for file in files] == [f"slice{t:06}.png" for t in range(12)]
+    files = sorted(tmp_path.glob("slice0*.png"))
+    assert (tmp_path / "slice_of_cake.png").exists()
+    assert [file.name for file in files] == [f"slice{t:06}.png" for t in range(14)]
     assert files[0].read_bytes() != files[-1].read_bytes()
 
 

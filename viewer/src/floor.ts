@@ -1,6 +1,6 @@
 import * as THREE from "three";
 
-const SIZE = 60; // m
+const SIZE = 60, SOLID = 10; // m
 
 const GRID = /* glsl */ `
 varying vec2 vFloor;
@@ -24,8 +24,7 @@ float covered = shade + drawn * (1.0 - shade);
 gl_FragColor = vec4(ink * drawn * (1.0 - shade) / max(covered, 1e-4), covered);
 `;
 
-/** The floor at z = 0: catches shadows, and has lines every metre and every 0.2 m; x is red, y green. One thing to draw. */
-export function makeFloor(): THREE.Mesh {
+function gridMaterial(): THREE.Material {
   const material = new THREE.ShadowMaterial({ opacity: 0.26, depthWrite: false, side: THREE.DoubleSide });
   material.onBeforeCompile = (shader) => {
     shader.vertexShader = shader.vertexShader
@@ -35,8 +34,26 @@ export function makeFloor(): THREE.Mesh {
       .replace("void main() {", `${GRID}\nvoid main() {`)
       .replace(/gl_FragColor = [^;]*;/, PAINT);
   };
-  const floor = new THREE.Mesh(new THREE.PlaneGeometry(SIZE, SIZE), material);
-  floor.receiveShadow = true;
-  floor.position.z = -0.001;
-  return floor;
+  return material;
+}
+
+/** The floor at z = 0: catches shadows, and has lines every metre and every 0.2 m; x is red, y green. One thing to draw. */
+export class Floor {
+  readonly group = new THREE.Group();
+  private readonly solid = new THREE.Mesh(new THREE.PlaneGeometry(SOLID, SOLID), new THREE.MeshStandardMaterial({ roughness: 0.9 }));
+
+  constructor() {
+    const grid = new THREE.Mesh(new THREE.PlaneGeometry(SIZE, SIZE), gridMaterial());
+    grid.receiveShadow = true;
+    grid.position.z = -0.001;
+    this.solid.position.z = -0.002;
+    this.solid.visible = false;
+    this.group.add(this.solid, grid);
+  }
+
+  /** A solid floor of that color below the lines; null: none. */
+  setColor(color: THREE.Color | null): void {
+    this.solid.visible = color !== null;
+    if (color) this.solid.material.color.copy(color);
+  }
 }

@@ -5,11 +5,14 @@ import { find, make } from "./element";
 import { Exports } from "./exports";
 import { Help } from "./help";
 import { JointPanel } from "./joints";
-import { keyCode } from "./keys";
+import { keyCode, modifiersOf } from "./keys";
 import { Measure } from "./measure";
-import { BinaryKind, keyCommand, type MotionMessage, type ServerMessage } from "./messages";
+import { InputEvents } from "./input";
+import { BinaryKind, keyCommand, type LookMessage, type MotionMessage, type ServerMessage } from "./messages";
 import { Motion } from "./motion";
+import { NearLines } from "./near";
 import { Panel } from "./panel";
+import { Quads } from "./quads";
 import { Selection } from "./selection";
 import { ShownScene } from "./shown";
 import { Stage } from "./stage";
@@ -27,6 +30,9 @@ const display = new Display();
 const joints = new JointPanel(send);
 const help = new Help();
 const measure = new Measure(stage);
+const near = new NearLines(stage, send);
+const quads = new Quads();
+const input = new InputEvents(stage, send);
 const panel = new Panel(display, shown.frames, redisplay, (id) => selection.select(id));
 stage.onDraw(() => shown.prepare(stage.camera.position, stage.scale));
 const selection = new Selection(stage, shown.frames, joints, recorded ? null : send, (id) => panel.select(id));
@@ -44,6 +50,7 @@ function lookFrom(preset: string): void {
 
 function redisplay(): void {
   display.apply(shown.frames);
+  near.show(display.on.has("near"));
   stage.redraw();
 }
 
@@ -58,6 +65,14 @@ function show(id: string, text: string): void {
   find(id).hidden = text === "";
 }
 
+function setLook(look: LookMessage): void {
+  display.visualsOnly = look.visualsOnly !== 0;
+  document.body.classList.toggle("no-text", look.visualsOnly !== 0 || look.text === 0);
+  stage.setLook(look.background, look.floor, look.shadows !== 0);
+  input.setWanted(look.events, look.cursor !== 0);
+  redisplay();
+}
+
 function receive(message: ServerMessage): void {
   switch (message.kind) {
     case "scene":
@@ -68,6 +83,7 @@ function receive(message: ServerMessage): void {
       break;
     case "joints":
       joints.setJoints(message.structure, message.joints);
+      near.setStructure(message.structure);
       break;
     case "text":
       document.title = message.title;
@@ -75,11 +91,18 @@ function receive(message: ServerMessage): void {
       show("error", message.error);
       break;
     case "camera":
-      stage.lookFrom(new THREE.Vector3(...message.position), new THREE.Vector3(...message.target));
+      stage.lookFrom(new THREE.Vector3(...message.position), new THREE.Vector3(...message.target), message.focal);
+      break;
+    case "near":
+      near.read(message);
+      break;
+    case "look":
+      setLook(message);
       break;
     case "motion":
       announced = message.slices > 0 ? message : null;
       timeline.end();
+      near.apply(announced === null);
       exports.refresh();
       break;
     case "select":
@@ -94,6 +117,8 @@ function receiveBinary(data: ArrayBuffer): void {
   const kind = new DataView(data).getUint32(0, true);
   if (kind === BinaryKind.joints) {
     joints.setState(new Float64Array(data, 8));
+  } else if (kind === BinaryKind.quad) {
+    quads.read(data);
   } else if (kind === BinaryKind.motion && announced) {
     timeline.start(new Motion(announced, data));
     exports.refresh();
@@ -106,6 +131,7 @@ const listener: Listener = {
   opened() {
     timeline.end();
     shown.clear();
+    quads.clear();
     find("ended").hidden = true;
   },
   message: receive,
@@ -118,7 +144,7 @@ if (recorded) replay(recorded, listener);
 else connection = new Connection(listener);
 
 stage.onClick((event) => {
-  if (selection.isHeld) return;
+  if (selection.isHeld || input.blocks) return;
   const hit = stage.pick(event);
   if (measure.on) measure.click(hit);
   else if (hit) selection.select(hit.id);
@@ -154,6 +180,7 @@ const isTyping = (target: EventTarget | null): boolean => target instanceof HTML
 const leaveControls = (): void => (document.activeElement as HTMLElement | null)?.blur();
 
 addEventListener("keydown", (event) => {
+  if (input.blocks) return;
   if (event.altKey && takeAlt(event.code)) return event.preventDefault();
   if (event.key === "Escape" && closeTopmost()) return;
   if (event.key === "Tab" && (panel.isOpen || selection.selected !== null || timeline.current)) return; // moves on between controls
@@ -163,7 +190,7 @@ addEventListener("keydown", (event) => {
   if (timeline.takeKey(event.key)) return event.preventDefault();
   const code = keyCode(event);
   if (code === 0) return;
-  send(keyCommand(code));
+  send(keyCommand(code, modifiersOf(event)));
   if (["Tab", "Backspace", " ", "'", "/"].includes(event.key) || event.key.startsWith("Arrow")) event.preventDefault();
 });
 stage.canvas.addEventListener("pointerdown", leaveControls);
@@ -173,6 +200,10 @@ for (const button of document.querySelectorAll("body > button")) button.addEvent
 Object.assign(window, {
   kinegraph: {
     frames: () => shown.frames.size,
+    blocked: () => input.blocks,
+    camera: () => stage.camera.position.toArray(),
+    nearLines: () => near.count,
+    quads: () => quads.count,
     meshes: () => shown.meshCount,
     geometries: () => stage.renderer.info.memory.geometries,
     idle: () => stage.idle,
@@ -187,6 +218,7 @@ Object.assign(window, {
     asText: () => selection.asText(),
     joints: () => Array.from(joints.current.q),
     slice: () => (timeline.current ? timeline.slice : null),
+    marks: () => timeline.markCount,
     playing: () => timeline.isPlaying,
     pixel: (x: number, y: number, z: number) => {
       const p = new THREE.Vector3(x, y, z).project(stage.camera);

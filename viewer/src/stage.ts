@@ -2,17 +2,20 @@ import * as THREE from "three";
 import { OrbitControls } from "three/addons/controls/OrbitControls.js";
 import { CSS2DRenderer } from "three/addons/renderers/CSS2DRenderer.js";
 import { isSeen } from "./display";
-import { makeFloor } from "./floor";
+import { Floor } from "./floor";
 import { drawsInSoftware, Quality } from "./quality";
 
 /** A point on a shape. */
 export interface Hit {
   id: number; // of the frame
   point: THREE.Vector3;
+  normal: THREE.Vector3; // of the surface, world
 }
 
 const SHADOW_PERIOD = 3; // pictures
 const STILL = 5; // pixels: a pointer that moves less has clicked
+
+const colorOf = (rgb: number[]): THREE.Color => new THREE.Color().setRGB(rgb[0]!, rgb[1]!, rgb[2]!, THREE.SRGBColorSpace);
 
 /** Canvas, camera, lights and floor: everything but the scene itself. Draws only when something has changed. */
 export class Stage {
@@ -22,6 +25,8 @@ export class Stage {
   readonly renderer: THREE.WebGLRenderer;
   readonly controls: OrbitControls;
   private readonly labels = new CSS2DRenderer();
+  private readonly floor = new Floor();
+  private ground: THREE.Color | null = null; // behind everything, if the program says so
   private readonly sun = new THREE.DirectionalLight(0xffffff, 2.1);
   private readonly ticks: ((seconds: number) => void)[] = [];
   private readonly preparations: (() => void)[] = [];
@@ -45,7 +50,7 @@ export class Stage {
     this.controls = new OrbitControls(this.camera, canvas);
     this.controls.addEventListener("change", () => (this.dirty = true));
     this.addLights();
-    this.scene.add(this.frames, makeFloor());
+    this.scene.add(this.frames, this.floor.group);
     this.lookFrom(new THREE.Vector3(1.5, 2.6, 1.8), new THREE.Vector3(0, 0, 0.9));
     addEventListener("resize", () => this.resize());
     matchMedia("(prefers-color-scheme: dark)").addEventListener("change", () => this.paper());
@@ -84,7 +89,12 @@ export class Stage {
     });
   }
 
-  lookFrom(position: THREE.Vector3, target: THREE.Vector3): void {
+  /** `focal`: focal length in heights of the window; 0: as it is. */
+  lookFrom(position: THREE.Vector3, target: THREE.Vector3, focal = 0): void {
+    if (focal > 0) {
+      this.camera.fov = THREE.MathUtils.radToDeg(2 * Math.atan(0.5 / focal));
+      this.camera.updateProjectionMatrix();
+    }
     this.camera.position.copy(position);
     this.controls.target.copy(target);
     this.controls.update();
@@ -138,7 +148,7 @@ export class Stage {
     ray.setFromCamera(at, this.camera);
     const hit = ray.intersectObject(this.frames, true).find(({ object }) => object instanceof THREE.Mesh && isSeen(object));
     for (let object = hit?.object ?? null; object; object = object.parent) {
-      if (typeof object.userData.id === "number") return { id: object.userData.id, point: hit!.point };
+      if (typeof object.userData.id === "number") return { id: object.userData.id, point: hit!.point, normal: hit!.face!.normal.clone().transformDirection(hit!.object.matrixWorld) };
     }
     return null;
   }
@@ -160,8 +170,17 @@ export class Stage {
     this.scene.add(fill);
   }
 
+  /** Colors are rgb in 0..1; [] is the page's own, and a floor of any other length than 3 is none. */
+  setLook(background: number[], floor: number[], shadows: boolean): void {
+    this.ground = background.length === 3 ? colorOf(background) : null;
+    this.floor.setColor(floor.length === 3 ? colorOf(floor) : null);
+    this.floor.group.visible = floor.length === 0 || floor.length === 3;
+    this.sun.castShadow = shadows;
+    this.paper();
+  }
+
   private paper(): void {
-    const color = getComputedStyle(document.documentElement).getPropertyValue("--paper").trim();
+    const color = this.ground ?? getComputedStyle(document.documentElement).getPropertyValue("--paper").trim();
     this.scene.background = new THREE.Color(color);
     this.scene.fog = new THREE.Fog(color, 9, 28);
     this.redraw();
