@@ -11,6 +11,7 @@
 #include "kinegraph/base/errors.h"
 #include "kinegraph/base/text.h"
 #include "kinegraph/komo/report.h"
+#include "kinegraph/viewer/recorded_page.h"
 #include "kinegraph/viewer/scene_items.h"
 #include "py_komo.h"
 #include "py_viewer.h"
@@ -193,6 +194,11 @@ void bindKomoReports(nb::class_<PyKomo>& komo) {
       .def("view_play", viewPlay, "pause"_a = false, "txt"_a = nb::none(), "delay"_a = .1, "saveVideoPath"_a = nb::none(),
            "Plays the slices, `delay` seconds each, and waits until they have been played once; a key ends it. saveVideoPath: saves\n"
            "a picture of each slice as <saveVideoPath>000000.png and so on, in place of those that are there. Returns the key, or 0.")
+      .def("_repr_html_", [](const PyKomo& k) {
+             const ShownMotion motion = motionOf(k);
+             const std::string page = recordedScene(k.configuration(-k.order()), &motion, "KOMO Viewer");
+             return nb::cast<std::string>(nb::module_::import_("kinegraph.notebook").attr("inlineFrame")(page));
+           }, "What notebooks show: the motion, which plays there without a program.")
       .def("view_close", [](PyKomo& k) { if (k.viewer) k.viewer->close(); }, "Ends the viewer.")
       .def("get_viewer", [](PyKomo& k) {
              if (!k.viewer) k.viewer = std::make_shared<PyViewer>();

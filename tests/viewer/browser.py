@@ -126,6 +126,7 @@ class Browser:
         self.wait_for("kinegraph.frames() > 0 && kinegraph.idle()")
 
     def close_page(self) -> None:
+        self.evaluate("location.protocol === 'http:' && localStorage.clear()")
         self.call("Page.navigate", url="about:blank")
 
     def evaluate(self, script: str) -> Any:

@@ -18,7 +18,7 @@ from .camera import HEIGHT, WIDTH, Camera
 from .program import Program
 
 Start = Callable[..., Program]
-PAPER = (236, 238, 242)
+PAPER = (223, 227, 234)
 LINKS = [f"l_panda_joint{i}" for i in range(1, 8)]
 
 

@@ -134,6 +134,27 @@ def test_everything_in_the_panel_is_reached_by_the_tab_key(page: Browser) -> Non
     assert {"front", "aslant", "picture", "model", "page", "help-button"} <= reached
 
 
+def test_a_scene_is_seen_as_it_was_left(page: Browser, config: kg.Config) -> None:
+    other = kg.Config()
+    other.addFrame("something else")
+    for i in range(2):
+        other.addFrame(f"box{i}").setShape(kg.ST.box, [0.5, 0.5, 0.5])
+    other.view()
+    page.open(other.viewer().url)
+    first = page.evaluate("kinegraph.camera()")
+    page.drag((300, 200), (360, 240))
+    page.press_alt("N")
+    turned = page.evaluate("kinegraph.camera()")
+    page.open(other.viewer().url)
+    assert page.evaluate("kinegraph.camera()") == pytest.approx(turned)
+    assert page.is_visible(".name")
+    other.viewer().setCamera([4, 0, 1], [0, 0, 0])  # what the program says counts more
+    page.open(other.viewer().url)
+    assert page.evaluate("kinegraph.camera()") == pytest.approx([4, 0, 1])
+    assert first != turned
+    other.view_close()
+
+
 def test_the_question_mark_shows_and_hides_the_help(page: Browser) -> None:
     assert not page.is_visible("#help")
     page.press("?")

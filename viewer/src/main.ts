@@ -8,6 +8,7 @@ import { JointPanel } from "./joints";
 import { keyCode, modifiersOf } from "./keys";
 import { Measure } from "./measure";
 import { InputEvents } from "./input";
+import { Memory } from "./memory";
 import { BinaryKind, keyCommand, type LookMessage, type MotionMessage, type ServerMessage } from "./messages";
 import { Motion } from "./motion";
 import { NearLines } from "./near";
@@ -30,10 +31,11 @@ const display = new Display();
 const joints = new JointPanel(send);
 const help = new Help();
 const measure = new Measure(stage);
+const memory = new Memory(stage, display);
 const near = new NearLines(stage, send);
 const quads = new Quads();
 const input = new InputEvents(stage, send);
-const panel = new Panel(display, shown.frames, redisplay, (id) => selection.select(id));
+const panel = new Panel(display, shown.frames, switched, (id) => selection.select(id));
 stage.onDraw(() => shown.prepare(stage.camera.position, stage.scale));
 const selection = new Selection(stage, shown.frames, joints, recorded ? null : send, (id) => panel.select(id));
 const timeline = new Timeline(stage, shown, joints, moved);
@@ -46,6 +48,12 @@ find("tab-joints").classList.toggle("fixed", recorded !== null);
 
 function lookFrom(preset: string): void {
   stage.lookAlong(new THREE.Vector3(...PRESETS[preset]!));
+}
+
+/** People have switched something. */
+function switched(): void {
+  memory.save();
+  redisplay();
 }
 
 function redisplay(): void {
@@ -77,6 +85,7 @@ function receive(message: ServerMessage): void {
   switch (message.kind) {
     case "scene":
       shown.readScene(message);
+      if (memory.recall(Array.from(shown.frames.values(), (frame) => frame.message.name))) panel.refreshOptions();
       redisplay();
       panel.refresh();
       selection.refresh();
@@ -91,6 +100,7 @@ function receive(message: ServerMessage): void {
       show("error", message.error);
       break;
     case "camera":
+      memory.setCameraGiven();
       stage.lookFrom(new THREE.Vector3(...message.position), new THREE.Vector3(...message.target), message.focal);
       break;
     case "near":
@@ -151,10 +161,15 @@ stage.onClick((event) => {
   else selection.close();
 });
 
+const TURNS: Record<string, [number, number, number?]> = {
+  ArrowLeft: [-0.1, 0], ArrowRight: [0.1, 0], ArrowUp: [0, 0.1], ArrowDown: [0, -0.1], PageUp: [0, 0, 1.15], PageDown: [0, 0, 1 / 1.15],
+};
+
 /** What Alt and a key do. */
 function takeAlt(code: string): boolean {
   const digit = /^Digit([1-4])$/.exec(code);
   if (digit) lookFrom(Object.keys(PRESETS)[Number(digit[1]) - 1]!);
+  else if (TURNS[code]) stage.turn(...TURNS[code]);
   else if (code === "KeyP") exports.savePicture();
   else if (code === "KeyR") measure.toggle();
   else if (code === "KeyK") timeline.toggle();

@@ -27,7 +27,7 @@ export class Stage {
   private readonly labels = new CSS2DRenderer();
   private readonly floor = new Floor();
   private ground: THREE.Color | null = null; // behind everything, if the program says so
-  private readonly sun = new THREE.DirectionalLight(0xffffff, 2.1);
+  private readonly sun = new THREE.DirectionalLight(0xfffaf2, 2.35);
   private readonly ticks: ((seconds: number) => void)[] = [];
   private readonly preparations: (() => void)[] = [];
   private readonly timer = new THREE.Timer();
@@ -118,6 +118,17 @@ export class Stage {
     this.redraw();
   }
 
+  /** Turns the camera about what it looks at, by angles to the right and upwards (rad), and goes nearer by a factor. */
+  turn(right: number, up: number, nearer = 1): void {
+    const { position } = this.camera, { target } = this.controls;
+    const away = position.clone().sub(target);
+    const height = THREE.MathUtils.clamp(Math.asin(away.z / away.length()) + up, -1.55, 1.55);
+    const around = Math.atan2(away.y, away.x) + right, distance = away.length() / nearer;
+    position.set(Math.cos(around) * Math.cos(height), Math.sin(around) * Math.cos(height), Math.sin(height)).multiplyScalar(distance).add(target);
+    this.controls.update();
+    this.dirty = true;
+  }
+
   home(): void {
     this.controls.reset();
     this.redraw();
@@ -154,7 +165,7 @@ export class Stage {
   }
 
   private addLights(): void {
-    this.scene.add(new THREE.HemisphereLight(0xffffff, 0xb9b4aa, 1.7));
+    this.scene.add(new THREE.HemisphereLight(0xffffff, 0x8f919c, 1.35));
     this.sun.position.set(-2.5, 2.2, 5);
     this.sun.target.position.set(0, 0, 0.5);
     this.sun.castShadow = true;
@@ -165,7 +176,7 @@ export class Stage {
     const reach = 2.6;
     Object.assign(this.sun.shadow.camera, { left: -reach, right: reach, top: reach, bottom: -reach, near: 0.5, far: 12 });
     this.scene.add(this.sun, this.sun.target);
-    const fill = new THREE.DirectionalLight(0xdfe8ff, 0.7);
+    const fill = new THREE.DirectionalLight(0xdfe8ff, 0.75);
     fill.position.set(3, -2, 2.5);
     this.scene.add(fill);
   }
