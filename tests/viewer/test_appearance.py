@@ -80,7 +80,7 @@ def test_shadows_and_floor_are_seen_to_be_missing(
     kg.params_add({"Render/renderShadow": True, "Render/floorColor": [0.4, 0.45, 0.5], "Render/backgroundColor": [1, 1, 1]})
     config.view()
     browser.wait_for("kinegraph.idle()")
-    assert browser.picture()[5, 5].tolist() == [255, 255, 255]
+    assert browser.picture()[5, 5].min() > 248  # the tone curve bends below white
     assert difference(browser.picture(), "shapes", tmp_path)
 
 

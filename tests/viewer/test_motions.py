@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import base64
 import time
 from collections.abc import Callable, Iterator
 from pathlib import Path
@@ -173,12 +174,25 @@ def test_motions_and_shapes_are_saved(config: kg.Config, browser: Browser, tmp_p
     assert browser.evaluate("document.querySelector('#video').disabled")
     browser.click_button("model")
     assert downloaded(tmp_path, "*.glb").startswith(b"glTF")
+    (model,) = tmp_path.glob("*.glb")
+    again = kg.Config()  # read by another library than the one that wrote it
+    again.addFrame("model", "", f"mesh: <{model}>")
+    points = again.getFrame("model").getMeshPoints()
+    assert points.max(axis=0) == pytest.approx([0.1, 0.1, 0.1], abs=1e-3)
+    assert points.min(axis=0) == pytest.approx([-0.1, -0.1, -0.1], abs=1e-3)
     config.view_path([[0, 0], [1, 0], [2, 1]], 0.5)
     browser.wait_for("kinegraph.slice() === 2")
     browser.click_button("video")
     video = downloaded(tmp_path, "*.webm")
     assert video.startswith(b"\x1a\x45\xdf\xa3")  # EBML, of which WebM is made
     assert len(video) > 1000
+    played = browser.evaluate(f"""(async () => {{
+      const video = document.createElement("video");
+      video.src = "data:video/webm;base64,{base64.b64encode(video).decode()}";
+      await new Promise((resolve, reject) => {{ video.onloadeddata = resolve; video.onerror = () => reject(new Error("no video")); }});
+      return [video.videoWidth, video.videoHeight];
+    }})()""")
+    assert played[0] / played[1] == pytest.approx(640 / 480, abs=0.02)
     browser.click_button("page")
     assert b"recording" in downloaded(tmp_path, "*.html")
 

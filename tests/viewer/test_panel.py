@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import base64
 import time
 from collections.abc import Iterator
 from pathlib import Path
@@ -171,4 +172,11 @@ def test_the_picture_is_saved_as_png(page: Browser, tmp_path: Path) -> None:
         time.sleep(0.05)
     assert [file.name for file in files] == ["Kinegraph.png"]
     assert files[0].read_bytes().startswith(b"\x89PNG")
+    size = page.evaluate(f"""(async () => {{
+      const answer = await fetch("data:image/png;base64,{base64.b64encode(files[0].read_bytes()).decode()}");
+      const picture = await createImageBitmap(await answer.blob());
+      return [picture.width, picture.height];
+    }})()""")
+    assert size[0] * 3 == size[1] * 4
+    assert size[0] >= 640
     assert files[0].stat().st_size > 5000  # not an empty canvas
