@@ -22,6 +22,7 @@ export class Quality {
   private pictures = 0;
   private spent = 0; // ms, of these pictures
   private last = -Infinity; // when the last change was drawn
+  private rested = true; // nothing has moved since
 
   constructor(private readonly software: boolean) {
     this.finest = software ? LARGEST : Math.min(devicePixelRatio, LARGEST);
@@ -40,16 +41,18 @@ export class Quality {
 
   /** Call when a change is about to be drawn. */
   change(time: number): void {
-    const passed = time - this.last;
+    if (this.rested) this.pictures = this.spent = 0; // the first of a movement says nothing of how long pictures take
+    else this.measure(time - this.last);
+    if (!this.rested || this.software) this.now = this.moving;
     this.last = time;
-    if (passed < STILL) this.measure(passed);
-    else this.pictures = this.spent = 0; // the first of a movement says nothing of how long pictures take
-    if (passed < STILL || this.software) this.now = this.moving;
+    this.rested = false;
   }
 
   /** Call when nothing has changed. True if it is time for a picture in full resolution. */
   rest(time: number): boolean {
-    if (this.isFull || time - this.last < STILL) return false;
+    if (time - this.last < STILL) return false;
+    this.rested = true;
+    if (this.isFull) return false;
     this.now = this.finest;
     return true;
   }
@@ -61,11 +64,11 @@ export class Quality {
 
   private measure(passed: number): void {
     this.spent += passed;
-    if (++this.pictures < 6) return;
+    if (++this.pictures < 6 && this.spent < 400) return;
     const mean = this.spent / this.pictures;
     this.pictures = this.spent = 0;
     const full = Math.min(devicePixelRatio, LARGEST);
-    if (mean > SLOW) this.moving = Math.max(full / 2, 0.8 * this.moving);
+    if (mean > SLOW) this.moving = Math.max(full / 2, Math.max(0.6, Math.sqrt(SLOW / mean)) * this.moving);
     else if (mean < FAST) this.moving = Math.min(full, 1.15 * this.moving);
   }
 }
