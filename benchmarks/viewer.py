@@ -29,7 +29,7 @@ import kinegraph as kg
 
 sys.path.append(str(Path(__file__).parent.parent))
 
-from tests.viewer.browser import Browser  # noqa: E402
+from tests.viewer.browser import Browser
 
 MOVING = """
 import sys, time
@@ -71,7 +71,11 @@ def start(code: str, *arguments: str) -> tuple[subprocess.Popen, str]:
     """A program and the address of its viewer."""
     environment = {k: v for k, v in os.environ.items() if k not in ("KINEGRAPH_HEADLESS", "DISPLAY", "WAYLAND_DISPLAY")}
     program = subprocess.Popen(
-        [sys.executable, "-u", "-c", code, *arguments], env=environment, stdout=subprocess.PIPE, text=True, stdin=subprocess.DEVNULL
+        [sys.executable, "-u", "-c", code, *arguments],
+        env=environment,
+        stdout=subprocess.PIPE,
+        text=True,
+        stdin=subprocess.DEVNULL,
     )
     assert program.stdout
     for line in program.stdout:
@@ -123,14 +127,18 @@ def first_picture() -> None:
             browser.wait_for("kinegraph.position('l_gripper') && kinegraph.idle()")
             times.append(time.monotonic() - before)
             C.view_close()
-    print(f"first picture of the Panda: {statistics.median(times):.2f} s (median of {len(times)}; worst {max(times):.2f} s)")
+    print(
+        f"first picture of the Panda: {statistics.median(times):.2f} s (median of {len(times)}; worst {max(times):.2f} s)"
+    )
 
 
 def client(seconds: float, width: int, height: int, shadows: bool) -> None:
     program, url = start(MOVING, "200", "moving")
     try:
         with Browser() as browser:
-            browser.call("Emulation.setDeviceMetricsOverride", width=width, height=height, deviceScaleFactor=1, mobile=False)
+            browser.call(
+                "Emulation.setDeviceMetricsOverride", width=width, height=height, deviceScaleFactor=1, mobile=False
+            )
             browser.open_page(url)
             browser.wait_for("kinegraph.frames() == 200")
             if not shadows:
@@ -177,7 +185,9 @@ def server() -> None:
                     shares.append(float(line.split()[1]))
             program.kill()
             program.wait()
-        print(f"server, 1000 frames at 60 Hz, {moves}: {100 * statistics.median(shares[1:]):.1f} % of a core, {received} messages")
+        print(
+            f"server, 1000 frames at 60 Hz, {moves}: {100 * statistics.median(shares[1:]):.1f} % of a core, {received} messages"
+        )
 
 
 def camera() -> None:
@@ -192,7 +202,9 @@ def camera() -> None:
         before = time.monotonic()
         view.computeImageAndDepth(C)
         times.append(time.monotonic() - before)
-    print(f"camera, RGB and depth, 640x360 of pandaSingle: {1e3 * statistics.median(times[5:]):.1f} ms (first {1e3 * times[0]:.0f} ms)")
+    print(
+        f"camera, RGB and depth, 640x360 of pandaSingle: {1e3 * statistics.median(times[5:]):.1f} ms (first {1e3 * times[0]:.0f} ms)"
+    )
 
 
 def main() -> None:

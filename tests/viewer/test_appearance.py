@@ -77,11 +77,28 @@ def test_shadows_and_floor_are_seen_to_be_missing(
     monkeypatch.setattr("kinegraph.parameters._values", {"Render/renderShadow": False})
     show(config, browser, [0.6, -2.4, 1.7], [0, 0.2, 0.25])
     assert difference(browser.picture(), "shapes", tmp_path)
-    kg.params_add({"Render/renderShadow": True, "Render/floorColor": [0.4, 0.45, 0.5], "Render/backgroundColor": [1, 1, 1]})
+    kg.params_add(
+        {"Render/renderShadow": True, "Render/floorColor": [0.4, 0.45, 0.5], "Render/backgroundColor": [1, 1, 1]}
+    )
     config.view()
     browser.wait_for("kinegraph.idle()")
     assert browser.picture()[5, 5].min() > 248  # the tone curve bends below white
     assert difference(browser.picture(), "shapes", tmp_path)
+
+
+def test_things_far_from_the_origin_cast_shadows(config: kg.Config, browser: Browser) -> None:
+    config.addFrame("box").setShape(kg.ST.box, [0.4, 0.4, 0.4]).setPosition([50, 0, 0.6])
+    show(config, browser, [50, -3, 3], [50, 0, 0])
+    browser.wait_for("kinegraph.idle()")
+    picture = browser.picture().astype(int).sum(axis=2)
+
+    def brightness(x: float, y: float) -> float:
+        column, row = (round(value) for value in browser.pixel([x, y, 0]))
+        return float(picture[row - 5 : row + 6, column - 5 : column + 6].mean())
+
+    # the sun is at (-2.5, 2.2, 4.5): what is 0.6 m high has its shadow that much farther
+    shadow = brightness(50 + 0.6 * 2.5 / 4.5, -0.6 * 2.2 / 4.5)
+    assert shadow < brightness(50 - 0.6, 0.6) - 60
 
 
 def test_all_slices_of_a_motion(config: kg.Config, browser: Browser, tmp_path: Path) -> None:
@@ -91,7 +108,9 @@ def test_all_slices_of_a_motion(config: kg.Config, browser: Browser, tmp_path: P
     config.view_path([[0.3 * i - 1.2] for i in range(9)], 0.05)
     config.viewer().setCamera([0, -2.6, 1], [0, 0, 0.3])
     browser.open(config.viewer().url)
-    browser.evaluate("[...document.querySelectorAll('#motion label')].find((x) => x.textContent === 'all slices').click()")
+    browser.evaluate(
+        "[...document.querySelectorAll('#motion label')].find((x) => x.textContent === 'all slices').click()"
+    )
     browser.evaluate("document.querySelector('#motion').style.visibility = 'hidden'")  # fonts differ
     browser.wait_for("!kinegraph.playing() && kinegraph.slice() === 8")
     check(browser.picture(), "slices", tmp_path)

@@ -102,7 +102,9 @@ def test_all_slices_and_curves_can_be_shown(config: kg.Config, browser: Browser)
 def test_a_komo_shows_all_slices_and_marks_violations(komo: kg.KOMO, browser: Browser) -> None:
     assert komo.view() == 0
     browser.open(komo.get_viewer().url)
-    browser.wait_for("kinegraph.slice() === 11 && kinegraph.idle() && document.querySelector('#motion').checkVisibility()")
+    browser.wait_for(
+        "kinegraph.slice() === 11 && kinegraph.idle() && document.querySelector('#motion').checkVisibility()"
+    )
     assert "l_gripper" in browser.evaluate("document.querySelector('.slice-text').textContent")
     assert browser.evaluate("document.querySelector('.slice-text').classList.contains('violated')")
     red = """((c) => [...Array(14).keys()].filter((t) =>

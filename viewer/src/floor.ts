@@ -40,15 +40,21 @@ function gridMaterial(): THREE.Material {
 /** The floor at z = 0: catches shadows, and has lines every metre and every 0.2 m; x is red, y green. One thing to draw. */
 export class Floor {
   readonly group = new THREE.Group();
+  private readonly grid = new THREE.Mesh(new THREE.PlaneGeometry(SIZE, SIZE), gridMaterial());
   private readonly solid = new THREE.Mesh(new THREE.PlaneGeometry(SOLID, SOLID), new THREE.MeshStandardMaterial({ roughness: 0.9 }));
 
   constructor() {
-    const grid = new THREE.Mesh(new THREE.PlaneGeometry(SIZE, SIZE), gridMaterial());
-    grid.receiveShadow = true;
-    grid.position.z = -0.001;
+    this.grid.receiveShadow = true;
+    this.grid.position.z = -0.001;
     this.solid.position.z = -0.002;
     this.solid.visible = false;
-    this.group.add(this.solid, grid);
+    this.group.add(this.solid, this.grid);
+  }
+
+  /** The lines are wherever the camera is. */
+  follow(camera: THREE.Vector3): void {
+    this.grid.position.x = camera.x;
+    this.grid.position.y = camera.y;
   }
 
   /** A solid floor of that color below the lines; null: none. */

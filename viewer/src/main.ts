@@ -40,6 +40,7 @@ stage.onDraw(() => shown.prepare(stage.camera.position, stage.scale));
 const selection = new Selection(stage, shown.frames, joints, recorded ? null : send, (id) => panel.select(id));
 const timeline = new Timeline(stage, shown, joints, moved);
 const exports = new Exports(stage, timeline, recorded !== null);
+let unplaced = false; // frames have come whose poses are still to come
 let messages = 0; // that have come
 let announced: MotionMessage | null = null; // its slices are still to come
 find("scale").textContent = "grid: 1 m, 0.2 m";
@@ -87,6 +88,7 @@ function receive(message: ServerMessage): void {
       shown.readScene(message);
       if (memory.recall(Array.from(shown.frames.values(), (frame) => frame.message.name))) panel.refreshOptions();
       redisplay();
+      unplaced = true;
       panel.refresh();
       selection.refresh();
       break;
@@ -133,6 +135,10 @@ function receiveBinary(data: ArrayBuffer): void {
     timeline.start(new Motion(announced, data));
     exports.refresh();
   } else if (shown.readBinary(data)) {
+    if (unplaced && kind === BinaryKind.poses) {
+      unplaced = false;
+      stage.fitShadows();
+    }
     moved();
   }
 }

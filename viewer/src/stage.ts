@@ -12,6 +12,8 @@ export interface Hit {
   normal: THREE.Vector3; // of the surface, world
 }
 
+const SUN = new THREE.Vector3(-2.5, 2.2, 4.5).normalize(); // direction towards it
+const LEAST_SHADOWED = 1, MOST_SHADOWED = 12; // m
 const SHADOW_PERIOD = 3; // pictures
 const STILL = 5; // pixels: a pointer that moves less has clicked
 
@@ -50,6 +52,7 @@ export class Stage {
     this.controls = new OrbitControls(this.camera, canvas);
     this.controls.addEventListener("change", () => (this.dirty = true));
     this.addLights();
+    this.fitShadows();
     this.scene.add(this.frames, this.floor.group);
     this.lookFrom(new THREE.Vector3(1.5, 2.6, 1.8), new THREE.Vector3(0, 0, 0.9));
     addEventListener("resize", () => this.resize());
@@ -104,17 +107,35 @@ export class Stage {
 
   /** Looks at all that is there from a direction. */
   lookAlong(direction: THREE.Vector3): void {
-    const box = new THREE.Box3();
-    this.frames.traverse((object) => {
-      if (object instanceof THREE.Mesh && isSeen(object)) box.expandByObject(object);
-    });
-    if (box.isEmpty()) box.set(new THREE.Vector3(-1, -1, 0), new THREE.Vector3(1, 1, 1));
-    const sphere = box.getBoundingSphere(new THREE.Sphere());
+    const sphere = this.extent();
     const half = THREE.MathUtils.degToRad(this.camera.fov / 2);
     const distance = sphere.radius / Math.sin(Math.min(half, Math.atan(Math.tan(half) * this.camera.aspect)));
     this.controls.target.copy(sphere.center);
     this.camera.position.copy(sphere.center).addScaledVector(direction.clone().normalize(), distance);
     this.controls.update();
+    this.redraw();
+  }
+
+  /** A ball around all that is seen. */
+  private extent(): THREE.Sphere {
+    this.frames.updateMatrixWorld();
+    const box = new THREE.Box3();
+    this.frames.traverse((object) => {
+      if (object instanceof THREE.Mesh && isSeen(object)) box.expandByObject(object);
+    });
+    if (box.isEmpty()) box.set(new THREE.Vector3(-1, -1, 0), new THREE.Vector3(1, 1, 1));
+    return box.getBoundingSphere(new THREE.Sphere());
+  }
+
+  /** Call when frames have come or gone: what is there casts shadows, however large or far away it is. */
+  fitShadows(): void {
+    const { center, radius } = this.extent();
+    const reach = THREE.MathUtils.clamp(1.1 * radius, LEAST_SHADOWED, MOST_SHADOWED);
+    const { camera } = this.sun.shadow;
+    this.sun.target.position.copy(center);
+    this.sun.position.copy(center).addScaledVector(SUN, 2 * reach);
+    Object.assign(camera, { left: -reach, right: reach, top: reach, bottom: -reach, near: 0.1 * reach, far: 4 * reach });
+    camera.updateProjectionMatrix();
     this.redraw();
   }
 
@@ -166,15 +187,11 @@ export class Stage {
 
   private addLights(): void {
     this.scene.add(new THREE.HemisphereLight(0xffffff, 0x8f919c, 1.35));
-    this.sun.position.set(-2.5, 2.2, 5);
-    this.sun.target.position.set(0, 0, 0.5);
     this.sun.castShadow = true;
     this.sun.shadow.mapSize.set(2048, 2048);
     this.sun.shadow.radius = 5;
     this.sun.shadow.bias = -0.0003;
     this.sun.shadow.normalBias = 0.01;
-    const reach = 2.6;
-    Object.assign(this.sun.shadow.camera, { left: -reach, right: reach, top: reach, bottom: -reach, near: 0.5, far: 12 });
     this.scene.add(this.sun, this.sun.target);
     const fill = new THREE.DirectionalLight(0xdfe8ff, 0.75);
     fill.position.set(3, -2, 2.5);
@@ -238,6 +255,7 @@ export class Stage {
     this.dirty = false;
     if (this.renderer.getPixelRatio() !== this.quality.ratio) this.renderer.setPixelRatio(this.quality.ratio);
     for (const prepare of this.preparations) prepare();
+    this.floor.follow(this.camera.position);
     this.updateShadows();
     this.renderer.render(this.scene, this.camera);
     this.labels.render(this.scene, this.camera);
