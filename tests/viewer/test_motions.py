@@ -151,7 +151,7 @@ def test_a_key_ends_the_playing(browser: Browser, start: Callable[..., Program])
         "C.view()\nC.viewer().waitForClient(60)\nC.animate()\n"  # 102 s, if nobody ends it
         "print('key', C.view_path([C.getJointState()] * 2, 600., True, 'a path'))"
     )
-    browser.open(program.url())
+    browser.open_page(program.url())
     browser.wait_for("kinegraph.playing() && document.querySelector('.slice-text').textContent.startsWith('joint')")
     browser.press("x")
     browser.wait_for("kinegraph.message() == 'a path' && kinegraph.playing()")
