@@ -11,6 +11,8 @@
 #include "kinegraph/base/errors.h"
 #include "kinegraph/base/text.h"
 #include "kinegraph/komo/report.h"
+#include "kinegraph/viewer/recorded_page.h"
+#include "kinegraph/viewer/scene_items.h"
 #include "py_komo.h"
 #include "py_viewer.h"
 
@@ -78,22 +80,51 @@ std::vector<std::string> objectiveTags(const PyKomo& komo) {
   return tags;
 }
 
-/// The path as a motion of the scene as it is before it; texts tell the objectives that are violated in a slice.
+bool isConstraint(ObjectiveType type) { return type == ObjectiveType::eq || type == ObjectiveType::ineq; }
+
+/// How much of the constraints is violated in a slice, and the frames that this is about: those that the objectives name,
+/// and those that collide, if an objective without frames is violated.
+void markViolations(const PyKomo& komo, const Config& config, const MatrixXd& errors, int t, ShownMotion& motion) {
+  constexpr double kTolerance = 1e-3;
+  double& violation = motion.violations.emplace_back(0.);
+  std::vector<int>& marked = motion.marked.emplace_back();
+  for (std::size_t o = 0; t >= 0 && o < komo.objectives().size(); ++o) {
+    const Komo::Objective& objective = komo.objectives()[o];
+    const double error = isConstraint(objective.type) ? errors(t, Eigen::Index(o)) : 0.;
+    violation += error;
+    if (error < kTolerance) continue;
+    for (const std::string& name : objective.frames) marked.push_back(config.getFrame(name).id());
+    if (!objective.frames.empty()) continue;
+    for (const Config::NearPair& pair : config.getCollisions()) marked.insert(marked.end(), {pair.a, pair.b});
+  }
+}
+
+/// The path as a motion of the scene as it is before it, with the slices of the prefix; texts tell the objectives that are
+/// violated in a slice.
 ShownMotion motionOf(const PyKomo& komo) {
   ShownMotion motion;
-  motion.seconds = komo.tau() * komo.slices();
-  motion.q = komo.getPath();
+  motion.prefix = komo.order();
+  const int count = komo.slices() + komo.order();
+  motion.seconds = komo.tau() * count;
   const MatrixXd errors = measurePath(komo).per_slice;
-  for (int t = 0; t < komo.slices(); ++t) {
-    const MatrixXd poses = komo.getFrameState(t);
-    std::vector<Pose>& slice = motion.poses.emplace_back();
-    for (Eigen::Index i = 0; i < poses.rows(); ++i) slice.push_back(Pose::fromNumbers(poses.row(i)));
-    motion.texts.push_back(sliceErrors(komo, t, errors));
-    double& violation = motion.violations.emplace_back(0.);
-    for (std::size_t o = 0; o < komo.objectives().size(); ++o) {
-      const ObjectiveType type = komo.objectives()[o].type;
-      if (type == ObjectiveType::eq || type == ObjectiveType::ineq) violation += errors(t, Eigen::Index(o));
-    }
+  std::vector<VectorXd> states;
+  for (int t = -komo.order(); t < komo.slices(); ++t) {
+    const Config config = komo.configuration(t);
+    motion.poses.push_back(posesOf(config));
+    states.push_back(config.getJointState());
+    motion.texts.push_back(t < 0 ? "before the path" : sliceErrors(komo, t, errors));
+    markViolations(komo, config, errors, t, motion);
+  }
+  const bool same_dofs = std::all_of(states.begin(), states.end(), [&](const VectorXd& q) { return q.size() == states[0].size(); });
+  if (same_dofs) {
+    motion.q.resize(count, states[0].size());
+    for (int i = 0; i < count; ++i) motion.q.row(i) = states[std::size_t(i)];
+  }
+  for (std::size_t o = 0; o < komo.objectives().size(); ++o) {
+    ShownMotion::Trace trace{objectiveTag(komo, komo.objectives()[o]), objectiveTypeName(komo.objectives()[o].type), {}};
+    trace.values.assign(std::size_t(komo.order()), 0.);
+    for (Eigen::Index t = 0; t < errors.rows(); ++t) trace.values.push_back(errors(t, Eigen::Index(o)));
+    motion.traces.push_back(std::move(trace));
   }
   return motion;
 }
@@ -111,23 +142,26 @@ int show(PyKomo& komo, const ShownMotion& motion, bool pause, const std::string&
 }
 
 int view(PyKomo& komo, bool pause, Message text) {
-  return show(komo, motionOf(komo), pause, text.value_or(cat("all ", komo.slices(), " slices")));
+  return show(komo, motionOf(komo), pause, text.value_or(cat("all ", komo.slices() + komo.order(), " slices")));
 }
 
 int viewSlice(PyKomo& komo, int slice, bool pause) {
-  if (slice < 0 || slice >= komo.slices()) throw ValueError(cat("view_slice: t is ", slice, "; there are slices 0 to ", komo.slices() - 1));
+  if (slice < -komo.order() || slice >= komo.slices()) {
+    throw ValueError(cat("view_slice: t is ", slice, "; there are slices 0 to ", komo.slices() - 1, ", and before them ", -komo.order(), " to -1"));
+  }
   ShownMotion motion = motionOf(komo);
   motion.start = ShownMotion::Start::pause;
-  motion.first = slice;
+  motion.first = slice + komo.order();
   return show(komo, motion, pause, cat("slice ", slice));
 }
 
 /// A picture of each slice as PREFIX000000.png and so on, without a browser.
 void savePictures(PyKomo& komo, const std::string& prefix) {
   if (!komo.viewer) komo.viewer = std::make_shared<PyViewer>();
-  for (int t = 0; t < komo.slices(); ++t) {
+  nb::module_::import_("kinegraph.png").attr("removeNumbered")(prefix);
+  for (int t = -komo.order(); t < komo.slices(); ++t) {
     komo.viewer->scene = komo.configuration(t).scene();
-    savePicture(*komo.viewer, prefix, t);
+    savePicture(*komo.viewer, prefix, t + komo.order());
     checkInterrupt();
   }
 }
@@ -136,8 +170,9 @@ int viewPlay(PyKomo& komo, bool pause, Message text, double delay, const std::op
   if (video) savePictures(komo, *video);
   ShownMotion motion = motionOf(komo);
   motion.start = ShownMotion::Start::play;
-  motion.seconds = std::clamp(delay, .01, 10.) * komo.slices();
-  return show(komo, motion, pause, text.value_or(cat(komo.slices(), " slices")));
+  const auto count = motion.poses.size();
+  motion.seconds = std::clamp(delay, .01, 10.) * double(count);
+  return show(komo, motion, pause, text.value_or(cat(count, " slices")));
 }
 
 }  // namespace
@@ -153,12 +188,17 @@ void bindKomoReports(nb::class_<PyKomo>& komo) {
            "errorTraces"_a, "The objectives with errors in a slice, largest first, a line each.")
       .def("info_sliceCollisions", [](const PyKomo& k, int t, double margin) { return sliceCollisions(k, t, margin); }, "t"_a,
            "belowMargin"_a, "The pairs of shapes nearer than a margin in a slice, a line each.")
-      .def("view", view, "pause"_a = false, "txt"_a = nb::none(), "Shows all slices at once, in the browser, with a time slider and the violated\n"
-           "objectives. pause: waits for a key. Returns the key that was pressed, or 0.")
+      .def("view", view, "pause"_a = false, "txt"_a = nb::none(), "Shows all slices at once, those before the path as well, in the browser, with\n"
+           "a time slider, the errors of the objectives, and what violates them in red. pause: waits for a key. Returns the key that was pressed, or 0.")
       .def("view_slice", viewSlice, "t"_a, "pause"_a = false, "Shows a slice; the others are at the time slider. Returns the key, or 0.")
       .def("view_play", viewPlay, "pause"_a = false, "txt"_a = nb::none(), "delay"_a = .1, "saveVideoPath"_a = nb::none(),
            "Plays the slices, `delay` seconds each, and waits until they have been played once; a key ends it. saveVideoPath: saves\n"
-           "a picture of each slice as <saveVideoPath>000000.png and so on. Returns the key, or 0.")
+           "a picture of each slice as <saveVideoPath>000000.png and so on, in place of those that are there. Returns the key, or 0.")
+      .def("_repr_html_", [](const PyKomo& k) {
+             const ShownMotion motion = motionOf(k);
+             const std::string page = recordedScene(k.configuration(-k.order()), &motion, "KOMO Viewer");
+             return nb::cast<std::string>(nb::module_::import_("kinegraph.notebook").attr("inlineFrame")(page));
+           }, "What notebooks show: the motion, which plays there without a program.")
       .def("view_close", [](PyKomo& k) { if (k.viewer) k.viewer->close(); }, "Ends the viewer.")
       .def("get_viewer", [](PyKomo& k) {
              if (!k.viewer) k.viewer = std::make_shared<PyViewer>();

@@ -1,6 +1,7 @@
 #include <nanobind/ndarray.h>
 #include <nanobind/stl/shared_ptr.h>
 #include <nanobind/stl/string.h>
+#include <nanobind/stl/vector.h>
 
 #include "bindings.h"
 #include "defaults.h"
@@ -115,6 +116,31 @@ AnyArray depthImage2PointCloud(const DepthArray& depth, const Numbers& fxycxy) {
   return toImage(depthToPoints(depth.data(), int(height), int(width), Vector4d(fxycxy.values)), {height, width, 3});
 }
 
+/// What `params_add` says of pictures and pages, as the reference calls it.
+struct RenderParameters {
+  std::optional<Vector3d> background, floor;
+  bool has_floor = true;
+  bool shadows = true;
+  bool text = true;
+};
+
+RenderParameters renderParameters() {
+  const nb::object set = nb::module_::import_("kinegraph.parameters").attr("params_get")();
+  const auto numbers = [&](const char* name) {
+    const nb::object value = set.attr("get")(name, nb::list());
+    return nb::cast<std::vector<double>>(value);
+  };
+  const auto flag = [&](const char* name) { return nb::cast<bool>(nb::bool_(set.attr("get")(name, true))); };
+  RenderParameters given;
+  const std::vector<double> background = numbers("Render/backgroundColor"), floor = numbers("Render/floorColor");
+  if (background.size() == 3) given.background = Vector3d(background.data());
+  if (floor.size() == 3) given.floor = Vector3d(floor.data());
+  given.has_floor = floor.empty() || floor.size() == 3;
+  given.shadows = flag("Render/renderShadow");
+  given.text = flag("Render/renderText");
+  return given;
+}
+
 /// Where a viewer looks from; at first that is a frame `camera_init`, if there is one.
 Camera cameraNow(PyViewer& viewer) {
   if (!viewer.camera_is_set && viewer.scene) {
@@ -128,15 +154,40 @@ Camera cameraNow(PyViewer& viewer) {
 CameraImage picture(PyViewer& viewer) {
   if (!viewer.scene) throw ValueError("this viewer shows nothing yet; call view() first");
   const Camera camera = cameraNow(viewer);
+  if (!viewer.renderer) {
+    const RenderParameters given = renderParameters();
+    RendererOptions options{.supersampling = 2, .shadows = given.shadows, .floor = given.has_floor};
+    if (given.background) options.background = *given.background;
+    if (given.floor) options.floor_color = *given.floor;
+    viewer.renderer.emplace(options);
+  }
   const nb::gil_scoped_release unlock;
-  return viewer.renderer.render(*viewer.scene, camera, viewer.visuals_only);
+  return viewer.renderer->render(*viewer.scene, camera, viewer.visuals_only);
+}
+
+/// What the page turns about: a point in front of the camera that is about as far away as the scene.
+void aim(PyViewer& viewer, const Camera& camera) {
+  viewer.setCamera(camera.pose.p, camera.pose.p + camera.pose.q * Vector3d(0., 0., 2.), camera.focal_length);
+}
+
+/// Turns the camera to a point, and moves it to where `height` m fit into the picture there.
+void focus(PyViewer& viewer, const Numbers& at, double height) {
+  if (at.values.size() != 3) throw ValueError(cat("focus: the position has ", at.values.size(), " numbers; expected 3"));
+  if (!(height > 0. && std::isfinite(height))) throw ValueError(cat("focus: heightAbs is ", height, "; expected m, more than 0"));
+  Camera camera = cameraNow(viewer);
+  const Vector3d point(at.values), back = camera.pose.p - point;
+  if (back.norm() < 1e-9) throw ValueError("focus: the camera is at that position");
+  camera.pose = lookAt(point + height * camera.focal_length * back.normalized(), point);
+  viewer.camera.place(camera);
+  viewer.camera_is_set = true;
+  if (viewer.isOpen()) viewer.setCamera(camera.pose.p, point, camera.focal_length);
 }
 
 /// The page in the browser looks from there as well, if there is one.
 void placeCamera(PyViewer& viewer, const Camera& camera) {
   viewer.camera.place(camera);
   viewer.camera_is_set = true;
-  if (viewer.isOpen()) viewer.setCamera(camera.pose.p, camera.pose.p + camera.pose.q * Vector3d(0., 0., 2.));
+  if (viewer.isOpen()) aim(viewer, camera);
 }
 
 void setViewCamera(PyViewer& viewer, nb::handle frame) {
@@ -150,6 +201,24 @@ void setViewCamera(PyViewer& viewer, nb::handle frame) {
 }
 
 }  // namespace
+
+void preparePage(PyViewer& viewer) {
+  const RenderParameters given = renderParameters();
+  viewer.look.background = given.background;
+  viewer.look.floor = given.floor;
+  viewer.look.has_floor = given.has_floor;
+  viewer.look.shadows = given.shadows;
+  viewer.look.text = given.text;
+  viewer.server().setLook(viewer.look);
+  FrameData* tracked = viewer.scene->find("camera_track");
+  if (tracked) {
+    viewer.camera.follow(Frame(viewer.scene, *tracked));
+    viewer.camera_is_set = true;
+    aim(viewer, viewer.camera.now());
+  } else if (!viewer.camera_is_set && viewer.scene->find("camera_init")) {
+    aim(viewer, cameraNow(viewer));
+  }
+}
 
 std::string savePicture(PyViewer& viewer, const std::string& path, int count) {
   CameraImage image = picture(viewer);
@@ -191,6 +260,13 @@ void bindPictures(nb::class_<PyViewer>& viewer) {
            }, "pose7"_a, "Where the camera is, (7,): x to the right of the image, y down, z forward.")
       .def("getCamera_pose", [](PyViewer& v) { return toNumpy(VectorXd(cameraNow(v).pose.numbers())); }, "The camera's pose, (7,).")
       .def("getCamera_fxycxy", [](PyViewer& v) { return fxycxyOf(cameraNow(v)); }, "fx, fy, cx, cy in pixels.")
+      .def("getCamera_focalLength",
+           [](PyViewer& v) {
+             const double f = cameraNow(v).focal_length;
+             return toNumpy(VectorXd(Vector4d(f, f, 0., 0.)));
+           }, "Focal length in image heights, twice, and two zeros.")
+      .def("focus", focus, "position"_a, "heightAbs"_a = 1.,
+           "Turns the camera to a point, and moves it so far away that heightAbs m fit into the height of the window.")
       .def("setWindow",
            [](PyViewer& v, const std::string& title, int width, int height) {
              Camera camera = cameraNow(v);
@@ -200,8 +276,12 @@ void bindPictures(nb::class_<PyViewer>& viewer) {
              v.camera.resize(width, height);
              if (v.isOpen()) v.setTitle(title);
            }, "title"_a, "width"_a, "height"_a, "Title of the page, and the size of pictures in pixels.")
-      .def("visualsOnly", [](PyViewer& v, bool yes) { v.visuals_only = yes; }, "_visualsOnly"_a = true,
-           "Leaves markers and transparent shapes out of pictures.");
+      .def("visualsOnly", [](PyViewer& v, bool yes) {
+             v.visuals_only = yes;
+             v.look.visuals_only = yes;
+             if (v.isOpen()) v.server().setLook(v.look);
+           }, "_visualsOnly"_a = true,
+           "Hides markers, transparent shapes and texts, on the page and in pictures; False shows them again.");
 }
 
 void bindRendering(nb::module_& m) {

@@ -7,6 +7,7 @@
 #include "kinegraph/base/errors.h"
 #include "kinegraph/base/text.h"
 #include "kinegraph/viewer/motions.h"
+#include "kinegraph/viewer/recorded_page.h"
 #include "kinegraph/viewer/watch_file.h"
 #include "py_viewer.h"
 
@@ -32,10 +33,16 @@ bool interrupted() {
   return false;
 }
 
+/// The page with what is shown inside, whether a server runs or not.
+std::string pageOf(PyViewer& viewer) {
+  return viewer.isOpen() || !viewer.scene ? viewer.recording() : recordedScene(Config(*viewer.scene));
+}
+
 int view(PyConfig& config, bool pause, const std::optional<std::string>& message, bool offscreen) {
   const std::shared_ptr<PyViewer> viewer = showIn(config);
   if (offscreen) return 0;
   if (!viewer->isOpen()) nb::module_::import_("kinegraph.notebook").attr("showInline")(viewer);
+  preparePage(*viewer);
   const nb::gil_scoped_release unlock;
   return viewer->view(config, pause, message, interrupted);
 }
@@ -91,14 +98,15 @@ void bindViewer(nb::module_& m, nb::class_<PyConfig>& config) {
       .def("hasEdits", &PyViewer::hasEdits,
            "True if people have moved joints or frames in the browser since the last view(), which takes that over.")
       .def("select", &PyViewer::select, "frame"_a, "Shows the card of the frame with this ID, with handles to move it.")
-      .def("asHtml", &PyViewer::recording, "A web page with the scene, or the motion, that is shown; it opens without this program.")
+      .def("asHtml", pageOf, "A web page with the scene, or the motion, that is shown; it opens without this program.")
       .def("saveHtml", [](PyViewer& v, nb::handle path) {
-             nb::module_::import_("pathlib").attr("Path")(path).attr("write_text")(v.recording(), "encoding"_a = "utf-8");
+             nb::module_::import_("pathlib").attr("Path")(path).attr("write_text")(pageOf(v), "encoding"_a = "utf-8");
            }, "path"_a, "Saves asHtml() as a file, to be opened in any browser, or sent to somebody.")
-      .def("_repr_html_", [](PyViewer& v) { return nb::module_::import_("kinegraph.notebook").attr("inlineFrame")(v.recording()); },
+      .def("_repr_html_", [](PyViewer& v) { return nb::module_::import_("kinegraph.notebook").attr("inlineFrame")(pageOf(v)); },
            "What notebooks show: the scene as it is now.")
       .def("close", &PyViewer::close, "Ends the viewer.");
   bindPictures(viewer);
+  bindViewerInput(m, viewer);
 
   config
       .def("view", view, "pause"_a = false, "message"_a = nb::none(), "offscreen"_a = false,

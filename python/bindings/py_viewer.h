@@ -44,9 +44,18 @@ struct PyViewer : ConfigViewer {
   ViewCamera camera{defaultViewCamera()};     ///< of pictures
   bool camera_is_set = false;
   bool visuals_only = false;
+  Look look;                                  ///< of the page
   int saved = 0;                              ///< pictures
-  CameraRenderer renderer{{.supersampling = 2}};
+  int quads = 0;                              ///< pictures on top of the scene: the next id
+  std::optional<CameraRenderer> renderer;     ///< made for the first picture
 };
+
+/// What people do on the page, and pictures on top of it.
+void bindViewerInput(nb::module_& m, nb::class_<PyViewer>& viewer);
+
+/// Starts the page, if it does not run, with the look that parameters `Render/...` and visualsOnly say. It looks from a frame
+/// `camera_init` when it is first shown, and always from a frame `camera_track`.
+void preparePage(PyViewer& viewer);
 
 /// The picture calls of a viewer.
 void bindPictures(nb::class_<PyViewer>& viewer);

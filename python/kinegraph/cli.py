@@ -9,7 +9,7 @@ from pathlib import Path
 
 from . import __version__
 from ._core import Config, checkFile
-from .errors import ArgumentError, Error
+from .errors import ArgumentError, Error, FileError
 from .model_paths import raiPath
 from .parameters import params_get
 
@@ -82,6 +82,8 @@ def _load(file: str) -> Config:
 
 def _view(file: str, watch: bool) -> None:
     if watch:
+        if not Path(file).exists():
+            raise FileError(f"scene file '{file}' does not exist")
         Config().watchFile(file)
     else:
         _load(file).view(True, file)

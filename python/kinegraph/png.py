@@ -16,8 +16,8 @@ def _chunk(kind: bytes, data: bytes) -> bytes:
     return struct.pack(">I", len(data)) + kind + data + struct.pack(">I", zlib.crc32(kind + data))
 
 
-def writePng(path: str | os.PathLike[str], rgb: np.ndarray) -> None:
-    """Writes a picture, uint8 (height, width, 3), as a PNG file. Its folder is made if it is missing."""
+def encodePng(rgb: np.ndarray) -> bytes:
+    """A picture, uint8 (height, width, 3), as the bytes of a PNG file."""
     rgb = np.ascontiguousarray(rgb)
     if rgb.dtype != np.uint8 or rgb.ndim != 3 or rgb.shape[2] != 3 or rgb.size == 0:
         raise ArgumentError(f"writePng: the picture is {rgb.dtype} {rgb.shape}; expected uint8 (height, width, 3)")
@@ -25,7 +25,21 @@ def writePng(path: str | os.PathLike[str], rgb: np.ndarray) -> None:
     lines = np.zeros((height, 1 + 3 * width), np.uint8)  # each begins with its filter: none
     lines[:, 1:] = rgb.reshape(height, -1)
     header = struct.pack(">IIBBBBB", width, height, 8, 2, 0, 0, 0)
+    parts = _chunk(b"IHDR", header) + _chunk(b"IDAT", zlib.compress(lines.tobytes(), 6)) + _chunk(b"IEND", b"")
+    return b"\x89PNG\r\n\x1a\n" + parts
+
+
+def writePng(path: str | os.PathLike[str], rgb: np.ndarray) -> None:
+    """Writes a picture, uint8 (height, width, 3), as a PNG file. Its folder is made if it is missing."""
+    png = encodePng(rgb)
     Path(path).parent.mkdir(parents=True, exist_ok=True)
-    with open(path, "wb") as file:
-        file.write(b"\x89PNG\r\n\x1a\n" + _chunk(b"IHDR", header))
-        file.write(_chunk(b"IDAT", zlib.compress(lines.tobytes(), 6)) + _chunk(b"IEND", b""))
+    Path(path).write_bytes(png)
+
+
+def removeNumbered(prefix: str) -> None:
+    """Removes the pictures that `savePng` wrote with that prefix: <prefix> and six digits."""
+    folder, start = os.path.split(prefix)
+    for file in Path(folder or ".").glob("*.png"):
+        number = file.name.removeprefix(start).removesuffix(".png")
+        if file.name.startswith(start) and len(number) == 6 and number.isdigit():
+            file.unlink()

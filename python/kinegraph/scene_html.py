@@ -2,8 +2,12 @@
 
 from __future__ import annotations
 
+from base64 import b64encode
 from html import escape
 from typing import TYPE_CHECKING
+
+from .errors import Error
+from .png import encodePng
 
 if TYPE_CHECKING:
     from . import Config, Frame
@@ -24,8 +28,17 @@ def _row(frame: Frame) -> str:
     return "<tr>" + "".join(f"<td>{escape(cell)}</td>" for cell in cells) + "</tr>"
 
 
+def _picture(config: Config) -> str:
+    """What the viewer's camera sees, as an element of a page; nothing where pictures cannot be drawn."""
+    try:
+        png = encodePng(config.viewer().getRgb())
+    except Error:
+        return ""
+    return f'<img alt="the scene" src="data:image/png;base64,{b64encode(png).decode()}">'
+
+
 def sceneHtml(config: Config) -> str:
-    """A summary line and a table with the first frames: name, parent, joint, shape, world position in m."""
+    """A picture, a summary line, and a table with the first frames: name, parent, joint, shape, world position in m."""
     frames = config.getFrames()
     summary = f"Config: {len(frames)} frames, {config.getJointDimension()} dofs"
     if not frames:
@@ -33,4 +46,4 @@ def sceneHtml(config: Config) -> str:
     head = "".join(f"<th>{title}</th>" for title in ("frame", "parent", "joint", "shape", "position"))
     rows = "".join(_row(frame) for frame in frames[:_SHOWN])
     more = f"<p>and {len(frames) - _SHOWN} more</p>" if len(frames) > _SHOWN else ""
-    return f"<p>{summary}</p><table><thead><tr>{head}</tr></thead><tbody>{rows}</tbody></table>{more}"
+    return f"{_picture(config)}<p>{summary}</p><table><thead><tr>{head}</tr></thead><tbody>{rows}</tbody></table>{more}"

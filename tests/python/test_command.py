@@ -83,6 +83,9 @@ def test_view_shows_scenes_and_meshes_and_ends_without_a_display(tmp_path):
         program = kinegraph("view", *map(str, arguments))
         assert program.returncode == 0, program.stderr
     assert "triangle" in kinegraph("info", str(mesh)).stdout
+    missing = kinegraph("view", "--watch", str(tmp_path / "missing.g"))
+    assert missing.returncode == 1
+    assert "missing.g' does not exist" in missing.stderr
 
 
 @pytest.mark.parametrize("command, words", [("ry_info", "raiPath"), ("ry_view", "a scene")])

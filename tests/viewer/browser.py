@@ -76,6 +76,7 @@ class Browser:
                 stdout=subprocess.DEVNULL,
                 stderr=subprocess.DEVNULL,
             )
+            self.process_id = process.pid
             cleanup.callback(process.wait, 20)
             cleanup.callback(process.terminate)
             self._socket = cleanup.enter_context(connect(self._page_address(), max_size=None, open_timeout=30))
@@ -125,6 +126,7 @@ class Browser:
         self.wait_for("kinegraph.frames() > 0 && kinegraph.idle()")
 
     def close_page(self) -> None:
+        self.evaluate("location.protocol === 'http:' && localStorage.clear()")
         self.call("Page.navigate", url="about:blank")
 
     def evaluate(self, script: str) -> Any:

@@ -52,6 +52,6 @@ TEST(JsonWriter, KeepsUtf8AndReplacesBytesThatAreNot) {
 TEST(JsonWriter, WritesNumbersThatAreNotFiniteAsNull) {
   JsonWriter json;
   const double infinity = std::numeric_limits<double>::infinity();
-  writeJson(json, CameraMessage{{infinity, std::nan(""), 1e-300}, {-0.5, 1e300, 0.}});
-  EXPECT_EQ(json.text(), R"({"kind":"camera","position":[null,null,1e-300],"target":[-0.5,1e+300,0]})");
+  writeJson(json, CameraMessage{{infinity, std::nan(""), 1e-300}, {-0.5, 1e300, 0.}, 0.});
+  EXPECT_EQ(json.text(), R"({"kind":"camera","position":[null,null,1e-300],"target":[-0.5,1e+300,0],"focal":0})");
 }

@@ -8,6 +8,7 @@
 #include "kinegraph/base/errors.h"
 #include "kinegraph/base/random.h"
 #include "kinegraph/viewer/client_page.h"
+#include "kinegraph/viewer/input_events.h"
 #include "kinegraph/viewer/messages.h"
 #include "tests/viewer/websocket_client.h"
 
@@ -295,6 +296,43 @@ TEST_F(ViewerServerTest, KeysArriveOnceAndTheLastOneCounts) {
   client.sendKey('a');
   client.sendKey('b');
   EXPECT_TRUE(eventually([&] { return server.takeKey() == 'b'; }));
+}
+
+TEST_F(ViewerServerTest, KeysWithModifiersAndArrowsToTheSideDoNotEndTheWaiting) {
+  WebsocketClient client(port);
+  client.sendKey('a', 1);
+  client.sendKey(262);
+  int asked = 0;
+  EXPECT_EQ(server.waitKey([&] {
+    if (++asked == 3) client.sendKey('b');
+    return false;
+  }), 'b');
+  EXPECT_GE(asked, 3);
+  client.sendKey('C', 2);
+  int key = 0;
+  while (key == 0) key = server.takeKey();
+  EXPECT_EQ(key, 'C');
+}
+
+TEST(EventName, IsThatOfTheReference) {
+  EXPECT_EQ(eventName({1, 'a', 0}), "key down a");
+  EXPECT_EQ(eventName({2, 259, 0}), "key up backspace");
+  EXPECT_EQ(eventName({1, 290, 0}), "key down 290");
+  EXPECT_EQ(eventName({3, 0, 0}), "click down left");
+  EXPECT_EQ(eventName({4, 2, 0}), "click up right");
+  EXPECT_EQ(eventName({5, 1, 0}), "scroll up");
+  EXPECT_EQ(eventName({6, 0, 5}), "mod shift alt");
+  EXPECT_EQ(eventName({6, 0, 0}), "mod");
+  for (const EventCommand& nonsense : {EventCommand{1, -5, 0}, EventCommand{3, 7, 0}, EventCommand{99, 1, 0}}) EXPECT_EQ(eventName(nonsense), "");
+}
+
+TEST(InputEvents, KeepTheLastThousand) {
+  InputEvents events;
+  for (int i = 0; i < 1500; ++i) events.add({1, i < 1499 ? 'a' : 'z', 0});
+  const std::vector<std::string> names = events.take();
+  ASSERT_EQ(names.size(), 1000u);
+  EXPECT_EQ(names.back(), "key down z");
+  EXPECT_TRUE(events.take().empty());
 }
 
 TEST_F(ViewerServerTest, WaitingForAKeyEndsWhenStopSaysSo) {

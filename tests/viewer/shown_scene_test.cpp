@@ -215,9 +215,9 @@ TEST(ShownScene, TextsAndCameraAreSentWhenTheyChange) {
   ShownScene::Seen seen;
   scene.messagesSince(seen);
   EXPECT_TRUE(scene.setText(&ShownScene::error, "no such file"));
-  scene.setCamera({1., 2., 3.}, {0., 0., .5});
+  scene.setCamera({1., 2., 3.}, {0., 0., .5}, 0.);
   const auto messages = scene.messagesSince(seen);
   ASSERT_EQ(kinds(messages), (Kinds{"text", "camera"}));
   EXPECT_EQ(*messages[0].data, R"({"kind":"text","title":"","message":"","error":"no such file"})");
-  EXPECT_EQ(*messages[1].data, R"({"kind":"camera","position":[1,2,3],"target":[0,0,0.5]})");
+  EXPECT_EQ(*messages[1].data, R"({"kind":"camera","position":[1,2,3],"target":[0,0,0.5],"focal":0})");
 }

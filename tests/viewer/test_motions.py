@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import base64
 import time
 from collections.abc import Callable, Iterator
 from pathlib import Path
@@ -101,12 +102,22 @@ def test_all_slices_and_curves_can_be_shown(config: kg.Config, browser: Browser)
 def test_a_komo_shows_all_slices_and_marks_violations(komo: kg.KOMO, browser: Browser) -> None:
     assert komo.view() == 0
     browser.open(komo.get_viewer().url)
-    browser.wait_for("kinegraph.slice() === 11 && document.querySelector('#motion').checkVisibility()")
+    browser.wait_for(
+        "kinegraph.slice() === 11 && kinegraph.idle() && document.querySelector('#motion').checkVisibility()"
+    )
     assert "l_gripper" in browser.evaluate("document.querySelector('.slice-text').textContent")
     assert browser.evaluate("document.querySelector('.slice-text').classList.contains('violated')")
-    red = """((c) => [...Array(12).keys()].filter((t) =>
-      c.getContext('2d').getImageData(c.width * (t + 0.5) / 12, c.height >> 1, 1, 1).data[3] > 0))(document.querySelector('.marks'))"""
-    assert browser.evaluate(red) == [3, 11]  # the slices with an equality
+    red = """((c) => [...Array(14).keys()].filter((t) =>
+      c.getContext('2d').getImageData(c.width * (t + 0.5) / 14, c.height >> 1, 1, 1).data[3] > 0))(document.querySelector('.marks'))"""
+    assert browser.evaluate(red) == [2 + 3, 2 + 11]  # the slices with an equality; two lie before the path
+    assert browser.evaluate("kinegraph.marks()") > 0  # the gripper is red
+    browser.press("ArrowLeft")
+    browser.wait_for("kinegraph.slice() === 10 && kinegraph.marks() === 0")
+    browser.evaluate("[...document.querySelectorAll('#motion label')].find((x) => x.textContent === 'errors').click()")
+    assert "F_Position" in browser.evaluate("document.querySelector('.legend').textContent")
+    browser.evaluate("document.activeElement.blur()")
+    browser.press("ArrowRight")
+    browser.wait_for("kinegraph.slice() === 11")
     gripper = komo.getPathFrames()[11][komo.getConfig().getFrameNames().index("l_gripper")]
     assert browser.evaluate("kinegraph.position('l_gripper')") == pytest.approx(list(gripper[:3]), abs=1e-5)
 
@@ -117,14 +128,20 @@ def test_a_slice_of_a_komo_is_shown(komo: kg.KOMO, browser: Browser) -> None:
     browser.wait_for("kinegraph.slice() === 3 && !kinegraph.playing()")
     gripper = komo.getPathFrames()[3][komo.getConfig().getFrameNames().index("l_gripper")]
     assert browser.evaluate("kinegraph.position('l_gripper')") == pytest.approx(list(gripper[:3]), abs=1e-5)
-    with pytest.raises(ValueError, match="slices 0 to 11"):
-        komo.view_slice(12)
+    assert komo.view_slice(-2) == 0
+    browser.wait_for("kinegraph.slice() === -2")
+    for t in (12, -3):
+        with pytest.raises(ValueError, match="slices 0 to 11, and before them -2 to -1"):
+            komo.view_slice(t)
 
 
 def test_playing_a_komo_saves_pictures(komo: kg.KOMO, tmp_path: Path) -> None:
+    (tmp_path / "slice000099.png").touch()
+    (tmp_path / "slice_of_cake.png").touch()
     assert komo.view_play(delay=0.01, saveVideoPath=str(tmp_path / "slice")) == 0
-    files = sorted(tmp_path.glob("slice*.png"))
-    assert [file.name for file in files] == [f"slice{t:06}.png" for t in range(12)]
+    files = sorted(tmp_path.glob("slice0*.png"))
+    assert (tmp_path / "slice_of_cake.png").exists()
+    assert [file.name for file in files] == [f"slice{t:06}.png" for t in range(14)]
     assert files[0].read_bytes() != files[-1].read_bytes()
 
 
@@ -134,7 +151,7 @@ def test_a_key_ends_the_playing(browser: Browser, start: Callable[..., Program])
         "C.view()\nC.viewer().waitForClient(60)\nC.animate()\n"  # 102 s, if nobody ends it
         "print('key', C.view_path([C.getJointState()] * 2, 600., True, 'a path'))"
     )
-    browser.open(program.url())
+    browser.open_page(program.url())
     browser.wait_for("kinegraph.playing() && document.querySelector('.slice-text').textContent.startsWith('joint')")
     browser.press("x")
     browser.wait_for("kinegraph.message() == 'a path' && kinegraph.playing()")
@@ -159,12 +176,25 @@ def test_motions_and_shapes_are_saved(config: kg.Config, browser: Browser, tmp_p
     assert browser.evaluate("document.querySelector('#video').disabled")
     browser.click_button("model")
     assert downloaded(tmp_path, "*.glb").startswith(b"glTF")
+    (model,) = tmp_path.glob("*.glb")
+    again = kg.Config()  # read by another library than the one that wrote it
+    again.addFrame("model", "", f"mesh: <{model}>")
+    points = again.getFrame("model").getMeshPoints()
+    assert points.max(axis=0) == pytest.approx([0.1, 0.1, 0.1], abs=1e-3)
+    assert points.min(axis=0) == pytest.approx([-0.1, -0.1, -0.1], abs=1e-3)
     config.view_path([[0, 0], [1, 0], [2, 1]], 0.5)
     browser.wait_for("kinegraph.slice() === 2")
     browser.click_button("video")
     video = downloaded(tmp_path, "*.webm")
     assert video.startswith(b"\x1a\x45\xdf\xa3")  # EBML, of which WebM is made
     assert len(video) > 1000
+    played = browser.evaluate(f"""(async () => {{
+      const video = document.createElement("video");
+      video.src = "data:video/webm;base64,{base64.b64encode(video).decode()}";
+      await new Promise((resolve, reject) => {{ video.onloadeddata = resolve; video.onerror = () => reject(new Error("no video")); }});
+      return [video.videoWidth, video.videoHeight];
+    }})()""")
+    assert played[0] / played[1] == pytest.approx(640 / 480, abs=0.02)
     browser.click_button("page")
     assert b"recording" in downloaded(tmp_path, "*.html")
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import base64
 import time
 from collections.abc import Iterator
 from pathlib import Path
@@ -134,6 +135,27 @@ def test_everything_in_the_panel_is_reached_by_the_tab_key(page: Browser) -> Non
     assert {"front", "aslant", "picture", "model", "page", "help-button"} <= reached
 
 
+def test_a_scene_is_seen_as_it_was_left(page: Browser, config: kg.Config) -> None:
+    other = kg.Config()
+    other.addFrame("something else")
+    for i in range(2):
+        other.addFrame(f"box{i}").setShape(kg.ST.box, [0.5, 0.5, 0.5])
+    other.view()
+    page.open(other.viewer().url)
+    first = page.evaluate("kinegraph.camera()")
+    page.drag((300, 200), (360, 240))
+    page.press_alt("N")
+    turned = page.evaluate("kinegraph.camera()")
+    page.open(other.viewer().url)
+    assert page.evaluate("kinegraph.camera()") == pytest.approx(turned)
+    assert page.is_visible(".name")
+    other.viewer().setCamera([4, 0, 1], [0, 0, 0])  # what the program says counts more
+    page.open(other.viewer().url)
+    assert page.evaluate("kinegraph.camera()") == pytest.approx([4, 0, 1])
+    assert first != turned
+    other.view_close()
+
+
 def test_the_question_mark_shows_and_hides_the_help(page: Browser) -> None:
     assert not page.is_visible("#help")
     page.press("?")
@@ -150,4 +172,11 @@ def test_the_picture_is_saved_as_png(page: Browser, tmp_path: Path) -> None:
         time.sleep(0.05)
     assert [file.name for file in files] == ["Kinegraph.png"]
     assert files[0].read_bytes().startswith(b"\x89PNG")
+    size = page.evaluate(f"""(async () => {{
+      const answer = await fetch("data:image/png;base64,{base64.b64encode(files[0].read_bytes()).decode()}");
+      const picture = await createImageBitmap(await answer.blob());
+      return [picture.width, picture.height];
+    }})()""")
+    assert size[0] * 3 == size[1] * 4
+    assert size[0] >= 640
     assert files[0].stat().st_size > 5000  # not an empty canvas

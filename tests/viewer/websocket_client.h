@@ -114,8 +114,8 @@ class WebsocketClient : public TcpClient {
   }
   void sendText(const std::string& data) { send(data, 1); }
   void sendBinary(const std::string& data) { send(data, 2); }
-  void sendKey(std::uint32_t code) {
-    const std::uint32_t numbers[] = {KeyCommand::kKind, code};
+  void sendKey(std::uint32_t code, std::uint32_t modifiers = 0) {
+    const std::uint32_t numbers[] = {KeyCommand::kKind, code, modifiers};
     sendBinary(std::string(reinterpret_cast<const char*>(numbers), sizeof numbers));
   }
 

@@ -13,6 +13,7 @@ export const OPTIONS = {
   names: { label: "names of frames", letter: "N", initially: false },
   wireframe: { label: "triangles only", letter: "W", initially: false },
   xray: { label: "see through everything", letter: "X", initially: false },
+  near: { label: "distances below 5 cm, contacts", letter: "D", initially: false },
 } as const;
 
 export type Option = keyof typeof OPTIONS;
@@ -40,6 +41,7 @@ function label(name: string): CSS2DObject {
 /** Decides what of the scene is seen: kinds of shapes, axes, names, and frames that are hidden with all below them. */
 export class Display {
   readonly on = new Set<Option>(optionNames.filter((name) => OPTIONS[name].initially));
+  visualsOnly = false; // no markers and transparent shapes, whatever is switched on
   readonly hidden = new Set<string>(); // names of frames
 
   apply(frames: ReadonlyMap<number, Shown>): void {
@@ -47,12 +49,16 @@ export class Display {
       const { shape, name } = shown.message;
       shown.anchor.visible = !this.isHidden(shown, frames);
       if (shown.object && shape) {
-        shown.object.visible = this.on.has(kindOf(shape));
+        shown.object.visible = this.isOn(kindOf(shape));
         this.paint(shown.object, shape);
       }
       this.attach(shown.anchor, "axes", () => new THREE.AxesHelper(AXES_LENGTH).setColors(...AXIS_COLORS));
       this.attach(shown.anchor, "names", () => label(name));
     }
+  }
+
+  private isOn(kind: Option): boolean {
+    return this.on.has(kind) && (kind === "solid" || !this.visualsOnly);
   }
 
   private paint(object: THREE.Object3D, shape: ShapeMessage): void {

@@ -36,8 +36,7 @@ export class Exports {
   }
 
   savePicture(): void {
-    this.stage.redraw();
-    this.stage.draw();
+    this.stage.drawFully();
     save(this.stage.canvas.toDataURL("image/png"), `${document.title}.png`);
   }
 

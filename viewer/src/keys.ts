@@ -15,3 +15,6 @@ export function keyCode(event: KeyboardEvent): number {
   if (functionKey) return 289 + Number(functionKey[1]);
   return NAMED[event.key] ?? 0;
 }
+
+/** Shift 1, Ctrl 2, Alt 4, added up. */
+export const modifiersOf = (event: KeyboardEvent): number => (event.shiftKey ? 1 : 0) + (event.ctrlKey ? 2 : 0) + (event.altKey ? 4 : 0);

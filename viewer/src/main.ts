@@ -5,11 +5,15 @@ import { find, make } from "./element";
 import { Exports } from "./exports";
 import { Help } from "./help";
 import { JointPanel } from "./joints";
-import { keyCode } from "./keys";
+import { keyCode, modifiersOf } from "./keys";
 import { Measure } from "./measure";
-import { BinaryKind, keyCommand, type MotionMessage, type ServerMessage } from "./messages";
+import { InputEvents } from "./input";
+import { Memory } from "./memory";
+import { BinaryKind, keyCommand, type LookMessage, type MotionMessage, type ServerMessage } from "./messages";
 import { Motion } from "./motion";
+import { NearLines } from "./near";
 import { Panel } from "./panel";
+import { Quads } from "./quads";
 import { Selection } from "./selection";
 import { ShownScene } from "./shown";
 import { Stage } from "./stage";
@@ -22,15 +26,22 @@ let connection: Connection | null = null;
 const send = (command: Uint8Array<ArrayBuffer>): void => connection?.send(command);
 
 const stage = new Stage(find<HTMLCanvasElement>("canvas"));
-const shown = new ShownScene(stage.frames);
+const shown = new ShownScene(stage.frames, stage.scene);
 const display = new Display();
 const joints = new JointPanel(send);
 const help = new Help();
 const measure = new Measure(stage);
-const panel = new Panel(display, shown.frames, redisplay, (id) => selection.select(id));
+const memory = new Memory(stage, display);
+const near = new NearLines(stage, send);
+const quads = new Quads();
+const input = new InputEvents(stage, send);
+const panel = new Panel(display, shown.frames, switched, (id) => selection.select(id));
+stage.onDraw(() => shown.prepare(stage.camera.position, stage.scale));
 const selection = new Selection(stage, shown.frames, joints, recorded ? null : send, (id) => panel.select(id));
 const timeline = new Timeline(stage, shown, joints, moved);
 const exports = new Exports(stage, timeline, recorded !== null);
+let unplaced = false; // frames have come whose poses are still to come
+let messages = 0; // that have come
 let announced: MotionMessage | null = null; // its slices are still to come
 find("scale").textContent = "grid: 1 m, 0.2 m";
 find("presets").append(...Object.keys(PRESETS).map((name) => make("button", { textContent: name, onclick: () => lookFrom(name) })));
@@ -40,8 +51,15 @@ function lookFrom(preset: string): void {
   stage.lookAlong(new THREE.Vector3(...PRESETS[preset]!));
 }
 
+/** People have switched something. */
+function switched(): void {
+  memory.save();
+  redisplay();
+}
+
 function redisplay(): void {
   display.apply(shown.frames);
+  near.show(display.on.has("near"));
   stage.redraw();
 }
 
@@ -56,16 +74,27 @@ function show(id: string, text: string): void {
   find(id).hidden = text === "";
 }
 
+function setLook(look: LookMessage): void {
+  display.visualsOnly = look.visualsOnly !== 0;
+  document.body.classList.toggle("no-text", look.visualsOnly !== 0 || look.text === 0);
+  stage.setLook(look.background, look.floor, look.shadows !== 0);
+  input.setWanted(look.events, look.cursor !== 0);
+  redisplay();
+}
+
 function receive(message: ServerMessage): void {
   switch (message.kind) {
     case "scene":
       shown.readScene(message);
+      if (memory.recall(Array.from(shown.frames.values(), (frame) => frame.message.name))) panel.refreshOptions();
       redisplay();
+      unplaced = true;
       panel.refresh();
       selection.refresh();
       break;
     case "joints":
       joints.setJoints(message.structure, message.joints);
+      near.setStructure(message.structure);
       break;
     case "text":
       document.title = message.title;
@@ -73,11 +102,19 @@ function receive(message: ServerMessage): void {
       show("error", message.error);
       break;
     case "camera":
-      stage.lookFrom(new THREE.Vector3(...message.position), new THREE.Vector3(...message.target));
+      memory.setCameraGiven();
+      stage.lookFrom(new THREE.Vector3(...message.position), new THREE.Vector3(...message.target), message.focal);
+      break;
+    case "near":
+      near.read(message);
+      break;
+    case "look":
+      setLook(message);
       break;
     case "motion":
       announced = message.slices > 0 ? message : null;
       timeline.end();
+      near.apply(announced === null);
       exports.refresh();
       break;
     case "select":
@@ -88,13 +125,20 @@ function receive(message: ServerMessage): void {
 }
 
 function receiveBinary(data: ArrayBuffer): void {
+  ++messages;
   const kind = new DataView(data).getUint32(0, true);
   if (kind === BinaryKind.joints) {
     joints.setState(new Float64Array(data, 8));
+  } else if (kind === BinaryKind.quad) {
+    quads.read(data);
   } else if (kind === BinaryKind.motion && announced) {
     timeline.start(new Motion(announced, data));
     exports.refresh();
   } else if (shown.readBinary(data)) {
+    if (unplaced && kind === BinaryKind.poses) {
+      unplaced = false;
+      stage.fitShadows();
+    }
     moved();
   }
 }
@@ -103,6 +147,7 @@ const listener: Listener = {
   opened() {
     timeline.end();
     shown.clear();
+    quads.clear();
     find("ended").hidden = true;
   },
   message: receive,
@@ -115,17 +160,22 @@ if (recorded) replay(recorded, listener);
 else connection = new Connection(listener);
 
 stage.onClick((event) => {
-  if (selection.isHeld) return;
+  if (selection.isHeld || input.blocks) return;
   const hit = stage.pick(event);
   if (measure.on) measure.click(hit);
   else if (hit) selection.select(hit.id);
   else selection.close();
 });
 
+const TURNS: Record<string, [number, number, number?]> = {
+  ArrowLeft: [-0.1, 0], ArrowRight: [0.1, 0], ArrowUp: [0, 0.1], ArrowDown: [0, -0.1], PageUp: [0, 0, 1.15], PageDown: [0, 0, 1 / 1.15],
+};
+
 /** What Alt and a key do. */
 function takeAlt(code: string): boolean {
   const digit = /^Digit([1-4])$/.exec(code);
   if (digit) lookFrom(Object.keys(PRESETS)[Number(digit[1]) - 1]!);
+  else if (TURNS[code]) stage.turn(...TURNS[code]);
   else if (code === "KeyP") exports.savePicture();
   else if (code === "KeyR") measure.toggle();
   else if (code === "KeyK") timeline.toggle();
@@ -151,6 +201,7 @@ const isTyping = (target: EventTarget | null): boolean => target instanceof HTML
 const leaveControls = (): void => (document.activeElement as HTMLElement | null)?.blur();
 
 addEventListener("keydown", (event) => {
+  if (input.blocks) return;
   if (event.altKey && takeAlt(event.code)) return event.preventDefault();
   if (event.key === "Escape" && closeTopmost()) return;
   if (event.key === "Tab" && (panel.isOpen || selection.selected !== null || timeline.current)) return; // moves on between controls
@@ -160,7 +211,7 @@ addEventListener("keydown", (event) => {
   if (timeline.takeKey(event.key)) return event.preventDefault();
   const code = keyCode(event);
   if (code === 0) return;
-  send(keyCommand(code));
+  send(keyCommand(code, modifiersOf(event)));
   if (["Tab", "Backspace", " ", "'", "/"].includes(event.key) || event.key.startsWith("Arrow")) event.preventDefault();
 });
 stage.canvas.addEventListener("pointerdown", leaveControls);
@@ -170,9 +221,16 @@ for (const button of document.querySelectorAll("body > button")) button.addEvent
 Object.assign(window, {
   kinegraph: {
     frames: () => shown.frames.size,
+    blocked: () => input.blocks,
+    camera: () => stage.camera.position.toArray(),
+    nearLines: () => near.count,
+    quads: () => quads.count,
     meshes: () => shown.meshCount,
     geometries: () => stage.renderer.info.memory.geometries,
     idle: () => stage.idle,
+    pictures: () => stage.renderer.info.render.frame,
+    messages: () => messages,
+    resolution: () => stage.resolution,
     position: (name: string) => stage.frames.getObjectByName(name)?.position.toArray() ?? null,
     message: () => find("message").textContent,
     error: () => find("error").textContent,
@@ -181,6 +239,7 @@ Object.assign(window, {
     asText: () => selection.asText(),
     joints: () => Array.from(joints.current.q),
     slice: () => (timeline.current ? timeline.slice : null),
+    marks: () => timeline.markCount,
     playing: () => timeline.isPlaying,
     pixel: (x: number, y: number, z: number) => {
       const p = new THREE.Vector3(x, y, z).project(stage.camera);

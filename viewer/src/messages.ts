@@ -8,6 +8,7 @@ export const BinaryKind = {
   mesh: 2,
   joints: 3,
   motion: 4,
+  quad: 5,
 } as const;
 
 export interface ShapeMessage {
@@ -33,6 +34,12 @@ export interface JointMessage {
   upper: number;
 }
 
+export interface TraceMessage {
+  name: string;
+  type: string;
+  values: number[];
+}
+
 export interface SceneMessage {
   kind: "scene";
   count: number;
@@ -56,6 +63,25 @@ export interface CameraMessage {
   kind: "camera";
   position: number[];
   target: number[];
+  focal: number;
+}
+
+export interface LookMessage {
+  kind: "look";
+  visualsOnly: number;
+  background: number[];
+  floor: number[];
+  shadows: number;
+  text: number;
+  events: number;
+  cursor: number;
+}
+
+export interface NearMessage {
+  kind: "near";
+  points: number[];
+  distances: number[];
+  names: string[];
 }
 
 export interface SelectMessage {
@@ -69,12 +95,15 @@ export interface MotionMessage {
   seconds: number;
   start: string;
   first: number;
+  prefix: number;
   texts: string[];
   violations: number[];
+  marked: number[][];
+  traces: TraceMessage[];
 }
 
-export const keyCommand = (code: number): Uint8Array<ArrayBuffer> =>
-  writeCommand(["int", 1], ["int", code]);
+export const keyCommand = (code: number, modifiers: number): Uint8Array<ArrayBuffer> =>
+  writeCommand(["int", 1], ["int", code], ["int", modifiers]);
 
 export const setJointCommand = (structure: number, joint: number, value: number): Uint8Array<ArrayBuffer> =>
   writeCommand(["int", 2], ["int", structure], ["int", joint], ["number", value]);
@@ -88,4 +117,13 @@ export const randomJointsCommand = (structure: number): Uint8Array<ArrayBuffer> 
 export const moveFrameCommand = (structure: number, frame: number, pose: number[]): Uint8Array<ArrayBuffer> =>
   writeCommand(["int", 5], ["int", structure], ["int", frame], ["number[]", pose]);
 
-export type ServerMessage = SceneMessage | JointsMessage | TextMessage | CameraMessage | SelectMessage | MotionMessage;
+export const nearCommand = (structure: number, margin: number): Uint8Array<ArrayBuffer> =>
+  writeCommand(["int", 6], ["int", structure], ["number", margin]);
+
+export const eventCommand = (what: number, code: number, modifiers: number): Uint8Array<ArrayBuffer> =>
+  writeCommand(["int", 7], ["int", what], ["int", code], ["int", modifiers]);
+
+export const cursorCommand = (frame: number, point: number[], normal: number[]): Uint8Array<ArrayBuffer> =>
+  writeCommand(["int", 8], ["int", frame], ["number[]", point], ["number[]", normal]);
+
+export type ServerMessage = SceneMessage | JointsMessage | TextMessage | CameraMessage | LookMessage | NearMessage | SelectMessage | MotionMessage;

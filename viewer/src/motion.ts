@@ -45,6 +45,11 @@ export class Motion {
     });
   }
 
+  /** The values of a dof, slice by slice. */
+  curveOf(dof: number): Float32Array {
+    return Float32Array.from({ length: this.slices }, (_, t) => this.q[t * this.dofs + dof]!);
+  }
+
   /** Pictures of what moves, in slices spread over the motion. The geometries are those of the frames. */
   ghosts(frames: ReadonlyMap<number, Shown>): THREE.Group {
     const group = new THREE.Group();

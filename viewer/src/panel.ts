@@ -38,6 +38,11 @@ export class Panel {
     if (this.isOpen && this.tab === "frames") this.tree.show(this.frames);
   }
 
+  /** Call when options have changed elsewhere. */
+  refreshOptions(): void {
+    for (const [option, box] of this.boxes) box.checked = this.display.on.has(option);
+  }
+
   select(id: number | null): void {
     this.tree.select(id);
   }

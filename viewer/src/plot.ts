@@ -1,9 +1,7 @@
-import type { Motion } from "./motion";
-
 const PALETTE = ["#2f6fde", "#d9480f", "#2b8a3e", "#9c36b5", "#e8a200", "#0b7285", "#c2255c", "#5f3dc4", "#74b816", "#868e96"];
 
-/** The color of a dof's curve. */
-export const colorOf = (dof: number): string => PALETTE[dof % PALETTE.length]!;
+/** The color of a curve. */
+export const colorOf = (curve: number): string => PALETTE[curve % PALETTE.length]!;
 
 function prepare(canvas: HTMLCanvasElement): CanvasRenderingContext2D | null {
   const scale = Math.min(devicePixelRatio, 2);
@@ -14,29 +12,45 @@ function prepare(canvas: HTMLCanvasElement): CanvasRenderingContext2D | null {
   return context;
 }
 
-/** The joint values over time, each from its lowest to its highest value, and where the motion is. */
-export function drawCurves(canvas: HTMLCanvasElement, motion: Motion, moment: number): void {
+/** Numbers over the slices of a motion. */
+export interface Curve {
+  name: string;
+  values: ArrayLike<number>; // per slice
+}
+
+const SMALLEST = 1e-6; // error that is drawn; what is less is as good as zero
+
+/** Curves from the lowest to the highest value of all, and where the motion is. With `logarithmic`, powers of ten are evenly apart. */
+export function drawCurves(canvas: HTMLCanvasElement, curves: readonly Curve[], moment: number, logarithmic: boolean): void {
   const context = prepare(canvas);
   if (!context) return;
   const { clientWidth: width, clientHeight: height } = canvas;
-  const { slices, dofs, q } = motion;
-  const low = q.reduce((a, b) => Math.min(a, b), Infinity);
-  const high = q.reduce((a, b) => Math.max(a, b), -Infinity);
+  const scaled = (value: number): number => (logarithmic ? Math.log10(Math.max(value, SMALLEST)) : value);
+  let low = Infinity, high = -Infinity;
+  for (const { values } of curves) {
+    for (let t = 0; t < values.length; ++t) {
+      low = Math.min(low, scaled(values[t]!));
+      high = Math.max(high, scaled(values[t]!));
+    }
+  }
+  const slices = curves[0]?.values.length ?? 0;
   const x = (slice: number): number => (slices < 2 ? width / 2 : (slice / (slices - 1)) * width);
-  const y = (value: number): number => height - 4 - ((value - low) / Math.max(high - low, 1e-9)) * (height - 8);
+  const y = (value: number): number => height - 4 - ((scaled(value) - low) / Math.max(high - low, 1e-9)) * (height - 8);
   const ink = getComputedStyle(canvas).color;
   context.font = "10px ui-monospace, monospace";
-  for (let i = 0; i < dofs; ++i) {
+  curves.forEach(({ values }, i) => {
     context.strokeStyle = colorOf(i);
     context.lineWidth = 1.6;
     context.beginPath();
-    for (let t = 0; t < slices; ++t) context.lineTo(x(t), y(q[t * dofs + i]!));
+    for (let t = 0; t < slices; ++t) context.lineTo(x(t), y(values[t]!));
     context.stroke();
-  }
+  });
+  if (curves.length === 0) return;
+  const text = (value: number): string => (logarithmic ? (10 ** value).toExponential(0) : value.toFixed(2));
   context.fillStyle = context.strokeStyle = ink;
   context.globalAlpha = 0.6;
-  context.fillText(high.toFixed(2), 2, 10);
-  context.fillText(low.toFixed(2), 2, height - 3);
+  context.fillText(text(high), 2, 10);
+  context.fillText(text(low), 2, height - 3);
   context.lineWidth = 1;
   context.beginPath();
   context.moveTo(x(moment), 0);

@@ -1,7 +1,7 @@
 import * as THREE from "three";
-import { RoundedBoxGeometry } from "three/addons/geometries/RoundedBoxGeometry.js";
-import { toCreasedNormals } from "three/addons/utils/BufferGeometryUtils.js";
+import { creased } from "./creased";
 import type { ShapeMessage } from "./messages";
+import { PrimitiveMesh, type Primitives } from "./primitives";
 
 /** A mesh as the server sent it: without triangles it is a point cloud. */
 export interface MeshData {
@@ -13,7 +13,9 @@ export interface MeshData {
 /** Of x, y and z. */
 export const AXIS_COLORS = [0xd64545, 0x3f9c4b, 0x3b6fd6] as const;
 
-const CREASE = 0.7; // rad: edges sharper than this stay sharp
+/** How surfaces reflect. */
+export const SURFACE = { roughness: 0.55, metalness: 0.05 } as const;
+
 const LARGEST_CREASED = 60000; // triangles
 
 export function makeMeshData(positions: Float32Array, indices: Uint32Array, colors: Uint8Array): MeshData {
@@ -33,42 +35,10 @@ export function makeMeshData(positions: Float32Array, indices: Uint32Array, colo
   const isPoints = indices.length === 0;
   if (!isPoints) {
     geometry.setIndex(new THREE.BufferAttribute(indices, 1));
-    if (indices.length < 3 * LARGEST_CREASED) geometry = toCreasedNormals(geometry, CREASE);
+    if (indices.length < 3 * LARGEST_CREASED) geometry = creased(geometry);
     else geometry.computeVertexNormals();
   }
   return { geometry, isPoints, hasColors };
-}
-
-/** A profile of (radius, z) points turned about z; edges between flat parts stay sharp. */
-function turned(profile: [number, number][]): THREE.BufferGeometry {
-  const lathe = new THREE.LatheGeometry(profile.map(([r, z]) => new THREE.Vector2(r, z)), 48);
-  return toCreasedNormals(lathe.rotateX(Math.PI / 2), CREASE);
-}
-
-function roundedCylinder(length: number, radius: number, rounding: number): THREE.BufferGeometry {
-  const profile: [number, number][] = [[0, -length / 2]];
-  for (const half of [-1, 1]) {
-    for (let i = 0; i <= 8; ++i) {
-      const angle = (Math.PI / 2) * ((half < 0 ? i : 8 - i) / 8);
-      profile.push([radius - rounding * (1 - Math.sin(angle)), half * (length / 2 - rounding * (1 - Math.cos(angle)))]);
-    }
-  }
-  profile.push([0, length / 2]);
-  return turned(profile);
-}
-
-function primitive(type: string, size: number[]): THREE.BufferGeometry | null {
-  const [a = 0, b = 0, c = 0, r = 0] = size;
-  switch (type) {
-    case "box": case "sdf": case "tensor": return new THREE.BoxGeometry(a, b, c);
-    case "ssBox": return r > 1e-6 ? new RoundedBoxGeometry(a, b, c, 5, r) : new THREE.BoxGeometry(a, b, c);
-    case "sphere": return new THREE.SphereGeometry(a, 48, 32);
-    case "capsule": return new THREE.CapsuleGeometry(b, a, 16, 48).rotateX(Math.PI / 2);
-    case "cylinder": return turned([[0, -a / 2], [b, -a / 2], [b, a / 2], [0, a / 2]]);
-    case "ssCylinder": return roundedCylinder(a, b, c);
-    case "quad": return new THREE.PlaneGeometry(a, b);
-    default: return null;
-  }
 }
 
 /** Arrows along x (red), y (green) and z (blue). */
@@ -88,8 +58,12 @@ function marker(length: number): THREE.Object3D {
   return group;
 }
 
+function makePrimitive({ type, size }: ShapeMessage, primitives: Primitives, material: THREE.Material): PrimitiveMesh | null {
+  return primitives.get(type, size, 0) ? new PrimitiveMesh(primitives, type, size, material) : null;
+}
+
 /** What a frame shows, in the frame's own coordinates; null if there is nothing to see (yet). */
-export function makeShape(shape: ShapeMessage, meshes: Map<number, MeshData>): THREE.Object3D | null {
+export function makeShape(shape: ShapeMessage, meshes: Map<number, MeshData>, primitives: Primitives): THREE.Object3D | null {
   if (shape.type === "marker" || shape.type === "camera") return marker(shape.size[0] ?? 0.1);
   const [red = 0.8, green = 0.8, blue = 0.8, alpha = 1] = shape.color;
   const color = new THREE.Color().setRGB(red, green, blue, THREE.SRGBColorSpace);
@@ -98,14 +72,13 @@ export function makeShape(shape: ShapeMessage, meshes: Map<number, MeshData>): T
     if (shape.type === "lines") return new THREE.LineSegments(data.geometry, new THREE.LineBasicMaterial({ color }));
     return new THREE.Points(data.geometry, new THREE.PointsMaterial({ size: 4, sizeAttenuation: false, color: data.hasColors ? 0xffffff : color, vertexColors: data.hasColors }));
   }
-  const geometry = data?.geometry ?? primitive(shape.type, shape.size);
-  if (!geometry) return null;
   const transparent = alpha < 1;
   const material = new THREE.MeshStandardMaterial({
-    color: data?.hasColors ? 0xffffff : color, vertexColors: data?.hasColors ?? false, roughness: 0.55, metalness: 0.05,
+    ...SURFACE, color: data?.hasColors ? 0xffffff : color, vertexColors: data?.hasColors ?? false,
     transparent, opacity: alpha, depthWrite: !transparent, side: data || shape.type === "quad" ? THREE.DoubleSide : THREE.FrontSide,
   });
-  const mesh = new THREE.Mesh(geometry, material);
+  const mesh = data ? new THREE.Mesh(data.geometry, material) : makePrimitive(shape, primitives, material);
+  if (!mesh) return null;
   mesh.castShadow = !transparent;
   mesh.receiveShadow = !transparent;
   return mesh;

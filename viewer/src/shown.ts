@@ -1,6 +1,8 @@
 import * as THREE from "three";
 import { BinaryKind, type FrameMessage, type SceneMessage } from "./messages";
-import { makeMeshData, makeShape, type MeshData } from "./shapes";
+import { Instances } from "./instances";
+import { PrimitiveMesh, Primitives } from "./primitives";
+import { makeMeshData, makeShape, type MeshData, SURFACE } from "./shapes";
 
 /** A frame: `anchor` has its pose; `object` is the shape on it, if there is something to see. */
 export interface Shown {
@@ -12,6 +14,7 @@ export interface Shown {
 /** Frees what the graphics card holds of an object; `kept` is a geometry that others use too. */
 function release(object: THREE.Object3D, kept: THREE.BufferGeometry | undefined): void {
   object.traverse((part) => {
+    if (part instanceof PrimitiveMesh) return part.material.dispose();
     if (!(part instanceof THREE.Mesh || part instanceof THREE.Points || part instanceof THREE.LineSegments)) return;
     if (part.geometry !== kept) part.geometry.dispose();
     part.material.dispose();
@@ -23,12 +26,18 @@ export class ShownScene {
   private readonly shown = new Map<number, Shown>();
   readonly frames: ReadonlyMap<number, Shown> = this.shown;
   private readonly meshes = new Map<number, MeshData>();
+  private readonly primitives = new Primitives();
   private readonly poses = new Map<number, Float32Array>();
 
   /** While a motion is shown, poses that arrive wait. */
   held = false;
 
-  constructor(private readonly parent: THREE.Group) {}
+  private readonly instances = new Instances(new THREE.MeshStandardMaterial(SURFACE));
+
+  /** Frames are added to `parent`, and what is drawn for several of them at once to `scene`. */
+  constructor(private readonly parent: THREE.Group, scene: THREE.Scene) {
+    scene.add(this.instances.group);
+  }
 
   get meshCount(): number {
     return this.meshes.size;
@@ -48,7 +57,7 @@ export class ShownScene {
       anchor.name = frame.name;
       anchor.userData.id = frame.id;
       this.parent.add(anchor);
-      const object = frame.shape ? makeShape(frame.shape, this.meshes) : null;
+      const object = frame.shape ? makeShape(frame.shape, this.meshes, this.primitives) : null;
       if (object) anchor.add(object);
       this.shown.set(frame.id, { message: frame, anchor, object });
       this.place(frame.id);
@@ -69,6 +78,12 @@ export class ShownScene {
   /** Puts all frames where the last message said. */
   placeAll(): void {
     for (const id of this.shown.keys()) this.place(id);
+  }
+
+  /** Call before a picture: shapes are drawn as finely as they are large on it. `scale`: pixels of a metre that is a metre away. */
+  prepare(camera: THREE.Vector3, scale: number): void {
+    for (const mesh of this.primitiveMeshes()) mesh.refine(camera, scale);
+    this.instances.update(this.primitiveMeshes());
   }
 
   private readPoses(view: DataView): void {
@@ -110,6 +125,10 @@ export class ShownScene {
     this.shown.delete(id);
   }
 
+  private *primitiveMeshes(): Generator<PrimitiveMesh> {
+    for (const { object } of this.shown.values()) if (object instanceof PrimitiveMesh) yield object;
+  }
+
   /** The server keeps no other meshes than those in use, and counts on the same here. */
   private dropUnusedMeshes(): void {
     const used = new Set([...this.shown.values()].map((shown) => shown.message.shape?.mesh));
@@ -118,5 +137,6 @@ export class ShownScene {
       mesh.geometry.dispose();
       this.meshes.delete(number);
     }
+    this.primitives.keep(this.primitiveMeshes());
   }
 }

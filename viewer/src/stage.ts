@@ -2,14 +2,22 @@ import * as THREE from "three";
 import { OrbitControls } from "three/addons/controls/OrbitControls.js";
 import { CSS2DRenderer } from "three/addons/renderers/CSS2DRenderer.js";
 import { isSeen } from "./display";
+import { Floor } from "./floor";
+import { drawsInSoftware, Quality } from "./quality";
 
 /** A point on a shape. */
 export interface Hit {
   id: number; // of the frame
   point: THREE.Vector3;
+  normal: THREE.Vector3; // of the surface, world
 }
 
+const SUN = new THREE.Vector3(-2.5, 2.2, 4.5).normalize(); // direction towards it
+const LEAST_SHADOWED = 1, MOST_SHADOWED = 12; // m
+const SHADOW_PERIOD = 3; // pictures
 const STILL = 5; // pixels: a pointer that moves less has clicked
+
+const colorOf = (rgb: number[]): THREE.Color => new THREE.Color().setRGB(rgb[0]!, rgb[1]!, rgb[2]!, THREE.SRGBColorSpace);
 
 /** Canvas, camera, lights and floor: everything but the scene itself. Draws only when something has changed. */
 export class Stage {
@@ -19,25 +27,33 @@ export class Stage {
   readonly renderer: THREE.WebGLRenderer;
   readonly controls: OrbitControls;
   private readonly labels = new CSS2DRenderer();
-  private readonly sun = new THREE.DirectionalLight(0xffffff, 2.1);
+  private readonly floor = new Floor();
+  private ground: THREE.Color | null = null; // behind everything, if the program says so
+  private readonly sun = new THREE.DirectionalLight(0xfffaf2, 2.35);
   private readonly ticks: ((seconds: number) => void)[] = [];
+  private readonly preparations: (() => void)[] = [];
   private readonly timer = new THREE.Timer();
-  private dirty = true;
+  private readonly quality: Quality;
+  private dirty = true; // the next picture differs from the last
+  private shadowsAreOld = true;
+  private picture = 0;
 
   constructor(readonly canvas: HTMLCanvasElement) {
-    this.renderer = new THREE.WebGLRenderer({ canvas, antialias: true });
-    this.renderer.setPixelRatio(Math.min(devicePixelRatio, 2));
+    const software = drawsInSoftware();
+    this.quality = new Quality(software);
+    this.renderer = new THREE.WebGLRenderer({ canvas, antialias: !software });
     this.renderer.shadowMap.enabled = true;
+    this.renderer.shadowMap.autoUpdate = false;
     this.renderer.shadowMap.type = THREE.PCFShadowMap;
     this.renderer.toneMapping = THREE.NeutralToneMapping;
     this.labels.domElement.className = "labels";
     canvas.after(this.labels.domElement);
     this.camera.up.set(0, 0, 1);
     this.controls = new OrbitControls(this.camera, canvas);
-    this.controls.addEventListener("change", () => this.redraw());
+    this.controls.addEventListener("change", () => (this.dirty = true));
     this.addLights();
-    this.addFloor();
-    this.scene.add(this.frames);
+    this.fitShadows();
+    this.scene.add(this.frames, this.floor.group);
     this.lookFrom(new THREE.Vector3(1.5, 2.6, 1.8), new THREE.Vector3(0, 0, 0.9));
     addEventListener("resize", () => this.resize());
     matchMedia("(prefers-color-scheme: dark)").addEventListener("change", () => this.paper());
@@ -48,6 +64,8 @@ export class Stage {
       this.timer.update(time);
       const seconds = this.timer.getDelta();
       for (const tick of this.ticks) tick(seconds);
+      if (this.dirty) this.quality.change(time);
+      else if (this.quality.rest(time)) this.redraw();
       this.draw();
     });
   }
@@ -55,6 +73,11 @@ export class Stage {
   /** Called before every picture with the time since the one before. */
   onTick(tick: (seconds: number) => void): void {
     this.ticks.push(tick);
+  }
+
+  /** Called before a picture that differs from the last. */
+  onDraw(prepare: () => void): void {
+    this.preparations.push(prepare);
   }
 
   /** Called when the canvas is clicked, or touched, without a drag. */
@@ -69,7 +92,12 @@ export class Stage {
     });
   }
 
-  lookFrom(position: THREE.Vector3, target: THREE.Vector3): void {
+  /** `focal`: focal length in heights of the window; 0: as it is. */
+  lookFrom(position: THREE.Vector3, target: THREE.Vector3, focal = 0): void {
+    if (focal > 0) {
+      this.camera.fov = THREE.MathUtils.radToDeg(2 * Math.atan(0.5 / focal));
+      this.camera.updateProjectionMatrix();
+    }
     this.camera.position.copy(position);
     this.controls.target.copy(target);
     this.controls.update();
@@ -79,12 +107,7 @@ export class Stage {
 
   /** Looks at all that is there from a direction. */
   lookAlong(direction: THREE.Vector3): void {
-    const box = new THREE.Box3();
-    this.frames.traverse((object) => {
-      if (object instanceof THREE.Mesh && isSeen(object)) box.expandByObject(object);
-    });
-    if (box.isEmpty()) box.set(new THREE.Vector3(-1, -1, 0), new THREE.Vector3(1, 1, 1));
-    const sphere = box.getBoundingSphere(new THREE.Sphere());
+    const sphere = this.extent();
     const half = THREE.MathUtils.degToRad(this.camera.fov / 2);
     const distance = sphere.radius / Math.sin(Math.min(half, Math.atan(Math.tan(half) * this.camera.aspect)));
     this.controls.target.copy(sphere.center);
@@ -93,65 +116,99 @@ export class Stage {
     this.redraw();
   }
 
+  /** A ball around all that is seen. */
+  private extent(): THREE.Sphere {
+    this.frames.updateMatrixWorld();
+    const box = new THREE.Box3();
+    this.frames.traverse((object) => {
+      if (object instanceof THREE.Mesh && isSeen(object)) box.expandByObject(object);
+    });
+    if (box.isEmpty()) box.set(new THREE.Vector3(-1, -1, 0), new THREE.Vector3(1, 1, 1));
+    return box.getBoundingSphere(new THREE.Sphere());
+  }
+
+  /** Call when frames have come or gone: what is there casts shadows, however large or far away it is. */
+  fitShadows(): void {
+    const { center, radius } = this.extent();
+    const reach = THREE.MathUtils.clamp(1.1 * radius, LEAST_SHADOWED, MOST_SHADOWED);
+    const { camera } = this.sun.shadow;
+    this.sun.target.position.copy(center);
+    this.sun.position.copy(center).addScaledVector(SUN, 2 * reach);
+    Object.assign(camera, { left: -reach, right: reach, top: reach, bottom: -reach, near: 0.1 * reach, far: 4 * reach });
+    camera.updateProjectionMatrix();
+    this.redraw();
+  }
+
+  /** Turns the camera about what it looks at, by angles to the right and upwards (rad), and goes nearer by a factor. */
+  turn(right: number, up: number, nearer = 1): void {
+    const { position } = this.camera, { target } = this.controls;
+    const away = position.clone().sub(target);
+    const height = THREE.MathUtils.clamp(Math.asin(away.z / away.length()) + up, -1.55, 1.55);
+    const around = Math.atan2(away.y, away.x) + right, distance = away.length() / nearer;
+    position.set(Math.cos(around) * Math.cos(height), Math.sin(around) * Math.cos(height), Math.sin(height)).multiplyScalar(distance).add(target);
+    this.controls.update();
+    this.dirty = true;
+  }
+
   home(): void {
     this.controls.reset();
     this.redraw();
   }
 
+  /** Draws now, in full resolution. */
+  drawFully(): void {
+    this.quality.setFull();
+    this.redraw();
+    this.draw();
+  }
+
+  /** Call when anything but the camera has changed. */
   redraw(): void {
-    this.dirty = true;
+    this.dirty = this.shadowsAreOld = true;
   }
 
   /** True if what is on the screen is up to date. */
   get idle(): boolean {
-    return !this.dirty;
+    return !this.dirty && this.quality.isFull;
   }
 
   /** What is to be seen at a place of the canvas. */
   pick(event: MouseEvent): Hit | null {
     const at = new THREE.Vector2((2 * event.offsetX) / this.canvas.clientWidth - 1, 1 - (2 * event.offsetY) / this.canvas.clientHeight);
     const ray = new THREE.Raycaster();
+    ray.layers.enableAll();
     ray.setFromCamera(at, this.camera);
     const hit = ray.intersectObject(this.frames, true).find(({ object }) => object instanceof THREE.Mesh && isSeen(object));
     for (let object = hit?.object ?? null; object; object = object.parent) {
-      if (typeof object.userData.id === "number") return { id: object.userData.id, point: hit!.point };
+      if (typeof object.userData.id === "number") return { id: object.userData.id, point: hit!.point, normal: hit!.face!.normal.clone().transformDirection(hit!.object.matrixWorld) };
     }
     return null;
   }
 
   private addLights(): void {
-    this.scene.add(new THREE.HemisphereLight(0xffffff, 0xb9b4aa, 1.7));
-    this.sun.position.set(-2.5, 2.2, 5);
-    this.sun.target.position.set(0, 0, 0.5);
+    this.scene.add(new THREE.HemisphereLight(0xffffff, 0x8f919c, 1.35));
     this.sun.castShadow = true;
     this.sun.shadow.mapSize.set(2048, 2048);
     this.sun.shadow.radius = 5;
     this.sun.shadow.bias = -0.0003;
     this.sun.shadow.normalBias = 0.01;
-    const reach = 2.6;
-    Object.assign(this.sun.shadow.camera, { left: -reach, right: reach, top: reach, bottom: -reach, near: 0.5, far: 12 });
     this.scene.add(this.sun, this.sun.target);
-    const fill = new THREE.DirectionalLight(0xdfe8ff, 0.7);
+    const fill = new THREE.DirectionalLight(0xdfe8ff, 0.75);
     fill.position.set(3, -2, 2.5);
     this.scene.add(fill);
   }
 
-  private addFloor(): void {
-    const floor = new THREE.Mesh(new THREE.PlaneGeometry(40, 40), new THREE.ShadowMaterial({ opacity: 0.22 }));
-    floor.receiveShadow = true;
-    floor.position.z = -0.001;
-    this.scene.add(floor);
-    const fine = new THREE.GridHelper(10, 50, 0x8a93a0, 0x8a93a0).rotateX(Math.PI / 2);
-    const coarse = new THREE.GridHelper(10, 10, 0x6f7885, 0x6f7885).rotateX(Math.PI / 2);
-    for (const [grid, opacity] of [[fine, 0.16], [coarse, 0.5]] as const) {
-      Object.assign(grid.material, { transparent: true, opacity, depthWrite: false });
-      grid.position.z = -0.002;
-      this.scene.add(grid);
-    }
+  /** Colors are rgb in 0..1; [] is the page's own, and a floor of any other length than 3 is none. */
+  setLook(background: number[], floor: number[], shadows: boolean): void {
+    this.ground = background.length === 3 ? colorOf(background) : null;
+    this.floor.setColor(floor.length === 3 ? colorOf(floor) : null);
+    this.floor.group.visible = floor.length === 0 || floor.length === 3;
+    this.sun.castShadow = shadows;
+    this.paper();
   }
 
   private paper(): void {
-    const color = getComputedStyle(document.documentElement).getPropertyValue("--paper").trim();
+    const color = this.ground ?? getComputedStyle(document.documentElement).getPropertyValue("--paper").trim();
     this.scene.background = new THREE.Color(color);
     this.scene.fog = new THREE.Fog(color, 9, 28);
     this.redraw();
@@ -164,6 +221,23 @@ export class Stage {
     this.camera.aspect = width / Math.max(height, 1);
     this.camera.updateProjectionMatrix();
     this.redraw();
+  }
+
+  /** In every picture, but not on slow machines while things move. */
+  private updateShadows(): void {
+    if (!this.shadowsAreOld || (!this.quality.isFull && ++this.picture % SHADOW_PERIOD !== 0)) return;
+    this.renderer.shadowMap.needsUpdate = true;
+    this.shadowsAreOld = false;
+  }
+
+  /** Pixels drawn per pixel of the page, across and down. */
+  get resolution(): number {
+    return this.quality.ratio;
+  }
+
+  /** Pixels of a metre that is a metre away. */
+  get scale(): number {
+    return (this.canvas.clientHeight * this.renderer.getPixelRatio()) / (2 * Math.tan(THREE.MathUtils.degToRad(this.camera.fov / 2)));
   }
 
   /** A double click turns about the point that was hit from there on. */
@@ -179,6 +253,10 @@ export class Stage {
   draw(): void {
     if (!this.dirty) return;
     this.dirty = false;
+    if (this.renderer.getPixelRatio() !== this.quality.ratio) this.renderer.setPixelRatio(this.quality.ratio);
+    for (const prepare of this.preparations) prepare();
+    this.floor.follow(this.camera.position);
+    this.updateShadows();
     this.renderer.render(this.scene, this.camera);
     this.labels.render(this.scene, this.camera);
   }

@@ -1,11 +1,13 @@
 import * as THREE from "three";
 import { find, make } from "./element";
 import type { JointPanel } from "./joints";
+import { Marks } from "./marks";
 import { Motion } from "./motion";
-import { colorOf, drawCurves, drawViolations, isViolated } from "./plot";
+import { colorOf, type Curve, drawCurves, drawViolations, isViolated } from "./plot";
 import type { ShownScene } from "./shown";
 import type { Stage } from "./stage";
 
+type Plotted = "joints" | "errors" | null;
 const SPEEDS = [0.1, 0.25, 0.5, 1, 2, 4];
 
 /** Plays a motion: a bar with a time slider, speed, curves of the joints, and all slices at once. */
@@ -16,6 +18,9 @@ export class Timeline {
   private speed = 1;
   private loop = false;
   private ghosts: THREE.Group | null = null;
+  private plotted: Plotted = null;
+  private curvesShown: Curve[] = [];
+  private readonly marked: Marks;
   private readonly root = find("motion");
   private readonly playButton = make("button", { className: "play", ariaLabel: "play", onclick: () => this.toggle() });
   private readonly slider = make("input", { type: "range", min: "0", step: "any", ariaLabel: "time" });
@@ -25,6 +30,11 @@ export class Timeline {
   private readonly curves = make("canvas", { className: "curves" });
   private readonly plot = make("div", { className: "plot", hidden: true });
   private readonly legend = make("div", { className: "legend" });
+  private readonly plotBoxes = {
+    joints: make("input", { type: "checkbox", onchange: () => this.setPlotted(this.plotBoxes.joints.checked ? "joints" : null) }),
+    errors: make("input", { type: "checkbox", onchange: () => this.setPlotted(this.plotBoxes.errors.checked ? "errors" : null) }),
+  };
+  private readonly errorsLabel = make("label", {}, this.plotBoxes.errors, "errors");
   private readonly ghostBox = make("input", { type: "checkbox", onchange: () => this.showGhosts(this.ghostBox.checked) });
 
   constructor(
@@ -36,7 +46,7 @@ export class Timeline {
     const speed = make("select", { ariaLabel: "speed" }, ...SPEEDS.map((x) => make("option", { value: String(x), textContent: `${x}×`, selected: x === 1 })));
     speed.addEventListener("change", () => (this.speed = Number(speed.value)));
     const loopBox = make("input", { type: "checkbox", onchange: () => (this.loop = loopBox.checked) });
-    const plotBox = make("input", { type: "checkbox", onchange: () => this.showPlot(plotBox.checked) });
+    this.marked = new Marks(shown.frames);
     this.slider.addEventListener("input", () => this.goTo(this.slider.valueAsNumber));
     this.plot.append(this.curves, this.legend);
     this.root.append(this.text, this.plot,
@@ -44,7 +54,7 @@ export class Timeline {
         this.playButton,
         make("div", { className: "track" }, this.marks, this.slider),
         this.time, speed,
-        make("label", {}, loopBox, "loop"), make("label", {}, this.ghostBox, "all slices"), make("label", {}, plotBox, "curves")));
+        make("label", {}, loopBox, "loop"), make("label", {}, this.ghostBox, "all slices"), make("label", {}, this.plotBoxes.joints, "curves"), this.errorsLabel));
     stage.onTick((seconds) => this.advance(seconds));
     stage.canvas.addEventListener("wheel", (event) => {
       if (!event.shiftKey || !this.motion) return;
@@ -59,8 +69,13 @@ export class Timeline {
     return this.motion;
   }
 
+  /** Slices before the path have negative numbers. */
   get slice(): number {
-    return this.moment;
+    return this.moment - (this.motion?.message.prefix ?? 0);
+  }
+
+  get markCount(): number {
+    return this.marked.count;
   }
 
   get isPlaying(): boolean {
@@ -74,11 +89,8 @@ export class Timeline {
     this.root.hidden = false;
     document.body.classList.add("has-motion");
     this.slider.max = String(motion.slices - 1);
-    this.legend.replaceChildren(...this.joints.current.joints.slice(0, motion.dofs).map(({ name }, i) => {
-      const item = make("span", { textContent: name });
-      item.style.setProperty("--color", colorOf(i));
-      return item;
-    }));
+    this.errorsLabel.hidden = motion.message.traces.length === 0;
+    this.setPlotted(this.plotted === "errors" && this.errorsLabel.hidden ? null : this.plotted);
     const { start, first } = motion.message;
     this.showGhosts(start === "all");
     this.setPlaying(start === "play");
@@ -89,6 +101,7 @@ export class Timeline {
     if (!this.motion) return;
     this.showGhosts(false);
     this.setPlaying(false);
+    this.marked.show([]);
     this.motion = null;
     this.shown.held = false;
     this.root.hidden = true;
@@ -160,9 +173,22 @@ export class Timeline {
     this.stage.redraw();
   }
 
-  private showPlot(on: boolean): void {
-    this.plot.hidden = !on;
+  private setPlotted(plotted: Plotted): void {
+    this.plotted = plotted;
+    for (const kind of ["joints", "errors"] as const) this.plotBoxes[kind].checked = kind === plotted;
+    this.plot.hidden = plotted === null;
+    this.curvesShown = this.motion ? this.curvesOf(this.motion) : [];
+    this.legend.replaceChildren(...this.curvesShown.map(({ name }, i) => {
+      const item = make("span", { textContent: name });
+      item.style.setProperty("--color", colorOf(i));
+      return item;
+    }));
     this.draw();
+  }
+
+  private curvesOf(motion: Motion): Curve[] {
+    if (this.plotted === "errors") return motion.message.traces.map(({ name, type, values }) => ({ name: `${name} (${type})`, values }));
+    return this.joints.current.joints.slice(0, motion.dofs).map(({ name }, i) => ({ name, values: motion.curveOf(i) }));
   }
 
   private draw(): void {
@@ -171,13 +197,15 @@ export class Timeline {
     const slice = Math.round(this.moment);
     const last = Math.max(slices - 1, 1);
     this.slider.value = String(this.moment);
-    this.slider.ariaValueText = `slice ${slice} of ${slices}`;
-    this.time.textContent = `${slice}/${slices - 1}   ${((this.moment / last) * message.seconds).toFixed(2)} s`;
+    const number = slice - message.prefix, highest = slices - 1 - message.prefix;
+    this.slider.ariaValueText = `slice ${number} of ${highest}`;
+    this.time.textContent = `${number}/${highest}   ${((this.moment / last) * message.seconds).toFixed(2)} s`;
     const text = message.texts[slice] ?? "";
     this.text.textContent = text;
     this.text.hidden = text === "";
     this.text.classList.toggle("violated", isViolated(message.violations[slice]));
     drawViolations(this.marks, message.violations, slices);
-    if (!this.plot.hidden) drawCurves(this.curves, this.motion, this.moment);
+    if (!this.plot.hidden) drawCurves(this.curves, this.curvesShown, this.moment, this.plotted === "errors");
+    this.marked.show(message.marked[slice] ?? []);
   }
 }

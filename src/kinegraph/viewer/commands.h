@@ -13,6 +13,7 @@ namespace kinegraph {
 struct KeyCommand {
   static constexpr int kKind = 1;
   int code = 0;
+  int modifiers = 0;
 };
 
 struct SetJointCommand {
@@ -39,8 +40,28 @@ struct MoveFrameCommand {
   std::vector<double> pose;
 };
 
+struct NearCommand {
+  static constexpr int kKind = 6;
+  int structure = 0;
+  double margin = 0;
+};
+
+struct EventCommand {
+  static constexpr int kKind = 7;
+  int what = 0;
+  int code = 0;
+  int modifiers = 0;
+};
+
+struct CursorCommand {
+  static constexpr int kKind = 8;
+  int frame = 0;
+  std::vector<double> point;
+  std::vector<double> normal;
+};
+
 /// What a browser asks for.
-using Command = std::variant<KeyCommand, SetJointCommand, ResetJointsCommand, RandomJointsCommand, MoveFrameCommand>;
+using Command = std::variant<KeyCommand, SetJointCommand, ResetJointsCommand, RandomJointsCommand, MoveFrameCommand, NearCommand, EventCommand, CursorCommand>;
 
 /// Reads a binary message from a browser; nothing if it is not exactly one command.
 inline std::optional<Command> readCommand(std::string_view data) {
@@ -50,7 +71,7 @@ inline std::optional<Command> readCommand(std::string_view data) {
   switch (kind) {
     case KeyCommand::kKind: {
       KeyCommand m;
-      if (reader.read(m.code) && reader.atEnd()) return m;
+      if (reader.read(m.code) && reader.read(m.modifiers) && reader.atEnd()) return m;
       break;
     }
     case SetJointCommand::kKind: {
@@ -71,6 +92,21 @@ inline std::optional<Command> readCommand(std::string_view data) {
     case MoveFrameCommand::kKind: {
       MoveFrameCommand m;
       if (reader.read(m.structure) && reader.read(m.frame) && reader.read(m.pose) && reader.atEnd()) return m;
+      break;
+    }
+    case NearCommand::kKind: {
+      NearCommand m;
+      if (reader.read(m.structure) && reader.read(m.margin) && reader.atEnd()) return m;
+      break;
+    }
+    case EventCommand::kKind: {
+      EventCommand m;
+      if (reader.read(m.what) && reader.read(m.code) && reader.read(m.modifiers) && reader.atEnd()) return m;
+      break;
+    }
+    case CursorCommand::kKind: {
+      CursorCommand m;
+      if (reader.read(m.frame) && reader.read(m.point) && reader.read(m.normal) && reader.atEnd()) return m;
       break;
     }
   }

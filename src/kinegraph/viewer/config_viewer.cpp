@@ -26,6 +26,9 @@ void ConfigViewer::update(const Config& config) {
   to.update(items_.items());
   to.setJoints(items_.structure(), items_.joints(), config.getJointState());
   edits_->setScene(config.scene()->snapshot(), items_.structure());
+  if (clients() == 0) edits_->forgetMargin();
+  const double margin = edits_->margin();
+  to.setNear(margin > 0. ? nearLines(config, margin) : std::vector<NearLine>{});
 }
 
 bool ConfigViewer::takeEdits(Config& config) { return items_.isOf(config) && edits_->takeInto(config); }
@@ -33,13 +36,15 @@ bool ConfigViewer::takeEdits(Config& config) { return items_.isOf(config) && edi
 int ConfigViewer::view(Config& config, bool pause, const std::optional<std::string>& message, const Stop& stop) {
   takeEdits(config);
   update(config);
-  if (!pause) {
-    if (message) server().setMessage(*message);
-    return server().takeKey();
-  }
-  const int key = ask(message, stop);
-  if (takeEdits(config)) update(config);
+  const int key = wait(pause, message, stop);
+  if (pause && takeEdits(config)) update(config);
   return key;
+}
+
+int ConfigViewer::wait(bool pause, const std::optional<std::string>& message, const Stop& stop) {
+  if (pause) return ask(message, stop);
+  if (message) server().setMessage(*message);
+  return server().takeKey();
 }
 
 int ConfigViewer::showMotion(const Config& config, const ShownMotion& motion, bool pause, const std::optional<std::string>& message,
@@ -74,12 +79,15 @@ int ConfigViewer::waitKey(const std::string& prompt, const Stop& stop) {
     std::printf("%s (in the browser, or Enter here)\n", prompt.c_str());
     std::fflush(stdout);
   }
-  bool entered = false;
+  bool entered = false, seen = false;
   auto last_seen = std::chrono::steady_clock::now();
   const int key = server().waitKey([&] {
     const auto now = std::chrono::steady_clock::now();
-    if (clients() > 0) last_seen = now;
-    return (entered = enterWasPressed()) || (!terminal && now - last_seen > kPatience) || stop();
+    if (clients() > 0) {
+      last_seen = now;
+      seen = true;
+    }
+    return (entered = enterWasPressed()) || ((!terminal || seen) && now - last_seen > kPatience) || stop();
   });
   return entered ? 13 : key;
 }

@@ -18,9 +18,12 @@ class ConfigViewer {
 
   /// Takes over what people have changed in browsers (see `takeEdits`), and shows the configuration as it is then. Returns
   /// the key pressed since the last call, or 0. With `pause`, waits for a new key: in the browser, or Enter on the terminal.
-  /// Nothing waits where KINEGRAPH_HEADLESS is set; without a terminal, nothing waits for more than 5 s in which no browser
-  /// is connected.
+  /// Nothing waits where KINEGRAPH_HEADLESS is set, or for more than 5 s in which no browser is connected; at a terminal,
+  /// though, for as long as none has been there.
   int view(Config& config, bool pause, const std::optional<std::string>& message, const Stop& stop);
+
+  /// Shows a message, and waits for a key with `pause`, as view does. Changes nothing else.
+  int wait(bool pause, const std::optional<std::string>& message, const Stop& stop);
 
   /// Shows, without looking at keys and edits.
   void update(const Config& config);
@@ -41,7 +44,7 @@ class ConfigViewer {
   void setTitle(const std::string& text) { server().setTitle(text); }
   void select(int frame) { server().select(frame); }  ///< shows the card of a frame, with handles to move it
   std::string recording() { return server().recording(); }  ///< an HTML page with all that is shown inside
-  void setCamera(const Vector3d& position, const Vector3d& target) { server().setCamera(position, target); }
+  void setCamera(const Vector3d& position, const Vector3d& target, double focal_length = 0.) { server().setCamera(position, target, focal_length); }
   std::string url() { return server().url(); }
   int clients() const { return server_ ? server_->clients() : 0; }
   int takeKey() { return server_ ? server_->takeKey() : 0; }

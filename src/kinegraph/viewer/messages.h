@@ -17,6 +17,7 @@ enum class BinaryKind : std::uint32_t {
   mesh = 2,
   joints = 3,
   motion = 4,
+  quad = 5,
 };
 
 struct ShapeMessage {
@@ -71,6 +72,20 @@ inline void writeJson(JsonWriter& json, const JointMessage& m) {
   json.endObject();
 }
 
+struct TraceMessage {
+  std::string name;
+  std::string type;
+  std::vector<double> values;
+};
+
+inline void writeJson(JsonWriter& json, const TraceMessage& m) {
+  json.beginObject();
+  json.field("name", m.name);
+  json.field("type", m.type);
+  json.field("values", m.values);
+  json.endObject();
+}
+
 struct SceneMessage {
   int count = 0;
   std::vector<FrameMessage> frames;
@@ -115,6 +130,7 @@ inline void writeJson(JsonWriter& json, const TextMessage& m) {
 struct CameraMessage {
   std::vector<double> position;
   std::vector<double> target;
+  double focal = 0;
 };
 
 inline void writeJson(JsonWriter& json, const CameraMessage& m) {
@@ -122,6 +138,45 @@ inline void writeJson(JsonWriter& json, const CameraMessage& m) {
   json.field("kind", std::string("camera"));
   json.field("position", m.position);
   json.field("target", m.target);
+  json.field("focal", m.focal);
+  json.endObject();
+}
+
+struct LookMessage {
+  int visualsOnly = 0;
+  std::vector<double> background;
+  std::vector<double> floor;
+  int shadows = 0;
+  int text = 0;
+  int events = 0;
+  int cursor = 0;
+};
+
+inline void writeJson(JsonWriter& json, const LookMessage& m) {
+  json.beginObject();
+  json.field("kind", std::string("look"));
+  json.field("visualsOnly", m.visualsOnly);
+  json.field("background", m.background);
+  json.field("floor", m.floor);
+  json.field("shadows", m.shadows);
+  json.field("text", m.text);
+  json.field("events", m.events);
+  json.field("cursor", m.cursor);
+  json.endObject();
+}
+
+struct NearMessage {
+  std::vector<double> points;
+  std::vector<double> distances;
+  std::vector<std::string> names;
+};
+
+inline void writeJson(JsonWriter& json, const NearMessage& m) {
+  json.beginObject();
+  json.field("kind", std::string("near"));
+  json.field("points", m.points);
+  json.field("distances", m.distances);
+  json.field("names", m.names);
   json.endObject();
 }
 
@@ -141,8 +196,11 @@ struct MotionMessage {
   double seconds = 0;
   std::string start;
   int first = 0;
+  int prefix = 0;
   std::vector<std::string> texts;
   std::vector<double> violations;
+  std::vector<std::vector<int>> marked;
+  std::vector<TraceMessage> traces;
 };
 
 inline void writeJson(JsonWriter& json, const MotionMessage& m) {
@@ -152,8 +210,11 @@ inline void writeJson(JsonWriter& json, const MotionMessage& m) {
   json.field("seconds", m.seconds);
   json.field("start", m.start);
   json.field("first", m.first);
+  json.field("prefix", m.prefix);
   json.field("texts", m.texts);
   json.field("violations", m.violations);
+  json.field("marked", m.marked);
+  json.field("traces", m.traces);
   json.endObject();
 }
 

@@ -2,6 +2,7 @@
 
 #include "kinegraph/viewer/client_page.h"
 #include "kinegraph/viewer/json.h"
+#include "kinegraph/viewer/scene_items.h"
 
 namespace kinegraph {
 
@@ -52,6 +53,18 @@ std::string recordedPage(const std::vector<Outgoing>& messages) {
   std::string page(clientPage());
   page.replace(page.find(kPlace), kPlace.size(), "<script type=\"application/json\" id=\"recording\">" + recording + "</script>");
   return page;
+}
+
+std::string recordedScene(const Config& config, const ShownMotion* motion, const std::string& title) {
+  SceneItems items;
+  items.read(config);
+  ShownScene scene;
+  scene.title = title;
+  scene.update(items.items());
+  scene.setJoints(items.structure(), items.joints(), config.getJointState());
+  if (motion) scene.setMotion(*motion);
+  ShownScene::Seen nothing;
+  return recordedPage(scene.messagesSince(nothing));
 }
 
 }  // namespace kinegraph

@@ -30,7 +30,9 @@ void SceneEdits::setScene(std::shared_ptr<const SceneTree> scene, int structure)
 std::optional<EditedScene> SceneEdits::apply(const Command& command) {
   const std::lock_guard lock(mutex_);
   if (!scene_ || !change(command)) return std::nullopt;
-  return EditedScene{posesOf(*edited_), edited_->getJointState()};
+  EditedScene result{posesOf(*edited_), edited_->getJointState(), {}};
+  if (margin_ > 0.) result.near = nearLines(*edited_, margin_);
+  return result;
 }
 
 bool SceneEdits::takeInto(Config& config) {
@@ -48,6 +50,16 @@ bool SceneEdits::takeInto(Config& config) {
 bool SceneEdits::hasAny() const {
   const std::lock_guard lock(mutex_);
   return !joints_.empty() || !frames_.empty();
+}
+
+double SceneEdits::margin() const {
+  const std::lock_guard lock(mutex_);
+  return margin_;
+}
+
+void SceneEdits::forgetMargin() {
+  const std::lock_guard lock(mutex_);
+  margin_ = 0.;
 }
 
 Config& SceneEdits::edited() {
@@ -77,6 +89,8 @@ bool SceneEdits::change(const Command& command) {
     setAllJoints(randomJointState(config, random_));
   } else if (const auto* move = std::get_if<MoveFrameCommand>(&command)) {
     return moveFrame(move->frame, move->pose);
+  } else if (const auto* near = std::get_if<NearCommand>(&command)) {
+    margin_ = std::clamp(near->margin, 0., 1.);
   }
   return true;
 }

@@ -25,6 +25,10 @@ class SceneEdits {
 
   bool hasAny() const;
 
+  /// How near, m, shapes have to be that browsers want to see lines between; 0: none wants to.
+  double margin() const;
+  void forgetMargin();
+
  private:
   Config& edited();
   bool change(const Command& command);
@@ -38,6 +42,7 @@ class SceneEdits {
   std::optional<Config> edited_;   ///< the scene with the changes; made when there is first something to change
   std::map<int, double> joints_;   ///< dof -> value
   std::map<int, Pose> frames_;     ///< frame -> pose in its parent, or in the world without one
+  double margin_ = 0.;
   Rng random_;
 };
 

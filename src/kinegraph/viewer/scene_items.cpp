@@ -10,18 +10,6 @@ namespace kinegraph {
 
 namespace {
 
-/// What a `.g` file would say of a frame, but for its pose and joint values, which change, and long lists of numbers.
-std::string detailsOf(const FrameData& frame) {
-  constexpr std::size_t kLongest = 40;
-  Graph graph = describeFrame(frame);
-  for (const char* key : {"pose", "q"}) graph.erase(key);
-  std::erase_if(graph.nodes, [](const Node& node) {
-    const auto* numbers = node.value.as<NumberArray>();
-    return numbers && numbers->numbers.size() > kLongest;
-  });
-  return writeEntries(graph);
-}
-
 /// The unit of each dof of a joint.
 std::vector<std::string> unitsOf(const Joint& joint) {
   std::vector<std::string> units;
@@ -51,6 +39,17 @@ std::vector<ShownJoint> jointsOf(const Config& config) {
 }
 
 }  // namespace
+
+std::string detailsOf(const FrameData& frame) {
+  constexpr std::size_t kLongest = 40;
+  Graph graph = describeFrame(frame);
+  for (const char* key : {"pose", "q"}) graph.erase(key);
+  std::erase_if(graph.nodes, [](const Node& node) {
+    const auto* numbers = node.value.as<NumberArray>();
+    return numbers && numbers->numbers.size() > kLongest;
+  });
+  return writeEntries(graph);
+}
 
 std::vector<Pose> posesOf(const Config& config) {
   const State& state = config.state();

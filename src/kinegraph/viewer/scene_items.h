@@ -32,6 +32,9 @@ class SceneItems {
   VisualMeshes visual_meshes_;
 };
 
+/// What a `.g` file would say of a frame, but for its pose and joint values, which change, and long lists of numbers.
+std::string detailsOf(const FrameData& frame);
+
 /// World poses of all frames.
 std::vector<Pose> posesOf(const Config& config);
 

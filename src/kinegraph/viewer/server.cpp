@@ -14,6 +14,7 @@
 #include "kinegraph/base/errors.h"
 #include "kinegraph/base/text.h"
 #include "kinegraph/viewer/client_page.h"
+#include "kinegraph/viewer/input_events.h"
 #include "kinegraph/viewer/messages.h"
 #include "kinegraph/viewer/recorded_page.h"
 #include "kinegraph/viewer/shown_scene.h"
@@ -36,7 +37,10 @@ struct Shared {
   std::condition_variable changed;  ///< a key was pressed, a client came
   ShownScene scene;
   int key = 0;
+  bool key_releases = false;  ///< it ends the waiting for a key
   int clients = 0;
+  InputEvents events;
+  std::optional<Cursor> cursor;
 
   /// The page with all that is shown now.
   std::string recording() const {
@@ -281,7 +285,9 @@ class ViewerServer::Impl {
  private:
   /// On the server's thread.
   void receive(const Command& command) {
-    if (const auto* key = std::get_if<KeyCommand>(&command)) return press(key->code);
+    if (const auto* key = std::get_if<KeyCommand>(&command)) return press(*key);
+    if (const auto* event = std::get_if<EventCommand>(&command)) return takeEvent(*event);
+    if (const auto* cursor = std::get_if<CursorCommand>(&command)) return moveCursor(*cursor);
     std::optional<EditedScene> edited;
     try {
       const std::lock_guard lock(answer_mutex_);
@@ -296,11 +302,25 @@ class ViewerServer::Impl {
     shared_->changed.notify_all();
   }
 
-  void press(int code) {
-    if (code <= 0 || code > 1000) return;
+  void takeEvent(const EventCommand& event) {
+    const std::lock_guard lock(shared_->mutex);
+    shared_->events.add(event);
+  }
+
+  void moveCursor(const CursorCommand& cursor) {
+    const std::lock_guard lock(shared_->mutex);
+    if (cursor.point.empty() && shared_->cursor) shared_->cursor->frame = -1;  // over the background
+    if (cursor.point.size() != 3 || cursor.normal.size() != 3) return;
+    shared_->cursor = {cursor.frame, Vector3d(cursor.point.data()), Vector3d(cursor.normal.data())};
+  }
+
+  void press(const KeyCommand& key) {
+    constexpr int kRight = 262, kLeft = 263;
+    if (key.code <= 0 || key.code > 1000) return;
     {
       const std::lock_guard lock(shared_->mutex);
-      shared_->key = code;
+      shared_->key = key.code;
+      shared_->key_releases = key.modifiers == 0 && key.code != kRight && key.code != kLeft;
     }
     shared_->changed.notify_all();
   }
@@ -398,11 +418,44 @@ void ViewerServer::setTitle(const std::string& text) {
   impl_->changeScene([&](ShownScene& scene) { return scene.setText(&ShownScene::title, text); });
 }
 
-void ViewerServer::setCamera(const Vector3d& position, const Vector3d& target) {
+void ViewerServer::setCamera(const Vector3d& position, const Vector3d& target, double focal_length) {
   impl_->changeScene([&](ShownScene& scene) {
-    scene.setCamera(position, target);
+    scene.setCamera(position, target, focal_length);
     return true;
   });
+}
+
+void ViewerServer::setNear(const std::vector<NearLine>& lines) {
+  impl_->changeScene([&](ShownScene& scene) { return scene.setNear(lines); });
+}
+
+void ViewerServer::setQuad(const Quad& quad) {
+  if (quad.columns <= 0 || quad.rows <= 0 || quad.rgb.size() != 3 * std::size_t(quad.columns) * std::size_t(quad.rows)) {
+    throw ValueError(cat("setQuad: ", quad.rgb.size(), " bytes; expected 3 for each of ", quad.rows, " x ", quad.columns, " pixels"));
+  }
+  impl_->changeScene([&](ShownScene& scene) {
+    scene.setQuad(quad);
+    return true;
+  });
+}
+
+void ViewerServer::setLook(const Look& look) {
+  impl_->changeScene([&](ShownScene& scene) { return scene.setLook(look); });
+}
+
+void ViewerServer::requestEvents(bool instead) {
+  impl_->changeScene([&](ShownScene& scene) { return scene.requestEvents(instead ? 2 : 1); });
+}
+
+std::vector<std::string> ViewerServer::takeEvents() {
+  const std::lock_guard lock(impl_->shared_->mutex);
+  return impl_->shared_->events.take();
+}
+
+std::optional<Cursor> ViewerServer::cursor() {
+  impl_->changeScene([&](ShownScene& scene) { return scene.requestCursor(); });
+  const std::lock_guard lock(impl_->shared_->mutex);
+  return impl_->shared_->cursor;
 }
 
 int ViewerServer::takeKey() {
@@ -414,8 +467,8 @@ int ViewerServer::waitKey(const std::function<bool()>& stop) {
   for (;;) {
     {
       std::unique_lock lock(impl_->shared_->mutex);
-      impl_->shared_->changed.wait_for(lock, std::chrono::milliseconds(20), [&] { return impl_->shared_->key != 0; });
-      if (impl_->shared_->key != 0) return std::exchange(impl_->shared_->key, 0);
+      impl_->shared_->changed.wait_for(lock, std::chrono::milliseconds(20), [&] { return impl_->shared_->key != 0 && impl_->shared_->key_releases; });
+      if (impl_->shared_->key != 0 && impl_->shared_->key_releases) return std::exchange(impl_->shared_->key, 0);
     }
     if (stop()) return 0;
   }

@@ -8,6 +8,8 @@
 
 #include "kinegraph/geometry/geometry.h"
 #include "kinegraph/viewer/commands.h"
+#include "kinegraph/viewer/look.h"
+#include "kinegraph/viewer/near_lines.h"
 #include "kinegraph/viewer/shown_motion.h"
 
 namespace kinegraph {
@@ -35,13 +37,14 @@ struct ShownJoint {
 struct EditedScene {
   std::vector<Pose> poses;  ///< of all items, in the world
   VectorXd q;
+  std::vector<NearLine> near{};
 };
 
 struct ViewerOptions {
   std::string host = "127.0.0.1";  ///< only this machine, unless told otherwise
   int port = 7000;                 ///< first one tried; those in use are passed over; 0: any free one
   std::string title = "Kinegraph";
-  std::string token;               ///< that browsers have to send, as in url(); empty: none on this machine, else a random one
+  std::string token{};             ///< that browsers have to send, as in url(); empty: none on this machine, else a random one
 };
 
 /// Shows items in any number of browsers: an HTTP server for the page, and a websocket each for what changes. It has a
@@ -66,6 +69,14 @@ class ViewerServer {
   void showMotion(const ShownMotion& motion);
   void endMotion();
 
+  /// Lines between shapes that are near each other, for browsers that show them.
+  void setNear(const std::vector<NearLine>& lines);
+
+  /// A picture on top of the scene; one with the same id is replaced. Throws ValueError for numbers of pixels that do not match.
+  void setQuad(const Quad& quad);
+
+  void setLook(const Look& look);
+
   /// Shows the card of an item, with handles to move it.
   void select(int item);
 
@@ -79,14 +90,24 @@ class ViewerServer {
   void setMessage(const std::string& text);  ///< in the corner; may have several lines
   void setError(const std::string& text);    ///< in a box; empty removes it
   void setTitle(const std::string& text);
-  void setCamera(const Vector3d& position, const Vector3d& target);
+
+  /// `focal_length` is in heights of the window; 0: the page's own.
+  void setCamera(const Vector3d& position, const Vector3d& target, double focal_length = 0.);
 
   /// The last key pressed in a browser since the previous call, or 0. Letters as lower-case ASCII, Enter 13, Escape 27, space
   /// 32; others have the codes of GLFW.
   int takeKey();
 
-  /// Waits for a key. Returns 0 as soon as `stop` (asked every 20 ms) says so.
+  /// Waits for a key that is pressed without Shift, Ctrl and Alt, and that is not the arrow to the left or right, which step
+  /// through motions. Returns 0 as soon as `stop` (asked every 20 ms) says so.
   int waitKey(const std::function<bool()>& stop);
+
+  /// Browsers send events from now on; with `instead`, mouse and keys do nothing else on the page.
+  void requestEvents(bool instead);
+  std::vector<std::string> takeEvents();  ///< those since the last call; see eventName
+
+  /// What is under the pointer of the browser in which it moved last. Browsers tell from the first call on.
+  std::optional<Cursor> cursor();
 
   /// Waits until a browser is connected, for at most so many seconds.
   bool waitForClient(double seconds);

@@ -18,6 +18,16 @@ struct ShownMotion {
   MatrixXd q;                             ///< slices x dofs; may be empty
   std::vector<std::string> texts;         ///< per slice, or none
   std::vector<double> violations;         ///< per slice: how much of the constraints is violated; or none
+  int prefix = 0;                         ///< so many slices lie before the one that is called 0
+  std::vector<std::vector<int>> marked;   ///< per slice: frames whose constraints are violated; or none
+
+  /// An error, or whatever else there is a number of per slice.
+  struct Trace {
+    std::string name;
+    std::string type;                     ///< of the objective: sos, eq ...
+    std::vector<double> values;           ///< per slice
+  };
+  std::vector<Trace> traces;
 };
 
 }  // namespace kinegraph

@@ -54,9 +54,21 @@ std::string encodeMotion(const ShownMotion& motion) {
   return data;
 }
 
+/// kind, id, columns, rows, then float32 x, y, height, zoom, then rgb bytes.
+std::string encodeQuad(const Quad& quad) {
+  std::string data;
+  append(data, BinaryKind::quad);
+  for (const int number : {quad.id, quad.columns, quad.rows}) append(data, std::int32_t(number));
+  for (const double number : {quad.x, quad.y, quad.height, quad.zoom}) append(data, float(number));
+  data.append(reinterpret_cast<const char*>(quad.rgb.data()), quad.rgb.size());
+  return data;
+}
+
 MotionMessage headOf(const ShownMotion& motion) {
   const char* start = motion.start == ShownMotion::Start::all ? "all" : motion.start == ShownMotion::Start::play ? "play" : "pause";
-  return {int(motion.poses.size()), motion.seconds, start, motion.first, motion.texts, motion.violations};
+  std::vector<TraceMessage> traces;
+  for (const ShownMotion::Trace& trace : motion.traces) traces.push_back({trace.name, trace.type, trace.values});
+  return {int(motion.poses.size()), motion.seconds, start, motion.first, motion.prefix, motion.texts, motion.violations, motion.marked, traces};
 }
 
 template <class T>
@@ -146,6 +158,7 @@ void ShownScene::setEdited(const EditedScene& edited) {
     shown.pose_revision = revision_;
   }
   setJoints(structure_, joints_, edited.q);
+  setNear(edited.near);
 }
 
 void ShownScene::select(int frame) {
@@ -172,7 +185,43 @@ bool ShownScene::setText(std::string ShownScene::*field, const std::string& text
   return true;
 }
 
-void ShownScene::setCamera(const Vector3d& position, const Vector3d& target) {
+bool ShownScene::setNear(const std::vector<NearLine>& lines) {
+  NearMessage message;
+  for (const NearLine& line : lines) {
+    message.points.insert(message.points.end(), {line.a.x(), line.a.y(), line.a.z(), line.b.x(), line.b.y(), line.b.z()});
+    message.distances.push_back(line.distance);
+    message.names.push_back(line.names);
+  }
+  const Outgoing near = textOf(message);
+  if (near_ ? *near_ == *near.data : lines.empty()) return false;
+  near_ = near.data;
+  near_revision_ = ++revision_;
+  return true;
+}
+
+void ShownScene::setQuad(const Quad& quad) { quads_[quad.id] = {++revision_, {std::make_shared<std::string>(encodeQuad(quad)), true}}; }
+
+bool ShownScene::setLook(const Look& look) {
+  if (look == look_) return false;
+  look_ = look;
+  look_revision_ = ++revision_;
+  return true;
+}
+
+bool ShownScene::requestEvents(int kind) {
+  if (std::exchange(events_, kind) == kind) return false;
+  look_revision_ = ++revision_;
+  return true;
+}
+
+bool ShownScene::requestCursor() {
+  if (std::exchange(cursor_, true)) return false;
+  look_revision_ = ++revision_;
+  return true;
+}
+
+void ShownScene::setCamera(const Vector3d& position, const Vector3d& target, double focal_length) {
+  camera_focal_length_ = focal_length;
   camera_position_ = position;
   camera_target_ = target;
   camera_revision_ = ++revision_;
@@ -184,7 +233,7 @@ std::vector<Outgoing> ShownScene::messagesSince(Seen& seen) const {
   if (text_revision_ > seen.revision) send(TextMessage{title, message, error});
   if (camera_revision_ > seen.revision) {
     const Vector3d &p = camera_position_, &t = camera_target_;
-    send(CameraMessage{{p.x(), p.y(), p.z()}, {t.x(), t.y(), t.z()}});
+    send(CameraMessage{{p.x(), p.y(), p.z()}, {t.x(), t.y(), t.z()}, camera_focal_length_});
   }
   SceneMessage scene;
   scene.count = int(frames_.size());
@@ -229,6 +278,17 @@ std::vector<Outgoing> ShownScene::messagesSince(Seen& seen) const {
     append(data, std::uint32_t(q_.size()));
     for (const double value : q_) append(data, value);
     out.push_back({std::make_shared<std::string>(std::move(data)), true});
+  }
+  if (look_revision_ > seen.revision) {
+    LookMessage look{look_.visuals_only, {}, {}, look_.shadows, look_.text, events_, cursor_};
+    if (look_.background) look.background.assign(look_.background->data(), look_.background->data() + 3);
+    if (look_.floor) look.floor.assign(look_.floor->data(), look_.floor->data() + 3);
+    if (!look_.has_floor) look.floor = {-1.};
+    send(look);
+  }
+  if (near_revision_ > seen.revision) out.push_back({near_, false});
+  for (const auto& [id, quad] : quads_) {
+    if (quad.first > seen.revision) out.push_back(quad.second);
   }
   if (select_revision_ > seen.revision) send(SelectMessage{selected_});
   if (motion_revision_ > seen.revision) {

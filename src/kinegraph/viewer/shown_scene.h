@@ -39,8 +39,13 @@ class ShownScene {
 
   void setMotion(const ShownMotion& motion);
   bool endMotion();
+  bool setNear(const std::vector<NearLine>& lines);
+  void setQuad(const Quad& quad);
+  bool setLook(const Look& look);
+  bool requestEvents(int kind);  ///< 1: browsers send events; 2: and do nothing else with mouse and keys
+  bool requestCursor();
   bool setText(std::string ShownScene::*field, const std::string& text);
-  void setCamera(const Vector3d& position, const Vector3d& target);
+  void setCamera(const Vector3d& position, const Vector3d& target, double focal_length);
 
   std::string title, message, error;
 
@@ -71,6 +76,13 @@ class ShownScene {
   int selected_ = -1;
   std::vector<Outgoing> motion_;  ///< as it is sent; empty: there is none
   Vector3d camera_position_ = Vector3d::Zero(), camera_target_ = Vector3d::Zero();
+  double camera_focal_length_ = 0.;
+  Look look_;
+  int events_ = 0;
+  bool cursor_ = false;
+  std::shared_ptr<const std::string> near_;                        ///< as it is sent
+  std::map<int, std::pair<std::uint64_t, Outgoing>> quads_;        ///< by id: since when, and as it is sent
+  std::uint64_t look_revision_ = 0, near_revision_ = 0;
 };
 
 }  // namespace kinegraph

@@ -6,6 +6,7 @@
 #include "kinegraph/base/text.h"
 #include "kinegraph/scene/scene_source.h"
 #include "kinegraph/viewer/file_changes.h"
+#include "kinegraph/viewer/watch_keys.h"
 
 namespace kinegraph {
 
@@ -49,12 +50,12 @@ void watchFile(Config& config, ConfigViewer& viewer, const std::string& path, co
       config.clear();
       config.addConfigurationCopy(reading.config);
       viewer.setError("");
-      viewer.setMessage(cat(path, "\nwaiting for changes of the file; q: quit"));
+      viewer.setMessage(cat(path, "\nwaiting for changes of the file; h: help, q: quit"));
       report(config.report());
       for (const std::string& warning : reading.config.takeWarnings()) report(warning);
     } else {
       viewer.setError(reading.error);
-      viewer.setMessage(cat(path, "\nthe last scene without a mistake; waiting for the file to be mended; q: quit"));
+      viewer.setMessage(cat(path, "\nthe last scene without a mistake; waiting for the file to be mended; h: help, q: quit"));
       report(reading.error);
     }
     viewer.update(config);
@@ -63,9 +64,14 @@ void watchFile(Config& config, ConfigViewer& viewer, const std::string& path, co
   viewer.setTitle(cat("ConfigView <", path, ">"));
   changes.setRead({{path, {}}});  // as if it had been missing so far
   load();
+  viewer.server().cursor();  // so that browsers tell where the pointer is
+  WatchKeys keys(config, viewer, report, stop);
   while (!isHeadless() && !stop()) {
+    if (viewer.takeEdits(config)) viewer.update(config);
+    keys.logEvents();
     const int key = viewer.takeKey();
     if (key == 'q' || key == 27 || enterWasPressed()) break;
+    if (keys.press(key)) continue;
     if (key == 13 || changes.settled(stampsOf(changes.files()), std::chrono::steady_clock::now())) load();
     std::this_thread::sleep_for(std::chrono::milliseconds(20));
   }

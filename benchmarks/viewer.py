@@ -1,0 +1,230 @@
+"""How quick are the viewer and the cameras?
+
+    python benchmarks/viewer.py                 all of it; or some of: bundle, first, client, server, camera
+    python benchmarks/viewer.py client --seconds 20 --size 1280x720
+
+bundle: the page as it is served, compressed. first: from the call of view() until a browser that is already open on the page of
+a program shows the Panda. client: 200 shapes (boxes, spheres, capsules, cylinders, meshes), all moved 60 times per second by a
+program; pictures per second of a headless Chromium that draws in software, with shadows, and how many of the 60 arrive.
+server: share of one core that the server's side of 1000 frames at 60 Hz takes, kinematics included, with a browser's
+connection that reads everything. camera: RGB and depth, 640x360, of pandaSingle.
+
+On a busy machine figures are worse than they are. Needs Chromium and the package `websockets` (first, client, server).
+"""
+
+import argparse
+import gzip
+import os
+import statistics
+import subprocess
+import sys
+import threading
+import time
+import urllib.request
+from pathlib import Path
+
+import numpy as np
+
+import kinegraph as kg
+
+sys.path.append(str(Path(__file__).parent.parent))
+
+from tests.viewer.browser import Browser
+
+MOVING = """
+import sys, time
+import numpy as np
+import kinegraph as kg
+
+count, moves = int(sys.argv[1]), sys.argv[2] == "moving"
+C = kg.Config()
+shapes = [(kg.ST.box, [.05, .08, .1]), (kg.ST.sphere, [.05]), (kg.ST.capsule, [.1, .03]), (kg.ST.cylinder, [.1, .04]),
+          (kg.ST.ssBox, [.08, .08, .08, .02])]
+side = int(np.ceil(np.sqrt(count)))
+places = np.array([[(i % side) / side * 2.5 - 1.25, (i // side) / side * 2.5 - 1.25, .4] for i in range(count)])
+for i, place in enumerate(places):
+    shape, size = shapes[i % len(shapes)]
+    C.addFrame(f"f{i}").setShape(shape, size).setPosition(place).setColor([.3 + .6 * (i % 7) / 6, .5, .9 - .6 * (i % 11) / 10])
+poses = C.getFrameState()
+C.view()
+C.viewer().waitForClient(120)
+start, used, step = time.monotonic(), time.process_time(), 0
+while True:
+    poses[:, 2] = .4 + .2 * np.sin(2 * step / 60 + places[:, 0] * 3 + places[:, 1] * 2)
+    if moves:
+        C.setFrameState(poses)
+        C.view()
+    step += 1
+    now = time.monotonic()
+    if step % 300 == 0:
+        print("core", (time.process_time() - used) / (now - start) if step > 300 else 0, flush=True)
+        start, used, base = now, time.process_time(), step
+        next_time = now
+    elif step < 300:
+        next_time = start + step / 60
+    next_time += 1 / 60
+    time.sleep(max(0, next_time - time.monotonic()))
+"""
+
+
+def start(code: str, *arguments: str) -> tuple[subprocess.Popen, str]:
+    """A program and the address of its viewer."""
+    environment = {k: v for k, v in os.environ.items() if k not in ("KINEGRAPH_HEADLESS", "DISPLAY", "WAYLAND_DISPLAY")}
+    program = subprocess.Popen(
+        [sys.executable, "-u", "-c", code, *arguments],
+        env=environment,
+        stdout=subprocess.PIPE,
+        text=True,
+        stdin=subprocess.DEVNULL,
+    )
+    assert program.stdout
+    for line in program.stdout:
+        if line.startswith("Viewer: "):
+            return program, line.split()[1]
+    raise RuntimeError("the program has not started its viewer")
+
+
+def processor_time(process: int) -> float:
+    """Of a process and all that it has started, s."""
+    times, parents = {}, {}
+    for entry in Path("/proc").glob("[0-9]*/stat"):
+        try:
+            fields = entry.read_text().rsplit(")", 1)[1].split()
+        except OSError:
+            continue
+        number = int(entry.parent.name)
+        parents[number] = int(fields[1])
+        times[number] = (int(fields[11]) + int(fields[12])) / os.sysconf("SC_CLK_TCK")
+    inside = {process}
+    while more := {child for child, parent in parents.items() if parent in inside} - inside:
+        inside |= more
+    return sum(times.get(number, 0.0) for number in inside)
+
+
+def bundle() -> None:
+    C = kg.Config()
+    C.addFrame("world")
+    C.view()
+    page = urllib.request.urlopen(C.viewer().url).read()
+    C.view_close()
+    print(f"bundle: {len(page) / 1000:.0f} kB, {len(gzip.compress(page, 9)) / 1000:.0f} kB compressed")
+
+
+def first_picture() -> None:
+    times = []
+    with Browser() as browser:
+        for _ in range(5):
+            C = kg.Config()
+            C.addFrame("world")
+            C.view()
+            browser.open_page(C.viewer().url)
+            browser.wait_for("kinegraph.idle()")
+            D = kg.Config()
+            D.addFile(kg.raiPath("scenarios/pandaSingle.g"))
+            D.set_viewer(C.viewer())
+            before = time.monotonic()
+            D.view()
+            browser.wait_for("kinegraph.position('l_gripper') && kinegraph.idle()")
+            times.append(time.monotonic() - before)
+            C.view_close()
+    print(
+        f"first picture of the Panda: {statistics.median(times):.2f} s (median of {len(times)}; worst {max(times):.2f} s)"
+    )
+
+
+def client(seconds: float, width: int, height: int, shadows: bool) -> None:
+    program, url = start(MOVING, "200", "moving")
+    try:
+        with Browser() as browser:
+            browser.call(
+                "Emulation.setDeviceMetricsOverride", width=width, height=height, deviceScaleFactor=1, mobile=False
+            )
+            browser.open_page(url)
+            browser.wait_for("kinegraph.frames() == 200")
+            if not shadows:
+                browser.press_alt("S")
+            time.sleep(3)
+            counters = "[kinegraph.pictures(), kinegraph.messages(), performance.now()]"
+            before, used = browser.evaluate(counters), processor_time(browser.process_id)
+            time.sleep(seconds)
+            used = processor_time(browser.process_id) - used
+            pictures, messages, milliseconds = (b - a for a, b in zip(before, browser.evaluate(counters)))
+            share = browser.evaluate("kinegraph.resolution()")
+    finally:
+        program.kill()
+        program.wait()
+    rate, arrived = 1e3 * pictures / milliseconds, 1e3 * messages / milliseconds
+    print(
+        f"client, 200 moving shapes, {width}x{height}, software: "
+        f"{rate:.1f} pictures/s, {arrived:.1f} messages/s arrive; "
+        f"{1e3 * used / pictures:.0f} ms of processor time per picture, {share:.2f} pixels drawn per pixel across"
+    )
+
+
+def server() -> None:
+    from websockets.sync.client import connect
+
+    for moves in ("moving", "still"):
+        program, url = start(MOVING, "1000", moves)
+        with connect(url.replace("http", "ws"), max_size=None) as socket:
+            received = 0
+
+            def read() -> None:
+                nonlocal received
+                try:
+                    for _ in socket:
+                        received += 1
+                except Exception:
+                    pass
+
+            threading.Thread(target=read, daemon=True).start()
+            shares = []
+            while len(shares) < 4:
+                line = program.stdout.readline()
+                if line.startswith("core"):
+                    shares.append(float(line.split()[1]))
+            program.kill()
+            program.wait()
+        print(
+            f"server, 1000 frames at 60 Hz, {moves}: {100 * statistics.median(shares[1:]):.1f} % of a core, {received} messages"
+        )
+
+
+def camera() -> None:
+    C = kg.Config()
+    C.addFile(kg.raiPath("scenarios/pandaSingle.g"))
+    view = kg.CameraView(C)
+    view.setCamera("cameraTop")
+    times = []
+    q = C.getJointState()
+    for i in range(40):
+        C.setJointState(q + 0.01 * np.sin(i))
+        before = time.monotonic()
+        view.computeImageAndDepth(C)
+        times.append(time.monotonic() - before)
+    print(
+        f"camera, RGB and depth, 640x360 of pandaSingle: {1e3 * statistics.median(times[5:]):.1f} ms (first {1e3 * times[0]:.0f} ms)"
+    )
+
+
+def main() -> None:
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("what", nargs="*", default=["bundle", "first", "client", "server", "camera"])
+    parser.add_argument("--seconds", type=float, default=8.0)
+    parser.add_argument("--size", default="640x480")
+    parser.add_argument("--no-shadows", action="store_true")
+    options = parser.parse_args()
+    width, height = map(int, options.size.split("x"))
+    jobs = {
+        "bundle": bundle,
+        "first": first_picture,
+        "client": lambda: client(options.seconds, width, height, not options.no_shadows),
+        "server": server,
+        "camera": camera,
+    }
+    for what in options.what:
+        jobs[what]()
+
+
+if __name__ == "__main__":
+    main()

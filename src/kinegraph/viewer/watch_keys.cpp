@@ -1,0 +1,95 @@
+#include "kinegraph/viewer/watch_keys.h"
+
+#include "kinegraph/base/errors.h"
+#include "kinegraph/base/text.h"
+#include "kinegraph/formats/mesh_export.h"
+#include "kinegraph/formats/scene_writer.h"
+#include "kinegraph/formats/urdf_writer.h"
+#include "kinegraph/viewer/motions.h"
+#include "kinegraph/viewer/scene_items.h"
+
+namespace kinegraph {
+
+std::string WatchKeys::help() {
+  return "h: this help\na: every joint through its limits; any key stops it\ni: what the scene contains\nc: collisions\n"
+         "r: random joints\nx: write z.g, z.urdf, z.ply, z.dae\nspace: what the pointer is on\n6: log mouse and keys, or stop it\n"
+         "Enter: load again\nq, Escape: quit";
+}
+
+void WatchKeys::say(const std::string& text) {
+  viewer_.setMessage(text);
+  report_(text);
+}
+
+bool WatchKeys::press(int key) {
+  try {
+    switch (key) {
+      case 'h': say(help()); return true;
+      case 'i': reportScene(); return true;
+      case 'c': reportCollisions(); return true;
+      case 'x': writeFiles(); return true;
+      case ' ': reportPicked(); return true;
+      case 'a':
+        viewer_.showMotion(config_, jointSweep(config_), false, "every joint through its limits [any key stops it]", stop_);
+        viewer_.update(config_);
+        say("the joints are where they were");
+        return true;
+      case 'r':
+        config_.setJointState(randomJointState(config_, random_));
+        viewer_.update(config_);
+        return true;
+      case '6':
+        logs_ = !logs_;
+        viewer_.server().requestEvents(false);
+        viewer_.server().takeEvents();
+        say(logs_ ? "mouse and keys are logged" : "mouse and keys are not logged");
+        return true;
+      default: return false;
+    }
+  } catch (const Error& error) {
+    say(error.what());
+    return true;
+  }
+}
+
+void WatchKeys::logEvents() {
+  if (!logs_) return;
+  for (const std::string& event : viewer_.server().takeEvents()) report_(event);
+}
+
+void WatchKeys::reportScene() {
+  std::string text = cat(config_.report(), "\njoints:");
+  for (const std::string& name : config_.getJointNames()) text += " " + name;
+  say(text);
+}
+
+void WatchKeys::reportCollisions() {
+  constexpr double kMargin = .05;
+  const std::vector<NearLine> lines = nearLines(config_, kMargin);
+  std::string text = cat(lines.size(), " pairs nearer than 5 cm");
+  for (const NearLine& line : lines) text += cat("\n", line.names, "  ", line.distance, " m");
+  viewer_.server().setNear(lines);
+  say(text);
+}
+
+void WatchKeys::writeFiles() {
+  std::vector<std::string> warnings;
+  saveScene(config_, "z.g", &warnings);
+  saveUrdf(config_, "z.urdf", &warnings);
+  saveWorldMesh(config_, "z.ply");
+  saveCollada(config_, "z.dae");
+  for (const std::string& warning : warnings) report_(warning);
+  say("written: z.g, z.urdf, z.ply, z.dae");
+}
+
+void WatchKeys::reportPicked() {
+  const std::optional<Cursor> cursor = viewer_.server().cursor();
+  if (!cursor || cursor->frame < 0 || cursor->frame >= config_.getFrameDimension()) {
+    return say("the pointer is on no shape; move it and press space again");
+  }
+  const FrameData& frame = *config_.scene()->frames()[std::size_t(cursor->frame)];
+  const Vector3d& p = cursor->point;
+  say(cat(frame.name, " (", frame.id, ") at ", p.x(), " ", p.y(), " ", p.z(), "\n{ ", detailsOf(frame), " }"));
+}
+
+}  // namespace kinegraph

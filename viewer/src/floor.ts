@@ -1,0 +1,65 @@
+import * as THREE from "three";
+
+const SIZE = 60, SOLID = 10; // m
+
+const GRID = /* glsl */ `
+varying vec2 vFloor;
+float gridLine(float spacing) {
+  vec2 at = vFloor / spacing, width = fwidth(at);
+  vec2 far = abs(fract(at - 0.5) - 0.5) / max(width, vec2(1e-6));
+  return (1.0 - min(min(far.x, far.y), 1.0)) * (1.0 - smoothstep(0.15, 0.5, max(width.x, width.y)));
+}
+float axisLine(float across) { return 1.0 - min(abs(across) / max(1.5 * fwidth(across), 1e-6), 1.0); }
+`;
+
+// black where the sun does not reach, grey lines, red along x and green along y
+const PAINT = /* glsl */ `
+float reach = 1.0 - smoothstep(3.0, 14.0, length(vFloor - cameraPosition.xy));
+float line = max(0.16 * gridLine(0.2), 0.42 * gridLine(1.0)) * reach;
+float alongX = axisLine(vFloor.y) * reach, alongY = axisLine(vFloor.x) * reach;
+vec3 ink = mix(mix(vec3(0.17, 0.2, 0.24), vec3(0.05, 0.28, 0.08), alongY), vec3(0.45, 0.05, 0.05), alongX);
+float drawn = max(line, 0.6 * max(alongX, alongY));
+float shade = opacity * (1.0 - getShadowMask());
+float covered = shade + drawn * (1.0 - shade);
+gl_FragColor = vec4(ink * drawn * (1.0 - shade) / max(covered, 1e-4), covered);
+`;
+
+function gridMaterial(): THREE.Material {
+  const material = new THREE.ShadowMaterial({ opacity: 0.26, depthWrite: false, side: THREE.DoubleSide });
+  material.onBeforeCompile = (shader) => {
+    shader.vertexShader = shader.vertexShader
+      .replace("void main() {", "varying vec2 vFloor;\nvoid main() {")
+      .replace("#include <fog_vertex>", "#include <fog_vertex>\nvFloor = (modelMatrix * vec4(position, 1.0)).xy;");
+    shader.fragmentShader = shader.fragmentShader
+      .replace("void main() {", `${GRID}\nvoid main() {`)
+      .replace(/gl_FragColor = [^;]*;/, PAINT);
+  };
+  return material;
+}
+
+/** The floor at z = 0: catches shadows, and has lines every metre and every 0.2 m; x is red, y green. One thing to draw. */
+export class Floor {
+  readonly group = new THREE.Group();
+  private readonly grid = new THREE.Mesh(new THREE.PlaneGeometry(SIZE, SIZE), gridMaterial());
+  private readonly solid = new THREE.Mesh(new THREE.PlaneGeometry(SOLID, SOLID), new THREE.MeshStandardMaterial({ roughness: 0.9 }));
+
+  constructor() {
+    this.grid.receiveShadow = true;
+    this.grid.position.z = -0.001;
+    this.solid.position.z = -0.002;
+    this.solid.visible = false;
+    this.group.add(this.solid, this.grid);
+  }
+
+  /** The lines are wherever the camera is. */
+  follow(camera: THREE.Vector3): void {
+    this.grid.position.x = camera.x;
+    this.grid.position.y = camera.y;
+  }
+
+  /** A solid floor of that color below the lines; null: none. */
+  setColor(color: THREE.Color | null): void {
+    this.solid.visible = color !== null;
+    if (color) this.solid.material.color.copy(color);
+  }
+}

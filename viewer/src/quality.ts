@@ -1,0 +1,74 @@
+const SLOW = 34, FAST = 15; // ms from one picture to the next, while things move
+const STILL = 150; // ms without a change
+const LARGEST = 2; // pixels drawn per pixel of the page, across and down
+
+/** True where no graphics card draws, but the processor. */
+export function drawsInSoftware(): boolean {
+  const context = document.createElement("canvas").getContext("webgl2");
+  const named = context?.getExtension("WEBGL_debug_renderer_info");
+  const name = named ? String(context!.getParameter(named.UNMASKED_RENDERER_WEBGL)) : "";
+  context?.getExtension("WEBGL_lose_context")?.loseContext();
+  return /swiftshader|llvmpipe|softpipe|software|basic render/i.test(name);
+}
+
+/**
+ * How finely to draw: coarser while things move and the machine is slow, and again in full when they stand still. Without a
+ * graphics card edges are smoothed by drawing more pixels than there are, then.
+ */
+export class Quality {
+  private readonly finest: number;
+  private moving: number;
+  private now: number;
+  private pictures = 0;
+  private spent = 0; // ms, of these pictures
+  private last = -Infinity; // when the last change was drawn
+  private rested = true; // nothing has moved since
+
+  constructor(private readonly software: boolean) {
+    this.finest = software ? LARGEST : Math.min(devicePixelRatio, LARGEST);
+    this.moving = software ? Math.min(devicePixelRatio, LARGEST) : this.finest;
+    this.now = this.moving;
+  }
+
+  /** Pixels drawn per pixel of the page, across and down. */
+  get ratio(): number {
+    return this.now;
+  }
+
+  get isFull(): boolean {
+    return this.now === this.finest;
+  }
+
+  /** Call when a change is about to be drawn. */
+  change(time: number): void {
+    if (this.rested) this.pictures = this.spent = 0; // the first of a movement says nothing of how long pictures take
+    else this.measure(time - this.last);
+    if (!this.rested || this.software) this.now = this.moving;
+    this.last = time;
+    this.rested = false;
+  }
+
+  /** Call when nothing has changed. True if it is time for a picture in full resolution. */
+  rest(time: number): boolean {
+    if (time - this.last < STILL) return false;
+    this.rested = true;
+    if (this.isFull) return false;
+    this.now = this.finest;
+    return true;
+  }
+
+  /** The next picture is in full resolution. */
+  setFull(): void {
+    this.now = this.finest;
+  }
+
+  private measure(passed: number): void {
+    this.spent += passed;
+    if (++this.pictures < 6 && this.spent < 400) return;
+    const mean = this.spent / this.pictures;
+    this.pictures = this.spent = 0;
+    const full = Math.min(devicePixelRatio, LARGEST);
+    if (mean > SLOW) this.moving = Math.max(full / 2, Math.max(0.6, Math.sqrt(SLOW / mean)) * this.moving);
+    else if (mean < FAST) this.moving = Math.min(full, 1.15 * this.moving);
+  }
+}
