@@ -51,6 +51,9 @@ void SceneBuilder::build(SceneSource& source) {
   for (int i = 0; i < count; ++i) resolveContactExclude(*frames_[i], source.frames[i]);
   for (int i = 0; i < count; ++i) resolveMimic(*frames_[i], source.frames[i]);
   for (const Node& node : source.joint_states) setJointState(node);
+  for (const RobotSemantics& semantics : source.semantics) {
+    if (count > 0) applySemantics(semantics, scene_, diagnostics_);
+  }
 }
 
 void SceneBuilder::interpretExisting(FrameData& frame, const SourceFrame& source) {
