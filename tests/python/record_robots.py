@@ -1,0 +1,56 @@
+"""Records poses that Pinocchio computes, for test_robots.py: python tests/python/record_robots.py FOLDER_OF_ROBOTS
+
+FOLDER_OF_ROBOTS is .../share/example-robot-data/robots of the package example-robot-data 6.0.0; needs the packages pin and kinegraph.
+"""
+
+import json
+import sys
+import warnings
+from pathlib import Path
+
+import numpy as np
+import pinocchio as pin
+
+import kinegraph as ry
+from pinocchio_poses import Comparison, jointFrame
+
+DATA = Path(__file__).parent.parent / "data" / "robots_pinocchio.json"
+ROBOTS = [
+    *("panda_description/urdf/panda", "ur_description/urdf/ur5_robot", "kinova_description/robots/kinova"),
+    *("xarm_description/urdf/xarm7", "pr2_description/urdf/pr2", "tiago_description/robots/tiago"),
+    *("talos_data/robots/talos_full_v2", "romeo_description/urdf/romeo", "icub_description/robots/icub"),
+    *("baxter_description/urdf/baxter", "anymal_c_simple_description/urdf/anymal", "human_description/robots/human"),
+    *("g1_description/urdf/g1_29dof_rev_1_0", "solo_description/robots/solo12", "iris_description/robots/iris"),
+    *("allegro_hand_description/urdf/allegro_right_hand", "so_arm_description/urdf/so101"),
+    *("double_pendulum_description/urdf/double_pendulum_continuous", "hyq_description/robots/hyq_no_sensors"),
+]
+
+
+def record(file: Path) -> dict:
+    config = ry.Config()
+    config.addFile(file)
+    comparison = Comparison(str(file), config, seed=0)
+    model, data = comparison.model, comparison.data
+    pin.forwardKinematics(model, data, comparison.drawState())
+    q = {}
+    for joint in config.getJoints():
+        if not joint.asDict().get("mimic"):
+            q[joint.name] = np.round(joint.getJointState(), 11).tolist()
+    poses = {}
+    for i, name in list(enumerate(model.names))[1:]:
+        rotation = pin.Quaternion(data.oMi[i].rotation)
+        numbers = [*data.oMi[i].translation, rotation.w, rotation.x, rotation.y, rotation.z]
+        poses[jointFrame(config, name)] = np.round(numbers, 11).tolist()
+    return {"q": q, "poses": poses}
+
+
+def main(folder: Path) -> None:
+    warnings.simplefilter("ignore", ry.KinegraphWarning)
+    source = f"Poses of joints in the world by Pinocchio {pin.__version__}, robots of example-robot-data 6.0.0; record_robots.py"
+    robots = {name: record(folder / f"{name}.urdf") for name in ROBOTS}
+    lines = ",\n".join(f"{json.dumps(name)}: {json.dumps(robot)}" for name, robot in robots.items())
+    DATA.write_text(f'{{"source": {json.dumps(source)},\n"robots": {{\n{lines}\n}}}}\n')
+
+
+if __name__ == "__main__":
+    main(Path(sys.argv[1]))
