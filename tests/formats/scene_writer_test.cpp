@@ -6,6 +6,7 @@
 #include <fstream>
 
 #include "kinegraph/base/errors.h"
+#include "kinegraph/base/text.h"
 #include "kinegraph/gfile/writer.h"
 #include "tests/formats/random_scene.h"
 #include "tests/support/temporary_folder.h"
@@ -144,6 +145,15 @@ TEST(WriteScene, KeepsNamesThatTheLanguageCanHoldAndWarnsOfOthers) {
   ASSERT_EQ(warnings.size(), 1u);
   EXPECT_EQ(warnings[0],
             "names that are taken or that a text cannot hold are changed: 'two words' (frame 1) as 'two_words'");
+}
+
+TEST(WriteScene, TransformsBeforeAJointAreWrittenOnce) {
+  for (const char* key : {"pre", "A", "origin"}) {
+    Config config, again;
+    config.addText(cat("a: {}  b (a): { ", key, ": [0 0 1], joint: hingeX, post: [1 0 0] }"));
+    again.addText(writeScene(config));
+    EXPECT_EQ(again.getFrameNames(), config.getFrameNames()) << key;
+  }
 }
 
 TEST(WriteScene, IsOneReadableLinePerFrame) {

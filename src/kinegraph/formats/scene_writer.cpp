@@ -173,6 +173,7 @@ class FrameDescription {
                                                       "axis",
                                                       "mimic",
                                                       "pre",
+                                                      "origin",
                                                       "post",
                                                       "A",
                                                       "B",

@@ -58,6 +58,7 @@ std::optional<Frame> Config::addFile(const std::string& path, const std::string&
 std::optional<Frame> Config::addText(std::string_view text, const std::string& name, const std::string& folder) {
   SceneTree scratch;
   readSceneText(text, name, folder, scratch, warnings_);
+  if (std::string warning = duplicatesWarning(*scene_, scratch, "", name); !warning.empty()) warnings_.push_back(std::move(warning));
   FrameData* first = scene_->append(scratch, "");
   if (!first) return std::nullopt;
   return Frame(scene_, *first);
