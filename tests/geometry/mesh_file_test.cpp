@@ -147,7 +147,7 @@ TEST_F(MeshFile, AHeaderThatPromisesMoreThanTheFileHoldsIsAnErrorAtOnce) {
     EXPECT_NE(message.find("more than its"), std::string::npos) << message;
   }
   const std::string gltf = R"({"asset": {"version": "2.0"}, "accessors": [{"componentType": 5126, "count": 100000000, "type": "VEC3"}]})";
-  EXPECT_NE(messageOf(write("a.gltf", gltf)).find("promises 100000000 elements"), std::string::npos);
+  EXPECT_NE(messageOf(write("a.gltf", gltf)).find("more than its"), std::string::npos);
   const std::string dae = R"(<COLLADA><float_array id="a" count="4000000000">1 2 3</float_array></COLLADA>)";
-  EXPECT_NE(messageOf(write("a.DAE", dae)).find("promises 4000000000 elements"), std::string::npos);
+  EXPECT_NE(messageOf(write("a.DAE", dae)).find("more than its"), std::string::npos);
 }
