@@ -80,6 +80,7 @@ Value Grammar::parseSequence(std::size_t indent) {
 }
 
 Value Grammar::parseScalar() {
+  if (!yaml_ || !(startsWord(peek()) || startsNumber(peek()))) return parseValue();
   static constexpr CharSet kFlow(",;:{}[]\n");
   const std::size_t start = at_;
   std::size_t end = start;  // of the scalar, or where flow style begins
@@ -89,14 +90,13 @@ Value Grammar::parseScalar() {
   const bool has_flow = rest < text_.size() && text_[rest] != '\n' && text_[rest] != '#';
   std::string_view line = text_.substr(start, end - start);
   while (!line.empty() && isBlank(line.back())) line.remove_suffix(1);
-  const bool plain = yaml_ && !line.empty() && (startsWord(line[0]) || startsNumber(line[0]));
   const bool has_more = has_flow || line.find_first_of(" \t") != std::string_view::npos;
-  const bool is_text = plain && has_more && !has_flow;
+  const bool is_text = has_more && !has_flow;
   if (!is_text) {
     try {
       return parseValue();
     } catch (const Failure&) {
-      if (!plain || has_more) throw;
+      if (has_more) throw;
     }
   }
   Value value;
