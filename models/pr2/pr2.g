@@ -23,6 +23,10 @@ Edit bl_caster_r_wheel_joint: { joint: none }
 Edit br_caster_l_wheel_joint: { joint: none }
 Edit br_caster_r_wheel_joint: { joint: none }
 
+# the width of the grippers, which nothing hangs on: fixed in this URDF, with the limits that it gives nevertheless
+Edit r_gripper_joint: { joint: transY, limits: [0 .09], ctrl_limits: [.2 1000 -1] }
+Edit l_gripper_joint: { joint: transY, limits: [0 .09], ctrl_limits: [.2 1000 -1] }
+
 # a pose to work from
 Edit torso_lift_joint: { q: .1 }
 Edit r_shoulder_pan_joint: { q: -1 }
@@ -39,4 +43,6 @@ Edit r_wrist_flex_joint: { q: -.5 }
 Edit l_wrist_flex_joint: { q: -.5 }
 Edit r_wrist_roll_joint: { q: -.5 }
 Edit l_wrist_roll_joint: { q: .5 }
+Edit r_gripper_l_finger_joint: { q: .1 }
+Edit l_gripper_l_finger_joint: { q: .1 }
 Edit head_tilt_joint: { q: .4 }

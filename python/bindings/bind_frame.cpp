@@ -116,7 +116,9 @@ void bindFrame(nb::module_&, nb::class_<Frame>& frame) {
       .def("__eq__", [](const Frame& a, const Frame& b) { return a == b; }, "other"_a, nb::sig("def __eq__(self, other: Frame, /) -> bool"))
       .def("__eq__", [](const Frame&, nb::handle) { return false; }, "other"_a, nb::sig("def __eq__(self, other: object, /) -> bool"))
       .def("__hash__", [](const Frame& f) { return std::size_t(&f.data()); })
-      .def("__repr__", [](const Frame& f) { return describe(f); })
+      .def("__repr__", [](const Frame& f) { return f.isDeleted() ? std::string("<Frame, deleted>") : describe(f); })
+      .def("_repr_html_", [](nb::handle self) { return nb::cast<std::string>(nb::module_::import_("kinegraph.scene_html").attr("frameHtml")(self)); },
+           "A table of what the frame is, for notebooks.")
       .def("getParent", &Frame::getParent, "The parent frame, or None.")
       .def("getChildren", &Frame::getChildren, "The frames directly below this one.")
       .def("getSubtree", &Frame::getSubtree, "All frames below this one, depth first.")

@@ -144,19 +144,21 @@ void bindScene(nb::module_& m) {
              return withWarnings(c, c.addFile(pathText(file), prefix.value_or("")));
            },
            "filename"_a, "namePrefix"_a = nb::none(),
-           "Adds the frames of a scene file (.g, .yml, .urdf), names prefixed. Returns the first of them, or None.\n"
+           "Adds the frames of a scene file (.g, .yml, .urdf, MuJoCo's .xml), names prefixed. Returns the first of them, or None.\n"
+           "What an .srdf file says (named states, groups, pairs that never collide) is entered into the robot's frames, which are\n"
+           "there already; one beside a .urdf file is read with it.\n"
            "An error (FileError, ParseError with file:line:column) leaves the configuration as it was.")
       .def("addText",
            [](PyConfig& c, const std::string& text, const std::string& name) { return withWarnings(c, c.addText(text, name)); },
            "text"_a, "name"_a = "text", "Adds the frames of a scene given as text.")
       .def("addFrame",
            [](PyConfig& c, const std::string& name, nb::handle parent, const std::string& args) {
-             const std::string parent_name =
-                 parent.is_none() || (nb::isinstance<nb::str>(parent) && nb::len(parent) == 0) ? "" : toFrame(c, parent).getName();
-             return withWarnings(c, c.addFrame(name, parent_name, args));
+             const bool root = parent.is_none() || (nb::isinstance<nb::str>(parent) && nb::len(parent) == 0);
+             return withWarnings(c, root ? c.addFrame(name, "", args) : c.addFrame(name, toFrame(c, parent), args));
            },
            "name"_a, "parent"_a = "", "args"_a = "",
-           "Appends a frame at its parent's pose (or the world's origin). args: attributes as in a .g file.")
+           "Appends a frame at its parent's pose (or the world's origin). args: attributes as in a .g file. A name that exists gives\n"
+           "that frame as it is, with a warning; asking for another parent or other attributes than it was made with is an error.")
       .def("addConfigurationCopy",
            [](PyConfig& c, const PyConfig& other, const std::string& prefix, double) { return c.addConfigurationCopy(other, prefix); },
            "config"_a, "prefix"_a = "", "tau"_a = 1., "Appends copies of all frames of another configuration.")
@@ -164,7 +166,7 @@ void bindScene(nb::module_& m) {
            "Becomes a copy of another configuration.")
       .def("copy", [](const PyConfig& c) { return PyConfig{Config(c), nullptr}; },
            "A copy that shares nothing that can be changed, like copy.copy and copy.deepcopy.")
-      .def("delFrame", [](PyConfig& c, nb::handle f) { c.delFrame(toFrame(c, f).getName()); }, "frame"_a,
+      .def("delFrame", [](PyConfig& c, nb::handle f) { c.delFrame(toFrame(c, f)); }, "frame"_a,
            "Removes a frame; its children stay where they are, as roots.")
       .def("attach", [](PyConfig& c, const std::string& parent, const std::string& child) { c.attach(parent, child); },
            "frame1"_a, "frame2"_a, "Cuts the link of frame2 off and attaches it, where it is, rigidly below frame1.")
@@ -198,6 +200,23 @@ void bindScene(nb::module_& m) {
       .def("getJointNames", &PyConfig::getJointNames, "One name per entry of q.")
       .def("getJointIDs", &PyConfig::getJointIDs, "Ids of the frames with active joints.")
       .def("getDofIDs", &PyConfig::getJointIDs, "The same as getJointIDs.")
+      .def("getStateNames", [](const PyConfig& c, const std::optional<std::string>& group) { return c.getStateNames(group.value_or("")); },
+           "group"_a = nb::none(), "Names of joint states that the scene knows (SRDF, attribute joint_states), or of those of a group.")
+      .def("getNamedState",
+           [](const PyConfig& c, const std::string& name, const std::optional<std::string>& group) {
+             return toNumpy(c.getNamedState(name, group.value_or("")));
+           },
+           "name"_a, "group"_a = nb::none(),
+           "The present q, shape (n,), with the values of a named state (rad, m): C.setJointState(C.getNamedState('home')).\n"
+           "Joints that the state does not name keep theirs. Without a group, the states of that name of all groups together.\n"
+           "Raises NameError for a name that is not there.")
+      .def("getJointGroups",
+           [](const PyConfig& c) {
+             nb::typed<nb::dict, nb::str, Names> groups;
+             for (const auto& [name, joints] : c.getJointGroups()) groups[nb::cast(name)] = nb::cast(joints);
+             return groups;
+           },
+           "Groups of joints (SRDF, attribute joint_groups): {name: names of the joints' frames}, for selectJoints.")
       .def("getJointLimits", [](const PyConfig& c) { return toNumpy(c.getJointLimits()); },
            "(2, n): lower and upper limits; 0 and -1 for a dof without limits.")
       .def("selectJoints", [](PyConfig& c, const Names& names, bool not_those) { c.selectJoints(names, not_those); },

@@ -1,4 +1,4 @@
-"""What a notebook shows of a Config: a table of its frames."""
+"""What a notebook shows of a Config, a table of its frames, and of a Frame."""
 
 from __future__ import annotations
 
@@ -47,3 +47,22 @@ def sceneHtml(config: Config) -> str:
     rows = "".join(_row(frame) for frame in frames[:_SHOWN])
     more = f"<p>and {len(frames) - _SHOWN} more</p>" if len(frames) > _SHOWN else ""
     return f"{_picture(config)}<p>{summary}</p><table><thead><tr>{head}</tr></thead><tbody>{rows}</tbody></table>{more}"
+
+
+def frameHtml(frame: Frame) -> str:
+    """A table of what the frame is now: where it is, m and quaternion, and its attributes as in a .g file."""
+    parent = frame.getParent()
+    described = {"parent": parent.name if parent else "none", "world pose": frame.getPose(), **frame.asDict()}
+    rows = "".join(
+        f"<tr><th>{escape(key)}</th><td>{escape(_text(value))}</td></tr>" for key, value in described.items()
+    )
+    return f"<p>Frame '{escape(frame.name)}'</p><table><tbody>{rows}</tbody></table>"
+
+
+def _text(value: object) -> str:
+    """Numbers shortly, and only the first of many."""
+    if isinstance(value, (list, tuple)) or hasattr(value, "tolist"):
+        items = list(value)
+        more = f" ... ({len(items)} in all)" if len(items) > _SHOWN else ""
+        return " ".join(_text(item) for item in items[:_SHOWN]) + more
+    return f"{value:.4g}" if isinstance(value, float) else str(value)

@@ -7,6 +7,7 @@
 
 #include "kinegraph/geometry/shape_types.h"
 #include "kinegraph/scene/config.h"
+#include "kinegraph/scene/frame_shapes.h"
 
 namespace kinegraph {
 
@@ -75,7 +76,7 @@ inline void addRandomShape(Frame frame, Rng& rng) {
       {ShapeType::quad, {1., 2.}},
       {ShapeType::camera, {}},
       {ShapeType::ssBoxElip, {1., 1., 1., .1, .2, .3, .05}}};
-  const int kind = pick(rng, int(shapes.size()) + 3);
+  const int kind = pick(rng, int(shapes.size()) + 6);
   const std::vector<Vector3d> points = {{0., 0., 0.}, {1., 0., .1}, {0., 1., .3}, {.1, .2, 1.}};
   if (kind < int(shapes.size())) {
     frame.setShape(shapes[std::size_t(kind)].first, shapes[std::size_t(kind)].second);
@@ -83,9 +84,17 @@ inline void addRandomShape(Frame frame, Rng& rng) {
     frame.setMesh({points, {{0, 2, 1}, {0, 1, 3}, {1, 2, 3}, {2, 0, 3}}, {{255, 0, 3, 255}}});
   } else if (kind == int(shapes.size()) + 1) {
     frame.setMesh({points, {}, {}});
+  } else if (kind == int(shapes.size()) + 2) {
+    frame.setMesh({points, {{0, 2, 1}, {1, 2, 3}}, {}, {0, 3}});
+  } else if (kind == int(shapes.size()) + 3) {
+    setLines(frame, points, {{255, 0, 0, 255}}, true);
+  } else if (kind == int(shapes.size()) + 4) {
+    setTensor(frame, {{2, 3, 2}, {.1f, 1e-9f, -2.f, 3.f, 4.f, 1.f / 3.f, 6.f, 7.f, 8.f, 9.f, 10.f, float(rng.normal())}}, {1., 2., 3.});
   } else {
     frame.setConvexCore(points, .02);
   }
+  if (pick(rng, 4) == 0) frame.data().shape->visual_mesh = "/no/such/mesh.ply";
+  if (pick(rng, 4) == 0) frame.data().shape->visual_pose = randomPose(rng);
   if (pick(rng, 2) == 0) frame.setColor({.1, rng.uniform(), .3, pick(rng, 2) == 0 ? 1. : .5});
   if (pick(rng, 2) == 0) frame.setContact(pick(rng, 4) - 2);
 }
@@ -111,6 +120,7 @@ inline void addRandomJoint(Frame frame, Rng& rng, bool only_one_dof) {
   if (pick(rng, 4) == 0) joint.stable = true;
   if (pick(rng, 4) == 0) joint.control_weight = .3;
   if (pick(rng, 4) == 0) joint.sample_uniform = .5;
+  if (pick(rng, 4) == 0) joint.sample_deviation = .2;
 }
 
 /// A scene with every kind of frame, joint, shape, mass and attribute that can be made, and odd names.
@@ -133,6 +143,7 @@ inline Config randomScene(Rng& rng, bool only_one_dof = false) {
         break;
       }
     }
+    if (id > 0 && pick(rng, 6) == 0) frame.data().no_contact.push_back(scene.frames()[std::size_t(pick(rng, id))].get());
     if (id > 0 && pick(rng, 6) == 0) frame.data().shape = scene.frames()[0]->shape;
     if (pick(rng, 3) == 0) {
       frame.setMass(2., {1., .1, .2, 2., .3, 3.});

@@ -6,6 +6,7 @@
 #include <fstream>
 
 #include "kinegraph/base/errors.h"
+#include "kinegraph/base/text.h"
 #include "kinegraph/gfile/writer.h"
 #include "tests/formats/random_scene.h"
 #include "tests/support/temporary_folder.h"
@@ -21,8 +22,16 @@ void expectSameShape(const Shape& a, const Shape& b) {
   EXPECT_EQ(a.geometry->size, b.geometry->size);
   EXPECT_EQ(a.color, b.color);
   EXPECT_EQ(a.contact, b.contact);
+  EXPECT_EQ(a.visual_mesh, b.visual_mesh);
+  EXPECT_TRUE((a.visual_pose.inverse() * b.visual_pose).isIdentity(kRounding));
+  ASSERT_EQ(a.geometry->grid != nullptr, b.geometry->grid != nullptr);
+  if (a.geometry->grid) {
+    EXPECT_EQ(a.geometry->grid->cells, b.geometry->grid->cells);
+    EXPECT_EQ(a.geometry->grid->values, b.geometry->grid->values);
+  }
   ASSERT_EQ(a.geometry->mesh != nullptr, b.geometry->mesh != nullptr);
   if (!a.geometry->mesh) return;
+  EXPECT_EQ(a.geometry->mesh->parts, b.geometry->mesh->parts);
   EXPECT_EQ(a.geometry->mesh->vertices, b.geometry->mesh->vertices);
   EXPECT_EQ(a.geometry->mesh->triangles, b.geometry->mesh->triangles);
   EXPECT_EQ(a.geometry->mesh->colors, b.geometry->mesh->colors);
@@ -66,6 +75,8 @@ void expectSameScene(const Config& a, const Config& b) {
     SCOPED_TRACE(x.name);
     ASSERT_EQ(x.parent != nullptr, y.parent != nullptr);
     if (x.parent) EXPECT_EQ(x.parent->id, y.parent->id);
+    ASSERT_EQ(x.no_contact.size(), y.no_contact.size());
+    for (std::size_t k = 0; k < x.no_contact.size(); ++k) EXPECT_EQ(x.no_contact[k]->id, y.no_contact[k]->id);
     EXPECT_TRUE((x.relativePose().inverse() * y.relativePose()).isIdentity(kRounding));
     ASSERT_EQ(x.joint.has_value(), y.joint.has_value());
     if (x.joint) expectSameJoint(*x.joint, *y.joint);
@@ -134,6 +145,15 @@ TEST(WriteScene, KeepsNamesThatTheLanguageCanHoldAndWarnsOfOthers) {
   ASSERT_EQ(warnings.size(), 1u);
   EXPECT_EQ(warnings[0],
             "names that are taken or that a text cannot hold are changed: 'two words' (frame 1) as 'two_words'");
+}
+
+TEST(WriteScene, TransformsBeforeAJointAreWrittenOnce) {
+  for (const char* key : {"pre", "A", "origin"}) {
+    Config config, again;
+    config.addText(cat("a: {}  b (a): { ", key, ": [0 0 1], joint: hingeX, post: [1 0 0] }"));
+    again.addText(writeScene(config));
+    EXPECT_EQ(again.getFrameNames(), config.getFrameNames()) << key;
+  }
 }
 
 TEST(WriteScene, IsOneReadableLinePerFrame) {

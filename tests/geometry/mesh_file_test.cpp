@@ -121,3 +121,33 @@ TEST_F(MeshFile, VerticesThatAreNotFiniteAreRefused) {
       messageOf(write("nan.stl", binaryStl(1, {{0, 0, 0, std::numeric_limits<float>::quiet_NaN(), 0, 0, 1, 1, 0}}))),
       "");
 }
+
+namespace {
+
+std::string ply(const std::string& vertices, const std::string& faces, const std::string& body) {
+  return "ply\nformat ascii 1.0\nelement vertex " + vertices +
+         "\nproperty float x\nproperty float y\nproperty float z\nelement face " + faces +
+         "\nproperty list uchar int vertex_index\nend_header\n" + body;
+}
+
+const char* const kCorners = "0 0 0\n1 0 0\n0 1 0\n3 0 1 ";
+
+}  // namespace
+
+TEST_F(MeshFile, AFaceThatNamesAVertexBeyondTheLastIsAnError) {
+  EXPECT_EQ(readMeshFile(write("good.ply", ply("3", "1", std::string(kCorners) + "2\n"))).triangles.size(), 1u);
+  const std::string message = messageOf(write("bad.ply", ply("3", "1", std::string(kCorners) + "4\n")));
+  EXPECT_NE(message.find("face 0 names vertex 4 of 3"), std::string::npos) << message;
+}
+
+TEST_F(MeshFile, AHeaderThatPromisesMoreThanTheFileHoldsIsAnErrorAtOnce) {
+  const std::string body = std::string(kCorners) + "2\n";
+  for (const std::string& text : {ply("4000000000", "1", body), ply("3", "4000000000", body), ply("3", "200000", body)}) {
+    const std::string message = messageOf(write("a.ply", text));
+    EXPECT_NE(message.find("more than its"), std::string::npos) << message;
+  }
+  const std::string gltf = R"({"asset": {"version": "2.0"}, "accessors": [{"componentType": 5126, "count": 100000000, "type": "VEC3"}]})";
+  EXPECT_NE(messageOf(write("a.gltf", gltf)).find("more than its"), std::string::npos);
+  const std::string dae = R"(<COLLADA><float_array id="a" count="4000000000">1 2 3</float_array></COLLADA>)";
+  EXPECT_NE(messageOf(write("a.DAE", dae)).find("more than its"), std::string::npos);
+}

@@ -134,7 +134,16 @@ def test_a_small_file_cannot_ask_for_much_memory(name: str, tmp_path: Path) -> N
 
 def test_a_mesh_file_that_promises_more_than_it_holds_is_an_error(tmp_path: Path) -> None:
     many = 2**31 - 1
+    buffer = (
+        '{"asset": {"version": "2.0"}, "accessors": [{"componentType": 5126, "count": 100000000, "type": "VEC3"}], '
+    )
     promises = {
+        "vertices.ply": PLY.replace("vertex 3", f"vertex {many}").encode(),
+        "faces.ply": PLY.replace("face 1", f"face {many}").encode(),
+        "a.gltf": (
+            buffer + '"meshes": [{"primitives": [{"attributes": {"POSITION": 0}}]}], "nodes": [{"mesh": 0}]}'
+        ).encode(),
+        "a.dae": b'<COLLADA version="1.4.1"><float_array id="a" count="4000000000">1 2 3</float_array></COLLADA>',
         "a.msh": struct.pack("<4i", many, 0, 0, many),
         "a.stl": b"\0" * 80 + struct.pack("<I", many),
         "a.obj": b"v 0 0 0\nf 1 2 999999999\n",
@@ -144,3 +153,12 @@ def test_a_mesh_file_that_promises_more_than_it_holds_is_an_error(tmp_path: Path
         before = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss
         assert load(tmp_path / name) is None, name
         assert resource.getrusage(resource.RUSAGE_SELF).ru_maxrss - before < 200_000, name  # kB
+
+
+# What the fuzzers of tests/fuzz have found.
+FOUND = sorted((Path(__file__).parent.parent / "data" / "damaged").iterdir())
+
+
+@pytest.mark.parametrize("file", FOUND, ids=lambda file: file.name)
+def test_what_fuzzers_have_found_stays_mended(file: Path) -> None:
+    load(file)

@@ -89,6 +89,7 @@ def test_the_pr2_drives_and_reaches():
     C = model("pr2/pr2.g")
     assert C.getJointNames()[:3] == [f"worldTranslationRotation:{i}" for i in range(3)]
     assert not [name for name in C.getJointNames() if "caster" in name]
+    assert C.getJointDimension() == 25 and {"l_gripper_joint", "r_gripper_l_finger_joint"} <= set(C.getJointNames())
     assert np.allclose(C.getFrame("l_wrist_roll_joint").getPosition(), [-0.3998, 0.3779, 0.9513], atol=2e-3)
 
 

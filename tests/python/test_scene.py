@@ -158,3 +158,21 @@ def test_a_name_that_is_taken_warns():
 
 def test_an_unknown_frame_is_none_where_a_script_asks_so(panda):
     assert panda.getFrame("nothing", False) is None
+
+
+def test_frames_of_a_text_whose_names_are_taken_are_a_warning() -> None:
+    C = ry.Config()
+    C.addText("a: {}")
+    with pytest.warns(ry.KinegraphWarning, match="text: 1 of its frames have names that exist already .a."):
+        C.addText("a: {}  b: {}")
+
+
+def test_a_frame_may_be_asked_for_twice_but_not_as_another_one() -> None:
+    C = ry.Config()
+    C.addFrame("table")
+    box = C.addFrame("box", "table", "shape: sphere, size: [.1]")
+    with pytest.warns(ry.KinegraphWarning, match="'box' exists already and is returned as it is"):
+        assert C.addFrame("box", C.getFrame("table")) == box
+    with pytest.raises(ry.ArgumentError, match="below 'table', not below 'box2'; take another name .such as 'box_2'"):
+        C.addFrame("box", C.addFrame("box2"))
+    assert C.getFrameNames() == ["table", "box", "box2"]

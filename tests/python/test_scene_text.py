@@ -155,3 +155,11 @@ def test_write_takes_the_format_from_the_file_name(config: ry.Config, tmp_path, 
 def test_a_file_that_cannot_be_written_is_an_error(config: ry.Config, tmp_path) -> None:
     with pytest.raises(ry.FileError, match="cannot be written"):
         config.write(tmp_path / "missing" / "s.g")
+
+
+def test_files_that_attributes_name_are_found_after_saving_elsewhere(tmp_path) -> None:
+    (tmp_path / "picture.png").write_bytes(b"")
+    (tmp_path / "a.g").write_text("a: { shape: box, size: [1 1 1], texture: <picture.png>, note: <nothing.png> }")
+    C = ry.Config()
+    C.addFile(tmp_path / "a.g")
+    assert f"texture: <{tmp_path / 'picture.png'}>, note: <nothing.png>" in C.write()

@@ -261,6 +261,18 @@ def test_a_config_shows_a_table_of_its_frames_in_a_notebook():
     assert "31 frames" in html and "&lt;b&gt;" in html and "<td>box</td>" in html and "and 11 more" in html
 
 
+def test_a_frame_shows_what_it_is_and_that_it_is_gone():
+    C = ry.Config()
+    C.addText("base: { X: [1 2 3] }  '<b>'(base): { joint: hingeX, q: .5, note: 'a&b' }".replace("'<b>'", '"<b>"'))
+    html = C.getFrame("<b>")._repr_html_()
+    for part in ("Frame '&lt;b&gt;'", "<td>base</td>", "1 2 3 0.9689", "<th>joint</th><td>hingeX</td>", "a&amp;b"):
+        assert part in html
+    frame = C.getFrame("base").setMesh(np.zeros((100, 3)), [])
+    assert "(300 in all)" in frame._repr_html_()
+    C.delFrame(frame)
+    assert repr(frame) == "<Frame, deleted>"
+
+
 def test_meshes_are_written_and_read_back(tmp_path):
     C = ry.Config()
     C.addFrame("part/1").setMesh(*TETRAHEDRON, colors=[255, 0, 0]).setPosition([0, 0, 1])

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "kinegraph/base/errors.h"
+#include "tests/support/expect_error.h"
 
 using namespace kinegraph;
 
@@ -184,6 +185,33 @@ TEST(Frame, MistakesAreExplained) {
   expectError([&] { config.addFrame("y", "base", "shape: bax"); }, "similar names: box");
   EXPECT_FALSE(config.findFrame("y")) << "a frame whose attributes are wrong is not added";
   expectError([&] { config.getFrame("free").setContact(1); }, "has no shape");
+}
+
+TEST(Config, AFrameMayBeAskedForTwiceButNotAsAnotherOne) {
+  Config config = arm();
+  const Frame base = config.getFrame("base");
+  const Frame tool = config.addFrame("tool", "base", "joint: hingeX, pre: [0 0 1], note: x");
+  EXPECT_EQ(config.addFrame("tool"), tool);
+  EXPECT_EQ(config.addFrame("tool", base), tool);
+  EXPECT_EQ(config.addFrame("tool", "base", "joint: hingeX, pre: [0 0 1], note: x"), tool);
+  ASSERT_EQ(config.takeWarnings().size(), 3u);
+  const int count = config.getFrameDimension();
+  expectError<ValueError>([&] { config.addFrame("tool", "link2"); }, {"'tool' exists already, below 'base', not below 'link2'", "'tool_2'"});
+  expectError<ValueError>([&] { config.addFrame("base", "link2"); }, {"without a parent, not below 'link2'"});
+  expectError<ValueError>([&] { config.addFrame("tool", "base", "joint: hingeY"); }, {"with other attributes", "delFrame('tool')"});
+  EXPECT_EQ(config.getFrameDimension(), count);
+  EXPECT_EQ(config.getFrame("tool").getJointType(), JointType::hingeX);
+}
+
+TEST(Config, FramesOfOneNameAreToldApartByTheirHandles) {
+  Config config;
+  config.addText("a: { X: [1 0 0] }  a: { X: [2 0 0] }");
+  EXPECT_EQ(config.addFrame("b", config.getFrame(1)).getPose().p.x(), 2.);
+  config.delFrame(config.getFrame(1));
+  EXPECT_EQ(config.getFrame("a").getPose().p.x(), 1.);
+  EXPECT_EQ(config.getFrameNames(), (std::vector<std::string>{"a", "b"}));
+  Config other = config;
+  expectError<ValueError>([&] { other.delFrame(config.getFrame("a")); }, {"'a' belongs to another configuration"});
 }
 
 TEST(Frame, ReattachingKeepsTheRelativeOrTheWorldPose) {

@@ -29,7 +29,7 @@ void checkMjcfSections(const MjcfDocument& document, Findings& findings) {
   static const Words sections = {"compiler", "option",   "size",      "visual",   "statistic",  "default",
                                  "custom",   "asset",    "worldbody", "contact",  "deformable", "equality",
                                  "tendon",   "actuator", "sensor",    "keyframe", "extension"};
-  static const Words read = {"equality joint", "contact exclude"};
+  static const Words read = {"equality joint", "contact exclude", "keyframe key"};
   static const Words of_interest = {"equality", "contact", "deformable", "tendon", "actuator", "sensor", "keyframe"};
   static const Words assets = {"texture", "material", "mesh", "hfield", "skin", "model"};
   checkChildren(document.root(), sections, findings);

@@ -103,6 +103,10 @@ class FrameDescription {
                                                   : std::vector<double>(shape.color->begin(), shape.color->end()));
     }
     if (geometry.mesh) addMesh(geometry);
+    if (geometry.grid) {
+      addNumbers("grid_cells", geometry.grid->cells);
+      addNumbers("grid_values", geometry.grid->values);
+    }
     if (shape.contact != 0) add("contact", double(shape.contact));
     if (!shape.visual_mesh.empty()) add("visual_mesh", fileReference("visual_mesh", shape.visual_mesh));
     addPoseNumbers("visual_pose", shape.visual_pose);
@@ -138,6 +142,7 @@ class FrameDescription {
     numbers.clear();
     for (const auto& color : mesh.colors) numbers.insert(numbers.end(), color.begin(), color.end());
     if (!numbers.empty()) addNumbers("vertex_colors", numbers);
+    if (!mesh.parts.empty()) addNumbers("mesh_parts", mesh.parts);
   }
 
   void addInertia(const Inertia& inertia) {
@@ -168,6 +173,7 @@ class FrameDescription {
                                                       "axis",
                                                       "mimic",
                                                       "pre",
+                                                      "origin",
                                                       "post",
                                                       "A",
                                                       "B",
@@ -188,6 +194,9 @@ class FrameDescription {
                                                       "vertices",
                                                       "triangles",
                                                       "vertex_colors",
+                                                      "mesh_parts",
+                                                      "grid_cells",
+                                                      "grid_values",
                                                       "mimic_shape",
                                                       "contact",
                                                       "contact_exclude",

@@ -13,6 +13,7 @@
 #include "kinegraph/base/errors.h"
 #include "kinegraph/base/text.h"
 #include "kinegraph/geometry/h5_file.h"
+#include "kinegraph/geometry/mesh_promises.h"
 
 namespace kinegraph {
 
@@ -21,6 +22,19 @@ namespace {
 std::array<std::uint8_t, 4> bytes(const aiColor4D& color) {
   const auto byte = [](float x) { return std::uint8_t(std::lround(255.f * std::clamp(x, 0.f, 1.f))); };
   return {byte(color.r), byte(color.g), byte(color.b), byte(color.a)};
+}
+
+void checkFaces(const aiScene& scene, const std::string& path) {
+  for (unsigned m = 0; m < scene.mNumMeshes; ++m) {
+    const aiMesh& part = *scene.mMeshes[m];
+    for (unsigned f = 0; f < part.mNumFaces; ++f) {
+      const aiFace& face = part.mFaces[f];
+      for (unsigned i = 0; i < face.mNumIndices; ++i) {
+        if (face.mIndices[i] < part.mNumVertices) continue;
+        throw FileError(cat("mesh file '", path, "': face ", f, " names vertex ", face.mIndices[i], " of ", part.mNumVertices));
+      }
+    }
+  }
 }
 
 void append(const aiScene& scene, const aiNode& node, const aiMatrix4x4& above, Mesh& mesh) {
@@ -98,9 +112,12 @@ Mesh readMeshFile(const std::string& path) {
   if (!std::filesystem::is_regular_file(path)) throw FileError(cat("mesh file '", path, "' does not exist"));
   if (path.ends_with(".h5")) return readH5Mesh(path, "mesh");
   if (path.ends_with(".msh")) return readMshMesh(path);
+  checkMeshPromises(path);
   Assimp::Importer importer;
   importer.SetPropertyBool(AI_CONFIG_IMPORT_COLLADA_IGNORE_UP_DIRECTION, true);  // as robot descriptions mean it
-  const aiScene* scene = importer.ReadFile(path, aiProcess_Triangulate | aiProcess_JoinIdenticalVertices);
+  const aiScene* scene = importer.ReadFile(path, 0);
+  if (scene) checkFaces(*scene, path);  // which the next steps believe
+  if (scene) scene = importer.ApplyPostProcessing(aiProcess_Triangulate | aiProcess_JoinIdenticalVertices);
   if (!scene || !scene->mRootNode) {
     throw FileError(cat("mesh file '", path, "' cannot be read: ", importer.GetErrorString()));
   }

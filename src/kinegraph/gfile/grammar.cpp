@@ -183,7 +183,8 @@ void Grammar::skipToBraceOfHead() {
 std::string Grammar::parseKey() {
   const std::size_t start = at_;
   if (peek() == '"') return parseQuoted('"');
-  while (!atEnd() && !isOneOf(peek(), ":\t\n\r,;[]{}()<=!~'\"#")) ++at_;
+  static constexpr CharSet kEnds(":\t\n\r,;[]{}()<=!~'\"#");
+  while (!atEnd() && !kEnds[peek()]) ++at_;
   std::size_t end = at_;
   while (end > start && text_[end - 1] == ' ') --end;
   return std::string(text_.substr(start, end - start));
@@ -232,9 +233,11 @@ Value Grammar::parseValue() {
     ++at_;
     value.data = c == '~';
   } else if (startsNumber(c)) {
-    value.data = parseNumber(" \t\r\n,;}#)");
+    static constexpr CharSet kEnds(" \t\r\n,;}#)");
+    value.data = parseNumber(kEnds);
   } else if (startsWord(c)) {
-    value.data = interpretWord(parseWord(" \t\r\n,;}"));
+    static constexpr CharSet kEnds(" \t\r\n,;}");
+    value.data = interpretWord(parseWord(kEnds));
   } else {
     fail(at_, cat("'", c, "' cannot start a value; expected a number, a word, \"text\", [array], {graph} or <file>"));
   }

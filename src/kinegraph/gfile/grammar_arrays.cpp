@@ -68,6 +68,7 @@ Value Grammar::parseArray() {
 }
 
 Value Grammar::parseElement(ArrayParts& parts) {
+  static constexpr CharSet kWordEnds(" \t\r\n,;]"), kNumberEnds(" \t\r\n,;]#");
   const char c = peek();
   const std::size_t start = at_;
   Value element;
@@ -78,11 +79,11 @@ Value Grammar::parseElement(ArrayParts& parts) {
   } else if (c == '"' || c == '\'') {
     element.data = parseQuoted(c);
   } else if (textual && !parts.nested && !isOneOf(c, "}()<>:=")) {
-    element.data = parseWord(" \t\r\n,;]");
+    element.data = parseWord(kWordEnds);
   } else if (startsNumber(c)) {
-    element.data = parseNumber(" \t\r\n,;]#");
+    element.data = parseNumber(kNumberEnds);
   } else if (startsWord(c)) {
-    const std::string word = parseWord(" \t\r\n,;]");
+    const std::string word = parseWord(kWordEnds);
     const bool among_numbers = !parts.list.empty() && !textual;
     if (among_numbers && word == "inf") {
       element.data = std::numeric_limits<double>::infinity();

@@ -80,19 +80,23 @@ Value Grammar::parseSequence(std::size_t indent) {
 }
 
 Value Grammar::parseScalar() {
+  if (!yaml_ || !(startsWord(peek()) || startsNumber(peek()))) return parseValue();
+  static constexpr CharSet kFlow(",;:{}[]\n");
   const std::size_t start = at_;
-  const std::size_t line_end = std::min(text_.find('\n', start), text_.size());
-  std::string_view line = text_.substr(start, line_end - start);
-  line = line.substr(0, std::min(line.find(" #"), line.size()));
-  while (!line.empty() && (isBlank(line.back()) || line.back() == ',')) line.remove_suffix(1);
-  const bool plain = yaml_ && !line.empty() && (startsWord(line[0]) || startsNumber(line[0]));
-  const bool has_more = line.find_first_of(" \t,;:{}[]") != std::string_view::npos;
-  const bool is_text = plain && has_more && line.find_first_of(",;:{}[]") == std::string_view::npos;
+  std::size_t end = start;  // of the scalar, or where flow style begins
+  while (end < text_.size() && !kFlow[text_[end]] && text_.substr(end, 2) != " #") ++end;
+  std::size_t rest = end;  // commas may end a line
+  while (rest < text_.size() && (isBlank(text_[rest]) || text_[rest] == ',')) ++rest;
+  const bool has_flow = rest < text_.size() && text_[rest] != '\n' && text_[rest] != '#';
+  std::string_view line = text_.substr(start, end - start);
+  while (!line.empty() && isBlank(line.back())) line.remove_suffix(1);
+  const bool has_more = has_flow || line.find_first_of(" \t") != std::string_view::npos;
+  const bool is_text = has_more && !has_flow;
   if (!is_text) {
     try {
       return parseValue();
     } catch (const Failure&) {
-      if (!plain || has_more) throw;
+      if (has_more) throw;
     }
   }
   Value value;

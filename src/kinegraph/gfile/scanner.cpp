@@ -8,24 +8,33 @@
 namespace kinegraph {
 
 bool startsWord(char c) {
-  return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || isOneOf(c, "_/$") || static_cast<unsigned char>(c) >= 0x80;
+  return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_' || c == '/' || c == '$' || static_cast<unsigned char>(c) >= 0x80;
 }
 
 Scanner::Scanner(std::string_view text, const std::string& file) : text_(text), file_(file) {
   line_starts_.push_back(0);
-  for (std::size_t i = 0; i < text.size(); ++i) {
-    if (text[i] == '\n') line_starts_.push_back(i + 1);
-  }
+  for (std::size_t end = 0; (end = text.find('\n', end)) != std::string_view::npos;) line_starts_.push_back(++end);
   if (text_.starts_with("\xEF\xBB\xBF")) at_ = 3;  // a byte-order mark
 }
 
+/// Reading goes on from line to line, so that the line of a place is nearly always the one of the last place or the next.
+std::size_t Scanner::lineOf(std::size_t at) const {
+  std::size_t line = last_line_;
+  const auto startOf = [&](std::size_t i) { return i < line_starts_.size() ? line_starts_[i] : text_.size() + 1; };
+  for (int step = 0; step < 4 && at >= startOf(line + 1); ++step) ++line;
+  if (at < startOf(line) || at >= startOf(line + 1)) {
+    line = std::size_t(std::upper_bound(line_starts_.begin(), line_starts_.end(), at) - line_starts_.begin()) - 1;
+  }
+  return last_line_ = line;
+}
+
 SourcePosition Scanner::position(std::size_t at) const {
-  const auto line = std::upper_bound(line_starts_.begin(), line_starts_.end(), at) - line_starts_.begin();
-  return {file_, int(line), int(at - line_starts_[line - 1]) + 1};
+  const std::size_t line = lineOf(at);
+  return {file_, int(line) + 1, int(at - line_starts_[line]) + 1};
 }
 
 bool Scanner::startsLine(std::size_t at, std::size_t& indent) const {
-  const std::size_t start = *(std::upper_bound(line_starts_.begin(), line_starts_.end(), at) - 1);
+  const std::size_t start = line_starts_[lineOf(at)];
   indent = at - start;
   return std::all_of(text_.begin() + start, text_.begin() + at, isBlank);
 }
@@ -34,12 +43,11 @@ void Scanner::skipBlanks() {
   while (!atEnd() && isBlank(peek())) ++at_;
 }
 
-void Scanner::skipComment() {
-  while (!atEnd() && peek() != '\n') ++at_;
-}
+void Scanner::skipComment() { at_ = std::min(text_.find('\n', at_), text_.size()); }
 
 void Scanner::skipSeparators() {
-  while (!atEnd() && (isSpace(peek()) || isOneOf(peek(), ",;#"))) {
+  static constexpr CharSet kSeparators(" \t\r\n,;#");
+  while (!atEnd() && kSeparators[peek()]) {
     if (peek() == '#') {
       skipComment();
     } else {
@@ -49,7 +57,8 @@ void Scanner::skipSeparators() {
 }
 
 void Scanner::skipInArray() {
-  while (!atEnd() && (isSpace(peek()) || isOneOf(peek(), ",#"))) {
+  static constexpr CharSet kSeparators(" \t\r\n,#");
+  while (!atEnd() && kSeparators[peek()]) {
     if (peek() == '#') {
       skipComment();
     } else {
@@ -58,9 +67,9 @@ void Scanner::skipInArray() {
   }
 }
 
-std::string Scanner::parseWord(std::string_view stop) {
+std::string Scanner::parseWord(const CharSet& stop) {
   const std::size_t start = at_;
-  while (!atEnd() && !isOneOf(peek(), stop)) ++at_;
+  while (!atEnd() && !stop[peek()]) ++at_;
   return std::string(text_.substr(start, at_ - start));
 }
 
@@ -82,14 +91,14 @@ std::string Scanner::parseAngle() {
   return content;
 }
 
-double Scanner::parseNumber(std::string_view stop) {
+double Scanner::parseNumber(const CharSet& stop) {
   const std::size_t start = at_;
   const char* first = text_.data() + at_;
   const char* last = text_.data() + text_.size();
   if (*first == '+') ++first;
   double number = 0.;
   const auto [end, error] = std::from_chars(first, last, number);
-  const bool complete = end == last || isOneOf(*end, stop);
+  const bool complete = end == last || stop[*end];
   if (error == std::errc::invalid_argument || !complete) {
     const std::string word = parseWord(stop);
     fail(start, cat("'", word, "' is not a number"));
@@ -103,6 +112,7 @@ double Scanner::parseNumber(std::string_view stop) {
 
 std::vector<std::string> Scanner::parseNames() {
   const std::size_t opened_at = at_++;
+  static constexpr CharSet kEnds(" \t\r\n,(){}[]<:=\"'");
   std::vector<std::string> names;
   for (;;) {
     while (!atEnd() && (isSpace(peek()) || peek() == ',')) ++at_;
@@ -116,7 +126,7 @@ std::vector<std::string> Scanner::parseNames() {
       continue;
     }
     const std::size_t start = at_;
-    while (!atEnd() && !isSpace(peek()) && !isOneOf(peek(), ",(){}[]<:=\"'")) ++at_;
+    while (!atEnd() && !kEnds[peek()]) ++at_;
     if (at_ == start) fail(at_, cat("'", peek(), "' in a list of names (a b)"));
     names.emplace_back(text_.substr(start, at_ - start));
   }

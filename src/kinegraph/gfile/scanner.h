@@ -8,10 +8,22 @@
 
 namespace kinegraph {
 
+/// A set of characters that is asked often: `kStops[c]`.
+class CharSet {
+ public:
+  explicit consteval CharSet(std::string_view characters) {
+    for (const char c : characters) has_[static_cast<unsigned char>(c)] = true;
+  }
+  constexpr bool operator[](char c) const { return has_[static_cast<unsigned char>(c)]; }
+
+ private:
+  bool has_[256] = {};
+};
+
 inline bool isBlank(char c) { return c == ' ' || c == '\t' || c == '\r'; }
 inline bool isSpace(char c) { return isBlank(c) || c == '\n'; }
 inline bool isOneOf(char c, std::string_view set) { return set.find(c) != std::string_view::npos; }
-inline bool startsNumber(char c) { return (c >= '0' && c <= '9') || isOneOf(c, "+-."); }
+inline bool startsNumber(char c) { return (c >= '0' && c <= '9') || c == '+' || c == '-' || c == '.'; }
 bool startsWord(char c);
 
 /// A place in a text of the .g language, and the tokens that begin there. Knows nothing of entries.
@@ -39,10 +51,10 @@ class Scanner {
   /// Is there nothing but blanks between the start of its line and `at`? Then the number of them.
   bool startsLine(std::size_t at, std::size_t& indent) const;
 
-  std::string parseWord(std::string_view stop);
+  std::string parseWord(const CharSet& stop);
   std::string parseQuoted(char quote);
   std::string parseAngle();  ///< < ... > on one line
-  double parseNumber(std::string_view stop);
+  double parseNumber(const CharSet& stop);
   std::vector<std::string> parseNames();  ///< (a b)
 
   std::string_view text_;
@@ -50,7 +62,10 @@ class Scanner {
   std::size_t at_ = 0;
 
  private:
+  std::size_t lineOf(std::size_t at) const;  ///< counted from 0
+
   std::vector<std::size_t> line_starts_;
+  mutable std::size_t last_line_ = 0;  ///< that was asked for: the next is near
 };
 
 }  // namespace kinegraph

@@ -7,6 +7,13 @@
 
 namespace kinegraph {
 
+Graph::Graph() = default;
+Graph::Graph(const Graph& other) = default;
+Graph::Graph(Graph&& other) noexcept = default;
+Graph& Graph::operator=(const Graph& other) = default;
+Graph& Graph::operator=(Graph&& other) noexcept = default;
+Graph::~Graph() = default;
+
 const Node* Graph::find(std::string_view key) const {
   for (const Node& node : nodes) {
     if (node.key == key) return &node;

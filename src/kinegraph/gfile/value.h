@@ -16,6 +16,13 @@ struct Value;
 struct Graph {
   std::vector<Node> nodes;
 
+  Graph();  // these are defined where Node is complete, as clang wants it
+  Graph(const Graph& other);
+  Graph(Graph&& other) noexcept;
+  Graph& operator=(const Graph& other);
+  Graph& operator=(Graph&& other) noexcept;
+  ~Graph();
+
   const Node* find(std::string_view key) const;
   Node* find(std::string_view key);
   void set(Node node);                ///< replaces the first node of that key, or appends

@@ -24,6 +24,7 @@ constexpr const char* kKnownAttributes[] = {
     "motorKp", "motorKd", "motorLambda", "motorMass", "gains", "drive", "noMotor", "angularDamping", "focalLength",
     "fxycxy", "orthoAbsHeight", "heightAngle", "heightAbs", "zRange", "width", "height", "label", "part", "visual",
     "noVisual", "franka", "parent", "home", "contact_exclude", "vertices", "triangles", "vertex_colors",
+    "joint_groups", "joint_states", "mesh_parts", "grid_cells", "grid_values",
 };
 // clang-format on
 

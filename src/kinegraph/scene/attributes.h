@@ -57,6 +57,7 @@ class AttributeReader {
   bool readCore(Geometry& geometry);
   bool readRope(Geometry& geometry);
   bool readVertices(Geometry& geometry);
+  bool readGrid(Geometry& geometry);
   bool readSize(Geometry& geometry);
   void checkSpelling();
   template <class Function>

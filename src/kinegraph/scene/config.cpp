@@ -7,7 +7,10 @@
 
 #include "kinegraph/base/errors.h"
 #include "kinegraph/base/text.h"
+#include "kinegraph/gfile/parser.h"
+#include "kinegraph/scene/named_states.h"
 #include "kinegraph/scene/reader.h"
+#include "kinegraph/scene/robot_semantics.h"
 
 namespace kinegraph {
 
@@ -40,6 +43,10 @@ std::string duplicatesWarning(const SceneTree& scene, const SceneTree& added, co
 }  // namespace
 
 std::optional<Frame> Config::addFile(const std::string& path, const std::string& prefix) {
+  if (isSemanticsFile(path)) {
+    readSemanticsFile(path, prefix, *scene_, warnings_);
+    return std::nullopt;
+  }
   SceneTree scratch;
   readSceneFile(path, scratch, warnings_);
   if (std::string warning = duplicatesWarning(*scene_, scratch, prefix, path); !warning.empty()) warnings_.push_back(std::move(warning));
@@ -51,18 +58,48 @@ std::optional<Frame> Config::addFile(const std::string& path, const std::string&
 std::optional<Frame> Config::addText(std::string_view text, const std::string& name, const std::string& folder) {
   SceneTree scratch;
   readSceneText(text, name, folder, scratch, warnings_);
+  if (std::string warning = duplicatesWarning(*scene_, scratch, "", name); !warning.empty()) warnings_.push_back(std::move(warning));
   FrameData* first = scene_->append(scratch, "");
   if (!first) return std::nullopt;
   return Frame(scene_, *first);
 }
 
+namespace {
+
+/// Scripts, and cells of notebooks that are run again, may ask for a frame twice; but not for two that differ.
+void checkSameRequest(const FrameData& existing, const FrameData* parent, const std::string& attributes) {
+  const FrameData* above = existing.parent;
+  while (above && (above->name == existing.name + "_origin" || above->name == "|" + existing.name)) above = above->parent;  // of pre and post
+  std::string difference;
+  if (parent && above != parent) {
+    difference = cat(above ? cat("below '", above->name, "'") : "without a parent", ", not below '", parent->name, "'");
+  } else if (!attributes.empty() && parse(attributes, cat("addFrame('", existing.name, "')")) != *existing.attributes) {
+    difference = "with other attributes";
+  }
+  if (difference.empty()) return;
+  int number = 2;
+  while (existing.tree->find(cat(existing.name, "_", number))) ++number;
+  throw ValueError(cat("addFrame: a frame named '", existing.name, "' exists already, ", difference, "; take another name (such as '",
+                       existing.name, "_", number, "'), or delFrame('", existing.name, "') before"));
+}
+
+}  // namespace
+
 Frame Config::addFrame(const std::string& name, const std::string& parent, const std::string& attributes) {
+  return addFrame(name, parent.empty() ? nullptr : &scene_->get(parent, cat("addFrame('", name, "'): parent")), attributes);
+}
+
+Frame Config::addFrame(const std::string& name, const Frame& parent, const std::string& attributes) {
+  return addFrame(name, &ownFrame(parent, "addFrame"), attributes);
+}
+
+Frame Config::addFrame(const std::string& name, FrameData* parent, const std::string& attributes) {
   if (FrameData* existing = name.empty() ? nullptr : scene_->find(name)) {
+    checkSameRequest(*existing, parent, attributes);
     warnings_.push_back(cat("addFrame: a frame named '", name, "' exists already and is returned as it is"));
     return Frame(scene_, *existing);
   }
-  FrameData* parent_data = parent.empty() ? nullptr : &scene_->get(parent, cat("addFrame('", name, "'): parent"));
-  FrameData& frame = scene_->add(name, parent_data);
+  FrameData& frame = scene_->add(name, parent);
   try {
     if (!attributes.empty()) readAttributes(attributes, std::filesystem::current_path().string(), frame, warnings_);
   } catch (...) {
@@ -79,6 +116,13 @@ std::optional<Frame> Config::addConfigurationCopy(const Config& other, const std
 }
 
 void Config::delFrame(const std::string& name) { scene_->remove(scene_->get(name, "delFrame")); }
+
+void Config::delFrame(const Frame& frame) { scene_->remove(ownFrame(frame, "delFrame")); }
+
+FrameData& Config::ownFrame(const Frame& frame, const char* call) const {
+  if (frame.scene() == scene_) return frame.data();
+  throw ValueError(cat(call, ": frame '", frame.getName(), "' belongs to another configuration"));
+}
 
 void Config::attach(const std::string& parent, const std::string& child) {
   FrameData& target = scene_->get(parent, "attach");
@@ -217,6 +261,12 @@ std::vector<int> Config::getJointIDs() const {
   for (const Frame& frame : getJoints()) ids.push_back(frame.id());
   return ids;
 }
+
+std::vector<std::string> Config::getStateNames(const std::string& group) const { return stateNames(*scene_, group); }
+
+VectorXd Config::getNamedState(const std::string& name, const std::string& group) const { return namedState(*scene_, name, group); }
+
+std::vector<std::pair<std::string, std::vector<std::string>>> Config::getJointGroups() const { return jointGroups(*scene_); }
 
 MatrixXd Config::getJointLimits() const {
   const auto program = scene_->program();

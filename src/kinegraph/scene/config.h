@@ -27,8 +27,9 @@ class Config {
 
   // --- building --------------------------------------------------------------------------------------------------
 
-  /// Adds the frames of a scene file, in the .g language or of a format that its extension tells (.urdf); `prefix` is put
-  /// before their names. Returns the first of them, if any. On an error (FileError, ParseError) the configuration is
+  /// Adds the frames of a scene file, in the .g language or of a format that its extension tells (.urdf, .xml); `prefix` is
+  /// put before their names. Returns the first of them, if any. What an .srdf file says about a robot is entered into its frames,
+  /// which are there already; one beside a .urdf file is read with it. On an error (FileError, ParseError) the configuration is
   /// unchanged. Warnings go to `takeWarnings`.
   std::optional<Frame> addFile(const std::string& path, const std::string& prefix = {});
 
@@ -36,14 +37,17 @@ class Config {
   std::optional<Frame> addText(std::string_view text, const std::string& name = "text", const std::string& folder = {});
 
   /// Appends a frame. It sits at its parent's pose, or at the world's origin without one. `attributes` is text as inside
-  /// the braces of a `.g` file. A name that exists already gives that frame, unchanged, with a warning. Throws
-  /// FrameNotFound for an unknown parent.
+  /// the braces of a `.g` file. A name that exists already gives that frame, unchanged, with a warning; but throws ValueError if the call
+  /// asks for another parent or other attributes than that frame was made with. Throws FrameNotFound for an unknown parent.
   Frame addFrame(const std::string& name, const std::string& parent = {}, const std::string& attributes = {});
+  Frame addFrame(const std::string& name, const Frame& parent, const std::string& attributes = {});
 
   /// Appends copies of all frames of `other`, names prefixed. Returns the first, if any.
   std::optional<Frame> addConfigurationCopy(const Config& other, const std::string& prefix = {});
 
+  /// Removes a frame, by name the first of that name. Its children become roots and stay where they are.
   void delFrame(const std::string& name);
+  void delFrame(const Frame& frame);
   void clear() { scene_->clear(); }
 
   /// Re-attaches the link that `child` belongs to: its topmost frame is cut off and hangs, rigidly and where it is, below
@@ -81,6 +85,16 @@ class Config {
   /// One name per entry of q: the frame's, with ":i" where its joint has several dofs.
   std::vector<std::string> getJointNames() const;
   std::vector<int> getJointIDs() const;  ///< ids of the frames of getJoints
+
+  /// Names of joint states that the scene knows (attribute `joint_states`, SRDF), or of those of one group.
+  std::vector<std::string> getStateNames(const std::string& group = {}) const;
+
+  /// The present q with the values of such a state; joints that it does not name keep theirs. Without a group, the states of
+  /// that name of all groups are taken together. Throws NameError for a name that is not there.
+  VectorXd getNamedState(const std::string& name, const std::string& group = {}) const;
+
+  /// Groups of joints (attribute `joint_groups`, SRDF): their names, and those of the joints' frames.
+  std::vector<std::pair<std::string, std::vector<std::string>>> getJointGroups() const;
 
   /// 2 x n: row 0 lower, row 1 upper limits; 0 and -1 for a dof without limits.
   MatrixXd getJointLimits() const;
@@ -141,6 +155,9 @@ class Config {
   std::vector<std::string> takeWarnings();
 
  private:
+  Frame addFrame(const std::string& name, FrameData* parent, const std::string& attributes);
+  FrameData& ownFrame(const Frame& frame, const char* call) const;  ///< throws ValueError if it is another Config's
+
   std::shared_ptr<SceneTree> scene_;
   std::vector<std::string> warnings_;
 };

@@ -74,6 +74,7 @@ class Frame {
   Graph& editAttributes() const { return data().attributes.edit(); }
 
   FrameData& data() const;  ///< throws FrameDeleted
+  bool isDeleted() const { return data_->tree == nullptr; }
   const std::shared_ptr<SceneTree>& scene() const { return scene_; }
 
  private:

@@ -30,6 +30,18 @@ void readSceneText(std::string_view text, const std::string& name, const std::st
   build(readSource(text, name, folder, diagnostics), scene, diagnostics, warnings);
 }
 
+void readSemanticsFile(const std::string& path, const std::string& prefix, SceneTree& scene, std::vector<std::string>& warnings) {
+  SceneDiagnostics diagnostics;
+  SceneSource source = readSource(path, diagnostics);
+  diagnostics.throwErrors();
+  for (RobotSemantics& semantics : source.semantics) {
+    semantics.prefix = prefix;
+    applySemantics(semantics, scene, diagnostics);
+  }
+  diagnostics.throwErrors();
+  for (std::string& warning : diagnostics.warnings()) warnings.push_back(std::move(warning));
+}
+
 SceneCheck checkSceneFile(const std::string& path) {
   SceneDiagnostics diagnostics;
   SceneTree scene;

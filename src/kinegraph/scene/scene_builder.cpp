@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <charconv>
+#include <filesystem>
 
 #include "kinegraph/base/text.h"
 
@@ -21,6 +22,15 @@ void modernize(Node& node) {
   if (!joint && !shape) return;
   if (node.tags.empty()) node.key.clear();
   if (type) type->key = joint ? "joint" : "shape";
+}
+
+/// Attributes are kept with the place of the file that they name, so that the scene may be saved in another folder.
+void locateFile(Node& node, const std::string& folder) {
+  AngleText* const file = std::get_if<AngleText>(&node.value.data);
+  if (!file || file->text.find("://") != std::string::npos) return;
+  std::error_code error;
+  const std::string path = resolvePath(file->text, folder);
+  if (std::filesystem::is_regular_file(path, error)) file->text = path;
 }
 
 /// The frame that carries the joint that belongs to a frame of a file: itself, or the one that `post` put before it.
@@ -51,6 +61,9 @@ void SceneBuilder::build(SceneSource& source) {
   for (int i = 0; i < count; ++i) resolveContactExclude(*frames_[i], source.frames[i]);
   for (int i = 0; i < count; ++i) resolveMimic(*frames_[i], source.frames[i]);
   for (const Node& node : source.joint_states) setJointState(node);
+  for (const RobotSemantics& semantics : source.semantics) {
+    if (count > 0) applySemantics(semantics, scene_, diagnostics_);
+  }
 }
 
 void SceneBuilder::interpretExisting(FrameData& frame, const SourceFrame& source) {
@@ -76,6 +89,7 @@ void SceneBuilder::addFrame(SourceFrame& source) {
   if (!given.nodes.empty()) {
     std::vector<Node>& nodes = frame.attributes.edit().nodes;
     nodes.insert(nodes.end(), given.nodes.begin(), given.nodes.end());
+    for (Node& node : nodes) locateFile(node, source.folder);
   }
   frames_.push_back(&frame);
   if (source.node.parents.size() > 2) {

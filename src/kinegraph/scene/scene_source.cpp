@@ -27,6 +27,7 @@ class SourceReader {
   explicit SourceReader(SceneDiagnostics& diagnostics) : diagnostics_(diagnostics) {}
 
   std::vector<Node> joint_states;
+  std::vector<RobotSemantics> semantics;
   std::vector<std::string> files;  ///< asked for, in order, whether they exist or not
 
   /// `included_at` is where the file is named, if it is.
@@ -58,6 +59,7 @@ class SourceReader {
     open_.push_back(absolute.string());
     auto frames = readText(text.str(), path, absolute.parent_path().string());
     open_.pop_back();
+    if (const std::string beside = semanticsBeside(absolute.string()); !beside.empty()) readBeside(beside);
     return frames;
   }
 
@@ -69,6 +71,12 @@ class SourceReader {
                                              replaced == 1 ? " byte of it is" : " bytes of it are", " read as '?'"));
     }
     diagnostics_.addText(name, text);
+    if (isSemanticsFile(name)) {
+      std::vector<Diagnostic> found;
+      semantics.push_back(readSemantics(text, name, found));
+      for (Diagnostic& diagnostic : found) diagnostics_.add(std::move(diagnostic));
+      return {};
+    }
     const SceneFormat* format = sceneFormatOf(name);
     ParseResult parsed = format ? format->read(text, name, folder) : parseAll(text, name);
     for (SourceText& included : parsed.included) {
@@ -82,8 +90,10 @@ class SourceReader {
     scopes_.push_back(&frames);
     for (Node& node : parsed.graph.nodes) {
       if (node.key == "Include") {
+        const std::size_t former = semantics.size();
         std::vector<SourceFrame> included = include(node, folder);
         if (!prefix.empty()) addPrefix(included, prefix);
+        for (std::size_t i = former; i < semantics.size(); ++i) semantics[i].prefix = prefix + semantics[i].prefix;
         prefix.clear();
         std::move(included.begin(), included.end(), std::back_inserter(frames));
       } else if (node.key == "Prefix") {
@@ -116,6 +126,31 @@ class SourceReader {
   }
 
  private:
+  /// An SRDF file that nobody asked for: mistakes in it are no reason to refuse the robot.
+  void readBeside(const std::string& path) {
+    std::vector<Diagnostic> found;
+    std::ifstream stream(path, std::ios::binary);
+    std::stringstream bytes;
+    std::error_code error;
+    bytes_ += fs::file_size(path, error);
+    if (error || bytes_ > kMaxBytes) return;
+    files.push_back(path);
+    bytes << stream.rdbuf();
+    std::string text = validUtf8(bytes.str(), nullptr);
+    RobotSemantics read = readSemantics(text, path, found);
+    diagnostics_.addText(path, std::move(text));
+    const bool failed = std::any_of(found.begin(), found.end(), [](const Diagnostic& d) { return d.severity == Diagnostic::Severity::error; });
+    if (!failed) {
+      read.asked_for = false;
+      semantics.push_back(std::move(read));
+    }
+    for (Diagnostic& diagnostic : found) {
+      if (diagnostic.severity != Diagnostic::Severity::error) continue;
+      diagnostics_.warning(diagnostic.where, "the file beside the robot's is not used: " + diagnostic.message);
+      return;
+    }
+  }
+
   std::vector<SourceFrame> include(const Node& node, const std::string& folder) {
     const std::string* file = textOf(node, "a file: 'Include: <path>'");
     if (!file) return {};
@@ -270,6 +305,7 @@ SceneSource readSource(const std::string& path, SceneDiagnostics& diagnostics) {
   SceneSource source;
   source.frames = reader.readFile(resolvePath(path, ""), {});
   source.joint_states = std::move(reader.joint_states);
+  source.semantics = std::move(reader.semantics);
   return source;
 }
 
@@ -279,6 +315,7 @@ SceneSource readSource(std::string_view text, const std::string& name, const std
   SceneSource source;
   source.frames = reader.readText(std::string(text), name, folder.empty() ? fs::current_path().string() : folder);
   source.joint_states = std::move(reader.joint_states);
+  source.semantics = std::move(reader.semantics);
   return source;
 }
 

@@ -5,6 +5,7 @@
 
 #include "kinegraph/gfile/value.h"
 #include "kinegraph/scene/diagnostics.h"
+#include "kinegraph/scene/robot_semantics.h"
 
 namespace kinegraph {
 
@@ -20,6 +21,7 @@ struct SourceFrame {
 struct SceneSource {
   std::vector<SourceFrame> frames;
   std::vector<Node> joint_states;  ///< `q: [...]`
+  std::vector<RobotSemantics> semantics;
 };
 
 /// Reads what it can; mistakes go to `diagnostics`. Throws FileError if `path` itself cannot be read.

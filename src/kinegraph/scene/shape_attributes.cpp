@@ -3,6 +3,7 @@
 #include <limits>
 
 #include "kinegraph/base/text.h"
+#include "kinegraph/geometry/isosurface.h"
 #include "kinegraph/geometry/mesh_file.h"
 #include "kinegraph/geometry/shape_types.h"
 #include "kinegraph/scene/attributes.h"
@@ -98,7 +99,8 @@ bool AttributeReader::readRope(Geometry& geometry) {
   return true;
 }
 
-/// A mesh that stands in the file itself: `vertices: [x y z ...]`, `triangles: [i j k ...]`, `vertex_colors: [r g b a ...]`.
+/// A mesh that stands in the file itself: `vertices: [x y z ...]`, `triangles: [i j k ...]`, `vertex_colors: [r g b a ...]`,
+/// `mesh_parts: [i ...]`, the first vertices of its convex parts.
 bool AttributeReader::readVertices(Geometry& geometry) {
   bool good = true;
   const auto list = [&](const char* key, std::size_t columns, double lowest, double highest) {
@@ -121,8 +123,33 @@ bool AttributeReader::readVertices(Geometry& geometry) {
   for (std::size_t i = 0; i < c.size(); i += 4) {
     mesh.colors.push_back({std::uint8_t(c[i]), std::uint8_t(c[i + 1]), std::uint8_t(c[i + 2]), std::uint8_t(c[i + 3])});
   }
+  for (const double first : list("mesh_parts", 1, 0., double(mesh.vertices.size()) - 1.)) mesh.parts.push_back(std::uint32_t(first));
+  if (!std::is_sorted(mesh.parts.begin(), mesh.parts.end())) {
+    error(*find({"mesh_parts"}), "the first vertices of the parts must ascend");
+    good = false;
+  }
   geometry.mesh = std::make_shared<Mesh>(std::move(mesh));
   return good;
+}
+
+/// `grid_cells: [nx ny nz], grid_values: [...]`: numbers on a grid over the box of `size`, the last index fastest.
+bool AttributeReader::readGrid(Geometry& geometry) {
+  const Node* node = find({"grid_values"});
+  return guarded(*node, [&] {
+    const Node* cells_node = find({"grid_cells"});
+    const auto cells = cells_node ? numbers(*cells_node).value_or(std::vector<double>{}) : std::vector<double>{};
+    const auto values = numbers(*node).value_or(std::vector<double>{});
+    const bool good = cells.size() == 3 && std::all_of(cells.begin(), cells.end(), [](double n) { return n >= 2. && n <= 1e6 && n == std::floor(n); });
+    if (!good) throw ValueError("needs grid_cells: [nx ny nz], each at least 2");
+    Grid grid;
+    if (cells[0] * cells[1] * cells[2] != double(values.size())) {
+      throw ValueError(cat("expected ", cells[0], " x ", cells[1], " x ", cells[2], " numbers, got ", values.size()));
+    }
+    for (int axis = 0; axis < 3; ++axis) grid.cells[axis] = int(cells[axis]);
+    grid.values.assign(values.begin(), values.end());
+    checkGrid(grid);
+    geometry.grid = std::make_shared<Grid>(std::move(grid));
+  });
 }
 
 bool AttributeReader::readSize(Geometry& geometry) {
@@ -149,6 +176,8 @@ bool AttributeReader::readGeometry(Geometry& geometry) {
   } else if (find({"mesh_rope"})) {
     good = readRope(geometry);
   }
+  const bool has_grid = geometry.type == ShapeType::tensor || geometry.type == ShapeType::sdf;
+  if (has_grid && find({"grid_values"})) good = readGrid(geometry) && good;
   return good && readSize(geometry);
 }
 

@@ -1,0 +1,74 @@
+"""Seeds for the fuzzers of this folder, made from the models that come with the package: a folder per fuzzer.
+
+    python tests/fuzz/make_corpus.py build/fuzz/corpus
+
+Needs the package kinegraph. Start a fuzzer with its folder: build/fuzz/tests/fuzz/fuzz_g -max_len=4096 build/fuzz/corpus/g
+"""
+
+import struct
+import sys
+import warnings
+from pathlib import Path
+
+import kinegraph as ry
+
+ROOT = Path(__file__).resolve().parents[2]
+SRDF = """<robot name="r"><virtual_joint name="w" type="fixed" parent_frame="o" child_link="base"/>
+<group name="a"><chain base_link="base" tip_link="l2"/><joint name="j1"/><link name="l1"/></group><group name="b"><group name="a"/></group>
+<group_state name="home" group="a"><joint name="j1" value=".5"/><joint name="j2" value="1 2 3 0 0 0 1"/></group_state>
+<disable_collisions link1="l1" link2="l2" reason="Never"/><disable_default_collisions link="base"/>
+<enable_collisions link1="base" link2="l2"/></robot>"""
+OBJ = "mtllib a.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nvn 0 0 1\nf 1 2 3\nf 1 3 4\nusemtl a\nf 1//1 2//1 4//1\n"
+PLY = (
+    "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty float z\nproperty uchar red\n"
+    "property uchar green\nproperty uchar blue\nelement face 1\nproperty list uchar int vertex_index\nend_header\n"
+    "0 0 0 1 2 3\n1 0 0 1 2 3\n0 1 0 1 2 3\n3 0 1 2\n"
+)
+PLY_BINARY = PLY[: PLY.index("0 0 0 1")].replace("ascii", "binary_little_endian").encode()
+MSH = struct.pack("<4i", 3, 1, 1, 1) + struct.pack("<14f", *range(14)) + struct.pack("<3i", 0, 1, 2)
+STL = b"\0" * 80 + struct.pack("<I", 2) + 2 * struct.pack("<12fH", *range(12), 0)
+STL_TEXT = (
+    "solid a\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 0\nvertex 0 1 0\nendloop\nendfacet\nendsolid a\n"
+)
+
+
+def meshes() -> dict[str, list[bytes]]:
+    vertices = b"".join(struct.pack("<3f3B", *p, 1, 2, 3) for p in [(0, 0, 0), (1, 0, 0), (0, 1, 0)])
+    return {
+        "obj": [OBJ.encode()],
+        "ply": [PLY.encode(), PLY_BINARY + vertices + struct.pack("<B3i", 3, 0, 1, 2)],
+        "stl": [STL, STL_TEXT.encode()],
+        "msh": [MSH],
+        "h5": [(ROOT / "tests/data/tetrahedron.h5").read_bytes()],
+        "srdf": [SRDF.encode()],
+    }
+
+
+def scenes() -> dict[str, list[bytes]]:
+    """Every model as it is, and its smaller ones in all formats that scenes are written in."""
+    files = [*ROOT.glob("models/**/*.g"), *ROOT.glob("tests/data/scenes/*.g")]
+    seeds: dict[str, list[bytes]] = {"g": [file.read_bytes() for file in files], "yml": [], "urdf": [], "xml": []}
+    seeds["yml"] += [file.read_bytes() for file in ROOT.glob("tests/data/scenes/*.yml")]
+    for file in files:
+        C = ry.Config()
+        try:
+            C.addFile(file)
+        except ry.Error:  # needs a package with meshes
+            continue
+        texts = {"yml": C.asYaml(), "urdf": C.writeURDF(), "xml": C.asMJCF(), "g": C.write()}
+        for kind, text in texts.items():
+            if len(text) < 20000:
+                seeds[kind].append(text.encode())
+    return seeds
+
+
+def main(folder: Path) -> None:
+    warnings.simplefilter("ignore", ry.KinegraphWarning)
+    for kind, seeds in {**meshes(), **scenes()}.items():
+        (folder / kind).mkdir(parents=True, exist_ok=True)
+        for number, seed in enumerate(seeds):
+            (folder / kind / f"seed{number}").write_bytes(seed)
+
+
+if __name__ == "__main__":
+    main(Path(sys.argv[1]))
