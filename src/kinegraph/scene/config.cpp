@@ -86,14 +86,14 @@ void checkSameRequest(const FrameData& existing, const FrameData* parent, const 
 }  // namespace
 
 Frame Config::addFrame(const std::string& name, const std::string& parent, const std::string& attributes) {
-  return addFrame(name, parent.empty() ? nullptr : &scene_->get(parent, cat("addFrame('", name, "'): parent")), attributes);
+  return addFrameBelow(name, parent.empty() ? nullptr : &scene_->get(parent, cat("addFrame('", name, "'): parent")), attributes);
 }
 
 Frame Config::addFrame(const std::string& name, const Frame& parent, const std::string& attributes) {
-  return addFrame(name, &ownFrame(parent, "addFrame"), attributes);
+  return addFrameBelow(name, &ownFrame(parent, "addFrame"), attributes);
 }
 
-Frame Config::addFrame(const std::string& name, FrameData* parent, const std::string& attributes) {
+Frame Config::addFrameBelow(const std::string& name, FrameData* parent, const std::string& attributes) {
   if (FrameData* existing = name.empty() ? nullptr : scene_->find(name)) {
     checkSameRequest(*existing, parent, attributes);
     warnings_.push_back(cat("addFrame: a frame named '", name, "' exists already and is returned as it is"));

@@ -155,7 +155,7 @@ class Config {
   std::vector<std::string> takeWarnings();
 
  private:
-  Frame addFrame(const std::string& name, FrameData* parent, const std::string& attributes);
+  Frame addFrameBelow(const std::string& name, FrameData* parent, const std::string& attributes);
   FrameData& ownFrame(const Frame& frame, const char* call) const;  ///< throws ValueError if it is another Config's
 
   std::shared_ptr<SceneTree> scene_;
