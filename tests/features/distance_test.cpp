@@ -114,7 +114,7 @@ TEST(AccumulatedCollisions, OfNamedFramesLookAtThoseAndNoOthers) {
 }
 
 TEST(AccumulatedCollisions, OfManyBodiesAreThoseOfTheConfigWithTheirJacobian) {
-  Config config = testing::crowd(100, .6, 11);
+  Config config = kinegraph::testing::crowd(100, .6, 11);
   const auto sum = [&](const VectorXd& q) {
     config.setJointState(q);
     return value(config, "accumulatedCollisions", {});
@@ -123,8 +123,9 @@ TEST(AccumulatedCollisions, OfManyBodiesAreThoseOfTheConfigWithTheirJacobian) {
   for (int sample = 0; sample < 3; ++sample) {
     VectorXd q = config.getJointState();
     for (double& x : q) x += .02 * rng.normal();
-    EXPECT_NEAR(sum(q)[0], config.getTotalPenetration(), 1e-12);
-    EXPECT_GT(sum(q)[0], .5);
+    const double depths = sum(q)[0];
+    EXPECT_NEAR(depths, config.getTotalPenetration(), 1e-12);
+    EXPECT_GT(depths, .5);
     const Differences numeric = differences(sum, q, 1e-6);
     config.setJointState(q);
     const MatrixXd J = eval(config, FeatureSymbol::accumulatedCollisions, {}).J;

@@ -172,7 +172,7 @@ TEST(Heap, DistancesOfAllShapesRequestNoMemory) {
 }
 
 TEST(Heap, CollisionsOfManyBodiesRequestNoMemoryOnceTheyAreWarm) {
-  Config config = testing::crowd(100, .5, 13);
+  Config config = kinegraph::testing::crowd(100, .5, 13);
   Rng rng(14);
   std::vector<VectorXd> joints;
   for (int i = 0; i < 20; ++i) {

@@ -23,13 +23,13 @@ void expectAll(NearPairSearch& search, const Config& config, double margin, cons
 }  // namespace
 
 TEST(NearPairSearch, FindsWhatMeasuringAllPairsFindsOnARandomWalk) {
-  Config config = crowd(120, .8, 1);
+  Config config = crowd(90, .7, 1);
   NearPairSearch search(config.program());
   Rng rng(2);
   VectorXd q = config.getJointState();
   std::size_t near = 0;
   long measured = 0, fresh = 0;
-  for (int step = 0; step < 120; ++step) {
+  for (int step = 0; step < 66; ++step) {
     const int kind = step % 6;
     if (kind == 5) config.getFrame(cat("body", 4 * (step % 20) + 1)).setPosition({rng.uniform(-.8, .8), rng.uniform(-.8, .8), 0.});
     for (double& x : q) {
@@ -49,7 +49,7 @@ TEST(NearPairSearch, FindsWhatMeasuringAllPairsFindsOnARandomWalk) {
     fresh += again.measured();
     measured = search.measured();
   }
-  EXPECT_GT(near, 1000u);
+  EXPECT_GT(near, 500u);
   EXPECT_LT(2 * measured, fresh) << "what was measured is remembered";
 }
 
@@ -84,7 +84,8 @@ TEST(NearPairSearch, OfSomeFramesFindsTheirPairsOnly) {
 
 TEST(NearPairSearch, ABodyThatTurnsOnTheSpotIsSeenToMove) {
   Config config = crowd(80, 3., 5);
-  config.addText("pivot(world): { pre: [9 0 0], joint: hingeZ, shape: box, size: [1 .02 .02], contact: 1 }  post: { X: [9 .3 0], shape: sphere, size: [.02], contact: 1 }");
+  config.addFrame("pivot", "world", "pre: [9 0 0], joint: hingeZ, shape: box, size: [1 .02 .02], contact: 1");
+  config.addFrame("post", "", "X: [9 .3 0], shape: sphere, size: [.02], contact: 1");
   NearPairSearch search(config.program());
   VectorXd q = config.getJointState();
   bool met = false;
