@@ -35,7 +35,12 @@ def scene(ry, np, count):
     C.addFile(ry.raiPath("scenarios/pandaSingle.g"))
     random = np.random.default_rng(0)
     side = 0.25 * count ** (1 / 3)
-    kinds = [("sphere", [0.05]), ("capsule", [0.1, 0.03]), ("ssBox", [0.1, 0.06, 0.08, 0.01]), ("cylinder", [0.1, 0.04])]
+    kinds = [
+        ("sphere", [0.05]),
+        ("capsule", [0.1, 0.03]),
+        ("ssBox", [0.1, 0.06, 0.08, 0.01]),
+        ("cylinder", [0.1, 0.04]),
+    ]
     for i in range(count):
         shape, size = kinds[i % len(kinds)]
         frame = C.addFrame(f"obstacle{i}")
@@ -130,11 +135,22 @@ def main():
         reference = runWorker(options.reference, options, shapes, folder) if options.reference and shapes else None
     print("command: ", " ".join(["python", *sys.argv]))
     print("machine: ", machine())
-    print("package: ", ours["versions"]["version"], *(["reference:", reference["versions"]["version"]] if reference else []))
+    print(
+        "package: ",
+        ours["versions"]["version"],
+        *(["reference:", reference["versions"]["version"]] if reference else []),
+    )
     names = ["shapes", "near", "compile", "walk", "jump", "edit", "violation", "feature", "valid", "motion"]
     print(f"\nµs{'':8}" + "".join(f"{name:>11}" for name in names) + (f"{'ref jump':>11}" if reference else ""))
     for i, row in enumerate(ours["rows"]):
-        print(f"{'':10}" + "".join(f"{row[name]:11.0f}" if row[name] >= 100 else f"{row[name]:11.1f}" for name in names), end="")
+        print(
+            f"{'':10}"
+            + "".join(
+                f"{row[name]:11.0f}" if row[name] >= 100 or name in ("shapes", "near") else f"{row[name]:11.1f}"
+                for name in names
+            ),
+            end="",
+        )
         print(f"{reference['rows'][i]['jump']:11.0f}" if reference and i < len(reference["rows"]) else "")
 
 

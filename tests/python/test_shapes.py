@@ -98,8 +98,8 @@ def test_a_point_cloud_and_a_divided_mesh_collide_as_what_they_are():
     C.addFrame("ball").setShape(ry.ST.sphere, [0.1]).setPosition([0.5, 0, 0]).setContact(1)
     assert not C.getCollisions() and np.isclose(C.getCollisions(1.0)[0][2], 0.4)
     boxes = np.array([[x, y, z] for x in (0, 0.1) for y in (0, 0.1) for z in (0, 0.1)])
-    faces = np.array([[0, 1, 3], [0, 3, 2], [4, 6, 7], [4, 7, 5], [0, 4, 5], [0, 5, 1], [2, 3, 7], [2, 7, 6], [0, 2, 6], [0, 6, 4], [1, 5, 7], [1, 7, 3]])
-    C.getFrame("cloud").setMesh(np.vstack([boxes, boxes + [0.9, 0, 0]]), np.vstack([faces, faces + 8]), cvxParts=[0, 8])
+    vertices = np.vstack([boxes, np.add(boxes, [0.9, 0, 0])])
+    C.getFrame("cloud").setMesh(vertices, [[0, 1, 3], [0, 2, 6], [8, 9, 11], [8, 10, 14]], cvxParts=[0, 8])
     assert np.isclose(C.getCollisions(1.0)[0][2], 0.3)
 
 
