@@ -71,7 +71,7 @@ Array getFramePoses(const PyConfig& config, const Numbers& Q, const FrameNames& 
 Array getDistances(const PyConfig& config, const Numbers& Q, int threads) {
   const auto joints = jointRows(Q, config, "getDistances");
   const State scene = config.state();
-  const std::size_t pairs = scene.program().collidable.size();
+  const std::size_t pairs = scene.program().collidable().size();
   const NewArray distances = newArray(Q.rows, pairs);
   auto rows = rowsOf(distances, Q.rows, pairs);
   unlocked(threads, "getDistances", [&](const BatchOptions& options) { pairDistances(scene, joints, rows, options); });

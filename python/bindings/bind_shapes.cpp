@@ -207,6 +207,11 @@ void bindMeshes(nb::class_<Frame>& frame) {
              return setTensor(f, gridOf(data, "setTensorShape"), boxSize(size, "setTensorShape")), f;
            },
            "data"_a, "size"_a, kChain, "Gives the frame a grid of numbers (nx, ny, nz) in a box of size (3,), m. It is drawn as the box.")
+      .def("setSdf",
+           [](Frame& f, nb::handle data, const Numbers& size) -> Frame& { return setSdf(f, gridOf(data, "setSdf"), boxSize(size, "setSdf")), f; },
+           "data"_a, "size"_a, kChain,
+           "Gives the frame the solid where a grid (nx, ny, nz) in a box of size (3,), m, is not positive. Outside of the solid\n"
+           "the values are its distance, m; collisions and distances interpolate them. The viewer draws the box.")
       .def("setImplicitSurface",
            [](Frame& f, nb::handle data, const Numbers& size, int blur, double resample) -> Frame& {
              const char* call = "setImplicitSurface";

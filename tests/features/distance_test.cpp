@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "tests/features/worked_scene.h"
+#include "tests/support/crowd.h"
 #include "tests/support/differences.h"
 
 using namespace kinegraph;
@@ -35,7 +36,10 @@ TEST(NegDistance, HasTheJacobianOfCentralDifferencesInPenetrationToo) {
   };
   const Body bodies[] = {{"shape: sphere, size: [.1]"}, {"shape: capsule, size: [.2 .05]"}, {"shape: ssBox, size: [.2 .2 .3 .03]"},
                          {"shape: box, size: [.1 .3 .2]"},
-                         {"shape: cylinder, size: [.2 .1]", 2e-4}};  // its depth is iterated to 1e-8 m, the normal to the root of it
+                         {"shape: cylinder, size: [.2 .1]"},
+                         {"shape: ssCylinder, size: [.3 .1 .02]"},
+                         {"shape: ssBoxElip, size: [.2 .1 .2 .03 .05 .02 .01]"},
+                         {"shape: quad, size: [.2 .3]"}};
   for (const auto& [shape, tolerance] : bodies) {
     Config config;
     config.addText(std::string("box: { shape: ssBox, size: [.5 .4 .3 .02] }  base: {}  body(base): { joint: free, ") + shape + " }");
@@ -107,6 +111,41 @@ TEST(AccumulatedCollisions, OfNamedFramesLookAtThoseAndNoOthers) {
   EXPECT_NEAR(value(config, "accumulatedCollisions", {"b"})[0], .05, 1e-12);
   EXPECT_NEAR(value(config, "accumulatedCollisions", {"c"})[0], .02, 1e-12);
   EXPECT_NEAR(value(config, "accumulatedCollisions", {"b", "c"})[0], .07, 1e-12);
+}
+
+TEST(AccumulatedCollisions, OfManyBodiesAreThoseOfTheConfigWithTheirJacobian) {
+  Config config = kinegraph::testing::crowd(100, .6, 11);
+  const auto sum = [&](const VectorXd& q) {
+    config.setJointState(q);
+    return value(config, "accumulatedCollisions", {});
+  };
+  Rng rng(12);
+  for (int sample = 0; sample < 3; ++sample) {
+    VectorXd q = config.getJointState();
+    for (double& x : q) x += .02 * rng.normal();
+    const double depths = sum(q)[0];
+    EXPECT_NEAR(depths, config.getTotalPenetration(), 1e-12);
+    EXPECT_GT(depths, .5);
+    const Differences numeric = differences(sum, q, 1e-6);
+    config.setJointState(q);
+    const MatrixXd J = eval(config, FeatureSymbol::accumulatedCollisions, {}).J;
+    int same = 0;  // pairs that begin to touch and kinks of single pairs show in single columns
+    for (int i = 0; i < J.cols(); ++i) same += std::abs(J(0, i) - numeric.D(0, i)) < 1e-5;
+    EXPECT_GE(same, J.cols() - 3);
+  }
+  const double one = value(config, "accumulatedCollisions", {"body5", "link1"})[0];
+  double expected = 0.;
+  for (const auto& pair : config.getCollisions()) {
+    for (const char* name : {"body5", "link1"}) {
+      const int id = config.getFrame(name).id();
+      if (pair.a == id || pair.b == id) expected -= pair.distance;
+    }
+  }
+  for (const auto& pair : config.getCollisions()) {
+    const int a = config.getFrame("body5").id(), b = config.getFrame("link1").id();
+    if (std::minmax(pair.a, pair.b) == std::minmax(a, b)) expected += pair.distance;
+  }
+  EXPECT_NEAR(one, expected, 1e-12);
 }
 
 TEST(PairCollisions, HasARowForEachPairThatIsItsNegativeDistance) {

@@ -7,6 +7,7 @@
 
 #include "kinegraph/features/eval.h"
 #include "kinegraph/kinematics/motion_check.h"
+#include "tests/support/crowd.h"
 
 namespace kinegraph {
 
@@ -128,6 +129,68 @@ TEST(Heap, CollisionsRequestOnlyMemoryForWhatTheyReturn) {
   }
   EXPECT_EQ(heap_requests - before, 0);
   EXPECT_GT(total, 0.);
+}
+
+TEST(Heap, DistancesOfAllShapesRequestNoMemory) {
+  Config config = arm();
+  const char* names[] = {"cylinder", "mesh", "parts", "cloud", "elip", "cvx", "quad", "sdf"};
+  double x = .1;
+  for (const char* name : names) config.addFrame(name, "two", cat("joint: trans3, pre: [", x += .02, " 0 .1], shape: cylinder, size: [.2 .1], contact: 1"));
+  Rng rng(3);
+  Mesh mesh;
+  for (int i = 0; i < 100; ++i) mesh.vertices.push_back(.1 * Vector3d(rng.normal(), rng.normal(), rng.normal()));
+  const auto cloud = std::make_shared<Mesh>(mesh);
+  mesh.parts = {0, 30, 60};
+  const auto parts = std::make_shared<Mesh>(mesh);
+  config.getFrame("mesh").setGeometry({ShapeType::mesh, {}, cloud});
+  config.getFrame("parts").setGeometry({ShapeType::mesh, {}, parts});
+  config.getFrame("cloud").setGeometry({ShapeType::pointCloud, {}, cloud});
+  config.getFrame("elip").setGeometry({ShapeType::ssBoxElip, {.2, .1, .1, .05, .03, .02, .01}, nullptr});
+  config.getFrame("cvx").setGeometry({ShapeType::ssCvx, {.02}, cloud});
+  config.getFrame("quad").setGeometry({ShapeType::quad, {.2, .2}, nullptr});
+  Grid grid;
+  grid.cells = {5, 5, 5};
+  for (int i = 0; i < 125; ++i) grid.values.push_back(float((Vector3d(i / 25, i / 5 % 5, i % 5) - Vector3d::Constant(2.)).norm() * .1 - .1));
+  config.getFrame("sdf").setGeometry({ShapeType::sdf, {.4, .4, .4}, nullptr, {}, Vector3d::Ones(), std::make_shared<Grid>(grid)});
+  const std::vector<VectorXd> joints = someJoints(config, 5);
+  config.getTotalPenetration();
+  Residual residual = makeResidual(config.state(), FeatureSymbol::accumulatedCollisions, {});
+  VectorXd y(1);
+  Rows J(1, config.getJointDimension());
+  eval(config, residual, y, J);
+  const long before = heap_requests;
+  double total = 0.;
+  for (const VectorXd& q : joints) {
+    config.setJointState(q);
+    total += config.getTotalPenetration();
+    J.setZero();
+    eval(config, residual, y, J);
+    EXPECT_NEAR(y[0], config.getTotalPenetration(), 1e-12);
+  }
+  EXPECT_EQ(heap_requests - before, 0);
+  EXPECT_GT(total, .5);
+}
+
+TEST(Heap, CollisionsOfManyBodiesRequestNoMemoryOnceTheyAreWarm) {
+  Config config = kinegraph::testing::crowd(100, .5, 13);
+  Rng rng(14);
+  std::vector<VectorXd> joints;
+  for (int i = 0; i < 20; ++i) {
+    joints.push_back(config.getJointState());
+    for (double& x : joints.back()) x += .3 * rng.normal();
+  }
+  double total = 0.;
+  for (int round = 0; round < 2; ++round) {
+    const long before = heap_requests;
+    for (const VectorXd& q : joints) {
+      config.setJointState(q);
+      total += config.getTotalPenetration();
+    }
+    if (round == 1) {
+      EXPECT_EQ(heap_requests - before, 0);
+    }
+  }
+  EXPECT_GT(total, 1.);
 }
 
 TEST(Heap, AMotionCheckerRequestsNoMemoryPerMotion) {

@@ -153,3 +153,54 @@ TEST(MotionChecker, AgreesWithManySamplesForEveryJointType) {
     EXPECT_GT(hit, 2) << joints.first;
   }
 }
+
+TEST(MotionChecker, AmongManyBodiesFindsTheSameContactsAsAmongFew) {
+  Config few, many;
+  few.addText(scene("joint: hingeZ", "joint: hinge, axis: [1 2 -1]"));
+  many.addText(scene("joint: hingeZ", "joint: hinge, axis: [1 2 -1]"));
+  for (int i = 0; i < 100; ++i) many.addText("far" + std::to_string(i) + ": { X: [" + std::to_string(10 + i) + " 0 0], shape: sphere, size: [.3], contact: 1 }");
+  MotionChecker checker(few.state()), among(many.state());
+  Rng rng(6);
+  int hit = 0;
+  for (int motion = 0; motion < 60; ++motion) {
+    VectorXd from = few.program()->home, to = from;
+    for (double& x : from) x += .6 * rng.normal();
+    for (double& x : to) x += .6 * rng.normal();
+    const auto expected = checker.firstContact(from.data(), to.data(), 0., kTolerance), found = among.firstContact(from.data(), to.data(), 0., kTolerance);
+    ASSERT_EQ(found.has_value(), expected.has_value());
+    if (!found) continue;
+    ++hit;
+    EXPECT_EQ(found->time, expected->time);
+    EXPECT_EQ(found->distance, expected->distance);
+  }
+  EXPECT_GT(hit, 10);
+}
+
+TEST(MotionChecker, AmongManyBodiesReportsThoseThatRestTooNear) {
+  Config config = slider();
+  for (int i = 0; i < 100; ++i) config.addText("rest" + std::to_string(i) + ": { X: [" + std::to_string(10 + i) + " 0 0], shape: sphere, size: [.3], contact: 1 }");
+  EXPECT_FALSE(config.checkMotion(numbers({0.}), numbers({.5})));
+  config.getFrame("rest7").setPosition({10.1, 0, 0});
+  const auto contact = config.checkMotion(numbers({0.}), numbers({.5}));
+  ASSERT_TRUE(contact);
+  EXPECT_EQ(contact->time, 0.);
+  EXPECT_NEAR(contact->distance, -.5, 1e-12);
+}
+
+TEST(MotionChecker, ABladeThatTurnsPastAThinPostIsNeverLetThrough) {
+  Config config;
+  config.addText(R"g(
+    world: {}
+    arm(world): { joint: hingeZ }
+    blade(arm): { Q: "t(.5 0 0)", shape: box, size: [1 .001 .001], contact: 1 }
+    post: { X: "t(0 .9 0)", shape: cylinder, size: [.01 .0005], contact: 1 }
+  )g");
+  const double quarter = 2. * std::atan(1.);
+  for (const double to : {1.8, 3., 6., -5., 100.}) {
+    const auto contact = config.checkMotion(numbers({.2}), numbers({to}));
+    ASSERT_TRUE(contact) << to;
+    const double angle = .2 + contact->time * (to - .2), turned = std::abs(std::remainder(angle - quarter, 4. * quarter));
+    EXPECT_LT(turned, .01) << to;
+  }
+  EXPECT_FALSE(config.checkMotion(numbers({.2}), numbers({1.56})));
+}

@@ -74,6 +74,35 @@ def test_a_tensor_is_a_box_of_numbers(frame):
     assert frame.getShapeType() == ry.ST.tensor and np.allclose(frame.getSize(), [1, 2, 3])
 
 
+def test_an_sdf_is_the_solid_where_its_grid_is_not_positive():
+    C = ry.Config()
+    ticks = np.linspace(-0.3, 0.3, 25)
+    x, y, z = np.meshgrid(ticks, ticks, ticks, indexing="ij")
+    C.addFrame("solid").setSdf(np.sqrt(x**2 + y**2 + z**2) - 0.2, [0.6, 0.6, 0.6]).setContact(1)
+    C.addFrame("ball").setShape(ry.ST.sphere, [0.05]).setPosition([0.24, 0, 0]).setContact(1)
+    C.addFrame("box").setShape(ry.ST.box, [0.1, 0.1, 0.1]).setPosition([0, 0.27, 0]).setContact(1)
+    assert C.getFrame("solid").getShapeType() == ry.ST.sdf
+    assert C.getFrame("solid").getMeshPoints().shape[0] > 100
+    [(a, b, depth)] = C.getCollisions()
+    assert (a, b) == ("solid", "ball") and np.isclose(depth, -0.01, atol=1e-3)
+    assert np.isclose(C.eval(ry.FS.negDistance, ["solid", "box"])[0][0], -0.02, atol=1e-3)
+    C.getFrame("ball").setPosition([0.3, 0, 0])
+    assert not C.getCollisions()
+    with pytest.raises(ry.ArgumentError, match="finite"):
+        C.getFrame("solid").setSdf(np.full((3, 3, 3), np.nan), [1, 1, 1])
+
+
+def test_a_point_cloud_and_a_divided_mesh_collide_as_what_they_are():
+    C = ry.Config()
+    C.addFrame("cloud").setPointCloud([[0, 0, 0], [1, 0, 0]]).setContact(1)
+    C.addFrame("ball").setShape(ry.ST.sphere, [0.1]).setPosition([0.5, 0, 0]).setContact(1)
+    assert not C.getCollisions() and np.isclose(C.getCollisions(1.0)[0][2], 0.4)
+    boxes = np.array([[x, y, z] for x in (0, 0.1) for y in (0, 0.1) for z in (0, 0.1)])
+    vertices = np.vstack([boxes, np.add(boxes, [0.9, 0, 0])])
+    C.getFrame("cloud").setMesh(vertices, [[0, 1, 3], [0, 2, 6], [8, 9, 11], [8, 10, 14]], cvxParts=[0, 8])
+    assert np.isclose(C.getCollisions(1.0)[0][2], 0.3)
+
+
 def test_lines_are_pairs_of_points_or_one_line_through_all(frame):
     points = np.arange(12.0).reshape(4, 3)
     frame.setLines(points)

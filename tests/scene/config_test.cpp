@@ -2,10 +2,14 @@
 
 #include <gtest/gtest.h>
 
+#include <functional>
+
 #include "kinegraph/base/errors.h"
+#include "tests/support/crowd.h"
 #include "tests/support/expect_error.h"
 
 using namespace kinegraph;
+using namespace kinegraph::testing;
 
 namespace {
 
@@ -106,6 +110,58 @@ TEST(Config, CollisionsAreNeverStale) {
   EXPECT_TRUE(config.getCollisions().empty());
   config.delFrame("b");
   EXPECT_NEAR(config.getCollisions(1.).at(0).distance, .4, 1e-14);
+}
+
+TEST(Config, CollisionsAreThoseOfAFreshCopyAfterEveryKindOfEdit) {
+  for (const int others : {6, 100}) {  // few and many bodies are searched in different ways
+    Config config = crowd(others, .6, 8);
+    Rng rng(9);
+    const std::vector<std::pair<std::string, std::function<void()>>> edits = {
+        {"nothing", [] {}},
+        {"setJointState", [&] { config.setJointState(config.getJointState() + .1 * VectorXd::Ones(config.getJointDimension())); }},
+        {"setJointState of one", [&] { config.setJointState(VectorXd::Constant(1, .7), {"link1"}); }},
+        {"setPosition", [&] { config.getFrame("body1").setPosition({.1, .1, .1}); }},
+        {"setPose of a moving frame", [&] { config.getFrame("body0").setPosition({.2, 0, 0}); }},
+        {"setFrameState", [&] { config.setFrameState(config.getFrame("body1").getPose().numbers().transpose(), {"body2"}); }},
+        {"setShape", [&] { config.getFrame("body1").setShape(ShapeType::ssBox, {.6, .6, .6, .1}); }},
+        {"setMesh", [&] {
+           Mesh mesh;
+           mesh.vertices = {{0, 0, 0}, {.5, 0, 0}, {0, .5, 0}, {0, 0, .5}};
+           mesh.triangles = {{0, 2, 1}, {0, 1, 3}, {0, 3, 2}, {1, 2, 3}};
+           config.getFrame("body3").setMesh(mesh);
+         }},
+        {"setContact 0", [&] { config.getFrame("body1").setContact(0); }},
+        {"setContact 1", [&] { config.getFrame("body1").setContact(1); }},
+        {"addFrame", [&] { config.addFrame("new", "link1", "shape: sphere, size: [.3], contact: 1"); }},
+        {"setRelativePosition", [&] { config.getFrame("new").setRelativePosition({.1, .2, .3}); }},
+        {"setJoint", [&] { config.getFrame("new").setJoint(JointType::hingeZ); }},
+        {"attach", [&] { config.attach("link0", "body2"); }},
+        {"setParent", [&] { config.getFrame("body3").setParent(config.getFrame("link2"), false); }},
+        {"unLink", [&] { config.getFrame("body3").unLink(); }},
+        {"selectJoints", [&] { config.selectJoints({"link0", "link1"}); }},
+        {"delFrame", [&] { config.delFrame("body1"); }},
+        {"setRandom", [&] { config.setRandom(rng); }},
+        {"addConfigurationCopy", [&] { config.addConfigurationCopy(Config(config), "copy_"); }},
+        {"clear", [&] { config.clear(); }},
+    };
+    std::size_t seen = 0;
+    for (const auto& [name, edit] : edits) {
+      edit();
+      const auto near = config.getCollisions(.1), expected = measuredCollisions(config, .1);
+      ASSERT_EQ(near.size(), expected.size()) << name << ", " << others;
+      double sum = 0.;
+      for (std::size_t i = 0; i < near.size(); ++i) {
+        EXPECT_EQ(near[i].a, expected[i].a) << name;
+        EXPECT_EQ(near[i].b, expected[i].b) << name;
+        EXPECT_EQ(near[i].distance, expected[i].distance) << name;
+        sum += std::max(-near[i].distance, 0.);
+      }
+      EXPECT_NEAR(config.getTotalPenetration(), sum, 1e-12) << name;
+      EXPECT_EQ(Config(config).getCollisions(.1).size(), near.size()) << name;
+      seen += near.size();
+    }
+    EXPECT_GT(seen, 50u);
+  }
 }
 
 TEST(Config, CopiesAreDeep) {

@@ -34,30 +34,6 @@ void forEach(const Worker& first, int count, const BatchOptions& options, const 
   forParts(count, kPart, threads, part, options.between);
 }
 
-/// A State and the bodies of the collidable pairs, which it places.
-struct Bodies {
-  State state;
-  PlacedBodies bodies;
-  int suspect = -1;  ///< the pair that was too near the last time
-
-  void place(const double* q) {
-    state.setJoints(q);
-    bodies.place(state);
-  }
-
-  /// Are all pairs at least `margin` apart?
-  bool apart(double margin) {
-    const auto tooNear = [&](int pair) { return bodies.mayBeNear(pair, margin) && bodies.proximity(pair).distance < margin; };
-    if (suspect >= 0 && tooNear(suspect)) return false;
-    for (int pair = 0; pair < bodies.pairs(); ++pair) {
-      if (pair == suspect || !tooNear(pair)) continue;
-      suspect = pair;
-      return false;
-    }
-    return true;
-  }
-};
-
 }  // namespace
 
 void evalBatch(const State& scene, const Residual& residual, const Eigen::Ref<const RowMatrix>& Q, Eigen::Ref<RowMatrix> y,
@@ -100,9 +76,14 @@ void framePoses(const State& scene, const std::vector<int>& frames, const Eigen:
 void pairDistances(const State& scene, const Eigen::Ref<const RowMatrix>& Q, Eigen::Ref<RowMatrix> distances,
                    const BatchOptions& options) {
   checkJoints(scene, Q);
-  const BodyPairs pairs(scene.program(), scene.program().collidable);
-  forEach(Bodies{scene, PlacedBodies(pairs)}, int(Q.rows()), options, [&](Bodies& worker, int i) {
-    worker.place(Q.row(i).data());
+  const BodyPairs pairs(scene.program(), scene.program().collidable());
+  struct Worker {
+    State state;
+    PlacedBodies bodies;
+  };
+  forEach(Worker{scene, PlacedBodies(pairs)}, int(Q.rows()), options, [&](Worker& worker, int i) {
+    worker.state.setJoints(Q.row(i).data());
+    worker.bodies.place(worker.state);
     for (int pair = 0; pair < worker.bodies.pairs(); ++pair) distances(i, pair) = worker.bodies.proximity(pair).distance;
   });
 }
@@ -111,13 +92,17 @@ void areValid(const State& scene, const Eigen::Ref<const RowMatrix>& Q, double m
               const BatchOptions& options) {
   checkJoints(scene, Q);
   const VectorXd &lower = scene.program().lower, &upper = scene.program().upper;
-  const BodyPairs pairs(scene.program(), scene.program().collidable);
-  forEach(Bodies{scene, PlacedBodies(pairs)}, int(Q.rows()), options, [&](Bodies& worker, int i) {
+  struct Worker {
+    State state;
+    NearPairs pairs;
+  };
+  forEach(Worker{scene, NearPairs(scene.sharedProgram())}, int(Q.rows()), options, [&](Worker& worker, int i) {
     const auto q = Q.row(i).transpose().array();
     valid[i] = (q >= lower.array()).all() && (q <= upper.array()).all();
     if (!valid[i]) return;
-    worker.place(Q.row(i).data());
-    valid[i] = worker.apart(margin);
+    worker.state.setJoints(Q.row(i).data());
+    worker.pairs.place(worker.state);
+    valid[i] = worker.pairs.apart(margin);
   });
 }
 

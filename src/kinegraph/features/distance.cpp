@@ -19,7 +19,7 @@ Proximity proximityOf(const State& state, int a, int b) {
 
 /// J += factor * d distance / dq.
 void addDistanceGradient(const State& state, int a, int b, const Proximity& near, double factor, JacobianRows& J) {
-  const Eigen::RowVector3d n = factor * near.normal.transpose(), none = Eigen::RowVector3d::Zero();
+  const Eigen::RowVector3d n = factor * near.rate * near.normal.transpose(), none = Eigen::RowVector3d::Zero();
   state.addJacobian(a, near.point_a, n, none, J);
   state.addJacobian(b, near.point_b, -n, none, J);
 }
@@ -117,7 +117,7 @@ void Oppose::eval(std::span<const State* const> states, double tau, Eigen::Ref<V
 BodyPairs pairsWith(const Program& program, const std::vector<int>& frames) {
   const auto named = [&](int frame) { return std::find(frames.begin(), frames.end(), frame) != frames.end(); };
   std::vector<std::pair<int, int>> pairs;
-  for (const auto& pair : program.collidable) {
+  for (const auto& pair : program.collidable()) {
     if (frames.empty() || named(pair.first) || named(pair.second)) pairs.push_back(pair);
   }
   return {program, pairs};
@@ -141,13 +141,34 @@ void forNearPairs(const BodyPairs& pairs, const State& state, double margin, con
 
 }  // namespace
 
+AccumulatedCollisions::AccumulatedCollisions(const std::vector<int>& frames, const Program& program) : frames_(frames) {
+  if (program.contacts.bodies.size() <= NearPairs::kFew) pairs_.emplace(pairsWith(program, frames));
+}
+
+std::unique_ptr<NearPairSearch> AccumulatedCollisions::borrow(const State& state) const {
+  const std::lock_guard lock(mutex_);
+  if (idle_.empty()) return std::make_unique<NearPairSearch>(state.sharedProgram(), frames_);
+  std::unique_ptr<NearPairSearch> search = std::move(idle_.back());
+  idle_.pop_back();
+  return search;
+}
+
 void AccumulatedCollisions::eval(std::span<const State* const> states, double, Eigen::Ref<VectorXd> y, JacobianRows* J) const {
   const State& state = *states[0];
   y[0] = 0.;
-  forNearPairs(pairs_, state, 0., [&](int, int a, int b, const Proximity& near) {
+  const auto add = [&](int a, int b, const Proximity& near) {
     y[0] -= near.distance;
     if (J) addDistanceGradient(state, a, b, near, -1., *J);
-  });
+  };
+  if (pairs_) {
+    forNearPairs(*pairs_, state, 0., [&](int, int a, int b, const Proximity& near) { add(a, b, near); });
+    return;
+  }
+  std::unique_ptr<NearPairSearch> search = borrow(state);
+  search->place(state);
+  for (const NearPairSearch::Near& pair : search->near(0.)) add(search->frame(pair.a), search->frame(pair.b), search->proximity(pair));
+  const std::lock_guard lock(mutex_);
+  idle_.push_back(std::move(search));
 }
 
 void PairCollisions::eval(std::span<const State* const> states, double, Eigen::Ref<VectorXd> y, JacobianRows* J) const {

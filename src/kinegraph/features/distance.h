@@ -1,5 +1,7 @@
 #pragma once
 
+#include <memory>
+#include <mutex>
 #include <vector>
 
 #include "kinegraph/features/feature.h"
@@ -69,13 +71,19 @@ BodyPairs pairsWith(const Program& program, const std::vector<int>& frames);
 ///     y = sum max(0, -distance)      1 row, m
 class AccumulatedCollisions final : public Feature {
  public:
-  AccumulatedCollisions(const std::vector<int>& frames, const Program& program) : pairs_(pairsWith(program, frames)) {}
+  AccumulatedCollisions(const std::vector<int>& frames, const Program& program);
 
   int rows() const override { return 1; }
   void eval(std::span<const State* const> states, double tau, Eigen::Ref<VectorXd> y, JacobianRows* J) const override;
 
  private:
-  BodyPairs pairs_;
+  /// A search of its own for everyone who evaluates at the same time.
+  std::unique_ptr<NearPairSearch> borrow(const State& state) const;
+
+  std::vector<int> frames_;
+  std::optional<BodyPairs> pairs_;  ///< where bodies are few
+  mutable std::mutex mutex_;
+  mutable std::vector<std::unique_ptr<NearPairSearch>> idle_;
 };
 
 /// The same pairs with a row each, so that an optimizer sees which are in trouble:

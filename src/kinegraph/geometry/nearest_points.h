@@ -11,8 +11,9 @@ struct NearestPoints {
   double distance = 0.;
   Vector3d normal = Vector3d::UnitZ();
   Vector3d point_a = Vector3d::Zero(), point_b = Vector3d::Zero();
+  double rate = 1.;  ///< by how much `distance` changes per metre along the normal: 1 but for grids
 
-  NearestPoints swapped() const { return {distance, -normal, point_b, point_a}; }
+  NearestPoints swapped() const { return {distance, -normal, point_b, point_a, rate}; }
 };
 
 /// Sine of the angle below which directions count as parallel when points are chosen among equally near ones. It is

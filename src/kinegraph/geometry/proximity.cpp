@@ -1,13 +1,13 @@
 #include "kinegraph/geometry/proximity.h"
 
-#include <coal/distance.h>
-
 #include <algorithm>
 #include <cmath>
 
 #include "kinegraph/geometry/box_box_distance.h"
-#include "kinegraph/geometry/collision_body_convex.h"
+#include "kinegraph/geometry/compound_distance.h"
+#include "kinegraph/geometry/convex_distance.h"
 #include "kinegraph/geometry/cylinder_distance.h"
+#include "kinegraph/geometry/grid_distance.h"
 
 namespace kinegraph {
 
@@ -95,37 +95,14 @@ NearestPoints toBox(const CollisionBody& a, const RigidTransform& X_WA, const Co
   }
 }
 
-Proximity ofConvexes(const CollisionBody& a, const RigidTransform& X_WA, const CollisionBody& b, const RigidTransform& X_WB) {
-  coal::DistanceRequest request;
-  request.enable_signed_distance = true;
-  request.gjk_tolerance = 1e-10;
-  request.epa_max_iterations = 512;
-  coal::DistanceResult result;
-  const coal::Transform3s T_A(X_WA.R, X_WA.p), T_B(X_WB.R, X_WB.p);
-  double distance = 0.;
-  for (const double tolerance : {1e-8, 1e-6, 1e-4, 1e-2}) {  // of the depth, which round shapes may not reach
-    request.epa_tolerance = tolerance;
-    result.clear();
-    distance = coal::distance(a.convex().shape.get(), T_A, b.convex().shape.get(), T_B, request, result);
-    if (distance > -a.boundRadius() - b.boundRadius()) break;
-  }
-  const Vector3d core_a = result.nearest_points[0], core_b = result.nearest_points[1];
-  const Vector3d gap = core_a - core_b;
-  Vector3d normal = -result.normal;
-  if (distance > 1e-7) normal = gap.normalized();
-  if (!normal.allFinite() || normal.squaredNorm() < .5) {
-    const Vector3d apart = X_WA * a.boundCenter() - X_WB * b.boundCenter();
-    normal = apart.norm() > 1e-9 ? Vector3d(apart.normalized()) : Vector3d::UnitZ();
-  }
-  return fromCores(a, b, core_a, core_b, normal.normalized(), distance);
-}
-
 }  // namespace
 
 Proximity proximity(const CollisionBody& a, const RigidTransform& X_WA, const CollisionBody& b, const RigidTransform& X_WB) {
   const auto isSegment = [](Core core) { return core == Core::point || core == Core::segment; };
   const auto fromNearest = [&](const NearestPoints& near) {
-    return fromCores(a, b, near.point_a, near.point_b, near.normal, near.distance);
+    Proximity proximity = fromCores(a, b, near.point_a, near.point_b, near.normal, near.distance);
+    proximity.rate = near.rate;
+    return proximity;
   };
   const bool small_a = isSegment(a.core()), small_b = isSegment(b.core());
   if (small_a && small_b) return ofSegments(a, X_WA, b, X_WB);
@@ -137,7 +114,10 @@ Proximity proximity(const CollisionBody& a, const RigidTransform& X_WA, const Co
   if (a.core() == Core::cylinder && b.core() == Core::point) {
     return fromNearest(pointToCylinder(X_WB.p, {X_WA, a.coreRadius(), a.halfLength()}).swapped());
   }
-  return ofConvexes(a, X_WA, b, X_WB);
+  if (a.convex() && b.convex()) return fromNearest(convexToConvex(a, X_WA, b, X_WB));
+  if (a.convex() && b.core() == Core::grid) return fromNearest(convexToGrid(a, X_WA, b, X_WB));
+  if (a.core() == Core::grid && b.convex()) return fromNearest(convexToGrid(b, X_WB, a, X_WA).swapped());
+  return nearestParts(a, X_WA, b, X_WB);
 }
 
 double pointToCore(const CollisionBody& body, const RigidTransform& X_WB, const Vector3d& point) {
@@ -148,9 +128,8 @@ double pointToCore(const CollisionBody& body, const RigidTransform& X_WB, const 
     case Core::box: return (p.cwiseAbs() - body.halfSides()).cwiseMax(0.).norm();
     case Core::cylinder:
       return std::hypot(std::max(std::hypot(p.x(), p.y()) - body.coreRadius(), 0.), std::max(std::abs(p.z()) - body.halfLength(), 0.));
-    case Core::other: break;
+    default: return ((p - body.boundCenter()).cwiseAbs() - body.boundHalf()).cwiseMax(0.).norm();
   }
-  return std::max((p - body.boundCenter()).norm() - body.boundRadius(), 0.);
 }
 
 }  // namespace kinegraph

@@ -7,6 +7,7 @@
 #include <tuple>
 
 #include "kinegraph/geometry/convex_hull.h"
+#include "kinegraph/geometry/isosurface.h"
 
 namespace kinegraph {
 
@@ -138,6 +139,7 @@ Mesh tessellate(const Geometry& geometry) {
       mesh.triangles = {{0, 1, 2}, {0, 2, 3}};
       return mesh;
     }
+    case ShapeType::sdf: return geometry.grid ? isosurface(*geometry.grid, {s[0], s[1], s[2]}) : roundedBox(.5 * Vector3d(s[0], s[1], s[2]), 0.);
     case ShapeType::mesh: return geometry.mesh ? *geometry.mesh : Mesh{};
     default: return {};
   }

@@ -7,10 +7,18 @@
 
 namespace kinegraph {
 
+namespace {
+
+bool manyBodies(const State& scene) { return scene.program().contacts.bodies.size() > NearPairs::kFew; }
+
+}  // namespace
+
 MotionChecker::MotionChecker(const State& scene)
-    : state_(scene), pairs_(scene.program(), scene.program().collidable), bodies_(pairs_), from_(scene.dofs()),
+    : state_(scene), pairs_(scene.program(), manyBodies(scene) ? scene.program().movingPairs() : scene.program().collidable()),
+      bodies_(pairs_), from_(scene.dofs()),
       change_(scene.dofs()), q_(scene.dofs()), steps_(scene.program().steps.size()), speed_(pairs_.pairs.size()) {
   due_.reserve(pairs_.pairs.size());
+  if (manyBodies(scene)) resting_.emplace(scene.sharedProgram());
 }
 
 void MotionChecker::moveTo(double time) {
@@ -109,6 +117,13 @@ std::optional<MotionContact> MotionChecker::firstContact(const double* from, con
     const double now = spare(pair);
     if (now < 0. || (speed > 0. && (now < tolerance || now / speed == 0.))) return contact(pair);
     if (now < speed) due_.push_back({now / speed, pair});
+  }
+  if (resting_) {  // pairs that move as one
+    resting_->place(state_);
+    for (const NearPairSearch::Near& near : resting_->near(margin)) {
+      const int a = resting_->frame(near.a), b = resting_->frame(near.b);
+      if (near.distance < margin && state_.link(a) == state_.link(b)) return MotionContact{0., a, b, near.distance};
+    }
   }
   if (due_.empty()) return std::nullopt;
   // By how much the pairs keep the margin at the end; the rest is free where that and what they keep now cover it.

@@ -52,6 +52,7 @@ class MotionChecker {
   State state_;
   BodyPairs pairs_;
   PlacedBodies bodies_;
+  std::optional<NearPairSearch> resting_;  ///< where bodies are many: for pairs that move as one, which are then not in `pairs_`
   VectorXd from_, change_, q_;
   double time_ = 0.;
   std::vector<StepBound> steps_;  ///< as the Program's

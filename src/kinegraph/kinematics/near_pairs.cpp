@@ -41,4 +41,33 @@ bool PlacedBodies::mayBeNear(int pair, double margin) {
   return pointToCore(body_b, pose(b), center_a) <= body_b.radius() + body_a.boundRadius() + margin;
 }
 
+NearPairs::NearPairs(std::shared_ptr<const Program> program) : program_(std::move(program)) {
+  if (program_->contacts.bodies.size() > kFew) {
+    search_.emplace(program_);
+  } else {
+    pairs_.emplace(*program_, program_->collidable());
+    bodies_.emplace(*pairs_);
+  }
+}
+
+void NearPairs::place(const State& state) {
+  if (search_) {
+    search_->place(state);
+  } else {
+    bodies_->place(state);
+  }
+}
+
+bool NearPairs::apart(double margin) {
+  if (search_) return search_->apart(margin);
+  const auto tooNear = [&](int pair) { return bodies_->mayBeNear(pair, margin) && bodies_->proximity(pair).distance < margin; };
+  if (suspect_ >= 0 && tooNear(suspect_)) return false;
+  for (int pair = 0; pair < bodies_->pairs(); ++pair) {
+    if (pair == suspect_ || !tooNear(pair)) continue;
+    suspect_ = pair;
+    return false;
+  }
+  return true;
+}
+
 }  // namespace kinegraph

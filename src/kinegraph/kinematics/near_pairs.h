@@ -2,11 +2,12 @@
 
 #include <memory>
 #include <memory_resource>
+#include <optional>
 #include <utility>
 #include <vector>
 
 #include "kinegraph/geometry/proximity.h"
-#include "kinegraph/kinematics/state.h"
+#include "kinegraph/kinematics/near_pair_search.h"
 
 namespace kinegraph {
 
@@ -60,6 +61,44 @@ class PlacedBodies {
   const BodyPairs* pairs_;
   const State* state_ = nullptr;
   std::pmr::vector<Placed> placed_;
+};
+
+/// The collidable pairs of a scene. Those of few bodies are looked at one by one, those of many by a NearPairSearch; the answers
+/// are the same.
+class NearPairs {
+ public:
+  static constexpr std::size_t kFew = 64;  ///< bodies
+
+  explicit NearPairs(std::shared_ptr<const Program> program);
+  NearPairs(const NearPairs& other) : NearPairs(other.program_) {}
+
+  /// `state` must stay while this is asked.
+  void place(const State& state);
+
+  /// Calls visit(a, b, distance) for the frames of the pairs nearer than `margin`, or that near, by frames.
+  template <class Visit>
+  void forDistances(double margin, const Visit& visit) {
+    if (search_) {
+      for (const NearPairSearch::Near& pair : search_->near(margin)) visit(search_->frame(pair.a), search_->frame(pair.b), pair.distance);
+      return;
+    }
+    for (int pair = 0; pair < bodies_->pairs(); ++pair) {
+      if (!bodies_->mayBeNear(pair, margin)) continue;
+      const double distance = bodies_->proximity(pair).distance;
+      const auto [a, b] = program_->collidable()[std::size_t(pair)];
+      if (distance <= margin) visit(a, b, distance);
+    }
+  }
+
+  /// Are all pairs at least `margin` apart? The pair that was too near the last time is looked at first.
+  bool apart(double margin);
+
+ private:
+  std::shared_ptr<const Program> program_;
+  std::optional<NearPairSearch> search_;
+  std::optional<BodyPairs> pairs_;
+  std::optional<PlacedBodies> bodies_;
+  int suspect_ = -1;
 };
 
 }  // namespace kinegraph

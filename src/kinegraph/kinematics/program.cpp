@@ -16,6 +16,38 @@ int frameId(const Program& program, std::string_view name, std::string_view who)
   throw FrameNotFound(cat(who, ": frame name '", name, "' doesn't exist", similarHint(name, program.frame_name)));
 }
 
+const std::vector<std::pair<int, int>>& Program::collidable() const {
+  std::call_once(listed_, [this] {
+    for (std::size_t i = 0; i < contacts.bodies.size(); ++i) {
+      for (std::size_t j = i + 1; j < contacts.bodies.size(); ++j) {
+        if (contacts.allow(i, j)) collidable_.emplace_back(contacts.bodies[i].frame, contacts.bodies[j].frame);
+      }
+    }
+  });
+  return collidable_;
+}
+
+std::vector<std::pair<int, int>> Program::movingPairs() const {
+  std::vector<std::size_t> moving;
+  for (std::size_t i = 0; i < contacts.bodies.size(); ++i) {
+    if (frame_link[std::size_t(contacts.bodies[i].frame)] != 0) moving.push_back(i);
+  }
+  std::vector<std::pair<int, int>> pairs;
+  for (std::size_t i = 0; i < contacts.bodies.size(); ++i) {
+    const int frame = contacts.bodies[i].frame, link = frame_link[std::size_t(frame)];
+    const auto add = [&](std::size_t j) {
+      const int other = contacts.bodies[j].frame;
+      if (j > i && frame_link[std::size_t(other)] != link && contacts.allow(i, j)) pairs.emplace_back(frame, other);
+    };
+    if (link != 0) {
+      for (std::size_t j = i + 1; j < contacts.bodies.size(); ++j) add(j);
+    } else {
+      for (const std::size_t j : moving) add(j);
+    }
+  }
+  return pairs;
+}
+
 void connectChains(Program& program) {
   program.column_dof.clear();
   program.column_before.clear();

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <memory>
+#include <mutex>
 #include <string>
 #include <string_view>
 #include <unordered_map>
@@ -8,6 +9,7 @@
 #include <vector>
 
 #include "kinegraph/geometry/geometry.h"
+#include "kinegraph/kinematics/contact_rules.h"
 #include "kinegraph/kinematics/joint.h"
 #include "kinegraph/math/pose.h"
 
@@ -54,7 +56,17 @@ struct Program {
 
   std::vector<std::shared_ptr<const Geometry>> geometry;   ///< per frame, null without a shape
   std::vector<std::shared_ptr<const CollisionBody>> body;  ///< per frame, null without a shape
-  std::vector<std::pair<int, int>> collidable;             ///< frame pairs (a < b) that may collide
+  ContactRules contacts;
+
+  /// All frame pairs (a < b) that may collide, ascending. Listed when first asked for; threads may ask.
+  const std::vector<std::pair<int, int>>& collidable() const;
+
+  /// Those whose frames are on different links, so that a motion can bring them together.
+  std::vector<std::pair<int, int>> movingPairs() const;
+
+ private:
+  mutable std::once_flag listed_;
+  mutable std::vector<std::pair<int, int>> collidable_;
 };
 
 /// What a frame weighs, as a point.

@@ -25,6 +25,7 @@ class State {
   const Program& program() const { return *program_; }
   const std::shared_ptr<const Program>& sharedProgram() const { return program_; }
   const Parameters& parameters() const { return *parameters_; }
+  const std::shared_ptr<const Parameters>& sharedParameters() const { return parameters_; }
   int dofs() const { return program_->dofs; }
 
   /// Sets q (program().dofs numbers) and computes all link poses and twists.

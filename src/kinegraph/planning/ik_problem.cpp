@@ -120,7 +120,7 @@ void IkProblem::chooseVariables() {
 
 void IkProblem::choosePairs() {
   const auto moves = [&](int column) { return variable[program->column_dof[column]] >= 0; };
-  for (const auto& pair : program->collidable) {
+  for (const auto& pair : program->movingPairs()) {
     // Up both chains, from the column that comes last, to the one where they meet.
     int a = program->last_column[program->frame_link[pair.first]], b = program->last_column[program->frame_link[pair.second]];
     while (a != b) {

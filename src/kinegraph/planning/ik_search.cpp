@@ -152,7 +152,7 @@ void IkSearch::measureDistances() {
         const int v = problem_->variable[program.column_dof[c]];
         if (v < 0) continue;
         const State::Twist& twist = state_.twist(c);
-        gradient[v] += sign * near.normal.dot(twist.linear + twist.angular.cross(point));
+        gradient[v] += sign * near.rate * near.normal.dot(twist.linear + twist.angular.cross(point));
       }
     };
     add(a, near.point_a, 1.);

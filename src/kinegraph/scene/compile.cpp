@@ -1,6 +1,5 @@
 #include <algorithm>
 #include <limits>
-#include <set>
 
 #include "kinegraph/scene/scene_tree.h"
 
@@ -92,7 +91,7 @@ std::shared_ptr<const Program> compileProgram(const SceneTree& scene) {
     program->geometry[frame->id] = frame->shape->geometry;
     program->body[frame->id] = frame->shape->body();
   }
-  program->collidable = collidablePairs(scene);
+  program->contacts = contactRules(scene);
   return program;
 }
 
@@ -125,77 +124,37 @@ std::vector<LinkInertia> collectInertias(const SceneTree& scene, const Program& 
 
 namespace {
 
-const FrameData* linkFrame(const FrameData* frame) {
+/// The frame with a joint, or root, that a frame is rigidly fixed to.
+const FrameData* partFrame(const FrameData* frame) {
   while (!frame->joint && frame->parent) frame = frame->parent;
   return frame;
 }
 
-/// Does the contact flag of A's frame exclude contacts with B's link, an ancestor that is few joints away?
-bool excludedByFlag(const FrameData* link_a, int contact_a, const FrameData* link_b) {
-  int left = -contact_a;
-  for (const FrameData* frame = link_a->parent; frame; frame = frame->parent) {
-    if (frame->joint && --left < 0) return false;
-    if (frame == link_b) return true;
-  }
-  return false;
+bool takesPart(const FrameData& frame) {
+  if (!frame.shape || frame.shape->contact == 0) return false;
+  const ShapeType type = frame.shape->geometry->type;
+  return type != ShapeType::marker && type != ShapeType::camera;
 }
-
-/// Pairs of frames whose shapes are told not to collide.
-class ExcludedContacts {
- public:
-  explicit ExcludedContacts(const SceneTree& scene) {
-    for (const auto& frame : scene.frames()) {
-      for (const FrameData* other : frame->no_contact) pairs_.insert(std::minmax<const FrameData*>(frame.get(), other));
-    }
-  }
-
-  /// A shape belongs to its frame, and to that one's parent if it is fixed to it.
-  bool contains(const FrameData& a, const FrameData& b) const {
-    if (pairs_.empty()) return false;
-    for (const FrameData* x : {&a, ownerOf(a)}) {
-      for (const FrameData* y : {&b, ownerOf(b)}) {
-        if (pairs_.contains(std::minmax(x, y))) return true;
-      }
-    }
-    return false;
-  }
-
- private:
-  static const FrameData* ownerOf(const FrameData& frame) {
-    return frame.parent && !frame.joint ? frame.parent : &frame;
-  }
-
-  std::set<std::pair<const FrameData*, const FrameData*>> pairs_;
-};
 
 }  // namespace
 
-std::vector<std::pair<int, int>> collidablePairs(const SceneTree& scene) {
-  const ExcludedContacts excluded(scene);
-  struct Candidate {
-    const FrameData* frame;
-    const FrameData* link;
-    int contact;
-  };
-  std::vector<Candidate> candidates;
+ContactRules contactRules(const SceneTree& scene) {
+  ContactRules rules;
+  std::vector<int> part_of(scene.frames().size(), -1);  // of frames that are a part's own
   for (const auto& frame : scene.frames()) {
-    if (!frame->shape || frame->shape->contact == 0) continue;
-    const ShapeType type = frame->shape->geometry->type;
-    if (type == ShapeType::marker || type == ShapeType::camera) continue;
-    candidates.push_back({frame.get(), linkFrame(frame.get()), frame->shape->contact});
+    if (partFrame(frame.get()) != frame.get()) continue;
+    part_of[frame->id] = int(rules.parts.size());
+    rules.parts.push_back({-1, frame->joint.has_value()});
   }
-  std::vector<std::pair<int, int>> pairs;
-  for (std::size_t i = 0; i < candidates.size(); ++i) {
-    for (std::size_t j = i + 1; j < candidates.size(); ++j) {
-      const Candidate &a = candidates[i], &b = candidates[j];
-      if (a.link == b.link) continue;
-      if (a.contact < 0 && excludedByFlag(a.link, a.contact, b.link)) continue;
-      if (b.contact < 0 && excludedByFlag(b.link, b.contact, a.link)) continue;
-      if (excluded.contains(*a.frame, *b.frame)) continue;
-      pairs.emplace_back(a.frame->id, b.frame->id);
-    }
+  for (const auto& frame : scene.frames()) {
+    if (part_of[frame->id] >= 0 && frame->parent) rules.parts[part_of[frame->id]].parent = part_of[partFrame(frame->parent)->id];
+    for (const FrameData* other : frame->no_contact) rules.excluded.push_back(std::minmax(frame->id, other->id));
+    if (!takesPart(*frame)) continue;
+    const int owner = frame->parent && !frame->joint ? frame->parent->id : frame->id;  // a shape that is fixed to a parent is its
+    rules.bodies.push_back({frame->id, part_of[partFrame(frame.get())->id], frame->shape->contact, owner});
   }
-  return pairs;
+  std::sort(rules.excluded.begin(), rules.excluded.end());
+  return rules;
 }
 
 }  // namespace kinegraph

@@ -344,31 +344,15 @@ VectorXd Config::inverseDynamics(const VectorXd& velocity, const VectorXd& accel
   return kinegraph::inverseDynamics(scene_->state(), inertias(), velocity, acceleration);
 }
 
-namespace {
-
-/// Calls visit(a, b, distance) for the frames of all collidable pairs whose distance is at most `margin`.
-template <class Visit>
-void forNearPairs(SceneTree& scene, double margin, const Visit& visit) {
-  PlacedBodies& bodies = scene.placedBodies();
-  const auto program = scene.program();
-  for (int pair = 0; pair < bodies.pairs(); ++pair) {
-    if (!bodies.mayBeNear(pair, margin)) continue;
-    const double distance = bodies.proximity(pair).distance;
-    if (distance <= margin) visit(program->collidable[pair].first, program->collidable[pair].second, distance);
-  }
-}
-
-}  // namespace
-
 std::vector<Config::NearPair> Config::getCollisions(double margin) const {
   std::vector<NearPair> near;
-  forNearPairs(*scene_, margin, [&](int a, int b, double distance) { near.push_back({a, b, distance}); });
+  scene_->nearPairs().forDistances(margin, [&](int a, int b, double distance) { near.push_back({a, b, distance}); });
   return near;
 }
 
 double Config::getTotalPenetration(bool largest_only) const {
   double sum = 0., largest = 0.;
-  forNearPairs(*scene_, 0., [&](int, int, double distance) {
+  scene_->nearPairs().forDistances(0., [&](int, int, double distance) {
     sum -= distance;
     largest = std::max(largest, -distance);
   });

@@ -129,7 +129,7 @@ class Config {
   /// Pairs of frames that may collide. Both have a shape and a contact flag other than 0, they belong to different links,
   /// a negative flag -k excludes contacts with the links above within k joints, and so does `contact_exclude` with the
   /// frames that it names; there, a shape counts as that of its parent, too, if it is fixed to it.
-  std::vector<std::pair<int, int>> getCollidablePairs() const { return scene_->program()->collidable; }
+  std::vector<std::pair<int, int>> getCollidablePairs() const { return scene_->program()->collidable(); }
 
   /// All collidable pairs whose distance is at most `margin`, by id.
   std::vector<NearPair> getCollisions(double margin = 0.) const;

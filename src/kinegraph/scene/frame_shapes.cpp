@@ -54,14 +54,22 @@ void setMeshFile(Frame& frame, const std::string& path, double scale) {
   frame.setGeometry(std::move(geometry));
 }
 
-void setTensor(Frame& frame, Grid grid, const Vector3d& size) {
+namespace {
+
+void setGrid(Frame& frame, ShapeType type, Grid grid, const Vector3d& size) {
   checkGrid(grid);
   Geometry geometry;
-  geometry.type = ShapeType::tensor;
-  geometry.size = checkedSize(ShapeType::tensor, {size.begin(), size.end()}, nullptr);
+  geometry.type = type;
+  geometry.size = checkedSize(type, {size.begin(), size.end()}, nullptr);
   geometry.grid = std::make_shared<Grid>(std::move(grid));
   frame.setGeometry(std::move(geometry));
 }
+
+}  // namespace
+
+void setTensor(Frame& frame, Grid grid, const Vector3d& size) { setGrid(frame, ShapeType::tensor, std::move(grid), size); }
+
+void setSdf(Frame& frame, Grid grid, const Vector3d& size) { setGrid(frame, ShapeType::sdf, std::move(grid), size); }
 
 void setImplicitSurface(Frame& frame, const Grid& grid, const Vector3d& size, int blur, double resample) {
   checkedSize(ShapeType::tensor, {size.begin(), size.end()}, nullptr);

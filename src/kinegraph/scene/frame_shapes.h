@@ -21,6 +21,10 @@ void setMeshFile(Frame& frame, const std::string& path, double scale = 1.);
 /// A box of that size (m) that holds a grid of numbers.
 void setTensor(Frame& frame, Grid grid, const Vector3d& size);
 
+/// Gives the frame the solid where the values of a grid in a box of that size (m) are not positive; outside, they are its
+/// distance (m). Throws ValueError for a grid or a size that is not good.
+void setSdf(Frame& frame, Grid grid, const Vector3d& size);
+
 /// The surface where a grid of numbers, which fills a box of that size (m), is zero; normals point to larger values. First
 /// the grid is blurred that often, and with `resample` > 0 it is resampled to cells of about that size (m).
 void setImplicitSurface(Frame& frame, const Grid& grid, const Vector3d& size, int blur = 0, double resample = -1.);

@@ -174,7 +174,7 @@ std::shared_ptr<const Program> SceneTree::program() {
     }
     parameters_.reset();
     state_.reset();
-    collisions_.reset();
+    near_pairs_.reset();
     q_.resize(program_->dofs);
     poses_stale_ = q_stale_ = true;
   }
@@ -207,12 +207,12 @@ const State& SceneTree::state() {
   return *state_;
 }
 
-PlacedBodies& SceneTree::placedBodies() {
+NearPairs& SceneTree::nearPairs() {
   const State& now = state();
-  if (!collisions_) collisions_ = std::make_unique<Collisions>(*program_);
-  if (bodies_stale_) collisions_->bodies.place(now);
+  if (!near_pairs_) near_pairs_ = std::make_unique<NearPairs>(program_);
+  if (bodies_stale_) near_pairs_->place(now);
   bodies_stale_ = false;
-  return collisions_->bodies;
+  return *near_pairs_;
 }
 
 Pose SceneTree::worldPose(const FrameData& frame) {

@@ -73,8 +73,8 @@ class SceneTree {
   std::shared_ptr<const Parameters> parameters();
   const State& state();
 
-  /// The bodies of the collidable pairs, placed by state().
-  PlacedBodies& placedBodies();
+  /// The collidable pairs, placed by state().
+  NearPairs& nearPairs();
 
   /// World pose of a frame. The first question after an edit is answered along the parents, so that scenes can be built
   /// frame by frame without compiling them at every step; those that follow are answered by the State.
@@ -84,12 +84,6 @@ class SceneTree {
   void setJointState(const double* q);
 
  private:
-  struct Collisions {
-    explicit Collisions(const Program& program) : pairs(program, program.collidable), bodies(pairs) {}
-    BodyPairs pairs;
-    PlacedBodies bodies;
-  };
-
   void copyValues(const SceneTree& other);
   void gatherJointState(double* q) const;
 
@@ -101,7 +95,7 @@ class SceneTree {
   std::shared_ptr<const Parameters> parameters_;
   std::unique_ptr<State> state_;
   VectorXd q_;  ///< as last given to `state_`
-  std::unique_ptr<Collisions> collisions_;
+  std::unique_ptr<NearPairs> near_pairs_;
   std::vector<std::shared_ptr<SceneTree>> snapshots_;
   std::uint64_t snapshot_revision_ = 0;
 };
@@ -115,7 +109,7 @@ std::shared_ptr<const Parameters> collectParameters(const SceneTree& scene, cons
 /// What each link of a compiled Program weighs: the sum of its frames' inertias.
 std::vector<LinkInertia> collectInertias(const SceneTree& scene, const Program& program, const Parameters& parameters);
 
-/// The collidable pairs (a < b) of a scene; the rule is at Config::getCollidablePairs.
-std::vector<std::pair<int, int>> collidablePairs(const SceneTree& scene);
+/// Which shapes of a scene may collide; the rule is at Config::getCollidablePairs.
+ContactRules contactRules(const SceneTree& scene);
 
 }  // namespace kinegraph

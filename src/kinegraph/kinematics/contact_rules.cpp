@@ -1,0 +1,31 @@
+#include "kinegraph/kinematics/contact_rules.h"
+
+#include <algorithm>
+
+namespace kinegraph {
+
+bool ContactRules::allow(std::size_t i, std::size_t j) const {
+  const Body &a = bodies[i], &b = bodies[j];
+  if (a.part == b.part) return false;
+  if (a.flag < 0 && excludedByFlag(a, b)) return false;
+  if (b.flag < 0 && excludedByFlag(b, a)) return false;
+  if (excluded.empty()) return true;
+  for (const int x : {a.frame, a.owner}) {
+    for (const int y : {b.frame, b.owner}) {
+      if (std::binary_search(excluded.begin(), excluded.end(), std::pair<int, int>(std::minmax(x, y)))) return false;
+    }
+  }
+  return true;
+}
+
+/// Does the contact flag of A exclude contacts with B's part, an ancestor that is few joints away?
+bool ContactRules::excludedByFlag(const Body& a, const Body& b) const {
+  int left = -a.flag;
+  for (int part = parts[std::size_t(a.part)].parent; part >= 0; part = parts[std::size_t(part)].parent) {
+    if (parts[std::size_t(part)].jointed && --left < 0) return false;
+    if (part == b.part) return true;
+  }
+  return false;
+}
+
+}  // namespace kinegraph
