@@ -52,7 +52,7 @@ def sceneHtml(config: Config) -> str:
 def frameHtml(frame: Frame) -> str:
     """A table of what the frame is now: where it is, m and quaternion, and its attributes as in a .g file."""
     parent = frame.getParent()
-    described = {"parent": parent.name if parent else "none", "world pose": frame.getPose(), **frame.asDict()}
+    described = {"parent": parent.name if parent else "none", "world pose": frame.getPose().tolist(), **frame.asDict()}
     rows = "".join(
         f"<tr><th>{escape(key)}</th><td>{escape(_text(value))}</td></tr>" for key, value in described.items()
     )
@@ -61,8 +61,7 @@ def frameHtml(frame: Frame) -> str:
 
 def _text(value: object) -> str:
     """Numbers shortly, and only the first of many."""
-    if isinstance(value, (list, tuple)) or hasattr(value, "tolist"):
-        items = list(value)
-        more = f" ... ({len(items)} in all)" if len(items) > _SHOWN else ""
-        return " ".join(_text(item) for item in items[:_SHOWN]) + more
+    if isinstance(value, list):
+        more = f" ... ({len(value)} in all)" if len(value) > _SHOWN else ""
+        return " ".join(_text(item) for item in value[:_SHOWN]) + more
     return f"{value:.4g}" if isinstance(value, float) else str(value)
