@@ -7,17 +7,15 @@ namespace kinegraph {
 
 std::vector<NearLine> nearLines(const Config& config, double margin) {
   constexpr std::size_t kMost = 500;
-  PlacedBodies& bodies = config.scene()->placedBodies();
-  const auto program = config.program();
+  const std::shared_ptr<SceneTree> scene = config.scene();
+  const State& state = config.state();
+  const Program& program = state.program();
   std::vector<NearLine> lines;
-  for (int pair = 0; pair < bodies.pairs() && lines.size() < kMost; ++pair) {
-    if (!bodies.mayBeNear(pair, margin)) continue;
-    const Proximity near = bodies.proximity(pair);
-    if (near.distance > margin) continue;
-    const auto [a, b] = program->collidable[std::size_t(pair)];
-    const auto& frames = config.scene()->frames();
-    lines.push_back({near.point_a, near.point_b, near.distance, cat(frames[std::size_t(a)]->name, " - ", frames[std::size_t(b)]->name)});
-  }
+  scene->nearPairs().forDistances(margin, [&](int a, int b, double distance) {
+    if (lines.size() >= kMost) return;
+    const Proximity near = proximity(*program.body[std::size_t(a)], state.pose(a), *program.body[std::size_t(b)], state.pose(b));
+    lines.push_back({near.point_a, near.point_b, distance, cat(program.frame_name[std::size_t(a)], " - ", program.frame_name[std::size_t(b)])});
+  });
   return lines;
 }
 
