@@ -25,6 +25,8 @@ COUNTS = {  # calls with and without what is done once
     "forward kinematics": (100, 2100),
     "Jacobian": (100, 2100),
     "position": (100, 2100),
+    "Jacobian, batch": (256, 25856),
+    "pose, batch": (256, 25856),
     "collisions": (16, 176),
     "load": (2, 6),
     "inverse kinematics": (16, 176),

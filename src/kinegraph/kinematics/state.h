@@ -70,6 +70,9 @@ class State {
   }
 
  private:
+  struct Turn {
+    double sine, cosine;
+  };
   void update();
 
   std::shared_ptr<const Program> program_;
@@ -77,6 +80,7 @@ class State {
   VectorXd q_;
   std::vector<RigidTransform> link_pose_;
   std::vector<Twist> twists_;  ///< per column
+  std::vector<Turn> turns_;    ///< per entry of program().turn_dof
 };
 
 }  // namespace kinegraph
