@@ -162,6 +162,8 @@ void bindScene(nb::module_& m) {
            "config"_a, "prefix"_a = "", "tau"_a = 1., "Appends copies of all frames of another configuration.")
       .def("copy", [](PyConfig& c, const PyConfig& other) { static_cast<Config&>(c) = other; }, "other"_a,
            "Becomes a copy of another configuration.")
+      .def("copy", [](const PyConfig& c) { return PyConfig{Config(c), nullptr}; },
+           "A copy that shares nothing that can be changed, like copy.copy and copy.deepcopy.")
       .def("delFrame", [](PyConfig& c, nb::handle f) { c.delFrame(toFrame(c, f).getName()); }, "frame"_a,
            "Removes a frame; its children stay where they are, as roots.")
       .def("attach", [](PyConfig& c, const std::string& parent, const std::string& child) { c.attach(parent, child); },

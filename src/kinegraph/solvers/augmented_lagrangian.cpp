@@ -1,13 +1,13 @@
 #include "kinegraph/solvers/augmented_lagrangian.h"
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <cstdio>
 #include <limits>
 
 #include "kinegraph/base/errors.h"
 #include "kinegraph/base/text.h"
+#include "kinegraph/solvers/constrained_function.h"
 #include "kinegraph/solvers/local_model.h"
 #include "kinegraph/solvers/quasi_newton.h"
 
@@ -15,44 +15,26 @@ namespace kinegraph {
 
 namespace {
 
-std::vector<int> rowsOf(const Nlp& nlp, std::initializer_list<ObjectiveType> wanted) {
-  std::vector<int> rows;
-  for (int row = 0; row < int(nlp.types().size()); ++row) {
-    if (std::find(wanted.begin(), wanted.end(), nlp.types()[row]) != wanted.end()) rows.push_back(row);
-  }
-  return rows;
-}
-
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 class AugmentedLagrangian {
  public:
-  AugmentedLagrangian(Nlp& nlp, const SolverOptions& options, const EvaluationHook& hook)
-      : nlp_(nlp), options_(options), hook_(hook),
-        model_(nlp, rowsOf(nlp, {ObjectiveType::f, ObjectiveType::sos, ObjectiveType::ineqP}),
-               rowsOf(nlp, {ObjectiveType::eq, ObjectiveType::ineq, ObjectiveType::ineqB})),
-        constraints_(model_.constraints()), J_(nlp.makeJacobian()), trial_J_(J_),
-        phi_(VectorXd::Zero(Eigen::Index(nlp.types().size()))), trial_phi_(phi_), lambda_(VectorXd::Zero(Eigen::Index(constraints_.size()))),
-        next_lambda_(lambda_), tolerance_(options.constraintTolerance()) {
-    if (options_.boundedNewton) {
-      lower_ = nlp.lower();
-      upper_ = nlp.upper();
-    } else {
-      lower_ = VectorXd::Constant(nlp.dimension(), -kInfinity);
-      upper_ = -lower_;
-    }
+  AugmentedLagrangian(Nlp& nlp, const VectorXd& x0, const SolverOptions& options, const EvaluationHook& hook)
+      : nlp_(nlp), options_(options), function_(nlp, x0, options, hook), model_(nlp, function_.costs(), function_.constraints()),
+        constraints_(function_.constraints()), lower_(function_.lower()), upper_(function_.upper()), J_(nlp.makeJacobian()),
+        trial_J_(J_), phi_(VectorXd::Zero(Eigen::Index(nlp.types().size()))), trial_phi_(phi_),
+        lambda_(VectorXd::Zero(Eigen::Index(constraints_.size()))), next_lambda_(lambda_), tolerance_(options.constraintTolerance()) {
+    x_ = start_ = function_.clip(x0);
   }
 
-  SolverResult run(const VectorXd& x0, const VectorXd& dual) {
-    const auto start = std::chrono::steady_clock::now();
-    x_ = start_ = x0.cwiseMax(lower_).cwiseMin(upper_);
-    if (std::find(nlp_.types().begin(), nlp_.types().end(), ObjectiveType::f) != nlp_.types().end()) curvature_.reset(nlp_.dimension());
+  SolverResult run(const VectorXd& dual) {
+    if (function_.hasGeneralCosts()) curvature_.reset(nlp_.dimension());
     if (dual.size() == phi_.size()) {
       for (std::size_t j = 0; j < constraints_.size(); ++j) lambda_[j] = dual[constraints_[j]];
     }
     evaluate(x_, phi_, J_);
-    if (const std::string what = describeNotFinite(nlp_, phi_, &J_); !what.empty()) throw ValueError(cat("at the start, ", what));
-    remember();
+    function_.requireFiniteStart(phi_, J_);
+    function_.remember(x_, phi_);
     weight_ = costWeight();
     mu_ = weight_ * options_.muInit;
     if (nlp_.dimension() == 0) {
@@ -60,8 +42,11 @@ class AugmentedLagrangian {
     } else {
       iterate();
     }
-    if (status_ != SolverStatus::converged) restoreBest();
-    return result(std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count());
+    if (status_ != SolverStatus::converged) {
+      x_ = function_.best();
+      phi_ = function_.bestPhi();
+    }
+    return function_.result(x_, phi_, lambda_, status_, message_);
   }
 
  private:
@@ -78,24 +63,12 @@ class AugmentedLagrangian {
   }
 
   bool evaluate(const VectorXd& x, VectorXd& phi, Jacobian& J) {
-    nlp_.evaluate(x, phi, &J);
-    ++evals_;
-    if (hook_ && !hook_(x, phi)) {
-      stop(SolverStatus::cancelled, "cancelled by the caller");
-      return false;
-    }
-    return true;
+    if (function_.evaluate(x, phi, J)) return true;
+    stop(SolverStatus::cancelled, "cancelled by the caller");
+    return false;
   }
 
-  double cost(const VectorXd& phi) const {
-    double sum = 0.;
-    for (int row = 0; row < phi.size(); ++row) {
-      const ObjectiveType type = nlp_.types()[row];
-      if (type == ObjectiveType::f) sum += phi[row];
-      if (type == ObjectiveType::sos || (type == ObjectiveType::ineqP && phi[row] > 0.)) sum += phi[row] * phi[row];
-    }
-    return sum;
-  }
+  double cost(const VectorXd& phi) const { return function_.cost(phi); }
 
   double multiplier(int j, double c) const {
     return model_.isEquality(j) ? lambda_[j] + mu_ * c : std::max(0., lambda_[j] + mu_ * c);
@@ -112,11 +85,7 @@ class AugmentedLagrangian {
     return sum;
   }
 
-  double violationAt(const VectorXd& phi) const {
-    double worst = 0.;
-    for (int row : constraints_) worst = std::max(worst, violation(nlp_.types()[row], phi[row]));
-    return worst;
-  }
+  double violationAt(const VectorXd& phi) const { return function_.violation(phi); }
 
   /// The violation that the model expects after its step.
   double linearizedViolation() const {
@@ -129,12 +98,7 @@ class AugmentedLagrangian {
 
   /// Largest entry of the gradient of the Lagrangian, as far as the bounds leave room to go down.
   double gradientNorm(const VectorXd& x, const VectorXd& phi, const Jacobian& J) {
-    gradient_.setZero(x.size());
-    for (int row = 0; row < phi.size(); ++row) {
-      const ObjectiveType type = nlp_.types()[row];
-      if (type == ObjectiveType::f) J.addRowTo(row, 1., gradient_);
-      if (type == ObjectiveType::sos || (type == ObjectiveType::ineqP && phi[row] > 0.)) J.addRowTo(row, 2. * phi[row], gradient_);
-    }
+    function_.costGradient(phi, J, gradient_);
     for (int j = 0; j < lambda_.size(); ++j) J.addRowTo(constraints_[j], multiplier(j, phi[constraints_[j]]), gradient_);
     return ((x - gradient_).cwiseMax(lower_).cwiseMin(upper_) - x).lpNorm<Eigen::Infinity>();
   }
@@ -149,39 +113,15 @@ class AugmentedLagrangian {
     return worst;
   }
 
-  void remember() {
-    const double v = violationAt(phi_), c = cost(phi_);
-    const bool better = best_x_.size() == 0 || (v <= tolerance_ && best_violation_ <= tolerance_ ? c < best_cost_ : v < best_violation_);
-    if (!better) return;
-    best_x_ = x_;
-    best_phi_ = phi_;
-    best_violation_ = v;
-    best_cost_ = c;
-  }
-
-  void restoreBest() {
-    x_ = best_x_;
-    phi_ = best_phi_;
-  }
-
   void setCosts() { learns_curvature_ = !model_.setCosts(nlp_, x_, phi_, J_, &curvature_.matrix()); }
-
-  /// Gradient of the f terms and of the constraints times `multipliers`.
-  void lagrangianGradient(const Jacobian& J, const VectorXd& multipliers, VectorXd& gradient) const {
-    gradient.setZero(x_.size());
-    for (int row = 0; row < phi_.size(); ++row) {
-      if (nlp_.types()[row] == ObjectiveType::f) J.addRowTo(row, 1., gradient);
-    }
-    for (int j = 0; j < multipliers.size(); ++j) J.addRowTo(constraints_[j], multipliers[j], gradient);
-  }
 
   /// Where the problem does not tell the curvature of its f terms, that of the Lagrangian is learnt from accepted steps.
   void learnCurvature(const VectorXd& before, const Jacobian& J_before) {
     if (!learns_curvature_) return;
     for (int j = 0; j < lambda_.size(); ++j) next_lambda_[j] = multiplier(j, model_.linearized()[j]);
     VectorXd old_gradient;
-    lagrangianGradient(J_before, next_lambda_, old_gradient);
-    lagrangianGradient(J_, next_lambda_, gradient_);
+    function_.generalGradient(J_before, next_lambda_, old_gradient);
+    function_.generalGradient(J_, next_lambda_, gradient_);
     curvature_.update(x_ - before, gradient_ - old_gradient);
   }
 
@@ -199,31 +139,27 @@ class AugmentedLagrangian {
 
   /// Where the costs are steep, as numbers without a unit may be, penalties must be as well. 1 for sums of squares.
   double costWeight() {
-    if (std::find(nlp_.types().begin(), nlp_.types().end(), ObjectiveType::f) == nlp_.types().end()) return 1.;
-    lagrangianGradient(J_, VectorXd(), gradient_);
+    if (!function_.hasGeneralCosts()) return 1.;
+    function_.generalGradient(J_, VectorXd(), gradient_);
     return std::max(1., .01 * gradient_.lpNorm<Eigen::Infinity>());
   }
 
-  SolverResult result(double seconds);
-
   Nlp& nlp_;
   const SolverOptions& options_;
-  const EvaluationHook& hook_;
+  ConstrainedFunction function_;
   LocalModel model_;
   QuasiNewton curvature_;
   bool learns_curvature_ = false;
   const std::vector<int>& constraints_;
+  const VectorXd &lower_, &upper_;
   Jacobian J_, trial_J_;
-  VectorXd x_, start_, phi_, trial_, trial_phi_, lambda_, next_lambda_, lower_, upper_, low_, high_, gradient_;
-  VectorXd best_x_, best_phi_;
-  double best_violation_ = 0., best_cost_ = 0.;
+  VectorXd x_, start_, phi_, trial_, trial_phi_, lambda_, next_lambda_, low_, high_, gradient_;
   double tolerance_;
   double weight_ = 1., radius_ = options_.stepMax;
   int steps_at_edge_ = 0, restorations_ = 0;
   double mu_ = 1., omega_ = .1, last_violation_ = kInfinity, violation_at_tests_ = kInfinity, rel_ = .02;
   int rounds_ = 0, bad_rounds_ = 0, failed_tests_ = 0;
   bool round_just_ended_ = false;
-  int evals_ = 0;
   bool stopped_ = false;
   SolverStatus status_ = SolverStatus::stalled;
   std::string message_;
@@ -238,7 +174,7 @@ void AugmentedLagrangian::iterate() {
   const double tolerance = options_.stopTolerance;
   const int passes = nlp_.dimension() > 100 ? 3 : 12;
   for (int step = 0; !stopped_; ++step) {
-    if (evals_ >= options_.stopEvals) return stop(SolverStatus::limit, cat("limit of ", options_.stopEvals, " evaluations"));
+    if (function_.evals() >= options_.stopEvals) return stop(SolverStatus::limit, cat("limit of ", options_.stopEvals, " evaluations"));
     if (step >= 20 * options_.stopInners) return stop(SolverStatus::limit, cat("limit of ", options_.stopInners, " steps"));
     if (rounds_ >= options_.stopOuters) return stop(SolverStatus::limit, cat("limit of ", options_.stopOuters, " rounds"));
     if (costs_stale) setCosts();
@@ -253,7 +189,7 @@ void AugmentedLagrangian::iterate() {
     const double scale = std::max(std::abs(cost(phi_)), 1e-4);
     const bool tiny = size <= tolerance || predicted <= std::max(tolerance * tolerance, 1e-16) * scale;
     if (options_.verbose > 2) {
-      std::printf("    step %3d  evals %3d  |d| %.3g  predicted %.3g  violation %.3g  mu %.3g  nu %.3g\n", step, evals_, size, predicted, vc, mu_, nu);
+      std::printf("    step %3d  evals %3d  |d| %.3g  predicted %.3g  violation %.3g  mu %.3g  nu %.3g\n", step, function_.evals(), size, predicted, vc, mu_, nu);
     }
     if (tiny && nu > .1 * h && nu < 1e8 && (!damped_step_retried || trouble_.empty())) {
       nu = std::max(.1 * h, .01 * nu);  // it may be small because of the damping, not because of the problem
@@ -301,7 +237,7 @@ void AugmentedLagrangian::iterate() {
       damped_step_retried = round_just_ended_ = false;
       trouble_.clear();
       costs_stale = true;
-      remember();
+      function_.remember(x_, phi_);
     } else {
       adaptRadius(size, false, true);
       trouble_ = not_finite.empty() ? ", as at a kink" : cat(": where it would go, ", not_finite);
@@ -315,12 +251,12 @@ void AugmentedLagrangian::iterate() {
 void AugmentedLagrangian::endRound(double vc, double step_size) {
   ++rounds_;
   round_just_ended_ = true;
-  if (options_.verbose > 1) std::printf("  round %d  evals %d  cost %.6g  violation %.3g  mu %.3g\n", rounds_, evals_, cost(phi_), vc, mu_);
+  if (options_.verbose > 1) std::printf("  round %d  evals %d  cost %.6g  violation %.3g  mu %.3g\n", rounds_, function_.evals(), cost(phi_), vc, mu_);
   if (vc > tolerance_) {
     bad_rounds_ = vc > .7 * last_violation_ && mu_ >= 1e3 * weight_ * options_.muInit ? bad_rounds_ + 1 : 0;
     if (bad_rounds_ >= 2) {
       if (locallyInfeasible() && !restored()) {
-        return stop(SolverStatus::infeasible, cat("the constraints contradict each other here; least violation found ", best_violation_));
+        return stop(SolverStatus::infeasible, cat("the constraints contradict each other here; least violation found ", function_.bestViolation()));
       }
       bad_rounds_ = 0;
       if (vc < .5 * violation_at_tests_) {  // slow, but it falls
@@ -373,11 +309,8 @@ bool AugmentedLagrangian::restored() {
       phi_ = phi_here;
     }
   }
-  best_x_ = x_;
-  best_phi_ = phi_;
-  best_violation_ = violationAt(phi_);
-  best_cost_ = cost(phi_);
-  if (stopped_ || restorations_ > 5 || best_violation_ > enough) return false;
+  function_.forceBest(x_, phi_);
+  if (stopped_ || restorations_ > 5 || function_.bestViolation() > enough) return false;
   lambda_.setZero();
   mu_ = std::min(weight_ * options_.muMax, std::pow(10., restorations_) * weight_ * options_.muInit);
   last_violation_ = violation_at_tests_ = kInfinity;
@@ -394,7 +327,7 @@ void AugmentedLagrangian::reduceViolation() {
   };
   next_lambda_.setZero();
   double damping = 1e-4;
-  for (int step = 0; step < 30 && evals_ < options_.stopEvals; ++step) {
+  for (int step = 0; step < 30 && function_.evals() < options_.stopEvals; ++step) {
     model_.setNoCosts(0.);
     box();
     trial_ = (x_ + model_.minimize({phi_, J_, next_lambda_, 1., damping, low_, high_, 12})).cwiseMax(lower_).cwiseMin(upper_);
@@ -421,20 +354,6 @@ void AugmentedLagrangian::reduceViolation() {
   }
 }
 
-SolverResult AugmentedLagrangian::result(double seconds) {
-  SolverResult out;
-  out.x = x_;
-  out.dual = VectorXd::Zero(phi_.size());
-  for (std::size_t j = 0; j < constraints_.size(); ++j) out.dual[constraints_[j]] = lambda_[j];
-  out.evals = evals_;
-  out.time = seconds;
-  out.setSums(nlp_.types(), phi_, tolerance_);
-  out.status = status_;
-  out.message = message_;
-  nlp_.evaluate(x_, phi_, nullptr);  // leaves the problem at the point that is returned
-  return out;
-}
-
 }  // namespace
 
 void requireStart(const Nlp& nlp, const VectorXd& x0) {
@@ -455,9 +374,7 @@ void requireNoConstraints(const Nlp& nlp, const char* method) {
 
 SolverResult solveAugmentedLagrangian(Nlp& nlp, const VectorXd& x0, const SolverOptions& options, const VectorXd& dual,
                                       const EvaluationHook& hook) {
-  options.validate();
-  requireStart(nlp, x0);
-  return AugmentedLagrangian(nlp, options, hook).run(x0, dual);
+  return AugmentedLagrangian(nlp, x0, options, hook).run(dual);
 }
 
 }  // namespace kinegraph

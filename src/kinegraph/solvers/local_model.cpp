@@ -266,7 +266,7 @@ const VectorXd& LocalModel::minimize(const Problem& problem) {
     if (!newtonStep(problem)) break;
     const double first_hit = roomAlong(problem);
     double alpha = 1., moved = 0.;
-    bool accepted = false;
+    bool accepted = false, reaches_bound = false;
     for (int attempt = 0; attempt < 20 && !accepted; ++attempt) {
       trial_ = (d_ + alpha * s_).cwiseMax(problem.low).cwiseMin(problem.high);
       alpha = attempt == 0 && first_hit < 1. ? first_hit : .5 * alpha;  // cut off at the box first; then without leaving it
@@ -282,8 +282,9 @@ const VectorXd& LocalModel::minimize(const Problem& problem) {
       linear_.swap(trial_linear_);
       current = next;
       accepted = true;
+      reaches_bound = attempt == 1 && first_hit < 1.;
     }
-    if (!accepted || moved < 1e-10) break;
+    if (!accepted || (moved < 1e-10 && !reaches_bound)) break;  // where a bound is near, the next pass goes along it
   }
   return d_;
 }

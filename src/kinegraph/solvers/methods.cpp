@@ -1,5 +1,6 @@
 #include "kinegraph/solvers/methods.h"
 
+#include <algorithm>
 #include <chrono>
 
 #include "kinegraph/base/errors.h"
@@ -8,6 +9,7 @@
 #include "kinegraph/solvers/derivative_free.h"
 #include "kinegraph/solvers/first_order.h"
 #include "kinegraph/solvers/penalty_methods.h"
+#include "kinegraph/solvers/sequential_quadratic.h"
 
 namespace kinegraph {
 
@@ -24,9 +26,28 @@ SolverResult slackThenBarrier(Nlp& nlp, const VectorXd& x0, const SolverOptions&
   return second;
 }
 
+/// The augmented Lagrangian. Where the curvature has to be learnt, a sequence of quadratic programs gets half of the evaluations
+/// first, and the better of both is the result if neither converges.
+SolverResult solveDefault(Nlp& nlp, const VectorXd& x0, const SolverOptions& options, const VectorXd& dual, const EvaluationHook& hook) {
+  if (x0.size() != nlp.dimension() || !needsLearntCurvature(nlp, x0)) return solveAugmentedLagrangian(nlp, x0, options, dual, hook);
+  SolverOptions part = options;
+  part.stopEvals = std::max(1, options.stopEvals / 2);
+  SolverResult first = solveSequentialQuadratic(nlp, x0, part, hook);
+  if (first.status == SolverStatus::converged || first.status == SolverStatus::cancelled || first.evals >= options.stopEvals) return first;
+  part.stopEvals = options.stopEvals - first.evals;
+  SolverResult second = solveAugmentedLagrangian(nlp, x0, part, dual, hook);
+  const double tolerance = options.constraintTolerance();
+  const bool first_is_better = second.status != SolverStatus::converged && first.violation <= tolerance &&
+                               (second.violation > tolerance || first.f + first.sos < second.f + second.sos);
+  const int evals = first.evals + second.evals;
+  SolverResult& better = first_is_better ? first : second;
+  better.evals = evals;
+  return std::move(better);
+}
+
 SolverResult dispatch(Nlp& nlp, const VectorXd& x0, const SolverOptions& options, const VectorXd& dual, const EvaluationHook& hook) {
   switch (options.method) {
-    case OptMethod::augmentedLag: return solveAugmentedLagrangian(nlp, x0, options, dual, hook);
+    case OptMethod::augmentedLag: return solveDefault(nlp, x0, options, dual, hook);
     case OptMethod::newton:
       requireNoConstraints(nlp, "newton");
       return solveAugmentedLagrangian(nlp, x0, options, {}, hook);

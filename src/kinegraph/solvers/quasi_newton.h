@@ -14,6 +14,7 @@ class QuasiNewton {
   void update(const VectorXd& s, const VectorXd& y);
 
   const MatrixXd& matrix() const { return B_; }
+  bool empty() const { return empty_; }  ///< nothing is known yet; the matrix is zero
 
  private:
   MatrixXd B_;

@@ -1,0 +1,103 @@
+#include "kinegraph/solvers/constrained_function.h"
+
+#include <limits>
+
+#include "kinegraph/base/errors.h"
+#include "kinegraph/base/text.h"
+
+namespace kinegraph {
+
+ConstrainedFunction::ConstrainedFunction(Nlp& nlp, const VectorXd& x0, const SolverOptions& options, const EvaluationHook& hook)
+    : nlp_(nlp), hook_(hook), tolerance_(options.constraintTolerance()), lower_(nlp.lower()), upper_(nlp.upper()) {
+  options.validate();
+  requireStart(nlp, x0);
+  if (!options.boundedNewton) {
+    lower_.setConstant(-std::numeric_limits<double>::infinity());
+    upper_ = -lower_;
+  }
+  std::vector<int> inequalities;
+  for (int row = 0; row < int(nlp.types().size()); ++row) {
+    switch (nlp.types()[row]) {
+      case ObjectiveType::f: has_f_ = true; [[fallthrough]];
+      case ObjectiveType::sos:
+      case ObjectiveType::ineqP: costs_.push_back(row); break;
+      case ObjectiveType::eq: constraints_.push_back(row); break;
+      case ObjectiveType::ineq:
+      case ObjectiveType::ineqB: inequalities.push_back(row); break;
+      case ObjectiveType::none: break;
+    }
+  }
+  equalities_ = int(constraints_.size());
+  constraints_.insert(constraints_.end(), inequalities.begin(), inequalities.end());
+}
+
+bool ConstrainedFunction::evaluate(const VectorXd& x, VectorXd& phi, Jacobian& J) {
+  nlp_.evaluate(x, phi, &J);
+  ++evals_;
+  return !hook_ || hook_(x, phi);
+}
+
+void ConstrainedFunction::requireFiniteStart(const VectorXd& phi, const Jacobian& J) const {
+  if (const std::string what = describeNotFinite(nlp_, phi, &J); !what.empty()) throw ValueError(cat("at the start, ", what));
+}
+
+double ConstrainedFunction::cost(const VectorXd& phi) const {
+  double sum = 0.;
+  for (int row : costs_) {
+    const ObjectiveType type = types()[row];
+    if (type == ObjectiveType::f) sum += phi[row];
+    if (type == ObjectiveType::sos || (type == ObjectiveType::ineqP && phi[row] > 0.)) sum += phi[row] * phi[row];
+  }
+  return sum;
+}
+
+void ConstrainedFunction::costGradient(const VectorXd& phi, const Jacobian& J, VectorXd& gradient) const {
+  gradient.setZero(nlp_.dimension());
+  for (int row : costs_) {
+    const ObjectiveType type = types()[row];
+    if (type == ObjectiveType::f) J.addRowTo(row, 1., gradient);
+    if (type == ObjectiveType::sos || (type == ObjectiveType::ineqP && phi[row] > 0.)) J.addRowTo(row, 2. * phi[row], gradient);
+  }
+}
+
+void ConstrainedFunction::generalGradient(const Jacobian& J, const VectorXd& multipliers, VectorXd& gradient) const {
+  gradient.setZero(nlp_.dimension());
+  for (int row : costs_) {
+    if (types()[row] == ObjectiveType::f) J.addRowTo(row, 1., gradient);
+  }
+  addConstraintGradient(J, multipliers, gradient);
+}
+
+void ConstrainedFunction::addConstraintGradient(const Jacobian& J, const VectorXd& multipliers, VectorXd& gradient) const {
+  for (Eigen::Index j = 0; j < multipliers.size(); ++j) J.addRowTo(constraints_[std::size_t(j)], multipliers[j], gradient);
+}
+
+void ConstrainedFunction::remember(const VectorXd& x, const VectorXd& phi) {
+  const double v = violation(phi), c = cost(phi);
+  const bool better = best_x_.size() == 0 || (v <= tolerance_ && best_violation_ <= tolerance_ ? c < best_cost_ : v < best_violation_);
+  if (better) forceBest(x, phi);
+}
+
+void ConstrainedFunction::forceBest(const VectorXd& x, const VectorXd& phi) {
+  best_x_ = x;
+  best_phi_ = phi;
+  best_violation_ = violation(phi);
+  best_cost_ = cost(phi);
+}
+
+SolverResult ConstrainedFunction::result(const VectorXd& x, const VectorXd& phi, const VectorXd& multipliers, SolverStatus status,
+                                         std::string message) {
+  SolverResult out;
+  out.x = x;
+  out.dual = VectorXd::Zero(phi.size());
+  for (std::size_t j = 0; j < constraints_.size(); ++j) out.dual[constraints_[j]] = multipliers[Eigen::Index(j)];
+  out.evals = evals_;
+  out.setSums(types(), phi, tolerance_);
+  out.status = status;
+  out.message = std::move(message);
+  VectorXd at_x = phi;
+  nlp_.evaluate(x, at_x, nullptr);
+  return out;
+}
+
+}  // namespace kinegraph

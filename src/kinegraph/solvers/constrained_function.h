@@ -1,0 +1,64 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "kinegraph/solvers/augmented_lagrangian.h"
+
+namespace kinegraph {
+
+/// A problem as methods for constraints see it: costs, constraints c (rows of type eq, ineq, ineqB) and a box.
+/// Counts evaluations, asks the hook, keeps the best point.
+class ConstrainedFunction {
+ public:
+  /// Throws ValueError if the options make no sense or `x0` does not fit.
+  ConstrainedFunction(Nlp& nlp, const VectorXd& x0, const SolverOptions& options, const EvaluationHook& hook);
+
+  Nlp& nlp() const { return nlp_; }
+  const std::vector<ObjectiveType>& types() const { return nlp_.types(); }
+  const std::vector<int>& costs() const { return costs_; }              ///< rows of type f, sos, ineqP
+  const std::vector<int>& constraints() const { return constraints_; }  ///< rows, equalities first
+  int equalities() const { return equalities_; }
+  bool hasGeneralCosts() const { return has_f_; }                       ///< of type f
+  const VectorXd& lower() const { return lower_; }                      ///< infinite if the options say so
+  const VectorXd& upper() const { return upper_; }
+  VectorXd clip(const VectorXd& x) const { return x.cwiseMax(lower_).cwiseMin(upper_); }
+
+  /// False if the caller wants it to end.
+  bool evaluate(const VectorXd& x, VectorXd& phi, Jacobian& J);
+  int evals() const { return evals_; }
+
+  /// Throws ValueError, naming the row, if numbers are not finite.
+  void requireFiniteStart(const VectorXd& phi, const Jacobian& J) const;
+
+  double cost(const VectorXd& phi) const;
+  double violation(const VectorXd& phi) const { return largestViolation(nlp_.types(), phi); }
+  void costGradient(const VectorXd& phi, const Jacobian& J, VectorXd& gradient) const;
+
+  /// Gradient of the f rows and of the constraints times `multipliers` (empty: zero): what Gauss-Newton has no curvature of.
+  void generalGradient(const Jacobian& J, const VectorXd& multipliers, VectorXd& gradient) const;
+  void addConstraintGradient(const Jacobian& J, const VectorXd& multipliers, VectorXd& gradient) const;
+
+  /// Takes the point as the best so far if it is: among those within the tolerance the one of least cost, else of least
+  /// violation.
+  void remember(const VectorXd& x, const VectorXd& phi);
+  void forceBest(const VectorXd& x, const VectorXd& phi);
+  const VectorXd& best() const { return best_x_; }
+  const VectorXd& bestPhi() const { return best_phi_; }
+  double bestViolation() const { return best_violation_; }
+
+  /// How it ended at x; leaves the problem there. `multipliers` are those of the constraints.
+  SolverResult result(const VectorXd& x, const VectorXd& phi, const VectorXd& multipliers, SolverStatus status, std::string message);
+
+ private:
+  Nlp& nlp_;
+  const EvaluationHook& hook_;
+  double tolerance_;
+  std::vector<int> costs_, constraints_;
+  int equalities_ = 0, evals_ = 0;
+  bool has_f_ = false;
+  VectorXd lower_, upper_, best_x_, best_phi_;
+  double best_violation_ = 0., best_cost_ = 0.;
+};
+
+}  // namespace kinegraph
