@@ -11,6 +11,7 @@
 
 #include "kinegraph/base/errors.h"
 #include "kinegraph/base/random.h"
+#include "kinegraph/base/text.h"
 #include "kinegraph/features/batch.h"
 #include "kinegraph/komo/komo.h"
 #include "kinegraph/solvers/nlp_solver.h"
@@ -96,6 +97,22 @@ void evaluateBatch(Bench& bench, int count, FeatureSymbol feature) {
   for (int i = 0; i < count; i += Batch::kBatch) evalBatch(batch.scene, residual, batch.Q, y, &rows);
 }
 
+/// The tip of a chain of hinges, and its Jacobian.
+void chain(int joints, int count) {
+  Config config;
+  std::string text = "link0: {}\n";
+  for (int i = 1; i <= joints; ++i) text += cat("link", i, "(link", i - 1, "): { pre: \"t(.01 0 0)\", joint: hingeZ }\n");
+  config.addText(text);
+  Residual residual = makeResidual(config.state(), FeatureSymbol::position, {cat("link", joints)});
+  VectorXd y(3), q = VectorXd::Constant(joints, .01);
+  Matrix J(3, joints);
+  for (int i = 0; i < count; ++i) {
+    config.setJointState(q);
+    J.setZero();
+    eval(config, residual, y, J);
+  }
+}
+
 void load(Bench& bench, int count) {
   for (int i = 0; i < count; ++i) Config().addFile(bench.file);
 }
@@ -119,6 +136,8 @@ const std::map<std::string, Kernel> kKernels = {
     {"collisions", [](Bench& b, int count) { evaluate(b, count, FeatureSymbol::accumulatedCollisions, {}); }},
     {"Jacobian, batch", jacobianBatch},
     {"pose, batch", [](Bench& b, int count) { evaluateBatch(b, count, FeatureSymbol::pose); }},
+    {"chain of 100", [](Bench&, int count) { chain(100, count); }},
+    {"chain of 1000", [](Bench&, int count) { chain(1000, count); }},
     {"load", load},
     {"inverse kinematics", inverseKinematics},
 };

@@ -108,7 +108,7 @@ TEST(Batch, RequestsNoMemoryPerConfiguration) {
   const Residual residual = makeResidual(scene, FeatureSymbol::position, {"tip"});
   const int pairs = int(config.getCollidablePairs().size()), most = 2000;
   const RowMatrix all = randomJoints(most, 3);
-  RowMatrix y(most, 3), J(3 * most, 3), poses(most, 7), distances(most, pairs);
+  RowMatrix y(most, 3), J(3 * most, 3), poses(most, 7), twists(6 * most, 3), distances(most, pairs);
   const auto valid = std::make_unique<bool[]>(std::size_t(most));
   const auto requestsFor = [&](int count) {
     const auto Q = all.topRows(count);
@@ -116,6 +116,7 @@ TEST(Batch, RequestsNoMemoryPerConfiguration) {
     const long before = heap_requests;
     evalBatch(scene, residual, Q, y.topRows(count), &rows);
     framePoses(scene, {3}, Q, poses.topRows(count));
+    frameJacobians(scene, {3}, Q, twists.topRows(6 * count));
     pairDistances(scene, Q, distances.topRows(count));
     areValid(scene, Q, 0., {valid.get(), std::size_t(count)});
     return heap_requests - before;
