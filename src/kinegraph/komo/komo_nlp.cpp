@@ -6,10 +6,21 @@ namespace kinegraph {
 
 namespace {
 
+constexpr int kMostSeparateRows = 20000;
+
+/// Does the objective demand that a sum of overlaps is zero?
+bool isSumOfOverlaps(const Komo::Objective& objective) {
+  return objective.feature == FeatureSymbol::accumulatedCollisions && objective.order == 0 && objective.scale.size() <= 1 &&
+         objective.target.isZero(0.) && (objective.scale.size() == 0 || objective.scale(0) > 0.) &&
+         (objective.type == ObjectiveType::eq || objective.type == ObjectiveType::ineq);
+}
+
 class KomoNlp final : public Nlp {
  public:
-  explicit KomoNlp(std::shared_ptr<Komo> komo)
-      : komo_(std::move(komo)), problem_(*komo_), structure_(komo_->structureRevision()) {
+  explicit KomoNlp(std::shared_ptr<Komo> komo) : KomoNlp(komo, komo->objectives()) {}
+
+  KomoNlp(std::shared_ptr<Komo> komo, std::vector<Komo::Objective> objectives)
+      : komo_(std::move(komo)), problem_(*komo_, std::move(objectives)), structure_(komo_->structureRevision()) {
     types_ = problem_.types();
     lower_ = komo_->layout().lower;
     upper_ = komo_->layout().upper;
@@ -21,6 +32,34 @@ class KomoNlp final : public Nlp {
     requireStructure();
     komo_->setVariables(x);
     problem_.evaluate(*komo_, phi, J);
+  }
+
+  /// Overlaps of pairs in place of their sum.
+  Separation separation() override {
+    if (separation_is_known_) return separation_;
+    separation_is_known_ = true;
+    std::vector<Komo::Objective> objectives = problem_.objectives();
+    bool any = false;
+    for (Komo::Objective& objective : objectives) {
+      if (!isSumOfOverlaps(objective)) continue;
+      objective.feature = FeatureSymbol::pairCollisions;
+      objective.name = "pairCollisions";
+      objective.type = ObjectiveType::ineq;
+      any = true;
+    }
+    if (!any) return separation_;
+    const auto separate = std::make_shared<KomoNlp>(komo_, std::move(objectives));
+    if (separate->problem_.rows() > std::max(kMostSeparateRows, 2 * problem_.rows())) return separation_;
+    for (std::size_t i = 0; i < problem_.terms().size(); ++i) {  // the same objectives in the same slices
+      const PathProblem::Term &sum = problem_.terms()[i], &term = separate->problem_.terms()[i];
+      const bool is_sum = isSumOfOverlaps(problem_.objectives()[sum.objective]);
+      for (int row = 0; row < term.rows; ++row) {
+        separation_.row_of.push_back(is_sum ? sum.first_row : sum.first_row + row);
+        separation_.is_term.push_back(is_sum);
+      }
+    }
+    separation_.problem = separate;
+    return separation_;
   }
 
   /// The present path, moved by a little noise so that it is not exactly at a singular posture, within the bounds.
@@ -56,6 +95,8 @@ class KomoNlp final : public Nlp {
   std::shared_ptr<Komo> komo_;
   PathProblem problem_;
   int structure_;
+  Separation separation_;
+  bool separation_is_known_ = false;
 };
 
 }  // namespace

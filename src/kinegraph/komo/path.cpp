@@ -124,6 +124,13 @@ void Komo::updateRootObjects(const Config& config) {
   if (program != program_ && (program->frame_name != program_->frame_name || program->dofs != program_->dofs)) {
     throw ValueError("KOMO: updateRootObjects needs the configuration that the KOMO was made from, with the same frames, joints and shapes");
   }
+  if (program == program_ && modes_.empty()) {
+    base_.reset();  // so that its memory can be used again
+    base_ = config.scene()->snapshot();
+    parameters_ = config.parameters();
+    for (State& state : states_) state.setParameters(parameters_);
+    return;
+  }
   const auto takeOver = [&](SceneTree& target) {
     for (const auto& source : config.scene()->frames()) {
       FrameData& frame = *target.frames()[source->id];

@@ -18,7 +18,8 @@ bool dependsOnDofs(const FeatureSource& feature) {
 
 }  // namespace
 
-PathProblem::PathProblem(const Komo& komo) : objectives_(komo.objectives()), dimension_(komo.layout().dimension) {
+PathProblem::PathProblem(const Komo& komo, std::vector<Komo::Objective> objectives)
+    : objectives_(std::move(objectives)), dimension_(komo.layout().dimension) {
   const PathLayout& layout = komo.layout();
   for (int t = -komo.order(); t < komo.slices(); ++t) widest_state_ = std::max(widest_state_, komo.state(t).dofs());
   std::size_t workspace = 0;

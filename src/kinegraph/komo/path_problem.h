@@ -8,7 +8,7 @@
 namespace kinegraph {
 
 /// The objectives of a Komo, laid out: which rows of phi each has in each slice, and where its Jacobian goes. Evaluates at the
-/// Komo's present path. It is of the structure and the objectives that the Komo has when this is made.
+/// Komo's present path. It is of the structure that the Komo has when this is made.
 class PathProblem {
  public:
   /// An objective in a slice.
@@ -20,7 +20,8 @@ class PathProblem {
     int first_run, runs;
   };
 
-  explicit PathProblem(const Komo& komo);
+  explicit PathProblem(const Komo& komo) : PathProblem(komo, komo.objectives()) {}
+  PathProblem(const Komo& komo, std::vector<Komo::Objective> objectives);
 
   const std::vector<Term>& terms() const { return terms_; }
   const std::vector<ObjectiveType>& types() const { return types_; }

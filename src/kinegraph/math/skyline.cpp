@@ -1,17 +1,56 @@
 #include "kinegraph/math/skyline.h"
 
 #include <algorithm>
-#include <cmath>
 
 namespace kinegraph {
 
-SkylineMatrix::SkylineMatrix(std::vector<int> first) : first_(std::move(first)), offset_(first_.size()) {
+namespace {
+
+typedef double Pack __attribute__((vector_size(4 * sizeof(double)), aligned(sizeof(double)), may_alias));
+
+/// Sum of the products of entries, in four sums at a time.
+double product(const double* a, const double* b, int count) {
+  if (count < 8) {
+    double sum = 0.;
+    for (int i = 0; i < count; ++i) sum += a[i] * b[i];
+    return sum;
+  }
+  Pack sums = {0., 0., 0., 0.};
+  int i = 0;
+  for (; i + 4 <= count; i += 4) sums += *reinterpret_cast<const Pack*>(a + i) * *reinterpret_cast<const Pack*>(b + i);
+  double sum = (sums[0] + sums[1]) + (sums[2] + sums[3]);
+  for (; i < count; ++i) sum += a[i] * b[i];
+  return sum;
+}
+
+}  // namespace
+
+SkylineMatrix::SkylineMatrix(std::vector<int> first) : first_(std::move(first)), offset_(first_.size()), first_run_{0} {
   std::ptrdiff_t used = 0;
   for (int i = 0; i < size(); ++i) {
     offset_[i] = used - first_[i];
-    used += i - first_[i] + 1;
+    used += i - first_[i] + 1 + kPanel - 1;  // whole panels may be written beyond the diagonal
   }
   values_.assign(std::size_t(used), 0.);
+  std::vector<int> below;  // the rows that reach into a panel or further to the left
+  std::size_t widest = 0;
+  std::vector<std::vector<int>> starting(std::size_t(size() + kPanel - 1) / kPanel);
+  for (int i = 0; i < size(); ++i) starting[first_[i] / kPanel].push_back(i);
+  for (int panel = 0; panel < int(starting.size()); ++panel) {
+    below.insert(below.end(), starting[panel].begin(), starting[panel].end());
+    std::erase_if(below, [&](int row) { return row < panel * kPanel; });
+    std::sort(below.begin(), below.end());
+    for (int row : below) {
+      if (int(runs_.size()) > first_run_.back() && runs_.back().row + runs_.back().count == row) {
+        ++runs_.back().count;
+      } else {
+        runs_.push_back({row, 1});
+      }
+    }
+    first_run_.push_back(int(runs_.size()));
+    widest = std::max(widest, below.size());
+  }
+  panel_.assign(kPanel * (widest + 2 * kPanel), 0.);
 }
 
 void SkylineMatrix::setZero() { std::fill(values_.begin(), values_.end(), 0.); }
@@ -39,45 +78,25 @@ void SkylineMatrix::addCrossProduct(const double* u, int u_column, int u_width, 
 
 void SkylineMatrix::addProduct(const VectorXd& x, VectorXd& y) const {
   for (int i = 0; i < size(); ++i) {
+    const int first = first_[i];
     const double* row = values_.data() + offset_[i];
-    double sum = row[i] * x[i];
-    for (int j = first_[i]; j < i; ++j) {
-      sum += row[j] * x[j];
-      y[j] += row[j] * x[i];
-    }
-    y[i] += sum;
+    double* sums = y.data();
+    const double xi = x[i];
+    for (int j = first; j < i; ++j) sums[j] += row[j] * xi;
+    sums[i] += product(row + first, x.data() + first, i - first + 1);
   }
-}
-
-bool SkylineMatrix::factorize() {
-  for (int i = 0; i < size(); ++i) {
-    double* row_i = values_.data() + offset_[i];
-    double diagonal = row_i[i];
-    for (int j = first_[i]; j < i; ++j) {
-      const double* row_j = values_.data() + offset_[j];
-      double sum = row_i[j];
-      for (int k = std::max(first_[i], first_[j]); k < j; ++k) sum -= row_i[k] * row_j[k];
-      sum /= row_j[j];
-      row_i[j] = sum;
-      diagonal -= sum * sum;
-    }
-    if (!(diagonal > 0.) || !std::isfinite(diagonal)) return false;
-    row_i[i] = std::sqrt(diagonal);
-  }
-  return true;
 }
 
 void SkylineMatrix::solveInPlace(VectorXd& x) const {
+  double* unknowns = x.data();
   for (int i = 0; i < size(); ++i) {
     const double* row = values_.data() + offset_[i];
-    double sum = x[i];
-    for (int j = first_[i]; j < i; ++j) sum -= row[j] * x[j];
-    x[i] = sum / row[i];
+    unknowns[i] = (unknowns[i] - product(row + first_[i], unknowns + first_[i], i - first_[i])) / row[i];
   }
   for (int i = size() - 1; i >= 0; --i) {
     const double* row = values_.data() + offset_[i];
-    x[i] /= row[i];
-    for (int j = first_[i]; j < i; ++j) x[j] -= row[j] * x[i];
+    const double xi = unknowns[i] /= row[i];
+    for (int j = first_[i]; j < i; ++j) unknowns[j] -= row[j] * xi;
   }
 }
 

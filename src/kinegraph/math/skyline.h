@@ -1,5 +1,6 @@
 #pragma once
 
+#include <span>
 #include <vector>
 
 #include "kinegraph/math/pose.h"
@@ -11,6 +12,8 @@ namespace kinegraph {
 /// this kind, and a factorization costs what the profile costs: linear in the size for a band.
 class SkylineMatrix {
  public:
+  static constexpr int kPanel = 4;  ///< columns that are factorized together
+
   /// `first[i]` <= i is the column of the first nonzero in row i of the lower triangle.
   explicit SkylineMatrix(std::vector<int> first = {});
 
@@ -34,16 +37,28 @@ class SkylineMatrix {
   /// y += this * x, for a matrix that is not factorized.
   void addProduct(const VectorXd& x, VectorXd& y) const;
 
-  /// Replaces the matrix by its Cholesky factor. False if it is not positive definite.
+  /// Replaces the matrix by its Cholesky factor. False if it is not positive definite. The result is the same on all machines.
   bool factorize();
 
   /// x <- inverse * x, with the factor.
   void solveInPlace(VectorXd& x) const;
 
  private:
+  /// Consecutive rows that have entries in a panel, or left of it.
+  struct Run {
+    int row, count;
+  };
+  bool factorizePanel(int begin, int width, std::span<const Run> runs);
+  bool factorizePanels();
+  bool factorizeWide();
+  bool factorizeSmall();
+
   std::vector<int> first_;
   std::vector<std::ptrdiff_t> offset_;  ///< of column 0 of a row, were it stored
   std::vector<double> values_;
+  std::vector<Run> runs_;               ///< panel by panel
+  std::vector<int> first_run_;          ///< of each panel, and the end
+  std::vector<double> panel_;           ///< memory for factorize
 };
 
 }  // namespace kinegraph

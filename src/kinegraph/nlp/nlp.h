@@ -7,6 +7,7 @@
 #include "kinegraph/base/random.h"
 #include "kinegraph/math/pose.h"
 #include "kinegraph/nlp/row_description.h"
+#include "kinegraph/nlp/separation.h"
 
 namespace kinegraph {
 
@@ -68,6 +69,9 @@ class Nlp {
 
   /// Adds the Hessian of sum_f phi_i to `H` (n x n). False if the problem has none to offer; it is then taken as zero.
   virtual bool addCostHessian(const VectorXd& x, MatrixXd& H);
+
+  /// The form that is easier to solve, if there is one. It shares the state of this problem.
+  virtual Separation separation() { return {}; }
 
   /// Where a solver starts if the user gives no point. Default: uniform in the bounds, [-1, 1] where there are none.
   virtual VectorXd initialPoint(Rng& rng);

@@ -22,7 +22,7 @@ class AugmentedLagrangian {
   AugmentedLagrangian(Nlp& nlp, const VectorXd& x0, const SolverOptions& options, const EvaluationHook& hook)
       : nlp_(nlp), options_(options), function_(nlp, x0, options, hook), model_(nlp, function_.costs(), function_.constraints()),
         constraints_(function_.constraints()), lower_(function_.lower()), upper_(function_.upper()), J_(nlp.makeJacobian()),
-        trial_J_(J_), phi_(VectorXd::Zero(Eigen::Index(nlp.types().size()))), trial_phi_(phi_),
+        trial_J_(J_), corrected_J_(J_), phi_(VectorXd::Zero(Eigen::Index(nlp.types().size()))), trial_phi_(phi_),
         lambda_(VectorXd::Zero(Eigen::Index(constraints_.size()))), next_lambda_(lambda_), tolerance_(options.constraintTolerance()) {
     x_ = start_ = function_.clip(x0);
   }
@@ -52,6 +52,8 @@ class AugmentedLagrangian {
  private:
   void iterate();
   void endRound(double vc, double step_size);
+  bool correctTrial(double& value, double size, double shift, int passes);
+  bool creeps(double vc);
   bool locallyInfeasible();
   bool restored();
   void reduceViolation();
@@ -152,11 +154,20 @@ class AugmentedLagrangian {
   bool learns_curvature_ = false;
   const std::vector<int>& constraints_;
   const VectorXd &lower_, &upper_;
-  Jacobian J_, trial_J_;
-  VectorXd x_, start_, phi_, trial_, trial_phi_, lambda_, next_lambda_, low_, high_, gradient_;
+  Jacobian J_, trial_J_, corrected_J_;
+  VectorXd x_, start_, phi_, trial_, trial_phi_, corrected_, corrected_phi_, lambda_, next_lambda_, low_, high_, gradient_;
   double tolerance_;
   double weight_ = 1., radius_ = options_.stepMax;
   int steps_at_edge_ = 0, restorations_ = 0;
+  /// Evaluations since when the constraints hold.
+  struct {
+    int first = 0, refused = 0;
+    double cost = kInfinity;
+  } slow_;
+  struct {
+    int wait = 0, failures = 0;
+    bool helped = false;
+  } correction_;
   double mu_ = 1., omega_ = .1, last_violation_ = kInfinity, violation_at_tests_ = kInfinity, rel_ = .02;
   int rounds_ = 0, bad_rounds_ = 0, failed_tests_ = 0;
   bool round_just_ended_ = false;
@@ -191,6 +202,7 @@ void AugmentedLagrangian::iterate() {
     if (options_.verbose > 2) {
       std::printf("    step %3d  evals %3d  |d| %.3g  predicted %.3g  violation %.3g  mu %.3g  nu %.3g\n", step, function_.evals(), size, predicted, vc, mu_, nu);
     }
+    if (creeps(vc)) return stop(SolverStatus::stalled, cat("the costs hardly fall any more, as along a kink", trouble_));
     if (tiny && nu > .1 * h && nu < 1e8 && (!damped_step_retried || trouble_.empty())) {
       nu = std::max(.1 * h, .01 * nu);  // it may be small because of the damping, not because of the problem
       growth = 2.;
@@ -219,9 +231,13 @@ void AugmentedLagrangian::iterate() {
     const double before = lagrangian(phi_);
     if (!evaluate(trial_, trial_phi_, trial_J_)) return;
     const std::string not_finite = describeNotFinite(nlp_, trial_phi_, &trial_J_);
-    const double after = not_finite.empty() ? lagrangian(trial_phi_) : kInfinity;
-    double ratio = (before - after) / predicted;
+    double after = not_finite.empty() ? lagrangian(trial_phi_) : kInfinity;
     const double noise = std::max(1e-12, 1e-10 * std::abs(before));
+    correction_.helped = false;
+    if (not_finite.empty() && before - after < .5 * predicted && predicted > noise && function_.evals() < options_.stopEvals) {
+      if (!correctTrial(after, size, nu, passes)) return;
+    }
+    double ratio = (before - after) / predicted;
     if (std::abs(before - after) < noise && predicted < noise) {  // only gradients tell which point is better
       ratio = gradientNorm(trial_, trial_phi_, trial_J_) < gradientNorm(x_, phi_, J_) ? .3 : -1.;
     }
@@ -229,7 +245,8 @@ void AugmentedLagrangian::iterate() {
       x_.swap(trial_);
       phi_.swap(trial_phi_);
       std::swap(J_, trial_J_);
-      nu = std::max(1e-6, nu * std::max(.1, 1. - std::pow(2. * std::min(ratio, 1.2) - 1., 3)));
+      const bool was_refused = growth > 2.;  // a step with less damping, from this point
+      nu = std::max(1e-6, nu * std::max(was_refused || correction_.helped ? .5 : .1, 1. - std::pow(2. * std::min(ratio, 1.2) - 1., 3)));
       growth = 2.;
       last_relative = (before - after) / std::max(std::abs(before), .01);
       learnCurvature(trial_, trial_J_);
@@ -239,12 +256,56 @@ void AugmentedLagrangian::iterate() {
       costs_stale = true;
       function_.remember(x_, phi_);
     } else {
+      ++slow_.refused;
       adaptRadius(size, false, true);
       trouble_ = not_finite.empty() ? ", as at a kink" : cat(": where it would go, ", not_finite);
-      nu = std::max({nu * growth, .01 * h, 1e-3});
+      nu = std::max({nu * growth, .0001 * h, 1e-3});
       growth *= 2.;
     }
   }
+}
+
+/// Where constraints are curved, a long step along their linearization leaves them. Solves the model again with the constraints
+/// as they are at the trial point, and takes the corrected point as the trial if it is better. `value` is the Lagrangian at
+/// the trial point. False if the caller stops it. Source: Nocedal & Wright, ch. 18.3 (second-order correction).
+bool AugmentedLagrangian::correctTrial(double& value, double size, double shift, int passes) {
+  if (correction_.wait > 0) {
+    --correction_.wait;
+    return true;
+  }
+  corrected_phi_ = phi_;
+  const VectorXd taken = trial_ - x_;
+  for (int row : constraints_) corrected_phi_[row] = trial_phi_[row] - J_.rowTimes(row, taken);
+  corrected_ = function_.clip(x_ + model_.minimize({corrected_phi_, J_, lambda_, mu_, shift, low_, high_, passes}));
+  bool better = (corrected_ - trial_).lpNorm<Eigen::Infinity>() <= .5 * size;
+  if (better) {
+    if (!evaluate(corrected_, corrected_phi_, corrected_J_)) return false;
+    const double corrected = describeNotFinite(nlp_, corrected_phi_, &corrected_J_).empty() ? lagrangian(corrected_phi_) : kInfinity;
+    better = corrected < value;
+    if (better) {
+      value = corrected;
+      trial_.swap(corrected_);
+      trial_phi_.swap(corrected_phi_);
+      std::swap(trial_J_, corrected_J_);
+    }
+  }
+  correction_.helped = better;
+  correction_.failures = better ? 0 : correction_.failures + 1;
+  if (correction_.failures >= 2) correction_.wait = std::min(2 << correction_.failures, 32);
+  return true;
+}
+
+/// True if the constraints hold, steps are refused again and again, and those that are not hardly decrease the costs: less
+/// than one in 1 / tolerance an evaluation.
+bool AugmentedLagrangian::creeps(double vc) {
+  constexpr int kWindow = 10, kRefused = 3;
+  const int evals = function_.evals();
+  const double now = cost(phi_);
+  if (constraints_.empty() || (vc <= tolerance_ && evals < slow_.first + kWindow)) return false;
+  const double least = kWindow * std::min(options_.stopTolerance, options_.stopFTolerance) * std::max(std::abs(now), 1e-4);
+  const bool slow = vc <= tolerance_ && slow_.refused >= kRefused && slow_.cost - now < least;
+  slow_ = {evals, 0, now};
+  return slow;
 }
 
 /// An inner problem is solved well enough: new multipliers, and a larger penalty if the violation has not fallen.

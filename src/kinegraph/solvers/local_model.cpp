@@ -76,7 +76,8 @@ LocalModel::LocalModel(const Nlp& nlp, std::vector<int> costs, std::vector<int> 
   factored_active_ = active_;
   fixed_.assign(n, false);
   factored_fixed_ = fixed_place_ = fixed_;
-  for (VectorXd* v : {&g_, &d_, &trial_, &r_, &s_, &Hd_, &placed_, &placed_sum_}) v->setZero(n);
+  within_reach_.reserve(std::size_t(m));
+  for (VectorXd* v : {&g_, &d_, &trial_, &r_, &s_, &Hd_, &trial_Hd_, &placed_, &placed_sum_}) v->setZero(n);
   linear_.setZero(m);
   trial_linear_.setZero(m);
 }
@@ -166,27 +167,43 @@ double LocalModel::multiplier(int j, double value, const Problem& problem) const
 }
 
 void LocalModel::linearize(const VectorXd& d, const Problem& problem, VectorXd& linear) const {
+  for (int j : within_reach_) linear[j] = problem.phi[constraints_[j]] + problem.J.rowTimes(constraints_[j], d);
+}
+
+/// An inequality of which the multiplier is zero all over the box does not matter.
+void LocalModel::findWithinReach(const Problem& problem) {
+  within_reach_.clear();
   for (int j = 0; j < int(constraints_.size()); ++j) {
-    linear[j] = problem.phi[constraints_[j]] + problem.J.rowTimes(constraints_[j], d);
+    const double c = problem.phi[constraints_[j]];
+    linear_[j] = trial_linear_[j] = c;
+    if (!equality_[j]) {
+      double most = c;
+      for (const Jacobian::Segment& segment : problem.J.row_segments(constraints_[j])) {
+        const double* J = problem.J.values.data() + segment.offset;
+        for (int i = 0; i < segment.width; ++i) {
+          const double slope = J[i];
+          if (slope != 0.) most += slope * (slope > 0. ? problem.high : problem.low)[segment.column + i];
+        }
+      }
+      if (problem.lambda[j] + problem.mu * most <= 0.) {
+        active_[j] = false;
+        continue;
+      }
+    }
+    within_reach_.push_back(j);
   }
 }
 
-double LocalModel::value(const VectorXd& d, const VectorXd& linear, const Problem& problem) {
-  Hd_.setZero();
-  addHessianProduct(d, Hd_);
-  double sum = g_.dot(d) + .5 * d.dot(Hd_) + .5 * problem.shift * d.squaredNorm();
-  for (int j = 0; j < linear.size(); ++j) {
+double LocalModel::value(const VectorXd& d, const VectorXd& Hd, const VectorXd& linear, const Problem& problem) const {
+  double sum = g_.dot(d) + .5 * d.dot(Hd) + .5 * problem.shift * d.squaredNorm();
+  for (int j : within_reach_) {
     const double t = multiplier(j, linear[j], problem);
     sum += t * t / (2. * problem.mu);
   }
   return sum;
 }
 
-double LocalModel::costChange() {
-  Hd_.setZero();
-  addHessianProduct(d_, Hd_);
-  return g_.dot(d_) + .5 * d_.dot(Hd_);
-}
+double LocalModel::costChange() const { return g_.dot(d_) + .5 * d_.dot(Hd_); }
 
 /// Factorizes H + shift I + mu J_A^T J_A, with the rows of fixed variables replaced by the identity.
 bool LocalModel::factorize(const Problem& problem) {
@@ -195,11 +212,12 @@ bool LocalModel::factorize(const Problem& problem) {
   for (int attempt = 0; attempt < 12; ++attempt) {
     K_.copyFrom(H_);
     K_.addToDiagonal(problem.shift + extra);
-    for (std::size_t j = 0; j < constraints_.size(); ++j) {
+    for (int j : within_reach_) {
       if (active_[j]) addRow(K_, problem.J, constraints_[j], problem.mu);
     }
+    const bool some_fixed = std::find(fixed_.begin(), fixed_.end(), true) != fixed_.end();
     for (int i = 0; i < K_.size(); ++i) fixed_place_[place_[i]] = fixed_[i];
-    for (int i = 0; i < K_.size(); ++i) {
+    for (int i = 0; some_fixed && i < K_.size(); ++i) {
       for (int j = K_.first(i); j <= i; ++j) {
         if (fixed_place_[i] || fixed_place_[j]) K_.at(i, j) = i == j ? 1. : 0.;
       }
@@ -243,15 +261,15 @@ double LocalModel::roomAlong(const Problem& problem) const {
 }
 
 const VectorXd& LocalModel::minimize(const Problem& problem) {
-  const int n = int(d_.size()), m = int(constraints_.size());
+  const int n = int(d_.size());
   d_.setZero();
-  linearize(d_, problem, linear_);
-  double current = value(d_, linear_, problem), reference = 0.;
+  Hd_.setZero();
+  findWithinReach(problem);
+  double current = value(d_, Hd_, linear_, problem), reference = 0.;
   factored_ = false;
   for (int pass = 0; pass < problem.max_passes; ++pass) {
-    r_ = g_ + problem.shift * d_;
-    addHessianProduct(d_, r_);
-    for (int j = 0; j < m; ++j) {
+    r_ = g_ + problem.shift * d_ + Hd_;
+    for (int j : within_reach_) {
       const double t = multiplier(j, linear_[j], problem);
       active_[j] = equality_[j] || t > 0.;
       if (t != 0.) problem.J.addRowTo(constraints_[j], t, r_);
@@ -275,16 +293,26 @@ const VectorXd& LocalModel::minimize(const Problem& problem) {
         if (trial_[i] > problem.high[i] - kAtBound) trial_[i] = problem.high[i];
       }
       linearize(trial_, problem, trial_linear_);
-      const double next = value(trial_, trial_linear_, problem);
+      trial_Hd_.setZero();
+      addHessianProduct(trial_, trial_Hd_);
+      const double next = value(trial_, trial_Hd_, trial_linear_, problem);
       if (next > current + 1e-4 * r_.dot(trial_ - d_)) continue;
       moved = (trial_ - d_).lpNorm<Eigen::Infinity>();
       d_.swap(trial_);
       linear_.swap(trial_linear_);
+      Hd_.swap(trial_Hd_);
       current = next;
       accepted = true;
       reaches_bound = attempt == 1 && first_hit < 1.;
     }
     if (!accepted || (moved < 1e-10 && !reaches_bound)) break;  // where a bound is near, the next pass goes along it
+  }
+  for (std::size_t j = 0, next = 0; j < constraints_.size(); ++j) {
+    if (next < within_reach_.size() && within_reach_[next] == int(j)) {
+      ++next;
+    } else {
+      linear_[Eigen::Index(j)] += problem.J.rowTimes(constraints_[j], d_);
+    }
   }
   return d_;
 }

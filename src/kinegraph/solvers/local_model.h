@@ -42,7 +42,7 @@ class LocalModel {
   const VectorXd& minimize(const Problem& problem);
   const VectorXd& step() const { return d_; }
   const VectorXd& linearized() const { return linear_; }  ///< c + J d per constraint
-  double costChange();                              ///< g^T d + 1/2 d^T H d, without the shift
+  double costChange() const;                        ///< g^T d + 1/2 d^T H d, without the shift
   int factorizations() const { return factorizations_; }
 
   const std::vector<int>& constraints() const { return constraints_; }
@@ -50,8 +50,9 @@ class LocalModel {
 
  private:
   double multiplier(int j, double value, const Problem& problem) const;
-  double value(const VectorXd& d, const VectorXd& linear, const Problem& problem);
+  double value(const VectorXd& d, const VectorXd& Hd, const VectorXd& linear, const Problem& problem) const;
   void linearize(const VectorXd& d, const Problem& problem, VectorXd& linear) const;
+  void findWithinReach(const Problem& problem);
   void addRow(SkylineMatrix& matrix, const Jacobian& J, int row, double weight);
   void addHessianProduct(const VectorXd& d, VectorXd& sum);
   void solve(VectorXd& x);
@@ -70,9 +71,10 @@ class LocalModel {
   bool reordered_ = false;
   std::vector<Run> runs_;
   VectorXd placed_, placed_sum_;
+  std::vector<int> within_reach_;  ///< constraints that can matter in the box; the others keep their value
   std::vector<bool> equality_, active_, factored_active_, fixed_, factored_fixed_, fixed_place_;
   SkylineMatrix H_, K_;
-  VectorXd g_, d_, trial_, r_, s_, Hd_, linear_, trial_linear_;
+  VectorXd g_, d_, trial_, r_, s_, Hd_, trial_Hd_, linear_, trial_linear_;
   bool factored_ = false;
   int factorizations_ = 0;
 };

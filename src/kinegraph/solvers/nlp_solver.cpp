@@ -6,8 +6,15 @@
 #include "kinegraph/base/errors.h"
 #include "kinegraph/base/text.h"
 #include "kinegraph/solvers/methods.h"
+#include "kinegraph/solvers/relaxed_nlp.h"
 
 namespace kinegraph {
+
+namespace {
+
+constexpr int kMostEvalsOfReduction = 50;
+
+}  // namespace
 
 NlpSolver::NlpSolver(std::shared_ptr<Nlp> problem, int verbose) {
   options.verbose = verbose;
@@ -46,6 +53,23 @@ void NlpSolver::clearTracing() {
   trace_errors_.clear();
 }
 
+/// Goes on to the least violation of the problem as it is stated, with sums.
+void NlpSolver::reduceViolation(SolverResult& result) {
+  RelaxedNlp least(*problem_, std::vector<bool>(problem_->types().size(), true));
+  SolverOptions brief = options;
+  brief.verbose = 0;
+  brief.stopEvals = kMostEvalsOfReduction;
+  const SolverResult found = solveAugmentedLagrangian(least, result.x, brief);
+  result.evals += found.evals;
+  VectorXd before(Eigen::Index(problem_->types().size())), after = before;
+  problem_->evaluate(result.x, before, nullptr);
+  problem_->evaluate(found.x, after, nullptr);
+  const double violation = largestViolation(problem_->types(), after);
+  if (violation >= largestViolation(problem_->types(), before)) return;
+  result.x = found.x;
+  result.message = cat("the constraints contradict each other here; least violation found ", violation);
+}
+
 SolverResult NlpSolver::solve(bool resample, Rng& rng, const EvaluationHook& hook) {
   if (!problem_) throw Error("NLP_Solver: there is no problem to solve; call setProblem first");
   if (resample || x.size() == 0) {
@@ -56,8 +80,13 @@ SolverResult NlpSolver::solve(bool resample, Rng& rng, const EvaluationHook& hoo
   const Clock::time_point start = Clock::now();
   Clock::time_point told = start;
   int calls = 0;
-  const EvaluationHook watch = [&](const VectorXd& at, const VectorXd& phi) {
+  const auto method = methods_.find(options.method);
+  const bool is_own = method == methods_.end();
+  const Separation separation = is_own && options.method == OptMethod::augmentedLag ? problem_->separation() : Separation();
+  const auto rows = Eigen::Index(problem_->types().size());
+  const EvaluationHook watch = [&](const VectorXd& at, const VectorXd& solved_phi) {
     ++calls;
+    const VectorXd phi = separation.problem ? separation.joined(solved_phi, rows) : solved_phi;
     if (tracing_x_) trace_x_.push_back(at);
     if (tracing_phi_) trace_phi_.push_back(phi);
     if (tracing_errors_) trace_errors_.push_back(sumErrors(problem_->types(), phi));
@@ -73,15 +102,24 @@ SolverResult NlpSolver::solve(bool resample, Rng& rng, const EvaluationHook& hoo
     return progress_(evals_ + calls, at, sumErrors(problem_->types(), phi));
   };
   const bool needs_watch = tracing_x_ || tracing_phi_ || tracing_errors_ || tracing_jacobian_ || progress_ || hook;
-  const auto method = methods_.find(options.method);
   SolverResult result;
-  if (method != methods_.end()) {
+  if (!is_own) {
     options.validate();
     requireStart(*problem_, x);
     result = method->second(*problem_, x, options, needs_watch ? watch : EvaluationHook());
     result.time = std::chrono::duration<double>(Clock::now() - start).count();
   } else {
-    result = kinegraph::solve(*problem_, x, options, dual, needs_watch ? watch : EvaluationHook());
+    Nlp& solved = separation.problem ? *separation.problem : *problem_;
+    if (dual.size() == 0) solved_dual_.resize(0);
+    result = kinegraph::solve(solved, x, options, solved_dual_, needs_watch ? watch : EvaluationHook());
+    solved_dual_ = result.dual;
+  }
+  if (separation.problem) {
+    VectorXd phi(rows);
+    if (result.status == SolverStatus::infeasible) reduceViolation(result);
+    problem_->evaluate(result.x, phi, nullptr);
+    result.dual = separation.joinedDual(result.dual, rows);
+    result.setSums(problem_->types(), phi, options.constraintTolerance());
   }
   x = result.x;
   dual = result.dual;

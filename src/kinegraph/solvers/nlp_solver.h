@@ -42,6 +42,8 @@ class NlpSolver {
   VectorXd x, dual;  ///< empty until known
 
  private:
+  void reduceViolation(SolverResult& result);
+
   std::shared_ptr<Nlp> problem_;
   bool tracing_x_ = false, tracing_errors_ = false, tracing_phi_ = false, tracing_jacobian_ = false;
   std::vector<VectorXd> trace_x_, trace_phi_;
@@ -50,6 +52,7 @@ class NlpSolver {
   Progress progress_;
   double progress_seconds_ = 0.;
   std::map<OptMethod, Method> methods_;
+  VectorXd solved_dual_;  ///< of the form of the problem that was solved
   int evals_ = 0;
 };
 

@@ -1,0 +1,72 @@
+#include <gtest/gtest.h>
+
+#include "kinegraph/komo/komo.h"
+#include "kinegraph/solvers/nlp_solver.h"
+#include "tests/support/near.h"
+
+namespace kinegraph {
+
+namespace {
+
+/// Two balls that overlap at the start, and a wall between them and their goals.
+std::shared_ptr<Komo> slidingBalls(ObjectiveType type = ObjectiveType::eq) {
+  Config scene;
+  scene.addText(R"g(
+    base: {}
+    a (base): { joint: transXY, shape: sphere, size: [.1], contact: 1 }
+    b (base): { pre: "t(0 .15 0)", joint: transXY, shape: sphere, size: [.1], contact: 1 }
+    wall (base): { Q: [.3 .05 0], shape: box, size: [.1 .1 1.], contact: 1 }
+  )g");
+  auto komo = std::make_shared<Komo>(scene, 1, 4, 1);
+  komo->addControlObjective({}, 1, 1.);
+  komo->addObjective({}, FeatureSymbol::accumulatedCollisions, {}, type, MatrixXd::Constant(1, 1, 10.));
+  komo->addObjective({1.}, FeatureSymbol::qItself, {}, ObjectiveType::eq, {}, Eigen::Vector4d(.5, .5, .5, .6));
+  return komo;
+}
+
+}  // namespace
+
+TEST(KomoNlp, SeparatesSumsOfOverlapsIntoPairsAndJoinsThemAgain) {
+  const auto nlp = makeNlp(slidingBalls());
+  const Separation separation = nlp->separation();
+  ASSERT_TRUE(separation.problem);
+  Nlp& pairs = *separation.problem;
+  EXPECT_EQ(pairs.types().size(), nlp->types().size() + 4 * 2) << "three pairs for one sum, in four slices";
+  EXPECT_EQ(pairs.dimension(), nlp->dimension());
+  Rng rng(3);
+  Jacobian J = pairs.makeJacobian();
+  VectorXd phi(Eigen::Index(pairs.types().size())), sums(Eigen::Index(nlp->types().size()));
+  bool overlaps = false;
+  for (int trial = 0; trial < 20; ++trial) {
+    VectorXd x(nlp->dimension());
+    for (double& value : x) value = rng.uniform(-.1, .5);
+    pairs.evaluate(x, phi, &J);
+    nlp->evaluate(x, sums, nullptr);
+    EXPECT_TRUE(near(separation.joined(phi, sums.size()), sums, 1e-12));
+    overlaps = overlaps || sumErrors(nlp->types(), sums).eq > .1;
+  }
+  EXPECT_TRUE(overlaps);
+}
+
+TEST(KomoNlp, HasNothingToSeparateWhereNoSumIsDemandedToBeZero) {
+  EXPECT_FALSE(makeNlp(slidingBalls(ObjectiveType::sos))->separation().problem);
+}
+
+TEST(KomoNlp, IsSolvedWithoutCollisionsThroughItsPairs) {
+  const auto nlp = makeNlp(slidingBalls());
+  NlpSolver solver(nlp, 0);
+  solver.options.verbose = 0;
+  solver.setTracing(true, true, true);
+  solver.setInitialization(VectorXd::Zero(nlp->dimension()));
+  Rng rng(0);
+  const SolverResult result = solver.solve(false, rng);
+  EXPECT_EQ(result.status, SolverStatus::converged) << result.message;
+  EXPECT_LT(result.violation, 1e-3);
+  EXPECT_EQ(result.dual.size(), Eigen::Index(nlp->types().size()));
+  ASSERT_FALSE(solver.tracePhi().empty());
+  EXPECT_EQ(solver.tracePhi().back().size(), Eigen::Index(nlp->types().size())) << "traces are of the problem as it was stated";
+  const SolverResult again = solver.solve(false, rng);
+  EXPECT_LE(again.evals - result.evals, 3) << "goes on with the multipliers of the pairs";
+}
+
+}  // namespace kinegraph

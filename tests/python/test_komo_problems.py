@@ -1,0 +1,58 @@
+"""The motion problems of benchmarks/komo_problems.py: recorded residuals and Jacobians, and solutions from several starts."""
+
+import importlib.util
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+import kinegraph as ry
+from conftest import recorded
+
+spec = importlib.util.spec_from_file_location(
+    "komo_problems", Path(__file__).parents[2] / "benchmarks" / "komo_problems.py"
+)
+problems = importlib.util.module_from_spec(spec)
+spec.loader.exec_module(problems)
+
+RECORDED = {
+    "ik_position": "ik position",
+    "ik_collision": "grasp 6cm",
+    "dual_arm": "dual arm",
+    "mobile_base": "mobile base",
+    "pnp_path": "pick path 6cm",
+}
+
+
+@pytest.mark.parametrize("name", RECORDED)
+def test_residuals_and_jacobians_are_those_recorded(name):
+    expected = recorded("komo_jacobians")["cases"][name]
+    _, komo = problems.PROBLEMS[RECORDED[name]](ry)
+    phi, entries = komo.nlp().evaluate(expected["x"])
+    np.testing.assert_allclose(phi, expected["phi"], atol=2e-5)
+    direction = np.cos(np.arange(len(expected["x"])) + 1.0)
+    product = np.zeros(len(phi))
+    np.add.at(product, entries[:, 0].astype(int), entries[:, 2] * direction[entries[:, 1].astype(int)])
+    np.testing.assert_allclose(product, expected["Jv"], atol=1e-6)
+
+
+@pytest.mark.parametrize("seed", [0, 1])
+@pytest.mark.parametrize("name", ["ik position", "joint limits", "path obstacle", "mobile base", "pick waypoints 4cm"])
+def test_problems_that_any_start_solves_are_solved(name, seed):
+    run = problems.solveFrom(ry, np, problems.PROBLEMS[name], seed, {})
+    assert run["violation"] < 1e-3 and run["says"] in ("converged", "stalled"), run
+
+
+@pytest.mark.parametrize("name", ["ik pose", "grasp 4cm", "dual arm"])
+def test_problems_with_local_minima_are_solved_by_restarts(name):
+    build = problems.PROBLEMS[name]
+    first = problems.solveFrom(ry, np, build, 2, {})
+    assert 1 <= problems.attempts(ry, np, build, 2, first) <= problems.RESTARTS
+
+
+def test_a_box_too_large_for_the_hand_is_reported_with_the_pair_and_how_much_is_missing():
+    _, komo = problems.PROBLEMS["pick waypoints 6cm"](ry)
+    answer = ry.NLP_Solver(komo.nlp(), verbose=0).solve()
+    assert not answer.feasible and str(answer.status).endswith("infeasible")
+    assert 2.8e-3 < answer.violation < 3.5e-3
+    assert "panda_collCameraWrist" in komo.explain() and "box" in komo.explain()
