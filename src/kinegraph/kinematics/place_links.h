@@ -33,23 +33,30 @@ void storePlace(const Place<V>& X, typename V::Scalar* to) {
   store(X.p, to + 9);
 }
 
-/// The pose at `from` times the constant one (R, p); `turn` says what is special in R.
-template <class V>
-[[gnu::always_inline]] inline Place<V> moved(const typename V::Scalar* from, const ConstantTurn& turn, const double* R, const double* p) {
+/// A pose times the constant one (R, p); `column(k)` gives the pose's columns, the position as the last. `turn` says what is
+/// special in R.
+template <class V, class Column>
+[[gnu::always_inline]] inline Place<V> movedBy(const Column& column, const ConstantTurn& turn, const double* R, const double* p) {
   Place<V> X;
-  X.p = loadVector<V>(from + 9);
+  X.p = column(3);
   for (int k = 0; k < 3; ++k) {
-    if (p[k] != 0.) X.p = X.p + p[k] * loadVector<V>(from + 3 * k);
+    if (p[k] != 0.) X.p = X.p + p[k] * column(k);
   }
   if (turn.kind == ConstantTurn::none) {
-    for (int k = 0; k < 3; ++k) X.R[k] = loadVector<V>(from + 3 * k);
+    for (int k = 0; k < 3; ++k) X.R[k] = column(k);
   } else if (turn.kind == ConstantTurn::quarters) {
-    for (int k = 0; k < 3; ++k) X.R[k] = turn.sign[k] * loadVector<V>(from + 3 * turn.column[k]);
+    for (int k = 0; k < 3; ++k) X.R[k] = turn.sign[k] * column(turn.column[k]);
   } else {
-    const V columns[3] = {loadVector<V>(from), loadVector<V>(from + 3), loadVector<V>(from + 6)};
+    const V columns[3] = {column(0), column(1), column(2)};
     for (int k = 0; k < 3; ++k) X.R[k] = R[3 * k] * columns[0] + R[3 * k + 1] * columns[1] + R[3 * k + 2] * columns[2];
   }
   return X;
+}
+
+/// The same for the pose at `from`.
+template <class V>
+[[gnu::always_inline]] inline Place<V> moved(const typename V::Scalar* from, const ConstantTurn& turn, const double* R, const double* p) {
+  return movedBy<V>([from](int k) __attribute__((always_inline)) { return loadVector<V>(from + 3 * k); }, turn, R, p);
 }
 
 template <int Axis, class V, class Sink>

@@ -63,10 +63,15 @@ void State::update() {
     for (int k = 0; k < 2; ++k) turns_[i + k] = {sines[k], cosines[k]};
   }
   const Turn* turn = turns_.data();
-  for (std::size_t l = 1; l < program.links.size(); ++l) {
+  Packed3 pose[4];  // of the link before, by columns; what has just been written in parts is slow to read as a whole
+  for (int k = 0; k < 4; ++k) load(link_pose_[0].R.data() + 3 * k, pose[k]);
+  for (int l = 1; l < int(program.links.size()); ++l) {
     const Program::Link& link = program.links[l];
     const JointBase& base = parameters_->joint_base[l];
-    auto X = lanes::moved<Packed3>(link_pose_[link.parent].R.data(), base.turn, base.R.data(), base.p.data());
+    if (link.parent != l - 1) {
+      for (int k = 0; k < 4; ++k) load(link_pose_[link.parent].R.data() + 3 * k, pose[k]);
+    }
+    auto X = lanes::movedBy<Packed3>([&pose](int k) { return pose[k]; }, base.turn, base.R.data(), base.p.data());
     const double* q = q_.data() + link.dof;
     TwistWriter sink{twists_.data() + link.first_column};
     for (int s = link.first_step; s < link.first_step + link.steps; ++s) {
@@ -76,6 +81,8 @@ void State::update() {
       sink.twist += step.dofs();
     }
     lanes::storePlace(X, link_pose_[l].R.data());
+    for (int k = 0; k < 3; ++k) pose[k] = X.R[k];
+    pose[3] = X.p;
   }
 }
 

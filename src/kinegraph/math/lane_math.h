@@ -113,11 +113,12 @@ void store(const Vec3<S>& a, S* to) {
   to[0] = a.x, to[1] = a.y, to[2] = a.z;
 }
 
-/// A vector of one problem, in registers of every machine. The same operations as those of Vec3<double>, entry by entry.
+/// A vector of one problem, in registers of every machine. The same operations as those of Vec3<double>, entry by entry. Both
+/// parts are of one size, so that what is stored of it is read back at once.
 struct Packed3 {
   using Scalar = double;
   Pack<2> xy;
-  double z;
+  Pack<2> z;  ///< z and 0
 };
 
 inline Packed3 operator+(const Packed3& a, const Packed3& b) { return {a.xy + b.xy, a.z + b.z}; }
@@ -125,11 +126,11 @@ inline Packed3 operator-(const Packed3& a, const Packed3& b) { return {a.xy - b.
 inline Packed3 operator*(double s, const Packed3& a) { return {s * a.xy, s * a.z}; }
 inline Packed3 cross(const Packed3& a, const Packed3& b) {
   const Pack<2> a_yx = __builtin_shufflevector(a.xy, a.xy, 1, 0), b_yx = __builtin_shufflevector(b.xy, b.xy, 1, 0);
-  const Pack<2> minus_y = a_yx * b.z - a.z * b_yx, products = a.xy * b_yx;
-  return {Pack<2>{minus_y[0], -minus_y[1]}, products[0] - products[1]};
+  const Pack<2> minus_y = a_yx * b.z[0] - a.z[0] * b_yx, products = a.xy * b_yx;
+  return {Pack<2>{minus_y[0], -minus_y[1]}, Pack<2>{products[0] - products[1], 0.}};
 }
-inline void load(const double* from, Packed3& to) { to = {Pack<2>{from[0], from[1]}, from[2]}; }
-inline void store(const Packed3& a, double* to) { to[0] = a.xy[0], to[1] = a.xy[1], to[2] = a.z; }
+inline void load(const double* from, Packed3& to) { to = {Pack<2>{from[0], from[1]}, Pack<2>{from[2], 0.}}; }
+inline void store(const Packed3& a, double* to) { to[0] = a.xy[0], to[1] = a.xy[1], to[2] = a.z[0]; }
 
 /// sum_k column k * weights[k]; weights of 0 are frequent, and the same in all lanes.
 template <class V>
