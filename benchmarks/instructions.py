@@ -25,7 +25,11 @@ COUNTS = {  # calls with and without what is done once
     "forward kinematics": (100, 2100),
     "Jacobian": (100, 2100),
     "position": (100, 2100),
+    "Jacobian, batch": (256, 25856),
+    "pose, batch": (256, 25856),
     "collisions": (16, 176),
+    "chain of 100": (10, 210),
+    "chain of 1000": (1, 21),  # linear: ten times those of 100
     "load": (2, 6),
     "inverse kinematics": (16, 176),
 }

@@ -11,6 +11,8 @@
 
 #include "kinegraph/base/errors.h"
 #include "kinegraph/base/random.h"
+#include "kinegraph/base/text.h"
+#include "kinegraph/features/batch.h"
 #include "kinegraph/komo/komo.h"
 #include "kinegraph/solvers/nlp_solver.h"
 
@@ -71,6 +73,46 @@ void evaluate(Bench& bench, int count, FeatureSymbol feature, const std::vector<
   }
 }
 
+/// The same questions about many configurations in one call.
+struct Batch {
+  explicit Batch(Bench& bench) : scene(bench.config.state()), Q(kBatch, scene.dofs()) {
+    for (int i = 0; i < kBatch; ++i) Q.row(i) = bench.posture(i).transpose();
+  }
+  static constexpr int kBatch = 256;
+  State scene;
+  RowMatrix Q;
+};
+
+void jacobianBatch(Bench& bench, int count) {
+  const Batch batch(bench);
+  RowMatrix J(6 * Batch::kBatch, batch.scene.dofs());
+  for (int i = 0; i < count; i += Batch::kBatch) frameJacobians(batch.scene, {bench.gripper}, batch.Q, J);
+}
+
+void evaluateBatch(Bench& bench, int count, FeatureSymbol feature) {
+  const Batch batch(bench);
+  const Residual residual = makeResidual(batch.scene, feature, {"l_gripper"});
+  RowMatrix y(Batch::kBatch, residual.rows()), J(residual.rows() * Batch::kBatch, batch.scene.dofs());
+  JacobianRows rows = J;
+  for (int i = 0; i < count; i += Batch::kBatch) evalBatch(batch.scene, residual, batch.Q, y, &rows);
+}
+
+/// The tip of a chain of hinges, and its Jacobian.
+void chain(int joints, int count) {
+  Config config;
+  std::string text = "link0: {}\n";
+  for (int i = 1; i <= joints; ++i) text += cat("link", i, "(link", i - 1, "): { pre: \"t(.01 0 0)\", joint: hingeZ }\n");
+  config.addText(text);
+  Residual residual = makeResidual(config.state(), FeatureSymbol::position, {cat("link", joints)});
+  VectorXd y(3), q = VectorXd::Constant(joints, .01);
+  Matrix J(3, joints);
+  for (int i = 0; i < count; ++i) {
+    config.setJointState(q);
+    J.setZero();
+    eval(config, residual, y, J);
+  }
+}
+
 void load(Bench& bench, int count) {
   for (int i = 0; i < count; ++i) Config().addFile(bench.file);
 }
@@ -92,6 +134,10 @@ const std::map<std::string, Kernel> kKernels = {
     {"Jacobian", jacobian},
     {"position", [](Bench& b, int count) { evaluate(b, count, FeatureSymbol::position, {"l_gripper"}); }},
     {"collisions", [](Bench& b, int count) { evaluate(b, count, FeatureSymbol::accumulatedCollisions, {}); }},
+    {"Jacobian, batch", jacobianBatch},
+    {"pose, batch", [](Bench& b, int count) { evaluateBatch(b, count, FeatureSymbol::pose); }},
+    {"chain of 100", [](Bench&, int count) { chain(100, count); }},
+    {"chain of 1000", [](Bench&, int count) { chain(1000, count); }},
     {"load", load},
     {"inverse kinematics", inverseKinematics},
 };
@@ -122,7 +168,7 @@ int main(int argc, char** argv) try {
         count *= 2;
         --round;
       } else {
-        best = std::min(best, seconds / count);
+        best = std::min(best, seconds / count);  // counts above 256 are multiples of it
       }
     }
     std::printf("%-20s %9.3f us\n", name.c_str(), 1e6 * best);

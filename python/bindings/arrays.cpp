@@ -95,6 +95,11 @@ NewArray newArray(std::size_t layers, std::size_t rows, std::size_t columns) {
   return newArray(3, shape);
 }
 
+NewArray newArray(std::size_t blocks, std::size_t layers, std::size_t rows, std::size_t columns) {
+  npy_intp shape[] = {npy_intp(blocks), npy_intp(layers), npy_intp(rows), npy_intp(columns)};
+  return newArray(4, shape);
+}
+
 NewFlags newFlags(std::size_t size) {
   requireNumpy();
   npy_intp shape[] = {npy_intp(size)};

@@ -60,6 +60,7 @@ struct NewArray {
 NewArray newArray(std::size_t size);
 NewArray newArray(std::size_t rows, std::size_t columns);
 NewArray newArray(std::size_t layers, std::size_t rows, std::size_t columns);
+NewArray newArray(std::size_t blocks, std::size_t layers, std::size_t rows, std::size_t columns);
 
 /// A new numpy array of truth values, and where they are.
 struct NewFlags {

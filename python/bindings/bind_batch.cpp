@@ -68,6 +68,18 @@ Array getFramePoses(const PyConfig& config, const Numbers& Q, const FrameNames& 
   return poses.array;
 }
 
+Array getFrameJacobians(const PyConfig& config, const Numbers& Q, const FrameNames& frames, int threads) {
+  const auto joints = jointRows(Q, config, "getFrameJacobians");
+  const State scene = config.state();
+  std::vector<int> ids;
+  for (const std::string& name : toNames(frames)) ids.push_back(frameId(scene.program(), name, "getFrameJacobians"));
+  const std::size_t n = std::size_t(scene.dofs());
+  const NewArray J = newArray(Q.rows, ids.size(), 6, n);
+  const auto rows = rowsOf(J, 6 * Q.rows * ids.size(), n);
+  unlocked(threads, "getFrameJacobians", [&](const BatchOptions& options) { frameJacobians(scene, ids, joints, rows, options); });
+  return J.array;
+}
+
 Array getDistances(const PyConfig& config, const Numbers& Q, int threads) {
   const auto joints = jointRows(Q, config, "getDistances");
   const State scene = config.state();
@@ -107,6 +119,9 @@ void bindBatch(nb::class_<PyConfig>& config) {
            "interpreter lock; the result does not depend on the number of threads.")
       .def("getFramePoses", getFramePoses, "Q"_a, "frames"_a, "threads"_a = 1,
            "World poses of f frames at each row of Q (N, n): (N, f, 7), x y z (m) qw qx qy qz with qw >= 0.")
+      .def("getFrameJacobians", getFrameJacobians, "Q"_a, "frames"_a, "threads"_a = 1,
+           "Geometric Jacobians of f frames at each row of Q (N, n): (N, f, 6, n), the velocity of the frame's origin (m/s) and its\n"
+           "angular velocity (rad/s) in world coordinates, per unit of each dof's velocity.")
       .def("getDistances", getDistances, "Q"_a, "threads"_a = 1,
            "Signed distances (m) of the p collidable pairs, as in getCollidablePairs, at each row of Q (N, n): (N, p). Negative:\n"
            "penetration depth.")

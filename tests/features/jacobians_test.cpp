@@ -169,18 +169,25 @@ TEST_P(EveryFeature, HasAJacobianThatScaleAndTargetTransformLikeTheValue) {
   const FeatureInfo& info = GetParam().info;
   Rng rng(12);
   Count count;
+  const auto random = [&](int rows, int columns) {
+    MatrixXd numbers(rows, columns);
+    for (double& x : numbers.reshaped()) x = rng.normal();
+    return numbers;
+  };
   for (const Scene& joints : kScenes) {
     const Config config = makeScene(joints);
-    auto feature = makeFeature(info.symbol, frameChoices(info, config).front(), *config.program());
-    const int rows = feature->rows();
+    const std::vector<int> frames = frameChoices(info, config).front();
+    const int rows = makeFeature(info.symbol, frames, *config.program())->rows();
+    const int least_order = makeFeature(info.symbol, frames, *config.program())->order();
     if (rows == 0) continue;
-    VectorXd target(rows);
-    for (double& x : target) x = rng.normal();
-    MatrixXd scale(2, rows);
-    for (double& x : scale.reshaped()) x = rng.normal();
-    Residual residual(std::move(feature), scale, target, -1, info.name);
-    ASSERT_EQ(residual.rows(), 2);
-    checkSamples(residual, config, rng, cat(info.name, " with a matrix as scale and ", joints.name), count);
+    for (int order = least_order; order <= 2; ++order) {
+      for (const MatrixXd& scale : {random(1, 1), random(rows, 1), random(2, rows)}) {
+        Residual residual(makeFeature(info.symbol, frames, *config.program()), scale, random(rows, 1), order, info.name);
+        ASSERT_EQ(residual.rows(), residual.mixesRows() ? 2 : rows);
+        checkSamples(residual, config, rng, cat(info.name, " of order ", order, ", scaled by ", scale.rows(), " x ", scale.cols(), ", with ", joints.name),
+                     count);
+      }
+    }
   }
   EXPECT_GE(count.used, kLeastUsed * count.tried);
   EXPECT_GT(count.used, 0);

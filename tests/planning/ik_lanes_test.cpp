@@ -4,6 +4,8 @@
 
 #include <vector>
 
+#include "kinegraph/math/lane_widths.h"
+
 namespace kinegraph {
 namespace {
 
@@ -39,9 +41,9 @@ struct LaneRun {
   double square, distance, angle;
 };
 
-std::vector<LaneRun> runKernel(const IkProblem& problem, const std::vector<IkTarget>& targets, const LaneKernel& kernel, int count) {
+std::vector<LaneRun> runKernel(const IkProblem& problem, const std::vector<IkTarget>& targets, const IkKernel& kernel, int count) {
   const IkLaneModel owner(problem);
-  const LaneModel model = owner.view();
+  const IkKernelModel model = owner.view();
   EXPECT_TRUE(owner.supported());
   IkJob job;
   const auto shared = std::make_shared<const IkProblem>(problem);
@@ -50,11 +52,11 @@ std::vector<LaneRun> runKernel(const IkProblem& problem, const std::vector<IkTar
   Rng rng(5);
   while (int(runs.size()) < count) {
     LaneBuffer buffer(model, kernel.lanes);
-    const LaneMemory& memory = buffer.memory;
+    const IkKernelMemory& memory = buffer.memory;
     for (int lane = 0; lane < kernel.lanes; ++lane) {
-      for (int v = 0; v < model.variables; ++v) memory.x[v * kernel.lanes + lane] = rng.uniform(std::max(model.lower[v], -3.), std::min(model.upper[v], 3.));
+      for (int v = 0; v < model.variables(); ++v) memory.x[v * kernel.lanes + lane] = rng.uniform(std::max(model.lower[v], -3.), std::min(model.upper[v], 3.));
       for (int t = 0; t < model.tasks; ++t) {
-        double* goal = memory.goal + t * LaneMemory::kPerGoal * kernel.lanes + lane;
+        double* goal = memory.goal + t * IkKernelMemory::kPerGoal * kernel.lanes + lane;
         for (int k = 0; k < 9; ++k) goal[k * kernel.lanes] = job.goals[t].R.data()[k];
         for (int k = 0; k < 3; ++k) {
           goal[(9 + k) * kernel.lanes] = job.goals[t].p[k];
@@ -68,7 +70,7 @@ std::vector<LaneRun> runKernel(const IkProblem& problem, const std::vector<IkTar
       const auto column = [&](const double* rows, int size) {
         return VectorXd(Eigen::Map<const VectorXd, 0, Eigen::InnerStride<>>(rows + lane, size, Eigen::InnerStride<>(kernel.lanes)));
       };
-      const int n = model.variables;
+      const int n = model.variables();
       runs.push_back({column(memory.x, n), column(memory.next, n), column(memory.error, model.rows), column(memory.jacobian, n * model.rows),
                       memory.square[lane], memory.distance[lane], memory.angle[lane]});
     }
@@ -86,7 +88,7 @@ TEST(IkLanes, RowsAndJacobianAreThoseOfTheState) {
   const int n = config.getJointDimension();
   ASSERT_EQ(problem.variables(), n);
   const int left = config.getFrame("left").id(), right = config.getFrame("right").id();
-  for (const LaneRun& run : runKernel(problem, targets, {2, lanes::runBase}, 50)) {
+  for (const LaneRun& run : runKernel(problem, targets, ikKernel(2), 50)) {
     state.setJoints(run.x.data());
     const RigidTransform X_left = state.pose(left), X_right = state.pose(right);
     Rows J = Rows::Zero(9, n), W = Rows::Zero(3, n);
@@ -110,12 +112,15 @@ TEST(IkLanes, AllInstructionSetsGiveTheSameBits) {
   const Config config = treeOfJoints();
   const std::vector<IkTarget> targets = targetsOf(config);
   const IkProblem problem(config, targets, {});
-  const std::vector<LaneRun> one = runKernel(problem, targets, {2, lanes::runBase}, 48), best = runKernel(problem, targets, chooseLaneKernel(), 48);
-  for (std::size_t i = 0; i < one.size(); ++i) {
-    ASSERT_EQ(one[i].x, best[i].x);
-    EXPECT_EQ(one[i].next, best[i].next);
-    EXPECT_EQ(one[i].error, best[i].error);
-    EXPECT_EQ(one[i].jacobian, best[i].jacobian);
+  const std::vector<LaneRun> one = runKernel(problem, targets, ikKernel(2), 48);
+  for (int width : laneWidths()) {
+    const std::vector<LaneRun> wide = runKernel(problem, targets, ikKernel(width), 48);
+    for (std::size_t i = 0; i < one.size(); ++i) {
+      ASSERT_EQ(one[i].x, wide[i].x);
+      EXPECT_EQ(one[i].next, wide[i].next);
+      EXPECT_EQ(one[i].error, wide[i].error);
+      EXPECT_EQ(one[i].jacobian, wide[i].jacobian);
+    }
   }
 }
 

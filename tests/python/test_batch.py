@@ -23,8 +23,22 @@ def test_evalBatchGivesWhatEvalGives(panda):
     for q, yi, Ji in zip(Q, y, J):
         panda.setJointState(q)
         one, jacobian = panda.eval(ry.FS.positionRel, ["l_gripper", "table"], [2.0], [0.1, 0.2, 0.3])
-        np.testing.assert_array_equal(yi, one)
-        np.testing.assert_array_equal(Ji, jacobian)
+        np.testing.assert_allclose(yi, one, rtol=0, atol=1e-12)
+        np.testing.assert_allclose(Ji, jacobian, rtol=0, atol=1e-12)
+
+
+def test_frameJacobiansAreThoseOfVelocities(panda):
+    Q = postures(panda, 9)
+    J = panda.getFrameJacobians(Q, ["l_gripper", "table"])
+    assert J.shape == (9, 2, 6, 7)
+    assert (J[:, 1] == 0).all()
+    _, velocities = panda.evalBatch(ry.FS.position, ["l_gripper"], Q)
+    np.testing.assert_allclose(J[:, 0, :3], velocities, rtol=0, atol=1e-12)
+    axes, turns = panda.evalBatch(ry.FS.vectorX, ["l_gripper"], Q)
+    for i in range(9):
+        np.testing.assert_allclose(np.cross(J[i, 0, 3:].T, axes[i]).T, turns[i], rtol=0, atol=1e-12)
+    with pytest.raises(ry.FrameNotFound, match="l_griper.*l_gripper"):
+        panda.getFrameJacobians(Q, "l_griper")
 
 
 def test_framePosesAreThoseOfEachConfiguration(panda):
@@ -34,7 +48,7 @@ def test_framePosesAreThoseOfEachConfiguration(panda):
     ids = [panda.getFrameNames().index(name) for name in ("l_gripper", "table")]
     for q, poses in zip(Q, X):
         panda.setJointState(q)
-        np.testing.assert_array_equal(poses, panda.getFrameState()[ids])
+        np.testing.assert_allclose(poses, panda.getFrameState()[ids], rtol=0, atol=1e-12)
 
 
 def test_distancesAreThoseOfThePairs(panda):
@@ -66,6 +80,7 @@ def test_anyNumberOfThreadsGivesTheSameNumbers(panda, threads):
     for call in (
         lambda n: panda.evalBatch(ry.FS.pose, ["l_gripper"], Q, threads=n)[1],
         lambda n: panda.getFramePoses(Q, ["l_gripper"], threads=n),
+        lambda n: panda.getFrameJacobians(Q, ["l_gripper"], threads=n),
         lambda n: panda.getDistances(Q, threads=n),
         lambda n: panda.isValid(Q, threads=n),
     ):

@@ -5,6 +5,7 @@
 #include "kinegraph/base/errors.h"
 #include "kinegraph/base/parallel.h"
 #include "kinegraph/base/text.h"
+#include "kinegraph/kinematics/lane_program.h"
 #include "kinegraph/kinematics/motion_check.h"
 
 namespace kinegraph {
@@ -17,7 +18,12 @@ void checkJoints(const State& scene, const Eigen::Ref<const RowMatrix>& Q) {
   if (Q.cols() != scene.dofs()) {
     throw ValueError(cat("joint vectors: got ", Q.rows(), " x ", Q.cols(), " numbers; the configuration has ", scene.dofs(), " dofs"));
   }
-  if (Q.allFinite()) return;
+  if (Q.outerStride() == Q.cols()) {
+    const Eigen::Map<const VectorXd> all(Q.data(), Q.size());
+    if ((all - all).squaredNorm() == 0.) return;  // quicker than allFinite()
+  } else if (Q.allFinite()) {
+    return;
+  }
   Eigen::Index row = 0;
   while (Q.row(row).allFinite()) ++row;
   throw ValueError(cat("joint vectors: row ", row, " has numbers that are not finite"));
@@ -34,6 +40,65 @@ void forEach(const Worker& first, int count, const BatchOptions& options, const 
   forParts(count, kPart, threads, part, options.between);
 }
 
+/// Calls finish(worker, first, count) after run has evaluated the rows for configurations first .. first + count - 1.
+template <class Batch, class Finish>
+void forLanes(const LaneProgram& program, int count, const BatchOptions& options, const Batch& batch, const Finish& finish) {
+  const int threads = std::clamp(options.threads, 1, std::max(1, (count + kPart - 1) / kPart));
+  std::vector<LaneProgram::Scratch> scratch;
+  scratch.reserve(threads);
+  for (int i = 0; i < threads; ++i) scratch.emplace_back(program, options.lanes);
+  const auto part = [&](int worker, int from, int to) {
+    program.run(scratch[worker], batch(worker, from, to - from));
+    finish(worker, from, to - from);
+  };
+  forParts(count, kPart, threads, part, options.between);
+}
+
+/// evalBatch where the feature is made of rows that kernels in lanes have.
+void evalInLanes(const State& scene, const Residual& residual, const LaneRowList& list, const Eigen::Ref<const RowMatrix>& Q,
+                 Eigen::Ref<RowMatrix> y, JacobianRows* J, const BatchOptions& options) {
+  const LaneProgram program(scene.program(), scene.parameters(), list);
+  const int rows = residual.rows(), raw_rows = list.rows(), n = scene.dofs();
+  const bool plain = residual.scale().size() == 0 && residual.target().size() == 0, mixes = residual.mixesRows();
+  RowMatrix raw_y, raw_J;  // of the configurations that each thread is at
+  if (mixes) {
+    raw_y.resize(Eigen::Index(kPart) * options.threads, raw_rows);
+    raw_J.resize(J ? Eigen::Index(kPart) * options.threads * raw_rows : 0, n);
+  }
+  const auto batch = [&](int worker, int from, int count) {
+    LaneBatch part{Q.data() + from * Q.outerStride(), Q.outerStride(), count, y.data() + from * y.outerStride(), y.outerStride(), nullptr, 0, n};
+    if (J) part.J = J->data() + Eigen::Index(from) * rows * J->outerStride();
+    if (J) part.row_stride = J->outerStride();
+    if (mixes) {
+      part.y = raw_y.data() + Eigen::Index(worker) * kPart * raw_rows;
+      part.y_stride = raw_rows;
+      if (J) part.J = raw_J.data() + Eigen::Index(worker) * kPart * raw_rows * n;
+      part.row_stride = n;
+    }
+    part.J_stride = part.row_stride * raw_rows;
+    return part;
+  };
+  const auto finish = [&](int worker, int from, int count) {
+    for (int i = 0; i < count && !plain; ++i) {
+      Eigen::Map<VectorXd> value(y.row(from + i).data(), rows);
+      const Eigen::Index first = Eigen::Index(from + i) * rows, raw = Eigen::Index(worker) * kPart + i;
+      if (!mixes && J) {
+        JacobianRows own = J->middleRows(first, rows);
+        residual.finish(value, &own);
+      } else if (!mixes) {
+        residual.finish(value, nullptr);
+      } else if (J) {
+        JacobianRows own = J->middleRows(first, rows), from_lanes = raw_J.middleRows(raw * raw_rows, raw_rows);
+        own.setZero();
+        residual.mix(raw_y.row(raw).transpose(), &from_lanes, value, &own);
+      } else {
+        residual.mix(raw_y.row(raw).transpose(), nullptr, value, nullptr);
+      }
+    }
+  };
+  forLanes(program, int(Q.rows()), options, batch, finish);
+}
+
 }  // namespace
 
 void evalBatch(const State& scene, const Residual& residual, const Eigen::Ref<const RowMatrix>& Q, Eigen::Ref<RowMatrix> y,
@@ -43,6 +108,8 @@ void evalBatch(const State& scene, const Residual& residual, const Eigen::Ref<co
     throw ValueError(cat(residual.name(), " of order ", residual.order(), " needs ", residual.order() + 1,
                          " consecutive configurations; a batch takes one at a time"));
   }
+  LaneRowList list;
+  if (residual.feature().addLaneRows(list)) return evalInLanes(scene, residual, list, Q, y, J, options);
   const int rows = residual.rows();
   struct Worker {
     State state;
@@ -65,12 +132,27 @@ void evalBatch(const State& scene, const Residual& residual, const Eigen::Ref<co
 void framePoses(const State& scene, const std::vector<int>& frames, const Eigen::Ref<const RowMatrix>& Q,
                 Eigen::Ref<RowMatrix> poses, const BatchOptions& options) {
   checkJoints(scene, Q);
-  forEach(scene, int(Q.rows()), options, [&](State& state, int i) {
-    state.setJoints(Q.row(i).data());
-    for (std::size_t f = 0; f < frames.size(); ++f) {
-      poses.row(i).segment<7>(7 * Eigen::Index(f)) = Pose(state.pose(frames[f])).canonical().numbers().transpose();
-    }
-  });
+  LaneRowList list;
+  for (int frame : frames) list.addPose(frame);
+  const LaneProgram program(scene.program(), scene.parameters(), list);
+  const auto batch = [&](int, int from, int count) {
+    return LaneBatch{Q.data() + from * Q.outerStride(), Q.outerStride(), count, poses.data() + from * poses.outerStride(), poses.outerStride(),
+                     nullptr, 0, 0};
+  };
+  forLanes(program, int(Q.rows()), options, batch, [](int, int, int) {});
+}
+
+void frameJacobians(const State& scene, const std::vector<int>& frames, const Eigen::Ref<const RowMatrix>& Q, JacobianRows J,
+                    const BatchOptions& options) {
+  checkJoints(scene, Q);
+  LaneRowList list;
+  for (int frame : frames) list.addTwist(frame);
+  const LaneProgram program(scene.program(), scene.parameters(), list);
+  const Eigen::Index stride = J.outerStride() * 6 * Eigen::Index(frames.size());
+  const auto batch = [&](int, int from, int count) {
+    return LaneBatch{Q.data() + from * Q.outerStride(), Q.outerStride(), count, nullptr, 0, J.data() + from * stride, stride, J.outerStride()};
+  };
+  forLanes(program, int(Q.rows()), options, batch, [](int, int, int) {});
 }
 
 void pairDistances(const State& scene, const Eigen::Ref<const RowMatrix>& Q, Eigen::Ref<RowMatrix> distances,

@@ -15,6 +15,7 @@ using RowMatrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::R
 struct BatchOptions {
   int threads = 1;                     ///< the calling one included
   std::function<void()> between = {};  ///< called on the calling thread every few configurations; may throw to stop
+  int lanes = 0;  ///< configurations side by side: one of laneWidths(), 0 for the widest
 };
 
 // What follows evaluates many configurations of a scene, the rows of Q (N x dofs), and needs no memory per configuration.
@@ -25,6 +26,11 @@ struct BatchOptions {
 /// configuration i starts at row i * rows.
 void evalBatch(const State& scene, const Residual& residual, const Eigen::Ref<const RowMatrix>& Q, Eigen::Ref<RowMatrix> y,
                JacobianRows* J, const BatchOptions& options = {});
+
+/// Geometric Jacobians of frames ((N 6f) x dofs): per configuration and frame the rows of its origin's velocity, m/s, and of its
+/// angular velocity, rad/s, in world coordinates.
+void frameJacobians(const State& scene, const std::vector<int>& frames, const Eigen::Ref<const RowMatrix>& Q, JacobianRows J,
+                    const BatchOptions& options = {});
 
 /// World poses of frames: N x 7f, per frame x y z qw qx qy qz with qw >= 0.
 void framePoses(const State& scene, const std::vector<int>& frames, const Eigen::Ref<const RowMatrix>& Q,

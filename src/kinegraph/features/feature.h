@@ -2,6 +2,7 @@
 
 #include <span>
 
+#include "kinegraph/kinematics/lane_program.h"
 #include "kinegraph/kinematics/state.h"
 
 namespace kinegraph {
@@ -27,6 +28,13 @@ class Feature {
   /// First of four rows that are a quaternion, or -1. Its sign carries no meaning, and targets and differences pick the
   /// nearer one.
   virtual int quaternionRow() const { return -1; }
+
+  /// Adds rows() rows to `list` with the same value and Jacobian, so that many configurations are evaluated at once; false,
+  /// and nothing added, where the feature is not made of what LaneRows::Block has.
+  virtual bool addLaneRows(LaneRowList& list) const {
+    (void)list;
+    return false;
+  }
 };
 
 }  // namespace kinegraph

@@ -11,22 +11,37 @@ void JointState::eval(std::span<const State* const> states, double, Eigen::Ref<V
   }
 }
 
+bool JointState::addLaneRows(LaneRowList& list) const {
+  for (int dof : dofs_) list.addJoint(dof);
+  return true;
+}
+
 JointLimits::JointLimits(const std::vector<int>& dofs, const Program& program) {
   for (int dof : dofs) {
-    if (std::isfinite(program.lower[dof]) && std::isfinite(program.upper[dof])) limited_.push_back(dof);
+    if (std::isfinite(program.lower[dof]) && std::isfinite(program.upper[dof])) limited_.push_back({dof, program.lower[dof], program.upper[dof]});
   }
 }
 
 void JointLimits::eval(std::span<const State* const> states, double, Eigen::Ref<VectorXd> y, JacobianRows* J) const {
-  const State& state = *states[0];
-  for (std::size_t i = 0; i < limited_.size(); ++i) {
-    const int dof = limited_[i], row = 2 * int(i);
-    y[row] = state.program().lower[dof] - state.q()[dof];
-    y[row + 1] = state.q()[dof] - state.program().upper[dof];
-    if (!J) continue;
-    (*J)(row, dof) -= 1.;
-    (*J)(row + 1, dof) += 1.;
+  int row = 0;
+  for (const Limited& joint : limited_) {
+    const double q = states[0]->q()[joint.dof];
+    y[row] = joint.lower - q;
+    y[row + 1] = q - joint.upper;
+    if (J) {
+      (*J)(row, joint.dof) -= 1.;
+      (*J)(row + 1, joint.dof) += 1.;
+    }
+    row += 2;
   }
+}
+
+bool JointLimits::addLaneRows(LaneRowList& list) const {
+  for (const Limited& joint : limited_) {
+    list.addJoint(joint.dof, -1., joint.lower);
+    list.addJoint(joint.dof, 1., -joint.upper);
+  }
+  return true;
 }
 
 void QuaternionNorms::eval(std::span<const State* const> states, double, Eigen::Ref<VectorXd> y, JacobianRows* J) const {

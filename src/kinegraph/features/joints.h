@@ -13,6 +13,7 @@ class JointState final : public Feature {
 
   int rows() const override { return int(dofs_.size()); }
   void eval(std::span<const State* const> states, double tau, Eigen::Ref<VectorXd> y, JacobianRows* J) const override;
+  bool addLaneRows(LaneRowList& list) const override;
 
  private:
   std::vector<int> dofs_;
@@ -25,9 +26,14 @@ class JointLimits final : public Feature {
 
   int rows() const override { return 2 * int(limited_.size()); }
   void eval(std::span<const State* const> states, double tau, Eigen::Ref<VectorXd> y, JacobianRows* J) const override;
+  bool addLaneRows(LaneRowList& list) const override;
 
  private:
-  std::vector<int> limited_;
+  struct Limited {
+    int dof;
+    double lower, upper;
+  };
+  std::vector<Limited> limited_;
 };
 
 /// One row per group of dofs that is a quaternion (or a point on the circle): y = |q_group|^2 - 1.

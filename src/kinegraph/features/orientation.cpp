@@ -33,6 +33,13 @@ void Orientation::eval(std::span<const State* const> states, double, Eigen::Ref<
   if (J) state.addJacobian(b_, Vector3d::Zero(), none, -quaternionRates(q_WB), *J);
 }
 
+bool Orientation::addLaneRows(LaneRowList& list) const {
+  using Block = LaneRows::Block;
+  list.addQuaternion(kind_ == Kind::world ? Block::quaternion : kind_ == Kind::difference ? Block::quaternion_offset : Block::quaternion_relative,
+                     a_, b_);
+  return true;
+}
+
 void Axis::eval(std::span<const State* const> states, double, Eigen::Ref<VectorXd> y, JacobianRows* J) const {
   const State& state = *states[0];
   const Matrix3d none = Matrix3d::Zero();
@@ -54,6 +61,12 @@ void Axis::eval(std::span<const State* const> states, double, Eigen::Ref<VectorX
   if (J) state.addJacobian(b_, Vector3d::Zero(), none, skew(v), *J);
 }
 
+bool Axis::addLaneRows(LaneRowList& list) const {
+  using Block = LaneRows::Block;
+  list.addAxis(kind_ == Kind::world ? Block::axis : kind_ == Kind::difference ? Block::axis_offset : Block::axis_relative, axis_, a_, b_);
+  return true;
+}
+
 void AxisProduct::eval(std::span<const State* const> states, double, Eigen::Ref<VectorXd> y, JacobianRows* J) const {
   const State& state = *states[0];
   const Vector3d u = state.pose(a_).R.col(axis_a_), v = state.pose(b_).R.col(axis_b_);
@@ -62,6 +75,11 @@ void AxisProduct::eval(std::span<const State* const> states, double, Eigen::Ref<
   const Eigen::RowVector3d turn = u.cross(v).transpose(), none = Eigen::RowVector3d::Zero();
   state.addJacobian(a_, Vector3d::Zero(), none, turn, *J);
   state.addJacobian(b_, Vector3d::Zero(), none, -turn, *J);
+}
+
+bool AxisProduct::addLaneRows(LaneRowList& list) const {
+  list.addAxisProduct(axis_a_, axis_b_, a_, b_);
+  return true;
 }
 
 }  // namespace kinegraph

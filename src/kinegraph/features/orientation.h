@@ -16,6 +16,7 @@ class Orientation final : public Feature {
   int rows() const override { return 4; }
   int quaternionRow() const override { return kind_ == Kind::difference ? -1 : 0; }
   void eval(std::span<const State* const> states, double tau, Eigen::Ref<VectorXd> y, JacobianRows* J) const override;
+  bool addLaneRows(LaneRowList& list) const override;
 
  private:
   Kind kind_;
@@ -33,6 +34,7 @@ class Axis final : public Feature {
 
   int rows() const override { return 3; }
   void eval(std::span<const State* const> states, double tau, Eigen::Ref<VectorXd> y, JacobianRows* J) const override;
+  bool addLaneRows(LaneRowList& list) const override;
 
  private:
   Kind kind_;
@@ -46,6 +48,7 @@ class AxisProduct final : public Feature {
 
   int rows() const override { return 1; }
   void eval(std::span<const State* const> states, double tau, Eigen::Ref<VectorXd> y, JacobianRows* J) const override;
+  bool addLaneRows(LaneRowList& list) const override;
 
  private:
   int axis_a_, axis_b_, a_, b_;

@@ -23,4 +23,10 @@ void Position::eval(std::span<const State* const> states, double, Eigen::Ref<Vec
   if (J) state.addPointJacobian(b_, p_WB, -1., *J);
 }
 
+bool Position::addLaneRows(LaneRowList& list) const {
+  using Block = LaneRows::Block;
+  list.addPosition(kind_ == Kind::world ? Block::position : kind_ == Kind::difference ? Block::offset : Block::relative, a_, b_, rows_);
+  return true;
+}
+
 }  // namespace kinegraph

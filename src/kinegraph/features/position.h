@@ -16,6 +16,7 @@ class Position final : public Feature {
 
   int rows() const override { return rows_; }
   void eval(std::span<const State* const> states, double tau, Eigen::Ref<VectorXd> y, JacobianRows* J) const override;
+  bool addLaneRows(LaneRowList& list) const override;
 
  private:
   Kind kind_;

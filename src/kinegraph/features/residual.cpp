@@ -45,21 +45,62 @@ void Residual::setTarget(VectorXd target) {
 }
 
 void Residual::eval(std::span<const State* const> states, double tau, Eigen::Ref<VectorXd> y, JacobianRows* J) {
-  if (scale_.size() > 1 && !scales_rows_) {
-    raw_.resize(feature_->rows());
-    JacobianRows* rows = nullptr;
-    if (J) {
-      raw_jacobian_.setZero(feature_->rows(), J->cols());
-      JacobianRows view = raw_jacobian_;
-      evalRaw(states, tau, raw_, &view);
-      *J += scale_.lazyProduct(raw_jacobian_);
-    } else {
-      evalRaw(states, tau, raw_, rows);
-    }
-    y.noalias() = scale_ * raw_;
-    return;
+  if (!mixesRows()) {
+    evalRaw(states, tau, y, J);
+    return scaleRows(y, J);
   }
-  evalRaw(states, tau, y, J);
+  raw_.resize(feature_->rows());
+  if (J) {
+    raw_jacobian_.setZero(feature_->rows(), J->cols());
+    JacobianRows view = raw_jacobian_;
+    evalRaw(states, tau, raw_, &view);
+    *J += scale_.lazyProduct(raw_jacobian_);
+  } else {
+    evalRaw(states, tau, raw_, nullptr);
+  }
+  y.noalias() = scale_ * raw_;
+}
+
+void Residual::evalRaw(std::span<const State* const> states, double tau, Eigen::Ref<VectorXd> y, JacobianRows* J) {
+  if (differences_ > 0) {
+    evalDifference(states, tau, y, J);
+  } else {
+    feature_->eval(states, tau, y, J);
+    alignSign(y, J);
+  }
+  subtractTarget(y);
+}
+
+void Residual::finish(Eigen::Ref<VectorXd> y, JacobianRows* J) const {
+  alignSign(y, J);
+  subtractTarget(y);
+  scaleRows(y, J);
+}
+
+void Residual::mix(Eigen::Ref<VectorXd> raw, JacobianRows* raw_jacobian, Eigen::Ref<VectorXd> y, JacobianRows* J) const {
+  alignSign(raw, raw_jacobian);
+  subtractTarget(raw);
+  y.noalias() = scale_ * raw;
+  if (J) *J += scale_.lazyProduct(*raw_jacobian);
+}
+
+/// Takes the quaternion's sign that is nearer to the target.
+void Residual::alignSign(Eigen::Ref<VectorXd> y, JacobianRows* J) const {
+  const int row = feature_->quaternionRow();
+  if (row < 0 || target_.size() != y.size() || y.segment<4>(row).dot(target_.segment<4>(row)) >= 0.) return;
+  y.segment<4>(row) *= -1.;
+  if (J) J->middleRows(row, 4) *= -1.;
+}
+
+void Residual::subtractTarget(Eigen::Ref<VectorXd> y) const {
+  if (target_.size() == 1) {
+    y.array() -= target_[0];
+  } else if (target_.size() > 1) {
+    y -= target_;
+  }
+}
+
+void Residual::scaleRows(Eigen::Ref<VectorXd> y, JacobianRows* J) const {
   if (scale_.size() == 1) {
     y *= scale_(0, 0);
     if (J) *J *= scale_(0, 0);
@@ -68,24 +109,6 @@ void Residual::eval(std::span<const State* const> states, double tau, Eigen::Ref
       y[row] *= scale_(row, 0);
       if (J) J->row(row) *= scale_(row, 0);
     }
-  }
-}
-
-void Residual::evalRaw(std::span<const State* const> states, double tau, Eigen::Ref<VectorXd> y, JacobianRows* J) {
-  if (differences_ > 0) {
-    evalDifference(states, tau, y, J);
-  } else {
-    feature_->eval(states, tau, y, J);
-    const int row = feature_->quaternionRow();
-    if (row >= 0 && target_.size() == y.size() && y.segment<4>(row).dot(target_.segment<4>(row)) < 0.) {
-      y.segment<4>(row) *= -1.;
-      if (J) J->middleRows(row, 4) *= -1.;
-    }
-  }
-  if (target_.size() == 1) {
-    y.array() -= target_[0];
-  } else if (target_.size() > 1) {
-    y -= target_;
   }
 }
 

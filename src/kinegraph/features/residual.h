@@ -38,9 +38,22 @@ class Residual {
   /// given, rows() rows and a block of columns per configuration, and comes filled with zeros.
   void eval(std::span<const State* const> states, double tau, Eigen::Ref<VectorXd> y, JacobianRows* J);
 
+  const Feature& feature() const { return *feature_; }
+
+  /// Is the scale a matrix, so that rows() may differ from those of the feature?
+  bool mixesRows() const { return scale_.size() > 1 && !scales_rows_; }
+
+  /// For order 0, what eval makes of the feature's own value and Jacobian: in place where mixesRows() is false, with ...
+  void finish(Eigen::Ref<VectorXd> y, JacobianRows* J) const;
+  /// ... else from `raw` ones, which it changes; J comes filled with zeros.
+  void mix(Eigen::Ref<VectorXd> raw, JacobianRows* raw_jacobian, Eigen::Ref<VectorXd> y, JacobianRows* J) const;
+
  private:
   using RowMajor = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
   void evalDifference(std::span<const State* const> states, double tau, Eigen::Ref<VectorXd> y, JacobianRows* J);
+  void alignSign(Eigen::Ref<VectorXd> y, JacobianRows* J) const;
+  void subtractTarget(Eigen::Ref<VectorXd> y) const;
+  void scaleRows(Eigen::Ref<VectorXd> y, JacobianRows* J) const;
   void evalRaw(std::span<const State* const> states, double tau, Eigen::Ref<VectorXd> y, JacobianRows* J);
 
   std::shared_ptr<const Feature> feature_;

@@ -43,6 +43,15 @@ class Stacked final : public Feature {
     }
   }
 
+  bool addLaneRows(LaneRowList& list) const override {
+    LaneRowList longer = list;
+    for (const auto& part : parts_) {
+      if (!part->addLaneRows(longer)) return false;
+    }
+    list = std::move(longer);
+    return true;
+  }
+
  private:
   std::vector<std::unique_ptr<Feature>> parts_;
 };

@@ -4,6 +4,7 @@
 #include <string_view>
 #include <vector>
 
+#include "kinegraph/kinematics/motion_kind.h"
 #include "kinegraph/math/pose.h"
 
 namespace kinegraph {
@@ -41,14 +42,7 @@ JointType jointTypeFromName(std::string_view name);
 
 /// One elementary motion. Every joint type is a short sequence of them, each in the frame that the previous one reached.
 struct MotionStep {
-  enum class Kind : unsigned char {
-    translate,   ///< 1 dof: along coordinate axis `axis`, m
-    rotate,      ///< 1 dof: about coordinate axis `axis`, rad
-    rotateAbout, ///< 1 dof: about the joint's own unit axis, rad
-    quaternion,  ///< 4 dofs: w x y z, normalized
-    circle,      ///< 2 dofs: rotation about z by the quaternion (c, 0, 0, s), normalized
-    time,        ///< 1 dof without motion
-  };
+  using Kind = MotionKind;
   Kind kind;
   int axis = 0;      ///< 0 x, 1 y, 2 z
   double sign = 1.;  ///< of the dof

@@ -52,18 +52,29 @@ void connectChains(Program& program) {
   program.column_dof.clear();
   program.column_before.clear();
   program.last_column = {-1};  // nothing moves the world
+  program.turn_dof.clear();
+  program.turn_factor.clear();
   for (std::size_t l = 1; l < program.links.size(); ++l) {
     Program::Link& link = program.links[l];
     link.first_column = int(program.column_dof.size());
     int dof = link.dof, last = program.last_column[link.parent];
     for (int s = link.first_step; s < link.first_step + link.steps; ++s) {
-      for (int i = 0; i < program.steps[s].dofs(); ++i) {
+      const MotionStep& step = program.steps[s];
+      if (step.kind == MotionKind::rotate || step.kind == MotionKind::rotateAbout) {
+        program.turn_dof.push_back(dof);
+        program.turn_factor.push_back(step.sign * link.scale);
+      }
+      for (int i = 0; i < step.dofs(); ++i) {
         program.column_before.push_back(last);
         last = int(program.column_dof.size());
         program.column_dof.push_back(dof++);
       }
     }
     program.last_column.push_back(last);
+  }
+  if (program.turn_dof.size() % 2 != 0) {
+    program.turn_dof.push_back(program.turn_dof.back());
+    program.turn_factor.push_back(program.turn_factor.back());
   }
 }
 

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "kinegraph/geometry/geometry.h"
+#include "kinegraph/kinematics/constant_turn.h"
 #include "kinegraph/kinematics/contact_rules.h"
 #include "kinegraph/kinematics/joint.h"
 #include "kinegraph/math/pose.h"
@@ -44,6 +45,8 @@ struct Program {
   std::vector<int> column_dof;   ///< entry of q that drives a twist column
   std::vector<int> column_before;  ///< of a twist column: the one before it in its chain, or -1
   std::vector<int> last_column;    ///< of link l: c = last_column[l], column_before[c], ... until -1 are those that move it
+  std::vector<int> turn_dof;         ///< entries of q that are angles, in the order of the steps, an even number of them
+  std::vector<double> turn_factor;   ///< the angle per unit of it
 
   std::vector<std::string> frame_name;  ///< per frame
   std::unordered_map<std::string_view, int> frame_index;  ///< of names: the first frame of that name
@@ -75,9 +78,17 @@ struct FrameMass {
   Vector3d com = Vector3d::Zero();  ///< centre of mass in the frame, m
 };
 
+/// The base of a joint in the parent link.
+struct JointBase : RigidTransform {
+  JointBase() = default;
+  JointBase(const RigidTransform& X_PJ) : RigidTransform(X_PJ), turn(classifyTurn(R.data())) {}
+
+  ConstantTurn turn;
+};
+
 /// The constants of a Program: where joints sit on their parent link and frames on their link, and what frames weigh.
 struct Parameters {
-  std::vector<RigidTransform> joint_base;    ///< per link: X_PJ, base of its joint in the parent link
+  std::vector<JointBase> joint_base;         ///< per link
   std::vector<RigidTransform> frame_offset;  ///< per frame: X_LF, the frame in its link
   std::vector<FrameMass> frame_mass;         ///< per frame
 };
@@ -88,7 +99,7 @@ void nameFrames(Program& program, std::vector<std::string> names);
 /// The first frame of that name. Throws FrameNotFound with similar names; `who` is what asks for it.
 int frameId(const Program& program, std::string_view name, std::string_view who);
 
-/// Fills `last_column`, `column_before` and `column_dof` from `links` and `steps`.
+/// Fills `last_column`, `column_before`, `column_dof` and `turn_...` from `links` and `steps`.
 void connectChains(Program& program);
 
 }  // namespace kinegraph

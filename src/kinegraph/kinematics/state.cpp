@@ -1,19 +1,30 @@
 #include "kinegraph/kinematics/state.h"
 
-#include <cmath>
+#include "kinegraph/kinematics/place_links.h"
 
 namespace kinegraph {
 
 namespace {
 
-/// R <- R * rotation about coordinate axis `axis`: only two columns change.
-void rotateColumns(Matrix3d& R, int axis, double angle) {
-  const double c = std::cos(angle), s = std::sin(angle);
-  const int i = axis == 2 ? 0 : axis + 1, j = axis == 0 ? 2 : axis - 1;
-  const Vector3d a = R.col(i), b = R.col(j);
-  R.col(i) = c * a + s * b;
-  R.col(j) = c * b - s * a;
-}
+using lanes::Packed3;
+
+/// Writes the twists of a step where they belong.
+struct TwistWriter {
+  State::Twist* twist;
+
+  void turns(int k, const Packed3& angular, const Packed3& point) const {
+    lanes::store(angular, twist[k].angular.data());
+    lanes::store(cross(point, angular), twist[k].linear.data());
+  }
+  void slides(int k, const Packed3& velocity) const {
+    twist[k].angular.setZero();
+    lanes::store(velocity, twist[k].linear.data());
+  }
+  void rests(int k) const {
+    twist[k].angular.setZero();
+    twist[k].linear.setZero();
+  }
+};
 
 }  // namespace
 
@@ -22,7 +33,8 @@ State::State(std::shared_ptr<const Program> program, std::shared_ptr<const Param
       parameters_(std::move(parameters)),
       q_(program_->home),
       link_pose_(program_->links.size()),
-      twists_(program_->column_dof.size()) {
+      twists_(program_->column_dof.size()),
+      turns_(program_->turn_dof.size()) {
   update();
 }
 
@@ -37,89 +49,66 @@ void State::setParameters(std::shared_ptr<const Parameters> parameters) {
 }
 
 void State::update() {
-  using Kind = MotionStep::Kind;
+  static_assert(sizeof(RigidTransform) == lanes::kPerPlace * sizeof(double));
+  using Pair = lanes::Pack<2>;
   const Program& program = *program_;
-  for (std::size_t l = 1; l < program.links.size(); ++l) {
+  for (std::size_t i = 0; i < program.turn_dof.size(); i += 2) {
+    const Pair angles = {program.turn_factor[i] * q_[program.turn_dof[i]], program.turn_factor[i + 1] * q_[program.turn_dof[i + 1]]};
+    Pair sines, cosines;
+    if (lanes::magnitude(angles[0]) <= lanes::kMostAngle && lanes::magnitude(angles[1]) <= lanes::kMostAngle) {
+      lanes::sineAndCosine(angles, sines, cosines);
+    } else {
+      lanes::sineAndCosineOfAny(angles, sines, cosines);
+    }
+    for (int k = 0; k < 2; ++k) turns_[i + k] = {sines[k], cosines[k]};
+  }
+  const Turn* turn = turns_.data();
+  Packed3 pose[4];  // of the link before, by columns; what has just been written in parts is slow to read as a whole
+  for (int k = 0; k < 4; ++k) load(link_pose_[0].R.data() + 3 * k, pose[k]);
+  for (int l = 1; l < int(program.links.size()); ++l) {
     const Program::Link& link = program.links[l];
-    RigidTransform X = link_pose_[link.parent] * parameters_->joint_base[l];
+    const JointBase& base = parameters_->joint_base[l];
+    if (link.parent != l - 1) {
+      for (int k = 0; k < 4; ++k) load(link_pose_[link.parent].R.data() + 3 * k, pose[k]);
+    }
+    auto X = lanes::movedBy<Packed3>([&pose](int k) { return pose[k]; }, base.turn, base.R.data(), base.p.data());
     const double* q = q_.data() + link.dof;
-    Twist* twist = twists_.data() + link.first_column;
+    TwistWriter sink{twists_.data() + link.first_column};
     for (int s = link.first_step; s < link.first_step + link.steps; ++s) {
       const MotionStep& step = program.steps[s];
-      const double factor = step.sign * link.scale;
-      switch (step.kind) {
-        case Kind::translate: {
-          twist->angular.setZero();
-          twist->linear = factor * X.R.col(step.axis);
-          X.p += *q * twist->linear;
-          break;
-        }
-        case Kind::rotate: {
-          twist->angular = factor * X.R.col(step.axis);
-          twist->linear = X.p.cross(twist->angular);
-          rotateColumns(X.R, step.axis, factor * *q);
-          break;
-        }
-        case Kind::rotateAbout: {
-          twist->angular = factor * (X.R * link.axis);
-          twist->linear = X.p.cross(twist->angular);
-          X.R = X.R * Eigen::AngleAxisd(factor * *q, link.axis).toRotationMatrix();
-          break;
-        }
-        case Kind::quaternion: {
-          // w = 2 vec(dq * conj(q)) / |q|: the component of dq along q only changes the norm.
-          const Quaterniond raw(q[0], q[1], q[2], q[3]);
-          const double norm = std::max(raw.norm(), 1e-100);
-          const Quaterniond unit(raw.coeffs() / norm);
-          const Vector3d v = unit.vec();
-          twist[0].angular = -2. / norm * (X.R * v);
-          for (int k = 0; k < 3; ++k) {
-            const Vector3d e = Vector3d::Unit(k);
-            twist[k + 1].angular = 2. / norm * (X.R * (unit.w() * e - e.cross(v)));
-          }
-          for (int k = 0; k < 4; ++k) twist[k].linear = X.p.cross(twist[k].angular);
-          X.R = X.R * unit.toRotationMatrix();
-          break;
-        }
-        case Kind::circle: {
-          const double square = std::max(q[0] * q[0] + q[1] * q[1], 1e-100);
-          twist[0].angular = -2. * q[1] / square * X.R.col(2);
-          twist[1].angular = 2. * q[0] / square * X.R.col(2);
-          for (int k = 0; k < 2; ++k) twist[k].linear = X.p.cross(twist[k].angular);
-          rotateColumns(X.R, 2, 2. * std::atan2(q[1], q[0]));
-          break;
-        }
-        case Kind::time: {
-          twist->angular.setZero();
-          twist->linear.setZero();
-          break;
-        }
-      }
+      lanes::moveBy(step.kind, step.axis, step.sign * link.scale, link.axis.data(), q, [&](double) { return *turn++; }, X, sink);
       q += step.dofs();
-      twist += step.dofs();
+      sink.twist += step.dofs();
     }
-    link_pose_[l] = X;
+    lanes::storePlace(X, link_pose_[l].R.data());
+    for (int k = 0; k < 3; ++k) pose[k] = X.R[k];
+    pose[3] = X.p;
   }
 }
 
 void State::addPointJacobian(int frame, const Vector3d& p_WQ, double factor, JacobianRows J) const {
+  double* rows = J.data();
+  const Eigen::Index stride = J.outerStride();
+  const double x = p_WQ[0], y = p_WQ[1], z = p_WQ[2];
   for (int c = program_->last_column[link(frame)]; c >= 0; c = program_->column_before[c]) {
-    const Twist& twist = twists_[c];
-    const int dof = program_->column_dof[c];
-    const Vector3d velocity = twist.linear + twist.angular.cross(p_WQ);
-    J(0, dof) += factor * velocity[0];
-    J(1, dof) += factor * velocity[1];
-    J(2, dof) += factor * velocity[2];
+    const double* w = twists_[c].angular.data();
+    const double* v = twists_[c].linear.data();
+    double* to = rows + program_->column_dof[c];
+    to[0] += factor * (v[0] + (w[1] * z - w[2] * y));
+    to[stride] += factor * (v[1] + (w[2] * x - w[0] * z));
+    to[2 * stride] += factor * (v[2] + (w[0] * y - w[1] * x));
   }
 }
 
 void State::addAngularJacobian(int frame, double factor, JacobianRows J) const {
+  double* rows = J.data();
+  const Eigen::Index stride = J.outerStride();
   for (int c = program_->last_column[link(frame)]; c >= 0; c = program_->column_before[c]) {
-    const Twist& twist = twists_[c];
-    const int dof = program_->column_dof[c];
-    J(0, dof) += factor * twist.angular[0];
-    J(1, dof) += factor * twist.angular[1];
-    J(2, dof) += factor * twist.angular[2];
+    const double* w = twists_[c].angular.data();
+    double* to = rows + program_->column_dof[c];
+    to[0] += factor * w[0];
+    to[stride] += factor * w[1];
+    to[2 * stride] += factor * w[2];
   }
 }
 

@@ -71,6 +71,9 @@ class State {
   }
 
  private:
+  struct Turn {
+    double sine, cosine;
+  };
   void update();
 
   std::shared_ptr<const Program> program_;
@@ -78,6 +81,7 @@ class State {
   VectorXd q_;
   std::vector<RigidTransform> link_pose_;
   std::vector<Twist> twists_;  ///< per column
+  std::vector<Turn> turns_;    ///< per entry of program().turn_dof
 };
 
 }  // namespace kinegraph

@@ -3,13 +3,15 @@
 #include <algorithm>
 #include <cmath>
 
+#include "kinegraph/math/lane_widths.h"
+
 namespace kinegraph {
 
-IkLanes::IkLanes(std::shared_ptr<const IkProblem> problem)
+IkLanes::IkLanes(std::shared_ptr<const IkProblem> problem, int width)
     : problem_(std::move(problem)),
       model_(*problem_),
       view_(model_.view()),
-      kernel_(chooseLaneKernel()),
+      kernel_(ikKernel(checkedLaneWidth(width))),
       search_(problem_),
       buffer_(view_, kernel_.lanes),
       memory_(buffer_.memory),
@@ -75,10 +77,10 @@ bool IkLanes::fill(int lane) {
 void IkLanes::start(int lane, int open) {
   lanes_[lane] = {open, open_[open].next_attempt++, 0, 1e300};
   problem_->startingPoint(lanes_[lane].attempt, start_.data());
-  for (int v = 0; v < view_.variables; ++v) at(memory_.x, v, lane) = start_[v];
+  for (int v = 0; v < view_.variables(); ++v) at(memory_.x, v, lane) = start_[v];
   const std::vector<IkGoal>& goals = open_[open].job.goals;
   for (int t = 0; t < view_.tasks; ++t) {
-    double* to = memory_.goal + t * LaneMemory::kPerGoal * kernel_.lanes;
+    double* to = memory_.goal + t * IkKernelMemory::kPerGoal * kernel_.lanes;
     for (int k = 0; k < 9; ++k) at(to, k, lane) = goals[t].R.data()[k];
     for (int k = 0; k < 3; ++k) {
       at(to, 9 + k, lane) = goals[t].p[k];
@@ -96,15 +98,15 @@ void IkLanes::advance(int lane) {
   const int step = state.evals++;
   if (distance <= options.position_tolerance * options.position_tolerance && angle <= options.rotation_tolerance) return end(lane, true);
   if (step == options.steps || search_.stalls(step, square, state.before)) return end(lane, false);
-  for (int v = 0; v < view_.variables; ++v) at(memory_.x, v, lane) = at(memory_.next, v, lane);
+  for (int v = 0; v < view_.variables(); ++v) at(memory_.x, v, lane) = at(memory_.next, v, lane);
 }
 
 void IkLanes::end(int lane, bool met) {
   const Lane state = lanes_[lane];
   lanes_[lane].open = -1;
   Open& open = open_[state.open];
-  open.ended.push_back({state.attempt, {met, std::sqrt(memory_.distance[lane]) + memory_.angle[lane], state.evals}, VectorXd(view_.variables)});
-  for (int v = 0; v < view_.variables; ++v) open.ended.back().x[v] = at(memory_.x, v, lane);
+  open.ended.push_back({state.attempt, {met, std::sqrt(memory_.distance[lane]) + memory_.angle[lane], state.evals}, VectorXd(view_.variables())});
+  for (int v = 0; v < view_.variables(); ++v) open.ended.back().x[v] = at(memory_.x, v, lane);
   judgeEnded(state.open);
 }
 

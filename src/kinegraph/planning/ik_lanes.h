@@ -3,40 +3,38 @@
 #include <atomic>
 #include <vector>
 
+#include "kinegraph/kinematics/lane_program.h"
+#include "kinegraph/planning/ik_kernel.h"
 #include "kinegraph/planning/ik_search.h"
-#include "kinegraph/planning/lane_kernel.h"
 
 namespace kinegraph {
 
-/// The kinematics of a problem for lane_kernel.h, and who owns its arrays.
+/// The kinematics of a problem for ik_kernel.h, and who owns its arrays.
 class IkLaneModel {
  public:
   explicit IkLaneModel(const IkProblem& problem);
 
   /// False where a joint has quaternions, or there are too many rows: lanes cannot do these.
   bool supported() const { return supported_; }
-  LaneModel view() const;
+  IkKernelModel view() const;
 
  private:
-  void addLinks(const IkProblem& problem);
   void addTasks(const IkProblem& problem);
 
   bool supported_ = true;
-  int variables_, rows_;
-  std::vector<int> lane_link_;        ///< per link of the Program, -1 if it moves no target
-  std::vector<LaneModel::Link> link_;
-  std::vector<LaneModel::Step> step_;
-  std::vector<LaneModel::Task> task_;
-  std::vector<int> column_;
+  int rows_;
+  LaneLinks links_;
+  std::vector<IkKernelModel::Task> task_;
+  std::vector<IkKernelModel::Column> column_;
   const double *lower_, *upper_, *longest_;  ///< the problem's
 };
 
 /// Memory for a number of lanes.
 struct LaneBuffer {
-  LaneBuffer(const LaneModel& model, int lanes);
+  LaneBuffer(const IkKernelModel& model, int lanes);
   LaneBuffer(const LaneBuffer&) = delete;
 
-  LaneMemory memory;
+  IkKernelMemory memory;
 
  private:
   std::vector<double> storage_;
@@ -47,7 +45,8 @@ struct LaneBuffer {
 /// and their number do not change answers.
 class IkLanes {
  public:
-  explicit IkLanes(std::shared_ptr<const IkProblem> problem);
+  /// `width`: number of lanes, one of laneWidths(), 0 for the most.
+  explicit IkLanes(std::shared_ptr<const IkProblem> problem, int width = 0);
 
   /// results[i] answers problems[i]; `done` counts them.
   void solve(const std::vector<IkTarget>* problems, int count, IkResult* results, std::atomic<int>& done, const Stop& stop);
@@ -82,11 +81,11 @@ class IkLanes {
 
   std::shared_ptr<const IkProblem> problem_;
   IkLaneModel model_;
-  LaneModel view_;
-  LaneKernel kernel_;
+  IkKernelModel view_;
+  IkKernel kernel_;
   IkSearch search_;
   LaneBuffer buffer_;
-  const LaneMemory& memory_;
+  const IkKernelMemory& memory_;
   std::vector<Open> open_;
   std::vector<Lane> lanes_;
   VectorXd start_;

@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "kinegraph/geometry/proximity.h"
-#include "kinegraph/planning/lane_kernel.h"
+#include "kinegraph/planning/ik_kernel.h"
 
 namespace kinegraph {
 

@@ -214,7 +214,7 @@ VectorXd Config::getJointState(const std::vector<std::string>& names) const {
 }
 
 void Config::setJointState(const VectorXd& q) {
-  const auto program = scene_->program();
+  const auto& program = scene_->program();
   if (q.size() != program->dofs) {
     throw ValueError(cat("setJointState: got ", q.size(), " numbers; the configuration has ", program->dofs,
                          " active dofs: ", join(getJointNames())));

@@ -164,7 +164,7 @@ std::shared_ptr<const SceneTree> SceneTree::snapshot() {
   return copy;
 }
 
-std::shared_ptr<const Program> SceneTree::program() {
+const std::shared_ptr<const Program>& SceneTree::program() {
   if (compiled_revision_ != structure_revision_) {
     program_ = compileProgram(*this);
     compiled_revision_ = structure_revision_;
@@ -181,7 +181,7 @@ std::shared_ptr<const Program> SceneTree::program() {
   return program_;
 }
 
-std::shared_ptr<const Parameters> SceneTree::parameters() {
+const std::shared_ptr<const Parameters>& SceneTree::parameters() {
   program();
   if (poses_stale_) {
     parameters_ = collectParameters(*this, *program_);

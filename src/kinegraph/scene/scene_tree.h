@@ -69,8 +69,8 @@ class SceneTree {
   std::uint64_t structureRevision() const { return structure_revision_; }
 
   /// Compiled on demand and shared until the structure changes.
-  std::shared_ptr<const Program> program();
-  std::shared_ptr<const Parameters> parameters();
+  const std::shared_ptr<const Program>& program();
+  const std::shared_ptr<const Parameters>& parameters();
   const State& state();
 
   /// The collidable pairs, placed by state().

@@ -1,0 +1,114 @@
+#pragma once
+
+#include "kinegraph/kinematics/constant_turn.h"
+#include "kinegraph/kinematics/motion_kind.h"
+
+namespace kinegraph {
+
+// Kinematics as flat numbers, for several configurations side by side, one per lane of a wide register. Nothing in this file
+// owns memory or has inline functions, because it is shared with code for other instruction sets. Rotations are column-major.
+
+/// The links that move some frames, in topological order; link 0 is the world.
+struct LaneModel {
+  struct Step {
+    MotionKind kind;
+    int axis;
+    int variable;  ///< of its first dof
+    int column;    ///< of its first dof
+    double factor;
+    double about[3];
+  };
+  struct Link {
+    int parent;
+    int first_step, steps;
+    ConstantTurn turn;
+    double R[9], p[3];  ///< the base of the joint in the parent
+  };
+
+  int links, steps, columns, variables;
+  const Link* link;
+  const Step* step;
+};
+
+/// What is asked of frames: rows of values, and where they depend on the variables.
+struct LaneRows {
+  struct Frame {
+    int link;
+    ConstantTurn turn;
+    double R[9], p[3];  ///< in its link
+  };
+  /// What a twist column contributes to the rows of a block.
+  struct Entry {
+    int column;
+    int variable;
+    bool turns;   ///< else it slides
+    bool of_b;    ///< moves frame b, not a
+    bool adds;    ///< to an earlier entry of the same variable
+  };
+  struct Block {
+    enum Kind : unsigned char {
+      position,    ///< p_a (3 rows)
+      offset,      ///< p_a - p_b
+      relative,    ///< R_b^T (p_a - p_b), its first `rows` rows
+      quaternion,  ///< of R_a (4)
+      quaternion_offset,
+      quaternion_relative,
+      axis,  ///< R_a e (3)
+      axis_offset,
+      axis_relative,
+      axis_product,  ///< (R_a e) . (R_b e') (1)
+      twist,         ///< no values; the Jacobian of p_a, and of the angular velocity (6)
+      joint,         ///< scale * x + shift (1)
+    };
+    Kind kind;
+    bool canonical;  ///< of a quaternion: of the two signs, that whose first entry other than 0 is positive
+    int row, rows;
+    int a, b;            ///< frames; of `joint`: the variable is a
+    int axis_a, axis_b;
+    int first_entry, entries;
+    double scale, shift;
+  };
+
+  int frames, blocks, rows;
+  const Frame* frame;
+  const Block* block;
+  const Entry* entry;
+};
+
+/// Scratch: one row of lanes per number, aligned for the widest register.
+struct LaneMemory {
+  static constexpr int kPerPose = 12, kPerColumn = 6;
+
+  double* x;         ///< (variables)
+  double* pose;      ///< (links, 12); that of the world is the identity
+  double* motion;    ///< (columns, 6): angular velocity and a point of the axis, or 0 and the linear velocity
+  double* frame;     ///< (frames, 12)
+  double* y;         ///< (rows)
+  double* jacobian;  ///< (rows, variables); comes filled with zeros
+};
+
+/// Configurations in, values and Jacobians out, a row each.
+struct LaneBatch {
+  const double* Q;
+  long Q_stride;
+  int count;
+  double* y;  ///< null: not wanted
+  long y_stride;
+  double* J;        ///< null: not wanted
+  long J_stride;    ///< between configurations
+  long row_stride;  ///< between rows of one of them
+};
+
+using RunLanes = void (*)(const LaneModel& model, const LaneRows& rows, const LaneMemory& memory, const LaneBatch& batch);
+
+/// The kernel for `width` lanes, one of laneWidths().
+RunLanes laneKernel(int width);
+
+namespace lanes {
+/// One per instruction set.
+void runRowsBase(const LaneModel& model, const LaneRows& rows, const LaneMemory& memory, const LaneBatch& batch);
+void runRowsAvx2(const LaneModel& model, const LaneRows& rows, const LaneMemory& memory, const LaneBatch& batch);
+void runRowsAvx512(const LaneModel& model, const LaneRows& rows, const LaneMemory& memory, const LaneBatch& batch);
+}  // namespace lanes
+
+}  // namespace kinegraph

@@ -1,0 +1,173 @@
+#include "kinegraph/kinematics/lane_program.h"
+
+#include <algorithm>
+#include <numeric>
+
+#include "kinegraph/kinematics/lane_storage.h"
+#include "kinegraph/math/lane_widths.h"
+
+namespace kinegraph {
+
+namespace {
+
+using Block = LaneRows::Block;
+
+std::vector<int> framesOf(const std::vector<Block>& blocks) {
+  std::vector<int> frames;
+  for (const Block& block : blocks) {
+    if (block.kind == Block::joint) continue;
+    for (int frame : {block.a, block.b}) {
+      if (frame >= 0 && std::ranges::find(frames, frame) == frames.end()) frames.push_back(frame);
+    }
+  }
+  return frames;
+}
+
+std::vector<int> everyDof(const Program& program) {
+  std::vector<int> dofs(program.dofs);
+  std::iota(dofs.begin(), dofs.end(), 0);
+  return dofs;
+}
+
+/// Do only rotations enter the values?
+bool isOfRotations(Block::Kind kind) { return kind >= Block::quaternion && kind <= Block::axis_product; }
+
+/// Does a motion of both frames together leave the values as they are?
+bool isBetweenFrames(Block::Kind kind) {
+  return kind == Block::relative || kind == Block::quaternion_relative || kind == Block::axis_relative || kind == Block::axis_product;
+}
+
+}  // namespace
+
+LaneLinks::LaneLinks(const Program& program, const Parameters& parameters, const std::vector<int>& frames, const std::vector<int>& variable,
+                     int variables)
+    : lane_link_(program.links.size(), -1), variables_(variables) {
+  std::vector<char> needed(program.links.size(), 0);
+  needed[0] = 1;
+  for (int frame : frames) {
+    for (int l = program.frame_link[frame]; !needed[l]; l = program.links[l].parent) needed[l] = 1;
+  }
+  for (std::size_t l = 0; l < program.links.size(); ++l) {
+    if (!needed[l]) continue;
+    const Program::Link& link = program.links[l];
+    const JointBase& base = parameters.joint_base[l];
+    LaneModel::Link lane_link{l == 0 ? -1 : lane_link_[link.parent], int(step_.size()), link.steps, base.turn, {}, {}};
+    std::copy_n(base.R.data(), 9, lane_link.R);
+    std::copy_n(base.p.data(), 3, lane_link.p);
+    int dof = link.dof;
+    for (int s = link.first_step; s < link.first_step + link.steps; ++s) {
+      const MotionStep& step = program.steps[s];
+      LaneModel::Step lane_step{step.kind, step.axis, variable[dof], int(column_.size()), step.sign * link.scale, {}};
+      std::copy_n(link.axis.data(), 3, lane_step.about);
+      step_.push_back(lane_step);
+      for (int k = 0; k < step.dofs(); ++k) column_.push_back({variable[dof++], step.kind != MotionKind::translate});
+    }
+    lane_link_[l] = int(link_.size());
+    link_.push_back(lane_link);
+  }
+}
+
+LaneModel LaneLinks::view() const { return {int(link_.size()), int(step_.size()), int(column_.size()), variables_, link_.data(), step_.data()}; }
+
+LaneRows::Frame LaneLinks::place(const Program& program, const Parameters& parameters, int frame) const {
+  const RigidTransform& offset = parameters.frame_offset[frame];
+  LaneRows::Frame placed{lane_link_[program.frame_link[frame]], classifyTurn(offset.R.data()), {}, {}};
+  std::copy_n(offset.R.data(), 9, placed.R);
+  std::copy_n(offset.p.data(), 3, placed.p);
+  return placed;
+}
+
+std::vector<int> LaneLinks::chain(int link) const {
+  std::vector<int> columns;
+  for (int l = link; l > 0; l = link_[l].parent) {
+    for (int s = link_[l].first_step; s < link_[l].first_step + link_[l].steps; ++s) {
+      const LaneModel::Step& step = step_[s];
+      const int dofs = step.kind == MotionKind::quaternion ? 4 : step.kind == MotionKind::circle ? 2 : step.kind == MotionKind::time ? 0 : 1;
+      for (int k = 0; k < dofs; ++k) columns.push_back(step.column + k);
+    }
+  }
+  return columns;
+}
+
+Block& LaneRowList::add(Block::Kind kind, int rows, int a, int b) {
+  blocks_.push_back({kind, false, rows_, rows, a, b, 0, 0, 0, 0, 1., 0.});
+  rows_ += rows;
+  return blocks_.back();
+}
+
+void LaneRowList::addAxes(Block::Kind kind, int rows, int axis_a, int axis_b, int a, int b) {
+  Block& block = add(kind, rows, a, b);
+  block.axis_a = axis_a;
+  block.axis_b = axis_b;
+}
+
+void LaneRowList::addPose(int frame) {
+  addPosition(Block::position, frame);
+  add(Block::quaternion, 4, frame, -1).canonical = true;
+}
+
+void LaneRowList::addJoint(int dof, double scale, double shift) {
+  Block& block = add(Block::joint, 1, dof, -1);
+  block.scale = scale;
+  block.shift = shift;
+}
+
+LaneProgram::LaneProgram(const Program& program, const Parameters& parameters, const LaneRowList& list)
+    : links_(program, parameters, framesOf(list.blocks()), everyDof(program), program.dofs), block_(list.blocks()) {
+  const std::vector<int> frames = framesOf(block_);
+  for (int frame : frames) frame_.push_back(links_.place(program, parameters, frame));
+  const auto slot = [&](int frame) { return frame < 0 ? 0 : int(std::ranges::find(frames, frame) - frames.begin()); };
+  for (Block& block : block_) {
+    if (block.kind == Block::joint) continue;
+    const bool two = block.b >= 0;
+    block.a = slot(block.a);
+    block.b = two ? slot(block.b) : -1;
+    connect(block);
+    block.b = std::max(block.b, 0);  // kernels may read it
+  }
+}
+
+/// The entries of a block: those of frame a, then those of b, without what cannot change the values.
+void LaneProgram::connect(Block& block) {
+  block.first_entry = int(entry_.size());
+  std::vector<int> of_a = links_.chain(frame_[block.a].link), of_b;
+  if (block.b >= 0) of_b = links_.chain(frame_[block.b].link);
+  if (isBetweenFrames(block.kind)) {  // chains run from the frame to the world: what they share is at their ends
+    while (!of_a.empty() && !of_b.empty() && of_a.back() == of_b.back()) of_a.pop_back(), of_b.pop_back();
+  }
+  std::vector<char> seen(links_.view().variables, 0);
+  const auto add = [&](const std::vector<int>& chain, bool is_b) {
+    for (int index : chain) {
+      const LaneLinks::Column& column = links_.column(index);
+      if (isOfRotations(block.kind) && !column.turns) continue;
+      entry_.push_back({index, column.variable, column.turns, is_b, seen[column.variable] != 0});
+      seen[column.variable] = 1;
+    }
+  };
+  add(of_a, false);
+  add(of_b, true);
+  block.entries = int(entry_.size()) - block.first_entry;
+}
+
+LaneRows LaneProgram::view() const {
+  const int rows = block_.empty() ? 0 : block_.back().row + block_.back().rows;
+  return {int(frame_.size()), int(block_.size()), rows, frame_.data(), block_.data(), entry_.data()};
+}
+
+LaneProgram::Scratch::Scratch(const LaneProgram& program, int width) {
+  const LaneModel model = program.links_.view();
+  const LaneRows rows = program.view();
+  const int lanes = checkedLaneWidth(width);
+  run_ = laneKernel(lanes);
+  const auto size = [](int count) { return std::size_t(count); };
+  layOutLanes(storage_, lanes,
+              {{&memory_.x, size(model.variables)},
+               {&memory_.pose, size(model.links * LaneMemory::kPerPose)},
+               {&memory_.motion, size(model.columns * LaneMemory::kPerColumn)},
+               {&memory_.frame, size(rows.frames * LaneMemory::kPerPose)},
+               {&memory_.y, size(rows.rows)},
+               {&memory_.jacobian, size(rows.rows) * size(model.variables)}});
+  setWorld(memory_.pose, lanes);
+}
+
+}  // namespace kinegraph
