@@ -102,6 +102,7 @@ void Residual::subtractTarget(Eigen::Ref<VectorXd> y) const {
 
 void Residual::scaleRows(Eigen::Ref<VectorXd> y, JacobianRows* J) const {
   if (scale_.size() == 1) {
+    if (scale_(0, 0) == 1.) return;
     y *= scale_(0, 0);
     if (J) *J *= scale_(0, 0);
   } else if (scale_.size() > 1) {

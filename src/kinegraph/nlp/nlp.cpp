@@ -113,11 +113,25 @@ double violation(ObjectiveType type, double phi) {
 
 double largestViolation(const std::vector<ObjectiveType>& types, const VectorXd& phi) {
   double worst = 0.;
-  for (std::size_t row = 0; row < types.size(); ++row) worst = std::max(worst, violation(types[row], phi[Eigen::Index(row)]));
+  for (std::size_t row = 0; row < types.size(); ++row) {
+    const double value = phi[Eigen::Index(row)];
+    if (value <= worst && (types[row] != ObjectiveType::eq || -value <= worst)) continue;
+    worst = std::max(worst, violation(types[row], value));
+  }
   return worst;
 }
 
 std::string describeNotFinite(const Nlp& nlp, const VectorXd& phi, const Jacobian* J) {
+  const auto finite = [](const double* values, std::size_t count) {
+    double sums[4] = {};  // of products with 0, which are not numbers if a value is not finite
+    std::size_t i = 0;
+    for (; i + 4 <= count; i += 4) {
+      for (int k = 0; k < 4; ++k) sums[k] += 0. * values[i + std::size_t(k)];
+    }
+    for (; i < count; ++i) sums[0] += 0. * values[i];
+    return sums[0] + sums[1] + sums[2] + sums[3] == 0.;
+  };
+  if (finite(phi.data(), std::size_t(phi.size())) && (!J || finite(J->values.data(), J->values.size()))) return {};
   for (int row = 0; row < phi.size(); ++row) {
     if (!std::isfinite(phi[row])) return cat(nlp.rowName(row), " is not finite: ", phi[row]);
     if (!J) continue;

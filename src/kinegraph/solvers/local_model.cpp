@@ -77,6 +77,7 @@ LocalModel::LocalModel(const Nlp& nlp, std::vector<int> costs, std::vector<int> 
   fixed_.assign(n, false);
   factored_fixed_ = fixed_place_ = fixed_;
   within_reach_.reserve(std::size_t(m));
+  out_of_reach_.reserve(std::size_t(m));
   for (VectorXd* v : {&g_, &d_, &trial_, &r_, &s_, &Hd_, &trial_Hd_, &placed_, &placed_sum_}) v->setZero(n);
   linear_.setZero(m);
   trial_linear_.setZero(m);
@@ -173,24 +174,33 @@ void LocalModel::linearize(const VectorXd& d, const Problem& problem, VectorXd& 
 /// An inequality of which the multiplier is zero all over the box does not matter.
 void LocalModel::findWithinReach(const Problem& problem) {
   within_reach_.clear();
+  out_of_reach_.clear();
   for (int j = 0; j < int(constraints_.size()); ++j) {
     const double c = problem.phi[constraints_[j]];
     linear_[j] = trial_linear_[j] = c;
-    if (!equality_[j]) {
-      double most = c;
-      for (const Jacobian::Segment& segment : problem.J.row_segments(constraints_[j])) {
-        const double* J = problem.J.values.data() + segment.offset;
-        for (int i = 0; i < segment.width; ++i) {
-          const double slope = J[i];
-          if (slope != 0.) most += slope * (slope > 0. ? problem.high : problem.low)[segment.column + i];
-        }
-      }
-      if (problem.lambda[j] + problem.mu * most <= 0.) {
-        active_[j] = false;
-        continue;
+    if (equality_[j]) {
+      within_reach_.push_back(j);
+      continue;
+    }
+    double rise = 0.;  // the most that the row can grow in the box
+    bool depends = false;
+    for (const Jacobian::Segment& segment : problem.J.row_segments(constraints_[j])) {
+      const double* J = problem.J.values.data() + segment.offset;
+      int nonzero = 0;
+      for (int i = 0; i < segment.width; ++i) nonzero |= J[i] != 0.;
+      if (!nonzero) continue;
+      depends = true;
+      const double *low = problem.low.data() + segment.column, *high = problem.high.data() + segment.column;
+      for (int i = 0; i < segment.width; ++i) {
+        if (J[i] != 0.) rise += J[i] * (J[i] > 0. ? high[i] : low[i]);
       }
     }
-    within_reach_.push_back(j);
+    if (problem.lambda[j] + problem.mu * (c + rise) > 0.) {
+      within_reach_.push_back(j);
+    } else {
+      active_[j] = false;
+      if (depends) out_of_reach_.push_back(j);
+    }
   }
 }
 
@@ -307,13 +317,7 @@ const VectorXd& LocalModel::minimize(const Problem& problem) {
     }
     if (!accepted || (moved < 1e-10 && !reaches_bound)) break;  // where a bound is near, the next pass goes along it
   }
-  for (std::size_t j = 0, next = 0; j < constraints_.size(); ++j) {
-    if (next < within_reach_.size() && within_reach_[next] == int(j)) {
-      ++next;
-    } else {
-      linear_[Eigen::Index(j)] += problem.J.rowTimes(constraints_[j], d_);
-    }
-  }
+  for (int j : out_of_reach_) linear_[j] += problem.J.rowTimes(constraints_[j], d_);
   return d_;
 }
 

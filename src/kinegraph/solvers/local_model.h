@@ -71,7 +71,8 @@ class LocalModel {
   bool reordered_ = false;
   std::vector<Run> runs_;
   VectorXd placed_, placed_sum_;
-  std::vector<int> within_reach_;  ///< constraints that can matter in the box; the others keep their value
+  std::vector<int> within_reach_;  ///< constraints that can matter in the box
+  std::vector<int> out_of_reach_;  ///< those that cannot, and change with d all the same
   std::vector<bool> equality_, active_, factored_active_, fixed_, factored_fixed_, fixed_place_;
   SkylineMatrix H_, K_;
   VectorXd g_, d_, trial_, r_, s_, Hd_, trial_Hd_, linear_, trial_linear_;
