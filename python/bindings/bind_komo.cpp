@@ -188,7 +188,8 @@ void bindObjectives(nb::class_<PyKomo>& komo) {
              return addedFrame(k, k.addContactForce(times.list(), object, from, friction, mass));
            }, "times"_a, "obj"_a, "from_"_a, "frictionCone_mu"_a, "init_objMass"_a, "obj_com_frame"_a = "",
            "In these slices `from_` pushes `obj` where they touch, along the z axis of a frame on `obj` that is added: a copy of it is\n"
-           "returned. One dof per slice is the force, in units of the weight of init_objMass. FS.totalForce and FS.physics balance it.")
+           "returned. One dof per slice is the force, in units of the weight of init_objMass. FS.totalForce and FS.physics balance it,\n"
+           "about the object's own centre of mass; obj_com_frame is there for older scripts and is not used.")
       .def("addContact_WithPoaFrame", [](PyKomo& k, const Numbers& time, const std::string& object, const std::string& from, double friction,
                                          double mass, double distance) {
              return addedFrame(k, k.addFreeContactForce(time.list(), object, from, friction, mass, distance));
