@@ -20,11 +20,12 @@ bool isBetter(const SolverResult& a, const SolverResult& b) {
   return a.feasible ? a.f + a.sos < b.f + b.sos : a.violation < b.violation;
 }
 
-/// Runs `work` on another thread while this one watches. Exceptions of both are passed on, once the work has ended.
+/// Runs `work` on another thread while this one watches, every 20 ms and at the end. Exceptions of both are passed on, once the work has ended.
 void runWatched(const std::function<void()>& work, std::atomic<bool>& stop, const std::function<bool()>& watch) {
   auto running = std::async(std::launch::async, work);
   try {
-    while (running.wait_for(std::chrono::milliseconds(20)) != std::future_status::ready) {
+    for (bool runs = true; runs;) {
+      runs = running.wait_for(std::chrono::milliseconds(20)) != std::future_status::ready;
       if (watch && watch()) stop = true;
     }
   } catch (...) {
