@@ -53,26 +53,36 @@ void NlpSolver::clearTracing() {
   trace_errors_.clear();
 }
 
-/// Goes on to the least violation of the problem as it is stated, with sums.
-void NlpSolver::reduceViolation(SolverResult& result, const EvaluationHook& hook) {
-  RelaxedNlp least(*problem_, std::vector<bool>(problem_->types().size(), true));
+/// Goes on to the least violation of the problem as it is stated, with sums: that of the sums while all else holds, or else that
+/// of all constraints together.
+void NlpSolver::reduceViolation(SolverResult& result, const Separation& separation, const EvaluationHook& hook) {
+  const std::size_t rows = problem_->types().size();
+  std::vector<bool> sums(rows, false);
+  for (std::size_t i = 0; i < separation.row_of.size(); ++i) sums[std::size_t(separation.row_of[i])] = separation.is_term[i];
   SolverOptions brief = options;
   brief.verbose = 0;
   brief.stopEvals = kMostEvalsOfReduction;
-  VectorXd phi(Eigen::Index(problem_->types().size()));
+  VectorXd phi((Eigen::Index(rows)));
   const EvaluationHook relay = [&](const VectorXd& at, const VectorXd&) {
     problem_->evaluate(at, phi, nullptr);
     return hook(at, phi);
   };
-  const SolverResult found = solveAugmentedLagrangian(least, result.x, brief, {}, hook ? relay : EvaluationHook());
-  result.evals += found.evals;
-  VectorXd before(Eigen::Index(problem_->types().size())), after = before;
-  problem_->evaluate(result.x, before, nullptr);
-  problem_->evaluate(found.x, after, nullptr);
-  const double violation = largestViolation(problem_->types(), after);
-  if (violation >= largestViolation(problem_->types(), before)) return;
-  result.x = found.x;
-  result.message = cat("the constraints contradict each other here; least violation found ", violation);
+  const VectorXd end = result.x;
+  problem_->evaluate(end, phi, nullptr);
+  double least = largestViolation(problem_->types(), phi);
+  for (const std::vector<bool>& relaxed : {sums, std::vector<bool>(rows, true)}) {
+    RelaxedNlp problem(*problem_, relaxed);
+    const SolverResult found = solveAugmentedLagrangian(problem, end, brief, {}, hook ? relay : EvaluationHook());
+    result.evals += found.evals;
+    problem_->evaluate(found.x, phi, nullptr);
+    const double violation = largestViolation(problem_->types(), phi);
+    if (violation < least) {
+      least = violation;
+      result.x = found.x;
+      result.message = cat("the constraints contradict each other here; least violation found ", violation);
+    }
+    if (found.status == SolverStatus::cancelled) return;
+  }
 }
 
 SolverResult NlpSolver::solve(bool resample, Rng& rng, const EvaluationHook& hook) {
@@ -122,7 +132,7 @@ SolverResult NlpSolver::solve(bool resample, Rng& rng, const EvaluationHook& hoo
   }
   if (separation.problem) {
     VectorXd phi(rows);
-    if (result.status == SolverStatus::infeasible) reduceViolation(result, needs_watch ? seen : EvaluationHook());
+    if (result.status == SolverStatus::infeasible) reduceViolation(result, separation, needs_watch ? seen : EvaluationHook());
     problem_->evaluate(result.x, phi, nullptr);
     result.dual = separation.joinedDual(result.dual, rows);
     result.setSums(problem_->types(), phi, options.constraintTolerance());

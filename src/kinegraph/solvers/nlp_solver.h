@@ -42,7 +42,7 @@ class NlpSolver {
   VectorXd x, dual;  ///< empty until known
 
  private:
-  void reduceViolation(SolverResult& result, const EvaluationHook& hook);
+  void reduceViolation(SolverResult& result, const Separation& separation, const EvaluationHook& hook);
 
   std::shared_ptr<Nlp> problem_;
   bool tracing_x_ = false, tracing_errors_ = false, tracing_phi_ = false, tracing_jacobian_ = false;
