@@ -186,7 +186,7 @@ export class Stage {
   }
 
   private addLights(): void {
-    this.scene.add(new THREE.HemisphereLight(0xffffff, 0x8f919c, 1.35));
+    this.scene.add(new THREE.HemisphereLight(0xffffff, 0xa5a7b0, 1.6));
     this.sun.castShadow = true;
     this.sun.shadow.mapSize.set(2048, 2048);
     this.sun.shadow.radius = 5;
