@@ -36,6 +36,14 @@ class KomoNlp final : public Nlp {
     problem_.evaluate(*komo_, phi, J);
   }
 
+  /// Only joint values are linear in x.
+  bool mayBeQuadratic() const override {
+    for (const Komo::Objective& objective : problem_.objectives()) {
+      if (!(objective.feature == FeatureSymbol::qItself) && !(objective.feature == FeatureSymbol::jointLimits)) return false;
+    }
+    return true;
+  }
+
   /// Overlaps of pairs in place of their sum.
   Separation separation() override {
     if (separation_is_known_) return separation_;

@@ -9,6 +9,7 @@
 #include "kinegraph/base/text.h"
 #include "kinegraph/solvers/constrained_function.h"
 #include "kinegraph/solvers/local_model.h"
+#include "kinegraph/solvers/quadratic_step.h"
 #include "kinegraph/solvers/quasi_newton.h"
 
 namespace kinegraph {
@@ -24,7 +25,9 @@ class AugmentedLagrangian {
         constraints_(function_.constraints()), lower_(function_.lower()), upper_(function_.upper()), J_(nlp.makeJacobian()),
         trial_J_(J_), corrected_J_(J_), phi_(VectorXd::Zero(Eigen::Index(nlp.types().size()))), trial_phi_(phi_),
         lambda_(VectorXd::Zero(Eigen::Index(constraints_.size()))), next_lambda_(lambda_), tolerance_(options.constraintTolerance()) {
-    x_ = start_ = function_.clip(x0);
+    x_ = start_ = trial_ = corrected_ = gradient_ = function_.clip(x0);
+    corrected_phi_ = phi_;
+    low_ = high_ = gradient_;
   }
 
   SolverResult run(const VectorXd& dual) {
@@ -39,7 +42,7 @@ class AugmentedLagrangian {
     mu_ = weight_ * options_.muInit;
     if (nlp_.dimension() == 0) {
       stop(violationAt(phi_) <= tolerance_ ? SolverStatus::converged : SolverStatus::infeasible, "there is nothing to vary");
-    } else {
+    } else if (!solvedInOneStep()) {
       iterate();
     }
     if (status_ != SolverStatus::converged) {
@@ -50,6 +53,7 @@ class AugmentedLagrangian {
   }
 
  private:
+  bool solvedInOneStep();
   void iterate();
   void endRound(double vc, double step_size);
   bool correctTrial(double& value, double size, double shift, int passes);
@@ -177,6 +181,26 @@ class AugmentedLagrangian {
   std::string trouble_;  ///< why the last step was rejected; empty if it was not
 };
 
+/// Goes to the solution of the linearized problem, if that is the solution of the problem.
+bool AugmentedLagrangian::solvedInOneStep() {
+  if (options_.stopEvals < 2 || !nlp_.mayBeQuadratic()) return false;
+  std::optional<QuadraticStep> step = quadraticStep(function_, x_, phi_, J_);
+  if (!step && constraints_.empty()) {
+    setCosts();
+    if (learns_curvature_) return false;
+    low_ = lower_ - x_;
+    high_ = upper_ - x_;
+    step = {x_ + model_.minimize({phi_, J_, lambda_, 1., 0., low_, high_, 12}), {}};
+  }
+  if (!step || !evaluate(step->x, trial_phi_, trial_J_) || !describeNotFinite(nlp_, trial_phi_, &trial_J_).empty()) return false;
+  if (!isSolution(function_, step->x, trial_phi_, trial_J_, step->multipliers)) return false;
+  x_ = step->x;
+  phi_.swap(trial_phi_);
+  lambda_ = step->multipliers;
+  stop(SolverStatus::converged, "the problem is quadratic; one step solves it");
+  return true;
+}
+
 void AugmentedLagrangian::iterate() {
   const double first_nu = weight_ * options_.damping;
   double nu = first_nu, growth = 2., last_relative = 1.;
@@ -274,9 +298,10 @@ bool AugmentedLagrangian::correctTrial(double& value, double size, double shift,
     return true;
   }
   corrected_phi_ = phi_;
-  const VectorXd taken = trial_ - x_;
-  for (int row : constraints_) corrected_phi_[row] = trial_phi_[row] - J_.rowTimes(row, taken);
-  corrected_ = function_.clip(x_ + model_.minimize({corrected_phi_, J_, lambda_, mu_, shift, low_, high_, passes}));
+  corrected_ = trial_ - x_;
+  for (int row : constraints_) corrected_phi_[row] = trial_phi_[row] - J_.rowTimes(row, corrected_);
+  const VectorXd& d = model_.minimize({corrected_phi_, J_, lambda_, mu_, shift, low_, high_, passes});
+  corrected_ = (x_ + d).cwiseMax(lower_).cwiseMin(upper_);
   bool better = (corrected_ - trial_).lpNorm<Eigen::Infinity>() <= .5 * size;
   if (better) {
     if (!evaluate(corrected_, corrected_phi_, corrected_J_)) return false;
