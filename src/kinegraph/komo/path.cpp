@@ -6,6 +6,12 @@
 
 namespace kinegraph {
 
+namespace {
+
+constexpr std::size_t kUsualDofs = 256;
+
+}  // namespace
+
 std::vector<int> Komo::dofsOf(const std::vector<int>& frames, int slice) const {
   const Program& program = state(slice).program();
   std::vector<int> dofs;
@@ -55,16 +61,18 @@ void Komo::setVariables(const VectorXd& x) {
     for (int t = 0; t < slices_; ++t) setSlice(t, x.data() + t * program_->dofs);
     return;
   }
+  double usual[kUsualDofs];  // solvers call this in their loop, where no memory is requested
+  std::vector<double> many;
   for (std::size_t i = 0; i < states_.size(); ++i) {
-    VectorXd q = states_[i].q();
     const std::vector<int>& column = layout_.column[i];
+    if (column.size() > kUsualDofs) many.resize(column.size());
+    double* q = column.size() > kUsualDofs ? many.data() : usual;
     bool moves = false;
     for (std::size_t d = 0; d < column.size(); ++d) {
-      if (column[d] < 0) continue;
-      q[Eigen::Index(d)] = x[column[d]];
-      moves = true;
+      q[d] = column[d] < 0 ? states_[i].q()[Eigen::Index(d)] : x[column[d]];
+      moves = moves || column[d] >= 0;
     }
-    if (moves) states_[i].setJoints(q.data());
+    if (moves) states_[i].setJoints(q);
   }
 }
 
