@@ -175,7 +175,8 @@ void bindObjectives(nb::class_<PyKomo>& komo) {
            }, "times"_a, "newMode"_a, "frames"_a, "firstSwitch"_a = true,
            "From times[0] on, frames[1] hangs below frames[0]: SY.stable (a grasp), stableOn (on a box), stableOnX, stableOnY,\n"
            "stableYPhi, stableZero, dynamic (flies, or is pushed), dynamicOn (slides), dynamicTrans, quasiStatic or quasiStaticOn\n"
-           "(moves as far as contact forces push it). times[1]: when the next switch follows, or -1.")
+           "(moves as far as contact forces push it), magic or magicTrans (moves as it likes). times[1]: when the next switch follows,\n"
+           "or -1.")
       .def("addRigidSwitch", [](PyKomo& k, double time, const std::vector<std::string>& frames, bool no_jump) {
              if (frames.size() != 2) throw ValueError(cat("addRigidSwitch: frames are [parent, object], got ", frames.size()));
              k.addRigidSwitch(time, frames[0], frames[1], no_jump);
@@ -250,8 +251,6 @@ void bindKomo(nb::module_& m) {
            "The same as setConfig.")
       .def("setTiming", [](PyKomo& k, double phases, int slices, double duration, int order) { k.setTiming(phases, slices, duration, order); },
            "phases"_a, "slicesPerPhase"_a, "durationPerPhase"_a, "kOrder"_a, "The time grid; durations in s.")
-      .def("setSkeleton", [](PyKomo&, nb::args, nb::kwargs) { throw Error("setSkeleton: skeletons are not available; use addModeSwitch and addObjective"); },
-           "Not available.")
       .def("nlp", [](std::shared_ptr<PyKomo> k) { return makeNlp(std::move(k)); },
            "The problem for a solver. It keeps this object alive, which then holds the solution.")
       .def("optimize", optimize, "addInitializationNoise"_a = .01, "verbose"_a = 0, "Solves from the present path, moved by a little noise.")

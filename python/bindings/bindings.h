@@ -34,6 +34,7 @@ void bindBatch(nb::class_<PyConfig>& config);
 void bindNlp(nb::module_& m);
 void bindSolvers(nb::module_& m);
 void bindKomo(nb::module_& m);
+void bindSkeleton(nb::module_& m);
 void bindPlanning(nb::module_& m);
 void bindDynamics(nb::class_<PyConfig>& config);
 void bindFormats(nb::module_& m, nb::class_<PyConfig>& config, nb::class_<Frame>& frame);

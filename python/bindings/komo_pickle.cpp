@@ -12,7 +12,8 @@ namespace {
 
 nb::tuple toTuple(const Komo::Objective& o) {
   const nb::object feature = o.feature.symbol() ? nb::object(nb::int_(int(*o.feature.symbol()))) : functionOf(o.feature);
-  return nb::make_tuple(o.name, feature, o.frames, int(o.type), toNumpy(o.scale), toNumpy(o.target), o.order, o.times, o.from, o.to, o.time_integral);
+  return nb::make_tuple(o.name, feature, o.frames, int(o.type), toNumpy(o.scale), toNumpy(o.target), o.order, o.times, o.from, o.to, o.time_integral,
+                        o.without_gravity, o.damped);
 }
 
 /// An array of shape (rows, columns), rows or columns may be 0.
@@ -27,7 +28,7 @@ Komo::Objective toObjective(nb::handle state) {
   const FeatureSource feature = nb::isinstance<nb::int_>(t[1]) ? FeatureSource(FeatureSymbol(nb::cast<int>(t[1]))) : ownFeature(t[1]);
   return {nb::cast<std::string>(t[0]), feature, nb::cast<std::vector<std::string>>(t[2]), ObjectiveType(nb::cast<int>(t[3])),
           toMatrix(t[4]), nb::cast<Numbers>(t[5]).values, nb::cast<int>(t[6]), nb::cast<std::vector<double>>(t[7]),
-          nb::cast<int>(t[8]), nb::cast<int>(t[9]), nb::cast<bool>(t[10])};
+          nb::cast<int>(t[8]), nb::cast<int>(t[9]), nb::cast<bool>(t[10]), nb::cast<bool>(t[11]), nb::cast<bool>(t[12])};
 }
 
 nb::tuple komoState(const PyKomo& komo) {

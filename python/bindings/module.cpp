@@ -20,6 +20,7 @@ NB_MODULE(_core, m) {
   bindNlp(m);
   bindSolvers(m);
   bindKomo(m);
+  bindSkeleton(m);
   bindSolveMany(m);
   bindPlanning(m);
   m.def("parseText", [](const std::string& text, const std::string& name) { return toDict(kinegraph::parse(text, name)); },

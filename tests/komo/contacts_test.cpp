@@ -81,6 +81,56 @@ TEST(Contacts, WithoutAForceABodyFallsAndWithItsWeightItRests) {
   EXPECT_NEAR(residual(2, 0)[2], 9.81, 1e-9);  // the slice before it has no contact
 }
 
+namespace {
+
+/// A body without symmetry, in a Komo that asks for physics.
+std::shared_ptr<Komo> tumbling() {
+  Config config;
+  config.addText("world: {}\n body (world): { joint: free }");
+  config.getFrame("body").setMass(2., {.1, .2, .4});
+  auto komo = std::make_shared<Komo>(config, 3., 1, 2);
+  komo->addObjective({3.}, FeatureSymbol::physics, {"body"}, ObjectiveType::eq);
+  return komo;
+}
+
+}  // namespace
+
+TEST(Physics, ABodyThatTumblesFreelyFollowsEulersEquations) {
+  const auto komo = tumbling();
+  const Vector3d inertia(.1, .2, .4);
+  const double tau = 1e-3;
+  Vector3d w(1., 2., 3.);  // in the body
+  Quaterniond turn(.8, .2, -.4, .4);
+  turn.normalize();
+  constexpr int kSteps = 100;  // small ones, per slice
+  for (int t = 0; t < 3; ++t) {
+    VectorXd q = VectorXd::Zero(7);
+    q.tail(4) = Eigen::Vector4d(turn.w(), turn.x(), turn.y(), turn.z());
+    komo->setSlice(t, q.data());
+    for (int i = 0; i < kSteps; ++i) {
+      const double dt = tau / kSteps;
+      const auto acceleration = [&](const Vector3d& v) { return Vector3d(-v.cross(inertia.cwiseProduct(v)).cwiseQuotient(inertia)); };
+      const Vector3d middle = w + .5 * dt * acceleration(w);
+      turn = turn * Quaterniond(Eigen::AngleAxisd(middle.norm() * dt, middle.normalized()));
+      w += dt * acceleration(middle);
+    }
+  }
+  Residual residual = komo->residualIn(komo->objectives()[0], 2);
+  const State* states[] = {&komo->state(0), &komo->state(1), &komo->state(2)};
+  VectorXd y(6);
+  residual.eval(states, tau, y, nullptr);
+  EXPECT_LT(y.tail<3>().norm() / tau, 1e-3) << "rad/s^2; without the gyroscopic torque it would be above 10";
+}
+
+TEST(Physics, JacobiansWithGyroscopicTorquesAreThoseOfCentralDifferences) {
+  const auto komo = tumbling();
+  const auto nlp = makeNlp(komo);
+  for (int seed : {1, 2, 3}) {
+    const JacobianCheck check = checkJacobian(*nlp, nearStart(*komo, .2, seed));
+    EXPECT_LT(check.error, 1e-6) << nlp->rowName(check.row) << ", column " << check.column;
+  }
+}
+
 TEST(Contacts, MistakesAreExplained) {
   Komo komo(boxAndFinger(), 1., 1, 0);
   EXPECT_THROW(komo.addContactForce({}, "bix", "finger", .5, 1.), FrameNotFound);

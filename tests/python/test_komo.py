@@ -352,12 +352,8 @@ def test_reports_list_objectives_by_error(panda):
 
 def test_what_is_not_available_says_so(panda):
     komo = ry.KOMO(panda, 1, 1, 1, False)
-    for call in (
-        lambda: komo.addTimeOptimization(),
-        lambda: komo.setSkeleton([]),
-    ):
-        with pytest.raises(ry.Error, match="not available|durations are fixed"):
-            call()
+    with pytest.raises(ry.Error, match="durations are fixed"):
+        komo.addTimeOptimization()
     with pytest.raises(ry.Error, match="contact does not attach an object"):
         komo.addModeSwitch([1.0, -1.0], SY.contact, ["table", "l_gripper"])
     with pytest.raises(ry.FrameNotFound, match="zzz"):

@@ -57,7 +57,7 @@ void addWrenchJacobian(const std::vector<ContactForce>& contacts, const State& s
   }
 }
 
-/// The normal from b to a, and its Jacobian where `J` (empty: not wanted) has room for it.
+/// The normal from b to a, and its Jacobian in the dofs of the state (`J` null: not wanted).
 Vector3d normalOf(const State& state, int a, int b, double tau, RowMajor* J) {
   const Witness normal(Witness::Kind::normal, a, b);
   const State* states[] = {&state};
@@ -135,10 +135,41 @@ void subtractAccelerations(const std::vector<ContactForce>& contacts, const Stat
 }  // namespace
 
 NewtonEuler::NewtonEuler(int frame, double gravity, const Matrix3d& inertia, std::vector<ContactForce> contacts)
-    : frame_(frame), flight_(frame, gravity), inverse_inertia_(inverseInertia(inertia)), contacts_(std::move(contacts)) {}
+    : frame_(frame), flight_(frame, gravity), angular_(frame), inertia_(inertia), inverse_inertia_(inverseInertia(inertia)),
+      contacts_(std::move(contacts)) {}
+
+/// y += I_W^-1 (w x I_W w) tau. With w_B = R^T w it is R h(w_B) tau, h(w_B) = I^-1 (w_B x I w_B).
+void NewtonEuler::addGyroscopicTerm(std::span<const State* const> states, double tau, Eigen::Ref<VectorXd> y, JacobianRows* J) const {
+  if (inertia_.isZero()) return;
+  Vector3d before, after;
+  RowMajor J_before, J_after;
+  const Eigen::Index n = J ? J->cols() / 3 : 0;
+  if (!J) {
+    angular_.eval(states.first(2), tau, before, nullptr);
+    angular_.eval(states.last(2), tau, after, nullptr);
+  } else {
+    J_before.setZero(3, 2 * n);
+    J_after.setZero(3, 2 * n);
+    JacobianRows rows_before(J_before), rows_after(J_after);
+    angular_.eval(states.first(2), tau, before, &rows_before);
+    angular_.eval(states.last(2), tau, after, &rows_after);
+  }
+  const Matrix3d R = states[1]->pose(frame_).R;
+  const Vector3d w = .5 * (before + after), w_B = R.transpose() * w;
+  const Vector3d turned = R * inverse_inertia_ * w_B.cross(inertia_ * w_B);
+  y.tail<3>() += tau * turned;
+  if (!J) return;
+  const Matrix3d slope = R * inverse_inertia_ * (skew(w_B) * inertia_ - skew(inertia_ * w_B)) * R.transpose();
+  J->block(3, 0, 3, 2 * n) += .5 * tau * slope * J_before;
+  J->block(3, n, 3, 2 * n) += .5 * tau * slope * J_after;
+  Factor none = Factor::Zero(6, 3), by_turning = none;
+  by_turning.bottomRows(3) = tau * (slope * skew(w) - skew(turned));
+  states[1]->addJacobian(frame_, states[1]->position(frame_), none, by_turning, J->middleCols(n, n));
+}
 
 void NewtonEuler::eval(std::span<const State* const> states, double tau, Eigen::Ref<VectorXd> y, JacobianRows* J) const {
   flight_.eval(states, tau, y, J);
+  addGyroscopicTerm(states, tau, y, J);
   if (!J) return subtractAccelerations(contacts_, *states[1], frame_, inverse_inertia_, tau, y, nullptr);
   const Eigen::Index n = J->cols() / 3;
   JacobianRows middle = J->middleCols(n, n);
@@ -181,7 +212,7 @@ void TangentialForce::eval(std::span<const State* const> states, double tau, Eig
     y += f - n * n.dot(f);
     if (!J) continue;
     contact.addJacobian(state, on_a * (Matrix3d::Identity() - n * n.transpose()), *J);
-    *J -= (n.dot(f) * Matrix3d::Identity() + n * f.transpose()) * Jn;
+    J->leftCols(Jn.cols()) -= (n.dot(f) * Matrix3d::Identity() + n * f.transpose()) * Jn;
   }
 }
 
@@ -195,7 +226,7 @@ void FrictionCone::eval(std::span<const State* const> states, double tau, Eigen:
     const Vector3d z = state.pose(contact_.point).R.col(2);
     y[0] = std::cos(std::atan(friction_)) - n.dot(z);
     if (!J) return;
-    *J -= z.transpose() * Jn;
+    J->leftCols(Jn.cols()) -= z.transpose() * Jn;
     const Eigen::RowVector3d none = Eigen::RowVector3d::Zero(), turned = n.transpose() * skew(z);
     state.addJacobian(contact_.point, state.position(contact_.point), none, turned, *J);
     return;
@@ -209,13 +240,13 @@ void FrictionCone::eval(std::span<const State* const> states, double tau, Eigen:
   A << -n.transpose(), 2. * f.transpose() - factor * n.transpose();
   B << -f.transpose(), -factor * f.transpose();
   contact_.addJacobian(state, A / contact_.unit, *J);
-  *J += B * Jn;
+  J->leftCols(Jn.cols()) += B * Jn;
 }
 
 void NormalsOppose::eval(std::span<const State* const> states, double tau, Eigen::Ref<VectorXd> y, JacobianRows* J) const {
   RowMajor Ja, Jb;
   y = normalOf(*states[0], a_, point_, tau, J ? &Ja : nullptr) + normalOf(*states[0], b_, point_, tau, J ? &Jb : nullptr);
-  if (J) *J += Ja + Jb;
+  if (J) J->leftCols(Ja.cols()) += Ja + Jb;
 }
 
 void NormalAlignment::eval(std::span<const State* const> states, double tau, Eigen::Ref<VectorXd> y, JacobianRows* J) const {
@@ -224,7 +255,7 @@ void NormalAlignment::eval(std::span<const State* const> states, double tau, Eig
   const Vector3d n = normalOf(state, body_, point_, tau, J ? &Jn : nullptr), z = state.pose(point_).R.col(2);
   y = z - sign_ * n;
   if (!J) return;
-  *J -= sign_ * Jn;
+  J->leftCols(Jn.cols()) -= sign_ * Jn;
   state.addJacobian(point_, state.position(point_), Factor(Factor::Zero(3, 3)), Factor(-skew(z)), *J);
 }
 

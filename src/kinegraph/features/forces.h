@@ -40,8 +40,9 @@ class TotalForce final : public Feature {
 
 /// Newton's and Euler's equations over one step, with the contact forces F and torques T (about the centre of mass) of the
 /// slice in the middle (m/s and rad/s):
-///     y = (v_t - v_{t-1} + (0, 0, g) tau - F tau / m,  w_t - w_{t-1} - R I^-1 R^T T tau)      6 rows
-/// Gyroscopic torques are left out. A body without a mass counts as 1 kg, without an inertia as 0.1 kg m^2.
+///     y = (v_t - v_{t-1} + (0, 0, g) tau - F tau / m,  w_t - w_{t-1} - I_W^-1 (T - w x I_W w) tau)      6 rows
+/// with I_W = R I R^T in the middle slice, and w the mean of both angular velocities. A body without a mass counts as 1 kg, without
+/// an inertia as 0.1 kg m^2.
 class NewtonEuler final : public Feature {
  public:
   NewtonEuler(int frame, double gravity, const Matrix3d& inertia, std::vector<ContactForce> contacts);
@@ -51,9 +52,12 @@ class NewtonEuler final : public Feature {
   void eval(std::span<const State* const> states, double tau, Eigen::Ref<VectorXd> y, JacobianRows* J) const override;
 
  private:
+  void addGyroscopicTerm(std::span<const State* const> states, double tau, Eigen::Ref<VectorXd> y, JacobianRows* J) const;
+
   int frame_;
   FreeFlight flight_;
-  Matrix3d inverse_inertia_;
+  AngularVelocity angular_;
+  Matrix3d inertia_, inverse_inertia_;
   std::vector<ContactForce> contacts_;
 };
 

@@ -25,13 +25,18 @@ std::pair<Vector3d, Vector3d> nearestPoint(const State& state, int object, int o
 
 /// A hidden frame with a joint in the slices [from, to], whose dofs are a force. Returns its id.
 int Komo::addForceDofs(const std::string& name, int from, int to, bool is_free) {
-  const int id = addHiddenFrame(name), joint = next_joint_++;
   Attachment attachment;
   attachment.type = is_free ? JointType::trans3 : JointType::transZ;
   attachment.stable = false;
   attachment.uniform = true;
   attachment.lower = VectorXd::Constant(is_free ? 3 : 1, is_free ? -kLargestForce : kLeastForce);
   attachment.upper = VectorXd::Constant(is_free ? 3 : 1, kLargestForce);
+  return addDofs(name, from, to, attachment);
+}
+
+/// A hidden frame with a joint to the world in the slices [from, to]. Returns its id.
+int Komo::addDofs(const std::string& name, int from, int to, const Attachment& attachment) {
+  const int id = addHiddenFrame(name), joint = next_joint_++;
   std::map<int, int> changed;  // old mode -> the mode that takes its place
   for (int t = from; t <= to; ++t) {
     int& mode_of_slice = mode_of_[std::size_t(t + order_)];
@@ -119,8 +124,8 @@ std::string Komo::addFreeContactForce(const std::vector<double>& times, const st
 
 std::unique_ptr<Feature> Komo::physicsOf(int frame, const Objective& objective) const {
   const double gravity = objective.without_gravity ? 0. : -kGravity.z();
-  if (contacts_.empty() && !objective.damped) return std::make_unique<FreeFlight>(frame, gravity);
   const bool given = frame < int(base_->frames().size()) && base_->frames()[frame]->inertia;
+  if (contacts_.empty() && !given && !objective.damped) return std::make_unique<FreeFlight>(frame, gravity);
   const Matrix3d inertia = given ? base_->frames()[frame]->inertia->matrix : Matrix3d(Matrix3d::Zero());
   if (objective.damped) return std::make_unique<DampedMotion>(frame, gravity, inertia, contacts_);
   return std::make_unique<NewtonEuler>(frame, gravity, inertia, contacts_);

@@ -99,7 +99,8 @@ class Komo {
   // --- changes of the structure along the path ---------------------------------------------------------------------
 
   /// From time `times[0]` on, `frames[1]` hangs below `frames[0]` by a joint that `mode` says. Adds what keeps the motion
-  /// continuous there (if `first`) and at times[1], where a next switch takes over; negative: it holds to the end.
+  /// continuous there (if `first`) and at times[1], where a next switch takes over; negative: it holds to the end. Modes in which
+  /// an object moves by itself take it alone, too.
   void addModeSwitch(const std::vector<double>& times, SwitchMode mode, const std::vector<std::string>& frames, bool first = true);
 
   /// From `time` on, `object` sits at `parent`, without a joint. `no_jump`: it does not jump there.
@@ -120,6 +121,18 @@ class Komo {
   /// The same with a force of any direction in the cone, three dofs per slice. The point starts `distance` off the object, m.
   std::string addFreeContactForce(const std::vector<double>& times, const std::string& object, const std::string& onto, double friction,
                                   double mass, double distance);
+
+  /// What a contact that moves along both surfaces does to the bodies.
+  enum class Exchange {
+    slide,          ///< they touch; the force is along the normal
+    stick,          ///< they touch and do not slide; at kOrder 0 the force is within the cone of friction (0.5)
+    complementary,  ///< they do not overlap; the force is along the normal where they touch, and zero elsewhere
+    bounce,         ///< they touch in the first of the slices and fly apart with 0.9 of the speed; kOrder 2
+  };
+
+  /// In the slices that `times` selects, `object` and `onto` may push each other: six more dofs per slice, the point where they
+  /// do and the force on `object` there. Adds what the kind demands, and small costs on both. Returns the name of the point.
+  std::string addExchange(const std::vector<double>& times, const std::string& object, const std::string& onto, Exchange kind);
 
   std::vector<Interaction> interactions() const;
 
@@ -204,6 +217,7 @@ class Komo {
   std::string addContact(const std::vector<double>& times, const std::string& object, const std::string& onto, double friction,
                          double mass, double distance, bool is_free);
   int addForceDofs(const std::string& name, int from, int to, bool is_free);
+  int addDofs(const std::string& name, int from, int to, const Attachment& attachment);
   std::unique_ptr<Feature> physicsOf(int frame, const Objective& objective) const;
   void addPhysics(SwitchMode mode, const std::string& object, int from, int to);
   int addHiddenFrame(const std::string& name);

@@ -49,7 +49,8 @@ double extent(const Frame& frame) {
   return isRound(type) ? 2. * size[0] : *std::max_element(size.begin(), size.end());
 }
 
-/// Extent of a frame's shape along its own z axis, m; 0 without one.
+}  // namespace
+
 double height(const Frame& frame) {
   const std::vector<double> size = frame.getSize();
   switch (frame.getShapeType()) {
@@ -62,6 +63,8 @@ double height(const Frame& frame) {
     default: return 0.;
   }
 }
+
+namespace {
 
 /// The pose of a joint on the face of `box` along an axis, for an object of that height; its z axis points outwards.
 Pose faceBase(const std::vector<double>& box, int axis, double object_height) {
@@ -85,6 +88,15 @@ void limitFreeJoint(Attachment& attachment, const Frame& parent, const Frame* ob
 void limitSliding(Attachment& attachment, double half_x, double half_y) {
   attachment.upper = Vector3d(half_x, half_y, 2. * std::numbers::pi);
   attachment.lower = -attachment.upper;
+}
+
+bool isAttachment(SwitchMode mode) {
+  using M = SwitchMode;
+  switch (mode) {
+    case M::stable: case M::stableOn: case M::stableOnX: case M::stableOnY: case M::stableYPhi: case M::stableZero: case M::dynamic:
+    case M::dynamicOn: case M::dynamicTrans: case M::quasiStatic: case M::quasiStaticOn: case M::magic: case M::magicTrans: return true;
+    default: return false;
+  }
 }
 
 Attachment attachmentOf(SwitchMode mode, const Frame& parent, const Frame& object) {
@@ -143,9 +155,23 @@ Attachment attachmentOf(SwitchMode mode, const Frame& parent, const Frame& objec
       a.base = faceBase(box, 2, height(object));
       if (mode == M::quasiStaticOn) limitSliding(a, .5 * box[0], .5 * box[1]);
       return a;
+    case M::magic:
+    case M::magicTrans:
+      a.type = mode == M::magic ? JointType::free : JointType::transXY;
+      a.stable = false;
+      a.starts_here = true;
+      a.zero_home = false;
+      if (mode == M::magicTrans) {  // it keeps its orientation and its height
+        const Pose relative = parent.getPose().inverse() * object.getPose();
+        a.base = Pose();
+        a.base->q = relative.q;
+        a.base->p = relative.p - relative.q * Vector3d((relative.q.inverse() * relative.p).cwiseProduct(Vector3d(1., 1., 0.)));
+      }
+      return a;
     default:
       throw ValueError(cat("addModeSwitch: ", switchModeName(mode), " does not attach an object; available are stable, stableOn, "
-                           "stableOnX, stableOnY, stableYPhi, stableZero, dynamic, dynamicOn, dynamicTrans, quasiStatic and quasiStaticOn"));
+                           "stableOnX, stableOnY, stableYPhi, stableZero, dynamic, dynamicOn, dynamicTrans, quasiStatic, quasiStaticOn, "
+                           "magic and magicTrans; a skeleton has them all"));
   }
 }
 

@@ -33,6 +33,12 @@ struct Attachment {
   std::optional<Pose> base;   ///< of the joint in the parent frame
 };
 
+/// Is it a mode in which an object hangs below another frame? Others are conditions and contacts.
+bool isAttachment(SwitchMode mode);
+
+/// Extent of a frame's shape along its own z axis, m; 0 without one.
+double height(const Frame& frame);
+
 /// The attachment of `object` to `parent` in a mode. Throws ValueError for modes that are not attachments and for parents
 /// without the box that the mode needs.
 Attachment attachmentOf(SwitchMode mode, const Frame& parent, const Frame& object);

@@ -70,13 +70,19 @@ void Komo::addContinuity(FeatureSymbol feature, const std::vector<std::string>& 
   add({featureInfo(feature).name, feature, frames, ObjectiveType::eq, MatrixXd::Constant(1, 1, scale), {}, order, {time}, 0, 0}, 0, 0);
 }
 
-void Komo::addModeSwitch(const std::vector<double>& times, SwitchMode mode, const std::vector<std::string>& frames, bool first) {
+void Komo::addModeSwitch(const std::vector<double>& times, SwitchMode mode, const std::vector<std::string>& given_frames, bool first) {
   requireBuilt("addModeSwitch");
+  std::vector<std::string> frames = given_frames;
+  using M = SwitchMode;
+  const bool moves_alone = mode == M::dynamic || mode == M::dynamicTrans || mode == M::quasiStatic || mode == M::magic;
+  if (frames.size() == 1 && moves_alone) frames.insert(frames.begin(), program_->frame_name.front());
   if (times.empty() || times.size() > 2 || !(times[0] >= 0.)) {
     throw ValueError("addModeSwitch: times is [from, to], both phase times; to -1 where the mode holds to the end");
   }
   const bool ends = times.size() == 2 && times[1] >= 0.;
-  if (frames.size() != 2) throw ValueError(cat("addModeSwitch: frames are [parent, object], got ", frames.size()));
+  if (frames.size() != 2) {
+    throw ValueError(cat("addModeSwitch: frames are [parent, object]", moves_alone ? " or [object]" : "", ", got ", frames.size()));
+  }
   const std::string &parent = frames[0], &object = frames[1];
   requireFrame(state(-order_).program(), parent, "addModeSwitch");
   requireFrame(state(-order_).program(), object, "addModeSwitch");
@@ -89,7 +95,8 @@ void Komo::addModeSwitch(const std::vector<double>& times, SwitchMode mode, cons
   if (ends && to < from) throw ValueError(cat("addModeSwitch: times [", times[0], ", ", times[1], "] end before they begin"));
   const bool dynamic = mode == SwitchMode::dynamic || mode == SwitchMode::dynamicOn || mode == SwitchMode::dynamicTrans ||
                        mode == SwitchMode::quasiStatic || mode == SwitchMode::quasiStaticOn;
-  if (first && from >= 0 && order_ < 1) {
+  const bool magic = mode == SwitchMode::magic || mode == SwitchMode::magicTrans;  // nothing is asked of the motion
+  if (first && from >= 0 && order_ < 1 && !magic) {
     throw ValueError("addModeSwitch: that the object does not jump is about velocities; it needs a KOMO with kOrder 1 or more, or firstSwitch=False");
   }
   Mode& before = *modes_[mode_of_[std::max(from - 1, -order_) + order_]];
@@ -98,6 +105,7 @@ void Komo::addModeSwitch(const std::vector<double>& times, SwitchMode mode, cons
   std::string held_by;  // where the object was in a stable mode until now
   if (const auto added = before.added.find(root.id); added != before.added.end() && added->second.stable) held_by = added->second.parent;
   switchFrom(from, parent, object, attachmentOf(mode, before.config.getFrame(parent), before.config.getFrame(object)));
+  if (magic) return;
   if (first) {
     const double scale = dynamic ? 1e2 : 1e1;
     if (held_by.empty()) {

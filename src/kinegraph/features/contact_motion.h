@@ -1,0 +1,89 @@
+#pragma once
+
+#include "kinegraph/features/forces.h"
+
+namespace kinegraph {
+
+/// The part of a contact force that pulls its two bodies together, n the normal from `onto` to `object`, in units of the force:
+///     y = -n^T f / unit      1 row; at most 0 where the bodies push each other away
+class PullingForce final : public Feature {
+ public:
+  explicit PullingForce(const ContactForce& contact) : contact_(contact) {}
+
+  int rows() const override { return 1; }
+  void eval(std::span<const State* const> states, double tau, Eigen::Ref<VectorXd> y, JacobianRows* J) const override;
+
+ private:
+  ContactForce contact_;
+};
+
+/// A contact force, N, in the world: y = f      3 rows; zero where there is none.
+class ForceValue final : public Feature {
+ public:
+  explicit ForceValue(const ContactForce& contact) : contact_(contact) {}
+
+  int rows() const override { return 3; }
+  void eval(std::span<const State* const> states, double tau, Eigen::Ref<VectorXd> y, JacobianRows* J) const override;
+
+ private:
+  ContactForce contact_;
+};
+
+/// Velocity of `object` less that of `onto` at the point of contact p, over the step before (m/s): with the bodies' origins o and
+/// angular velocities w,
+///     y = v_object - v_onto,  v_b = (o_b(t) - o_b(t-1)) / tau + w_b x (p - o_b(t))      3 rows; zero where they stick to each other
+class SlidingVelocity final : public Feature {
+ public:
+  explicit SlidingVelocity(const ContactForce& contact) : contact_(contact) {}
+
+  int rows() const override { return 3; }
+  int order() const override { return 1; }
+  void eval(std::span<const State* const> states, double tau, Eigen::Ref<VectorXd> y, JacobianRows* J) const override;
+
+ private:
+  ContactForce contact_;
+};
+
+/// Newton's law of impact at the point of contact in the middle one of three slices, v the velocities of `object` relative to
+/// `onto` before and after it, n the normal (m/s):
+///     y = n^T (v_after + elasticity v_before)      1 row
+class ElasticBounce final : public Feature {
+ public:
+  ElasticBounce(const ContactForce& contact, double elasticity) : contact_(contact), elasticity_(elasticity) {}
+
+  int rows() const override { return 1; }
+  int order() const override { return 2; }
+  void eval(std::span<const State* const> states, double tau, Eigen::Ref<VectorXd> y, JacobianRows* J) const override;
+
+ private:
+  ContactForce contact_;
+  double elasticity_;
+};
+
+/// Zero where bodies that are apart do not push each other, with their signed distance d: y = d n^T f / unit      1 row, m
+class ForceTimesDistance final : public Feature {
+ public:
+  explicit ForceTimesDistance(const ContactForce& contact) : contact_(contact) {}
+
+  int rows() const override { return 1; }
+  void eval(std::span<const State* const> states, double tau, Eigen::Ref<VectorXd> y, JacobianRows* J) const override;
+
+ private:
+  ContactForce contact_;
+};
+
+/// Zero where bodies that push each other do not come apart, v as in SlidingVelocity:
+///     y = (n^T v) (n^T f) / unit      1 row, m/s
+class ForceTimesVelocity final : public Feature {
+ public:
+  explicit ForceTimesVelocity(const ContactForce& contact) : contact_(contact) {}
+
+  int rows() const override { return 1; }
+  int order() const override { return 1; }
+  void eval(std::span<const State* const> states, double tau, Eigen::Ref<VectorXd> y, JacobianRows* J) const override;
+
+ private:
+  ContactForce contact_;
+};
+
+}  // namespace kinegraph
