@@ -222,6 +222,8 @@ void bindPath(nb::class_<PyKomo>& komo) {
       .def("getForceInteractions", forceInteractions,
            "Contact forces, a dict per force and slice: `from` pushes `onto` at `poa` with `force` (N); all in the world.")
       .def("initWithConstant", [](PyKomo& k, const Numbers& q) { k.setConstantPath(q.values); }, "q"_a, "Starts with q in all slices.")
+      .def("setConfigurations", [](PyKomo& k, const PyConfig& config) { k.setConstantPath(config.getJointState()); }, "config"_a,
+           "Starts with the joint state of a configuration in all slices (older scripts).")
       .def("initWithPath", [](PyKomo& k, const Numbers& q) { k.setPath(q.matrix()); }, "q"_a, "Starts with a path (T, n).")
       .def("initWithWaypoints", initWithWaypoints, "waypoints"_a, "waypointSlicesPerPhase"_a = 1, "interpolate"_a = false,
            "qHomeInterpolate"_a = 0., "verbose"_a = -1, "Starts with waypoint i at phase time (i+1)/waypointSlicesPerPhase. Returns their slices.")

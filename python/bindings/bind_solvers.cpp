@@ -4,6 +4,7 @@
 #include <nanobind/stl/vector.h>
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <variant>
 
@@ -40,12 +41,26 @@ const std::vector<std::pair<std::string, OptionField>>& optionFields() {
   return fields;
 }
 
+/// Numbers such as 1e3 and 1.0 count as whole ones, 0 and 1 as False and True.
+template <class T>
+T optionValue(const std::string& name, nb::handle value) {
+  T out{};
+  if (nb::try_cast(value, out)) return out;
+  double number = 0.;
+  constexpr double kLargest = std::is_same_v<T, bool> ? 1. : 1e9;
+  const bool is_whole = nb::try_cast(value, number) && number == std::floor(number) && std::abs(number) <= kLargest;
+  if (is_whole && !std::is_same_v<T, double>) return T(int(number));
+  const char* expected = std::is_same_v<T, bool> ? "True or False" : std::is_same_v<T, double> ? "a number" :
+                         std::is_same_v<T, int> ? "a whole number" : "one of OptMethod";
+  throw ValueError(cat("solver option ", name, " is ", nb::cast<std::string>(nb::repr(value)), "; expected ", expected));
+}
+
 void setOption(SolverOptions& options, const std::string& name, nb::handle value) {
   std::vector<std::string> names;
   for (const auto& [known, field] : optionFields()) {
     names.push_back(known);
     if (known != name) continue;
-    std::visit([&](auto member) { options.*member = nb::cast<std::decay_t<decltype(options.*member)>>(value); }, field);
+    std::visit([&](auto member) { options.*member = optionValue<std::decay_t<decltype(options.*member)>>(name, value); }, field);
     return;
   }
   for (const char* old : {"stepInit", "stepMin", "stopLineSteps", "stopTinySteps"}) {

@@ -221,3 +221,14 @@ def test_traces_and_counts_include_the_way_to_the_least_violation(panda):
     ret = s.solve()
     assert ret.status.name == "infeasible"
     assert len(s.getTrace_x()) == len(s.getTrace_errs()) == ret.evals
+
+
+def test_options_of_another_type_are_taken_or_explained():
+    s = solver(Free()).setOptions(stopEvals=1e3, boundedNewton=1)
+    assert s.getOptions().dict()["stopEvals"] == 1000 and s.getOptions().dict()["boundedNewton"] is True
+    with pytest.raises(ry.ArgumentError, match="stopEvals is 2.5; expected a whole number"):
+        s.setOptions(stopEvals=2.5)
+    with pytest.raises(ry.ArgumentError, match="boundedNewton is 2; expected True or False"):
+        s.setOptions(boundedNewton=2)
+    with pytest.raises(ry.ArgumentError, match="damping is 'high'; expected a number"):
+        s.setOptions(damping="high")
