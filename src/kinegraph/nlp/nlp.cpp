@@ -38,6 +38,16 @@ MatrixXd Jacobian::toDense() const {
   return dense;
 }
 
+bool Jacobian::isZeroRow(int row) const {
+  for (const Segment& segment : row_segments(row)) {
+    const double* v = values.data() + segment.offset;
+    for (int i = 0; i < segment.width; ++i) {
+      if (v[i] != 0.) return false;
+    }
+  }
+  return true;
+}
+
 double Jacobian::rowTimes(int row, const VectorXd& x) const {
   double sum = 0.;
   for (const Segment& segment : row_segments(row)) {
