@@ -38,16 +38,6 @@ MatrixXd Jacobian::toDense() const {
   return dense;
 }
 
-bool Jacobian::isZeroRow(int row) const {
-  for (const Segment& segment : row_segments(row)) {
-    const double* v = values.data() + segment.offset;
-    for (int i = 0; i < segment.width; ++i) {
-      if (v[i] != 0.) return false;
-    }
-  }
-  return true;
-}
-
 double Jacobian::rowTimes(int row, const VectorXd& x) const {
   double sum = 0.;
   for (const Segment& segment : row_segments(row)) {
@@ -132,14 +122,8 @@ double largestViolation(const std::vector<ObjectiveType>& types, const VectorXd&
 }
 
 std::string describeNotFinite(const Nlp& nlp, const VectorXd& phi, const Jacobian* J) {
-  const auto finite = [](const double* values, std::size_t count) {
-    double sums[4] = {};  // of products with 0, which are not numbers if a value is not finite
-    std::size_t i = 0;
-    for (; i + 4 <= count; i += 4) {
-      for (int k = 0; k < 4; ++k) sums[k] += 0. * values[i + std::size_t(k)];
-    }
-    for (; i < count; ++i) sums[0] += 0. * values[i];
-    return sums[0] + sums[1] + sums[2] + sums[3] == 0.;
+  const auto finite = [](const double* values, std::size_t count) {  // products with 0 are not numbers if a value is not finite
+    return (0. * Eigen::Map<const VectorXd>(values, Eigen::Index(count)).array()).sum() == 0.;
   };
   if (finite(phi.data(), std::size_t(phi.size())) && (!J || finite(J->values.data(), J->values.size()))) return {};
   for (int row = 0; row < phi.size(); ++row) {

@@ -58,6 +58,7 @@ class AugmentedLagrangian {
  private:
   void iterate();
   void endRound(double vc, double step_size);
+  void updateMultipliers(double step_size);
   bool correctTrial(double& value, double size, double shift, int passes);
   bool creeps(double vc);
   bool locallyInfeasible();
@@ -263,6 +264,7 @@ void AugmentedLagrangian::iterate() {
       const bool was_refused = growth > 2.;  // a step with less damping, from this point
       nu = std::max(1e-6, nu * std::max(was_refused || correction_.helped ? .5 : .1, 1. - std::pow(2. * std::min(ratio, 1.2) - 1., 3)));
       growth = 2.;
+      if (ratio > .7 && nu <= .1 * h && optimalityError() <= .25 * vc) updateMultipliers(size);  // close: no need to solve it first
       last_relative = (before - after) / std::max(std::abs(before), .01);
       learnCurvature(trial_);
       adaptRadius(size, ratio > .75, false);
@@ -340,15 +342,19 @@ void AugmentedLagrangian::endRound(double vc, double step_size) {
       if (++failed_tests_ == 6) return stop(SolverStatus::stalled, cat("the violation no longer falls; it is ", vc));
     }
   }
-  if (step_size <= .5 * radius_) {
-    findMultipliers(model_.linearized(), next_lambda_);
-    lambda_ = next_lambda_;
-    if (options_.lambdaMax > 0.) lambda_ = lambda_.cwiseMin(options_.lambdaMax).cwiseMax(-options_.lambdaMax);
-  }
+  updateMultipliers(step_size);
   if (vc > .25 * last_violation_ && vc > tolerance_) mu_ = std::min(weight_ * options_.muMax, options_.muInc * mu_);
   last_violation_ = std::min(last_violation_, vc);
   omega_ = std::max(.3 * omega_, options_.stopTolerance);
   if (vc <= tolerance_) rel_ = std::max(.5 * rel_, 1e-6);
+}
+
+/// To those of the model, unless the box kept its step short.
+void AugmentedLagrangian::updateMultipliers(double step_size) {
+  if (step_size > .5 * radius_) return;
+  findMultipliers(model_.linearized(), next_lambda_);
+  lambda_.swap(next_lambda_);
+  if (options_.lambdaMax > 0.) lambda_ = lambda_.cwiseMin(options_.lambdaMax).cwiseMax(-options_.lambdaMax);
 }
 
 /// True if no step reduces the linearized violation by a tenth.

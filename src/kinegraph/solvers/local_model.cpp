@@ -141,6 +141,7 @@ void LocalModel::solve(VectorXd& x) {
 
 void LocalModel::setJacobian(const Jacobian& J) {
   J_ = &J;
+  is_new_ = true;
   inequalities_.clear();
   for (int j = 0; j < int(constraints_.size()); ++j) {
     if (!is_equality_[j] && !J.isZeroRow(constraints_[j])) inequalities_.push_back(j);
@@ -148,6 +149,7 @@ void LocalModel::setJacobian(const Jacobian& J) {
 }
 
 bool LocalModel::setCosts(Nlp& nlp, const VectorXd& x, const VectorXd& phi, const MatrixXd* curvature) {
+  is_new_ = true;
   if (!knows_linear_costs_) {
     H_linear_.setZero();
     for (int row : linear_costs_) addRow(H_linear_, row, 2.);
@@ -175,6 +177,7 @@ bool LocalModel::setCosts(Nlp& nlp, const VectorXd& x, const VectorXd& phi, cons
 }
 
 void LocalModel::setNoCosts(double weight) {
+  is_new_ = true;
   g_.setZero();
   H_.setZero();
   H_.addToDiagonal(weight);
@@ -199,7 +202,6 @@ void LocalModel::linearize(const VectorXd& d, const Problem& problem, VectorXd& 
 void LocalModel::findWithinReach(const Problem& problem) {
   within_reach_.assign(equalities_.begin(), equalities_.end());
   out_of_reach_.clear();
-  linear_ = trial_linear_ = problem.c;
   for (int j : inequalities_) {
     double rise = 0.;  // the most that the row can grow in the box
     for (const Jacobian::Segment& segment : J_->row_segments(constraints_[j])) {
@@ -209,7 +211,12 @@ void LocalModel::findWithinReach(const Problem& problem) {
         if (J[i] != 0.) rise += J[i] * (J[i] > 0. ? high[i] : low[i]);
       }
     }
-    (problem.lambda[j] + problem.mu * (problem.c[j] + rise) > 0. ? within_reach_ : out_of_reach_).push_back(j);
+    if (problem.lambda[j] + problem.mu * (problem.c[j] + rise) > 0.) {
+      within_reach_.push_back(j);
+    } else {
+      out_of_reach_.push_back(j);
+      active_[j] = false;
+    }
   }
 }
 
@@ -249,11 +256,14 @@ bool LocalModel::factorize(const Problem& problem) {
 bool LocalModel::newtonStep(const Problem& problem) {
   for (bool pushed_out = true; pushed_out;) {
     const auto differs = [&](int j) { return active_[j] != factored_active_[j]; };
-    if (!factored_ || fixed_ != factored_fixed_ || std::any_of(within_reach_.begin(), within_reach_.end(), differs)) {
+    if (!factored_ || problem.mu != factored_mu_ || problem.shift != factored_shift_ || fixed_ != factored_fixed_ ||
+        std::any_of(inequalities_.begin(), inequalities_.end(), differs)) {
       factored_ = factorize(problem);
       if (!factored_) return false;
-      for (int j : within_reach_) factored_active_[j] = active_[j];
+      for (int j : inequalities_) factored_active_[j] = active_[j];
       factored_fixed_ = fixed_;
+      factored_mu_ = problem.mu;
+      factored_shift_ = problem.shift;
     }
     const int n = int(s_.size());
     for (int i = 0; i < n; ++i) s_[i] = fixed_[i] ? 0. : -r_[i];
@@ -277,13 +287,32 @@ double LocalModel::roomAlong(const Problem& problem) const {
   return room;
 }
 
-const VectorXd& LocalModel::minimize(const Problem& problem) {
-  const int n = int(d_.size());
+/// Where to begin: from zero in a new model, else where it ended the last time if that is better. Returns the value there.
+double LocalModel::begin(const Problem& problem) {
+  linear_ = problem.c;
+  trial_linear_ = problem.c;
+  trial_.setZero();
+  trial_Hd_.setZero();
+  const double at_zero = value(trial_, trial_Hd_, linear_, problem);
+  const bool goes_on = !is_new_ && (d_.array() >= problem.low.array()).all() && (d_.array() <= problem.high.array()).all();
+  if (is_new_) factored_ = false;
+  is_new_ = false;
+  if (goes_on) {
+    linearize(d_, problem, trial_linear_);
+    if (const double there = value(d_, Hd_, trial_linear_, problem); there < at_zero) {
+      linear_.swap(trial_linear_);
+      return there;
+    }
+  }
   d_.setZero();
   Hd_.setZero();
+  return at_zero;
+}
+
+const VectorXd& LocalModel::minimize(const Problem& problem) {
+  const int n = int(d_.size());
   findWithinReach(problem);
-  double current = value(d_, Hd_, linear_, problem), reference = 0.;
-  factored_ = false;
+  double current = begin(problem), reference = 0.;
   for (int pass = 0; pass < problem.max_passes; ++pass) {
     r_ = g_ + problem.shift * d_ + Hd_;
     for (int j : within_reach_) {

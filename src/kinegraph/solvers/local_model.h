@@ -11,8 +11,8 @@ namespace kinegraph {
 ///
 ///     m(d) = g^T d + 1/2 d^T (H + shift I) d + 1/(2 mu) sum_j t_j(d)^2,     t_j = lambda_j + mu (c_j + J_j d)
 ///
-/// with t_j cut off at zero for inequalities. It is piecewise quadratic, and minimized by a semismooth Newton method.
-/// Holds all its memory; minimizing requests none. It is of use at many points, and for several solutions of a problem.
+/// with t_j cut off at zero for inequalities. It is piecewise quadratic, and minimized by a semismooth Newton method,
+/// which goes on from the last step where only multipliers, weights or constraints have changed since. Holds all its memory; minimizing requests none. It is of use at many points, and for several solutions of a problem.
 class LocalModel {
  public:
   /// `pattern` is that of the problem's Jacobian, `costs` are the rows whose squares are in H, `constraints` those of the sum.
@@ -52,6 +52,7 @@ class LocalModel {
   double value(const VectorXd& d, const VectorXd& Hd, const VectorXd& linear, const Problem& problem) const;
   void linearize(const VectorXd& d, const Problem& problem, VectorXd& linear) const;
   void findWithinReach(const Problem& problem);
+  double begin(const Problem& problem);
   void addRow(BandedMatrix& matrix, int row, double weight);
   void addHessianProduct(const VectorXd& d, VectorXd& sum);
   void solve(VectorXd& x);
@@ -80,7 +81,8 @@ class LocalModel {
   Flags is_equality_, active_, factored_active_, fixed_, factored_fixed_;
   BandedMatrix H_linear_, H_, K_;   ///< of linear costs; of all costs; the factor
   VectorXd g_, d_, trial_, r_, s_, Hd_, trial_Hd_, linear_, trial_linear_;
-  bool factored_ = false;
+  bool is_new_ = true, factored_ = false;
+  double factored_mu_ = 0., factored_shift_ = 0.;
   int factorizations_ = 0;
 };
 
