@@ -20,9 +20,10 @@ constexpr double kInfinity = std::numeric_limits<double>::infinity();
 /// What does not change from solution to solution of a problem.
 struct Memory {
   Memory(const Nlp& nlp, const ConstrainedFunction& function)
-      : here(function.makePoint()), trial(here), corrected(here), model(nlp, here.J, function.costs(), function.constraints()) {}
+      : here(function.makePoint()), trial(here), model(nlp, here.J, function.costs(), function.constraints()) {}
 
-  EvaluatedPoint here, trial, corrected;
+  EvaluatedPoint here, trial;
+  EvaluatedPoint corrected;  ///< empty until needed
   LocalModel model;
 };
 
@@ -291,6 +292,7 @@ bool AugmentedLagrangian::correctTrial(double& value, double size, double shift,
     return true;
   }
   const VectorXd taken = trial_.x - here_.x;
+  if (corrected_.x.size() == 0) corrected_ = trial_;
   corrected_.c = trial_.c;
   for (std::size_t j = 0; j < constraints_.size(); ++j) corrected_.c[Eigen::Index(j)] -= here_.J.rowTimes(constraints_[j], taken);
   corrected_.x = function_.clip(here_.x + model_.minimize({corrected_.c, lambda_, mu_, shift, low_, high_, passes}));

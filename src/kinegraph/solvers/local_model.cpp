@@ -8,6 +8,7 @@ namespace kinegraph {
 
 namespace {
 
+constexpr int kSmall = 16;          ///< problems up to this size are taken as dense
 constexpr double kAtBound = 1e-14;  ///< an entry of the step this near to a bound is put on it
 
 bool hasRowsOfTypeF(const Nlp& nlp) {
@@ -68,7 +69,7 @@ BandedMatrix fullMatrix(int n) { return BandedMatrix(std::vector<int>(std::size_
 LocalModel::LocalModel(const Nlp& nlp, const Jacobian& pattern, const std::vector<int>& costs, std::vector<int> constraints)
     : constraints_(std::move(constraints)), has_f_(hasRowsOfTypeF(nlp)) {
   const int n = nlp.dimension(), m = int(constraints_.size());
-  if (has_f_) {  // their Hessian may be full
+  if (has_f_ || n <= kSmall) {  // the Hessian of f terms may be full
     place_.resize(n);
     std::iota(place_.begin(), place_.end(), 0);
     H_ = fullMatrix(n);
