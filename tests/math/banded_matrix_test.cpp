@@ -99,7 +99,7 @@ TEST(BandedMatrix, SolvingInvertsTheProduct) {
 TEST(BandedMatrix, AProductIsThatOfTheDenseMatrixAndIsAdded) {
   Rng rng(3);
   for (const Form& form : someForms()) {
-    const BandedMatrix A = randomPositive(form, rng);
+    BandedMatrix A = randomPositive(form, rng);
     const VectorXd x = randomVector(A.size(), rng), before = randomVector(A.size(), rng);
     VectorXd y = before;
     A.addProduct(x, y);

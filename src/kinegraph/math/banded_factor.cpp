@@ -36,36 +36,20 @@ typedef double Pack __attribute__((vector_size(kPack * sizeof(double)), aligned(
   }
 }
 
-/// y[i] += factor a[i], and the sum of a[i] x[i], for i in [begin, end).
+/// y[i] += factor a[i], and the sum of a[i] x[i], for i in [begin, end) and beyond, where a is zero.
 [[gnu::always_inline]] inline double addColumn(const double* a, double factor, const double* x, double* y, int begin, int end) {
   Pack sums = {0., 0., 0., 0.};
-  int i = begin;
-  for (; i + kPack <= end; i += kPack) {
+  for (int i = begin; i < end; i += kPack) {
     packAt(y + i) = packAt(y + i) + factor * packAt(a + i);
     sums += packAt(a + i) * packAt(x + i);
   }
-  double sum = (sums[0] + sums[1]) + (sums[2] + sums[3]);
-  for (; i < end; ++i) {
-    y[i] += factor * a[i];
-    sum += a[i] * x[i];
-  }
-  return sum;
-}
-
-/// x[i] -= factor a[i]
-[[gnu::always_inline]] inline void subtractColumn(const double* a, double factor, double* x, int begin, int end) {
-  int i = begin;
-  for (; i + kPack <= end; i += kPack) packAt(x + i) = packAt(x + i) - factor * packAt(a + i);
-  for (; i < end; ++i) x[i] -= factor * a[i];
+  return (sums[0] + sums[1]) + (sums[2] + sums[3]);
 }
 
 [[gnu::always_inline]] inline double sumOfProducts(const double* a, const double* x, int begin, int end) {
   Pack sums = {0., 0., 0., 0.};
-  int i = begin;
-  for (; i + kPack <= end; i += kPack) sums += packAt(a + i) * packAt(x + i);
-  double sum = (sums[0] + sums[1]) + (sums[2] + sums[3]);
-  for (; i < end; ++i) sum += a[i] * x[i];
-  return sum;
+  for (int i = begin; i < end; i += kPack) sums += packAt(a + i) * packAt(x + i);
+  return (sums[0] + sums[1]) + (sums[2] + sums[3]);
 }
 
 }  // namespace
@@ -122,24 +106,36 @@ typedef double Pack __attribute__((vector_size(kPack * sizeof(double)), aligned(
   return true;
 }
 
-[[gnu::always_inline]] inline void BandedMatrix::product(const double* x, double* y) const {
-  for (int j = 0; j < size(); ++j) {
-    double sum = at(j, j) * x[j];
-    if (j < band_) sum += addColumn(values_.data() + offset_[j].band, x[j], x, y, j + 1, last_[j] + 1);
-    sum += addColumn(values_.data() + offset_[j].border, x[j], x, y, std::max(j + 1, band_), size());
+/// y_ = this * x_
+[[gnu::always_inline]] inline void BandedMatrix::product() {
+  const double *values = values_.data(), *x = x_.data();
+  double* y = y_.data();
+  const int n = size();
+  std::fill(y_.begin(), y_.end(), 0.);
+  for (int j = 0; j < band_; ++j) {
+    double sum = addColumn(values + offset_[j].band, x[j], x, y, j + 1, last_[j] + 1) + values[offset_[j].band + j] * x[j];
+    if (band_ < n) sum += addColumn(values + offset_[j].border, x[j], x, y, band_, n);
     y[j] += sum;
+  }
+  for (int j = band_; j < n; ++j) {
+    const double* column = values + offset_[j].border;
+    y[j] += addColumn(column, x[j], x, y, j + 1, n) + column[j] * x[j];
   }
 }
 
-[[gnu::always_inline]] inline void BandedMatrix::solve(double* x) const {
+/// x_ <- inverse * x_
+[[gnu::always_inline]] inline void BandedMatrix::solve() {
   const double* values = values_.data();
-  for (int j = 0; j < size(); ++j) {
+  double* x = x_.data();
+  const int n = size();
+  for (int j = 0; j < n; ++j) {
     x[j] *= inverse_[j];
-    if (j < band_) subtractColumn(values + offset_[j].band, x[j], x, j + 1, last_[j] + 1);
-    subtractColumn(values + offset_[j].border, x[j], x, std::max(j + 1, band_), size());
+    if (j < band_) subtract(x, x[j], values + offset_[j].band, j + 1, last_[j] + 1);
+    if (band_ < n) subtract(x, x[j], values + offset_[j].border, std::max(j + 1, band_), n);
   }
-  for (int j = size() - 1; j >= 0; --j) {
-    double sum = sumOfProducts(values + offset_[j].border, x, std::max(j + 1, band_), size());
+  for (int j = n - 1; j >= 0; --j) {
+    double sum = 0.;
+    if (band_ < n) sum += sumOfProducts(values + offset_[j].border, x, std::max(j + 1, band_), n);
     if (j < band_) sum += sumOfProducts(values + offset_[j].band, x, j + 1, last_[j] + 1);
     x[j] = (x[j] - sum) * inverse_[j];
   }
@@ -157,23 +153,35 @@ bool hasWideRegisters() {
 }  // namespace
 
 [[gnu::target("avx2")]] bool BandedMatrix::factorizeWide() { return factorizeAll(); }
-[[gnu::target("avx2")]] void BandedMatrix::productWide(const double* x, double* y) const { product(x, y); }
-[[gnu::target("avx2")]] void BandedMatrix::solveWide(double* x) const { solve(x); }
-
-bool BandedMatrix::factorize() { return hasWideRegisters() ? factorizeWide() : factorizeAll(); }
-
-void BandedMatrix::addProduct(const VectorXd& x, VectorXd& y) const {
-  hasWideRegisters() ? productWide(x.data(), y.data()) : product(x.data(), y.data());
-}
-
-void BandedMatrix::solveInPlace(VectorXd& x) const { hasWideRegisters() ? solveWide(x.data()) : solve(x.data()); }
+[[gnu::target("avx2")]] void BandedMatrix::productWide() { product(); }
+[[gnu::target("avx2")]] void BandedMatrix::solveWide() { solve(); }
 
 #else
 
-bool BandedMatrix::factorize() { return factorizeAll(); }
-void BandedMatrix::addProduct(const VectorXd& x, VectorXd& y) const { product(x.data(), y.data()); }
-void BandedMatrix::solveInPlace(VectorXd& x) const { solve(x.data()); }
+namespace {
+
+constexpr bool hasWideRegisters() { return false; }
+
+}  // namespace
+
+bool BandedMatrix::factorizeWide() { return factorizeAll(); }
+void BandedMatrix::productWide() { product(); }
+void BandedMatrix::solveWide() { solve(); }
 
 #endif
+
+bool BandedMatrix::factorize() { return hasWideRegisters() ? factorizeWide() : factorizeAll(); }
+
+void BandedMatrix::addProduct(const VectorXd& x, VectorXd& y) {
+  std::fill(std::copy(x.begin(), x.end(), x_.begin()), x_.end(), 0.);
+  hasWideRegisters() ? productWide() : product();
+  y += Eigen::Map<const VectorXd>(y_.data(), size());
+}
+
+void BandedMatrix::solveInPlace(VectorXd& x) {
+  std::fill(std::copy(x.begin(), x.end(), x_.begin()), x_.end(), 0.);
+  hasWideRegisters() ? solveWide() : solve();
+  std::copy(x_.begin(), x_.begin() + size(), x.begin());
+}
 
 }  // namespace kinegraph

@@ -5,7 +5,8 @@
 namespace kinegraph {
 
 BandedMatrix::BandedMatrix(std::vector<int> last, int border)
-    : band_(int(last.size())), last_(std::move(last)), offset_(last_.size() + std::size_t(border)), inverse_(offset_.size()) {
+    : band_(int(last.size())), last_(std::move(last)), offset_(last_.size() + std::size_t(border)), inverse_(offset_.size()),
+      x_(offset_.size() + kPadding), y_(x_) {
   for (int begin = 0, end_before = 0; begin < band_; begin += kPanel) {
     const int end = std::min(begin + kPanel, band_);
     int lowest = std::max(end_before, end - 1);

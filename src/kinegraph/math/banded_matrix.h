@@ -39,13 +39,13 @@ class BandedMatrix {
   void addCrossProduct(const double* u, int u_first, int u_width, const double* v, int v_first, int v_width, double w);
 
   /// y += this * x, for a matrix that is not factorized.
-  void addProduct(const VectorXd& x, VectorXd& y) const;
+  void addProduct(const VectorXd& x, VectorXd& y);
 
   /// Replaces the matrix by its Cholesky factor. False if it is not positive definite. The result is the same on all machines.
   bool factorize();
 
   /// x <- inverse * x, with the factor.
-  void solveInPlace(VectorXd& x) const;
+  void solveInPlace(VectorXd& x);
 
  private:
   static constexpr int kPanel = 4;             ///< columns that are factorized together
@@ -58,16 +58,17 @@ class BandedMatrix {
   bool factorizePanel(int begin, int width);
   bool factorizeAll();
   bool factorizeWide();
-  void product(const double* x, double* y) const;
-  void productWide(const double* x, double* y) const;
-  void solve(double* x) const;
-  void solveWide(double* x) const;
+  void product();
+  void productWide();
+  void solve();
+  void solveWide();
 
   int band_ = 0;                    ///< rows before the border
   std::vector<int> last_;           ///< per column of the band; the same in each panel
   std::vector<Offset> offset_;      ///< per column
   std::vector<double> values_;
   std::vector<double> inverse_;     ///< of the diagonal entries of the factor
+  std::vector<double> x_, y_;       ///< vectors with the padding that columns have
 };
 
 }  // namespace kinegraph

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 
 #include "kinegraph/base/errors.h"
 #include "kinegraph/base/text.h"
@@ -36,6 +37,18 @@ MatrixXd Jacobian::toDense() const {
     }
   }
   return dense;
+}
+
+bool Jacobian::isZeroRow(int row) const {
+  constexpr int kMost = 64;
+  static constexpr double zeros[kMost] = {};
+  for (const Segment& segment : row_segments(row)) {
+    for (int i = 0; i < segment.width; i += kMost) {
+      const auto bytes = std::size_t(std::min(kMost, segment.width - i)) * sizeof(double);
+      if (std::memcmp(values.data() + segment.offset + i, zeros, bytes) != 0) return false;  // -0 counts as not zero
+    }
+  }
+  return true;
 }
 
 double Jacobian::rowTimes(int row, const VectorXd& x) const {

@@ -1,7 +1,5 @@
 #pragma once
 
-#include <bit>
-#include <cstdint>
 #include <span>
 #include <string>
 #include <vector>
@@ -47,14 +45,7 @@ struct Jacobian {
   std::span<const Segment> row_segments(int row) const {
     return {segments.data() + row_start[row], std::size_t(row_start[row + 1] - row_start[row])};
   }
-  bool isZeroRow(int row) const {
-    std::uint64_t bits = 0;  // of which the sign does not count
-    for (const Segment& segment : row_segments(row)) {
-      const double* v = values.data() + segment.offset;
-      for (int i = 0; i < segment.width; ++i) bits |= std::bit_cast<std::uint64_t>(v[i]) << 1;
-    }
-    return bits == 0;
-  }
+  bool isZeroRow(int row) const;
   double rowTimes(int row, const VectorXd& x) const;                  ///< J_row x
   void addRowTo(int row, double factor, VectorXd& x) const;           ///< x += factor J_row^T
 };
