@@ -46,62 +46,73 @@ typedef double Pack __attribute__((vector_size(kPack * sizeof(double)), aligned(
   return (sums[0] + sums[1]) + (sums[2] + sums[3]);
 }
 
-[[gnu::always_inline]] inline double sumOfProducts(const double* a, const double* x, int begin, int end) {
-  Pack sums = {0., 0., 0., 0.};
-  for (int i = begin; i < end; i += kPack) sums += packAt(a + i) * packAt(x + i);
-  return (sums[0] + sums[1]) + (sums[2] + sums[3]);
+/// sums[p] += columns[p][i] x[i] for i in [begin, end) and beyond, where columns are zero.
+[[gnu::always_inline]] inline void addProducts(std::array<Pack, kPack>& sums, const std::array<const double*, kPack>& columns,
+                                               const double* x, int begin, int end) {
+  for (int i = begin; i < end; i += kPack) {
+    const Pack xi = packAt(x + i);
+    for (int p = 0; p < kPack; ++p) sums[p] += packAt(columns[p] + i) * xi;
+  }
 }
 
 }  // namespace
 
-/// Columns [begin, begin + width), all of the band or all of the border.
-[[gnu::always_inline]] inline bool BandedMatrix::factorizePanel(int begin, int width) {
+/// Up to four columns from `begin` on, all of the band or all of the border. Those that are not there repeat the first.
+[[gnu::always_inline]] inline BandedMatrix::Panel BandedMatrix::panelAt(int begin) const {
+  const bool in_band = begin < band_;
+  Panel panel;
+  panel.begin = begin;
+  panel.width = std::min(kPanel, (in_band ? band_ : size()) - begin);
+  panel.end = in_band ? last_[begin] + 1 : size();
+  panel.has_border = in_band && band_ < size();
+  for (int p = 0; p < kPanel; ++p) {
+    const Offset& offset = offset_[begin + (p < panel.width ? p : 0)];
+    panel.columns[p] = values_.data() + (in_band ? offset.band : offset.border);
+    panel.borders[p] = values_.data() + offset.border;
+  }
+  return panel;
+}
+
+[[gnu::always_inline]] inline bool BandedMatrix::factorizePanel(int begin) {
   double* values = values_.data();
   const int n = size();
+  const Panel panel = panelAt(begin);
   const bool in_band = begin < band_;
-  const int end = in_band ? last_[begin] + 1 : n;             // of the rows next to the diagonal
-  const bool has_border = in_band && band_ < n;
   const auto column = [&](int j) __attribute__((always_inline)) { return values + (in_band ? offset_[j].band : offset_[j].border); };
-  for (int p = 0; p < width; ++p) {
+  for (int p = 0; p < panel.width; ++p) {
     const int j = begin + p;
     double *own = column(j), *own_border = values + offset_[j].border;
     for (int q = 0; q < p; ++q) {
-      const double* left = column(begin + q);
-      const double factor = left[j];
-      subtract(own, factor, left, j, end);
-      if (has_border) subtract(own_border, factor, values + offset_[begin + q].border, band_, n);
+      const double factor = panel.columns[q][j];
+      subtract(own, factor, panel.columns[q], j, panel.end);
+      if (panel.has_border) subtract(own_border, factor, panel.borders[q], band_, n);
     }
     if (!(own[j] > 0.) || !std::isfinite(own[j])) return false;
     const double root = std::sqrt(own[j]);
     inverse_[j] = 1. / root;
-    scale(own, inverse_[j], j, end);
+    scale(own, inverse_[j], j, panel.end);
     own[j] = root;
-    if (has_border) scale(own_border, inverse_[j], band_, n);
+    if (panel.has_border) scale(own_border, inverse_[j], band_, n);
   }
-  std::array<const double*, kPack> columns, borders;
-  std::array<double, kPack> factors{};
-  for (int p = 0; p < kPack; ++p) {
-    columns[p] = column(begin + (p < width ? p : 0));  // those that are not there have the factor zero
-    borders[p] = values + offset_[begin + (p < width ? p : 0)].border;
+  std::array<double, kPanel> factors{};  // zero for columns that are not there
+  for (int j = begin + panel.width; j < panel.end; ++j) {
+    for (int p = 0; p < panel.width; ++p) factors[p] = panel.columns[p][j];
+    subtractProducts(column(j), panel.columns, factors, j, panel.end);
+    if (panel.has_border) subtractProducts(values + offset_[j].border, panel.borders, factors, band_, n);
   }
-  for (int j = begin + width; j < end; ++j) {
-    for (int p = 0; p < width; ++p) factors[p] = columns[p][j];
-    subtractProducts(column(j), columns, factors, j, end);
-    if (has_border) subtractProducts(values + offset_[j].border, borders, factors, band_, n);
-  }
-  for (int j = has_border ? band_ : n; j < n; ++j) {
-    for (int p = 0; p < width; ++p) factors[p] = borders[p][j];
-    subtractProducts(values + offset_[j].border, borders, factors, j, n);
+  for (int j = panel.has_border ? band_ : n; j < n; ++j) {
+    for (int p = 0; p < panel.width; ++p) factors[p] = panel.borders[p][j];
+    subtractProducts(values + offset_[j].border, panel.borders, factors, j, n);
   }
   return true;
 }
 
 [[gnu::always_inline]] inline bool BandedMatrix::factorizeAll() {
   for (int begin = 0; begin < band_; begin += kPanel) {
-    if (!factorizePanel(begin, std::min(kPanel, band_ - begin))) return false;
+    if (!factorizePanel(begin)) return false;
   }
   for (int begin = band_; begin < size(); begin += kPanel) {
-    if (!factorizePanel(begin, std::min(kPanel, size() - begin))) return false;
+    if (!factorizePanel(begin)) return false;
   }
   return true;
 }
@@ -123,21 +134,34 @@ typedef double Pack __attribute__((vector_size(kPack * sizeof(double)), aligned(
   }
 }
 
-/// x_ <- inverse * x_
+/// x_ <- inverse * x_, panel by panel, so that few operations wait for one another.
 [[gnu::always_inline]] inline void BandedMatrix::solve() {
-  const double* values = values_.data();
   double* x = x_.data();
   const int n = size();
-  for (int j = 0; j < n; ++j) {
-    x[j] *= inverse_[j];
-    if (j < band_) subtract(x, x[j], values + offset_[j].band, j + 1, last_[j] + 1);
-    if (band_ < n) subtract(x, x[j], values + offset_[j].border, std::max(j + 1, band_), n);
+  const int band_panels = (band_ + kPanel - 1) / kPanel, panels = band_panels + (border() + kPanel - 1) / kPanel;
+  for (int i = 0; i < panels; ++i) {
+    const Panel panel = panelAt(i < band_panels ? i * kPanel : band_ + (i - band_panels) * kPanel);
+    std::array<double, kPanel> own{};
+    for (int p = 0; p < panel.width; ++p) {
+      const int j = panel.begin + p;
+      own[p] = x[j];
+      for (int q = 0; q < p; ++q) own[p] -= panel.columns[q][j] * own[q];
+      x[j] = own[p] *= inverse_[j];
+    }
+    subtractProducts(x, panel.columns, own, panel.begin + panel.width, panel.end);
+    if (panel.has_border) subtractProducts(x, panel.borders, own, band_, n);
   }
-  for (int j = n - 1; j >= 0; --j) {
-    double sum = 0.;
-    if (band_ < n) sum += sumOfProducts(values + offset_[j].border, x, std::max(j + 1, band_), n);
-    if (j < band_) sum += sumOfProducts(values + offset_[j].band, x, j + 1, last_[j] + 1);
-    x[j] = (x[j] - sum) * inverse_[j];
+  for (int i = panels - 1; i >= 0; --i) {
+    const Panel panel = panelAt(i < band_panels ? i * kPanel : band_ + (i - band_panels) * kPanel);
+    std::array<Pack, kPanel> sums{};
+    addProducts(sums, panel.columns, x, panel.begin + panel.width, panel.end);
+    if (panel.has_border) addProducts(sums, panel.borders, x, band_, n);
+    for (int p = panel.width - 1; p >= 0; --p) {
+      const int j = panel.begin + p;
+      double rest = x[j] - ((sums[p][0] + sums[p][1]) + (sums[p][2] + sums[p][3]));
+      for (int q = p + 1; q < panel.width; ++q) rest -= panel.columns[p][panel.begin + q] * x[panel.begin + q];
+      x[j] = rest * inverse_[j];
+    }
   }
 }
 

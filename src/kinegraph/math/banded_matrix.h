@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <vector>
 
 #include "kinegraph/math/pose.h"
@@ -48,14 +49,22 @@ class BandedMatrix {
   void solveInPlace(VectorXd& x);
 
  private:
-  static constexpr int kPanel = 4;             ///< columns that are factorized together
+  static constexpr int kPanel = 4;             ///< columns
   static constexpr int kPadding = kPanel - 1;  ///< zeros behind each part of a column, so that whole packs can be read and written
 
   struct Offset {
     std::ptrdiff_t band, border;  ///< of row 0, were it stored, in either part
   };
   std::ptrdiff_t place(int i, int j) const { return (i < band_ ? offset_[j].band : offset_[j].border) + i; }
-  bool factorizePanel(int begin, int width);
+  /// Columns that are factorized together: pointers to row 0 of each, were it stored, next to the diagonal and in the border.
+  struct Panel {
+    int begin, width;
+    int end;  ///< of the rows next to the diagonal
+    bool has_border;
+    std::array<const double*, kPanel> columns, borders;
+  };
+  Panel panelAt(int begin) const;
+  bool factorizePanel(int begin);
   bool factorizeAll();
   bool factorizeWide();
   void product();
