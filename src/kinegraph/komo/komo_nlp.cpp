@@ -41,6 +41,8 @@ class KomoNlp final : public Nlp {
     problem_.evaluate(*komo_, phi, J);
   }
 
+  bool mayBeQuadratic() const override { return problem_.isLinear(); }
+
   /// Overlaps of pairs in place of their sum.
   Separation separation() override {
     if (separation_is_known_) return separation_;

@@ -103,6 +103,10 @@ const PathProblem::Term& PathProblem::termOf(int row) const {
   return *place;
 }
 
+bool PathProblem::isLinear() const {
+  return std::all_of(residuals_.begin(), residuals_.end(), [](const Residual& residual) { return residual.isLinear(); });
+}
+
 Jacobian PathProblem::makeJacobian(const Komo& komo) const {
   std::size_t segments = 0, values = 0;
   for (std::size_t i = 0; i < terms_.size(); ++i) {

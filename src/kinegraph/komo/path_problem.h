@@ -29,7 +29,9 @@ class PathProblem {
   int rows() const { return int(types_.size()); }
   const Term& termOf(int row) const;
 
-  /// Is this row of the Jacobian the same for all paths?
+  bool isLinear() const;  ///< are all rows of the Jacobian the same for all paths?
+
+  /// Is this one?
   bool isLinear(int row) const { return residuals_[termOf(row).residual].isLinear(); }
 
   /// With the values of linear rows; the others are zero.

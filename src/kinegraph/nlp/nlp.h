@@ -99,6 +99,10 @@ class Nlp {
 
   virtual std::string report(int verbose) const;
 
+  /// May all residuals be linear (f terms quadratic)? A solver then tries whether one exact step ends it, at the price of one
+  /// evaluation. False where that is known to be in vain.
+  virtual bool mayBeQuadratic() const { return true; }
+
  protected:
   std::vector<ObjectiveType> types_;
   VectorXd lower_, upper_;

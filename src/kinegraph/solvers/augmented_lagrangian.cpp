@@ -9,6 +9,7 @@
 #include "kinegraph/base/text.h"
 #include "kinegraph/solvers/constrained_function.h"
 #include "kinegraph/solvers/local_model.h"
+#include "kinegraph/solvers/quadratic_step.h"
 #include "kinegraph/solvers/quasi_newton.h"
 
 namespace kinegraph {
@@ -20,10 +21,9 @@ constexpr double kInfinity = std::numeric_limits<double>::infinity();
 /// What does not change from solution to solution of a problem.
 struct Memory {
   Memory(const Nlp& nlp, const ConstrainedFunction& function)
-      : here(function.makePoint()), trial(here), model(nlp, here.J, function.costs(), function.constraints()) {}
+      : here(function.makePoint()), trial(here), corrected(here), model(nlp, here.J, function.costs(), function.constraints()) {}
 
-  EvaluatedPoint here, trial;
-  EvaluatedPoint corrected;  ///< empty until needed
+  EvaluatedPoint here, trial, corrected;
   LocalModel model;
 };
 
@@ -33,8 +33,8 @@ class AugmentedLagrangian {
       : nlp_(nlp), options_(options), function_(function), here_(memory.here), trial_(memory.trial), corrected_(memory.corrected),
         model_(memory.model), constraints_(function.constraints()), equalities_(function.equalities()), lower_(function.lower()),
         upper_(function.upper()), lambda_(VectorXd::Zero(Eigen::Index(constraints_.size()))), next_lambda_(lambda_),
-        tolerance_(options.constraintTolerance()) {
-    here_.x = start_ = function_.clip(x0);
+        multipliers_(lambda_), tolerance_(options.constraintTolerance()) {
+    here_.x = start_ = low_ = high_ = gradient_ = function_.clip(x0);
   }
 
   SolverResult run(const VectorXd& dual) {
@@ -49,7 +49,7 @@ class AugmentedLagrangian {
     mu_ = weight_ * options_.muInit;
     if (nlp_.dimension() == 0) {
       stop(here_.violation <= tolerance_ ? SolverStatus::converged : SolverStatus::infeasible, "there is nothing to vary");
-    } else {
+    } else if (!solvedInOneStep()) {
       iterate();
     }
     const bool converged = status_ == SolverStatus::converged;
@@ -57,6 +57,7 @@ class AugmentedLagrangian {
   }
 
  private:
+  bool solvedInOneStep();
   void iterate();
   void endRound(double vc, double step_size);
   void updateMultipliers(double step_size);
@@ -198,6 +199,26 @@ class AugmentedLagrangian {
   std::string trouble_;  ///< why the last step was rejected; empty if it was not
 };
 
+/// Goes to the solution of the linearized problem, if that is the solution of the problem.
+bool AugmentedLagrangian::solvedInOneStep() {
+  if (options_.stopEvals < 2 || !nlp_.mayBeQuadratic()) return false;
+  std::optional<QuadraticStep> step = quadraticStep(function_, here_.x, here_.phi, here_.J);
+  if (!step && constraints_.empty()) {
+    linearize();
+    if (learns_curvature_) return false;
+    low_ = lower_ - here_.x;
+    high_ = upper_ - here_.x;
+    step = {here_.x + model_.minimize({here_.c, lambda_, 1., 0., low_, high_, 12}), {}};
+  }
+  if (!step) return false;
+  trial_.x = step->x;
+  if (!evaluate(trial_) || !trial_.finite || !isSolution(function_, trial_.x, trial_.phi, trial_.J, step->multipliers)) return false;
+  std::swap(here_, trial_);
+  lambda_ = step->multipliers;
+  stop(SolverStatus::converged, "the problem is quadratic; one step solves it");
+  return true;
+}
+
 void AugmentedLagrangian::iterate() {
   const double first_nu = weight_ * options_.damping;
   double nu = first_nu, growth = 2., last_relative = 1.;
@@ -291,11 +312,11 @@ bool AugmentedLagrangian::correctTrial(double& value, double size, double shift,
     --correction_.wait;
     return true;
   }
-  const VectorXd taken = trial_.x - here_.x;
-  if (corrected_.x.size() == 0) corrected_ = trial_;
+  corrected_.x = trial_.x - here_.x;
   corrected_.c = trial_.c;
-  for (std::size_t j = 0; j < constraints_.size(); ++j) corrected_.c[Eigen::Index(j)] -= here_.J.rowTimes(constraints_[j], taken);
-  corrected_.x = function_.clip(here_.x + model_.minimize({corrected_.c, lambda_, mu_, shift, low_, high_, passes}));
+  for (std::size_t j = 0; j < constraints_.size(); ++j) corrected_.c[Eigen::Index(j)] -= here_.J.rowTimes(constraints_[j], corrected_.x);
+  const VectorXd& d = model_.minimize({corrected_.c, lambda_, mu_, shift, low_, high_, passes});
+  corrected_.x = (here_.x + d).cwiseMax(lower_).cwiseMin(upper_);
   bool better = (corrected_.x - trial_.x).lpNorm<Eigen::Infinity>() <= .5 * size;
   if (better) {
     if (!evaluate(corrected_)) return false;
