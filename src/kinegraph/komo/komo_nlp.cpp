@@ -28,7 +28,12 @@ class KomoNlp final : public Nlp {
 
   const std::shared_ptr<Komo>& komo() const { return komo_; }
 
-  Jacobian makeJacobian() const override { return problem_.makeJacobian(); }
+  Jacobian makeJacobian() const override {
+    requireStructure();
+    return problem_.makeJacobian(*komo_);
+  }
+
+  bool isLinear(int row) const override { return problem_.isLinear(row); }
 
   void evaluate(const VectorXd& x, VectorXd& phi, Jacobian* J) override {
     requireStructure();
@@ -36,13 +41,7 @@ class KomoNlp final : public Nlp {
     problem_.evaluate(*komo_, phi, J);
   }
 
-  /// Only joint values are linear in x.
-  bool mayBeQuadratic() const override {
-    for (const Komo::Objective& objective : problem_.objectives()) {
-      if (!(objective.feature == FeatureSymbol::qItself) && !(objective.feature == FeatureSymbol::jointLimits)) return false;
-    }
-    return true;
-  }
+  bool mayBeQuadratic() const override { return problem_.isLinear(); }
 
   /// Overlaps of pairs in place of their sum.
   Separation separation() override {
