@@ -4,6 +4,22 @@
 
 namespace kinegraph {
 
+namespace {
+
+typedef double Pair __attribute__((vector_size(2 * sizeof(double)), aligned(sizeof(double)), may_alias));
+
+/// target[i] += factor source[i] for i in [begin, end)
+inline void add(double* target, double factor, const double* source, int begin, int end) {
+  int i = begin;
+  for (; i + 2 <= end; i += 2) {
+    Pair& pair = *reinterpret_cast<Pair*>(target + i);
+    pair = pair + factor * *reinterpret_cast<const Pair*>(source + i);
+  }
+  if (i < end) target[i] += factor * source[i];
+}
+
+}  // namespace
+
 BandedMatrix::BandedMatrix(std::vector<int> last, int border)
     : band_(int(last.size())), last_(std::move(last)), offset_(last_.size() + std::size_t(border)), inverse_(offset_.size()),
       x_(offset_.size() + kPadding), y_(x_) {
@@ -44,11 +60,9 @@ void BandedMatrix::addOuterProduct(const double* v, int first, int width, double
   const int inside = std::clamp(band_ - first, 0, width);  // entries before the border
   for (int j = 0; j < width; ++j) {
     if (v[j] == 0.) continue;
-    const double wj = w * v[j];
-    double* column = values_.data() + offset_[first + j].band + first;
-    for (int i = j; i < inside; ++i) column[i] += wj * v[i];
-    column = values_.data() + offset_[first + j].border + first;
-    for (int i = std::max(j, inside); i < width; ++i) column[i] += wj * v[i];
+    const Offset& offset = offset_[first + j];
+    add(values_.data() + offset.band + first, w * v[j], v, j, inside);
+    add(values_.data() + offset.border + first, w * v[j], v, std::max(j, inside), width);
   }
 }
 
@@ -56,11 +70,9 @@ void BandedMatrix::addCrossProduct(const double* u, int u_first, int u_width, co
   const int inside = std::clamp(band_ - u_first, 0, u_width);
   for (int j = 0; j < v_width; ++j) {
     if (v[j] == 0.) continue;
-    const double wj = w * v[j];
-    double* column = values_.data() + offset_[v_first + j].band + u_first;
-    for (int i = 0; i < inside; ++i) column[i] += wj * u[i];
-    column = values_.data() + offset_[v_first + j].border + u_first;
-    for (int i = inside; i < u_width; ++i) column[i] += wj * u[i];
+    const Offset& offset = offset_[v_first + j];
+    add(values_.data() + offset.band + u_first, w * v[j], u, 0, inside);
+    add(values_.data() + offset.border + u_first, w * v[j], u, inside, u_width);
   }
 }
 

@@ -52,8 +52,7 @@ class AugmentedLagrangian {
     } else if (!solvedInOneStep()) {
       iterate();
     }
-    const bool converged = status_ == SolverStatus::converged;
-    return function_.result(converged ? here_.x : function_.best(), converged ? here_.phi : function_.bestPhi(), lambda_, status_, message_);
+    return function_.result(status_ == SolverStatus::converged ? here_ : function_.best(), lambda_, status_, message_);
   }
 
  private:
@@ -355,7 +354,7 @@ void AugmentedLagrangian::endRound(double vc, double step_size) {
     bad_rounds_ = vc > .7 * last_violation_ && mu_ >= 1e3 * weight_ * options_.muInit ? bad_rounds_ + 1 : 0;
     if (bad_rounds_ >= 2) {
       if (locallyInfeasible() && !restored()) {
-        return stop(SolverStatus::infeasible, cat("the constraints contradict each other here; least violation found ", function_.bestViolation()));
+        return stop(SolverStatus::infeasible, cat("the constraints contradict each other here; least violation found ", function_.best().violation));
       }
       bad_rounds_ = 0;
       if (vc < .5 * violation_at_tests_) {  // slow, but it falls
@@ -405,8 +404,8 @@ bool AugmentedLagrangian::restored() {
     reduceViolation();
     if (!stopped_ && here_.violation > enough && found.violation <= here_.violation) here_ = found;
   }
-  function_.forceBest(here_.x, here_.phi);
-  if (stopped_ || restorations_ > 5 || function_.bestViolation() > enough) return false;
+  function_.forceBest(here_);
+  if (stopped_ || restorations_ > 5 || function_.best().violation > enough) return false;
   lambda_.setZero();
   mu_ = std::min(weight_ * options_.muMax, std::pow(10., restorations_) * weight_ * options_.muInit);
   last_violation_ = violation_at_tests_ = kInfinity;

@@ -42,7 +42,9 @@ EvaluatedPoint ConstrainedFunction::makePoint() const {
 }
 
 bool ConstrainedFunction::evaluate(EvaluatedPoint& point) {
-  const bool goes_on = evaluate(point.x, point.phi, point.J);
+  nlp_.evaluate(point.x, point.phi, &point.J);
+  last_x_ = point.x;
+  ++evals_;
   for (std::size_t j = 0; j < constraints_.size(); ++j) point.c[Eigen::Index(j)] = point.phi[constraints_[j]];
   point.cost = cost(point.phi);
   const Eigen::Index inequalities = point.c.size() - equalities_;
@@ -50,14 +52,7 @@ bool ConstrainedFunction::evaluate(EvaluatedPoint& point) {
   if (equalities_ > 0) point.violation = point.c.head(equalities_).lpNorm<Eigen::Infinity>();
   if (inequalities > 0) point.violation = std::max(point.violation, point.c.tail(inequalities).maxCoeff());
   point.finite = describeNotFinite(nlp_, point.phi, &point.J).empty();
-  return goes_on;
-}
-
-bool ConstrainedFunction::evaluate(const VectorXd& x, VectorXd& phi, Jacobian& J) {
-  nlp_.evaluate(x, phi, &J);
-  last_x_ = x;
-  ++evals_;
-  return !hook_ || hook_(x, phi);
+  return !hook_ || hook_(point.x, point.phi);
 }
 
 void ConstrainedFunction::requireFiniteStart(const VectorXd& phi, const Jacobian& J) const {
@@ -95,35 +90,30 @@ void ConstrainedFunction::addConstraintGradient(const Jacobian& J, const VectorX
   for (Eigen::Index j = 0; j < multipliers.size(); ++j) J.addRowTo(constraints_[std::size_t(j)], multipliers[j], gradient);
 }
 
-void ConstrainedFunction::remember(const VectorXd& x, const VectorXd& phi, double cost, double violation) {
-  const bool is_better = violation <= tolerance_ && best_violation_ <= tolerance_ ? cost < best_cost_ : violation < best_violation_;
-  if (best_x_.size() > 0 && !is_better) return;
-  best_x_ = x;
-  best_phi_ = phi;
-  best_violation_ = violation;
-  best_cost_ = cost;
+void ConstrainedFunction::remember(const EvaluatedPoint& point) {
+  const bool both_hold = point.violation <= tolerance_ && best_.violation <= tolerance_;
+  if (best_.x.size() == 0 || (both_hold ? point.cost < best_.cost : point.violation < best_.violation)) forceBest(point);
 }
 
-void ConstrainedFunction::forceBest(const VectorXd& x, const VectorXd& phi) {
-  best_x_ = x;
-  best_phi_ = phi;
-  best_violation_ = violation(phi);
-  best_cost_ = cost(phi);
+void ConstrainedFunction::forceBest(const EvaluatedPoint& point) {
+  best_.x = point.x;
+  best_.phi = point.phi;
+  best_.cost = point.cost;
+  best_.violation = point.violation;
 }
 
-SolverResult ConstrainedFunction::result(const VectorXd& x, const VectorXd& phi, const VectorXd& multipliers, SolverStatus status,
-                                         std::string message) {
+SolverResult ConstrainedFunction::result(const EvaluatedPoint& point, const VectorXd& multipliers, SolverStatus status, std::string message) {
   SolverResult out;
-  out.x = x;
-  out.dual = VectorXd::Zero(phi.size());
+  out.x = point.x;
+  out.dual = VectorXd::Zero(point.phi.size());
   for (std::size_t j = 0; j < constraints_.size(); ++j) out.dual[constraints_[j]] = multipliers[Eigen::Index(j)];
   out.evals = evals_;
-  out.setSums(types(), phi, tolerance_);
+  out.setSums(types(), point.phi, tolerance_);
   out.status = status;
   out.message = std::move(message);
-  if (last_x_.size() == 0 || last_x_ != x) {
-    VectorXd at_x = phi;
-    nlp_.evaluate(x, at_x, nullptr);
+  if (last_x_.size() == 0 || last_x_ != point.x) {
+    VectorXd phi = point.phi;
+    nlp_.evaluate(point.x, phi, nullptr);
   }
   return out;
 }

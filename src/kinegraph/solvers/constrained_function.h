@@ -39,14 +39,12 @@ class ConstrainedFunction {
 
   /// Fills in what is known at point.x. False if the caller wants it to end.
   bool evaluate(EvaluatedPoint& point);
-  bool evaluate(const VectorXd& x, VectorXd& phi, Jacobian& J);
   int evals() const { return evals_; }
 
   /// Throws ValueError, naming the row, if numbers are not finite.
   void requireFiniteStart(const VectorXd& phi, const Jacobian& J) const;
 
   double cost(const VectorXd& phi) const;
-  double violation(const VectorXd& phi) const { return largestViolation(nlp_.types(), phi); }
   void costGradient(const VectorXd& phi, const Jacobian& J, VectorXd& gradient) const;
 
   /// Gradient of the f rows and of the constraints times `multipliers` (empty: zero): what Gauss-Newton has no curvature of.
@@ -55,27 +53,22 @@ class ConstrainedFunction {
 
   /// Takes the point as the best so far if it is: among those within the tolerance the one of least cost, else of least
   /// violation.
-  void remember(const EvaluatedPoint& point) { remember(point.x, point.phi, point.cost, point.violation); }
-  void remember(const VectorXd& x, const VectorXd& phi) { remember(x, phi, cost(phi), violation(phi)); }
-  void forceBest(const VectorXd& x, const VectorXd& phi);
-  const VectorXd& best() const { return best_x_; }
-  const VectorXd& bestPhi() const { return best_phi_; }
-  double bestViolation() const { return best_violation_; }
+  void remember(const EvaluatedPoint& point);
+  void forceBest(const EvaluatedPoint& point);
+  const EvaluatedPoint& best() const { return best_; }
 
-  /// How it ended at x; leaves the problem there. `multipliers` are those of the constraints.
-  SolverResult result(const VectorXd& x, const VectorXd& phi, const VectorXd& multipliers, SolverStatus status, std::string message);
+  /// How it ended at a point; leaves the problem there. `multipliers` are those of the constraints.
+  SolverResult result(const EvaluatedPoint& point, const VectorXd& multipliers, SolverStatus status, std::string message);
 
  private:
-  void remember(const VectorXd& x, const VectorXd& phi, double cost, double violation);
-
   Nlp& nlp_;
   const EvaluationHook& hook_;
   double tolerance_;
   std::vector<int> costs_, constraints_;
   int equalities_ = 0, evals_ = 0;
   bool has_f_ = false;
-  VectorXd lower_, upper_, best_x_, best_phi_, last_x_;
-  double best_violation_ = 0., best_cost_ = 0.;
+  VectorXd lower_, upper_, last_x_;
+  EvaluatedPoint best_;  ///< without J and c
 };
 
 }  // namespace kinegraph

@@ -292,9 +292,8 @@ double LocalModel::roomAlong(const Problem& problem) const {
 double LocalModel::begin(const Problem& problem) {
   linear_ = problem.c;
   trial_linear_ = problem.c;
-  trial_.setZero();
-  trial_Hd_.setZero();
-  const double at_zero = value(trial_, trial_Hd_, linear_, problem);
+  double at_zero = 0.;
+  for (int j : within_reach_) at_zero += std::pow(multiplier(j, problem.c[j], problem), 2) / (2. * problem.mu);
   const bool goes_on = !is_new_ && (d_.array() >= problem.low.array()).all() && (d_.array() <= problem.high.array()).all();
   if (is_new_) factored_ = false;
   is_new_ = false;
