@@ -87,7 +87,7 @@ void bindStructure(nb::class_<PyConfig>& config) {
            [](const PyConfig& c, const std::string& prefix, bool, bool enumerate) { return saveMeshes(c, prefix, enumerate); },
            "pathPrefix"_a, "copyTextures"_a = true, "enumerateAssets"_a = false,
            "Writes every mesh once as <pathPrefix><frame>.ply (enumerateAssets: mesh_0.ply, ...) in its frame's coordinates. Returns the\n"
-           "paths. There are no texture files to copy.")
+           "paths. PLY files hold no pictures, so there are none to copy.")
       .def("writeConvexStls",
            [](const PyConfig& c, const std::string& prefix, double shrink, int) { return saveConvexStls(c, prefix, shrink); },
            "pathPrefix"_a, "shrinkRadius"_a = -1., "verbose"_a = 1,

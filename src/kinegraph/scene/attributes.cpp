@@ -19,7 +19,7 @@ constexpr const char* kKnownAttributes[] = {
     "X", "Q", "pose", "rel", "joint", "q", "limits", "ctrl_limits", "ctrl_H", "joint_scale", "axis", "mimic", "pre",
     "post", "A", "B", "from", "to", "origin", "BinvA", "joint_active", "joint_stable", "sampleUniform", "sampleSdv",
     "shape", "type", "size", "color", "mesh", "meshscale", "mesh_decomp", "mesh_points", "mesh_rope", "core", "sdf",
-    "texture", "aruco_id", "mimic_shape", "contact", "mass", "inertia", "com", "visual_mesh", "visual_pose",
+    "texture", "texcoords", "texture_repeat", "aruco_id", "mimic_shape", "contact", "mass", "inertia", "com", "visual_mesh", "visual_pose",
     "logical", "multibody", "multibody_fixedBase", "multibody_gravity", "simulate", "friction", "restitution",
     "motorKp", "motorKd", "motorLambda", "motorMass", "gains", "drive", "noMotor", "angularDamping", "focalLength",
     "fxycxy", "orthoAbsHeight", "heightAngle", "heightAbs", "zRange", "width", "height", "label", "part", "visual",

@@ -51,6 +51,7 @@ class AttributeReader {
   std::optional<VectorXd> readDofValues(const char* key, const Joint& joint);
   void applyInertia(FrameData& frame);
   void applyShape(FrameData& frame);
+  void applyTexture(Shape& shape);
   bool readGeometry(Geometry& geometry);
   bool readShapeType(Geometry& geometry);
   bool readMesh(Geometry& geometry);

@@ -6,6 +6,7 @@
 #include "kinegraph/geometry/isosurface.h"
 #include "kinegraph/geometry/mesh_file.h"
 #include "kinegraph/geometry/shape_types.h"
+#include "kinegraph/geometry/textured_surface.h"
 #include "kinegraph/scene/attributes.h"
 #include "kinegraph/scene/scene_source.h"
 #include "kinegraph/scene/scene_tree.h"
@@ -214,6 +215,33 @@ void AttributeReader::applyShape(FrameData& frame) {
     guarded(*mesh, [&] { frame.shape->visual_mesh = resolvePath(givenPath(*mesh), folder_); });
   }
   if (const auto pose = readPose({"visual_pose"})) frame.shape->visual_pose = *pose;
+  applyTexture(*frame.shape);
+}
+
+/// `texture: <image>`, `texcoords: [right up ...]` for each vertex of a mesh, `texture_repeat: [right up]`. A picture that
+/// cannot be had is worth a warning: the shape shows its colour.
+void AttributeReader::applyTexture(Shape& shape) {
+  if (const Node* node = find({"texcoords"})) {
+    const std::vector<double> uv = numbers(*node).value_or(std::vector<double>{});
+    const std::size_t vertices = shape.geometry->mesh ? shape.geometry->mesh->vertices.size() : 0;
+    if (vertices == 0) return warning(*node, "'texcoords' has no effect: the shape has no vertices");
+    if (uv.size() != 2 * vertices) return error(*node, cat("expected 2 numbers for each of ", vertices, " vertices, got ", uv.size()));
+    shape.geometry = withTexcoords(*shape.geometry, uv);
+  }
+  if (const Node* node = find({"texture_repeat"})) {
+    const std::vector<double> times = numbers(*node).value_or(std::vector<double>{});
+    const bool good = (times.size() == 1 || times.size() == 2) && std::all_of(times.begin(), times.end(), [](double x) { return std::isfinite(x); });
+    if (!good) return error(*node, cat("expected 1 or 2 finite numbers, how often the picture is repeated to the right and up; got ", times.size()));
+    shape.texture_repeat = {times.front(), times.back()};
+  }
+  const Node* node = find({"texture"});
+  if (!node) return;
+  try {
+    shape.texture = readImageFile(path(*node));
+  } catch (const Error& e) {
+    const bool missing = std::string(e.what()).ends_with("does not exist");
+    warning(*node, cat("texture: ", e.what(), missing ? similarFilesHint(resolvePath(givenPath(*node), folder_)) : ""));
+  }
 }
 
 }  // namespace kinegraph
