@@ -72,6 +72,7 @@ from .parameters import (
     set_params,
 )
 from .problems import get_NLP_Problem_names, make_NLP_Problem
+from .quaternion import Quaternion
 
 _model_paths.announce()
 
@@ -123,6 +124,7 @@ __all__ = [
     "NotFound",
     "OptMethod",
     "ParseError",
+    "Quaternion",
     "SolverReturn",
     "SolverReturns",
     "checkFile",
