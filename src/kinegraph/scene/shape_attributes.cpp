@@ -23,6 +23,14 @@ std::vector<Vector3d> triples(const std::vector<double>& v) {
   return points;
 }
 
+bool isJointType(const std::string& word) {
+  try {
+    return jointTypeFromName(word) != JointType::none;
+  } catch (const ValueError&) {
+    return false;
+  }
+}
+
 bool isMeshFile(const Node& node) { return node.value.as<AngleText>() || node.value.as<std::string>(); }
 
 }  // namespace
@@ -35,6 +43,7 @@ bool AttributeReader::readShapeType(Geometry& geometry) {
              geometry.type = ShapeType(int(*code));
              shapeTypeName(geometry.type);  // throws for other numbers
            } else if (const std::string* word = node->value.as<std::string>()) {
+             if (isJointType(*word)) throw ValueError(cat("'", *word, "' is a joint type; write joint: ", *word));
              geometry.type = shapeTypeFromName(*word);
            } else {
              throw ValueError(cat("expected a shape type, got ", describe(node->value)));
@@ -156,10 +165,14 @@ bool AttributeReader::readGrid(Geometry& geometry) {
 bool AttributeReader::readSize(Geometry& geometry) {
   const Node* size = find({"size"});
   const Node& blamed = size ? *size : *find({"shape", "type", "mesh", "mesh_decomp", "mesh_points"});
-  return guarded(blamed, [&] {
+  const auto given = size ? numbers(*size) : std::vector<double>{};
+  return given && guarded(blamed, [&] {
     std::string enlarged;
-    geometry.size = checkedSize(
-        geometry.type, size ? numbers(*size).value_or(std::vector<double>{}) : std::vector<double>{}, &enlarged);
+    try {
+      geometry.size = checkedSize(geometry.type, *given, &enlarged);
+    } catch (const ValueError& e) {
+      throw ValueError(cat(e.what(), size ? severalHint(*size) : ""));
+    }
     if (!enlarged.empty()) warning(blamed, enlarged);
   });
 }
@@ -205,6 +218,8 @@ void AttributeReader::applyShape(FrameData& frame) {
     if (n == 1 || n == 2) frame.shape->color = Vector4d((*c)[0], (*c)[0], (*c)[0], n == 2 ? (*c)[1] : 1.);
     if (n == 3 || n == 4) frame.shape->color = Vector4d((*c)[0], (*c)[1], (*c)[2], n == 4 ? (*c)[3] : 1.);
     if (frame.shape->color && !frame.shape->color->allFinite()) error(*color, "expected finite numbers");
+    if (c && std::any_of(c->begin(), c->end(), [](double x) { return x > 1.5; }))
+      warning(*color, "color has numbers above 1; they are in 0..1, those of 0..255 divided by 255");
   }
   if (const Node* contact = find({"contact"})) {
     const double flag = number(*contact).value_or(0.);
