@@ -1,5 +1,6 @@
 #include "kinegraph/solvers/constrained_function.h"
 
+#include <algorithm>
 #include <limits>
 
 #include "kinegraph/base/errors.h"
@@ -31,10 +32,27 @@ ConstrainedFunction::ConstrainedFunction(Nlp& nlp, const VectorXd& x0, const Sol
   constraints_.insert(constraints_.end(), inequalities.begin(), inequalities.end());
 }
 
-bool ConstrainedFunction::evaluate(const VectorXd& x, VectorXd& phi, Jacobian& J) {
-  nlp_.evaluate(x, phi, &J);
+EvaluatedPoint ConstrainedFunction::makePoint() const {
+  EvaluatedPoint point;
+  point.x.setZero(nlp_.dimension());
+  point.phi.setZero(Eigen::Index(types().size()));
+  point.J = nlp_.makeJacobian();
+  point.c.setZero(Eigen::Index(constraints_.size()));
+  return point;
+}
+
+bool ConstrainedFunction::evaluate(EvaluatedPoint& point) {
+  nlp_.evaluate(point.x, point.phi, &point.J);
+  last_x_ = point.x;
   ++evals_;
-  return !hook_ || hook_(x, phi);
+  for (std::size_t j = 0; j < constraints_.size(); ++j) point.c[Eigen::Index(j)] = point.phi[constraints_[j]];
+  point.cost = cost(point.phi);
+  const Eigen::Index inequalities = point.c.size() - equalities_;
+  point.violation = 0.;
+  if (equalities_ > 0) point.violation = point.c.head(equalities_).lpNorm<Eigen::Infinity>();
+  if (inequalities > 0) point.violation = std::max(point.violation, point.c.tail(inequalities).maxCoeff());
+  point.finite = describeNotFinite(nlp_, point.phi, &point.J).empty();
+  return !hook_ || hook_(point.x, point.phi);
 }
 
 void ConstrainedFunction::requireFiniteStart(const VectorXd& phi, const Jacobian& J) const {
@@ -72,31 +90,31 @@ void ConstrainedFunction::addConstraintGradient(const Jacobian& J, const VectorX
   for (Eigen::Index j = 0; j < multipliers.size(); ++j) J.addRowTo(constraints_[std::size_t(j)], multipliers[j], gradient);
 }
 
-void ConstrainedFunction::remember(const VectorXd& x, const VectorXd& phi) {
-  const double v = violation(phi), c = cost(phi);
-  const bool better = best_x_.size() == 0 || (v <= tolerance_ && best_violation_ <= tolerance_ ? c < best_cost_ : v < best_violation_);
-  if (better) forceBest(x, phi);
+void ConstrainedFunction::remember(const EvaluatedPoint& point) {
+  const bool both_hold = point.violation <= tolerance_ && best_.violation <= tolerance_;
+  if (best_.x.size() == 0 || (both_hold ? point.cost < best_.cost : point.violation < best_.violation)) forceBest(point);
 }
 
-void ConstrainedFunction::forceBest(const VectorXd& x, const VectorXd& phi) {
-  best_x_ = x;
-  best_phi_ = phi;
-  best_violation_ = violation(phi);
-  best_cost_ = cost(phi);
+void ConstrainedFunction::forceBest(const EvaluatedPoint& point) {
+  best_.x = point.x;
+  best_.phi = point.phi;
+  best_.cost = point.cost;
+  best_.violation = point.violation;
 }
 
-SolverResult ConstrainedFunction::result(const VectorXd& x, const VectorXd& phi, const VectorXd& multipliers, SolverStatus status,
-                                         std::string message) {
+SolverResult ConstrainedFunction::result(const EvaluatedPoint& point, const VectorXd& multipliers, SolverStatus status, std::string message) {
   SolverResult out;
-  out.x = x;
-  out.dual = VectorXd::Zero(phi.size());
+  out.x = point.x;
+  out.dual = VectorXd::Zero(point.phi.size());
   for (std::size_t j = 0; j < constraints_.size(); ++j) out.dual[constraints_[j]] = multipliers[Eigen::Index(j)];
   out.evals = evals_;
-  out.setSums(types(), phi, tolerance_);
+  out.setSums(types(), point.phi, tolerance_);
   out.status = status;
   out.message = std::move(message);
-  VectorXd at_x = phi;
-  nlp_.evaluate(x, at_x, nullptr);
+  if (last_x_.size() == 0 || last_x_ != point.x) {
+    VectorXd phi = point.phi;
+    nlp_.evaluate(point.x, phi, nullptr);
+  }
   return out;
 }
 

@@ -7,6 +7,16 @@
 
 namespace kinegraph {
 
+/// A point and what is known there.
+struct EvaluatedPoint {
+  VectorXd x, phi;
+  Jacobian J;
+  VectorXd c;             ///< phi of the constraints
+  double cost = 0.;
+  double violation = 0.;  ///< of the worst constraint
+  bool finite = true;     ///< are phi and J?
+};
+
 /// A problem as methods for constraints see it: costs, constraints c (rows of type eq, ineq, ineqB) and a box.
 /// Counts evaluations, asks the hook, keeps the best point.
 class ConstrainedFunction {
@@ -24,15 +34,17 @@ class ConstrainedFunction {
   const VectorXd& upper() const { return upper_; }
   VectorXd clip(const VectorXd& x) const { return x.cwiseMax(lower_).cwiseMin(upper_); }
 
-  /// False if the caller wants it to end.
-  bool evaluate(const VectorXd& x, VectorXd& phi, Jacobian& J);
+  /// A point with memory for all its parts.
+  EvaluatedPoint makePoint() const;
+
+  /// Fills in what is known at point.x. False if the caller wants it to end.
+  bool evaluate(EvaluatedPoint& point);
   int evals() const { return evals_; }
 
   /// Throws ValueError, naming the row, if numbers are not finite.
   void requireFiniteStart(const VectorXd& phi, const Jacobian& J) const;
 
   double cost(const VectorXd& phi) const;
-  double violation(const VectorXd& phi) const { return largestViolation(nlp_.types(), phi); }
   void costGradient(const VectorXd& phi, const Jacobian& J, VectorXd& gradient) const;
 
   /// Gradient of the f rows and of the constraints times `multipliers` (empty: zero): what Gauss-Newton has no curvature of.
@@ -41,14 +53,12 @@ class ConstrainedFunction {
 
   /// Takes the point as the best so far if it is: among those within the tolerance the one of least cost, else of least
   /// violation.
-  void remember(const VectorXd& x, const VectorXd& phi);
-  void forceBest(const VectorXd& x, const VectorXd& phi);
-  const VectorXd& best() const { return best_x_; }
-  const VectorXd& bestPhi() const { return best_phi_; }
-  double bestViolation() const { return best_violation_; }
+  void remember(const EvaluatedPoint& point);
+  void forceBest(const EvaluatedPoint& point);
+  const EvaluatedPoint& best() const { return best_; }
 
-  /// How it ended at x; leaves the problem there. `multipliers` are those of the constraints.
-  SolverResult result(const VectorXd& x, const VectorXd& phi, const VectorXd& multipliers, SolverStatus status, std::string message);
+  /// How it ended at a point; leaves the problem there. `multipliers` are those of the constraints.
+  SolverResult result(const EvaluatedPoint& point, const VectorXd& multipliers, SolverStatus status, std::string message);
 
  private:
   Nlp& nlp_;
@@ -57,8 +67,8 @@ class ConstrainedFunction {
   std::vector<int> costs_, constraints_;
   int equalities_ = 0, evals_ = 0;
   bool has_f_ = false;
-  VectorXd lower_, upper_, best_x_, best_phi_;
-  double best_violation_ = 0., best_cost_ = 0.;
+  VectorXd lower_, upper_, last_x_;
+  EvaluatedPoint best_;  ///< without J and c
 };
 
 }  // namespace kinegraph

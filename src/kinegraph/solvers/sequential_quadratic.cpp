@@ -40,23 +40,19 @@ class SequentialQuadratic {
  public:
   SequentialQuadratic(Nlp& nlp, const VectorXd& x0, const SolverOptions& options, const EvaluationHook& hook)
       : nlp_(nlp), options_(options), function_(nlp, x0, options, hook), constraints_(function_.constraints()),
-        equalities_(function_.equalities()), lower_(function_.lower()), upper_(function_.upper()), J_(nlp.makeJacobian()),
-        trial_J_(J_), x_(function_.clip(x0)), tolerance_(options.constraintTolerance()) {
-    for (VectorXd* v : {&phi_, &trial_phi_}) v->setZero(Eigen::Index(nlp.types().size()));
+        equalities_(function_.equalities()), lower_(function_.lower()), upper_(function_.upper()), here_(function_.makePoint()),
+        trial_(here_), tolerance_(options.constraintTolerance()) {
+    here_.x = function_.clip(x0);
     for (VectorXd* v : {&lambda_, &weights_, &row_scale_}) v->setZero(Eigen::Index(constraints_.size()));
   }
 
   SolverResult run() {
     curvature_.reset(nlp_.dimension());
-    evaluate(x_, phi_, J_);
-    function_.requireFiniteStart(phi_, J_);
-    function_.remember(x_, phi_);
+    evaluate(here_);
+    function_.requireFiniteStart(here_.phi, here_.J);
+    function_.remember(here_);
     iterate();
-    if (status_ != SolverStatus::converged) {
-      x_ = function_.best();
-      phi_ = function_.bestPhi();
-    }
-    return function_.result(x_, phi_, lambda_, status_, message_);
+    return function_.result(status_ == SolverStatus::converged ? here_ : function_.best(), lambda_, status_, message_);
   }
 
  private:
@@ -71,19 +67,13 @@ class SequentialQuadratic {
   void linearize(double room);
   Step solveQuadratic(const VectorXd& c);
   bool lineSearch(const Step& step);
-  void learnCurvature(const VectorXd& before, const Jacobian& J_before);
-
-  VectorXd constraintsAt(const VectorXd& phi) const {
-    VectorXd c(constraints_.size());
-    for (std::size_t j = 0; j < constraints_.size(); ++j) c[Eigen::Index(j)] = phi[constraints_[j]];
-    return c;
-  }
+  void learnCurvature(const EvaluatedPoint& before);
 
   /// Evaluates there; the merit function, infinite where numbers are not finite.
   double tryStep(const VectorXd& d) {
-    trial_ = function_.clip(x_ + d);
-    evaluate(trial_, trial_phi_, trial_J_);
-    return describeNotFinite(nlp_, trial_phi_, &trial_J_).empty() ? merit(trial_phi_) : std::numeric_limits<double>::infinity();
+    trial_.x = function_.clip(here_.x + d);
+    evaluate(trial_);
+    return trial_.finite ? merit(trial_) : std::numeric_limits<double>::infinity();
   }
 
   void stop(SolverStatus status, std::string message) {
@@ -92,15 +82,15 @@ class SequentialQuadratic {
     stopped_ = true;
   }
 
-  void evaluate(const VectorXd& x, VectorXd& phi, Jacobian& J) {
-    if (!function_.evaluate(x, phi, J)) stop(SolverStatus::cancelled, "cancelled by the caller");
+  void evaluate(EvaluatedPoint& point) {
+    if (!function_.evaluate(point)) stop(SolverStatus::cancelled, "cancelled by the caller");
   }
 
   double broken(int j, double c) const { return j < equalities_ ? std::abs(c) : std::max(0., c); }
 
-  double merit(const VectorXd& phi) const {
-    double sum = function_.cost(phi);
-    for (int j = 0; j < weights_.size(); ++j) sum += weights_[j] * broken(j, phi[constraints_[j]]);
+  double merit(const EvaluatedPoint& point) const {
+    double sum = point.cost;
+    for (int j = 0; j < weights_.size(); ++j) sum += weights_[j] * broken(j, point.c[j]);
     return sum;
   }
 
@@ -111,10 +101,10 @@ class SequentialQuadratic {
   int equalities_;
   const VectorXd &lower_, &upper_;
   QuasiNewton curvature_;
-  Jacobian J_, trial_J_;
+  EvaluatedPoint here_, trial_;
   MatrixXd H_, A_;      ///< of the quadratic program; A with rows of length 1
   VectorXd row_scale_;  ///< one over their length in J
-  VectorXd x_, trial_, phi_, trial_phi_, lambda_, weights_, gradient_, old_gradient_;
+  VectorXd lambda_, weights_, gradient_, old_gradient_;
   double tolerance_;
   bool stopped_ = false;
   SolverStatus status_ = SolverStatus::stalled;
@@ -125,24 +115,24 @@ class SequentialQuadratic {
 /// such that a step without constraints would be a tenth of `room`.
 void SequentialQuadratic::linearize(double room) {
   const int n = nlp_.dimension();
-  function_.costGradient(phi_, J_, gradient_);
+  function_.costGradient(here_.phi, here_.J, gradient_);
   H_ = curvature_.matrix();
   if (curvature_.empty()) {
-    function_.generalGradient(J_, VectorXd(), old_gradient_);
+    function_.generalGradient(here_.J, VectorXd(), old_gradient_);
     H_.diagonal().setConstant(std::max(1e-8, 10. * old_gradient_.lpNorm<Eigen::Infinity>() / room));
   }
   VectorXd row_of_J = VectorXd::Zero(n);
   for (int row : function_.costs()) {
     const ObjectiveType type = nlp_.types()[row];
-    if (type != ObjectiveType::sos && !(type == ObjectiveType::ineqP && phi_[row] > 0.)) continue;  // ineqP only where violated
+    if (type != ObjectiveType::sos && !(type == ObjectiveType::ineqP && here_.phi[row] > 0.)) continue;  // ineqP only where violated
     row_of_J.setZero();
-    J_.addRowTo(row, 1., row_of_J);
+    here_.J.addRowTo(row, 1., row_of_J);
     H_.noalias() += 2. * row_of_J * row_of_J.transpose();
   }
   A_.setZero(Eigen::Index(constraints_.size()), n);
   for (int j = 0; j < A_.rows(); ++j) {
     row_of_J.setZero();
-    J_.addRowTo(constraints_[j], 1., row_of_J);
+    here_.J.addRowTo(constraints_[j], 1., row_of_J);
     row_scale_[j] = 1. / std::max(row_of_J.norm(), 1e-8);
     A_.row(j) = row_scale_[j] * row_of_J.transpose();
   }
@@ -159,16 +149,16 @@ SequentialQuadratic::Step SequentialQuadratic::solveQuadratic(const VectorXd& c)
   for (int i = 0, row = m; i < n; ++i) {
     if (std::isfinite(lower_[i])) {
       program.A(row, i) = -1.;
-      program.b[row++] = lower_[i] - x_[i];
+      program.b[row++] = lower_[i] - here_.x[i];
     }
     if (std::isfinite(upper_[i])) {
       program.A(row, i) = 1.;
-      program.b[row++] = x_[i] - upper_[i];
+      program.b[row++] = here_.x[i] - upper_[i];
     }
   }
   Step step;
   QuadraticSolution solution = solve(program);
-  double weight = 1e3 * std::max(1., std::abs(function_.cost(phi_)));
+  double weight = 1e3 * std::max(1., std::abs(here_.cost));
   for (int attempt = 0; attempt < 4 && m > 0 && (solution.status != QuadraticStatus::solved || step.relaxed >= .9); ++attempt) {
     QuadraticSolution relaxed = solve(relax(program, m, weight));
     weight *= 100.;
@@ -187,7 +177,7 @@ SequentialQuadratic::Step SequentialQuadratic::solveQuadratic(const VectorXd& c)
 bool SequentialQuadratic::lineSearch(const Step& step) {
   double slope = gradient_.dot(step.d), reduction = 0.;
   for (int j = 0; j < weights_.size(); ++j) {
-    const double reduces = broken(j, phi_[constraints_[j]]) - broken(j, step.linear[j]);
+    const double reduces = broken(j, here_.c[j]) - broken(j, step.linear[j]);
     if (step.relaxed == 0.) weights_[j] = std::max(std::abs(step.lambda[j]), .5 * (weights_[j] + std::abs(step.lambda[j])));
     reduction += reduces * row_scale_[j];
     slope -= weights_[j] * reduces;
@@ -198,7 +188,7 @@ bool SequentialQuadratic::lineSearch(const Step& step) {
     for (int j = 0; j < weights_.size(); ++j) weights_[j] += more * row_scale_[j];
     slope = -curvature;
   }
-  const double before = merit(phi_), noise = 1e-13 * (1. + std::abs(before));
+  const double before = merit(here_), noise = 1e-13 * (1. + std::abs(before));
   double alpha = 1.;
   for (int attempt = 0; attempt < 12; ++attempt) {
     if (function_.evals() >= options_.stopEvals) break;
@@ -207,7 +197,7 @@ bool SequentialQuadratic::lineSearch(const Step& step) {
     if (after <= before + 1e-4 * alpha * slope + noise) return true;
     const bool finite = std::isfinite(after);
     if (attempt == 0 && finite && !constraints_.empty()) {
-      const Step second = solveQuadratic(constraintsAt(trial_phi_) - (A_ * step.d).cwiseQuotient(row_scale_));
+      const Step second = solveQuadratic(trial_.c - (A_ * step.d).cwiseQuotient(row_scale_));
       if (second.found && (second.d - step.d).norm() < step.d.norm()) {
         const double corrected = tryStep(second.d);
         if (stopped_) return false;
@@ -220,10 +210,10 @@ bool SequentialQuadratic::lineSearch(const Step& step) {
   return false;
 }
 
-void SequentialQuadratic::learnCurvature(const VectorXd& before, const Jacobian& J_before) {
-  function_.generalGradient(J_before, lambda_, old_gradient_);
-  function_.generalGradient(J_, lambda_, gradient_);
-  curvature_.update(x_ - before, gradient_ - old_gradient_);
+void SequentialQuadratic::learnCurvature(const EvaluatedPoint& before) {
+  function_.generalGradient(before.J, lambda_, old_gradient_);
+  function_.generalGradient(here_.J, lambda_, gradient_);
+  curvature_.update(here_.x - before.x, gradient_ - old_gradient_);
 }
 
 void SequentialQuadratic::iterate() {
@@ -231,15 +221,15 @@ void SequentialQuadratic::iterate() {
   for (int count = 0; !stopped_; ++count) {
     if (function_.evals() >= options_.stopEvals) return stop(SolverStatus::limit, cat("limit of ", options_.stopEvals, " evaluations"));
     if (count >= options_.stopInners) return stop(SolverStatus::limit, cat("limit of ", options_.stopInners, " steps"));
-    const double room = std::max(1., x_.lpNorm<Eigen::Infinity>());
+    const double room = std::max(1., here_.x.lpNorm<Eigen::Infinity>());
     linearize(room);
-    const Step step = solveQuadratic(constraintsAt(phi_));
-    const double violation = largestViolation(nlp_.types(), phi_), size = step.d.lpNorm<Eigen::Infinity>();
+    const Step step = solveQuadratic(here_.c);
+    const double violation = here_.violation, size = step.d.lpNorm<Eigen::Infinity>();
     double promised = std::abs(gradient_.dot(step.d));
-    for (int j = 0; j < lambda_.size(); ++j) promised += std::abs(step.lambda[j] * phi_[constraints_[j]]);
-    const double scale = std::max(1., std::abs(function_.cost(phi_)));
+    for (int j = 0; j < lambda_.size(); ++j) promised += std::abs(step.lambda[j] * here_.c[j]);
+    const double scale = std::max(1., std::abs(here_.cost));
     if (options_.verbose > 2) {
-      std::printf("    step %3d  evals %3d  cost %.10g  |d| %.3g  promised %.3g  violation %.3g%s\n", count, function_.evals(), function_.cost(phi_), size, promised,
+      std::printf("    step %3d  evals %3d  cost %.10g  |d| %.3g  promised %.3g  violation %.3g%s\n", count, function_.evals(), here_.cost, size, promised,
                   violation, !step.found ? "  (no step)" : step.relaxed > 0. ? "  (relaxed)" : "");
     }
     if (violation <= tolerance_ && step.found && ((size <= options_.stopTolerance * room && promised <= std::max(std::pow(options_.stopTolerance, 2), 1e-12) * scale) ||
@@ -257,11 +247,9 @@ void SequentialQuadratic::iterate() {
       continue;
     }
     if (step.relaxed < .1) lambda_ = step.lambda;
-    x_.swap(trial_);
-    phi_.swap(trial_phi_);
-    std::swap(J_, trial_J_);
-    learnCurvature(trial_, trial_J_);
-    function_.remember(x_, phi_);
+    std::swap(here_, trial_);
+    learnCurvature(trial_);
+    function_.remember(here_);
   }
 }
 
