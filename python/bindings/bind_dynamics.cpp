@@ -1,6 +1,8 @@
 #include <nanobind/stl/string.h>
 
 #include "bindings.h"
+#include "defaults.h"
+#include "kinegraph/scene/earlier_methods.h"
 
 namespace kinegraph::python {
 
@@ -13,6 +15,20 @@ void bindDynamics(nb::class_<PyConfig>& config) {
            },
            "q_dot"_a, "M (n, n) and F (n,) of the equation of motion u = M ddq + F, at q and the velocity dq. Gravity is\n"
            "9.81 m/s^2 along -z; masses, centres of mass and inertias are those of the frames.")
+      .def("equationOfMotion",
+           [](const PyConfig& c, const Numbers& velocity, bool gravity) {
+             EquationOfMotion equation = c.equationOfMotion(velocity.values);
+             if (!gravity) equation.F -= c.equationOfMotion(VectorXd::Zero(velocity.values.size())).F;
+             return nb::typed<nb::tuple, Array, Array>(nb::make_tuple(toNumpy(equation.M), toNumpy(equation.F)));
+           },
+           "qdot"_a, "gravity"_a = true, "dyn_MF, as scripts of earlier years call it, also without gravity.")
+      .def("stepDynamics",
+           [](PyConfig& c, const Numbers& velocity, const Numbers& u, double tau, double noise, bool gravity) {
+             return toNumpy(stepDynamics(c, velocity.values, u.values, tau, noise, gravity, defaults().random));
+           },
+           "qdot"_a, "u_control"_a, "tau"_a, "dynamicNoise"_a = 0., "gravity"_a = true,
+           "Moves q by tau seconds under the forces u_control (n,), from the velocity qdot (n,); returns the velocity then.\n"
+           "A Runge-Kutta step of the equation of motion, without contacts. dynamicNoise: deviation of added accelerations.")
       .def("dyn_F0",
            [](const PyConfig& c) { return toNumpy(c.equationOfMotion(VectorXd::Zero(c.getJointDimension())).F); },
            "F at rest: the generalized forces (n,) that hold the configuration against gravity (N m, N).")

@@ -83,6 +83,13 @@ void setAttributes(Frame& frame, nb::dict attributes) {
   }
 }
 
+Frame& setAttribute(Frame& frame, nb::str key, nb::handle value) {
+  nb::dict attributes;
+  attributes[key] = value;
+  setAttributes(frame, attributes);
+  return frame;
+}
+
 using Rows = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 
 Array positionJacobian(const Frame& frame, const std::optional<Numbers>& world_point) {
@@ -253,7 +260,9 @@ void bindFrame(nb::module_&, nb::class_<Frame>& frame) {
       .def("setAttributes", [](Frame& f, nb::dict d) -> Frame& { return setAttributes(f, d), f; }, "attributes"_a, kChain,
            "Adds attributes that the library keeps but does not interpret.")
       .def("addAttributes", [](Frame& f, nb::dict d) -> Frame& { return setAttributes(f, d), f; }, "attributes"_a, kChain,
-           "The same as setAttributes.");
+           "The same as setAttributes.")
+      .def("addAttribute", setAttribute, "key"_a, "value"_a, kChain, "setAttributes with one key.")
+      .def("setAttribute", setAttribute, "key"_a, "value"_a, kChain, "setAttributes with one key.");
 }
 
 }  // namespace kinegraph::python

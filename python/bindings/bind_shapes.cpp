@@ -161,21 +161,6 @@ Vector3d boxSize(const Numbers& size, const char* call) {
 
 std::string pathText(nb::handle path) { return nb::cast<std::string>(nb::module_::import_("os").attr("fspath")(path)); }
 
-Frame& setTextureFile(Frame& frame, nb::handle image, OptionalNumbers coordinates) {
-  const std::string path = pathText(image);
-  if (!nb::cast<bool>(nb::module_::import_("os.path").attr("isfile")(path))) {
-    throw FileError(cat("setTextureFile of frame '", frame.getName(), "': the image '", path, "' does not exist"));
-  }
-  if (!frame.data().shape) throw ValueError(cat("setTextureFile: frame '", frame.getName(), "' has no shape"));
-  Node node;
-  node.key = "texture";
-  node.value.data = AngleText{nb::cast<std::string>(nb::module_::import_("os.path").attr("abspath")(path))};
-  frame.editAttributes().set(node);
-  emitWarning(cat("textures are kept with the scene but not drawn: neither the viewer nor the cameras show images on shapes yet",
-                  coordinates ? "; texture coordinates are dropped" : ""));
-  return frame;
-}
-
 constexpr auto kChain = nb::rv_policy::none;  // setters return the very object they were called on
 
 void bindMeshes(nb::class_<Frame>& frame) {
@@ -186,9 +171,14 @@ void bindMeshes(nb::class_<Frame>& frame) {
       .def("setMeshFile",
            [](Frame& f, nb::handle file, double scale) -> Frame& { return setMeshFile(f, pathText(file), scale), f; }, "filename"_a,
            "scale"_a = 1., kChain, "Gives the frame the mesh of a file (h5, ply, stl, obj, dae, ...), scaled. FileError if it cannot be read.")
-      .def("setTextureFile", setTextureFile, "image_filename"_a, "texCoords"_a = nb::none(), kChain,
-           "Notes an image as the texture of the frame's shape; it is kept with the scene, and not drawn (a warning says so).\n"
-           "FileError if there is no such file.")
+      .def("setTextureFile",
+           [](Frame& f, nb::handle image, OptionalNumbers uv) -> Frame& {
+             return setTexture(f, pathText(image), uv ? uv->list() : std::vector<double>{}), f;
+           },
+           "image_filename"_a, "texCoords"_a = nb::none(), kChain,
+           "Covers the frame's shape with a picture, PNG or JPEG. texCoords: (n, 2), where each vertex of its mesh is in the picture:\n"
+           "to the right and up, in 0..1. Without them the mesh's own count; on other shapes the picture covers every side of a box, a\n"
+           "quad, or goes once around z. FileError if the file is missing or of another kind; ArgumentError without a shape.")
       .def("setConvexMesh", setConvexMesh, "points"_a, "colors"_a = nb::none(), "radius"_a = 0., kChain,
            "Gives the frame the convex hull of points (n, 3), m: as a mesh, or, with a radius (m), as ssCvx swept by a ball.\n"
            "The hull has one color, the mean of those given (0..255).")

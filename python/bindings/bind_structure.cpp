@@ -7,6 +7,7 @@
 #include "kinegraph/base/errors.h"
 #include "kinegraph/base/text.h"
 #include "kinegraph/formats/mesh_export.h"
+#include "kinegraph/scene/earlier_methods.h"
 #include "kinegraph/scene/frame_shapes.h"
 #include "kinegraph/scene/inertia_edits.h"
 #include "kinegraph/scene/tree_edits.h"
@@ -71,6 +72,13 @@ void bindStructure(nb::class_<PyConfig>& config) {
            "Gathers the inertia of every link in its frame. recomputeInertias: first, opaque shapes weigh 5 kg per m^2 of surface and\n"
            "transparent ones nothing. transformToDiagInertia: link frames move to their centre of mass and principal axes; one that\n"
            "cannot move (it has a shape or dofs) gets a child <name>_inertia there, which holds the inertia.")
+      .def("sortFrames", [](PyConfig& c) { c.scene()->sortByDepth(); }, "Sorts the frames by depth.")
+      .def("selectJointsByTag", [](PyConfig& c, const std::vector<std::string>& tags, bool not_those) { selectJointsByTag(c, tags, not_those); },
+           "jointGroups"_a, "notThose"_a = false,
+           "Makes active exactly the joints at frames that have one of these attributes, or with notThose all others.")
+      .def("makeObjectsFree", [](PyConfig& c, const std::vector<std::string>& names) { makeObjectsFree(c, names); }, "frameNames"_a,
+           "Lets objects move freely: the nearest joint at or above each of these frames becomes a free one, where it is. Roots are\n"
+           "attached to the first frame of the configuration.")
       .def("makeMeshesSSCvx", [](PyConfig& c, double radius) { makeMeshesConvex(*c.scene(), radius); }, "radius"_a = .005,
            "Replaces every mesh by its convex hull, drawn in by `radius` and swept by a ball of it (m). Flat meshes stay.")
       .def("recalibrateJointsToZero", [](PyConfig& c) { recalibrateJointsToZero(*c.scene()); },
@@ -87,7 +95,7 @@ void bindStructure(nb::class_<PyConfig>& config) {
            [](const PyConfig& c, const std::string& prefix, bool, bool enumerate) { return saveMeshes(c, prefix, enumerate); },
            "pathPrefix"_a, "copyTextures"_a = true, "enumerateAssets"_a = false,
            "Writes every mesh once as <pathPrefix><frame>.ply (enumerateAssets: mesh_0.ply, ...) in its frame's coordinates. Returns the\n"
-           "paths. There are no texture files to copy.")
+           "paths. PLY files hold no pictures, so there are none to copy.")
       .def("writeConvexStls",
            [](const PyConfig& c, const std::string& prefix, double shrink, int) { return saveConvexStls(c, prefix, shrink); },
            "pathPrefix"_a, "shrinkRadius"_a = -1., "verbose"_a = 1,

@@ -27,7 +27,10 @@ struct ToPython {
     for (const Value& v : l) list.append(fromValue(v));
     return list;
   }
-  nb::object operator()(const AngleText& t) const { return nb::str(t.text.c_str()); }
+  nb::object operator()(const AngleText& t) const {
+    const std::string quoted = cat("<", t.text, ">");  // as addDict reads it
+    return nb::str(quoted.c_str(), quoted.size());
+  }
   nb::object operator()(const NameTuple& t) const {
     nb::list list;
     for (const std::string& s : t.names) list.append(nb::str(s.c_str()));
@@ -46,7 +49,7 @@ nb::dict toDict(const Graph& graph) {
     std::string key = node.key;
     if (!node.parents.empty()) key += cat("(", join(node.parents, " "), ")");
     nb::object name = nb::str(key.c_str(), key.size());
-    if (!dict.contains(name)) dict[name] = fromValue(node.value);
+    dict[name] = fromValue(node.value);
   }
   return dict;
 }
@@ -57,7 +60,12 @@ Value toValue(nb::handle value, const std::string& name) {
   if (nb::isinstance<nb::bool_>(value)) {
     out.data = nb::cast<bool>(value);
   } else if (nb::isinstance<nb::str>(value)) {
-    out.data = nb::cast<std::string>(value);
+    std::string text = nb::cast<std::string>(value);
+    if (text.size() > 2 && text.starts_with('<') && text.ends_with('>')) {
+      out.data = AngleText{text.substr(1, text.size() - 2)};
+    } else {
+      out.data = std::move(text);
+    }
   } else if (nb::isinstance<nb::dict>(value)) {
     Graph graph;
     for (const auto& [key, entry] : nb::cast<nb::dict>(value)) {
@@ -75,11 +83,16 @@ Value toValue(nb::handle value, const std::string& name) {
     }
   } else if (nb::isinstance<nb::sequence>(value)) {
     StringArray words;
-    for (nb::handle word : nb::cast<nb::sequence>(value)) {
-      if (!nb::isinstance<nb::str>(word)) throw ValueError(cat("attribute '", name, "': lists hold numbers only or words only"));
-      words.push_back(nb::cast<std::string>(word));
+    ValueList values;
+    for (nb::handle item : nb::cast<nb::sequence>(value)) {
+      nb::isinstance<nb::str>(item) ? words.push_back(nb::cast<std::string>(item)) : values.push_back(toValue(item, name));
     }
-    out.data = std::move(words);
+    if (!words.empty() && !values.empty()) throw ValueError(cat("attribute '", name, "': a list holds words only, or none"));
+    if (values.empty()) {
+      out.data = std::move(words);
+    } else {
+      out.data = std::move(values);
+    }
   } else {
     throw ValueError(cat("attribute '", name, "' is neither bool, number, text, list nor dict"));
   }

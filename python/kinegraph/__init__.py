@@ -73,6 +73,7 @@ from .parameters import (
     set_params,
 )
 from .problems import get_NLP_Problem_names, make_NLP_Problem
+from .quaternion import Quaternion
 
 _model_paths.announce()
 
@@ -124,6 +125,7 @@ __all__ = [
     "NotFound",
     "OptMethod",
     "ParseError",
+    "Quaternion",
     "Skeleton",
     "SolverReturn",
     "SolverReturns",

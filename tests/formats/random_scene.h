@@ -46,7 +46,7 @@ inline Value randomValue(Rng& rng, int depth) {
       value.data = StringArray{text(), "b"};
       break;
     case 5:
-      value.data = AngleText{"some/file.png"};
+      value.data = AngleText{"/some/file.png"};
       break;
     case 6:
       value.data = ValueList{Value{text(), {}}, Value{NumberArray{{1., 2.}, 1}, {}}};

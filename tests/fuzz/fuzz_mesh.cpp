@@ -23,6 +23,10 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
       if (*std::max_element(triangle.begin(), triangle.end()) >= mesh.vertices.size()) std::abort();
     }
     if (mesh.colors.size() > 1 && mesh.colors.size() != mesh.vertices.size()) std::abort();
+    if (!mesh.texcoords.empty() && mesh.texcoords.size() != mesh.vertices.size()) std::abort();
+    for (const TexturedTriangles& t : mesh.textures) {
+      if (mesh.texcoords.empty() || t.count > mesh.triangles.size() || t.first > mesh.triangles.size() - t.count) std::abort();
+    }
     for (const Vector3d& p : mesh.vertices) {
       if (!p.allFinite()) std::abort();
     }

@@ -7,6 +7,7 @@ Needs the package kinegraph. Start a fuzzer with its folder: build/fuzz/tests/fu
 
 import struct
 import sys
+import tempfile
 import warnings
 from pathlib import Path
 
@@ -39,9 +40,21 @@ def meshes() -> dict[str, list[bytes]]:
         "ply": [PLY.encode(), PLY_BINARY + vertices + struct.pack("<B3i", 3, 0, 1, 2)],
         "stl": [STL, STL_TEXT.encode()],
         "msh": [MSH],
-        "h5": [(ROOT / "tests/data/tetrahedron.h5").read_bytes()],
+        "h5": [(ROOT / f"tests/data/{name}.h5").read_bytes() for name in ("tetrahedron", "textured")],
+        "image": [file.read_bytes() for file in sorted((ROOT / "tests/data/images").iterdir())],
         "srdf": [SRDF.encode()],
     }
+
+
+def exports() -> dict[str, list[bytes]]:
+    """A small scene in the formats that are written for others to read."""
+    C = ry.Config()
+    C.addFrame("box").setShape("box", [0.1, 0.2, 0.3]).setColor([1, 0, 0])
+    C.addFrame("picture", "box").setShape("quad", [1, 1]).setTextureFile(ROOT / "tests/data/images/colors.png")
+    with tempfile.TemporaryDirectory() as folder:
+        C.writeGltf(Path(folder) / "a.glb")
+        C.writeCollada(Path(folder) / "a.dae")
+        return {kind: [(Path(folder) / f"a.{kind}").read_bytes()] for kind in ("glb", "dae")}
 
 
 def scenes() -> dict[str, list[bytes]]:
@@ -64,7 +77,7 @@ def scenes() -> dict[str, list[bytes]]:
 
 def main(folder: Path) -> None:
     warnings.simplefilter("ignore", ry.KinegraphWarning)
-    for kind, seeds in {**meshes(), **scenes()}.items():
+    for kind, seeds in {**meshes(), **exports(), **scenes()}.items():
         (folder / kind).mkdir(parents=True, exist_ok=True)
         for number, seed in enumerate(seeds):
             (folder / kind / f"seed{number}").write_bytes(seed)

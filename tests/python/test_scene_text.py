@@ -1,5 +1,8 @@
 """Scenes as dict, YAML and `.g` text: what is written reads back as the same scene."""
 
+import shutil
+from pathlib import Path
+
 import numpy as np
 import pytest
 from hypothesis import given, settings
@@ -7,6 +10,7 @@ from hypothesis import strategies as st
 
 import kinegraph as ry
 
+DATA = Path(__file__).parent.parent / "data"
 NUMBER = st.floats(-1e6, 1e6, allow_subnormal=False)
 UNIT = st.floats(-1, 1, allow_subnormal=False)
 TEXT = st.text(st.characters(min_codepoint=32, max_codepoint=0x24F, exclude_characters="'\"\\<>\x7f"), max_size=8)
@@ -158,8 +162,8 @@ def test_a_file_that_cannot_be_written_is_an_error(config: ry.Config, tmp_path) 
 
 
 def test_files_that_attributes_name_are_found_after_saving_elsewhere(tmp_path) -> None:
-    (tmp_path / "picture.png").write_bytes(b"")
+    shutil.copy(DATA / "images" / "colors.png", tmp_path / "picture.png")
     (tmp_path / "a.g").write_text("a: { shape: box, size: [1 1 1], texture: <picture.png>, note: <nothing.png> }")
     C = ry.Config()
     C.addFile(tmp_path / "a.g")
-    assert f"texture: <{tmp_path / 'picture.png'}>, note: <nothing.png>" in C.write()
+    assert f"texture: <{tmp_path / 'picture.png'}>, note: <{tmp_path / 'nothing.png'}>" in C.write()

@@ -167,15 +167,16 @@ def test_meshes_become_swept_hulls_of_nearly_the_same_extent():
         C.makeMeshesSSCvx(-1.0)
 
 
-def test_a_texture_is_kept_and_said_not_to_be_drawn(frame, tmp_path):
-    image = tmp_path / "image.png"
-    image.write_bytes(b"")
-    frame.setShape("box", [1, 1, 1])
-    with pytest.warns(ry.KinegraphWarning, match="not drawn"):
-        frame.setTextureFile(image)
-    assert frame.getAttributes()["texture"] == str(image)
+def test_a_texture_is_a_picture_that_is_there(frame):
+    image = DATA / "images" / "colors.png"
+    frame.setShape("box", [1, 1, 1]).setTextureFile(image)
+    assert frame.getAttributes()["texture"] == f"<{image}>"
     with pytest.raises(ry.FileError, match="nothing.png"):
         frame.setTextureFile("nothing.png")
+    with pytest.raises(ry.FileError, match="neither a PNG nor a JPEG"):
+        frame.setTextureFile(__file__)
+    with pytest.raises(ry.ArgumentError, match="no mesh"):
+        frame.setTextureFile(image, [[0, 0], [1, 1]])
 
 
 def test_joint_samples_have_the_deviation_that_was_set():

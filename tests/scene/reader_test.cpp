@@ -162,7 +162,7 @@ TEST(Reader, ErrorsNameThePlaceTheFrameAndTheNearestWord) {
   expectMessage("a: { shape: box, size: [1 1 1] ", "no error");
   expectMessage("a: 3", "at the top of a scene stand frames");
   expectMessage("Include: <nope.g>", "scene file");
-  expectMessage("a: { shape: box, color: red, size: [1 1 1] }", "expected numbers [..], got the text 'red'");
+  expectMessage("a: { shape: box, color: red, size: [1 1 1] }", "expected numbers [r g b] in 0..1, got the text 'red'");
   const std::string several = messageOf("a: { shape: bax }\nb: { shape: spher }");
   EXPECT_NE(several.find("s.g:1:"), std::string::npos);
   EXPECT_NE(several.find("s.g:2:"), std::string::npos);

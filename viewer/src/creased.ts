@@ -41,17 +41,19 @@ function facesAt(corners: ArrayLike<number>, points: number): { starts: Uint32Ar
   return { starts, faces };
 }
 
-/** The same surface with normals that are smooth but where it has edges. Vertices are shared as far as that allows. */
+/** The same surface with normals that are smooth but where it has edges. Vertices are shared as far as that allows. Triangles
+ * keep their order. */
 export function creased(geometry: THREE.BufferGeometry): THREE.BufferGeometry {
   const points = geometry.getAttribute("position").array;
   const colors = geometry.getAttribute("color")?.array;
+  const places = geometry.getAttribute("uv")?.array;
   const indices = geometry.index?.array ?? Uint32Array.from({ length: points.length / 3 }, (_, i) => i);
   const welded = weld(points);
   const corners = Uint32Array.from(indices, (i) => welded[i]!);
   const normals = faceNormals(points, corners);
   const { starts, faces } = facesAt(corners, welded.length);
-  const outPoints: number[] = [], outNormals: number[] = [], outColors: number[] = [], outIndices: number[] = [];
-  const made: { normal: THREE.Vector3; color: string; vertex: number }[][] = Array.from({ length: welded.length }, () => []);
+  const outPoints: number[] = [], outNormals: number[] = [], outColors: number[] = [], outPlaces: number[] = [], outIndices: number[] = [];
+  const made: { normal: THREE.Vector3; look: string; vertex: number }[][] = Array.from({ length: welded.length }, () => []);
   const [own, other, sum] = [new THREE.Vector3(), new THREE.Vector3(), new THREE.Vector3()];
   for (let i = 0; i < corners.length; ++i) {
     const point = corners[i]!, face = i - (i % 3), source = indices[i]!;
@@ -64,13 +66,15 @@ export function creased(geometry: THREE.BufferGeometry): THREE.BufferGeometry {
     }
     sum.lengthSq() > 0 ? sum.normalize() : sum.copy(own);
     const color = colors ? `${colors[3 * source]},${colors[3 * source + 1]},${colors[3 * source + 2]}` : "";
-    let entry = made[point]!.find((known) => known.color === color && known.normal.dot(sum) > 0.9999);
+    const look = places ? `${color},${places[2 * source]},${places[2 * source + 1]}` : color;
+    let entry = made[point]!.find((known) => known.look === look && known.normal.dot(sum) > 0.9999);
     if (!entry) {
-      entry = { normal: sum.clone(), color, vertex: outPoints.length / 3 };
+      entry = { normal: sum.clone(), look, vertex: outPoints.length / 3 };
       made[point]!.push(entry);
       outPoints.push(points[3 * point]!, points[3 * point + 1]!, points[3 * point + 2]!);
       outNormals.push(sum.x, sum.y, sum.z);
       if (colors) outColors.push(colors[3 * source]!, colors[3 * source + 1]!, colors[3 * source + 2]!);
+      if (places) outPlaces.push(places[2 * source]!, places[2 * source + 1]!);
     }
     outIndices.push(entry.vertex);
   }
@@ -78,5 +82,6 @@ export function creased(geometry: THREE.BufferGeometry): THREE.BufferGeometry {
   out.setAttribute("position", new THREE.Float32BufferAttribute(outPoints, 3));
   out.setAttribute("normal", new THREE.Float32BufferAttribute(outNormals, 3));
   if (colors) out.setAttribute("color", new THREE.Float32BufferAttribute(outColors, 3));
+  if (places) out.setAttribute("uv", new THREE.Float32BufferAttribute(outPlaces, 2));
   return out;
 }

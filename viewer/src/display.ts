@@ -1,7 +1,7 @@
 import * as THREE from "three";
 import { CSS2DObject } from "three/addons/renderers/CSS2DRenderer.js";
 import type { ShapeMessage } from "./messages";
-import { AXIS_COLORS } from "./shapes";
+import { AXIS_COLORS, materialsOf } from "./shapes";
 import type { Shown } from "./shown";
 
 /** What people can switch on and off; a letter with Alt does it on the keyboard. */
@@ -62,11 +62,13 @@ export class Display {
   }
 
   private paint(object: THREE.Object3D, shape: ShapeMessage): void {
-    if (!(object instanceof THREE.Mesh) || !(object.material instanceof THREE.MeshStandardMaterial)) return;
+    if (!(object instanceof THREE.Mesh)) return;
     const alpha = shape.color[3] ?? 1;
     const opacity = this.on.has("xray") ? Math.min(alpha, XRAY_OPACITY) : alpha;
-    object.material.needsUpdate = object.material.transparent !== opacity < 1;
-    Object.assign(object.material, { wireframe: this.on.has("wireframe"), transparent: opacity < 1, opacity, depthWrite: opacity === 1 });
+    for (const material of materialsOf(object)) {
+      material.needsUpdate = material.transparent !== opacity < 1;
+      Object.assign(material, { wireframe: this.on.has("wireframe"), transparent: opacity < 1, opacity, depthWrite: opacity === 1 });
+    }
     object.castShadow = object.receiveShadow = opacity === 1;
   }
 

@@ -26,7 +26,7 @@ let connection: Connection | null = null;
 const send = (command: Uint8Array<ArrayBuffer>): void => connection?.send(command);
 
 const stage = new Stage(find<HTMLCanvasElement>("canvas"));
-const shown = new ShownScene(stage.frames, stage.scene);
+const shown = new ShownScene(stage.frames, stage.scene, () => stage.redraw());
 const display = new Display();
 const joints = new JointPanel(send);
 const help = new Help();
@@ -227,7 +227,7 @@ Object.assign(window, {
     quads: () => quads.count,
     meshes: () => shown.meshCount,
     geometries: () => stage.renderer.info.memory.geometries,
-    idle: () => stage.idle,
+    idle: () => stage.idle && !shown.pictures.busy,
     pictures: () => stage.renderer.info.render.frame,
     messages: () => messages,
     resolution: () => stage.resolution,

@@ -9,6 +9,7 @@ export const BinaryKind = {
   joints: 3,
   motion: 4,
   quad: 5,
+  image: 6,
 } as const;
 
 export interface ShapeMessage {

@@ -1,5 +1,6 @@
 import * as THREE from "three";
 import type { MotionMessage } from "./messages";
+import { materialsOf } from "./shapes";
 import type { Shown } from "./shown";
 
 const GHOSTS = 24; // most slices that are drawn at once
@@ -56,8 +57,9 @@ export class Motion {
     const count = Math.min(this.slices, GHOSTS);
     for (const [id, { object }] of frames) {
       if (!(object instanceof THREE.Mesh) || !object.visible || !this.moves(id)) continue;
-      const material = (object.material as THREE.Material).clone();
-      Object.assign(material, { transparent: true, opacity: GHOST_OPACITY * material.opacity, depthWrite: false });
+      const faint = materialsOf(object).map((material) =>
+        Object.assign(material.clone(), { transparent: true, opacity: GHOST_OPACITY * material.opacity, depthWrite: false }));
+      const material = faint.length > 1 ? faint : faint[0]!;
       for (let i = 0; i < count; ++i) {
         const ghost = new THREE.Mesh(object.geometry, material);
         this.place(ghost, id, count === 1 ? 0 : (i * (this.slices - 1)) / (count - 1));

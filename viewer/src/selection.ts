@@ -3,6 +3,7 @@ import { TransformControls } from "three/addons/controls/TransformControls.js";
 import { find, make } from "./element";
 import type { JointPanel } from "./joints";
 import { moveFrameCommand } from "./messages";
+import { materialsOf } from "./shapes";
 import type { Shown } from "./shown";
 import type { Stage } from "./stage";
 
@@ -26,7 +27,7 @@ export class Selection {
   private handles: Handles = null;
   private readonly card = find("card");
   private readonly axes = new THREE.AxesHelper(0.15);
-  private tinted: THREE.MeshStandardMaterial | null = null;
+  private tinted: THREE.MeshStandardMaterial[] = [];
   private readonly grip = new THREE.Object3D();
   private readonly controls: TransformControls;
   private moved = false;
@@ -127,14 +128,15 @@ export class Selection {
 
   /** Tints the shape, and draws the axes of the frame over everything. */
   private highlight(): void {
-    this.tinted?.emissive.setHex(0);
-    this.tinted = null;
+    for (const material of this.tinted) material.emissive.setHex(0);
+    this.tinted = [];
     const shown = this.shown();
     this.axes.visible = shown !== undefined;
-    if (shown?.object instanceof THREE.Mesh && shown.object.material instanceof THREE.MeshStandardMaterial) {
-      this.tinted = shown.object.material;
-      this.tinted.emissive.setHex(HIGHLIGHT);
-      this.tinted.emissiveIntensity = 0.45;
+    if (!(shown?.object instanceof THREE.Mesh)) return;
+    this.tinted = materialsOf(shown.object).filter((material) => material instanceof THREE.MeshStandardMaterial);
+    for (const material of this.tinted) {
+      material.emissive.setHex(HIGHLIGHT);
+      material.emissiveIntensity = 0.45;
     }
   }
 

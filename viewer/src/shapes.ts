@@ -1,6 +1,7 @@
 import * as THREE from "three";
 import { creased } from "./creased";
 import type { ShapeMessage } from "./messages";
+import type { Pictures, TexturedTriangles } from "./pictures";
 import { PrimitiveMesh, type Primitives } from "./primitives";
 
 /** A mesh as the server sent it: without triangles it is a point cloud. */
@@ -8,6 +9,7 @@ export interface MeshData {
   geometry: THREE.BufferGeometry;
   isPoints: boolean;
   hasColors: boolean;
+  textured: TexturedTriangles[];
 }
 
 /** Of x, y and z. */
@@ -18,7 +20,7 @@ export const SURFACE = { roughness: 0.55, metalness: 0.05 } as const;
 
 const LARGEST_CREASED = 60000; // triangles
 
-export function makeMeshData(positions: Float32Array, indices: Uint32Array, colors: Uint8Array): MeshData {
+export function makeMeshData(positions: Float32Array, indices: Uint32Array, places: Float32Array, textured: TexturedTriangles[], colors: Uint8Array): MeshData {
   let geometry = new THREE.BufferGeometry();
   geometry.setAttribute("position", new THREE.BufferAttribute(positions, 3));
   const vertices = positions.length / 3;
@@ -32,13 +34,34 @@ export function makeMeshData(positions: Float32Array, indices: Uint32Array, colo
     }
     geometry.setAttribute("color", new THREE.BufferAttribute(linear, 3));
   }
+  if (textured.length > 0) geometry.setAttribute("uv", new THREE.BufferAttribute(places, 2));
   const isPoints = indices.length === 0;
   if (!isPoints) {
     geometry.setIndex(new THREE.BufferAttribute(indices, 1));
     if (indices.length < 3 * LARGEST_CREASED) geometry = creased(geometry);
     else geometry.computeVertexNormals();
   }
-  return { geometry, isPoints, hasColors };
+  if (!coversAll(textured, indices.length / 3)) addGroups(geometry, textured, indices.length / 3);
+  return { geometry, isPoints, hasColors, textured };
+}
+
+const coversAll = (textured: TexturedTriangles[], triangles: number): boolean => textured.length === 1 && textured[0]![1] === triangles;
+
+/** Material 0 is for what shows colors, the others are for pictures. */
+function addGroups(geometry: THREE.BufferGeometry, textured: TexturedTriangles[], triangles: number): void {
+  if (textured.length === 0) return;
+  let at = 0;
+  textured.forEach(([first, count], i) => {
+    if (first > at) geometry.addGroup(3 * at, 3 * (first - at), 0);
+    geometry.addGroup(3 * first, 3 * count, i + 1);
+    at = first + count;
+  });
+  if (at < triangles) geometry.addGroup(3 * at, 3 * (triangles - at), 0);
+}
+
+/** The materials of a mesh: one, or several for its groups. */
+export function materialsOf({ material }: THREE.Mesh): THREE.Material[] {
+  return Array.isArray(material) ? material : [material];
 }
 
 /** Arrows along x (red), y (green) and z (blue). */
@@ -63,7 +86,7 @@ function makePrimitive({ type, size }: ShapeMessage, primitives: Primitives, mat
 }
 
 /** What a frame shows, in the frame's own coordinates; null if there is nothing to see (yet). */
-export function makeShape(shape: ShapeMessage, meshes: Map<number, MeshData>, primitives: Primitives): THREE.Object3D | null {
+export function makeShape(shape: ShapeMessage, meshes: Map<number, MeshData>, pictures: Pictures, primitives: Primitives): THREE.Object3D | null {
   if (shape.type === "marker" || shape.type === "camera") return marker(shape.size[0] ?? 0.1);
   const [red = 0.8, green = 0.8, blue = 0.8, alpha = 1] = shape.color;
   const color = new THREE.Color().setRGB(red, green, blue, THREE.SRGBColorSpace);
@@ -77,7 +100,12 @@ export function makeShape(shape: ShapeMessage, meshes: Map<number, MeshData>, pr
     ...SURFACE, color: data?.hasColors ? 0xffffff : color, vertexColors: data?.hasColors ?? false,
     transparent, opacity: alpha, depthWrite: !transparent, side: data || shape.type === "quad" ? THREE.DoubleSide : THREE.FrontSide,
   });
-  const mesh = data ? new THREE.Mesh(data.geometry, material) : makePrimitive(shape, primitives, material);
+  const pictured = (data?.textured ?? []).map(([, , picture]) => {
+    const shown = material.clone();
+    shown.color.setHex(0xffffff);
+    return Object.assign(shown, { vertexColors: false, map: pictures.get(picture) });
+  });
+  const mesh = data ? new THREE.Mesh(data.geometry, data.geometry.groups.length > 0 ? [material, ...pictured] : pictured[0] ?? material) : makePrimitive(shape, primitives, material);
   if (!mesh) return null;
   mesh.castShadow = !transparent;
   mesh.receiveShadow = !transparent;

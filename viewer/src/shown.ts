@@ -1,8 +1,9 @@
 import * as THREE from "three";
 import { BinaryKind, type FrameMessage, type SceneMessage } from "./messages";
 import { Instances } from "./instances";
+import { Pictures, type TexturedTriangles } from "./pictures";
 import { PrimitiveMesh, Primitives } from "./primitives";
-import { makeMeshData, makeShape, type MeshData, SURFACE } from "./shapes";
+import { makeMeshData, makeShape, materialsOf, type MeshData, SURFACE } from "./shapes";
 
 /** A frame: `anchor` has its pose; `object` is the shape on it, if there is something to see. */
 export interface Shown {
@@ -17,7 +18,7 @@ function release(object: THREE.Object3D, kept: THREE.BufferGeometry | undefined)
     if (part instanceof PrimitiveMesh) return part.material.dispose();
     if (!(part instanceof THREE.Mesh || part instanceof THREE.Points || part instanceof THREE.LineSegments)) return;
     if (part.geometry !== kept) part.geometry.dispose();
-    part.material.dispose();
+    for (const material of part instanceof THREE.Mesh ? materialsOf(part) : [part.material]) material.dispose();
   });
 }
 
@@ -34,9 +35,13 @@ export class ShownScene {
 
   private readonly instances = new Instances(new THREE.MeshStandardMaterial(SURFACE));
 
-  /** Frames are added to `parent`, and what is drawn for several of them at once to `scene`. */
-  constructor(private readonly parent: THREE.Group, scene: THREE.Scene) {
+  readonly pictures: Pictures;
+
+  /** Frames are added to `parent`, and what is drawn for several of them at once to `scene`. `changed` is called when pictures
+   * that come later change what is seen. */
+  constructor(private readonly parent: THREE.Group, scene: THREE.Scene, changed: () => void) {
     scene.add(this.instances.group);
+    this.pictures = new Pictures(changed);
   }
 
   get meshCount(): number {
@@ -57,7 +62,7 @@ export class ShownScene {
       anchor.name = frame.name;
       anchor.userData.id = frame.id;
       this.parent.add(anchor);
-      const object = frame.shape ? makeShape(frame.shape, this.meshes, this.primitives) : null;
+      const object = frame.shape ? makeShape(frame.shape, this.meshes, this.pictures, this.primitives) : null;
       if (object) anchor.add(object);
       this.shown.set(frame.id, { message: frame, anchor, object });
       this.place(frame.id);
@@ -65,12 +70,13 @@ export class ShownScene {
     this.dropUnusedMeshes();
   }
 
-  /** Reads poses and meshes; false for other messages. */
+  /** Reads poses, meshes and pictures; false for other messages. */
   readBinary(data: ArrayBuffer): boolean {
     const view = new DataView(data);
     const kind = view.getUint32(0, true);
     if (kind === BinaryKind.poses) this.readPoses(view);
     else if (kind === BinaryKind.mesh) this.readMesh(data, view);
+    else if (kind === BinaryKind.image) this.pictures.read(data);
     else return false;
     return true;
   }
@@ -99,13 +105,19 @@ export class ShownScene {
   }
 
   private readMesh(data: ArrayBuffer, view: DataView): void {
-    const [index, vertices, triangles, colors] = [4, 8, 12, 16].map((at) => view.getUint32(at, true)) as [number, number, number, number];
-    let at = 20;
-    const positions = new Float32Array(data, at, 3 * vertices);
-    at += positions.byteLength;
-    const indices = new Uint32Array(data, at, 3 * triangles);
-    at += indices.byteLength;
-    this.meshes.set(index, makeMeshData(positions, indices, new Uint8Array(data, at, 4 * colors)));
+    const [index, vertices, triangles, colors, places, textured] = [4, 8, 12, 16, 20, 24].map((at) => view.getUint32(at, true)) as [number, number, number, number, number, number];
+    let at = 28;
+    const floats = (count: number): Float32Array => {
+      at += 4 * count;
+      return new Float32Array(data, at - 4 * count, count);
+    };
+    const words = (count: number): Uint32Array => {
+      at += 4 * count;
+      return new Uint32Array(data, at - 4 * count, count);
+    };
+    const positions = floats(3 * vertices), indices = words(3 * triangles), uv = floats(2 * places), list = words(3 * textured);
+    const shown = Array.from({ length: textured }, (_, i): TexturedTriangles => [list[3 * i]!, list[3 * i + 1]!, list[3 * i + 2]!]);
+    this.meshes.set(index, makeMeshData(positions, indices, uv, shown, new Uint8Array(data, at, 4 * colors)));
   }
 
   private place(id: number): void {
@@ -137,6 +149,7 @@ export class ShownScene {
       mesh.geometry.dispose();
       this.meshes.delete(number);
     }
+    this.pictures.keep(new Set([...this.meshes.values()].flatMap(({ textured }) => textured.map(([, , picture]) => picture))));
     this.primitives.keep(this.primitiveMeshes());
   }
 }

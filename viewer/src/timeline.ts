@@ -4,6 +4,7 @@ import type { JointPanel } from "./joints";
 import { Marks } from "./marks";
 import { Motion } from "./motion";
 import { colorOf, type Curve, drawCurves, drawViolations, isViolated } from "./plot";
+import { materialsOf } from "./shapes";
 import type { ShownScene } from "./shown";
 import type { Stage } from "./stage";
 
@@ -163,7 +164,7 @@ export class Timeline {
     this.ghostBox.checked = on;
     if (this.ghosts) {
       this.stage.scene.remove(this.ghosts);
-      for (const ghost of this.ghosts.children) if (ghost instanceof THREE.Mesh) (ghost.material as THREE.Material).dispose();
+      for (const ghost of this.ghosts.children) if (ghost instanceof THREE.Mesh) materialsOf(ghost).forEach((material) => material.dispose());
       this.ghosts = null;
     }
     if (on && this.motion) {

@@ -1,5 +1,6 @@
 #include "kinegraph/formats/gltf_writer.h"
 
+#include <algorithm>
 #include <array>
 #include <bit>
 #include <cmath>
@@ -64,6 +65,7 @@ class GltfWriter {
         cat("{\"asset\":{\"version\":\"2.0\",\"generator\":\"Kinegraph\"},\"scene\":0,\"scenes\":[{\"nodes\":[",
             nodes_.size() - 1, "]}],\"nodes\":[", join(nodes_, ","), "]");
     for (const auto& [name, entries] : {std::pair("meshes", &meshes_), std::pair("materials", &materials_),
+                                        std::pair("textures", &textures_), std::pair("images", &images_),
                                         std::pair("accessors", &accessors_), std::pair("bufferViews", &views_)}) {
       if (!entries->empty()) json += cat(",\"", name, "\":[", join(*entries, ","), "]");
     }
@@ -89,7 +91,8 @@ class GltfWriter {
  private:
   /// The numbers of a mesh in the file: indices of accessors.
   struct MeshData {
-    int positions = -1, colors = -1, triangles = -1;
+    int positions = -1, colors = -1, triangles = -1, texcoords = -1;
+    std::vector<std::pair<int, int>> textured;  ///< triangles, and the texture on them; `triangles` are the others
     std::array<std::uint8_t, 4> color = kGrey;  ///< where it has one in all
   };
 
@@ -117,14 +120,22 @@ class GltfWriter {
     Vector4d rgba;
     for (int i = 0; i < 4; ++i) rgba[i] = data.colors >= 0 ? 1. : data.color[std::size_t(i)] / 255.;
     if (shape.color) rgba = data.colors >= 0 ? Vector4d(1., 1., 1., (*shape.color)[3]) : *shape.color;
-    const std::string material = materialOf(rgba.cwiseMax(0.).cwiseMin(1.));
-    std::string primitive =
-        cat("\"mode\":", data.triangles >= 0 ? kTriangles : kPoints, ",\"attributes\":{\"POSITION\":", data.positions);
-    if (data.colors >= 0) primitive += cat(",\"COLOR_0\":", data.colors);
-    primitive += "}";
-    if (data.triangles >= 0) primitive += cat(",\"indices\":", data.triangles);
-    const std::string mesh = cat("{\"primitives\":[{", primitive, ",\"material\":", material, "}]}");
-    return indexOf(mesh, meshes_, mesh_index_);
+    rgba = rgba.cwiseMax(0.).cwiseMin(1.);
+    std::vector<std::string> primitives;
+    const std::string position = cat("\"attributes\":{\"POSITION\":", data.positions);
+    if (data.triangles >= 0 || data.textured.empty()) {
+      std::string primitive = cat("{\"mode\":", data.triangles >= 0 ? kTriangles : kPoints, ",", position);
+      if (data.colors >= 0) primitive += cat(",\"COLOR_0\":", data.colors);
+      primitive += "}";
+      if (data.triangles >= 0) primitive += cat(",\"indices\":", data.triangles);
+      primitives.push_back(cat(primitive, ",\"material\":", materialOf(rgba, -1), "}"));
+    }
+    for (const auto& [triangles, texture] : data.textured) {
+      const Vector4d white(1., 1., 1., shape.color ? rgba[3] : 1.);
+      primitives.push_back(cat("{\"mode\":", kTriangles, ",", position, ",\"TEXCOORD_0\":", data.texcoords, "},\"indices\":", triangles,
+                               ",\"material\":", materialOf(white, texture), "}"));
+    }
+    return indexOf(cat("{\"primitives\":[", join(primitives, ","), "]}"), meshes_, mesh_index_);
   }
 
   static int indexOf(const std::string& entry, std::vector<std::string>& entries, std::map<std::string, int>& index) {
@@ -133,11 +144,12 @@ class GltfWriter {
     return known->second;
   }
 
-  std::string materialOf(const Vector4d& rgba) {
+  std::string materialOf(const Vector4d& rgba, int texture) {
     const std::string material =
         cat("{\"doubleSided\":true", rgba[3] < 1. ? ",\"alphaMode\":\"BLEND\"" : "",
             ",\"pbrMetallicRoughness\":{\"metallicFactor\":0,\"roughnessFactor\":0.8,\"baseColorFactor\":",
-            list({rgba[0], rgba[1], rgba[2], rgba[3]}), "}}");
+            list({rgba[0], rgba[1], rgba[2], rgba[3]}),
+            texture >= 0 ? cat(",\"baseColorTexture\":{\"index\":", texture, "}") : "", "}}");
     return cat(indexOf(material, materials_, material_index_));
   }
 
@@ -152,8 +164,31 @@ class GltfWriter {
     if (surface.colors.size() == 1) added.color = surface.colors[0];
     if (surface.colors.size() == surface.vertices.size() && surface.colors.size() > 1)
       added.colors = addColors(surface);
-    if (!surface.triangles.empty()) added.triangles = addTriangles(surface);
+    std::vector<bool> is_textured(surface.triangles.size());
+    if (!surface.textures.empty()) added.texcoords = addTexcoords(surface);
+    for (const TexturedTriangles& textured : surface.textures) {
+      std::vector<std::array<std::uint32_t, 3>> triangles(surface.triangles.begin() + textured.first, surface.triangles.begin() + textured.first + textured.count);
+      std::fill_n(is_textured.begin() + textured.first, textured.count, true);
+      const int texture = textureOf(textured.image);
+      added.textured.emplace_back(addTriangles(triangles), texture);
+    }
+    std::vector<std::array<std::uint32_t, 3>> plain;
+    for (std::size_t i = 0; i < surface.triangles.size(); ++i) {
+      if (!is_textured[i]) plain.push_back(surface.triangles[i]);
+    }
+    if (!plain.empty()) added.triangles = addTriangles(plain);
     return added;
+  }
+
+  int textureOf(const std::shared_ptr<const Image>& image) {
+    const auto [known, is_new] = texture_index_.try_emplace(image->bytes, int(textures_.size()));
+    if (!is_new) return known->second;
+    views_.push_back(cat("{\"buffer\":0,\"byteOffset\":", data_.size(), ",\"byteLength\":", image->bytes.size(), "}"));
+    data_ += image->bytes;
+    data_.resize((data_.size() + 3) / 4 * 4);  // what follows begins at a whole word
+    images_.push_back(cat("{\"bufferView\":", views_.size() - 1, ",\"mimeType\":\"", mediaType(*image), "\"}"));
+    textures_.push_back(cat("{\"source\":", images_.size() - 1, "}"));
+    return known->second;
   }
 
   int addAccessor(std::size_t start, int target, int component, const char* type, std::size_t count,
@@ -185,18 +220,27 @@ class GltfWriter {
     return addAccessor(start, kVertexData, kByte, "VEC4", mesh.colors.size(), ",\"normalized\":true");
   }
 
-  int addTriangles(const Mesh& mesh) {
+  int addTexcoords(const Mesh& mesh) {
     const std::size_t start = data_.size();
-    for (const auto& triangle : mesh.triangles) {
+    for (const auto& [right, up] : mesh.texcoords) {
+      for (const float x : {right, 1.f - up}) appendWord(data_, std::bit_cast<std::uint32_t>(x));
+    }
+    return addAccessor(start, kVertexData, kFloat, "VEC2", mesh.texcoords.size(), "");
+  }
+
+  int addTriangles(const std::vector<std::array<std::uint32_t, 3>>& triangles) {
+    const std::size_t start = data_.size();
+    for (const auto& triangle : triangles) {
       for (const std::uint32_t corner : triangle) appendWord(data_, corner);
     }
-    return addAccessor(start, kIndexData, kUint32, "SCALAR", 3 * mesh.triangles.size(), "");
+    return addAccessor(start, kIndexData, kUint32, "SCALAR", 3 * triangles.size(), "");
   }
 
   const Config& config_;
   VisualMeshes visual_meshes_;
-  std::vector<std::string> nodes_, meshes_, materials_, accessors_, views_;
+  std::vector<std::string> nodes_, meshes_, materials_, textures_, images_, accessors_, views_;
   std::map<std::string, int> mesh_index_, material_index_;
+  std::map<std::string, int> texture_index_;  ///< by the bytes of its file
   std::map<std::shared_ptr<const Geometry>, MeshData> data_of_;
   std::string data_;  ///< the binary part
 };

@@ -132,7 +132,7 @@ void MjcfDocument::readSettings() {
                       cat("<compiler> ", attribute.name, "=\"", attribute.value, "\": expected true or false"));
     return attribute.value == "true";
   };
-  bool mesh_folder_given = false;
+  bool mesh_folder_given = false, texture_folder_given = false;
   for (const XmlElement* compiler : root_.all("compiler")) {
     for (const XmlAttribute& attribute : compiler->attributes) {
       const std::string& value = attribute.value;
@@ -156,8 +156,12 @@ void MjcfDocument::readSettings() {
       } else if (attribute.name == "meshdir") {
         settings_.mesh_folder = value;
         mesh_folder_given = true;
+      } else if (attribute.name == "texturedir") {
+        settings_.texture_folder = value;
+        texture_folder_given = true;
       } else if (attribute.name == "assetdir") {
         if (!mesh_folder_given) settings_.mesh_folder = value;
+        if (!texture_folder_given) settings_.texture_folder = value;
       } else if (attribute.name == "inertiafromgeom") {
         settings_.masses_of_geoms = value != "false";
         settings_.masses_only_of_geoms = value == "true";

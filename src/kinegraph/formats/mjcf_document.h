@@ -46,6 +46,7 @@ struct MjcfSettings {
   bool masses_of_geoms = true;        ///< of bodies without <inertial>
   bool masses_only_of_geoms = false;  ///< <inertial> does not count
   std::string mesh_folder;            ///< as it is written
+  std::string texture_folder;         ///< as it is written
 };
 
 /// An MJCF text with all that it includes, and its default classes.

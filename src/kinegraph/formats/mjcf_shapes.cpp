@@ -36,6 +36,11 @@ MjcfShapes::MjcfShapes(const MjcfDocument& document, MjcfValues& values, const s
       findings_.warn(xml->where, cat("there is a mesh '", name, "' already, at ", other->second.where().str(),
                                      "; that one is taken"));
   }
+  for (const XmlElement* xml : document_.inSections("asset", "texture")) {
+    const MjcfElement texture = document_.element(*xml);
+    const XmlAttribute* file = texture.own("file");
+    textures_.emplace(texture.name().empty() && file ? fs::path(file->value).stem().string() : texture.name(), texture);
+  }
   for (const XmlElement* xml : document_.inSections("asset", "material"))
     materials_.emplace(document_.element(*xml).name(), document_.element(*xml));
 }
@@ -180,21 +185,70 @@ void MjcfShapes::addLooks(const MjcfElement& element, int contact, Placed& place
   const bool hidden = values_.number(element, "group", 0.) >= kFirstHiddenGroup;
   if (hidden && rgba[3] > .2) rgba = {1., 0., 0., .2};
   placed.attributes.addNumbers("color", std::move(rgba));
+  if (!hidden) addTexture(element, placed);
   if (collides) placed.attributes.add("contact", double(contact));
 }
 
+/// The material of a geom; null if it has none, which is worth a warning if it names one.
+const MjcfElement* MjcfShapes::materialOf(const MjcfElement& element) {
+  const XmlAttribute* reference = element.attribute("material");
+  if (!reference) return nullptr;
+  const auto found = materials_.find(reference->value);
+  if (found != materials_.end()) return &found->second;
+  findings_.warn(reference->where, cat(element.describe(), ": there is no material '", reference->value,
+                                       "' in <asset>", similarHint(reference->value, namesIn(materials_))));
+  return nullptr;
+}
+
+/// The picture for the colours of a material: an attribute, or a <layer role="rgb">.
+const MjcfElement* MjcfShapes::textureOf(const MjcfElement& material) {
+  const XmlAttribute* reference = material.attribute("texture");
+  for (const XmlElement* layer : material.xml().all("layer")) {
+    const XmlAttribute* role = layer->attribute("role");
+    if (!reference && (!role || role->value == "rgb")) reference = layer->attribute("texture");
+  }
+  if (!reference) return nullptr;
+  const auto found = textures_.find(reference->value);
+  if (found != textures_.end()) return &found->second;
+  findings_.warn(reference->where, cat(material.describe(), ": there is no texture '", reference->value, "' in <asset>",
+                                       similarHint(reference->value, namesIn(textures_))));
+  return nullptr;
+}
+
+/// A texture without a file counts with its mean colour.
 std::vector<double> MjcfShapes::color(const MjcfElement& element) {
   if (const std::vector<double> own = values_.numbers(element, "rgba", 4); !own.empty()) return own;
+  const MjcfElement* material = materialOf(element);
+  if (!material) return {.5, .5, .5, 1.};
+  std::vector<double> rgba = values_.numbers(*material, "rgba", 4);
+  if (rgba.empty()) rgba = {1., 1., 1., 1.};
+  const MjcfElement* texture = textureOf(*material);
+  if (!texture || !texture->attribute("builtin") || texture->attribute("builtin")->value == "none") return rgba;
+  const Vector3d first = values_.vector(*texture, "rgb1", Vector3d::Constant(.8)), second = values_.vector(*texture, "rgb2", Vector3d::Constant(.5));
+  const Vector3d mean = texture->attribute("builtin")->value == "flat" ? first : Vector3d(.5 * (first + second));
+  for (int i = 0; i < 3; ++i) rgba[std::size_t(i)] *= mean[i];
+  return rgba;
+}
+
+/// The picture on a geom. How often it is repeated counts where the geom itself does not say where it is: on planes and boxes.
+void MjcfShapes::addTexture(const MjcfElement& element, Placed& placed) {
   const XmlAttribute* reference = element.attribute("material");
-  if (!reference) return {.5, .5, .5, 1.};
-  const auto found = materials_.find(reference->value);
-  if (found == materials_.end()) {
-    findings_.warn(reference->where, cat(element.describe(), ": there is no material '", reference->value,
-                                         "' in <asset>", similarHint(reference->value, namesIn(materials_))));
-    return {.5, .5, .5, 1.};
-  }
-  const std::vector<double> rgba = values_.numbers(found->second, "rgba", 4);
-  return rgba.empty() ? std::vector<double>{1., 1., 1., 1.} : rgba;
+  const auto found = reference ? materials_.find(reference->value) : materials_.end();  // color() has warned
+  const MjcfElement* material = found != materials_.end() ? &found->second : nullptr;
+  const MjcfElement* texture = material ? textureOf(*material) : nullptr;
+  const XmlAttribute* file = texture ? texture->own("file") : nullptr;
+  if (!file) return;
+  const MjcfSettings& settings = document_.settings();
+  const std::string name = settings.strip_mesh_path ? fs::path(file->value).filename().string() : file->value;
+  placed.attributes.add("texture", AngleText{resolvePath((fs::path(settings.texture_folder) / name).string(), folder_)});
+  const std::vector<double> repeat = values_.numbers(*material, "texrepeat", 2);
+  const Node* size = placed.attributes.find("size");
+  if (repeat.empty() || !size || placed.attributes.find("mesh")) return;
+  const XmlAttribute* uniform = material->attribute("texuniform");
+  const std::vector<double>& extent = size->value.as<NumberArray>()->numbers;
+  std::vector<double> times = repeat;
+  for (std::size_t i = 0; i < 2 && uniform && uniform->value == "true" && extent.size() > 1; ++i) times[i] *= extent[i];
+  placed.attributes.addNumbers("texture_repeat", std::move(times));
 }
 
 MjcfShapes::Placed MjcfShapes::site(const MjcfElement& element) {

@@ -32,13 +32,16 @@ class MjcfShapes {
   void addPrimitive(const MjcfElement& element, const std::string& type, double line_length, Placed& placed);
   void addMass(const MjcfElement& element, Placed& placed);
   void addLooks(const MjcfElement& element, int contact, Placed& placed);
+  const MjcfElement* materialOf(const MjcfElement& element);
+  const MjcfElement* textureOf(const MjcfElement& material);
   std::vector<double> color(const MjcfElement& element);
+  void addTexture(const MjcfElement& element, Placed& placed);
 
   const MjcfDocument& document_;
   MjcfValues& values_;
   std::string folder_;
   Findings& findings_;
-  std::map<std::string, MjcfElement> meshes_, materials_;
+  std::map<std::string, MjcfElement> meshes_, materials_, textures_;
 };
 
 }  // namespace kinegraph

@@ -103,6 +103,7 @@ class FrameDescription {
                                                   : std::vector<double>(shape.color->begin(), shape.color->end()));
     }
     if (geometry.mesh) addMesh(geometry);
+    addTexture(shape);
     if (geometry.grid) {
       addNumbers("grid_cells", geometry.grid->cells);
       addNumbers("grid_values", geometry.grid->values);
@@ -110,6 +111,20 @@ class FrameDescription {
     if (shape.contact != 0) add("contact", double(shape.contact));
     if (!shape.visual_mesh.empty()) add("visual_mesh", fileReference("visual_mesh", shape.visual_mesh));
     addPoseNumbers("visual_pose", shape.visual_pose);
+  }
+
+  /// Of meshes without a file, too, as long as one picture that has a file covers all of it.
+  void addTexture(const Shape& shape) {
+    const Mesh* mesh = shape.geometry->mesh.get();
+    std::shared_ptr<const Image> image = shape.texture;
+    const bool own = mesh && shape.geometry->mesh_file.empty();
+    if (!image && own && mesh->textures.size() == 1 && mesh->textures[0].count == mesh->triangles.size()) image = mesh->textures[0].image;
+    if (image && !image->path.empty()) add("texture", fileReference("texture", image->path));
+    if (shape.texture_repeat != std::array{1., 1.}) addNumbers("texture_repeat", shape.texture_repeat);
+    if (!mesh || mesh->texcoords.empty() || !(own || frame_.attributes->find("texcoords"))) return;
+    std::vector<double> numbers;
+    for (const auto& uv : mesh->texcoords) numbers.insert(numbers.end(), uv.begin(), uv.end());
+    addNumbers("texcoords", numbers);
   }
 
   void addExclusions() {
@@ -197,6 +212,8 @@ class FrameDescription {
                                                       "mesh_parts",
                                                       "grid_cells",
                                                       "grid_values",
+                                                      "texcoords",
+                                                      "texture_repeat",
                                                       "mimic_shape",
                                                       "contact",
                                                       "contact_exclude",
@@ -209,6 +226,7 @@ class FrameDescription {
     static const std::set<std::string> mesh_sources = {"mesh_decomp", "mesh_points", "mesh_rope"};
     for (const Node& node : frame_.attributes->nodes) {
       const bool unresolved = node.key == "visual_mesh" && frame_.shape && frame_.shape->visual_mesh.empty();
+      if (node.key == "texture" && frame_.shape && frame_.shape->texture && !frame_.shape->texture->path.empty()) continue;
       if (node.key.starts_with("%") || (interpreted.contains(node.key) && !unresolved)) continue;
       if (mesh_sources.contains(node.key) && frame_.shape && frame_.shape->geometry->mesh) continue;
       graph_.nodes.push_back(node);

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "kinegraph/geometry/image.h"
 #include "kinegraph/math/pose.h"
 
 namespace kinegraph {
@@ -31,12 +32,20 @@ enum class ShapeType : int {
   lines = 15,
 };
 
+/// Triangles of a mesh that show a picture, rather than colours.
+struct TexturedTriangles {
+  std::uint32_t first = 0, count = 0;  ///< in the list of triangles
+  std::shared_ptr<const Image> image;
+};
+
 /// Triangles, or only points where `triangles` is empty. Local coordinates, m.
 struct Mesh {
   std::vector<Vector3d> vertices;
   std::vector<std::array<std::uint32_t, 3>> triangles;
   std::vector<std::array<std::uint8_t, 4>> colors;  ///< rgba: one per vertex, one in all, or none
   std::vector<std::uint32_t> parts = {};            ///< the first vertex of each convex part, ascending; empty: not divided
+  std::vector<std::array<float, 2>> texcoords = {};  ///< of each vertex, where it is in a picture: to the right, and up, in 0..1; or none
+  std::vector<TexturedTriangles> textures = {};      ///< ascending; none without `texcoords`
 };
 
 /// Numbers on a regular grid whose corners are those of a box centred at the origin; the last index runs fastest.

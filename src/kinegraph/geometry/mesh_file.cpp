@@ -14,6 +14,7 @@
 #include "kinegraph/base/text.h"
 #include "kinegraph/geometry/h5_file.h"
 #include "kinegraph/geometry/mesh_promises.h"
+#include "kinegraph/geometry/mesh_textures.h"
 
 namespace kinegraph {
 
@@ -37,7 +38,7 @@ void checkFaces(const aiScene& scene, const std::string& path) {
   }
 }
 
-void append(const aiScene& scene, const aiNode& node, const aiMatrix4x4& above, Mesh& mesh) {
+void append(const aiScene& scene, const aiNode& node, const aiMatrix4x4& above, MeshTextures& textures, Mesh& mesh) {
   const aiMatrix4x4 transform = above * node.mTransformation;
   for (unsigned m = 0; m < node.mNumMeshes; ++m) {
     const aiMesh& part = *scene.mMeshes[node.mMeshes[m]];
@@ -51,13 +52,18 @@ void append(const aiScene& scene, const aiNode& node, const aiMatrix4x4& above, 
       mesh.vertices.emplace_back(p.x, p.y, p.z);
       mesh.colors.push_back(bytes(part.HasVertexColors(0) ? part.mColors[0][v] : diffuse));
     }
+    const std::size_t first_triangle = mesh.triangles.size();
     for (unsigned f = 0; f < part.mNumFaces; ++f) {
       const aiFace& face = part.mFaces[f];
       if (face.mNumIndices == 3)
         mesh.triangles.push_back({first + face.mIndices[0], first + face.mIndices[1], first + face.mIndices[2]});
     }
+    if (!part.HasTextureCoords(0)) continue;
+    std::vector<std::array<float, 2>> coordinates;
+    for (unsigned v = 0; v < part.mNumVertices; ++v) coordinates.push_back({part.mTextureCoords[0][v].x, part.mTextureCoords[0][v].y});
+    addTexture(mesh, first, coordinates, first_triangle, textures.of(part.mMaterialIndex));
   }
-  for (unsigned child = 0; child < node.mNumChildren; ++child) append(scene, *node.mChildren[child], transform, mesh);
+  for (unsigned child = 0; child < node.mNumChildren; ++child) append(scene, *node.mChildren[child], transform, textures, mesh);
 }
 
 }  // namespace
@@ -96,6 +102,19 @@ Mesh readH5Mesh(const std::string& path, const std::string& group) {
     }
     if (mesh.colors.size() != 1 && mesh.colors.size() != mesh.vertices.size()) mesh.colors.clear();
   }
+  const std::string texture = cat(group, "/textureFile"), coordinates = cat(group, "/textureCoords");
+  if (file.contains(coordinates)) {  // to the right and down
+    const H5Dataset uv = table("textureCoords", 2, 2);
+    std::vector<std::array<float, 2>> list;
+    for (std::size_t i = 0; i < uv.numbers.size(); i += 2) list.push_back({float(uv.numbers[i]), float(1. - uv.numbers[i + 1])});
+    std::string name;
+    if (file.contains(texture)) {
+      for (const double letter : file.dataset(texture).numbers) {
+        if (letter > 0. && letter < 128.) name += char(letter);
+      }
+    }
+    if (list.size() == mesh.vertices.size()) addTexture(mesh, 0, list, 0, imageBeside(path, name));
+  }
   if (file.contains(cat(group, "/parts"))) {
     for (double part : file.dataset(cat(group, "/parts")).numbers) {
       if (!(part >= 0. && part <= double(mesh.vertices.size()))) {
@@ -122,7 +141,9 @@ Mesh readMeshFile(const std::string& path) {
     throw FileError(cat("mesh file '", path, "' cannot be read: ", importer.GetErrorString()));
   }
   Mesh mesh;
-  append(*scene, *scene->mRootNode, aiMatrix4x4(), mesh);
+  MeshTextures textures(*scene, path);
+  append(*scene, *scene->mRootNode, aiMatrix4x4(), textures, mesh);
+  mesh.texcoords.resize(mesh.texcoords.empty() ? 0 : mesh.vertices.size());
   if (mesh.vertices.empty()) throw FileError(cat("mesh file '", path, "' holds no vertices"));
   const auto broken =
       std::find_if_not(mesh.vertices.begin(), mesh.vertices.end(), [](const Vector3d& p) { return p.allFinite(); });

@@ -17,6 +17,11 @@ struct Kind {
   const char* meaning; ///< of the entries
 };
 
+/// What other formats call shapes.
+constexpr std::pair<std::string_view, std::string_view> kWordsOfOthers[] = {
+    {"cube", "box"}, {"cuboid", "box"}, {"block", "box"}, {"ball", "sphere"}, {"plane", "quad"}, {"rectangle", "quad"},
+    {"ellipsoid", "ssBoxElip with size: [0 0 0 rx ry rz 0]"}, {"frame", "marker"}, {"points", "pointCloud"}, {"line", "lines"}};
+
 constexpr Kind kKinds[] = {
     {ShapeType::box, "box", 3, "x y z"},
     {ShapeType::sphere, "sphere", 1, "radius"},
@@ -75,7 +80,9 @@ ShapeType shapeTypeFromName(std::string_view name) {
     if (known == word) return type;
     words.push_back(known);
   }
-  throw ValueError(cat("unknown shape type '", name, "'; expected one of ", join(words), similarHint(word, words)));
+  const auto meant = std::find_if(std::begin(kWordsOfOthers), std::end(kWordsOfOthers), [&](const auto& entry) { return entry.first == word; });
+  const std::string hint = meant != std::end(kWordsOfOthers) ? cat("; what others call ", word, " is ", meant->second) : similarHint(word, words);
+  throw ValueError(cat("unknown shape type '", name, "'; expected one of ", join(words), hint));
 }
 
 std::vector<double> checkedSize(ShapeType type, std::vector<double> size, std::string* warning) {

@@ -101,7 +101,12 @@ double Scanner::parseNumber(const CharSet& stop) {
   const bool complete = end == last || stop[*end];
   if (error == std::errc::invalid_argument || !complete) {
     const std::string word = parseWord(stop);
-    fail(start, cat("'", word, "' is not a number"));
+    const char* hint = "";
+    if (word.find_first_of("})") != std::string::npos) hint = "; is there a ']' missing?";
+    const std::string_view unit = std::string_view(word).substr(std::min<std::size_t>(word.size(), std::size_t(end - text_.data()) - start));
+    static constexpr std::string_view kUnits[] = {"m", "cm", "mm", "kg", "g", "s", "ms", "deg", "rad"};
+    if (std::find(std::begin(kUnits), std::end(kUnits), unit) != std::end(kUnits)) hint = "; numbers have no unit behind them: m, kg, s and rad are meant";
+    fail(start, cat("'", word, "' is not a number", hint));
   }
   if (error == std::errc::result_out_of_range) {
     fail(start, cat("'", std::string(first, end), "' is too large or too small for a number"));

@@ -57,6 +57,12 @@ double twistAngle(const Quaterniond& q, const Vector3d& a) {
 
 }  // namespace
 
+/// What other formats call joints.
+constexpr std::pair<std::string_view, std::string_view> kWordsOfOthers[] = {
+    {"revolute", "hingeX, hingeY or hingeZ, or hinge with axis: [x y z]"}, {"continuous", "hingeX, hingeY or hingeZ without limits"},
+    {"prismatic", "transX, transY or transZ"}, {"slide", "transX, transY or transZ"}, {"slider", "transX, transY or transZ"},
+    {"fixed", "rigid"}, {"floating", "free"}, {"ball", "quatBall"}, {"spherical", "quatBall"}, {"planar", "transXYPhi"}};
+
 const std::vector<std::pair<std::string, JointType>>& jointTypeNames() {
   static const std::vector<std::pair<std::string, JointType>> names = {
       {"none", JointType::none},           {"hingeX", JointType::hingeX},         {"hingeY", JointType::hingeY},
@@ -83,8 +89,9 @@ JointType jointTypeFromName(std::string_view name) {
     if (known == word) return value;
     words.push_back(known);
   }
-  throw ValueError(
-      cat("unknown joint type '", name, "'; expected one of ", join(words), similarHint(word, words)));
+  const auto meant = std::find_if(std::begin(kWordsOfOthers), std::end(kWordsOfOthers), [&](const auto& entry) { return entry.first == word; });
+  const std::string hint = meant != std::end(kWordsOfOthers) ? cat("; what others call ", word, " is ", meant->second) : similarHint(word, words);
+  throw ValueError(cat("unknown joint type '", name, "'; expected one of ", join(words), hint));
 }
 
 std::vector<MotionStep> motionSteps(JointType type, std::string_view code) {

@@ -224,10 +224,14 @@ void CameraRenderer::Impl::placeGeoms(const std::vector<Item>& items, const Stat
     } else {
       const std::vector<MeshLibrary::Part>& parts = meshes.parts(item.geometry);
       for (const MeshLibrary::Part& part : parts) {
-        const bool own = part.color && (parts.size() > 1 || !item.shape->color);
+        const bool own = part.color && (parts.size() > 1 || !item.shape->color || part.material >= 0);
         Vector4d shown = own ? *part.color : color;
         if (own) shown[3] *= color[3];
-        addGeom(mjGEOM_MESH, Vector3d::Ones(), X_WG, shown, item.frame).dataid = 2 * part.mesh;
+        mjvGeom& geom = addGeom(mjGEOM_MESH, Vector3d::Ones(), X_WG, shown, item.frame);
+        geom.dataid = 2 * part.mesh;
+        if (part.material < 0) continue;
+        geom.matid = part.material;
+        geom.texcoord = 1;
       }
     }
     for (int i = first; i < scene->ngeom; ++i) scene->geoms[i].camdist = float((X_WG.p - camera.pose.p).norm());

@@ -11,15 +11,15 @@ namespace {
 
 constexpr double kOccluded = .05;  // m
 
-using Image = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+using Field = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 
 /// White noise averaged over windows of `size` pixels in both directions.
-Image smoothNoise(int height, int width, int size, Rng& rng) {
-  Image noise(height + size - 1, width + size - 1);
+Field smoothNoise(int height, int width, int size, Rng& rng) {
+  Field noise(height + size - 1, width + size - 1);
   for (double& x : noise.reshaped()) x = rng.normal();
-  Image rows = Image::Zero(height + size - 1, width);
+  Field rows = Field::Zero(height + size - 1, width);
   for (int i = 0; i < size; ++i) rows += noise.middleCols(i, width);
-  Image out = Image::Zero(height, width);
+  Field out = Field::Zero(height, width);
   for (int i = 0; i < size; ++i) out += rows.middleRows(i, height);
   return out / (size * size);
 }
@@ -53,7 +53,7 @@ Camera otherEye(const Camera& camera, const DepthNoise& noise) {
 void addDepthNoise(std::vector<float>& depth, const std::vector<float>& other_eye, const Camera& camera, const DepthNoise& noise,
                    Rng& rng) {
   noise.validate();
-  const Image field = noise.wide * smoothNoise(camera.height, camera.width, 10, rng) +
+  const Field field = noise.wide * smoothNoise(camera.height, camera.width, 10, rng) +
                       noise.local * smoothNoise(camera.height, camera.width, 3, rng) +
                       noise.pixel * smoothNoise(camera.height, camera.width, 1, rng);
   const auto filled = [&](float d) { return d < 0.f ? noise.no_depth : double(d); };

@@ -93,17 +93,22 @@ bool isClosed(const std::vector<Triangle>& triangles) {
   return open.empty();
 }
 
-/// Which triangles have which colour; one group without colour if the mesh has none of its own.
-std::map<Color, std::vector<std::size_t>> groupByColor(const Mesh& mesh, const std::vector<std::size_t>& triangles, bool colored) {
+/// What triangles show: one of the mesh's pictures, or a colour.
+using Paint = std::pair<const TexturedTriangles*, Color>;
+
+/// Which triangles show what; one group without colour if the mesh has none of its own.
+std::map<Paint, std::vector<std::size_t>> groupByPaint(const Mesh& mesh, const std::vector<std::size_t>& triangles, bool colored) {
   for (int coarse = 0;; ++coarse) {
-    std::map<Color, std::vector<std::size_t>> groups;
+    std::map<Paint, std::vector<std::size_t>> groups;
     for (const std::size_t i : triangles) {
-      Color color{};
-      if (colored) color = mesh.colors[mesh.triangles[i][0]];
-      for (std::uint8_t& channel : color) channel = std::uint8_t(channel >> coarse << coarse);
-      groups[color].push_back(i);
+      Paint paint{};
+      const auto behind = std::upper_bound(mesh.textures.begin(), mesh.textures.end(), i, [](std::size_t triangle, const TexturedTriangles& t) { return triangle < t.first; });
+      if (behind != mesh.textures.begin() && i < std::size_t((behind - 1)->first) + (behind - 1)->count) paint.first = &*(behind - 1);
+      if (colored && !paint.first) paint.second = mesh.colors[mesh.triangles[i][0]];
+      for (std::uint8_t& channel : paint.second) channel = std::uint8_t(channel >> coarse << coarse);
+      groups[paint].push_back(i);
     }
-    if (groups.size() <= kMostColors) return groups;
+    if (groups.size() <= kMostColors + mesh.textures.size()) return groups;
   }
 }
 
@@ -143,9 +148,13 @@ std::vector<RenderMesh> renderMeshes(const Geometry& geometry) {
 
   const bool colored = !mesh.colors.empty() && mesh.colors.size() == mesh.vertices.size();
   std::vector<RenderMesh> parts;
-  for (const auto& [color, triangles] : groupByColor(mesh, used, colored)) {
+  for (const auto& [paint, triangles] : groupByPaint(mesh, used, colored)) {
+    const auto& [texture, color] = paint;
     RenderMesh part;
-    if (colored || mesh.colors.size() == 1) {
+    if (texture) {
+      part.image = texture->image;
+      part.color = Vector4d::Ones();
+    } else if (colored || mesh.colors.size() == 1) {
       const Color& c = colored ? color : mesh.colors[0];
       part.color = Vector4d(c[0], c[1], c[2], c[3]) / 255.;
     }
@@ -160,6 +169,9 @@ std::vector<RenderMesh> renderMeshes(const Geometry& geometry) {
         }
         normals[k] = int(part.normals.size() / 3);
         for (const double x : cornerNormal(i, corners[i][k])) part.normals.push_back(float(x));
+        if (!texture) continue;
+        const auto [right, up] = mesh.texcoords[mesh.triangles[i][k]];
+        part.texcoords.insert(part.texcoords.end(), {right, 1.f - up});
       }
       part.faces.insert(part.faces.end(), vertices.begin(), vertices.end());
       part.face_normals.insert(part.face_normals.end(), normals.begin(), normals.end());
@@ -168,6 +180,7 @@ std::vector<RenderMesh> renderMeshes(const Geometry& geometry) {
         part.faces.push_back(vertices[k]);
         part.face_normals.push_back(int(part.normals.size() / 3));
         for (int j = 0; j < 3; ++j) part.normals.push_back(-part.normals[3 * normals[k] + j]);
+        for (int j = 0; texture && j < 2; ++j) part.texcoords.push_back(part.texcoords[2 * normals[k] + j]);
       }
     }
     parts.push_back(std::move(part));

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <string_view>
+#include <utility>
 
 #include "kinegraph/base/text.h"
 #include "kinegraph/geometry/mass.h"
@@ -19,7 +21,7 @@ constexpr const char* kKnownAttributes[] = {
     "X", "Q", "pose", "rel", "joint", "q", "limits", "ctrl_limits", "ctrl_H", "joint_scale", "axis", "mimic", "pre",
     "post", "A", "B", "from", "to", "origin", "BinvA", "joint_active", "joint_stable", "sampleUniform", "sampleSdv",
     "shape", "type", "size", "color", "mesh", "meshscale", "mesh_decomp", "mesh_points", "mesh_rope", "core", "sdf",
-    "texture", "aruco_id", "mimic_shape", "contact", "mass", "inertia", "com", "visual_mesh", "visual_pose",
+    "texture", "texcoords", "texture_repeat", "aruco_id", "mimic_shape", "contact", "mass", "inertia", "com", "visual_mesh", "visual_pose",
     "logical", "multibody", "multibody_fixedBase", "multibody_gravity", "simulate", "friction", "restitution",
     "motorKp", "motorKd", "motorLambda", "motorMass", "gains", "drive", "noMotor", "angularDamping", "focalLength",
     "fxycxy", "orthoAbsHeight", "heightAngle", "heightAbs", "zRange", "width", "height", "label", "part", "visual",
@@ -27,6 +29,11 @@ constexpr const char* kKnownAttributes[] = {
     "joint_groups", "joint_states", "mesh_parts", "grid_cells", "grid_values",
 };
 // clang-format on
+
+/// What other formats and languages say.
+constexpr std::pair<std::string_view, std::string_view> kWordsOfOthers[] = {
+    {"pos", "pose"}, {"position", "pose"}, {"xyz", "pose"}, {"rpy", "pose"}, {"quat", "pose"}, {"quaternion", "pose"},
+    {"rgba", "color"}, {"rgb", "color"}, {"geometry", "shape"}, {"filename", "mesh"}};
 
 bool isKnown(const std::string& key) {
   return std::any_of(std::begin(kKnownAttributes), std::end(kKnownAttributes),
@@ -69,8 +76,13 @@ std::optional<std::vector<double>> AttributeReader::numbers(const Node& node) {
   if (const NumberArray* array = node.value.as<NumberArray>()) return array->numbers;
   if (const double* x = node.value.as<double>()) return std::vector<double>{*x};
   if (const StringArray* words = node.value.as<StringArray>(); words && words->empty()) return std::vector<double>{};
-  error(node, cat("expected numbers [..], got ", describe(node.value)));
+  error(node, cat("expected numbers", node.key == "color" ? " [r g b] in 0..1" : " [..]", ", got ", describe(node.value)));
   return std::nullopt;
+}
+
+/// `size: 1 2 3` is the number 1 with a flag behind it.
+std::string AttributeReader::severalHint(const Node& node) {
+  return node.value.as<double>() ? "; several numbers stand in brackets: [1 2 3]" : "";
 }
 
 std::optional<Vector3d> AttributeReader::vector3(const Node& node) {
@@ -110,6 +122,7 @@ std::optional<Pose> AttributeReader::readPose(std::initializer_list<const char*>
     } else if (const std::string* word = node->value.as<std::string>()) {
       pose = parsePose(*word);
     } else if (const auto list = numbers(*node)) {
+      if (node->value.as<double>()) throw ValueError(cat("expected a pose, got a single number", severalHint(*node)));
       pose = list->empty() ? Pose()
                            : Pose::fromNumbers(Eigen::Map<const VectorXd>(list->data(), Eigen::Index(list->size())));
     }
@@ -185,6 +198,17 @@ void AttributeReader::applyInertia(FrameData& frame) {
 
 void AttributeReader::checkSpelling() {
   for (const Node& node : attributes_.nodes) {
+    if (const Node* first = attributes_.find(node.key); first != &node && isKnown(node.key)) {
+      warning(node, cat("'", node.key, "' is given twice; the first counts"));
+    }
+    if (!node.parents.empty()) {
+      warning(node, cat("'", node.key, " (", join(node.parents, " "), ")' is inside of this frame, and no frame; is a '}' missing before it?"));
+    }
+    const auto meant = std::find_if(std::begin(kWordsOfOthers), std::end(kWordsOfOthers), [&](const auto& entry) { return entry.first == node.key; });
+    if (meant != std::end(kWordsOfOthers)) {
+      warning(node, cat("unknown attribute '", node.key, "'; did you mean '", meant->second, "'?"));
+      continue;
+    }
     if (node.key.size() < 4 || node.value.as<Graph>() || isKnown(node.key)) continue;
     for (const std::string_view word : kKnownAttributes) {
       if (word.size() < 4 || !isWithinEditDistance(node.key, word, 1.2)) continue;

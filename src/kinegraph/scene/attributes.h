@@ -43,6 +43,7 @@ class AttributeReader {
   double numberOr(const char* key, double otherwise);
   std::optional<std::vector<double>> numbers(const Node& node);
   std::optional<Vector3d> vector3(const Node& node);
+  static std::string severalHint(const Node& node);
   static std::string givenPath(const Node& node);
   std::string path(const Node& node);  ///< absolute; throws FileError for a package that is not installed
   void applyPose(FrameData& frame);
@@ -51,6 +52,7 @@ class AttributeReader {
   std::optional<VectorXd> readDofValues(const char* key, const Joint& joint);
   void applyInertia(FrameData& frame);
   void applyShape(FrameData& frame);
+  void applyTexture(Shape& shape);
   bool readGeometry(Geometry& geometry);
   bool readShapeType(Geometry& geometry);
   bool readMesh(Geometry& geometry);

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <memory>
 #include <optional>
@@ -46,6 +47,8 @@ struct Shape {
   int contact = 0;                ///< 0: never collides; see Config::getCollidablePairs
   std::string visual_mesh;        ///< path of a mesh file that a viewer shows instead of the geometry, or empty
   Pose visual_pose;               ///< of that mesh in the frame
+  std::shared_ptr<const Image> texture = {};            ///< a picture that covers what is shown, or null
+  std::array<double, 2> texture_repeat = {1., 1.};      ///< how often, to the right and up
   std::uint64_t revision = 0;     ///< grows when anything here changes
 
   /// The convex core for distances; made at first use and kept.

@@ -11,6 +11,7 @@
 #include "kinegraph/geometry/isosurface.h"
 #include "kinegraph/geometry/mesh_file.h"
 #include "kinegraph/geometry/shape_types.h"
+#include "kinegraph/geometry/textured_surface.h"
 #include "kinegraph/scene/scene_source.h"
 
 namespace kinegraph {
@@ -52,6 +53,30 @@ void setMeshFile(Frame& frame, const std::string& path, double scale) {
   geometry.mesh_scale.setConstant(scale);
   geometry.mesh = std::make_shared<Mesh>(std::move(mesh));
   frame.setGeometry(std::move(geometry));
+}
+
+void setTexture(Frame& frame, const std::string& path, const std::vector<double>& texcoords) {
+  const std::shared_ptr<Shape>& shape = frame.data().shape;
+  if (!shape) throw ValueError(cat("setTextureFile: frame '", frame.getName(), "' has no shape"));
+  const std::string absolute = resolvePath(path, ".");
+  std::shared_ptr<const Image> image = readImageFile(absolute.empty() ? path : absolute);
+  Node node;
+  if (!texcoords.empty()) {
+    const std::size_t vertices = shape->geometry->mesh ? shape->geometry->mesh->vertices.size() : 0;
+    if (texcoords.size() != 2 * vertices) {
+      throw ValueError(cat("setTextureFile: frame '", frame.getName(), "' has ", vertices == 0 ? "no mesh" : cat("a mesh of ", vertices, " vertices"),
+                           ", and got ", texcoords.size(), " texture coordinates; expected 2 per vertex"));
+    }
+    shape->geometry = withTexcoords(*shape->geometry, texcoords);
+    node.key = "texcoords";
+    node.value.data = NumberArray{texcoords, 1};
+    frame.editAttributes().set(node);
+  }
+  shape->texture = std::move(image);
+  node.key = "texture";
+  node.value.data = AngleText{absolute};
+  frame.editAttributes().set(node);
+  frame.scene()->looksChanged(*shape);
 }
 
 namespace {

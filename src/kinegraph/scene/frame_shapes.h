@@ -18,6 +18,11 @@ void setLines(Frame& frame, const std::vector<Vector3d>& points, const PointColo
 /// The mesh of a file, its points multiplied by `scale`. Throws FileError; the frame is then unchanged.
 void setMeshFile(Frame& frame, const std::string& path, double scale = 1.);
 
+/// Covers the frame's shape with a picture (PNG or JPEG). With `texcoords`, two numbers per vertex of its mesh: where each is
+/// in the picture, to the right and up, in 0..1. Throws FileError for the file, ValueError for a frame without a shape and
+/// for coordinates that do not fit; the frame is then unchanged.
+void setTexture(Frame& frame, const std::string& path, const std::vector<double>& texcoords = {});
+
 /// A box of that size (m) that holds a grid of numbers.
 void setTensor(Frame& frame, Grid grid, const Vector3d& size);
 

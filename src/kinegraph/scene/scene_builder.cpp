@@ -2,7 +2,7 @@
 
 #include <algorithm>
 #include <charconv>
-#include <filesystem>
+#include <set>
 
 #include "kinegraph/base/text.h"
 
@@ -24,13 +24,13 @@ void modernize(Node& node) {
   if (type) type->key = joint ? "joint" : "shape";
 }
 
-/// Attributes are kept with the place of the file that they name, so that the scene may be saved in another folder.
+/// Attributes are kept with the place of the file that they name, be it there or not, so that the scene may be saved in another
+/// folder. Where a transform is expected, <...> is one.
 void locateFile(Node& node, const std::string& folder) {
+  static const std::set<std::string> transforms = {"X", "Q", "pose", "rel", "pre", "post", "A", "B", "from", "to", "origin", "visual_pose"};
   AngleText* const file = std::get_if<AngleText>(&node.value.data);
-  if (!file || file->text.find("://") != std::string::npos) return;
-  std::error_code error;
-  const std::string path = resolvePath(file->text, folder);
-  if (std::filesystem::is_regular_file(path, error)) file->text = path;
+  if (!file || file->text.find("://") != std::string::npos || transforms.contains(node.key)) return;
+  if (std::string path = resolvePath(file->text, folder); !path.empty()) file->text = std::move(path);
 }
 
 /// The frame that carries the joint that belongs to a frame of a file: itself, or the one that `post` put before it.

@@ -18,7 +18,7 @@ namespace {
 
 static_assert(std::endian::native == std::endian::little, "scenes are written little-endian");
 
-constexpr char kMark[] = "kinegraph scene 1\n";
+constexpr char kMark[] = "kinegraph scene 2\n";
 
 /// Appends values. Archives call `archive(value)`; what follows describes each type once for writing and reading.
 class Writer {
@@ -231,16 +231,34 @@ void graph(A& archive, Graph& g) {
 }
 
 template <class A>
+void image(A& archive, Image& i) {
+  text(archive, i.bytes);
+  text(archive, i.path);
+}
+
+template <class A>
 void mesh(A& archive, Mesh& m) {
   items(archive, m.vertices);
   items(archive, m.triangles);
   items(archive, m.colors);
   items(archive, m.parts);
+  items(archive, m.texcoords);
+  list(archive, m.textures, [&](TexturedTriangles& t) {
+    archive(t.first);
+    archive(t.count);
+    sharedObject(archive, t.image, [&](Image& i) { image(archive, i); });
+  });
   if constexpr (A::reading) {
     for (const auto& triangle : m.triangles) {
       for (std::uint32_t v : triangle) {
         if (v >= m.vertices.size()) throw ValueError("the bytes of a scene are damaged: a triangle without vertex");
       }
+    }
+    std::size_t end = 0;
+    for (const TexturedTriangles& t : m.textures) {
+      const bool good = t.image && t.first >= end && t.count <= m.triangles.size() && t.first <= m.triangles.size() - t.count;
+      if (!good || m.texcoords.size() != m.vertices.size()) throw ValueError("the bytes of a scene are damaged: a picture on no triangles");
+      end = t.first + t.count;
     }
   }
 }
@@ -270,6 +288,9 @@ void shape(A& archive, Shape& s) {
   archive(s.contact);
   text(archive, s.visual_mesh);
   pose(archive, s.visual_pose);
+  sharedObject(archive, s.texture, [&](Image& i) { image(archive, i); });
+  archive(s.texture_repeat[0]);
+  archive(s.texture_repeat[1]);
 }
 
 /// All of a joint but what it mimics.

@@ -78,6 +78,11 @@ class SourceReader {
       return {};
     }
     const SceneFormat* format = sceneFormatOf(name);
+    const std::size_t begin = text.find_first_not_of(" \t\r\n");
+    if (!format && begin != std::string::npos && (text.compare(begin, 5, "<?xml") == 0 || text.compare(begin, 6, "<robot") == 0 || text.compare(begin, 7, "<mujoco") == 0)) {
+      diagnostics_.error({name, 1, 1}, "this is XML and no .g scene; URDF files end in .urdf, MJCF files in .xml, SRDF files in .srdf");
+      return {};
+    }
     ParseResult parsed = format ? format->read(text, name, folder) : parseAll(text, name);
     for (SourceText& included : parsed.included) {
       files.push_back(included.file);
@@ -171,6 +176,10 @@ class SourceReader {
   void refuseEntry(const Node& node) {
     std::string hint = similarHint(node.key, {"Include", "Prefix", "Edit", "Delete", "DeleteBranch", "ChDir"});
     if (node.key.find(' ') != std::string::npos && hint.empty()) hint = "; is there a line end or a comma missing?";
+    if (!node.parents.empty()) {
+      return diagnostics_.error(node.where, cat("'", node.key, " (", join(node.parents, " "), ")' has no attributes; write '", node.key, " (",
+                                                join(node.parents, " "), "): { ... }', the { on the same line"));
+    }
     diagnostics_.error(
         node.where,
         cat("'", node.key, "' is ", describe(node.value),
@@ -181,11 +190,16 @@ class SourceReader {
 
   /// `Edit` and its like are words before a name; `edit` would silently make a frame.
   void checkTags(const Node& node) {
+    static const std::set<std::string> tags = {"frame", "body", "shape", "joint"};
+    static const std::vector<std::string> words = {"Edit", "Include", "Prefix", "Delete", "DeleteBranch"};
     for (const std::string& tag : node.tags) {
-      for (const char* word : {"Edit", "Include", "Prefix", "Delete", "DeleteBranch"}) {
-        if (editDistance(tag, word) < 1.2)
-          diagnostics_.warning(node.where,
-                               cat("'", tag, "' before a frame's name has no effect; did you mean '", word, "'?"));
+      if (tags.contains(tag)) continue;
+      const auto meant = std::find_if(words.begin(), words.end(), [&](const std::string& word) { return editDistance(tag, word) < 1.2; });
+      if (meant != words.end()) {
+        diagnostics_.warning(node.where, cat("'", tag, "' before a frame's name has no effect; did you mean '", *meant, "'?"));
+      } else {
+        diagnostics_.warning(node.where, cat("names hold no blanks: this is frame '", node.key, "' with the tag '", tag,
+                                             "'; parents stand in parentheses, as in ", tag, " (", node.key, ")"));
       }
     }
   }

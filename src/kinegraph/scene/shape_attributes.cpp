@@ -6,6 +6,7 @@
 #include "kinegraph/geometry/isosurface.h"
 #include "kinegraph/geometry/mesh_file.h"
 #include "kinegraph/geometry/shape_types.h"
+#include "kinegraph/geometry/textured_surface.h"
 #include "kinegraph/scene/attributes.h"
 #include "kinegraph/scene/scene_source.h"
 #include "kinegraph/scene/scene_tree.h"
@@ -22,6 +23,14 @@ std::vector<Vector3d> triples(const std::vector<double>& v) {
   return points;
 }
 
+bool isJointType(const std::string& word) {
+  try {
+    return jointTypeFromName(word) != JointType::none;
+  } catch (const ValueError&) {
+    return false;
+  }
+}
+
 bool isMeshFile(const Node& node) { return node.value.as<AngleText>() || node.value.as<std::string>(); }
 
 }  // namespace
@@ -34,6 +43,7 @@ bool AttributeReader::readShapeType(Geometry& geometry) {
              geometry.type = ShapeType(int(*code));
              shapeTypeName(geometry.type);  // throws for other numbers
            } else if (const std::string* word = node->value.as<std::string>()) {
+             if (isJointType(*word)) throw ValueError(cat("'", *word, "' is a joint type; write joint: ", *word));
              geometry.type = shapeTypeFromName(*word);
            } else {
              throw ValueError(cat("expected a shape type, got ", describe(node->value)));
@@ -155,10 +165,14 @@ bool AttributeReader::readGrid(Geometry& geometry) {
 bool AttributeReader::readSize(Geometry& geometry) {
   const Node* size = find({"size"});
   const Node& blamed = size ? *size : *find({"shape", "type", "mesh", "mesh_decomp", "mesh_points"});
-  return guarded(blamed, [&] {
+  const auto given = size ? numbers(*size) : std::vector<double>{};
+  return given && guarded(blamed, [&] {
     std::string enlarged;
-    geometry.size = checkedSize(
-        geometry.type, size ? numbers(*size).value_or(std::vector<double>{}) : std::vector<double>{}, &enlarged);
+    try {
+      geometry.size = checkedSize(geometry.type, *given, &enlarged);
+    } catch (const ValueError& e) {
+      throw ValueError(cat(e.what(), size ? severalHint(*size) : ""));
+    }
     if (!enlarged.empty()) warning(blamed, enlarged);
   });
 }
@@ -204,6 +218,8 @@ void AttributeReader::applyShape(FrameData& frame) {
     if (n == 1 || n == 2) frame.shape->color = Vector4d((*c)[0], (*c)[0], (*c)[0], n == 2 ? (*c)[1] : 1.);
     if (n == 3 || n == 4) frame.shape->color = Vector4d((*c)[0], (*c)[1], (*c)[2], n == 4 ? (*c)[3] : 1.);
     if (frame.shape->color && !frame.shape->color->allFinite()) error(*color, "expected finite numbers");
+    if (c && std::any_of(c->begin(), c->end(), [](double x) { return x > 1.5; }))
+      warning(*color, "color has numbers above 1; they are in 0..1, those of 0..255 divided by 255");
   }
   if (const Node* contact = find({"contact"})) {
     const double flag = number(*contact).value_or(0.);
@@ -214,6 +230,33 @@ void AttributeReader::applyShape(FrameData& frame) {
     guarded(*mesh, [&] { frame.shape->visual_mesh = resolvePath(givenPath(*mesh), folder_); });
   }
   if (const auto pose = readPose({"visual_pose"})) frame.shape->visual_pose = *pose;
+  applyTexture(*frame.shape);
+}
+
+/// `texture: <image>`, `texcoords: [right up ...]` for each vertex of a mesh, `texture_repeat: [right up]`. A picture that
+/// cannot be had is worth a warning: the shape shows its colour.
+void AttributeReader::applyTexture(Shape& shape) {
+  if (const Node* node = find({"texcoords"})) {
+    const std::vector<double> uv = numbers(*node).value_or(std::vector<double>{});
+    const std::size_t vertices = shape.geometry->mesh ? shape.geometry->mesh->vertices.size() : 0;
+    if (vertices == 0) return warning(*node, "'texcoords' has no effect: the shape has no vertices");
+    if (uv.size() != 2 * vertices) return error(*node, cat("expected 2 numbers for each of ", vertices, " vertices, got ", uv.size()));
+    shape.geometry = withTexcoords(*shape.geometry, uv);
+  }
+  if (const Node* node = find({"texture_repeat"})) {
+    const std::vector<double> times = numbers(*node).value_or(std::vector<double>{});
+    const bool good = (times.size() == 1 || times.size() == 2) && std::all_of(times.begin(), times.end(), [](double x) { return std::isfinite(x); });
+    if (!good) return error(*node, cat("expected 1 or 2 finite numbers, how often the picture is repeated to the right and up; got ", times.size()));
+    shape.texture_repeat = {times.front(), times.back()};
+  }
+  const Node* node = find({"texture"});
+  if (!node) return;
+  try {
+    shape.texture = readImageFile(path(*node));
+  } catch (const Error& e) {
+    const bool missing = std::string(e.what()).ends_with("does not exist");
+    warning(*node, cat("texture: ", e.what(), missing ? similarFilesHint(resolvePath(givenPath(*node), folder_)) : ""));
+  }
 }
 
 }  // namespace kinegraph

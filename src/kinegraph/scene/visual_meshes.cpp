@@ -3,10 +3,28 @@
 #include "kinegraph/base/errors.h"
 #include "kinegraph/base/text.h"
 #include "kinegraph/geometry/mesh_file.h"
+#include "kinegraph/geometry/textured_surface.h"
 
 namespace kinegraph {
 
 std::shared_ptr<const Geometry> VisualMeshes::of(const Shape& shape) {
+  std::shared_ptr<const Geometry> geometry = fromFile(shape);
+  if (!shape.texture) return geometry;
+  const std::shared_ptr<const Geometry> bare = geometry ? geometry : shape.geometry;
+  const auto [place, is_new] = covered_.try_emplace(Covered{bare, shape.texture, shape.texture_repeat[0], shape.texture_repeat[1]});
+  if (is_new) {
+    Mesh mesh = texturedSurface(*bare, shape.texture, shape.texture_repeat);
+    if (!mesh.triangles.empty()) {
+      auto covered = std::make_shared<Geometry>();
+      covered->type = ShapeType::mesh;
+      covered->mesh = std::make_shared<Mesh>(std::move(mesh));
+      place->second = covered;
+    }
+  }
+  return place->second ? place->second : geometry;
+}
+
+std::shared_ptr<const Geometry> VisualMeshes::fromFile(const Shape& shape) {
   if (shape.visual_mesh.empty()) return nullptr;
   const std::string key = cat(shape.visual_mesh, " ", shape.visual_pose.numbers().transpose());
   const auto [place, is_new] = meshes_.try_emplace(key);

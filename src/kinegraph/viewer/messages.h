@@ -18,6 +18,7 @@ enum class BinaryKind : std::uint32_t {
   joints = 3,
   motion = 4,
   quad = 5,
+  image = 6,
 };
 
 struct ShapeMessage {

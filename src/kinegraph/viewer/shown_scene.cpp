@@ -1,5 +1,6 @@
 #include "kinegraph/viewer/shown_scene.h"
 
+#include <array>
 #include <cstring>
 
 #include "kinegraph/geometry/shape_types.h"
@@ -15,8 +16,10 @@ void append(std::string& data, const T& value) {
   data.append(reinterpret_cast<const char*>(&value), sizeof value);
 }
 
-/// kind, number, vertices, triangles, colors (0, 1 or as many as vertices), then float32 positions, uint32 indices, rgba bytes.
-std::string encodeMesh(int number, const Mesh& mesh) {
+/// kind, number, vertices, triangles, colors (0, 1 or as many as vertices), texture coordinates (0 or as many), textured ranges
+/// of triangles; then float32 positions, uint32 indices, float32 texture coordinates, uint32 first, count, number of the
+/// picture for each range, rgba bytes. `images`: the numbers of the pictures.
+std::string encodeMesh(int number, const Mesh& mesh, const std::vector<int>& images) {
   std::string data;
   const std::size_t vertices = mesh.vertices.size();
   const std::size_t colors = mesh.colors.size() == vertices || mesh.colors.size() == 1 ? mesh.colors.size() : 0;
@@ -25,10 +28,18 @@ std::string encodeMesh(int number, const Mesh& mesh) {
   append(data, std::uint32_t(vertices));
   append(data, std::uint32_t(mesh.triangles.size()));
   append(data, std::uint32_t(colors));
+  append(data, std::uint32_t(images.empty() ? 0 : vertices));
+  append(data, std::uint32_t(images.size()));
   for (const Vector3d& p : mesh.vertices) {
     for (int i = 0; i < 3; ++i) append(data, float(p[i]));
   }
   for (const auto& triangle : mesh.triangles) append(data, triangle);
+  if (!images.empty()) {
+    for (const auto& place : mesh.texcoords) append(data, place);
+  }
+  for (std::size_t i = 0; i < images.size(); ++i) {
+    append(data, std::array{mesh.textures[i].first, mesh.textures[i].count, std::uint32_t(images[i])});
+  }
   for (std::size_t i = 0; i < colors; ++i) append(data, mesh.colors[i]);
   return data;
 }
@@ -98,8 +109,26 @@ std::shared_ptr<const ShownScene::SentMesh> ShownScene::meshOf(const ViewItem& i
   if (is_new) {
     const bool has_own = item.geometry->type != ShapeType::ssCvx && item.geometry->mesh;
     const Mesh& mesh = has_own ? *item.geometry->mesh : tessellate(*item.geometry);
-    place->second = std::make_shared<SentMesh>(SentMesh{next_mesh_, std::make_shared<std::string>(encodeMesh(next_mesh_, mesh))});
-    ++next_mesh_;
+    SentMesh sent{next_mesh_++, nullptr};
+    std::vector<int> numbers;
+    for (const TexturedTriangles& textured : mesh.textures) {
+      sent.images.push_back(sentImage(textured.image));
+      numbers.push_back(sent.images.back()->number);
+    }
+    sent.data = std::make_shared<std::string>(encodeMesh(sent.number, mesh, numbers));
+    place->second = std::make_shared<SentMesh>(std::move(sent));
+  }
+  return place->second;
+}
+
+/// kind, number, then the bytes of its file.
+std::shared_ptr<const ShownScene::SentImage> ShownScene::sentImage(const std::shared_ptr<const Image>& image) {
+  const auto [place, is_new] = images_.try_emplace(image);
+  if (is_new) {
+    std::string data;
+    append(data, BinaryKind::image);
+    append(data, std::uint32_t(next_image_));
+    place->second = std::make_shared<SentImage>(SentImage{next_image_++, std::make_shared<std::string>(data + image->bytes)});
   }
   return place->second;
 }
@@ -128,7 +157,10 @@ bool ShownScene::update(std::span<const ViewItem> items) {
       shown.item = item;
     }
   }
-  if (looks_changed) std::erase_if(meshes_, [](const auto& entry) { return entry.second.use_count() == 1; });
+  if (looks_changed) {
+    std::erase_if(meshes_, [](const auto& entry) { return entry.second.use_count() == 1; });
+    std::erase_if(images_, [](const auto& entry) { return entry.second.use_count() == 1; });
+  }
   if (changed) revision_ = next;
   return changed;
 }
@@ -237,7 +269,7 @@ std::vector<Outgoing> ShownScene::messagesSince(Seen& seen) const {
   }
   SceneMessage scene;
   scene.count = int(frames_.size());
-  std::set<int> meshes;
+  std::set<int> meshes, images;
   std::string poses;
   std::uint32_t moved = 0;
   for (std::size_t i = 0; i < frames_.size(); ++i) {
@@ -251,8 +283,11 @@ std::vector<Outgoing> ShownScene::messagesSince(Seen& seen) const {
       }
       scene.frames.push_back(frame);
     }
-    if (shown.mesh && meshes.insert(shown.mesh->number).second && !seen.meshes.contains(shown.mesh->number)) {
-      out.push_back({shown.mesh->data, true});
+    if (shown.mesh && meshes.insert(shown.mesh->number).second) {
+      for (const auto& image : shown.mesh->images) {
+        if (images.insert(image->number).second && !seen.images.contains(image->number)) out.push_back({image->data, true});
+      }
+      if (!seen.meshes.contains(shown.mesh->number)) out.push_back({shown.mesh->data, true});
     }
     if (shown.pose_revision > seen.revision) {
       append(poses, std::uint32_t(i));
@@ -296,6 +331,7 @@ std::vector<Outgoing> ShownScene::messagesSince(Seen& seen) const {
     out.insert(out.end(), motion_.begin(), motion_.end());
   }
   seen.meshes = std::move(meshes);
+  seen.images = std::move(images);
   seen.revision = revision_;
   return out;
 }

@@ -25,6 +25,7 @@ class ShownScene {
   struct Seen {
     std::uint64_t revision = 0;
     std::set<int> meshes;  ///< those in use at that revision; a browser forgets the others
+    std::set<int> images;  ///< the same, of the pictures on them
   };
 
   /// True if anything differs from before.
@@ -53,22 +54,32 @@ class ShownScene {
   std::vector<Outgoing> messagesSince(Seen& seen) const;
 
  private:
-  /// A mesh as it is sent, under a number that is never used again.
+  /// A picture or a mesh as it is sent, under a number that is never used again.
+  struct SentImage {
+    int number;
+    std::shared_ptr<const std::string> data;
+  };
   struct SentMesh {
     int number;
     std::shared_ptr<const std::string> data;
+    std::vector<std::shared_ptr<const SentImage>> images = {};  ///< on its textured triangles
   };
   struct Shown {
     ViewItem item;
     std::shared_ptr<const SentMesh> mesh;
     std::uint64_t look_revision = 0, pose_revision = 0;
   };
+  struct LessBytes {  // equal pictures are one
+    bool operator()(const std::shared_ptr<const Image>& a, const std::shared_ptr<const Image>& b) const { return a->bytes < b->bytes; }
+  };
   std::shared_ptr<const SentMesh> meshOf(const ViewItem& item);
+  std::shared_ptr<const SentImage> sentImage(const std::shared_ptr<const Image>& image);
 
   std::uint64_t revision_ = 1, count_revision_ = 1, text_revision_ = 1, camera_revision_ = 0;
   std::vector<Shown> frames_;
   std::map<std::shared_ptr<const Geometry>, std::shared_ptr<const SentMesh>> meshes_;  ///< those that frames show
-  int next_mesh_ = 0;
+  std::map<std::shared_ptr<const Image>, std::shared_ptr<const SentImage>, LessBytes> images_;  ///< those on these meshes
+  int next_mesh_ = 0, next_image_ = 0;
   int structure_ = 0;
   std::vector<ShownJoint> joints_;
   VectorXd q_;

@@ -1,0 +1,245 @@
+"""Rotations as unit quaternions (w, x, y, z)."""
+
+from __future__ import annotations
+
+import numpy as np
+import numpy.typing as npt
+
+from ._core import Config
+from .errors import ArgumentError
+
+Numbers = npt.ArrayLike
+Array = npt.NDArray[np.float64]
+
+
+def _numbers(values: Numbers, shape: tuple[int, ...], what: str) -> Array:
+    array = np.asarray(values, np.float64)
+    if array.shape != shape:
+        raise ArgumentError(f"{what} has shape {array.shape}; expected {shape}")
+    return array
+
+
+class Quaternion:
+    """A rotation as a quaternion w x y z. Setters change it and return it, so that they can be chained.
+
+    The default is the identity. q1 * q2 turns by q2 first; -q is the inverse.
+    """
+
+    def __init__(self, wxyz: Numbers = (1.0, 0.0, 0.0, 0.0)) -> None:
+        self._q = _numbers(wxyz, (4,), "a quaternion").copy()
+
+    def __repr__(self) -> str:
+        return f"Quaternion([{', '.join(f'{x:.6g}' for x in self._q)}])"
+
+    def __eq__(self, other: object) -> bool:
+        return isinstance(other, Quaternion) and bool(np.array_equal(self._q, other._q))
+
+    __hash__ = None  # type: ignore[assignment]  # it changes
+
+    def __mul__(self, other: Quaternion) -> Quaternion:
+        w, v = self._q[0], self._q[1:]
+        a, b = other._q[0], other._q[1:]
+        return Quaternion([w * a - v @ b, *(w * b + a * v + np.cross(v, b))])
+
+    def __neg__(self) -> Quaternion:
+        return Quaternion(self._q * [1, -1, -1, -1])
+
+    def set(self, wxyz: Numbers) -> Quaternion:
+        """These four numbers, as they are."""
+        self._q = _numbers(wxyz, (4,), "a quaternion").copy()
+        return self
+
+    def setZero(self) -> Quaternion:
+        """The identity."""
+        return self.set([1.0, 0.0, 0.0, 0.0])
+
+    def setRad(self, angle: float, axis: Numbers = (1.0, 0.0, 0.0)) -> Quaternion:
+        """A turn by `angle` (rad) about `axis` (3,), of any length but 0."""
+        direction = _numbers(axis, (3,), "the axis")
+        length = np.linalg.norm(direction)
+        if not length > 0:
+            raise ArgumentError("setRad: the axis has length 0")
+        return self.set([np.cos(0.5 * angle), *(np.sin(0.5 * angle) * direction / length)])
+
+    def setExp(self, vector: Numbers) -> Quaternion:
+        """A turn about a vector (3,) by its length (rad)."""
+        v = _numbers(vector, (3,), "the rotation vector")
+        angle = float(np.linalg.norm(v))
+        return self.setRad(angle, v) if angle > 0 else self.setZero()
+
+    def setEuler(self, zxz: Numbers) -> Quaternion:
+        """Rz(a) Rx(b) Rz(c) of three angles (rad)."""
+        a, b, c = _numbers(zxz, (3,), "the angles")
+        return self.set((_turn(2, a) * _turn(0, b) * _turn(2, c))._q)
+
+    def setRollPitchYaw(self, rpy: Numbers, reverse: bool = False) -> Quaternion:
+        """Rx(roll) Ry(pitch) Rz(yaw), rad; with `reverse`, Rz(yaw) Ry(pitch) Rx(roll)."""
+        turns = [_turn(axis, angle) for axis, angle in enumerate(_numbers(rpy, (3,), "roll, pitch and yaw"))]
+        a, b, c = reversed(turns) if reverse else turns
+        return self.set((a * b * c)._q)
+
+    def setMatrix(self, matrix: Numbers) -> Quaternion:
+        """The rotation of a matrix (3, 3)."""
+        m = _numbers(matrix, (3, 3), "the matrix").ravel()
+        if (
+            not np.allclose(m.reshape(3, 3) @ m.reshape(3, 3).T, np.eye(3), atol=1e-3)
+            or np.linalg.det(m.reshape(3, 3)) < 0
+        ):
+            raise ArgumentError("setMatrix: the matrix is not a rotation (columns orthogonal, length 1, right-handed)")
+        squares = 1 + np.array([[1, 1, 1], [1, -1, -1], [-1, 1, -1], [-1, -1, 1]]) @ m[[0, 4, 8]]
+        largest = int(np.argmax(squares))
+        products = np.array(
+            [
+                [squares[0], m[7] - m[5], m[2] - m[6], m[3] - m[1]],
+                [m[7] - m[5], squares[1], m[1] + m[3], m[2] + m[6]],
+                [m[2] - m[6], m[1] + m[3], squares[2], m[5] + m[7]],
+                [m[3] - m[1], m[2] + m[6], m[5] + m[7], squares[3]],
+            ]
+        )  # 4 times the products of all pairs of entries
+        return self.set(products[largest] / (2 * np.sqrt(squares[largest]))).normalize()
+
+    def setDiff(self, start: Numbers, end: Numbers) -> Quaternion:
+        """The shortest turn that brings the direction `start` (3,) to `end` (3,); of opposite ones, about an axis across."""
+        a, b = _numbers(start, (3,), "the first vector"), _numbers(end, (3,), "the second vector")
+        lengths = np.linalg.norm(a) * np.linalg.norm(b)
+        if not lengths > 0:
+            raise ArgumentError("setDiff: a vector of length 0 has no direction")
+        a, b = a / np.linalg.norm(a), b / np.linalg.norm(b)
+        if a @ b < -1 + 1e-12:
+            across = np.cross(a, np.eye(3)[1 if abs(a[1]) < 0.9 else 0])
+            return self.setRad(np.pi, across)
+        return self.set([1 + a @ b, *np.cross(a, b)]).normalize()
+
+    def setRandom(self) -> Quaternion:
+        """Uniform over all rotations; ry.rnd_seed seeds it."""
+        scene = Config()
+        scene.addFrame("world")
+        scene.addFrame("ball", "world", "joint: quatBall, sampleUniform: 1, limits: [-1 -1 -1 -1 1 1 1 1]")
+        scene.setRandom()
+        return self.set(scene.getJointState()).normalize()
+
+    def setInterpolateProper(self, t: float, start: Quaternion, end: Quaternion) -> Quaternion:
+        """The part `t` of the way from `start` to `end` at constant angular velocity, the shorter way round."""
+        between = -start * end
+        if between._q[0] < 0:
+            between.flipSign()
+        return self.set((start * Quaternion().setExp(t * between.getLog()))._q)
+
+    def setInterpolateEmbedded(self, t: float, start: Quaternion, end: Quaternion) -> Quaternion:
+        """The same along the straight line between the numbers."""
+        sign = 1.0 if start._q @ end._q >= 0 else -1.0
+        return self.set((1 - t) * start._q + t * sign * end._q).normalize()
+
+    def append(self, other: Quaternion) -> Quaternion:
+        """self * other, in place."""
+        return self.set((self * other)._q)
+
+    def invert(self) -> Quaternion:
+        """The inverse, in place."""
+        return self.set((-self)._q)
+
+    def flipSign(self) -> Quaternion:
+        """The other four numbers of the same rotation, in place."""
+        return self.set(-self._q)
+
+    def normalize(self) -> Quaternion:
+        """Length 1, in place."""
+        length = np.linalg.norm(self._q)
+        if not length > 0:
+            raise ArgumentError("normalize: the quaternion is zero; expected w x y z of a rotation, e.g. 1 0 0 0")
+        return self.set(self._q / length)
+
+    def multiply(self, factor: float) -> None:
+        """Scales the angle, in place."""
+        self.setExp(factor * self.getLog())
+
+    def applyOnPointArray(self, points: Numbers) -> Array:
+        """Points (n, 3), turned."""
+        array = np.asarray(points, np.float64)
+        if array.ndim != 2 or array.shape[1] != 3:
+            raise ArgumentError(f"applyOnPointArray: points have shape {array.shape}; expected (n, 3)")
+        turned: Array = array @ self.getMatrix().T
+        return turned
+
+    def asArr(self) -> Array:
+        """w x y z, (4,)."""
+        return self._q.copy()
+
+    def getMatrix(self) -> Array:
+        """The rotation matrix (3, 3)."""
+        w, x, y, z = self._q / np.linalg.norm(self._q)
+        return np.array(
+            [
+                [1 - 2 * (y * y + z * z), 2 * (x * y - w * z), 2 * (x * z + w * y)],
+                [2 * (x * y + w * z), 1 - 2 * (x * x + z * z), 2 * (y * z - w * x)],
+                [2 * (x * z - w * y), 2 * (y * z + w * x), 1 - 2 * (x * x + y * y)],
+            ]
+        )
+
+    def getRad(self) -> float:
+        """The angle, 0 .. 2 pi rad, as these numbers say."""
+        return float(2 * np.arctan2(np.linalg.norm(self._q[1:]), self._q[0]))
+
+    def getLog(self) -> Array:
+        """The rotation vector (3,), rad, of the shorter turn."""
+        q = self._q if self._q[0] >= 0 else -self._q
+        length = float(np.linalg.norm(q[1:]))
+        if length < 1e-12:
+            return 2 * q[1:] / np.linalg.norm(q)
+        vector: Array = 2 * np.arctan2(length, q[0]) * q[1:] / length
+        return vector
+
+    def getRollPitchYaw(self) -> Array:
+        """Angles (3,), rad, that setRollPitchYaw makes the same rotation of."""
+        m = self.getMatrix()
+        pitch = np.arcsin(np.clip(m[0, 2], -1, 1))
+        return np.array([np.arctan2(-m[1, 2], m[2, 2]), pitch, np.arctan2(-m[0, 1], m[0, 0])])
+
+    def getJacobian(self) -> Array:
+        """(3, 4): the angular velocity in the world, per velocity of the four numbers."""
+        w, x, y, z = self._q
+        return 2 * np.array([[-x, w, -z, y], [-y, z, w, -x], [-z, -y, x, w]])
+
+    def sqrNorm(self) -> float:
+        """The squared length of the four numbers."""
+        return float(self._q @ self._q)
+
+    @property
+    def w(self) -> float:
+        """The scalar part."""
+        return float(self._q[0])
+
+    @w.setter
+    def w(self, value: float) -> None:
+        self._q[0] = value
+
+    @property
+    def x(self) -> float:
+        """The first entry of the vector part."""
+        return float(self._q[1])
+
+    @x.setter
+    def x(self, value: float) -> None:
+        self._q[1] = value
+
+    @property
+    def y(self) -> float:
+        """The second entry of the vector part."""
+        return float(self._q[2])
+
+    @y.setter
+    def y(self, value: float) -> None:
+        self._q[2] = value
+
+    @property
+    def z(self) -> float:
+        """The third entry of the vector part."""
+        return float(self._q[3])
+
+    @z.setter
+    def z(self, value: float) -> None:
+        self._q[3] = value
+
+
+def _turn(axis: int, angle: float) -> Quaternion:
+    return Quaternion().setRad(angle, np.eye(3)[axis])
