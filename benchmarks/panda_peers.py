@@ -108,6 +108,11 @@ def pinocchioQuestions(scene):
         pin.forwardKinematics(model, data, q)
         return pin.updateFramePlacement(model, data, tip).translation
 
+    def distances(q):
+        pin.updateGeometryPlacements(model, data, geometry, geometry_data, q)
+        pin.computeDistances(geometry, geometry_data)
+        return geometry_data.distanceResults
+
     def valid(q):
         inside = bool((q >= limits[0]).all() and (q <= limits[1]).all())
         return inside and not pin.computeCollisions(model, data, geometry, geometry_data, q, True)
@@ -116,7 +121,8 @@ def pinocchioQuestions(scene):
         "position": position,
         "pose": position,
         "frame": frame,
-        "distances": lambda q: pin.computeCollisions(model, data, geometry, geometry_data, q, False),
+        "contacts": lambda q: pin.computeCollisions(model, data, geometry, geometry_data, q, False),
+        "distances": distances,
         "valid": valid,
     }
 
@@ -159,7 +165,7 @@ def mujocoQuestions(scene):
     def valid(q):
         return bool((q >= limits[0]).all() and (q <= limits[1]).all()) and not contacts(q)
 
-    return {"position": position, "pose": position, "frame": frame, "distances": contacts, "valid": valid}
+    return {"position": position, "pose": position, "frame": frame, "contacts": contacts, "valid": valid}
 
 
 def mujocoText(scene):

@@ -18,12 +18,13 @@ using namespace nb::literals;
 
 struct PyViewer;
 
-/// What Python calls a Config: the scene, the viewer that `view()` opens at first use, and what was last asked of `eval` and
-/// `setJointState`.
+/// What Python calls a Config: the scene, the viewer that `view()` opens at first use, and what was last asked of `eval`,
+/// `setJointState` and `getNearestPoints`.
 struct PyConfig : Config {
   std::shared_ptr<PyViewer> viewer;
   mutable ResidualCache residuals = {};
   mutable RecentCalls calls = {};
+  mutable std::shared_ptr<PairDistances> pairs = {};
   VectorXd joints = {};
 };
 

@@ -211,6 +211,7 @@ class FrameDescription {
       const bool unresolved = node.key == "visual_mesh" && frame_.shape && frame_.shape->visual_mesh.empty();
       if (node.key.starts_with("%") || (interpreted.contains(node.key) && !unresolved)) continue;
       if (mesh_sources.contains(node.key) && frame_.shape && frame_.shape->geometry->mesh) continue;
+      if (node.key == "sdf" && frame_.shape && frame_.shape->geometry->grid) continue;
       graph_.nodes.push_back(node);
     }
   }
