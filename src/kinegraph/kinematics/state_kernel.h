@@ -15,9 +15,9 @@ struct StateArrays {
   const double* turn_factor;
   int turns;  ///< an even number
   const double* q;
-  double* sines_cosines;  ///< a pair per turn
-  double* poses;          ///< per link: the columns of R, then p; that of the world is there already
-  double* twists;         ///< per column: angular, then linear
+  double* turned;  ///< per turn: sine and cosine
+  double* poses;   ///< per link: the columns of R, then p; that of the world is there already
+  double* twists;  ///< per column: angular, then linear
 };
 
 /// Computes poses and twists; the same bits on all processors.
