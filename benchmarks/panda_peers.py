@@ -1,7 +1,7 @@
 """The Panda of benchmarks/kinematics.py in other libraries, built from a description that Kinegraph gives of it.
 
 `describe` runs where Kinegraph is, `PEERS` where the other libraries are; they share a JSON file. All have the same joints,
-shapes (a rounded box counts as a box) and pairs.
+shapes (in MuJoCo a rounded box counts as a box) and pairs.
 """
 
 import importlib
@@ -87,7 +87,7 @@ def pinocchioQuestions(scene):
         kinds = {
             "capsule": lambda s: coal.Capsule(s[1], s[0]),
             "sphere": lambda s: coal.Sphere(s[0]),
-            "ssBox": lambda s: coal.Box(*s[:3]),
+            "ssBox": lambda s: roundedBox(coal, s),
             "box": lambda s: coal.Box(*s[:3]),
         }
         rotation = pin.Quaternion(pose[3], pose[4], pose[5], pose[6]).normalized().toRotationMatrix()
@@ -125,6 +125,12 @@ def pinocchioQuestions(scene):
         "distances": distances,
         "valid": valid,
     }
+
+
+def roundedBox(coal, size):
+    box = coal.Box(*(side - 2 * size[3] for side in size[:3]))
+    box.setSweptSphereRadius(size[3])
+    return box
 
 
 def jointModel(pin, axis):

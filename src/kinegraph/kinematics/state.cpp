@@ -37,25 +37,31 @@ void State::addPointJacobian(int frame, const Vector3d& p_WQ, double factor, Jac
   double* rows = J.data();
   const Eigen::Index stride = J.outerStride();
   const double x = p_WQ[0], y = p_WQ[1], z = p_WQ[2];
-  for (int c = program_->last_column[link(frame)]; c >= 0; c = program_->column_before[c]) {
-    const double* w = twists_[c].angular.data();
-    const double* v = twists_[c].linear.data();
-    double* to = rows + program_->column_dof[c];
-    to[0] += factor * (v[0] + (w[1] * z - w[2] * y));
-    to[stride] += factor * (v[1] + (w[2] * x - w[0] * z));
-    to[2 * stride] += factor * (v[2] + (w[0] * y - w[1] * x));
+  const int *before = program_->column_before.data(), *dof = program_->column_dof.data();
+  const Twist* twists = twists_.data();
+  for (int c = program_->last_column[link(frame)]; c >= 0; c = before[c]) {
+    const double *w = twists[c].angular.data(), *v = twists[c].linear.data();
+    const double dx = factor * (v[0] + (w[1] * z - w[2] * y)), dy = factor * (v[1] + (w[2] * x - w[0] * z)),
+                 dz = factor * (v[2] + (w[0] * y - w[1] * x));
+    double* to = rows + dof[c];
+    to[0] += dx;
+    to[stride] += dy;
+    to[2 * stride] += dz;
   }
 }
 
 void State::addAngularJacobian(int frame, double factor, JacobianRows J) const {
   double* rows = J.data();
   const Eigen::Index stride = J.outerStride();
-  for (int c = program_->last_column[link(frame)]; c >= 0; c = program_->column_before[c]) {
-    const double* w = twists_[c].angular.data();
-    double* to = rows + program_->column_dof[c];
-    to[0] += factor * w[0];
-    to[stride] += factor * w[1];
-    to[2 * stride] += factor * w[2];
+  const int *before = program_->column_before.data(), *dof = program_->column_dof.data();
+  const Twist* twists = twists_.data();
+  for (int c = program_->last_column[link(frame)]; c >= 0; c = before[c]) {
+    const double* w = twists[c].angular.data();
+    const double dx = factor * w[0], dy = factor * w[1], dz = factor * w[2];
+    double* to = rows + dof[c];
+    to[0] += dx;
+    to[stride] += dy;
+    to[2 * stride] += dz;
   }
 }
 

@@ -28,6 +28,20 @@ struct TwistWriter {
   }
 };
 
+/// Is a lane of a comparison set?
+template <class Mask>
+[[gnu::always_inline]] inline bool anySet(const Mask& mask) {
+#ifdef __AVX2__
+  if constexpr (sizeof(mask) == 32) {
+    typedef long long Bits __attribute__((vector_size(32)));
+    return !__builtin_ia32_ptestz256((Bits)mask, (Bits)mask);
+  }
+#endif
+  long long found = 0;
+  for (int i = 0; i < int(sizeof(mask) / sizeof(double)); ++i) found |= mask[i];
+  return found != 0;
+}
+
 /// Of `Width` turns from `first` on.
 template <int Width>
 [[gnu::always_inline]] inline void sineAndCosineAt(const StateArrays& state, int first) {
@@ -36,7 +50,7 @@ template <int Width>
   for (int k = 0; k < Width; ++k) q[k] = state.q[state.turn_dof[first + k]];
   __builtin_memcpy(&factors, state.turn_factor + first, sizeof(factors));
   const Angles angles = factors * q;
-  if (!any(magnitude(angles) > kMostAngle)) [[likely]] {
+  if (!anySet(magnitude(angles) > kMostAngle)) [[likely]] {
     sineAndCosine(angles, sines, cosines);
   } else {
     sineAndCosineOfAny(angles, sines, cosines);
