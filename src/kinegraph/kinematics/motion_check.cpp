@@ -158,55 +158,82 @@ void MotionChecker::findPairs(double margin) {
 
 std::optional<MotionContact> MotionChecker::firstContact(const double* from, const double* to, double margin, double tolerance) {
   const int n = state_.dofs();
+  const auto inPiece = [&](const double* from, const double* to, bool begins) -> std::optional<MotionContact> {
+    from_ = Eigen::Map<const VectorXd>(from, n);
+    change_ = Eigen::Map<const VectorXd>(to, n) - from_;
+    boundSteps(to);
+    const auto contact = [&](int pair) {
+      const auto [a, b] = pairs_->pairs[std::size_t(pair)];
+      return MotionContact{time_, pairs_->frames[std::size_t(a)], pairs_->frames[std::size_t(b)], bodies_->proximity(pair).distance};
+    };
+    const auto spare = [&](int pair) { return bodies_->proximity(pair).distance - margin; };
+    due_.clear();
+    time_ = -1.;
+    if (resting_) bodies_.reset();  // those of the last motion
+    moveTo(0.);
+    if (resting_) findPairs(margin);
+    speed_.resize(pairs_->pairs.size());
+    for (int pair = 0; pair < bodies_->pairs(); ++pair) {
+      const double speed = speed_[pair] = relativeSpeed(pair);  // 0 for a pair that moves as one
+      if (!bodies_->mayBeNear(pair, margin + speed)) continue;
+      const double now = spare(pair);
+      if (now < 0. || (speed > 0. && (now < tolerance || now / speed == 0.))) return contact(pair);
+      if (now < speed) due_.push_back({now / speed, pair});
+    }
+    if (resting_ && begins) {  // pairs that move as one
+      resting_->place(state_);
+      for (const NearPairSearch::Near& near : resting_->near(margin)) {
+        const int a = resting_->frame(near.a), b = resting_->frame(near.b);
+        if (near.distance < margin && state_.link(a) == state_.link(b)) return MotionContact{0., a, b, near.distance};
+      }
+    }
+    if (due_.empty()) return std::nullopt;
+    // By how much the pairs keep the margin at the end; the rest is free where that and what they keep now cover it.
+    std::array<std::byte, 8192> buffer;
+    std::pmr::monotonic_buffer_resource memory(buffer.data(), buffer.size());
+    std::pmr::vector<double> at_end(speed_.size(), 0., &memory);
+    moveTo(1.);
+    for (const Due& due : due_) at_end[due.pair] = std::max(spare(due.pair), 0.);
+    std::erase_if(due_, [&](const Due& due) { return due.time * speed_[due.pair] + at_end[due.pair] >= speed_[due.pair]; });
+    std::make_heap(due_.begin(), due_.end());
+    while (!due_.empty()) {
+      std::pop_heap(due_.begin(), due_.end());
+      const auto [time, pair] = due_.back();
+      due_.pop_back();
+      moveTo(time);
+      const double rest = speed_[pair] * (1. - time);
+      if (!bodies_->mayBeNear(pair, margin + rest)) continue;
+      const double now = spare(pair), next = time + now / speed_[pair];
+      if (now < tolerance || next == time) return contact(pair);
+      if (now + at_end[pair] >= rest) continue;
+      due_.push_back({next, pair});
+      std::push_heap(due_.begin(), due_.end());
+    }
+    return std::nullopt;
+  };
+  if (!resting_) return inPiece(from, to, true);
+  // Among many bodies in pieces, in each of which no body moves far, so that few others are in its way.
+  constexpr double kPiece = .25, kMostPieces = 256.;  // m
   from_ = Eigen::Map<const VectorXd>(from, n);
   change_ = Eigen::Map<const VectorXd>(to, n) - from_;
   boundSteps(to);
-  const auto contact = [&](int pair) {
-    const auto [a, b] = pairs_->pairs[std::size_t(pair)];
-    return MotionContact{time_, pairs_->frames[std::size_t(a)], pairs_->frames[std::size_t(b)], bodies_->proximity(pair).distance};
-  };
-  const auto spare = [&](int pair) { return bodies_->proximity(pair).distance - margin; };
-  due_.clear();
-  time_ = -1.;
-  if (resting_) bodies_.reset();  // those of the last motion
-  moveTo(0.);
-  if (resting_) findPairs(margin);
-  speed_.resize(pairs_->pairs.size());
-  for (int pair = 0; pair < bodies_->pairs(); ++pair) {
-    const double speed = speed_[pair] = relativeSpeed(pair);  // 0 for a pair that moves as one
-    if (!bodies_->mayBeNear(pair, margin + speed)) continue;
-    const double now = spare(pair);
-    if (now < 0. || (speed > 0. && (now < tolerance || now / speed == 0.))) return contact(pair);
-    if (now < speed) due_.push_back({now / speed, pair});
+  double farthest = 0.;
+  for (const int i : moving_) {
+    const int frame = state_.program().contacts.bodies[std::size_t(i)].frame;
+    double reach = reachOf(frame, *state_.program().body[std::size_t(frame)]), travel = 0.;
+    for (int link = state_.link(frame); link != 0; link = state_.program().links[std::size_t(link)].parent) travel += climb(link, reach);
+    farthest = std::max(farthest, travel);
   }
-  if (resting_) {  // pairs that move as one
-    resting_->place(state_);
-    for (const NearPairSearch::Near& near : resting_->near(margin)) {
-      const int a = resting_->frame(near.a), b = resting_->frame(near.b);
-      if (near.distance < margin && state_.link(a) == state_.link(b)) return MotionContact{0., a, b, near.distance};
+  const int pieces = int(std::clamp(std::ceil(farthest / kPiece), 1., kMostPieces));
+  const VectorXd start = from_, change = change_;
+  VectorXd begin = start, end(n);
+  for (int i = 0; i < pieces; ++i) {
+    end = start + double(i + 1) / pieces * change;
+    if (std::optional<MotionContact> contact = inPiece(begin.data(), end.data(), i == 0)) {
+      contact->time = (i + contact->time) / pieces;
+      return contact;
     }
-  }
-  if (due_.empty()) return std::nullopt;
-  // By how much the pairs keep the margin at the end; the rest is free where that and what they keep now cover it.
-  std::array<std::byte, 8192> buffer;
-  std::pmr::monotonic_buffer_resource memory(buffer.data(), buffer.size());
-  std::pmr::vector<double> at_end(speed_.size(), 0., &memory);
-  moveTo(1.);
-  for (const Due& due : due_) at_end[due.pair] = std::max(spare(due.pair), 0.);
-  std::erase_if(due_, [&](const Due& due) { return due.time * speed_[due.pair] + at_end[due.pair] >= speed_[due.pair]; });
-  std::make_heap(due_.begin(), due_.end());
-  while (!due_.empty()) {
-    std::pop_heap(due_.begin(), due_.end());
-    const auto [time, pair] = due_.back();
-    due_.pop_back();
-    moveTo(time);
-    const double rest = speed_[pair] * (1. - time);
-    if (!bodies_->mayBeNear(pair, margin + rest)) continue;
-    const double now = spare(pair), next = time + now / speed_[pair];
-    if (now < tolerance || next == time) return contact(pair);
-    if (now + at_end[pair] >= rest) continue;
-    due_.push_back({next, pair});
-    std::push_heap(due_.begin(), due_.end());
+    begin = end;
   }
   return std::nullopt;
 }
