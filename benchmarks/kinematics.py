@@ -8,7 +8,8 @@ Times are per configuration, on random joint vectors within the limits, in both 
     position    the gripper's position and its Jacobian (3, n)
     pose        the gripper's position and quaternion and their Jacobian (7, n)
     frame       the gripper's pose
-    distances   which pairs collide (Kinegraph's batch: the distances of all pairs)
+    contacts    which pairs collide (Kinegraph's batch: the distances of all pairs)
+    distances   the distances of all pairs, with nearest points and normals (coal: computeDistances)
     valid       within limits and without collision?
 
 "single" is setJointState and the question, in a Python loop; "batch" is one call for all configurations, and "threads" the
@@ -35,7 +36,7 @@ from time import perf_counter
 import panda_peers
 from tutorial_ratio import machine, versions
 
-QUESTIONS = ["position", "pose", "frame", "distances", "valid"]
+QUESTIONS = ["position", "pose", "frame", "contacts", "distances", "valid"]
 CHAINS = [10, 100, 1000]
 TIP = "l_gripper"
 
@@ -62,7 +63,11 @@ def worker(options):
         for joints in CHAINS:
             times[f"chain {joints}"] = timeChain(ry, joints, np.zeros((20, joints)))
         C.setJointState(Q[0])
-        report["answers"] = {"tip": C.eval(ry.FS.position, [TIP])[0].tolist(), "valid": int(C.isValid(Q[:100]).sum())}
+        report["answers"] = {
+            "tip": C.eval(ry.FS.position, [TIP])[0].tolist(),
+            "valid": int(C.isValid(Q[:100]).sum()),
+            "distances": C.getNearestPoints()[0].tolist(),
+        }
         report["scene"] = panda_peers.describe(ry, C, TIP)
     Path(options.out).write_text(json.dumps(report))
     sys.stdout.flush()
@@ -77,6 +82,8 @@ def peerWorker(options):
     Q = postures(limits, options.count)
     times = {f"{name} single": timeLoop(lambda q: None, single, Q[:100]) for name, single in questions.items()}
     answers = {"tip": list(questions["position"](Q[0])[0]), "valid": sum(map(questions["valid"], Q[:100]))}
+    if "distances" in questions:
+        answers["distances"] = [result.min_distance for result in questions["distances"](Q[0])]
     Path(options.out).write_text(json.dumps({"times": times, "answers": answers}))
 
 
@@ -100,11 +107,12 @@ def singles(ry, C, limits):
     def valid(q):
         return bool((q >= limits[0]).all() and (q <= limits[1]).all()) and not collisions()
 
-    return {
+    nearest = {"distances": lambda q: C.getNearestPoints()} if hasattr(C, "getNearestPoints") else {}
+    return nearest | {
         "position": lambda q: C.eval(ry.FS.position, [TIP]),
         "pose": lambda q: C.eval(ry.FS.pose, [TIP]),
         "frame": lambda q: gripper.getPose(),
-        "distances": lambda q: collisions(),
+        "contacts": lambda q: collisions(),
         "valid": valid,
     }
 
@@ -114,7 +122,8 @@ def batches(ry, C, Q, threads):
         "position": lambda: C.evalBatch(ry.FS.position, [TIP], Q, threads=threads),
         "pose": lambda: C.evalBatch(ry.FS.pose, [TIP], Q, threads=threads),
         "frame": lambda: C.getFramePoses(Q, [TIP], threads=threads),
-        "distances": lambda: C.getDistances(Q, threads=threads),
+        "contacts": lambda: C.getDistances(Q, threads=threads),
+        "distances": lambda: C.getNearestPoints(Q, threads=threads),
         "valid": lambda: C.isValid(Q, threads=threads),
     }
 
@@ -181,6 +190,11 @@ def compareAnswers(ours, peers):
         )
         if not error < 1e-6:
             sys.exit(f"{name} has another robot")
+        if "distances" in runs[0]["answers"]:
+            pairs = zip(ours["answers"]["distances"], runs[0]["answers"]["distances"])
+            print(
+                f"{name}: distances of pairs that are apart differ by at most {max(abs(a - b) for a, b in pairs if b > 0):.1e} m"
+            )
 
 
 def printTable(reports):
@@ -203,10 +217,9 @@ def printTable(reports):
         )
     )
     for name in QUESTIONS:
-        low = lambda runs, kind: 1e6 * min(min(r["times"][f"{name} {kind}"]) for r in runs)  # noqa: E731, B023
-        columns = [low(reference, "single") if reference else None, *(low(reports[peer], "single") for peer in peers)]
-        columns += [low(ours, kind) for kind in ("single", "batch", "threads")]
-        ratios = [medianRatio(reference, ours, name, kind) if reference else None for kind in ("single", "batch")]
+        columns = [least(runs, name, "single") for runs in (reference, *(reports[peer] for peer in peers))]
+        columns += [least(ours, name, kind) for kind in ("single", "batch", "threads")]
+        ratios = [medianRatio(reference, ours, name, kind) for kind in ("single", "batch")]
         ratios += [medianRatio(reports[peer], ours, name, "single") for peer in peers]
         print(
             f"{name:12}"
@@ -222,8 +235,16 @@ def cell(number, digits):
     return f"{'-':>12}" if number is None else f"{number:12.{digits}f}"
 
 
+def least(runs, name, kind):
+    """µs; None where one has no answer."""
+    times = [r["times"].get(f"{name} {kind}") for r in runs]
+    return 1e6 * min(min(t) for t in times) if times and all(times) else None
+
+
 def medianRatio(others, ours, name, kind):
     """Median over the rounds of: another one's loop over ours, of `kind`, both medians of the round."""
+    if least(others, name, "single") is None:
+        return None
     rounds = zip(others, ours)
     middle = statistics.median
     return middle(middle(r["times"][f"{name} single"]) / middle(k["times"][f"{name} {kind}"]) for r, k in rounds)

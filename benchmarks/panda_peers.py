@@ -1,7 +1,7 @@
 """The Panda of benchmarks/kinematics.py in other libraries, built from a description that Kinegraph gives of it.
 
 `describe` runs where Kinegraph is, `PEERS` where the other libraries are; they share a JSON file. All have the same joints,
-shapes (a rounded box counts as a box) and pairs.
+shapes (in MuJoCo a rounded box counts as a box) and pairs.
 """
 
 import importlib
@@ -87,7 +87,7 @@ def pinocchioQuestions(scene):
         kinds = {
             "capsule": lambda s: coal.Capsule(s[1], s[0]),
             "sphere": lambda s: coal.Sphere(s[0]),
-            "ssBox": lambda s: coal.Box(*s[:3]),
+            "ssBox": lambda s: roundedBox(coal, s),
             "box": lambda s: coal.Box(*s[:3]),
         }
         rotation = pin.Quaternion(pose[3], pose[4], pose[5], pose[6]).normalized().toRotationMatrix()
@@ -108,6 +108,11 @@ def pinocchioQuestions(scene):
         pin.forwardKinematics(model, data, q)
         return pin.updateFramePlacement(model, data, tip).translation
 
+    def distances(q):
+        pin.updateGeometryPlacements(model, data, geometry, geometry_data, q)
+        pin.computeDistances(geometry, geometry_data)
+        return geometry_data.distanceResults
+
     def valid(q):
         inside = bool((q >= limits[0]).all() and (q <= limits[1]).all())
         return inside and not pin.computeCollisions(model, data, geometry, geometry_data, q, True)
@@ -116,9 +121,16 @@ def pinocchioQuestions(scene):
         "position": position,
         "pose": position,
         "frame": frame,
-        "distances": lambda q: pin.computeCollisions(model, data, geometry, geometry_data, q, False),
+        "contacts": lambda q: pin.computeCollisions(model, data, geometry, geometry_data, q, False),
+        "distances": distances,
         "valid": valid,
     }
+
+
+def roundedBox(coal, size):
+    box = coal.Box(*(side - 2 * size[3] for side in size[:3]))
+    box.setSweptSphereRadius(size[3])
+    return box
 
 
 def jointModel(pin, axis):
@@ -159,7 +171,7 @@ def mujocoQuestions(scene):
     def valid(q):
         return bool((q >= limits[0]).all() and (q <= limits[1]).all()) and not contacts(q)
 
-    return {"position": position, "pose": position, "frame": frame, "distances": contacts, "valid": valid}
+    return {"position": position, "pose": position, "frame": frame, "contacts": contacts, "valid": valid}
 
 
 def mujocoText(scene):

@@ -3,6 +3,7 @@
 #define NPY_NO_DEPRECATED_API NPY_1_22_API_VERSION
 #include <numpy/arrayobject.h>
 
+#include <algorithm>
 #include <cstring>
 
 namespace kinegraph::python {
@@ -20,24 +21,30 @@ void requireNumpy() {
   (void)loaded;
 }
 
-NewArray newArray(int rank, npy_intp* shape) {
+NewArray makeArray(int rank, npy_intp* shape) {
   requireNumpy();
   PyObject* array = PyArray_SimpleNew(rank, shape, NPY_DOUBLE);
   if (!array) throw nb::python_error();
   return {Array(nb::steal(array)), static_cast<double*>(PyArray_DATA(reinterpret_cast<PyArrayObject*>(array)))};
 }
 
+/// An array of contiguous doubles, or null.
+PyArrayObject* asDoubles(PyObject* source) {
+  requireNumpy();
+  if (!PyArray_Check(source)) return nullptr;
+  auto* array = reinterpret_cast<PyArrayObject*>(source);
+  return PyArray_TYPE(array) == NPY_DOUBLE && PyArray_ISCARRAY_RO(array) ? array : nullptr;
+}
+
 /// A contiguous buffer of doubles, as most arrays are.
 bool readBuffer(PyObject* source, Numbers& target) {
-  requireNumpy();
-  if (PyArray_Check(source)) {
-    auto* array = reinterpret_cast<PyArrayObject*>(source);
-    if (PyArray_TYPE(array) != NPY_DOUBLE || !PyArray_ISCARRAY_RO(array)) return false;
+  if (PyArrayObject* array = asDoubles(source)) {
     target.rank = PyArray_NDIM(array);
     target.rows = target.rank > 0 ? std::size_t(PyArray_DIM(array, 0)) : 1;
     target.values = Eigen::Map<const VectorXd>(static_cast<const double*>(PyArray_DATA(array)), PyArray_SIZE(array));
     return true;
   }
+  if (PyArray_Check(source)) return false;
   Py_buffer buffer;
   if (PyObject_GetBuffer(source, &buffer, PyBUF_ND | PyBUF_FORMAT) != 0) {
     PyErr_Clear();
@@ -81,23 +88,55 @@ MatrixXd Numbers::matrix() const {
 }
 
 NewArray newArray(std::size_t size) {
+  constexpr std::size_t kSmall = 16;
+  static ReusedArrays* const small = new ReusedArrays[kSmall];  // never freed: the interpreter ends before
+  if (size < kSmall) return small[size].get(size);
   npy_intp shape[] = {npy_intp(size)};
-  return newArray(1, shape);
+  return makeArray(1, shape);
 }
 
 NewArray newArray(std::size_t rows, std::size_t columns) {
   npy_intp shape[] = {npy_intp(rows), npy_intp(columns)};
-  return newArray(2, shape);
+  return makeArray(2, shape);
 }
 
 NewArray newArray(std::size_t layers, std::size_t rows, std::size_t columns) {
   npy_intp shape[] = {npy_intp(layers), npy_intp(rows), npy_intp(columns)};
-  return newArray(3, shape);
+  return makeArray(3, shape);
 }
 
 NewArray newArray(std::size_t blocks, std::size_t layers, std::size_t rows, std::size_t columns) {
   npy_intp shape[] = {npy_intp(blocks), npy_intp(layers), npy_intp(rows), npy_intp(columns)};
-  return newArray(4, shape);
+  return makeArray(4, shape);
+}
+
+NewArray ReusedArrays::get(std::size_t size) {
+  const std::ptrdiff_t shape[] = {std::ptrdiff_t(size)};
+  return get(1, shape);
+}
+
+NewArray ReusedArrays::get(std::size_t rows, std::size_t columns) {
+  const std::ptrdiff_t shape[] = {std::ptrdiff_t(rows), std::ptrdiff_t(columns)};
+  return get(2, shape);
+}
+
+NewArray ReusedArrays::get(int rank, const std::ptrdiff_t* shape) {
+  for (const Kept& kept : kept_) {
+    auto* array = reinterpret_cast<PyArrayObject_fields*>(kept.array.ptr());
+    if (!array || Py_REFCNT(array) != 1) continue;
+    // Nobody has it; but who had it may have changed what it is, or may watch it.
+    const bool as_made = array->nd == rank && std::equal(shape, shape + rank, array->dimensions) && array->flags == kept.flags &&
+                         array->descr == kept.type && !array->base && !array->weakreflist;
+    if (as_made) return {Array(kept.array), reinterpret_cast<double*>(array->data)};
+  }
+  npy_intp extents[] = {shape[0], rank > 1 ? npy_intp(shape[1]) : 1};
+  NewArray made = makeArray(rank, extents);
+  constexpr Py_ssize_t kMost = 4096;  // numbers; larger ones take their time anyway
+  if (extents[0] * extents[1] > kMost) return made;
+  const auto* array = reinterpret_cast<const PyArrayObject_fields*>(made.array.ptr());
+  kept_[next_] = {made.array, array->flags, array->descr};
+  next_ = 1 - next_;
+  return made;
 }
 
 NewFlags newFlags(std::size_t size) {
@@ -141,6 +180,18 @@ bool readNumbers(nb::handle source, Numbers& target) {
   const bool read = readBuffer(array, target);
   Py_DECREF(array);
   return read;
+}
+
+bool readNumbers(nb::handle source, NumbersView& target) {
+  if (PyArrayObject* array = asDoubles(source.ptr())) {
+    target.rank = PyArray_NDIM(array);
+    new (&target.values) Eigen::Map<const VectorXd>(static_cast<const double*>(PyArray_DATA(array)), PyArray_SIZE(array));
+    return true;
+  }
+  if (!readNumbers(source, target.copy)) return false;
+  target.rank = target.copy.rank;
+  new (&target.values) Eigen::Map<const VectorXd>(target.copy.values.data(), target.copy.values.size());
+  return true;
 }
 
 }  // namespace kinegraph::python

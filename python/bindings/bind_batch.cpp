@@ -90,6 +90,31 @@ Array getDistances(const PyConfig& config, const Numbers& Q, int threads) {
   return distances.array;
 }
 
+/// Of the present q: (p,), (p, 2, 3), (p, 3).
+nb::typed<nb::tuple, Array, Array, Array> nearestPointsHere(const PyConfig& config) {
+  const State& state = config.state();
+  if (!config.pairs || config.pairs->program() != state.sharedProgram()) {
+    config.pairs = std::make_shared<PairDistances>(state.sharedProgram());
+  }
+  const std::size_t pairs = state.program().collidable().size();
+  const NewArray distances = newArray(pairs), points = newArray(pairs, 2, 3), normals = newArray(pairs, 3);
+  const NearestRow row{distances.data, points.data, normals.data};
+  config.pairs->forAll(state, [&](int pair, const Proximity& near) { row.write(pair, near); });
+  return nb::make_tuple(distances.array, points.array, normals.array);
+}
+
+nb::typed<nb::tuple, Array, Array, Array> getNearestPoints(const PyConfig& config, const std::optional<Numbers>& Q, int threads) {
+  if (!Q) return nearestPointsHere(config);
+  const auto joints = jointRows(*Q, config, "getNearestPoints");
+  const State scene = config.state();
+  const std::size_t pairs = scene.program().collidable().size();
+  const NewArray distances = newArray(Q->rows, pairs), points = newArray(Q->rows, pairs, 2, 3), normals = newArray(Q->rows, pairs, 3);
+  unlocked(threads, "getNearestPoints", [&](const BatchOptions& options) {
+    nearestPoints(scene, joints, {distances.data, points.data, normals.data}, options);
+  });
+  return nb::make_tuple(distances.array, points.array, normals.array);
+}
+
 FlagArray isValid(const PyConfig& config, const Numbers& Q, double margin, int threads) {
   const auto joints = jointRows(Q, config, "isValid");
   if (!std::isfinite(margin)) throw ValueError(cat("isValid: margin is ", margin, "; expected a distance in m"));
@@ -125,6 +150,10 @@ void bindBatch(nb::class_<PyConfig>& config) {
       .def("getDistances", getDistances, "Q"_a, "threads"_a = 1,
            "Signed distances (m) of the p collidable pairs, as in getCollidablePairs, at each row of Q (N, n): (N, p). Negative:\n"
            "penetration depth.")
+      .def("getNearestPoints", getNearestPoints, "Q"_a = nb::none(), "threads"_a = 1,
+           "For each of the p collidable pairs, as in getCollidablePairs: the signed distance (m), the nearest points on both surfaces\n"
+           "(world coordinates, m), and the unit normal from the second to the first. (p,), (p, 2, 3), (p, 3) at the present q; with Q\n"
+           "(N, n), at each of its rows: (N, p), (N, p, 2, 3), (N, p, 3). distance = normal . (point 0 - point 1).")
       .def("isValid", isValid, "Q"_a, "margin"_a = 0., "threads"_a = 1,
            "For each row of Q (N, n): is q within its limits, and is no collidable pair nearer than margin (m)? (N,) bool.")
       .def("isMotionFree", isMotionFree, "start"_a, "end"_a, "margin"_a = 0., "tolerance"_a = 1e-4, "threads"_a = 1,

@@ -34,13 +34,16 @@ struct NamedFeature {
   MatrixXd scale;
   VectorXd target;
   int order = -1;
+  mutable ReusedArrays y = {}, J = {};
 };
 
+using Evaluated = nb::typed<nb::tuple, Array, Array>;
+
 /// Evaluates straight into the arrays that are returned.
-nb::typed<nb::tuple, Array, Array> evalInto(const PyConfig& config, Residual& residual) {
+Evaluated evalInto(const PyConfig& config, Residual& residual, ReusedArrays& value, ReusedArrays& derivative) {
   using RowMajor = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
   const std::size_t rows = std::size_t(residual.rows()), columns = std::size_t(config.getJointDimension());
-  const NewArray y = newArray(rows), J = newArray(rows, columns);
+  const NewArray y = value.get(rows), J = derivative.get(rows, columns);
   Eigen::Map<RowMajor> jacobian(J.data, Eigen::Index(rows), Eigen::Index(columns));
   jacobian.setZero();
   JacobianRows view = jacobian;
@@ -48,20 +51,34 @@ nb::typed<nb::tuple, Array, Array> evalInto(const PyConfig& config, Residual& re
   return nb::make_tuple(y.array, J.array);
 }
 
-nb::typed<nb::tuple, Array, Array> evalFeature(const PyConfig& config, const FeatureArgument& feature, const FrameNames& frames, const std::optional<Numbers>& scale,
-                      const std::optional<Numbers>& target, int order) {
-  const auto* list = std::get_if<std::vector<std::string>>(&frames);
-  const std::vector<std::string> names = list ? std::vector<std::string>() : toNames(frames);
-  if (!feature.function.is_valid()) {
-    return evalInto(config, config.residuals.get(config.state(), feature.symbol, list ? *list : names, toScale(scale), toTarget(target), order));
-  }
-  Residual own = makeResidual(config.state(), feature.source(), list ? *list : names, toScale(scale), toTarget(target), order);
-  return evalInto(config, own);
+Evaluated evalInto(const PyConfig& config, Residual& residual) {
+  ReusedArrays value, derivative;
+  return evalInto(config, residual, value, derivative);
 }
 
-nb::typed<nb::tuple, Array, Array> evalNamed(const NamedFeature& f, const PyConfig& config) {
+Evaluated evalFeature(const PyConfig& config, const Unread<FeatureArgument>& feature, const Unread<FrameNames>& frames,
+                      const std::optional<Numbers>& scale, const std::optional<Numbers>& target, int order) {
+  const State& scene = config.state();
+  if (RecentCalls::Call* call = config.calls.find(scene, feature.object, frames.object, order)) {
+    Residual& residual = *call->residual;
+    if (scale || residual.scale().size() > 0) residual.setScale(toScale(scale));
+    if (target || residual.target().size() > 0) residual.setTarget(toTarget(target));
+    return evalInto(config, residual, call->y, call->J);
+  }
+  const FeatureArgument given = feature.read();
+  const std::vector<std::string> names = toNames(frames.read());
+  if (given.function.is_valid()) {
+    Residual own = makeResidual(scene, given.source(), names, toScale(scale), toTarget(target), order);
+    return evalInto(config, own);
+  }
+  const auto& residual = config.residuals.get(scene, given.symbol, names, toScale(scale), toTarget(target), order);
+  RecentCalls::Call* call = config.calls.add(scene, feature.object, frames.object, order, residual);
+  return call ? evalInto(config, *residual, call->y, call->J) : evalInto(config, *residual);
+}
+
+Evaluated evalNamed(const NamedFeature& f, const PyConfig& config) {
   if (const auto symbol = f.source.symbol()) {
-    return evalInto(config, config.residuals.get(config.state(), *symbol, f.frames, f.scale, f.target, f.order));
+    return evalInto(config, *config.residuals.get(config.state(), *symbol, f.frames, f.scale, f.target, f.order), f.y, f.J);
   }
   Residual own = makeResidual(config.state(), f.source, f.frames, f.scale, f.target, f.order);
   return evalInto(config, own);

@@ -79,11 +79,12 @@ nb::object checkMotion(const PyConfig& config, const Numbers& start, const Numbe
   return nb::cast(Contact{contact->time, contact->distance, {config.getFrame(contact->a).getName(), config.getFrame(contact->b).getName()}});
 }
 
-void setJointState(PyConfig& config, const Numbers& q, const std::optional<std::vector<std::string>>& joints) {
+void setJointState(PyConfig& config, const NumbersView& q, const std::optional<std::vector<std::string>>& joints) {
   if (q.rank == 0 && config.getJointDimension() != 1) {
     throw ValueError(cat("setJointState: got a single number; the configuration has ", config.getJointDimension(), " dofs"));
   }
-  joints && !joints->empty() ? config.setJointState(q.values, *joints) : config.setJointState(q.values);
+  config.joints = q.values;
+  joints && !joints->empty() ? config.setJointState(config.joints, *joints) : config.setJointState(config.joints);
 }
 
 void setFrameState(PyConfig& config, const Numbers& poses, const std::vector<std::string>& frames) {

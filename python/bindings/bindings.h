@@ -7,6 +7,7 @@
 #include <string>
 
 #include "arrays.h"
+#include "recent_calls.h"
 #include "kinegraph/features/residual_cache.h"
 #include "kinegraph/scene/config.h"
 
@@ -17,10 +18,14 @@ using namespace nb::literals;
 
 struct PyViewer;
 
-/// What Python calls a Config: the scene, the viewer that `view()` opens at first use, and what was last asked of `eval`.
+/// What Python calls a Config: the scene, the viewer that `view()` opens at first use, and what was last asked of `eval`,
+/// `setJointState` and `getNearestPoints`.
 struct PyConfig : Config {
   std::shared_ptr<PyViewer> viewer;
   mutable ResidualCache residuals = {};
+  mutable RecentCalls calls = {};
+  mutable std::shared_ptr<PairDistances> pairs = {};
+  VectorXd joints = {};
 };
 
 void bindErrors(nb::module_& m);

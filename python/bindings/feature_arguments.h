@@ -27,6 +27,19 @@ nb::object functionOf(const FeatureSource& source);
 /// Frames as users give them: a name or a list of names.
 using FrameNames = std::variant<std::vector<std::string>, std::string>;
 
+/// An argument that is looked at before it is converted to a T.
+template <class T>
+struct Unread {
+  nb::handle object;
+
+  /// Throws what leads to the TypeError that a wrong argument gives.
+  T read() const {
+    T value;
+    if (!nb::try_cast(object, value)) throw nb::next_overload();
+    return value;
+  }
+};
+
 std::vector<std::string> toNames(const FrameNames& frames);
 MatrixXd toScale(const std::optional<Numbers>& scale);
 VectorXd toTarget(const std::optional<Numbers>& target);
@@ -48,6 +61,16 @@ struct type_caster<kinegraph::python::FeatureArgument> {
     PyErr_Clear();
     if (!PyCallable_Check(source.ptr())) return false;
     value.function = borrow(source);
+    return true;
+  }
+};
+
+template <class T>
+struct type_caster<kinegraph::python::Unread<T>> {
+  NB_TYPE_CASTER(kinegraph::python::Unread<T>, make_caster<T>::Name)
+
+  bool from_python(handle source, uint8_t, cleanup_list*) noexcept {
+    value.object = source;
     return true;
   }
 };

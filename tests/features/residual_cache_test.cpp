@@ -13,7 +13,7 @@ namespace {
 
 VectorXd cached(ResidualCache& cache, const Config& config, FeatureSymbol symbol, const std::vector<std::string>& frames,
                 const MatrixXd& scale = {}, const VectorXd& target = {}) {
-  Residual& residual = cache.get(config.state(), symbol, frames, scale, target, -1);
+  Residual& residual = *cache.get(config.state(), symbol, frames, scale, target, -1);
   Evaluation out;
   out.y.resize(residual.rows());
   out.J.setZero(residual.rows(), config.getJointDimension());

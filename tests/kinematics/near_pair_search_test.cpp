@@ -117,3 +117,22 @@ TEST(NearPairs, OfManyBodiesAreApartWhereNoPairIsNear) {
   }
   EXPECT_GT(apart + near, 50);
 }
+
+TEST(NearPairSearch, ThatAsksWhetherAllAreApartStopsAtThePairThatIsNot) {
+  Config config = crowd(100, 1.2, 6);
+  NearPairSearch search(config.program()), all(config.program());
+  search.place(config.state());
+  all.place(config.state());
+  EXPECT_FALSE(search.apart(.1));
+  all.near(.1);
+  EXPECT_LT(search.measured(), all.measured());
+  VectorXd q = config.getJointState();
+  for (int i = 0; i < 10; ++i) {  // the same pair again, first
+    q.array() += 1e-6;
+    config.setJointState(q);
+    search.place(config.state());
+    const long before = search.measured();
+    EXPECT_FALSE(search.apart(.1));
+    EXPECT_LE(search.measured() - before, 1);
+  }
+}

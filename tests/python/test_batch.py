@@ -27,6 +27,35 @@ def test_evalBatchGivesWhatEvalGives(panda):
         np.testing.assert_allclose(Ji, jacobian, rtol=0, atol=1e-12)
 
 
+def test_nearestPointsOfAllPairs(panda):
+    Q, pairs = postures(panda, 12), panda.getCollidablePairs()
+    d, points, normals = panda.getNearestPoints(Q)
+    assert d.shape == (12, 45) and points.shape == (12, 45, 2, 3) and normals.shape == (12, 45, 3)
+    np.testing.assert_array_equal(d, panda.getDistances(Q))
+    np.testing.assert_allclose(points[:, :, 0] - points[:, :, 1], d[..., None] * normals, rtol=0, atol=1e-12)
+    np.testing.assert_allclose(np.linalg.norm(normals, axis=2), 1, rtol=0, atol=1e-12)
+    for i in (0, 5):
+        panda.setJointState(Q[i])
+        here = panda.getNearestPoints()
+        assert [a.shape for a in here] == [(45,), (45, 2, 3), (45, 3)]
+        for one, all_of_them in zip(here, (d, points, normals)):
+            np.testing.assert_array_equal(one, all_of_them[i])
+        for k in (0, 17, 44):
+            frames = pairs[2 * k : 2 * k + 2]
+            np.testing.assert_allclose(panda.eval(ry.FS.pairCollision_p1, frames)[0], here[1][k, 0], rtol=0, atol=1e-12)
+            np.testing.assert_allclose(panda.eval(ry.FS.pairCollision_p2, frames)[0], here[1][k, 1], rtol=0, atol=1e-12)
+            np.testing.assert_allclose(
+                panda.eval(ry.FS.pairCollision_normal, frames)[0], here[2][k], rtol=0, atol=1e-12
+            )
+    ball = panda.addFrame("ball").setShape(ry.ST.sphere, [0.1]).setContact(1)
+    more = panda.getNearestPoints()[0].shape[0]
+    assert more == len(panda.getCollidablePairs()) // 2 > 45
+    ball.setPosition([5.0, 0, 0])
+    assert panda.getNearestPoints()[0].max() > 3
+    with pytest.raises(ry.ArgumentError, match="getNearestPoints"):
+        panda.getNearestPoints(np.zeros((2, 3)))
+
+
 def test_frameJacobiansAreThoseOfVelocities(panda):
     Q = postures(panda, 9)
     J = panda.getFrameJacobians(Q, ["l_gripper", "table"])
@@ -82,6 +111,7 @@ def test_anyNumberOfThreadsGivesTheSameNumbers(panda, threads):
         lambda n: panda.getFramePoses(Q, ["l_gripper"], threads=n),
         lambda n: panda.getFrameJacobians(Q, ["l_gripper"], threads=n),
         lambda n: panda.getDistances(Q, threads=n),
+        lambda n: panda.getNearestPoints(Q, threads=n)[1],
         lambda n: panda.isValid(Q, threads=n),
     ):
         np.testing.assert_array_equal(call(threads), call(1))

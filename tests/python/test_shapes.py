@@ -92,6 +92,37 @@ def test_an_sdf_is_the_solid_where_its_grid_is_not_positive():
         C.getFrame("solid").setSdf(np.full((3, 3, 3), np.nan), [1, 1, 1])
 
 
+def test_an_sdf_is_read_from_a_file(tmp_path):
+    ticks = np.linspace(-0.3, 0.3, 13)
+    x, y, z = np.meshgrid(ticks, ticks, ticks, indexing="ij")
+    values = np.sqrt(x**2 + y**2 + z**2) - 0.2
+    (tmp_path / "ball.sdf").write_text(
+        f"lo: [-.3 -.3 -.3]\nup: [.3 .3 .3]\nfield: <13 13 13> [{' '.join(f'{v:.7g}' for v in values.flat)}]\n"
+    )
+    scene = tmp_path / "scene.g"
+    scene.write_text(
+        "solid: { X: [1 0 0], sdf: <ball.sdf>, contact: 1 }\n"
+        "ball: { X: [1.24 0 0], shape: sphere, size: [.05], contact: 1 }"
+    )
+    C, same = ry.Config(), ry.Config()
+    C.addFile(str(scene))
+    solid = C.getFrame("solid")
+    assert solid.getShapeType() == ry.ST.sdf and np.allclose(solid.getSize(), [0.6, 0.6, 0.6])
+    assert np.isclose(C.getCollisions()[0][2], -0.01, atol=2e-3)
+    same.addText(C.write())
+    assert same.getFrame("solid").getShapeType() == ry.ST.sdf and np.isclose(
+        same.getCollisions()[0][2], C.getCollisions()[0][2], atol=1e-6
+    )
+    for text, parts in [
+        ("solid: { sdf: <bal.sdf> }", ["scene.g:1", "'solid'", "does not exist"]),
+        ("solid: { shape: box, size: [1 1 1], sdf: <ball.sdf> }", ["box has no grid"]),
+    ]:
+        scene.write_text(text)
+        with pytest.raises(ry.Error) as raised:
+            ry.Config().addFile(str(scene))
+        assert all(part in str(raised.value) for part in parts), raised.value
+
+
 def test_a_point_cloud_and_a_divided_mesh_collide_as_what_they_are():
     C = ry.Config()
     C.addFrame("cloud").setPointCloud([[0, 0, 0], [1, 0, 0]]).setContact(1)

@@ -158,15 +158,29 @@ void frameJacobians(const State& scene, const std::vector<int>& frames, const Ei
 void pairDistances(const State& scene, const Eigen::Ref<const RowMatrix>& Q, Eigen::Ref<RowMatrix> distances,
                    const BatchOptions& options) {
   checkJoints(scene, Q);
-  const BodyPairs pairs(scene.program(), scene.program().collidable());
-  struct Worker {
-    State state;
-    PlacedBodies bodies;
-  };
-  forEach(Worker{scene, PlacedBodies(pairs)}, int(Q.rows()), options, [&](Worker& worker, int i) {
-    worker.state.setJoints(Q.row(i).data());
-    worker.bodies.place(worker.state);
-    for (int pair = 0; pair < worker.bodies.pairs(); ++pair) distances(i, pair) = worker.bodies.proximity(pair).distance;
+  forEach(std::pair(scene, PairDistances(scene.sharedProgram())), int(Q.rows()), options, [&](auto& worker, int i) {
+    auto& [state, pairs] = worker;
+    state.setJoints(Q.row(i).data());
+    pairs.forAll(state, [&](int pair, const Proximity& near) { distances(i, pair) = near.distance; });
+  });
+}
+
+void NearestRow::write(int pair, const Proximity& near) const {
+  distances[pair] = near.distance;
+  Eigen::Map<Vector3d>(points + 6 * pair) = near.point_a;
+  Eigen::Map<Vector3d>(points + 6 * pair + 3) = near.point_b;
+  Eigen::Map<Vector3d>(normals + 3 * pair) = near.normal;
+}
+
+void nearestPoints(const State& scene, const Eigen::Ref<const RowMatrix>& Q, const NearestRow& first, const BatchOptions& options) {
+  checkJoints(scene, Q);
+  const std::size_t count = scene.program().collidable().size();
+  forEach(std::pair(scene, PairDistances(scene.sharedProgram())), int(Q.rows()), options, [&](auto& worker, int i) {
+    auto& [state, pairs] = worker;
+    const std::size_t before = std::size_t(i) * count;
+    const NearestRow row{first.distances + before, first.points + 6 * before, first.normals + 3 * before};
+    state.setJoints(Q.row(i).data());
+    pairs.forAll(state, [&](int pair, const Proximity& near) { row.write(pair, near); });
   });
 }
 

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "kinegraph/features/residual.h"
+#include "kinegraph/geometry/proximity.h"
 
 namespace kinegraph {
 
@@ -39,6 +40,19 @@ void framePoses(const State& scene, const std::vector<int>& frames, const Eigen:
 /// Signed distances of all collidable pairs, in their order: N x pairs, m, negative where they penetrate.
 void pairDistances(const State& scene, const Eigen::Ref<const RowMatrix>& Q, Eigen::Ref<RowMatrix> distances,
                    const BatchOptions& options = {});
+
+/// Where the nearest points of p pairs of a configuration are written.
+struct NearestRow {
+  double* distances;  ///< p, m
+  double* points;     ///< p x 2 x 3: on the surfaces of both frames of the pair, world coordinates, m
+  double* normals;    ///< p x 3: unit, from the second to the first
+
+  void write(int pair, const Proximity& near) const;
+};
+
+/// Distances of all collidable pairs, in their order, with nearest points. Each configuration's numbers follow the last one's;
+/// `first` says where the first one's are.
+void nearestPoints(const State& scene, const Eigen::Ref<const RowMatrix>& Q, const NearestRow& first, const BatchOptions& options = {});
 
 /// Per configuration: are all dofs within their limits, and all collidable pairs at least `margin` (m) apart?
 void areValid(const State& scene, const Eigen::Ref<const RowMatrix>& Q, double margin, std::span<bool> valid,

@@ -4,16 +4,17 @@
 
 namespace kinegraph {
 
-Residual& ResidualCache::get(const State& scene, FeatureSymbol symbol, const std::vector<std::string>& frames, MatrixXd scale,
-                             VectorXd target, int order) {
+const std::shared_ptr<Residual>& ResidualCache::get(const State& scene, FeatureSymbol symbol, const std::vector<std::string>& frames,
+                                                    MatrixXd scale, VectorXd target, int order) {
   constexpr std::size_t kKept = 8;
   for (Entry& entry : entries_) {
     if (entry.symbol != symbol || entry.program != scene.sharedProgram() || entry.order != order || entry.frames != frames) continue;
-    entry.residual.setScale(std::move(scale));
-    entry.residual.setTarget(std::move(target));
+    entry.residual->setScale(std::move(scale));
+    entry.residual->setTarget(std::move(target));
     return entry.residual;
   }
-  Entry made{scene.sharedProgram(), symbol, frames, order, makeResidual(scene, symbol, frames, scale, target, order)};
+  Entry made{scene.sharedProgram(), symbol, frames, order,
+             std::make_shared<Residual>(makeResidual(scene, symbol, frames, scale, target, order))};
   if (entries_.size() < kKept) return entries_.emplace_back(std::move(made)).residual;
   Entry& place = entries_[oldest_];
   oldest_ = (oldest_ + 1) % kKept;

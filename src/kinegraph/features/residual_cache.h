@@ -16,9 +16,9 @@ class ResidualCache {
   ResidualCache(const ResidualCache&) {}  ///< a copy starts empty
   ResidualCache& operator=(const ResidualCache&) { return *this; }
 
-  /// As makeResidual. It stays until the next call.
-  Residual& get(const State& scene, FeatureSymbol symbol, const std::vector<std::string>& frames, MatrixXd scale, VectorXd target,
-                int order);
+  /// As makeResidual. Later calls may give it another scale and target.
+  const std::shared_ptr<Residual>& get(const State& scene, FeatureSymbol symbol, const std::vector<std::string>& frames, MatrixXd scale,
+                                       VectorXd target, int order);
 
  private:
   struct Entry {
@@ -26,7 +26,7 @@ class ResidualCache {
     FeatureSymbol symbol;
     std::vector<std::string> frames;
     int order;
-    Residual residual;
+    std::shared_ptr<Residual> residual;
   };
   std::vector<Entry> entries_;
   std::size_t oldest_ = 0;

@@ -229,6 +229,7 @@ class FrameDescription {
       if (node.key == "texture" && frame_.shape && frame_.shape->texture && !frame_.shape->texture->path.empty()) continue;
       if (node.key.starts_with("%") || (interpreted.contains(node.key) && !unresolved)) continue;
       if (mesh_sources.contains(node.key) && frame_.shape && frame_.shape->geometry->mesh) continue;
+      if (node.key == "sdf" && frame_.shape && frame_.shape->geometry->grid) continue;
       graph_.nodes.push_back(node);
     }
   }

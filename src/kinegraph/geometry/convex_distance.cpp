@@ -1,5 +1,6 @@
 #include "kinegraph/geometry/convex_distance.h"
 
+#include "kinegraph/geometry/contact_patch.h"
 #include "kinegraph/geometry/core_pair.h"
 
 namespace kinegraph {
@@ -66,7 +67,8 @@ NearestPoints convexToConvex(const CollisionBody& a, const RigidTransform& X_WA,
   NearestPoints near;
   near.distance = -deepest.height;
   near.normal = X_WA.R * -deepest.m;
-  near.point_a = X_WA * deepest.points.mixed(&MinkowskiPoint::a);
+  const std::optional<Vector3d> middle = middleOfContact(pair, deepest.m);
+  near.point_a = X_WA * (middle ? *middle : deepest.points.mixed(&MinkowskiPoint::a));
   near.point_b = near.point_a - near.distance * near.normal;
   return near;
 }

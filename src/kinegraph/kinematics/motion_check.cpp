@@ -14,11 +14,27 @@ bool manyBodies(const State& scene) { return scene.program().contacts.bodies.siz
 }  // namespace
 
 MotionChecker::MotionChecker(const State& scene)
-    : state_(scene), pairs_(scene.program(), manyBodies(scene) ? scene.program().movingPairs() : scene.program().collidable()),
-      bodies_(pairs_), from_(scene.dofs()),
-      change_(scene.dofs()), q_(scene.dofs()), steps_(scene.program().steps.size()), speed_(pairs_.pairs.size()) {
-  due_.reserve(pairs_.pairs.size());
-  if (manyBodies(scene)) resting_.emplace(scene.sharedProgram());
+    : state_(scene), from_(scene.dofs()), change_(scene.dofs()), q_(scene.dofs()), steps_(scene.program().steps.size()) {
+  const Program& program = scene.program();
+  if (!manyBodies(scene)) {
+    pairs_.emplace(program, program.collidable());
+    bodies_.emplace(*pairs_);
+    speed_.resize(pairs_->pairs.size());
+    due_.reserve(pairs_->pairs.size());
+    return;
+  }
+  resting_.emplace(scene.sharedProgram());
+  std::vector<WorldBox> boxes;
+  for (std::size_t i = 0; i < program.contacts.bodies.size(); ++i) {
+    const ContactRules::Body& body = program.contacts.bodies[i];
+    if (program.frame_link[std::size_t(body.frame)] != 0) {
+      moving_.push_back(int(i));
+    } else {
+      fixed_.push_back(int(i));
+      boxes.push_back(sweptBox(body));
+    }
+  }
+  fixed_boxes_.build(boxes);
 }
 
 void MotionChecker::moveTo(double time) {
@@ -26,7 +42,7 @@ void MotionChecker::moveTo(double time) {
   time_ = time;
   q_ = from_ + time * change_;
   state_.setJoints(q_.data());
-  bodies_.place(state_);
+  if (bodies_) bodies_->place(state_);
 }
 
 void MotionChecker::boundSteps(const double* to) {
@@ -77,15 +93,17 @@ double MotionChecker::climb(int index, double& reach) const {
   return speed;
 }
 
+/// How far a body reaches from the origin of its link.
+double MotionChecker::reachOf(int frame, const CollisionBody& body) const {
+  return (state_.parameters().frame_offset[std::size_t(frame)] * body.boundCenter()).norm() + body.boundRadius();
+}
+
 double MotionChecker::relativeSpeed(int pair) const {
-  const auto reachOf = [&](int place) {
-    const CollisionBody& body = *pairs_.bodies[place];
-    return (state_.parameters().frame_offset[pairs_.frames[place]] * body.boundCenter()).norm() + body.boundRadius();
-  };
-  const auto [a, b] = pairs_.pairs[pair];
-  double reach_a = reachOf(a), reach_b = reachOf(b), speed = 0.;
+  const auto [a, b] = pairs_->pairs[std::size_t(pair)];
+  const int frame_a = pairs_->frames[std::size_t(a)], frame_b = pairs_->frames[std::size_t(b)];
+  double reach_a = reachOf(frame_a, *pairs_->bodies[std::size_t(a)]), reach_b = reachOf(frame_b, *pairs_->bodies[std::size_t(b)]), speed = 0.;
   const std::vector<Program::Link>& links = state_.program().links;
-  int link_a = state_.link(pairs_.frames[a]), link_b = state_.link(pairs_.frames[b]);
+  int link_a = state_.link(frame_a), link_b = state_.link(frame_b);
   while (link_a != link_b) {  // links come after their parents
     if (link_a > link_b) {
       speed += climb(link_a, reach_a);
@@ -98,54 +116,124 @@ double MotionChecker::relativeSpeed(int pair) const {
   return speed;
 }
 
+/// Where a body can be at any time of the motion. The steps' bounds must be those of the motion, of which `state_` is the start.
+WorldBox MotionChecker::sweptBox(const ContactRules::Body& body) const {
+  const auto frame = std::size_t(body.frame);
+  const CollisionBody& shape = *state_.program().body[frame];
+  const RigidTransform X = state_.pose(body.frame);
+  const Vector3d center = X * shape.boundCenter(), half = (X.R.cwiseAbs() * shape.boundHalf()).array() + shape.radius();
+  double reach = reachOf(body.frame, shape), travel = 0.;
+  for (int link = state_.link(body.frame); link != 0; link = state_.program().links[std::size_t(link)].parent) travel += climb(link, reach);
+  constexpr double kAnywhere = 1e9;  // m
+  return WorldBox{center - half, center + half}.grown(std::min(travel, kAnywhere));
+}
+
+/// The pairs on different links that may come within `margin` of each other, in the order of frames.
+void MotionChecker::findPairs(double margin) {
+  const Program& program = state_.program();
+  const std::vector<ContactRules::Body>& bodies = program.contacts.bodies;
+  const double reach = std::max(margin, 0.) + 1e-9;
+  std::vector<WorldBox> boxes;
+  for (const int i : moving_) boxes.push_back(sweptBox(bodies[std::size_t(i)]));
+  BoxTree moving_boxes;
+  moving_boxes.build(boxes);
+  std::vector<std::pair<int, int>> found;
+  const auto add = [&](int i, int j) {
+    if (i > j) std::swap(i, j);
+    const int a = bodies[std::size_t(i)].frame, b = bodies[std::size_t(j)].frame;
+    if (state_.link(a) != state_.link(b) && program.contacts.allow(std::size_t(i), std::size_t(j))) found.emplace_back(a, b);
+  };
+  for (std::size_t k = 0; k < moving_.size(); ++k) {
+    fixed_boxes_.forMeeting(boxes[k], reach, [&](int j) { add(moving_[k], fixed_[std::size_t(j)]); });
+    moving_boxes.forMeeting(boxes[k], reach, [&](int j) {
+      if (std::size_t(j) > k) add(moving_[k], moving_[std::size_t(j)]);
+    });
+  }
+  std::sort(found.begin(), found.end());
+  bodies_.reset();
+  pairs_.emplace(program, found);
+  bodies_.emplace(*pairs_);
+  bodies_->place(state_);
+}
+
 std::optional<MotionContact> MotionChecker::firstContact(const double* from, const double* to, double margin, double tolerance) {
   const int n = state_.dofs();
+  const auto inPiece = [&](const double* from, const double* to, bool begins) -> std::optional<MotionContact> {
+    from_ = Eigen::Map<const VectorXd>(from, n);
+    change_ = Eigen::Map<const VectorXd>(to, n) - from_;
+    boundSteps(to);
+    const auto contact = [&](int pair) {
+      const auto [a, b] = pairs_->pairs[std::size_t(pair)];
+      return MotionContact{time_, pairs_->frames[std::size_t(a)], pairs_->frames[std::size_t(b)], bodies_->proximity(pair).distance};
+    };
+    const auto spare = [&](int pair) { return bodies_->proximity(pair).distance - margin; };
+    due_.clear();
+    time_ = -1.;
+    if (resting_) bodies_.reset();  // those of the last motion
+    moveTo(0.);
+    if (resting_) findPairs(margin);
+    speed_.resize(pairs_->pairs.size());
+    for (int pair = 0; pair < bodies_->pairs(); ++pair) {
+      const double speed = speed_[pair] = relativeSpeed(pair);  // 0 for a pair that moves as one
+      if (!bodies_->mayBeNear(pair, margin + speed)) continue;
+      const double now = spare(pair);
+      if (now < 0. || (speed > 0. && (now < tolerance || now / speed == 0.))) return contact(pair);
+      if (now < speed) due_.push_back({now / speed, pair});
+    }
+    if (resting_ && begins) {  // pairs that move as one
+      resting_->place(state_);
+      for (const NearPairSearch::Near& near : resting_->near(margin)) {
+        const int a = resting_->frame(near.a), b = resting_->frame(near.b);
+        if (near.distance < margin && state_.link(a) == state_.link(b)) return MotionContact{0., a, b, near.distance};
+      }
+    }
+    if (due_.empty()) return std::nullopt;
+    // By how much the pairs keep the margin at the end; the rest is free where that and what they keep now cover it.
+    std::array<std::byte, 8192> buffer;
+    std::pmr::monotonic_buffer_resource memory(buffer.data(), buffer.size());
+    std::pmr::vector<double> at_end(speed_.size(), 0., &memory);
+    moveTo(1.);
+    for (const Due& due : due_) at_end[due.pair] = std::max(spare(due.pair), 0.);
+    std::erase_if(due_, [&](const Due& due) { return due.time * speed_[due.pair] + at_end[due.pair] >= speed_[due.pair]; });
+    std::make_heap(due_.begin(), due_.end());
+    while (!due_.empty()) {
+      std::pop_heap(due_.begin(), due_.end());
+      const auto [time, pair] = due_.back();
+      due_.pop_back();
+      moveTo(time);
+      const double rest = speed_[pair] * (1. - time);
+      if (!bodies_->mayBeNear(pair, margin + rest)) continue;
+      const double now = spare(pair), next = time + now / speed_[pair];
+      if (now < tolerance || next == time) return contact(pair);
+      if (now + at_end[pair] >= rest) continue;
+      due_.push_back({next, pair});
+      std::push_heap(due_.begin(), due_.end());
+    }
+    return std::nullopt;
+  };
+  if (!resting_) return inPiece(from, to, true);
+  // Among many bodies in pieces, in each of which no body moves far, so that few others are in its way.
+  constexpr double kPiece = .25, kMostPieces = 256.;  // m
   from_ = Eigen::Map<const VectorXd>(from, n);
   change_ = Eigen::Map<const VectorXd>(to, n) - from_;
   boundSteps(to);
-  const auto contact = [&](int pair) {
-    const auto [a, b] = pairs_.pairs[pair];
-    return MotionContact{time_, pairs_.frames[a], pairs_.frames[b], bodies_.proximity(pair).distance};
-  };
-  const auto spare = [&](int pair) { return bodies_.proximity(pair).distance - margin; };
-  due_.clear();
-  time_ = -1.;
-  moveTo(0.);
-  for (int pair = 0; pair < bodies_.pairs(); ++pair) {
-    const double speed = speed_[pair] = relativeSpeed(pair);  // 0 for a pair that moves as one
-    if (!bodies_.mayBeNear(pair, margin + speed)) continue;
-    const double now = spare(pair);
-    if (now < 0. || (speed > 0. && (now < tolerance || now / speed == 0.))) return contact(pair);
-    if (now < speed) due_.push_back({now / speed, pair});
+  double farthest = 0.;
+  for (const int i : moving_) {
+    const int frame = state_.program().contacts.bodies[std::size_t(i)].frame;
+    double reach = reachOf(frame, *state_.program().body[std::size_t(frame)]), travel = 0.;
+    for (int link = state_.link(frame); link != 0; link = state_.program().links[std::size_t(link)].parent) travel += climb(link, reach);
+    farthest = std::max(farthest, travel);
   }
-  if (resting_) {  // pairs that move as one
-    resting_->place(state_);
-    for (const NearPairSearch::Near& near : resting_->near(margin)) {
-      const int a = resting_->frame(near.a), b = resting_->frame(near.b);
-      if (near.distance < margin && state_.link(a) == state_.link(b)) return MotionContact{0., a, b, near.distance};
+  const int pieces = int(std::clamp(std::ceil(farthest / kPiece), 1., kMostPieces));
+  const VectorXd start = from_, change = change_;
+  VectorXd begin = start, end(n);
+  for (int i = 0; i < pieces; ++i) {
+    end = start + double(i + 1) / pieces * change;
+    if (std::optional<MotionContact> contact = inPiece(begin.data(), end.data(), i == 0)) {
+      contact->time = (i + contact->time) / pieces;
+      return contact;
     }
-  }
-  if (due_.empty()) return std::nullopt;
-  // By how much the pairs keep the margin at the end; the rest is free where that and what they keep now cover it.
-  std::array<std::byte, 8192> buffer;
-  std::pmr::monotonic_buffer_resource memory(buffer.data(), buffer.size());
-  std::pmr::vector<double> at_end(speed_.size(), 0., &memory);
-  moveTo(1.);
-  for (const Due& due : due_) at_end[due.pair] = std::max(spare(due.pair), 0.);
-  std::erase_if(due_, [&](const Due& due) { return due.time * speed_[due.pair] + at_end[due.pair] >= speed_[due.pair]; });
-  std::make_heap(due_.begin(), due_.end());
-  while (!due_.empty()) {
-    std::pop_heap(due_.begin(), due_.end());
-    const auto [time, pair] = due_.back();
-    due_.pop_back();
-    moveTo(time);
-    const double rest = speed_[pair] * (1. - time);
-    if (!bodies_.mayBeNear(pair, margin + rest)) continue;
-    const double now = spare(pair), next = time + now / speed_[pair];
-    if (now < tolerance || next == time) return contact(pair);
-    if (now + at_end[pair] >= rest) continue;
-    due_.push_back({next, pair});
-    std::push_heap(due_.begin(), due_.end());
+    begin = end;
   }
   return std::nullopt;
 }

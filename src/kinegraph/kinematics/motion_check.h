@@ -17,7 +17,8 @@ struct MotionContact {
 ///
 /// Conservative advancement: no point of a body moves, relative to the other one, faster than the sum over the joints
 /// between them of |dq_j| r_j, with r_j a bound of its distance from the axis (1 for a translation). So a pair whose distance
-/// is d need not be looked at again before s + (d - margin) / speed. Of all pairs, the one that is due next is looked at.
+/// is d need not be looked at again before s + (d - margin) / speed. Of all pairs, the one that is due next is looked at. Where
+/// bodies are many, only pairs are looked at whose boxes, with room for all that the motion may move them, meet.
 /// Source: Mirtich, Impulse-based dynamic simulation of rigid body systems, 1996, ch. 2; Schwarzer, Saha, Latombe, Adaptive
 /// dynamic collision checking for single and multiple articulated robots, 2005.
 class MotionChecker {
@@ -46,13 +47,18 @@ class MotionChecker {
 
   void moveTo(double time);
   void boundSteps(const double* to);
+  double reachOf(int frame, const CollisionBody& body) const;
   double relativeSpeed(int pair) const;
+  WorldBox sweptBox(const ContactRules::Body& body) const;
+  void findPairs(double margin);
   double climb(int link, double& reach) const;
 
   State state_;
-  BodyPairs pairs_;
-  PlacedBodies bodies_;
+  std::optional<BodyPairs> pairs_;  ///< where bodies are many, those of the present motion that it can bring together
+  std::optional<PlacedBodies> bodies_;
   std::optional<NearPairSearch> resting_;  ///< where bodies are many: for pairs that move as one, which are then not in `pairs_`
+  std::vector<int> fixed_, moving_;        ///< where bodies are many: their places in the Program's contacts
+  BoxTree fixed_boxes_;
   VectorXd from_, change_, q_;
   double time_ = 0.;
   std::vector<StepBound> steps_;  ///< as the Program's

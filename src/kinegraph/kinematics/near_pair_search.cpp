@@ -9,7 +9,7 @@ NearPairSearch::NearPairSearch(std::shared_ptr<const Program> program, const std
   for (const ContactRules::Body& body : program_->contacts.bodies) {
     const auto frame = std::size_t(body.frame);
     const bool wanted = frames.empty() || std::find(frames.begin(), frames.end(), body.frame) != frames.end();
-    bodies_.push_back({program_->body[frame], body.frame, program_->frame_link[frame], wanted, {}, {}, {}});
+    bodies_.push_back({program_->body[frame], body.frame, program_->frame_link[frame], wanted, {}});
   }
   rooms_.resize(bodies_.size());
   left_box_.resize(bodies_.size());
@@ -118,21 +118,25 @@ bool NearPairSearch::isNear(Candidate& candidate, double margin) {
   return candidate.distance <= margin;
 }
 
-const std::vector<NearPairSearch::Near>& NearPairSearch::near(double margin) {
+/// The candidates for a margin, and which of those that rest are near.
+void NearPairSearch::bringUpToDate(double margin) {
   const double reach = std::max(margin, 0.);
   if (reach > reach_) {
     findCandidates(reach);
   } else {
     findCandidatesOfMoved();
   }
-  if (!fixed_known_ || margin != fixed_margin_) {
-    fixed_near_.clear();
-    for (Candidate& c : fixed_) {
-      if (isNear(c, margin)) fixed_near_.push_back({c.a, c.b, c.distance});
-    }
-    fixed_known_ = true;
-    fixed_margin_ = margin;
+  if (fixed_known_ && margin == fixed_margin_) return;
+  fixed_near_.clear();
+  for (Candidate& c : fixed_) {
+    if (isNear(c, margin)) fixed_near_.push_back({c.a, c.b, c.distance});
   }
+  fixed_known_ = true;
+  fixed_margin_ = margin;
+}
+
+const std::vector<NearPairSearch::Near>& NearPairSearch::near(double margin) {
+  bringUpToDate(margin);
   near_.assign(fixed_near_.begin(), fixed_near_.end());
   for (Candidate& c : moving_) {
     if (isNear(c, margin)) near_.push_back({c.a, c.b, c.distance});
@@ -142,8 +146,18 @@ const std::vector<NearPairSearch::Near>& NearPairSearch::near(double margin) {
 }
 
 bool NearPairSearch::apart(double margin) {
-  for (const Near& pair : near(margin)) {
+  bringUpToDate(margin);
+  for (const Near& pair : fixed_near_) {
     if (pair.distance < margin) return false;
+  }
+  const auto tooNear = [&](std::size_t i) {
+    if (!isNear(moving_[i], margin) || !(moving_[i].distance < margin)) return false;
+    suspect_ = i;
+    return true;
+  };
+  if (suspect_ < moving_.size() && tooNear(suspect_)) return false;
+  for (std::size_t i = 0; i < moving_.size(); ++i) {
+    if (tooNear(i)) return false;
   }
   return true;
 }

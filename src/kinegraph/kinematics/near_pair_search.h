@@ -32,7 +32,8 @@ class NearPairSearch {
   /// The pairs that are nearer than `margin`, or that near, by frames. They stay until the next question.
   const std::vector<Near>& near(double margin);
 
-  /// Are all pairs at least `margin` apart?
+  /// Are all pairs at least `margin` apart? Looks no farther than to the first that is nearer, and first at the one that was so
+  /// the last time.
   bool apart(double margin);
 
   int frame(int body) const { return bodies_[std::size_t(body)].frame; }
@@ -47,8 +48,8 @@ class NearPairSearch {
     int frame, link;
     bool wanted;  ///< one of the frames that were asked for
     RigidTransform pose;
-    Vector3d center;
-    WorldBox box;
+    Vector3d center = Vector3d::Zero();
+    WorldBox box = {Vector3d::Zero(), Vector3d::Zero()};
     double travel = 0.;  ///< no point of it has moved farther, all moves added up
   };
 
@@ -61,6 +62,7 @@ class NearPairSearch {
   void update(std::size_t body, const State& state);
   void findCandidates(double reach);
   void findCandidatesOfMoved();
+  void bringUpToDate(double margin);
   void add(int a, int b);
   bool isNear(Candidate& candidate, double margin);
 
@@ -78,6 +80,7 @@ class NearPairSearch {
   double fixed_margin_ = 0.;
   bool fixed_known_ = false;
   std::vector<Near> fixed_near_, near_;
+  std::size_t suspect_ = 0;  ///< the place in moving_ of the pair that was too near the last time
   long measured_ = 0;
 };
 

@@ -71,6 +71,28 @@ class PlacedBodies {
   std::pmr::vector<Placed> placed_;
 };
 
+/// Distances of all collidable pairs of a scene, with nearest points.
+class PairDistances {
+ public:
+  explicit PairDistances(std::shared_ptr<const Program> program)
+      : program_(std::move(program)), pairs_(*program_, program_->collidable()), bodies_(pairs_) {}
+  PairDistances(const PairDistances& other) : PairDistances(other.program_) {}
+
+  const std::shared_ptr<const Program>& program() const { return program_; }
+
+  /// Calls visit(i, proximity) for pair i of program()->collidable(), in turn.
+  template <class Visit>
+  void forAll(const State& state, const Visit& visit) {
+    bodies_.place(state);
+    for (int pair = 0; pair < bodies_.pairs(); ++pair) visit(pair, bodies_.proximity(pair));
+  }
+
+ private:
+  std::shared_ptr<const Program> program_;
+  BodyPairs pairs_;
+  PlacedBodies bodies_;
+};
+
 /// The collidable pairs of a scene. Those of few bodies are looked at one by one, those of many by a NearPairSearch; the answers
 /// are the same.
 class NearPairs {

@@ -60,6 +60,7 @@ class AttributeReader {
   bool readRope(Geometry& geometry);
   bool readVertices(Geometry& geometry);
   bool readGrid(Geometry& geometry);
+  bool readGridOf(const Node& file, Geometry& geometry);
   bool readSize(Geometry& geometry);
   void checkSpelling();
   template <class Function>

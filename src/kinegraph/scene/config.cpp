@@ -367,7 +367,7 @@ std::optional<MotionContact> Config::checkMotion(const VectorXd& from, const Vec
   }
   if (!std::isfinite(margin)) throw ValueError(cat("checkMotion: margin is ", margin, "; expected a distance in m"));
   if (!(tolerance > 0.)) throw ValueError(cat("checkMotion: tolerance is ", tolerance, "; expected a distance > 0 in m"));
-  return MotionChecker(scene_->state()).firstContact(from.data(), to.data(), margin, tolerance);
+  return scene_->motionChecker().firstContact(from.data(), to.data(), margin, tolerance);
 }
 
 std::string Config::report() const {

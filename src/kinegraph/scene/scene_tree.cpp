@@ -192,6 +192,7 @@ const std::shared_ptr<const Parameters>& SceneTree::parameters() {
       parameters_ = parameters;
     }
     moved_.clear();
+    motion_checker_.reset();
     if (state_) state_->setParameters(parameters_);
     poses_stale_ = false;
     bodies_stale_ = true;
@@ -220,6 +221,12 @@ NearPairs& SceneTree::nearPairs() {
   if (bodies_stale_) near_pairs_->place(now);
   bodies_stale_ = false;
   return *near_pairs_;
+}
+
+MotionChecker& SceneTree::motionChecker() {
+  const State& now = state();
+  if (!motion_checker_) motion_checker_ = std::make_unique<MotionChecker>(now);
+  return *motion_checker_;
 }
 
 Pose SceneTree::worldPose(const FrameData& frame) {

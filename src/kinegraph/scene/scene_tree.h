@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "kinegraph/kinematics/dynamics.h"
+#include "kinegraph/kinematics/motion_check.h"
 #include "kinegraph/kinematics/near_pairs.h"
 #include "kinegraph/kinematics/state.h"
 #include "kinegraph/scene/frame_data.h"
@@ -82,6 +83,8 @@ class SceneTree {
   /// The collidable pairs, placed by state().
   NearPairs& nearPairs();
 
+  MotionChecker& motionChecker();
+
   /// World pose of a frame. The first question after an edit is answered along the parents, so that scenes can be built
   /// frame by frame without compiling them at every step; those that follow are answered by the State.
   Pose worldPose(const FrameData& frame);
@@ -105,6 +108,7 @@ class SceneTree {
   std::unique_ptr<State> state_;
   VectorXd q_;  ///< as last given to `state_`
   std::unique_ptr<NearPairs> near_pairs_;
+  std::unique_ptr<MotionChecker> motion_checker_;  ///< of these parameters
   std::vector<std::shared_ptr<SceneTree>> snapshots_;
   std::uint64_t snapshot_revision_ = 0;
 };

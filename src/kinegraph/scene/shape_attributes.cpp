@@ -3,6 +3,7 @@
 #include <limits>
 
 #include "kinegraph/base/text.h"
+#include "kinegraph/geometry/grid_file.h"
 #include "kinegraph/geometry/isosurface.h"
 #include "kinegraph/geometry/mesh_file.h"
 #include "kinegraph/geometry/shape_types.h"
@@ -162,8 +163,22 @@ bool AttributeReader::readGrid(Geometry& geometry) {
   });
 }
 
+/// `sdf: <file>`: numbers on a grid, and the box that they fill.
+bool AttributeReader::readGridOf(const Node& file, Geometry& geometry) {
+  return guarded(file, [&] {
+    GridFile read = readGridFile(path(file));
+    if (geometry.type == ShapeType::none) geometry.type = ShapeType::sdf;
+    if (geometry.type != ShapeType::sdf && geometry.type != ShapeType::tensor) {
+      throw ValueError(cat("a ", shapeTypeName(geometry.type), " has no grid; the shape is sdf unless it says tensor"));
+    }
+    geometry.size = {read.size.x(), read.size.y(), read.size.z()};
+    geometry.grid = std::make_shared<Grid>(std::move(read.grid));
+  });
+}
+
 bool AttributeReader::readSize(Geometry& geometry) {
   const Node* size = find({"size"});
+  if (!size && geometry.grid && !geometry.size.empty()) return true;  // that of a file
   const Node& blamed = size ? *size : *find({"shape", "type", "mesh", "mesh_decomp", "mesh_points"});
   const auto given = size ? numbers(*size) : std::vector<double>{};
   return given && guarded(blamed, [&] {
@@ -191,22 +206,25 @@ bool AttributeReader::readGeometry(Geometry& geometry) {
     good = readRope(geometry);
   }
   const bool has_grid = geometry.type == ShapeType::tensor || geometry.type == ShapeType::sdf;
-  if (has_grid && find({"grid_values"})) good = readGrid(geometry) && good;
+  if (const Node* file = find({"sdf"})) {
+    good = readGridOf(*file, geometry) && good;
+  } else if (has_grid && find({"grid_values"})) {
+    good = readGrid(geometry) && good;
+  }
   return good && readSize(geometry);
 }
 
 void AttributeReader::applyShape(FrameData& frame) {
-  if (find({"shape", "type", "mesh", "mesh_decomp", "mesh_points"})) {
+  if (find({"shape", "type", "mesh", "mesh_decomp", "mesh_points", "sdf"})) {
     Geometry geometry;
     if (!readGeometry(geometry)) return;
     frame.shape = std::make_shared<Shape>();
     frame.shape->geometry = std::make_shared<Geometry>(std::move(geometry));
     frame.tree->looksChanged(*frame.shape);
   }
-  if (const Node* sdf = find({"sdf"})) warning(*sdf, "signed distance grids are not read; the attribute is kept");
   if (!frame.shape) {
     const Node* stray = find({"size", "contact"});
-    if (stray && !find({"mimic_shape", "sdf"}))
+    if (stray && !find({"mimic_shape"}))
       warning(*stray, cat("'", stray->key, "' has no effect without a shape"));
     return;
   }

@@ -1,0 +1,34 @@
+#pragma once
+
+#include "kinegraph/kinematics/program.h"
+
+namespace kinegraph {
+
+/// What forward kinematics of one configuration reads and writes, as State has it. Kernels for wide registers touch plain
+/// members of these types only: inline functions must not be compiled for other instruction sets than the rest of the library.
+struct StateArrays {
+  const Program::Link* links;
+  int link_count;
+  const MotionStep* steps;
+  const JointBase* bases;  ///< per link
+  const int* turn_dof;
+  const double* turn_factor;
+  int turns;  ///< an even number
+  const double* q;
+  double* turned;  ///< per turn: sine and cosine
+  double* poses;   ///< per link: the columns of R, then p; that of the world is there already
+  double* twists;  ///< per column: angular, then linear
+};
+
+/// Computes poses and twists; the same bits on all processors.
+using UpdateState = void (*)(const StateArrays& state);
+
+/// The quickest for this processor.
+UpdateState stateKernel();
+
+namespace lanes {
+void updateStateBase(const StateArrays& state);
+void updateStateAvx2(const StateArrays& state);
+}  // namespace lanes
+
+}  // namespace kinegraph
