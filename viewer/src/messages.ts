@@ -22,6 +22,7 @@ export interface FrameMessage {
   id: number;
   name: string;
   parent: number;
+  collides: number;
   details: string;
   shape: ShapeMessage | null;
 }

@@ -19,6 +19,17 @@ const STILL = 5; // pixels: a pointer that moves less has clicked
 
 const colorOf = (rgb: number[]): THREE.Color => new THREE.Color().setRGB(rgb[0]!, rgb[1]!, rgb[2]!, THREE.SRGBColorSpace);
 
+/** Colors are shown as they are given; only what is brighter than 0.8 bends towards white, which keeps shades in it. */
+function bentAtWhite(): THREE.ToneMapping {
+  THREE.ShaderChunk.tonemapping_pars_fragment = THREE.ShaderChunk.tonemapping_pars_fragment.replace(
+    "vec3 CustomToneMapping( vec3 color ) { return color; }",
+    /* glsl */ `vec3 CustomToneMapping(vec3 color) {
+      float peak = max(color.r, max(color.g, color.b));
+      return peak < 0.8 ? color : color * (1.0 - 0.04 / (peak - 0.6)) / peak;
+    }`);
+  return THREE.CustomToneMapping;
+}
+
 /** Canvas, camera, lights and floor: everything but the scene itself. Draws only when something has changed. */
 export class Stage {
   readonly scene = new THREE.Scene();
@@ -29,7 +40,7 @@ export class Stage {
   private readonly labels = new CSS2DRenderer();
   private readonly floor = new Floor();
   private ground: THREE.Color | null = null; // behind everything, if the program says so
-  private readonly sun = new THREE.DirectionalLight(0xfffaf2, 2.35);
+  private readonly sun = new THREE.DirectionalLight(0xfff6ea, 2.35);
   private readonly ticks: ((seconds: number) => void)[] = [];
   private readonly preparations: (() => void)[] = [];
   private readonly timer = new THREE.Timer();
@@ -45,7 +56,7 @@ export class Stage {
     this.renderer.shadowMap.enabled = true;
     this.renderer.shadowMap.autoUpdate = false;
     this.renderer.shadowMap.type = THREE.PCFShadowMap;
-    this.renderer.toneMapping = THREE.NeutralToneMapping;
+    this.renderer.toneMapping = bentAtWhite();
     this.labels.domElement.className = "labels";
     canvas.after(this.labels.domElement);
     this.camera.up.set(0, 0, 1);
@@ -186,14 +197,14 @@ export class Stage {
   }
 
   private addLights(): void {
-    this.scene.add(new THREE.HemisphereLight(0xffffff, 0xa5a7b0, 1.6));
+    this.scene.add(new THREE.HemisphereLight(0xf6f9ff, 0x7d7b7a, 1.85));
     this.sun.castShadow = true;
     this.sun.shadow.mapSize.set(2048, 2048);
     this.sun.shadow.radius = 5;
-    this.sun.shadow.bias = -0.0003;
-    this.sun.shadow.normalBias = 0.01;
+    this.sun.shadow.bias = -0.0002;
+    this.sun.shadow.normalBias = 0.006;
     this.scene.add(this.sun, this.sun.target);
-    const fill = new THREE.DirectionalLight(0xdfe8ff, 0.75);
+    const fill = new THREE.DirectionalLight(0xe3ebff, 0.55);
     fill.position.set(3, -2, 2.5);
     this.scene.add(fill);
   }
@@ -210,6 +221,7 @@ export class Stage {
   private paper(): void {
     const color = this.ground ?? getComputedStyle(document.documentElement).getPropertyValue("--paper").trim();
     this.scene.background = new THREE.Color(color);
+    this.floor.setPaper(this.scene.background);
     this.scene.fog = new THREE.Fog(color, 9, 28);
     this.redraw();
   }

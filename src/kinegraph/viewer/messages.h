@@ -40,6 +40,7 @@ struct FrameMessage {
   int id = 0;
   std::string name;
   int parent = 0;
+  int collides = 0;
   std::string details;
   std::optional<ShapeMessage> shape;
 };
@@ -49,6 +50,7 @@ inline void writeJson(JsonWriter& json, const FrameMessage& m) {
   json.field("id", m.id);
   json.field("name", m.name);
   json.field("parent", m.parent);
+  json.field("collides", m.collides);
   json.field("details", m.details);
   json.field("shape", m.shape);
   json.endObject();

@@ -21,6 +21,7 @@ struct ViewItem {
   Pose pose;                                 ///< in the world
   std::shared_ptr<const Geometry> geometry;  ///< null: nothing to see
   Vector4d color{.8, .8, .8, 1.};            ///< rgba in 0..1
+  bool collides = false;                     ///< it counts in collisions
   std::string details;                       ///< what else there is to say, as attributes of a .g file
 };
 

@@ -116,7 +116,7 @@ bool ShownScene::update(std::span<const ViewItem> items) {
     Shown& shown = frames_[i];
     const ViewItem& item = items[i];
     const bool same_look = shown.look_revision > 0 && shown.item.geometry == item.geometry && shown.item.color == item.color &&
-                           shown.item.parent == item.parent && shown.item.name == item.name && shown.item.details == item.details;
+                           shown.item.collides == item.collides && shown.item.parent == item.parent && shown.item.name == item.name && shown.item.details == item.details;
     if (!same_look) {
       shown.mesh = meshOf(item);
       shown.look_revision = next;
@@ -243,7 +243,7 @@ std::vector<Outgoing> ShownScene::messagesSince(Seen& seen) const {
   for (std::size_t i = 0; i < frames_.size(); ++i) {
     const Shown& shown = frames_[i];
     if (shown.look_revision > seen.revision) {
-      FrameMessage frame{int(i), shown.item.name, shown.item.parent, shown.item.details, std::nullopt};
+      FrameMessage frame{int(i), shown.item.name, shown.item.parent, shown.item.collides, shown.item.details, std::nullopt};
       if (shown.item.geometry && shown.item.geometry->type != ShapeType::none) {
         const Vector4d& c = shown.item.color;
         frame.shape = ShapeMessage{shapeTypeName(shown.item.geometry->type), shown.item.geometry->size, {c[0], c[1], c[2], c[3]},
