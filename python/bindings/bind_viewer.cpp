@@ -27,12 +27,6 @@ const std::shared_ptr<PyViewer>& showIn(PyConfig& config) {
   return config.viewer;
 }
 
-/// Never stops by itself, but lets Ctrl-C through.
-bool interrupted() {
-  checkInterrupt();
-  return false;
-}
-
 /// The page with what is shown inside, whether a server runs or not.
 std::string pageOf(PyViewer& viewer) {
   return viewer.isOpen() || !viewer.scene ? viewer.recording() : recordedScene(Config(*viewer.scene));
@@ -41,14 +35,14 @@ std::string pageOf(PyViewer& viewer) {
 int view(PyConfig& config, bool pause, const std::optional<std::string>& message, bool offscreen) {
   const std::shared_ptr<PyViewer> viewer = showIn(config);
   if (offscreen) return 0;
-  if (!viewer->isOpen()) nb::module_::import_("kinegraph.notebook").attr("showInline")(viewer);
-  preparePage(*viewer);
+  if (!openPage(*viewer)) return pause ? kEscape : 0;
   const nb::gil_scoped_release unlock;
   return viewer->view(config, pause, message, interrupted);
 }
 
 void animate(PyConfig& config) {
   const std::shared_ptr<PyViewer> viewer = showIn(config);
+  if (!openPage(*viewer)) return;
   const nb::gil_scoped_release unlock;
   viewer->showMotion(config, jointSweep(config), false, "every joint through its limits [any key ends it]", interrupted);
 }
@@ -56,6 +50,7 @@ void animate(PyConfig& config) {
 void animateSpline(PyConfig& config, int points) {
   const std::shared_ptr<PyViewer> viewer = showIn(config);
   const ShownMotion motion = randomSpline(config, points, defaults().random);
+  if (!openPage(*viewer)) return;
   const nb::gil_scoped_release unlock;
   viewer->showMotion(config, motion, false, "a random motion [any key ends it]", interrupted);
 }
@@ -65,6 +60,7 @@ int viewPath(PyConfig& config, const Numbers& path, double seconds, bool pause, 
   if (seconds <= 0.) throw ValueError(cat("view_path: seconds is ", seconds, "; expected more than 0"));
   ShownMotion motion = motionAlong(config, path.matrix(), seconds);
   motion.start = ShownMotion::Start::play;
+  if (!openPage(*viewer)) return pause ? kEscape : 0;
   const nb::gil_scoped_release unlock;
   return viewer->showMotion(config, motion, pause, message, interrupted);
 }
@@ -72,6 +68,11 @@ int viewPath(PyConfig& config, const Numbers& path, double seconds, bool pause, 
 void watch(PyConfig& config, nb::handle file) {
   const std::string path = nb::cast<std::string>(nb::module_::import_("os").attr("fspath")(file));
   const std::shared_ptr<PyViewer> viewer = showIn(config);
+  if (!openPage(*viewer)) {
+    config.clear();
+    config.addFile(path);
+    return;
+  }
   const nb::object print = nb::module_::import_("builtins").attr("print");
   const nb::gil_scoped_release unlock;
   watchFile(config, *viewer, path, [&](const std::string& text) {
@@ -104,7 +105,7 @@ void bindViewer(nb::module_& m, nb::class_<PyConfig>& config) {
            }, "path"_a, "Saves asHtml() as a file, to be opened in any browser, or sent to somebody.")
       .def("_repr_html_", [](PyViewer& v) { return nb::module_::import_("kinegraph.notebook").attr("inlineFrame")(pageOf(v)); },
            "What notebooks show: the scene as it is now.")
-      .def("close", &PyViewer::close, "Ends the viewer.");
+      .def("close", &PyViewer::endPage, "Ends the viewer.");
   bindPictures(viewer);
   bindViewerInput(m, viewer);
 
@@ -115,8 +116,8 @@ void bindViewer(nb::module_& m, nb::class_<PyConfig>& config) {
            "pause: waits for a key in the browser, or Enter on the terminal. Returns the code of the key pressed since the last\n"
            "call (ord('a'), 13 Enter, 27 Escape ...), or 0. With KINEGRAPH_HEADLESS=1 nothing opens and nothing waits.\n"
            "offscreen: opens nothing; viewer().getRgb() and the other pictures do without a browser.")
-      .def("view_close", [](PyConfig& c) { if (c.viewer) c.viewer->close(); }, "Ends the viewer; the next view() starts another.")
-      .def("view_recopyMeshes", [](PyConfig& c) { showIn(c)->update(c); }, "Kept for older scripts; changes are always seen.")
+      .def("view_close", [](PyConfig& c) { if (c.viewer) c.viewer->endPage(); }, "Ends the viewer; the next view() starts another.")
+      .def("view_recopyMeshes", [](PyConfig& c) { if (openPage(*showIn(c))) c.viewer->update(c); }, "Kept for older scripts; changes are always seen.")
       .def("viewer", viewerOf, "The viewer of this configuration.")
       .def("get_viewer", viewerOf, "The viewer of this configuration.")
       .def("set_viewer", [](PyConfig& c, std::shared_ptr<PyViewer> v) { c.viewer = std::move(v); }, "viewer"_a,

@@ -203,7 +203,7 @@ def test_distances_are_drawn_between_what_is_near(config: kg.Config, browser: Br
     browser.press_alt("D")
     browser.wait_for("kinegraph.nearLines() === 2")
     texts = "[...document.querySelectorAll('.distance')].map((x) => x.textContent).sort()"
-    assert browser.evaluate(texts) == ["-30.0 mm", "30.0 mm"]
+    browser.wait_for(f"String({texts}) === '-30.0 mm,30.0 mm'")
     config.getFrame("ball3").setPosition([0.32, 0, 1])
     config.view()
     browser.wait_for("kinegraph.nearLines() === 3")

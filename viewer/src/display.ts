@@ -46,6 +46,7 @@ function label(name: string): CSS2DObject {
 /** Decides what of the scene is seen: kinds of shapes, axes, names, and frames that are hidden with all below them. */
 export class Display {
   readonly on = new Set<Option>(optionNames.filter((name) => OPTIONS[name].initially));
+  wireframe = false; // whatever is switched on
   visualsOnly = false; // no markers and transparent shapes, whatever is switched on
   readonly hidden = new Set<string>(); // names of frames
 
@@ -71,7 +72,7 @@ export class Display {
     const alpha = shape.color[3] ?? 1;
     const opacity = this.on.has("xray") ? Math.min(alpha, XRAY_OPACITY) : alpha;
     object.material.needsUpdate = object.material.transparent !== opacity < 1;
-    Object.assign(object.material, { wireframe: this.on.has("wireframe"), transparent: opacity < 1, opacity, depthWrite: opacity === 1 });
+    Object.assign(object.material, { wireframe: this.wireframe || this.on.has("wireframe"), transparent: opacity < 1, opacity, depthWrite: opacity === 1 });
     object.castShadow = object.receiveShadow = opacity === 1;
   }
 

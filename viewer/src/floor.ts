@@ -67,7 +67,8 @@ export class Floor {
   /** Lines are dark on a light background, and light on a dark one. */
   setPaper({ r, g, b }: THREE.Color): void {
     const bright = 0.2 * r + 0.7 * g + 0.1 * b > 0.2;
-    this.ink.setRGB(...(bright ? [0.17, 0.2, 0.24] as const : [0.5, 0.54, 0.6] as const));
+    if (bright) this.ink.setRGB(0.17, 0.2, 0.24);
+    else this.ink.setRGB(0.5, 0.54, 0.6);
   }
 
   /** A solid floor of that color below the lines; null: none. */

@@ -31,7 +31,7 @@ export class InputEvents {
   setWanted(events: number, cursor: boolean): void {
     this.wanted = events;
     this.cursorWanted = cursor;
-    this.stage.controls.enabled = !this.blocks;
+    this.stage.viewpoint.controls.enabled = !this.blocks;
   }
 
   private tell(what: number, code: number, modifiers: number): void {

@@ -78,10 +78,10 @@ export class PrimitiveMesh extends THREE.Mesh<THREE.BufferGeometry, THREE.Materi
     this.radius = this.geometry.boundingSphere!.radius;
   }
 
-  /** `scale`: pixels of a metre that is a metre away. */
-  refine(camera: THREE.Vector3, scale: number): void {
+  /** `pixelsPerMetre`: at a place. */
+  refine(pixelsPerMetre: (at: THREE.Vector3) => number): void {
     if (!isRound(this.type)) return;
-    const pixels = (this.radius * scale) / Math.max(camera.distanceTo(this.parent!.position), 1e-3);
+    const pixels = this.radius * pixelsPerMetre(this.parent!.position);
     const level = LEVELS.findIndex((known) => pixels <= known.pixels);
     if (level === this.level) return;
     this.level = level;

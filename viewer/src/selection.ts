@@ -42,7 +42,8 @@ export class Selection {
     this.controls.size = 0.8;
     this.controls.addEventListener("change", () => stage.redraw());
     this.controls.addEventListener("objectChange", () => (this.moved = true));
-    this.controls.addEventListener("dragging-changed", ({ value }) => (stage.controls.enabled = !value));
+    this.controls.addEventListener("dragging-changed", ({ value }) => (stage.viewpoint.controls.enabled = !value));
+    stage.viewpoint.onCamera((camera) => (this.controls.camera = camera));
     stage.scene.add(this.grip, this.controls.getHelper(), this.axes);
     Object.assign(this.axes, { renderOrder: 1, visible: false });
     Object.assign(this.axes.material, { depthTest: false, transparent: true });

@@ -1,9 +1,11 @@
 import * as THREE from "three";
-import { OrbitControls } from "three/addons/controls/OrbitControls.js";
 import { CSS2DRenderer } from "three/addons/renderers/CSS2DRenderer.js";
 import { isSeen } from "./display";
 import { Floor } from "./floor";
+import { Lights } from "./lights";
+import type { CameraMessage, LookMessage } from "./messages";
 import { drawsInSoftware, Quality } from "./quality";
+import { type Camera, Viewpoint } from "./viewpoint";
 
 /** A point on a shape. */
 export interface Hit {
@@ -12,9 +14,10 @@ export interface Hit {
   normal: THREE.Vector3; // of the surface, world
 }
 
-const SUN = new THREE.Vector3(-2.5, 2.2, 4.5).normalize(); // direction towards it
-const LEAST_SHADOWED = 1, MOST_SHADOWED = 12; // m
 const SHADOW_PERIOD = 3; // pictures
+const FIRST_VIEW: CameraMessage = {
+  kind: "camera", pose: [1.5, 2.6, 1.8, -0.15442, 0.20751, 0.77494, -0.57667], distance: 3.134, focal: 0, ortho: 0, aspect: 0, // towards (0, 0, 0.9)
+};
 const STILL = 5; // pixels: a pointer that moves less has clicked
 
 const colorOf = (rgb: number[]): THREE.Color => new THREE.Color().setRGB(rgb[0]!, rgb[1]!, rgb[2]!, THREE.SRGBColorSpace);
@@ -34,14 +37,14 @@ function bentAtWhite(): THREE.ToneMapping {
 export class Stage {
   readonly scene = new THREE.Scene();
   readonly frames = new THREE.Group();
-  readonly camera = new THREE.PerspectiveCamera(40, 1, 0.01, 200);
   readonly renderer: THREE.WebGLRenderer;
-  readonly controls: OrbitControls;
+  readonly viewpoint: Viewpoint;
   private readonly labels = new CSS2DRenderer();
   private readonly floor = new Floor();
   private ground: THREE.Color | null = null; // behind everything, if the program says so
-  private readonly sun = new THREE.DirectionalLight(0xfff6ea, 2.35);
+  private readonly lights = new Lights();
   private readonly ticks: ((seconds: number) => void)[] = [];
+  private readonly moves: (() => void)[] = [];
   private readonly preparations: (() => void)[] = [];
   private readonly timer = new THREE.Timer();
   private readonly quality: Quality;
@@ -59,13 +62,11 @@ export class Stage {
     this.renderer.toneMapping = bentAtWhite();
     this.labels.domElement.className = "labels";
     canvas.after(this.labels.domElement);
-    this.camera.up.set(0, 0, 1);
-    this.controls = new OrbitControls(this.camera, canvas);
-    this.controls.addEventListener("change", () => (this.dirty = true));
-    this.addLights();
+    this.viewpoint = new Viewpoint(canvas, () => (this.dirty = true), () => this.moves.forEach((move) => move()));
+    this.scene.add(this.lights.group);
     this.fitShadows();
     this.scene.add(this.frames, this.floor.group);
-    this.lookFrom(new THREE.Vector3(1.5, 2.6, 1.8), new THREE.Vector3(0, 0, 0.9));
+    this.viewpoint.set(FIRST_VIEW);
     addEventListener("resize", () => this.resize());
     matchMedia("(prefers-color-scheme: dark)").addEventListener("change", () => this.paper());
     canvas.addEventListener("dblclick", (event) => this.focus(event));
@@ -91,6 +92,15 @@ export class Stage {
     this.preparations.push(prepare);
   }
 
+  /** Called when a person has moved the camera. */
+  onMove(move: () => void): void {
+    this.moves.push(move);
+  }
+
+  get camera(): Camera {
+    return this.viewpoint.camera;
+  }
+
   /** Called when the canvas is clicked, or touched, without a drag. */
   onClick(click: (event: PointerEvent) => void): void {
     let down: PointerEvent | null = null;
@@ -103,27 +113,15 @@ export class Stage {
     });
   }
 
-  /** `focal`: focal length in heights of the window; 0: as it is. */
-  lookFrom(position: THREE.Vector3, target: THREE.Vector3, focal = 0): void {
-    if (focal > 0) {
-      this.camera.fov = THREE.MathUtils.radToDeg(2 * Math.atan(0.5 / focal));
-      this.camera.updateProjectionMatrix();
-    }
-    this.camera.position.copy(position);
-    this.controls.target.copy(target);
-    this.controls.update();
-    this.controls.saveState();
+  /** As the program says. */
+  setCamera(camera: CameraMessage): void {
+    this.viewpoint.set(camera);
     this.redraw();
   }
 
   /** Looks at all that is there from a direction. */
   lookAlong(direction: THREE.Vector3): void {
-    const sphere = this.extent();
-    const half = THREE.MathUtils.degToRad(this.camera.fov / 2);
-    const distance = sphere.radius / Math.sin(Math.min(half, Math.atan(Math.tan(half) * this.camera.aspect)));
-    this.controls.target.copy(sphere.center);
-    this.camera.position.copy(sphere.center).addScaledVector(direction.clone().normalize(), distance);
-    this.controls.update();
+    this.viewpoint.lookAlong(direction, this.extent());
     this.redraw();
   }
 
@@ -141,28 +139,12 @@ export class Stage {
   /** Call when frames have come or gone: what is there casts shadows, however large or far away it is. */
   fitShadows(): void {
     const { center, radius } = this.extent();
-    const reach = THREE.MathUtils.clamp(1.1 * radius, LEAST_SHADOWED, MOST_SHADOWED);
-    const { camera } = this.sun.shadow;
-    this.sun.target.position.copy(center);
-    this.sun.position.copy(center).addScaledVector(SUN, 2 * reach);
-    Object.assign(camera, { left: -reach, right: reach, top: reach, bottom: -reach, near: 0.1 * reach, far: 4 * reach });
-    camera.updateProjectionMatrix();
+    this.lights.fitShadows(center, radius);
     this.redraw();
   }
 
-  /** Turns the camera about what it looks at, by angles to the right and upwards (rad), and goes nearer by a factor. */
-  turn(right: number, up: number, nearer = 1): void {
-    const { position } = this.camera, { target } = this.controls;
-    const away = position.clone().sub(target);
-    const height = THREE.MathUtils.clamp(Math.asin(away.z / away.length()) + up, -1.55, 1.55);
-    const around = Math.atan2(away.y, away.x) + right, distance = away.length() / nearer;
-    position.set(Math.cos(around) * Math.cos(height), Math.sin(around) * Math.cos(height), Math.sin(height)).multiplyScalar(distance).add(target);
-    this.controls.update();
-    this.dirty = true;
-  }
-
   home(): void {
-    this.controls.reset();
+    this.viewpoint.home();
     this.redraw();
   }
 
@@ -196,25 +178,14 @@ export class Stage {
     return null;
   }
 
-  private addLights(): void {
-    this.scene.add(new THREE.HemisphereLight(0xf6f9ff, 0x7d7b7a, 1.85));
-    this.sun.castShadow = true;
-    this.sun.shadow.mapSize.set(2048, 2048);
-    this.sun.shadow.radius = 5;
-    this.sun.shadow.bias = -0.0002;
-    this.sun.shadow.normalBias = 0.006;
-    this.scene.add(this.sun, this.sun.target);
-    const fill = new THREE.DirectionalLight(0xe3ebff, 0.55);
-    fill.position.set(3, -2, 2.5);
-    this.scene.add(fill);
-  }
-
   /** Colors are rgb in 0..1; [] is the page's own, and a floor of any other length than 3 is none. */
-  setLook(background: number[], floor: number[], shadows: boolean): void {
+  setLook(look: LookMessage): void {
+    const { background, floor } = look;
     this.ground = background.length === 3 ? colorOf(background) : null;
     this.floor.setColor(floor.length === 3 ? colorOf(floor) : null);
     this.floor.group.visible = floor.length === 0 || floor.length === 3;
-    this.sun.castShadow = shadows;
+    this.lights.setLook(look.lights, look.flat !== 0, look.shadows !== 0);
+    this.renderer.toneMapping = look.flat !== 0 ? THREE.NoToneMapping : THREE.CustomToneMapping;
     this.paper();
   }
 
@@ -230,8 +201,7 @@ export class Stage {
     const { clientWidth: width, clientHeight: height } = this.canvas;
     this.renderer.setSize(width, height, false);
     this.labels.setSize(width, height);
-    this.camera.aspect = width / Math.max(height, 1);
-    this.camera.updateProjectionMatrix();
+    this.viewpoint.fit(width / Math.max(height, 1));
     this.redraw();
   }
 
@@ -247,17 +217,16 @@ export class Stage {
     return this.quality.ratio;
   }
 
-  /** Pixels of a metre that is a metre away. */
-  get scale(): number {
-    return (this.canvas.clientHeight * this.renderer.getPixelRatio()) / (2 * Math.tan(THREE.MathUtils.degToRad(this.camera.fov / 2)));
+  /** Pixels that a metre has at a place. */
+  pixelsPerMetre(at: THREE.Vector3): number {
+    return this.viewpoint.pixelsPerMetre(at, this.canvas.clientHeight * this.renderer.getPixelRatio());
   }
 
   /** A double click turns about the point that was hit from there on. */
   private focus(event: MouseEvent): void {
     const hit = this.pick(event);
     if (!hit) return;
-    this.controls.target.copy(hit.point);
-    this.controls.update();
+    this.viewpoint.focus(hit.point);
     this.redraw();
   }
 

@@ -16,6 +16,10 @@ struct RendererOptions {
   bool floor = true;                              ///< a square of 10 m at z = 0, seen from above only
   Vector3d background = Vector3d::Ones();         ///< rgb in 0..1
   Vector3d floor_color = Vector3d(.4, .45, .5);
+  std::vector<Vector3d> lights{};                 ///< where they are, m; the first casts shadows; empty: two as usual; at most 8
+  bool flat_colors = false;                       ///< as they are given, without light
+  bool wireframe = false;                         ///< edges of triangles only
+  bool operator==(const RendererOptions&) const = default;
 };
 
 /// What a camera sees. Rows run from top to bottom.

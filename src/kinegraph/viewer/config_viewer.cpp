@@ -19,6 +19,11 @@ ViewerServer& ConfigViewer::server() {
   return *server_;
 }
 
+void ConfigViewer::setTitle(const std::string& text) {
+  options_.title = text;
+  if (server_) server_->setTitle(text);
+}
+
 void ConfigViewer::update(const Config& config) {
   ViewerServer& to = server();
   items_.read(config);
@@ -53,7 +58,7 @@ int ConfigViewer::showMotion(const Config& config, const ShownMotion& motion, bo
   server().showMotion(motion);
   if (message) server().setMessage(*message);
   int key = server().takeKey();
-  if (isHeadless()) return key;
+  if (!waits()) return key;
   if (motion.start == ShownMotion::Start::play) {
     using Clock = std::chrono::steady_clock;
     const auto end = Clock::now() + std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(motion.seconds));
@@ -67,7 +72,7 @@ int ConfigViewer::ask(const std::optional<std::string>& message, const Stop& sto
   if (!text.ends_with("]")) text += text.empty() ? "[press key to continue]" : "\n[press key to continue]";
   int key = server().takeKey();
   server().setMessage(text);
-  if (!isHeadless()) key = waitKey(text, stop);
+  if (waits()) key = waitKey(text, stop);
   server().setMessage(message.value_or(""));
   return key;
 }

@@ -41,10 +41,11 @@ class ConfigViewer {
 
   void setMessage(const std::string& text) { server().setMessage(text); }
   void setError(const std::string& text) { server().setError(text); }
-  void setTitle(const std::string& text) { server().setTitle(text); }
+  void setTitle(const std::string& text);
   void select(int frame) { server().select(frame); }  ///< shows the card of a frame, with handles to move it
   std::string recording() { return server().recording(); }  ///< an HTML page with all that is shown inside
-  void setCamera(const Vector3d& position, const Vector3d& target, double focal_length = 0.) { server().setCamera(position, target, focal_length); }
+  void setCamera(const PageCamera& camera) { server().setCamera(camera); }
+  std::optional<PageCamera> takeViewpoint() { return server_ ? server_->takeViewpoint() : std::nullopt; }
   std::string url() { return server().url(); }
   int clients() const { return server_ ? server_->clients() : 0; }
   int takeKey() { return server_ ? server_->takeKey() : 0; }
@@ -53,12 +54,17 @@ class ConfigViewer {
 
   ViewerServer& server();
 
+  /// With false, nothing waits for people from now on, as with KINEGRAPH_HEADLESS; pages are shown all the same.
+  void setWaits(bool waits) { waits_ = waits; }
+  bool waits() const { return waits_ && !isHeadless(); }
+
  private:
   /// Shows the message with a request for a key, and waits for one.
   int ask(const std::optional<std::string>& message, const Stop& stop);
   int waitKey(const std::string& prompt, const Stop& stop);
 
   ViewerOptions options_;
+  bool waits_ = true;
   std::unique_ptr<ViewerServer> server_;
   SceneItems items_;
   std::shared_ptr<SceneEdits> edits_ = std::make_shared<SceneEdits>();

@@ -17,7 +17,19 @@ struct Look {
   bool has_floor = true;
   bool shadows = true;
   bool text = true;                      ///< messages
+  std::vector<Vector3d> lights{};        ///< where they are, m; the first casts shadows; empty: as usual
+  bool flat_colors = false;              ///< as they are given, without light
+  bool wireframe = false;                ///< edges of triangles only
   bool operator==(const Look&) const = default;
+};
+
+/// Where a page looks from. Its axes: x to the right of the picture, y down, z forward.
+struct PageCamera {
+  Pose pose{};
+  double distance = 2.;      ///< m along z: of what the page turns about
+  double focal_length = 0.;  ///< in heights of the picture; 0: the page's own
+  double ortho_height = 0.;  ///< if > 0: orthographic, this many m high
+  double aspect = 0.;        ///< width over height of the picture, which the page shows all of; 0: any
 };
 
 /// A picture on top of the scene.

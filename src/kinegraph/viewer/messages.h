@@ -130,17 +130,21 @@ inline void writeJson(JsonWriter& json, const TextMessage& m) {
 }
 
 struct CameraMessage {
-  std::vector<double> position;
-  std::vector<double> target;
+  std::vector<double> pose;
+  double distance = 0;
   double focal = 0;
+  double ortho = 0;
+  double aspect = 0;
 };
 
 inline void writeJson(JsonWriter& json, const CameraMessage& m) {
   json.beginObject();
   json.field("kind", std::string("camera"));
-  json.field("position", m.position);
-  json.field("target", m.target);
+  json.field("pose", m.pose);
+  json.field("distance", m.distance);
   json.field("focal", m.focal);
+  json.field("ortho", m.ortho);
+  json.field("aspect", m.aspect);
   json.endObject();
 }
 
@@ -150,6 +154,10 @@ struct LookMessage {
   std::vector<double> floor;
   int shadows = 0;
   int text = 0;
+  std::vector<double> lights;
+  int flat = 0;
+  int wireframe = 0;
+  int digits = 0;
   int events = 0;
   int cursor = 0;
 };
@@ -162,6 +170,10 @@ inline void writeJson(JsonWriter& json, const LookMessage& m) {
   json.field("floor", m.floor);
   json.field("shadows", m.shadows);
   json.field("text", m.text);
+  json.field("lights", m.lights);
+  json.field("flat", m.flat);
+  json.field("wireframe", m.wireframe);
+  json.field("digits", m.digits);
   json.field("events", m.events);
   json.field("cursor", m.cursor);
   json.endObject();

@@ -92,8 +92,10 @@ class ViewerServer {
   void setError(const std::string& text);    ///< in a box; empty removes it
   void setTitle(const std::string& text);
 
-  /// `focal_length` is in heights of the window; 0: the page's own.
-  void setCamera(const Vector3d& position, const Vector3d& target, double focal_length = 0.);
+  void setCamera(const PageCamera& camera);
+
+  /// Where a person has turned a page to since the last call, and since the last setCamera; nothing if nobody has.
+  std::optional<PageCamera> takeViewpoint();
 
   /// The last key pressed in a browser since the previous call, or 0. Letters as lower-case ASCII, Enter 13, Escape 27, space
   /// 32; others have the codes of GLFW.
@@ -105,6 +107,8 @@ class ViewerServer {
 
   /// Browsers send events from now on; with `instead`, mouse and keys do nothing else on the page.
   void requestEvents(bool instead);
+  /// The keys 1, 2, 3, 4 and 7 switch shapes, markers, axes, distances and names on and off, in the browser where they are pressed.
+  void requestDigits(bool yes);
   std::vector<std::string> takeEvents();  ///< those since the last call; see eventName
 
   /// What is under the pointer of the browser in which it moved last. Browsers tell from the first call on.

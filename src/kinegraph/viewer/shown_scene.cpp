@@ -214,16 +214,20 @@ bool ShownScene::requestEvents(int kind) {
   return true;
 }
 
+bool ShownScene::requestDigits(bool yes) {
+  if (std::exchange(digits_, yes) == yes) return false;
+  look_revision_ = ++revision_;
+  return true;
+}
+
 bool ShownScene::requestCursor() {
   if (std::exchange(cursor_, true)) return false;
   look_revision_ = ++revision_;
   return true;
 }
 
-void ShownScene::setCamera(const Vector3d& position, const Vector3d& target, double focal_length) {
-  camera_focal_length_ = focal_length;
-  camera_position_ = position;
-  camera_target_ = target;
+void ShownScene::setCamera(const PageCamera& camera) {
+  camera_ = camera;
   camera_revision_ = ++revision_;
 }
 
@@ -232,8 +236,8 @@ std::vector<Outgoing> ShownScene::messagesSince(Seen& seen) const {
   const auto send = [&](const auto& message) { out.push_back(textOf(message)); };
   if (text_revision_ > seen.revision) send(TextMessage{title, message, error});
   if (camera_revision_ > seen.revision) {
-    const Vector3d &p = camera_position_, &t = camera_target_;
-    send(CameraMessage{{p.x(), p.y(), p.z()}, {t.x(), t.y(), t.z()}, camera_focal_length_});
+    const Vector7d pose = camera_.pose.numbers();
+    send(CameraMessage{{pose.begin(), pose.end()}, camera_.distance, camera_.focal_length, camera_.ortho_height, camera_.aspect});
   }
   SceneMessage scene;
   scene.count = int(frames_.size());
@@ -280,7 +284,8 @@ std::vector<Outgoing> ShownScene::messagesSince(Seen& seen) const {
     out.push_back({std::make_shared<std::string>(std::move(data)), true});
   }
   if (look_revision_ > seen.revision) {
-    LookMessage look{look_.visuals_only, {}, {}, look_.shadows, look_.text, events_, cursor_};
+    LookMessage look{look_.visuals_only, {}, {}, look_.shadows, look_.text, {}, look_.flat_colors, look_.wireframe, digits_, events_, cursor_};
+    for (const Vector3d& light : look_.lights) look.lights.insert(look.lights.end(), light.begin(), light.end());
     if (look_.background) look.background.assign(look_.background->data(), look_.background->data() + 3);
     if (look_.floor) look.floor.assign(look_.floor->data(), look_.floor->data() + 3);
     if (!look_.has_floor) look.floor = {-1.};

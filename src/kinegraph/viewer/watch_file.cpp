@@ -66,7 +66,8 @@ void watchFile(Config& config, ConfigViewer& viewer, const std::string& path, co
   load();
   viewer.server().cursor();  // so that browsers tell where the pointer is
   WatchKeys keys(config, viewer, report, stop);
-  while (!isHeadless() && !stop()) {
+  viewer.server().requestDigits(true);
+  while (viewer.waits() && !stop()) {
     if (viewer.takeEdits(config)) viewer.update(config);
     keys.logEvents();
     const int key = viewer.takeKey();
@@ -75,6 +76,7 @@ void watchFile(Config& config, ConfigViewer& viewer, const std::string& path, co
     if (key == 13 || changes.settled(stampsOf(changes.files()), std::chrono::steady_clock::now())) load();
     std::this_thread::sleep_for(std::chrono::milliseconds(20));
   }
+  viewer.server().requestDigits(false);
   viewer.setMessage("");
   viewer.setError("");
 }

@@ -13,6 +13,7 @@ namespace kinegraph {
 std::string WatchKeys::help() {
   return "h: this help\na: every joint through its limits; any key stops it\ni: what the scene contains\nc: collisions\n"
          "r: random joints\nx: write z.g, z.urdf, z.ply, z.dae\nspace: what the pointer is on\n6: log mouse and keys, or stop it\n"
+         "1, 2, 3, 4, 7: shapes, markers, axes, distances, names on or off\n"
          "Enter: load again\nq, Escape: quit";
 }
 
