@@ -25,8 +25,9 @@ import kinegraph as kg
 
 sys.path.append(str(Path(__file__).parent.parent))
 
-from kinegraph.png import writePng
 from tests.viewer.browser import Browser
+
+from kinegraph.png import writePng
 
 WIDTH, HEIGHT = 960, 720
 POSITION, TARGET = np.array([1.55, 1.45, 1.15]), np.array([0.12, 0.05, 0.42])
@@ -141,7 +142,7 @@ def show_meshcat(parts: list[Part], file: Path, dark: bool) -> None:
     from meshcat.transformations import translation_matrix
 
     def material(color: Any) -> Any:
-        red, green, blue = (int(round(255 * x)) for x in color)
+        red, green, blue = (round(255 * x) for x in color)
         return g.MeshPhongMaterial(color=red << 16 | green << 8 | blue)
 
     vis = meshcat.Visualizer()
@@ -183,7 +184,9 @@ def show_mujoco(parts: list[Part], file: Path, dark: bool) -> None:
     for size, position, color in OBJECTS.values():
         kind = "sphere" if len(size) == 1 else "box"
         half = size if len(size) == 1 else np.array(size) / 2
-        geoms.append(f'<geom type="{kind}" size="{numbers(half)}" pos="{numbers(position)}" rgba="{numbers(color)} 1"/>')
+        geoms.append(
+            f'<geom type="{kind}" size="{numbers(half)}" pos="{numbers(position)}" rgba="{numbers(color)} 1"/>'
+        )
     model = mujoco.MjModel.from_xml_string(f"""<mujoco><visual>
       <headlight diffuse="0.6 0.6 0.6" ambient="0.3 0.3 0.3" specular="0 0 0"/><rgba haze="0.15 0.25 0.35 1"/>
       <global offwidth="{WIDTH}" offheight="{HEIGHT}"/><quality shadowsize="4096" offsamples="8"/></visual><asset>

@@ -87,6 +87,7 @@ void bindViewer(nb::module_& m, nb::class_<PyConfig>& config) {
   nb::class_<PyViewer> viewer(m, "ConfigurationViewer", "Shows a configuration in the browser, and makes pictures of it.");
   viewer
       .def_prop_ro("url", &PyViewer::url, "The page's address; starts the viewer if it does not run.")
+      .def("isOpen", &PyViewer::isOpen, "True while the viewer runs.")
       .def("clients", &PyViewer::clients, "Number of browsers that are connected.")
       .def("waitForClient", [](PyViewer& v, double seconds) {
              const nb::gil_scoped_release unlock;

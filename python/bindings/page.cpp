@@ -22,7 +22,13 @@ T parameter(const char* name, const T& otherwise, const char* expected) {
   }
 }
 
-bool flag(const char* name, bool otherwise) { return parameter(name, otherwise, "True or False"); }
+bool flag(const char* name, bool otherwise) {
+  const nb::object value = parameter(name, nb::object(nb::bool_(otherwise)), "");
+  if (!PyLong_Check(value.ptr())) {  // True and False are numbers as well
+    throw ValueError(cat("parameter ", name, " is ", nb::cast<std::string>(nb::repr(value)), "; expected True or False"));
+  }
+  return nb::cast<bool>(nb::bool_(value));
+}
 
 std::vector<double> numbers(const char* name) { return parameter(name, std::vector<double>(), "a list of numbers"); }
 
