@@ -1,10 +1,10 @@
-#include "kinegraph/base/errors.h"
-#include "kinegraph/base/text.h"
-#include "py_viewer.h"
-
 #include <nanobind/stl/shared_ptr.h>
 #include <nanobind/stl/string.h>
 #include <nanobind/stl/vector.h>
+
+#include "kinegraph/base/errors.h"
+#include "kinegraph/base/text.h"
+#include "py_viewer.h"
 
 namespace kinegraph::python {
 
@@ -31,6 +31,28 @@ bool flag(const char* name, bool otherwise) {
 }
 
 std::vector<double> numbers(const char* name) { return parameter(name, std::vector<double>(), "a list of numbers"); }
+
+/// The camera is first where a frame `camera_init` says, if there is one. True if it has just been put there.
+bool startCamera(PyViewer& viewer) {
+  FrameData* init = viewer.scene && !viewer.camera_is_set ? viewer.scene->find("camera_init") : nullptr;
+  if (!init) return false;
+  viewer.camera.place(cameraOf(Frame(viewer.scene, *init)));
+  viewer.camera_is_set = true;
+  return true;
+}
+
+/// Tells pages where to look from, if that has changed.
+void aimPage(PyViewer& viewer, bool is_new) {
+  const bool started = startCamera(viewer);
+  const Camera camera = cameraNow(viewer);
+  if (started || viewer.camera.follows()) {
+    const PageCamera page = pageCameraOf(camera);
+    const bool same = viewer.page_camera && page.pose.numbers().isApprox(viewer.page_camera->pose.numbers(), 1e-12);
+    if (is_new || !same) viewer.aim(page);
+  } else if (is_new && viewer.page_camera) {
+    viewer.aim(*viewer.page_camera);
+  }
+}
 
 }  // namespace
 
@@ -79,12 +101,7 @@ PageCamera pageCameraOf(const Camera& camera) {
 }
 
 Camera cameraNow(PyViewer& viewer) {
-  FrameData* init = viewer.scene && !viewer.camera_is_set ? viewer.scene->find("camera_init") : nullptr;
-  if (init) {
-    viewer.camera.follow(Frame(viewer.scene, *init));
-    viewer.camera.place(viewer.camera.now());
-    viewer.camera_is_set = true;
-  }
+  startCamera(viewer);
   FrameData* tracked = viewer.scene ? viewer.scene->find("camera_track") : nullptr;
   const std::optional<PageCamera> moved = viewer.takeViewpoint();
   if (tracked) {
@@ -108,15 +125,7 @@ bool openPage(PyViewer& viewer) {
   look.visuals_only = viewer.visuals_only;
   const bool is_new = !viewer.isOpen();
   viewer.server().setLook(look);
-  if (!viewer.scene) return true;
-  const bool was_set = viewer.camera_is_set;
-  const Camera camera = cameraNow(viewer);
-  if (viewer.camera.follows() || viewer.camera_is_set != was_set) {
-    const PageCamera page = pageCameraOf(camera);
-    if (is_new || !viewer.page_camera || !page.pose.numbers().isApprox(viewer.page_camera->pose.numbers(), 1e-12)) viewer.aim(page);
-  } else if (is_new && viewer.page_camera) {
-    viewer.aim(*viewer.page_camera);
-  }
+  if (viewer.scene) aimPage(viewer, is_new);
   if (is_new) {
     for (const auto& [id, quad] : viewer.quads) viewer.server().setQuad(quad);
     nb::module_::import_("kinegraph.notebook").attr("showInline")(viewer.url());

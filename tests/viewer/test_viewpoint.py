@@ -136,6 +136,16 @@ def test_pictures_show_what_people_turn_the_page_to(attributes: str, balls: kg.C
     np.testing.assert_allclose(viewer.getCamera_pose()[:3], [0, 3, 1], atol=1e-9)
 
 
+def test_a_view_of_the_program_leaves_the_page_where_people_turned_it(balls: kg.Config, browser: Browser) -> None:
+    balls.view()
+    browser.open(balls.viewer().url)
+    browser.drag((320, 100), (380, 130))
+    before = browser.evaluate("kinegraph.viewpoint()")
+    balls.view(False, "hello")
+    browser.wait_for("kinegraph.message() === 'hello'")
+    assert browser.evaluate("kinegraph.viewpoint()") == before
+
+
 def test_a_new_page_begins_where_viewers_start(balls: kg.Config) -> None:
     viewer = balls.viewer()
     start = viewer.getCamera_pose()
