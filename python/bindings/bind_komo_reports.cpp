@@ -134,6 +134,7 @@ int show(PyKomo& komo, const ShownMotion& motion, bool pause, const std::string&
   const std::shared_ptr<PyViewer> viewer = komo.viewer;
   const Config config = komo.configuration(-komo.order());
   viewer->scene = config.scene();
+  if (!viewer->isOpen()) viewer->setTitle("KOMO Viewer");
   if (!openPage(*viewer)) return pause ? kEscape : 0;
   const nb::gil_scoped_release unlock;
   return viewer->showMotion(config, motion, pause, text, interrupted);

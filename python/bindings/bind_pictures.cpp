@@ -73,7 +73,7 @@ void setCameraTarget(PyViewer& viewer, const Numbers& position, const Numbers& t
   camera.pose = lookAt(from, to);
   viewer.camera.place(camera);
   viewer.camera_is_set = true;
-  viewer.aim({.pose = camera.pose, .distance = (to - from).norm(), .ortho_height = camera.ortho_height});
+  viewer.aim({.pose = camera.pose, .distance = (to - from).norm(), .ortho_height = camera.ortho_height, .aspect = 1.});
 }
 
 }  // namespace

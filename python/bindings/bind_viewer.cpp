@@ -58,7 +58,9 @@ void animateSpline(PyConfig& config, int points) {
 int viewPath(PyConfig& config, const Numbers& path, double seconds, bool pause, const std::optional<std::string>& message) {
   const std::shared_ptr<PyViewer> viewer = showIn(config);
   if (seconds <= 0.) throw ValueError(cat("view_path: seconds is ", seconds, "; expected more than 0"));
-  ShownMotion motion = motionAlong(config, path.matrix(), seconds);
+  const MatrixXd states = path.matrix();
+  if (states.rows() == 0) throw ValueError("view_path: the path has no joint states");
+  ShownMotion motion = motionAlong(config, states, seconds);
   motion.start = ShownMotion::Start::play;
   if (!openPage(*viewer)) return pause ? kEscape : 0;
   const nb::gil_scoped_release unlock;

@@ -112,6 +112,36 @@ def test_without_interactivity_pages_are_shown_and_nothing_waits(monkeypatch, tm
     assert time.monotonic() - started < 20
 
 
+def test_a_forked_process_leaves_the_viewer_alone_and_has_its_own():
+    program = """
+import os, sys
+import kinegraph as ry
+C = ry.Config()
+C.addFrame('a').setShape('box', [1, 1, 1])
+C.view()
+url = C.viewer().url
+child = os.fork()
+if child == 0:
+    C.view(True)
+    print('other', C.viewer().url != url, flush=True)
+    del C
+    sys.exit(0)
+status = os.waitpid(child, 0)[1]
+from websockets.sync.client import connect
+with connect(url.replace('http', 'ws'), max_size=None) as page:
+    received = [page.recv(20), page.recv(20)]
+    C.getFrame('a').setPosition([1, 2, 3])
+    C.view()
+    moved = page.recv(20)
+print('status', status, C.viewer().url == url, bool(moved))
+"""
+    environment = {**os.environ, "KINEGRAPH_HEADLESS": "1"}
+    run = [sys.executable, "-W", "ignore::DeprecationWarning", "-c", program]
+    done = subprocess.run(run, env=environment, capture_output=True, text=True, timeout=60)
+    assert done.returncode == 0, done.stderr
+    assert "other True" in done.stdout and "status 0 True True" in done.stdout, done.stdout
+
+
 def test_two_viewers_take_two_ports():
     one, two = ry.Config(), ry.Config()
     one.view()

@@ -3,7 +3,7 @@ import { find, make } from "./element";
 
 const KEYS: [string, string][] = [
   ["drag", "turn; with the right button or Shift: shift"], ["wheel, pinch", "nearer, farther"], ["click", "select a frame"],
-  ["double click", "turn about that point"], ["?", "this help"], ["Esc", "close help, card, panel, ruler; else to the program"],
+  ["double click, right click", "turn about that point"], ["?", "this help"], ["Esc", "close help, card, panel, ruler; else to the program"],
   ["Home", "first view"], ["Alt 1 … Alt 4", "look from the front, the side, above, aslant"], ["Alt ← → ↑ ↓", "turn"], ["Alt Page up, down", "nearer, farther"], ["Alt T, J, O", "frames, joints, view"],
   ["Alt P", "save a picture"], ["Alt R", "measure"], ["Alt G, Alt B", "move, turn the selected frame"], ["Alt K", "play or pause the motion"],
   ["← →, Shift wheel", "slice by slice, in a motion"],

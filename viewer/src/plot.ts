@@ -43,6 +43,7 @@ export function drawCurves(canvas: HTMLCanvasElement, curves: readonly Curve[], 
     context.lineWidth = 1.6;
     context.beginPath();
     for (let t = 0; t < slices; ++t) context.lineTo(x(t), y(values[t]!));
+    if (slices === 1) context.lineTo(x(0) + 8, y(values[0]!));
     context.stroke();
   });
   if (curves.length === 0) return;

@@ -16,8 +16,9 @@ export interface Hit {
 
 const SHADOW_PERIOD = 3; // pictures
 const FIRST_VIEW: CameraMessage = {
-  kind: "camera", pose: [1.5, 2.6, 1.8, -0.15442, 0.20751, 0.77494, -0.57667], distance: 3.134, focal: 0, ortho: 0, aspect: 0, // towards (0, 0, 0.9)
+  kind: "camera", pose: [1.5, 2.6, 1.8, -0.15442, 0.20751, 0.77494, -0.57667], distance: 3.134, focal: 0, ortho: 0, aspect: 1, // towards (0, 0, 0.9)
 };
+const LEFT = 0, RIGHT = 2; // buttons
 const STILL = 5; // pixels: a pointer that moves less has clicked
 
 const colorOf = (rgb: number[]): THREE.Color => new THREE.Color().setRGB(rgb[0]!, rgb[1]!, rgb[2]!, THREE.SRGBColorSpace);
@@ -70,6 +71,7 @@ export class Stage {
     addEventListener("resize", () => this.resize());
     matchMedia("(prefers-color-scheme: dark)").addEventListener("change", () => this.paper());
     canvas.addEventListener("dblclick", (event) => this.focus(event));
+    this.onClick((event) => this.focus(event), RIGHT);
     this.paper();
     this.resize();
     this.renderer.setAnimationLoop((time) => {
@@ -102,10 +104,10 @@ export class Stage {
   }
 
   /** Called when the canvas is clicked, or touched, without a drag. */
-  onClick(click: (event: PointerEvent) => void): void {
+  onClick(click: (event: PointerEvent) => void, button = LEFT): void {
     let down: PointerEvent | null = null;
     this.canvas.addEventListener("pointerdown", (event) => {
-      down = event.isPrimary && event.button === 0 ? event : null;
+      down = event.isPrimary && event.button === button ? event : null;
     });
     this.canvas.addEventListener("pointerup", (event) => {
       if (down && Math.hypot(event.clientX - down.clientX, event.clientY - down.clientY) < STILL) click(event);
@@ -222,7 +224,7 @@ export class Stage {
     return this.viewpoint.pixelsPerMetre(at, this.canvas.clientHeight * this.renderer.getPixelRatio());
   }
 
-  /** A double click turns about the point that was hit from there on. */
+  /** A double click, or one with the right button, turns about the point that was hit from there on. */
   private focus(event: MouseEvent): void {
     const hit = this.pick(event);
     if (!hit) return;

@@ -9,6 +9,7 @@
 namespace kinegraph {
 
 ViewerServer& ConfigViewer::server() {
+  if (server_ && !server_->isOurs()) server_.reset();
   if (!server_) {
     server_ = std::make_unique<ViewerServer>(options_);
     server_->onCommand([edits = edits_](const Command& command) { return edits->apply(command); });

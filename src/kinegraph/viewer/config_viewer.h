@@ -45,11 +45,11 @@ class ConfigViewer {
   void select(int frame) { server().select(frame); }  ///< shows the card of a frame, with handles to move it
   std::string recording() { return server().recording(); }  ///< an HTML page with all that is shown inside
   void setCamera(const PageCamera& camera) { server().setCamera(camera); }
-  std::optional<PageCamera> takeViewpoint() { return server_ ? server_->takeViewpoint() : std::nullopt; }
+  std::optional<PageCamera> takeViewpoint() { return isOpen() ? server_->takeViewpoint() : std::nullopt; }
   std::string url() { return server().url(); }
-  int clients() const { return server_ ? server_->clients() : 0; }
-  int takeKey() { return server_ ? server_->takeKey() : 0; }
-  bool isOpen() const { return server_ != nullptr; }
+  int clients() const { return isOpen() ? server_->clients() : 0; }
+  int takeKey() { return isOpen() ? server_->takeKey() : 0; }
+  bool isOpen() const { return server_ && server_->isOurs(); }
   void close() { server_.reset(); }
 
   ViewerServer& server();

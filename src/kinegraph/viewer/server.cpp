@@ -1,5 +1,7 @@
 #include "kinegraph/viewer/server.h"
 
+#include <unistd.h>
+
 #include <cstdlib>
 #include <cstring>
 #include <list>
@@ -61,6 +63,7 @@ class ViewerServer::Impl {
 
   std::shared_ptr<ViewerState> state_ = std::make_shared<ViewerState>();
   std::string url_;
+  const pid_t process_ = getpid();
   std::function<std::optional<EditedScene>(const Command&)> answer_;  ///< guarded by `answer_mutex_`
   std::mutex answer_mutex_;
 
@@ -122,9 +125,13 @@ class ViewerServer::Impl {
   std::thread thread_;
 };
 
-ViewerServer::ViewerServer(const ViewerOptions& options) : impl_(std::make_shared<Impl>(options)) {}
+ViewerServer::ViewerServer(const ViewerOptions& options) : impl_(std::make_unique<Impl>(options)) {}
 
-ViewerServer::~ViewerServer() = default;
+ViewerServer::~ViewerServer() {
+  if (!isOurs()) (void)impl_.release();  // its sockets are shared with the process that it belongs to
+}
+
+bool ViewerServer::isOurs() const { return impl_->process_ == getpid(); }
 
 std::string ViewerServer::url() const { return impl_->url_; }
 
@@ -179,8 +186,9 @@ void ViewerServer::setTitle(const std::string& text) {
 }
 
 void ViewerServer::setCamera(const PageCamera& camera) {
-  takeViewpoint();
   impl_->changeScene([&](ShownScene& scene) {
+    impl_->state_->camera = camera;
+    impl_->state_->camera_moved = false;
     scene.setCamera(camera);
     return true;
   });
@@ -188,7 +196,12 @@ void ViewerServer::setCamera(const PageCamera& camera) {
 
 std::optional<PageCamera> ViewerServer::takeViewpoint() {
   const std::lock_guard lock(impl_->state_->mutex);
-  return std::exchange(impl_->state_->viewpoint, std::nullopt);
+  return std::exchange(impl_->state_->camera_moved, false) ? impl_->state_->camera : std::nullopt;
+}
+
+std::optional<PageCamera> ViewerServer::camera() const {
+  const std::lock_guard lock(impl_->state_->mutex);
+  return impl_->state_->camera;
 }
 
 void ViewerServer::setNear(const std::vector<NearLine>& lines) {

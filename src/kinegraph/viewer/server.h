@@ -54,8 +54,11 @@ class ViewerServer {
  public:
   /// Throws ValueError for a host or port that cannot be, Error if no port can be had.
   explicit ViewerServer(const ViewerOptions& options = {});
-  ~ViewerServer();
+  ~ViewerServer();  ///< in a forked process, leaves the other one's server alone
   ViewerServer(const ViewerServer&) = delete;
+
+  /// False in a process that was forked from the one that made this: the server's thread is not there.
+  bool isOurs() const;
 
   std::string url() const;
   int clients() const;
@@ -94,6 +97,9 @@ class ViewerServer {
 
   void setCamera(const PageCamera& camera);
 
+  /// Where pages look from: as setCamera said, or where a person turned one to; nothing if nobody has said anything.
+  std::optional<PageCamera> camera() const;
+
   /// Where a person has turned a page to since the last call, and since the last setCamera; nothing if nobody has.
   std::optional<PageCamera> takeViewpoint();
 
@@ -119,7 +125,7 @@ class ViewerServer {
 
  private:
   class Impl;
-  std::shared_ptr<Impl> impl_;
+  std::unique_ptr<Impl> impl_;
 };
 
 /// Opens `url` in the user's browser if there is a display and KINEGRAPH_HEADLESS is not set. Never waits, never fails.

@@ -42,7 +42,8 @@ void ViewerState::moveCamera(const ViewpointCommand& command) {
   if (!(isFinite(moved.focal_length) && moved.focal_length > 0.)) return;
   if (!(isFinite(moved.ortho_height) && moved.ortho_height >= 0.)) return;
   const std::lock_guard lock(mutex);
-  viewpoint = moved;
+  camera = moved;
+  camera_moved = true;
 }
 
 void ViewerState::addClient() {

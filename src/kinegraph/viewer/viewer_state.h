@@ -20,7 +20,8 @@ struct ViewerState {
   int clients = 0;
   InputEvents events;
   std::optional<Cursor> cursor;
-  std::optional<PageCamera> viewpoint;  ///< where a person has turned a page to
+  std::optional<PageCamera> camera;  ///< where pages look from: as the program said, or where a person turned one to
+  bool camera_moved = false;         ///< by a person, since the program was told
 
   void press(const KeyCommand& key);
   void addEvent(const EventCommand& event);
