@@ -48,7 +48,8 @@ DepthNoise depthNoise() {
   return noise;
 }
 
-nb::typed<nb::tuple, nb::any, nb::any> computeImageAndDepth(PyCameraView& view, nb::handle config, bool noisy, bool visuals_only) {
+nb::typed<nb::tuple, nb::any, nb::any> computeImageAndDepth(PyCameraView& view, nb::handle config, bool noisy,
+                                                            bool visuals_only) {
   SceneTree& scene = sceneOf(view, config);
   const Camera camera = view.camera.now();
   const DepthNoise noise = noisy ? depthNoise() : DepthNoise{};
@@ -73,7 +74,8 @@ AnyArray segmentationIds(PyCameraView& view, bool visuals_only) {
   return toImage(segment(view, camera, visuals_only), {std::size_t(camera.height), std::size_t(camera.width)});
 }
 
-/// The first six bits of an id give the two top bits of r, g and b, so that near ids look different; the next 18 the rest.
+/// The first six bits of an id give the two top bits of r, g and b, so that near ids look different; the next 18 the
+/// rest.
 AnyArray segmentationImage(PyCameraView& view, bool visuals_only) {
   const Camera camera = view.camera.now();
   std::vector<std::uint8_t> colors;
@@ -90,7 +92,8 @@ AnyArray segmentationImage(PyCameraView& view, bool visuals_only) {
 using DepthArray = nb::ndarray<const float, nb::ndim<2>, nb::c_contig, nb::device::cpu>;
 
 AnyArray depthImage2PointCloud(const DepthArray& depth, const Numbers& fxycxy) {
-  if (fxycxy.values.size() != 4) throw ValueError(cat("depthImage2PointCloud: fxycxy has ", fxycxy.values.size(), " numbers; expected 4"));
+  if (fxycxy.values.size() != 4)
+    throw ValueError(cat("depthImage2PointCloud: fxycxy has ", fxycxy.values.size(), " numbers; expected 4"));
   const std::size_t height = depth.shape(0), width = depth.shape(1);
   return toImage(depthToPoints(depth.data(), int(height), int(width), Vector4d(fxycxy.values)), {height, width, 3});
 }
@@ -102,30 +105,45 @@ void bindRendering(nb::module_& m) {
       .def_ro("width", &Camera::width, "Pixels.")
       .def_ro("height", &Camera::height, "Pixels.")
       .def_ro("focalLength", &Camera::focal_length, "In image heights.")
-      .def_prop_ro("zRange", [](const Camera& c) { return nb::make_tuple(c.near, c.far); }, "Nearest and farthest depth, m.")
-      .def_prop_ro("pose", [](const Camera& c) { return toNumpy(VectorXd(c.pose.numbers())); }, "(7,), when it was set.");
+      .def_prop_ro(
+          "zRange", [](const Camera& c) { return nb::make_tuple(c.near, c.far); }, "Nearest and farthest depth, m.")
+      .def_prop_ro(
+          "pose", [](const Camera& c) { return toNumpy(VectorXd(c.pose.numbers())); }, "(7,), when it was set.");
 
-  nb::class_<PyCameraView>(m, "CameraView",
-                           "Images from cameras in a configuration; they need neither display nor browser. A camera looks along the z\n"
-                           "axis of its frame, x to the right and y down.")
-      .def("__init__", [](PyCameraView* self, nb::object config, bool, int) {
-             if (!nb::isinstance<PyConfig>(config)) throw nb::type_error("CameraView: expected a Config");
-             new (self) PyCameraView{std::move(config)};
-           }, "config"_a, "offscreen"_a = true, "verbose"_a = 0, "Sees the configuration as it is whenever an image is computed.")
-      .def("setCamera",
-           [](PyCameraView& v, nb::handle frame) {
-             v.camera.follow(toFrame(nb::cast<PyConfig&>(v.config), frame));
-             return v.camera.now();
-           }, "cameraFrame"_a,
-           "Looks from a frame, or a frame's name, and follows it. Its attributes: `width`, `height` (pixels; 640, 480),\n"
-           "`focalLength` (in image heights; 2.414) or `heightAngle` (degrees), `orthoAbsHeight` (m, for an orthographic camera),\n"
-           "`zRange` ([nearest, farthest] depth in m; [.1, 10]).")
-      .def("getFxycxy", [](const PyCameraView& v) { return fxycxyOf(v.camera.now()); }, "fx, fy, cx, cy in pixels.")
-      .def("computeImageAndDepth", computeImageAndDepth, "config"_a.none() = nb::none(), "simulateDepthNoise"_a = false, "visualsOnly"_a = true,
-           "The image, uint8 (height, width, 3), and the depth along the camera's z axis, float32 (height, width), in m; -1 where\n"
+  nb::class_<PyCameraView>(
+      m, "CameraView",
+      "Images from cameras in a configuration; they need neither display nor browser. A camera looks along the z\n"
+      "axis of its frame, x to the right and y down.")
+      .def(
+          "__init__",
+          [](PyCameraView* self, nb::object config, bool, int) {
+            if (!nb::isinstance<PyConfig>(config)) throw nb::type_error("CameraView: expected a Config");
+            new (self) PyCameraView{std::move(config)};
+          },
+          "config"_a, "offscreen"_a = true, "verbose"_a = 0,
+          "Sees the configuration as it is whenever an image is computed.")
+      .def(
+          "setCamera",
+          [](PyCameraView& v, nb::handle frame) {
+            v.camera.follow(toFrame(nb::cast<PyConfig&>(v.config), frame));
+            return v.camera.now();
+          },
+          "cameraFrame"_a,
+          "Looks from a frame, or a frame's name, and follows it. Its attributes: `width`, `height` (pixels; 640, "
+          "480),\n"
+          "`focalLength` (in image heights; 2.414) or `heightAngle` (degrees), `orthoAbsHeight` (m, for an "
+          "orthographic camera),\n"
+          "`zRange` ([nearest, farthest] depth in m; [.1, 10]).")
+      .def(
+          "getFxycxy", [](const PyCameraView& v) { return fxycxyOf(v.camera.now()); }, "fx, fy, cx, cy in pixels.")
+      .def("computeImageAndDepth", computeImageAndDepth, "config"_a.none() = nb::none(), "simulateDepthNoise"_a = false,
+           "visualsOnly"_a = true,
+           "The image, uint8 (height, width, 3), and the depth along the camera's z axis, float32 (height, width), in "
+           "m; -1 where\n"
            "nothing is within zRange. config: another configuration to look at.\n"
            "simulateDepthNoise: errors of a stereo camera (parameters DepthNoise/...).\n"
-           "visualsOnly: without markers and transparent shapes; these show in the image, but transparent ones not in the depth.")
+           "visualsOnly: without markers and transparent shapes; these show in the image, but transparent ones not in "
+           "the depth.")
       .def("computeSegmentationID", segmentationIds, "visualsOnly"_a = true,
            "The id of the frame that each pixel shows, int32 (height, width); -1 for the floor and where nothing is.")
       .def("computeSegmentationImage", segmentationImage, "visualsOnly"_a = true,

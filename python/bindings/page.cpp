@@ -25,7 +25,8 @@ T parameter(const char* name, const T& otherwise, const char* expected) {
 bool flag(const char* name, bool otherwise) {
   const nb::object value = parameter(name, nb::object(nb::bool_(otherwise)), "");
   if (!PyLong_Check(value.ptr())) {  // True and False are numbers as well
-    throw ValueError(cat("parameter ", name, " is ", nb::cast<std::string>(nb::repr(value)), "; expected True or False"));
+    throw ValueError(
+        cat("parameter ", name, " is ", nb::cast<std::string>(nb::repr(value)), "; expected True or False"));
   }
   return nb::cast<bool>(nb::bool_(value));
 }
@@ -86,7 +87,8 @@ Look lookOfParameters() {
   look.flat_colors = flag("Render/flatColors", false);
   look.wireframe = flag("Render/renderPolygonLines", false);
   if (lights.size() % 3 != 0) {
-    throw ValueError(cat("parameter Render/lights has ", lights.size(), " numbers; expected 3 for each light: where it is, m"));
+    throw ValueError(
+        cat("parameter Render/lights has ", lights.size(), " numbers; expected 3 for each light: where it is, m"));
   }
   for (std::size_t i = 0; i < lights.size(); i += 3) look.lights.emplace_back(&lights[i]);
   return look;

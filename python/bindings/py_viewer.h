@@ -86,7 +86,8 @@ void bindViewerInput(nb::module_& m, nb::class_<PyViewer>& viewer);
 /// The picture calls of a viewer.
 void bindPictures(nb::class_<PyViewer>& viewer);
 
-/// Saves a picture as PNG: as `path` if that ends in .png, else as path + number of six digits + .png. Returns the file.
+/// Saves a picture as PNG: as `path` if that ends in .png, else as path + number of six digits + .png. Returns the
+/// file.
 std::string savePicture(PyViewer& viewer, const std::string& path, int count);
 
 }  // namespace kinegraph::python

@@ -22,9 +22,9 @@ struct Camera {
   void validate() const;
 };
 
-/// The camera that a frame's attributes describe, at its pose: `focalLength` or `heightAngle` (the image's vertical angle,
-/// degrees) or `orthoAbsHeight` / `heightAbs` (m), `width`, `height`, `zRange` [near far]. What is missing is as in Camera.
-/// Throws ValueError for attributes that make no sense.
+/// The camera that a frame's attributes describe, at its pose: `focalLength` or `heightAngle` (the image's vertical
+/// angle, degrees) or `orthoAbsHeight` / `heightAbs` (m), `width`, `height`, `zRange` [near far]. What is missing is as
+/// in Camera. Throws ValueError for attributes that make no sense.
 Camera cameraOf(const Frame& frame);
 
 /// What a viewer starts with: 600 x 500, from (2, 5, 1.7) towards (0, 0, 1).

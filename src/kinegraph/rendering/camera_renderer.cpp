@@ -187,7 +187,8 @@ void CameraRenderer::Impl::makeContext() {
   context->readDepthMap = mjDEPTH_ZEROFAR;
 }
 
-mjvGeom& CameraRenderer::Impl::addGeom(int type, const Vector3d& size, const RigidTransform& X_WG, const Vector4d& color, int segment) {
+mjvGeom& CameraRenderer::Impl::addGeom(int type, const Vector3d& size, const RigidTransform& X_WG,
+                                       const Vector4d& color, int segment) {
   mjvGeom& geom = scene->geoms[scene->ngeom++];
   const Eigen::Matrix<double, 3, 3, Eigen::RowMajor> R = X_WG.R;
   const Eigen::Vector4f rgba = color.cast<float>();
@@ -211,9 +212,12 @@ void CameraRenderer::Impl::addMarker(double length, const RigidTransform& X_WG, 
   }
 }
 
-void CameraRenderer::Impl::placeGeoms(const std::vector<Item>& items, const State& state, const Camera& camera, int frames) {
+void CameraRenderer::Impl::placeGeoms(const std::vector<Item>& items, const State& state, const Camera& camera,
+                                      int frames) {
   std::size_t count = 1;
-  for (const Item& item : items) count += std::max<std::size_t>(3, isMarker(item.geometry->type) || builtinShape(item.geometry->type) ? 0 : meshes.parts(item.geometry).size());
+  for (const Item& item : items)
+    count += std::max<std::size_t>(
+        3, isMarker(item.geometry->type) || builtinShape(item.geometry->type) ? 0 : meshes.parts(item.geometry).size());
   if (std::size_t(scene->maxgeom) < count) {
     mjv_freeScene(scene.get());
     mjv_makeScene(model->get(), scene.get(), int(2 * count));
@@ -288,7 +292,8 @@ void CameraRenderer::Impl::draw(SceneTree& tree, const Camera& camera, bool visu
   if (!model) model = emptyModel();
   if (meshes.update(shapes)) makeContext();
   if (camera.width > context->offWidth || camera.height > context->offHeight) {
-    mjr_resizeOffscreen(std::max(camera.width, context->offWidth), std::max(camera.height, context->offHeight), context.get());
+    mjr_resizeOffscreen(std::max(camera.width, context->offWidth), std::max(camera.height, context->offHeight),
+                        context.get());
   }
   placeGeoms(items, tree.state(), camera, int(tree.frames().size()));
   placeCamera(camera);

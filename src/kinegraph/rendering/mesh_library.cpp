@@ -29,13 +29,15 @@ void MeshLibrary::append(const RenderMesh& mesh) {
 }
 
 bool MeshLibrary::update(const Shapes& shapes) {
-  const bool known = std::all_of(shapes.begin(), shapes.end(), [&](const auto& shape) { return meshes_.contains(shape); });
+  const bool known =
+      std::all_of(shapes.begin(), shapes.end(), [&](const auto& shape) { return meshes_.contains(shape); });
   if (known && !vertex_start_.empty()) return false;
   std::erase_if(meshes_, [&](const auto& entry) { return !shapes.contains(entry.first); });
   for (const auto& shape : shapes) {
     if (!meshes_.contains(shape)) meshes_[shape] = renderMeshes(*shape);
   }
-  for (auto* numbers : {&vertex_start_, &vertex_count_, &normal_start_, &normal_count_, &face_start_, &face_count_, &faces_, &face_normals_}) {
+  for (auto* numbers : {&vertex_start_, &vertex_count_, &normal_start_, &normal_count_, &face_start_, &face_count_,
+                        &faces_, &face_normals_}) {
     numbers->clear();
   }
   vertices_.clear();

@@ -20,7 +20,8 @@ class MeshLibrary {
   };
   using Shapes = std::set<std::shared_ptr<const Geometry>>;
 
-  /// Takes in what is new, and forgets everything that is not used any more when something is. True if anything changed.
+  /// Takes in what is new, and forgets everything that is not used any more when something is. True if anything
+  /// changed.
   bool update(const Shapes& shapes);
 
   const std::vector<Part>& parts(const std::shared_ptr<const Geometry>& shape) const { return parts_.at(shape); }

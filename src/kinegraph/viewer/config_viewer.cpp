@@ -53,8 +53,8 @@ int ConfigViewer::wait(bool pause, const std::optional<std::string>& message, co
   return server().takeKey();
 }
 
-int ConfigViewer::showMotion(const Config& config, const ShownMotion& motion, bool pause, const std::optional<std::string>& message,
-                             const Stop& stop) {
+int ConfigViewer::showMotion(const Config& config, const ShownMotion& motion, bool pause,
+                             const std::optional<std::string>& message, const Stop& stop) {
   update(config);
   server().showMotion(motion);
   if (message) server().setMessage(*message);
@@ -62,7 +62,8 @@ int ConfigViewer::showMotion(const Config& config, const ShownMotion& motion, bo
   if (!waits()) return key;
   if (motion.start == ShownMotion::Start::play) {
     using Clock = std::chrono::steady_clock;
-    const auto end = Clock::now() + std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(motion.seconds));
+    const auto end =
+        Clock::now() + std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(motion.seconds));
     key = waitKey(message.value_or(""), [&] { return Clock::now() >= end || stop(); });
   }
   return pause && key == 0 ? ask(message, stop) : key;

@@ -37,7 +37,7 @@ struct Quad {
   int id = 0;                       ///< one with the same id is replaced
   double x = 0., y = 0.;            ///< of its top left corner, in heights of the window
   double height = .2;               ///< in heights of the window; 0: `zoom` counts
-  double zoom = 0.;                 ///< pixels of the page for one of the picture; the picture is then all there is to see
+  double zoom = 0.;  ///< pixels of the page for one of the picture; the picture is then all there is to see
   int columns = 0, rows = 0;
   std::vector<std::uint8_t> rgb;    ///< rows x columns x 3
 };

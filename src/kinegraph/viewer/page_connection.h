@@ -9,7 +9,8 @@ namespace kinegraph {
 class PageConnection : public std::enable_shared_from_this<PageConnection> {
  public:
   using OnUpgrade = std::function<void(TcpSocket, HttpRequest)>;
-  PageConnection(TcpSocket socket, const Access& access, std::shared_ptr<const ViewerState> state, OnUpgrade on_upgrade);
+  PageConnection(TcpSocket socket, const Access& access, std::shared_ptr<const ViewerState> state,
+                 OnUpgrade on_upgrade);
 
   void start();
 

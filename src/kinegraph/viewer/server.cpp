@@ -23,12 +23,16 @@ class ViewerServer::Impl {
     state_->scene.title = options.title;
     beast::error_code error;
     const asio::ip::address address = asio::ip::make_address(options.host, error);
-    if (error) throw ValueError(cat("ViewerOptions: host is '", options.host, "'; expected an IP address, for instance 127.0.0.1 or 0.0.0.0"));
-    if (options.port < 0 || options.port > 65535) throw ValueError(cat("ViewerOptions: port is ", options.port, "; expected 0 to 65535"));
+    if (error)
+      throw ValueError(cat("ViewerOptions: host is '", options.host,
+                           "'; expected an IP address, for instance 127.0.0.1 or 0.0.0.0"));
+    if (options.port < 0 || options.port > 65535)
+      throw ValueError(cat("ViewerOptions: port is ", options.port, "; expected 0 to 65535"));
     access_.loopback_only = address.is_loopback();
     access_.token = options.token.empty() && !access_.loopback_only ? randomToken() : options.token;
     listen(address, options.port);
-    url_ = cat("http://", access_.loopback_only ? "localhost" : options.host, ":", acceptor_.local_endpoint().port(), "/");
+    url_ =
+        cat("http://", access_.loopback_only ? "localhost" : options.host, ":", acceptor_.local_endpoint().port(), "/");
     if (!access_.token.empty()) url_ += "?token=" + access_.token;
     accept();
     thread_ = std::thread([this] { context_.run(); });
@@ -94,12 +98,15 @@ class ViewerServer::Impl {
       const tcp::endpoint endpoint(address, static_cast<unsigned short>(port));
       acceptor_ = tcp::acceptor(context_);
       acceptor_.open(endpoint.protocol(), error);
-      if (!error) acceptor_.set_option(asio::socket_base::reuse_address(true), error);  // a program that is started again gets its port back
+      if (!error)
+        acceptor_.set_option(asio::socket_base::reuse_address(true),
+                             error);  // a program that is started again gets its port back
       if (!error) acceptor_.bind(endpoint, error);
       if (!error) acceptor_.listen(asio::socket_base::max_listen_connections, error);
       if (!error) return;
     }
-    throw Error(cat("the viewer finds no free port from ", first_port, " on at ", address.to_string(), ": ", error.message()));
+    throw Error(
+        cat("the viewer finds no free port from ", first_port, " on at ", address.to_string(), ": ", error.message()));
   }
 
   void accept() {
@@ -107,12 +114,17 @@ class ViewerServer::Impl {
       if (error == asio::error::operation_aborted) return;
       if (!error) {
         socket.set_option(tcp::no_delay(true), error);
-        std::make_shared<PageConnection>(std::move(socket), access_, state_, [this](tcp::socket upgraded, HttpRequest request) {
-          auto session = std::make_shared<BrowserSession>(std::move(upgraded), state_, [this](const Command& command) { receive(command); });
-          sessions_.remove_if([](const auto& old) { return old.use_count() == 1; });  // those whose browser has gone
-          sessions_.push_back(session);
-          session->start(std::move(request));
-        })->start();
+        std::make_shared<PageConnection>(
+            std::move(socket), access_, state_,
+            [this](tcp::socket upgraded, HttpRequest request) {
+              auto session = std::make_shared<BrowserSession>(std::move(upgraded), state_,
+                                                              [this](const Command& command) { receive(command); });
+              sessions_.remove_if(
+                  [](const auto& old) { return old.use_count() == 1; });  // those whose browser has gone
+              sessions_.push_back(session);
+              session->start(std::move(request));
+            })
+            ->start();
       }
       accept();
     });
@@ -209,8 +221,10 @@ void ViewerServer::setNear(const std::vector<NearLine>& lines) {
 }
 
 void ViewerServer::setQuad(const Quad& quad) {
-  if (quad.columns <= 0 || quad.rows <= 0 || quad.rgb.size() != 3 * std::size_t(quad.columns) * std::size_t(quad.rows)) {
-    throw ValueError(cat("setQuad: ", quad.rgb.size(), " bytes; expected 3 for each of ", quad.rows, " x ", quad.columns, " pixels"));
+  if (quad.columns <= 0 || quad.rows <= 0 ||
+      quad.rgb.size() != 3 * std::size_t(quad.columns) * std::size_t(quad.rows)) {
+    throw ValueError(cat("setQuad: ", quad.rgb.size(), " bytes; expected 3 for each of ", quad.rows, " x ",
+                         quad.columns, " pixels"));
   }
   impl_->changeScene([&](ShownScene& scene) {
     scene.setQuad(quad);
@@ -250,7 +264,8 @@ int ViewerServer::waitKey(const std::function<bool()>& stop) {
   for (;;) {
     {
       std::unique_lock lock(impl_->state_->mutex);
-      impl_->state_->changed.wait_for(lock, std::chrono::milliseconds(20), [&] { return impl_->state_->key != 0 && impl_->state_->key_releases; });
+      impl_->state_->changed.wait_for(lock, std::chrono::milliseconds(20),
+                                      [&] { return impl_->state_->key != 0 && impl_->state_->key_releases; });
       if (impl_->state_->key != 0 && impl_->state_->key_releases) return std::exchange(impl_->state_->key, 0);
     }
     if (stop()) return 0;
@@ -259,7 +274,8 @@ int ViewerServer::waitKey(const std::function<bool()>& stop) {
 
 bool ViewerServer::waitForClient(double seconds) {
   std::unique_lock lock(impl_->state_->mutex);
-  return impl_->state_->changed.wait_for(lock, std::chrono::duration<double>(seconds), [&] { return impl_->state_->clients > 0; });
+  return impl_->state_->changed.wait_for(lock, std::chrono::duration<double>(seconds),
+                                         [&] { return impl_->state_->clients > 0; });
 }
 
 bool isHeadless() {

@@ -45,7 +45,7 @@ struct ViewerOptions {
   std::string host = "127.0.0.1";  ///< only this machine, unless told otherwise
   int port = 7000;                 ///< first one tried; those in use are passed over; 0: any free one
   std::string title = "Kinegraph";
-  std::string token{};             ///< that browsers have to send, as in url(); empty: none on this machine, else a random one
+  std::string token{};  ///< that browsers have to send, as in url(); empty: none on this machine, else a random one
 };
 
 /// Shows items in any number of browsers: an HTTP server for the page, and a websocket each for what changes. It has a
@@ -76,7 +76,8 @@ class ViewerServer {
   /// Lines between shapes that are near each other, for browsers that show them.
   void setNear(const std::vector<NearLine>& lines);
 
-  /// A picture on top of the scene; one with the same id is replaced. Throws ValueError for numbers of pixels that do not match.
+  /// A picture on top of the scene; one with the same id is replaced. Throws ValueError for numbers of pixels that do
+  /// not match.
   void setQuad(const Quad& quad);
 
   void setLook(const Look& look);
@@ -87,8 +88,8 @@ class ViewerServer {
   /// The page with all that is shown inside: an HTML file that opens without this server.
   std::string recording() const;
 
-  /// Answers commands other than keys, on the server's thread; nothing for those that mean nothing. All browsers see the
-  /// answer.
+  /// Answers commands other than keys, on the server's thread; nothing for those that mean nothing. All browsers see
+  /// the answer.
   void onCommand(std::function<std::optional<EditedScene>(const Command&)> answer);
 
   void setMessage(const std::string& text);  ///< in the corner; may have several lines
@@ -103,17 +104,18 @@ class ViewerServer {
   /// Where a person has turned a page to since the last call, and since the last setCamera; nothing if nobody has.
   std::optional<PageCamera> takeViewpoint();
 
-  /// The last key pressed in a browser since the previous call, or 0. Letters as lower-case ASCII, Enter 13, Escape 27, space
-  /// 32; others have the codes of GLFW.
+  /// The last key pressed in a browser since the previous call, or 0. Letters as lower-case ASCII, Enter 13, Escape 27,
+  /// space 32; others have the codes of GLFW.
   int takeKey();
 
-  /// Waits for a key that is pressed without Shift, Ctrl and Alt, and that is not the arrow to the left or right, which step
-  /// through motions. Returns 0 as soon as `stop` (asked every 20 ms) says so.
+  /// Waits for a key that is pressed without Shift, Ctrl and Alt, and that is not the arrow to the left or right, which
+  /// step through motions. Returns 0 as soon as `stop` (asked every 20 ms) says so.
   int waitKey(const std::function<bool()>& stop);
 
   /// Browsers send events from now on; with `instead`, mouse and keys do nothing else on the page.
   void requestEvents(bool instead);
-  /// The keys 1, 2, 3, 4 and 7 switch shapes, markers, axes, distances and names on and off, in the browser where they are pressed.
+  /// The keys 1, 2, 3, 4 and 7 switch shapes, markers, axes, distances and names on and off, in the browser where they
+  /// are pressed.
   void requestDigits(bool yes);
   std::vector<std::string> takeEvents();  ///< those since the last call; see eventName
 
@@ -131,7 +133,8 @@ class ViewerServer {
 /// Opens `url` in the user's browser if there is a display and KINEGRAPH_HEADLESS is not set. Never waits, never fails.
 void openBrowser(const std::string& url);
 
-/// True if the environment variable KINEGRAPH_HEADLESS is set to anything but 0: no browser is opened, and nothing waits.
+/// True if the environment variable KINEGRAPH_HEADLESS is set to anything but 0: no browser is opened, and nothing
+/// waits.
 bool isHeadless();
 
 }  // namespace kinegraph

@@ -15,7 +15,8 @@ void append(std::string& data, const T& value) {
   data.append(reinterpret_cast<const char*>(&value), sizeof value);
 }
 
-/// kind, number, vertices, triangles, colors (0, 1 or as many as vertices), then float32 positions, uint32 indices, rgba bytes.
+/// kind, number, vertices, triangles, colors (0, 1 or as many as vertices), then float32 positions, uint32 indices,
+/// rgba bytes.
 std::string encodeMesh(int number, const Mesh& mesh) {
   std::string data;
   const std::size_t vertices = mesh.vertices.size();
@@ -65,10 +66,13 @@ std::string encodeQuad(const Quad& quad) {
 }
 
 MotionMessage headOf(const ShownMotion& motion) {
-  const char* start = motion.start == ShownMotion::Start::all ? "all" : motion.start == ShownMotion::Start::play ? "play" : "pause";
+  const char* start = motion.start == ShownMotion::Start::all    ? "all"
+                      : motion.start == ShownMotion::Start::play ? "play"
+                                                                 : "pause";
   std::vector<TraceMessage> traces;
   for (const ShownMotion::Trace& trace : motion.traces) traces.push_back({trace.name, trace.type, trace.values});
-  return {int(motion.poses.size()), motion.seconds, start, motion.first, motion.prefix, motion.texts, motion.violations, motion.marked, traces};
+  return {int(motion.poses.size()), motion.seconds, start, motion.first, motion.prefix, motion.texts,
+          motion.violations,        motion.marked,  traces};
 }
 
 template <class T>
@@ -98,7 +102,8 @@ std::shared_ptr<const ShownScene::SentMesh> ShownScene::meshOf(const ViewItem& i
   if (is_new) {
     const bool has_own = item.geometry->type != ShapeType::ssCvx && item.geometry->mesh;
     const Mesh& mesh = has_own ? *item.geometry->mesh : tessellate(*item.geometry);
-    place->second = std::make_shared<SentMesh>(SentMesh{next_mesh_, std::make_shared<std::string>(encodeMesh(next_mesh_, mesh))});
+    place->second =
+        std::make_shared<SentMesh>(SentMesh{next_mesh_, std::make_shared<std::string>(encodeMesh(next_mesh_, mesh))});
     ++next_mesh_;
   }
   return place->second;
@@ -115,8 +120,10 @@ bool ShownScene::update(std::span<const ViewItem> items) {
   for (std::size_t i = 0; i < items.size(); ++i) {
     Shown& shown = frames_[i];
     const ViewItem& item = items[i];
-    const bool same_look = shown.look_revision > 0 && shown.item.geometry == item.geometry && shown.item.color == item.color &&
-                           shown.item.collides == item.collides && shown.item.parent == item.parent && shown.item.name == item.name && shown.item.details == item.details;
+    const bool same_look = shown.look_revision > 0 && shown.item.geometry == item.geometry &&
+                           shown.item.color == item.color && shown.item.collides == item.collides &&
+                           shown.item.parent == item.parent && shown.item.name == item.name &&
+                           shown.item.details == item.details;
     if (!same_look) {
       shown.mesh = meshOf(item);
       shown.look_revision = next;
@@ -188,7 +195,8 @@ bool ShownScene::setText(std::string ShownScene::*field, const std::string& text
 bool ShownScene::setNear(const std::vector<NearLine>& lines) {
   NearMessage message;
   for (const NearLine& line : lines) {
-    message.points.insert(message.points.end(), {line.a.x(), line.a.y(), line.a.z(), line.b.x(), line.b.y(), line.b.z()});
+    message.points.insert(message.points.end(),
+                          {line.a.x(), line.a.y(), line.a.z(), line.b.x(), line.b.y(), line.b.z()});
     message.distances.push_back(line.distance);
     message.names.push_back(line.names);
   }
@@ -199,7 +207,9 @@ bool ShownScene::setNear(const std::vector<NearLine>& lines) {
   return true;
 }
 
-void ShownScene::setQuad(const Quad& quad) { quads_[quad.id] = {++revision_, {std::make_shared<std::string>(encodeQuad(quad)), true}}; }
+void ShownScene::setQuad(const Quad& quad) {
+  quads_[quad.id] = {++revision_, {std::make_shared<std::string>(encodeQuad(quad)), true}};
+}
 
 bool ShownScene::setLook(const Look& look) {
   if (look == look_) return false;
@@ -237,7 +247,8 @@ std::vector<Outgoing> ShownScene::messagesSince(Seen& seen) const {
   if (text_revision_ > seen.revision) send(TextMessage{title, message, error});
   if (camera_revision_ > seen.revision) {
     const Vector7d pose = camera_.pose.numbers();
-    send(CameraMessage{{pose.begin(), pose.end()}, camera_.distance, camera_.focal_length, camera_.ortho_height, camera_.aspect});
+    send(CameraMessage{
+        {pose.begin(), pose.end()}, camera_.distance, camera_.focal_length, camera_.ortho_height, camera_.aspect});
   }
   SceneMessage scene;
   scene.count = int(frames_.size());
@@ -247,10 +258,13 @@ std::vector<Outgoing> ShownScene::messagesSince(Seen& seen) const {
   for (std::size_t i = 0; i < frames_.size(); ++i) {
     const Shown& shown = frames_[i];
     if (shown.look_revision > seen.revision) {
-      FrameMessage frame{int(i), shown.item.name, shown.item.parent, shown.item.collides, shown.item.details, std::nullopt};
+      FrameMessage frame{int(i),      shown.item.name, shown.item.parent, shown.item.collides, shown.item.details,
+                         std::nullopt};
       if (shown.item.geometry && shown.item.geometry->type != ShapeType::none) {
         const Vector4d& c = shown.item.color;
-        frame.shape = ShapeMessage{shapeTypeName(shown.item.geometry->type), shown.item.geometry->size, {c[0], c[1], c[2], c[3]},
+        frame.shape = ShapeMessage{shapeTypeName(shown.item.geometry->type),
+                                   shown.item.geometry->size,
+                                   {c[0], c[1], c[2], c[3]},
                                    shown.mesh ? shown.mesh->number : -1};
       }
       scene.frames.push_back(frame);
@@ -284,7 +298,8 @@ std::vector<Outgoing> ShownScene::messagesSince(Seen& seen) const {
     out.push_back({std::make_shared<std::string>(std::move(data)), true});
   }
   if (look_revision_ > seen.revision) {
-    LookMessage look{look_.visuals_only, {}, {}, look_.shadows, look_.text, {}, look_.flat_colors, look_.wireframe, digits_, events_, cursor_};
+    LookMessage look{look_.visuals_only, {},      {},      look_.shadows, look_.text, {}, look_.flat_colors,
+                     look_.wireframe,    digits_, events_, cursor_};
     for (const Vector3d& light : look_.lights) look.lights.insert(look.lights.end(), light.begin(), light.end());
     if (look_.background) look.background.assign(look_.background->data(), look_.background->data() + 3);
     if (look_.floor) look.floor.assign(look_.floor->data(), look_.floor->data() + 3);

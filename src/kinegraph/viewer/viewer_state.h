@@ -10,7 +10,8 @@
 
 namespace kinegraph {
 
-/// What the program's threads and the server's thread share. The methods lock; whoever touches the fields locks `mutex`.
+/// What the program's threads and the server's thread share. The methods lock; whoever touches the fields locks
+/// `mutex`.
 struct ViewerState {
   mutable std::mutex mutex;
   std::condition_variable changed;  ///< a key was pressed, a client came

@@ -40,8 +40,8 @@ Reading readScene(const std::string& path) {
 
 }  // namespace
 
-void watchFile(Config& config, ConfigViewer& viewer, const std::string& path, const std::function<void(const std::string&)>& report,
-               const std::function<bool()>& stop) {
+void watchFile(Config& config, ConfigViewer& viewer, const std::string& path,
+               const std::function<void(const std::string&)>& report, const std::function<bool()>& stop) {
   viewer.setTitle(cat("ConfigView <", path, ">"));
   FileChanges changes;
   const auto load = [&] {
@@ -56,7 +56,8 @@ void watchFile(Config& config, ConfigViewer& viewer, const std::string& path, co
       for (const std::string& warning : reading.config.takeWarnings()) report(warning);
     } else {
       viewer.setError(reading.error);
-      viewer.setMessage(cat(path, "\nthe last scene without a mistake; waiting for the file to be mended; h: help, q: quit"));
+      viewer.setMessage(
+          cat(path, "\nthe last scene without a mistake; waiting for the file to be mended; h: help, q: quit"));
       report(reading.error);
     }
     viewer.update(config);
