@@ -72,7 +72,12 @@ export class Display {
     const alpha = shape.color[3] ?? 1;
     const opacity = this.on.has("xray") ? Math.min(alpha, XRAY_OPACITY) : alpha;
     object.material.needsUpdate = object.material.transparent !== opacity < 1;
-    Object.assign(object.material, { wireframe: this.wireframe || this.on.has("wireframe"), transparent: opacity < 1, opacity, depthWrite: opacity === 1 });
+    Object.assign(object.material, {
+      wireframe: this.wireframe || this.on.has("wireframe"),
+      transparent: opacity < 1,
+      opacity,
+      depthWrite: opacity === 1,
+    });
     object.castShadow = object.receiveShadow = opacity === 1;
   }
 

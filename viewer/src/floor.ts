@@ -1,6 +1,7 @@
 import * as THREE from "three";
 
-const SIZE = 60, SOLID = 10; // m
+const SIZE = 60,
+  SOLID = 10; // m
 
 const GRID = /* glsl */ `
 uniform vec3 ink;
@@ -34,7 +35,10 @@ function gridMaterial(ink: THREE.Color): THREE.Material {
     shader.uniforms.ink = { value: ink };
     shader.vertexShader = shader.vertexShader
       .replace("void main() {", "varying vec2 vFloor;\nvoid main() {")
-      .replace("#include <shadowmap_vertex>", THREE.ShaderChunk.shadowmap_vertex.replace(/ \+ vec4\( shadowWorldNormal[^;]*;/g, ";"))
+      .replace(
+        "#include <shadowmap_vertex>",
+        THREE.ShaderChunk.shadowmap_vertex.replace(/ \+ vec4\( shadowWorldNormal[^;]*;/g, ";"),
+      )
       .replace("#include <fog_vertex>", "#include <fog_vertex>\nvFloor = (modelMatrix * vec4(position, 1.0)).xy;");
     shader.fragmentShader = shader.fragmentShader
       .replace("void main() {", `${GRID}\nvoid main() {`)
@@ -43,12 +47,15 @@ function gridMaterial(ink: THREE.Color): THREE.Material {
   return material;
 }
 
-/** The floor at z = 0: catches shadows, and has lines every metre and every 0.2 m; x is red, y green. One thing to draw. */
+/** The floor at z = 0: catches shadows, and has lines every metre and every 0.2 m; x is red, y green. */
 export class Floor {
   readonly group = new THREE.Group();
   private readonly ink = new THREE.Color();
   private readonly grid = new THREE.Mesh(new THREE.PlaneGeometry(SIZE, SIZE), gridMaterial(this.ink));
-  private readonly solid = new THREE.Mesh(new THREE.PlaneGeometry(SOLID, SOLID), new THREE.MeshStandardMaterial({ roughness: 0.9 }));
+  private readonly solid = new THREE.Mesh(
+    new THREE.PlaneGeometry(SOLID, SOLID),
+    new THREE.MeshStandardMaterial({ roughness: 0.9 }),
+  );
 
   constructor() {
     this.grid.receiveShadow = true;

@@ -1,8 +1,10 @@
 import * as THREE from "three";
 
-const SUN = new THREE.Vector3(-2.5, 2.2, 4.5), FILL = new THREE.Vector3(3, -2, 2.5); // directions towards them
+const SUN = new THREE.Vector3(-2.5, 2.2, 4.5),
+  FILL = new THREE.Vector3(3, -2, 2.5); // directions towards them
 const CENTER = new THREE.Vector3(0, 0, 0.8); // what lights of the program shine at
-const LEAST_SHADOWED = 1, MOST_SHADOWED = 12; // m
+const LEAST_SHADOWED = 1,
+  MOST_SHADOWED = 12; // m
 
 /** The sky, a sun that casts shadows, and a weaker light from the other side; or those that the program says. */
 export class Lights {
@@ -28,12 +30,15 @@ export class Lights {
 
   /** `places` of lights, three numbers each; none: the usual ones. `flat`: colors as they are, without light. */
   setLook(places: readonly number[], flat: boolean, shadows: boolean): void {
-    const given = Array.from({ length: Math.floor(places.length / 3) }, (_, i) => new THREE.Vector3(...places.slice(3 * i)).sub(CENTER));
+    const given = Array.from({ length: Math.floor(places.length / 3) }, (_, i) =>
+      new THREE.Vector3(...places.slice(3 * i)).sub(CENTER),
+    );
     const [sun = SUN, ...others] = given.length > 0 ? given : [SUN, FILL];
     this.towards.copy(sun).normalize();
     this.others.clear();
     for (const place of others) {
-      const light = given.length > 0 ? new THREE.DirectionalLight(0xffffff, 1.2) : new THREE.DirectionalLight(0xe3ebff, 0.55);
+      const light =
+        given.length > 0 ? new THREE.DirectionalLight(0xffffff, 1.2) : new THREE.DirectionalLight(0xe3ebff, 0.55);
       light.position.copy(place);
       this.others.add(light);
     }
@@ -51,7 +56,14 @@ export class Lights {
     const { camera } = this.sun.shadow;
     this.sun.target.position.copy(center);
     this.sun.position.copy(center).addScaledVector(this.towards, 2 * reach);
-    Object.assign(camera, { left: -reach, right: reach, top: reach, bottom: -reach, near: 0.1 * reach, far: 4 * reach });
+    Object.assign(camera, {
+      left: -reach,
+      right: reach,
+      top: reach,
+      bottom: -reach,
+      near: 0.1 * reach,
+      far: 4 * reach,
+    });
     camera.updateProjectionMatrix();
   }
 }

@@ -9,7 +9,14 @@ import { keyCode, modifiersOf } from "./keys";
 import { Measure } from "./measure";
 import { InputEvents } from "./input";
 import { Memory } from "./memory";
-import { BinaryKind, keyCommand, type LookMessage, type MotionMessage, type ServerMessage, viewpointCommand } from "./messages";
+import {
+  BinaryKind,
+  keyCommand,
+  type LookMessage,
+  type MotionMessage,
+  type ServerMessage,
+  viewpointCommand,
+} from "./messages";
 import { Motion } from "./motion";
 import { NearLines } from "./near";
 import { Panel } from "./panel";
@@ -19,7 +26,12 @@ import { ShownScene } from "./shown";
 import { Stage } from "./stage";
 import { Timeline } from "./timeline";
 
-const PRESETS: Record<string, [number, number, number]> = { front: [1, 0, 0.001], side: [0, 1, 0.001], above: [0, -0.001, 1], aslant: [1, 1, 0.8] };
+const PRESETS: Record<string, [number, number, number]> = {
+  front: [1, 0, 0.001],
+  side: [0, 1, 0.001],
+  above: [0, -0.001, 1],
+  aslant: [1, 1, 0.8],
+};
 
 const recorded = recordedMessages();
 let connection: Connection | null = null;
@@ -45,7 +57,9 @@ let digits = false; // some switch what is drawn
 let messages = 0; // that have come
 let announced: MotionMessage | null = null; // its slices are still to come
 find("scale").textContent = "grid: 1 m, 0.2 m";
-find("presets").append(...Object.keys(PRESETS).map((name) => make("button", { textContent: name, onclick: () => lookFrom(name) })));
+find("presets").append(
+  ...Object.keys(PRESETS).map((name) => make("button", { textContent: name, onclick: () => lookFrom(name) })),
+);
 find("tab-joints").classList.toggle("fixed", recorded !== null);
 
 function lookFrom(preset: string): void {
@@ -176,7 +190,12 @@ stage.onClick((event) => {
 });
 
 const TURNS: Record<string, [number, number, number]> = {
-  ArrowLeft: [-0.1, 0, 1], ArrowRight: [0.1, 0, 1], ArrowUp: [0, 0.1, 1], ArrowDown: [0, -0.1, 1], PageUp: [0, 0, 1.15], PageDown: [0, 0, 1 / 1.15],
+  ArrowLeft: [-0.1, 0, 1],
+  ArrowRight: [0.1, 0, 1],
+  ArrowUp: [0, 0.1, 1],
+  ArrowDown: [0, -0.1, 1],
+  PageUp: [0, 0, 1.15],
+  PageDown: [0, 0, 1 / 1.15],
 };
 
 /** What Alt and a key do. */
@@ -207,14 +226,16 @@ function closeTopmost(): boolean {
 }
 
 /** Keys that people type into controls are not for the program. */
-const isTyping = (target: EventTarget | null): boolean => target instanceof HTMLElement && target.closest("input, select, summary, button") !== null;
+const isTyping = (target: EventTarget | null): boolean =>
+  target instanceof HTMLElement && target.closest("input, select, summary, button") !== null;
 const leaveControls = (): void => (document.activeElement as HTMLElement | null)?.blur();
 
 addEventListener("keydown", (event) => {
   if (input.blocks) return;
   if (event.altKey && takeAlt(event.code)) return event.preventDefault();
   if (event.key === "Escape" && closeTopmost()) return;
-  if (event.key === "Tab" && (panel.isOpen || selection.selected !== null || timeline.current)) return; // moves on between controls
+  const hasControls = panel.isOpen || selection.selected !== null || timeline.current !== null;
+  if (event.key === "Tab" && hasControls) return; // moves on between them
   if (isTyping(event.target)) return;
   if (event.key === "?") return help.toggle();
   if (event.key === "Home") return stage.home();
@@ -227,7 +248,8 @@ addEventListener("keydown", (event) => {
   if (["Tab", "Backspace", " ", "'", "/"].includes(event.key) || event.key.startsWith("Arrow")) event.preventDefault();
 });
 stage.canvas.addEventListener("pointerdown", leaveControls);
-for (const button of document.querySelectorAll("body > button")) button.addEventListener("click", () => (button as HTMLElement).blur());
+for (const button of document.querySelectorAll("body > button"))
+  button.addEventListener("click", () => (button as HTMLElement).blur());
 
 /** For tests: what is on the page. */
 Object.assign(window, {

@@ -15,7 +15,10 @@ export class Memory {
   private key = "";
   private cameraIsGiven = false;
 
-  constructor(private readonly stage: Stage, private readonly display: Display) {
+  constructor(
+    private readonly stage: Stage,
+    private readonly display: Display,
+  ) {
     stage.onMove(() => this.save());
   }
 
@@ -44,7 +47,11 @@ export class Memory {
     const storage = this.storage();
     if (!storage || this.key === "") return;
     const numbers = (v: Vector3): number[] => v.toArray();
-    const now: Remembered = { position: numbers(this.stage.camera.position), target: numbers(this.stage.viewpoint.target), on: [...this.display.on] };
+    const now: Remembered = {
+      position: numbers(this.stage.camera.position),
+      target: numbers(this.stage.viewpoint.target),
+      on: [...this.display.on],
+    };
     const keys = Object.keys(storage).filter((key) => key.startsWith("kinegraph "));
     if (keys.length >= MOST && !keys.includes(this.key)) storage.removeItem(keys[0]!);
     storage.setItem(this.key, JSON.stringify(now));

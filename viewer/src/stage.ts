@@ -16,12 +16,19 @@ export interface Hit {
 
 const SHADOW_PERIOD = 3; // pictures
 const FIRST_VIEW: CameraMessage = {
-  kind: "camera", pose: [1.5, 2.6, 1.8, -0.15442, 0.20751, 0.77494, -0.57667], distance: 3.134, focal: 0, ortho: 0, aspect: 1, // towards (0, 0, 0.9)
+  kind: "camera",
+  pose: [1.5, 2.6, 1.8, -0.15442, 0.20751, 0.77494, -0.57667],
+  distance: 3.134,
+  focal: 0,
+  ortho: 0,
+  aspect: 1, // towards (0, 0, 0.9)
 };
-const LEFT = 0, RIGHT = 2; // buttons
+const LEFT = 0,
+  RIGHT = 2; // buttons
 const STILL = 5; // pixels: a pointer that moves less has clicked
 
-const colorOf = (rgb: number[]): THREE.Color => new THREE.Color().setRGB(rgb[0]!, rgb[1]!, rgb[2]!, THREE.SRGBColorSpace);
+const colorOf = (rgb: number[]): THREE.Color =>
+  new THREE.Color().setRGB(rgb[0]!, rgb[1]!, rgb[2]!, THREE.SRGBColorSpace);
 
 /** Colors are shown as they are given; only what is brighter than 0.8 bends towards white, which keeps shades in it. */
 function bentAtWhite(): THREE.ToneMapping {
@@ -30,7 +37,8 @@ function bentAtWhite(): THREE.ToneMapping {
     /* glsl */ `vec3 CustomToneMapping(vec3 color) {
       float peak = max(color.r, max(color.g, color.b));
       return peak < 0.8 ? color : color * (1.0 - 0.04 / (peak - 0.6)) / peak;
-    }`);
+    }`,
+  );
   return THREE.CustomToneMapping;
 }
 
@@ -63,7 +71,11 @@ export class Stage {
     this.renderer.toneMapping = bentAtWhite();
     this.labels.domElement.className = "labels";
     canvas.after(this.labels.domElement);
-    this.viewpoint = new Viewpoint(canvas, () => (this.dirty = true), () => this.moves.forEach((move) => move()));
+    this.viewpoint = new Viewpoint(
+      canvas,
+      () => (this.dirty = true),
+      () => this.moves.forEach((move) => move()),
+    );
     this.scene.add(this.lights.group);
     this.fitShadows();
     this.scene.add(this.frames, this.floor.group);
@@ -169,13 +181,23 @@ export class Stage {
 
   /** What is to be seen at a place of the canvas. */
   pick(event: MouseEvent): Hit | null {
-    const at = new THREE.Vector2((2 * event.offsetX) / this.canvas.clientWidth - 1, 1 - (2 * event.offsetY) / this.canvas.clientHeight);
+    const at = new THREE.Vector2(
+      (2 * event.offsetX) / this.canvas.clientWidth - 1,
+      1 - (2 * event.offsetY) / this.canvas.clientHeight,
+    );
     const ray = new THREE.Raycaster();
     ray.layers.enableAll();
     ray.setFromCamera(at, this.camera);
-    const hit = ray.intersectObject(this.frames, true).find(({ object }) => object instanceof THREE.Mesh && isSeen(object));
+    const hit = ray
+      .intersectObject(this.frames, true)
+      .find(({ object }) => object instanceof THREE.Mesh && isSeen(object));
     for (let object = hit?.object ?? null; object; object = object.parent) {
-      if (typeof object.userData.id === "number") return { id: object.userData.id, point: hit!.point, normal: hit!.face!.normal.clone().transformDirection(hit!.object.matrixWorld) };
+      if (typeof object.userData.id === "number")
+        return {
+          id: object.userData.id,
+          point: hit!.point,
+          normal: hit!.face!.normal.clone().transformDirection(hit!.object.matrixWorld),
+        };
     }
     return null;
   }

@@ -5,13 +5,15 @@ import type { CameraMessage } from "./messages";
 export type Camera = THREE.PerspectiveCamera | THREE.OrthographicCamera;
 
 const OWN_FOCAL = 0.5 / Math.tan(THREE.MathUtils.degToRad(20)); // in heights of the picture
-const NEAR = 0.01, FAR = 200; // m
+const NEAR = 0.01,
+  FAR = 200; // m
 const DISTANCE = 1.5; // m: of what a page turns about, if it is told nothing
 
 /** The camera's axes are x to the right, y down, z forward, and those of three.js x to the right, y up, z backward. */
 const FLIP = new THREE.Quaternion(1, 0, 0, 0);
 
-const fromWxyz = ([w = 1, x = 0, y = 0, z = 0]: number[]): THREE.Quaternion => new THREE.Quaternion(x, y, z, w).normalize();
+const fromWxyz = ([w = 1, x = 0, y = 0, z = 0]: number[]): THREE.Quaternion =>
+  new THREE.Quaternion(x, y, z, w).normalize();
 
 /** Where the scene is looked at from, in perspective or orthographic, upright or rolled; and how people change that. */
 export class Viewpoint {
@@ -27,7 +29,11 @@ export class Viewpoint {
   private readonly watchers: ((camera: Camera) => void)[] = [];
 
   /** `changed`: the picture is another one. `moved`: a person has moved the camera. */
-  constructor(canvas: HTMLCanvasElement, changed: () => void, private readonly moved: () => void) {
+  constructor(
+    canvas: HTMLCanvasElement,
+    changed: () => void,
+    private readonly moved: () => void,
+  ) {
     for (const camera of [this.perspective, this.orthographic]) camera.up.set(0, 0, 1);
     this.controls = new OrbitControls(this.perspective, canvas);
     const update = this.controls.update.bind(this.controls);
@@ -64,7 +70,10 @@ export class Viewpoint {
     this.orthographic.zoom = 1;
     const rotation = fromWxyz(pose.slice(3)).multiply(FLIP);
     this.camera.position.fromArray(pose);
-    this.target.set(0, 0, -(distance > 0 ? distance : DISTANCE)).applyQuaternion(rotation).add(this.camera.position);
+    this.target
+      .set(0, 0, -(distance > 0 ? distance : DISTANCE))
+      .applyQuaternion(rotation)
+      .add(this.camera.position);
     this.roll = 0;
     this.controls.update();
     const turn = this.camera.quaternion.clone().invert().multiply(rotation);
@@ -98,7 +107,8 @@ export class Viewpoint {
     const { position } = this.camera;
     const away = position.clone().sub(this.target);
     const height = THREE.MathUtils.clamp(Math.asin(away.z / away.length()) + up, -1.55, 1.55);
-    const around = Math.atan2(away.y, away.x) + right, distance = away.length() / (this.height > 0 ? 1 : nearer);
+    const around = Math.atan2(away.y, away.x) + right,
+      distance = away.length() / (this.height > 0 ? 1 : nearer);
     position.set(Math.cos(around) * Math.cos(height), Math.sin(around) * Math.cos(height), Math.sin(height));
     position.multiplyScalar(distance).add(this.target);
     this.orthographic.zoom *= nearer;
