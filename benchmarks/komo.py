@@ -13,6 +13,7 @@ Each round starts one process per package, in turns, and both run the same scrip
                   collisions in any slice; 20 problems for T = 32
     slice T       the time of `reach T` per evaluation and slice: what one Newton step costs for one slice
     10 phases     ten positions, one after the other, 32 slices each
+    ... to 1 mm   the same two, the reference with `stopTolerance` 1e-3: as it is, many of its paths miss 1 mm
     build         a KOMO of 1000 slices with three objectives, and its NLP
 
 Times of `ik` and `kept` are wall times, the others processor times. They are compared as ratios within a round, so that a
@@ -109,22 +110,34 @@ def makeProblems(ry, np, task):
 
 def measure(ry, np, task):
     times, counts = {}, {}
+    is_kinegraph = hasattr(ry, "solveIk")
+    exact = {} if is_kinegraph else {"stopTolerance": 1e-3}
     times["ik"], counts["ik"] = timeTutorial(ry, np, task["targets"], False)
     times["ik free"], counts["ik free"] = timeTutorial(ry, np, task["targets"], True)
-    if hasattr(ry, "solveIk"):  # Kinegraph
+    if is_kinegraph:
         times["kept"], counts["kept"] = timeKept(ry, np, task["targets"])
     paths, evaluations = [], {}
     C = reachScene(ry)
+
+    def keepReach(row, problems, slices, options):
+        runs = [timeReach(ry, C, problem, slices, options) for problem in problems]
+        times[row] = [r["time"] for r in runs]
+        evaluations[row] = [r["evaluations"] for r in runs]
+        paths.extend({"row": row, "path": r["path"], **p} for r, p in zip(runs, problems))
+        return runs
+
+    def keepPhases(row, options):
+        run = timePhases(ry, np, C, task["problems"][0], options)
+        times[row], evaluations[row] = [run["time"]], [run["evaluations"]]
+        paths.append({"row": row, "path": run["path"], "goals": run["goals"], **task["problems"][0]})
+
     for slices in task["lengths"]:
         problems = task["problems"] if slices == 32 else task["problems"][: 4 if slices <= 128 else 2]
-        runs = [timeReach(ry, C, problem, slices) for problem in problems]
-        times[f"reach {slices}"] = [r["time"] for r in runs]
+        runs = keepReach(f"reach {slices}", problems, slices, {})
         times[f"slice {slices}"] = [r["time"] / r["evaluations"] / slices for r in runs]
-        evaluations[f"reach {slices}"] = [r["evaluations"] for r in runs]
-        paths += [{"row": f"reach {slices}", "path": r["path"], **p} for r, p in zip(runs, problems)]
-    run = timePhases(ry, np, C, task["problems"][0])
-    times["10 phases"], evaluations["10 phases"] = [run["time"]], [run["evaluations"]]
-    paths.append({"row": "10 phases", "path": run["path"], "goals": run["goals"], **task["problems"][0]})
+    keepReach("reach 32 to 1 mm", task["problems"], 32, exact)
+    keepPhases("10 phases", {})
+    keepPhases("10 phases to 1 mm", exact)
     times["build"], megabytes = timeBuild(ry, C)
     return {"times": times, "evaluations": evaluations, "paths": paths, "megabytes": megabytes, "feasible": counts}
 
@@ -196,18 +209,21 @@ def pathKomo(ry, C, phases, slices):
     return komo
 
 
-def timeReach(ry, C, problem, slices):
+def timeReach(ry, C, problem, slices, options):
     place(C, problem)
     C.setJointState(Q_HOME)
     start = process_time()
     komo = pathKomo(ry, C, 1, slices)
     komo.addObjective([1.0], ry.FS.positionDiff, ["l_gripper", "goal"], ry.OT.eq, [1e1])
-    answer = ry.NLP_Solver(komo.nlp(), verbose=0).solve()
+    solver = ry.NLP_Solver(komo.nlp(), verbose=0)
+    if options:
+        solver.setOptions(verbose=0, **options)
+    answer = solver.solve()
     path = komo.getPath()
     return {"time": process_time() - start, "evaluations": answer.evals, "path": path.tolist()}
 
 
-def timePhases(ry, np, C, problem):
+def timePhases(ry, np, C, problem, options):
     place(C, problem)
     C.setJointState(Q_HOME)
     gripper = np.array(C.getFrame("l_gripper").getPosition())
@@ -216,7 +232,10 @@ def timePhases(ry, np, C, problem):
     komo = pathKomo(ry, C, PHASES, 32)
     for i, goal in enumerate(goals):
         komo.addObjective([i + 1.0], ry.FS.position, ["l_gripper"], ry.OT.eq, [1e1], goal)
-    answer = ry.NLP_Solver(komo.nlp(), verbose=0).solve()
+    solver = ry.NLP_Solver(komo.nlp(), verbose=0)
+    if options:
+        solver.setOptions(verbose=0, **options)
+    answer = solver.solve()
     path = komo.getPath()
     seconds = process_time() - start
     return {"time": seconds, "evaluations": answer.evals, "path": path.tolist(), "goals": [g.tolist() for g in goals]}
@@ -300,14 +319,14 @@ def machine():
 
 def printTable(reports, good):
     print(
-        f"{'µs':12}{'reference':>12}{'kinegraph':>12}{'ratio':>8}{'over the rounds':>18}{'evaluations':>14}{'good':>16}"
+        f"{'µs':18}{'reference':>12}{'kinegraph':>12}{'ratio':>8}{'over the rounds':>18}{'evaluations':>14}{'good':>16}"
     )
     for row in [*reports["kinegraph"][0]["times"]]:
         values = {}
         for who, runs in reports.items():
             key = row if row in runs[0]["times"] else "ik"  # `kept` has none
             values[who] = [statistics.median(r["times"][key]) for r in runs]
-        line = f"{row:12}"
+        line = f"{row:18}"
         middle = {who: 1e6 * statistics.median(v) for who, v in values.items()}
         line += f"{middle['reference']:12.1f}" if "reference" in middle else f"{'':12}"
         line += f"{middle['kinegraph']:12.1f}"

@@ -97,6 +97,7 @@ void checkSamples(Residual& residual, const Config& config, Rng& rng, const std:
     residual.eval(view, kTau, y, nullptr);
     return y;
   };
+  MatrixXd first;
   for (int sample = 0; sample < kSamples; ++sample) {
     VectorXd x(slices * n);
     for (int t = 0; t < slices; ++t) x.segment(t * n, n) = randomJoints(config, rng);
@@ -112,6 +113,8 @@ void checkSamples(Residual& residual, const Config& config, Rng& rng, const std:
     residual.eval(view, kTau, y, &rows);
     EXPECT_EQ(y, without_jacobian) << what;
     EXPECT_LE(relativeError(J, numeric.D), kTolerance) << what << ", sample " << sample;
+    if (first.size() == 0) first = J;
+    if (residual.isLinear()) EXPECT_EQ(J, first) << what;
     if (J.size() > 0) count.largest = std::max(count.largest, J.cwiseAbs().maxCoeff());
   }
 }

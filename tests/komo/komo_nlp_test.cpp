@@ -48,6 +48,24 @@ TEST(KomoNlp, SeparatesSumsOfOverlapsIntoPairsAndJoinsThemAgain) {
   EXPECT_TRUE(overlaps);
 }
 
+TEST(KomoNlp, HasTheJacobianOfDifferencesWithLinearRowsAsTheyWereMade) {
+  const auto komo = slidingBalls();
+  komo->addControlObjective({}, 0, 1e-2);
+  komo->addObjective({}, FeatureSymbol::positionDiff, {"a", "wall"}, ObjectiveType::sos, MatrixXd::Constant(1, 1, 2.), {}, 1);
+  const auto nlp = makeNlp(komo);
+  const int rows = int(nlp->types().size());
+  int linear = 0;
+  for (int row = 0; row < rows; ++row) linear += nlp->isLinear(row);
+  EXPECT_GT(linear, 0);
+  EXPECT_LT(linear, rows);
+  Rng rng(5);
+  for (int trial = 0; trial < 5; ++trial) {
+    VectorXd x(nlp->dimension());
+    for (double& value : x) value = rng.uniform(.6, 1.5);  // clear of the wall
+    EXPECT_LT(checkJacobian(*nlp, x).error, 1e-6);
+  }
+}
+
 TEST(KomoNlp, HasNothingToSeparateWhereNoSumIsDemandedToBeZero) {
   EXPECT_FALSE(makeNlp(slidingBalls(ObjectiveType::sos))->separation().problem);
 }

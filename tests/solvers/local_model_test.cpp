@@ -56,10 +56,12 @@ TEST(LocalModel, TheStepThatItFindsIsTheLeastInTheBox) {
     VectorXd phi;
     const VectorXd x = VectorXd::Zero(Case::kVariables);
     nlp.evaluate(x, phi, &J);
-    LocalModel model(nlp, {0, 1, 2, 3, 4}, {5, 6, 7, 8});
-    model.setCosts(nlp, x, phi, J);
+    LocalModel model(nlp, J, {0, 1, 2, 3, 4}, {5, 6, 7, 8});
+    model.setJacobian(J);
+    model.setCosts(nlp, x, phi);
     const double mu = 3., shift = .1;
-    const VectorXd d = model.minimize({phi, J, c.lambda, mu, shift, c.low, c.high, 12});
+    const VectorXd constraints = phi.tail(4);
+    const VectorXd d = model.minimize({constraints, c.lambda, mu, shift, c.low, c.high, 12});
     EXPECT_TRUE((d.array() >= c.low.array()).all() && (d.array() <= c.high.array()).all());
     EXPECT_TRUE(near(model.linearized(), (c.b + c.A * d).tail(4), 1e-12));
     const double least = c.value(d, mu, shift);
@@ -98,9 +100,11 @@ TEST(LocalModel, GoesDownAlsoWhereTheCurvatureIsNegative) {
   VectorXd phi;
   const VectorXd x = Eigen::Vector2d(.25, .5), low = nlp.lower() - x, high = nlp.upper() - x;
   nlp.evaluate(x, phi, &J);
-  LocalModel model(nlp, {0}, {});
-  model.setCosts(nlp, x, phi, J);
-  const VectorXd d = model.minimize({phi, J, VectorXd(), 1., 0., low, high, 12});
+  LocalModel model(nlp, J, {0}, {});
+  model.setJacobian(J);
+  model.setCosts(nlp, x, phi);
+  const VectorXd none;
+  const VectorXd d = model.minimize({none, none, 1., 0., low, high, 12});
   EXPECT_EQ(d, high);
   EXPECT_NEAR(model.costChange(), -1.5 + .5 * .25 * .25 + .5 * .5, 1e-12);
 }
@@ -116,9 +120,11 @@ TEST(LocalModel, FactorizesOnlyWhereTheActiveRowsChange) {
   VectorXd phi;
   const VectorXd x = VectorXd::Zero(Case::kVariables), far = VectorXd::Constant(Case::kVariables, 1e3);
   nlp.evaluate(x, phi, &J);
-  LocalModel model(nlp, {0, 1, 2, 3, 4, 5, 6, 7, 8}, {});
-  model.setCosts(nlp, x, phi, J);
-  const VectorXd d = model.minimize({phi, J, VectorXd(), 1., 0., -far, far, 12});
+  LocalModel model(nlp, J, {0, 1, 2, 3, 4, 5, 6, 7, 8}, {});
+  model.setJacobian(J);
+  model.setCosts(nlp, x, phi);
+  const VectorXd none;
+  const VectorXd d = model.minimize({none, none, 1., 0., -far, far, 12});
   EXPECT_TRUE(near(d, c.A.colPivHouseholderQr().solve(-c.b), 1e-10));
   EXPECT_EQ(model.factorizations(), 1);
 }

@@ -32,6 +32,22 @@ TEST(NlpSolver, ASecondSolveGoesOnFromTheFirst) {
   EXPECT_TRUE(near(second.x, problem.optimum, 1e-3));
 }
 
+TEST(NlpSolver, SolvesInMemoryThatItHasUsedAsInNewMemory) {
+  for (const KnownProblem& problem : knownProblems()) {
+    NlpSolver solver = quiet(problem);
+    Rng rng(0);
+    solver.setInitialization(problem.start);
+    const SolverResult first = solver.solve(false, rng);
+    solver.setInitialization(problem.start + VectorXd::Constant(problem.start.size(), .1));
+    const SolverResult other = solver.solve(false, rng);
+    solver.setInitialization(problem.start);
+    const SolverResult again = solver.solve(false, rng);
+    EXPECT_EQ(again.x, first.x) << problem.name;
+    EXPECT_EQ(again.dual, first.dual) << problem.name;
+    EXPECT_EQ(again.evals - other.evals, first.evals) << problem.name;
+  }
+}
+
 TEST(NlpSolver, StartsAfreshFromAnInitializationOrASample) {
   const KnownProblem problem = byName("HS71");
   NlpSolver solver = quiet(problem);

@@ -117,7 +117,8 @@ TEST(QuadraticPrograms, AreSolvedToEightDigits) {
     const SolverResult result = solveAugmentedLagrangian(program, VectorXd::Zero(program.dimension()), precise());
     EXPECT_EQ(result.status, SolverStatus::converged) << i << ", " << program.text() << ": " << result.message;
     EXPECT_TRUE(near(result.x, program.solution, 1e-8)) << i << ", " << program.text();
-    EXPECT_LT(program.pull(result.dual - program.multipliers).norm(), 1e-3) << i << ", " << program.text();
+    EXPECT_LT(program.pull(result.dual - program.multipliers).norm(), 1e-8) << i << ", " << program.text();
+    EXPECT_EQ(result.evals, 2) << "the start, and the solution: " << i << ", " << program.text();
   }
 }
 
@@ -126,26 +127,48 @@ TEST(QuadraticPrograms, WithRowsThatRepeatEachOtherAndConstraintsThatBarelyTouch
   for (int i = 0; i < 200; ++i) {
     KnownProgram program(rng, i % 2 == 0, true);
     const SolverResult result = solveAugmentedLagrangian(program, VectorXd::Zero(program.dimension()), precise());
-    EXPECT_TRUE(near(result.x, program.solution, 5e-8)) << i << ", " << program.text() << ": " << result.message;
+    EXPECT_TRUE(near(result.x, program.solution, 1e-8)) << i << ", " << program.text() << ": " << result.message;
+    EXPECT_LT(program.pull(result.dual - program.multipliers).norm(), 1e-8) << i << ", " << program.text();
+    EXPECT_EQ(result.evals, 2) << i << ", " << program.text();
   }
 }
 
-TEST(QuadraticPrograms, WithoutConstraintsTakeOneStepWithoutDamping) {
+TEST(QuadraticPrograms, WithoutConstraintsTakeOneStepOfAnyLength) {
   Rng rng(8);
-  for (int i = 0; i < 20; ++i) {
-    const int n = 1 + i % 7;
-    const MatrixXd A = randomMatrix(n + 2, n, rng);
-    const VectorXd b = randomMatrix(n + 2, 1, rng);
+  for (const int n : {1, 2, 5, 40, 300}) {
+    const MatrixXd A = randomMatrix(n + 2, n, rng) + 20. * MatrixXd::Identity(n + 2, n);
+    const VectorXd b = 100. * randomMatrix(n + 2, 1, rng);
     CallbackNlp nlp(n, std::vector<ObjectiveType>(std::size_t(n) + 2, sos), {}, {}, [&](const VectorXd& x, VectorXd& phi, MatrixXd& J) {
       phi = A * x - b;
       J = A;
     });
     SolverOptions options;
-    options.damping = 0.;
-    options.stepMax = 1e3;
+    options.verbose = 0;
     const SolverResult result = solveAugmentedLagrangian(nlp, VectorXd::Zero(n), options);
     EXPECT_EQ(result.status, SolverStatus::converged);
     EXPECT_TRUE(near(result.x, (A.transpose() * A).ldlt().solve(A.transpose() * b), 1e-9));
     EXPECT_EQ(result.evals, 2) << "the start, and the solution";
   }
+}
+
+TEST(QuadraticPrograms, WhoseCostsLeaveVariablesOpenStayNearTheStartInThem) {
+  // min (x0 + x1 - 2)^2 subject to x2 >= 1, from (3, 0, 0, 5)
+  CallbackNlp nlp(4, {sos, ineq}, {}, {}, [](const VectorXd& x, VectorXd& phi, MatrixXd& J) {
+    phi << x[0] + x[1] - 2., 1. - x[2];
+    J << 1., 1., 0., 0., 0., 0., -1., 0.;
+  });
+  const SolverResult result = solveAugmentedLagrangian(nlp, Eigen::Vector4d(3., 0., 0., 5.), precise());
+  EXPECT_EQ(result.evals, 2);
+  EXPECT_TRUE(near(result.x, Eigen::Vector4d(2.5, -.5, 1., 5.), 1e-8));
+}
+
+TEST(QuadraticPrograms, ThatAreNotQuadraticCostOneEvaluationMore) {
+  const auto curved = [](const VectorXd& x, VectorXd& phi, MatrixXd& J) {
+    phi << x[0] * x[0] - 2.;
+    J << 2. * x[0];
+  };
+  CallbackNlp nlp(1, {eq}, {}, {}, curved);
+  const SolverResult result = solveAugmentedLagrangian(nlp, VectorXd::Ones(1), precise());
+  EXPECT_EQ(result.status, SolverStatus::converged);
+  EXPECT_NEAR(result.x[0], std::sqrt(2.), 1e-10);
 }

@@ -10,6 +10,13 @@
 
 namespace kinegraph {
 
+void appendNumber(std::string& text, double value) {
+  std::array<char, 32> buffer;
+  const auto [end, error] = std::to_chars(buffer.data(), buffer.data() + buffer.size(), value, std::chars_format::general, 6);
+  (void)error;
+  text.append(buffer.data(), end);
+}
+
 std::string exact(double value) {
   std::array<char, 32> buffer;
   const auto [end, error] = std::to_chars(buffer.data(), buffer.data() + buffer.size(), value);

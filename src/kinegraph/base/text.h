@@ -3,16 +3,38 @@
 #include <sstream>
 #include <string>
 #include <string_view>
+#include <type_traits>
 #include <vector>
 
 namespace kinegraph {
 
+/// Appends a number with six digits, as streams write it.
+void appendNumber(std::string& text, double value);
+
+/// Appends what streams.
+template <class T>
+void appendText(std::string& text, const T& value) {
+  if constexpr (std::is_convertible_v<const T&, std::string_view>) {
+    text += std::string_view(value);
+  } else if constexpr (std::is_same_v<T, char>) {
+    text += value;
+  } else if constexpr (std::is_floating_point_v<T>) {
+    appendNumber(text, value);
+  } else if constexpr (std::is_same_v<T, int> || std::is_same_v<T, long> || std::is_same_v<T, std::size_t>) {
+    text += std::to_string(value);
+  } else {
+    std::ostringstream out;
+    out << value;
+    text += out.str();
+  }
+}
+
 /// Concatenates anything that streams.
 template <class... Args>
 std::string cat(const Args&... args) {
-  std::ostringstream out;
-  (out << ... << args);
-  return out.str();
+  std::string text;
+  (appendText(text, args), ...);
+  return text;
 }
 
 /// The shortest decimal text that reads back as exactly `value`.

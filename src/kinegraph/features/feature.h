@@ -29,6 +29,9 @@ class Feature {
   /// nearer one.
   virtual int quaternionRow() const { return -1; }
 
+  /// Is the Jacobian the same in all configurations?
+  virtual bool isLinear() const { return false; }
+
   /// Adds rows() rows to `list` with the same value and Jacobian, so that many configurations are evaluated at once; false,
   /// and nothing added, where the feature is not made of what LaneRows::Block has.
   virtual bool addLaneRows(LaneRowList& list) const {

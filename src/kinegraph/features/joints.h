@@ -12,6 +12,7 @@ class JointState final : public Feature {
   explicit JointState(std::vector<int> dofs) : dofs_(std::move(dofs)) {}
 
   int rows() const override { return int(dofs_.size()); }
+  bool isLinear() const override { return true; }
   void eval(std::span<const State* const> states, double tau, Eigen::Ref<VectorXd> y, JacobianRows* J) const override;
   bool addLaneRows(LaneRowList& list) const override;
 
@@ -25,6 +26,7 @@ class JointLimits final : public Feature {
   JointLimits(const std::vector<int>& dofs, const Program& program);
 
   int rows() const override { return 2 * int(limited_.size()); }
+  bool isLinear() const override { return true; }
   void eval(std::span<const State* const> states, double tau, Eigen::Ref<VectorXd> y, JacobianRows* J) const override;
   bool addLaneRows(LaneRowList& list) const override;
 

@@ -24,6 +24,9 @@ class Residual {
   /// Number of configurations that eval takes, minus one.
   int order() const { return feature_->order() + differences_; }
 
+  /// Is the Jacobian the same in all configurations?
+  bool isLinear() const { return feature_->isLinear() && feature_->quaternionRow() < 0; }
+
   /// In the outermost difference, divides by sqrt(tau) in place of tau: sums of squares then approximate time integrals.
   void setTimeIntegral(bool on) { time_integral_ = on; }
 

@@ -14,9 +14,11 @@ BodyPairs::BodyPairs(const Program& program, const std::vector<std::pair<int, in
     return place[frame];
   };
   pairs.reserve(frame_pairs.size());
+  reach.reserve(frame_pairs.size());
   for (const auto& [a, b] : frame_pairs) {
     const int place_a = body(a);
     pairs.emplace_back(place_a, body(b));
+    reach.push_back(bodies[pairs.back().first]->boundRadius() + bodies[pairs.back().second]->boundRadius());
   }
 }
 
@@ -29,16 +31,11 @@ void PlacedBodies::place(const State& state) {
   }
 }
 
-bool PlacedBodies::mayBeNear(int pair, double margin) {
-  const auto [a, b] = pairs_->pairs[pair];
-  const CollisionBody &body_a = *pairs_->bodies[a], &body_b = *pairs_->bodies[b];
-  const Vector3d &center_a = placed_[a].center, &center_b = placed_[b].center;
-  const double reach = body_a.boundRadius() + body_b.boundRadius() + margin;
-  if (reach < 0.) return true;  // a depth that spheres say nothing about
-  if ((center_a - center_b).squaredNorm() > reach * reach) return false;
+bool PlacedBodies::coresMayBeNear(int a, int b, double margin) {
   if (margin < 0.) return true;  // a centre inside of a core is at 0, however deep
-  if (pointToCore(body_a, pose(a), center_b) > body_a.radius() + body_b.boundRadius() + margin) return false;
-  return pointToCore(body_b, pose(b), center_a) <= body_b.radius() + body_a.boundRadius() + margin;
+  const CollisionBody &body_a = *pairs_->bodies[a], &body_b = *pairs_->bodies[b];
+  if (pointToCore(body_a, pose(a), placed_[b].center) > body_a.radius() + body_b.boundRadius() + margin) return false;
+  return pointToCore(body_b, pose(b), placed_[a].center) <= body_b.radius() + body_a.boundRadius() + margin;
 }
 
 NearPairs::NearPairs(std::shared_ptr<const Program> program) : program_(std::move(program)) {

@@ -19,6 +19,7 @@ struct BodyPairs {
   std::vector<int> frames;                                   ///< ids
   std::vector<std::shared_ptr<const CollisionBody>> bodies;  ///< of those frames
   std::vector<std::pair<int, int>> pairs;                    ///< places in `frames`
+  std::vector<double> reach;                                 ///< per pair: sum of the radii of bounding spheres
 };
 
 /// The bodies of pairs where a State puts them. Before a pair's exact distance is computed, bounds may show
@@ -40,9 +41,16 @@ class PlacedBodies {
   }
 
   /// May the pair be nearer than `margin`, or that near? False is certain.
-  bool mayBeNear(int pair, double margin);
+  bool mayBeNear(int pair, double margin) {
+    const auto [a, b] = pairs_->pairs[pair];
+    const double reach = pairs_->reach[pair] + margin;
+    if (reach < 0.) return true;  // a depth that spheres say nothing about
+    return (placed_[a].center - placed_[b].center).squaredNorm() <= reach * reach && coresMayBeNear(a, b, margin);
+  }
 
  private:
+  bool coresMayBeNear(int a, int b, double margin);
+
   struct Placed {
     Vector3d center;  ///< of the bounding sphere
     RigidTransform pose;

@@ -53,7 +53,8 @@ void Komo::build() {
   states_.reserve(std::size_t(slices_ + order_));
   State first(program_, parameters_);
   first.setJoints(start_.data());
-  for (int i = 0; i < slices_ + order_; ++i) states_.push_back(first);
+  for (int i = 1; i < slices_ + order_; ++i) states_.push_back(first);
+  states_.push_back(std::move(first));
   mode_of_.assign(states_.size(), 0);
   layout_ = makeLayout(states_, order_, stable_, modes_, mode_of_);
   ++structure_revision_;

@@ -28,13 +28,20 @@ class KomoNlp final : public Nlp {
 
   const std::shared_ptr<Komo>& komo() const { return komo_; }
 
-  Jacobian makeJacobian() const override { return problem_.makeJacobian(); }
+  Jacobian makeJacobian() const override {
+    requireStructure();
+    return problem_.makeJacobian(*komo_);
+  }
+
+  bool isLinear(int row) const override { return problem_.isLinear(row); }
 
   void evaluate(const VectorXd& x, VectorXd& phi, Jacobian* J) override {
     requireStructure();
     komo_->setVariables(x);
     problem_.evaluate(*komo_, phi, J);
   }
+
+  bool mayBeQuadratic() const override { return problem_.isLinear(); }
 
   /// Overlaps of pairs in place of their sum.
   Separation separation() override {

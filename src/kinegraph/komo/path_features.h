@@ -19,6 +19,7 @@ class JointsOfFrames final : public Feature {
   explicit JointsOfFrames(std::vector<Part> parts);
 
   int rows() const override { return rows_; }
+  bool isLinear() const override { return true; }
   void eval(std::span<const State* const> states, double tau, Eigen::Ref<VectorXd> y, JacobianRows* J) const override;
 
  private:

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <map>
+#include <optional>
 
 namespace kinegraph {
 
@@ -22,7 +23,6 @@ PathProblem::PathProblem(const Komo& komo, std::vector<Komo::Objective> objectiv
     : objectives_(std::move(objectives)), dimension_(komo.layout().dimension) {
   const PathLayout& layout = komo.layout();
   for (int t = -komo.order(); t < komo.slices(); ++t) widest_state_ = std::max(widest_state_, komo.state(t).dofs());
-  std::size_t workspace = 0;
   for (std::size_t o = 0; o < objectives_.size(); ++o) {
     const Komo::Objective& objective = objectives_[o];
     const bool varies = !layout.plain && dependsOnDofs(objective.feature);
@@ -39,12 +39,22 @@ PathProblem::PathProblem(const Komo& komo, std::vector<Komo::Objective> objectiv
       terms_.push_back({int(o), t, place->second, int(types_.size()), rows, int(runs_.size()), 0});
       segments_.emplace_back();
       layOut(komo, terms_.back(), segments_.back());
+      width_.push_back(0);
+      for (const auto& segment : segments_.back()) width_.back() += segment.second;
       types_.insert(types_.end(), rows, objective.type);
-      workspace = std::max(workspace, std::size_t(rows) * (objective.order + 1) * widest_state_);
     }
   }
-  window_jacobian_.resize(workspace);
-  window_.resize(std::size_t(komo.order()) + 1);
+  workspace_ = makeWorkspace();
+}
+
+PathProblem::Workspace PathProblem::makeWorkspace() const {
+  std::size_t entries = 0, slices = 1;
+  for (const Term& term : terms_) {
+    const auto window = std::size_t(objectives_[std::size_t(term.objective)].order) + 1;
+    slices = std::max(slices, window);
+    entries = std::max(entries, std::size_t(term.rows) * window * std::size_t(widest_state_));
+  }
+  return {std::vector<double>(entries), std::vector<const State*>(slices)};
 }
 
 /// Finds which columns of x the window of slices touches, and where each of its own columns goes among them.
@@ -93,52 +103,78 @@ const PathProblem::Term& PathProblem::termOf(int row) const {
   return *place;
 }
 
-Jacobian PathProblem::makeJacobian() const {
+bool PathProblem::isLinear() const {
+  return std::all_of(residuals_.begin(), residuals_.end(), [](const Residual& residual) { return residual.isLinear(); });
+}
+
+Jacobian PathProblem::makeJacobian(const Komo& komo) const {
+  std::size_t segments = 0, values = 0;
+  for (std::size_t i = 0; i < terms_.size(); ++i) {
+    segments += std::size_t(terms_[i].rows) * segments_[i].size();
+    values += std::size_t(terms_[i].rows * width_[i]);
+  }
   Jacobian J;
   J.columns = dimension_;
+  J.row_start.reserve(std::size_t(rows()) + 1);
+  J.segments.reserve(segments);
+  J.values.resize(values);
+  Workspace workspace = makeWorkspace();
+  VectorXd phi(rows());
+  int offset = 0, copied = -1;
+  std::optional<Residual> residual;  // with a workspace of its own
   for (std::size_t i = 0; i < terms_.size(); ++i) {
-    for (int row = 0; row < terms_[i].rows; ++row) {
+    const Term& term = terms_[i];
+    double* rows_of_term = J.values.data() + offset;
+    for (int row = 0; row < term.rows; ++row) {
       for (const auto& [column, width] : segments_[i]) {
-        J.segments.push_back({column, width, int(J.values.size())});
-        J.values.resize(J.values.size() + width, 0.);
+        J.segments.push_back({column, width, offset});
+        offset += width;
       }
       J.row_start.push_back(int(J.segments.size()));
     }
+    if (!residuals_[std::size_t(term.residual)].isLinear() || term.rows == 0) continue;
+    if (copied != term.residual) residual.emplace(residuals_[std::size_t(copied = term.residual)]);
+    evaluateTerm(komo, i, *residual, phi.segment(term.first_row, term.rows), rows_of_term, workspace);
   }
   return J;
 }
 
+/// `jacobian`, which may be null, is where the rows of this term are; it comes filled with zeros.
+void PathProblem::evaluateTerm(const Komo& komo, std::size_t index, Residual& residual, Eigen::Ref<VectorXd> phi, double* jacobian,
+                               Workspace& workspace) const {
+  const Term& term = terms_[index];
+  const int order = residual.order(), columns = (order + 1) * widest_state_, width = width_[index];
+  for (int s = 0; s <= order; ++s) workspace.window[std::size_t(s)] = &komo.state(term.slice - order + s);
+  const std::span<const State* const> states{workspace.window.data(), std::size_t(order) + 1};
+  if (!jacobian) return residual.eval(states, komo.tau(), phi, nullptr);
+  const Run& only = runs_[std::size_t(term.first_run)];
+  if (term.runs == 1 && only.width == columns && width == columns) {  // straight into the Jacobian
+    JacobianRows block = Eigen::Map<RowMajor>(jacobian, term.rows, columns);
+    return residual.eval(states, komo.tau(), phi, &block);
+  }
+  Eigen::Map<RowMajor> whole(workspace.jacobian.data(), term.rows, columns);
+  whole.setZero();
+  JacobianRows block = whole;
+  residual.eval(states, komo.tau(), phi, &block);
+  Eigen::Map<RowMajor> target(jacobian, term.rows, width);
+  for (int r = term.first_run; r < term.first_run + term.runs; ++r) {
+    const Run& run = runs_[std::size_t(r)];
+    target.middleCols(run.to, run.width) += whole.middleCols(run.from, run.width);
+  }
+}
+
 void PathProblem::evaluate(const Komo& komo, VectorXd& phi, Jacobian* J) {
-  if (J) std::fill(J->values.begin(), J->values.end(), 0.);
   double* values = J ? J->values.data() : nullptr;
   for (std::size_t i = 0; i < terms_.size(); ++i) {
     const Term& term = terms_[i];
-    if (term.rows == 0) continue;
-    Residual& residual = residuals_[term.residual];
-    const int order = residual.order(), window = (order + 1) * widest_state_;
-    for (int s = 0; s <= order; ++s) window_[s] = &komo.state(term.slice - order + s);
-    const std::span<const State* const> states{window_.data(), std::size_t(order) + 1};
-    if (!J) {
-      residual.eval(states, komo.tau(), phi.segment(term.first_row, term.rows), nullptr);
-      continue;
+    Residual& residual = residuals_[std::size_t(term.residual)];
+    const bool needs_jacobian = J && !residual.isLinear();
+    const std::ptrdiff_t count = std::ptrdiff_t(term.rows) * width_[i];
+    if (needs_jacobian) std::fill(values, values + count, 0.);
+    if (term.rows > 0) {
+      evaluateTerm(komo, i, residual, phi.segment(term.first_row, term.rows), needs_jacobian ? values : nullptr, workspace_);
     }
-    int width = 0;
-    for (const auto& segment : segments_[i]) width += segment.second;
-    const Run& only = runs_[term.first_run];
-    if (term.runs == 1 && only.width == window && width == window) {  // straight into the Jacobian
-      JacobianRows block = Eigen::Map<RowMajor>(values, term.rows, window);
-      residual.eval(states, komo.tau(), phi.segment(term.first_row, term.rows), &block);
-    } else {
-      Eigen::Map<RowMajor> whole(window_jacobian_.data(), term.rows, window);
-      whole.setZero();
-      JacobianRows block = whole;
-      residual.eval(states, komo.tau(), phi.segment(term.first_row, term.rows), &block);
-      Eigen::Map<RowMajor> target(values, term.rows, width);
-      for (int r = term.first_run; r < term.first_run + term.runs; ++r) {
-        target.middleCols(runs_[r].to, runs_[r].width) += whole.middleCols(runs_[r].from, runs_[r].width);
-      }
-    }
-    values += std::ptrdiff_t(term.rows) * width;
+    if (J) values += count;
   }
 }
 

@@ -29,7 +29,15 @@ class PathProblem {
   int rows() const { return int(types_.size()); }
   const Term& termOf(int row) const;
 
-  Jacobian makeJacobian() const;
+  bool isLinear() const;  ///< are all rows of the Jacobian the same for all paths?
+
+  /// Is this one?
+  bool isLinear(int row) const { return residuals_[termOf(row).residual].isLinear(); }
+
+  /// With the values of linear rows; the others are zero.
+  Jacobian makeJacobian(const Komo& komo) const;
+
+  /// Leaves linear rows of `J` as they are.
   void evaluate(const Komo& komo, VectorXd& phi, Jacobian* J);
 
  private:
@@ -37,7 +45,14 @@ class PathProblem {
   struct Run {
     int from, to, width;
   };
+  /// What evaluating a residual needs beside it.
+  struct Workspace {
+    std::vector<double> jacobian;  ///< by columns of the window of slices
+    std::vector<const State*> window;
+  };
+  Workspace makeWorkspace() const;
   void layOut(const Komo& komo, Term& term, std::vector<std::pair<int, int>>& segments);
+  void evaluateTerm(const Komo& komo, std::size_t index, Residual& residual, Eigen::Ref<VectorXd> phi, double* jacobian, Workspace& workspace) const;
 
   std::vector<Komo::Objective> objectives_;
   std::vector<Term> terms_;
@@ -45,8 +60,8 @@ class PathProblem {
   std::vector<ObjectiveType> types_;
   std::vector<Run> runs_;
   std::vector<std::vector<std::pair<int, int>>> segments_;  ///< per term: columns and widths
-  std::vector<double> window_jacobian_;
-  std::vector<const State*> window_;
+  std::vector<int> width_;                                  ///< per term: columns in all
+  Workspace workspace_;
   int widest_state_ = 0, dimension_ = 0;
 };
 

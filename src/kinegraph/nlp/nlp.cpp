@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 
 #include "kinegraph/base/errors.h"
 #include "kinegraph/base/text.h"
@@ -36,6 +37,18 @@ MatrixXd Jacobian::toDense() const {
     }
   }
   return dense;
+}
+
+bool Jacobian::isZeroRow(int row) const {
+  constexpr int kMost = 64;
+  static constexpr double zeros[kMost] = {};
+  for (const Segment& segment : row_segments(row)) {
+    for (int i = 0; i < segment.width; i += kMost) {
+      const auto bytes = std::size_t(std::min(kMost, segment.width - i)) * sizeof(double);
+      if (std::memcmp(values.data() + segment.offset + i, zeros, bytes) != 0) return false;  // -0 counts as not zero
+    }
+  }
+  return true;
 }
 
 double Jacobian::rowTimes(int row, const VectorXd& x) const {
@@ -122,14 +135,8 @@ double largestViolation(const std::vector<ObjectiveType>& types, const VectorXd&
 }
 
 std::string describeNotFinite(const Nlp& nlp, const VectorXd& phi, const Jacobian* J) {
-  const auto finite = [](const double* values, std::size_t count) {
-    double sums[4] = {};  // of products with 0, which are not numbers if a value is not finite
-    std::size_t i = 0;
-    for (; i + 4 <= count; i += 4) {
-      for (int k = 0; k < 4; ++k) sums[k] += 0. * values[i + std::size_t(k)];
-    }
-    for (; i < count; ++i) sums[0] += 0. * values[i];
-    return sums[0] + sums[1] + sums[2] + sums[3] == 0.;
+  const auto finite = [](const double* values, std::size_t count) {  // products with 0 are not numbers if a value is not finite
+    return (0. * Eigen::Map<const VectorXd>(values, Eigen::Index(count)).array()).sum() == 0.;
   };
   if (finite(phi.data(), std::size_t(phi.size())) && (!J || finite(J->values.data(), J->values.size()))) return {};
   for (int row = 0; row < phi.size(); ++row) {

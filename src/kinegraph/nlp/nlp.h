@@ -45,6 +45,7 @@ struct Jacobian {
   std::span<const Segment> row_segments(int row) const {
     return {segments.data() + row_start[row], std::size_t(row_start[row + 1] - row_start[row])};
   }
+  bool isZeroRow(int row) const;
   double rowTimes(int row, const VectorXd& x) const;                  ///< J_row x
   void addRowTo(int row, double factor, VectorXd& x) const;           ///< x += factor J_row^T
 };
@@ -60,8 +61,14 @@ class Nlp {
   const VectorXd& lower() const { return lower_; }                    ///< -infinity where there is no bound
   const VectorXd& upper() const { return upper_; }                    ///< +infinity where there is no bound
 
-  /// A Jacobian with this problem's pattern and zero values.
+  /// A Jacobian with this problem's pattern, and the values of rows that are linear; the others are zero.
   virtual Jacobian makeJacobian() const { return Jacobian::dense(int(types_.size()), dimension()); }
+
+  /// Is this row of the Jacobian the same at every x? `evaluate` may then leave it as it is.
+  virtual bool isLinear(int row) const {
+    (void)row;
+    return false;
+  }
 
   /// Computes phi(x), and its Jacobian where `J` (made by makeJacobian) is given. x has `dimension()` entries,
   /// phi has one per type. Requests no memory where it can be avoided.
@@ -91,6 +98,10 @@ class Nlp {
   virtual std::vector<std::string> detailsOf(int row) const;
 
   virtual std::string report(int verbose) const;
+
+  /// May all residuals be linear (f terms quadratic)? A solver then tries whether one exact step ends it, at the price of one
+  /// evaluation. False where that is known to be in vain.
+  virtual bool mayBeQuadratic() const { return true; }
 
  protected:
   std::vector<ObjectiveType> types_;

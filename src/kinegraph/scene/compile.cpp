@@ -95,18 +95,33 @@ std::shared_ptr<const Program> compileProgram(const SceneTree& scene) {
   return program;
 }
 
+namespace {
+
+/// The frame's parent has been placed.
+void placeOnLink(const FrameData& frame, const Program& program, Parameters& parameters) {
+  const RigidTransform base = frame.parent ? parameters.frame_offset[frame.parent->id] : RigidTransform{};
+  if (isLinkFrame(frame)) {
+    parameters.joint_base[program.frame_link[frame.id]] = base;
+  } else {
+    parameters.frame_offset[frame.id] = base * frame.relativePose().transform();
+  }
+}
+
+}  // namespace
+
+void updateParameters(const FrameData& frame, const Program& program, Parameters& parameters) {
+  placeOnLink(frame, program, parameters);
+  if (isLinkFrame(frame)) return;  // frames below move with its link, where they are as before
+  for (const FrameData* child : frame.children) updateParameters(*child, program, parameters);
+}
+
 std::shared_ptr<const Parameters> collectParameters(const SceneTree& scene, const Program& program) {
   auto parameters = std::make_shared<Parameters>();
   parameters->joint_base.resize(program.links.size());
   parameters->frame_offset.resize(scene.frames().size());
   parameters->frame_mass.resize(scene.frames().size());
   for (const FrameData* frame : topologicalOrder(scene)) {
-    const RigidTransform base = frame->parent ? parameters->frame_offset[frame->parent->id] : RigidTransform{};
-    if (isLinkFrame(*frame)) {
-      parameters->joint_base[program.frame_link[frame->id]] = base;
-    } else {
-      parameters->frame_offset[frame->id] = base * frame->relativePose().transform();
-    }
+    placeOnLink(*frame, program, *parameters);
     if (frame->inertia) parameters->frame_mass[frame->id] = {frame->inertia->mass, frame->inertia->com};
   }
   return parameters;

@@ -55,7 +55,7 @@ Frame& Frame::setPose(const Pose& pose) {
   FrameData& frame = data();
   if (frame.parent) return setRelativePose(scene_->worldPose(*frame.parent).inverse() * pose);
   frame.pose = pose;
-  scene_->posesChanged();
+  scene_->poseChanged(frame);
   return *this;
 }
 
@@ -79,7 +79,7 @@ Frame& Frame::setRelativePose(const Pose& pose) {
     if (!source.active) scene_->posesChanged();
   } else {
     frame.pose = pose;
-    scene_->posesChanged();
+    scene_->poseChanged(frame);
   }
   return *this;
 }

@@ -183,8 +183,15 @@ const std::shared_ptr<const Program>& SceneTree::program() {
 
 const std::shared_ptr<const Parameters>& SceneTree::parameters() {
   program();
-  if (poses_stale_) {
-    parameters_ = collectParameters(*this, *program_);
+  if (poses_stale_ || !moved_.empty()) {
+    if (poses_stale_) {
+      parameters_ = collectParameters(*this, *program_);
+    } else {
+      const auto parameters = std::make_shared<Parameters>(*parameters_);
+      for (const FrameData* frame : moved_) updateParameters(*frame, *program_, *parameters);
+      parameters_ = parameters;
+    }
+    moved_.clear();
     if (state_) state_->setParameters(parameters_);
     poses_stale_ = false;
     bodies_stale_ = true;

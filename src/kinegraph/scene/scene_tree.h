@@ -63,6 +63,12 @@ class SceneTree {
     poses_stale_ = true;
     asked_since_edit_ = false;
   }
+  /// The constant pose of one frame.
+  void poseChanged(const FrameData& frame) {
+    asked_since_edit_ = false;
+    if (moved_.empty() || moved_.back() != &frame) moved_.push_back(&frame);
+    poses_stale_ |= moved_.size() > kMostMoved;
+  }
   void jointsChanged() { q_stale_ = true; }
   void looksChanged(Shape& shape) { shape.revision = ++looks_revision_; }
 
@@ -84,12 +90,15 @@ class SceneTree {
   void setJointState(const double* q);
 
  private:
+  static constexpr std::size_t kMostMoved = 8;  ///< beyond that, all poses are collected anew
+
   void copyValues(const SceneTree& other);
   void gatherJointState(double* q) const;
 
   std::vector<std::shared_ptr<FrameData>> frames_;
   std::uint64_t structure_revision_ = 1, compiled_revision_ = 0, looks_revision_ = 0;
   bool poses_stale_ = true, q_stale_ = true, bodies_stale_ = true, asked_since_edit_ = false;
+  std::vector<const FrameData*> moved_;  ///< since the parameters were collected
   std::vector<FrameData*> dof_frames_;  ///< those whose joints make up q, in its order
   std::shared_ptr<const Program> program_;
   std::shared_ptr<const Parameters> parameters_;
@@ -105,6 +114,9 @@ std::shared_ptr<const Program> compileProgram(const SceneTree& scene);
 
 /// Collects the constants that belong to a compiled Program.
 std::shared_ptr<const Parameters> collectParameters(const SceneTree& scene, const Program& program);
+
+/// Brings those up to date of a frame that was moved, and of the frames that are fixed to it.
+void updateParameters(const FrameData& frame, const Program& program, Parameters& parameters);
 
 /// What each link of a compiled Program weighs: the sum of its frames' inertias.
 std::vector<LinkInertia> collectInertias(const SceneTree& scene, const Program& program, const Parameters& parameters);

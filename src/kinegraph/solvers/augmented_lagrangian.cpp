@@ -9,6 +9,7 @@
 #include "kinegraph/base/text.h"
 #include "kinegraph/solvers/constrained_function.h"
 #include "kinegraph/solvers/local_model.h"
+#include "kinegraph/solvers/quadratic_step.h"
 #include "kinegraph/solvers/quasi_newton.h"
 
 namespace kinegraph {
@@ -17,41 +18,49 @@ namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
+/// What does not change from solution to solution of a problem.
+struct Memory {
+  Memory(const Nlp& nlp, const ConstrainedFunction& function)
+      : here(function.makePoint()), trial(here), corrected(here), model(nlp, here.J, function.costs(), function.constraints()) {}
+
+  EvaluatedPoint here, trial, corrected;
+  LocalModel model;
+};
+
 class AugmentedLagrangian {
  public:
-  AugmentedLagrangian(Nlp& nlp, const VectorXd& x0, const SolverOptions& options, const EvaluationHook& hook)
-      : nlp_(nlp), options_(options), function_(nlp, x0, options, hook), model_(nlp, function_.costs(), function_.constraints()),
-        constraints_(function_.constraints()), lower_(function_.lower()), upper_(function_.upper()), J_(nlp.makeJacobian()),
-        trial_J_(J_), corrected_J_(J_), phi_(VectorXd::Zero(Eigen::Index(nlp.types().size()))), trial_phi_(phi_),
-        lambda_(VectorXd::Zero(Eigen::Index(constraints_.size()))), next_lambda_(lambda_), tolerance_(options.constraintTolerance()) {
-    x_ = start_ = function_.clip(x0);
+  AugmentedLagrangian(Nlp& nlp, ConstrainedFunction& function, Memory& memory, const VectorXd& x0, const SolverOptions& options)
+      : nlp_(nlp), options_(options), function_(function), here_(memory.here), trial_(memory.trial), corrected_(memory.corrected),
+        model_(memory.model), constraints_(function.constraints()), equalities_(function.equalities()), lower_(function.lower()),
+        upper_(function.upper()), lambda_(VectorXd::Zero(Eigen::Index(constraints_.size()))), next_lambda_(lambda_),
+        multipliers_(lambda_), tolerance_(options.constraintTolerance()) {
+    here_.x = start_ = low_ = high_ = gradient_ = function_.clip(x0);
   }
 
   SolverResult run(const VectorXd& dual) {
     if (function_.hasGeneralCosts()) curvature_.reset(nlp_.dimension());
-    if (dual.size() == phi_.size()) {
-      for (std::size_t j = 0; j < constraints_.size(); ++j) lambda_[j] = dual[constraints_[j]];
+    if (dual.size() == here_.phi.size()) {
+      for (std::size_t j = 0; j < constraints_.size(); ++j) lambda_[Eigen::Index(j)] = dual[constraints_[j]];
     }
-    evaluate(x_, phi_, J_);
-    function_.requireFiniteStart(phi_, J_);
-    function_.remember(x_, phi_);
+    evaluate(here_);
+    function_.requireFiniteStart(here_.phi, here_.J);
+    function_.remember(here_);
     weight_ = costWeight();
     mu_ = weight_ * options_.muInit;
     if (nlp_.dimension() == 0) {
-      stop(violationAt(phi_) <= tolerance_ ? SolverStatus::converged : SolverStatus::infeasible, "there is nothing to vary");
-    } else {
+      stop(here_.violation <= tolerance_ ? SolverStatus::converged : SolverStatus::infeasible, "there is nothing to vary");
+    } else if (!solvedInOneStep()) {
       iterate();
     }
-    if (status_ != SolverStatus::converged) {
-      x_ = function_.best();
-      phi_ = function_.bestPhi();
-    }
-    return function_.result(x_, phi_, lambda_, status_, message_);
+    const bool converged = status_ == SolverStatus::converged;
+    return function_.result(converged ? here_.x : function_.best(), converged ? here_.phi : function_.bestPhi(), lambda_, status_, message_);
   }
 
  private:
+  bool solvedInOneStep();
   void iterate();
   void endRound(double vc, double step_size);
+  void updateMultipliers(double step_size);
   bool correctTrial(double& value, double size, double shift, int passes);
   bool creeps(double vc);
   bool locallyInfeasible();
@@ -64,72 +73,84 @@ class AugmentedLagrangian {
     stopped_ = true;
   }
 
-  bool evaluate(const VectorXd& x, VectorXd& phi, Jacobian& J) {
-    if (function_.evaluate(x, phi, J)) return true;
+  bool evaluate(EvaluatedPoint& point) {
+    if (function_.evaluate(point)) return true;
     stop(SolverStatus::cancelled, "cancelled by the caller");
     return false;
   }
 
-  double cost(const VectorXd& phi) const { return function_.cost(phi); }
-
-  double multiplier(int j, double c) const {
-    return model_.isEquality(j) ? lambda_[j] + mu_ * c : std::max(0., lambda_[j] + mu_ * c);
+  /// lambda + mu c, cut off at zero for inequalities.
+  void findMultipliers(const VectorXd& c, VectorXd& t) const {
+    t = lambda_ + mu_ * c;
+    t.tail(t.size() - equalities_) = t.tail(t.size() - equalities_).cwiseMax(0.);
   }
 
-  double penalty(int j, double c) const {  // 1/(2 mu) t^2, without the constant -lambda^2
-    const double t = multiplier(j, c);
-    return t * t / (2. * mu_);
+  /// Sum of 1/(2 mu) t^2, without the constant -lambda^2.
+  double penalties(const VectorXd& c) {
+    findMultipliers(c, multipliers_);
+    return multipliers_.squaredNorm() / (2. * mu_);
   }
 
-  double lagrangian(const VectorXd& phi) const {
-    double sum = cost(phi);
-    for (int j = 0; j < lambda_.size(); ++j) sum += penalty(j, phi[constraints_[j]]);
-    return sum;
-  }
+  double lagrangian(const EvaluatedPoint& point) { return point.finite ? point.cost + penalties(point.c) : kInfinity; }
 
-  double violationAt(const VectorXd& phi) const { return function_.violation(phi); }
+  /// The decrease of the Lagrangian that the model expects of its step.
+  double predictedDecrease() {
+    findMultipliers(here_.c, multipliers_);
+    findMultipliers(model_.linearized(), next_lambda_);
+    return -model_.costChange() + (multipliers_ - next_lambda_).dot(multipliers_ + next_lambda_) / (2. * mu_);
+  }
 
   /// The violation that the model expects after its step.
-  double linearizedViolation() const {
-    double worst = 0.;
-    for (int j = 0; j < lambda_.size(); ++j) {
-      worst = std::max(worst, model_.isEquality(j) ? std::abs(model_.linearized()[j]) : model_.linearized()[j]);
-    }
+  double linearizedViolation() const { return worst(model_.linearized()); }
+
+  double worst(const VectorXd& c) const {
+    const Eigen::Index inequalities = c.size() - equalities_;
+    double worst = equalities_ > 0 ? c.head(equalities_).lpNorm<Eigen::Infinity>() : 0.;
+    if (inequalities > 0) worst = std::max(worst, c.tail(inequalities).maxCoeff());
     return worst;
   }
 
+  /// Sum of squares of violations.
+  double squaredViolation(const VectorXd& c) const {
+    return c.head(equalities_).squaredNorm() + c.tail(c.size() - equalities_).cwiseMax(0.).squaredNorm();
+  }
+
   /// Largest entry of the gradient of the Lagrangian, as far as the bounds leave room to go down.
-  double gradientNorm(const VectorXd& x, const VectorXd& phi, const Jacobian& J) {
-    function_.costGradient(phi, J, gradient_);
-    for (int j = 0; j < lambda_.size(); ++j) J.addRowTo(constraints_[j], multiplier(j, phi[constraints_[j]]), gradient_);
-    return ((x - gradient_).cwiseMax(lower_).cwiseMin(upper_) - x).lpNorm<Eigen::Infinity>();
+  double gradientNorm(const EvaluatedPoint& point) {
+    function_.costGradient(point.phi, point.J, gradient_);
+    findMultipliers(point.c, multipliers_);
+    function_.addConstraintGradient(point.J, multipliers_, gradient_);
+    return ((point.x - gradient_).cwiseMax(lower_).cwiseMin(upper_) - point.x).lpNorm<Eigen::Infinity>();
   }
 
   /// Violation and failure of complementarity.
   double optimalityError() const {
-    double worst = 0.;
-    for (int j = 0; j < lambda_.size(); ++j) {
-      const double c = phi_[constraints_[j]];
-      worst = std::max(worst, std::abs(model_.isEquality(j) ? c : std::max(c, -lambda_[j] / mu_)));
+    const Eigen::Index inequalities = here_.c.size() - equalities_;
+    double worst = equalities_ > 0 ? here_.c.head(equalities_).lpNorm<Eigen::Infinity>() : 0.;
+    if (inequalities > 0) {
+      worst = std::max(worst, here_.c.tail(inequalities).cwiseMax(lambda_.tail(inequalities) / -mu_).lpNorm<Eigen::Infinity>());
     }
     return worst;
   }
 
-  void setCosts() { learns_curvature_ = !model_.setCosts(nlp_, x_, phi_, J_, &curvature_.matrix()); }
+  void linearize() {
+    model_.setJacobian(here_.J);
+    learns_curvature_ = !model_.setCosts(nlp_, here_.x, here_.phi, &curvature_.matrix());
+  }
 
   /// Where the problem does not tell the curvature of its f terms, that of the Lagrangian is learnt from accepted steps.
-  void learnCurvature(const VectorXd& before, const Jacobian& J_before) {
+  void learnCurvature(const EvaluatedPoint& before) {
     if (!learns_curvature_) return;
-    for (int j = 0; j < lambda_.size(); ++j) next_lambda_[j] = multiplier(j, model_.linearized()[j]);
+    findMultipliers(model_.linearized(), next_lambda_);
     VectorXd old_gradient;
-    function_.generalGradient(J_before, next_lambda_, old_gradient);
-    function_.generalGradient(J_, next_lambda_, gradient_);
-    curvature_.update(x_ - before, gradient_ - old_gradient);
+    function_.generalGradient(before.J, next_lambda_, old_gradient);
+    function_.generalGradient(here_.J, next_lambda_, gradient_);
+    curvature_.update(here_.x - before.x, gradient_ - old_gradient);
   }
 
   void box() {
-    low_ = (lower_ - x_).cwiseMax(-radius_);
-    high_ = (upper_ - x_).cwiseMin(radius_);
+    low_ = (lower_ - here_.x).cwiseMax(-radius_);
+    high_ = (upper_ - here_.x).cwiseMin(radius_);
   }
 
   /// Steps that reach the edge of the box and do what was predicted, twice in a row, may become longer.
@@ -142,20 +163,21 @@ class AugmentedLagrangian {
   /// Where the costs are steep, as numbers without a unit may be, penalties must be as well. 1 for sums of squares.
   double costWeight() {
     if (!function_.hasGeneralCosts()) return 1.;
-    function_.generalGradient(J_, VectorXd(), gradient_);
+    function_.generalGradient(here_.J, VectorXd(), gradient_);
     return std::max(1., .01 * gradient_.lpNorm<Eigen::Infinity>());
   }
 
   Nlp& nlp_;
   const SolverOptions& options_;
-  ConstrainedFunction function_;
-  LocalModel model_;
+  ConstrainedFunction& function_;
+  EvaluatedPoint &here_, &trial_, &corrected_;
+  LocalModel& model_;
   QuasiNewton curvature_;
   bool learns_curvature_ = false;
-  const std::vector<int>& constraints_;
+  const std::vector<int>& constraints_;  ///< rows, equalities first
+  const int equalities_;
   const VectorXd &lower_, &upper_;
-  Jacobian J_, trial_J_, corrected_J_;
-  VectorXd x_, start_, phi_, trial_, trial_phi_, corrected_, corrected_phi_, lambda_, next_lambda_, low_, high_, gradient_;
+  VectorXd start_, lambda_, next_lambda_, multipliers_, low_, high_, gradient_;
   double tolerance_;
   double weight_ = 1., radius_ = options_.stepMax;
   int steps_at_edge_ = 0, restorations_ = 0;
@@ -177,10 +199,30 @@ class AugmentedLagrangian {
   std::string trouble_;  ///< why the last step was rejected; empty if it was not
 };
 
+/// Goes to the solution of the linearized problem, if that is the solution of the problem.
+bool AugmentedLagrangian::solvedInOneStep() {
+  if (options_.stopEvals < 2 || !nlp_.mayBeQuadratic()) return false;
+  std::optional<QuadraticStep> step = quadraticStep(function_, here_.x, here_.phi, here_.J);
+  if (!step && constraints_.empty()) {
+    linearize();
+    if (learns_curvature_) return false;
+    low_ = lower_ - here_.x;
+    high_ = upper_ - here_.x;
+    step = {here_.x + model_.minimize({here_.c, lambda_, 1., 0., low_, high_, 12}), {}};
+  }
+  if (!step) return false;
+  trial_.x = step->x;
+  if (!evaluate(trial_) || !trial_.finite || !isSolution(function_, trial_.x, trial_.phi, trial_.J, step->multipliers)) return false;
+  std::swap(here_, trial_);
+  lambda_ = step->multipliers;
+  stop(SolverStatus::converged, "the problem is quadratic; one step solves it");
+  return true;
+}
+
 void AugmentedLagrangian::iterate() {
   const double first_nu = weight_ * options_.damping;
   double nu = first_nu, growth = 2., last_relative = 1.;
-  bool damped_step_retried = false, costs_stale = true;
+  bool damped_step_retried = false, model_is_stale = true;
   int given_up = 0;
   const double tolerance = options_.stopTolerance;
   const int passes = nlp_.dimension() > 100 ? 3 : 12;
@@ -188,16 +230,15 @@ void AugmentedLagrangian::iterate() {
     if (function_.evals() >= options_.stopEvals) return stop(SolverStatus::limit, cat("limit of ", options_.stopEvals, " evaluations"));
     if (step >= 20 * options_.stopInners) return stop(SolverStatus::limit, cat("limit of ", options_.stopInners, " steps"));
     if (rounds_ >= options_.stopOuters) return stop(SolverStatus::limit, cat("limit of ", options_.stopOuters, " rounds"));
-    if (costs_stale) setCosts();
-    costs_stale = false;
+    if (model_is_stale) linearize();
+    model_is_stale = false;
     const double h = model_.largestCurvature();
     box();
-    const VectorXd& d = model_.minimize({phi_, J_, lambda_, mu_, nu, low_, high_, passes});
+    const VectorXd& d = model_.minimize({here_.c, lambda_, mu_, nu, low_, high_, passes});
     const double size = d.lpNorm<Eigen::Infinity>();
-    double predicted = -model_.costChange();
-    for (int j = 0; j < lambda_.size(); ++j) predicted += penalty(j, phi_[constraints_[j]]) - penalty(j, model_.linearized()[j]);
-    const double vc = optimalityError(), violation = violationAt(phi_);
-    const double scale = std::max(std::abs(cost(phi_)), 1e-4);
+    const double predicted = predictedDecrease();
+    const double vc = optimalityError(), violation = here_.violation;
+    const double scale = std::max(std::abs(here_.cost), 1e-4);
     const bool tiny = size <= tolerance || predicted <= std::max(tolerance * tolerance, 1e-16) * scale;
     if (options_.verbose > 2) {
       std::printf("    step %3d  evals %3d  |d| %.3g  predicted %.3g  violation %.3g  mu %.3g  nu %.3g\n", step, function_.evals(), size, predicted, vc, mu_, nu);
@@ -227,38 +268,36 @@ void AugmentedLagrangian::iterate() {
       last_relative = 1.;
       continue;
     }
-    trial_ = (x_ + d).cwiseMax(lower_).cwiseMin(upper_);
-    const double before = lagrangian(phi_);
-    if (!evaluate(trial_, trial_phi_, trial_J_)) return;
-    const std::string not_finite = describeNotFinite(nlp_, trial_phi_, &trial_J_);
-    double after = not_finite.empty() ? lagrangian(trial_phi_) : kInfinity;
+    trial_.x = (here_.x + d).cwiseMax(lower_).cwiseMin(upper_);
+    const double before = lagrangian(here_);
+    if (!evaluate(trial_)) return;
+    double after = lagrangian(trial_);
     const double noise = std::max(1e-12, 1e-10 * std::abs(before));
     correction_.helped = false;
-    if (not_finite.empty() && before - after < .5 * predicted && predicted > noise && function_.evals() < options_.stopEvals) {
+    if (trial_.finite && before - after < .5 * predicted && predicted > noise && function_.evals() < options_.stopEvals) {
       if (!correctTrial(after, size, nu, passes)) return;
     }
     double ratio = (before - after) / predicted;
     if (std::abs(before - after) < noise && predicted < noise) {  // only gradients tell which point is better
-      ratio = gradientNorm(trial_, trial_phi_, trial_J_) < gradientNorm(x_, phi_, J_) ? .3 : -1.;
+      ratio = gradientNorm(trial_) < gradientNorm(here_) ? .3 : -1.;
     }
     if (ratio > options_.wolfe) {
-      x_.swap(trial_);
-      phi_.swap(trial_phi_);
-      std::swap(J_, trial_J_);
+      std::swap(here_, trial_);
       const bool was_refused = growth > 2.;  // a step with less damping, from this point
       nu = std::max(1e-6, nu * std::max(was_refused || correction_.helped ? .5 : .1, 1. - std::pow(2. * std::min(ratio, 1.2) - 1., 3)));
       growth = 2.;
+      if (ratio > .7 && nu <= .1 * h && optimalityError() <= .25 * vc) updateMultipliers(size);  // close: no need to solve it first
       last_relative = (before - after) / std::max(std::abs(before), .01);
-      learnCurvature(trial_, trial_J_);
+      learnCurvature(trial_);
       adaptRadius(size, ratio > .75, false);
       damped_step_retried = round_just_ended_ = false;
       trouble_.clear();
-      costs_stale = true;
-      function_.remember(x_, phi_);
+      model_is_stale = true;
+      function_.remember(here_);
     } else {
       ++slow_.refused;
       adaptRadius(size, false, true);
-      trouble_ = not_finite.empty() ? ", as at a kink" : cat(": where it would go, ", not_finite);
+      trouble_ = trial_.finite ? ", as at a kink" : cat(": where it would go, ", describeNotFinite(nlp_, trial_.phi, &trial_.J));
       nu = std::max({nu * growth, .0001 * h, 1e-3});
       growth *= 2.;
     }
@@ -273,20 +312,19 @@ bool AugmentedLagrangian::correctTrial(double& value, double size, double shift,
     --correction_.wait;
     return true;
   }
-  corrected_phi_ = phi_;
-  const VectorXd taken = trial_ - x_;
-  for (int row : constraints_) corrected_phi_[row] = trial_phi_[row] - J_.rowTimes(row, taken);
-  corrected_ = function_.clip(x_ + model_.minimize({corrected_phi_, J_, lambda_, mu_, shift, low_, high_, passes}));
-  bool better = (corrected_ - trial_).lpNorm<Eigen::Infinity>() <= .5 * size;
+  corrected_.x = trial_.x - here_.x;
+  corrected_.c = trial_.c;
+  for (std::size_t j = 0; j < constraints_.size(); ++j) corrected_.c[Eigen::Index(j)] -= here_.J.rowTimes(constraints_[j], corrected_.x);
+  const VectorXd& d = model_.minimize({corrected_.c, lambda_, mu_, shift, low_, high_, passes});
+  corrected_.x = (here_.x + d).cwiseMax(lower_).cwiseMin(upper_);
+  bool better = (corrected_.x - trial_.x).lpNorm<Eigen::Infinity>() <= .5 * size;
   if (better) {
-    if (!evaluate(corrected_, corrected_phi_, corrected_J_)) return false;
-    const double corrected = describeNotFinite(nlp_, corrected_phi_, &corrected_J_).empty() ? lagrangian(corrected_phi_) : kInfinity;
+    if (!evaluate(corrected_)) return false;
+    const double corrected = lagrangian(corrected_);
     better = corrected < value;
     if (better) {
       value = corrected;
-      trial_.swap(corrected_);
-      trial_phi_.swap(corrected_phi_);
-      std::swap(trial_J_, corrected_J_);
+      std::swap(trial_, corrected_);
     }
   }
   correction_.helped = better;
@@ -300,7 +338,7 @@ bool AugmentedLagrangian::correctTrial(double& value, double size, double shift,
 bool AugmentedLagrangian::creeps(double vc) {
   constexpr int kWindow = 10, kRefused = 3;
   const int evals = function_.evals();
-  const double now = cost(phi_);
+  const double now = here_.cost;
   if (constraints_.empty() || (vc <= tolerance_ && evals < slow_.first + kWindow)) return false;
   const double least = kWindow * std::min(options_.stopTolerance, options_.stopFTolerance) * std::max(std::abs(now), 1e-4);
   const bool slow = vc <= tolerance_ && slow_.refused >= kRefused && slow_.cost - now < least;
@@ -312,7 +350,7 @@ bool AugmentedLagrangian::creeps(double vc) {
 void AugmentedLagrangian::endRound(double vc, double step_size) {
   ++rounds_;
   round_just_ended_ = true;
-  if (options_.verbose > 1) std::printf("  round %d  evals %d  cost %.6g  violation %.3g  mu %.3g\n", rounds_, function_.evals(), cost(phi_), vc, mu_);
+  if (options_.verbose > 1) std::printf("  round %d  evals %d  cost %.6g  violation %.3g  mu %.3g\n", rounds_, function_.evals(), here_.cost, vc, mu_);
   if (vc > tolerance_) {
     bad_rounds_ = vc > .7 * last_violation_ && mu_ >= 1e3 * weight_ * options_.muInit ? bad_rounds_ + 1 : 0;
     if (bad_rounds_ >= 2) {
@@ -327,89 +365,75 @@ void AugmentedLagrangian::endRound(double vc, double step_size) {
       if (++failed_tests_ == 6) return stop(SolverStatus::stalled, cat("the violation no longer falls; it is ", vc));
     }
   }
-  if (step_size <= .5 * radius_) {
-    for (int j = 0; j < lambda_.size(); ++j) lambda_[j] = multiplier(j, model_.linearized()[j]);
-    if (options_.lambdaMax > 0.) lambda_ = lambda_.cwiseMin(options_.lambdaMax).cwiseMax(-options_.lambdaMax);
-  }
+  updateMultipliers(step_size);
   if (vc > .25 * last_violation_ && vc > tolerance_) mu_ = std::min(weight_ * options_.muMax, options_.muInc * mu_);
   last_violation_ = std::min(last_violation_, vc);
   omega_ = std::max(.3 * omega_, options_.stopTolerance);
   if (vc <= tolerance_) rel_ = std::max(.5 * rel_, 1e-6);
 }
 
+/// To those of the model, unless the box kept its step short.
+void AugmentedLagrangian::updateMultipliers(double step_size) {
+  if (step_size > .5 * radius_) return;
+  findMultipliers(model_.linearized(), next_lambda_);
+  lambda_.swap(next_lambda_);
+  if (options_.lambdaMax > 0.) lambda_ = lambda_.cwiseMin(options_.lambdaMax).cwiseMax(-options_.lambdaMax);
+}
+
 /// True if no step reduces the linearized violation by a tenth.
 bool AugmentedLagrangian::locallyInfeasible() {
   next_lambda_.setZero();
   double largest_row = 1e-6;
-  for (double value : J_.values) largest_row = std::max(largest_row, value * value);
+  for (double value : here_.J.values) largest_row = std::max(largest_row, value * value);
   model_.setNoCosts(1e-6 * largest_row);
   box();
-  model_.minimize({phi_, J_, next_lambda_, 1., 0., low_, high_, 12});
-  double before = 0., after = 0.;
-  for (int j = 0; j < lambda_.size(); ++j) {
-    const double c = phi_[constraints_[j]], linear = model_.linearized()[j];
-    before += model_.isEquality(j) ? c * c : std::pow(std::max(0., c), 2);
-    after += model_.isEquality(j) ? linear * linear : std::pow(std::max(0., linear), 2);
-  }
-  setCosts();
+  model_.minimize({here_.c, next_lambda_, 1., 0., low_, high_, 12});
+  const double before = squaredViolation(here_.c), after = squaredViolation(model_.linearized());
+  linearize();
   return std::sqrt(after) >= .9 * std::sqrt(before);
 }
 
 /// Goes to a point of least violation, from here or else from the start. True if the violation is much less there, so that it
 /// can go on, with a larger penalty.
 bool AugmentedLagrangian::restored() {
-  const double before = violationAt(phi_), enough = std::max(.5 * before, .1 * tolerance_);
+  const double before = here_.violation, enough = std::max(.5 * before, .1 * tolerance_);
   reduceViolation();
-  if (!stopped_ && ++restorations_ == 1 && violationAt(phi_) > enough) {
-    const VectorXd here = x_, phi_here = phi_;
-    x_ = start_;
-    if (!evaluate(x_, phi_, J_)) return false;
+  if (!stopped_ && ++restorations_ == 1 && here_.violation > enough) {
+    const EvaluatedPoint found = here_;
+    here_.x = start_;
+    if (!evaluate(here_)) return false;
     reduceViolation();
-    if (!stopped_ && violationAt(phi_) > enough && violationAt(phi_here) <= violationAt(phi_)) {
-      x_ = here;
-      phi_ = phi_here;
-    }
+    if (!stopped_ && here_.violation > enough && found.violation <= here_.violation) here_ = found;
   }
-  function_.forceBest(x_, phi_);
+  function_.forceBest(here_.x, here_.phi);
   if (stopped_ || restorations_ > 5 || function_.bestViolation() > enough) return false;
   lambda_.setZero();
   mu_ = std::min(weight_ * options_.muMax, std::pow(10., restorations_) * weight_ * options_.muInit);
   last_violation_ = violation_at_tests_ = kInfinity;
-  setCosts();
+  linearize();
   return true;
 }
 
 /// Gauss-Newton steps on the violation alone, so that the answer is the least one and no compromise with the costs.
 void AugmentedLagrangian::reduceViolation() {
-  const auto square = [&](const VectorXd& phi) {
-    double sum = 0.;
-    for (int row : constraints_) sum += std::pow(violation(nlp_.types()[row], phi[row]), 2);
-    return sum;
-  };
   next_lambda_.setZero();
   double damping = 1e-4;
   for (int step = 0; step < 30 && function_.evals() < options_.stopEvals; ++step) {
+    model_.setJacobian(here_.J);
     model_.setNoCosts(0.);
     box();
-    trial_ = (x_ + model_.minimize({phi_, J_, next_lambda_, 1., damping, low_, high_, 12})).cwiseMax(lower_).cwiseMin(upper_);
-    if (!evaluate(trial_, trial_phi_, trial_J_)) return;
-    const double before = square(phi_), after = square(trial_phi_);
-    double expected = 0.;
-    for (int j = 0; j < lambda_.size(); ++j) {
-      const double c = model_.linearized()[j];
-      expected += model_.isEquality(j) ? c * c : std::pow(std::max(0., c), 2);
-    }
+    trial_.x = (here_.x + model_.minimize({here_.c, next_lambda_, 1., damping, low_, high_, 12})).cwiseMax(lower_).cwiseMin(upper_);
+    if (!evaluate(trial_)) return;
+    const double before = squaredViolation(here_.c), after = squaredViolation(trial_.c), expected = squaredViolation(model_.linearized());
     const bool at_edge = model_.step().lpNorm<Eigen::Infinity>() >= .99 * radius_, good = before - after > .5 * (before - expected);
     if (at_edge && good) radius_ *= 4.;
     if (!good) radius_ = std::max(options_.stepMax, .25 * radius_);
     if (before - expected < 1e-4 * before && !at_edge && damping <= 1e-4 * (1. + before)) return;
-    if (!(after < before) || !describeNotFinite(nlp_, trial_phi_, &trial_J_).empty()) {
+    if (!(after < before) || !trial_.finite) {
       damping *= 10.;
       continue;
     }
-    x_.swap(trial_);
-    phi_.swap(trial_phi_);
-    std::swap(J_, trial_J_);
+    std::swap(here_, trial_);
     damping *= .1;
     if (std::sqrt(after) < .1 * tolerance_) return;
   }
@@ -433,9 +457,20 @@ void requireNoConstraints(const Nlp& nlp, const char* method) {
   }
 }
 
+struct AugmentedLagrangianMemory::Parts : Memory {
+  using Memory::Memory;
+};
+
+AugmentedLagrangianMemory::AugmentedLagrangianMemory() = default;
+AugmentedLagrangianMemory::~AugmentedLagrangianMemory() = default;
+
 SolverResult solveAugmentedLagrangian(Nlp& nlp, const VectorXd& x0, const SolverOptions& options, const VectorXd& dual,
-                                      const EvaluationHook& hook) {
-  return AugmentedLagrangian(nlp, x0, options, hook).run(dual);
+                                      const EvaluationHook& hook, AugmentedLagrangianMemory* memory) {
+  ConstrainedFunction function(nlp, x0, options, hook);
+  AugmentedLagrangianMemory own;
+  auto& parts = (memory ? memory : &own)->parts;
+  if (!parts) parts = std::make_unique<AugmentedLagrangianMemory::Parts>(nlp, function);
+  return AugmentedLagrangian(nlp, function, *parts, x0, options).run(dual);
 }
 
 }  // namespace kinegraph

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <functional>
+#include <memory>
 
 #include "kinegraph/solvers/options.h"
 #include "kinegraph/solvers/result.h"
@@ -10,6 +11,15 @@ namespace kinegraph {
 /// Called at every evaluated point; returning false stops the solver.
 using EvaluationHook = std::function<bool(const VectorXd& x, const VectorXd& phi)>;
 
+/// What a solution of a problem requests memory for, and the next one of the same problem can use again.
+class AugmentedLagrangianMemory {
+ public:
+  AugmentedLagrangianMemory();
+  ~AugmentedLagrangianMemory();
+  struct Parts;
+  std::unique_ptr<Parts> parts;  ///< null until used
+};
+
 /// Minimizes the costs of `nlp` subject to its constraints and bounds, from `x0` (clipped to the bounds).
 ///
 /// An augmented Lagrangian whose inner steps minimize a piecewise quadratic Gauss-Newton model in a box, with Levenberg
@@ -18,9 +28,9 @@ using EvaluationHook = std::function<bool(const VectorXd& x, const VectorXd& phi
 /// the linearized violation, the constraints are locally infeasible, and the least violation is sought.
 /// `dual` (empty, or one multiplier per residual) starts it warm. Sources: Nocedal & Wright, Numerical Optimization, 2nd
 /// ed., ch. 17.4; Qi & Sun, A nonsmooth version of Newton's method, 1993; Nielsen, Damping parameter in Marquardt's
-/// method, 1999.
+/// method, 1999. `memory`, where given, is of this problem alone.
 SolverResult solveAugmentedLagrangian(Nlp& nlp, const VectorXd& x0, const SolverOptions& options, const VectorXd& dual = {},
-                                      const EvaluationHook& hook = {});
+                                      const EvaluationHook& hook = {}, AugmentedLagrangianMemory* memory = nullptr);
 
 /// Throws ValueError if `x0` has another size than the problem, or numbers that are not finite.
 void requireStart(const Nlp& nlp, const VectorXd& x0);

@@ -1,5 +1,6 @@
 #include "kinegraph/solvers/constrained_function.h"
 
+#include <algorithm>
 #include <limits>
 
 #include "kinegraph/base/errors.h"
@@ -31,8 +32,30 @@ ConstrainedFunction::ConstrainedFunction(Nlp& nlp, const VectorXd& x0, const Sol
   constraints_.insert(constraints_.end(), inequalities.begin(), inequalities.end());
 }
 
+EvaluatedPoint ConstrainedFunction::makePoint() const {
+  EvaluatedPoint point;
+  point.x.setZero(nlp_.dimension());
+  point.phi.setZero(Eigen::Index(types().size()));
+  point.J = nlp_.makeJacobian();
+  point.c.setZero(Eigen::Index(constraints_.size()));
+  return point;
+}
+
+bool ConstrainedFunction::evaluate(EvaluatedPoint& point) {
+  const bool goes_on = evaluate(point.x, point.phi, point.J);
+  for (std::size_t j = 0; j < constraints_.size(); ++j) point.c[Eigen::Index(j)] = point.phi[constraints_[j]];
+  point.cost = cost(point.phi);
+  const Eigen::Index inequalities = point.c.size() - equalities_;
+  point.violation = 0.;
+  if (equalities_ > 0) point.violation = point.c.head(equalities_).lpNorm<Eigen::Infinity>();
+  if (inequalities > 0) point.violation = std::max(point.violation, point.c.tail(inequalities).maxCoeff());
+  point.finite = describeNotFinite(nlp_, point.phi, &point.J).empty();
+  return goes_on;
+}
+
 bool ConstrainedFunction::evaluate(const VectorXd& x, VectorXd& phi, Jacobian& J) {
   nlp_.evaluate(x, phi, &J);
+  last_x_ = x;
   ++evals_;
   return !hook_ || hook_(x, phi);
 }
@@ -72,10 +95,13 @@ void ConstrainedFunction::addConstraintGradient(const Jacobian& J, const VectorX
   for (Eigen::Index j = 0; j < multipliers.size(); ++j) J.addRowTo(constraints_[std::size_t(j)], multipliers[j], gradient);
 }
 
-void ConstrainedFunction::remember(const VectorXd& x, const VectorXd& phi) {
-  const double v = violation(phi), c = cost(phi);
-  const bool better = best_x_.size() == 0 || (v <= tolerance_ && best_violation_ <= tolerance_ ? c < best_cost_ : v < best_violation_);
-  if (better) forceBest(x, phi);
+void ConstrainedFunction::remember(const VectorXd& x, const VectorXd& phi, double cost, double violation) {
+  const bool is_better = violation <= tolerance_ && best_violation_ <= tolerance_ ? cost < best_cost_ : violation < best_violation_;
+  if (best_x_.size() > 0 && !is_better) return;
+  best_x_ = x;
+  best_phi_ = phi;
+  best_violation_ = violation;
+  best_cost_ = cost;
 }
 
 void ConstrainedFunction::forceBest(const VectorXd& x, const VectorXd& phi) {
@@ -95,8 +121,10 @@ SolverResult ConstrainedFunction::result(const VectorXd& x, const VectorXd& phi,
   out.setSums(types(), phi, tolerance_);
   out.status = status;
   out.message = std::move(message);
-  VectorXd at_x = phi;
-  nlp_.evaluate(x, at_x, nullptr);
+  if (last_x_.size() == 0 || last_x_ != x) {
+    VectorXd at_x = phi;
+    nlp_.evaluate(x, at_x, nullptr);
+  }
   return out;
 }
 

@@ -7,6 +7,16 @@
 
 namespace kinegraph {
 
+/// A point and what is known there.
+struct EvaluatedPoint {
+  VectorXd x, phi;
+  Jacobian J;
+  VectorXd c;             ///< phi of the constraints
+  double cost = 0.;
+  double violation = 0.;  ///< of the worst constraint
+  bool finite = true;     ///< are phi and J?
+};
+
 /// A problem as methods for constraints see it: costs, constraints c (rows of type eq, ineq, ineqB) and a box.
 /// Counts evaluations, asks the hook, keeps the best point.
 class ConstrainedFunction {
@@ -24,7 +34,11 @@ class ConstrainedFunction {
   const VectorXd& upper() const { return upper_; }
   VectorXd clip(const VectorXd& x) const { return x.cwiseMax(lower_).cwiseMin(upper_); }
 
-  /// False if the caller wants it to end.
+  /// A point with memory for all its parts.
+  EvaluatedPoint makePoint() const;
+
+  /// Fills in what is known at point.x. False if the caller wants it to end.
+  bool evaluate(EvaluatedPoint& point);
   bool evaluate(const VectorXd& x, VectorXd& phi, Jacobian& J);
   int evals() const { return evals_; }
 
@@ -41,7 +55,8 @@ class ConstrainedFunction {
 
   /// Takes the point as the best so far if it is: among those within the tolerance the one of least cost, else of least
   /// violation.
-  void remember(const VectorXd& x, const VectorXd& phi);
+  void remember(const EvaluatedPoint& point) { remember(point.x, point.phi, point.cost, point.violation); }
+  void remember(const VectorXd& x, const VectorXd& phi) { remember(x, phi, cost(phi), violation(phi)); }
   void forceBest(const VectorXd& x, const VectorXd& phi);
   const VectorXd& best() const { return best_x_; }
   const VectorXd& bestPhi() const { return best_phi_; }
@@ -51,13 +66,15 @@ class ConstrainedFunction {
   SolverResult result(const VectorXd& x, const VectorXd& phi, const VectorXd& multipliers, SolverStatus status, std::string message);
 
  private:
+  void remember(const VectorXd& x, const VectorXd& phi, double cost, double violation);
+
   Nlp& nlp_;
   const EvaluationHook& hook_;
   double tolerance_;
   std::vector<int> costs_, constraints_;
   int equalities_ = 0, evals_ = 0;
   bool has_f_ = false;
-  VectorXd lower_, upper_, best_x_, best_phi_;
+  VectorXd lower_, upper_, best_x_, best_phi_, last_x_;
   double best_violation_ = 0., best_cost_ = 0.;
 };
 

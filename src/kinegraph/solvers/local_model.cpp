@@ -2,21 +2,28 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 namespace kinegraph {
 
 namespace {
 
+constexpr int kSmall = 16;          ///< problems up to this size are taken as dense
 constexpr double kAtBound = 1e-14;  ///< an entry of the step this near to a bound is put on it
 
 bool hasRowsOfTypeF(const Nlp& nlp) {
   return std::find(nlp.types().begin(), nlp.types().end(), ObjectiveType::f) != nlp.types().end();
 }
 
-/// Where each variable goes. Variables that rows connect to others much farther on than is usual (dofs that many slices of a
-/// path share) go to the end: the matrix is then a band with a border, and its factor has no other entries.
-std::vector<int> placesOf(int n, const Jacobian& pattern) {
-  std::vector<int> reach(n, 0), place(n);
+/// Where each variable goes, and how many are at the end: those that rows connect to others much farther on than is usual
+/// (dofs that many slices of a path share). The matrix is then a band with a border, and its factor has no other entries.
+struct Places {
+  std::vector<int> of;
+  int shared = 0;
+};
+
+Places placesOf(int n, const Jacobian& pattern) {
+  std::vector<int> reach(n, 0);
   for (int row = 0; row < pattern.rows(); ++row) {
     const auto segments = pattern.row_segments(row);
     int last = 0;
@@ -28,65 +35,71 @@ std::vector<int> placesOf(int n, const Jacobian& pattern) {
   std::vector<int> sorted = reach;
   std::nth_element(sorted.begin(), sorted.begin() + n / 2, sorted.end());
   const int usual = n > 0 ? 4 * sorted[n / 2] + 16 : 0;
-  int next = 0;
-  for (int i = 0; i < n; ++i) {
-    if (reach[i] <= usual) place[i] = next++;
-  }
-  for (int i = 0; i < n; ++i) {
-    if (reach[i] > usual) place[i] = next++;
-  }
-  return place;
+  Places places{std::vector<int>(std::size_t(n)), 0};
+  for (int i = 0; i < n; ++i) places.shared += reach[i] > usual;
+  int next = 0, next_shared = n - places.shared;
+  for (int i = 0; i < n; ++i) places.of[i] = reach[i] > usual ? next_shared++ : next++;
+  return places;
 }
 
-/// The first place that any row connects each place to.
-std::vector<int> profileOf(const Jacobian& pattern, const std::vector<int>& place, bool couples_all) {
-  const int n = int(place.size());
-  std::vector<int> first(n);
-  for (int i = 0; i < n; ++i) first[i] = couples_all ? 0 : i;
+/// A matrix for the products of entries of the same row.
+BandedMatrix matrixOf(const Jacobian& pattern, const Places& places) {
+  const int band = int(places.of.size()) - places.shared;
+  std::vector<int> last(static_cast<std::size_t>(band));
+  std::iota(last.begin(), last.end(), 0);
   for (int row = 0; row < pattern.rows(); ++row) {
-    int leftmost = n;
-    for (const Jacobian::Segment& segment : pattern.row_segments(row)) {
-      for (int i = segment.column; i < segment.column + segment.width; ++i) leftmost = std::min(leftmost, place[i]);
-    }
-    for (const Jacobian::Segment& segment : pattern.row_segments(row)) {
-      for (int i = segment.column; i < segment.column + segment.width; ++i) first[place[i]] = std::min(first[place[i]], leftmost);
-    }
+    int lowest = 0;
+    const auto forPlaces = [&](const auto& visit) {
+      for (const Jacobian::Segment& segment : pattern.row_segments(row)) {
+        for (int i = segment.column; i < segment.column + segment.width; ++i) {
+          if (places.of[i] < band) visit(places.of[i]);
+        }
+      }
+    };
+    forPlaces([&](int place) { lowest = std::max(lowest, place); });
+    forPlaces([&](int place) { last[place] = std::max(last[place], lowest); });
   }
-  return first;
+  return BandedMatrix(std::move(last), places.shared);
 }
+
+BandedMatrix fullMatrix(int n) { return BandedMatrix(std::vector<int>(std::size_t(n), n - 1)); }
 
 }  // namespace
 
-LocalModel::LocalModel(const Nlp& nlp, std::vector<int> costs, std::vector<int> constraints)
-    : costs_(std::move(costs)), constraints_(std::move(constraints)) {
-  const Jacobian pattern = nlp.makeJacobian();
+LocalModel::LocalModel(const Nlp& nlp, const Jacobian& pattern, const std::vector<int>& costs, std::vector<int> constraints)
+    : constraints_(std::move(constraints)), has_f_(hasRowsOfTypeF(nlp)) {
   const int n = nlp.dimension(), m = int(constraints_.size());
-  const bool couples_all = hasRowsOfTypeF(nlp);  // their Hessian may be full
-  place_.resize(n);
-  for (int i = 0; i < n; ++i) place_[i] = i;
-  if (!couples_all) {
-    std::vector<int> places = placesOf(n, pattern);
-    reordered_ = places != place_;
-    place_ = std::move(places);
+  if (has_f_ || n <= kSmall) {  // the Hessian of f terms may be full
+    place_.resize(n);
+    std::iota(place_.begin(), place_.end(), 0);
+    H_ = fullMatrix(n);
+  } else {
+    Places places = placesOf(n, pattern);
+    reordered_ = !std::is_sorted(places.of.begin(), places.of.end());
+    H_ = matrixOf(pattern, places);
+    place_ = std::move(places.of);
   }
-  H_ = SkylineMatrix(profileOf(pattern, place_, couples_all));
-  K_ = H_;
-  for (int row : constraints_) equality_.push_back(nlp.types()[row] == ObjectiveType::eq);
+  K_ = H_linear_ = H_;
+  for (int row : costs) (nlp.types()[row] == ObjectiveType::sos && nlp.isLinear(row) ? linear_costs_ : other_costs_).push_back(row);
+  for (int j = 0; j < m; ++j) {
+    is_equality_.push_back(nlp.types()[constraints_[j]] == ObjectiveType::eq);
+    if (is_equality_[j]) equalities_.push_back(j);
+  }
   active_.assign(m, false);
   factored_active_ = active_;
   fixed_.assign(n, false);
-  factored_fixed_ = fixed_place_ = fixed_;
-  within_reach_.reserve(std::size_t(m));
-  out_of_reach_.reserve(std::size_t(m));
+  factored_fixed_ = fixed_;
+  for (std::vector<int>* list : {&inequalities_, &within_reach_, &out_of_reach_}) list->reserve(std::size_t(m));
+  runs_.reserve(std::size_t(n));
   for (VectorXd* v : {&g_, &d_, &trial_, &r_, &s_, &Hd_, &trial_Hd_, &placed_, &placed_sum_}) v->setZero(n);
   linear_.setZero(m);
   trial_linear_.setZero(m);
 }
 
-void LocalModel::addRow(SkylineMatrix& matrix, const Jacobian& J, int row, double weight) {
+void LocalModel::addRow(BandedMatrix& matrix, int row, double weight) {
   runs_.clear();
-  for (const Jacobian::Segment& segment : J.row_segments(row)) {
-    const double* values = J.values.data() + segment.offset;
+  for (const Jacobian::Segment& segment : J_->row_segments(row)) {
+    const double* values = J_->values.data() + segment.offset;
     for (int start = 0, end; start < segment.width; start = end) {
       const int place = place_[segment.column + start];
       end = reordered_ ? start + 1 : segment.width;
@@ -127,30 +140,45 @@ void LocalModel::solve(VectorXd& x) {
   for (Eigen::Index i = 0; i < x.size(); ++i) x[i] = placed_[place_[i]];
 }
 
-bool LocalModel::setCosts(Nlp& nlp, const VectorXd& x, const VectorXd& phi, const Jacobian& J, const MatrixXd* curvature) {
+void LocalModel::setJacobian(const Jacobian& J) {
+  J_ = &J;
+  is_new_ = true;
+  inequalities_.clear();
+  for (int j = 0; j < int(constraints_.size()); ++j) {
+    if (!is_equality_[j] && !J.isZeroRow(constraints_[j])) inequalities_.push_back(j);
+  }
+}
+
+bool LocalModel::setCosts(Nlp& nlp, const VectorXd& x, const VectorXd& phi, const MatrixXd* curvature) {
+  is_new_ = true;
+  if (!knows_linear_costs_) {
+    H_linear_.setZero();
+    for (int row : linear_costs_) addRow(H_linear_, row, 2.);
+    knows_linear_costs_ = true;
+  }
   g_.setZero();
-  H_.setZero();
-  bool has_f = false;
-  for (int row : costs_) {
+  for (int row : linear_costs_) J_->addRowTo(row, 2. * phi[row], g_);
+  H_.copyFrom(H_linear_);
+  for (int row : other_costs_) {
     if (nlp.types()[row] == ObjectiveType::f) {
-      J.addRowTo(row, 1., g_);
-      has_f = true;
+      J_->addRowTo(row, 1., g_);
     } else if (nlp.types()[row] == ObjectiveType::sos || phi[row] > 0.) {  // ineqP only where it is violated
-      J.addRowTo(row, 2. * phi[row], g_);
-      addRow(H_, J, row, 2.);
+      J_->addRowTo(row, 2. * phi[row], g_);
+      addRow(H_, row, 2.);
     }
   }
-  if (!has_f) return true;
+  if (!has_f_) return true;
   MatrixXd hessian = MatrixXd::Zero(nlp.dimension(), nlp.dimension());
   const bool known = nlp.addCostHessian(x, hessian);
   if (!known && curvature) hessian = *curvature;
-  for (int i = 0; i < nlp.dimension(); ++i) {
-    for (int j = H_.first(i); j <= i; ++j) H_.at(i, j) += hessian(i, j);
+  for (int j = 0; j < nlp.dimension(); ++j) {
+    for (int i = j; i < nlp.dimension(); ++i) H_.at(i, j) += hessian(i, j);
   }
   return known;
 }
 
 void LocalModel::setNoCosts(double weight) {
+  is_new_ = true;
   g_.setZero();
   H_.setZero();
   H_.addToDiagonal(weight);
@@ -164,42 +192,31 @@ double LocalModel::largestCurvature() const {
 
 double LocalModel::multiplier(int j, double value, const Problem& problem) const {
   const double t = problem.lambda[j] + problem.mu * value;
-  return equality_[j] ? t : std::max(0., t);
+  return is_equality_[j] ? t : std::max(0., t);
 }
 
 void LocalModel::linearize(const VectorXd& d, const Problem& problem, VectorXd& linear) const {
-  for (int j : within_reach_) linear[j] = problem.phi[constraints_[j]] + problem.J.rowTimes(constraints_[j], d);
+  for (int j : within_reach_) linear[j] = problem.c[j] + J_->rowTimes(constraints_[j], d);
 }
 
-/// An inequality of which the multiplier is zero all over the box does not matter.
+/// An inequality of which the multiplier is zero all over the box does not matter, nor does one that is the same all over it.
 void LocalModel::findWithinReach(const Problem& problem) {
-  within_reach_.clear();
+  within_reach_.assign(equalities_.begin(), equalities_.end());
   out_of_reach_.clear();
-  for (int j = 0; j < int(constraints_.size()); ++j) {
-    const double c = problem.phi[constraints_[j]];
-    linear_[j] = trial_linear_[j] = c;
-    if (equality_[j]) {
-      within_reach_.push_back(j);
-      continue;
-    }
+  for (int j : inequalities_) {
     double rise = 0.;  // the most that the row can grow in the box
-    bool depends = false;
-    for (const Jacobian::Segment& segment : problem.J.row_segments(constraints_[j])) {
-      const double* J = problem.J.values.data() + segment.offset;
-      int nonzero = 0;
-      for (int i = 0; i < segment.width; ++i) nonzero |= J[i] != 0.;
-      if (!nonzero) continue;
-      depends = true;
+    for (const Jacobian::Segment& segment : J_->row_segments(constraints_[j])) {
+      const double* J = J_->values.data() + segment.offset;
       const double *low = problem.low.data() + segment.column, *high = problem.high.data() + segment.column;
       for (int i = 0; i < segment.width; ++i) {
         if (J[i] != 0.) rise += J[i] * (J[i] > 0. ? high[i] : low[i]);
       }
     }
-    if (problem.lambda[j] + problem.mu * (c + rise) > 0.) {
+    if (problem.lambda[j] + problem.mu * (problem.c[j] + rise) > 0.) {
       within_reach_.push_back(j);
     } else {
+      out_of_reach_.push_back(j);
       active_[j] = false;
-      if (depends) out_of_reach_.push_back(j);
     }
   }
 }
@@ -217,23 +234,20 @@ double LocalModel::costChange() const { return g_.dot(d_) + .5 * d_.dot(Hd_); }
 
 /// Factorizes H + shift I + mu J_A^T J_A, with the rows of fixed variables replaced by the identity.
 bool LocalModel::factorize(const Problem& problem) {
-  double extra = 0., magnitude = 1e-6;  // of the curvatures, which may be negative
-  for (int i = 0; i < H_.size(); ++i) magnitude = std::max(magnitude, std::abs(H_.at(i, i)));
+  double extra = 0.;
   for (int attempt = 0; attempt < 12; ++attempt) {
     K_.copyFrom(H_);
     K_.addToDiagonal(problem.shift + extra);
     for (int j : within_reach_) {
-      if (active_[j]) addRow(K_, problem.J, constraints_[j], problem.mu);
+      if (active_[j]) addRow(K_, constraints_[j], problem.mu);
     }
-    const bool some_fixed = std::find(fixed_.begin(), fixed_.end(), true) != fixed_.end();
-    for (int i = 0; i < K_.size(); ++i) fixed_place_[place_[i]] = fixed_[i];
-    for (int i = 0; some_fixed && i < K_.size(); ++i) {
-      for (int j = K_.first(i); j <= i; ++j) {
-        if (fixed_place_[i] || fixed_place_[j]) K_.at(i, j) = i == j ? 1. : 0.;
-      }
+    for (int i = 0; i < K_.size(); ++i) {
+      if (fixed_[i]) K_.isolate(place_[i]);
     }
     ++factorizations_;
     if (K_.factorize()) return true;
+    double magnitude = 1e-6;  // of the curvatures, which may be negative
+    for (int i = 0; i < H_.size(); ++i) magnitude = std::max(magnitude, std::abs(H_.at(i, i)));
     extra = extra == 0. ? 1e-3 * magnitude : 4. * extra;
   }
   return false;
@@ -242,11 +256,15 @@ bool LocalModel::factorize(const Problem& problem) {
 /// s = -K^-1 r among the variables that are free. One that sits at a bound and would be pushed out is fixed as well.
 bool LocalModel::newtonStep(const Problem& problem) {
   for (bool pushed_out = true; pushed_out;) {
-    if (!factored_ || active_ != factored_active_ || fixed_ != factored_fixed_) {
+    const auto differs = [&](int j) { return active_[j] != factored_active_[j]; };
+    if (!factored_ || problem.mu != factored_mu_ || problem.shift != factored_shift_ || fixed_ != factored_fixed_ ||
+        std::any_of(inequalities_.begin(), inequalities_.end(), differs)) {
       factored_ = factorize(problem);
       if (!factored_) return false;
-      factored_active_ = active_;
+      for (int j : inequalities_) factored_active_[j] = active_[j];
       factored_fixed_ = fixed_;
+      factored_mu_ = problem.mu;
+      factored_shift_ = problem.shift;
     }
     const int n = int(s_.size());
     for (int i = 0; i < n; ++i) s_[i] = fixed_[i] ? 0. : -r_[i];
@@ -270,19 +288,38 @@ double LocalModel::roomAlong(const Problem& problem) const {
   return room;
 }
 
-const VectorXd& LocalModel::minimize(const Problem& problem) {
-  const int n = int(d_.size());
+/// Where to begin: from zero in a new model, else where it ended the last time if that is better. Returns the value there.
+double LocalModel::begin(const Problem& problem) {
+  linear_ = problem.c;
+  trial_linear_ = problem.c;
+  trial_.setZero();
+  trial_Hd_.setZero();
+  const double at_zero = value(trial_, trial_Hd_, linear_, problem);
+  const bool goes_on = !is_new_ && (d_.array() >= problem.low.array()).all() && (d_.array() <= problem.high.array()).all();
+  if (is_new_) factored_ = false;
+  is_new_ = false;
+  if (goes_on) {
+    linearize(d_, problem, trial_linear_);
+    if (const double there = value(d_, Hd_, trial_linear_, problem); there < at_zero) {
+      linear_.swap(trial_linear_);
+      return there;
+    }
+  }
   d_.setZero();
   Hd_.setZero();
+  return at_zero;
+}
+
+const VectorXd& LocalModel::minimize(const Problem& problem) {
+  const int n = int(d_.size());
   findWithinReach(problem);
-  double current = value(d_, Hd_, linear_, problem), reference = 0.;
-  factored_ = false;
+  double current = begin(problem), reference = 0.;
   for (int pass = 0; pass < problem.max_passes; ++pass) {
     r_ = g_ + problem.shift * d_ + Hd_;
     for (int j : within_reach_) {
       const double t = multiplier(j, linear_[j], problem);
-      active_[j] = equality_[j] || t > 0.;
-      if (t != 0.) problem.J.addRowTo(constraints_[j], t, r_);
+      active_[j] = is_equality_[j] || t > 0.;
+      if (t != 0.) J_->addRowTo(constraints_[j], t, r_);
     }
     double remaining = 0.;
     for (int i = 0; i < n; ++i) {
@@ -317,7 +354,7 @@ const VectorXd& LocalModel::minimize(const Problem& problem) {
     }
     if (!accepted || (moved < 1e-10 && !reaches_bound)) break;  // where a bound is near, the next pass goes along it
   }
-  for (int j : out_of_reach_) linear_[j] += problem.J.rowTimes(constraints_[j], d_);
+  for (int j : out_of_reach_) linear_[j] += J_->rowTimes(constraints_[j], d_);
   return d_;
 }
 

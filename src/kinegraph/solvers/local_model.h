@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "kinegraph/math/skyline.h"
+#include "kinegraph/math/banded_matrix.h"
 #include "kinegraph/nlp/nlp.h"
 
 namespace kinegraph {
@@ -11,16 +11,19 @@ namespace kinegraph {
 ///
 ///     m(d) = g^T d + 1/2 d^T (H + shift I) d + 1/(2 mu) sum_j t_j(d)^2,     t_j = lambda_j + mu (c_j + J_j d)
 ///
-/// with t_j cut off at zero for inequalities. It is piecewise quadratic, and minimized by a semismooth Newton method.
-/// Holds all its memory; minimizing requests none.
+/// with t_j cut off at zero for inequalities. It is piecewise quadratic, and minimized by a semismooth Newton method,
+/// which goes on from the last step where only multipliers, weights or constraints have changed since. Holds all its memory; minimizing requests none. It is of use at many points, and for several solutions of a problem.
 class LocalModel {
  public:
-  /// `costs` are the rows whose squares are in H, `constraints` those of the sum.
-  LocalModel(const Nlp& nlp, std::vector<int> costs, std::vector<int> constraints);
+  /// `pattern` is that of the problem's Jacobian, `costs` are the rows whose squares are in H, `constraints` those of the sum.
+  LocalModel(const Nlp& nlp, const Jacobian& pattern, const std::vector<int>& costs, std::vector<int> constraints);
+
+  /// Takes the rows of J at a point. `J` must stay as it is while this is used.
+  void setJacobian(const Jacobian& J);
 
   /// Takes g and H = 2 Js^T Js (+ the Hessian of the f terms, or where the problem has none to offer `curvature`, if given)
-  /// from residuals at a point. False if the Hessian of the f terms would be needed and is missing.
-  bool setCosts(Nlp& nlp, const VectorXd& x, const VectorXd& phi, const Jacobian& J, const MatrixXd* curvature = nullptr);
+  /// from residuals at the same point. False if the Hessian of the f terms would be needed and is missing.
+  bool setCosts(Nlp& nlp, const VectorXd& x, const VectorXd& phi, const MatrixXd* curvature = nullptr);
 
   /// No costs, H = weight I: the model of the violation alone.
   void setNoCosts(double weight);
@@ -28,8 +31,7 @@ class LocalModel {
   double largestCurvature() const;  ///< of the costs: largest diagonal entry of H
 
   struct Problem {
-    const VectorXd& phi;
-    const Jacobian& J;
+    const VectorXd& c;       ///< per constraint
     const VectorXd& lambda;  ///< per constraint
     double mu;
     double shift;
@@ -45,15 +47,13 @@ class LocalModel {
   double costChange() const;                        ///< g^T d + 1/2 d^T H d, without the shift
   int factorizations() const { return factorizations_; }
 
-  const std::vector<int>& constraints() const { return constraints_; }
-  bool isEquality(int constraint) const { return equality_[constraint]; }
-
  private:
   double multiplier(int j, double value, const Problem& problem) const;
   double value(const VectorXd& d, const VectorXd& Hd, const VectorXd& linear, const Problem& problem) const;
   void linearize(const VectorXd& d, const Problem& problem, VectorXd& linear) const;
   void findWithinReach(const Problem& problem);
-  void addRow(SkylineMatrix& matrix, const Jacobian& J, int row, double weight);
+  double begin(const Problem& problem);
+  void addRow(BandedMatrix& matrix, int row, double weight);
   void addHessianProduct(const VectorXd& d, VectorXd& sum);
   void solve(VectorXd& x);
   bool factorize(const Problem& problem);
@@ -65,18 +65,24 @@ class LocalModel {
     const double* values;
     int place, width;
   };
+  using Flags = std::vector<char>;
 
-  std::vector<int> costs_, constraints_;
-  std::vector<int> place_;  ///< of each variable in H and K: those that couple to far ones come last, which keeps the rest a band
-  bool reordered_ = false;
+  const Jacobian* J_ = nullptr;
+  std::vector<int> linear_costs_;   ///< rows whose squares are in H, of which J is the same everywhere
+  std::vector<int> other_costs_;
+  std::vector<int> constraints_;    ///< rows
+  std::vector<int> place_;          ///< of each variable in H and K
+  bool reordered_ = false, has_f_ = false, knows_linear_costs_ = false;
   std::vector<Run> runs_;
   VectorXd placed_, placed_sum_;
-  std::vector<int> within_reach_;  ///< constraints that can matter in the box
-  std::vector<int> out_of_reach_;  ///< those that cannot, and change with d all the same
-  std::vector<bool> equality_, active_, factored_active_, fixed_, factored_fixed_, fixed_place_;
-  SkylineMatrix H_, K_;
+  std::vector<int> equalities_, inequalities_;  ///< constraints; of the latter those that depend on x here
+  std::vector<int> within_reach_;   ///< constraints that can matter in the box
+  std::vector<int> out_of_reach_;   ///< those that cannot, and change with d all the same
+  Flags is_equality_, active_, factored_active_, fixed_, factored_fixed_;
+  BandedMatrix H_linear_, H_, K_;   ///< of linear costs; of all costs; the factor
   VectorXd g_, d_, trial_, r_, s_, Hd_, trial_Hd_, linear_, trial_linear_;
-  bool factored_ = false;
+  bool is_new_ = true, factored_ = false;
+  double factored_mu_ = 0., factored_shift_ = 0.;
   int factorizations_ = 0;
 };
 

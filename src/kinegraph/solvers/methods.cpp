@@ -28,14 +28,15 @@ SolverResult slackThenBarrier(Nlp& nlp, const VectorXd& x0, const SolverOptions&
 
 /// The augmented Lagrangian. Where the curvature has to be learnt, a sequence of quadratic programs gets half of the evaluations
 /// first, and the better of both is the result if neither converges.
-SolverResult solveDefault(Nlp& nlp, const VectorXd& x0, const SolverOptions& options, const VectorXd& dual, const EvaluationHook& hook) {
-  if (x0.size() != nlp.dimension() || !needsLearntCurvature(nlp, x0)) return solveAugmentedLagrangian(nlp, x0, options, dual, hook);
+SolverResult solveDefault(Nlp& nlp, const VectorXd& x0, const SolverOptions& options, const VectorXd& dual, const EvaluationHook& hook,
+                          AugmentedLagrangianMemory* memory) {
+  if (x0.size() != nlp.dimension() || !needsLearntCurvature(nlp, x0)) return solveAugmentedLagrangian(nlp, x0, options, dual, hook, memory);
   SolverOptions part = options;
   part.stopEvals = std::max(1, options.stopEvals / 2);
   SolverResult first = solveSequentialQuadratic(nlp, x0, part, hook);
   if (first.status == SolverStatus::converged || first.status == SolverStatus::cancelled || first.evals >= options.stopEvals) return first;
   part.stopEvals = options.stopEvals - first.evals;
-  SolverResult second = solveAugmentedLagrangian(nlp, x0, part, dual, hook);
+  SolverResult second = solveAugmentedLagrangian(nlp, x0, part, dual, hook, memory);
   const double tolerance = options.constraintTolerance();
   const bool first_is_better = second.status != SolverStatus::converged && first.violation <= tolerance &&
                                (second.violation > tolerance || first.f + first.sos < second.f + second.sos);
@@ -45,12 +46,13 @@ SolverResult solveDefault(Nlp& nlp, const VectorXd& x0, const SolverOptions& opt
   return std::move(better);
 }
 
-SolverResult dispatch(Nlp& nlp, const VectorXd& x0, const SolverOptions& options, const VectorXd& dual, const EvaluationHook& hook) {
+SolverResult dispatch(Nlp& nlp, const VectorXd& x0, const SolverOptions& options, const VectorXd& dual, const EvaluationHook& hook,
+                      AugmentedLagrangianMemory* memory) {
   switch (options.method) {
-    case OptMethod::augmentedLag: return solveDefault(nlp, x0, options, dual, hook);
+    case OptMethod::augmentedLag: return solveDefault(nlp, x0, options, dual, hook, memory);
     case OptMethod::newton:
       requireNoConstraints(nlp, "newton");
-      return solveAugmentedLagrangian(nlp, x0, options, {}, hook);
+      return solveAugmentedLagrangian(nlp, x0, options, {}, hook, memory);
     case OptMethod::gradientDescent: return solveGradientDescent(nlp, x0, options, hook);
     case OptMethod::rprop: return solveRprop(nlp, x0, options, hook);
     case OptMethod::LBFGS: return solveLbfgs(nlp, x0, options, hook);
@@ -77,14 +79,15 @@ const std::vector<OptMethod>& availableMethods() {
   return methods;
 }
 
-SolverResult solve(Nlp& nlp, const VectorXd& x0, const SolverOptions& options, const VectorXd& dual, const EvaluationHook& hook) {
+SolverResult solve(Nlp& nlp, const VectorXd& x0, const SolverOptions& options, const VectorXd& dual, const EvaluationHook& hook,
+                   AugmentedLagrangianMemory* memory) {
   const auto start = std::chrono::steady_clock::now();
   SolverResult result;
   if (options.finiteDifference > 0.) {
     FiniteDifferenceNlp numeric(nlp, options.finiteDifference);
-    result = dispatch(numeric, x0, options, dual, hook);
+    result = dispatch(numeric, x0, options, dual, hook, nullptr);
   } else {
-    result = dispatch(nlp, x0, options, dual, hook);
+    result = dispatch(nlp, x0, options, dual, hook, memory);
   }
   result.time = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   return result;

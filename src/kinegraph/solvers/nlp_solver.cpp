@@ -127,7 +127,9 @@ SolverResult NlpSolver::solve(bool resample, Rng& rng, const EvaluationHook& hoo
   } else {
     Nlp& solved = separation.problem ? *separation.problem : *problem_;
     if (dual.size() == 0) solved_dual_.resize(0);
-    result = kinegraph::solve(solved, x, options, separation.problem ? solved_dual_ : dual, watch);
+    if (memory_of_ != &solved) memory_ = std::make_unique<AugmentedLagrangianMemory>();
+    memory_of_ = &solved;
+    result = kinegraph::solve(solved, x, options, separation.problem ? solved_dual_ : dual, watch, memory_.get());
     solved_dual_ = result.dual;
   }
   if (separation.problem) {

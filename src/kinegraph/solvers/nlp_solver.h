@@ -52,6 +52,8 @@ class NlpSolver {
   Progress progress_;
   double progress_seconds_ = 0.;
   std::map<OptMethod, Method> methods_;
+  std::unique_ptr<AugmentedLagrangianMemory> memory_;  ///< for the problem, or the form of it, that was solved last
+  const Nlp* memory_of_ = nullptr;
   VectorXd solved_dual_;  ///< of the form of the problem that was solved
   int evals_ = 0;
 };

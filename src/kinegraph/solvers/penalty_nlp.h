@@ -15,6 +15,7 @@ class PenaltyNlp final : public Nlp {
   Jacobian makeJacobian() const override { return nlp_.makeJacobian(); }
   void evaluate(const VectorXd& x, VectorXd& phi, Jacobian* J) override;
   bool addCostHessian(const VectorXd& x, MatrixXd& H) override { return nlp_.addCostHessian(x, H); }
+  bool mayBeQuadratic() const override { return false; }
   std::string rowName(int row) const override { return nlp_.rowName(row); }
 
  private:
@@ -33,6 +34,7 @@ class BarrierNlp final : public Nlp {
 
   /// With mu / phi^2 J^T J of each inequality.
   bool addCostHessian(const VectorXd& x, MatrixXd& H) override;
+  bool mayBeQuadratic() const override { return false; }
   std::string rowName(int row) const override { return nlp_.rowName(row); }
 
  private:

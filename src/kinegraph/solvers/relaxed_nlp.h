@@ -16,6 +16,7 @@ class RelaxedNlp final : public Nlp {
 
   Jacobian makeJacobian() const override;
   void evaluate(const VectorXd& x, VectorXd& phi, Jacobian* J) override;
+  bool mayBeQuadratic() const override { return false; }
   std::string rowName(int row) const override { return row < int(nlp_.types().size()) ? nlp_.rowName(row) : "bound"; }
 
  private:

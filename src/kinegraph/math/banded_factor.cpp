@@ -1,0 +1,211 @@
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "kinegraph/math/banded_matrix.h"
+
+// The Cholesky factorization goes through the columns in panels of four, and takes the products of each panel off all columns
+// that it reaches, four at a time, so that these are read and written once per panel. No sum depends on the width of registers.
+
+namespace kinegraph {
+
+namespace {
+
+constexpr int kPack = 4;
+typedef double Pack __attribute__((vector_size(kPack * sizeof(double)), aligned(sizeof(double)), may_alias));
+
+[[gnu::always_inline]] inline Pack& packAt(double* x) { return *reinterpret_cast<Pack*>(x); }
+[[gnu::always_inline]] inline const Pack& packAt(const double* x) { return *reinterpret_cast<const Pack*>(x); }
+
+/// target[i] -= factor source[i] for i in [begin, end), and for some beyond up to a whole pack.
+[[gnu::always_inline]] inline void subtract(double* target, double factor, const double* source, int begin, int end) {
+  for (int i = begin; i < end; i += kPack) packAt(target + i) = packAt(target + i) - factor * packAt(source + i);
+}
+
+[[gnu::always_inline]] inline void scale(double* target, double factor, int begin, int end) {
+  for (int i = begin; i < end; i += kPack) packAt(target + i) *= factor;
+}
+
+/// target[i] -= sum_p columns[p][row] columns[p][i] for i in [row, end), and for some beyond up to a whole pack.
+[[gnu::always_inline]] inline void subtractProducts(double* target, const std::array<const double*, kPack>& columns,
+                                                    const std::array<double, kPack>& factors, int begin, int end) {
+  const double *c0 = columns[0], *c1 = columns[1], *c2 = columns[2], *c3 = columns[3];
+  const double l0 = factors[0], l1 = factors[1], l2 = factors[2], l3 = factors[3];
+  for (int i = begin; i < end; i += kPack) {
+    packAt(target + i) = packAt(target + i) - ((l0 * packAt(c0 + i) + l1 * packAt(c1 + i)) + (l2 * packAt(c2 + i) + l3 * packAt(c3 + i)));
+  }
+}
+
+/// y[i] += factor a[i], and the sum of a[i] x[i], for i in [begin, end) and beyond, where a is zero.
+[[gnu::always_inline]] inline double addColumn(const double* a, double factor, const double* x, double* y, int begin, int end) {
+  Pack sums = {0., 0., 0., 0.};
+  for (int i = begin; i < end; i += kPack) {
+    packAt(y + i) = packAt(y + i) + factor * packAt(a + i);
+    sums += packAt(a + i) * packAt(x + i);
+  }
+  return (sums[0] + sums[1]) + (sums[2] + sums[3]);
+}
+
+/// sums[p] += columns[p][i] x[i] for i in [begin, end) and beyond, where columns are zero.
+[[gnu::always_inline]] inline void addProducts(std::array<Pack, kPack>& sums, const std::array<const double*, kPack>& columns,
+                                               const double* x, int begin, int end) {
+  for (int i = begin; i < end; i += kPack) {
+    const Pack xi = packAt(x + i);
+    for (int p = 0; p < kPack; ++p) sums[p] += packAt(columns[p] + i) * xi;
+  }
+}
+
+}  // namespace
+
+/// Up to four columns from `begin` on, all of the band or all of the border. Those that are not there repeat the first.
+[[gnu::always_inline]] inline BandedMatrix::Panel BandedMatrix::panelAt(int begin) const {
+  const bool in_band = begin < band_;
+  Panel panel;
+  panel.begin = begin;
+  panel.width = std::min(kPanel, (in_band ? band_ : size()) - begin);
+  panel.end = in_band ? last_[begin] + 1 : size();
+  panel.has_border = in_band && band_ < size();
+  for (int p = 0; p < kPanel; ++p) {
+    const Offset& offset = offset_[begin + (p < panel.width ? p : 0)];
+    panel.columns[p] = values_.data() + (in_band ? offset.band : offset.border);
+    panel.borders[p] = values_.data() + offset.border;
+  }
+  return panel;
+}
+
+[[gnu::always_inline]] inline bool BandedMatrix::factorizePanel(int begin) {
+  double* values = values_.data();
+  const int n = size();
+  const Panel panel = panelAt(begin);
+  const bool in_band = begin < band_;
+  const auto column = [&](int j) __attribute__((always_inline)) { return values + (in_band ? offset_[j].band : offset_[j].border); };
+  for (int p = 0; p < panel.width; ++p) {
+    const int j = begin + p;
+    double *own = column(j), *own_border = values + offset_[j].border;
+    for (int q = 0; q < p; ++q) {
+      const double factor = panel.columns[q][j];
+      subtract(own, factor, panel.columns[q], j, panel.end);
+      if (panel.has_border) subtract(own_border, factor, panel.borders[q], band_, n);
+    }
+    if (!(own[j] > 0.) || !std::isfinite(own[j])) return false;
+    const double root = std::sqrt(own[j]);
+    inverse_[j] = 1. / root;
+    scale(own, inverse_[j], j, panel.end);
+    own[j] = root;
+    if (panel.has_border) scale(own_border, inverse_[j], band_, n);
+  }
+  std::array<double, kPanel> factors{};  // zero for columns that are not there
+  for (int j = begin + panel.width; j < panel.end; ++j) {
+    for (int p = 0; p < panel.width; ++p) factors[p] = panel.columns[p][j];
+    subtractProducts(column(j), panel.columns, factors, j, panel.end);
+    if (panel.has_border) subtractProducts(values + offset_[j].border, panel.borders, factors, band_, n);
+  }
+  for (int j = panel.has_border ? band_ : n; j < n; ++j) {
+    for (int p = 0; p < panel.width; ++p) factors[p] = panel.borders[p][j];
+    subtractProducts(values + offset_[j].border, panel.borders, factors, j, n);
+  }
+  return true;
+}
+
+[[gnu::always_inline]] inline bool BandedMatrix::factorizeAll() {
+  for (int begin = 0; begin < band_; begin += kPanel) {
+    if (!factorizePanel(begin)) return false;
+  }
+  for (int begin = band_; begin < size(); begin += kPanel) {
+    if (!factorizePanel(begin)) return false;
+  }
+  return true;
+}
+
+/// y_ = this * x_
+[[gnu::always_inline]] inline void BandedMatrix::product() {
+  const double *values = values_.data(), *x = x_.data();
+  double* y = y_.data();
+  const int n = size();
+  std::fill(y_.begin(), y_.end(), 0.);
+  for (int j = 0; j < band_; ++j) {
+    double sum = addColumn(values + offset_[j].band, x[j], x, y, j + 1, last_[j] + 1) + values[offset_[j].band + j] * x[j];
+    if (band_ < n) sum += addColumn(values + offset_[j].border, x[j], x, y, band_, n);
+    y[j] += sum;
+  }
+  for (int j = band_; j < n; ++j) {
+    const double* column = values + offset_[j].border;
+    y[j] += addColumn(column, x[j], x, y, j + 1, n) + column[j] * x[j];
+  }
+}
+
+/// x_ <- inverse * x_, panel by panel, so that few operations wait for one another.
+[[gnu::always_inline]] inline void BandedMatrix::solve() {
+  double* x = x_.data();
+  const int n = size();
+  const int band_panels = (band_ + kPanel - 1) / kPanel, panels = band_panels + (border() + kPanel - 1) / kPanel;
+  for (int i = 0; i < panels; ++i) {
+    const Panel panel = panelAt(i < band_panels ? i * kPanel : band_ + (i - band_panels) * kPanel);
+    std::array<double, kPanel> own{};
+    for (int p = 0; p < panel.width; ++p) {
+      const int j = panel.begin + p;
+      own[p] = x[j];
+      for (int q = 0; q < p; ++q) own[p] -= panel.columns[q][j] * own[q];
+      x[j] = own[p] *= inverse_[j];
+    }
+    subtractProducts(x, panel.columns, own, panel.begin + panel.width, panel.end);
+    if (panel.has_border) subtractProducts(x, panel.borders, own, band_, n);
+  }
+  for (int i = panels - 1; i >= 0; --i) {
+    const Panel panel = panelAt(i < band_panels ? i * kPanel : band_ + (i - band_panels) * kPanel);
+    std::array<Pack, kPanel> sums{};
+    addProducts(sums, panel.columns, x, panel.begin + panel.width, panel.end);
+    if (panel.has_border) addProducts(sums, panel.borders, x, band_, n);
+    for (int p = panel.width - 1; p >= 0; --p) {
+      const int j = panel.begin + p;
+      double rest = x[j] - ((sums[p][0] + sums[p][1]) + (sums[p][2] + sums[p][3]));
+      for (int q = p + 1; q < panel.width; ++q) rest -= panel.columns[p][panel.begin + q] * x[panel.begin + q];
+      x[j] = rest * inverse_[j];
+    }
+  }
+}
+
+#if defined(__x86_64__)
+
+namespace {
+
+bool hasWideRegisters() {
+  static const bool wide = __builtin_cpu_supports("avx2");
+  return wide;
+}
+
+}  // namespace
+
+[[gnu::target("avx2")]] bool BandedMatrix::factorizeWide() { return factorizeAll(); }
+[[gnu::target("avx2")]] void BandedMatrix::productWide() { product(); }
+[[gnu::target("avx2")]] void BandedMatrix::solveWide() { solve(); }
+
+#else
+
+namespace {
+
+constexpr bool hasWideRegisters() { return false; }
+
+}  // namespace
+
+bool BandedMatrix::factorizeWide() { return factorizeAll(); }
+void BandedMatrix::productWide() { product(); }
+void BandedMatrix::solveWide() { solve(); }
+
+#endif
+
+bool BandedMatrix::factorize() { return hasWideRegisters() ? factorizeWide() : factorizeAll(); }
+
+void BandedMatrix::addProduct(const VectorXd& x, VectorXd& y) {
+  std::fill(std::copy(x.begin(), x.end(), x_.begin()), x_.end(), 0.);
+  hasWideRegisters() ? productWide() : product();
+  y += Eigen::Map<const VectorXd>(y_.data(), size());
+}
+
+void BandedMatrix::solveInPlace(VectorXd& x) {
+  std::fill(std::copy(x.begin(), x.end(), x_.begin()), x_.end(), 0.);
+  hasWideRegisters() ? solveWide() : solve();
+  std::copy(x_.begin(), x_.begin() + size(), x.begin());
+}
+
+}  // namespace kinegraph

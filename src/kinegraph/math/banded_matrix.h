@@ -1,0 +1,83 @@
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "kinegraph/math/pose.h"
+
+namespace kinegraph {
+
+/// A symmetric positive definite matrix with a band around the diagonal and full rows at the end, and its Cholesky factor in
+/// place: that of a path, with variables that all slices share last. Dense matrices are those whose band is as wide as they are.
+/// Columns of the lower triangle lie one behind the other; a factorization costs what the band costs, linear in the size.
+class BandedMatrix {
+ public:
+  /// The band of column j ends in row `last[j]` >= j, or where that of a column to its left ends if that is below; then come
+  /// `border` full rows and columns.
+  explicit BandedMatrix(std::vector<int> last = {}, int border = 0);
+
+  int size() const { return int(offset_.size()); }
+  int border() const { return size() - band_; }
+
+  /// Is entry (i, j) with i >= j kept? The others are zero.
+  bool keeps(int i, int j) const { return i >= band_ || i <= last_[j]; }
+
+  /// Entry (i, j) with i >= j that is kept.
+  double& at(int i, int j) { return values_[place(i, j)]; }
+  double at(int i, int j) const { return values_[place(i, j)]; }
+
+  void setZero();
+  void copyFrom(const BandedMatrix& other) { values_ = other.values_; }  ///< of equal form
+  void addToDiagonal(double x);
+
+  /// Makes row and column i those of the identity.
+  void isolate(int i);
+
+  /// this += w v v^T for a vector that is nonzero in [first, first + width) only.
+  void addOuterProduct(const double* v, int first, int width, double w);
+
+  /// this += w (u v^T + v u^T) for u in rows that all lie behind those of v.
+  void addCrossProduct(const double* u, int u_first, int u_width, const double* v, int v_first, int v_width, double w);
+
+  /// y += this * x, for a matrix that is not factorized.
+  void addProduct(const VectorXd& x, VectorXd& y);
+
+  /// Replaces the matrix by its Cholesky factor. False if it is not positive definite. The result is the same on all machines.
+  bool factorize();
+
+  /// x <- inverse * x, with the factor.
+  void solveInPlace(VectorXd& x);
+
+ private:
+  static constexpr int kPanel = 4;             ///< columns
+  static constexpr int kPadding = kPanel - 1;  ///< zeros behind each part of a column, so that whole packs can be read and written
+
+  struct Offset {
+    std::ptrdiff_t band, border;  ///< of row 0, were it stored, in either part
+  };
+  std::ptrdiff_t place(int i, int j) const { return (i < band_ ? offset_[j].band : offset_[j].border) + i; }
+  /// Columns that are factorized together: pointers to row 0 of each, were it stored, next to the diagonal and in the border.
+  struct Panel {
+    int begin, width;
+    int end;  ///< of the rows next to the diagonal
+    bool has_border;
+    std::array<const double*, kPanel> columns, borders;
+  };
+  Panel panelAt(int begin) const;
+  bool factorizePanel(int begin);
+  bool factorizeAll();
+  bool factorizeWide();
+  void product();
+  void productWide();
+  void solve();
+  void solveWide();
+
+  int band_ = 0;                    ///< rows before the border
+  std::vector<int> last_;           ///< per column of the band; the same in each panel
+  std::vector<Offset> offset_;      ///< per column
+  std::vector<double> values_;
+  std::vector<double> inverse_;     ///< of the diagonal entries of the factor
+  std::vector<double> x_, y_;       ///< vectors with the padding that columns have
+};
+
+}  // namespace kinegraph
