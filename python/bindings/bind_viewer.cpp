@@ -72,6 +72,7 @@ int viewPath(PyConfig& config, const Numbers& path, double seconds, bool pause,
 void watch(PyConfig& config, nb::handle file) {
   const std::string path = nb::cast<std::string>(nb::module_::import_("os").attr("fspath")(file));
   const std::shared_ptr<PyViewer> viewer = showIn(config);
+  viewer->setTitle(cat("ConfigView <", path, ">"));  // before there is a page
   if (!openPage(*viewer)) {
     config.clear();
     config.addFile(path);
