@@ -42,7 +42,6 @@ Reading readScene(const std::string& path) {
 
 void watchFile(Config& config, ConfigViewer& viewer, const std::string& path,
                const std::function<void(const std::string&)>& report, const std::function<bool()>& stop) {
-  viewer.setTitle(cat("ConfigView <", path, ">"));
   FileChanges changes;
   const auto load = [&] {
     Reading reading = readScene(path);
