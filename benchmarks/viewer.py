@@ -1,13 +1,15 @@
 """How quick are the viewer and the cameras?
 
-    python benchmarks/viewer.py                 all of it; or some of: bundle, first, client, server, camera
+    python benchmarks/viewer.py                 all of it; or some of: bundle, first, client, server, ik,
+                                                 camera
     python benchmarks/viewer.py client --seconds 20 --size 1280x720
 
 bundle: the page as it is served, compressed. first: from the call of view() until a browser that is already open on the page of
 a program shows the Panda. client: 200 shapes (boxes, spheres, capsules, cylinders, meshes), all moved 60 times per second by a
 program; pictures per second of a headless Chromium that draws in software, with shadows, and how many of the 60 arrive.
 server: share of one core that the server's side of 1000 frames at 60 Hz takes, kinematics included, with a browser's
-connection that reads everything. camera: RGB and depth, 640x360, of pandaSingle.
+connection that reads everything. ik: a target is dragged by its handles on the page while `interactiveIk` runs; how often the
+gripper is somewhere else on the page. camera: RGB and depth, 640x360, of pandaSingle.
 
 On a busy machine figures are worse than they are. Needs Chromium and the package `websockets` (first, client, server).
 """
@@ -64,6 +66,39 @@ while True:
         next_time = start + step / 60
     next_time += 1 / 60
     time.sleep(max(0, next_time - time.monotonic()))
+"""
+
+
+DRAGGED = """
+import kinegraph as kg
+C = kg.Config()
+C.addFile(kg.raiPath("scenarios/pandaSingle.g"))
+C.view()
+C.viewer().setCamera([1.6, 1.2, 1.6], [0, 0, .9])
+C.viewer().waitForClient(120)
+kg.interactiveIk(C, "l_gripper")
+"""
+
+# the pointer draws a figure about a place, 60 times per second; when the gripper was first seen at a place, by the page's clock
+DRAG = """
+const canvas = document.getElementById("canvas");
+const point = (kind, x, y) => canvas.dispatchEvent(new PointerEvent(kind,
+  { clientX: x, clientY: y, button: kind === "pointermove" ? -1 : 0, buttons: 1, pointerId: 1, pointerType: "mouse", isPrimary: true, bubbles: true }));
+canvas.setPointerCapture = canvas.releasePointerCapture = () => {};
+window.places = [];
+window.moves = 0;
+point("pointermove", ...PLACE);
+point("pointerdown", ...PLACE);
+setInterval(() => {
+  const now = performance.now() / 1000;
+  point("pointermove", PLACE[0] + 40 * Math.sin(3 * now), PLACE[1] + 30 * Math.sin(2 * now));
+  ++moves;
+}, 1000 / 60);
+(function look(last) {
+  const place = String(kinegraph.position("l_gripper"));
+  if (place !== last) places.push(performance.now());
+  requestAnimationFrame(() => look(place));
+})("");
 """
 
 
@@ -190,6 +225,34 @@ def server() -> None:
         )
 
 
+def dragging(seconds: float) -> None:
+    program, url = start(DRAGGED)
+    try:
+        with Browser() as browser:
+            browser.open_page(url)
+            browser.wait_for("kinegraph.position('ik_target') && kinegraph.selected() == 'ik_target'")
+            browser.wait_for("kinegraph.idle()")
+            x, y = browser.pixel(browser.evaluate("kinegraph.position('ik_target')"))
+            browser.evaluate(DRAG.replace("PLACE", f"[{x}, {y}]"))
+            time.sleep(2)
+            counters = "[places.length, moves, kinegraph.pictures(), performance.now()]"
+            before, used = browser.evaluate(counters), [processor_time(p) for p in (program.pid, browser.process_id)]
+            time.sleep(seconds)
+            used = [processor_time(p) - u for p, u in zip((program.pid, browser.process_id), used)]
+            places, moves, pictures, passed = (b - a for a, b in zip(before, browser.evaluate(counters)))
+            apart = np.diff(browser.evaluate("places")[before[0] :])
+    finally:
+        program.kill()
+        program.wait()
+    passed /= 1e3
+    print(
+        f"ik, {moves / passed:.0f} moves/s of the pointer: the arm is somewhere else {places / passed:.1f} times/s on the "
+        f"page, {np.median(apart):.0f} ms apart, 9 of 10 within {np.quantile(apart, 0.9):.0f} ms; {pictures / passed:.1f} "
+        f"pictures/s; processor time per place: program {1e3 * used[0] / places:.1f} ms, browser "
+        f"{1e3 * used[1] / places:.1f} ms"
+    )
+
+
 def camera() -> None:
     C = kg.Config()
     C.addFile(kg.raiPath("scenarios/pandaSingle.g"))
@@ -209,7 +272,7 @@ def camera() -> None:
 
 def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("what", nargs="*", default=["bundle", "first", "client", "server", "camera"])
+    parser.add_argument("what", nargs="*", default=["bundle", "first", "client", "server", "ik", "camera"])
     parser.add_argument("--seconds", type=float, default=8.0)
     parser.add_argument("--size", default="640x480")
     parser.add_argument("--no-shadows", action="store_true")
@@ -220,6 +283,7 @@ def main() -> None:
         "first": first_picture,
         "client": lambda: client(options.seconds, width, height, not options.no_shadows),
         "server": server,
+        "ik": lambda: dragging(options.seconds),
         "camera": camera,
     }
     for what in options.what:

@@ -134,11 +134,10 @@ int show(PyKomo& komo, const ShownMotion& motion, bool pause, const std::string&
   const std::shared_ptr<PyViewer> viewer = komo.viewer;
   const Config config = komo.configuration(-komo.order());
   viewer->scene = config.scene();
+  if (!viewer->isOpen()) viewer->setTitle("KOMO Viewer");
+  if (!openPage(*viewer)) return pause ? kEscape : 0;
   const nb::gil_scoped_release unlock;
-  return viewer->showMotion(config, motion, pause, text, [] {
-    checkInterrupt();
-    return false;
-  });
+  return viewer->showMotion(config, motion, pause, text, interrupted);
 }
 
 int view(PyKomo& komo, bool pause, Message text) {
@@ -199,7 +198,7 @@ void bindKomoReports(nb::class_<PyKomo>& komo) {
              const std::string page = recordedScene(k.configuration(-k.order()), &motion, "KOMO Viewer");
              return nb::cast<std::string>(nb::module_::import_("kinegraph.notebook").attr("inlineFrame")(page));
            }, "What notebooks show: the motion, which plays there without a program.")
-      .def("view_close", [](PyKomo& k) { if (k.viewer) k.viewer->close(); }, "Ends the viewer.")
+      .def("view_close", [](PyKomo& k) { if (k.viewer) k.viewer->endPage(); }, "Ends the viewer.")
       .def("get_viewer", [](PyKomo& k) {
              if (!k.viewer) k.viewer = std::make_shared<PyViewer>();
              return k.viewer;

@@ -49,12 +49,6 @@ void bindEarlierNames(nb::class_<PyConfig>& config) {
            "frameName"_a, "absHeight"_a = 1., "Turns the view to a frame; absHeight m fit into the window.");
 }
 
-/// Never stops by itself, but lets Ctrl-C through.
-bool interrupted() {
-  checkInterrupt();
-  return false;
-}
-
 /// The page with what is shown inside, whether a server runs or not.
 std::string pageOf(PyViewer& viewer) {
   return viewer.isOpen() || !viewer.scene ? viewer.recording() : recordedScene(Config(*viewer.scene));
@@ -63,30 +57,36 @@ std::string pageOf(PyViewer& viewer) {
 int view(PyConfig& config, bool pause, const std::optional<std::string>& message, bool offscreen) {
   const std::shared_ptr<PyViewer> viewer = showIn(config);
   if (offscreen) return 0;
-  if (!viewer->isOpen()) nb::module_::import_("kinegraph.notebook").attr("showInline")(viewer);
-  preparePage(*viewer);
+  if (!openPage(*viewer)) return pause ? kEscape : 0;
   const nb::gil_scoped_release unlock;
   return viewer->view(config, pause, message, interrupted);
 }
 
 void animate(PyConfig& config) {
   const std::shared_ptr<PyViewer> viewer = showIn(config);
+  if (!openPage(*viewer)) return;
   const nb::gil_scoped_release unlock;
-  viewer->showMotion(config, jointSweep(config), false, "every joint through its limits [any key ends it]", interrupted);
+  viewer->showMotion(config, jointSweep(config), false, "every joint through its limits [any key ends it]",
+                     interrupted);
 }
 
 void animateSpline(PyConfig& config, int points) {
   const std::shared_ptr<PyViewer> viewer = showIn(config);
   const ShownMotion motion = randomSpline(config, points, defaults().random);
+  if (!openPage(*viewer)) return;
   const nb::gil_scoped_release unlock;
   viewer->showMotion(config, motion, false, "a random motion [any key ends it]", interrupted);
 }
 
-int viewPath(PyConfig& config, const Numbers& path, double seconds, bool pause, const std::optional<std::string>& message) {
+int viewPath(PyConfig& config, const Numbers& path, double seconds, bool pause,
+             const std::optional<std::string>& message) {
   const std::shared_ptr<PyViewer> viewer = showIn(config);
   if (seconds <= 0.) throw ValueError(cat("view_path: seconds is ", seconds, "; expected more than 0"));
-  ShownMotion motion = motionAlong(config, path.matrix(), seconds);
+  const MatrixXd states = path.matrix();
+  if (states.rows() == 0) throw ValueError("view_path: the path has no joint states");
+  ShownMotion motion = motionAlong(config, states, seconds);
   motion.start = ShownMotion::Start::play;
+  if (!openPage(*viewer)) return pause ? kEscape : 0;
   const nb::gil_scoped_release unlock;
   return viewer->showMotion(config, motion, pause, message, interrupted);
 }
@@ -94,6 +94,12 @@ int viewPath(PyConfig& config, const Numbers& path, double seconds, bool pause, 
 void watch(PyConfig& config, nb::handle file) {
   const std::string path = nb::cast<std::string>(nb::module_::import_("os").attr("fspath")(file));
   const std::shared_ptr<PyViewer> viewer = showIn(config);
+  viewer->setTitle(cat("ConfigView <", path, ">"));  // before there is a page
+  if (!openPage(*viewer)) {
+    config.clear();
+    config.addFile(path);
+    return;
+  }
   const nb::object print = nb::module_::import_("builtins").attr("print");
   const nb::gil_scoped_release unlock;
   watchFile(config, *viewer, path, [&](const std::string& text) {
@@ -106,14 +112,18 @@ void watch(PyConfig& config, nb::handle file) {
 
 void bindViewer(nb::module_& m, nb::class_<PyConfig>& config) {
   bindEarlierNames(config);
-  nb::class_<PyViewer> viewer(m, "ConfigurationViewer", "Shows a configuration in the browser, and makes pictures of it.");
-  viewer
-      .def_prop_ro("url", &PyViewer::url, "The page's address; starts the viewer if it does not run.")
+  nb::class_<PyViewer> viewer(m, "ConfigurationViewer",
+                              "Shows a configuration in the browser, and makes pictures of it.");
+  viewer.def_prop_ro("url", &PyViewer::url, "The page's address; starts the viewer if it does not run.")
+      .def("isOpen", &PyViewer::isOpen, "True while the viewer runs.")
       .def("clients", &PyViewer::clients, "Number of browsers that are connected.")
-      .def("waitForClient", [](PyViewer& v, double seconds) {
-             const nb::gil_scoped_release unlock;
-             return v.server().waitForClient(seconds);
-           }, "seconds"_a = 10., "Waits until a browser is connected; False if none came in time.")
+      .def(
+          "waitForClient",
+          [](PyViewer& v, double seconds) {
+            const nb::gil_scoped_release unlock;
+            return v.server().waitForClient(seconds);
+          },
+          "seconds"_a = 10., "Waits until a browser is connected; False if none came in time.")
       .def("setMessage", &PyViewer::setMessage, "text"_a, "Text in the corner.")
       .def("setError", &PyViewer::setError, "text"_a, "Text in a red box; empty removes it.")
       .def("setTitle", &PyViewer::setTitle, "text"_a, "Title of the page.")
@@ -122,37 +132,61 @@ void bindViewer(nb::module_& m, nb::class_<PyConfig>& config) {
            "True if people have moved joints or frames in the browser since the last view(), which takes that over.")
       .def("select", &PyViewer::select, "frame"_a, "Shows the card of the frame with this ID, with handles to move it.")
       .def("asHtml", pageOf, "A web page with the scene, or the motion, that is shown; it opens without this program.")
-      .def("saveHtml", [](PyViewer& v, nb::handle path) {
-             nb::module_::import_("pathlib").attr("Path")(path).attr("write_text")(pageOf(v), "encoding"_a = "utf-8");
-           }, "path"_a, "Saves asHtml() as a file, to be opened in any browser, or sent to somebody.")
-      .def("_repr_html_", [](PyViewer& v) { return nb::module_::import_("kinegraph.notebook").attr("inlineFrame")(pageOf(v)); },
-           "What notebooks show: the scene as it is now.")
-      .def("close", &PyViewer::close, "Ends the viewer.");
+      .def(
+          "saveHtml",
+          [](PyViewer& v, nb::handle path) {
+            nb::module_::import_("pathlib").attr("Path")(path).attr("write_text")(pageOf(v), "encoding"_a = "utf-8");
+          },
+          "path"_a, "Saves asHtml() as a file, to be opened in any browser, or sent to somebody.")
+      .def(
+          "_repr_html_",
+          [](PyViewer& v) { return nb::module_::import_("kinegraph.notebook").attr("inlineFrame")(pageOf(v)); },
+          "What notebooks show: the scene as it is now.")
+      .def("close", &PyViewer::endPage, "Ends the viewer.");
   bindPictures(viewer);
   bindViewerInput(m, viewer);
 
   config
-      .def("view", view, "pause"_a = false, "message"_a = nb::none(), "offscreen"_a = false,
-           "Shows the configuration in the browser; opens one at the first call if there is a display, and prints its address.\n"
-           "In a notebook it appears below the cell.\n"
-           "pause: waits for a key in the browser, or Enter on the terminal. Returns the code of the key pressed since the last\n"
-           "call (ord('a'), 13 Enter, 27 Escape ...), or 0. With KINEGRAPH_HEADLESS=1 nothing opens and nothing waits.\n"
-           "offscreen: opens nothing; viewer().getRgb() and the other pictures do without a browser.")
-      .def("view_close", [](PyConfig& c) { if (c.viewer) c.viewer->close(); }, "Ends the viewer; the next view() starts another.")
-      .def("view_recopyMeshes", [](PyConfig& c) { showIn(c)->update(c); }, "Kept for older scripts; changes are always seen.")
+      .def(
+          "view", view, "pause"_a = false, "message"_a = nb::none(), "offscreen"_a = false,
+          "Shows the configuration in the browser; opens one at the first call if there is a display, and prints its "
+          "address.\n"
+          "In a notebook it appears below the cell.\n"
+          "pause: waits for a key in the browser, or Enter on the terminal. Returns the code of the key pressed since "
+          "the last\n"
+          "call (ord('a'), 13 Enter, 27 Escape ...), or 0. With KINEGRAPH_HEADLESS=1 nothing opens and nothing waits.\n"
+          "offscreen: opens nothing; viewer().getRgb() and the other pictures do without a browser.")
+      .def(
+          "view_close",
+          [](PyConfig& c) {
+            if (c.viewer) c.viewer->endPage();
+          },
+          "Ends the viewer; the next view() starts another.")
+      .def(
+          "view_recopyMeshes",
+          [](PyConfig& c) {
+            if (openPage(*showIn(c))) c.viewer->update(c);
+          },
+          "Kept for older scripts; changes are always seen.")
       .def("viewer", viewerOf, "The viewer of this configuration.")
       .def("get_viewer", viewerOf, "The viewer of this configuration.")
-      .def("set_viewer", [](PyConfig& c, std::shared_ptr<PyViewer> v) { c.viewer = std::move(v); }, "viewer"_a,
-           "Shows this configuration in another one's viewer.")
-      .def("animate", animate, "Plays every joint through its limits, in the browser. A key there ends it; q stays as it is.")
+      .def(
+          "set_viewer", [](PyConfig& c, std::shared_ptr<PyViewer> v) { c.viewer = std::move(v); }, "viewer"_a,
+          "Shows this configuration in another one's viewer.")
+      .def("animate", animate,
+           "Plays every joint through its limits, in the browser. A key there ends it; q stays as it is.")
       .def("animateSpline", animateSpline, "T"_a = 3,
-           "Plays a smooth motion by T random joint states within the limits and back, in T + 1 s. A key ends it; q stays.")
+           "Plays a smooth motion by T random joint states within the limits and back, in T + 1 s. A key ends it; q "
+           "stays.")
       .def("view_path", viewPath, "path"_a, "seconds"_a = 3., "pause"_a = false, "message"_a = nb::none(),
-           "Shows a motion, an array (T, n) of joint states, with a time slider, and waits until it has been played once.\n"
+           "Shows a motion, an array (T, n) of joint states, with a time slider, and waits until it has been played "
+           "once.\n"
            "pause: then waits for a key. Returns the key, or 0. The joint state stays as it is.")
       .def("watchFile", watch, "filename"_a,
-           "Loads a scene file, shows it, and again whenever it (or a file that it includes) changes, until q is pressed in the\n"
-           "browser, Enter on the terminal, or Ctrl-C. A mistake in the file is shown there and printed; the last scene stays.");
+           "Loads a scene file, shows it, and again whenever it (or a file that it includes) changes, until q is "
+           "pressed in the\n"
+           "browser, Enter on the terminal, or Ctrl-C. A mistake in the file is shown there and printed; the last "
+           "scene stays.");
 }
 
 }  // namespace kinegraph::python

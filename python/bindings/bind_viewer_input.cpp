@@ -21,13 +21,16 @@ using Image = nb::ndarray<const T, nb::c_contig, nb::device::cpu>;
 
 constexpr int kNoFrame = 0xffffff;  // as in segmentation images
 
-/// The picture as a quad of rgb bytes; numbers are cut off below 0 and above 255, and shown as grey if there is one per pixel.
+/// The picture as a quad of rgb bytes; numbers are cut off below 0 and above 255, and shown as grey if there is one per
+/// pixel.
 template <class T>
 Quad quadOf(const Image<T>& image, const char* who) {
   const bool grey = image.ndim() == 2;
   if (!grey && (image.ndim() != 3 || image.shape(2) != 3)) {
-    throw ValueError(cat(who, ": the picture has ", image.ndim(), " dimensions; expected (height, width, 3), or (height, width) for grey"));
+    throw ValueError(cat(who, ": the picture has ", image.ndim(),
+                         " dimensions; expected (height, width, 3), or (height, width) for grey"));
   }
+  if (image.size() == 0) throw ValueError(cat(who, ": the picture has no pixels"));
   Quad quad;
   quad.rows = int(image.shape(0));
   quad.columns = int(image.shape(1));
@@ -40,28 +43,25 @@ Quad quadOf(const Image<T>& image, const char* who) {
   return quad;
 }
 
-bool interrupted() {
-  checkInterrupt();
-  return false;
-}
-
 int setQuad(PyViewer& viewer, int id, const Image<std::uint8_t>& rgb, double x, double y, double height) {
   if (id < -1) throw ValueError(cat("setQuad: id is ", id, "; expected -1 for another picture, or the id of one"));
   if (!(std::isfinite(x) && std::isfinite(y) && std::isfinite(height) && height > 0.)) {
-    throw ValueError(cat("setQuad: x, y, h are ", x, ", ", y, ", ", height, "; expected parts of the window's height, h more than 0"));
+    throw ValueError(cat("setQuad: x, y, h are ", x, ", ", y, ", ", height,
+                         "; expected parts of the window's height, h more than 0"));
   }
   Quad quad = quadOf(rgb, "setQuad");
-  quad.id = id < 0 ? viewer.quads : id;
-  viewer.quads = std::max(viewer.quads, quad.id + 1);
+  quad.id = id >= 0 ? id : viewer.quads.empty() ? 0 : viewer.quads.rbegin()->first + 1;
   quad.x = x;
   quad.y = y;
   quad.height = height;
-  viewer.server().setQuad(quad);
+  viewer.quads[quad.id] = quad;
+  if (viewer.isOpen()) viewer.server().setQuad(quad);
   return quad.id;
 }
 
 int view(PyViewer& viewer, bool pause, const std::optional<std::string>& text, bool offscreen) {
   if (offscreen) return 0;
+  if (!openPage(viewer)) return pause ? kEscape : 0;
   const nb::gil_scoped_release unlock;
   return viewer.wait(pause, text, interrupted);
 }
@@ -81,15 +81,17 @@ int eventCursorObject(PyViewer& viewer) {
 }
 
 /// A page of its own with one picture.
-struct ImageViewer : ConfigViewer {
-  ImageViewer() : ConfigViewer({.title = "ImageViewer"}) {}
+struct ImageViewer : PyViewer {
+  ImageViewer() : PyViewer({.title = "ImageViewer"}) {}
 };
 
 template <class T>
 int viewImage(ImageViewer& viewer, const Image<T>& image, bool wait, double zoom) {
-  if (!(zoom > 0. && zoom <= 100.)) throw ValueError(cat("ImageViewer: zoom is ", zoom, "; expected more than 0 and at most 100"));
+  if (!(zoom > 0. && zoom <= 100.))
+    throw ValueError(cat("ImageViewer: zoom is ", zoom, "; expected more than 0 and at most 100"));
   Quad quad = quadOf(image, "ImageViewer");
   quad.zoom = zoom;
+  if (!openPage(viewer)) return wait ? kEscape : 0;
   viewer.server().setQuad(quad);
   const nb::gil_scoped_release unlock;
   return viewer.wait(wait, std::nullopt, interrupted);
@@ -100,27 +102,40 @@ int viewImage(ImageViewer& viewer, const Image<T>& image, bool wait, double zoom
 void bindViewerInput(nb::module_& m, nb::class_<PyViewer>& viewer) {
   viewer
       .def("view", view, "pause"_a = false, "text"_a = nb::none(), "offscreen"_a = false,
-           "Shows a text, and waits for a key if told so; what is shown else stays as it is. Returns as Config.view does.")
+           "Shows a text, and waits for a key if told so; what is shown else stays as it is. Returns as Config.view "
+           "does.")
       .def("setQuad", setQuad, "id"_a, "rgb"_a, "x"_a, "y"_a, "h"_a,
-           "Shows a picture, uint8 (height, width, 3) or grey (height, width), on top of the scene in the browser. x, y: its top left\n"
-           "corner, from that of the window, and h: its height, all in heights of the window. id: -1 for another picture, or that of\n"
+           "Shows a picture, uint8 (height, width, 3) or grey (height, width), on top of the scene, in the browser and "
+           "in getRgb(). x, y: its top left\n"
+           "corner, from that of the window, and h: its height, all in heights of the window. id: -1 for another "
+           "picture, or that of\n"
            "one, to replace it. Returns the id.")
-      .def("setupEventHandler", [](PyViewer& v, bool block) { v.server().requestEvents(block); }, "blockDefaultHandler"_a,
-           "Collects what people do with mouse and keys on the page, for getEvents(). blockDefaultHandler: the page itself does\n"
-           "nothing with it: the camera stays.")
-      .def("getEvents", [](PyViewer& v) { return v.server().takeEvents(); },
-           "What people did since the last call: 'click down left', 'key up a', 'scroll up', 'mod shift' (what is held from then on).")
+      .def(
+          "setupEventHandler", [](PyViewer& v, bool block) { v.server().requestEvents(block); },
+          "blockDefaultHandler"_a,
+          "Collects what people do with mouse and keys on the page, for getEvents(). blockDefaultHandler: the page "
+          "itself does\n"
+          "nothing with it: the camera stays.")
+      .def(
+          "getEvents", [](PyViewer& v) { return v.server().takeEvents(); },
+          "What people did since the last call: 'click down left', 'key up a', 'scroll up', 'mod shift' (what is held "
+          "from then on).")
       .def("getEventCursor", eventCursor,
-           "The point of the surface that the pointer is on, in the world, and its normal: six numbers. None before the pointer has\n"
+           "The point of the surface that the pointer is on, in the world, and its normal: six numbers. None before "
+           "the pointer has\n"
            "been on one; over the background the last one stays. Browsers tell from the first call on.")
-      .def("getEventCursorObject", eventCursorObject, "The id of the frame that the pointer is on; 16777215 over the floor and the background.")
-      .def("raiseWindow", [](PyViewer& v) { openBrowser(v.url()); }, "Opens a page in the browser, if there is a display.")
+      .def("getEventCursorObject", eventCursorObject,
+           "The id of the frame that the pointer is on; 16777215 over the floor and the background.")
+      .def(
+          "raiseWindow", [](PyViewer& v) { openBrowser(v.url()); },
+          "Opens a page in the browser, if there is a display.")
       .def("getGLFWWindow", [](PyViewer&) { return 0; }, "0: there is no such window.");
 
   nb::class_<ImageViewer>(m, "ImageViewer", "Shows pictures in the browser.")
       .def(nb::init<>())
       .def("view", viewImage<std::uint8_t>, "img"_a, "wait"_a = false, "zoom"_a = 1.,
-           "Shows uint8 (height, width, 3), or (height, width) as grey, each pixel `zoom` pixels large. wait: for a key.\n"
+           "Shows uint8 (height, width, 3), or (height, width) as grey, each pixel `zoom` pixels large. wait: for a "
+           "key.\n"
            "Returns the key, or 0.")
       .def("viewFloat", viewImage<float>, "img"_a, "wait"_a = false, "zoom"_a = 1.,
            "The same for floats in 0..255; what is below or above is cut off.")

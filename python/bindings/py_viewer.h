@@ -1,5 +1,6 @@
 #pragma once
 
+#include <map>
 #include <memory>
 #include <optional>
 
@@ -27,6 +28,7 @@ class ViewCamera {
     camera_.width = width;
     camera_.height = height;
   }
+  bool follows() const { return frame_.has_value(); }
   Camera now() const {
     Camera camera = camera_;
     if (frame_) camera.pose = frame_->getPose();
@@ -40,27 +42,52 @@ class ViewCamera {
 
 /// What Python calls a viewer: the page in the browser, and pictures of the same scene that need no browser.
 struct PyViewer : ConfigViewer {
+  using ConfigViewer::ConfigViewer;
+
   std::shared_ptr<SceneTree> scene;           ///< what is shown
   ViewCamera camera{defaultViewCamera()};     ///< of pictures
   bool camera_is_set = false;
+  std::optional<PageCamera> page_camera;      ///< where pages were told to look from
   bool visuals_only = false;
-  Look look;                                  ///< of the page
   int saved = 0;                              ///< pictures
-  int quads = 0;                              ///< pictures on top of the scene: the next id
+  std::map<int, Quad> quads;                  ///< pictures on top of the scene
   std::optional<CameraRenderer> renderer;     ///< made for the first picture
+  RendererOptions renderer_options;           ///< what it was made with
+
+  /// Pages look from there, those that are opened later as well.
+  void aim(const PageCamera& from);
+
+  /// Ends the page; the next one begins as the first did.
+  void endPage();
 };
+
+constexpr int kEscape = 27;  ///< the key that views return at once where parameter `disableGui` is set
+
+/// Starts the page, if it does not run, below the cell in a notebook, with the look that parameters `Render/...` and
+/// visualsOnly say. It looks from a frame `camera_init` when it is first shown, always from a frame `camera_track`, and
+/// from where calls of the viewer said. False, and no page, where parameter `disableGui` is set.
+bool openPage(PyViewer& viewer);
+
+/// Where the viewer looks from: as it was told, or where a person has turned the page to since.
+Camera cameraNow(PyViewer& viewer);
+
+/// What pages are told of a camera.
+PageCamera pageCameraOf(const Camera& camera);
+
+/// How parameters `Render/...` say that pages and pictures look.
+Look lookOfParameters();
+
+/// True if people can stop the waiting: never, but Ctrl-C throws.
+bool interrupted();
 
 /// What people do on the page, and pictures on top of it.
 void bindViewerInput(nb::module_& m, nb::class_<PyViewer>& viewer);
 
-/// Starts the page, if it does not run, with the look that parameters `Render/...` and visualsOnly say. It looks from a frame
-/// `camera_init` when it is first shown, and always from a frame `camera_track`.
-void preparePage(PyViewer& viewer);
-
 /// The picture calls of a viewer.
 void bindPictures(nb::class_<PyViewer>& viewer);
 
-/// Saves a picture as PNG: as `path` if that ends in .png, else as path + number of six digits + .png. Returns the file.
+/// Saves a picture as PNG: as `path` if that ends in .png, else as path + number of six digits + .png. Returns the
+/// file.
 std::string savePicture(PyViewer& viewer, const std::string& path, int count);
 
 }  // namespace kinegraph::python

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import html
 import sys
-from typing import Any
 
 _HEIGHT = 480  # pixels
 
@@ -16,12 +15,12 @@ def isNotebook() -> bool:
     return shell is not None and "IPKernelApp" in shell.config
 
 
-def showInline(viewer: Any) -> None:
-    """Shows the viewer's page below the cell, if this is a notebook."""
+def showInline(url: str) -> None:
+    """Shows a viewer's page below the cell, if this is a notebook."""
     if isNotebook():
         from IPython.display import IFrame, display
 
-        display(IFrame(viewer.url, "100%", _HEIGHT))
+        display(IFrame(url, "100%", _HEIGHT))
 
 
 def inlineFrame(page: str) -> str:

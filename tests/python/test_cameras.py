@@ -417,6 +417,54 @@ def test_a_viewer_makes_pictures_without_a_browser(tmp_path):
 
 
 @needs_egl
+def test_pictures_show_what_is_on_top_of_the_scene():
+    C, _ = scene("")
+    viewer = C.viewer()
+    plain = viewer.getRgb()
+    image = np.zeros((10, 20, 3), np.uint8)
+    image[:, :10], image[:, 10:] = [250, 0, 0], [0, 0, 250]
+    assert viewer.setQuad(-1, image, 0.1, 0.2, 0.1) == 0  # in heights of the picture, which are 500 pixels
+    assert viewer.setQuad(-1, image[..., 0].copy(), 0.5, 0.5, 0.02) == 1
+    rgb = viewer.getRgb()
+    assert (rgb[100:150, 50:100] == [250, 0, 0]).all() and (rgb[100:150, 100:150] == [0, 0, 250]).all()
+    assert (rgb[250:260, 250:260] == 250).all() and (rgb[250:260, 260:270] == 0).all()
+    rgb[100:150, 50:150], rgb[250:260, 250:270] = plain[100:150, 50:150], plain[250:260, 250:270]
+    np.testing.assert_array_equal(rgb, plain)
+    assert not viewer.clients()
+    with pytest.raises(ry.ArgumentError, match="no pixels"):
+        viewer.setQuad(-1, np.zeros((0, 3, 3), np.uint8), 0, 0, 1)
+
+
+@needs_egl
+def test_pictures_look_as_parameters_say(monkeypatch):
+    C, _ = scene("wall: { X: [2 0 2], shape: box, size: [1 9 9], color: [.6 .4 .2] }")
+    viewer = C.viewer()
+    viewer.setCamera("camera")
+    wanted = np.array([153, 102, 51])
+    values = {}
+    monkeypatch.setattr("kinegraph.parameters._values", values)
+    lit = viewer.getRgb()[HEIGHT // 2, WIDTH // 2]
+    assert np.abs(lit - wanted).max() > 5
+    values["Render/flatColors"] = True
+    np.testing.assert_allclose(viewer.getRgb()[HEIGHT // 2, WIDTH // 2], wanted, atol=2)
+    values.clear()
+    values["Render/lights"] = [-5, 0, 0.8]  # right in front of the wall
+    assert viewer.getRgb()[HEIGHT // 2, WIDTH // 2].sum() > lit.sum() + 20
+    values.clear()
+    values["Render/renderPolygonLines"] = True
+    assert (viewer.getRgb() == 255).all(axis=2).mean() > 0.5  # one sees through
+    for name, value, expected in [
+        ("Render/lights", [1, 2], "3 for each light"),
+        ("Render/lights", "sun", "list of numbers"),
+        ("Render/flatColors", [1, 2], "True or False"),
+    ]:
+        values.clear()
+        values[name] = value
+        with pytest.raises(ry.ArgumentError, match=expected):
+            viewer.getRgb()
+
+
+@needs_egl
 def test_a_frame_camera_init_is_where_a_viewer_starts():
     C = ry.Config()
     C.addText(

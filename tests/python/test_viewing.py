@@ -6,6 +6,7 @@ import subprocess
 import sys
 import time
 
+import numpy as np
 import pytest
 from websockets.sync.client import connect
 
@@ -68,6 +69,77 @@ def test_nothing_waits_without_a_display():
     C.watchFile(ry.raiPath("panda/panda.g"))
     C.view_close()
     assert time.monotonic() - started < 20
+
+
+def test_without_a_gui_nothing_opens_and_views_return_escape(monkeypatch):
+    monkeypatch.setattr("kinegraph.parameters._values", {"disableGui": True})
+    monkeypatch.setenv("KINEGRAPH_HEADLESS", "0")
+    C = ry.Config()
+    C.addFile(ry.raiPath("scenarios/pandaSingle.g"))
+    komo = ry.KOMO(C, 1, 2, 1, False)
+    assert C.view(True, "press a key") == 27 and C.view() == 0
+    assert C.viewer().view(True) == 27
+    assert C.view_path([C.getJointState()], pause=True) == 27
+    assert komo.view(True) == komo.view_play(True) == komo.view_slice(0, True) == 27
+    assert ry.ImageViewer().view(np.zeros((4, 4), np.uint8), wait=True) == 27
+    C.animate()
+    C.animateSpline()
+    C.viewer().setQuad(-1, np.zeros((4, 4), np.uint8), 0, 0, 0.1)
+    C.viewer().visualsOnly()
+    C.viewer().setCamera([1, 1, 1], [0, 0, 0])
+    D = ry.Config()
+    D.watchFile(ry.raiPath("panda/panda.g"))
+    assert D.getJointDimension() == 7
+    for config in (C, D, komo):
+        assert not config.get_viewer().isOpen()
+
+
+def test_without_interactivity_pages_are_shown_and_nothing_waits(monkeypatch, tmp_path):
+    monkeypatch.setattr("kinegraph.parameters._values", {"noInteractivity": True})
+    monkeypatch.setenv("KINEGRAPH_HEADLESS", "0")
+    for name in ("DISPLAY", "WAYLAND_DISPLAY"):
+        monkeypatch.delenv(name, raising=False)
+    (tmp_path / "scene.g").write_text("a: {}")
+    C = ry.Config()
+    started = time.monotonic()
+    C.watchFile(tmp_path / "scene.g")
+    with connect(C.viewer().url.replace("http", "ws"), max_size=None):
+        assert C.viewer().waitForClient(20)
+        assert C.view(True, "press a key") == 0
+        C.animateSpline(100)
+    assert C.viewer().isOpen() and C.getFrameNames() == ["a"]
+    C.view_close()
+    assert time.monotonic() - started < 20
+
+
+def test_a_forked_process_leaves_the_viewer_alone_and_has_its_own():
+    program = """
+import os, sys
+import kinegraph as ry
+C = ry.Config()
+C.addFrame('a').setShape('box', [1, 1, 1])
+C.view()
+url = C.viewer().url
+child = os.fork()
+if child == 0:
+    C.view(True)
+    print('other', C.viewer().url != url, flush=True)
+    del C
+    sys.exit(0)
+status = os.waitpid(child, 0)[1]
+from websockets.sync.client import connect
+with connect(url.replace('http', 'ws'), max_size=None) as page:
+    received = [page.recv(20), page.recv(20)]
+    C.getFrame('a').setPosition([1, 2, 3])
+    C.view()
+    moved = page.recv(20)
+print('status', status, C.viewer().url == url, bool(moved))
+"""
+    environment = {**os.environ, "KINEGRAPH_HEADLESS": "1"}
+    run = [sys.executable, "-W", "ignore::DeprecationWarning", "-c", program]
+    done = subprocess.run(run, env=environment, capture_output=True, text=True, timeout=60)
+    assert done.returncode == 0, done.stderr
+    assert "other True" in done.stdout and "status 0 True True" in done.stdout, done.stdout
 
 
 def test_two_viewers_take_two_ports():

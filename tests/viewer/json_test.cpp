@@ -27,12 +27,12 @@ std::string quoted(const std::string& title) {
 TEST(JsonWriter, NestsObjectsAndListsAndSeparatesThem) {
   SceneMessage scene;
   scene.count = 2;
-  scene.frames = {{0, "world", -1, "", std::nullopt}, {1, "box", 0, "contact: 1", ShapeMessage{"box", {1., .25}, {}, -1}}};
+  scene.frames = {{0, "world", -1, 0, "", std::nullopt}, {1, "box", 0, 1, "contact: 1", ShapeMessage{"box", {1., .25}, {}, -1}}};
   JsonWriter json;
   writeJson(json, scene);
   EXPECT_EQ(json.text(),
-            R"({"kind":"scene","count":2,"frames":[{"id":0,"name":"world","parent":-1,"details":"","shape":null},)"
-            R"({"id":1,"name":"box","parent":0,"details":"contact: 1","shape":{"type":"box","size":[1,0.25],"color":[],"mesh":-1}}]})");
+            R"({"kind":"scene","count":2,"frames":[{"id":0,"name":"world","parent":-1,"collides":0,"details":"","shape":null},)"
+            R"({"id":1,"name":"box","parent":0,"collides":1,"details":"contact: 1","shape":{"type":"box","size":[1,0.25],"color":[],"mesh":-1}}]})");
 }
 
 TEST(JsonWriter, EscapesQuotesBackslashesAndControlCharacters) {
@@ -52,6 +52,6 @@ TEST(JsonWriter, KeepsUtf8AndReplacesBytesThatAreNot) {
 TEST(JsonWriter, WritesNumbersThatAreNotFiniteAsNull) {
   JsonWriter json;
   const double infinity = std::numeric_limits<double>::infinity();
-  writeJson(json, CameraMessage{{infinity, std::nan(""), 1e-300}, {-0.5, 1e300, 0.}, 0.});
-  EXPECT_EQ(json.text(), R"({"kind":"camera","position":[null,null,1e-300],"target":[-0.5,1e+300,0],"focal":0})");
+  writeJson(json, CameraMessage{{infinity, std::nan(""), 1e-300}, -0.5, 1e300, 0., 1.});
+  EXPECT_EQ(json.text(), R"({"kind":"camera","pose":[null,null,1e-300],"distance":-0.5,"focal":1e+300,"ortho":0,"aspect":1})");
 }

@@ -68,9 +68,9 @@ TEST(ShownScene, ANewBrowserGetsTextsSceneMeshesAndPoses) {
   const auto messages = scene.messagesSince(seen);
   EXPECT_EQ(kinds(messages), (Kinds{"text", "mesh 0", "scene", "poses 3"}));
   EXPECT_EQ(*messages[2].data,
-            R"({"kind":"scene","count":3,"frames":[{"id":0,"name":"world","parent":-1,"details":"","shape":null},)"
-            R"({"id":1,"name":"box","parent":-1,"details":"","shape":{"type":"box","size":[0.1,0.2,0.3],"color":[0.8,0.8,0.8,1],"mesh":-1}},)"
-            R"({"id":2,"name":"rock","parent":-1,"details":"","shape":{"type":"mesh","size":[],"color":[0.8,0.8,0.8,1],"mesh":0}}]})");
+            R"({"kind":"scene","count":3,"frames":[{"id":0,"name":"world","parent":-1,"collides":0,"details":"","shape":null},)"
+            R"({"id":1,"name":"box","parent":-1,"collides":0,"details":"","shape":{"type":"box","size":[0.1,0.2,0.3],"color":[0.8,0.8,0.8,1],"mesh":-1}},)"
+            R"({"id":2,"name":"rock","parent":-1,"collides":0,"details":"","shape":{"type":"mesh","size":[],"color":[0.8,0.8,0.8,1],"mesh":0}}]})");
 }
 
 TEST(ShownScene, AnUnchangedSceneSendsNothing) {
@@ -110,7 +110,7 @@ TEST(ShownScene, AChangedColorOrShapeSendsThatFrameAgain) {
   scene.update(items);
   const auto recolored = scene.messagesSince(seen);
   ASSERT_EQ(kinds(recolored), (Kinds{"scene", "poses 1"}));
-  EXPECT_EQ(*recolored[0].data, R"({"kind":"scene","count":3,"frames":[{"id":2,"name":"b","parent":-1,"details":"","shape":{"type":"box",)"
+  EXPECT_EQ(*recolored[0].data, R"({"kind":"scene","count":3,"frames":[{"id":2,"name":"b","parent":-1,"collides":0,"details":"","shape":{"type":"box",)"
                                 R"("size":[0.1,0.2,0.3],"color":[1,0,0,0.5],"mesh":-1}}]})");
   items[1].geometry = triangle(1.);
   scene.update(items);
@@ -201,12 +201,12 @@ TEST(ShownScene, AMeshIsSentAsItsNumbersInABinaryMessage) {
   ShownScene::Seen seen;
   const auto messages = scene.messagesSince(seen);
   const Outgoing& mesh = messages[1];
-  ASSERT_EQ(mesh.data->size(), 20u + 3 * 12 + 12 + 12);
-  const std::uint32_t head[] = {2, 0, 3, 1, 3};  // kind, number, vertices, triangles, colors
-  for (int i = 0; i < 5; ++i) EXPECT_EQ(valueAt<std::uint32_t>(mesh, 4 * i), head[i]) << i;
-  EXPECT_EQ(valueAt<float>(mesh, 20), 2.5f);
-  EXPECT_EQ(valueAt<std::uint32_t>(mesh, 20 + 36 + 8), 2u);
-  EXPECT_EQ(valueAt<std::uint8_t>(mesh, 20 + 36 + 12 + 5), 20);
+  ASSERT_EQ(mesh.data->size(), 28u + 3 * 12 + 12 + 12);
+  const std::uint32_t head[] = {2, 0, 3, 1, 3, 0, 0};  // kind, number, vertices, triangles, colors, no texture
+  for (int i = 0; i < 7; ++i) EXPECT_EQ(valueAt<std::uint32_t>(mesh, 4 * i), head[i]) << i;
+  EXPECT_EQ(valueAt<float>(mesh, 28), 2.5f);
+  EXPECT_EQ(valueAt<std::uint32_t>(mesh, 28 + 36 + 8), 2u);
+  EXPECT_EQ(valueAt<std::uint8_t>(mesh, 28 + 36 + 12 + 5), 20);
 }
 
 TEST(ShownScene, TextsAndCameraAreSentWhenTheyChange) {
@@ -215,9 +215,9 @@ TEST(ShownScene, TextsAndCameraAreSentWhenTheyChange) {
   ShownScene::Seen seen;
   scene.messagesSince(seen);
   EXPECT_TRUE(scene.setText(&ShownScene::error, "no such file"));
-  scene.setCamera({1., 2., 3.}, {0., 0., .5}, 0.);
+  scene.setCamera({{Vector3d(1., 2., 3.), Quaterniond::Identity()}, 1.5, .9, 0., 1.25});
   const auto messages = scene.messagesSince(seen);
   ASSERT_EQ(kinds(messages), (Kinds{"text", "camera"}));
   EXPECT_EQ(*messages[0].data, R"({"kind":"text","title":"","message":"","error":"no such file"})");
-  EXPECT_EQ(*messages[1].data, R"({"kind":"camera","position":[1,2,3],"target":[0,0,0.5],"focal":0})");
+  EXPECT_EQ(*messages[1].data, R"({"kind":"camera","pose":[1,2,3,1,0,0,0],"distance":1.5,"focal":0.9,"ortho":0,"aspect":1.25})");
 }

@@ -175,6 +175,12 @@ def test_keys_do_things_while_a_file_is_watched(browser: Browser, start: Start, 
     browser.wait_for("kinegraph.message().includes('random joints')")
     browser.press("i")
     browser.wait_for("kinegraph.message().includes('joints: arm')")
+    browser.drag((320, 100), (380, 130))
+    browser.press("i")
+    text = browser.wait_for("kinegraph.message().includes('camera_init') && kinegraph.message()")
+    C = kg.Config()
+    C.addText(text[text.index("camera_init") :])
+    np.testing.assert_allclose(C.viewer().getCamera_pose()[:3], browser.evaluate("kinegraph.camera()"), atol=1e-4)
     browser.press("c")
     browser.wait_for("kinegraph.message().includes('arm - wall')")
     browser.press("r")
@@ -203,7 +209,7 @@ def test_distances_are_drawn_between_what_is_near(config: kg.Config, browser: Br
     browser.press_alt("D")
     browser.wait_for("kinegraph.nearLines() === 2")
     texts = "[...document.querySelectorAll('.distance')].map((x) => x.textContent).sort()"
-    assert browser.evaluate(texts) == ["-30.0 mm", "30.0 mm"]
+    browser.wait_for(f"String({texts}) === '-30.0 mm,30.0 mm'")
     config.getFrame("ball3").setPosition([0.32, 0, 1])
     config.view()
     browser.wait_for("kinegraph.nearLines() === 3")

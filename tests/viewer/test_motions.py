@@ -159,6 +159,28 @@ def test_a_key_ends_the_playing(browser: Browser, start: Callable[..., Program])
     assert program.line("key") == str(ord("y"))
 
 
+def test_looking_around_while_a_motion_plays_does_not_end_it(browser: Browser, start: Callable[..., Program]) -> None:
+    program = start("""
+import time
+C = kg.Config()
+C.addFrame("base")
+C.addFrame("arm", "base").setJoint(kg.JT.hingeX, [-1, 1]).setShape(kg.ST.box, [.1, .1, .5])
+komo = kg.KOMO(C, 1, 30, 1, False)
+komo.get_viewer().url
+komo.get_viewer().waitForClient(60)
+begin = time.monotonic()
+print("key", komo.view_play(delay=.1), time.monotonic() - begin)
+""")
+    browser.open_page(program.url())
+    browser.wait_for("kinegraph.playing()")
+    for modifiers in (0, 8):  # nearer; a slice on, with Shift
+        where = {"x": 300, "y": 200, "deltaX": 0, "deltaY": 120}
+        browser.call("Input.dispatchMouseEvent", type="mouseWheel", modifiers=modifiers, **where)
+    browser.drag((320, 100), (380, 130))
+    key, seconds = program.line("key").split()
+    assert key == "0" and float(seconds) >= 3
+
+
 def downloaded(folder: Path, pattern: str) -> bytes:
     deadline = time.monotonic() + 60
     while time.monotonic() < deadline:

@@ -36,6 +36,29 @@ def page(config: kg.Config, browser: Browser) -> Iterator[Browser]:
     assert config.viewer().takeKey() == 0  # nothing that was meant for the panel reaches the program
 
 
+def test_collision_shapes_are_shown_when_somebody_asks_for_them(config: kg.Config, browser: Browser) -> None:
+    """What is nearly transparent and collides is there for collisions, not for the eye; other transparent things are seen."""
+    for i, (name, alpha, contact) in enumerate([("hull", 0.1, 1), ("haze", 0.1, 0), ("glass", 0.5, 1), ("wall", 1, 1)]):
+        frame = config.addFrame(name).setShape(kg.ST.box, [0.4, 0.4, 0.4]).setPosition([0.6 * i - 0.9, 0, 0.5])
+        frame.setColor([1, 0, 0, alpha]).setContact(contact)
+    config.view()
+    config.viewer().setCamera([0, -4, 0.5], [0, 0, 0.5])
+    browser.open(config.viewer().url)
+
+    def seen() -> list[str]:
+        """The frames that a click finds."""
+        names = []
+        for i in range(4):
+            browser.click(*browser.pixel([0.6 * i - 0.9, -0.2, 0.5]))
+            names.append(browser.evaluate("kinegraph.selected()"))
+            browser.press("Escape")  # the card is in front of the scene
+        return names
+
+    assert seen() == [None, "haze", "glass", "wall"]
+    browser.press_alt("L")
+    assert seen() == ["hull", "haze", "glass", "wall"]
+
+
 # a point of each thing that nothing is in front of, and the channel of its color
 PLACES = {
     "table": ([0.3, 0.4, 0.05], 1),

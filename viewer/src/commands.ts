@@ -2,7 +2,10 @@ type Field = ["int", number] | ["number", number] | ["number[]", number[]];
 
 /** The bytes of a command as the server reads them: int32, float64, and arrays as their length and float64s. */
 export function writeCommand(...fields: Field[]): Uint8Array<ArrayBuffer> {
-  const size = fields.reduce((sum, [kind, value]) => sum + (kind === "int" ? 4 : kind === "number" ? 8 : 4 + 8 * value.length), 0);
+  const size = fields.reduce(
+    (sum, [kind, value]) => sum + (kind === "int" ? 4 : kind === "number" ? 8 : 4 + 8 * value.length),
+    0,
+  );
   const view = new DataView(new ArrayBuffer(size));
   let at = 0;
   const int = (value: number): void => view.setInt32((at += 4) - 4, value, true);

@@ -20,7 +20,9 @@ export class Connection {
   }
 
   private connect(): void {
-    const socket = new WebSocket(`${location.protocol === "https:" ? "wss" : "ws"}://${location.host}/${location.search}`);
+    const socket = new WebSocket(
+      `${location.protocol === "https:" ? "wss" : "ws"}://${location.host}/${location.search}`,
+    );
     this.socket = socket;
     socket.binaryType = "arraybuffer";
     socket.onopen = () => this.listener.opened();

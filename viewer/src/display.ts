@@ -1,12 +1,13 @@
 import * as THREE from "three";
 import { CSS2DObject } from "three/addons/renderers/CSS2DRenderer.js";
-import type { ShapeMessage } from "./messages";
+import type { FrameMessage, ShapeMessage } from "./messages";
 import { AXIS_COLORS, materialsOf } from "./shapes";
 import type { Shown } from "./shown";
 
 /** What people can switch on and off; a letter with Alt does it on the keyboard. */
 export const OPTIONS = {
   solid: { label: "shapes", letter: "V", initially: true },
+  collision: { label: "collision shapes", letter: "L", initially: false },
   transparent: { label: "transparent shapes", letter: "C", initially: true },
   markers: { label: "markers", letter: "M", initially: true },
   axes: { label: "axes of all frames", letter: "A", initially: false },
@@ -21,14 +22,18 @@ export const optionNames = Object.keys(OPTIONS) as Option[];
 
 const AXES_LENGTH = 0.1; // m
 const XRAY_OPACITY = 0.4;
+const FAINT = 0.25; // alpha
 
 export function isSeen(object: THREE.Object3D): boolean {
   return object.visible && (object.parent === null || isSeen(object.parent));
 }
 
-function kindOf(shape: ShapeMessage): Option {
+/** What is nearly transparent and collides is there for collisions, not for the eye. */
+function kindOf({ collides }: FrameMessage, shape: ShapeMessage): Option {
   if (shape.type === "marker" || shape.type === "camera") return "markers";
-  return (shape.color[3] ?? 1) < 1 ? "transparent" : "solid";
+  const alpha = shape.color[3] ?? 1;
+  if (collides !== 0 && alpha <= FAINT) return "collision";
+  return alpha < 1 ? "transparent" : "solid";
 }
 
 function label(name: string): CSS2DObject {
@@ -41,6 +46,7 @@ function label(name: string): CSS2DObject {
 /** Decides what of the scene is seen: kinds of shapes, axes, names, and frames that are hidden with all below them. */
 export class Display {
   readonly on = new Set<Option>(optionNames.filter((name) => OPTIONS[name].initially));
+  wireframe = false; // whatever is switched on
   visualsOnly = false; // no markers and transparent shapes, whatever is switched on
   readonly hidden = new Set<string>(); // names of frames
 
@@ -49,7 +55,7 @@ export class Display {
       const { shape, name } = shown.message;
       shown.anchor.visible = !this.isHidden(shown, frames);
       if (shown.object && shape) {
-        shown.object.visible = this.isOn(kindOf(shape));
+        shown.object.visible = this.isOn(kindOf(shown.message, shape));
         this.paint(shown.object, shape);
       }
       this.attach(shown.anchor, "axes", () => new THREE.AxesHelper(AXES_LENGTH).setColors(...AXIS_COLORS));
@@ -67,7 +73,12 @@ export class Display {
     const opacity = this.on.has("xray") ? Math.min(alpha, XRAY_OPACITY) : alpha;
     for (const material of materialsOf(object)) {
       material.needsUpdate = material.transparent !== opacity < 1;
-      Object.assign(material, { wireframe: this.on.has("wireframe"), transparent: opacity < 1, opacity, depthWrite: opacity === 1 });
+      Object.assign(material, {
+        wireframe: this.wireframe || this.on.has("wireframe"),
+        transparent: opacity < 1,
+        opacity,
+        depthWrite: opacity === 1,
+      });
     }
     object.castShadow = object.receiveShadow = opacity === 1;
   }

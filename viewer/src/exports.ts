@@ -17,14 +17,41 @@ function saveBlob(blob: Blob, file: string): void {
 
 /** Saves what is seen: a picture, the shapes, a video of the motion, the page itself. */
 export class Exports {
-  private readonly video = make("button", { textContent: "video", title: "WebM of the motion, as it plays", onclick: () => void this.saveVideo() });
+  private readonly video = make("button", {
+    textContent: "video",
+    title: "WebM of the motion, as it plays",
+    onclick: () => void this.saveVideo(),
+  });
 
-  constructor(private readonly stage: Stage, private readonly timeline: Timeline, isRecording: boolean) {
+  constructor(
+    private readonly stage: Stage,
+    private readonly timeline: Timeline,
+    isRecording: boolean,
+  ) {
     find("exports").append(
-      make("button", { id: "picture", textContent: "picture", title: "PNG of what is seen (Alt P)", onclick: () => this.savePicture() }),
-      make("button", { id: "model", textContent: "model", title: "glTF of the shapes, where they are now", onclick: () => void this.saveModel() }),
+      make("button", {
+        id: "picture",
+        textContent: "picture",
+        title: "PNG of what is seen (Alt P)",
+        onclick: () => this.savePicture(),
+      }),
+      make("button", {
+        id: "model",
+        textContent: "model",
+        title: "glTF of the shapes, where they are now",
+        onclick: () => void this.saveModel(),
+      }),
       this.video,
-      ...(isRecording ? [] : [make("button", { id: "page", textContent: "page", title: "HTML file that shows this without the program", onclick: () => this.savePage() })]),
+      ...(isRecording
+        ? []
+        : [
+            make("button", {
+              id: "page",
+              textContent: "page",
+              title: "HTML file that shows this without the program",
+              onclick: () => this.savePage(),
+            }),
+          ]),
     );
     this.video.id = "video";
     this.refresh();
@@ -50,14 +77,18 @@ export class Exports {
   }
 
   private async saveVideo(): Promise<void> {
-    const recorder = new MediaRecorder(this.stage.canvas.captureStream(FRAMES_PER_SECOND), { mimeType: "video/webm", videoBitsPerSecond: 8e6 });
+    const recorder = new MediaRecorder(this.stage.canvas.captureStream(FRAMES_PER_SECOND), {
+      mimeType: "video/webm",
+      videoBitsPerSecond: 8e6,
+    });
     const parts: Blob[] = [];
     recorder.ondataavailable = ({ data }) => parts.push(data);
     const stopped = new Promise((resolve) => (recorder.onstop = resolve));
     this.video.disabled = true;
     recorder.start();
     this.timeline.playFromStart();
-    for (let rest = FRAMES_PER_SECOND / 2; rest > 0; rest -= this.timeline.isPlaying ? 0 : 1) { // the end stays for a moment
+    for (let rest = FRAMES_PER_SECOND / 2; rest > 0; rest -= this.timeline.isPlaying ? 0 : 1) {
+      // the end stays for a moment
       this.stage.redraw();
       await new Promise(requestAnimationFrame);
     }

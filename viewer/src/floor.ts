@@ -1,8 +1,10 @@
 import * as THREE from "three";
 
-const SIZE = 60, SOLID = 10; // m
+const SIZE = 60,
+  SOLID = 10; // m
 
 const GRID = /* glsl */ `
+uniform vec3 ink;
 varying vec2 vFloor;
 float gridLine(float spacing) {
   vec2 at = vFloor / spacing, width = fwidth(at);
@@ -12,23 +14,31 @@ float gridLine(float spacing) {
 float axisLine(float across) { return 1.0 - min(abs(across) / max(1.5 * fwidth(across), 1e-6), 1.0); }
 `;
 
-// black where the sun does not reach, grey lines, red along x and green along y
+// black where the sun does not reach, lines, red along x and green along y
 const PAINT = /* glsl */ `
 float reach = 1.0 - smoothstep(3.0, 14.0, length(vFloor - cameraPosition.xy));
 float line = max(0.16 * gridLine(0.2), 0.42 * gridLine(1.0)) * reach;
 float alongX = axisLine(vFloor.y) * reach, alongY = axisLine(vFloor.x) * reach;
-vec3 ink = mix(mix(vec3(0.17, 0.2, 0.24), vec3(0.05, 0.28, 0.08), alongY), vec3(0.45, 0.05, 0.05), alongX);
+float night = step(0.35, ink.g);
+vec3 red = mix(vec3(0.45, 0.05, 0.05), vec3(0.8, 0.2, 0.18), night);
+vec3 green = mix(vec3(0.05, 0.28, 0.08), vec3(0.12, 0.6, 0.22), night);
+vec3 colored = mix(mix(ink, green, alongY), red, alongX);
 float drawn = max(line, 0.6 * max(alongX, alongY));
 float shade = opacity * (1.0 - getShadowMask());
 float covered = shade + drawn * (1.0 - shade);
-gl_FragColor = vec4(ink * drawn * (1.0 - shade) / max(covered, 1e-4), covered);
+gl_FragColor = vec4(colored * drawn * (1.0 - shade) / max(covered, 1e-4), covered);
 `;
 
-function gridMaterial(): THREE.Material {
+function gridMaterial(ink: THREE.Color): THREE.Material {
   const material = new THREE.ShadowMaterial({ opacity: 0.26, depthWrite: false, side: THREE.DoubleSide });
   material.onBeforeCompile = (shader) => {
+    shader.uniforms.ink = { value: ink };
     shader.vertexShader = shader.vertexShader
       .replace("void main() {", "varying vec2 vFloor;\nvoid main() {")
+      .replace(
+        "#include <shadowmap_vertex>",
+        THREE.ShaderChunk.shadowmap_vertex.replace(/ \+ vec4\( shadowWorldNormal[^;]*;/g, ";"),
+      )
       .replace("#include <fog_vertex>", "#include <fog_vertex>\nvFloor = (modelMatrix * vec4(position, 1.0)).xy;");
     shader.fragmentShader = shader.fragmentShader
       .replace("void main() {", `${GRID}\nvoid main() {`)
@@ -37,11 +47,15 @@ function gridMaterial(): THREE.Material {
   return material;
 }
 
-/** The floor at z = 0: catches shadows, and has lines every metre and every 0.2 m; x is red, y green. One thing to draw. */
+/** The floor at z = 0: catches shadows, and has lines every metre and every 0.2 m; x is red, y green. */
 export class Floor {
   readonly group = new THREE.Group();
-  private readonly grid = new THREE.Mesh(new THREE.PlaneGeometry(SIZE, SIZE), gridMaterial());
-  private readonly solid = new THREE.Mesh(new THREE.PlaneGeometry(SOLID, SOLID), new THREE.MeshStandardMaterial({ roughness: 0.9 }));
+  private readonly ink = new THREE.Color();
+  private readonly grid = new THREE.Mesh(new THREE.PlaneGeometry(SIZE, SIZE), gridMaterial(this.ink));
+  private readonly solid = new THREE.Mesh(
+    new THREE.PlaneGeometry(SOLID, SOLID),
+    new THREE.MeshStandardMaterial({ roughness: 0.9 }),
+  );
 
   constructor() {
     this.grid.receiveShadow = true;
@@ -55,6 +69,13 @@ export class Floor {
   follow(camera: THREE.Vector3): void {
     this.grid.position.x = camera.x;
     this.grid.position.y = camera.y;
+  }
+
+  /** Lines are dark on a light background, and light on a dark one. */
+  setPaper({ r, g, b }: THREE.Color): void {
+    const bright = 0.2 * r + 0.7 * g + 0.1 * b > 0.2;
+    if (bright) this.ink.setRGB(0.17, 0.2, 0.24);
+    else this.ink.setRGB(0.5, 0.54, 0.6);
   }
 
   /** A solid floor of that color below the lines; null: none. */

@@ -2,10 +2,21 @@ import { OPTIONS, optionNames } from "./display";
 import { find, make } from "./element";
 
 const KEYS: [string, string][] = [
-  ["drag", "turn; with the right button or Shift: shift"], ["wheel, pinch", "nearer, farther"], ["click", "select a frame"],
-  ["double click", "turn about that point"], ["?", "this help"], ["Esc", "close help, card, panel, ruler; else to the program"],
-  ["Home", "first view"], ["Alt 1 … Alt 4", "look from the front, the side, above, aslant"], ["Alt ← → ↑ ↓", "turn"], ["Alt Page up, down", "nearer, farther"], ["Alt T, J, O", "frames, joints, view"],
-  ["Alt P", "save a picture"], ["Alt R", "measure"], ["Alt G, Alt B", "move, turn the selected frame"], ["Alt K", "play or pause the motion"],
+  ["drag", "turn; with the right button or Shift: shift"],
+  ["wheel, pinch", "nearer, farther"],
+  ["click", "select a frame"],
+  ["double click, right click", "turn about that point"],
+  ["?", "this help"],
+  ["Esc", "close help, card, panel, ruler; else to the program"],
+  ["Home", "first view"],
+  ["Alt 1 … Alt 4", "look from the front, the side, above, aslant"],
+  ["Alt ← → ↑ ↓", "turn"],
+  ["Alt Page up, down", "nearer, farther"],
+  ["Alt T, J, O", "frames, joints, view"],
+  ["Alt P", "save a picture"],
+  ["Alt R", "measure"],
+  ["Alt G, Alt B", "move, turn the selected frame"],
+  ["Alt K", "play or pause the motion"],
   ["← →, Shift wheel", "slice by slice, in a motion"],
   ...optionNames.map((name): [string, string] => [`Alt ${OPTIONS[name].letter}`, `${OPTIONS[name].label}, on or off`]),
 ];
@@ -17,7 +28,14 @@ export class Help {
 
   constructor() {
     this.root.append(
-      make("dl", {}, ...KEYS.flatMap(([key, what]) => [make("dt", {}, make("kbd", { textContent: key })), make("dd", { textContent: what })])),
+      make(
+        "dl",
+        {},
+        ...KEYS.flatMap(([key, what]) => [
+          make("dt", {}, make("kbd", { textContent: key })),
+          make("dd", { textContent: what }),
+        ]),
+      ),
       make("p", { textContent: "All other keys go to the program." }),
     );
     this.button.addEventListener("click", () => this.toggle());

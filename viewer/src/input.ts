@@ -11,12 +11,20 @@ export class InputEvents {
   private cursorWanted = false;
   private pointer: PointerEvent | null = null; // has moved since the last picture
 
-  constructor(private readonly stage: Stage, private readonly send: (command: Uint8Array<ArrayBuffer>) => void) {
+  constructor(
+    private readonly stage: Stage,
+    private readonly send: (command: Uint8Array<ArrayBuffer>) => void,
+  ) {
     const { canvas } = stage;
-    const button = (what: number) => (event: PointerEvent): void => this.tell(what, event.button, 0);
+    const button =
+      (what: number) =>
+      (event: PointerEvent): void =>
+        this.tell(what, event.button, 0);
     canvas.addEventListener("pointerdown", button(What.clickDown));
     canvas.addEventListener("pointerup", button(What.clickUp));
-    canvas.addEventListener("wheel", (event) => this.tell(What.scroll, event.deltaY < 0 ? 1 : -1, 0), { passive: true });
+    canvas.addEventListener("wheel", (event) => this.tell(What.scroll, event.deltaY < 0 ? 1 : -1, 0), {
+      passive: true,
+    });
     canvas.addEventListener("pointermove", (event) => (this.pointer = event));
     addEventListener("keydown", (event) => this.key(What.keyDown, event));
     addEventListener("keyup", (event) => this.key(What.keyUp, event));
@@ -31,7 +39,7 @@ export class InputEvents {
   setWanted(events: number, cursor: boolean): void {
     this.wanted = events;
     this.cursorWanted = cursor;
-    this.stage.controls.enabled = !this.blocks;
+    this.stage.viewpoint.controls.enabled = !this.blocks;
   }
 
   private tell(what: number, code: number, modifiers: number): void {

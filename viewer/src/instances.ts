@@ -5,7 +5,12 @@ const FEWEST = 4; // shapes of one geometry that are worth it
 const HIDDEN = 1; // a layer that no camera sees, but rays do
 
 const isPlain = ({ material, parent, visible }: PrimitiveMesh): boolean =>
-  visible && parent!.visible && material instanceof THREE.MeshStandardMaterial && !material.transparent && !material.wireframe && material.emissive.getHex() === 0;
+  visible &&
+  parent!.visible &&
+  material instanceof THREE.MeshStandardMaterial &&
+  !material.transparent &&
+  !material.wireframe &&
+  material.emissive.getHex() === 0;
 
 /** Draws shapes with the same geometry in one go; they stay where they are for everything else. */
 export class Instances {

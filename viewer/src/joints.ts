@@ -19,12 +19,18 @@ export class JointPanel {
   private readonly waiting = new Map<number, number>(); // dof -> value, sent with the next picture
 
   constructor(private readonly send: (command: Uint8Array<ArrayBuffer>) => void) {
-    const button = (text: string, title: string, command: (structure: number) => Uint8Array<ArrayBuffer>): HTMLElement =>
-      make("button", { textContent: text, title, onclick: () => send(command(this.structure)) });
+    const button = (
+      text: string,
+      title: string,
+      command: (structure: number) => Uint8Array<ArrayBuffer>,
+    ): HTMLElement => make("button", { textContent: text, title, onclick: () => send(command(this.structure)) });
     find("tab-joints").append(
-      make("div", { className: "buttons" },
+      make(
+        "div",
+        { className: "buttons" },
         button("reset", "to where the joints are at home", resetJointsCommand),
-        button("random", "anywhere within the limits", randomJointsCommand)),
+        button("random", "anywhere within the limits", randomJointsCommand),
+      ),
       this.list,
     );
   }
@@ -61,15 +67,40 @@ export class JointPanel {
     const limited = joint.lower <= joint.upper;
     const reach = joint.unit === "rad" ? TURN : REACH;
     const middle = this.q[index] ?? 0;
-    const [min, max] = limited ? [joint.lower, joint.upper] : [Math.min(-reach, middle - reach), Math.max(reach, middle + reach)];
-    const slider = make("input", { type: "range", min: String(min), max: String(max), step: "any", ariaLabel: joint.name });
+    const [min, max] = limited
+      ? [joint.lower, joint.upper]
+      : [Math.min(-reach, middle - reach), Math.max(reach, middle + reach)];
+    const slider = make("input", {
+      type: "range",
+      min: String(min),
+      max: String(max),
+      step: "any",
+      ariaLabel: joint.name,
+    });
     slider.addEventListener("input", () => this.ask(index, slider.valueAsNumber));
-    const number = make("input", { type: "number", min: String(min), max: String(max), step: "0.01", ariaLabel: `${joint.name}, value` });
-    number.addEventListener("change", () => Number.isFinite(number.valueAsNumber) && this.ask(index, number.valueAsNumber));
+    const number = make("input", {
+      type: "number",
+      min: String(min),
+      max: String(max),
+      step: "0.01",
+      ariaLabel: `${joint.name}, value`,
+    });
+    number.addEventListener(
+      "change",
+      () => Number.isFinite(number.valueAsNumber) && this.ask(index, number.valueAsNumber),
+    );
     const limits = limited ? `${joint.lower} to ${joint.upper} ${joint.unit}` : "without limits";
     if (index === 0) this.list.replaceChildren();
-    this.list.append(make("div", { className: "joint", title: `${joint.name}: ${limits}` },
-      make("span", { className: "joint-name", textContent: joint.name }), number, make("span", { className: "unit", textContent: joint.unit }), slider));
+    this.list.append(
+      make(
+        "div",
+        { className: "joint", title: `${joint.name}: ${limits}` },
+        make("span", { className: "joint-name", textContent: joint.name }),
+        number,
+        make("span", { className: "unit", textContent: joint.unit }),
+        slider,
+      ),
+    );
     return { slider, number };
   }
 

@@ -1,7 +1,19 @@
 /** Codes of keys that are no printable character, as GLFW numbers them. */
 const NAMED: Record<string, number> = {
-  Enter: 13, Escape: 27, Tab: 9, Backspace: 259, Insert: 260, Delete: 261, ArrowRight: 262, ArrowLeft: 263, ArrowDown: 264,
-  ArrowUp: 265, PageUp: 266, PageDown: 267, Home: 268, End: 269,
+  Enter: 13,
+  Escape: 27,
+  Tab: 9,
+  Backspace: 259,
+  Insert: 260,
+  Delete: 261,
+  ArrowRight: 262,
+  ArrowLeft: 263,
+  ArrowDown: 264,
+  ArrowUp: 265,
+  PageUp: 266,
+  PageDown: 267,
+  Home: 268,
+  End: 269,
 };
 
 /** The code that the program gets for a key, or 0 for keys that it does not get. Letters are lower case. */
@@ -17,4 +29,5 @@ export function keyCode(event: KeyboardEvent): number {
 }
 
 /** Shift 1, Ctrl 2, Alt 4, added up. */
-export const modifiersOf = (event: KeyboardEvent): number => (event.shiftKey ? 1 : 0) + (event.ctrlKey ? 2 : 0) + (event.altKey ? 4 : 0);
+export const modifiersOf = (event: KeyboardEvent): number =>
+  (event.shiftKey ? 1 : 0) + (event.ctrlKey ? 2 : 0) + (event.altKey ? 4 : 0);

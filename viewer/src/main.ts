@@ -1,6 +1,6 @@
 import * as THREE from "three";
 import { Connection, type Listener, recordedMessages, replay } from "./connection";
-import { Display } from "./display";
+import { Display, type Option } from "./display";
 import { find, make } from "./element";
 import { Exports } from "./exports";
 import { Help } from "./help";
@@ -9,7 +9,14 @@ import { keyCode, modifiersOf } from "./keys";
 import { Measure } from "./measure";
 import { InputEvents } from "./input";
 import { Memory } from "./memory";
-import { BinaryKind, keyCommand, type LookMessage, type MotionMessage, type ServerMessage } from "./messages";
+import {
+  BinaryKind,
+  keyCommand,
+  type LookMessage,
+  type MotionMessage,
+  type ServerMessage,
+  viewpointCommand,
+} from "./messages";
 import { Motion } from "./motion";
 import { NearLines } from "./near";
 import { Panel } from "./panel";
@@ -19,7 +26,12 @@ import { ShownScene } from "./shown";
 import { Stage } from "./stage";
 import { Timeline } from "./timeline";
 
-const PRESETS: Record<string, [number, number, number]> = { front: [1, 0, 0.001], side: [0, 1, 0.001], above: [0, -0.001, 1], aslant: [1, 1, 0.8] };
+const PRESETS: Record<string, [number, number, number]> = {
+  front: [1, 0, 0.001],
+  side: [0, 1, 0.001],
+  above: [0, -0.001, 1],
+  aslant: [1, 1, 0.8],
+};
 
 const recorded = recordedMessages();
 let connection: Connection | null = null;
@@ -36,15 +48,18 @@ const near = new NearLines(stage, send);
 const quads = new Quads();
 const input = new InputEvents(stage, send);
 const panel = new Panel(display, shown.frames, switched, (id) => selection.select(id));
-stage.onDraw(() => shown.prepare(stage.camera.position, stage.scale));
+stage.onDraw(() => shown.prepare((at) => stage.pixelsPerMetre(at)));
 const selection = new Selection(stage, shown.frames, joints, recorded ? null : send, (id) => panel.select(id));
 const timeline = new Timeline(stage, shown, joints, moved);
 const exports = new Exports(stage, timeline, recorded !== null);
 let unplaced = false; // frames have come whose poses are still to come
+let digits = false; // some switch what is drawn
 let messages = 0; // that have come
 let announced: MotionMessage | null = null; // its slices are still to come
 find("scale").textContent = "grid: 1 m, 0.2 m";
-find("presets").append(...Object.keys(PRESETS).map((name) => make("button", { textContent: name, onclick: () => lookFrom(name) })));
+find("presets").append(
+  ...Object.keys(PRESETS).map((name) => make("button", { textContent: name, onclick: () => lookFrom(name) })),
+);
 find("tab-joints").classList.toggle("fixed", recorded !== null);
 
 function lookFrom(preset: string): void {
@@ -77,7 +92,9 @@ function show(id: string, text: string): void {
 function setLook(look: LookMessage): void {
   display.visualsOnly = look.visualsOnly !== 0;
   document.body.classList.toggle("no-text", look.visualsOnly !== 0 || look.text === 0);
-  stage.setLook(look.background, look.floor, look.shadows !== 0);
+  stage.setLook(look);
+  display.wireframe = look.wireframe !== 0;
+  digits = look.digits !== 0;
   input.setWanted(look.events, look.cursor !== 0);
   redisplay();
 }
@@ -103,7 +120,7 @@ function receive(message: ServerMessage): void {
       break;
     case "camera":
       memory.setCameraGiven();
-      stage.lookFrom(new THREE.Vector3(...message.position), new THREE.Vector3(...message.target), message.focal);
+      stage.setCamera(message);
       break;
     case "near":
       near.read(message);
@@ -159,6 +176,11 @@ const listener: Listener = {
 if (recorded) replay(recorded, listener);
 else connection = new Connection(listener);
 
+stage.onMove(() => {
+  const { pose, distance, focal, ortho } = stage.viewpoint.describe();
+  send(viewpointCommand(pose, distance, focal, ortho));
+});
+
 stage.onClick((event) => {
   if (selection.isHeld || input.blocks) return;
   const hit = stage.pick(event);
@@ -167,15 +189,20 @@ stage.onClick((event) => {
   else selection.close();
 });
 
-const TURNS: Record<string, [number, number, number?]> = {
-  ArrowLeft: [-0.1, 0], ArrowRight: [0.1, 0], ArrowUp: [0, 0.1], ArrowDown: [0, -0.1], PageUp: [0, 0, 1.15], PageDown: [0, 0, 1 / 1.15],
+const TURNS: Record<string, [number, number, number]> = {
+  ArrowLeft: [-0.1, 0, 1],
+  ArrowRight: [0.1, 0, 1],
+  ArrowUp: [0, 0.1, 1],
+  ArrowDown: [0, -0.1, 1],
+  PageUp: [0, 0, 1.15],
+  PageDown: [0, 0, 1 / 1.15],
 };
 
 /** What Alt and a key do. */
 function takeAlt(code: string): boolean {
   const digit = /^Digit([1-4])$/.exec(code);
   if (digit) lookFrom(Object.keys(PRESETS)[Number(digit[1]) - 1]!);
-  else if (TURNS[code]) stage.turn(...TURNS[code]);
+  else if (TURNS[code]) stage.viewpoint.turn(...TURNS[code]);
   else if (code === "KeyP") exports.savePicture();
   else if (code === "KeyR") measure.toggle();
   else if (code === "KeyK") timeline.toggle();
@@ -184,6 +211,8 @@ function takeAlt(code: string): boolean {
   else return panel.takeKey(code);
   return true;
 }
+
+const DIGITS: Record<string, Option> = { 1: "solid", 2: "markers", 3: "axes", 4: "near", 7: "names" };
 
 /** Closes what is open, the topmost first. */
 function closeTopmost(): boolean {
@@ -197,25 +226,30 @@ function closeTopmost(): boolean {
 }
 
 /** Keys that people type into controls are not for the program. */
-const isTyping = (target: EventTarget | null): boolean => target instanceof HTMLElement && target.closest("input, select, summary, button") !== null;
+const isTyping = (target: EventTarget | null): boolean =>
+  target instanceof HTMLElement && target.closest("input, select, summary, button") !== null;
 const leaveControls = (): void => (document.activeElement as HTMLElement | null)?.blur();
 
 addEventListener("keydown", (event) => {
   if (input.blocks) return;
   if (event.altKey && takeAlt(event.code)) return event.preventDefault();
   if (event.key === "Escape" && closeTopmost()) return;
-  if (event.key === "Tab" && (panel.isOpen || selection.selected !== null || timeline.current)) return; // moves on between controls
+  const hasControls = panel.isOpen || selection.selected !== null || timeline.current !== null;
+  if (event.key === "Tab" && hasControls) return; // moves on between them
   if (isTyping(event.target)) return;
   if (event.key === "?") return help.toggle();
   if (event.key === "Home") return stage.home();
   if (timeline.takeKey(event.key)) return event.preventDefault();
   const code = keyCode(event);
   if (code === 0) return;
+  const option = digits ? DIGITS[event.key] : undefined;
+  if (option) panel.toggle(option);
   send(keyCommand(code, modifiersOf(event)));
   if (["Tab", "Backspace", " ", "'", "/"].includes(event.key) || event.key.startsWith("Arrow")) event.preventDefault();
 });
 stage.canvas.addEventListener("pointerdown", leaveControls);
-for (const button of document.querySelectorAll("body > button")) button.addEventListener("click", () => (button as HTMLElement).blur());
+for (const button of document.querySelectorAll("body > button"))
+  button.addEventListener("click", () => (button as HTMLElement).blur());
 
 /** For tests: what is on the page. */
 Object.assign(window, {
@@ -223,6 +257,7 @@ Object.assign(window, {
     frames: () => shown.frames.size,
     blocked: () => input.blocks,
     camera: () => stage.camera.position.toArray(),
+    viewpoint: () => stage.viewpoint.describe(),
     nearLines: () => near.count,
     quads: () => quads.count,
     meshes: () => shown.meshCount,

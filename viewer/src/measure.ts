@@ -31,7 +31,10 @@ export class Measure {
     const [a, b] = this.points;
     this.drawn.clear();
     for (const point of this.points) {
-      const ball = new THREE.Mesh(new THREE.SphereGeometry(0.008, 16, 12), new THREE.MeshBasicMaterial({ color: COLOR, depthTest: false }));
+      const ball = new THREE.Mesh(
+        new THREE.SphereGeometry(0.008, 16, 12),
+        new THREE.MeshBasicMaterial({ color: COLOR, depthTest: false }),
+      );
       ball.position.copy(point);
       this.drawn.add(ball);
     }
@@ -39,7 +42,12 @@ export class Measure {
     text.hidden = !this.on;
     text.textContent = "click two points to measure between them (Alt R ends)";
     if (a && b) {
-      this.drawn.add(new THREE.Line(new THREE.BufferGeometry().setFromPoints([a, b]), new THREE.LineBasicMaterial({ color: COLOR, depthTest: false })));
+      this.drawn.add(
+        new THREE.Line(
+          new THREE.BufferGeometry().setFromPoints([a, b]),
+          new THREE.LineBasicMaterial({ color: COLOR, depthTest: false }),
+        ),
+      );
       const d = b.clone().sub(a);
       text.textContent = `${d.length().toFixed(4)} m   (x ${d.x.toFixed(4)}, y ${d.y.toFixed(4)}, z ${d.z.toFixed(4)})`;
     }

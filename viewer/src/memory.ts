@@ -1,4 +1,4 @@
-import type { Vector3 } from "three";
+import { Vector3 } from "three";
 import { type Display, type Option, optionNames } from "./display";
 import type { Stage } from "./stage";
 
@@ -15,8 +15,11 @@ export class Memory {
   private key = "";
   private cameraIsGiven = false;
 
-  constructor(private readonly stage: Stage, private readonly display: Display) {
-    stage.controls.addEventListener("end", () => this.save());
+  constructor(
+    private readonly stage: Stage,
+    private readonly display: Display,
+  ) {
+    stage.onMove(() => this.save());
   }
 
   /** The program has said where to look from, which counts more. */
@@ -35,9 +38,7 @@ export class Memory {
     this.display.on.clear();
     for (const name of optionNames) if (on.includes(name)) this.display.on.add(name);
     if (!this.cameraIsGiven) {
-      this.stage.camera.position.fromArray(position);
-      this.stage.controls.target.fromArray(target);
-      this.stage.controls.update();
+      this.stage.viewpoint.lookFrom(new Vector3(...position), new Vector3(...target));
     }
     return true;
   }
@@ -46,7 +47,11 @@ export class Memory {
     const storage = this.storage();
     if (!storage || this.key === "") return;
     const numbers = (v: Vector3): number[] => v.toArray();
-    const now: Remembered = { position: numbers(this.stage.camera.position), target: numbers(this.stage.controls.target), on: [...this.display.on] };
+    const now: Remembered = {
+      position: numbers(this.stage.camera.position),
+      target: numbers(this.stage.viewpoint.target),
+      on: [...this.display.on],
+    };
     const keys = Object.keys(storage).filter((key) => key.startsWith("kinegraph "));
     if (keys.length >= MOST && !keys.includes(this.key)) storage.removeItem(keys[0]!);
     storage.setItem(this.key, JSON.stringify(now));

@@ -23,6 +23,7 @@ export interface FrameMessage {
   id: number;
   name: string;
   parent: number;
+  collides: number;
   details: string;
   shape: ShapeMessage | null;
 }
@@ -62,9 +63,11 @@ export interface TextMessage {
 
 export interface CameraMessage {
   kind: "camera";
-  position: number[];
-  target: number[];
+  pose: number[];
+  distance: number;
   focal: number;
+  ortho: number;
+  aspect: number;
 }
 
 export interface LookMessage {
@@ -74,6 +77,10 @@ export interface LookMessage {
   floor: number[];
   shadows: number;
   text: number;
+  lights: number[];
+  flat: number;
+  wireframe: number;
+  digits: number;
   events: number;
   cursor: number;
 }
@@ -126,5 +133,8 @@ export const eventCommand = (what: number, code: number, modifiers: number): Uin
 
 export const cursorCommand = (frame: number, point: number[], normal: number[]): Uint8Array<ArrayBuffer> =>
   writeCommand(["int", 8], ["int", frame], ["number[]", point], ["number[]", normal]);
+
+export const viewpointCommand = (pose: number[], distance: number, focal: number, ortho: number): Uint8Array<ArrayBuffer> =>
+  writeCommand(["int", 9], ["number[]", pose], ["number", distance], ["number", focal], ["number", ortho]);
 
 export type ServerMessage = SceneMessage | JointsMessage | TextMessage | CameraMessage | LookMessage | NearMessage | SelectMessage | MotionMessage;

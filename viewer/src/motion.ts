@@ -16,9 +16,16 @@ export class Motion {
   private readonly from = new THREE.Quaternion();
   private readonly to = new THREE.Quaternion();
 
-  constructor(readonly message: MotionMessage, data: ArrayBuffer) {
+  constructor(
+    readonly message: MotionMessage,
+    data: ArrayBuffer,
+  ) {
     const view = new DataView(data);
-    [this.slices, this.frames, this.dofs] = [4, 8, 12].map((at) => view.getUint32(at, true)) as [number, number, number];
+    [this.slices, this.frames, this.dofs] = [4, 8, 12].map((at) => view.getUint32(at, true)) as [
+      number,
+      number,
+      number,
+    ];
     this.poses = new Float32Array(data, 16, 7 * this.slices * this.frames);
     this.q = new Float32Array(data, 16 + this.poses.byteLength, this.slices * this.dofs);
   }

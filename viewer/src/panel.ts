@@ -52,10 +52,14 @@ export class Panel {
     const letter = code.replace("Key", "");
     const option = optionNames.find((name) => OPTIONS[name].letter === letter);
     const tab = tabNames.find((name) => TABS[name] === letter);
-    if (option) this.set(option, !this.display.on.has(option));
+    if (option) this.toggle(option);
     else if (tab) this.isOpen && this.tab === tab ? this.close() : this.open(tab);
     else return false;
     return true;
+  }
+
+  toggle(option: Option): void {
+    this.set(option, !this.display.on.has(option));
   }
 
   close(): void {

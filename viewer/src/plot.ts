@@ -1,4 +1,15 @@
-const PALETTE = ["#2f6fde", "#d9480f", "#2b8a3e", "#9c36b5", "#e8a200", "#0b7285", "#c2255c", "#5f3dc4", "#74b816", "#868e96"];
+const PALETTE = [
+  "#2f6fde",
+  "#d9480f",
+  "#2b8a3e",
+  "#9c36b5",
+  "#e8a200",
+  "#0b7285",
+  "#c2255c",
+  "#5f3dc4",
+  "#74b816",
+  "#868e96",
+];
 
 /** The color of a curve. */
 export const colorOf = (curve: number): string => PALETTE[curve % PALETTE.length]!;
@@ -20,13 +31,22 @@ export interface Curve {
 
 const SMALLEST = 1e-6; // error that is drawn; what is less is as good as zero
 
-/** Curves from the lowest to the highest value of all, and where the motion is. With `logarithmic`, powers of ten are evenly apart. */
-export function drawCurves(canvas: HTMLCanvasElement, curves: readonly Curve[], moment: number, logarithmic: boolean): void {
+/**
+ * Curves from the lowest to the highest value of all, and where the motion is. With `logarithmic`, powers of ten are
+ * evenly apart.
+ */
+export function drawCurves(
+  canvas: HTMLCanvasElement,
+  curves: readonly Curve[],
+  moment: number,
+  logarithmic: boolean,
+): void {
   const context = prepare(canvas);
   if (!context) return;
   const { clientWidth: width, clientHeight: height } = canvas;
   const scaled = (value: number): number => (logarithmic ? Math.log10(Math.max(value, SMALLEST)) : value);
-  let low = Infinity, high = -Infinity;
+  let low = Infinity,
+    high = -Infinity;
   for (const { values } of curves) {
     for (let t = 0; t < values.length; ++t) {
       low = Math.min(low, scaled(values[t]!));
@@ -43,6 +63,7 @@ export function drawCurves(canvas: HTMLCanvasElement, curves: readonly Curve[], 
     context.lineWidth = 1.6;
     context.beginPath();
     for (let t = 0; t < slices; ++t) context.lineTo(x(t), y(values[t]!));
+    if (slices === 1) context.lineTo(x(0) + 8, y(values[0]!));
     context.stroke();
   });
   if (curves.length === 0) return;

@@ -4,11 +4,22 @@ import { mergeVertices } from "three/addons/utils/BufferGeometryUtils.js";
 import { creased } from "./creased";
 
 /** Parts of a full turn, by level of detail; each serves up to so many pixels of radius on the screen. */
-const LEVELS = [{ parts: 8, pixels: 6 }, { parts: 12, pixels: 16 }, { parts: 20, pixels: 60 }, { parts: 32, pixels: 150 }, { parts: 56, pixels: Infinity }] as const;
+const LEVELS = [
+  { parts: 8, pixels: 6 },
+  { parts: 12, pixels: 16 },
+  { parts: 20, pixels: 60 },
+  { parts: 32, pixels: 150 },
+  { parts: 56, pixels: Infinity },
+] as const;
 
 /** A profile of (radius, z) points turned about z; edges between flat parts stay sharp. */
 function turned(profile: [number, number][], parts: number): THREE.BufferGeometry {
-  return creased(new THREE.LatheGeometry(profile.map(([r, z]) => new THREE.Vector2(r, z)), parts).rotateX(Math.PI / 2));
+  return creased(
+    new THREE.LatheGeometry(
+      profile.map(([r, z]) => new THREE.Vector2(r, z)),
+      parts,
+    ).rotateX(Math.PI / 2),
+  );
 }
 
 function roundedCylinder(length: number, radius: number, rounding: number, parts: number): THREE.BufferGeometry {
@@ -27,14 +38,34 @@ function roundedCylinder(length: number, radius: number, rounding: number, parts
 function build(type: string, size: readonly number[], parts: number): THREE.BufferGeometry | null {
   const [a = 0, b = 0, c = 0, r = 0] = size;
   switch (type) {
-    case "box": case "sdf": case "tensor": return new THREE.BoxGeometry(a, b, c);
-    case "ssBox": return r > 1e-6 && parts > 8 ? mergeVertices(new RoundedBoxGeometry(a, b, c, Math.ceil(parts / 16), r)) : new THREE.BoxGeometry(a, b, c);
-    case "sphere": return new THREE.SphereGeometry(a, parts, parts >> 1);
-    case "capsule": return new THREE.CapsuleGeometry(b, a, parts >> 2, parts).rotateX(Math.PI / 2);
-    case "cylinder": return turned([[0, -a / 2], [b, -a / 2], [b, a / 2], [0, a / 2]], parts);
-    case "ssCylinder": return roundedCylinder(a, b, c, parts);
-    case "quad": return new THREE.PlaneGeometry(a, b);
-    default: return null;
+    case "box":
+    case "sdf":
+    case "tensor":
+      return new THREE.BoxGeometry(a, b, c);
+    case "ssBox":
+      return r > 1e-6 && parts > 8
+        ? mergeVertices(new RoundedBoxGeometry(a, b, c, Math.ceil(parts / 16), r))
+        : new THREE.BoxGeometry(a, b, c);
+    case "sphere":
+      return new THREE.SphereGeometry(a, parts, parts >> 1);
+    case "capsule":
+      return new THREE.CapsuleGeometry(b, a, parts >> 2, parts).rotateX(Math.PI / 2);
+    case "cylinder":
+      return turned(
+        [
+          [0, -a / 2],
+          [b, -a / 2],
+          [b, a / 2],
+          [0, a / 2],
+        ],
+        parts,
+      );
+    case "ssCylinder":
+      return roundedCylinder(a, b, c, parts);
+    case "quad":
+      return new THREE.PlaneGeometry(a, b);
+    default:
+      return null;
   }
 }
 
@@ -70,7 +101,12 @@ export class PrimitiveMesh extends THREE.Mesh<THREE.BufferGeometry, THREE.Materi
   private level: number;
   private readonly radius: number;
 
-  constructor(private readonly primitives: Primitives, readonly type: string, readonly size: readonly number[], material: THREE.Material) {
+  constructor(
+    private readonly primitives: Primitives,
+    readonly type: string,
+    readonly size: readonly number[],
+    material: THREE.Material,
+  ) {
     const level = isRound(type) ? 1 : 0;
     super(primitives.get(type, size, level) ?? undefined, material);
     this.level = level;
@@ -78,10 +114,10 @@ export class PrimitiveMesh extends THREE.Mesh<THREE.BufferGeometry, THREE.Materi
     this.radius = this.geometry.boundingSphere!.radius;
   }
 
-  /** `scale`: pixels of a metre that is a metre away. */
-  refine(camera: THREE.Vector3, scale: number): void {
+  /** `pixelsPerMetre`: at a place. */
+  refine(pixelsPerMetre: (at: THREE.Vector3) => number): void {
     if (!isRound(this.type)) return;
-    const pixels = (this.radius * scale) / Math.max(camera.distanceTo(this.parent!.position), 1e-3);
+    const pixels = this.radius * pixelsPerMetre(this.parent!.position);
     const level = LEVELS.findIndex((known) => pixels <= known.pixels);
     if (level === this.level) return;
     this.level = level;

@@ -1,4 +1,5 @@
-const SLOW = 34, FAST = 15; // ms from one picture to the next, while things move
+const SLOW = 34,
+  FAST = 15; // ms from one picture to the next, while things move
 const STILL = 150; // ms without a change
 const LARGEST = 2; // pixels drawn per pixel of the page, across and down
 
@@ -12,8 +13,8 @@ export function drawsInSoftware(): boolean {
 }
 
 /**
- * How finely to draw: coarser while things move and the machine is slow, and again in full when they stand still. Without a
- * graphics card edges are smoothed by drawing more pixels than there are, then.
+ * How finely to draw: coarser while things move and the machine is slow, and again in full when they stand still.
+ * Without a graphics card edges are smoothed by drawing more pixels than there are, then.
  */
 export class Quality {
   private readonly finest: number;
@@ -41,7 +42,8 @@ export class Quality {
 
   /** Call when a change is about to be drawn. */
   change(time: number): void {
-    if (this.rested) this.pictures = this.spent = 0; // the first of a movement says nothing of how long pictures take
+    if (this.rested)
+      this.pictures = this.spent = 0; // the first of a movement says nothing of how long pictures take
     else this.measure(time - this.last);
     if (!this.rested || this.software) this.now = this.moving;
     this.last = time;

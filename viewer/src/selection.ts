@@ -10,7 +10,8 @@ import type { Stage } from "./stage";
 const HIGHLIGHT = 0x2f6fde;
 type Handles = "translate" | "rotate" | null;
 
-const numbers = (values: number[], digits: number): string => values.map((x) => (Math.abs(x) < 0.5 * 10 ** -digits ? 0 : x).toFixed(digits)).join(" ");
+const numbers = (values: number[], digits: number): string =>
+  values.map((x) => (Math.abs(x) < 0.5 * 10 ** -digits ? 0 : x).toFixed(digits)).join(" ");
 const isPlain = (name: string): boolean => /^[A-Za-z_][\w./-]*$/.test(name);
 const quoted = (name: string): string => (isPlain(name) ? name : `"${name}"`);
 
@@ -43,7 +44,8 @@ export class Selection {
     this.controls.size = 0.8;
     this.controls.addEventListener("change", () => stage.redraw());
     this.controls.addEventListener("objectChange", () => (this.moved = true));
-    this.controls.addEventListener("dragging-changed", ({ value }) => (stage.controls.enabled = !value));
+    this.controls.addEventListener("dragging-changed", ({ value }) => (stage.viewpoint.controls.enabled = !value));
+    stage.viewpoint.onCamera((camera) => (this.controls.camera = camera));
     stage.scene.add(this.grip, this.controls.getHelper(), this.axes);
     Object.assign(this.axes, { renderOrder: 1, visible: false });
     Object.assign(this.axes.material, { depthTest: false, transparent: true });
@@ -111,7 +113,8 @@ export class Selection {
     const { position, rotation } = this.relative(shown);
     const pose = [...position.toArray(), ...wxyz(rotation)].map((x) => Number(x.toFixed(6)));
     const place = values.length > 0 ? `q: [${values.join(", ")}]` : `pose: [${pose.join(", ")}]`;
-    return `${quoted(name)}${above ? ` (${quoted(above.message.name)})` : ""}: { ${[place, details].filter((x) => x !== "").join(", ")} }`;
+    const inside = above ? ` (${quoted(above.message.name)})` : "";
+    return `${quoted(name)}${inside}: { ${[place, details].filter((x) => x !== "").join(", ")} }`;
   }
 
   private shown(): Shown | undefined {
@@ -123,7 +126,10 @@ export class Selection {
     const { position, quaternion } = shown.anchor;
     if (!above) return { position: position.clone(), rotation: quaternion.clone() };
     const back = above.quaternion.clone().invert();
-    return { position: position.clone().sub(above.position).applyQuaternion(back), rotation: back.multiply(quaternion) };
+    return {
+      position: position.clone().sub(above.position).applyQuaternion(back),
+      rotation: back.multiply(quaternion),
+    };
   }
 
   /** Tints the shape, and draws the axes of the frame over everything. */
@@ -146,7 +152,10 @@ export class Selection {
     if (!shown) return;
     const { name, parent, details } = shown.message;
     const above = this.frames.get(parent)?.message.name;
-    const row = (label: string, ...value: (Node | string)[]): Node[] => [make("dt", { textContent: label }), make("dd", {}, ...value)];
+    const row = (label: string, ...value: (Node | string)[]): Node[] => [
+      make("dt", { textContent: label }),
+      make("dd", {}, ...value),
+    ];
     const handle = (mode: Handles & string, text: string): HTMLElement => {
       const button = make("button", { textContent: text, onclick: () => this.toggleHandles(mode) });
       button.ariaPressed = String(this.handles === mode);
@@ -154,20 +163,45 @@ export class Selection {
     };
     const copy = make("button", { textContent: "copy as .g", onclick: () => this.copy(copy) });
     this.card.replaceChildren(
-      make("header", {}, make("b", { textContent: name }), make("button", { className: "close", textContent: "×", ariaLabel: "close", onclick: () => this.close() })),
-      make("dl", {},
-        ...(above === undefined ? [] : row("in", make("button", { className: "link", textContent: above, onclick: () => this.select(parent) }))),
+      make(
+        "header",
+        {},
+        make("b", { textContent: name }),
+        make("button", { className: "close", textContent: "×", ariaLabel: "close", onclick: () => this.close() }),
+      ),
+      make(
+        "dl",
+        {},
+        ...(above === undefined
+          ? []
+          : row("in", make("button", { className: "link", textContent: above, onclick: () => this.select(parent) }))),
         ...row("world", make("code", { id: "pose-world" })),
         ...(above === undefined ? [] : row("in parent", make("code", { id: "pose-parent" }))),
-        ...(details === "" ? [] : row("is", make("code", { textContent: details.replaceAll(", ", ",\n").replace(/\[[^\]]*\]/g, (list) => list.replaceAll(",\n", " ")) })))),
-      make("div", { className: "buttons" }, ...(this.send ? [handle("translate", "move"), handle("rotate", "turn")] : []), copy),
+        ...(details === ""
+          ? []
+          : row(
+              "is",
+              make("code", {
+                textContent: details
+                  .replaceAll(", ", ",\n")
+                  .replace(/\[[^\]]*\]/g, (list) => list.replaceAll(",\n", " ")),
+              }),
+            )),
+      ),
+      make(
+        "div",
+        { className: "buttons" },
+        ...(this.send ? [handle("translate", "move"), handle("rotate", "turn")] : []),
+        copy,
+      ),
     );
   }
 
   private showPoses(): void {
     const shown = this.shown();
     if (!shown || this.card.hidden) return;
-    const text = (p: THREE.Vector3, q: THREE.Quaternion): string => `${numbers(p.toArray(), 4)}\n${numbers(wxyz(q), 4)}`;
+    const text = (p: THREE.Vector3, q: THREE.Quaternion): string =>
+      `${numbers(p.toArray(), 4)}\n${numbers(wxyz(q), 4)}`;
     find("pose-world").textContent = text(shown.anchor.position, shown.anchor.quaternion);
     const { position, rotation } = this.relative(shown);
     const inParent = document.getElementById("pose-parent");
@@ -186,7 +220,10 @@ export class Selection {
   private copy(button: HTMLElement): void {
     const text = this.asText();
     const copied = navigator.clipboard?.writeText(text) ?? Promise.reject(new Error("no clipboard"));
-    copied.then(() => (button.textContent = "copied"), () => prompt("copy this text", text));
+    copied.then(
+      () => (button.textContent = "copied"),
+      () => prompt("copy this text", text),
+    );
     setTimeout(() => (button.textContent = "copy as .g"), 1500);
   }
 
@@ -194,6 +231,11 @@ export class Selection {
   private sendMove(): void {
     if (!this.moved || this.id === null || !this.send) return;
     this.moved = false;
-    this.send(moveFrameCommand(this.joints.current.structure, this.id, [...this.grip.position.toArray(), ...wxyz(this.grip.quaternion)]));
+    this.send(
+      moveFrameCommand(this.joints.current.structure, this.id, [
+        ...this.grip.position.toArray(),
+        ...wxyz(this.grip.quaternion),
+      ]),
+    );
   }
 }

@@ -86,9 +86,9 @@ export class ShownScene {
     for (const id of this.shown.keys()) this.place(id);
   }
 
-  /** Call before a picture: shapes are drawn as finely as they are large on it. `scale`: pixels of a metre that is a metre away. */
-  prepare(camera: THREE.Vector3, scale: number): void {
-    for (const mesh of this.primitiveMeshes()) mesh.refine(camera, scale);
+  /** Call before a picture: shapes are drawn as finely as they are large on it. */
+  prepare(pixelsPerMetre: (at: THREE.Vector3) => number): void {
+    for (const mesh of this.primitiveMeshes()) mesh.refine(pixelsPerMetre);
     this.instances.update(this.primitiveMeshes());
   }
 

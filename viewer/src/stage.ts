@@ -1,9 +1,11 @@
 import * as THREE from "three";
-import { OrbitControls } from "three/addons/controls/OrbitControls.js";
 import { CSS2DRenderer } from "three/addons/renderers/CSS2DRenderer.js";
 import { isSeen } from "./display";
 import { Floor } from "./floor";
+import { Lights } from "./lights";
+import type { CameraMessage, LookMessage } from "./messages";
 import { drawsInSoftware, Quality } from "./quality";
+import { type Camera, Viewpoint } from "./viewpoint";
 
 /** A point on a shape. */
 export interface Hit {
@@ -12,25 +14,46 @@ export interface Hit {
   normal: THREE.Vector3; // of the surface, world
 }
 
-const SUN = new THREE.Vector3(-2.5, 2.2, 4.5).normalize(); // direction towards it
-const LEAST_SHADOWED = 1, MOST_SHADOWED = 12; // m
 const SHADOW_PERIOD = 3; // pictures
+const FIRST_VIEW: CameraMessage = {
+  kind: "camera",
+  pose: [1.5, 2.6, 1.8, -0.15442, 0.20751, 0.77494, -0.57667],
+  distance: 3.134,
+  focal: 0,
+  ortho: 0,
+  aspect: 1, // towards (0, 0, 0.9)
+};
+const LEFT = 0,
+  RIGHT = 2; // buttons
 const STILL = 5; // pixels: a pointer that moves less has clicked
 
-const colorOf = (rgb: number[]): THREE.Color => new THREE.Color().setRGB(rgb[0]!, rgb[1]!, rgb[2]!, THREE.SRGBColorSpace);
+const colorOf = (rgb: number[]): THREE.Color =>
+  new THREE.Color().setRGB(rgb[0]!, rgb[1]!, rgb[2]!, THREE.SRGBColorSpace);
+
+/** Colors are shown as they are given; only what is brighter than 0.8 bends towards white, which keeps shades in it. */
+function bentAtWhite(): THREE.ToneMapping {
+  THREE.ShaderChunk.tonemapping_pars_fragment = THREE.ShaderChunk.tonemapping_pars_fragment.replace(
+    "vec3 CustomToneMapping( vec3 color ) { return color; }",
+    /* glsl */ `vec3 CustomToneMapping(vec3 color) {
+      float peak = max(color.r, max(color.g, color.b));
+      return peak < 0.8 ? color : color * (1.0 - 0.04 / (peak - 0.6)) / peak;
+    }`,
+  );
+  return THREE.CustomToneMapping;
+}
 
 /** Canvas, camera, lights and floor: everything but the scene itself. Draws only when something has changed. */
 export class Stage {
   readonly scene = new THREE.Scene();
   readonly frames = new THREE.Group();
-  readonly camera = new THREE.PerspectiveCamera(40, 1, 0.01, 200);
   readonly renderer: THREE.WebGLRenderer;
-  readonly controls: OrbitControls;
+  readonly viewpoint: Viewpoint;
   private readonly labels = new CSS2DRenderer();
   private readonly floor = new Floor();
   private ground: THREE.Color | null = null; // behind everything, if the program says so
-  private readonly sun = new THREE.DirectionalLight(0xfffaf2, 2.35);
+  private readonly lights = new Lights();
   private readonly ticks: ((seconds: number) => void)[] = [];
+  private readonly moves: (() => void)[] = [];
   private readonly preparations: (() => void)[] = [];
   private readonly timer = new THREE.Timer();
   private readonly quality: Quality;
@@ -45,19 +68,22 @@ export class Stage {
     this.renderer.shadowMap.enabled = true;
     this.renderer.shadowMap.autoUpdate = false;
     this.renderer.shadowMap.type = THREE.PCFShadowMap;
-    this.renderer.toneMapping = THREE.NeutralToneMapping;
+    this.renderer.toneMapping = bentAtWhite();
     this.labels.domElement.className = "labels";
     canvas.after(this.labels.domElement);
-    this.camera.up.set(0, 0, 1);
-    this.controls = new OrbitControls(this.camera, canvas);
-    this.controls.addEventListener("change", () => (this.dirty = true));
-    this.addLights();
+    this.viewpoint = new Viewpoint(
+      canvas,
+      () => (this.dirty = true),
+      () => this.moves.forEach((move) => move()),
+    );
+    this.scene.add(this.lights.group);
     this.fitShadows();
     this.scene.add(this.frames, this.floor.group);
-    this.lookFrom(new THREE.Vector3(1.5, 2.6, 1.8), new THREE.Vector3(0, 0, 0.9));
+    this.viewpoint.set(FIRST_VIEW);
     addEventListener("resize", () => this.resize());
     matchMedia("(prefers-color-scheme: dark)").addEventListener("change", () => this.paper());
     canvas.addEventListener("dblclick", (event) => this.focus(event));
+    this.onClick((event) => this.focus(event), RIGHT);
     this.paper();
     this.resize();
     this.renderer.setAnimationLoop((time) => {
@@ -80,11 +106,20 @@ export class Stage {
     this.preparations.push(prepare);
   }
 
+  /** Called when a person has moved the camera. */
+  onMove(move: () => void): void {
+    this.moves.push(move);
+  }
+
+  get camera(): Camera {
+    return this.viewpoint.camera;
+  }
+
   /** Called when the canvas is clicked, or touched, without a drag. */
-  onClick(click: (event: PointerEvent) => void): void {
+  onClick(click: (event: PointerEvent) => void, button = LEFT): void {
     let down: PointerEvent | null = null;
     this.canvas.addEventListener("pointerdown", (event) => {
-      down = event.isPrimary && event.button === 0 ? event : null;
+      down = event.isPrimary && event.button === button ? event : null;
     });
     this.canvas.addEventListener("pointerup", (event) => {
       if (down && Math.hypot(event.clientX - down.clientX, event.clientY - down.clientY) < STILL) click(event);
@@ -92,27 +127,15 @@ export class Stage {
     });
   }
 
-  /** `focal`: focal length in heights of the window; 0: as it is. */
-  lookFrom(position: THREE.Vector3, target: THREE.Vector3, focal = 0): void {
-    if (focal > 0) {
-      this.camera.fov = THREE.MathUtils.radToDeg(2 * Math.atan(0.5 / focal));
-      this.camera.updateProjectionMatrix();
-    }
-    this.camera.position.copy(position);
-    this.controls.target.copy(target);
-    this.controls.update();
-    this.controls.saveState();
+  /** As the program says. */
+  setCamera(camera: CameraMessage): void {
+    this.viewpoint.set(camera);
     this.redraw();
   }
 
   /** Looks at all that is there from a direction. */
   lookAlong(direction: THREE.Vector3): void {
-    const sphere = this.extent();
-    const half = THREE.MathUtils.degToRad(this.camera.fov / 2);
-    const distance = sphere.radius / Math.sin(Math.min(half, Math.atan(Math.tan(half) * this.camera.aspect)));
-    this.controls.target.copy(sphere.center);
-    this.camera.position.copy(sphere.center).addScaledVector(direction.clone().normalize(), distance);
-    this.controls.update();
+    this.viewpoint.lookAlong(direction, this.extent());
     this.redraw();
   }
 
@@ -130,28 +153,12 @@ export class Stage {
   /** Call when frames have come or gone: what is there casts shadows, however large or far away it is. */
   fitShadows(): void {
     const { center, radius } = this.extent();
-    const reach = THREE.MathUtils.clamp(1.1 * radius, LEAST_SHADOWED, MOST_SHADOWED);
-    const { camera } = this.sun.shadow;
-    this.sun.target.position.copy(center);
-    this.sun.position.copy(center).addScaledVector(SUN, 2 * reach);
-    Object.assign(camera, { left: -reach, right: reach, top: reach, bottom: -reach, near: 0.1 * reach, far: 4 * reach });
-    camera.updateProjectionMatrix();
+    this.lights.fitShadows(center, radius);
     this.redraw();
   }
 
-  /** Turns the camera about what it looks at, by angles to the right and upwards (rad), and goes nearer by a factor. */
-  turn(right: number, up: number, nearer = 1): void {
-    const { position } = this.camera, { target } = this.controls;
-    const away = position.clone().sub(target);
-    const height = THREE.MathUtils.clamp(Math.asin(away.z / away.length()) + up, -1.55, 1.55);
-    const around = Math.atan2(away.y, away.x) + right, distance = away.length() / nearer;
-    position.set(Math.cos(around) * Math.cos(height), Math.sin(around) * Math.cos(height), Math.sin(height)).multiplyScalar(distance).add(target);
-    this.controls.update();
-    this.dirty = true;
-  }
-
   home(): void {
-    this.controls.reset();
+    this.viewpoint.home();
     this.redraw();
   }
 
@@ -174,42 +181,42 @@ export class Stage {
 
   /** What is to be seen at a place of the canvas. */
   pick(event: MouseEvent): Hit | null {
-    const at = new THREE.Vector2((2 * event.offsetX) / this.canvas.clientWidth - 1, 1 - (2 * event.offsetY) / this.canvas.clientHeight);
+    const at = new THREE.Vector2(
+      (2 * event.offsetX) / this.canvas.clientWidth - 1,
+      1 - (2 * event.offsetY) / this.canvas.clientHeight,
+    );
     const ray = new THREE.Raycaster();
     ray.layers.enableAll();
     ray.setFromCamera(at, this.camera);
-    const hit = ray.intersectObject(this.frames, true).find(({ object }) => object instanceof THREE.Mesh && isSeen(object));
+    const hit = ray
+      .intersectObject(this.frames, true)
+      .find(({ object }) => object instanceof THREE.Mesh && isSeen(object));
     for (let object = hit?.object ?? null; object; object = object.parent) {
-      if (typeof object.userData.id === "number") return { id: object.userData.id, point: hit!.point, normal: hit!.face!.normal.clone().transformDirection(hit!.object.matrixWorld) };
+      if (typeof object.userData.id === "number")
+        return {
+          id: object.userData.id,
+          point: hit!.point,
+          normal: hit!.face!.normal.clone().transformDirection(hit!.object.matrixWorld),
+        };
     }
     return null;
   }
 
-  private addLights(): void {
-    this.scene.add(new THREE.HemisphereLight(0xffffff, 0xa5a7b0, 1.6));
-    this.sun.castShadow = true;
-    this.sun.shadow.mapSize.set(2048, 2048);
-    this.sun.shadow.radius = 5;
-    this.sun.shadow.bias = -0.0003;
-    this.sun.shadow.normalBias = 0.01;
-    this.scene.add(this.sun, this.sun.target);
-    const fill = new THREE.DirectionalLight(0xdfe8ff, 0.75);
-    fill.position.set(3, -2, 2.5);
-    this.scene.add(fill);
-  }
-
   /** Colors are rgb in 0..1; [] is the page's own, and a floor of any other length than 3 is none. */
-  setLook(background: number[], floor: number[], shadows: boolean): void {
+  setLook(look: LookMessage): void {
+    const { background, floor } = look;
     this.ground = background.length === 3 ? colorOf(background) : null;
     this.floor.setColor(floor.length === 3 ? colorOf(floor) : null);
     this.floor.group.visible = floor.length === 0 || floor.length === 3;
-    this.sun.castShadow = shadows;
+    this.lights.setLook(look.lights, look.flat !== 0, look.shadows !== 0);
+    this.renderer.toneMapping = look.flat !== 0 ? THREE.NoToneMapping : THREE.CustomToneMapping;
     this.paper();
   }
 
   private paper(): void {
     const color = this.ground ?? getComputedStyle(document.documentElement).getPropertyValue("--paper").trim();
     this.scene.background = new THREE.Color(color);
+    this.floor.setPaper(this.scene.background);
     this.scene.fog = new THREE.Fog(color, 9, 28);
     this.redraw();
   }
@@ -218,8 +225,7 @@ export class Stage {
     const { clientWidth: width, clientHeight: height } = this.canvas;
     this.renderer.setSize(width, height, false);
     this.labels.setSize(width, height);
-    this.camera.aspect = width / Math.max(height, 1);
-    this.camera.updateProjectionMatrix();
+    this.viewpoint.fit(width / Math.max(height, 1));
     this.redraw();
   }
 
@@ -235,17 +241,16 @@ export class Stage {
     return this.quality.ratio;
   }
 
-  /** Pixels of a metre that is a metre away. */
-  get scale(): number {
-    return (this.canvas.clientHeight * this.renderer.getPixelRatio()) / (2 * Math.tan(THREE.MathUtils.degToRad(this.camera.fov / 2)));
+  /** Pixels that a metre has at a place. */
+  pixelsPerMetre(at: THREE.Vector3): number {
+    return this.viewpoint.pixelsPerMetre(at, this.canvas.clientHeight * this.renderer.getPixelRatio());
   }
 
-  /** A double click turns about the point that was hit from there on. */
+  /** A double click, or one with the right button, turns about the point that was hit from there on. */
   private focus(event: MouseEvent): void {
     const hit = this.pick(event);
     if (!hit) return;
-    this.controls.target.copy(hit.point);
-    this.controls.update();
+    this.viewpoint.focus(hit.point);
     this.redraw();
   }
 

@@ -32,11 +32,20 @@ export class Timeline {
   private readonly plot = make("div", { className: "plot", hidden: true });
   private readonly legend = make("div", { className: "legend" });
   private readonly plotBoxes = {
-    joints: make("input", { type: "checkbox", onchange: () => this.setPlotted(this.plotBoxes.joints.checked ? "joints" : null) }),
-    errors: make("input", { type: "checkbox", onchange: () => this.setPlotted(this.plotBoxes.errors.checked ? "errors" : null) }),
+    joints: make("input", {
+      type: "checkbox",
+      onchange: () => this.setPlotted(this.plotBoxes.joints.checked ? "joints" : null),
+    }),
+    errors: make("input", {
+      type: "checkbox",
+      onchange: () => this.setPlotted(this.plotBoxes.errors.checked ? "errors" : null),
+    }),
   };
   private readonly errorsLabel = make("label", {}, this.plotBoxes.errors, "errors");
-  private readonly ghostBox = make("input", { type: "checkbox", onchange: () => this.showGhosts(this.ghostBox.checked) });
+  private readonly ghostBox = make("input", {
+    type: "checkbox",
+    onchange: () => this.showGhosts(this.ghostBox.checked),
+  });
 
   constructor(
     private readonly stage: Stage,
@@ -44,25 +53,43 @@ export class Timeline {
     private readonly joints: JointPanel,
     private readonly moved: () => void,
   ) {
-    const speed = make("select", { ariaLabel: "speed" }, ...SPEEDS.map((x) => make("option", { value: String(x), textContent: `${x}×`, selected: x === 1 })));
+    const speed = make(
+      "select",
+      { ariaLabel: "speed" },
+      ...SPEEDS.map((x) => make("option", { value: String(x), textContent: `${x}×`, selected: x === 1 })),
+    );
     speed.addEventListener("change", () => (this.speed = Number(speed.value)));
     const loopBox = make("input", { type: "checkbox", onchange: () => (this.loop = loopBox.checked) });
     this.marked = new Marks(shown.frames);
     this.slider.addEventListener("input", () => this.goTo(this.slider.valueAsNumber));
     this.plot.append(this.curves, this.legend);
-    this.root.append(this.text, this.plot,
-      make("div", { className: "transport" },
+    this.root.append(
+      this.text,
+      this.plot,
+      make(
+        "div",
+        { className: "transport" },
         this.playButton,
         make("div", { className: "track" }, this.marks, this.slider),
-        this.time, speed,
-        make("label", {}, loopBox, "loop"), make("label", {}, this.ghostBox, "all slices"), make("label", {}, this.plotBoxes.joints, "curves"), this.errorsLabel));
+        this.time,
+        speed,
+        make("label", {}, loopBox, "loop"),
+        make("label", {}, this.ghostBox, "all slices"),
+        make("label", {}, this.plotBoxes.joints, "curves"),
+        this.errorsLabel,
+      ),
+    );
     stage.onTick((seconds) => this.advance(seconds));
-    stage.canvas.addEventListener("wheel", (event) => {
-      if (!event.shiftKey || !this.motion) return;
-      event.preventDefault();
-      event.stopImmediatePropagation();
-      this.step(Math.sign(event.deltaY || event.deltaX));
-    }, { capture: true, passive: false });
+    stage.canvas.addEventListener(
+      "wheel",
+      (event) => {
+        if (!event.shiftKey || !this.motion) return;
+        event.preventDefault();
+        event.stopImmediatePropagation();
+        this.step(Math.sign(event.deltaY || event.deltaX));
+      },
+      { capture: true, passive: false },
+    );
     addEventListener("resize", () => this.draw());
   }
 
@@ -179,16 +206,19 @@ export class Timeline {
     for (const kind of ["joints", "errors"] as const) this.plotBoxes[kind].checked = kind === plotted;
     this.plot.hidden = plotted === null;
     this.curvesShown = this.motion ? this.curvesOf(this.motion) : [];
-    this.legend.replaceChildren(...this.curvesShown.map(({ name }, i) => {
-      const item = make("span", { textContent: name });
-      item.style.setProperty("--color", colorOf(i));
-      return item;
-    }));
+    this.legend.replaceChildren(
+      ...this.curvesShown.map(({ name }, i) => {
+        const item = make("span", { textContent: name });
+        item.style.setProperty("--color", colorOf(i));
+        return item;
+      }),
+    );
     this.draw();
   }
 
   private curvesOf(motion: Motion): Curve[] {
-    if (this.plotted === "errors") return motion.message.traces.map(({ name, type, values }) => ({ name: `${name} (${type})`, values }));
+    if (this.plotted === "errors")
+      return motion.message.traces.map(({ name, type, values }) => ({ name: `${name} (${type})`, values }));
     return this.joints.current.joints.slice(0, motion.dofs).map(({ name }, i) => ({ name, values: motion.curveOf(i) }));
   }
 
@@ -198,7 +228,8 @@ export class Timeline {
     const slice = Math.round(this.moment);
     const last = Math.max(slices - 1, 1);
     this.slider.value = String(this.moment);
-    const number = slice - message.prefix, highest = slices - 1 - message.prefix;
+    const number = slice - message.prefix,
+      highest = slices - 1 - message.prefix;
     this.slider.ariaValueText = `slice ${number} of ${highest}`;
     this.time.textContent = `${number}/${highest}   ${((this.moment / last) * message.seconds).toFixed(2)} s`;
     const text = message.texts[slice] ?? "";

@@ -1,7 +1,7 @@
 import { make } from "./element";
 import type { Shown } from "./shown";
 
-/** The frames as a collapsible tree with a box each that hides a frame and all below it; a click on a name selects it. */
+/** The frames as a tree with a box each that hides a frame and all below it; a click on a name selects it. */
 export class SceneTree {
   private readonly collapsed = new Set<string>();
   private frames: ReadonlyMap<number, Shown> = new Map();
@@ -40,7 +40,9 @@ export class SceneTree {
     const wanted = this.search.value.trim().toLowerCase();
     const found = wanted === "" ? null : this.matches(wanted);
     const branch = (parent: number): HTMLElement[] =>
-      (children.get(parent) ?? []).filter((id) => !found || found.has(id)).map((id) => this.item(id, branch(id), found !== null));
+      (children.get(parent) ?? [])
+        .filter((id) => !found || found.has(id))
+        .map((id) => this.item(id, branch(id), found !== null));
     this.element.replaceChildren(...branch(-1));
     if (this.element.childElementCount === 0) this.element.textContent = wanted ? "no such frame" : "no frames";
     this.select(this.selected);

@@ -19,8 +19,8 @@ std::optional<std::vector<double>> numbersOf(const Frame& frame, const char* key
   if (const double* number = node->value.as<double>()) numbers = {*number};
   if (const NumberArray* array = node->value.as<NumberArray>()) numbers = array->numbers;
   if (numbers.size() == count) return numbers;
-  throw ValueError(cat("camera '", frame.getName(), "': attribute '", key, "' is ", describe(node->value), "; expected ",
-                       count == 1 ? "a number" : "two numbers [near far]"));
+  throw ValueError(cat("camera '", frame.getName(), "': attribute '", key, "' is ", describe(node->value),
+                       "; expected ", count == 1 ? "a number" : "two numbers [near far]"));
 }
 
 std::optional<double> numberOf(const Frame& frame, const char* key) {
@@ -32,10 +32,12 @@ std::optional<double> numberOf(const Frame& frame, const char* key) {
 
 void Camera::validate() const {
   if (width < 1 || height < 1 || width > kLargestImage || height > kLargestImage) {
-    throw ValueError(cat("camera: the image is ", width, " x ", height, " pixels; expected 1 to ", kLargestImage, " each"));
+    throw ValueError(
+        cat("camera: the image is ", width, " x ", height, " pixels; expected 1 to ", kLargestImage, " each"));
   }
   if (!(ortho_height >= 0.) || !std::isfinite(ortho_height)) {
-    throw ValueError(cat("camera: the height of an orthographic image is ", ortho_height, " m; expected a positive number"));
+    throw ValueError(
+        cat("camera: the height of an orthographic image is ", ortho_height, " m; expected a positive number"));
   }
   if (!(focal_length > 0.) || !std::isfinite(focal_length)) {
     throw ValueError(cat("camera: focalLength is ", focal_length, " image heights; expected a positive number"));
@@ -50,7 +52,8 @@ Camera cameraOf(const Frame& frame) {
   camera.pose = frame.getPose();
   if (const auto width = numberOf(frame, "width")) camera.width = int(std::clamp(*width, -1., 1e9));
   if (const auto height = numberOf(frame, "height")) camera.height = int(std::clamp(*height, -1., 1e9));
-  if (const auto angle = numberOf(frame, "heightAngle")) camera.focal_length = .5 / std::tan(*angle * std::numbers::pi / 360.);
+  if (const auto angle = numberOf(frame, "heightAngle"))
+    camera.focal_length = .5 / std::tan(*angle * std::numbers::pi / 360.);
   if (const auto length = numberOf(frame, "focalLength")) camera.focal_length = *length;
   for (const char* key : {"heightAbs", "orthoAbsHeight"}) {
     if (const auto height = numberOf(frame, key)) camera.ortho_height = *height;
@@ -65,18 +68,6 @@ Camera cameraOf(const Frame& frame) {
     throw ValueError(cat("frame '", frame.getName(), "' as a ", error.what()));
   }
   return camera;
-}
-
-Pose lookAt(const Vector3d& position, const Vector3d& target) {
-  Vector3d forward = target - position;
-  if (forward.norm() < 1e-12) forward = Vector3d::UnitX();
-  forward.normalize();
-  Vector3d right = forward.cross(Vector3d::UnitZ());
-  if (right.norm() < 1e-9) right = Vector3d::UnitX();  // straight up or down
-  right.normalize();
-  Matrix3d R;
-  R << right, forward.cross(right), forward;
-  return {position, Quaterniond(R)};
 }
 
 Camera defaultViewCamera() {

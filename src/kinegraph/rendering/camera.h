@@ -1,5 +1,6 @@
 #pragma once
 
+#include "kinegraph/math/look_at.h"
 #include "kinegraph/scene/frame.h"
 
 namespace kinegraph {
@@ -21,13 +22,10 @@ struct Camera {
   void validate() const;
 };
 
-/// The camera that a frame's attributes describe, at its pose: `focalLength` or `heightAngle` (the image's vertical angle,
-/// degrees) or `orthoAbsHeight` / `heightAbs` (m), `width`, `height`, `zRange` [near far]. What is missing is as in Camera.
-/// Throws ValueError for attributes that make no sense.
+/// The camera that a frame's attributes describe, at its pose: `focalLength` or `heightAngle` (the image's vertical
+/// angle, degrees) or `orthoAbsHeight` / `heightAbs` (m), `width`, `height`, `zRange` [near far]. What is missing is as
+/// in Camera. Throws ValueError for attributes that make no sense.
 Camera cameraOf(const Frame& frame);
-
-/// A camera at `position` that looks at `target` and stands upright.
-Pose lookAt(const Vector3d& position, const Vector3d& target);
 
 /// What a viewer starts with: 600 x 500, from (2, 5, 1.7) towards (0, 0, 1).
 Camera defaultViewCamera();

@@ -17,7 +17,9 @@ constexpr int kSlices = 128;            // around builtin round shapes
 constexpr float kShadowHalfWidth = 2.5;  // m, of what the first light's shadow map covers
 const Vector4d kDefaultColor(.8, .8, .8, 1.);
 
-mjvLight directionalLight(int id, const Vector3d& from, const Vector3d& to, bool shadow) {
+/// One of `count`, at a place, towards where things stand.
+mjvLight directionalLight(int id, const Vector3d& from, std::size_t count, bool shadow) {
+  const Vector3d to(0., 0., .8);
   mjvLight light{};
   light.id = id;
   light.type = mjLIGHT_DIRECTIONAL;
@@ -28,9 +30,19 @@ mjvLight directionalLight(int id, const Vector3d& from, const Vector3d& to, bool
   for (int i = 0; i < 3; ++i) {
     light.pos[i] = float(from[i]);
     light.dir[i] = float(direction[i]);
-    light.ambient[i] = .15f;  // of each of two
+    light.ambient[i] = .3f / float(count);
     light.diffuse[i] = .6f;
-    light.specular[i] = .2f;
+    light.specular[i] = .4f / float(count);
+  }
+  return light;
+}
+
+/// Shows colors as they are.
+mjvLight flatLight() {
+  mjvLight light = directionalLight(0, Vector3d::UnitZ(), 1, false);
+  for (int i = 0; i < 3; ++i) {
+    light.ambient[i] = 1.f;
+    light.diffuse[i] = light.specular[i] = 0.f;
   }
   return light;
 }
@@ -123,6 +135,7 @@ struct CameraRenderer::Impl {
   void makeContext();
   void placeGeoms(const std::vector<Item>& items, const State& state, const Camera& camera, int frames);
   void placeCamera(const Camera& camera);
+  void placeLights();
   mjvGeom& addGeom(int type, const Vector3d& size, const RigidTransform& X_WG, const Vector4d& color, int segment);
   void addMarker(double length, const RigidTransform& X_WG, int segment);
 
@@ -174,7 +187,8 @@ void CameraRenderer::Impl::makeContext() {
   context->readDepthMap = mjDEPTH_ZEROFAR;
 }
 
-mjvGeom& CameraRenderer::Impl::addGeom(int type, const Vector3d& size, const RigidTransform& X_WG, const Vector4d& color, int segment) {
+mjvGeom& CameraRenderer::Impl::addGeom(int type, const Vector3d& size, const RigidTransform& X_WG,
+                                       const Vector4d& color, int segment) {
   mjvGeom& geom = scene->geoms[scene->ngeom++];
   const Eigen::Matrix<double, 3, 3, Eigen::RowMajor> R = X_WG.R;
   const Eigen::Vector4f rgba = color.cast<float>();
@@ -198,9 +212,12 @@ void CameraRenderer::Impl::addMarker(double length, const RigidTransform& X_WG, 
   }
 }
 
-void CameraRenderer::Impl::placeGeoms(const std::vector<Item>& items, const State& state, const Camera& camera, int frames) {
+void CameraRenderer::Impl::placeGeoms(const std::vector<Item>& items, const State& state, const Camera& camera,
+                                      int frames) {
   std::size_t count = 1;
-  for (const Item& item : items) count += std::max<std::size_t>(3, isMarker(item.geometry->type) || builtinShape(item.geometry->type) ? 0 : meshes.parts(item.geometry).size());
+  for (const Item& item : items)
+    count += std::max<std::size_t>(
+        3, isMarker(item.geometry->type) || builtinShape(item.geometry->type) ? 0 : meshes.parts(item.geometry).size());
   if (std::size_t(scene->maxgeom) < count) {
     mjv_freeScene(scene.get());
     mjv_makeScene(model->get(), scene.get(), int(2 * count));
@@ -257,6 +274,19 @@ void CameraRenderer::Impl::placeCamera(const Camera& camera) {
   }
 }
 
+void CameraRenderer::Impl::placeLights() {
+  const std::vector<Vector3d> usual = {{-3., 2., 3.}, {3., 0., 4.}};
+  const std::vector<Vector3d>& places = options.lights.empty() ? usual : options.lights;
+  scene->nlight = options.flat_colors ? 1 : int(places.size());
+  if (options.flat_colors) {
+    scene->lights[0] = flatLight();
+    return;
+  }
+  for (std::size_t i = 0; i < places.size(); ++i) {
+    scene->lights[i] = directionalLight(int(i), places[i], places.size(), options.shadows && i == 0);
+  }
+}
+
 void CameraRenderer::Impl::draw(SceneTree& tree, const Camera& camera, bool visuals_only, bool segmentation) {
   const std::vector<Item> items = visibleItems(tree, visuals_only);
   MeshLibrary::Shapes shapes;
@@ -266,17 +296,17 @@ void CameraRenderer::Impl::draw(SceneTree& tree, const Camera& camera, bool visu
   if (!model) model = emptyModel();
   if (meshes.update(shapes)) makeContext();
   if (camera.width > context->offWidth || camera.height > context->offHeight) {
-    mjr_resizeOffscreen(std::max(camera.width, context->offWidth), std::max(camera.height, context->offHeight), context.get());
+    mjr_resizeOffscreen(std::max(camera.width, context->offWidth), std::max(camera.height, context->offHeight),
+                        context.get());
   }
   placeGeoms(items, tree.state(), camera, int(tree.frames().size()));
   placeCamera(camera);
-  scene->nlight = 2;
-  scene->lights[0] = directionalLight(0, {-3., 2., 3.}, {0., 0., .8}, options.shadows);
-  scene->lights[1] = directionalLight(1, {3., 0., 4.}, {0., 0., .8}, false);
+  placeLights();
   scene->stereo = mjSTEREO_NONE;
   std::fill(std::begin(scene->flags), std::end(scene->flags), mjtByte(0));
   scene->flags[mjRND_CULL_FACE] = 1;
-  scene->flags[mjRND_SHADOW] = options.shadows && !segmentation;
+  scene->flags[mjRND_SHADOW] = options.shadows && !options.flat_colors && !segmentation;
+  scene->flags[mjRND_WIREFRAME] = options.wireframe && !segmentation;
   scene->flags[mjRND_SEGMENT] = scene->flags[mjRND_IDCOLOR] = segmentation;
   mjr_setBuffer(mjFB_OFFSCREEN, context.get());
   mjr_render({0, 0, camera.width, camera.height}, scene.get(), context.get());
@@ -291,7 +321,12 @@ void CameraRenderer::Impl::read(const Camera& camera, std::uint8_t* rgb, float* 
   }
 }
 
-CameraRenderer::CameraRenderer(const RendererOptions& options) : impl_(std::make_unique<Impl>(options)) {}
+CameraRenderer::CameraRenderer(const RendererOptions& options) : impl_(std::make_unique<Impl>(options)) {
+  constexpr std::size_t kMostLights = 8;
+  if (options.lights.size() > kMostLights) {
+    throw ValueError(cat("camera: ", options.lights.size(), " lights; expected at most ", kMostLights));
+  }
+}
 CameraRenderer::~CameraRenderer() = default;
 
 CameraImage CameraRenderer::render(SceneTree& scene, const Camera& camera, bool visuals_only) {

@@ -16,6 +16,10 @@ struct RendererOptions {
   bool floor = true;                              ///< a square of 10 m at z = 0, seen from above only
   Vector3d background = Vector3d::Ones();         ///< rgb in 0..1
   Vector3d floor_color = Vector3d(.4, .45, .5);
+  std::vector<Vector3d> lights{};  ///< where they are, m; the first casts shadows; empty: two as usual; at most 8
+  bool flat_colors = false;                       ///< as they are given, without light
+  bool wireframe = false;                         ///< edges of triangles only
+  bool operator==(const RendererOptions&) const = default;
 };
 
 /// What a camera sees. Rows run from top to bottom.
@@ -34,8 +38,8 @@ class CameraRenderer {
   CameraRenderer(const CameraRenderer&) = delete;
   CameraRenderer& operator=(const CameraRenderer&) = delete;
 
-  /// Colours and depth. `visuals_only` leaves out markers and what is transparent. Transparent things show in the colours
-  /// and not in the depth. Throws FileError without EGL or a driver; ValueError for an impossible camera.
+  /// Colours and depth. `visuals_only` leaves out markers and what is transparent. Transparent things show in the
+  /// colours and not in the depth. Throws FileError without EGL or a driver; ValueError for an impossible camera.
   CameraImage render(SceneTree& scene, const Camera& camera, bool visuals_only = true);
   CameraImage render(const Config& config, const Camera& camera, bool visuals_only = true) {
     return render(*config.scene(), camera, visuals_only);

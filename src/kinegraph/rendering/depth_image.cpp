@@ -40,7 +40,8 @@ std::vector<double> depthToPoints(const float* depth, int height, int width, con
 
 void DepthNoise::validate() const {
   for (const double value : {baseline, overall, wide, local, pixel, no_depth}) {
-    if (!(value >= 0.) || !std::isfinite(value)) throw ValueError(cat("depth noise: ", value, " is no size; expected numbers >= 0"));
+    if (!(value >= 0.) || !std::isfinite(value))
+      throw ValueError(cat("depth noise: ", value, " is no size; expected numbers >= 0"));
   }
 }
 
@@ -50,8 +51,8 @@ Camera otherEye(const Camera& camera, const DepthNoise& noise) {
   return other;
 }
 
-void addDepthNoise(std::vector<float>& depth, const std::vector<float>& other_eye, const Camera& camera, const DepthNoise& noise,
-                   Rng& rng) {
+void addDepthNoise(std::vector<float>& depth, const std::vector<float>& other_eye, const Camera& camera,
+                   const DepthNoise& noise, Rng& rng) {
   noise.validate();
   const Field field = noise.wide * smoothNoise(camera.height, camera.width, 10, rng) +
                       noise.local * smoothNoise(camera.height, camera.width, 3, rng) +

@@ -7,8 +7,8 @@
 
 namespace kinegraph {
 
-/// The points of a depth image in the camera's frame: X = (column - cx) d / fx, Y = (row - cy) d / fy, Z = d; zero where
-/// the depth is negative. height x width x 3. `fxycxy`: fx fy cx cy in pixels.
+/// The points of a depth image in the camera's frame: X = (column - cx) d / fx, Y = (row - cy) d / fy, Z = d; zero
+/// where the depth is negative. height x width x 3. `fxycxy`: fx fy cx cy in pixels.
 std::vector<double> depthToPoints(const float* depth, int height, int width, const Vector4d& fxycxy);
 
 /// The errors of a stereo camera.
@@ -25,9 +25,10 @@ struct DepthNoise {
 };
 
 /// Makes `depth`, as `camera` sees it, look measured. `other_eye` is the depth seen from `noise.baseline` to the right.
-/// What only one eye sees (they differ by more than 5 cm) becomes -1; the rest gets noise that grows with depth squared.
-void addDepthNoise(std::vector<float>& depth, const std::vector<float>& other_eye, const Camera& camera, const DepthNoise& noise,
-                   Rng& rng);
+/// What only one eye sees (they differ by more than 5 cm) becomes -1; the rest gets noise that grows with depth
+/// squared.
+void addDepthNoise(std::vector<float>& depth, const std::vector<float>& other_eye, const Camera& camera,
+                   const DepthNoise& noise, Rng& rng);
 
 /// The camera of the other eye.
 Camera otherEye(const Camera& camera, const DepthNoise& noise);

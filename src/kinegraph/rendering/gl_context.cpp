@@ -66,7 +66,8 @@ Egl loadEgl() {
   extension(egl.getPlatformDisplay, "eglGetPlatformDisplayEXT");
   extension(egl.queryDevices, "eglQueryDevicesEXT");
   extension(egl.queryDeviceString, "eglQueryDeviceStringEXT");
-  if (!egl.getPlatformDisplay) throw FileError(cat("camera images need EGL_EXT_platform_base, which libEGL.so.1 lacks; ", kPackages));
+  if (!egl.getPlatformDisplay)
+    throw FileError(cat("camera images need EGL_EXT_platform_base, which libEGL.so.1 lacks; ", kPackages));
   return egl;
 }
 
@@ -84,7 +85,8 @@ std::vector<void*> graphicsCards() {
   std::vector<void*> cards;
   for (Int i = 0; i < count; ++i) {
     const char* extensions = egl().queryDeviceString(devices[i], kExtensions);
-    if (extensions && std::string_view(extensions).find("EGL_MESA_device_software") == std::string_view::npos) cards.push_back(devices[i]);
+    if (extensions && std::string_view(extensions).find("EGL_MESA_device_software") == std::string_view::npos)
+      cards.push_back(devices[i]);
   }
   return cards;
 }
@@ -99,7 +101,8 @@ bool GlContext::open(void* display, const char* device) {
   void* config = nullptr;
   Int count = 0;
   const Int none[] = {kNone};
-  if (egl().chooseConfig(display, wanted, &config, 1, &count) && count > 0) context_ = egl().createContext(display, config, nullptr, none);
+  if (egl().chooseConfig(display, wanted, &config, 1, &count) && count > 0)
+    context_ = egl().createContext(display, config, nullptr, none);
   egl().bindApi(api);
   display_ = display;
   device_ = device;
@@ -127,7 +130,8 @@ GlContext::Use::Use(GlContext& context) : lock_(context.mutex_), own_display_(co
   egl().bindApi(kOpenGlApi);
   if (!egl().makeCurrent(context.display_, nullptr, nullptr, context.context_)) {
     egl().bindApi(api_);
-    throw Error(cat("the OpenGL context (", context.device_, ") cannot be used without a surface; a newer driver is needed"));
+    throw Error(
+        cat("the OpenGL context (", context.device_, ") cannot be used without a surface; a newer driver is needed"));
   }
 }
 

@@ -53,7 +53,8 @@ int MeshLibrary::materialOf(const std::shared_ptr<const Image>& image) {
 }
 
 bool MeshLibrary::update(const Shapes& shapes) {
-  const bool known = std::all_of(shapes.begin(), shapes.end(), [&](const auto& shape) { return meshes_.contains(shape); });
+  const bool known =
+      std::all_of(shapes.begin(), shapes.end(), [&](const auto& shape) { return meshes_.contains(shape); });
   if (known && !vertex_start_.empty()) return false;
   std::erase_if(meshes_, [&](const auto& entry) { return !shapes.contains(entry.first); });
   for (const auto& shape : shapes) {

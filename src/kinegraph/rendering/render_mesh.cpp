@@ -20,7 +20,8 @@ using Triangle = std::array<std::uint32_t, 3>;
 using Color = std::array<std::uint8_t, 4>;
 
 /// Adds the hull of a cross-section's corners drawn from a to b.
-void addTriangles(Mesh& mesh, const std::vector<Vector3d>& corners, const std::vector<Triangle>& triangles, const Color* color) {
+void addTriangles(Mesh& mesh, const std::vector<Vector3d>& corners, const std::vector<Triangle>& triangles,
+                  const Color* color) {
   const auto first = std::uint32_t(mesh.vertices.size());
   mesh.vertices.insert(mesh.vertices.end(), corners.begin(), corners.end());
   for (const Triangle& t : triangles) mesh.triangles.push_back({first + t[0], first + t[1], first + t[2]});
@@ -28,7 +29,8 @@ void addTriangles(Mesh& mesh, const std::vector<Vector3d>& corners, const std::v
 }
 
 Mesh octahedra(const Mesh& points) {
-  static const std::vector<Triangle> kFaces = {{0, 2, 4}, {2, 1, 4}, {1, 3, 4}, {3, 0, 4}, {2, 0, 5}, {1, 2, 5}, {3, 1, 5}, {0, 3, 5}};
+  static const std::vector<Triangle> kFaces = {{0, 2, 4}, {2, 1, 4}, {1, 3, 4}, {3, 0, 4},
+                                               {2, 0, 5}, {1, 2, 5}, {3, 1, 5}, {0, 3, 5}};
   const bool colored = points.colors.size() == points.vertices.size();
   Mesh mesh;
   for (std::size_t i = 0; i < points.vertices.size(); ++i) {
@@ -43,7 +45,8 @@ Mesh octahedra(const Mesh& points) {
 }
 
 Mesh prisms(const Mesh& lines) {
-  static const std::vector<Triangle> kFaces = {{0, 1, 4}, {0, 4, 3}, {1, 2, 5}, {1, 5, 4}, {2, 0, 3}, {2, 3, 5}, {2, 1, 0}, {3, 4, 5}};
+  static const std::vector<Triangle> kFaces = {{0, 1, 4}, {0, 4, 3}, {1, 2, 5}, {1, 5, 4},
+                                               {2, 0, 3}, {2, 3, 5}, {2, 1, 0}, {3, 4, 5}};
   const bool colored = lines.colors.size() == lines.vertices.size();
   Mesh mesh;
   for (std::size_t i = 0; i + 1 < lines.vertices.size(); i += 2) {
@@ -52,7 +55,8 @@ Mesh prisms(const Mesh& lines) {
     const Vector3d axis = (b - a).normalized(), u = axis.unitOrthogonal(), v = axis.cross(u);
     std::vector<Vector3d> corners;
     for (const Vector3d& end : {a, b}) {
-      for (int k = 0; k < 3; ++k) corners.push_back(end + kPointRadius * (std::cos(2.0944 * k) * u + std::sin(2.0944 * k) * v));
+      for (int k = 0; k < 3; ++k)
+        corners.push_back(end + kPointRadius * (std::cos(2.0944 * k) * u + std::sin(2.0944 * k) * v));
     }
     addTriangles(mesh, corners, kFaces, colored ? &lines.colors[i] : nullptr);
   }

@@ -60,8 +60,16 @@ struct CursorCommand {
   std::vector<double> normal;
 };
 
+struct ViewpointCommand {
+  static constexpr int kKind = 9;
+  std::vector<double> pose;
+  double distance = 0;
+  double focal = 0;
+  double ortho = 0;
+};
+
 /// What a browser asks for.
-using Command = std::variant<KeyCommand, SetJointCommand, ResetJointsCommand, RandomJointsCommand, MoveFrameCommand, NearCommand, EventCommand, CursorCommand>;
+using Command = std::variant<KeyCommand, SetJointCommand, ResetJointsCommand, RandomJointsCommand, MoveFrameCommand, NearCommand, EventCommand, CursorCommand, ViewpointCommand>;
 
 /// Reads a binary message from a browser; nothing if it is not exactly one command.
 inline std::optional<Command> readCommand(std::string_view data) {
@@ -107,6 +115,11 @@ inline std::optional<Command> readCommand(std::string_view data) {
     case CursorCommand::kKind: {
       CursorCommand m;
       if (reader.read(m.frame) && reader.read(m.point) && reader.read(m.normal) && reader.atEnd()) return m;
+      break;
+    }
+    case ViewpointCommand::kKind: {
+      ViewpointCommand m;
+      if (reader.read(m.pose) && reader.read(m.distance) && reader.read(m.focal) && reader.read(m.ortho) && reader.atEnd()) return m;
       break;
     }
   }

@@ -9,6 +9,7 @@
 namespace kinegraph {
 
 ViewerServer& ConfigViewer::server() {
+  if (server_ && !server_->isOurs()) server_.reset();
   if (!server_) {
     server_ = std::make_unique<ViewerServer>(options_);
     server_->onCommand([edits = edits_](const Command& command) { return edits->apply(command); });
@@ -17,6 +18,11 @@ ViewerServer& ConfigViewer::server() {
     openBrowser(server_->url());
   }
   return *server_;
+}
+
+void ConfigViewer::setTitle(const std::string& text) {
+  options_.title = text;
+  if (server_) server_->setTitle(text);
 }
 
 void ConfigViewer::update(const Config& config) {
@@ -47,16 +53,17 @@ int ConfigViewer::wait(bool pause, const std::optional<std::string>& message, co
   return server().takeKey();
 }
 
-int ConfigViewer::showMotion(const Config& config, const ShownMotion& motion, bool pause, const std::optional<std::string>& message,
-                             const Stop& stop) {
+int ConfigViewer::showMotion(const Config& config, const ShownMotion& motion, bool pause,
+                             const std::optional<std::string>& message, const Stop& stop) {
   update(config);
   server().showMotion(motion);
   if (message) server().setMessage(*message);
   int key = server().takeKey();
-  if (isHeadless()) return key;
+  if (!waits()) return key;
   if (motion.start == ShownMotion::Start::play) {
     using Clock = std::chrono::steady_clock;
-    const auto end = Clock::now() + std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(motion.seconds));
+    const auto end =
+        Clock::now() + std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(motion.seconds));
     key = waitKey(message.value_or(""), [&] { return Clock::now() >= end || stop(); });
   }
   return pause && key == 0 ? ask(message, stop) : key;
@@ -67,7 +74,7 @@ int ConfigViewer::ask(const std::optional<std::string>& message, const Stop& sto
   if (!text.ends_with("]")) text += text.empty() ? "[press key to continue]" : "\n[press key to continue]";
   int key = server().takeKey();
   server().setMessage(text);
-  if (!isHeadless()) key = waitKey(text, stop);
+  if (waits()) key = waitKey(text, stop);
   server().setMessage(message.value_or(""));
   return key;
 }

@@ -16,10 +16,10 @@ class ConfigViewer {
 
   using Stop = std::function<bool()>;  ///< asked while waiting; true ends it; it may throw
 
-  /// Takes over what people have changed in browsers (see `takeEdits`), and shows the configuration as it is then. Returns
-  /// the key pressed since the last call, or 0. With `pause`, waits for a new key: in the browser, or Enter on the terminal.
-  /// Nothing waits where KINEGRAPH_HEADLESS is set, or for more than 5 s in which no browser is connected; at a terminal,
-  /// though, for as long as none has been there.
+  /// Takes over what people have changed in browsers (see `takeEdits`), and shows the configuration as it is then.
+  /// Returns the key pressed since the last call, or 0. With `pause`, waits for a new key: in the browser, or Enter on
+  /// the terminal. Nothing waits where KINEGRAPH_HEADLESS is set, or for more than 5 s in which no browser is
+  /// connected; at a terminal, though, for as long as none has been there.
   int view(Config& config, bool pause, const std::optional<std::string>& message, const Stop& stop);
 
   /// Shows a message, and waits for a key with `pause`, as view does. Changes nothing else.
@@ -28,30 +28,36 @@ class ConfigViewer {
   /// Shows, without looking at keys and edits.
   void update(const Config& config);
 
-  /// Moves joint values and poses that people have set in browsers into the configuration, if it is the one that is shown,
-  /// with the same structure. True if there were any.
+  /// Moves joint values and poses that people have set in browsers into the configuration, if it is the one that is
+  /// shown, with the same structure. True if there were any.
   bool takeEdits(Config& config);
 
   /// True if people have changed something that takeEdits has not taken over.
   bool hasEdits() const { return edits_->hasAny(); }
 
-  /// Shows a motion of the configuration, with a time slider. Waits until it has been played once, if it plays by itself,
-  /// then, with `pause`, for a key; a key ends both. Waits as view does. Returns the key, or 0.
-  int showMotion(const Config& config, const ShownMotion& motion, bool pause, const std::optional<std::string>& message, const Stop& stop);
+  /// Shows a motion of the configuration, with a time slider. Waits until it has been played once, if it plays by
+  /// itself, then, with `pause`, for a key; a key ends both. Waits as view does. Returns the key, or 0.
+  int showMotion(const Config& config, const ShownMotion& motion, bool pause, const std::optional<std::string>& message,
+                 const Stop& stop);
 
   void setMessage(const std::string& text) { server().setMessage(text); }
   void setError(const std::string& text) { server().setError(text); }
-  void setTitle(const std::string& text) { server().setTitle(text); }
+  void setTitle(const std::string& text);
   void select(int frame) { server().select(frame); }  ///< shows the card of a frame, with handles to move it
   std::string recording() { return server().recording(); }  ///< an HTML page with all that is shown inside
-  void setCamera(const Vector3d& position, const Vector3d& target, double focal_length = 0.) { server().setCamera(position, target, focal_length); }
+  void setCamera(const PageCamera& camera) { server().setCamera(camera); }
+  std::optional<PageCamera> takeViewpoint() { return isOpen() ? server_->takeViewpoint() : std::nullopt; }
   std::string url() { return server().url(); }
-  int clients() const { return server_ ? server_->clients() : 0; }
-  int takeKey() { return server_ ? server_->takeKey() : 0; }
-  bool isOpen() const { return server_ != nullptr; }
+  int clients() const { return isOpen() ? server_->clients() : 0; }
+  int takeKey() { return isOpen() ? server_->takeKey() : 0; }
+  bool isOpen() const { return server_ && server_->isOurs(); }
   void close() { server_.reset(); }
 
   ViewerServer& server();
+
+  /// With false, nothing waits for people from now on, as with KINEGRAPH_HEADLESS; pages are shown all the same.
+  void setWaits(bool waits) { waits_ = waits; }
+  bool waits() const { return waits_ && !isHeadless(); }
 
  private:
   /// Shows the message with a request for a key, and waits for one.
@@ -59,6 +65,7 @@ class ConfigViewer {
   int waitKey(const std::string& prompt, const Stop& stop);
 
   ViewerOptions options_;
+  bool waits_ = true;
   std::unique_ptr<ViewerServer> server_;
   SceneItems items_;
   std::shared_ptr<SceneEdits> edits_ = std::make_shared<SceneEdits>();

@@ -20,8 +20,8 @@ using FileStamps = std::map<std::string, FileStamp>;
 
 FileStamps stampsOf(const std::vector<std::string>& files);
 
-/// Says when files that somebody edits are worth reading again. Editors empty or remove a file before they write it, so a
-/// change counts when it has been steady for 40 ms, and one that leaves a file empty or missing after 300 ms.
+/// Says when files that somebody edits are worth reading again. Editors empty or remove a file before they write it, so
+/// a change counts when it has been steady for 40 ms, and one that leaves a file empty or missing after 300 ms.
 class FileChanges {
  public:
   using Time = std::chrono::steady_clock::time_point;

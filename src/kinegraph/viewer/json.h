@@ -10,7 +10,8 @@
 
 namespace kinegraph {
 
-/// Writes JSON text. Bytes that are not UTF-8, which browsers would refuse, become U+FFFD. A type T takes part by a function writeJson(JsonWriter&, const T&).
+/// Writes JSON text. Bytes that are not UTF-8, which browsers would refuse, become U+FFFD. A type T takes part by a
+/// function writeJson(JsonWriter&, const T&).
 class JsonWriter {
  public:
   void beginObject() {

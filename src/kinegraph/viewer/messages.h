@@ -41,6 +41,7 @@ struct FrameMessage {
   int id = 0;
   std::string name;
   int parent = 0;
+  int collides = 0;
   std::string details;
   std::optional<ShapeMessage> shape;
 };
@@ -50,6 +51,7 @@ inline void writeJson(JsonWriter& json, const FrameMessage& m) {
   json.field("id", m.id);
   json.field("name", m.name);
   json.field("parent", m.parent);
+  json.field("collides", m.collides);
   json.field("details", m.details);
   json.field("shape", m.shape);
   json.endObject();
@@ -129,17 +131,21 @@ inline void writeJson(JsonWriter& json, const TextMessage& m) {
 }
 
 struct CameraMessage {
-  std::vector<double> position;
-  std::vector<double> target;
+  std::vector<double> pose;
+  double distance = 0;
   double focal = 0;
+  double ortho = 0;
+  double aspect = 0;
 };
 
 inline void writeJson(JsonWriter& json, const CameraMessage& m) {
   json.beginObject();
   json.field("kind", std::string("camera"));
-  json.field("position", m.position);
-  json.field("target", m.target);
+  json.field("pose", m.pose);
+  json.field("distance", m.distance);
   json.field("focal", m.focal);
+  json.field("ortho", m.ortho);
+  json.field("aspect", m.aspect);
   json.endObject();
 }
 
@@ -149,6 +155,10 @@ struct LookMessage {
   std::vector<double> floor;
   int shadows = 0;
   int text = 0;
+  std::vector<double> lights;
+  int flat = 0;
+  int wireframe = 0;
+  int digits = 0;
   int events = 0;
   int cursor = 0;
 };
@@ -161,6 +171,10 @@ inline void writeJson(JsonWriter& json, const LookMessage& m) {
   json.field("floor", m.floor);
   json.field("shadows", m.shadows);
   json.field("text", m.text);
+  json.field("lights", m.lights);
+  json.field("flat", m.flat);
+  json.field("wireframe", m.wireframe);
+  json.field("digits", m.digits);
   json.field("events", m.events);
   json.field("cursor", m.cursor);
   json.endObject();

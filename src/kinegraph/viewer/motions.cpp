@@ -35,7 +35,8 @@ VectorXd randomJointState(const Config& config, Rng& rng) {
 
 ShownMotion motionAlong(const Config& config, const MatrixXd& path, double seconds) {
   if (path.cols() != config.getJointDimension()) {
-    throw ValueError(cat("motion: the path has ", path.cols(), " columns; the configuration has ", config.getJointDimension(), " dofs"));
+    throw ValueError(cat("motion: the path has ", path.cols(), " columns; the configuration has ",
+                         config.getJointDimension(), " dofs"));
   }
   ShownMotion motion;
   motion.seconds = seconds;
@@ -62,7 +63,8 @@ ShownMotion jointSweep(const Config& config) {
     const double begin = std::acos(std::clamp((q0[i] - middle) / reach, -1., 1.));
     for (int k = 0; k < kRate; ++k) {
       path(row++, i) = middle + reach * std::cos(begin + 2. * std::numbers::pi * k / kRate);
-      texts.push_back(cat(names[std::size_t(i)], limited ? cat("  [", limits(0, i), ", ", limits(1, i), "]") : "  without limits"));
+      texts.push_back(
+          cat(names[std::size_t(i)], limited ? cat("  [", limits(0, i), ", ", limits(1, i), "]") : "  without limits"));
     }
   }
   ShownMotion motion = motionAlong(config, path, double(q0.size()));

@@ -13,8 +13,10 @@ std::vector<NearLine> nearLines(const Config& config, double margin) {
   std::vector<NearLine> lines;
   scene->nearPairs().forDistances(margin, [&](int a, int b, double distance) {
     if (lines.size() >= kMost) return;
-    const Proximity near = proximity(*program.body[std::size_t(a)], state.pose(a), *program.body[std::size_t(b)], state.pose(b));
-    lines.push_back({near.point_a, near.point_b, distance, cat(program.frame_name[std::size_t(a)], " - ", program.frame_name[std::size_t(b)])});
+    const Proximity near =
+        proximity(*program.body[std::size_t(a)], state.pose(a), *program.body[std::size_t(b)], state.pose(b));
+    lines.push_back({near.point_a, near.point_b, distance,
+                     cat(program.frame_name[std::size_t(a)], " - ", program.frame_name[std::size_t(b)])});
   });
   return lines;
 }

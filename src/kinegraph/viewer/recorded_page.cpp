@@ -13,7 +13,9 @@ std::string base64(std::string_view data) {
   std::string text;
   text.reserve(data.size() / 3 * 4 + 4);
   for (std::size_t i = 0; i < data.size(); i += 3) {
-    const auto byte = [&](std::size_t k) { return k < data.size() ? std::uint32_t(static_cast<unsigned char>(data[k])) : 0u; };
+    const auto byte = [&](std::size_t k) {
+      return k < data.size() ? std::uint32_t(static_cast<unsigned char>(data[k])) : 0u;
+    };
     const std::uint32_t bits = byte(i) << 16 | byte(i + 1) << 8 | byte(i + 2);
     for (int k = 0; k < 4; ++k) text += i + std::size_t(k) > data.size() ? '=' : kLetters[bits >> (18 - 6 * k) & 63];
   }
@@ -51,7 +53,8 @@ std::string recordedPage(const std::vector<Outgoing>& messages) {
   }
   recording += "]";
   std::string page(clientPage());
-  page.replace(page.find(kPlace), kPlace.size(), "<script type=\"application/json\" id=\"recording\">" + recording + "</script>");
+  page.replace(page.find(kPlace), kPlace.size(),
+               "<script type=\"application/json\" id=\"recording\">" + recording + "</script>");
   return page;
 }
 

@@ -12,6 +12,7 @@ namespace kinegraph {
 std::string recordedPage(const std::vector<Outgoing>& messages);
 
 /// The page with a configuration inside, and a motion of it if there is one. Needs no server.
-std::string recordedScene(const Config& config, const ShownMotion* motion = nullptr, const std::string& title = "Kinegraph");
+std::string recordedScene(const Config& config, const ShownMotion* motion = nullptr,
+                          const std::string& title = "Kinegraph");
 
 }  // namespace kinegraph

@@ -88,6 +88,7 @@ void SceneItems::read(const Config& config) {
     if (!frame.shape) continue;
     const std::shared_ptr<const Geometry> visual = visual_meshes_.of(*frame.shape);
     item.geometry = visual ? visual : frame.shape->geometry;
+    item.collides = frame.shape->contact != 0;
     item.color = frame.shape->color.value_or(Vector4d(.8, .8, .8, 1.));
   }
 }

@@ -21,6 +21,7 @@ struct ViewItem {
   Pose pose;                                 ///< in the world
   std::shared_ptr<const Geometry> geometry;  ///< null: nothing to see
   Vector4d color{.8, .8, .8, 1.};            ///< rgba in 0..1
+  bool collides = false;                     ///< it counts in collisions
   std::string details;                       ///< what else there is to say, as attributes of a .g file
 };
 
@@ -44,7 +45,7 @@ struct ViewerOptions {
   std::string host = "127.0.0.1";  ///< only this machine, unless told otherwise
   int port = 7000;                 ///< first one tried; those in use are passed over; 0: any free one
   std::string title = "Kinegraph";
-  std::string token{};             ///< that browsers have to send, as in url(); empty: none on this machine, else a random one
+  std::string token{};  ///< that browsers have to send, as in url(); empty: none on this machine, else a random one
 };
 
 /// Shows items in any number of browsers: an HTTP server for the page, and a websocket each for what changes. It has a
@@ -53,8 +54,11 @@ class ViewerServer {
  public:
   /// Throws ValueError for a host or port that cannot be, Error if no port can be had.
   explicit ViewerServer(const ViewerOptions& options = {});
-  ~ViewerServer();
+  ~ViewerServer();  ///< in a forked process, leaves the other one's server alone
   ViewerServer(const ViewerServer&) = delete;
+
+  /// False in a process that was forked from the one that made this: the server's thread is not there.
+  bool isOurs() const;
 
   std::string url() const;
   int clients() const;
@@ -72,7 +76,8 @@ class ViewerServer {
   /// Lines between shapes that are near each other, for browsers that show them.
   void setNear(const std::vector<NearLine>& lines);
 
-  /// A picture on top of the scene; one with the same id is replaced. Throws ValueError for numbers of pixels that do not match.
+  /// A picture on top of the scene; one with the same id is replaced. Throws ValueError for numbers of pixels that do
+  /// not match.
   void setQuad(const Quad& quad);
 
   void setLook(const Look& look);
@@ -83,27 +88,35 @@ class ViewerServer {
   /// The page with all that is shown inside: an HTML file that opens without this server.
   std::string recording() const;
 
-  /// Answers commands other than keys, on the server's thread; nothing for those that mean nothing. All browsers see the
-  /// answer.
+  /// Answers commands other than keys, on the server's thread; nothing for those that mean nothing. All browsers see
+  /// the answer.
   void onCommand(std::function<std::optional<EditedScene>(const Command&)> answer);
 
   void setMessage(const std::string& text);  ///< in the corner; may have several lines
   void setError(const std::string& text);    ///< in a box; empty removes it
   void setTitle(const std::string& text);
 
-  /// `focal_length` is in heights of the window; 0: the page's own.
-  void setCamera(const Vector3d& position, const Vector3d& target, double focal_length = 0.);
+  void setCamera(const PageCamera& camera);
 
-  /// The last key pressed in a browser since the previous call, or 0. Letters as lower-case ASCII, Enter 13, Escape 27, space
-  /// 32; others have the codes of GLFW.
+  /// Where pages look from: as setCamera said, or where a person turned one to; nothing if nobody has said anything.
+  std::optional<PageCamera> camera() const;
+
+  /// Where a person has turned a page to since the last call, and since the last setCamera; nothing if nobody has.
+  std::optional<PageCamera> takeViewpoint();
+
+  /// The last key pressed in a browser since the previous call, or 0. Letters as lower-case ASCII, Enter 13, Escape 27,
+  /// space 32; others have the codes of GLFW.
   int takeKey();
 
-  /// Waits for a key that is pressed without Shift, Ctrl and Alt, and that is not the arrow to the left or right, which step
-  /// through motions. Returns 0 as soon as `stop` (asked every 20 ms) says so.
+  /// Waits for a key that is pressed without Shift, Ctrl and Alt, and that is not the arrow to the left or right, which
+  /// step through motions. Returns 0 as soon as `stop` (asked every 20 ms) says so.
   int waitKey(const std::function<bool()>& stop);
 
   /// Browsers send events from now on; with `instead`, mouse and keys do nothing else on the page.
   void requestEvents(bool instead);
+  /// The keys 1, 2, 3, 4 and 7 switch shapes, markers, axes, distances and names on and off, in the browser where they
+  /// are pressed.
+  void requestDigits(bool yes);
   std::vector<std::string> takeEvents();  ///< those since the last call; see eventName
 
   /// What is under the pointer of the browser in which it moved last. Browsers tell from the first call on.
@@ -114,13 +127,14 @@ class ViewerServer {
 
  private:
   class Impl;
-  std::shared_ptr<Impl> impl_;
+  std::unique_ptr<Impl> impl_;
 };
 
 /// Opens `url` in the user's browser if there is a display and KINEGRAPH_HEADLESS is not set. Never waits, never fails.
 void openBrowser(const std::string& url);
 
-/// True if the environment variable KINEGRAPH_HEADLESS is set to anything but 0: no browser is opened, and nothing waits.
+/// True if the environment variable KINEGRAPH_HEADLESS is set to anything but 0: no browser is opened, and nothing
+/// waits.
 bool isHeadless();
 
 }  // namespace kinegraph

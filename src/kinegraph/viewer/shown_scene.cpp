@@ -76,10 +76,13 @@ std::string encodeQuad(const Quad& quad) {
 }
 
 MotionMessage headOf(const ShownMotion& motion) {
-  const char* start = motion.start == ShownMotion::Start::all ? "all" : motion.start == ShownMotion::Start::play ? "play" : "pause";
+  const char* start = motion.start == ShownMotion::Start::all    ? "all"
+                      : motion.start == ShownMotion::Start::play ? "play"
+                                                                 : "pause";
   std::vector<TraceMessage> traces;
   for (const ShownMotion::Trace& trace : motion.traces) traces.push_back({trace.name, trace.type, trace.values});
-  return {int(motion.poses.size()), motion.seconds, start, motion.first, motion.prefix, motion.texts, motion.violations, motion.marked, traces};
+  return {int(motion.poses.size()), motion.seconds, start, motion.first, motion.prefix, motion.texts,
+          motion.violations,        motion.marked,  traces};
 }
 
 template <class T>
@@ -144,8 +147,10 @@ bool ShownScene::update(std::span<const ViewItem> items) {
   for (std::size_t i = 0; i < items.size(); ++i) {
     Shown& shown = frames_[i];
     const ViewItem& item = items[i];
-    const bool same_look = shown.look_revision > 0 && shown.item.geometry == item.geometry && shown.item.color == item.color &&
-                           shown.item.parent == item.parent && shown.item.name == item.name && shown.item.details == item.details;
+    const bool same_look = shown.look_revision > 0 && shown.item.geometry == item.geometry &&
+                           shown.item.color == item.color && shown.item.collides == item.collides &&
+                           shown.item.parent == item.parent && shown.item.name == item.name &&
+                           shown.item.details == item.details;
     if (!same_look) {
       shown.mesh = meshOf(item);
       shown.look_revision = next;
@@ -220,7 +225,8 @@ bool ShownScene::setText(std::string ShownScene::*field, const std::string& text
 bool ShownScene::setNear(const std::vector<NearLine>& lines) {
   NearMessage message;
   for (const NearLine& line : lines) {
-    message.points.insert(message.points.end(), {line.a.x(), line.a.y(), line.a.z(), line.b.x(), line.b.y(), line.b.z()});
+    message.points.insert(message.points.end(),
+                          {line.a.x(), line.a.y(), line.a.z(), line.b.x(), line.b.y(), line.b.z()});
     message.distances.push_back(line.distance);
     message.names.push_back(line.names);
   }
@@ -231,7 +237,9 @@ bool ShownScene::setNear(const std::vector<NearLine>& lines) {
   return true;
 }
 
-void ShownScene::setQuad(const Quad& quad) { quads_[quad.id] = {++revision_, {std::make_shared<std::string>(encodeQuad(quad)), true}}; }
+void ShownScene::setQuad(const Quad& quad) {
+  quads_[quad.id] = {++revision_, {std::make_shared<std::string>(encodeQuad(quad)), true}};
+}
 
 bool ShownScene::setLook(const Look& look) {
   if (look == look_) return false;
@@ -246,16 +254,20 @@ bool ShownScene::requestEvents(int kind) {
   return true;
 }
 
+bool ShownScene::requestDigits(bool yes) {
+  if (std::exchange(digits_, yes) == yes) return false;
+  look_revision_ = ++revision_;
+  return true;
+}
+
 bool ShownScene::requestCursor() {
   if (std::exchange(cursor_, true)) return false;
   look_revision_ = ++revision_;
   return true;
 }
 
-void ShownScene::setCamera(const Vector3d& position, const Vector3d& target, double focal_length) {
-  camera_focal_length_ = focal_length;
-  camera_position_ = position;
-  camera_target_ = target;
+void ShownScene::setCamera(const PageCamera& camera) {
+  camera_ = camera;
   camera_revision_ = ++revision_;
 }
 
@@ -264,8 +276,9 @@ std::vector<Outgoing> ShownScene::messagesSince(Seen& seen) const {
   const auto send = [&](const auto& message) { out.push_back(textOf(message)); };
   if (text_revision_ > seen.revision) send(TextMessage{title, message, error});
   if (camera_revision_ > seen.revision) {
-    const Vector3d &p = camera_position_, &t = camera_target_;
-    send(CameraMessage{{p.x(), p.y(), p.z()}, {t.x(), t.y(), t.z()}, camera_focal_length_});
+    const Vector7d pose = camera_.pose.numbers();
+    send(CameraMessage{
+        {pose.begin(), pose.end()}, camera_.distance, camera_.focal_length, camera_.ortho_height, camera_.aspect});
   }
   SceneMessage scene;
   scene.count = int(frames_.size());
@@ -275,10 +288,13 @@ std::vector<Outgoing> ShownScene::messagesSince(Seen& seen) const {
   for (std::size_t i = 0; i < frames_.size(); ++i) {
     const Shown& shown = frames_[i];
     if (shown.look_revision > seen.revision) {
-      FrameMessage frame{int(i), shown.item.name, shown.item.parent, shown.item.details, std::nullopt};
+      FrameMessage frame{int(i),      shown.item.name, shown.item.parent, shown.item.collides, shown.item.details,
+                         std::nullopt};
       if (shown.item.geometry && shown.item.geometry->type != ShapeType::none) {
         const Vector4d& c = shown.item.color;
-        frame.shape = ShapeMessage{shapeTypeName(shown.item.geometry->type), shown.item.geometry->size, {c[0], c[1], c[2], c[3]},
+        frame.shape = ShapeMessage{shapeTypeName(shown.item.geometry->type),
+                                   shown.item.geometry->size,
+                                   {c[0], c[1], c[2], c[3]},
                                    shown.mesh ? shown.mesh->number : -1};
       }
       scene.frames.push_back(frame);
@@ -315,7 +331,9 @@ std::vector<Outgoing> ShownScene::messagesSince(Seen& seen) const {
     out.push_back({std::make_shared<std::string>(std::move(data)), true});
   }
   if (look_revision_ > seen.revision) {
-    LookMessage look{look_.visuals_only, {}, {}, look_.shadows, look_.text, events_, cursor_};
+    LookMessage look{look_.visuals_only, {},      {},      look_.shadows, look_.text, {}, look_.flat_colors,
+                     look_.wireframe,    digits_, events_, cursor_};
+    for (const Vector3d& light : look_.lights) look.lights.insert(look.lights.end(), light.begin(), light.end());
     if (look_.background) look.background.assign(look_.background->data(), look_.background->data() + 3);
     if (look_.floor) look.floor.assign(look_.floor->data(), look_.floor->data() + 3);
     if (!look_.has_floor) look.floor = {-1.};

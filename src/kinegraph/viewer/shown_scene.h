@@ -45,8 +45,9 @@ class ShownScene {
   bool setLook(const Look& look);
   bool requestEvents(int kind);  ///< 1: browsers send events; 2: and do nothing else with mouse and keys
   bool requestCursor();
+  bool requestDigits(bool yes);  ///< 1, 2, 3, 4 and 7 switch what browsers draw
   bool setText(std::string ShownScene::*field, const std::string& text);
-  void setCamera(const Vector3d& position, const Vector3d& target, double focal_length);
+  void setCamera(const PageCamera& camera);
 
   std::string title, message, error;
 
@@ -86,11 +87,10 @@ class ShownScene {
   std::uint64_t joints_revision_ = 0, q_revision_ = 0, motion_revision_ = 0, select_revision_ = 0;
   int selected_ = -1;
   std::vector<Outgoing> motion_;  ///< as it is sent; empty: there is none
-  Vector3d camera_position_ = Vector3d::Zero(), camera_target_ = Vector3d::Zero();
-  double camera_focal_length_ = 0.;
+  PageCamera camera_;
   Look look_;
   int events_ = 0;
-  bool cursor_ = false;
+  bool cursor_ = false, digits_ = false;
   std::shared_ptr<const std::string> near_;                        ///< as it is sent
   std::map<int, std::pair<std::uint64_t, Outgoing>> quads_;        ///< by id: since when, and as it is sent
   std::uint64_t look_revision_ = 0, near_revision_ = 0;

@@ -40,8 +40,8 @@ Reading readScene(const std::string& path) {
 
 }  // namespace
 
-void watchFile(Config& config, ConfigViewer& viewer, const std::string& path, const std::function<void(const std::string&)>& report,
-               const std::function<bool()>& stop) {
+void watchFile(Config& config, ConfigViewer& viewer, const std::string& path,
+               const std::function<void(const std::string&)>& report, const std::function<bool()>& stop) {
   FileChanges changes;
   const auto load = [&] {
     Reading reading = readScene(path);
@@ -55,7 +55,8 @@ void watchFile(Config& config, ConfigViewer& viewer, const std::string& path, co
       for (const std::string& warning : reading.config.takeWarnings()) report(warning);
     } else {
       viewer.setError(reading.error);
-      viewer.setMessage(cat(path, "\nthe last scene without a mistake; waiting for the file to be mended; h: help, q: quit"));
+      viewer.setMessage(
+          cat(path, "\nthe last scene without a mistake; waiting for the file to be mended; h: help, q: quit"));
       report(reading.error);
     }
     viewer.update(config);
@@ -66,7 +67,8 @@ void watchFile(Config& config, ConfigViewer& viewer, const std::string& path, co
   load();
   viewer.server().cursor();  // so that browsers tell where the pointer is
   WatchKeys keys(config, viewer, report, stop);
-  while (!isHeadless() && !stop()) {
+  viewer.server().requestDigits(true);
+  while (viewer.waits() && !stop()) {
     if (viewer.takeEdits(config)) viewer.update(config);
     keys.logEvents();
     const int key = viewer.takeKey();
@@ -75,6 +77,7 @@ void watchFile(Config& config, ConfigViewer& viewer, const std::string& path, co
     if (key == 13 || changes.settled(stampsOf(changes.files()), std::chrono::steady_clock::now())) load();
     std::this_thread::sleep_for(std::chrono::milliseconds(20));
   }
+  viewer.server().requestDigits(false);
   viewer.setMessage("");
   viewer.setError("");
 }

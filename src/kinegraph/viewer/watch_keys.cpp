@@ -11,8 +11,11 @@
 namespace kinegraph {
 
 std::string WatchKeys::help() {
-  return "h: this help\na: every joint through its limits; any key stops it\ni: what the scene contains\nc: collisions\n"
-         "r: random joints\nx: write z.g, z.urdf, z.ply, z.dae\nspace: what the pointer is on\n6: log mouse and keys, or stop it\n"
+  return "h: this help\na: every joint through its limits; any key stops it\ni: what the scene contains, and the "
+         "camera\nc: collisions\n"
+         "r: random joints\nx: write z.g, z.urdf, z.ply, z.dae\nspace: what the pointer is on\n6: log mouse and keys, "
+         "or stop it\n"
+         "1, 2, 3, 4, 7: shapes, markers, axes, distances, names on or off\n"
          "Enter: load again\nq, Escape: quit";
 }
 
@@ -30,7 +33,8 @@ bool WatchKeys::press(int key) {
       case 'x': writeFiles(); return true;
       case ' ': reportPicked(); return true;
       case 'a':
-        viewer_.showMotion(config_, jointSweep(config_), false, "every joint through its limits [any key stops it]", stop_);
+        viewer_.showMotion(config_, jointSweep(config_), false, "every joint through its limits [any key stops it]",
+                           stop_);
         viewer_.update(config_);
         say("the joints are where they were");
         return true;
@@ -60,6 +64,12 @@ void WatchKeys::logEvents() {
 void WatchKeys::reportScene() {
   std::string text = cat(config_.report(), "\njoints:");
   for (const std::string& name : config_.getJointNames()) text += " " + name;
+  if (const std::optional<PageCamera> camera = viewer_.server().camera()) {
+    text += cat("\nthe page looks from\ncamera_init: { X: [", camera->pose.numbers().transpose(), "]");
+    if (camera->ortho_height > 0.) text += cat(", orthoAbsHeight: ", camera->ortho_height);
+    else if (camera->focal_length > 0.) text += cat(", focalLength: ", camera->focal_length);
+    text += " }";
+  }
   say(text);
 }
 

@@ -7,8 +7,9 @@
 
 namespace kinegraph {
 
-/// What keys do while a file is watched: h help, a animate the joints, i a report, c collisions, r random joints, x write the
-/// scene as z.g, z.urdf, z.ply and z.dae, space tell what the pointer is on, 6 log mouse and keys.
+/// What keys do while a file is watched: h help, a animate the joints, i a report with the camera, c collisions, r
+/// random joints, x write the scene as z.g, z.urdf, z.ply and z.dae, space tell what the pointer is on, 6 log mouse and
+/// keys.
 class WatchKeys {
  public:
   using Report = std::function<void(const std::string&)>;

@@ -1,0 +1,163 @@
+#include <nanobind/stl/shared_ptr.h>
+#include <nanobind/stl/string.h>
+#include <nanobind/stl/vector.h>
+
+#include "bindings.h"
+#include "images.h"
+#include "kinegraph/base/errors.h"
+#include "kinegraph/base/text.h"
+#include "kinegraph/viewer/draw_quad.h"
+#include "py_viewer.h"
+
+namespace kinegraph::python {
+
+namespace {
+
+/// A picture of what the viewer shows.
+CameraImage picture(PyViewer& viewer) {
+  if (!viewer.scene) throw ValueError("this viewer shows nothing yet; call view() first");
+  const Camera camera = cameraNow(viewer);
+  const Look look = lookOfParameters();
+  RendererOptions options{.supersampling = 2, .shadows = look.shadows, .floor = look.has_floor};
+  if (look.background) options.background = *look.background;
+  if (look.floor) options.floor_color = *look.floor;
+  options.lights = look.lights;
+  options.flat_colors = look.flat_colors;
+  options.wireframe = look.wireframe;
+  if (!viewer.renderer || !(options == viewer.renderer_options)) viewer.renderer.emplace(options);
+  viewer.renderer_options = options;
+  const nb::gil_scoped_release unlock;
+  CameraImage image = viewer.renderer->render(*viewer.scene, camera, viewer.visuals_only);
+  for (const auto& [id, quad] : viewer.quads) drawQuad(image.rgb, image.width, quad);
+  return image;
+}
+
+/// Turns the camera to a point, and moves it to where `height` m fit into the picture there.
+void focus(PyViewer& viewer, const Numbers& at, double height) {
+  if (at.values.size() != 3)
+    throw ValueError(cat("focus: the position has ", at.values.size(), " numbers; expected 3"));
+  if (!(height > 0. && std::isfinite(height)))
+    throw ValueError(cat("focus: heightAbs is ", height, "; expected m, more than 0"));
+  Camera camera = cameraNow(viewer);
+  const Vector3d point(at.values), back = camera.pose.p - point;
+  if (back.norm() < 1e-9) throw ValueError("focus: the camera is at that position");
+  camera.pose = lookAt(point + height * camera.focal_length * back.normalized(), point);
+  viewer.camera.place(camera);
+  viewer.camera_is_set = true;
+  PageCamera page = pageCameraOf(camera);
+  page.distance = height * camera.focal_length;
+  viewer.aim(page);
+}
+
+/// Pages look from there as well.
+void placeCamera(PyViewer& viewer, const Camera& camera) {
+  viewer.camera.place(camera);
+  viewer.camera_is_set = true;
+  viewer.aim(pageCameraOf(camera));
+}
+
+void setViewCamera(PyViewer& viewer, nb::handle frame) {
+  if (frame.is_none()) return placeCamera(viewer, defaultViewCamera());
+  std::optional<Frame> given;
+  if (nb::isinstance<Frame>(frame)) given = nb::cast<Frame>(frame);
+  else if (viewer.scene) given = Frame(viewer.scene, viewer.scene->get(nb::cast<std::string>(frame), "setCamera"));
+  else throw ValueError("this viewer shows nothing yet; give the frame itself, or call view() first");
+  placeCamera(viewer, cameraOf(*given));
+  viewer.camera.follow(*given);
+}
+
+void setCameraTarget(PyViewer& viewer, const Numbers& position, const Numbers& target) {
+  if (position.values.size() != 3 || target.values.size() != 3) {
+    throw ValueError("setCamera: position and target are 3 numbers each");
+  }
+  const Vector3d from(position.values), to(target.values);
+  Camera camera = cameraNow(viewer);
+  camera.pose = lookAt(from, to);
+  viewer.camera.place(camera);
+  viewer.camera_is_set = true;
+  viewer.aim({.pose = camera.pose, .distance = (to - from).norm(), .ortho_height = camera.ortho_height, .aspect = 1.});
+}
+
+}  // namespace
+
+std::string savePicture(PyViewer& viewer, const std::string& path, int count) {
+  CameraImage image = picture(viewer);
+  std::string file = path;
+  if (!path.ends_with(".png")) {
+    if (count >= 0) viewer.saved = count;
+    const std::string number = std::to_string(viewer.saved++);
+    file += std::string(number.size() < 6 ? 6 - number.size() : 0, '0') + number + ".png";
+  }
+  nb::module_::import_("kinegraph.png").attr("writePng")(file, rgbOf(image));
+  return file;
+}
+
+void bindPictures(nb::class_<PyViewer>& viewer) {
+  viewer
+      .def(
+          "getRgb",
+          [](PyViewer& v, bool) {
+            CameraImage image = picture(v);
+            return rgbOf(image);
+          },
+          "nonThreaded"_a = true, "A picture of the scene, drawn without a browser: uint8 (height, width, 3).")
+      .def(
+          "getDepth",
+          [](PyViewer& v, bool) {
+            CameraImage image = picture(v);
+            return depthOf(image);
+          },
+          "nonThreaded"_a = true,
+          "Its depth along the camera's z axis: float32 (height, width), m; -1 where nothing is.")
+      .def("savePng", savePicture, "saveVideoPath"_a = "z.vid/", "count"_a = -1,
+           "Saves a picture, and returns the file's name: `saveVideoPath` itself if it ends in .png; else it is a "
+           "prefix that\n"
+           "gets a number of six digits, which counts up from 0, or from `count`. Folders are made.")
+      .def("setCamera", setViewCamera, "frame"_a.none() = nb::none(),
+           "Looks from a camera frame (or its name) and follows it, as CameraView.setCamera; None: from where viewers "
+           "start.")
+      .def("setCamera", setCameraTarget, "position"_a, "target"_a, "Where to look from, and at: 3 numbers each, m.")
+      .def(
+          "setCameraPose",
+          [](PyViewer& v, const Numbers& pose) {
+            Camera camera = cameraNow(v);
+            camera.pose = Pose::fromNumbers(pose.values);
+            placeCamera(v, camera);
+          },
+          "pose7"_a, "Where the camera is, (7,): x to the right of the image, y down, z forward.")
+      .def(
+          "getCamera_pose", [](PyViewer& v) { return toNumpy(VectorXd(cameraNow(v).pose.numbers())); },
+          "The camera's pose, (7,).")
+      .def(
+          "getCamera_fxycxy", [](PyViewer& v) { return fxycxyOf(cameraNow(v)); }, "fx, fy, cx, cy in pixels.")
+      .def(
+          "getCamera_focalLength",
+          [](PyViewer& v) {
+            const double f = cameraNow(v).focal_length;
+            return toNumpy(VectorXd(Vector4d(f, f, 0., 0.)));
+          },
+          "Focal length in image heights, twice, and two zeros.")
+      .def("focus", focus, "position"_a, "heightAbs"_a = 1.,
+           "Turns the camera to a point, and moves it so far away that heightAbs m fit into the height of the window.")
+      .def(
+          "setWindow",
+          [](PyViewer& v, const std::string& title, int width, int height) {
+            Camera camera = cameraNow(v);
+            camera.width = width;
+            camera.height = height;
+            camera.validate();
+            v.camera.resize(width, height);
+            v.setTitle(title);
+          },
+          "title"_a, "width"_a, "height"_a, "Title of the page, and the size of pictures in pixels.")
+      .def(
+          "visualsOnly",
+          [](PyViewer& v, bool yes) {
+            v.visuals_only = yes;
+            if (v.isOpen()) openPage(v);
+          },
+          "_visualsOnly"_a = true,
+          "Hides markers, transparent shapes and texts, on the page and in pictures; False shows them again.");
+}
+
+}  // namespace kinegraph::python

@@ -1,0 +1,69 @@
+import * as THREE from "three";
+
+const SUN = new THREE.Vector3(-2.5, 2.2, 4.5),
+  FILL = new THREE.Vector3(3, -2, 2.5); // directions towards them
+const CENTER = new THREE.Vector3(0, 0, 0.8); // what lights of the program shine at
+const LEAST_SHADOWED = 1,
+  MOST_SHADOWED = 12; // m
+
+/** The sky, a sun that casts shadows, and a weaker light from the other side; or those that the program says. */
+export class Lights {
+  readonly group = new THREE.Group();
+  private readonly sky = new THREE.HemisphereLight(0xf6f9ff, 0x7d7b7a, 1.85);
+  private readonly flat = new THREE.AmbientLight(0xffffff, Math.PI);
+  private readonly sun = new THREE.DirectionalLight(0xfff6ea, 2.35);
+  private readonly others = new THREE.Group();
+  private readonly towards = SUN.clone().normalize();
+  private readonly center = new THREE.Vector3();
+  private radius = LEAST_SHADOWED;
+
+  constructor() {
+    const { shadow } = this.sun;
+    this.sun.castShadow = true;
+    shadow.mapSize.set(2048, 2048);
+    shadow.radius = 5;
+    shadow.bias = -0.0002;
+    shadow.normalBias = 0.006;
+    this.group.add(this.sky, this.flat, this.sun, this.sun.target, this.others);
+    this.setLook([], false, true);
+  }
+
+  /** `places` of lights, three numbers each; none: the usual ones. `flat`: colors as they are, without light. */
+  setLook(places: readonly number[], flat: boolean, shadows: boolean): void {
+    const given = Array.from({ length: Math.floor(places.length / 3) }, (_, i) =>
+      new THREE.Vector3(...places.slice(3 * i)).sub(CENTER),
+    );
+    const [sun = SUN, ...others] = given.length > 0 ? given : [SUN, FILL];
+    this.towards.copy(sun).normalize();
+    this.others.clear();
+    for (const place of others) {
+      const light =
+        given.length > 0 ? new THREE.DirectionalLight(0xffffff, 1.2) : new THREE.DirectionalLight(0xe3ebff, 0.55);
+      light.position.copy(place);
+      this.others.add(light);
+    }
+    this.flat.visible = flat;
+    this.sky.visible = this.sun.visible = this.others.visible = !flat;
+    this.sun.castShadow = shadows;
+    this.fitShadows(this.center, this.radius);
+  }
+
+  /** All of a ball casts shadows, however large or far away it is. */
+  fitShadows(center: THREE.Vector3, radius: number): void {
+    this.center.copy(center);
+    this.radius = radius;
+    const reach = THREE.MathUtils.clamp(1.1 * radius, LEAST_SHADOWED, MOST_SHADOWED);
+    const { camera } = this.sun.shadow;
+    this.sun.target.position.copy(center);
+    this.sun.position.copy(center).addScaledVector(this.towards, 2 * reach);
+    Object.assign(camera, {
+      left: -reach,
+      right: reach,
+      top: reach,
+      bottom: -reach,
+      near: 0.1 * reach,
+      far: 4 * reach,
+    });
+    camera.updateProjectionMatrix();
+  }
+}

@@ -1,0 +1,174 @@
+import * as THREE from "three";
+import { OrbitControls } from "three/addons/controls/OrbitControls.js";
+import type { CameraMessage } from "./messages";
+
+export type Camera = THREE.PerspectiveCamera | THREE.OrthographicCamera;
+
+const OWN_FOCAL = 0.5 / Math.tan(THREE.MathUtils.degToRad(20)); // in heights of the picture
+const NEAR = 0.01,
+  FAR = 200; // m
+const DISTANCE = 1.5; // m: of what a page turns about, if it is told nothing
+
+/** The camera's axes are x to the right, y down, z forward, and those of three.js x to the right, y up, z backward. */
+const FLIP = new THREE.Quaternion(1, 0, 0, 0);
+
+const fromWxyz = ([w = 1, x = 0, y = 0, z = 0]: number[]): THREE.Quaternion =>
+  new THREE.Quaternion(x, y, z, w).normalize();
+
+/** Where the scene is looked at from, in perspective or orthographic, upright or rolled; and how people change that. */
+export class Viewpoint {
+  readonly controls: OrbitControls;
+  private readonly perspective = new THREE.PerspectiveCamera(40, 1, NEAR, FAR);
+  private readonly orthographic = new THREE.OrthographicCamera(-1, 1, 1, -1, NEAR, FAR);
+  private roll = 0; // rad, about the line of sight
+  private focal = OWN_FOCAL;
+  private height = 0; // m that an orthographic picture is high; 0: perspective
+  private aspect = 0; // width over height of the picture that is to fit; 0: none
+  private pageAspect = 1;
+  private first: CameraMessage | null = null;
+  private readonly watchers: ((camera: Camera) => void)[] = [];
+
+  /** `changed`: the picture is another one. `moved`: a person has moved the camera. */
+  constructor(
+    canvas: HTMLCanvasElement,
+    changed: () => void,
+    private readonly moved: () => void,
+  ) {
+    for (const camera of [this.perspective, this.orthographic]) camera.up.set(0, 0, 1);
+    this.controls = new OrbitControls(this.perspective, canvas);
+    const update = this.controls.update.bind(this.controls);
+    this.controls.update = (passed) => {
+      const different = update(passed); // upright
+      this.camera.rotateZ(this.roll);
+      return different;
+    };
+    this.controls.addEventListener("change", changed);
+    this.controls.addEventListener("end", moved);
+  }
+
+  get camera(): Camera {
+    return this.controls.object as Camera;
+  }
+
+  get target(): THREE.Vector3 {
+    return this.controls.target;
+  }
+
+  /** Called with every camera that takes another one's place. */
+  onCamera(watcher: (camera: Camera) => void): void {
+    this.watchers.push(watcher);
+  }
+
+  /** As the program says; `home` comes back to it. */
+  set(given: CameraMessage): void {
+    const { pose, distance, focal, ortho, aspect } = given;
+    this.first = given;
+    if (focal > 0) this.focal = focal;
+    this.height = ortho;
+    this.aspect = aspect;
+    this.use(ortho > 0 ? this.orthographic : this.perspective);
+    this.orthographic.zoom = 1;
+    const rotation = fromWxyz(pose.slice(3)).multiply(FLIP);
+    this.camera.position.fromArray(pose);
+    this.target
+      .set(0, 0, -(distance > 0 ? distance : DISTANCE))
+      .applyQuaternion(rotation)
+      .add(this.camera.position);
+    this.roll = 0;
+    this.controls.update();
+    const turn = this.camera.quaternion.clone().invert().multiply(rotation);
+    this.roll = 2 * Math.atan2(turn.z, turn.w);
+    this.controls.update();
+    this.fit(this.pageAspect);
+  }
+
+  /** Upright, from a place. */
+  lookFrom(position: THREE.Vector3, target: THREE.Vector3): void {
+    this.roll = 0;
+    this.camera.position.copy(position);
+    this.target.copy(target);
+    this.controls.update();
+  }
+
+  /** From a direction, at all of a ball. */
+  lookAlong(direction: THREE.Vector3, { center, radius }: THREE.Sphere): void {
+    const half = Math.atan(this.halfHeight());
+    const distance = radius / Math.sin(Math.min(half, Math.atan(this.halfHeight() * this.pageAspect)));
+    if (this.height > 0) {
+      this.orthographic.zoom = Math.min(1, this.pageAspect) * (this.height / (2 * radius));
+      this.orthographic.updateProjectionMatrix();
+    }
+    this.lookFrom(center.clone().addScaledVector(direction.clone().normalize(), distance), center);
+    this.moved();
+  }
+
+  /** Turns about the target, by angles to the right and upwards (rad), and goes nearer by a factor. */
+  turn(right: number, up: number, nearer: number): void {
+    const { position } = this.camera;
+    const away = position.clone().sub(this.target);
+    const height = THREE.MathUtils.clamp(Math.asin(away.z / away.length()) + up, -1.55, 1.55);
+    const around = Math.atan2(away.y, away.x) + right,
+      distance = away.length() / (this.height > 0 ? 1 : nearer);
+    position.set(Math.cos(around) * Math.cos(height), Math.sin(around) * Math.cos(height), Math.sin(height));
+    position.multiplyScalar(distance).add(this.target);
+    this.orthographic.zoom *= nearer;
+    this.orthographic.updateProjectionMatrix();
+    this.controls.update();
+    this.moved();
+  }
+
+  /** Turns to a point, and about it from now on. */
+  focus(point: THREE.Vector3): void {
+    this.target.copy(point);
+    this.controls.update();
+    this.moved();
+  }
+
+  home(): void {
+    if (this.first) this.set(this.first);
+    this.moved();
+  }
+
+  /** Call when the page has another shape: width over height. */
+  fit(pageAspect: number): void {
+    this.pageAspect = pageAspect;
+    this.perspective.fov = THREE.MathUtils.radToDeg(2 * Math.atan(this.halfHeight()));
+    this.perspective.aspect = pageAspect;
+    const half = 0.5 * (this.height || 1) * this.spread();
+    Object.assign(this.orthographic, { left: -half * pageAspect, right: half * pageAspect, top: half, bottom: -half });
+    this.camera.updateProjectionMatrix();
+  }
+
+  /** Pixels of the page that a metre has at a place, if the page is `height` pixels high. */
+  pixelsPerMetre(at: THREE.Vector3, height: number): number {
+    if (this.height > 0) return (height * this.orthographic.zoom) / (this.orthographic.top - this.orthographic.bottom);
+    return height / (2 * this.halfHeight() * Math.max(this.camera.position.distanceTo(at), 1e-3));
+  }
+
+  /** What the program is told of it. */
+  describe(): { pose: number[]; distance: number; focal: number; ortho: number } {
+    const { x, y, z, w } = this.camera.quaternion.clone().multiply(FLIP);
+    return {
+      pose: [...this.camera.position.toArray(), w, x, y, z],
+      distance: this.camera.position.distanceTo(this.target),
+      focal: this.focal,
+      ortho: this.height / this.orthographic.zoom,
+    };
+  }
+
+  /** Half the height of what is seen a metre away, m. */
+  private halfHeight(): number {
+    return (0.5 / this.focal) * this.spread();
+  }
+
+  /** How much more is to be seen from top to bottom so that the picture fits from side to side. */
+  private spread(): number {
+    return Math.max(1, this.aspect / this.pageAspect);
+  }
+
+  private use(camera: Camera): void {
+    if (this.camera === camera) return;
+    this.controls.object = camera;
+    for (const watcher of this.watchers) watcher(camera);
+  }
+}
