@@ -32,6 +32,16 @@ bool isJointType(const std::string& word) {
   }
 }
 
+/// Throws ValueError, which says so where the word is a joint type.
+ShapeType shapeTypeOf(const std::string& word) {
+  try {
+    return shapeTypeFromName(word);
+  } catch (const ValueError&) {
+    if (isJointType(word)) throw ValueError(cat("'", word, "' is a joint type; write joint: ", word));
+    throw;
+  }
+}
+
 bool isMeshFile(const Node& node) { return node.value.as<AngleText>() || node.value.as<std::string>(); }
 
 }  // namespace
@@ -44,8 +54,7 @@ bool AttributeReader::readShapeType(Geometry& geometry) {
              geometry.type = ShapeType(int(*code));
              shapeTypeName(geometry.type);  // throws for other numbers
            } else if (const std::string* word = node->value.as<std::string>()) {
-             if (isJointType(*word)) throw ValueError(cat("'", *word, "' is a joint type; write joint: ", *word));
-             geometry.type = shapeTypeFromName(*word);
+             geometry.type = shapeTypeOf(*word);
            } else {
              throw ValueError(cat("expected a shape type, got ", describe(node->value)));
            }
