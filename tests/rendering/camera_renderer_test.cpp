@@ -26,13 +26,6 @@ constexpr const char* kWall = "wall: { X: [2.5 0 1], shape: box, size: [1 8 8], 
 
 class Rendering : public testing::Test {
  protected:
-  void SetUp() override {
-    try {
-      renderer.render(Config(), forwardCamera());
-    } catch (const FileError& error) {
-      GTEST_SKIP() << error.what();
-    }
-  }
   CameraRenderer renderer;
 };
 

@@ -22,14 +22,6 @@ Image fourColors() {
 
 class Textures : public ::testing::Test {
  protected:
-  void SetUp() override {
-    try {
-      renderer_.render(Config(), fromAbove());
-    } catch (const FileError& error) {
-      GTEST_SKIP() << error.what();
-    }
-  }
-
   /// Looks down from z = 2; x is to the right of the picture, and y up.
   static Camera fromAbove() {
     Camera camera;
