@@ -67,8 +67,9 @@ class SceneTree {
   /// The constant pose of one frame.
   void poseChanged(const FrameData& frame) {
     asked_since_edit_ = false;
-    if (moved_.empty() || moved_.back() != &frame) moved_.push_back(&frame);
-    poses_stale_ |= moved_.size() > kMostMoved;
+    if (poses_stale_ || (!moved_.empty() && moved_.back() == &frame)) return;
+    moved_.push_back(&frame);
+    poses_stale_ = moved_.size() > kMostMoved;
   }
   void jointsChanged() { q_stale_ = true; }
   void looksChanged(Shape& shape) { shape.revision = ++looks_revision_; }
