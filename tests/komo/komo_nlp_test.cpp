@@ -2,6 +2,7 @@
 
 #include "kinegraph/komo/komo.h"
 #include "kinegraph/solvers/nlp_solver.h"
+#include "kinegraph/solvers/penalty_nlp.h"
 #include "tests/support/near.h"
 
 namespace kinegraph {
@@ -63,6 +64,48 @@ TEST(KomoNlp, HasTheJacobianOfDifferencesWithLinearRowsAsTheyWereMade) {
     VectorXd x(nlp->dimension());
     for (double& value : x) value = rng.uniform(.6, 1.5);  // clear of the wall
     EXPECT_LT(checkJacobian(*nlp, x).error, 1e-6);
+  }
+}
+
+TEST(KomoNlp, TellsWhichRowsAreZeroAndLeavesNothingOfEarlierPointsInThem) {
+  const auto komo = slidingBalls();
+  const Separation separation = makeNlp(komo)->separation();
+  ASSERT_TRUE(separation.problem);
+  Nlp& pairs = *separation.problem;
+  Jacobian J = pairs.makeJacobian();
+  VectorXd phi(Eigen::Index(pairs.types().size()));
+  Rng rng(4);
+  int zero_rows = 0, returned = 0;
+  std::vector<char> before = J.zero_row;
+  for (int trial = 0; trial < 40; ++trial) {
+    VectorXd x(pairs.dimension());
+    for (double& value : x) value = rng.uniform(-1., 1.);
+    pairs.evaluate(x, phi, &J);
+    Jacobian fresh = pairs.makeJacobian();
+    pairs.evaluate(x, phi, &fresh);
+    EXPECT_TRUE(J.toDense() == fresh.toDense());
+    for (int row = 0; row < J.rows(); ++row) {
+      if (J.zero_row[std::size_t(row)]) EXPECT_TRUE(fresh.toDense().row(row).isZero(0.)) << pairs.rowName(row);
+      zero_rows += J.zero_row[std::size_t(row)];
+      returned += before[std::size_t(row)] && !J.zero_row[std::size_t(row)];
+    }
+    before = J.zero_row;
+  }
+  EXPECT_GT(zero_rows, 100);
+  EXPECT_GT(returned, 20);
+}
+
+TEST(KomoNlp, AsPenaltiesAndBarriersItHasTheSameJacobianEachTime) {
+  const std::shared_ptr<Nlp> nlp = makeNlp(slidingBalls());
+  for (const std::shared_ptr<Nlp>& penalized : {makePenalized(nlp, 25., -1.), makePenalized(nlp, 25., .1)}) {
+    Jacobian J = penalized->makeJacobian();
+    VectorXd phi(Eigen::Index(penalized->types().size()));
+    const VectorXd x = VectorXd::Constant(nlp->dimension(), .7);
+    penalized->evaluate(x, phi, &J);
+    const MatrixXd first = J.toDense();
+    penalized->evaluate(x, phi, &J);
+    EXPECT_TRUE(J.toDense() == first);
+    EXPECT_LT(checkJacobian(*penalized, x).error, 1e-6);
   }
 }
 

@@ -96,6 +96,7 @@ class PairCollisions final : public Feature {
   PairCollisions(const std::vector<int>& frames, const Program& program) : pairs_(pairsWith(program, frames)) {}
 
   int rows() const override { return int(pairs_.pairs.size()); }
+  std::optional<double> flatValue() const override { return -kFar; }
   void eval(std::span<const State* const> states, double tau, Eigen::Ref<VectorXd> y, JacobianRows* J) const override;
 
  private:

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <span>
 
 #include "kinegraph/kinematics/lane_program.h"
@@ -31,6 +32,9 @@ class Feature {
 
   /// Is the Jacobian the same in all configurations?
   virtual bool isLinear() const { return false; }
+
+  /// The value of a row that tells that its Jacobian is zero there; it has this value nowhere else.
+  virtual std::optional<double> flatValue() const { return {}; }
 
   /// Adds rows() rows to `list` with the same value and Jacobian, so that many configurations are evaluated at once; false,
   /// and nothing added, where the feature is not made of what LaneRows::Block has.

@@ -33,6 +33,7 @@ void Residual::setScale(MatrixXd scale) {
   scale_ = std::move(scale);
   scales_rows_ = vector;
   rows_ = scale_.size() > 1 && !vector ? int(scale_.rows()) : raw_rows;
+  flat_value_ = differences_ == 0 && !mixesRows() ? feature_->flatValue() : std::nullopt;
 }
 
 void Residual::setTarget(VectorXd target) {
@@ -44,29 +45,32 @@ void Residual::setTarget(VectorXd target) {
   target_ = std::move(target);
 }
 
-void Residual::eval(std::span<const State* const> states, double tau, Eigen::Ref<VectorXd> y, JacobianRows* J) {
+void Residual::eval(std::span<const State* const> states, double tau, Eigen::Ref<VectorXd> y, JacobianRows* J, char* zero_row) {
   if (!mixesRows()) {
-    evalRaw(states, tau, y, J);
+    evalRaw(states, tau, y, J, zero_row);
     return scaleRows(y, J);
   }
   raw_.resize(feature_->rows());
   if (J) {
     raw_jacobian_.setZero(feature_->rows(), J->cols());
     JacobianRows view = raw_jacobian_;
-    evalRaw(states, tau, raw_, &view);
+    evalRaw(states, tau, raw_, &view, nullptr);
     *J += scale_.lazyProduct(raw_jacobian_);
   } else {
-    evalRaw(states, tau, raw_, nullptr);
+    evalRaw(states, tau, raw_, nullptr, nullptr);
   }
   y.noalias() = scale_ * raw_;
 }
 
-void Residual::evalRaw(std::span<const State* const> states, double tau, Eigen::Ref<VectorXd> y, JacobianRows* J) {
+void Residual::evalRaw(std::span<const State* const> states, double tau, Eigen::Ref<VectorXd> y, JacobianRows* J, char* zero_row) {
   if (differences_ > 0) {
     evalDifference(states, tau, y, J);
   } else {
     feature_->eval(states, tau, y, J);
     alignSign(y, J);
+    if (flat_value_ && zero_row) {
+      for (Eigen::Index row = 0; row < y.size(); ++row) zero_row[row] = y[row] == *flat_value_;
+    }
   }
   subtractTarget(y);
 }

@@ -37,9 +37,13 @@ class Residual {
   const MatrixXd& scale() const { return scale_; }
   const VectorXd& target() const { return target_; }
 
+  /// Does eval tell which rows of the Jacobian are zero?
+  bool tellsZeroRows() const { return flat_value_.has_value(); }
+
   /// Value and Jacobian at order() + 1 configurations, oldest first, `tau` seconds apart. `y` has rows() entries; `J`, where
-  /// given, rows() rows and a block of columns per configuration, and comes filled with zeros.
-  void eval(std::span<const State* const> states, double tau, Eigen::Ref<VectorXd> y, JacobianRows* J);
+  /// given, rows() rows and a block of columns per configuration, and comes filled with zeros. Where tellsZeroRows(), it fills
+  /// in `zero_row`, if that is given: is the row of the Jacobian zero?
+  void eval(std::span<const State* const> states, double tau, Eigen::Ref<VectorXd> y, JacobianRows* J, char* zero_row = nullptr);
 
   const Feature& feature() const { return *feature_; }
 
@@ -57,13 +61,14 @@ class Residual {
   void alignSign(Eigen::Ref<VectorXd> y, JacobianRows* J) const;
   void subtractTarget(Eigen::Ref<VectorXd> y) const;
   void scaleRows(Eigen::Ref<VectorXd> y, JacobianRows* J) const;
-  void evalRaw(std::span<const State* const> states, double tau, Eigen::Ref<VectorXd> y, JacobianRows* J);
+  void evalRaw(std::span<const State* const> states, double tau, Eigen::Ref<VectorXd> y, JacobianRows* J, char* zero_row);
 
   std::shared_ptr<const Feature> feature_;
   std::string name_;
   MatrixXd scale_;
   VectorXd target_;
   int differences_ = 0, rows_ = 0;
+  std::optional<double> flat_value_;  ///< of the feature, where each of its rows is one here
   bool time_integral_ = false, scales_rows_ = false;
   std::vector<VectorXd> values_;    ///< workspace: the feature at each configuration
   std::vector<RowMajor> jacobians_;

@@ -22,6 +22,7 @@ class KomoNlp final : public Nlp {
   KomoNlp(std::shared_ptr<Komo> komo, std::vector<Komo::Objective> objectives)
       : komo_(std::move(komo)), problem_(*komo_, std::move(objectives)), structure_(komo_->structureRevision()) {
     types_ = problem_.types();
+    linear_ = problem_.linearRows();
     lower_ = komo_->layout().lower;
     upper_ = komo_->layout().upper;
   }
@@ -32,8 +33,6 @@ class KomoNlp final : public Nlp {
     requireStructure();
     return problem_.makeJacobian(*komo_);
   }
-
-  bool isLinear(int row) const override { return problem_.isLinear(row); }
 
   void evaluate(const VectorXd& x, VectorXd& phi, Jacobian* J) override {
     requireStructure();

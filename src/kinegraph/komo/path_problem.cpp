@@ -107,6 +107,13 @@ bool PathProblem::isLinear() const {
   return std::all_of(residuals_.begin(), residuals_.end(), [](const Residual& residual) { return residual.isLinear(); });
 }
 
+std::vector<char> PathProblem::linearRows() const {
+  std::vector<char> linear;
+  linear.reserve(types_.size());
+  for (const Term& term : terms_) linear.insert(linear.end(), std::size_t(term.rows), residuals_[std::size_t(term.residual)].isLinear());
+  return linear;
+}
+
 Jacobian PathProblem::makeJacobian(const Komo& komo) const {
   std::size_t segments = 0, values = 0;
   for (std::size_t i = 0; i < terms_.size(); ++i) {
@@ -131,17 +138,18 @@ Jacobian PathProblem::makeJacobian(const Komo& komo) const {
         offset += width;
       }
       J.row_start.push_back(int(J.segments.size()));
+      J.zero_row.push_back(false);
     }
     if (!residuals_[std::size_t(term.residual)].isLinear() || term.rows == 0) continue;
     if (copied != term.residual) residual.emplace(residuals_[std::size_t(copied = term.residual)]);
-    evaluateTerm(komo, i, *residual, phi.segment(term.first_row, term.rows), rows_of_term, workspace);
+    evaluateTerm(komo, i, *residual, phi.segment(term.first_row, term.rows), rows_of_term, nullptr, workspace);
   }
   return J;
 }
 
-/// `jacobian`, which may be null, is where the rows of this term are; it comes filled with zeros.
+/// `jacobian`, which may be null, is where the rows of this term are; it comes filled with zeros. `zero_row`: as for Residual::eval.
 void PathProblem::evaluateTerm(const Komo& komo, std::size_t index, Residual& residual, Eigen::Ref<VectorXd> phi, double* jacobian,
-                               Workspace& workspace) const {
+                               char* zero_row, Workspace& workspace) const {
   const Term& term = terms_[index];
   const int order = residual.order(), columns = (order + 1) * widest_state_, width = width_[index];
   for (int s = 0; s <= order; ++s) workspace.window[std::size_t(s)] = &komo.state(term.slice - order + s);
@@ -150,12 +158,12 @@ void PathProblem::evaluateTerm(const Komo& komo, std::size_t index, Residual& re
   const Run& only = runs_[std::size_t(term.first_run)];
   if (term.runs == 1 && only.width == columns && width == columns) {  // straight into the Jacobian
     JacobianRows block = Eigen::Map<RowMajor>(jacobian, term.rows, columns);
-    return residual.eval(states, komo.tau(), phi, &block);
+    return residual.eval(states, komo.tau(), phi, &block, zero_row);
   }
   Eigen::Map<RowMajor> whole(workspace.jacobian.data(), term.rows, columns);
   whole.setZero();
   JacobianRows block = whole;
-  residual.eval(states, komo.tau(), phi, &block);
+  residual.eval(states, komo.tau(), phi, &block, zero_row);
   Eigen::Map<RowMajor> target(jacobian, term.rows, width);
   for (int r = term.first_run; r < term.first_run + term.runs; ++r) {
     const Run& run = runs_[std::size_t(r)];
@@ -169,12 +177,16 @@ void PathProblem::evaluate(const Komo& komo, VectorXd& phi, Jacobian* J) {
     const Term& term = terms_[i];
     Residual& residual = residuals_[std::size_t(term.residual)];
     const bool needs_jacobian = J && !residual.isLinear();
-    const std::ptrdiff_t count = std::ptrdiff_t(term.rows) * width_[i];
-    if (needs_jacobian) std::fill(values, values + count, 0.);
-    if (term.rows > 0) {
-      evaluateTerm(komo, i, residual, phi.segment(term.first_row, term.rows), needs_jacobian ? values : nullptr, workspace_);
+    char* zero_row = needs_jacobian && residual.tellsZeroRows() ? J->zero_row.data() + term.first_row : nullptr;
+    if (needs_jacobian) {
+      for (int row = 0; row < term.rows; ++row) {
+        if (!zero_row || !zero_row[row]) std::fill_n(values + std::ptrdiff_t(row) * width_[i], width_[i], 0.);
+      }
     }
-    if (J) values += count;
+    if (term.rows > 0) {
+      evaluateTerm(komo, i, residual, phi.segment(term.first_row, term.rows), needs_jacobian ? values : nullptr, zero_row, workspace_);
+    }
+    if (J) values += std::ptrdiff_t(term.rows) * width_[i];
   }
 }
 

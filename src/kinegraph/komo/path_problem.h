@@ -29,10 +29,8 @@ class PathProblem {
   int rows() const { return int(types_.size()); }
   const Term& termOf(int row) const;
 
-  bool isLinear() const;  ///< are all rows of the Jacobian the same for all paths?
-
-  /// Is this one?
-  bool isLinear(int row) const { return residuals_[termOf(row).residual].isLinear(); }
+  bool isLinear() const;                 ///< are all rows of the Jacobian the same for all paths?
+  std::vector<char> linearRows() const;  ///< which are?
 
   /// With the values of linear rows; the others are zero.
   Jacobian makeJacobian(const Komo& komo) const;
@@ -52,7 +50,8 @@ class PathProblem {
   };
   Workspace makeWorkspace() const;
   void layOut(const Komo& komo, Term& term, std::vector<std::pair<int, int>>& segments);
-  void evaluateTerm(const Komo& komo, std::size_t index, Residual& residual, Eigen::Ref<VectorXd> phi, double* jacobian, Workspace& workspace) const;
+  void evaluateTerm(const Komo& komo, std::size_t index, Residual& residual, Eigen::Ref<VectorXd> phi, double* jacobian, char* zero_row,
+                    Workspace& workspace) const;
 
   std::vector<Komo::Objective> objectives_;
   std::vector<Term> terms_;

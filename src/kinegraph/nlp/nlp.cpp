@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstring>
 
 #include "kinegraph/base/errors.h"
 #include "kinegraph/base/text.h"
@@ -27,6 +26,7 @@ void Jacobian::addRow(std::initializer_list<std::pair<int, int>> column_and_widt
     values.resize(values.size() + std::size_t(width), 0.);
   }
   row_start.push_back(int(segments.size()));
+  zero_row.push_back(false);
 }
 
 MatrixXd Jacobian::toDense() const {
@@ -37,18 +37,6 @@ MatrixXd Jacobian::toDense() const {
     }
   }
   return dense;
-}
-
-bool Jacobian::isZeroRow(int row) const {
-  constexpr int kMost = 64;
-  static constexpr double zeros[kMost] = {};
-  for (const Segment& segment : row_segments(row)) {
-    for (int i = 0; i < segment.width; i += kMost) {
-      const auto bytes = std::size_t(std::min(kMost, segment.width - i)) * sizeof(double);
-      if (std::memcmp(values.data() + segment.offset + i, zeros, bytes) != 0) return false;  // -0 counts as not zero
-    }
-  }
-  return true;
 }
 
 double Jacobian::rowTimes(int row, const VectorXd& x) const {

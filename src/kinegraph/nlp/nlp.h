@@ -36,16 +36,22 @@ struct Jacobian {
   std::vector<int> row_start = {0};  ///< row i owns segments row_start[i] .. row_start[i+1]-1
   std::vector<Segment> segments;
   std::vector<double> values;
+  std::vector<char> zero_row;        ///< per row: is it known that all its values are zero?
 
   int rows() const { return int(row_start.size()) - 1; }
   static Jacobian dense(int rows, int columns);
   void addRow(std::initializer_list<std::pair<int, int>> column_and_width);  ///< appends a row of zeros
   MatrixXd toDense() const;
 
+  /// Takes the values of another one with the same pattern.
+  void copyValues(const Jacobian& other) {
+    values = other.values;
+    zero_row = other.zero_row;
+  }
+
   std::span<const Segment> row_segments(int row) const {
     return {segments.data() + row_start[row], std::size_t(row_start[row + 1] - row_start[row])};
   }
-  bool isZeroRow(int row) const;
   double rowTimes(int row, const VectorXd& x) const;                  ///< J_row x
   void addRowTo(int row, double factor, VectorXd& x) const;           ///< x += factor J_row^T
 };
@@ -65,13 +71,10 @@ class Nlp {
   virtual Jacobian makeJacobian() const { return Jacobian::dense(int(types_.size()), dimension()); }
 
   /// Is this row of the Jacobian the same at every x? `evaluate` may then leave it as it is.
-  virtual bool isLinear(int row) const {
-    (void)row;
-    return false;
-  }
+  bool isLinear(int row) const { return !linear_.empty() && linear_[std::size_t(row)]; }
 
   /// Computes phi(x), and its Jacobian where `J` (made by makeJacobian) is given. x has `dimension()` entries,
-  /// phi has one per type. Requests no memory where it can be avoided.
+  /// phi has one per type. Sets `J->zero_row` where that costs nothing. Requests no memory where it can be avoided.
   virtual void evaluate(const VectorXd& x, VectorXd& phi, Jacobian* J) = 0;
 
   /// Adds the Hessian of sum_f phi_i to `H` (n x n). False if the problem has none to offer; it is then taken as zero.
@@ -105,6 +108,7 @@ class Nlp {
 
  protected:
   std::vector<ObjectiveType> types_;
+  std::vector<char> linear_;  ///< empty, or per row what isLinear says
   VectorXd lower_, upper_;
 };
 

@@ -84,13 +84,17 @@ class AugmentedLagrangian {
     t.tail(t.size() - equalities_) = t.tail(t.size() - equalities_).cwiseMax(0.);
   }
 
-  /// Sum of 1/(2 mu) t^2, without the constant -lambda^2.
-  double penalties(const VectorXd& c) {
-    findMultipliers(c, multipliers_);
-    return multipliers_.squaredNorm() / (2. * mu_);
+  /// Sum of the squares of lambda + mu c, cut off at zero for inequalities.
+  double squaredMultipliers(const VectorXd& c) const {
+    const Eigen::Index inequalities = c.size() - equalities_;
+    return (lambda_.head(equalities_) + mu_ * c.head(equalities_)).squaredNorm() +
+           (lambda_.tail(inequalities) + mu_ * c.tail(inequalities)).cwiseMax(0.).squaredNorm();
   }
 
-  double lagrangian(const EvaluatedPoint& point) { return point.finite ? point.cost + penalties(point.c) : kInfinity; }
+  /// Without the constant -lambda^2 / (2 mu).
+  double lagrangian(const EvaluatedPoint& point) const {
+    return point.finite ? point.cost + squaredMultipliers(point.c) / (2. * mu_) : kInfinity;
+  }
 
   /// The decrease of the Lagrangian that the model expects of its step.
   double predictedDecrease() {
@@ -127,7 +131,7 @@ class AugmentedLagrangian {
     const Eigen::Index inequalities = here_.c.size() - equalities_;
     double worst = equalities_ > 0 ? here_.c.head(equalities_).lpNorm<Eigen::Infinity>() : 0.;
     if (inequalities > 0) {
-      worst = std::max(worst, here_.c.tail(inequalities).cwiseMax(lambda_.tail(inequalities) / -mu_).lpNorm<Eigen::Infinity>());
+      worst = std::max(worst, here_.c.tail(inequalities).cwiseMax(-1. / mu_ * lambda_.tail(inequalities)).lpNorm<Eigen::Infinity>());
     }
     return worst;
   }

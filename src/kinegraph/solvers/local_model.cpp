@@ -10,6 +10,7 @@ namespace {
 
 constexpr int kSmall = 16;          ///< problems up to this size are taken as dense
 constexpr double kAtBound = 1e-14;  ///< an entry of the step this near to a bound is put on it
+constexpr double kLongest = 4.;     ///< most that a Newton step is lengthened
 
 bool hasRowsOfTypeF(const Nlp& nlp) {
   return std::find(nlp.types().begin(), nlp.types().end(), ObjectiveType::f) != nlp.types().end();
@@ -91,9 +92,10 @@ LocalModel::LocalModel(const Nlp& nlp, const Jacobian& pattern, const std::vecto
   factored_fixed_ = fixed_;
   for (std::vector<int>* list : {&inequalities_, &within_reach_, &out_of_reach_}) list->reserve(std::size_t(m));
   runs_.reserve(std::size_t(n));
-  for (VectorXd* v : {&g_, &d_, &trial_, &r_, &s_, &Hd_, &trial_Hd_, &placed_, &placed_sum_}) v->setZero(n);
+  for (VectorXd* v : {&g_, &d_, &trial_, &r_, &s_, &Hd_, &Hs_, &trial_Hd_, &placed_, &placed_sum_}) v->setZero(n);
   linear_.setZero(m);
   trial_linear_.setZero(m);
+  step_linear_.setZero(m);
 }
 
 void LocalModel::addRow(BandedMatrix& matrix, int row, double weight) {
@@ -145,7 +147,7 @@ void LocalModel::setJacobian(const Jacobian& J) {
   is_new_ = true;
   inequalities_.clear();
   for (int j = 0; j < int(constraints_.size()); ++j) {
-    if (!is_equality_[j] && !J.isZeroRow(constraints_[j])) inequalities_.push_back(j);
+    if (!is_equality_[j] && !J.zero_row[constraints_[j]]) inequalities_.push_back(j);
   }
 }
 
@@ -278,9 +280,9 @@ bool LocalModel::newtonStep(const Problem& problem) {
   return true;
 }
 
-/// The part of the step s that leads to the first bound, at most 1.
-double LocalModel::roomAlong(const Problem& problem) const {
-  double room = 1.;
+/// The part of the step s that leads to the first bound, at most `most`.
+double LocalModel::roomAlong(const Problem& problem, double most) const {
+  double room = most;
   for (int i = 0; i < s_.size(); ++i) {
     if (s_[i] < 0.) room = std::min(room, (problem.low[i] - d_[i]) / s_[i]);
     if (s_[i] > 0.) room = std::min(room, (problem.high[i] - d_[i]) / s_[i]);
@@ -288,31 +290,94 @@ double LocalModel::roomAlong(const Problem& problem) const {
   return room;
 }
 
-/// Where to begin: from zero in a new model, else where it ended the last time if that is better. Returns the value there.
-double LocalModel::begin(const Problem& problem) {
+/// The part of the step s, at most `most`, that leads to the least value: where the slope, which is piecewise linear and grows,
+/// is zero. Newton's method finds it in a few steps; halves of the interval make it safe. Exactly 1 if the step is.
+double LocalModel::lengthAlong(const Problem& problem, double most) const {
+  const double slope = g_.dot(s_) + d_.dot(Hs_) + problem.shift * d_.dot(s_);
+  const double curvature = s_.dot(Hs_) + problem.shift * s_.squaredNorm();
+  double low = 0., high = most, first = 0., alpha = std::min(1., most);
+  for (int iteration = 0; iteration < 30; ++iteration) {
+    double at = slope + alpha * curvature, rise = curvature, scale = std::abs(slope);
+    for (int j : within_reach_) {
+      const double t = multiplier(j, linear_[j] + alpha * step_linear_[j], problem);
+      if (t == 0.) continue;
+      at += t * step_linear_[j];
+      scale += std::abs(t * step_linear_[j]);
+      rise += problem.mu * step_linear_[j] * step_linear_[j];
+    }
+    if (iteration == 0) first = 1e-10 * scale;
+    if (std::abs(at) <= first || (at < 0. && alpha == most)) return alpha;
+    (at < 0. ? low : high) = alpha;
+    double next = std::min(most, alpha - at / rise);
+    if (!(next > low && next < high) && next != most) next = .5 * (low + high);
+    if (high - low <= 1e-12 * high) return low > 0. ? low : next;
+    alpha = next;
+  }
+  return alpha;
+}
+
+/// Adds the part alpha of the step s.
+void LocalModel::move(const Problem& problem, double alpha) {
+  d_ += alpha * s_;
+  Hd_ += alpha * Hs_;
+  for (int j : within_reach_) linear_[j] += alpha * step_linear_[j];
+  putOnBounds(d_, problem);
+}
+
+/// Entries that are outside, or next to a bound, go there.
+void LocalModel::putOnBounds(VectorXd& d, const Problem& problem) const {
+  for (int i = 0; i < d.size(); ++i) {
+    if (d[i] < problem.low[i] + kAtBound) d[i] = problem.low[i];
+    if (d[i] > problem.high[i] - kAtBound) d[i] = problem.high[i];
+  }
+}
+
+/// Adds the whole step s and goes back into the box. False, and nothing done, if the value does not fall enough.
+bool LocalModel::moveIntoBox(const Problem& problem, double& moved) {
+  trial_ = d_ + s_;
+  putOnBounds(trial_, problem);
+  linearize(trial_, problem, trial_linear_);
+  trial_Hd_.setZero();
+  addHessianProduct(trial_, trial_Hd_);
+  if (value(trial_, trial_Hd_, trial_linear_, problem) > value(d_, Hd_, linear_, problem) + 1e-4 * r_.dot(trial_ - d_)) return false;
+  moved = (trial_ - d_).lpNorm<Eigen::Infinity>();
+  d_.swap(trial_);
+  linear_.swap(trial_linear_);
+  Hd_.swap(trial_Hd_);
+  return true;
+}
+
+/// Are the inequalities that matter at d those of the factor?
+bool LocalModel::keepsActiveSet(const Problem& problem) const {
+  for (int j : within_reach_) {
+    if (!is_equality_[j] && (multiplier(j, linear_[j], problem) > 0.) != bool(factored_active_[j])) return false;
+  }
+  return true;
+}
+
+/// From zero in a new model, else from where it ended the last time if that is better.
+void LocalModel::begin(const Problem& problem) {
   linear_ = problem.c;
-  trial_linear_ = problem.c;
-  double at_zero = 0.;
-  for (int j : within_reach_) at_zero += std::pow(multiplier(j, problem.c[j], problem), 2) / (2. * problem.mu);
   const bool goes_on = !is_new_ && (d_.array() >= problem.low.array()).all() && (d_.array() <= problem.high.array()).all();
   if (is_new_) factored_ = false;
   is_new_ = false;
   if (goes_on) {
+    double at_zero = 0.;
+    for (int j : within_reach_) at_zero += std::pow(multiplier(j, problem.c[j], problem), 2) / (2. * problem.mu);
+    trial_linear_ = problem.c;
     linearize(d_, problem, trial_linear_);
-    if (const double there = value(d_, Hd_, trial_linear_, problem); there < at_zero) {
-      linear_.swap(trial_linear_);
-      return there;
-    }
+    if (value(d_, Hd_, trial_linear_, problem) < at_zero) return linear_.swap(trial_linear_);
   }
+  trial_linear_ = problem.c;
   d_.setZero();
   Hd_.setZero();
-  return at_zero;
 }
 
 const VectorXd& LocalModel::minimize(const Problem& problem) {
   const int n = int(d_.size());
   findWithinReach(problem);
-  double current = begin(problem), reference = 0.;
+  begin(problem);
+  double reference = 0.;
   for (int pass = 0; pass < problem.max_passes; ++pass) {
     r_ = g_ + problem.shift * d_ + Hd_;
     for (int j : within_reach_) {
@@ -328,30 +393,20 @@ const VectorXd& LocalModel::minimize(const Problem& problem) {
     if (pass == 0) reference = std::max(remaining, 1e-30);
     if (remaining <= 1e-11 * reference) break;
     if (!newtonStep(problem)) break;
-    const double first_hit = roomAlong(problem);
-    double alpha = 1., moved = 0.;
-    bool accepted = false, reaches_bound = false;
-    for (int attempt = 0; attempt < 20 && !accepted; ++attempt) {
-      trial_ = (d_ + alpha * s_).cwiseMax(problem.low).cwiseMin(problem.high);
-      alpha = attempt == 0 && first_hit < 1. ? first_hit : .5 * alpha;  // cut off at the box first; then without leaving it
-      for (int i = 0; i < n; ++i) {
-        if (trial_[i] < problem.low[i] + kAtBound) trial_[i] = problem.low[i];
-        if (trial_[i] > problem.high[i] - kAtBound) trial_[i] = problem.high[i];
-      }
-      linearize(trial_, problem, trial_linear_);
-      trial_Hd_.setZero();
-      addHessianProduct(trial_, trial_Hd_);
-      const double next = value(trial_, trial_Hd_, trial_linear_, problem);
-      if (next > current + 1e-4 * r_.dot(trial_ - d_)) continue;
-      moved = (trial_ - d_).lpNorm<Eigen::Infinity>();
-      d_.swap(trial_);
-      linear_.swap(trial_linear_);
-      Hd_.swap(trial_Hd_);
-      current = next;
-      accepted = true;
-      reaches_bound = attempt == 1 && first_hit < 1.;
+    const double room = roomAlong(problem, kLongest);
+    double moved = 0.;
+    if (room < 1. && moveIntoBox(problem, moved)) {
+      if (moved < 1e-10) break;
+      continue;
     }
-    if (!accepted || (moved < 1e-10 && !reaches_bound)) break;  // where a bound is near, the next pass goes along it
+    Hs_.setZero();
+    addHessianProduct(s_, Hs_);
+    for (int j : within_reach_) step_linear_[j] = J_->rowTimes(constraints_[j], s_);
+    const double alpha = lengthAlong(problem, room);
+    move(problem, alpha);
+    const bool is_solved = alpha == 1. && std::find(fixed_.begin(), fixed_.end(), true) == fixed_.end() && keepsActiveSet(problem);
+    const bool reaches_bound = alpha == room && room < 1.;  // the next pass goes along it
+    if (is_solved || (alpha * s_.lpNorm<Eigen::Infinity>() < 1e-10 && !reaches_bound)) break;
   }
   for (int j : out_of_reach_) linear_[j] += J_->rowTimes(constraints_[j], d_);
   return d_;

@@ -52,13 +52,18 @@ class LocalModel {
   double value(const VectorXd& d, const VectorXd& Hd, const VectorXd& linear, const Problem& problem) const;
   void linearize(const VectorXd& d, const Problem& problem, VectorXd& linear) const;
   void findWithinReach(const Problem& problem);
-  double begin(const Problem& problem);
+  void begin(const Problem& problem);
   void addRow(BandedMatrix& matrix, int row, double weight);
   void addHessianProduct(const VectorXd& d, VectorXd& sum);
   void solve(VectorXd& x);
   bool factorize(const Problem& problem);
   bool newtonStep(const Problem& problem);
-  double roomAlong(const Problem& problem) const;
+  double roomAlong(const Problem& problem, double most) const;
+  double lengthAlong(const Problem& problem, double most) const;
+  void move(const Problem& problem, double alpha);
+  bool moveIntoBox(const Problem& problem, double& moved);
+  void putOnBounds(VectorXd& d, const Problem& problem) const;
+  bool keepsActiveSet(const Problem& problem) const;
 
   /// Part of a row of J whose columns follow one another in the matrices.
   struct Run {
@@ -80,7 +85,7 @@ class LocalModel {
   std::vector<int> out_of_reach_;   ///< those that cannot, and change with d all the same
   Flags is_equality_, active_, factored_active_, fixed_, factored_fixed_;
   BandedMatrix H_linear_, H_, K_;   ///< of linear costs; of all costs; the factor
-  VectorXd g_, d_, trial_, r_, s_, Hd_, trial_Hd_, linear_, trial_linear_;
+  VectorXd g_, d_, trial_, r_, s_, Hd_, Hs_, trial_Hd_, linear_, trial_linear_, step_linear_;
   bool is_new_ = true, factored_ = false;
   double factored_mu_ = 0., factored_shift_ = 0.;
   int factorizations_ = 0;

@@ -7,7 +7,7 @@ namespace kinegraph {
 
 bool isInequality(ObjectiveType type) { return type == ObjectiveType::ineq || type == ObjectiveType::ineqB; }
 
-PenaltyNlp::PenaltyNlp(Nlp& nlp) : nlp_(nlp) {
+PenaltyNlp::PenaltyNlp(Nlp& nlp) : nlp_(nlp), inner_(nlp.makeJacobian()) {
   types_ = nlp.types();
   for (ObjectiveType& type : types_) {
     if (type == ObjectiveType::eq) type = ObjectiveType::sos;
@@ -20,7 +20,8 @@ PenaltyNlp::PenaltyNlp(Nlp& nlp) : nlp_(nlp) {
 void PenaltyNlp::setWeight(double mu) { root_ = std::sqrt(mu); }
 
 void PenaltyNlp::evaluate(const VectorXd& x, VectorXd& phi, Jacobian* J) {
-  nlp_.evaluate(x, phi, J);
+  nlp_.evaluate(x, phi, J ? &inner_ : nullptr);
+  if (J) J->copyValues(inner_);
   for (int row = 0; row < phi.size(); ++row) {
     if (types_[row] == nlp_.types()[row]) continue;
     phi[row] *= root_;
@@ -31,7 +32,7 @@ void PenaltyNlp::evaluate(const VectorXd& x, VectorXd& phi, Jacobian* J) {
   }
 }
 
-BarrierNlp::BarrierNlp(Nlp& nlp) : nlp_(nlp), J_(nlp.makeJacobian()), phi_(Eigen::Index(nlp.types().size())) {
+BarrierNlp::BarrierNlp(Nlp& nlp) : nlp_(nlp), inner_(nlp.makeJacobian()), inner_phi_(Eigen::Index(nlp.types().size())) {
   types_ = nlp.types();
   for (ObjectiveType& type : types_) {
     if (isInequality(type)) type = ObjectiveType::f;
@@ -41,7 +42,8 @@ BarrierNlp::BarrierNlp(Nlp& nlp) : nlp_(nlp), J_(nlp.makeJacobian()), phi_(Eigen
 }
 
 void BarrierNlp::evaluate(const VectorXd& x, VectorXd& phi, Jacobian* J) {
-  nlp_.evaluate(x, phi, J);
+  nlp_.evaluate(x, phi, J ? &inner_ : nullptr);
+  if (J) J->copyValues(inner_);
   for (int row = 0; row < phi.size(); ++row) {
     if (!isInequality(nlp_.types()[row])) continue;
     const double room = -phi[row];
@@ -55,12 +57,12 @@ void BarrierNlp::evaluate(const VectorXd& x, VectorXd& phi, Jacobian* J) {
 
 bool BarrierNlp::addCostHessian(const VectorXd& x, MatrixXd& H) {
   nlp_.addCostHessian(x, H);
-  nlp_.evaluate(x, phi_, &J_);
+  nlp_.evaluate(x, inner_phi_, &inner_);
   VectorXd row_vector(x.size());
-  for (int row = 0; row < phi_.size(); ++row) {
+  for (int row = 0; row < inner_phi_.size(); ++row) {
     if (!isInequality(nlp_.types()[row])) continue;
     row_vector.setZero();
-    J_.addRowTo(row, 1. / phi_[row], row_vector);
+    inner_.addRowTo(row, 1. / inner_phi_[row], row_vector);
     H.noalias() += mu_ * row_vector * row_vector.transpose();
   }
   return true;

@@ -20,6 +20,7 @@ class PenaltyNlp final : public Nlp {
 
  private:
   Nlp& nlp_;
+  Jacobian inner_;
   double root_ = 1.;  ///< of mu
 };
 
@@ -39,8 +40,8 @@ class BarrierNlp final : public Nlp {
 
  private:
   Nlp& nlp_;
-  Jacobian J_;
-  VectorXd phi_;
+  Jacobian inner_;
+  VectorXd inner_phi_;
   double mu_ = 1.;
 };
 

@@ -44,7 +44,10 @@ void RelaxedNlp::evaluate(const VectorXd& x, VectorXd& phi, Jacobian* J) {
   for (int row = 0; padding_ != 0. && row < inner_phi_.size(); ++row) {
     if (types_[row] == ObjectiveType::ineqP) phi[row] += padding_;
   }
-  if (J) std::copy(inner_.values.begin(), inner_.values.end(), J->values.begin());
+  if (J) {
+    std::copy(inner_.values.begin(), inner_.values.end(), J->values.begin());
+    std::copy(inner_.zero_row.begin(), inner_.zero_row.end(), J->zero_row.begin());
+  }
   if (variable_ < 0) return;
   const double low = nlp_.lower()[variable_], high = nlp_.upper()[variable_], far = -1.;
   phi[inner_phi_.size()] = std::isfinite(low) ? low - x[variable_] : far;
