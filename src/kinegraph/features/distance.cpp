@@ -17,11 +17,20 @@ Proximity proximityOf(const State& state, int a, int b) {
   return proximity(bodyOf(state, a), state.pose(a), bodyOf(state, b), state.pose(b));
 }
 
-/// J += factor * d distance / dq.
+/// J += factor * d distance / dq, one row. What moves both frames alike does not change their distance: only the dofs between
+/// them count.
 void addDistanceGradient(const State& state, int a, int b, const Proximity& near, double factor, JacobianRows& J) {
-  const Eigen::RowVector3d n = factor * near.rate * near.normal.transpose(), none = Eigen::RowVector3d::Zero();
-  state.addJacobian(a, near.point_a, n, none, J);
-  state.addJacobian(b, near.point_b, -n, none, J);
+  const Program& program = state.program();
+  const Vector3d n = factor * near.rate * near.normal, turn_a = near.point_a.cross(n), turn_b = near.point_b.cross(n);
+  int column_a = program.last_column[state.link(a)], column_b = program.last_column[state.link(b)];
+  while (column_a != column_b) {  // columns follow those above them
+    int& column = std::max(column_a, column_b) == column_a ? column_a : column_b;
+    const State::Twist& twist = state.twist(column);
+    const bool of_a = &column == &column_a;
+    const double rate = n.dot(twist.linear) + (of_a ? turn_a : turn_b).dot(twist.angular);
+    J(0, program.column_dof[column]) += of_a ? rate : -rate;
+    column = program.column_before[column];
+  }
 }
 
 /// d / (|d| + eps) and its derivative.

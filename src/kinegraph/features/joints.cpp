@@ -5,10 +5,11 @@
 namespace kinegraph {
 
 void JointState::eval(std::span<const State* const> states, double, Eigen::Ref<VectorXd> y, JacobianRows* J) const {
-  for (int row = 0; row < rows(); ++row) {
-    y[row] = states[0]->q()[dofs_[row]];
-    if (J) (*J)(row, dofs_[row]) += 1.;
-  }
+  const int* dofs = dofs_.data();
+  const double* q = states[0]->q().data();
+  const Eigen::Index rows = y.size();
+  for (Eigen::Index row = 0; row < rows; ++row) y[row] = q[dofs[row]];
+  for (Eigen::Index row = 0; J && row < rows; ++row) (*J)(row, dofs[row]) += 1.;
 }
 
 bool JointState::addLaneRows(LaneRowList& list) const {

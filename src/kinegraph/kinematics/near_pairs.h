@@ -52,6 +52,8 @@ class PlacedBodies {
   bool coresMayBeNear(int a, int b, double margin);
 
   struct Placed {
+    Placed() : posed(false) {}  // leaves the rest as it is
+
     Vector3d center;  ///< of the bounding sphere
     RigidTransform pose;
     bool posed;

@@ -4,8 +4,9 @@
 
 #include "kinegraph/math/banded_matrix.h"
 
-// The Cholesky factorization goes through the columns in panels of four, and takes the products of each panel off all columns
-// that it reaches, four at a time, so that these are read and written once per panel. No sum depends on the width of registers.
+// The factorization L D L^T goes through the columns in panels of four, and takes the products of each panel off all columns
+// that it reaches, four at a time, so that these are read and written once per panel. What is kept of a column is L D, and the
+// inverse of D: one division per column is all that the next one waits for. No sum depends on the width of registers.
 
 namespace kinegraph {
 
@@ -22,11 +23,7 @@ typedef double Pack __attribute__((vector_size(kPack * sizeof(double)), aligned(
   for (int i = begin; i < end; i += kPack) packAt(target + i) = packAt(target + i) - factor * packAt(source + i);
 }
 
-[[gnu::always_inline]] inline void scale(double* target, double factor, int begin, int end) {
-  for (int i = begin; i < end; i += kPack) packAt(target + i) *= factor;
-}
-
-/// target[i] -= sum_p columns[p][row] columns[p][i] for i in [row, end), and for some beyond up to a whole pack.
+/// target[i] -= sum_p factors[p] columns[p][i] for i in [begin, end), and for some beyond up to a whole pack.
 [[gnu::always_inline]] inline void subtractProducts(double* target, const std::array<const double*, kPack>& columns,
                                                     const std::array<double, kPack>& factors, int begin, int end) {
   const double *c0 = columns[0], *c1 = columns[1], *c2 = columns[2], *c3 = columns[3];
@@ -83,25 +80,22 @@ typedef double Pack __attribute__((vector_size(kPack * sizeof(double)), aligned(
     const int j = begin + p;
     double *own = column(j), *own_border = values + offset_[j].border;
     for (int q = 0; q < p; ++q) {
-      const double factor = panel.columns[q][j];
+      const double factor = panel.columns[q][j] * inverse_[begin + q];
       subtract(own, factor, panel.columns[q], j, panel.end);
       if (panel.has_border) subtract(own_border, factor, panel.borders[q], band_, n);
     }
     if (!(own[j] > 0.) || !std::isfinite(own[j])) return false;
-    const double root = std::sqrt(own[j]);
-    inverse_[j] = 1. / root;
-    scale(own, inverse_[j], j, panel.end);
-    own[j] = root;
-    if (panel.has_border) scale(own_border, inverse_[j], band_, n);
+    inverse_[j] = 1. / own[j];
   }
-  std::array<double, kPanel> factors{};  // zero for columns that are not there
+  std::array<double, kPanel> inverse{}, factors;  // zero for columns that are not there
+  for (int p = 0; p < panel.width; ++p) inverse[p] = inverse_[begin + p];
   for (int j = begin + panel.width; j < panel.end; ++j) {
-    for (int p = 0; p < panel.width; ++p) factors[p] = panel.columns[p][j];
+    for (int p = 0; p < kPanel; ++p) factors[p] = inverse[p] * panel.columns[p][j];
     subtractProducts(column(j), panel.columns, factors, j, panel.end);
     if (panel.has_border) subtractProducts(values + offset_[j].border, panel.borders, factors, band_, n);
   }
   for (int j = panel.has_border ? band_ : n; j < n; ++j) {
-    for (int p = 0; p < panel.width; ++p) factors[p] = panel.borders[p][j];
+    for (int p = 0; p < kPanel; ++p) factors[p] = inverse[p] * panel.borders[p][j];
     subtractProducts(values + offset_[j].border, panel.borders, factors, j, n);
   }
   return true;
@@ -141,7 +135,7 @@ typedef double Pack __attribute__((vector_size(kPack * sizeof(double)), aligned(
   const int band_panels = (band_ + kPanel - 1) / kPanel, panels = band_panels + (border() + kPanel - 1) / kPanel;
   for (int i = 0; i < panels; ++i) {
     const Panel panel = panelAt(i < band_panels ? i * kPanel : band_ + (i - band_panels) * kPanel);
-    std::array<double, kPanel> own{};
+    std::array<double, kPanel> own = {0., 0., 0., 0.};
     for (int p = 0; p < panel.width; ++p) {
       const int j = panel.begin + p;
       own[p] = x[j];
@@ -153,14 +147,15 @@ typedef double Pack __attribute__((vector_size(kPack * sizeof(double)), aligned(
   }
   for (int i = panels - 1; i >= 0; --i) {
     const Panel panel = panelAt(i < band_panels ? i * kPanel : band_ + (i - band_panels) * kPanel);
-    std::array<Pack, kPanel> sums{};
+    constexpr Pack zero = {0., 0., 0., 0.};
+    std::array<Pack, kPanel> sums = {zero, zero, zero, zero};
     addProducts(sums, panel.columns, x, panel.begin + panel.width, panel.end);
     if (panel.has_border) addProducts(sums, panel.borders, x, band_, n);
     for (int p = panel.width - 1; p >= 0; --p) {
       const int j = panel.begin + p;
-      double rest = x[j] - ((sums[p][0] + sums[p][1]) + (sums[p][2] + sums[p][3]));
-      for (int q = p + 1; q < panel.width; ++q) rest -= panel.columns[p][panel.begin + q] * x[panel.begin + q];
-      x[j] = rest * inverse_[j];
+      double rest = (sums[p][0] + sums[p][1]) + (sums[p][2] + sums[p][3]);
+      for (int q = p + 1; q < panel.width; ++q) rest += panel.columns[p][panel.begin + q] * x[panel.begin + q];
+      x[j] -= rest * inverse_[j];
     }
   }
 }

@@ -47,9 +47,8 @@ void BandedMatrix::addToDiagonal(double x) {
 }
 
 void BandedMatrix::isolate(int i) {
-  for (int j = 0; j < i; ++j) {
-    if (keeps(i, j)) at(i, j) = 0.;
-  }
+  const int first = i < band_ ? int(std::lower_bound(last_.begin(), last_.end(), i) - last_.begin()) : 0;
+  for (int j = first; j < i; ++j) at(i, j) = 0.;
   for (int row = i; row < size(); ++row) {
     if (row >= band_ || row <= last_[i]) at(row, i) = 0.;
   }

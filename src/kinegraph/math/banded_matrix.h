@@ -7,7 +7,7 @@
 
 namespace kinegraph {
 
-/// A symmetric positive definite matrix with a band around the diagonal and full rows at the end, and its Cholesky factor in
+/// A symmetric positive definite matrix with a band around the diagonal and full rows at the end, and its factor L D L^T in
 /// place: that of a path, with variables that all slices share last. Dense matrices are those whose band is as wide as they are.
 /// Columns of the lower triangle lie one behind the other; a factorization costs what the band costs, linear in the size.
 class BandedMatrix {
@@ -42,7 +42,7 @@ class BandedMatrix {
   /// y += this * x, for a matrix that is not factorized.
   void addProduct(const VectorXd& x, VectorXd& y);
 
-  /// Replaces the matrix by its Cholesky factor. False if it is not positive definite. The result is the same on all machines.
+  /// Replaces the matrix by its factor L D L^T, as L D. False if it is not positive definite. The result is the same on all machines.
   bool factorize();
 
   /// x <- inverse * x, with the factor.
@@ -76,7 +76,7 @@ class BandedMatrix {
   std::vector<int> last_;           ///< per column of the band; the same in each panel
   std::vector<Offset> offset_;      ///< per column
   std::vector<double> values_;
-  std::vector<double> inverse_;     ///< of the diagonal entries of the factor
+  std::vector<double> inverse_;     ///< of D
   std::vector<double> x_, y_;       ///< vectors with the padding that columns have
 };
 
