@@ -52,7 +52,7 @@ class Nearest {
   }
 
   static double fromCore(const Side& side, const Vector3d& center, double radius) {
-    const double outside = pointToCore(side.body, side.X, center);
+    const double outside = std::sqrt(squaredPointToCore(side.body, side.X, center));
     return outside > 0. ? outside - side.body.radius() - radius : -std::numeric_limits<double>::infinity();
   }
 

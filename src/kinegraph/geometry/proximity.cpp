@@ -120,15 +120,16 @@ Proximity proximity(const CollisionBody& a, const RigidTransform& X_WA, const Co
   return nearestParts(a, X_WA, b, X_WB);
 }
 
-double pointToCore(const CollisionBody& body, const RigidTransform& X_WB, const Vector3d& point) {
-  const Vector3d p = X_WB.R.transpose() * (point - X_WB.p);
+double squaredPointToCore(const CollisionBody& body, const RigidTransform& X_WB, const Vector3d& point) {
+  const Vector3d from_origin = point - X_WB.p;
+  if (body.core() == Core::point) return from_origin.squaredNorm();
+  const Vector3d p = X_WB.R.transpose() * from_origin;
   switch (body.core()) {
-    case Core::point: return p.norm();
-    case Core::segment: return Vector3d(p.x(), p.y(), std::max(std::abs(p.z()) - body.halfLength(), 0.)).norm();
-    case Core::box: return (p.cwiseAbs() - body.halfSides()).cwiseMax(0.).norm();
+    case Core::segment: return p.head<2>().squaredNorm() + std::pow(std::max(std::abs(p.z()) - body.halfLength(), 0.), 2);
+    case Core::box: return (p.cwiseAbs() - body.halfSides()).cwiseMax(0.).squaredNorm();
     case Core::cylinder:
-      return std::hypot(std::max(std::hypot(p.x(), p.y()) - body.coreRadius(), 0.), std::max(std::abs(p.z()) - body.halfLength(), 0.));
-    default: return ((p - body.boundCenter()).cwiseAbs() - body.boundHalf()).cwiseMax(0.).norm();
+      return std::pow(std::max(p.head<2>().norm() - body.coreRadius(), 0.), 2) + std::pow(std::max(std::abs(p.z()) - body.halfLength(), 0.), 2);
+    default: return ((p - body.boundCenter()).cwiseAbs() - body.boundHalf()).cwiseMax(0.).squaredNorm();
   }
 }
 

@@ -21,8 +21,15 @@ struct Proximity {
 
 Proximity proximity(const CollisionBody& a, const RigidTransform& X_WA, const CollisionBody& b, const RigidTransform& X_WB);
 
-/// Distance of a point (world) from a body's core, m: 0 inside. Exact for points, segments, boxes and cylinders, that from the
-/// bounding box for others, where it is a lower bound.
-double pointToCore(const CollisionBody& body, const RigidTransform& X_WB, const Vector3d& point);
+/// Square of the distance of a point (world) from a body's core, m^2: 0 inside. Exact for points, segments, boxes and cylinders;
+/// for others that from the bounding box, a lower bound.
+double squaredPointToCore(const CollisionBody& body, const RigidTransform& X_WB, const Vector3d& point);
+
+/// May a point (world) be nearer to a body than `distance`, or that near? False is certain. The sum of the distance and the body's
+/// radius must not be negative.
+inline bool mayBeWithin(const CollisionBody& body, const RigidTransform& X_WB, const Vector3d& point, double distance) {
+  const double reach = body.radius() + distance;
+  return squaredPointToCore(body, X_WB, point) <= reach * reach;
+}
 
 }  // namespace kinegraph

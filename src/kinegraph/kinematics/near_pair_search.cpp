@@ -109,8 +109,8 @@ bool NearPairSearch::isNear(Candidate& candidate, double margin) {
   const double reach = a.shape->boundRadius() + b.shape->boundRadius() + margin;
   if (reach >= 0. && (a.center - b.center).squaredNorm() > reach * reach) return false;
   if (margin >= 0.) {
-    if (pointToCore(*a.shape, a.pose, b.center) > a.shape->radius() + b.shape->boundRadius() + margin) return false;
-    if (pointToCore(*b.shape, b.pose, a.center) > b.shape->radius() + a.shape->boundRadius() + margin) return false;
+    if (!mayBeWithin(*a.shape, a.pose, b.center, b.shape->boundRadius() + margin)) return false;
+    if (!mayBeWithin(*b.shape, b.pose, a.center, a.shape->boundRadius() + margin)) return false;
   }
   ++measured_;
   candidate.distance = kinegraph::proximity(*a.shape, a.pose, *b.shape, b.pose).distance;

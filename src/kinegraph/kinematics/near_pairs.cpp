@@ -34,8 +34,8 @@ void PlacedBodies::place(const State& state) {
 bool PlacedBodies::coresMayBeNear(int a, int b, double margin) {
   if (margin < 0.) return true;  // a centre inside of a core is at 0, however deep
   const CollisionBody &body_a = *pairs_->bodies[a], &body_b = *pairs_->bodies[b];
-  if (pointToCore(body_a, pose(a), placed_[b].center) > body_a.radius() + body_b.boundRadius() + margin) return false;
-  return pointToCore(body_b, pose(b), placed_[a].center) <= body_b.radius() + body_a.boundRadius() + margin;
+  return mayBeWithin(body_a, pose(a), placed_[b].center, body_b.boundRadius() + margin) &&
+         mayBeWithin(body_b, pose(b), placed_[a].center, body_a.boundRadius() + margin);
 }
 
 NearPairs::NearPairs(std::shared_ptr<const Program> program) : program_(std::move(program)) {
