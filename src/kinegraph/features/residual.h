@@ -42,7 +42,7 @@ class Residual {
 
   /// Value and Jacobian at order() + 1 configurations, oldest first, `tau` seconds apart. `y` has rows() entries; `J`, where
   /// given, rows() rows and a block of columns per configuration, and comes filled with zeros. Where tellsZeroRows(), it fills
-  /// in `zero_row`, if that is given: is the row of the Jacobian zero?
+  /// in `zero_row`, if that is given: has the row of the Jacobian been left zero?
   void eval(std::span<const State* const> states, double tau, Eigen::Ref<VectorXd> y, JacobianRows* J, char* zero_row = nullptr);
 
   const Feature& feature() const { return *feature_; }

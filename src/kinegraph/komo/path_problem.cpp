@@ -36,7 +36,7 @@ PathProblem::PathProblem(const Komo& komo, std::vector<Komo::Objective> objectiv
         place = by_program.insert_or_assign(key, int(residuals_.size()) - 1).first;
       }
       const int rows = residuals_[place->second].rows();
-      terms_.push_back({int(o), t, place->second, int(types_.size()), rows, int(runs_.size()), 0});
+      terms_.push_back({int(o), t, place->second, int(types_.size()), rows, int(runs_.size()), 0, 0});
       segments_.emplace_back();
       layOut(komo, terms_.back(), segments_.back());
       width_.push_back(0);
@@ -44,17 +44,28 @@ PathProblem::PathProblem(const Komo& komo, std::vector<Komo::Objective> objectiv
       types_.insert(types_.end(), rows, objective.type);
     }
   }
+  for (std::size_t i = 0; i < terms_.size(); ++i) {
+    if (!storesAllRows(terms_[i])) stored_ = std::max(stored_, width_[i]);
+  }
+  for (std::size_t i = 0; i < terms_.size(); ++i) {
+    terms_[i].first_value = stored_;
+    if (storesAllRows(terms_[i])) stored_ += terms_[i].rows * width_[i];
+  }
   workspace_ = makeWorkspace();
 }
 
 PathProblem::Workspace PathProblem::makeWorkspace() const {
-  std::size_t entries = 0, slices = 1;
+  std::size_t entries = 0, zeros = 0, rows = 0, slices = 1;
   for (const Term& term : terms_) {
     const auto window = std::size_t(objectives_[std::size_t(term.objective)].order) + 1;
+    const std::size_t size = std::size_t(term.rows) * window * std::size_t(widest_state_);
     slices = std::max(slices, window);
-    entries = std::max(entries, std::size_t(term.rows) * window * std::size_t(widest_state_));
+    entries = std::max(entries, size);
+    if (storesAllRows(term)) continue;
+    zeros = std::max(zeros, size);
+    rows = std::max(rows, std::size_t(term.rows));
   }
-  return {std::vector<double>(entries), std::vector<const State*>(slices)};
+  return {std::vector<double>(entries), std::vector<double>(zeros), std::vector<char>(rows), std::vector<const State*>(slices)};
 }
 
 /// Finds which columns of x the window of slices touches, and where each of its own columns goes among them.
@@ -114,56 +125,65 @@ std::vector<char> PathProblem::linearRows() const {
   return linear;
 }
 
+/// First come zeros, for all rows that are zero; then the rows that are always stored; then, in evaluateSparse, the others.
 Jacobian PathProblem::makeJacobian(const Komo& komo) const {
-  std::size_t segments = 0, values = 0;
+  std::size_t segments = 0, values = std::size_t(stored_);
   for (std::size_t i = 0; i < terms_.size(); ++i) {
     segments += std::size_t(terms_[i].rows) * segments_[i].size();
-    values += std::size_t(terms_[i].rows * width_[i]);
+    if (!storesAllRows(terms_[i])) values += std::size_t(terms_[i].rows * width_[i]);
   }
   Jacobian J;
   J.columns = dimension_;
   J.row_start.reserve(std::size_t(rows()) + 1);
+  J.zero_row.reserve(std::size_t(rows()));
   J.segments.reserve(segments);
-  J.values.resize(values);
+  J.values.reserve(values);
+  J.values.resize(std::size_t(stored_));
   Workspace workspace = makeWorkspace();
   VectorXd phi(rows());
-  int offset = 0, copied = -1;
+  int copied = -1;
   std::optional<Residual> residual;  // with a workspace of its own
   for (std::size_t i = 0; i < terms_.size(); ++i) {
     const Term& term = terms_[i];
-    double* rows_of_term = J.values.data() + offset;
+    const bool is_stored = storesAllRows(term);
     for (int row = 0; row < term.rows; ++row) {
+      int offset = is_stored ? term.first_value + row * width_[i] : 0;
       for (const auto& [column, width] : segments_[i]) {
         J.segments.push_back({column, width, offset});
         offset += width;
       }
       J.row_start.push_back(int(J.segments.size()));
-      J.zero_row.push_back(false);
+      J.zero_row.push_back(!is_stored);
     }
     if (!residuals_[std::size_t(term.residual)].isLinear() || term.rows == 0) continue;
     if (copied != term.residual) residual.emplace(residuals_[std::size_t(copied = term.residual)]);
-    evaluateTerm(komo, i, *residual, phi.segment(term.first_row, term.rows), rows_of_term, nullptr, workspace);
+    evaluateTerm(komo, i, *residual, phi.segment(term.first_row, term.rows), J.values.data() + term.first_value, workspace);
   }
   return J;
 }
 
-/// `jacobian`, which may be null, is where the rows of this term are; it comes filled with zeros. `zero_row`: as for Residual::eval.
-void PathProblem::evaluateTerm(const Komo& komo, std::size_t index, Residual& residual, Eigen::Ref<VectorXd> phi, double* jacobian,
-                               char* zero_row, Workspace& workspace) const {
-  const Term& term = terms_[index];
-  const int order = residual.order(), columns = (order + 1) * widest_state_, width = width_[index];
+std::span<const State* const> PathProblem::statesOf(const Komo& komo, const Term& term, Workspace& workspace) const {
+  const int order = objectives_[std::size_t(term.objective)].order;
   for (int s = 0; s <= order; ++s) workspace.window[std::size_t(s)] = &komo.state(term.slice - order + s);
-  const std::span<const State* const> states{workspace.window.data(), std::size_t(order) + 1};
+  return {workspace.window.data(), std::size_t(order) + 1};
+}
+
+/// `jacobian`, which may be null, is where the rows of this term are; it comes filled with zeros.
+void PathProblem::evaluateTerm(const Komo& komo, std::size_t index, Residual& residual, Eigen::Ref<VectorXd> phi, double* jacobian,
+                               Workspace& workspace) const {
+  const Term& term = terms_[index];
+  const std::span<const State* const> states = statesOf(komo, term, workspace);
+  const int columns = int(states.size()) * widest_state_, width = width_[index];
   if (!jacobian) return residual.eval(states, komo.tau(), phi, nullptr);
   const Run& only = runs_[std::size_t(term.first_run)];
   if (term.runs == 1 && only.width == columns && width == columns) {  // straight into the Jacobian
     JacobianRows block = Eigen::Map<RowMajor>(jacobian, term.rows, columns);
-    return residual.eval(states, komo.tau(), phi, &block, zero_row);
+    return residual.eval(states, komo.tau(), phi, &block);
   }
   Eigen::Map<RowMajor> whole(workspace.jacobian.data(), term.rows, columns);
   whole.setZero();
   JacobianRows block = whole;
-  residual.eval(states, komo.tau(), phi, &block, zero_row);
+  residual.eval(states, komo.tau(), phi, &block);
   Eigen::Map<RowMajor> target(jacobian, term.rows, width);
   for (int r = term.first_run; r < term.first_run + term.runs; ++r) {
     const Run& run = runs_[std::size_t(r)];
@@ -171,22 +191,47 @@ void PathProblem::evaluateTerm(const Komo& komo, std::size_t index, Residual& re
   }
 }
 
+/// Appends the rows of this term that are not zero to the values.
+void PathProblem::evaluateSparse(const Komo& komo, std::size_t index, VectorXd& phi, Jacobian& J) {
+  const Term& term = terms_[index];
+  const std::span<const State* const> states = statesOf(komo, term, workspace_);
+  Eigen::Map<RowMajor> whole(workspace_.zeros.data(), term.rows, Eigen::Index(states.size()) * widest_state_);
+  JacobianRows block = whole;
+  residuals_[std::size_t(term.residual)].eval(states, komo.tau(), phi.segment(term.first_row, term.rows), &block, workspace_.zero_row.data());
+  for (int i = 0; i < term.rows; ++i) {
+    const int row = term.first_row + i;
+    const bool is_zero = workspace_.zero_row[std::size_t(i)];
+    if (is_zero && J.zero_row[std::size_t(row)]) continue;
+    J.zero_row[std::size_t(row)] = is_zero;
+    int offset = is_zero ? 0 : int(J.values.size());
+    for (int s = J.row_start[std::size_t(row)]; s < J.row_start[std::size_t(row) + 1]; ++s) {
+      J.segments[std::size_t(s)].offset = offset;
+      offset += J.segments[std::size_t(s)].width;
+    }
+    if (is_zero) continue;
+    J.values.resize(std::size_t(offset));
+    double* values = J.values.data() + offset - width_[index];
+    for (int r = term.first_run; r < term.first_run + term.runs; ++r) {
+      const Run& run = runs_[std::size_t(r)];
+      Eigen::Map<Eigen::RowVectorXd>(values + run.to, run.width) += whole.row(i).segment(run.from, run.width);
+    }
+    whole.row(i).setZero();
+  }
+}
+
 void PathProblem::evaluate(const Komo& komo, VectorXd& phi, Jacobian* J) {
-  double* values = J ? J->values.data() : nullptr;
+  if (J) J->values.resize(std::size_t(stored_));
   for (std::size_t i = 0; i < terms_.size(); ++i) {
     const Term& term = terms_[i];
+    if (term.rows == 0) continue;
     Residual& residual = residuals_[std::size_t(term.residual)];
-    const bool needs_jacobian = J && !residual.isLinear();
-    char* zero_row = needs_jacobian && residual.tellsZeroRows() ? J->zero_row.data() + term.first_row : nullptr;
-    if (needs_jacobian) {
-      for (int row = 0; row < term.rows; ++row) {
-        if (!zero_row || !zero_row[row]) std::fill_n(values + std::ptrdiff_t(row) * width_[i], width_[i], 0.);
-      }
+    if (J && !storesAllRows(term)) {
+      evaluateSparse(komo, i, phi, *J);
+      continue;
     }
-    if (term.rows > 0) {
-      evaluateTerm(komo, i, residual, phi.segment(term.first_row, term.rows), needs_jacobian ? values : nullptr, zero_row, workspace_);
-    }
-    if (J) values += std::ptrdiff_t(term.rows) * width_[i];
+    double* values = J && !residual.isLinear() ? J->values.data() + term.first_value : nullptr;
+    if (values) std::fill_n(values, std::ptrdiff_t(term.rows) * width_[i], 0.);
+    evaluateTerm(komo, i, residual, phi.segment(term.first_row, term.rows), values, workspace_);
   }
 }
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <span>
 #include <string>
 #include <vector>
 
@@ -18,6 +19,7 @@ class PathProblem {
     int residual;
     int first_row, rows;
     int first_run, runs;
+    int first_value;  ///< of its rows in a Jacobian, where these are always stored
   };
 
   explicit PathProblem(const Komo& komo) : PathProblem(komo, komo.objectives()) {}
@@ -46,12 +48,16 @@ class PathProblem {
   /// What evaluating a residual needs beside it.
   struct Workspace {
     std::vector<double> jacobian;  ///< by columns of the window of slices
+    std::vector<double> zeros;     ///< the same, filled with zeros
+    std::vector<char> zero_row;
     std::vector<const State*> window;
   };
   Workspace makeWorkspace() const;
+  bool storesAllRows(const Term& term) const { return !residuals_[std::size_t(term.residual)].tellsZeroRows(); }
+  std::span<const State* const> statesOf(const Komo& komo, const Term& term, Workspace& workspace) const;
   void layOut(const Komo& komo, Term& term, std::vector<std::pair<int, int>>& segments);
-  void evaluateTerm(const Komo& komo, std::size_t index, Residual& residual, Eigen::Ref<VectorXd> phi, double* jacobian, char* zero_row,
-                    Workspace& workspace) const;
+  void evaluateTerm(const Komo& komo, std::size_t index, Residual& residual, Eigen::Ref<VectorXd> phi, double* jacobian, Workspace& workspace) const;
+  void evaluateSparse(const Komo& komo, std::size_t index, VectorXd& phi, Jacobian& J);
 
   std::vector<Komo::Objective> objectives_;
   std::vector<Term> terms_;
@@ -61,6 +67,7 @@ class PathProblem {
   std::vector<std::vector<std::pair<int, int>>> segments_;  ///< per term: columns and widths
   std::vector<int> width_;                                  ///< per term: columns in all
   Workspace workspace_;
+  int stored_ = 0;  ///< values of a Jacobian before those of rows that come and go: zeros, then rows that are always stored
   int widest_state_ = 0, dimension_ = 0;
 };
 

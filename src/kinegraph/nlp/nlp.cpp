@@ -39,6 +39,12 @@ MatrixXd Jacobian::toDense() const {
   return dense;
 }
 
+void Jacobian::copyRows(const Jacobian& other) {
+  values = other.values;
+  std::copy(other.segments.begin(), other.segments.end(), segments.begin());
+  std::copy(other.zero_row.begin(), other.zero_row.end(), zero_row.begin());
+}
+
 double Jacobian::rowTimes(int row, const VectorXd& x) const {
   double sum = 0.;
   for (const Segment& segment : row_segments(row)) {

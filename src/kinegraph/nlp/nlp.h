@@ -25,7 +25,8 @@ enum class ObjectiveType : int {
 std::string objectiveTypeName(ObjectiveType type);
 
 /// A Jacobian whose pattern is fixed while its values change. Each row is a list of segments of consecutive columns:
-/// one segment for a dense row or one of a path, several where far columns are touched as well.
+/// one segment for a dense row or one of a path, several where far columns are touched as well. Rows that are zero may share
+/// their values, and where the values of a row are may change with them.
 struct Jacobian {
   struct Segment {
     int column;  ///< first column
@@ -43,11 +44,8 @@ struct Jacobian {
   void addRow(std::initializer_list<std::pair<int, int>> column_and_width);  ///< appends a row of zeros
   MatrixXd toDense() const;
 
-  /// Takes the values of another one with the same pattern.
-  void copyValues(const Jacobian& other) {
-    values = other.values;
-    zero_row = other.zero_row;
-  }
+  /// Makes the first rows those of another one, which has the same pattern there. The values of further rows are lost.
+  void copyRows(const Jacobian& other);
 
   std::span<const Segment> row_segments(int row) const {
     return {segments.data() + row_start[row], std::size_t(row_start[row + 1] - row_start[row])};

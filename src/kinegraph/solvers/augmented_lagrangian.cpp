@@ -21,7 +21,8 @@ constexpr double kInfinity = std::numeric_limits<double>::infinity();
 /// What does not change from solution to solution of a problem.
 struct Memory {
   Memory(const Nlp& nlp, const ConstrainedFunction& function)
-      : here(function.makePoint()), trial(here), corrected(here), model(nlp, here.J, function.costs(), function.constraints()) {}
+      : here(function.makePoint()), trial(function.makePoint()), corrected(function.makePoint()),
+        model(nlp, here.J, function.costs(), function.constraints()) {}
 
   EvaluatedPoint here, trial, corrected;
   LocalModel model;

@@ -21,11 +21,11 @@ void PenaltyNlp::setWeight(double mu) { root_ = std::sqrt(mu); }
 
 void PenaltyNlp::evaluate(const VectorXd& x, VectorXd& phi, Jacobian* J) {
   nlp_.evaluate(x, phi, J ? &inner_ : nullptr);
-  if (J) J->copyValues(inner_);
+  if (J) J->copyRows(inner_);
   for (int row = 0; row < phi.size(); ++row) {
     if (types_[row] == nlp_.types()[row]) continue;
     phi[row] *= root_;
-    if (!J) continue;
+    if (!J || J->zero_row[std::size_t(row)]) continue;
     for (const Jacobian::Segment& segment : J->row_segments(row)) {
       for (int i = 0; i < segment.width; ++i) J->values[segment.offset + i] *= root_;
     }
@@ -43,12 +43,12 @@ BarrierNlp::BarrierNlp(Nlp& nlp) : nlp_(nlp), inner_(nlp.makeJacobian()), inner_
 
 void BarrierNlp::evaluate(const VectorXd& x, VectorXd& phi, Jacobian* J) {
   nlp_.evaluate(x, phi, J ? &inner_ : nullptr);
-  if (J) J->copyValues(inner_);
+  if (J) J->copyRows(inner_);
   for (int row = 0; row < phi.size(); ++row) {
     if (!isInequality(nlp_.types()[row])) continue;
     const double room = -phi[row];
     phi[row] = room > 0. ? -mu_ * std::log(room) : std::nan("");
-    if (!J) continue;
+    if (!J || J->zero_row[std::size_t(row)]) continue;
     for (const Jacobian::Segment& segment : J->row_segments(row)) {
       for (int i = 0; i < segment.width; ++i) J->values[segment.offset + i] *= mu_ / room;
     }

@@ -44,17 +44,16 @@ void RelaxedNlp::evaluate(const VectorXd& x, VectorXd& phi, Jacobian* J) {
   for (int row = 0; padding_ != 0. && row < inner_phi_.size(); ++row) {
     if (types_[row] == ObjectiveType::ineqP) phi[row] += padding_;
   }
-  if (J) {
-    std::copy(inner_.values.begin(), inner_.values.end(), J->values.begin());
-    std::copy(inner_.zero_row.begin(), inner_.zero_row.end(), J->zero_row.begin());
-  }
+  if (J) J->copyRows(inner_);
   if (variable_ < 0) return;
   const double low = nlp_.lower()[variable_], high = nlp_.upper()[variable_], far = -1.;
   phi[inner_phi_.size()] = std::isfinite(low) ? low - x[variable_] : far;
   phi[inner_phi_.size() + 1] = std::isfinite(high) ? x[variable_] - high : far;
   if (!J) return;
-  *(J->values.end() - 2) = std::isfinite(low) ? -1. : 0.;
-  *(J->values.end() - 1) = std::isfinite(high) ? 1. : 0.;
+  J->segments[inner_.segments.size()].offset = int(J->values.size());
+  J->segments[inner_.segments.size() + 1].offset = int(J->values.size()) + 1;
+  J->values.push_back(std::isfinite(low) ? -1. : 0.);
+  J->values.push_back(std::isfinite(high) ? 1. : 0.);
 }
 
 }  // namespace kinegraph
