@@ -160,6 +160,31 @@ TEST(BandedMatrix, ACopyKeepsTheMatrixThatItsFactorReplaces) {
   EXPECT_LT((LD * LD.diagonal().cwiseInverse().asDiagonal() * LD.transpose() - symmetric(A)).norm(), kRounding);
 }
 
+TEST(BandedMatrix, AFactorizationThatBeginsLaterGivesTheSameFactor) {
+  Rng rng(9);
+  for (const Form& form : {arrow(12, 0, 0), arrow(30, 3, 0), arrow(25, 30, 0), arrow(60, 17, 0), ragged(61, 0, rng)}) {
+    BandedMatrix before = randomPositive(form, rng), after = before;
+    for (int column = 0; column < before.size(); column += 3) {
+      const int first = BandedMatrix::startBefore(column);
+      EXPECT_LE(first, column);
+      for (int j = first; j < before.size(); ++j) after.at(j, j) = before.at(j, j) + 1.;
+      BandedMatrix whole = zero(form), part = zero(form);
+      whole.copyFrom(after);
+      ASSERT_TRUE(whole.factorize());
+      part.copyFrom(before);
+      ASSERT_TRUE(part.factorize());
+      part.copyFrom(after, first);
+      ASSERT_TRUE(part.factorize(first));
+      EXPECT_TRUE(lowerTriangle(part) == lowerTriangle(whole)) << "from column " << first << " of " << before.size();
+      VectorXd x = randomVector(before.size(), rng), y = x;
+      whole.solveInPlace(x);
+      part.solveInPlace(y);
+      EXPECT_TRUE(x == y);
+      after.copyFrom(before);
+    }
+  }
+}
+
 TEST(BandedMatrix, MatricesThatAreNotPositiveDefiniteAreRefused) {
   Rng rng(8);
   for (const Form& form : someForms()) {

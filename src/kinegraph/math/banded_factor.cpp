@@ -87,22 +87,34 @@ typedef double Pack __attribute__((vector_size(kPack * sizeof(double)), aligned(
     if (!(own[j] > 0.) || !std::isfinite(own[j])) return false;
     inverse_[j] = 1. / own[j];
   }
+  takeProducts(panel, begin + panel.width);
+  return true;
+}
+
+/// Takes the products of a factorized panel off the columns that it reaches, from `first` on.
+[[gnu::always_inline]] inline void BandedMatrix::takeProducts(const Panel& panel, int first) {
+  double* values = values_.data();
+  const int n = size();
+  const bool in_band = panel.begin < band_;
   std::array<double, kPanel> inverse{}, factors;  // zero for columns that are not there
-  for (int p = 0; p < panel.width; ++p) inverse[p] = inverse_[begin + p];
-  for (int j = begin + panel.width; j < panel.end; ++j) {
+  for (int p = 0; p < panel.width; ++p) inverse[p] = inverse_[panel.begin + p];
+  for (int j = first; j < panel.end; ++j) {
+    double* target = values + (in_band ? offset_[j].band : offset_[j].border);
     for (int p = 0; p < kPanel; ++p) factors[p] = inverse[p] * panel.columns[p][j];
-    subtractProducts(column(j), panel.columns, factors, j, panel.end);
+    subtractProducts(target, panel.columns, factors, j, panel.end);
     if (panel.has_border) subtractProducts(values + offset_[j].border, panel.borders, factors, band_, n);
   }
   for (int j = panel.has_border ? band_ : n; j < n; ++j) {
     for (int p = 0; p < kPanel; ++p) factors[p] = inverse[p] * panel.borders[p][j];
     subtractProducts(values + offset_[j].border, panel.borders, factors, j, n);
   }
-  return true;
 }
 
-[[gnu::always_inline]] inline bool BandedMatrix::factorizeAll() {
-  for (int begin = 0; begin < band_; begin += kPanel) {
+[[gnu::always_inline]] inline bool BandedMatrix::factorizeAll(int first) {
+  for (int begin = 0; begin < first; begin += kPanel) {
+    if (last_[begin] >= first) takeProducts(panelAt(begin), first);
+  }
+  for (int begin = first; begin < band_; begin += kPanel) {
     if (!factorizePanel(begin)) return false;
   }
   for (int begin = band_; begin < size(); begin += kPanel) {
@@ -171,7 +183,7 @@ bool hasWideRegisters() {
 
 }  // namespace
 
-[[gnu::target("avx2")]] bool BandedMatrix::factorizeWide() { return factorizeAll(); }
+[[gnu::target("avx2")]] bool BandedMatrix::factorizeWide(int first) { return factorizeAll(first); }
 [[gnu::target("avx2")]] void BandedMatrix::productWide() { product(); }
 [[gnu::target("avx2")]] void BandedMatrix::solveWide() { solve(); }
 
@@ -183,13 +195,13 @@ constexpr bool hasWideRegisters() { return false; }
 
 }  // namespace
 
-bool BandedMatrix::factorizeWide() { return factorizeAll(); }
+bool BandedMatrix::factorizeWide(int first) { return factorizeAll(first); }
 void BandedMatrix::productWide() { product(); }
 void BandedMatrix::solveWide() { solve(); }
 
 #endif
 
-bool BandedMatrix::factorize() { return hasWideRegisters() ? factorizeWide() : factorizeAll(); }
+bool BandedMatrix::factorize(int first) { return hasWideRegisters() ? factorizeWide(first) : factorizeAll(first); }
 
 void BandedMatrix::addProduct(const VectorXd& x, VectorXd& y) {
   std::fill(std::copy(x.begin(), x.end(), x_.begin()), x_.end(), 0.);

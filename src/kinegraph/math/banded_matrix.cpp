@@ -42,8 +42,14 @@ BandedMatrix::BandedMatrix(std::vector<int> last, int border)
 
 void BandedMatrix::setZero() { std::fill(values_.begin(), values_.end(), 0.); }
 
-void BandedMatrix::addToDiagonal(double x) {
-  for (int i = 0; i < size(); ++i) at(i, i) += x;
+void BandedMatrix::copyFrom(const BandedMatrix& other, int first) {
+  if (first >= size()) return;
+  const std::ptrdiff_t start = place(first, first);
+  std::copy(other.values_.begin() + start, other.values_.end(), values_.begin() + start);
+}
+
+void BandedMatrix::addToDiagonal(double x, int first) {
+  for (int i = first; i < size(); ++i) at(i, i) += x;
 }
 
 void BandedMatrix::isolate(int i) {
@@ -55,9 +61,9 @@ void BandedMatrix::isolate(int i) {
   at(i, i) = 1.;
 }
 
-void BandedMatrix::addOuterProduct(const double* v, int first, int width, double w) {
+void BandedMatrix::addOuterProduct(const double* v, int first, int width, double w, int from) {
   const int inside = std::clamp(band_ - first, 0, width);  // entries before the border
-  for (int j = 0; j < width; ++j) {
+  for (int j = std::max(from - first, 0); j < width; ++j) {
     if (v[j] == 0.) continue;
     const Offset& offset = offset_[first + j];
     add(values_.data() + offset.band + first, w * v[j], v, j, inside);
@@ -65,9 +71,10 @@ void BandedMatrix::addOuterProduct(const double* v, int first, int width, double
   }
 }
 
-void BandedMatrix::addCrossProduct(const double* u, int u_first, int u_width, const double* v, int v_first, int v_width, double w) {
+void BandedMatrix::addCrossProduct(const double* u, int u_first, int u_width, const double* v, int v_first, int v_width, double w,
+                                   int from) {
   const int inside = std::clamp(band_ - u_first, 0, u_width);
-  for (int j = 0; j < v_width; ++j) {
+  for (int j = std::max(from - v_first, 0); j < v_width; ++j) {
     if (v[j] == 0.) continue;
     const Offset& offset = offset_[v_first + j];
     add(values_.data() + offset.band + u_first, w * v[j], u, 0, inside);

@@ -27,23 +27,30 @@ class BandedMatrix {
   double at(int i, int j) const { return values_[place(i, j)]; }
 
   void setZero();
-  void copyFrom(const BandedMatrix& other) { values_ = other.values_; }  ///< of equal form
-  void addToDiagonal(double x);
+
+  /// Takes the columns of another one of equal form, those from `first` on.
+  void copyFrom(const BandedMatrix& other, int first = 0);
+  void addToDiagonal(double x, int first = 0);
 
   /// Makes row and column i those of the identity.
   void isolate(int i);
 
-  /// this += w v v^T for a vector that is nonzero in [first, first + width) only.
-  void addOuterProduct(const double* v, int first, int width, double w);
+  /// this += w v v^T for a vector that is nonzero in [first, first + width) only, in columns from `from` on.
+  void addOuterProduct(const double* v, int first, int width, double w, int from = 0);
 
   /// this += w (u v^T + v u^T) for u in rows that all lie behind those of v.
-  void addCrossProduct(const double* u, int u_first, int u_width, const double* v, int v_first, int v_width, double w);
+  void addCrossProduct(const double* u, int u_first, int u_width, const double* v, int v_first, int v_width, double w, int from = 0);
 
   /// y += this * x, for a matrix that is not factorized.
   void addProduct(const VectorXd& x, VectorXd& y);
 
   /// Replaces the matrix by its factor L D L^T, as L D. False if it is not positive definite. The result is the same on all machines.
-  bool factorize();
+  /// Where it has no border and just columns from `first` on hold the matrix, while those before are its factor already, it
+  /// begins there. `first` comes from startBefore.
+  bool factorize(int first = 0);
+
+  /// The last column, at or before this one, where a factorization can begin.
+  static int startBefore(int column) { return column - column % kPanel; }
 
   /// x <- inverse * x, with the factor.
   void solveInPlace(VectorXd& x);
@@ -65,8 +72,9 @@ class BandedMatrix {
   };
   Panel panelAt(int begin) const;
   bool factorizePanel(int begin);
-  bool factorizeAll();
-  bool factorizeWide();
+  void takeProducts(const Panel& panel, int first);
+  bool factorizeAll(int first);
+  bool factorizeWide(int first);
   void product();
   void productWide();
   void solve();

@@ -73,14 +73,14 @@ LocalModel::LocalModel(const Nlp& nlp, const Jacobian& pattern, const std::vecto
   if (has_f_ || n <= kSmall) {  // the Hessian of f terms may be full
     place_.resize(n);
     std::iota(place_.begin(), place_.end(), 0);
-    H_ = fullMatrix(n);
+    H_linear_ = fullMatrix(n);
   } else {
     Places places = placesOf(n, pattern);
     reordered_ = !std::is_sorted(places.of.begin(), places.of.end());
-    H_ = matrixOf(pattern, places);
+    H_linear_ = matrixOf(pattern, places);
     place_ = std::move(places.of);
   }
-  K_ = H_linear_ = H_;
+  K_ = H_linear_;
   for (int row : costs) (nlp.types()[row] == ObjectiveType::sos && nlp.isLinear(row) ? linear_costs_ : other_costs_).push_back(row);
   for (int j = 0; j < m; ++j) {
     is_equality_.push_back(nlp.types()[constraints_[j]] == ObjectiveType::eq);
@@ -98,7 +98,8 @@ LocalModel::LocalModel(const Nlp& nlp, const Jacobian& pattern, const std::vecto
   step_linear_.setZero(m);
 }
 
-void LocalModel::addRow(BandedMatrix& matrix, int row, double weight) {
+/// matrix += weight J_row^T J_row, in columns from `from` on.
+void LocalModel::addRow(BandedMatrix& matrix, int row, double weight, int from) {
   runs_.clear();
   for (const Jacobian::Segment& segment : J_->row_segments(row)) {
     const double* values = J_->values.data() + segment.offset;
@@ -112,9 +113,9 @@ void LocalModel::addRow(BandedMatrix& matrix, int row, double weight) {
   if (runs_.size() > 1) std::sort(runs_.begin(), runs_.end(), [](const Run& a, const Run& b) { return a.place < b.place; });
   for (std::size_t a = 0; a < runs_.size(); ++a) {
     const Run& u = runs_[a];
-    matrix.addOuterProduct(u.values, u.place, u.width, weight);
+    matrix.addOuterProduct(u.values, u.place, u.width, weight, from);
     for (std::size_t b = 0; b < a; ++b) {
-      matrix.addCrossProduct(u.values, u.place, u.width, runs_[b].values, runs_[b].place, runs_[b].width, weight);
+      matrix.addCrossProduct(u.values, u.place, u.width, runs_[b].values, runs_[b].place, runs_[b].width, weight, from);
     }
   }
 }
@@ -122,12 +123,12 @@ void LocalModel::addRow(BandedMatrix& matrix, int row, double weight) {
 /// sum += H d
 void LocalModel::addHessianProduct(const VectorXd& d, VectorXd& sum) {
   if (!reordered_) {
-    H_.addProduct(d, sum);
+    H_->addProduct(d, sum);
     return;
   }
   for (Eigen::Index i = 0; i < d.size(); ++i) placed_[place_[i]] = d[i];
   placed_sum_.setZero();
-  H_.addProduct(placed_, placed_sum_);
+  H_->addProduct(placed_, placed_sum_);
   for (Eigen::Index i = 0; i < d.size(); ++i) sum[i] += placed_sum_[place_[i]];
 }
 
@@ -160,13 +161,16 @@ bool LocalModel::setCosts(Nlp& nlp, const VectorXd& x, const VectorXd& phi, cons
   }
   g_.setZero();
   for (int row : linear_costs_) J_->addRowTo(row, 2. * phi[row], g_);
-  H_.copyFrom(H_linear_);
+  H_ = &H_linear_;
+  if (other_costs_.empty() && !has_f_) return true;
+  BandedMatrix& H = ownHessian();
+  H.copyFrom(H_linear_);
   for (int row : other_costs_) {
     if (nlp.types()[row] == ObjectiveType::f) {
       J_->addRowTo(row, 1., g_);
     } else if (nlp.types()[row] == ObjectiveType::sos || phi[row] > 0.) {  // ineqP only where it is violated
       J_->addRowTo(row, 2. * phi[row], g_);
-      addRow(H_, row, 2.);
+      addRow(H, row, 2.);
     }
   }
   if (!has_f_) return true;
@@ -174,7 +178,7 @@ bool LocalModel::setCosts(Nlp& nlp, const VectorXd& x, const VectorXd& phi, cons
   const bool known = nlp.addCostHessian(x, hessian);
   if (!known && curvature) hessian = *curvature;
   for (int j = 0; j < nlp.dimension(); ++j) {
-    for (int i = j; i < nlp.dimension(); ++i) H_.at(i, j) += hessian(i, j);
+    for (int i = j; i < nlp.dimension(); ++i) H.at(i, j) += hessian(i, j);
   }
   return known;
 }
@@ -182,13 +186,21 @@ bool LocalModel::setCosts(Nlp& nlp, const VectorXd& x, const VectorXd& phi, cons
 void LocalModel::setNoCosts(double weight) {
   is_new_ = true;
   g_.setZero();
-  H_.setZero();
-  H_.addToDiagonal(weight);
+  BandedMatrix& H = ownHessian();
+  H.setZero();
+  H.addToDiagonal(weight);
+}
+
+/// A Hessian that may be changed.
+BandedMatrix& LocalModel::ownHessian() {
+  if (H_own_.size() == 0) H_own_ = H_linear_;
+  H_ = &H_own_;
+  return H_own_;
 }
 
 double LocalModel::largestCurvature() const {
   double largest = 1e-6;
-  for (int i = 0; i < H_.size(); ++i) largest = std::max(largest, H_.at(i, i));
+  for (int i = 0; i < H_->size(); ++i) largest = std::max(largest, H_->at(i, i));
   return largest;
 }
 
@@ -234,22 +246,36 @@ double LocalModel::value(const VectorXd& d, const VectorXd& Hd, const VectorXd& 
 
 double LocalModel::costChange() const { return g_.dot(d_) + .5 * d_.dot(Hd_); }
 
-/// Factorizes H + shift I + mu J_A^T J_A, with the rows of fixed variables replaced by the identity.
-bool LocalModel::factorize(const Problem& problem) {
+/// The first column of the factor that the active rows, the fixed variables and the weights change; its size if none is.
+int LocalModel::firstChange(const Problem& problem) const {
+  if (!factored_ || problem.mu != factored_mu_ || problem.shift != factored_shift_ || fixed_ != factored_fixed_) return 0;
+  int first = K_.size();
+  for (int j : inequalities_) {
+    if (active_[j] == factored_active_[j]) continue;
+    if (reordered_ || K_.border() > 0 || !factored_as_is_) return 0;
+    for (const Jacobian::Segment& segment : J_->row_segments(constraints_[j])) first = std::min(first, segment.column);
+  }
+  return first;
+}
+
+/// Factorizes H + shift I + mu J_A^T J_A, with the rows of fixed variables replaced by the identity, from column `first` on.
+bool LocalModel::factorize(const Problem& problem, int first) {
   double extra = 0.;
   for (int attempt = 0; attempt < 12; ++attempt) {
-    K_.copyFrom(H_);
-    K_.addToDiagonal(problem.shift + extra);
+    const int from = attempt == 0 ? BandedMatrix::startBefore(first) : 0;
+    K_.copyFrom(*H_, from);
+    K_.addToDiagonal(problem.shift + extra, from);
     for (int j : within_reach_) {
-      if (active_[j]) addRow(K_, constraints_[j], problem.mu);
+      if (active_[j]) addRow(K_, constraints_[j], problem.mu, from);
     }
     for (int i = 0; i < K_.size(); ++i) {
-      if (fixed_[i]) K_.isolate(place_[i]);
+      if (fixed_[i] && place_[i] >= from) K_.isolate(place_[i]);
     }
     ++factorizations_;
-    if (K_.factorize()) return true;
+    factored_as_is_ = extra == 0.;
+    if (K_.factorize(from)) return true;
     double magnitude = 1e-6;  // of the curvatures, which may be negative
-    for (int i = 0; i < H_.size(); ++i) magnitude = std::max(magnitude, std::abs(H_.at(i, i)));
+    for (int i = 0; i < H_->size(); ++i) magnitude = std::max(magnitude, std::abs(H_->at(i, i)));
     extra = extra == 0. ? 1e-3 * magnitude : 4. * extra;
   }
   return false;
@@ -258,10 +284,8 @@ bool LocalModel::factorize(const Problem& problem) {
 /// s = -K^-1 r among the variables that are free. One that sits at a bound and would be pushed out is fixed as well.
 bool LocalModel::newtonStep(const Problem& problem) {
   for (bool pushed_out = true; pushed_out;) {
-    const auto differs = [&](int j) { return active_[j] != factored_active_[j]; };
-    if (!factored_ || problem.mu != factored_mu_ || problem.shift != factored_shift_ || fixed_ != factored_fixed_ ||
-        std::any_of(inequalities_.begin(), inequalities_.end(), differs)) {
-      factored_ = factorize(problem);
+    if (const int first = firstChange(problem); first < K_.size()) {
+      factored_ = factorize(problem, first);
       if (!factored_) return false;
       for (int j : inequalities_) factored_active_[j] = active_[j];
       factored_fixed_ = fixed_;

@@ -17,6 +17,7 @@ class LocalModel {
  public:
   /// `pattern` is that of the problem's Jacobian, `costs` are the rows whose squares are in H, `constraints` those of the sum.
   LocalModel(const Nlp& nlp, const Jacobian& pattern, const std::vector<int>& costs, std::vector<int> constraints);
+  LocalModel(const LocalModel&) = delete;
 
   /// Takes the rows of J at a point. `J` must stay as it is while this is used.
   void setJacobian(const Jacobian& J);
@@ -53,10 +54,12 @@ class LocalModel {
   void linearize(const VectorXd& d, const Problem& problem, VectorXd& linear) const;
   void findWithinReach(const Problem& problem);
   void begin(const Problem& problem);
-  void addRow(BandedMatrix& matrix, int row, double weight);
+  void addRow(BandedMatrix& matrix, int row, double weight, int from = 0);
   void addHessianProduct(const VectorXd& d, VectorXd& sum);
   void solve(VectorXd& x);
-  bool factorize(const Problem& problem);
+  BandedMatrix& ownHessian();
+  int firstChange(const Problem& problem) const;
+  bool factorize(const Problem& problem, int first);
   bool newtonStep(const Problem& problem);
   double roomAlong(const Problem& problem, double most) const;
   double lengthAlong(const Problem& problem, double most) const;
@@ -84,9 +87,10 @@ class LocalModel {
   std::vector<int> within_reach_;   ///< constraints that can matter in the box
   std::vector<int> out_of_reach_;   ///< those that cannot, and change with d all the same
   Flags is_equality_, active_, factored_active_, fixed_, factored_fixed_;
-  BandedMatrix H_linear_, H_, K_;   ///< of linear costs; of all costs; the factor
+  BandedMatrix H_linear_, H_own_, K_;  ///< of linear costs; of others as well, where there are some; the factor
+  BandedMatrix* H_ = &H_linear_;
   VectorXd g_, d_, trial_, r_, s_, Hd_, Hs_, trial_Hd_, linear_, trial_linear_, step_linear_;
-  bool is_new_ = true, factored_ = false;
+  bool is_new_ = true, factored_ = false, factored_as_is_ = true;  ///< without more on the diagonal than the shift
   double factored_mu_ = 0., factored_shift_ = 0.;
   int factorizations_ = 0;
 };
