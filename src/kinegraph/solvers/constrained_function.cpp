@@ -18,7 +18,6 @@ ConstrainedFunction::ConstrainedFunction(Nlp& nlp, const VectorXd& x0, const Sol
   }
   std::vector<int> inequalities;
   for (int row = 0; row < int(nlp.types().size()); ++row) {
-    if (!nlp.isLinear(row)) curved_.push_back(row);
     switch (nlp.types()[row]) {
       case ObjectiveType::f: has_f_ = true; [[fallthrough]];
       case ObjectiveType::sos:
@@ -52,21 +51,8 @@ bool ConstrainedFunction::evaluate(EvaluatedPoint& point) {
   point.violation = 0.;
   if (equalities_ > 0) point.violation = point.c.head(equalities_).lpNorm<Eigen::Infinity>();
   if (inequalities > 0) point.violation = std::max(point.violation, point.c.tail(inequalities).maxCoeff());
-  point.finite = isFinite(point);
+  point.finite = describeNotFinite(nlp_, point.phi, &point.J).empty();
   return !hook_ || hook_(point.x, point.phi);
-}
-
-/// Products with 0 are not numbers if a number is not finite. Linear rows of J are as they were at the start.
-bool ConstrainedFunction::isFinite(const EvaluatedPoint& point) const {
-  double sum = (0. * point.phi.array()).sum();
-  for (int row : curved_) {
-    if (point.J.zero_row[std::size_t(row)]) continue;
-    for (const Jacobian::Segment& segment : point.J.row_segments(row)) {
-      const double* values = point.J.values.data() + segment.offset;
-      for (int i = 0; i < segment.width; ++i) sum += 0. * values[i];
-    }
-  }
-  return sum == 0.;
 }
 
 void ConstrainedFunction::requireFiniteStart(const VectorXd& phi, const Jacobian& J) const {

@@ -61,13 +61,10 @@ class ConstrainedFunction {
   SolverResult result(const EvaluatedPoint& point, const VectorXd& multipliers, SolverStatus status, std::string message);
 
  private:
-  bool isFinite(const EvaluatedPoint& point) const;
-
   Nlp& nlp_;
   const EvaluationHook& hook_;
   double tolerance_;
   std::vector<int> costs_, constraints_;
-  std::vector<int> curved_;  ///< rows of which J changes
   int equalities_ = 0, evals_ = 0;
   bool has_f_ = false;
   VectorXd lower_, upper_, last_x_;

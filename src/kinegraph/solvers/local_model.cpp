@@ -304,6 +304,19 @@ bool LocalModel::newtonStep(const Problem& problem) {
   return true;
 }
 
+/// J s and H s. Where no variable is fixed, K s = -r tells the latter; for small problems, that is not exact enough.
+void LocalModel::findChangesAlongStep(const Problem& problem) {
+  for (int j : within_reach_) step_linear_[j] = J_->rowTimes(constraints_[j], s_);
+  if (s_.size() <= kSmall || !factored_as_is_ || isAnyFixed()) {
+    Hs_.setZero();
+    return addHessianProduct(s_, Hs_);
+  }
+  Hs_ = -r_ - problem.shift * s_;
+  for (int j : within_reach_) {
+    if (active_[j]) J_->addRowTo(constraints_[j], -problem.mu * step_linear_[j], Hs_);
+  }
+}
+
 /// The part of the step s that leads to the first bound, at most `most`.
 double LocalModel::roomAlong(const Problem& problem, double most) const {
   double room = most;
@@ -423,12 +436,10 @@ const VectorXd& LocalModel::minimize(const Problem& problem) {
       if (moved < 1e-10) break;
       continue;
     }
-    Hs_.setZero();
-    addHessianProduct(s_, Hs_);
-    for (int j : within_reach_) step_linear_[j] = J_->rowTimes(constraints_[j], s_);
+    findChangesAlongStep(problem);
     const double alpha = lengthAlong(problem, room);
     move(problem, alpha);
-    const bool is_solved = alpha == 1. && std::find(fixed_.begin(), fixed_.end(), true) == fixed_.end() && keepsActiveSet(problem);
+    const bool is_solved = alpha == 1. && !isAnyFixed() && keepsActiveSet(problem);
     const bool reaches_bound = alpha == room && room < 1.;  // the next pass goes along it
     if (is_solved || (alpha * s_.lpNorm<Eigen::Infinity>() < 1e-10 && !reaches_bound)) break;
   }

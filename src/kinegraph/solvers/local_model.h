@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <vector>
 
 #include "kinegraph/math/banded_matrix.h"
@@ -61,12 +62,14 @@ class LocalModel {
   int firstChange(const Problem& problem) const;
   bool factorize(const Problem& problem, int first);
   bool newtonStep(const Problem& problem);
+  void findChangesAlongStep(const Problem& problem);
   double roomAlong(const Problem& problem, double most) const;
   double lengthAlong(const Problem& problem, double most) const;
   void move(const Problem& problem, double alpha);
   bool moveIntoBox(const Problem& problem, double& moved);
   void putOnBounds(VectorXd& d, const Problem& problem) const;
   bool keepsActiveSet(const Problem& problem) const;
+  bool isAnyFixed() const { return std::find(fixed_.begin(), fixed_.end(), true) != fixed_.end(); }
 
   /// Part of a row of J whose columns follow one another in the matrices.
   struct Run {
