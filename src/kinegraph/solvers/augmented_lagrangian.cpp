@@ -194,7 +194,7 @@ class AugmentedLagrangian {
     int wait = 0, failures = 0;
     bool helped = false;
   } correction_;
-  double mu_ = 1., omega_ = .1, last_violation_ = kInfinity, violation_at_tests_ = kInfinity, rel_ = .02;
+  double mu_ = 1., omega_ = .1, last_violation_ = kInfinity, violation_at_tests_ = kInfinity, cost_at_tests_ = kInfinity, rel_ = .02;
   int rounds_ = 0, bad_rounds_ = 0, failed_tests_ = 0;
   bool round_just_ended_ = false;
   bool stopped_ = false;
@@ -362,8 +362,10 @@ void AugmentedLagrangian::endRound(double vc, double step_size) {
         return stop(SolverStatus::infeasible, cat("the constraints contradict each other here; least violation found ", function_.best().violation));
       }
       bad_rounds_ = 0;
-      if (vc < .5 * violation_at_tests_) {  // slow, but it falls
-        violation_at_tests_ = vc;
+      const bool falls = vc < .5 * violation_at_tests_, is_first = cost_at_tests_ == kInfinity;
+      if (falls || is_first || here_.cost < cost_at_tests_ - 1e-4 * std::abs(cost_at_tests_)) {  // slow, but it goes on
+        if (falls) violation_at_tests_ = vc;
+        cost_at_tests_ = here_.cost;
         failed_tests_ = 0;
       }
       if (++failed_tests_ == 6) return stop(SolverStatus::stalled, cat("the violation no longer falls; it is ", vc));
@@ -413,7 +415,7 @@ bool AugmentedLagrangian::restored() {
   if (stopped_ || restorations_ > 5 || function_.best().violation > enough) return false;
   lambda_.setZero();
   mu_ = std::min(weight_ * options_.muMax, std::pow(10., restorations_) * weight_ * options_.muInit);
-  last_violation_ = violation_at_tests_ = kInfinity;
+  last_violation_ = violation_at_tests_ = cost_at_tests_ = kInfinity;
   linearize();
   return true;
 }
