@@ -1,3 +1,4 @@
+#include "kinegraph/features/collisions.h"
 #include "kinegraph/features/distance.h"
 
 #include <gtest/gtest.h>
@@ -165,4 +166,40 @@ TEST(PairCollisions, ThatArePositiveSumToTheAccumulatedOnes) {
   const VectorXd each = value(config, "pairCollisions", {});
   EXPECT_NEAR(each.cwiseMax(0.).sum(), value(config, "accumulatedCollisions", {})[0], 1e-12);
   EXPECT_GT(each.maxCoeff(), .04);
+}
+
+TEST(PairCollisions, OfBodiesThatNoJointMovesApartFollowTheSceneWhenTheseArePlacedAnew) {
+  Config config;
+  config.addText(R"g(
+    base: {}
+    arm (base): { joint: hingeZ, shape: sphere, size: [.1], contact: 1 }
+    left (arm): { Q: [.15 0 0], shape: sphere, size: [.1], contact: 1 }
+    wall: { X: [0 .25 0], shape: sphere, size: [.1], contact: 1 }
+    post: { X: [.15 .25 0], shape: sphere, size: [.1], contact: 1 }
+  )g");
+  const PairCollisions feature({}, *config.program());
+  const auto values = [&] {
+    const State* state = &config.state();
+    VectorXd y(feature.rows());
+    MatrixXd J = MatrixXd::Zero(feature.rows(), 1);
+    Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor> rows = J;
+    JacobianRows view = rows;
+    feature.eval({&state, 1}, 1., y, &view);
+    return std::pair(y, VectorXd(rows.col(0)));
+  };
+  for (const double q : {0., .7}) {
+    for (const double x : {.15, .12, .4, .17}) {
+      config.getFrame("left").setRelativePosition({x, 0, 0});
+      config.getFrame("post").setPosition({x, .25, 0});
+      config.setJointState(numbers({q}));
+      const auto [y, rate] = values();
+      int row = 0;
+      for (const auto& [a, b] : config.program()->collidable()) {
+        const double distance = (config.state().position(a) - config.state().position(b)).norm() - .2;
+        EXPECT_NEAR(y[row], std::max(-distance, -.1), 1e-12) << x << ", " << q;
+        if (config.program()->frame_link[a] == config.program()->frame_link[b]) EXPECT_EQ(rate[row], 0.);
+        ++row;
+      }
+    }
+  }
 }

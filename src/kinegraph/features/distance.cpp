@@ -1,7 +1,6 @@
 #include "kinegraph/features/distance.h"
 
 #include <algorithm>
-#include <array>
 
 namespace kinegraph {
 
@@ -17,8 +16,16 @@ Proximity proximityOf(const State& state, int a, int b) {
   return proximity(bodyOf(state, a), state.pose(a), bodyOf(state, b), state.pose(b));
 }
 
-/// J += factor * d distance / dq, one row. What moves both frames alike does not change their distance: only the dofs between
-/// them count.
+/// d / (|d| + eps) and its derivative.
+Vector3d softDirection(const Vector3d& d, double eps, Matrix3d& derivative) {
+  const double norm = d.norm(), soft = norm + eps;
+  derivative = Matrix3d::Identity() / soft;
+  if (norm > 0.) derivative -= d * d.transpose() / (norm * soft * soft);
+  return d / soft;
+}
+
+}  // namespace
+
 void addDistanceGradient(const State& state, int a, int b, const Proximity& near, double factor, JacobianRows& J) {
   const Program& program = state.program();
   const Vector3d n = factor * near.rate * near.normal, turn_a = near.point_a.cross(n), turn_b = near.point_b.cross(n);
@@ -32,16 +39,6 @@ void addDistanceGradient(const State& state, int a, int b, const Proximity& near
     column = program.column_before[column];
   }
 }
-
-/// d / (|d| + eps) and its derivative.
-Vector3d softDirection(const Vector3d& d, double eps, Matrix3d& derivative) {
-  const double norm = d.norm(), soft = norm + eps;
-  derivative = Matrix3d::Identity() / soft;
-  if (norm > 0.) derivative -= d * d.transpose() / (norm * soft * soft);
-  return d / soft;
-}
-
-}  // namespace
 
 void NegDistance::eval(std::span<const State* const> states, double, Eigen::Ref<VectorXd> y, JacobianRows* J) const {
   const Proximity near = proximityOf(*states[0], a_, b_);
@@ -121,74 +118,6 @@ void Oppose::eval(std::span<const State* const> states, double tau, Eigen::Ref<V
   const Matrix3d none = Matrix3d::Zero();
   state.addJacobian(finger2_, p2, .02 * D, none, J->bottomRows(3));
   state.addJacobian(finger1_, p1, -.02 * D, none, J->bottomRows(3));
-}
-
-BodyPairs pairsWith(const Program& program, const std::vector<int>& frames) {
-  const auto named = [&](int frame) { return std::find(frames.begin(), frames.end(), frame) != frames.end(); };
-  std::vector<std::pair<int, int>> pairs;
-  for (const auto& pair : program.collidable()) {
-    if (frames.empty() || named(pair.first) || named(pair.second)) pairs.push_back(pair);
-  }
-  return {program, pairs};
-}
-
-namespace {
-
-/// Calls visit(pair, a, b, proximity) for the pairs nearer than `margin`; a and b are the frames.
-template <class Visit>
-void forNearPairs(const BodyPairs& pairs, const State& state, double margin, const Visit& visit) {
-  std::array<std::byte, 16384> buffer;  // enough for a hundred bodies without a request for memory
-  std::pmr::monotonic_buffer_resource memory(buffer.data(), buffer.size());
-  PlacedBodies bodies(pairs, &memory);
-  bodies.place(state);
-  for (int pair = 0; pair < bodies.pairs(); ++pair) {
-    if (!bodies.mayBeNear(pair, margin)) continue;
-    const Proximity near = bodies.proximity(pair);
-    if (near.distance < margin) visit(pair, pairs.frames[pairs.pairs[pair].first], pairs.frames[pairs.pairs[pair].second], near);
-  }
-}
-
-}  // namespace
-
-AccumulatedCollisions::AccumulatedCollisions(const std::vector<int>& frames, const Program& program) : frames_(frames) {
-  if (program.contacts.bodies.size() <= NearPairs::kFew) pairs_.emplace(pairsWith(program, frames));
-}
-
-std::unique_ptr<NearPairSearch> AccumulatedCollisions::borrow(const State& state) const {
-  const std::lock_guard lock(mutex_);
-  if (idle_.empty()) return std::make_unique<NearPairSearch>(state.sharedProgram(), frames_);
-  std::unique_ptr<NearPairSearch> search = std::move(idle_.back());
-  idle_.pop_back();
-  return search;
-}
-
-void AccumulatedCollisions::eval(std::span<const State* const> states, double, Eigen::Ref<VectorXd> y, JacobianRows* J) const {
-  const State& state = *states[0];
-  y[0] = 0.;
-  const auto add = [&](int a, int b, const Proximity& near) {
-    y[0] -= near.distance;
-    if (J) addDistanceGradient(state, a, b, near, -1., *J);
-  };
-  if (pairs_) {
-    forNearPairs(*pairs_, state, 0., [&](int, int a, int b, const Proximity& near) { add(a, b, near); });
-    return;
-  }
-  std::unique_ptr<NearPairSearch> search = borrow(state);
-  search->place(state);
-  for (const NearPairSearch::Near& pair : search->near(0.)) add(search->frame(pair.a), search->frame(pair.b), search->proximity(pair));
-  const std::lock_guard lock(mutex_);
-  idle_.push_back(std::move(search));
-}
-
-void PairCollisions::eval(std::span<const State* const> states, double, Eigen::Ref<VectorXd> y, JacobianRows* J) const {
-  const State& state = *states[0];
-  y.setConstant(-kFar);
-  forNearPairs(pairs_, state, kFar, [&](int pair, int a, int b, const Proximity& near) {
-    y[pair] = -near.distance;
-    if (!J) return;
-    JacobianRows row = J->middleRows(pair, 1);
-    addDistanceGradient(state, a, b, near, -1., row);
-  });
 }
 
 }  // namespace kinegraph

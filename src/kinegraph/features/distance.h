@@ -1,11 +1,7 @@
 #pragma once
 
-#include <memory>
-#include <mutex>
-#include <vector>
-
 #include "kinegraph/features/feature.h"
-#include "kinegraph/kinematics/near_pairs.h"
+#include "kinegraph/geometry/proximity.h"
 
 namespace kinegraph {
 
@@ -64,43 +60,8 @@ class Oppose final : public Feature {
   bool central_;
 };
 
-/// The collidable pairs, or those of them that involve one of the given frames.
-BodyPairs pairsWith(const Program& program, const std::vector<int>& frames);
-
-/// Sum of the penetration depths of all collidable pairs, or of those that involve one of the given frames:
-///     y = sum max(0, -distance)      1 row, m
-class AccumulatedCollisions final : public Feature {
- public:
-  AccumulatedCollisions(const std::vector<int>& frames, const Program& program);
-
-  int rows() const override { return 1; }
-  void eval(std::span<const State* const> states, double tau, Eigen::Ref<VectorXd> y, JacobianRows* J) const override;
-
- private:
-  /// A search of its own for everyone who evaluates at the same time.
-  std::unique_ptr<NearPairSearch> borrow(const State& state) const;
-
-  std::vector<int> frames_;
-  std::optional<BodyPairs> pairs_;  ///< where bodies are few
-  mutable std::mutex mutex_;
-  mutable std::vector<std::unique_ptr<NearPairSearch>> idle_;
-};
-
-/// The same pairs with a row each, so that an optimizer sees which are in trouble:
-///     y_i = max(-distance_i, -0.1 m)      m, positive where they penetrate
-/// Pairs farther apart than that are not looked at any closer. As inequality with target -m it keeps them m apart.
-class PairCollisions final : public Feature {
- public:
-  static constexpr double kFar = .1;  ///< m
-
-  PairCollisions(const std::vector<int>& frames, const Program& program) : pairs_(pairsWith(program, frames)) {}
-
-  int rows() const override { return int(pairs_.pairs.size()); }
-  std::optional<double> flatValue() const override { return -kFar; }
-  void eval(std::span<const State* const> states, double tau, Eigen::Ref<VectorXd> y, JacobianRows* J) const override;
-
- private:
-  BodyPairs pairs_;
-};
+/// J += factor * d distance / dq, one row, for the nearest points of two frames. What moves both frames alike does not change their
+/// distance: only the dofs between them count.
+void addDistanceGradient(const State& state, int a, int b, const Proximity& near, double factor, JacobianRows& J);
 
 }  // namespace kinegraph

@@ -5,6 +5,7 @@
 #include "kinegraph/base/errors.h"
 #include "kinegraph/base/text.h"
 #include "kinegraph/features/box.h"
+#include "kinegraph/features/collisions.h"
 #include "kinegraph/features/distance.h"
 #include "kinegraph/features/forces.h"
 #include "kinegraph/features/joints.h"
