@@ -121,7 +121,8 @@ void Residual::evalDifference(std::span<const State* const> states, double tau, 
   const int own = feature_->order(), n = J ? int(J->cols()) / int(states.size()) : 0;
   const int quaternion = feature_->quaternionRow();
   y.setZero();
-  double factor = 1. / std::pow(tau, differences_);
+  double factor = 1.;
+  for (int i = 0; i < differences_; ++i) factor /= tau;
   if (time_integral_) factor *= std::sqrt(tau);
   for (int i = 0; i <= differences_; ++i) {  // from the newest back
     const int first = differences_ - i;

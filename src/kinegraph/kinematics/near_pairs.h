@@ -30,18 +30,17 @@ class PlacedBodies {
   explicit PlacedBodies(const BodyPairs& pairs, std::pmr::memory_resource* memory = std::pmr::get_default_resource())
       : pairs_(&pairs), placed_(pairs.frames.size(), memory) {}
 
-  /// `state` must stay while this is asked.
   void place(const State& state);
 
   int pairs() const { return int(pairs_->pairs.size()); }
 
-  Proximity proximity(int pair) {
+  Proximity proximity(int pair) const {
     const auto [a, b] = pairs_->pairs[pair];
-    return kinegraph::proximity(*pairs_->bodies[a], pose(a), *pairs_->bodies[b], pose(b));
+    return kinegraph::proximity(*pairs_->bodies[a], placed_[a].pose, *pairs_->bodies[b], placed_[b].pose);
   }
 
   /// May the pair be nearer than `margin`, or that near? False is certain.
-  bool mayBeNear(int pair, double margin) {
+  bool mayBeNear(int pair, double margin) const {
     const auto [a, b] = pairs_->pairs[pair];
     const double reach = pairs_->reach[pair] + margin;
     if (reach < 0.) return true;  // a depth that spheres say nothing about
@@ -49,27 +48,16 @@ class PlacedBodies {
   }
 
  private:
-  bool coresMayBeNear(int a, int b, double margin);
+  bool coresMayBeNear(int a, int b, double margin) const;
 
   struct Placed {
-    Placed() : posed(false) {}  // leaves the rest as it is
+    Placed() {}  // zeros would be written for nothing
 
-    Vector3d center;  ///< of the bounding sphere
     RigidTransform pose;
-    bool posed;
+    Vector3d center;  ///< of the bounding sphere
   };
 
-  const RigidTransform& pose(int place) {
-    Placed& placed = placed_[place];
-    if (!placed.posed) {
-      placed.pose = state_->pose(pairs_->frames[place]);
-      placed.posed = true;
-    }
-    return placed.pose;
-  }
-
   const BodyPairs* pairs_;
-  const State* state_ = nullptr;
   std::pmr::vector<Placed> placed_;
 };
 

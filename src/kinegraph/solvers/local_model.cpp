@@ -16,6 +16,14 @@ bool hasRowsOfTypeF(const Nlp& nlp) {
   return std::find(nlp.types().begin(), nlp.types().end(), ObjectiveType::f) != nlp.types().end();
 }
 
+/// Has the row the same columns as the one before?
+bool repeatsColumns(const Jacobian& pattern, int row) {
+  if (row == 0) return false;
+  const auto segments = pattern.row_segments(row), before = pattern.row_segments(row - 1);
+  return std::equal(segments.begin(), segments.end(), before.begin(), before.end(),
+                    [](const Jacobian::Segment& a, const Jacobian::Segment& b) { return a.column == b.column && a.width == b.width; });
+}
+
 /// Where each variable goes, and how many are at the end: those that rows connect to others much farther on than is usual
 /// (dofs that many slices of a path share). The matrix is then a band with a border, and its factor has no other entries.
 struct Places {
@@ -26,6 +34,7 @@ struct Places {
 Places placesOf(int n, const Jacobian& pattern) {
   std::vector<int> reach(n, 0);
   for (int row = 0; row < pattern.rows(); ++row) {
+    if (repeatsColumns(pattern, row)) continue;
     const auto segments = pattern.row_segments(row);
     int last = 0;
     for (const Jacobian::Segment& segment : segments) last = std::max(last, segment.column + segment.width - 1);
@@ -49,6 +58,7 @@ BandedMatrix matrixOf(const Jacobian& pattern, const Places& places) {
   std::vector<int> last(static_cast<std::size_t>(band));
   std::iota(last.begin(), last.end(), 0);
   for (int row = 0; row < pattern.rows(); ++row) {
+    if (repeatsColumns(pattern, row)) continue;
     int lowest = 0;
     const auto forPlaces = [&](const auto& visit) {
       for (const Jacobian::Segment& segment : pattern.row_segments(row)) {
