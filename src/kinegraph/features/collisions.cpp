@@ -25,11 +25,10 @@ void forNearOf(const BodyPairs& pairs, const State& state, double margin, const 
   std::pmr::monotonic_buffer_resource memory(buffer.data(), buffer.size());
   PlacedBodies bodies(pairs, &memory);
   bodies.place(state);
-  for (int place = 0; place < bodies.pairs(); ++place) {
-    if (!bodies.mayBeNear(place, margin)) continue;
+  bodies.forMaybeNear(margin, [&](int place) {
     const Proximity near = bodies.proximity(place);
     if (near.distance < margin) visit(place, pairs.frames[pairs.pairs[place].first], pairs.frames[pairs.pairs[place].second], near);
-  }
+  });
 }
 
 }  // namespace

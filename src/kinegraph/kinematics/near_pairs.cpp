@@ -23,17 +23,18 @@ BodyPairs::BodyPairs(const Program& program, const std::vector<std::pair<int, in
 }
 
 void PlacedBodies::place(const State& state) {
-  for (std::size_t i = 0; i < placed_.size(); ++i) {
-    placed_[i].pose = state.pose(pairs_->frames[i]);
-    placed_[i].center = placed_[i].pose * pairs_->bodies[i]->boundCenter();
+  for (std::size_t i = 0; i < poses_.size(); ++i) {
+    RigidTransform& pose = poses_[i];
+    pose = state.pose(pairs_->frames[i]);
+    centers_[i].noalias() = pose.R * pairs_->bodies[i]->boundCenter() + pose.p;
   }
 }
 
 bool PlacedBodies::coresMayBeNear(int a, int b, double margin) const {
   if (margin < 0.) return true;  // a centre inside of a core is at 0, however deep
   const CollisionBody &body_a = *pairs_->bodies[a], &body_b = *pairs_->bodies[b];
-  return mayBeWithin(body_a, placed_[a].pose, placed_[b].center, body_b.boundRadius() + margin) &&
-         mayBeWithin(body_b, placed_[b].pose, placed_[a].center, body_a.boundRadius() + margin);
+  return mayBeWithin(body_a, poses_[a], centers_[b], body_b.boundRadius() + margin) &&
+         mayBeWithin(body_b, poses_[b], centers_[a], body_a.boundRadius() + margin);
 }
 
 NearPairs::NearPairs(std::shared_ptr<const Program> program) : program_(std::move(program)) {

@@ -28,7 +28,7 @@ class PlacedBodies {
  public:
   /// `pairs` must stay. Memory for the poses comes from `memory`.
   explicit PlacedBodies(const BodyPairs& pairs, std::pmr::memory_resource* memory = std::pmr::get_default_resource())
-      : pairs_(&pairs), placed_(pairs.frames.size(), memory) {}
+      : pairs_(&pairs), poses_(pairs.frames.size(), memory), centers_(pairs.frames.size(), memory) {}
 
   void place(const State& state);
 
@@ -36,7 +36,7 @@ class PlacedBodies {
 
   Proximity proximity(int pair) const {
     const auto [a, b] = pairs_->pairs[pair];
-    return kinegraph::proximity(*pairs_->bodies[a], placed_[a].pose, *pairs_->bodies[b], placed_[b].pose);
+    return kinegraph::proximity(*pairs_->bodies[a], poses_[a], *pairs_->bodies[b], poses_[b]);
   }
 
   /// May the pair be nearer than `margin`, or that near? False is certain.
@@ -44,21 +44,37 @@ class PlacedBodies {
     const auto [a, b] = pairs_->pairs[pair];
     const double reach = pairs_->reach[pair] + margin;
     if (reach < 0.) return true;  // a depth that spheres say nothing about
-    return (placed_[a].center - placed_[b].center).squaredNorm() <= reach * reach && coresMayBeNear(a, b, margin);
+    return (centers_[a] - centers_[b]).squaredNorm() <= reach * reach && coresMayBeNear(a, b, margin);
+  }
+
+  /// Calls visit(pair) for all that may be.
+  template <class Visit>
+  void forMaybeNear(double margin, const Visit& visit) const {
+    const std::pair<int, int>* pairs = pairs_->pairs.data();
+    const double* reaches = pairs_->reach.data();
+    const Center* centers = centers_.data();
+    for (int pair = 0, count = this->pairs(); pair < count; ++pair) {
+      const Vector3d &a = centers[pairs[pair].first], &b = centers[pairs[pair].second];
+      const double x = a[0] - b[0], y = a[1] - b[1], z = a[2] - b[2], reach = reaches[pair] + margin;
+      const bool spheres_are_far = x * x + y * y + z * z > reach * reach && reach >= 0.;
+      if (!spheres_are_far && (reach < 0. || coresMayBeNear(pairs[pair].first, pairs[pair].second, margin))) visit(pair);
+    }
   }
 
  private:
   bool coresMayBeNear(int a, int b, double margin) const;
 
-  struct Placed {
-    Placed() {}  // zeros would be written for nothing
-
-    RigidTransform pose;
-    Vector3d center;  ///< of the bounding sphere
+  /// Without zeros, which would be written for nothing.
+  struct Placed : RigidTransform {
+    Placed() {}
+  };
+  struct Center : Vector3d {
+    Center() {}
   };
 
   const BodyPairs* pairs_;
-  std::pmr::vector<Placed> placed_;
+  std::pmr::vector<Placed> poses_;
+  std::pmr::vector<Center> centers_;  ///< of the bounding spheres
 };
 
 /// Distances of all collidable pairs of a scene, with nearest points.
@@ -102,12 +118,11 @@ class NearPairs {
       for (const NearPairSearch::Near& pair : search_->near(margin)) visit(search_->frame(pair.a), search_->frame(pair.b), pair.distance);
       return;
     }
-    for (int pair = 0; pair < bodies_->pairs(); ++pair) {
-      if (!bodies_->mayBeNear(pair, margin)) continue;
+    bodies_->forMaybeNear(margin, [&](int pair) {
       const double distance = bodies_->proximity(pair).distance;
       const auto [a, b] = program_->collidable()[std::size_t(pair)];
       if (distance <= margin) visit(a, b, distance);
-    }
+    });
   }
 
   /// Are all pairs at least `margin` apart? The pair that was too near the last time is looked at first.

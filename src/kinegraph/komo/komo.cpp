@@ -129,7 +129,12 @@ std::unique_ptr<Feature> Komo::featureIn(const Objective& objective, int slice) 
         }
         parts.push_back({frame, 0, count});
       }
-      return std::make_unique<JointsOfFrames>(std::move(parts));
+      if (!layout_.plain) return std::make_unique<JointsOfFrames>(std::move(parts));
+      std::vector<int> dofs;
+      for (const JointsOfFrames::Part& part : parts) {
+        for (int i = 0; i < part.count; ++i) dofs.push_back(program.frame_dofs[part.frame].first + i);
+      }
+      return std::make_unique<JointState>(std::move(dofs));
     }
     case FeatureSymbol::jointLimits: {
       if (!ids.empty() || layout_.plain) break;

@@ -21,8 +21,9 @@ constexpr double kInfinity = std::numeric_limits<double>::infinity();
 /// What does not change from solution to solution of a problem.
 struct Memory {
   Memory(const Nlp& nlp, const ConstrainedFunction& function)
-      : here(function.makePoint()), trial(function.makePoint()), corrected(function.makePoint()),
-        model(nlp, here.J, function.costs(), function.constraints()) {}
+      : here(function.makePoint()), trial(here), corrected(here), model(nlp, here.J, function.costs(), function.constraints()) {
+    for (EvaluatedPoint* copy : {&trial, &corrected}) copy->J.values.reserve(here.J.values.capacity());
+  }
 
   EvaluatedPoint here, trial, corrected;
   LocalModel model;
