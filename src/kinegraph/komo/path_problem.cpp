@@ -1,6 +1,7 @@
 #include "kinegraph/komo/path_problem.h"
 
 #include <algorithm>
+#include <cstring>
 #include <map>
 #include <optional>
 
@@ -9,6 +10,13 @@ namespace kinegraph {
 namespace {
 
 using RowMajor = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+
+constexpr int kEight = 8;
+
+bool areAllZeroRows(const char* eight) {
+  static constexpr char all[kEight] = {1, 1, 1, 1, 1, 1, 1, 1};
+  return std::memcmp(eight, all, kEight) == 0;
+}
 
 /// May the feature depend on which dofs there are, and so on the slice?
 bool dependsOnDofs(const FeatureSource& feature) {
@@ -198,10 +206,13 @@ void PathProblem::evaluateSparse(const Komo& komo, std::size_t index, VectorXd& 
   Eigen::Map<RowMajor> whole(workspace_.zeros.data(), term.rows, Eigen::Index(states.size()) * widest_state_);
   JacobianRows block = whole;
   residuals_[std::size_t(term.residual)].eval(states, komo.tau(), phi.segment(term.first_row, term.rows), &block, workspace_.zero_row.data());
+  const char *now = workspace_.zero_row.data(), *before = J.zero_row.data() + term.first_row;
   for (int i = 0; i < term.rows; ++i) {
+    while (i + kEight <= term.rows && areAllZeroRows(now + i) && areAllZeroRows(before + i)) i += kEight;
+    if (i == term.rows) break;
     const int row = term.first_row + i;
-    const bool is_zero = workspace_.zero_row[std::size_t(i)];
-    if (is_zero && J.zero_row[std::size_t(row)]) continue;
+    const bool is_zero = now[i];
+    if (is_zero && before[i]) continue;
     J.zero_row[std::size_t(row)] = is_zero;
     int offset = is_zero ? 0 : int(J.values.size());
     for (int s = J.row_start[std::size_t(row)]; s < J.row_start[std::size_t(row) + 1]; ++s) {

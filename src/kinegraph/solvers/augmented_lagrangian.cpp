@@ -98,13 +98,6 @@ class AugmentedLagrangian {
     return point.finite ? point.cost + squaredMultipliers(point.c) / (2. * mu_) : kInfinity;
   }
 
-  /// The decrease of the Lagrangian that the model expects of its step.
-  double predictedDecrease() {
-    findMultipliers(here_.c, multipliers_);
-    findMultipliers(model_.linearized(), next_lambda_);
-    return -model_.costChange() + (multipliers_ - next_lambda_).dot(multipliers_ + next_lambda_) / (2. * mu_);
-  }
-
   /// The violation that the model expects after its step.
   double linearizedViolation() const { return worst(model_.linearized()); }
 
@@ -239,9 +232,10 @@ void AugmentedLagrangian::iterate() {
     model_is_stale = false;
     const double h = model_.largestCurvature();
     box();
-    const VectorXd& d = model_.minimize({here_.c, lambda_, mu_, nu, low_, high_, passes});
+    const LocalModel::Problem problem{here_.c, lambda_, mu_, nu, low_, high_, passes};
+    const VectorXd& d = model_.minimize(problem);
     const double size = d.lpNorm<Eigen::Infinity>();
-    const double predicted = predictedDecrease();
+    const double predicted = model_.decrease(problem);
     const double vc = optimalityError(), violation = here_.violation;
     const double scale = std::max(std::abs(here_.cost), 1e-4);
     const bool tiny = size <= tolerance || predicted <= std::max(tolerance * tolerance, 1e-16) * scale;

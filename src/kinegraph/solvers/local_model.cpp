@@ -254,7 +254,15 @@ double LocalModel::value(const VectorXd& d, const VectorXd& Hd, const VectorXd& 
   return sum;
 }
 
-double LocalModel::costChange() const { return g_.dot(d_) + .5 * d_.dot(Hd_); }
+/// Rows out of reach have the multiplier zero before and after, zero rows one that stays.
+double LocalModel::decrease(const Problem& problem) const {
+  double sum = 0.;
+  for (int j : within_reach_) {
+    const double before = multiplier(j, problem.c[j], problem), after = multiplier(j, linear_[j], problem);
+    sum += (before - after) * (before + after);
+  }
+  return sum / (2. * problem.mu) - g_.dot(d_) - .5 * d_.dot(Hd_);
+}
 
 /// The first column of the factor that the active rows, the fixed variables and the weights change; its size if none is.
 int LocalModel::firstChange(const Problem& problem) const {

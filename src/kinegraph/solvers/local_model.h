@@ -46,7 +46,7 @@ class LocalModel {
   const VectorXd& minimize(const Problem& problem);
   const VectorXd& step() const { return d_; }
   const VectorXd& linearized() const { return linear_; }  ///< c + J d per constraint
-  double costChange() const;                        ///< g^T d + 1/2 d^T H d, without the shift
+  double decrease(const Problem& problem) const;    ///< m(0) - m(d), without the shift
   int factorizations() const { return factorizations_; }
 
  private:
