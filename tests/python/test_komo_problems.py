@@ -50,6 +50,12 @@ def test_problems_that_any_start_solves_are_solved(name, seed):
     assert run["violation"] < 1e-3 and run["says"] in ("converged", "stalled"), run
 
 
+@pytest.mark.parametrize(("name", "seed"), [("mobile base", 4), ("mobile base", 7), ("pick path 4cm", 9)])
+def test_slow_progress_along_curved_constraints_ends_at_the_solution(name, seed):
+    run = problems.solveFrom(ry, np, problems.PROBLEMS[name], seed, {"stopTolerance": 1e-6})
+    assert run["violation"] < 1e-6 and run["says"] == "converged", run
+
+
 @pytest.mark.parametrize("name", ["ik pose", "grasp 4cm", "dual arm"])
 def test_problems_with_local_minima_are_solved_by_restarts(name):
     build = problems.PROBLEMS[name]
