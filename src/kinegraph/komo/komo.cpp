@@ -119,8 +119,10 @@ std::unique_ptr<Feature> Komo::featureIn(const Objective& objective, int slice) 
   if (!objective.feature.symbol()) return objective.feature.make(ids, state(slice));
   switch (*objective.feature.symbol()) {
     case FeatureSymbol::qItself: {
+      const std::vector<int>& frames = ids.empty() ? joint_frames_ : ids;
       std::vector<JointsOfFrames::Part> parts;
-      for (int frame : ids.empty() ? joint_frames_ : ids) {
+      parts.reserve(frames.size());
+      for (int frame : frames) {
         const int count = program.frame_dofs[frame].count;
         const bool original = frame < int(program_->frame_dofs.size());
         if (count == 0 || (ids.empty() && original && count != program_->frame_dofs[frame].count)) {
@@ -131,6 +133,7 @@ std::unique_ptr<Feature> Komo::featureIn(const Objective& objective, int slice) 
       }
       if (!layout_.plain) return std::make_unique<JointsOfFrames>(std::move(parts));
       std::vector<int> dofs;
+      dofs.reserve(std::size_t(program.dofs));
       for (const JointsOfFrames::Part& part : parts) {
         for (int i = 0; i < part.count; ++i) dofs.push_back(program.frame_dofs[part.frame].first + i);
       }

@@ -31,6 +31,13 @@ PathProblem::PathProblem(const Komo& komo, std::vector<Komo::Objective> objectiv
     : objectives_(std::move(objectives)), dimension_(komo.layout().dimension) {
   const PathLayout& layout = komo.layout();
   for (int t = -komo.order(); t < komo.slices(); ++t) widest_state_ = std::max(widest_state_, komo.state(t).dofs());
+  std::size_t terms = 0;
+  for (const Komo::Objective& objective : objectives_) terms += std::size_t(std::max(objective.to - objective.from + 1, 0));
+  terms_.reserve(terms);
+  segments_.reserve(terms);
+  width_.reserve(terms);
+  runs_.reserve(terms);
+  residuals_.reserve(objectives_.size());
   for (std::size_t o = 0; o < objectives_.size(); ++o) {
     const Komo::Objective& objective = objectives_[o];
     const bool varies = !layout.plain && dependsOnDofs(objective.feature);

@@ -16,6 +16,8 @@ ConstrainedFunction::ConstrainedFunction(Nlp& nlp, const VectorXd& x0, const Sol
     lower_.setConstant(-std::numeric_limits<double>::infinity());
     upper_ = -lower_;
   }
+  costs_.reserve(nlp.types().size());
+  constraints_.reserve(nlp.types().size());
   std::vector<int> inequalities;
   for (int row = 0; row < int(nlp.types().size()); ++row) {
     switch (nlp.types()[row]) {

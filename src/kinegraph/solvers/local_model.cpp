@@ -91,6 +91,8 @@ LocalModel::LocalModel(const Nlp& nlp, const Jacobian& pattern, const std::vecto
     place_ = std::move(places.of);
   }
   K_ = H_linear_;
+  linear_costs_.reserve(costs.size());
+  is_equality_.reserve(std::size_t(m));
   for (int row : costs) (nlp.types()[row] == ObjectiveType::sos && nlp.isLinear(row) ? linear_costs_ : other_costs_).push_back(row);
   for (int j = 0; j < m; ++j) {
     is_equality_.push_back(nlp.types()[constraints_[j]] == ObjectiveType::eq);
