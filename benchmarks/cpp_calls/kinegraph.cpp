@@ -39,9 +39,7 @@ void time(const Config& config, int frame, const std::vector<calls::Numbers>& jo
   const auto call = [&](std::size_t i) {
     state.setJoints(joint_vectors[i].data());
     position = state.position(frame);
-    J.setZero();
-    state.addPointJacobian(frame, position, 1., J.topRows<3>());
-    state.addAngularJacobian(frame, 1., J.bottomRows<3>());
+    state.jacobian(frame, position, J);
   };
   const auto answer = [&] {
     calls::Numbers numbers(position.begin(), position.end());
