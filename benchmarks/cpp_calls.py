@@ -64,7 +64,12 @@ def compilePinocchio(folder, python, chain):
         eigen = next((p for p in [*prefixes, Path("/usr/include/eigen3")] if p.is_dir()), None)
         if eigen is None:
             sys.exit("Pinocchio's headers need those of Eigen: pip install cmeel-eigen")
-    flags = ["-DBOOST_MPL_LIMIT_LIST_SIZE=30", "-DBOOST_MPL_CFG_NO_PREPROCESSED_HEADERS", f"-I{prefix}/include", f"-I{eigen}"]
+    flags = [
+        "-DBOOST_MPL_LIMIT_LIST_SIZE=30",
+        "-DBOOST_MPL_CFG_NO_PREPROCESSED_HEADERS",
+        f"-I{prefix}/include",
+        f"-I{eigen}",
+    ]
     flags += [f"-L{prefix}/lib", "-lboost_serialization", f"-Wl,-rpath,{prefix}/lib"]
     return [compiled(folder, "pinocchio", flags), str(chain)]
 
@@ -99,7 +104,9 @@ def printTable(reports):
         least = min(min(r["us"]) for r in runs)
         ratios = [theirs / ours for theirs, ours in zip(middle[name], middle["kinegraph"])]
         spread = f"{min(ratios):.2f} - {max(ratios):.2f}"
-        print(f"{name:12}{least:9.4f}{statistics.median(middle[name]):9.4f}{statistics.median(ratios):9.2f}{spread:>20}")
+        print(
+            f"{name:12}{least:9.4f}{statistics.median(middle[name]):9.4f}{statistics.median(ratios):9.2f}{spread:>20}"
+        )
 
 
 def main():
