@@ -42,7 +42,8 @@ template <class V>
 
 /// The pose at `from` times the constant one (R, p). `turn` says what is special in R.
 template <class V>
-[[gnu::always_inline]] inline Place<V> moved(const typename V::Scalar* from, const ConstantTurn& turn, const double* R, const double* p) {
+[[gnu::always_inline]] inline Place<V> moved(const typename V::Scalar* from, const ConstantTurn& turn, const double* R,
+                                             const double* p) {
   const auto column = [from](int k) __attribute__((always_inline)) { return loadVector<V>(from + 3 * k); };
   Place<V> X;
   X.p = column(3);
@@ -59,7 +60,8 @@ template <class V>
 }
 
 template <int Axis, class V, class Sink>
-[[gnu::always_inline]] inline void turnAboutAxis(double factor, typename V::Scalar sine, typename V::Scalar cosine, Place<V>& X, const Sink& sink) {
+[[gnu::always_inline]] inline void turnAboutAxis(double factor, typename V::Scalar sine, typename V::Scalar cosine, Place<V>& X,
+                                                 const Sink& sink) {
   constexpr int i = (Axis + 1) % 3, j = (Axis + 2) % 3;
   sink.turns(0, factor * X.R[Axis], X.p);
   const V a = X.R[i], b = X.R[j];
@@ -68,7 +70,8 @@ template <int Axis, class V, class Sink>
 }
 
 template <class V, class Sink>
-[[gnu::always_inline]] inline void turnAboutAxis(int axis, double factor, typename V::Scalar sine, typename V::Scalar cosine, Place<V>& X, const Sink& sink) {
+[[gnu::always_inline]] inline void turnAboutAxis(int axis, double factor, typename V::Scalar sine, typename V::Scalar cosine,
+                                                 Place<V>& X, const Sink& sink) {
   if (axis == 0) {
     turnAboutAxis<0>(factor, sine, cosine, X, sink);
   } else if (axis == 1) {

@@ -31,9 +31,9 @@ void State::update() {
   static const UpdateState kernel = stateKernel();
   const Program& program = *program_;
   const Parameters& parameters = *parameters_;
-  kernel({parameters.link.data(), int(parameters.link.size()), parameters.step.data(), program.turn_dof.data(), parameters.turn_factor.data(),
-          int(program.turn_dof.size()), q_.data(), reinterpret_cast<double*>(turns_.data()), link_pose_[0].R.data(),
-          reinterpret_cast<double*>(twists_.data())});
+  kernel({parameters.link.data(), int(parameters.link.size()), parameters.step.data(), program.turn_dof.data(),
+          parameters.turn_factor.data(), int(program.turn_dof.size()), q_.data(), reinterpret_cast<double*>(turns_.data()),
+          link_pose_[0].R.data(), reinterpret_cast<double*>(twists_.data())});
 }
 
 namespace {

@@ -78,7 +78,8 @@ template <class V>
 
 /// Moves the pose at `place` by one of the less frequent steps; apart from the others, where the pose stays in registers.
 template <class V>
-[[gnu::noinline]] void moveInMemory(const LaneModel::Step& step, const double* q, const double* turned, double* place, double* twist) {
+[[gnu::noinline]] void moveInMemory(const LaneModel::Step& step, const double* q, const double* turned, double* place,
+                                    double* twist) {
   const auto angle = [turned](double) __attribute__((always_inline)) { return SineAndCosine{turned[0], turned[1]}; };
   Place<V> X = loadPlace<V>(place);
   moveBy(step.kind, step.axis, step.factor, step.about, q + step.variable, angle, X, TwistWriter<V>{twist});

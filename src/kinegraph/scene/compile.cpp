@@ -101,7 +101,8 @@ namespace {
 /// Its parent has been placed.
 RigidTransform placeInLink(const FrameData& frame, const Program& program, Parameters& parameters) {
   const RigidTransform base = frame.parent ? parameters.frame_offset[frame.parent->id] : RigidTransform{};
-  return isLinkFrame(frame) ? placeJoint(program, program.frame_link[frame.id], base, parameters) : base * frame.relativePose().transform();
+  if (isLinkFrame(frame)) return placeJoint(program, program.frame_link[frame.id], base, parameters);
+  return base * frame.relativePose().transform();
 }
 
 }  // namespace
