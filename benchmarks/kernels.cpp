@@ -56,9 +56,7 @@ void jacobian(Bench& bench, int count) {
   Matrix J(6, state.dofs());
   for (int i = 0; i < count; ++i) {
     state.setJoints(bench.posture(i).data());
-    J.setZero();
-    state.addPointJacobian(bench.gripper, state.position(bench.gripper), 1., J.topRows(3));
-    state.addAngularJacobian(bench.gripper, 1., J.bottomRows(3));
+    state.jacobian(bench.gripper, state.position(bench.gripper), J);
   }
 }
 

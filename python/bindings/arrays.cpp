@@ -88,9 +88,6 @@ MatrixXd Numbers::matrix() const {
 }
 
 NewArray newArray(std::size_t size) {
-  constexpr std::size_t kSmall = 16;
-  static ReusedArrays* const small = new ReusedArrays[kSmall];  // never freed: the interpreter ends before
-  if (size < kSmall) return small[size].get(size);
   npy_intp shape[] = {npy_intp(size)};
   return makeArray(1, shape);
 }

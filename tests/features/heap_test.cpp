@@ -2,26 +2,9 @@
 
 #include <gtest/gtest.h>
 
-#include <cstdlib>
-#include <new>
-
 #include "kinegraph/features/eval.h"
 #include "kinegraph/kinematics/motion_check.h"
 #include "tests/support/crowd.h"
-
-namespace kinegraph {
-
-std::atomic<long> heap_requests = 0;
-
-}  // namespace kinegraph
-
-void* operator new(std::size_t size) {
-  ++kinegraph::heap_requests;
-  if (void* memory = std::malloc(size ? size : 1)) return memory;
-  throw std::bad_alloc();
-}
-void operator delete(void* memory) noexcept { std::free(memory); }
-void operator delete(void* memory, std::size_t) noexcept { std::free(memory); }
 
 using namespace kinegraph;
 

@@ -37,11 +37,12 @@ struct Numbers {
 
 Numbers computed(UpdateState update, const State& state, const VectorXd& q) {
   const Program& program = state.program();
-  Numbers numbers{std::vector<double>(2 * program.turn_dof.size()), std::vector<double>(12 * program.links.size()),
-                  std::vector<double>(6 * program.column_dof.size())};
+  const Parameters& parameters = state.parameters();
+  Numbers numbers{std::vector<double>(2 * program.turn_dof.size()), std::vector<double>(12 * program.links.size() + 1),
+                  std::vector<double>(6 * program.column_dof.size() + 1)};
   for (const int k : {0, 4, 8}) numbers.poses[std::size_t(k)] = 1.;
-  update({program.links.data(), int(program.links.size()), program.steps.data(), state.parameters().joint_base.data(), program.turn_dof.data(),
-          program.turn_factor.data(), int(program.turn_dof.size()), q.data(), numbers.turned.data(), numbers.poses.data(), numbers.twists.data()});
+  update({parameters.link.data(), int(parameters.link.size()), parameters.step.data(), program.turn_dof.data(),
+          parameters.turn_factor.data(), int(program.turn_dof.size()), q.data(), numbers.turned.data(), numbers.poses.data(), numbers.twists.data()});
   return numbers;
 }
 

@@ -24,7 +24,6 @@ Chain makeChain(Rng& rng) {
   };
   Program& program = *chain.program;
   program.links.push_back({});
-  chain.parameters->joint_base.push_back({});
   const auto addLink = [&](const std::vector<MotionStep>& steps, int dof, double scale) {
     Program::Link link;
     link.parent = int(program.links.size()) - 1;
@@ -35,7 +34,6 @@ Chain makeChain(Rng& rng) {
     link.axis = Vector3d(1, 2, -1).normalized();
     program.steps.insert(program.steps.end(), steps.begin(), steps.end());
     program.links.push_back(link);
-    chain.parameters->joint_base.push_back(random_transform());
   };
   std::vector<double> home;
   for (const auto& [name, type] : jointTypeNames()) {
@@ -45,13 +43,15 @@ Chain makeChain(Rng& rng) {
     for (double x : motionIdentity(steps)) home.push_back(x);
   }
   addLink(motionSteps(JointType::hingeX), 0, -2.);
-  for (std::size_t l = 0; l < program.links.size(); ++l) {
-    program.frame_link.push_back(int(l));
-    chain.parameters->frame_offset.push_back(random_transform());
-  }
+  for (std::size_t l = 0; l < program.links.size(); ++l) program.frame_link.push_back(int(l));
   program.dofs = int(home.size());
   program.home = Eigen::Map<VectorXd>(home.data(), program.dofs);
   connectChains(program);
+  *chain.parameters = emptyParameters(program);
+  for (std::size_t l = 0; l < program.links.size(); ++l) {
+    if (l > 0) placeJoint(program, int(l), random_transform(), *chain.parameters);
+    chain.parameters->frame_offset[l] = random_transform();
+  }
   return chain;
 }
 
@@ -73,6 +73,11 @@ TEST(State, JacobiansEqualCentralDifferencesForEveryJointType) {
       const Matrix3d R = state.pose(frame).R;
       state.addPointJacobian(frame, state.pose(frame) * point, 1., J.topRows(3));
       state.addAngularJacobian(frame, 1., J.bottomRows(3));
+      Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor> at_once(7, n + 1);  // with numbers around it that stay
+      at_once.setConstant(7.);
+      state.jacobian(frame, state.pose(frame) * point, at_once.topLeftCorner(6, n));
+      EXPECT_EQ(at_once.topLeftCorner(6, n), J) << "frame " << frame;
+      EXPECT_TRUE((at_once.rightCols(1).array() == 7.).all() && (at_once.bottomRows(1).array() == 7.).all());
       for (int i = 0; i < n; ++i) {
         const double h = 1e-6;
         VectorXd plus = q, minus = q;

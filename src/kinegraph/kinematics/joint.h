@@ -47,6 +47,7 @@ struct MotionStep {
   int axis = 0;      ///< 0 x, 1 y, 2 z
   double sign = 1.;  ///< of the dof
 
+  bool turns() const { return kind == Kind::rotate || kind == Kind::rotateAbout; }
   int dofs() const { return kind == Kind::quaternion ? 4 : kind == Kind::circle ? 2 : 1; }
 };
 

@@ -5,7 +5,7 @@
 
 namespace kinegraph {
 
-// Kinematics as flat numbers, for several configurations side by side, one per lane of a wide register. Nothing in this file
+// Kinematics as flat numbers, for one configuration or several side by side, one per lane of a wide register. Nothing in this file
 // owns memory or has inline functions, because it is shared with code for other instruction sets. Rotations are column-major.
 
 /// The links that move some frames, in topological order; link 0 is the world.

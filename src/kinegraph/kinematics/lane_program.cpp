@@ -49,21 +49,20 @@ LaneLinks::LaneLinks(const Program& program, const Parameters& parameters, const
   }
   for (std::size_t l = 0; l < program.links.size(); ++l) {
     if (!needed[l]) continue;
-    const Program::Link& link = program.links[l];
-    const JointBase& base = parameters.joint_base[l];
-    LaneModel::Link lane_link{l == 0 ? -1 : lane_link_[link.parent], int(step_.size()), link.steps, base.turn, {}, {}};
-    std::copy_n(base.R.data(), 9, lane_link.R);
-    std::copy_n(base.p.data(), 3, lane_link.p);
-    int dof = link.dof;
-    for (int s = link.first_step; s < link.first_step + link.steps; ++s) {
-      const MotionStep& step = program.steps[s];
-      LaneModel::Step lane_step{step.kind, step.axis, variable[dof], int(column_.size()), step.sign * link.scale, {}};
-      std::copy_n(link.axis.data(), 3, lane_step.about);
-      step_.push_back(lane_step);
-      for (int k = 0; k < step.dofs(); ++k) column_.push_back({variable[dof++], step.kind != MotionKind::translate});
+    LaneModel::Link link = parameters.link[l];
+    if (l > 0) link.parent = lane_link_[link.parent];
+    link.first_step = int(step_.size());
+    for (int s = program.links[l].first_step; s < program.links[l].first_step + link.steps; ++s) {
+      LaneModel::Step step = parameters.step[s];
+      const bool slides = step.kind == MotionKind::translate;
+      const int dof = step.variable;
+      step.variable = variable[dof];
+      step.column = int(column_.size());
+      step_.push_back(step);
+      for (int k = 0; k < program.steps[s].dofs(); ++k) column_.push_back({variable[dof + k], !slides});
     }
     lane_link_[l] = int(link_.size());
-    link_.push_back(lane_link);
+    link_.push_back(link);
   }
 }
 

@@ -89,7 +89,7 @@ double MotionChecker::climb(int index, double& reach) const {
     speed += step.move;
     reach += step.reach;
   }
-  reach += state_.parameters().joint_base[index].p.norm();
+  reach += Eigen::Map<const Vector3d>(state_.parameters().link[index].p).norm();
   return speed;
 }
 

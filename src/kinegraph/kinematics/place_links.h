@@ -33,39 +33,52 @@ void storePlace(const Place<V>& X, typename V::Scalar* to) {
   store(X.p, to + 9);
 }
 
-/// A pose times the constant one (R, p); `column(k)` gives the pose's columns, the position as the last. `turn` says what is
-/// special in R.
-template <class V, class Column>
-[[gnu::always_inline]] inline Place<V> movedBy(const Column& column, const ConstantTurn& turn, const double* R, const double* p) {
+/// X times a constant rotation, given by its columns.
+template <class V>
+[[gnu::always_inline]] inline void turnBy(const double* R, Place<V>& X) {
+  const V columns[3] = {X.R[0], X.R[1], X.R[2]};
+  for (int k = 0; k < 3; ++k) X.R[k] = R[3 * k] * columns[0] + R[3 * k + 1] * columns[1] + R[3 * k + 2] * columns[2];
+}
+
+/// The pose at `from` times the constant one (R, p). `turn` says what is special in R.
+template <class V>
+[[gnu::always_inline]] inline Place<V> moved(const typename V::Scalar* from, const ConstantTurn& turn, const double* R,
+                                             const double* p) {
+  const auto column = [from](int k) __attribute__((always_inline)) { return loadVector<V>(from + 3 * k); };
   Place<V> X;
   X.p = column(3);
   for (int k = 0; k < 3; ++k) {
     if (p[k] != 0.) X.p = X.p + p[k] * column(k);
   }
-  if (turn.kind == ConstantTurn::none) {
-    for (int k = 0; k < 3; ++k) X.R[k] = column(k);
-  } else if (turn.kind == ConstantTurn::quarters) {
+  if (turn.kind == ConstantTurn::quarters) {
     for (int k = 0; k < 3; ++k) X.R[k] = turn.sign[k] * column(turn.column[k]);
   } else {
-    const V columns[3] = {column(0), column(1), column(2)};
-    for (int k = 0; k < 3; ++k) X.R[k] = R[3 * k] * columns[0] + R[3 * k + 1] * columns[1] + R[3 * k + 2] * columns[2];
+    for (int k = 0; k < 3; ++k) X.R[k] = column(k);
+    if (turn.kind == ConstantTurn::general) turnBy(R, X);
   }
   return X;
 }
 
-/// The same for the pose at `from`.
-template <class V>
-[[gnu::always_inline]] inline Place<V> moved(const typename V::Scalar* from, const ConstantTurn& turn, const double* R, const double* p) {
-  return movedBy<V>([from](int k) __attribute__((always_inline)) { return loadVector<V>(from + 3 * k); }, turn, R, p);
-}
-
 template <int Axis, class V, class Sink>
-[[gnu::always_inline]] inline void turnAboutAxis(double factor, typename V::Scalar sine, typename V::Scalar cosine, Place<V>& X, Sink& sink) {
+[[gnu::always_inline]] inline void turnAboutAxis(double factor, typename V::Scalar sine, typename V::Scalar cosine, Place<V>& X,
+                                                 const Sink& sink) {
   constexpr int i = (Axis + 1) % 3, j = (Axis + 2) % 3;
   sink.turns(0, factor * X.R[Axis], X.p);
   const V a = X.R[i], b = X.R[j];
   X.R[i] = cosine * a + sine * b;
   X.R[j] = cosine * b - sine * a;
+}
+
+template <class V, class Sink>
+[[gnu::always_inline]] inline void turnAboutAxis(int axis, double factor, typename V::Scalar sine, typename V::Scalar cosine,
+                                                 Place<V>& X, const Sink& sink) {
+  if (axis == 0) {
+    turnAboutAxis<0>(factor, sine, cosine, X, sink);
+  } else if (axis == 1) {
+    turnAboutAxis<1>(factor, sine, cosine, X, sink);
+  } else {
+    turnAboutAxis<2>(factor, sine, cosine, X, sink);
+  }
 }
 
 /// Moves X by one step of a joint, which has the dofs q. `angle(x)` gives sine and cosine of x as a pair. `sink` hears how
@@ -84,13 +97,7 @@ template <class V, class Angle, class Sink>
     }
     case MotionKind::rotate: {
       const auto [sine, cosine] = angle(factor * q[0]);
-      if (axis == 0) {
-        turnAboutAxis<0>(factor, sine, cosine, X, sink);
-      } else if (axis == 1) {
-        turnAboutAxis<1>(factor, sine, cosine, X, sink);
-      } else {
-        turnAboutAxis<2>(factor, sine, cosine, X, sink);
-      }
+      turnAboutAxis(axis, factor, sine, cosine, X, sink);
       break;
     }
     case MotionKind::rotateAbout: {  // every column c turns: cos c + sin (axis x c) + (1 - cos) (axis . c) axis

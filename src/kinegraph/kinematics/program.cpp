@@ -1,5 +1,7 @@
 #include "kinegraph/kinematics/program.h"
 
+#include <algorithm>
+
 #include "kinegraph/base/errors.h"
 #include "kinegraph/base/text.h"
 
@@ -53,17 +55,14 @@ void connectChains(Program& program) {
   program.column_before.clear();
   program.last_column = {-1};  // nothing moves the world
   program.turn_dof.clear();
-  program.turn_factor.clear();
   for (std::size_t l = 1; l < program.links.size(); ++l) {
     Program::Link& link = program.links[l];
     link.first_column = int(program.column_dof.size());
+    link.first_turn = int(program.turn_dof.size());
     int dof = link.dof, last = program.last_column[link.parent];
     for (int s = link.first_step; s < link.first_step + link.steps; ++s) {
       const MotionStep& step = program.steps[s];
-      if (step.kind == MotionKind::rotate || step.kind == MotionKind::rotateAbout) {
-        program.turn_dof.push_back(dof);
-        program.turn_factor.push_back(step.sign * link.scale);
-      }
+      if (step.turns()) program.turn_dof.push_back(dof);
       for (int i = 0; i < step.dofs(); ++i) {
         program.column_before.push_back(last);
         last = int(program.column_dof.size());
@@ -72,10 +71,49 @@ void connectChains(Program& program) {
     }
     program.last_column.push_back(last);
   }
-  if (program.turn_dof.size() % 2 != 0) {
-    program.turn_dof.push_back(program.turn_dof.back());
-    program.turn_factor.push_back(program.turn_factor.back());
+  if (program.turn_dof.size() % 2 != 0) program.turn_dof.push_back(program.turn_dof.back());
+}
+
+Parameters emptyParameters(const Program& program) {
+  Parameters parameters;
+  parameters.link.resize(program.links.size());
+  parameters.step.resize(program.steps.size());
+  parameters.turn_factor.resize(program.turn_dof.size());
+  parameters.frame_offset.resize(program.frame_link.size());
+  parameters.frame_mass.resize(program.frame_link.size());
+  return parameters;
+}
+
+RigidTransform placeJoint(const Program& program, int index, const RigidTransform& X_PJ, Parameters& parameters) {
+  const Program::Link& link = program.links[index];
+  const MotionStep* const steps = program.steps.data() + link.first_step;
+  const ConstantTurn turn = classifyTurn(X_PJ.R.data());
+  const bool along_axes = std::all_of(steps, steps + link.steps, [](const MotionStep& step) { return step.dofs() == 1; });
+  const bool turns_axes = along_axes && turn.kind == ConstantTurn::quarters;
+  RigidTransform X_LJ;
+  if (turns_axes) {
+    X_LJ.R.setZero();
+    for (int k = 0; k < 3; ++k) X_LJ.R(turn.column[k], k) = turn.sign[k];
   }
+  LaneModel::Link& placed = parameters.link[index];
+  placed = {link.parent, link.first_step, link.steps, turns_axes ? ConstantTurn{} : turn, {}, {}};
+  Eigen::Map<Matrix3d>(placed.R) = turns_axes ? Matrix3d(Matrix3d::Identity()) : X_PJ.R;
+  Eigen::Map<Vector3d>(placed.p) = X_PJ.p;
+  const Vector3d about = X_LJ.R * link.axis;
+  int dof = link.dof, column = link.first_column, turned = link.first_turn;
+  for (int s = 0; s < link.steps; ++s) {
+    const MotionStep& step = steps[s];
+    LaneModel::Step& moves = parameters.step[link.first_step + s];
+    moves = {step.kind, step.axis, dof, column, step.sign * link.scale, {about[0], about[1], about[2]}};
+    if (turns_axes && step.kind != MotionKind::rotateAbout) {
+      moves.axis = turn.column[step.axis];
+      moves.factor *= turn.sign[step.axis];
+    }
+    if (step.turns()) parameters.turn_factor[turned++] = moves.factor;
+    dof += step.dofs();
+    column += step.dofs();
+  }
+  return X_LJ;
 }
 
 }  // namespace kinegraph

@@ -9,9 +9,9 @@
 #include <vector>
 
 #include "kinegraph/geometry/geometry.h"
-#include "kinegraph/kinematics/constant_turn.h"
 #include "kinegraph/kinematics/contact_rules.h"
 #include "kinegraph/kinematics/joint.h"
+#include "kinegraph/kinematics/lane_model.h"
 #include "kinegraph/math/pose.h"
 
 namespace kinegraph {
@@ -22,15 +22,17 @@ class CollisionBody;
 /// people change between computations are in `Parameters` and in q.
 ///
 /// Frames between which no active joint lies move as one *link*. Link 0 is the world with everything fixed to it. Every
-/// other link is moved, relative to its parent link, by one active joint. Links are in topological order.
+/// other link is moved, relative to its parent link, by one active joint. Links are in topological order. Where a link has its
+/// axes is up to placeJoint.
 struct Program {
   struct Link {
     int parent = 0;
-    int frame = -1;      ///< the frame that carries the joint; its pose is the link's pose
+    int frame = -1;      ///< the frame that carries the joint
     int first_step = 0;  ///< its steps: [first_step, first_step + steps)
     int steps = 0;
     int dof = 0;           ///< first entry in q; a mimicking link has that of its source
     int first_column = 0;  ///< its twist columns: [first_column, first_column + dofs)
+    int first_turn = 0;    ///< of its steps that turn, the first one's place in turn_dof
     double scale = 1.;
     Vector3d axis = Vector3d::UnitX();
   };
@@ -46,7 +48,6 @@ struct Program {
   std::vector<int> column_before;  ///< of a twist column: the one before it in its chain, or -1
   std::vector<int> last_column;    ///< of link l: c = last_column[l], column_before[c], ... until -1 are those that move it
   std::vector<int> turn_dof;         ///< entries of q that are angles, in the order of the steps, an even number of them
-  std::vector<double> turn_factor;   ///< the angle per unit of it
 
   std::vector<std::string> frame_name;  ///< per frame
   std::unordered_map<std::string_view, int> frame_index;  ///< of names: the first frame of that name
@@ -78,20 +79,22 @@ struct FrameMass {
   Vector3d com = Vector3d::Zero();  ///< centre of mass in the frame, m
 };
 
-/// The base of a joint in the parent link.
-struct JointBase : RigidTransform {
-  JointBase() = default;
-  JointBase(const RigidTransform& X_PJ) : RigidTransform(X_PJ), turn(classifyTurn(R.data())) {}
-
-  ConstantTurn turn;
-};
-
 /// The constants of a Program: where joints sit on their parent link and frames on their link, and what frames weigh.
 struct Parameters {
-  std::vector<JointBase> joint_base;         ///< per link
+  std::vector<LaneModel::Link> link;         ///< per link; set by placeJoint
+  std::vector<LaneModel::Step> step;         ///< per step; its variable is a dof
+  std::vector<double> turn_factor;           ///< per entry of Program::turn_dof: the angle per unit of it
   std::vector<RigidTransform> frame_offset;  ///< per frame: X_LF, the frame in its link
   std::vector<FrameMass> frame_mass;         ///< per frame
 };
+
+/// Room for all of them; frames are at the origin of their link, and weigh nothing.
+Parameters emptyParameters(const Program& program);
+
+/// Lets the joint of a link sit at X_PJ on its parent link, and returns the frame of the joint, as it is behind the joint, in
+/// the link. Links have their axes such that as few as possible are turned against those of the parent while their joints rest:
+/// where X_PJ has quarter turns, the axes of the joint are turned in its stead.
+RigidTransform placeJoint(const Program& program, int link, const RigidTransform& X_PJ, Parameters& parameters);
 
 /// Sets `frame_name` and `frame_index`.
 void nameFrames(Program& program, std::vector<std::string> names);
@@ -99,7 +102,7 @@ void nameFrames(Program& program, std::vector<std::string> names);
 /// The first frame of that name. Throws FrameNotFound with similar names; `who` is what asks for it.
 int frameId(const Program& program, std::string_view name, std::string_view who);
 
-/// Fills `last_column`, `column_before`, `column_dof` and `turn_...` from `links` and `steps`.
+/// Fills `last_column`, `column_before`, `column_dof` and `turn_dof` from `links` and `steps`.
 void connectChains(Program& program);
 
 }  // namespace kinegraph

@@ -1,5 +1,7 @@
 #include "kinegraph/kinematics/state.h"
 
+#include <algorithm>
+
 #include "kinegraph/kinematics/state_kernel.h"
 
 namespace kinegraph {
@@ -8,8 +10,8 @@ State::State(std::shared_ptr<const Program> program, std::shared_ptr<const Param
     : program_(std::move(program)),
       parameters_(std::move(parameters)),
       q_(program_->home),
-      link_pose_(program_->links.size()),
-      twists_(program_->column_dof.size()),
+      link_pose_(program_->links.size() + 1),
+      twists_(program_->column_dof.size() + 1),
       turns_(program_->turn_dof.size()) {
   update();
 }
@@ -28,9 +30,47 @@ void State::update() {
   static_assert(sizeof(RigidTransform) == 12 * sizeof(double) && sizeof(Twist) == 6 * sizeof(double) && sizeof(Turn) == 2 * sizeof(double));
   static const UpdateState kernel = stateKernel();
   const Program& program = *program_;
-  kernel({program.links.data(), int(program.links.size()), program.steps.data(), parameters_->joint_base.data(), program.turn_dof.data(),
-          program.turn_factor.data(), int(program.turn_dof.size()), q_.data(), reinterpret_cast<double*>(turns_.data()),
+  const Parameters& parameters = *parameters_;
+  kernel({parameters.link.data(), int(parameters.link.size()), parameters.step.data(), program.turn_dof.data(),
+          parameters.turn_factor.data(), int(program.turn_dof.size()), q_.data(), reinterpret_cast<double*>(turns_.data()),
           link_pose_[0].R.data(), reinterpret_cast<double*>(twists_.data())});
+}
+
+namespace {
+
+/// Columns [from, to). Apart, as there are seldom any.
+[[gnu::noinline]] void clearColumns(double* rows, Eigen::Index stride, int from, int to) {
+  for (int r = 0; r < 6; ++r) std::fill(rows + r * stride + from, rows + r * stride + to, 0.);
+}
+
+}  // namespace
+
+void State::jacobian(int frame, const Vector3d& p_WQ, JacobianRows J) const {
+  double* rows = J.data();
+  const Eigen::Index stride = J.outerStride();
+  const double x = p_WQ[0], y = p_WQ[1], z = p_WQ[2];
+  const int *before = program_->column_before.data(), *dof = program_->column_dof.data();
+  const Twist* twists = twists_.data();
+  int done = dofs();  // entries from here on; up a chain dofs mostly descend, and what lies between them is zero
+  for (int c = program_->last_column[link(frame)]; c >= 0; c = before[c]) {
+    if (dof[c] >= done) {
+      J.setZero();
+      addPointJacobian(frame, p_WQ, 1., J.topRows(3));
+      addAngularJacobian(frame, 1., J.bottomRows(3));
+      return;
+    }
+    if (dof[c] + 1 < done) clearColumns(rows, stride, dof[c] + 1, done);
+    done = dof[c];
+    const double *w = twists[c].angular.data(), *v = twists[c].linear.data();
+    double* to = rows + done;
+    to[0] = v[0] + (w[1] * z - w[2] * y);
+    to[stride] = v[1] + (w[2] * x - w[0] * z);
+    to[2 * stride] = v[2] + (w[0] * y - w[1] * x);
+    to[3 * stride] = w[0];
+    to[4 * stride] = w[1];
+    to[5 * stride] = w[2];
+  }
+  if (done > 0) clearColumns(rows, stride, 0, done);
 }
 
 void State::addPointJacobian(int frame, const Vector3d& p_WQ, double factor, JacobianRows J) const {

@@ -47,6 +47,10 @@ class State {
   /// p_WF of a frame.
   Vector3d position(int frame) const { return link_pose_[link(frame)] * parameters_->frame_offset[frame].p; }
 
+  /// J = d p_WQ / dq for point Q (world coordinates, m) fixed to a frame's link, and below it d w / d(dq/dt) of the angular
+  /// velocity in world coordinates. J is 6 x dofs; all of it is written.
+  void jacobian(int frame, const Vector3d& p_WQ, JacobianRows J) const;
+
   /// J += factor * d p_WQ / dq for point Q (world coordinates, m) fixed to a frame's link. J is 3 x dofs.
   void addPointJacobian(int frame, const Vector3d& p_WQ, double factor, JacobianRows J) const;
 
@@ -79,8 +83,8 @@ class State {
   std::shared_ptr<const Program> program_;
   std::shared_ptr<const Parameters> parameters_;
   VectorXd q_;
-  std::vector<RigidTransform> link_pose_;
-  std::vector<Twist> twists_;  ///< per column
+  std::vector<RigidTransform> link_pose_;  ///< per link, and one that is no link's; see StateArrays
+  std::vector<Twist> twists_;              ///< per column, and one more
   std::vector<Turn> turns_;    ///< per entry of program().turn_dof
 };
 

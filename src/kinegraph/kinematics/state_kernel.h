@@ -1,16 +1,15 @@
 #pragma once
 
-#include "kinegraph/kinematics/program.h"
+#include "kinegraph/kinematics/lane_model.h"
 
 namespace kinegraph {
 
-/// What forward kinematics of one configuration reads and writes, as State has it. Kernels for wide registers touch plain
-/// members of these types only: inline functions must not be compiled for other instruction sets than the rest of the library.
+/// What forward kinematics of one configuration reads and writes, as State has it. Kernels write from the first to the last pose
+/// and twist, and may write one number behind the last one.
 struct StateArrays {
-  const Program::Link* links;
+  const LaneModel::Link* links;
   int link_count;
-  const MotionStep* steps;
-  const JointBase* bases;  ///< per link
+  const LaneModel::Step* steps;
   const int* turn_dof;
   const double* turn_factor;
   int turns;  ///< an even number

@@ -19,11 +19,7 @@ inline Wide3 cross(const Wide3& a, const Wide3& b) {
   return {__builtin_shufflevector(zxy, zxy, 1, 2, 0, 3)};
 }
 inline void load(const double* from, Wide3& to) { to = {Pack<4>{from[0], from[1], from[2], 0.}}; }
-inline void store(const Wide3& a, double* to) {
-  const Pack<2> xy = __builtin_shufflevector(a.xyz, a.xyz, 0, 1);
-  __builtin_memcpy(to, &xy, sizeof(xy));
-  to[2] = a.xyz[2];
-}
+inline void store(const Wide3& a, double* to) { __builtin_memcpy(to, &a.xyz, sizeof(a.xyz)); }  // in order: see StateArrays
 
 }  // namespace
 

@@ -67,25 +67,23 @@ template <int Width>
   __builtin_memcpy(state.turned + 2 * first + Width, &high, sizeof(high));
 }
 
-inline int dofsOf(MotionKind kind) { return kind == MotionKind::quaternion ? 4 : kind == MotionKind::circle ? 2 : 1; }
-
 struct SineAndCosine {
   double sine, cosine;
 };
 
-/// A joint that turns about an axis of its base, which is a quarter turn or none away from the link before: what most joints are.
-/// The same numbers as by movedBy and moveBy, as signs may be multiplied in any order. `pose` goes on to this link.
 template <class V>
-[[gnu::always_inline]] inline void turnLink(const ConstantTurn& turn, int axis, double factor, double sine, double cosine, const V& p, V* pose,
-                                            const TwistWriter<V>& sink) {
-  constexpr int kNext[5] = {0, 1, 2, 0, 1};
-  const int i = kNext[axis + 1], j = kNext[axis + 2];
-  const V n = turn.sign[axis] * pose[turn.column[axis]], a = pose[turn.column[i]], b = pose[turn.column[j]];
-  sink.turns(0, factor * n, p);
-  pose[axis] = n;
-  pose[i] = (cosine * turn.sign[i]) * a + (sine * turn.sign[j]) * b;
-  pose[j] = (cosine * turn.sign[j]) * b - (sine * turn.sign[i]) * a;
-  pose[3] = p;
+[[gnu::always_inline]] inline Place<V> loadPlace(const double* from) {
+  return {{loadVector<V>(from), loadVector<V>(from + 3), loadVector<V>(from + 6)}, loadVector<V>(from + 9)};
+}
+
+/// Moves the pose at `place` by one of the less frequent steps; apart from the others, where the pose stays in registers.
+template <class V>
+[[gnu::noinline]] void moveInMemory(const LaneModel::Step& step, const double* q, const double* turned, double* place,
+                                    double* twist) {
+  const auto angle = [turned](double) __attribute__((always_inline)) { return SineAndCosine{turned[0], turned[1]}; };
+  Place<V> X = loadPlace<V>(place);
+  moveBy(step.kind, step.axis, step.factor, step.about, q + step.variable, angle, X, TwistWriter<V>{twist});
+  storePlace(X, place);
 }
 
 /// `Width`: of the packs of angles, whose sines and cosines are computed beforehand.
@@ -94,40 +92,31 @@ void updateState(const StateArrays& state) {
   int i = 0;
   for (; i + Width <= state.turns; i += Width) sineAndCosineAt<Width>(state, i);
   for (; i < state.turns; i += 2) sineAndCosineAt<2>(state, i);
-  const double* turn = state.turned;
-  V pose[4];  // of the link before, by columns; what has just been written in parts is slow to read as a whole
-  for (int k = 0; k < 4; ++k) load(state.poses + 3 * k, pose[k]);
-  const auto column = [&pose](int k) __attribute__((always_inline)) { return pose[k]; };
-  const auto angle = [&](double) __attribute__((always_inline)) {
-    const SineAndCosine pair{turn[0], turn[1]};
-    turn += 2;
-    return pair;
-  };
-  for (int l = 1; l < state.link_count; ++l) {
-    const Program::Link& link = state.links[l];
-    const JointBase& base = state.bases[l];
-    const double *R = reinterpret_cast<const double*>(&base), *p = R + 9;  // the columns of R, then p
-    if (link.parent != l - 1) {
-      for (int k = 0; k < 4; ++k) load(state.poses + kPerPlace * link.parent + 3 * k, pose[k]);
-    }
-    TwistWriter<V> sink{state.twists + 6 * link.first_column};
-    const MotionStep* step = state.steps + link.first_step;
-    if (link.steps == 1 && step->kind == MotionKind::rotate && base.turn.kind != ConstantTurn::general) {
-      const V at = ((pose[3] + p[0] * pose[0]) + p[1] * pose[1]) + p[2] * pose[2];
-      turnLink(base.turn, step->axis, step->sign * link.scale, turn[0], turn[1], at, pose, sink);
-      turn += 2;
-    } else {
-      Place<V> X = movedBy<V>(column, base.turn, R, p);
-      const double* q = state.q + link.dof;
-      for (const MotionStep* end = step + link.steps; step < end; ++step) {
-        moveBy(step->kind, step->axis, step->sign * link.scale, reinterpret_cast<const double*>(&link.axis), q, angle, X, sink);
-        q += dofsOf(step->kind);
-        sink.twist += 6 * dofsOf(step->kind);
+  // Copies, as the compiler takes it that what is stored below might change the originals.
+  const LaneModel::Link* const links = state.links;
+  const LaneModel::Step* step = state.steps;
+  const double *turned = state.turned, *const q = state.q;
+  double *pose = state.poses, *const twists = state.twists;
+  Place<V> X = loadPlace<V>(pose);  // of the link before, in registers: what has just been written is slow to read
+  for (int l = 1, count = state.link_count; l < count; ++l) {
+    const LaneModel::Link& link = links[l];
+    if (link.parent != l - 1) X = loadPlace<V>(state.poses + kPerPlace * link.parent);
+    X.p = X.p + ((link.p[0] * X.R[0] + link.p[1] * X.R[1]) + link.p[2] * X.R[2]);
+    if (link.turn.kind != ConstantTurn::none) turnBy(link.R, X);
+    pose += kPerPlace;
+    for (int s = 0; s < link.steps; ++s, ++step) {
+      double* const twist = twists + 6 * step->column;
+      if (step->kind == MotionKind::rotate) {
+        turnAboutAxis(step->axis, step->factor, turned[0], turned[1], X, TwistWriter<V>{twist});
+        turned += 2;
+      } else {
+        storePlace(X, pose);
+        moveInMemory<V>(*step, q, turned, pose, twist);
+        X = loadPlace<V>(pose);
+        if (step->kind == MotionKind::rotateAbout) turned += 2;
       }
-      for (int k = 0; k < 3; ++k) pose[k] = X.R[k];
-      pose[3] = X.p;
     }
-    for (int k = 0; k < 4; ++k) store(pose[k], state.poses + kPerPlace * l + 3 * k);
+    storePlace(X, pose);
   }
 }
 

@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <limits>
+#include <utility>
 
 #include "kinegraph/scene/scene_tree.h"
 
@@ -97,31 +98,26 @@ std::shared_ptr<const Program> compileProgram(const SceneTree& scene) {
 
 namespace {
 
-/// The frame's parent has been placed.
-void placeOnLink(const FrameData& frame, const Program& program, Parameters& parameters) {
+/// Its parent has been placed.
+RigidTransform placeInLink(const FrameData& frame, const Program& program, Parameters& parameters) {
   const RigidTransform base = frame.parent ? parameters.frame_offset[frame.parent->id] : RigidTransform{};
-  if (isLinkFrame(frame)) {
-    parameters.joint_base[program.frame_link[frame.id]] = base;
-  } else {
-    parameters.frame_offset[frame.id] = base * frame.relativePose().transform();
-  }
+  if (isLinkFrame(frame)) return placeJoint(program, program.frame_link[frame.id], base, parameters);
+  return base * frame.relativePose().transform();
 }
 
 }  // namespace
 
 void updateParameters(const FrameData& frame, const Program& program, Parameters& parameters) {
-  placeOnLink(frame, program, parameters);
-  if (isLinkFrame(frame)) return;  // frames below move with its link, where they are as before
+  RigidTransform& offset = parameters.frame_offset[frame.id];
+  const RigidTransform before = std::exchange(offset, placeInLink(frame, program, parameters));
+  if (isLinkFrame(frame) && offset.R == before.R) return;  // frames below move with its link, where they are as before
   for (const FrameData* child : frame.children) updateParameters(*child, program, parameters);
 }
 
 std::shared_ptr<const Parameters> collectParameters(const SceneTree& scene, const Program& program) {
-  auto parameters = std::make_shared<Parameters>();
-  parameters->joint_base.resize(program.links.size());
-  parameters->frame_offset.resize(scene.frames().size());
-  parameters->frame_mass.resize(scene.frames().size());
+  auto parameters = std::make_shared<Parameters>(emptyParameters(program));
   for (const FrameData* frame : topologicalOrder(scene)) {
-    placeOnLink(*frame, program, *parameters);
+    parameters->frame_offset[frame->id] = placeInLink(*frame, program, *parameters);
     if (frame->inertia) parameters->frame_mass[frame->id] = {frame->inertia->mass, frame->inertia->com};
   }
   return parameters;
