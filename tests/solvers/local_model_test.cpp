@@ -61,7 +61,8 @@ TEST(LocalModel, TheStepThatItFindsIsTheLeastInTheBox) {
     model.setCosts(nlp, x, phi);
     const double mu = 3., shift = .1;
     const VectorXd constraints = phi.tail(4);
-    const VectorXd d = model.minimize({constraints, c.lambda, mu, shift, c.low, c.high, 12});
+    const LocalModel::Problem problem{constraints, c.lambda, mu, shift, c.low, c.high, 12};
+    const VectorXd d = model.minimize(problem);
     EXPECT_TRUE((d.array() >= c.low.array()).all() && (d.array() <= c.high.array()).all());
     EXPECT_TRUE(near(model.linearized(), (c.b + c.A * d).tail(4), 1e-12));
     const double least = c.value(d, mu, shift);
@@ -73,8 +74,7 @@ TEST(LocalModel, TheStepThatItFindsIsTheLeastInTheBox) {
       }
     }
     const VectorXd at_zero = VectorXd::Zero(Case::kVariables);
-    const double costs = (c.b + c.A * d).head(4).squaredNorm() - c.b.head(4).squaredNorm() + (c.A * d)[4];
-    EXPECT_NEAR(model.costChange(), costs, 1e-12);
+    EXPECT_NEAR(model.decrease(problem), c.value(at_zero, mu, 0.) - c.value(d, mu, 0.), 1e-12);
     EXPECT_LT(least, c.value(at_zero, mu, shift));
   }
 }
@@ -104,9 +104,10 @@ TEST(LocalModel, GoesDownAlsoWhereTheCurvatureIsNegative) {
   model.setJacobian(J);
   model.setCosts(nlp, x, phi);
   const VectorXd none;
-  const VectorXd d = model.minimize({none, none, 1., 0., low, high, 12});
+  const LocalModel::Problem problem{none, none, 1., 0., low, high, 12};
+  const VectorXd d = model.minimize(problem);
   EXPECT_EQ(d, high);
-  EXPECT_NEAR(model.costChange(), -1.5 + .5 * .25 * .25 + .5 * .5, 1e-12);
+  EXPECT_NEAR(model.decrease(problem), 1.5 - .5 * .25 * .25 - .5 * .5, 1e-12);
 }
 
 TEST(LocalModel, FactorizesOnlyWhereTheActiveRowsChange) {

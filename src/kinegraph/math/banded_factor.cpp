@@ -44,7 +44,7 @@ typedef double Pack __attribute__((vector_size(kPack * sizeof(double)), aligned(
 }
 
 /// sums[p] += columns[p][i] x[i] for i in [begin, end) and beyond, where columns are zero.
-[[gnu::always_inline]] inline void addProducts(std::array<Pack, kPack>& sums, const std::array<const double*, kPack>& columns,
+[[gnu::always_inline]] inline void addProducts(Pack (&sums)[kPack], const std::array<const double*, kPack>& columns,
                                                const double* x, int begin, int end) {
   for (int i = begin; i < end; i += kPack) {
     const Pack xi = packAt(x + i);
@@ -160,7 +160,7 @@ typedef double Pack __attribute__((vector_size(kPack * sizeof(double)), aligned(
   for (int i = panels - 1; i >= 0; --i) {
     const Panel panel = panelAt(i < band_panels ? i * kPanel : band_ + (i - band_panels) * kPanel);
     constexpr Pack zero = {0., 0., 0., 0.};
-    std::array<Pack, kPanel> sums = {zero, zero, zero, zero};
+    Pack sums[kPanel] = {zero, zero, zero, zero};
     addProducts(sums, panel.columns, x, panel.begin + panel.width, panel.end);
     if (panel.has_border) addProducts(sums, panel.borders, x, band_, n);
     for (int p = panel.width - 1; p >= 0; --p) {
