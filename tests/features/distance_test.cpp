@@ -82,6 +82,23 @@ TEST(Witness, VectorReversesWhereShapesPenetrate) {
   EXPECT_TRUE(near(value(config, "pairCollision_normal", {"a", "b"}), numbers({-1, 0, 0}), 1e-12));
 }
 
+TEST(Witness, HasTheDerivativeOfOneSideWhereTheNearestFeatureChanges) {
+  Config config;
+  config.addText(R"g(
+    table: { shape: box, size: [.4 .4 .1] }
+    base: { X: [0 0 .2] }
+    ball (base): { joint: transX, shape: sphere, size: [.05] }
+  )g");
+  const auto rate = [&](double x) {
+    config.setJointState(numbers({x}));
+    return eval(config, FeatureSymbol::pairCollision_p2, {"ball", "table"}).J(0, 0);
+  };
+  EXPECT_NEAR(rate(.19), 1., 1e-6) << "above the face the point follows";
+  EXPECT_NEAR(rate(.21), 0., 1e-6) << "beyond the edge it stays there";
+  EXPECT_NEAR(rate(.2), 0., 1e-6) << "and not the mean of both";
+  EXPECT_NEAR(rate(-.2), 0., 1e-6);
+}
+
 TEST(Oppose, SumsTheVectorsFromTheObjectToTheFingers) {
   const Config config = workedScene();
   EXPECT_TRUE(near(value(config, "oppose", {"B", "D", "A"}), numbers({.35, 0, .1}), 1e-5));

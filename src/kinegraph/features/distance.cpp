@@ -24,6 +24,14 @@ Vector3d softDirection(const Vector3d& d, double eps, Matrix3d& derivative) {
   return d / soft;
 }
 
+/// The derivative of a value that is known a little before and after. Where it has a kink or a jump, that of the smoother side.
+Vector3d slopeAt(const Vector3d& before, const Vector3d& at, const Vector3d& after, double h) {
+  const Vector3d back = at - before, ahead = after - at;
+  const double larger = std::max(ahead.norm(), back.norm());
+  if ((ahead - back).norm() <= std::max(.01 * h, .1 * larger)) return (after - before) / (2. * h);
+  return (ahead.norm() <= back.norm() ? ahead : back) / h;
+}
+
 }  // namespace
 
 void addDistanceGradient(const State& state, int a, int b, const Proximity& near, double factor, JacobianRows& J) {
@@ -79,8 +87,8 @@ void Witness::eval(std::span<const State* const> states, double, Eigen::Ref<Vect
       }
       return value(proximity(body_a, X, body_b, X_WB));
     };
-    linear.col(i) = (moved(h, false) - moved(-h, false)) / (2. * h);
-    angular.col(i) = (moved(h, true) - moved(-h, true)) / (2. * h);
+    linear.col(i) = slopeAt(moved(-h, false), at, moved(h, false), h);
+    angular.col(i) = slopeAt(moved(-h, true), at, moved(h, true), h);
   }
   state.addJacobian(a_, center, linear, angular, *J);
   state.addJacobian(b_, center, -linear, -angular, *J);
