@@ -4,6 +4,8 @@
 #include <cmath>
 #include <numeric>
 
+#include "kinegraph/solvers/band_layout.h"
+
 namespace kinegraph {
 
 namespace {
@@ -14,63 +16,6 @@ constexpr double kLongest = 4.;     ///< most that a Newton step is lengthened
 
 bool hasRowsOfTypeF(const Nlp& nlp) {
   return std::find(nlp.types().begin(), nlp.types().end(), ObjectiveType::f) != nlp.types().end();
-}
-
-/// Has the row the same columns as the one before?
-bool repeatsColumns(const Jacobian& pattern, int row) {
-  if (row == 0) return false;
-  const auto segments = pattern.row_segments(row), before = pattern.row_segments(row - 1);
-  return std::equal(segments.begin(), segments.end(), before.begin(), before.end(),
-                    [](const Jacobian::Segment& a, const Jacobian::Segment& b) { return a.column == b.column && a.width == b.width; });
-}
-
-/// Where each variable goes, and how many are at the end: those that rows connect to others much farther on than is usual
-/// (dofs that many slices of a path share). The matrix is then a band with a border, and its factor has no other entries.
-struct Places {
-  std::vector<int> of;
-  int shared = 0;
-};
-
-Places placesOf(int n, const Jacobian& pattern) {
-  std::vector<int> reach(n, 0);
-  for (int row = 0; row < pattern.rows(); ++row) {
-    if (repeatsColumns(pattern, row)) continue;
-    const auto segments = pattern.row_segments(row);
-    int last = 0;
-    for (const Jacobian::Segment& segment : segments) last = std::max(last, segment.column + segment.width - 1);
-    for (const Jacobian::Segment& segment : segments) {
-      for (int i = segment.column; i < segment.column + segment.width; ++i) reach[i] = std::max(reach[i], last - i);
-    }
-  }
-  std::vector<int> sorted = reach;
-  std::nth_element(sorted.begin(), sorted.begin() + n / 2, sorted.end());
-  const int usual = n > 0 ? 4 * sorted[n / 2] + 16 : 0;
-  Places places{std::vector<int>(std::size_t(n)), 0};
-  for (int i = 0; i < n; ++i) places.shared += reach[i] > usual;
-  int next = 0, next_shared = n - places.shared;
-  for (int i = 0; i < n; ++i) places.of[i] = reach[i] > usual ? next_shared++ : next++;
-  return places;
-}
-
-/// A matrix for the products of entries of the same row.
-BandedMatrix matrixOf(const Jacobian& pattern, const Places& places) {
-  const int band = int(places.of.size()) - places.shared;
-  std::vector<int> last(static_cast<std::size_t>(band));
-  std::iota(last.begin(), last.end(), 0);
-  for (int row = 0; row < pattern.rows(); ++row) {
-    if (repeatsColumns(pattern, row)) continue;
-    int lowest = 0;
-    const auto forPlaces = [&](const auto& visit) {
-      for (const Jacobian::Segment& segment : pattern.row_segments(row)) {
-        for (int i = segment.column; i < segment.column + segment.width; ++i) {
-          if (places.of[i] < band) visit(places.of[i]);
-        }
-      }
-    };
-    forPlaces([&](int place) { lowest = std::max(lowest, place); });
-    forPlaces([&](int place) { last[place] = std::max(last[place], lowest); });
-  }
-  return BandedMatrix(std::move(last), places.shared);
 }
 
 BandedMatrix fullMatrix(int n) { return BandedMatrix(std::vector<int>(std::size_t(n), n - 1)); }
@@ -85,10 +30,10 @@ LocalModel::LocalModel(const Nlp& nlp, const Jacobian& pattern, const std::vecto
     std::iota(place_.begin(), place_.end(), 0);
     H_linear_ = fullMatrix(n);
   } else {
-    Places places = placesOf(n, pattern);
-    reordered_ = !std::is_sorted(places.of.begin(), places.of.end());
-    H_linear_ = matrixOf(pattern, places);
-    place_ = std::move(places.of);
+    BandLayout layout = bandLayout(n, pattern);
+    reordered_ = !std::is_sorted(layout.place.begin(), layout.place.end());
+    H_linear_ = bandedMatrix(layout, pattern);
+    place_ = std::move(layout.place);
   }
   K_ = H_linear_;
   linear_costs_.reserve(costs.size());
