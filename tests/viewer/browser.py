@@ -187,9 +187,12 @@ class Browser:
     def is_visible(self, selector: str) -> bool:
         return self.evaluate(f"document.querySelector({json.dumps(selector)}).checkVisibility()")
 
+    def decode(self, png: str, height: int) -> np.ndarray:
+        """The rgb bytes of a picture in base64, shape (height, width, 3)."""
+        pixels = self.evaluate(DECODE_PNG.replace("PNG", png))
+        return np.frombuffer(base64.b64decode(pixels), np.uint8).reshape(height, -1, 4)[..., :3]
+
     def picture(self) -> np.ndarray:
         """The page as people see it: rgb bytes, shape (HEIGHT, WIDTH, 3)."""
         self.wait_for("kinegraph.idle()")
-        png = self.call("Page.captureScreenshot", format="png")["data"]
-        pixels = self.evaluate(DECODE_PNG.replace("PNG", png))
-        return np.frombuffer(base64.b64decode(pixels), np.uint8).reshape(HEIGHT, WIDTH, 4)[..., :3]
+        return self.decode(self.call("Page.captureScreenshot", format="png")["data"], HEIGHT)

@@ -1,5 +1,6 @@
 import * as THREE from "three";
 import { CSS2DRenderer } from "three/addons/renderers/CSS2DRenderer.js";
+import { replaceIn, lookOnceForHardShadows } from "./chunks";
 import { isSeen } from "./display";
 import { Floor } from "./floor";
 import { Lights } from "./lights";
@@ -32,7 +33,8 @@ const colorOf = (rgb: number[]): THREE.Color =>
 
 /** Colors are shown as they are given; only what is brighter than 0.8 bends towards white, which keeps shades in it. */
 function bentAtWhite(): THREE.ToneMapping {
-  THREE.ShaderChunk.tonemapping_pars_fragment = THREE.ShaderChunk.tonemapping_pars_fragment.replace(
+  replaceIn(
+    "tonemapping_pars_fragment",
     "vec3 CustomToneMapping( vec3 color ) { return color; }",
     /* glsl */ `vec3 CustomToneMapping(vec3 color) {
       float peak = max(color.r, max(color.g, color.b));
@@ -69,6 +71,7 @@ export class Stage {
     this.renderer.shadowMap.autoUpdate = false;
     this.renderer.shadowMap.type = THREE.PCFShadowMap;
     this.renderer.toneMapping = bentAtWhite();
+    lookOnceForHardShadows();
     this.labels.domElement.className = "labels";
     canvas.after(this.labels.domElement);
     this.viewpoint = new Viewpoint(
@@ -169,6 +172,13 @@ export class Stage {
     this.draw();
   }
 
+  /** Draws now, as on a machine that is slow while things move. */
+  drawHurriedly(): void {
+    this.quality.setLeast(performance.now());
+    this.redraw();
+    this.draw();
+  }
+
   /** Call when anything but the camera has changed. */
   redraw(): void {
     this.dirty = this.shadowsAreOld = true;
@@ -241,6 +251,11 @@ export class Stage {
     return this.quality.ratio;
   }
 
+  /** True while things move on a slow machine: what is drawn may be coarse. */
+  get hurries(): boolean {
+    return this.quality.hurries;
+  }
+
   /** Pixels that a metre has at a place. */
   pixelsPerMetre(at: THREE.Vector3): number {
     return this.viewpoint.pixelsPerMetre(at, this.canvas.clientHeight * this.renderer.getPixelRatio());
@@ -260,8 +275,9 @@ export class Stage {
     this.dirty = false;
     if (this.renderer.getPixelRatio() !== this.quality.ratio) this.renderer.setPixelRatio(this.quality.ratio);
     for (const prepare of this.preparations) prepare();
-    this.floor.follow(this.camera.position);
-    this.updateShadows();
+    this.floor.follow(this.camera.position, this.quality.share);
+    if (this.lights.setCoarse(this.hurries)) this.renderer.shadowMap.needsUpdate = true;
+    else this.updateShadows();
     this.renderer.render(this.scene, this.camera);
     this.labels.render(this.scene, this.camera);
   }
