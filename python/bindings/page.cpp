@@ -99,6 +99,10 @@ PageCamera pageCameraOf(const Camera& camera) {
   page.focal_length = camera.focal_length;
   page.ortho_height = camera.ortho_height;
   page.aspect = double(camera.width) / camera.height;
+  if (camera.has_range) {
+    page.near = camera.near;
+    page.far = camera.far;
+  }
   return page;
 }
 

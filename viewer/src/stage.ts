@@ -6,6 +6,7 @@ import { Floor } from "./floor";
 import { Lights } from "./lights";
 import type { CameraMessage, LookMessage } from "./messages";
 import { drawsInSoftware, Quality } from "./quality";
+import { FreeTurning } from "./turning";
 import { type Camera, Viewpoint } from "./viewpoint";
 
 /** A point on a shape. */
@@ -16,13 +17,16 @@ export interface Hit {
 }
 
 const SHADOW_PERIOD = 3; // pictures
+/** Towards (0, 0, 0.9). */
 const FIRST_VIEW: CameraMessage = {
   kind: "camera",
   pose: [1.5, 2.6, 1.8, -0.15442, 0.20751, 0.77494, -0.57667],
   distance: 3.134,
   focal: 0,
   ortho: 0,
-  aspect: 1, // towards (0, 0, 0.9)
+  aspect: 1,
+  near: 0,
+  far: 0,
 };
 const LEFT = 0,
   RIGHT = 2; // buttons
@@ -79,6 +83,7 @@ export class Stage {
       () => (this.dirty = true),
       () => this.moves.forEach((move) => move()),
     );
+    new FreeTurning(canvas, this.viewpoint);
     this.scene.add(this.lights.group);
     this.fitShadows();
     this.scene.add(this.frames, this.floor.group);
