@@ -56,8 +56,7 @@ std::string pageOf(PyViewer& viewer) {
 
 int view(PyConfig& config, bool pause, const std::optional<std::string>& message, bool offscreen) {
   const std::shared_ptr<PyViewer> viewer = showIn(config);
-  if (offscreen) return 0;
-  if (!openPage(*viewer)) return pause ? kEscape : 0;
+  if (!show(*viewer, message, offscreen)) return pause && !offscreen ? kEscape : 0;
   const nb::gil_scoped_release unlock;
   return viewer->view(config, pause, message, interrupted);
 }

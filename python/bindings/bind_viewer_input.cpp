@@ -60,8 +60,7 @@ int setQuad(PyViewer& viewer, int id, const Image<std::uint8_t>& rgb, double x, 
 }
 
 int view(PyViewer& viewer, bool pause, const std::optional<std::string>& text, bool offscreen) {
-  if (offscreen) return 0;
-  if (!openPage(viewer)) return pause ? kEscape : 0;
+  if (!show(viewer, text, offscreen)) return pause && !offscreen ? kEscape : 0;
   const nb::gil_scoped_release unlock;
   return viewer.wait(pause, text, interrupted);
 }

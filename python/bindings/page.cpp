@@ -139,4 +139,9 @@ bool openPage(PyViewer& viewer) {
   return true;
 }
 
+bool show(PyViewer& viewer, const std::optional<std::string>& message, bool offscreen) {
+  if (message) viewer.noteMessage(*message);
+  return !offscreen && openPage(viewer);
+}
+
 }  // namespace kinegraph::python
