@@ -142,7 +142,7 @@ export class Selection {
     this.tinted = materialsOf(shown.object).filter((material) => material instanceof THREE.MeshStandardMaterial);
     for (const material of this.tinted) {
       material.emissive.setHex(HIGHLIGHT);
-      material.emissiveIntensity = 0.45;
+      material.emissiveIntensity = 0.28;
     }
   }
 
