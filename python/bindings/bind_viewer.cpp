@@ -2,6 +2,8 @@
 #include <nanobind/stl/shared_ptr.h>
 #include <nanobind/stl/string.h>
 
+#include <algorithm>
+
 #include "bindings.h"
 #include "defaults.h"
 #include "kinegraph/base/errors.h"
@@ -47,6 +49,16 @@ void bindEarlierNames(nb::class_<PyConfig>& config) {
              ofViewer(c, "focus")(toNumpy(position.data(), 3), height);
            },
            "frameName"_a, "absHeight"_a = 1., "Turns the view to a frame; absHeight m fit into the window.");
+}
+
+/// In pieces, between which people can stop it.
+bool waitForClient(PyViewer& viewer, double seconds) {
+  constexpr double kPiece = .1;  // s
+  for (double left = seconds;; left -= kPiece) {
+    if (viewer.server().waitForClient(std::clamp(left, 0., kPiece))) return true;
+    interrupted();
+    if (!(left > kPiece)) return false;
+  }
 }
 
 /// The page with what is shown inside, whether a server runs or not.
@@ -120,7 +132,7 @@ void bindViewer(nb::module_& m, nb::class_<PyConfig>& config) {
           "waitForClient",
           [](PyViewer& v, double seconds) {
             const nb::gil_scoped_release unlock;
-            return v.server().waitForClient(seconds);
+            return waitForClient(v, seconds);
           },
           "seconds"_a = 10., "Waits until a browser is connected; False if none came in time.")
       .def("setMessage", &PyViewer::setMessage, "text"_a, "Text in the corner.")
