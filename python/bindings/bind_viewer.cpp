@@ -51,6 +51,14 @@ void bindEarlierNames(nb::class_<PyConfig>& config) {
            "frameName"_a, "absHeight"_a = 1., "Turns the view to a frame; absHeight m fit into the window.");
 }
 
+void select(PyViewer& viewer, int frame) {
+  const int count = viewer.scene ? int(viewer.scene->frames().size()) : 0;
+  if (frame < 0 || frame >= count) {
+    throw ValueError(cat("select: no frame has the ID ", frame, "; the viewer shows ", count, ", from 0 on"));
+  }
+  viewer.select(frame);
+}
+
 /// In pieces, between which people can stop it.
 bool waitForClient(PyViewer& viewer, double seconds) {
   constexpr double kPiece = .1;  // s
@@ -141,7 +149,7 @@ void bindViewer(nb::module_& m, nb::class_<PyConfig>& config) {
       .def("takeKey", &PyViewer::takeKey, "The key pressed since the last call, or 0.")
       .def("hasEdits", &PyViewer::hasEdits,
            "True if people have moved joints or frames in the browser since the last view(), which takes that over.")
-      .def("select", &PyViewer::select, "frame"_a, "Shows the card of the frame with this ID, with handles to move it.")
+      .def("select", select, "frame"_a, "Shows the card of the frame with this ID, with handles to move it.")
       .def("asHtml", pageOf, "A web page with the scene, or the motion, that is shown; it opens without this program.")
       .def(
           "saveHtml",

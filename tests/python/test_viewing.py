@@ -142,6 +142,16 @@ print('status', status, C.viewer().url == url, bool(moved))
     assert "other True" in done.stdout and "status 0 True True" in done.stdout, done.stdout
 
 
+def test_what_cannot_be_shown_is_an_error_that_says_why():
+    C = ry.Config()
+    C.addFrame("one")
+    for frame in (-1, 1):
+        with pytest.raises(ry.ArgumentError, match=f"no frame has the ID {frame}; the viewer shows 1"):
+            C.viewer().select(frame)
+    with pytest.raises(ry.ArgumentError, match=r"shape \(3, 5, 4\); expected \(height, width, 3\)"):
+        ry.ImageViewer().view(np.zeros((3, 5, 4), np.uint8))
+
+
 def test_two_viewers_take_two_ports():
     one, two = ry.Config(), ry.Config()
     one.view()
