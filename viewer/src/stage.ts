@@ -1,8 +1,8 @@
 import * as THREE from "three";
-import { CSS2DRenderer } from "three/addons/renderers/CSS2DRenderer.js";
 import { replaceIn, lookOnceForHardShadows } from "./chunks";
 import { isSeen } from "./display";
 import { Floor } from "./floor";
+import { Labels } from "./labels";
 import { Lights } from "./lights";
 import type { CameraMessage, LookMessage } from "./messages";
 import { drawsInSoftware, Quality } from "./quality";
@@ -54,7 +54,7 @@ export class Stage {
   readonly frames = new THREE.Group();
   readonly renderer: THREE.WebGLRenderer;
   readonly viewpoint: Viewpoint;
-  private readonly labels = new CSS2DRenderer();
+  private readonly labels: Labels;
   private readonly floor = new Floor();
   private ground: THREE.Color | null = null; // behind everything, if the program says so
   private readonly lights = new Lights();
@@ -76,8 +76,7 @@ export class Stage {
     this.renderer.shadowMap.type = THREE.PCFShadowMap;
     this.renderer.toneMapping = bentAtWhite();
     lookOnceForHardShadows();
-    this.labels.domElement.className = "labels";
-    canvas.after(this.labels.domElement);
+    this.labels = new Labels(canvas);
     this.viewpoint = new Viewpoint(
       canvas,
       () => (this.dirty = true),
