@@ -162,7 +162,9 @@ def test_ctrl_drag_turns_freely_and_over_the_pole(balls: kg.Config, browser: Bro
     np.testing.assert_allclose(axes(browser), before @ over.T, atol=1e-4)
     assert axes(browser)[2, 1] > 0  # upside down
     np.testing.assert_allclose(target(browser), middle, atol=1e-4)
-    np.testing.assert_allclose(balls.viewer().getCamera_pose(), browser.evaluate("kinegraph.viewpoint().pose"), atol=1e-9)
+    np.testing.assert_allclose(
+        balls.viewer().getCamera_pose(), browser.evaluate("kinegraph.viewpoint().pose"), atol=1e-9
+    )
     browser.drag((x, y + 110), (x, y - 110), 40, CTRL)
     np.testing.assert_allclose(axes(browser), before, atol=1e-4)
 
