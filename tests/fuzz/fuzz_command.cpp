@@ -1,6 +1,5 @@
 // A libFuzzer target for what browsers say to the viewer: messages one after the other, each with its length in front. Whatever the
-// bytes are, they are a command or nothing, the joints of the scene stay within their limits, its poses finite, and the camera is
-// one.
+// bytes are, they are a command or nothing, the joints of the scene stay within their limits, its poses finite, and the camera is one.
 #include <cmath>
 #include <cstdint>
 #include <cstdlib>
@@ -27,8 +26,8 @@ Config makeScene() {
   config.addText(
       "base: { pose: [0 0 1] }\n"
       "arm (base): { joint: hingeX, limits: [-1 2], q: .5, shape: box, size: [.1 .1 .4] }\n"
-      "ball (arm): { pose: [0 0 .3], joint: quatBall, shape: sphere, size: [.1] }\n"
-      "free: { joint: free, shape: ssBox, size: [.2 .2 .2 .02] }\n");
+      "ball (arm): { joint: quatBall, pre: [0 0 .3], shape: sphere, size: [.1] }\n"
+      "loose (base): { joint: free, shape: ssBox, size: [.2 .2 .2 .02] }\n");
   return config;
 }
 
