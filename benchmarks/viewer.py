@@ -8,8 +8,8 @@ bundle: the page as it is served, compressed. first: from the call of view() unt
 a program shows the Panda. client: 200 shapes (boxes, spheres, capsules, cylinders, meshes), all moved 60 times per second by a
 program; pictures per second of a headless Chromium that draws in software, with shadows, and how many of the 60 arrive.
 server: share of one core that the server's side of 1000 frames at 60 Hz takes, kinematics included, with a browser's
-connection that reads everything. ik: a target is dragged by its handles on the page while `interactiveIk` runs; how often a
-state of the arm arrives at the page, and how often it draws. camera: RGB and depth, 640x360, of pandaSingle.
+connection that reads everything. ik: a target is dragged by its handles on the page while `interactiveIk` runs; how often
+poses arrive at the page, how often it draws, and how often the arm is somewhere else on what it draws. camera: RGB and depth, 640x360, of pandaSingle.
 
 On a busy machine figures are worse than they are. Needs Chromium and the package `websockets` (first, client, server).
 """
@@ -242,7 +242,7 @@ def dragging(seconds: float, width: int, height: int) -> None:
             before, used = browser.evaluate(counters), [processor_time(p) for p in (program.pid, browser.process_id)]
             time.sleep(seconds)
             used = [processor_time(p) - u for p, u in zip((program.pid, browser.process_id), used)]
-            places, moves, pictures, states, passed = (b - a for a, b in zip(before, browser.evaluate(counters)))
+            places, moves, pictures, messages, passed = (b - a for a, b in zip(before, browser.evaluate(counters)))
             apart = np.diff(browser.evaluate("places")[before[0] :])
             share = browser.evaluate("kinegraph.resolution()")
     finally:
@@ -250,8 +250,8 @@ def dragging(seconds: float, width: int, height: int) -> None:
         program.wait()
     passed /= 1e3
     print(
-        f"ik, {width}x{height}, {moves / passed:.0f} moves/s of the pointer: {states / passed:.1f} states/s of the arm arrive "
-        f"at the page, {pictures / passed:.1f} pictures/s are drawn; the arm is somewhere else in {places / passed:.1f} "
+        f"ik, {width}x{height}, {moves / passed:.0f} moves/s of the pointer: {messages / passed:.1f} messages/s with "
+        f"poses of the target or the arm arrive at the page, {pictures / passed:.1f} pictures/s are drawn; the arm is somewhere else in {places / passed:.1f} "
         f"pictures/s, {np.median(apart):.0f} ms apart, 9 of 10 within {np.quantile(apart, 0.9):.0f} ms; processor time per "
         f"picture: program {1e3 * used[0] / pictures:.1f} ms, browser {1e3 * used[1] / pictures:.1f} ms; {share:.2f} pixels "
         "drawn per pixel across"
