@@ -68,7 +68,7 @@ def robot_parts(config: kg.Config) -> list[Part]:
             continue
         source = kg.Config().addFrame("mesh")
         try:
-            source.setMeshFile(frame.asDict()["visual_mesh"])
+            source.setMeshFile(frame.asDict()["visual_mesh"].strip("<>"))
         except (KeyError, kg.Error):
             source = frame
         vertices, triangles, colors = source.getMesh()

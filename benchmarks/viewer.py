@@ -8,8 +8,8 @@ bundle: the page as it is served, compressed. first: from the call of view() unt
 a program shows the Panda. client: 200 shapes (boxes, spheres, capsules, cylinders, meshes), all moved 60 times per second by a
 program; pictures per second of a headless Chromium that draws in software, with shadows, and how many of the 60 arrive.
 server: share of one core that the server's side of 1000 frames at 60 Hz takes, kinematics included, with a browser's
-connection that reads everything. ik: a target is dragged by its handles on the page while `interactiveIk` runs; how often the
-gripper is somewhere else on the page. camera: RGB and depth, 640x360, of pandaSingle.
+connection that reads everything. ik: a target is dragged by its handles on the page while `interactiveIk` runs; how often
+poses arrive at the page, how often it draws, and how often the arm is somewhere else on what it draws. camera: RGB and depth, 640x360, of pandaSingle.
 
 On a busy machine figures are worse than they are. Needs Chromium and the package `websockets` (first, client, server).
 """
@@ -119,6 +119,10 @@ def start(code: str, *arguments: str) -> tuple[subprocess.Popen, str]:
     raise RuntimeError("the program has not started its viewer")
 
 
+def set_size(browser: Browser, width: int, height: int) -> None:
+    browser.call("Emulation.setDeviceMetricsOverride", width=width, height=height, deviceScaleFactor=1, mobile=False)
+
+
 def processor_time(process: int) -> float:
     """Of a process and all that it has started, s."""
     times, parents = {}, {}
@@ -171,15 +175,13 @@ def client(seconds: float, width: int, height: int, shadows: bool) -> None:
     program, url = start(MOVING, "200", "moving")
     try:
         with Browser() as browser:
-            browser.call(
-                "Emulation.setDeviceMetricsOverride", width=width, height=height, deviceScaleFactor=1, mobile=False
-            )
+            set_size(browser, width, height)
             browser.open_page(url)
             browser.wait_for("kinegraph.frames() == 200")
             if not shadows:
                 browser.press_alt("S")
             time.sleep(3)
-            counters = "[kinegraph.pictures(), kinegraph.messages(), performance.now()]"
+            counters = "[kinegraph.pictures(), kinegraph.poses(), performance.now()]"
             before, used = browser.evaluate(counters), processor_time(browser.process_id)
             time.sleep(seconds)
             used = processor_time(browser.process_id) - used
@@ -225,31 +227,34 @@ def server() -> None:
         )
 
 
-def dragging(seconds: float) -> None:
+def dragging(seconds: float, width: int, height: int) -> None:
     program, url = start(DRAGGED)
     try:
         with Browser() as browser:
+            set_size(browser, width, height)
             browser.open_page(url)
             browser.wait_for("kinegraph.position('ik_target') && kinegraph.selected() == 'ik_target'")
             browser.wait_for("kinegraph.idle()")
             x, y = browser.pixel(browser.evaluate("kinegraph.position('ik_target')"))
             browser.evaluate(DRAG.replace("PLACE", f"[{x}, {y}]"))
             time.sleep(2)
-            counters = "[places.length, moves, kinegraph.pictures(), performance.now()]"
+            counters = "[places.length, moves, kinegraph.pictures(), kinegraph.poses(), performance.now()]"
             before, used = browser.evaluate(counters), [processor_time(p) for p in (program.pid, browser.process_id)]
             time.sleep(seconds)
             used = [processor_time(p) - u for p, u in zip((program.pid, browser.process_id), used)]
-            places, moves, pictures, passed = (b - a for a, b in zip(before, browser.evaluate(counters)))
+            places, moves, pictures, messages, passed = (b - a for a, b in zip(before, browser.evaluate(counters)))
             apart = np.diff(browser.evaluate("places")[before[0] :])
+            share = browser.evaluate("kinegraph.resolution()")
     finally:
         program.kill()
         program.wait()
     passed /= 1e3
     print(
-        f"ik, {moves / passed:.0f} moves/s of the pointer: the arm is somewhere else {places / passed:.1f} times/s on the "
-        f"page, {np.median(apart):.0f} ms apart, 9 of 10 within {np.quantile(apart, 0.9):.0f} ms; {pictures / passed:.1f} "
-        f"pictures/s; processor time per place: program {1e3 * used[0] / places:.1f} ms, browser "
-        f"{1e3 * used[1] / places:.1f} ms"
+        f"ik, {width}x{height}, {moves / passed:.0f} moves/s of the pointer: {messages / passed:.1f} messages/s with "
+        f"poses of the target or the arm arrive at the page, {pictures / passed:.1f} pictures/s are drawn; the arm is somewhere else in {places / passed:.1f} "
+        f"pictures/s, {np.median(apart):.0f} ms apart, 9 of 10 within {np.quantile(apart, 0.9):.0f} ms; processor time per "
+        f"picture: program {1e3 * used[0] / pictures:.1f} ms, browser {1e3 * used[1] / pictures:.1f} ms; {share:.2f} pixels "
+        "drawn per pixel across"
     )
 
 
@@ -283,7 +288,7 @@ def main() -> None:
         "first": first_picture,
         "client": lambda: client(options.seconds, width, height, not options.no_shadows),
         "server": server,
-        "ik": lambda: dragging(options.seconds),
+        "ik": lambda: dragging(options.seconds, width, height),
         "camera": camera,
     }
     for what in options.what:

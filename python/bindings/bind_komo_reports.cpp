@@ -154,20 +154,22 @@ int viewSlice(PyKomo& komo, int slice, bool pause) {
   return show(komo, motion, pause, cat("slice ", slice));
 }
 
-/// A picture of each slice as PREFIX000000.png and so on, without a browser.
-void savePictures(PyKomo& komo, const std::string& prefix) {
+/// A picture of each slice as PREFIX000000.png and so on, without a browser, with what the page tells of the slice.
+void savePictures(PyKomo& komo, const std::string& prefix, const std::vector<std::string>& texts) {
   if (!komo.viewer) komo.viewer = std::make_shared<PyViewer>();
   nb::module_::import_("kinegraph.png").attr("removeNumbered")(prefix);
   for (int t = -komo.order(); t < komo.slices(); ++t) {
     komo.viewer->scene = komo.configuration(t).scene();
-    savePicture(*komo.viewer, prefix, t + komo.order());
+    const std::string& text = texts[std::size_t(t + komo.order())];
+    const std::string title = cat("slice ", t, "/", komo.slices(), text.empty() ? "" : "\n", text);
+    savePicture(*komo.viewer, prefix, t + komo.order(), title);
     checkInterrupt();
   }
 }
 
 int viewPlay(PyKomo& komo, bool pause, Message text, double delay, const std::optional<std::string>& video) {
-  if (video) savePictures(komo, *video);
   ShownMotion motion = motionOf(komo);
+  if (video) savePictures(komo, *video, motion.texts);
   motion.start = ShownMotion::Start::play;
   const auto count = motion.poses.size();
   motion.seconds = std::clamp(delay, .01, 10.) * double(count);

@@ -13,8 +13,8 @@ namespace kinegraph::python {
 
 namespace {
 
-/// A picture of what the viewer shows.
-CameraImage picture(PyViewer& viewer) {
+/// A picture of what the viewer shows, with a text on it.
+CameraImage picture(PyViewer& viewer, const std::string& text) {
   if (!viewer.scene) throw ValueError("this viewer shows nothing yet; call view() first");
   const Camera camera = cameraNow(viewer);
   const Look look = lookOfParameters();
@@ -29,6 +29,11 @@ CameraImage picture(PyViewer& viewer) {
   const nb::gil_scoped_release unlock;
   CameraImage image = viewer.renderer->render(*viewer.scene, camera, viewer.visuals_only);
   for (const auto& [id, quad] : viewer.quads) drawQuad(image.rgb, image.width, quad);
+  if (look.text && !viewer.visuals_only && !text.empty()) {
+    constexpr int kAround = 48;  // pixels, of width and height, that the text may not have
+    const int width = std::max(image.width - kAround, 1), height = std::max(image.height - kAround, 1);
+    drawLetters(image.rgb, image.width, viewer.renderer->write(text, width, height));
+  }
   return image;
 }
 
@@ -80,8 +85,8 @@ void setCameraTarget(PyViewer& viewer, const Numbers& position, const Numbers& t
 
 }  // namespace
 
-std::string savePicture(PyViewer& viewer, const std::string& path, int count) {
-  CameraImage image = picture(viewer);
+std::string savePicture(PyViewer& viewer, const std::string& path, int count, const std::optional<std::string>& text) {
+  CameraImage image = picture(viewer, text.value_or(viewer.message()));
   std::string file = path;
   if (!path.ends_with(".png")) {
     if (count >= 0) viewer.saved = count;
@@ -97,19 +102,19 @@ void bindPictures(nb::class_<PyViewer>& viewer) {
       .def(
           "getRgb",
           [](PyViewer& v, bool) {
-            CameraImage image = picture(v);
+            CameraImage image = picture(v, v.message());
             return rgbOf(image);
           },
-          "nonThreaded"_a = true, "A picture of the scene, drawn without a browser: uint8 (height, width, 3).")
+          "nonThreaded"_a = true, "A picture of the scene, with the message, drawn without a browser: uint8 (height, width, 3).")
       .def(
           "getDepth",
           [](PyViewer& v, bool) {
-            CameraImage image = picture(v);
+            CameraImage image = picture(v, v.message());
             return depthOf(image);
           },
           "nonThreaded"_a = true,
           "Its depth along the camera's z axis: float32 (height, width), m; -1 where nothing is.")
-      .def("savePng", savePicture, "saveVideoPath"_a = "z.vid/", "count"_a = -1,
+      .def("savePng", [](PyViewer& v, const std::string& path, int count) { return savePicture(v, path, count); }, "saveVideoPath"_a = "z.vid/", "count"_a = -1,
            "Saves a picture, and returns the file's name: `saveVideoPath` itself if it ends in .png; else it is a "
            "prefix that\n"
            "gets a number of six digits, which counts up from 0, or from `count`. Folders are made.")

@@ -2,6 +2,8 @@
 #include <nanobind/stl/shared_ptr.h>
 #include <nanobind/stl/string.h>
 
+#include <algorithm>
+
 #include "bindings.h"
 #include "defaults.h"
 #include "kinegraph/base/errors.h"
@@ -49,6 +51,24 @@ void bindEarlierNames(nb::class_<PyConfig>& config) {
            "frameName"_a, "absHeight"_a = 1., "Turns the view to a frame; absHeight m fit into the window.");
 }
 
+void select(PyViewer& viewer, int frame) {
+  const int count = viewer.scene ? int(viewer.scene->frames().size()) : 0;
+  if (frame < 0 || frame >= count) {
+    throw ValueError(cat("select: no frame has the ID ", frame, "; the viewer shows ", count, ", from 0 on"));
+  }
+  viewer.select(frame);
+}
+
+/// In pieces, between which people can stop it.
+bool waitForClient(PyViewer& viewer, double seconds) {
+  constexpr double kPiece = .1;  // s
+  for (double left = seconds;; left -= kPiece) {
+    if (viewer.server().waitForClient(std::clamp(left, 0., kPiece))) return true;
+    interrupted();
+    if (!(left > kPiece)) return false;
+  }
+}
+
 /// The page with what is shown inside, whether a server runs or not.
 std::string pageOf(PyViewer& viewer) {
   return viewer.isOpen() || !viewer.scene ? viewer.recording() : recordedScene(Config(*viewer.scene));
@@ -56,8 +76,7 @@ std::string pageOf(PyViewer& viewer) {
 
 int view(PyConfig& config, bool pause, const std::optional<std::string>& message, bool offscreen) {
   const std::shared_ptr<PyViewer> viewer = showIn(config);
-  if (offscreen) return 0;
-  if (!openPage(*viewer)) return pause ? kEscape : 0;
+  if (!show(*viewer, message, offscreen)) return pause && !offscreen ? kEscape : 0;
   const nb::gil_scoped_release unlock;
   return viewer->view(config, pause, message, interrupted);
 }
@@ -121,7 +140,7 @@ void bindViewer(nb::module_& m, nb::class_<PyConfig>& config) {
           "waitForClient",
           [](PyViewer& v, double seconds) {
             const nb::gil_scoped_release unlock;
-            return v.server().waitForClient(seconds);
+            return waitForClient(v, seconds);
           },
           "seconds"_a = 10., "Waits until a browser is connected; False if none came in time.")
       .def("setMessage", &PyViewer::setMessage, "text"_a, "Text in the corner.")
@@ -130,7 +149,7 @@ void bindViewer(nb::module_& m, nb::class_<PyConfig>& config) {
       .def("takeKey", &PyViewer::takeKey, "The key pressed since the last call, or 0.")
       .def("hasEdits", &PyViewer::hasEdits,
            "True if people have moved joints or frames in the browser since the last view(), which takes that over.")
-      .def("select", &PyViewer::select, "frame"_a, "Shows the card of the frame with this ID, with handles to move it.")
+      .def("select", select, "frame"_a, "Shows the card of the frame with this ID, with handles to move it.")
       .def("asHtml", pageOf, "A web page with the scene, or the motion, that is shown; it opens without this program.")
       .def(
           "saveHtml",

@@ -27,8 +27,10 @@ template <class T>
 Quad quadOf(const Image<T>& image, const char* who) {
   const bool grey = image.ndim() == 2;
   if (!grey && (image.ndim() != 3 || image.shape(2) != 3)) {
-    throw ValueError(cat(who, ": the picture has ", image.ndim(),
-                         " dimensions; expected (height, width, 3), or (height, width) for grey"));
+    std::string shape;
+    for (std::size_t i = 0; i < image.ndim(); ++i) shape += cat(i ? ", " : "", image.shape(i));
+    throw ValueError(
+        cat(who, ": the picture has shape (", shape, "); expected (height, width, 3), or (height, width) for grey"));
   }
   if (image.size() == 0) throw ValueError(cat(who, ": the picture has no pixels"));
   Quad quad;
@@ -60,8 +62,7 @@ int setQuad(PyViewer& viewer, int id, const Image<std::uint8_t>& rgb, double x, 
 }
 
 int view(PyViewer& viewer, bool pause, const std::optional<std::string>& text, bool offscreen) {
-  if (offscreen) return 0;
-  if (!openPage(viewer)) return pause ? kEscape : 0;
+  if (!show(viewer, text, offscreen)) return pause && !offscreen ? kEscape : 0;
   const nb::gil_scoped_release unlock;
   return viewer.wait(pause, text, interrupted);
 }

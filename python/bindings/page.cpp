@@ -99,6 +99,10 @@ PageCamera pageCameraOf(const Camera& camera) {
   page.focal_length = camera.focal_length;
   page.ortho_height = camera.ortho_height;
   page.aspect = double(camera.width) / camera.height;
+  if (camera.has_range) {
+    page.near = camera.near;
+    page.far = camera.far;
+  }
   return page;
 }
 
@@ -133,6 +137,11 @@ bool openPage(PyViewer& viewer) {
     nb::module_::import_("kinegraph.notebook").attr("showInline")(viewer.url());
   }
   return true;
+}
+
+bool show(PyViewer& viewer, const std::optional<std::string>& message, bool offscreen) {
+  if (message) viewer.noteMessage(*message);
+  return !offscreen && openPage(viewer);
 }
 
 }  // namespace kinegraph::python

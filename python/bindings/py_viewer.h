@@ -68,6 +68,9 @@ constexpr int kEscape = 27;  ///< the key that views return at once where parame
 /// from where calls of the viewer said. False, and no page, where parameter `disableGui` is set.
 bool openPage(PyViewer& viewer);
 
+/// Remembers the message, and opens the page; false, and no page, if `offscreen` or where openPage opens none.
+bool show(PyViewer& viewer, const std::optional<std::string>& message, bool offscreen);
+
 /// Where the viewer looks from: as it was told, or where a person has turned the page to since.
 Camera cameraNow(PyViewer& viewer);
 
@@ -86,8 +89,9 @@ void bindViewerInput(nb::module_& m, nb::class_<PyViewer>& viewer);
 /// The picture calls of a viewer.
 void bindPictures(nb::class_<PyViewer>& viewer);
 
-/// Saves a picture as PNG: as `path` if that ends in .png, else as path + number of six digits + .png. Returns the
-/// file.
-std::string savePicture(PyViewer& viewer, const std::string& path, int count);
+/// Saves a picture as PNG: as `path` if that ends in .png, else as path + number of six digits + .png. `text` is on it,
+/// or the viewer's message. Returns the file.
+std::string savePicture(PyViewer& viewer, const std::string& path, int count,
+                        const std::optional<std::string>& text = std::nullopt);
 
 }  // namespace kinegraph::python

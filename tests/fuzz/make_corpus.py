@@ -46,6 +46,24 @@ def meshes() -> dict[str, list[bytes]]:
     }
 
 
+def commands() -> dict[str, list[bytes]]:
+    """What a browser says: each message with its length in front."""
+    pose = struct.pack("<i7d", 7, 0.1, 0.2, 0.3, 1, 0, 0, 0)
+    messages = [
+        struct.pack("<3i", 1, ord("a"), 0),
+        struct.pack("<3id", 2, 1, 0, 0.7),
+        struct.pack("<2i", 3, 1),
+        struct.pack("<2i", 4, 1),
+        *(struct.pack("<3i", 5, 1, frame) + pose for frame in range(4)),
+        struct.pack("<2id", 6, 1, 0.05),
+        struct.pack("<4i", 7, 3, 0, 0),
+        struct.pack("<2i", 8, 2) + struct.pack("<i3d", 3, 1, 2, 3) + struct.pack("<i3d", 3, 0, 0, 1),
+        struct.pack("<i", 9) + pose + struct.pack("<3d", 2, 1.4, 0),
+    ]
+    lines = [bytes([len(message)]) + message for message in messages]
+    return {"command": [*lines, b"".join(lines)]}
+
+
 def exports() -> dict[str, list[bytes]]:
     """A small scene in the formats that are written for others to read."""
     C = ry.Config()
@@ -77,7 +95,7 @@ def scenes() -> dict[str, list[bytes]]:
 
 def main(folder: Path) -> None:
     warnings.simplefilter("ignore", ry.KinegraphWarning)
-    for kind, seeds in {**meshes(), **exports(), **scenes()}.items():
+    for kind, seeds in {**meshes(), **commands(), **exports(), **scenes()}.items():
         (folder / kind).mkdir(parents=True, exist_ok=True)
         for number, seed in enumerate(seeds):
             (folder / kind / f"seed{number}").write_bytes(seed)

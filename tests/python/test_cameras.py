@@ -436,6 +436,35 @@ def test_pictures_show_what_is_on_top_of_the_scene():
 
 
 @needs_egl
+def test_pictures_show_the_message(monkeypatch):
+    C, _ = scene("ball: { X: [2 0 2], shape: sphere, size: [.3], color: [1 0 0] }")
+    viewer = C.viewer()
+    plain, depth = viewer.getRgb(), viewer.getDepth()
+    C.view(False, "slice 3", offscreen=True)
+    short = viewer.getRgb()
+    changed = np.nonzero((short != plain).any(axis=2))
+    assert changed[0].min() >= 12 and changed[0].max() < 12 + 18 + 20  # one line in the corner
+    assert changed[1].min() >= 12 and 60 < changed[1].max() < 150
+    assert (short[changed].sum(axis=1) < 200).sum() > 15  # dark letters
+    np.testing.assert_array_equal(viewer.getDepth(), depth)
+    C.view(offscreen=True)  # it stays
+    np.testing.assert_array_equal(viewer.getRgb(), short)
+    viewer.view(False, "slice 3\n" + "word " * 40, offscreen=True)
+    longer = np.nonzero((viewer.getRgb() != plain).any(axis=2))
+    assert longer[0].max() > changed[0].max() + 2 * 18
+    assert longer[1].max() < 600 - 12
+    viewer.visualsOnly()
+    np.testing.assert_array_equal(viewer.getRgb(), plain)
+    viewer.visualsOnly(False)
+    monkeypatch.setattr("kinegraph.parameters._values", {"Render/renderText": False})
+    np.testing.assert_array_equal(viewer.getRgb(), plain)
+    monkeypatch.undo()
+    C.view(False, "", offscreen=True)
+    np.testing.assert_array_equal(viewer.getRgb(), plain)
+    assert not viewer.isOpen()
+
+
+@needs_egl
 def test_pictures_look_as_parameters_say(monkeypatch):
     C, _ = scene("wall: { X: [2 0 2], shape: box, size: [1 9 9], color: [.6 .4 .2] }")
     viewer = C.viewer()

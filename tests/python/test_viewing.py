@@ -142,6 +142,16 @@ print('status', status, C.viewer().url == url, bool(moved))
     assert "other True" in done.stdout and "status 0 True True" in done.stdout, done.stdout
 
 
+def test_what_cannot_be_shown_is_an_error_that_says_why():
+    C = ry.Config()
+    C.addFrame("one")
+    for frame in (-1, 1):
+        with pytest.raises(ry.ArgumentError, match=f"no frame has the ID {frame}; the viewer shows 1"):
+            C.viewer().select(frame)
+    with pytest.raises(ry.ArgumentError, match=r"shape \(3, 5, 4\); expected \(height, width, 3\)"):
+        ry.ImageViewer().view(np.zeros((3, 5, 4), np.uint8))
+
+
 def test_two_viewers_take_two_ports():
     one, two = ry.Config(), ry.Config()
     one.view()
@@ -155,13 +165,31 @@ def test_a_configuration_can_be_shown_in_anothers_viewer():
     assert one.viewer().url == two.viewer().url
 
 
-@pytest.mark.parametrize("call", ["C.view(True)", "C.watchFile(ry.raiPath('scenarios/pandaSingle.g'))"])
+WAITING = [
+    "C.view(True)",
+    "C.viewer().view(True)",
+    "C.view_path([C.getJointState()] * 9, 60, True)",
+    "C.watchFile(ry.raiPath('scenarios/pandaSingle.g'))",
+    "ry.interactiveIk(C, 'l_gripper')",
+]
+
+
+@pytest.mark.parametrize("call", WAITING)
 def test_ctrl_c_ends_the_waiting(call):
     waiting = "C.view(), C.viewer().waitForClient(60), print('WAITING', flush=True)"
     with Viewing(f"({waiting}, {call})") as viewing, viewing.connect():
         viewing.line("WAITING")
         time.sleep(0.3)
         assert viewing.program.poll() is None
+        viewing.program.send_signal(signal.SIGINT)
+        assert viewing.line("INTERRUPTED") == "INTERRUPTED 7\n"
+        assert viewing.program.wait(20) == 0
+
+
+def test_ctrl_c_ends_the_waiting_for_a_browser():
+    with Viewing("(C.view(), print('WAITING', flush=True), C.viewer().waitForClient(60))") as viewing:
+        viewing.line("WAITING")
+        time.sleep(0.3)
         viewing.program.send_signal(signal.SIGINT)
         assert viewing.line("INTERRUPTED") == "INTERRUPTED 7\n"
         assert viewing.program.wait(20) == 0

@@ -165,14 +165,17 @@ class Browser:
         for kind in ("mousePressed", "mouseReleased"):
             self.call("Input.dispatchMouseEvent", type=kind, x=x, y=y, button="left", clickCount=1)
 
-    def drag(self, start: tuple[float, float], end: tuple[float, float], steps: int = 8) -> None:
-        """Moves the pointer there, presses, moves on in steps, and lets go."""
+    def mouse(self, kind: str, x: float, y: float, **more: Any) -> None:
+        self.call("Input.dispatchMouseEvent", type=kind, x=x, y=y, **more)
+
+    def drag(self, start: tuple[float, float], end: tuple[float, float], steps: int = 8, modifiers: int = 0) -> None:
+        """Moves the pointer there, presses, moves on in steps, and lets go. `modifiers`: 2 is Ctrl."""
         points = np.linspace(start, end, steps + 1)
-        self.call("Input.dispatchMouseEvent", type="mouseMoved", x=points[0][0], y=points[0][1])
-        self.call("Input.dispatchMouseEvent", type="mousePressed", x=points[0][0], y=points[0][1], button="left")
-        for x, y in points[1:]:
-            self.call("Input.dispatchMouseEvent", type="mouseMoved", x=x, y=y, button="left", buttons=1)
-        self.call("Input.dispatchMouseEvent", type="mouseReleased", x=end[0], y=end[1], button="left")
+        self.mouse("mouseMoved", *points[0], modifiers=modifiers)
+        self.mouse("mousePressed", *points[0], button="left", modifiers=modifiers)
+        for place in points[1:]:
+            self.mouse("mouseMoved", *place, button="left", buttons=1, modifiers=modifiers)
+        self.mouse("mouseReleased", *points[-1], button="left", modifiers=modifiers)
 
     def click_button(self, text: str) -> None:
         """Clicks the button with that text."""
@@ -187,9 +190,12 @@ class Browser:
     def is_visible(self, selector: str) -> bool:
         return self.evaluate(f"document.querySelector({json.dumps(selector)}).checkVisibility()")
 
+    def decode(self, png: str, height: int) -> np.ndarray:
+        """The rgb bytes of a picture in base64, shape (height, width, 3)."""
+        pixels = self.evaluate(DECODE_PNG.replace("PNG", png))
+        return np.frombuffer(base64.b64decode(pixels), np.uint8).reshape(height, -1, 4)[..., :3]
+
     def picture(self) -> np.ndarray:
         """The page as people see it: rgb bytes, shape (HEIGHT, WIDTH, 3)."""
         self.wait_for("kinegraph.idle()")
-        png = self.call("Page.captureScreenshot", format="png")["data"]
-        pixels = self.evaluate(DECODE_PNG.replace("PNG", png))
-        return np.frombuffer(base64.b64decode(pixels), np.uint8).reshape(HEIGHT, WIDTH, 4)[..., :3]
+        return self.decode(self.call("Page.captureScreenshot", format="png")["data"], HEIGHT)

@@ -52,6 +52,6 @@ TEST(JsonWriter, KeepsUtf8AndReplacesBytesThatAreNot) {
 TEST(JsonWriter, WritesNumbersThatAreNotFiniteAsNull) {
   JsonWriter json;
   const double infinity = std::numeric_limits<double>::infinity();
-  writeJson(json, CameraMessage{{infinity, std::nan(""), 1e-300}, -0.5, 1e300, 0., 1.});
-  EXPECT_EQ(json.text(), R"({"kind":"camera","pose":[null,null,1e-300],"distance":-0.5,"focal":1e+300,"ortho":0,"aspect":1})");
+  writeJson(json, CameraMessage{{infinity, std::nan(""), 1e-300}, -0.5, 1e300, 0., 1., 0., 5.});
+  EXPECT_EQ(json.text(), R"({"kind":"camera","pose":[null,null,1e-300],"distance":-0.5,"focal":1e+300,"ortho":0,"aspect":1,"near":0,"far":5})");
 }

@@ -215,9 +215,9 @@ TEST(ShownScene, TextsAndCameraAreSentWhenTheyChange) {
   ShownScene::Seen seen;
   scene.messagesSince(seen);
   EXPECT_TRUE(scene.setText(&ShownScene::error, "no such file"));
-  scene.setCamera({{Vector3d(1., 2., 3.), Quaterniond::Identity()}, 1.5, .9, 0., 1.25});
+  scene.setCamera({{Vector3d(1., 2., 3.), Quaterniond::Identity()}, 1.5, .9, 0., 1.25, .5, 8.});
   const auto messages = scene.messagesSince(seen);
   ASSERT_EQ(kinds(messages), (Kinds{"text", "camera"}));
   EXPECT_EQ(*messages[0].data, R"({"kind":"text","title":"","message":"","error":"no such file"})");
-  EXPECT_EQ(*messages[1].data, R"({"kind":"camera","pose":[1,2,3,1,0,0,0],"distance":1.5,"focal":0.9,"ortho":0,"aspect":1.25})");
+  EXPECT_EQ(*messages[1].data, R"({"kind":"camera","pose":[1,2,3,1,0,0,0],"distance":1.5,"focal":0.9,"ortho":0,"aspect":1.25,"near":0.5,"far":8})");
 }

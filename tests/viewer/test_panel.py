@@ -106,6 +106,23 @@ def test_names_and_axes_of_frames_can_be_shown(page: Browser) -> None:
     page.wait_for(f"kinegraph.idle() && kinegraph.geometries() > {geometries}")
 
 
+def test_names_that_would_lie_on_each_other_give_way_to_the_nearest(config: kg.Config, browser: Browser) -> None:
+    for name, place in {"far": [0, 0.5, 0.5], "near": [0, 0, 0.5], "beside": [0.8, 0, 0.5]}.items():
+        config.addFrame(name).setPosition(place)
+    config.view()
+    config.viewer().setCamera([0, -3, 0.5], [0, 0, 0.5])
+    browser.open(config.viewer().url)
+    browser.press_alt("N")
+    visible = (
+        "[...document.querySelectorAll('.name')].filter((x) => x.checkVisibility({ visibilityProperty: true }))"
+        ".map((x) => x.textContent).sort().join()"
+    )
+    browser.wait_for(f"{visible} === 'beside,near'")
+    config.getFrame("far").setPosition([0, 0.5, 0.8])
+    config.view()
+    browser.wait_for(f"{visible} === 'beside,far,near'")
+
+
 def test_the_tree_shows_hides_and_searches_frames(page: Browser) -> None:
     page.press_alt("T")
     page.wait_for(f"{LEAVES} == 'table box ghost target'")

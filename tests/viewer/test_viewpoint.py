@@ -136,6 +136,84 @@ def test_pictures_show_what_people_turn_the_page_to(attributes: str, balls: kg.C
     np.testing.assert_allclose(viewer.getCamera_pose()[:3], [0, 3, 1], atol=1e-9)
 
 
+CTRL = 2
+
+
+def axes(browser: Browser) -> np.ndarray:
+    """Of the page's camera, as columns: x to the right, y down, z forward."""
+    w, x, y, z = browser.evaluate("kinegraph.viewpoint()")["pose"][3:]
+    return kg.Quaternion([w, x, y, z]).getMatrix()
+
+
+def target(browser: Browser) -> np.ndarray:
+    seen_from = browser.evaluate("kinegraph.viewpoint()")
+    return np.array(seen_from["pose"][:3]) + seen_from["distance"] * axes(browser)[:, 2]
+
+
+def test_ctrl_drag_turns_freely_and_over_the_pole(balls: kg.Config, browser: Browser) -> None:
+    balls.view()
+    balls.viewer().setCamera([0, -3, 1], [0, 0, 0.5])
+    browser.open(balls.viewer().url)
+    before, middle = axes(browser), target(browser)
+    x, y = WIDTH / 2, HEIGHT / 2
+    browser.drag((x, y - 110), (x, y + 110), 40, CTRL)
+    angle = 3 * 220 / (HEIGHT / 2)  # 3 rad for half the shorter side
+    over = np.array([[1, 0, 0], [0, np.cos(angle), -np.sin(angle)], [0, np.sin(angle), np.cos(angle)]])
+    np.testing.assert_allclose(axes(browser), before @ over.T, atol=1e-4)
+    assert axes(browser)[2, 1] > 0  # upside down
+    np.testing.assert_allclose(target(browser), middle, atol=1e-4)
+    np.testing.assert_allclose(
+        balls.viewer().getCamera_pose(), browser.evaluate("kinegraph.viewpoint().pose"), atol=1e-9
+    )
+    browser.drag((x, y + 110), (x, y - 110), 40, CTRL)
+    np.testing.assert_allclose(axes(browser), before, atol=1e-4)
+
+
+def test_ctrl_drag_near_the_rim_rolls(balls: kg.Config, browser: Browser) -> None:
+    balls.view()
+    balls.viewer().setCamera([0, -3, 1], [0, 0, 0.5])
+    browser.open(balls.viewer().url)
+    before, place = axes(browser), browser.evaluate("kinegraph.camera()")
+    browser.drag((WIDTH / 2 + 250, HEIGHT / 2), (WIDTH / 2, HEIGHT / 2 + 250 - 20), 40, CTRL)  # a quarter, clockwise
+    after = axes(browser)
+    np.testing.assert_allclose(after[:, 2], before[:, 2], atol=1e-4)
+    np.testing.assert_allclose(after[:, 0], -before[:, 1], atol=1e-4)  # what was up is to the right
+    np.testing.assert_allclose(browser.evaluate("kinegraph.camera()"), place, atol=1e-6)
+
+
+def test_ctrl_wheel_widens_the_view_and_things_keep_their_size(balls: kg.Config, browser: Browser) -> None:
+    balls.view()
+    balls.viewer().setCamera([0, -3, 0.5], [0, 0, 0.5])
+    browser.open(balls.viewer().url)
+    before = browser.evaluate("kinegraph.viewpoint()")
+    edge = browser.pixel([0.05, 0, 0.5])
+    browser.call("Input.dispatchKeyEvent", type="rawKeyDown", key="Control", modifiers=CTRL)
+    browser.mouse("mouseWheel", 320, 100, deltaX=0, deltaY=-120, modifiers=CTRL)
+    browser.call("Input.dispatchKeyEvent", type="keyUp", key="Control")
+    browser.wait_for(f"kinegraph.viewpoint().focal > {1.05 * before['focal']}")
+    after = browser.evaluate("kinegraph.viewpoint()")
+    assert after["focal"] / before["focal"] == pytest.approx(1.1)
+    assert after["distance"] / before["distance"] == pytest.approx(1.1)
+    np.testing.assert_allclose(browser.pixel([0.05, 0, 0.5]), edge, atol=0.1)
+
+
+@pytest.mark.parametrize("projection", ["focalLength: 1.5", "orthoAbsHeight: 1.6"])
+def test_the_page_shows_no_more_than_a_cameras_range(projection: str, balls: kg.Config, browser: Browser) -> None:
+    frame = camera_frame(balls, projection + ", zRange: [2.2, 2.7]", [0, -2.5, 0.5], [0, 0, 0.5], 0)
+    balls.view()
+    balls.viewer().setCamera(frame)
+    browser.open(balls.viewer().url)
+
+    def sees(color: int) -> bool:
+        rgb = browser.picture().astype(int)[EDGE:-EDGE, EDGE:-EDGE]
+        return bool((2 * rgb[..., color] - rgb.sum(axis=2) > 60).sum() > 20)
+
+    assert [sees(0), sees(1), sees(2)] == [True, True, False]  # at 2.5, 2.6 and 2.9 m
+    browser.press("1", code="Digit1", modifiers=1)  # from the front
+    browser.wait_for("kinegraph.idle()")
+    assert sees(2)
+
+
 def test_a_view_of_the_program_leaves_the_page_where_people_turned_it(balls: kg.Config, browser: Browser) -> None:
     balls.view()
     browser.open(balls.viewer().url)

@@ -1,5 +1,5 @@
 import * as THREE from "three";
-import { CSS2DObject } from "three/addons/renderers/CSS2DRenderer.js";
+import { label } from "./labels";
 import type { FrameMessage, ShapeMessage } from "./messages";
 import { AXIS_COLORS, materialsOf } from "./shapes";
 import type { Shown } from "./shown";
@@ -36,13 +36,6 @@ function kindOf({ collides }: FrameMessage, shape: ShapeMessage): Option {
   return alpha < 1 ? "transparent" : "solid";
 }
 
-function label(name: string): CSS2DObject {
-  const element = document.createElement("span");
-  element.className = "name";
-  element.textContent = name;
-  return new CSS2DObject(element);
-}
-
 /** Decides what of the scene is seen: kinds of shapes, axes, names, and frames that are hidden with all below them. */
 export class Display {
   readonly on = new Set<Option>(optionNames.filter((name) => OPTIONS[name].initially));
@@ -59,7 +52,7 @@ export class Display {
         this.paint(shown.object, shape);
       }
       this.attach(shown.anchor, "axes", () => new THREE.AxesHelper(AXES_LENGTH).setColors(...AXIS_COLORS));
-      this.attach(shown.anchor, "names", () => label(name));
+      this.attach(shown.anchor, "names", () => label(name, 0));
     }
   }
 

@@ -72,6 +72,7 @@ export class Exports {
   }
 
   private async saveModel(): Promise<void> {
+    this.stage.drawFully();
     const binary = await new GLTFExporter().parseAsync(this.stage.frames, { binary: true, onlyVisible: true });
     saveBlob(new Blob([binary as ArrayBuffer], { type: "model/gltf-binary" }), `${document.title}.glb`);
   }

@@ -5,6 +5,7 @@ const SIZE = 60,
 
 const GRID = /* glsl */ `
 uniform vec3 ink;
+uniform float share; // of the pixels across of a fine picture
 varying vec2 vFloor;
 float gridLine(float spacing) {
   vec2 at = vFloor / spacing, width = fwidth(at);
@@ -23,16 +24,16 @@ float night = step(0.35, ink.g);
 vec3 red = mix(vec3(0.45, 0.05, 0.05), vec3(0.8, 0.2, 0.18), night);
 vec3 green = mix(vec3(0.05, 0.28, 0.08), vec3(0.12, 0.6, 0.22), night);
 vec3 colored = mix(mix(ink, green, alongY), red, alongX);
-float drawn = max(line, 0.6 * max(alongX, alongY));
+float drawn = share * max(line, 0.6 * max(alongX, alongY));
 float shade = opacity * (1.0 - getShadowMask());
 float covered = shade + drawn * (1.0 - shade);
 gl_FragColor = vec4(colored * drawn * (1.0 - shade) / max(covered, 1e-4), covered);
 `;
 
-function gridMaterial(ink: THREE.Color): THREE.Material {
+function gridMaterial(ink: THREE.Color, share: { value: number }): THREE.Material {
   const material = new THREE.ShadowMaterial({ opacity: 0.26, depthWrite: false, side: THREE.DoubleSide });
   material.onBeforeCompile = (shader) => {
-    shader.uniforms.ink = { value: ink };
+    Object.assign(shader.uniforms, { ink: { value: ink }, share });
     shader.vertexShader = shader.vertexShader
       .replace("void main() {", "varying vec2 vFloor;\nvoid main() {")
       .replace(
@@ -51,7 +52,8 @@ function gridMaterial(ink: THREE.Color): THREE.Material {
 export class Floor {
   readonly group = new THREE.Group();
   private readonly ink = new THREE.Color();
-  private readonly grid = new THREE.Mesh(new THREE.PlaneGeometry(SIZE, SIZE), gridMaterial(this.ink));
+  private readonly share = { value: 1 };
+  private readonly grid = new THREE.Mesh(new THREE.PlaneGeometry(SIZE, SIZE), gridMaterial(this.ink, this.share));
   private readonly solid = new THREE.Mesh(
     new THREE.PlaneGeometry(SOLID, SOLID),
     new THREE.MeshStandardMaterial({ roughness: 0.9 }),
@@ -65,8 +67,9 @@ export class Floor {
     this.group.add(this.solid, this.grid);
   }
 
-  /** The lines are wherever the camera is. */
-  follow(camera: THREE.Vector3): void {
+  /** The lines are wherever the camera is. They are a pixel wide, so they are paler where there are fewer: `share` of them across. */
+  follow(camera: THREE.Vector3, share: number): void {
+    this.share.value = share;
     this.grid.position.x = camera.x;
     this.grid.position.y = camera.y;
   }

@@ -3,6 +3,7 @@ import { find, make } from "./element";
 
 const KEYS: [string, string][] = [
   ["drag", "turn; with the right button or Shift: shift"],
+  ["Ctrl drag, Ctrl wheel", "turn freely; wider or narrower view"],
   ["wheel, pinch", "nearer, farther"],
   ["click", "select a frame"],
   ["double click, right click", "turn about that point"],

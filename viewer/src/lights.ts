@@ -3,6 +3,8 @@ import * as THREE from "three";
 const SUN = new THREE.Vector3(-2.5, 2.2, 4.5),
   FILL = new THREE.Vector3(3, -2, 2.5); // directions towards them
 const CENTER = new THREE.Vector3(0, 0, 0.8); // what lights of the program shine at
+const SHADOW_PIXELS = 2048; // across the light's view
+const SOFTNESS = 5; // pixels, of the edges of shadows
 const LEAST_SHADOWED = 1,
   MOST_SHADOWED = 12; // m
 
@@ -20,12 +22,23 @@ export class Lights {
   constructor() {
     const { shadow } = this.sun;
     this.sun.castShadow = true;
-    shadow.mapSize.set(2048, 2048);
-    shadow.radius = 5;
     shadow.bias = -0.0002;
     shadow.normalBias = 0.006;
     this.group.add(this.sky, this.flat, this.sun, this.sun.target, this.others);
+    this.setCoarse(false);
     this.setLook([], false, true);
+  }
+
+  /** `coarse`: shadows have fewer pixels and hard edges. True if they are to be drawn anew. */
+  setCoarse(coarse: boolean): boolean {
+    const { shadow } = this.sun;
+    const size = coarse ? SHADOW_PIXELS / 2 : SHADOW_PIXELS;
+    if (shadow.mapSize.x === size) return false;
+    shadow.mapSize.set(size, size);
+    shadow.radius = coarse ? 0 : SOFTNESS;
+    shadow.map?.dispose();
+    shadow.map = null;
+    return true;
   }
 
   /** `places` of lights, three numbers each; none: the usual ones. `flat`: colors as they are, without light. */

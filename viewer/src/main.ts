@@ -48,13 +48,13 @@ const near = new NearLines(stage, send);
 const quads = new Quads();
 const input = new InputEvents(stage, send);
 const panel = new Panel(display, shown.frames, switched, (id) => selection.select(id));
-stage.onDraw(() => shown.prepare((at) => stage.pixelsPerMetre(at)));
+stage.onDraw(() => shown.prepare((at) => stage.pixelsPerMetre(at), stage.hurries));
 const selection = new Selection(stage, shown.frames, joints, recorded ? null : send, (id) => panel.select(id));
 const timeline = new Timeline(stage, shown, joints, moved);
 const exports = new Exports(stage, timeline, recorded !== null);
 let unplaced = false; // frames have come whose poses are still to come
 let digits = false; // some switch what is drawn
-let messages = 0; // that have come
+let poses = 0; // messages with these that have come
 let announced: MotionMessage | null = null; // its slices are still to come
 find("scale").textContent = "grid: 1 m, 0.2 m";
 find("presets").append(
@@ -142,7 +142,6 @@ function receive(message: ServerMessage): void {
 }
 
 function receiveBinary(data: ArrayBuffer): void {
-  ++messages;
   const kind = new DataView(data).getUint32(0, true);
   if (kind === BinaryKind.joints) {
     joints.setState(new Float64Array(data, 8));
@@ -152,6 +151,7 @@ function receiveBinary(data: ArrayBuffer): void {
     timeline.start(new Motion(announced, data));
     exports.refresh();
   } else if (shown.readBinary(data)) {
+    if (kind === BinaryKind.poses) ++poses;
     if (unplaced && kind === BinaryKind.poses) {
       unplaced = false;
       stage.fitShadows();
@@ -264,8 +264,10 @@ Object.assign(window, {
     geometries: () => stage.renderer.info.memory.geometries,
     idle: () => stage.idle && !shown.pictures.busy,
     pictures: () => stage.renderer.info.render.frame,
-    messages: () => messages,
+    poses: () => poses,
     resolution: () => stage.resolution,
+    hurry: () => stage.drawHurriedly(),
+    triangles: () => stage.renderer.info.render.triangles,
     position: (name: string) => stage.frames.getObjectByName(name)?.position.toArray() ?? null,
     message: () => find("message").textContent,
     error: () => find("error").textContent,

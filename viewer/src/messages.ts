@@ -68,6 +68,8 @@ export interface CameraMessage {
   focal: number;
   ortho: number;
   aspect: number;
+  near: number;
+  far: number;
 }
 
 export interface LookMessage {

@@ -1,6 +1,6 @@
 import * as THREE from "three";
-import { CSS2DObject } from "three/addons/renderers/CSS2DRenderer.js";
-import { make } from "./element";
+import type { CSS2DObject } from "three/addons/renderers/CSS2DRenderer.js";
+import { label } from "./labels";
 import { nearCommand, type NearMessage } from "./messages";
 import type { Stage } from "./stage";
 
@@ -93,13 +93,8 @@ export class NearLines {
   }
 
   private label(name: string, distance: number, ends: number[]): CSS2DObject {
-    const element = make("span", {
-      className: "name distance",
-      textContent: `${(1000 * distance).toFixed(1)} mm`,
-      title: name,
-    });
-    element.classList.toggle("touching", distance <= 0);
-    const object = new CSS2DObject(element);
+    const object = label(`${(1000 * distance).toFixed(1)} mm`, 1 - distance, distance <= 0 ? "name distance touching" : "name distance");
+    object.element.title = name;
     object.position.set((ends[0]! + ends[3]!) / 2, (ends[1]! + ends[4]!) / 2, (ends[2]! + ends[5]!) / 2);
     object.visible = this.group.visible;
     return object;

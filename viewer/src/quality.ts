@@ -1,7 +1,8 @@
-const SLOW = 34,
+const SLOW = 25,
   FAST = 15; // ms from one picture to the next, while things move
 const STILL = 150; // ms without a change
 const LARGEST = 2; // pixels drawn per pixel of the page, across and down
+const FEWEST = 240; // pixels drawn from top to bottom of a page, if that is between a third and a half of its pixels
 
 /** True where no graphics card draws, but the processor. */
 export function drawsInSoftware(): boolean {
@@ -40,6 +41,16 @@ export class Quality {
     return this.now === this.finest;
   }
 
+  /** Of the resolution of a picture that stands still. */
+  get share(): number {
+    return this.now / this.finest;
+  }
+
+  /** True while things move, and the machine is too slow to draw them in the resolution of the screen. */
+  get hurries(): boolean {
+    return !this.isFull && this.now < Math.min(devicePixelRatio, LARGEST);
+  }
+
   /** Call when a change is about to be drawn. */
   change(time: number): void {
     if (this.rested)
@@ -59,9 +70,21 @@ export class Quality {
     return true;
   }
 
+  /** The next picture is as coarse as pictures may become. */
+  setLeast(time: number): void {
+    this.now = this.least();
+    this.last = time;
+    this.rested = false;
+  }
+
   /** The next picture is in full resolution. */
   setFull(): void {
     this.now = this.finest;
+  }
+
+  private least(): number {
+    const full = Math.min(devicePixelRatio, LARGEST);
+    return Math.max(full / 3, Math.min(full / 2, FEWEST / Math.max(innerHeight, 1)));
   }
 
   private measure(passed: number): void {
@@ -70,7 +93,7 @@ export class Quality {
     const mean = this.spent / this.pictures;
     this.pictures = this.spent = 0;
     const full = Math.min(devicePixelRatio, LARGEST);
-    if (mean > SLOW) this.moving = Math.max(full / 2, Math.max(0.6, Math.sqrt(SLOW / mean)) * this.moving);
+    if (mean > SLOW) this.moving = Math.max(this.least(), Math.max(0.6, Math.sqrt(SLOW / mean)) * this.moving);
     else if (mean < FAST) this.moving = Math.min(full, 1.15 * this.moving);
   }
 }

@@ -132,17 +132,17 @@ export class Selection {
     };
   }
 
-  /** Tints the shape, and draws the axes of the frame over everything. */
+  /** Tints the shape (what has handles keeps its color), and draws the axes of the frame over everything. */
   private highlight(): void {
     for (const material of this.tinted) material.emissive.setHex(0);
     this.tinted = [];
     const shown = this.shown();
     this.axes.visible = shown !== undefined;
-    if (!(shown?.object instanceof THREE.Mesh)) return;
+    if (this.handles || !(shown?.object instanceof THREE.Mesh)) return;
     this.tinted = materialsOf(shown.object).filter((material) => material instanceof THREE.MeshStandardMaterial);
     for (const material of this.tinted) {
       material.emissive.setHex(HIGHLIGHT);
-      material.emissiveIntensity = 0.45;
+      material.emissiveIntensity = 0.28;
     }
   }
 

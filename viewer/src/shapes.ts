@@ -1,5 +1,7 @@
 import * as THREE from "three";
+import { mergeGeometries } from "three/addons/utils/BufferGeometryUtils.js";
 import { creased } from "./creased";
+import { LevelMesh, Levels } from "./meshes";
 import type { ShapeMessage } from "./messages";
 import type { Pictures, TexturedTriangles } from "./pictures";
 import { PrimitiveMesh, type Primitives } from "./primitives";
@@ -7,6 +9,7 @@ import { PrimitiveMesh, type Primitives } from "./primitives";
 /** A mesh as the server sent it: without triangles it is a point cloud. */
 export interface MeshData {
   geometry: THREE.BufferGeometry;
+  levels: Levels | null; // of triangles that show no pictures
   isPoints: boolean;
   hasColors: boolean;
   textured: TexturedTriangles[];
@@ -42,7 +45,8 @@ export function makeMeshData(positions: Float32Array, indices: Uint32Array, plac
     else geometry.computeVertexNormals();
   }
   if (!coversAll(textured, indices.length / 3)) addGroups(geometry, textured, indices.length / 3);
-  return { geometry, isPoints, hasColors, textured };
+  const levels = isPoints || textured.length > 0 ? null : new Levels(geometry);
+  return { geometry, levels, isPoints, hasColors, textured };
 }
 
 const coversAll = (textured: TexturedTriangles[], triangles: number): boolean => textured.length === 1 && textured[0]![1] === triangles;
@@ -70,15 +74,15 @@ function marker(length: number): THREE.Object3D {
   const shaft = new THREE.CylinderGeometry(0.02 * length, 0.02 * length, 0.8 * length, 12).translate(0, 0.4 * length, 0);
   const tip = new THREE.ConeGeometry(0.06 * length, 0.2 * length, 20).translate(0, 0.9 * length, 0);
   const turns: [number, number, number][] = [[0, 0, -Math.PI / 2], [0, 0, 0], [Math.PI / 2, 0, 0]];
-  AXIS_COLORS.forEach((color, axis) => {
-    const material = new THREE.MeshBasicMaterial({ color });
-    for (const geometry of [shaft, tip]) {
-      const part = new THREE.Mesh(geometry, material);
-      part.rotation.set(...turns[axis]!);
-      group.add(part);
-    }
-  });
-  return group;
+  const parts = AXIS_COLORS.flatMap((color, axis) =>
+    [shaft, tip].map((geometry) => {
+      const part = geometry.clone().applyQuaternion(new THREE.Quaternion().setFromEuler(new THREE.Euler(...turns[axis]!)));
+      const colors = new Float32Array(3 * part.getAttribute("position").count);
+      for (let i = 0; i < colors.length; i += 3) new THREE.Color(color).toArray(colors, i);
+      return part.setAttribute("color", new THREE.BufferAttribute(colors, 3));
+    }),
+  );
+  return group.add(new THREE.Mesh(mergeGeometries(parts), new THREE.MeshBasicMaterial({ vertexColors: true })));
 }
 
 function makePrimitive({ type, size }: ShapeMessage, primitives: Primitives, material: THREE.Material): PrimitiveMesh | null {
@@ -105,7 +109,10 @@ export function makeShape(shape: ShapeMessage, meshes: Map<number, MeshData>, pi
     shown.color.setHex(0xffffff);
     return Object.assign(shown, { vertexColors: false, map: pictures.get(picture) });
   });
-  const mesh = data ? new THREE.Mesh(data.geometry, data.geometry.groups.length > 0 ? [material, ...pictured] : pictured[0] ?? material) : makePrimitive(shape, primitives, material);
+  let mesh: THREE.Mesh | null;
+  if (data?.levels) mesh = new LevelMesh(data.levels, material);
+  else if (data) mesh = new THREE.Mesh(data.geometry, data.geometry.groups.length > 0 ? [material, ...pictured] : pictured[0] ?? material);
+  else mesh = makePrimitive(shape, primitives, material);
   if (!mesh) return null;
   mesh.castShadow = !transparent;
   mesh.receiveShadow = !transparent;

@@ -1,6 +1,7 @@
 import * as THREE from "three";
 import { BinaryKind, type FrameMessage, type SceneMessage } from "./messages";
 import { Instances } from "./instances";
+import { deadline, LevelMesh } from "./meshes";
 import { Pictures, type TexturedTriangles } from "./pictures";
 import { PrimitiveMesh, Primitives } from "./primitives";
 import { makeMeshData, makeShape, materialsOf, type MeshData, SURFACE } from "./shapes";
@@ -17,7 +18,7 @@ function release(object: THREE.Object3D, kept: THREE.BufferGeometry | undefined)
   object.traverse((part) => {
     if (part instanceof PrimitiveMesh) return part.material.dispose();
     if (!(part instanceof THREE.Mesh || part instanceof THREE.Points || part instanceof THREE.LineSegments)) return;
-    if (part.geometry !== kept) part.geometry.dispose();
+    if (part.geometry !== kept && !(part instanceof LevelMesh)) part.geometry.dispose();
     for (const material of part instanceof THREE.Mesh ? materialsOf(part) : [part.material]) material.dispose();
   });
 }
@@ -86,9 +87,13 @@ export class ShownScene {
     for (const id of this.shown.keys()) this.place(id);
   }
 
-  /** Call before a picture: shapes are drawn as finely as they are large on it. */
-  prepare(pixelsPerMetre: (at: THREE.Vector3) => number): void {
-    for (const mesh of this.primitiveMeshes()) mesh.refine(pixelsPerMetre);
+  /** Call before a picture: shapes are drawn as finely as they are large on it, meshes only if it is to be drawn quickly. */
+  prepare(pixelsPerMetre: (at: THREE.Vector3) => number, quickly: boolean): void {
+    const until = deadline();
+    for (const { object } of this.shown.values()) {
+      if (object instanceof PrimitiveMesh) object.refine(pixelsPerMetre);
+      else if (object instanceof LevelMesh) object.refine(pixelsPerMetre, quickly, until);
+    }
     this.instances.update(this.primitiveMeshes());
   }
 
@@ -146,7 +151,8 @@ export class ShownScene {
     const used = new Set([...this.shown.values()].map((shown) => shown.message.shape?.mesh));
     for (const [number, mesh] of this.meshes) {
       if (used.has(number)) continue;
-      mesh.geometry.dispose();
+      if (mesh.levels) mesh.levels.dispose();
+      else mesh.geometry.dispose();
       this.meshes.delete(number);
     }
     this.pictures.keep(new Set([...this.meshes.values()].flatMap(({ textured }) => textured.map(([, , picture]) => picture))));

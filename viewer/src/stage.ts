@@ -1,10 +1,12 @@
 import * as THREE from "three";
-import { CSS2DRenderer } from "three/addons/renderers/CSS2DRenderer.js";
+import { replaceIn, lookOnceForHardShadows } from "./chunks";
 import { isSeen } from "./display";
 import { Floor } from "./floor";
+import { Labels } from "./labels";
 import { Lights } from "./lights";
 import type { CameraMessage, LookMessage } from "./messages";
 import { drawsInSoftware, Quality } from "./quality";
+import { FreeTurning } from "./turning";
 import { type Camera, Viewpoint } from "./viewpoint";
 
 /** A point on a shape. */
@@ -15,13 +17,16 @@ export interface Hit {
 }
 
 const SHADOW_PERIOD = 3; // pictures
+/** Towards (0, 0, 0.9). */
 const FIRST_VIEW: CameraMessage = {
   kind: "camera",
   pose: [1.5, 2.6, 1.8, -0.15442, 0.20751, 0.77494, -0.57667],
   distance: 3.134,
   focal: 0,
   ortho: 0,
-  aspect: 1, // towards (0, 0, 0.9)
+  aspect: 1,
+  near: 0,
+  far: 0,
 };
 const LEFT = 0,
   RIGHT = 2; // buttons
@@ -32,7 +37,8 @@ const colorOf = (rgb: number[]): THREE.Color =>
 
 /** Colors are shown as they are given; only what is brighter than 0.8 bends towards white, which keeps shades in it. */
 function bentAtWhite(): THREE.ToneMapping {
-  THREE.ShaderChunk.tonemapping_pars_fragment = THREE.ShaderChunk.tonemapping_pars_fragment.replace(
+  replaceIn(
+    "tonemapping_pars_fragment",
     "vec3 CustomToneMapping( vec3 color ) { return color; }",
     /* glsl */ `vec3 CustomToneMapping(vec3 color) {
       float peak = max(color.r, max(color.g, color.b));
@@ -48,7 +54,7 @@ export class Stage {
   readonly frames = new THREE.Group();
   readonly renderer: THREE.WebGLRenderer;
   readonly viewpoint: Viewpoint;
-  private readonly labels = new CSS2DRenderer();
+  private readonly labels: Labels;
   private readonly floor = new Floor();
   private ground: THREE.Color | null = null; // behind everything, if the program says so
   private readonly lights = new Lights();
@@ -69,13 +75,14 @@ export class Stage {
     this.renderer.shadowMap.autoUpdate = false;
     this.renderer.shadowMap.type = THREE.PCFShadowMap;
     this.renderer.toneMapping = bentAtWhite();
-    this.labels.domElement.className = "labels";
-    canvas.after(this.labels.domElement);
+    lookOnceForHardShadows();
+    this.labels = new Labels(canvas);
     this.viewpoint = new Viewpoint(
       canvas,
       () => (this.dirty = true),
       () => this.moves.forEach((move) => move()),
     );
+    new FreeTurning(canvas, this.viewpoint);
     this.scene.add(this.lights.group);
     this.fitShadows();
     this.scene.add(this.frames, this.floor.group);
@@ -169,6 +176,13 @@ export class Stage {
     this.draw();
   }
 
+  /** Draws now, as on a machine that is slow while things move. */
+  drawHurriedly(): void {
+    this.quality.setLeast(performance.now());
+    this.redraw();
+    this.draw();
+  }
+
   /** Call when anything but the camera has changed. */
   redraw(): void {
     this.dirty = this.shadowsAreOld = true;
@@ -241,6 +255,11 @@ export class Stage {
     return this.quality.ratio;
   }
 
+  /** True while things move on a slow machine: what is drawn may be coarse. */
+  get hurries(): boolean {
+    return this.quality.hurries;
+  }
+
   /** Pixels that a metre has at a place. */
   pixelsPerMetre(at: THREE.Vector3): number {
     return this.viewpoint.pixelsPerMetre(at, this.canvas.clientHeight * this.renderer.getPixelRatio());
@@ -260,8 +279,9 @@ export class Stage {
     this.dirty = false;
     if (this.renderer.getPixelRatio() !== this.quality.ratio) this.renderer.setPixelRatio(this.quality.ratio);
     for (const prepare of this.preparations) prepare();
-    this.floor.follow(this.camera.position);
-    this.updateShadows();
+    this.floor.follow(this.camera.position, this.quality.share);
+    if (this.lights.setCoarse(this.hurries)) this.renderer.shadowMap.needsUpdate = true;
+    else this.updateShadows();
     this.renderer.render(this.scene, this.camera);
     this.labels.render(this.scene, this.camera);
   }

@@ -61,7 +61,7 @@ export class Viewpoint {
 
   /** As the program says; `home` comes back to it. */
   set(given: CameraMessage): void {
-    const { pose, distance, focal, ortho, aspect } = given;
+    const { pose, distance, focal, ortho, aspect, near, far } = given;
     this.first = given;
     if (focal > 0) this.focal = focal;
     this.height = ortho;
@@ -74,12 +74,48 @@ export class Viewpoint {
       .set(0, 0, -(distance > 0 ? distance : DISTANCE))
       .applyQuaternion(rotation)
       .add(this.camera.position);
+    this.rollTo(rotation);
+    this.setRange(near, far);
+    this.fit(this.pageAspect);
+  }
+
+  /** Turns about the target by a rotation in the camera's own axes, whatever is up then. */
+  turnFreely(rotation: THREE.Quaternion): void {
+    const { position, quaternion } = this.camera;
+    const distance = position.distanceTo(this.target),
+      turned = quaternion.clone().multiply(rotation);
+    position.set(0, 0, distance).applyQuaternion(turned).add(this.target);
+    this.rollTo(turned);
+  }
+
+  /** Another focal length, with what is at the target as large as before. Orthographic pictures have none. */
+  widen(factor: number): void {
+    if (this.height > 0) return;
+    this.focal *= factor;
+    this.camera.position.sub(this.target).multiplyScalar(factor).add(this.target);
+    this.fit(this.pageAspect);
+    this.controls.update();
+    this.moved();
+  }
+
+  /** Tells that a person has moved the camera. */
+  tell(): void {
+    this.moved();
+  }
+
+  /** The camera looks at the target already; it turns about the line of sight until it has that rotation. */
+  private rollTo(rotation: THREE.Quaternion): void {
     this.roll = 0;
     this.controls.update();
     const turn = this.camera.quaternion.clone().invert().multiply(rotation);
     this.roll = 2 * Math.atan2(turn.z, turn.w);
     this.controls.update();
-    this.fit(this.pageAspect);
+  }
+
+  /** What is seen lies in between, m along the line of sight; 0: as usual. */
+  private setRange(near: number, far: number): void {
+    for (const camera of [this.perspective, this.orthographic])
+      Object.assign(camera, { near: near > 0 ? near : NEAR, far: far > 0 ? far : FAR });
   }
 
   /** Upright, from a place. */
@@ -98,6 +134,8 @@ export class Viewpoint {
       this.orthographic.zoom = Math.min(1, this.pageAspect) * (this.height / (2 * radius));
       this.orthographic.updateProjectionMatrix();
     }
+    this.setRange(0, 0);
+    this.camera.updateProjectionMatrix();
     this.lookFrom(center.clone().addScaledVector(direction.clone().normalize(), distance), center);
     this.moved();
   }

@@ -61,6 +61,7 @@ Camera cameraOf(const Frame& frame) {
   if (const auto range = numbersOf(frame, "zRange", 2)) {
     camera.near = range->front();
     camera.far = range->back();
+    camera.has_range = true;
   }
   try {
     camera.validate();

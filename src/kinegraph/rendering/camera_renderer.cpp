@@ -13,6 +13,7 @@ namespace kinegraph {
 
 namespace {
 
+constexpr int kFineness = 2;            // pixels of letters that become one, across and down
 constexpr int kSlices = 128;            // around builtin round shapes
 constexpr float kShadowHalfWidth = 2.5;  // m, of what the first light's shadow map covers
 const Vector4d kDefaultColor(.8, .8, .8, 1.);
@@ -121,6 +122,7 @@ struct CameraRenderer::Impl {
 
   void draw(SceneTree& tree, const Camera& camera, bool visuals_only, bool segmentation);
   void read(const Camera& camera, std::uint8_t* rgb, float* depth);
+  CameraImage write(const std::string& text, int width, int height);
 
   RendererOptions options;
   std::optional<GlContext> gl;
@@ -133,6 +135,7 @@ struct CameraRenderer::Impl {
   };
   std::vector<Item> visibleItems(const SceneTree& tree, bool visuals_only);
   void makeContext();
+  void makeRoom(int width, int height);
   void placeGeoms(const std::vector<Item>& items, const State& state, const Camera& camera, int frames);
   void placeCamera(const Camera& camera);
   void placeLights();
@@ -182,7 +185,7 @@ void CameraRenderer::Impl::makeContext() {
   listed.stat.extent = 1.;
   listed.vis.map.shadowclip = kShadowHalfWidth;
   meshes.fill(listed);
-  mjr_makeContext(&listed, context.get(), mjFONTSCALE_50);
+  mjr_makeContext(&listed, context.get(), kFineness * mjFONTSCALE_100);
   mjr_setBuffer(mjFB_OFFSCREEN, context.get());
   context->readDepthMap = mjDEPTH_ZEROFAR;
 }
@@ -287,6 +290,45 @@ void CameraRenderer::Impl::placeLights() {
   }
 }
 
+void CameraRenderer::Impl::makeRoom(int width, int height) {
+  if (width <= context->offWidth && height <= context->offHeight) return;
+  mjr_resizeOffscreen(std::max(width, context->offWidth), std::max(height, context->offHeight), context.get());
+}
+
+/// White letters on black.
+CameraImage CameraRenderer::Impl::write(const std::string& text, int width, int height) {
+  if (!model) {
+    model = emptyModel();
+    meshes.update({});
+    makeContext();
+  }
+  std::vector<std::string> lines = brokenLines(text, kFineness * width, context->charWidth);
+  lines.resize(std::min(lines.size(), std::size_t(std::max(1, kFineness * height / context->charHeight))));
+  int widest = 1;
+  for (const std::string& line : lines) {
+    int used = 0;
+    for (const char c : line) used += context->charWidth[static_cast<unsigned char>(c)];
+    widest = std::max(widest, used);
+  }
+  const auto roundedUp = [](int x) { return (x + kFineness - 1) / kFineness * kFineness; };
+  CameraImage image{roundedUp(widest), roundedUp(int(lines.size()) * context->charHeight), {}, {}};
+  const mjrRect all{0, 0, image.width, image.height};
+  makeRoom(all.width, all.height);
+  mjr_setBuffer(mjFB_OFFSCREEN, context.get());
+  mjr_rectangle(all, 0.f, 0.f, 0.f, 1.f);
+  for (std::size_t i = 0; i < lines.size(); ++i) {
+    const float from_top = float(int(i + 1) * context->charHeight) / float(all.height);
+    mjr_text(mjFONT_NORMAL, lines[i].c_str(), context.get(), 0.f, 1.f - from_top, 1.f, 1.f, 1.f);
+  }
+  image.depth.assign(std::size_t(all.width) * std::size_t(all.height), 0.f);
+  image.rgb.resize(3 * image.depth.size());
+  Camera whole;
+  whole.width = all.width;
+  whole.height = all.height;
+  read(whole, image.rgb.data(), nullptr);
+  return image;
+}
+
 void CameraRenderer::Impl::draw(SceneTree& tree, const Camera& camera, bool visuals_only, bool segmentation) {
   const std::vector<Item> items = visibleItems(tree, visuals_only);
   MeshLibrary::Shapes shapes;
@@ -295,10 +337,7 @@ void CameraRenderer::Impl::draw(SceneTree& tree, const Camera& camera, bool visu
   }
   if (!model) model = emptyModel();
   if (meshes.update(shapes)) makeContext();
-  if (camera.width > context->offWidth || camera.height > context->offHeight) {
-    mjr_resizeOffscreen(std::max(camera.width, context->offWidth), std::max(camera.height, context->offHeight),
-                        context.get());
-  }
+  makeRoom(camera.width, camera.height);
   placeGeoms(items, tree.state(), camera, int(tree.frames().size()));
   placeCamera(camera);
   placeLights();
@@ -347,6 +386,16 @@ CameraImage CameraRenderer::render(SceneTree& scene, const Camera& camera, bool 
   if (factor > 1) image = shrunk(image, factor);
   toMetres(image.depth, camera);
   return image;
+}
+
+Letters CameraRenderer::write(const std::string& text, int width, int height) {
+  if (!impl_->gl) impl_->gl.emplace();
+  const GlContext::Use use(*impl_->gl);
+  const MujocoErrors errors;
+  const CameraImage image = shrunk(impl_->write(text, width, height), kFineness);
+  Letters letters{image.width, image.height, std::vector<std::uint8_t>(image.depth.size())};
+  for (std::size_t i = 0; i < letters.cover.size(); ++i) letters.cover[i] = image.rgb[3 * i];
+  return letters;
 }
 
 std::vector<std::int32_t> CameraRenderer::segment(SceneTree& scene, const Camera& camera, bool visuals_only) {

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "kinegraph/rendering/camera.h"
+#include "kinegraph/rendering/letters.h"
 #include "kinegraph/scene/config.h"
 
 namespace kinegraph {
@@ -50,6 +51,9 @@ class CameraRenderer {
   std::vector<std::int32_t> segment(const Config& config, const Camera& camera, bool visuals_only = true) {
     return segment(*config.scene(), camera, visuals_only);
   }
+
+  /// A text in lines of 18 pixels, at most `width` pixels wide, for drawLetters; as many lines as `height` has room for.
+  Letters write(const std::string& text, int width, int height);
 
  private:
   struct Impl;

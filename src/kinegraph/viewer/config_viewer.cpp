@@ -13,6 +13,7 @@ ViewerServer& ConfigViewer::server() {
   if (!server_) {
     server_ = std::make_unique<ViewerServer>(options_);
     server_->onCommand([edits = edits_](const Command& command) { return edits->apply(command); });
+    server_->setMessage(message());
     std::printf("Viewer: %s\n", server_->url().c_str());
     std::fflush(stdout);
     openBrowser(server_->url());
@@ -23,6 +24,31 @@ ViewerServer& ConfigViewer::server() {
 void ConfigViewer::setTitle(const std::string& text) {
   options_.title = text;
   if (server_) server_->setTitle(text);
+}
+
+void ConfigViewer::remember(const std::string& text) {
+  const std::lock_guard lock(message_mutex_);
+  message_ = text;
+}
+
+std::string ConfigViewer::message() const {
+  const std::lock_guard lock(message_mutex_);
+  return message_;
+}
+
+void ConfigViewer::setMessage(const std::string& text) {
+  remember(text);
+  server().setMessage(text);
+}
+
+void ConfigViewer::noteMessage(const std::string& text) {
+  remember(text);
+  if (isOpen()) server_->setMessage(text);
+}
+
+void ConfigViewer::close() {
+  server_.reset();
+  remember("");
 }
 
 void ConfigViewer::update(const Config& config) {
@@ -49,7 +75,7 @@ int ConfigViewer::view(Config& config, bool pause, const std::optional<std::stri
 
 int ConfigViewer::wait(bool pause, const std::optional<std::string>& message, const Stop& stop) {
   if (pause) return ask(message, stop);
-  if (message) server().setMessage(*message);
+  if (message) setMessage(*message);
   return server().takeKey();
 }
 
@@ -57,7 +83,7 @@ int ConfigViewer::showMotion(const Config& config, const ShownMotion& motion, bo
                              const std::optional<std::string>& message, const Stop& stop) {
   update(config);
   server().showMotion(motion);
-  if (message) server().setMessage(*message);
+  if (message) setMessage(*message);
   int key = server().takeKey();
   if (!waits()) return key;
   if (motion.start == ShownMotion::Start::play) {
@@ -73,9 +99,9 @@ int ConfigViewer::ask(const std::optional<std::string>& message, const Stop& sto
   std::string text = message.value_or("");
   if (!text.ends_with("]")) text += text.empty() ? "[press key to continue]" : "\n[press key to continue]";
   int key = server().takeKey();
-  server().setMessage(text);
+  setMessage(text);
   if (waits()) key = waitKey(text, stop);
-  server().setMessage(message.value_or(""));
+  setMessage(message.value_or(""));
   return key;
 }
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <mutex>
 #include <optional>
 #include <string>
 
@@ -40,7 +41,11 @@ class ConfigViewer {
   int showMotion(const Config& config, const ShownMotion& motion, bool pause, const std::optional<std::string>& message,
                  const Stop& stop);
 
-  void setMessage(const std::string& text) { server().setMessage(text); }
+  /// Shows a text in the corner of the page, which starts if it does not run.
+  void setMessage(const std::string& text);
+  /// The same, on a page that runs; one that starts later shows it from its beginning.
+  void noteMessage(const std::string& text);
+  std::string message() const;
   void setError(const std::string& text) { server().setError(text); }
   void setTitle(const std::string& text);
   void select(int frame) { server().select(frame); }  ///< shows the card of a frame, with handles to move it
@@ -51,7 +56,7 @@ class ConfigViewer {
   int clients() const { return isOpen() ? server_->clients() : 0; }
   int takeKey() { return isOpen() ? server_->takeKey() : 0; }
   bool isOpen() const { return server_ && server_->isOurs(); }
-  void close() { server_.reset(); }
+  void close();
 
   ViewerServer& server();
 
@@ -63,8 +68,11 @@ class ConfigViewer {
   /// Shows the message with a request for a key, and waits for one.
   int ask(const std::optional<std::string>& message, const Stop& stop);
   int waitKey(const std::string& prompt, const Stop& stop);
+  void remember(const std::string& text);
 
   ViewerOptions options_;
+  mutable std::mutex message_mutex_;  ///< a picture may be made while another thread waits for a key
+  std::string message_;
   bool waits_ = true;
   std::unique_ptr<ViewerServer> server_;
   SceneItems items_;

@@ -30,6 +30,7 @@ struct PageCamera {
   double focal_length = 0.;  ///< in heights of the picture; 0: the page's own
   double ortho_height = 0.;  ///< if > 0: orthographic, this many m high
   double aspect = 0.;        ///< width over height of the picture, which the page shows all of; 0: any
+  double near = 0., far = 0.;  ///< m along z: what is seen lies in between; 0: as usual
 };
 
 /// A picture on top of the scene.

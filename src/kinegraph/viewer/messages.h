@@ -136,6 +136,8 @@ struct CameraMessage {
   double focal = 0;
   double ortho = 0;
   double aspect = 0;
+  double near = 0;
+  double far = 0;
 };
 
 inline void writeJson(JsonWriter& json, const CameraMessage& m) {
@@ -146,6 +148,8 @@ inline void writeJson(JsonWriter& json, const CameraMessage& m) {
   json.field("focal", m.focal);
   json.field("ortho", m.ortho);
   json.field("aspect", m.aspect);
+  json.field("near", m.near);
+  json.field("far", m.far);
   json.endObject();
 }
 

@@ -46,7 +46,8 @@ std::string detailsOf(const FrameData& frame) {
   for (const char* key : {"pose", "q"}) graph.erase(key);
   std::erase_if(graph.nodes, [](const Node& node) {
     const auto* numbers = node.value.as<NumberArray>();
-    return numbers && numbers->numbers.size() > kLongest;
+    const auto* entries = node.value.as<Graph>();
+    return (numbers && numbers->numbers.size() > kLongest) || (entries && entries->nodes.empty());
   });
   return writeEntries(graph);
 }

@@ -277,8 +277,13 @@ std::vector<Outgoing> ShownScene::messagesSince(Seen& seen) const {
   if (text_revision_ > seen.revision) send(TextMessage{title, message, error});
   if (camera_revision_ > seen.revision) {
     const Vector7d pose = camera_.pose.numbers();
-    send(CameraMessage{
-        {pose.begin(), pose.end()}, camera_.distance, camera_.focal_length, camera_.ortho_height, camera_.aspect});
+    send(CameraMessage{{pose.begin(), pose.end()},
+                       camera_.distance,
+                       camera_.focal_length,
+                       camera_.ortho_height,
+                       camera_.aspect,
+                       camera_.near,
+                       camera_.far});
   }
   SceneMessage scene;
   scene.count = int(frames_.size());
