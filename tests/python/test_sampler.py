@@ -83,5 +83,5 @@ def test_ctrl_c_ends_it():
     problem = Slow()
     nlp = ry.NLP_Solver().setPyProblem(problem).getProblem()
     ret = ry.NLP_Sampler(nlp).setOptions(interiorSampleSteps=100000).sample()
-    assert ret.status.name == "cancelled" and ret.message == "interrupted by Ctrl-C"
+    assert (ret.status.name, ret.message) == ("cancelled", "interrupted by Ctrl-C"), problem.evals
     assert problem.evals < 20
