@@ -196,5 +196,57 @@ TEST_P(EveryFeature, HasAJacobianThatScaleAndTargetTransformLikeTheValue) {
   EXPECT_GT(count.used, 0);
 }
 
+TEST_P(EveryFeature, TellsTheSecondDerivativesThatItsJacobianHas) {
+  const FeatureInfo& info = GetParam().info;
+  Rng rng(13);
+  int told = 0;
+  for (const Scene& joints : kScenes) {
+    const Config config = makeScene(joints);
+    const int n = config.getJointDimension();
+    for (const std::vector<int>& frames : frameChoices(info, config)) {
+      std::shared_ptr<const Feature> feature;
+      try {
+        feature = makeFeature(info.symbol, frames, *config.program());
+      } catch (const ValueError&) {  // frames without a joint
+        continue;
+      }
+      const int rows = feature->rows();
+      for (const bool mixes : {false, true}) {
+        if (rows == 0 || feature->order() > 0) continue;
+        const MatrixXd scale = mixes ? MatrixXd(MatrixXd::Random(2, rows)) : MatrixXd(VectorXd::LinSpaced(rows, .5, 2.));
+        Residual residual(feature, scale, {}, 0, info.name);
+        State state = config.state();
+        if (!residual.hasCurvature(state)) continue;
+        ++told;
+        VectorXd weights(residual.rows());
+        for (double& weight : weights) weight = rng.normal();
+        const State* view[] = {&state};
+        const auto gradient = [&](const VectorXd& q) -> VectorXd {
+          state.setJoints(q.data());
+          VectorXd y(residual.rows());
+          Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor> J;
+          J.setZero(residual.rows(), n);
+          JacobianRows view_of_J = J;
+          residual.eval(view, kTau, y, &view_of_J);
+          return J.transpose() * weights;
+        };
+        const VectorXd q = randomJoints(config, rng);
+        const Differences numeric = differences(gradient, q);
+        ASSERT_TRUE(numeric.differentiable) << info.name << " with " << joints.name;
+        state.setJoints(q.data());
+        MatrixXd H = MatrixXd::Zero(n, n);
+        residual.addCurvature(state, {weights.data(), std::size_t(weights.size())}, H);
+        EXPECT_TRUE(MatrixXd(H.triangularView<Eigen::StrictlyUpper>()).isZero(0.));
+        H.triangularView<Eigen::StrictlyUpper>() = H.transpose();
+        EXPECT_LE(relativeError(H, numeric.D), kTolerance) << info.name << " with " << joints.name;
+      }
+    }
+  }
+  const std::vector<FeatureSymbol> known = {
+      FeatureSymbol::position, FeatureSymbol::positionDiff, FeatureSymbol::vectorX, FeatureSymbol::vectorY, FeatureSymbol::vectorZ,
+      FeatureSymbol::vectorXDiff, FeatureSymbol::vectorYDiff, FeatureSymbol::vectorZDiff};
+  if (std::find(known.begin(), known.end(), info.symbol) != known.end()) EXPECT_GE(told, 20);
+}
+
 INSTANTIATE_TEST_SUITE_P(Registry, EveryFeature, testing::ValuesIn(availableFeatures()),
                          [](const auto& info) { return info.param.info.name; });

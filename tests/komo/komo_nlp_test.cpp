@@ -3,6 +3,7 @@
 #include "kinegraph/komo/komo.h"
 #include "kinegraph/solvers/nlp_solver.h"
 #include "kinegraph/solvers/penalty_nlp.h"
+#include "tests/support/differences.h"
 #include "tests/support/near.h"
 
 namespace kinegraph {
@@ -64,6 +65,47 @@ TEST(KomoNlp, HasTheJacobianOfDifferencesWithLinearRowsAsTheyWereMade) {
     VectorXd x(nlp->dimension());
     for (double& value : x) value = rng.uniform(.6, 1.5);  // clear of the wall
     EXPECT_LT(checkJacobian(*nlp, x).error, 1e-6);
+  }
+}
+
+TEST(KomoNlp, TellsTheSecondDerivativesOfRowsOfOneSlice) {
+  Config scene;
+  scene.addText(R"g(
+    base: {}
+    upper (base): { joint: hingeZ }
+    lower (upper): { pre: "t(.3 0 .1)", joint: hingeY }
+    tip (lower): { Q: "t(0 .1 .2)" }
+    goal: { X: "t(.3 .2 .1)" }
+  )g");
+  auto komo = std::make_shared<Komo>(scene, 1, 3, 2);
+  komo->addControlObjective({}, 2, 1.);
+  komo->addObjective({}, FeatureSymbol::position, {"tip"}, ObjectiveType::ineq, MatrixXd::Constant(1, 1, .5));
+  komo->addObjective({1.}, FeatureSymbol::positionDiff, {"tip", "goal"}, ObjectiveType::eq, MatrixXd::Constant(1, 1, 10.));
+  const auto nlp = makeNlp(komo);
+  const int n = nlp->dimension();
+  const auto curved = nlp->curvedRows();
+  ASSERT_EQ(curved.size(), 4u);
+  Rng rng(6);
+  VectorXd x(n), phi(Eigen::Index(nlp->types().size()));
+  for (double& value : x) value = rng.normal();
+  Jacobian J = nlp->makeJacobian();
+  for (int k = 0; k < int(curved.size()); ++k) {
+    const Nlp::CurvedRows& rows = curved[std::size_t(k)];
+    VectorXd weights(rows.rows);
+    for (double& weight : weights) weight = rng.normal();
+    const auto gradient = [&](const VectorXd& at) -> VectorXd {
+      nlp->evaluate(at, phi, &J);
+      VectorXd sum = VectorXd::Zero(n);
+      for (int i = 0; i < rows.rows; ++i) J.addRowTo(rows.first + i, weights[i], sum);
+      return sum;
+    };
+    const Differences numeric = differences(gradient, x);
+    nlp->evaluate(x, phi, nullptr);
+    MatrixXd H = MatrixXd::Zero(n, n), block = MatrixXd::Zero(rows.width, rows.width);
+    nlp->addCurvature(k, {weights.data(), std::size_t(rows.rows)}, block);
+    block.triangularView<Eigen::StrictlyUpper>() = block.transpose();
+    H.block(rows.column, rows.column, rows.width, rows.width) = block;
+    EXPECT_LE(relativeError(H, numeric.D), 1e-6);
   }
 }
 

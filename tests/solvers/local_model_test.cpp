@@ -1,8 +1,10 @@
-#include "kinegraph/solvers/local_model.h"
+#include "kinegraph/solvers/semismooth_model.h"
 
 #include <gtest/gtest.h>
 
 #include "kinegraph/nlp/callback_nlp.h"
+#include "kinegraph/solvers/band_algebra.h"
+#include "kinegraph/solvers/dense_algebra.h"
 #include "tests/support/near.h"
 
 using namespace kinegraph;
@@ -43,9 +45,17 @@ struct Case {
   }
 };
 
+template <class Algebra>
+class LocalModelOf : public testing::Test {
+ public:
+  using Model = SemismoothModel<Algebra>;
+};
+using Algebras = testing::Types<DenseAlgebra<8>, BandAlgebra>;
+TYPED_TEST_SUITE(LocalModelOf, Algebras);
+
 }  // namespace
 
-TEST(LocalModel, TheStepThatItFindsIsTheLeastInTheBox) {
+TYPED_TEST(LocalModelOf, TheStepThatItFindsIsTheLeastInTheBox) {
   for (int seed = 0; seed < 60; ++seed) {
     const Case c(seed, seed % 2 == 1);
     CallbackNlp nlp(Case::kVariables, c.types, {}, {}, [&](const VectorXd& x, VectorXd& phi, MatrixXd& J) {
@@ -56,9 +66,9 @@ TEST(LocalModel, TheStepThatItFindsIsTheLeastInTheBox) {
     VectorXd phi;
     const VectorXd x = VectorXd::Zero(Case::kVariables);
     nlp.evaluate(x, phi, &J);
-    LocalModel model(nlp, J, {0, 1, 2, 3, 4}, {5, 6, 7, 8});
+    typename TestFixture::Model model(nlp, J, {0, 1, 2, 3, 4}, {5, 6, 7, 8});
     model.setJacobian(J);
-    model.setCosts(nlp, x, phi);
+    model.setCosts(nlp, x, phi, nullptr);
     const double mu = 3., shift = .1;
     const VectorXd constraints = phi.tail(4);
     const LocalModel::Problem problem{constraints, c.lambda, mu, shift, c.low, c.high, 12};
@@ -79,7 +89,7 @@ TEST(LocalModel, TheStepThatItFindsIsTheLeastInTheBox) {
   }
 }
 
-TEST(LocalModel, GoesDownAlsoWhereTheCurvatureIsNegative) {
+TYPED_TEST(LocalModelOf, GoesDownAlsoWhereTheCurvatureIsNegative) {
   class Hilltop final : public Nlp {
    public:
     Hilltop() {
@@ -100,9 +110,9 @@ TEST(LocalModel, GoesDownAlsoWhereTheCurvatureIsNegative) {
   VectorXd phi;
   const VectorXd x = Eigen::Vector2d(.25, .5), low = nlp.lower() - x, high = nlp.upper() - x;
   nlp.evaluate(x, phi, &J);
-  LocalModel model(nlp, J, {0}, {});
+  typename TestFixture::Model model(nlp, J, {0}, {});
   model.setJacobian(J);
-  model.setCosts(nlp, x, phi);
+  model.setCosts(nlp, x, phi, nullptr);
   const VectorXd none;
   const LocalModel::Problem problem{none, none, 1., 0., low, high, 12};
   const VectorXd d = model.minimize(problem);
@@ -110,7 +120,7 @@ TEST(LocalModel, GoesDownAlsoWhereTheCurvatureIsNegative) {
   EXPECT_NEAR(model.decrease(problem), 1.5 - .5 * .25 * .25 - .5 * .5, 1e-12);
 }
 
-TEST(LocalModel, FactorizesOnlyWhereTheActiveRowsChange) {
+TYPED_TEST(LocalModelOf, FactorizesOnlyWhereTheActiveRowsChange) {
   const Case c(1);
   CallbackNlp nlp(Case::kVariables, std::vector<ObjectiveType>(Case::kRows, sos), {}, {},
                   [&](const VectorXd& x, VectorXd& phi, MatrixXd& J) {
@@ -121,11 +131,67 @@ TEST(LocalModel, FactorizesOnlyWhereTheActiveRowsChange) {
   VectorXd phi;
   const VectorXd x = VectorXd::Zero(Case::kVariables), far = VectorXd::Constant(Case::kVariables, 1e3);
   nlp.evaluate(x, phi, &J);
-  LocalModel model(nlp, J, {0, 1, 2, 3, 4, 5, 6, 7, 8}, {});
+  typename TestFixture::Model model(nlp, J, {0, 1, 2, 3, 4, 5, 6, 7, 8}, {});
   model.setJacobian(J);
-  model.setCosts(nlp, x, phi);
+  model.setCosts(nlp, x, phi, nullptr);
   const VectorXd none;
   const VectorXd d = model.minimize({none, none, 1., 0., -far, far, 12});
   EXPECT_TRUE(near(d, c.A.colPivHouseholderQr().solve(-c.b), 1e-10));
   EXPECT_EQ(model.factorizations(), 1);
+}
+
+namespace {
+
+/// Half of |x - (1, 2)|^2 subject to one curved constraint whose second derivatives it tells: strength (x0^2 - x1^2) / 2 = 0.
+class Saddle final : public Nlp {
+ public:
+  explicit Saddle(double strength) : strength_(strength) {
+    lower_ = VectorXd::Constant(2, -10.);
+    upper_ = VectorXd::Constant(2, 10.);
+    types_ = {sos, sos, eq};
+    linear_ = {true, true, false};
+  }
+  Jacobian makeJacobian() const override {
+    Jacobian J = Jacobian::dense(3, 2);
+    J.values = {1., 0., 0., 1., 0., 0.};
+    return J;
+  }
+  void evaluate(const VectorXd& x, VectorXd& phi, Jacobian* J) override {
+    phi = Eigen::Vector3d(x[0] - 1., x[1] - 2., .5 * strength_ * (x[0] * x[0] - x[1] * x[1]));
+    if (J) J->values = {1., 0., 0., 1., strength_ * x[0], -strength_ * x[1]};
+  }
+  std::span<const CurvedRows> curvedRows() const override { return curved_; }
+  void addCurvature(int, std::span<const double> weights, Eigen::Ref<MatrixXd> H) override {
+    H(0, 0) += weights[0] * strength_;
+    H(1, 1) -= weights[0] * strength_;
+  }
+
+ private:
+  double strength_;
+  std::vector<CurvedRows> curved_ = {{2, 1, 0, 2}};
+};
+
+}  // namespace
+
+TYPED_TEST(LocalModelOf, HasTheCurvatureOfConstraintsUnlessItIsNotConvexThen) {
+  const VectorXd x = Eigen::Vector2d(.5, .25), far = VectorXd::Constant(2, 100.), lambda = VectorXd::Constant(1, .8);
+  for (const double strength : {1., 20.}) {
+    Saddle nlp(strength);
+    Jacobian J = nlp.makeJacobian();
+    VectorXd phi;
+    nlp.evaluate(x, phi, &J);
+    typename TestFixture::Model model(nlp, J, {0, 1}, {2});
+    model.setJacobian(J);
+    model.setCosts(nlp, x, phi, nullptr);
+    model.addCurvature(nlp, lambda);
+    const VectorXd c = phi.tail(1);
+    const double mu = 3.;
+    const VectorXd d = model.minimize({c, lambda, mu, 0., -far, far, 12});
+    const Eigen::RowVector2d row(strength * x[0], -strength * x[1]);
+    Eigen::Matrix2d H = 2. * Eigen::Matrix2d::Identity() + mu * row.transpose() * row;
+    if (strength == 1.) H += lambda[0] * strength * Eigen::Vector2d(1., -1.).asDiagonal();
+    const Eigen::Vector2d gradient = 2. * phi.head(2) + (lambda[0] + mu * c[0]) * row.transpose();
+    EXPECT_TRUE(near(d, -H.inverse() * gradient, 1e-12)) << "strength " << strength;
+    EXPECT_NEAR(model.decrease({c, lambda, mu, 0., -far, far, 12}), .5 * gradient.dot(H.inverse() * gradient), 1e-11);
+  }
 }

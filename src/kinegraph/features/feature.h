@@ -33,6 +33,18 @@ class Feature {
   /// Is the Jacobian the same in all configurations?
   virtual bool isLinear() const { return false; }
 
+  /// Can addCurvature tell the second derivatives? This may depend on the program of the state, not on its joints.
+  virtual bool hasCurvature(const State& state) const {
+    (void)state;
+    return false;
+  }
+
+  /// Adds sum_i weights_i d^2 y_i / dq^2 to the lower triangle of H (dofs x dofs), for a feature of order 0 that hasCurvature.
+  /// `weights` has rows() entries.
+  virtual void addCurvature(const State& state, const VectorXd& weights, Eigen::Ref<MatrixXd> H) const {
+    (void)state, (void)weights, (void)H;
+  }
+
   /// The value of a row that tells that its Jacobian is zero there; it has this value nowhere else.
   virtual std::optional<double> flatValue() const { return {}; }
 

@@ -67,6 +67,19 @@ bool Axis::addLaneRows(LaneRowList& list) const {
   return true;
 }
 
+/// Relative to a frame only where that stands still.
+bool Axis::hasCurvature(const State& state) const {
+  if (kind_ == Kind::relative && state.moves(b_)) return false;
+  return state.hasCurvature(a_) && (kind_ == Kind::world || state.hasCurvature(b_));
+}
+
+void Axis::addCurvature(const State& state, const VectorXd& weights, Eigen::Ref<MatrixXd> H) const {
+  const Vector3d u = state.pose(a_).R.col(axis_);
+  if (kind_ == Kind::relative) return state.addDirectionCurvature(a_, u, state.pose(b_).R * weights, H);
+  state.addDirectionCurvature(a_, u, weights, H);
+  if (kind_ == Kind::difference) state.addDirectionCurvature(b_, state.pose(b_).R.col(axis_), -weights, H);
+}
+
 void AxisProduct::eval(std::span<const State* const> states, double, Eigen::Ref<VectorXd> y, JacobianRows* J) const {
   const State& state = *states[0];
   const Vector3d u = state.pose(a_).R.col(axis_a_), v = state.pose(b_).R.col(axis_b_);
@@ -80,6 +93,17 @@ void AxisProduct::eval(std::span<const State* const> states, double, Eigen::Ref<
 bool AxisProduct::addLaneRows(LaneRowList& list) const {
   list.addAxisProduct(axis_a_, axis_b_, a_, b_);
   return true;
+}
+
+/// Where one of the frames stands still.
+bool AxisProduct::hasCurvature(const State& state) const {
+  return !(state.moves(a_) && state.moves(b_)) && state.hasCurvature(a_) && state.hasCurvature(b_);
+}
+
+void AxisProduct::addCurvature(const State& state, const VectorXd& weights, Eigen::Ref<MatrixXd> H) const {
+  const Vector3d u = state.pose(a_).R.col(axis_a_), v = state.pose(b_).R.col(axis_b_);
+  state.addDirectionCurvature(a_, u, weights[0] * v, H);
+  state.addDirectionCurvature(b_, v, weights[0] * u, H);
 }
 
 }  // namespace kinegraph

@@ -35,6 +35,8 @@ class Axis final : public Feature {
   int rows() const override { return 3; }
   void eval(std::span<const State* const> states, double tau, Eigen::Ref<VectorXd> y, JacobianRows* J) const override;
   bool addLaneRows(LaneRowList& list) const override;
+  bool hasCurvature(const State& state) const override;
+  void addCurvature(const State& state, const VectorXd& weights, Eigen::Ref<MatrixXd> H) const override;
 
  private:
   Kind kind_;
@@ -49,6 +51,8 @@ class AxisProduct final : public Feature {
   int rows() const override { return 1; }
   void eval(std::span<const State* const> states, double tau, Eigen::Ref<VectorXd> y, JacobianRows* J) const override;
   bool addLaneRows(LaneRowList& list) const override;
+  bool hasCurvature(const State& state) const override;
+  void addCurvature(const State& state, const VectorXd& weights, Eigen::Ref<MatrixXd> H) const override;
 
  private:
   int axis_a_, axis_b_, a_, b_;

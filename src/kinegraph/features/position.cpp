@@ -23,6 +23,20 @@ void Position::eval(std::span<const State* const> states, double, Eigen::Ref<Vec
   if (J) state.addPointJacobian(b_, p_WB, -1., *J);
 }
 
+/// Relative to a frame only where that stands still.
+bool Position::hasCurvature(const State& state) const {
+  if (kind_ == Kind::relative && state.moves(b_)) return false;
+  return state.hasCurvature(a_) && (kind_ == Kind::world || state.hasCurvature(b_));
+}
+
+void Position::addCurvature(const State& state, const VectorXd& weights, Eigen::Ref<MatrixXd> H) const {
+  if (kind_ == Kind::relative) {
+    return state.addPointCurvature(a_, state.position(a_), state.pose(b_).R.leftCols(rows_) * weights, H);
+  }
+  state.addPointCurvature(a_, state.position(a_), weights, H);
+  if (kind_ == Kind::difference) state.addPointCurvature(b_, state.position(b_), -weights, H);
+}
+
 bool Position::addLaneRows(LaneRowList& list) const {
   using Block = LaneRows::Block;
   list.addPosition(kind_ == Kind::world ? Block::position : kind_ == Kind::difference ? Block::offset : Block::relative, a_, b_, rows_);

@@ -17,6 +17,8 @@ class Position final : public Feature {
   int rows() const override { return rows_; }
   void eval(std::span<const State* const> states, double tau, Eigen::Ref<VectorXd> y, JacobianRows* J) const override;
   bool addLaneRows(LaneRowList& list) const override;
+  bool hasCurvature(const State& state) const override;
+  void addCurvature(const State& state, const VectorXd& weights, Eigen::Ref<MatrixXd> H) const override;
 
  private:
   Kind kind_;

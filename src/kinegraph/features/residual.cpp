@@ -15,6 +15,7 @@ Residual::Residual(std::shared_ptr<const Feature> feature, MatrixXd scale, Vecto
                          feature_->order(), ", not ", order));
   }
   differences_ = order - feature_->order();
+  raw_.resize(feature_->rows());
   setScale(std::move(scale));
   setTarget(std::move(target));
   if (differences_ == 0) return;
@@ -73,6 +74,18 @@ void Residual::evalRaw(std::span<const State* const> states, double tau, Eigen::
     }
   }
   subtractTarget(y);
+}
+
+void Residual::addCurvature(const State& state, std::span<const double> weights, Eigen::Ref<MatrixXd> H) {
+  const Eigen::Map<const VectorXd> given(weights.data(), Eigen::Index(weights.size()));
+  if (mixesRows()) {
+    raw_.noalias() = scale_.transpose() * given;
+  } else {
+    raw_ = given;
+    if (scale_.size() == 1) raw_ *= scale_(0, 0);
+    if (scale_.size() > 1) raw_.array() *= scale_.col(0).array();
+  }
+  feature_->addCurvature(state, raw_, H);
 }
 
 void Residual::finish(Eigen::Ref<VectorXd> y, JacobianRows* J) const {

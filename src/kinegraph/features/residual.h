@@ -45,6 +45,12 @@ class Residual {
   /// in `zero_row`, if that is given: has the row of the Jacobian been left zero?
   void eval(std::span<const State* const> states, double tau, Eigen::Ref<VectorXd> y, JacobianRows* J, char* zero_row = nullptr);
 
+  /// Can addCurvature tell the second derivatives? This may depend on the program of the state, not on its joints.
+  bool hasCurvature(const State& state) const { return order() == 0 && feature_->hasCurvature(state); }
+
+  /// Adds sum_i weights_i d^2 y_i / dq^2 to the lower triangle of H, for rows() weights.
+  void addCurvature(const State& state, std::span<const double> weights, Eigen::Ref<MatrixXd> H);
+
   const Feature& feature() const { return *feature_; }
 
   /// Is the scale a matrix, so that rows() may differ from those of the feature?

@@ -54,15 +54,18 @@ void connectChains(Program& program) {
   program.column_dof.clear();
   program.column_before.clear();
   program.last_column = {-1};  // nothing moves the world
+  program.fixed_axes = {true};
   program.turn_dof.clear();
   for (std::size_t l = 1; l < program.links.size(); ++l) {
     Program::Link& link = program.links[l];
     link.first_column = int(program.column_dof.size());
     link.first_turn = int(program.turn_dof.size());
     int dof = link.dof, last = program.last_column[link.parent];
+    bool fixed_axes = program.fixed_axes[std::size_t(link.parent)];
     for (int s = link.first_step; s < link.first_step + link.steps; ++s) {
       const MotionStep& step = program.steps[s];
       if (step.turns()) program.turn_dof.push_back(dof);
+      fixed_axes = fixed_axes && step.dofs() == 1;
       for (int i = 0; i < step.dofs(); ++i) {
         program.column_before.push_back(last);
         last = int(program.column_dof.size());
@@ -70,6 +73,7 @@ void connectChains(Program& program) {
       }
     }
     program.last_column.push_back(last);
+    program.fixed_axes.push_back(fixed_axes);
   }
   if (program.turn_dof.size() % 2 != 0) program.turn_dof.push_back(program.turn_dof.back());
 }

@@ -47,6 +47,7 @@ struct Program {
   std::vector<int> column_dof;   ///< entry of q that drives a twist column
   std::vector<int> column_before;  ///< of a twist column: the one before it in its chain, or -1
   std::vector<int> last_column;    ///< of link l: c = last_column[l], column_before[c], ... until -1 are those that move it
+  std::vector<char> fixed_axes;    ///< per link: is each column that moves it one about or along an axis fixed to its links?
   std::vector<int> turn_dof;         ///< entries of q that are angles, in the order of the steps, an even number of them
 
   std::vector<std::string> frame_name;  ///< per frame
@@ -102,7 +103,7 @@ void nameFrames(Program& program, std::vector<std::string> names);
 /// The first frame of that name. Throws FrameNotFound with similar names; `who` is what asks for it.
 int frameId(const Program& program, std::string_view name, std::string_view who);
 
-/// Fills `last_column`, `column_before`, `column_dof` and `turn_dof` from `links` and `steps`.
+/// Fills `last_column`, `column_before`, `column_dof`, `fixed_axes` and `turn_dof` from `links` and `steps`.
 void connectChains(Program& program);
 
 }  // namespace kinegraph

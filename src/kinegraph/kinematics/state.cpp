@@ -105,4 +105,28 @@ void State::addAngularJacobian(int frame, double factor, JacobianRows J) const {
   }
 }
 
+/// `velocity(twist)` is that of what is looked at.
+template <class Velocity>
+void State::addCurvature(int frame, const Velocity& velocity, const Vector3d& weight, Eigen::Ref<MatrixXd> H) const {
+  const int *before = program_->column_before.data(), *dof = program_->column_dof.data();
+  for (int d = program_->last_column[link(frame)]; d >= 0; d = before[d]) {
+    const Vector3d moment = velocity(twists_[d]).cross(weight);
+    const int j = dof[d];
+    H(j, j) += twists_[d].angular.dot(moment);
+    for (int c = before[d]; c >= 0; c = before[c]) {
+      const double value = twists_[c].angular.dot(moment);
+      const int i = dof[c];
+      H(std::max(i, j), std::min(i, j)) += i == j ? 2. * value : value;  // mimicking joints share a dof
+    }
+  }
+}
+
+void State::addPointCurvature(int frame, const Vector3d& p_WQ, const Vector3d& weight, Eigen::Ref<MatrixXd> H) const {
+  addCurvature(frame, [&p_WQ](const Twist& twist) -> Vector3d { return twist.linear + twist.angular.cross(p_WQ); }, weight, H);
+}
+
+void State::addDirectionCurvature(int frame, const Vector3d& u, const Vector3d& weight, Eigen::Ref<MatrixXd> H) const {
+  addCurvature(frame, [&u](const Twist& twist) -> Vector3d { return twist.angular.cross(u); }, weight, H);
+}
+
 }  // namespace kinegraph

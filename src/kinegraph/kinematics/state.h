@@ -57,6 +57,19 @@ class State {
   /// J += factor * d w / d(dq/dt), the angular velocity of the frame in world coordinates. J is 3 x dofs.
   void addAngularJacobian(int frame, double factor, JacobianRows J) const;
 
+  /// Does any dof move a frame?
+  bool moves(int frame) const { return program_->last_column[link(frame)] >= 0; }
+
+  /// Can the second derivatives of where a frame is be told? Not where quaternions or circles move it.
+  bool hasCurvature(int frame) const { return program_->fixed_axes[std::size_t(link(frame))]; }
+
+  /// H += sum_i weight_i d^2 p_WQ,i / dq^2 for point Q fixed to a frame's link that hasCurvature; H is dofs x dofs, and just its
+  /// lower triangle is changed. Where columns c and d move Q with velocities v, c nearer to the world: w_c x v_d.
+  void addPointCurvature(int frame, const Vector3d& p_WQ, const Vector3d& weight, Eigen::Ref<MatrixXd> H) const;
+
+  /// The same for a direction u (world coordinates) fixed to the link: H += sum_i weight_i d^2 u_i / dq^2.
+  void addDirectionCurvature(int frame, const Vector3d& u, const Vector3d& weight, Eigen::Ref<MatrixXd> H) const;
+
   /// J += A * (point Jacobian at p_WQ) + B * (angular Jacobian). A, B are m x 3, J is m x dofs.
   template <class DerivedA, class DerivedB>
   void addJacobian(int frame, const Vector3d& p_WQ, const Eigen::MatrixBase<DerivedA>& A_given,
@@ -75,6 +88,9 @@ class State {
   }
 
  private:
+  template <class Velocity>
+  void addCurvature(int frame, const Velocity& velocity, const Vector3d& weight, Eigen::Ref<MatrixXd> H) const;
+
   struct Turn {
     double sine, cosine;
   };

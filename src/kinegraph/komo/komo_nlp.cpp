@@ -40,6 +40,13 @@ class KomoNlp final : public Nlp {
     problem_.evaluate(*komo_, phi, J);
   }
 
+  std::span<const CurvedRows> curvedRows() const override { return problem_.curvedRows(); }
+
+  void addCurvature(int k, std::span<const double> weights, Eigen::Ref<MatrixXd> H) override {
+    requireStructure();
+    problem_.addCurvature(*komo_, k, weights, H);
+  }
+
   bool mayBeQuadratic() const override { return problem_.isLinear(); }
 
   /// Overlaps of pairs in place of their sum.

@@ -66,7 +66,21 @@ PathProblem::PathProblem(const Komo& komo, std::vector<Komo::Objective> objectiv
     terms_[i].first_value = stored_;
     if (storesAllRows(terms_[i])) stored_ += terms_[i].rows * width_[i];
   }
+  findCurvedRows(komo);
   workspace_ = makeWorkspace();
+}
+
+/// Terms of one slice, of which the variables are the joints in their order.
+void PathProblem::findCurvedRows(const Komo& komo) {
+  for (std::size_t i = 0; i < terms_.size(); ++i) {
+    const Term& term = terms_[i];
+    const State& state = komo.state(term.slice);
+    if (term.rows == 0 || term.slice < 0 || !residuals_[std::size_t(term.residual)].hasCurvature(state)) continue;
+    const Run* const run = term.runs == 1 ? &runs_[std::size_t(term.first_run)] : nullptr;
+    if (!run || segments_[i].size() != 1 || run->from != 0 || run->to != 0 || run->width != state.dofs() || width_[i] != state.dofs()) continue;
+    curved_rows_.push_back({term.first_row, term.rows, segments_[i][0].first, width_[i]});
+    curved_terms_.push_back(int(i));
+  }
 }
 
 PathProblem::Workspace PathProblem::makeWorkspace() const {
@@ -251,6 +265,11 @@ void PathProblem::evaluate(const Komo& komo, VectorXd& phi, Jacobian* J) {
     if (values) std::fill_n(values, std::ptrdiff_t(term.rows) * width_[i], 0.);
     evaluateTerm(komo, i, residual, phi.segment(term.first_row, term.rows), values, workspace_);
   }
+}
+
+void PathProblem::addCurvature(const Komo& komo, int k, std::span<const double> weights, Eigen::Ref<MatrixXd> H) {
+  const Term& term = terms_[std::size_t(curved_terms_[std::size_t(k)])];
+  residuals_[std::size_t(term.residual)].addCurvature(komo.state(term.slice), weights, H);
 }
 
 }  // namespace kinegraph

@@ -34,6 +34,11 @@ class PathProblem {
   bool isLinear() const;                 ///< are all rows of the Jacobian the same for all paths?
   std::vector<char> linearRows() const;  ///< which are?
 
+  const std::vector<Nlp::CurvedRows>& curvedRows() const { return curved_rows_; }
+
+  /// Adds the second derivatives of the k-th of curvedRows at the Komo's present path to H; see Nlp::addCurvature.
+  void addCurvature(const Komo& komo, int k, std::span<const double> weights, Eigen::Ref<MatrixXd> H);
+
   /// With the values of linear rows; the others are zero.
   Jacobian makeJacobian(const Komo& komo) const;
 
@@ -55,6 +60,7 @@ class PathProblem {
   Workspace makeWorkspace() const;
   bool storesAllRows(const Term& term) const { return !residuals_[std::size_t(term.residual)].tellsZeroRows(); }
   std::span<const State* const> statesOf(const Komo& komo, const Term& term, Workspace& workspace) const;
+  void findCurvedRows(const Komo& komo);
   void layOut(const Komo& komo, Term& term, std::vector<std::pair<int, int>>& segments);
   void evaluateTerm(const Komo& komo, std::size_t index, Residual& residual, Eigen::Ref<VectorXd> phi, double* jacobian, Workspace& workspace) const;
   void evaluateSparse(const Komo& komo, std::size_t index, VectorXd& phi, Jacobian& J);
@@ -66,6 +72,8 @@ class PathProblem {
   std::vector<Run> runs_;
   std::vector<std::vector<std::pair<int, int>>> segments_;  ///< per term: columns and widths
   std::vector<int> width_;                                  ///< per term: columns in all
+  std::vector<Nlp::CurvedRows> curved_rows_;
+  std::vector<int> curved_terms_;                           ///< of each of them
   Workspace workspace_;
   int stored_ = 0;  ///< values of a Jacobian before those of rows that come and go: zeros, then rows that are always stored
   int widest_state_ = 0, dimension_ = 0;

@@ -63,6 +63,8 @@ void Jacobian::addRowTo(int row, double factor, VectorXd& x) const {
 
 bool Nlp::addCostHessian(const VectorXd&, MatrixXd&) { return false; }
 
+void Nlp::addCurvature(int, std::span<const double>, Eigen::Ref<MatrixXd>) {}
+
 VectorXd Nlp::initialPoint(Rng& rng) { return uniformPoint(rng); }
 
 VectorXd Nlp::uniformPoint(Rng& rng) const {

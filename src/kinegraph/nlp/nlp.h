@@ -78,6 +78,17 @@ class Nlp {
   /// Adds the Hessian of sum_f phi_i to `H` (n x n). False if the problem has none to offer; it is then taken as zero.
   virtual bool addCostHessian(const VectorXd& x, MatrixXd& H);
 
+  /// Consecutive rows of which the second derivatives can be told, and the consecutive variables that they depend on.
+  struct CurvedRows {
+    int first, rows;
+    int column, width;
+  };
+  virtual std::span<const CurvedRows> curvedRows() const { return {}; }
+
+  /// Adds sum_i weights_i d^2 phi_(first + i) / dx^2 at the x last evaluated to the lower triangle of H (width x width), for the
+  /// k-th of curvedRows.
+  virtual void addCurvature(int k, std::span<const double> weights, Eigen::Ref<MatrixXd> H);
+
   /// The form that is easier to solve, if there is one. It shares the state of this problem.
   virtual Separation separation() { return {}; }
 

@@ -16,36 +16,43 @@ namespace kinegraph {
 
 namespace {
 
+constexpr double kEnough = .02;  ///< part of the violation that a step may leave, to first order
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
-/// What does not change from solution to solution of a problem.
+/// What solutions of a problem hand on to the next.
 struct Memory {
-  Memory(const Nlp& nlp, const ConstrainedFunction& function)
-      : here(function.makePoint()), trial(here), corrected(here), model(nlp, here.J, function.costs(), function.constraints()) {
+  explicit Memory(Nlp& nlp)
+      : function(nlp), here(function.makePoint()), trial(here), corrected(here),
+        model(makeLocalModel(nlp, here.J, function.costs(), function.constraints())) {
     for (EvaluatedPoint* copy : {&trial, &corrected}) copy->J.values.reserve(here.J.values.capacity());
+    for (VectorXd* v : {&start, &low, &high, &gradient}) v->setZero(here.x.size());
+    for (VectorXd* v : {&lambda, &next_lambda, &multipliers}) v->setZero(here.c.size());
   }
 
+  ConstrainedFunction function;
   EvaluatedPoint here, trial, corrected;
-  LocalModel model;
+  std::unique_ptr<LocalModel> model;
+  VectorXd start, lambda, next_lambda, multipliers, low, high, gradient;
+  double damping = 0.;  ///< at the end of the last solution; 0 where it did not converge
 };
 
 class AugmentedLagrangian {
  public:
-  AugmentedLagrangian(Nlp& nlp, ConstrainedFunction& function, Memory& memory, const VectorXd& x0, const SolverOptions& options)
-      : nlp_(nlp), options_(options), function_(function), here_(memory.here), trial_(memory.trial), corrected_(memory.corrected),
-        model_(memory.model), constraints_(function.constraints()), equalities_(function.equalities()), lower_(function.lower()),
-        upper_(function.upper()), lambda_(VectorXd::Zero(Eigen::Index(constraints_.size()))), next_lambda_(lambda_),
-        multipliers_(lambda_), tolerance_(options.constraintTolerance()) {
-    here_.x = start_ = low_ = high_ = gradient_ = function_.clip(x0);
+  AugmentedLagrangian(Nlp& nlp, Memory& memory, const VectorXd& x0, const SolverOptions& options)
+      : nlp_(nlp), options_(options), memory_(memory), constraints_(function_.constraints()), equalities_(function_.equalities()),
+        lower_(function_.lower()), upper_(function_.upper()), tolerance_(options.constraintTolerance()) {
+    here_.x = start_ = x0.cwiseMax(lower_).cwiseMin(upper_);
+    lambda_.setZero();
   }
 
   SolverResult run(const VectorXd& dual) {
     if (function_.hasGeneralCosts()) curvature_.reset(nlp_.dimension());
-    if (dual.size() == here_.phi.size()) {
+    is_warm_ = dual.size() == here_.phi.size();
+    if (is_warm_) {
       for (std::size_t j = 0; j < constraints_.size(); ++j) lambda_[Eigen::Index(j)] = dual[constraints_[j]];
     }
     evaluate(here_);
-    function_.requireFiniteStart(here_.phi, here_.J);
+    function_.requireFiniteStart(here_);
     function_.remember(here_);
     weight_ = costWeight();
     mu_ = weight_ * options_.muInit;
@@ -134,6 +141,9 @@ class AugmentedLagrangian {
   void linearize() {
     model_.setJacobian(here_.J);
     learns_curvature_ = !model_.setCosts(nlp_, here_.x, here_.phi, &curvature_.matrix());
+    if (learns_curvature_ || nlp_.curvedRows().empty()) return;
+    function_.moveTo(here_);
+    model_.addCurvature(nlp_, lambda_);
   }
 
   /// Where the problem does not tell the curvature of its f terms, that of the Lagrangian is learnt from accepted steps.
@@ -167,15 +177,17 @@ class AugmentedLagrangian {
 
   Nlp& nlp_;
   const SolverOptions& options_;
-  ConstrainedFunction& function_;
-  EvaluatedPoint &here_, &trial_, &corrected_;
-  LocalModel& model_;
+  Memory& memory_;
+  ConstrainedFunction& function_ = memory_.function;
+  EvaluatedPoint &here_ = memory_.here, &trial_ = memory_.trial, &corrected_ = memory_.corrected;
+  LocalModel& model_ = *memory_.model;
   QuasiNewton curvature_;
   bool learns_curvature_ = false;
   const std::vector<int>& constraints_;  ///< rows, equalities first
   const int equalities_;
   const VectorXd &lower_, &upper_;
-  VectorXd start_, lambda_, next_lambda_, multipliers_, low_, high_, gradient_;
+  VectorXd &start_ = memory_.start, &lambda_ = memory_.lambda, &next_lambda_ = memory_.next_lambda, &multipliers_ = memory_.multipliers;
+  VectorXd &low_ = memory_.low, &high_ = memory_.high, &gradient_ = memory_.gradient;
   double tolerance_;
   double weight_ = 1., radius_ = options_.stepMax;
   int steps_at_edge_ = 0, restorations_ = 0;
@@ -190,7 +202,7 @@ class AugmentedLagrangian {
   } correction_;
   double mu_ = 1., omega_ = .1, last_violation_ = kInfinity, violation_at_tests_ = kInfinity, cost_at_tests_ = kInfinity, rel_ = .02;
   int rounds_ = 0, bad_rounds_ = 0, failed_tests_ = 0;
-  bool round_just_ended_ = false;
+  bool round_just_ended_ = false, is_warm_ = false;
   bool stopped_ = false;
   SolverStatus status_ = SolverStatus::stalled;
   std::string message_;
@@ -219,7 +231,9 @@ bool AugmentedLagrangian::solvedInOneStep() {
 
 void AugmentedLagrangian::iterate() {
   const double first_nu = weight_ * options_.damping;
-  double nu = first_nu, growth = 2., last_relative = 1.;
+  double nu = is_warm_ && memory_.damping > 0. ? std::min(memory_.damping, first_nu) : first_nu;
+  memory_.damping = 0.;
+  double growth = 2., last_relative = 1.;
   bool damped_step_retried = false, model_is_stale = true;
   int given_up = 0;
   const double tolerance = options_.stopTolerance;
@@ -235,7 +249,7 @@ void AugmentedLagrangian::iterate() {
     const LocalModel::Problem problem{here_.c, lambda_, mu_, nu, low_, high_, passes};
     const VectorXd& d = model_.minimize(problem);
     const double size = d.lpNorm<Eigen::Infinity>();
-    const double predicted = model_.decrease(problem);
+    double predicted = model_.decrease(problem);
     const double vc = optimalityError(), violation = here_.violation;
     const double scale = std::max(std::abs(here_.cost), 1e-4);
     const bool tiny = size <= tolerance || predicted <= std::max(tolerance * tolerance, 1e-16) * scale;
@@ -254,7 +268,8 @@ void AugmentedLagrangian::iterate() {
       if (nu > .1 * h && !trouble_.empty() && predicted > .1 * size * std::max(scale, .01)) {  // larger steps were refused
         return stop(SolverStatus::stalled, cat("no step decreases the objective as predicted", trouble_));
       }
-      return stop(SolverStatus::converged, cat("step ", size, ", its predicted decrease ", predicted, ", and violation ", vc, " are within tolerances"));
+      memory_.damping = nu;
+      return stop(SolverStatus::converged, "step, predicted decrease and violation are within their tolerances");
     }
     const bool solved = (size <= omega_ && nu <= .1 * h) || last_relative <= rel_ || tiny || nu > 1e10 || predicted <= 0.;
     const bool helps = vc <= tolerance_ || (violation > tolerance_ && linearizedViolation() < .5 * violation);
@@ -265,7 +280,9 @@ void AugmentedLagrangian::iterate() {
       }
       endRound(vc, size);
       last_relative = 1.;
-      continue;
+      if (stopped_ || nu > 1e10 || !helps || linearizedViolation() > kEnough * violation || mu_ != problem.mu) continue;
+      predicted = model_.decrease(problem);
+      if (!(predicted > 0.)) continue;
     }
     trial_.x = (here_.x + d).cwiseMax(lower_).cwiseMin(upper_);
     const double before = lagrangian(here_);
@@ -467,11 +484,11 @@ AugmentedLagrangianMemory::~AugmentedLagrangianMemory() = default;
 
 SolverResult solveAugmentedLagrangian(Nlp& nlp, const VectorXd& x0, const SolverOptions& options, const VectorXd& dual,
                                       const EvaluationHook& hook, AugmentedLagrangianMemory* memory) {
-  ConstrainedFunction function(nlp, x0, options, hook);
   AugmentedLagrangianMemory own;
   auto& parts = (memory ? memory : &own)->parts;
-  if (!parts) parts = std::make_unique<AugmentedLagrangianMemory::Parts>(nlp, function);
-  return AugmentedLagrangian(nlp, function, *parts, x0, options).run(dual);
+  if (!parts) parts = std::make_unique<AugmentedLagrangianMemory::Parts>(nlp);
+  parts->function.begin(x0, options, hook);
+  return AugmentedLagrangian(nlp, *parts, x0, options).run(dual);
 }
 
 }  // namespace kinegraph

@@ -8,14 +8,7 @@
 
 namespace kinegraph {
 
-ConstrainedFunction::ConstrainedFunction(Nlp& nlp, const VectorXd& x0, const SolverOptions& options, const EvaluationHook& hook)
-    : nlp_(nlp), hook_(hook), tolerance_(options.constraintTolerance()), lower_(nlp.lower()), upper_(nlp.upper()) {
-  options.validate();
-  requireStart(nlp, x0);
-  if (!options.boundedNewton) {
-    lower_.setConstant(-std::numeric_limits<double>::infinity());
-    upper_ = -lower_;
-  }
+ConstrainedFunction::ConstrainedFunction(Nlp& nlp) : nlp_(nlp), lower_(nlp.lower()), upper_(nlp.upper()), last_x_(lower_), moved_phi_(nlp.types().size()) {
   costs_.reserve(nlp.types().size());
   constraints_.reserve(nlp.types().size());
   std::vector<int> inequalities;
@@ -32,6 +25,22 @@ ConstrainedFunction::ConstrainedFunction(Nlp& nlp, const VectorXd& x0, const Sol
   }
   equalities_ = int(constraints_.size());
   constraints_.insert(constraints_.end(), inequalities.begin(), inequalities.end());
+  only_squares_ = std::all_of(costs_.begin(), costs_.end(), [this](int row) { return types()[row] == ObjectiveType::sos; });
+}
+
+void ConstrainedFunction::begin(const VectorXd& x0, const SolverOptions& options, const EvaluationHook& hook) {
+  options.validate();
+  requireStart(nlp_, x0);
+  hook_ = &hook;
+  tolerance_ = options.constraintTolerance();
+  lower_ = nlp_.lower();
+  upper_ = nlp_.upper();
+  if (!options.boundedNewton) {
+    lower_.setConstant(-std::numeric_limits<double>::infinity());
+    upper_ = -lower_;
+  }
+  evals_ = 0;
+  has_best_ = false;
 }
 
 EvaluatedPoint ConstrainedFunction::makePoint() const {
@@ -54,15 +63,19 @@ bool ConstrainedFunction::evaluate(EvaluatedPoint& point) {
   if (equalities_ > 0) point.violation = point.c.head(equalities_).lpNorm<Eigen::Infinity>();
   if (inequalities > 0) point.violation = std::max(point.violation, point.c.tail(inequalities).maxCoeff());
   point.finite = describeNotFinite(nlp_, point.phi, &point.J).empty();
-  return !hook_ || hook_(point.x, point.phi);
+  return !*hook_ || (*hook_)(point.x, point.phi);
 }
 
-void ConstrainedFunction::requireFiniteStart(const VectorXd& phi, const Jacobian& J) const {
-  if (const std::string what = describeNotFinite(nlp_, phi, &J); !what.empty()) throw ValueError(cat("at the start, ", what));
+void ConstrainedFunction::requireFiniteStart(const EvaluatedPoint& point) const {
+  if (!point.finite) throw ValueError(cat("at the start, ", describeNotFinite(nlp_, point.phi, &point.J)));
 }
 
 double ConstrainedFunction::cost(const VectorXd& phi) const {
   double sum = 0.;
+  if (only_squares_) {
+    for (int row : costs_) sum += phi[row] * phi[row];
+    return sum;
+  }
   for (int row : costs_) {
     const ObjectiveType type = types()[row];
     if (type == ObjectiveType::f) sum += phi[row];
@@ -92,12 +105,20 @@ void ConstrainedFunction::addConstraintGradient(const Jacobian& J, const VectorX
   for (Eigen::Index j = 0; j < multipliers.size(); ++j) J.addRowTo(constraints_[std::size_t(j)], multipliers[j], gradient);
 }
 
+void ConstrainedFunction::moveTo(const EvaluatedPoint& point) {
+  if (evals_ > 0 && last_x_ == point.x) return;
+  moved_phi_ = point.phi;
+  nlp_.evaluate(point.x, moved_phi_, nullptr);
+  last_x_ = point.x;
+}
+
 void ConstrainedFunction::remember(const EvaluatedPoint& point) {
   const bool both_hold = point.violation <= tolerance_ && best_.violation <= tolerance_;
-  if (best_.x.size() == 0 || (both_hold ? point.cost < best_.cost : point.violation < best_.violation)) forceBest(point);
+  if (!has_best_ || (both_hold ? point.cost < best_.cost : point.violation < best_.violation)) forceBest(point);
 }
 
 void ConstrainedFunction::forceBest(const EvaluatedPoint& point) {
+  has_best_ = true;
   best_.x = point.x;
   best_.phi = point.phi;
   best_.cost = point.cost;
@@ -113,10 +134,7 @@ SolverResult ConstrainedFunction::result(const EvaluatedPoint& point, const Vect
   out.setSums(types(), point.phi, tolerance_);
   out.status = status;
   out.message = std::move(message);
-  if (last_x_.size() == 0 || last_x_ != point.x) {
-    VectorXd phi = point.phi;
-    nlp_.evaluate(point.x, phi, nullptr);
-  }
+  moveTo(point);
   return out;
 }
 

@@ -21,8 +21,13 @@ struct EvaluatedPoint {
 /// Counts evaluations, asks the hook, keeps the best point.
 class ConstrainedFunction {
  public:
-  /// Throws ValueError if the options make no sense or `x0` does not fit.
-  ConstrainedFunction(Nlp& nlp, const VectorXd& x0, const SolverOptions& options, const EvaluationHook& hook);
+  explicit ConstrainedFunction(Nlp& nlp);
+  ConstrainedFunction(Nlp& nlp, const VectorXd& x0, const SolverOptions& options, const EvaluationHook& hook) : ConstrainedFunction(nlp) {
+    begin(x0, options, hook);
+  }
+
+  /// Forgets what was evaluated. `hook` must stay. Throws ValueError if the options make no sense or `x0` does not fit.
+  void begin(const VectorXd& x0, const SolverOptions& options, const EvaluationHook& hook);
 
   Nlp& nlp() const { return nlp_; }
   const std::vector<ObjectiveType>& types() const { return nlp_.types(); }
@@ -42,7 +47,7 @@ class ConstrainedFunction {
   int evals() const { return evals_; }
 
   /// Throws ValueError, naming the row, if numbers are not finite.
-  void requireFiniteStart(const VectorXd& phi, const Jacobian& J) const;
+  void requireFiniteStart(const EvaluatedPoint& point) const;
 
   double cost(const VectorXd& phi) const;
   void costGradient(const VectorXd& phi, const Jacobian& J, VectorXd& gradient) const;
@@ -50,6 +55,9 @@ class ConstrainedFunction {
   /// Gradient of the f rows and of the constraints times `multipliers` (empty: zero): what Gauss-Newton has no curvature of.
   void generalGradient(const Jacobian& J, const VectorXd& multipliers, VectorXd& gradient) const;
   void addConstraintGradient(const Jacobian& J, const VectorXd& multipliers, VectorXd& gradient) const;
+
+  /// Lets the problem stand at a point that was evaluated, though maybe not as the last one.
+  void moveTo(const EvaluatedPoint& point);
 
   /// Takes the point as the best so far if it is: among those within the tolerance the one of least cost, else of least
   /// violation.
@@ -62,12 +70,13 @@ class ConstrainedFunction {
 
  private:
   Nlp& nlp_;
-  const EvaluationHook& hook_;
-  double tolerance_;
+  const EvaluationHook* hook_ = nullptr;
+  double tolerance_ = 0.;
   std::vector<int> costs_, constraints_;
   int equalities_ = 0, evals_ = 0;
-  bool has_f_ = false;
-  VectorXd lower_, upper_, last_x_;
+  bool has_f_ = false, has_best_ = false;
+  bool only_squares_ = true;  ///< are all costs of type sos?
+  VectorXd lower_, upper_, last_x_, moved_phi_;
   EvaluatedPoint best_;  ///< without J and c
 };
 

@@ -49,7 +49,7 @@ class SequentialQuadratic {
   SolverResult run() {
     curvature_.reset(nlp_.dimension());
     evaluate(here_);
-    function_.requireFiniteStart(here_.phi, here_.J);
+    function_.requireFiniteStart(here_);
     function_.remember(here_);
     iterate();
     return function_.result(status_ == SolverStatus::converged ? here_ : function_.best(), lambda_, status_, message_);

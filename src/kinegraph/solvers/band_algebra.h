@@ -1,0 +1,78 @@
+#pragma once
+
+#include <vector>
+
+#include "kinegraph/math/banded_matrix.h"
+#include "kinegraph/nlp/nlp.h"
+
+namespace kinegraph {
+
+/// The linear algebra of a SemismoothModel of any size: matrices are bands with a border, in an order of the variables that
+/// makes the band narrow, and rows are those of the Jacobian.
+class BandAlgebra {
+ public:
+  using Vector = VectorXd;
+
+  BandAlgebra(const Nlp& nlp, const Jacobian& pattern, const std::vector<int>& constraints, bool full);
+
+  int size() const { return n_; }
+  Vector zeroVector() const { return VectorXd::Zero(n_); }
+
+  /// Room for the box of a step: entries that are no variables are inside.
+  void takeBox(const VectorXd& low, const VectorXd& high, Vector& to_low, Vector& to_high) const { to_low = low, to_high = high; }
+
+  // Rows. `j` counts constraints.
+  void setJacobian(const Jacobian& J) { J_ = &J; }
+  double rowTimes(int j, const Vector& d) const { return J_->rowTimes(constraints_[std::size_t(j)], d); }
+  void addRowTo(int j, double factor, Vector& x) const { J_->addRowTo(constraints_[std::size_t(j)], factor, x); }
+  double largestRise(int j, const Vector& low, const Vector& high) const;  ///< of J_j d for d in the box
+  int firstColumn(int j) const;  ///< of the factor that a row changes
+
+  // The Hessian H: of costs that are linear, which is kept, and what is added to a copy.
+  void setLinearCosts(const std::vector<int>& rows);
+  void addLinearCostGradient(const std::vector<int>& rows, const VectorXd& phi, Vector& g) const;
+  void useLinearCosts() { H_ = &H_linear_; }
+  void copyLinearCosts();
+  void setMultipleOfIdentity(double weight);
+  void addCost(int row, double weight) { addRow(*H_, row, weight, 0); }
+  void addEntry(int i, int j, double value) { H_->at(i, j) += value; }
+  void addCostGradient(int row, double factor, Vector& g) const { J_->addRowTo(row, factor, g); }
+  double diagonal(int i) const { return H_->at(i, i); }
+  void addHessianProduct(const Vector& d, Vector& sum);
+
+  /// Lower triangles of symmetric matrices among consecutive variables, which H has in addition until they are dropped. They
+  /// must stay as they are meanwhile.
+  void addBlock(int column, const MatrixXd& lower) { blocks_.push_back({column, &lower}); }
+  void dropBlocks() { blocks_.clear(); }
+
+  /// Makes K = H + shift I + sum_active mu J_j^T J_j, with the rows of fixed variables replaced by the identity, and factorizes it.
+  /// Just columns from `first` on have changed since the last time. False if it is not positive definite.
+  bool factorize(double shift, double mu, const std::vector<int>& active, const std::vector<char>& fixed, int first);
+  void solve(Vector& x);  ///< x <- K^-1 x
+
+ private:
+  /// Part of a row of J whose columns follow one another in the matrices.
+  struct Run {
+    const double* values;
+    int place, width;
+  };
+  struct Block {
+    int column;
+    const MatrixXd* lower;
+  };
+  void addRow(BandedMatrix& matrix, int row, double weight, int from);
+  void addBlocksTo(BandedMatrix& matrix, int from) const;
+
+  int n_;
+  const Jacobian* J_ = nullptr;
+  const std::vector<int>& constraints_;
+  std::vector<int> place_;      ///< of each variable in H and K
+  bool reordered_ = false;
+  std::vector<Run> runs_;
+  std::vector<Block> blocks_;
+  VectorXd placed_, placed_sum_;
+  BandedMatrix H_linear_, H_own_, K_;
+  BandedMatrix* H_ = &H_linear_;
+};
+
+}  // namespace kinegraph
