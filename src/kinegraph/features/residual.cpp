@@ -119,14 +119,18 @@ void Residual::subtractTarget(Eigen::Ref<VectorXd> y) const {
 
 void Residual::scaleRows(Eigen::Ref<VectorXd> y, JacobianRows* J) const {
   if (scale_.size() == 1) {
-    if (scale_(0, 0) == 1.) return;
-    y *= scale_(0, 0);
-    if (J) *J *= scale_(0, 0);
-  } else if (scale_.size() > 1) {
-    for (int row = 0; row < rows_; ++row) {
-      y[row] *= scale_(row, 0);
-      if (J) J->row(row) *= scale_(row, 0);
+    const double factor = scale_(0, 0);
+    if (factor == 1.) return;
+    y *= factor;
+    if (!J) return;
+    if (J->outerStride() == J->cols()) {
+      Eigen::Map<VectorXd>(J->data(), J->size()) *= factor;
+    } else {
+      *J *= factor;
     }
+  } else if (scale_.size() > 1) {
+    y.array() *= scale_.col(0).array();
+    for (int row = 0; J && row < rows_; ++row) J->row(row) *= scale_(row, 0);
   }
 }
 

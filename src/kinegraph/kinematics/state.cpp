@@ -109,14 +109,22 @@ void State::addAngularJacobian(int frame, double factor, JacobianRows J) const {
 template <class Velocity>
 void State::addCurvature(int frame, const Velocity& velocity, const Vector3d& weight, Eigen::Ref<MatrixXd> H) const {
   const int *before = program_->column_before.data(), *dof = program_->column_dof.data();
+  const Twist* twists = twists_.data();
+  double* entries = H.data();
+  const Eigen::Index stride = H.outerStride();
   for (int d = program_->last_column[link(frame)]; d >= 0; d = before[d]) {
-    const Vector3d moment = velocity(twists_[d]).cross(weight);
+    const Vector3d moment = velocity(twists[d]).cross(weight);
+    const double x = moment[0], y = moment[1], z = moment[2];
     const int j = dof[d];
-    H(j, j) += twists_[d].angular.dot(moment);
+    const auto power = [=](int c) {
+      const double* w = twists[c].angular.data();
+      return w[0] * x + w[1] * y + w[2] * z;
+    };
+    entries[j * stride + j] += power(d);
     for (int c = before[d]; c >= 0; c = before[c]) {
-      const double value = twists_[c].angular.dot(moment);
       const int i = dof[c];
-      H(std::max(i, j), std::min(i, j)) += i == j ? 2. * value : value;  // mimicking joints share a dof
+      const double value = power(c);
+      entries[i < j ? i * stride + j : j * stride + i] += i == j ? 2. * value : value;  // mimicking joints share a dof
     }
   }
 }

@@ -62,9 +62,15 @@ PathProblem::PathProblem(const Komo& komo, std::vector<Komo::Objective> objectiv
   for (std::size_t i = 0; i < terms_.size(); ++i) {
     if (!storesAllRows(terms_[i])) stored_ = std::max(stored_, width_[i]);
   }
-  for (std::size_t i = 0; i < terms_.size(); ++i) {
-    terms_[i].first_value = stored_;
-    if (storesAllRows(terms_[i])) stored_ += terms_[i].rows * width_[i];
+  for (const bool linear : {true, false}) {
+    for (std::size_t i = 0; i < terms_.size(); ++i) {
+      Term& term = terms_[i];
+      const Residual& residual = residuals_[std::size_t(term.residual)];
+      if (residual.isLinear() != linear) continue;
+      term.first_value = stored_;
+      if (storesAllRows(term)) stored_ += term.rows * width_[i];
+    }
+    if (linear) constant_ = stored_;
   }
   findCurvedRows(komo);
   workspace_ = makeWorkspace();
@@ -154,7 +160,8 @@ std::vector<char> PathProblem::linearRows() const {
   return linear;
 }
 
-/// First come zeros, for all rows that are zero; then the rows that are always stored; then, in evaluateSparse, the others.
+/// First come zeros, for all rows that are zero; then linear rows; then others that are always stored; then, in evaluateSparse,
+/// those that come and go.
 Jacobian PathProblem::makeJacobian(const Komo& komo) const {
   std::size_t segments = 0, values = std::size_t(stored_);
   for (std::size_t i = 0; i < terms_.size(); ++i) {
@@ -168,6 +175,7 @@ Jacobian PathProblem::makeJacobian(const Komo& komo) const {
   J.segments.reserve(segments);
   J.values.reserve(values);
   J.values.resize(std::size_t(stored_));
+  J.constant = constant_;
   Workspace workspace = makeWorkspace();
   VectorXd phi(rows());
   int copied = -1;

@@ -75,7 +75,8 @@ class PathProblem {
   std::vector<Nlp::CurvedRows> curved_rows_;
   std::vector<int> curved_terms_;                           ///< of each of them
   Workspace workspace_;
-  int stored_ = 0;  ///< values of a Jacobian before those of rows that come and go: zeros, then rows that are always stored
+  int stored_ = 0;    ///< values of a Jacobian before those of rows that come and go: zeros, then rows that are always stored
+  int constant_ = 0;  ///< of these, before rows that are not linear
   int widest_state_ = 0, dimension_ = 0;
 };
 

@@ -134,7 +134,8 @@ std::string describeNotFinite(const Nlp& nlp, const VectorXd& phi, const Jacobia
   const auto finite = [](const double* values, std::size_t count) {  // products with 0 are not numbers if a value is not finite
     return (0. * Eigen::Map<const VectorXd>(values, Eigen::Index(count)).array()).sum() == 0.;
   };
-  if (finite(phi.data(), std::size_t(phi.size())) && (!J || finite(J->values.data(), J->values.size()))) return {};
+  const auto rowsAreFinite = [&] { return finite(J->values.data() + J->constant, J->values.size() - std::size_t(J->constant)); };
+  if (finite(phi.data(), std::size_t(phi.size())) && (!J || rowsAreFinite())) return {};
   for (int row = 0; row < phi.size(); ++row) {
     if (!std::isfinite(phi[row])) return cat(nlp.rowName(row), " is not finite: ", phi[row]);
     if (!J) continue;

@@ -38,6 +38,7 @@ struct Jacobian {
   std::vector<Segment> segments;
   std::vector<double> values;
   std::vector<char> zero_row;        ///< per row: is it known that all its values are zero?
+  int constant = 0;                  ///< values at the beginning that are finite and never change
 
   int rows() const { return int(row_start.size()) - 1; }
   static Jacobian dense(int rows, int columns);

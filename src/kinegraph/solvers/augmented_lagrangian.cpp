@@ -81,6 +81,11 @@ class AugmentedLagrangian {
     stopped_ = true;
   }
 
+  void converge(double damping) {
+    memory_.damping = damping;
+    stop(SolverStatus::converged, "step, predicted decrease and violation are within their tolerances");
+  }
+
   bool evaluate(EvaluatedPoint& point) {
     if (function_.evaluate(point)) return true;
     stop(SolverStatus::cancelled, "cancelled by the caller");
@@ -141,6 +146,9 @@ class AugmentedLagrangian {
   void linearize() {
     model_.setJacobian(here_.J);
     learns_curvature_ = !model_.setCosts(nlp_, here_.x, here_.phi, &curvature_.matrix());
+  }
+
+  void addCurvature() {
     if (learns_curvature_ || nlp_.curvedRows().empty()) return;
     function_.moveTo(here_);
     model_.addCurvature(nlp_, lambda_);
@@ -243,14 +251,17 @@ void AugmentedLagrangian::iterate() {
     if (step >= 20 * options_.stopInners) return stop(SolverStatus::limit, cat("limit of ", options_.stopInners, " steps"));
     if (rounds_ >= options_.stopOuters) return stop(SolverStatus::limit, cat("limit of ", options_.stopOuters, " rounds"));
     if (model_is_stale) linearize();
-    model_is_stale = false;
-    const double h = model_.largestCurvature();
+    const double h = model_.largestCurvature(), vc = optimalityError(), violation = here_.violation;
     box();
     const LocalModel::Problem problem{here_.c, lambda_, mu_, nu, low_, high_, passes};
+    if (model_is_stale && step > 0 && vc <= tolerance_ && nu <= .1 * h && trouble_.empty() && model_.estimateStep(problem) <= .5 * tolerance) {
+      return converge(nu);
+    }
+    if (model_is_stale) addCurvature();
+    model_is_stale = false;
     const VectorXd& d = model_.minimize(problem);
     const double size = d.lpNorm<Eigen::Infinity>();
     double predicted = model_.decrease(problem);
-    const double vc = optimalityError(), violation = here_.violation;
     const double scale = std::max(std::abs(here_.cost), 1e-4);
     const bool tiny = size <= tolerance || predicted <= std::max(tolerance * tolerance, 1e-16) * scale;
     if (options_.verbose > 2) {
@@ -268,8 +279,7 @@ void AugmentedLagrangian::iterate() {
       if (nu > .1 * h && !trouble_.empty() && predicted > .1 * size * std::max(scale, .01)) {  // larger steps were refused
         return stop(SolverStatus::stalled, cat("no step decreases the objective as predicted", trouble_));
       }
-      memory_.damping = nu;
-      return stop(SolverStatus::converged, "step, predicted decrease and violation are within their tolerances");
+      return converge(nu);
     }
     const bool solved = (size <= omega_ && nu <= .1 * h) || last_relative <= rel_ || tiny || nu > 1e10 || predicted <= 0.;
     const bool helps = vc <= tolerance_ || (violation > tolerance_ && linearizedViolation() < .5 * violation);
@@ -300,7 +310,8 @@ void AugmentedLagrangian::iterate() {
     if (ratio > options_.wolfe) {
       std::swap(here_, trial_);
       const bool was_refused = growth > 2.;  // a step with less damping, from this point
-      nu = std::max(1e-6, nu * std::max(was_refused || correction_.helped ? .5 : .1, 1. - std::pow(2. * std::min(ratio, 1.2) - 1., 3)));
+      const double excess = 2. * std::min(ratio, 1.2) - 1.;
+      nu = std::max(1e-6, nu * std::max(was_refused || correction_.helped ? .5 : .1, 1. - excess * excess * excess));
       growth = 2.;
       if (ratio > .7 && nu <= .1 * h && optimalityError() <= .25 * vc) updateMultipliers(size);  // close: no need to solve it first
       last_relative = (before - after) / std::max(std::abs(before), .01);

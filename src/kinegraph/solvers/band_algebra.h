@@ -40,9 +40,14 @@ class BandAlgebra {
   double diagonal(int i) const { return H_->at(i, i); }
   void addHessianProduct(const Vector& d, Vector& sum);
 
-  /// Lower triangles of symmetric matrices among consecutive variables, which H has in addition until they are dropped. They
-  /// must stay as they are meanwhile.
-  void addBlock(int column, const MatrixXd& lower) { blocks_.push_back({column, &lower}); }
+  /// A symmetric matrix among consecutive variables, which H has in addition until blocks are dropped. `addTo(M)` adds its lower
+  /// triangle to a matrix; `room` has its size and stays meanwhile.
+  template <class AddTo>
+  void addBlock(int column, MatrixXd& room, const AddTo& addTo) {
+    room.setZero();
+    addTo(room);
+    blocks_.push_back({column, &room});
+  }
   void dropBlocks() { blocks_.clear(); }
 
   /// Makes K = H + shift I + sum_active mu J_j^T J_j, with the rows of fixed variables replaced by the identity, and factorizes it.

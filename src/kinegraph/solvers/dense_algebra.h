@@ -57,7 +57,9 @@ class DenseAlgebra {
     for (Eigen::Index k = 0; k < cost_rows_.cols(); ++k) addProduct(H_linear_, cost_rows_.col(k), 2.);
   }
   void addLinearCostGradient(const std::vector<int>& rows, const VectorXd& phi, Vector& g) const {
-    for (std::size_t k = 0; k < rows.size(); ++k) g += (2. * phi[rows[k]]) * cost_rows_.col(Eigen::Index(k));
+    Vector sum = g;  // in registers
+    for (std::size_t k = 0; k < rows.size(); ++k) sum += (2. * phi[rows[k]]) * cost_rows_.col(Eigen::Index(k));
+    g = sum;
   }
   void useLinearCosts() { H_ = &H_linear_; }
   void copyLinearCosts() {
@@ -86,14 +88,16 @@ class DenseAlgebra {
   double diagonal(int i) const { return i < n_ ? (*H_)(i, i) : 0.; }
   void addHessianProduct(const Vector& d, Vector& sum) const { sum.noalias() += H_->lazyProduct(d); }
 
-  void addBlock(int column, const MatrixXd& lower) {
+  template <class AddTo>
+  void addBlock(int column, const MatrixXd& room, const AddTo& addTo) {
     if (H_ != &H_curved_) {
       before_blocks_ = H_;
       H_curved_ = *H_;
       H_ = &H_curved_;
     }
-    for (int j = 0; j < lower.cols(); ++j) {
-      for (int i = j; i < lower.rows(); ++i) addEntry(column + i, column + j, lower(i, j));
+    addTo(H_curved_.block(column, column, room.rows(), room.cols()));
+    for (int j = 0; j < N; ++j) {
+      for (int i = j + 1; i < N; ++i) H_curved_(j, i) = H_curved_(i, j);
     }
   }
   void dropBlocks() {

@@ -44,6 +44,10 @@ class LocalModel {
     int max_passes;
   };
 
+  /// About how long the minimizing step is, by the factor of the model before: for points next to each other. Infinite where
+  /// other rows are active now, or bounds are touched.
+  virtual double estimateStep(const Problem& problem) = 0;
+
   /// The minimizing step; its parts can be asked for then. Counts factorizations.
   virtual const VectorXd& minimize(const Problem& problem) = 0;
   virtual double decrease(const Problem& problem) const = 0;    ///< m(0) - m(d), without the shift

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "kinegraph/solvers/local_model.h"
 
@@ -20,6 +21,7 @@ class SemismoothModel final : public LocalModel {
   void addCurvature(Nlp& nlp, const VectorXd& multipliers) override;
   void setNoCosts(double weight) override;
   double largestCurvature() const override;
+  double estimateStep(const Problem& problem) override;
   const VectorXd& minimize(const Problem& problem) override;
   double decrease(const Problem& problem) const override;
 
@@ -36,7 +38,7 @@ class SemismoothModel final : public LocalModel {
     int index;       ///< among Nlp::curvedRows
     int constraint;  ///< that of the first row
     int rows, column;
-    MatrixXd H;      ///< lower triangle, among the variables from `column` on
+    MatrixXd H;      ///< room for the lower triangle, among the variables from `column` on
   };
 
   static bool hasRowsOfTypeF(const Nlp& nlp) {
@@ -155,9 +157,7 @@ void SemismoothModel<Algebra>::addCurvature(Nlp& nlp, const VectorXd& multiplier
   for (Curved& curved : curved_) {
     const std::span<const double> weights(multipliers.data() + curved.constraint, std::size_t(curved.rows));
     if (std::all_of(weights.begin(), weights.end(), [](double weight) { return weight == 0.; })) continue;
-    curved.H.setZero();
-    nlp.addCurvature(curved.index, weights, curved.H);
-    algebra_.addBlock(curved.column, curved.H);
+    algebra_.addBlock(curved.column, curved.H, [&](Eigen::Ref<MatrixXd> H) { nlp.addCurvature(curved.index, weights, H); });
     is_curved_ = true;
   }
 }
@@ -434,6 +434,22 @@ double SemismoothModel<Algebra>::findGradient(const Problem& problem) {
     if (!fixed_[i]) remaining = std::max(remaining, std::abs(r_[i]));
   }
   return remaining;
+}
+
+template <class Algebra>
+double SemismoothModel<Algebra>::estimateStep(const Problem& problem) {
+  constexpr double unknown = std::numeric_limits<double>::infinity();
+  if (!factored_ || !factored_as_is_ || problem.mu != factored_mu_ || any_fixed_) return unknown;
+  algebra_.takeBox(problem.low, problem.high, low_, high_);
+  s_ = -g_;
+  for (int j = 0; j < int(constraints_.size()); ++j) {
+    const double t = multiplier(j, problem.c[j], problem);
+    if (!is_equality_[j] && (t > 0.) != bool(factored_active_[j])) return unknown;
+    if (t != 0.) algebra_.addRowTo(j, -t, s_);
+  }
+  algebra_.solve(s_);
+  if ((s_ - low_).cwiseMin(high_ - s_).minCoeff() <= 0.) return unknown;
+  return s_.template lpNorm<Eigen::Infinity>();
 }
 
 template <class Algebra>
