@@ -5,6 +5,7 @@
 #include <chrono>
 
 #include "kinegraph/base/errors.h"
+#include "kinegraph/base/text.h"
 #include "kinegraph/solvers/augmented_lagrangian.h"
 
 using namespace kinegraph;
@@ -165,5 +166,38 @@ TEST(Komo, ControlObjectivesAreScaledByTime) {
     EXPECT_NEAR(phi[0], first, 1e-5);
     EXPECT_NEAR(phi[slices], second, 1e-5);
     EXPECT_NEAR(phi[slices + 1], 0., 1e-12);
+  }
+}
+
+/// It takes over little where little was changed: positions of single frames, of many, joints, colours and masses, also while
+/// copies of the scene are held by others.
+TEST(Komo, UpdateRootObjectsFollowsEveryEditThatKeepsTheStructure) {
+  Config config = panda();
+  for (int i = 0; i < 12; ++i) config.addFrame(cat("stone", i), i % 3 ? "table" : "").setShape(ShapeType::box, {.05, .05, .05}).setMass(1.);
+  const auto komo = tutorialIk(config);
+  Rng rng(9);
+  std::vector<std::shared_ptr<Komo>> others;
+  const auto randomPosition = [&] { return Vector3d(rng.normal(), rng.normal(), rng.normal()); };
+  for (int trial = 0; trial < 80; ++trial) {
+    const int edits = rng.uniform() < .1 ? 12 : int(3. * rng.uniform());
+    for (int i = 0; i < edits; ++i) config.getFrame(cat("stone", int(12. * rng.uniform()))).setPosition(randomPosition());
+    if (rng.uniform() < .5) config.getFrame("target").setPosition(randomPosition());
+    if (rng.uniform() < .3) config.setJointState(config.getJointState() + VectorXd::Constant(7, .01 * rng.normal()));
+    if (rng.uniform() < .1) config.getFrame("stone1").setColor({rng.uniform(), .5, .5});
+    if (rng.uniform() < .1) config.getFrame("stone2").setMass(rng.uniform(.1, 2.));
+    if (rng.uniform() < .1) others.push_back(tutorialIk(config));
+    if (rng.uniform() < .1) others.clear();
+    komo->updateRootObjects(config);
+    komo->setConstantPath(config.getJointState());
+    const auto fresh = tutorialIk(config);
+    EXPECT_EQ(komo->getFrameState(0), fresh->getFrameState(0)) << "trial " << trial;
+    const Config before = komo->configuration(0);
+    const std::vector<Frame> copies = before.getFrames(), originals = config.getFrames();
+    ASSERT_EQ(copies.size(), originals.size());
+    for (std::size_t f = 0; f < copies.size(); ++f) {
+      EXPECT_EQ(copies[f].getPose().p, originals[f].getPose().p) << originals[f].getName();
+      EXPECT_EQ(copies[f].getMass(), originals[f].getMass());
+    }
+    EXPECT_EQ(before.getJointState(), config.getJointState());
   }
 }

@@ -34,6 +34,9 @@ class State {
   /// Replaces the constant transforms and recomputes.
   void setParameters(std::shared_ptr<const Parameters> parameters);
 
+  /// The same without computing anything: setJoints must follow.
+  void replaceParameters(std::shared_ptr<const Parameters> parameters) { parameters_ = std::move(parameters); }
+
   const VectorXd& q() const { return q_; }
   int link(int frame) const { return program_->frame_link[frame]; }
   const RigidTransform& linkPose(int link) const { return link_pose_[link]; }

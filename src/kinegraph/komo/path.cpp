@@ -28,6 +28,11 @@ std::vector<int> Komo::dofsOf(const std::vector<int>& frames, int slice) const {
 MatrixXd Komo::getPath(const std::vector<int>& frames) const {
   requireBuilt("getPath");
   MatrixXd path;
+  if (layout_.plain && frames.empty()) {
+    path.resize(slices_, state(0).dofs());
+    for (int t = 0; t < slices_; ++t) path.row(t) = state(t).q();
+    return path;
+  }
   for (int t = 0; t < slices_; ++t) {
     const std::vector<int> dofs = dofsOf(frames.empty() ? joint_frames_ : frames, t);
     if (t == 0) path.resize(slices_, Eigen::Index(dofs.size()));

@@ -1,6 +1,7 @@
 #include "kinegraph/scene/scene_tree.h"
 
 #include <algorithm>
+#include <atomic>
 #include <unordered_map>
 
 #include "kinegraph/base/errors.h"
@@ -135,32 +136,37 @@ FrameData* SceneTree::append(const SceneTree& other, const std::string& prefix, 
   return frames_[first].get();
 }
 
-/// Takes over what edits change that keep the structure.
-void SceneTree::copyValues(const SceneTree& other) {
+/// Takes over what edits change that keep the structure: joints, and the rest where it may have changed.
+void SceneTree::bringUpToDate(Snapshot& snapshot) const {
+  const std::vector<std::shared_ptr<FrameData>>& copies = snapshot.scene->frames_;
   for (std::size_t i = 0; i < frames_.size(); ++i) {
-    FrameData& frame = *frames_[i];
-    const FrameData& source = *other.frames_[i];
-    frame.pose = source.pose;
-    frame.inertia = source.inertia;
-    if (frame.joint) frame.joint->q = source.joint->q;
-    if (frame.shape && frame.shape->revision != source.shape->revision) *frame.shape = *source.shape;
+    const FrameData& source = *frames_[i];
+    FrameData& copy = *copies[i];
+    if (source.joint) copy.joint->q = source.joint->q;
+    if (!snapshot.is_stale) continue;
+    copy.pose = source.pose;
+    copy.inertia = source.inertia;
+    if (copy.shape && copy.shape->revision != source.shape->revision) *copy.shape = *source.shape;
   }
-  posesChanged();
-  jointsChanged();
+  for (int id : snapshot.moved) copies[std::size_t(id)]->pose = frames_[std::size_t(id)]->pose;
+  snapshot.moved.clear();
+  snapshot.is_stale = false;
+  snapshot.scene->posesChanged();
+  snapshot.scene->jointsChanged();
 }
 
 std::shared_ptr<const SceneTree> SceneTree::snapshot() {
   constexpr std::size_t kKept = 4;
   if (snapshot_revision_ != structure_revision_) snapshots_.clear();
   snapshot_revision_ = structure_revision_;
-  for (const auto& kept : snapshots_) {
-    if (kept.use_count() > 1) continue;
-    kept->copyValues(*this);
-    return kept;
+  for (Snapshot& kept : snapshots_) {
+    if (kept.scene.use_count() > 1) continue;
+    bringUpToDate(kept);
+    return kept.scene;
   }
   const auto copy = std::make_shared<SceneTree>();
   copy->append(*this, {}, false);
-  if (snapshots_.size() < kKept) snapshots_.push_back(copy);
+  if (snapshots_.size() < kKept) snapshots_.push_back({copy, {}, false});
   return copy;
 }
 
@@ -173,6 +179,7 @@ const std::shared_ptr<const Program>& SceneTree::program() {
       if (frame->moves() && frame->joint->active && !frame->joint->mimic) dof_frames_.push_back(frame.get());
     }
     parameters_.reset();
+    parameters_before_.reset();
     state_.reset();
     near_pairs_.reset();
     q_.resize(program_->dofs);
@@ -186,18 +193,31 @@ const std::shared_ptr<const Parameters>& SceneTree::parameters() {
   if (poses_stale_ || !moved_.empty()) {
     if (poses_stale_) {
       parameters_ = collectParameters(*this, *program_);
+      parameters_before_.reset();
     } else {
-      const auto parameters = std::make_shared<Parameters>(*parameters_);
-      for (const FrameData* frame : moved_) updateParameters(*frame, *program_, *parameters);
-      parameters_ = parameters;
+      moveInParameters();
     }
     moved_.clear();
     motion_checker_.reset();
-    if (state_) state_->setParameters(parameters_);
     poses_stale_ = false;
-    bodies_stale_ = true;
+    q_stale_ = true;
   }
   return parameters_;
+}
+
+/// Takes the parameters from before the last ones if nobody holds them any more, and lets them follow all that was moved since;
+/// else a copy.
+void SceneTree::moveInParameters() {
+  std::shared_ptr<Parameters> next = std::move(parameters_before_);
+  if (next && next.use_count() == 1) {
+    std::atomic_thread_fence(std::memory_order_acquire);
+    for (const FrameData* frame : moved_before_) updateParameters(*frame, *program_, *next);
+  } else {
+    next = std::make_shared<Parameters>(*parameters_);
+  }
+  for (const FrameData* frame : moved_) updateParameters(*frame, *program_, *next);
+  parameters_before_ = std::const_pointer_cast<Parameters>(std::exchange(parameters_, std::move(next)));
+  moved_before_.swap(moved_);
 }
 
 const State& SceneTree::state() {
@@ -208,6 +228,7 @@ const State& SceneTree::state() {
   }
   if (q_stale_) {
     gatherJointState(q_.data());
+    if (&state_->parameters() != parameters_.get()) state_->replaceParameters(parameters_);
     state_->setJoints(q_.data());
     q_stale_ = false;
     bodies_stale_ = true;

@@ -61,18 +61,23 @@ class SceneTree {
     asked_since_edit_ = false;
   }
   void posesChanged() {
+    for (Snapshot& snapshot : snapshots_) snapshot.is_stale = true;
     poses_stale_ = true;
     asked_since_edit_ = false;
   }
   /// The constant pose of one frame.
   void poseChanged(const FrameData& frame) {
     asked_since_edit_ = false;
+    for (Snapshot& snapshot : snapshots_) snapshot.noteMoved(frame.id);
     if (poses_stale_ || (!moved_.empty() && moved_.back() == &frame)) return;
     moved_.push_back(&frame);
     poses_stale_ = moved_.size() > kMostMoved;
   }
   void jointsChanged() { q_stale_ = true; }
-  void looksChanged(Shape& shape) { shape.revision = ++looks_revision_; }
+  void looksChanged(Shape& shape) {
+    for (Snapshot& snapshot : snapshots_) snapshot.is_stale = true;
+    shape.revision = ++looks_revision_;
+  }
 
   std::uint64_t structureRevision() const { return structure_revision_; }
 
@@ -96,7 +101,21 @@ class SceneTree {
  private:
   static constexpr std::size_t kMostMoved = 8;  ///< beyond that, all poses are collected anew
 
-  void copyValues(const SceneTree& other);
+  /// A copy of the scene, and what it lacks of the edits since.
+  struct Snapshot {
+    std::shared_ptr<SceneTree> scene;
+    std::vector<int> moved;  ///< ids of frames whose constant poses have changed
+    bool is_stale = false;   ///< may anything have changed that keeps the structure?
+
+    void noteMoved(int id) {
+      if (is_stale || (!moved.empty() && moved.back() == id)) return;
+      moved.push_back(id);
+      is_stale = moved.size() > kMostMoved;
+    }
+  };
+
+  void moveInParameters();
+  void bringUpToDate(Snapshot& snapshot) const;
   void gatherJointState(double* q) const;
 
   std::vector<std::shared_ptr<FrameData>> frames_;
@@ -106,11 +125,13 @@ class SceneTree {
   std::vector<FrameData*> dof_frames_;  ///< those whose joints make up q, in its order
   std::shared_ptr<const Program> program_;
   std::shared_ptr<const Parameters> parameters_;
+  std::shared_ptr<Parameters> parameters_before_;  ///< the last ones
+  std::vector<const FrameData*> moved_before_;  ///< between these two
   std::unique_ptr<State> state_;
   VectorXd q_;  ///< as last given to `state_`
   std::unique_ptr<NearPairs> near_pairs_;
   std::unique_ptr<MotionChecker> motion_checker_;  ///< of these parameters
-  std::vector<std::shared_ptr<SceneTree>> snapshots_;
+  std::vector<Snapshot> snapshots_;
   std::uint64_t snapshot_revision_ = 0;
 };
 
