@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cmath>
+#include <cstring>
 #include <vector>
 
 #include "kinegraph/nlp/nlp.h"
@@ -150,7 +151,7 @@ class DenseAlgebra {
   template <class Column>
   void takeRow(int row, Column&& to) const {
     for (const Jacobian::Segment& segment : J_->row_segments(row)) {
-      for (int i = 0; i < segment.width; ++i) to[segment.column + i] = J_->values[std::size_t(segment.offset + i)];
+      std::memcpy(to.data() + segment.column, J_->values.data() + segment.offset, std::size_t(segment.width) * sizeof(double));
     }
   }
   void identityOutside(Matrix& matrix) const {
