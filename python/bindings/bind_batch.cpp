@@ -34,7 +34,7 @@ void unlocked(int threads, const char* call, const Work& work) {
   auto checked = Clock::now();
   work(BatchOptions{threads, [&checked] {
                       const auto now = Clock::now();
-                      if (now - checked < std::chrono::milliseconds(50)) return;
+                      if (now - checked < std::chrono::milliseconds(20)) return;
                       checked = now;
                       checkInterrupt();
                     }});

@@ -101,7 +101,7 @@ class Watch {
 
   bool operator()(int done) {
     const auto now = Clock::now();
-    if (now - checked_ < std::chrono::milliseconds(30)) return false;
+    if (now - checked_ < std::chrono::milliseconds(20)) return false;
     checked_ = now;
     checkInterrupt();
     if (verbose_ < 1 || total_ < 2 || seconds() < .5) return false;

@@ -54,6 +54,10 @@ struct Jacobian {
   void addRowTo(int row, double factor, VectorXd& x) const;           ///< x += factor J_row^T
 };
 
+/// Thrown by an evaluation that was given up, as by Ctrl-C in a function of the user's: there is no value. It ends a solver, which
+/// gives the best it saw before.
+struct EvaluationCancelled {};
+
 /// Minimize  sum_f phi_i + sum_sos phi_i^2  subject to  phi_ineq <= 0,  phi_eq = 0,  lower <= x <= upper.
 /// It is all a solver sees.
 class Nlp {
@@ -74,6 +78,12 @@ class Nlp {
   /// Computes phi(x), and its Jacobian where `J` (made by makeJacobian) is given. x has `dimension()` entries,
   /// phi has one per type. Sets `J->zero_row` where that costs nothing. Requests no memory where it can be avoided.
   virtual void evaluate(const VectorXd& x, VectorXd& phi, Jacobian* J) = 0;
+
+  /// May `evaluate` throw EvaluationCancelled?
+  virtual bool mayBeCancelled() const { return false; }
+
+  /// Puts what the problem describes, as a path, at x, as `evaluate` does, but without computing anything.
+  virtual void leaveAt(const VectorXd&) {}
 
   /// Adds the Hessian of sum_f phi_i to `H` (n x n). False if the problem has none to offer; it is then taken as zero.
   virtual bool addCostHessian(const VectorXd& x, MatrixXd& H);
