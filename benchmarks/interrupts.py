@@ -99,7 +99,9 @@ def cases():
     long = motion(4000)
     own = motion(30, position)
     many = [motion(4000) for _ in range(12)]
-    short = motion(200)
+    short, impossible = motion(200), motion(200)
+    impossible.addObjective([1.0], ry.FS.position, ["l_gripper"], ry.OT.eq, [10.0], [3.0, 0.0, 0.0])
+    nowhere = np.tile(C.getJointState(), 200)
     yield "solve, 4000 slices", "result", untilCancelled(lambda: solveFromRandom(long))
     yield "solve, feature in Python", "result", untilCancelled(lambda: solveFromRandom(own))
     for method in ("augmentedLag", "LBFGS", "CMA", "NelderMead", "rprop"):
@@ -122,7 +124,8 @@ def cases():
             "interrupt",
             lambda t=threads: [C.getDistances(Q, threads=t) for _ in range(9)],
         )
-    yield "checkJacobian", "interrupt", lambda: short.nlp().checkJacobian(np.tile(C.getJointState(), 200))
+    yield "checkJacobian", "interrupt", lambda: short.nlp().checkJacobian(nowhere)
+    yield "explain", "interrupt", lambda: [impossible.nlp().explain(nowhere) for _ in range(9)]
     yield "building a KOMO", "interrupt", lambda: [motion(10000).nlp() for _ in range(9)]
 
 

@@ -158,6 +158,11 @@ SolverResult solveInterruptibly(NlpSolver& solver, bool resample) {
                           [&](const EvaluationHook& hook) { return solver.solve(resample, rng, hook); });
 }
 
+Explanation explainInterruptibly(Nlp& nlp, const VectorXd& x, double tolerance) {
+  const nb::gil_scoped_release unlock;
+  return explain(nlp, x, tolerance, CheckInterrupts());
+}
+
 void addExternalMethods(NlpSolver& solver) {
   if (solver.options.method != OptMethod::Ipopt && solver.options.method != OptMethod::NLopt && solver.options.method != OptMethod::slackGN_Ipopt) return;
   for (const auto& [method, name] : {std::pair{OptMethod::Ipopt, "ipopt"}, std::pair{OptMethod::NLopt, "nlopt"}}) {

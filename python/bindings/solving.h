@@ -4,6 +4,7 @@
 #include <functional>
 
 #include "bindings.h"
+#include "kinegraph/solvers/explanation.h"
 #include "kinegraph/solvers/nlp_solver.h"
 
 namespace kinegraph::python {
@@ -67,6 +68,9 @@ SolverResult runInterruptibly(const char* what, const Nlp& nlp, int verbose, con
 
 /// The same for a solver.
 SolverResult solveInterruptibly(NlpSolver& solver, bool resample);
+
+/// Why constraints do not hold at x, found without the interpreter lock. Ctrl-C is a KeyboardInterrupt.
+Explanation explainInterruptibly(Nlp& nlp, const VectorXd& x, double tolerance);
 
 /// Solvers of other packages: OptMethod.Ipopt and NLopt, by kinegraph.external_solvers.
 void addExternalMethods(NlpSolver& solver);
