@@ -3,8 +3,6 @@
 #include <nanobind/stl/variant.h>
 #include <nanobind/stl/vector.h>
 
-#include <chrono>
-
 #include "bindings.h"
 #include "feature_arguments.h"
 #include "kinegraph/base/errors.h"
@@ -28,16 +26,9 @@ Eigen::Map<const RowMatrix> jointRows(const Numbers& Q, const PyConfig& config, 
 /// Runs without the interpreter lock; from time to time, looks for Ctrl-C.
 template <class Work>
 void unlocked(int threads, const char* call, const Work& work) {
-  using Clock = std::chrono::steady_clock;
   if (threads < 1) throw ValueError(cat(call, ": threads is ", threads, "; expected 1 or more"));
   const nb::gil_scoped_release unlock;
-  auto checked = Clock::now();
-  work(BatchOptions{threads, [&checked] {
-                      const auto now = Clock::now();
-                      if (now - checked < std::chrono::milliseconds(50)) return;
-                      checked = now;
-                      checkInterrupt();
-                    }});
+  work(BatchOptions{threads, CheckInterrupts()});
 }
 
 Eigen::Map<RowMatrix> rowsOf(const NewArray& array, std::size_t rows, std::size_t columns) {

@@ -60,4 +60,12 @@ void checkInterrupt() {
   if (PyErr_CheckSignals() != 0) throw nb::python_error();
 }
 
+bool CheckInterrupts::operator()() {
+  const auto now = std::chrono::steady_clock::now();
+  if (now - checked_ < std::chrono::milliseconds(20)) return false;
+  checked_ = now;
+  checkInterrupt();
+  return true;
+}
+
 }  // namespace kinegraph::python

@@ -105,7 +105,7 @@ SolverResult optimize(const std::shared_ptr<PyKomo>& komo, double noise, int ver
 
 Explanation explainPath(const std::shared_ptr<PyKomo>& komo, double tolerance) {
   const VectorXd x = komo->variables();
-  return explain(*makeNlp(komo), x, tolerance);
+  return explainInterruptibly(*makeNlp(komo), x, tolerance);
 }
 
 double costs(const PyKomo& komo) {

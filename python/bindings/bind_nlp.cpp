@@ -75,11 +75,14 @@ bool check(Nlp& nlp, const Numbers& given, double tolerance, const std::vector<s
   if (!names.empty() && names.size() != nlp.types().size()) {
     throw ValueError(cat("checkJacobian: there are ", names.size(), " names; the problem has ", nlp.types().size(), " residuals"));
   }
-  const auto worst = worstJacobianEntries(nlp, x, tolerance, 10);
-  if (worst.empty()) {
-    nb::print(cat("checkJacobian -- SUCCESS (max diff error=", checkJacobian(nlp, x).error, ")").c_str());
-    return true;
+  std::vector<JacobianCheck> worst;
+  double largest = 0.;
+  {
+    const nb::gil_scoped_release unlock;
+    worst = worstJacobianEntries(nlp, x, tolerance, 10, 1e-5, CheckInterrupts());
+    if (worst.empty()) largest = checkJacobian(nlp, x, 1e-5, CheckInterrupts()).error;
   }
+  if (worst.empty()) return nb::print(cat("checkJacobian -- SUCCESS (max diff error=", largest, ")").c_str()), true;
   std::string text = "checkJacobian -- FAILURE; the worst entries:";
   for (const JacobianCheck& entry : worst) {
     text += cat("\n  ", names.empty() ? nlp.rowName(entry.row) : names[std::size_t(entry.row)], ", ", nlp.describeVariable(entry.column).name,
@@ -90,7 +93,7 @@ bool check(Nlp& nlp, const Numbers& given, double tolerance, const std::vector<s
 }
 
 bool checkSecond(Nlp& nlp, const Numbers& given, double tolerance) {
-  const JacobianCheck result = checkHessian(nlp, pointOrSample(nlp, given));
+  const JacobianCheck result = checkHessian(nlp, pointOrSample(nlp, given), 1e-5, CheckInterrupts());
   if (result.error <= tolerance) return nb::print(cat("checkHessian -- SUCCESS (max diff error=", result.error, ")").c_str()), true;
   nb::print(cat("checkHessian -- FAILURE: entry (", result.row, ", ", result.column, ") is ", result.analytic, ", differences give ", result.numeric).c_str());
   return false;
@@ -156,9 +159,9 @@ void bindNlp(nb::module_& m) {
              const ErrorSums s = sumErrors(nlp.types(), phi.values);
              return toNumpy(VectorXd(Vector4d(s.f, s.sos, s.ineq, s.eq)));
            }, "phi"_a, "Sums over residuals: f, sos, ineq, eq.")
-      .def("explain", [](Nlp& nlp, const Numbers& x, double tolerance) { return explain(nlp, x.values, tolerance).str(); }, "x"_a,
+      .def("explain", [](Nlp& nlp, const Numbers& x, double tolerance) { return explainInterruptibly(nlp, x.values, tolerance).str(); }, "x"_a,
            "tolerance"_a = 1e-3, "In words: which constraints contradict each other around x, by how much, and what helps.")
-      .def("conflicts", [](Nlp& nlp, const Numbers& x, double tolerance) { return toDicts(explain(nlp, x.values, tolerance)); }, "x"_a,
+      .def("conflicts", [](Nlp& nlp, const Numbers& x, double tolerance) { return toDicts(explainInterruptibly(nlp, x.values, tolerance)); }, "x"_a,
            "tolerance"_a = 1e-3, "What explain says, as a list of dicts.")
       .def("report", &Nlp::report, "verbose"_a = 1, "A line about the problem.");
 

@@ -97,15 +97,10 @@ std::string resultsText(const IkResults& results) { return cat("<IkResults: ", c
 /// Looks for Ctrl-C, and draws how far it is, while a search runs without the interpreter lock.
 class Watch {
  public:
-  Watch(std::size_t total, int verbose) : total_(total), verbose_(verbose), start_(Clock::now()), checked_(start_) {}
+  Watch(std::size_t total, int verbose) : total_(total), verbose_(verbose), start_(Clock::now()) {}
 
   bool operator()(int done) {
-    const auto now = Clock::now();
-    if (now - checked_ < std::chrono::milliseconds(30)) return false;
-    checked_ = now;
-    checkInterrupt();
-    if (verbose_ < 1 || total_ < 2 || seconds() < .5) return false;
-    draw(done);
+    if (check_() && verbose_ > 0 && total_ > 1 && seconds() > .5) draw(done);
     return false;
   }
 
@@ -124,7 +119,8 @@ class Watch {
 
   std::size_t total_;
   int verbose_;
-  Clock::time_point start_, checked_;
+  Clock::time_point start_;
+  CheckInterrupts check_;
   bool drawn_ = false;
 };
 

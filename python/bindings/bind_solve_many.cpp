@@ -25,24 +25,20 @@ class Watch {
   Watch(const char* what, std::size_t total, int verbose) : what_(what), total_(int(total)), verbose_(verbose) {}
 
   bool operator()(int ended) {
-    if (!interrupted_) interrupted_ = pressedCtrlC();
-    if (verbose_ > 0 && seconds() > .5) draw(ended);
-    return interrupted_;
+    if (verbose_ > 0 && seconds() > .5) callUser([&] { draw(ended); });
+    return here_.pressedCtrlC();
   }
 
   /// With the interpreter lock. Says that Ctrl-C ended those that did not come to their end, and in a line how it went.
   void finish(SolveManyResult& all) {
     int done = 0, feasible = 0;
     for (SolverResult& result : all.results) {
-      if (interrupted_ && result.done && result.status == SolverStatus::cancelled) result.message = "interrupted by Ctrl-C";
+      if (here_.wasPressed() && result.done && result.status == SolverStatus::cancelled) markInterrupted(result);
       done += result.done;
       feasible += result.feasible;
     }
-    if (drawn_) draw(interrupted_ ? done : total_);
-    if (interrupted_ && all.best().x.size() == 0) {
-      PyErr_SetNone(PyExc_KeyboardInterrupt);
-      throw nb::python_error();
-    }
+    if (drawn_) draw(here_.wasPressed() ? done : total_);
+    if (here_.wasPressed() && all.best().x.size() == 0) throwKeyboardInterrupt();
     if (verbose_ < 1) return;
     nb::print(cat(what_, ": ", feasible, " of ", done, " are feasible, in ", seconds(), " s; the best: ", all.chosen, ", ", all.best().str()).c_str());
   }
@@ -52,20 +48,20 @@ class Watch {
   double seconds() const { return std::chrono::duration<double>(Clock::now() - start_).count(); }
 
   void draw(int ended) {
-    const nb::gil_scoped_acquire lock;
     drawn_ = true;
     nb::module_::import_("kinegraph.progress").attr("drawProgress")(what_, ended, total_, seconds());
   }
 
   const char* what_;
   int total_, verbose_;
-  bool drawn_ = false, interrupted_ = false;
+  bool drawn_ = false;
+  SolvingHere here_;
   Clock::time_point start_ = Clock::now();
 };
 
 /// A number of starts: the present path and random ones; or an array of paths (K, T, n).
 std::vector<VectorXd> readStarts(PyKomo& komo, nb::handle given, std::uint64_t seed) {
-  if (nb::isinstance<nb::int_>(given)) return drawStarts(komo, nb::cast<int>(given), seed);
+  if (nb::isinstance<nb::int_>(given)) return drawStarts(komo, nb::cast<int>(given), seed, CheckInterrupts());
   const int T = komo.slices(), n = komo.dofs();
   const auto expected = [&] { return cat("solveFromMany: starts are a number, or paths of shape (K, ", T, ", ", n, ")"); };
   if (!nb::isinstance<nb::iterable>(given)) throw ValueError(expected());
@@ -114,6 +110,7 @@ SolveManyResult solveEach(nb::iterable problems, int threads, bool best, int ver
       NlpSolver& solver = made.emplace_back(std::move(nlp), 0);
       solver.options = options ? *options : defaults().solver;
       solver.options.verbose = 0;
+      solver.keeps_memory = false;  // for the next one
       solvers.push_back(&solver);
     }
     addExternalMethods(*solvers.back());

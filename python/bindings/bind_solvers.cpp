@@ -111,7 +111,7 @@ NlpSolver& setProgress(NlpSolver& solver, nb::object function, double seconds) {
 
 Explanation explanationOf(const SolverResult& result, double tolerance) {
   if (!result.problem) throw Error("SolverReturn: nothing was solved, so there is nothing to explain");
-  return explain(*result.problem, result.x, tolerance);
+  return explainInterruptibly(*result.problem, result.x, tolerance);
 }
 
 /// All but the problem.

@@ -2,6 +2,7 @@
 
 #include <nanobind/nanobind.h>
 
+#include <chrono>
 #include <functional>
 #include <memory>
 #include <string>
@@ -55,5 +56,14 @@ Frame toFrame(const Config& config, nb::handle name_or_id);
 
 /// For long calls that run without the interpreter lock: takes it, and throws KeyboardInterrupt if Ctrl-C was pressed.
 void checkInterrupt();
+
+/// The same, but only every 20 ms: then true.
+class CheckInterrupts {
+ public:
+  bool operator()();
+
+ private:
+  std::chrono::steady_clock::time_point checked_ = std::chrono::steady_clock::now();
+};
 
 }  // namespace kinegraph::python

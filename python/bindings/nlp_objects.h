@@ -16,6 +16,7 @@ class PyNlpFactory final : public Nlp {
   void setBounds(const VectorXd& lower, const VectorXd& upper);
   void setFunction(nb::object function) { function_ = std::move(function); }
 
+  bool mayBeCancelled() const override { return true; }
   void evaluate(const VectorXd& x, VectorXd& phi, Jacobian* J) override;
   std::string report(int verbose) const override;
 

@@ -4,6 +4,7 @@
 #include "feature_arguments.h"
 #include "kinegraph/base/errors.h"
 #include "kinegraph/base/text.h"
+#include "solving.h"
 
 namespace kinegraph::python {
 
@@ -37,8 +38,16 @@ class OwnFeature final : public Feature {
   int rows() const override { return rows_; }
 
   void eval(std::span<const State* const> states, double, Eigen::Ref<VectorXd> y, JacobianRows* J) const override {
-    const nb::gil_scoped_acquire lock;
-    const State& state = *states[0];
+    if (!callUser([&] { compute(*states[0], y, J); })) throw EvaluationCancelled();
+  }
+
+ private:
+  struct Returned {
+    VectorXd y;
+    Numbers J;  ///< rank 0: left out
+  };
+
+  void compute(const State& state, Eigen::Ref<VectorXd> y, JacobianRows* J) const {
     const Returned returned = checked(call(state));
     y = returned.y;
     if (!J) return;
@@ -48,12 +57,6 @@ class OwnFeature final : public Feature {
       *J += Eigen::Map<const Rows>(returned.J.values.data(), rows_, state.dofs());
     }
   }
-
- private:
-  struct Returned {
-    VectorXd y;
-    Numbers J;  ///< rank 0: left out
-  };
 
   Returned call(const State& state) const {
     const auto shared = std::make_shared<const State>(state);

@@ -1,7 +1,6 @@
 #include <nanobind/stl/string.h>
 #include <nanobind/stl/vector.h>
 
-#include <cmath>
 #include <limits>
 
 #include "kinegraph/base/errors.h"
@@ -39,14 +38,16 @@ void readEvaluation(nb::handle returned, int rows, int dimension, VectorXd& phi,
   }
 }
 
-/// Calls function(x) for phi and J. Where Ctrl-C ends it, phi is not a number.
+/// Calls a function of the user's. Where Ctrl-C ended it there is no value.
+void callForValue(const std::function<void()>& call) {
+  if (!callUser(call)) throw EvaluationCancelled();
+}
+
+/// Calls function(x) for phi and J.
 void evaluateFunction(const nb::object& function, const VectorXd& x, int rows, VectorXd& phi, MatrixXd& dense, Jacobian* J) {
   phi.resize(rows);
   const int n = int(x.size());
-  if (!callUser([&] { readEvaluation(function(toNumpy(x)), rows, n, phi, dense); })) {
-    phi.setConstant(std::nan(""));
-    dense.setZero(rows, n);
-  }
+  callForValue([&] { readEvaluation(function(toNumpy(x)), rows, n, phi, dense); });
   if (J) Eigen::Map<Rows>(J->values.data(), rows, n) = dense;
 }
 
@@ -89,11 +90,13 @@ class PythonProblem final : public Nlp {
     evaluate_.reset();
   }
 
+  bool mayBeCancelled() const override { return true; }
+
   void evaluate(const VectorXd& x, VectorXd& phi, Jacobian* J) override { evaluateFunction(evaluate_, x, int(types_.size()), phi, dense_, J); }
 
   bool addCostHessian(const VectorXd& x, MatrixXd& H) override {
     bool has_one = false;
-    callUser([&] {
+    callForValue([&] {
       Numbers given;
       if (!nb::hasattr(problem_, "getFHessian") || !readNumbers(problem_.attr("getFHessian")(toNumpy(x)), given) || given.values.size() == 0) return;
       if (given.values.size() != H.size()) {
@@ -107,7 +110,7 @@ class PythonProblem final : public Nlp {
 
   VectorXd initialPoint(Rng& rng) override {
     Numbers given;
-    callUser([&] {
+    callForValue([&] {
       if (nb::hasattr(problem_, "getInitializationSample")) readNumbers(problem_.attr("getInitializationSample")(), given);
     });
     if (given.values.size() == 0 && dimension() > 0) return Nlp::initialPoint(rng);

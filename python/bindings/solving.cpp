@@ -15,11 +15,17 @@ namespace kinegraph::python {
 
 namespace {
 
+constexpr std::chrono::milliseconds kWatch{20};
+
 /// Evaluates for a Python program: (phi, J), J dense. False in place of it: stop.
 nb::object evaluateFor(Nlp& nlp, const EvaluationHook& hook, const VectorXd& x, int& evals) {
   VectorXd phi(Eigen::Index(nlp.types().size()));
   Jacobian J = nlp.makeJacobian();
-  nlp.evaluate(x, phi, &J);
+  try {
+    nlp.evaluate(x, phi, &J);
+  } catch (const EvaluationCancelled&) {
+    return nb::bool_(false);
+  }
   ++evals;
   if (hook && !hook(x, phi)) return nb::bool_(false);
   if (const std::string what = describeNotFinite(nlp, phi, &J); !what.empty() && evals == 1) throw ValueError(cat("at the start, ", what));
@@ -39,7 +45,14 @@ SolverResult solveOutside(const char* name, Nlp& nlp, const VectorXd& x0, const 
   problem["constraint_tolerance"] = options.constraintTolerance();
   problem["max_evals"] = options.stopEvals;
   problem["verbose"] = options.verbose;
-  const nb::object answer = nb::module_::import_("kinegraph.external_solvers").attr(name)(problem);
+  nb::object answer;
+  try {
+    answer = nb::module_::import_("kinegraph.external_solvers").attr(name)(problem);
+  } catch (nb::python_error& error) {
+    SolvingHere* const here = SolvingHere::current();
+    if (!here || !here->isPressedBy(error)) throw;
+    throw EvaluationCancelled();
+  }
   out.x = nb::cast<Numbers>(answer["x"]).values;
   out.message = nb::cast<std::string>(answer["message"]);
   const std::string status = nb::cast<std::string>(answer["status"]);
@@ -55,14 +68,38 @@ SolverResult solveOutside(const char* name, Nlp& nlp, const VectorXd& x0, const 
 
 }  // namespace
 
-bool& Interruption::pending() {
-  thread_local bool pending = false;
-  return pending;
+SolvingHere*& SolvingHere::current() {
+  thread_local SolvingHere* current = nullptr;
+  return current;
 }
 
-bool& Interruption::solving() {
-  thread_local bool solving = false;
-  return solving;
+SolvingHere::SolvingHere() : before_(std::exchange(current(), this)) {}
+
+SolvingHere::~SolvingHere() { current() = before_; }
+
+bool SolvingHere::pressedCtrlC() {
+  if (pressed_) return true;
+  const nb::gil_scoped_acquire lock;
+  if (PyErr_CheckSignals() == 0) return false;
+  if (!PyErr_ExceptionMatches(PyExc_KeyboardInterrupt)) throw nb::python_error();
+  PyErr_Clear();
+  return pressed_ = true;
+}
+
+bool SolvingHere::isPressedBy(const nb::python_error& error) { return pressed_ = pressed_ || error.matches(PyExc_KeyboardInterrupt); }
+
+bool callUser(const std::function<void()>& call) {
+  const nb::gil_scoped_acquire lock;
+  struct InUserCode {
+    SolvingHere* solving = std::exchange(SolvingHere::current(), nullptr);
+    ~InUserCode() { SolvingHere::current() = solving; }
+  } here;
+  try {
+    call();
+  } catch (nb::python_error& error) {
+    if (!here.solving || !here.solving->isPressedBy(error)) throw;
+  }
+  return !here.solving || !here.solving->pressedCtrlC();
 }
 
 Interruption::~Interruption() {
@@ -73,15 +110,13 @@ Interruption::~Interruption() {
 
 bool Interruption::operator()(const VectorXd&, const VectorXd& phi) {
   ++evals_;
-  if (pending()) return false;
   const auto now = Clock::now();
-  if (now - asked_ < std::chrono::milliseconds(20)) return true;
+  if (now - asked_ < kWatch) return !here_.wasPressed();
   asked_ = now;
-  const nb::gil_scoped_acquire lock;
-  if (pressedCtrlC()) return !(pending() = true);
+  if (here_.pressedCtrlC()) return false;
   const double seconds = std::chrono::duration<double>(now - start_).count();
-  if (verbose_ > 0 && seconds > .5 && seconds - drawn_at_ > .1) draw(phi, seconds);
-  return true;
+  if (verbose_ < 1 || seconds < .5 || seconds - drawn_at_ < .1) return true;
+  return callUser([&] { draw(phi, seconds); });
 }
 
 void Interruption::draw(const VectorXd& phi, double seconds) {
@@ -90,44 +125,29 @@ void Interruption::draw(const VectorXd& phi, double seconds) {
   nb::module_::import_("kinegraph.progress").attr("drawSolve")(what_, evals_, sums.f + sums.sos, largestViolation(nlp_.types(), phi), seconds);
 }
 
-bool pressedCtrlC() {
+void throwKeyboardInterrupt() {
   const nb::gil_scoped_acquire lock;
-  if (PyErr_CheckSignals() == 0) return false;
-  if (!PyErr_ExceptionMatches(PyExc_KeyboardInterrupt)) throw nb::python_error();
-  PyErr_Clear();
-  return true;
-}
-
-bool callUser(const std::function<void()>& call) {
-  const nb::gil_scoped_acquire lock;
-  try {
-    call();
-    return true;
-  } catch (nb::python_error& error) {
-    if (!error.matches(PyExc_KeyboardInterrupt) || !Interruption::solving()) throw;
-    Interruption::pending() = true;
-    return false;
-  }
+  PyErr_SetNone(PyExc_KeyboardInterrupt);
+  throw nb::python_error();
 }
 
 SolverResult runInterruptibly(const char* what, const Nlp& nlp, int verbose, const std::function<SolverResult(const EvaluationHook&)>& run) {
-  Interruption::pending() = false;
-  struct Solving {
-    bool before = std::exchange(Interruption::solving(), true);
-    ~Solving() { Interruption::solving() = before; }
-  } solving;
+  SolvingHere here;
   const nb::gil_scoped_release unlock;
-  Interruption interruption(what, nlp, verbose);
+  Interruption interruption(here, what, nlp, verbose);
   try {
     SolverResult result = run(std::ref(interruption));
-    if (std::exchange(Interruption::pending(), false)) result.message = "interrupted by Ctrl-C";
+    if (here.wasPressed()) markInterrupted(result);
     return result;
-  } catch (const Error&) {
-    if (!std::exchange(Interruption::pending(), false)) throw;
-    const nb::gil_scoped_acquire lock;  // before there was anything to give
-    PyErr_SetNone(PyExc_KeyboardInterrupt);
-    throw nb::python_error();
+  } catch (const EvaluationCancelled&) {  // before there was anything to give
+    throwKeyboardInterrupt();
   }
+  return {};
+}
+
+void markInterrupted(SolverResult& result) {
+  result.status = SolverStatus::cancelled;
+  result.message = "interrupted by Ctrl-C";
 }
 
 SolverResult solveInterruptibly(NlpSolver& solver, bool resample) {
@@ -136,6 +156,11 @@ SolverResult solveInterruptibly(NlpSolver& solver, bool resample) {
   Rng rng(defaults().seed);
   return runInterruptibly("NLP_Solver", *solver.problem(), solver.options.verbose,
                           [&](const EvaluationHook& hook) { return solver.solve(resample, rng, hook); });
+}
+
+Explanation explainInterruptibly(Nlp& nlp, const VectorXd& x, double tolerance) {
+  const nb::gil_scoped_release unlock;
+  return explain(nlp, x, tolerance, CheckInterrupts());
 }
 
 void addExternalMethods(NlpSolver& solver) {

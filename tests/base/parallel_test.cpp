@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <atomic>
+#include <chrono>
 #include <stdexcept>
 #include <string>
 #include <thread>
@@ -55,4 +56,38 @@ TEST(ForParts, StopsWhereBetweenThrows) {
                         }),
                std::runtime_error);
   EXPECT_EQ(parts, 3);
+}
+
+TEST(ForParts, AsksBetweenWhileItWaitsForTheOthersAndAtTheEnd) {
+  for (int threads : {1, 2, 3}) {
+    const auto caller = std::this_thread::get_id();
+    std::atomic<int> asked = 0;
+    // whoever is not the caller waits until the caller, which has nothing left to do, has asked three times more
+    forParts(threads, 1, threads, [&](int worker, int, int) {
+      for (const int before = asked; worker > 0 && asked < before + 3;) std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    }, [&] {
+      EXPECT_EQ(std::this_thread::get_id(), caller);
+      ++asked;
+    });
+    EXPECT_GE(asked, threads == 1 ? 2 : 3) << threads << " threads";
+  }
+}
+
+TEST(ForParts, WhatBetweenThrowsWhileItWaitsIsPassedOnOnceTheOthersHaveEnded) {
+  std::atomic<bool> other_runs = false, other_ended = false, stop = false;
+  const auto between = [&] {
+    if (!other_runs) return;
+    stop = true;
+    throw std::runtime_error("stop");
+  };
+  EXPECT_THROW(forParts(2, 1, 2, [&](int worker, int, int) {
+    if (worker == 0) {
+      while (!other_runs) std::this_thread::yield();
+      return;
+    }
+    other_runs = true;
+    while (!stop) std::this_thread::yield();
+    other_ended = true;
+  }, between), std::runtime_error);
+  EXPECT_TRUE(other_ended);
 }

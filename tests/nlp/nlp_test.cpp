@@ -128,6 +128,21 @@ TEST(CheckJacobian, LeavesTheProblemAtThePointThatWasGiven) {
   EXPECT_EQ(last, Eigen::Vector2d(1., 2.));
 }
 
+TEST(CheckJacobian, AsksBetweenColumnsAndEndsWhereThatThrows) {
+  int evaluations = 0, asked = 0;
+  CallbackNlp nlp(9, {f}, {}, {}, [&](const VectorXd& x, VectorXd& phi, MatrixXd& J) {
+    ++evaluations;
+    phi << x.squaredNorm();
+    J = 2. * x.transpose();
+  });
+  const BetweenColumns stop = [&] {
+    if (++asked == 3) throw std::runtime_error("stop");
+  };
+  EXPECT_THROW(checkJacobian(nlp, VectorXd::Ones(9), 1e-5, stop), std::runtime_error);
+  EXPECT_EQ(evaluations, 1 + 2 * 2) << "at x, and twice for each of two columns";
+  EXPECT_THROW(worstJacobianEntries(nlp, VectorXd::Ones(9), 1e-4, 5, 1e-5, [&] { throw std::runtime_error("stop"); }), std::runtime_error);
+}
+
 TEST(CheckJacobian, ListsTheWorstEntriesFirst) {
   CallbackNlp wrong(2, {sos, eq}, {}, {}, [](const VectorXd& x, VectorXd& phi, MatrixXd& J) {
     phi << x[0] + 2. * x[1], x[0] - x[1];

@@ -38,6 +38,16 @@ TEST(SolveFromMany, FindsTheBetterOfTwoAnswersAndLeavesTheKomoThere) {
   EXPECT_EQ(again->variables(), many.best().x);
 }
 
+TEST(DrawStarts, WhatIsCalledInBetweenMayThrowAndThePathStays) {
+  const auto komo = twoAnswers();
+  const VectorXd before = komo->variables();
+  int asked = 0;
+  EXPECT_THROW(drawStarts(*komo, 9, 0, [&] { if (++asked == 4) throw std::runtime_error("stop"); }), std::runtime_error);
+  EXPECT_EQ(komo->variables(), before);
+  EXPECT_EQ(drawStarts(*komo, 3, 0).size(), 3u);
+  EXPECT_EQ(komo->variables(), before);
+}
+
 TEST(SolveFromMany, ThreadsDoNotChangeTheAnswer) {
   for (const bool best : {true, false}) {
     std::vector<SolveManyResult> all;

@@ -1,5 +1,6 @@
 """Features that a Python function computes."""
 
+import signal
 import threading
 
 import numpy as np
@@ -180,3 +181,77 @@ def test_itsOwnErrorsComeThrough(reach):
 def test_whatIsNeitherSymbolNorFunctionIsRefused(panda):
     with pytest.raises(TypeError):
         panda.eval("position", ["l_gripper"])
+
+
+class Interrupting:
+    """The height of a frame; Ctrl-C comes in the call with this number."""
+
+    __name__ = "interrupting"
+
+    def __init__(self, at: int):
+        self.at, self.calls = at, 0
+
+    def __call__(self, frame):
+        self.calls += 1
+        if self.calls == self.at:
+            signal.raise_signal(signal.SIGINT)
+        return frame.getPosition()[2:], frame.getPositionJacobian()[2:]
+
+
+def raisingKomo(panda, function) -> ry.KOMO:
+    komo = ry.KOMO(panda, 1, 5, 1, False)
+    komo.addControlObjective([], 1)
+    komo.addObjective([], function, ["l_gripper"], ry.OT.eq, [10.0], [1.0])
+    return komo
+
+
+@pytest.mark.parametrize("way", ["solve", "solveAll", "solveFromMany"])
+def test_ctrl_c_in_it_ends_a_solve_with_the_best_path_so_far(panda, way):
+    height = Interrupting(10**9)
+    komo = raisingKomo(panda, height)
+    height.at = height.calls + 13  # in the third evaluation of five slices
+    if way == "solve":
+        ret = ry.NLP_Solver(komo.nlp(), verbose=0).solve()
+    else:
+        ret = (ry.solveAll([komo]) if way == "solveAll" else komo.solveFromMany(1)).best
+    assert (ret.status.name, ret.message) == ("cancelled", "interrupted by Ctrl-C")
+    assert height.calls <= height.at + 1, "it is not called again, but to count its rows"
+    assert ret.x.shape == (35,) and np.isfinite(ret.x).all()
+    np.testing.assert_array_equal(komo.getPath().ravel(), ret.x)
+    assert ry.NLP_Solver(komo.nlp(), verbose=0).solve().feasible, "and it can go on"
+
+
+def test_ctrl_c_before_there_is_a_path_or_outside_of_a_solve_is_an_interrupt(panda):
+    height = Interrupting(10**9)
+    komo = raisingKomo(panda, height)
+    for call in (
+        lambda: ry.NLP_Solver(komo.nlp(), verbose=0).solve(),
+        lambda: ry.solveAll([komo]),
+        lambda: komo.nlp().evaluate(np.zeros(35)),
+        lambda: panda.eval(height, "l_gripper"),
+    ):
+        height.at = height.calls + 3
+        with pytest.raises(KeyboardInterrupt):
+            while True:
+                call()
+
+
+def test_ctrl_c_in_a_feature_within_a_problem_within_a_solve(panda):
+    """Features that the function of a problem evaluates are part of that function."""
+    height = Interrupting(10**9)
+
+    def function(q):
+        panda.setJointState(q)
+        y, J = panda.eval(height, "l_gripper", target=[1.0])
+        return y, J
+
+    factory = ry.NLP_Factory()
+    factory.setDimension(7)
+    factory.setTypes([ry.OT.eq])
+    factory.setEvalCallback(function)
+    solver = ry.NLP_Solver(factory, verbose=0).setInitialization(panda.getJointState())
+    height.at = 4
+    ret = solver.solve()
+    assert ret.status.name == "cancelled" and ret.message == "interrupted by Ctrl-C"
+    assert np.isfinite(ret.x).all()
+    assert solver.solve().feasible

@@ -156,35 +156,54 @@ def test_mistakes_are_named(arm):
         ry.solveAll([komo, factory], threads=2)
 
 
-@pytest.mark.parametrize("threads", [1, 2])
-def test_ctrl_c_ends_all_with_what_there_is(threads):
-    """The signal arrives while others compute, each evaluation of which takes 10 ms from then on."""
-    sent = threading.Event()
-    after = []
+def endlessProblem(function) -> ry.NLP_Solver:
+    """A cost with thousands of minima, to be solved for hours; function() is called at every evaluation."""
 
-    def endless(x):
-        if sent.is_set():
-            after.append(1)
-            time.sleep(0.01)
-        else:
-            sent.set()
-            os.kill(os.getpid(), signal.SIGINT)
+    def evaluate(x):
+        function()
         return np.array([np.sin(1e4 * x[0]) + 2]), np.array([[1e4 * np.cos(1e4 * x[0])]])
 
-    problems = []
-    for _ in range(8):
-        factory = ry.NLP_Factory()
-        factory.setDimension(1)
-        factory.setTypes([ry.OT.sos])
-        factory.setBounds([-50.0], [50.0])
-        factory.setEvalCallback(endless)
-        solver = ry.NLP_Solver(factory, verbose=0).setOptions(stopEvals=10**6, stopTolerance=1e-13)
-        problems.append(solver.setSolver(ry.OptMethod.CMA).setInitialization([-1.0]))
-    result = ry.solveAll(problems, threads=threads)
+    factory = ry.NLP_Factory()
+    factory.setDimension(1)
+    factory.setTypes([ry.OT.sos])
+    factory.setBounds([-50.0], [50.0])
+    factory.setEvalCallback(evaluate)
+    solver = ry.NLP_Solver(factory, verbose=0).setOptions(stopEvals=10**6, stopTolerance=1e-13)
+    return solver.setSolver(ry.OptMethod.CMA).setInitialization([-1.0])
+
+
+@pytest.mark.parametrize(("threads", "sender"), [(1, "main"), (2, "main"), (2, "other")])
+def test_ctrl_c_ends_all_with_what_there_is(threads, sender):
+    """The signal comes in a function that the main thread or another one calls, the third time at the earliest."""
+    calls = {"main": 0, "other": 0}
+    after = []
+
+    def count():
+        own = "main" if threading.current_thread() is threading.main_thread() else "other"
+        calls[own] += 1
+        if after:
+            after.append(1)
+            time.sleep(0.01)
+        elif own == sender and calls["main"] >= 3:
+            after.append(1)
+            os.kill(os.getpid(), signal.SIGINT)
+        elif calls["main"] < 3:
+            time.sleep(0.001)
+
+    result = ry.solveAll([endlessProblem(count) for _ in range(8)], threads=threads)
     ended = [r for r in result if r.done]
     assert 1 <= len(ended) < 8
-    assert any(r.status.name == "cancelled" and r.message == "interrupted by Ctrl-C" for r in ended)
+    assert any((r.status.name, r.message) == ("cancelled", "interrupted by Ctrl-C") for r in ended)
+    assert all(np.isfinite(r.x).all() for r in ended)
     assert len(after) < 1000
+
+
+def test_ctrl_c_before_any_value_is_an_interrupt():
+    def interrupt():
+        signal.raise_signal(signal.SIGINT)
+
+    with pytest.raises(KeyboardInterrupt):
+        ry.solveAll([endlessProblem(interrupt) for _ in range(3)])
 
 
 def test_a_komo_is_copied_and_pickled_exactly(panda):

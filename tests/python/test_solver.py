@@ -1,6 +1,8 @@
 """Methods of NLP_Solver, how a solve is watched and ended, and what goes wrong in a user's function."""
 
 import signal
+import subprocess
+import sys
 
 import numpy as np
 import pytest
@@ -232,3 +234,32 @@ def test_options_of_another_type_are_taken_or_explained():
         s.setOptions(boundedNewton=2)
     with pytest.raises(ry.ArgumentError, match="damping is 'high'; expected a number"):
         s.setOptions(damping="high")
+
+
+@pytest.mark.skipif(sys.platform != "linux", reason="counts page faults as Linux does")
+def test_a_path_is_solved_in_memory_that_the_last_one_has_left():
+    """Otherwise the system gives every page anew: some 300 for this one."""
+    script = """
+import resource
+import kinegraph as ry
+
+C = ry.Config()
+C.addFile(ry.raiPath("scenarios/pandaSingle.g"))
+
+
+def solve():
+    komo = ry.KOMO(C, 1, 256, 2, False)
+    komo.addControlObjective([], 2, 1.0)
+    komo.addObjective([1.0], ry.FS.position, ["l_gripper"], ry.OT.eq, [10.0], [0.3, 0.3, 1.1])
+    assert ry.NLP_Solver(komo.nlp(), verbose=0).solve().feasible
+
+
+for _ in range(5):
+    solve()
+before = resource.getrusage(resource.RUSAGE_SELF).ru_minflt
+for _ in range(10):
+    solve()
+print((resource.getrusage(resource.RUSAGE_SELF).ru_minflt - before) / 10)
+"""
+    faults = subprocess.run([sys.executable, "-c", script], capture_output=True, text=True, check=True).stdout
+    assert float(faults) < 50

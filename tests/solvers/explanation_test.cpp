@@ -94,6 +94,18 @@ TEST(Explanation, TheOneThatHelpsIsFoundAmongOnesThatDoNot) {
   EXPECT_NEAR(second.conflicts[second.best].relaxation.scaled, 1., 1e-3);
 }
 
+TEST(Explanation, EndsWhereWhatIsCalledInBetweenThrows) {
+  MatrixXd A(2, 1);
+  A << 1., 1.;
+  CallbackNlp nlp = linear({eq, eq}, A, vec({0., 1.}));
+  int asked = 0;
+  EXPECT_THROW(explain(nlp, vec({7.}), 1e-3, [&] { if (++asked == 2) throw std::runtime_error("stop"); }), std::runtime_error);
+  EXPECT_EQ(asked, 2);
+  asked = -1000;
+  EXPECT_EQ(explain(nlp, vec({7.}), 1e-3, [&] { ++asked; }).verdict, Verdict::conflict);
+  EXPECT_GT(asked, -1000);
+}
+
 TEST(Explanation, ReportsNumbersThatAreNotFiniteByTheirRow) {
   CallbackNlp nlp(1, {sos, eq}, {}, {}, [](const VectorXd& x, VectorXd& phi, MatrixXd& J) {
     phi << x[0], std::nan("");

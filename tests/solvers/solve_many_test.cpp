@@ -2,7 +2,10 @@
 
 #include <gtest/gtest.h>
 
+#include <atomic>
 #include <stdexcept>
+#include <thread>
+#include <utility>
 
 #include "kinegraph/nlp/test_problems.h"
 #include "tests/solvers/hock_schittkowski.h"
@@ -73,18 +76,48 @@ TEST(SolveMany, WhereOneSufficesThoseAfterTheFirstAreNotDone) {
 
 TEST(SolveMany, AWatchCancelsWhatRunsAndLeavesTheRest) {
   // each problem runs until it is told to stop
+  std::atomic<bool> runs = false;
   const SolveManyResult all = solveMany(100, {true, 2}, [&](int, int, const EvaluationHook& hook) {
+    runs = true;
     const VectorXd nothing;
     while (hook(nothing, nothing)) continue;
     SolverResult result = outcome(false, 0., 1.);
     result.status = SolverStatus::cancelled;
     return result;
-  }, [](int ended) { return ended == 0; });
+  }, [&](int ended) { return runs && ended == 0; });
   int done = 0;
   for (const SolverResult& result : all.results) done += result.done;
   EXPECT_GE(done, 1);
   EXPECT_LE(done, 2);
   EXPECT_EQ(all.best().status, SolverStatus::cancelled);
+}
+
+TEST(SolveMany, TheCallingThreadIsTheFirstWorkerAndWatchesWhileItSolves) {
+  const auto caller = std::this_thread::get_id();
+  bool watched = false;
+  const SolveManyResult all = solveMany(1, {true, 4}, [&](int worker, int, const EvaluationHook& hook) {
+    EXPECT_EQ(worker, 0);
+    EXPECT_EQ(std::this_thread::get_id(), caller);
+    const VectorXd nothing;
+    while (!watched) EXPECT_TRUE(hook(nothing, nothing));
+    return outcome(true, 0., 0.);
+  }, [&, first = true](int) mutable {
+    EXPECT_EQ(std::this_thread::get_id(), caller);
+    watched = !std::exchange(first, false);
+    return false;
+  });
+  EXPECT_TRUE(all.best().feasible);
+}
+
+TEST(SolveMany, WhatIsCancelledBeforeItsFirstValueIsNotDone) {
+  for (const int threads : {1, 3}) {
+    const SolveManyResult all = solveMany(5, {true, threads}, [&](int, int i, const EvaluationHook&) {
+      if (i == 2) throw EvaluationCancelled();
+      return outcome(true, i, 0.);
+    });
+    for (int i = 0; i < 5; ++i) EXPECT_EQ(all.results[std::size_t(i)].done, i != 2) << i << " with " << threads;
+    EXPECT_EQ(all.chosen, 0);
+  }
 }
 
 TEST(SolveMany, AWatchThatThrowsEndsIt) {

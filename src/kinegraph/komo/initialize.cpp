@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <numbers>
 
 #include "kinegraph/base/errors.h"
@@ -45,16 +46,23 @@ void Komo::setRandomPath(Rng& rng) {
   requireBuilt("initRandom");
   VectorXd x(layout_.dimension);
   int next = 0;
+  std::map<const Mode*, Config> configs;  // copied once per structure; their programs take long to make
   for (int t = layout_.plain ? 0 : -order_; t < slices_; ++t) {
-    Config config = configuration(t);
-    if (t > 0) {  // the given configuration's joints are drawn around where they were in the slice before
-      for (int frame : joint_frames_) {
-        FrameData& data = *config.scene()->frames()[frame];
-        const auto [first, count] = state(t - 1).program().frame_dofs[frame];
-        if (data.joint->dofs() == count) data.joint->home = state(t - 1).q().segment(first, count);
-      }
+    const Mode* mode = modes_.empty() ? nullptr : modes_[mode_of_[t + order_]].get();
+    if (!configs.contains(mode)) configs.emplace(mode, configuration(t));
+    Config& config = configs.at(mode);
+    std::vector<std::pair<Joint*, VectorXd>> homes;
+    for (int frame : joint_frames_) {  // the given configuration's joints are drawn around where they were in the slice before
+      if (t <= 0) break;
+      Joint& joint = *config.scene()->frames()[frame]->joint;
+      const auto [first, count] = state(t - 1).program().frame_dofs[frame];
+      if (joint.dofs() != count) continue;
+      homes.emplace_back(&joint, std::move(joint.home));
+      joint.home = state(t - 1).q().segment(first, count);
     }
+    config.setJointState(state(t).q());
     config.setRandom(rng);
+    for (auto& [joint, home] : homes) joint->home = std::move(home);
     const VectorXd q = config.getJointState();
     VectorXd kept = state(t).q();
     const auto take = [&](int dof) { x[next++] = kept[dof] = q[dof]; };

@@ -1,3 +1,5 @@
+#include <algorithm>
+
 #include "kinegraph/base/errors.h"
 #include "kinegraph/base/text.h"
 #include "kinegraph/komo/path_description.h"
@@ -48,6 +50,12 @@ class KomoNlp final : public Nlp {
   }
 
   bool mayBeQuadratic() const override { return problem_.isLinear(); }
+
+  bool mayBeCancelled() const override {
+    return std::ranges::any_of(problem_.objectives(), [](const Komo::Objective& o) { return o.feature.maker() != nullptr; });
+  }
+
+  void leaveAt(const VectorXd& x) override { komo_->setVariables(x); }
 
   /// Overlaps of pairs in place of their sum.
   Separation separation() override {

@@ -55,9 +55,10 @@ void BandedMatrix::addToDiagonal(double x, int first) {
 void BandedMatrix::isolate(int i) {
   const int first = i < band_ ? int(std::lower_bound(last_.begin(), last_.end(), i) - last_.begin()) : 0;
   for (int j = first; j < i; ++j) at(i, j) = 0.;
-  for (int row = i; row < size(); ++row) {
-    if (row >= band_ || row <= last_[i]) at(row, i) = 0.;
+  if (i < band_) {
+    for (int row = i; row <= last_[i]; ++row) at(row, i) = 0.;
   }
+  for (int row = std::max(i, band_); row < size(); ++row) at(row, i) = 0.;
   at(i, i) = 1.;
 }
 

@@ -6,7 +6,7 @@
 
 namespace kinegraph {
 
-/// A problem whose residuals a user's function computes: (x, phi, J), with J dense.
+/// A problem whose residuals a user's function computes: (x, phi, J), with J dense. It may throw EvaluationCancelled.
 class CallbackNlp final : public Nlp {
  public:
   using Function = std::function<void(const VectorXd& x, VectorXd& phi, MatrixXd& J)>;
@@ -14,6 +14,7 @@ class CallbackNlp final : public Nlp {
   /// `lower`, `upper`: empty for none. Throws ValueError for sizes that do not fit.
   CallbackNlp(int dimension, std::vector<ObjectiveType> types, VectorXd lower, VectorXd upper, Function function);
 
+  bool mayBeCancelled() const override { return true; }
   void evaluate(const VectorXd& x, VectorXd& phi, Jacobian* J) override;
 
  private:

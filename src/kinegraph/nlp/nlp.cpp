@@ -152,15 +152,25 @@ std::string describeNotFinite(const Nlp& nlp, const VectorXd& phi, const Jacobia
 
 namespace {
 
+void ask(Nlp& nlp, const VectorXd& x, const BetweenColumns& between) {
+  try {
+    if (between) between();
+  } catch (...) {
+    nlp.leaveAt(x);
+    throw;
+  }
+}
+
 /// Calls found(JacobianCheck) for every entry of J, and leaves the problem at x.
 template <typename Found>
-void compareWithDifferences(Nlp& nlp, const VectorXd& x, double step, const Found& found) {
+void compareWithDifferences(Nlp& nlp, const VectorXd& x, double step, const BetweenColumns& between, const Found& found) {
   const int rows = int(nlp.types().size());
   Jacobian J = nlp.makeJacobian();
   VectorXd phi(rows), plus(rows), minus(rows);
   nlp.evaluate(x, phi, &J);
   const MatrixXd analytic = J.toDense();
   for (int i = 0; i < nlp.dimension(); ++i) {
+    ask(nlp, x, between);
     VectorXd moved = x;
     moved[i] = x[i] + step;
     nlp.evaluate(moved, plus, nullptr);
@@ -190,17 +200,18 @@ VectorXd costGradient(Nlp& nlp, const VectorXd& x) {
 
 }  // namespace
 
-JacobianCheck checkJacobian(Nlp& nlp, const VectorXd& x, double step) {
+JacobianCheck checkJacobian(Nlp& nlp, const VectorXd& x, double step, const BetweenColumns& between) {
   JacobianCheck worst;
-  compareWithDifferences(nlp, x, step, [&](const JacobianCheck& entry) {
+  compareWithDifferences(nlp, x, step, between, [&](const JacobianCheck& entry) {
     if (entry.error > 0. || !std::isfinite(entry.error)) worst = worst.row < 0 || worse(entry, worst) ? entry : worst;
   });
   return worst;
 }
 
-std::vector<JacobianCheck> worstJacobianEntries(Nlp& nlp, const VectorXd& x, double tolerance, int count, double step) {
+std::vector<JacobianCheck> worstJacobianEntries(Nlp& nlp, const VectorXd& x, double tolerance, int count, double step,
+                                                const BetweenColumns& between) {
   std::vector<JacobianCheck> entries;
-  compareWithDifferences(nlp, x, step, [&](const JacobianCheck& entry) {
+  compareWithDifferences(nlp, x, step, between, [&](const JacobianCheck& entry) {
     if (!(entry.error <= tolerance)) entries.push_back(entry);
   });
   std::stable_sort(entries.begin(), entries.end(), worse);
@@ -208,11 +219,12 @@ std::vector<JacobianCheck> worstJacobianEntries(Nlp& nlp, const VectorXd& x, dou
   return entries;
 }
 
-JacobianCheck checkHessian(Nlp& nlp, const VectorXd& x, double step) {
+JacobianCheck checkHessian(Nlp& nlp, const VectorXd& x, double step, const BetweenColumns& between) {
   MatrixXd H = MatrixXd::Zero(x.size(), x.size());
   JacobianCheck worst;
   if (!hasCostRows(nlp) || !nlp.addCostHessian(x, H)) return worst;
   for (int i = 0; i < x.size(); ++i) {
+    ask(nlp, x, between);
     VectorXd plus = x, minus = x;
     plus[i] += step;
     minus[i] -= step;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <span>
 #include <string>
 #include <vector>
@@ -55,6 +56,10 @@ struct Jacobian {
   void addRowTo(int row, double factor, VectorXd& x) const;           ///< x += factor J_row^T
 };
 
+/// Thrown by an evaluation that was given up, as by Ctrl-C in a function of the user's: there is no value. It ends a solver, which
+/// gives the best it saw before.
+struct EvaluationCancelled {};
+
 /// Minimize  sum_f phi_i + sum_sos phi_i^2  subject to  phi_ineq <= 0,  phi_eq = 0,  lower <= x <= upper.
 /// It is all a solver sees.
 class Nlp {
@@ -75,6 +80,12 @@ class Nlp {
   /// Computes phi(x), and its Jacobian where `J` (made by makeJacobian) is given. x has `dimension()` entries,
   /// phi has one per type. Sets `J->zero_row` where that costs nothing. Requests no memory where it can be avoided.
   virtual void evaluate(const VectorXd& x, VectorXd& phi, Jacobian* J) = 0;
+
+  /// May `evaluate` throw EvaluationCancelled?
+  virtual bool mayBeCancelled() const { return false; }
+
+  /// Puts what the problem describes, as a path, at x, as `evaluate` does, but without computing anything.
+  virtual void leaveAt(const VectorXd&) {}
 
   /// Adds the Hessian of sum_f phi_i to `H` (n x n). False if the problem has none to offer; it is then taken as zero.
   virtual bool addCostHessian(const VectorXd& x, MatrixXd& H);
@@ -137,20 +148,23 @@ double largestViolation(const std::vector<ObjectiveType>& types, const VectorXd&
 /// Which residual, or row of J (which may be null), has a number that is not finite, in words; empty if none has.
 std::string describeNotFinite(const Nlp& nlp, const VectorXd& phi, const Jacobian* J);
 
-/// The largest relative difference of a Jacobian from central differences, and where it is.
+/// The largest relative difference of a Jacobian from central differences, and where it is. `between`, where given, is called
+/// before each column; it may throw, and the problem is then left at x without being evaluated there.
 struct JacobianCheck {
   double error = 0.;  ///< |analytic - numeric| / max(1, |numeric|)
   int row = -1, column = -1;
   double analytic = 0., numeric = 0.;
 };
-JacobianCheck checkJacobian(Nlp& nlp, const VectorXd& x, double step = 1e-5);
+using BetweenColumns = std::function<void()>;
+JacobianCheck checkJacobian(Nlp& nlp, const VectorXd& x, double step = 1e-5, const BetweenColumns& between = {});
 
 /// All entries whose difference is above the tolerance or not a number, the worst first, at most `count`.
-std::vector<JacobianCheck> worstJacobianEntries(Nlp& nlp, const VectorXd& x, double tolerance, int count, double step = 1e-5);
+std::vector<JacobianCheck> worstJacobianEntries(Nlp& nlp, const VectorXd& x, double tolerance, int count, double step = 1e-5,
+                                                const BetweenColumns& between = {});
 
 /// The same for addCostHessian and central differences of the gradient of sum_f phi. Nothing to find (row -1) where there are
 /// no f residuals, or no Hessian is offered.
-JacobianCheck checkHessian(Nlp& nlp, const VectorXd& x, double step = 1e-5);
+JacobianCheck checkHessian(Nlp& nlp, const VectorXd& x, double step = 1e-5, const BetweenColumns& between = {});
 
 /// A problem without constraints as one function:  sum_f phi + sum_sos phi^2, its gradient, and 2 J_sos^T J_sos + the Hessian of
 /// the f residuals. Throws ValueError if there are other residuals.

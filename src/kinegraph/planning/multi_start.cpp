@@ -7,15 +7,20 @@
 
 namespace kinegraph {
 
-std::vector<VectorXd> drawStarts(Komo& komo, int count, std::uint64_t seed) {
+std::vector<VectorXd> drawStarts(Komo& komo, int count, std::uint64_t seed, const std::function<void()>& between) {
   if (count < 1) throw ValueError(cat("solveFromMany: the number of starts is ", count, "; expected at least 1"));
   Rng rng(seed);
   std::vector<VectorXd> starts = {komo.variables()};
+  struct Restore {
+    Komo& komo;
+    VectorXd x;
+    ~Restore() { komo.setVariables(x); }
+  } restore{komo, starts[0]};
   while (int(starts.size()) < count) {
+    if (between) between();
     komo.setRandomPath(rng);
     starts.push_back(komo.variables());
   }
-  komo.setVariables(starts[0]);
   return starts;
 }
 

@@ -2,8 +2,7 @@
 
 #include <algorithm>
 #include <atomic>
-#include <chrono>
-#include <future>
+#include <functional>
 #include <optional>
 
 #include "kinegraph/base/errors.h"
@@ -76,30 +75,28 @@ std::vector<IkResult> IkSolver::solve(const std::vector<std::vector<IkTarget>>& 
   std::vector<IkResult> results(problems.size());
   const int count = int(problems.size());
   std::atomic<int> done = 0;
-  if (threads == 1 || count <= 1) {
-    IkLanes(problem_).solve(problems.data(), count, results.data(), done, [&] { return watch && watch(done); });
-    return results;
-  }
   std::atomic<bool> stop = false;
   const std::function<bool()> stopped = [&] { return stop.load(std::memory_order_relaxed); };
-  std::vector<std::optional<IkLanes>> searches(threads);
-  const int part = std::clamp(count / (4 * threads), 1, kLargestPart);
-  // The calling thread does not compute, so that it can watch all the time.
-  auto all = std::async(std::launch::async, [&] {
-    forParts(count, part, threads, [&](int worker, int from, int to) {
-      if (!searches[worker]) searches[worker].emplace(problem_);
-      searches[worker]->solve(&problems[from], to - from, &results[from], done, stopped);
-    });
-  });
-  try {
-    while (all.wait_for(std::chrono::milliseconds(20)) != std::future_status::ready) {
+  const std::function<bool()> watching = [&] {  // on the calling thread
+    try {
       if (watch && watch(done)) stop = true;
+    } catch (...) {
+      stop = true;  // for the other threads
+      throw;
     }
-  } catch (...) {
-    stop = true;
-    throw;
+    return stopped();
+  };
+  if (threads == 1 || count <= 1) {
+    IkLanes(problem_).solve(problems.data(), count, results.data(), done, watching);
+    return results;
   }
-  all.get();
+  const int part = std::clamp(count / (4 * threads), 1, kLargestPart);
+  std::vector<std::optional<IkLanes>> searches(std::size_t(std::min(threads, count)));
+  forParts(count, part, threads, [&](int worker, int from, int to) {
+    std::optional<IkLanes>& search = searches[std::size_t(worker)];
+    if (!search) search.emplace(problem_);
+    search->solve(&problems[std::size_t(from)], to - from, &results[std::size_t(from)], done, worker == 0 ? watching : stopped);
+  }, watching);
   return results;
 }
 

@@ -152,7 +152,7 @@ Amount amountOfBound(const Nlp& nlp, int variable, double beyond) {
 }
 
 /// Gives one demand up, as far as needed, and looks whether the others can hold.
-void tryRelaxing(Nlp& nlp, const VectorXd& x, double tolerance, Conflict& conflict) {
+void tryRelaxing(Nlp& nlp, const VectorXd& x, double tolerance, const EvaluationHook& hook, Conflict& conflict) {
   const std::size_t rows = nlp.types().size();
   std::vector<bool> relaxed(rows, false);
   std::vector<int> group_rows;
@@ -168,7 +168,7 @@ void tryRelaxing(Nlp& nlp, const VectorXd& x, double tolerance, Conflict& confli
   options.verbose = 0;
   options.stopEvals = 100;
   options.stopGTolerance = .1 * tolerance;
-  const SolverResult result = solveAugmentedLagrangian(problem, x, options);
+  const SolverResult result = solveAugmentedLagrangian(problem, x, options, {}, hook);
   VectorXd phi(Eigen::Index(problem.types().size()));
   problem.evaluate(result.x, phi, nullptr);
   conflict.remaining = result.violation;
@@ -218,8 +218,9 @@ std::string Amount::str() const {
   return words.empty() ? cat(rounded(scaled), " (scaled)") : join(words, " and ");
 }
 
-Explanation explain(Nlp& nlp, const VectorXd& x, double tolerance) {
-  if (x.size() != nlp.dimension()) throw ValueError(cat("explain: x has ", x.size(), " numbers; the problem has ", nlp.dimension(), " variables"));
+namespace {
+
+Explanation findConflicts(Nlp& nlp, const VectorXd& x, double tolerance, const EvaluationHook& hook) {
   Explanation out;
   out.tolerance = tolerance;
   out.x = x;
@@ -235,7 +236,7 @@ Explanation explain(Nlp& nlp, const VectorXd& x, double tolerance) {
   options.verbose = 0;
   options.stopEvals = 200;
   options.stopTolerance = 1e-6;
-  if (nlp.dimension() > 0) out.x = solveAugmentedLagrangian(least, x.cwiseMax(nlp.lower()).cwiseMin(nlp.upper()), options).x;
+  if (nlp.dimension() > 0) out.x = solveAugmentedLagrangian(least, x.cwiseMax(nlp.lower()).cwiseMin(nlp.upper()), options, {}, hook).x;
   Jacobian J = nlp.makeJacobian();
   nlp.evaluate(out.x, phi, &J);
   out.least_violation = largestViolation(nlp.types(), phi);
@@ -249,7 +250,7 @@ Explanation explain(Nlp& nlp, const VectorXd& x, double tolerance) {
   for (Conflict& bound : pressingBounds(nlp, out.x, phi, J, tolerance)) out.conflicts.push_back(std::move(bound));
   for (int i = 0; i < int(out.conflicts.size()); ++i) {
     if (i < kMostTrials) {
-      tryRelaxing(nlp, out.x, tolerance, out.conflicts[i]);
+      tryRelaxing(nlp, out.x, tolerance, hook, out.conflicts[i]);
     } else {
       out.conflicts[i].remaining = out.least_violation;
     }
@@ -257,6 +258,22 @@ Explanation explain(Nlp& nlp, const VectorXd& x, double tolerance) {
   out.best = mostHelpful(out.conflicts, out.least_violation);
   nlp.evaluate(x, phi, nullptr);
   return out;
+}
+
+}  // namespace
+
+Explanation explain(Nlp& nlp, const VectorXd& x, double tolerance, const std::function<void()>& between) {
+  if (x.size() != nlp.dimension()) throw ValueError(cat("explain: x has ", x.size(), " numbers; the problem has ", nlp.dimension(), " variables"));
+  if (!between) return findConflicts(nlp, x, tolerance, {});
+  try {
+    return findConflicts(nlp, x, tolerance, [&](const VectorXd&, const VectorXd&) {
+      between();
+      return true;
+    });
+  } catch (...) {
+    nlp.leaveAt(x);
+    throw;
+  }
 }
 
 std::string Explanation::str(int at_most) const {

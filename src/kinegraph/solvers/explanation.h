@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <limits>
 #include <string>
 #include <vector>
@@ -57,7 +58,8 @@ struct Explanation {
 
 /// Finds which constraints contradict each other around `x`. From there it minimizes the violation alone; what is violated at
 /// that point, with the bounds that hold it there, is the conflict. Each part of it is then given up in turn, to see whether
-/// the others can hold and how far it has to give way. Leaves the problem at `x`.
-Explanation explain(Nlp& nlp, const VectorXd& x, double tolerance = 1e-3);
+/// the others can hold and how far it has to give way. Leaves the problem at `x`. `between`, where given, is called at every
+/// evaluation, and may throw.
+Explanation explain(Nlp& nlp, const VectorXd& x, double tolerance = 1e-3, const std::function<void()>& between = {});
 
 }  // namespace kinegraph

@@ -5,6 +5,7 @@
 
 #include "kinegraph/base/errors.h"
 #include "kinegraph/base/text.h"
+#include "kinegraph/solvers/best_so_far.h"
 #include "kinegraph/solvers/methods.h"
 #include "kinegraph/solvers/relaxed_nlp.h"
 
@@ -85,6 +86,41 @@ void NlpSolver::reduceViolation(SolverResult& result, const Separation& separati
   }
 }
 
+/// Solves the form of the problem that the method takes, and says what that means for the problem as it is stated.
+SolverResult NlpSolver::runMethod(const Separation& separation, const EvaluationHook& watch, const EvaluationHook& seen) {
+  const auto method = methods_.find(options.method);
+  if (method != methods_.end()) {
+    options.validate();
+    requireStart(*problem_, x);
+    return method->second(*problem_, x, options, watch);
+  }
+  Nlp& solved = separation.problem ? *separation.problem : *problem_;
+  if (dual.size() == 0) solved_dual_.resize(0);
+  if (memory_of_ != &solved) memory_ = std::make_unique<AugmentedLagrangianMemory>();
+  memory_of_ = &solved;
+  SolverResult result = kinegraph::solve(solved, x, options, separation.problem ? solved_dual_ : dual, watch, memory_.get());
+  solved_dual_ = result.dual;
+  if (!separation.problem) return result;
+  const auto rows = Eigen::Index(problem_->types().size());
+  VectorXd phi(rows);
+  if (result.status == SolverStatus::infeasible) reduceViolation(result, separation, seen);
+  problem_->evaluate(result.x, phi, nullptr);
+  result.dual = separation.joinedDual(result.dual, rows);
+  result.setSums(problem_->types(), phi, options.constraintTolerance());
+  return result;
+}
+
+void NlpSolver::releaseMemory() {
+  memory_.reset();
+  memory_of_ = nullptr;
+}
+
+/// What an exception has left half done.
+void NlpSolver::forget() {
+  releaseMemory();
+  solved_dual_.resize(0);
+}
+
 SolverResult NlpSolver::solve(bool resample, Rng& rng, const EvaluationHook& hook) {
   if (!problem_) throw Error("NLP_Solver: there is no problem to solve; call setProblem first");
   if (resample || x.size() == 0) {
@@ -95,12 +131,14 @@ SolverResult NlpSolver::solve(bool resample, Rng& rng, const EvaluationHook& hoo
   const Clock::time_point start = Clock::now();
   Clock::time_point told = start;
   int calls = 0;
-  const auto method = methods_.find(options.method);
-  const bool is_own = method == methods_.end();
+  const bool is_own = !methods_.contains(options.method);
   const Separation separation = is_own && options.method == OptMethod::augmentedLag ? problem_->separation() : Separation();
   const auto rows = Eigen::Index(problem_->types().size());
+  const bool may_be_cancelled = problem_->mayBeCancelled();
+  BestSoFar best(*problem_, options.constraintTolerance());
   const EvaluationHook seen = [&](const VectorXd& at, const VectorXd& phi) {
     ++calls;
+    if (may_be_cancelled) best.see(at, phi);
     if (tracing_x_) trace_x_.push_back(at);
     if (tracing_phi_) trace_phi_.push_back(phi);
     if (tracing_errors_) trace_errors_.push_back(sumErrors(problem_->types(), phi));
@@ -116,29 +154,22 @@ SolverResult NlpSolver::solve(bool resample, Rng& rng, const EvaluationHook& hoo
     return progress_(evals_ + calls, at, sumErrors(problem_->types(), phi));
   };
   const EvaluationHook joined = [&](const VectorXd& at, const VectorXd& solved_phi) { return seen(at, separation.joined(solved_phi, rows)); };
-  const bool needs_watch = tracing_x_ || tracing_phi_ || tracing_errors_ || tracing_jacobian_ || progress_ || hook;
+  const bool needs_watch = tracing_x_ || tracing_phi_ || tracing_errors_ || tracing_jacobian_ || progress_ || hook || may_be_cancelled;
   const EvaluationHook watch = !needs_watch ? EvaluationHook() : separation.problem ? joined : seen;
   SolverResult result;
-  if (!is_own) {
-    options.validate();
-    requireStart(*problem_, x);
-    result = method->second(*problem_, x, options, watch);
-    result.time = std::chrono::duration<double>(Clock::now() - start).count();
-  } else {
-    Nlp& solved = separation.problem ? *separation.problem : *problem_;
-    if (dual.size() == 0) solved_dual_.resize(0);
-    if (memory_of_ != &solved) memory_ = std::make_unique<AugmentedLagrangianMemory>();
-    memory_of_ = &solved;
-    result = kinegraph::solve(solved, x, options, separation.problem ? solved_dual_ : dual, watch, memory_.get());
-    solved_dual_ = result.dual;
+  try {
+    result = runMethod(separation, watch, needs_watch ? seen : EvaluationHook());
+  } catch (const EvaluationCancelled&) {
+    forget();
+    if (!best.isKnown()) throw;
+    result = best.result(calls);
+    problem_->leaveAt(result.x);
+  } catch (...) {
+    forget();
+    throw;
   }
-  if (separation.problem) {
-    VectorXd phi(rows);
-    if (result.status == SolverStatus::infeasible) reduceViolation(result, separation, needs_watch ? seen : EvaluationHook());
-    problem_->evaluate(result.x, phi, nullptr);
-    result.dual = separation.joinedDual(result.dual, rows);
-    result.setSums(problem_->types(), phi, options.constraintTolerance());
-  }
+  if (!is_own || result.time == 0.) result.time = std::chrono::duration<double>(Clock::now() - start).count();
+  if (!keeps_memory) releaseMemory();
   x = result.x;
   dual = result.dual;
   evals_ += result.evals;

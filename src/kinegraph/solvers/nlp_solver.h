@@ -29,7 +29,8 @@ class NlpSolver {
   void addMethod(OptMethod name, Method method) { methods_[name] = std::move(method); }
 
   /// Solves from x, or from the problem's initial point if there is none yet or `resample` is set. `hook` is asked at every
-  /// evaluation. Throws Error without a problem or for a method that is not available.
+  /// evaluation. Throws Error without a problem or for a method that is not available, EvaluationCancelled where that came before
+  /// the first value; later, the result is the best point seen.
   SolverResult solve(bool resample, Rng& rng, const EvaluationHook& hook = {});
 
   const std::shared_ptr<Nlp>& problem() const { return problem_; }
@@ -40,8 +41,12 @@ class NlpSolver {
 
   SolverOptions options;
   VectorXd x, dual;  ///< empty until known
+  bool keeps_memory = true;  ///< for the next solve; else it is given back at the end
 
  private:
+  SolverResult runMethod(const Separation& separation, const EvaluationHook& watch, const EvaluationHook& seen);
+  void releaseMemory();
+  void forget();
   void reduceViolation(SolverResult& result, const Separation& separation, const EvaluationHook& hook);
 
   std::shared_ptr<Nlp> problem_;

@@ -16,6 +16,8 @@ class PenaltyNlp final : public Nlp {
   void evaluate(const VectorXd& x, VectorXd& phi, Jacobian* J) override;
   bool addCostHessian(const VectorXd& x, MatrixXd& H) override { return nlp_.addCostHessian(x, H); }
   bool mayBeQuadratic() const override { return false; }
+  bool mayBeCancelled() const override { return nlp_.mayBeCancelled(); }
+  void leaveAt(const VectorXd& x) override { nlp_.leaveAt(x); }
   std::string rowName(int row) const override { return nlp_.rowName(row); }
 
  private:
@@ -36,6 +38,8 @@ class BarrierNlp final : public Nlp {
   /// With mu / phi^2 J^T J of each inequality.
   bool addCostHessian(const VectorXd& x, MatrixXd& H) override;
   bool mayBeQuadratic() const override { return false; }
+  bool mayBeCancelled() const override { return nlp_.mayBeCancelled(); }
+  void leaveAt(const VectorXd& x) override { nlp_.leaveAt(x); }
   std::string rowName(int row) const override { return nlp_.rowName(row); }
 
  private:

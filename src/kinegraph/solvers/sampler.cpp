@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "kinegraph/base/text.h"
+#include "kinegraph/solvers/best_so_far.h"
 #include "kinegraph/solvers/interior_walk.h"
 
 namespace kinegraph {
@@ -32,9 +33,7 @@ VectorXd NlpSampler::seed(Rng& rng) {
   return candidates.back();
 }
 
-SolverResult NlpSampler::sample(Rng& rng, const EvaluationHook& hook) {
-  options.validate();
-  const auto start = std::chrono::steady_clock::now();
+SolverResult NlpSampler::draw(Rng& rng, const EvaluationHook& hook) {
   SampledProblem problem(*problem_, options, hook);
   SampledPoint point;
   bool found = false;
@@ -58,10 +57,33 @@ SolverResult NlpSampler::sample(Rng& rng, const EvaluationHook& hook) {
   result.message = problem.cancelled() ? "cancelled by the caller"
                    : result.feasible   ? cat("a sample whose violations sum up to ", point.slack)
                                        : cat("the way down ended where violations sum up to ", point.slack);
-  result.problem = problem_;
   VectorXd phi(point.phi.size());
   problem_->evaluate(point.x, phi, nullptr);  // leaves the problem at the sample
   if (result.feasible && !problem.cancelled()) samples_.push_back(result.x);
+  return result;
+}
+
+SolverResult NlpSampler::sample(Rng& rng, const EvaluationHook& hook) {
+  options.validate();
+  const auto start = std::chrono::steady_clock::now();
+  const bool may_be_cancelled = problem_->mayBeCancelled();
+  BestSoFar best(*problem_, options.tolerance);
+  int calls = 0;
+  const EvaluationHook seen = [&](const VectorXd& x, const VectorXd& phi) {
+    ++calls;
+    best.see(x, phi);
+    return !hook || hook(x, phi);
+  };
+  SolverResult result;
+  try {
+    result = draw(rng, may_be_cancelled ? seen : hook);
+  } catch (const EvaluationCancelled&) {
+    if (!best.isKnown()) throw;
+    result = best.result(calls);
+    result.dual = VectorXd::Zero(Eigen::Index(problem_->types().size()));
+    problem_->leaveAt(result.x);
+  }
+  result.problem = problem_;
   result.time = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   if (options.verbose > 0) std::printf("==sampler== %s  %s\n", result.message.c_str(), result.str().c_str());
   return result;

@@ -22,7 +22,8 @@ class NlpSampler {
   explicit NlpSampler(std::shared_ptr<Nlp> problem) : problem_(std::move(problem)) {}
 
   /// The status is `converged` for a feasible sample, `infeasible` if the way down did not reach the constraints, `cancelled` by
-  /// the hook. Throws ValueError for options that make no sense.
+  /// the hook. Throws ValueError for options that make no sense, EvaluationCancelled where that came before the first value; later,
+  /// the result is the best point seen.
   SolverResult sample(Rng& rng, const EvaluationHook& hook = {});
 
   const std::shared_ptr<Nlp>& problem() const { return problem_; }
@@ -33,6 +34,7 @@ class NlpSampler {
 
  private:
   VectorXd seed(Rng& rng);
+  SolverResult draw(Rng& rng, const EvaluationHook& hook);
 
   std::shared_ptr<Nlp> problem_;
   std::vector<VectorXd> samples_;

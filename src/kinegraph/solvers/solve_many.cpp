@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <atomic>
 #include <chrono>
-#include <future>
 #include <set>
 
 #include "kinegraph/base/errors.h"
@@ -20,21 +19,8 @@ bool isBetter(const SolverResult& a, const SolverResult& b) {
   return a.feasible ? a.f + a.sos < b.f + b.sos : a.violation < b.violation;
 }
 
-/// Runs `work` on another thread while this one watches, every 20 ms and at the end. Exceptions of both are passed on, once the work has ended.
-void runWatched(const std::function<void()>& work, std::atomic<bool>& stop, const std::function<bool()>& watch) {
-  auto running = std::async(std::launch::async, work);
-  try {
-    for (bool runs = true; runs;) {
-      runs = running.wait_for(std::chrono::milliseconds(20)) != std::future_status::ready;
-      if (watch && watch()) stop = true;
-    }
-  } catch (...) {
-    stop = true;
-    running.wait();
-    throw;
-  }
-  running.get();
-}
+using Clock = std::chrono::steady_clock;
+constexpr std::chrono::milliseconds kWatch{20};
 
 }  // namespace
 
@@ -45,11 +31,26 @@ SolveManyResult solveMany(int count, const SolveManyOptions& options, const Solv
   all.results.resize(std::size_t(count));
   std::atomic<bool> stop = false;
   std::atomic<int> sufficient = count, ended = 0;  // the first feasible one, where one is enough
+  Clock::time_point watched = Clock::now();
+  const auto ask = [&] {
+    watched = Clock::now();
+    try {
+      if (watch && watch(ended)) stop = true;
+    } catch (...) {
+      stop = true;  // for those that run
+      throw;
+    }
+  };
   const auto work = [&](int worker, int i, int) {
     if (stop || i > sufficient) return;
+    const EvaluationHook hook = [&, worker, i](const VectorXd&, const VectorXd&) {
+      if (worker == 0 && watch && Clock::now() - watched >= kWatch) ask();
+      return !stop && i <= sufficient;
+    };
     try {
-      const SolverResult result = solve(worker, i, [&, i](const VectorXd&, const VectorXd&) { return !stop && i <= sufficient; });
-      all.results[std::size_t(i)] = result;
+      all.results[std::size_t(i)] = solve(worker, i, hook);
+    } catch (const EvaluationCancelled&) {
+      return;
     } catch (const ValueError& error) {
       throw ValueError(count == 1 ? error.what() : cat("problem ", i, ": ", error.what()));
     }
@@ -57,7 +58,7 @@ SolveManyResult solveMany(int count, const SolveManyOptions& options, const Solv
     if (options.best || !all.results[std::size_t(i)].feasible) return;
     for (int known = sufficient; i < known && !sufficient.compare_exchange_weak(known, i);) continue;
   };
-  runWatched([&] { forParts(count, 1, std::min(options.threads, count), work); }, stop, [&] { return watch && watch(ended); });
+  forParts(count, 1, std::min(options.threads, count), work, ask);
   for (int i = sufficient + 1; i < count; ++i) all.results[std::size_t(i)] = SolverResult();  // begun or not: threads decide
   all.chosen = int(std::min_element(all.results.begin(), all.results.end(), isBetter) - all.results.begin());
   return all;

@@ -1,0 +1,197 @@
+#!/usr/bin/env python3
+"""How soon does Ctrl-C end what takes long, and what is there then?
+
+    python benchmarks/interrupts.py [--times 50] [--only solveIk]
+
+Another process sends SIGINT at random times, 5 to 300 ms after the start. Each call has to end by a result with status cancelled
+and finite numbers, or by KeyboardInterrupt, as said in the table; a further solve has to work. `early`: ended before the signal,
+which is then awaited. Wall-clock time from the signal to the end; the machine should be quiet. Goal: below 0.1 s.
+"""
+
+import argparse
+import subprocess
+import sys
+from time import perf_counter, sleep
+
+import numpy as np
+
+import kinegraph as ry
+
+SENDER = """
+import os, signal, sys, time
+for line in sys.stdin:
+    time.sleep(float(line))
+    at = time.perf_counter()
+    os.kill(os.getppid(), signal.SIGINT)
+    print(at, flush=True)
+"""
+
+
+def panda() -> ry.Config:
+    C = ry.Config()
+    C.addFile(ry.raiPath("scenarios/pandaSingle.g"))
+    return C
+
+
+def motion(slices: int, function=ry.FS.position) -> ry.KOMO:
+    komo = ry.KOMO(panda(), 1, slices, 2, False)
+    komo.addControlObjective([], 0, 1e-2)
+    komo.addControlObjective([], 2, 1.0)
+    komo.addObjective([], ry.FS.accumulatedCollisions, [], ry.OT.eq, [1.0])
+    target = [0.3, 0.3, 1.1]
+    komo.addObjective([1.0] if function == ry.FS.position else [], function, ["l_gripper"], ry.OT.eq, [10.0], target)
+    return komo
+
+
+def position(frame):
+    return frame.getPosition(), frame.getPositionJacobian()
+
+
+class Ripples:
+    """A cost with many minima, slow to evaluate as Python is."""
+
+    dimension, types, bounds = 6, [ry.OT.sos, ry.OT.f], np.array([[-3.0] * 6, [3.0] * 6])
+
+    def evaluate(self, x):
+        y = np.sin(40 * x).sum()
+        return np.array([y + 7, (x**2).sum()]), np.array([40 * np.cos(40 * x), 2 * x])
+
+
+class Ring:
+    dimension, types, bounds = 2, [ry.OT.ineq, ry.OT.ineq], np.array([[-2.0] * 2, [2.0] * 2])
+
+    def evaluate(self, x):
+        return np.array([x @ x - 1, 0.25 - x @ x]), np.array([2 * x, -2 * x])
+
+
+def untilCancelled(once):
+    def again():
+        while True:
+            ret = once()
+            if ret.status.name == "cancelled":
+                return ret
+
+    return again
+
+
+def ripples(method: str):
+    def once():
+        solver = ry.NLP_Solver().setPyProblem(Ripples()).setOptions(stopEvals=10**8, stopTolerance=1e-15, verbose=0)
+        return solver.setSolver(getattr(ry.OptMethod, method)).setInitialization(np.full(6, 2.0)).solve(verbose=0)
+
+    return untilCancelled(once)
+
+
+def sampled(problem):
+    nlp = problem if isinstance(problem, ry.NLP) else ry.NLP_Solver().setPyProblem(problem).getProblem()
+    return lambda: ry.NLP_Sampler(nlp).setOptions(interiorSampleSteps=10**9).sample()
+
+
+def solveFromRandom(komo: ry.KOMO) -> ry.SolverReturn:
+    nlp = komo.nlp()
+    return ry.NLP_Solver(nlp, verbose=0).setInitialization(nlp.getUniformSample()).solve()
+
+
+def cases():
+    C = panda()
+    far = {"l_gripper": np.tile([5.0, 0.0, 0.0], (2000, 1))}
+    Q = np.random.default_rng(0).uniform(-1, 1, (200000, 7))
+    long = motion(4000)
+    own = motion(30, position)
+    many = [motion(4000) for _ in range(12)]
+    short, impossible = motion(200), motion(200)
+    impossible.addObjective([1.0], ry.FS.position, ["l_gripper"], ry.OT.eq, [10.0], [3.0, 0.0, 0.0])
+    nowhere = np.tile(C.getJointState(), 200)
+    yield "solve, 4000 slices", "result", untilCancelled(lambda: solveFromRandom(long))
+    yield "solve, feature in Python", "result", untilCancelled(lambda: solveFromRandom(own))
+    for method in ("augmentedLag", "LBFGS", "CMA", "NelderMead", "rprop"):
+        yield f"solve in Python, {method}", "result", ripples(method)
+    for threads in (1, 2):
+        yield f"solveAll, {threads} threads", "result", lambda t=threads: ry.solveAll(many, threads=t)
+        yield f"solveAll in Python, {threads}", "result", lambda t=threads: ry.solveAll([own, *many], threads=t)
+        yield f"solveFromMany, {threads} threads", "result", lambda t=threads: many[0].solveFromMany(30, threads=t)
+    yield "sampler", "result", sampled(ry.make_NLP_Problem("HalfCircle"))
+    yield "sampler in Python", "result", sampled(Ring())
+    yield "solveIk", "interrupt", lambda: ry.solveIk(C, {"l_gripper": [5.0, 0.0, 0.0]}, attempts=10**8)
+    for threads in (1, 2):
+        yield (
+            f"solveIk, 2000 targets, {threads}",
+            "interrupt",
+            lambda t=threads: ry.solveIk(C, far, attempts=10**8, threads=t),
+        )
+        yield (
+            f"getDistances, {threads} threads",
+            "interrupt",
+            lambda t=threads: [C.getDistances(Q, threads=t) for _ in range(9)],
+        )
+    yield "checkJacobian", "interrupt", lambda: short.nlp().checkJacobian(nowhere)
+    yield "explain", "interrupt", lambda: [impossible.nlp().explain(nowhere) for _ in range(9)]
+    yield "building a KOMO", "interrupt", lambda: [motion(10000).nlp() for _ in range(9)]
+
+
+def isFinite(answer) -> bool:
+    results = answer.results if isinstance(answer, ry.SolverReturns) else [answer]
+    done = [ret for ret in results if ret.done]
+    return bool(done) and all(len(ret.x) and np.isfinite(ret.x).all() for ret in done)
+
+
+def wasCancelled(answer) -> bool:
+    results = answer.results if isinstance(answer, ry.SolverReturns) else [answer]
+    return any(ret.status.name == "cancelled" and ret.message == "interrupted by Ctrl-C" for ret in results) or not all(
+        ret.done for ret in results
+    )
+
+
+def interrupted(call, sender, delay: float) -> tuple[str, float]:
+    """How it ended, and seconds after the signal."""
+    sender.stdin.write(f"{delay}\n")
+    sender.stdin.flush()
+    try:
+        answer = call()
+        ended, how = perf_counter(), "early"
+        if isinstance(answer, (ry.SolverReturn, ry.SolverReturns)) and wasCancelled(answer):
+            how = "result" if isFinite(answer) else "numbers that are not finite"
+    except KeyboardInterrupt:
+        ended, how = perf_counter(), "interrupt"
+    if how == "early":
+        try:
+            sleep(1)
+        except KeyboardInterrupt:
+            ended = perf_counter()
+    return how, ended - float(sender.stdout.readline())
+
+
+def main() -> int:
+    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser.add_argument("--times", type=int, default=50)
+    parser.add_argument("--only", default="")
+    options = parser.parse_args()
+    rng = np.random.default_rng(0)
+    sender = subprocess.Popen([sys.executable, "-c", SENDER], stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True)
+    failed = False
+    print(f"{'':32s} {'result':>7s} {'interrupt':>9s} {'early':>6s}   median    worst")
+    for name, expected, call in cases():
+        if not name.startswith(options.only):
+            continue
+        ways: dict[str, int] = {}
+        seconds = []
+        for _ in range(options.times):
+            how, after = interrupted(call, sender, rng.uniform(0.005, 0.3))
+            ways[how] = ways.get(how, 0) + 1
+            if how != "early":
+                seconds.append(after)
+        wrong = set(ways) - {"result", "interrupt", "early"} or (expected == "interrupt" and "result" in ways)
+        check = ry.NLP_Solver(motion(8).nlp(), verbose=0).solve()
+        wrong = wrong or not check.feasible or not seconds
+        failed = failed or bool(wrong)
+        times = f"{1e3 * np.median(seconds):6.1f} ms {1e3 * max(seconds):6.1f} ms" if seconds else ""
+        counts = " ".join(
+            f"{ways.get(way, 0):{width}d}" for way, width in (("result", 7), ("interrupt", 9), ("early", 6))
+        )
+        print(f"{name:32s} {counts}   {times}{'   WRONG: ' + str(ways) if wrong else ''}", flush=True)
+    sender.stdin.close()
+    return int(failed)
+
+
+if __name__ == "__main__":
+    raise SystemExit(main())
