@@ -52,9 +52,9 @@ class Interruption {
   SolvingHere& here_;
   const char* what_;
   const Nlp& nlp_;
-  int verbose_, evals_ = 0;
+  int verbose_, evals_ = 0, next_look_ = 1;
   double drawn_at_ = 0.;  ///< seconds after the start; 0: not yet
-  Clock::time_point start_ = Clock::now(), asked_ = start_;
+  Clock::time_point start_ = Clock::now(), asked_ = start_, looked_ = start_;
 };
 
 /// Says that Ctrl-C ended it.

@@ -108,7 +108,7 @@ class DenseAlgebra {
   bool factorize(double shift, double mu, const std::vector<int>& active, const std::vector<char>& fixed, int) {
     K_ = *H_;
     K_.diagonal().array() += shift;
-    for (int j : active) addProduct(K_, rows_.col(j), mu);
+    for (int j : active) addSquare(rows_.col(j), mu);
     for (int i = 0; i < n_; ++i) {
       if (!fixed[std::size_t(i)]) continue;
       K_.row(i).setZero();
@@ -157,6 +157,17 @@ class DenseAlgebra {
   void identityOutside(Matrix& matrix) const {
     matrix.setZero();
     for (int i = n_; i < N; ++i) matrix(i, i) = 1.;
+  }
+  /// K += weight v v^T on and below the diagonal.
+  template <class Column>
+  void addSquare(const Column& given, double weight) {
+    const Vector v = given;
+#pragma GCC unroll 16
+    for (int k = 0; k < N; ++k) {
+      const double factor = weight * v[k];
+#pragma GCC unroll 16
+      for (int p = k - k % 2; p < N; p += 2) K_.template block<2, 1>(p, k) += factor * v.template segment<2>(p);
+    }
   }
   template <class Column>
   static void addProduct(Matrix& matrix, const Column& v, double weight) {

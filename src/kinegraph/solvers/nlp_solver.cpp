@@ -153,7 +153,8 @@ SolverResult NlpSolver::solve(bool resample, Rng& rng, const EvaluationHook& hoo
     told = Clock::now();
     return progress_(evals_ + calls, at, sumErrors(problem_->types(), phi));
   };
-  const EvaluationHook joined = [&](const VectorXd& at, const VectorXd& solved_phi) { return seen(at, separation.joined(solved_phi, rows)); };
+  EvaluationHook joined;
+  if (separation.problem) joined = [&](const VectorXd& at, const VectorXd& phi) { return seen(at, separation.joined(phi, rows)); };
   const bool needs_watch = tracing_x_ || tracing_phi_ || tracing_errors_ || tracing_jacobian_ || progress_ || hook || may_be_cancelled;
   const EvaluationHook watch = !needs_watch ? EvaluationHook() : separation.problem ? joined : seen;
   SolverResult result;

@@ -58,6 +58,8 @@ class SemismoothModel final : public LocalModel {
   bool newtonStep(const Problem& problem);
   void findChangesAlongStep(const Problem& problem);
   double roomAlong(double most) const;
+  /// Is the model the same quadratic function all over the box, and the Newton step exact?
+  bool isQuadratic() const { return n_ <= kSmall && factored_as_is_ && within_reach_.size() == equalities_.size(); }
   double lengthAlong(const Problem& problem, double most) const;
   void move(double alpha);
   bool moveIntoBox(const Problem& problem, double& moved);
@@ -476,7 +478,7 @@ const VectorXd& SemismoothModel<Algebra>::minimize(const Problem& problem) {
       continue;
     }
     findChangesAlongStep(problem);
-    const double alpha = lengthAlong(problem, room);
+    const double alpha = room >= 1. && isQuadratic() ? 1. : lengthAlong(problem, room);
     move(alpha);
     const bool is_solved = alpha == 1. && !any_fixed_ && keepsActiveSet(problem);
     const bool reaches_bound = alpha == room && room < 1.;  // the next pass goes along it
