@@ -23,26 +23,6 @@ MatrixXd entryOf(int axis, double scale) {
   return row;
 }
 
-/// The z axis of one frame less the x, y or z axis of another: y = R_WA e_z - R_WB e      3 rows
-class AxisDifference final : public Feature {
- public:
-  AxisDifference(int a, int b, int axis) : a_(a), b_(b), axis_(axis) {}
-
-  int rows() const override { return 3; }
-  void eval(std::span<const State* const> states, double, Eigen::Ref<VectorXd> y, JacobianRows* J) const override {
-    const State& state = *states[0];
-    const Vector3d z = state.pose(a_).R.col(2), other = state.pose(b_).R.col(axis_);
-    y = z - other;
-    if (!J) return;
-    const Matrix3d none = Matrix3d::Zero();
-    state.addJacobian(a_, state.position(a_), none, Matrix3d(-skew(z)), *J);
-    state.addJacobian(b_, state.position(b_), none, skew(other), *J);
-  }
-
- private:
-  int a_, b_, axis_;
-};
-
 /// The product of the x, y or z axis of one frame with that of another.
 F product(int a, int b) {
   constexpr std::array<F, 9> symbols = {F::scalarProductXX, F::scalarProductXY, F::scalarProductXZ, F::scalarProductYX, F::scalarProductYY,
@@ -188,10 +168,7 @@ class Conditions {
     Vector3d on_face = Vector3d::Zero();
     on_face[axis] = .5 * boxOf(f_[1])[std::size_t(axis)];
     require(at, F::positionRel, f_, eq, entryOf(axis, 1e2), on_face);
-    const FeatureSource along("axisDifference", [axis](const std::vector<int>& frames, const State&) {
-      return std::make_unique<AxisDifference>(frames[0], frames[1], axis);
-    });
-    komo_.addObjective(at, along, f_, eq, number(1e2));
+    komo_.addObjective(at, FeatureRecipe{"axisDifference", {}, double(axis)}, f_, eq, number(1e2));
     MatrixXd inside = MatrixXd::Constant(6, 1, 1e1);
     inside(axis) = inside(axis + 3) = 0.;
     require(during, F::insideBox, f_, ineq, inside);
