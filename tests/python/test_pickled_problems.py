@@ -157,6 +157,16 @@ def test_symbols_of_skeletons(symbol):
         sameBits(S.getKomo_finalSlice(scene(), 0.1, 0.1, -1.0), 30)
 
 
+@pytest.mark.parametrize("symbol", [s.name for s in ry.SY if s.name not in ATTACHMENTS])
+def test_conditions_are_not_mode_switches(symbol):
+    komo = ry.KOMO(scene(), 2, 4, 2, False)
+    with pytest.raises(
+        ry.Error,
+        match=f"addModeSwitch: {symbol} does not attach an object; available are stable, .*a skeleton has them all",
+    ):
+        komo.addModeSwitch([1.0, -1.0], getattr(ry.SY, symbol), ["hand", "box"])
+
+
 @pytest.mark.parametrize("kind", ["slide", "stick", "complementary", "bounce"])
 @pytest.mark.parametrize("order", [0, 1, 2])
 def test_contacts(kind, order):

@@ -36,6 +36,7 @@ Made alongNormal(const FeatureRecipe& recipe, const Ids&) {
 
 Made axisDifference(const FeatureRecipe& recipe, const Ids& f) { return std::make_unique<AxisDifference>(f[0], f[1], int(recipe.parameter)); }
 Made normalAlignment(const FeatureRecipe& recipe, const Ids& f) { return std::make_unique<NormalAlignment>(f[0], f[1], recipe.parameter); }
+Made pushRadius(const FeatureRecipe& recipe, const Ids& f) { return std::make_unique<PushRadius>(f[0], f[1], recipe.parameter); }
 Made normalsOppose(const FeatureRecipe&, const Ids& f) { return std::make_unique<NormalsOppose>(f[0], f[1], f[2]); }
 
 const std::map<std::string, Maker>& makers() {
@@ -50,6 +51,7 @@ const std::map<std::string, Maker>& makers() {
       {"pairNormalAlign", {normalAlignment, 2}},
       {"pairNormalsOppose", {normalsOppose, 3}},
       {"pullingForce", {ofForce<PullingForce>, 0}},
+      {"pushRadius", {pushRadius, 2}},
       {"slidingVelocity", {ofForce<SlidingVelocity>, 0}}};
   return all;
 }

@@ -13,11 +13,11 @@ namespace kinegraph {
 struct FeatureRecipe {
   std::string name;                      ///< one of recipeNames()
   std::optional<ContactForce> contact{};  ///< of those that are about a force
-  double parameter = 0.;                 ///< friction, elasticity, sign or axis
+  double parameter = 0.;                 ///< friction, elasticity, sign, axis or radius
 };
 
 /// axisDifference, elasticBounce, force, forceAlongNormal, forceTimesDistance, forceTimesVelocity, frictionCone, pairNormalAlign,
-/// pairNormalsOppose, pullingForce, slidingVelocity.
+/// pairNormalsOppose, pullingForce, pushRadius, slidingVelocity.
 const std::vector<std::string>& recipeNames();
 
 /// The feature for the frames with these ids; those about a force know their frames. Throws NameError for other names, with

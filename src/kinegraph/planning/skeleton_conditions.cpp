@@ -56,10 +56,10 @@ class Conditions {
         for (const std::string& frame : f_) lift(frame);
         return;
       case M::relPosY: return require(during, F::positionRel, f_, eq, entryOf(1, 1e2));
-      case M::contact: return exchange(Komo::Exchange::slide);
-      case M::contactStick: return exchange(Komo::Exchange::stick);
-      case M::contactComplementary: return exchange(Komo::Exchange::complementary);
-      case M::bounce: return exchange(Komo::Exchange::bounce);
+      case M::contact: return void(exchange(Komo::Exchange::slide));
+      case M::contactStick: return void(exchange(Komo::Exchange::stick));
+      case M::contactComplementary: return void(exchange(Komo::Exchange::complementary));
+      case M::bounce: return void(exchange(Komo::Exchange::bounce));
       case M::push: return push(during);
       case M::topBoxGrasp:
         require(at, F::positionDiff, f_, eq, number(1e2));
@@ -104,7 +104,7 @@ class Conditions {
     return size_ = frame.getSize();
   }
 
-  void exchange(Komo::Exchange kind) { komo_.addExchange({from_, to_}, f_[1], f_[0], kind); }
+  std::string exchange(Komo::Exchange kind) { return komo_.addExchange({from_, to_}, f_[1], f_[0], kind); }
 
   /// The lower one's top and what rests on it: round things lie, others stand.
   void restingOn(const std::vector<double>& during) {
@@ -139,8 +139,22 @@ class Conditions {
     if (komo_.order() >= 2) requireNear(from_ + .3, from_ + .7, F::position, {frame}, ineqP, entryOf(2, -1e1), Vector3d(0., 0., .4));
   }
 
+  /// The radius of the object that is pushed, if it is a ball or a capsule; else 0.
+  double roundness() const {
+    const Frame object = scene_.getFrame(f_[1]);
+    if (object.getShapeType() == ShapeType::sphere) return object.getSize()[0];
+    return object.getShapeType() == ShapeType::capsule ? object.getSize()[1] : 0.;
+  }
+
   void push(const std::vector<double>& during) {
-    exchange(Komo::Exchange::slide);
+    const std::string point = exchange(Komo::Exchange::slide);
+    if (const double radius = roundness(); radius > 0. && komo_.order() >= 1 && (to_ < 0. || to_ >= from_ + .8)) {
+      const double margin = komo_.order() == 1 ? 0. : .2, later = 1. / komo_.slicesPerPhase();
+      const std::vector<double> times = {from_ + margin + later, to_ < 0. ? -1. : to_ - margin};
+      if (const auto [first, last] = komo_.selectSlices(times); first <= last) {
+        komo_.addObjective(times, FeatureRecipe{"pushRadius", {}, radius}, {point, f_[1]}, sos, number(1.));
+      }
+    }
     if (komo_.order() < 2) return;
     require(during, F::position, {f_[1]}, sos, number(.3), {}, 2);
     for (const std::string& frame : f_) require({to_}, F::pose, {frame}, eq, number(1.), {}, 1);
