@@ -67,6 +67,11 @@ Frame addFrameDof(PyKomo& komo, const std::string& name, const std::string& pare
   return addedFrame(komo, name);
 }
 
+std::string addContact(PyKomo& komo, const Numbers& times, const std::string& object, const std::string& onto, const std::string& kind,
+                       double friction) {
+  return komo.addExchange(times.list(), object, onto, exchangeFromName(kind), friction);
+}
+
 Array pathFrames(const PyKomo& komo) {
   nb::list slices;
   for (int t = 0; t < komo.slices(); ++t) slices.append(toNumpy(komo.getFrameState(t)));
@@ -196,6 +201,12 @@ void bindObjectives(nb::class_<PyKomo>& komo) {
              return addedFrame(k, k.addFreeContactForce(time.list(), object, from, friction, mass, distance));
            }, "time"_a, "obj"_a, "from_"_a, "frictionCone_mu"_a, "init_objMass"_a, "init_POAdist"_a,
            "The same with a force of any direction within the cone of friction: three dofs per slice.")
+      .def("addContact", addContact, "times"_a, "obj"_a, "from_"_a, "kind"_a, "friction"_a = .5,
+           "In these slices `from_` and `obj` may push each other at a point that moves along both: six more dofs per slice, the\n"
+           "point and the force on `obj` there, in weights of `obj`. kind: 'slide' (they touch, the force is along the normal), 'stick'\n"
+           "(they do not slide; in a KOMO of kOrder 0 the force is within the cone of friction), 'complementary' (no force where\n"
+           "they do not touch) or 'bounce' (off each other, in one slice; kOrder 2). Returns the name of the frame at the point.\n"
+           "What balances the forces is up to FS.totalForce and FS.physics.")
       .def("addTimeOptimization", [](PyKomo&) { throw Error("addTimeOptimization: durations are fixed; give them with setTiming"); },
            "Not available.");
 }

@@ -10,8 +10,31 @@ namespace kinegraph::python {
 
 namespace {
 
+nb::tuple toTuple(const ContactForce& c) { return nb::make_tuple(c.object, c.onto, c.point, c.dofs, c.unit, c.is_free); }
+
+ContactForce toContact(nb::handle t) {
+  return {nb::cast<int>(t[0]), nb::cast<int>(t[1]), nb::cast<int>(t[2]), nb::cast<int>(t[3]), nb::cast<double>(t[4]), nb::cast<bool>(t[5])};
+}
+
+/// A number for a symbol, a tuple for a recipe, or a function.
+nb::object toObject(const FeatureSource& feature) {
+  if (feature.symbol()) return nb::int_(int(*feature.symbol()));
+  const FeatureRecipe* recipe = feature.recipe();
+  if (!recipe) return functionOf(feature);
+  const nb::object contact = recipe->contact ? nb::object(toTuple(*recipe->contact)) : nb::none();
+  return nb::make_tuple(recipe->name, contact, recipe->parameter);
+}
+
+FeatureSource toFeature(nb::object object) {
+  if (nb::isinstance<nb::int_>(object)) return FeatureSymbol(nb::cast<int>(object));
+  if (!nb::isinstance<nb::tuple>(object)) return ownFeature(object);
+  FeatureRecipe recipe{nb::cast<std::string>(object[0]), {}, nb::cast<double>(object[2])};
+  if (!nb::object(object[1]).is_none()) recipe.contact = toContact(object[1]);
+  return recipe;
+}
+
 nb::tuple toTuple(const Komo::Objective& o) {
-  const nb::object feature = o.feature.symbol() ? nb::object(nb::int_(int(*o.feature.symbol()))) : functionOf(o.feature);
+  const nb::object feature = toObject(o.feature);
   return nb::make_tuple(o.name, feature, o.frames, int(o.type), toNumpy(o.scale), toNumpy(o.target), o.order, o.times, o.from, o.to, o.time_integral,
                         o.without_gravity, o.damped);
 }
@@ -25,7 +48,7 @@ MatrixXd toMatrix(nb::handle array) {
 
 Komo::Objective toObjective(nb::handle state) {
   const nb::tuple t = nb::cast<nb::tuple>(state);
-  const FeatureSource feature = nb::isinstance<nb::int_>(t[1]) ? FeatureSource(FeatureSymbol(nb::cast<int>(t[1]))) : ownFeature(t[1]);
+  const FeatureSource feature = toFeature(t[1]);
   return {nb::cast<std::string>(t[0]), feature, nb::cast<std::vector<std::string>>(t[2]), ObjectiveType(nb::cast<int>(t[3])),
           toMatrix(t[4]), nb::cast<Numbers>(t[5]).values, nb::cast<int>(t[6]), nb::cast<std::vector<double>>(t[7]),
           nb::cast<int>(t[8]), nb::cast<int>(t[9]), nb::cast<bool>(t[10]), nb::cast<bool>(t[11]), nb::cast<bool>(t[12])};
@@ -33,24 +56,25 @@ Komo::Objective toObjective(nb::handle state) {
 
 nb::tuple komoState(const PyKomo& komo) {
   Komo::Parts parts = komo.parts();
-  nb::list modes, objectives, states;
+  nb::list modes, objectives, contacts, states;
   for (Komo::Parts::Structure& mode : parts.modes) {
     nb::list added;
     for (const auto& [frame, joint] : mode.added) added.append(nb::make_tuple(frame, joint.id, joint.stable, joint.parent));
     modes.append(nb::make_tuple(PyConfig{std::move(mode.config), nullptr}, added));
   }
   for (const Komo::Objective& objective : parts.objectives) objectives.append(toTuple(objective));
+  for (const ContactForce& contact : parts.contacts) contacts.append(toTuple(contact));
   for (const VectorXd& state : parts.states) states.append(toNumpy(state));
   const bool has_config = komo.slices() > 0 || parts.config.getFrameDimension() > 0;
   const nb::object config = has_config ? nb::cast(PyConfig{std::move(parts.config), nullptr}) : nb::none();
   return nb::make_tuple(config, parts.phases, parts.duration_per_phase, parts.slices_per_phase, parts.order,
-                        parts.next_joint, modes, parts.mode_of, parts.shown_frames, objectives, states);
+                        parts.next_joint, modes, parts.mode_of, parts.shown_frames, objectives, contacts, states);
 }
 
 Komo fromState(nb::tuple t) {
   if (nb::handle(t[0]).is_none()) return Komo();
   Komo::Parts parts{nb::cast<PyConfig&>(t[0]), nb::cast<double>(t[1]), nb::cast<double>(t[2]), nb::cast<int>(t[3]), nb::cast<int>(t[4]),
-                    nb::cast<int>(t[5]), {}, nb::cast<std::vector<int>>(t[7]), nb::cast<std::vector<int>>(t[8]), {}, {}};
+                    nb::cast<int>(t[5]), {}, nb::cast<std::vector<int>>(t[7]), nb::cast<std::vector<int>>(t[8]), {}, {}, {}};
   for (nb::handle mode : nb::cast<nb::list>(t[6])) {
     Komo::Parts::Structure structure{nb::cast<PyConfig&>(mode[0]), {}};
     for (nb::handle added : nb::cast<nb::list>(mode[1])) {
@@ -59,7 +83,8 @@ Komo fromState(nb::tuple t) {
     parts.modes.push_back(std::move(structure));
   }
   for (nb::handle objective : nb::cast<nb::list>(t[9])) parts.objectives.push_back(toObjective(objective));
-  for (nb::handle state : nb::cast<nb::list>(t[10])) parts.states.push_back(nb::cast<Numbers>(state).values);
+  for (nb::handle contact : nb::cast<nb::list>(t[10])) parts.contacts.push_back(toContact(contact));
+  for (nb::handle state : nb::cast<nb::list>(t[11])) parts.states.push_back(nb::cast<Numbers>(state).values);
   return Komo(std::move(parts));
 }
 

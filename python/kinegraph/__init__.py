@@ -74,6 +74,17 @@ from .parameters import (
 )
 from .problems import get_NLP_Problem_names, make_NLP_Problem
 from .quaternion import Quaternion
+from .skeleton_problems import (
+    ArgWord,
+    OptBench_Skeleton_Handover,
+    OptBench_Skeleton_Pick,
+    OptBench_Skeleton_StackAndBalance,
+    OptBenchmark_InvKin_Endeff,
+    _left,
+    _path,
+    _right,
+    _sequence,
+)
 
 _model_paths.announce()
 
@@ -88,7 +99,7 @@ def compiled() -> str:
     return f"kinegraph {__version__}"
 
 
-teach(FS, JT, OT, ST, SY, OptMethod)
+teach(FS, JT, OT, ST, SY, ArgWord, OptMethod)
 
 # Written out, so that type checkers know what is exported.
 __all__ = [
@@ -99,6 +110,7 @@ __all__ = [
     "OT",
     "ST",
     "SY",
+    "ArgWord",
     "ArgumentError",
     "CameraView",
     "CameraViewSensor",
@@ -123,12 +135,20 @@ __all__ = [
     "NLP_Solver",
     "NLP_SolverOptions",
     "NotFound",
+    "OptBench_Skeleton_Handover",
+    "OptBench_Skeleton_Pick",
+    "OptBench_Skeleton_StackAndBalance",
+    "OptBenchmark_InvKin_Endeff",
     "OptMethod",
     "ParseError",
     "Quaternion",
     "Skeleton",
     "SolverReturn",
     "SolverReturns",
+    "_left",
+    "_path",
+    "_right",
+    "_sequence",
     "checkFile",
     "clear_params",
     "compiled",

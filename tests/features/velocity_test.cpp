@@ -57,8 +57,8 @@ TEST(AlignWithMotion, IsZeroWhereAFrameMovesAlongTheAxis) {
   const VectorXd from = numbers({.3, 0, 0, 0});
   const VectorXd along_x = numbers({.9, 2. * std::cos(.3), 2. * std::sin(.3), 0});
   const VectorXd along_y = numbers({.9, -2. * std::sin(.3), 2. * std::cos(.3), 0});
-  EXPECT_TRUE(near(over(config, "AlignXWithDiff", {"wheel", "flyer"}, {from, along_x}, 1.), VectorXd::Zero(3), 1e-4));
-  EXPECT_TRUE(near(over(config, "AlignYWithDiff", {"wheel", "flyer"}, {from, along_y}, 1.), VectorXd::Zero(3), 1e-4));
+  EXPECT_TRUE(near(over(config, "AlignXWithDiff", {"wheel", "flyer"}, {from, along_x}, 1.), VectorXd::Zero(3), 1e-8));
+  EXPECT_TRUE(near(over(config, "AlignYWithDiff", {"wheel", "flyer"}, {from, along_y}, 1.), VectorXd::Zero(3), 1e-8));
   const VectorXd across = over(config, "AlignXWithDiff", {"wheel", "flyer"}, {from, along_y}, 1.);
   EXPECT_NEAR(across.norm(), std::sqrt(2.), 1e-4);
 }

@@ -1,6 +1,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <ctime>
 
 #include "kinegraph/base/errors.h"
@@ -208,6 +209,38 @@ TEST(ModeSwitch, StableJointsOfTheSceneAreOneSetOfVariables) {
     std::string where;
     EXPECT_LT(jacobianError(*nlp, *komo, where), 1e-8) << where;
   }
+}
+
+TEST(ModeSwitch, AddedFramesHaveTheLimitsThatTheirJointsSuggest) {
+  const auto limitsOf = [](JointType type, const char* parent) {
+    Komo komo(armAndBox(), 2., 1, 1);
+    komo.addFrameDof("new", parent, type, true);
+    const int own = komo.layout().dimension - 2 * komo.dofs();
+    VectorXd both(2 * own);
+    both << komo.layout().lower.head(own), komo.layout().upper.head(own);
+    return both;
+  };
+  const double turns = 4. * std::acos(0.);
+  EXPECT_EQ(limitsOf(JointType::hingeZ, "grip"), Eigen::Vector2d(-turns, turns));
+  EXPECT_EQ(limitsOf(JointType::transXY, "table"), Eigen::Vector4d(-.8, -.6, .8, .6));
+  EXPECT_EQ(limitsOf(JointType::quatBall, "grip").tail(4), Eigen::Vector4d::Constant(1.1));
+  EXPECT_FALSE(std::isfinite(limitsOf(JointType::transZ, "table")[0])) << "none";
+}
+
+TEST(ModeSwitch, JointLimitsOfTheSceneAreNotThoseOfAddedFrames) {
+  const auto komo = std::make_shared<Komo>(armAndBox(), 2., 1, 1);
+  komo->addFrameDof("spot", "table", JointType::transXY, false);
+  komo->addModeSwitch({2., -1.}, SwitchMode::stable, {"grip", "box"}, false);
+  komo->addObjective({}, FeatureSymbol::jointLimits, {}, ObjectiveType::ineq);
+  EXPECT_EQ(makeNlp(komo)->types().size(), 2u * 4u + 14u) << "two joints per slice, and the grasp once";
+}
+
+TEST(ModeSwitch, ACapsuleBoundsItsGraspByItsLength) {
+  Config config = armAndBox();
+  config.addFrame("stick").setShape(ShapeType::capsule, {.6, .02}).setPose({Vector3d(.3, .2, .63), unitQuaternion({1., 0., 0., 0.})});
+  Komo komo(config, 1., 1, 1);
+  komo.addModeSwitch({1., -1.}, SwitchMode::stable, {"l2", "stick"});
+  EXPECT_DOUBLE_EQ(komo.layout().upper[2], .9 * .6);
 }
 
 TEST(ModeSwitch, TheCostPerEvaluationGrowsLinearlyWithTheSlicesThatShareAGrasp) {

@@ -187,16 +187,6 @@ def test_named_problems_have_the_derivatives_that_they_claim(name):
     assert nlp.checkHessian(x, 1e-4)
 
 
-@pytest.mark.parametrize("name", ["IK", "IKobstacle"])
-def test_the_named_motion_problems_are_solved(name):
-    nlp = ry.make_NLP_Problem(name)
-    ret = ry.NLP_Solver(nlp, verbose=0).solve()
-    assert ret.feasible, ret.message
-    scene = nlp.as_KOMO().getConfiguration(0)
-    reached, goal = scene.getFrame("l_gripper").getPosition(), scene.getFrame("goal").getPosition()
-    assert np.linalg.norm(reached - goal) < 1e-3
-
-
 def test_named_problems_take_a_dimension_and_refuse_other_names():
     assert ry.make_NLP_Problem("Rosenbrock", 5).dimension == 5
     ry.params_add({"problem/dim": 3})

@@ -249,6 +249,27 @@ def test_jacobians_of_contacts(symbol):
     assert nlp.checkJacobian(nlp.getInitializationSample() + 0.01, 1e-4)
 
 
+@pytest.mark.parametrize("order", [1, 2])
+def test_a_ball_is_pushed_from_behind(order):
+    C = ry.Config()
+    C.addFrame("world")
+    C.addFrame("finger", "world").setJoint(ry.JT.trans3).setPosition([-0.2, 0, 1]).setShape(ry.ST.sphere, [0.02])
+    C.addFrame("ball", "world").setJoint(ry.JT.trans3).setPosition([0, 0, 1]).setShape(ry.ST.sphere, [0.1]).setMass(0.1)
+    S = skeleton([1, 2], ry.SY.push, ["finger", "ball"])
+    komo = S.getKomo_path(C, 8) if order == 2 else S.getKomo_waypoints(C)
+    behind = [o for o in komo.report().values() if o.get("name") == "pushRadius"]
+    assert [o["slices"] for o in behind] == [[10, 13] if order == 2 else [1, 1]]
+    nlp = komo.nlp()
+    assert nlp.checkJacobian(nlp.getInitializationSample() + 0.03 * np.cos(np.arange(nlp.dimension)), 1e-4)
+    if order == 2:
+        komo.addObjective([2], ry.FS.position, ["ball"], ry.OT.eq, [10], [0.5, 0.2, 1])
+        assert ry.NLP_Solver(komo.nlp(), verbose=0).solve().feasible
+        before, after = (np.array(komo.getConfiguration(t).getFrame("ball").getPosition()) for t in (10, 11))
+        way = (after - before) / np.linalg.norm(after - before)
+        finger = np.array(komo.getConfiguration(11).getFrame("finger").getPosition())
+        assert way @ (after - finger) / np.linalg.norm(after - finger) > 0.7
+
+
 def test_a_box_held_by_sticking_contacts_balances_its_weight():
     C = ry.Config()
     C.addFrame("world")

@@ -1,5 +1,7 @@
 #include "kinegraph/features/contact_motion.h"
 
+#include <cmath>
+
 #include "kinegraph/features/distance.h"
 #include "kinegraph/features/velocity.h"
 
@@ -163,6 +165,21 @@ void ForceTimesVelocity::eval(std::span<const State* const> states, double tau, 
   JacobianRows later = columnsOf(*J, 1, 2);
   contact_.addJacobian(now, Eigen::RowVector3d(speed / contact_.unit * normal.n.transpose()), later);
   later.leftCols(normal.J.cols()) += (force * v + speed * f).transpose() * normal.J;
+}
+
+void PushRadius::eval(std::span<const State* const> states, double tau, Eigen::Ref<VectorXd> y, JacobianRows* J) const {
+  constexpr double kSlowest = 1e-3;  // m/s; below it the direction fades
+  const State &before = *states[0], &now = *states[1];
+  const Vector3d c = now.position(object_), p = now.position(point_), v = (c - before.position(object_)) / tau;
+  const double speed = std::hypot(v.norm(), kSlowest);
+  y = radius_ / speed * v - (c - p);
+  if (!J) return;
+  const Matrix3d one = Matrix3d::Identity(), none = Matrix3d::Zero();
+  const Matrix3d turn = radius_ / tau * (one / speed - v * v.transpose() / (speed * speed * speed));
+  const Eigen::Index n = J->cols() / 2;
+  now.addJacobian(object_, c, Matrix3d(turn - one), none, J->rightCols(n));
+  now.addJacobian(point_, p, one, none, J->rightCols(n));
+  before.addJacobian(object_, before.position(object_), Matrix3d(-turn), none, J->leftCols(n));
 }
 
 }  // namespace kinegraph

@@ -86,4 +86,19 @@ class ForceTimesVelocity final : public Feature {
   ContactForce contact_;
 };
 
+/// Zero where a point is behind the centre c of a round object of radius r that moves with the velocity v:
+///     y = r v / sqrt(|v|^2 + 1e-6) - (c - p)      3 rows, m
+class PushRadius final : public Feature {
+ public:
+  PushRadius(int point, int object, double radius) : point_(point), object_(object), radius_(radius) {}
+
+  int rows() const override { return 3; }
+  int order() const override { return 1; }
+  void eval(std::span<const State* const> states, double tau, Eigen::Ref<VectorXd> y, JacobianRows* J) const override;
+
+ private:
+  int point_, object_;
+  double radius_;
+};
+
 }  // namespace kinegraph

@@ -12,16 +12,23 @@ std::optional<FeatureSymbol> FeatureSource::symbol() const {
 
 const std::string& FeatureSource::name() const {
   if (const auto* symbol = std::get_if<FeatureSymbol>(&source_)) return featureInfo(*symbol).name;
-  return std::get<1>(source_)->name;
+  if (const FeatureRecipe* known = recipe()) return known->name;
+  return std::get<2>(source_)->name;
+}
+
+const FeatureRecipe* FeatureSource::recipe() const {
+  const auto* known = std::get_if<1>(&source_);
+  return known ? known->get() : nullptr;
 }
 
 const FeatureSource::Make* FeatureSource::maker() const {
-  const auto* own = std::get_if<1>(&source_);
+  const auto* own = std::get_if<2>(&source_);
   return own ? &(*own)->make : nullptr;
 }
 
 std::unique_ptr<Feature> FeatureSource::make(const std::vector<int>& frames, const State& state) const {
-  if (const auto* own = std::get_if<1>(&source_)) return (*own)->make(frames, state);
+  if (const auto* own = std::get_if<2>(&source_)) return (*own)->make(frames, state);
+  if (const FeatureRecipe* known = recipe()) return makeFeature(*known, frames);
   try {
     return makeFeature(std::get<0>(source_), frames, state.program());
   } catch (const ValueError& error) {

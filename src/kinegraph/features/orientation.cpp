@@ -106,4 +106,14 @@ void AxisProduct::addCurvature(const State& state, const VectorXd& weights, Eige
   state.addDirectionCurvature(b_, v, weights[0] * u, H);
 }
 
+void AxisDifference::eval(std::span<const State* const> states, double, Eigen::Ref<VectorXd> y, JacobianRows* J) const {
+  const State& state = *states[0];
+  const Vector3d z = state.pose(a_).R.col(2), other = state.pose(b_).R.col(axis_);
+  y = z - other;
+  if (!J) return;
+  const Matrix3d none = Matrix3d::Zero();
+  state.addJacobian(a_, state.position(a_), none, Matrix3d(-skew(z)), *J);
+  state.addJacobian(b_, state.position(b_), none, skew(other), *J);
+}
+
 }  // namespace kinegraph

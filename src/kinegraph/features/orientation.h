@@ -58,6 +58,18 @@ class AxisProduct final : public Feature {
   int axis_a_, axis_b_, a_, b_;
 };
 
+/// The z axis of frame A less an axis of frame B:  y = R_WA e_z - R_WB e      3 rows
+class AxisDifference final : public Feature {
+ public:
+  AxisDifference(int a, int b, int axis) : a_(a), b_(b), axis_(axis) {}
+
+  int rows() const override { return 3; }
+  void eval(std::span<const State* const> states, double tau, Eigen::Ref<VectorXd> y, JacobianRows* J) const override;
+
+ private:
+  int a_, b_, axis_;
+};
+
 /// E(q) with dq = E(q) w for angular velocity w in the world.
 Eigen::Matrix<double, 4, 3> quaternionRates(const Quaterniond& q);
 

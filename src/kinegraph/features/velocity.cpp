@@ -1,5 +1,7 @@
 #include "kinegraph/features/velocity.h"
 
+#include <cmath>
+
 namespace kinegraph {
 
 namespace {
@@ -32,11 +34,11 @@ void LinearVelocity::eval(std::span<const State* const> states, double tau, Eige
 void AlignWithMotion::eval(std::span<const State* const> states, double, Eigen::Ref<VectorXd> y, JacobianRows* J) const {
   const Vector3d before = states[0]->position(b_), now = states[1]->position(b_), d = now - before;
   const Vector3d axis = states[0]->pose(a_).R.col(axis_);
-  const double norm = d.norm(), soft = norm + 1e-4;
+  constexpr double kShortest = 1e-4;  // m; below it the direction fades
+  const double soft = std::hypot(d.norm(), kShortest);
   y = d / soft - axis;
   if (!J) return;
-  Matrix3d D = Matrix3d::Identity() / soft;
-  if (norm > 0.) D -= d * d.transpose() / (norm * soft * soft);
+  const Matrix3d D = Matrix3d::Identity() / soft - d * d.transpose() / (soft * soft * soft);
   const Matrix3d none = Matrix3d::Zero();
   states[1]->addJacobian(b_, now, D, none, later(*J));
   states[0]->addJacobian(b_, before, -D, none, earlier(*J));

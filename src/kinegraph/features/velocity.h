@@ -32,7 +32,7 @@ class LinearVelocity final : public Feature {
 };
 
 /// Direction in which frame B moves, less an axis of frame A before the move:
-///     y = d / (|d| + 1e-4) - R_WA(t-1) e,  d = p_B(t) - p_B(t-1)      3 rows
+///     y = d / sqrt(|d|^2 + 1e-8) - R_WA(t-1) e,  d = p_B(t) - p_B(t-1)      3 rows
 class AlignWithMotion final : public Feature {
  public:
   AlignWithMotion(int axis, int a, int b) : axis_(axis), a_(a), b_(b) {}

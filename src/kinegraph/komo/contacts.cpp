@@ -90,24 +90,19 @@ std::string Komo::addContact(const std::vector<double>& times, const std::string
     setSlice(t, q.data());
   }
 
-  const auto require = [&](std::string what, FeatureSource feature, std::vector<std::string> frames, ObjectiveType type, double scale) {
-    add({std::move(what), std::move(feature), std::move(frames), type, MatrixXd::Constant(1, 1, scale), {}, 0, times, 0, 0}, 0, 0);
+  const auto require = [&](const FeatureSource& feature, std::vector<std::string> frames, ObjectiveType type, double scale) {
+    add({feature.name(), feature, std::move(frames), type, MatrixXd::Constant(1, 1, scale), {}, 0, times, 0, 0}, 0, 0);
   };
-  using Ids = std::vector<int>;
-  const auto named = [](const char* what, auto make) { return FeatureSource(what, [make](const Ids& f, const State&) { return make(f); }); };
   const auto align = [&](const std::string& body, double sign) {
-    require("pairNormalAlign", named("pairNormalAlign", [sign](const Ids& f) { return std::make_unique<NormalAlignment>(f[0], f[1], sign); }),
-            {name, body}, ObjectiveType::sos, .1);
+    require(FeatureRecipe{"pairNormalAlign", {}, sign}, {name, body}, ObjectiveType::sos, .1);
   };
-  require("distance", FeatureSymbol::distance, {onto, object}, ObjectiveType::ineq, 1e1);
-  require("distance", FeatureSymbol::distance, {object, name}, ObjectiveType::eq, 1e1);
-  require("distance", FeatureSymbol::distance, {onto, name}, ObjectiveType::eq, 1e1);
-  require("pairNormalsOppose", named("pairNormalsOppose", [](const Ids& f) { return std::make_unique<NormalsOppose>(f[0], f[1], f[2]); }),
-          {object, onto, name}, ObjectiveType::sos, 1e1);
+  require(FeatureSymbol::distance, {onto, object}, ObjectiveType::ineq, 1e1);
+  require(FeatureSymbol::distance, {object, name}, ObjectiveType::eq, 1e1);
+  require(FeatureSymbol::distance, {onto, name}, ObjectiveType::eq, 1e1);
+  require(FeatureRecipe{"pairNormalsOppose"}, {object, onto, name}, ObjectiveType::sos, 1e1);
   align(object, 1.);
   align(onto, -1.);
-  require("frictionCone", named("frictionCone", [contact, friction](const Ids&) { return std::make_unique<FrictionCone>(contact, friction); }),
-          {object, onto, name}, ObjectiveType::ineq, 1.);
+  require(FeatureRecipe{"frictionCone", contact, friction}, {object, onto, name}, ObjectiveType::ineq, 1.);
   contacts_.push_back(contact);
   return name;
 }

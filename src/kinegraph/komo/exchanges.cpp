@@ -2,7 +2,6 @@
 
 #include "kinegraph/base/errors.h"
 #include "kinegraph/base/text.h"
-#include "kinegraph/features/contact_motion.h"
 #include "kinegraph/features/distance.h"
 #include "kinegraph/kinematics/dynamics.h"
 #include "kinegraph/komo/komo.h"
@@ -11,13 +10,8 @@ namespace kinegraph {
 
 namespace {
 
-constexpr double kElasticity = .9, kFriction = .5;
+constexpr double kElasticity = .9;
 constexpr double kFirstForce = .1;  ///< in weights; not zero, where a cone of friction has its tip
-
-template <class Made, class... Rest>
-FeatureSource source(const char* name, const ContactForce& contact, Rest... rest) {
-  return {name, [=](const std::vector<int>&, const State&) { return std::make_unique<Made>(contact, rest...); }};
-}
 
 Vector3d nearest(const State& state, Witness::Kind kind, int object, int onto) {
   const State* states[] = {&state};
@@ -28,13 +22,22 @@ Vector3d nearest(const State& state, Witness::Kind kind, int object, int onto) {
 
 }  // namespace
 
-std::string Komo::addExchange(const std::vector<double>& times, const std::string& object, const std::string& onto, Exchange kind) {
+Komo::Exchange exchangeFromName(const std::string& name) {
+  static const std::vector<std::string> names = {"slide", "stick", "complementary", "bounce"};
+  const auto place = std::find(names.begin(), names.end(), name);
+  if (place == names.end()) throw NameError(cat("there is no contact of kind '", name, "'", similarHint(name, names), "; there are ", join(names)));
+  return Komo::Exchange(place - names.begin());
+}
+
+std::string Komo::addExchange(const std::vector<double>& times, const std::string& object, const std::string& onto, Exchange kind,
+                              double friction) {
   requireBuilt("addExchange");
   const Program& before = state(-order_).program();
   ContactForce contact;
   contact.object = frameId(before, object, "contact");
   contact.onto = frameId(before, onto, "contact");
   if (contact.object == contact.onto) throw ValueError(cat("contact: '", object, "' cannot push itself"));
+  if (!(friction > 0.)) throw ValueError(cat("contact: the coefficient of friction is ", friction, "; expected a positive number"));
   if (kind == Exchange::bounce && order_ < 2) {
     throw ValueError(cat("bounce of '", object, "' off '", onto, "': speeds before and after it need a KOMO with kOrder 2; this one has ", order_));
   }
@@ -79,10 +82,8 @@ std::string Komo::addExchange(const std::vector<double>& times, const std::strin
     require(FeatureSymbol::distance, {onto, name}, eq, scale);
     require(FeatureSymbol::distance, pair, eq, 1e1);
   };
-  const FeatureSource along_normal("forceAlongNormal", [contact](const std::vector<int>&, const State&) {
-    return std::make_unique<TangentialForce>(contact.object, contact.onto, std::vector<ContactForce>{contact});
-  });
-  const FeatureSource pulling = source<PullingForce>("pullingForce", contact), force = source<ForceValue>("force", contact);
+  const auto about = [&](const char* what, double parameter = 0.) { return FeatureSource(FeatureRecipe{what, contact, parameter}); };
+  const FeatureSource along_normal = about("forceAlongNormal"), pulling = about("pullingForce"), force = about("force");
   const int smooth = std::min(order_, 2);
   switch (kind) {
     case Exchange::slide:
@@ -92,15 +93,18 @@ std::string Komo::addExchange(const std::vector<double>& times, const std::strin
       break;
     case Exchange::stick:
       touch(1e2);
-      require(pulling, pair, ineq, 1e1);
-      if (order_ >= 1) require(source<SlidingVelocity>("slidingVelocity", contact), pair, eq, 1., 1, 1);
-      if (order_ == 0) require(source<FrictionCone>("frictionCone", contact, kFriction), pair, ineq, 1.);
+      if (order_ == 0) {  // the cone points away from the other body
+        require(about("frictionCone", friction), pair, ineq, 1.);
+      } else {
+        require(pulling, pair, ineq, 1e1);
+        require(about("slidingVelocity"), pair, eq, 1., 1, 1);
+      }
       break;
     case Exchange::complementary:
       require(along_normal, pair, eq, 1e2);
       require(pulling, pair, ineq, 1e2);
-      require(source<ForceTimesDistance>("forceTimesDistance", contact), pair, eq, 1e2);
-      if (order_ >= 1) require(source<ForceTimesVelocity>("forceTimesVelocity", contact), pair, eq, 1e2, 1);
+      require(about("forceTimesDistance"), pair, eq, 1e2);
+      if (order_ >= 1) require(about("forceTimesVelocity"), pair, eq, 1e2, 1);
       require(FeatureSymbol::distance, pair, ineq, 1e1);
       break;
     case Exchange::bounce:
@@ -109,7 +113,7 @@ std::string Komo::addExchange(const std::vector<double>& times, const std::strin
       require(pulling, pair, ineq, 1e1);
       if (to + 1 < slices_) {
         const double after = double(to + 2) / slices_per_phase_;
-        add({"elasticBounce", source<ElasticBounce>("elasticBounce", contact, kElasticity), pair, eq, MatrixXd::Constant(1, 1, 1e1), {}, 2,
+        add({"elasticBounce", about("elasticBounce", kElasticity), pair, eq, MatrixXd::Constant(1, 1, 1e1), {}, 2,
              {after}, 0, 0}, 0, 0);
       }
       break;

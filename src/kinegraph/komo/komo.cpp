@@ -141,11 +141,16 @@ std::unique_ptr<Feature> Komo::featureIn(const Objective& objective, int slice) 
     }
     case FeatureSymbol::jointLimits: {
       if (!ids.empty() || layout_.plain) break;
-      std::set<int> dofs;
+      std::set<int> dofs;  // of the frames as given, not of those that were added: bounds limit these
       const auto insert = [&](const Program::DofRange& range) {
         for (int i = range.first; i < range.first + range.count; ++i) dofs.insert(i);
       };
-      for (const Program::DofRange& range : layout_.owned[slice + order_]) insert(range);
+      std::set<int> owned;
+      for (const Program::DofRange& range : layout_.owned[slice + order_]) owned.insert(range.first);
+      for (std::size_t frame = 0; frame < base_->frames().size(); ++frame) {
+        const Program::DofRange& range = program.frame_dofs[frame];
+        if (range.count > 0 && owned.contains(range.first)) insert(range);
+      }
       for (int frame : stable_) insert(program.frame_dofs[frame]);
       return std::make_unique<JointLimits>(std::vector<int>(dofs.begin(), dofs.end()), program);
     }

@@ -68,6 +68,7 @@ class Komo {
     std::vector<Structure> modes;
     std::vector<int> mode_of, shown_frames;
     std::vector<Objective> objectives;
+    std::vector<ContactForce> contacts;
     std::vector<VectorXd> states;  ///< q of all slices, those before the start first
   };
   Parts parts() const;
@@ -125,14 +126,15 @@ class Komo {
   /// What a contact that moves along both surfaces does to the bodies.
   enum class Exchange {
     slide,          ///< they touch; the force is along the normal
-    stick,          ///< they touch and do not slide; at kOrder 0 the force is within the cone of friction (0.5)
+    stick,          ///< they touch and do not slide; at kOrder 0 the force is within the cone of friction
     complementary,  ///< they do not overlap; the force is along the normal where they touch, and zero elsewhere
     bounce,         ///< they touch in the first of the slices and fly apart with 0.9 of the speed; kOrder 2
   };
 
   /// In the slices that `times` selects, `object` and `onto` may push each other: six more dofs per slice, the point where they
   /// do and the force on `object` there. Adds what the kind demands, and small costs on both. Returns the name of the point.
-  std::string addExchange(const std::vector<double>& times, const std::string& object, const std::string& onto, Exchange kind);
+  std::string addExchange(const std::vector<double>& times, const std::string& object, const std::string& onto, Exchange kind,
+                          double friction = .5);
 
   std::vector<Interaction> interactions() const;
 
@@ -244,6 +246,9 @@ class Komo {
   std::vector<ContactForce> contacts_;
   std::vector<std::string> warnings_;
 };
+
+/// slide, stick, complementary or bounce. Throws NameError for other names, with those that are near.
+Komo::Exchange exchangeFromName(const std::string& name);
 
 /// The problem of a Komo, for a solver. It keeps the Komo alive, and leaves it at the point last evaluated. Objectives that
 /// are added to the Komo later are not part of it; after a later change of the structure it throws Error.

@@ -30,6 +30,7 @@ Komo::Parts Komo::parts() const {
   parts.mode_of = mode_of_;
   parts.shown_frames = shown_frames_;
   parts.objectives = objectives_;
+  parts.contacts = contacts_;
   for (const State& state : states_) parts.states.push_back(state.q());
   return parts;
 }
@@ -56,6 +57,7 @@ Komo::Komo(Parts parts) {
   mode_of_ = std::move(parts.mode_of);
   layout_ = makeLayout(states_, order_, stable_, modes_, mode_of_);
   objectives_ = std::move(parts.objectives);
+  contacts_ = std::move(parts.contacts);
 }
 
 }  // namespace kinegraph

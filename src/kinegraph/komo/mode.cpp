@@ -37,9 +37,7 @@ namespace {
 
 bool isBox(const Frame& frame) { return frame.getShapeType() == ShapeType::ssBox || frame.getShapeType() == ShapeType::box; }
 
-bool isRound(ShapeType type) {
-  return type == ShapeType::sphere || type == ShapeType::cylinder || type == ShapeType::ssCylinder || type == ShapeType::capsule;
-}
+bool isRound(ShapeType type) { return type == ShapeType::sphere || type == ShapeType::cylinder || type == ShapeType::ssCylinder; }
 
 /// Largest extent of a frame's shape, m; 0 without one.
 double extent(const Frame& frame) {
@@ -88,6 +86,28 @@ void limitFreeJoint(Attachment& attachment, const Frame& parent, const Frame* ob
 void limitSliding(Attachment& attachment, double half_x, double half_y) {
   attachment.upper = Vector3d(half_x, half_y, 2. * std::numbers::pi);
   attachment.lower = -attachment.upper;
+}
+
+void limitByType(Attachment& attachment, const Frame& parent) {
+  const std::vector<double> size = parent.getSize();
+  const auto symmetric = [&](const VectorXd& upper) {
+    attachment.upper = upper;
+    attachment.lower = -upper;
+  };
+  switch (attachment.type) {
+    case JointType::free: return limitFreeJoint(attachment, parent, nullptr);
+    case JointType::hingeX:
+    case JointType::hingeY:
+    case JointType::hingeZ: return symmetric(VectorXd::Constant(1, 2. * std::numbers::pi));
+    case JointType::quatBall: return symmetric(VectorXd::Constant(4, 1.1));
+    case JointType::transXY:
+      if (isBox(parent)) symmetric(.5 * Eigen::Vector2d(size[0], size[1]));
+      return;
+    case JointType::transXYPhi:
+      if (isBox(parent)) limitSliding(attachment, .5 * size[0], .5 * size[1]);
+      return;
+    default: return;
+  }
 }
 
 bool isAttachment(SwitchMode mode) {

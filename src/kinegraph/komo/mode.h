@@ -49,6 +49,10 @@ void limitFreeJoint(Attachment& attachment, const Frame& parent, const Frame* ob
 /// Limits of a transXYPhi joint that slides on a face with these half extents.
 void limitSliding(Attachment& attachment, double half_x, double half_y);
 
+/// Limits of a joint of its type that a frame is given below `parent`: two turns of a hinge, the face of a box for joints that
+/// slide in the plane, the size of the parent for free ones. Empty where nothing suggests any.
+void limitByType(Attachment& attachment, const Frame& parent);
+
 /// The structure of the scene in some slices of a motion: a scene, and which of its joints the motion problem has added.
 /// All modes of a problem have the same frames in the same order.
 struct Mode {

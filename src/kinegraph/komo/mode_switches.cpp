@@ -181,11 +181,7 @@ void Komo::addFrameDof(const std::string& name, const std::string& parent, Joint
     Attachment attachment;
     attachment.type = type;
     attachment.stable = stable;
-    if (type == JointType::free) limitFreeJoint(attachment, anchor, nullptr);
-    const std::vector<double> size = anchor.getSize();
-    if (type == JointType::transXYPhi && (anchor.getShapeType() == ShapeType::ssBox || anchor.getShapeType() == ShapeType::box)) {
-      limitSliding(attachment, .5 * size[0], .5 * size[1]);
-    }
+    limitByType(attachment, anchor);
     addJoint(frame, attachment, Pose());
     if (frame.moves()) mode->added[frame.id] = {joint, stable, below};
     scene.structureChanged();

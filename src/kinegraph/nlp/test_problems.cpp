@@ -10,6 +10,7 @@
 
 #include "kinegraph/base/errors.h"
 #include "kinegraph/base/text.h"
+#include "kinegraph/nlp/convex_core.h"
 
 namespace kinegraph {
 
@@ -195,36 +196,34 @@ std::shared_ptr<Nlp> linearProgram(int n, Rng& rng) {
 /// Centres of spheres in a row: x y z x y z ...
 class SpherePacking final : public Nlp {
  public:
-  static constexpr double kDiameter = .4;
+  static constexpr double kRadius = .21, kHeight = 16.;
 
   explicit SpherePacking(int count) : count_(count) {
-    types_.assign(std::size_t(count), f);
-    types_.insert(types_.end(), std::size_t(count) * std::size_t(count - 1) / 2, ineq);
-    const Vector3d half(1. - .5 * kDiameter, 1. - .5 * kDiameter, 0.);
-    lower_ = (-half + Vector3d(0., 0., .5 * kDiameter)).replicate(count, 1);
-    upper_ = (half + Vector3d(0., 0., std::max(2., .1 * count))).replicate(count, 1);
+    types_.assign(std::size_t(count) * std::size_t(count - 1) / 2, ineq);
+    types_.insert(types_.end(), std::size_t(count), f);
+    const Vector3d inner(kRadius, kRadius, kRadius);
+    lower_ = (Vector3d(-1., -1., 0.) + inner).replicate(count, 1);
+    upper_ = (Vector3d(1., 1., kHeight) - inner).replicate(count, 1);
   }
 
   Jacobian makeJacobian() const override {
     Jacobian J;
     J.columns = dimension();
-    for (int i = 0; i < count_; ++i) J.addRow({{3 * i + 2, 1}});
     for (int i = 0; i < count_; ++i) {
-      for (int j = 0; j < i; ++j) J.addRow({{3 * i, 3}, {3 * j, 3}});
+      for (int j = i + 1; j < count_; ++j) J.addRow({{3 * i, 3}, {3 * j, 3}});
     }
+    for (int i = 0; i < count_; ++i) J.addRow({{3 * i + 2, 1}});
     return J;
   }
 
   void evaluate(const VectorXd& x, VectorXd& phi, Jacobian* J) override {
     phi.resize(Eigen::Index(types_.size()));
-    for (int i = 0; i < count_; ++i) phi[i] = x[3 * i + 2];
-    if (J) std::fill(J->values.begin(), J->values.begin() + count_, 1.);
-    int row = count_;
+    int row = 0;
     for (int i = 0; i < count_; ++i) {
-      for (int j = 0; j < i; ++j, ++row) {
+      for (int j = i + 1; j < count_; ++j, ++row) {
         const Vector3d way = x.segment<3>(3 * i) - x.segment<3>(3 * j);
         const double distance = way.norm();
-        phi[row] = kDiameter - distance;
+        phi[row] = 2. * kRadius - distance;
         if (!J) continue;
         const Vector3d n = distance > 0. ? Vector3d(way / distance) : Vector3d::UnitX();
         double* values = J->values.data() + J->row_segments(row)[0].offset;
@@ -234,6 +233,8 @@ class SpherePacking final : public Nlp {
         }
       }
     }
+    for (int i = 0; i < count_; ++i) phi[row + i] = x[3 * i + 2];
+    if (J) std::fill(J->values.end() - count_, J->values.end(), 1.);
   }
 
   bool addCostHessian(const VectorXd&, MatrixXd&) override { return true; }
@@ -244,12 +245,13 @@ class SpherePacking final : public Nlp {
 };
 
 std::shared_ptr<Nlp> spherePacking(int count, Rng&) { return std::make_shared<SpherePacking>(count); }
+std::shared_ptr<Nlp> minimalConvexCore(int, Rng&) { return makeMinimalConvexCore(); }
 
 const std::map<std::string, std::shared_ptr<Nlp> (*)(int, Rng&)>& makers() {
   static const std::map<std::string, std::shared_ptr<Nlp> (*)(int, Rng&)> all = {
       {"square", square}, {"Rugged", rugged}, {"Rastrigin", rastrigin}, {"Rosenbrock", rosenbrock}, {"Ackley", ackley},
       {"Himmelblau", himmelblau}, {"Box", box}, {"Modes", modes}, {"Wedge", wedge}, {"HalfCircle", halfCircle},
-      {"LinearProgram", linearProgram}, {"SpherePacking", spherePacking}};
+      {"LinearProgram", linearProgram}, {"SpherePacking", spherePacking}, {"MinimalConvexCore", minimalConvexCore}};
   return all;
 }
 

@@ -8,7 +8,7 @@
 namespace kinegraph {
 
 struct TestProblemOptions {
-  int dimension = -1;      ///< number of variables, of spheres for SpherePacking; < 0: 2, or 50 spheres
+  int dimension = -1;      ///< number of variables, of spheres for SpherePacking; < 0: 2, 50 spheres, or what the problem has
   std::uint64_t seed = 0;  ///< of those that are drawn by chance: square, Rugged, LinearProgram
 };
 
@@ -25,7 +25,8 @@ struct TestProblemOptions {
 ///   Wedge          sum x  with  1.5 x_i - sum x <= .2                                           -.8 at (-.4, -.4)
 ///   HalfCircle     sum x  with  |x|^2 <= .25, x_0 >= -.2                                        -.658258 at (-.2, -.458258)
 ///   LinearProgram  random linear costs and 15 constraints, 0 feasible
-///   SpherePacking  sum of the heights of spheres of diameter .4 in a well of 2 x 2, which do not overlap
+///   SpherePacking  sum of the heights of spheres of radius .21 in a well of 2 x 2, 16 high, which do not overlap
+///   MinimalConvexCore  of 54 variables, see convex_core.h
 ///
 /// Throws NameError for other names, with those that are near; ValueError for a dimension that makes no sense.
 std::shared_ptr<Nlp> makeTestProblem(const std::string& name, const TestProblemOptions& options = {});

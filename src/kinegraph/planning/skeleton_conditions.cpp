@@ -23,26 +23,6 @@ MatrixXd entryOf(int axis, double scale) {
   return row;
 }
 
-/// The z axis of one frame less the x, y or z axis of another: y = R_WA e_z - R_WB e      3 rows
-class AxisDifference final : public Feature {
- public:
-  AxisDifference(int a, int b, int axis) : a_(a), b_(b), axis_(axis) {}
-
-  int rows() const override { return 3; }
-  void eval(std::span<const State* const> states, double, Eigen::Ref<VectorXd> y, JacobianRows* J) const override {
-    const State& state = *states[0];
-    const Vector3d z = state.pose(a_).R.col(2), other = state.pose(b_).R.col(axis_);
-    y = z - other;
-    if (!J) return;
-    const Matrix3d none = Matrix3d::Zero();
-    state.addJacobian(a_, state.position(a_), none, Matrix3d(-skew(z)), *J);
-    state.addJacobian(b_, state.position(b_), none, skew(other), *J);
-  }
-
- private:
-  int a_, b_, axis_;
-};
-
 /// The product of the x, y or z axis of one frame with that of another.
 F product(int a, int b) {
   constexpr std::array<F, 9> symbols = {F::scalarProductXX, F::scalarProductXY, F::scalarProductXZ, F::scalarProductYX, F::scalarProductYY,
@@ -76,10 +56,10 @@ class Conditions {
         for (const std::string& frame : f_) lift(frame);
         return;
       case M::relPosY: return require(during, F::positionRel, f_, eq, entryOf(1, 1e2));
-      case M::contact: return exchange(Komo::Exchange::slide);
-      case M::contactStick: return exchange(Komo::Exchange::stick);
-      case M::contactComplementary: return exchange(Komo::Exchange::complementary);
-      case M::bounce: return exchange(Komo::Exchange::bounce);
+      case M::contact: return void(exchange(Komo::Exchange::slide));
+      case M::contactStick: return void(exchange(Komo::Exchange::stick));
+      case M::contactComplementary: return void(exchange(Komo::Exchange::complementary));
+      case M::bounce: return void(exchange(Komo::Exchange::bounce));
       case M::push: return push(during);
       case M::topBoxGrasp:
         require(at, F::positionDiff, f_, eq, number(1e2));
@@ -124,7 +104,7 @@ class Conditions {
     return size_ = frame.getSize();
   }
 
-  void exchange(Komo::Exchange kind) { komo_.addExchange({from_, to_}, f_[1], f_[0], kind); }
+  std::string exchange(Komo::Exchange kind) { return komo_.addExchange({from_, to_}, f_[1], f_[0], kind); }
 
   /// The lower one's top and what rests on it: round things lie, others stand.
   void restingOn(const std::vector<double>& during) {
@@ -159,8 +139,22 @@ class Conditions {
     if (komo_.order() >= 2) requireNear(from_ + .3, from_ + .7, F::position, {frame}, ineqP, entryOf(2, -1e1), Vector3d(0., 0., .4));
   }
 
+  /// The radius of the object that is pushed, if it is a ball or a capsule; else 0.
+  double roundness() const {
+    const Frame object = scene_.getFrame(f_[1]);
+    if (object.getShapeType() == ShapeType::sphere) return object.getSize()[0];
+    return object.getShapeType() == ShapeType::capsule ? object.getSize()[1] : 0.;
+  }
+
   void push(const std::vector<double>& during) {
-    exchange(Komo::Exchange::slide);
+    const std::string point = exchange(Komo::Exchange::slide);
+    if (const double radius = roundness(); radius > 0. && komo_.order() >= 1 && (to_ < 0. || to_ >= from_ + .8)) {
+      const double margin = komo_.order() == 1 ? 0. : .2, later = 1. / komo_.slicesPerPhase();
+      const std::vector<double> times = {from_ + margin + later, to_ < 0. ? -1. : to_ - margin};
+      if (const auto [first, last] = komo_.selectSlices(times); first <= last) {
+        komo_.addObjective(times, FeatureRecipe{"pushRadius", {}, radius}, {point, f_[1]}, sos, number(1.));
+      }
+    }
     if (komo_.order() < 2) return;
     require(during, F::position, {f_[1]}, sos, number(.3), {}, 2);
     for (const std::string& frame : f_) require({to_}, F::pose, {frame}, eq, number(1.), {}, 1);
@@ -188,10 +182,7 @@ class Conditions {
     Vector3d on_face = Vector3d::Zero();
     on_face[axis] = .5 * boxOf(f_[1])[std::size_t(axis)];
     require(at, F::positionRel, f_, eq, entryOf(axis, 1e2), on_face);
-    const FeatureSource along("axisDifference", [axis](const std::vector<int>& frames, const State&) {
-      return std::make_unique<AxisDifference>(frames[0], frames[1], axis);
-    });
-    komo_.addObjective(at, along, f_, eq, number(1e2));
+    komo_.addObjective(at, FeatureRecipe{"axisDifference", {}, double(axis)}, f_, eq, number(1e2));
     MatrixXd inside = MatrixXd::Constant(6, 1, 1e1);
     inside(axis) = inside(axis + 3) = 0.;
     require(during, F::insideBox, f_, ineq, inside);
