@@ -9,6 +9,7 @@ which is then awaited. Wall-clock time from the signal to the end; the machine s
 """
 
 import argparse
+import signal
 import subprocess
 import sys
 from time import perf_counter, sleep
@@ -166,6 +167,7 @@ def main() -> int:
     parser.add_argument("--times", type=int, default=50)
     parser.add_argument("--only", default="")
     options = parser.parse_args()
+    signal.signal(signal.SIGINT, signal.default_int_handler)  # also where a shell runs this in the background
     rng = np.random.default_rng(0)
     sender = subprocess.Popen([sys.executable, "-c", SENDER], stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True)
     failed = False

@@ -159,9 +159,13 @@ void bindNlp(nb::module_& m) {
              const ErrorSums s = sumErrors(nlp.types(), phi.values);
              return toNumpy(VectorXd(Vector4d(s.f, s.sos, s.ineq, s.eq)));
            }, "phi"_a, "Sums over residuals: f, sos, ineq, eq.")
-      .def("explain", [](Nlp& nlp, const Numbers& x, double tolerance) { return explainInterruptibly(nlp, x.values, tolerance).str(); }, "x"_a,
+      .def("explain", [](Nlp& nlp, const Numbers& x, double tolerance) {
+             return explainInterruptibly(nlp, x.values, tolerance).str();
+           }, "x"_a,
            "tolerance"_a = 1e-3, "In words: which constraints contradict each other around x, by how much, and what helps.")
-      .def("conflicts", [](Nlp& nlp, const Numbers& x, double tolerance) { return toDicts(explainInterruptibly(nlp, x.values, tolerance)); }, "x"_a,
+      .def("conflicts", [](Nlp& nlp, const Numbers& x, double tolerance) {
+             return toDicts(explainInterruptibly(nlp, x.values, tolerance));
+           }, "x"_a,
            "tolerance"_a = 1e-3, "What explain says, as a list of dicts.")
       .def("report", &Nlp::report, "verbose"_a = 1, "A line about the problem.");
 

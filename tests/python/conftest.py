@@ -5,11 +5,15 @@ import os
 os.environ["KINEGRAPH_HEADLESS"] = "1"
 
 import json
+import signal
 from pathlib import Path
 
 import pytest
 
 import kinegraph as ry
+
+# A shell starts what runs in its background without Ctrl-C: Python then raises no KeyboardInterrupt, and the tests of that wait in vain.
+signal.signal(signal.SIGINT, signal.default_int_handler)
 
 DATA = Path(__file__).parent.parent / "data"
 

@@ -6,6 +6,7 @@
 #include <limits>
 #include <vector>
 
+#include "kinegraph/base/text.h"
 #include "kinegraph/nlp/callback_nlp.h"
 #include "kinegraph/solvers/methods.h"
 #include "kinegraph/solvers/nlp_solver.h"
@@ -40,9 +41,13 @@ struct Interrupted {
   Interrupted(const Interrupted&) = delete;
 };
 
-bool wantsNoConstraints(OptMethod method) {
+std::vector<ObjectiveType> typesFor(OptMethod method) {
   using M = OptMethod;
-  return method == M::newton || method == M::LBFGS || method == M::gradientDescent || method == M::rprop || method == M::NelderMead || method == M::CMA;
+  for (const M one : {M::newton, M::LBFGS, M::gradientDescent, M::rprop, M::NelderMead, M::CMA}) {
+    if (method == one) return {sos, sos};
+  }
+  if (method == M::slackGN || method == M::slackGN_logBarrier) return {ineq, ineq, ineq};
+  return {sos, sos, ineq};
 }
 
 }  // namespace
@@ -72,11 +77,9 @@ TEST(BestSoFar, ConstraintsComeBeforeCostsAndWhatIsNotFiniteDoesNotCount) {
 
 TEST(BestSoFar, EveryMethodGivesItWhereAnEvaluationIsCancelledAndGoesOnAfterwards) {
   for (const OptMethod method : availableMethods()) {
-    const std::vector<ObjectiveType> types = wantsNoConstraints(method)                                                  ? std::vector{sos, sos}
-                                             : method == OptMethod::slackGN || method == OptMethod::slackGN_logBarrier ? std::vector{ineq, ineq, ineq}
-                                                                                                                         : std::vector{sos, sos, ineq};
     for (int fails_at = 1; fails_at <= 12; ++fails_at) {
-      Interrupted problem(types, fails_at);
+      Interrupted problem(typesFor(method), fails_at);
+      const std::string what = cat(optMethodName(method), " at ", fails_at);
       NlpSolver solver(problem.nlp, 0);
       solver.options.method = method;
       solver.setInitialization(Vector2d(3., -2.));
@@ -90,15 +93,15 @@ TEST(BestSoFar, EveryMethodGivesItWhereAnEvaluationIsCancelledAndGoesOnAfterward
       }
       if (problem.evals < fails_at) break;  // it takes fewer
       if (nothing) {
-        EXPECT_LE(fails_at, 3) << optMethodName(method) << ": there was no value yet";
+        EXPECT_LE(fails_at, 3) << what << ": there was no value yet";
       } else {
-        EXPECT_EQ(result.status, SolverStatus::cancelled) << optMethodName(method) << " at " << fails_at;
-        EXPECT_NE(std::ranges::find(problem.seen, result.x), problem.seen.end()) << optMethodName(method) << " at " << fails_at;
+        EXPECT_EQ(result.status, SolverStatus::cancelled) << what;
+        EXPECT_NE(std::ranges::find(problem.seen, result.x), problem.seen.end()) << what;
         EXPECT_EQ(solver.x, result.x);
       }
       const SolverResult rest = solver.solve(false, rng);
-      EXPECT_TRUE(rest.done && rest.status != SolverStatus::cancelled) << optMethodName(method) << " at " << fails_at << ": " << rest.message;
-      EXPECT_TRUE(rest.feasible || method == OptMethod::singleSquaredPenalty) << optMethodName(method) << " at " << fails_at;
+      EXPECT_TRUE(rest.done && rest.status != SolverStatus::cancelled) << what << ": " << rest.message;
+      EXPECT_TRUE(rest.feasible || method == OptMethod::singleSquaredPenalty) << what;
     }
   }
 }

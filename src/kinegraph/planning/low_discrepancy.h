@@ -15,7 +15,7 @@ class LowDiscrepancy {
  public:
   LowDiscrepancy(int dimension, std::uint64_t seed) : step_(dimension), shift_(dimension) {
     double phi = 2.;
-    for (double before = 0.; std::abs(phi - before) > 1e-15;) {
+    for (double before = 0.; dimension > 0 && std::abs(phi - before) > 1e-15;) {  // without dimensions there is no root
       before = phi;
       phi = std::pow(1. + phi, 1. / (dimension + 1.));
     }
