@@ -109,7 +109,6 @@ Interruption::~Interruption() {
 }
 
 bool Interruption::operator()(const VectorXd&, const VectorXd& phi) {
-  constexpr int kSeldom = 4;  // reading the clock takes a tenth of a small evaluation
   if (++evals_ < next_look_) return !here_.wasPressed();
   const auto now = Clock::now();
   next_look_ = evals_ + (now - looked_ < std::chrono::milliseconds(1) ? kSeldom : 1);

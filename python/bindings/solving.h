@@ -47,12 +47,13 @@ class Interruption {
 
  private:
   using Clock = std::chrono::steady_clock;
+  static constexpr int kSeldom = 4;  ///< reading the clock takes a tenth of a small evaluation
   void draw(const VectorXd& phi, double seconds);
 
   SolvingHere& here_;
   const char* what_;
   const Nlp& nlp_;
-  int verbose_, evals_ = 0, next_look_ = 1;
+  int verbose_, evals_ = 0, next_look_ = kSeldom;
   double drawn_at_ = 0.;  ///< seconds after the start; 0: not yet
   Clock::time_point start_ = Clock::now(), asked_ = start_, looked_ = start_;
 };

@@ -139,11 +139,14 @@ FrameData* SceneTree::append(const SceneTree& other, const std::string& prefix, 
 /// Takes over what edits change that keep the structure: joints, and the rest where it may have changed.
 void SceneTree::bringUpToDate(Snapshot& snapshot) const {
   const std::vector<std::shared_ptr<FrameData>>& copies = snapshot.scene->frames_;
-  for (std::size_t i = 0; i < frames_.size(); ++i) {
+  const bool just_dofs = !snapshot.is_stale && compiled_revision_ == structure_revision_;
+  if (just_dofs) {
+    for (const FrameData* frame : dof_frames_) copies[std::size_t(frame->id)]->joint->q = frame->joint->q;
+  }
+  for (std::size_t i = 0; i < frames_.size() && !just_dofs; ++i) {
     const FrameData& source = *frames_[i];
     FrameData& copy = *copies[i];
     if (source.joint) copy.joint->q = source.joint->q;
-    if (!snapshot.is_stale) continue;
     copy.pose = source.pose;
     copy.inertia = source.inertia;
     if (copy.shape && copy.shape->revision != source.shape->revision) *copy.shape = *source.shape;

@@ -254,7 +254,7 @@ void AugmentedLagrangian::iterate() {
     const double h = model_.largestCurvature(), vc = optimalityError(), violation = here_.violation;
     box();
     const LocalModel::Problem problem{here_.c, lambda_, mu_, nu, low_, high_, passes};
-    if (model_is_stale && step > 0 && vc <= tolerance_ && nu <= .1 * h && trouble_.empty() && model_.estimateStep(problem) <= .5 * tolerance) {
+    if (model_is_stale && step > 0 && vc <= tolerance_ && nu <= .1 * h && trouble_.empty() && model_.estimateStep(problem) <= tolerance) {
       return converge(nu);
     }
     if (model_is_stale) addCurvature();
