@@ -28,7 +28,8 @@ BandAlgebra::BandAlgebra(const Nlp& nlp, const Jacobian& pattern, const std::vec
 double BandAlgebra::largestRise(int j, const Vector& low, const Vector& high) const {
   double rise = 0.;
   for (const Jacobian::Segment& segment : J_->row_segments(constraints_[std::size_t(j)])) {
-    const double *J = J_->values.data() + segment.offset, *to_low = low.data() + segment.column, *to_high = high.data() + segment.column;
+    const double *J = J_->values.data() + segment.offset, *to_low = low.data() + segment.column,
+                 *to_high = high.data() + segment.column;
     for (int i = 0; i < segment.width; ++i) {
       if (J[i] != 0.) rise += J[i] * (J[i] > 0. ? to_high[i] : to_low[i]);
     }
@@ -39,7 +40,8 @@ double BandAlgebra::largestRise(int j, const Vector& low, const Vector& high) co
 int BandAlgebra::firstColumn(int j) const {
   if (reordered_ || K_.border() > 0) return 0;
   int first = n_;
-  for (const Jacobian::Segment& segment : J_->row_segments(constraints_[std::size_t(j)])) first = std::min(first, segment.column);
+  for (const Jacobian::Segment& segment : J_->row_segments(constraints_[std::size_t(j)]))
+    first = std::min(first, segment.column);
   return first;
 }
 
@@ -55,7 +57,8 @@ void BandAlgebra::addRow(BandedMatrix& matrix, int row, double weight, int from)
       runs_.push_back({values + start, place, end - start});
     }
   }
-  if (runs_.size() > 1) std::sort(runs_.begin(), runs_.end(), [](const Run& a, const Run& b) { return a.place < b.place; });
+  if (runs_.size() > 1)
+    std::sort(runs_.begin(), runs_.end(), [](const Run& a, const Run& b) { return a.place < b.place; });
   for (std::size_t a = 0; a < runs_.size(); ++a) {
     const Run& u = runs_[a];
     matrix.addOuterProduct(u.values, u.place, u.width, weight, from);
@@ -99,7 +102,8 @@ void BandAlgebra::addBlocksTo(BandedMatrix& matrix, int from) const {
 void BandAlgebra::addHessianProduct(const Vector& d, Vector& sum) {
   for (const Block& block : blocks_) {
     const Eigen::Index width = block.lower->rows();
-    sum.segment(block.column, width).noalias() += block.lower->selfadjointView<Eigen::Lower>() * d.segment(block.column, width);
+    sum.segment(block.column, width).noalias() +=
+        block.lower->selfadjointView<Eigen::Lower>() * d.segment(block.column, width);
   }
   if (!reordered_) return H_->addProduct(d, sum);
   for (Eigen::Index i = 0; i < d.size(); ++i) placed_[place_[i]] = d[i];
@@ -108,7 +112,8 @@ void BandAlgebra::addHessianProduct(const Vector& d, Vector& sum) {
   for (Eigen::Index i = 0; i < d.size(); ++i) sum[i] += placed_sum_[place_[i]];
 }
 
-bool BandAlgebra::factorize(double shift, double mu, const std::vector<int>& active, const std::vector<char>& fixed, int first) {
+bool BandAlgebra::factorize(double shift, double mu, const std::vector<int>& active, const std::vector<char>& fixed,
+                            int first) {
   const int from = BandedMatrix::startBefore(first);
   K_.copyFrom(*H_, from);
   K_.addToDiagonal(shift, from);

@@ -7,8 +7,8 @@
 
 namespace kinegraph {
 
-/// The linear algebra of a SemismoothModel of any size: matrices are bands with a border, in an order of the variables that
-/// makes the band narrow, and rows are those of the Jacobian.
+/// The linear algebra of a SemismoothModel of any size: matrices are bands with a border, in an order of the variables
+/// that makes the band narrow, and rows are those of the Jacobian.
 class BandAlgebra {
  public:
   using Vector = VectorXd;
@@ -19,14 +19,16 @@ class BandAlgebra {
   Vector zeroVector() const { return VectorXd::Zero(n_); }
 
   /// Room for the box of a step: entries that are no variables are inside.
-  void takeBox(const VectorXd& low, const VectorXd& high, Vector& to_low, Vector& to_high) const { to_low = low, to_high = high; }
+  void takeBox(const VectorXd& low, const VectorXd& high, Vector& to_low, Vector& to_high) const {
+    to_low = low, to_high = high;
+  }
 
   // Rows. `j` counts constraints.
   void setJacobian(const Jacobian& J) { J_ = &J; }
   double rowTimes(int j, const Vector& d) const { return J_->rowTimes(constraints_[std::size_t(j)], d); }
   void addRowTo(int j, double factor, Vector& x) const { J_->addRowTo(constraints_[std::size_t(j)], factor, x); }
   double largestRise(int j, const Vector& low, const Vector& high) const;  ///< of J_j d for d in the box
-  int firstColumn(int j) const;  ///< of the factor that a row changes
+  int firstColumn(int j) const;                                            ///< of the factor that a row changes
 
   // The Hessian H: of costs that are linear, which is kept, and what is added to a copy.
   void setLinearCosts(const std::vector<int>& rows);
@@ -40,8 +42,8 @@ class BandAlgebra {
   double diagonal(int i) const { return H_->at(i, i); }
   void addHessianProduct(const Vector& d, Vector& sum);
 
-  /// A symmetric matrix among consecutive variables, which H has in addition until blocks are dropped. `addTo(M)` adds its lower
-  /// triangle to a matrix; `room` has its size and stays meanwhile.
+  /// A symmetric matrix among consecutive variables, which H has in addition until blocks are dropped. `addTo(M)` adds
+  /// its lower triangle to a matrix; `room` has its size and stays meanwhile.
   template <class AddTo>
   void addBlock(int column, MatrixXd& room, const AddTo& addTo) {
     room.setZero();
@@ -50,8 +52,9 @@ class BandAlgebra {
   }
   void dropBlocks() { blocks_.clear(); }
 
-  /// Makes K = H + shift I + sum_active mu J_j^T J_j, with the rows of fixed variables replaced by the identity, and factorizes it.
-  /// Just columns from `first` on have changed since the last time. False if it is not positive definite.
+  /// Makes K = H + shift I + sum_active mu J_j^T J_j, with the rows of fixed variables replaced by the identity, and
+  /// factorizes it. Just columns from `first` on have changed since the last time. False if it is not positive
+  /// definite.
   bool factorize(double shift, double mu, const std::vector<int>& active, const std::vector<char>& fixed, int first);
   void solve(Vector& x);  ///< x <- K^-1 x
 
@@ -71,7 +74,7 @@ class BandAlgebra {
   int n_;
   const Jacobian* J_ = nullptr;
   const std::vector<int>& constraints_;
-  std::vector<int> place_;      ///< of each variable in H and K
+  std::vector<int> place_;  ///< of each variable in H and K
   bool reordered_ = false;
   std::vector<Run> runs_;
   std::vector<Block> blocks_;

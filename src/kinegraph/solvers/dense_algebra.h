@@ -8,8 +8,9 @@
 
 namespace kinegraph {
 
-/// The linear algebra of a SemismoothModel of at most N variables, see BandAlgebra: vectors and matrices have the size N, which
-/// the compiler knows. Entries that are no variables are zero in vectors and rows; H and K have those of the identity there.
+/// The linear algebra of a SemismoothModel of at most N variables, see BandAlgebra: vectors and matrices have the size
+/// N, which the compiler knows. Entries that are no variables are zero in vectors and rows; H and K have those of the
+/// identity there.
 template <int N>
 class DenseAlgebra {
  public:
@@ -83,7 +84,8 @@ class DenseAlgebra {
   }
   void addCostGradient(int row, double factor, Vector& g) const {
     for (const Jacobian::Segment& segment : J_->row_segments(row)) {
-      for (int i = 0; i < segment.width; ++i) g[segment.column + i] += factor * J_->values[std::size_t(segment.offset + i)];
+      for (int i = 0; i < segment.width; ++i)
+        g[segment.column + i] += factor * J_->values[std::size_t(segment.offset + i)];
     }
   }
   double diagonal(int i) const { return i < n_ ? (*H_)(i, i) : 0.; }
@@ -151,7 +153,8 @@ class DenseAlgebra {
   template <class Column>
   void takeRow(int row, Column&& to) const {
     for (const Jacobian::Segment& segment : J_->row_segments(row)) {
-      std::memcpy(to.data() + segment.column, J_->values.data() + segment.offset, std::size_t(segment.width) * sizeof(double));
+      std::memcpy(to.data() + segment.column, J_->values.data() + segment.offset,
+                  std::size_t(segment.width) * sizeof(double));
     }
   }
   void identityOutside(Matrix& matrix) const {

@@ -12,8 +12,8 @@ namespace kinegraph {
 ///     m(d) = g^T d + 1/2 d^T (H + shift I) d + 1/(2 mu) sum_j t_j(d)^2,     t_j = lambda_j + mu (c_j + J_j d)
 ///
 /// with t_j cut off at zero for inequalities. It is piecewise quadratic, and minimized by a semismooth Newton method,
-/// which goes on from the last step where only multipliers, weights or constraints have changed since. Holds all its memory;
-/// minimizing requests none. It is of use at many points, and for several solutions of a problem.
+/// which goes on from the last step where only multipliers, weights or constraints have changed since. Holds all its
+/// memory; minimizing requests none. It is of use at many points, and for several solutions of a problem.
 class LocalModel {
  public:
   virtual ~LocalModel() = default;
@@ -21,12 +21,12 @@ class LocalModel {
   /// Takes the rows of J at a point. `J` must stay as it is while this is used.
   virtual void setJacobian(const Jacobian& J) = 0;
 
-  /// Takes g and H = 2 Js^T Js (+ the Hessian of the f terms, or where the problem has none to offer `curvature`, if given)
-  /// from residuals at the same point. False if the Hessian of the f terms would be needed and is missing.
+  /// Takes g and H = 2 Js^T Js (+ the Hessian of the f terms, or where the problem has none to offer `curvature`, if
+  /// given) from residuals at the same point. False if the Hessian of the f terms would be needed and is missing.
   virtual bool setCosts(Nlp& nlp, const VectorXd& x, const VectorXd& phi, const MatrixXd* curvature = nullptr) = 0;
 
-  /// Adds the second derivatives of the constraints times `multipliers` to H, as far as the problem tells them at the point
-  /// where it stands. They are left out where the model is not convex with them.
+  /// Adds the second derivatives of the constraints times `multipliers` to H, as far as the problem tells them at the
+  /// point where it stands. They are left out where the model is not convex with them.
   virtual void addCurvature(Nlp& nlp, const VectorXd& multipliers) = 0;
 
   /// No costs, H = weight I: the model of the violation alone.
@@ -39,18 +39,18 @@ class LocalModel {
     const VectorXd& lambda;  ///< per constraint
     double mu;
     double shift;
-    const VectorXd& low;     ///< box of d
+    const VectorXd& low;  ///< box of d
     const VectorXd& high;
     int max_passes;
   };
 
-  /// About how long the minimizing step is, by the factor of the model before: for points next to each other. Infinite where
-  /// other rows are active now, or bounds are touched.
+  /// About how long the minimizing step is, by the factor of the model before: for points next to each other. Infinite
+  /// where other rows are active now, or bounds are touched.
   virtual double estimateStep(const Problem& problem) = 0;
 
   /// The minimizing step; its parts can be asked for then. Counts factorizations.
   virtual const VectorXd& minimize(const Problem& problem) = 0;
-  virtual double decrease(const Problem& problem) const = 0;    ///< m(0) - m(d), without the shift
+  virtual double decrease(const Problem& problem) const = 0;  ///< m(0) - m(d), without the shift
   const VectorXd& step() const { return step_; }
   const VectorXd& linearized() const { return linear_; }  ///< c + J d per constraint
   int factorizations() const { return factorizations_; }
@@ -60,7 +60,8 @@ class LocalModel {
   int factorizations_ = 0;
 };
 
-/// `pattern` is that of the problem's Jacobian, `costs` are the rows whose squares are in H, `constraints` those of the sum.
+/// `pattern` is that of the problem's Jacobian, `costs` are the rows whose squares are in H, `constraints` those of the
+/// sum.
 std::unique_ptr<LocalModel> makeLocalModel(const Nlp& nlp, const Jacobian& pattern, const std::vector<int>& costs,
                                            std::vector<int> constraints);
 
