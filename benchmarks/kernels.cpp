@@ -99,7 +99,8 @@ void evaluateBatch(Bench& bench, int count, FeatureSymbol feature) {
 void chain(int joints, int count) {
   Config config;
   std::string text = "link0: {}\n";
-  for (int i = 1; i <= joints; ++i) text += cat("link", i, "(link", i - 1, "): { pre: \"t(.01 0 0)\", joint: hingeZ }\n");
+  for (int i = 1; i <= joints; ++i)
+    text += cat("link", i, "(link", i - 1, "): { pre: \"t(.01 0 0)\", joint: hingeZ }\n");
   config.addText(text);
   Residual residual = makeResidual(config.state(), FeatureSymbol::position, {cat("link", joints)});
   VectorXd y(3), q = VectorXd::Constant(joints, .01);
@@ -122,7 +123,8 @@ void inverseKinematics(Bench& bench, int count) {
     C.setJointState(bench.posture(i));
     const auto komo = std::make_shared<Komo>(C, 1., 1, 0);
     komo->addObjective({}, FeatureSymbol::qItself, {}, ObjectiveType::sos, MatrixXd::Constant(1, 1, .1), bench.home);
-    komo->addObjective({}, FeatureSymbol::positionDiff, {"l_gripper", "target"}, ObjectiveType::eq, MatrixXd::Constant(1, 1, 10.));
+    komo->addObjective({}, FeatureSymbol::positionDiff, {"l_gripper", "target"}, ObjectiveType::eq,
+                       MatrixXd::Constant(1, 1, 10.));
     if (!NlpSolver(makeNlp(komo), 0).solve(false, rng).feasible) throw Error("inverse kinematics: no solution");
   }
 }

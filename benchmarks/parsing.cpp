@@ -1,8 +1,8 @@
 // How fast are `.g` texts read, and does the time grow with their length alone?
 //     parsing [ROUNDS]
-// Texts of three kinds, each in three lengths: a scene as people write it, a mesh as `write` writes it (numbers), and block-style
-// YAML. Prints MB/s of the whole parser, tree of values and all, and of the scanner alone, which only finds the words and
-// numbers; the best of some rounds, in processor time.
+// Texts of three kinds, each in three lengths: a scene as people write it, a mesh as `write` writes it (numbers), and
+// block-style YAML. Prints MB/s of the whole parser, tree of values and all, and of the scanner alone, which only finds
+// the words and numbers; the best of some rounds, in processor time.
 #include <algorithm>
 #include <cstdio>
 #include <cstdlib>
@@ -90,7 +90,9 @@ int main(int count, char** arguments) {
     const char* file;
   };
   std::printf("%-6s %8s %10s %10s\n", "text", "MB", "parse MB/s", "scan MB/s");
-  for (const Kind& kind : {Kind{"scene", sceneText, "models/scenarios/scene.g"}, {"mesh", meshText, "models/scenarios/scene.g"}, {"yaml", yamlText, "models/scenarios/scene.yml"}}) {
+  for (const Kind& kind : {Kind{"scene", sceneText, "models/scenarios/scene.g"},
+                           {"mesh", meshText, "models/scenarios/scene.g"},
+                           {"yaml", yamlText, "models/scenarios/scene.yml"}}) {
     for (const std::size_t bytes : {1000000, 2000000, 4000000}) {
       const std::string text = kind.make(bytes);
       const double parsed = speed(text, rounds, [&](const std::string& t) {

@@ -47,6 +47,7 @@ def make_cpp(schema: dict) -> str:
         "#pragma once",
         "",
         f"// {NOTE}",
+        "// clang-format off",
         "",
         "#include <cstdint>",
         "#include <optional>",
@@ -77,6 +78,7 @@ def make_commands_cpp(schema: dict) -> str:
         "#pragma once",
         "",
         f"// {NOTE}",
+        "// clang-format off",
         "",
         "#include <optional>",
         "#include <string_view>",
@@ -107,6 +109,7 @@ def make_commands_cpp(schema: dict) -> str:
 def make_ts(schema: dict) -> str:
     out = [
         f"// {NOTE}",
+        "// clang-format off",
         "",
         'import { writeCommand } from "./commands";',
         "",

@@ -14,7 +14,7 @@ bash tools/apt_install.sh libgtest-dev chromium ccache libegl1 libgl1-mesa-dri v
 tools=$PWD/build/tools_venv
 [ -x "$tools/bin/python" ] || bash tools/make_venv.sh "${PYTHON:-python3}" "$tools"
 "$tools/bin/python" tools/build_requirements.py >build/requirements.txt
-"$tools/bin/python" -m pip install -r build/requirements.txt "cmake>=3.25,<4.4" "ninja>=1.11" ruff==0.17.5
+"$tools/bin/python" -m pip install -r build/requirements.txt "cmake>=3.25,<4.4" "ninja>=1.11" ruff==0.17.5 clang-format==14.0.6
 PATH="$tools/bin:$PATH"
 
 step "layers, generated files, lint"
@@ -22,6 +22,7 @@ python tools/check_layers.py
 python tools/generate_messages.py --check
 ruff check --quiet .
 ruff format --quiet --check .
+find benchmarks examples python src tests -name '*.h' -o -name '*.cpp' | xargs clang-format --dry-run --Werror
 
 step "building the library and its C++ tests"
 quietly cmake --preset dev -DPython_EXECUTABLE="$tools/bin/python"

@@ -34,8 +34,8 @@ inline double now() {
   return double(time.tv_sec) + 1e-9 * double(time.tv_nsec);
 }
 
-/// Prints, as JSON: `answer(i)` (the frame's position, then the 6 x n Jacobian by rows) for the first joint vectors, and what
-/// `call(i)` takes, in microseconds, many samples.
+/// Prints, as JSON: `answer(i)` (the frame's position, then the 6 x n Jacobian by rows) for the first joint vectors,
+/// and what `call(i)` takes, in microseconds, many samples.
 template <class Call, class Answer>
 void report(const std::string& version, std::size_t joint_vectors, const Call& call, const Answer& answer) {
   std::printf("{\"version\": \"%s\", \"answers\": [", version.c_str());

@@ -46,7 +46,8 @@ int main(int argc, char** argv) try {
   pin::Data::Matrix6x J = pin::Data::Matrix6x::Zero(6, model.nv);
   const auto call = [&](std::size_t i) {
     J.setZero();
-    pin::computeFrameJacobian(model, data, joint_vectors[i], tip, pin::LOCAL_WORLD_ALIGNED, J);  // and the frame's placement
+    pin::computeFrameJacobian(model, data, joint_vectors[i], tip, pin::LOCAL_WORLD_ALIGNED,
+                              J);  // and the frame's placement
   };
   const auto answer = [&] {
     const Vector3d position = data.oMf[tip].translation();

@@ -1,4 +1,5 @@
-// The part of the package `robotic` in benchmarks/cpp_calls.py, compiled by it with the headers and the library of its wheel.
+// The part of the package `robotic` in benchmarks/cpp_calls.py, compiled by it with the headers and the library of its
+// wheel.
 //     robotic_calls SCENE FRAME JOINT_VECTORS
 #include <Kin/frame.h>
 #include <Kin/kin.h>

@@ -14,8 +14,10 @@ int main(int argc, char** argv) try {
   C.addFrame("target", "table").setRelativePosition({.2, .4, .5});
 
   const auto komo = std::make_shared<Komo>(C, 1., 1, 0);
-  komo->addObjective({}, FeatureSymbol::qItself, {}, ObjectiveType::sos, MatrixXd::Constant(1, 1, .1), C.getJointState());
-  komo->addObjective({}, FeatureSymbol::positionDiff, {"l_gripper", "target"}, ObjectiveType::eq, MatrixXd::Constant(1, 1, 10.));
+  komo->addObjective({}, FeatureSymbol::qItself, {}, ObjectiveType::sos, MatrixXd::Constant(1, 1, .1),
+                     C.getJointState());
+  komo->addObjective({}, FeatureSymbol::positionDiff, {"l_gripper", "target"}, ObjectiveType::eq,
+                     MatrixXd::Constant(1, 1, 10.));
 
   Rng rng(0);
   const SolverResult result = NlpSolver(makeNlp(komo), 0).solve(false, rng);

@@ -122,8 +122,8 @@ NewArray ReusedArrays::get(int rank, const std::ptrdiff_t* shape) {
     auto* array = reinterpret_cast<PyArrayObject_fields*>(kept.array.ptr());
     if (!array || Py_REFCNT(array) != 1) continue;
     // Nobody has it; but who had it may have changed what it is, or may watch it.
-    const bool as_made = array->nd == rank && std::equal(shape, shape + rank, array->dimensions) && array->flags == kept.flags &&
-                         array->descr == kept.type && !array->base && !array->weakreflist;
+    const bool as_made = array->nd == rank && std::equal(shape, shape + rank, array->dimensions) &&
+                         array->flags == kept.flags && array->descr == kept.type && !array->base && !array->weakreflist;
     if (as_made) return {Array(kept.array), reinterpret_cast<double*>(array->data)};
   }
   npy_intp extents[] = {shape[0], rank > 1 ? npy_intp(shape[1]) : 1};
@@ -182,7 +182,8 @@ bool readNumbers(nb::handle source, Numbers& target) {
 bool readNumbers(nb::handle source, NumbersView& target) {
   if (PyArrayObject* array = asDoubles(source.ptr())) {
     target.rank = PyArray_NDIM(array);
-    new (&target.values) Eigen::Map<const VectorXd>(static_cast<const double*>(PyArray_DATA(array)), PyArray_SIZE(array));
+    new (&target.values)
+        Eigen::Map<const VectorXd>(static_cast<const double*>(PyArray_DATA(array)), PyArray_SIZE(array));
     return true;
   }
   if (!readNumbers(source, target.copy)) return false;

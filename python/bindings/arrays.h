@@ -18,11 +18,14 @@ struct Numbers {
   std::size_t rows = 0;  ///< first extent
 
   std::vector<double> list() const { return {values.begin(), values.end()}; }
-  std::size_t columns() const { return rank < 2 || rows == 0 ? std::size_t(values.size()) : std::size_t(values.size()) / rows; }
+  std::size_t columns() const {
+    return rank < 2 || rows == 0 ? std::size_t(values.size()) : std::size_t(values.size()) / rows;
+  }
   MatrixXd matrix() const;  ///< rank 2 as it is, less as one row
 };
 
-/// The same for a call that only reads them: an array of doubles is looked at where it is. Valid while the argument lives.
+/// The same for a call that only reads them: an array of doubles is looked at where it is. Valid while the argument
+/// lives.
 struct NumbersView {
   Eigen::Map<const VectorXd> values{nullptr, 0};
   int rank = 0;
@@ -59,7 +62,8 @@ Array toNumpy(const VectorXd& vector);
 Array toNumpy(const MatrixXd& matrix);
 Array toNumpy(const Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>& matrix);
 
-/// A numpy array of that size or shape (rows, columns) that nobody else has, and where its numbers are. It is not filled.
+/// A numpy array of that size or shape (rows, columns) that nobody else has, and where its numbers are. It is not
+/// filled.
 struct NewArray {
   Array array;
   double* data;
@@ -69,8 +73,8 @@ NewArray newArray(std::size_t rows, std::size_t columns);
 NewArray newArray(std::size_t layers, std::size_t rows, std::size_t columns);
 NewArray newArray(std::size_t blocks, std::size_t layers, std::size_t rows, std::size_t columns);
 
-/// Numpy arrays of one shape (rank 1 or 2), each handed out again once nobody else holds it: that takes a fraction of the time
-/// of making one. Needs the interpreter lock.
+/// Numpy arrays of one shape (rank 1 or 2), each handed out again once nobody else holds it: that takes a fraction of
+/// the time of making one. Needs the interpreter lock.
 class ReusedArrays {
  public:
   ReusedArrays() = default;

@@ -14,10 +14,12 @@ namespace kinegraph::python {
 
 namespace {
 
-Eigen::Map<const RowMatrix> jointRows(const Numbers& Q, const PyConfig& config, const char* call, const char* name = "Q") {
+Eigen::Map<const RowMatrix> jointRows(const Numbers& Q, const PyConfig& config, const char* call,
+                                      const char* name = "Q") {
   const int n = config.getJointDimension();
   if (Q.rank != 2 || (Q.rows > 0 && Q.columns() != std::size_t(n))) {
-    throw ValueError(cat(call, ": ", name, " has ", Q.rank == 2 ? cat("shape (", Q.rows, ", ", Q.columns(), ")") : cat(Q.rank, " dimensions"),
+    throw ValueError(cat(call, ": ", name, " has ",
+                         Q.rank == 2 ? cat("shape (", Q.rows, ", ", Q.columns(), ")") : cat(Q.rank, " dimensions"),
                          "; expected (N, ", n, "), a joint vector per row"));
   }
   return {Q.values.data(), Eigen::Index(Q.rows), n};
@@ -35,8 +37,10 @@ Eigen::Map<RowMatrix> rowsOf(const NewArray& array, std::size_t rows, std::size_
   return {array.data, Eigen::Index(rows), Eigen::Index(columns)};
 }
 
-nb::typed<nb::tuple, Array, Array> evalBatch(const PyConfig& config, const FeatureArgument& feature, const FrameNames& frames, const Numbers& Q,
-                    const std::optional<Numbers>& scale, const std::optional<Numbers>& target, int threads) {
+nb::typed<nb::tuple, Array, Array> evalBatch(const PyConfig& config, const FeatureArgument& feature,
+                                             const FrameNames& frames, const Numbers& Q,
+                                             const std::optional<Numbers>& scale, const std::optional<Numbers>& target,
+                                             int threads) {
   const auto joints = jointRows(Q, config, "evalBatch");
   const State scene = config.state();
   const Residual residual = makeResidual(scene, feature.source(), toNames(frames), toScale(scale), toTarget(target));
@@ -44,7 +48,8 @@ nb::typed<nb::tuple, Array, Array> evalBatch(const PyConfig& config, const Featu
   const NewArray y = newArray(count, rows), J = newArray(count, rows, n);
   auto values = rowsOf(y, count, rows), jacobians = rowsOf(J, count * rows, n);
   JacobianRows view = jacobians;
-  unlocked(threads, "evalBatch", [&](const BatchOptions& options) { kinegraph::evalBatch(scene, residual, joints, values, &view, options); });
+  unlocked(threads, "evalBatch",
+           [&](const BatchOptions& options) { kinegraph::evalBatch(scene, residual, joints, values, &view, options); });
   return nb::make_tuple(y.array, J.array);
 }
 
@@ -55,7 +60,8 @@ Array getFramePoses(const PyConfig& config, const Numbers& Q, const FrameNames& 
   for (const std::string& name : toNames(frames)) ids.push_back(frameId(scene.program(), name, "getFramePoses"));
   const NewArray poses = newArray(Q.rows, ids.size(), 7);
   auto rows = rowsOf(poses, Q.rows, 7 * ids.size());
-  unlocked(threads, "getFramePoses", [&](const BatchOptions& options) { framePoses(scene, ids, joints, rows, options); });
+  unlocked(threads, "getFramePoses",
+           [&](const BatchOptions& options) { framePoses(scene, ids, joints, rows, options); });
   return poses.array;
 }
 
@@ -67,7 +73,8 @@ Array getFrameJacobians(const PyConfig& config, const Numbers& Q, const FrameNam
   const std::size_t n = std::size_t(scene.dofs());
   const NewArray J = newArray(Q.rows, ids.size(), 6, n);
   const auto rows = rowsOf(J, 6 * Q.rows * ids.size(), n);
-  unlocked(threads, "getFrameJacobians", [&](const BatchOptions& options) { frameJacobians(scene, ids, joints, rows, options); });
+  unlocked(threads, "getFrameJacobians",
+           [&](const BatchOptions& options) { frameJacobians(scene, ids, joints, rows, options); });
   return J.array;
 }
 
@@ -94,12 +101,14 @@ nb::typed<nb::tuple, Array, Array, Array> nearestPointsHere(const PyConfig& conf
   return nb::make_tuple(distances.array, points.array, normals.array);
 }
 
-nb::typed<nb::tuple, Array, Array, Array> getNearestPoints(const PyConfig& config, const std::optional<Numbers>& Q, int threads) {
+nb::typed<nb::tuple, Array, Array, Array> getNearestPoints(const PyConfig& config, const std::optional<Numbers>& Q,
+                                                           int threads) {
   if (!Q) return nearestPointsHere(config);
   const auto joints = jointRows(*Q, config, "getNearestPoints");
   const State scene = config.state();
   const std::size_t pairs = scene.program().collidable().size();
-  const NewArray distances = newArray(Q->rows, pairs), points = newArray(Q->rows, pairs, 2, 3), normals = newArray(Q->rows, pairs, 3);
+  const NewArray distances = newArray(Q->rows, pairs), points = newArray(Q->rows, pairs, 2, 3),
+                 normals = newArray(Q->rows, pairs, 3);
   unlocked(threads, "getNearestPoints", [&](const BatchOptions& options) {
     nearestPoints(scene, joints, {distances.data, points.data, normals.data}, options);
   });
@@ -111,12 +120,16 @@ FlagArray isValid(const PyConfig& config, const Numbers& Q, double margin, int t
   if (!std::isfinite(margin)) throw ValueError(cat("isValid: margin is ", margin, "; expected a distance in m"));
   const State scene = config.state();
   const NewFlags valid = newFlags(Q.rows);
-  unlocked(threads, "isValid", [&](const BatchOptions& options) { areValid(scene, joints, margin, {valid.data, Q.rows}, options); });
+  unlocked(threads, "isValid", [&](const BatchOptions& options) {
+    areValid(scene, joints, margin, {valid.data, Q.rows}, options);
+  });
   return valid.array;
 }
 
-FlagArray isMotionFree(const PyConfig& config, const Numbers& from, const Numbers& to, double margin, double tolerance, int threads) {
-  const auto starts = jointRows(from, config, "isMotionFree", "start"), ends = jointRows(to, config, "isMotionFree", "end");
+FlagArray isMotionFree(const PyConfig& config, const Numbers& from, const Numbers& to, double margin, double tolerance,
+                       int threads) {
+  const auto starts = jointRows(from, config, "isMotionFree", "start"),
+             ends = jointRows(to, config, "isMotionFree", "end");
   if (from.rows != to.rows) throw ValueError(cat("isMotionFree: ", from.rows, " starts and ", to.rows, " ends"));
   const State scene = config.state();
   const NewFlags free = newFlags(from.rows);
@@ -130,25 +143,33 @@ FlagArray isMotionFree(const PyConfig& config, const Numbers& from, const Number
 
 void bindBatch(nb::class_<PyConfig>& config) {
   config
-      .def("evalBatch", evalBatch, "feature"_a, "frames"_a, "Q"_a, "scale"_a = nb::none(), "target"_a = nb::none(), "threads"_a = 1,
-           "eval at each row of Q (N, n): y (N, d) and J (N, d, n). The configuration's own q stays as it is. Runs without the\n"
+      .def("evalBatch", evalBatch, "feature"_a, "frames"_a, "Q"_a, "scale"_a = nb::none(), "target"_a = nb::none(),
+           "threads"_a = 1,
+           "eval at each row of Q (N, n): y (N, d) and J (N, d, n). The configuration's own q stays as it is. Runs "
+           "without the\n"
            "interpreter lock; the result does not depend on the number of threads.")
       .def("getFramePoses", getFramePoses, "Q"_a, "frames"_a, "threads"_a = 1,
            "World poses of f frames at each row of Q (N, n): (N, f, 7), x y z (m) qw qx qy qz with qw >= 0.")
       .def("getFrameJacobians", getFrameJacobians, "Q"_a, "frames"_a, "threads"_a = 1,
-           "Geometric Jacobians of f frames at each row of Q (N, n): (N, f, 6, n), the velocity of the frame's origin (m/s) and its\n"
+           "Geometric Jacobians of f frames at each row of Q (N, n): (N, f, 6, n), the velocity of the frame's origin "
+           "(m/s) and its\n"
            "angular velocity (rad/s) in world coordinates, per unit of each dof's velocity.")
       .def("getDistances", getDistances, "Q"_a, "threads"_a = 1,
-           "Signed distances (m) of the p collidable pairs, as in getCollidablePairs, at each row of Q (N, n): (N, p). Negative:\n"
+           "Signed distances (m) of the p collidable pairs, as in getCollidablePairs, at each row of Q (N, n): (N, p). "
+           "Negative:\n"
            "penetration depth.")
       .def("getNearestPoints", getNearestPoints, "Q"_a = nb::none(), "threads"_a = 1,
-           "For each of the p collidable pairs, as in getCollidablePairs: the signed distance (m), the nearest points on both surfaces\n"
-           "(world coordinates, m), and the unit normal from the second to the first. (p,), (p, 2, 3), (p, 3) at the present q; with Q\n"
+           "For each of the p collidable pairs, as in getCollidablePairs: the signed distance (m), the nearest points "
+           "on both surfaces\n"
+           "(world coordinates, m), and the unit normal from the second to the first. (p,), (p, 2, 3), (p, 3) at the "
+           "present q; with Q\n"
            "(N, n), at each of its rows: (N, p), (N, p, 2, 3), (N, p, 3). distance = normal . (point 0 - point 1).")
       .def("isValid", isValid, "Q"_a, "margin"_a = 0., "threads"_a = 1,
-           "For each row of Q (N, n): is q within its limits, and is no collidable pair nearer than margin (m)? (N,) bool.")
+           "For each row of Q (N, n): is q within its limits, and is no collidable pair nearer than margin (m)? (N,) "
+           "bool.")
       .def("isMotionFree", isMotionFree, "start"_a, "end"_a, "margin"_a = 0., "tolerance"_a = 1e-4, "threads"_a = 1,
-           "checkMotion for N straight motions, between the rows of start and end (N, n): (N,) bool, True where it finds no contact.");
+           "checkMotion for N straight motions, between the rows of start and end (N, n): (N,) bool, True where it "
+           "finds no contact.");
 }
 
 }  // namespace kinegraph::python

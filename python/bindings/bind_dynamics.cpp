@@ -8,41 +8,50 @@ namespace kinegraph::python {
 
 void bindDynamics(nb::class_<PyConfig>& config) {
   config
-      .def("dyn_MF",
-           [](const PyConfig& c, const Numbers& velocity) {
-             const EquationOfMotion equation = c.equationOfMotion(velocity.values);
-             return nb::typed<nb::tuple, Array, Array>(nb::make_tuple(toNumpy(equation.M), toNumpy(equation.F)));
-           },
-           "q_dot"_a, "M (n, n) and F (n,) of the equation of motion u = M ddq + F, at q and the velocity dq. Gravity is\n"
-           "9.81 m/s^2 along -z; masses, centres of mass and inertias are those of the frames.")
-      .def("equationOfMotion",
-           [](const PyConfig& c, const Numbers& velocity, bool gravity) {
-             EquationOfMotion equation = c.equationOfMotion(velocity.values);
-             if (!gravity) equation.F -= c.equationOfMotion(VectorXd::Zero(velocity.values.size())).F;
-             return nb::typed<nb::tuple, Array, Array>(nb::make_tuple(toNumpy(equation.M), toNumpy(equation.F)));
-           },
-           "qdot"_a, "gravity"_a = true, "dyn_MF, as scripts of earlier years call it, also without gravity.")
-      .def("stepDynamics",
-           [](PyConfig& c, const Numbers& velocity, const Numbers& u, double tau, double noise, bool gravity) {
-             return toNumpy(stepDynamics(c, velocity.values, u.values, tau, noise, gravity, defaults().random));
-           },
-           "qdot"_a, "u_control"_a, "tau"_a, "dynamicNoise"_a = 0., "gravity"_a = true,
-           "Moves q by tau seconds under the forces u_control (n,), from the velocity qdot (n,); returns the velocity then.\n"
-           "A Runge-Kutta step of the equation of motion, without contacts. dynamicNoise: deviation of added accelerations.")
-      .def("dyn_F0",
-           [](const PyConfig& c) { return toNumpy(c.equationOfMotion(VectorXd::Zero(c.getJointDimension())).F); },
-           "F at rest: the generalized forces (n,) that hold the configuration against gravity (N m, N).")
-      .def("inverseDynamics",
-           [](const PyConfig& c, const Numbers& velocity, const Numbers& acceleration) {
-             return toNumpy(c.inverseDynamics(velocity.values, acceleration.values));
-           },
-           "q_dot"_a, "q_ddot"_a, "Generalized forces u (n,) that give the acceleration, by recursive Newton-Euler.")
-      .def("getCenterOfMass",
-           [](const PyConfig& c) {
-             const auto [mass, center] = c.centerOfMass();
-             return nb::typed<nb::tuple, nb::float_, Array>(nb::make_tuple(mass, toNumpy(center.data(), 3)));
-           },
-           "Mass of everything that moves (kg) and its centre (3,), world coordinates, m.");
+      .def(
+          "dyn_MF",
+          [](const PyConfig& c, const Numbers& velocity) {
+            const EquationOfMotion equation = c.equationOfMotion(velocity.values);
+            return nb::typed<nb::tuple, Array, Array>(nb::make_tuple(toNumpy(equation.M), toNumpy(equation.F)));
+          },
+          "q_dot"_a,
+          "M (n, n) and F (n,) of the equation of motion u = M ddq + F, at q and the velocity dq. Gravity is\n"
+          "9.81 m/s^2 along -z; masses, centres of mass and inertias are those of the frames.")
+      .def(
+          "equationOfMotion",
+          [](const PyConfig& c, const Numbers& velocity, bool gravity) {
+            EquationOfMotion equation = c.equationOfMotion(velocity.values);
+            if (!gravity) equation.F -= c.equationOfMotion(VectorXd::Zero(velocity.values.size())).F;
+            return nb::typed<nb::tuple, Array, Array>(nb::make_tuple(toNumpy(equation.M), toNumpy(equation.F)));
+          },
+          "qdot"_a, "gravity"_a = true, "dyn_MF, as scripts of earlier years call it, also without gravity.")
+      .def(
+          "stepDynamics",
+          [](PyConfig& c, const Numbers& velocity, const Numbers& u, double tau, double noise, bool gravity) {
+            return toNumpy(stepDynamics(c, velocity.values, u.values, tau, noise, gravity, defaults().random));
+          },
+          "qdot"_a, "u_control"_a, "tau"_a, "dynamicNoise"_a = 0., "gravity"_a = true,
+          "Moves q by tau seconds under the forces u_control (n,), from the velocity qdot (n,); returns the velocity "
+          "then.\n"
+          "A Runge-Kutta step of the equation of motion, without contacts. dynamicNoise: deviation of added "
+          "accelerations.")
+      .def(
+          "dyn_F0",
+          [](const PyConfig& c) { return toNumpy(c.equationOfMotion(VectorXd::Zero(c.getJointDimension())).F); },
+          "F at rest: the generalized forces (n,) that hold the configuration against gravity (N m, N).")
+      .def(
+          "inverseDynamics",
+          [](const PyConfig& c, const Numbers& velocity, const Numbers& acceleration) {
+            return toNumpy(c.inverseDynamics(velocity.values, acceleration.values));
+          },
+          "q_dot"_a, "q_ddot"_a, "Generalized forces u (n,) that give the acceleration, by recursive Newton-Euler.")
+      .def(
+          "getCenterOfMass",
+          [](const PyConfig& c) {
+            const auto [mass, center] = c.centerOfMass();
+            return nb::typed<nb::tuple, nb::float_, Array>(nb::make_tuple(mass, toNumpy(center.data(), 3)));
+          },
+          "Mass of everything that moves (kg) and its centre (3,), world coordinates, m.");
 }
 
 }  // namespace kinegraph::python

@@ -11,7 +11,9 @@
 
 namespace kinegraph::python {
 
-FeatureSource FeatureArgument::source() const { return function.is_valid() ? ownFeature(function) : FeatureSource(symbol); }
+FeatureSource FeatureArgument::source() const {
+  return function.is_valid() ? ownFeature(function) : FeatureSource(symbol);
+}
 
 std::vector<std::string> toNames(const FrameNames& frames) {
   if (const auto* name = std::get_if<std::string>(&frames)) return {*name};
@@ -78,7 +80,8 @@ Evaluated evalFeature(const PyConfig& config, const Unread<FeatureArgument>& fea
 
 Evaluated evalNamed(const NamedFeature& f, const PyConfig& config) {
   if (const auto symbol = f.source.symbol()) {
-    return evalInto(config, *config.residuals.get(config.state(), *symbol, f.frames, f.scale, f.target, f.order), f.y, f.J);
+    return evalInto(config, *config.residuals.get(config.state(), *symbol, f.frames, f.scale, f.target, f.order), f.y,
+                    f.J);
   }
   Residual own = makeResidual(config.state(), f.source, f.frames, f.scale, f.target, f.order);
   return evalInto(config, own);
@@ -97,36 +100,49 @@ void bindFeatures(nb::module_& m, nb::class_<PyConfig>& config) {
   bindOwnFeatures(m);
   nb::class_<NamedFeature>(m, "Feature", "A feature of named frames, evaluated on the configuration that is passed.")
       .def("eval", evalNamed, "config"_a, "Value (d,) and Jacobian (d, n) at the configuration's q.")
-      .def("setScale", [](NamedFeature& f, const Numbers& scale) -> NamedFeature& { return f.scale = toScale(scale), f; }, "scale"_a,
-           nb::rv_policy::none, "A number, one per row, or a matrix.")
-      .def("setTarget", [](NamedFeature& f, const Numbers& target) -> NamedFeature& { return f.target = target.values, f; },
-           "target"_a, nb::rv_policy::none, "Subtracted before the scale: a number, or one per row.")
-      .def("setOrder", [](NamedFeature& f, int order) -> NamedFeature& { return f.order = order, f; }, "order"_a,
-           nb::rv_policy::none, "Order of the time derivative.")
-      .def("dim", [](const NamedFeature& f, const PyConfig& c) {
-             return makeResidual(c.state(), f.source, f.frames, f.scale, f.target, f.order).rows();
-           }, "config"_a, "Number of rows.")
-      .def("description", [](const NamedFeature& f, const PyConfig&) { return describe(f); }, "config"_a, "The feature in words.")
+      .def(
+          "setScale",
+          [](NamedFeature& f, const Numbers& scale) -> NamedFeature& { return f.scale = toScale(scale), f; }, "scale"_a,
+          nb::rv_policy::none, "A number, one per row, or a matrix.")
+      .def(
+          "setTarget",
+          [](NamedFeature& f, const Numbers& target) -> NamedFeature& { return f.target = target.values, f; },
+          "target"_a, nb::rv_policy::none, "Subtracted before the scale: a number, or one per row.")
+      .def(
+          "setOrder", [](NamedFeature& f, int order) -> NamedFeature& { return f.order = order, f; }, "order"_a,
+          nb::rv_policy::none, "Order of the time derivative.")
+      .def(
+          "dim",
+          [](const NamedFeature& f, const PyConfig& c) {
+            return makeResidual(c.state(), f.source, f.frames, f.scale, f.target, f.order).rows();
+          },
+          "config"_a, "Number of rows.")
+      .def(
+          "description", [](const NamedFeature& f, const PyConfig&) { return describe(f); }, "config"_a,
+          "The feature in words.")
       .def("__repr__", [](const NamedFeature& f) { return cat("<Feature ", describe(f), ">"); });
 
   config
       .def("eval", evalFeature, "featureSymbol"_a, "frames"_a = std::vector<std::string>(), "scale"_a = nb::none(),
            "target"_a = nb::none(), "order"_a = -1,
            "A feature's value (d,) and Jacobian (d, n): scale * (feature - target).\n"
-           "featureSymbol: a symbol of FS, or a function of your own: it is called with a FrameView per frame (without frames with\n"
-           "q) and returns y, or y and its Jacobian dy/dq (d, n), which central differences replace where it is left out.\n"
+           "featureSymbol: a symbol of FS, or a function of your own: it is called with a FrameView per frame (without "
+           "frames with\n"
+           "q) and returns y, or y and its Jacobian dy/dq (d, n), which central differences replace where it is left "
+           "out.\n"
            "frames: names. scale: a number, one per row, or a matrix. target: a number, or one per row.")
-      .def("evalFeature", evalFeature, "featureSymbol"_a, "frames"_a = std::vector<std::string>(), "scale"_a = nb::none(),
-           "target"_a = nb::none(), "order"_a = -1, "The same as eval.")
-      .def("feature",
-           [](const PyConfig& c, const FeatureArgument& feature, const FrameNames& frames, const std::optional<Numbers>& scale,
-              const std::optional<Numbers>& target, int order) {
-             NamedFeature f{feature.source(), toNames(frames), toScale(scale), toTarget(target), order};
-             makeResidual(c.state(), f.source, f.frames, f.scale, f.target, f.order);  // reports mistakes here
-             return f;
-           },
-           "featureSymbol"_a, "frames"_a = std::vector<std::string>(), "scale"_a = nb::none(), "target"_a = nb::none(),
-           "order"_a = -1, "A feature object with eval(config), setScale, setTarget and setOrder.");
+      .def("evalFeature", evalFeature, "featureSymbol"_a, "frames"_a = std::vector<std::string>(),
+           "scale"_a = nb::none(), "target"_a = nb::none(), "order"_a = -1, "The same as eval.")
+      .def(
+          "feature",
+          [](const PyConfig& c, const FeatureArgument& feature, const FrameNames& frames,
+             const std::optional<Numbers>& scale, const std::optional<Numbers>& target, int order) {
+            NamedFeature f{feature.source(), toNames(frames), toScale(scale), toTarget(target), order};
+            makeResidual(c.state(), f.source, f.frames, f.scale, f.target, f.order);  // reports mistakes here
+            return f;
+          },
+          "featureSymbol"_a, "frames"_a = std::vector<std::string>(), "scale"_a = nb::none(), "target"_a = nb::none(),
+          "order"_a = -1, "A feature object with eval(config), setScale, setTarget and setOrder.");
 }
 
 }  // namespace kinegraph::python

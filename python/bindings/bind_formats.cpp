@@ -117,7 +117,8 @@ void bindFormats(nb::module_&, nb::class_<PyConfig>& config, nb::class_<Frame>& 
       .def(
           "asDict", [](const Frame& f) { return toDict(describeFrame(f.data())); },
           "What the frame is now, as attributes of a .g file.")
-      .def("info", [](const Frame& f) { return toDict(describeFrame(f.data())); }, "The same as asDict.");
+      .def(
+          "info", [](const Frame& f) { return toDict(describeFrame(f.data())); }, "The same as asDict.");
 }
 
 }  // namespace kinegraph::python

@@ -62,7 +62,9 @@ nb::dict report(const PyKomo& komo, bool with_specs, bool list_objectives, bool 
   if (list_objectives) {
     std::vector<std::size_t> order(komo.objectives().size());
     std::iota(order.begin(), order.end(), std::size_t(0));
-    if (sort) std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return errors.per_objective[a] < errors.per_objective[b]; });
+    if (sort)
+      std::stable_sort(order.begin(), order.end(),
+                       [&](std::size_t a, std::size_t b) { return errors.per_objective[a] < errors.per_objective[b]; });
     for (std::size_t o : order) out[cat("o", o).c_str()] = entryOf(komo.objectives()[o], errors.per_objective[o]);
   }
   nb::dict totals;
@@ -82,8 +84,8 @@ std::vector<std::string> objectiveTags(const PyKomo& komo) {
 
 bool isConstraint(ObjectiveType type) { return type == ObjectiveType::eq || type == ObjectiveType::ineq; }
 
-/// How much of the constraints is violated in a slice, and the frames that this is about: those that the objectives name,
-/// and those that collide, if an objective without frames is violated.
+/// How much of the constraints is violated in a slice, and the frames that this is about: those that the objectives
+/// name, and those that collide, if an objective without frames is violated.
 void markViolations(const PyKomo& komo, const Config& config, const MatrixXd& errors, int t, ShownMotion& motion) {
   constexpr double kTolerance = 1e-3;
   double& violation = motion.violations.emplace_back(0.);
@@ -99,8 +101,8 @@ void markViolations(const PyKomo& komo, const Config& config, const MatrixXd& er
   }
 }
 
-/// The path as a motion of the scene as it is before it, with the slices of the prefix; texts tell the objectives that are
-/// violated in a slice.
+/// The path as a motion of the scene as it is before it, with the slices of the prefix; texts tell the objectives that
+/// are violated in a slice.
 ShownMotion motionOf(const PyKomo& komo) {
   ShownMotion motion;
   motion.prefix = komo.order();
@@ -115,13 +117,15 @@ ShownMotion motionOf(const PyKomo& komo) {
     motion.texts.push_back(t < 0 ? "before the path" : sliceErrors(komo, t, errors));
     markViolations(komo, config, errors, t, motion);
   }
-  const bool same_dofs = std::all_of(states.begin(), states.end(), [&](const VectorXd& q) { return q.size() == states[0].size(); });
+  const bool same_dofs =
+      std::all_of(states.begin(), states.end(), [&](const VectorXd& q) { return q.size() == states[0].size(); });
   if (same_dofs) {
     motion.q.resize(count, states[0].size());
     for (int i = 0; i < count; ++i) motion.q.row(i) = states[std::size_t(i)];
   }
   for (std::size_t o = 0; o < komo.objectives().size(); ++o) {
-    ShownMotion::Trace trace{objectiveTag(komo, komo.objectives()[o]), objectiveTypeName(komo.objectives()[o].type), {}};
+    ShownMotion::Trace trace{
+        objectiveTag(komo, komo.objectives()[o]), objectiveTypeName(komo.objectives()[o].type), {}};
     trace.values.assign(std::size_t(komo.order()), 0.);
     for (Eigen::Index t = 0; t < errors.rows(); ++t) trace.values.push_back(errors(t, Eigen::Index(o)));
     motion.traces.push_back(std::move(trace));
@@ -146,7 +150,8 @@ int view(PyKomo& komo, bool pause, Message text) {
 
 int viewSlice(PyKomo& komo, int slice, bool pause) {
   if (slice < -komo.order() || slice >= komo.slices()) {
-    throw ValueError(cat("view_slice: t is ", slice, "; there are slices 0 to ", komo.slices() - 1, ", and before them ", -komo.order(), " to -1"));
+    throw ValueError(cat("view_slice: t is ", slice, "; there are slices 0 to ", komo.slices() - 1,
+                         ", and before them ", -komo.order(), " to -1"));
   }
   ShownMotion motion = motionOf(komo);
   motion.start = ShownMotion::Start::pause;
@@ -179,34 +184,61 @@ int viewPlay(PyKomo& komo, bool pause, Message text, double delay, const std::op
 }  // namespace
 
 void bindKomoReports(nb::class_<PyKomo>& komo) {
-  komo.def("report", report, "specs"_a = false, "listObjectives"_a = true, "plotOverTime"_a = false, "sortByError"_a = true,
+  komo.def("report", report, "specs"_a = false, "listObjectives"_a = true, "plotOverTime"_a = false,
+           "sortByError"_a = true,
            "The objectives with their errors at the present path, smallest first, and the sums, as a dict.")
-      .def("getReport", [](const PyKomo& k, nb::args, nb::kwargs) { return report(k, false, true, false, true); }, "The same as report().")
-      .def("getFeatureNames", [](const PyKomo& k) { return residualTags(k); }, "A short name per residual.")
+      .def(
+          "getReport", [](const PyKomo& k, nb::args, nb::kwargs) { return report(k, false, true, false, true); },
+          "The same as report().")
+      .def(
+          "getFeatureNames", [](const PyKomo& k) { return residualTags(k); }, "A short name per residual.")
       .def("info_objectiveNames", objectiveTags, "A short name per objective.")
-      .def("info_objectiveErrorTraces", [](const PyKomo& k) { return toNumpy(measurePath(k).per_slice); }, "(T, objectives): errors by slice.")
-      .def("info_sliceErrors", [](const PyKomo& k, int t, const Numbers& traces) { return sliceErrors(k, t, traces.matrix()); }, "t"_a,
-           "errorTraces"_a, "The objectives with errors in a slice, largest first, a line each.")
-      .def("info_sliceCollisions", [](const PyKomo& k, int t, double margin) { return sliceCollisions(k, t, margin); }, "t"_a,
-           "belowMargin"_a, "The pairs of shapes nearer than a margin in a slice, a line each.")
-      .def("view", view, "pause"_a = false, "txt"_a = nb::none(), "Shows all slices at once, those before the path as well, in the browser, with\n"
-           "a time slider, the errors of the objectives, and what violates them in red. pause: waits for a key. Returns the key that was pressed, or 0.")
-      .def("view_slice", viewSlice, "t"_a, "pause"_a = false, "Shows a slice; the others are at the time slider. Returns the key, or 0.")
-      .def("view_play", viewPlay, "pause"_a = false, "txt"_a = nb::none(), "delay"_a = .1, "saveVideoPath"_a = nb::none(),
-           "Plays the slices, `delay` seconds each, and waits until they have been played once; a key ends it. saveVideoPath: saves\n"
-           "a picture of each slice as <saveVideoPath>000000.png and so on, in place of those that are there. Returns the key, or 0.")
-      .def("_repr_html_", [](const PyKomo& k) {
-             const ShownMotion motion = motionOf(k);
-             const std::string page = recordedScene(k.configuration(-k.order()), &motion, "KOMO Viewer");
-             return nb::cast<std::string>(nb::module_::import_("kinegraph.notebook").attr("inlineFrame")(page));
-           }, "What notebooks show: the motion, which plays there without a program.")
-      .def("view_close", [](PyKomo& k) { if (k.viewer) k.viewer->endPage(); }, "Ends the viewer.")
-      .def("get_viewer", [](PyKomo& k) {
-             if (!k.viewer) k.viewer = std::make_shared<PyViewer>();
-             return k.viewer;
-           }, "The viewer of this problem.")
-      .def("set_viewer", [](PyKomo& k, std::shared_ptr<PyViewer> viewer) { k.viewer = std::move(viewer); }, "viewer"_a,
-           "Shows this problem in another one's viewer.");
+      .def(
+          "info_objectiveErrorTraces", [](const PyKomo& k) { return toNumpy(measurePath(k).per_slice); },
+          "(T, objectives): errors by slice.")
+      .def(
+          "info_sliceErrors",
+          [](const PyKomo& k, int t, const Numbers& traces) { return sliceErrors(k, t, traces.matrix()); }, "t"_a,
+          "errorTraces"_a, "The objectives with errors in a slice, largest first, a line each.")
+      .def(
+          "info_sliceCollisions", [](const PyKomo& k, int t, double margin) { return sliceCollisions(k, t, margin); },
+          "t"_a, "belowMargin"_a, "The pairs of shapes nearer than a margin in a slice, a line each.")
+      .def("view", view, "pause"_a = false, "txt"_a = nb::none(),
+           "Shows all slices at once, those before the path as well, in the browser, with\n"
+           "a time slider, the errors of the objectives, and what violates them in red. pause: waits for a key. "
+           "Returns the key that was pressed, or 0.")
+      .def("view_slice", viewSlice, "t"_a, "pause"_a = false,
+           "Shows a slice; the others are at the time slider. Returns the key, or 0.")
+      .def("view_play", viewPlay, "pause"_a = false, "txt"_a = nb::none(), "delay"_a = .1,
+           "saveVideoPath"_a = nb::none(),
+           "Plays the slices, `delay` seconds each, and waits until they have been played once; a key ends it. "
+           "saveVideoPath: saves\n"
+           "a picture of each slice as <saveVideoPath>000000.png and so on, in place of those that are there. Returns "
+           "the key, or 0.")
+      .def(
+          "_repr_html_",
+          [](const PyKomo& k) {
+            const ShownMotion motion = motionOf(k);
+            const std::string page = recordedScene(k.configuration(-k.order()), &motion, "KOMO Viewer");
+            return nb::cast<std::string>(nb::module_::import_("kinegraph.notebook").attr("inlineFrame")(page));
+          },
+          "What notebooks show: the motion, which plays there without a program.")
+      .def(
+          "view_close",
+          [](PyKomo& k) {
+            if (k.viewer) k.viewer->endPage();
+          },
+          "Ends the viewer.")
+      .def(
+          "get_viewer",
+          [](PyKomo& k) {
+            if (!k.viewer) k.viewer = std::make_shared<PyViewer>();
+            return k.viewer;
+          },
+          "The viewer of this problem.")
+      .def(
+          "set_viewer", [](PyKomo& k, std::shared_ptr<PyViewer> viewer) { k.viewer = std::move(viewer); }, "viewer"_a,
+          "Shows this problem in another one's viewer.");
 }
 
 }  // namespace kinegraph::python

@@ -9,9 +9,9 @@
 
 #include "bindings.h"
 #include "defaults.h"
+#include "explanation_dicts.h"
 #include "kinegraph/base/errors.h"
 #include "kinegraph/base/text.h"
-#include "explanation_dicts.h"
 #include "kinegraph/nlp/test_problems.h"
 #include "kinegraph/solvers/explanation.h"
 #include "kinegraph/solvers/penalty_nlp.h"
@@ -24,7 +24,9 @@ namespace kinegraph::python {
 namespace {
 
 /// x as given, or where its size does not fit a point drawn within the bounds.
-VectorXd pointOrSample(Nlp& nlp, const Numbers& x) { return x.values.size() == nlp.dimension() ? x.values : nlp.uniformPoint(defaults().random); }
+VectorXd pointOrSample(Nlp& nlp, const Numbers& x) {
+  return x.values.size() == nlp.dimension() ? x.values : nlp.uniformPoint(defaults().random);
+}
 
 void checkSize(const Nlp& nlp, const Numbers& x) {
   if (x.values.size() != nlp.dimension()) {
@@ -73,7 +75,8 @@ IndexArray typeNumbers(const Nlp& nlp) {
 bool check(Nlp& nlp, const Numbers& given, double tolerance, const std::vector<std::string>& names) {
   const VectorXd x = pointOrSample(nlp, given);
   if (!names.empty() && names.size() != nlp.types().size()) {
-    throw ValueError(cat("checkJacobian: there are ", names.size(), " names; the problem has ", nlp.types().size(), " residuals"));
+    throw ValueError(
+        cat("checkJacobian: there are ", names.size(), " names; the problem has ", nlp.types().size(), " residuals"));
   }
   std::vector<JacobianCheck> worst;
   double largest = 0.;
@@ -85,8 +88,9 @@ bool check(Nlp& nlp, const Numbers& given, double tolerance, const std::vector<s
   if (worst.empty()) return nb::print(cat("checkJacobian -- SUCCESS (max diff error=", largest, ")").c_str()), true;
   std::string text = "checkJacobian -- FAILURE; the worst entries:";
   for (const JacobianCheck& entry : worst) {
-    text += cat("\n  ", names.empty() ? nlp.rowName(entry.row) : names[std::size_t(entry.row)], ", ", nlp.describeVariable(entry.column).name,
-                " (column ", entry.column, "): J is ", entry.analytic, ", differences give ", entry.numeric);
+    text += cat("\n  ", names.empty() ? nlp.rowName(entry.row) : names[std::size_t(entry.row)], ", ",
+                nlp.describeVariable(entry.column).name, " (column ", entry.column, "): J is ", entry.analytic,
+                ", differences give ", entry.numeric);
   }
   nb::print(text.c_str());
   return false;
@@ -94,8 +98,11 @@ bool check(Nlp& nlp, const Numbers& given, double tolerance, const std::vector<s
 
 bool checkSecond(Nlp& nlp, const Numbers& given, double tolerance) {
   const JacobianCheck result = checkHessian(nlp, pointOrSample(nlp, given), 1e-5, CheckInterrupts());
-  if (result.error <= tolerance) return nb::print(cat("checkHessian -- SUCCESS (max diff error=", result.error, ")").c_str()), true;
-  nb::print(cat("checkHessian -- FAILURE: entry (", result.row, ", ", result.column, ") is ", result.analytic, ", differences give ", result.numeric).c_str());
+  if (result.error <= tolerance)
+    return nb::print(cat("checkHessian -- SUCCESS (max diff error=", result.error, ")").c_str()), true;
+  nb::print(cat("checkHessian -- FAILURE: entry (", result.row, ", ", result.column, ") is ", result.analytic,
+                ", differences give ", result.numeric)
+                .c_str());
   return false;
 }
 
@@ -114,7 +121,9 @@ Array costHessian(Nlp& nlp, const Numbers& x) {
 /// Of a motion problem.
 nb::object reduce(const Nlp& nlp) {
   const std::shared_ptr<PyKomo> komo = std::static_pointer_cast<PyKomo>(komoOf(nlp));
-  if (!komo) throw nb::type_error("this NLP cannot be pickled; those of a KOMO can, and problems can be made anew where they are needed");
+  if (!komo)
+    throw nb::type_error(
+        "this NLP cannot be pickled; those of a KOMO can, and problems can be made anew where they are needed");
   return nb::make_tuple(nb::module_::import_("operator").attr("methodcaller")("nlp"), nb::make_tuple(komo));
 }
 
@@ -133,54 +142,86 @@ void bindNlp(nb::module_& m) {
   nb::class_<Nlp>(m, "NLP", "Minimize sum f + sum sos^2 subject to ineq <= 0, eq = 0 and bounds.")
       .def("getDimension", &Nlp::dimension, "Number of variables.")
       .def_prop_ro("dimension", &Nlp::dimension, "Number of variables.")
-      .def("getTypes", [](const Nlp& nlp) { return nlp.types(); }, "The OT of each residual.")
-      .def("getFeatureTypes", [](const Nlp& nlp) { return nlp.types(); }, "The same as getTypes.")
+      .def(
+          "getTypes", [](const Nlp& nlp) { return nlp.types(); }, "The OT of each residual.")
+      .def(
+          "getFeatureTypes", [](const Nlp& nlp) { return nlp.types(); }, "The same as getTypes.")
       .def_prop_ro("types", typeNumbers, "The OT of each residual, as numbers.")
       .def("getBounds", bounds, "(2, n): lower and upper bounds; 0 and -1 where there is none.")
       .def_prop_ro("bounds", bounds, "(2, n): lower and upper bounds; 0 and -1 where there is none.")
-      .def("evaluate", evaluate, "x"_a, "phi (d,) and J: dense (d, n), or for motion problems triplets (row, column, value).")
+      .def("evaluate", evaluate, "x"_a,
+           "phi (d,) and J: dense (d, n), or for motion problems triplets (row, column, value).")
       .def("eval_scalar", evalScalar, "x"_a,
-           "(value, gradient, Hessian) of sum f + sum sos^2, the Hessian of sos as 2 J^T J. For problems without constraints.")
+           "(value, gradient, Hessian) of sum f + sum sos^2, the Hessian of sos as 2 J^T J. For problems without "
+           "constraints.")
       .def("getFHessian", costHessian, "x"_a, "Hessian of sum f (n, n); (0, 0) if the problem has none to offer.")
-      .def("getInitializationSample", [](Nlp& nlp) { return toNumpy(nlp.initialPoint(defaults().random)); }, "A point to start from.")
-      .def("getUniformSample", [](Nlp& nlp) { return toNumpy(nlp.uniformPoint(defaults().random)); }, "A point uniform in the bounds.")
+      .def(
+          "getInitializationSample", [](Nlp& nlp) { return toNumpy(nlp.initialPoint(defaults().random)); },
+          "A point to start from.")
+      .def(
+          "getUniformSample", [](Nlp& nlp) { return toNumpy(nlp.uniformPoint(defaults().random)); },
+          "A point uniform in the bounds.")
       .def("checkJacobian", check, "x"_a, "tolerance"_a = 1e-4, "featureNames"_a = std::vector<std::string>(),
-           "Compares J with central differences at x, or at a sample where the size of x does not fit. Prints the ten worst entries;\n"
+           "Compares J with central differences at x, or at a sample where the size of x does not fit. Prints the ten "
+           "worst entries;\n"
            "featureNames: one per residual.")
       .def("checkHessian", checkSecond, "x"_a, "tolerance"_a = 1e-4, "The same for getFHessian.")
-      .def("as_KOMO", [](const Nlp& nlp) { return std::static_pointer_cast<PyKomo>(komoOf(nlp)); },
-           "The KOMO that this problem was made from, or None.")
-      .def("aug_lag", [](std::shared_ptr<Nlp> nlp, double mu, double barrier) { return std::shared_ptr<Nlp>(makePenalized(std::move(nlp), mu, barrier)); },
-           "muSquaredPenalty"_a = -1., "muLogBarrier"_a = -1.,
-           "This problem with its constraints as costs: muSquaredPenalty phi^2 (inequalities: where violated), or for inequalities\n"
-           "-muLogBarrier log(-phi). A weight < 0 leaves them as they are.")
+      .def(
+          "as_KOMO", [](const Nlp& nlp) { return std::static_pointer_cast<PyKomo>(komoOf(nlp)); },
+          "The KOMO that this problem was made from, or None.")
+      .def(
+          "aug_lag",
+          [](std::shared_ptr<Nlp> nlp, double mu, double barrier) {
+            return std::shared_ptr<Nlp>(makePenalized(std::move(nlp), mu, barrier));
+          },
+          "muSquaredPenalty"_a = -1., "muLogBarrier"_a = -1.,
+          "This problem with its constraints as costs: muSquaredPenalty phi^2 (inequalities: where violated), or for "
+          "inequalities\n"
+          "-muLogBarrier log(-phi). A weight < 0 leaves them as they are.")
       .def("__reduce__", reduce)
-      .def("summarizeErrors", [](const Nlp& nlp, const Numbers& phi) {
-             const ErrorSums s = sumErrors(nlp.types(), phi.values);
-             return toNumpy(VectorXd(Vector4d(s.f, s.sos, s.ineq, s.eq)));
-           }, "phi"_a, "Sums over residuals: f, sos, ineq, eq.")
-      .def("explain", [](Nlp& nlp, const Numbers& x, double tolerance) {
-             return explainInterruptibly(nlp, x.values, tolerance).str();
-           }, "x"_a,
-           "tolerance"_a = 1e-3, "In words: which constraints contradict each other around x, by how much, and what helps.")
-      .def("conflicts", [](Nlp& nlp, const Numbers& x, double tolerance) {
-             return toDicts(explainInterruptibly(nlp, x.values, tolerance));
-           }, "x"_a,
-           "tolerance"_a = 1e-3, "What explain says, as a list of dicts.")
+      .def(
+          "summarizeErrors",
+          [](const Nlp& nlp, const Numbers& phi) {
+            const ErrorSums s = sumErrors(nlp.types(), phi.values);
+            return toNumpy(VectorXd(Vector4d(s.f, s.sos, s.ineq, s.eq)));
+          },
+          "phi"_a, "Sums over residuals: f, sos, ineq, eq.")
+      .def(
+          "explain",
+          [](Nlp& nlp, const Numbers& x, double tolerance) {
+            return explainInterruptibly(nlp, x.values, tolerance).str();
+          },
+          "x"_a, "tolerance"_a = 1e-3,
+          "In words: which constraints contradict each other around x, by how much, and what helps.")
+      .def(
+          "conflicts",
+          [](Nlp& nlp, const Numbers& x, double tolerance) {
+            return toDicts(explainInterruptibly(nlp, x.values, tolerance));
+          },
+          "x"_a, "tolerance"_a = 1e-3, "What explain says, as a list of dicts.")
       .def("report", &Nlp::report, "verbose"_a = 1, "A line about the problem.");
 
-  nb::class_<PyNlpFactory, Nlp>(m, "NLP_Factory", "A problem whose residuals a Python function computes. It is an NLP once all is set.")
+  nb::class_<PyNlpFactory, Nlp>(m, "NLP_Factory",
+                                "A problem whose residuals a Python function computes. It is an NLP once all is set.")
       .def(nb::init<>())
       .def("setDimension", &PyNlpFactory::setDimension, "dim"_a, "Number of variables.")
       .def("setTypes", &PyNlpFactory::setTypes, "featureTypes"_a, "The OT of each residual.")
       .def("setFeatureTypes", &PyNlpFactory::setTypes, "featureTypes"_a, "The same as setTypes.")
-      .def("setBounds", [](PyNlpFactory& f, const Numbers& lower, const Numbers& upper) { f.setBounds(lower.values, upper.values); },
-           "lower"_a, "upper"_a, "Bounds of the variables; upper below lower: none.")
+      .def(
+          "setBounds",
+          [](PyNlpFactory& f, const Numbers& lower, const Numbers& upper) { f.setBounds(lower.values, upper.values); },
+          "lower"_a, "upper"_a, "Bounds of the variables; upper below lower: none.")
       .def("setEvalCallback", &PyNlpFactory::setFunction, "fct"_a, "function(x) -> (phi, J), with J dense.")
-      .def("testCallingEvalCallback", [](PyNlpFactory& f, const Numbers& x) { return evaluate(f, x); }, "x"_a, "Evaluates the function once.");
+      .def(
+          "testCallingEvalCallback", [](PyNlpFactory& f, const Numbers& x) { return evaluate(f, x); }, "x"_a,
+          "Evaluates the function once.");
 
-  m.def("makeTestProblem", [](const std::string& name, int dimension, std::uint64_t seed) { return makeTestProblem(name, {dimension, seed}); },
-        "name"_a, "dimension"_a = -1, "seed"_a = 0, "A problem by name, to try solvers on.");
+  m.def(
+      "makeTestProblem",
+      [](const std::string& name, int dimension, std::uint64_t seed) {
+        return makeTestProblem(name, {dimension, seed});
+      },
+      "name"_a, "dimension"_a = -1, "seed"_a = 0, "A problem by name, to try solvers on.");
   m.def("testProblemNames", testProblemNames, "The names that makeTestProblem knows.");
 }
 

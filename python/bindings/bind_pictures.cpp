@@ -64,9 +64,12 @@ void placeCamera(PyViewer& viewer, const Camera& camera) {
 void setViewCamera(PyViewer& viewer, nb::handle frame) {
   if (frame.is_none()) return placeCamera(viewer, defaultViewCamera());
   std::optional<Frame> given;
-  if (nb::isinstance<Frame>(frame)) given = nb::cast<Frame>(frame);
-  else if (viewer.scene) given = Frame(viewer.scene, viewer.scene->get(nb::cast<std::string>(frame), "setCamera"));
-  else throw ValueError("this viewer shows nothing yet; give the frame itself, or call view() first");
+  if (nb::isinstance<Frame>(frame))
+    given = nb::cast<Frame>(frame);
+  else if (viewer.scene)
+    given = Frame(viewer.scene, viewer.scene->get(nb::cast<std::string>(frame), "setCamera"));
+  else
+    throw ValueError("this viewer shows nothing yet; give the frame itself, or call view() first");
   placeCamera(viewer, cameraOf(*given));
   viewer.camera.follow(*given);
 }
@@ -105,7 +108,8 @@ void bindPictures(nb::class_<PyViewer>& viewer) {
             CameraImage image = picture(v, v.message());
             return rgbOf(image);
           },
-          "nonThreaded"_a = true, "A picture of the scene, with the message, drawn without a browser: uint8 (height, width, 3).")
+          "nonThreaded"_a = true,
+          "A picture of the scene, with the message, drawn without a browser: uint8 (height, width, 3).")
       .def(
           "getDepth",
           [](PyViewer& v, bool) {
@@ -114,10 +118,12 @@ void bindPictures(nb::class_<PyViewer>& viewer) {
           },
           "nonThreaded"_a = true,
           "Its depth along the camera's z axis: float32 (height, width), m; -1 where nothing is.")
-      .def("savePng", [](PyViewer& v, const std::string& path, int count) { return savePicture(v, path, count); }, "saveVideoPath"_a = "z.vid/", "count"_a = -1,
-           "Saves a picture, and returns the file's name: `saveVideoPath` itself if it ends in .png; else it is a "
-           "prefix that\n"
-           "gets a number of six digits, which counts up from 0, or from `count`. Folders are made.")
+      .def(
+          "savePng", [](PyViewer& v, const std::string& path, int count) { return savePicture(v, path, count); },
+          "saveVideoPath"_a = "z.vid/", "count"_a = -1,
+          "Saves a picture, and returns the file's name: `saveVideoPath` itself if it ends in .png; else it is a "
+          "prefix that\n"
+          "gets a number of six digits, which counts up from 0, or from `count`. Folders are made.")
       .def("setCamera", setViewCamera, "frame"_a.none() = nb::none(),
            "Looks from a camera frame (or its name) and follows it, as CameraView.setCamera; None: from where viewers "
            "start.")

@@ -5,10 +5,10 @@
 
 #include "bindings.h"
 #include "defaults.h"
+#include "images.h"
 #include "kinegraph/base/errors.h"
 #include "kinegraph/base/text.h"
 #include "kinegraph/rendering/depth_image.h"
-#include "images.h"
 #include "py_viewer.h"
 
 namespace kinegraph::python {

@@ -75,7 +75,8 @@ PointColors colorsOf(OptionalNumbers numbers, std::size_t n) {
   std::size_t columns = numbers->rank == 2 ? numbers->columns() : size;
   if (numbers->rank < 2 && size == 3 * n && n > 1) columns = 3;
   if ((columns != 3 && columns != 4) || (size != columns && size != columns * n)) {
-    throw ValueError(cat("got ", size, " color numbers for ", n, " points; expected 3 (rgb) or 4 (rgba) per point, or of one color, in 0..255"));
+    throw ValueError(cat("got ", size, " color numbers for ", n,
+                         " points; expected 3 (rgb) or 4 (rgba) per point, or of one color, in 0..255"));
   }
   PointColors colors(size / columns, {0, 0, 0, 255});
   for (std::size_t i = 0; i < size; ++i) {
@@ -98,15 +99,18 @@ std::vector<std::uint32_t> indices(const Numbers& numbers, std::size_t limit, co
   return list;
 }
 
-Frame& setMesh(Frame& frame, const Numbers& vertices, const Numbers& triangles, OptionalNumbers colors, OptionalNumbers parts) {
+Frame& setMesh(Frame& frame, const Numbers& vertices, const Numbers& triangles, OptionalNumbers colors,
+               OptionalNumbers parts) {
   Mesh mesh;
   mesh.vertices = points(vertices, "mesh vertices");
   mesh.colors = colorsOf(colors, mesh.vertices.size());
   const std::vector<std::uint32_t> corners = indices(triangles, mesh.vertices.size(), "mesh triangles");
   if (corners.size() % 3 != 0) throw ValueError(cat("mesh triangles are m x 3 indices, got ", corners.size()));
-  for (std::size_t i = 0; i < corners.size(); i += 3) mesh.triangles.push_back({corners[i], corners[i + 1], corners[i + 2]});
+  for (std::size_t i = 0; i < corners.size(); i += 3)
+    mesh.triangles.push_back({corners[i], corners[i + 1], corners[i + 2]});
   if (parts) mesh.parts = indices(*parts, mesh.vertices.size() + 1, "convex parts");
-  if (!std::is_sorted(mesh.parts.begin(), mesh.parts.end())) throw ValueError("cvxParts are vertex indices in ascending order");
+  if (!std::is_sorted(mesh.parts.begin(), mesh.parts.end()))
+    throw ValueError("cvxParts are vertex indices in ascending order");
   return frame.setMesh(std::move(mesh));
 }
 
@@ -155,7 +159,8 @@ Grid gridOf(nb::handle data, const char* call) {
 }
 
 Vector3d boxSize(const Numbers& size, const char* call) {
-  if (size.values.size() != 3) throw ValueError(cat(call, ": size is 3 numbers, the extent of the grid in m; got ", size.values.size()));
+  if (size.values.size() != 3)
+    throw ValueError(cat(call, ": size is 3 numbers, the extent of the grid in m; got ", size.values.size()));
   return size.values;
 }
 
@@ -166,91 +171,124 @@ constexpr auto kChain = nb::rv_policy::none;  // setters return the very object 
 void bindMeshes(nb::class_<Frame>& frame) {
   frame
       .def("setMesh", setMesh, "vertices"_a, "triangles"_a, "colors"_a = nb::none(), "cvxParts"_a = nb::none(), kChain,
-           "Gives the frame a mesh: vertices (n, 3) in m, triangles (m, 3). colors: (n, 3) or (n, 4), or one row for all, in 0..255.\n"
+           "Gives the frame a mesh: vertices (n, 3) in m, triangles (m, 3). colors: (n, 3) or (n, 4), or one row for "
+           "all, in 0..255.\n"
            "cvxParts: index of the first vertex of each convex part. ArgumentError for indices that name no vertex.")
-      .def("setMeshFile",
-           [](Frame& f, nb::handle file, double scale) -> Frame& { return setMeshFile(f, pathText(file), scale), f; }, "filename"_a,
-           "scale"_a = 1., kChain, "Gives the frame the mesh of a file (h5, ply, stl, obj, dae, ...), scaled. FileError if it cannot be read.")
-      .def("setTextureFile",
-           [](Frame& f, nb::handle image, OptionalNumbers uv) -> Frame& {
-             return setTexture(f, pathText(image), uv ? uv->list() : std::vector<double>{}), f;
-           },
-           "image_filename"_a, "texCoords"_a = nb::none(), kChain,
-           "Covers the frame's shape with a picture, PNG or JPEG. texCoords: (n, 2), where each vertex of its mesh is in the picture:\n"
-           "to the right and up, in 0..1. Without them the mesh's own count; on other shapes the picture covers every side of a box, a\n"
-           "quad, or goes once around z. FileError if the file is missing or of another kind; ArgumentError without a shape.")
+      .def(
+          "setMeshFile",
+          [](Frame& f, nb::handle file, double scale) -> Frame& { return setMeshFile(f, pathText(file), scale), f; },
+          "filename"_a, "scale"_a = 1., kChain,
+          "Gives the frame the mesh of a file (h5, ply, stl, obj, dae, ...), scaled. FileError if it cannot be read.")
+      .def(
+          "setTextureFile",
+          [](Frame& f, nb::handle image, OptionalNumbers uv) -> Frame& {
+            return setTexture(f, pathText(image), uv ? uv->list() : std::vector<double>{}), f;
+          },
+          "image_filename"_a, "texCoords"_a = nb::none(), kChain,
+          "Covers the frame's shape with a picture, PNG or JPEG. texCoords: (n, 2), where each vertex of its mesh is "
+          "in the picture:\n"
+          "to the right and up, in 0..1. Without them the mesh's own count; on other shapes the picture covers every "
+          "side of a box, a\n"
+          "quad, or goes once around z. FileError if the file is missing or of another kind; ArgumentError without a "
+          "shape.")
       .def("setConvexMesh", setConvexMesh, "points"_a, "colors"_a = nb::none(), "radius"_a = 0., kChain,
-           "Gives the frame the convex hull of points (n, 3), m: as a mesh, or, with a radius (m), as ssCvx swept by a ball.\n"
+           "Gives the frame the convex hull of points (n, 3), m: as a mesh, or, with a radius (m), as ssCvx swept by a "
+           "ball.\n"
            "The hull has one color, the mean of those given (0..255).")
-      .def("setPointCloud",
-           [](Frame& f, const Numbers& cloud, OptionalNumbers colors, nb::object) -> Frame& { return setPointCloud(f, cloud, colors); },
-           "points"_a, "colors"_a = nb::none(), "normals"_a = nb::none(), kChain,
-           "Gives the frame points (n, 3), m. colors: (n, 3) or (n, 4), or one row, in 0..255. Normals are accepted and not used.")
+      .def(
+          "setPointCloud",
+          [](Frame& f, const Numbers& cloud, OptionalNumbers colors, nb::object) -> Frame& {
+            return setPointCloud(f, cloud, colors);
+          },
+          "points"_a, "colors"_a = nb::none(), "normals"_a = nb::none(), kChain,
+          "Gives the frame points (n, 3), m. colors: (n, 3) or (n, 4), or one row, in 0..255. Normals are accepted and "
+          "not used.")
       .def("setLines", setLinesOf, "verts"_a, "colors"_a = nb::none(), "singleConnectedLine"_a = false, kChain,
-           "Gives the frame line segments between consecutive pairs of points (n, 3), m, or with singleConnectedLine one line\n"
+           "Gives the frame line segments between consecutive pairs of points (n, 3), m, or with singleConnectedLine "
+           "one line\n"
            "through all. colors as for setPointCloud.")
-      .def("setMeshAsLines",
-           [](Frame& f, const Numbers& lines) -> Frame& { return setLinesOf(f, lines, std::nullopt, false); }, "lines"_a, kChain,
-           "setLines with a flat list of numbers: x y z of both ends, line after line, m.")
-      .def("setTensorShape",
-           [](Frame& f, nb::handle data, const Numbers& size) -> Frame& {
-             return setTensor(f, gridOf(data, "setTensorShape"), boxSize(size, "setTensorShape")), f;
-           },
-           "data"_a, "size"_a, kChain, "Gives the frame a grid of numbers (nx, ny, nz) in a box of size (3,), m. It is drawn as the box.")
-      .def("setSdf",
-           [](Frame& f, nb::handle data, const Numbers& size) -> Frame& { return setSdf(f, gridOf(data, "setSdf"), boxSize(size, "setSdf")), f; },
-           "data"_a, "size"_a, kChain,
-           "Gives the frame the solid where a grid (nx, ny, nz) in a box of size (3,), m, is not positive. Outside of the solid\n"
-           "the values are its distance, m; collisions and distances interpolate them. The viewer draws the box.")
-      .def("setImplicitSurface",
-           [](Frame& f, nb::handle data, const Numbers& size, int blur, double resample) -> Frame& {
-             const char* call = "setImplicitSurface";
-             return setImplicitSurface(f, gridOf(data, call), boxSize(size, call), blur, resample), f;
-           },
-           "data"_a, "size"_a, "blur"_a = 0, "resample"_a = -1., kChain,
-           "Gives the frame the surface where a grid (nx, ny, nz) in a box of size (3,), m, is zero; normals point to larger values.\n"
-           "blur: how often values are averaged with their neighbours. resample: cell size in m to interpolate to, if > 0.\n"
-           "ArgumentError if the values are nowhere zero.")
-      .def("convertDecomposedShapeToChildFrames",
-           [](Frame& f) -> Frame& { return splitIntoConvexParts(f), f; }, kChain,
-           "Gives every convex part of the mesh (cvxParts, or what its triangles connect) to a child <name>_<i> as its convex hull,\n"
-           "with the color and contact flag; the frame loses its shape. ArgumentError without a mesh.")
-      .def("getMeshPoints", [](const Frame& f) { return meshPoints(meshOf(f)); },
-           "Vertices of the shape's surface, (n, 3), in the frame, m.")
-      .def("getMeshTriangles", [](const Frame& f) { return meshTriangles(f, meshOf(f)); },
-           "Triangles of the shape's surface, (m, 3) uint32; of lines: their ends, (m, 2).")
-      .def("getMeshColors", [](const Frame& f) { return meshColors(f, meshOf(f)); },
-           "Colors, (n, 3) or (n, 4) uint8: one per vertex, or one row with the frame's color; (0, 3) if it has none.")
-      .def("getMesh",
-           [](const Frame& f) {
-             const Mesh mesh = meshOf(f);
-             return nb::typed<nb::tuple, Array, IndexArray, ByteArray>(
-                 nb::make_tuple(meshPoints(mesh), meshTriangles(f, mesh), meshColors(f, mesh)));
-           },
-           "getMeshPoints, getMeshTriangles and getMeshColors together.");
+      .def(
+          "setMeshAsLines",
+          [](Frame& f, const Numbers& lines) -> Frame& { return setLinesOf(f, lines, std::nullopt, false); }, "lines"_a,
+          kChain, "setLines with a flat list of numbers: x y z of both ends, line after line, m.")
+      .def(
+          "setTensorShape",
+          [](Frame& f, nb::handle data, const Numbers& size) -> Frame& {
+            return setTensor(f, gridOf(data, "setTensorShape"), boxSize(size, "setTensorShape")), f;
+          },
+          "data"_a, "size"_a, kChain,
+          "Gives the frame a grid of numbers (nx, ny, nz) in a box of size (3,), m. It is drawn as the box.")
+      .def(
+          "setSdf",
+          [](Frame& f, nb::handle data, const Numbers& size) -> Frame& {
+            return setSdf(f, gridOf(data, "setSdf"), boxSize(size, "setSdf")), f;
+          },
+          "data"_a, "size"_a, kChain,
+          "Gives the frame the solid where a grid (nx, ny, nz) in a box of size (3,), m, is not positive. Outside of "
+          "the solid\n"
+          "the values are its distance, m; collisions and distances interpolate them. The viewer draws the box.")
+      .def(
+          "setImplicitSurface",
+          [](Frame& f, nb::handle data, const Numbers& size, int blur, double resample) -> Frame& {
+            const char* call = "setImplicitSurface";
+            return setImplicitSurface(f, gridOf(data, call), boxSize(size, call), blur, resample), f;
+          },
+          "data"_a, "size"_a, "blur"_a = 0, "resample"_a = -1., kChain,
+          "Gives the frame the surface where a grid (nx, ny, nz) in a box of size (3,), m, is zero; normals point to "
+          "larger values.\n"
+          "blur: how often values are averaged with their neighbours. resample: cell size in m to interpolate to, if > "
+          "0.\n"
+          "ArgumentError if the values are nowhere zero.")
+      .def(
+          "convertDecomposedShapeToChildFrames", [](Frame& f) -> Frame& { return splitIntoConvexParts(f), f; }, kChain,
+          "Gives every convex part of the mesh (cvxParts, or what its triangles connect) to a child <name>_<i> as its "
+          "convex hull,\n"
+          "with the color and contact flag; the frame loses its shape. ArgumentError without a mesh.")
+      .def(
+          "getMeshPoints", [](const Frame& f) { return meshPoints(meshOf(f)); },
+          "Vertices of the shape's surface, (n, 3), in the frame, m.")
+      .def(
+          "getMeshTriangles", [](const Frame& f) { return meshTriangles(f, meshOf(f)); },
+          "Triangles of the shape's surface, (m, 3) uint32; of lines: their ends, (m, 2).")
+      .def(
+          "getMeshColors", [](const Frame& f) { return meshColors(f, meshOf(f)); },
+          "Colors, (n, 3) or (n, 4) uint8: one per vertex, or one row with the frame's color; (0, 3) if it has none.")
+      .def(
+          "getMesh",
+          [](const Frame& f) {
+            const Mesh mesh = meshOf(f);
+            return nb::typed<nb::tuple, Array, IndexArray, ByteArray>(
+                nb::make_tuple(meshPoints(mesh), meshTriangles(f, mesh), meshColors(f, mesh)));
+          },
+          "getMeshPoints, getMeshTriangles and getMeshColors together.");
 }
 
 }  // namespace
 
 void bindShapes(nb::class_<Frame>& frame) {
   frame
-      .def("setShape",
-           [](Frame& f, ShapeType type, const Numbers& size) -> Frame& { return f.setShape(type, size.list()); },
-           "type"_a, "size"_a, kChain,
-           "Gives the frame a shape. Sizes in m: box [x y z], ssBox [x y z radius], sphere [r], capsule and cylinder\n"
-           "[length r], marker [length], quad [x y].")
-      .def("setShape",
-           [](Frame& f, const std::string& type, const Numbers& size) -> Frame& {
-             return f.setShape(shapeTypeFromName(type), size.list());
-           },
-           "type"_a, "size"_a, kChain, "The same with the type's name.")
-      .def("setColor", [](Frame& f, const Numbers& color) -> Frame& { return f.setColor(color.list()); }, "color"_a, kChain,
-           "Grey, grey and alpha, rgb, or rgba; in 0..1.")
-      .def("setContact", [](Frame& f, int contact) -> Frame& { return f.setContact(contact); }, "contact"_a, kChain,
-           "0: never collides; 1: with everything outside of its link; -k: not with links within k joints above.")
+      .def(
+          "setShape",
+          [](Frame& f, ShapeType type, const Numbers& size) -> Frame& { return f.setShape(type, size.list()); },
+          "type"_a, "size"_a, kChain,
+          "Gives the frame a shape. Sizes in m: box [x y z], ssBox [x y z radius], sphere [r], capsule and cylinder\n"
+          "[length r], marker [length], quad [x y].")
+      .def(
+          "setShape",
+          [](Frame& f, const std::string& type, const Numbers& size) -> Frame& {
+            return f.setShape(shapeTypeFromName(type), size.list());
+          },
+          "type"_a, "size"_a, kChain, "The same with the type's name.")
+      .def(
+          "setColor", [](Frame& f, const Numbers& color) -> Frame& { return f.setColor(color.list()); }, "color"_a,
+          kChain, "Grey, grey and alpha, rgb, or rgba; in 0..1.")
+      .def(
+          "setContact", [](Frame& f, int contact) -> Frame& { return f.setContact(contact); }, "contact"_a, kChain,
+          "0: never collides; 1: with everything outside of its link; -k: not with links within k joints above.")
       .def("getShapeType", &Frame::getShapeType, "Its ST; ST.none without a shape.")
-      .def("getSize", [](const Frame& f) { return toNumpy(f.getSize().data(), f.getSize().size()); },
-           "Sizes as for setShape; empty without a shape.");
+      .def(
+          "getSize", [](const Frame& f) { return toNumpy(f.getSize().data(), f.getSize().size()); },
+          "Sizes as for setShape; empty without a shape.");
   bindMeshes(frame);
 }
 

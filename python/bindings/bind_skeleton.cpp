@@ -19,7 +19,8 @@ void addEntry(Skeleton& skeleton, nb::handle times, nb::handle symbol, nb::handl
   std::vector<std::string> names;
   std::string one;
   const auto repr = [](nb::handle value) { return nb::cast<std::string>(nb::repr(value)); };
-  if (!nb::try_cast(symbol, mode)) throw ValueError(cat("Skeleton: ", repr(symbol), " is not a symbol; expected one of ry.SY"));
+  if (!nb::try_cast(symbol, mode))
+    throw ValueError(cat("Skeleton: ", repr(symbol), " is not a symbol; expected one of ry.SY"));
   const std::string what = switchModeName(mode);
   if (!nb::try_cast(times, at)) {
     throw ValueError(cat("Skeleton: the times of ", what, " are ", repr(times), "; expected [at] or [from, to]"));
@@ -35,7 +36,8 @@ void addEntry(Skeleton& skeleton, nb::handle times, nb::handle symbol, nb::handl
 /// A flat list of times, symbol, frames, times, symbol, frames ...
 void addList(Skeleton& skeleton, const nb::list& list) {
   if (list.size() % 3 != 0) {
-    throw ValueError(cat("Skeleton.add: the list has ", list.size(), " entries; expected three by three: times, symbol, frames"));
+    throw ValueError(
+        cat("Skeleton.add: the list has ", list.size(), " entries; expected three by three: times, symbol, frames"));
   }
   for (std::size_t i = 0; i + 2 < list.size(); i += 3) addEntry(skeleton, list[i], list[i + 1], list[i + 2]);
 }
@@ -60,7 +62,8 @@ void setSkeleton(PyKomo& komo, nb::handle given) {
 
 nb::list entriesOf(const Skeleton& skeleton) {
   nb::list list;
-  for (const Skeleton::Entry& e : skeleton.entries()) list.append(nb::make_tuple(nb::make_tuple(e.from, e.to), e.symbol, e.frames));
+  for (const Skeleton::Entry& e : skeleton.entries())
+    list.append(nb::make_tuple(nb::make_tuple(e.from, e.to), e.symbol, e.frames));
   return list;
 }
 
@@ -68,59 +71,91 @@ nb::list entriesOf(const Skeleton& skeleton) {
 
 void bindSkeleton(nb::module_& m) {
   nb::class_<Skeleton>(m, "Skeleton",
-                       "What shall hold when: entries of times (in phases), a symbol of SY and frames. Makes motion problems that obey them.")
+                       "What shall hold when: entries of times (in phases), a symbol of SY and frames. Makes motion "
+                       "problems that obey them.")
       .def(nb::init<>(), "Without entries.")
       .def("addEntry", addEntry, "timeInterval"_a, "symbol"_a, "frames"_a,
-           nb::sig("def addEntry(self, timeInterval: numpy.typing.ArrayLike, symbol: SY, frames: typing.Sequence[str] | str) -> None"),
-           "timeInterval: [at] or [from, to] in phases, to -1 for the end; of attachments such as SY.stable, until the next one of the object.\n"
-           "symbol: of SY. frames: those that it is about: [gripper, object] for touch, [parent, object] for stable, stableOn, ...")
-      .def("add", addList, "entries"_a, "Adds entries from a flat list: times, symbol, frames, times, symbol, frames ...")
+           nb::sig("def addEntry(self, timeInterval: numpy.typing.ArrayLike, symbol: SY, frames: typing.Sequence[str] "
+                   "| str) -> None"),
+           "timeInterval: [at] or [from, to] in phases, to -1 for the end; of attachments such as SY.stable, until the "
+           "next one of the object.\n"
+           "symbol: of SY. frames: those that it is about: [gripper, object] for touch, [parent, object] for stable, "
+           "stableOn, ...")
+      .def("add", addList, "entries"_a,
+           "Adds entries from a flat list: times, symbol, frames, times, symbol, frames ...")
       .def("entries", entriesOf, "A list of ((from, to), symbol, frames).")
       .def("getMaxPhase", &Skeleton::maxPhase, "The last phase of any entry.")
-      .def("addExplicitCollisions", &Skeleton::addExplicitCollisions, "collisions"_a, "Frames two by two that never overlap.")
+      .def("addExplicitCollisions", &Skeleton::addExplicitCollisions, "collisions"_a,
+           "Frames two by two that never overlap.")
       .def("addLiftPriors", &Skeleton::addLiftPriors, "lift"_a,
            "Objects that rise above 0.6 m in the middle of each phase of a path, if nothing else matters more.")
-      .def("useBroadCollisions", &Skeleton::useBroadCollisions, "enable"_a = true, "Shall nothing collide? That is so unless this says no.")
-      .def("getKomo_path", [](const Skeleton& s, const PyConfig& config, int steps, double acceleration, double, double homing, double) {
-             return wrapped(s.path(config, steps, acceleration, homing));
-           }, "Configuration"_a, "stepsPerPhase"_a = 30, "accScale"_a = 1., "lenScale"_a = 1e-2, "homingScale"_a = 1e-2, "collScale"_a = 1e1,
-           "A KOMO of a path, 5 s per phase, with costs on accelerations and on the distance from home (scales; 0 leaves one out).\n"
-           "lenScale and collScale are there for older scripts and have no effect.")
-      .def("getKomo_waypoints", [](const Skeleton& s, const PyConfig& config, double length, double homing, double) {
-             return wrapped(s.waypoints(config, length, homing));
-           }, "Configuration"_a, "lenScale"_a = 1e-2, "homingScale"_a = 1e-2, "collScale"_a = 1e1,
-           "A KOMO of one configuration per phase, with costs on the distances between them and from home. collScale has no effect.")
-      .def("getKomo_finalSlice", [](const Skeleton& s, const PyConfig& config, double length, double homing, double) {
-             return wrapped(s.finalSlice(config, length, homing));
-           }, "Configuration"_a, "lenScale"_a = 1e-2, "homingScale"_a = 1e-2, "collScale"_a = 1e1,
-           "A KOMO of two configurations: the second is the end, in the first all objects were taken that are held then.")
-      .def("getTwoWaypointProblem", [](const Skeleton&, int t2, const PyKomo& waypoints) {
-             Komo::SubProblem sub = waypoints.subProblem(t2);
-             return nb::make_tuple(PyConfig{std::move(sub.config), nullptr}, toNumpy(sub.start), toNumpy(sub.end));
-           }, "t2"_a, "komoWays"_a,
-           nb::sig("def getTwoWaypointProblem(self, t2: int, komoWays: KOMO) -> "
-                   "tuple[Config, numpy.typing.NDArray[numpy.float64], numpy.typing.NDArray[numpy.float64]]"),
-           "For waypoints that are solved: (the scene in phase t2, q before it, q at its end), to plan the motion between them.")
-      .def("__getstate__", [](const Skeleton& s) {
+      .def("useBroadCollisions", &Skeleton::useBroadCollisions, "enable"_a = true,
+           "Shall nothing collide? That is so unless this says no.")
+      .def(
+          "getKomo_path",
+          [](const Skeleton& s, const PyConfig& config, int steps, double acceleration, double, double homing, double) {
+            return wrapped(s.path(config, steps, acceleration, homing));
+          },
+          "Configuration"_a, "stepsPerPhase"_a = 30, "accScale"_a = 1., "lenScale"_a = 1e-2, "homingScale"_a = 1e-2,
+          "collScale"_a = 1e1,
+          "A KOMO of a path, 5 s per phase, with costs on accelerations and on the distance from home (scales; 0 "
+          "leaves one out).\n"
+          "lenScale and collScale are there for older scripts and have no effect.")
+      .def(
+          "getKomo_waypoints",
+          [](const Skeleton& s, const PyConfig& config, double length, double homing, double) {
+            return wrapped(s.waypoints(config, length, homing));
+          },
+          "Configuration"_a, "lenScale"_a = 1e-2, "homingScale"_a = 1e-2, "collScale"_a = 1e1,
+          "A KOMO of one configuration per phase, with costs on the distances between them and from home. collScale "
+          "has no effect.")
+      .def(
+          "getKomo_finalSlice",
+          [](const Skeleton& s, const PyConfig& config, double length, double homing, double) {
+            return wrapped(s.finalSlice(config, length, homing));
+          },
+          "Configuration"_a, "lenScale"_a = 1e-2, "homingScale"_a = 1e-2, "collScale"_a = 1e1,
+          "A KOMO of two configurations: the second is the end, in the first all objects were taken that are held "
+          "then.")
+      .def(
+          "getTwoWaypointProblem",
+          [](const Skeleton&, int t2, const PyKomo& waypoints) {
+            Komo::SubProblem sub = waypoints.subProblem(t2);
+            return nb::make_tuple(PyConfig{std::move(sub.config), nullptr}, toNumpy(sub.start), toNumpy(sub.end));
+          },
+          "t2"_a, "komoWays"_a,
+          nb::sig("def getTwoWaypointProblem(self, t2: int, komoWays: KOMO) -> "
+                  "tuple[Config, numpy.typing.NDArray[numpy.float64], numpy.typing.NDArray[numpy.float64]]"),
+          "For waypoints that are solved: (the scene in phase t2, q before it, q at its end), to plan the motion "
+          "between them.")
+      .def("__getstate__",
+           [](const Skeleton& s) {
              nb::list list;
-             for (const Skeleton::Entry& e : s.entries()) list.append(nb::make_tuple(e.from, e.to, int(e.symbol), e.frames));
+             for (const Skeleton::Entry& e : s.entries())
+               list.append(nb::make_tuple(e.from, e.to, int(e.symbol), e.frames));
              return nb::make_tuple(list, s.explicitCollisions(), s.liftPriors(), s.usesBroadCollisions());
            })
-      .def("__setstate__", [](Skeleton& s, const nb::tuple& state) {
-             new (&s) Skeleton();
-             for (nb::handle e : nb::cast<nb::list>(state[0])) {
-               s.addEntry({nb::cast<double>(e[0]), nb::cast<double>(e[1])}, SwitchMode(nb::cast<int>(e[2])),
-                          nb::cast<std::vector<std::string>>(e[3]));
-             }
-             s.addExplicitCollisions(nb::cast<std::vector<std::string>>(state[1]));
-             s.addLiftPriors(nb::cast<std::vector<std::string>>(state[2]));
-             s.useBroadCollisions(nb::cast<bool>(state[3]));
-           }, "state"_a)
-      .def("__repr__", [](const Skeleton& s) { return cat("<Skeleton: ", s.entries().size(), " entries, ", s.maxPhase(), " phases>"); });
+      .def(
+          "__setstate__",
+          [](Skeleton& s, const nb::tuple& state) {
+            new (&s) Skeleton();
+            for (nb::handle e : nb::cast<nb::list>(state[0])) {
+              s.addEntry({nb::cast<double>(e[0]), nb::cast<double>(e[1])}, SwitchMode(nb::cast<int>(e[2])),
+                         nb::cast<std::vector<std::string>>(e[3]));
+            }
+            s.addExplicitCollisions(nb::cast<std::vector<std::string>>(state[1]));
+            s.addLiftPriors(nb::cast<std::vector<std::string>>(state[2]));
+            s.useBroadCollisions(nb::cast<bool>(state[3]));
+          },
+          "state"_a)
+      .def("__repr__", [](const Skeleton& s) {
+        return cat("<Skeleton: ", s.entries().size(), " entries, ", s.maxPhase(), " phases>");
+      });
   nb::object komo = nb::borrow(nb::type<PyKomo>());
-  nb::setattr(komo, "setSkeleton", nb::cpp_function(setSkeleton, nb::is_method(), nb::name("setSkeleton"), nb::scope(komo), "skeleton"_a,
-                                                    nb::sig("def setSkeleton(self, skeleton: Skeleton | list) -> None"),
-                                                    "Adds the entries of a Skeleton, or of a list as for Skeleton.add, to this problem."));
+  nb::setattr(komo, "setSkeleton",
+              nb::cpp_function(setSkeleton, nb::is_method(), nb::name("setSkeleton"), nb::scope(komo), "skeleton"_a,
+                               nb::sig("def setSkeleton(self, skeleton: Skeleton | list) -> None"),
+                               "Adds the entries of a Skeleton, or of a list as for Skeleton.add, to this problem."));
 }
 
 }  // namespace kinegraph::python

@@ -40,7 +40,9 @@ class Watch {
     if (drawn_) draw(here_.wasPressed() ? done : total_);
     if (here_.wasPressed() && all.best().x.size() == 0) throwKeyboardInterrupt();
     if (verbose_ < 1) return;
-    nb::print(cat(what_, ": ", feasible, " of ", done, " are feasible, in ", seconds(), " s; the best: ", all.chosen, ", ", all.best().str()).c_str());
+    nb::print(cat(what_, ": ", feasible, " of ", done, " are feasible, in ", seconds(), " s; the best: ", all.chosen,
+                  ", ", all.best().str())
+                  .c_str());
   }
 
  private:
@@ -63,13 +65,16 @@ class Watch {
 std::vector<VectorXd> readStarts(PyKomo& komo, nb::handle given, std::uint64_t seed) {
   if (nb::isinstance<nb::int_>(given)) return drawStarts(komo, nb::cast<int>(given), seed, CheckInterrupts());
   const int T = komo.slices(), n = komo.dofs();
-  const auto expected = [&] { return cat("solveFromMany: starts are a number, or paths of shape (K, ", T, ", ", n, ")"); };
+  const auto expected = [&] {
+    return cat("solveFromMany: starts are a number, or paths of shape (K, ", T, ", ", n, ")");
+  };
   if (!nb::isinstance<nb::iterable>(given)) throw ValueError(expected());
   const VectorXd before = komo.variables();
   std::vector<VectorXd> starts;
   for (nb::handle path : given) {
     Numbers numbers;
-    if (!readNumbers(path, numbers) || numbers.rank != 2 || int(numbers.rows) != T || int(numbers.columns()) != n) throw ValueError(expected());
+    if (!readNumbers(path, numbers) || numbers.rank != 2 || int(numbers.rows) != T || int(numbers.columns()) != n)
+      throw ValueError(expected());
     komo.setPath(numbers.matrix());
     starts.push_back(komo.variables());
   }
@@ -77,8 +82,8 @@ std::vector<VectorXd> readStarts(PyKomo& komo, nb::handle given, std::uint64_t s
   return starts;
 }
 
-SolveManyResult solveKomoFromMany(const std::shared_ptr<PyKomo>& komo, nb::handle starts, bool best, int threads, std::uint64_t seed, int verbose,
-                                  const SolverOptions* options) {
+SolveManyResult solveKomoFromMany(const std::shared_ptr<PyKomo>& komo, nb::handle starts, bool best, int threads,
+                                  std::uint64_t seed, int verbose, const SolverOptions* options) {
   if (komo->slices() == 0) throw Error("KOMO: there is no problem yet; call setConfig and setTiming first");
   const std::vector<VectorXd> points = readStarts(*komo, starts, seed);
   Watch watch("solveFromMany", points.size(), verbose);
@@ -104,7 +109,8 @@ SolveManyResult solveEach(nb::iterable problems, int threads, bool best, int ver
       } else if (nb::isinstance<Nlp>(given)) {
         nlp = nb::cast<std::shared_ptr<Nlp>>(given);
       } else {
-        throw ValueError(cat("solveAll: problem ", solvers.size(), " is a ", nb::cast<std::string>(given.type().attr("__name__")),
+        throw ValueError(cat("solveAll: problem ", solvers.size(), " is a ",
+                             nb::cast<std::string>(given.type().attr("__name__")),
                              "; expected a KOMO, an NLP or an NLP_Solver"));
       }
       NlpSolver& solver = made.emplace_back(std::move(nlp), 0);
@@ -120,7 +126,8 @@ SolveManyResult solveEach(nb::iterable problems, int threads, bool best, int ver
     for (std::size_t j = 0; j < i; ++j) {
       const auto komo = solvers[i]->problem() ? komoOf(*solvers[i]->problem()) : nullptr;
       if (!komo || !solvers[j]->problem() || komoOf(*solvers[j]->problem()) != komo) continue;
-      throw ValueError(cat("solveAll: problems ", j, " and ", i, " are of the same KOMO; copy.copy(komo) makes another one"));
+      throw ValueError(
+          cat("solveAll: problems ", j, " and ", i, " are of the same KOMO; copy.copy(komo) makes another one"));
     }
   }
   Watch watch("solveAll", solvers.size(), verbose);
@@ -142,25 +149,37 @@ SolverResult resultAt(const SolveManyResult& all, Py_ssize_t i) {
 }  // namespace
 
 void bindSolveMany(nb::module_& m) {
-  nb::class_<SolveManyResult>(m, "SolverReturns", "How several problems, or one problem from several starts, were solved.")
-      .def_ro("results", &SolveManyResult::results, "A SolverReturn each; done is False where an earlier one sufficed, or Ctrl-C came before.")
-      .def_ro("chosen", &SolveManyResult::chosen, "Index of the best: feasible before infeasible, then by cost, or by violation.")
-      .def_prop_ro("best", [](const SolveManyResult& r) { return r.best(); }, "The SolverReturn of the best.")
-      .def_prop_ro("feasible", [](const SolveManyResult& r) { return r.best().feasible; }, "The best is feasible.")
+  nb::class_<SolveManyResult>(m, "SolverReturns",
+                              "How several problems, or one problem from several starts, were solved.")
+      .def_ro("results", &SolveManyResult::results,
+              "A SolverReturn each; done is False where an earlier one sufficed, or Ctrl-C came before.")
+      .def_ro("chosen", &SolveManyResult::chosen,
+              "Index of the best: feasible before infeasible, then by cost, or by violation.")
+      .def_prop_ro(
+          "best", [](const SolveManyResult& r) { return r.best(); }, "The SolverReturn of the best.")
+      .def_prop_ro(
+          "feasible", [](const SolveManyResult& r) { return r.best().feasible; }, "The best is feasible.")
       .def("__bool__", [](const SolveManyResult& r) { return r.best().feasible; })
       .def("__len__", [](const SolveManyResult& r) { return r.results.size(); })
       .def("__getitem__", resultAt, "index"_a)
-      .def("__repr__", [](const SolveManyResult& r) {
+      .def("__repr__",
+           [](const SolveManyResult& r) {
              const auto feasible = std::ranges::count_if(r.results, &SolverResult::feasible);
-             return cat("<SolverReturns: ", feasible, " of ", r.results.size(), " feasible; the best: ", r.chosen, ", ", r.best().str(), ">");
+             return cat("<SolverReturns: ", feasible, " of ", r.results.size(), " feasible; the best: ", r.chosen, ", ",
+                        r.best().str(), ">");
            })
       .def("__getstate__", [](const SolveManyResult& r) { return nb::make_tuple(r.results, r.chosen); })
-      .def("__setstate__", [](SolveManyResult& r, nb::tuple state) {
-             new (&r) SolveManyResult{nb::cast<std::vector<SolverResult>>(state[0]), nb::cast<int>(state[1])};
-           }, "state"_a);
+      .def(
+          "__setstate__",
+          [](SolveManyResult& r, nb::tuple state) {
+            new (&r) SolveManyResult{nb::cast<std::vector<SolverResult>>(state[0]), nb::cast<int>(state[1])};
+          },
+          "state"_a);
 
-  m.def("solveAll", solveEach, "problems"_a, nb::kw_only(), "threads"_a = 1, "best"_a = true, "verbose"_a = 0, "options"_a.none() = nb::none(),
-        "Solves independent problems, on several threads, which do not change the answers: as the choices of a discrete decision.\n\n"
+  m.def("solveAll", solveEach, "problems"_a, nb::kw_only(), "threads"_a = 1, "best"_a = true, "verbose"_a = 0,
+        "options"_a.none() = nb::none(),
+        "Solves independent problems, on several threads, which do not change the answers: as the choices of a "
+        "discrete decision.\n\n"
         "Args:\n"
         "    problems: KOMO, NLP or NLP_Solver objects, all different. A KOMO is left at its solution.\n"
         "    threads: That share the problems.\n"
@@ -168,15 +187,21 @@ void bindSolveMany(nb::module_& m) {
         "    verbose: 1 prints a line at the end, and shows a progress bar on the way if it takes long.\n"
         "    options: NLP_SolverOptions of all but the NLP_Solver objects, which have their own.\n"
         "Returns:\n"
-        "    SolverReturns: results in the order of the problems, chosen (the index of the best), best. Ctrl-C ends it with what there is.");
+        "    SolverReturns: results in the order of the problems, chosen (the index of the best), best. Ctrl-C ends it "
+        "with what there is.");
 
   nb::object komo = nb::borrow(nb::type<PyKomo>());
-  nb::setattr(komo, "solveFromMany", nb::cpp_function(solveKomoFromMany, nb::is_method(), nb::name("solveFromMany"), nb::scope(komo),
-      "starts"_a = 8, nb::kw_only(), "best"_a = true, "threads"_a = 1, "seed"_a = 0, "verbose"_a = 0, "options"_a.none() = nb::none(),
-      "Solves from several starting points, and leaves the KOMO at the best solution.\n\n"
-      "starts: their number (the present path, then random ones from seed), or paths (K, T, n). best: solves from all, for the\n"
-      "feasible solution of least cost; else for the first feasible one. threads do not change the answer. options: of the\n"
-      "solver, NLP_SolverOptions. Returns SolverReturns: best, chosen, results. Ctrl-C ends it with what there is."));
+  nb::setattr(komo, "solveFromMany",
+              nb::cpp_function(solveKomoFromMany, nb::is_method(), nb::name("solveFromMany"), nb::scope(komo),
+                               "starts"_a = 8, nb::kw_only(), "best"_a = true, "threads"_a = 1, "seed"_a = 0,
+                               "verbose"_a = 0, "options"_a.none() = nb::none(),
+                               "Solves from several starting points, and leaves the KOMO at the best solution.\n\n"
+                               "starts: their number (the present path, then random ones from seed), or paths (K, T, "
+                               "n). best: solves from all, for the\n"
+                               "feasible solution of least cost; else for the first feasible one. threads do not "
+                               "change the answer. options: of the\n"
+                               "solver, NLP_SolverOptions. Returns SolverReturns: best, chosen, results. Ctrl-C ends "
+                               "it with what there is."));
 }
 
 }  // namespace kinegraph::python

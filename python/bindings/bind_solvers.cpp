@@ -27,17 +27,33 @@ Defaults& defaults() {
 
 namespace {
 
-using OptionField = std::variant<double SolverOptions::*, int SolverOptions::*, bool SolverOptions::*, OptMethod SolverOptions::*>;
+using OptionField =
+    std::variant<double SolverOptions::*, int SolverOptions::*, bool SolverOptions::*, OptMethod SolverOptions::*>;
 
 const std::vector<std::pair<std::string, OptionField>>& optionFields() {
   using O = SolverOptions;
-  static const std::vector<std::pair<std::string, OptionField>> fields = {
-      {"verbose", &O::verbose}, {"stopTolerance", &O::stopTolerance}, {"stopFTolerance", &O::stopFTolerance},
-      {"stopGTolerance", &O::stopGTolerance}, {"stopEvals", &O::stopEvals}, {"stopInners", &O::stopInners}, {"stopOuters", &O::stopOuters},
-      {"stepMax", &O::stepMax}, {"damping", &O::damping}, {"stepInc", &O::stepInc}, {"stepDec", &O::stepDec}, {"wolfe", &O::wolfe},
-      {"muInit", &O::muInit}, {"muInc", &O::muInc}, {"muMax", &O::muMax}, {"muLBInit", &O::muLBInit}, {"muLBDec", &O::muLBDec},
-      {"lambdaMax", &O::lambdaMax}, {"interiorPadding", &O::interiorPadding}, {"boundedNewton", &O::boundedNewton},
-      {"finiteDifference", &O::finiteDifference}, {"method", &O::method}};
+  static const std::vector<std::pair<std::string, OptionField>> fields = {{"verbose", &O::verbose},
+                                                                          {"stopTolerance", &O::stopTolerance},
+                                                                          {"stopFTolerance", &O::stopFTolerance},
+                                                                          {"stopGTolerance", &O::stopGTolerance},
+                                                                          {"stopEvals", &O::stopEvals},
+                                                                          {"stopInners", &O::stopInners},
+                                                                          {"stopOuters", &O::stopOuters},
+                                                                          {"stepMax", &O::stepMax},
+                                                                          {"damping", &O::damping},
+                                                                          {"stepInc", &O::stepInc},
+                                                                          {"stepDec", &O::stepDec},
+                                                                          {"wolfe", &O::wolfe},
+                                                                          {"muInit", &O::muInit},
+                                                                          {"muInc", &O::muInc},
+                                                                          {"muMax", &O::muMax},
+                                                                          {"muLBInit", &O::muLBInit},
+                                                                          {"muLBDec", &O::muLBDec},
+                                                                          {"lambdaMax", &O::lambdaMax},
+                                                                          {"interiorPadding", &O::interiorPadding},
+                                                                          {"boundedNewton", &O::boundedNewton},
+                                                                          {"finiteDifference", &O::finiteDifference},
+                                                                          {"method", &O::method}};
   return fields;
 }
 
@@ -50,9 +66,12 @@ T optionValue(const std::string& name, nb::handle value) {
   constexpr double kLargest = std::is_same_v<T, bool> ? 1. : 1e9;
   const bool is_whole = nb::try_cast(value, number) && number == std::floor(number) && std::abs(number) <= kLargest;
   if (is_whole && !std::is_same_v<T, double>) return T(int(number));
-  const char* expected = std::is_same_v<T, bool> ? "True or False" : std::is_same_v<T, double> ? "a number" :
-                         std::is_same_v<T, int> ? "a whole number" : "one of OptMethod";
-  throw ValueError(cat("solver option ", name, " is ", nb::cast<std::string>(nb::repr(value)), "; expected ", expected));
+  const char* expected = std::is_same_v<T, bool>     ? "True or False"
+                         : std::is_same_v<T, double> ? "a number"
+                         : std::is_same_v<T, int>    ? "a whole number"
+                                                     : "one of OptMethod";
+  throw ValueError(
+      cat("solver option ", name, " is ", nb::cast<std::string>(nb::repr(value)), "; expected ", expected));
 }
 
 void setOption(SolverOptions& options, const std::string& name, nb::handle value) {
@@ -60,7 +79,9 @@ void setOption(SolverOptions& options, const std::string& name, nb::handle value
   for (const auto& [known, field] : optionFields()) {
     names.push_back(known);
     if (known != name) continue;
-    std::visit([&](auto member) { options.*member = optionValue<std::decay_t<decltype(options.*member)>>(name, value); }, field);
+    std::visit(
+        [&](auto member) { options.*member = optionValue<std::decay_t<decltype(options.*member)>>(name, value); },
+        field);
     return;
   }
   for (const char* old : {"stepInit", "stepMin", "stopLineSteps", "stopTinySteps"}) {
@@ -98,14 +119,22 @@ NlpSolver& setProgress(NlpSolver& solver, nb::object function, double seconds) {
     solver.setProgress({}, seconds);
     return solver;
   }
-  solver.setProgress([function](int evals, const VectorXd& x, const ErrorSums& e) {
-    bool go_on = true;
-    return callUser([&] {
-      nb::dict now;
-      now["evals"] = evals; now["x"] = toNumpy(x); now["f"] = e.f; now["sos"] = e.sos; now["ineq"] = e.ineq; now["eq"] = e.eq;
-      go_on = !function(now).is(nb::handle(Py_False));
-    }) && go_on;
-  }, seconds);
+  solver.setProgress(
+      [function](int evals, const VectorXd& x, const ErrorSums& e) {
+        bool go_on = true;
+        return callUser([&] {
+                 nb::dict now;
+                 now["evals"] = evals;
+                 now["x"] = toNumpy(x);
+                 now["f"] = e.f;
+                 now["sos"] = e.sos;
+                 now["ineq"] = e.ineq;
+                 now["eq"] = e.eq;
+                 go_on = !function(now).is(nb::handle(Py_False));
+               }) &&
+               go_on;
+      },
+      seconds);
   return solver;
 }
 
@@ -116,8 +145,8 @@ Explanation explanationOf(const SolverResult& result, double tolerance) {
 
 /// All but the problem.
 nb::tuple resultState(const SolverResult& r) {
-  return nb::make_tuple(toNumpy(r.x), toNumpy(r.dual), r.evals, r.time, r.feasible, r.done, r.f, r.sos, r.ineq, r.eq, r.violation,
-                        int(r.status), r.message);
+  return nb::make_tuple(toNumpy(r.x), toNumpy(r.dual), r.evals, r.time, r.feasible, r.done, r.f, r.sos, r.ineq, r.eq,
+                        r.violation, int(r.status), r.message);
 }
 
 SolverResult resultFrom(nb::tuple state) {
@@ -140,7 +169,9 @@ nb::dict gradients(NlpSolver& solver, const std::vector<std::string>& names) {
   nb::dict report;
   for (const LagrangeGradient& entry : lagrangeGradients(*solver.problem(), solver.x, solver.dual, names)) {
     nb::dict values;
-    values["err"] = entry.error; values["grad"] = entry.gradient; values["type"] = objectiveTypeName(entry.type);
+    values["err"] = entry.error;
+    values["grad"] = entry.gradient;
+    values["type"] = objectiveTypeName(entry.type);
     std::string key = entry.name;
     if (report.contains(key.c_str())) key += cat(" (", objectiveTypeName(entry.type), ")");
     report[key.c_str()] = values;
@@ -162,42 +193,74 @@ Array errorTrace(const NlpSolver& solver) {
 }
 
 void bindOptions(nb::module_& m) {
-  nb::enum_<OptMethod>(m, "OptMethod", nb::is_arithmetic(), "Solution methods. Those for problems with constraints: augmentedLag (default), squaredPenalty, singleSquaredPenalty,\n"
-          "logBarrier, slackGN (constraints only), slackGN_logBarrier, and with the extras ipopt and nlopt: Ipopt, NLopt,\n"
-          "slackGN_Ipopt. Without constraints: newton, LBFGS, gradientDescent, rprop, NelderMead, CMA.\n"
-          "The other names are those of older scripts; using them is an error.")
-      .value("none", OptMethod::none).value("gradientDescent", OptMethod::gradientDescent).value("rprop", OptMethod::rprop)
-      .value("LBFGS", OptMethod::LBFGS).value("newton", OptMethod::newton).value("augmentedLag", OptMethod::augmentedLag)
-      .value("AugmentedLag", OptMethod::augmentedLag).value("logBarrier", OptMethod::logBarrier)
-      .value("slackGN_logBarrier", OptMethod::slackGN_logBarrier).value("squaredPenalty", OptMethod::squaredPenalty)
-      .value("singleSquaredPenalty", OptMethod::singleSquaredPenalty).value("slackGN", OptMethod::slackGN)
-      .value("NLopt", OptMethod::NLopt).value("Ipopt", OptMethod::Ipopt).value("slackGN_Ipopt", OptMethod::slackGN_Ipopt)
-      .value("Ceres", OptMethod::Ceres).value("LSBO", OptMethod::LSBO).value("greedy", OptMethod::greedy)
-      .value("NelderMead", OptMethod::NelderMead).value("CMA", OptMethod::CMA).value("LS_CMA", OptMethod::LS_CMA).value("ES", OptMethod::ES);
+  nb::enum_<OptMethod>(
+      m, "OptMethod", nb::is_arithmetic(),
+      "Solution methods. Those for problems with constraints: augmentedLag (default), squaredPenalty, "
+      "singleSquaredPenalty,\n"
+      "logBarrier, slackGN (constraints only), slackGN_logBarrier, and with the extras ipopt and nlopt: Ipopt, NLopt,\n"
+      "slackGN_Ipopt. Without constraints: newton, LBFGS, gradientDescent, rprop, NelderMead, CMA.\n"
+      "The other names are those of older scripts; using them is an error.")
+      .value("none", OptMethod::none)
+      .value("gradientDescent", OptMethod::gradientDescent)
+      .value("rprop", OptMethod::rprop)
+      .value("LBFGS", OptMethod::LBFGS)
+      .value("newton", OptMethod::newton)
+      .value("augmentedLag", OptMethod::augmentedLag)
+      .value("AugmentedLag", OptMethod::augmentedLag)
+      .value("logBarrier", OptMethod::logBarrier)
+      .value("slackGN_logBarrier", OptMethod::slackGN_logBarrier)
+      .value("squaredPenalty", OptMethod::squaredPenalty)
+      .value("singleSquaredPenalty", OptMethod::singleSquaredPenalty)
+      .value("slackGN", OptMethod::slackGN)
+      .value("NLopt", OptMethod::NLopt)
+      .value("Ipopt", OptMethod::Ipopt)
+      .value("slackGN_Ipopt", OptMethod::slackGN_Ipopt)
+      .value("Ceres", OptMethod::Ceres)
+      .value("LSBO", OptMethod::LSBO)
+      .value("greedy", OptMethod::greedy)
+      .value("NelderMead", OptMethod::NelderMead)
+      .value("CMA", OptMethod::CMA)
+      .value("LS_CMA", OptMethod::LS_CMA)
+      .value("ES", OptMethod::ES);
 
   nb::class_<SolverOptions> options(m, "NLP_SolverOptions", "Settings of a solver.");
-  options.def("__init__", [](SolverOptions* self) { new (self) SolverOptions(defaults().solver); }, "The defaults, as params_add may have set them.")
+  options
+      .def(
+          "__init__", [](SolverOptions* self) { new (self) SolverOptions(defaults().solver); },
+          "The defaults, as params_add may have set them.")
       .def("dict", optionDict, "All settings as a dict.")
-      .def("__repr__", [](const SolverOptions& o) { return cat("NLP_SolverOptions(", nb::cast<std::string>(nb::str(optionDict(o))), ")"); })
-      .def("__getstate__", [](const SolverOptions& o) {
+      .def("__repr__",
+           [](const SolverOptions& o) {
+             return cat("NLP_SolverOptions(", nb::cast<std::string>(nb::str(optionDict(o))), ")");
+           })
+      .def("__getstate__",
+           [](const SolverOptions& o) {
              nb::dict state = optionDict(o);
              state["method"] = int(o.method);
              return state;
            })
-      .def("__setstate__", [](SolverOptions& o, nb::dict state) {
-             new (&o) SolverOptions();
-             for (const auto& [name, value] : state) {
-               const std::string field = nb::cast<std::string>(name);
-               if (field == "method") o.method = OptMethod(nb::cast<int>(value));
-               else setOption(o, field, value);
-             }
-           }, "state"_a);
+      .def(
+          "__setstate__",
+          [](SolverOptions& o, nb::dict state) {
+            new (&o) SolverOptions();
+            for (const auto& [name, value] : state) {
+              const std::string field = nb::cast<std::string>(name);
+              if (field == "method")
+                o.method = OptMethod(nb::cast<int>(value));
+              else
+                setOption(o, field, value);
+            }
+          },
+          "state"_a);
   for (const auto& [name, field] : optionFields()) {
     const std::string setter = "set_" + name, doc = "Sets " + name + "; returns the options.";
-    options.def(setter.c_str(), [name = name](SolverOptions& o, nb::object value) -> SolverOptions& {
-      setOption(o, name, value);
-      return o;
-    }, "value"_a, nb::rv_policy::none, doc.c_str());
+    options.def(
+        setter.c_str(),
+        [name = name](SolverOptions& o, nb::object value) -> SolverOptions& {
+          setOption(o, name, value);
+          return o;
+        },
+        "value"_a, nb::rv_policy::none, doc.c_str());
   }
 }
 
@@ -205,22 +268,36 @@ void bindOptions(nb::module_& m) {
 
 void bindSolvers(nb::module_& m) {
   bindOptions(m);
-  m.def("setDefaultSeed", [](std::uint64_t seed) { defaults().seed = seed; defaults().random = Rng(seed); }, "seed"_a, "Seed of everything random from here on.");
-  m.def("setDefaultOption", [](const std::string& name, nb::object value) { setOption(defaults().solver, name, value); }, "name"_a,
-        "value"_a, "Default of a solver option from here on.");
-  m.def("resetDefaultOptions", [] { defaults().solver = {}; }, "Defaults of all solver options as they were at import.");
+  m.def(
+      "setDefaultSeed",
+      [](std::uint64_t seed) {
+        defaults().seed = seed;
+        defaults().random = Rng(seed);
+      },
+      "seed"_a, "Seed of everything random from here on.");
+  m.def(
+      "setDefaultOption", [](const std::string& name, nb::object value) { setOption(defaults().solver, name, value); },
+      "name"_a, "value"_a, "Default of a solver option from here on.");
+  m.def(
+      "resetDefaultOptions", [] { defaults().solver = {}; }, "Defaults of all solver options as they were at import.");
 
   nb::enum_<SolverStatus>(m, "SolverStatus", "Why a solver stopped.")
-      .value("converged", SolverStatus::converged).value("infeasible", SolverStatus::infeasible)
-      .value("stalled", SolverStatus::stalled).value("limit", SolverStatus::limit).value("cancelled", SolverStatus::cancelled);
+      .value("converged", SolverStatus::converged)
+      .value("infeasible", SolverStatus::infeasible)
+      .value("stalled", SolverStatus::stalled)
+      .value("limit", SolverStatus::limit)
+      .value("cancelled", SolverStatus::cancelled);
 
   nb::class_<SolverResult>(m, "SolverReturn", "How a solve ended.")
       .def(nb::init<>())
-      .def_prop_ro("x", [](const SolverResult& r) { return toNumpy(r.x); }, "The solution, (n,).")
-      .def_prop_ro("dual", [](const SolverResult& r) { return toNumpy(r.dual); }, "A multiplier per residual.")
+      .def_prop_ro(
+          "x", [](const SolverResult& r) { return toNumpy(r.x); }, "The solution, (n,).")
+      .def_prop_ro(
+          "dual", [](const SolverResult& r) { return toNumpy(r.dual); }, "A multiplier per residual.")
       .def_ro("evals", &SolverResult::evals, "Number of evaluations.")
       .def_ro("time", &SolverResult::time, "Seconds.")
-      .def_ro("feasible", &SolverResult::feasible, "No (scaled) constraint is violated by more than 1e-3, or ten tolerances.")
+      .def_ro("feasible", &SolverResult::feasible,
+              "No (scaled) constraint is violated by more than 1e-3, or ten tolerances.")
       .def_ro("done", &SolverResult::done, "The solver has run.")
       .def_ro("f", &SolverResult::f, "Sum of f residuals.")
       .def_ro("sos", &SolverResult::sos, "Sum of squares.")
@@ -229,74 +306,124 @@ void bindSolvers(nb::module_& m) {
       .def_ro("violation", &SolverResult::violation, "Violation of the worst constraint.")
       .def_ro("status", &SolverResult::status, "Why it stopped.")
       .def_ro("message", &SolverResult::message, "Why it stopped, in a line.")
-      .def("dict", [](const SolverResult& r) {
-             nb::dict d;
-             d["evals"] = r.evals; d["time"] = r.time; d["done"] = r.done; d["feasible"] = r.feasible;
-             d["f"] = r.f; d["sos"] = r.sos; d["ineq"] = r.ineq; d["eq"] = r.eq;
-             return d;
-           }, "evals, time, done, feasible, f, sos, ineq, eq.")
-      .def("explain", [](const SolverResult& r, double tolerance) { return explanationOf(r, tolerance).str(); }, "tolerance"_a = 1e-3,
-           "In words: which objectives and limits contradict each other where this ended, in which slices, by how many m or rad,\n"
-           "and which single one helps most if it gives way. Solves small problems; leaves a KOMO at this solution.")
-      .def("conflicts", [](const SolverResult& r, double tolerance) { return toDicts(explanationOf(r, tolerance)); }, "tolerance"_a = 1e-3,
-           "What explain says, as a list of dicts: name, type, frames, slices, metres, radians, scaled, details, pull, and of\n"
-           "giving way: suffices, by_metres, by_radians, by_scaled, best. Empty if all constraints hold.")
+      .def(
+          "dict",
+          [](const SolverResult& r) {
+            nb::dict d;
+            d["evals"] = r.evals;
+            d["time"] = r.time;
+            d["done"] = r.done;
+            d["feasible"] = r.feasible;
+            d["f"] = r.f;
+            d["sos"] = r.sos;
+            d["ineq"] = r.ineq;
+            d["eq"] = r.eq;
+            return d;
+          },
+          "evals, time, done, feasible, f, sos, ineq, eq.")
+      .def(
+          "explain", [](const SolverResult& r, double tolerance) { return explanationOf(r, tolerance).str(); },
+          "tolerance"_a = 1e-3,
+          "In words: which objectives and limits contradict each other where this ended, in which slices, by how many "
+          "m or rad,\n"
+          "and which single one helps most if it gives way. Solves small problems; leaves a KOMO at this solution.")
+      .def(
+          "conflicts", [](const SolverResult& r, double tolerance) { return toDicts(explanationOf(r, tolerance)); },
+          "tolerance"_a = 1e-3,
+          "What explain says, as a list of dicts: name, type, frames, slices, metres, radians, scaled, details, pull, "
+          "and of\n"
+          "giving way: suffices, by_metres, by_radians, by_scaled, best. Empty if all constraints hold.")
       .def("__str__", &SolverResult::str)
       .def("__getstate__", resultState)
-      .def("__setstate__", [](SolverResult& r, nb::tuple state) { new (&r) SolverResult(resultFrom(state)); }, "state"_a)
-      .def("__repr__", [](const SolverResult& r) { return cat("<SolverReturn ", solverStatusName(r.status), ": ", r.str(), ">"); });
+      .def(
+          "__setstate__", [](SolverResult& r, nb::tuple state) { new (&r) SolverResult(resultFrom(state)); }, "state"_a)
+      .def("__repr__",
+           [](const SolverResult& r) { return cat("<SolverReturn ", solverStatusName(r.status), ": ", r.str(), ">"); });
 
   constexpr auto chain = nb::rv_policy::none;
   nb::class_<NlpSolver>(m, "NLP_Solver", "Solves an NLP. A second solve() goes on from where the first ended.")
-      .def("__init__", [](NlpSolver* self) {
-        new (self) NlpSolver();
-        self->options = defaults().solver;
-      })
-      .def("__init__", [](NlpSolver* self, std::shared_ptr<Nlp> problem, int verbose) {
-             new (self) NlpSolver(std::move(problem), verbose);
+      .def("__init__",
+           [](NlpSolver* self) {
+             new (self) NlpSolver();
              self->options = defaults().solver;
-             self->options.verbose = verbose;
-           }, "problem"_a, "verbose"_a = 0)
-      .def("setProblem", [](NlpSolver& s, std::shared_ptr<Nlp> p) -> NlpSolver& { return s.setProblem(std::move(p)), s; }, "problem"_a,
-           chain, "The problem to solve; once.")
-      .def("setPyProblem", [](NlpSolver& s, nb::object p) -> NlpSolver& { return s.setProblem(fromPythonProblem(p)), s; }, "problem"_a,
-           chain, "A Python object with dimension, types, bounds and evaluate(x) -> (phi, J).")
+           })
+      .def(
+          "__init__",
+          [](NlpSolver* self, std::shared_ptr<Nlp> problem, int verbose) {
+            new (self) NlpSolver(std::move(problem), verbose);
+            self->options = defaults().solver;
+            self->options.verbose = verbose;
+          },
+          "problem"_a, "verbose"_a = 0)
+      .def(
+          "setProblem",
+          [](NlpSolver& s, std::shared_ptr<Nlp> p) -> NlpSolver& { return s.setProblem(std::move(p)), s; }, "problem"_a,
+          chain, "The problem to solve; once.")
+      .def(
+          "setPyProblem",
+          [](NlpSolver& s, nb::object p) -> NlpSolver& { return s.setProblem(fromPythonProblem(p)), s; }, "problem"_a,
+          chain, "A Python object with dimension, types, bounds and evaluate(x) -> (phi, J).")
       .def("setOptions", setOptions, "options"_a, chain, "Sets options by name; all others go to their defaults.")
-      .def("setSolver", [](NlpSolver& s, OptMethod method) -> NlpSolver& { return s.options.method = method, s; }, "method"_a, chain,
-           "The method.")
-      .def("setInitialization", [](NlpSolver& s, const Numbers& x) -> NlpSolver& { return s.setInitialization(x.values), s; }, "x"_a,
-           chain, "Where to start; clipped to the bounds.")
+      .def(
+          "setSolver", [](NlpSolver& s, OptMethod method) -> NlpSolver& { return s.options.method = method, s; },
+          "method"_a, chain, "The method.")
+      .def(
+          "setInitialization",
+          [](NlpSolver& s, const Numbers& x) -> NlpSolver& { return s.setInitialization(x.values), s; }, "x"_a, chain,
+          "Where to start; clipped to the bounds.")
       .def("setProgress", setProgress, "function"_a.none(), "seconds"_a = .1, chain,
-           "Calls function(dict of evals, x, f, sos, ineq, eq) while solving, at most once in that time; returning False stops it.\n"
+           "Calls function(dict of evals, x, f, sos, ineq, eq) while solving, at most once in that time; returning "
+           "False stops it.\n"
            "None: no more calls.")
-      .def("setTracing", [](NlpSolver& s, bool x, bool e, bool phi, bool J) -> NlpSolver& { return s.setTracing(x, e, phi, J), s; },
-           "trace_x"_a = true, "trace_errs"_a = true, "trace_phi"_a = false, "trace_J"_a = false, chain,
-           "Records what is evaluated.")
-      .def("clearTracing", [](NlpSolver& s) -> NlpSolver& { return s.clearTracing(), s; }, chain, "Forgets what was recorded.")
+      .def(
+          "setTracing",
+          [](NlpSolver& s, bool x, bool e, bool phi, bool J) -> NlpSolver& { return s.setTracing(x, e, phi, J), s; },
+          "trace_x"_a = true, "trace_errs"_a = true, "trace_phi"_a = false, "trace_J"_a = false, chain,
+          "Records what is evaluated.")
+      .def(
+          "clearTracing", [](NlpSolver& s) -> NlpSolver& { return s.clearTracing(), s; }, chain,
+          "Forgets what was recorded.")
       .def("solve", solve, "resampleInitialization"_a = -1, "verbose"_a = -100,
-           "Solves, from the last x or the problem's initial point. Ctrl-C ends it: the result is then the best so far, with\n"
+           "Solves, from the last x or the problem's initial point. Ctrl-C ends it: the result is then the best so "
+           "far, with\n"
            "status cancelled.")
       .def("getProblem", &NlpSolver::problem, "The problem.")
-      .def("getOptions", [](NlpSolver& s) -> SolverOptions& { return s.options; }, nb::rv_policy::reference_internal, "The options; changes take effect.")
-      .def_prop_rw("x", [](const NlpSolver& s) { return toNumpy(s.x); }, [](NlpSolver& s, const Numbers& x) { s.x = x.values; }, "The point reached.")
-      .def_prop_rw("dual", [](const NlpSolver& s) { return toNumpy(s.dual); }, [](NlpSolver& s, const Numbers& d) { s.dual = d.values; },
-                   "A multiplier per residual.")
+      .def(
+          "getOptions", [](NlpSolver& s) -> SolverOptions& { return s.options; }, nb::rv_policy::reference_internal,
+          "The options; changes take effect.")
+      .def_prop_rw(
+          "x", [](const NlpSolver& s) { return toNumpy(s.x); }, [](NlpSolver& s, const Numbers& x) { s.x = x.values; },
+          "The point reached.")
+      .def_prop_rw(
+          "dual", [](const NlpSolver& s) { return toNumpy(s.dual); },
+          [](NlpSolver& s, const Numbers& d) { s.dual = d.values; }, "A multiplier per residual.")
       .def("reportLagrangeGradients", gradients, "featureNames"_a = std::vector<std::string>(),
-           "What each objective does where this ended: a dict from its name to err (its error), grad (length of its part of the\n"
-           "Lagrangian's gradient) and type, the largest grad first, without those whose error is 0. featureNames: one per residual.")
-      .def("getTrace_x", [](const NlpSolver& s) { return stack(s.traceX()); }, "(evaluations, n).")
-      .def("getTrace_phi", [](const NlpSolver& s) { return stack(s.tracePhi()); }, "(evaluations, d).")
-      .def("getTrace_J", [](const NlpSolver& s) {
-             nb::list list;
-             for (const MatrixXd& J : s.traceJacobian()) list.append(toNumpy(J));
-             return list;
-           }, "A dense Jacobian per evaluation.")
-      .def("getTrace_best", [](const NlpSolver& s) {
-             std::vector<VectorXd> rows;
-             double best = std::numeric_limits<double>::infinity();
-             for (const ErrorSums& e : s.traceErrors()) rows.push_back(VectorXd::Constant(1, best = std::min(best, e.f + e.sos + e.ineq + e.eq)));
-             return stack(rows);
-           }, "(evaluations, 1): the least sum of all errors so far.")
+           "What each objective does where this ended: a dict from its name to err (its error), grad (length of its "
+           "part of the\n"
+           "Lagrangian's gradient) and type, the largest grad first, without those whose error is 0. featureNames: one "
+           "per residual.")
+      .def(
+          "getTrace_x", [](const NlpSolver& s) { return stack(s.traceX()); }, "(evaluations, n).")
+      .def(
+          "getTrace_phi", [](const NlpSolver& s) { return stack(s.tracePhi()); }, "(evaluations, d).")
+      .def(
+          "getTrace_J",
+          [](const NlpSolver& s) {
+            nb::list list;
+            for (const MatrixXd& J : s.traceJacobian()) list.append(toNumpy(J));
+            return list;
+          },
+          "A dense Jacobian per evaluation.")
+      .def(
+          "getTrace_best",
+          [](const NlpSolver& s) {
+            std::vector<VectorXd> rows;
+            double best = std::numeric_limits<double>::infinity();
+            for (const ErrorSums& e : s.traceErrors())
+              rows.push_back(VectorXd::Constant(1, best = std::min(best, e.f + e.sos + e.ineq + e.eq)));
+            return stack(rows);
+          },
+          "(evaluations, 1): the least sum of all errors so far.")
       .def("getTrace_errs", errorTrace, "(evaluations, 4): sums of f, sos, ineq, eq.")
       .def("getTrace_costs", errorTrace, "The same as getTrace_errs.");
 

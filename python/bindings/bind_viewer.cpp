@@ -33,22 +33,34 @@ const std::shared_ptr<PyViewer>& showIn(PyConfig& config) {
 nb::object ofViewer(PyConfig& config, const char* name) { return nb::cast(viewerOf(config)).attr(name); }
 
 void bindEarlierNames(nb::class_<PyConfig>& config) {
-  config.def("view_getRgb", [](PyConfig& c) { return ofViewer(c, "getRgb")(); }, "viewer().getRgb()")
-      .def("view_getDepth", [](PyConfig& c) { return ofViewer(c, "getDepth")(); }, "viewer().getDepth()")
-      .def("view_savePng", [](PyConfig& c, const std::string& path) { return nb::cast<std::string>(ofViewer(c, "savePng")(path)); },
-           "pathPrefix"_a = "z.vid/", "viewer().savePng(pathPrefix)")
-      .def("view_setCamera", [](PyConfig& c, nb::handle frame) { ofViewer(c, "setCamera")(frame); }, "frame"_a, "viewer().setCamera(frame)")
-      .def("view_focalLength", [](PyConfig& c) { return nb::cast<double>(ofViewer(c, "getCamera_focalLength")()[0]); },
-           "Focal length of the view in image heights.")
-      .def("view_fxycxy", [](PyConfig& c) { return ofViewer(c, "getCamera_fxycxy")(); }, "viewer().getCamera_fxycxy()")
-      .def("view_pose", [](PyConfig& c) { return ofViewer(c, "getCamera_pose")(); }, "viewer().getCamera_pose()")
-      .def("view_raise", [](PyConfig& c) { ofViewer(c, "raiseWindow")(); }, "viewer().raiseWindow()")
-      .def("view_focus",
-           [](PyConfig& c, const std::string& frame, double height) {
-             const Vector3d position = c.getFrame(frame).getPose().p;
-             ofViewer(c, "focus")(toNumpy(position.data(), 3), height);
-           },
-           "frameName"_a, "absHeight"_a = 1., "Turns the view to a frame; absHeight m fit into the window.");
+  config
+      .def(
+          "view_getRgb", [](PyConfig& c) { return ofViewer(c, "getRgb")(); }, "viewer().getRgb()")
+      .def(
+          "view_getDepth", [](PyConfig& c) { return ofViewer(c, "getDepth")(); }, "viewer().getDepth()")
+      .def(
+          "view_savePng",
+          [](PyConfig& c, const std::string& path) { return nb::cast<std::string>(ofViewer(c, "savePng")(path)); },
+          "pathPrefix"_a = "z.vid/", "viewer().savePng(pathPrefix)")
+      .def(
+          "view_setCamera", [](PyConfig& c, nb::handle frame) { ofViewer(c, "setCamera")(frame); }, "frame"_a,
+          "viewer().setCamera(frame)")
+      .def(
+          "view_focalLength", [](PyConfig& c) { return nb::cast<double>(ofViewer(c, "getCamera_focalLength")()[0]); },
+          "Focal length of the view in image heights.")
+      .def(
+          "view_fxycxy", [](PyConfig& c) { return ofViewer(c, "getCamera_fxycxy")(); }, "viewer().getCamera_fxycxy()")
+      .def(
+          "view_pose", [](PyConfig& c) { return ofViewer(c, "getCamera_pose")(); }, "viewer().getCamera_pose()")
+      .def(
+          "view_raise", [](PyConfig& c) { ofViewer(c, "raiseWindow")(); }, "viewer().raiseWindow()")
+      .def(
+          "view_focus",
+          [](PyConfig& c, const std::string& frame, double height) {
+            const Vector3d position = c.getFrame(frame).getPose().p;
+            ofViewer(c, "focus")(toNumpy(position.data(), 3), height);
+          },
+          "frameName"_a, "absHeight"_a = 1., "Turns the view to a frame; absHeight m fit into the window.");
 }
 
 void select(PyViewer& viewer, int frame) {
@@ -121,10 +133,13 @@ void watch(PyConfig& config, nb::handle file) {
   }
   const nb::object print = nb::module_::import_("builtins").attr("print");
   const nb::gil_scoped_release unlock;
-  watchFile(config, *viewer, path, [&](const std::string& text) {
-    const nb::gil_scoped_acquire lock;
-    print(text, nb::arg("flush") = true);
-  }, interrupted);
+  watchFile(
+      config, *viewer, path,
+      [&](const std::string& text) {
+        const nb::gil_scoped_acquire lock;
+        print(text, nb::arg("flush") = true);
+      },
+      interrupted);
 }
 
 }  // namespace

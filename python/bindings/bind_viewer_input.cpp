@@ -130,7 +130,8 @@ void bindViewerInput(nb::module_& m, nb::class_<PyViewer>& viewer) {
       .def(
           "raiseWindow", [](PyViewer& v) { openBrowser(v.url()); },
           "Opens a page in the browser, if there is a display.")
-      .def("getGLFWWindow", [](PyViewer&) { return 0; }, "0: there is no such window.");
+      .def(
+          "getGLFWWindow", [](PyViewer&) { return 0; }, "0: there is no such window.");
 
   nb::class_<ImageViewer>(m, "ImageViewer", "Shows pictures in the browser.")
       .def(nb::init<>())

@@ -8,9 +8,9 @@
 #include <string>
 
 #include "arrays.h"
-#include "recent_calls.h"
 #include "kinegraph/features/residual_cache.h"
 #include "kinegraph/scene/config.h"
+#include "recent_calls.h"
 
 namespace kinegraph::python {
 
@@ -19,8 +19,8 @@ using namespace nb::literals;
 
 struct PyViewer;
 
-/// What Python calls a Config: the scene, the viewer that `view()` opens at first use, and what was last asked of `eval`,
-/// `setJointState` and `getNearestPoints`.
+/// What Python calls a Config: the scene, the viewer that `view()` opens at first use, and what was last asked of
+/// `eval`, `setJointState` and `getNearestPoints`.
 struct PyConfig : Config {
   std::shared_ptr<PyViewer> viewer;
   mutable ResidualCache residuals = {};

@@ -33,9 +33,11 @@ std::string shapeText(const Numbers& numbers) {
 }
 
 /// Throws unless the rows have one of `widths` numbers; 16 stands for 4 x 4.
-Rows readRows(const std::string& where, nb::handle value, std::initializer_list<std::size_t> widths, const char* expected) {
+Rows readRows(const std::string& where, nb::handle value, std::initializer_list<std::size_t> widths,
+              const char* expected) {
   Rows rows{where, {}, 0, 0};
-  if (!readNumbers(value, rows.numbers)) throw ValueError(cat("solveIk: ", where, " is of type ", typeName(value), "; expected ", expected));
+  if (!readNumbers(value, rows.numbers))
+    throw ValueError(cat("solveIk: ", where, " is of type ", typeName(value), "; expected ", expected));
   const Numbers& numbers = rows.numbers;
   const std::size_t size = std::size_t(numbers.values.size());
   for (const std::size_t width : widths) {
@@ -59,8 +61,10 @@ Pose poseFrom(const Rows& rows, std::size_t problem) {
   if (rows.width != 16) return Pose::fromNumbers(row);
   const Eigen::Map<const Eigen::Matrix<double, 4, 4, Eigen::RowMajor>> T(row.data());
   const Matrix3d R = T.topLeftCorner<3, 3>();
-  if (!(R * R.transpose()).isIdentity(1e-6) || R.determinant() < 0. || !T.row(3).isApprox(Eigen::RowVector4d(0., 0., 0., 1.))) {
-    throw ValueError(cat("solveIk: ", rows.where, " is not a pose: expected a rotation matrix, a position, and the row 0 0 0 1"));
+  if (!(R * R.transpose()).isIdentity(1e-6) || R.determinant() < 0. ||
+      !T.row(3).isApprox(Eigen::RowVector4d(0., 0., 0., 1.))) {
+    throw ValueError(
+        cat("solveIk: ", rows.where, " is not a pose: expected a rotation matrix, a position, and the row 0 0 0 1"));
   }
   return Pose(T.topRightCorner<3, 1>(), Quaterniond(R).normalized());
 }
@@ -103,7 +107,8 @@ class TargetReader {
     for (const Wish& wish : wishes_) {
       if (wish.rows.count == 0) continue;
       if (leader && wish.rows.count != count) {
-        throw ValueError(cat("solveIk: ", wish.rows.where, " has ", wish.rows.count, " rows, but ", leader->rows.where, " has ", count));
+        throw ValueError(cat("solveIk: ", wish.rows.where, " has ", wish.rows.count, " rows, but ", leader->rows.where,
+                             " has ", count));
       }
       leader = &wish;
       count = wish.rows.count;
@@ -118,7 +123,8 @@ class TargetReader {
 
  private:
   std::string frameName(nb::handle key) const {
-    if (!nb::isinstance<nb::str>(key)) throw ValueError(cat("solveIk: a key of targets is of type ", typeName(key), "; expected the name of a frame"));
+    if (!nb::isinstance<nb::str>(key))
+      throw ValueError(cat("solveIk: a key of targets is of type ", typeName(key), "; expected the name of a frame"));
     return config_.getFrame(nb::cast<std::string>(key)).getName();
   }
 
@@ -133,8 +139,9 @@ class TargetReader {
   }
 
   void readNumbersTarget(const std::string& where, nb::handle value) {
-    const Rows rows = readRows(where, value, {3, 7, 16},
-                               "(3,) = x y z, (7,) = x y z qw qx qy qz, (4, 4), or (N, ...) of them, or a frame's name");
+    const Rows rows =
+        readRows(where, value, {3, 7, 16},
+                 "(3,) = x y z, (7,) = x y z qw qx qy qz, (4, 4), or (N, ...) of them, or a frame's name");
     add({targetOf(rows.width == 3 ? Kind::position : Kind::pose), rows});
   }
 
@@ -143,7 +150,8 @@ class TargetReader {
     const std::optional<Pose> pose = poseOfFrame(value);
     if (key == "pose") {
       if (pose) return add({IkTarget::toPose(frame_, *pose), {}});
-      add({targetOf(Kind::pose), readRows(where, value, {7, 16}, "(7,) = x y z qw qx qy qz, (4, 4), or (N, ...) of them, or a frame's name")});
+      add({targetOf(Kind::pose), readRows(where, value, {7, 16},
+                                          "(7,) = x y z qw qx qy qz, (4, 4), or (N, ...) of them, or a frame's name")});
     } else if (key == "position") {
       if (pose) return add({IkTarget::toPosition(frame_, pose->p), {}});
       add({targetOf(Kind::position), readRows(where, value, {3}, "(3,) = x y z, or (N, 3), or a frame's name")});
@@ -153,10 +161,12 @@ class TargetReader {
     } else if (key == "x" || key == "y" || key == "z") {
       const Vector3d axis = Vector3d::Unit(key[0] - 'x');
       if (pose) return add({IkTarget::toDirection(frame_, axis, pose->q * axis), {}});
-      add({IkTarget::toDirection(frame_, axis, axis), readRows(where, value, {3}, "a direction (3,), or (N, 3), or a frame's name")});
+      add({IkTarget::toDirection(frame_, axis, axis),
+           readRows(where, value, {3}, "a direction (3,), or (N, 3), or a frame's name")});
     } else {
       const std::vector<std::string> known = {"position", "pose", "quaternion", "x", "y", "z"};
-      throw ValueError(cat("solveIk: ", where_, " has the key '", key, "'; expected ", join(known), similarHint(key, known)));
+      throw ValueError(
+          cat("solveIk: ", where_, " has the key '", key, "'; expected ", join(known), similarHint(key, known)));
     }
   }
 

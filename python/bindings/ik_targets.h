@@ -13,8 +13,8 @@ struct IkRequest {
   bool is_batch = false;
 };
 
-/// Reads a dict from frames (names or Frame) to what they are to do: a position (3,), a pose (7,) or (4, 4), rows of them
-/// (N, 3), (N, 7), (N, 4, 4), the name of a frame or a Frame whose pose it is, or a dict with `position`, `pose`,
+/// Reads a dict from frames (names or Frame) to what they are to do: a position (3,), a pose (7,) or (4, 4), rows of
+/// them (N, 3), (N, 7), (N, 4, 4), the name of a frame or a Frame whose pose it is, or a dict with `position`, `pose`,
 /// `quaternion`, `x`, `y`, `z` (directions of the frame's axes). Throws ValueError and FrameNotFound.
 IkRequest readIkTargets(const Config& config, nb::handle targets);
 

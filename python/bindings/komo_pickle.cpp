@@ -10,10 +10,13 @@ namespace kinegraph::python {
 
 namespace {
 
-nb::tuple toTuple(const ContactForce& c) { return nb::make_tuple(c.object, c.onto, c.point, c.dofs, c.unit, c.is_free); }
+nb::tuple toTuple(const ContactForce& c) {
+  return nb::make_tuple(c.object, c.onto, c.point, c.dofs, c.unit, c.is_free);
+}
 
 ContactForce toContact(nb::handle t) {
-  return {nb::cast<int>(t[0]), nb::cast<int>(t[1]), nb::cast<int>(t[2]), nb::cast<int>(t[3]), nb::cast<double>(t[4]), nb::cast<bool>(t[5])};
+  return {nb::cast<int>(t[0]), nb::cast<int>(t[1]),    nb::cast<int>(t[2]),
+          nb::cast<int>(t[3]), nb::cast<double>(t[4]), nb::cast<bool>(t[5])};
 }
 
 /// A number for a symbol, a tuple for a recipe, or a function.
@@ -35,23 +38,34 @@ FeatureSource toFeature(nb::object object) {
 
 nb::tuple toTuple(const Komo::Objective& o) {
   const nb::object feature = toObject(o.feature);
-  return nb::make_tuple(o.name, feature, o.frames, int(o.type), toNumpy(o.scale), toNumpy(o.target), o.order, o.times, o.from, o.to, o.time_integral,
-                        o.without_gravity, o.damped);
+  return nb::make_tuple(o.name, feature, o.frames, int(o.type), toNumpy(o.scale), toNumpy(o.target), o.order, o.times,
+                        o.from, o.to, o.time_integral, o.without_gravity, o.damped);
 }
 
 /// An array of shape (rows, columns), rows or columns may be 0.
 MatrixXd toMatrix(nb::handle array) {
   const auto [rows, columns] = nb::cast<std::pair<Eigen::Index, Eigen::Index>>(array.attr("shape"));
   const Numbers numbers = nb::cast<Numbers>(array);
-  return Eigen::Map<const Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>>(numbers.values.data(), rows, columns);
+  return Eigen::Map<const Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>>(numbers.values.data(),
+                                                                                                  rows, columns);
 }
 
 Komo::Objective toObjective(nb::handle state) {
   const nb::tuple t = nb::cast<nb::tuple>(state);
   const FeatureSource feature = toFeature(t[1]);
-  return {nb::cast<std::string>(t[0]), feature, nb::cast<std::vector<std::string>>(t[2]), ObjectiveType(nb::cast<int>(t[3])),
-          toMatrix(t[4]), nb::cast<Numbers>(t[5]).values, nb::cast<int>(t[6]), nb::cast<std::vector<double>>(t[7]),
-          nb::cast<int>(t[8]), nb::cast<int>(t[9]), nb::cast<bool>(t[10]), nb::cast<bool>(t[11]), nb::cast<bool>(t[12])};
+  return {nb::cast<std::string>(t[0]),
+          feature,
+          nb::cast<std::vector<std::string>>(t[2]),
+          ObjectiveType(nb::cast<int>(t[3])),
+          toMatrix(t[4]),
+          nb::cast<Numbers>(t[5]).values,
+          nb::cast<int>(t[6]),
+          nb::cast<std::vector<double>>(t[7]),
+          nb::cast<int>(t[8]),
+          nb::cast<int>(t[9]),
+          nb::cast<bool>(t[10]),
+          nb::cast<bool>(t[11]),
+          nb::cast<bool>(t[12])};
 }
 
 nb::tuple komoState(const PyKomo& komo) {
@@ -59,7 +73,8 @@ nb::tuple komoState(const PyKomo& komo) {
   nb::list modes, objectives, contacts, states;
   for (Komo::Parts::Structure& mode : parts.modes) {
     nb::list added;
-    for (const auto& [frame, joint] : mode.added) added.append(nb::make_tuple(frame, joint.id, joint.stable, joint.parent));
+    for (const auto& [frame, joint] : mode.added)
+      added.append(nb::make_tuple(frame, joint.id, joint.stable, joint.parent));
     modes.append(nb::make_tuple(PyConfig{std::move(mode.config), nullptr}, added));
   }
   for (const Komo::Objective& objective : parts.objectives) objectives.append(toTuple(objective));
@@ -73,12 +88,23 @@ nb::tuple komoState(const PyKomo& komo) {
 
 Komo fromState(nb::tuple t) {
   if (nb::handle(t[0]).is_none()) return Komo();
-  Komo::Parts parts{nb::cast<PyConfig&>(t[0]), nb::cast<double>(t[1]), nb::cast<double>(t[2]), nb::cast<int>(t[3]), nb::cast<int>(t[4]),
-                    nb::cast<int>(t[5]), {}, nb::cast<std::vector<int>>(t[7]), nb::cast<std::vector<int>>(t[8]), {}, {}, {}};
+  Komo::Parts parts{nb::cast<PyConfig&>(t[0]),
+                    nb::cast<double>(t[1]),
+                    nb::cast<double>(t[2]),
+                    nb::cast<int>(t[3]),
+                    nb::cast<int>(t[4]),
+                    nb::cast<int>(t[5]),
+                    {},
+                    nb::cast<std::vector<int>>(t[7]),
+                    nb::cast<std::vector<int>>(t[8]),
+                    {},
+                    {},
+                    {}};
   for (nb::handle mode : nb::cast<nb::list>(t[6])) {
     Komo::Parts::Structure structure{nb::cast<PyConfig&>(mode[0]), {}};
     for (nb::handle added : nb::cast<nb::list>(mode[1])) {
-      structure.added[nb::cast<int>(added[0])] = {nb::cast<int>(added[1]), nb::cast<bool>(added[2]), nb::cast<std::string>(added[3])};
+      structure.added[nb::cast<int>(added[0])] = {nb::cast<int>(added[1]), nb::cast<bool>(added[2]),
+                                                  nb::cast<std::string>(added[3])};
     }
     parts.modes.push_back(std::move(structure));
   }
@@ -91,10 +117,23 @@ Komo fromState(nb::tuple t) {
 }  // namespace
 
 void bindKomoCopies(nb::class_<PyKomo>& komo) {
-  komo.def("__copy__", [](const PyKomo& k) { return std::make_shared<PyKomo>(PyKomo{k.clone(), nullptr}); })
-      .def("__deepcopy__", [](const PyKomo& k, nb::object) { return std::make_shared<PyKomo>(PyKomo{k.clone(), nullptr}); }, "memo"_a)
+  komo.def("__copy__",
+           [](const PyKomo& k) {
+             return std::make_shared<PyKomo>(PyKomo{k.clone(), nullptr});
+           })
+      .def(
+          "__deepcopy__",
+          [](const PyKomo& k, nb::object) {
+            return std::make_shared<PyKomo>(PyKomo{k.clone(), nullptr});
+          },
+          "memo"_a)
       .def("__getstate__", komoState)
-      .def("__setstate__", [](PyKomo& k, nb::tuple state) { new (&k) PyKomo{fromState(state), nullptr}; }, "state"_a);
+      .def(
+          "__setstate__",
+          [](PyKomo& k, nb::tuple state) {
+            new (&k) PyKomo{fromState(state), nullptr};
+          },
+          "state"_a);
 }
 
 }  // namespace kinegraph::python

@@ -3,8 +3,8 @@
 #include <cstdlib>
 
 #include "bindings.h"
-#include "nlp_objects.h"
 #include "kinegraph/gfile/parser.h"
+#include "nlp_objects.h"
 #include "scene_values.h"
 
 using namespace kinegraph::python;
@@ -12,9 +12,9 @@ using namespace nanobind::literals;
 
 namespace {
 
-/// The memory that a solver frees is what the next one needs. glibc would give it back to the system, a page fault per 4 KB later
-/// (a sixth of the time of a path of 256 slices), unless a large block has been freed before: its thresholds (M_MMAP_THRESHOLD,
-/// M_TRIM_THRESHOLD) follow that, up to 32 MB. Where they were set by the environment they stay.
+/// The memory that a solver frees is what the next one needs. glibc would give it back to the system, a page fault per
+/// 4 KB later (a sixth of the time of a path of 256 slices), unless a large block has been freed before: its thresholds
+/// (M_MMAP_THRESHOLD, M_TRIM_THRESHOLD) follow that, up to 32 MB. Where they were set by the environment they stay.
 void keepFreedMemory() {
 #ifdef __GLIBC__
   void* volatile block = std::malloc((std::size_t(32) << 20) - (std::size_t(64) << 10));  // its pages are never touched
@@ -27,8 +27,8 @@ void keepFreedMemory() {
 NB_MODULE(_core, m) {
   keepFreedMemory();
   m.doc() = "The compiled part of kinegraph.";
-  // A function of the user's that a problem calls keeps its module alive, and that the problem: the end of the process, not a
-  // leak, resolves such circles.
+  // A function of the user's that a problem calls keeps its module alive, and that the problem: the end of the process,
+  // not a leak, resolves such circles.
   nb::set_leak_warnings(false);
   m.attr("__version__") = KINEGRAPH_VERSION;
   bindErrors(m);
@@ -40,6 +40,8 @@ NB_MODULE(_core, m) {
   bindSkeleton(m);
   bindSolveMany(m);
   bindPlanning(m);
-  m.def("parseText", [](const std::string& text, const std::string& name) { return toDict(kinegraph::parse(text, name)); },
-        "text"_a, "name"_a = "text", "Text in .g syntax as a dict.");
+  m.def(
+      "parseText",
+      [](const std::string& text, const std::string& name) { return toDict(kinegraph::parse(text, name)); }, "text"_a,
+      "name"_a = "text", "Text in .g syntax as a dict.");
 }

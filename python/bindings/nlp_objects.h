@@ -25,8 +25,8 @@ class PyNlpFactory final : public Nlp {
   MatrixXd J_;
 };
 
-/// A problem that is a Python object with `dimension`, `types` (or `featureTypes`), `bounds` and `evaluate(x) -> (phi, J)`, and
-/// where it has them `getFHessian(x)`, `getInitializationSample()`, `report(verbose)`.
+/// A problem that is a Python object with `dimension`, `types` (or `featureTypes`), `bounds` and `evaluate(x) -> (phi,
+/// J)`, and where it has them `getFHessian(x)`, `getInitializationSample()`, `report(verbose)`.
 std::shared_ptr<Nlp> fromPythonProblem(nb::object problem);
 
 /// NLP_Sampler.

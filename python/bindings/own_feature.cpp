@@ -73,19 +73,23 @@ class OwnFeature final : public Feature {
     const bool pair = two && readNumbers(result[1], J) && J.rank > 0;
     if (!readNumbers(pair ? nb::object(result[0]) : result, y) || y.rank > 1) {
       throw ValueError(cat("feature ", name_, " returned ", typeName(result),
-                           y.rank > 1 ? cat(" of rank ", y.rank) : "", "; expected y, a number or (d,) numbers, or (y, J)"));
+                           y.rank > 1 ? cat(" of rank ", y.rank) : "",
+                           "; expected y, a number or (d,) numbers, or (y, J)"));
     }
     if (!pair) return {y.values, {}};
     const Eigen::Index rows = y.values.size();
     const bool row = J.rank == 1 && rows == 1 && J.values.size() == dofs;
     if (!row && (J.rank != 2 || Eigen::Index(J.rows) != rows || J.values.size() != rows * dofs)) {
-      throw ValueError(cat("feature ", name_, " returned a Jacobian of ", J.rank == 1 ? cat(J.values.size(), " numbers") : cat(J.rows, " x ", J.columns()),
+      throw ValueError(cat("feature ", name_, " returned a Jacobian of ",
+                           J.rank == 1 ? cat(J.values.size(), " numbers") : cat(J.rows, " x ", J.columns()),
                            "; expected ", rows, " x ", dofs, ", a row per entry of y and a column per dof"));
     }
     return {y.values, J};
   }
 
-  static std::string typeName(const nb::object& object) { return nb::cast<std::string>(object.type().attr("__name__")); }
+  static std::string typeName(const nb::object& object) {
+    return nb::cast<std::string>(object.type().attr("__name__"));
+  }
 
   Returned checked(Returned returned) const {
     if (returned.y.size() == rows_) return returned;
@@ -112,7 +116,8 @@ class OwnFeature final : public Feature {
     const Program& program = state.program();
     std::vector<bool> moves(std::size_t(program.dofs), frames_.empty());
     for (int frame : frames_) {
-      for (int c = program.last_column[state.link(frame)]; c >= 0; c = program.column_before[c]) moves[program.column_dof[c]] = true;
+      for (int c = program.last_column[state.link(frame)]; c >= 0; c = program.column_before[c])
+        moves[program.column_dof[c]] = true;
     }
     std::vector<int> dofs;
     for (int dof = 0; dof < program.dofs; ++dof) {
@@ -132,7 +137,8 @@ std::string nameOf(const nb::object& function) {
 }
 
 Array pointJacobian(const FrameView& view, const Numbers& point) {
-  if (point.values.size() != 3) throw ValueError(cat("getPositionJacobian: point has ", point.values.size(), " numbers; expected 3"));
+  if (point.values.size() != 3)
+    throw ValueError(cat("getPositionJacobian: point has ", point.values.size(), " numbers; expected 3"));
   Rows J = Rows::Zero(3, view.state->dofs());
   view.state->addPointJacobian(view.frame, view.state->pose(view.frame) * Vector3d(point.values), 1., J);
   return toNumpy(J);
@@ -173,19 +179,28 @@ nb::object functionOf(const FeatureSource& source) {
 
 void bindOwnFeatures(nb::module_& m) {
   nb::class_<FrameView>(m, "FrameView", "A frame at one configuration, as a feature of your own sees it.")
-      .def_prop_ro("name", [](const FrameView& v) { return v.state->program().frame_name[v.frame]; }, "The frame's name.")
-      .def("getJointState", [](const FrameView& v) { return toNumpy(v.state->q()); }, "q of the configuration (n,).")
-      .def("getPosition", [](const FrameView& v) { return toNumpy(VectorXd(v.state->position(v.frame))); }, "World position (3,), m.")
-      .def("getQuaternion", [](const FrameView& v) { return toNumpy(VectorXd(wxyz(Quaterniond(v.state->pose(v.frame).R)))); },
-           "World orientation (4,): w x y z.")
-      .def("getPose", [](const FrameView& v) { return toNumpy(VectorXd(Pose(v.state->pose(v.frame)).numbers())); },
-           "World pose (7,): x y z qw qx qy qz.")
-      .def("getRotationMatrix", [](const FrameView& v) { return toNumpy(MatrixXd(v.state->pose(v.frame).R)); },
-           "World orientation (3, 3); its columns are the frame's axes.")
+      .def_prop_ro(
+          "name", [](const FrameView& v) { return v.state->program().frame_name[v.frame]; }, "The frame's name.")
+      .def(
+          "getJointState", [](const FrameView& v) { return toNumpy(v.state->q()); }, "q of the configuration (n,).")
+      .def(
+          "getPosition", [](const FrameView& v) { return toNumpy(VectorXd(v.state->position(v.frame))); },
+          "World position (3,), m.")
+      .def(
+          "getQuaternion",
+          [](const FrameView& v) { return toNumpy(VectorXd(wxyz(Quaterniond(v.state->pose(v.frame).R)))); },
+          "World orientation (4,): w x y z.")
+      .def(
+          "getPose", [](const FrameView& v) { return toNumpy(VectorXd(Pose(v.state->pose(v.frame)).numbers())); },
+          "World pose (7,): x y z qw qx qy qz.")
+      .def(
+          "getRotationMatrix", [](const FrameView& v) { return toNumpy(MatrixXd(v.state->pose(v.frame).R)); },
+          "World orientation (3, 3); its columns are the frame's axes.")
       .def("getPositionJacobian", pointJacobian, "point"_a = nb::make_tuple(0., 0., 0.),
            "(3, n): derivative of the world position of a point of the frame, given in its coordinates (m).")
       .def("getAngularJacobian", angularJacobian, "(3, n): world angular velocity of the frame per velocity of q.")
-      .def("__repr__", [](const FrameView& v) { return cat("<FrameView '", v.state->program().frame_name[v.frame], "'>"); });
+      .def("__repr__",
+           [](const FrameView& v) { return cat("<FrameView '", v.state->program().frame_name[v.frame], "'>"); });
 }
 
 }  // namespace kinegraph::python

@@ -44,15 +44,15 @@ class ViewCamera {
 struct PyViewer : ConfigViewer {
   using ConfigViewer::ConfigViewer;
 
-  std::shared_ptr<SceneTree> scene;           ///< what is shown
-  ViewCamera camera{defaultViewCamera()};     ///< of pictures
+  std::shared_ptr<SceneTree> scene;        ///< what is shown
+  ViewCamera camera{defaultViewCamera()};  ///< of pictures
   bool camera_is_set = false;
-  std::optional<PageCamera> page_camera;      ///< where pages were told to look from
+  std::optional<PageCamera> page_camera;  ///< where pages were told to look from
   bool visuals_only = false;
-  int saved = 0;                              ///< pictures
-  std::map<int, Quad> quads;                  ///< pictures on top of the scene
-  std::optional<CameraRenderer> renderer;     ///< made for the first picture
-  RendererOptions renderer_options;           ///< what it was made with
+  int saved = 0;                           ///< pictures
+  std::map<int, Quad> quads;               ///< pictures on top of the scene
+  std::optional<CameraRenderer> renderer;  ///< made for the first picture
+  RendererOptions renderer_options;        ///< what it was made with
 
   /// Pages look from there, those that are opened later as well.
   void aim(const PageCamera& from);

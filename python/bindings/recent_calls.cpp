@@ -13,7 +13,9 @@ std::span<PyObject*> items(PyObject*& frames) {
   return {PySequence_Fast_ITEMS(frames), std::size_t(PySequence_Fast_GET_SIZE(frames))};
 }
 
-bool isKnown(PyObject* frames) { return PyUnicode_CheckExact(frames) || PyList_CheckExact(frames) || PyTuple_CheckExact(frames); }
+bool isKnown(PyObject* frames) {
+  return PyUnicode_CheckExact(frames) || PyList_CheckExact(frames) || PyTuple_CheckExact(frames);
+}
 
 }  // namespace
 
@@ -22,7 +24,9 @@ RecentCalls::Call* RecentCalls::find(const State& scene, nb::handle symbol, nb::
   if (!isKnown(given)) return nullptr;
   const std::span<PyObject*> names = items(given);
   for (Call& call : calls_) {
-    if (!call.symbol.is(symbol) || call.program != scene.sharedProgram() || call.order != order || call.frames.size() != names.size()) continue;
+    if (!call.symbol.is(symbol) || call.program != scene.sharedProgram() || call.order != order ||
+        call.frames.size() != names.size())
+      continue;
     bool same = true;
     for (std::size_t i = 0; i < names.size(); ++i) same &= call.frames[i].ptr() == names[i];
     if (same) return &call;

@@ -5,8 +5,9 @@
 
 namespace kinegraph::python {
 
-/// What the last few calls of `eval` with built-in features asked, by the identity of their arguments, which strings and
-/// symbols keep: the same call again converts nothing, and takes the arrays that it returned before if they are free.
+/// What the last few calls of `eval` with built-in features asked, by the identity of their arguments, which strings
+/// and symbols keep: the same call again converts nothing, and takes the arrays that it returned before if they are
+/// free.
 class RecentCalls {
  public:
   struct Call {
@@ -26,7 +27,8 @@ class RecentCalls {
   Call* find(const State& scene, nb::handle symbol, nb::handle frames, int order);
 
   /// Remembers a call in place of the oldest one. Null for frames that are not plain strings.
-  Call* add(const State& scene, nb::handle symbol, nb::handle frames, int order, const std::shared_ptr<Residual>& residual);
+  Call* add(const State& scene, nb::handle symbol, nb::handle frames, int order,
+            const std::shared_ptr<Residual>& residual);
 
  private:
   std::vector<Call> calls_;

@@ -85,9 +85,11 @@ Value toValue(nb::handle value, const std::string& name) {
     StringArray words;
     ValueList values;
     for (nb::handle item : nb::cast<nb::sequence>(value)) {
-      nb::isinstance<nb::str>(item) ? words.push_back(nb::cast<std::string>(item)) : values.push_back(toValue(item, name));
+      nb::isinstance<nb::str>(item) ? words.push_back(nb::cast<std::string>(item))
+                                    : values.push_back(toValue(item, name));
     }
-    if (!words.empty() && !values.empty()) throw ValueError(cat("attribute '", name, "': a list holds words only, or none"));
+    if (!words.empty() && !values.empty())
+      throw ValueError(cat("attribute '", name, "': a list holds words only, or none"));
     if (values.empty()) {
       out.data = std::move(words);
     } else {

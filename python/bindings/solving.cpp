@@ -28,11 +28,13 @@ nb::object evaluateFor(Nlp& nlp, const EvaluationHook& hook, const VectorXd& x, 
   }
   ++evals;
   if (hook && !hook(x, phi)) return nb::bool_(false);
-  if (const std::string what = describeNotFinite(nlp, phi, &J); !what.empty() && evals == 1) throw ValueError(cat("at the start, ", what));
+  if (const std::string what = describeNotFinite(nlp, phi, &J); !what.empty() && evals == 1)
+    throw ValueError(cat("at the start, ", what));
   return nb::make_tuple(toNumpy(phi), toNumpy(J.toDense()));
 }
 
-SolverResult solveOutside(const char* name, Nlp& nlp, const VectorXd& x0, const SolverOptions& options, const EvaluationHook& hook) {
+SolverResult solveOutside(const char* name, Nlp& nlp, const VectorXd& x0, const SolverOptions& options,
+                          const EvaluationHook& hook) {
   const nb::gil_scoped_acquire lock;
   SolverResult out;
   nb::dict problem;
@@ -56,7 +58,8 @@ SolverResult solveOutside(const char* name, Nlp& nlp, const VectorXd& x0, const 
   out.x = nb::cast<Numbers>(answer["x"]).values;
   out.message = nb::cast<std::string>(answer["message"]);
   const std::string status = nb::cast<std::string>(answer["status"]);
-  for (SolverStatus s : {SolverStatus::converged, SolverStatus::infeasible, SolverStatus::stalled, SolverStatus::limit, SolverStatus::cancelled}) {
+  for (SolverStatus s : {SolverStatus::converged, SolverStatus::infeasible, SolverStatus::stalled, SolverStatus::limit,
+                         SolverStatus::cancelled}) {
     if (status == solverStatusName(s)) out.status = s;
   }
   out.dual = VectorXd::Zero(Eigen::Index(nlp.types().size()));
@@ -86,7 +89,9 @@ bool SolvingHere::pressedCtrlC() {
   return pressed_ = true;
 }
 
-bool SolvingHere::isPressedBy(const nb::python_error& error) { return pressed_ = pressed_ || error.matches(PyExc_KeyboardInterrupt); }
+bool SolvingHere::isPressedBy(const nb::python_error& error) {
+  return pressed_ = pressed_ || error.matches(PyExc_KeyboardInterrupt);
+}
 
 bool callUser(const std::function<void()>& call) {
   const nb::gil_scoped_acquire lock;
@@ -124,7 +129,8 @@ bool Interruption::operator()(const VectorXd&, const VectorXd& phi) {
 void Interruption::draw(const VectorXd& phi, double seconds) {
   drawn_at_ = seconds;
   const ErrorSums sums = sumErrors(nlp_.types(), phi);
-  nb::module_::import_("kinegraph.progress").attr("drawSolve")(what_, evals_, sums.f + sums.sos, largestViolation(nlp_.types(), phi), seconds);
+  nb::module_::import_("kinegraph.progress")
+      .attr("drawSolve")(what_, evals_, sums.f + sums.sos, largestViolation(nlp_.types(), phi), seconds);
 }
 
 void throwKeyboardInterrupt() {
@@ -133,7 +139,8 @@ void throwKeyboardInterrupt() {
   throw nb::python_error();
 }
 
-SolverResult runInterruptibly(const char* what, const Nlp& nlp, int verbose, const std::function<SolverResult(const EvaluationHook&)>& run) {
+SolverResult runInterruptibly(const char* what, const Nlp& nlp, int verbose,
+                              const std::function<SolverResult(const EvaluationHook&)>& run) {
   SolvingHere here;
   const nb::gil_scoped_release unlock;
   Interruption interruption(here, what, nlp, verbose);
@@ -166,19 +173,23 @@ Explanation explainInterruptibly(Nlp& nlp, const VectorXd& x, double tolerance) 
 }
 
 void addExternalMethods(NlpSolver& solver) {
-  if (solver.options.method != OptMethod::Ipopt && solver.options.method != OptMethod::NLopt && solver.options.method != OptMethod::slackGN_Ipopt) return;
+  if (solver.options.method != OptMethod::Ipopt && solver.options.method != OptMethod::NLopt &&
+      solver.options.method != OptMethod::slackGN_Ipopt)
+    return;
   for (const auto& [method, name] : {std::pair{OptMethod::Ipopt, "ipopt"}, std::pair{OptMethod::NLopt, "nlopt"}}) {
-    solver.addMethod(method, [name = name](Nlp& nlp, const VectorXd& x0, const SolverOptions& options, const EvaluationHook& hook) {
-      return solveOutside(name, nlp, x0, options, hook);
-    });
+    solver.addMethod(
+        method, [name = name](Nlp& nlp, const VectorXd& x0, const SolverOptions& options, const EvaluationHook& hook) {
+          return solveOutside(name, nlp, x0, options, hook);
+        });
   }
-  solver.addMethod(OptMethod::slackGN_Ipopt, [](Nlp& nlp, const VectorXd& x0, const SolverOptions& options, const EvaluationHook& hook) {
-    const SolverResult first = solveSlack(nlp, x0, options, hook);
-    if (first.status == SolverStatus::cancelled) return first;
-    SolverResult second = solveOutside("ipopt", nlp, first.x, options, hook);
-    second.evals += first.evals;
-    return second;
-  });
+  solver.addMethod(OptMethod::slackGN_Ipopt,
+                   [](Nlp& nlp, const VectorXd& x0, const SolverOptions& options, const EvaluationHook& hook) {
+                     const SolverResult first = solveSlack(nlp, x0, options, hook);
+                     if (first.status == SolverStatus::cancelled) return first;
+                     SolverResult second = solveOutside("ipopt", nlp, first.x, options, hook);
+                     second.evals += first.evals;
+                     return second;
+                   });
 }
 
 }  // namespace kinegraph::python

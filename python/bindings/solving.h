@@ -33,15 +33,16 @@ class SolvingHere {
   bool pressed_ = false;
 };
 
-/// Calls a user's function with the interpreter lock. False where Ctrl-C ended it, or came meanwhile, while a solver runs: what the
-/// function gave is then no value, and the solver is to end.
+/// Calls a user's function with the interpreter lock. False where Ctrl-C ended it, or came meanwhile, while a solver
+/// runs: what the function gave is then no value, and the solver is to end.
 bool callUser(const std::function<void()>& call);
 
-/// Asks for Ctrl-C while a solver runs without the interpreter lock, every 20 ms. It then ends the solver, which gives the best so
-/// far.
+/// Asks for Ctrl-C while a solver runs without the interpreter lock, every 20 ms. It then ends the solver, which gives
+/// the best so far.
 class Interruption {
  public:
-  Interruption(SolvingHere& here, const char* what, const Nlp& nlp, int verbose) : here_(here), what_(what), nlp_(nlp), verbose_(verbose) {}
+  Interruption(SolvingHere& here, const char* what, const Nlp& nlp, int verbose)
+      : here_(here), what_(what), nlp_(nlp), verbose_(verbose) {}
   ~Interruption();
   bool operator()(const VectorXd&, const VectorXd&);  ///< false: stop
 
@@ -63,9 +64,10 @@ void markInterrupted(SolverResult& result);
 
 [[noreturn]] void throwKeyboardInterrupt();
 
-/// Runs what solves, without the interpreter lock. Ctrl-C ends it with status cancelled. From verbose 1 on, a terminal shows a line
-/// of how far it is, if it takes long; `what` is its first word.
-SolverResult runInterruptibly(const char* what, const Nlp& nlp, int verbose, const std::function<SolverResult(const EvaluationHook&)>& run);
+/// Runs what solves, without the interpreter lock. Ctrl-C ends it with status cancelled. From verbose 1 on, a terminal
+/// shows a line of how far it is, if it takes long; `what` is its first word.
+SolverResult runInterruptibly(const char* what, const Nlp& nlp, int verbose,
+                              const std::function<SolverResult(const EvaluationHook&)>& run);
 
 /// The same for a solver.
 SolverResult solveInterruptibly(NlpSolver& solver, bool resample);

@@ -50,10 +50,11 @@ TEST(ForParts, PassesOnTheExceptionOfTheFirstPartThatThrows) {
 
 TEST(ForParts, StopsWhereBetweenThrows) {
   int parts = 0, calls = 0;
-  EXPECT_THROW(forParts(100, 1, 1, [&](int, int, int) { ++parts; },
-                        [&] {
-                          if (++calls == 4) throw std::runtime_error("stop");
-                        }),
+  EXPECT_THROW(forParts(
+                   100, 1, 1, [&](int, int, int) { ++parts; },
+                   [&] {
+                     if (++calls == 4) throw std::runtime_error("stop");
+                   }),
                std::runtime_error);
   EXPECT_EQ(parts, 3);
 }
@@ -63,12 +64,16 @@ TEST(ForParts, AsksBetweenWhileItWaitsForTheOthersAndAtTheEnd) {
     const auto caller = std::this_thread::get_id();
     std::atomic<int> asked = 0;
     // whoever is not the caller waits until the caller, which has nothing left to do, has asked three times more
-    forParts(threads, 1, threads, [&](int worker, int, int) {
-      for (const int before = asked; worker > 0 && asked < before + 3;) std::this_thread::sleep_for(std::chrono::milliseconds(1));
-    }, [&] {
-      EXPECT_EQ(std::this_thread::get_id(), caller);
-      ++asked;
-    });
+    forParts(
+        threads, 1, threads,
+        [&](int worker, int, int) {
+          for (const int before = asked; worker > 0 && asked < before + 3;)
+            std::this_thread::sleep_for(std::chrono::milliseconds(1));
+        },
+        [&] {
+          EXPECT_EQ(std::this_thread::get_id(), caller);
+          ++asked;
+        });
     EXPECT_GE(asked, threads == 1 ? 2 : 3) << threads << " threads";
   }
 }
@@ -80,14 +85,18 @@ TEST(ForParts, WhatBetweenThrowsWhileItWaitsIsPassedOnOnceTheOthersHaveEnded) {
     stop = true;
     throw std::runtime_error("stop");
   };
-  EXPECT_THROW(forParts(2, 1, 2, [&](int worker, int, int) {
-    if (worker == 0) {
-      while (!other_runs) std::this_thread::yield();
-      return;
-    }
-    other_runs = true;
-    while (!stop) std::this_thread::yield();
-    other_ended = true;
-  }, between), std::runtime_error);
+  EXPECT_THROW(forParts(
+                   2, 1, 2,
+                   [&](int worker, int, int) {
+                     if (worker == 0) {
+                       while (!other_runs) std::this_thread::yield();
+                       return;
+                     }
+                     other_runs = true;
+                     while (!stop) std::this_thread::yield();
+                     other_ended = true;
+                   },
+                   between),
+               std::runtime_error);
   EXPECT_TRUE(other_ended);
 }

@@ -23,7 +23,8 @@ TEST(Text, ExactNumbersReadBackUnchanged) {
 }
 
 TEST(Text, IsWithinEditDistanceAgreesWithTheDistance) {
-  const char* words[] = {"", "a", "shape", "shpae", "Shape", "shapes", "joint", "joints", "jiont", "mesh", "hinge", "hingeX", "ab", "ba"};
+  const char* words[] = {"",       "a",     "shape", "shpae", "Shape",  "shapes", "joint",
+                         "joints", "jiont", "mesh",  "hinge", "hingeX", "ab",     "ba"};
   for (const char* a : words) {
     for (const char* b : words) {
       for (double limit : {0., .5, 1., 1.2, 2., 3.}) {

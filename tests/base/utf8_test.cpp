@@ -15,5 +15,6 @@ TEST(ValidUtf8, BytesThatAreNoCharacterBecomeQuestionMarks) {
   std::size_t replaced = 0;
   EXPECT_EQ(validUtf8("Jos\xE9\n\xFF\xC3", &replaced), "Jos?\n??");
   EXPECT_EQ(replaced, 3u);
-  EXPECT_EQ(validUtf8("\xC0\x80 \xED\xA0\x80 \xF4\x90\x80\x80"), "?? ??? ????");  // overlong, surrogate, beyond the last
+  EXPECT_EQ(validUtf8("\xC0\x80 \xED\xA0\x80 \xF4\x90\x80\x80"),
+            "?? ??? ????");  // overlong, surrogate, beyond the last
 }

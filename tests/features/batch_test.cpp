@@ -45,8 +45,11 @@ struct Results {
 Results evaluateAll(const Config& config, const RowMatrix& Q, int threads) {
   const Residual residual = makeResidual(config.state(), FeatureSymbol::pose, {"tip"});
   const int frame = config.getFrame("tip").id(), count = int(Q.rows());
-  Results out{RowMatrix(count, 7), RowMatrix(7 * count, Q.cols()), RowMatrix(count, 14),
-              RowMatrix(count, Eigen::Index(config.getCollidablePairs().size())), {}};
+  Results out{RowMatrix(count, 7),
+              RowMatrix(7 * count, Q.cols()),
+              RowMatrix(count, 14),
+              RowMatrix(count, Eigen::Index(config.getCollidablePairs().size())),
+              {}};
   const BatchOptions options{threads};
   JacobianRows J = out.J;
   evalBatch(config.state(), residual, Q, out.y, &J, options);
@@ -78,7 +81,8 @@ TEST(Batch, GivesWhatSingleConfigurationsGive) {
     bool inside = std::abs(Q(i, 0)) <= 1. && std::abs(Q(i, 1)) <= 1.;
     const auto pairs = config.getCollidablePairs();
     for (std::size_t pair = 0; pair < pairs.size(); ++pair) {
-      const std::vector<std::string> names = {config.getFrame(pairs[pair].first).getName(), config.getFrame(pairs[pair].second).getName()};
+      const std::vector<std::string> names = {config.getFrame(pairs[pair].first).getName(),
+                                              config.getFrame(pairs[pair].second).getName()};
       const double distance = -eval(config, FeatureSymbol::distance, names).y[0];
       EXPECT_EQ(all.distances(i, Eigen::Index(pair)), distance);
       if (distance < .01) inside = false;
@@ -146,5 +150,6 @@ TEST(Batch, FeaturesOfSeveralConfigurationsAreAnError) {
   const Config config = arm();
   const Residual velocity = makeResidual(config.state(), FeatureSymbol::position, {"tip"}, {}, {}, 1);
   RowMatrix y(2, 3);
-  expectError<ValueError>([&] { evalBatch(config.state(), velocity, RowMatrix::Zero(2, 3), y, nullptr); }, {"position", "order 1"});
+  expectError<ValueError>([&] { evalBatch(config.state(), velocity, RowMatrix::Zero(2, 3), y, nullptr); },
+                          {"position", "order 1"});
 }

@@ -29,7 +29,8 @@ TEST(BoxRegion, OfAShapeThatIsNoBoxIsAnError) {
 TEST(StandingAbove, IsZeroForABoxThatStandsOnATable) {
   Config config;
   config.addText("table: { X: [0 0 .7], shape: ssBox, size: [1 1 .1 .01] }");
-  config.addText("cup: { X: [.2 .1 .8], shape: ssBox, size: [.1 .1 .1 .01] }  ball: { X: [0 0 1.05], shape: sphere, size: [.2] }");
+  config.addText(
+      "cup: { X: [.2 .1 .8], shape: ssBox, size: [.1 .1 .1 .01] }  ball: { X: [0 0 1.05], shape: sphere, size: [.2] }");
   EXPECT_NEAR(value(config, "standingAbove", {"cup", "table"})[0], 0., 1e-14);
   EXPECT_NEAR(value(config, "standingAbove", {"ball", "table"})[0], .1, 1e-14);
 }

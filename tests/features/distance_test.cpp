@@ -1,5 +1,5 @@
-#include "kinegraph/features/collisions.h"
 #include "kinegraph/features/distance.h"
+#include "kinegraph/features/collisions.h"
 
 #include <gtest/gtest.h>
 
@@ -35,7 +35,9 @@ TEST(NegDistance, HasTheJacobianOfCentralDifferencesInPenetrationToo) {
     const char* shape;
     double tolerance = 1e-6;
   };
-  const Body bodies[] = {{"shape: sphere, size: [.1]"}, {"shape: capsule, size: [.2 .05]"}, {"shape: ssBox, size: [.2 .2 .3 .03]"},
+  const Body bodies[] = {{"shape: sphere, size: [.1]"},
+                         {"shape: capsule, size: [.2 .05]"},
+                         {"shape: ssBox, size: [.2 .2 .3 .03]"},
                          {"shape: box, size: [.1 .3 .2]"},
                          {"shape: cylinder, size: [.2 .1]"},
                          {"shape: ssCylinder, size: [.3 .1 .02]"},
@@ -43,7 +45,8 @@ TEST(NegDistance, HasTheJacobianOfCentralDifferencesInPenetrationToo) {
                          {"shape: quad, size: [.2 .3]"}};
   for (const auto& [shape, tolerance] : bodies) {
     Config config;
-    config.addText(std::string("box: { shape: ssBox, size: [.5 .4 .3 .02] }  base: {}  body(base): { joint: free, ") + shape + " }");
+    config.addText(std::string("box: { shape: ssBox, size: [.5 .4 .3 .02] }  base: {}  body(base): { joint: free, ") +
+                   shape + " }");
     const auto distance = [&](const VectorXd& q) {
       config.setJointState(q);
       return value(config, "distance", {"body", "box"});
@@ -58,7 +61,8 @@ TEST(NegDistance, HasTheJacobianOfCentralDifferencesInPenetrationToo) {
       ++deep;
       if (!numeric.differentiable) continue;
       ++used;
-      EXPECT_LE(relativeError(eval(config, FeatureSymbol::distance, {"body", "box"}).J, numeric.D), tolerance) << shape << ", sample " << sample;
+      EXPECT_LE(relativeError(eval(config, FeatureSymbol::distance, {"body", "box"}).J, numeric.D), tolerance)
+          << shape << ", sample " << sample;
     }
     EXPECT_GE(deep, 20) << shape;
     EXPECT_GE(used, .8 * deep) << shape;
@@ -102,7 +106,8 @@ TEST(Witness, HasTheDerivativeOfOneSideWhereTheNearestFeatureChanges) {
 TEST(Oppose, SumsTheVectorsFromTheObjectToTheFingers) {
   const Config config = workedScene();
   EXPECT_TRUE(near(value(config, "oppose", {"B", "D", "A"}), numbers({.35, 0, .1}), 1e-5));
-  EXPECT_TRUE(near(value(config, "opposeCentral", {"B", "D", "A"}), numbers({.35, 0, .1, -.00661, .00497, .00005}), 1e-5));
+  EXPECT_TRUE(
+      near(value(config, "opposeCentral", {"B", "D", "A"}), numbers({.35, 0, .1, -.00661, .00497, .00005}), 1e-5));
 }
 
 TEST(Oppose, IsZeroForFingersOnOppositeSides) {
@@ -114,7 +119,8 @@ TEST(Oppose, IsZeroForFingersOnOppositeSides) {
 
 TEST(AccumulatedCollisions, SumTheDepthsOfAllCollidablePairs) {
   Config config;
-  config.addText("a: { shape: sphere, size: [.1], contact: 1 }  b: { X: [.15 0 0], shape: sphere, size: [.1], contact: 1 }");
+  config.addText(
+      "a: { shape: sphere, size: [.1], contact: 1 }  b: { X: [.15 0 0], shape: sphere, size: [.1], contact: 1 }");
   EXPECT_NEAR(value(config, "accumulatedCollisions", {})[0], .05, 1e-12);
   config.addText("c: { X: [0 .18 0], shape: sphere, size: [.1], contact: 1 }  d: { shape: sphere, size: [.1] }");
   EXPECT_NEAR(value(config, "accumulatedCollisions", {})[0], .07, 1e-12);
@@ -124,7 +130,8 @@ TEST(AccumulatedCollisions, SumTheDepthsOfAllCollidablePairs) {
 
 TEST(AccumulatedCollisions, OfNamedFramesLookAtThoseAndNoOthers) {
   Config config;
-  config.addText("a: { shape: sphere, size: [.1], contact: 1 }  b: { X: [.15 0 0], shape: sphere, size: [.1], contact: 1 }");
+  config.addText(
+      "a: { shape: sphere, size: [.1], contact: 1 }  b: { X: [.15 0 0], shape: sphere, size: [.1], contact: 1 }");
   config.addText("c: { X: [0 .18 0], shape: sphere, size: [.1], contact: 1 }");
   EXPECT_NEAR(value(config, "accumulatedCollisions", {"b"})[0], .05, 1e-12);
   EXPECT_NEAR(value(config, "accumulatedCollisions", {"c"})[0], .02, 1e-12);
@@ -168,7 +175,8 @@ TEST(AccumulatedCollisions, OfManyBodiesAreThoseOfTheConfigWithTheirJacobian) {
 
 TEST(PairCollisions, HasARowForEachPairThatIsItsNegativeDistance) {
   Config config;
-  config.addText("a: { shape: sphere, size: [.1], contact: 1 }  b: { X: [.15 0 0], shape: sphere, size: [.1], contact: 1 }");
+  config.addText(
+      "a: { shape: sphere, size: [.1], contact: 1 }  b: { X: [.15 0 0], shape: sphere, size: [.1], contact: 1 }");
   config.addText("c: { X: [0 .26 0], shape: sphere, size: [.1], contact: 1 }");
   EXPECT_TRUE(near(value(config, "pairCollisions", {}), numbers({.05, -.06, -.1}), 1e-12));
   EXPECT_TRUE(near(value(config, "pairCollisions", {"c"}), numbers({-.06, -.1}), 1e-12));
@@ -178,7 +186,8 @@ TEST(PairCollisions, HasARowForEachPairThatIsItsNegativeDistance) {
 
 TEST(PairCollisions, ThatArePositiveSumToTheAccumulatedOnes) {
   Config config;
-  config.addText("a: { shape: sphere, size: [.1], contact: 1 }  b: { X: [.15 0 0], shape: sphere, size: [.1], contact: 1 }");
+  config.addText(
+      "a: { shape: sphere, size: [.1], contact: 1 }  b: { X: [.15 0 0], shape: sphere, size: [.1], contact: 1 }");
   config.addText("c: { X: [0 .18 0], shape: ssBox, size: [.2 .2 .2 .02], contact: 1 }");
   const VectorXd each = value(config, "pairCollisions", {});
   EXPECT_NEAR(each.cwiseMax(0.).sum(), value(config, "accumulatedCollisions", {})[0], 1e-12);

@@ -90,7 +90,8 @@ TEST(Heap, AMatrixAsScaleAndDifferencesRequestNoMemoryOnceTheyAreWarm) {
   std::vector<State> states(3, config.state());
   for (int t = 0; t < 3; ++t) states[t].setJoints(joints[t].data());
   const State* view[] = {&states[0], &states[1], &states[2]};
-  Residual residual = makeResidual(config.state(), FeatureSymbol::pose, {"finger"}, MatrixXd::Ones(2, 7), VectorXd::Ones(7), 2);
+  Residual residual =
+      makeResidual(config.state(), FeatureSymbol::pose, {"finger"}, MatrixXd::Ones(2, 7), VectorXd::Ones(7), 2);
   VectorXd y(2);
   Rows J = Rows::Zero(2, 3 * config.getJointDimension());
   JacobianRows rows = J;
@@ -118,7 +119,9 @@ TEST(Heap, DistancesOfAllShapesRequestNoMemory) {
   Config config = arm();
   const char* names[] = {"cylinder", "mesh", "parts", "cloud", "elip", "cvx", "quad", "sdf"};
   double x = .1;
-  for (const char* name : names) config.addFrame(name, "two", cat("joint: trans3, pre: [", x += .02, " 0 .1], shape: cylinder, size: [.2 .1], contact: 1"));
+  for (const char* name : names)
+    config.addFrame(name, "two",
+                    cat("joint: trans3, pre: [", x += .02, " 0 .1], shape: cylinder, size: [.2 .1], contact: 1"));
   Rng rng(3);
   Mesh mesh;
   for (int i = 0; i < 100; ++i) mesh.vertices.push_back(.1 * Vector3d(rng.normal(), rng.normal(), rng.normal()));
@@ -133,8 +136,10 @@ TEST(Heap, DistancesOfAllShapesRequestNoMemory) {
   config.getFrame("quad").setGeometry({ShapeType::quad, {.2, .2}, nullptr});
   Grid grid;
   grid.cells = {5, 5, 5};
-  for (int i = 0; i < 125; ++i) grid.values.push_back(float((Vector3d(i / 25, i / 5 % 5, i % 5) - Vector3d::Constant(2.)).norm() * .1 - .1));
-  config.getFrame("sdf").setGeometry({ShapeType::sdf, {.4, .4, .4}, nullptr, {}, Vector3d::Ones(), std::make_shared<Grid>(grid)});
+  for (int i = 0; i < 125; ++i)
+    grid.values.push_back(float((Vector3d(i / 25, i / 5 % 5, i % 5) - Vector3d::Constant(2.)).norm() * .1 - .1));
+  config.getFrame("sdf").setGeometry(
+      {ShapeType::sdf, {.4, .4, .4}, nullptr, {}, Vector3d::Ones(), std::make_shared<Grid>(grid)});
   const std::vector<VectorXd> joints = someJoints(config, 5);
   config.getTotalPenetration();
   Residual residual = makeResidual(config.state(), FeatureSymbol::accumulatedCollisions, {});

@@ -11,21 +11,30 @@ using namespace kinegraph;
 
 namespace {
 
-constexpr double kTolerance = 1e-6;    ///< of a Jacobian, relative
-constexpr double kTau = .3;            ///< s
-constexpr int kSamples = 4;            ///< random joint vectors per feature, frames and order
-constexpr double kLeastUsed = .9;     ///< part of the samples of a symbol that must be differentiable
+constexpr double kTolerance = 1e-6;  ///< of a Jacobian, relative
+constexpr double kTau = .3;          ///< s
+constexpr int kSamples = 4;          ///< random joint vectors per feature, frames and order
+constexpr double kLeastUsed = .9;    ///< part of the samples of a symbol that must be differentiable
 
 /// Two chains whose joints are given, with a shape at the end of each, and a third body on the first chain. All of them
 /// are turned against each other, so that no faces are parallel, and near enough to touch for some q.
 std::string scene(const std::string& first, const std::string& second) {
   return "base: { X: \"t(.1 -.2 .3) d(25 .3 1 .2)\" }\n"
-         "upper(base): { pre: \"t(.1 .1 0) d(70 1 .2 .5)\", " + first + " }\n"
-         "lower(upper): { pre: \"t(.15 0 .1) d(-50 .4 1 .3)\", " + second + " }\n"
-         "finger(lower): { Q: \"t(.03 .02 .04) d(35 1 .6 .2)\", shape: capsule, size: [.2 .03], contact: 1, mass: .7 }\n"
-         "other(base): { pre: \"t(.2 .25 .05) d(-40 .2 .3 1)\", " + second + " }\n"
-         "box(other): { Q: \"t(-.05 .06 .02) d(20 .5 1 .1)\", shape: ssBox, size: [.3 .24 .2 .02], contact: 1, mass: 1.3 }\n"
-         "block(base): { pre: \"t(.25 -.05 .3) d(65 .1 .3 .4)\", " + first + ", shape: ssBox, size: [.2 .16 .1 .03], contact: 1, mass: .4 }\n";
+         "upper(base): { pre: \"t(.1 .1 0) d(70 1 .2 .5)\", " +
+         first +
+         " }\n"
+         "lower(upper): { pre: \"t(.15 0 .1) d(-50 .4 1 .3)\", " +
+         second +
+         " }\n"
+         "finger(lower): { Q: \"t(.03 .02 .04) d(35 1 .6 .2)\", shape: capsule, size: [.2 .03], contact: 1, mass: .7 "
+         "}\n"
+         "other(base): { pre: \"t(.2 .25 .05) d(-40 .2 .3 1)\", " +
+         second +
+         " }\n"
+         "box(other): { Q: \"t(-.05 .06 .02) d(20 .5 1 .1)\", shape: ssBox, size: [.3 .24 .2 .02], contact: 1, mass: "
+         "1.3 }\n"
+         "block(base): { pre: \"t(.25 -.05 .3) d(65 .1 .3 .4)\", " +
+         first + ", shape: ssBox, size: [.2 .16 .1 .03], contact: 1, mass: .4 }\n";
 }
 
 struct Scene {
@@ -48,7 +57,8 @@ constexpr Scene kScenes[] = {
     {"circleAndXBall", "joint: circleZ", "joint: XBall"},
     {"generic", "joint: _xAzb", "joint: hingeX"},
     {"mimic", "joint: hingeX, limits: [-2 2]", "joint: hingeY",
-     "follower(finger): { pre: \"t(.1 0 0) d(30 1 1 0)\", joint: hingeX, mimic: upper, joint_scale: -.6, shape: sphere, size: [.05], contact: 1 }"},
+     "follower(finger): { pre: \"t(.1 0 0) d(30 1 1 0)\", joint: hingeX, mimic: upper, joint_scale: -.6, shape: "
+     "sphere, size: [.05], contact: 1 }"},
 };
 
 Config makeScene(const Scene& joints) {
@@ -128,8 +138,10 @@ struct Symbol {
 std::vector<Symbol> availableFeatures() {
   std::vector<Symbol> list;
   for (const FeatureInfo& info : featureRegistry()) {
-    const bool needs_forces = info.symbol == FeatureSymbol::totalForce || info.symbol == FeatureSymbol::contactConstraints;
-    if (info.available && !needs_forces) list.push_back({info});  // those are constant without them; tests/komo has some
+    const bool needs_forces =
+        info.symbol == FeatureSymbol::totalForce || info.symbol == FeatureSymbol::contactConstraints;
+    if (info.available && !needs_forces)
+      list.push_back({info});  // those are constant without them; tests/komo has some
   }
   return list;
 }
@@ -150,8 +162,8 @@ TEST_P(EveryFeature, HasTheJacobianOfCentralDifferences) {
       for (int order = 0; order <= 2; ++order) {
         std::unique_ptr<Residual> residual;
         try {
-          residual = std::make_unique<Residual>(makeFeature(info.symbol, frames, *config.program()), MatrixXd(), VectorXd(),
-                                                order, info.name);
+          residual = std::make_unique<Residual>(makeFeature(info.symbol, frames, *config.program()), MatrixXd(),
+                                                VectorXd(), order, info.name);
         } catch (const ValueError& error) {  // frames without a joint, an order below the feature's own
           refusal = error.what();
           continue;
@@ -162,7 +174,8 @@ TEST_P(EveryFeature, HasTheJacobianOfCentralDifferences) {
     }
     EXPECT_GE(made, 2) << "the scene of " << joints.name << " lacks frames that it takes: " << refusal;
   }
-  EXPECT_GE(count.used, kLeastUsed * count.tried) << count.used << " of " << count.tried << " samples are differentiable";
+  EXPECT_GE(count.used, kLeastUsed * count.tried)
+      << count.used << " of " << count.tried << " samples are differentiable";
   EXPECT_GT(count.largest, 1e-3) << "no joint of any scene changes it";
   RecordProperty("used", count.used);
   RecordProperty("tried", count.tried);
@@ -185,9 +198,12 @@ TEST_P(EveryFeature, HasAJacobianThatScaleAndTargetTransformLikeTheValue) {
     if (rows == 0) continue;
     for (int order = least_order; order <= 2; ++order) {
       for (const MatrixXd& scale : {random(1, 1), random(rows, 1), random(2, rows)}) {
-        Residual residual(makeFeature(info.symbol, frames, *config.program()), scale, random(rows, 1), order, info.name);
+        Residual residual(makeFeature(info.symbol, frames, *config.program()), scale, random(rows, 1), order,
+                          info.name);
         ASSERT_EQ(residual.rows(), residual.mixesRows() ? 2 : rows);
-        checkSamples(residual, config, rng, cat(info.name, " of order ", order, ", scaled by ", scale.rows(), " x ", scale.cols(), ", with ", joints.name),
+        checkSamples(residual, config, rng,
+                     cat(info.name, " of order ", order, ", scaled by ", scale.rows(), " x ", scale.cols(), ", with ",
+                         joints.name),
                      count);
       }
     }
@@ -213,7 +229,8 @@ TEST_P(EveryFeature, TellsTheSecondDerivativesThatItsJacobianHas) {
       const int rows = feature->rows();
       for (const bool mixes : {false, true}) {
         if (rows == 0 || feature->order() > 0) continue;
-        const MatrixXd scale = mixes ? MatrixXd(MatrixXd::Random(2, rows)) : MatrixXd(VectorXd::LinSpaced(rows, .5, 2.));
+        const MatrixXd scale =
+            mixes ? MatrixXd(MatrixXd::Random(2, rows)) : MatrixXd(VectorXd::LinSpaced(rows, .5, 2.));
         Residual residual(feature, scale, {}, 0, info.name);
         State state = config.state();
         if (!residual.hasCurvature(state)) continue;
@@ -243,8 +260,8 @@ TEST_P(EveryFeature, TellsTheSecondDerivativesThatItsJacobianHas) {
     }
   }
   const std::vector<FeatureSymbol> known = {
-      FeatureSymbol::position, FeatureSymbol::positionDiff, FeatureSymbol::vectorX, FeatureSymbol::vectorY, FeatureSymbol::vectorZ,
-      FeatureSymbol::vectorXDiff, FeatureSymbol::vectorYDiff, FeatureSymbol::vectorZDiff};
+      FeatureSymbol::position, FeatureSymbol::positionDiff, FeatureSymbol::vectorX,     FeatureSymbol::vectorY,
+      FeatureSymbol::vectorZ,  FeatureSymbol::vectorXDiff,  FeatureSymbol::vectorYDiff, FeatureSymbol::vectorZDiff};
   if (std::find(known.begin(), known.end(), info.symbol) != known.end()) EXPECT_GE(told, 20);
 }
 

@@ -75,8 +75,16 @@ double difference(const RowMatrix& a, const RowMatrix& b) {
 
 std::vector<std::vector<std::string>> frameChoices(const FeatureInfo& info) {
   std::vector<std::vector<std::string>> fitting;
-  for (const std::vector<std::string>& names : std::vector<std::vector<std::string>>{
-           {}, {"tip"}, {"still"}, {"slide"}, {"tip", "box"}, {"box", "still"}, {"body", "tip"}, {"still", "box"}, {"tip", "tip"}, {"tip", "box", "body"}}) {
+  for (const std::vector<std::string>& names : std::vector<std::vector<std::string>>{{},
+                                                                                     {"tip"},
+                                                                                     {"still"},
+                                                                                     {"slide"},
+                                                                                     {"tip", "box"},
+                                                                                     {"box", "still"},
+                                                                                     {"body", "tip"},
+                                                                                     {"still", "box"},
+                                                                                     {"tip", "tip"},
+                                                                                     {"tip", "box", "body"}}) {
     const int count = int(names.size());
     if (count >= info.min_frames && (info.max_frames < 0 || count <= info.max_frames)) fitting.push_back(names);
   }
@@ -91,7 +99,8 @@ TEST(Lanes, AllFeaturesGiveWhatOneConfigurationAloneGivesAtEveryWidth) {
   int in_lanes = 0, checked = 0;
   Rng rng(3);
   for (const FeatureInfo& info : featureRegistry()) {
-    if (!info.available || info.symbol == FeatureSymbol::totalForce) continue;  // its frames need a mass: it has no rows in lanes
+    if (!info.available || info.symbol == FeatureSymbol::totalForce)
+      continue;  // its frames need a mass: it has no rows in lanes
     for (const std::vector<std::string>& frames : frameChoices(info)) {
       for (int form = 0; form < 4; ++form) {  // as it is; with a number, one per row, and a matrix as scale
         std::unique_ptr<Residual> residual;
@@ -115,8 +124,10 @@ TEST(Lanes, AllFeaturesGiveWhatOneConfigurationAloneGivesAtEveryWidth) {
         const Values alone = oneByOne(config, *residual, Q);
         for (int width : laneWidths()) {
           const Values wide = inLanes(config, *residual, Q, width);
-          EXPECT_LT(difference(wide.y, alone.y), 1e-12) << info.name << " of " << join(frames) << ", form " << form << ", width " << width;
-          EXPECT_LT(difference(wide.J, alone.J), 1e-12) << info.name << " of " << join(frames) << ", form " << form << ", width " << width;
+          EXPECT_LT(difference(wide.y, alone.y), 1e-12)
+              << info.name << " of " << join(frames) << ", form " << form << ", width " << width;
+          EXPECT_LT(difference(wide.J, alone.J), 1e-12)
+              << info.name << " of " << join(frames) << ", form " << form << ", width " << width;
           ++checked;
         }
       }
@@ -130,7 +141,8 @@ TEST(Lanes, AllWidthsGiveTheSameBits) {
   const Config config = everyJoint();
   const RowMatrix Q = randomJoints(config, 37);
   for (FeatureSymbol symbol : {FeatureSymbol::poseRel, FeatureSymbol::poseDiff, FeatureSymbol::pose}) {
-    const Residual residual = makeResidual(config.state(), symbol, std::vector<std::string>(symbol == FeatureSymbol::pose ? 1 : 2, "tip"));
+    const Residual residual =
+        makeResidual(config.state(), symbol, std::vector<std::string>(symbol == FeatureSymbol::pose ? 1 : 2, "tip"));
     const Values narrow = inLanes(config, residual, Q, 2);
     for (int width : laneWidths()) {
       const Values wide = inLanes(config, residual, Q, width);
@@ -185,12 +197,14 @@ TEST(Lanes, QuaternionsHaveTheSignOfOneConfigurationAlone) {
   const RowMatrix Q = randomJoints(config, 500, 3.);
   const Residual residual = makeResidual(config.state(), FeatureSymbol::quaternion, {"box"});
   const Values alone = oneByOne(config, residual, Q);
-  for (int k = 0; k < 4; ++k) EXPECT_LT(alone.y.col(k).minCoeff(), -.4);  // all four ways to read a rotation matrix are met
+  for (int k = 0; k < 4; ++k)
+    EXPECT_LT(alone.y.col(k).minCoeff(), -.4);  // all four ways to read a rotation matrix are met
   for (int width : laneWidths()) EXPECT_LT(difference(inLanes(config, residual, Q, width).y, alone.y), 1e-12) << width;
 }
 
 TEST(Lanes, OtherWidthsAreAnError) {
   const Config config = everyJoint();
   RowMatrix poses(4, 7);
-  expectError<ValueError>([&] { framePoses(config.state(), {0}, randomJoints(config, 4), poses, {.lanes = 3}); }, {"lanes", "3"});
+  expectError<ValueError>([&] { framePoses(config.state(), {0}, randomJoints(config, 4), poses, {.lanes = 3}); },
+                          {"lanes", "3"});
 }

@@ -45,8 +45,8 @@ TEST(LongChain, OfAThousandJointsRollsUpToAPolygon) {
 TEST(LongChain, TakesMemoryThatGrowsLikeItsJoints) {
   const Config config = chain();
   const Program& program = *config.program();
-  for (std::size_t size : {program.links.size(), program.steps.size(), program.column_dof.size(), program.column_before.size(),
-                           program.last_column.size(), program.frame_link.size()}) {
+  for (std::size_t size : {program.links.size(), program.steps.size(), program.column_dof.size(),
+                           program.column_before.size(), program.last_column.size(), program.frame_link.size()}) {
     EXPECT_LE(size, 3 * std::size_t(kJoints));
   }
 }

@@ -45,7 +45,8 @@ TEST(Energy, AddsHalfTheMassTimesTheSquaredVelocity) {
   const Config config = bodies();
   Residual energy = makeResidual(config.state(), FeatureSymbol::energy, {"body", "light"});
   const double v = .2 / kTau;
-  EXPECT_TRUE(near(overSlices(config, energy, heights({1., 1.2}), kTau), numbers({3. * (.5 * v * v + 9.81 * 1.2)}), 1e-12));
+  EXPECT_TRUE(
+      near(overSlices(config, energy, heights({1., 1.2}), kTau), numbers({3. * (.5 * v * v + 9.81 * 1.2)}), 1e-12));
 }
 
 TEST(Energy, FollowsTheMass) {
@@ -59,19 +60,22 @@ TEST(Physics, IsGravityTimesTauAtRestInFreeSpace) {
   const Config config = bodies();
   Residual physics = makeResidual(config.state(), FeatureSymbol::physics, {"body"});
   EXPECT_EQ(physics.order(), 2);
-  EXPECT_TRUE(near(overSlices(config, physics, heights({1., 1., 1.}), kTau), numbers({0., 0., .981, 0., 0., 0.}), 1e-12));
+  EXPECT_TRUE(
+      near(overSlices(config, physics, heights({1., 1., 1.}), kTau), numbers({0., 0., .981, 0., 0., 0.}), 1e-12));
 }
 
 TEST(Physics, IsZeroInFreeFall) {
   const Config config = bodies();
   Residual physics = makeResidual(config.state(), FeatureSymbol::physics, {"body"});
   const auto height = [](double t) { return 1. + 2. * t - 9.81 / 2. * t * t; };
-  EXPECT_TRUE(near(overSlices(config, physics, heights({height(0.), height(kTau), height(2. * kTau)}), kTau), VectorXd(VectorXd::Zero(6)), 1e-12));
+  EXPECT_TRUE(near(overSlices(config, physics, heights({height(0.), height(kTau), height(2. * kTau)}), kTau),
+                   VectorXd(VectorXd::Zero(6)), 1e-12));
 }
 
 TEST(EqCenterOfMass, IsAFramesOffsetFromTheCommonCentreOfTheOthers) {
   const Config config = bodies();
-  EXPECT_TRUE(near(value(config, "EqCenterOfMass", {"ground", "body", "part"}), numbers({.25 - .5 / 3., 1., -1.}), 1e-12));
+  EXPECT_TRUE(
+      near(value(config, "EqCenterOfMass", {"ground", "body", "part"}), numbers({.25 - .5 / 3., 1., -1.}), 1e-12));
   EXPECT_TRUE(near(value(config, "EqCenterOfMass", {"ground", "body", "light"}), numbers({.25, 1., -1.}), 1e-12));
 }
 
@@ -79,11 +83,16 @@ TEST(EqCenterOfMass, OfOneFrameIsItsOffsetFromEverythingThatMoves) {
   const Config config = bodies();
   EXPECT_TRUE(near(value(config, "EqCenterOfMass", {"ground"}), numbers({.25 - .5 / 3., 1., -1.}), 1e-12));
   const VectorXd center = config.centerOfMass().second;
-  EXPECT_TRUE(near(value(config, "EqCenterOfMass", {"ground"}), VectorXd(config.getFrame("ground").getPose().p - center), 1e-12));
+  EXPECT_TRUE(near(value(config, "EqCenterOfMass", {"ground"}),
+                   VectorXd(config.getFrame("ground").getPose().p - center), 1e-12));
 }
 
 TEST(EqCenterOfMass, WithoutAnyMassIsAnErrorThatSaysSo) {
   const Config config = bodies();
-  expectError<ValueError>([&] { value(config, "EqCenterOfMass", {"body", "light"}); }, {"EqCenterOfMass of 'body'", "has a mass"});
+  expectError<ValueError>(
+      [&] {
+        value(config, "EqCenterOfMass", {"body", "light"});
+      },
+      {"EqCenterOfMass of 'body'", "has a mass"});
   expectError<ValueError>([&] { value(workedScene(), "EqCenterOfMass", {"A"}); }, {"nothing that moves has a mass"});
 }

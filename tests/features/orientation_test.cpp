@@ -56,14 +56,17 @@ TEST(Axis, IsAColumnOfTheRotation) {
 
 TEST(AxisProduct, FirstLetterBelongsToTheFirstFrame) {
   const Config config = workedScene();
-  const auto product = [&](const char* letters) { return value(config, (std::string("scalarProduct") + letters).c_str(), {"A", "B"})[0]; };
+  const auto product = [&](const char* letters) {
+    return value(config, (std::string("scalarProduct") + letters).c_str(), {"A", "B"})[0];
+  };
   EXPECT_NEAR(product("XX"), 0., 1e-14);
   EXPECT_NEAR(product("XY"), kHalfRoot3, 1e-14);
   EXPECT_NEAR(product("YX"), -1., 1e-14);
   EXPECT_NEAR(product("YZ"), 0., 1e-14);
   for (const char* a : {"X", "Y", "Z"}) {
     for (const char* b : {"X", "Y", "Z"}) {
-      const VectorXd u = value(config, (std::string("vector") + a).c_str(), {"A"}), v = value(config, (std::string("vector") + b).c_str(), {"B"});
+      const VectorXd u = value(config, (std::string("vector") + a).c_str(), {"A"}),
+                     v = value(config, (std::string("vector") + b).c_str(), {"B"});
       EXPECT_NEAR(product((std::string(a) + b).c_str()), u.dot(v), 1e-14) << a << b;
     }
   }

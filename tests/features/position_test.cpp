@@ -22,7 +22,8 @@ TEST(Position, InACameraIsTheFirstTwoOfItsCoordinates) {
 
 TEST(Position, TipOfABentTwoLinkArmIsWhereTrigonometryPutsIt) {
   Config config;
-  config.addText("base: {}  a(base): { joint: hingeZ }  b(a): { pre: [1 0 0], joint: hingeZ }  tip(b): { Q: [.5 0 0] }");
+  config.addText(
+      "base: {}  a(base): { joint: hingeZ }  b(a): { pre: [1 0 0], joint: hingeZ }  tip(b): { Q: [.5 0 0] }");
   config.setJointState(numbers({.3, .7}));
   const Evaluation at = eval(config, FeatureSymbol::position, {"tip"});
   const double x = std::cos(.3) + .5 * std::cos(1.), y = std::sin(.3) + .5 * std::sin(1.);

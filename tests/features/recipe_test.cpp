@@ -24,9 +24,17 @@ TEST(Recipe, EachNameMakesAFeature) {
 }
 
 TEST(Recipe, MistakesAreExplained) {
-  expectError<NameError>([] { makeFeature({"pulingForce", someContact()}, {}); }, {"pulingForce", "similar names: pullingForce"});
+  expectError<NameError>(
+      [] {
+        makeFeature({"pulingForce", someContact()}, {});
+      },
+      {"pulingForce", "similar names: pullingForce"});
   expectError<ValueError>([] { makeFeature({"pullingForce"}, {0, 1}); }, {"pullingForce", "contact force"});
-  expectError<ValueError>([] { makeFeature({"pairNormalsOppose"}, {0, 1}); }, {"pairNormalsOppose takes 3 frames, got 2"});
+  expectError<ValueError>(
+      [] {
+        makeFeature({"pairNormalsOppose"}, {0, 1});
+      },
+      {"pairNormalsOppose takes 3 frames, got 2"});
 }
 
 }  // namespace

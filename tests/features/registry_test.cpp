@@ -36,7 +36,8 @@ TEST(Registry, ASymbolThatIsNotAvailableSaysSo) {
   for (const FeatureInfo& info : featureRegistry()) {
     if (info.available) continue;
     const std::vector<std::string> frames(std::size_t(std::max(info.min_frames, 0)), "A");
-    expectError<ValueError>([&] { eval(config, info.symbol, frames); }, {info.name.c_str(), "is obsolete; use position"});
+    expectError<ValueError>([&] { eval(config, info.symbol, frames); },
+                            {info.name.c_str(), "is obsolete; use position"});
   }
 }
 
@@ -49,7 +50,8 @@ TEST(Registry, AWrongNumberOfFramesIsAnErrorThatSaysHowManyItTakes) {
     if (info.max_frames >= 0) wrong.push_back(info.max_frames + 1);
     for (int count : wrong) {
       const std::vector<std::string> frames(std::size_t(count), "A");
-      const std::string takes = featureInfo(info.symbol).name + " takes " + std::to_string(info.min_frames), got = "got " + std::to_string(count);
+      const std::string takes = featureInfo(info.symbol).name + " takes " + std::to_string(info.min_frames),
+                        got = "got " + std::to_string(count);
       expectError<ValueError>([&] { value(config, info.name.c_str(), frames); }, {takes.c_str(), got.c_str()});
       ++checked;
     }
@@ -60,5 +62,9 @@ TEST(Registry, AWrongNumberOfFramesIsAnErrorThatSaysHowManyItTakes) {
 TEST(Registry, AFrameThatIsNotThereIsNamedWithTheFeatureAndSimilarNames) {
   Config config = workedScene();
   config.addFrame("gripper");
-  expectError<FrameNotFound>([&] { value(config, "positionDiff", {"A", "griper"}); }, {"positionDiff", "'griper'", "gripper"});
+  expectError<FrameNotFound>(
+      [&] {
+        value(config, "positionDiff", {"A", "griper"});
+      },
+      {"positionDiff", "'griper'", "gripper"});
 }

@@ -11,8 +11,8 @@ using namespace kinegraph;
 
 namespace {
 
-VectorXd cached(ResidualCache& cache, const Config& config, FeatureSymbol symbol, const std::vector<std::string>& frames,
-                const MatrixXd& scale = {}, const VectorXd& target = {}) {
+VectorXd cached(ResidualCache& cache, const Config& config, FeatureSymbol symbol,
+                const std::vector<std::string>& frames, const MatrixXd& scale = {}, const VectorXd& target = {}) {
   Residual& residual = *cache.get(config.state(), symbol, frames, scale, target, -1);
   Evaluation out;
   out.y.resize(residual.rows());
@@ -36,7 +36,8 @@ TEST(ResidualCache, AnswersAsResidualsThatAreMadeAnew) {
       for (const auto& frames : {std::vector<std::string>{"A", "B"}, {"B", "A"}, {"C", "B"}}) {
         for (const MatrixXd& scale : scales) {
           for (const VectorXd& target : targets) {
-            EXPECT_EQ(cached(cache, config, symbol, frames, scale, target), eval(config, symbol, frames, scale, target).y);
+            EXPECT_EQ(cached(cache, config, symbol, frames, scale, target),
+                      eval(config, symbol, frames, scale, target).y);
           }
         }
       }
@@ -68,7 +69,8 @@ TEST(ResidualCache, AWrongScaleIsAnErrorEachTime) {
   const Config config = workedScene();
   ResidualCache cache;
   for (int i = 0; i < 2; ++i) {
-    expectError<ValueError>([&] { cached(cache, config, FeatureSymbol::position, {"B"}, MatrixXd::Ones(2, 2)); }, {"scale of position"});
+    expectError<ValueError>([&] { cached(cache, config, FeatureSymbol::position, {"B"}, MatrixXd::Ones(2, 2)); },
+                            {"scale of position"});
     EXPECT_EQ(cached(cache, config, FeatureSymbol::position, {"B"}), eval(config, FeatureSymbol::position, {"B"}).y);
   }
 }

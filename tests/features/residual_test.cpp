@@ -12,8 +12,8 @@ namespace {
 
 MatrixXd row(std::initializer_list<double> values) { return numbers(values).transpose(); }
 
-VectorXd scaled(const Config& config, FeatureSymbol symbol, const std::vector<std::string>& frames, const MatrixXd& scale,
-                const VectorXd& target = {}) {
+VectorXd scaled(const Config& config, FeatureSymbol symbol, const std::vector<std::string>& frames,
+                const MatrixXd& scale, const VectorXd& target = {}) {
   return eval(config, symbol, frames, scale, target).y;
 }
 
@@ -45,8 +45,10 @@ TEST(Residual, ScalesWhatACameraSeesInTwoRows) {
 
 TEST(Residual, TakesTheSignOfAQuaternionThatIsNearerToTheTarget) {
   const Config config = workedScene();
-  EXPECT_TRUE(near(value(config, "quaternion", {"A"}, numbers({-1, 0, 0, 0})), numbers({.292893, 0, 0, -.707107}), 1e-6));
-  EXPECT_TRUE(near(value(config, "quaternion", {"A"}, numbers({1, 0, 0, 0})), numbers({-.292893, 0, 0, .707107}), 1e-6));
+  EXPECT_TRUE(
+      near(value(config, "quaternion", {"A"}, numbers({-1, 0, 0, 0})), numbers({.292893, 0, 0, -.707107}), 1e-6));
+  EXPECT_TRUE(
+      near(value(config, "quaternion", {"A"}, numbers({1, 0, 0, 0})), numbers({-.292893, 0, 0, .707107}), 1e-6));
   EXPECT_TRUE(near(value(config, "quaternionRel", {"A", "A"}, numbers({-1, 0, 0, 0})), VectorXd::Zero(4), 1e-12));
   const VectorXd pose = value(config, "pose", {"A"}, numbers({0, 0, 0, -1, 0, 0, 0}));
   EXPECT_TRUE(near(pose, numbers({1, 2, 3, .292893, 0, 0, -.707107}), 1e-6));
@@ -90,11 +92,21 @@ TEST(Residual, OfATimeIntegralDividesOnceByTheRootOfTheDuration) {
 TEST(Residual, ScalesAndTargetsOfAWrongSizeSayWhatWasExpected) {
   const Config config = workedScene();
   const auto position = FeatureSymbol::position;
-  expectError<ValueError>([&] { scaled(config, position, {"A"}, row({1, 2})); }, {"scale of position", "1 x 2", "3 numbers"});
-  expectError<ValueError>([&] { scaled(config, position, {"A"}, MatrixXd::Ones(3, 4)); }, {"scale of position", "3 x 4", "3 columns"});
-  expectError<ValueError>([&] { scaled(config, position, {"A"}, {}, numbers({1, 2})); }, {"target of position", "2 numbers", "3"});
+  expectError<ValueError>(
+      [&] {
+        scaled(config, position, {"A"}, row({1, 2}));
+      },
+      {"scale of position", "1 x 2", "3 numbers"});
+  expectError<ValueError>([&] { scaled(config, position, {"A"}, MatrixXd::Ones(3, 4)); },
+                          {"scale of position", "3 x 4", "3 columns"});
+  expectError<ValueError>(
+      [&] {
+        scaled(config, position, {"A"}, {}, numbers({1, 2}));
+      },
+      {"target of position", "2 numbers", "3"});
   expectError<ValueError>([&] { scaled(config, position, {"A"}, row({NAN})); }, {"scale of position", "not finite"});
-  expectError<ValueError>([&] { scaled(config, position, {"A"}, {}, numbers({INFINITY})); }, {"target of position", "not finite"});
+  expectError<ValueError>([&] { scaled(config, position, {"A"}, {}, numbers({INFINITY})); },
+                          {"target of position", "not finite"});
 }
 
 TEST(Residual, AnOrderBelowTheFeaturesOwnIsAnError) {

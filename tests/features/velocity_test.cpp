@@ -11,15 +11,17 @@ using namespace kinegraph;
 namespace {
 
 /// Value of a feature over consecutive joint vectors of a scene, `tau` seconds apart.
-VectorXd over(const Config& config, const char* feature, const std::vector<std::string>& frames, const std::vector<VectorXd>& q,
-              double tau, int order = -1) {
+VectorXd over(const Config& config, const char* feature, const std::vector<std::string>& frames,
+              const std::vector<VectorXd>& q, double tau, int order = -1) {
   Residual residual = makeResidual(config.state(), featureSymbolFromName(feature), frames, {}, {}, order);
   return overSlices(config, residual, q, tau);
 }
 
 Config wheel() {
   Config config;
-  config.addText("base: {}  wheel(base): { pre: [1 2 3], joint: hingeZ }  rim(wheel): { Q: [.5 0 0] }  flyer(base): { joint: trans3 }");
+  config.addText(
+      "base: {}  wheel(base): { pre: [1 2 3], joint: hingeZ }  rim(wheel): { Q: [.5 0 0] }  flyer(base): { joint: "
+      "trans3 }");
   return config;
 }
 
@@ -67,7 +69,9 @@ TEST(Velocity, OnASingleConfigurationIsAnErrorThatSaysHowManyItTakes) {
   const Config config = wheel();
   for (const char* feature : {"angularVel", "linangVel"}) {
     expectError<ValueError>([&] { value(config, feature, {"rim"}); }, {feature, "2 consecutive configurations"});
-    expectError<ValueError>([&] { eval(config, featureSymbolFromName(feature), {"rim"}, {}, {}, 0); }, {feature, "not 0"});
+    expectError<ValueError>([&] { eval(config, featureSymbolFromName(feature), {"rim"}, {}, {}, 0); },
+                            {feature, "not 0"});
   }
-  expectError<ValueError>([&] { eval(config, FeatureSymbol::position, {"rim"}, {}, {}, 2); }, {"position", "3 consecutive"});
+  expectError<ValueError>([&] { eval(config, FeatureSymbol::position, {"rim"}, {}, {}, 2); },
+                          {"position", "3 consecutive"});
 }

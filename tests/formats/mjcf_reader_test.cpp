@@ -16,9 +16,7 @@ namespace {
 /// Scenes read from MJCF texts, through files as users do it.
 class MjcfReader : public ::testing::Test {
  protected:
-  std::string write(const std::string& name, const std::string& text) {
-    return folder_.write(name, text);
-  }
+  std::string write(const std::string& name, const std::string& text) { return folder_.write(name, text); }
   std::string file(const std::string& inside) { return write("m.xml", "<mujoco>\n" + inside + "\n</mujoco>"); }
 
   Config load(const std::string& inside) {
@@ -58,17 +56,21 @@ TEST_F(MjcfReader, FramesAreNamedAfterWhatTheyStandFor) {
 
 TEST_F(MjcfReader, KeyframesAreNamedStates) {
   const std::string bodies =
-      "<worldbody><body><freejoint name='root'/><geom size='.1'/><body><joint name='a'/><joint name='b' type='slide' axis='-1 0 0' ref='.1'/>"
-      "<geom size='.1'/><body name='ball'><joint type='ball'/><geom size='.1'/><body><joint name='c'/><geom size='.1'/></body>"
+      "<worldbody><body><freejoint name='root'/><geom size='.1'/><body><joint name='a'/><joint name='b' type='slide' "
+      "axis='-1 0 0' ref='.1'/>"
+      "<geom size='.1'/><body name='ball'><joint type='ball'/><geom size='.1'/><body><joint name='c'/><geom "
+      "size='.1'/></body>"
       "</body></body></body></worldbody><equality><joint joint1='c' joint2='a'/></equality>";
-  const Config config = load(bodies + "<keyframe><key name='home' qpos='1 2 3 0 1 0 0  .4 .5  0 0 1 0  .4'/><key time='1'/>"
-                                      "<key name='short' qpos='1 2'/></keyframe>");
+  const Config config = load(bodies +
+                             "<keyframe><key name='home' qpos='1 2 3 0 1 0 0  .4 .5  0 0 1 0  .4'/><key time='1'/>"
+                             "<key name='short' qpos='1 2'/></keyframe>");
   EXPECT_EQ(config.getStateNames(), std::vector<std::string>{"home"});
   VectorXd expected(13);
   expected << 1, 2, 3, 0, 1, 0, 0, .4, .5, 0, 0, 1, 0;
   EXPECT_EQ(config.getNamedState("home"), expected);
   ASSERT_EQ(warnings_.size(), 1u);
-  EXPECT_NE(warnings_[0].find("keyframe 'short': expected qpos to be 14 numbers, one per coordinate of a joint, not 2"), std::string::npos)
+  EXPECT_NE(warnings_[0].find("keyframe 'short': expected qpos to be 14 numbers, one per coordinate of a joint, not 2"),
+            std::string::npos)
       << warnings_[0];
 }
 

@@ -89,7 +89,9 @@ inline void addRandomShape(Frame frame, Rng& rng) {
   } else if (kind == int(shapes.size()) + 3) {
     setLines(frame, points, {{255, 0, 0, 255}}, true);
   } else if (kind == int(shapes.size()) + 4) {
-    setTensor(frame, {{2, 3, 2}, {.1f, 1e-9f, -2.f, 3.f, 4.f, 1.f / 3.f, 6.f, 7.f, 8.f, 9.f, 10.f, float(rng.normal())}}, {1., 2., 3.});
+    setTensor(frame,
+              {{2, 3, 2}, {.1f, 1e-9f, -2.f, 3.f, 4.f, 1.f / 3.f, 6.f, 7.f, 8.f, 9.f, 10.f, float(rng.normal())}},
+              {1., 2., 3.});
   } else {
     frame.setConvexCore(points, .02);
   }
@@ -143,7 +145,8 @@ inline Config randomScene(Rng& rng, bool only_one_dof = false) {
         break;
       }
     }
-    if (id > 0 && pick(rng, 6) == 0) frame.data().no_contact.push_back(scene.frames()[std::size_t(pick(rng, id))].get());
+    if (id > 0 && pick(rng, 6) == 0)
+      frame.data().no_contact.push_back(scene.frames()[std::size_t(pick(rng, id))].get());
     if (id > 0 && pick(rng, 6) == 0) frame.data().shape = scene.frames()[0]->shape;
     if (pick(rng, 3) == 0) {
       frame.setMass(2., {1., .1, .2, 2., .3, 3.});

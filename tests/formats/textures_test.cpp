@@ -37,7 +37,9 @@ class TextureFormats : public ::testing::Test {
 }  // namespace
 
 TEST_F(TextureFormats, AWrittenSceneKeepsItsPictures) {
-  Config config = load("a: { shape: box, size: [1 1 1], texture: <picture.png>, texture_repeat: [2 3] } b: { shape: quad, size: [1 1] }", "a.g");
+  Config config = load(
+      "a: { shape: box, size: [1 1 1], texture: <picture.png>, texture_repeat: [2 3] } b: { shape: quad, size: [1 1] }",
+      "a.g");
   Mesh mesh{{{0., 0., 0.}, {1., 0., 0.}, {0., 1., 0.}}, {{0, 1, 2}}, {}};
   Frame c = config.addFrame("c").setMesh(mesh);
   setTexture(c, path_, {0., 0., 1., 0., .5, 1.});
@@ -53,13 +55,18 @@ TEST_F(TextureFormats, AWrittenSceneKeepsItsPictures) {
 }
 
 TEST_F(TextureFormats, TheBytesOfASceneHoldThem) {
-  Config config = load("a: { shape: box, size: [1 1 1], texture: <picture.png> } b: { shape: quad, size: [1 1], texture: <picture.png> }", "a.g");
+  Config config = load(
+      "a: { shape: box, size: [1 1 1], texture: <picture.png> } b: { shape: quad, size: [1 1], texture: <picture.png> "
+      "}",
+      "a.g");
   const auto scene = sceneFromBytes(sceneToBytes(*config.scene()));
   EXPECT_EQ(scene->frames()[0]->shape->texture->bytes, kPicture);
 }
 
 TEST_F(TextureFormats, GltfHoldsThem) {
-  Config config = load("a: { shape: quad, size: [2 2], texture: <picture.png> } b: { shape: box, size: [1 1 1], color: [0 0 1] }", "a.g");
+  Config config =
+      load("a: { shape: quad, size: [2 2], texture: <picture.png> } b: { shape: box, size: [1 1 1], color: [0 0 1] }",
+           "a.g");
   const std::string path = (folder_ / "scene.glb").string();
   writeGltf(config, path);
   std::filesystem::remove(path_);
@@ -76,10 +83,13 @@ TEST_F(TextureFormats, GltfHoldsThem) {
 }
 
 TEST_F(TextureFormats, UrdfMaterialsHaveThem) {
-  Config config = load("<robot name=\"r\"><material name=\"m\"><texture filename=\"picture.png\"/></material><link name=\"l\"><visual>"
-                       "<geometry><box size=\"1 1 1\"/></geometry><material name=\"m\"/></visual></link></robot>", "a.urdf");
+  Config config = load(
+      "<robot name=\"r\"><material name=\"m\"><texture filename=\"picture.png\"/></material><link name=\"l\"><visual>"
+      "<geometry><box size=\"1 1 1\"/></geometry><material name=\"m\"/></visual></link></robot>",
+      "a.urdf");
   const auto& frames = config.scene()->frames();
-  const auto shown = std::find_if(frames.begin(), frames.end(), [](const auto& f) { return f->shape && f->shape->texture; });
+  const auto shown =
+      std::find_if(frames.begin(), frames.end(), [](const auto& f) { return f->shape && f->shape->texture; });
   ASSERT_NE(shown, frames.end());
   EXPECT_EQ((*shown)->shape->texture->bytes, kPicture);
   EXPECT_NE(writeUrdf(config).find(cat("<texture filename=\"", path_, "\"/>")), std::string::npos);
@@ -91,7 +101,8 @@ TEST_F(TextureFormats, MjcfMaterialsHaveThem) {
       <material name="m" texture="t" texrepeat="2 3"/><material name="u" texture="t" texrepeat="2 3" texuniform="true"/>
       <material name="l"><layer role="rgb" texture="t"/></material><material name="k" texture="c"/></asset>
       <worldbody><body name="b"><geom name="g" type="box" size="1 2 3" material="m"/><geom name="h" type="box" size="1 2 3" material="u"/>
-      <geom name="i" type="box" size="1 2 3" material="l"/><geom name="j" type="box" size="1 2 3" material="k"/></body></worldbody></mujoco>)", "a.xml");
+      <geom name="i" type="box" size="1 2 3" material="l"/><geom name="j" type="box" size="1 2 3" material="k"/></body></worldbody></mujoco>)",
+                       "a.xml");
   for (const char* name : {"g", "h", "i"}) EXPECT_EQ(pictureOf(config, name), kPicture) << name;
   EXPECT_EQ(config.getFrame("g").data().shape->texture_repeat, (std::array{2., 3.}));
   EXPECT_EQ(config.getFrame("h").data().shape->texture_repeat, (std::array{4., 12.}));
@@ -111,12 +122,16 @@ TEST_F(TextureFormats, AMissingPictureIsAWarningThatHelps) {
   Config config = load("a: { shape: box, size: [1 1 1], texture: <pictre.png> }", "a.g");
   const std::vector<std::string> warnings = config.takeWarnings();
   ASSERT_EQ(warnings.size(), 1u);
-  EXPECT_NE(warnings[0].find("pictre.png' does not exist; similar names: picture.png"), std::string::npos) << warnings[0];
+  EXPECT_NE(warnings[0].find("pictre.png' does not exist; similar names: picture.png"), std::string::npos)
+      << warnings[0];
 }
 
 TEST_F(TextureFormats, CoordinatesThatDoNotFitAreErrors) {
-  expectError<ParseError>([&] { load("a: { shape: mesh, vertices: [0 0 0 1 0 0 0 1 0], triangles: [0 1 2], texcoords: [0 0 1 0] }", "a.g"); },
-                          {"a.g:1:", "texcoords", "expected 2 numbers for each of 3 vertices, got 4"});
+  expectError<ParseError>(
+      [&] {
+        load("a: { shape: mesh, vertices: [0 0 0 1 0 0 0 1 0], triangles: [0 1 2], texcoords: [0 0 1 0] }", "a.g");
+      },
+      {"a.g:1:", "texcoords", "expected 2 numbers for each of 3 vertices, got 4"});
   Config config = load("q: { shape: quad, size: [1 1] }", "a.g");
   Frame quad = config.getFrame("q");
   expectError<ValueError>([&] { setTexture(quad, path_, {0., 0.}); }, {"frame 'q' has no mesh", "2 per vertex"});

@@ -173,9 +173,8 @@ TEST_F(UrdfReader, MeshesOfPackagesAreFoundAboveTheFile) {
   std::filesystem::create_directories(folder_ / "meshes");
   std::ofstream(folder_ / "meshes" / "t.obj") << "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n";
   std::ofstream(folder_ / "package.xml") << "<package><name>my_robot</name></package>";
-  for (const std::string& file :
-       {std::string("meshes/t.obj"), std::string("package://my_robot/meshes/t.obj"),
-        "package://" + folder_.path().filename().string() + "/meshes/t.obj"}) {
+  for (const std::string& file : {std::string("meshes/t.obj"), std::string("package://my_robot/meshes/t.obj"),
+                                  "package://" + folder_.path().filename().string() + "/meshes/t.obj"}) {
     const Config config = load("<link name='a'><visual><geometry><mesh filename='" + file +
                                "' scale='1 2 3'/></geometry></visual></link>");
     ASSERT_TRUE(config.getFrame("a_0").data().shape) << file;

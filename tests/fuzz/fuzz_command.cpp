@@ -1,5 +1,6 @@
-// A libFuzzer target for what browsers say to the viewer: messages one after the other, each with its length in front. Whatever the
-// bytes are, they are a command or nothing, the joints of the scene stay within their limits, its poses finite, and the camera is one.
+// A libFuzzer target for what browsers say to the viewer: messages one after the other, each with its length in front.
+// Whatever the bytes are, they are a command or nothing, the joints of the scene stay within their limits, its poses
+// finite, and the camera is one.
 #include <cmath>
 #include <cstdint>
 #include <cstdlib>

@@ -1,5 +1,5 @@
-// A libFuzzer target for pictures. Whatever the bytes are, reading them gives as many pixels as they say, or an error of the
-// library.
+// A libFuzzer target for pictures. Whatever the bytes are, reading them gives as many pixels as they say, or an error
+// of the library.
 #include <cstdint>
 #include <cstdlib>
 

@@ -1,4 +1,5 @@
-// Where faces, edges, caps and side lines are parallel, witness points are in the middle of the contact, on hulls as on boxes.
+// Where faces, edges, caps and side lines are parallel, witness points are in the middle of the contact, on hulls as on
+// boxes.
 #include "kinegraph/geometry/contact_patch.h"
 
 #include <gtest/gtest.h>
@@ -19,7 +20,8 @@ constexpr double kExact = 1e-9;
 /// A box as the hull of its corners.
 Body hullOfBox(const Vector3d& half) {
   auto mesh = std::make_shared<Mesh>();
-  for (int i = 0; i < 8; ++i) mesh->vertices.push_back(Vector3d(i & 1 ? 1 : -1, i & 2 ? 1 : -1, i & 4 ? 1 : -1).cwiseProduct(half));
+  for (int i = 0; i < 8; ++i)
+    mesh->vertices.push_back(Vector3d(i & 1 ? 1 : -1, i & 2 ? 1 : -1, i & 4 ? 1 : -1).cwiseProduct(half));
   return makeCollisionBody({ShapeType::ssCvx, {0.}, mesh});
 }
 
@@ -28,12 +30,15 @@ Body prism(int corners, double radius, double half_length) {
   auto mesh = std::make_shared<Mesh>();
   for (int i = 0; i < corners; ++i) {
     const double angle = 2. * M_PI * i / corners;
-    for (const double z : {-half_length, half_length}) mesh->vertices.push_back({radius * std::cos(angle), radius * std::sin(angle), z});
+    for (const double z : {-half_length, half_length})
+      mesh->vertices.push_back({radius * std::cos(angle), radius * std::sin(angle), z});
   }
   return makeCollisionBody({ShapeType::ssCvx, {0.}, mesh});
 }
 
-Body cylinder(double length, double radius) { return makeCollisionBody({ShapeType::cylinder, {length, radius}, nullptr}); }
+Body cylinder(double length, double radius) {
+  return makeCollisionBody({ShapeType::cylinder, {length, radius}, nullptr});
+}
 
 RigidTransform at(double x, double y, double z, const Matrix3d& R = Matrix3d::Identity()) { return {R, {x, y, z}}; }
 
@@ -54,7 +59,8 @@ TEST(ContactPatch, HullsThatLieOnEachOtherMeetInTheMiddleOfTheirCommonFace) {
   for (const double gap : {.05, -.01}) {
     expectPoint(middle(block, at(.3, .4, .2 + gap), table, at(0, 0, 0)), {.3, .4, .1 + .5 * gap}, kExact);
     expectPoint(middle(table, at(0, 0, 0), block, at(.3, .4, .2 + gap)), {.3, .4, .1 + .5 * gap}, kExact);
-    expectPoint(middle(block, at(1.1, 0, .2 + gap), table, at(0, 0, 0)), {.95, 0, .1 + .5 * gap}, kExact);  // over the edge: x from .9 to 1
+    expectPoint(middle(block, at(1.1, 0, .2 + gap), table, at(0, 0, 0)), {.95, 0, .1 + .5 * gap},
+                kExact);  // over the edge: x from .9 to 1
   }
 }
 
@@ -66,8 +72,10 @@ TEST(ContactPatch, HullsOfBoxesMeetWhereTheBoxesDo) {
     Matrix3d R = axisRotation(2, rng.uniform(-3., 3.));
     if (i % 3 == 1) R = R * axisRotation(0, .7);
     if (i % 3 == 2) R = R * axisRotation(1, .5);
-    const RigidTransform X = at(rng.uniform(-.25, .25), rng.uniform(-.2, .2), rng.uniform(.15, .5), R), world = randomTransform(rng, 1.);
-    const Proximity expected = proximity(*box, world * X, *other, world), found = proximity(*hull, world * X, *other_hull, world);
+    const RigidTransform X = at(rng.uniform(-.25, .25), rng.uniform(-.2, .2), rng.uniform(.15, .5), R),
+                         world = randomTransform(rng, 1.);
+    const Proximity expected = proximity(*box, world * X, *other, world),
+                    found = proximity(*hull, world * X, *other_hull, world);
     EXPECT_NEAR(found.distance, expected.distance, kExact) << i;
     if (expected.distance < -.05) continue;  // deep ones have several shortest pushes
     expectPoint(found.point_a, expected.point_a, 1e-7);
@@ -79,7 +87,8 @@ TEST(ContactPatch, EdgesAlongEachOtherMeetInTheMiddleOfTheirOverlap) {
   const Matrix3d upright = axisRotation(0, M_PI / 4);  // an edge below
   const Body bar = hullOfBox({.5, .1, .1});
   const double height = .2 * std::sqrt(2.) + .03;
-  expectPoint(middle(bar, at(.6, 0, height, upright), bar, at(0, 0, 0, upright)), {.3, 0, .5 * height}, kExact);  // x from .1 to .5
+  expectPoint(middle(bar, at(.6, 0, height, upright), bar, at(0, 0, 0, upright)), {.3, 0, .5 * height},
+              kExact);  // x from .1 to .5
   const Matrix3d across = axisRotation(2, M_PI / 2) * upright;
   expectPoint(middle(bar, at(.2, .3, height, across), bar, at(0, 0, 0, upright)), {.2, 0, .5 * height}, kExact);
 }
@@ -90,7 +99,8 @@ TEST(ContactPatch, CylindersStandOnTheMiddleOfWhatTheyTouch) {
     expectPoint(middle(can, at(.3, .4, .2 + gap), table, at(0, 0, 0)), {.3, .4, .1 + .5 * gap}, kExact);
     expectPoint(middle(post, at(.3, .4, .2 + gap), table, at(0, 0, 0)), {.3, .4, .1 + .5 * gap}, kExact);
     expectPoint(middle(can, at(.3, .4, .2 + gap), can, at(.3, .4, 0)), {.3, .4, .1 + .5 * gap}, kExact);
-    expectPoint(middle(can, at(.1, 0, .2 + gap), can, at(0, 0, 0)), {.05, 0, .1 + .5 * gap}, 1e-3);  // where two discs overlap
+    expectPoint(middle(can, at(.1, 0, .2 + gap), can, at(0, 0, 0)), {.05, 0, .1 + .5 * gap},
+                1e-3);  // where two discs overlap
   }
   const Matrix3d lying = axisRotation(0, M_PI / 2);
   expectPoint(middle(can, at(.3, .4, .22, lying), table, at(0, 0, 0)), {.3, .4, .11}, kExact);
@@ -112,5 +122,6 @@ TEST(ContactPatch, StaysThroughTheStepsOfFiniteDifferences) {
     expectPoint(middle(block, at(.3, .4, .25, axisRotation(0, tilt)), table, at(0, 0, 0)), level, 1e-6);
     expectPoint(middle(block, at(.3, .4, .25, axisRotation(1, tilt)), table, at(0, 0, 0)), level, 1e-6);
   }
-  EXPECT_NEAR(middle(block, at(.3, .4, .25, axisRotation(0, .01)), table, at(0, 0, 0)).y(), .3, 2e-3);  // tilted: the lower edge
+  EXPECT_NEAR(middle(block, at(.3, .4, .25, axisRotation(0, .01)), table, at(0, 0, 0)).y(), .3,
+              2e-3);  // tilted: the lower edge
 }

@@ -64,7 +64,8 @@ TEST(Image, JpegFilesAreReadAsWellAsTheyWereWritten) {
 }
 
 TEST(Image, SequentialAndProgressiveFilesGiveTheSame) {
-  EXPECT_EQ(decodeImage(*readImageFile(dataFile("colors.jpg"))).rgb, decodeImage(*readImageFile(dataFile("progressive.jpg"))).rgb);
+  EXPECT_EQ(decodeImage(*readImageFile(dataFile("colors.jpg"))).rgb,
+            decodeImage(*readImageFile(dataFile("progressive.jpg"))).rgb);
 }
 
 TEST(Image, WhatIsWrittenIsReadAgain) {
@@ -76,7 +77,8 @@ TEST(Image, WhatIsWrittenIsReadAgain) {
 }
 
 TEST(Image, EveryShortenedFileIsAnErrorOrAPicture) {
-  for (const char* name : {"colors.png", "interlaced.png", "palette.png", "colors.jpg", "progressive.jpg", "restart.jpg"}) {
+  for (const char* name :
+       {"colors.png", "interlaced.png", "palette.png", "colors.jpg", "progressive.jpg", "restart.jpg"}) {
     const std::string bytes = readImageFile(dataFile(name))->bytes;
     for (std::size_t size = 3; size < bytes.size(); size += 7) messageOf(bytes.substr(0, size));
     EXPECT_NE(messageOf(bytes.substr(0, bytes.size() / 3)), "") << name;
@@ -94,6 +96,7 @@ TEST(Image, PromisesThatTheBytesCannotKeepAreRefused) {
 
 TEST(Image, OtherFilesAreRefused) {
   TemporaryFolder folder;
-  expectError<FileError>([&] { readImageFile(folder.write("a.png", "P6 1 1 255 abc")); }, {"a.png", "neither a PNG nor a JPEG"});
+  expectError<FileError>([&] { readImageFile(folder.write("a.png", "P6 1 1 255 abc")); },
+                         {"a.png", "neither a PNG nor a JPEG"});
   expectError<FileError>([&] { readImageFile((folder / "b.png").string()); }, {"b.png", "does not exist"});
 }

@@ -142,11 +142,13 @@ TEST_F(MeshFile, AFaceThatNamesAVertexBeyondTheLastIsAnError) {
 
 TEST_F(MeshFile, AHeaderThatPromisesMoreThanTheFileHoldsIsAnErrorAtOnce) {
   const std::string body = std::string(kCorners) + "2\n";
-  for (const std::string& text : {ply("4000000000", "1", body), ply("3", "4000000000", body), ply("3", "200000", body)}) {
+  for (const std::string& text :
+       {ply("4000000000", "1", body), ply("3", "4000000000", body), ply("3", "200000", body)}) {
     const std::string message = messageOf(write("a.ply", text));
     EXPECT_NE(message.find("more than its"), std::string::npos) << message;
   }
-  const std::string gltf = R"({"asset": {"version": "2.0"}, "accessors": [{"componentType": 5126, "count": 100000000, "type": "VEC3"}]})";
+  const std::string gltf =
+      R"({"asset": {"version": "2.0"}, "accessors": [{"componentType": 5126, "count": 100000000, "type": "VEC3"}]})";
   EXPECT_NE(messageOf(write("a.gltf", gltf)).find("more than its"), std::string::npos);
   const std::string dae = R"(<COLLADA><float_array id="a" count="4000000000">1 2 3</float_array></COLLADA>)";
   EXPECT_NE(messageOf(write("a.DAE", dae)).find("more than its"), std::string::npos);

@@ -60,7 +60,8 @@ Geometry ballGrid(double radius, int cells) {
   for (int i = 0; i < cells; ++i) {
     for (int j = 0; j < cells; ++j) {
       for (int k = 0; k < cells; ++k) {
-        grid.values.push_back(float((Vector3d(i, j, k) * (size / (cells - 1)) - Vector3d::Constant(.5 * size)).norm() - radius));
+        grid.values.push_back(
+            float((Vector3d(i, j, k) * (size / (cells - 1)) - Vector3d::Constant(.5 * size)).norm() - radius));
       }
     }
   }
@@ -109,8 +110,13 @@ std::vector<Sample> samples(int random, std::uint64_t seed, bool degenerate) {
   Rng rng(seed);
   std::vector<Sample> list;
   const Matrix3d quarter = axisRotation(0, 2. * std::atan(1.));
-  const RigidTransform places[] = {{}, {Matrix3d::Identity(), {.15, 0, 0}}, {Matrix3d::Identity(), {0, 0, .4}}, {Matrix3d::Identity(), {0, 0, 1e-12}},
-                                   {quarter, {0, 0, .4}}, {Matrix3d::Identity(), {.15, .1, .2}}, {quarter, {.5, .5, 0}},
+  const RigidTransform places[] = {{},
+                                   {Matrix3d::Identity(), {.15, 0, 0}},
+                                   {Matrix3d::Identity(), {0, 0, .4}},
+                                   {Matrix3d::Identity(), {0, 0, 1e-12}},
+                                   {quarter, {0, 0, .4}},
+                                   {Matrix3d::Identity(), {.15, .1, .2}},
+                                   {quarter, {.5, .5, 0}},
                                    {axisRotation(1, 1e-9), {.1, .1, .45}}};
   for (const Kind& a : kinds()) {
     for (const Kind& b : kinds()) {
@@ -134,19 +140,25 @@ double heightAbove(const Vector3d& point, const Body& body, const RigidTransform
 
 std::unique_ptr<coal::CollisionGeometry> coalCore(const CollisionBody& body) {
   switch (body.core()) {
-    case Core::point: return std::make_unique<coal::Sphere>(0.);
-    case Core::segment: return std::make_unique<coal::Capsule>(0., 2. * body.halfLength());
-    case Core::box: return std::make_unique<coal::Box>(2. * body.halfSides());
-    case Core::cylinder: return std::make_unique<coal::Cylinder>(body.coreRadius(), 2. * body.halfLength());
+    case Core::point:
+      return std::make_unique<coal::Sphere>(0.);
+    case Core::segment:
+      return std::make_unique<coal::Capsule>(0., 2. * body.halfLength());
+    case Core::box:
+      return std::make_unique<coal::Box>(2. * body.halfSides());
+    case Core::cylinder:
+      return std::make_unique<coal::Cylinder>(body.coreRadius(), 2. * body.halfLength());
     case Core::hull: {
       const auto& points = body.hull().points;
       auto copy = std::make_shared<std::vector<coal::Vec3s>>(points.begin(), points.end());
-      return std::unique_ptr<coal::CollisionGeometry>(coal::ConvexBase::convexHull(copy, unsigned(points.size()), false));
+      return std::unique_ptr<coal::CollisionGeometry>(
+          coal::ConvexBase::convexHull(copy, unsigned(points.size()), false));
     }
     case Core::box_ellipsoid:
       if (body.halfSides().norm() == 0.) return std::make_unique<coal::Ellipsoid>(body.radii());
       return nullptr;
-    default: return nullptr;
+    default:
+      return nullptr;
   }
 }
 
@@ -179,7 +191,8 @@ TEST(PairLaws, WitnessPointsLieOnTheSurfaces) {
     const Proximity near = sample.near();
     const double tolerance = sample.bent() && near.core_distance < 0. ? 1e-4 : 1e-7;
     // A point of a compound's part may lie within another part.
-    for (const auto& [point, kind, X] : {std::tie(near.point_a, sample.a, sample.X_WA), std::tie(near.point_b, sample.b, sample.X_WB)}) {
+    for (const auto& [point, kind, X] :
+         {std::tie(near.point_a, sample.a, sample.X_WA), std::tie(near.point_b, sample.b, sample.X_WB)}) {
       const double height = heightAbove(point, kind.body, X);
       EXPECT_LT(height, tolerance) << sample.what << " " << near.distance;
       if (kind.convex() || near.distance > 0.) {
@@ -206,7 +219,8 @@ TEST(PairLaws, MovingBothBodiesTogetherMovesThePointsWithThem) {
   Rng rng(5);
   for (const Sample& sample : samples(6, 5, false)) {
     const RigidTransform X = randomTransform(rng);
-    const Proximity near = sample.near(), moved = proximity(*sample.a.body, X * sample.X_WA, *sample.b.body, X * sample.X_WB);
+    const Proximity near = sample.near(),
+                    moved = proximity(*sample.a.body, X * sample.X_WA, *sample.b.body, X * sample.X_WB);
     EXPECT_NEAR(moved.distance, near.distance, sample.slack(near)) << sample.what;
     if (near.core_distance < 1e-3 || sample.grid()) continue;
     EXPECT_LT((moved.normal - X.R * near.normal).norm(), 1e-7) << sample.what;
@@ -230,7 +244,8 @@ TEST(PairLaws, TheNormalAndTheWitnessPointGiveTheGradientOfTheDistance) {
     if (std::abs(forward - backward) > 1e-3) continue;  // a kink
     ++used;
     const double expected = near.rate * near.normal.dot(v + w.cross(near.point_a - sample.X_WA.p));
-    EXPECT_NEAR(.5 * (forward + backward), expected, sample.grid() ? 1e-3 : 1e-6) << sample.what << " at " << near.distance;
+    EXPECT_NEAR(.5 * (forward + backward), expected, sample.grid() ? 1e-3 : 1e-6)
+        << sample.what << " at " << near.distance;
   }
   EXPECT_GT(used, all * 95 / 100);
 }
@@ -279,7 +294,8 @@ TEST(PairLaws, ACompoundIsAsNearAsItsNearestPart) {
   for (const Sample& sample : samples(10, 9, false)) {
     if (sample.a.name != "pointCloud" || !sample.b.convex()) continue;
     double least = 1e9;
-    for (const Vector3d& p : sample.a.geometry.mesh->vertices) least = std::min(least, heightAbove(sample.X_WA * p, sample.b.body, sample.X_WB));
+    for (const Vector3d& p : sample.a.geometry.mesh->vertices)
+      least = std::min(least, heightAbove(sample.X_WA * p, sample.b.body, sample.X_WB));
     EXPECT_NEAR(sample.near().distance, least, sample.slack(sample.near())) << sample.what;
   }
 }
@@ -293,7 +309,9 @@ TEST(PairLaws, ADistanceGridOfABallIsTheBallToTheAccuracyOfTheGrid) {
     const double deepest = std::max(exact.core_distance - .2, -.2);
     if (deepest < -.1) continue;  // the middle of the ball is a kink that the grid cuts off
     // Beyond the box the field stays below the distance.
-    const auto outsideBox = [&](const Vector3d& p) { return ((sample.X_WB.inverse() * p).cwiseAbs().array() > .3).any(); };
+    const auto outsideBox = [&](const Vector3d& p) {
+      return ((sample.X_WB.inverse() * p).cwiseAbs().array() > .3).any();
+    };
     const bool outside = outsideBox(exact.core_a) || outsideBox(near.core_a);
     ++used;
     EXPECT_LT(near.distance, exact.distance + 2e-3) << sample.what;

@@ -259,7 +259,8 @@ TEST(PointToCore, IsTheDistanceOfAPointFromTheCoreOrLessForHulls) {
       const RigidTransform X = randomTransform(rng, .1);
       const Vector3d point = randomVector(rng, .3);
       const double bound = std::sqrt(squaredPointToCore(*named.body, X, point));
-      const double exact = std::max(proximity(*pointBody(), {Matrix3d::Identity(), point}, *named.body, X).core_distance, 0.);
+      const double exact =
+          std::max(proximity(*pointBody(), {Matrix3d::Identity(), point}, *named.body, X).core_distance, 0.);
       if (named.body->core() == CollisionBody::Core::hull) {
         EXPECT_LE(bound, exact + kGeneral) << named.name;
       } else {

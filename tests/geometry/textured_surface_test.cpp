@@ -23,14 +23,16 @@ Geometry shape(ShapeType type, std::vector<double> size) {
 /// Where the point of a surface that is nearest to p is in the picture.
 std::array<float, 2> at(const Mesh& mesh, const Vector3d& p) {
   const auto nearer = [&](const Vector3d& a, const Vector3d& b) { return (a - p).norm() < (b - p).norm(); };
-  return mesh.texcoords[std::size_t(std::min_element(mesh.vertices.begin(), mesh.vertices.end(), nearer) - mesh.vertices.begin())];
+  return mesh.texcoords[std::size_t(std::min_element(mesh.vertices.begin(), mesh.vertices.end(), nearer) -
+                                    mesh.vertices.begin())];
 }
 
 }  // namespace
 
 TEST(TexturedSurface, CoversAllTrianglesWithinThePicture) {
-  for (const Geometry& geometry : {shape(ShapeType::box, {1, 2, 3}), shape(ShapeType::quad, {1, 2}), shape(ShapeType::ssBox, {1, 2, 3, .1}),
-                                   shape(ShapeType::ssBoxElip, {.1, .1, .1, .2, .2, .2, 0.})}) {
+  for (const Geometry& geometry :
+       {shape(ShapeType::box, {1, 2, 3}), shape(ShapeType::quad, {1, 2}), shape(ShapeType::ssBox, {1, 2, 3, .1}),
+        shape(ShapeType::ssBoxElip, {.1, .1, .1, .2, .2, .2, 0.})}) {
     const Mesh mesh = texturedSurface(geometry, kImage);
     ASSERT_EQ(mesh.textures.size(), 1u);
     EXPECT_EQ(mesh.textures[0].count, mesh.triangles.size());
@@ -65,7 +67,8 @@ TEST(TexturedSurface, IsRepeated) {
 
 TEST(TexturedSurface, MeshesKeepTheirOwnCoordinates) {
   TemporaryFolder folder;
-  const Mesh read = readMeshFile(folder.write("a.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0.25 0.5\nvt 1 0\nvt 0 1\nf 1/1 2/2 3/3\n"));
+  const Mesh read =
+      readMeshFile(folder.write("a.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0.25 0.5\nvt 1 0\nvt 0 1\nf 1/1 2/2 3/3\n"));
   EXPECT_EQ(read.texcoords.size(), 3u);
   EXPECT_TRUE(read.textures.empty());
   Geometry geometry = shape(ShapeType::mesh, {});
@@ -77,9 +80,12 @@ TEST(TexturedSurface, AMeshFileFindsThePicturesBesideIt) {
   TemporaryFolder folder;
   folder.write("red.png", kImage->bytes);
   folder.write("odd.png", "not a picture");
-  folder.write("a.mtl", "newmtl a\nmap_Kd somewhere\\else\\red.png\nnewmtl b\nmap_Kd odd.png\nnewmtl c\nmap_Kd missing.png\n");
-  const Mesh mesh = readMeshFile(folder.write("a.obj", "mtllib a.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 0\nusemtl a\nf 1/1 2/1 3/1\n"
-                                                       "usemtl b\nf 1/1 2/1 3/1\nusemtl c\nf 1/1 2/1 3/1\n"));
+  folder.write("a.mtl",
+               "newmtl a\nmap_Kd somewhere\\else\\red.png\nnewmtl b\nmap_Kd odd.png\nnewmtl c\nmap_Kd missing.png\n");
+  const Mesh mesh =
+      readMeshFile(folder.write("a.obj",
+                                "mtllib a.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 0\nusemtl a\nf 1/1 2/1 3/1\n"
+                                "usemtl b\nf 1/1 2/1 3/1\nusemtl c\nf 1/1 2/1 3/1\n"));
   ASSERT_EQ(mesh.textures.size(), 1u);
   EXPECT_EQ(mesh.textures[0].count, 1u);
   EXPECT_EQ(mesh.textures[0].image->bytes, kImage->bytes);

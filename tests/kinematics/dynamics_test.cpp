@@ -91,7 +91,8 @@ TEST(Dynamics, ForcesFollowLagrange) {
     VectorXd expected = (massTimes(q + h * dq) - massTimes(q - h * dq)) / (2. * h);
     for (int i = 0; i < n; ++i) {
       const VectorXd e = h * VectorXd::Unit(n, i);
-      expected[i] += (potential(q + e) - potential(q - e) - energy(config, q + e, dq) + energy(config, q - e, dq)) / (2. * h);
+      expected[i] +=
+          (potential(q + e) - potential(q - e) - energy(config, q + e, dq) + energy(config, q - e, dq)) / (2. * h);
     }
     config.setJointState(q);
     EXPECT_LT((config.equationOfMotion(dq).F - expected).norm(), 1e-6 * (1. + expected.norm()));

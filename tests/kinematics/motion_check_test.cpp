@@ -22,7 +22,9 @@ Config slider() {
   return config;
 }
 
-VectorXd numbers(std::initializer_list<double> values) { return Eigen::Map<const VectorXd>(values.begin(), Eigen::Index(values.size())); }
+VectorXd numbers(std::initializer_list<double> values) {
+  return Eigen::Map<const VectorXd>(values.begin(), Eigen::Index(values.size()));
+}
 
 /// Distances of the collidable pairs at q.
 VectorXd distancesAt(const Config& config, const VectorXd& q) {
@@ -32,17 +34,24 @@ VectorXd distancesAt(const Config& config, const VectorXd& q) {
   VectorXd distances(Eigen::Index(pairs.size()));
   for (std::size_t i = 0; i < pairs.size(); ++i) {
     const auto [a, b] = pairs[i];
-    distances[Eigen::Index(i)] = proximity(*state.program().body[a], state.pose(a), *state.program().body[b], state.pose(b)).distance;
+    distances[Eigen::Index(i)] =
+        proximity(*state.program().body[a], state.pose(a), *state.program().body[b], state.pose(b)).distance;
   }
   return distances;
 }
 
 std::string scene(const std::string& first, const std::string& second) {
   return "world: {}\n"
-         "upper(world): { pre: \"t(.1 .1 0) d(70 1 .2 .5)\", " + first + ", shape: capsule, size: [.2 .05], contact: 1 }\n"
-         "lower(upper): { pre: \"t(.15 0 .2) d(-50 .4 1 .3)\", " + second + " }\n"
+         "upper(world): { pre: \"t(.1 .1 0) d(70 1 .2 .5)\", " +
+         first +
+         ", shape: capsule, size: [.2 .05], contact: 1 }\n"
+         "lower(upper): { pre: \"t(.15 0 .2) d(-50 .4 1 .3)\", " +
+         second +
+         " }\n"
          "finger(lower): { Q: \"t(.05 .02 .15) d(35 1 .6 .2)\", shape: capsule, size: [.2 .03], contact: 1 }\n"
-         "other(world): { pre: \"t(.2 .25 .05) d(-40 .2 .3 1)\", " + second + " }\n"
+         "other(world): { pre: \"t(.2 .25 .05) d(-40 .2 .3 1)\", " +
+         second +
+         " }\n"
          "box(other): { Q: \"t(-.05 .06 .02) d(20 .5 1 .1)\", shape: ssBox, size: [.15 .12 .1 .02], contact: 1 }\n"
          "ball: { X: \"t(.35 -.05 .3)\", shape: sphere, size: [.06], contact: 1 }\n";
 }
@@ -53,16 +62,11 @@ struct Joints {
 };
 
 constexpr Joints kJoints[] = {
-    {"joint: hingeX", "joint: hingeY"},
-    {"joint: hingeZ, joint_scale: 1.7", "joint: hinge, axis: [1 2 -1]"},
-    {"joint: transX", "joint: transZ"},
-    {"joint: transXYPhi", "joint: hingeX"},
-    {"joint: phiTransXY", "joint: transYPhi"},
-    {"joint: universal", "joint: trans3"},
-    {"joint: quatBall", "joint: hingeY"},
-    {"joint: hingeZ", "joint: free"},
-    {"joint: circleZ", "joint: XBall"},
-    {"joint: hingeX", "joint: hingeY, mimic: upper, joint_scale: -.6"},
+    {"joint: hingeX", "joint: hingeY"},        {"joint: hingeZ, joint_scale: 1.7", "joint: hinge, axis: [1 2 -1]"},
+    {"joint: transX", "joint: transZ"},        {"joint: transXYPhi", "joint: hingeX"},
+    {"joint: phiTransXY", "joint: transYPhi"}, {"joint: universal", "joint: trans3"},
+    {"joint: quatBall", "joint: hingeY"},      {"joint: hingeZ", "joint: free"},
+    {"joint: circleZ", "joint: XBall"},        {"joint: hingeX", "joint: hingeY, mimic: upper, joint_scale: -.6"},
 };
 
 }  // namespace
@@ -112,9 +116,10 @@ TEST(MotionChecker, PairsThatMoveAsOneAreLookedAtOnce) {
 
 TEST(MotionChecker, AQuaternionThatPassesZeroIsNotCalledFree) {
   Config config;
-  config.addText("world: {}\n"
-                 "stick(world): { joint: quatBall, shape: capsule, size: [1 .1], contact: 1 } \n"
-                 "ball: { X: \"t(.5 0 0)\", shape: sphere, size: [.1], contact: 1 }");
+  config.addText(
+      "world: {}\n"
+      "stick(world): { joint: quatBall, shape: capsule, size: [1 .1], contact: 1 } \n"
+      "ball: { X: \"t(.5 0 0)\", shape: sphere, size: [.1], contact: 1 }");
   EXPECT_TRUE(config.checkMotion(numbers({1., 0., 0., 0.}), numbers({-1., 0., 0., 0.})));
   EXPECT_FALSE(config.checkMotion(numbers({1., 0., 0., 0.}), numbers({2., 0., 0., 0.}))) << "only the norm changes";
 }
@@ -159,7 +164,9 @@ TEST(MotionChecker, AmongManyBodiesFindsTheSameContactsAsAmongFew) {
   Config few, many;
   few.addText(scene("joint: hingeZ", "joint: hinge, axis: [1 2 -1]"));
   many.addText(scene("joint: hingeZ", "joint: hinge, axis: [1 2 -1]"));
-  for (int i = 0; i < 100; ++i) many.addText("far" + std::to_string(i) + ": { X: [" + std::to_string(10 + i) + " 0 0], shape: sphere, size: [.3], contact: 1 }");
+  for (int i = 0; i < 100; ++i)
+    many.addText("far" + std::to_string(i) + ": { X: [" + std::to_string(10 + i) +
+                 " 0 0], shape: sphere, size: [.3], contact: 1 }");
   MotionChecker checker(few.state()), among(many.state());
   Rng rng(6);
   int hit = 0;
@@ -167,13 +174,16 @@ TEST(MotionChecker, AmongManyBodiesFindsTheSameContactsAsAmongFew) {
     VectorXd from = few.program()->home, to = from;
     for (double& x : from) x += .6 * rng.normal();
     for (double& x : to) x += .6 * rng.normal();
-    const auto expected = checker.firstContact(from.data(), to.data(), 0., kTolerance), found = among.firstContact(from.data(), to.data(), 0., kTolerance);
+    const auto expected = checker.firstContact(from.data(), to.data(), 0., kTolerance),
+               found = among.firstContact(from.data(), to.data(), 0., kTolerance);
     ASSERT_EQ(found.has_value(), expected.has_value());
     if (!found) continue;
     ++hit;
-    EXPECT_LT(found->distance, kTolerance);  // long motions go in pieces among many, and may stop elsewhere within the tolerance
+    EXPECT_LT(found->distance,
+              kTolerance);  // long motions go in pieces among many, and may stop elsewhere within the tolerance
     EXPECT_NEAR(found->time, expected->time, 1e-2);
-    const VectorXd change = to - from, before = from + (expected->time - .02) * change, behind = from + (expected->time + .02) * change;
+    const VectorXd change = to - from, before = from + (expected->time - .02) * change,
+                   behind = from + (expected->time + .02) * change;
     const auto near_few = checker.firstContact(before.data(), behind.data(), 0., kTolerance);
     const auto near_many = among.firstContact(before.data(), behind.data(), 0., kTolerance);
     ASSERT_TRUE(near_few && near_many);
@@ -186,10 +196,12 @@ TEST(MotionChecker, AmongManyBodiesFindsTheSameContactsAsAmongFew) {
 TEST(MotionChecker, AmongManyBodiesThatMoveAgreesWithManySamples) {
   Config config;  // balls on a lattice, and boxes between them that fly about
   std::string text = "world: {}\n";
-  for (int i = 0; i < 80; ++i) text += cat("ball", i, ": { X: [", .5 * (i % 5), " ", .5 * (i / 5 % 4), " ", .5 * (i / 20), "], shape: sphere, size: [.08], contact: 1 }\n");
+  for (int i = 0; i < 80; ++i)
+    text += cat("ball", i, ": { X: [", .5 * (i % 5), " ", .5 * (i / 5 % 4), " ", .5 * (i / 20),
+                "], shape: sphere, size: [.08], contact: 1 }\n");
   for (int i = 0; i < 12; ++i) {
-    text += cat("box", i, "(world): { pre: [", .25 + .5 * (i % 4), " ", .25 + .5 * (i / 4), " .25], joint: ", i % 2 ? "free" : "trans3",
-                ", shape: ssBox, size: [.2 .1 .15 .02], contact: 1 }\n");
+    text += cat("box", i, "(world): { pre: [", .25 + .5 * (i % 4), " ", .25 + .5 * (i / 4),
+                " .25], joint: ", i % 2 ? "free" : "trans3", ", shape: ssBox, size: [.2 .1 .15 .02], contact: 1 }\n");
   }
   config.addText(text);
   const VectorXd home = config.program()->home;
@@ -223,7 +235,8 @@ TEST(MotionChecker, AmongManyBodiesThatMoveAgreesWithManySamples) {
       EXPECT_GE(nearestAt(from + .5 * contact->time * (to - from)), margin) << motion;
       nearestAt(from + contact->time * (to - from));
       const double there = proximity(*state.program().body[std::size_t(contact->a)], state.pose(contact->a),
-                                     *state.program().body[std::size_t(contact->b)], state.pose(contact->b)).distance;
+                                     *state.program().body[std::size_t(contact->b)], state.pose(contact->b))
+                               .distance;
       EXPECT_NEAR(there, contact->distance, 1e-12) << motion;
     }
   }
@@ -233,7 +246,9 @@ TEST(MotionChecker, AmongManyBodiesThatMoveAgreesWithManySamples) {
 
 TEST(MotionChecker, AmongManyBodiesFollowsThoseThatAreMovedByHand) {
   Config config = slider();
-  for (int i = 0; i < 100; ++i) config.addText("rest" + std::to_string(i) + ": { X: [" + std::to_string(10 + i) + " 0 0], shape: sphere, size: [.3], contact: 1 }");
+  for (int i = 0; i < 100; ++i)
+    config.addText("rest" + std::to_string(i) + ": { X: [" + std::to_string(10 + i) +
+                   " 0 0], shape: sphere, size: [.3], contact: 1 }");
   const auto blocked = [&] { return config.checkMotion(numbers({0.}), numbers({.5})).has_value(); };
   EXPECT_FALSE(blocked());
   config.getFrame("rest3").setPosition({.5, 0, 0});
@@ -246,7 +261,9 @@ TEST(MotionChecker, AmongManyBodiesFollowsThoseThatAreMovedByHand) {
 
 TEST(MotionChecker, AmongManyBodiesReportsThoseThatRestTooNear) {
   Config config = slider();
-  for (int i = 0; i < 100; ++i) config.addText("rest" + std::to_string(i) + ": { X: [" + std::to_string(10 + i) + " 0 0], shape: sphere, size: [.3], contact: 1 }");
+  for (int i = 0; i < 100; ++i)
+    config.addText("rest" + std::to_string(i) + ": { X: [" + std::to_string(10 + i) +
+                   " 0 0], shape: sphere, size: [.3], contact: 1 }");
   EXPECT_FALSE(config.checkMotion(numbers({0.}), numbers({.5})));
   config.getFrame("rest7").setPosition({10.1, 0, 0});
   const auto contact = config.checkMotion(numbers({0.}), numbers({.5}));
@@ -267,7 +284,8 @@ TEST(MotionChecker, ABladeThatTurnsPastAThinPostIsNeverLetThrough) {
   for (const double to : {1.8, 3., 6., -5., 100.}) {
     const auto contact = config.checkMotion(numbers({.2}), numbers({to}));
     ASSERT_TRUE(contact) << to;
-    const double angle = .2 + contact->time * (to - .2), turned = std::abs(std::remainder(angle - quarter, 4. * quarter));
+    const double angle = .2 + contact->time * (to - .2),
+                 turned = std::abs(std::remainder(angle - quarter, 4. * quarter));
     EXPECT_LT(turned, .01) << to;
   }
   EXPECT_FALSE(config.checkMotion(numbers({.2}), numbers({1.56})));

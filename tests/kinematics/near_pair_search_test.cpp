@@ -31,11 +31,12 @@ TEST(NearPairSearch, FindsWhatMeasuringAllPairsFindsOnARandomWalk) {
   long measured = 0, fresh = 0;
   for (int step = 0; step < 66; ++step) {
     const int kind = step % 6;
-    if (kind == 5) config.getFrame(cat("body", 4 * (step % 20) + 1)).setPosition({rng.uniform(-.8, .8), rng.uniform(-.8, .8), 0.});
+    if (kind == 5)
+      config.getFrame(cat("body", 4 * (step % 20) + 1)).setPosition({rng.uniform(-.8, .8), rng.uniform(-.8, .8), 0.});
     for (double& x : q) {
       if (kind < 3 && rng.uniform() < .1) x += .02 * rng.normal();  // some move a little
-      if (kind == 3) x += .01 * rng.normal();                        // all move a little
-      if (kind == 4 && rng.uniform() < .05) x += rng.normal();       // some jump
+      if (kind == 3) x += .01 * rng.normal();                       // all move a little
+      if (kind == 4 && rng.uniform() < .05) x += rng.normal();      // some jump
     }
     config.setJointState(q);
     search.place(config.state());

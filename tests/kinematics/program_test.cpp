@@ -55,7 +55,8 @@ TEST(PlaceJoint, FramesAreWhereTheMotionsOfTheJointsAboveTakeThem) {
       config.setJointState(someJoints(config, rng));
       for (const Frame& frame : config.getFrames()) {
         if (!frame.getParent()) continue;
-        const RigidTransform expected = (frame.getParent()->getPose() * frame.getRelativePose()).transform(), X = config.state().pose(frame.id());
+        const RigidTransform expected = (frame.getParent()->getPose() * frame.getRelativePose()).transform(),
+                             X = config.state().pose(frame.id());
         EXPECT_TRUE(X.R.isApprox(expected.R, 1e-12)) << base << ", " << frame.getName();
         EXPECT_TRUE((X.p - expected.p).norm() < 1e-12) << base << ", " << frame.getName();
       }
@@ -66,7 +67,8 @@ TEST(PlaceJoint, FramesAreWhereTheMotionsOfTheJointsAboveTakeThem) {
 TEST(PlaceJoint, ABaseThatIsTurnedGivesTheSameAsOneThatWasLoadedSo) {
   Rng rng(4);
   Config edited = arm("t(1 2 3)");
-  for (const char* base : {"t(0 0 1) d(90 0 0 1)", "t(0 0 1) d(-90 1 0 0)", "d(30 1 0 2)", "t(1 0 0) d(180 0 0 1)", "t(.1 .2 .3)"}) {
+  for (const char* base :
+       {"t(0 0 1) d(90 0 0 1)", "t(0 0 1) d(-90 1 0 0)", "d(30 1 0 2)", "t(1 0 0) d(180 0 0 1)", "t(.1 .2 .3)"}) {
     Config loaded = arm(base);
     edited.state();
     edited.getFrame("base").setRelativePose(loaded.getFrame("base").getRelativePose());
@@ -76,8 +78,10 @@ TEST(PlaceJoint, ABaseThatIsTurnedGivesTheSameAsOneThatWasLoadedSo) {
     Eigen::Matrix<double, 6, Eigen::Dynamic, Eigen::RowMajor> J(6, q.size()), expected(6, q.size());
     for (const Frame& frame : loaded.getFrames()) {
       const int id = frame.id();
-      EXPECT_TRUE(edited.state().pose(id).R.isApprox(loaded.state().pose(id).R, 1e-14)) << base << ", " << frame.getName();
-      EXPECT_TRUE(edited.state().position(id).isApprox(loaded.state().position(id), 1e-14)) << base << ", " << frame.getName();
+      EXPECT_TRUE(edited.state().pose(id).R.isApprox(loaded.state().pose(id).R, 1e-14))
+          << base << ", " << frame.getName();
+      EXPECT_TRUE(edited.state().position(id).isApprox(loaded.state().position(id), 1e-14))
+          << base << ", " << frame.getName();
       edited.state().jacobian(id, edited.state().position(id), J);
       loaded.state().jacobian(id, loaded.state().position(id), expected);
       EXPECT_LT((J - expected).norm(), 1e-13) << base << ", " << frame.getName();

@@ -42,7 +42,8 @@ Numbers computed(UpdateState update, const State& state, const VectorXd& q) {
                   std::vector<double>(6 * program.column_dof.size() + 1)};
   for (const int k : {0, 4, 8}) numbers.poses[std::size_t(k)] = 1.;
   update({parameters.link.data(), int(parameters.link.size()), parameters.step.data(), program.turn_dof.data(),
-          parameters.turn_factor.data(), int(program.turn_dof.size()), q.data(), numbers.turned.data(), numbers.poses.data(), numbers.twists.data()});
+          parameters.turn_factor.data(), int(program.turn_dof.size()), q.data(), numbers.turned.data(),
+          numbers.poses.data(), numbers.twists.data()});
   return numbers;
 }
 

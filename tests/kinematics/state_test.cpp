@@ -73,7 +73,8 @@ TEST(State, JacobiansEqualCentralDifferencesForEveryJointType) {
       const Matrix3d R = state.pose(frame).R;
       state.addPointJacobian(frame, state.pose(frame) * point, 1., J.topRows(3));
       state.addAngularJacobian(frame, 1., J.bottomRows(3));
-      Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor> at_once(7, n + 1);  // with numbers around it that stay
+      Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor> at_once(
+          7, n + 1);  // with numbers around it that stay
       at_once.setConstant(7.);
       state.jacobian(frame, state.pose(frame) * point, at_once.topLeftCorner(6, n));
       EXPECT_EQ(at_once.topLeftCorner(6, n), J) << "frame " << frame;
@@ -90,8 +91,10 @@ TEST(State, JacobiansEqualCentralDifferencesForEveryJointType) {
         const Vector3d linear = (up * point - down * point) / (2 * h);
         const Matrix3d W = (up.R - down.R) / (2 * h) * R.transpose();
         const Vector3d angular(W(2, 1), W(0, 2), W(1, 0));
-        EXPECT_LT((linear - J.col(i).head<3>()).norm(), 1e-7 * (1. + linear.norm())) << "frame " << frame << " dof " << i;
-        EXPECT_LT((angular - J.col(i).tail<3>()).norm(), 1e-7 * (1. + angular.norm())) << "frame " << frame << " dof " << i;
+        EXPECT_LT((linear - J.col(i).head<3>()).norm(), 1e-7 * (1. + linear.norm()))
+            << "frame " << frame << " dof " << i;
+        EXPECT_LT((angular - J.col(i).tail<3>()).norm(), 1e-7 * (1. + angular.norm()))
+            << "frame " << frame << " dof " << i;
       }
     }
   }
@@ -106,7 +109,8 @@ TEST(State, WeightedJacobianIsTheSumOfItsParts) {
   MatrixXd A(2, 3), B(2, 3);
   A << 1, 2, 3, 4, 5, 6;
   B << -1, 0, 2, 3, 1, 1;
-  Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor> J = MatrixXd::Zero(2, n), P = MatrixXd::Zero(3, n),
+  Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor> J = MatrixXd::Zero(2, n),
+                                                                         P = MatrixXd::Zero(3, n),
                                                                          W = MatrixXd::Zero(3, n);
   state.addJacobian(frame, p, A, B, J);
   state.addPointJacobian(frame, p, 1., P);

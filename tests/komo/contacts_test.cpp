@@ -109,7 +109,9 @@ TEST(Physics, ABodyThatTumblesFreelyFollowsEulersEquations) {
     komo->setSlice(t, q.data());
     for (int i = 0; i < kSteps; ++i) {
       const double dt = tau / kSteps;
-      const auto acceleration = [&](const Vector3d& v) { return Vector3d(-v.cross(inertia.cwiseProduct(v)).cwiseQuotient(inertia)); };
+      const auto acceleration = [&](const Vector3d& v) {
+        return Vector3d(-v.cross(inertia.cwiseProduct(v)).cwiseQuotient(inertia));
+      };
       const Vector3d middle = w + .5 * dt * acceleration(w);
       turn = turn * Quaterniond(Eigen::AngleAxisd(middle.norm() * dt, middle.normalized()));
       w += dt * acceleration(middle);

@@ -18,7 +18,8 @@ Config ballAndBox() {
   return config;
 }
 
-constexpr Komo::Exchange kKinds[] = {Komo::Exchange::slide, Komo::Exchange::stick, Komo::Exchange::complementary, Komo::Exchange::bounce};
+constexpr Komo::Exchange kKinds[] = {Komo::Exchange::slide, Komo::Exchange::stick, Komo::Exchange::complementary,
+                                     Komo::Exchange::bounce};
 
 }  // namespace
 
@@ -34,7 +35,8 @@ TEST(Exchanges, JacobiansAreThoseOfCentralDifferences) {
       VectorXd x = komo->variables();
       for (double& value : x) value += .03 * rng.normal();
       const JacobianCheck check = checkJacobian(*nlp, x);
-      EXPECT_LT(check.error, 1e-4) << int(kind) << ", order " << order << ": " << nlp->rowName(check.row) << ", column " << check.column;
+      EXPECT_LT(check.error, 1e-4) << int(kind) << ", order " << order << ": " << nlp->rowName(check.row) << ", column "
+                                   << check.column;
     }
   }
 }
@@ -53,7 +55,8 @@ TEST(Exchanges, WhatSticksMovesAlong) {
   Komo komo(ballAndBox(), 3., 1, 1);
   komo.addExchange({1., 3.}, "box", "ball", Komo::Exchange::stick);
   const auto& objectives = komo.objectives();
-  const auto sliding = std::find_if(objectives.begin(), objectives.end(), [](const auto& o) { return o.name == "slidingVelocity"; });
+  const auto sliding =
+      std::find_if(objectives.begin(), objectives.end(), [](const auto& o) { return o.name == "slidingVelocity"; });
   ASSERT_NE(sliding, objectives.end());
   EXPECT_EQ(sliding->from, 1) << "the first slice is where they meet";
   const auto slidingIn = [&](const Vector3d& box_moves, const Vector3d& ball_moves) {
@@ -69,7 +72,8 @@ TEST(Exchanges, WhatSticksMovesAlong) {
     return y;
   };
   EXPECT_LT(slidingIn({.1, 0., .2}, {.1, 0., .2}).norm(), 1e-12);
-  EXPECT_LT((slidingIn({0., .3, 0.}, {0., 0., 0.}) - Vector3d(0., .3, 0.)).norm(), 1e-12) << "the velocity of the box as the ball sees it";
+  EXPECT_LT((slidingIn({0., .3, 0.}, {0., 0., 0.}) - Vector3d(0., .3, 0.)).norm(), 1e-12)
+      << "the velocity of the box as the ball sees it";
 }
 
 TEST(Exchanges, MistakesAreExplained) {

@@ -80,8 +80,10 @@ std::shared_ptr<Komo> reachingPath(int order) {
   komo->addControlObjective({}, 2, 1.);
   komo->addObjective({}, FeatureSymbol::jointLimits, {}, ObjectiveType::ineq, MatrixXd::Constant(1, 1, 1e1));
   komo->addObjective({}, FeatureSymbol::distance, {"tip", "ball"}, ObjectiveType::ineq, MatrixXd::Constant(1, 1, 1e1));
-  komo->addObjective({}, FeatureSymbol::distance, {"upper", "ball"}, ObjectiveType::ineq, MatrixXd::Constant(1, 1, 1e1));
-  komo->addObjective({1.}, FeatureSymbol::positionDiff, {"tip", "target"}, ObjectiveType::eq, MatrixXd::Constant(1, 1, 1e1));
+  komo->addObjective({}, FeatureSymbol::distance, {"upper", "ball"}, ObjectiveType::ineq,
+                     MatrixXd::Constant(1, 1, 1e1));
+  komo->addObjective({1.}, FeatureSymbol::positionDiff, {"tip", "target"}, ObjectiveType::eq,
+                     MatrixXd::Constant(1, 1, 1e1));
   komo->addObjective({1.}, FeatureSymbol::qItself, {}, ObjectiveType::eq, {}, {}, 1);
   return komo;
 }
@@ -95,7 +97,8 @@ TEST(Heap, AStepOfTheSolverOnAPathWithConstraintsRequestsNoMemory) {
 TEST(Heap, AStepOnAPathWithAGraspRequestsNoMemory) {
   const auto komo = reachingPath(2);
   komo->addModeSwitch({.5, -1.}, SwitchMode::stable, {"tip", "block"});
-  komo->addObjective({.5}, FeatureSymbol::positionDiff, {"tip", "block"}, ObjectiveType::eq, MatrixXd::Constant(1, 1, 1e1));
+  komo->addObjective({.5}, FeatureSymbol::positionDiff, {"tip", "block"}, ObjectiveType::eq,
+                     MatrixXd::Constant(1, 1, 1e1));
   komo->addQuaternionNorms();
   for (const long requests : requestsOf(komo)) EXPECT_EQ(requests, 0);
 }

@@ -53,7 +53,8 @@ TEST(KomoNlp, SeparatesSumsOfOverlapsIntoPairsAndJoinsThemAgain) {
 TEST(KomoNlp, HasTheJacobianOfDifferencesWithLinearRowsAsTheyWereMade) {
   const auto komo = slidingBalls();
   komo->addControlObjective({}, 0, 1e-2);
-  komo->addObjective({}, FeatureSymbol::positionDiff, {"a", "wall"}, ObjectiveType::sos, MatrixXd::Constant(1, 1, 2.), {}, 1);
+  komo->addObjective({}, FeatureSymbol::positionDiff, {"a", "wall"}, ObjectiveType::sos, MatrixXd::Constant(1, 1, 2.),
+                     {}, 1);
   const auto nlp = makeNlp(komo);
   const int rows = int(nlp->types().size());
   int linear = 0;
@@ -80,7 +81,8 @@ TEST(KomoNlp, TellsTheSecondDerivativesOfRowsOfOneSlice) {
   auto komo = std::make_shared<Komo>(scene, 1, 3, 2);
   komo->addControlObjective({}, 2, 1.);
   komo->addObjective({}, FeatureSymbol::position, {"tip"}, ObjectiveType::ineq, MatrixXd::Constant(1, 1, .5));
-  komo->addObjective({1.}, FeatureSymbol::positionDiff, {"tip", "goal"}, ObjectiveType::eq, MatrixXd::Constant(1, 1, 10.));
+  komo->addObjective({1.}, FeatureSymbol::positionDiff, {"tip", "goal"}, ObjectiveType::eq,
+                     MatrixXd::Constant(1, 1, 10.));
   const auto nlp = makeNlp(komo);
   const int n = nlp->dimension();
   const auto curved = nlp->curvedRows();
@@ -167,7 +169,8 @@ TEST(KomoNlp, IsSolvedWithoutCollisionsThroughItsPairs) {
   EXPECT_LT(result.violation, 1e-3);
   EXPECT_EQ(result.dual.size(), Eigen::Index(nlp->types().size()));
   ASSERT_FALSE(solver.tracePhi().empty());
-  EXPECT_EQ(solver.tracePhi().back().size(), Eigen::Index(nlp->types().size())) << "traces are of the problem as it was stated";
+  EXPECT_EQ(solver.tracePhi().back().size(), Eigen::Index(nlp->types().size()))
+      << "traces are of the problem as it was stated";
   const SolverResult again = solver.solve(false, rng);
   EXPECT_LE(again.evals - result.evals, 3) << "goes on with the multipliers of the pairs";
 }

@@ -9,18 +9,21 @@ namespace {
 /// An arm that takes a box: two modes, a shared dof per grasp, and a path.
 std::shared_ptr<Komo> graspPath() {
   Config config;
-  config.addText("world {}\n"
-                 "shoulder (world) { joint: hingeZ, limits: [-3 3] }\n"
-                 "upper (shoulder) { pose: [1 0 0], note: kept }\n"
-                 "elbow (upper) { joint: hingeZ, limits: [-3 3] }\n"
-                 "tip (elbow) { pose: [1 0 0] }\n"
-                 "box (world) { pose: [1 1 0], shape: ssBox, size: [.1 .1 .1 .01] }\n");
+  config.addText(
+      "world {}\n"
+      "shoulder (world) { joint: hingeZ, limits: [-3 3] }\n"
+      "upper (shoulder) { pose: [1 0 0], note: kept }\n"
+      "elbow (upper) { joint: hingeZ, limits: [-3 3] }\n"
+      "tip (elbow) { pose: [1 0 0] }\n"
+      "box (world) { pose: [1 1 0], shape: ssBox, size: [.1 .1 .1 .01] }\n");
   config.setJointState(Eigen::Vector2d(.1, 1.5));
   auto komo = std::make_shared<Komo>(config, 2.5, 4, 2);
   komo->addControlObjective({}, 2, .1);
   komo->addModeSwitch({1., -1.}, SwitchMode::stable, {"tip", "box"});
-  komo->addObjective({1.}, FeatureSymbol::positionDiff, {"tip", "box"}, ObjectiveType::eq, MatrixXd::Constant(1, 1, 10.));
-  komo->addObjective({2., 2.5}, FeatureSymbol::position, {"box"}, ObjectiveType::eq, MatrixXd::Constant(1, 1, 10.), Vector3d(0., 1.5, 0.));
+  komo->addObjective({1.}, FeatureSymbol::positionDiff, {"tip", "box"}, ObjectiveType::eq,
+                     MatrixXd::Constant(1, 1, 10.));
+  komo->addObjective({2., 2.5}, FeatureSymbol::position, {"box"}, ObjectiveType::eq, MatrixXd::Constant(1, 1, 10.),
+                     Vector3d(0., 1.5, 0.));
   Rng rng(3);
   komo->setRandomPath(rng);
   return komo;
@@ -40,7 +43,8 @@ void expectSame(const std::shared_ptr<Komo>& a, const std::shared_ptr<Komo>& b) 
   EXPECT_EQ(J_a.values, J_b.values);
   EXPECT_EQ(a->getFrameState(-2), b->getFrameState(-2));
   EXPECT_EQ(a->getFrameState(a->slices() - 1), b->getFrameState(b->slices() - 1));
-  EXPECT_EQ(a->configuration(5).getFrame("box").getParent()->getName(), b->configuration(5).getFrame("box").getParent()->getName());
+  EXPECT_EQ(a->configuration(5).getFrame("box").getParent()->getName(),
+            b->configuration(5).getFrame("box").getParent()->getName());
   EXPECT_EQ(nlp_a->describeRow(10).objective, nlp_b->describeRow(10).objective);
 }
 
@@ -52,7 +56,8 @@ TEST(Komo, ACloneIsTheSameProblemAndGoesItsOwnWay) {
   clone->setVariables(VectorXd::Zero(before.size()));
   clone->addRigidSwitch(2., "world", "box");
   EXPECT_EQ(komo->variables(), before);
-  EXPECT_EQ(komo->configuration(9).getFrame("box").getParent()->getName(), graspPath()->configuration(9).getFrame("box").getParent()->getName());
+  EXPECT_EQ(komo->configuration(9).getFrame("box").getParent()->getName(),
+            graspPath()->configuration(9).getFrame("box").getParent()->getName());
   expectSame(komo, graspPath());
 }
 

@@ -62,7 +62,8 @@ TEST(Komo, ReachesAllFarTargetsFromRandomStarts) {
   for (int i = 0; i < 20; ++i) {
     const auto nlp = makeNlp(tutorialIk(config));
     VectorXd x(7);
-    for (int k = 0; k < 7; ++k) x[k] = rng.uniform(.9 * nlp->lower()[k] + .1 * nlp->upper()[k], .1 * nlp->lower()[k] + .9 * nlp->upper()[k]);
+    for (int k = 0; k < 7; ++k)
+      x[k] = rng.uniform(.9 * nlp->lower()[k] + .1 * nlp->upper()[k], .1 * nlp->lower()[k] + .9 * nlp->upper()[k]);
     const SolverResult result = solveAugmentedLagrangian(*nlp, x, SolverOptions{});
     solved += result.feasible;
     evals += result.evals;
@@ -98,7 +99,8 @@ TEST(Komo, JacobiansOfPathsEqualCentralDifferences) {
   VectorXd x = nlp->initialPoint(rng);
   for (double& value : x) value += .2 * rng.normal();
   const JacobianCheck check = checkJacobian(*nlp, x);
-  EXPECT_LT(check.error, 1e-6) << nlp->rowName(check.row) << " column " << check.column << ": " << check.analytic << " " << check.numeric;
+  EXPECT_LT(check.error, 1e-6) << nlp->rowName(check.row) << " column " << check.column << ": " << check.analytic << " "
+                               << check.numeric;
 }
 
 TEST(Komo, LongerPathsTakeNoMoreEvaluations) {
@@ -147,7 +149,8 @@ TEST(Komo, WarnsOfObjectivesThatSelectNothingAndExplainsMistakes) {
   ASSERT_EQ(komo.takeWarnings().size(), 1u);
   EXPECT_THROW(komo.addObjective({}, FeatureSymbol::position, {"l_griper"}, ObjectiveType::eq), FrameNotFound);
   EXPECT_THROW(komo.addObjective({}, FeatureSymbol::position, {}, ObjectiveType::eq), ValueError);
-  EXPECT_THROW(komo.addObjective({}, FeatureSymbol::position, {"l_gripper"}, ObjectiveType::eq, {}, VectorXd::Zero(2)), ValueError);
+  EXPECT_THROW(komo.addObjective({}, FeatureSymbol::position, {"l_gripper"}, ObjectiveType::eq, {}, VectorXd::Zero(2)),
+               ValueError);
   EXPECT_THROW(komo.addObjective({}, FeatureSymbol::position, {"l_gripper"}, ObjectiveType::eq, {}, {}, 2), ValueError);
   EXPECT_THROW(Komo().addObjective({}, FeatureSymbol::position, {"a"}, ObjectiveType::eq), Error);
 }
@@ -169,18 +172,20 @@ TEST(Komo, ControlObjectivesAreScaledByTime) {
   }
 }
 
-/// It takes over little where little was changed: positions of single frames, of many, joints, colours and masses, also while
-/// copies of the scene are held by others.
+/// It takes over little where little was changed: positions of single frames, of many, joints, colours and masses, also
+/// while copies of the scene are held by others.
 TEST(Komo, UpdateRootObjectsFollowsEveryEditThatKeepsTheStructure) {
   Config config = panda();
-  for (int i = 0; i < 12; ++i) config.addFrame(cat("stone", i), i % 3 ? "table" : "").setShape(ShapeType::box, {.05, .05, .05}).setMass(1.);
+  for (int i = 0; i < 12; ++i)
+    config.addFrame(cat("stone", i), i % 3 ? "table" : "").setShape(ShapeType::box, {.05, .05, .05}).setMass(1.);
   const auto komo = tutorialIk(config);
   Rng rng(9);
   std::vector<std::shared_ptr<Komo>> others;
   const auto randomPosition = [&] { return Vector3d(rng.normal(), rng.normal(), rng.normal()); };
   for (int trial = 0; trial < 80; ++trial) {
     const int edits = rng.uniform() < .1 ? 12 : int(3. * rng.uniform());
-    for (int i = 0; i < edits; ++i) config.getFrame(cat("stone", int(12. * rng.uniform()))).setPosition(randomPosition());
+    for (int i = 0; i < edits; ++i)
+      config.getFrame(cat("stone", int(12. * rng.uniform()))).setPosition(randomPosition());
     if (rng.uniform() < .5) config.getFrame("target").setPosition(randomPosition());
     if (rng.uniform() < .3) config.setJointState(config.getJointState() + VectorXd::Constant(7, .01 * rng.normal()));
     if (rng.uniform() < .1) config.getFrame("stone1").setColor({rng.uniform(), .5, .5});

@@ -25,11 +25,12 @@ Config armAndBox() {
     grip (l2): { Q: [.5, 0, 0], shape: ssBox, size: [.1, .08, .06, .01] }
     fixed (table): { Q: [.2, -.3, .1], shape: ssBox, size: [.1, .1, .1, .01] }
   )");
-  config.addFrame("box").setShape(ShapeType::ssBox, {.12, .1, .16, .01}).setPose({Vector3d(.3, .2, .63), unitQuaternion({.9, .1, -.2, .3})});
+  config.addFrame("box")
+      .setShape(ShapeType::ssBox, {.12, .1, .16, .01})
+      .setPose({Vector3d(.3, .2, .63), unitQuaternion({.9, .1, -.2, .3})});
   config.addFrame("handle", "box").setRelativePosition({0., 0., .1});
   return config;
 }
-
 
 /// The largest relative difference of the Jacobian from central differences at three random points.
 double jacobianError(Nlp& nlp, const Komo& komo, std::string& where) {
@@ -65,7 +66,8 @@ TEST(ModeSwitch, JacobiansOfEveryKindEqualCentralDifferences) {
       komo->addObjective({}, FeatureSymbol::poseRel, {"grip", "handle"}, ObjectiveType::sos, {}, {}, 1);
       komo->addObjective({}, FeatureSymbol::linangVel, {"box"}, ObjectiveType::sos, {}, {}, 2);
       std::string where;
-      EXPECT_LT(jacobianError(*makeNlp(komo), *komo, where), 2e-6) << switchModeName(mode) << " of " << object << ": " << where;
+      EXPECT_LT(jacobianError(*makeNlp(komo), *komo, where), 2e-6)
+          << switchModeName(mode) << " of " << object << ": " << where;
     }
   }
 }
@@ -115,7 +117,8 @@ TEST(ModeSwitch, WhatIsFixedToALargerTreeCanBeSwitched) {
   komo.addModeSwitch({1., -1.}, SwitchMode::stable, {"grip", "fixed"});
   EXPECT_EQ(komo.configuration(0).getFrame("fixed").getParent()->getName(), "grip");
   EXPECT_EQ(komo.configuration(-1).getFrame("fixed").getParent()->getName(), "table");
-  const Pose before = komo.configuration(-1).getFrame("fixed").getPose(), after = komo.configuration(1).getFrame("fixed").getPose();
+  const Pose before = komo.configuration(-1).getFrame("fixed").getPose(),
+             after = komo.configuration(1).getFrame("fixed").getPose();
   EXPECT_LT((before.p - after.p).norm(), 1e-12);
 }
 
@@ -125,7 +128,8 @@ TEST(ModeSwitch, AHandleTakesItsObjectAlong) {
   const Config held = komo.configuration(1);
   const Pose grip = held.getFrame("grip").getPose();
   EXPECT_LT((held.getFrame("handle").getPose().p - grip.p).norm(), 1e-12);
-  EXPECT_LT((held.getFrame("box").getPose().p - (grip * Pose(Vector3d(0., 0., -.1), Quaterniond::Identity())).p).norm(), 1e-12);
+  EXPECT_LT((held.getFrame("box").getPose().p - (grip * Pose(Vector3d(0., 0., -.1), Quaterniond::Identity())).p).norm(),
+            1e-12);
 }
 
 TEST(ModeSwitch, JointFeaturesMeanTheGivenJointsWhateverWasSwitchedBefore) {
@@ -191,7 +195,9 @@ TEST(ModeSwitch, SwitchedPathsGrowLinearlyInVariables) {
 
 TEST(ModeSwitch, StableJointsOfTheSceneAreOneSetOfVariables) {
   Config config;
-  config.addText("w: {} a(w): { joint: hingeX, q: .3 } b(a): { joint: transX, q: .5, joint_stable: true, limits: [-1, 1] } c(b): { joint: hingeY, q: .1 }");
+  config.addText(
+      "w: {} a(w): { joint: hingeX, q: .3 } b(a): { joint: transX, q: .5, joint_stable: true, limits: [-1, 1] } c(b): "
+      "{ joint: hingeY, q: .1 }");
   for (int order : {0, 1, 2}) {
     auto komo = std::make_shared<Komo>(config, 3., 1, order);
     komo->addControlObjective({}, 0);
@@ -237,7 +243,9 @@ TEST(ModeSwitch, JointLimitsOfTheSceneAreNotThoseOfAddedFrames) {
 
 TEST(ModeSwitch, ACapsuleBoundsItsGraspByItsLength) {
   Config config = armAndBox();
-  config.addFrame("stick").setShape(ShapeType::capsule, {.6, .02}).setPose({Vector3d(.3, .2, .63), unitQuaternion({1., 0., 0., 0.})});
+  config.addFrame("stick")
+      .setShape(ShapeType::capsule, {.6, .02})
+      .setPose({Vector3d(.3, .2, .63), unitQuaternion({1., 0., 0., 0.})});
   Komo komo(config, 1., 1, 1);
   komo.addModeSwitch({1., -1.}, SwitchMode::stable, {"l2", "stick"});
   EXPECT_DOUBLE_EQ(komo.layout().upper[2], .9 * .6);

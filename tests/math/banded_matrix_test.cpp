@@ -29,7 +29,8 @@ Form arrow(int size, int width, int border) {
 /// Columns that end anywhere.
 Form ragged(int size, int border, Rng& rng) {
   Form form{std::vector<int>(std::size_t(size - border)), border};
-  for (int j = 0; j < size - border; ++j) form.last[std::size_t(j)] = j + int(rng.uniform(0., double(size - border - j)) / 2.);
+  for (int j = 0; j < size - border; ++j)
+    form.last[std::size_t(j)] = j + int(rng.uniform(0., double(size - border - j)) / 2.);
   return form;
 }
 
@@ -67,7 +68,7 @@ VectorXd randomVector(int size, Rng& rng) {
 
 std::vector<Form> someForms() {
   Rng rng(4);
-  return {arrow(1, 0, 0),   arrow(12, 0, 0),  arrow(30, 3, 0),     arrow(30, 3, 4),    arrow(25, 30, 0),
+  return {arrow(1, 0, 0),   arrow(12, 0, 0),  arrow(30, 3, 0),    arrow(30, 3, 4),    arrow(25, 30, 0),
           arrow(40, 7, 40), arrow(27, 14, 7), ragged(35, 0, rng), ragged(60, 5, rng), ragged(61, 9, rng)};
 }
 
@@ -127,7 +128,8 @@ TEST(BandedMatrix, OuterAndCrossProductsOfAStackedVectorMakeItsWholeOuterProduct
 TEST(BandedMatrix, AnIsolatedRowAndColumnAreThoseOfTheIdentity) {
   Rng rng(9);
   for (const Form& form : someForms()) {
-    for (const int i : {0, int(form.last.size() + std::size_t(form.border)) / 2, int(form.last.size()) + form.border - 1}) {
+    for (const int i :
+         {0, int(form.last.size() + std::size_t(form.border)) / 2, int(form.last.size()) + form.border - 1}) {
       BandedMatrix A = randomPositive(form, rng);
       MatrixXd expected = symmetric(A);
       A.isolate(i);

@@ -36,7 +36,8 @@ class Windows final : public Nlp {
   void evaluate(const VectorXd& x, VectorXd& phi, Jacobian* J) override {
     phi << x[0] * x[1] + x[2], x[1] - x[2] * x[3], std::sin(x[6]) + x[7] * x[8], x[5] * x[6] - x[0] * x[1] * x[1];
     if (!J) return;
-    J->values = {x[1], x[0], 1., 1., -x[3], -x[2], std::cos(x[6]), x[8], x[7], x[6], x[5], -x[1] * x[1], -2. * x[0] * x[1]};
+    J->values = {
+        x[1], x[0], 1., 1., -x[3], -x[2], std::cos(x[6]), x[8], x[7], x[6], x[5], -x[1] * x[1], -2. * x[0] * x[1]};
   }
 };
 
@@ -44,7 +45,8 @@ class Windows final : public Nlp {
 CallbackNlp denseWindows() {
   return CallbackNlp(9, {sos, eq, ineq, sos}, VectorXd::Constant(9, -1.), VectorXd::Constant(9, 2.),
                      [](const VectorXd& x, VectorXd& phi, MatrixXd& J) {
-                       phi << x[0] * x[1] + x[2], x[1] - x[2] * x[3], std::sin(x[6]) + x[7] * x[8], x[5] * x[6] - x[0] * x[1] * x[1];
+                       phi << x[0] * x[1] + x[2], x[1] - x[2] * x[3], std::sin(x[6]) + x[7] * x[8],
+                           x[5] * x[6] - x[0] * x[1] * x[1];
                        J.row(0).head(3) << x[1], x[0], 1.;
                        J.row(1).segment(1, 3) << 1., -x[3], -x[2];
                        J.row(2).tail(3) << std::cos(x[6]), x[8], x[7];
@@ -140,7 +142,8 @@ TEST(CheckJacobian, AsksBetweenColumnsAndEndsWhereThatThrows) {
   };
   EXPECT_THROW(checkJacobian(nlp, VectorXd::Ones(9), 1e-5, stop), std::runtime_error);
   EXPECT_EQ(evaluations, 1 + 2 * 2) << "at x, and twice for each of two columns";
-  EXPECT_THROW(worstJacobianEntries(nlp, VectorXd::Ones(9), 1e-4, 5, 1e-5, [&] { throw std::runtime_error("stop"); }), std::runtime_error);
+  EXPECT_THROW(worstJacobianEntries(nlp, VectorXd::Ones(9), 1e-4, 5, 1e-5, [&] { throw std::runtime_error("stop"); }),
+               std::runtime_error);
 }
 
 TEST(CheckJacobian, ListsTheWorstEntriesFirst) {
@@ -203,12 +206,14 @@ TEST(EvaluateScalar, IsTheSumWithItsDerivatives) {
   EXPECT_TRUE(near(at.gradient, Eigen::Vector2d(-.75 + 3., .125 - 3.), 1e-12));
   EXPECT_TRUE(near(at.hessian, (MatrixXd(2, 2) << -3. + 2., .75 - 2., .75 - 2., 2.).finished(), 1e-12));
   Windows constrained;
-  expectError<ValueError>([&] { evaluateScalar(constrained, somewhere(constrained, 0)); }, {"f and sos only", "row 1 (eq)"});
+  expectError<ValueError>([&] { evaluateScalar(constrained, somewhere(constrained, 0)); },
+                          {"f and sos only", "row 1 (eq)"});
 }
 
 TEST(CallbackNlp, SizesThatDoNotFitSayWhatWasExpected) {
   const auto nothing = [](const VectorXd&, VectorXd&, MatrixXd&) {};
-  expectError<ValueError>([&] { CallbackNlp(3, {sos}, VectorXd::Zero(2), VectorXd::Ones(3), nothing); }, {"dimension 3", "not 2 and 3"});
+  expectError<ValueError>([&] { CallbackNlp(3, {sos}, VectorXd::Zero(2), VectorXd::Ones(3), nothing); },
+                          {"dimension 3", "not 2 and 3"});
   expectError<ValueError>([&] { CallbackNlp(-1, {}, {}, {}, nothing); }, {"dimension", "-1"});
   CallbackNlp wrong_rows(2, {sos, sos}, {}, {}, [](const VectorXd&, VectorXd& phi, MatrixXd&) { phi.setZero(3); });
   CallbackNlp wrong_columns(2, {sos}, {}, {}, [](const VectorXd&, VectorXd&, MatrixXd& J) { J.setZero(1, 5); });
@@ -219,7 +224,8 @@ TEST(CallbackNlp, SizesThatDoNotFitSayWhatWasExpected) {
 
 TEST(Nlp, PointsAreDrawnWithinTheBounds) {
   const double inf = std::numeric_limits<double>::infinity();
-  CallbackNlp nlp(3, {sos}, Vector3d(2., -inf, -inf), Vector3d(3., inf, .5), [](const VectorXd&, VectorXd&, MatrixXd&) {});
+  CallbackNlp nlp(3, {sos}, Vector3d(2., -inf, -inf), Vector3d(3., inf, .5),
+                  [](const VectorXd&, VectorXd&, MatrixXd&) {});
   Rng rng(3);
   VectorXd lowest = VectorXd::Constant(3, inf), highest = -lowest;
   for (int sample = 0; sample < 200; ++sample) {

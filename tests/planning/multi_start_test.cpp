@@ -12,15 +12,18 @@ namespace {
 /// Two links of 1 m reach (1, 1): elbow at +pi/2 or -pi/2. The cost prefers -pi/2, and the start is near +pi/2.
 std::shared_ptr<Komo> twoAnswers() {
   Config config;
-  config.addText("world {}\n"
-                 "shoulder (world) { joint: hingeZ, limits: [-3 3] }\n"
-                 "upper (shoulder) { pose: [1 0 0] }\n"
-                 "elbow (upper) { joint: hingeZ, limits: [-3 3] }\n"
-                 "tip (elbow) { pose: [1 0 0] }\n");
+  config.addText(
+      "world {}\n"
+      "shoulder (world) { joint: hingeZ, limits: [-3 3] }\n"
+      "upper (shoulder) { pose: [1 0 0] }\n"
+      "elbow (upper) { joint: hingeZ, limits: [-3 3] }\n"
+      "tip (elbow) { pose: [1 0 0] }\n");
   config.setJointState(Eigen::Vector2d(.1, 1.5));
   auto komo = std::make_shared<Komo>(config, 1., 1, 0);
-  komo->addObjective({}, FeatureSymbol::qItself, {}, ObjectiveType::sos, MatrixXd::Constant(1, 1, .1), Eigen::Vector2d(M_PI / 2., -M_PI / 2.));
-  komo->addObjective({}, FeatureSymbol::position, {"tip"}, ObjectiveType::eq, MatrixXd::Constant(1, 1, 10.), Vector3d(1., 1., 0.));
+  komo->addObjective({}, FeatureSymbol::qItself, {}, ObjectiveType::sos, MatrixXd::Constant(1, 1, .1),
+                     Eigen::Vector2d(M_PI / 2., -M_PI / 2.));
+  komo->addObjective({}, FeatureSymbol::position, {"tip"}, ObjectiveType::eq, MatrixXd::Constant(1, 1, 10.),
+                     Vector3d(1., 1., 0.));
   return komo;
 }
 
@@ -42,7 +45,11 @@ TEST(DrawStarts, WhatIsCalledInBetweenMayThrowAndThePathStays) {
   const auto komo = twoAnswers();
   const VectorXd before = komo->variables();
   int asked = 0;
-  EXPECT_THROW(drawStarts(*komo, 9, 0, [&] { if (++asked == 4) throw std::runtime_error("stop"); }), std::runtime_error);
+  EXPECT_THROW(drawStarts(*komo, 9, 0,
+                          [&] {
+                            if (++asked == 4) throw std::runtime_error("stop");
+                          }),
+               std::runtime_error);
   EXPECT_EQ(komo->variables(), before);
   EXPECT_EQ(drawStarts(*komo, 3, 0).size(), 3u);
   EXPECT_EQ(komo->variables(), before);
@@ -76,7 +83,8 @@ TEST(SolveFromMany, TheFirstFeasibleStartSufficesIfAsked) {
 
 TEST(SolveFromMany, WithoutAnAnswerTheOneThatViolatesLeastIsChosen) {
   const auto komo = twoAnswers();
-  komo->addObjective({}, FeatureSymbol::position, {"tip"}, ObjectiveType::eq, MatrixXd::Constant(1, 1, 10.), Vector3d(-1., 1., 0.));
+  komo->addObjective({}, FeatureSymbol::position, {"tip"}, ObjectiveType::eq, MatrixXd::Constant(1, 1, 10.),
+                     Vector3d(-1., 1., 0.));
   const SolveManyResult many = solveFromMany(komo, drawStarts(*komo, 4, 0));
   EXPECT_FALSE(many.best().feasible);
   for (const SolverResult& result : many.results) EXPECT_GE(result.violation, many.best().violation);

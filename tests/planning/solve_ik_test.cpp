@@ -20,15 +20,16 @@ Config panda() {
 /// Two links of 1 m that turn about z, the shoulder at the origin.
 Config planarArm(const std::string& limits = {}) {
   Config config;
-  config.addText("world {}\nshoulder (world) { joint: hingeZ " + limits + " }\n"
+  config.addText("world {}\nshoulder (world) { joint: hingeZ " + limits +
+                 " }\n"
                  "upper (shoulder) { pose: [1 0 0] }\n"
                  "elbow (upper) { joint: hingeZ, q: 0.5 }\n"
                  "tip (elbow) { pose: [1 0 0] }\n");
   return config;
 }
 
-std::vector<std::vector<IkTarget>> reachablePoses(Config config, const std::string& frame, int count, std::uint64_t seed,
-                                                  bool without_collisions) {
+std::vector<std::vector<IkTarget>> reachablePoses(Config config, const std::string& frame, int count,
+                                                  std::uint64_t seed, bool without_collisions) {
   Rng rng(seed);
   const auto program = config.program();
   std::vector<std::vector<IkTarget>> problems;
@@ -71,7 +72,8 @@ TEST(SolveIk, PosesFromRandomJointsOfThePandaAreReachedToTheTolerance) {
   const std::vector<IkResult> results = solveIkBatch(config, problems, withoutCollisions());
   for (std::size_t i = 0; i < results.size(); ++i) {
     const IkResult& result = results[i];
-    EXPECT_TRUE((result.q.array() >= program->lower.array()).all() && (result.q.array() <= program->upper.array()).all());
+    EXPECT_TRUE((result.q.array() >= program->lower.array()).all() &&
+                (result.q.array() <= program->upper.array()).all());
     if (!result.feasible()) continue;
     ++solved;
     const auto [distance, angle] = missOf(config, result.q, problems[i][0]);
@@ -139,7 +141,8 @@ TEST(SolveIk, APairThatIsInTheWayIsNamed) {
   const std::vector<IkTarget> targets = {IkTarget::toPosition("tip", {1., 1., 0.})};
   const IkResult result = solveIk(config, targets);
   EXPECT_FALSE(result.feasible());
-  EXPECT_NE(result.message.find("reached the targets in collision, most often of 'ball' and 'wall'"), std::string::npos) << result.message;
+  EXPECT_NE(result.message.find("reached the targets in collision, most often of 'ball' and 'wall'"), std::string::npos)
+      << result.message;
   EXPECT_TRUE(solveIk(config, targets, withoutCollisions()).feasible());
 }
 
@@ -176,7 +179,8 @@ TEST(SolveIk, TheNearestPostureIsStationaryInTheFreedomThatIsLeft) {
   options.best = true;
   options.attempts = 10;
   const VectorXd start = config.getJointState();
-  const IkTarget target = IkTarget::toPosition("l_gripper", config.getFrame("l_gripper").getPose().p + Vector3d(.1, .1, -.1));
+  const IkTarget target =
+      IkTarget::toPosition("l_gripper", config.getFrame("l_gripper").getPose().p + Vector3d(.1, .1, -.1));
   const IkResult result = solveIk(config, {target}, options);
   ASSERT_TRUE(result.feasible());
   config.setJointState(result.q);
@@ -190,7 +194,8 @@ TEST(SolveIk, TheNearestPostureIsStationaryInTheFreedomThatIsLeft) {
 TEST(SolveIk, ADirectionIsMetAndTheRotationAboutItIsFree) {
   Config config = panda();
   const Vector3d down(0., 0., -1.);
-  const IkResult result = solveIk(config, {IkTarget::toPosition("l_gripper", {.3, .3, 1.1}), IkTarget::toDirection("l_gripper", Vector3d::UnitZ(), down)});
+  const IkResult result = solveIk(config, {IkTarget::toPosition("l_gripper", {.3, .3, 1.1}),
+                                           IkTarget::toDirection("l_gripper", Vector3d::UnitZ(), down)});
   ASSERT_TRUE(result.feasible()) << result.message;
   config.setJointState(result.q);
   EXPECT_GT((config.getFrame("l_gripper").getPose().q * Vector3d::UnitZ()).dot(down), 1. - 1e-11);
@@ -227,7 +232,8 @@ TEST(SolveIk, TwoArmsReachTwoTargetsWithoutTouching) {
   Config config;
   config.addFile(KINEGRAPH_SOURCE_DIR "/models/scenarios/pandasTable.g");
   const Vector3d l = config.getFrame("l_gripper").getPose().p, r = config.getFrame("r_gripper").getPose().p;
-  const std::vector<IkTarget> targets = {IkTarget::toPosition("l_gripper", .6 * l + .4 * r), IkTarget::toPosition("r_gripper", .4 * l + .6 * r)};
+  const std::vector<IkTarget> targets = {IkTarget::toPosition("l_gripper", .6 * l + .4 * r),
+                                         IkTarget::toPosition("r_gripper", .4 * l + .6 * r)};
   const IkResult result = solveIk(config, targets);
   ASSERT_TRUE(result.feasible()) << result.message;
   EXPECT_LE(missOf(config, result.q, targets[0]).first, 1.001e-6);
@@ -237,12 +243,13 @@ TEST(SolveIk, TwoArmsReachTwoTargetsWithoutTouching) {
 
 TEST(SolveIk, AMobileBaseDrivesToFarTargets) {
   Config config;
-  config.addText("world {}\nbase (world) { joint: transXYPhi }\n"
-                 "post (base) { pose: [.2 0 .5] }\n"
-                 "shoulder (post) { joint: hingeY, limits: [-2 2] }\n"
-                 "upper (shoulder) { pose: [0 0 .5] }\n"
-                 "elbow (upper) { joint: hingeY, limits: [-2 2] }\n"
-                 "tip (elbow) { pose: [0 0 .5] }\n");
+  config.addText(
+      "world {}\nbase (world) { joint: transXYPhi }\n"
+      "post (base) { pose: [.2 0 .5] }\n"
+      "shoulder (post) { joint: hingeY, limits: [-2 2] }\n"
+      "upper (shoulder) { pose: [0 0 .5] }\n"
+      "elbow (upper) { joint: hingeY, limits: [-2 2] }\n"
+      "tip (elbow) { pose: [0 0 .5] }\n");
   for (const double far : {1., 30., 1000.}) {
     const IkTarget target = IkTarget::toPosition("tip", {far, -2. * far, 1.2});
     const IkResult result = solveIk(config, {target});
@@ -254,7 +261,8 @@ TEST(SolveIk, AMobileBaseDrivesToFarTargets) {
 TEST(SolveIk, AFreeBodyGoesToAnyPose) {
   Config config;
   config.addText("world {}\nbody (world) { joint: free }\n");
-  const IkTarget target = IkTarget::toPose("body", Pose({3., -2., 1.}, Quaterniond(Eigen::AngleAxisd(3., Vector3d::UnitX()))));
+  const IkTarget target =
+      IkTarget::toPose("body", Pose({3., -2., 1.}, Quaterniond(Eigen::AngleAxisd(3., Vector3d::UnitX()))));
   const IkResult result = solveIk(config, {target});
   ASSERT_TRUE(result.feasible()) << result.message;
   EXPECT_NEAR(result.q.tail<4>().norm(), 1., 1e-12);
@@ -267,13 +275,24 @@ TEST(SolveIk, MistakesAreNamed) {
   expectError<FrameNotFound>([&] { solveIk(config, position("l_griper")); }, {"l_griper", "l_gripper"});
   expectError<ValueError>([&] { solveIk(config, position("table")); }, {"no active joint moves frame 'table'"});
   expectError<ValueError>([&] { solveIk(config, {}); }, {"there are no targets"});
-  expectError<ValueError>([&] { solveIk(config, {IkTarget::toPosition("l_gripper", {0., std::nan(""), 0.})}); }, {"l_gripper", "not finite"});
-  expectError<ValueError>([&] { solveIk(config, {IkTarget::toDirection("l_gripper", Vector3d::Zero(), Vector3d::UnitX())}); }, {"axis is zero"});
-  expectError<ValueError>([&] { solveIkBatch(config, {position("l_gripper"), position("l_palm")}); }, {"problem 1", "other frames"});
+  expectError<ValueError>(
+      [&] {
+        solveIk(config, {IkTarget::toPosition("l_gripper", {0., std::nan(""), 0.})});
+      },
+      {"l_gripper", "not finite"});
+  expectError<ValueError>(
+      [&] { solveIk(config, {IkTarget::toDirection("l_gripper", Vector3d::Zero(), Vector3d::UnitX())}); },
+      {"axis is zero"});
+  expectError<ValueError>(
+      [&] {
+        solveIkBatch(config, {position("l_gripper"), position("l_palm")});
+      },
+      {"problem 1", "other frames"});
   expectError<ValueError>([&] { solveIkBatch(config, {position("l_gripper")}, {}, 0); }, {"threads is 0"});
   IkOptions options;
   options.position_tolerance = 0.;
-  expectError<ValueError>([&] { solveIk(config, position("l_gripper"), options); }, {"position_tolerance is 0", "positive"});
+  expectError<ValueError>([&] { solveIk(config, position("l_gripper"), options); },
+                          {"position_tolerance is 0", "positive"});
 }
 
 TEST(SolveIk, AWatchEndsTheSearchAndMayThrow) {
@@ -284,7 +303,8 @@ TEST(SolveIk, AWatchEndsTheSearchAndMayThrow) {
     const std::vector<IkResult> results = solveIkBatch(config, problems, {}, threads, [&](int) { return ++calls > 0; });
     EXPECT_EQ(results.back().status, IkStatus::cancelled);
     EXPECT_EQ(results.back().q.size(), 7);
-    EXPECT_THROW(solveIkBatch(config, problems, {}, threads, [](int) -> bool { throw std::runtime_error("stop"); }), std::runtime_error);
+    EXPECT_THROW(solveIkBatch(config, problems, {}, threads, [](int) -> bool { throw std::runtime_error("stop"); }),
+                 std::runtime_error);
   }
 }
 

@@ -17,9 +17,7 @@ Lines broken(const std::string& text, int width) {
   return brokenLines(text, width, ones.data());
 }
 
-TEST(Letters, LinesThatFitStayAsTheyAre) {
-  EXPECT_EQ(broken("one\ntwo words\n", 9), (Lines{"one", "two words", ""}));
-}
+TEST(Letters, LinesThatFitStayAsTheyAre) { EXPECT_EQ(broken("one\ntwo words\n", 9), (Lines{"one", "two words", ""})); }
 
 TEST(Letters, LongLinesAreBrokenAtTheirLastSpace) {
   EXPECT_EQ(broken("one two three four", 9), (Lines{"one two", "three", "four"}));
@@ -53,12 +51,12 @@ TEST(Letters, DrawingPutsAPanelWithDarkLettersInTheCorner) {
   std::vector<std::uint8_t> rgb(3 * kWidth * kHeight, 0);
   drawLetters(rgb, kWidth, {4, 2, {255, 0, 0, 0, 0, 0, 0, 255}});
   const auto grey = [&](int row, int column) { return int(rgb[3 * std::size_t(row * kWidth + column)]); };
-  EXPECT_EQ(grey(11, 30), 0);             // above
-  EXPECT_EQ(grey(20, 11), 0);             // beside
+  EXPECT_EQ(grey(11, 30), 0);  // above
+  EXPECT_EQ(grey(20, 11), 0);  // beside
   EXPECT_NEAR(grey(13, 13), .93 * 255, 1);
-  EXPECT_EQ(grey(19, 24), 36);            // the first pixel of the letters
+  EXPECT_EQ(grey(19, 24), 36);  // the first pixel of the letters
   EXPECT_NEAR(grey(19, 25), .93 * 255, 1);
-  EXPECT_EQ(grey(20, 27), 36);            // and the last
+  EXPECT_EQ(grey(20, 27), 36);  // and the last
   EXPECT_EQ(grey(30, 30), 0);
 }
 
@@ -77,7 +75,9 @@ TEST(Letters, ARendererWritesAnyText) {
   EXPECT_LT(one.width, 100);
   EXPECT_EQ(two.width, one.width);
   EXPECT_EQ(two.cover.size(), std::size_t(two.width * two.height));
-  const auto ink = [](const Letters& letters) { return std::accumulate(letters.cover.begin(), letters.cover.end(), 0.); };
+  const auto ink = [](const Letters& letters) {
+    return std::accumulate(letters.cover.begin(), letters.cover.end(), 0.);
+  };
   EXPECT_GT(ink(one), 5000.);
   EXPECT_NEAR(ink(two), 2. * ink(one), .02 * ink(one));
   EXPECT_EQ(ink(renderer.write("", 500, 300)), 0.);

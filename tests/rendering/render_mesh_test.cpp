@@ -70,7 +70,9 @@ TEST(RenderMesh, DoubledVerticesDoNotOpenASurface) {
 
 TEST(RenderMesh, ColoursOfVerticesCutTheMeshIntoParts) {
   Mesh mesh = boxMesh();
-  for (const Vector3d& p : mesh.vertices) mesh.colors.push_back(p.z() > 0. ? std::array<std::uint8_t, 4>{255, 0, 0, 255} : std::array<std::uint8_t, 4>{0, 0, 255, 255});
+  for (const Vector3d& p : mesh.vertices)
+    mesh.colors.push_back(p.z() > 0. ? std::array<std::uint8_t, 4>{255, 0, 0, 255}
+                                     : std::array<std::uint8_t, 4>{0, 0, 255, 255});
   const std::vector<RenderMesh> parts = renderMeshes(meshOf(mesh));
   ASSERT_EQ(parts.size(), 2u);
   EXPECT_EQ(parts[0].faces.size() + parts[1].faces.size(), 3u * 12u);

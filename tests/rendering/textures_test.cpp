@@ -69,8 +69,10 @@ TEST_F(Textures, EachSideOfABoxShowsAllOfIt) {
 
 TEST_F(Textures, AMeshSaysItselfWhereItIs) {
   folder_.write("quad.mtl", "newmtl m\nmap_Kd four.png\n");
-  folder_.write("quad.obj", "mtllib quad.mtl\nv -0.9 -0.9 0\nv 0.9 -0.9 0\nv 0.9 0.9 0\nv -0.9 0.9 0\nvt 1 1\nvt 0 1\nvt 0 0\nvt 1 0\n"
-                            "usemtl m\nf 1/1 2/2 3/3 4/4\n");
+  folder_.write(
+      "quad.obj",
+      "mtllib quad.mtl\nv -0.9 -0.9 0\nv 0.9 -0.9 0\nv 0.9 0.9 0\nv -0.9 0.9 0\nvt 1 1\nvt 0 1\nvt 0 0\nvt 1 0\n"
+      "usemtl m\nf 1/1 2/2 3/3 4/4\n");
   Config config;
   config.addText("q: { mesh: <quad.obj> }", "scene.g", folder_.path());
   EXPECT_EQ(quarters(config), "ybgr");  // turned by half a turn
@@ -80,9 +82,11 @@ TEST_F(Textures, TwoPicturesOnOneMeshStayApart) {
   Pixels white{1, 1, {255, 255, 255}};
   folder_.write("white.png", encodePng(white).bytes);
   folder_.write("quad.mtl", "newmtl a\nmap_Kd four.png\nnewmtl b\nmap_Kd white.png\nnewmtl c\nKd 0 0 1\n");
-  folder_.write("quad.obj", "mtllib quad.mtl\nv -0.9 0 0\nv 0 0 0\nv 0 0.9 0\nv -0.9 0.9 0\nv 0.9 0 0\nv 0.9 0.9 0\nv -0.9 -0.9 0\nv 0 -0.9 0\n"
-                            "vt 0 0\nvt 0.4 0\nvt 0.4 0.4\nvt 0 0.4\n"
-                            "usemtl a\nf 1/1 2/2 3/3 4/4\nusemtl b\nf 2/1 5/2 6/3 3/4\nusemtl c\nf 7 8 2 1\n");
+  folder_.write("quad.obj",
+                "mtllib quad.mtl\nv -0.9 0 0\nv 0 0 0\nv 0 0.9 0\nv -0.9 0.9 0\nv 0.9 0 0\nv 0.9 0.9 0\nv -0.9 -0.9 "
+                "0\nv 0 -0.9 0\n"
+                "vt 0 0\nvt 0.4 0\nvt 0.4 0.4\nvt 0 0.4\n"
+                "usemtl a\nf 1/1 2/2 3/3 4/4\nusemtl b\nf 2/1 5/2 6/3 3/4\nusemtl c\nf 7 8 2 1\n");
   Config config;
   config.addText("q: { mesh: <quad.obj> }", "scene.g", folder_.path());
   EXPECT_EQ(quarters(config).substr(0, 3), "bwb");
@@ -90,7 +94,8 @@ TEST_F(Textures, TwoPicturesOnOneMeshStayApart) {
 
 TEST_F(Textures, ARepeatedPictureBeginsAgain) {
   Config config;
-  config.addText("q: { shape: quad, size: [3.6 3.6], texture: <four.png>, texture_repeat: [2 2] }", "scene.g", folder_.path());
+  config.addText("q: { shape: quad, size: [3.6 3.6], texture: <four.png>, texture_repeat: [2 2] }", "scene.g",
+                 folder_.path());
   EXPECT_EQ(quarters(config), "ybgr");  // the camera sees the middle, where four of them meet
 }
 

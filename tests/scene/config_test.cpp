@@ -42,7 +42,8 @@ Config chain(int contact) {
 
 std::vector<std::string> pairs(const Config& config) {
   std::vector<std::string> names;
-  for (auto [a, b] : config.getCollidablePairs()) names.push_back(config.getFrame(a).getName() + "-" + config.getFrame(b).getName());
+  for (auto [a, b] : config.getCollidablePairs())
+    names.push_back(config.getFrame(a).getName() + "-" + config.getFrame(b).getName());
   return names;
 }
 
@@ -71,8 +72,9 @@ TEST(Config, SettingAWorldPoseOfAFreeJointReachesIt) {
 }
 
 TEST(Config, JointNamesMatchQOneToOne) {
-  EXPECT_EQ(arm().getJointNames(), (std::vector<std::string>{"j1", "j2", "ball:0", "ball:1", "ball:2", "ball:3", "free:0", "free:1",
-                                                             "free:2", "free:3", "free:4", "free:5", "free:6"}));
+  EXPECT_EQ(arm().getJointNames(),
+            (std::vector<std::string>{"j1", "j2", "ball:0", "ball:1", "ball:2", "ball:3", "free:0", "free:1", "free:2",
+                                      "free:3", "free:4", "free:5", "free:6"}));
   EXPECT_EQ(arm().getJointLimits().col(0), Eigen::Vector2d(-2, 2));
   EXPECT_EQ(arm().getJointLimits().col(5), Eigen::Vector2d(0, -1));
 }
@@ -97,7 +99,8 @@ TEST(Config, CollidablePairsFollowTheContactFlags) {
 
 TEST(Config, CollisionsAreNeverStale) {
   Config config;
-  config.addText("a: { shape: sphere, size: [.1], contact: 1 }  b: { X: [.15 0 0], shape: sphere, size: [.1], contact: 1 }");
+  config.addText(
+      "a: { shape: sphere, size: [.1], contact: 1 }  b: { X: [.15 0 0], shape: sphere, size: [.1], contact: 1 }");
   config.addText("c: { X: [1 0 0], shape: marker, size: [.1] }");
   ASSERT_EQ(config.getCollisions().size(), 1u);
   EXPECT_NEAR(config.getCollisions()[0].distance, -.05, 1e-14);
@@ -118,13 +121,25 @@ TEST(Config, CollisionsAreThoseOfAFreshCopyAfterEveryKindOfEdit) {
     Rng rng(9);
     const std::vector<std::pair<std::string, std::function<void()>>> edits = {
         {"nothing", [] {}},
-        {"setJointState", [&] { config.setJointState(config.getJointState() + .1 * VectorXd::Ones(config.getJointDimension())); }},
+        {"setJointState",
+         [&] { config.setJointState(config.getJointState() + .1 * VectorXd::Ones(config.getJointDimension())); }},
         {"setJointState of one", [&] { config.setJointState(VectorXd::Constant(1, .7), {"link1"}); }},
-        {"setPosition", [&] { config.getFrame("body1").setPosition({.1, .1, .1}); }},
-        {"setPose of a moving frame", [&] { config.getFrame("body0").setPosition({.2, 0, 0}); }},
-        {"setFrameState", [&] { config.setFrameState(config.getFrame("body1").getPose().numbers().transpose(), {"body2"}); }},
-        {"setShape", [&] { config.getFrame("body1").setShape(ShapeType::ssBox, {.6, .6, .6, .1}); }},
-        {"setMesh", [&] {
+        {"setPosition",
+         [&] {
+           config.getFrame("body1").setPosition({.1, .1, .1});
+         }},
+        {"setPose of a moving frame",
+         [&] {
+           config.getFrame("body0").setPosition({.2, 0, 0});
+         }},
+        {"setFrameState",
+         [&] { config.setFrameState(config.getFrame("body1").getPose().numbers().transpose(), {"body2"}); }},
+        {"setShape",
+         [&] {
+           config.getFrame("body1").setShape(ShapeType::ssBox, {.6, .6, .6, .1});
+         }},
+        {"setMesh",
+         [&] {
            Mesh mesh;
            mesh.vertices = {{0, 0, 0}, {.5, 0, 0}, {0, .5, 0}, {0, 0, .5}};
            mesh.triangles = {{0, 2, 1}, {0, 1, 3}, {0, 3, 2}, {1, 2, 3}};
@@ -133,12 +148,18 @@ TEST(Config, CollisionsAreThoseOfAFreshCopyAfterEveryKindOfEdit) {
         {"setContact 0", [&] { config.getFrame("body1").setContact(0); }},
         {"setContact 1", [&] { config.getFrame("body1").setContact(1); }},
         {"addFrame", [&] { config.addFrame("new", "link1", "shape: sphere, size: [.3], contact: 1"); }},
-        {"setRelativePosition", [&] { config.getFrame("new").setRelativePosition({.1, .2, .3}); }},
+        {"setRelativePosition",
+         [&] {
+           config.getFrame("new").setRelativePosition({.1, .2, .3});
+         }},
         {"setJoint", [&] { config.getFrame("new").setJoint(JointType::hingeZ); }},
         {"attach", [&] { config.attach("link0", "body2"); }},
         {"setParent", [&] { config.getFrame("body3").setParent(config.getFrame("link2"), false); }},
         {"unLink", [&] { config.getFrame("body3").unLink(); }},
-        {"selectJoints", [&] { config.selectJoints({"link0", "link1"}); }},
+        {"selectJoints",
+         [&] {
+           config.selectJoints({"link0", "link1"});
+         }},
         {"delFrame", [&] { config.delFrame("body1"); }},
         {"setRandom", [&] { config.setRandom(rng); }},
         {"addConfigurationCopy", [&] { config.addConfigurationCopy(Config(config), "copy_"); }},
@@ -252,9 +273,11 @@ TEST(Config, AFrameMayBeAskedForTwiceButNotAsAnotherOne) {
   EXPECT_EQ(config.addFrame("tool", "base", "joint: hingeX, pre: [0 0 1], note: x"), tool);
   ASSERT_EQ(config.takeWarnings().size(), 3u);
   const int count = config.getFrameDimension();
-  expectError<ValueError>([&] { config.addFrame("tool", "link2"); }, {"'tool' exists already, below 'base', not below 'link2'", "'tool_2'"});
+  expectError<ValueError>([&] { config.addFrame("tool", "link2"); },
+                          {"'tool' exists already, below 'base', not below 'link2'", "'tool_2'"});
   expectError<ValueError>([&] { config.addFrame("base", "link2"); }, {"without a parent, not below 'link2'"});
-  expectError<ValueError>([&] { config.addFrame("tool", "base", "joint: hingeY"); }, {"with other attributes", "delFrame('tool')"});
+  expectError<ValueError>([&] { config.addFrame("tool", "base", "joint: hingeY"); },
+                          {"with other attributes", "delFrame('tool')"});
   EXPECT_EQ(config.getFrameDimension(), count);
   EXPECT_EQ(config.getFrame("tool").getJointType(), JointType::hingeX);
 }
@@ -284,6 +307,7 @@ TEST(Frame, ReattachingKeepsTheRelativeOrTheWorldPose) {
 TEST(Frame, MassesAreThoseOfTheSurface) {
   Config config;
   config.addText("a: { shape: box, size: [1 2 3], mass: 1 }  b: { shape: sphere, size: [.5], mass: 1 }");
-  EXPECT_LT((config.getFrame("a").getInertia()->matrix.diagonal() - Vector3d(1.537879, 1.196970, .689394)).norm(), 2e-6);
+  EXPECT_LT((config.getFrame("a").getInertia()->matrix.diagonal() - Vector3d(1.537879, 1.196970, .689394)).norm(),
+            2e-6);
   EXPECT_NEAR(config.getFrame("b").getInertia()->matrix(0, 0), 1. / 6., 1e-12);
 }

@@ -11,7 +11,9 @@ using namespace kinegraph;
 namespace {
 
 /// A point mass of 1 kg on a massless rod of 1 m that hangs down.
-constexpr const char* kPendulum = "base: { pose: [0 0 2] } joint (base): { joint: hingeX, swing } bob (joint): { pose: [0 0 -1], mass: 1, inertia: [0 0 0], com: [0 0 0] }";
+constexpr const char* kPendulum =
+    "base: { pose: [0 0 2] } joint (base): { joint: hingeX, swing } bob (joint): { pose: [0 0 -1], mass: 1, inertia: "
+    "[0 0 0], com: [0 0 0] }";
 
 }  // namespace
 
@@ -27,8 +29,10 @@ TEST(SelectJointsByTag, TakesTheJointsWithTheAttribute) {
 
 TEST(MakeObjectsFree, FreesTheLinkAboveAndLeavesItInPlace) {
   Config config;
-  config.addText("world: {} table (world): { joint: rigid, pose: [0 0 1] } box (table): { joint: rigid, pose: [1 0 0] } lid (box): { pose: [0 0 .1] } "
-                 "loose: { pose: [3 0 0] }");
+  config.addText(
+      "world: {} table (world): { joint: rigid, pose: [0 0 1] } box (table): { joint: rigid, pose: [1 0 0] } lid "
+      "(box): { pose: [0 0 .1] } "
+      "loose: { pose: [3 0 0] }");
   makeObjectsFree(config, {"lid", "loose"});
   EXPECT_EQ(config.getFrame("box").getJointType(), JointType::free);
   EXPECT_EQ(config.getFrame("table").getJointType(), JointType::rigid);
@@ -58,6 +62,8 @@ TEST(StepDynamics, WithoutGravityAForceAccelerates) {
   const VectorXd velocity = stepDynamics(config, VectorXd::Zero(1), VectorXd::Constant(1, 2.), .1, 0., false, rng);
   EXPECT_NEAR(velocity[0], .2, 1e-9);
   EXPECT_NEAR(config.getJointState()[0], .01, 1e-9);
-  expectError<ValueError>([&] { stepDynamics(config, VectorXd::Zero(2), VectorXd::Zero(1), .1, 0., true, rng); }, {"1 active dofs"});
-  expectError<ValueError>([&] { stepDynamics(config, VectorXd::Zero(1), VectorXd::Zero(1), 0., 0., true, rng); }, {"tau"});
+  expectError<ValueError>([&] { stepDynamics(config, VectorXd::Zero(2), VectorXd::Zero(1), .1, 0., true, rng); },
+                          {"1 active dofs"});
+  expectError<ValueError>([&] { stepDynamics(config, VectorXd::Zero(1), VectorXd::Zero(1), 0., 0., true, rng); },
+                          {"tau"});
 }

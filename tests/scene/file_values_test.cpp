@@ -40,7 +40,9 @@ TEST(FileValues, TheLastChDirCounts) {
 TEST(FileValues, AbsoluteOnesPackagesAndVariables) {
   setenv("KINEGRAPH_TEST_FOLDER", "/somewhere", 1);
   Config config;
-  config.addText("a: { x: </etc/hosts>, y: <package://robot/mesh.stl>, z: <$KINEGRAPH_TEST_FOLDER/k.txt>, home: <~/k> }", "a.g", "/here");
+  config.addText(
+      "a: { x: </etc/hosts>, y: <package://robot/mesh.stl>, z: <$KINEGRAPH_TEST_FOLDER/k.txt>, home: <~/k> }", "a.g",
+      "/here");
   unsetenv("KINEGRAPH_TEST_FOLDER");
   EXPECT_EQ(fileOf(config, "x"), "/etc/hosts");
   EXPECT_EQ(fileOf(config, "y"), "package://robot/mesh.stl");

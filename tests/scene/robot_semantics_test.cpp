@@ -14,8 +14,10 @@ using Kind = RobotSemantics::Member::Kind;
 using Groups = std::vector<std::pair<std::string, std::vector<std::string>>>;
 
 constexpr const char* kRobot =
-    "base: { shape: sphere, size: [.1] } j1 (base): { joint: hingeX } l1 (j1): { shape: sphere, size: [.1], contact: 1 } "
-    "j2 (l1): { joint: hingeY } l2 (j2): { shape: sphere, size: [.1], contact: 1 } j3 (l2): { joint: hingeY, mimic: j2 } "
+    "base: { shape: sphere, size: [.1] } j1 (base): { joint: hingeX } l1 (j1): { shape: sphere, size: [.1], contact: 1 "
+    "} "
+    "j2 (l1): { joint: hingeY } l2 (j2): { shape: sphere, size: [.1], contact: 1 } j3 (l2): { joint: hingeY, mimic: j2 "
+    "} "
     "f (base): { joint: free } l3 (f): { shape: sphere, size: [.1], contact: 1 }";
 
 struct RobotSemanticsTest : ::testing::Test {
@@ -44,8 +46,11 @@ TEST_F(RobotSemanticsTest, PairsNeverCollideOnceTheyAreNamed) {
 
 TEST_F(RobotSemanticsTest, AllPairsOfALinkButThoseTakenOut) {
   config.clear();
-  config.addText("base: {} l1 (base): { joint: hingeX } s1 (l1): { shape: sphere, size: [.1], contact: 1 } l2 (l1): { joint: hingeX } "
-                 "s2 (l2): { shape: sphere, size: [.1], contact: 1 } l3 (base): { joint: hingeX } s3 (l3): { shape: sphere, size: [.1], contact: 1 }");
+  config.addText(
+      "base: {} l1 (base): { joint: hingeX } s1 (l1): { shape: sphere, size: [.1], contact: 1 } l2 (l1): { joint: "
+      "hingeX } "
+      "s2 (l2): { shape: sphere, size: [.1], contact: 1 } l3 (base): { joint: hingeX } s3 (l3): { shape: sphere, size: "
+      "[.1], contact: 1 }");
   EXPECT_EQ(config.getCollidablePairs().size(), 3u);
   semantics.no_contact = {{"l3", "", {}}};
   semantics.contact = {{"l3", "l2", {}}};
@@ -54,9 +59,10 @@ TEST_F(RobotSemanticsTest, AllPairsOfALinkButThoseTakenOut) {
 }
 
 TEST_F(RobotSemanticsTest, GroupsHoldTheMovingJointsOfChainsLinksAndOtherGroups) {
-  semantics.groups = {{"arm", {{Kind::chain, "base", "l2", {}}}},
-                      {"last", {{Kind::link, "l2", "", {}}, {Kind::joint, "j3", "", {}}}},
-                      {"all", {{Kind::group, "arm", "", {}}, {Kind::group, "all", "", {}}, {Kind::joint, "f", "", {}}}}};
+  semantics.groups = {
+      {"arm", {{Kind::chain, "base", "l2", {}}}},
+      {"last", {{Kind::link, "l2", "", {}}, {Kind::joint, "j3", "", {}}}},
+      {"all", {{Kind::group, "arm", "", {}}, {Kind::group, "all", "", {}}, {Kind::joint, "f", "", {}}}}};
   apply();
   EXPECT_EQ(jointGroups(tree()), (Groups{{"arm", {"j1", "j2"}}, {"all", {"j1", "j2", "f"}}, {"last", {"j2"}}}));
 }
@@ -65,7 +71,8 @@ TEST_F(RobotSemanticsTest, AChainThatDoesNotExistIsAWarning) {
   semantics.groups = {{"arm", {{Kind::chain, "l2", "base", {"robot.srdf", 3, 5}}}}};
   apply();
   ASSERT_EQ(diagnostics.warnings().size(), 1u);
-  EXPECT_EQ(diagnostics.warnings()[0], "robot.srdf:3:5: the chain from 'l2' to 'base' does not exist: 'l2' is not above 'base'");
+  EXPECT_EQ(diagnostics.warnings()[0],
+            "robot.srdf:3:5: the chain from 'l2' to 'base' does not exist: 'l2' is not above 'base'");
 }
 
 TEST_F(RobotSemanticsTest, StatesPutTheQuaternionsOfFreeJointsInOurOrder) {
@@ -82,7 +89,8 @@ TEST_F(RobotSemanticsTest, MisspeltNamesAreWarningsWithTheNearestOnes) {
   semantics.outside = {"world"};
   apply();
   ASSERT_EQ(diagnostics.warnings().size(), 2u);
-  EXPECT_NE(diagnostics.warnings()[0].find("robot.srdf:7:1: there is no link 'l9' in the scene; similar names: l1"), std::string::npos);
+  EXPECT_NE(diagnostics.warnings()[0].find("robot.srdf:7:1: there is no link 'l9' in the scene; similar names: l1"),
+            std::string::npos);
   EXPECT_NE(diagnostics.warnings()[1].find("state 'home': joint 'j1' has 1 dof, not 2"), std::string::npos);
 }
 

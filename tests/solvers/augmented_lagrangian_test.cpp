@@ -20,7 +20,8 @@ VectorXd vec(std::initializer_list<double> values) {
 }
 
 /// Residuals A x - b of the given types.
-CallbackNlp linear(const MatrixXd& A, const VectorXd& b, std::vector<ObjectiveType> types, VectorXd lower = {}, VectorXd upper = {}) {
+CallbackNlp linear(const MatrixXd& A, const VectorXd& b, std::vector<ObjectiveType> types, VectorXd lower = {},
+                   VectorXd upper = {}) {
   return CallbackNlp(int(A.cols()), std::move(types), std::move(lower), std::move(upper),
                      [A, b](const VectorXd& x, VectorXd& phi, MatrixXd& J) {
                        phi = A * x - b;
@@ -75,7 +76,8 @@ TEST(AugmentedLagrangian, SolvesASumOfSquaresInOneNewtonStep) {
 }
 
 TEST(AugmentedLagrangian, AWeakCostIsMinimizedAllTheWay) {
-  CallbackNlp nlp = linear(.1 * MatrixXd::Identity(7, 7), VectorXd::Constant(7, .1), std::vector<ObjectiveType>(7, sos));
+  CallbackNlp nlp =
+      linear(.1 * MatrixXd::Identity(7, 7), VectorXd::Constant(7, .1), std::vector<ObjectiveType>(7, sos));
   const SolverResult result = solveAugmentedLagrangian(nlp, VectorXd::Zero(7), SolverOptions{});
   EXPECT_EQ(result.status, SolverStatus::converged) << result.message;
   EXPECT_TRUE(near(result.x, VectorXd::Ones(7), 1e-3));
@@ -203,7 +205,8 @@ TEST(AugmentedLagrangian, NeverEvaluatesOutsideTheBounds) {
     KnownNlp nlp(problem);
     int points = 0;
     const auto inside = [&](const VectorXd& x, const VectorXd&) {
-      EXPECT_TRUE((x.array() >= problem.lower.array()).all() && (x.array() <= problem.upper.array()).all()) << problem.name;
+      EXPECT_TRUE((x.array() >= problem.lower.array()).all() && (x.array() <= problem.upper.array()).all())
+          << problem.name;
       ++points;
       return true;
     };
@@ -255,8 +258,8 @@ TEST(AugmentedLagrangian, ASphereThatIsOutOfReachIsInfeasible) {
 }
 
 TEST(AugmentedLagrangian, FeasibleMeansTheStatedTolerance) {
-  // one round without multipliers: x^2 + mu/2 (x - 1)^2 leaves a violation of about 2 / (2 + mu); not quite quadratic, because
-  // such problems are solved in one step
+  // one round without multipliers: x^2 + mu/2 (x - 1)^2 leaves a violation of about 2 / (2 + mu); not quite quadratic,
+  // because such problems are solved in one step
   const auto constraint = [](double x) { return x - 1. + 1e-4 * (x - 1.) * (x - 1.); };
   CallbackNlp nlp(1, {sos, eq}, {}, {}, [&](const VectorXd& x, VectorXd& phi, MatrixXd& J) {
     phi = vec({x[0], constraint(x[0])});
@@ -283,7 +286,8 @@ TEST(AugmentedLagrangian, TighterTolerancesDoNotRaiseTheViolation) {
     for (double tolerance : {1e-2, 1e-4, 1e-6}) {
       KnownNlp nlp(problem);
       const SolverResult result = solveAugmentedLagrangian(nlp, problem.start, tight(tolerance));
-      EXPECT_EQ(result.status, SolverStatus::converged) << problem.name << " to " << tolerance << ": " << result.message;
+      EXPECT_EQ(result.status, SolverStatus::converged)
+          << problem.name << " to " << tolerance << ": " << result.message;
       EXPECT_LE(result.violation, tolerance) << problem.name;
       EXPECT_LE(result.violation, std::max(previous, 1e-9)) << problem.name;
       previous = result.violation;
@@ -366,7 +370,8 @@ TEST(AugmentedLagrangian, ANumberThatIsNotFiniteAtTheStartIsAnErrorThatNamesTheR
   const VectorXd start = vec({1., 1.});
   expectError<ValueError>([&] { solveAugmentedLagrangian(value, start, {}); }, {"row 2 (eq)", "not finite"});
   expectError<ValueError>([&] { solveAugmentedLagrangian(infinite, start, {}); }, {"row 2 (eq)", "not finite"});
-  expectError<ValueError>([&] { solveAugmentedLagrangian(derivative, start, {}); }, {"row 2 (eq)", "Jacobian", "not finite"});
+  expectError<ValueError>([&] { solveAugmentedLagrangian(derivative, start, {}); },
+                          {"row 2 (eq)", "Jacobian", "not finite"});
 }
 
 TEST(AugmentedLagrangian, RecoversFromATrialPointThatIsNotFinite) {

@@ -55,7 +55,9 @@ std::vector<ObjectiveType> typesFor(OptMethod method) {
 TEST(BestSoFar, ConstraintsComeBeforeCostsAndWhatIsNotFiniteDoesNotCount) {
   Interrupted problem({sos, sos, ineq}, 0);
   BestSoFar best(*problem.nlp, 1e-3);
-  const auto see = [&](double x, double cost, double violation) { best.see(Vector2d(x, 0.), Vector3d(cost, 0., violation)); };
+  const auto see = [&](double x, double cost, double violation) {
+    best.see(Vector2d(x, 0.), Vector3d(cost, 0., violation));
+  };
   EXPECT_FALSE(best.isKnown());
   see(0., std::numeric_limits<double>::quiet_NaN(), 0.);
   EXPECT_FALSE(best.isKnown());

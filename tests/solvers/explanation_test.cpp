@@ -14,14 +14,18 @@ namespace {
 
 using Verdict = Explanation::Verdict;
 
-VectorXd vec(std::initializer_list<double> values) { return Eigen::Map<const VectorXd>(values.begin(), Eigen::Index(values.size())); }
+VectorXd vec(std::initializer_list<double> values) {
+  return Eigen::Map<const VectorXd>(values.begin(), Eigen::Index(values.size()));
+}
 
 /// A x - b
-CallbackNlp linear(std::vector<ObjectiveType> types, const MatrixXd& A, const VectorXd& b, const VectorXd& lower = {}, const VectorXd& upper = {}) {
-  return CallbackNlp(int(A.cols()), std::move(types), lower, upper, [A, b](const VectorXd& x, VectorXd& phi, MatrixXd& J) {
-    phi = A * x - b;
-    J = A;
-  });
+CallbackNlp linear(std::vector<ObjectiveType> types, const MatrixXd& A, const VectorXd& b, const VectorXd& lower = {},
+                   const VectorXd& upper = {}) {
+  return CallbackNlp(int(A.cols()), std::move(types), lower, upper,
+                     [A, b](const VectorXd& x, VectorXd& phi, MatrixXd& J) {
+                       phi = A * x - b;
+                       J = A;
+                     });
 }
 
 }  // namespace
@@ -99,7 +103,11 @@ TEST(Explanation, EndsWhereWhatIsCalledInBetweenThrows) {
   A << 1., 1.;
   CallbackNlp nlp = linear({eq, eq}, A, vec({0., 1.}));
   int asked = 0;
-  EXPECT_THROW(explain(nlp, vec({7.}), 1e-3, [&] { if (++asked == 2) throw std::runtime_error("stop"); }), std::runtime_error);
+  EXPECT_THROW(explain(nlp, vec({7.}), 1e-3,
+                       [&] {
+                         if (++asked == 2) throw std::runtime_error("stop");
+                       }),
+               std::runtime_error);
   EXPECT_EQ(asked, 2);
   asked = -1000;
   EXPECT_EQ(explain(nlp, vec({7.}), 1e-3, [&] { ++asked; }).verdict, Verdict::conflict);

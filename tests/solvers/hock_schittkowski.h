@@ -25,8 +25,8 @@ struct KnownProblem {
 /// For the names of tests.
 inline void PrintTo(const KnownProblem& problem, std::ostream* out) { *out << problem.name; }
 
-/// Ten problems of W. Hock and K. Schittkowski, Test Examples for Nonlinear Programming Codes, 1981, by their numbers, and
-/// Rosenbrock's function. Inequalities g(x) >= 0 of the book are residuals -g(x).
+/// Ten problems of W. Hock and K. Schittkowski, Test Examples for Nonlinear Programming Codes, 1981, by their numbers,
+/// and Rosenbrock's function. Inequalities g(x) >= 0 of the book are residuals -g(x).
 std::vector<KnownProblem> knownProblems();
 
 /// What a solver sees of it.

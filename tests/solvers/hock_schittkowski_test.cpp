@@ -22,23 +22,43 @@ VectorXd vec(std::initializer_list<double> values) {
 VectorXd all(int n, double value) { return VectorXd::Constant(n, value); }
 
 KnownProblem rosenbrock() {
-  return {"Rosenbrock", {sos, sos}, all(2, -kInf), all(2, kInf), vec({-1.2, 1}), vec({1, 1}), 0.,
+  return {"Rosenbrock",
+          {sos, sos},
+          all(2, -kInf),
+          all(2, kInf),
+          vec({-1.2, 1}),
+          vec({1, 1}),
+          0.,
           [](const VectorXd& x, VectorXd& phi, MatrixXd& J) {
             phi << 10. * (x[1] - x[0] * x[0]), 1. - x[0];
             J << -20. * x[0], 10., -1., 0.;
-          }, {}};
+          },
+          {}};
 }
 
 KnownProblem hs6() {
-  return {"HS6", {sos, eq}, all(2, -kInf), all(2, kInf), vec({-1.2, 1}), vec({1, 1}), 0.,
+  return {"HS6",
+          {sos, eq},
+          all(2, -kInf),
+          all(2, kInf),
+          vec({-1.2, 1}),
+          vec({1, 1}),
+          0.,
           [](const VectorXd& x, VectorXd& phi, MatrixXd& J) {
             phi << 1. - x[0], 10. * (x[1] - x[0] * x[0]);
             J << -1., 0., -20. * x[0], 10.;
-          }, {}};
+          },
+          {}};
 }
 
 KnownProblem hs7() {
-  return {"HS7", {f, eq}, all(2, -kInf), all(2, kInf), vec({2, 2}), vec({0, std::sqrt(3.)}), -std::sqrt(3.),
+  return {"HS7",
+          {f, eq},
+          all(2, -kInf),
+          all(2, kInf),
+          vec({2, 2}),
+          vec({0, std::sqrt(3.)}),
+          -std::sqrt(3.),
           [](const VectorXd& x, VectorXd& phi, MatrixXd& J) {
             const double s = 1. + x[0] * x[0];
             phi << std::log(s) - x[1], s * s + x[1] * x[1] - 4.;
@@ -52,33 +72,60 @@ KnownProblem hs7() {
 
 KnownProblem hs14() {
   const double a = .5 * (std::sqrt(7.) - 1.), b = .25 * (std::sqrt(7.) + 1.);
-  return {"HS14", {sos, sos, ineq, eq}, all(2, -kInf), all(2, kInf), vec({2, 2}), vec({a, b}), 9. - 2.875 * std::sqrt(7.),
+  return {"HS14",
+          {sos, sos, ineq, eq},
+          all(2, -kInf),
+          all(2, kInf),
+          vec({2, 2}),
+          vec({a, b}),
+          9. - 2.875 * std::sqrt(7.),
           [](const VectorXd& x, VectorXd& phi, MatrixXd& J) {
             phi << x[0] - 2., x[1] - 1., .25 * x[0] * x[0] + x[1] * x[1] - 1., x[0] - 2. * x[1] + 1.;
             J << 1., 0., 0., 1., .5 * x[0], 2. * x[1], 1., -2.;
-          }, {}};
+          },
+          {}};
 }
 
 KnownProblem hs21() {
-  return {"HS21", {sos, sos, f, ineq}, vec({2, -50}), all(2, 50), vec({-1, -1}), vec({2, 0}), -99.96,
+  return {"HS21",
+          {sos, sos, f, ineq},
+          vec({2, -50}),
+          all(2, 50),
+          vec({-1, -1}),
+          vec({2, 0}),
+          -99.96,
           [](const VectorXd& x, VectorXd& phi, MatrixXd& J) {
             phi << .1 * x[0], x[1], -100., 10. - 10. * x[0] + x[1];
             J << .1, 0., 0., 1., 0., 0., -10., 1.;
-          }, {}};
+          },
+          {}};
 }
 
 KnownProblem hs28() {
-  return {"HS28", {sos, sos, eq}, all(3, -kInf), all(3, kInf), vec({-4, 1, 1}), vec({.5, -.5, .5}), 0.,
+  return {"HS28",
+          {sos, sos, eq},
+          all(3, -kInf),
+          all(3, kInf),
+          vec({-4, 1, 1}),
+          vec({.5, -.5, .5}),
+          0.,
           [](const VectorXd& x, VectorXd& phi, MatrixXd& J) {
             phi << x[0] + x[1], x[1] + x[2], x[0] + 2. * x[1] + 3. * x[2] - 1.;
             J << 1., 1., 0., 0., 1., 1., 1., 2., 3.;
-          }, {}};
+          },
+          {}};
 }
 
 KnownProblem hs35() {
   const MatrixXd H = (MatrixXd(3, 3) << 4, 2, 2, 2, 4, 0, 2, 0, 2).finished();
   const VectorXd g = vec({-8, -6, -4});
-  return {"HS35", {f, ineq}, all(3, 0.), all(3, kInf), all(3, .5), vec({4. / 3., 7. / 9., 4. / 9.}), 1. / 9.,
+  return {"HS35",
+          {f, ineq},
+          all(3, 0.),
+          all(3, kInf),
+          all(3, .5),
+          vec({4. / 3., 7. / 9., 4. / 9.}),
+          1. / 9.,
           [H, g](const VectorXd& x, VectorXd& phi, MatrixXd& J) {
             phi << 9. + g.dot(x) + .5 * x.dot(H * x), x[0] + x[1] + 2. * x[2] - 3.;
             J.row(0) = (g + H * x).transpose();
@@ -88,42 +135,69 @@ KnownProblem hs35() {
 }
 
 KnownProblem hs39() {
-  return {"HS39", {f, eq, eq}, all(4, -kInf), all(4, kInf), all(4, 2.), vec({1, 1, 0, 0}), -1.,
+  return {"HS39",
+          {f, eq, eq},
+          all(4, -kInf),
+          all(4, kInf),
+          all(4, 2.),
+          vec({1, 1, 0, 0}),
+          -1.,
           [](const VectorXd& x, VectorXd& phi, MatrixXd& J) {
             phi << -x[0], x[1] - std::pow(x[0], 3) - x[2] * x[2], x[0] * x[0] - x[1] - x[3] * x[3];
             J << -1., 0., 0., 0., -3. * x[0] * x[0], 1., -2. * x[2], 0., 2. * x[0], -1., 0., -2. * x[3];
-          }, {}};
+          },
+          {}};
 }
 
 KnownProblem hs43() {
-  return {"HS43", {f, ineq, ineq, ineq}, all(4, -kInf), all(4, kInf), all(4, 0.), vec({0, 1, 2, -1}), -44.,
+  return {"HS43",
+          {f, ineq, ineq, ineq},
+          all(4, -kInf),
+          all(4, kInf),
+          all(4, 0.),
+          vec({0, 1, 2, -1}),
+          -44.,
           [](const VectorXd& x, VectorXd& phi, MatrixXd& J) {
             const double a = x[0], b = x[1], c = x[2], d = x[3];
             phi << a * a + b * b + 2. * c * c + d * d - 5. * a - 5. * b - 21. * c + 7. * d,
-                a * a + b * b + c * c + d * d + a - b + c - d - 8., a * a + 2. * b * b + c * c + 2. * d * d - a - d - 10.,
-                2. * a * a + b * b + c * c + 2. * a - b - d - 5.;
-            J << 2. * a - 5., 2. * b - 5., 4. * c - 21., 2. * d + 7., 2. * a + 1., 2. * b - 1., 2. * c + 1., 2. * d - 1.,
-                2. * a - 1., 4. * b, 2. * c, 4. * d - 1., 4. * a + 2., 2. * b - 1., 2. * c, -1.;
+                a * a + b * b + c * c + d * d + a - b + c - d - 8.,
+                a * a + 2. * b * b + c * c + 2. * d * d - a - d - 10., 2. * a * a + b * b + c * c + 2. * a - b - d - 5.;
+            J << 2. * a - 5., 2. * b - 5., 4. * c - 21., 2. * d + 7., 2. * a + 1., 2. * b - 1., 2. * c + 1.,
+                2. * d - 1., 2. * a - 1., 4. * b, 2. * c, 4. * d - 1., 4. * a + 2., 2. * b - 1., 2. * c, -1.;
           },
-          [](const VectorXd&) { return MatrixXd(vec({2, 2, 4, 2}).asDiagonal()); }};
+          [](const VectorXd&) {
+            return MatrixXd(vec({2, 2, 4, 2}).asDiagonal());
+          }};
 }
 
 KnownProblem hs48() {
-  return {"HS48", {sos, sos, sos, eq, eq}, all(5, -kInf), all(5, kInf), vec({3, 5, -3, 2, -2}), all(5, 1.), 0.,
+  return {"HS48",
+          {sos, sos, sos, eq, eq},
+          all(5, -kInf),
+          all(5, kInf),
+          vec({3, 5, -3, 2, -2}),
+          all(5, 1.),
+          0.,
           [](const VectorXd& x, VectorXd& phi, MatrixXd& J) {
             phi << x[0] - 1., x[1] - x[2], x[3] - x[4], x.sum() - 5., x[2] - 2. * (x[3] + x[4]) + 3.;
             J << 1., 0., 0., 0., 0., 0., 1., -1., 0., 0., 0., 0., 0., 1., -1., 1., 1., 1., 1., 1., 0., 0., 1., -2., -2.;
-          }, {}};
+          },
+          {}};
 }
 
 KnownProblem hs71() {
-  return {"HS71", {f, ineq, eq}, all(4, 1.), all(4, 5.), vec({1, 5, 5, 1}),
-          vec({1, 4.74299963, 3.82114998, 1.37940829}), 17.0140173,
+  return {"HS71",
+          {f, ineq, eq},
+          all(4, 1.),
+          all(4, 5.),
+          vec({1, 5, 5, 1}),
+          vec({1, 4.74299963, 3.82114998, 1.37940829}),
+          17.0140173,
           [](const VectorXd& x, VectorXd& phi, MatrixXd& J) {
             const double a = x[0], b = x[1], c = x[2], d = x[3];
             phi << a * d * (a + b + c) + c, 25. - a * b * c * d, x.squaredNorm() - 40.;
-            J << d * (2. * a + b + c), a * d, a * d + 1., a * (a + b + c), -b * c * d, -a * c * d, -a * b * d, -a * b * c,
-                2. * a, 2. * b, 2. * c, 2. * d;
+            J << d * (2. * a + b + c), a * d, a * d + 1., a * (a + b + c), -b * c * d, -a * c * d, -a * b * d,
+                -a * b * c, 2. * a, 2. * b, 2. * c, 2. * d;
           },
           [](const VectorXd& x) {
             const double a = x[0], b = x[1], c = x[2], d = x[3], s = 2. * a + b + c;

@@ -142,7 +142,8 @@ TYPED_TEST(LocalModelOf, FactorizesOnlyWhereTheActiveRowsChange) {
 
 namespace {
 
-/// Half of |x - (1, 2)|^2 subject to one curved constraint whose second derivatives it tells: strength (x0^2 - x1^2) / 2 = 0.
+/// Half of |x - (1, 2)|^2 subject to one curved constraint whose second derivatives it tells: strength (x0^2 - x1^2) /
+/// 2 = 0.
 class Saddle final : public Nlp {
  public:
   explicit Saddle(double strength) : strength_(strength) {

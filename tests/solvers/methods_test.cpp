@@ -26,9 +26,15 @@ KnownProblem byName(const std::string& name) {
 
 bool takesConstraints(M method) {
   switch (method) {
-    case M::augmentedLag: case M::squaredPenalty: case M::singleSquaredPenalty: case M::logBarrier: case M::slackGN:
-    case M::slackGN_logBarrier: return true;
-    default: return false;
+    case M::augmentedLag:
+    case M::squaredPenalty:
+    case M::singleSquaredPenalty:
+    case M::logBarrier:
+    case M::slackGN:
+    case M::slackGN_logBarrier:
+      return true;
+    default:
+      return false;
   }
 }
 
@@ -83,7 +89,8 @@ TEST_P(Method, FindsTheMinimumOfRosenbrocksValley) {
   options.stopEvals = 200000;
   const SolverResult result = solve(nlp, vec2(-1.2, 1.), options);
   EXPECT_EQ(result.status, SolverStatus::converged) << result.message;
-  EXPECT_TRUE(near(result.x, vec2(1., 1.), method() == M::gradientDescent ? 2e-2 : 1e-3)) << result.x.transpose() << " after " << result.evals;
+  EXPECT_TRUE(near(result.x, vec2(1., 1.), method() == M::gradientDescent ? 2e-2 : 1e-3))
+      << result.x.transpose() << " after " << result.evals;
 }
 
 TEST_P(Method, StopsAtTheBoundsOfAQuadratic) {
@@ -111,7 +118,8 @@ TEST_P(Method, TakesConstraintsOrSaysThatItDoesNot) {
     SolverOptions options = precise(method());
     if (method() == M::squaredPenalty) options.stopGTolerance = 1e-5;  // it would take an infinite weight to reach zero
     if (!takesConstraints(method())) {
-      expectError<ValueError>([&] { solve(nlp, problem.start, options); }, {optMethodName(method()).c_str(), "takes no constraints", "augmentedLag"});
+      expectError<ValueError>([&] { solve(nlp, problem.start, options); },
+                              {optMethodName(method()).c_str(), "takes no constraints", "augmentedLag"});
       continue;
     }
     if (method() == M::logBarrier && std::string(name) == "HS14") {
@@ -125,13 +133,15 @@ TEST_P(Method, TakesConstraintsOrSaysThatItDoesNot) {
     }
     EXPECT_LE(result.violation, options.constraintTolerance()) << name << ": " << result.message;
     if (method() == M::slackGN) continue;
-    EXPECT_NEAR(result.f + result.sos, problem.cost, 2e-3 * std::max(1., std::abs(problem.cost))) << name << ": " << result.message;
+    EXPECT_NEAR(result.f + result.sos, problem.cost, 2e-3 * std::max(1., std::abs(problem.cost)))
+        << name << ": " << result.message;
   }
 }
 
 TEST_P(Method, IsTheSameEveryTime) {
   CallbackNlp nlp = diagonalQuadratic(VectorXd::LinSpaced(4, -1., 2.), -1.5, 1.5);
-  const SolverResult first = solve(nlp, VectorXd::Zero(4), precise(method())), second = solve(nlp, VectorXd::Zero(4), precise(method()));
+  const SolverResult first = solve(nlp, VectorXd::Zero(4), precise(method())),
+                     second = solve(nlp, VectorXd::Zero(4), precise(method()));
   EXPECT_EQ(first.x, second.x);
   EXPECT_EQ(first.evals, second.evals);
 }
@@ -140,7 +150,8 @@ TEST_P(Method, EndsWhenTheCallerSaysSoAndGivesTheBestSoFar) {
   const KnownProblem problem = byName(takesConstraints(method()) ? "HS6" : "Rosenbrock");
   KnownNlp nlp(problem);
   int calls = 0;
-  const SolverResult result = solve(nlp, problem.start, precise(method()), {}, [&](const VectorXd&, const VectorXd&) { return ++calls < 2; });
+  const SolverResult result =
+      solve(nlp, problem.start, precise(method()), {}, [&](const VectorXd&, const VectorXd&) { return ++calls < 2; });
   EXPECT_EQ(result.status, SolverStatus::cancelled) << result.message;
   EXPECT_LE(calls, 3) << "a simplex or a population may end its round";
   EXPECT_EQ(result.x.size(), problem.start.size());
@@ -162,12 +173,14 @@ TEST_P(Method, NamesWhatIsNotANumber) {
   expectError<ValueError>([&] { solve(nlp, VectorXd::Zero(2), precise(method())); }, {"row 1 (sos)", "nan"});
 }
 
-INSTANTIATE_TEST_SUITE_P(Methods, Method, testing::ValuesIn(availableMethods()), [](const auto& info) { return optMethodName(info.param); });
+INSTANTIATE_TEST_SUITE_P(Methods, Method, testing::ValuesIn(availableMethods()),
+                         [](const auto& info) { return optMethodName(info.param); });
 
 TEST(Methods, ThoseThatAreNotThereAreRefusedWithTheNamesOfThoseThatAre) {
   CallbackNlp nlp = smoothCost(2);
   for (M method : {M::none, M::Ceres, M::LSBO, M::greedy, M::ES}) {
-    expectError<ValueError>([&] { solve(nlp, VectorXd::Zero(2), precise(method)); }, {"not available", "augmentedLag", "NelderMead"});
+    expectError<ValueError>([&] { solve(nlp, VectorXd::Zero(2), precise(method)); },
+                            {"not available", "augmentedLag", "NelderMead"});
   }
 }
 
@@ -180,7 +193,8 @@ TEST(Methods, AMissingJacobianIsReplacedByDifferences) {
   const SolverResult result = solve(nlp, VectorXd::Zero(2), options);
   EXPECT_EQ(result.status, SolverStatus::converged) << result.message;
   EXPECT_NEAR(std::sin(result.x[0]), result.x[1], 1e-6);
-  EXPECT_NEAR((result.x[0] - 1.) + std::cos(result.x[0]) * (result.x[1] + 2.), 0., 1e-4) << "stationary along the curve";
+  EXPECT_NEAR((result.x[0] - 1.) + std::cos(result.x[0]) * (result.x[1] + 2.), 0., 1e-4)
+      << "stationary along the curve";
 }
 
 TEST(Methods, TheCovarianceFollowsAnIllConditionedValley) {

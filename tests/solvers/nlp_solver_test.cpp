@@ -92,12 +92,14 @@ TEST(NlpSolver, ProgressIsToldAndMayStopIt) {
   NlpSolver solver = quiet(byName("Rosenbrock"));
   Rng rng(0);
   std::vector<int> evals;
-  solver.setProgress([&](int count, const VectorXd& x, const ErrorSums& errors) {
-    EXPECT_EQ(x.size(), 2);
-    EXPECT_GE(errors.sos, 0.);
-    evals.push_back(count);
-    return count < 5;
-  }, 0.);
+  solver.setProgress(
+      [&](int count, const VectorXd& x, const ErrorSums& errors) {
+        EXPECT_EQ(x.size(), 2);
+        EXPECT_GE(errors.sos, 0.);
+        evals.push_back(count);
+        return count < 5;
+      },
+      0.);
   EXPECT_EQ(solver.solve(false, rng).status, SolverStatus::cancelled);
   EXPECT_EQ(evals, (std::vector<int>{1, 2, 3, 4, 5}));
   solver.setProgress([&](int, const VectorXd&, const ErrorSums&) { return false; }, 1e9);

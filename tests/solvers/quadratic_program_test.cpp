@@ -17,7 +17,8 @@ MatrixXd randomMatrix(int rows, int columns, Rng& rng) {
   return out;
 }
 
-/// A program of which x and the multipliers are the solution, as they fulfil the first-order conditions of a convex problem.
+/// A program of which x and the multipliers are the solution, as they fulfil the first-order conditions of a convex
+/// problem.
 struct Known {
   QuadraticProgram program;
   VectorXd x, multipliers;
@@ -34,7 +35,8 @@ Known knownProgram(int n, int equalities, int active, int inactive, Rng& rng) {
   known.x = randomMatrix(n, 1, rng);
   known.multipliers = VectorXd::Zero(m);
   VectorXd slack = VectorXd::Zero(m);
-  for (int j = 0; j < equalities + active; ++j) known.multipliers[j] = j < equalities ? rng.normal() : rng.uniform(.1, 2.);
+  for (int j = 0; j < equalities + active; ++j)
+    known.multipliers[j] = j < equalities ? rng.normal() : rng.uniform(.1, 2.);
   for (int j = equalities + active; j < m; ++j) slack[j] = rng.uniform(.1, 2.);
   p.b = -p.A * known.x - slack;
   p.g = -p.H * known.x - p.A.transpose() * known.multipliers;

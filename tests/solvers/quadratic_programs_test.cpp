@@ -21,15 +21,17 @@ MatrixXd randomMatrix(int rows, int columns, Rng& rng) {
   return M;
 }
 
-/// A convex quadratic program made around its solution: the gradient of the cost there is a combination of that of active
-/// constraints and bounds, whose multipliers are drawn first. The cost is one f row with its Hessian, or a sum of squares.
+/// A convex quadratic program made around its solution: the gradient of the cost there is a combination of that of
+/// active constraints and bounds, whose multipliers are drawn first. The cost is one f row with its Hessian, or a sum
+/// of squares.
 class KnownProgram final : public Nlp {
  public:
   VectorXd solution, multipliers;  ///< of the rows
 
   KnownProgram(Rng& rng, bool sum_of_squares, bool degenerate) : squares_(sum_of_squares) {
     const auto upTo = [&](int count) { return int(rng.uniform(0., count + 1.)); };
-    const int n = 1 + upTo(9), equalities = upTo(std::max(0, n - 2)), active = upTo(n - 1 - std::min(n - 1, equalities)), inactive = upTo(4);
+    const int n = 1 + upTo(9), equalities = upTo(std::max(0, n - 2)),
+              active = upTo(n - 1 - std::min(n - 1, equalities)), inactive = upTo(4);
     const int m = equalities + active + inactive;
     solution = randomMatrix(n, 1, rng);
     root_ = randomMatrix(n + 2, n, rng);
@@ -39,9 +41,12 @@ class KnownProgram final : public Nlp {
     c_ = C_ * solution;
     VectorXd pull = VectorXd::Zero(m);
     for (int j = 0; j < m; ++j) {
-      if (j < equalities) pull[j] = rng.normal();
-      else if (j < equalities + active) pull[j] = degenerate && rng.uniform() < .5 ? 0. : rng.uniform(.1, 2.);
-      else c_[j] += rng.uniform(.1, 1.);
+      if (j < equalities)
+        pull[j] = rng.normal();
+      else if (j < equalities + active)
+        pull[j] = degenerate && rng.uniform() < .5 ? 0. : rng.uniform(.1, 2.);
+      else
+        c_[j] += rng.uniform(.1, 1.);
     }
     VectorXd gradient = -C_.transpose() * pull;  // of the cost, at the solution
     lower_ = VectorXd::Constant(n, -kInf);
@@ -93,7 +98,9 @@ class KnownProgram final : public Nlp {
   /// What multipliers of the rows add up to, on the variables.
   VectorXd pull(const VectorXd& duals) const { return C_.transpose() * duals.tail(C_.rows()); }
 
-  std::string text() const { return cat(dimension(), " variables, ", squares_ ? "squares" : "f", ", ", C_.rows(), " constraints"); }
+  std::string text() const {
+    return cat(dimension(), " variables, ", squares_ ? "squares" : "f", ", ", C_.rows(), " constraints");
+  }
 
  private:
   bool squares_;
@@ -138,10 +145,11 @@ TEST(QuadraticPrograms, WithoutConstraintsTakeOneStepOfAnyLength) {
   for (const int n : {1, 2, 5, 40, 300}) {
     const MatrixXd A = randomMatrix(n + 2, n, rng) + 20. * MatrixXd::Identity(n + 2, n);
     const VectorXd b = 100. * randomMatrix(n + 2, 1, rng);
-    CallbackNlp nlp(n, std::vector<ObjectiveType>(std::size_t(n) + 2, sos), {}, {}, [&](const VectorXd& x, VectorXd& phi, MatrixXd& J) {
-      phi = A * x - b;
-      J = A;
-    });
+    CallbackNlp nlp(n, std::vector<ObjectiveType>(std::size_t(n) + 2, sos), {}, {},
+                    [&](const VectorXd& x, VectorXd& phi, MatrixXd& J) {
+                      phi = A * x - b;
+                      J = A;
+                    });
     SolverOptions options;
     options.verbose = 0;
     const SolverResult result = solveAugmentedLagrangian(nlp, VectorXd::Zero(n), options);

@@ -18,7 +18,8 @@ using enum ObjectiveType;
 using Function = CallbackNlp::Function;
 
 std::shared_ptr<Nlp> problem(int n, std::vector<ObjectiveType> types, double half_width, Function function) {
-  return std::make_shared<CallbackNlp>(n, std::move(types), VectorXd::Constant(n, -half_width), VectorXd::Constant(n, half_width), std::move(function));
+  return std::make_shared<CallbackNlp>(n, std::move(types), VectorXd::Constant(n, -half_width),
+                                       VectorXd::Constant(n, half_width), std::move(function));
 }
 
 /// .5 <= |x| <= 1 in the plane.
@@ -54,7 +55,8 @@ std::shared_ptr<Nlp> bell() {
   });
 }
 
-std::vector<VectorXd> draw(const std::shared_ptr<Nlp>& nlp, const char* method, int burn_in, int count, std::uint64_t seed = 3) {
+std::vector<VectorXd> draw(const std::shared_ptr<Nlp>& nlp, const char* method, int burn_in, int count,
+                           std::uint64_t seed = 3) {
   NlpSampler sampler(nlp);
   sampler.options.interiorMethod = method;
   sampler.options.interiorBurnInSteps = burn_in;
@@ -68,8 +70,8 @@ std::vector<VectorXd> draw(const std::shared_ptr<Nlp>& nlp, const char* method, 
   return sampler.samples();
 }
 
-/// Kolmogorov and Smirnov: the largest difference of the distribution of `of` from the uniform one on [0, 1], times sqrt(N).
-/// By chance it is above 1.63 in one of a hundred.
+/// Kolmogorov and Smirnov: the largest difference of the distribution of `of` from the uniform one on [0, 1], times
+/// sqrt(N). By chance it is above 1.63 in one of a hundred.
 double distanceFromUniform(const std::vector<VectorXd>& samples, const std::function<double(const VectorXd&)>& of) {
   std::vector<double> values;
   for (const VectorXd& x : samples) values.push_back(of(x));
@@ -89,7 +91,8 @@ double bellCurve(double x) { return .5 * std::erfc(-x / std::numbers::sqrt2); }
 TEST(Sampler, HitAndRunIsUniformInABox) {
   const auto box = problem(3, {}, 1., [](const VectorXd&, VectorXd&, MatrixXd&) {});
   const auto samples = draw(box, "HR", 0, 2000);
-  for (int i = 0; i < 3; ++i) EXPECT_LT(distanceFromUniform(samples, [i](const VectorXd& x) { return .5 * (x[i] + 1.); }), 1.63);
+  for (int i = 0; i < 3; ++i)
+    EXPECT_LT(distanceFromUniform(samples, [i](const VectorXd& x) { return .5 * (x[i] + 1.); }), 1.63);
 }
 
 TEST(Sampler, HitAndRunIsUniformInATriangle) {
@@ -101,18 +104,20 @@ TEST(Sampler, HitAndRunIsUniformInATriangle) {
 TEST(Sampler, HitAndRunAndMetropolisAreUniformInARingWhichIsNotConvex) {
   for (const char* method : {"HR", "MCMC"}) {
     const auto samples = draw(ring(), method, 30, 2000);
-    EXPECT_LT(distanceFromUniform(samples, [](const VectorXd& x) { return (x.squaredNorm() - .25) / .75; }), 1.63) << method;
+    EXPECT_LT(distanceFromUniform(samples, [](const VectorXd& x) { return (x.squaredNorm() - .25) / .75; }), 1.63)
+        << method;
     EXPECT_LT(distanceFromUniform(samples, angle), 1.63) << method;
   }
 }
 
 TEST(Sampler, HitAndRunFindsItsWayWithoutBounds) {
   const double inf = std::numeric_limits<double>::infinity();
-  const auto disk = std::make_shared<CallbackNlp>(2, std::vector<ObjectiveType>{ineq}, VectorXd::Constant(2, -inf), VectorXd::Constant(2, inf),
-                                                  [](const VectorXd& x, VectorXd& phi, MatrixXd& J) {
-                                                    phi << x.squaredNorm() - 9.;
-                                                    J = 2. * x.transpose();
-                                                  });
+  const auto disk =
+      std::make_shared<CallbackNlp>(2, std::vector<ObjectiveType>{ineq}, VectorXd::Constant(2, -inf),
+                                    VectorXd::Constant(2, inf), [](const VectorXd& x, VectorXd& phi, MatrixXd& J) {
+                                      phi << x.squaredNorm() - 9.;
+                                      J = 2. * x.transpose();
+                                    });
   const auto samples = draw(disk, "HR", 20, 1000);
   EXPECT_LT(distanceFromUniform(samples, [](const VectorXd& x) { return x.squaredNorm() / 9.; }), 1.63);
 }
@@ -121,7 +126,8 @@ TEST(Sampler, MetropolisIsUniformOnASphere) {
   // each coordinate of a uniform point of a sphere is uniform (Archimedes)
   for (const char* method : {"MCMC", "Langevin"}) {
     const auto samples = draw(sphere(), method, 30, 1500);
-    for (int i = 0; i < 3; ++i) EXPECT_LT(distanceFromUniform(samples, [i](const VectorXd& x) { return .5 * (x[i] + 1.); }), 1.63) << method;
+    for (int i = 0; i < 3; ++i)
+      EXPECT_LT(distanceFromUniform(samples, [i](const VectorXd& x) { return .5 * (x[i] + 1.); }), 1.63) << method;
   }
 }
 
@@ -147,8 +153,10 @@ TEST(Sampler, MetropolisIsUniformAlongAnEllipseWhoseNormalsTurnQuickly) {
 TEST(Sampler, MetropolisAndLangevinFollowTheCosts) {
   for (const char* method : {"MCMC", "Langevin"}) {
     const auto samples = draw(bell(), method, 60, 1500);
-    EXPECT_LT(distanceFromUniform(samples, [](const VectorXd& x) { return bellCurve((x[0] - .3) / .5); }), 1.63) << method;
-    EXPECT_LT(distanceFromUniform(samples, [](const VectorXd& x) { return bellCurve((x[1] + .2) / .5); }), 1.63) << method;
+    EXPECT_LT(distanceFromUniform(samples, [](const VectorXd& x) { return bellCurve((x[0] - .3) / .5); }), 1.63)
+        << method;
+    EXPECT_LT(distanceFromUniform(samples, [](const VectorXd& x) { return bellCurve((x[1] + .2) / .5); }), 1.63)
+        << method;
   }
 }
 

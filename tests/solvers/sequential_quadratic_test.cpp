@@ -31,11 +31,18 @@ class SequentialQuadratic : public testing::TestWithParam<KnownProblem> {};
 
 /// x in [-1, 1] to be 3, at the price x^2.
 KnownProblem unreachable() {
-  return {"Unreachable", {f, eq}, VectorXd::Constant(1, -1.), VectorXd::Constant(1, 1.), VectorXd::Zero(1), VectorXd::Ones(1), 1.,
+  return {"Unreachable",
+          {f, eq},
+          VectorXd::Constant(1, -1.),
+          VectorXd::Constant(1, 1.),
+          VectorXd::Zero(1),
+          VectorXd::Ones(1),
+          1.,
           [](const VectorXd& x, VectorXd& phi, MatrixXd& J) {
             phi << x[0] * x[0], x[0] - 3.;
             J << 2. * x[0], 1.;
-          }, {}};
+          },
+          {}};
 }
 
 }  // namespace
@@ -54,7 +61,8 @@ TEST_P(SequentialQuadratic, FindsTheKnownOptimumFromFirstDerivatives) {
 TEST_P(SequentialQuadratic, IsTheSameBitsTwice) {
   const KnownProblem problem = withoutHessian(GetParam());
   KnownNlp one(problem), two(problem);
-  EXPECT_EQ(solveSequentialQuadratic(one, problem.start, exact()).x, solveSequentialQuadratic(two, problem.start, exact()).x);
+  EXPECT_EQ(solveSequentialQuadratic(one, problem.start, exact()).x,
+            solveSequentialQuadratic(two, problem.start, exact()).x);
 }
 
 INSTANTIATE_TEST_SUITE_P(HockSchittkowski, SequentialQuadratic, testing::ValuesIn(knownProblems()),
@@ -83,8 +91,8 @@ TEST(SequentialQuadratic, StopsWhenTheCallerSaysSo) {
   const KnownProblem problem = withoutHessian(knownProblems().back());
   KnownNlp nlp(problem);
   int calls = 0;
-  const SolverResult result =
-      solveSequentialQuadratic(nlp, problem.start, exact(), [&](const VectorXd&, const VectorXd&) { return ++calls < 3; });
+  const SolverResult result = solveSequentialQuadratic(nlp, problem.start, exact(),
+                                                       [&](const VectorXd&, const VectorXd&) { return ++calls < 3; });
   EXPECT_EQ(result.status, SolverStatus::cancelled);
   EXPECT_EQ(result.evals, 3);
 }
@@ -99,11 +107,18 @@ TEST(SequentialQuadratic, ThatFailsLeavesTheProblemToTheAugmentedLagrangian) {
 }
 
 TEST(SequentialQuadratic, GoesBackFromWhereNumbersAreNotFinite) {
-  const KnownProblem problem{"Log", {f}, VectorXd::Constant(1, -kInf), VectorXd::Constant(1, kInf), VectorXd::Constant(1, 5.),
-                             VectorXd::Ones(1), 1., [](const VectorXd& x, VectorXd& phi, MatrixXd& J) {
+  const KnownProblem problem{"Log",
+                             {f},
+                             VectorXd::Constant(1, -kInf),
+                             VectorXd::Constant(1, kInf),
+                             VectorXd::Constant(1, 5.),
+                             VectorXd::Ones(1),
+                             1.,
+                             [](const VectorXd& x, VectorXd& phi, MatrixXd& J) {
                                phi << x[0] - std::log(x[0]);
                                J << 1. - 1. / x[0];
-                             }, {}};
+                             },
+                             {}};
   KnownNlp nlp(problem);
   const SolverResult result = solveSequentialQuadratic(nlp, problem.start, exact());
   EXPECT_EQ(result.status, SolverStatus::converged) << result.message;

@@ -40,7 +40,9 @@ SolverResult outcome(bool feasible, double cost, double violation) {
 }
 
 int choose(const std::vector<SolverResult>& outcomes, bool best = true) {
-  return solveMany(int(outcomes.size()), {best, 2}, [&](int, int i, const EvaluationHook&) { return outcomes[std::size_t(i)]; }).chosen;
+  return solveMany(int(outcomes.size()), {best, 2},
+                   [&](int, int i, const EvaluationHook&) { return outcomes[std::size_t(i)]; })
+      .chosen;
 }
 
 }  // namespace
@@ -68,7 +70,8 @@ TEST(SolveMany, ChoosesByFeasibilityThenByCostOrViolation) {
 
 TEST(SolveMany, WhereOneSufficesThoseAfterTheFirstAreNotDone) {
   for (const int threads : {1, 3}) {
-    const SolveManyResult all = solveMany(20, {false, threads}, [&](int, int i, const EvaluationHook&) { return outcome(i == 4 || i == 7, i, 1.); });
+    const SolveManyResult all = solveMany(
+        20, {false, threads}, [&](int, int i, const EvaluationHook&) { return outcome(i == 4 || i == 7, i, 1.); });
     EXPECT_EQ(all.chosen, 4);
     for (int i = 0; i < 20; ++i) EXPECT_EQ(all.results[std::size_t(i)].done, i <= 4) << i << " with " << threads;
   }
@@ -77,14 +80,17 @@ TEST(SolveMany, WhereOneSufficesThoseAfterTheFirstAreNotDone) {
 TEST(SolveMany, AWatchCancelsWhatRunsAndLeavesTheRest) {
   // each problem runs until it is told to stop
   std::atomic<bool> runs = false;
-  const SolveManyResult all = solveMany(100, {true, 2}, [&](int, int, const EvaluationHook& hook) {
-    runs = true;
-    const VectorXd nothing;
-    while (hook(nothing, nothing)) continue;
-    SolverResult result = outcome(false, 0., 1.);
-    result.status = SolverStatus::cancelled;
-    return result;
-  }, [&](int ended) { return runs && ended == 0; });
+  const SolveManyResult all = solveMany(
+      100, {true, 2},
+      [&](int, int, const EvaluationHook& hook) {
+        runs = true;
+        const VectorXd nothing;
+        while (hook(nothing, nothing)) continue;
+        SolverResult result = outcome(false, 0., 1.);
+        result.status = SolverStatus::cancelled;
+        return result;
+      },
+      [&](int ended) { return runs && ended == 0; });
   int done = 0;
   for (const SolverResult& result : all.results) done += result.done;
   EXPECT_GE(done, 1);
@@ -95,17 +101,20 @@ TEST(SolveMany, AWatchCancelsWhatRunsAndLeavesTheRest) {
 TEST(SolveMany, TheCallingThreadIsTheFirstWorkerAndWatchesWhileItSolves) {
   const auto caller = std::this_thread::get_id();
   bool watched = false;
-  const SolveManyResult all = solveMany(1, {true, 4}, [&](int worker, int, const EvaluationHook& hook) {
-    EXPECT_EQ(worker, 0);
-    EXPECT_EQ(std::this_thread::get_id(), caller);
-    const VectorXd nothing;
-    while (!watched) EXPECT_TRUE(hook(nothing, nothing));
-    return outcome(true, 0., 0.);
-  }, [&, first = true](int) mutable {
-    EXPECT_EQ(std::this_thread::get_id(), caller);
-    watched = !std::exchange(first, false);
-    return false;
-  });
+  const SolveManyResult all = solveMany(
+      1, {true, 4},
+      [&](int worker, int, const EvaluationHook& hook) {
+        EXPECT_EQ(worker, 0);
+        EXPECT_EQ(std::this_thread::get_id(), caller);
+        const VectorXd nothing;
+        while (!watched) EXPECT_TRUE(hook(nothing, nothing));
+        return outcome(true, 0., 0.);
+      },
+      [&, first = true](int) mutable {
+        EXPECT_EQ(std::this_thread::get_id(), caller);
+        watched = !std::exchange(first, false);
+        return false;
+      });
   EXPECT_TRUE(all.best().feasible);
 }
 
@@ -126,7 +135,8 @@ TEST(SolveMany, AWatchThatThrowsEndsIt) {
     while (hook(nothing, nothing)) continue;
     return SolverResult();
   };
-  EXPECT_THROW(solveMany(5, {true, 2}, endless, [](int) -> bool { throw std::runtime_error("enough"); }), std::runtime_error);
+  EXPECT_THROW(solveMany(5, {true, 2}, endless, [](int) -> bool { throw std::runtime_error("enough"); }),
+               std::runtime_error);
 }
 
 TEST(SolveAll, MistakesAreNamed) {

@@ -10,10 +10,12 @@ using namespace kinegraph;
 
 namespace {
 
-/// A known problem with its rows in another order, or more than once, all of them times a factor where the optimum stays.
+/// A known problem with its rows in another order, or more than once, all of them times a factor where the optimum
+/// stays.
 class Rearranged final : public Nlp {
  public:
-  Rearranged(KnownProblem problem, std::vector<int> rows, double factor) : inner_(std::move(problem)), rows_(std::move(rows)), factor_(factor) {
+  Rearranged(KnownProblem problem, std::vector<int> rows, double factor)
+      : inner_(std::move(problem)), rows_(std::move(rows)), factor_(factor) {
     for (int row : rows_) types_.push_back(inner_.types()[row]);
     lower_ = inner_.lower();
     upper_ = inner_.upper();
@@ -27,7 +29,8 @@ class Rearranged final : public Nlp {
     if (!J) return;
     const Eigen::Index n = x.size();
     for (std::size_t i = 0; i < rows_.size(); ++i) {
-      for (Eigen::Index k = 0; k < n; ++k) J->values[i * std::size_t(n) + std::size_t(k)] = factor_ * inner_J.values[std::size_t(rows_[i] * n + k)];
+      for (Eigen::Index k = 0; k < n; ++k)
+        J->values[i * std::size_t(n) + std::size_t(k)] = factor_ * inner_J.values[std::size_t(rows_[i] * n + k)];
     }
   }
 
@@ -99,4 +102,5 @@ TEST_P(SolverLaw, MoreAccuracyDoesNotCostMore) {
   EXPECT_LE(tight.f + tight.sos, cost + .01 * std::abs(cost) + 2. * bought + 1e-6) << tight.message;
 }
 
-INSTANTIATE_TEST_SUITE_P(KnownProblems, SolverLaw, testing::ValuesIn(knownProblems()), [](const auto& info) { return info.param.name; });
+INSTANTIATE_TEST_SUITE_P(KnownProblems, SolverLaw, testing::ValuesIn(knownProblems()),
+                         [](const auto& info) { return info.param.name; });

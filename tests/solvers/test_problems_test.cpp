@@ -25,7 +25,9 @@ SolverResult solveFrom(const std::string& name, const VectorXd& start, M method 
   return solve(*nlp, start, options);
 }
 
-VectorXd vec(std::initializer_list<double> values) { return Eigen::Map<const VectorXd>(values.begin(), Eigen::Index(values.size())); }
+VectorXd vec(std::initializer_list<double> values) {
+  return Eigen::Map<const VectorXd>(values.begin(), Eigen::Index(values.size()));
+}
 
 }  // namespace
 
@@ -87,7 +89,8 @@ TEST(TestProblems, ALinearProgramEndsAtItsBestCorner) {
 
 TEST(TestProblems, SmoothOnesAreSolvedByEveryMethodThatTakesThem) {
   for (M method : {M::augmentedLag, M::newton, M::LBFGS}) {
-    const SolverResult rosenbrock = solveFrom("Rosenbrock", vec({-1.2, 1.}), method), himmelblau = solveFrom("Himmelblau", vec({1., 1.}), method);
+    const SolverResult rosenbrock = solveFrom("Rosenbrock", vec({-1.2, 1.}), method),
+                       himmelblau = solveFrom("Himmelblau", vec({1., 1.}), method);
     EXPECT_TRUE(near(rosenbrock.x, vec({1., 1.}), 1e-4)) << optMethodName(method) << ": " << rosenbrock.message;
     EXPECT_TRUE(near(himmelblau.x, vec({3., 2.}), 1e-5)) << optMethodName(method) << ": " << himmelblau.message;
     EXPECT_TRUE(near(solveFrom("Rastrigin", vec({.2, -.1}), method).x, vec({0., 0.}), 1e-5)) << optMethodName(method);
@@ -104,7 +107,8 @@ TEST(TestProblems, ManyMinimaAreNoTrapForAPopulation) {
 TEST(TestProblems, ModesAreFeasibleInBallsOnly) {
   const auto nlp = makeTestProblem("Modes");
   VectorXd phi(1);
-  for (const auto& [x, expected] : {std::pair{vec({0., 0.}), -.5}, {vec({1., -1.}), -.1}, {vec({1., -1.05}), -.05}, {vec({.6, 0.}), .1}}) {
+  for (const auto& [x, expected] :
+       {std::pair{vec({0., 0.}), -.5}, {vec({1., -1.}), -.1}, {vec({1., -1.05}), -.05}, {vec({.6, 0.}), .1}}) {
     nlp->evaluate(x, phi, nullptr);
     EXPECT_NEAR(phi[0], expected, 1e-12);
   }

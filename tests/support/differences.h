@@ -17,7 +17,8 @@ struct Differences {
   bool differentiable = true;
 };
 
-inline Differences differences(const std::function<VectorXd(const VectorXd&)>& function, const VectorXd& x, double step = 1e-5) {
+inline Differences differences(const std::function<VectorXd(const VectorXd&)>& function, const VectorXd& x,
+                               double step = 1e-5) {
   const VectorXd middle = function(x);
   Differences out;
   out.D.resize(middle.size(), x.size());

@@ -66,7 +66,8 @@ TEST(Command, IsNeverMoreThanTheBytesSay) {
     for (char& c : data) c = static_cast<char>(rng.uniform() < .6 ? rng.uniform(0., 4.) : rng.uniform(0., 256.));
     if (data.size() >= 4) data[1] = data[2] = data[3] = 0;
     const auto command = readCommand(data);
-    if (const auto* move = command ? std::get_if<MoveFrameCommand>(&*command) : nullptr) EXPECT_EQ(data.size(), 16 + 8 * move->pose.size());
+    if (const auto* move = command ? std::get_if<MoveFrameCommand>(&*command) : nullptr)
+      EXPECT_EQ(data.size(), 16 + 8 * move->pose.size());
     if (command && std::holds_alternative<KeyCommand>(*command)) EXPECT_EQ(data.size(), 12u);
   }
 }

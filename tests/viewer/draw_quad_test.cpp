@@ -32,17 +32,17 @@ std::vector<int> drawn(const Quad& quad) {
 }  // namespace
 
 TEST(DrawQuad, IsWhereItSaysInHeightsOfThePicture) {
-  EXPECT_EQ(drawn(pair(.25, .5, .5)), (std::vector{0, 0, 0, 0, 0, 0,         //
-                                                   0, 0, 0, 0, 0, 0,         //
-                                                   0, 10, 10, 20, 20, 0,     //
+  EXPECT_EQ(drawn(pair(.25, .5, .5)), (std::vector{0, 0,  0,  0,  0,  0,  //
+                                                   0, 0,  0,  0,  0,  0,  //
+                                                   0, 10, 10, 20, 20, 0,  //
                                                    0, 10, 10, 20, 20, 0}));
 }
 
 TEST(DrawQuad, IsCutOffAtTheEdges) {
   EXPECT_EQ(drawn(pair(-.5, -.25, .5)), (std::vector{20, 20, 0, 0, 0, 0,  //
-                                                     0, 0, 0, 0, 0, 0,    //
-                                                     0, 0, 0, 0, 0, 0,    //
-                                                     0, 0, 0, 0, 0, 0}));
+                                                     0,  0,  0, 0, 0, 0,  //
+                                                     0,  0,  0, 0, 0, 0,  //
+                                                     0,  0,  0, 0, 0, 0}));
   EXPECT_EQ(drawn(pair(7., 7., .5)), std::vector<int>(kWidth * kHeight, 0));
   EXPECT_EQ(drawn(pair(-1e12, 0., 1e13)), std::vector<int>(kWidth * kHeight, 10));
 }

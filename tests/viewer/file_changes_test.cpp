@@ -10,7 +10,9 @@ using std::chrono::milliseconds;
 
 namespace {
 
-FileStamp stamp(int written, std::uintmax_t size) { return {std::filesystem::file_time_type(std::chrono::seconds(written)), size}; }
+FileStamp stamp(int written, std::uintmax_t size) {
+  return {std::filesystem::file_time_type(std::chrono::seconds(written)), size};
+}
 
 /// Looks at one file every 20 ms of a clock of its own.
 class Watched {

@@ -17,7 +17,8 @@ std::string jsonOf(const TextMessage& message) {
 }
 
 std::string quoted(const std::string& title) {
-  const std::string text = jsonOf({title, "", ""}), before = R"({"kind":"text","title":)", after = R"(,"message":"","error":""})";
+  const std::string text = jsonOf({title, "", ""}), before = R"({"kind":"text","title":)",
+                    after = R"(,"message":"","error":""})";
   EXPECT_TRUE(text.starts_with(before) && text.ends_with(after)) << text;
   return text.substr(before.size(), text.size() - before.size() - after.size());
 }
@@ -27,12 +28,14 @@ std::string quoted(const std::string& title) {
 TEST(JsonWriter, NestsObjectsAndListsAndSeparatesThem) {
   SceneMessage scene;
   scene.count = 2;
-  scene.frames = {{0, "world", -1, 0, "", std::nullopt}, {1, "box", 0, 1, "contact: 1", ShapeMessage{"box", {1., .25}, {}, -1}}};
+  scene.frames = {{0, "world", -1, 0, "", std::nullopt},
+                  {1, "box", 0, 1, "contact: 1", ShapeMessage{"box", {1., .25}, {}, -1}}};
   JsonWriter json;
   writeJson(json, scene);
-  EXPECT_EQ(json.text(),
-            R"({"kind":"scene","count":2,"frames":[{"id":0,"name":"world","parent":-1,"collides":0,"details":"","shape":null},)"
-            R"({"id":1,"name":"box","parent":0,"collides":1,"details":"contact: 1","shape":{"type":"box","size":[1,0.25],"color":[],"mesh":-1}}]})");
+  EXPECT_EQ(
+      json.text(),
+      R"({"kind":"scene","count":2,"frames":[{"id":0,"name":"world","parent":-1,"collides":0,"details":"","shape":null},)"
+      R"({"id":1,"name":"box","parent":0,"collides":1,"details":"contact: 1","shape":{"type":"box","size":[1,0.25],"color":[],"mesh":-1}}]})");
 }
 
 TEST(JsonWriter, EscapesQuotesBackslashesAndControlCharacters) {
@@ -41,11 +44,12 @@ TEST(JsonWriter, EscapesQuotesBackslashesAndControlCharacters) {
 }
 
 TEST(JsonWriter, KeepsUtf8AndReplacesBytesThatAreNot) {
-  for (const std::string text : {"gr\u00fcn", "\u20ac", "\U0001F916", "\uffff", "\U0010ffff"}) EXPECT_EQ(quoted(text), '"' + text + '"');
-  EXPECT_EQ(quoted("gr\xfcn"), "\"gr\ufffdn\"");                    // Latin-1
-  EXPECT_EQ(quoted("\xe2\x82"), "\"\ufffd\ufffd\"");                // cut off
-  EXPECT_EQ(quoted("\xc0\xaf"), "\"\ufffd\ufffd\"");                // longer than needed
-  EXPECT_EQ(quoted("\xed\xa0\x80"), "\"\ufffd\ufffd\ufffd\"");      // half of a surrogate pair
+  for (const std::string text : {"gr\u00fcn", "\u20ac", "\U0001F916", "\uffff", "\U0010ffff"})
+    EXPECT_EQ(quoted(text), '"' + text + '"');
+  EXPECT_EQ(quoted("gr\xfcn"), "\"gr\ufffdn\"");                            // Latin-1
+  EXPECT_EQ(quoted("\xe2\x82"), "\"\ufffd\ufffd\"");                        // cut off
+  EXPECT_EQ(quoted("\xc0\xaf"), "\"\ufffd\ufffd\"");                        // longer than needed
+  EXPECT_EQ(quoted("\xed\xa0\x80"), "\"\ufffd\ufffd\ufffd\"");              // half of a surrogate pair
   EXPECT_EQ(quoted("\xf4\x90\x80\x80x"), "\"\ufffd\ufffd\ufffd\ufffdx\"");  // beyond the last character
 }
 
@@ -53,5 +57,7 @@ TEST(JsonWriter, WritesNumbersThatAreNotFiniteAsNull) {
   JsonWriter json;
   const double infinity = std::numeric_limits<double>::infinity();
   writeJson(json, CameraMessage{{infinity, std::nan(""), 1e-300}, -0.5, 1e300, 0., 1., 0., 5.});
-  EXPECT_EQ(json.text(), R"({"kind":"camera","pose":[null,null,1e-300],"distance":-0.5,"focal":1e+300,"ortho":0,"aspect":1,"near":0,"far":5})");
+  EXPECT_EQ(
+      json.text(),
+      R"({"kind":"camera","pose":[null,null,1e-300],"distance":-0.5,"focal":1e+300,"ortho":0,"aspect":1,"near":0,"far":5})");
 }

@@ -27,8 +27,15 @@ TEST(RecordedPage, IsTheClientWithTheMessagesInside) {
 }
 
 TEST(RecordedPage, HasBytesInBase64) {
-  for (const auto& [bytes, text] : std::vector<std::pair<std::string, std::string>>{
-           {"", ""}, {"f", "Zg=="}, {"fo", "Zm8="}, {"foo", "Zm9v"}, {"foob", "Zm9vYg=="}, {"fooba", "Zm9vYmE="}, {"foobar", "Zm9vYmFy"}, {std::string("\xff\0\xfe", 3), "/wD+"}}) {
+  for (const auto& [bytes, text] :
+       std::vector<std::pair<std::string, std::string>>{{"", ""},
+                                                        {"f", "Zg=="},
+                                                        {"fo", "Zm8="},
+                                                        {"foo", "Zm9v"},
+                                                        {"foob", "Zm9vYg=="},
+                                                        {"fooba", "Zm9vYmE="},
+                                                        {"foobar", "Zm9vYmFy"},
+                                                        {std::string("\xff\0\xfe", 3), "/wD+"}}) {
     EXPECT_EQ(recordingOf({message(bytes, true)}), "[{\"binary\":\"" + text + "\"}]");  // RFC 4648, section 10
   }
 }

@@ -119,7 +119,8 @@ TEST_F(SceneEditsTest, RandomCommandsKeepTheSceneWithinItsLimits) {
   for (int i = 0; i < 500; ++i) {
     const int which = int(rng.uniform(-2., 7.));
     edits.apply(SetJointCommand{1, which, rng.uniform(-5., 5.)});
-    const auto edited = edits.apply(MoveFrameCommand{1, which, {rng.normal(), rng.normal(), rng.normal(), rng.normal(), rng.normal(), rng.normal(), rng.normal()}});
+    const auto edited = edits.apply(MoveFrameCommand{
+        1, which, {rng.normal(), rng.normal(), rng.normal(), rng.normal(), rng.normal(), rng.normal(), rng.normal()}});
     if (edited) EXPECT_TRUE(-1. <= edited->q[0] && edited->q[0] <= 2. && 0. <= edited->q[1] && edited->q[1] <= .5);
   }
 }

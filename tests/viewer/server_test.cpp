@@ -100,7 +100,8 @@ TEST_F(ViewerServerTest, ServesThePage) {
 TEST_F(ViewerServerTest, KnowsNoOtherPathAndNoOtherMethod) {
   EXPECT_TRUE(answerTo(port, get("/etc/passwd", host)).starts_with("HTTP/1.1 404 "));
   EXPECT_TRUE(answerTo(port, get("/../../x", host)).starts_with("HTTP/1.1 404 "));
-  EXPECT_TRUE(answerTo(port, "POST / HTTP/1.1\r\nHost: " + host + "\r\nContent-Length: 0\r\n\r\n").starts_with("HTTP/1.1 404 "));
+  EXPECT_TRUE(answerTo(port, "POST / HTTP/1.1\r\nHost: " + host + "\r\nContent-Length: 0\r\n\r\n")
+                  .starts_with("HTTP/1.1 404 "));
 }
 
 TEST_F(ViewerServerTest, ListensOnLoopbackOnly) {
@@ -115,14 +116,16 @@ TEST_F(ViewerServerTest, ListensOnLoopbackOnly) {
 }
 
 TEST_F(ViewerServerTest, RefusesAForeignHost) {
-  for (const std::string foreign : {"example.com", "localhost.example.com", "127.0.0.1.example.com:80", "192.168.1.5:7000", ""}) {
+  for (const std::string foreign :
+       {"example.com", "localhost.example.com", "127.0.0.1.example.com:80", "192.168.1.5:7000", ""}) {
     EXPECT_TRUE(answerTo(port, get("/", foreign)).starts_with("HTTP/1.1 403 ")) << foreign;
     EXPECT_TRUE(answerTo(port, WebsocketClient::request(foreign, "")).starts_with("HTTP/1.1 403 ")) << foreign;
   }
 }
 
 TEST_F(ViewerServerTest, RefusesAForeignOrigin) {
-  for (const std::string& origin : std::vector<std::string>{"http://example.com", "null", "https://" + host, "http://localhost", "http://localhost:1"}) {
+  for (const std::string& origin : std::vector<std::string>{"http://example.com", "null", "https://" + host,
+                                                            "http://localhost", "http://localhost:1"}) {
     EXPECT_TRUE(answerTo(port, WebsocketClient::request(host, origin)).starts_with("HTTP/1.1 403 ")) << origin;
     EXPECT_TRUE(answerTo(port, get("/", host, "Origin: " + origin + "\r\n")).starts_with("HTTP/1.1 403 ")) << origin;
   }
@@ -177,7 +180,8 @@ TEST(ViewerServer, AsksForATokenWhereOthersCanReachIt) {
   const int port = portOf(url.substr(0, question));
   const std::string host = "localhost:" + std::to_string(port);
   EXPECT_TRUE(answerTo(port, get("/" + token, host)).starts_with("HTTP/1.1 200 "));
-  for (const std::string& wrong : std::vector<std::string>{"", "?token=", "?token=" + std::string(32, '0'), token + "0", token.substr(0, 38)}) {
+  for (const std::string& wrong :
+       std::vector<std::string>{"", "?token=", "?token=" + std::string(32, '0'), token + "0", token.substr(0, 38)}) {
     EXPECT_TRUE(answerTo(port, get("/" + wrong, host)).starts_with("HTTP/1.1 403 ")) << wrong;
     EXPECT_TRUE(answerTo(port, get("/scene.html" + wrong, host)).starts_with("HTTP/1.1 403 ")) << wrong;
   }
@@ -198,7 +202,8 @@ TEST_F(ViewerServerTest, WhatOneBrowserChangesAllBrowsersSee) {
   server.onCommand([](const Command& command) -> std::optional<EditedScene> {
     const auto* set = std::get_if<SetJointCommand>(&command);
     if (!set) throw Error("not this one");
-    return EditedScene{{Pose(), Pose(Vector3d(set->value, 0., 0.), Quaterniond::Identity())}, VectorXd::Constant(1, set->value)};
+    return EditedScene{{Pose(), Pose(Vector3d(set->value, 0., 0.), Quaterniond::Identity())},
+                       VectorXd::Constant(1, set->value)};
   });
   WebsocketClient one(port), two(port);
   for (WebsocketClient* client : {&one, &two}) {
@@ -269,7 +274,8 @@ TEST_F(ViewerServerTest, ALateBrowserGetsTheWholeScene) {
   const auto text = client.next(), scene = client.next(), poses = client.next();
   ASSERT_TRUE(text && scene && poses);
   EXPECT_TRUE(text->has(R"("message":"hello")"));
-  EXPECT_TRUE(scene->has(R"("count":2)") && scene->has("frame0") && scene->has("frame1") && !scene->has("frame2")) << scene->data;
+  EXPECT_TRUE(scene->has(R"("count":2)") && scene->has("frame0") && scene->has("frame1") && !scene->has("frame2"))
+      << scene->data;
   EXPECT_EQ(poses->number(1), 2u);
   EXPECT_FALSE(client.next(kQuiet));
 }
@@ -306,7 +312,8 @@ TEST_F(ViewerServerTest, KeysWithModifiersAndArrowsToTheSideDoNotEndTheWaiting) 
   EXPECT_EQ(server.waitKey([&] {
     if (++asked == 3) client.sendKey('b');
     return false;
-  }), 'b');
+  }),
+            'b');
   EXPECT_GE(asked, 3);
   client.sendKey('C', 2);
   int key = 0;
@@ -323,7 +330,8 @@ TEST(EventName, IsThatOfTheReference) {
   EXPECT_EQ(eventName({5, 1, 0}), "scroll up");
   EXPECT_EQ(eventName({6, 0, 5}), "mod shift alt");
   EXPECT_EQ(eventName({6, 0, 0}), "mod");
-  for (const EventCommand& nonsense : {EventCommand{1, -5, 0}, EventCommand{3, 7, 0}, EventCommand{99, 1, 0}}) EXPECT_EQ(eventName(nonsense), "");
+  for (const EventCommand& nonsense : {EventCommand{1, -5, 0}, EventCommand{3, 7, 0}, EventCommand{99, 1, 0}})
+    EXPECT_EQ(eventName(nonsense), "");
 }
 
 TEST(InputEvents, KeepTheLastThousand) {

@@ -26,7 +26,8 @@ std::shared_ptr<Geometry> triangle(double x) {
   return geometry;
 }
 
-ViewItem item(const std::string& name, std::shared_ptr<const Geometry> geometry = nullptr, const Vector3d& position = Vector3d::Zero()) {
+ViewItem item(const std::string& name, std::shared_ptr<const Geometry> geometry = nullptr,
+              const Vector3d& position = Vector3d::Zero()) {
   ViewItem item;
   item.name = name;
   item.pose.p = position;
@@ -67,10 +68,11 @@ TEST(ShownScene, ANewBrowserGetsTextsSceneMeshesAndPoses) {
   ShownScene::Seen seen;
   const auto messages = scene.messagesSince(seen);
   EXPECT_EQ(kinds(messages), (Kinds{"text", "mesh 0", "scene", "poses 3"}));
-  EXPECT_EQ(*messages[2].data,
-            R"({"kind":"scene","count":3,"frames":[{"id":0,"name":"world","parent":-1,"collides":0,"details":"","shape":null},)"
-            R"({"id":1,"name":"box","parent":-1,"collides":0,"details":"","shape":{"type":"box","size":[0.1,0.2,0.3],"color":[0.8,0.8,0.8,1],"mesh":-1}},)"
-            R"({"id":2,"name":"rock","parent":-1,"collides":0,"details":"","shape":{"type":"mesh","size":[],"color":[0.8,0.8,0.8,1],"mesh":0}}]})");
+  EXPECT_EQ(
+      *messages[2].data,
+      R"({"kind":"scene","count":3,"frames":[{"id":0,"name":"world","parent":-1,"collides":0,"details":"","shape":null},)"
+      R"({"id":1,"name":"box","parent":-1,"collides":0,"details":"","shape":{"type":"box","size":[0.1,0.2,0.3],"color":[0.8,0.8,0.8,1],"mesh":-1}},)"
+      R"({"id":2,"name":"rock","parent":-1,"collides":0,"details":"","shape":{"type":"mesh","size":[],"color":[0.8,0.8,0.8,1],"mesh":0}}]})");
 }
 
 TEST(ShownScene, AnUnchangedSceneSendsNothing) {
@@ -110,8 +112,10 @@ TEST(ShownScene, AChangedColorOrShapeSendsThatFrameAgain) {
   scene.update(items);
   const auto recolored = scene.messagesSince(seen);
   ASSERT_EQ(kinds(recolored), (Kinds{"scene", "poses 1"}));
-  EXPECT_EQ(*recolored[0].data, R"({"kind":"scene","count":3,"frames":[{"id":2,"name":"b","parent":-1,"collides":0,"details":"","shape":{"type":"box",)"
-                                R"("size":[0.1,0.2,0.3],"color":[1,0,0,0.5],"mesh":-1}}]})");
+  EXPECT_EQ(
+      *recolored[0].data,
+      R"({"kind":"scene","count":3,"frames":[{"id":2,"name":"b","parent":-1,"collides":0,"details":"","shape":{"type":"box",)"
+      R"("size":[0.1,0.2,0.3],"color":[1,0,0,0.5],"mesh":-1}}]})");
   items[1].geometry = triangle(1.);
   scene.update(items);
   EXPECT_EQ(kinds(scene.messagesSince(seen)), (Kinds{"mesh 0", "scene", "poses 1"}));
@@ -219,5 +223,7 @@ TEST(ShownScene, TextsAndCameraAreSentWhenTheyChange) {
   const auto messages = scene.messagesSince(seen);
   ASSERT_EQ(kinds(messages), (Kinds{"text", "camera"}));
   EXPECT_EQ(*messages[0].data, R"({"kind":"text","title":"","message":"","error":"no such file"})");
-  EXPECT_EQ(*messages[1].data, R"({"kind":"camera","pose":[1,2,3,1,0,0,0],"distance":1.5,"focal":0.9,"ortho":0,"aspect":1.25,"near":0.5,"far":8})");
+  EXPECT_EQ(
+      *messages[1].data,
+      R"({"kind":"camera","pose":[1,2,3,1,0,0,0],"distance":1.5,"focal":0.9,"ortho":0,"aspect":1.25,"near":0.5,"far":8})");
 }

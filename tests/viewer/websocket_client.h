@@ -31,7 +31,8 @@ class TcpClient {
     address.sin_family = AF_INET;
     address.sin_port = htons(static_cast<std::uint16_t>(port));
     address.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
-    if (connect(socket_, reinterpret_cast<sockaddr*>(&address), sizeof address) != 0) throw std::runtime_error("no connection");
+    if (connect(socket_, reinterpret_cast<sockaddr*>(&address), sizeof address) != 0)
+      throw std::runtime_error("no connection");
   }
   ~TcpClient() { close(socket_); }
   TcpClient(const TcpClient&) = delete;
@@ -87,7 +88,8 @@ class WebsocketClient : public TcpClient {
  public:
   static std::string request(const std::string& host, const std::string& origin) {
     return "GET / HTTP/1.1\r\nHost: " + host + "\r\n" + (origin.empty() ? "" : "Origin: " + origin + "\r\n") +
-           "Connection: Upgrade\r\nUpgrade: websocket\r\nSec-WebSocket-Version: 13\r\nSec-WebSocket-Key: AAAAAAAAAAAAAAAAAAAAAA==\r\n\r\n";
+           "Connection: Upgrade\r\nUpgrade: websocket\r\nSec-WebSocket-Version: 13\r\nSec-WebSocket-Key: "
+           "AAAAAAAAAAAAAAAAAAAAAA==\r\n\r\n";
   }
 
   explicit WebsocketClient(int port, int receive_buffer = 0) : TcpClient(port, receive_buffer) {
@@ -108,7 +110,8 @@ class WebsocketClient : public TcpClient {
     } else {
       const bool is_short = data.size() < 65536;
       frame += static_cast<char>(is_short ? 0xfe : 0xff);
-      for (int shift = is_short ? 8 : 56; shift >= 0; shift -= 8) frame += static_cast<char>(std::uint64_t(data.size()) >> shift);
+      for (int shift = is_short ? 8 : 56; shift >= 0; shift -= 8)
+        frame += static_cast<char>(std::uint64_t(data.size()) >> shift);
     }
     TcpClient::send(frame + std::string(4, '\0') + data);  // masked with zeros
   }

@@ -1,4 +1,5 @@
 // Made by tools/generate_messages.py from viewer/messages.json; change that file instead.
+// clang-format off
 
 import { writeCommand } from "./commands";
 

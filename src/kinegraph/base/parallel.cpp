@@ -19,7 +19,12 @@ constexpr std::chrono::milliseconds kWatch{20};
 class Parts {
  public:
   Parts(int count, int part, const std::function<void(int, int, int)>& work, const std::function<void()>& between)
-      : count_(count), part_(part), parts_(count / part + (count % part > 0)), work_(work), between_(between), failed_(parts_) {}
+      : count_(count),
+        part_(part),
+        parts_(count / part + (count % part > 0)),
+        work_(work),
+        between_(between),
+        failed_(parts_) {}
 
   void run(int threads) {
     {

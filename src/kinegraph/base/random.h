@@ -10,9 +10,9 @@ class Rng {
  public:
   explicit Rng(std::uint64_t seed = 0);
   std::uint64_t bits();
-  double uniform();                             ///< in [0, 1)
-  double uniform(double lower, double upper);   ///< in [lower, upper)
-  double normal();                              ///< mean 0, standard deviation 1
+  double uniform();                            ///< in [0, 1)
+  double uniform(double lower, double upper);  ///< in [lower, upper)
+  double normal();                             ///< mean 0, standard deviation 1
 
  private:
   std::uint64_t state_[4];

@@ -12,7 +12,8 @@ namespace kinegraph {
 
 void appendNumber(std::string& text, double value) {
   std::array<char, 32> buffer;
-  const auto [end, error] = std::to_chars(buffer.data(), buffer.data() + buffer.size(), value, std::chars_format::general, 6);
+  const auto [end, error] =
+      std::to_chars(buffer.data(), buffer.data() + buffer.size(), value, std::chars_format::general, 6);
   (void)error;
   text.append(buffer.data(), end);
 }
@@ -72,7 +73,8 @@ std::vector<std::string> similarWords(std::string_view word, const std::vector<s
     const bool contains = candidate.find(word) != std::string::npos || word.find(candidate) != std::string_view::npos;
     const double limit = std::max(1., double(std::max(word.size(), candidate.size())) / 3.);
     const bool nothing_in_common = distance >= double(std::max(word.size(), candidate.size()));
-    if ((distance > limit || nothing_in_common) && !(contains && std::min(word.size(), candidate.size()) >= 3)) continue;
+    if ((distance > limit || nothing_in_common) && !(contains && std::min(word.size(), candidate.size()) >= 3))
+      continue;
     if (contains) distance = std::min(distance, limit);
     near.emplace_back(distance, candidate);
   }

@@ -5,7 +5,8 @@
 
 namespace kinegraph {
 
-/// `text` with a question mark for every byte that is not part of a UTF-8 character; `replaced` counts them, where given.
+/// `text` with a question mark for every byte that is not part of a UTF-8 character; `replaced` counts them, where
+/// given.
 std::string validUtf8(std::string_view text, std::size_t* replaced = nullptr);
 
 }  // namespace kinegraph

@@ -16,7 +16,8 @@ constexpr int kPart = 32;  ///< configurations that a thread takes at once
 
 void checkJoints(const State& scene, const Eigen::Ref<const RowMatrix>& Q) {
   if (Q.cols() != scene.dofs()) {
-    throw ValueError(cat("joint vectors: got ", Q.rows(), " x ", Q.cols(), " numbers; the configuration has ", scene.dofs(), " dofs"));
+    throw ValueError(cat("joint vectors: got ", Q.rows(), " x ", Q.cols(), " numbers; the configuration has ",
+                         scene.dofs(), " dofs"));
   }
   if (Q.outerStride() == Q.cols()) {
     const Eigen::Map<const VectorXd> all(Q.data(), Q.size());
@@ -42,7 +43,8 @@ void forEach(const Worker& first, int count, const BatchOptions& options, const 
 
 /// Calls finish(worker, first, count) after run has evaluated the rows for configurations first .. first + count - 1.
 template <class Batch, class Finish>
-void forLanes(const LaneProgram& program, int count, const BatchOptions& options, const Batch& batch, const Finish& finish) {
+void forLanes(const LaneProgram& program, int count, const BatchOptions& options, const Batch& batch,
+              const Finish& finish) {
   const int threads = std::clamp(options.threads, 1, std::max(1, (count + kPart - 1) / kPart));
   std::vector<LaneProgram::Scratch> scratch;
   scratch.reserve(threads);
@@ -55,8 +57,9 @@ void forLanes(const LaneProgram& program, int count, const BatchOptions& options
 }
 
 /// evalBatch where the feature is made of rows that kernels in lanes have.
-void evalInLanes(const State& scene, const Residual& residual, const LaneRowList& list, const Eigen::Ref<const RowMatrix>& Q,
-                 Eigen::Ref<RowMatrix> y, JacobianRows* J, const BatchOptions& options) {
+void evalInLanes(const State& scene, const Residual& residual, const LaneRowList& list,
+                 const Eigen::Ref<const RowMatrix>& Q, Eigen::Ref<RowMatrix> y, JacobianRows* J,
+                 const BatchOptions& options) {
   const LaneProgram program(scene.program(), scene.parameters(), list);
   const int rows = residual.rows(), raw_rows = list.rows(), n = scene.dofs();
   const bool plain = residual.scale().size() == 0 && residual.target().size() == 0, mixes = residual.mixesRows();
@@ -66,7 +69,14 @@ void evalInLanes(const State& scene, const Residual& residual, const LaneRowList
     raw_J.resize(J ? Eigen::Index(kPart) * options.threads * raw_rows : 0, n);
   }
   const auto batch = [&](int worker, int from, int count) {
-    LaneBatch part{Q.data() + from * Q.outerStride(), Q.outerStride(), count, y.data() + from * y.outerStride(), y.outerStride(), nullptr, 0, n};
+    LaneBatch part{Q.data() + from * Q.outerStride(),
+                   Q.outerStride(),
+                   count,
+                   y.data() + from * y.outerStride(),
+                   y.outerStride(),
+                   nullptr,
+                   0,
+                   n};
     if (J) part.J = J->data() + Eigen::Index(from) * rows * J->outerStride();
     if (J) part.row_stride = J->outerStride();
     if (mixes) {
@@ -101,8 +111,8 @@ void evalInLanes(const State& scene, const Residual& residual, const LaneRowList
 
 }  // namespace
 
-void evalBatch(const State& scene, const Residual& residual, const Eigen::Ref<const RowMatrix>& Q, Eigen::Ref<RowMatrix> y,
-               JacobianRows* J, const BatchOptions& options) {
+void evalBatch(const State& scene, const Residual& residual, const Eigen::Ref<const RowMatrix>& Q,
+               Eigen::Ref<RowMatrix> y, JacobianRows* J, const BatchOptions& options) {
   checkJoints(scene, Q);
   if (residual.order() > 0) {
     throw ValueError(cat(residual.name(), " of order ", residual.order(), " needs ", residual.order() + 1,
@@ -136,21 +146,28 @@ void framePoses(const State& scene, const std::vector<int>& frames, const Eigen:
   for (int frame : frames) list.addPose(frame);
   const LaneProgram program(scene.program(), scene.parameters(), list);
   const auto batch = [&](int, int from, int count) {
-    return LaneBatch{Q.data() + from * Q.outerStride(), Q.outerStride(), count, poses.data() + from * poses.outerStride(), poses.outerStride(),
-                     nullptr, 0, 0};
+    return LaneBatch{Q.data() + from * Q.outerStride(),
+                     Q.outerStride(),
+                     count,
+                     poses.data() + from * poses.outerStride(),
+                     poses.outerStride(),
+                     nullptr,
+                     0,
+                     0};
   };
   forLanes(program, int(Q.rows()), options, batch, [](int, int, int) {});
 }
 
-void frameJacobians(const State& scene, const std::vector<int>& frames, const Eigen::Ref<const RowMatrix>& Q, JacobianRows J,
-                    const BatchOptions& options) {
+void frameJacobians(const State& scene, const std::vector<int>& frames, const Eigen::Ref<const RowMatrix>& Q,
+                    JacobianRows J, const BatchOptions& options) {
   checkJoints(scene, Q);
   LaneRowList list;
   for (int frame : frames) list.addTwist(frame);
   const LaneProgram program(scene.program(), scene.parameters(), list);
   const Eigen::Index stride = J.outerStride() * 6 * Eigen::Index(frames.size());
   const auto batch = [&](int, int from, int count) {
-    return LaneBatch{Q.data() + from * Q.outerStride(), Q.outerStride(), count, nullptr, 0, J.data() + from * stride, stride, J.outerStride()};
+    return LaneBatch{Q.data() + from * Q.outerStride(), Q.outerStride(), count,          nullptr, 0,
+                     J.data() + from * stride,          stride,          J.outerStride()};
   };
   forLanes(program, int(Q.rows()), options, batch, [](int, int, int) {});
 }
@@ -172,7 +189,8 @@ void NearestRow::write(int pair, const Proximity& near) const {
   Eigen::Map<Vector3d>(normals + 3 * pair) = near.normal;
 }
 
-void nearestPoints(const State& scene, const Eigen::Ref<const RowMatrix>& Q, const NearestRow& first, const BatchOptions& options) {
+void nearestPoints(const State& scene, const Eigen::Ref<const RowMatrix>& Q, const NearestRow& first,
+                   const BatchOptions& options) {
   checkJoints(scene, Q);
   const std::size_t count = scene.program().collidable().size();
   forEach(std::pair(scene, PairDistances(scene.sharedProgram())), int(Q.rows()), options, [&](auto& worker, int i) {
@@ -202,8 +220,8 @@ void areValid(const State& scene, const Eigen::Ref<const RowMatrix>& Q, double m
   });
 }
 
-void areMotionsFree(const State& scene, const Eigen::Ref<const RowMatrix>& from, const Eigen::Ref<const RowMatrix>& to, double margin,
-                    double tolerance, std::span<bool> free, const BatchOptions& options) {
+void areMotionsFree(const State& scene, const Eigen::Ref<const RowMatrix>& from, const Eigen::Ref<const RowMatrix>& to,
+                    double margin, double tolerance, std::span<bool> free, const BatchOptions& options) {
   checkJoints(scene, from);
   checkJoints(scene, to);
   if (from.rows() != to.rows()) throw ValueError(cat("motions: ", from.rows(), " starts and ", to.rows(), " ends"));

@@ -16,22 +16,22 @@ using RowMatrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::R
 struct BatchOptions {
   int threads = 1;                     ///< the calling one included
   std::function<void()> between = {};  ///< called on the calling thread every few configurations; may throw to stop
-  int lanes = 0;  ///< configurations side by side: one of laneWidths(), 0 for the widest
+  int lanes = 0;                       ///< configurations side by side: one of laneWidths(), 0 for the widest
 };
 
-// What follows evaluates many configurations of a scene, the rows of Q (N x dofs), and needs no memory per configuration.
-// `scene` is any State of it; its own q does not matter. All throw ValueError if Q has another number of columns or numbers
-// that are not finite, naming the row.
+// What follows evaluates many configurations of a scene, the rows of Q (N x dofs), and needs no memory per
+// configuration. `scene` is any State of it; its own q does not matter. All throw ValueError if Q has another number of
+// columns or numbers that are not finite, naming the row.
 
 /// Value y (N x rows) of a residual of one configuration, and where given its Jacobian J ((N rows) x dofs): that of
 /// configuration i starts at row i * rows.
-void evalBatch(const State& scene, const Residual& residual, const Eigen::Ref<const RowMatrix>& Q, Eigen::Ref<RowMatrix> y,
-               JacobianRows* J, const BatchOptions& options = {});
+void evalBatch(const State& scene, const Residual& residual, const Eigen::Ref<const RowMatrix>& Q,
+               Eigen::Ref<RowMatrix> y, JacobianRows* J, const BatchOptions& options = {});
 
-/// Geometric Jacobians of frames ((N 6f) x dofs): per configuration and frame the rows of its origin's velocity, m/s, and of its
-/// angular velocity, rad/s, in world coordinates.
-void frameJacobians(const State& scene, const std::vector<int>& frames, const Eigen::Ref<const RowMatrix>& Q, JacobianRows J,
-                    const BatchOptions& options = {});
+/// Geometric Jacobians of frames ((N 6f) x dofs): per configuration and frame the rows of its origin's velocity, m/s,
+/// and of its angular velocity, rad/s, in world coordinates.
+void frameJacobians(const State& scene, const std::vector<int>& frames, const Eigen::Ref<const RowMatrix>& Q,
+                    JacobianRows J, const BatchOptions& options = {});
 
 /// World poses of frames: N x 7f, per frame x y z qw qx qy qz with qw >= 0.
 void framePoses(const State& scene, const std::vector<int>& frames, const Eigen::Ref<const RowMatrix>& Q,
@@ -50,17 +50,18 @@ struct NearestRow {
   void write(int pair, const Proximity& near) const;
 };
 
-/// Distances of all collidable pairs, in their order, with nearest points. Each configuration's numbers follow the last one's;
-/// `first` says where the first one's are.
-void nearestPoints(const State& scene, const Eigen::Ref<const RowMatrix>& Q, const NearestRow& first, const BatchOptions& options = {});
+/// Distances of all collidable pairs, in their order, with nearest points. Each configuration's numbers follow the last
+/// one's; `first` says where the first one's are.
+void nearestPoints(const State& scene, const Eigen::Ref<const RowMatrix>& Q, const NearestRow& first,
+                   const BatchOptions& options = {});
 
 /// Per configuration: are all dofs within their limits, and all collidable pairs at least `margin` (m) apart?
 void areValid(const State& scene, const Eigen::Ref<const RowMatrix>& Q, double margin, std::span<bool> valid,
               const BatchOptions& options = {});
 
-/// Per straight motion, from a row of `from` to that row of `to`: do all collidable pairs keep `margin` (m) apart, at all times
-/// of it? `tolerance` (m, > 0) as in MotionChecker. Limits are not looked at.
-void areMotionsFree(const State& scene, const Eigen::Ref<const RowMatrix>& from, const Eigen::Ref<const RowMatrix>& to, double margin,
-                    double tolerance, std::span<bool> free, const BatchOptions& options = {});
+/// Per straight motion, from a row of `from` to that row of `to`: do all collidable pairs keep `margin` (m) apart, at
+/// all times of it? `tolerance` (m, > 0) as in MotionChecker. Limits are not looked at.
+void areMotionsFree(const State& scene, const Eigen::Ref<const RowMatrix>& from, const Eigen::Ref<const RowMatrix>& to,
+                    double margin, double tolerance, std::span<bool> free, const BatchOptions& options = {});
 
 }  // namespace kinegraph

@@ -27,7 +27,8 @@ void forNearOf(const BodyPairs& pairs, const State& state, double margin, const 
   bodies.place(state);
   bodies.forMaybeNear(margin, [&](int place) {
     const Proximity near = bodies.proximity(place);
-    if (near.distance < margin) visit(place, pairs.frames[pairs.pairs[place].first], pairs.frames[pairs.pairs[place].second], near);
+    if (near.distance < margin)
+      visit(place, pairs.frames[pairs.pairs[place].first], pairs.frames[pairs.pairs[place].second], near);
   });
 }
 
@@ -56,7 +57,8 @@ std::shared_ptr<const CollisionPairs::NearFixed> CollisionPairs::nearFixed(const
   found->parameters = state.sharedParameters();
   for (const Pair& pair : fixed_) {
     const CollisionBody &a = *state.program().body[pair.a], &b = *state.program().body[pair.b];
-    const RigidTransform &X_LA = state.parameters().frame_offset[pair.a], &X_LB = state.parameters().frame_offset[pair.b];
+    const RigidTransform &X_LA = state.parameters().frame_offset[pair.a],
+                         &X_LB = state.parameters().frame_offset[pair.b];
     const double reach = a.boundRadius() + b.boundRadius() + margin_;
     if ((X_LA * a.boundCenter() - X_LB * b.boundCenter()).squaredNorm() > reach * reach) continue;
     const Proximity near = proximity(a, X_LA, b, X_LB);
@@ -71,7 +73,8 @@ void CollisionPairs::forNear(const State& state, const Visit& visit) const {
   if (!fixed_.empty()) {
     for (const Near& near : nearFixed(state)->pairs) visit(near.pair, near.a, near.b, near.proximity);
   }
-  forNearOf(moving_bodies_, state, margin_, [&](int place, int a, int b, const Proximity& near) { visit(moving_[std::size_t(place)], a, b, near); });
+  forNearOf(moving_bodies_, state, margin_,
+            [&](int place, int a, int b, const Proximity& near) { visit(moving_[std::size_t(place)], a, b, near); });
 }
 
 AccumulatedCollisions::AccumulatedCollisions(const std::vector<int>& frames, const Program& program) : frames_(frames) {
@@ -86,7 +89,8 @@ std::unique_ptr<NearPairSearch> AccumulatedCollisions::borrow(const State& state
   return search;
 }
 
-void AccumulatedCollisions::eval(std::span<const State* const> states, double, Eigen::Ref<VectorXd> y, JacobianRows* J) const {
+void AccumulatedCollisions::eval(std::span<const State* const> states, double, Eigen::Ref<VectorXd> y,
+                                 JacobianRows* J) const {
   const State& state = *states[0];
   y[0] = 0.;
   const auto add = [&](int a, int b, const Proximity& near) {
@@ -99,7 +103,8 @@ void AccumulatedCollisions::eval(std::span<const State* const> states, double, E
   }
   std::unique_ptr<NearPairSearch> search = borrow(state);
   search->place(state);
-  for (const NearPairSearch::Near& pair : search->near(0.)) add(search->frame(pair.a), search->frame(pair.b), search->proximity(pair));
+  for (const NearPairSearch::Near& pair : search->near(0.))
+    add(search->frame(pair.a), search->frame(pair.b), search->proximity(pair));
   const std::lock_guard lock(mutex_);
   idle_.push_back(std::move(search));
 }

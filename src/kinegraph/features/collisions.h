@@ -10,8 +10,8 @@
 
 namespace kinegraph {
 
-/// The collidable pairs, or those of them that involve one of given frames, where bodies are few. Pairs that no joint moves apart
-/// are measured once, until the scene changes.
+/// The collidable pairs, or those of them that involve one of given frames, where bodies are few. Pairs that no joint
+/// moves apart are measured once, until the scene changes.
 class CollisionPairs {
  public:
   /// `frames`: empty means all. Pairs count as near below `margin`, m.
@@ -19,8 +19,8 @@ class CollisionPairs {
 
   int size() const { return int(moving_.size() + fixed_.size()); }
 
-  /// Calls visit(pair, a, b, proximity) for the near pairs; a and b are the frames. For pairs that no joint moves apart, points and
-  /// normal are those of the link's own frame.
+  /// Calls visit(pair, a, b, proximity) for the near pairs; a and b are the frames. For pairs that no joint moves
+  /// apart, points and normal are those of the link's own frame.
   template <class Visit>
   void forNear(const State& state, const Visit& visit) const;
 

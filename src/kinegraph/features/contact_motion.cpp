@@ -29,7 +29,8 @@ struct Normal {
   }
 };
 
-/// Velocity between two configurations of what a body has at a point p, with the body's origin o and angular velocity w:
+/// Velocity between two configurations of what a body has at a point p, with the body's origin o and angular velocity
+/// w:
 ///     v = (o(to) - o(from)) / tau + w x r,  r = p - o in `now`, which is one of the two
 struct PointVelocity {
   const State &from, &to, &now;
@@ -39,8 +40,15 @@ struct PointVelocity {
   RowMajor J_w;
 
   /// `columns`: of J for both configurations; 0: no Jacobian is wanted.
-  PointVelocity(const State& from_, const State& to_, const State& now_, int body_, int point_, double tau_, Eigen::Index columns)
-      : from(from_), to(to_), now(now_), body(body_), point(point_), tau(tau_), r(now.position(point) - now.position(body)) {
+  PointVelocity(const State& from_, const State& to_, const State& now_, int body_, int point_, double tau_,
+                Eigen::Index columns)
+      : from(from_),
+        to(to_),
+        now(now_),
+        body(body_),
+        point(point_),
+        tau(tau_),
+        r(now.position(point) - now.position(body)) {
     const State* states[] = {&from, &to};
     if (columns == 0) {
       AngularVelocity(body).eval(states, tau, w, nullptr);
@@ -91,7 +99,8 @@ void ForceValue::eval(std::span<const State* const> states, double, Eigen::Ref<V
   if (J) contact_.addJacobian(*states[0], Matrix3d(Matrix3d::Identity()), *J);
 }
 
-void SlidingVelocity::eval(std::span<const State* const> states, double tau, Eigen::Ref<VectorXd> y, JacobianRows* J) const {
+void SlidingVelocity::eval(std::span<const State* const> states, double tau, Eigen::Ref<VectorXd> y,
+                           JacobianRows* J) const {
   const State &before = *states[0], &now = *states[1];
   y.setZero();
   if (!contact_.isIn(now)) return;
@@ -104,7 +113,8 @@ void SlidingVelocity::eval(std::span<const State* const> states, double tau, Eig
   onto.addJacobian(Matrix3d(-Matrix3d::Identity()), *J, columnsOf(*J, 1, 2));
 }
 
-void ElasticBounce::eval(std::span<const State* const> states, double tau, Eigen::Ref<VectorXd> y, JacobianRows* J) const {
+void ElasticBounce::eval(std::span<const State* const> states, double tau, Eigen::Ref<VectorXd> y,
+                         JacobianRows* J) const {
   const State &before = *states[0], &now = *states[1], &after = *states[2];
   y.setZero();
   if (!contact_.isIn(now)) return;
@@ -125,7 +135,8 @@ void ElasticBounce::eval(std::span<const State* const> states, double tau, Eigen
   columnsOf(*J, 1, 3).leftCols(normal.J.cols()) += v.transpose() * normal.J;
 }
 
-void ForceTimesDistance::eval(std::span<const State* const> states, double tau, Eigen::Ref<VectorXd> y, JacobianRows* J) const {
+void ForceTimesDistance::eval(std::span<const State* const> states, double tau, Eigen::Ref<VectorXd> y,
+                              JacobianRows* J) const {
   const PullingForce pull(contact_);
   const NegDistance overlap(contact_.object, contact_.onto);
   VectorXd force(1), depth(1);
@@ -143,7 +154,8 @@ void ForceTimesDistance::eval(std::span<const State* const> states, double tau, 
   *J += depth[0] * J_force + force[0] * J_depth;
 }
 
-void ForceTimesVelocity::eval(std::span<const State* const> states, double tau, Eigen::Ref<VectorXd> y, JacobianRows* J) const {
+void ForceTimesVelocity::eval(std::span<const State* const> states, double tau, Eigen::Ref<VectorXd> y,
+                              JacobianRows* J) const {
   const State& now = *states[1];
   y.setZero();
   if (!contact_.isIn(now)) return;

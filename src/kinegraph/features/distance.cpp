@@ -24,7 +24,8 @@ Vector3d softDirection(const Vector3d& d, double eps, Matrix3d& derivative) {
   return d / soft;
 }
 
-/// The derivative of a value that is known a little before and after. Where it has a kink or a jump, that of the smoother side.
+/// The derivative of a value that is known a little before and after. Where it has a kink or a jump, that of the
+/// smoother side.
 Vector3d slopeAt(const Vector3d& before, const Vector3d& at, const Vector3d& after, double h) {
   const Vector3d back = at - before, ahead = after - at;
   const double larger = std::max(ahead.norm(), back.norm());
@@ -56,11 +57,16 @@ void NegDistance::eval(std::span<const State* const> states, double, Eigen::Ref<
 
 Vector3d Witness::value(const Proximity& near) const {
   switch (kind_) {
-    case Kind::vector: return near.point_a - near.point_b;
-    case Kind::normal: return near.normal;
-    case Kind::point_a: return near.point_a;
-    case Kind::point_b: return near.point_b;
-    case Kind::core_vector: return near.core_a - near.core_b;
+    case Kind::vector:
+      return near.point_a - near.point_b;
+    case Kind::normal:
+      return near.normal;
+    case Kind::point_a:
+      return near.point_a;
+    case Kind::point_b:
+      return near.point_b;
+    case Kind::core_vector:
+      return near.core_a - near.core_b;
   }
   return Vector3d::Zero();
 }
@@ -121,7 +127,8 @@ void Oppose::eval(std::span<const State* const> states, double tau, Eigen::Ref<V
   y.head<3>() = v1 + v2;
   if (!central_) return;
   const Vector3d p1 = state.position(finger1_), p2 = state.position(finger2_);
-  y.tail<3>() = .01 * (2. * softDirection(p2 - p1, 1e-3, D) + softDirection(v1, 1e-3, D1) - softDirection(v2, 1e-3, D2));
+  y.tail<3>() =
+      .01 * (2. * softDirection(p2 - p1, 1e-3, D) + softDirection(v1, 1e-3, D1) - softDirection(v2, 1e-3, D2));
   if (!J) return;
   const Matrix3d none = Matrix3d::Zero();
   state.addJacobian(finger2_, p2, .02 * D, none, J->bottomRows(3));

@@ -18,9 +18,9 @@ class NegDistance final : public Feature {
   int a_, b_;
 };
 
-/// What the witness points of two shapes give, in the world. The Jacobian is that of the relative motion of the shapes, by
-/// central differences of the distance computation (step 1e-6), and of the motion of both together, in closed form. Where
-/// the nearest features switch it is a one-sided derivative.
+/// What the witness points of two shapes give, in the world. The Jacobian is that of the relative motion of the shapes,
+/// by central differences of the distance computation (step 1e-6), and of the motion of both together, in closed form.
+/// Where the nearest features switch it is a one-sided derivative.
 class Witness final : public Feature {
  public:
   enum class Kind {
@@ -48,8 +48,11 @@ class Witness final : public Feature {
 class Oppose final : public Feature {
  public:
   Oppose(int finger1, int finger2, int object, bool central)
-      : finger1_(finger1), finger2_(finger2), first_(Witness::Kind::core_vector, finger1, object),
-        second_(Witness::Kind::core_vector, finger2, object), central_(central) {}
+      : finger1_(finger1),
+        finger2_(finger2),
+        first_(Witness::Kind::core_vector, finger1, object),
+        second_(Witness::Kind::core_vector, finger2, object),
+        central_(central) {}
 
   int rows() const override { return central_ ? 6 : 3; }
   void eval(std::span<const State* const> states, double tau, Eigen::Ref<VectorXd> y, JacobianRows* J) const override;
@@ -60,8 +63,8 @@ class Oppose final : public Feature {
   bool central_;
 };
 
-/// J += factor * d distance / dq, one row, for the nearest points of two frames. What moves both frames alike does not change their
-/// distance: only the dofs between them count.
+/// J += factor * d distance / dq, one row, for the nearest points of two frames. What moves both frames alike does not
+/// change their distance: only the dofs between them count.
 void addDistanceGradient(const State& state, int a, int b, const Proximity& near, double factor, JacobianRows& J);
 
 }  // namespace kinegraph

@@ -13,8 +13,8 @@ Residual makeResidual(const State& scene, const FeatureSource& feature, const st
   return Residual(feature.make(ids, scene), scale, target, order, feature.name());
 }
 
-Evaluation eval(const Config& config, const FeatureSource& feature, const std::vector<std::string>& frames, const MatrixXd& scale,
-                const VectorXd& target, int order) {
+Evaluation eval(const Config& config, const FeatureSource& feature, const std::vector<std::string>& frames,
+                const MatrixXd& scale, const VectorXd& target, int order) {
   Residual residual = makeResidual(config.state(), feature, frames, scale, target, order);
   Evaluation out;
   out.y.resize(residual.rows());

@@ -14,7 +14,9 @@ namespace {
 using Factor = ContactForce::Factor;
 using RowMajor = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 
-bool isRigidlyJoined(const State& state, int a, int b) { return a == b || (state.link(a) == state.link(b) && state.link(a) > 0); }
+bool isRigidlyJoined(const State& state, int a, int b) {
+  return a == b || (state.link(a) == state.link(b) && state.link(a) > 0);
+}
 
 /// 1 if the force acts on the frame, -1 if its opposite does, 0 if neither.
 double signFor(const ContactForce& contact, const State& state, int frame) {
@@ -23,9 +25,12 @@ double signFor(const ContactForce& contact, const State& state, int frame) {
   return on - back;
 }
 
-Vector3d centerOf(const State& state, int frame) { return state.pose(frame) * state.parameters().frame_mass[frame].com; }
+Vector3d centerOf(const State& state, int frame) {
+  return state.pose(frame) * state.parameters().frame_mass[frame].com;
+}
 
-/// Sums the forces on a frame and their torques about its centre of mass; `forEach` visits them with their Jacobians' factors.
+/// Sums the forces on a frame and their torques about its centre of mass; `forEach` visits them with their Jacobians'
+/// factors.
 struct Wrench {
   Vector3d force = Vector3d::Zero(), torque = Vector3d::Zero();
 
@@ -42,8 +47,8 @@ struct Wrench {
 };
 
 /// J += A d force/dq + B d torque/dq.
-void addWrenchJacobian(const std::vector<ContactForce>& contacts, const State& state, int frame, const Factor& A, const Factor& B,
-                       JacobianRows J) {
+void addWrenchJacobian(const std::vector<ContactForce>& contacts, const State& state, int frame, const Factor& A,
+                       const Factor& B, JacobianRows J) {
   const Vector3d center = centerOf(state, frame);
   const Factor none = Factor::Zero(A.rows(), 3);
   for (const ContactForce& contact : contacts) {
@@ -90,14 +95,16 @@ void ContactForce::addJacobian(const State& state, const Factor& A, JacobianRows
   }
   const Vector3d z = state.pose(point).R.col(2);
   J.col(first) += unit * A * z;
-  state.addJacobian(point, state.position(point), Factor(Factor::Zero(A.rows(), 3)), Factor(-unit * state.q()[first] * A * skew(z)), J);
+  state.addJacobian(point, state.position(point), Factor(Factor::Zero(A.rows(), 3)),
+                    Factor(-unit * state.q()[first] * A * skew(z)), J);
 }
 
 void TotalForce::eval(std::span<const State* const> states, double, Eigen::Ref<VectorXd> y, JacobianRows* J) const {
   const State& state = *states[0];
   const double mass = state.parameters().frame_mass[frame_].mass;
   if (!(mass > 0.)) {
-    throw ValueError(cat("totalForce: '", state.program().frame_name[frame_], "' has no mass; give it `mass: ..` or call setMass"));
+    throw ValueError(
+        cat("totalForce: '", state.program().frame_name[frame_], "' has no mass; give it `mass: ..` or call setMass"));
   }
   const Wrench wrench(contacts_, state, frame_);
   y.head<3>() = -mass * kGravity - wrench.force;
@@ -116,8 +123,8 @@ Matrix3d inverseInertia(const Matrix3d& inertia) {
 }
 
 /// y -= seconds (F / m, R I^-1 R^T T), and its Jacobian.
-void subtractAccelerations(const std::vector<ContactForce>& contacts, const State& state, int frame, const Matrix3d& inverse_inertia,
-                           double seconds, Eigen::Ref<VectorXd> y, JacobianRows* J) {
+void subtractAccelerations(const std::vector<ContactForce>& contacts, const State& state, int frame,
+                           const Matrix3d& inverse_inertia, double seconds, Eigen::Ref<VectorXd> y, JacobianRows* J) {
   const double given = state.parameters().frame_mass[frame].mass, mass = given > 0. ? given : 1.;
   const Wrench wrench(contacts, state, frame);
   const Matrix3d R = state.pose(frame).R, turning = R * inverse_inertia * R.transpose();
@@ -135,11 +142,16 @@ void subtractAccelerations(const std::vector<ContactForce>& contacts, const Stat
 }  // namespace
 
 NewtonEuler::NewtonEuler(int frame, double gravity, const Matrix3d& inertia, std::vector<ContactForce> contacts)
-    : frame_(frame), flight_(frame, gravity), angular_(frame), inertia_(inertia), inverse_inertia_(inverseInertia(inertia)),
+    : frame_(frame),
+      flight_(frame, gravity),
+      angular_(frame),
+      inertia_(inertia),
+      inverse_inertia_(inverseInertia(inertia)),
       contacts_(std::move(contacts)) {}
 
 /// y += I_W^-1 (w x I_W w) tau. With w_B = R^T w it is R h(w_B) tau, h(w_B) = I^-1 (w_B x I w_B).
-void NewtonEuler::addGyroscopicTerm(std::span<const State* const> states, double tau, Eigen::Ref<VectorXd> y, JacobianRows* J) const {
+void NewtonEuler::addGyroscopicTerm(std::span<const State* const> states, double tau, Eigen::Ref<VectorXd> y,
+                                    JacobianRows* J) const {
   if (inertia_.isZero()) return;
   Vector3d before, after;
   RowMajor J_before, J_after;
@@ -167,7 +179,8 @@ void NewtonEuler::addGyroscopicTerm(std::span<const State* const> states, double
   states[1]->addJacobian(frame_, states[1]->position(frame_), none, by_turning, J->middleCols(n, n));
 }
 
-void NewtonEuler::eval(std::span<const State* const> states, double tau, Eigen::Ref<VectorXd> y, JacobianRows* J) const {
+void NewtonEuler::eval(std::span<const State* const> states, double tau, Eigen::Ref<VectorXd> y,
+                       JacobianRows* J) const {
   flight_.eval(states, tau, y, J);
   addGyroscopicTerm(states, tau, y, J);
   if (!J) return subtractAccelerations(contacts_, *states[1], frame_, inverse_inertia_, tau, y, nullptr);
@@ -177,9 +190,14 @@ void NewtonEuler::eval(std::span<const State* const> states, double tau, Eigen::
 }
 
 DampedMotion::DampedMotion(int frame, double gravity, const Matrix3d& inertia, std::vector<ContactForce> contacts)
-    : frame_(frame), angular_(frame), gravity_(gravity), inverse_inertia_(inverseInertia(inertia)), contacts_(std::move(contacts)) {}
+    : frame_(frame),
+      angular_(frame),
+      gravity_(gravity),
+      inverse_inertia_(inverseInertia(inertia)),
+      contacts_(std::move(contacts)) {}
 
-void DampedMotion::eval(std::span<const State* const> states, double tau, Eigen::Ref<VectorXd> y, JacobianRows* J) const {
+void DampedMotion::eval(std::span<const State* const> states, double tau, Eigen::Ref<VectorXd> y,
+                        JacobianRows* J) const {
   constexpr double kSeconds = .1;  // 1 / d
   const Vector3d before = centerOf(*states[0], frame_), now = centerOf(*states[1], frame_);
   y.head<3>() = (now - before) / tau;
@@ -199,7 +217,8 @@ void DampedMotion::eval(std::span<const State* const> states, double tau, Eigen:
   subtractAccelerations(contacts_, *states[1], frame_, inverse_inertia_, kSeconds, y, &later);
 }
 
-void TangentialForce::eval(std::span<const State* const> states, double tau, Eigen::Ref<VectorXd> y, JacobianRows* J) const {
+void TangentialForce::eval(std::span<const State* const> states, double tau, Eigen::Ref<VectorXd> y,
+                           JacobianRows* J) const {
   const State& state = *states[0];
   y.setZero();
   for (const ContactForce& contact : contacts_) {
@@ -216,7 +235,8 @@ void TangentialForce::eval(std::span<const State* const> states, double tau, Eig
   }
 }
 
-void FrictionCone::eval(std::span<const State* const> states, double tau, Eigen::Ref<VectorXd> y, JacobianRows* J) const {
+void FrictionCone::eval(std::span<const State* const> states, double tau, Eigen::Ref<VectorXd> y,
+                        JacobianRows* J) const {
   const State& state = *states[0];
   y.setZero();
   if (!contact_.isIn(state)) return;
@@ -243,13 +263,16 @@ void FrictionCone::eval(std::span<const State* const> states, double tau, Eigen:
   J->leftCols(Jn.cols()) += B * Jn;
 }
 
-void NormalsOppose::eval(std::span<const State* const> states, double tau, Eigen::Ref<VectorXd> y, JacobianRows* J) const {
+void NormalsOppose::eval(std::span<const State* const> states, double tau, Eigen::Ref<VectorXd> y,
+                         JacobianRows* J) const {
   RowMajor Ja, Jb;
-  y = normalOf(*states[0], a_, point_, tau, J ? &Ja : nullptr) + normalOf(*states[0], b_, point_, tau, J ? &Jb : nullptr);
+  y = normalOf(*states[0], a_, point_, tau, J ? &Ja : nullptr) +
+      normalOf(*states[0], b_, point_, tau, J ? &Jb : nullptr);
   if (J) J->leftCols(Ja.cols()) += Ja + Jb;
 }
 
-void NormalAlignment::eval(std::span<const State* const> states, double tau, Eigen::Ref<VectorXd> y, JacobianRows* J) const {
+void NormalAlignment::eval(std::span<const State* const> states, double tau, Eigen::Ref<VectorXd> y,
+                           JacobianRows* J) const {
   const State& state = *states[0];
   RowMajor Jn;
   const Vector3d n = normalOf(state, body_, point_, tau, J ? &Jn : nullptr), z = state.pose(point_).R.col(2);

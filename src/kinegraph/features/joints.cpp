@@ -19,7 +19,8 @@ bool JointState::addLaneRows(LaneRowList& list) const {
 
 JointLimits::JointLimits(const std::vector<int>& dofs, const Program& program) {
   for (int dof : dofs) {
-    if (std::isfinite(program.lower[dof]) && std::isfinite(program.upper[dof])) limited_.push_back({dof, program.lower[dof], program.upper[dof]});
+    if (std::isfinite(program.lower[dof]) && std::isfinite(program.upper[dof]))
+      limited_.push_back({dof, program.lower[dof], program.upper[dof]});
   }
 }
 
@@ -45,7 +46,8 @@ bool JointLimits::addLaneRows(LaneRowList& list) const {
   return true;
 }
 
-void QuaternionNorms::eval(std::span<const State* const> states, double, Eigen::Ref<VectorXd> y, JacobianRows* J) const {
+void QuaternionNorms::eval(std::span<const State* const> states, double, Eigen::Ref<VectorXd> y,
+                           JacobianRows* J) const {
   const VectorXd& q = states[0]->q();
   for (int row = 0; row < rows(); ++row) {
     const auto [first, count] = groups_[row];

@@ -19,7 +19,8 @@ void Energy::eval(std::span<const State* const> states, double tau, Eigen::Ref<V
   y[0] = 0.;
   for (int frame : frames_) {
     const double given = massOf(*states[1], frame).mass, mass = given > 0. ? given : 1.;
-    const Vector3d before = centerOf(*states[0], frame), now = centerOf(*states[1], frame), velocity = (now - before) / tau;
+    const Vector3d before = centerOf(*states[0], frame), now = centerOf(*states[1], frame),
+                   velocity = (now - before) / tau;
     y[0] += mass * (.5 * velocity.squaredNorm() - kGravity.dot(now));
     if (!J) continue;
     const Eigen::RowVector3d momentum = mass / tau * velocity.transpose(), weight = mass * kGravity.transpose();
@@ -29,7 +30,8 @@ void Energy::eval(std::span<const State* const> states, double tau, Eigen::Ref<V
   }
 }
 
-void CenterOfMassOffset::eval(std::span<const State* const> states, double, Eigen::Ref<VectorXd> y, JacobianRows* J) const {
+void CenterOfMassOffset::eval(std::span<const State* const> states, double, Eigen::Ref<VectorXd> y,
+                              JacobianRows* J) const {
   const State& state = *states[0];
   double total = 0.;
   Vector3d moment = Vector3d::Zero();
@@ -49,7 +51,8 @@ void CenterOfMassOffset::eval(std::span<const State* const> states, double, Eige
   });
   if (!(total > 0.)) {
     const std::string& name = state.program().frame_name[frame_];
-    throw ValueError(cat("EqCenterOfMass of '", name, "': ", others_.empty() ? "nothing that moves" : "none of the other frames",
+    throw ValueError(cat("EqCenterOfMass of '", name,
+                         "': ", others_.empty() ? "nothing that moves" : "none of the other frames",
                          " has a mass; give them `mass: ..` or call setMass"));
   }
   y = state.position(frame_) - moment / total;

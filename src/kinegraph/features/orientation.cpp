@@ -35,7 +35,9 @@ void Orientation::eval(std::span<const State* const> states, double, Eigen::Ref<
 
 bool Orientation::addLaneRows(LaneRowList& list) const {
   using Block = LaneRows::Block;
-  list.addQuaternion(kind_ == Kind::world ? Block::quaternion : kind_ == Kind::difference ? Block::quaternion_offset : Block::quaternion_relative,
+  list.addQuaternion(kind_ == Kind::world        ? Block::quaternion
+                     : kind_ == Kind::difference ? Block::quaternion_offset
+                                                 : Block::quaternion_relative,
                      a_, b_);
   return true;
 }
@@ -63,7 +65,10 @@ void Axis::eval(std::span<const State* const> states, double, Eigen::Ref<VectorX
 
 bool Axis::addLaneRows(LaneRowList& list) const {
   using Block = LaneRows::Block;
-  list.addAxis(kind_ == Kind::world ? Block::axis : kind_ == Kind::difference ? Block::axis_offset : Block::axis_relative, axis_, a_, b_);
+  list.addAxis(kind_ == Kind::world        ? Block::axis
+               : kind_ == Kind::difference ? Block::axis_offset
+                                           : Block::axis_relative,
+               axis_, a_, b_);
   return true;
 }
 

@@ -39,7 +39,10 @@ void Position::addCurvature(const State& state, const VectorXd& weights, Eigen::
 
 bool Position::addLaneRows(LaneRowList& list) const {
   using Block = LaneRows::Block;
-  list.addPosition(kind_ == Kind::world ? Block::position : kind_ == Kind::difference ? Block::offset : Block::relative, a_, b_, rows_);
+  list.addPosition(kind_ == Kind::world        ? Block::position
+                   : kind_ == Kind::difference ? Block::offset
+                                               : Block::relative,
+                   a_, b_, rows_);
   return true;
 }
 

@@ -34,25 +34,30 @@ Made alongNormal(const FeatureRecipe& recipe, const Ids&) {
   return std::make_unique<TangentialForce>(contact.object, contact.onto, std::vector<ContactForce>{contact});
 }
 
-Made axisDifference(const FeatureRecipe& recipe, const Ids& f) { return std::make_unique<AxisDifference>(f[0], f[1], int(recipe.parameter)); }
-Made normalAlignment(const FeatureRecipe& recipe, const Ids& f) { return std::make_unique<NormalAlignment>(f[0], f[1], recipe.parameter); }
-Made pushRadius(const FeatureRecipe& recipe, const Ids& f) { return std::make_unique<PushRadius>(f[0], f[1], recipe.parameter); }
+Made axisDifference(const FeatureRecipe& recipe, const Ids& f) {
+  return std::make_unique<AxisDifference>(f[0], f[1], int(recipe.parameter));
+}
+Made normalAlignment(const FeatureRecipe& recipe, const Ids& f) {
+  return std::make_unique<NormalAlignment>(f[0], f[1], recipe.parameter);
+}
+Made pushRadius(const FeatureRecipe& recipe, const Ids& f) {
+  return std::make_unique<PushRadius>(f[0], f[1], recipe.parameter);
+}
 Made normalsOppose(const FeatureRecipe&, const Ids& f) { return std::make_unique<NormalsOppose>(f[0], f[1], f[2]); }
 
 const std::map<std::string, Maker>& makers() {
-  static const std::map<std::string, Maker> all = {
-      {"axisDifference", {axisDifference, 2}},
-      {"elasticBounce", {ofForceAndParameter<ElasticBounce>, 0}},
-      {"force", {ofForce<ForceValue>, 0}},
-      {"forceAlongNormal", {alongNormal, 0}},
-      {"forceTimesDistance", {ofForce<ForceTimesDistance>, 0}},
-      {"forceTimesVelocity", {ofForce<ForceTimesVelocity>, 0}},
-      {"frictionCone", {ofForceAndParameter<FrictionCone>, 0}},
-      {"pairNormalAlign", {normalAlignment, 2}},
-      {"pairNormalsOppose", {normalsOppose, 3}},
-      {"pullingForce", {ofForce<PullingForce>, 0}},
-      {"pushRadius", {pushRadius, 2}},
-      {"slidingVelocity", {ofForce<SlidingVelocity>, 0}}};
+  static const std::map<std::string, Maker> all = {{"axisDifference", {axisDifference, 2}},
+                                                   {"elasticBounce", {ofForceAndParameter<ElasticBounce>, 0}},
+                                                   {"force", {ofForce<ForceValue>, 0}},
+                                                   {"forceAlongNormal", {alongNormal, 0}},
+                                                   {"forceTimesDistance", {ofForce<ForceTimesDistance>, 0}},
+                                                   {"forceTimesVelocity", {ofForce<ForceTimesVelocity>, 0}},
+                                                   {"frictionCone", {ofForceAndParameter<FrictionCone>, 0}},
+                                                   {"pairNormalAlign", {normalAlignment, 2}},
+                                                   {"pairNormalsOppose", {normalsOppose, 3}},
+                                                   {"pullingForce", {ofForce<PullingForce>, 0}},
+                                                   {"pushRadius", {pushRadius, 2}},
+                                                   {"slidingVelocity", {ofForce<SlidingVelocity>, 0}}};
   return all;
 }
 
@@ -70,10 +75,12 @@ const std::vector<std::string>& recipeNames() {
 Made makeFeature(const FeatureRecipe& recipe, const Ids& frames) {
   const auto place = makers().find(recipe.name);
   if (place == makers().end()) {
-    throw NameError(cat("there is no feature '", recipe.name, "'", similarHint(recipe.name, recipeNames()), "; there are ", join(recipeNames())));
+    throw NameError(cat("there is no feature '", recipe.name, "'", similarHint(recipe.name, recipeNames()),
+                        "; there are ", join(recipeNames())));
   }
   const Maker& maker = place->second;
-  if (maker.frames == 0 && !recipe.contact) throw ValueError(cat("feature ", recipe.name, " is about a contact force; none is given"));
+  if (maker.frames == 0 && !recipe.contact)
+    throw ValueError(cat("feature ", recipe.name, " is about a contact force; none is given"));
   if (maker.frames > 0 && maker.frames != int(frames.size())) {
     throw ValueError(cat("feature ", recipe.name, " takes ", maker.frames, " frames, got ", frames.size()));
   }

@@ -38,7 +38,8 @@ std::vector<int> dofsOf(const std::vector<int>& frames, const Program& program, 
   }
   for (int frame : frames) {
     const Program::DofRange range = program.frame_dofs[frame];
-    if (range.count == 0) throw ValueError(cat(info.name, ": frame '", program.frame_name[frame], "' has no active joint of its own"));
+    if (range.count == 0)
+      throw ValueError(cat(info.name, ": frame '", program.frame_name[frame], "' has no active joint of its own"));
     for (int i = 0; i < range.count; ++i) dofs.push_back(range.first + i);
   }
   return dofs;
@@ -47,7 +48,8 @@ std::vector<int> dofsOf(const std::vector<int>& frames, const Program& program, 
 const Geometry& boxOf(int frame, const Program& program, const FeatureInfo& info) {
   const auto& geometry = program.geometry[frame];
   if (!geometry || (geometry->type != ShapeType::ssBox && geometry->type != ShapeType::box)) {
-    throw ValueError(cat(info.name, ": frame '", program.frame_name[frame], "' must have a shape of type ssBox or box"));
+    throw ValueError(
+        cat(info.name, ": frame '", program.frame_name[frame], "' must have a shape of type ssBox or box"));
   }
   return *geometry;
 }
@@ -59,12 +61,17 @@ double heightOf(int frame, const Program& program) {
   const std::vector<double>& s = geometry->size;
   switch (geometry->type) {
     case ShapeType::box:
-    case ShapeType::ssBox: return s[2];
-    case ShapeType::sphere: return 2. * s[0];
-    case ShapeType::capsule: return s[0] + 2. * s[1];
+    case ShapeType::ssBox:
+      return s[2];
+    case ShapeType::sphere:
+      return 2. * s[0];
+    case ShapeType::capsule:
+      return s[0] + 2. * s[1];
     case ShapeType::cylinder:
-    case ShapeType::ssCylinder: return s[0];
-    default: return 0.;
+    case ShapeType::ssCylinder:
+      return s[0];
+    default:
+      return 0.;
   }
 }
 
@@ -177,12 +184,18 @@ std::unique_ptr<Feature> makeFeature(FeatureSymbol symbol, const std::vector<int
   }
   const int a = count > 0 ? frames[0] : -1, b = count > 1 ? frames[1] : -1, c = count > 2 ? frames[2] : -1;
   switch (symbol) {
-    case S::position: return std::make_unique<Position>(Position::Kind::world, a);
-    case S::positionDiff: return std::make_unique<Position>(Position::Kind::difference, a, b);
-    case S::positionRel: return std::make_unique<Position>(Position::Kind::relative, a, b);
-    case S::quaternion: return std::make_unique<Orientation>(Orientation::Kind::world, a);
-    case S::quaternionDiff: return std::make_unique<Orientation>(Orientation::Kind::difference, a, b);
-    case S::quaternionRel: return std::make_unique<Orientation>(Orientation::Kind::relative, a, b);
+    case S::position:
+      return std::make_unique<Position>(Position::Kind::world, a);
+    case S::positionDiff:
+      return std::make_unique<Position>(Position::Kind::difference, a, b);
+    case S::positionRel:
+      return std::make_unique<Position>(Position::Kind::relative, a, b);
+    case S::quaternion:
+      return std::make_unique<Orientation>(Orientation::Kind::world, a);
+    case S::quaternionDiff:
+      return std::make_unique<Orientation>(Orientation::Kind::difference, a, b);
+    case S::quaternionRel:
+      return std::make_unique<Orientation>(Orientation::Kind::relative, a, b);
     case S::pose:
       return stack(std::make_unique<Position>(Position::Kind::world, a),
                    std::make_unique<Orientation>(Orientation::Kind::world, a));
@@ -192,50 +205,89 @@ std::unique_ptr<Feature> makeFeature(FeatureSymbol symbol, const std::vector<int
     case S::poseRel:
       return stack(std::make_unique<Position>(Position::Kind::relative, a, b),
                    std::make_unique<Orientation>(Orientation::Kind::relative, a, b));
-    case S::vectorX: case S::vectorY: case S::vectorZ:
+    case S::vectorX:
+    case S::vectorY:
+    case S::vectorZ:
       return std::make_unique<Axis>(Axis::Kind::world, (int(symbol) - int(S::vectorX)) / 3, a);
-    case S::vectorXDiff: case S::vectorYDiff: case S::vectorZDiff:
+    case S::vectorXDiff:
+    case S::vectorYDiff:
+    case S::vectorZDiff:
       return std::make_unique<Axis>(Axis::Kind::difference, (int(symbol) - int(S::vectorXDiff)) / 3, a, b);
-    case S::vectorXRel: case S::vectorYRel: case S::vectorZRel:
+    case S::vectorXRel:
+    case S::vectorYRel:
+    case S::vectorZRel:
       return std::make_unique<Axis>(Axis::Kind::relative, (int(symbol) - int(S::vectorXRel)) / 3, a, b);
-    case S::scalarProductXX: return std::make_unique<AxisProduct>(0, 0, a, b);
-    case S::scalarProductXY: return std::make_unique<AxisProduct>(0, 1, a, b);
-    case S::scalarProductXZ: return std::make_unique<AxisProduct>(0, 2, a, b);
-    case S::scalarProductYX: return std::make_unique<AxisProduct>(1, 0, a, b);
-    case S::scalarProductYY: return std::make_unique<AxisProduct>(1, 1, a, b);
-    case S::scalarProductYZ: return std::make_unique<AxisProduct>(1, 2, a, b);
-    case S::scalarProductZX: return std::make_unique<AxisProduct>(2, 0, a, b);
-    case S::scalarProductZY: return std::make_unique<AxisProduct>(2, 1, a, b);
-    case S::scalarProductZZ: return std::make_unique<AxisProduct>(2, 2, a, b);
-    case S::gazeAt: return std::make_unique<Position>(Position::Kind::relative, a, b, 2);
-    case S::angularVel: return std::make_unique<AngularVelocity>(a);
-    case S::linangVel: return stack(std::make_unique<LinearVelocity>(a), std::make_unique<AngularVelocity>(a));
-    case S::energy: return std::make_unique<Energy>(frames);
+    case S::scalarProductXX:
+      return std::make_unique<AxisProduct>(0, 0, a, b);
+    case S::scalarProductXY:
+      return std::make_unique<AxisProduct>(0, 1, a, b);
+    case S::scalarProductXZ:
+      return std::make_unique<AxisProduct>(0, 2, a, b);
+    case S::scalarProductYX:
+      return std::make_unique<AxisProduct>(1, 0, a, b);
+    case S::scalarProductYY:
+      return std::make_unique<AxisProduct>(1, 1, a, b);
+    case S::scalarProductYZ:
+      return std::make_unique<AxisProduct>(1, 2, a, b);
+    case S::scalarProductZX:
+      return std::make_unique<AxisProduct>(2, 0, a, b);
+    case S::scalarProductZY:
+      return std::make_unique<AxisProduct>(2, 1, a, b);
+    case S::scalarProductZZ:
+      return std::make_unique<AxisProduct>(2, 2, a, b);
+    case S::gazeAt:
+      return std::make_unique<Position>(Position::Kind::relative, a, b, 2);
+    case S::angularVel:
+      return std::make_unique<AngularVelocity>(a);
+    case S::linangVel:
+      return stack(std::make_unique<LinearVelocity>(a), std::make_unique<AngularVelocity>(a));
+    case S::energy:
+      return std::make_unique<Energy>(frames);
     case S::EqCenterOfMass:
       return std::make_unique<CenterOfMassOffset>(a, std::vector<int>(frames.begin() + 1, frames.end()));
-    case S::physics: return std::make_unique<FreeFlight>(a, -kGravity.z());
-    case S::totalForce: return std::make_unique<TotalForce>(a, std::vector<ContactForce>());
-    case S::contactConstraints: return std::make_unique<TangentialForce>(a, b, std::vector<ContactForce>());
-    case S::AlignXWithDiff: return std::make_unique<AlignWithMotion>(0, a, b);
-    case S::AlignYWithDiff: return std::make_unique<AlignWithMotion>(1, a, b);
-    case S::accumulatedCollisions: return std::make_unique<AccumulatedCollisions>(frames, program);
-    case S::pairCollisions: return std::make_unique<PairCollisions>(frames, program);
-    case S::jointLimits: return std::make_unique<JointLimits>(dofsOf(frames, program, info), program);
-    case S::qItself: return std::make_unique<JointState>(dofsOf(frames, program, info));
-    case S::qQuaternionNorms: return std::make_unique<QuaternionNorms>(program.unit_norms);
+    case S::physics:
+      return std::make_unique<FreeFlight>(a, -kGravity.z());
+    case S::totalForce:
+      return std::make_unique<TotalForce>(a, std::vector<ContactForce>());
+    case S::contactConstraints:
+      return std::make_unique<TangentialForce>(a, b, std::vector<ContactForce>());
+    case S::AlignXWithDiff:
+      return std::make_unique<AlignWithMotion>(0, a, b);
+    case S::AlignYWithDiff:
+      return std::make_unique<AlignWithMotion>(1, a, b);
+    case S::accumulatedCollisions:
+      return std::make_unique<AccumulatedCollisions>(frames, program);
+    case S::pairCollisions:
+      return std::make_unique<PairCollisions>(frames, program);
+    case S::jointLimits:
+      return std::make_unique<JointLimits>(dofsOf(frames, program, info), program);
+    case S::qItself:
+      return std::make_unique<JointState>(dofsOf(frames, program, info));
+    case S::qQuaternionNorms:
+      return std::make_unique<QuaternionNorms>(program.unit_norms);
     case S::distance:
-    case S::pairCollision_negScalar: return std::make_unique<NegDistance>(a, b);
-    case S::pairCollision_vector: return std::make_unique<Witness>(Witness::Kind::vector, a, b);
-    case S::pairCollision_normal: return std::make_unique<Witness>(Witness::Kind::normal, a, b);
-    case S::pairCollision_p1: return std::make_unique<Witness>(Witness::Kind::point_a, a, b);
-    case S::pairCollision_p2: return std::make_unique<Witness>(Witness::Kind::point_b, a, b);
-    case S::oppose: return std::make_unique<Oppose>(a, b, c, false);
-    case S::opposeCentral: return std::make_unique<Oppose>(a, b, c, true);
-    case S::aboveBox: return std::make_unique<BoxRegion>(BoxRegion::Kind::above, a, b, boxOf(b, program, info));
-    case S::insideBox: return std::make_unique<BoxRegion>(BoxRegion::Kind::inside, a, b, boxOf(b, program, info));
+    case S::pairCollision_negScalar:
+      return std::make_unique<NegDistance>(a, b);
+    case S::pairCollision_vector:
+      return std::make_unique<Witness>(Witness::Kind::vector, a, b);
+    case S::pairCollision_normal:
+      return std::make_unique<Witness>(Witness::Kind::normal, a, b);
+    case S::pairCollision_p1:
+      return std::make_unique<Witness>(Witness::Kind::point_a, a, b);
+    case S::pairCollision_p2:
+      return std::make_unique<Witness>(Witness::Kind::point_b, a, b);
+    case S::oppose:
+      return std::make_unique<Oppose>(a, b, c, false);
+    case S::opposeCentral:
+      return std::make_unique<Oppose>(a, b, c, true);
+    case S::aboveBox:
+      return std::make_unique<BoxRegion>(BoxRegion::Kind::above, a, b, boxOf(b, program, info));
+    case S::insideBox:
+      return std::make_unique<BoxRegion>(BoxRegion::Kind::inside, a, b, boxOf(b, program, info));
     case S::standingAbove:
       return std::make_unique<StandingAbove>(a, b, .5 * (heightOf(a, program) + heightOf(b, program)));
-    default: throw ValueError(cat(info.name, " is not available"));
+    default:
+      throw ValueError(cat(info.name, " is not available"));
   }
 }
 

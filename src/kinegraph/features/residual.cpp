@@ -11,8 +11,8 @@ Residual::Residual(std::shared_ptr<const Feature> feature, MatrixXd scale, Vecto
     : feature_(std::move(feature)), name_(std::move(name)) {
   if (order < 0) order = feature_->order();
   if (order < feature_->order()) {
-    throw ValueError(cat(name_, " is defined on ", feature_->order() + 1, " consecutive configurations: its order is at least ",
-                         feature_->order(), ", not ", order));
+    throw ValueError(cat(name_, " is defined on ", feature_->order() + 1,
+                         " consecutive configurations: its order is at least ", feature_->order(), ", not ", order));
   }
   differences_ = order - feature_->order();
   raw_.resize(feature_->rows());
@@ -27,8 +27,8 @@ void Residual::setScale(MatrixXd scale) {
   const int raw_rows = feature_->rows();
   const bool vector = scale.size() > 1 && scale.cols() == 1 && raw_rows != 1;
   if (scale.size() > 1 && (vector ? scale.rows() : scale.cols()) != raw_rows) {
-    throw ValueError(cat("scale of ", name_, " has shape ", scale.rows(), " x ", scale.cols(),
-                         "; expected 1 number, ", raw_rows, " numbers, or a matrix with ", raw_rows, " columns"));
+    throw ValueError(cat("scale of ", name_, " has shape ", scale.rows(), " x ", scale.cols(), "; expected 1 number, ",
+                         raw_rows, " numbers, or a matrix with ", raw_rows, " columns"));
   }
   if (!scale.allFinite()) throw ValueError(cat("scale of ", name_, " has numbers that are not finite"));
   scale_ = std::move(scale);
@@ -46,7 +46,8 @@ void Residual::setTarget(VectorXd target) {
   target_ = std::move(target);
 }
 
-void Residual::eval(std::span<const State* const> states, double tau, Eigen::Ref<VectorXd> y, JacobianRows* J, char* zero_row) {
+void Residual::eval(std::span<const State* const> states, double tau, Eigen::Ref<VectorXd> y, JacobianRows* J,
+                    char* zero_row) {
   if (!mixesRows()) {
     evalRaw(states, tau, y, J, zero_row);
     return scaleRows(y, J);
@@ -63,7 +64,8 @@ void Residual::eval(std::span<const State* const> states, double tau, Eigen::Ref
   y.noalias() = scale_ * raw_;
 }
 
-void Residual::evalRaw(std::span<const State* const> states, double tau, Eigen::Ref<VectorXd> y, JacobianRows* J, char* zero_row) {
+void Residual::evalRaw(std::span<const State* const> states, double tau, Eigen::Ref<VectorXd> y, JacobianRows* J,
+                       char* zero_row) {
   if (differences_ > 0) {
     evalDifference(states, tau, y, J);
   } else {
@@ -94,7 +96,8 @@ void Residual::finish(Eigen::Ref<VectorXd> y, JacobianRows* J) const {
   scaleRows(y, J);
 }
 
-void Residual::mix(Eigen::Ref<VectorXd> raw, JacobianRows* raw_jacobian, Eigen::Ref<VectorXd> y, JacobianRows* J) const {
+void Residual::mix(Eigen::Ref<VectorXd> raw, JacobianRows* raw_jacobian, Eigen::Ref<VectorXd> y,
+                   JacobianRows* J) const {
   alignSign(raw, raw_jacobian);
   subtractTarget(raw);
   y.noalias() = scale_ * raw;
@@ -134,7 +137,8 @@ void Residual::scaleRows(Eigen::Ref<VectorXd> y, JacobianRows* J) const {
   }
 }
 
-void Residual::evalDifference(std::span<const State* const> states, double tau, Eigen::Ref<VectorXd> y, JacobianRows* J) {
+void Residual::evalDifference(std::span<const State* const> states, double tau, Eigen::Ref<VectorXd> y,
+                              JacobianRows* J) {
   const int own = feature_->order(), n = J ? int(J->cols()) / int(states.size()) : 0;
   const int quaternion = feature_->quaternionRow();
   y.setZero();

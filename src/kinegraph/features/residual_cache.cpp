@@ -4,11 +4,14 @@
 
 namespace kinegraph {
 
-const std::shared_ptr<Residual>& ResidualCache::get(const State& scene, FeatureSymbol symbol, const std::vector<std::string>& frames,
-                                                    MatrixXd scale, VectorXd target, int order) {
+const std::shared_ptr<Residual>& ResidualCache::get(const State& scene, FeatureSymbol symbol,
+                                                    const std::vector<std::string>& frames, MatrixXd scale,
+                                                    VectorXd target, int order) {
   constexpr std::size_t kKept = 8;
   for (Entry& entry : entries_) {
-    if (entry.symbol != symbol || entry.program != scene.sharedProgram() || entry.order != order || entry.frames != frames) continue;
+    if (entry.symbol != symbol || entry.program != scene.sharedProgram() || entry.order != order ||
+        entry.frames != frames)
+      continue;
     entry.residual->setScale(std::move(scale));
     entry.residual->setTarget(std::move(target));
     return entry.residual;

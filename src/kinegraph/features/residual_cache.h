@@ -9,7 +9,8 @@
 
 namespace kinegraph {
 
-/// Residuals of the last few questions about built-in features, so that the same question again costs its evaluation only.
+/// Residuals of the last few questions about built-in features, so that the same question again costs its evaluation
+/// only.
 class ResidualCache {
  public:
   ResidualCache() = default;
@@ -17,8 +18,8 @@ class ResidualCache {
   ResidualCache& operator=(const ResidualCache&) { return *this; }
 
   /// As makeResidual. Later calls may give it another scale and target.
-  const std::shared_ptr<Residual>& get(const State& scene, FeatureSymbol symbol, const std::vector<std::string>& frames, MatrixXd scale,
-                                       VectorXd target, int order);
+  const std::shared_ptr<Residual>& get(const State& scene, FeatureSymbol symbol, const std::vector<std::string>& frames,
+                                       MatrixXd scale, VectorXd target, int order);
 
  private:
   struct Entry {

@@ -12,18 +12,21 @@ JacobianRows later(JacobianRows& J) { return J.rightCols(J.cols() / 2); }
 
 }  // namespace
 
-void AngularVelocity::eval(std::span<const State* const> states, double tau, Eigen::Ref<VectorXd> y, JacobianRows* J) const {
+void AngularVelocity::eval(std::span<const State* const> states, double tau, Eigen::Ref<VectorXd> y,
+                           JacobianRows* J) const {
   const Quaterniond before(states[0]->pose(frame_).R), now(states[1]->pose(frame_).R);
   Quaterniond step = now * before.conjugate();
   if (step.w() < 0.) step.coeffs() *= -1.;
   y = 2. / tau * step.vec();
   if (!J) return;
-  const Matrix3d none = Matrix3d::Zero(), straight = step.w() / tau * Matrix3d::Identity(), turn = skew(step.vec()) / tau;
+  const Matrix3d none = Matrix3d::Zero(), straight = step.w() / tau * Matrix3d::Identity(),
+                 turn = skew(step.vec()) / tau;
   states[1]->addJacobian(frame_, Vector3d::Zero(), none, straight - turn, later(*J));
   states[0]->addJacobian(frame_, Vector3d::Zero(), none, -straight - turn, earlier(*J));
 }
 
-void LinearVelocity::eval(std::span<const State* const> states, double tau, Eigen::Ref<VectorXd> y, JacobianRows* J) const {
+void LinearVelocity::eval(std::span<const State* const> states, double tau, Eigen::Ref<VectorXd> y,
+                          JacobianRows* J) const {
   const Vector3d before = states[0]->position(frame_), now = states[1]->position(frame_);
   y = (now - before) / tau;
   if (!J) return;
@@ -31,7 +34,8 @@ void LinearVelocity::eval(std::span<const State* const> states, double tau, Eige
   states[0]->addPointJacobian(frame_, before, -1. / tau, earlier(*J));
 }
 
-void AlignWithMotion::eval(std::span<const State* const> states, double, Eigen::Ref<VectorXd> y, JacobianRows* J) const {
+void AlignWithMotion::eval(std::span<const State* const> states, double, Eigen::Ref<VectorXd> y,
+                           JacobianRows* J) const {
   const Vector3d before = states[0]->position(b_), now = states[1]->position(b_), d = now - before;
   const Vector3d axis = states[0]->pose(a_).R.col(axis_);
   constexpr double kShortest = 1e-4;  // m; below it the direction fades

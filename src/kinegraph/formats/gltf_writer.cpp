@@ -64,9 +64,9 @@ class GltfWriter {
     std::string json =
         cat("{\"asset\":{\"version\":\"2.0\",\"generator\":\"Kinegraph\"},\"scene\":0,\"scenes\":[{\"nodes\":[",
             nodes_.size() - 1, "]}],\"nodes\":[", join(nodes_, ","), "]");
-    for (const auto& [name, entries] : {std::pair("meshes", &meshes_), std::pair("materials", &materials_),
-                                        std::pair("textures", &textures_), std::pair("images", &images_),
-                                        std::pair("accessors", &accessors_), std::pair("bufferViews", &views_)}) {
+    for (const auto& [name, entries] :
+         {std::pair("meshes", &meshes_), std::pair("materials", &materials_), std::pair("textures", &textures_),
+          std::pair("images", &images_), std::pair("accessors", &accessors_), std::pair("bufferViews", &views_)}) {
       if (!entries->empty()) json += cat(",\"", name, "\":[", join(*entries, ","), "]");
     }
     if (!data_.empty()) json += cat(",\"buffers\":[{\"byteLength\":", data_.size(), "}]");
@@ -132,8 +132,8 @@ class GltfWriter {
     }
     for (const auto& [triangles, texture] : data.textured) {
       const Vector4d white(1., 1., 1., shape.color ? rgba[3] : 1.);
-      primitives.push_back(cat("{\"mode\":", kTriangles, ",", position, ",\"TEXCOORD_0\":", data.texcoords, "},\"indices\":", triangles,
-                               ",\"material\":", materialOf(white, texture), "}"));
+      primitives.push_back(cat("{\"mode\":", kTriangles, ",", position, ",\"TEXCOORD_0\":", data.texcoords,
+                               "},\"indices\":", triangles, ",\"material\":", materialOf(white, texture), "}"));
     }
     return indexOf(cat("{\"primitives\":[", join(primitives, ","), "]}"), meshes_, mesh_index_);
   }
@@ -167,7 +167,8 @@ class GltfWriter {
     std::vector<bool> is_textured(surface.triangles.size());
     if (!surface.textures.empty()) added.texcoords = addTexcoords(surface);
     for (const TexturedTriangles& textured : surface.textures) {
-      std::vector<std::array<std::uint32_t, 3>> triangles(surface.triangles.begin() + textured.first, surface.triangles.begin() + textured.first + textured.count);
+      std::vector<std::array<std::uint32_t, 3>> triangles(surface.triangles.begin() + textured.first,
+                                                          surface.triangles.begin() + textured.first + textured.count);
       std::fill_n(is_textured.begin() + textured.first, textured.count, true);
       const int texture = textureOf(textured.image);
       added.textured.emplace_back(addTriangles(triangles), texture);

@@ -30,8 +30,8 @@ void addTransformed(const Mesh& part, const RigidTransform& X, const Rgba& color
   for (std::size_t v = 0; v < part.vertices.size(); ++v) {
     sum.vertices.push_back(X * part.vertices[v]);
     sum.colors.push_back(part.colors.size() == part.vertices.size() ? part.colors[v]
-                         : part.colors.size() == 1                 ? part.colors[0]
-                                                                   : color);
+                         : part.colors.size() == 1                  ? part.colors[0]
+                                                                    : color);
   }
   for (const auto& [a, b, c] : part.triangles) sum.triangles.push_back({first + a, first + b, first + c});
 }
@@ -53,7 +53,8 @@ void makeFolder(const std::string& prefix) {
 
 /// Calls `save(mesh, name)` for each mesh of a scene, once if several frames have it, with a name of its own.
 template <class Save>
-std::vector<std::string> forEachMesh(const Config& config, const std::string& prefix, bool enumerate, const char* extension, Save save) {
+std::vector<std::string> forEachMesh(const Config& config, const std::string& prefix, bool enumerate,
+                                     const char* extension, Save save) {
   makeFolder(prefix);
   std::map<const Mesh*, bool> seen;
   std::map<std::string, int> taken;

@@ -18,7 +18,8 @@ Graph* statesOf(Node& frame) {
 
 }  // namespace
 
-void addKeyframes(const MjcfDocument& document, const std::vector<MjcfJointPlace>& joints, Graph& graph, Findings& findings) {
+void addKeyframes(const MjcfDocument& document, const std::vector<MjcfJointPlace>& joints, Graph& graph,
+                  Findings& findings) {
   const std::vector<const XmlElement*> keys = document.inSections("keyframe", "key");
   if (keys.empty()) return;
   std::unordered_map<std::string, Node*> frames;
@@ -31,7 +32,8 @@ void addKeyframes(const MjcfDocument& document, const std::vector<MjcfJointPlace
     if (!name || name->value.empty() || !qpos) continue;
     const auto numbers = numbersIn(qpos->value);
     if (!numbers || numbers->size() != count) {
-      findings.warn(qpos->where, cat("keyframe '", name->value, "': expected qpos to be ", count, " numbers, one per coordinate of a joint",
+      findings.warn(qpos->where, cat("keyframe '", name->value, "': expected qpos to be ", count,
+                                     " numbers, one per coordinate of a joint",
                                      numbers ? cat(", not ", numbers->size()) : std::string(), "; it is left out"));
       continue;
     }

@@ -14,8 +14,9 @@ struct MjcfJointPlace {
   int numbers;
 };
 
-/// Enters the keyframes of a file as named states of the joints (the attribute `joint_states`) into the frames of `graph`. `joints`
-/// are all joints in the order of qpos. Keyframes without a name or without qpos say nothing here.
-void addKeyframes(const MjcfDocument& document, const std::vector<MjcfJointPlace>& joints, Graph& graph, Findings& findings);
+/// Enters the keyframes of a file as named states of the joints (the attribute `joint_states`) into the frames of
+/// `graph`. `joints` are all joints in the order of qpos. Keyframes without a name or without qpos say nothing here.
+void addKeyframes(const MjcfDocument& document, const std::vector<MjcfJointPlace>& joints, Graph& graph,
+                  Findings& findings);
 
 }  // namespace kinegraph

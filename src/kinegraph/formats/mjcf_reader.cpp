@@ -8,8 +8,8 @@
 #include "kinegraph/formats/axis_motion.h"
 #include "kinegraph/formats/mjcf_check.h"
 #include "kinegraph/formats/mjcf_couplings.h"
-#include "kinegraph/formats/mjcf_keyframes.h"
 #include "kinegraph/formats/mjcf_document.h"
+#include "kinegraph/formats/mjcf_keyframes.h"
 #include "kinegraph/formats/mjcf_shapes.h"
 #include "kinegraph/formats/mjcf_values.h"
 
@@ -66,7 +66,8 @@ class MjcfReader {
       if (body != bodies_of_joints_.end()) mimic->value.data = body->second;
     }
     for (MjcfJointPlace& joint : joints_) {
-      if (const auto body = bodies_of_joints_.find(joint.frame); body != bodies_of_joints_.end()) joint.frame = body->second;
+      if (const auto body = bodies_of_joints_.find(joint.frame); body != bodies_of_joints_.end())
+        joint.frame = body->second;
     }
     addKeyframes(document_, joints_, graph_, findings_);
     return std::move(graph_);
@@ -391,7 +392,7 @@ class MjcfReader {
   std::map<const XmlElement*, std::string> frame_of_;
   std::map<std::pair<std::string, std::string>, const XmlElement*> elements_;  ///< by kind and name
   std::map<std::string, std::string> bodies_of_joints_;  ///< frames of joints that are those of their bodies
-  std::vector<MjcfJointPlace> joints_;  ///< in the order of qpos
+  std::vector<MjcfJointPlace> joints_;                   ///< in the order of qpos
   std::map<std::string, MjcfElement> named_joints_;
   std::map<std::string, MjcfCoupling> couplings_;
   std::map<std::string, std::vector<std::string>> excluded_;  ///< frames, by frame

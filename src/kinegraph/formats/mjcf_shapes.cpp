@@ -195,8 +195,8 @@ const MjcfElement* MjcfShapes::materialOf(const MjcfElement& element) {
   if (!reference) return nullptr;
   const auto found = materials_.find(reference->value);
   if (found != materials_.end()) return &found->second;
-  findings_.warn(reference->where, cat(element.describe(), ": there is no material '", reference->value,
-                                       "' in <asset>", similarHint(reference->value, namesIn(materials_))));
+  findings_.warn(reference->where, cat(element.describe(), ": there is no material '", reference->value, "' in <asset>",
+                                       similarHint(reference->value, namesIn(materials_))));
   return nullptr;
 }
 
@@ -224,13 +224,15 @@ std::vector<double> MjcfShapes::color(const MjcfElement& element) {
   if (rgba.empty()) rgba = {1., 1., 1., 1.};
   const MjcfElement* texture = textureOf(*material);
   if (!texture || !texture->attribute("builtin") || texture->attribute("builtin")->value == "none") return rgba;
-  const Vector3d first = values_.vector(*texture, "rgb1", Vector3d::Constant(.8)), second = values_.vector(*texture, "rgb2", Vector3d::Constant(.5));
+  const Vector3d first = values_.vector(*texture, "rgb1", Vector3d::Constant(.8)),
+                 second = values_.vector(*texture, "rgb2", Vector3d::Constant(.5));
   const Vector3d mean = texture->attribute("builtin")->value == "flat" ? first : Vector3d(.5 * (first + second));
   for (int i = 0; i < 3; ++i) rgba[std::size_t(i)] *= mean[i];
   return rgba;
 }
 
-/// The picture on a geom. How often it is repeated counts where the geom itself does not say where it is: on planes and boxes.
+/// The picture on a geom. How often it is repeated counts where the geom itself does not say where it is: on planes and
+/// boxes.
 void MjcfShapes::addTexture(const MjcfElement& element, Placed& placed) {
   const XmlAttribute* reference = element.attribute("material");
   const auto found = reference ? materials_.find(reference->value) : materials_.end();  // color() has warned
@@ -240,7 +242,8 @@ void MjcfShapes::addTexture(const MjcfElement& element, Placed& placed) {
   if (!file) return;
   const MjcfSettings& settings = document_.settings();
   const std::string name = settings.strip_mesh_path ? fs::path(file->value).filename().string() : file->value;
-  placed.attributes.add("texture", AngleText{resolvePath((fs::path(settings.texture_folder) / name).string(), folder_)});
+  placed.attributes.add("texture",
+                        AngleText{resolvePath((fs::path(settings.texture_folder) / name).string(), folder_)});
   const std::vector<double> repeat = values_.numbers(*material, "texrepeat", 2);
   const Node* size = placed.attributes.find("size");
   if (repeat.empty() || !size || placed.attributes.find("mesh")) return;

@@ -118,7 +118,8 @@ class FrameDescription {
     const Mesh* mesh = shape.geometry->mesh.get();
     std::shared_ptr<const Image> image = shape.texture;
     const bool own = mesh && shape.geometry->mesh_file.empty();
-    if (!image && own && mesh->textures.size() == 1 && mesh->textures[0].count == mesh->triangles.size()) image = mesh->textures[0].image;
+    if (!image && own && mesh->textures.size() == 1 && mesh->textures[0].count == mesh->triangles.size())
+      image = mesh->textures[0].image;
     if (image && !image->path.empty()) add("texture", fileReference("texture", image->path));
     if (shape.texture_repeat != std::array{1., 1.}) addNumbers("texture_repeat", shape.texture_repeat);
     if (!mesh || mesh->texcoords.empty() || !(own || frame_.attributes->find("texcoords"))) return;
@@ -226,7 +227,8 @@ class FrameDescription {
     static const std::set<std::string> mesh_sources = {"mesh_decomp", "mesh_points", "mesh_rope"};
     for (const Node& node : frame_.attributes->nodes) {
       const bool unresolved = node.key == "visual_mesh" && frame_.shape && frame_.shape->visual_mesh.empty();
-      if (node.key == "texture" && frame_.shape && frame_.shape->texture && !frame_.shape->texture->path.empty()) continue;
+      if (node.key == "texture" && frame_.shape && frame_.shape->texture && !frame_.shape->texture->path.empty())
+        continue;
       if (node.key.starts_with("%") || (interpreted.contains(node.key) && !unresolved)) continue;
       if (mesh_sources.contains(node.key) && frame_.shape && frame_.shape->geometry->mesh) continue;
       if (node.key == "sdf" && frame_.shape && frame_.shape->geometry->grid) continue;

@@ -14,10 +14,25 @@ namespace {
 using Member = RobotSemantics::Member;
 
 // What MoveIt, Pinocchio and HPP write into such files; only the first row is of use here.
-const std::vector<std::string> kElements = {
-    "group", "group_state", "disable_collisions", "enable_collisions", "disable_default_collisions", "virtual_joint",
-    "end_effector", "passive_joint", "joint_property", "link_sphere_approximation", "rotor_params", "specifications", "gripper", "handle", "contact",
-    "position", "global_position", "mask", "clearance"};
+const std::vector<std::string> kElements = {"group",
+                                            "group_state",
+                                            "disable_collisions",
+                                            "enable_collisions",
+                                            "disable_default_collisions",
+                                            "virtual_joint",
+                                            "end_effector",
+                                            "passive_joint",
+                                            "joint_property",
+                                            "link_sphere_approximation",
+                                            "rotor_params",
+                                            "specifications",
+                                            "gripper",
+                                            "handle",
+                                            "contact",
+                                            "position",
+                                            "global_position",
+                                            "mask",
+                                            "clearance"};
 
 class SrdfReader {
  public:
@@ -44,7 +59,8 @@ class SrdfReader {
       auto& pairs = element.name == "enable_collisions" ? semantics_.contact : semantics_.no_contact;
       if (!a.empty() && !b.empty()) pairs.push_back({a, b, element.where});
     } else if (element.name == "disable_default_collisions") {
-      if (const std::string link = text(element, "link"); !link.empty()) semantics_.no_contact.push_back({link, "", element.where});
+      if (const std::string link = text(element, "link"); !link.empty())
+        semantics_.no_contact.push_back({link, "", element.where});
     } else if (element.name == "virtual_joint") {
       if (const std::string name = text(element, "name"); !name.empty()) semantics_.outside.push_back(name);
     } else {
@@ -55,7 +71,8 @@ class SrdfReader {
   void checkElement(const XmlElement& element, const std::vector<std::string>& known) {
     if (std::find(known.begin(), known.end(), element.name) != known.end()) return;
     if (element.name.starts_with("xacro:")) {
-      found_.error(element.where, cat("<", element.name, "> is a macro; expand the file first: xacro in.xacro > out.srdf"));
+      found_.error(element.where,
+                   cat("<", element.name, "> is a macro; expand the file first: xacro in.xacro > out.srdf"));
     } else {
       found_.warn(element.where, cat("unknown element <", element.name, ">", similarHint(element.name, known)));
     }
@@ -75,8 +92,11 @@ class SrdfReader {
     RobotSemantics::Group group{text(element, "name"), {}};
     for (const XmlElement& child : element.children) {
       if (child.name == "joint" || child.name == "link" || child.name == "group") {
-        const auto kind = child.name == "joint" ? Member::Kind::joint : child.name == "link" ? Member::Kind::link : Member::Kind::group;
-        if (const std::string name = text(child, "name"); !name.empty()) group.members.push_back({kind, name, "", child.where});
+        const auto kind = child.name == "joint"  ? Member::Kind::joint
+                          : child.name == "link" ? Member::Kind::link
+                                                 : Member::Kind::group;
+        if (const std::string name = text(child, "name"); !name.empty())
+          group.members.push_back({kind, name, "", child.where});
       } else if (child.name == "chain") {
         const std::string base = text(child, "base_link"), tip = text(child, "tip_link");
         if (!base.empty() && !tip.empty()) group.members.push_back({Member::Kind::chain, base, tip, child.where});
@@ -108,7 +128,8 @@ class SrdfReader {
       if (joint.empty() || value.empty()) continue;
       auto numbers = numbersIn(value);
       if (!numbers || numbers->empty()) {
-        found_.error(child.attribute("value")->where, cat("state '", state.name, "', joint '", joint, "': value=\"", value, "\" is not a number"));
+        found_.error(child.attribute("value")->where,
+                     cat("state '", state.name, "', joint '", joint, "': value=\"", value, "\" is not a number"));
         continue;
       }
       state.joints.push_back({joint, std::move(*numbers), child.where});
@@ -148,9 +169,11 @@ class SrdfReader {
     for (const Member& member : group.members) {
       if (member.kind != Member::Kind::group) continue;
       if (std::find(open.begin(), open.end(), member.name) != open.end()) {
-        found_.error(member.where, cat("group '", member.name, "' contains itself: ", join(open, " > "), " > ", member.name));
+        found_.error(member.where,
+                     cat("group '", member.name, "' contains itself: ", join(open, " > "), " > ", member.name));
       } else {
-        if (const auto inner = groups.find(member.name); inner != groups.end()) checkCycle(*inner->second, groups, open, done);
+        if (const auto inner = groups.find(member.name); inner != groups.end())
+          checkCycle(*inner->second, groups, open, done);
       }
     }
     open.pop_back();

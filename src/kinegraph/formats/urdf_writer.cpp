@@ -293,9 +293,10 @@ class UrdfWriter {
     const bool pictured = shape.texture && !shape.texture->path.empty();
     if (shape.color || pictured) {
       const Vector4d c = shape.color.value_or(Vector4d::Ones());
-      material = cat("      <material name=\"", xmlEscaped(frame.name), "_color\"><color rgba=\"",
-                     numbers({c[0], c[1], c[2], c[3]}), "\"/>",
-                     pictured ? cat("<texture filename=\"", xmlEscaped(shape.texture->path), "\"/>") : "", "</material>\n");
+      material =
+          cat("      <material name=\"", xmlEscaped(frame.name), "_color\"><color rgba=\"",
+              numbers({c[0], c[1], c[2], c[3]}), "\"/>",
+              pictured ? cat("<texture filename=\"", xmlEscaped(shape.texture->path), "\"/>") : "", "</material>\n");
     }
     std::string out;
     for (const auto& [at, geometry] : geometryElements(frame)) {

@@ -107,7 +107,8 @@ std::shared_ptr<const CollisionBody> hullBody(const std::vector<Vector3d>& point
 Parts hullsOfParts(const Mesh& mesh) {
   Parts parts;
   for (std::size_t i = 0; i < mesh.parts.size(); ++i) {
-    const std::size_t first = mesh.parts[i], last = i + 1 < mesh.parts.size() ? mesh.parts[i + 1] : mesh.vertices.size();
+    const std::size_t first = mesh.parts[i],
+                      last = i + 1 < mesh.parts.size() ? mesh.parts[i + 1] : mesh.vertices.size();
     if (first < last) parts.push_back(hullBody({mesh.vertices.begin() + first, mesh.vertices.begin() + last}));
   }
   return parts;
@@ -140,22 +141,26 @@ CollisionBody::~CollisionBody() = default;
 
 Vector3d CollisionBody::support(const Vector3d& direction) const {
   switch (core_) {
-    case Core::segment: return {0., 0., std::copysign(half_length_, direction.z())};
-    case Core::box: return half_sides_.binaryExpr(direction, [](double h, double d) { return std::copysign(h, d); });
+    case Core::segment:
+      return {0., 0., std::copysign(half_length_, direction.z())};
+    case Core::box:
+      return half_sides_.binaryExpr(direction, [](double h, double d) { return std::copysign(h, d); });
     case Core::cylinder: {
       const double across = std::hypot(direction.x(), direction.y()), z = std::copysign(half_length_, direction.z());
       if (across == 0.) return {core_radius_, 0., z};
       const double scale = core_radius_ / across;
       return {scale * direction.x(), scale * direction.y(), z};
     }
-    case Core::hull: return hull_.points[std::size_t(hull_.farthest(direction))];
+    case Core::hull:
+      return hull_.points[std::size_t(hull_.farthest(direction))];
     case Core::box_ellipsoid: {
       const Vector3d corner = half_sides_.binaryExpr(direction, [](double h, double d) { return std::copysign(h, d); });
       const Vector3d scaled = radii_.cwiseProduct(direction);
       const double norm = scaled.norm();
       return norm > 0. ? Vector3d(corner + radii_.cwiseProduct(scaled) / norm) : corner;
     }
-    default: return Vector3d::Zero();
+    default:
+      return Vector3d::Zero();
   }
 }
 
@@ -164,7 +169,9 @@ std::shared_ptr<const CollisionBody> makeCollisionBody(const Geometry& geometry)
   const std::vector<double>& s = geometry.size;
   const auto halfSize = [&] { return Vector3d(.5 * s[0], .5 * s[1], .5 * s[2]); };
   switch (geometry.type) {
-    case ShapeType::sphere: maker.sweep(s[0]); break;
+    case ShapeType::sphere:
+      maker.sweep(s[0]);
+      break;
     case ShapeType::capsule:
       maker.sweep(s[1]);
       maker.setSegment(s[0]);
@@ -176,13 +183,19 @@ std::shared_ptr<const CollisionBody> makeCollisionBody(const Geometry& geometry)
       }
       [[fallthrough]];
     case ShapeType::box:
-    case ShapeType::tensor: maker.setBox(halfSize()); break;
-    case ShapeType::quad: maker.setBox({.5 * s[0], .5 * s[1], 0.}); break;
+    case ShapeType::tensor:
+      maker.setBox(halfSize());
+      break;
+    case ShapeType::quad:
+      maker.setBox({.5 * s[0], .5 * s[1], 0.});
+      break;
     case ShapeType::ssBox:
       maker.sweep(s[3]);
       maker.setBox(halfSize() - Vector3d::Constant(s[3]));
       break;
-    case ShapeType::cylinder: maker.setCylinder(s[1], .5 * s[0]); break;
+    case ShapeType::cylinder:
+      maker.setCylinder(s[1], .5 * s[0]);
+      break;
     case ShapeType::ssCylinder:
       maker.sweep(s[2]);
       maker.setCylinder(s[1] - s[2], .5 * s[0] - s[2]);
@@ -201,7 +214,8 @@ std::shared_ptr<const CollisionBody> makeCollisionBody(const Geometry& geometry)
       break;
     case ShapeType::none:
     case ShapeType::marker:
-    case ShapeType::camera: break;
+    case ShapeType::camera:
+      break;
   }
   return maker.take();
 }

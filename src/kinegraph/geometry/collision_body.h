@@ -13,8 +13,8 @@ struct GridField;
 /// The corners of a convex polytope, and which of them are neighbours where there are many. Local coordinates, m.
 struct Hull {
   std::vector<Vector3d> points;
-  std::vector<std::uint32_t> neighbors;        ///< those of point i: [first_neighbor[i], first_neighbor[i + 1])
-  std::vector<std::uint32_t> first_neighbor;   ///< empty: too few points for it to pay, or all in one plane
+  std::vector<std::uint32_t> neighbors;       ///< those of point i: [first_neighbor[i], first_neighbor[i + 1])
+  std::vector<std::uint32_t> first_neighbor;  ///< empty: too few points for it to pay, or all in one plane
 
   /// The index of the point that is farthest along a direction.
   int farthest(const Vector3d& direction) const;
@@ -40,18 +40,22 @@ class CollisionBody {
 
   Core core() const { return core_; }
   bool convex() const { return core_ < Core::compound; }
-  double radius() const { return radius_; }            ///< of the ball, m
-  double halfLength() const { return half_length_; }   ///< of a segment or cylinder
-  double coreRadius() const { return core_radius_; }   ///< of a cylinder
+  double radius() const { return radius_; }                  ///< of the ball, m
+  double halfLength() const { return half_length_; }         ///< of a segment or cylinder
+  double coreRadius() const { return core_radius_; }         ///< of a cylinder
   const Vector3d& halfSides() const { return half_sides_; }  ///< of a box, also of that in a box_ellipsoid
   const Vector3d& radii() const { return radii_; }           ///< of the ellipsoid in a box_ellipsoid
   const Hull& hull() const { return hull_; }
-  const BodyTree& tree() const { return *tree_; }    ///< of a compound
+  const BodyTree& tree() const { return *tree_; }  ///< of a compound
   const GridField& grid() const { return *grid_; }
 
-  const Vector3d& boundCenter() const { return bound_center_; }  ///< bounding sphere of the whole body, local; middle of the bounding box
+  const Vector3d& boundCenter() const {
+    return bound_center_;
+  }  ///< bounding sphere of the whole body, local; middle of the bounding box
   double boundRadius() const { return bound_radius_; }
-  const Vector3d& boundHalf() const { return bound_half_; }      ///< half sides of the core's bounding box about boundCenter()
+  const Vector3d& boundHalf() const {
+    return bound_half_;
+  }  ///< half sides of the core's bounding box about boundCenter()
 
   /// The point of a convex core that is farthest along a direction. Local coordinates.
   Vector3d support(const Vector3d& direction) const;

@@ -87,9 +87,11 @@ class Nearest {
 
 }  // namespace
 
-Proximity nearestParts(const CollisionBody& a, const RigidTransform& X_WA, const CollisionBody& b, const RigidTransform& X_WB) {
+Proximity nearestParts(const CollisionBody& a, const RigidTransform& X_WA, const CollisionBody& b,
+                       const RigidTransform& X_WB) {
   if (a.core() == CollisionBody::Core::grid && b.core() == CollisionBody::Core::grid) {
-    const Proximity of_a = nearestParts(*a.grid().surface, X_WA, b, X_WB), of_b = nearestParts(a, X_WA, *b.grid().surface, X_WB);
+    const Proximity of_a = nearestParts(*a.grid().surface, X_WA, b, X_WB),
+                    of_b = nearestParts(a, X_WA, *b.grid().surface, X_WB);
     return of_a.distance <= of_b.distance ? of_a : of_b;
   }
   const Side side_a(a, X_WA), side_b(b, X_WB);

@@ -44,7 +44,9 @@ void addCorners(const Hull& hull, const Vector3d& d, Patch& patch) {
     patch.add(hull.points[corner]);
     for (std::uint32_t k = hull.first_neighbor[corner]; k < hull.first_neighbor[corner + 1] && count < kMost; ++k) {
       const int next = int(hull.neighbors[k]);
-      if (!isTop(hull.points[std::size_t(next)]) || std::find(found.begin(), found.begin() + count, next) != found.begin() + count) continue;
+      if (!isTop(hull.points[std::size_t(next)]) ||
+          std::find(found.begin(), found.begin() + count, next) != found.begin() + count)
+        continue;
       found[std::size_t(count++)] = next;
     }
   }
@@ -58,19 +60,27 @@ void addBoxCorners(const Vector3d& half, const Vector3d& offset, const Vector3d&
   }
 }
 
-/// What of a core is farthest along the unit vector d, in its own frame: the corners of a face, the ends of an edge, or a point.
+/// What of a core is farthest along the unit vector d, in its own frame: the corners of a face, the ends of an edge, or
+/// a point.
 Patch farthestPatch(const CollisionBody& body, const Vector3d& d) {
   Patch patch;
   const double across = std::hypot(d.x(), d.y()), z = std::copysign(body.halfLength(), d.z());
   switch (body.core()) {
-    case Core::hull: addCorners(body.hull(), d, patch); break;
-    case Core::box: addBoxCorners(body.halfSides(), Vector3d::Zero(), d, patch); break;
+    case Core::hull:
+      addCorners(body.hull(), d, patch);
+      break;
+    case Core::box:
+      addBoxCorners(body.halfSides(), Vector3d::Zero(), d, patch);
+      break;
     case Core::box_ellipsoid:
-      addBoxCorners(body.halfSides(), body.radii().cwiseAbs2().cwiseProduct(d) / std::max(body.radii().cwiseProduct(d).norm(), 1e-100), d, patch);
+      addBoxCorners(body.halfSides(),
+                    body.radii().cwiseAbs2().cwiseProduct(d) / std::max(body.radii().cwiseProduct(d).norm(), 1e-100), d,
+                    patch);
       break;
     case Core::segment:
     case Core::cylinder: {
-      const Vector3d out = across > 0. ? Vector3d(body.coreRadius() / across * Vector3d(d.x(), d.y(), 0.)) : Vector3d::Zero();
+      const Vector3d out =
+          across > 0. ? Vector3d(body.coreRadius() / across * Vector3d(d.x(), d.y(), 0.)) : Vector3d::Zero();
       if (body.core() == Core::cylinder && across <= kParallel) {
         constexpr int kCorners = 32;
         for (int i = 0; i < kCorners; ++i) {
@@ -85,15 +95,16 @@ Patch farthestPatch(const CollisionBody& body, const Vector3d& d) {
       }
       break;
     }
-    default: patch.add(Vector3d::Zero());
+    default:
+      patch.add(Vector3d::Zero());
   }
   return patch;
 }
 
 double cross(const Eigen::Vector2d& a, const Eigen::Vector2d& b) { return a.x() * b.y() - a.y() * b.x(); }
 
-/// The convex hull, counter-clockwise; two points for what has no area. Source: Andrew, Another efficient algorithm for convex
-/// hulls in two dimensions, 1979.
+/// The convex hull, counter-clockwise; two points for what has no area. Source: Andrew, Another efficient algorithm for
+/// convex hulls in two dimensions, 1979.
 Polygon hullOf(Polygon points, double same) {
   const auto begin = points.items.begin();
   std::sort(begin, begin + points.size, [](const Eigen::Vector2d& p, const Eigen::Vector2d& q) {
@@ -115,8 +126,8 @@ Polygon hullOf(Polygon points, double same) {
   return hull;
 }
 
-/// Keeps what of a polygon (or of a line, given as its ends) is left of the line through `at` along the unit vector `along`.
-/// Source: Sutherland & Hodgman, Reentrant polygon clipping, 1974.
+/// Keeps what of a polygon (or of a line, given as its ends) is left of the line through `at` along the unit vector
+/// `along`. Source: Sutherland & Hodgman, Reentrant polygon clipping, 1974.
 Polygon clipped(const Polygon& polygon, const Eigen::Vector2d& at, const Eigen::Vector2d& along, double same) {
   Polygon kept;
   for (int i = 0; i < polygon.size; ++i) {

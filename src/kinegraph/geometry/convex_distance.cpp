@@ -41,7 +41,8 @@ void descend(const CorePair& pair, double relative, Search& search) {
 
 }  // namespace
 
-NearestPoints convexToConvex(const CollisionBody& a, const RigidTransform& X_WA, const CollisionBody& b, const RigidTransform& X_WB) {
+NearestPoints convexToConvex(const CollisionBody& a, const RigidTransform& X_WA, const CollisionBody& b,
+                             const RigidTransform& X_WB) {
   const Matrix3d R_AW = X_WA.R.transpose();
   const CorePair pair{a, b, {R_AW * X_WB.R, R_AW * (X_WB.p - X_WA.p)}};
   Search search;

@@ -43,9 +43,10 @@ struct Mesh {
   std::vector<Vector3d> vertices;
   std::vector<std::array<std::uint32_t, 3>> triangles;
   std::vector<std::array<std::uint8_t, 4>> colors;  ///< rgba: one per vertex, one in all, or none
-  std::vector<std::uint32_t> parts = {};            ///< the first vertex of each convex part, ascending; empty: not divided
-  std::vector<std::array<float, 2>> texcoords = {};  ///< of each vertex, where it is in a picture: to the right, and up, in 0..1; or none
-  std::vector<TexturedTriangles> textures = {};      ///< ascending; none without `texcoords`
+  std::vector<std::uint32_t> parts = {};  ///< the first vertex of each convex part, ascending; empty: not divided
+  std::vector<std::array<float, 2>> texcoords =
+      {};  ///< of each vertex, where it is in a picture: to the right, and up, in 0..1; or none
+  std::vector<TexturedTriangles> textures = {};  ///< ascending; none without `texcoords`
 };
 
 /// Numbers on a regular grid whose corners are those of a box centred at the origin; the last index runs fastest.
@@ -58,13 +59,14 @@ struct Grid {
 /// A shape without pose, colour or owner: type, size, and mesh or core points where the type needs them.
 /// `size` has exactly the entries that the type wants (m):
 ///   box x y z | sphere r | capsule length r | cylinder length r | ssBox x y z r | ssCylinder length R r
-///   ssBoxElip x y z ex ey ez r | ssCvx r | quad x y | marker length | sdf, tensor x y z | camera none, or its symbol's length | others none
+///   ssBoxElip x y z ex ey ez r | ssCvx r | quad x y | marker length | sdf, tensor x y z | camera none, or its symbol's
+///   length | others none
 /// Boxes give full outer widths including rounding; the axis of capsule and cylinder is z; a capsule's length is that
 /// of its core segment.
 struct Geometry {
   ShapeType type = ShapeType::none;
   std::vector<double> size;
-  std::shared_ptr<const Mesh> mesh;  ///< mesh, pointCloud, lines; core points of ssCvx (its vertices)
+  std::shared_ptr<const Mesh> mesh;        ///< mesh, pointCloud, lines; core points of ssCvx (its vertices)
   std::string mesh_file = {};              ///< path of the file that `mesh` was read from, or empty
   Vector3d mesh_scale = Vector3d::Ones();  ///< by which its points were multiplied
   std::shared_ptr<const Grid> grid = {};   ///< of tensor and sdf, if their values are known

@@ -87,14 +87,17 @@ class LeastOnCore {
 
 Vector3d nearestInCore(const CollisionBody& body, const Vector3d& point) {
   switch (body.core()) {
-    case Core::segment: return {0., 0., std::clamp(point.z(), -body.halfLength(), body.halfLength())};
-    case Core::box: return point.cwiseMax(-body.halfSides()).cwiseMin(body.halfSides());
+    case Core::segment:
+      return {0., 0., std::clamp(point.z(), -body.halfLength(), body.halfLength())};
+    case Core::box:
+      return point.cwiseMax(-body.halfSides()).cwiseMin(body.halfSides());
     case Core::cylinder: {
       const double across = std::hypot(point.x(), point.y());
       const double scale = across > body.coreRadius() ? body.coreRadius() / across : 1.;
       return {scale * point.x(), scale * point.y(), std::clamp(point.z(), -body.halfLength(), body.halfLength())};
     }
-    case Core::point: return Vector3d::Zero();
+    case Core::point:
+      return Vector3d::Zero();
     default: {
       const NearestPoints near = convexToConvex(*pointBody(), {Matrix3d::Identity(), point}, body, {});
       return near.distance > 0. ? near.point_b : point;
@@ -102,7 +105,8 @@ Vector3d nearestInCore(const CollisionBody& body, const Vector3d& point) {
   }
 }
 
-NearestPoints convexToGrid(const CollisionBody& core, const RigidTransform& X_WA, const CollisionBody& grid, const RigidTransform& X_WB) {
+NearestPoints convexToGrid(const CollisionBody& core, const RigidTransform& X_WA, const CollisionBody& grid,
+                           const RigidTransform& X_WB) {
   const Sample least = LeastOnCore(core, X_WB.inverse() * X_WA, grid.grid()).find();
   NearestPoints near;
   near.distance = least.value;

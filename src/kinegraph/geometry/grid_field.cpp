@@ -10,7 +10,8 @@ namespace kinegraph {
 
 namespace {
 
-/// Weights of four neighbours, of which the cell is between the middle ones, for the value at t in [0, 1] and for its slope.
+/// Weights of four neighbours, of which the cell is between the middle ones, for the value at t in [0, 1] and for its
+/// slope.
 struct Weights {
   double value[4], slope[4];
   int first;  ///< index of the first neighbour that has a weight; past the ends of the grid values go on straight
@@ -18,7 +19,8 @@ struct Weights {
   Weights(double at, int count) {
     const int cell = std::clamp(int(at), 0, count - 2);
     const double t = at - cell;
-    const double v[4] = {t * (-.5 + t * (1. - .5 * t)), 1. + t * t * (-2.5 + 1.5 * t), t * (.5 + t * (2. - 1.5 * t)), t * t * (-.5 + .5 * t)};
+    const double v[4] = {t * (-.5 + t * (1. - .5 * t)), 1. + t * t * (-2.5 + 1.5 * t), t * (.5 + t * (2. - 1.5 * t)),
+                         t * t * (-.5 + .5 * t)};
     const double s[4] = {-.5 + t * (2. - 1.5 * t), t * (-5. + 4.5 * t), .5 + t * (4. - 4.5 * t), t * (-1. + 1.5 * t)};
     first = std::clamp(cell - 1, 0, std::max(count - 4, 0));
     for (double& x : value) x = 0.;
@@ -49,7 +51,8 @@ double leastOutside(const Grid& grid) {
   for (int i = 0; i < x; ++i) {
     for (int j = 0; j < y; ++j) {
       for (int k = 0; k < z; ++k) {
-        if (i == 0 || j == 0 || k == 0 || i == x - 1 || j == y - 1 || k == z - 1) least = std::min(least, double(grid.at(i, j, k)));
+        if (i == 0 || j == 0 || k == 0 || i == x - 1 || j == y - 1 || k == z - 1)
+          least = std::min(least, double(grid.at(i, j, k)));
       }
     }
   }
@@ -58,7 +61,8 @@ double leastOutside(const Grid& grid) {
 
 }  // namespace
 
-GridField::GridField(std::shared_ptr<const Grid> given, const Vector3d& size) : grid(std::move(given)), half(.5 * size) {
+GridField::GridField(std::shared_ptr<const Grid> given, const Vector3d& size)
+    : grid(std::move(given)), half(.5 * size) {
   checkGrid(*grid);
   for (int axis = 0; axis < 3; ++axis) step[axis] = std::max(size[axis], 1e-9) / (grid->cells[axis] - 1);
   overhang = -leastOutside(*grid);

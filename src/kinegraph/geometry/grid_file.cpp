@@ -78,7 +78,8 @@ class TableReader {
       double number;
       const char* from = text_.data() + at_;
       const auto [end, status] = std::from_chars(from, text_.data() + text_.size(), number);
-      if (status != std::errc()) fail(name, cat("has something that is not a number after ", list.size(), " numbers in ", open, " ", close));
+      if (status != std::errc())
+        fail(name, cat("has something that is not a number after ", list.size(), " numbers in ", open, " ", close));
       list.push_back(number);
       at_ += std::size_t(end - from);
     }
@@ -89,7 +90,8 @@ class TableReader {
   std::vector<double> floats(const std::string& name, const std::vector<double>& dims) {
     double count = dims.empty() ? 0. : 1.;
     for (const double n : dims) count *= n;
-    if (!(count >= 1. && double(text_.size() - at_) >= 4. * count + 2.)) fail(name, cat("is shorter than the ", count, " floats that it promises"));
+    if (!(count >= 1. && double(text_.size() - at_) >= 4. * count + 2.))
+      fail(name, cat("is shorter than the ", count, " floats that it promises"));
     std::vector<double> list(static_cast<std::size_t>(count));
     const char* from = text_.data() + at_ + 1;
     for (double& number : list) {
@@ -144,22 +146,26 @@ GridFile readGridFile(const std::string& path) {
     for (const auto& [name, table] : tables) {
       if (!table.numbers.empty()) found.push_back(name);
     }
-    fail(cat(": expected lo: [x y z], up: [x y z] and field: <nx ny nz> [...]; found ", found.empty() ? "nothing" : join(found)));
+    fail(cat(": expected lo: [x y z], up: [x y z] and field: <nx ny nz> [...]; found ",
+             found.empty() ? "nothing" : join(found)));
   }
   GridFile file;
   if (field.dims.size() != 3) fail(cat(": field has ", field.dims.size(), " dimensions; expected <nx ny nz>"));
   double expected = 1.;
   for (int axis = 0; axis < 3; ++axis) {
     const double n = field.dims[std::size_t(axis)], side = high[std::size_t(axis)] - low[std::size_t(axis)];
-    if (!(n >= 2. && n <= 1e6 && n == std::floor(n))) fail(cat(": field has ", n, " numbers along an axis; expected at least 2"));
+    if (!(n >= 2. && n <= 1e6 && n == std::floor(n)))
+      fail(cat(": field has ", n, " numbers along an axis; expected at least 2"));
     if (!(side > 0.) || std::abs(high[std::size_t(axis)] + low[std::size_t(axis)]) > 1e-6 * side) {
-      fail(cat(": the box from ", listed(low), " to ", listed(high), " is not centred at the origin; move the frame and its box instead"));
+      fail(cat(": the box from ", listed(low), " to ", listed(high),
+               " is not centred at the origin; move the frame and its box instead"));
     }
     file.grid.cells[std::size_t(axis)] = int(n);
     file.size[axis] = side;
     expected *= n;
   }
-  if (expected != double(field.numbers.size())) fail(cat(": field has ", field.numbers.size(), " numbers; <", listed(field.dims), "> promises ", expected));
+  if (expected != double(field.numbers.size()))
+    fail(cat(": field has ", field.numbers.size(), " numbers; <", listed(field.dims), "> promises ", expected));
   file.grid.values.assign(field.numbers.begin(), field.numbers.end());
   try {
     checkGrid(file.grid);

@@ -1,8 +1,8 @@
 #include <algorithm>
 #include <set>
 
-#include "kinegraph/geometry/hull.h"
 #include "kinegraph/geometry/convex_hull.h"
+#include "kinegraph/geometry/hull.h"
 
 namespace kinegraph {
 

@@ -59,7 +59,8 @@ Pixels decodeImage(const Image& image) {
   try {
     return isPng(image.bytes) ? decodePng(image.bytes) : decodeJpeg(image.bytes);
   } catch (const FileError& error) {
-    throw FileError(cat("image '", image.path.empty() ? "inside a mesh file" : image.path, "' cannot be read: ", error.what()));
+    throw FileError(
+        cat("image '", image.path.empty() ? "inside a mesh file" : image.path, "' cannot be read: ", error.what()));
   }
 }
 

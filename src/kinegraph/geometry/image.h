@@ -28,8 +28,8 @@ std::string mediaType(const Image& image);
 /// Reads a file as it is. Throws FileError if it is missing, or is neither PNG nor JPEG.
 std::shared_ptr<const Image> readImageFile(const std::string& path);
 
-/// Colours of a picture; transparency is left out. Throws FileError for damaged ones, and for those that promise more pixels
-/// than their bytes can hold.
+/// Colours of a picture; transparency is left out. Throws FileError for damaged ones, and for those that promise more
+/// pixels than their bytes can hold.
 Pixels decodeImage(const Image& image);
 
 /// A PNG file of these pixels, not compressed.

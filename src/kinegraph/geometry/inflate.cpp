@@ -64,7 +64,8 @@ class Code {
       const int forward = first[std::size_t(length)]++;
       int reversed = 0;
       for (int bit = 0; bit < length; ++bit) reversed |= (forward >> bit & 1) << (length - 1 - bit);
-      for (int rest = reversed; rest < 1 << kLongestCode; rest += 1 << length) table_[std::size_t(rest)] = {std::uint16_t(symbol), std::uint8_t(length)};
+      for (int rest = reversed; rest < 1 << kLongestCode; rest += 1 << length)
+        table_[std::size_t(rest)] = {std::uint16_t(symbol), std::uint8_t(length)};
     }
   }
 
@@ -118,9 +119,11 @@ Codes readCodes(Bits& bits) {
 }
 
 void unpackBlock(Bits& bits, const Codes& codes, std::size_t limit, std::string& out) {
-  constexpr int kLength[] = {3, 4, 5, 6, 7, 8, 9, 10, 11, 13, 15, 17, 19, 23, 27, 31, 35, 43, 51, 59, 67, 83, 99, 115, 131, 163, 195, 227, 258};
+  constexpr int kLength[] = {3,  4,  5,  6,  7,  8,  9,  10, 11,  13,  15,  17,  19,  23, 27,
+                             31, 35, 43, 51, 59, 67, 83, 99, 115, 131, 163, 195, 227, 258};
   constexpr int kLengthBits[] = {0, 0, 0, 0, 0, 0, 0, 0, 1, 1, 1, 1, 2, 2, 2, 2, 3, 3, 3, 3, 4, 4, 4, 4, 5, 5, 5, 5, 0};
-  constexpr int kDistance[] = {1, 2, 3, 4, 5, 7, 9, 13, 17, 25, 33, 49, 65, 97, 129, 193, 257, 385, 513, 769, 1025, 1537, 2049, 3073, 4097, 6145, 8193, 12289, 16385, 24577};
+  constexpr int kDistance[] = {1,   2,   3,   4,   5,   7,    9,    13,   17,   25,   33,   49,   65,    97,    129,
+                               193, 257, 385, 513, 769, 1025, 1537, 2049, 3073, 4097, 6145, 8193, 12289, 16385, 24577};
   while (out.size() < limit) {
     const int symbol = codes.literals.next(bits);
     if (symbol == 256) return;
@@ -141,7 +144,8 @@ void unpackBlock(Bits& bits, const Codes& codes, std::size_t limit, std::string&
 }  // namespace
 
 std::string unpack(std::string_view bytes, std::size_t limit) {
-  if (bytes.size() < 2 || (bytes[0] & 15) != 8 || (bytes[1] & 32)) throw FileError("its packed data are not a zlib stream");
+  if (bytes.size() < 2 || (bytes[0] & 15) != 8 || (bytes[1] & 32))
+    throw FileError("its packed data are not a zlib stream");
   Bits bits(bytes.substr(2));
   std::string out;
   out.reserve(limit);
@@ -155,9 +159,14 @@ std::string unpack(std::string_view bytes, std::size_t limit) {
         for (std::uint32_t i = 0; i < size && out.size() < limit; ++i) out += char(bits.take(8));
         break;
       }
-      case 1: unpackBlock(bits, fixedCodes(), limit, out); break;
-      case 2: unpackBlock(bits, readCodes(bits), limit, out); break;
-      default: throw FileError("its packed data hold a block of no known kind");
+      case 1:
+        unpackBlock(bits, fixedCodes(), limit, out);
+        break;
+      case 2:
+        unpackBlock(bits, readCodes(bits), limit, out);
+        break;
+      default:
+        throw FileError("its packed data hold a block of no known kind");
     }
   }
   if (out.size() > limit) out.resize(limit);

@@ -56,7 +56,8 @@ class Surface {
     for (const Corner& c : low) up -= point(c) / double(low.size());
     std::vector<std::uint32_t> loop;
     if (low.size() == 2) {
-      loop = {crossing(low[0], high[0]), crossing(low[0], high[1]), crossing(low[1], high[1]), crossing(low[1], high[0])};
+      loop = {crossing(low[0], high[0]), crossing(low[0], high[1]), crossing(low[1], high[1]),
+              crossing(low[1], high[0])};
     } else {
       for (const Corner& a : low) {
         for (const Corner& b : high) loop.push_back(crossing(a, b));
@@ -78,7 +79,8 @@ class Surface {
       return (std::uint64_t(c[0]) * grid_.cells[1] + c[1]) * grid_.cells[2] + c[2];
     };
     const std::uint64_t a = number(low), b = number(high);
-    const auto [entry, is_new] = known_.try_emplace(std::min(a, b) * 8 + neighbour(low, high), std::uint32_t(mesh_.vertices.size()));
+    const auto [entry, is_new] =
+        known_.try_emplace(std::min(a, b) * 8 + neighbour(low, high), std::uint32_t(mesh_.vertices.size()));
     if (is_new) {
       const double at = value(low) / (value(low) - value(high));
       mesh_.vertices.push_back(point(low) + at * (point(high) - point(low)));
@@ -119,7 +121,8 @@ void blurAlong(Grid& grid, int axis) {
 void checkGrid(const Grid& grid) {
   const auto [x, y, z] = grid.cells;
   if (x < 2 || y < 2 || z < 2 || grid.values.size() != std::size_t(x) * y * z) {
-    throw ValueError(cat("a grid has at least 2 x 2 x 2 values; got ", x, " x ", y, " x ", z, " with ", grid.values.size(), " numbers"));
+    throw ValueError(cat("a grid has at least 2 x 2 x 2 values; got ", x, " x ", y, " x ", z, " with ",
+                         grid.values.size(), " numbers"));
   }
   if (!std::all_of(grid.values.begin(), grid.values.end(), [](float v) { return std::isfinite(v); })) {
     throw ValueError("a grid has values that are not finite");

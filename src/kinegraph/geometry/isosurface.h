@@ -4,10 +4,11 @@
 
 namespace kinegraph {
 
-/// The surface where the values of a grid are zero, as triangles whose normals point to larger values; the grid fills a box
-/// of that size (m) centred at the origin. Every vertex lies on an edge between two grid points, where linear interpolation
-/// is zero. Closed where the surface does not leave the box. Throws ValueError for a grid whose numbers do not fit.
-/// Source: Doi & Koide, An efficient method of triangulating equi-valued surfaces by using tetrahedral cells, 1991.
+/// The surface where the values of a grid are zero, as triangles whose normals point to larger values; the grid fills a
+/// box of that size (m) centred at the origin. Every vertex lies on an edge between two grid points, where linear
+/// interpolation is zero. Closed where the surface does not leave the box. Throws ValueError for a grid whose numbers
+/// do not fit. Source: Doi & Koide, An efficient method of triangulating equi-valued surfaces by using tetrahedral
+/// cells, 1991.
 Mesh isosurface(const Grid& grid, const Vector3d& size);
 
 /// Each value replaced by the mean of those at most one step away along every axis, `times` times.

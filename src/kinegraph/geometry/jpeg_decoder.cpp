@@ -38,12 +38,18 @@ class JpegDecoder {
       if (size < 2 || at + size > bytes_.size()) throw FileError("it ends too early");
       const std::string_view data = bytes_.substr(at + 2, size - 2);
       at += size;
-      if (marker == 0xc4) readCodes(data);
-      else if (marker == 0xdb) readQuantization(data);
-      else if (marker == 0xdd) restart_ = data.size() < 2 ? 0 : byte(data, 0) << 8 | byte(data, 1);
-      else if (marker == 0xee && data.starts_with("Adobe") && data.size() >= 12) adobe_ = byte(data, 11);
-      else if (marker == 0xc0 || marker == 0xc1 || marker == 0xc2) readFrame(data, marker == 0xc2);
-      else if (marker >= 0xc3 && marker <= 0xcf && marker != 0xc8 && marker != 0xcc) throw FileError("it is of a rare kind (lossless or arithmetic)");
+      if (marker == 0xc4)
+        readCodes(data);
+      else if (marker == 0xdb)
+        readQuantization(data);
+      else if (marker == 0xdd)
+        restart_ = data.size() < 2 ? 0 : byte(data, 0) << 8 | byte(data, 1);
+      else if (marker == 0xee && data.starts_with("Adobe") && data.size() >= 12)
+        adobe_ = byte(data, 11);
+      else if (marker == 0xc0 || marker == 0xc1 || marker == 0xc2)
+        readFrame(data, marker == 0xc2);
+      else if (marker >= 0xc3 && marker <= 0xcf && marker != 0xc8 && marker != 0xcc)
+        throw FileError("it is of a rare kind (lossless or arithmetic)");
       if (marker != 0xda) continue;
       if (++scans > kMostScans) throw FileError(cat("it has more than ", kMostScans, " scans"));
       readScan(data, at);
@@ -86,7 +92,8 @@ class JpegDecoder {
       if ((what & 15) > 3) throw FileError("a quantization table with an impossible number");
       for (std::size_t i = 0; i < 64; ++i) {
         const std::size_t at = 1 + size * i;
-        quantization_[std::size_t(what & 15)][std::size_t(kZigzag[i])] = size == 2 ? byte(data, at) << 8 | byte(data, at + 1) : byte(data, at);
+        quantization_[std::size_t(what & 15)][std::size_t(kZigzag[i])] =
+            size == 2 ? byte(data, at) << 8 | byte(data, at + 1) : byte(data, at);
       }
       data.remove_prefix(1 + 64 * size);
     }
@@ -99,7 +106,8 @@ class JpegDecoder {
     width_ = byte(data, 3) << 8 | byte(data, 4);
     const int count = byte(data, 5);
     if (byte(data, 0) != 8 || width_ == 0 || height_ == 0 || (count != 1 && count != 3)) {
-      throw FileError(cat("it has ", width_, " x ", height_, " pixels of ", count, " colours with ", byte(data, 0), " bits; expected 1 or 3 of 8 bits"));
+      throw FileError(cat("it has ", width_, " x ", height_, " pixels of ", count, " colours with ", byte(data, 0),
+                          " bits; expected 1 or 3 of 8 bits"));
     }
     if (double(width_) * height_ > 1e5 + kMostPixelsPerByte * double(bytes_.size())) {
       throw FileError(cat("it promises ", width_, " x ", height_, " pixels, more than its bytes can hold"));
@@ -111,7 +119,8 @@ class JpegDecoder {
       c.across = byte(data, 7 + 3 * i) >> 4;
       c.down = byte(data, 7 + 3 * i) & 15;
       c.quantization = byte(data, 8 + 3 * i);
-      if (c.across < 1 || c.across > 4 || c.down < 1 || c.down > 4 || c.quantization > 3) throw FileError("its header is damaged");
+      if (c.across < 1 || c.across > 4 || c.down < 1 || c.down > 4 || c.quantization > 3)
+        throw FileError("its header is damaged");
       if (count == 1) c.across = c.down = 1;
       across_ = std::max(across_, c.across);
       down_ = std::max(down_, c.down);
@@ -137,7 +146,8 @@ class JpegDecoder {
     scan.high = byte(data, 3 + 2 * count) >> 4;
     scan.low = byte(data, 3 + 2 * count) & 15;
     if (!progressive_) scan.first = 0, scan.last = 63, scan.high = scan.low = 0;
-    if (scan.first > scan.last || scan.last > 63 || scan.low > 13 || (scan.first > 0 && count != 1) || (progressive_ && scan.first == 0 && scan.last > 0)) {
+    if (scan.first > scan.last || scan.last > 63 || scan.low > 13 || (scan.first > 0 && count != 1) ||
+        (progressive_ && scan.first == 0 && scan.last > 0)) {
       throw FileError("a scan with impossible bounds");
     }
     JpegEntropyReader reader(bytes_, at, scan);
@@ -149,13 +159,17 @@ class JpegDecoder {
     std::vector<Part> parts;
     for (std::size_t i = 0; i < count; ++i) {
       const int id = byte(data, 1 + 2 * i), tables = byte(data, 2 + 2 * i);
-      const auto component = std::find_if(components_.begin(), components_.end(), [&](const Component& c) { return c.id == id; });
-      if (component == components_.end() || (tables & 15) > 3 || tables >> 4 > 3) throw FileError("a scan of a colour that the header lacks");
+      const auto component =
+          std::find_if(components_.begin(), components_.end(), [&](const Component& c) { return c.id == id; });
+      if (component == components_.end() || (tables & 15) > 3 || tables >> 4 > 3)
+        throw FileError("a scan of a colour that the header lacks");
       parts.push_back({&*component, &codes_[std::size_t(tables >> 4)], &codes_[std::size_t(4 + (tables & 15))]});
     }
-    if (parts.empty() || parts.size() > components_.size()) throw FileError("a scan of an impossible number of colours");
+    if (parts.empty() || parts.size() > components_.size())
+      throw FileError("a scan of an impossible number of colours");
     const bool alone = parts.size() == 1;
-    const int columns = alone ? parts[0].component->columns : units_across_, rows = alone ? parts[0].component->rows : units_down_;
+    const int columns = alone ? parts[0].component->columns : units_across_,
+              rows = alone ? parts[0].component->rows : units_down_;
     for (int unit = 0; unit < columns * rows; ++unit) {
       if (restart_ > 0 && unit > 0 && unit % restart_ == 0) {
         reader.restart();
@@ -167,7 +181,8 @@ class JpegDecoder {
         const int across = alone ? 1 : c.across, down = alone ? 1 : c.down;
         for (int i = 0; i < across * down; ++i) {
           const int x = column * across + i % across, y = row * down + i / across;
-          reader.block(*part.dc, *part.ac, part.predicted, c.blocks[std::size_t(y) * std::size_t(c.stride) + std::size_t(x)]);
+          reader.block(*part.dc, *part.ac, part.predicted,
+                       c.blocks[std::size_t(y) * std::size_t(c.stride) + std::size_t(x)]);
         }
       }
     }
@@ -180,7 +195,8 @@ class JpegDecoder {
       std::array<std::array<float, 8>, 8> wave{};  // [place][frequency]
       for (int x = 0; x < 8; ++x) {
         for (int u = 0; u < 8; ++u) {
-          wave[std::size_t(x)][std::size_t(u)] = float((u == 0 ? std::sqrt(.125) : .5) * std::cos((2 * x + 1) * u * std::numbers::pi / 16.));
+          wave[std::size_t(x)][std::size_t(u)] =
+              float((u == 0 ? std::sqrt(.125) : .5) * std::cos((2 * x + 1) * u * std::numbers::pi / 16.));
         }
       }
       return wave;
@@ -219,7 +235,8 @@ class JpegDecoder {
         std::array<double, 3> s{};
         for (std::size_t k = 0; k < components_.size(); ++k) {
           const Component& c = components_[k];
-          s[k] = c.samples[std::size_t(y * c.down / down_) * 8 * std::size_t(c.stride) + std::size_t(x * c.across / across_)];
+          s[k] = c.samples[std::size_t(y * c.down / down_) * 8 * std::size_t(c.stride) +
+                           std::size_t(x * c.across / across_)];
         }
         if (components_.size() == 1) {
           std::fill_n(out, 3, std::uint8_t(s[0]));

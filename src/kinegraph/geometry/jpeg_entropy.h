@@ -11,9 +11,10 @@ namespace kinegraph {
 using JpegBlock = std::array<std::int16_t, 64>;
 
 /// Where the amplitudes stand in a block, in the order in which files have them.
-inline constexpr std::array<int, 64> kZigzag = {0,  1,  8,  16, 9,  2,  3,  10, 17, 24, 32, 25, 18, 11, 4,  5,  12, 19, 26, 33, 40, 48,
-                                                41, 34, 27, 20, 13, 6,  7,  14, 21, 28, 35, 42, 49, 56, 57, 50, 43, 36, 29, 22, 15, 23,
-                                                30, 37, 44, 51, 58, 59, 52, 45, 38, 31, 39, 46, 53, 60, 61, 54, 47, 55, 62, 63};
+inline constexpr std::array<int, 64> kZigzag = {0,  1,  8,  16, 9,  2,  3,  10, 17, 24, 32, 25, 18, 11, 4,  5,
+                                                12, 19, 26, 33, 40, 48, 41, 34, 27, 20, 13, 6,  7,  14, 21, 28,
+                                                35, 42, 49, 56, 57, 50, 43, 36, 29, 22, 15, 23, 30, 37, 44, 51,
+                                                58, 59, 52, 45, 38, 31, 39, 46, 53, 60, 61, 54, 47, 55, 62, 63};
 
 class JpegEntropyReader;
 
@@ -25,11 +26,13 @@ class JpegCode {
   int next(JpegEntropyReader& reader) const;
 
  private:
-  std::array<int, 17> end_{}, offset_{};  ///< by length: one more than its last code; where its symbols begin, less its first code
+  std::array<int, 17> end_{},
+      offset_{};  ///< by length: one more than its last code; where its symbols begin, less its first code
   std::vector<std::uint8_t> symbols_;
 };
 
-/// Which amplitudes a scan gives: those from `first` to `last`, all of their bits, or those from `low`, or the one at `low`.
+/// Which amplitudes a scan gives: those from `first` to `last`, all of their bits, or those from `low`, or the one at
+/// `low`.
 struct JpegScan {
   bool progressive = false;
   int first = 0, last = 63;
@@ -40,7 +43,8 @@ struct JpegScan {
 /// Reads the blocks of a scan. Throws FileError.
 class JpegEntropyReader {
  public:
-  JpegEntropyReader(std::string_view bytes, std::size_t at, const JpegScan& scan) : bytes_(bytes), at_(at), scan_(scan) {}
+  JpegEntropyReader(std::string_view bytes, std::size_t at, const JpegScan& scan)
+      : bytes_(bytes), at_(at), scan_(scan) {}
 
   void block(const JpegCode& dc, const JpegCode& ac, int& predicted, JpegBlock& block);
 

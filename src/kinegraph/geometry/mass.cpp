@@ -15,7 +15,9 @@ ShellMass boxShell(double a, double b, double c) {
   const double x = b * c, y = a * c, z = a * b, sum = x + y + z;  // half the areas of the faces across each axis
   if (sum <= 0.) throw ValueError(cat("a box of ", a, " x ", b, " x ", c, " has no surface to carry a mass"));
   const auto about = [&](double own, double p, double q, double across_p, double across_q) {
-    return (own * (p * p + q * q) / 12. + across_p * (p * p / 4. + q * q / 12.) + across_q * (p * p / 12. + q * q / 4.)) / sum;
+    return (own * (p * p + q * q) / 12. + across_p * (p * p / 4. + q * q / 12.) +
+            across_q * (p * p / 12. + q * q / 4.)) /
+           sum;
   };
   ShellMass shell;
   shell.area = 2. * sum;
@@ -49,7 +51,8 @@ ShellMass shellMass(const Geometry& geometry) {
     return {4. * std::numbers::pi * s[0] * s[0], Vector3d::Zero(), 2. / 3. * s[0] * s[0] * Matrix3d::Identity()};
   }
   const Mesh mesh = tessellate(geometry);
-  if (mesh.triangles.empty()) throw ValueError(cat("a ", shapeTypeName(geometry.type), " has no surface to carry a mass"));
+  if (mesh.triangles.empty())
+    throw ValueError(cat("a ", shapeTypeName(geometry.type), " has no surface to carry a mass"));
   return meshShell(mesh);
 }
 

@@ -32,7 +32,8 @@ void checkFaces(const aiScene& scene, const std::string& path) {
       const aiFace& face = part.mFaces[f];
       for (unsigned i = 0; i < face.mNumIndices; ++i) {
         if (face.mIndices[i] < part.mNumVertices) continue;
-        throw FileError(cat("mesh file '", path, "': face ", f, " names vertex ", face.mIndices[i], " of ", part.mNumVertices));
+        throw FileError(
+            cat("mesh file '", path, "': face ", f, " names vertex ", face.mIndices[i], " of ", part.mNumVertices));
       }
     }
   }
@@ -60,10 +61,12 @@ void append(const aiScene& scene, const aiNode& node, const aiMatrix4x4& above, 
     }
     if (!part.HasTextureCoords(0)) continue;
     std::vector<std::array<float, 2>> coordinates;
-    for (unsigned v = 0; v < part.mNumVertices; ++v) coordinates.push_back({part.mTextureCoords[0][v].x, part.mTextureCoords[0][v].y});
+    for (unsigned v = 0; v < part.mNumVertices; ++v)
+      coordinates.push_back({part.mTextureCoords[0][v].x, part.mTextureCoords[0][v].y});
     addTexture(mesh, first, coordinates, first_triangle, textures.of(part.mMaterialIndex));
   }
-  for (unsigned child = 0; child < node.mNumChildren; ++child) append(scene, *node.mChildren[child], transform, textures, mesh);
+  for (unsigned child = 0; child < node.mNumChildren; ++child)
+    append(scene, *node.mChildren[child], transform, textures, mesh);
 }
 
 }  // namespace
@@ -106,7 +109,8 @@ Mesh readH5Mesh(const std::string& path, const std::string& group) {
   if (file.contains(coordinates)) {  // to the right and down
     const H5Dataset uv = table("textureCoords", 2, 2);
     std::vector<std::array<float, 2>> list;
-    for (std::size_t i = 0; i < uv.numbers.size(); i += 2) list.push_back({float(uv.numbers[i]), float(1. - uv.numbers[i + 1])});
+    for (std::size_t i = 0; i < uv.numbers.size(); i += 2)
+      list.push_back({float(uv.numbers[i]), float(1. - uv.numbers[i + 1])});
     std::string name;
     if (file.contains(texture)) {
       for (const double letter : file.dataset(texture).numbers) {
@@ -118,7 +122,8 @@ Mesh readH5Mesh(const std::string& path, const std::string& group) {
   if (file.contains(cat(group, "/parts"))) {
     for (double part : file.dataset(cat(group, "/parts")).numbers) {
       if (!(part >= 0. && part <= double(mesh.vertices.size()))) {
-        throw FileError(cat("mesh file '", path, "': a convex part begins at vertex ", part, " of ", mesh.vertices.size()));
+        throw FileError(
+            cat("mesh file '", path, "': a convex part begins at vertex ", part, " of ", mesh.vertices.size()));
       }
       mesh.parts.push_back(std::uint32_t(part));
     }

@@ -6,10 +6,10 @@
 
 namespace kinegraph {
 
-/// Reads a mesh file (stl, obj, ply, dae, glb and whatever else assimp knows) as one mesh, node transforms applied, with
-/// a colour per vertex from vertex colours or materials. An up axis that a Collada file names does not turn it. Of an HDF5
-/// file (h5), the group "mesh". A .msh file is one of MuJoCo's. Throws FileError for files that are missing, unreadable, without vertices or with
-/// coordinates that are not finite.
+/// Reads a mesh file (stl, obj, ply, dae, glb and whatever else assimp knows) as one mesh, node transforms applied,
+/// with a colour per vertex from vertex colours or materials. An up axis that a Collada file names does not turn it. Of
+/// an HDF5 file (h5), the group "mesh". A .msh file is one of MuJoCo's. Throws FileError for files that are missing,
+/// unreadable, without vertices or with coordinates that are not finite.
 Mesh readMeshFile(const std::string& path);
 
 /// A group of an HDF5 file: `vertices` (n x 3), and `faces` (m x 3), `colors` (n x 3 or n x 4, 0..255) and

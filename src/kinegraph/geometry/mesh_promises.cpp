@@ -38,9 +38,8 @@ double numberOf(std::string_view text) { return std::strtod(std::string(text.sub
 double promisesOfPly(std::string_view text) {
   double promised = 0.;
   const std::string_view header = text.substr(0, std::min(text.find("end_header"), text.size()));
-  forValues(header, "\nelement ", "\r\n", [&](std::string_view line) {
-    promised += numberOf(line.substr(std::min(line.find(' '), line.size())));
-  });
+  forValues(header, "\nelement ", "\r\n",
+            [&](std::string_view line) { promised += numberOf(line.substr(std::min(line.find(' '), line.size()))); });
   return promised;
 }
 
@@ -48,7 +47,8 @@ double promisesOfPly(std::string_view text) {
 
 void checkMeshPromises(const std::string& path) {
   std::string extension = fs::path(path).extension().string();
-  std::transform(extension.begin(), extension.end(), extension.begin(), [](unsigned char c) { return char(std::tolower(c)); });
+  std::transform(extension.begin(), extension.end(), extension.begin(),
+                 [](unsigned char c) { return char(std::tolower(c)); });
   const bool ply = extension == ".ply", dae = extension == ".dae", gltf = extension == ".gltf" || extension == ".glb";
   if (!ply && !dae && !gltf) return;
   std::ifstream stream(path, std::ios::binary);
@@ -68,7 +68,8 @@ void checkMeshPromises(const std::string& path) {
     });
   }
   if (promised <= kAlways + held) return;
-  throw FileError(cat("mesh file '", path, "' promises ", exact(promised), " elements, more than its ", exact(held), " bytes can hold"));
+  throw FileError(cat("mesh file '", path, "' promises ", exact(promised), " elements, more than its ", exact(held),
+                      " bytes can hold"));
 }
 
 }  // namespace kinegraph

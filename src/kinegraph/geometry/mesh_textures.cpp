@@ -53,9 +53,11 @@ std::shared_ptr<const Image> MeshTextures::read(unsigned material) const {
 void addTexture(Mesh& mesh, std::size_t first_vertex, const std::vector<std::array<float, 2>>& coordinates,
                 std::size_t first_triangle, std::shared_ptr<const Image> image) {
   mesh.texcoords.resize(first_vertex);
-  for (const auto& [u, v] : coordinates) mesh.texcoords.push_back({std::isfinite(u) ? u : 0.f, std::isfinite(v) ? v : 0.f});
+  for (const auto& [u, v] : coordinates)
+    mesh.texcoords.push_back({std::isfinite(u) ? u : 0.f, std::isfinite(v) ? v : 0.f});
   if (!image || mesh.triangles.size() == first_triangle) return;
-  mesh.textures.push_back({std::uint32_t(first_triangle), std::uint32_t(mesh.triangles.size() - first_triangle), std::move(image)});
+  mesh.textures.push_back(
+      {std::uint32_t(first_triangle), std::uint32_t(mesh.triangles.size() - first_triangle), std::move(image)});
 }
 
 }  // namespace kinegraph

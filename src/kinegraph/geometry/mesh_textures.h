@@ -11,8 +11,8 @@ struct aiScene;
 
 namespace kinegraph {
 
-/// A picture that a mesh file names, beside that file; null if there is none, or it is neither PNG nor JPEG: the mesh is then
-/// shown in its colours.
+/// A picture that a mesh file names, beside that file; null if there is none, or it is neither PNG nor JPEG: the mesh
+/// is then shown in its colours.
 std::shared_ptr<const Image> imageBeside(const std::string& mesh_path, const std::string& name);
 
 /// The pictures of the materials of a mesh file, read once each.

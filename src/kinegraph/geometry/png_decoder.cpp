@@ -1,5 +1,5 @@
-#include <array>
 #include <algorithm>
+#include <array>
 #include <cstdlib>
 #include <optional>
 #include <utility>
@@ -39,8 +39,10 @@ Header readHeader(std::string_view data) {
   header.depth = data[8];
   header.color = data[9];
   header.interlaced = data[12] != 0;
-  if (header.width == 0 || header.height == 0 || header.width > kMostPixelsAcross || header.height > kMostPixelsAcross) {
-    throw FileError(cat("it has ", header.width, " x ", header.height, " pixels; expected 1 to ", kMostPixelsAcross, " across and down"));
+  if (header.width == 0 || header.height == 0 || header.width > kMostPixelsAcross ||
+      header.height > kMostPixelsAcross) {
+    throw FileError(cat("it has ", header.width, " x ", header.height, " pixels; expected 1 to ", kMostPixelsAcross,
+                        " across and down"));
   }
   const bool small = header.depth == 1 || header.depth == 2 || header.depth == 4;
   const bool good = header.color == 0   ? small || header.depth == 8 || header.depth == 16
@@ -91,7 +93,8 @@ class PngDecoder {
 
   Pixels decode(std::string_view packed) {
     std::size_t total = 0;
-    for (const Pass& pass : passesOf(header_)) total += pass.columns(header_) ? pass.rows(header_) * (1 + pass.rowBytes(header_)) : 0;
+    for (const Pass& pass : passesOf(header_))
+      total += pass.columns(header_) ? pass.rows(header_) * (1 + pass.rowBytes(header_)) : 0;
     const std::string data = unpack(packed, total);
     if (data.size() < total) throw FileError("it holds fewer pixels than it promises");
     std::size_t at = 0;
@@ -125,13 +128,15 @@ class PngDecoder {
     const int highest = header_.depth >= 8 ? 255 : (1 << header_.depth) - 1;
     for (std::uint32_t column = 0; column < pass.columns(header_); ++column) {
       const std::size_t first = std::size_t(column) * std::size_t(channels);
-      std::uint8_t* out = &pixels_.rgb[3 * ((pass.y0 + std::size_t(i) * pass.dy) * header_.width + pass.x0 + column * pass.dx)];
+      std::uint8_t* out =
+          &pixels_.rgb[3 * ((pass.y0 + std::size_t(i) * pass.dy) * header_.width + pass.x0 + column * pass.dx)];
       if (header_.color == 3) {
         const std::size_t entry = 3 * std::size_t(sample(row, first));
         if (entry + 3 > palette_.size()) throw FileError("a pixel has a colour that is not in the palette");
         for (std::size_t k = 0; k < 3; ++k) out[k] = std::uint8_t(palette_[entry + k]);
       } else {
-        for (int k = 0; k < 3; ++k) out[k] = std::uint8_t(sample(row, first + std::size_t(channels >= 3 ? k : 0)) * 255 / highest);
+        for (int k = 0; k < 3; ++k)
+          out[k] = std::uint8_t(sample(row, first + std::size_t(channels >= 3 ? k : 0)) * 255 / highest);
       }
     }
   }

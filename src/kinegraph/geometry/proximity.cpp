@@ -69,7 +69,8 @@ Proximity fromCores(const CollisionBody& a, const CollisionBody& b, const Vector
   return near;
 }
 
-Proximity ofSegments(const CollisionBody& a, const RigidTransform& X_WA, const CollisionBody& b, const RigidTransform& X_WB) {
+Proximity ofSegments(const CollisionBody& a, const RigidTransform& X_WA, const CollisionBody& b,
+                     const RigidTransform& X_WB) {
   const SegmentCore segment_a = segmentOf(a, X_WA), segment_b = segmentOf(b, X_WB);
   Vector3d core_a, core_b;
   nearestPoints(segment_a, segment_b, core_a, core_b);
@@ -86,18 +87,23 @@ Proximity ofSegments(const CollisionBody& a, const RigidTransform& X_WA, const C
 }
 
 /// `a` may be a point, a segment or a box.
-NearestPoints toBox(const CollisionBody& a, const RigidTransform& X_WA, const CollisionBody& b, const RigidTransform& X_WB) {
+NearestPoints toBox(const CollisionBody& a, const RigidTransform& X_WA, const CollisionBody& b,
+                    const RigidTransform& X_WB) {
   const BoxCore box{X_WB, b.halfSides()};
   switch (a.core()) {
-    case Core::point: return pointToBox(X_WA.p, box);
-    case Core::segment: return segmentToBox(segmentOf(a, X_WA), box);
-    default: return boxToBox({X_WA, a.halfSides()}, box);
+    case Core::point:
+      return pointToBox(X_WA.p, box);
+    case Core::segment:
+      return segmentToBox(segmentOf(a, X_WA), box);
+    default:
+      return boxToBox({X_WA, a.halfSides()}, box);
   }
 }
 
 }  // namespace
 
-Proximity proximity(const CollisionBody& a, const RigidTransform& X_WA, const CollisionBody& b, const RigidTransform& X_WB) {
+Proximity proximity(const CollisionBody& a, const RigidTransform& X_WA, const CollisionBody& b,
+                    const RigidTransform& X_WB) {
   const auto isSegment = [](Core core) { return core == Core::point || core == Core::segment; };
   const auto fromNearest = [&](const NearestPoints& near) {
     Proximity proximity = fromCores(a, b, near.point_a, near.point_b, near.normal, near.distance);
@@ -125,11 +131,15 @@ double squaredPointToCore(const CollisionBody& body, const RigidTransform& X_WB,
   if (body.core() == Core::point) return from_origin.squaredNorm();
   const Vector3d p = X_WB.R.transpose() * from_origin;
   switch (body.core()) {
-    case Core::segment: return p.head<2>().squaredNorm() + std::pow(std::max(std::abs(p.z()) - body.halfLength(), 0.), 2);
-    case Core::box: return (p.cwiseAbs() - body.halfSides()).cwiseMax(0.).squaredNorm();
+    case Core::segment:
+      return p.head<2>().squaredNorm() + std::pow(std::max(std::abs(p.z()) - body.halfLength(), 0.), 2);
+    case Core::box:
+      return (p.cwiseAbs() - body.halfSides()).cwiseMax(0.).squaredNorm();
     case Core::cylinder:
-      return std::pow(std::max(p.head<2>().norm() - body.coreRadius(), 0.), 2) + std::pow(std::max(std::abs(p.z()) - body.halfLength(), 0.), 2);
-    default: return ((p - body.boundCenter()).cwiseAbs() - body.boundHalf()).cwiseMax(0.).squaredNorm();
+      return std::pow(std::max(p.head<2>().norm() - body.coreRadius(), 0.), 2) +
+             std::pow(std::max(std::abs(p.z()) - body.halfLength(), 0.), 2);
+    default:
+      return ((p - body.boundCenter()).cwiseAbs() - body.boundHalf()).cwiseMax(0.).squaredNorm();
   }
 }
 

@@ -13,14 +13,22 @@ namespace {
 struct Kind {
   ShapeType type;
   const char* name;
-  int entries;         ///< of size; 0 if it takes none
-  const char* meaning; ///< of the entries
+  int entries;          ///< of size; 0 if it takes none
+  const char* meaning;  ///< of the entries
 };
 
 /// What other formats call shapes.
 constexpr std::pair<std::string_view, std::string_view> kWordsOfOthers[] = {
-    {"cube", "box"}, {"cuboid", "box"}, {"block", "box"}, {"ball", "sphere"}, {"plane", "quad"}, {"rectangle", "quad"},
-    {"ellipsoid", "ssBoxElip with size: [0 0 0 rx ry rz 0]"}, {"frame", "marker"}, {"points", "pointCloud"}, {"line", "lines"}};
+    {"cube", "box"},
+    {"cuboid", "box"},
+    {"block", "box"},
+    {"ball", "sphere"},
+    {"plane", "quad"},
+    {"rectangle", "quad"},
+    {"ellipsoid", "ssBoxElip with size: [0 0 0 rx ry rz 0]"},
+    {"frame", "marker"},
+    {"points", "pointCloud"},
+    {"line", "lines"}};
 
 constexpr Kind kKinds[] = {
     {ShapeType::box, "box", 3, "x y z"},
@@ -80,8 +88,10 @@ ShapeType shapeTypeFromName(std::string_view name) {
     if (known == word) return type;
     words.push_back(known);
   }
-  const auto meant = std::find_if(std::begin(kWordsOfOthers), std::end(kWordsOfOthers), [&](const auto& entry) { return entry.first == word; });
-  const std::string hint = meant != std::end(kWordsOfOthers) ? cat("; what others call ", word, " is ", meant->second) : similarHint(word, words);
+  const auto meant = std::find_if(std::begin(kWordsOfOthers), std::end(kWordsOfOthers),
+                                  [&](const auto& entry) { return entry.first == word; });
+  const std::string hint = meant != std::end(kWordsOfOthers) ? cat("; what others call ", word, " is ", meant->second)
+                                                             : similarHint(word, words);
   throw ValueError(cat("unknown shape type '", name, "'; expected one of ", join(words), hint));
 }
 
@@ -103,7 +113,9 @@ std::vector<double> checkedSize(ShapeType type, std::vector<double> size, std::s
   if (type == ShapeType::ssBox) {
     for (int i = 0; i < 3; ++i) {
       if (size[i] >= 2. * size[3]) continue;
-      if (warning) *warning = cat("ssBox with a side of ", size[i], " is thinner than twice its radius ", size[3], "; enlarged to ", 2. * size[3]);
+      if (warning)
+        *warning = cat("ssBox with a side of ", size[i], " is thinner than twice its radius ", size[3],
+                       "; enlarged to ", 2. * size[3]);
       size[i] = 2. * size[3];
     }
   }

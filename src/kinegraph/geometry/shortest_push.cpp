@@ -147,7 +147,9 @@ class Polytope {
     // The edges at the corner with the widest angle give the least rounding.
     const Vector3d ab = b - a, bc = c - b, ca = a - c;
     const double lab = ab.squaredNorm(), lbc = bc.squaredNorm(), lca = ca.squaredNorm();
-    const Vector3d n = lab >= lbc && lab >= lca ? Vector3d(bc.cross(ca)) : lbc >= lca ? Vector3d(ca.cross(ab)) : Vector3d(ab.cross(bc));
+    const Vector3d n = lab >= lbc && lab >= lca ? Vector3d(bc.cross(ca))
+                       : lbc >= lca             ? Vector3d(ca.cross(ab))
+                                                : Vector3d(ab.cross(bc));
     const double area = n.norm();
     if (area > 1e-14 * std::max({lab, lbc, lca})) {
       face.normal = n / area;
@@ -159,8 +161,8 @@ class Polytope {
     return true;
   }
 
-  /// Adds a point that is beyond `from`: the faces that it sees are replaced by those to their rim. False if there is no room
-  /// or nothing to gain.
+  /// Adds a point that is beyond `from`: the faces that it sees are replaced by those to their rim. False if there is
+  /// no room or nothing to gain.
   bool expand(int from, const MinkowskiPoint& point) {
     if (count_ == kMaxVertices) return false;
     const int added = count_;
@@ -169,7 +171,8 @@ class Polytope {
     const double eps = 1e-14 * scale_;
     for (int i = face_count_ - 1; i >= 0; --i) {
       const Face& face = faces_[i];
-      const bool seen = i == from || (std::isfinite(face.offset) ? face.normal.dot(point.w) > face.offset + eps : seesThin(face));
+      const bool seen =
+          i == from || (std::isfinite(face.offset) ? face.normal.dot(point.w) > face.offset + eps : seesThin(face));
       if (!seen) continue;
       for (int k = 0; k < 3; ++k) {
         if (!addEdge(face.corners[k], face.corners[(k + 1) % 3])) return false;

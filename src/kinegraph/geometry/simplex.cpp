@@ -79,10 +79,17 @@ Vector3d Simplex::reduce(bool& inside) {
   inside = false;
   Mixture nearest;
   switch (size) {
-    case 1: nearest = nearestOf(points[0].w, 0); break;
-    case 2: nearest = nearestOf(points[0].w, points[1].w, 0, 1); break;
-    case 3: nearest = nearestOf(points[0].w, points[1].w, points[2].w, 0, 1, 2); break;
-    default: nearest = nearestOfFour(points, inside);
+    case 1:
+      nearest = nearestOf(points[0].w, 0);
+      break;
+    case 2:
+      nearest = nearestOf(points[0].w, points[1].w, 0, 1);
+      break;
+    case 3:
+      nearest = nearestOf(points[0].w, points[1].w, points[2].w, 0, 1, 2);
+      break;
+    default:
+      nearest = nearestOfFour(points, inside);
   }
   int kept = 0;
   for (int i = 0; i < size; ++i) {

@@ -51,8 +51,8 @@ bool onCap(const CollisionBody& body, const Simplex& simplex, Vector3d Minkowski
 }
 
 /// The directions along which a core is flat where the points are, turned by R.
-void addFlats(const CollisionBody& body, const Simplex& simplex, Vector3d MinkowskiPoint::*part, const Matrix3d& R, const Vector3d& m,
-              Flats& flats) {
+void addFlats(const CollisionBody& body, const Simplex& simplex, Vector3d MinkowskiPoint::*part, const Matrix3d& R,
+              const Vector3d& m, Flats& flats) {
   if (onCap(body, simplex, part, R.transpose() * m)) {
     flats.add(R.col(0));
     flats.add(R.col(1));
@@ -63,8 +63,11 @@ void addFlats(const CollisionBody& body, const Simplex& simplex, Vector3d Minkow
       case Core::cylinder:
         if (p.z() != q.z()) flats.add(R.col(2));
         break;
-      case Core::box_ellipsoid: flats.add(R * (cornerOf(body, q) - cornerOf(body, p))); break;
-      default: flats.add(R * (q - p));
+      case Core::box_ellipsoid:
+        flats.add(R * (cornerOf(body, q) - cornerOf(body, p)));
+        break;
+      default:
+        flats.add(R * (q - p));
     }
   }
 }
@@ -169,7 +172,8 @@ bool refine(const CorePair& pair, Deepest& deepest) {
       const Vector3d t2 = flats.count == 1 ? Vector3d(Vector3d::Zero()) : Vector3d(m.cross(t1));
       const Matrix3d H = curvature(pair.a, m) + R * curvature(pair.b, -(R.transpose() * m)) * R.transpose();
       const double height = m.dot(w), g1 = t1.dot(w), g2 = t2.dot(w);
-      const double h11 = t1.dot(H * t1) - height, h12 = t1.dot(H * t2), h22 = flats.count == 1 ? 1. : t2.dot(H * t2) - height;
+      const double h11 = t1.dot(H * t1) - height, h12 = t1.dot(H * t2),
+                   h22 = flats.count == 1 ? 1. : t2.dot(H * t2) - height;
       const double determinant = h11 * h22 - h12 * h12;
       if (h11 >= -rounding && h22 >= -rounding && std::abs(g1) <= rounding && std::abs(g2) <= rounding) {
         converged = true;  // maybe equally good all around

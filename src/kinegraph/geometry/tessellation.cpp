@@ -47,7 +47,8 @@ Mesh roundedBox(const Vector3d& h, double r) {
     const double turn = .5 * std::numbers::pi / k;
     const double azimuth = turn * (quadrant * k + column % (k + 1));
     const double polar = turn * (half * k + row % (k + 1));
-    const double sx = quadrant == 0 || quadrant == 3 ? 1. : -1., sy = quadrant < 2 ? 1. : -1., sz = half == 0 ? 1. : -1.;
+    const double sx = quadrant == 0 || quadrant == 3 ? 1. : -1., sy = quadrant < 2 ? 1. : -1.,
+                 sz = half == 0 ? 1. : -1.;
     const Vector3d n(std::sin(polar) * std::cos(azimuth), std::sin(polar) * std::sin(azimuth), std::cos(polar));
     return builder.vertex(h.cwiseProduct(Vector3d(sx, sy, sz)) + r * n);
   };
@@ -106,7 +107,8 @@ Mesh sweptHull(const std::vector<Vector3d>& core, const std::function<Vector3d(c
 
 std::vector<Vector3d> corners(const Vector3d& h) {
   std::vector<Vector3d> points;
-  for (int i = 0; i < 8; ++i) points.emplace_back(i & 1 ? h.x() : -h.x(), i & 2 ? h.y() : -h.y(), i & 4 ? h.z() : -h.z());
+  for (int i = 0; i < 8; ++i)
+    points.emplace_back(i & 1 ? h.x() : -h.x(), i & 2 ? h.y() : -h.y(), i & 4 ? h.z() : -h.z());
   return points;
 }
 
@@ -115,12 +117,18 @@ std::vector<Vector3d> corners(const Vector3d& h) {
 Mesh tessellate(const Geometry& geometry) {
   const std::vector<double>& s = geometry.size;
   switch (geometry.type) {
-    case ShapeType::box: return roundedBox(.5 * Vector3d(s[0], s[1], s[2]), 0.);
-    case ShapeType::sphere: return roundedBox(Vector3d::Zero(), s[0]);
-    case ShapeType::capsule: return roundedBox({0., 0., .5 * s[0]}, s[1]);
-    case ShapeType::cylinder: return roundedCylinder(s[0], s[1], 0.);
-    case ShapeType::ssBox: return roundedBox(.5 * Vector3d(s[0], s[1], s[2]) - Vector3d::Constant(s[3]), s[3]);
-    case ShapeType::ssCylinder: return roundedCylinder(s[0], s[1], s[2]);
+    case ShapeType::box:
+      return roundedBox(.5 * Vector3d(s[0], s[1], s[2]), 0.);
+    case ShapeType::sphere:
+      return roundedBox(Vector3d::Zero(), s[0]);
+    case ShapeType::capsule:
+      return roundedBox({0., 0., .5 * s[0]}, s[1]);
+    case ShapeType::cylinder:
+      return roundedCylinder(s[0], s[1], 0.);
+    case ShapeType::ssBox:
+      return roundedBox(.5 * Vector3d(s[0], s[1], s[2]) - Vector3d::Constant(s[3]), s[3]);
+    case ShapeType::ssCylinder:
+      return roundedCylinder(s[0], s[1], s[2]);
     case ShapeType::ssCvx:
       if (!geometry.mesh) return {};
       if (s[0] == 0.) return convexHull(geometry.mesh->vertices);
@@ -135,13 +143,20 @@ Mesh tessellate(const Geometry& geometry) {
     }
     case ShapeType::quad: {
       Mesh mesh;
-      mesh.vertices = {{-.5 * s[0], -.5 * s[1], 0.}, {.5 * s[0], -.5 * s[1], 0.}, {.5 * s[0], .5 * s[1], 0.}, {-.5 * s[0], .5 * s[1], 0.}};
+      mesh.vertices = {{-.5 * s[0], -.5 * s[1], 0.},
+                       {.5 * s[0], -.5 * s[1], 0.},
+                       {.5 * s[0], .5 * s[1], 0.},
+                       {-.5 * s[0], .5 * s[1], 0.}};
       mesh.triangles = {{0, 1, 2}, {0, 2, 3}};
       return mesh;
     }
-    case ShapeType::sdf: return geometry.grid ? isosurface(*geometry.grid, {s[0], s[1], s[2]}) : roundedBox(.5 * Vector3d(s[0], s[1], s[2]), 0.);
-    case ShapeType::mesh: return geometry.mesh ? *geometry.mesh : Mesh{};
-    default: return {};
+    case ShapeType::sdf:
+      return geometry.grid ? isosurface(*geometry.grid, {s[0], s[1], s[2]})
+                           : roundedBox(.5 * Vector3d(s[0], s[1], s[2]), 0.);
+    case ShapeType::mesh:
+      return geometry.mesh ? *geometry.mesh : Mesh{};
+    default:
+      return {};
   }
 }
 

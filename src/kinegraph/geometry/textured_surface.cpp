@@ -14,7 +14,8 @@ using Place = std::array<float, 2>;
 using Corners = std::array<Vector3d, 3>;
 
 bool isTurned(ShapeType type) {
-  return type == ShapeType::sphere || type == ShapeType::capsule || type == ShapeType::cylinder || type == ShapeType::ssCylinder;
+  return type == ShapeType::sphere || type == ShapeType::capsule || type == ShapeType::cylinder ||
+         type == ShapeType::ssCylinder;
 }
 
 Place place(double right, double up) { return {float(right), float(up)}; }
@@ -62,7 +63,8 @@ std::array<Place, 3> seenAlongAxis(const Corners& corners, const Vector3d& low, 
 
 }  // namespace
 
-Mesh texturedSurface(const Geometry& geometry, std::shared_ptr<const Image> image, const std::array<double, 2>& repeat) {
+Mesh texturedSurface(const Geometry& geometry, std::shared_ptr<const Image> image,
+                     const std::array<double, 2>& repeat) {
   const Mesh surface = tessellate(geometry);
   if (surface.triangles.empty() || !image) return surface;
   Mesh mesh;
@@ -77,7 +79,8 @@ Mesh texturedSurface(const Geometry& geometry, std::shared_ptr<const Image> imag
     }
     const Vector3d size = (high - low).cwiseMax(1e-12);
     for (const auto& triangle : surface.triangles) {
-      const Corners corners = {surface.vertices[triangle[0]], surface.vertices[triangle[1]], surface.vertices[triangle[2]]};
+      const Corners corners = {surface.vertices[triangle[0]], surface.vertices[triangle[1]],
+                               surface.vertices[triangle[2]]};
       const auto first = std::uint32_t(mesh.vertices.size());
       mesh.vertices.insert(mesh.vertices.end(), corners.begin(), corners.end());
       const auto places = turned ? around(corners, low.z(), high.z()) : seenAlongAxis(corners, low, size);

@@ -8,7 +8,8 @@
 namespace kinegraph {
 
 bool startsWord(char c) {
-  return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_' || c == '/' || c == '$' || static_cast<unsigned char>(c) >= 0x80;
+  return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_' || c == '/' || c == '$' ||
+         static_cast<unsigned char>(c) >= 0x80;
 }
 
 Scanner::Scanner(std::string_view text, const std::string& file) : text_(text), file_(file) {
@@ -17,7 +18,8 @@ Scanner::Scanner(std::string_view text, const std::string& file) : text_(text), 
   if (text_.starts_with("\xEF\xBB\xBF")) at_ = 3;  // a byte-order mark
 }
 
-/// Reading goes on from line to line, so that the line of a place is nearly always the one of the last place or the next.
+/// Reading goes on from line to line, so that the line of a place is nearly always the one of the last place or the
+/// next.
 std::size_t Scanner::lineOf(std::size_t at) const {
   std::size_t line = last_line_;
   const auto startOf = [&](std::size_t i) { return i < line_starts_.size() ? line_starts_[i] : text_.size() + 1; };
@@ -103,9 +105,11 @@ double Scanner::parseNumber(const CharSet& stop) {
     const std::string word = parseWord(stop);
     const char* hint = "";
     if (word.find_first_of("})") != std::string::npos) hint = "; is there a ']' missing?";
-    const std::string_view unit = std::string_view(word).substr(std::min<std::size_t>(word.size(), std::size_t(end - text_.data()) - start));
+    const std::string_view unit =
+        std::string_view(word).substr(std::min<std::size_t>(word.size(), std::size_t(end - text_.data()) - start));
     static constexpr std::string_view kUnits[] = {"m", "cm", "mm", "kg", "g", "s", "ms", "deg", "rad"};
-    if (std::find(std::begin(kUnits), std::end(kUnits), unit) != std::end(kUnits)) hint = "; numbers have no unit behind them: m, kg, s and rad are meant";
+    if (std::find(std::begin(kUnits), std::end(kUnits), unit) != std::end(kUnits))
+      hint = "; numbers have no unit behind them: m, kg, s and rad are meant";
     fail(start, cat("'", word, "' is not a number", hint));
   }
   if (error == std::errc::result_out_of_range) {

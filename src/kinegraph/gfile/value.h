@@ -25,8 +25,8 @@ struct Graph {
 
   const Node* find(std::string_view key) const;
   Node* find(std::string_view key);
-  void set(Node node);                ///< replaces the first node of that key, or appends
-  void erase(std::string_view key);   ///< removes all nodes of that key
+  void set(Node node);               ///< replaces the first node of that key, or appends
+  void erase(std::string_view key);  ///< removes all nodes of that key
   bool operator==(const Graph& other) const;
 };
 

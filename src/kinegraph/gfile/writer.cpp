@@ -11,11 +11,15 @@ namespace kinegraph {
 namespace {
 
 bool isPlainWord(const std::string& text) {
-  if (text.empty() || text == "true" || text == "True" || text == "false" || text == "False" || text == "inf" || text == "nan") {
+  if (text.empty() || text == "true" || text == "True" || text == "false" || text == "False" || text == "inf" ||
+      text == "nan") {
     return false;
   }
-  const auto plain = [](unsigned char c) { return std::isalnum(c) || c == '_' || c == '/' || c == '.' || c == '-' || c == '%'; };
-  return (std::isalpha(static_cast<unsigned char>(text[0])) || text[0] == '_') && std::all_of(text.begin(), text.end(), plain);
+  const auto plain = [](unsigned char c) {
+    return std::isalnum(c) || c == '_' || c == '/' || c == '.' || c == '-' || c == '%';
+  };
+  return (std::isalpha(static_cast<unsigned char>(text[0])) || text[0] == '_') &&
+         std::all_of(text.begin(), text.end(), plain);
 }
 
 std::string quoted(const std::string& text) {

@@ -24,8 +24,8 @@ struct WorldBox {
   WorldBox grown(double by) const { return {low.array() - by, high.array() + by}; }
 };
 
-/// Boxes in a binary tree of boxes around them: which of them meet a given one, in a time that grows as the logarithm of their
-/// number.
+/// Boxes in a binary tree of boxes around them: which of them meet a given one, in a time that grows as the logarithm
+/// of their number.
 class BoxTree {
  public:
   /// Over boxes[i] for all i; splits at the middle of the longest side.

@@ -78,8 +78,8 @@ LinkMotions propagate(const State& state, const VectorXd& dq, const VectorXd* dd
   return motions;
 }
 
-VectorXd newtonEuler(const State& state, const std::vector<LinkInertia>& inertias, const VectorXd& dq, const VectorXd* ddq,
-                     const Vector3d& gravity) {
+VectorXd newtonEuler(const State& state, const std::vector<LinkInertia>& inertias, const VectorXd& dq,
+                     const VectorXd* ddq, const Vector3d& gravity) {
   const Program& program = state.program();
   const LinkMotions motions = propagate(state, dq, ddq, gravity);
   std::vector<Wrench> wrench(program.links.size());
@@ -123,10 +123,11 @@ VectorXd inverseDynamics(const State& state, const std::vector<LinkInertia>& ine
   return newtonEuler(state, inertias, velocity, &acceleration, gravity);
 }
 
-EquationOfMotion equationOfMotion(const State& state, const std::vector<LinkInertia>& inertias, const VectorXd& velocity,
-                                  const Vector3d& gravity) {
+EquationOfMotion equationOfMotion(const State& state, const std::vector<LinkInertia>& inertias,
+                                  const VectorXd& velocity, const Vector3d& gravity) {
   const Program& program = state.program();
-  EquationOfMotion equation{MatrixXd::Zero(program.dofs, program.dofs), newtonEuler(state, inertias, velocity, nullptr, gravity)};
+  EquationOfMotion equation{MatrixXd::Zero(program.dofs, program.dofs),
+                            newtonEuler(state, inertias, velocity, nullptr, gravity)};
   for (std::size_t l = 1; l < program.links.size(); ++l) {
     const WorldInertia inertia(inertias[l], state.linkPose(int(l)));
     if (inertia.mass == 0. && inertia.matrix.isZero(0.)) continue;

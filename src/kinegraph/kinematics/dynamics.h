@@ -25,8 +25,8 @@ struct EquationOfMotion {
 };
 
 /// Both terms at the state's q and the velocity dq. Redundant dofs (the norm of a quaternion) carry no inertia.
-EquationOfMotion equationOfMotion(const State& state, const std::vector<LinkInertia>& inertias, const VectorXd& velocity,
-                                  const Vector3d& gravity = kGravity);
+EquationOfMotion equationOfMotion(const State& state, const std::vector<LinkInertia>& inertias,
+                                  const VectorXd& velocity, const Vector3d& gravity = kGravity);
 
 /// Generalized forces that give the acceleration ddq: recursive Newton-Euler, linear in the number of links.
 /// Source: Featherstone, Rigid Body Dynamics Algorithms, ch. 5, in world coordinates.
@@ -38,6 +38,7 @@ std::pair<double, Vector3d> centerOfMass(const State& state, const std::vector<L
 
 /// Kinetic and potential energy, J; the potential is 0 at the world's origin.
 double kineticEnergy(const State& state, const std::vector<LinkInertia>& inertias, const VectorXd& velocity);
-double potentialEnergy(const State& state, const std::vector<LinkInertia>& inertias, const Vector3d& gravity = kGravity);
+double potentialEnergy(const State& state, const std::vector<LinkInertia>& inertias,
+                       const Vector3d& gravity = kGravity);
 
 }  // namespace kinegraph

@@ -59,9 +59,16 @@ double twistAngle(const Quaterniond& q, const Vector3d& a) {
 
 /// What other formats call joints.
 constexpr std::pair<std::string_view, std::string_view> kWordsOfOthers[] = {
-    {"revolute", "hingeX, hingeY or hingeZ, or hinge with axis: [x y z]"}, {"continuous", "hingeX, hingeY or hingeZ without limits"},
-    {"prismatic", "transX, transY or transZ"}, {"slide", "transX, transY or transZ"}, {"slider", "transX, transY or transZ"},
-    {"fixed", "rigid"}, {"floating", "free"}, {"ball", "quatBall"}, {"spherical", "quatBall"}, {"planar", "transXYPhi"}};
+    {"revolute", "hingeX, hingeY or hingeZ, or hinge with axis: [x y z]"},
+    {"continuous", "hingeX, hingeY or hingeZ without limits"},
+    {"prismatic", "transX, transY or transZ"},
+    {"slide", "transX, transY or transZ"},
+    {"slider", "transX, transY or transZ"},
+    {"fixed", "rigid"},
+    {"floating", "free"},
+    {"ball", "quatBall"},
+    {"spherical", "quatBall"},
+    {"planar", "transXYPhi"}};
 
 const std::vector<std::pair<std::string, JointType>>& jointTypeNames() {
   static const std::vector<std::pair<std::string, JointType>> names = {
@@ -89,34 +96,56 @@ JointType jointTypeFromName(std::string_view name) {
     if (known == word) return value;
     words.push_back(known);
   }
-  const auto meant = std::find_if(std::begin(kWordsOfOthers), std::end(kWordsOfOthers), [&](const auto& entry) { return entry.first == word; });
-  const std::string hint = meant != std::end(kWordsOfOthers) ? cat("; what others call ", word, " is ", meant->second) : similarHint(word, words);
+  const auto meant = std::find_if(std::begin(kWordsOfOthers), std::end(kWordsOfOthers),
+                                  [&](const auto& entry) { return entry.first == word; });
+  const std::string hint = meant != std::end(kWordsOfOthers) ? cat("; what others call ", word, " is ", meant->second)
+                                                             : similarHint(word, words);
   throw ValueError(cat("unknown joint type '", name, "'; expected one of ", join(words), hint));
 }
 
 std::vector<MotionStep> motionSteps(JointType type, std::string_view code) {
   switch (type) {
     case JointType::none:
-    case JointType::rigid: return {};
-    case JointType::hingeX: return {kRotX};
-    case JointType::hingeY: return {kRotY};
-    case JointType::hingeZ: return {kRotZ};
-    case JointType::transX: return {kTransX};
-    case JointType::transY: return {kTransY};
-    case JointType::transZ: return {kTransZ};
-    case JointType::hinge: return {{Kind::rotateAbout}};
-    case JointType::circleZ: return {{Kind::circle}};
-    case JointType::transXY: return {kTransX, kTransY};
-    case JointType::trans3: return {kTransX, kTransY, kTransZ};
-    case JointType::transXYPhi: return {kTransX, kTransY, kRotZ};
-    case JointType::transYPhi: return {kTransY, kRotZ};
-    case JointType::universal: return {kRotX, kRotY};
-    case JointType::quatBall: return {kQuaternion};
-    case JointType::phiTransXY: return {kRotZ, kTransX, kTransY};
-    case JointType::XBall: return {kTransX, kQuaternion};
-    case JointType::free: return {kTransX, kTransY, kTransZ, kQuaternion};
-    case JointType::generic: return genericSteps(code);
-    case JointType::tau: return {{Kind::time}};
+    case JointType::rigid:
+      return {};
+    case JointType::hingeX:
+      return {kRotX};
+    case JointType::hingeY:
+      return {kRotY};
+    case JointType::hingeZ:
+      return {kRotZ};
+    case JointType::transX:
+      return {kTransX};
+    case JointType::transY:
+      return {kTransY};
+    case JointType::transZ:
+      return {kTransZ};
+    case JointType::hinge:
+      return {{Kind::rotateAbout}};
+    case JointType::circleZ:
+      return {{Kind::circle}};
+    case JointType::transXY:
+      return {kTransX, kTransY};
+    case JointType::trans3:
+      return {kTransX, kTransY, kTransZ};
+    case JointType::transXYPhi:
+      return {kTransX, kTransY, kRotZ};
+    case JointType::transYPhi:
+      return {kTransY, kRotZ};
+    case JointType::universal:
+      return {kRotX, kRotY};
+    case JointType::quatBall:
+      return {kQuaternion};
+    case JointType::phiTransXY:
+      return {kRotZ, kTransX, kTransY};
+    case JointType::XBall:
+      return {kTransX, kQuaternion};
+    case JointType::free:
+      return {kTransX, kTransY, kTransZ, kQuaternion};
+    case JointType::generic:
+      return genericSteps(code);
+    case JointType::tau:
+      return {{Kind::time}};
   }
   throw ValueError(cat("joint type ", int(type), " does not exist"));
 }
@@ -142,12 +171,23 @@ Pose motionPose(const std::vector<MotionStep>& steps, const Vector3d& axis, doub
   for (const MotionStep& step : steps) {
     const double value = step.sign * scale * q[0];
     switch (step.kind) {
-      case Kind::translate: X.p += X.q * (value * Vector3d::Unit(step.axis)); break;
-      case Kind::rotate: X.q = X.q * aboutAxis(step.axis, value); break;
-      case Kind::rotateAbout: X.q = X.q * Quaterniond(Eigen::AngleAxisd(value, axis)); break;
-      case Kind::quaternion: X.q = X.q * unitQuaternion({q[0], q[1], q[2], q[3]}, "quaternion of a joint"); break;
-      case Kind::circle: X.q = X.q * unitQuaternion({q[0], 0., 0., q[1]}, "(c, s) of a circleZ joint"); break;
-      case Kind::time: break;
+      case Kind::translate:
+        X.p += X.q * (value * Vector3d::Unit(step.axis));
+        break;
+      case Kind::rotate:
+        X.q = X.q * aboutAxis(step.axis, value);
+        break;
+      case Kind::rotateAbout:
+        X.q = X.q * Quaterniond(Eigen::AngleAxisd(value, axis));
+        break;
+      case Kind::quaternion:
+        X.q = X.q * unitQuaternion({q[0], q[1], q[2], q[3]}, "quaternion of a joint");
+        break;
+      case Kind::circle:
+        X.q = X.q * unitQuaternion({q[0], 0., 0., q[1]}, "(c, s) of a circleZ joint");
+        break;
+      case Kind::time:
+        break;
     }
     q += step.dofs();
   }
@@ -186,7 +226,8 @@ VectorXd projectInSequence(const std::vector<MotionStep>& steps, const Vector3d&
         q[i + 1] = norm > 1e-12 ? rest.q.z() / norm : 0.;
         break;
       }
-      case Kind::time: break;
+      case Kind::time:
+        break;
     }
     i += step.dofs();
   }
@@ -197,7 +238,9 @@ VectorXd projectInSequence(const std::vector<MotionStep>& steps, const Vector3d&
 
 VectorXd motionProject(const std::vector<MotionStep>& steps, const Vector3d& axis, double scale, const Pose& X) {
   VectorXd q = projectInSequence(steps, axis, scale, X);
-  const auto rotates = [](const MotionStep& step) { return step.kind == Kind::rotate || step.kind == Kind::rotateAbout; };
+  const auto rotates = [](const MotionStep& step) {
+    return step.kind == Kind::rotate || step.kind == Kind::rotateAbout;
+  };
   if (std::count_if(steps.begin(), steps.end(), rotates) < 2) return q;
   const auto error = [&](const VectorXd& at) {
     const Pose E = X.inverse() * motionPose(steps, axis, scale, at.data());

@@ -40,7 +40,8 @@ std::string jointTypeName(JointType type);
 /// The type of that name, with or without the prefix "JT_". Throws ValueError with the legal and the nearest words.
 JointType jointTypeFromName(std::string_view name);
 
-/// One elementary motion. Every joint type is a short sequence of them, each in the frame that the previous one reached.
+/// One elementary motion. Every joint type is a short sequence of them, each in the frame that the previous one
+/// reached.
 struct MotionStep {
   using Kind = MotionKind;
   Kind kind;

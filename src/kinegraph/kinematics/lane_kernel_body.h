@@ -1,5 +1,5 @@
-// The kernel of lane_model.h for registers of `kLanes` doubles. Each source file that includes this is compiled for its own
-// instruction set; all names are local to it.
+// The kernel of lane_model.h for registers of `kLanes` doubles. Each source file that includes this is compiled for its
+// own instruction set; all names are local to it.
 
 #include "kinegraph/kinematics/lane_model.h"
 #include "kinegraph/kinematics/place_lanes.h"
@@ -24,7 +24,8 @@ Quaternion toQuaternion(const Vector* R) {
   const auto w_leads = trace > 0.;
   const auto y_over_x = R[1].y > R[0].x;
   const auto z_leads = R[2].z > (y_over_x ? R[1].y : R[0].x);
-  const Lane x_square = ((R[0].x - R[1].y) - R[2].z), y_square = ((R[1].y - R[2].z) - R[0].x), z_square = ((R[2].z - R[0].x) - R[1].y);
+  const Lane x_square = ((R[0].x - R[1].y) - R[2].z), y_square = ((R[1].y - R[2].z) - R[0].x),
+             z_square = ((R[2].z - R[0].x) - R[1].y);
   const Lane twice = root((w_leads ? trace : z_leads ? z_square : y_over_x ? y_square : x_square) + 1.);
   const Lane lead = .5 * twice, over = .5 / twice;
   const Vector odd = over * Vector{R[1].z - R[2].y, R[2].x - R[0].z, R[0].y - R[1].x};
@@ -73,7 +74,8 @@ struct Memory {
 
 /// Writes the Jacobian of a block. `rate(entry, angular velocity, point or velocity, out)` gives the block's rows.
 template <int Rows, class Rate>
-void fillJacobian(const LaneModel& model, const LaneRows& rows, const Block& block, const Memory& memory, const Rate& rate) {
+void fillJacobian(const LaneModel& model, const LaneRows& rows, const Block& block, const Memory& memory,
+                  const Rate& rate) {
   const int kept = Rows < block.rows ? Rows : block.rows;
   for (int e = block.first_entry; e < block.first_entry + block.entries; ++e) {
     const LaneRows::Entry& entry = rows.entry[e];
@@ -93,7 +95,8 @@ Vector velocity(const LaneRows::Entry& entry, const Vector& angular, const Vecto
   return entry.turns ? cross(angular, at - point) : point;
 }
 
-void positionBlock(const LaneModel& model, const LaneRows& rows, const Block& block, const Memory& memory, bool with_jacobian) {
+void positionBlock(const LaneModel& model, const LaneRows& rows, const Block& block, const Memory& memory,
+                   bool with_jacobian) {
   const Lane* a = memory.frame + block.a * LaneMemory::kPerPose;
   const Lane* b = memory.frame + block.b * LaneMemory::kPerPose;
   const Vector p_a = load(a + 9);
@@ -105,30 +108,34 @@ void positionBlock(const LaneModel& model, const LaneRows& rows, const Block& bl
     if (block.rows > 1) y[1] = value.y;
     if (block.rows > 2) y[2] = value.z;
     if (!with_jacobian) return;
-    fillJacobian<3>(model, rows, block, memory, [&](const LaneRows::Entry& entry, const Vector& angular, const Vector& point, Lane* to) {
-      const Vector rate = inFrame(R, velocity(entry, angular, point, p_a));
-      store(entry.of_b ? -rate : rate, to);
-    });
+    fillJacobian<3>(model, rows, block, memory,
+                    [&](const LaneRows::Entry& entry, const Vector& angular, const Vector& point, Lane* to) {
+                      const Vector rate = inFrame(R, velocity(entry, angular, point, p_a));
+                      store(entry.of_b ? -rate : rate, to);
+                    });
     return;
   }
   if (block.kind == Block::position) {
     store(p_a, y);
     if (!with_jacobian) return;
-    fillJacobian<3>(model, rows, block, memory, [&](const LaneRows::Entry& entry, const Vector& angular, const Vector& point, Lane* to) {
-      store(velocity(entry, angular, point, p_a), to);
-    });
+    fillJacobian<3>(model, rows, block, memory,
+                    [&](const LaneRows::Entry& entry, const Vector& angular, const Vector& point, Lane* to) {
+                      store(velocity(entry, angular, point, p_a), to);
+                    });
     return;
   }
   const Vector p_b = load(b + 9);
   store(p_a - p_b, y);
   if (!with_jacobian) return;
-  fillJacobian<3>(model, rows, block, memory, [&](const LaneRows::Entry& entry, const Vector& angular, const Vector& point, Lane* to) {
-    const Vector rate = velocity(entry, angular, point, entry.of_b ? p_b : p_a);
-    store(entry.of_b ? -rate : rate, to);
-  });
+  fillJacobian<3>(model, rows, block, memory,
+                  [&](const LaneRows::Entry& entry, const Vector& angular, const Vector& point, Lane* to) {
+                    const Vector rate = velocity(entry, angular, point, entry.of_b ? p_b : p_a);
+                    store(entry.of_b ? -rate : rate, to);
+                  });
 }
 
-void quaternionBlock(const LaneModel& model, const LaneRows& rows, const Block& block, const Memory& memory, bool with_jacobian) {
+void quaternionBlock(const LaneModel& model, const LaneRows& rows, const Block& block, const Memory& memory,
+                     bool with_jacobian) {
   const auto columns = [&](int frame, Vector* R) {
     for (int k = 0; k < 3; ++k) R[k] = load(memory.frame + frame * LaneMemory::kPerPose + 3 * k);
   };
@@ -139,9 +146,9 @@ void quaternionBlock(const LaneModel& model, const LaneRows& rows, const Block& 
   if (block.kind == Block::quaternion) {
     storeQuaternion(q_a, y);
     if (!with_jacobian) return;
-    fillJacobian<4>(model, rows, block, memory, [&](const LaneRows::Entry&, const Vector& angular, const Vector&, Lane* to) {
-      storeRates(q_a, angular, to);
-    });
+    fillJacobian<4>(
+        model, rows, block, memory,
+        [&](const LaneRows::Entry&, const Vector& angular, const Vector&, Lane* to) { storeRates(q_a, angular, to); });
     return;
   }
   columns(block.b, R_b);
@@ -150,25 +157,28 @@ void quaternionBlock(const LaneModel& model, const LaneRows& rows, const Block& 
     const Quaternion q = between(q_b, q_a);
     storeQuaternion(q, y);
     if (!with_jacobian) return;
-    fillJacobian<4>(model, rows, block, memory, [&](const LaneRows::Entry& entry, const Vector& angular, const Vector&, Lane* to) {
-      const Vector w = inFrame(R_b, angular);
-      storeRates(q, entry.of_b ? -w : w, to);
-    });
+    fillJacobian<4>(model, rows, block, memory,
+                    [&](const LaneRows::Entry& entry, const Vector& angular, const Vector&, Lane* to) {
+                      const Vector w = inFrame(R_b, angular);
+                      storeRates(q, entry.of_b ? -w : w, to);
+                    });
     return;
   }
   q_b = negated(inner(q_a, q_b) < 0., q_b);
   storeQuaternion({q_a.w - q_b.w, q_a.v - q_b.v}, y);
   if (!with_jacobian) return;
-  fillJacobian<4>(model, rows, block, memory, [&](const LaneRows::Entry& entry, const Vector& angular, const Vector&, Lane* to) {
-    if (entry.of_b) {
-      storeRates(q_b, -angular, to);
-    } else {
-      storeRates(q_a, angular, to);
-    }
-  });
+  fillJacobian<4>(model, rows, block, memory,
+                  [&](const LaneRows::Entry& entry, const Vector& angular, const Vector&, Lane* to) {
+                    if (entry.of_b) {
+                      storeRates(q_b, -angular, to);
+                    } else {
+                      storeRates(q_a, angular, to);
+                    }
+                  });
 }
 
-void axisBlock(const LaneModel& model, const LaneRows& rows, const Block& block, const Memory& memory, bool with_jacobian) {
+void axisBlock(const LaneModel& model, const LaneRows& rows, const Block& block, const Memory& memory,
+               bool with_jacobian) {
   const Lane* a = memory.frame + block.a * LaneMemory::kPerPose;
   const Lane* b = memory.frame + block.b * LaneMemory::kPerPose;
   const Vector u = load(a + 3 * block.axis_a);
@@ -177,26 +187,29 @@ void axisBlock(const LaneModel& model, const LaneRows& rows, const Block& block,
     case Block::axis:
       store(u, y);
       if (!with_jacobian) return;
-      fillJacobian<3>(model, rows, block, memory, [&](const LaneRows::Entry&, const Vector& angular, const Vector&, Lane* to) {
-        store(cross(angular, u), to);
-      });
+      fillJacobian<3>(model, rows, block, memory,
+                      [&](const LaneRows::Entry&, const Vector& angular, const Vector&, Lane* to) {
+                        store(cross(angular, u), to);
+                      });
       return;
     case Block::axis_offset: {
       const Vector v = load(b + 3 * block.axis_b);
       store(u - v, y);
       if (!with_jacobian) return;
-      fillJacobian<3>(model, rows, block, memory, [&](const LaneRows::Entry& entry, const Vector& angular, const Vector&, Lane* to) {
-        store(entry.of_b ? cross(v, angular) : cross(angular, u), to);
-      });
+      fillJacobian<3>(model, rows, block, memory,
+                      [&](const LaneRows::Entry& entry, const Vector& angular, const Vector&, Lane* to) {
+                        store(entry.of_b ? cross(v, angular) : cross(angular, u), to);
+                      });
       return;
     }
     case Block::axis_relative: {
       const Vector R[3] = {load(b), load(b + 3), load(b + 6)};
       store(inFrame(R, u), y);
       if (!with_jacobian) return;
-      fillJacobian<3>(model, rows, block, memory, [&](const LaneRows::Entry& entry, const Vector& angular, const Vector&, Lane* to) {
-        store(inFrame(R, entry.of_b ? cross(u, angular) : cross(angular, u)), to);
-      });
+      fillJacobian<3>(model, rows, block, memory,
+                      [&](const LaneRows::Entry& entry, const Vector& angular, const Vector&, Lane* to) {
+                        store(inFrame(R, entry.of_b ? cross(u, angular) : cross(angular, u)), to);
+                      });
       return;
     }
     default: {  // axis_product
@@ -204,36 +217,46 @@ void axisBlock(const LaneModel& model, const LaneRows& rows, const Block& block,
       *y = dot(u, v);
       if (!with_jacobian) return;
       const Vector across = cross(u, v);
-      fillJacobian<1>(model, rows, block, memory, [&](const LaneRows::Entry& entry, const Vector& angular, const Vector&, Lane* to) {
-        *to = dot(across, entry.of_b ? -angular : angular);
-      });
+      fillJacobian<1>(model, rows, block, memory,
+                      [&](const LaneRows::Entry& entry, const Vector& angular, const Vector&, Lane* to) {
+                        *to = dot(across, entry.of_b ? -angular : angular);
+                      });
     }
   }
 }
 
 void twistBlock(const LaneModel& model, const LaneRows& rows, const Block& block, const Memory& memory) {
   const Vector p_a = load(memory.frame + block.a * LaneMemory::kPerPose + 9);
-  fillJacobian<6>(model, rows, block, memory, [&](const LaneRows::Entry& entry, const Vector& angular, const Vector& point, Lane* to) {
-    store(velocity(entry, angular, point, p_a), to);
-    store(angular, to + 3);
-  });
+  fillJacobian<6>(model, rows, block, memory,
+                  [&](const LaneRows::Entry& entry, const Vector& angular, const Vector& point, Lane* to) {
+                    store(velocity(entry, angular, point, p_a), to);
+                    store(angular, to + 3);
+                  });
 }
 
 void evaluate(const LaneModel& model, const LaneRows& rows, const Memory& memory, bool with_jacobian) {
   for (int f = 0; f < rows.frames; ++f) {
     const LaneRows::Frame& frame = rows.frame[f];
-    storePlace(moved<Vector>(memory.pose + frame.link * LaneMemory::kPerPose, frame.turn, frame.R, frame.p), memory.frame + f * LaneMemory::kPerPose);
+    storePlace(moved<Vector>(memory.pose + frame.link * LaneMemory::kPerPose, frame.turn, frame.R, frame.p),
+               memory.frame + f * LaneMemory::kPerPose);
   }
   for (int i = 0; i < rows.blocks; ++i) {
     const Block& block = rows.block[i];
     switch (block.kind) {
-      case Block::position: case Block::offset: case Block::relative:
+      case Block::position:
+      case Block::offset:
+      case Block::relative:
         positionBlock(model, rows, block, memory, with_jacobian);
         break;
-      case Block::quaternion: case Block::quaternion_offset: case Block::quaternion_relative:
+      case Block::quaternion:
+      case Block::quaternion_offset:
+      case Block::quaternion_relative:
         quaternionBlock(model, rows, block, memory, with_jacobian);
         break;
-      case Block::axis: case Block::axis_offset: case Block::axis_relative: case Block::axis_product:
+      case Block::axis:
+      case Block::axis_offset:
+      case Block::axis_relative:
+      case Block::axis_product:
         axisBlock(model, rows, block, memory, with_jacobian);
         break;
       case Block::twist:
@@ -249,7 +272,8 @@ void evaluate(const LaneModel& model, const LaneRows& rows, const Memory& memory
 
 void runRows(const LaneModel& model, const LaneRows& rows, const LaneMemory& raw, const LaneBatch& batch) {
   const auto lanes = [](double* numbers) { return reinterpret_cast<Lane*>(numbers); };
-  const Memory memory = {lanes(raw.x), lanes(raw.pose), lanes(raw.motion), lanes(raw.frame), lanes(raw.y), lanes(raw.jacobian)};
+  const Memory memory = {lanes(raw.x),     lanes(raw.pose), lanes(raw.motion),
+                         lanes(raw.frame), lanes(raw.y),    lanes(raw.jacobian)};
   const int n = model.variables;
   for (int first = 0; first < batch.count; first += kLanes) {
     const int count = batch.count - first < kLanes ? batch.count - first : kLanes;
@@ -262,7 +286,8 @@ void runRows(const LaneModel& model, const LaneRows& rows, const LaneMemory& raw
     if (batch.row_stride == n) {
       scatterRows(memory.jacobian, rows.rows * n, J, batch.J_stride, count);
     } else {
-      for (int r = 0; r < rows.rows; ++r) scatterRows(memory.jacobian + long(r) * n, n, J + r * batch.row_stride, batch.J_stride, count);
+      for (int r = 0; r < rows.rows; ++r)
+        scatterRows(memory.jacobian + long(r) * n, n, J + r * batch.row_stride, batch.J_stride, count);
     }
   }
 }

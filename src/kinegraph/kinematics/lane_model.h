@@ -5,8 +5,9 @@
 
 namespace kinegraph {
 
-// Kinematics as flat numbers, for one configuration or several side by side, one per lane of a wide register. Nothing in this file
-// owns memory or has inline functions, because it is shared with code for other instruction sets. Rotations are column-major.
+// Kinematics as flat numbers, for one configuration or several side by side, one per lane of a wide register. Nothing
+// in this file owns memory or has inline functions, because it is shared with code for other instruction sets.
+// Rotations are column-major.
 
 /// The links that move some frames, in topological order; link 0 is the world.
 struct LaneModel {
@@ -41,9 +42,9 @@ struct LaneRows {
   struct Entry {
     int column;
     int variable;
-    bool turns;   ///< else it slides
-    bool of_b;    ///< moves frame b, not a
-    bool adds;    ///< to an earlier entry of the same variable
+    bool turns;  ///< else it slides
+    bool of_b;   ///< moves frame b, not a
+    bool adds;   ///< to an earlier entry of the same variable
   };
   struct Block {
     enum Kind : unsigned char {
@@ -63,7 +64,7 @@ struct LaneRows {
     Kind kind;
     bool canonical;  ///< of a quaternion: of the two signs, that whose first entry other than 0 is positive
     int row, rows;
-    int a, b;            ///< frames; of `joint`: the variable is a
+    int a, b;  ///< frames; of `joint`: the variable is a
     int axis_a, axis_b;
     int first_entry, entries;
     double scale, shift;
@@ -99,7 +100,8 @@ struct LaneBatch {
   long row_stride;  ///< between rows of one of them
 };
 
-using RunLanes = void (*)(const LaneModel& model, const LaneRows& rows, const LaneMemory& memory, const LaneBatch& batch);
+using RunLanes = void (*)(const LaneModel& model, const LaneRows& rows, const LaneMemory& memory,
+                          const LaneBatch& batch);
 
 /// The kernel for `width` lanes, one of laneWidths().
 RunLanes laneKernel(int width);

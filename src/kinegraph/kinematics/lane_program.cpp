@@ -34,13 +34,14 @@ bool isOfRotations(Block::Kind kind) { return kind >= Block::quaternion && kind 
 
 /// Does a motion of both frames together leave the values as they are?
 bool isBetweenFrames(Block::Kind kind) {
-  return kind == Block::relative || kind == Block::quaternion_relative || kind == Block::axis_relative || kind == Block::axis_product;
+  return kind == Block::relative || kind == Block::quaternion_relative || kind == Block::axis_relative ||
+         kind == Block::axis_product;
 }
 
 }  // namespace
 
-LaneLinks::LaneLinks(const Program& program, const Parameters& parameters, const std::vector<int>& frames, const std::vector<int>& variable,
-                     int variables)
+LaneLinks::LaneLinks(const Program& program, const Parameters& parameters, const std::vector<int>& frames,
+                     const std::vector<int>& variable, int variables)
     : lane_link_(program.links.size(), -1), variables_(variables) {
   std::vector<char> needed(program.links.size(), 0);
   needed[0] = 1;
@@ -66,7 +67,9 @@ LaneLinks::LaneLinks(const Program& program, const Parameters& parameters, const
   }
 }
 
-LaneModel LaneLinks::view() const { return {int(link_.size()), int(step_.size()), int(column_.size()), variables_, link_.data(), step_.data()}; }
+LaneModel LaneLinks::view() const {
+  return {int(link_.size()), int(step_.size()), int(column_.size()), variables_, link_.data(), step_.data()};
+}
 
 LaneRows::Frame LaneLinks::place(const Program& program, const Parameters& parameters, int frame) const {
   const RigidTransform& offset = parameters.frame_offset[frame];
@@ -81,7 +84,10 @@ std::vector<int> LaneLinks::chain(int link) const {
   for (int l = link; l > 0; l = link_[l].parent) {
     for (int s = link_[l].first_step; s < link_[l].first_step + link_[l].steps; ++s) {
       const LaneModel::Step& step = step_[s];
-      const int dofs = step.kind == MotionKind::quaternion ? 4 : step.kind == MotionKind::circle ? 2 : step.kind == MotionKind::time ? 0 : 1;
+      const int dofs = step.kind == MotionKind::quaternion ? 4
+                       : step.kind == MotionKind::circle   ? 2
+                       : step.kind == MotionKind::time     ? 0
+                                                           : 1;
       for (int k = 0; k < dofs; ++k) columns.push_back(step.column + k);
     }
   }

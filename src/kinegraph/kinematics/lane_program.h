@@ -11,7 +11,8 @@ namespace kinegraph {
 class LaneLinks {
  public:
   /// `variable`: per dof of the Program, its number among the kernel's variables.
-  LaneLinks(const Program& program, const Parameters& parameters, const std::vector<int>& frames, const std::vector<int>& variable, int variables);
+  LaneLinks(const Program& program, const Parameters& parameters, const std::vector<int>& frames,
+            const std::vector<int>& variable, int variables);
 
   LaneModel view() const;
 
@@ -36,15 +37,17 @@ class LaneLinks {
   int variables_;
 };
 
-/// Rows that depend on poses of frames and on joints, one below the other, as a kernel in lanes takes them. What the kinds
-/// are is said in LaneRows::Block.
+/// Rows that depend on poses of frames and on joints, one below the other, as a kernel in lanes takes them. What the
+/// kinds are is said in LaneRows::Block.
 class LaneRowList {
  public:
   void addPosition(LaneRows::Block::Kind kind, int a, int b = -1, int rows = 3) { add(kind, rows, a, b); }
   void addQuaternion(LaneRows::Block::Kind kind, int a, int b = -1) { add(kind, 4, a, b); }
   void addPose(int frame);  ///< position, then the quaternion with its canonical sign
   void addAxis(LaneRows::Block::Kind kind, int axis, int a, int b = -1) { addAxes(kind, 3, axis, axis, a, b); }
-  void addAxisProduct(int axis_a, int axis_b, int a, int b) { addAxes(LaneRows::Block::axis_product, 1, axis_a, axis_b, a, b); }
+  void addAxisProduct(int axis_a, int axis_b, int a, int b) {
+    addAxes(LaneRows::Block::axis_product, 1, axis_a, axis_b, a, b);
+  }
   void addTwist(int frame) { add(LaneRows::Block::twist, 6, frame, -1); }
   void addJoint(int dof, double scale = 1., double shift = 0.);
 
@@ -59,8 +62,8 @@ class LaneRowList {
   int rows_ = 0;
 };
 
-/// Rows compiled for a scene: evaluates them for many configurations, in the lanes of wide registers. Threads can share it,
-/// with a Scratch each.
+/// Rows compiled for a scene: evaluates them for many configurations, in the lanes of wide registers. Threads can share
+/// it, with a Scratch each.
 class LaneProgram {
  public:
   LaneProgram(const Program& program, const Parameters& parameters, const LaneRowList& list);
@@ -79,7 +82,9 @@ class LaneProgram {
     RunLanes run_;
   };
 
-  void run(Scratch& scratch, const LaneBatch& batch) const { scratch.run_(links_.view(), view(), scratch.memory_, batch); }
+  void run(Scratch& scratch, const LaneBatch& batch) const {
+    scratch.run_(links_.view(), view(), scratch.memory_, batch);
+  }
 
  private:
   LaneRows view() const;

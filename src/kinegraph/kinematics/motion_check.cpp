@@ -14,7 +14,11 @@ bool manyBodies(const State& scene) { return scene.program().contacts.bodies.siz
 }  // namespace
 
 MotionChecker::MotionChecker(const State& scene)
-    : state_(scene), from_(scene.dofs()), change_(scene.dofs()), q_(scene.dofs()), steps_(scene.program().steps.size()) {
+    : state_(scene),
+      from_(scene.dofs()),
+      change_(scene.dofs()),
+      q_(scene.dofs()),
+      steps_(scene.program().steps.size()) {
   const Program& program = scene.program();
   if (!manyBodies(scene)) {
     pairs_.emplace(program, program.collidable());
@@ -60,7 +64,9 @@ void MotionChecker::boundSteps(const double* to) {
           bound.reach = scale * std::max(std::abs(from_[dof]), std::abs(to[dof]));
           break;
         case Kind::rotate:
-        case Kind::rotateAbout: bound.turn = scale * change; break;
+        case Kind::rotateAbout:
+          bound.turn = scale * change;
+          break;
         case Kind::quaternion:
         case Kind::circle: {  // |w| <= 2 |dq| / |q|, with the least |q| on the way
           const auto q = from_.segment(dof, step.dofs()), dq = change_.segment(dof, step.dofs());
@@ -71,15 +77,16 @@ void MotionChecker::boundSteps(const double* to) {
           bound.turn = norm > 1e-9 ? 2. * std::sqrt(square) / norm : std::numeric_limits<double>::infinity();
           break;
         }
-        case Kind::time: break;
+        case Kind::time:
+          break;
       }
       dof += step.dofs();
     }
   }
 }
 
-/// How fast the joint of a link moves what lies within `reach` of the link's origin, which becomes the reach from that of
-/// its parent.
+/// How fast the joint of a link moves what lies within `reach` of the link's origin, which becomes the reach from that
+/// of its parent.
 double MotionChecker::climb(int index, double& reach) const {
   const Program::Link& link = state_.program().links[index];
   double speed = 0.;
@@ -101,7 +108,8 @@ double MotionChecker::reachOf(int frame, const CollisionBody& body) const {
 double MotionChecker::relativeSpeed(int pair) const {
   const auto [a, b] = pairs_->pairs[std::size_t(pair)];
   const int frame_a = pairs_->frames[std::size_t(a)], frame_b = pairs_->frames[std::size_t(b)];
-  double reach_a = reachOf(frame_a, *pairs_->bodies[std::size_t(a)]), reach_b = reachOf(frame_b, *pairs_->bodies[std::size_t(b)]), speed = 0.;
+  double reach_a = reachOf(frame_a, *pairs_->bodies[std::size_t(a)]),
+         reach_b = reachOf(frame_b, *pairs_->bodies[std::size_t(b)]), speed = 0.;
   const std::vector<Program::Link>& links = state_.program().links;
   int link_a = state_.link(frame_a), link_b = state_.link(frame_b);
   while (link_a != link_b) {  // links come after their parents
@@ -116,14 +124,16 @@ double MotionChecker::relativeSpeed(int pair) const {
   return speed;
 }
 
-/// Where a body can be at any time of the motion. The steps' bounds must be those of the motion, of which `state_` is the start.
+/// Where a body can be at any time of the motion. The steps' bounds must be those of the motion, of which `state_` is
+/// the start.
 WorldBox MotionChecker::sweptBox(const ContactRules::Body& body) const {
   const auto frame = std::size_t(body.frame);
   const CollisionBody& shape = *state_.program().body[frame];
   const RigidTransform X = state_.pose(body.frame);
   const Vector3d center = X * shape.boundCenter(), half = (X.R.cwiseAbs() * shape.boundHalf()).array() + shape.radius();
   double reach = reachOf(body.frame, shape), travel = 0.;
-  for (int link = state_.link(body.frame); link != 0; link = state_.program().links[std::size_t(link)].parent) travel += climb(link, reach);
+  for (int link = state_.link(body.frame); link != 0; link = state_.program().links[std::size_t(link)].parent)
+    travel += climb(link, reach);
   constexpr double kAnywhere = 1e9;  // m
   return WorldBox{center - half, center + half}.grown(std::min(travel, kAnywhere));
 }
@@ -141,7 +151,8 @@ void MotionChecker::findPairs(double margin) {
   const auto add = [&](int i, int j) {
     if (i > j) std::swap(i, j);
     const int a = bodies[std::size_t(i)].frame, b = bodies[std::size_t(j)].frame;
-    if (state_.link(a) != state_.link(b) && program.contacts.allow(std::size_t(i), std::size_t(j))) found.emplace_back(a, b);
+    if (state_.link(a) != state_.link(b) && program.contacts.allow(std::size_t(i), std::size_t(j)))
+      found.emplace_back(a, b);
   };
   for (std::size_t k = 0; k < moving_.size(); ++k) {
     fixed_boxes_.forMeeting(boxes[k], reach, [&](int j) { add(moving_[k], fixed_[std::size_t(j)]); });
@@ -156,7 +167,8 @@ void MotionChecker::findPairs(double margin) {
   bodies_->place(state_);
 }
 
-std::optional<MotionContact> MotionChecker::firstContact(const double* from, const double* to, double margin, double tolerance) {
+std::optional<MotionContact> MotionChecker::firstContact(const double* from, const double* to, double margin,
+                                                         double tolerance) {
   const int n = state_.dofs();
   const auto inPiece = [&](const double* from, const double* to, bool begins) -> std::optional<MotionContact> {
     from_ = Eigen::Map<const VectorXd>(from, n);
@@ -164,7 +176,8 @@ std::optional<MotionContact> MotionChecker::firstContact(const double* from, con
     boundSteps(to);
     const auto contact = [&](int pair) {
       const auto [a, b] = pairs_->pairs[std::size_t(pair)];
-      return MotionContact{time_, pairs_->frames[std::size_t(a)], pairs_->frames[std::size_t(b)], bodies_->proximity(pair).distance};
+      return MotionContact{time_, pairs_->frames[std::size_t(a)], pairs_->frames[std::size_t(b)],
+                           bodies_->proximity(pair).distance};
     };
     const auto spare = [&](int pair) { return bodies_->proximity(pair).distance - margin; };
     due_.clear();
@@ -194,7 +207,8 @@ std::optional<MotionContact> MotionChecker::firstContact(const double* from, con
     std::pmr::vector<double> at_end(speed_.size(), 0., &memory);
     moveTo(1.);
     for (const Due& due : due_) at_end[due.pair] = std::max(spare(due.pair), 0.);
-    std::erase_if(due_, [&](const Due& due) { return due.time * speed_[due.pair] + at_end[due.pair] >= speed_[due.pair]; });
+    std::erase_if(due_,
+                  [&](const Due& due) { return due.time * speed_[due.pair] + at_end[due.pair] >= speed_[due.pair]; });
     std::make_heap(due_.begin(), due_.end());
     while (!due_.empty()) {
       std::pop_heap(due_.begin(), due_.end());
@@ -221,7 +235,8 @@ std::optional<MotionContact> MotionChecker::firstContact(const double* from, con
   for (const int i : moving_) {
     const int frame = state_.program().contacts.bodies[std::size_t(i)].frame;
     double reach = reachOf(frame, *state_.program().body[std::size_t(frame)]), travel = 0.;
-    for (int link = state_.link(frame); link != 0; link = state_.program().links[std::size_t(link)].parent) travel += climb(link, reach);
+    for (int link = state_.link(frame); link != 0; link = state_.program().links[std::size_t(link)].parent)
+      travel += climb(link, reach);
     farthest = std::max(farthest, travel);
   }
   const int pieces = int(std::clamp(std::ceil(farthest / kPiece), 1., kMostPieces));

@@ -16,11 +16,11 @@ struct MotionContact {
 /// Checks straight motions q(s) = (1 - s) from + s to, 0 <= s <= 1, at all times and not just at samples of them.
 ///
 /// Conservative advancement: no point of a body moves, relative to the other one, faster than the sum over the joints
-/// between them of |dq_j| r_j, with r_j a bound of its distance from the axis (1 for a translation). So a pair whose distance
-/// is d need not be looked at again before s + (d - margin) / speed. Of all pairs, the one that is due next is looked at. Where
-/// bodies are many, only pairs are looked at whose boxes, with room for all that the motion may move them, meet.
-/// Source: Mirtich, Impulse-based dynamic simulation of rigid body systems, 1996, ch. 2; Schwarzer, Saha, Latombe, Adaptive
-/// dynamic collision checking for single and multiple articulated robots, 2005.
+/// between them of |dq_j| r_j, with r_j a bound of its distance from the axis (1 for a translation). So a pair whose
+/// distance is d need not be looked at again before s + (d - margin) / speed. Of all pairs, the one that is due next is
+/// looked at. Where bodies are many, only pairs are looked at whose boxes, with room for all that the motion may move
+/// them, meet. Source: Mirtich, Impulse-based dynamic simulation of rigid body systems, 1996, ch. 2; Schwarzer, Saha,
+/// Latombe, Adaptive dynamic collision checking for single and multiple articulated robots, 2005.
 class MotionChecker {
  public:
   /// For the collidable pairs of a scene, of which `scene` is any State.
@@ -28,8 +28,8 @@ class MotionChecker {
 
   MotionChecker(const MotionChecker& other) : MotionChecker(other.state_) {}
 
-  /// The first pair nearer than `margin` + `tolerance` that could not be shown to keep `margin` (m) apart; none if all do for
-  /// the whole motion. A larger tolerance (m, > 0) takes fewer steps along surfaces that slide past each other.
+  /// The first pair nearer than `margin` + `tolerance` that could not be shown to keep `margin` (m) apart; none if all
+  /// do for the whole motion. A larger tolerance (m, > 0) takes fewer steps along surfaces that slide past each other.
   std::optional<MotionContact> firstContact(const double* from, const double* to, double margin, double tolerance);
 
  private:
@@ -40,8 +40,8 @@ class MotionChecker {
   };
 
   struct StepBound {
-    double turn = 0.;  ///< rad per unit of s
-    double move = 0.;  ///< m per unit of s
+    double turn = 0.;   ///< rad per unit of s
+    double move = 0.;   ///< m per unit of s
     double reach = 0.;  ///< largest distance that it moves what follows, m
   };
 
@@ -56,8 +56,9 @@ class MotionChecker {
   State state_;
   std::optional<BodyPairs> pairs_;  ///< where bodies are many, those of the present motion that it can bring together
   std::optional<PlacedBodies> bodies_;
-  std::optional<NearPairSearch> resting_;  ///< where bodies are many: for pairs that move as one, which are then not in `pairs_`
-  std::vector<int> fixed_, moving_;        ///< where bodies are many: their places in the Program's contacts
+  std::optional<NearPairSearch>
+      resting_;  ///< where bodies are many: for pairs that move as one, which are then not in `pairs_`
+  std::vector<int> fixed_, moving_;  ///< where bodies are many: their places in the Program's contacts
   BoxTree fixed_boxes_;
   VectorXd from_, change_, q_;
   double time_ = 0.;

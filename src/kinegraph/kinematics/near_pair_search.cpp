@@ -5,7 +5,10 @@
 namespace kinegraph {
 
 NearPairSearch::NearPairSearch(std::shared_ptr<const Program> program, const std::vector<int>& frames)
-    : program_(std::move(program)), frames_(frames), link_pose_(program_->links.size()), link_moved_(program_->links.size()) {
+    : program_(std::move(program)),
+      frames_(frames),
+      link_pose_(program_->links.size()),
+      link_moved_(program_->links.size()) {
   for (const ContactRules::Body& body : program_->contacts.bodies) {
     const auto frame = std::size_t(body.frame);
     const bool wanted = frames.empty() || std::find(frames.begin(), frames.end(), body.frame) != frames.end();
@@ -141,7 +144,8 @@ const std::vector<NearPairSearch::Near>& NearPairSearch::near(double margin) {
   for (Candidate& c : moving_) {
     if (isNear(c, margin)) near_.push_back({c.a, c.b, c.distance});
   }
-  std::sort(near_.begin(), near_.end(), [](const Near& x, const Near& y) { return x.a < y.a || (x.a == y.a && x.b < y.b); });
+  std::sort(near_.begin(), near_.end(),
+            [](const Near& x, const Near& y) { return x.a < y.a || (x.a == y.a && x.b < y.b); });
   return near_;
 }
 

@@ -11,9 +11,9 @@ namespace kinegraph {
 
 /// Finds the near ones among the collidable pairs of many bodies, again and again as they move.
 ///
-/// Each body has a box with room to move in. Pairs whose boxes meet are candidates; they are looked for again only for bodies that
-/// leave their boxes. How far a body can have moved is summed up, so that a candidate whose distance was measured is not measured
-/// again before its bodies can have met. Neither changes what is found.
+/// Each body has a box with room to move in. Pairs whose boxes meet are candidates; they are looked for again only for
+/// bodies that leave their boxes. How far a body can have moved is summed up, so that a candidate whose distance was
+/// measured is not measured again before its bodies can have met. Neither changes what is found.
 class NearPairSearch {
  public:
   /// Of all collidable pairs, or of those that involve one of the given frames.
@@ -32,8 +32,8 @@ class NearPairSearch {
   /// The pairs that are nearer than `margin`, or that near, by frames. They stay until the next question.
   const std::vector<Near>& near(double margin);
 
-  /// Are all pairs at least `margin` apart? Looks no farther than to the first that is nearer, and first at the one that was so
-  /// the last time.
+  /// Are all pairs at least `margin` apart? Looks no farther than to the first that is nearer, and first at the one
+  /// that was so the last time.
   bool apart(double margin);
 
   int frame(int body) const { return bodies_[std::size_t(body)].frame; }
@@ -74,8 +74,8 @@ class NearPairSearch {
   std::vector<Body> bodies_;
   std::vector<WorldBox> rooms_;  ///< per body: its box with room to move
   BoxTree tree_;
-  std::vector<int> moved_;  ///< bodies that left their rooms
-  double reach_ = -1.;      ///< up to which margin the candidates are known
+  std::vector<int> moved_;                 ///< bodies that left their rooms
+  double reach_ = -1.;                     ///< up to which margin the candidates are known
   std::vector<Candidate> fixed_, moving_;  ///< candidates that both belong to link 0, and the others
   double fixed_margin_ = 0.;
   bool fixed_known_ = false;

@@ -56,7 +56,9 @@ void NearPairs::place(const State& state) {
 
 bool NearPairs::apart(double margin) {
   if (search_) return search_->apart(margin);
-  const auto tooNear = [&](int pair) { return bodies_->mayBeNear(pair, margin) && bodies_->proximity(pair).distance < margin; };
+  const auto tooNear = [&](int pair) {
+    return bodies_->mayBeNear(pair, margin) && bodies_->proximity(pair).distance < margin;
+  };
   if (suspect_ >= 0 && tooNear(suspect_)) return false;
   for (int pair = 0; pair < bodies_->pairs(); ++pair) {
     if (pair == suspect_ || !tooNear(pair)) continue;

@@ -57,7 +57,8 @@ class PlacedBodies {
       const Vector3d &a = centers[pairs[pair].first], &b = centers[pairs[pair].second];
       const double x = a[0] - b[0], y = a[1] - b[1], z = a[2] - b[2], reach = reaches[pair] + margin;
       const bool spheres_are_far = x * x + y * y + z * z > reach * reach && reach >= 0.;
-      if (!spheres_are_far && (reach < 0. || coresMayBeNear(pairs[pair].first, pairs[pair].second, margin))) visit(pair);
+      if (!spheres_are_far && (reach < 0. || coresMayBeNear(pairs[pair].first, pairs[pair].second, margin)))
+        visit(pair);
     }
   }
 
@@ -99,8 +100,8 @@ class PairDistances {
   PlacedBodies bodies_;
 };
 
-/// The collidable pairs of a scene. Those of few bodies are looked at one by one, those of many by a NearPairSearch; the answers
-/// are the same.
+/// The collidable pairs of a scene. Those of few bodies are looked at one by one, those of many by a NearPairSearch;
+/// the answers are the same.
 class NearPairs {
  public:
   static constexpr std::size_t kFew = 64;  ///< bodies
@@ -115,7 +116,8 @@ class NearPairs {
   template <class Visit>
   void forDistances(double margin, const Visit& visit) {
     if (search_) {
-      for (const NearPairSearch::Near& pair : search_->near(margin)) visit(search_->frame(pair.a), search_->frame(pair.b), pair.distance);
+      for (const NearPairSearch::Near& pair : search_->near(margin))
+        visit(search_->frame(pair.a), search_->frame(pair.b), pair.distance);
       return;
     }
     bodies_->forMaybeNear(margin, [&](int pair) {

@@ -31,7 +31,8 @@ void placeLinks(const LaneModel& model, const S* x, S* pose, S* motion) {
   S most{};
   for (int s = 0; s < model.steps; ++s) {
     const LaneModel::Step& step = model.step[s];
-    if (step.kind == MotionKind::rotate || step.kind == MotionKind::rotateAbout) most = larger(most, magnitude(step.factor * x[step.variable]));
+    if (step.kind == MotionKind::rotate || step.kind == MotionKind::rotateAbout)
+      most = larger(most, magnitude(step.factor * x[step.variable]));
   }
   const bool far = any(most > kMostAngle);
   const auto angle = [far](S value) __attribute__((always_inline)) {

@@ -60,8 +60,8 @@ template <class V>
 }
 
 template <int Axis, class V, class Sink>
-[[gnu::always_inline]] inline void turnAboutAxis(double factor, typename V::Scalar sine, typename V::Scalar cosine, Place<V>& X,
-                                                 const Sink& sink) {
+[[gnu::always_inline]] inline void turnAboutAxis(double factor, typename V::Scalar sine, typename V::Scalar cosine,
+                                                 Place<V>& X, const Sink& sink) {
   constexpr int i = (Axis + 1) % 3, j = (Axis + 2) % 3;
   sink.turns(0, factor * X.R[Axis], X.p);
   const V a = X.R[i], b = X.R[j];
@@ -70,8 +70,8 @@ template <int Axis, class V, class Sink>
 }
 
 template <class V, class Sink>
-[[gnu::always_inline]] inline void turnAboutAxis(int axis, double factor, typename V::Scalar sine, typename V::Scalar cosine,
-                                                 Place<V>& X, const Sink& sink) {
+[[gnu::always_inline]] inline void turnAboutAxis(int axis, double factor, typename V::Scalar sine,
+                                                 typename V::Scalar cosine, Place<V>& X, const Sink& sink) {
   if (axis == 0) {
     turnAboutAxis<0>(factor, sine, cosine, X, sink);
   } else if (axis == 1) {
@@ -81,12 +81,12 @@ template <class V, class Sink>
   }
 }
 
-/// Moves X by one step of a joint, which has the dofs q. `angle(x)` gives sine and cosine of x as a pair. `sink` hears how
-/// the step's dof k moves what is below it: `turns(k, angular velocity, point of the axis)`, `slides(k, velocity)` or
-/// `rests(k)`, all per unit of the dof's velocity.
+/// Moves X by one step of a joint, which has the dofs q. `angle(x)` gives sine and cosine of x as a pair. `sink` hears
+/// how the step's dof k moves what is below it: `turns(k, angular velocity, point of the axis)`, `slides(k, velocity)`
+/// or `rests(k)`, all per unit of the dof's velocity.
 template <class V, class Angle, class Sink>
-[[gnu::always_inline]] inline void moveBy(MotionKind kind, int axis, double factor, const double* about, const typename V::Scalar* q,
-                                          const Angle& angle, Place<V>& X, Sink sink) {
+[[gnu::always_inline]] inline void moveBy(MotionKind kind, int axis, double factor, const double* about,
+                                          const typename V::Scalar* q, const Angle& angle, Place<V>& X, Sink sink) {
   using S = typename V::Scalar;
   switch (kind) {
     case MotionKind::translate: {
@@ -110,7 +110,8 @@ template <class V, class Angle, class Sink>
     }
     case MotionKind::quaternion: {
       // w = 2 vec(dq * conj(q)) / |q|: the component of dq along q only changes the norm.
-      const S norm = larger(root(q[0] * q[0] + q[1] * q[1] + q[2] * q[2] + q[3] * q[3]), all<S>(1e-100)), over = 1. / norm;
+      const S norm = larger(root(q[0] * q[0] + q[1] * q[1] + q[2] * q[2] + q[3] * q[3]), all<S>(1e-100)),
+              over = 1. / norm;
       const S w = over * q[0], x = over * q[1], y = over * q[2], z = over * q[3], rate = 2. * over;
       const auto world = [&X](S a, S b, S c) { return a * X.R[0] + b * X.R[1] + c * X.R[2]; };
       sink.turns(0, -rate * world(x, y, z), X.p);
@@ -133,7 +134,9 @@ template <class V, class Angle, class Sink>
       X.R[1] = cosine * b - sine * a;
       break;
     }
-    case MotionKind::time: sink.rests(0); break;
+    case MotionKind::time:
+      sink.rests(0);
+      break;
   }
 }
 

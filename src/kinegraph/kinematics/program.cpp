@@ -9,7 +9,8 @@ namespace kinegraph {
 
 void nameFrames(Program& program, std::vector<std::string> names) {
   program.frame_name = std::move(names);
-  for (std::size_t i = 0; i < program.frame_name.size(); ++i) program.frame_index.try_emplace(program.frame_name[i], int(i));
+  for (std::size_t i = 0; i < program.frame_name.size(); ++i)
+    program.frame_index.try_emplace(program.frame_name[i], int(i));
 }
 
 int frameId(const Program& program, std::string_view name, std::string_view who) {
@@ -92,7 +93,8 @@ RigidTransform placeJoint(const Program& program, int index, const RigidTransfor
   const Program::Link& link = program.links[index];
   const MotionStep* const steps = program.steps.data() + link.first_step;
   const ConstantTurn turn = classifyTurn(X_PJ.R.data());
-  const bool along_axes = std::all_of(steps, steps + link.steps, [](const MotionStep& step) { return step.dofs() == 1; });
+  const bool along_axes =
+      std::all_of(steps, steps + link.steps, [](const MotionStep& step) { return step.dofs() == 1; });
   const bool turns_axes = along_axes && turn.kind == ConstantTurn::quarters;
   RigidTransform X_LJ;
   if (turns_axes) {

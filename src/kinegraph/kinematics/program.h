@@ -18,12 +18,12 @@ namespace kinegraph {
 
 class CollisionBody;
 
-/// The compiled structure of a scene: what moves what. Immutable and shared by everything that computes; all numbers that
-/// people change between computations are in `Parameters` and in q.
+/// The compiled structure of a scene: what moves what. Immutable and shared by everything that computes; all numbers
+/// that people change between computations are in `Parameters` and in q.
 ///
 /// Frames between which no active joint lies move as one *link*. Link 0 is the world with everything fixed to it. Every
-/// other link is moved, relative to its parent link, by one active joint. Links are in topological order. Where a link has its
-/// axes is up to placeJoint.
+/// other link is moved, relative to its parent link, by one active joint. Links are in topological order. Where a link
+/// has its axes is up to placeJoint.
 struct Program {
   struct Link {
     int parent = 0;
@@ -44,15 +44,17 @@ struct Program {
   int dofs = 0;             ///< length of q
   std::vector<Link> links;  ///< links[0] is the world
   std::vector<MotionStep> steps;
-  std::vector<int> column_dof;   ///< entry of q that drives a twist column
+  std::vector<int> column_dof;     ///< entry of q that drives a twist column
   std::vector<int> column_before;  ///< of a twist column: the one before it in its chain, or -1
-  std::vector<int> last_column;    ///< of link l: c = last_column[l], column_before[c], ... until -1 are those that move it
-  std::vector<char> fixed_axes;    ///< per link: is each column that moves it one about or along an axis fixed to its links?
-  std::vector<int> turn_dof;         ///< entries of q that are angles, in the order of the steps, an even number of them
+  std::vector<int>
+      last_column;  ///< of link l: c = last_column[l], column_before[c], ... until -1 are those that move it
+  std::vector<char>
+      fixed_axes;             ///< per link: is each column that moves it one about or along an axis fixed to its links?
+  std::vector<int> turn_dof;  ///< entries of q that are angles, in the order of the steps, an even number of them
 
-  std::vector<std::string> frame_name;  ///< per frame
+  std::vector<std::string> frame_name;                    ///< per frame
   std::unordered_map<std::string_view, int> frame_index;  ///< of names: the first frame of that name
-  std::vector<int> frame_link;          ///< per frame
+  std::vector<int> frame_link;                            ///< per frame
   std::vector<DofRange> frame_dofs;  ///< per frame: the dofs of its own active joint (of the source if it mimics)
   VectorXd lower, upper;             ///< per dof; -inf, +inf where there is no limit
   VectorXd home;                     ///< per dof: the q that the joint had when it was made
@@ -76,7 +78,7 @@ struct Program {
 
 /// What a frame weighs, as a point.
 struct FrameMass {
-  double mass = 0.;                  ///< kg
+  double mass = 0.;                 ///< kg
   Vector3d com = Vector3d::Zero();  ///< centre of mass in the frame, m
 };
 
@@ -92,9 +94,9 @@ struct Parameters {
 /// Room for all of them; frames are at the origin of their link, and weigh nothing.
 Parameters emptyParameters(const Program& program);
 
-/// Lets the joint of a link sit at X_PJ on its parent link, and returns the frame of the joint, as it is behind the joint, in
-/// the link. Links have their axes such that as few as possible are turned against those of the parent while their joints rest:
-/// where X_PJ has quarter turns, the axes of the joint are turned in its stead.
+/// Lets the joint of a link sit at X_PJ on its parent link, and returns the frame of the joint, as it is behind the
+/// joint, in the link. Links have their axes such that as few as possible are turned against those of the parent while
+/// their joints rest: where X_PJ has quarter turns, the axes of the joint are turned in its stead.
 RigidTransform placeJoint(const Program& program, int link, const RigidTransform& X_PJ, Parameters& parameters);
 
 /// Sets `frame_name` and `frame_index`.

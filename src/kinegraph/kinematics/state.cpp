@@ -27,13 +27,14 @@ void State::setParameters(std::shared_ptr<const Parameters> parameters) {
 }
 
 void State::update() {
-  static_assert(sizeof(RigidTransform) == 12 * sizeof(double) && sizeof(Twist) == 6 * sizeof(double) && sizeof(Turn) == 2 * sizeof(double));
+  static_assert(sizeof(RigidTransform) == 12 * sizeof(double) && sizeof(Twist) == 6 * sizeof(double) &&
+                sizeof(Turn) == 2 * sizeof(double));
   static const UpdateState kernel = stateKernel();
   const Program& program = *program_;
   const Parameters& parameters = *parameters_;
   kernel({parameters.link.data(), int(parameters.link.size()), parameters.step.data(), program.turn_dof.data(),
-          parameters.turn_factor.data(), int(program.turn_dof.size()), q_.data(), reinterpret_cast<double*>(turns_.data()),
-          link_pose_[0].R.data(), reinterpret_cast<double*>(twists_.data())});
+          parameters.turn_factor.data(), int(program.turn_dof.size()), q_.data(),
+          reinterpret_cast<double*>(turns_.data()), link_pose_[0].R.data(), reinterpret_cast<double*>(twists_.data())});
 }
 
 namespace {
@@ -130,11 +131,13 @@ void State::addCurvature(int frame, const Velocity& velocity, const Vector3d& we
 }
 
 void State::addPointCurvature(int frame, const Vector3d& p_WQ, const Vector3d& weight, Eigen::Ref<MatrixXd> H) const {
-  addCurvature(frame, [&p_WQ](const Twist& twist) -> Vector3d { return twist.linear + twist.angular.cross(p_WQ); }, weight, H);
+  addCurvature(
+      frame, [&p_WQ](const Twist& twist) -> Vector3d { return twist.linear + twist.angular.cross(p_WQ); }, weight, H);
 }
 
 void State::addDirectionCurvature(int frame, const Vector3d& u, const Vector3d& weight, Eigen::Ref<MatrixXd> H) const {
-  addCurvature(frame, [&u](const Twist& twist) -> Vector3d { return twist.angular.cross(u); }, weight, H);
+  addCurvature(
+      frame, [&u](const Twist& twist) -> Vector3d { return twist.angular.cross(u); }, weight, H);
 }
 
 }  // namespace kinegraph

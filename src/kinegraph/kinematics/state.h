@@ -50,8 +50,8 @@ class State {
   /// p_WF of a frame.
   Vector3d position(int frame) const { return link_pose_[link(frame)] * parameters_->frame_offset[frame].p; }
 
-  /// J = d p_WQ / dq for point Q (world coordinates, m) fixed to a frame's link, and below it d w / d(dq/dt) of the angular
-  /// velocity in world coordinates. J is 6 x dofs; all of it is written.
+  /// J = d p_WQ / dq for point Q (world coordinates, m) fixed to a frame's link, and below it d w / d(dq/dt) of the
+  /// angular velocity in world coordinates. J is 6 x dofs; all of it is written.
   void jacobian(int frame, const Vector3d& p_WQ, JacobianRows J) const;
 
   /// J += factor * d p_WQ / dq for point Q (world coordinates, m) fixed to a frame's link. J is 3 x dofs.
@@ -66,8 +66,9 @@ class State {
   /// Can the second derivatives of where a frame is be told? Not where quaternions or circles move it.
   bool hasCurvature(int frame) const { return program_->fixed_axes[std::size_t(link(frame))]; }
 
-  /// H += sum_i weight_i d^2 p_WQ,i / dq^2 for point Q fixed to a frame's link that hasCurvature; H is dofs x dofs, and just its
-  /// lower triangle is changed. Where columns c and d move Q with velocities v, c nearer to the world: w_c x v_d.
+  /// H += sum_i weight_i d^2 p_WQ,i / dq^2 for point Q fixed to a frame's link that hasCurvature; H is dofs x dofs, and
+  /// just its lower triangle is changed. Where columns c and d move Q with velocities v, c nearer to the world: w_c x
+  /// v_d.
   void addPointCurvature(int frame, const Vector3d& p_WQ, const Vector3d& weight, Eigen::Ref<MatrixXd> H) const;
 
   /// The same for a direction u (world coordinates) fixed to the link: H += sum_i weight_i d^2 u_i / dq^2.
@@ -84,8 +85,8 @@ class State {
       const int dof = program_->column_dof[c];
       const Vector3d velocity = twist.linear + twist.angular.cross(p_WQ);
       for (int r = 0; r < A.rows(); ++r) {
-        J(r, dof) += A(r, 0) * velocity[0] + A(r, 1) * velocity[1] + A(r, 2) * velocity[2] + B(r, 0) * twist.angular[0] +
-                     B(r, 1) * twist.angular[1] + B(r, 2) * twist.angular[2];
+        J(r, dof) += A(r, 0) * velocity[0] + A(r, 1) * velocity[1] + A(r, 2) * velocity[2] +
+                     B(r, 0) * twist.angular[0] + B(r, 1) * twist.angular[1] + B(r, 2) * twist.angular[2];
       }
     }
   }
@@ -104,7 +105,7 @@ class State {
   VectorXd q_;
   std::vector<RigidTransform> link_pose_;  ///< per link, and one that is no link's; see StateArrays
   std::vector<Twist> twists_;              ///< per column, and one more
-  std::vector<Turn> turns_;    ///< per entry of program().turn_dof
+  std::vector<Turn> turns_;                ///< per entry of program().turn_dof
 };
 
 }  // namespace kinegraph

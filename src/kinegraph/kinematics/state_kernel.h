@@ -4,8 +4,8 @@
 
 namespace kinegraph {
 
-/// What forward kinematics of one configuration reads and writes, as State has it. Kernels write from the first to the last pose
-/// and twist, and may write one number behind the last one.
+/// What forward kinematics of one configuration reads and writes, as State has it. Kernels write from the first to the
+/// last pose and twist, and may write one number behind the last one.
 struct StateArrays {
   const LaneModel::Link* links;
   int link_count;

@@ -1,6 +1,7 @@
 #pragma once
 
-// Forward kinematics of one configuration, for vectors of type V in registers; local to each source file that includes it.
+// Forward kinematics of one configuration, for vectors of type V in registers; local to each source file that includes
+// it.
 
 #include "kinegraph/kinematics/place_links.h"
 #include "kinegraph/kinematics/state_kernel.h"
@@ -76,7 +77,8 @@ template <class V>
   return {{loadVector<V>(from), loadVector<V>(from + 3), loadVector<V>(from + 6)}, loadVector<V>(from + 9)};
 }
 
-/// Moves the pose at `place` by one of the less frequent steps; apart from the others, where the pose stays in registers.
+/// Moves the pose at `place` by one of the less frequent steps; apart from the others, where the pose stays in
+/// registers.
 template <class V>
 [[gnu::noinline]] void moveInMemory(const LaneModel::Step& step, const double* q, const double* turned, double* place,
                                     double* twist) {

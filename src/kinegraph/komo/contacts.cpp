@@ -57,19 +57,24 @@ int Komo::addDofs(const std::string& name, int from, int to, const Attachment& a
   return id;
 }
 
-std::string Komo::addContact(const std::vector<double>& times, const std::string& object, const std::string& onto, double friction,
-                             double mass, double distance, bool is_free) {
+std::string Komo::addContact(const std::vector<double>& times, const std::string& object, const std::string& onto,
+                             double friction, double mass, double distance, bool is_free) {
   requireBuilt("addContactForceFrame");
   const Program& before = state(-order_).program();
   ContactForce contact;
   contact.object = frameId(before, object, "addContactForceFrame");
   contact.onto = frameId(before, onto, "addContactForceFrame");
   if (contact.object == contact.onto) throw ValueError(cat("addContactForceFrame: '", object, "' cannot push itself"));
-  if (!(friction > 0.)) throw ValueError(cat("addContactForceFrame: the coefficient of friction is ", friction, "; expected a positive number"));
-  if (!(mass > 0.)) throw ValueError(cat("addContactForceFrame: the mass is ", mass, " kg; expected a positive number"));
+  if (!(friction > 0.))
+    throw ValueError(
+        cat("addContactForceFrame: the coefficient of friction is ", friction, "; expected a positive number"));
+  if (!(mass > 0.))
+    throw ValueError(cat("addContactForceFrame: the mass is ", mass, " kg; expected a positive number"));
   const auto [from, to] = selectSlices(times);
-  if (from > to) throw ValueError(cat("addContactForceFrame between '", object, "' and '", onto, "': its times select no slice"));
-  const std::string name = cat("poa_", object, "_", onto, "_", times.empty() ? double(from + 1) / slices_per_phase_ : times[0]);
+  if (from > to)
+    throw ValueError(cat("addContactForceFrame between '", object, "' and '", onto, "': its times select no slice"));
+  const std::string name =
+      cat("poa_", object, "_", onto, "_", times.empty() ? double(from + 1) / slices_per_phase_ : times[0]);
   const auto [point, normal] = nearestPoint(state(-order_), contact.object, contact.onto);
   addFrameDof(name, object, JointType::free, true);
   contact.point = frameId(state(-order_).program(), name, "addContactForceFrame");
@@ -82,7 +87,8 @@ std::string Komo::addContact(const std::vector<double>& times, const std::string
   X_WP.q = Eigen::Quaterniond::FromTwoVectors(Vector3d::UnitZ(), normal);
   for (int t = -order_; t < slices_; ++t) {
     VectorXd q = state(t).q();
-    q.segment<7>(state(t).program().frame_dofs[contact.point].first) = (Pose(state(-order_).pose(contact.object)).inverse() * X_WP).numbers();
+    q.segment<7>(state(t).program().frame_dofs[contact.point].first) =
+        (Pose(state(-order_).pose(contact.object)).inverse() * X_WP).numbers();
     if (const auto [first, count] = state(t).program().frame_dofs[contact.dofs]; count > 0) {
       if (is_free) q.segment<3>(first) = normal;
       if (!is_free) q[first] = 1.;
@@ -90,7 +96,8 @@ std::string Komo::addContact(const std::vector<double>& times, const std::string
     setSlice(t, q.data());
   }
 
-  const auto require = [&](const FeatureSource& feature, std::vector<std::string> frames, ObjectiveType type, double scale) {
+  const auto require = [&](const FeatureSource& feature, std::vector<std::string> frames, ObjectiveType type,
+                           double scale) {
     add({feature.name(), feature, std::move(frames), type, MatrixXd::Constant(1, 1, scale), {}, 0, times, 0, 0}, 0, 0);
   };
   const auto align = [&](const std::string& body, double sign) {
@@ -107,13 +114,13 @@ std::string Komo::addContact(const std::vector<double>& times, const std::string
   return name;
 }
 
-std::string Komo::addContactForce(const std::vector<double>& times, const std::string& object, const std::string& onto, double friction,
-                                  double mass) {
+std::string Komo::addContactForce(const std::vector<double>& times, const std::string& object, const std::string& onto,
+                                  double friction, double mass) {
   return addContact(times, object, onto, friction, mass, 0., false);
 }
 
-std::string Komo::addFreeContactForce(const std::vector<double>& times, const std::string& object, const std::string& onto, double friction,
-                                      double mass, double distance) {
+std::string Komo::addFreeContactForce(const std::vector<double>& times, const std::string& object,
+                                      const std::string& onto, double friction, double mass, double distance) {
   return addContact(times, object, onto, friction, mass, distance, true);
 }
 
@@ -134,20 +141,24 @@ void Komo::addPhysics(SwitchMode mode, const std::string& object, int from, int 
   const auto rows = [&](ObjectiveType type, double scale, const std::vector<int>& chosen) {
     MatrixXd S = MatrixXd::Zero(Eigen::Index(chosen.size()), 6);
     for (std::size_t i = 0; i < chosen.size(); ++i) S(Eigen::Index(i), chosen[i]) = scale;
-    Objective objective{"physics", FeatureSymbol::physics, {object}, type, chosen.size() == 6 ? MatrixXd::Constant(1, 1, scale) : S, {},
-                        damped ? 1 : 2, times, 0, 0};
+    Objective objective{
+        "physics", FeatureSymbol::physics, {object}, type, chosen.size() == 6 ? MatrixXd::Constant(1, 1, scale) : S,
+        {},        damped ? 1 : 2,         times,    0,    0};
     objective.without_gravity = mode == SwitchMode::dynamicOn || mode == SwitchMode::quasiStaticOn;
     objective.damped = damped;
     add(std::move(objective), 0, 0);
   };
   const std::vector<int> all = {0, 1, 2, 3, 4, 5};
   switch (mode) {
-    case SwitchMode::dynamicTrans: return rows(ObjectiveType::eq, 1e2, {0, 1, 2});
-    case SwitchMode::quasiStatic: return rows(ObjectiveType::eq, 1e1, all);
+    case SwitchMode::dynamicTrans:
+      return rows(ObjectiveType::eq, 1e2, {0, 1, 2});
+    case SwitchMode::quasiStatic:
+      return rows(ObjectiveType::eq, 1e1, all);
     case SwitchMode::quasiStaticOn:
       rows(ObjectiveType::eq, 1e1, {0, 1, 5});
       return rows(ObjectiveType::sos, 1., {2, 3, 4});
-    default: return rows(ObjectiveType::eq, 1e2, all);
+    default:
+      return rows(ObjectiveType::eq, 1e2, all);
   }
 }
 
@@ -157,7 +168,8 @@ std::vector<Komo::Interaction> Komo::interactions() const {
     for (const ContactForce& contact : contacts_) {
       if (!contact.isIn(state(t))) continue;
       const std::vector<std::string>& names = state(t).program().frame_name;
-      list.push_back({t, names[contact.object], names[contact.onto], state(t).position(contact.point), contact.value(state(t))});
+      list.push_back(
+          {t, names[contact.object], names[contact.onto], state(t).position(contact.point), contact.value(state(t))});
     }
   }
   return list;

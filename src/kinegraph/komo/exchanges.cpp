@@ -25,25 +25,30 @@ Vector3d nearest(const State& state, Witness::Kind kind, int object, int onto) {
 Komo::Exchange exchangeFromName(const std::string& name) {
   static const std::vector<std::string> names = {"slide", "stick", "complementary", "bounce"};
   const auto place = std::find(names.begin(), names.end(), name);
-  if (place == names.end()) throw NameError(cat("there is no contact of kind '", name, "'", similarHint(name, names), "; there are ", join(names)));
+  if (place == names.end())
+    throw NameError(
+        cat("there is no contact of kind '", name, "'", similarHint(name, names), "; there are ", join(names)));
   return Komo::Exchange(place - names.begin());
 }
 
-std::string Komo::addExchange(const std::vector<double>& times, const std::string& object, const std::string& onto, Exchange kind,
-                              double friction) {
+std::string Komo::addExchange(const std::vector<double>& times, const std::string& object, const std::string& onto,
+                              Exchange kind, double friction) {
   requireBuilt("addExchange");
   const Program& before = state(-order_).program();
   ContactForce contact;
   contact.object = frameId(before, object, "contact");
   contact.onto = frameId(before, onto, "contact");
   if (contact.object == contact.onto) throw ValueError(cat("contact: '", object, "' cannot push itself"));
-  if (!(friction > 0.)) throw ValueError(cat("contact: the coefficient of friction is ", friction, "; expected a positive number"));
+  if (!(friction > 0.))
+    throw ValueError(cat("contact: the coefficient of friction is ", friction, "; expected a positive number"));
   if (kind == Exchange::bounce && order_ < 2) {
-    throw ValueError(cat("bounce of '", object, "' off '", onto, "': speeds before and after it need a KOMO with kOrder 2; this one has ", order_));
+    throw ValueError(cat("bounce of '", object, "' off '", onto,
+                         "': speeds before and after it need a KOMO with kOrder 2; this one has ", order_));
   }
   auto [from, to] = selectSlices(times);
   if (kind == Exchange::bounce) to = from;
-  if (from > to || from >= slices_) throw ValueError(cat("contact between '", object, "' and '", onto, "': its times select no slice"));
+  if (from > to || from >= slices_)
+    throw ValueError(cat("contact between '", object, "' and '", onto, "': its times select no slice"));
   const double start = double(from + 1) / slices_per_phase_, end = double(to + 1) / slices_per_phase_;
   const auto& masses = state(-order_).parameters().frame_mass;
   const double mass = masses[contact.object].mass > 0. ? masses[contact.object].mass : masses[contact.onto].mass;
@@ -52,7 +57,8 @@ std::string Komo::addExchange(const std::vector<double>& times, const std::strin
 
   makeModes();
   std::string name = cat("poa_", object, "_", onto, "_", start);
-  for (int count = 2; before.frame_index.contains(name); ++count) name = cat("poa_", object, "_", onto, "_", start, "_", count);
+  for (int count = 2; before.frame_index.contains(name); ++count)
+    name = cat("poa_", object, "_", onto, "_", start, "_", count);
   Attachment three;  // along the axes of the world
   three.type = JointType::trans3;
   three.stable = false;
@@ -70,10 +76,21 @@ std::string Komo::addExchange(const std::vector<double>& times, const std::strin
     setSlice(t, q.data());
   }
 
-  const auto require = [&](FeatureSource feature, std::vector<std::string> frames, ObjectiveType type, double scale, int order = -1, int later = 0) {
+  const auto require = [&](FeatureSource feature, std::vector<std::string> frames, ObjectiveType type, double scale,
+                           int order = -1, int later = 0) {
     if (from + later > to) return;
     std::string what = feature.name();
-    add({std::move(what), std::move(feature), std::move(frames), type, MatrixXd::Constant(1, 1, scale), {}, order, {start, end}, 0, 0}, later, 0);
+    add({std::move(what),
+         std::move(feature),
+         std::move(frames),
+         type,
+         MatrixXd::Constant(1, 1, scale),
+         {},
+         order,
+         {start, end},
+         0,
+         0},
+        later, 0);
   };
   using enum ObjectiveType;
   const std::vector<std::string> pair = {object, onto};
@@ -82,7 +99,9 @@ std::string Komo::addExchange(const std::vector<double>& times, const std::strin
     require(FeatureSymbol::distance, {onto, name}, eq, scale);
     require(FeatureSymbol::distance, pair, eq, 1e1);
   };
-  const auto about = [&](const char* what, double parameter = 0.) { return FeatureSource(FeatureRecipe{what, contact, parameter}); };
+  const auto about = [&](const char* what, double parameter = 0.) {
+    return FeatureSource(FeatureRecipe{what, contact, parameter});
+  };
   const FeatureSource along_normal = about("forceAlongNormal"), pulling = about("pullingForce"), force = about("force");
   const int smooth = std::min(order_, 2);
   switch (kind) {
@@ -113,8 +132,17 @@ std::string Komo::addExchange(const std::vector<double>& times, const std::strin
       require(pulling, pair, ineq, 1e1);
       if (to + 1 < slices_) {
         const double after = double(to + 2) / slices_per_phase_;
-        add({"elasticBounce", about("elasticBounce", kElasticity), pair, eq, MatrixXd::Constant(1, 1, 1e1), {}, 2,
-             {after}, 0, 0}, 0, 0);
+        add({"elasticBounce",
+             about("elasticBounce", kElasticity),
+             pair,
+             eq,
+             MatrixXd::Constant(1, 1, 1e1),
+             {},
+             2,
+             {after},
+             0,
+             0},
+            0, 0);
       }
       break;
   }

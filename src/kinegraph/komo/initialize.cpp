@@ -20,7 +20,8 @@ void Komo::writeJoints(int slice, const VectorXd& q) {
 void Komo::setPath(const MatrixXd& path) {
   requireBuilt("initWithPath");
   if (path.rows() != slices_ || path.cols() != dofs()) {
-    throw ValueError(cat("KOMO: the path is ", path.rows(), " x ", path.cols(), "; expected ", slices_, " slices x ", dofs(), " dofs"));
+    throw ValueError(cat("KOMO: the path is ", path.rows(), " x ", path.cols(), "; expected ", slices_, " slices x ",
+                         dofs(), " dofs"));
   }
   if (!path.allFinite()) throw ValueError("KOMO: the path has numbers that are not finite");
   for (int t = 0; t < slices_; ++t) writeJoints(t, path.row(t));
@@ -52,7 +53,8 @@ void Komo::setRandomPath(Rng& rng) {
     if (!configs.contains(mode)) configs.emplace(mode, configuration(t));
     Config& config = configs.at(mode);
     std::vector<std::pair<Joint*, VectorXd>> homes;
-    for (int frame : joint_frames_) {  // the given configuration's joints are drawn around where they were in the slice before
+    for (int frame :
+         joint_frames_) {  // the given configuration's joints are drawn around where they were in the slice before
       if (t <= 0) break;
       Joint& joint = *config.scene()->frames()[frame]->joint;
       const auto [first, count] = state(t - 1).program().frame_dofs[frame];
@@ -78,20 +80,24 @@ void Komo::setRandomPath(Rng& rng) {
   setVariables(x);
 }
 
-std::vector<int> Komo::setWaypoints(const std::vector<VectorXd>& waypoints, int per_phase, bool interpolate, double towards_home) {
+std::vector<int> Komo::setWaypoints(const std::vector<VectorXd>& waypoints, int per_phase, bool interpolate,
+                                    double towards_home) {
   requireBuilt("initWithWaypoints");
-  if (per_phase < 1) throw ValueError(cat("initWithWaypoints: waypointSlicesPerPhase is ", per_phase, "; expected at least 1"));
+  if (per_phase < 1)
+    throw ValueError(cat("initWithWaypoints: waypointSlicesPerPhase is ", per_phase, "; expected at least 1"));
   const int n = dofs();
   std::vector<int> steps;
   std::vector<VectorXd> joints;
   for (std::size_t i = 0; i < waypoints.size(); ++i) {
     const int step = sliceAt(double(i + 1) / per_phase);
     if (step < 0 || step >= slices_) {
-      throw ValueError(cat("initWithWaypoints: waypoint ", i, " is at phase time ", double(i + 1) / per_phase, ", outside of the path"));
+      throw ValueError(cat("initWithWaypoints: waypoint ", i, " is at phase time ", double(i + 1) / per_phase,
+                           ", outside of the path"));
     }
     const Eigen::Index own = layout_.plain ? n : ownDofs(step).size();
     if (waypoints[i].size() != n && waypoints[i].size() != own) {
-      throw ValueError(cat("initWithWaypoints: waypoint ", i, " has ", waypoints[i].size(), " numbers; expected ", n, own == n ? std::string() : cat(", or ", own, " with the dofs of the mode switch")));
+      throw ValueError(cat("initWithWaypoints: waypoint ", i, " has ", waypoints[i].size(), " numbers; expected ", n,
+                           own == n ? std::string() : cat(", or ", own, " with the dofs of the mode switch")));
     }
     if (waypoints[i].size() == own && !layout_.plain) {
       VectorXd q = state(step).q();
@@ -149,7 +155,8 @@ void Komo::setPhasePath(int phase, const std::vector<int>& frames, const MatrixX
   const std::vector<int>& joints = frames.empty() ? joint_frames_ : frames;
   const int n = int(dofsOf(joints, first).size());
   if (path.cols() != n || path.rows() < 1 || (!resample && path.rows() != count)) {
-    throw ValueError(cat("initPhaseWithDofsPath: the path is ", path.rows(), " x ", path.cols(), "; expected ", count, " slices x ", n, " dofs"));
+    throw ValueError(cat("initPhaseWithDofsPath: the path is ", path.rows(), " x ", path.cols(), "; expected ", count,
+                         " slices x ", n, " dofs"));
   }
   for (int i = 0; i < count; ++i) {
     const double place = count == 1 ? double(path.rows() - 1) : double(i) * double(path.rows() - 1) / (count - 1);

@@ -15,7 +15,8 @@ Komo::Komo(const Config& config, double phases, int slices_per_phase, int order)
 }
 
 void Komo::setConfig(const Config& config) {
-  if (!objectives_.empty() || !modes_.empty()) throw Error("KOMO: the configuration is set before the first objective or switch");
+  if (!objectives_.empty() || !modes_.empty())
+    throw Error("KOMO: the configuration is set before the first objective or switch");
   base_ = config.scene()->snapshot();
   source_ = config.scene();
   program_ = config.program();
@@ -34,11 +35,16 @@ void Komo::setConfig(const Config& config) {
 }
 
 void Komo::setTiming(double phases, int slices_per_phase, double duration_per_phase, int order) {
-  if (!objectives_.empty() || !modes_.empty()) throw Error("KOMO: the timing is set before the first objective or switch");
-  if (!(phases > 0.) || !std::isfinite(phases)) throw ValueError(cat("KOMO: phases is ", phases, "; expected a positive number"));
-  if (slices_per_phase < 1) throw ValueError(cat("KOMO: slicesPerPhase is ", slices_per_phase, "; expected at least 1"));
-  if (order < 0 || order > 10) throw ValueError(cat("KOMO: kOrder is ", order, "; expected 0 (poses) to 2 (accelerations), at most 10"));
-  if (!(duration_per_phase > 0.)) throw ValueError(cat("KOMO: durationPerPhase is ", duration_per_phase, " s; expected a positive number"));
+  if (!objectives_.empty() || !modes_.empty())
+    throw Error("KOMO: the timing is set before the first objective or switch");
+  if (!(phases > 0.) || !std::isfinite(phases))
+    throw ValueError(cat("KOMO: phases is ", phases, "; expected a positive number"));
+  if (slices_per_phase < 1)
+    throw ValueError(cat("KOMO: slicesPerPhase is ", slices_per_phase, "; expected at least 1"));
+  if (order < 0 || order > 10)
+    throw ValueError(cat("KOMO: kOrder is ", order, "; expected 0 (poses) to 2 (accelerations), at most 10"));
+  if (!(duration_per_phase > 0.))
+    throw ValueError(cat("KOMO: durationPerPhase is ", duration_per_phase, " s; expected a positive number"));
   phases_ = phases;
   slices_ = int(std::ceil(phases * slices_per_phase - 1e-9));
   slices_per_phase_ = slices_per_phase;
@@ -61,15 +67,18 @@ void Komo::build() {
 }
 
 void Komo::requireBuilt(const char* call) const {
-  if (states_.empty()) throw Error(cat("KOMO: ", call, " needs a configuration and a timing; call setConfig and setTiming first"));
+  if (states_.empty())
+    throw Error(cat("KOMO: ", call, " needs a configuration and a timing; call setConfig and setTiming first"));
 }
 
 int Komo::sliceAt(double time) const { return int(std::floor(time * slices_per_phase_ + .500001)) - 1; }
 
 std::pair<int, int> Komo::selectSlices(const std::vector<double>& times) const {
-  if (times.size() > 2) throw ValueError(cat("KOMO: times has ", times.size(), " entries; expected [] (all), [time] or [from, to]"));
+  if (times.size() > 2)
+    throw ValueError(cat("KOMO: times has ", times.size(), " entries; expected [] (all), [time] or [from, to]"));
   for (double time : times) {
-    if (!std::isfinite(time)) throw ValueError(cat("KOMO: times has the entry ", time, "; expected phase times, or -1 for the end"));
+    if (!std::isfinite(time))
+      throw ValueError(cat("KOMO: times has the entry ", time, "; expected phase times, or -1 for the end"));
   }
   const auto slice = [&](double time) { return time < 0. ? slices_ - 1 : sliceAt(time); };
   if (times.empty()) return {0, slices_ - 1};
@@ -77,14 +86,15 @@ std::pair<int, int> Komo::selectSlices(const std::vector<double>& times) const {
   return {std::max(from, 0), std::min(to, slices_ - 1)};
 }
 
-void Komo::addObjective(const std::vector<double>& times, const FeatureSource& feature, const std::vector<std::string>& frames,
-                        ObjectiveType type, const MatrixXd& scale, const VectorXd& target, int order) {
+void Komo::addObjective(const std::vector<double>& times, const FeatureSource& feature,
+                        const std::vector<std::string>& frames, ObjectiveType type, const MatrixXd& scale,
+                        const VectorXd& target, int order) {
   requireBuilt("addObjective");
   add({feature.name(), feature, frames, type, scale, target, order, times, 0, 0}, 0, 0);
 }
 
-void Komo::addControlObjective(const std::vector<double>& times, int order, double scale, const VectorXd& target, int delta_from,
-                               int delta_to) {
+void Komo::addControlObjective(const std::vector<double>& times, int order, double scale, const VectorXd& target,
+                               int delta_from, int delta_to) {
   requireBuilt("addControlObjective");
   if (order < 0) throw ValueError(cat("addControlObjective: order is ", order, "; expected 0, 1 or 2"));
   std::vector<std::string> frames;
@@ -98,18 +108,30 @@ void Komo::addControlObjective(const std::vector<double>& times, int order, doub
       home.push_back(program_->home[i]);
     }
   }
-  const auto vector = [](const std::vector<double>& v) { return Eigen::Map<const VectorXd>(v.data(), Eigen::Index(v.size())); };
+  const auto vector = [](const std::vector<double>& v) {
+    return Eigen::Map<const VectorXd>(v.data(), Eigen::Index(v.size()));
+  };
   if (frames.size() == joint_frames_.size()) frames.clear();
   VectorXd to = target;
   if (order == 0 && target.size() == 0) to = vector(home);
-  add({"qItself", FeatureSymbol::qItself, frames, ObjectiveType::sos, vector(weights), to, order, times, 0, 0, order > 0},
+  add({"qItself", FeatureSymbol::qItself, frames, ObjectiveType::sos, vector(weights), to, order, times, 0, 0,
+       order > 0},
       delta_from, delta_to);
 }
 
 void Komo::addQuaternionNorms(const std::vector<double>& times, double scale, bool hard) {
   requireBuilt("addQuaternionNorms");
-  add({"qQuaternionNorms", FeatureSymbol::qQuaternionNorms, {}, hard ? ObjectiveType::eq : ObjectiveType::sos,
-       MatrixXd::Constant(1, 1, scale), {}, 0, times, 0, 0}, 0, 0);
+  add({"qQuaternionNorms",
+       FeatureSymbol::qQuaternionNorms,
+       {},
+       hard ? ObjectiveType::eq : ObjectiveType::sos,
+       MatrixXd::Constant(1, 1, scale),
+       {},
+       0,
+       times,
+       0,
+       0},
+      0, 0);
 }
 
 std::unique_ptr<Feature> Komo::featureIn(const Objective& objective, int slice) const {
@@ -127,7 +149,8 @@ std::unique_ptr<Feature> Komo::featureIn(const Objective& objective, int slice) 
         const bool original = frame < int(program_->frame_dofs.size());
         if (count == 0 || (ids.empty() && original && count != program_->frame_dofs[frame].count)) {
           throw ValueError(cat(objective.name, ": the joint of frame '", program.frame_name[frame], "' ",
-                               ids.empty() ? "was replaced by a mode switch" : "is not there, or not active,", " in slice ", slice));
+                               ids.empty() ? "was replaced by a mode switch" : "is not there, or not active,",
+                               " in slice ", slice));
         }
         parts.push_back({frame, 0, count});
       }
@@ -163,7 +186,8 @@ std::unique_ptr<Feature> Komo::featureIn(const Objective& objective, int slice) 
     case FeatureSymbol::contactConstraints:
       if (ids.size() == 2) return std::make_unique<TangentialForce>(ids[0], ids[1], contacts_);
       break;
-    default: break;
+    default:
+      break;
   }
   return objective.feature.make(ids, state(slice));
 }
@@ -187,9 +211,9 @@ void Komo::add(Objective objective, int delta_from, int delta_to) {
   if (empty) {
     std::vector<std::string> words;
     for (double time : objective.times) words.push_back(cat(time));
-    warnings_.push_back(cat("objective ", objective.name, " with times [", join(words), "] selects no slice; the ", slices_,
-                            slices_ == 1 ? " slice is" : " slices are", " at phase times ", 1. / slices_per_phase_, " to ",
-                            double(slices_) / slices_per_phase_));
+    warnings_.push_back(cat("objective ", objective.name, " with times [", join(words), "] selects no slice; the ",
+                            slices_, slices_ == 1 ? " slice is" : " slices are", " at phase times ",
+                            1. / slices_per_phase_, " to ", double(slices_) / slices_per_phase_));
   }
   objectives_.push_back(std::move(objective));
 }

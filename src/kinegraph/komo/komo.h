@@ -16,13 +16,13 @@
 
 namespace kinegraph {
 
-/// A motion problem: T configurations (slices) of a scene, tied together by objectives on features of k+1 consecutive ones.
-/// With one phase of one slice and order 0 it is inverse kinematics.
+/// A motion problem: T configurations (slices) of a scene, tied together by objectives on features of k+1 consecutive
+/// ones. With one phase of one slice and order 0 it is inverse kinematics.
 ///
 /// T = ceil(phases * slices_per_phase); slice t is at phase time (t+1) / slices_per_phase. Before slice 0 lie `order`
-/// copies of the given configuration, so that motions start there, at rest. Slices share the Program of their mode: what
-/// hangs where may change along the path (`addModeSwitch`), as when an object is grasped and put down.
-/// Source: Toussaint, A tutorial on Newton methods for constrained trajectory optimization, 2017.
+/// copies of the given configuration, so that motions start there, at rest. Slices share the Program of their mode:
+/// what hangs where may change along the path (`addModeSwitch`), as when an object is grasped and put down. Source:
+/// Toussaint, A tutorial on Newton methods for constrained trajectory optimization, 2017.
 class Komo {
  public:
   struct Objective {
@@ -80,11 +80,12 @@ class Komo {
 
   // --- objectives -------------------------------------------------------------------------------------------------
 
-  /// Adds scale * (d^order feature / dt^order - target) in the slices that `times` selects: empty all, {a} the one at time a,
-  /// {a, b} those from a to b inclusive; negative: the last. `order` -1: the feature's own. For joint features no frames are
-  /// the joints of the configuration as it was given.
-  void addObjective(const std::vector<double>& times, const FeatureSource& feature, const std::vector<std::string>& frames,
-                    ObjectiveType type, const MatrixXd& scale = {}, const VectorXd& target = {}, int order = -1);
+  /// Adds scale * (d^order feature / dt^order - target) in the slices that `times` selects: empty all, {a} the one at
+  /// time a, {a, b} those from a to b inclusive; negative: the last. `order` -1: the feature's own. For joint features
+  /// no frames are the joints of the configuration as it was given.
+  void addObjective(const std::vector<double>& times, const FeatureSource& feature,
+                    const std::vector<std::string>& frames, ObjectiveType type, const MatrixXd& scale = {},
+                    const VectorXd& target = {}, int order = -1);
 
   /// Sum of squares of the order-th derivative of the given configuration's dofs, weighted by their control weights and
   /// integrated over time; order 0 is the distance from home.
@@ -99,29 +100,34 @@ class Komo {
 
   // --- changes of the structure along the path ---------------------------------------------------------------------
 
-  /// From time `times[0]` on, `frames[1]` hangs below `frames[0]` by a joint that `mode` says. Adds what keeps the motion
-  /// continuous there (if `first`) and at times[1], where a next switch takes over; negative: it holds to the end. Modes in which
-  /// an object moves by itself take it alone, too.
-  void addModeSwitch(const std::vector<double>& times, SwitchMode mode, const std::vector<std::string>& frames, bool first = true);
+  /// From time `times[0]` on, `frames[1]` hangs below `frames[0]` by a joint that `mode` says. Adds what keeps the
+  /// motion continuous there (if `first`) and at times[1], where a next switch takes over; negative: it holds to the
+  /// end. Modes in which an object moves by itself take it alone, too.
+  void addModeSwitch(const std::vector<double>& times, SwitchMode mode, const std::vector<std::string>& frames,
+                     bool first = true);
 
   /// From `time` on, `object` sits at `parent`, without a joint. `no_jump`: it does not jump there.
   void addRigidSwitch(double time, const std::string& parent, const std::string& object, bool no_jump = true);
 
-  /// Adds a frame to all slices, with a joint whose dofs are the same in all of them (`stable`) or one set per slice. It moves
-  /// relative to `parent` (empty: the world), or to where `origin` is relative to it now. JointType::none: it does not move.
-  void addFrameDof(const std::string& name, const std::string& parent, JointType type, bool stable, const std::string& origin = {});
+  /// Adds a frame to all slices, with a joint whose dofs are the same in all of them (`stable`) or one set per slice.
+  /// It moves relative to `parent` (empty: the world), or to where `origin` is relative to it now. JointType::none: it
+  /// does not move.
+  void addFrameDof(const std::string& name, const std::string& parent, JointType type, bool stable,
+                   const std::string& origin = {});
 
   // --- contact forces ----------------------------------------------------------------------------------------------
 
-  /// In the slices that `times` selects, `onto` pushes `object` at a point where they touch, within the cone of friction. The
-  /// point is a frame on the object, the same in all slices; its name is returned. The force is along its z axis: one more
-  /// dof per slice, in units of the weight of `mass` kg, up to ten times that. What balances it is up to totalForce and physics.
-  std::string addContactForce(const std::vector<double>& times, const std::string& object, const std::string& onto, double friction,
-                              double mass);
+  /// In the slices that `times` selects, `onto` pushes `object` at a point where they touch, within the cone of
+  /// friction. The point is a frame on the object, the same in all slices; its name is returned. The force is along its
+  /// z axis: one more dof per slice, in units of the weight of `mass` kg, up to ten times that. What balances it is up
+  /// to totalForce and physics.
+  std::string addContactForce(const std::vector<double>& times, const std::string& object, const std::string& onto,
+                              double friction, double mass);
 
-  /// The same with a force of any direction in the cone, three dofs per slice. The point starts `distance` off the object, m.
-  std::string addFreeContactForce(const std::vector<double>& times, const std::string& object, const std::string& onto, double friction,
-                                  double mass, double distance);
+  /// The same with a force of any direction in the cone, three dofs per slice. The point starts `distance` off the
+  /// object, m.
+  std::string addFreeContactForce(const std::vector<double>& times, const std::string& object, const std::string& onto,
+                                  double friction, double mass, double distance);
 
   /// What a contact that moves along both surfaces does to the bodies.
   enum class Exchange {
@@ -131,32 +137,33 @@ class Komo {
     bounce,         ///< they touch in the first of the slices and fly apart with 0.9 of the speed; kOrder 2
   };
 
-  /// In the slices that `times` selects, `object` and `onto` may push each other: six more dofs per slice, the point where they
-  /// do and the force on `object` there. Adds what the kind demands, and small costs on both. Returns the name of the point.
-  std::string addExchange(const std::vector<double>& times, const std::string& object, const std::string& onto, Exchange kind,
-                          double friction = .5);
+  /// In the slices that `times` selects, `object` and `onto` may push each other: six more dofs per slice, the point
+  /// where they do and the force on `object` there. Adds what the kind demands, and small costs on both. Returns the
+  /// name of the point.
+  std::string addExchange(const std::vector<double>& times, const std::string& object, const std::string& onto,
+                          Exchange kind, double friction = .5);
 
   std::vector<Interaction> interactions() const;
 
   // --- the path ---------------------------------------------------------------------------------------------------
 
-  int slices() const { return slices_; }                 ///< T
-  int order() const { return order_; }                   ///< k
+  int slices() const { return slices_; }  ///< T
+  int order() const { return order_; }    ///< k
   int slicesPerPhase() const { return slices_per_phase_; }
   double phases() const { return phases_; }
-  int dofs() const { return program_->dofs; }            ///< of the given configuration
+  int dofs() const { return program_->dofs; }                   ///< of the given configuration
   int jointCount() const { return int(joint_frames_.size()); }  ///< joints of the given configuration
-  double tau() const { return tau_; }                    ///< s per slice
-  const Program& program() const { return *program_; }   ///< of the given configuration
+  double tau() const { return tau_; }                           ///< s per slice
+  const Program& program() const { return *program_; }          ///< of the given configuration
   const std::vector<Objective>& objectives() const { return objectives_; }
   const PathLayout& layout() const { return layout_; }
   int structureRevision() const { return structure_revision_; }  ///< changes with every change of the structure
 
   /// T x n: the dofs of the given configuration in all slices; or those of the joints of the frames with these ids.
   MatrixXd getPath(const std::vector<int>& frames = {}) const;
-  VectorXd ownDofs(int slice) const;         ///< those entries of x that belong to the slice
-  VectorXd variables() const;                ///< x
-  void setVariables(const VectorXd& x);      ///< of layout().dimension entries
+  VectorXd ownDofs(int slice) const;     ///< those entries of x that belong to the slice
+  VectorXd variables() const;            ///< x
+  void setVariables(const VectorXd& x);  ///< of layout().dimension entries
   const State& state(int slice) const { return states_[slice + order_]; }  ///< -order .. T-1
 
   /// World poses of all frames in a slice, rows x y z qw qx qy qz.
@@ -174,23 +181,25 @@ class Komo {
   };
   SubProblem subProblem(int phase) const;
 
-  /// Takes over the constant poses (root objects, markers) of the configuration. Throws ValueError if its frames and joints
-  /// are not those that this problem was made from.
+  /// Takes over the constant poses (root objects, markers) of the configuration. Throws ValueError if its frames and
+  /// joints are not those that this problem was made from.
   void updateRootObjects(const Config& config);
 
   // --- where a solver starts ---------------------------------------------------------------------------------------
 
-  void setPath(const MatrixXd& path);        ///< T x n; throws ValueError
-  void setConstantPath(const VectorXd& q);   ///< n numbers, or T*n for a path
-  void resetPath();                          ///< all slices as given
-  void setRandomPath(Rng& rng);              ///< as Config::setRandom, slice after slice
+  void setPath(const MatrixXd& path);       ///< T x n; throws ValueError
+  void setConstantPath(const VectorXd& q);  ///< n numbers, or T*n for a path
+  void resetPath();                         ///< all slices as given
+  void setRandomPath(Rng& rng);             ///< as Config::setRandom, slice after slice
 
-  /// Puts waypoint i into the slice at phase time (i+1) / per_phase: the given configuration's dofs, or all that the slice
-  /// owns. Between them: the one before, or with `interpolate` a cosine blend, moved towards home by `towards_home` (0..1)
-  /// in the middle. Returns the slices.
-  std::vector<int> setWaypoints(const std::vector<VectorXd>& waypoints, int per_phase, bool interpolate, double towards_home = 0.);
+  /// Puts waypoint i into the slice at phase time (i+1) / per_phase: the given configuration's dofs, or all that the
+  /// slice owns. Between them: the one before, or with `interpolate` a cosine blend, moved towards home by
+  /// `towards_home` (0..1) in the middle. Returns the slices.
+  std::vector<int> setWaypoints(const std::vector<VectorXd>& waypoints, int per_phase, bool interpolate,
+                                double towards_home = 0.);
 
-  /// Writes rows of `path` into the slices of a phase, for the joints of these frames. `resample`: whatever their number.
+  /// Writes rows of `path` into the slices of a phase, for the joints of these frames. `resample`: whatever their
+  /// number.
   void setPhasePath(int phase, const std::vector<int>& frames, const MatrixXd& path, bool resample);
 
   // --- for the Nlp -------------------------------------------------------------------------------------------------
@@ -216,8 +225,8 @@ class Komo {
   void add(Objective objective, int delta_from, int delta_to);
   void addContinuity(FeatureSymbol feature, const std::vector<std::string>& frames, double scale, int order, int slice);
   void makeModes();
-  std::string addContact(const std::vector<double>& times, const std::string& object, const std::string& onto, double friction,
-                         double mass, double distance, bool is_free);
+  std::string addContact(const std::vector<double>& times, const std::string& object, const std::string& onto,
+                         double friction, double mass, double distance, bool is_free);
   int addForceDofs(const std::string& name, int from, int to, bool is_free);
   int addDofs(const std::string& name, int from, int to, const Attachment& attachment);
   std::unique_ptr<Feature> physicsOf(int frame, const Objective& objective) const;
@@ -250,8 +259,8 @@ class Komo {
 /// slide, stick, complementary or bounce. Throws NameError for other names, with those that are near.
 Komo::Exchange exchangeFromName(const std::string& name);
 
-/// The problem of a Komo, for a solver. It keeps the Komo alive, and leaves it at the point last evaluated. Objectives that
-/// are added to the Komo later are not part of it; after a later change of the structure it throws Error.
+/// The problem of a Komo, for a solver. It keeps the Komo alive, and leaves it at the point last evaluated. Objectives
+/// that are added to the Komo later are not part of it; after a later change of the structure it throws Error.
 std::shared_ptr<Nlp> makeNlp(std::shared_ptr<Komo> komo);
 
 /// The Komo that a problem was made from; null for other problems.

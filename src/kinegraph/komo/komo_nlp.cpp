@@ -12,8 +12,9 @@ constexpr int kMostSeparateRows = 100000;
 
 /// Does the objective demand that a sum of overlaps is zero?
 bool isSumOfOverlaps(const Komo::Objective& objective) {
-  return objective.feature == FeatureSymbol::accumulatedCollisions && objective.order == 0 && objective.scale.size() <= 1 &&
-         objective.target.isZero(0.) && (objective.scale.size() == 0 || objective.scale(0) > 0.) &&
+  return objective.feature == FeatureSymbol::accumulatedCollisions && objective.order == 0 &&
+         objective.scale.size() <= 1 && objective.target.isZero(0.) &&
+         (objective.scale.size() == 0 || objective.scale(0) > 0.) &&
          (objective.type == ObjectiveType::eq || objective.type == ObjectiveType::ineq);
 }
 
@@ -52,7 +53,8 @@ class KomoNlp final : public Nlp {
   bool mayBeQuadratic() const override { return problem_.isLinear(); }
 
   bool mayBeCancelled() const override {
-    return std::ranges::any_of(problem_.objectives(), [](const Komo::Objective& o) { return o.feature.maker() != nullptr; });
+    return std::ranges::any_of(problem_.objectives(),
+                               [](const Komo::Objective& o) { return o.feature.maker() != nullptr; });
   }
 
   void leaveAt(const VectorXd& x) override { komo_->setVariables(x); }
@@ -97,7 +99,8 @@ class KomoNlp final : public Nlp {
     if (row < 0 || row >= problem_.rows()) return Nlp::rowName(row);
     const PathProblem::Term& term = problem_.termOf(row);
     const Komo::Objective& objective = problem_.objectives()[term.objective];
-    return cat(objectiveName(objective), ", row ", row - term.first_row, ", slice ", term.slice, " (", objectiveTypeName(objective.type), ")");
+    return cat(objectiveName(objective), ", row ", row - term.first_row, ", slice ", term.slice, " (",
+               objectiveTypeName(objective.type), ")");
   }
 
   RowDescription describeRow(int row) const override { return describePathRow(*komo_, problem_, row); }
@@ -105,8 +108,9 @@ class KomoNlp final : public Nlp {
   std::vector<std::string> detailsOf(int row) const override { return pathRowDetails(*komo_, problem_, row); }
 
   std::string report(int) const override {
-    return cat("KOMO: ", komo_->slices(), " slices of ", komo_->dofs(), " dofs, order ", komo_->order(), ", ", dimension(),
-               " variables, ", problem_.objectives().size(), " objectives with ", types_.size(), " residuals");
+    return cat("KOMO: ", komo_->slices(), " slices of ", komo_->dofs(), " dofs, order ", komo_->order(), ", ",
+               dimension(), " variables, ", problem_.objectives().size(), " objectives with ", types_.size(),
+               " residuals");
   }
 
  private:

@@ -17,7 +17,8 @@ Komo::Parts Komo::parts() const {
     parts.config.setJointState(start_);
     const auto& frames = parts.config.scene()->frames();
     for (const auto& source : source_->frames()) {
-      if (source->id < int(frames.size()) && frames[source->id]->name == source->name) frames[source->id]->attributes = source->attributes;
+      if (source->id < int(frames.size()) && frames[source->id]->name == source->name)
+        frames[source->id]->attributes = source->attributes;
     }
   }
   if (states_.empty()) return parts;
@@ -43,11 +44,13 @@ Komo::Komo(Parts parts) {
   shown_frames_ = std::move(parts.shown_frames);
   const std::size_t count = states_.size();
   bool fits = parts.states.size() == count && parts.mode_of.size() == count;
-  for (Parts::Structure& mode : parts.modes) modes_.push_back(std::make_shared<Mode>(Mode{std::move(mode.config), std::move(mode.added)}));
+  for (Parts::Structure& mode : parts.modes)
+    modes_.push_back(std::make_shared<Mode>(Mode{std::move(mode.config), std::move(mode.added)}));
   for (std::size_t i = 0; fits && i < count; ++i) {
     const int mode = parts.mode_of[i];
     if (!modes_.empty()) {
-      if (mode < 0 || mode >= int(modes_.size())) throw ValueError(cat("KOMO: slice ", i, " has mode ", mode, " of ", modes_.size()));
+      if (mode < 0 || mode >= int(modes_.size()))
+        throw ValueError(cat("KOMO: slice ", i, " has mode ", mode, " of ", modes_.size()));
       states_[i] = State(modes_[mode]->config.program(), modes_[mode]->config.parameters());
     }
     fits = parts.states[i].size() == states_[i].dofs();

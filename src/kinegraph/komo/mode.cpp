@@ -11,18 +11,51 @@ namespace kinegraph {
 const std::vector<std::pair<std::string, SwitchMode>>& switchModeNames() {
   using M = SwitchMode;
   static const std::vector<std::pair<std::string, SwitchMode>> names = {
-      {"touch", M::touch}, {"above", M::above}, {"inside", M::inside}, {"oppose", M::oppose}, {"restingOn", M::restingOn},
-      {"poseEq", M::poseEq}, {"positionEq", M::positionEq}, {"stableRelPose", M::stableRelPose}, {"stablePose", M::stablePose},
-      {"stable", M::stable}, {"stableOn", M::stableOn}, {"dynamic", M::dynamic}, {"dynamicOn", M::dynamicOn},
-      {"dynamicTrans", M::dynamicTrans}, {"quasiStatic", M::quasiStatic}, {"quasiStaticOn", M::quasiStaticOn},
-      {"downUp", M::downUp}, {"stableZero", M::stableZero}, {"contact", M::contact}, {"contactStick", M::contactStick},
-      {"contactComplementary", M::contactComplementary}, {"bounce", M::bounce}, {"push", M::push}, {"magic", M::magic},
-      {"magicTrans", M::magicTrans}, {"pushAndPlace", M::pushAndPlace}, {"topBoxGrasp", M::topBoxGrasp},
-      {"topBoxPlace", M::topBoxPlace}, {"dampMotion", M::dampMotion}, {"identical", M::identical}, {"alignByInt", M::alignByInt},
-      {"makeFree", M::makeFree}, {"forceBalance", M::forceBalance}, {"relPosY", M::relPosY},
-      {"touchBoxNormalX", M::touchBoxNormalX}, {"touchBoxNormalY", M::touchBoxNormalY}, {"touchBoxNormalZ", M::touchBoxNormalZ},
-      {"boxGraspX", M::boxGraspX}, {"boxGraspY", M::boxGraspY}, {"boxGraspZ", M::boxGraspZ}, {"lift", M::lift},
-      {"stableYPhi", M::stableYPhi}, {"stableOnX", M::stableOnX}, {"stableOnY", M::stableOnY}, {"end", M::end}};
+      {"touch", M::touch},
+      {"above", M::above},
+      {"inside", M::inside},
+      {"oppose", M::oppose},
+      {"restingOn", M::restingOn},
+      {"poseEq", M::poseEq},
+      {"positionEq", M::positionEq},
+      {"stableRelPose", M::stableRelPose},
+      {"stablePose", M::stablePose},
+      {"stable", M::stable},
+      {"stableOn", M::stableOn},
+      {"dynamic", M::dynamic},
+      {"dynamicOn", M::dynamicOn},
+      {"dynamicTrans", M::dynamicTrans},
+      {"quasiStatic", M::quasiStatic},
+      {"quasiStaticOn", M::quasiStaticOn},
+      {"downUp", M::downUp},
+      {"stableZero", M::stableZero},
+      {"contact", M::contact},
+      {"contactStick", M::contactStick},
+      {"contactComplementary", M::contactComplementary},
+      {"bounce", M::bounce},
+      {"push", M::push},
+      {"magic", M::magic},
+      {"magicTrans", M::magicTrans},
+      {"pushAndPlace", M::pushAndPlace},
+      {"topBoxGrasp", M::topBoxGrasp},
+      {"topBoxPlace", M::topBoxPlace},
+      {"dampMotion", M::dampMotion},
+      {"identical", M::identical},
+      {"alignByInt", M::alignByInt},
+      {"makeFree", M::makeFree},
+      {"forceBalance", M::forceBalance},
+      {"relPosY", M::relPosY},
+      {"touchBoxNormalX", M::touchBoxNormalX},
+      {"touchBoxNormalY", M::touchBoxNormalY},
+      {"touchBoxNormalZ", M::touchBoxNormalZ},
+      {"boxGraspX", M::boxGraspX},
+      {"boxGraspY", M::boxGraspY},
+      {"boxGraspZ", M::boxGraspZ},
+      {"lift", M::lift},
+      {"stableYPhi", M::stableYPhi},
+      {"stableOnX", M::stableOnX},
+      {"stableOnY", M::stableOnY},
+      {"end", M::end}};
   return names;
 }
 
@@ -35,9 +68,13 @@ std::string switchModeName(SwitchMode mode) {
 
 namespace {
 
-bool isBox(const Frame& frame) { return frame.getShapeType() == ShapeType::ssBox || frame.getShapeType() == ShapeType::box; }
+bool isBox(const Frame& frame) {
+  return frame.getShapeType() == ShapeType::ssBox || frame.getShapeType() == ShapeType::box;
+}
 
-bool isRound(ShapeType type) { return type == ShapeType::sphere || type == ShapeType::cylinder || type == ShapeType::ssCylinder; }
+bool isRound(ShapeType type) {
+  return type == ShapeType::sphere || type == ShapeType::cylinder || type == ShapeType::ssCylinder;
+}
 
 /// Largest extent of a frame's shape, m; 0 without one.
 double extent(const Frame& frame) {
@@ -53,12 +90,17 @@ double height(const Frame& frame) {
   const std::vector<double> size = frame.getSize();
   switch (frame.getShapeType()) {
     case ShapeType::box:
-    case ShapeType::ssBox: return size[2];
-    case ShapeType::sphere: return 2. * size[0];
-    case ShapeType::capsule: return size[0] + 2. * size[1];
+    case ShapeType::ssBox:
+      return size[2];
+    case ShapeType::sphere:
+      return 2. * size[0];
+    case ShapeType::capsule:
+      return size[0] + 2. * size[1];
     case ShapeType::cylinder:
-    case ShapeType::ssCylinder: return size[0];
-    default: return 0.;
+    case ShapeType::ssCylinder:
+      return size[0];
+    default:
+      return 0.;
   }
 }
 
@@ -95,27 +137,44 @@ void limitByType(Attachment& attachment, const Frame& parent) {
     attachment.lower = -upper;
   };
   switch (attachment.type) {
-    case JointType::free: return limitFreeJoint(attachment, parent, nullptr);
+    case JointType::free:
+      return limitFreeJoint(attachment, parent, nullptr);
     case JointType::hingeX:
     case JointType::hingeY:
-    case JointType::hingeZ: return symmetric(VectorXd::Constant(1, 2. * std::numbers::pi));
-    case JointType::quatBall: return symmetric(VectorXd::Constant(4, 1.1));
+    case JointType::hingeZ:
+      return symmetric(VectorXd::Constant(1, 2. * std::numbers::pi));
+    case JointType::quatBall:
+      return symmetric(VectorXd::Constant(4, 1.1));
     case JointType::transXY:
       if (isBox(parent)) symmetric(.5 * Eigen::Vector2d(size[0], size[1]));
       return;
     case JointType::transXYPhi:
       if (isBox(parent)) limitSliding(attachment, .5 * size[0], .5 * size[1]);
       return;
-    default: return;
+    default:
+      return;
   }
 }
 
 bool isAttachment(SwitchMode mode) {
   using M = SwitchMode;
   switch (mode) {
-    case M::stable: case M::stableOn: case M::stableOnX: case M::stableOnY: case M::stableYPhi: case M::stableZero: case M::dynamic:
-    case M::dynamicOn: case M::dynamicTrans: case M::quasiStatic: case M::quasiStaticOn: case M::magic: case M::magicTrans: return true;
-    default: return false;
+    case M::stable:
+    case M::stableOn:
+    case M::stableOnX:
+    case M::stableOnY:
+    case M::stableYPhi:
+    case M::stableZero:
+    case M::dynamic:
+    case M::dynamicOn:
+    case M::dynamicTrans:
+    case M::quasiStatic:
+    case M::quasiStaticOn:
+    case M::magic:
+    case M::magicTrans:
+      return true;
+    default:
+      return false;
   }
 }
 
@@ -124,8 +183,9 @@ Attachment attachmentOf(SwitchMode mode, const Frame& parent, const Frame& objec
   const std::vector<double> box = parent.getSize();
   const auto requireBox = [&] {
     if (isBox(parent)) return;
-    throw ValueError(cat("addModeSwitch: ", switchModeName(mode), " needs a box (ssBox) to place '", object.getName(), "' on; '",
-                         parent.getName(), "' has ", parent.getShapeType() == ShapeType::none ? "no shape" : "another shape"));
+    throw ValueError(cat("addModeSwitch: ", switchModeName(mode), " needs a box (ssBox) to place '", object.getName(),
+                         "' on; '", parent.getName(), "' has ",
+                         parent.getShapeType() == ShapeType::none ? "no shape" : "another shape"));
   };
   Attachment a;
   switch (mode) {
@@ -152,7 +212,8 @@ Attachment attachmentOf(SwitchMode mode, const Frame& parent, const Frame& objec
       a.starts_here = true;
       a.zero_home = false;
       return a;
-    case M::stableZero: return a;
+    case M::stableZero:
+      return a;
     case M::dynamic:
     case M::dynamicTrans:
     case M::quasiStatic:
@@ -185,13 +246,16 @@ Attachment attachmentOf(SwitchMode mode, const Frame& parent, const Frame& objec
         const Pose relative = parent.getPose().inverse() * object.getPose();
         a.base = Pose();
         a.base->q = relative.q;
-        a.base->p = relative.p - relative.q * Vector3d((relative.q.inverse() * relative.p).cwiseProduct(Vector3d(1., 1., 0.)));
+        a.base->p =
+            relative.p - relative.q * Vector3d((relative.q.inverse() * relative.p).cwiseProduct(Vector3d(1., 1., 0.)));
       }
       return a;
     default:
-      throw ValueError(cat("addModeSwitch: ", switchModeName(mode), " does not attach an object; available are stable, stableOn, "
-                           "stableOnX, stableOnY, stableYPhi, stableZero, dynamic, dynamicOn, dynamicTrans, quasiStatic, quasiStaticOn, "
-                           "magic and magicTrans; a skeleton has them all"));
+      throw ValueError(cat(
+          "addModeSwitch: ", switchModeName(mode),
+          " does not attach an object; available are stable, stableOn, "
+          "stableOnX, stableOnY, stableYPhi, stableZero, dynamic, dynamicOn, dynamicTrans, quasiStatic, quasiStaticOn, "
+          "magic and magicTrans; a skeleton has them all"));
   }
 }
 
@@ -220,7 +284,8 @@ const FrameData& Mode::movableRoot(const std::string& object, const std::string&
   return *root;
 }
 
-void Mode::attach(const std::string& parent, const std::string& object, const Attachment& attachment, int base_frame, int id) {
+void Mode::attach(const std::string& parent, const std::string& object, const Attachment& attachment, int base_frame,
+                  int id) {
   SceneTree& scene = *config.scene();
   FrameData& below = scene.get(parent, "mode switch");
   FrameData& named = scene.get(object, "mode switch");

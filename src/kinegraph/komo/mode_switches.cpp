@@ -40,7 +40,8 @@ void Komo::switchFrom(int slice, const std::string& parent, const std::string& o
   rebuildStates();
 }
 
-/// Makes the states of all slices anew. Joints that were there before keep their dofs; new ones are where their mode has them.
+/// Makes the states of all slices anew. Joints that were there before keep their dofs; new ones are where their mode
+/// has them.
 void Komo::rebuildStates() {
   std::vector<State> old = std::move(states_);
   states_.clear();
@@ -54,7 +55,8 @@ void Komo::rebuildStates() {
       const auto [first, count] = now.frame_dofs[frame];
       const auto [first_before, count_before] = before.frame_dofs[frame];
       const auto added = mode.added.find(int(frame));
-      const bool kept = count > 0 && count == count_before && (added == mode.added.end() || added->second.id != next_joint_ - 1);
+      const bool kept =
+          count > 0 && count == count_before && (added == mode.added.end() || added->second.id != next_joint_ - 1);
       if (kept) q.segment(first, count) = old[i].q().segment(first_before, count);
     }
     state.setJoints(q.data());
@@ -64,13 +66,25 @@ void Komo::rebuildStates() {
   ++structure_revision_;
 }
 
-void Komo::addContinuity(FeatureSymbol feature, const std::vector<std::string>& frames, double scale, int order, int slice) {
+void Komo::addContinuity(FeatureSymbol feature, const std::vector<std::string>& frames, double scale, int order,
+                         int slice) {
   if (slice < 0 || slice >= slices_) return;
   const double time = double(slice + 1) / slices_per_phase_;
-  add({featureInfo(feature).name, feature, frames, ObjectiveType::eq, MatrixXd::Constant(1, 1, scale), {}, order, {time}, 0, 0}, 0, 0);
+  add({featureInfo(feature).name,
+       feature,
+       frames,
+       ObjectiveType::eq,
+       MatrixXd::Constant(1, 1, scale),
+       {},
+       order,
+       {time},
+       0,
+       0},
+      0, 0);
 }
 
-void Komo::addModeSwitch(const std::vector<double>& times, SwitchMode mode, const std::vector<std::string>& given_frames, bool first) {
+void Komo::addModeSwitch(const std::vector<double>& times, SwitchMode mode,
+                         const std::vector<std::string>& given_frames, bool first) {
   requireBuilt("addModeSwitch");
   std::vector<std::string> frames = given_frames;
   using M = SwitchMode;
@@ -81,7 +95,8 @@ void Komo::addModeSwitch(const std::vector<double>& times, SwitchMode mode, cons
   }
   const bool ends = times.size() == 2 && times[1] >= 0.;
   if (frames.size() != 2) {
-    throw ValueError(cat("addModeSwitch: frames are [parent, object]", moves_alone ? " or [object]" : "", ", got ", frames.size()));
+    throw ValueError(
+        cat("addModeSwitch: frames are [parent, object]", moves_alone ? " or [object]" : "", ", got ", frames.size()));
   }
   const std::string &parent = frames[0], &object = frames[1];
   requireFrame(state(-order_).program(), parent, "addModeSwitch");
@@ -89,21 +104,27 @@ void Komo::addModeSwitch(const std::vector<double>& times, SwitchMode mode, cons
   makeModes();
   const int from = sliceAt(times[0]), to = ends ? sliceAt(times[1]) : slices_ - 1;
   if (from >= slices_) {
-    warnings_.push_back(cat("addModeSwitch at time ", times[0], " has no effect; the path ends at ", double(slices_) / slices_per_phase_));
+    warnings_.push_back(cat("addModeSwitch at time ", times[0], " has no effect; the path ends at ",
+                            double(slices_) / slices_per_phase_));
     return;
   }
-  if (ends && to < from) throw ValueError(cat("addModeSwitch: times [", times[0], ", ", times[1], "] end before they begin"));
-  const bool dynamic = mode == SwitchMode::dynamic || mode == SwitchMode::dynamicOn || mode == SwitchMode::dynamicTrans ||
-                       mode == SwitchMode::quasiStatic || mode == SwitchMode::quasiStaticOn;
+  if (ends && to < from)
+    throw ValueError(cat("addModeSwitch: times [", times[0], ", ", times[1], "] end before they begin"));
+  const bool dynamic = mode == SwitchMode::dynamic || mode == SwitchMode::dynamicOn ||
+                       mode == SwitchMode::dynamicTrans || mode == SwitchMode::quasiStatic ||
+                       mode == SwitchMode::quasiStaticOn;
   const bool magic = mode == SwitchMode::magic || mode == SwitchMode::magicTrans;  // nothing is asked of the motion
   if (first && from >= 0 && order_ < 1 && !magic) {
-    throw ValueError("addModeSwitch: that the object does not jump is about velocities; it needs a KOMO with kOrder 1 or more, or firstSwitch=False");
+    throw ValueError(
+        "addModeSwitch: that the object does not jump is about velocities; it needs a KOMO with kOrder 1 or more, or "
+        "firstSwitch=False");
   }
   Mode& before = *modes_[mode_of_[std::max(from - 1, -order_) + order_]];
   const FrameData& root = before.movableRoot(object, parent);
   const std::string root_name = root.name;
   std::string held_by;  // where the object was in a stable mode until now
-  if (const auto added = before.added.find(root.id); added != before.added.end() && added->second.stable) held_by = added->second.parent;
+  if (const auto added = before.added.find(root.id); added != before.added.end() && added->second.stable)
+    held_by = added->second.parent;
   switchFrom(from, parent, object, attachmentOf(mode, before.config.getFrame(parent), before.config.getFrame(object)));
   if (magic) return;
   if (first) {
@@ -128,7 +149,8 @@ void Komo::addRigidSwitch(double time, const std::string& parent, const std::str
   if (!(time >= 0.)) throw ValueError(cat("addRigidSwitch: time is ", time, "; expected a phase time"));
   const int from = sliceAt(time);
   if (from >= slices_) {
-    warnings_.push_back(cat("addRigidSwitch at time ", time, " has no effect; the path ends at ", double(slices_) / slices_per_phase_));
+    warnings_.push_back(
+        cat("addRigidSwitch at time ", time, " has no effect; the path ends at ", double(slices_) / slices_per_phase_));
     return;
   }
   makeModes();
@@ -139,14 +161,16 @@ void Komo::addRigidSwitch(double time, const std::string& parent, const std::str
   if (order_ >= 2) addContinuity(FeatureSymbol::linangVel, {object}, 1., 2, from + 1);
 }
 
-void Komo::addFrameDof(const std::string& name, const std::string& parent, JointType type, bool stable, const std::string& origin) {
+void Komo::addFrameDof(const std::string& name, const std::string& parent, JointType type, bool stable,
+                       const std::string& origin) {
   requireBuilt("addFrameDof");
   const Program& program = state(-order_).program();
   if (name.empty() || program.frame_index.contains(name)) {
     throw ValueError(cat("addFrameDof: there is a frame '", name, "' already; expected a new name"));
   }
   std::string below = parent;
-  if (parent.empty() && type != JointType::none) below = program.frame_index.contains("world") ? "world" : program.frame_name.front();
+  if (parent.empty() && type != JointType::none)
+    below = program.frame_index.contains("world") ? "world" : program.frame_name.front();
   if (!below.empty()) requireFrame(program, below, "addFrameDof");
   if (!origin.empty()) requireFrame(program, origin, "addFrameDof");
   if (type == JointType::hinge || type == JointType::generic || type == JointType::tau) {

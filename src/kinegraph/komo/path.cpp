@@ -83,7 +83,8 @@ void Komo::setVariables(const VectorXd& x) {
 
 MatrixXd Komo::getFrameState(int slice) const {
   requireBuilt("getFrameState");
-  if (slice < -order_ || slice >= slices_) throw ValueError(cat("KOMO: slice ", slice, " is not in ", -order_, " .. ", slices_ - 1));
+  if (slice < -order_ || slice >= slices_)
+    throw ValueError(cat("KOMO: slice ", slice, " is not in ", -order_, " .. ", slices_ - 1));
   MatrixXd poses(Eigen::Index(shown_frames_.size()), 7);
   for (std::size_t i = 0; i < shown_frames_.size(); ++i) {
     Pose X(state(slice).pose(shown_frames_[i]));
@@ -95,18 +96,21 @@ MatrixXd Komo::getFrameState(int slice) const {
 
 Config Komo::configuration(int slice) const {
   requireBuilt("getConfiguration");
-  if (slice < -order_ || slice >= slices_) throw ValueError(cat("KOMO: slice ", slice, " is not in ", -order_, " .. ", slices_ - 1));
+  if (slice < -order_ || slice >= slices_)
+    throw ValueError(cat("KOMO: slice ", slice, " is not in ", -order_, " .. ", slices_ - 1));
   Config config = modes_.empty() ? Config(*base_) : modes_[mode_of_[slice + order_]]->config;
   config.setJointState(state(slice).q());
   const auto& frames = config.scene()->frames();
   for (const auto& source : source_->frames()) {
-    if (source->id < int(frames.size()) && frames[source->id]->name == source->name) frames[source->id]->attributes = source->attributes;
+    if (source->id < int(frames.size()) && frames[source->id]->name == source->name)
+      frames[source->id]->attributes = source->attributes;
   }
   return config;
 }
 
 Komo::SubProblem Komo::subProblem(int phase) const {
-  if (slices_per_phase_ != 1) throw ValueError(cat("getSubProblem is for one slice per phase; this KOMO has ", slices_per_phase_));
+  if (slices_per_phase_ != 1)
+    throw ValueError(cat("getSubProblem is for one slice per phase; this KOMO has ", slices_per_phase_));
   if (phase < 0 || phase >= slices_ || phase - 1 < -order_) {
     throw ValueError(cat("getSubProblem: phase ", phase, " is not in ", order_ > 0 ? 0 : 1, " .. ", slices_ - 1));
   }
@@ -135,7 +139,9 @@ void Komo::updateRootObjects(const Config& config) {
   requireBuilt("updateRootObjects");
   const auto program = config.program();
   if (program != program_ && (program->frame_name != program_->frame_name || program->dofs != program_->dofs)) {
-    throw ValueError("KOMO: updateRootObjects needs the configuration that the KOMO was made from, with the same frames, joints and shapes");
+    throw ValueError(
+        "KOMO: updateRootObjects needs the configuration that the KOMO was made from, with the same frames, joints and "
+        "shapes");
   }
   if (program == program_ && modes_.empty()) {
     base_.reset();  // so that its memory can be used again

@@ -34,7 +34,9 @@ std::string frameOfDof(const Program& program, int dof) {
   return {};
 }
 
-bool isJointFeature(const FeatureSource& feature) { return feature == FeatureSymbol::qItself || feature == FeatureSymbol::jointLimits; }
+bool isJointFeature(const FeatureSource& feature) {
+  return feature == FeatureSymbol::qItself || feature == FeatureSymbol::jointLimits;
+}
 
 /// The unit that all rows of an objective about joints have; number if they differ.
 Measure measureOfJoints(const Komo& komo, const Komo::Objective& objective, int slice) {
@@ -54,18 +56,49 @@ Measure measureOfJoints(const Komo& komo, const Komo::Objective& objective, int 
 Measure measureOfFeature(FeatureSymbol feature, int row) {
   using S = FeatureSymbol;
   switch (feature) {
-    case S::position: case S::positionDiff: case S::positionRel: case S::gazeAt: case S::accumulatedCollisions: case S::pairCollisions: case S::distance:
-    case S::oppose: case S::aboveBox: case S::insideBox: case S::pairCollision_negScalar: case S::pairCollision_vector:
-    case S::pairCollision_p1: case S::pairCollision_p2: case S::standingAbove: return Measure::length;
-    case S::quaternion: case S::quaternionDiff: case S::quaternionRel: return Measure::quaternion;
-    case S::pose: case S::poseDiff: case S::poseRel: return row < 3 ? Measure::length : Measure::quaternion;
-    case S::vectorX: case S::vectorXDiff: case S::vectorXRel: case S::vectorY: case S::vectorYDiff: case S::vectorYRel:
-    case S::vectorZ: case S::vectorZDiff: case S::vectorZRel: return Measure::axis;
-    case S::angularVel: return Measure::angle;
-    case S::linangVel: return row < 3 ? Measure::length : Measure::angle;
-    default: break;
+    case S::position:
+    case S::positionDiff:
+    case S::positionRel:
+    case S::gazeAt:
+    case S::accumulatedCollisions:
+    case S::pairCollisions:
+    case S::distance:
+    case S::oppose:
+    case S::aboveBox:
+    case S::insideBox:
+    case S::pairCollision_negScalar:
+    case S::pairCollision_vector:
+    case S::pairCollision_p1:
+    case S::pairCollision_p2:
+    case S::standingAbove:
+      return Measure::length;
+    case S::quaternion:
+    case S::quaternionDiff:
+    case S::quaternionRel:
+      return Measure::quaternion;
+    case S::pose:
+    case S::poseDiff:
+    case S::poseRel:
+      return row < 3 ? Measure::length : Measure::quaternion;
+    case S::vectorX:
+    case S::vectorXDiff:
+    case S::vectorXRel:
+    case S::vectorY:
+    case S::vectorYDiff:
+    case S::vectorYRel:
+    case S::vectorZ:
+    case S::vectorZDiff:
+    case S::vectorZRel:
+      return Measure::axis;
+    case S::angularVel:
+      return Measure::angle;
+    case S::linangVel:
+      return row < 3 ? Measure::length : Measure::angle;
+    default:
+      break;
   }
-  return int(feature) >= int(S::scalarProductXX) && int(feature) <= int(S::scalarProductZZ) ? Measure::cosine : Measure::number;
+  return int(feature) >= int(S::scalarProductXX) && int(feature) <= int(S::scalarProductZZ) ? Measure::cosine
+                                                                                            : Measure::number;
 }
 
 }  // namespace
@@ -133,7 +166,9 @@ std::vector<std::string> pathRowDetails(const Komo& komo, const PathProblem& pro
   std::vector<std::string> pairs;
   for (const Config::NearPair& pair : near) {
     const std::string a = config.getFrame(pair.a).getName(), b = config.getFrame(pair.b).getName();
-    const auto named = [&](const std::string& name) { return std::find(objective.frames.begin(), objective.frames.end(), name) != objective.frames.end(); };
+    const auto named = [&](const std::string& name) {
+      return std::find(objective.frames.begin(), objective.frames.end(), name) != objective.frames.end();
+    };
     if (!objective.frames.empty() && !named(a) && !named(b)) continue;
     pairs.push_back(cat(a, " and ", b, " overlap by ", std::round(-1e4 * pair.distance) / 10., " mm"));
   }

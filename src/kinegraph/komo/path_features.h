@@ -7,8 +7,8 @@
 
 namespace kinegraph {
 
-/// The dofs of the joints of given frames: y = q_i (rad, m). Unlike JointState it finds them by frame in each configuration,
-/// because in different modes the same joint may have another place in q.
+/// The dofs of the joints of given frames: y = q_i (rad, m). Unlike JointState it finds them by frame in each
+/// configuration, because in different modes the same joint may have another place in q.
 class JointsOfFrames final : public Feature {
  public:
   struct Part {

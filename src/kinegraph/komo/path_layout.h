@@ -5,23 +5,24 @@
 #include <set>
 #include <vector>
 
-#include "kinegraph/komo/mode.h"
 #include "kinegraph/kinematics/state.h"
+#include "kinegraph/komo/mode.h"
 
 namespace kinegraph {
 
-/// Where the dofs of the slices are in x. Slices follow one another, and within a slice the order is that of its q. Dofs that
-/// several slices share are in x once, at the first slice that has them. Index 0 is the first slice before the start.
+/// Where the dofs of the slices are in x. Slices follow one another, and within a slice the order is that of its q.
+/// Dofs that several slices share are in x once, at the first slice that has them. Index 0 is the first slice before
+/// the start.
 struct PathLayout {
   int dimension = 0;
-  bool plain = true;  ///< x is just the q of the slices from 0 on, one after the other
-  std::vector<std::vector<int>> column;                 ///< per slice and dof; -1: constant
-  std::vector<std::vector<Program::DofRange>> owned;    ///< per slice: its dofs that are in x at this slice
-  VectorXd lower, upper;                                ///< per entry of x
+  bool plain = true;                                  ///< x is just the q of the slices from 0 on, one after the other
+  std::vector<std::vector<int>> column;               ///< per slice and dof; -1: constant
+  std::vector<std::vector<Program::DofRange>> owned;  ///< per slice: its dofs that are in x at this slice
+  VectorXd lower, upper;                              ///< per entry of x
 };
 
-/// `modes` may be empty (no joint was added); else `mode_of` says which one each slice has. `prefix` is the number of slices
-/// before the start; `stable` the frames whose original joints are shared by all slices.
+/// `modes` may be empty (no joint was added); else `mode_of` says which one each slice has. `prefix` is the number of
+/// slices before the start; `stable` the frames whose original joints are shared by all slices.
 PathLayout makeLayout(const std::vector<State>& states, int prefix, const std::set<int>& stable,
                       const std::vector<std::shared_ptr<Mode>>& modes, const std::vector<int>& mode_of);
 

@@ -32,7 +32,8 @@ PathProblem::PathProblem(const Komo& komo, std::vector<Komo::Objective> objectiv
   const PathLayout& layout = komo.layout();
   for (int t = -komo.order(); t < komo.slices(); ++t) widest_state_ = std::max(widest_state_, komo.state(t).dofs());
   std::size_t terms = 0;
-  for (const Komo::Objective& objective : objectives_) terms += std::size_t(std::max(objective.to - objective.from + 1, 0));
+  for (const Komo::Objective& objective : objectives_)
+    terms += std::size_t(std::max(objective.to - objective.from + 1, 0));
   terms_.reserve(terms);
   segments_.reserve(terms);
   width_.reserve(terms);
@@ -83,7 +84,9 @@ void PathProblem::findCurvedRows(const Komo& komo) {
     const State& state = komo.state(term.slice);
     if (term.rows == 0 || term.slice < 0 || !residuals_[std::size_t(term.residual)].hasCurvature(state)) continue;
     const Run* const run = term.runs == 1 ? &runs_[std::size_t(term.first_run)] : nullptr;
-    if (!run || segments_[i].size() != 1 || run->from != 0 || run->to != 0 || run->width != state.dofs() || width_[i] != state.dofs()) continue;
+    if (!run || segments_[i].size() != 1 || run->from != 0 || run->to != 0 || run->width != state.dofs() ||
+        width_[i] != state.dofs())
+      continue;
     curved_rows_.push_back({term.first_row, term.rows, segments_[i][0].first, width_[i]});
     curved_terms_.push_back(int(i));
   }
@@ -100,7 +103,8 @@ PathProblem::Workspace PathProblem::makeWorkspace() const {
     zeros = std::max(zeros, size);
     rows = std::max(rows, std::size_t(term.rows));
   }
-  return {std::vector<double>(entries), std::vector<double>(zeros), std::vector<char>(rows), std::vector<const State*>(slices)};
+  return {std::vector<double>(entries), std::vector<double>(zeros), std::vector<char>(rows),
+          std::vector<const State*>(slices)};
 }
 
 /// Finds which columns of x the window of slices touches, and where each of its own columns goes among them.
@@ -145,23 +149,26 @@ void PathProblem::layOut(const Komo& komo, Term& term, std::vector<std::pair<int
 }
 
 const PathProblem::Term& PathProblem::termOf(int row) const {
-  auto place = std::upper_bound(terms_.begin(), terms_.end(), row, [](int r, const Term& term) { return r < term.first_row + term.rows; });
+  auto place = std::upper_bound(terms_.begin(), terms_.end(), row,
+                                [](int r, const Term& term) { return r < term.first_row + term.rows; });
   return *place;
 }
 
 bool PathProblem::isLinear() const {
-  return std::all_of(residuals_.begin(), residuals_.end(), [](const Residual& residual) { return residual.isLinear(); });
+  return std::all_of(residuals_.begin(), residuals_.end(),
+                     [](const Residual& residual) { return residual.isLinear(); });
 }
 
 std::vector<char> PathProblem::linearRows() const {
   std::vector<char> linear;
   linear.reserve(types_.size());
-  for (const Term& term : terms_) linear.insert(linear.end(), std::size_t(term.rows), residuals_[std::size_t(term.residual)].isLinear());
+  for (const Term& term : terms_)
+    linear.insert(linear.end(), std::size_t(term.rows), residuals_[std::size_t(term.residual)].isLinear());
   return linear;
 }
 
-/// First come zeros, for all rows that are zero; then linear rows; then others that are always stored; then, in evaluateSparse,
-/// those that come and go.
+/// First come zeros, for all rows that are zero; then linear rows; then others that are always stored; then, in
+/// evaluateSparse, those that come and go.
 Jacobian PathProblem::makeJacobian(const Komo& komo) const {
   std::size_t segments = 0, values = std::size_t(stored_);
   for (std::size_t i = 0; i < terms_.size(); ++i) {
@@ -194,7 +201,8 @@ Jacobian PathProblem::makeJacobian(const Komo& komo) const {
     }
     if (!residuals_[std::size_t(term.residual)].isLinear() || term.rows == 0) continue;
     if (copied != term.residual) residual.emplace(residuals_[std::size_t(copied = term.residual)]);
-    evaluateTerm(komo, i, *residual, phi.segment(term.first_row, term.rows), J.values.data() + term.first_value, workspace);
+    evaluateTerm(komo, i, *residual, phi.segment(term.first_row, term.rows), J.values.data() + term.first_value,
+                 workspace);
   }
   return J;
 }
@@ -206,8 +214,8 @@ std::span<const State* const> PathProblem::statesOf(const Komo& komo, const Term
 }
 
 /// `jacobian`, which may be null, is where the rows of this term are; it comes filled with zeros.
-void PathProblem::evaluateTerm(const Komo& komo, std::size_t index, Residual& residual, Eigen::Ref<VectorXd> phi, double* jacobian,
-                               Workspace& workspace) const {
+void PathProblem::evaluateTerm(const Komo& komo, std::size_t index, Residual& residual, Eigen::Ref<VectorXd> phi,
+                               double* jacobian, Workspace& workspace) const {
   const Term& term = terms_[index];
   const std::span<const State* const> states = statesOf(komo, term, workspace);
   const int columns = int(states.size()) * widest_state_, width = width_[index];
@@ -234,7 +242,8 @@ void PathProblem::evaluateSparse(const Komo& komo, std::size_t index, VectorXd& 
   const std::span<const State* const> states = statesOf(komo, term, workspace_);
   Eigen::Map<RowMajor> whole(workspace_.zeros.data(), term.rows, Eigen::Index(states.size()) * widest_state_);
   JacobianRows block = whole;
-  residuals_[std::size_t(term.residual)].eval(states, komo.tau(), phi.segment(term.first_row, term.rows), &block, workspace_.zero_row.data());
+  residuals_[std::size_t(term.residual)].eval(states, komo.tau(), phi.segment(term.first_row, term.rows), &block,
+                                              workspace_.zero_row.data());
   const char *now = workspace_.zero_row.data(), *before = J.zero_row.data() + term.first_row;
   for (int i = 0; i < term.rows; ++i) {
     while (i + kEight <= term.rows && areAllZeroRows(now + i) && areAllZeroRows(before + i)) i += kEight;

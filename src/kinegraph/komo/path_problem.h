@@ -8,8 +8,8 @@
 
 namespace kinegraph {
 
-/// The objectives of a Komo, laid out: which rows of phi each has in each slice, and where its Jacobian goes. Evaluates at the
-/// Komo's present path. It is of the structure that the Komo has when this is made.
+/// The objectives of a Komo, laid out: which rows of phi each has in each slice, and where its Jacobian goes. Evaluates
+/// at the Komo's present path. It is of the structure that the Komo has when this is made.
 class PathProblem {
  public:
   /// An objective in a slice.
@@ -62,7 +62,8 @@ class PathProblem {
   std::span<const State* const> statesOf(const Komo& komo, const Term& term, Workspace& workspace) const;
   void findCurvedRows(const Komo& komo);
   void layOut(const Komo& komo, Term& term, std::vector<std::pair<int, int>>& segments);
-  void evaluateTerm(const Komo& komo, std::size_t index, Residual& residual, Eigen::Ref<VectorXd> phi, double* jacobian, Workspace& workspace) const;
+  void evaluateTerm(const Komo& komo, std::size_t index, Residual& residual, Eigen::Ref<VectorXd> phi, double* jacobian,
+                    Workspace& workspace) const;
   void evaluateSparse(const Komo& komo, std::size_t index, VectorXd& phi, Jacobian& J);
 
   std::vector<Komo::Objective> objectives_;
@@ -73,9 +74,10 @@ class PathProblem {
   std::vector<std::vector<std::pair<int, int>>> segments_;  ///< per term: columns and widths
   std::vector<int> width_;                                  ///< per term: columns in all
   std::vector<Nlp::CurvedRows> curved_rows_;
-  std::vector<int> curved_terms_;                           ///< of each of them
+  std::vector<int> curved_terms_;  ///< of each of them
   Workspace workspace_;
-  int stored_ = 0;    ///< values of a Jacobian before those of rows that come and go: zeros, then rows that are always stored
+  int stored_ =
+      0;  ///< values of a Jacobian before those of rows that come and go: zeros, then rows that are always stored
   int constant_ = 0;  ///< of these, before rows that are not linear
   int widest_state_ = 0, dimension_ = 0;
 };

@@ -14,12 +14,17 @@ namespace {
 
 double sizeOf(ObjectiveType type, double phi) {
   switch (type) {
-    case ObjectiveType::sos: return phi * phi;
-    case ObjectiveType::ineqP: return phi > 0. ? phi * phi : 0.;
-    case ObjectiveType::eq: return std::abs(phi);
+    case ObjectiveType::sos:
+      return phi * phi;
+    case ObjectiveType::ineqP:
+      return phi > 0. ? phi * phi : 0.;
+    case ObjectiveType::eq:
+      return std::abs(phi);
     case ObjectiveType::ineq:
-    case ObjectiveType::ineqB: return std::max(0., phi);
-    default: return phi;
+    case ObjectiveType::ineqB:
+      return std::max(0., phi);
+    default:
+      return phi;
   }
 }
 
@@ -28,26 +33,33 @@ std::string className(const Komo::Objective& objective) {
   using S = FeatureSymbol;
   if (objective.name == "physics") return objective.damped ? "F_NewtonEuler_DampedVelocities" : "F_NewtonEuler";
   if (const auto symbol = objective.feature.symbol()) switch (*symbol) {
-    case S::distance:
-    case S::pairCollision_negScalar:
-    case S::pairCollision_vector:
-    case S::pairCollision_normal:
-    case S::pairCollision_p1:
-    case S::pairCollision_p2: return "F_PairCollision";
-    case S::jointLimits: return "F_qLimits";
-    case S::angularVel: return "F_AngVel";
-    case S::linangVel: return "F_LinAngVel";
-    default: break;
-  }
+      case S::distance:
+      case S::pairCollision_negScalar:
+      case S::pairCollision_vector:
+      case S::pairCollision_normal:
+      case S::pairCollision_p1:
+      case S::pairCollision_p2:
+        return "F_PairCollision";
+      case S::jointLimits:
+        return "F_qLimits";
+      case S::angularVel:
+        return "F_AngVel";
+      case S::linangVel:
+        return "F_LinAngVel";
+      default:
+        break;
+    }
   std::string name = objective.name;
   if (name.starts_with("scalarProduct")) return "F_ScalarProduct";
-  if (name.starts_with("vector")) name = cat("Vector", name.ends_with("Diff") ? "Diff" : name.ends_with("Rel") ? "Rel" : "");
+  if (name.starts_with("vector"))
+    name = cat("Vector", name.ends_with("Diff") ? "Diff" : name.ends_with("Rel") ? "Rel" : "");
   if (!name.starts_with("q") || name.starts_with("quaternion")) name[0] = char(std::toupper(name[0]));
   return "F_" + name;
 }
 
 void requireSlice(const Komo& komo, int slice) {
-  if (slice < 0 || slice >= komo.slices()) throw ValueError(cat("KOMO: slice ", slice, " is not in 0 .. ", komo.slices() - 1));
+  if (slice < 0 || slice >= komo.slices())
+    throw ValueError(cat("KOMO: slice ", slice, " is not in 0 .. ", komo.slices() - 1));
 }
 
 }  // namespace
@@ -71,7 +83,8 @@ PathErrors measurePath(const Komo& komo) {
 
 std::string objectiveTag(const Komo& komo, const Komo::Objective& objective) {
   std::string tag = className(objective);
-  const int own = objective.feature == FeatureSymbol::angularVel || objective.feature == FeatureSymbol::linangVel ? 1 : 0;
+  const int own =
+      objective.feature == FeatureSymbol::angularVel || objective.feature == FeatureSymbol::linangVel ? 1 : 0;
   const int order = own == 1 && objective.order == 1 ? 0 : objective.order;
   if (order == 1) tag += "/vel";
   if (order == 2) tag += "/acc";
@@ -90,7 +103,8 @@ std::string objectiveTag(const Komo& komo, const Komo::Objective& objective) {
 std::vector<std::string> residualTags(const Komo& komo) {
   const PathProblem problem(komo);
   std::vector<std::string> tags;
-  for (const PathProblem::Term& term : problem.terms()) tags.insert(tags.end(), term.rows, objectiveTag(komo, problem.objectives()[term.objective]));
+  for (const PathProblem::Term& term : problem.terms())
+    tags.insert(tags.end(), term.rows, objectiveTag(komo, problem.objectives()[term.objective]));
   return tags;
 }
 
@@ -98,8 +112,8 @@ std::string sliceErrors(const Komo& komo, int slice, const MatrixXd& per_slice) 
   requireSlice(komo, slice);
   const int count = int(komo.objectives().size());
   if (per_slice.rows() != komo.slices() || per_slice.cols() != count) {
-    throw ValueError(cat("info_sliceErrors: errorTraces is ", per_slice.rows(), " x ", per_slice.cols(), "; expected ", komo.slices(),
-                         " x ", count, ", as from info_objectiveErrorTraces"));
+    throw ValueError(cat("info_sliceErrors: errorTraces is ", per_slice.rows(), " x ", per_slice.cols(), "; expected ",
+                         komo.slices(), " x ", count, ", as from info_objectiveErrorTraces"));
   }
   std::vector<int> order(count);
   std::iota(order.begin(), order.end(), 0);
@@ -108,7 +122,8 @@ std::string sliceErrors(const Komo& komo, int slice, const MatrixXd& per_slice) 
   for (int o : order) {
     if (!(per_slice(slice, o) > 1e-4)) continue;
     const Komo::Objective& objective = komo.objectives()[o];
-    text += cat("t:", slice, " #", o, objectiveTag(komo, objective), " ", objectiveTypeName(objective.type), " ", per_slice(slice, o), "\n");
+    text += cat("t:", slice, " #", o, objectiveTag(komo, objective), " ", objectiveTypeName(objective.type), " ",
+                per_slice(slice, o), "\n");
   }
   return text;
 }

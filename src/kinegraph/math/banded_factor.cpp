@@ -4,9 +4,10 @@
 
 #include "kinegraph/math/banded_matrix.h"
 
-// The factorization L D L^T goes through the columns in panels of four, and takes the products of each panel off all columns
-// that it reaches, four at a time, so that these are read and written once per panel. What is kept of a column is L D, and the
-// inverse of D: one division per column is all that the next one waits for. No sum depends on the width of registers.
+// The factorization L D L^T goes through the columns in panels of four, and takes the products of each panel off all
+// columns that it reaches, four at a time, so that these are read and written once per panel. What is kept of a column
+// is L D, and the inverse of D: one division per column is all that the next one waits for. No sum depends on the width
+// of registers.
 
 namespace kinegraph {
 
@@ -29,12 +30,14 @@ typedef double Pack __attribute__((vector_size(kPack * sizeof(double)), aligned(
   const double *c0 = columns[0], *c1 = columns[1], *c2 = columns[2], *c3 = columns[3];
   const double l0 = factors[0], l1 = factors[1], l2 = factors[2], l3 = factors[3];
   for (int i = begin; i < end; i += kPack) {
-    packAt(target + i) = packAt(target + i) - ((l0 * packAt(c0 + i) + l1 * packAt(c1 + i)) + (l2 * packAt(c2 + i) + l3 * packAt(c3 + i)));
+    packAt(target + i) = packAt(target + i) -
+                         ((l0 * packAt(c0 + i) + l1 * packAt(c1 + i)) + (l2 * packAt(c2 + i) + l3 * packAt(c3 + i)));
   }
 }
 
 /// y[i] += factor a[i], and the sum of a[i] x[i], for i in [begin, end) and beyond, where a is zero.
-[[gnu::always_inline]] inline double addColumn(const double* a, double factor, const double* x, double* y, int begin, int end) {
+[[gnu::always_inline]] inline double addColumn(const double* a, double factor, const double* x, double* y, int begin,
+                                               int end) {
   Pack sums = {0., 0., 0., 0.};
   for (int i = begin; i < end; i += kPack) {
     packAt(y + i) = packAt(y + i) + factor * packAt(a + i);
@@ -75,7 +78,9 @@ typedef double Pack __attribute__((vector_size(kPack * sizeof(double)), aligned(
   const int n = size();
   const Panel panel = panelAt(begin);
   const bool in_band = begin < band_;
-  const auto column = [&](int j) __attribute__((always_inline)) { return values + (in_band ? offset_[j].band : offset_[j].border); };
+  const auto column = [&](int j) __attribute__((always_inline)) {
+    return values + (in_band ? offset_[j].band : offset_[j].border);
+  };
   for (int p = 0; p < panel.width; ++p) {
     const int j = begin + p;
     double *own = column(j), *own_border = values + offset_[j].border;
@@ -130,7 +135,8 @@ typedef double Pack __attribute__((vector_size(kPack * sizeof(double)), aligned(
   const int n = size();
   std::fill(y_.begin(), y_.end(), 0.);
   for (int j = 0; j < band_; ++j) {
-    double sum = addColumn(values + offset_[j].band, x[j], x, y, j + 1, last_[j] + 1) + values[offset_[j].band + j] * x[j];
+    double sum =
+        addColumn(values + offset_[j].band, x[j], x, y, j + 1, last_[j] + 1) + values[offset_[j].band + j] * x[j];
     if (band_ < n) sum += addColumn(values + offset_[j].border, x[j], x, y, band_, n);
     y[j] += sum;
   }

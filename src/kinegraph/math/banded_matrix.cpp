@@ -21,8 +21,12 @@ inline void add(double* target, double factor, const double* source, int begin, 
 }  // namespace
 
 BandedMatrix::BandedMatrix(std::vector<int> last, int border)
-    : band_(int(last.size())), last_(std::move(last)), offset_(last_.size() + std::size_t(border)), inverse_(offset_.size()),
-      x_(offset_.size() + kPadding), y_(x_) {
+    : band_(int(last.size())),
+      last_(std::move(last)),
+      offset_(last_.size() + std::size_t(border)),
+      inverse_(offset_.size()),
+      x_(offset_.size() + kPadding),
+      y_(x_) {
   for (int begin = 0, end_before = 0; begin < band_; begin += kPanel) {
     const int end = std::min(begin + kPanel, band_);
     int lowest = std::max(end_before, end - 1);
@@ -72,8 +76,8 @@ void BandedMatrix::addOuterProduct(const double* v, int first, int width, double
   }
 }
 
-void BandedMatrix::addCrossProduct(const double* u, int u_first, int u_width, const double* v, int v_first, int v_width, double w,
-                                   int from) {
+void BandedMatrix::addCrossProduct(const double* u, int u_first, int u_width, const double* v, int v_first, int v_width,
+                                   double w, int from) {
   const int inside = std::clamp(band_ - u_first, 0, u_width);
   for (int j = std::max(from - v_first, 0); j < v_width; ++j) {
     if (v[j] == 0.) continue;

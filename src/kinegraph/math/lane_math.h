@@ -2,9 +2,9 @@
 
 // Arithmetic for one scalar type S that is double or a pack of doubles (a GCC vector type), one problem per lane.
 //
-// Everything here is local to the source file that includes it: files that are compiled for wider registers must not share
-// inline functions with the rest of the library. Products are not fused with sums in these files (see CMakeLists.txt), so
-// that all widths give the same bits.
+// Everything here is local to the source file that includes it: files that are compiled for wider registers must not
+// share inline functions with the rest of the library. Products are not fused with sums in these files (see
+// CMakeLists.txt), so that all widths give the same bits.
 
 #include <type_traits>
 
@@ -83,10 +83,8 @@ Vec3<S> operator*(const S& s, const Vec3<S>& a) {
   return {s * a.x, s * a.y, s * a.z};
 }
 template <class S>
-  requires(!std::is_same_v<S, double>)
-Vec3<S> operator*(double s, const Vec3<S>& a) {
-  return {s * a.x, s * a.y, s * a.z};
-}
+requires(!std::is_same_v<S, double>) Vec3<S>
+operator*(double s, const Vec3<S>& a) { return {s * a.x, s * a.y, s * a.z}; }
 template <class S>
 S dot(const Vec3<S>& a, const Vec3<S>& b) {
   return a.x * b.x + a.y * b.y + a.z * b.z;
@@ -113,8 +111,8 @@ void store(const Vec3<S>& a, S* to) {
   to[0] = a.x, to[1] = a.y, to[2] = a.z;
 }
 
-/// A vector of one problem, in registers of every machine. The same operations as those of Vec3<double>, entry by entry. Both
-/// parts are of one size, so that what is stored of it is read back at once.
+/// A vector of one problem, in registers of every machine. The same operations as those of Vec3<double>, entry by
+/// entry. Both parts are of one size, so that what is stored of it is read back at once.
 struct Packed3 {
   using Scalar = double;
   Pack<2> xy;
@@ -144,8 +142,8 @@ V combine(const V* columns, const double* weights) {
 
 constexpr double kMostAngle = 1e5;  ///< rad
 
-/// Sine and cosine of the angles (rad) in a pack: Taylor series on [-pi/4, pi/4], and quadrants. To 2e-16 within kMostAngle;
-/// beyond it, quadrants would lose digits.
+/// Sine and cosine of the angles (rad) in a pack: Taylor series on [-pi/4, pi/4], and quadrants. To 2e-16 within
+/// kMostAngle; beyond it, quadrants would lose digits.
 template <class S>
 [[gnu::always_inline]] inline void sineAndCosine(S angle, S& sine, S& cosine) {
   using Mask = decltype(angle < angle);
@@ -154,10 +152,18 @@ template <class S>
   const S quarters = shifted - kRound;
   const S r = (angle - quarters * 1.5707963267341256) - quarters * 6.077100506506192e-11;  // pi/2 in two parts
   const S s = r * r;
-  const S sin_r = r + r * s * (-1. / 6 + s * (1. / 120 + s * (-1. / 5040 + s * (1. / 362880 + s * (-1. / 39916800 +
-                  s * (1. / 6227020800. - s * (1. / 1307674368000.)))))));
-  const S cos_r = 1. + s * (-.5 + s * (1. / 24 + s * (-1. / 720 + s * (1. / 40320 + s * (-1. / 3628800 +
-                  s * (1. / 479001600. + s * (-1. / 87178291200. + s * (1. / 20922789888000.))))))));
+  const S sin_r =
+      r + r * s *
+              (-1. / 6 +
+               s * (1. / 120 +
+                    s * (-1. / 5040 + s * (1. / 362880 + s * (-1. / 39916800 +
+                                                              s * (1. / 6227020800. - s * (1. / 1307674368000.)))))));
+  const S cos_r =
+      1. +
+      s * (-.5 + s * (1. / 24 + s * (-1. / 720 +
+                                     s * (1. / 40320 + s * (-1. / 3628800 + s * (1. / 479001600. +
+                                                                                 s * (-1. / 87178291200. +
+                                                                                      s * (1. / 20922789888000.))))))));
   const Mask quadrant = (Mask)shifted;
   const Mask swaps = (quadrant & 1) != 0;
   const S a = swaps ? cos_r : sin_r, b = swaps ? sin_r : cos_r;

@@ -27,8 +27,8 @@ template <class S>
 [[gnu::always_inline]] inline void transpose(S* packs) {
   constexpr std::make_integer_sequence<int, kWidth<S>> lanes;
   exchangeBlocks<1>(packs, lanes);
-  if constexpr (kWidth<S> > 2) exchangeBlocks<2>(packs, lanes);
-  if constexpr (kWidth<S> > 4) exchangeBlocks<4>(packs, lanes);
+  if constexpr (kWidth < S >> 2) exchangeBlocks<2>(packs, lanes);
+  if constexpr (kWidth < S >> 4) exchangeBlocks<4>(packs, lanes);
 }
 
 template <class S>

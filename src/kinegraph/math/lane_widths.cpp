@@ -23,8 +23,8 @@ int checkedLaneWidth(int width) {
   const std::vector<int>& widths = laneWidths();
   if (width == 0) return widths.back();
   if (std::ranges::find(widths, width) != widths.end()) return width;
-  throw ValueError(cat("lanes: this machine has no registers for ", width, " numbers; expected 0 for the widest, or one of ", widths.front(),
-                       " to ", widths.back()));
+  throw ValueError(cat("lanes: this machine has no registers for ", width,
+                       " numbers; expected 0 for the widest, or one of ", widths.front(), " to ", widths.back()));
 }
 
 }  // namespace kinegraph

@@ -24,9 +24,12 @@ Quaterniond unitQuaternion(const Vector4d& wxyz, const char* what) {
 Pose Pose::fromNumbers(const VectorXd& numbers) {
   if (!numbers.allFinite()) throw ValueError(cat("pose has entries that are not finite: ", numbers.transpose()));
   switch (numbers.size()) {
-    case 3: return {numbers, Quaterniond::Identity()};
-    case 4: return {Vector3d::Zero(), unitQuaternion(numbers)};
-    case 7: return {numbers.head<3>(), unitQuaternion(numbers.tail<4>())};
+    case 3:
+      return {numbers, Quaterniond::Identity()};
+    case 4:
+      return {Vector3d::Zero(), unitQuaternion(numbers)};
+    case 7:
+      return {numbers.head<3>(), unitQuaternion(numbers.tail<4>())};
     default:
       throw ValueError(cat("a pose has 7 numbers (x y z qw qx qy qz), 3 (position) or 4 (quaternion w x y z), not ",
                            numbers.size()));

@@ -45,7 +45,8 @@ struct Pose {
   Pose inverse() const { return {-(q.conjugate() * p), q.conjugate()}; }
   RigidTransform transform() const { return {q.toRotationMatrix(), p}; }
   Vector7d numbers() const;
-  Pose canonical() const;  ///< the same pose; of the two quaternions that one whose first entry other than 0 is positive
+  Pose canonical()
+      const;  ///< the same pose; of the two quaternions that one whose first entry other than 0 is positive
   bool isIdentity(double tolerance = 0.) const;  ///< position and rotation (either sign) within `tolerance`
 };
 

@@ -7,14 +7,16 @@
 
 namespace kinegraph {
 
-CallbackNlp::CallbackNlp(int dimension, std::vector<ObjectiveType> types, VectorXd lower, VectorXd upper, Function function)
+CallbackNlp::CallbackNlp(int dimension, std::vector<ObjectiveType> types, VectorXd lower, VectorXd upper,
+                         Function function)
     : function_(std::move(function)) {
   if (dimension < 0) throw ValueError(cat("the dimension of an NLP is ", dimension, "; expected a number >= 0"));
   const double inf = std::numeric_limits<double>::infinity();
   if (lower.size() == 0) lower = VectorXd::Constant(dimension, -inf);
   if (upper.size() == 0) upper = VectorXd::Constant(dimension, inf);
   if (lower.size() != dimension || upper.size() != dimension) {
-    throw ValueError(cat("an NLP of dimension ", dimension, " has as many lower and upper bounds, not ", lower.size(), " and ", upper.size()));
+    throw ValueError(cat("an NLP of dimension ", dimension, " has as many lower and upper bounds, not ", lower.size(),
+                         " and ", upper.size()));
   }
   types_ = std::move(types);
   lower_ = std::move(lower);
@@ -27,8 +29,8 @@ void CallbackNlp::evaluate(const VectorXd& x, VectorXd& phi, Jacobian* J) {
   dense_.setZero(rows, dimension());
   function_(x, phi, dense_);
   if (phi.size() != rows || dense_.rows() != rows || dense_.cols() != dimension()) {
-    throw ValueError(cat("the problem's function returned phi of size ", phi.size(), " and J of shape ", dense_.rows(), " x ", dense_.cols(),
-                         "; expected ", rows, " and ", rows, " x ", dimension()));
+    throw ValueError(cat("the problem's function returned phi of size ", phi.size(), " and J of shape ", dense_.rows(),
+                         " x ", dense_.cols(), "; expected ", rows, " and ", rows, " x ", dimension()));
   }
   if (!J) return;
   for (int row = 0; row < rows; ++row) {

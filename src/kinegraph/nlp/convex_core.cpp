@@ -13,9 +13,24 @@ constexpr double kRadius = .01, kReach = 1e-4;  // m
 constexpr double kBend = .2;                    // in kReach, where the parabola ends
 
 /// The corners of an octahedron and the middles of its edges, on the unit sphere up to a factor.
-constexpr std::array<std::array<int, 3>, kCorners> kDirections = {
-    {{-1, -1, 0}, {1, -1, 0}, {0, -1, 1}, {0, -1, 0}, {0, -1, -1}, {-1, 0, 0}, {0, 0, 1}, {-1, 0, 1}, {0, 0, -1},
-     {-1, 0, -1}, {-1, 1, 0}, {1, 1, 0}, {1, 0, -1}, {1, 0, 0}, {0, 1, -1}, {0, 1, 0}, {1, 0, 1}, {0, 1, 1}}};
+constexpr std::array<std::array<int, 3>, kCorners> kDirections = {{{-1, -1, 0},
+                                                                   {1, -1, 0},
+                                                                   {0, -1, 1},
+                                                                   {0, -1, 0},
+                                                                   {0, -1, -1},
+                                                                   {-1, 0, 0},
+                                                                   {0, 0, 1},
+                                                                   {-1, 0, 1},
+                                                                   {0, 0, -1},
+                                                                   {-1, 0, -1},
+                                                                   {-1, 1, 0},
+                                                                   {1, 1, 0},
+                                                                   {1, 0, -1},
+                                                                   {1, 0, 0},
+                                                                   {0, 1, -1},
+                                                                   {0, 1, 0},
+                                                                   {1, 0, 1},
+                                                                   {0, 1, 1}}};
 
 /// How neighbours at a distance l are drawn together: y(l), y'(l) / l and y''(l).
 struct Attraction {
@@ -23,10 +38,12 @@ struct Attraction {
 };
 
 Attraction attractionAt(double length) {
-  constexpr double kSteep = .5 / (kBend * (1. + kBend) * (1. + kBend));  // the same value and slope on both sides of the bend
+  constexpr double kSteep =
+      .5 / (kBend * (1. + kBend) * (1. + kBend));  // the same value and slope on both sides of the bend
   const double s = length / kReach, t = 1. + s, per_square = 1. / (kReach * kReach);
   if (s < kBend) return {kSteep * s * s, 2. * kSteep * per_square, 2. * kSteep * per_square};
-  return {s / t - kBend / (1. + kBend) + kSteep * kBend * kBend, per_square / (s * t * t), -2. * per_square / (t * t * t)};
+  return {s / t - kBend / (1. + kBend) + kSteep * kBend * kBend, per_square / (s * t * t),
+          -2. * per_square / (t * t * t)};
 }
 
 class MinimalConvexCore final : public Nlp {

@@ -18,7 +18,8 @@ void FiniteDifferenceNlp::evaluate(const VectorXd& x, VectorXd& phi, Jacobian* J
       moved_[i] = x[i] - step_;
       nlp_.evaluate(moved_, minus_, nullptr);
       moved_[i] = x[i];
-      for (Eigen::Index row = 0; row < plus_.size(); ++row) J->values[std::size_t(row * x.size() + i)] = (plus_[row] - minus_[row]) / (2. * step_);
+      for (Eigen::Index row = 0; row < plus_.size(); ++row)
+        J->values[std::size_t(row * x.size() + i)] = (plus_[row] - minus_[row]) / (2. * step_);
     }
   }
   nlp_.evaluate(x, phi, nullptr);

@@ -4,7 +4,8 @@
 
 namespace kinegraph {
 
-/// Another problem with its Jacobian by central differences, and no Hessian. For problems whose own is missing or wrong.
+/// Another problem with its Jacobian by central differences, and no Hessian. For problems whose own is missing or
+/// wrong.
 class FiniteDifferenceNlp final : public Nlp {
  public:
   FiniteDifferenceNlp(Nlp& nlp, double step);

@@ -102,13 +102,22 @@ ErrorSums sumErrors(const std::vector<ObjectiveType>& types, const VectorXd& phi
   for (std::size_t i = 0; i < types.size(); ++i) {
     const double y = phi[Eigen::Index(i)];
     switch (types[i]) {
-      case ObjectiveType::f: sums.f += y; break;
-      case ObjectiveType::sos: sums.sos += y * y; break;
+      case ObjectiveType::f:
+        sums.f += y;
+        break;
+      case ObjectiveType::sos:
+        sums.sos += y * y;
+        break;
       case ObjectiveType::ineq:
       case ObjectiveType::ineqB:
-      case ObjectiveType::ineqP: sums.ineq += std::max(0., y); break;
-      case ObjectiveType::eq: sums.eq += std::abs(y); break;
-      case ObjectiveType::none: break;
+      case ObjectiveType::ineqP:
+        sums.ineq += std::max(0., y);
+        break;
+      case ObjectiveType::eq:
+        sums.eq += std::abs(y);
+        break;
+      case ObjectiveType::none:
+        break;
     }
   }
   return sums;
@@ -131,10 +140,13 @@ double largestViolation(const std::vector<ObjectiveType>& types, const VectorXd&
 }
 
 std::string describeNotFinite(const Nlp& nlp, const VectorXd& phi, const Jacobian* J) {
-  const auto finite = [](const double* values, std::size_t count) {  // products with 0 are not numbers if a value is not finite
+  const auto finite = [](const double* values,
+                         std::size_t count) {  // products with 0 are not numbers if a value is not finite
     return (0. * Eigen::Map<const VectorXd>(values, Eigen::Index(count)).array()).sum() == 0.;
   };
-  const auto rowsAreFinite = [&] { return finite(J->values.data() + J->constant, J->values.size() - std::size_t(J->constant)); };
+  const auto rowsAreFinite = [&] {
+    return finite(J->values.data() + J->constant, J->values.size() - std::size_t(J->constant));
+  };
   if (finite(phi.data(), std::size_t(phi.size())) && (!J || rowsAreFinite())) return {};
   for (int row = 0; row < phi.size(); ++row) {
     if (!std::isfinite(phi[row])) return cat(nlp.rowName(row), " is not finite: ", phi[row]);
@@ -143,7 +155,8 @@ std::string describeNotFinite(const Nlp& nlp, const VectorXd& phi, const Jacobia
       const double* values = J->values.data() + segment.offset;
       for (int i = 0; i < segment.width; ++i) {
         if (std::isfinite(values[i])) continue;
-        return cat("the Jacobian of ", nlp.rowName(row), " is not finite: ", values[i], " in column ", segment.column + i);
+        return cat("the Jacobian of ", nlp.rowName(row), " is not finite: ", values[i], " in column ",
+                   segment.column + i);
       }
     }
   }
@@ -163,7 +176,8 @@ void ask(Nlp& nlp, const VectorXd& x, const BetweenColumns& between) {
 
 /// Calls found(JacobianCheck) for every entry of J, and leaves the problem at x.
 template <typename Found>
-void compareWithDifferences(Nlp& nlp, const VectorXd& x, double step, const BetweenColumns& between, const Found& found) {
+void compareWithDifferences(Nlp& nlp, const VectorXd& x, double step, const BetweenColumns& between,
+                            const Found& found) {
   const int rows = int(nlp.types().size());
   Jacobian J = nlp.makeJacobian();
   VectorXd phi(rows), plus(rows), minus(rows);
@@ -178,15 +192,20 @@ void compareWithDifferences(Nlp& nlp, const VectorXd& x, double step, const Betw
     nlp.evaluate(moved, minus, nullptr);
     for (int row = 0; row < rows; ++row) {
       const double numeric = (plus[row] - minus[row]) / (2. * step);
-      found(JacobianCheck{std::abs(numeric - analytic(row, i)) / std::max(1., std::abs(numeric)), row, i, analytic(row, i), numeric});
+      found(JacobianCheck{std::abs(numeric - analytic(row, i)) / std::max(1., std::abs(numeric)), row, i,
+                          analytic(row, i), numeric});
     }
   }
   nlp.evaluate(x, phi, nullptr);
 }
 
-bool worse(const JacobianCheck& a, const JacobianCheck& b) { return a.error > b.error || (!std::isfinite(a.error) && std::isfinite(b.error)); }
+bool worse(const JacobianCheck& a, const JacobianCheck& b) {
+  return a.error > b.error || (!std::isfinite(a.error) && std::isfinite(b.error));
+}
 
-bool hasCostRows(const Nlp& nlp) { return std::find(nlp.types().begin(), nlp.types().end(), ObjectiveType::f) != nlp.types().end(); }
+bool hasCostRows(const Nlp& nlp) {
+  return std::find(nlp.types().begin(), nlp.types().end(), ObjectiveType::f) != nlp.types().end();
+}
 
 VectorXd costGradient(Nlp& nlp, const VectorXd& x) {
   Jacobian J = nlp.makeJacobian();
@@ -230,7 +249,8 @@ JacobianCheck checkHessian(Nlp& nlp, const VectorXd& x, double step, const Betwe
     minus[i] -= step;
     const VectorXd column = (costGradient(nlp, plus) - costGradient(nlp, minus)) / (2. * step);
     for (int row = 0; row < x.size(); ++row) {
-      const JacobianCheck entry = {std::abs(column[row] - H(row, i)) / std::max(1., std::abs(column[row])), row, i, H(row, i), column[row]};
+      const JacobianCheck entry = {std::abs(column[row] - H(row, i)) / std::max(1., std::abs(column[row])), row, i,
+                                   H(row, i), column[row]};
       if (worst.row < 0 || worse(entry, worst)) worst = entry;
     }
   }

@@ -26,8 +26,8 @@ enum class ObjectiveType : int {
 std::string objectiveTypeName(ObjectiveType type);
 
 /// A Jacobian whose pattern is fixed while its values change. Each row is a list of segments of consecutive columns:
-/// one segment for a dense row or one of a path, several where far columns are touched as well. Rows that are zero may share
-/// their values, and where the values of a row are may change with them.
+/// one segment for a dense row or one of a path, several where far columns are touched as well. Rows that are zero may
+/// share their values, and where the values of a row are may change with them.
 struct Jacobian {
   struct Segment {
     int column;  ///< first column
@@ -38,8 +38,8 @@ struct Jacobian {
   std::vector<int> row_start = {0};  ///< row i owns segments row_start[i] .. row_start[i+1]-1
   std::vector<Segment> segments;
   std::vector<double> values;
-  std::vector<char> zero_row;        ///< per row: is it known that all its values are zero?
-  int constant = 0;                  ///< values at the beginning that are finite and never change
+  std::vector<char> zero_row;  ///< per row: is it known that all its values are zero?
+  int constant = 0;            ///< values at the beginning that are finite and never change
 
   int rows() const { return int(row_start.size()) - 1; }
   static Jacobian dense(int rows, int columns);
@@ -52,12 +52,12 @@ struct Jacobian {
   std::span<const Segment> row_segments(int row) const {
     return {segments.data() + row_start[row], std::size_t(row_start[row + 1] - row_start[row])};
   }
-  double rowTimes(int row, const VectorXd& x) const;                  ///< J_row x
-  void addRowTo(int row, double factor, VectorXd& x) const;           ///< x += factor J_row^T
+  double rowTimes(int row, const VectorXd& x) const;         ///< J_row x
+  void addRowTo(int row, double factor, VectorXd& x) const;  ///< x += factor J_row^T
 };
 
-/// Thrown by an evaluation that was given up, as by Ctrl-C in a function of the user's: there is no value. It ends a solver, which
-/// gives the best it saw before.
+/// Thrown by an evaluation that was given up, as by Ctrl-C in a function of the user's: there is no value. It ends a
+/// solver, which gives the best it saw before.
 struct EvaluationCancelled {};
 
 /// Minimize  sum_f phi_i + sum_sos phi_i^2  subject to  phi_ineq <= 0,  phi_eq = 0,  lower <= x <= upper.
@@ -97,8 +97,8 @@ class Nlp {
   };
   virtual std::span<const CurvedRows> curvedRows() const { return {}; }
 
-  /// Adds sum_i weights_i d^2 phi_(first + i) / dx^2 at the x last evaluated to the lower triangle of H (width x width), for the
-  /// k-th of curvedRows.
+  /// Adds sum_i weights_i d^2 phi_(first + i) / dx^2 at the x last evaluated to the lower triangle of H (width x
+  /// width), for the k-th of curvedRows.
   virtual void addCurvature(int k, std::span<const double> weights, Eigen::Ref<MatrixXd> H);
 
   /// The form that is easier to solve, if there is one. It shares the state of this problem.
@@ -107,8 +107,8 @@ class Nlp {
   /// Where a solver starts if the user gives no point. Default: uniform in the bounds, [-1, 1] where there are none.
   virtual VectorXd initialPoint(Rng& rng);
 
-  /// Uniform in the bounds, in [-1, 1] where there are none. Where one is missing, it is taken as 1 or -1, at least 2 apart
-  /// from the other.
+  /// Uniform in the bounds, in [-1, 1] where there are none. Where one is missing, it is taken as 1 or -1, at least 2
+  /// apart from the other.
   VectorXd uniformPoint(Rng& rng) const;
 
   /// Name of a row of phi in reports: "position-l_gripper [slice 0] z".
@@ -123,8 +123,8 @@ class Nlp {
 
   virtual std::string report(int verbose) const;
 
-  /// May all residuals be linear (f terms quadratic)? A solver then tries whether one exact step ends it, at the price of one
-  /// evaluation. False where that is known to be in vain.
+  /// May all residuals be linear (f terms quadratic)? A solver then tries whether one exact step ends it, at the price
+  /// of one evaluation. False where that is known to be in vain.
   virtual bool mayBeQuadratic() const { return true; }
 
  protected:
@@ -148,8 +148,8 @@ double largestViolation(const std::vector<ObjectiveType>& types, const VectorXd&
 /// Which residual, or row of J (which may be null), has a number that is not finite, in words; empty if none has.
 std::string describeNotFinite(const Nlp& nlp, const VectorXd& phi, const Jacobian* J);
 
-/// The largest relative difference of a Jacobian from central differences, and where it is. `between`, where given, is called
-/// before each column; it may throw, and the problem is then left at x without being evaluated there.
+/// The largest relative difference of a Jacobian from central differences, and where it is. `between`, where given, is
+/// called before each column; it may throw, and the problem is then left at x without being evaluated there.
 struct JacobianCheck {
   double error = 0.;  ///< |analytic - numeric| / max(1, |numeric|)
   int row = -1, column = -1;
@@ -159,15 +159,15 @@ using BetweenColumns = std::function<void()>;
 JacobianCheck checkJacobian(Nlp& nlp, const VectorXd& x, double step = 1e-5, const BetweenColumns& between = {});
 
 /// All entries whose difference is above the tolerance or not a number, the worst first, at most `count`.
-std::vector<JacobianCheck> worstJacobianEntries(Nlp& nlp, const VectorXd& x, double tolerance, int count, double step = 1e-5,
-                                                const BetweenColumns& between = {});
+std::vector<JacobianCheck> worstJacobianEntries(Nlp& nlp, const VectorXd& x, double tolerance, int count,
+                                                double step = 1e-5, const BetweenColumns& between = {});
 
-/// The same for addCostHessian and central differences of the gradient of sum_f phi. Nothing to find (row -1) where there are
-/// no f residuals, or no Hessian is offered.
+/// The same for addCostHessian and central differences of the gradient of sum_f phi. Nothing to find (row -1) where
+/// there are no f residuals, or no Hessian is offered.
 JacobianCheck checkHessian(Nlp& nlp, const VectorXd& x, double step = 1e-5, const BetweenColumns& between = {});
 
-/// A problem without constraints as one function:  sum_f phi + sum_sos phi^2, its gradient, and 2 J_sos^T J_sos + the Hessian of
-/// the f residuals. Throws ValueError if there are other residuals.
+/// A problem without constraints as one function:  sum_f phi + sum_sos phi^2, its gradient, and 2 J_sos^T J_sos + the
+/// Hessian of the f residuals. Throws ValueError if there are other residuals.
 struct ScalarEvaluation {
   double value = 0.;
   VectorXd gradient;

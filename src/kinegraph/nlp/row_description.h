@@ -20,11 +20,11 @@ struct RowDescription {
   std::string objective;  ///< "positionDiff of l_gripper, target"
   int group = -1;         ///< residuals of one group are one demand of the user, which is kept or given up as a whole
   std::vector<std::string> frames;
-  int slice = -1;         ///< of a path; -1: there are none
+  int slice = -1;  ///< of a path; -1: there are none
   Measure measure = Measure::number;
   double scale = 1.;
-  double target = 0.;     ///< of a cosine
-  int time_order = 0;     ///< 1: per s, 2: per s^2
+  double target = 0.;  ///< of a cosine
+  int time_order = 0;  ///< 1: per s, 2: per s^2
 };
 
 /// What a person would call a variable.

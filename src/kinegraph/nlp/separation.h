@@ -9,8 +9,9 @@ namespace kinegraph {
 
 class Nlp;
 
-/// A problem whose sums of overlaps, phi = sum_i max(0, c_i), are separate inequalities c_i <= 0: it has the same solutions,
-/// and a solver sees which terms are in trouble, and which soon will be. Variables and all other rows are the same.
+/// A problem whose sums of overlaps, phi = sum_i max(0, c_i), are separate inequalities c_i <= 0: it has the same
+/// solutions, and a solver sees which terms are in trouble, and which soon will be. Variables and all other rows are
+/// the same.
 struct Separation {
   std::shared_ptr<Nlp> problem;  ///< null: there is nothing to separate
   std::vector<int> row_of;       ///< per row of `problem`: the row of the original that it belongs to

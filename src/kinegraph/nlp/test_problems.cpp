@@ -27,7 +27,10 @@ class FormulaNlp final : public Nlp {
   using Hessian = std::function<void(const VectorXd& x, MatrixXd& H)>;
 
   FormulaNlp(std::string name, int n, Types types, double half_width, Function function, Hessian hessian = {})
-      : name_(std::move(name)), function_(std::move(function)), hessian_(std::move(hessian)), J_(Eigen::Index(types.size()), n) {
+      : name_(std::move(name)),
+        function_(std::move(function)),
+        hessian_(std::move(hessian)),
+        J_(Eigen::Index(types.size()), n) {
     types_ = std::move(types);
     lower_ = VectorXd::Constant(n, -half_width);
     upper_ = VectorXd::Constant(n, half_width);
@@ -48,7 +51,9 @@ class FormulaNlp final : public Nlp {
     return bool(hessian_);
   }
 
-  std::string report(int) const override { return cat(name_, ": ", dimension(), " variables, ", types_.size(), " residuals"); }
+  std::string report(int) const override {
+    return cat(name_, ": ", dimension(), " variables, ", types_.size(), " residuals");
+  }
 
  private:
   std::string name_;
@@ -71,10 +76,11 @@ std::shared_ptr<Nlp> square(int n, Rng& rng) {
   for (int i = 0; i < n; ++i) scale[i] = std::pow(100., n == 1 ? 0. : double(i) / (n - 1));
   for (double& value : x0) value = rng.uniform(-1., 1.);
   const MatrixXd Q = first.householderQ(), R = second.householderQ(), C = Q * scale.asDiagonal() * R;
-  return std::make_shared<FormulaNlp>("square", n, Types(std::size_t(n), sos), 2., [C, x0](const VectorXd& x, VectorXd& phi, MatrixXd& J) {
-    phi = C * (x - x0);
-    J = C;
-  });
+  return std::make_shared<FormulaNlp>("square", n, Types(std::size_t(n), sos), 2.,
+                                      [C, x0](const VectorXd& x, VectorXd& phi, MatrixXd& J) {
+                                        phi = C * (x - x0);
+                                        J = C;
+                                      });
 }
 
 std::shared_ptr<Nlp> rugged(int n, Rng& rng) {
@@ -83,40 +89,47 @@ std::shared_ptr<Nlp> rugged(int n, Rng& rng) {
   VectorXd heights(kPoints);
   for (double& value : points.reshaped()) value = rng.uniform(-1., 1.);
   for (double& value : heights) value = rng.uniform();
-  return std::make_shared<FormulaNlp>("Rugged", n, Types{sos}, 1., [points, heights](const VectorXd& x, VectorXd& phi, MatrixXd&) {
-    Eigen::Index nearest = 0;
-    (points.colwise() - x).colwise().squaredNorm().minCoeff(&nearest);
-    phi << heights[nearest];
-  });
+  return std::make_shared<FormulaNlp>("Rugged", n, Types{sos}, 1.,
+                                      [points, heights](const VectorXd& x, VectorXd& phi, MatrixXd&) {
+                                        Eigen::Index nearest = 0;
+                                        (points.colwise() - x).colwise().squaredNorm().minCoeff(&nearest);
+                                        phi << heights[nearest];
+                                      });
 }
 
 std::shared_ptr<Nlp> rastrigin(int n, Rng&) {
-  return std::make_shared<FormulaNlp>("Rastrigin", n, Types{f}, 5.12, [](const VectorXd& x, VectorXd& phi, MatrixXd& J) {
-    const VectorXd angle = 2. * kPi * x;
-    phi << 10. * double(x.size()) + x.squaredNorm() - 10. * angle.array().cos().sum();
-    J.row(0) = 2. * x.array() + 20. * kPi * angle.array().sin();
-  }, [](const VectorXd& x, MatrixXd& H) {
-    H.diagonal().array() += 2. + 40. * kPi * kPi * (2. * kPi * x).array().cos();
-  });
+  return std::make_shared<FormulaNlp>(
+      "Rastrigin", n, Types{f}, 5.12,
+      [](const VectorXd& x, VectorXd& phi, MatrixXd& J) {
+        const VectorXd angle = 2. * kPi * x;
+        phi << 10. * double(x.size()) + x.squaredNorm() - 10. * angle.array().cos().sum();
+        J.row(0) = 2. * x.array() + 20. * kPi * angle.array().sin();
+      },
+      [](const VectorXd& x, MatrixXd& H) {
+        H.diagonal().array() += 2. + 40. * kPi * kPi * (2. * kPi * x).array().cos();
+      });
 }
 
 std::shared_ptr<Nlp> rosenbrock(int n, Rng&) {
-  return std::make_shared<FormulaNlp>("Rosenbrock", n, Types{f}, 2., [](const VectorXd& x, VectorXd& phi, MatrixXd& J) {
-    phi.setZero();
-    for (Eigen::Index i = 1; i < x.size(); ++i) {
-      const double a = x[i] - x[i - 1] * x[i - 1], b = 1. - x[i - 1];
-      phi[0] += a * a + .01 * b * b;
-      J(0, i) += 2. * a;
-      J(0, i - 1) -= 4. * a * x[i - 1] + .02 * b;
-    }
-  }, [](const VectorXd& x, MatrixXd& H) {
-    for (Eigen::Index i = 1; i < x.size(); ++i) {
-      H(i, i) += 2.;
-      H(i, i - 1) -= 4. * x[i - 1];
-      H(i - 1, i) -= 4. * x[i - 1];
-      H(i - 1, i - 1) += 12. * x[i - 1] * x[i - 1] - 4. * x[i] + .02;
-    }
-  });
+  return std::make_shared<FormulaNlp>(
+      "Rosenbrock", n, Types{f}, 2.,
+      [](const VectorXd& x, VectorXd& phi, MatrixXd& J) {
+        phi.setZero();
+        for (Eigen::Index i = 1; i < x.size(); ++i) {
+          const double a = x[i] - x[i - 1] * x[i - 1], b = 1. - x[i - 1];
+          phi[0] += a * a + .01 * b * b;
+          J(0, i) += 2. * a;
+          J(0, i - 1) -= 4. * a * x[i - 1] + .02 * b;
+        }
+      },
+      [](const VectorXd& x, MatrixXd& H) {
+        for (Eigen::Index i = 1; i < x.size(); ++i) {
+          H(i, i) += 2.;
+          H(i, i - 1) -= 4. * x[i - 1];
+          H(i - 1, i) -= 4. * x[i - 1];
+          H(i - 1, i - 1) += 12. * x[i - 1] * x[i - 1] - 4. * x[i] + .02;
+        }
+      });
 }
 
 std::shared_ptr<Nlp> ackley(int n, Rng&) {
@@ -130,24 +143,28 @@ std::shared_ptr<Nlp> ackley(int n, Rng&) {
 }
 
 std::shared_ptr<Nlp> himmelblau(int, Rng&) {
-  return std::make_shared<FormulaNlp>("Himmelblau", 2, Types{f}, 5., [](const VectorXd& x, VectorXd& phi, MatrixXd& J) {
-    const double a = x[0] * x[0] + x[1] - 11., b = x[0] + x[1] * x[1] - 7.;
-    phi << a * a + b * b;
-    J << 4. * a * x[0] + 2. * b, 2. * a + 4. * b * x[1];
-  }, [](const VectorXd& x, MatrixXd& H) {
-    H(0, 0) += 12. * x[0] * x[0] + 4. * x[1] - 42.;
-    H(1, 1) += 12. * x[1] * x[1] + 4. * x[0] - 26.;
-    H(0, 1) += 4. * (x[0] + x[1]);
-    H(1, 0) += 4. * (x[0] + x[1]);
-  });
+  return std::make_shared<FormulaNlp>(
+      "Himmelblau", 2, Types{f}, 5.,
+      [](const VectorXd& x, VectorXd& phi, MatrixXd& J) {
+        const double a = x[0] * x[0] + x[1] - 11., b = x[0] + x[1] * x[1] - 7.;
+        phi << a * a + b * b;
+        J << 4. * a * x[0] + 2. * b, 2. * a + 4. * b * x[1];
+      },
+      [](const VectorXd& x, MatrixXd& H) {
+        H(0, 0) += 12. * x[0] * x[0] + 4. * x[1] - 42.;
+        H(1, 1) += 12. * x[1] * x[1] + 4. * x[0] - 26.;
+        H(0, 1) += 4. * (x[0] + x[1]);
+        H(1, 0) += 4. * (x[0] + x[1]);
+      });
 }
 
 std::shared_ptr<Nlp> box(int n, Rng&) {
-  return std::make_shared<FormulaNlp>("Box", n, Types(2 * std::size_t(n), ineq), 2., [n](const VectorXd& x, VectorXd& phi, MatrixXd& J) {
-    phi << x.array() - 1., -x.array() - 1.;
-    J.topRows(n).setIdentity();
-    J.bottomRows(n) = -MatrixXd::Identity(n, n);
-  });
+  return std::make_shared<FormulaNlp>("Box", n, Types(2 * std::size_t(n), ineq), 2.,
+                                      [n](const VectorXd& x, VectorXd& phi, MatrixXd& J) {
+                                        phi << x.array() - 1., -x.array() - 1.;
+                                        J.topRows(n).setIdentity();
+                                        J.bottomRows(n) = -MatrixXd::Identity(n, n);
+                                      });
 }
 
 std::shared_ptr<Nlp> modes(int n, Rng&) {
@@ -163,20 +180,26 @@ std::shared_ptr<Nlp> modes(int n, Rng&) {
 std::shared_ptr<Nlp> wedge(int n, Rng&) {
   Types types(std::size_t(n) + 1, ineq);
   types[0] = f;
-  return std::make_shared<FormulaNlp>("Wedge", n, types, 2., [n](const VectorXd& x, VectorXd& phi, MatrixXd& J) {
-    phi << x.sum(), 1.5 * x.array() - x.sum() - .2;
-    J.row(0).setOnes();
-    J.bottomRows(n) = 1.5 * MatrixXd::Identity(n, n) - MatrixXd::Ones(n, n);
-  }, noHessian);
+  return std::make_shared<FormulaNlp>(
+      "Wedge", n, types, 2.,
+      [n](const VectorXd& x, VectorXd& phi, MatrixXd& J) {
+        phi << x.sum(), 1.5 * x.array() - x.sum() - .2;
+        J.row(0).setOnes();
+        J.bottomRows(n) = 1.5 * MatrixXd::Identity(n, n) - MatrixXd::Ones(n, n);
+      },
+      noHessian);
 }
 
 std::shared_ptr<Nlp> halfCircle(int n, Rng&) {
-  return std::make_shared<FormulaNlp>("HalfCircle", n, Types{f, ineq, ineq}, 2., [](const VectorXd& x, VectorXd& phi, MatrixXd& J) {
-    phi << x.sum(), x.squaredNorm() - .25, -x[0] - .2;
-    J.row(0).setOnes();
-    J.row(1) = 2. * x;
-    J(2, 0) = -1.;
-  }, noHessian);
+  return std::make_shared<FormulaNlp>(
+      "HalfCircle", n, Types{f, ineq, ineq}, 2.,
+      [](const VectorXd& x, VectorXd& phi, MatrixXd& J) {
+        phi << x.sum(), x.squaredNorm() - .25, -x[0] - .2;
+        J.row(0).setOnes();
+        J.row(1) = 2. * x;
+        J(2, 0) = -1.;
+      },
+      noHessian);
 }
 
 std::shared_ptr<Nlp> linearProgram(int n, Rng& rng) {
@@ -187,10 +210,13 @@ std::shared_ptr<Nlp> linearProgram(int n, Rng& rng) {
   for (double& value : h) value = rng.uniform(.1, 1.);
   Types types(kConstraints + 1, ineq);
   types[0] = f;
-  return std::make_shared<FormulaNlp>("LinearProgram", n, types, 2., [G, c, h](const VectorXd& x, VectorXd& phi, MatrixXd& J) {
-    phi << c.dot(x), G * x - h;
-    J << c.transpose(), G;
-  }, noHessian);
+  return std::make_shared<FormulaNlp>(
+      "LinearProgram", n, types, 2.,
+      [G, c, h](const VectorXd& x, VectorXd& phi, MatrixXd& J) {
+        phi << c.dot(x), G * x - h;
+        J << c.transpose(), G;
+      },
+      noHessian);
 }
 
 /// Centres of spheres in a row: x y z x y z ...
@@ -249,9 +275,19 @@ std::shared_ptr<Nlp> minimalConvexCore(int, Rng&) { return makeMinimalConvexCore
 
 const std::map<std::string, std::shared_ptr<Nlp> (*)(int, Rng&)>& makers() {
   static const std::map<std::string, std::shared_ptr<Nlp> (*)(int, Rng&)> all = {
-      {"square", square}, {"Rugged", rugged}, {"Rastrigin", rastrigin}, {"Rosenbrock", rosenbrock}, {"Ackley", ackley},
-      {"Himmelblau", himmelblau}, {"Box", box}, {"Modes", modes}, {"Wedge", wedge}, {"HalfCircle", halfCircle},
-      {"LinearProgram", linearProgram}, {"SpherePacking", spherePacking}, {"MinimalConvexCore", minimalConvexCore}};
+      {"square", square},
+      {"Rugged", rugged},
+      {"Rastrigin", rastrigin},
+      {"Rosenbrock", rosenbrock},
+      {"Ackley", ackley},
+      {"Himmelblau", himmelblau},
+      {"Box", box},
+      {"Modes", modes},
+      {"Wedge", wedge},
+      {"HalfCircle", halfCircle},
+      {"LinearProgram", linearProgram},
+      {"SpherePacking", spherePacking},
+      {"MinimalConvexCore", minimalConvexCore}};
   return all;
 }
 
@@ -269,11 +305,15 @@ const std::vector<std::string>& testProblemNames() {
 std::shared_ptr<Nlp> makeTestProblem(const std::string& name, const TestProblemOptions& options) {
   const auto maker = makers().find(name);
   if (maker == makers().end()) {
-    throw NameError(cat("there is no problem '", name, "'", similarHint(name, testProblemNames()), "; there are ", join(testProblemNames())));
+    throw NameError(cat("there is no problem '", name, "'", similarHint(name, testProblemNames()), "; there are ",
+                        join(testProblemNames())));
   }
   const int n = options.dimension < 0 ? (name == "SpherePacking" ? 50 : 2) : options.dimension;
   if (n < 1 || (name == "Himmelblau" && n != 2) || (name == "Rosenbrock" && n < 2)) {
-    throw ValueError(cat("problem ", name, " with dimension ", n, "; expected ", name == "Himmelblau" ? "2" : name == "Rosenbrock" ? "at least 2" : "at least 1"));
+    throw ValueError(cat("problem ", name, " with dimension ", n, "; expected ",
+                         name == "Himmelblau"   ? "2"
+                         : name == "Rosenbrock" ? "at least 2"
+                                                : "at least 1"));
   }
   Rng rng(options.seed);
   return maker->second(n, rng);

@@ -76,9 +76,15 @@ void DampedStep::solve(const double* x, const double* lower, const double* upper
   std::fill_n(held_.begin(), columns_, char(0));
   for (int pass = 0; pass < 4; ++pass) {
     switch (rows_) {
-      case 3: solveRows<3>(pull, damping); break;
-      case 6: solveRows<6>(pull, damping); break;
-      default: solveRows<0>(pull, damping); break;
+      case 3:
+        solveRows<3>(pull, damping);
+        break;
+      case 6:
+        solveRows<6>(pull, damping);
+        break;
+      default:
+        solveRows<0>(pull, damping);
+        break;
     }
     bool changed = false;
     for (int c = 0; c < columns_; ++c) {

@@ -10,8 +10,9 @@ namespace kinegraph {
 ///
 ///     min |J dx - e|^2 + damping |dx - pull|^2      lower <= x + dx <= upper
 ///
-/// For little damping it meets the rows and moves as `pull` says where they leave freedom. Variables at a bound that the
-/// step would cross are held, and the others solved for again. Requests no memory after `resize` to the largest size.
+/// For little damping it meets the rows and moves as `pull` says where they leave freedom. Variables at a bound that
+/// the step would cross are held, and the others solved for again. Requests no memory after `resize` to the largest
+/// size.
 class DampedStep {
  public:
   void resize(int rows, int columns);
@@ -23,7 +24,8 @@ class DampedStep {
   double& error(int r) { return e_[r]; }
   double multiplier(int r) const { return y_[r]; }  ///< what pulls at row r; 0 for a row that is met for free
 
-  /// Computes `step()`. Where an entry exceeds its `longest`, all that have a finite one are scaled down. `pull` may be null.
+  /// Computes `step()`. Where an entry exceeds its `longest`, all that have a finite one are scaled down. `pull` may be
+  /// null.
   void solve(const double* x, const double* lower, const double* upper, const double* longest, double damping,
              const double* pull);
   const VectorXd& step() const { return step_; }

@@ -8,16 +8,20 @@ namespace kinegraph {
 
 namespace {
 
-constexpr double kTouching = 1e-3;  // m beyond the margin: pairs that are named as in the way
+constexpr double kTouching = 1e-3;   // m beyond the margin: pairs that are named as in the way
 constexpr double kLeastPush = 1e-3;  // m, rad: what a limit that is named would gain per unit of what is missed
 constexpr std::size_t kPairsNamed = 3;
 
 const char* kindName(IkTarget::Kind kind) {
   switch (kind) {
-    case IkTarget::Kind::pose: return "pose";
-    case IkTarget::Kind::position: return "position";
-    case IkTarget::Kind::rotation: return "rotation";
-    case IkTarget::Kind::direction: return "direction";
+    case IkTarget::Kind::pose:
+      return "pose";
+    case IkTarget::Kind::position:
+      return "position";
+    case IkTarget::Kind::rotation:
+      return "rotation";
+    case IkTarget::Kind::direction:
+      return "direction";
   }
   return "target";
 }
@@ -131,8 +135,8 @@ double IkSearch::squaredMiss() const {
   return sum;
 }
 
-/// Lessens what the best failure misses by, as far as it goes; true if that made it an answer. Where much is missed, only
-/// steps that are damped enough go down (Levenberg).
+/// Lessens what the best failure misses by, as far as it goes; true if that made it an answer. Where much is missed,
+/// only steps that are damped enough go down (Levenberg).
 bool IkSearch::polish(const Stop& stop) {
   kept_ = x_;
   double least = squaredMiss(), damping = 0.;
@@ -166,7 +170,8 @@ std::vector<std::string> IkSearch::misses() const {
     if (problem_->tasks[i].placed() && position > options.position_tolerance) amounts.push_back(cat(position, " m"));
     if (rotation > options.rotation_tolerance) amounts.push_back(cat(rotation, " rad"));
     if (amounts.empty()) continue;
-    reasons.push_back(cat("frame '", problem_->names[i], "' misses its ", kindName(problem_->tasks[i].kind), " by ", join(amounts, " and ")));
+    reasons.push_back(cat("frame '", problem_->names[i], "' misses its ", kindName(problem_->tasks[i].kind), " by ",
+                          join(amounts, " and ")));
   }
   return reasons;
 }
@@ -175,7 +180,8 @@ std::vector<std::string> IkSearch::misses() const {
 std::vector<std::string> IkSearch::pairsInTheWay() const {
   const double margin = problem_->options.margin;
   std::vector<NearPair> worst;
-  std::ranges::copy_if(near_, std::back_inserter(worst), [&](const NearPair& near) { return near.distance < margin + kTouching; });
+  std::ranges::copy_if(near_, std::back_inserter(worst),
+                       [&](const NearPair& near) { return near.distance < margin + kTouching; });
   std::ranges::sort(worst, {}, &NearPair::distance);
   std::vector<std::string> reasons;
   for (std::size_t i = 0; i < std::min(worst.size(), kPairsNamed); ++i) {
@@ -223,12 +229,14 @@ std::string IkSearch::pairName(int pair) const {
 
 std::string IkSearch::explain() {
   const int attempts = job_->attempts;
-  std::string text = cat(job_->cancelled ? "cancelled after " : "no solution in ", attempts, attempts == 1 ? " attempt" : " attempts");
+  std::string text =
+      cat(job_->cancelled ? "cancelled after " : "no solution in ", attempts, attempts == 1 ? " attempt" : " attempts");
   const auto most = std::ranges::max_element(job_->blocked);
   if (most != job_->blocked.end() && *most > 0) {
     int reached = 0;
     for (int count : job_->blocked) reached += count;
-    text += cat("; ", reached, " reached the targets in collision, most often of ", pairName(int(most - job_->blocked.begin())));
+    text += cat("; ", reached, " reached the targets in collision, most often of ",
+                pairName(int(most - job_->blocked.begin())));
   }
   if (attempts == 0) return text;
   std::vector<std::string> reasons = misses();

@@ -4,9 +4,9 @@
 
 namespace kinegraph {
 
-/// Targets, and the links that move them, as flat numbers, for several attempts of inverse kinematics side by side, one per
-/// lane of a wide register. Nothing in here owns memory, so that code for wide registers shares no inline functions with the
-/// rest of the library.
+/// Targets, and the links that move them, as flat numbers, for several attempts of inverse kinematics side by side, one
+/// per lane of a wide register. Nothing in here owns memory, so that code for wide registers shares no inline functions
+/// with the rest of the library.
 struct IkKernelModel {
   struct Task {
     bool placed, turned, directed;  ///< has rows for its position; its rotation; its axis

@@ -8,8 +8,6 @@ constexpr int kLanes = 4;
 
 namespace kinegraph::lanes {
 
-void runIkAvx2(const IkKernelModel& model, const IkKernelMemory& memory) {
-  runIk(model, memory);
-}
+void runIkAvx2(const IkKernelModel& model, const IkKernelMemory& memory) { runIk(model, memory); }
 
 }  // namespace kinegraph::lanes

@@ -8,8 +8,6 @@ constexpr int kLanes = 8;
 
 namespace kinegraph::lanes {
 
-void runIkAvx512(const IkKernelModel& model, const IkKernelMemory& memory) {
-  runIk(model, memory);
-}
+void runIkAvx512(const IkKernelModel& model, const IkKernelMemory& memory) { runIk(model, memory); }
 
 }  // namespace kinegraph::lanes

@@ -8,8 +8,6 @@ constexpr int kLanes = 2;
 
 namespace kinegraph::lanes {
 
-void runIkBase(const IkKernelModel& model, const IkKernelMemory& memory) {
-  runIk(model, memory);
-}
+void runIkBase(const IkKernelModel& model, const IkKernelMemory& memory) { runIk(model, memory); }
 
 }  // namespace kinegraph::lanes

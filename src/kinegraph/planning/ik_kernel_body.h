@@ -1,5 +1,5 @@
-// The kernel of ik_kernel.h for registers of `kLanes` doubles. Each source file that includes this is compiled for its own
-// instruction set; all names are local to it, and products are not fused with sums, so that all give the same bits.
+// The kernel of ik_kernel.h for registers of `kLanes` doubles. Each source file that includes this is compiled for its
+// own instruction set; all names are local to it, and products are not fused with sums, so that all give the same bits.
 
 #include "kinegraph/kinematics/place_lanes.h"
 #include "kinegraph/planning/ik_kernel.h"
@@ -17,8 +17,11 @@ using Pose = Place<Vector>;
 /// Source: Abramowitz & Stegun, Handbook of Mathematical Functions, 4.4.46; to 2e-8.
 void angleOfCosine(Lane cosine, Lane& angle, Lane& over_sine) {
   const Lane c = smaller(magnitude(cosine), all<Lane>(1.));
-  const Lane p = 1.5707963050 + c * (-.2145988016 + c * (.0889789874 + c * (-.0501743046 + c * (.0308918810 +
-                 c * (-.0170881256 + c * (.0066700901 - c * .0012624911))))));
+  const Lane p =
+      1.5707963050 +
+      c * (-.2145988016 +
+           c * (.0889789874 +
+                c * (-.0501743046 + c * (.0308918810 + c * (-.0170881256 + c * (.0066700901 - c * .0012624911))))));
   const Lane less = root(1. - c), more = root(1. + c);
   const Mask obtuse = cosine < 0.;
   angle = obtuse ? kPi - less * p : less * p;
@@ -173,9 +176,15 @@ void step(const IkKernelModel& model, const IkKernelMemory& memory) {
   for (int v = 0; v < model.variables(); ++v) keep[v] = all<Lane>(1.);
   for (int pass = 0; pass < 4; ++pass) {
     switch (model.rows) {
-      case 3: solveRows<3>(model, memory, damping); break;
-      case 6: solveRows<6>(model, memory, damping); break;
-      default: solveRows<0>(model, memory, damping); break;
+      case 3:
+        solveRows<3>(model, memory, damping);
+        break;
+      case 6:
+        solveRows<6>(model, memory, damping);
+        break;
+      default:
+        solveRows<0>(model, memory, damping);
+        break;
     }
     Mask changed{};
     for (int v = 0; v < model.variables(); ++v) {

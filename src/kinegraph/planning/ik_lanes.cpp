@@ -19,7 +19,8 @@ IkLanes::IkLanes(std::shared_ptr<const IkProblem> problem, int width)
       lanes_(kernel_.lanes),
       start_(problem_->variables()) {}
 
-void IkLanes::solve(const std::vector<IkTarget>* problems, int count, IkResult* results, std::atomic<int>& done, const Stop& stop) {
+void IkLanes::solve(const std::vector<IkTarget>* problems, int count, IkResult* results, std::atomic<int>& done,
+                    const Stop& stop) {
   problems_ = problems;
   results_ = results;
   done_ = &done;
@@ -51,8 +52,8 @@ void IkLanes::solve(const std::vector<IkTarget>* problems, int count, IkResult* 
   }
 }
 
-/// Gives an idle lane an attempt: of an open problem that no lane works on, else of a new problem, else of the open one with
-/// the fewest attempts begun. False if there is none.
+/// Gives an idle lane an attempt: of an open problem that no lane works on, else of a new problem, else of the open one
+/// with the fewest attempts begun. False if there is none.
 bool IkLanes::fill(int lane) {
   int chosen = -1;
   for (int o = 0; o < kernel_.lanes; ++o) {
@@ -96,7 +97,8 @@ void IkLanes::advance(int lane) {
   Lane& state = lanes_[lane];
   const double distance = memory_.distance[lane], angle = memory_.angle[lane], square = memory_.square[lane];
   const int step = state.evals++;
-  if (distance <= options.position_tolerance * options.position_tolerance && angle <= options.rotation_tolerance) return end(lane, true);
+  if (distance <= options.position_tolerance * options.position_tolerance && angle <= options.rotation_tolerance)
+    return end(lane, true);
   if (step == options.steps || search_.stalls(step, square, state.before)) return end(lane, false);
   for (int v = 0; v < view_.variables(); ++v) at(memory_.x, v, lane) = at(memory_.next, v, lane);
 }
@@ -105,7 +107,9 @@ void IkLanes::end(int lane, bool met) {
   const Lane state = lanes_[lane];
   lanes_[lane].open = -1;
   Open& open = open_[state.open];
-  open.ended.push_back({state.attempt, {met, std::sqrt(memory_.distance[lane]) + memory_.angle[lane], state.evals}, VectorXd(view_.variables())});
+  open.ended.push_back({state.attempt,
+                        {met, std::sqrt(memory_.distance[lane]) + memory_.angle[lane], state.evals},
+                        VectorXd(view_.variables())});
   for (int v = 0; v < view_.variables(); ++v) open.ended.back().x[v] = at(memory_.x, v, lane);
   judgeEnded(state.open);
 }

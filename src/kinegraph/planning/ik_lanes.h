@@ -40,16 +40,17 @@ struct LaneBuffer {
   std::vector<double> storage_;
 };
 
-/// Solves problems that differ in their targets, several attempts side by side in the lanes of wide registers: of different
-/// problems while there are some, else of the same ones. Attempts of a problem are judged in their order, so that lanes
-/// and their number do not change answers.
+/// Solves problems that differ in their targets, several attempts side by side in the lanes of wide registers: of
+/// different problems while there are some, else of the same ones. Attempts of a problem are judged in their order, so
+/// that lanes and their number do not change answers.
 class IkLanes {
  public:
   /// `width`: number of lanes, one of laneWidths(), 0 for the most.
   explicit IkLanes(std::shared_ptr<const IkProblem> problem, int width = 0);
 
   /// results[i] answers problems[i]; `done` counts them.
-  void solve(const std::vector<IkTarget>* problems, int count, IkResult* results, std::atomic<int>& done, const Stop& stop);
+  void solve(const std::vector<IkTarget>* problems, int count, IkResult* results, std::atomic<int>& done,
+             const Stop& stop);
 
  private:
   /// An attempt that has ended and waits for those before it to be judged.

@@ -56,7 +56,8 @@ void IkOptions::validate() const {
 IkProblem::IkProblem(const Config& config, const std::vector<IkTarget>& targets, const IkOptions& given)
     : options(given), program(config.program()), parameters(config.parameters()) {
   options.validate();
-  if (targets.empty()) throw ValueError("solveIk: there are no targets; expected at least one frame with a pose, position or direction");
+  if (targets.empty())
+    throw ValueError("solveIk: there are no targets; expected at least one frame with a pose, position or direction");
   if (options.best && options.start_weight + options.home_weight == 0.) options.start_weight = 1.;
   for (const IkTarget& target : targets) {
     names.push_back(target.frame);
@@ -122,7 +123,8 @@ void IkProblem::choosePairs() {
   const auto moves = [&](int column) { return variable[program->column_dof[column]] >= 0; };
   for (const auto& pair : program->movingPairs()) {
     // Up both chains, from the column that comes last, to the one where they meet.
-    int a = program->last_column[program->frame_link[pair.first]], b = program->last_column[program->frame_link[pair.second]];
+    int a = program->last_column[program->frame_link[pair.first]],
+        b = program->last_column[program->frame_link[pair.second]];
     while (a != b) {
       int& later = a > b ? a : b;
       if (moves(later)) break;

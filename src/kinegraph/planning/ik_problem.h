@@ -39,13 +39,13 @@ struct IkProblem {
   std::vector<std::string> names;  ///< of the target frames
   std::vector<Task> tasks;
   int rows = 0;
-  std::vector<int> dofs;      ///< entry of q per variable
-  std::vector<int> variable;  ///< per entry of q, -1 if it does not move
-  VectorXd q;                 ///< of the Config, within the limits
-  VectorXd lower, upper;      ///< per variable
-  VectorXd longest;           ///< per variable: of a step
-  VectorXd nearest;           ///< per variable: where answers are wanted
-  bool pulls = false;         ///< the answer is to be brought as near to `nearest` as the targets allow
+  std::vector<int> dofs;                   ///< entry of q per variable
+  std::vector<int> variable;               ///< per entry of q, -1 if it does not move
+  VectorXd q;                              ///< of the Config, within the limits
+  VectorXd lower, upper;                   ///< per variable
+  VectorXd longest;                        ///< per variable: of a step
+  VectorXd nearest;                        ///< per variable: where answers are wanted
+  bool pulls = false;                      ///< the answer is to be brought as near to `nearest` as the targets allow
   std::vector<std::pair<int, int>> pairs;  ///< of frames that the variables move relative to each other
   std::optional<BodyPairs> bodies;         ///< of these pairs
 

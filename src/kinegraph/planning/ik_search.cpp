@@ -10,14 +10,15 @@ namespace kinegraph {
 
 namespace {
 
-constexpr double kSlack = 1e-4;       // m: what colliding pairs are moved apart beyond the margin
-constexpr double kNear = .05;         // m beyond the margin: pairs whose distance a step looks at
+constexpr double kSlack = 1e-4;  // m: what colliding pairs are moved apart beyond the margin
+constexpr double kNear = .05;    // m beyond the margin: pairs whose distance a step looks at
 
 double dampingOf(double squares) { return kLeastDamping + kDampingPerSquare * std::min(squares, kMostSquares); }
 
 /// The rotation vector of E = R_target R^T, in world coordinates.
 Vector3d rotationVector(const Matrix3d& R_target, const Matrix3d& R, double& angle) {
-  const Vector3d twice_sine = R.col(0).cross(R_target.col(0)) + R.col(1).cross(R_target.col(1)) + R.col(2).cross(R_target.col(2));
+  const Vector3d twice_sine =
+      R.col(0).cross(R_target.col(0)) + R.col(1).cross(R_target.col(1)) + R.col(2).cross(R_target.col(2));
   const double sine = .5 * twice_sine.norm();
   const double cosine = .5 * ((R.array() * R_target.array()).sum() - 1.);
   angle = std::atan2(sine, cosine);
@@ -74,7 +75,8 @@ void IkSearch::moveTo(const VectorXd& x) {
 }
 
 bool IkSearch::targetsMet() const {
-  return errors_.position <= problem_->options.position_tolerance && errors_.rotation <= problem_->options.rotation_tolerance;
+  return errors_.position <= problem_->options.position_tolerance &&
+         errors_.rotation <= problem_->options.rotation_tolerance;
 }
 
 /// Errors of the targets, and into `step_` their rows; those of the pairs stay.
@@ -161,19 +163,20 @@ void IkSearch::measureDistances() {
 }
 
 void IkSearch::stepTowardsTargets() {
-  step_.solve(x_.data(), problem_->lower.data(), problem_->upper.data(), problem_->longest.data(),
-              dampingOf(square_), nullptr);
+  step_.solve(x_.data(), problem_->lower.data(), problem_->upper.data(), problem_->longest.data(), dampingOf(square_),
+              nullptr);
   x_ += step_.step();
   problem_->normalize(x_.data());
 }
 
-/// A step that also keeps the near pairs apart: those that it would bring too near become rows, and are let go again where
-/// the row pulls them together.
+/// A step that also keeps the near pairs apart: those that it would bring too near become rows, and are let go again
+/// where the row pulls them together.
 void IkSearch::stepApart(const double* pull, double damping) {
   const int variables = problem_->variables();
   const double wanted = problem_->options.margin + kSlack;
   for (int pass = 0; pass < 4; ++pass) {
-    const int rows = problem_->rows + int(std::count_if(near_.begin(), near_.end(), [](const NearPair& n) { return n.active; }));
+    const int rows =
+        problem_->rows + int(std::count_if(near_.begin(), near_.end(), [](const NearPair& n) { return n.active; }));
     step_.resize(rows, variables);
     std::fill_n(step_.column(0), rows * variables, 0.);
     measureTargets(true);
@@ -192,7 +195,8 @@ void IkSearch::stepApart(const double* pull, double damping) {
     row = problem_->rows;
     for (std::size_t n = 0; n < near_.size(); ++n) {
       if (near_[n].active) {
-        if (step_.multiplier(row++) < 0. && near_[n].distance >= problem_->options.margin) near_[n].active = false, changed = true;
+        if (step_.multiplier(row++) < 0. && near_[n].distance >= problem_->options.margin)
+          near_[n].active = false, changed = true;
         continue;
       }
       double predicted = near_[n].distance;

@@ -14,8 +14,8 @@ using Stop = std::function<bool()>;
 
 /// A target as numbers, and how far it is missed.
 struct IkGoal {
-  Matrix3d R = Matrix3d::Identity();  ///< of a pose, rotation
-  Vector3d p = Vector3d::Zero();      ///< position, or unit direction
+  Matrix3d R = Matrix3d::Identity();                      ///< of a pose, rotation
+  Vector3d p = Vector3d::Zero();                          ///< position, or unit direction
   Vector3d t1 = Vector3d::Zero(), t2 = Vector3d::Zero();  ///< of a direction: unit, across it
   double position_error = 0., rotation_error = 0.;        ///< at the present x; m, rad
 };
@@ -33,8 +33,8 @@ struct IkJob {
   int attempts = 0;  ///< that have been judged
   int evals = 0;
   bool feasible = false, cancelled = false;
-  VectorXd kept;  ///< the best answer so far, or the best failure
-  bool kept_is_present = false;  ///< the search that judged last is at it
+  VectorXd kept;                                           ///< the best answer so far, or the best failure
+  bool kept_is_present = false;                            ///< the search that judged last is at it
   double least = std::numeric_limits<double>::infinity();  ///< its cost, or what it misses by
   std::vector<int> blocked;  ///< per pair: attempts that met their targets with it as the worst collision
 };
@@ -50,8 +50,8 @@ class IkSearch {
   // The same in parts, for those who make the approaches themselves: open, judge until it is true, finish.
   void open(IkJob& job, const std::vector<IkTarget>& targets) const;
 
-  /// Goes on from where the approach of attempt number `job.attempts` ended, and keeps what it finds. True if no further
-  /// attempt is needed.
+  /// Goes on from where the approach of attempt number `job.attempts` ended, and keeps what it finds. True if no
+  /// further attempt is needed.
   bool judge(IkJob& job, const VectorXd& x, const IkApproach& approach, const Stop& stop);
   IkResult finish(IkJob& job, bool cancelled, const Stop& stop);
 

@@ -24,25 +24,30 @@ std::vector<VectorXd> drawStarts(Komo& komo, int count, std::uint64_t seed, cons
   return starts;
 }
 
-SolveManyResult solveFromMany(const std::shared_ptr<Komo>& komo, const std::vector<VectorXd>& starts, const SolverOptions& solver,
-                              const SolveManyOptions& options, const std::function<bool(int)>& watch) {
+SolveManyResult solveFromMany(const std::shared_ptr<Komo>& komo, const std::vector<VectorXd>& starts,
+                              const SolverOptions& solver, const SolveManyOptions& options,
+                              const std::function<bool(int)>& watch) {
   if (starts.empty()) throw ValueError("solveFromMany: there are no starts");
   for (std::size_t i = 0; i < starts.size(); ++i) {
     if (starts[i].size() == komo->layout().dimension) continue;
-    throw ValueError(cat("solveFromMany: start ", i, " has ", starts[i].size(), " numbers; the problem has ", komo->layout().dimension));
+    throw ValueError(cat("solveFromMany: start ", i, " has ", starts[i].size(), " numbers; the problem has ",
+                         komo->layout().dimension));
   }
   std::vector<std::shared_ptr<Nlp>> copies(std::size_t(std::clamp(options.threads, 0, int(starts.size()))));
   for (auto& copy : copies) copy = makeNlp(std::make_shared<Komo>(komo->clone()));
-  SolveManyResult all = solveMany(int(starts.size()), options, [&](int worker, int i, const EvaluationHook& hook) {
-    NlpSolver one(copies[std::size_t(worker)], 0);
-    one.options = solver;
-    one.options.verbose = 0;
-    one.setInitialization(starts[std::size_t(i)]);
-    Rng unused(0);
-    SolverResult result = one.solve(false, unused, hook);
-    result.problem = nullptr;  // the copy moves on
-    return result;
-  }, watch);
+  SolveManyResult all = solveMany(
+      int(starts.size()), options,
+      [&](int worker, int i, const EvaluationHook& hook) {
+        NlpSolver one(copies[std::size_t(worker)], 0);
+        one.options = solver;
+        one.options.verbose = 0;
+        one.setInitialization(starts[std::size_t(i)]);
+        Rng unused(0);
+        SolverResult result = one.solve(false, unused, hook);
+        result.problem = nullptr;  // the copy moves on
+        return result;
+      },
+      watch);
   const auto problem = makeNlp(komo);
   for (SolverResult& result : all.results) {
     if (result.done) result.problem = problem;

@@ -8,13 +8,14 @@
 
 namespace kinegraph {
 
-/// Starting points x for a motion problem: its present path, then random ones, as setRandomPath. The path stays. `between`, where
-/// given, is called before each of them, and may throw.
+/// Starting points x for a motion problem: its present path, then random ones, as setRandomPath. The path stays.
+/// `between`, where given, is called before each of them, and may throw.
 std::vector<VectorXd> drawStarts(Komo& komo, int count, std::uint64_t seed, const std::function<void()>& between = {});
 
-/// Solves a motion problem from several starting points x, one copy of it per thread. The Komo is left at the chosen solution.
-/// Throws ValueError without starts or for starts of a wrong length; `solver` are the options of all.
-SolveManyResult solveFromMany(const std::shared_ptr<Komo>& komo, const std::vector<VectorXd>& starts, const SolverOptions& solver = {},
-                              const SolveManyOptions& options = {}, const std::function<bool(int ended)>& watch = {});
+/// Solves a motion problem from several starting points x, one copy of it per thread. The Komo is left at the chosen
+/// solution. Throws ValueError without starts or for starts of a wrong length; `solver` are the options of all.
+SolveManyResult solveFromMany(const std::shared_ptr<Komo>& komo, const std::vector<VectorXd>& starts,
+                              const SolverOptions& solver = {}, const SolveManyOptions& options = {},
+                              const std::function<bool(int ended)>& watch = {});
 
 }  // namespace kinegraph

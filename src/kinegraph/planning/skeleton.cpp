@@ -19,12 +19,29 @@ struct FrameCount {
 FrameCount frameCount(SwitchMode symbol) {
   using M = SwitchMode;
   switch (symbol) {
-    case M::end: return {0, -1};
-    case M::downUp: case M::lift: case M::stablePose: case M::dampMotion: case M::makeFree: case M::forceBalance: return {1, -1};
-    case M::dynamic: case M::dynamicTrans: case M::quasiStatic: case M::magic: return {1, 2};
-    case M::oppose: case M::topBoxPlace: return {3, 3};
-    case M::boxGraspX: case M::boxGraspY: case M::boxGraspZ: return {2, 3};
-    default: return {2, 2};
+    case M::end:
+      return {0, -1};
+    case M::downUp:
+    case M::lift:
+    case M::stablePose:
+    case M::dampMotion:
+    case M::makeFree:
+    case M::forceBalance:
+      return {1, -1};
+    case M::dynamic:
+    case M::dynamicTrans:
+    case M::quasiStatic:
+    case M::magic:
+      return {1, 2};
+    case M::oppose:
+    case M::topBoxPlace:
+      return {3, 3};
+    case M::boxGraspX:
+    case M::boxGraspY:
+    case M::boxGraspZ:
+      return {2, 3};
+    default:
+      return {2, 2};
   }
 }
 
@@ -35,7 +52,8 @@ void makeFree(Config& config, const std::string& name) {
   Frame edited = frame;
   if (frame.data().parent == nullptr) {
     const auto& frames = config.scene()->frames();
-    if (frames.front()->name == name) throw ValueError(cat("makeFree: '", name, "' is the first frame of the scene; that one cannot be free"));
+    if (frames.front()->name == name)
+      throw ValueError(cat("makeFree: '", name, "' is the first frame of the scene; that one cannot be free"));
     edited.setParent(Frame(config.scene(), *frames.front()), true);
   }
   edited.setJoint(JointType::free);
@@ -49,14 +67,16 @@ void Skeleton::addEntry(const std::vector<double>& times, SwitchMode symbol, con
     throw ValueError(cat("Skeleton: ", name, " has no meaning; use poseEq, or push and stableOn"));
   }
   if (times.empty() || times.size() > 2) {
-    throw ValueError(cat("Skeleton: the times of ", name, " are [at] or [from, to], in phases; got ", times.size(), " numbers"));
+    throw ValueError(
+        cat("Skeleton: the times of ", name, " are [at] or [from, to], in phases; got ", times.size(), " numbers"));
   }
   Entry entry{times.front(), times.back(), symbol, frames};
   if (!std::isfinite(entry.from) || !std::isfinite(entry.to) || entry.from < 0.) {
     throw ValueError(cat("Skeleton: ", name, " begins at phase ", entry.from, "; expected a number of 0 or more"));
   }
   if (entry.to >= 0. && entry.to < entry.from) {
-    throw ValueError(cat("Skeleton: ", name, " ends at phase ", entry.to, ", before it begins at ", entry.from, "; -1 is the end"));
+    throw ValueError(
+        cat("Skeleton: ", name, " ends at phase ", entry.to, ", before it begins at ", entry.from, "; -1 is the end"));
   }
   const auto [least, most] = frameCount(symbol);
   const int count = int(frames.size());
@@ -72,7 +92,9 @@ void Skeleton::addExplicitCollisions(const std::vector<std::string>& pairs) {
   explicit_pairs_.insert(explicit_pairs_.end(), pairs.begin(), pairs.end());
 }
 
-void Skeleton::addLiftPriors(const std::vector<std::string>& objects) { lifted_.insert(lifted_.end(), objects.begin(), objects.end()); }
+void Skeleton::addLiftPriors(const std::vector<std::string>& objects) {
+  lifted_.insert(lifted_.end(), objects.begin(), objects.end());
+}
 
 double Skeleton::maxPhase() const {
   double last = 0.;
@@ -98,13 +120,15 @@ Komo Skeleton::path(const Config& config, int steps_per_phase, double accelerati
   if (acceleration_scale > 0.) komo.addControlObjective({}, 2, acceleration_scale);
   if (homing_scale > 0.) komo.addControlObjective({}, 0, homing_scale);
   komo.addQuaternionNorms();
-  if (collisions_) komo.addObjective({}, FeatureSymbol::accumulatedCollisions, {}, ObjectiveType::eq, MatrixXd::Constant(1, 1, 1e1));
+  if (collisions_)
+    komo.addObjective({}, FeatureSymbol::accumulatedCollisions, {}, ObjectiveType::eq, MatrixXd::Constant(1, 1, 1e1));
   add(komo, entries_);
   const Eigen::RowVector3d up(0., 0., -1e1);
   for (const std::string& object : lifted_) {
     for (int phase = 0; phase < maxPhase(); ++phase) {
       if (const auto [first, last] = komo.selectSlices({phase + .3, phase + .7}); first > last) continue;
-      komo.addObjective({phase + .3, phase + .7}, FeatureSymbol::position, {object}, ObjectiveType::ineqP, up, Vector3d(0., 0., .6));
+      komo.addObjective({phase + .3, phase + .7}, FeatureSymbol::position, {object}, ObjectiveType::ineqP, up,
+                        Vector3d(0., 0., .6));
     }
   }
   return komo;
@@ -115,7 +139,8 @@ Komo Skeleton::waypoints(const Config& config, double length_scale, double homin
   if (length_scale > 0.) komo.addControlObjective({}, 1, length_scale);
   if (homing_scale > 0.) komo.addControlObjective({}, 0, homing_scale);
   komo.addQuaternionNorms();
-  if (collisions_) komo.addObjective({}, FeatureSymbol::accumulatedCollisions, {}, ObjectiveType::eq, MatrixXd::Constant(1, 1, 1e1));
+  if (collisions_)
+    komo.addObjective({}, FeatureSymbol::accumulatedCollisions, {}, ObjectiveType::eq, MatrixXd::Constant(1, 1, 1e1));
   add(komo, entries_);
   return komo;
 }
@@ -125,12 +150,14 @@ Komo Skeleton::finalSlice(const Config& config, double length_scale, double homi
   if (length_scale > 0.) komo.addControlObjective({}, 1, length_scale);
   if (homing_scale > 0.) komo.addControlObjective({}, 0, homing_scale);
   komo.addQuaternionNorms();
-  if (collisions_) komo.addObjective({}, FeatureSymbol::accumulatedCollisions, {}, ObjectiveType::sos, MatrixXd::Constant(1, 1, 1e1));
+  if (collisions_)
+    komo.addObjective({}, FeatureSymbol::accumulatedCollisions, {}, ObjectiveType::sos, MatrixXd::Constant(1, 1, 1e1));
   add(komo, lastEntries());
   return komo;
 }
 
-/// The entries as finalSlice sees them: attachments before the last phase's end begin at 1, all that holds at the end is at 2.
+/// The entries as finalSlice sees them: attachments before the last phase's end begin at 1, all that holds at the end
+/// is at 2.
 std::vector<Skeleton::Entry> Skeleton::lastEntries() const {
   const double last = maxPhase();
   std::vector<Entry> list;
@@ -153,7 +180,8 @@ void Skeleton::add(Komo& komo, const std::vector<Entry>& entries) const {
   for (const Entry& entry : entries) {
     if (isAttachment(entry.symbol)) attachments.push_back(entry);
   }
-  std::stable_sort(attachments.begin(), attachments.end(), [](const Entry& a, const Entry& b) { return a.from < b.from; });
+  std::stable_sort(attachments.begin(), attachments.end(),
+                   [](const Entry& a, const Entry& b) { return a.from < b.from; });
   std::map<std::string, int> count;
   for (std::size_t i = 0; i < attachments.size(); ++i) {
     const Entry& entry = attachments[i];
@@ -171,7 +199,8 @@ void Skeleton::add(Komo& komo, const std::vector<Entry>& entries) const {
     if (!isAttachment(entry.symbol)) addCondition(komo, entry);
   }
   for (std::size_t i = 0; i + 1 < explicit_pairs_.size(); i += 2) {
-    komo.addObjective({}, FeatureSymbol::distance, {explicit_pairs_[i], explicit_pairs_[i + 1]}, ObjectiveType::ineq, MatrixXd::Constant(1, 1, 1e1));
+    komo.addObjective({}, FeatureSymbol::distance, {explicit_pairs_[i], explicit_pairs_[i + 1]}, ObjectiveType::ineq,
+                      MatrixXd::Constant(1, 1, 1e1));
   }
 }
 

@@ -7,9 +7,10 @@
 
 namespace kinegraph {
 
-/// What shall hold when, in words: entries such as "from phase 1 on, the box hangs stably at the gripper" or "at phase 1 the palm
-/// touches the box". Makes motion problems of different detail that all obey the same entries.
-/// Source: Toussaint, Allen, Smith, Tenenbaum, Differentiable physics and stable modes for tool-use and manipulation planning, 2018.
+/// What shall hold when, in words: entries such as "from phase 1 on, the box hangs stably at the gripper" or "at phase
+/// 1 the palm touches the box". Makes motion problems of different detail that all obey the same entries. Source:
+/// Toussaint, Allen, Smith, Tenenbaum, Differentiable physics and stable modes for tool-use and manipulation planning,
+/// 2018.
 class Skeleton {
  public:
   struct Entry {
@@ -18,8 +19,8 @@ class Skeleton {
     std::vector<std::string> frames;
   };
 
-  /// `times` is {at} or {from, to}. Throws ValueError for wrong times or a wrong number of frames, and for the symbols that have
-  /// no meaning (identical, pushAndPlace).
+  /// `times` is {at} or {from, to}. Throws ValueError for wrong times or a wrong number of frames, and for the symbols
+  /// that have no meaning (identical, pushAndPlace).
   void addEntry(const std::vector<double>& times, SwitchMode symbol, const std::vector<std::string>& frames);
 
   /// Frames two by two that shall not overlap, at any time.
@@ -37,14 +38,15 @@ class Skeleton {
   bool usesBroadCollisions() const { return collisions_; }
   double maxPhase() const;  ///< 0 without entries
 
-  /// A path of 5 s per phase with costs on accelerations and on the distance from home; a scale of 0 or less leaves a cost out.
+  /// A path of 5 s per phase with costs on accelerations and on the distance from home; a scale of 0 or less leaves a
+  /// cost out.
   Komo path(const Config& config, int steps_per_phase, double acceleration_scale, double homing_scale) const;
 
   /// One configuration per phase, with costs on their distances from one another and from home.
   Komo waypoints(const Config& config, double length_scale, double homing_scale) const;
 
-  /// Two configurations, of which the second one is the end of the last phase, and the first all that came before: where
-  /// objects were taken.
+  /// Two configurations, of which the second one is the end of the last phase, and the first all that came before:
+  /// where objects were taken.
   Komo finalSlice(const Config& config, double length_scale, double homing_scale) const;
 
   /// Adds the entries to a problem, attachments first, in the order of their times.

@@ -25,69 +25,103 @@ MatrixXd entryOf(int axis, double scale) {
 
 /// The product of the x, y or z axis of one frame with that of another.
 F product(int a, int b) {
-  constexpr std::array<F, 9> symbols = {F::scalarProductXX, F::scalarProductXY, F::scalarProductXZ, F::scalarProductYX, F::scalarProductYY,
-                                        F::scalarProductYZ, F::scalarProductZX, F::scalarProductZY, F::scalarProductZZ};
+  constexpr std::array<F, 9> symbols = {F::scalarProductXX, F::scalarProductXY, F::scalarProductXZ,
+                                        F::scalarProductYX, F::scalarProductYY, F::scalarProductYZ,
+                                        F::scalarProductZX, F::scalarProductZY, F::scalarProductZZ};
   return symbols[std::size_t(3 * a + b)];
 }
 
-bool isBox(const Frame& frame) { return frame.getShapeType() == ShapeType::ssBox || frame.getShapeType() == ShapeType::box; }
+bool isBox(const Frame& frame) {
+  return frame.getShapeType() == ShapeType::ssBox || frame.getShapeType() == ShapeType::box;
+}
 
 class Conditions {
  public:
   Conditions(Komo& komo, const Skeleton::Entry& entry)
-      : komo_(komo), symbol_(entry.symbol), f_(entry.frames), from_(entry.from), to_(entry.to), scene_(komo.configuration(-komo.order())) {}
+      : komo_(komo),
+        symbol_(entry.symbol),
+        f_(entry.frames),
+        from_(entry.from),
+        to_(entry.to),
+        scene_(komo.configuration(-komo.order())) {}
 
   void add() {
     const std::vector<double> at = {from_}, during = {from_, to_};
     switch (symbol_) {
-      case M::touch: return require(during, F::distance, f_, eq, number(1e2));
-      case M::above: return require(during, F::aboveBox, f_, ineq, number(1e1));
-      case M::inside: return require(during, F::insideBox, f_, ineq, number(1e1));
-      case M::oppose: return require(during, F::oppose, f_, eq, number(1e1));
-      case M::restingOn: return restingOn(during);
-      case M::poseEq: return require(during, F::poseDiff, f_, eq, number(1e2));
-      case M::positionEq: return require(during, F::positionDiff, f_, eq, number(1e2));
-      case M::stableRelPose: return require({from_, to_ < 0. ? -1. : to_ + 1.}, F::poseRel, f_, eq, number(1e2), {}, 1);
+      case M::touch:
+        return require(during, F::distance, f_, eq, number(1e2));
+      case M::above:
+        return require(during, F::aboveBox, f_, ineq, number(1e1));
+      case M::inside:
+        return require(during, F::insideBox, f_, ineq, number(1e1));
+      case M::oppose:
+        return require(during, F::oppose, f_, eq, number(1e1));
+      case M::restingOn:
+        return restingOn(during);
+      case M::poseEq:
+        return require(during, F::poseDiff, f_, eq, number(1e2));
+      case M::positionEq:
+        return require(during, F::positionDiff, f_, eq, number(1e2));
+      case M::stableRelPose:
+        return require({from_, to_ < 0. ? -1. : to_ + 1.}, F::poseRel, f_, eq, number(1e2), {}, 1);
       case M::stablePose:
-        for (const std::string& frame : f_) require({from_, to_ < 0. ? -1. : to_ + 1.}, F::pose, {frame}, eq, number(1e2), {}, 1);
+        for (const std::string& frame : f_)
+          require({from_, to_ < 0. ? -1. : to_ + 1.}, F::pose, {frame}, eq, number(1e2), {}, 1);
         return;
-      case M::downUp: return downUp();
+      case M::downUp:
+        return downUp();
       case M::lift:
         for (const std::string& frame : f_) lift(frame);
         return;
-      case M::relPosY: return require(during, F::positionRel, f_, eq, entryOf(1, 1e2));
-      case M::contact: return void(exchange(Komo::Exchange::slide));
-      case M::contactStick: return void(exchange(Komo::Exchange::stick));
-      case M::contactComplementary: return void(exchange(Komo::Exchange::complementary));
-      case M::bounce: return void(exchange(Komo::Exchange::bounce));
-      case M::push: return push(during);
+      case M::relPosY:
+        return require(during, F::positionRel, f_, eq, entryOf(1, 1e2));
+      case M::contact:
+        return void(exchange(Komo::Exchange::slide));
+      case M::contactStick:
+        return void(exchange(Komo::Exchange::stick));
+      case M::contactComplementary:
+        return void(exchange(Komo::Exchange::complementary));
+      case M::bounce:
+        return void(exchange(Komo::Exchange::bounce));
+      case M::push:
+        return push(during);
       case M::topBoxGrasp:
         require(at, F::positionDiff, f_, eq, number(1e2));
         require(at, F::scalarProductXY, f_, eq, number(1e2));
         return fromAbove(at);
-      case M::topBoxPlace: return topBoxPlace(at);
-      case M::touchBoxNormalX: case M::touchBoxNormalY: case M::touchBoxNormalZ:
+      case M::topBoxPlace:
+        return topBoxPlace(at);
+      case M::touchBoxNormalX:
+      case M::touchBoxNormalY:
+      case M::touchBoxNormalZ:
         return touchFace(int(symbol_) - int(M::touchBoxNormalX), at, during);
-      case M::boxGraspX: case M::boxGraspY: case M::boxGraspZ: return boxGrasp(int(symbol_) - int(M::boxGraspX), at);
+      case M::boxGraspX:
+      case M::boxGraspY:
+      case M::boxGraspZ:
+        return boxGrasp(int(symbol_) - int(M::boxGraspX), at);
       case M::dampMotion:
         for (const std::string& frame : f_) {
-          for (int order = 1; order <= std::min(komo_.order(), 2); ++order) require(during, F::linangVel, {frame}, sos, number(1e-2), {}, order);
+          for (int order = 1; order <= std::min(komo_.order(), 2); ++order)
+            require(during, F::linangVel, {frame}, sos, number(1e-2), {}, order);
         }
         return;
-      case M::alignByInt: return require(during, F::scalarProductXX, f_, sos, number(1.));
+      case M::alignByInt:
+        return require(during, F::scalarProductXX, f_, sos, number(1.));
       case M::forceBalance:
         for (const std::string& frame : f_) require(during, F::totalForce, {frame}, eq, number(1e2));
         return;
       case M::makeFree:  // of the scene, before there is a problem
-      case M::end: return;
-      default: throw ValueError(cat("Skeleton: ", switchModeName(symbol_), " is not available"));
+      case M::end:
+        return;
+      default:
+        throw ValueError(cat("Skeleton: ", switchModeName(symbol_), " is not available"));
     }
   }
 
  private:
   /// Conditions of derivatives that the problem has not are left out, as in waypoints.
-  void require(const std::vector<double>& times, F feature, const Names& frames, ObjectiveType type, const MatrixXd& scale,
-               const VectorXd& target = {}, int order = -1) {
+  void require(const std::vector<double>& times, F feature, const Names& frames, ObjectiveType type,
+               const MatrixXd& scale, const VectorXd& target = {}, int order = -1) {
     if (order <= komo_.order()) komo_.addObjective(times, feature, frames, type, scale, target, order);
   }
 
@@ -100,7 +134,8 @@ class Conditions {
 
   const std::vector<double>& boxOf(const std::string& name) {
     const Frame frame = scene_.getFrame(name);
-    if (!isBox(frame)) throw ValueError(cat("Skeleton: ", switchModeName(symbol_), " needs a box (ssBox); '", name, "' is none"));
+    if (!isBox(frame))
+      throw ValueError(cat("Skeleton: ", switchModeName(symbol_), " needs a box (ssBox); '", name, "' is none"));
     return size_ = frame.getSize();
   }
 
@@ -115,13 +150,18 @@ class Conditions {
     switch (thing.getShapeType()) {
       case ShapeType::capsule:
       case ShapeType::cylinder:
-      case ShapeType::ssCylinder: half = size[1]; break;
+      case ShapeType::ssCylinder:
+        half = size[1];
+        break;
       case ShapeType::none:
-      case ShapeType::marker: throw ValueError(cat("Skeleton: restingOn: '", f_[1], "' has no shape that could rest on '", f_[0], "'"));
-      default: break;
+      case ShapeType::marker:
+        throw ValueError(cat("Skeleton: restingOn: '", f_[1], "' has no shape that could rest on '", f_[0], "'"));
+      default:
+        break;
     }
     if (!(half > 0.)) {
-      throw ValueError(cat("Skeleton: restingOn: the height of '", f_[1], "' is not known; give it a box, sphere, capsule or cylinder"));
+      throw ValueError(cat("Skeleton: restingOn: the height of '", f_[1],
+                           "' is not known; give it a box, sphere, capsule or cylinder"));
     }
     require(during, F::positionRel, {f_[1], f_[0]}, eq, entryOf(2, 1e1), Vector3d(0., 0., below + half));
     if (thing.getShapeType() == ShapeType::sphere) return;
@@ -132,11 +172,13 @@ class Conditions {
   void downUp() {
     const double later = 1. / komo_.slicesPerPhase();
     const double end = to_ < 0. ? -1. : to_ + later;
-    for (const std::string& frame : f_) requireNear(from_ + later, end, F::position, {frame}, eq, number(1.), Vector3d(0., 0., .1), 2);
+    for (const std::string& frame : f_)
+      requireNear(from_ + later, end, F::position, {frame}, eq, number(1.), Vector3d(0., 0., .1), 2);
   }
 
   void lift(const std::string& frame) {
-    if (komo_.order() >= 2) requireNear(from_ + .3, from_ + .7, F::position, {frame}, ineqP, entryOf(2, -1e1), Vector3d(0., 0., .4));
+    if (komo_.order() >= 2)
+      requireNear(from_ + .3, from_ + .7, F::position, {frame}, ineqP, entryOf(2, -1e1), Vector3d(0., 0., .4));
   }
 
   /// The radius of the object that is pushed, if it is a ball or a capsule; else 0.

@@ -36,22 +36,28 @@ void requireSameKind(const IkProblem& problem, const std::vector<IkTarget>& targ
     same = problem.names[i] == targets[i].frame && problem.tasks[i].kind == targets[i].kind &&
            (targets[i].kind != IkTarget::Kind::direction || problem.tasks[i].axis == targets[i].axis.normalized());
   }
-  if (!same) throw ValueError(cat("solveIk: problem ", index, " has other frames or kinds of targets than the first one"));
+  if (!same)
+    throw ValueError(cat("solveIk: problem ", index, " has other frames or kinds of targets than the first one"));
 }
 
 }  // namespace
 
 std::string ikStatusName(IkStatus status) {
   switch (status) {
-    case IkStatus::solved: return "solved";
-    case IkStatus::unreached: return "unreached";
-    case IkStatus::colliding: return "colliding";
-    case IkStatus::cancelled: return "cancelled";
+    case IkStatus::solved:
+      return "solved";
+    case IkStatus::unreached:
+      return "unreached";
+    case IkStatus::colliding:
+      return "colliding";
+    case IkStatus::cancelled:
+      return "cancelled";
   }
   return "unknown";
 }
 
-IkResult solveIk(const Config& config, const std::vector<IkTarget>& targets, const IkOptions& options, const IkWatch& watch) {
+IkResult solveIk(const Config& config, const std::vector<IkTarget>& targets, const IkOptions& options,
+                 const IkWatch& watch) {
   return IkSolver(config, targets, options).solve({targets}, 1, watch)[0];
 }
 
@@ -66,7 +72,8 @@ IkSolver::IkSolver(const Config& config, const std::vector<IkTarget>& targets, c
   problem_ = std::make_shared<const IkProblem>(config, targets, options);
 }
 
-std::vector<IkResult> IkSolver::solve(const std::vector<std::vector<IkTarget>>& problems, int threads, const IkWatch& watch) const {
+std::vector<IkResult> IkSolver::solve(const std::vector<std::vector<IkTarget>>& problems, int threads,
+                                      const IkWatch& watch) const {
   if (threads < 1) throw ValueError(cat("solveIk: threads is ", threads, "; expected at least 1"));
   for (std::size_t i = 0; i < problems.size(); ++i) {
     requireSameKind(*problem_, problems[i], i);
@@ -92,11 +99,15 @@ std::vector<IkResult> IkSolver::solve(const std::vector<std::vector<IkTarget>>& 
   }
   const int part = std::clamp(count / (4 * threads), 1, kLargestPart);
   std::vector<std::optional<IkLanes>> searches(std::size_t(std::min(threads, count)));
-  forParts(count, part, threads, [&](int worker, int from, int to) {
-    std::optional<IkLanes>& search = searches[std::size_t(worker)];
-    if (!search) search.emplace(problem_);
-    search->solve(&problems[std::size_t(from)], to - from, &results[std::size_t(from)], done, worker == 0 ? watching : stopped);
-  }, watching);
+  forParts(
+      count, part, threads,
+      [&](int worker, int from, int to) {
+        std::optional<IkLanes>& search = searches[std::size_t(worker)];
+        if (!search) search.emplace(problem_);
+        search->solve(&problems[std::size_t(from)], to - from, &results[std::size_t(from)], done,
+                      worker == 0 ? watching : stopped);
+      },
+      watching);
   return results;
 }
 

@@ -20,8 +20,8 @@ struct IkTarget {
   };
   std::string frame;
   Kind kind = Kind::pose;
-  Pose pose;                             ///< of pose, position, rotation
-  Vector3d axis = Vector3d::UnitZ();     ///< of direction: in the frame's coordinates
+  Pose pose;                          ///< of pose, position, rotation
+  Vector3d axis = Vector3d::UnitZ();  ///< of direction: in the frame's coordinates
   Vector3d direction = Vector3d::UnitZ();
 
   static IkTarget toPose(std::string frame, const Pose& X_WF) { return {std::move(frame), Kind::pose, X_WF}; }
@@ -73,23 +73,23 @@ struct IkResult {
   bool feasible() const { return status == IkStatus::solved; }
 };
 
-/// Called now and then by the calling thread, with the number of problems that are done; true ends the search, which then
-/// gives the best answers so far. It may throw.
+/// Called now and then by the calling thread, with the number of problems that are done; true ends the search, which
+/// then gives the best answers so far. It may throw.
 using IkWatch = std::function<bool(int done)>;
 
 /// Joint values within their limits that bring frames to their targets, without collisions.
 ///
-/// Damped Gauss-Newton steps on positions and rotation vectors from many starting points: the Config's q, then an additive
-/// (Kronecker) low-discrepancy sequence. An attempt that reaches its targets in collision goes on with the distances as
-/// further rows. Joints that move none of the target frames stay where they are, and pairs that none of the others move
-/// are not looked at. The Config is not changed; the same arguments give the same bits. Throws FrameNotFound, and
-/// ValueError for targets that no active joint moves.
-/// Source: Buss, Introduction to inverse kinematics with Jacobian transpose, pseudoinverse and damped least squares, 2004.
+/// Damped Gauss-Newton steps on positions and rotation vectors from many starting points: the Config's q, then an
+/// additive (Kronecker) low-discrepancy sequence. An attempt that reaches its targets in collision goes on with the
+/// distances as further rows. Joints that move none of the target frames stay where they are, and pairs that none of
+/// the others move are not looked at. The Config is not changed; the same arguments give the same bits. Throws
+/// FrameNotFound, and ValueError for targets that no active joint moves. Source: Buss, Introduction to inverse
+/// kinematics with Jacobian transpose, pseudoinverse and damped least squares, 2004.
 IkResult solveIk(const Config& config, const std::vector<IkTarget>& targets, const IkOptions& options = {},
                  const IkWatch& watch = {});
 
-/// One problem per entry of `problems`. All have the frames and kinds of the first one's targets; else ValueError. Every
-/// result is the one that `solveIk` would give, whatever the number of threads.
+/// One problem per entry of `problems`. All have the frames and kinds of the first one's targets; else ValueError.
+/// Every result is the one that `solveIk` would give, whatever the number of threads.
 std::vector<IkResult> solveIkBatch(const Config& config, const std::vector<std::vector<IkTarget>>& problems,
                                    const IkOptions& options = {}, int threads = 1, const IkWatch& watch = {});
 
@@ -102,7 +102,8 @@ class IkSolver {
   /// Of the targets, the frames, kinds and axes matter here.
   IkSolver(const Config& config, const std::vector<IkTarget>& targets, const IkOptions& options = {});
 
-  std::vector<IkResult> solve(const std::vector<std::vector<IkTarget>>& problems, int threads = 1, const IkWatch& watch = {}) const;
+  std::vector<IkResult> solve(const std::vector<std::vector<IkTarget>>& problems, int threads = 1,
+                              const IkWatch& watch = {}) const;
 
  private:
   std::shared_ptr<const IkProblem> problem_;

@@ -8,13 +8,13 @@ namespace kinegraph {
 /// A pinhole or orthographic camera. Its axes: x to the right of the image, y down, z forward.
 /// The centre of the image is on the z axis; pixels are square.
 struct Camera {
-  Pose pose;                   ///< in the world
-  int width = 640;             ///< pixels
+  Pose pose;        ///< in the world
+  int width = 640;  ///< pixels
   int height = 480;
   double focal_length = 2.41421356;  ///< in image heights: fx = fy = focal_length * height pixels
-  double ortho_height = 0.;    ///< if > 0: orthographic, this many m high
-  double near = .1, far = 10.;  ///< what is seen lies in between, m along z
-  bool has_range = false;       ///< somebody has said what `near` and `far` are: pages show no more than that either
+  double ortho_height = 0.;          ///< if > 0: orthographic, this many m high
+  double near = .1, far = 10.;       ///< what is seen lies in between, m along z
+  bool has_range = false;  ///< somebody has said what `near` and `far` are: pages show no more than that either
 
   /// fx, fy, cx, cy in pixels.
   Vector4d fxycxy() const { return {focal_length * height, focal_length * height, .5 * width, .5 * height}; }

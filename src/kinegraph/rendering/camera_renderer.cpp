@@ -13,8 +13,8 @@ namespace kinegraph {
 
 namespace {
 
-constexpr int kFineness = 2;            // pixels of letters that become one, across and down
-constexpr int kSlices = 128;            // around builtin round shapes
+constexpr int kFineness = 2;             // pixels of letters that become one, across and down
+constexpr int kSlices = 128;             // around builtin round shapes
 constexpr float kShadowHalfWidth = 2.5;  // m, of what the first light's shadow map covers
 const Vector4d kDefaultColor(.8, .8, .8, 1.);
 
@@ -79,9 +79,12 @@ CameraImage shrunk(const CameraImage& fine, int factor) {
 void toMetres(std::vector<float>& depth, const Camera& camera) {
   const double near = camera.near, far = camera.far;
   for (float& d : depth) {
-    if (d <= 0.f) d = -1.f;
-    else if (camera.ortho_height > 0.) d = float(far - d * (far - near));
-    else d = float(near * far / (near + d * (far - near)));
+    if (d <= 0.f)
+      d = -1.f;
+    else if (camera.ortho_height > 0.)
+      d = float(far - d * (far - near));
+    else
+      d = float(near * far / (near + d * (far - near)));
   }
 }
 
@@ -92,11 +95,16 @@ std::optional<mjtGeom> builtinShape(ShapeType type) {
   switch (type) {
     case ShapeType::box:
     case ShapeType::sdf:
-    case ShapeType::tensor: return mjGEOM_BOX;
-    case ShapeType::sphere: return mjGEOM_SPHERE;
-    case ShapeType::capsule: return mjGEOM_CAPSULE;
-    case ShapeType::cylinder: return mjGEOM_CYLINDER;
-    default: return std::nullopt;
+    case ShapeType::tensor:
+      return mjGEOM_BOX;
+    case ShapeType::sphere:
+      return mjGEOM_SPHERE;
+    case ShapeType::capsule:
+      return mjGEOM_CAPSULE;
+    case ShapeType::cylinder:
+      return mjGEOM_CYLINDER;
+    default:
+      return std::nullopt;
   }
 }
 
@@ -104,10 +112,13 @@ std::optional<mjtGeom> builtinShape(ShapeType type) {
 Vector3d builtinSize(const Geometry& shape) {
   const std::vector<double>& s = shape.size;
   switch (shape.type) {
-    case ShapeType::sphere: return {s[0], s[0], s[0]};
+    case ShapeType::sphere:
+      return {s[0], s[0], s[0]};
     case ShapeType::capsule:
-    case ShapeType::cylinder: return {s[1], .5 * s[0], 0.};
-    default: return .5 * Vector3d(s[0], s[1], s[2]);
+    case ShapeType::cylinder:
+      return {s[1], .5 * s[0], 0.};
+    default:
+      return .5 * Vector3d(s[0], s[1], s[2]);
   }
 }
 

@@ -12,14 +12,14 @@ namespace kinegraph {
 
 /// How pictures look. The defaults are a sensor's: fast.
 struct RendererOptions {
-  int supersampling = 1;                          ///< pixels drawn per pixel, across and down, against jagged edges
-  bool shadows = false;                           ///< of the first light; costs time
-  bool floor = true;                              ///< a square of 10 m at z = 0, seen from above only
-  Vector3d background = Vector3d::Ones();         ///< rgb in 0..1
+  int supersampling = 1;                   ///< pixels drawn per pixel, across and down, against jagged edges
+  bool shadows = false;                    ///< of the first light; costs time
+  bool floor = true;                       ///< a square of 10 m at z = 0, seen from above only
+  Vector3d background = Vector3d::Ones();  ///< rgb in 0..1
   Vector3d floor_color = Vector3d(.4, .45, .5);
   std::vector<Vector3d> lights{};  ///< where they are, m; the first casts shadows; empty: two as usual; at most 8
-  bool flat_colors = false;                       ///< as they are given, without light
-  bool wireframe = false;                         ///< edges of triangles only
+  bool flat_colors = false;        ///< as they are given, without light
+  bool wireframe = false;          ///< edges of triangles only
   bool operator==(const RendererOptions&) const = default;
 };
 
@@ -52,7 +52,8 @@ class CameraRenderer {
     return segment(*config.scene(), camera, visuals_only);
   }
 
-  /// A text in lines of 18 pixels, at most `width` pixels wide, for drawLetters; as many lines as `height` has room for.
+  /// A text in lines of 18 pixels, at most `width` pixels wide, for drawLetters; as many lines as `height` has room
+  /// for.
   Letters write(const std::string& text, int width, int height);
 
  private:

@@ -13,12 +13,12 @@ std::vector<double> depthToPoints(const float* depth, int height, int width, con
 
 /// The errors of a stereo camera.
 struct DepthNoise {
-  double baseline = .03;     ///< between its two eyes, m
-  double overall = .02;      ///< scale of the noise, relative to depth squared, 1/m
-  double wide = 4.;          ///< share of noise that is smooth over 10 pixels
-  double local = .4;         ///< over 3 pixels
-  double pixel = .04;        ///< of each pixel alone
-  double no_depth = 3.;      ///< m, taken where nothing is
+  double baseline = .03;  ///< between its two eyes, m
+  double overall = .02;   ///< scale of the noise, relative to depth squared, 1/m
+  double wide = 4.;       ///< share of noise that is smooth over 10 pixels
+  double local = .4;      ///< over 3 pixels
+  double pixel = .04;     ///< of each pixel alone
+  double no_depth = 3.;   ///< m, taken where nothing is
 
   /// Throws ValueError for numbers that are negative or not finite.
   void validate() const;

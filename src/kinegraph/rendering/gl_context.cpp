@@ -35,9 +35,9 @@ struct Egl {
   void* (*getCurrentContext)();
   void* (*getCurrentDisplay)();
   void* (*getCurrentSurface)(Int);
-  void* (*getPlatformDisplay)(unsigned, void*, const Int*);         // EGL_EXT_platform_base
-  Bool (*queryDevices)(Int, void**, Int*) = nullptr;                // EGL_EXT_device_enumeration, may be missing
-  const char* (*queryDeviceString)(void*, Int) = nullptr;           // EGL_EXT_device_query, may be missing
+  void* (*getPlatformDisplay)(unsigned, void*, const Int*);  // EGL_EXT_platform_base
+  Bool (*queryDevices)(Int, void**, Int*) = nullptr;         // EGL_EXT_device_enumeration, may be missing
+  const char* (*queryDeviceString)(void*, Int) = nullptr;    // EGL_EXT_device_query, may be missing
 };
 
 Egl loadEgl() {

@@ -17,9 +17,12 @@ std::string ascii(const std::string& text) {
   std::string out;
   for (const char c : validUtf8(text)) {
     const auto byte = static_cast<unsigned char>(c);
-    if (byte >= 0xc0) out += '?';        // begins a character; the bytes that follow belong to it
-    else if (byte == '\t') out += ' ';
-    else if (byte == '\n' || (byte >= 32 && byte < 127)) out += c;
+    if (byte >= 0xc0)
+      out += '?';  // begins a character; the bytes that follow belong to it
+    else if (byte == '\t')
+      out += ' ';
+    else if (byte == '\n' || (byte >= 32 && byte < 127))
+      out += c;
   }
   return out;
 }
@@ -61,7 +64,8 @@ void drawLetters(std::vector<std::uint8_t>& rgb, int width, const Letters& lette
     for (int column = kMargin; column < right; ++column) {
       const int y = row - kMargin - kAbove, x = column - kMargin - kBesides;
       const bool inside = x >= 0 && x < letters.width && y >= 0 && y < letters.height;
-      const double ink = inside ? letters.cover[std::size_t(y) * std::size_t(letters.width) + std::size_t(x)] / 255. : 0.;
+      const double ink =
+          inside ? letters.cover[std::size_t(y) * std::size_t(letters.width) + std::size_t(x)] / 255. : 0.;
       const double shown = ink * kInk + (1. - ink) * kPanel, solid = std::max(kSolid, ink);
       std::uint8_t* pixel = &rgb[3 * (std::size_t(row) * std::size_t(width) + std::size_t(column))];
       for (int k = 0; k < 3; ++k) pixel[k] = std::uint8_t(solid * shown + (1. - solid) * pixel[k] + .5);

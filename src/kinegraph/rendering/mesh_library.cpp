@@ -60,8 +60,9 @@ bool MeshLibrary::update(const Shapes& shapes) {
   for (const auto& shape : shapes) {
     if (!meshes_.contains(shape)) meshes_[shape] = renderMeshes(*shape);
   }
-  for (auto* numbers : {&vertex_start_, &vertex_count_, &normal_start_, &normal_count_, &face_start_, &face_count_, &faces_, &face_normals_,
-                        &texcoord_start_, &texcoord_count_, &face_texcoords_, &texture_widths_, &texture_heights_}) {
+  for (auto* numbers :
+       {&vertex_start_, &vertex_count_, &normal_start_, &normal_count_, &face_start_, &face_count_, &faces_,
+        &face_normals_, &texcoord_start_, &texcoord_count_, &face_texcoords_, &texture_widths_, &texture_heights_}) {
     numbers->clear();
   }
   materials_.clear();

@@ -12,12 +12,12 @@
 
 namespace kinegraph {
 
-/// The meshes of all shapes that a rendering context knows, and the pictures on them, as a MuJoCo model lists them. Mesh 0 is
-/// the floor.
+/// The meshes of all shapes that a rendering context knows, and the pictures on them, as a MuJoCo model lists them.
+/// Mesh 0 is the floor.
 class MeshLibrary {
  public:
-  /// A part of a shape: the number of its mesh, its colour if it has its own, and the number of the material with its picture,
-  /// or -1.
+  /// A part of a shape: the number of its mesh, its colour if it has its own, and the number of the material with its
+  /// picture, or -1.
   struct Part {
     int mesh;
     std::optional<Vector4d> color;
@@ -25,8 +25,8 @@ class MeshLibrary {
   };
   using Shapes = std::set<std::shared_ptr<const Geometry>>;
 
-  /// Takes in what is new, and forgets everything that is not used any more when something is. True if anything changed.
-  /// Throws FileError for a damaged picture.
+  /// Takes in what is new, and forgets everything that is not used any more when something is. True if anything
+  /// changed. Throws FileError for a damaged picture.
   bool update(const Shapes& shapes);
 
   const std::vector<Part>& parts(const std::shared_ptr<const Geometry>& shape) const { return parts_.at(shape); }

@@ -12,8 +12,8 @@ namespace kinegraph {
 
 namespace {
 
-constexpr double kPointRadius = .002;   // m
-constexpr double kCosCrease = .766;     // of 40 degrees
+constexpr double kPointRadius = .002;  // m
+constexpr double kCosCrease = .766;    // of 40 degrees
 constexpr std::size_t kMostColors = 64;
 
 using Triangle = std::array<std::uint32_t, 3>;
@@ -67,10 +67,14 @@ Mesh prisms(const Mesh& lines) {
 Mesh surfaceOf(const Geometry& geometry) {
   const Mesh* mesh = geometry.mesh.get();
   switch (geometry.type) {
-    case ShapeType::lines: return mesh ? prisms(*mesh) : Mesh{};
-    case ShapeType::pointCloud: return mesh ? octahedra(*mesh) : Mesh{};
-    case ShapeType::mesh: return !mesh ? Mesh{} : mesh->triangles.empty() ? octahedra(*mesh) : *mesh;
-    default: return tessellate(geometry);
+    case ShapeType::lines:
+      return mesh ? prisms(*mesh) : Mesh{};
+    case ShapeType::pointCloud:
+      return mesh ? octahedra(*mesh) : Mesh{};
+    case ShapeType::mesh:
+      return !mesh ? Mesh{} : mesh->triangles.empty() ? octahedra(*mesh) : *mesh;
+    default:
+      return tessellate(geometry);
   }
 }
 
@@ -101,13 +105,17 @@ bool isClosed(const std::vector<Triangle>& triangles) {
 using Paint = std::pair<const TexturedTriangles*, Color>;
 
 /// Which triangles show what; one group without colour if the mesh has none of its own.
-std::map<Paint, std::vector<std::size_t>> groupByPaint(const Mesh& mesh, const std::vector<std::size_t>& triangles, bool colored) {
+std::map<Paint, std::vector<std::size_t>> groupByPaint(const Mesh& mesh, const std::vector<std::size_t>& triangles,
+                                                       bool colored) {
   for (int coarse = 0;; ++coarse) {
     std::map<Paint, std::vector<std::size_t>> groups;
     for (const std::size_t i : triangles) {
       Paint paint{};
-      const auto behind = std::upper_bound(mesh.textures.begin(), mesh.textures.end(), i, [](std::size_t triangle, const TexturedTriangles& t) { return triangle < t.first; });
-      if (behind != mesh.textures.begin() && i < std::size_t((behind - 1)->first) + (behind - 1)->count) paint.first = &*(behind - 1);
+      const auto behind =
+          std::upper_bound(mesh.textures.begin(), mesh.textures.end(), i,
+                           [](std::size_t triangle, const TexturedTriangles& t) { return triangle < t.first; });
+      if (behind != mesh.textures.begin() && i < std::size_t((behind - 1)->first) + (behind - 1)->count)
+        paint.first = &*(behind - 1);
       if (colored && !paint.first) paint.second = mesh.colors[mesh.triangles[i][0]];
       for (std::uint8_t& channel : paint.second) channel = std::uint8_t(channel >> coarse << coarse);
       groups[paint].push_back(i);

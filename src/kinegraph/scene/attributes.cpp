@@ -32,8 +32,8 @@ constexpr const char* kKnownAttributes[] = {
 
 /// What other formats and languages say.
 constexpr std::pair<std::string_view, std::string_view> kWordsOfOthers[] = {
-    {"pos", "pose"}, {"position", "pose"}, {"xyz", "pose"}, {"rpy", "pose"}, {"quat", "pose"}, {"quaternion", "pose"},
-    {"rgba", "color"}, {"rgb", "color"}, {"geometry", "shape"}, {"filename", "mesh"}};
+    {"pos", "pose"},        {"position", "pose"}, {"xyz", "pose"},  {"rpy", "pose"},       {"quat", "pose"},
+    {"quaternion", "pose"}, {"rgba", "color"},    {"rgb", "color"}, {"geometry", "shape"}, {"filename", "mesh"}};
 
 bool isKnown(const std::string& key) {
   return std::any_of(std::begin(kKnownAttributes), std::end(kKnownAttributes),
@@ -76,7 +76,8 @@ std::optional<std::vector<double>> AttributeReader::numbers(const Node& node) {
   if (const NumberArray* array = node.value.as<NumberArray>()) return array->numbers;
   if (const double* x = node.value.as<double>()) return std::vector<double>{*x};
   if (const StringArray* words = node.value.as<StringArray>(); words && words->empty()) return std::vector<double>{};
-  error(node, cat("expected numbers", node.key == "color" ? " [r g b] in 0..1" : " [..]", ", got ", describe(node.value)));
+  error(node,
+        cat("expected numbers", node.key == "color" ? " [r g b] in 0..1" : " [..]", ", got ", describe(node.value)));
   return std::nullopt;
 }
 
@@ -202,9 +203,11 @@ void AttributeReader::checkSpelling() {
       warning(node, cat("'", node.key, "' is given twice; the first counts"));
     }
     if (!node.parents.empty()) {
-      warning(node, cat("'", node.key, " (", join(node.parents, " "), ")' is inside of this frame, and no frame; is a '}' missing before it?"));
+      warning(node, cat("'", node.key, " (", join(node.parents, " "),
+                        ")' is inside of this frame, and no frame; is a '}' missing before it?"));
     }
-    const auto meant = std::find_if(std::begin(kWordsOfOthers), std::end(kWordsOfOthers), [&](const auto& entry) { return entry.first == node.key; });
+    const auto meant = std::find_if(std::begin(kWordsOfOthers), std::end(kWordsOfOthers),
+                                    [&](const auto& entry) { return entry.first == node.key; });
     if (meant != std::end(kWordsOfOthers)) {
       warning(node, cat("unknown attribute '", node.key, "'; did you mean '", meant->second, "'?"));
       continue;

@@ -158,10 +158,12 @@ ContactRules contactRules(const SceneTree& scene) {
     rules.parts.push_back({-1, frame->joint.has_value()});
   }
   for (const auto& frame : scene.frames()) {
-    if (part_of[frame->id] >= 0 && frame->parent) rules.parts[part_of[frame->id]].parent = part_of[partFrame(frame->parent)->id];
+    if (part_of[frame->id] >= 0 && frame->parent)
+      rules.parts[part_of[frame->id]].parent = part_of[partFrame(frame->parent)->id];
     for (const FrameData* other : frame->no_contact) rules.excluded.push_back(std::minmax(frame->id, other->id));
     if (!takesPart(*frame)) continue;
-    const int owner = frame->parent && !frame->joint ? frame->parent->id : frame->id;  // a shape that is fixed to a parent is its
+    const int owner =
+        frame->parent && !frame->joint ? frame->parent->id : frame->id;  // a shape that is fixed to a parent is its
     rules.bodies.push_back({frame->id, part_of[partFrame(frame.get())->id], frame->shape->contact, owner});
   }
   std::sort(rules.excluded.begin(), rules.excluded.end());

@@ -26,7 +26,8 @@ Config& Config::operator=(const Config& other) {
 namespace {
 
 /// Names of `added` that `scene` has already, as a warning; empty if there are none.
-std::string duplicatesWarning(const SceneTree& scene, const SceneTree& added, const std::string& prefix, std::string_view file) {
+std::string duplicatesWarning(const SceneTree& scene, const SceneTree& added, const std::string& prefix,
+                              std::string_view file) {
   const std::vector<std::string> names = scene.names();
   const std::set<std::string> known(names.begin(), names.end());
   std::vector<std::string> twice;
@@ -49,7 +50,8 @@ std::optional<Frame> Config::addFile(const std::string& path, const std::string&
   }
   SceneTree scratch;
   readSceneFile(path, scratch, warnings_);
-  if (std::string warning = duplicatesWarning(*scene_, scratch, prefix, path); !warning.empty()) warnings_.push_back(std::move(warning));
+  if (std::string warning = duplicatesWarning(*scene_, scratch, prefix, path); !warning.empty())
+    warnings_.push_back(std::move(warning));
   FrameData* first = scene_->append(scratch, prefix);
   if (!first) return std::nullopt;
   return Frame(scene_, *first);
@@ -58,7 +60,8 @@ std::optional<Frame> Config::addFile(const std::string& path, const std::string&
 std::optional<Frame> Config::addText(std::string_view text, const std::string& name, const std::string& folder) {
   SceneTree scratch;
   readSceneText(text, name, folder, scratch, warnings_);
-  if (std::string warning = duplicatesWarning(*scene_, scratch, "", name); !warning.empty()) warnings_.push_back(std::move(warning));
+  if (std::string warning = duplicatesWarning(*scene_, scratch, "", name); !warning.empty())
+    warnings_.push_back(std::move(warning));
   FrameData* first = scene_->append(scratch, "");
   if (!first) return std::nullopt;
   return Frame(scene_, *first);
@@ -69,7 +72,8 @@ namespace {
 /// Scripts, and cells of notebooks that are run again, may ask for a frame twice; but not for two that differ.
 void checkSameRequest(const FrameData& existing, const FrameData* parent, const std::string& attributes) {
   const FrameData* above = existing.parent;
-  while (above && (above->name == existing.name + "_origin" || above->name == "|" + existing.name)) above = above->parent;  // of pre and post
+  while (above && (above->name == existing.name + "_origin" || above->name == "|" + existing.name))
+    above = above->parent;  // of pre and post
   std::string difference;
   if (parent && above != parent) {
     difference = cat(above ? cat("below '", above->name, "'") : "without a parent", ", not below '", parent->name, "'");
@@ -79,14 +83,16 @@ void checkSameRequest(const FrameData& existing, const FrameData* parent, const 
   if (difference.empty()) return;
   int number = 2;
   while (existing.tree->find(cat(existing.name, "_", number))) ++number;
-  throw ValueError(cat("addFrame: a frame named '", existing.name, "' exists already, ", difference, "; take another name (such as '",
-                       existing.name, "_", number, "'), or delFrame('", existing.name, "') before"));
+  throw ValueError(cat("addFrame: a frame named '", existing.name, "' exists already, ", difference,
+                       "; take another name (such as '", existing.name, "_", number, "'), or delFrame('", existing.name,
+                       "') before"));
 }
 
 }  // namespace
 
 Frame Config::addFrame(const std::string& name, const std::string& parent, const std::string& attributes) {
-  return addFrameBelow(name, parent.empty() ? nullptr : &scene_->get(parent, cat("addFrame('", name, "'): parent")), attributes);
+  return addFrameBelow(name, parent.empty() ? nullptr : &scene_->get(parent, cat("addFrame('", name, "'): parent")),
+                       attributes);
 }
 
 Frame Config::addFrame(const std::string& name, const Frame& parent, const std::string& attributes) {
@@ -233,8 +239,8 @@ void Config::setJointState(const VectorXd& q, const std::vector<std::string>& na
     dofs += frame.joint->dofs();
   }
   if (q.size() != dofs || !q.allFinite()) {
-    throw ValueError(cat("setJointState: got ", q.size(), " numbers; the joints of ", join(names), " take ", dofs,
-                         " finite ones"));
+    throw ValueError(
+        cat("setJointState: got ", q.size(), " numbers; the joints of ", join(names), " take ", dofs, " finite ones"));
   }
   int first = 0;
   for (FrameData* frame : frames) {
@@ -264,9 +270,13 @@ std::vector<int> Config::getJointIDs() const {
 
 std::vector<std::string> Config::getStateNames(const std::string& group) const { return stateNames(*scene_, group); }
 
-VectorXd Config::getNamedState(const std::string& name, const std::string& group) const { return namedState(*scene_, name, group); }
+VectorXd Config::getNamedState(const std::string& name, const std::string& group) const {
+  return namedState(*scene_, name, group);
+}
 
-std::vector<std::pair<std::string, std::vector<std::string>>> Config::getJointGroups() const { return jointGroups(*scene_); }
+std::vector<std::pair<std::string, std::vector<std::string>>> Config::getJointGroups() const {
+  return jointGroups(*scene_);
+}
 
 MatrixXd Config::getJointLimits() const {
   const auto program = scene_->program();
@@ -327,7 +337,8 @@ namespace {
 
 void checkVelocity(const VectorXd& velocity, int dofs, const char* call) {
   if (velocity.size() != dofs || !velocity.allFinite()) {
-    throw ValueError(cat("Config::", call, ": got ", velocity.size(), " numbers; expected ", dofs, " finite ones, one per dof"));
+    throw ValueError(
+        cat("Config::", call, ": got ", velocity.size(), " numbers; expected ", dofs, " finite ones, one per dof"));
   }
 }
 
@@ -359,22 +370,24 @@ double Config::getTotalPenetration(bool largest_only) const {
   return largest_only ? largest : sum;
 }
 
-std::optional<MotionContact> Config::checkMotion(const VectorXd& from, const VectorXd& to, double margin, double tolerance) const {
+std::optional<MotionContact> Config::checkMotion(const VectorXd& from, const VectorXd& to, double margin,
+                                                 double tolerance) const {
   for (const VectorXd* q : {&from, &to}) {
     if (q->size() == getJointDimension() && q->allFinite()) continue;
-    throw ValueError(cat("checkMotion: ", q == &from ? "the start" : "the end", " has ", q->size(), " numbers; expected ",
-                         getJointDimension(), " finite ones, one per active dof"));
+    throw ValueError(cat("checkMotion: ", q == &from ? "the start" : "the end", " has ", q->size(),
+                         " numbers; expected ", getJointDimension(), " finite ones, one per active dof"));
   }
   if (!std::isfinite(margin)) throw ValueError(cat("checkMotion: margin is ", margin, "; expected a distance in m"));
-  if (!(tolerance > 0.)) throw ValueError(cat("checkMotion: tolerance is ", tolerance, "; expected a distance > 0 in m"));
+  if (!(tolerance > 0.))
+    throw ValueError(cat("checkMotion: tolerance is ", tolerance, "; expected a distance > 0 in m"));
   return scene_->motionChecker().firstContact(from.data(), to.data(), margin, tolerance);
 }
 
 std::string Config::report() const {
   int shapes = 0;
   for (const auto& frame : scene_->frames()) shapes += frame->shape != nullptr;
-  return cat("Configuration: q.N=", getJointDimension(), " #frames=", getFrameDimension(), " #joints=", getJoints().size(),
-             " #shapes=", shapes, " #pairs=", getCollidablePairs().size());
+  return cat("Configuration: q.N=", getJointDimension(), " #frames=", getFrameDimension(),
+             " #joints=", getJoints().size(), " #shapes=", shapes, " #pairs=", getCollidablePairs().size());
 }
 
 std::vector<std::string> Config::takeWarnings() { return std::exchange(warnings_, {}); }

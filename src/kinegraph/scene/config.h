@@ -27,18 +27,19 @@ class Config {
 
   // --- building --------------------------------------------------------------------------------------------------
 
-  /// Adds the frames of a scene file, in the .g language or of a format that its extension tells (.urdf, .xml); `prefix` is
-  /// put before their names. Returns the first of them, if any. What an .srdf file says about a robot is entered into its frames,
-  /// which are there already; one beside a .urdf file is read with it. On an error (FileError, ParseError) the configuration is
-  /// unchanged. Warnings go to `takeWarnings`.
+  /// Adds the frames of a scene file, in the .g language or of a format that its extension tells (.urdf, .xml);
+  /// `prefix` is put before their names. Returns the first of them, if any. What an .srdf file says about a robot is
+  /// entered into its frames, which are there already; one beside a .urdf file is read with it. On an error (FileError,
+  /// ParseError) the configuration is unchanged. Warnings go to `takeWarnings`.
   std::optional<Frame> addFile(const std::string& path, const std::string& prefix = {});
 
   /// The same for text; `name` stands for the file in messages, and files included are relative to `folder`.
   std::optional<Frame> addText(std::string_view text, const std::string& name = "text", const std::string& folder = {});
 
-  /// Appends a frame. It sits at its parent's pose, or at the world's origin without one. `attributes` is text as inside
-  /// the braces of a `.g` file. A name that exists already gives that frame, unchanged, with a warning; but throws ValueError if the call
-  /// asks for another parent or other attributes than that frame was made with. Throws FrameNotFound for an unknown parent.
+  /// Appends a frame. It sits at its parent's pose, or at the world's origin without one. `attributes` is text as
+  /// inside the braces of a `.g` file. A name that exists already gives that frame, unchanged, with a warning; but
+  /// throws ValueError if the call asks for another parent or other attributes than that frame was made with. Throws
+  /// FrameNotFound for an unknown parent.
   Frame addFrame(const std::string& name, const std::string& parent = {}, const std::string& attributes = {});
   Frame addFrame(const std::string& name, const Frame& parent, const std::string& attributes = {});
 
@@ -50,18 +51,18 @@ class Config {
   void delFrame(const Frame& frame);
   void clear() { scene_->clear(); }
 
-  /// Re-attaches the link that `child` belongs to: its topmost frame is cut off and hangs, rigidly and where it is, below
-  /// `parent`.
+  /// Re-attaches the link that `child` belongs to: its topmost frame is cut off and hangs, rigidly and where it is,
+  /// below `parent`.
   void attach(const std::string& parent, const std::string& child);
 
   // --- frames ----------------------------------------------------------------------------------------------------
 
-  Frame getFrame(std::string_view name) const;               ///< the first of that name; throws FrameNotFound
+  Frame getFrame(std::string_view name) const;  ///< the first of that name; throws FrameNotFound
   std::optional<Frame> findFrame(std::string_view name) const;
-  Frame getFrame(int id) const;                              ///< throws ValueError
+  Frame getFrame(int id) const;  ///< throws ValueError
   std::vector<Frame> getFrames() const;
   std::vector<Frame> getRoots() const;
-  std::vector<Frame> getJoints() const;                      ///< frames whose joint is active and has dofs
+  std::vector<Frame> getJoints() const;  ///< frames whose joint is active and has dofs
   std::vector<std::string> getFrameNames() const { return scene_->names(); }
   int getFrameDimension() const { return int(scene_->frames().size()); }
 
@@ -77,8 +78,8 @@ class Config {
   VectorXd getJointState() const { return scene_->jointState(); }
   VectorXd getJointState(const std::vector<std::string>& names) const;
 
-  /// Sets q, or the dofs of the named frames in that order, active or not. Throws ValueError for a wrong length or numbers
-  /// that are not finite.
+  /// Sets q, or the dofs of the named frames in that order, active or not. Throws ValueError for a wrong length or
+  /// numbers that are not finite.
   void setJointState(const VectorXd& q);
   void setJointState(const VectorXd& q, const std::vector<std::string>& names);
 
@@ -89,8 +90,8 @@ class Config {
   /// Names of joint states that the scene knows (attribute `joint_states`, SRDF), or of those of one group.
   std::vector<std::string> getStateNames(const std::string& group = {}) const;
 
-  /// The present q with the values of such a state; joints that it does not name keep theirs. Without a group, the states of
-  /// that name of all groups are taken together. Throws NameError for a name that is not there.
+  /// The present q with the values of such a state; joints that it does not name keep theirs. Without a group, the
+  /// states of that name of all groups are taken together. Throws NameError for a name that is not there.
   VectorXd getNamedState(const std::string& name, const std::string& group = {}) const;
 
   /// Groups of joints (attribute `joint_groups`, SRDF): their names, and those of the joints' frames.
@@ -102,13 +103,16 @@ class Config {
   /// Makes the joints at or above the named frames the active ones, or all others.
   void selectJoints(const std::vector<std::string>& names, bool not_those = false);
 
-  /// Draws q: per joint uniform within its limits, or Gaussian around its home and clipped, as its sampling attributes say.
+  /// Draws q: per joint uniform within its limits, or Gaussian around its home and clipped, as its sampling attributes
+  /// say.
   void setRandom(Rng& rng);
 
   // --- dynamics ---------------------------------------------------------------------------------------------------
 
   /// What each link weighs; links as in program().
-  std::vector<LinkInertia> inertias() const { return collectInertias(*scene_, *scene_->program(), *scene_->parameters()); }
+  std::vector<LinkInertia> inertias() const {
+    return collectInertias(*scene_, *scene_->program(), *scene_->parameters());
+  }
 
   /// M(q) and F(q, dq) of u = M ddq + F at the present q, with gravity 9.81 m/s^2 along -z.
   EquationOfMotion equationOfMotion(const VectorXd& velocity) const;
@@ -126,9 +130,9 @@ class Config {
     double distance;  ///< m, negative: penetration depth
   };
 
-  /// Pairs of frames that may collide. Both have a shape and a contact flag other than 0, they belong to different links,
-  /// a negative flag -k excludes contacts with the links above within k joints, and so does `contact_exclude` with the
-  /// frames that it names; there, a shape counts as that of its parent, too, if it is fixed to it.
+  /// Pairs of frames that may collide. Both have a shape and a contact flag other than 0, they belong to different
+  /// links, a negative flag -k excludes contacts with the links above within k joints, and so does `contact_exclude`
+  /// with the frames that it names; there, a shape counts as that of its parent, too, if it is fixed to it.
   std::vector<std::pair<int, int>> getCollidablePairs() const { return scene_->program()->collidable(); }
 
   /// All collidable pairs whose distance is at most `margin`, by id.
@@ -137,10 +141,11 @@ class Config {
   /// Sum of the penetration depths of all pairs, or the largest one, in m.
   double getTotalPenetration(bool largest_only = false) const;
 
-  /// The first pair that comes nearer than `margin` (m) on the straight motion of q between two joint vectors, at any time of
-  /// it and not just at samples; none if all pairs keep apart. Pairs within margin + tolerance may count as too near. Throws
-  /// ValueError for joint vectors of a wrong length, and for a tolerance that is not positive.
-  std::optional<MotionContact> checkMotion(const VectorXd& from, const VectorXd& to, double margin = 0., double tolerance = 1e-4) const;
+  /// The first pair that comes nearer than `margin` (m) on the straight motion of q between two joint vectors, at any
+  /// time of it and not just at samples; none if all pairs keep apart. Pairs within margin + tolerance may count as too
+  /// near. Throws ValueError for joint vectors of a wrong length, and for a tolerance that is not positive.
+  std::optional<MotionContact> checkMotion(const VectorXd& from, const VectorXd& to, double margin = 0.,
+                                           double tolerance = 1e-4) const;
 
   // --- for computing ---------------------------------------------------------------------------------------------
 

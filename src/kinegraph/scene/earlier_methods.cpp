@@ -23,7 +23,8 @@ void selectJointsByTag(Config& config, const std::vector<std::string>& attribute
   }
   for (const std::string& attribute : attributes) {
     if (there.contains(attribute)) continue;
-    throw ValueError(cat("selectJointsByTag: no frame with a joint has the attribute '", attribute, "'", similarHint(attribute, {there.begin(), there.end()})));
+    throw ValueError(cat("selectJointsByTag: no frame with a joint has the attribute '", attribute, "'",
+                         similarHint(attribute, {there.begin(), there.end()})));
   }
   config.selectJoints(names, not_those);
 }
@@ -35,19 +36,24 @@ void makeObjectsFree(Config& config, const std::vector<std::string>& names) {
     Frame object(config.scene(), *top);
     if (!top->parent) {
       const Frame first(config.scene(), *config.scene()->frames().front());
-      if (top->id == 0) throw ValueError(cat("makeObjectsFree: '", top->name, "' is the first frame of the configuration, to which free objects are attached"));
+      if (top->id == 0)
+        throw ValueError(cat("makeObjectsFree: '", top->name,
+                             "' is the first frame of the configuration, to which free objects are attached"));
       object.setParent(first, true);
     }
     object.setJoint(JointType::free);
   }
 }
 
-VectorXd stepDynamics(Config& config, const VectorXd& velocity, const VectorXd& u, double tau, double noise, bool gravity, Rng& rng) {
+VectorXd stepDynamics(Config& config, const VectorXd& velocity, const VectorXd& u, double tau, double noise,
+                      bool gravity, Rng& rng) {
   const VectorXd q = config.getJointState();
   if (velocity.size() != q.size() || u.size() != q.size()) {
-    throw ValueError(cat("stepDynamics: got ", velocity.size(), " velocities and ", u.size(), " forces; the configuration has ", q.size(), " active dofs"));
+    throw ValueError(cat("stepDynamics: got ", velocity.size(), " velocities and ", u.size(),
+                         " forces; the configuration has ", q.size(), " active dofs"));
   }
-  if (!(tau > 0.) || !std::isfinite(tau)) throw ValueError(cat("stepDynamics: the time tau, ", tau, " s, is not positive"));
+  if (!(tau > 0.) || !std::isfinite(tau))
+    throw ValueError(cat("stepDynamics: the time tau, ", tau, " s, is not positive"));
   VectorXd disturbance = VectorXd::Zero(q.size());
   for (double& x : disturbance) x = noise > 0. ? noise * rng.normal() : 0.;
   const auto acceleration = [&](const VectorXd& at, const VectorXd& v) {

@@ -83,8 +83,10 @@ std::string resolvePath(const std::string& path, const std::string& folder) {
 std::string missingPackageMessage(const std::string& path) {
   const std::size_t scheme = path.find("://"), first = scheme == std::string::npos ? 0 : scheme + 3;
   const std::string package = path.substr(first, path.find('/', first) - first);
-  return cat("'", path, "' is in none of the folders of KINEGRAPH_PACKAGE_PATH, ROS_PACKAGE_PATH and AMENT_PREFIX_PATH; is the package '",
-             package, "' installed? (pip install ", package, ")");
+  return cat(
+      "'", path,
+      "' is in none of the folders of KINEGRAPH_PACKAGE_PATH, ROS_PACKAGE_PATH and AMENT_PREFIX_PATH; is the package '",
+      package, "' installed? (pip install ", package, ")");
 }
 
 std::string similarFilesHint(const std::string& path) {

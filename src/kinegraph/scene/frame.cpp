@@ -20,7 +20,8 @@ FrameData& Frame::data() const {
 Frame& Frame::setName(std::string name) {
   const FrameData* taken = name.empty() ? nullptr : scene_->find(name);
   if (taken && taken != &data()) {
-    throw ValueError(cat("frame '", data().name, "' cannot be renamed to '", name, "', which is the name of another frame"));
+    throw ValueError(
+        cat("frame '", data().name, "' cannot be renamed to '", name, "', which is the name of another frame"));
   }
   data().name = std::move(name);
   scene_->structureChanged();
@@ -160,13 +161,21 @@ Frame& Frame::setConvexCore(std::vector<Vector3d> points, double radius) {
 Frame& Frame::setColor(const std::vector<double>& c) {
   Vector4d rgba(0, 0, 0, 1);
   switch (c.size()) {
-    case 1: rgba.head<3>().setConstant(c[0]); break;
-    case 2: rgba << c[0], c[0], c[0], c[1]; break;
-    case 3: rgba.head<3>() << c[0], c[1], c[2]; break;
-    case 4: rgba << c[0], c[1], c[2], c[3]; break;
+    case 1:
+      rgba.head<3>().setConstant(c[0]);
+      break;
+    case 2:
+      rgba << c[0], c[0], c[0], c[1];
+      break;
+    case 3:
+      rgba.head<3>() << c[0], c[1], c[2];
+      break;
+    case 4:
+      rgba << c[0], c[1], c[2], c[3];
+      break;
     default:
-      throw ValueError(cat("frame '", getName(), "': a color has 1 (grey), 2 (grey alpha), 3 (rgb) or 4 (rgba) numbers, not ",
-                           c.size()));
+      throw ValueError(cat("frame '", getName(),
+                           "': a color has 1 (grey), 2 (grey alpha), 3 (rgb) or 4 (rgba) numbers, not ", c.size()));
   }
   if (!rgba.allFinite()) throw ValueError(cat("frame '", getName(), "': color has numbers that are not finite"));
   editableShape().color = rgba;
@@ -218,7 +227,8 @@ Frame& Frame::setJoint(JointType type, const std::vector<double>& limits, const 
   if (!axis.empty()) {
     const Vector3d given = axis.size() == 3 ? Vector3d(axis[0], axis[1], axis[2]) : Vector3d::Zero().eval();
     if (type != JointType::hinge || !(given.norm() > 1e-10)) {
-      throw ValueError(cat("frame '", frame.name, "': axis is 3 numbers, not all zero, and only for a joint of type hinge"));
+      throw ValueError(
+          cat("frame '", frame.name, "': axis is 3 numbers, not all zero, and only for a joint of type hinge"));
     }
     joint.axis = given.normalized();
   }
@@ -226,9 +236,10 @@ Frame& Frame::setJoint(JointType type, const std::vector<double>& limits, const 
   if (mimic) {
     const FrameData& source = dofSource(mimic->data());
     if (!source.joint || source.joint->type != type || &source == &frame) {
-      throw ValueError(cat("frame '", frame.name, "' cannot mimic '", mimic->getName(), "', which has ",
-                           source.joint ? "a joint of type " + jointTypeName(source.joint->type) : std::string("no joint"),
-                           "; expected another frame with a ", jointTypeName(type), " joint"));
+      throw ValueError(
+          cat("frame '", frame.name, "' cannot mimic '", mimic->getName(), "', which has ",
+              source.joint ? "a joint of type " + jointTypeName(source.joint->type) : std::string("no joint"),
+              "; expected another frame with a ", jointTypeName(type), " joint"));
     }
     joint.mimic = &dofSource(mimic->data());
   }
@@ -278,8 +289,8 @@ Frame& Frame::setMass(double mass, const std::vector<double>& matrix) {
   } else if (m.size() == 9) {
     inertia.matrix = Eigen::Map<const Matrix3d>(m.data()).transpose();
   } else if (!m.empty()) {
-    throw ValueError(cat("frame '", frame.name, "': an inertia matrix is 3 (diagonal), 6 (xx xy xz yy yz zz) or 9 numbers, not ",
-                         m.size()));
+    throw ValueError(cat("frame '", frame.name,
+                         "': an inertia matrix is 3 (diagonal), 6 (xx xy xz yy yz zz) or 9 numbers, not ", m.size()));
   } else if (frame.shape && frame.shape->geometry->type != ShapeType::marker) {
     const ShellMass shell = shellMass(*frame.shape->geometry);
     inertia.com = shell.com;

@@ -9,9 +9,9 @@
 
 namespace kinegraph {
 
-/// A handle on one frame of a Config. Copies name the same frame. It keeps the scene alive, and once its frame is deleted
-/// every call throws FrameDeleted. Setters return the frame, so that calls can be chained.
-/// Poses are (x y z qw qx qy qz) in m; quaternions are normalized when given.
+/// A handle on one frame of a Config. Copies name the same frame. It keeps the scene alive, and once its frame is
+/// deleted every call throws FrameDeleted. Setters return the frame, so that calls can be chained. Poses are (x y z qw
+/// qx qy qz) in m; quaternions are normalized when given.
 class Frame {
  public:
   Frame(std::shared_ptr<SceneTree> scene, FrameData& data);
@@ -49,16 +49,17 @@ class Frame {
 
   /// Gives the frame a shape, or changes its type and size. `size` as in Geometry, or in the counts of older files.
   Frame& setShape(ShapeType type, const std::vector<double>& size);
-  Frame& setGeometry(Geometry geometry);                           ///< keeps color and contact flag
-  Frame& setMesh(Mesh mesh);                                       ///< triangles; points only where there are none
-  Frame& setConvexCore(std::vector<Vector3d> points, double radius);  ///< ssCvx: convex hull of the points swept by a ball
-  Frame& setColor(const std::vector<double>& color);               ///< 1 grey, 2 grey alpha, 3 rgb, 4 rgba, in 0..1
-  Frame& setContact(int contact);                                  ///< see Config::getCollidablePairs
-  ShapeType getShapeType() const;                                  ///< ShapeType::none without a shape
-  std::vector<double> getSize() const;                             ///< empty without a shape
+  Frame& setGeometry(Geometry geometry);  ///< keeps color and contact flag
+  Frame& setMesh(Mesh mesh);              ///< triangles; points only where there are none
+  Frame& setConvexCore(std::vector<Vector3d> points,
+                       double radius);                ///< ssCvx: convex hull of the points swept by a ball
+  Frame& setColor(const std::vector<double>& color);  ///< 1 grey, 2 grey alpha, 3 rgb, 4 rgba, in 0..1
+  Frame& setContact(int contact);                     ///< see Config::getCollidablePairs
+  ShapeType getShapeType() const;                     ///< ShapeType::none without a shape
+  std::vector<double> getSize() const;                ///< empty without a shape
 
-  /// Gives the frame a joint to its parent. `limits` are all lower, then all upper bounds, or empty. The pose is kept as
-  /// far as the joint can reach it. JointType::none removes the joint. Throws ValueError for a root.
+  /// Gives the frame a joint to its parent. `limits` are all lower, then all upper bounds, or empty. The pose is kept
+  /// as far as the joint can reach it. JointType::none removes the joint. Throws ValueError for a root.
   Frame& setJoint(JointType type, const std::vector<double>& limits = {}, const std::vector<double>& axis = {},
                   double scale = 1., std::optional<Frame> mimic = std::nullopt, const std::string& code = {});
   JointType getJointType() const;  ///< JointType::none without a joint

@@ -18,23 +18,23 @@ namespace kinegraph {
 class SceneTree;
 struct FrameData;
 
-/// What lets a frame move relative to its parent. Its dofs `q` determine the frame's relative pose entirely; only a rigid
-/// joint, which has none, keeps a pose of its own.
+/// What lets a frame move relative to its parent. Its dofs `q` determine the frame's relative pose entirely; only a
+/// rigid joint, which has none, keeps a pose of its own.
 struct Joint {
   JointType type = JointType::rigid;
-  std::string code;                    ///< of JointType::generic
-  Vector3d axis = Vector3d::UnitX();   ///< of JointType::hinge, unit length
-  double scale = 1.;                   ///< the motion is that of scale * q; of a mimic, of scale * the source's motion
-  VectorXd q;                          ///< current dofs; unused while mimicking
-  VectorXd home;                       ///< dofs when the joint was made; mean of random sampling
-  VectorXd lower, upper;               ///< limits in units of q; both empty: none
-  double control_weight = 1.;          ///< `ctrl_H`
-  bool active = true;                  ///< part of the configuration's q
-  bool stable = false;                 ///< constant over the slices of a motion
-  FrameData* mimic = nullptr;          ///< the joint whose dofs this one repeats
-  double sample_uniform = 0.;          ///< probability of uniform sampling within the limits
-  double sample_deviation = .01;       ///< standard deviation of Gaussian sampling
-  std::vector<MotionStep> steps;       ///< motionSteps(type, code)
+  std::string code;                   ///< of JointType::generic
+  Vector3d axis = Vector3d::UnitX();  ///< of JointType::hinge, unit length
+  double scale = 1.;                  ///< the motion is that of scale * q; of a mimic, of scale * the source's motion
+  VectorXd q;                         ///< current dofs; unused while mimicking
+  VectorXd home;                      ///< dofs when the joint was made; mean of random sampling
+  VectorXd lower, upper;              ///< limits in units of q; both empty: none
+  double control_weight = 1.;         ///< `ctrl_H`
+  bool active = true;                 ///< part of the configuration's q
+  bool stable = false;                ///< constant over the slices of a motion
+  FrameData* mimic = nullptr;         ///< the joint whose dofs this one repeats
+  double sample_uniform = 0.;         ///< probability of uniform sampling within the limits
+  double sample_deviation = .01;      ///< standard deviation of Gaussian sampling
+  std::vector<MotionStep> steps;      ///< motionSteps(type, code)
 
   explicit Joint(JointType joint_type = JointType::rigid, std::string joint_code = {});
   int dofs() const { return int(home.size()); }
@@ -47,9 +47,9 @@ struct Shape {
   int contact = 0;                ///< 0: never collides; see Config::getCollidablePairs
   std::string visual_mesh;        ///< path of a mesh file that a viewer shows instead of the geometry, or empty
   Pose visual_pose;               ///< of that mesh in the frame
-  std::shared_ptr<const Image> texture = {};            ///< a picture that covers what is shown, or null
-  std::array<double, 2> texture_repeat = {1., 1.};      ///< how often, to the right and up
-  std::uint64_t revision = 0;     ///< grows when anything here changes
+  std::shared_ptr<const Image> texture = {};        ///< a picture that covers what is shown, or null
+  std::array<double, 2> texture_repeat = {1., 1.};  ///< how often, to the right and up
+  std::uint64_t revision = 0;                       ///< grows when anything here changes
 
   /// The convex core for distances; made at first use and kept.
   const std::shared_ptr<const CollisionBody>& body() const;
@@ -60,9 +60,9 @@ struct Shape {
 };
 
 struct Inertia {
-  double mass = 0.;                          ///< kg
-  Vector3d com = Vector3d::Zero();           ///< m, in the frame
-  Matrix3d matrix = Matrix3d::Zero();        ///< kg m^2, about the centre of mass, in the frame's axes
+  double mass = 0.;                    ///< kg
+  Vector3d com = Vector3d::Zero();     ///< m, in the frame
+  Matrix3d matrix = Matrix3d::Zero();  ///< kg m^2, about the centre of mass, in the frame's axes
 };
 
 /// Attributes as read. Copies share them until one of them is edited, so that scenes are cheap to copy.
@@ -86,27 +86,28 @@ class SharedGraph {
 /// One frame of a scene. Owned by its SceneTree; everything outside of scene/ uses the handle `Frame`.
 struct FrameData {
   std::string name;
-  int id = 0;                      ///< place in the list of frames
-  SceneTree* tree = nullptr;       ///< null once the frame is deleted
+  int id = 0;                 ///< place in the list of frames
+  SceneTree* tree = nullptr;  ///< null once the frame is deleted
   FrameData* parent = nullptr;
   std::vector<FrameData*> children;
-  Pose pose;                       ///< in the parent; in the world for a root; unused under a joint with dofs
+  Pose pose;  ///< in the parent; in the world for a root; unused under a joint with dofs
   std::optional<Joint> joint;
-  std::shared_ptr<Shape> shape;    ///< may be shared between frames
+  std::shared_ptr<Shape> shape;  ///< may be shared between frames
   std::optional<Inertia> inertia;
-  SharedGraph attributes;          ///< as read, interpreted ones included
+  SharedGraph attributes;              ///< as read, interpreted ones included
   std::vector<FrameData*> no_contact;  ///< frames whose shapes never collide with this one's: `contact_exclude`
 
   bool moves() const { return joint && joint->dofs() > 0; }
-  Pose relativePose() const;       ///< `pose`, or what the joint's dofs make
-  Pose worldPose() const;          ///< composed along the parents
+  Pose relativePose() const;  ///< `pose`, or what the joint's dofs make
+  Pose worldPose() const;     ///< composed along the parents
 };
 
 /// The joint whose dofs drive `frame`: its own, or the one that it mimics, through any number of steps.
 FrameData& dofSource(FrameData& frame);
 const FrameData& dofSource(const FrameData& frame);
 
-/// What multiplies the dofs of the source to make the motion of a joint: its own scale, and if it mimics, times the source's.
+/// What multiplies the dofs of the source to make the motion of a joint: its own scale, and if it mimics, times the
+/// source's.
 double motionScale(const FrameData& frame);
 
 }  // namespace kinegraph

@@ -23,7 +23,8 @@ void setLines(Frame& frame, const std::vector<Vector3d>& points, const PointColo
                          connected ? "at least 2" : "an even number of them, two per line"));
   }
   if (colors.size() > 1 && colors.size() != n) {
-    throw ValueError(cat("setLines of frame '", frame.getName(), "': got ", colors.size(), " colors for ", n, " points"));
+    throw ValueError(
+        cat("setLines of frame '", frame.getName(), "': got ", colors.size(), " colors for ", n, " points"));
   }
   Geometry geometry;
   geometry.type = ShapeType::lines;
@@ -41,7 +42,8 @@ void setLines(Frame& frame, const std::vector<Vector3d>& points, const PointColo
 
 void setMeshFile(Frame& frame, const std::string& path, double scale) {
   if (!(std::isfinite(scale) && scale != 0.)) {
-    throw ValueError(cat("setMeshFile of frame '", frame.getName(), "': scale ", scale, " is not a finite number other than 0"));
+    throw ValueError(
+        cat("setMeshFile of frame '", frame.getName(), "': scale ", scale, " is not a finite number other than 0"));
   }
   const std::string absolute = resolvePath(path, ".");
   if (absolute.empty()) throw FileError(cat("mesh file '", path, "': its package is not installed"));
@@ -64,8 +66,9 @@ void setTexture(Frame& frame, const std::string& path, const std::vector<double>
   if (!texcoords.empty()) {
     const std::size_t vertices = shape->geometry->mesh ? shape->geometry->mesh->vertices.size() : 0;
     if (texcoords.size() != 2 * vertices) {
-      throw ValueError(cat("setTextureFile: frame '", frame.getName(), "' has ", vertices == 0 ? "no mesh" : cat("a mesh of ", vertices, " vertices"),
-                           ", and got ", texcoords.size(), " texture coordinates; expected 2 per vertex"));
+      throw ValueError(cat("setTextureFile: frame '", frame.getName(), "' has ",
+                           vertices == 0 ? "no mesh" : cat("a mesh of ", vertices, " vertices"), ", and got ",
+                           texcoords.size(), " texture coordinates; expected 2 per vertex"));
     }
     shape->geometry = withTexcoords(*shape->geometry, texcoords);
     node.key = "texcoords";
@@ -92,7 +95,9 @@ void setGrid(Frame& frame, ShapeType type, Grid grid, const Vector3d& size) {
 
 }  // namespace
 
-void setTensor(Frame& frame, Grid grid, const Vector3d& size) { setGrid(frame, ShapeType::tensor, std::move(grid), size); }
+void setTensor(Frame& frame, Grid grid, const Vector3d& size) {
+  setGrid(frame, ShapeType::tensor, std::move(grid), size);
+}
 
 void setSdf(Frame& frame, Grid grid, const Vector3d& size) { setGrid(frame, ShapeType::sdf, std::move(grid), size); }
 
@@ -107,7 +112,8 @@ void setImplicitSurface(Frame& frame, const Grid& grid, const Vector3d& size, in
   }
   Mesh surface = isosurface(values, size);
   if (surface.triangles.empty()) {
-    throw ValueError(cat("setImplicitSurface of frame '", frame.getName(), "': the values are nowhere zero; they should change sign at the surface"));
+    throw ValueError(cat("setImplicitSurface of frame '", frame.getName(),
+                         "': the values are nowhere zero; they should change sign at the surface"));
   }
   frame.setMesh(std::move(surface));
 }
@@ -148,7 +154,8 @@ std::vector<std::uint32_t> partNumbers(const Mesh& mesh) {
 
 std::vector<Mesh> convexParts(const Mesh& mesh) {
   const std::vector<std::uint32_t> number = partNumbers(mesh);
-  const std::size_t count = std::max<std::size_t>(mesh.parts.size(), number.empty() ? 0 : *std::max_element(number.begin(), number.end()) + 1);
+  const std::size_t count = std::max<std::size_t>(
+      mesh.parts.size(), number.empty() ? 0 : *std::max_element(number.begin(), number.end()) + 1);
   std::vector<Mesh> parts(count);
   std::vector<std::uint32_t> place(mesh.vertices.size());
   for (std::size_t v = 0; v < mesh.vertices.size(); ++v) {
@@ -158,7 +165,8 @@ std::vector<Mesh> convexParts(const Mesh& mesh) {
     if (mesh.colors.size() == mesh.vertices.size()) part.colors.push_back(mesh.colors[v]);
   }
   for (const auto& [a, b, c] : mesh.triangles) {
-    if (number[a] == number[b] && number[b] == number[c]) parts[number[a]].triangles.push_back({place[a], place[b], place[c]});
+    if (number[a] == number[b] && number[b] == number[c])
+      parts[number[a]].triangles.push_back({place[a], place[b], place[c]});
   }
   return parts;
 }
@@ -193,7 +201,8 @@ std::vector<Vector3d> drawnIn(const Mesh& hull, double distance) {
     const Vector3d &a = hull.vertices[triangle[0]], &b = hull.vertices[triangle[1]], &c = hull.vertices[triangle[2]];
     const Vector3d normal = (b - a).cross(c - a).normalized();
     for (std::uint32_t v : triangle) {
-      const bool known = std::any_of(normals[v].begin(), normals[v].end(), [&](const Vector3d& m) { return m.dot(normal) > 1. - 1e-6; });
+      const bool known = std::any_of(normals[v].begin(), normals[v].end(),
+                                     [&](const Vector3d& m) { return m.dot(normal) > 1. - 1e-6; });
       if (!known) normals[v].push_back(normal);
     }
   }
@@ -212,7 +221,8 @@ std::vector<Vector3d> drawnIn(const Mesh& hull, double distance) {
 }
 
 void makeMeshesConvex(SceneTree& scene, double radius) {
-  if (!(radius >= 0.) || !std::isfinite(radius)) throw ValueError(cat("makeMeshesSSCvx: radius ", radius, " m is not zero or positive"));
+  if (!(radius >= 0.) || !std::isfinite(radius))
+    throw ValueError(cat("makeMeshesSSCvx: radius ", radius, " m is not zero or positive"));
   for (const auto& frame : scene.frames()) {
     if (!frame->shape || frame->shape->geometry->type != ShapeType::mesh || !frame->shape->geometry->mesh) continue;
     const Mesh& mesh = *frame->shape->geometry->mesh;
@@ -255,12 +265,15 @@ Inertia readInertia(const H5File& file, const std::string& path) {
 
 Frame addH5Object(Config& config, const std::string& name, const std::string& path) {
   const H5File file(path);
-  const auto read = [&](const char* group) { return file.contains(group) ? std::optional(readH5Mesh(path, group)) : std::nullopt; };
+  const auto read = [&](const char* group) {
+    return file.contains(group) ? std::optional(readH5Mesh(path, group)) : std::nullopt;
+  };
   std::optional<Mesh> mesh = read("mesh"), points = read("points"), decomposition = read("decomp");
   std::optional<Inertia> inertia;
   if (file.contains("inertia/mass")) inertia = readInertia(file, path);
   if (!mesh && !points && !decomposition && !inertia) {
-    throw FileError(cat("'", path, "' holds none of the groups mesh, points, decomp, inertia; it has ", join(file.entries())));
+    throw FileError(
+        cat("'", path, "' holds none of the groups mesh, points, decomp, inertia; it has ", join(file.entries())));
   }
   if (config.findFrame(name)) throw ValueError(cat("addH5Object: there is a frame named '", name, "' already"));
   Frame base = config.addFrame(name);

@@ -55,8 +55,10 @@ bool hasFreePoints(const Geometry& geometry) {
     case ShapeType::mesh:
     case ShapeType::pointCloud:
     case ShapeType::lines:
-    case ShapeType::ssCvx: return geometry.mesh != nullptr;
-    default: return false;
+    case ShapeType::ssCvx:
+      return geometry.mesh != nullptr;
+    default:
+      return false;
   }
 }
 
@@ -85,8 +87,9 @@ void addSurfaceMasses(SceneTree& scene) {
     const bool transparent = frame->shape->color && (*frame->shape->color)[3] < 1.;
     if (transparent && !frame->attributes->find("simulate")) {
       frame->inertia.reset();
-    } else if (geometry.type != ShapeType::marker && geometry.type != ShapeType::camera && geometry.type != ShapeType::quad &&
-               geometry.type != ShapeType::pointCloud && geometry.type != ShapeType::lines) {
+    } else if (geometry.type != ShapeType::marker && geometry.type != ShapeType::camera &&
+               geometry.type != ShapeType::quad && geometry.type != ShapeType::pointCloud &&
+               geometry.type != ShapeType::lines) {
       const ShellMass shell = shellMass(geometry);
       const double mass = kSurfaceDensity * shell.area;
       frame->inertia = Inertia{mass, shell.com, mass * shell.inertia_per_mass};
@@ -113,8 +116,9 @@ Pose moveToPrincipalAxes(SceneTree& scene, FrameData& frame, bool transform_mesh
   if (!canMove(frame, transform_mesh)) {
     const bool points = hasFreePoints(*frame.shape->geometry);
     refuse(cat("has a shape of type ", shapeTypeName(frame.shape->geometry->type),
-               !points ? ", which would move with it" : frame.shape.use_count() > 1 ? ", which it shares with another frame"
-                                                                                   : "; with True its points stay where they are"));
+               !points                       ? ", which would move with it"
+               : frame.shape.use_count() > 1 ? ", which it shares with another frame"
+                                             : "; with True its points stay where they are"));
   }
   const Pose X = principalAxes(*frame.inertia), back = X.inverse();
   frame.inertia = inAxes(*frame.inertia, X);

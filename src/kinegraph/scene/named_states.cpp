@@ -33,8 +33,8 @@ VectorXd dofValues(const FrameData& frame, const std::string& state, const Value
   if (const double* number = value.as<double>()) q = {*number};
   if (const NumberArray* array = value.as<NumberArray>()) q = array->numbers;
   if (int(q.size()) != frame.joint->dofs()) {
-    throw ValueError(cat("joint_states of frame '", frame.name, "', state '", state, "': expected ", frame.joint->dofs(), " numbers, got ",
-                         describe(value)));
+    throw ValueError(cat("joint_states of frame '", frame.name, "', state '", state, "': expected ",
+                         frame.joint->dofs(), " numbers, got ", describe(value)));
   }
   return Eigen::Map<const VectorXd>(q.data(), Eigen::Index(q.size()));
 }
@@ -52,7 +52,8 @@ std::vector<std::string> groupsOfStates(const SceneTree& scene) {
 void checkGroup(const SceneTree& scene, const std::string& group) {
   const std::vector<std::string> names = groupsOfStates(scene);
   if (group.empty() || std::find(names.begin(), names.end(), group) != names.end()) return;
-  throw NameError(cat("no group '", group, "' has named states; there are ", names.empty() ? "none" : join(names), similarHint(group, names)));
+  throw NameError(cat("no group '", group, "' has named states; there are ", names.empty() ? "none" : join(names),
+                      similarHint(group, names)));
 }
 
 }  // namespace
@@ -81,19 +82,20 @@ VectorXd namedState(SceneTree& scene, const std::string& name, const std::string
       found = true;
       const VectorXd values = dofValues(*frame, name, value);
       if (first.size() > 0 && values != first) {
-        throw ValueError(cat("state '", name, "' has two values of joint '", frame->name, "': in group '", first_group, "' and in group '", of,
-                             "'; say which group is meant"));
+        throw ValueError(cat("state '", name, "' has two values of joint '", frame->name, "': in group '", first_group,
+                             "' and in group '", of, "'; say which group is meant"));
       }
       first = values;
       first_group = of;
     });
     const Program::DofRange dofs = program->frame_dofs[frame->id];
-    if (first.size() > 0 && dofs.count == first.size() && !frame->joint->mimic) q.segment(dofs.first, dofs.count) = first;
+    if (first.size() > 0 && dofs.count == first.size() && !frame->joint->mimic)
+      q.segment(dofs.first, dofs.count) = first;
   }
   if (found) return q;
   const std::vector<std::string> names = stateNames(scene, group);
-  throw NameError(cat("there is no state '", name, "'", group.empty() ? "" : cat(" of group '", group, "'"), "; there are ",
-                      names.empty() ? "none" : join(names), similarHint(name, names)));
+  throw NameError(cat("there is no state '", name, "'", group.empty() ? "" : cat(" of group '", group, "'"),
+                      "; there are ", names.empty() ? "none" : join(names), similarHint(name, names)));
 }
 
 std::vector<std::pair<std::string, std::vector<std::string>>> jointGroups(const SceneTree& scene) {

@@ -30,7 +30,8 @@ void readSceneText(std::string_view text, const std::string& name, const std::st
   build(readSource(text, name, folder, diagnostics), scene, diagnostics, warnings);
 }
 
-void readSemanticsFile(const std::string& path, const std::string& prefix, SceneTree& scene, std::vector<std::string>& warnings) {
+void readSemanticsFile(const std::string& path, const std::string& prefix, SceneTree& scene,
+                       std::vector<std::string>& warnings) {
   SceneDiagnostics diagnostics;
   SceneSource source = readSource(path, diagnostics);
   diagnostics.throwErrors();

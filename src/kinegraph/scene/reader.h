@@ -21,7 +21,8 @@ void readSceneText(std::string_view text, const std::string& name, const std::st
 
 /// Enters what an SRDF file says into a scene whose frames are there already, named with `prefix` in front. Throws
 /// FileError or ParseError; the scene is then unchanged.
-void readSemanticsFile(const std::string& path, const std::string& prefix, SceneTree& scene, std::vector<std::string>& warnings);
+void readSemanticsFile(const std::string& path, const std::string& prefix, SceneTree& scene,
+                       std::vector<std::string>& warnings);
 
 /// What is wrong and what is odd about a scene file, all that can be found at once. Throws FileError if it cannot be
 /// read.

@@ -39,8 +39,9 @@ class Applier {
   void apply() {
     if (!knowsAny()) {
       if (!semantics_.asked_for) return;
-      return diagnostics_.error({semantics_.file, 1, 1},
-                                "none of the links and joints named here is a frame of the scene; add the robot before");
+      return diagnostics_.error(
+          {semantics_.file, 1, 1},
+          "none of the links and joints named here is a frame of the scene; add the robot before");
     }
     excludeContacts();
     for (const auto& group : semantics_.groups) {
@@ -152,7 +153,8 @@ class Applier {
         if (!joint && !isOutside(member.name)) warnMissing("joint", member.name, member.where);
         addMoving(joint, joints);
       } else if (member.kind == Member::Kind::link) {
-        if (FrameData* frame = link(member.name, member.where)) addMoving(frame->moves() ? frame : frame->parent, joints);
+        if (FrameData* frame = link(member.name, member.where))
+          addMoving(frame->moves() ? frame : frame->parent, joints);
       } else if (member.kind == Member::Kind::chain) {
         collectChain(member, joints);
       } else if (const auto other = groups_.find(member.name); other != groups_.end()) {
@@ -171,8 +173,8 @@ class Applier {
     if (frame) return;
     joints.resize(before);
     if (!semantics_.asked_for) return;
-    diagnostics_.warning(chain.where, cat("the chain from '", chain.name, "' to '", chain.tip, "' does not exist: '", chain.name,
-                                          "' is not above '", chain.tip, "'"));
+    diagnostics_.warning(chain.where, cat("the chain from '", chain.name, "' to '", chain.tip, "' does not exist: '",
+                                          chain.name, "' is not above '", chain.tip, "'"));
   }
 
   bool isOutside(const std::string& joint) const {
@@ -191,7 +193,8 @@ class Applier {
       return diagnostics_.warning(value.where, cat("state '", state.name, "': joint '", value.joint, "' has ", dofs,
                                                    dofs == 1 ? " dof, not " : " dofs, not ", q.numbers.size()));
     }
-    if (frame->joint->type == JointType::free) std::rotate(q.numbers.begin() + 3, q.numbers.begin() + 6, q.numbers.end());
+    if (frame->joint->type == JointType::free)
+      std::rotate(q.numbers.begin() + 3, q.numbers.begin() + 6, q.numbers.end());
     Graph* states = &attribute<Graph>(*frame, "joint_states");
     if (!state.group.empty()) {
       if (!states->find(state.group)) states->set({state.group, {}, {}, {Graph(), {}}, {}});
@@ -224,7 +227,8 @@ void applySemantics(const RobotSemantics& semantics, SceneTree& scene, SceneDiag
 
 bool isSemanticsFile(const std::string& file) {
   std::string extension = std::filesystem::path(file).extension().string();
-  std::transform(extension.begin(), extension.end(), extension.begin(), [](unsigned char c) { return char(std::tolower(c)); });
+  std::transform(extension.begin(), extension.end(), extension.begin(),
+                 [](unsigned char c) { return char(std::tolower(c)); });
   return extension == ".srdf";
 }
 

@@ -39,11 +39,12 @@ struct RobotSemantics {
   std::vector<State> states;
   std::vector<std::string> outside;  ///< joints of the robot to its world, which are no frames of it
   std::string file, prefix;          ///< `prefix` is put before the names of frames
-  bool asked_for = true;             ///< else it was found beside the robot's file, and names that are not there are nobody's mistake
+  bool asked_for =
+      true;  ///< else it was found beside the robot's file, and names that are not there are nobody's mistake
 };
 
-/// Enters it into the frames: `contact_exclude`, and the attributes `joint_groups` and `joint_states` of joints. Names that
-/// are not there are warnings, and an error if none is.
+/// Enters it into the frames: `contact_exclude`, and the attributes `joint_groups` and `joint_states` of joints. Names
+/// that are not there are warnings, and an error if none is.
 void applySemantics(const RobotSemantics& semantics, SceneTree& scene, SceneDiagnostics& diagnostics);
 
 /// The semantics of a text. Defined in formats/, the layer above, like sceneFormats().
@@ -52,8 +53,8 @@ RobotSemantics readSemantics(std::string_view text, const std::string& file, std
 /// Is it a file of that kind, by its name?
 bool isSemanticsFile(const std::string& file);
 
-/// The SRDF file that belongs to a URDF file: of the same name, beside it, or in a folder srdf beside its folder. "" if there
-/// is none.
+/// The SRDF file that belongs to a URDF file: of the same name, beside it, or in a folder srdf beside its folder. "" if
+/// there is none.
 std::string semanticsBeside(const std::string& file);
 
 }  // namespace kinegraph

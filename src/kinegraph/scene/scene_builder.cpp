@@ -24,10 +24,11 @@ void modernize(Node& node) {
   if (type) type->key = joint ? "joint" : "shape";
 }
 
-/// Attributes are kept with the place of the file that they name, be it there or not, so that the scene may be saved in another
-/// folder. Where a transform is expected, <...> is one.
+/// Attributes are kept with the place of the file that they name, be it there or not, so that the scene may be saved in
+/// another folder. Where a transform is expected, <...> is one.
 void locateFile(Node& node, const std::string& folder) {
-  static const std::set<std::string> transforms = {"X", "Q", "pose", "rel", "pre", "post", "A", "B", "from", "to", "origin", "visual_pose"};
+  static const std::set<std::string> transforms = {"X", "Q", "pose", "rel", "pre",    "post",
+                                                   "A", "B", "from", "to",  "origin", "visual_pose"};
   AngleText* const file = std::get_if<AngleText>(&node.value.data);
   if (!file || file->text.find("://") != std::string::npos || transforms.contains(node.key)) return;
   if (std::string path = resolvePath(file->text, folder); !path.empty()) file->text = std::move(path);

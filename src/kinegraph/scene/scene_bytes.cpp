@@ -27,10 +27,8 @@ class Writer {
   std::string bytes = kMark;
 
   template <class T>
-    requires std::is_arithmetic_v<T>
-  void operator()(const T& value) {
-    bytes.append(reinterpret_cast<const char*>(&value), sizeof(T));
-  }
+  requires std::is_arithmetic_v<T>
+  void operator()(const T& value) { bytes.append(reinterpret_cast<const char*>(&value), sizeof(T)); }
   void size(std::size_t n) { (*this)(std::uint64_t(n)); }
   void raw(const void* data, std::size_t n) { bytes.append(static_cast<const char*>(data), n); }
 
@@ -51,10 +49,8 @@ class Reader {
   explicit Reader(std::string_view bytes) : bytes_(bytes) {}
 
   template <class T>
-    requires std::is_arithmetic_v<T>
-  void operator()(T& value) {
-    raw(&value, sizeof(T));
-  }
+  requires std::is_arithmetic_v<T>
+  void operator()(T& value) { raw(&value, sizeof(T)); }
   void raw(void* data, std::size_t n) {
     if (n > bytes_.size()) throw ValueError("the bytes of a scene end too early");
     if (n > 0) std::memcpy(data, bytes_.data(), n);
@@ -90,7 +86,8 @@ class Reader {
 template <class A, class T>
 void items(A& archive, T& values) {  // vectors of plain numbers, or of arrays of them
   using Item = typename T::value_type;
-  static_assert(std::is_trivially_destructible_v<Item>);  // Eigen's fixed vectors are plain numbers, but not trivially copyable
+  static_assert(
+      std::is_trivially_destructible_v<Item>);  // Eigen's fixed vectors are plain numbers, but not trivially copyable
   if constexpr (A::reading) {
     values.resize(archive.size(sizeof(Item)));
   } else {
@@ -256,8 +253,10 @@ void mesh(A& archive, Mesh& m) {
     }
     std::size_t end = 0;
     for (const TexturedTriangles& t : m.textures) {
-      const bool good = t.image && t.first >= end && t.count <= m.triangles.size() && t.first <= m.triangles.size() - t.count;
-      if (!good || m.texcoords.size() != m.vertices.size()) throw ValueError("the bytes of a scene are damaged: a picture on no triangles");
+      const bool good =
+          t.image && t.first >= end && t.count <= m.triangles.size() && t.first <= m.triangles.size() - t.count;
+      if (!good || m.texcoords.size() != m.vertices.size())
+        throw ValueError("the bytes of a scene are damaged: a picture on no triangles");
       end = t.first + t.count;
     }
   }
@@ -376,7 +375,8 @@ std::shared_ptr<SceneTree> sceneFromBytes(std::string_view bytes) {
       std::vector<std::int64_t> ids;
       items(archive, ids);
       for (std::int64_t id : ids) {
-        if (id < 0 || id >= std::int64_t(count)) throw ValueError("the bytes of a scene are damaged: a frame that is not there");
+        if (id < 0 || id >= std::int64_t(count))
+          throw ValueError("the bytes of a scene are damaged: a frame that is not there");
         others->push_back(scene->frames()[std::size_t(id)].get());
       }
     }

@@ -9,8 +9,8 @@
 namespace kinegraph {
 
 /// Everything that a scene holds as bytes: frames in order, joints with q, shapes with their meshes (shared ones once),
-/// inertias, attributes. Numbers keep all their bits. Meshes are written, not the files that they came from. For handing a
-/// scene to another process of the same version; files that people keep are written as `.g`.
+/// inertias, attributes. Numbers keep all their bits. Meshes are written, not the files that they came from. For
+/// handing a scene to another process of the same version; files that people keep are written as `.g`.
 std::string sceneToBytes(const SceneTree& scene);
 
 /// The scene that sceneToBytes wrote. Throws ValueError for bytes that it did not write, or another version of it.

@@ -79,8 +79,12 @@ class SourceReader {
     }
     const SceneFormat* format = sceneFormatOf(name);
     const std::size_t begin = text.find_first_not_of(" \t\r\n");
-    if (!format && begin != std::string::npos && (text.compare(begin, 5, "<?xml") == 0 || text.compare(begin, 6, "<robot") == 0 || text.compare(begin, 7, "<mujoco") == 0)) {
-      diagnostics_.error({name, 1, 1}, "this is XML and no .g scene; URDF files end in .urdf, MJCF files in .xml, SRDF files in .srdf");
+    if (!format && begin != std::string::npos &&
+        (text.compare(begin, 5, "<?xml") == 0 || text.compare(begin, 6, "<robot") == 0 ||
+         text.compare(begin, 7, "<mujoco") == 0)) {
+      diagnostics_.error(
+          {name, 1, 1},
+          "this is XML and no .g scene; URDF files end in .urdf, MJCF files in .xml, SRDF files in .srdf");
       return {};
     }
     ParseResult parsed = format ? format->read(text, name, folder) : parseAll(text, name);
@@ -144,7 +148,8 @@ class SourceReader {
     std::string text = validUtf8(bytes.str(), nullptr);
     RobotSemantics read = readSemantics(text, path, found);
     diagnostics_.addText(path, std::move(text));
-    const bool failed = std::any_of(found.begin(), found.end(), [](const Diagnostic& d) { return d.severity == Diagnostic::Severity::error; });
+    const bool failed = std::any_of(found.begin(), found.end(),
+                                    [](const Diagnostic& d) { return d.severity == Diagnostic::Severity::error; });
     if (!failed) {
       read.asked_for = false;
       semantics.push_back(std::move(read));
@@ -177,8 +182,9 @@ class SourceReader {
     std::string hint = similarHint(node.key, {"Include", "Prefix", "Edit", "Delete", "DeleteBranch", "ChDir"});
     if (node.key.find(' ') != std::string::npos && hint.empty()) hint = "; is there a line end or a comma missing?";
     if (!node.parents.empty()) {
-      return diagnostics_.error(node.where, cat("'", node.key, " (", join(node.parents, " "), ")' has no attributes; write '", node.key, " (",
-                                                join(node.parents, " "), "): { ... }', the { on the same line"));
+      return diagnostics_.error(
+          node.where, cat("'", node.key, " (", join(node.parents, " "), ")' has no attributes; write '", node.key, " (",
+                          join(node.parents, " "), "): { ... }', the { on the same line"));
     }
     diagnostics_.error(
         node.where,
@@ -194,9 +200,11 @@ class SourceReader {
     static const std::vector<std::string> words = {"Edit", "Include", "Prefix", "Delete", "DeleteBranch"};
     for (const std::string& tag : node.tags) {
       if (tags.contains(tag)) continue;
-      const auto meant = std::find_if(words.begin(), words.end(), [&](const std::string& word) { return editDistance(tag, word) < 1.2; });
+      const auto meant = std::find_if(words.begin(), words.end(),
+                                      [&](const std::string& word) { return editDistance(tag, word) < 1.2; });
       if (meant != words.end()) {
-        diagnostics_.warning(node.where, cat("'", tag, "' before a frame's name has no effect; did you mean '", *meant, "'?"));
+        diagnostics_.warning(node.where,
+                             cat("'", tag, "' before a frame's name has no effect; did you mean '", *meant, "'?"));
       } else {
         diagnostics_.warning(node.where, cat("names hold no blanks: this is frame '", node.key, "' with the tag '", tag,
                                              "'; parents stand in parentheses, as in ", tag, " (", node.key, ")"));

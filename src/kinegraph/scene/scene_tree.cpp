@@ -208,8 +208,8 @@ const std::shared_ptr<const Parameters>& SceneTree::parameters() {
   return parameters_;
 }
 
-/// Takes the parameters from before the last ones if nobody holds them any more, and lets them follow all that was moved since;
-/// else a copy.
+/// Takes the parameters from before the last ones if nobody holds them any more, and lets them follow all that was
+/// moved since; else a copy.
 void SceneTree::moveInParameters() {
   std::shared_ptr<Parameters> next = std::move(parameters_before_);
   if (next && next.use_count() == 1) {

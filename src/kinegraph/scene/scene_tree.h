@@ -14,8 +14,9 @@ namespace kinegraph {
 
 /// The frames of a configuration and what is compiled from them. Config and Frame are handles on it.
 ///
-/// Whoever changes a frame says which of three things is no longer true: the structure (frames, parents, joints, shapes,
-/// contacts), the constant poses and masses, or q. The Program, its Parameters and the State follow when they are asked for.
+/// Whoever changes a frame says which of three things is no longer true: the structure (frames, parents, joints,
+/// shapes, contacts), the constant poses and masses, or q. The Program, its Parameters and the State follow when they
+/// are asked for.
 class SceneTree {
  public:
   SceneTree() = default;
@@ -28,7 +29,8 @@ class SceneTree {
   /// Appends a frame; `parent` may be null.
   FrameData& add(std::string name, FrameData* parent);
 
-  /// Removes a frame. Its children become roots and stay where they are; joints that mimic it become joints of their own.
+  /// Removes a frame. Its children become roots and stay where they are; joints that mimic it become joints of their
+  /// own.
   void remove(FrameData& frame);
   void clear();
 
@@ -48,12 +50,12 @@ class SceneTree {
   /// Cuts `frame` from its parent; the pose is left as it is.
   void unlink(FrameData& frame);
 
-  /// Appends deep copies of all frames of `other`, names prefixed. Returns the first, or null if there is none. Attributes as
-  /// read, which nothing here interprets, are most of the work and can be left out.
+  /// Appends deep copies of all frames of `other`, names prefixed. Returns the first, or null if there is none.
+  /// Attributes as read, which nothing here interprets, are most of the work and can be left out.
   FrameData* append(const SceneTree& other, const std::string& prefix, bool with_attributes = true);
 
-  /// A copy without attributes that later edits do not touch. Copies that nobody holds any more are used again while the
-  /// structure stays: then only values are copied.
+  /// A copy without attributes that later edits do not touch. Copies that nobody holds any more are used again while
+  /// the structure stays: then only values are copied.
   std::shared_ptr<const SceneTree> snapshot();
 
   void structureChanged() {
@@ -122,11 +124,11 @@ class SceneTree {
   std::uint64_t structure_revision_ = 1, compiled_revision_ = 0, looks_revision_ = 0;
   bool poses_stale_ = true, q_stale_ = true, bodies_stale_ = true, asked_since_edit_ = false;
   std::vector<const FrameData*> moved_;  ///< since the parameters were collected
-  std::vector<FrameData*> dof_frames_;  ///< those whose joints make up q, in its order
+  std::vector<FrameData*> dof_frames_;   ///< those whose joints make up q, in its order
   std::shared_ptr<const Program> program_;
   std::shared_ptr<const Parameters> parameters_;
   std::shared_ptr<Parameters> parameters_before_;  ///< the last ones
-  std::vector<const FrameData*> moved_before_;  ///< between these two
+  std::vector<const FrameData*> moved_before_;     ///< between these two
   std::unique_ptr<State> state_;
   VectorXd q_;  ///< as last given to `state_`
   std::unique_ptr<NearPairs> near_pairs_;

@@ -119,8 +119,8 @@ bool AttributeReader::readRope(Geometry& geometry) {
   return true;
 }
 
-/// A mesh that stands in the file itself: `vertices: [x y z ...]`, `triangles: [i j k ...]`, `vertex_colors: [r g b a ...]`,
-/// `mesh_parts: [i ...]`, the first vertices of its convex parts.
+/// A mesh that stands in the file itself: `vertices: [x y z ...]`, `triangles: [i j k ...]`, `vertex_colors: [r g b a
+/// ...]`, `mesh_parts: [i ...]`, the first vertices of its convex parts.
 bool AttributeReader::readVertices(Geometry& geometry) {
   bool good = true;
   const auto list = [&](const char* key, std::size_t columns, double lowest, double highest) {
@@ -143,7 +143,8 @@ bool AttributeReader::readVertices(Geometry& geometry) {
   for (std::size_t i = 0; i < c.size(); i += 4) {
     mesh.colors.push_back({std::uint8_t(c[i]), std::uint8_t(c[i + 1]), std::uint8_t(c[i + 2]), std::uint8_t(c[i + 3])});
   }
-  for (const double first : list("mesh_parts", 1, 0., double(mesh.vertices.size()) - 1.)) mesh.parts.push_back(std::uint32_t(first));
+  for (const double first : list("mesh_parts", 1, 0., double(mesh.vertices.size()) - 1.))
+    mesh.parts.push_back(std::uint32_t(first));
   if (!std::is_sorted(mesh.parts.begin(), mesh.parts.end())) {
     error(*find({"mesh_parts"}), "the first vertices of the parts must ascend");
     good = false;
@@ -159,7 +160,9 @@ bool AttributeReader::readGrid(Geometry& geometry) {
     const Node* cells_node = find({"grid_cells"});
     const auto cells = cells_node ? numbers(*cells_node).value_or(std::vector<double>{}) : std::vector<double>{};
     const auto values = numbers(*node).value_or(std::vector<double>{});
-    const bool good = cells.size() == 3 && std::all_of(cells.begin(), cells.end(), [](double n) { return n >= 2. && n <= 1e6 && n == std::floor(n); });
+    const bool good = cells.size() == 3 && std::all_of(cells.begin(), cells.end(), [](double n) {
+                        return n >= 2. && n <= 1e6 && n == std::floor(n);
+                      });
     if (!good) throw ValueError("needs grid_cells: [nx ny nz], each at least 2");
     Grid grid;
     if (cells[0] * cells[1] * cells[2] != double(values.size())) {
@@ -191,14 +194,14 @@ bool AttributeReader::readSize(Geometry& geometry) {
   const Node& blamed = size ? *size : *find({"shape", "type", "mesh", "mesh_decomp", "mesh_points"});
   const auto given = size ? numbers(*size) : std::vector<double>{};
   return given && guarded(blamed, [&] {
-    std::string enlarged;
-    try {
-      geometry.size = checkedSize(geometry.type, *given, &enlarged);
-    } catch (const ValueError& e) {
-      throw ValueError(cat(e.what(), size ? severalHint(*size) : ""));
-    }
-    if (!enlarged.empty()) warning(blamed, enlarged);
-  });
+           std::string enlarged;
+           try {
+             geometry.size = checkedSize(geometry.type, *given, &enlarged);
+           } catch (const ValueError& e) {
+             throw ValueError(cat(e.what(), size ? severalHint(*size) : ""));
+           }
+           if (!enlarged.empty()) warning(blamed, enlarged);
+         });
 }
 
 /// Type, mesh and size. False if there is a mistake in them.
@@ -233,8 +236,7 @@ void AttributeReader::applyShape(FrameData& frame) {
   }
   if (!frame.shape) {
     const Node* stray = find({"size", "contact"});
-    if (stray && !find({"mimic_shape"}))
-      warning(*stray, cat("'", stray->key, "' has no effect without a shape"));
+    if (stray && !find({"mimic_shape"})) warning(*stray, cat("'", stray->key, "' has no effect without a shape"));
     return;
   }
   if (const Node* color = find({"color"})) {
@@ -260,20 +262,25 @@ void AttributeReader::applyShape(FrameData& frame) {
   applyTexture(*frame.shape);
 }
 
-/// `texture: <image>`, `texcoords: [right up ...]` for each vertex of a mesh, `texture_repeat: [right up]`. A picture that
-/// cannot be had is worth a warning: the shape shows its colour.
+/// `texture: <image>`, `texcoords: [right up ...]` for each vertex of a mesh, `texture_repeat: [right up]`. A picture
+/// that cannot be had is worth a warning: the shape shows its colour.
 void AttributeReader::applyTexture(Shape& shape) {
   if (const Node* node = find({"texcoords"})) {
     const std::vector<double> uv = numbers(*node).value_or(std::vector<double>{});
     const std::size_t vertices = shape.geometry->mesh ? shape.geometry->mesh->vertices.size() : 0;
     if (vertices == 0) return warning(*node, "'texcoords' has no effect: the shape has no vertices");
-    if (uv.size() != 2 * vertices) return error(*node, cat("expected 2 numbers for each of ", vertices, " vertices, got ", uv.size()));
+    if (uv.size() != 2 * vertices)
+      return error(*node, cat("expected 2 numbers for each of ", vertices, " vertices, got ", uv.size()));
     shape.geometry = withTexcoords(*shape.geometry, uv);
   }
   if (const Node* node = find({"texture_repeat"})) {
     const std::vector<double> times = numbers(*node).value_or(std::vector<double>{});
-    const bool good = (times.size() == 1 || times.size() == 2) && std::all_of(times.begin(), times.end(), [](double x) { return std::isfinite(x); });
-    if (!good) return error(*node, cat("expected 1 or 2 finite numbers, how often the picture is repeated to the right and up; got ", times.size()));
+    const bool good = (times.size() == 1 || times.size() == 2) &&
+                      std::all_of(times.begin(), times.end(), [](double x) { return std::isfinite(x); });
+    if (!good)
+      return error(*node,
+                   cat("expected 1 or 2 finite numbers, how often the picture is repeated to the right and up; got ",
+                       times.size()));
     shape.texture_repeat = {times.front(), times.back()};
   }
   const Node* node = find({"texture"});

@@ -14,8 +14,10 @@ bool inverseIsNegative(const Joint& joint) {
   switch (joint.type) {
     case JointType::transXY:
     case JointType::trans3:
-    case JointType::rigid: return true;
-    default: return joint.dofs() == 1;
+    case JointType::rigid:
+      return true;
+    default:
+      return joint.dofs() == 1;
   }
 }
 
@@ -26,8 +28,10 @@ bool isGroup(JointType type) {
     case JointType::transXYPhi:
     case JointType::phiTransXY:
     case JointType::quatBall:
-    case JointType::free: return true;
-    default: return false;
+    case JointType::free:
+      return true;
+    default:
+      return false;
   }
 }
 
@@ -78,7 +82,8 @@ void makeRoot(SceneTree& scene, FrameData& frame, bool until_part_break) {
     inverse_joint.push_back(path[i]->joint ? std::optional(inverseJoint(*path[i], relative)) : std::nullopt);
   }
   for (const auto& other : scene.frames()) {  // those that repeat a negated q
-    if (!other->joint || !other->joint->mimic || std::find(path.begin(), path.end(), other.get()) != path.end()) continue;
+    if (!other->joint || !other->joint->mimic || std::find(path.begin(), path.end(), other.get()) != path.end())
+      continue;
     const auto source = std::find(path.begin(), path.end() - 1, &dofSource(*other));
     if (source != path.end() - 1 && !inverseIsNegative(*(*source)->joint)) {
       throw ValueError(cat("makeRoot: ", quoted(*other), " mimics the ", jointTypeName((*source)->joint->type),
@@ -137,7 +142,8 @@ int dofIndex(SceneTree& scene, const FrameData& frame) {
   int first = 0;
   for (const auto& other : scene.frames()) {
     if (other.get() == &source) break;
-    if (other->moves() && !other->joint->mimic && other->joint->active == source.joint->active) first += other->joint->dofs();
+    if (other->moves() && !other->joint->mimic && other->joint->active == source.joint->active)
+      first += other->joint->dofs();
   }
   return first;
 }
@@ -148,15 +154,20 @@ void requireFreeParent(const FrameData& frame) {
   const auto refuse = [&](const std::string& why) {
     throw ValueError(cat("recalibrateJointsToZero: ", quoted(frame), " ", why));
   };
-  if (frame.joint->dofs() != 1) refuse(cat("has a ", jointTypeName(frame.joint->type), " joint; only joints of one dof have a zero to move"));
+  if (frame.joint->dofs() != 1)
+    refuse(cat("has a ", jointTypeName(frame.joint->type), " joint; only joints of one dof have a zero to move"));
   const FrameData& parent = *frame.parent;
   if (!parent.parent) refuse(cat("hangs below '", parent.name, "', a root; put a frame between them"));
   if (parent.shape || parent.inertia || parent.joint) {
-    refuse(cat("hangs below '", parent.name, "', which has a ", parent.shape ? "shape" : parent.joint ? "joint" : "mass",
+    refuse(cat("hangs below '", parent.name, "', which has a ",
+               parent.shape   ? "shape"
+               : parent.joint ? "joint"
+                              : "mass",
                "; put an empty frame between them"));
   }
   for (const FrameData* sibling : parent.children) {
-    if (sibling != &frame && sibling->moves()) refuse(cat("and '", sibling->name, "' hang below the same frame '", parent.name, "'"));
+    if (sibling != &frame && sibling->moves())
+      refuse(cat("and '", sibling->name, "' hang below the same frame '", parent.name, "'"));
   }
 }
 

@@ -11,7 +11,8 @@ std::shared_ptr<const Geometry> VisualMeshes::of(const Shape& shape) {
   std::shared_ptr<const Geometry> geometry = fromFile(shape);
   if (!shape.texture) return geometry;
   const std::shared_ptr<const Geometry> bare = geometry ? geometry : shape.geometry;
-  const auto [place, is_new] = covered_.try_emplace(Covered{bare, shape.texture, shape.texture_repeat[0], shape.texture_repeat[1]});
+  const auto [place, is_new] =
+      covered_.try_emplace(Covered{bare, shape.texture, shape.texture_repeat[0], shape.texture_repeat[1]});
   if (is_new) {
     Mesh mesh = texturedSurface(*bare, shape.texture, shape.texture_repeat);
     if (!mesh.triangles.empty()) {

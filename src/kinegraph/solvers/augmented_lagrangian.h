@@ -24,13 +24,14 @@ class AugmentedLagrangianMemory {
 ///
 /// An augmented Lagrangian whose inner steps minimize a piecewise quadratic Gauss-Newton model in a box, with Levenberg
 /// damping that is adapted to how well the model predicts. Multipliers are those of the model, updated when an inner
-/// problem is nearly solved. A step that reduces neither cost nor violation ends it with the reason; where no step reduces
-/// the linearized violation, the constraints are locally infeasible, and the least violation is sought.
-/// `dual` (empty, or one multiplier per residual) starts it warm. Sources: Nocedal & Wright, Numerical Optimization, 2nd
-/// ed., ch. 17.4; Qi & Sun, A nonsmooth version of Newton's method, 1993; Nielsen, Damping parameter in Marquardt's
-/// method, 1999. `memory`, where given, is of this problem alone.
-SolverResult solveAugmentedLagrangian(Nlp& nlp, const VectorXd& x0, const SolverOptions& options, const VectorXd& dual = {},
-                                      const EvaluationHook& hook = {}, AugmentedLagrangianMemory* memory = nullptr);
+/// problem is nearly solved. A step that reduces neither cost nor violation ends it with the reason; where no step
+/// reduces the linearized violation, the constraints are locally infeasible, and the least violation is sought. `dual`
+/// (empty, or one multiplier per residual) starts it warm. Sources: Nocedal & Wright, Numerical Optimization, 2nd ed.,
+/// ch. 17.4; Qi & Sun, A nonsmooth version of Newton's method, 1993; Nielsen, Damping parameter in Marquardt's method,
+/// 1999. `memory`, where given, is of this problem alone.
+SolverResult solveAugmentedLagrangian(Nlp& nlp, const VectorXd& x0, const SolverOptions& options,
+                                      const VectorXd& dual = {}, const EvaluationHook& hook = {},
+                                      AugmentedLagrangianMemory* memory = nullptr);
 
 /// Throws ValueError if `x0` has another size than the problem, or numbers that are not finite.
 void requireStart(const Nlp& nlp, const VectorXd& x0);

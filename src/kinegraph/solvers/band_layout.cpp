@@ -12,7 +12,9 @@ bool repeatsColumns(const Jacobian& pattern, int row) {
   if (row == 0) return false;
   const auto segments = pattern.row_segments(row), before = pattern.row_segments(row - 1);
   return std::equal(segments.begin(), segments.end(), before.begin(), before.end(),
-                    [](const Jacobian::Segment& a, const Jacobian::Segment& b) { return a.column == b.column && a.width == b.width; });
+                    [](const Jacobian::Segment& a, const Jacobian::Segment& b) {
+                      return a.column == b.column && a.width == b.width;
+                    });
 }
 
 }  // namespace

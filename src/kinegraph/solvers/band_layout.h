@@ -7,9 +7,9 @@
 
 namespace kinegraph {
 
-/// Where each variable goes in a matrix J^T J, and how many are at its end: those that rows connect to others much farther on
-/// than is usual (dofs that many slices of a path share). The matrix is then a band with a border, and its factor has no other
-/// entries.
+/// Where each variable goes in a matrix J^T J, and how many are at its end: those that rows connect to others much
+/// farther on than is usual (dofs that many slices of a path share). The matrix is then a band with a border, and its
+/// factor has no other entries.
 struct BandLayout {
   std::vector<int> place;  ///< of each variable
   int shared = 0;          ///< at the end

@@ -4,8 +4,8 @@
 
 namespace kinegraph {
 
-/// Remembers the best point that a solver has seen, for where it ends without a result: one that meets the constraints before one
-/// that does not, then the least cost, or the least violation.
+/// Remembers the best point that a solver has seen, for where it ends without a result: one that meets the constraints
+/// before one that does not, then the least cost, or the least violation.
 class BestSoFar {
  public:
   /// `tolerance` of the constraints.

@@ -8,24 +8,35 @@
 
 namespace kinegraph {
 
-ConstrainedFunction::ConstrainedFunction(Nlp& nlp) : nlp_(nlp), lower_(nlp.lower()), upper_(nlp.upper()), last_x_(lower_), moved_phi_(nlp.types().size()) {
+ConstrainedFunction::ConstrainedFunction(Nlp& nlp)
+    : nlp_(nlp), lower_(nlp.lower()), upper_(nlp.upper()), last_x_(lower_), moved_phi_(nlp.types().size()) {
   costs_.reserve(nlp.types().size());
   constraints_.reserve(nlp.types().size());
   std::vector<int> inequalities;
   for (int row = 0; row < int(nlp.types().size()); ++row) {
     switch (nlp.types()[row]) {
-      case ObjectiveType::f: has_f_ = true; [[fallthrough]];
+      case ObjectiveType::f:
+        has_f_ = true;
+        [[fallthrough]];
       case ObjectiveType::sos:
-      case ObjectiveType::ineqP: costs_.push_back(row); break;
-      case ObjectiveType::eq: constraints_.push_back(row); break;
+      case ObjectiveType::ineqP:
+        costs_.push_back(row);
+        break;
+      case ObjectiveType::eq:
+        constraints_.push_back(row);
+        break;
       case ObjectiveType::ineq:
-      case ObjectiveType::ineqB: inequalities.push_back(row); break;
-      case ObjectiveType::none: break;
+      case ObjectiveType::ineqB:
+        inequalities.push_back(row);
+        break;
+      case ObjectiveType::none:
+        break;
     }
   }
   equalities_ = int(constraints_.size());
   constraints_.insert(constraints_.end(), inequalities.begin(), inequalities.end());
-  only_squares_ = std::all_of(costs_.begin(), costs_.end(), [this](int row) { return types()[row] == ObjectiveType::sos; });
+  only_squares_ =
+      std::all_of(costs_.begin(), costs_.end(), [this](int row) { return types()[row] == ObjectiveType::sos; });
 }
 
 void ConstrainedFunction::begin(const VectorXd& x0, const SolverOptions& options, const EvaluationHook& hook) {
@@ -89,7 +100,8 @@ void ConstrainedFunction::costGradient(const VectorXd& phi, const Jacobian& J, V
   for (int row : costs_) {
     const ObjectiveType type = types()[row];
     if (type == ObjectiveType::f) J.addRowTo(row, 1., gradient);
-    if (type == ObjectiveType::sos || (type == ObjectiveType::ineqP && phi[row] > 0.)) J.addRowTo(row, 2. * phi[row], gradient);
+    if (type == ObjectiveType::sos || (type == ObjectiveType::ineqP && phi[row] > 0.))
+      J.addRowTo(row, 2. * phi[row], gradient);
   }
 }
 
@@ -101,8 +113,10 @@ void ConstrainedFunction::generalGradient(const Jacobian& J, const VectorXd& mul
   addConstraintGradient(J, multipliers, gradient);
 }
 
-void ConstrainedFunction::addConstraintGradient(const Jacobian& J, const VectorXd& multipliers, VectorXd& gradient) const {
-  for (Eigen::Index j = 0; j < multipliers.size(); ++j) J.addRowTo(constraints_[std::size_t(j)], multipliers[j], gradient);
+void ConstrainedFunction::addConstraintGradient(const Jacobian& J, const VectorXd& multipliers,
+                                                VectorXd& gradient) const {
+  for (Eigen::Index j = 0; j < multipliers.size(); ++j)
+    J.addRowTo(constraints_[std::size_t(j)], multipliers[j], gradient);
 }
 
 void ConstrainedFunction::moveTo(const EvaluatedPoint& point) {
@@ -125,7 +139,8 @@ void ConstrainedFunction::forceBest(const EvaluatedPoint& point) {
   best_.violation = point.violation;
 }
 
-SolverResult ConstrainedFunction::result(const EvaluatedPoint& point, const VectorXd& multipliers, SolverStatus status, std::string message) {
+SolverResult ConstrainedFunction::result(const EvaluatedPoint& point, const VectorXd& multipliers, SolverStatus status,
+                                         std::string message) {
   SolverResult out;
   out.x = point.x;
   out.dual = VectorXd::Zero(point.phi.size());

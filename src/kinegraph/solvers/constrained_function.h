@@ -11,7 +11,7 @@ namespace kinegraph {
 struct EvaluatedPoint {
   VectorXd x, phi;
   Jacobian J;
-  VectorXd c;             ///< phi of the constraints
+  VectorXd c;  ///< phi of the constraints
   double cost = 0.;
   double violation = 0.;  ///< of the worst constraint
   bool finite = true;     ///< are phi and J?
@@ -22,7 +22,8 @@ struct EvaluatedPoint {
 class ConstrainedFunction {
  public:
   explicit ConstrainedFunction(Nlp& nlp);
-  ConstrainedFunction(Nlp& nlp, const VectorXd& x0, const SolverOptions& options, const EvaluationHook& hook) : ConstrainedFunction(nlp) {
+  ConstrainedFunction(Nlp& nlp, const VectorXd& x0, const SolverOptions& options, const EvaluationHook& hook)
+      : ConstrainedFunction(nlp) {
     begin(x0, options, hook);
   }
 
@@ -34,8 +35,8 @@ class ConstrainedFunction {
   const std::vector<int>& costs() const { return costs_; }              ///< rows of type f, sos, ineqP
   const std::vector<int>& constraints() const { return constraints_; }  ///< rows, equalities first
   int equalities() const { return equalities_; }
-  bool hasGeneralCosts() const { return has_f_; }                       ///< of type f
-  const VectorXd& lower() const { return lower_; }                      ///< infinite if the options say so
+  bool hasGeneralCosts() const { return has_f_; }   ///< of type f
+  const VectorXd& lower() const { return lower_; }  ///< infinite if the options say so
   const VectorXd& upper() const { return upper_; }
   VectorXd clip(const VectorXd& x) const { return x.cwiseMax(lower_).cwiseMin(upper_); }
 
@@ -52,7 +53,8 @@ class ConstrainedFunction {
   double cost(const VectorXd& phi) const;
   void costGradient(const VectorXd& phi, const Jacobian& J, VectorXd& gradient) const;
 
-  /// Gradient of the f rows and of the constraints times `multipliers` (empty: zero): what Gauss-Newton has no curvature of.
+  /// Gradient of the f rows and of the constraints times `multipliers` (empty: zero): what Gauss-Newton has no
+  /// curvature of.
   void generalGradient(const Jacobian& J, const VectorXd& multipliers, VectorXd& gradient) const;
   void addConstraintGradient(const Jacobian& J, const VectorXd& multipliers, VectorXd& gradient) const;
 
@@ -66,7 +68,8 @@ class ConstrainedFunction {
   const EvaluatedPoint& best() const { return best_; }
 
   /// How it ended at a point; leaves the problem there. `multipliers` are those of the constraints.
-  SolverResult result(const EvaluatedPoint& point, const VectorXd& multipliers, SolverStatus status, std::string message);
+  SolverResult result(const EvaluatedPoint& point, const VectorXd& multipliers, SolverStatus status,
+                      std::string message);
 
  private:
   Nlp& nlp_;

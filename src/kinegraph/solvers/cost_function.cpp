@@ -8,8 +8,8 @@
 
 namespace kinegraph {
 
-CostFunction::CostFunction(Nlp& nlp, const VectorXd& x0, const SolverOptions& options, const EvaluationHook& hook, const char* method,
-                           bool with_gradient)
+CostFunction::CostFunction(Nlp& nlp, const VectorXd& x0, const SolverOptions& options, const EvaluationHook& hook,
+                           const char* method, bool with_gradient)
     : nlp_(nlp), options_(options), hook_(hook), phi_(Eigen::Index(nlp.types().size())), J_(nlp.makeJacobian()) {
   options.validate();
   requireNoConstraints(nlp, method);

@@ -6,14 +6,15 @@
 
 namespace kinegraph {
 
-/// A problem without constraints, as one function of x in a box:  F = sum_f phi + sum_sos phi^2 + sum_ineqP max(0, phi)^2.
-/// Counts evaluations, asks the hook, keeps the best point. A value that is not finite counts as infinitely bad.
+/// A problem without constraints, as one function of x in a box:  F = sum_f phi + sum_sos phi^2 + sum_ineqP max(0,
+/// phi)^2. Counts evaluations, asks the hook, keeps the best point. A value that is not finite counts as infinitely
+/// bad.
 class CostFunction {
  public:
-  /// Throws ValueError if the problem has constraints, naming `method` and the first of them, if `x0` does not fit, or if F
-  /// or its gradient is not finite there.
-  CostFunction(Nlp& nlp, const VectorXd& x0, const SolverOptions& options, const EvaluationHook& hook, const char* method,
-               bool with_gradient);
+  /// Throws ValueError if the problem has constraints, naming `method` and the first of them, if `x0` does not fit, or
+  /// if F or its gradient is not finite there.
+  CostFunction(Nlp& nlp, const VectorXd& x0, const SolverOptions& options, const EvaluationHook& hook,
+               const char* method, bool with_gradient);
 
   const VectorXd& start() const { return start_; }  ///< x0, clipped to the bounds
   double startValue() const { return start_value_; }

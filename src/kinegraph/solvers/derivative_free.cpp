@@ -38,7 +38,8 @@ SolverResult solveNelderMead(Nlp& nlp, const VectorXd& x0, const SolverOptions& 
       VectorXd corner = center;
       corner[i] += spread;
       corner = cost.clip(corner);
-      if (corner[i] - center[i] < .5 * spread) corner[i] = std::max(center[i] - spread, cost.clip(center - VectorXd::Constant(n, spread))[i]);
+      if (corner[i] - center[i] < .5 * spread)
+        corner[i] = std::max(center[i] - spread, cost.clip(center - VectorXd::Constant(n, spread))[i]);
       simplex.emplace_back(cost.value(corner), corner);
     }
   };
@@ -48,12 +49,15 @@ SolverResult solveNelderMead(Nlp& nlp, const VectorXd& x0, const SolverOptions& 
   while (!cost.ended()) {
     std::stable_sort(simplex.begin(), simplex.end(), byValue);
     double size = 0.;
-    for (const auto& corner : simplex) size = std::max(size, (corner.second - simplex[0].second).lpNorm<Eigen::Infinity>());
+    for (const auto& corner : simplex)
+      size = std::max(size, (corner.second - simplex[0].second).lpNorm<Eigen::Infinity>());
     const double range = simplex.back().first - simplex[0].first;
-    if (size <= .1 * options.stopTolerance || (size <= 10. * options.stopTolerance && range <= 1e-14 * std::max(1., std::abs(simplex[0].first)))) {
+    if (size <= .1 * options.stopTolerance ||
+        (size <= 10. * options.stopTolerance && range <= 1e-14 * std::max(1., std::abs(simplex[0].first)))) {
       // a simplex may collapse where there is no minimum: a new one must not get any further
       const bool improved = value_at_restart - cost.bestValue() > 1e-9 * std::max(1., std::abs(value_at_restart));
-      if (restarts > 0 && !improved) return cost.result(SolverStatus::converged, cat("a simplex of size ", size, " after a restart"));
+      if (restarts > 0 && !improved)
+        return cost.result(SolverStatus::converged, cat("a simplex of size ", size, " after a restart"));
       ++restarts;
       value_at_restart = cost.bestValue();
       spread = std::max(.1 * spread, 100. * options.stopTolerance);
@@ -99,7 +103,8 @@ SolverResult solveCma(Nlp& nlp, const VectorXd& x0, const SolverOptions& options
   for (int i = 0; i < parents; ++i) weights[i] = std::log(.5 * (population + 1)) - std::log(i + 1.);
   weights /= weights.sum();
   const double mu = 1. / weights.squaredNorm();
-  const double c_sigma = (mu + 2.) / (n + mu + 5.), damping = 1. + 2. * std::max(0., std::sqrt((mu - 1.) / (n + 1.)) - 1.) + c_sigma;
+  const double c_sigma = (mu + 2.) / (n + mu + 5.),
+               damping = 1. + 2. * std::max(0., std::sqrt((mu - 1.) / (n + 1.)) - 1.) + c_sigma;
   const double c_c = (4. + mu / n) / (n + 4. + 2. * mu / n), c_1 = 2. / ((n + 1.3) * (n + 1.3) + mu);
   const double c_mu = std::min(1. - c_1, 2. * (mu - 2. + 1. / mu) / ((n + 2.) * (n + 2.) + mu));
   const double expected = std::sqrt(double(n)) * (1. - 1. / (4. * n) + 1. / (21. * n * n));
@@ -145,7 +150,8 @@ SolverResult solveCma(Nlp& nlp, const VectorXd& x0, const SolverOptions& options
     axes = eigen.eigenvectors();
     scales = eigen.eigenvalues().cwiseMax(1e-20).cwiseSqrt();
     const double size = sigma * scales.maxCoeff();
-    if (size <= .1 * options.stopTolerance) return cost.result(SolverStatus::converged, cat("the population has shrunk to ", size));
+    if (size <= .1 * options.stopTolerance)
+      return cost.result(SolverStatus::converged, cat("the population has shrunk to ", size));
     if (!std::isfinite(size) || scales.maxCoeff() > 1e7 * scales.minCoeff()) {
       return cost.result(SolverStatus::stalled, "the covariance of the population has become singular");
     }

@@ -15,9 +15,10 @@ namespace kinegraph {
 
 namespace {
 
-constexpr int kMostTrials = 12;       // relaxations tried, the most promising first
-constexpr double kNoSlack = 1e-9;     // distance from a bound that counts as at the bound
-constexpr double kWeakPull = 1e-3;    // a bound that presses less than this part of the strongest is no part of a conflict
+constexpr int kMostTrials = 12;    // relaxations tried, the most promising first
+constexpr double kNoSlack = 1e-9;  // distance from a bound that counts as at the bound
+constexpr double kWeakPull =
+    1e-3;  // a bound that presses less than this part of the strongest is no part of a conflict
 
 double angleOfChord(double chord) { return 2. * std::asin(std::min(1., .5 * chord)); }
 
@@ -36,11 +37,20 @@ Amount amountOf(const Nlp& nlp, const VectorXd& phi, const std::vector<int>& row
     if (what.scale == 0.) continue;
     const double value = missed / std::abs(what.scale), square = value * value;
     switch (what.measure) {
-      case Measure::number: break;
-      case Measure::length: length = equality ? std::max(length, 0.) + square : std::max(length, square); break;
-      case Measure::angle: raise(out.radians, value); break;
-      case Measure::quaternion: quaternion = std::max(quaternion, 0.) + square; break;
-      case Measure::axis: axis = std::max(axis, 0.) + square; break;
+      case Measure::number:
+        break;
+      case Measure::length:
+        length = equality ? std::max(length, 0.) + square : std::max(length, square);
+        break;
+      case Measure::angle:
+        raise(out.radians, value);
+        break;
+      case Measure::quaternion:
+        quaternion = std::max(quaternion, 0.) + square;
+        break;
+      case Measure::axis:
+        axis = std::max(axis, 0.) + square;
+        break;
       case Measure::cosine: {
         const auto angle = [](double cosine) { return std::acos(std::clamp(cosine, -1., 1.)); };
         raise(out.radians, std::abs(angle(what.target + phi[row] / what.scale) - angle(what.target)));
@@ -117,14 +127,16 @@ std::vector<Conflict> violatedDemands(const Nlp& nlp, const VectorXd& phi, doubl
 }
 
 /// The bounds that keep x from going on down the sum of squared violations.
-std::vector<Conflict> pressingBounds(Nlp& nlp, const VectorXd& x, const VectorXd& phi, const Jacobian& J, double tolerance) {
+std::vector<Conflict> pressingBounds(Nlp& nlp, const VectorXd& x, const VectorXd& phi, const Jacobian& J,
+                                     double tolerance) {
   VectorXd gradient = VectorXd::Zero(x.size());
   for (int row = 0; row < phi.size(); ++row) {
     if (violation(nlp.types()[row], phi[row]) > tolerance) J.addRowTo(row, 2. * phi[row], gradient);
   }
   std::vector<Conflict> bounds;
   for (int i = 0; i < x.size(); ++i) {
-    const bool below = x[i] <= nlp.lower()[i] + kNoSlack && gradient[i] > 0., above = x[i] >= nlp.upper()[i] - kNoSlack && gradient[i] < 0.;
+    const bool below = x[i] <= nlp.lower()[i] + kNoSlack && gradient[i] > 0.,
+               above = x[i] >= nlp.upper()[i] - kNoSlack && gradient[i] < 0.;
     if (!below && !above) continue;
     const VariableDescription what = nlp.describeVariable(i);
     Conflict conflict;
@@ -175,7 +187,9 @@ void tryRelaxing(Nlp& nlp, const VectorXd& x, double tolerance, const Evaluation
   conflict.suffices = result.violation <= tolerance;
   if (conflict.is_bound) {
     const double at = result.x[conflict.variable];
-    conflict.relaxation = amountOfBound(nlp, conflict.variable, std::abs(at - std::clamp(at, nlp.lower()[conflict.variable], nlp.upper()[conflict.variable])));
+    conflict.relaxation =
+        amountOfBound(nlp, conflict.variable,
+                      std::abs(at - std::clamp(at, nlp.lower()[conflict.variable], nlp.upper()[conflict.variable])));
   } else {
     conflict.relaxation = amountOfSlices(nlp, phi.head(Eigen::Index(rows)), group_rows);
   }
@@ -226,7 +240,8 @@ Explanation findConflicts(Nlp& nlp, const VectorXd& x, double tolerance, const E
   out.x = x;
   VectorXd phi(Eigen::Index(nlp.types().size()));
   nlp.evaluate(x, phi, nullptr);
-  if (const std::string what = describeNotFinite(nlp, phi, nullptr); !what.empty()) throw ValueError(cat("explain: ", what));
+  if (const std::string what = describeNotFinite(nlp, phi, nullptr); !what.empty())
+    throw ValueError(cat("explain: ", what));
   out.violation = out.least_violation = largestViolation(nlp.types(), phi);
   if (out.violation <= tolerance) return out;
   out.conflicts = violatedDemands(nlp, phi, tolerance);
@@ -236,7 +251,8 @@ Explanation findConflicts(Nlp& nlp, const VectorXd& x, double tolerance, const E
   options.verbose = 0;
   options.stopEvals = 200;
   options.stopTolerance = 1e-6;
-  if (nlp.dimension() > 0) out.x = solveAugmentedLagrangian(least, x.cwiseMax(nlp.lower()).cwiseMin(nlp.upper()), options, {}, hook).x;
+  if (nlp.dimension() > 0)
+    out.x = solveAugmentedLagrangian(least, x.cwiseMax(nlp.lower()).cwiseMin(nlp.upper()), options, {}, hook).x;
   Jacobian J = nlp.makeJacobian();
   nlp.evaluate(out.x, phi, &J);
   out.least_violation = largestViolation(nlp.types(), phi);
@@ -263,7 +279,8 @@ Explanation findConflicts(Nlp& nlp, const VectorXd& x, double tolerance, const E
 }  // namespace
 
 Explanation explain(Nlp& nlp, const VectorXd& x, double tolerance, const std::function<void()>& between) {
-  if (x.size() != nlp.dimension()) throw ValueError(cat("explain: x has ", x.size(), " numbers; the problem has ", nlp.dimension(), " variables"));
+  if (x.size() != nlp.dimension())
+    throw ValueError(cat("explain: x has ", x.size(), " numbers; the problem has ", nlp.dimension(), " variables"));
   if (!between) return findConflicts(nlp, x, tolerance, {});
   try {
     return findConflicts(nlp, x, tolerance, [&](const VectorXd&, const VectorXd&) {
@@ -278,9 +295,10 @@ Explanation explain(Nlp& nlp, const VectorXd& x, double tolerance, const std::fu
 
 std::string Explanation::str(int at_most) const {
   if (verdict == Verdict::holds) return cat("All constraints hold to ", tolerance, ".");
-  std::string text = verdict == Verdict::not_reached
-                         ? "The constraints can all hold near here, but at this point they do not; solve (again) from here:"
-                         : "The constraints contradict each other. Where they are violated least:";
+  std::string text =
+      verdict == Verdict::not_reached
+          ? "The constraints can all hold near here, but at this point they do not; solve (again) from here:"
+          : "The constraints contradict each other. Where they are violated least:";
   int shown = 0;
   for (const Conflict& conflict : conflicts) {
     if (shown++ == at_most) {
@@ -288,15 +306,22 @@ std::string Explanation::str(int at_most) const {
       break;
     }
     text += cat("\n  ", conflict.name, slicesText(conflict.slices));
-    text += conflict.is_bound ? cat(" holds at ", conflict.bound, " and is pressed on") : cat(" (", objectiveTypeName(conflict.type), ") is missed by ", conflict.violation.str());
-    if (!conflict.details.empty()) text += cat(": ", join({conflict.details.begin(), conflict.details.begin() + std::min<std::ptrdiff_t>(3, std::ptrdiff_t(conflict.details.size()))}));
+    text += conflict.is_bound
+                ? cat(" holds at ", conflict.bound, " and is pressed on")
+                : cat(" (", objectiveTypeName(conflict.type), ") is missed by ", conflict.violation.str());
+    if (!conflict.details.empty())
+      text +=
+          cat(": ",
+              join({conflict.details.begin(),
+                    conflict.details.begin() + std::min<std::ptrdiff_t>(3, std::ptrdiff_t(conflict.details.size()))}));
   }
   if (verdict == Verdict::not_reached) return text;
   if (best < 0) return text + "\nGiving up any single one of these does not help.";
   const Conflict& c = conflicts[best];
   if (c.suffices) return text + cat("\nIf ", c.name, " gives way by ", c.relaxation.str(), ", all others can hold.");
-  return text + cat("\nNo single one can be given up to let all others hold; giving up ", c.name, " helps most: the largest violation falls from ",
-                    least_violation, " to ", c.remaining, " (scaled).");
+  return text + cat("\nNo single one can be given up to let all others hold; giving up ", c.name,
+                    " helps most: the largest violation falls from ", least_violation, " to ", c.remaining,
+                    " (scaled).");
 }
 
 }  // namespace kinegraph

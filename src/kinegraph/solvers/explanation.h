@@ -11,7 +11,7 @@ namespace kinegraph {
 
 /// By how much something is missed, in its own units.
 struct Amount {
-  double scaled = 0.;  ///< the largest entry, as the solver sees it
+  double scaled = 0.;                                         ///< the largest entry, as the solver sees it
   double metres = std::numeric_limits<double>::quiet_NaN();   ///< nan: no part of it is a length; per s^time_order
   double radians = std::numeric_limits<double>::quiet_NaN();  ///< nan: no part of it is an angle; per s^time_order
   int time_order = 0;
@@ -21,21 +21,21 @@ struct Amount {
 
 /// One of the demands that cannot hold together: an objective, or a bound of a variable.
 struct Conflict {
-  std::string name;   ///< of the objective; of the variable if it is a bound
+  std::string name;  ///< of the objective; of the variable if it is a bound
   bool is_bound = false;
   ObjectiveType type = ObjectiveType::ineq;
   std::vector<std::string> frames;
-  std::vector<int> slices;           ///< where it is violated
-  std::vector<int> rows;             ///< of phi that are violated; a bound has none
-  int variable = -1;                 ///< of a bound
+  std::vector<int> slices;  ///< where it is violated
+  std::vector<int> rows;    ///< of phi that are violated; a bound has none
+  int variable = -1;        ///< of a bound
   double bound = 0.;
   std::vector<std::string> details;  ///< "box and camera overlap by 3 mm"
   Amount violation;                  ///< at the point of least violation; a bound holds
-  double pull = 0.;                  ///< its multiplier there: how much the sum of squares would fall per unit that it gives way
+  double pull = 0.;  ///< its multiplier there: how much the sum of squares would fall per unit that it gives way
 
-  bool suffices = false;             ///< giving way alone, by `relaxation`, lets everything else hold
-  Amount relaxation;                 ///< how far it is missed then, at least nearby
-  double remaining = 0.;             ///< the largest (scaled) violation of the others then
+  bool suffices = false;  ///< giving way alone, by `relaxation`, lets everything else hold
+  Amount relaxation;      ///< how far it is missed then, at least nearby
+  double remaining = 0.;  ///< the largest (scaled) violation of the others then
 };
 
 /// Why constraints do not hold at a point.
@@ -56,10 +56,10 @@ struct Explanation {
   std::string str(int at_most = 10) const;
 };
 
-/// Finds which constraints contradict each other around `x`. From there it minimizes the violation alone; what is violated at
-/// that point, with the bounds that hold it there, is the conflict. Each part of it is then given up in turn, to see whether
-/// the others can hold and how far it has to give way. Leaves the problem at `x`. `between`, where given, is called at every
-/// evaluation, and may throw.
+/// Finds which constraints contradict each other around `x`. From there it minimizes the violation alone; what is
+/// violated at that point, with the bounds that hold it there, is the conflict. Each part of it is then given up in
+/// turn, to see whether the others can hold and how far it has to give way. Leaves the problem at `x`. `between`, where
+/// given, is called at every evaluation, and may throw.
 Explanation explain(Nlp& nlp, const VectorXd& x, double tolerance = 1e-3, const std::function<void()>& between = {});
 
 }  // namespace kinegraph

@@ -47,7 +47,8 @@ class Memory {
 
 }  // namespace
 
-SolverResult solveGradientDescent(Nlp& nlp, const VectorXd& x0, const SolverOptions& options, const EvaluationHook& hook) {
+SolverResult solveGradientDescent(Nlp& nlp, const VectorXd& x0, const SolverOptions& options,
+                                  const EvaluationHook& hook) {
   CostFunction cost(nlp, x0, options, hook, "gradientDescent", true);
   VectorXd x = cost.start(), g = cost.startGradient(), next_g;
   double value = cost.startValue(), length = options.stepMax;

@@ -23,7 +23,8 @@ class HitAndRun {
  public:
   HitAndRun(SampledProblem& problem, Rng& rng) : problem_(problem), rng_(rng) {}
 
-  /// A uniform point of the line's part in the set, by cutting the interval at each point that is outside (Neal 2003, sec. 4.2).
+  /// A uniform point of the line's part in the set, by cutting the interval at each point that is outside (Neal 2003,
+  /// sec. 4.2).
   void step(SampledPoint& point) {
     VectorXd d = normalVector(point.x.size(), rng_);
     for (Eigen::Index i = 0; i < d.size(); ++i) {
@@ -34,7 +35,8 @@ class HitAndRun {
     auto [low, high] = interval(point, d);
     while (high - low > 1e-14 && !problem_.cancelled()) {
       const double t = rng_.uniform(low, high);
-      const VectorXd x = (point.x + t * d).cwiseMax(problem_.nlp().lower()).cwiseMin(problem_.nlp().upper());  // rounding only
+      const VectorXd x =
+          (point.x + t * d).cwiseMax(problem_.nlp().lower()).cwiseMin(problem_.nlp().upper());  // rounding only
       SampledPoint next = problem_.at(x);
       if (contains(next)) {
         point = std::move(next);
@@ -61,7 +63,8 @@ class HitAndRun {
     double low = -std::numeric_limits<double>::infinity(), high = -low;
     for (Eigen::Index i = 0; i < d.size(); ++i) {
       if (d[i] == 0.) continue;
-      const double a = (problem_.nlp().lower()[i] - point.x[i]) / d[i], b = (problem_.nlp().upper()[i] - point.x[i]) / d[i];
+      const double a = (problem_.nlp().lower()[i] - point.x[i]) / d[i],
+                   b = (problem_.nlp().upper()[i] - point.x[i]) / d[i];
       low = std::max(low, std::min(a, b));
       high = std::min(high, std::max(a, b));
     }
@@ -80,19 +83,22 @@ class HitAndRun {
   Rng& rng_;
 };
 
-/// Metropolis steps along the tangents of the equalities, each projected back along their normals; they are refused unless the
-/// way back is as possible.
+/// Metropolis steps along the tangents of the equalities, each projected back along their normals; they are refused
+/// unless the way back is as possible.
 class SurfaceWalk {
  public:
-  SurfaceWalk(SampledProblem& problem, bool with_gradient, Rng& rng) : problem_(problem), with_gradient_(with_gradient), rng_(rng) {
+  SurfaceWalk(SampledProblem& problem, bool with_gradient, Rng& rng)
+      : problem_(problem), with_gradient_(with_gradient), rng_(rng) {
     const SamplerOptions& options = problem.options();
-    tau_ = with_gradient && options.langevinTauPrime > 0. ? options.langevinTauPrime : .5 * std::pow(options.interiorNoiseSigma, 2);
+    tau_ = with_gradient && options.langevinTauPrime > 0. ? options.langevinTauPrime
+                                                          : .5 * std::pow(options.interiorNoiseSigma, 2);
   }
 
   /// The way down ends near the surface; steps start on it.
   void begin(SampledPoint& point) {
     if (!problem_.hasEqualities()) return;
-    if (std::optional<SampledPoint> on = project(point.x, placeAt(point)); on && problem_.good(*on)) point = std::move(*on);
+    if (std::optional<SampledPoint> on = project(point.x, placeAt(point)); on && problem_.good(*on))
+      point = std::move(*on);
   }
 
   void step(SampledPoint& point) {
@@ -100,7 +106,8 @@ class SurfaceWalk {
       here_ = placeAt(point);
       here_x_ = point.x;
     }
-    const VectorXd v = here_->drift + std::sqrt(2. * tau_) * (here_->tangents * normalVector(here_->tangents.cols(), rng_));
+    const VectorXd v =
+        here_->drift + std::sqrt(2. * tau_) * (here_->tangents * normalVector(here_->tangents.cols(), rng_));
     std::optional<SampledPoint> next = project(point.x + v, *here_);
     if (!next || !problem_.good(*next)) return;
     const Place there = placeAt(*next);
@@ -135,7 +142,8 @@ class SurfaceWalk {
       place.tangents = MatrixXd::Identity(n, n);
     }
     place.drift = VectorXd::Zero(n);
-    if (with_gradient_) place.drift = -tau_ * (place.tangents * (place.tangents.transpose() * problem_.energyGradient(point)));
+    if (with_gradient_)
+      place.drift = -tau_ * (place.tangents * (place.tangents.transpose() * problem_.energyGradient(point)));
     return place;
   }
 
@@ -162,7 +170,8 @@ class SurfaceWalk {
   VectorXd here_x_;
 };
 
-/// A tree that grows from the nearest of its points towards random ones, each new point brought back to the constraints.
+/// A tree that grows from the nearest of its points towards random ones, each new point brought back to the
+/// constraints.
 class Tree {
  public:
   Tree(SampledProblem& problem, Rng& rng, const SampledPoint& root) : problem_(problem), rng_(rng), points_{root} {}
@@ -174,7 +183,8 @@ class Tree {
       if ((known.x - target).norm() < (nearest->x - target).norm()) nearest = &known;
     }
     const VectorXd way = target - nearest->x;
-    SampledPoint next = problem_.at(nearest->x + std::min(1., problem_.options().interiorNoiseSigma / way.norm()) * way);
+    SampledPoint next =
+        problem_.at(nearest->x + std::min(1., problem_.options().interiorNoiseSigma / way.norm()) * way);
     if (!std::isfinite(next.slack) || !problem_.goDownhill(next, rng_, false)) return;
     points_.push_back(next);
     point = std::move(next);

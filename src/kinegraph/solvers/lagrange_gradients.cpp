@@ -9,11 +9,15 @@
 
 namespace kinegraph {
 
-std::vector<LagrangeGradient> lagrangeGradients(Nlp& nlp, const VectorXd& x, const VectorXd& dual, const std::vector<std::string>& names) {
+std::vector<LagrangeGradient> lagrangeGradients(Nlp& nlp, const VectorXd& x, const VectorXd& dual,
+                                                const std::vector<std::string>& names) {
   const int rows = int(nlp.types().size());
-  if (x.size() != nlp.dimension()) throw ValueError(cat("x has ", x.size(), " numbers; the problem has ", nlp.dimension(), " variables"));
-  if (dual.size() != 0 && dual.size() != rows) throw ValueError(cat("there are ", dual.size(), " multipliers; the problem has ", rows, " residuals"));
-  if (!names.empty() && int(names.size()) != rows) throw ValueError(cat("there are ", names.size(), " names; the problem has ", rows, " residuals"));
+  if (x.size() != nlp.dimension())
+    throw ValueError(cat("x has ", x.size(), " numbers; the problem has ", nlp.dimension(), " variables"));
+  if (dual.size() != 0 && dual.size() != rows)
+    throw ValueError(cat("there are ", dual.size(), " multipliers; the problem has ", rows, " residuals"));
+  if (!names.empty() && int(names.size()) != rows)
+    throw ValueError(cat("there are ", names.size(), " names; the problem has ", rows, " residuals"));
   Jacobian J = nlp.makeJacobian();
   VectorXd phi(rows);
   nlp.evaluate(x, phi, &J);
@@ -26,10 +30,17 @@ std::vector<LagrangeGradient> lagrangeGradients(Nlp& nlp, const VectorXd& x, con
     if (gradient.size() == 0) gradient.setZero(x.size());
     double weight = dual.size() > 0 ? dual[row] : 0.;
     switch (type) {
-      case ObjectiveType::f: error += y, weight = 1.; break;
-      case ObjectiveType::sos: error += y * y, weight = 2. * y; break;
-      case ObjectiveType::ineqP: error += outside * outside, weight = 2. * outside; break;
-      default: error += violation(type, y);
+      case ObjectiveType::f:
+        error += y, weight = 1.;
+        break;
+      case ObjectiveType::sos:
+        error += y * y, weight = 2. * y;
+        break;
+      case ObjectiveType::ineqP:
+        error += outside * outside, weight = 2. * outside;
+        break;
+      default:
+        error += violation(type, y);
     }
     J.addRowTo(row, weight, gradient);
   }

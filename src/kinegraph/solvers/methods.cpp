@@ -26,15 +26,18 @@ SolverResult slackThenBarrier(Nlp& nlp, const VectorXd& x0, const SolverOptions&
   return second;
 }
 
-/// The augmented Lagrangian. Where the curvature has to be learnt, a sequence of quadratic programs gets half of the evaluations
-/// first, and the better of both is the result if neither converges.
-SolverResult solveDefault(Nlp& nlp, const VectorXd& x0, const SolverOptions& options, const VectorXd& dual, const EvaluationHook& hook,
-                          AugmentedLagrangianMemory* memory) {
-  if (x0.size() != nlp.dimension() || !needsLearntCurvature(nlp, x0)) return solveAugmentedLagrangian(nlp, x0, options, dual, hook, memory);
+/// The augmented Lagrangian. Where the curvature has to be learnt, a sequence of quadratic programs gets half of the
+/// evaluations first, and the better of both is the result if neither converges.
+SolverResult solveDefault(Nlp& nlp, const VectorXd& x0, const SolverOptions& options, const VectorXd& dual,
+                          const EvaluationHook& hook, AugmentedLagrangianMemory* memory) {
+  if (x0.size() != nlp.dimension() || !needsLearntCurvature(nlp, x0))
+    return solveAugmentedLagrangian(nlp, x0, options, dual, hook, memory);
   SolverOptions part = options;
   part.stopEvals = std::max(1, options.stopEvals / 2);
   SolverResult first = solveSequentialQuadratic(nlp, x0, part, hook);
-  if (first.status == SolverStatus::converged || first.status == SolverStatus::cancelled || first.evals >= options.stopEvals) return first;
+  if (first.status == SolverStatus::converged || first.status == SolverStatus::cancelled ||
+      first.evals >= options.stopEvals)
+    return first;
   part.stopEvals = options.stopEvals - first.evals;
   SolverResult second = solveAugmentedLagrangian(nlp, x0, part, dual, hook, memory);
   const double tolerance = options.constraintTolerance();
@@ -46,24 +49,36 @@ SolverResult solveDefault(Nlp& nlp, const VectorXd& x0, const SolverOptions& opt
   return std::move(better);
 }
 
-SolverResult dispatch(Nlp& nlp, const VectorXd& x0, const SolverOptions& options, const VectorXd& dual, const EvaluationHook& hook,
-                      AugmentedLagrangianMemory* memory) {
+SolverResult dispatch(Nlp& nlp, const VectorXd& x0, const SolverOptions& options, const VectorXd& dual,
+                      const EvaluationHook& hook, AugmentedLagrangianMemory* memory) {
   switch (options.method) {
-    case OptMethod::augmentedLag: return solveDefault(nlp, x0, options, dual, hook, memory);
+    case OptMethod::augmentedLag:
+      return solveDefault(nlp, x0, options, dual, hook, memory);
     case OptMethod::newton:
       requireNoConstraints(nlp, "newton");
       return solveAugmentedLagrangian(nlp, x0, options, {}, hook, memory);
-    case OptMethod::gradientDescent: return solveGradientDescent(nlp, x0, options, hook);
-    case OptMethod::rprop: return solveRprop(nlp, x0, options, hook);
-    case OptMethod::LBFGS: return solveLbfgs(nlp, x0, options, hook);
-    case OptMethod::NelderMead: return solveNelderMead(nlp, x0, options, hook);
-    case OptMethod::CMA: return solveCma(nlp, x0, options, hook);
-    case OptMethod::squaredPenalty: return solveSquaredPenalty(nlp, x0, options, hook, false);
-    case OptMethod::singleSquaredPenalty: return solveSquaredPenalty(nlp, x0, options, hook, true);
-    case OptMethod::logBarrier: return solveLogBarrier(nlp, x0, options, hook);
-    case OptMethod::slackGN: return solveSlack(nlp, x0, options, hook);
-    case OptMethod::slackGN_logBarrier: return slackThenBarrier(nlp, x0, options, hook);
-    default: break;
+    case OptMethod::gradientDescent:
+      return solveGradientDescent(nlp, x0, options, hook);
+    case OptMethod::rprop:
+      return solveRprop(nlp, x0, options, hook);
+    case OptMethod::LBFGS:
+      return solveLbfgs(nlp, x0, options, hook);
+    case OptMethod::NelderMead:
+      return solveNelderMead(nlp, x0, options, hook);
+    case OptMethod::CMA:
+      return solveCma(nlp, x0, options, hook);
+    case OptMethod::squaredPenalty:
+      return solveSquaredPenalty(nlp, x0, options, hook, false);
+    case OptMethod::singleSquaredPenalty:
+      return solveSquaredPenalty(nlp, x0, options, hook, true);
+    case OptMethod::logBarrier:
+      return solveLogBarrier(nlp, x0, options, hook);
+    case OptMethod::slackGN:
+      return solveSlack(nlp, x0, options, hook);
+    case OptMethod::slackGN_logBarrier:
+      return slackThenBarrier(nlp, x0, options, hook);
+    default:
+      break;
   }
   std::vector<std::string> names;
   for (OptMethod method : availableMethods()) names.push_back(optMethodName(method));
@@ -74,13 +89,14 @@ SolverResult dispatch(Nlp& nlp, const VectorXd& x0, const SolverOptions& options
 
 const std::vector<OptMethod>& availableMethods() {
   using M = OptMethod;
-  static const std::vector<M> methods = {M::augmentedLag, M::squaredPenalty, M::singleSquaredPenalty, M::logBarrier, M::slackGN,
-                                         M::slackGN_logBarrier, M::newton, M::LBFGS, M::gradientDescent, M::rprop, M::NelderMead, M::CMA};
+  static const std::vector<M> methods = {
+      M::augmentedLag, M::squaredPenalty, M::singleSquaredPenalty, M::logBarrier, M::slackGN,    M::slackGN_logBarrier,
+      M::newton,       M::LBFGS,          M::gradientDescent,      M::rprop,      M::NelderMead, M::CMA};
   return methods;
 }
 
-SolverResult solve(Nlp& nlp, const VectorXd& x0, const SolverOptions& options, const VectorXd& dual, const EvaluationHook& hook,
-                   AugmentedLagrangianMemory* memory) {
+SolverResult solve(Nlp& nlp, const VectorXd& x0, const SolverOptions& options, const VectorXd& dual,
+                   const EvaluationHook& hook, AugmentedLagrangianMemory* memory) {
   const auto start = std::chrono::steady_clock::now();
   SolverResult result;
   if (options.finiteDifference > 0.) {

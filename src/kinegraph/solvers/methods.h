@@ -7,11 +7,11 @@
 
 namespace kinegraph {
 
-/// Solves by `options.method`. Each method says in its own header what it takes; one that cannot take constraints throws
-/// ValueError where there are some. OptMethod::Ipopt and NLopt are other people's programs, which C++ does not have here.
-/// `memory`, where given, is of this problem alone.
-SolverResult solve(Nlp& nlp, const VectorXd& x0, const SolverOptions& options, const VectorXd& dual = {}, const EvaluationHook& hook = {},
-                   AugmentedLagrangianMemory* memory = nullptr);
+/// Solves by `options.method`. Each method says in its own header what it takes; one that cannot take constraints
+/// throws ValueError where there are some. OptMethod::Ipopt and NLopt are other people's programs, which C++ does not
+/// have here. `memory`, where given, is of this problem alone.
+SolverResult solve(Nlp& nlp, const VectorXd& x0, const SolverOptions& options, const VectorXd& dual = {},
+                   const EvaluationHook& hook = {}, AugmentedLagrangianMemory* memory = nullptr);
 
 /// The methods that `solve` has.
 const std::vector<OptMethod>& availableMethods();

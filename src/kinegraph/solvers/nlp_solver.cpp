@@ -29,7 +29,8 @@ void NlpSolver::setProblem(std::shared_ptr<Nlp> problem) {
 
 void NlpSolver::setInitialization(const VectorXd& given) {
   if (problem_ && given.size() != problem_->dimension()) {
-    throw ValueError(cat("setInitialization: got ", given.size(), " numbers; the problem has ", problem_->dimension(), " variables"));
+    throw ValueError(cat("setInitialization: got ", given.size(), " numbers; the problem has ", problem_->dimension(),
+                         " variables"));
   }
   x = given;
   dual.resize(0);
@@ -54,12 +55,13 @@ void NlpSolver::clearTracing() {
   trace_errors_.clear();
 }
 
-/// Goes on to the least violation of the problem as it is stated, with sums: that of the sums while all else holds, or else that
-/// of all constraints together.
+/// Goes on to the least violation of the problem as it is stated, with sums: that of the sums while all else holds, or
+/// else that of all constraints together.
 void NlpSolver::reduceViolation(SolverResult& result, const Separation& separation, const EvaluationHook& hook) {
   const std::size_t rows = problem_->types().size();
   std::vector<bool> sums(rows, false);
-  for (std::size_t i = 0; i < separation.row_of.size(); ++i) sums[std::size_t(separation.row_of[i])] = separation.is_term[i];
+  for (std::size_t i = 0; i < separation.row_of.size(); ++i)
+    sums[std::size_t(separation.row_of[i])] = separation.is_term[i];
   SolverOptions brief = options;
   brief.verbose = 0;
   brief.stopEvals = kMostEvalsOfReduction;
@@ -87,7 +89,8 @@ void NlpSolver::reduceViolation(SolverResult& result, const Separation& separati
 }
 
 /// Solves the form of the problem that the method takes, and says what that means for the problem as it is stated.
-SolverResult NlpSolver::runMethod(const Separation& separation, const EvaluationHook& watch, const EvaluationHook& seen) {
+SolverResult NlpSolver::runMethod(const Separation& separation, const EvaluationHook& watch,
+                                  const EvaluationHook& seen) {
   const auto method = methods_.find(options.method);
   if (method != methods_.end()) {
     options.validate();
@@ -98,7 +101,8 @@ SolverResult NlpSolver::runMethod(const Separation& separation, const Evaluation
   if (dual.size() == 0) solved_dual_.resize(0);
   if (memory_of_ != &solved) memory_ = std::make_unique<AugmentedLagrangianMemory>();
   memory_of_ = &solved;
-  SolverResult result = kinegraph::solve(solved, x, options, separation.problem ? solved_dual_ : dual, watch, memory_.get());
+  SolverResult result =
+      kinegraph::solve(solved, x, options, separation.problem ? solved_dual_ : dual, watch, memory_.get());
   solved_dual_ = result.dual;
   if (!separation.problem) return result;
   const auto rows = Eigen::Index(problem_->types().size());
@@ -132,7 +136,8 @@ SolverResult NlpSolver::solve(bool resample, Rng& rng, const EvaluationHook& hoo
   Clock::time_point told = start;
   int calls = 0;
   const bool is_own = !methods_.contains(options.method);
-  const Separation separation = is_own && options.method == OptMethod::augmentedLag ? problem_->separation() : Separation();
+  const Separation separation =
+      is_own && options.method == OptMethod::augmentedLag ? problem_->separation() : Separation();
   const auto rows = Eigen::Index(problem_->types().size());
   const bool may_be_cancelled = problem_->mayBeCancelled();
   BestSoFar best(*problem_, options.constraintTolerance());
@@ -154,8 +159,10 @@ SolverResult NlpSolver::solve(bool resample, Rng& rng, const EvaluationHook& hoo
     return progress_(evals_ + calls, at, sumErrors(problem_->types(), phi));
   };
   EvaluationHook joined;
-  if (separation.problem) joined = [&](const VectorXd& at, const VectorXd& phi) { return seen(at, separation.joined(phi, rows)); };
-  const bool needs_watch = tracing_x_ || tracing_phi_ || tracing_errors_ || tracing_jacobian_ || progress_ || hook || may_be_cancelled;
+  if (separation.problem)
+    joined = [&](const VectorXd& at, const VectorXd& phi) { return seen(at, separation.joined(phi, rows)); };
+  const bool needs_watch =
+      tracing_x_ || tracing_phi_ || tracing_errors_ || tracing_jacobian_ || progress_ || hook || may_be_cancelled;
   const EvaluationHook watch = !needs_watch ? EvaluationHook() : separation.problem ? joined : seen;
   SolverResult result;
   try {
@@ -176,7 +183,9 @@ SolverResult NlpSolver::solve(bool resample, Rng& rng, const EvaluationHook& hoo
   evals_ += result.evals;
   result.evals = evals_;
   result.problem = problem_;
-  if (options.verbose > 0) std::printf("==nlp== %s: %s  %s\n", solverStatusName(result.status).c_str(), result.message.c_str(), result.str().c_str());
+  if (options.verbose > 0)
+    std::printf("==nlp== %s: %s  %s\n", solverStatusName(result.status).c_str(), result.message.c_str(),
+                result.str().c_str());
   return result;
 }
 

@@ -20,17 +20,19 @@ class NlpSolver {
   void setTracing(bool x, bool errors, bool phi, bool jacobian = false);
   void clearTracing();
 
-  /// Called during solve with the number of evaluations and the point, at most once in `seconds`; returning false stops it.
+  /// Called during solve with the number of evaluations and the point, at most once in `seconds`; returning false stops
+  /// it.
   using Progress = std::function<bool(int evals, const VectorXd& x, const ErrorSums& errors)>;
   void setProgress(Progress progress, double seconds);
 
   /// A method that is not among availableMethods(), as for solvers of other packages.
-  using Method = std::function<SolverResult(Nlp& nlp, const VectorXd& x0, const SolverOptions& options, const EvaluationHook& hook)>;
+  using Method = std::function<SolverResult(Nlp& nlp, const VectorXd& x0, const SolverOptions& options,
+                                            const EvaluationHook& hook)>;
   void addMethod(OptMethod name, Method method) { methods_[name] = std::move(method); }
 
-  /// Solves from x, or from the problem's initial point if there is none yet or `resample` is set. `hook` is asked at every
-  /// evaluation. Throws Error without a problem or for a method that is not available, EvaluationCancelled where that came before
-  /// the first value; later, the result is the best point seen.
+  /// Solves from x, or from the problem's initial point if there is none yet or `resample` is set. `hook` is asked at
+  /// every evaluation. Throws Error without a problem or for a method that is not available, EvaluationCancelled where
+  /// that came before the first value; later, the result is the best point seen.
   SolverResult solve(bool resample, Rng& rng, const EvaluationHook& hook = {});
 
   const std::shared_ptr<Nlp>& problem() const { return problem_; }
@@ -40,7 +42,7 @@ class NlpSolver {
   const std::vector<ErrorSums>& traceErrors() const { return trace_errors_; }
 
   SolverOptions options;
-  VectorXd x, dual;  ///< empty until known
+  VectorXd x, dual;          ///< empty until known
   bool keeps_memory = true;  ///< for the next solve; else it is given back at the end
 
  private:

@@ -47,7 +47,8 @@ class Sequence {
     out.x = x;
     out.dual = VectorXd::Zero(phi_.size());
     out.evals = evals_;
-    const bool ended = last_.status == SolverStatus::cancelled || (last_.status == SolverStatus::limit && evals_ >= limit_);
+    const bool ended =
+        last_.status == SolverStatus::cancelled || (last_.status == SolverStatus::limit && evals_ >= limit_);
     out.status = ended ? last_.status : status;
     out.message = ended ? last_.message : std::move(message);
     nlp_.evaluate(x, phi_, nullptr);
@@ -64,11 +65,14 @@ class Sequence {
   int evals_ = 0, limit_ = options_.stopEvals;
 };
 
-double violationAfter(const Nlp& nlp, const Sequence& sequence) { return largestViolation(nlp.types(), sequence.phi()); }
+double violationAfter(const Nlp& nlp, const Sequence& sequence) {
+  return largestViolation(nlp.types(), sequence.phi());
+}
 
 }  // namespace
 
-SolverResult solveSquaredPenalty(Nlp& nlp, const VectorXd& x0, const SolverOptions& options, const EvaluationHook& hook, bool single) {
+SolverResult solveSquaredPenalty(Nlp& nlp, const VectorXd& x0, const SolverOptions& options, const EvaluationHook& hook,
+                                 bool single) {
   const double tolerance = options.constraintTolerance();
   Sequence sequence(nlp, options, hook);
   PenaltyNlp penalized(nlp);
@@ -94,8 +98,8 @@ SolverResult solveLogBarrier(Nlp& nlp, const VectorXd& x0, const SolverOptions& 
   nlp.evaluate(x, phi, nullptr);
   for (int row = 0; row < phi.size(); ++row) {
     if (!isInequality(nlp.types()[row]) || phi[row] < 0. || !std::isfinite(phi[row])) continue;
-    throw ValueError(cat("OptMethod.logBarrier starts strictly inside of all inequalities; ", nlp.rowName(row), " is ", phi[row],
-                         " at the start; use slackGN_logBarrier, which finds such a point first"));
+    throw ValueError(cat("OptMethod.logBarrier starts strictly inside of all inequalities; ", nlp.rowName(row), " is ",
+                         phi[row], " at the start; use slackGN_logBarrier, which finds such a point first"));
   }
   Sequence sequence(nlp, options, hook);
   BarrierNlp barrier(nlp);
@@ -110,7 +114,8 @@ SolverResult solveLogBarrier(Nlp& nlp, const VectorXd& x0, const SolverOptions& 
     mu *= options.muLBDec;
   }
   SolverStatus status = sequence.last().status;
-  if (status == SolverStatus::stalled && sequence.last().violation <= tolerance) status = SolverStatus::converged;  // at the barrier's own rounding
+  if (status == SolverStatus::stalled && sequence.last().violation <= tolerance)
+    status = SolverStatus::converged;  // at the barrier's own rounding
   return sequence.result(x, tolerance, status, cat("barrier weight ", mu, "; ", sequence.last().message));
 }
 
@@ -128,8 +133,9 @@ SolverResult solveSlack(Nlp& nlp, const VectorXd& x0, const SolverOptions& optio
   }
   const double violation = violationAfter(nlp, sequence);
   const bool holds = violation <= tolerance;
-  return sequence.result(x, tolerance, holds ? SolverStatus::converged : SolverStatus::infeasible,
-                         holds ? cat("all constraints hold to ", violation) : cat("no step reduces the violation; it is ", violation));
+  return sequence.result(
+      x, tolerance, holds ? SolverStatus::converged : SolverStatus::infeasible,
+      holds ? cat("all constraints hold to ", violation) : cat("no step reduces the violation; it is ", violation));
 }
 
 }  // namespace kinegraph

@@ -51,8 +51,8 @@ class BarrierNlp final : public Nlp {
 
 bool isInequality(ObjectiveType type);
 
-/// `nlp` with its inequalities as barriers of weight `barrier`, and what constraints remain as penalties of weight `mu`; each
-/// is left as it is where the weight is negative. It keeps `nlp` alive.
+/// `nlp` with its inequalities as barriers of weight `barrier`, and what constraints remain as penalties of weight
+/// `mu`; each is left as it is where the weight is negative. It keeps `nlp` alive.
 std::shared_ptr<Nlp> makePenalized(std::shared_ptr<Nlp> nlp, double mu, double barrier);
 
 }  // namespace kinegraph

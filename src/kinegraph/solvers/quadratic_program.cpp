@@ -16,7 +16,11 @@ constexpr double kInfinity = std::numeric_limits<double>::infinity();
 class DualActiveSet {
  public:
   explicit DualActiveSet(const QuadraticProgram& program)
-      : p_(program), n_(int(program.g.size())), m_(int(program.b.size())), R_(MatrixXd::Zero(n_, n_)), is_active_(m_, false) {}
+      : p_(program),
+        n_(int(program.g.size())),
+        m_(int(program.b.size())),
+        R_(MatrixXd::Zero(n_, n_)),
+        is_active_(m_, false) {}
 
   QuadraticSolution solve() {
     const Eigen::LLT<MatrixXd> factor(p_.H);
@@ -40,7 +44,9 @@ class DualActiveSet {
   double excess(int row) const { return p_.A.row(row).dot(x_) + p_.b[row]; }
 
   /// Below this a row counts as fulfilled: what rounding leaves of its terms.
-  double roundingOf(int row) const { return 1e-13 * (norms_[row] * x_.lpNorm<Eigen::Infinity>() + std::abs(p_.b[row])) + 1e-14 * norms_[row]; }
+  double roundingOf(int row) const {
+    return 1e-13 * (norms_[row] * x_.lpNorm<Eigen::Infinity>() + std::abs(p_.b[row])) + 1e-14 * norms_[row];
+  }
 
   int mostViolated() const {
     int worst = -1;
@@ -72,7 +78,8 @@ class DualActiveSet {
   QuadraticStatus takeEquality(int row) {
     directions(row);
     const double e = excess(row), slope = slopeOf();
-    if (slope == 0.) return std::abs(e) <= 1e-9 * (1. + std::abs(p_.b[row])) ? QuadraticStatus::solved : QuadraticStatus::infeasible;
+    if (slope == 0.)
+      return std::abs(e) <= 1e-9 * (1. + std::abs(p_.b[row])) ? QuadraticStatus::solved : QuadraticStatus::infeasible;
     move(-e / slope);
     append(row, -e / slope);
     return QuadraticStatus::solved;

@@ -21,10 +21,10 @@ struct QuadraticSolution {
   QuadraticStatus status = QuadraticStatus::solved;
 };
 
-/// Solves a small dense convex quadratic program exactly, by the dual active-set method: it starts at the minimum without
-/// constraints and takes in violated ones, one by one, while the multipliers keep their sign. Of rows that depend on others
-/// it takes those that it needs.
-/// Source: Goldfarb & Idnani, A numerically stable dual method for solving strictly convex quadratic programs, 1983.
+/// Solves a small dense convex quadratic program exactly, by the dual active-set method: it starts at the minimum
+/// without constraints and takes in violated ones, one by one, while the multipliers keep their sign. Of rows that
+/// depend on others it takes those that it needs. Source: Goldfarb & Idnani, A numerically stable dual method for
+/// solving strictly convex quadratic programs, 1983.
 QuadraticSolution solve(const QuadraticProgram& program);
 
 }  // namespace kinegraph

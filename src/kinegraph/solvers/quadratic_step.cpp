@@ -17,10 +17,12 @@ constexpr double kRelative = 1e-10;
 struct Model {
   MatrixXd H, A;
   VectorXd g, b;
-  std::vector<int> bound;  ///< of the rows after those of the constraints: 1 + i for an upper bound of variable i, -1 - i for a lower
+  std::vector<int> bound;  ///< of the rows after those of the constraints: 1 + i for an upper bound of variable i, -1 -
+                           ///< i for a lower
 };
 
-std::optional<Model> modelAt(const ConstrainedFunction& function, const VectorXd& x, const VectorXd& phi, const Jacobian& J) {
+std::optional<Model> modelAt(const ConstrainedFunction& function, const VectorXd& x, const VectorXd& phi,
+                             const Jacobian& J) {
   const int n = int(x.size()), constraints = int(function.constraints().size());
   Model model{MatrixXd::Zero(n, n), {}, VectorXd::Zero(n), {}, {}};
   VectorXd row = VectorXd::Zero(n);
@@ -82,7 +84,8 @@ void polish(const Model& model, int equalities, VectorXd& d, VectorXd& multiplie
   for (int pass = 0; pass < 2; ++pass) {
     VectorXd rest(n + m);
     rest.head(n) = -(model.g + model.H * d + model.A.transpose() * multipliers);
-    for (int k = 0; k < m; ++k) rest[n + k] = -(model.A.row(active[std::size_t(k)]).dot(d) + model.b[active[std::size_t(k)]]);
+    for (int k = 0; k < m; ++k)
+      rest[n + k] = -(model.A.row(active[std::size_t(k)]).dot(d) + model.b[active[std::size_t(k)]]);
     const VectorXd change = factor.solve(rest);
     if (!change.allFinite()) return;
     d += change.head(n);
@@ -92,7 +95,8 @@ void polish(const Model& model, int equalities, VectorXd& d, VectorXd& multiplie
 
 }  // namespace
 
-std::optional<QuadraticStep> quadraticStep(const ConstrainedFunction& function, const VectorXd& x, const VectorXd& phi, const Jacobian& J) {
+std::optional<QuadraticStep> quadraticStep(const ConstrainedFunction& function, const VectorXd& x, const VectorXd& phi,
+                                           const Jacobian& J) {
   if (x.size() > kMostVariables || !function.nlp().mayBeQuadratic()) return std::nullopt;
   const std::optional<Model> model = modelAt(function, x, phi, J);
   if (!model || !model->H.allFinite() || !model->A.allFinite()) return std::nullopt;
@@ -114,16 +118,19 @@ std::optional<QuadraticStep> quadraticStep(const ConstrainedFunction& function, 
   return QuadraticStep{function.clip(x + d), solution.multipliers.head(Eigen::Index(function.constraints().size()))};
 }
 
-bool isSolution(const ConstrainedFunction& function, const VectorXd& x, const VectorXd& phi, const Jacobian& J, const VectorXd& multipliers) {
+bool isSolution(const ConstrainedFunction& function, const VectorXd& x, const VectorXd& phi, const Jacobian& J,
+                const VectorXd& multipliers) {
   VectorXd gradient;
   function.costGradient(phi, J, gradient);
   VectorXd magnitude = VectorXd::Ones(x.size());  // of the terms that must cancel
   const auto addMagnitude = [&](int row, double factor) {
     for (const Jacobian::Segment& segment : J.row_segments(row)) {
-      for (int i = 0; i < segment.width; ++i) magnitude[segment.column + i] += std::abs(factor * J.values[std::size_t(segment.offset + i)]);
+      for (int i = 0; i < segment.width; ++i)
+        magnitude[segment.column + i] += std::abs(factor * J.values[std::size_t(segment.offset + i)]);
     }
   };
-  for (int row : function.costs()) addMagnitude(row, function.types()[std::size_t(row)] == ObjectiveType::f ? 1. : 2. * phi[row]);
+  for (int row : function.costs())
+    addMagnitude(row, function.types()[std::size_t(row)] == ObjectiveType::f ? 1. : 2. * phi[row]);
   for (int j = 0; j < int(multipliers.size()); ++j) {
     const int row = function.constraints()[std::size_t(j)];
     const double c = phi[row], lambda = multipliers[j];
@@ -131,11 +138,13 @@ bool isSolution(const ConstrainedFunction& function, const VectorXd& x, const Ve
     J.addRowTo(row, lambda, gradient);
     double size = 1.;
     for (const Jacobian::Segment& segment : J.row_segments(row)) {
-      for (int i = 0; i < segment.width; ++i) size += std::abs(J.values[std::size_t(segment.offset + i)] * x[segment.column + i]);
+      for (int i = 0; i < segment.width; ++i)
+        size += std::abs(J.values[std::size_t(segment.offset + i)] * x[segment.column + i]);
     }
     const double small = kRelative * size;
     if (j < function.equalities() ? std::abs(c) > small : c > small) return false;
-    if (j >= function.equalities() && (lambda < -kRelative * (1. + std::abs(lambda)) || (lambda > 0. && c < -small))) return false;
+    if (j >= function.equalities() && (lambda < -kRelative * (1. + std::abs(lambda)) || (lambda > 0. && c < -small)))
+      return false;
   }
   for (int i = 0; i < int(x.size()); ++i) {
     const double down = std::min(std::max(x[i] - gradient[i], function.lower()[i]), function.upper()[i]) - x[i];

@@ -10,7 +10,8 @@ void QuasiNewton::update(const VectorXd& s, const VectorXd& y) {
   if (!(ss > 1e-24) || !y.allFinite()) return;
   if (empty_) {  // the first estimate has the size of the curvature along the step
     if (y.squaredNorm() <= 1e-24 * ss) return;
-    const double curvature = sy > 1e-8 * std::sqrt(ss * y.squaredNorm()) ? y.squaredNorm() / sy : y.norm() / std::sqrt(ss);
+    const double curvature =
+        sy > 1e-8 * std::sqrt(ss * y.squaredNorm()) ? y.squaredNorm() / sy : y.norm() / std::sqrt(ss);
     B_.diagonal().setConstant(curvature);
     empty_ = false;
   }

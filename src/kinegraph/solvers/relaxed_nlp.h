@@ -4,8 +4,8 @@
 
 namespace kinegraph {
 
-/// Another problem's constraints without its costs, some of them as penalties: what is relaxed becomes the cost, squared.
-/// With everything relaxed, its solution is the point of least violation.
+/// Another problem's constraints without its costs, some of them as penalties: what is relaxed becomes the cost,
+/// squared. With everything relaxed, its solution is the point of least violation.
 class RelaxedNlp final : public Nlp {
  public:
   /// `relaxed` has an entry per residual. `variable`: its bounds are relaxed too, to a penalty; -1: none.

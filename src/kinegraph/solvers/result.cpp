@@ -8,11 +8,16 @@ namespace kinegraph {
 
 std::string solverStatusName(SolverStatus status) {
   switch (status) {
-    case SolverStatus::converged: return "converged";
-    case SolverStatus::infeasible: return "infeasible";
-    case SolverStatus::stalled: return "stalled";
-    case SolverStatus::limit: return "limit";
-    case SolverStatus::cancelled: return "cancelled";
+    case SolverStatus::converged:
+      return "converged";
+    case SolverStatus::infeasible:
+      return "infeasible";
+    case SolverStatus::stalled:
+      return "stalled";
+    case SolverStatus::limit:
+      return "limit";
+    case SolverStatus::cancelled:
+      return "cancelled";
   }
   return "";
 }
@@ -30,8 +35,8 @@ void SolverResult::setSums(const std::vector<ObjectiveType>& types, const Vector
 
 std::string SolverResult::str() const {
   std::string dimension = x.size() > 0 ? cat(x.size()) : "";
-  return cat("{ time: ", time, ", evals: ", evals, ", done: ", int(done), ", feasible: ", int(feasible), ", eq: ", eq, ", ineq: ", ineq,
-             ", sos: ", sos, ", f: ", f, ", x-dim: [", dimension, "] }");
+  return cat("{ time: ", time, ", evals: ", evals, ", done: ", int(done), ", feasible: ", int(feasible), ", eq: ", eq,
+             ", ineq: ", ineq, ", sos: ", sos, ", f: ", f, ", x-dim: [", dimension, "] }");
 }
 
 }  // namespace kinegraph

@@ -9,27 +9,27 @@ namespace kinegraph {
 
 /// Why a solver stopped.
 enum class SolverStatus {
-  converged,     ///< step and violation are within their tolerances
-  infeasible,    ///< no small step reduces the violation: constraints contradict each other, here
-  stalled,       ///< steps stopped helping before convergence, as at a kink
-  limit,         ///< of evaluations, steps or rounds
-  cancelled,     ///< by the caller
+  converged,   ///< step and violation are within their tolerances
+  infeasible,  ///< no small step reduces the violation: constraints contradict each other, here
+  stalled,     ///< steps stopped helping before convergence, as at a kink
+  limit,       ///< of evaluations, steps or rounds
+  cancelled,   ///< by the caller
 };
 
 std::string solverStatusName(SolverStatus status);
 
 /// How a solve ended. Not converging is a status, not an error.
 struct SolverResult {
-  VectorXd x;       ///< the best point found
-  VectorXd dual;    ///< multiplier per residual, 0 for costs
+  VectorXd x;     ///< the best point found
+  VectorXd dual;  ///< multiplier per residual, 0 for costs
   int evals = 0;
-  double time = 0.;  ///< s
+  double time = 0.;       ///< s
   bool feasible = false;  ///< no constraint (scaled) is violated by more than max(1e-3, 10 tolerances)
   bool done = false;
   double f = 0., sos = 0., ineq = 0., eq = 0.;  ///< sums at x, as sumErrors
-  double violation = 0.;  ///< of the worst constraint
+  double violation = 0.;                        ///< of the worst constraint
   SolverStatus status = SolverStatus::stalled;
-  std::string message;  ///< one line: why it stopped
+  std::string message;           ///< one line: why it stopped
   std::shared_ptr<Nlp> problem;  ///< what NlpSolver solved, for `explain`; null from the functions that solve
 
   /// Fills f .. eq, violation, feasible and done from the residuals at x.

@@ -59,7 +59,8 @@ void SampledProblem::differentiate(const SampledPoint& point) {
   VectorXd phi(point.phi.size());
   nlp_.evaluate(point.x, phi, &J_);
   ++evals_;
-  if (const std::string trouble = describeNotFinite(nlp_, phi, &J_); !trouble.empty()) throw ValueError(cat("while sampling, ", trouble));
+  if (const std::string trouble = describeNotFinite(nlp_, phi, &J_); !trouble.empty())
+    throw ValueError(cat("while sampling, ", trouble));
   differentiated_ = point.x;
 }
 
@@ -84,13 +85,15 @@ VectorXd SampledProblem::energyGradient(const SampledPoint& point) {
   for (int row = 0; row < point.phi.size(); ++row) {
     const ObjectiveType type = nlp_.types()[row];
     if (type == ObjectiveType::f) J_.addRowTo(row, 1., gradient);
-    if (type == ObjectiveType::sos || (type == ObjectiveType::ineqP && point.phi[row] > 0.)) J_.addRowTo(row, 2. * point.phi[row], gradient);
+    if (type == ObjectiveType::sos || (type == ObjectiveType::ineqP && point.phi[row] > 0.))
+      J_.addRowTo(row, 2. * point.phi[row], gradient);
   }
   return gradient;
 }
 
 /// -alpha (2 mu J_s^T J_s + lambda I)^-1 2 mu J_s^T s among the variables that bounds do not hold, and noise.
-VectorXd SampledProblem::downhillStep(const SampledPoint& point, double alpha, Rng& rng, bool noisy, double& predicted) {
+VectorXd SampledProblem::downhillStep(const SampledPoint& point, double alpha, Rng& rng, bool noisy,
+                                      double& predicted) {
   differentiate(point);
   const Eigen::Index n = point.x.size();
   MatrixXd H = MatrixXd::Zero(n, n);
@@ -133,7 +136,8 @@ bool SampledProblem::goDownhill(SampledPoint& point, Rng& rng, bool noisy) {
     const VectorXd d = downhillStep(point, alpha, rng, noisy, predicted);
     SampledPoint next = at((point.x + d).cwiseMax(nlp_.lower()).cwiseMin(nlp_.upper()));
     const double before = options_.penaltyMu * squaredViolation(nlp_, point.phi);
-    const double after = std::isfinite(next.slack) ? options_.penaltyMu * squaredViolation(nlp_, next.phi) : std::numeric_limits<double>::infinity();
+    const double after = std::isfinite(next.slack) ? options_.penaltyMu * squaredViolation(nlp_, next.phi)
+                                                   : std::numeric_limits<double>::infinity();
     bool accepted = std::isfinite(after);
     if (options_.downhillRejectMethod == "Wolfe") accepted = after <= before - .01 * predicted;
     if (options_.downhillRejectMethod == "MH") accepted = accepted && rng.uniform() < std::exp(before - after);

@@ -23,7 +23,8 @@ VectorXd NlpSampler::seed(Rng& rng) {
     for (const VectorXd& sample : samples_) nearest = std::min(nearest, (sample - candidates.back()).norm());
     distances.push_back(nearest);
   }
-  if (options.seedMethod == "nov") return candidates[std::size_t(std::max_element(distances.begin(), distances.end()) - distances.begin())];
+  if (options.seedMethod == "nov")
+    return candidates[std::size_t(std::max_element(distances.begin(), distances.end()) - distances.begin())];
   double sum = 0.;
   for (double distance : distances) sum += distance;
   double drawn = rng.uniform() * sum;
@@ -53,7 +54,9 @@ SolverResult NlpSampler::draw(Rng& rng, const EvaluationHook& hook) {
   result.evals = problem.evals();
   result.setSums(problem_->types(), point.phi, 0.);
   result.feasible = problem.good(point);
-  result.status = problem.cancelled() ? SolverStatus::cancelled : result.feasible ? SolverStatus::converged : SolverStatus::infeasible;
+  result.status = problem.cancelled() ? SolverStatus::cancelled
+                  : result.feasible   ? SolverStatus::converged
+                                      : SolverStatus::infeasible;
   result.message = problem.cancelled() ? "cancelled by the caller"
                    : result.feasible   ? cat("a sample whose violations sum up to ", point.slack)
                                        : cat("the way down ended where violations sum up to ", point.slack);

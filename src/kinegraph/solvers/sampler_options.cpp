@@ -16,11 +16,13 @@ void oneOf(const char* option, const std::string& given, const std::vector<std::
 }
 
 void atLeast(const char* option, double value, double least) {
-  if (!(value >= least) || !std::isfinite(value)) throw ValueError(cat("option ", option, " is ", value, "; expected a number >= ", least));
+  if (!(value >= least) || !std::isfinite(value))
+    throw ValueError(cat("option ", option, " is ", value, "; expected a number >= ", least));
 }
 
 void positive(const char* option, double value) {
-  if (!(value > 0.) || !std::isfinite(value)) throw ValueError(cat("option ", option, " is ", value, "; expected a positive number"));
+  if (!(value > 0.) || !std::isfinite(value))
+    throw ValueError(cat("option ", option, " is ", value, "; expected a positive number"));
 }
 
 }  // namespace
@@ -36,15 +38,21 @@ void SamplerOptions::validate() const {
   atLeast("downhillMaxSteps", downhillMaxSteps, 0);
   atLeast("interiorBurnInSteps", interiorBurnInSteps, 0);
   atLeast("interiorSampleSteps", interiorSampleSteps, 0);
-  for (const auto& [name, value] : {std::pair{"tolerance", tolerance}, {"penaltyMu", penaltyMu}, {"slackStepAlpha", slackStepAlpha},
-                                    {"slackMaxStep", slackMaxStep}, {"slackRegLambda", slackRegLambda},
-                                    {"interiorNoiseSigma", interiorNoiseSigma}, {"hitRunEqMargin", hitRunEqMargin}}) {
+  for (const auto& [name, value] : {std::pair{"tolerance", tolerance},
+                                    {"penaltyMu", penaltyMu},
+                                    {"slackStepAlpha", slackStepAlpha},
+                                    {"slackMaxStep", slackMaxStep},
+                                    {"slackRegLambda", slackRegLambda},
+                                    {"interiorNoiseSigma", interiorNoiseSigma},
+                                    {"hitRunEqMargin", hitRunEqMargin}}) {
     positive(name, value);
   }
   atLeast("downhillNoiseSigma", downhillNoiseSigma, 0.);
   atLeast("eps", eps, 0.);
-  if (!std::isfinite(ineqOverstep)) throw ValueError(cat("option ineqOverstep is ", ineqOverstep, "; expected a number, <= 1 for none"));
-  if (std::isnan(langevinTauPrime)) throw ValueError("option langevinTauPrime is nan; expected a number, < 0 for the default");
+  if (!std::isfinite(ineqOverstep))
+    throw ValueError(cat("option ineqOverstep is ", ineqOverstep, "; expected a number, <= 1 for none"));
+  if (std::isnan(langevinTauPrime))
+    throw ValueError("option langevinTauPrime is nan; expected a number, < 0 for the default");
 }
 
 }  // namespace kinegraph

@@ -16,12 +16,12 @@ namespace {
 
 constexpr int kLargestDimension = 200;  ///< of problems whose curvature is learnt as a full matrix
 
-/// The program with one more variable, in [0, 1]: the part of what the first `rows` are violated by at 0 that may remain, at the
-/// price of half of `weight` times its square. It has a solution wherever 0 fulfils the other rows.
+/// The program with one more variable, in [0, 1]: the part of what the first `rows` are violated by at 0 that may
+/// remain, at the price of half of `weight` times its square. It has a solution wherever 0 fulfils the other rows.
 QuadraticProgram relax(const QuadraticProgram& program, int rows, double weight) {
   const Eigen::Index n = program.g.size(), m = program.b.size();
-  QuadraticProgram out{MatrixXd::Zero(n + 1, n + 1), VectorXd::Zero(n + 1), MatrixXd::Zero(m + 2, n + 1), VectorXd::Zero(m + 2),
-                       program.equalities};
+  QuadraticProgram out{MatrixXd::Zero(n + 1, n + 1), VectorXd::Zero(n + 1), MatrixXd::Zero(m + 2, n + 1),
+                       VectorXd::Zero(m + 2), program.equalities};
   out.H.topLeftCorner(n, n) = program.H;
   out.H(n, n) = weight;
   out.g.head(n) = program.g;
@@ -39,9 +39,16 @@ QuadraticProgram relax(const QuadraticProgram& program, int rows, double weight)
 class SequentialQuadratic {
  public:
   SequentialQuadratic(Nlp& nlp, const VectorXd& x0, const SolverOptions& options, const EvaluationHook& hook)
-      : nlp_(nlp), options_(options), function_(nlp, x0, options, hook), constraints_(function_.constraints()),
-        equalities_(function_.equalities()), lower_(function_.lower()), upper_(function_.upper()), here_(function_.makePoint()),
-        trial_(here_), tolerance_(options.constraintTolerance()) {
+      : nlp_(nlp),
+        options_(options),
+        function_(nlp, x0, options, hook),
+        constraints_(function_.constraints()),
+        equalities_(function_.equalities()),
+        lower_(function_.lower()),
+        upper_(function_.upper()),
+        here_(function_.makePoint()),
+        trial_(here_),
+        tolerance_(options.constraintTolerance()) {
     here_.x = function_.clip(x0);
     for (VectorXd* v : {&lambda_, &weights_, &row_scale_}) v->setZero(Eigen::Index(constraints_.size()));
   }
@@ -59,7 +66,8 @@ class SequentialQuadratic {
   /// A step that solves a quadratic program, and what it promises.
   struct Step {
     VectorXd d, lambda, linear;  ///< linear: constraints after the step, to first order
-    double relaxed = 0.;         ///< part of the violation that the linearized constraints had to keep; 0 if they are consistent
+    double relaxed =
+        0.;  ///< part of the violation that the linearized constraints had to keep; 0 if they are consistent
     bool found = false;
   };
 
@@ -111,8 +119,8 @@ class SequentialQuadratic {
   std::string message_;
 };
 
-/// Gradient and Hessian of the costs, and the constraints' rows. While nothing is known of the curvature of the f rows, it is
-/// such that a step without constraints would be a tenth of `room`.
+/// Gradient and Hessian of the costs, and the constraints' rows. While nothing is known of the curvature of the f rows,
+/// it is such that a step without constraints would be a tenth of `room`.
 void SequentialQuadratic::linearize(double room) {
   const int n = nlp_.dimension();
   function_.costGradient(here_.phi, here_.J, gradient_);
@@ -124,7 +132,8 @@ void SequentialQuadratic::linearize(double room) {
   VectorXd row_of_J = VectorXd::Zero(n);
   for (int row : function_.costs()) {
     const ObjectiveType type = nlp_.types()[row];
-    if (type != ObjectiveType::sos && !(type == ObjectiveType::ineqP && here_.phi[row] > 0.)) continue;  // ineqP only where violated
+    if (type != ObjectiveType::sos && !(type == ObjectiveType::ineqP && here_.phi[row] > 0.))
+      continue;  // ineqP only where violated
     row_of_J.setZero();
     here_.J.addRowTo(row, 1., row_of_J);
     H_.noalias() += 2. * row_of_J * row_of_J.transpose();
@@ -138,8 +147,8 @@ void SequentialQuadratic::linearize(double room) {
   }
 }
 
-/// min g^T d + 1/2 d^T H d  with c + J d = 0 or <= 0, in the bounds. Where these contradict each other, they are relaxed:
-/// a part of their violation, as small as possible, remains.
+/// min g^T d + 1/2 d^T H d  with c + J d = 0 or <= 0, in the bounds. Where these contradict each other, they are
+/// relaxed: a part of their violation, as small as possible, remains.
 SequentialQuadratic::Step SequentialQuadratic::solveQuadratic(const VectorXd& c) {
   const int n = nlp_.dimension(), m = int(constraints_.size());
   const int bounds = int(lower_.array().isFinite().count() + upper_.array().isFinite().count());
@@ -159,7 +168,8 @@ SequentialQuadratic::Step SequentialQuadratic::solveQuadratic(const VectorXd& c)
   Step step;
   QuadraticSolution solution = solve(program);
   double weight = 1e3 * std::max(1., std::abs(here_.cost));
-  for (int attempt = 0; attempt < 4 && m > 0 && (solution.status != QuadraticStatus::solved || step.relaxed >= .9); ++attempt) {
+  for (int attempt = 0; attempt < 4 && m > 0 && (solution.status != QuadraticStatus::solved || step.relaxed >= .9);
+       ++attempt) {
     QuadraticSolution relaxed = solve(relax(program, m, weight));
     weight *= 100.;
     if (relaxed.status != QuadraticStatus::solved) continue;
@@ -178,7 +188,8 @@ bool SequentialQuadratic::lineSearch(const Step& step) {
   double slope = gradient_.dot(step.d), reduction = 0.;
   for (int j = 0; j < weights_.size(); ++j) {
     const double reduces = broken(j, here_.c[j]) - broken(j, step.linear[j]);
-    if (step.relaxed == 0.) weights_[j] = std::max(std::abs(step.lambda[j]), .5 * (weights_[j] + std::abs(step.lambda[j])));
+    if (step.relaxed == 0.)
+      weights_[j] = std::max(std::abs(step.lambda[j]), .5 * (weights_[j] + std::abs(step.lambda[j])));
     reduction += reduces * row_scale_[j];
     slope -= weights_[j] * reduces;
   }
@@ -219,7 +230,8 @@ void SequentialQuadratic::learnCurvature(const EvaluatedPoint& before) {
 void SequentialQuadratic::iterate() {
   int resets = 0;
   for (int count = 0; !stopped_; ++count) {
-    if (function_.evals() >= options_.stopEvals) return stop(SolverStatus::limit, cat("limit of ", options_.stopEvals, " evaluations"));
+    if (function_.evals() >= options_.stopEvals)
+      return stop(SolverStatus::limit, cat("limit of ", options_.stopEvals, " evaluations"));
     if (count >= options_.stopInners) return stop(SolverStatus::limit, cat("limit of ", options_.stopInners, " steps"));
     const double room = std::max(1., here_.x.lpNorm<Eigen::Infinity>());
     linearize(room);
@@ -229,19 +241,25 @@ void SequentialQuadratic::iterate() {
     for (int j = 0; j < lambda_.size(); ++j) promised += std::abs(step.lambda[j] * here_.c[j]);
     const double scale = std::max(1., std::abs(here_.cost));
     if (options_.verbose > 2) {
-      std::printf("    step %3d  evals %3d  cost %.10g  |d| %.3g  promised %.3g  violation %.3g%s\n", count, function_.evals(), here_.cost, size, promised,
-                  violation, !step.found ? "  (no step)" : step.relaxed > 0. ? "  (relaxed)" : "");
+      std::printf("    step %3d  evals %3d  cost %.10g  |d| %.3g  promised %.3g  violation %.3g%s\n", count,
+                  function_.evals(), here_.cost, size, promised, violation,
+                  !step.found         ? "  (no step)"
+                  : step.relaxed > 0. ? "  (relaxed)"
+                                      : "");
     }
-    if (violation <= tolerance_ && step.found && ((size <= options_.stopTolerance * room && promised <= std::max(std::pow(options_.stopTolerance, 2), 1e-12) * scale) ||
-                                                        promised <= 1e-14 * scale)) {
+    if (violation <= tolerance_ && step.found &&
+        ((size <= options_.stopTolerance * room &&
+          promised <= std::max(std::pow(options_.stopTolerance, 2), 1e-12) * scale) ||
+         promised <= 1e-14 * scale)) {
       lambda_ = step.lambda;
-      return stop(SolverStatus::converged, cat("step ", size, ", its predicted decrease ", promised, ", and violation ", violation,
-                                               " are within tolerances"));
+      return stop(SolverStatus::converged, cat("step ", size, ", its predicted decrease ", promised, ", and violation ",
+                                               violation, " are within tolerances"));
     }
     if (!step.found || size <= 1e-15 * room || !lineSearch(step)) {
       if (stopped_) return;
       if (function_.evals() >= options_.stopEvals) continue;
-      if (curvature_.empty() || ++resets > 5) return stop(SolverStatus::stalled, "no step decreases the objective as predicted");
+      if (curvature_.empty() || ++resets > 5)
+        return stop(SolverStatus::stalled, "no step decreases the objective as predicted");
       curvature_.reset(nlp_.dimension());
       weights_.setZero();
       continue;
@@ -263,7 +281,8 @@ bool needsLearntCurvature(Nlp& nlp, const VectorXd& x) {
   return !nlp.addCostHessian(x, hessian);
 }
 
-SolverResult solveSequentialQuadratic(Nlp& nlp, const VectorXd& x0, const SolverOptions& options, const EvaluationHook& hook) {
+SolverResult solveSequentialQuadratic(Nlp& nlp, const VectorXd& x0, const SolverOptions& options,
+                                      const EvaluationHook& hook) {
   return SequentialQuadratic(nlp, x0, options, hook).run();
 }
 

@@ -24,7 +24,8 @@ constexpr std::chrono::milliseconds kWatch{20};
 
 }  // namespace
 
-SolveManyResult solveMany(int count, const SolveManyOptions& options, const SolveOne& solve, const std::function<bool(int)>& watch) {
+SolveManyResult solveMany(int count, const SolveManyOptions& options, const SolveOne& solve,
+                          const std::function<bool(int)>& watch) {
   if (options.threads < 1) throw ValueError(cat("the number of threads is ", options.threads, "; expected at least 1"));
   if (count < 1) throw ValueError("there are no problems to solve");
   SolveManyResult all;
@@ -59,7 +60,8 @@ SolveManyResult solveMany(int count, const SolveManyOptions& options, const Solv
     for (int known = sufficient; i < known && !sufficient.compare_exchange_weak(known, i);) continue;
   };
   forParts(count, 1, std::min(options.threads, count), work, ask);
-  for (int i = sufficient + 1; i < count; ++i) all.results[std::size_t(i)] = SolverResult();  // begun or not: threads decide
+  for (int i = sufficient + 1; i < count; ++i)
+    all.results[std::size_t(i)] = SolverResult();  // begun or not: threads decide
   all.chosen = int(std::min_element(all.results.begin(), all.results.end(), isBetter) - all.results.begin());
   return all;
 }
@@ -68,14 +70,19 @@ SolveManyResult solveAll(const std::vector<NlpSolver*>& solvers, const SolveMany
                          const std::function<bool(int)>& watch) {
   std::set<const void*> known;
   for (std::size_t i = 0; i < solvers.size(); ++i) {
-    if (!solvers[i]->problem()) throw ValueError(cat("problem ", i, ": this solver has no problem; call setProblem first"));
+    if (!solvers[i]->problem())
+      throw ValueError(cat("problem ", i, ": this solver has no problem; call setProblem first"));
     if (known.insert(solvers[i]).second && known.insert(solvers[i]->problem().get()).second) continue;
-    throw ValueError(cat("problem ", i, " is there twice; problems that are solved at the same time are different objects"));
+    throw ValueError(
+        cat("problem ", i, " is there twice; problems that are solved at the same time are different objects"));
   }
-  return solveMany(int(solvers.size()), options, [&](int, int i, const EvaluationHook& hook) {
-    Rng rng(seed);
-    return solvers[std::size_t(i)]->solve(false, rng, hook);
-  }, watch);
+  return solveMany(
+      int(solvers.size()), options,
+      [&](int, int i, const EvaluationHook& hook) {
+        Rng rng(seed);
+        return solvers[std::size_t(i)]->solve(false, rng, hook);
+      },
+      watch);
 }
 
 }  // namespace kinegraph

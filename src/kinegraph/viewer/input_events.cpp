@@ -10,12 +10,18 @@ enum What { keyDown = 1, keyUp, clickDown, clickUp, scroll, modifier };
 
 std::string keyName(int code) {
   switch (code) {
-    case 27: return "esc";
-    case 13: return "enter";
-    case 32: return "space";
-    case 259: return "backspace";
-    case 9: return "tab";
-    default: return code > 32 && code < 127 ? std::string(1, char(code)) : std::to_string(code);
+    case 27:
+      return "esc";
+    case 13:
+      return "enter";
+    case 32:
+      return "space";
+    case 259:
+      return "backspace";
+    case 9:
+      return "tab";
+    default:
+      return code > 32 && code < 127 ? std::string(1, char(code)) : std::to_string(code);
   }
 }
 
@@ -33,13 +39,20 @@ std::string eventName(const EventCommand& event) {
   constexpr const char* kButtons[] = {"left", "middle", "right"};
   const bool is_key = event.code > 0 && event.code <= 1000, is_button = event.code >= 0 && event.code < 3;
   switch (event.what) {
-    case keyDown: return is_key ? "key down " + keyName(event.code) : "";
-    case keyUp: return is_key ? "key up " + keyName(event.code) : "";
-    case clickDown: return is_button ? cat("click down ", kButtons[event.code]) : "";
-    case clickUp: return is_button ? cat("click up ", kButtons[event.code]) : "";
-    case scroll: return event.code > 0 ? "scroll up" : "scroll down";
-    case modifier: return modifierNames(event.modifiers);
-    default: return "";
+    case keyDown:
+      return is_key ? "key down " + keyName(event.code) : "";
+    case keyUp:
+      return is_key ? "key up " + keyName(event.code) : "";
+    case clickDown:
+      return is_button ? cat("click down ", kButtons[event.code]) : "";
+    case clickUp:
+      return is_button ? cat("click up ", kButtons[event.code]) : "";
+    case scroll:
+      return event.code > 0 ? "scroll up" : "scroll down";
+    case modifier:
+      return modifierNames(event.modifiers);
+    default:
+      return "";
   }
 }
 

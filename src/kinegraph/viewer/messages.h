@@ -1,6 +1,7 @@
 #pragma once
 
 // Made by tools/generate_messages.py from viewer/messages.json; change that file instead.
+// clang-format off
 
 #include <cstdint>
 #include <optional>

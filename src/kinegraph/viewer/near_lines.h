@@ -9,9 +9,9 @@ namespace kinegraph {
 
 /// The shortest line between two shapes that may collide.
 struct NearLine {
-  Vector3d a, b;            ///< its ends on the surfaces, world, m
-  double distance;          ///< m, negative: penetration depth
-  std::string names;        ///< of the frames
+  Vector3d a, b;      ///< its ends on the surfaces, world, m
+  double distance;    ///< m, negative: penetration depth
+  std::string names;  ///< of the frames
 };
 
 /// Those of all pairs of `config` that are not farther apart than `margin`, m; the first 500.

@@ -74,10 +74,12 @@ Config& SceneEdits::edited() {
 }
 
 bool SceneEdits::change(const Command& command) {
-  const bool current = std::visit([&](const auto& c) {
-    if constexpr (requires { c.structure; }) return c.structure == structure_;
-    return false;
-  }, command);
+  const bool current = std::visit(
+      [&](const auto& c) {
+        if constexpr (requires { c.structure; }) return c.structure == structure_;
+        return false;
+      },
+      command);
   if (!current) return false;
   Config& config = edited();
   if (const auto* set = std::get_if<SetJointCommand>(&command)) {

@@ -39,9 +39,9 @@ class SceneEdits {
   mutable std::mutex mutex_;
   std::shared_ptr<const SceneTree> scene_;
   int structure_ = 0;
-  std::optional<Config> edited_;   ///< the scene with the changes; made when there is first something to change
-  std::map<int, double> joints_;   ///< dof -> value
-  std::map<int, Pose> frames_;     ///< frame -> pose in its parent, or in the world without one
+  std::optional<Config> edited_;  ///< the scene with the changes; made when there is first something to change
+  std::map<int, double> joints_;  ///< dof -> value
+  std::map<int, Pose> frames_;    ///< frame -> pose in its parent, or in the world without one
   double margin_ = 0.;
   Rng random_;
 };

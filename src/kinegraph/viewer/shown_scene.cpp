@@ -16,9 +16,9 @@ void append(std::string& data, const T& value) {
   data.append(reinterpret_cast<const char*>(&value), sizeof value);
 }
 
-/// kind, number, vertices, triangles, colors (0, 1 or as many as vertices), texture coordinates (0 or as many), textured ranges
-/// of triangles; then float32 positions, uint32 indices, float32 texture coordinates, uint32 first, count, number of the
-/// picture for each range, rgba bytes. `images`: the numbers of the pictures.
+/// kind, number, vertices, triangles, colors (0, 1 or as many as vertices), texture coordinates (0 or as many),
+/// textured ranges of triangles; then float32 positions, uint32 indices, float32 texture coordinates, uint32 first,
+/// count, number of the picture for each range, rgba bytes. `images`: the numbers of the pictures.
 std::string encodeMesh(int number, const Mesh& mesh, const std::vector<int>& images) {
   std::string data;
   const std::size_t vertices = mesh.vertices.size();
@@ -99,8 +99,10 @@ bool isSentAsMesh(ShapeType type) {
     case ShapeType::pointCloud:
     case ShapeType::lines:
     case ShapeType::ssCvx:
-    case ShapeType::ssBoxElip: return true;
-    default: return false;
+    case ShapeType::ssBoxElip:
+      return true;
+    default:
+      return false;
   }
 }
 
@@ -131,7 +133,8 @@ std::shared_ptr<const ShownScene::SentImage> ShownScene::sentImage(const std::sh
     std::string data;
     append(data, BinaryKind::image);
     append(data, std::uint32_t(next_image_));
-    place->second = std::make_shared<SentImage>(SentImage{next_image_++, std::make_shared<std::string>(data + image->bytes)});
+    place->second =
+        std::make_shared<SentImage>(SentImage{next_image_++, std::make_shared<std::string>(data + image->bytes)});
   }
   return place->second;
 }
@@ -306,7 +309,8 @@ std::vector<Outgoing> ShownScene::messagesSince(Seen& seen) const {
     }
     if (shown.mesh && meshes.insert(shown.mesh->number).second) {
       for (const auto& image : shown.mesh->images) {
-        if (images.insert(image->number).second && !seen.images.contains(image->number)) out.push_back({image->data, true});
+        if (images.insert(image->number).second && !seen.images.contains(image->number))
+          out.push_back({image->data, true});
       }
       if (!seen.meshes.contains(shown.mesh->number)) out.push_back({shown.mesh->data, true});
     }

@@ -71,7 +71,9 @@ class ShownScene {
     std::uint64_t look_revision = 0, pose_revision = 0;
   };
   struct LessBytes {  // equal pictures are one
-    bool operator()(const std::shared_ptr<const Image>& a, const std::shared_ptr<const Image>& b) const { return a->bytes < b->bytes; }
+    bool operator()(const std::shared_ptr<const Image>& a, const std::shared_ptr<const Image>& b) const {
+      return a->bytes < b->bytes;
+    }
   };
   std::shared_ptr<const SentMesh> meshOf(const ViewItem& item);
   std::shared_ptr<const SentImage> sentImage(const std::shared_ptr<const Image>& image);
@@ -79,7 +81,8 @@ class ShownScene {
   std::uint64_t revision_ = 1, count_revision_ = 1, text_revision_ = 1, camera_revision_ = 0;
   std::vector<Shown> frames_;
   std::map<std::shared_ptr<const Geometry>, std::shared_ptr<const SentMesh>> meshes_;  ///< those that frames show
-  std::map<std::shared_ptr<const Image>, std::shared_ptr<const SentImage>, LessBytes> images_;  ///< those on these meshes
+  std::map<std::shared_ptr<const Image>, std::shared_ptr<const SentImage>, LessBytes>
+      images_;  ///< those on these meshes
   int next_mesh_ = 0, next_image_ = 0;
   int structure_ = 0;
   std::vector<ShownJoint> joints_;
@@ -91,8 +94,8 @@ class ShownScene {
   Look look_;
   int events_ = 0;
   bool cursor_ = false, digits_ = false;
-  std::shared_ptr<const std::string> near_;                        ///< as it is sent
-  std::map<int, std::pair<std::uint64_t, Outgoing>> quads_;        ///< by id: since when, and as it is sent
+  std::shared_ptr<const std::string> near_;                  ///< as it is sent
+  std::map<int, std::pair<std::uint64_t, Outgoing>> quads_;  ///< by id: since when, and as it is sent
   std::uint64_t look_revision_ = 0, near_revision_ = 0;
 };
 

@@ -27,11 +27,21 @@ void WatchKeys::say(const std::string& text) {
 bool WatchKeys::press(int key) {
   try {
     switch (key) {
-      case 'h': say(help()); return true;
-      case 'i': reportScene(); return true;
-      case 'c': reportCollisions(); return true;
-      case 'x': writeFiles(); return true;
-      case ' ': reportPicked(); return true;
+      case 'h':
+        say(help());
+        return true;
+      case 'i':
+        reportScene();
+        return true;
+      case 'c':
+        reportCollisions();
+        return true;
+      case 'x':
+        writeFiles();
+        return true;
+      case ' ':
+        reportPicked();
+        return true;
       case 'a':
         viewer_.showMotion(config_, jointSweep(config_), false, "every joint through its limits [any key stops it]",
                            stop_);
@@ -48,7 +58,8 @@ bool WatchKeys::press(int key) {
         viewer_.server().takeEvents();
         say(logs_ ? "mouse and keys are logged" : "mouse and keys are not logged");
         return true;
-      default: return false;
+      default:
+        return false;
     }
   } catch (const Error& error) {
     say(error.what());
@@ -66,8 +77,10 @@ void WatchKeys::reportScene() {
   for (const std::string& name : config_.getJointNames()) text += " " + name;
   if (const std::optional<PageCamera> camera = viewer_.server().camera()) {
     text += cat("\nthe page looks from\ncamera_init: { X: [", camera->pose.numbers().transpose(), "]");
-    if (camera->ortho_height > 0.) text += cat(", orthoAbsHeight: ", camera->ortho_height);
-    else if (camera->focal_length > 0.) text += cat(", focalLength: ", camera->focal_length);
+    if (camera->ortho_height > 0.)
+      text += cat(", orthoAbsHeight: ", camera->ortho_height);
+    else if (camera->focal_length > 0.)
+      text += cat(", focalLength: ", camera->focal_length);
     text += " }";
   }
   say(text);
