@@ -172,6 +172,7 @@ class DenseAlgebra {
       for (int p = k - k % 2; p < N; p += 2) K_.template block<2, 1>(p, k) += factor * v.template segment<2>(p);
     }
   }
+  /// matrix += weight v v^T, both triangles.
   template <class Column>
   static void addProduct(Matrix& matrix, const Column& v, double weight) {
     for (int k = 0; k < N; ++k) matrix.col(k) += (weight * v[k]) * v;
