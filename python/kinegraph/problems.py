@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import difflib
 import random
 
 from ._core import FS, JT, KOMO, NLP, OT, ST, SY, Config, makeTestProblem, testProblemNames
@@ -156,6 +157,8 @@ def make_NLP_Problem(name: str, dim: int | None = None, seed: int = 0) -> NLP:
     if name in _MOTIONS:
         return _MOTIONS[name](seed).nlp()
     if name not in testProblemNames():
-        raise NotFound(f"there is no problem {name!r}; expected one of {', '.join(get_NLP_Problem_names())}")
+        near = difflib.get_close_matches(name, get_NLP_Problem_names())
+        hint = f"; similar names: {', '.join(near)}" if near else ""
+        raise NotFound(f"there is no problem {name!r}; expected one of {', '.join(get_NLP_Problem_names())}{hint}")
     size = params_get().get("problem/dim", -1) if dim is None else dim
     return makeTestProblem(name, int(size), seed)

@@ -213,3 +213,8 @@ def test_words_are_numbers_and_only_two_say_how_fine_a_motion_is():
 def test_the_problem_outlives_what_made_it():
     nlp = ry.OptBench_Skeleton_Pick(ry._sequence).get()
     assert violation(nlp, ry.NLP_Solver(nlp, verbose=0).solve().x) < 1e-3
+
+
+def test_aMistypedNameIsToldWithTheOneThatIsNear():
+    with pytest.raises(ry.NotFound, match="'PushToReech'; expected one of .*; similar names: PushToReach"):
+        ry.make_NLP_Problem("PushToReech")
