@@ -1,7 +1,7 @@
 # make demo    installs into .venv and runs the main job
 # make test    installs what the tests need, and runs everything
 # make test-models   reads every robot of two large collections and compares with Pinocchio and MuJoCo (2 GB, minutes)
-# PYTHON=...   the Python to use (3.10 or newer)
+# PYTHON=...   the Python to use (3.11 or newer)
 
 PYTHON ?= python3
 VENV := .venv

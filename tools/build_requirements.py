@@ -1,10 +1,8 @@
 #!/usr/bin/env python3
-"""Prints what the build requires, one requirement a line, as pyproject.toml lists it (tomllib came with Python 3.11)."""
+"""Prints what the build requires, one requirement a line, as pyproject.toml lists it."""
 
-import re
+import tomllib
 from pathlib import Path
 
-text = (Path(__file__).parent.parent / "pyproject.toml").read_text()
-listed = re.search(r"^requires = \[(.*?)\]", text, re.DOTALL | re.MULTILINE)
-assert listed, "pyproject.toml lists no build requirements"
-print("\n".join(re.findall(r'"([^"]+)"', listed[1])))
+with (Path(__file__).parent.parent / "pyproject.toml").open("rb") as file:
+    print("\n".join(tomllib.load(file)["build-system"]["requires"]))

@@ -16,7 +16,7 @@ void bindDynamics(nb::class_<PyConfig>& config) {
           },
           "q_dot"_a,
           "M (n, n) and F (n,) of the equation of motion u = M ddq + F, at q and the velocity dq. Gravity is\n"
-          "9.81 m/s^2 along -z; masses, centres of mass and inertias are those of the frames.")
+          "9.81 m/s^2 along -z; masses, centers of mass and inertias are those of the frames.")
       .def(
           "equationOfMotion",
           [](const PyConfig& c, const Numbers& velocity, bool gravity) {
@@ -51,7 +51,7 @@ void bindDynamics(nb::class_<PyConfig>& config) {
             const auto [mass, center] = c.centerOfMass();
             return nb::typed<nb::tuple, nb::float_, Array>(nb::make_tuple(mass, toNumpy(center.data(), 3)));
           },
-          "Mass of everything that moves (kg) and its centre (3,), world coordinates, m.");
+          "Mass of everything that moves (kg) and its center (3,), world coordinates, m.");
 }
 
 }  // namespace kinegraph::python

@@ -111,7 +111,7 @@ void bindFormats(nb::module_&, nb::class_<PyConfig>& config, nb::class_<Frame>& 
           "writeGltf", [](const PyConfig& c, nb::handle file) { writeGltf(c, pathText(file)); }, "filename"_a,
           "Writes the scene, as it stands, as binary glTF (.glb): a node per frame with the surface that is shown for "
           "it, in its\n"
-          "colours, y up as glTF has it.");
+          "colors, y up as glTF has it.");
 
   frame
       .def(

@@ -7,7 +7,7 @@
 #include "bindings.h"
 #include "kinegraph/base/errors.h"
 #include "kinegraph/base/text.h"
-#include "kinegraph/geometry/shape_types.h"
+#include "kinegraph/geometry/shapes/shape_types.h"
 #include "kinegraph/gfile/writer.h"
 #include "kinegraph/scene/inertia_edits.h"
 #include "kinegraph/scene/reader.h"
@@ -260,7 +260,7 @@ void bindFrame(nb::module_&, nb::class_<Frame>& frame) {
             return toNumpy(moveToPrincipalAxes(*f.scene(), f.data(), mesh).numbers().data(), 7);
           },
           "transformMesh"_a = true,
-          "Moves the frame to its centre of mass and turns it to its principal axes of inertia; what is below it stays "
+          "Moves the frame to its center of mass and turns it to its principal axes of inertia; what is below it stays "
           "in place, and\n"
           "with transformMesh so do the points of its mesh. Returns the motion, (7,): the new frame in the old one.\n"
           "ArgumentError without a mass, with dofs, or with a shape that would have to move.")
@@ -278,7 +278,7 @@ void bindFrame(nb::module_&, nb::class_<Frame>& frame) {
             if (!inertia) return nb::make_tuple(0., nb::list(), nb::list());
             return nb::make_tuple(inertia->mass, toNumpy(inertia->com.data(), 3), toNumpy(MatrixXd(inertia->matrix)));
           },
-          "(mass in kg, centre of mass (3,) in m, inertia about it (3, 3) in kg m^2), in the frame; (0, [], []) "
+          "(mass in kg, center of mass (3,) in m, inertia about it (3, 3) in kg m^2), in the frame; (0, [], []) "
           "without a mass.")
       .def("getMass", &Frame::getMass, "Mass in kg, 0 if none.")
       .def(

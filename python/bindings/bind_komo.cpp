@@ -228,7 +228,7 @@ void bindObjectives(nb::class_<PyKomo>& komo) {
           "a copy of it is\n"
           "returned. One dof per slice is the force, in units of the weight of init_objMass. FS.totalForce and "
           "FS.physics balance it,\n"
-          "about the object's own centre of mass; obj_com_frame is there for older scripts and is not used.")
+          "about the object's own center of mass; obj_com_frame is there for older scripts and is not used.")
       .def(
           "addContact_WithPoaFrame",
           [](PyKomo& k, const Numbers& time, const std::string& object, const std::string& from, double friction,

@@ -14,7 +14,7 @@
 #include "kinegraph/base/text.h"
 #include "kinegraph/nlp/test_problems.h"
 #include "kinegraph/solvers/explanation.h"
-#include "kinegraph/solvers/penalty_nlp.h"
+#include "kinegraph/solvers/problems/penalty_nlp.h"
 #include "nlp_objects.h"
 #include "py_komo.h"
 #include "solving.h"

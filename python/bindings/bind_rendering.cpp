@@ -147,7 +147,7 @@ void bindRendering(nb::module_& m) {
       .def("computeSegmentationID", segmentationIds, "visualsOnly"_a = true,
            "The id of the frame that each pixel shows, int32 (height, width); -1 for the floor and where nothing is.")
       .def("computeSegmentationImage", segmentationImage, "visualsOnly"_a = true,
-           "The ids as colours, uint8 (height, width, 3); white for the floor and where nothing is.");
+           "The ids as colors, uint8 (height, width, 3); white for the floor and where nothing is.");
 
   m.def("depthImage2PointCloud", depthImage2PointCloud, "depth"_a, "fxycxy"_a,
         "Points (height, width, 3) of a depth image in the camera's frame, m; zeros where the depth is negative.\n"

@@ -7,7 +7,7 @@
 #include "defaults.h"
 #include "kinegraph/base/errors.h"
 #include "kinegraph/base/text.h"
-#include "kinegraph/solvers/sampler.h"
+#include "kinegraph/solvers/sampling/sampler.h"
 #include "nlp_objects.h"
 #include "solving.h"
 

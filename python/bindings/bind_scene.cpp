@@ -7,7 +7,7 @@
 #include "defaults.h"
 #include "kinegraph/base/errors.h"
 #include "kinegraph/base/text.h"
-#include "kinegraph/geometry/shape_types.h"
+#include "kinegraph/geometry/shapes/shape_types.h"
 #include "kinegraph/scene/reader.h"
 #include "kinegraph/scene/scene_bytes.h"
 #include "scene_values.h"

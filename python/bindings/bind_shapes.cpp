@@ -8,9 +8,9 @@
 #include "bindings.h"
 #include "kinegraph/base/errors.h"
 #include "kinegraph/base/text.h"
-#include "kinegraph/geometry/convex_hull.h"
-#include "kinegraph/geometry/shape_types.h"
-#include "kinegraph/geometry/tessellation.h"
+#include "kinegraph/geometry/shapes/convex_hull.h"
+#include "kinegraph/geometry/shapes/shape_types.h"
+#include "kinegraph/geometry/shapes/tessellation.h"
 #include "kinegraph/scene/frame_shapes.h"
 
 namespace kinegraph::python {
@@ -236,7 +236,7 @@ void bindMeshes(nb::class_<Frame>& frame) {
           "data"_a, "size"_a, "blur"_a = 0, "resample"_a = -1., kChain,
           "Gives the frame the surface where a grid (nx, ny, nz) in a box of size (3,), m, is zero; normals point to "
           "larger values.\n"
-          "blur: how often values are averaged with their neighbours. resample: cell size in m to interpolate to, if > "
+          "blur: how often values are averaged with their neighbors. resample: cell size in m to interpolate to, if > "
           "0.\n"
           "ArgumentError if the values are nowhere zero.")
       .def(
@@ -281,7 +281,7 @@ void bindShapes(nb::class_<Frame>& frame) {
           "type"_a, "size"_a, kChain, "The same with the type's name.")
       .def(
           "setColor", [](Frame& f, const Numbers& color) -> Frame& { return f.setColor(color.list()); }, "color"_a,
-          kChain, "Grey, grey and alpha, rgb, or rgba; in 0..1.")
+          kChain, "Gray, gray and alpha, rgb, or rgba; in 0..1.")
       .def(
           "setContact", [](Frame& f, int contact) -> Frame& { return f.setContact(contact); }, "contact"_a, kChain,
           "0: never collides; 1: with everything outside of its link; -k: not with links within k joints above.")

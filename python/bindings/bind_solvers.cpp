@@ -330,9 +330,9 @@ void bindSolvers(nb::module_& m) {
       .def(
           "conflicts", [](const SolverResult& r, double tolerance) { return toDicts(explanationOf(r, tolerance)); },
           "tolerance"_a = 1e-3,
-          "What explain says, as a list of dicts: name, type, frames, slices, metres, radians, scaled, details, pull, "
+          "What explain says, as a list of dicts: name, type, frames, slices, meters, radians, scaled, details, pull, "
           "and of\n"
-          "giving way: suffices, by_metres, by_radians, by_scaled, best. Empty if all constraints hold.")
+          "giving way: suffices, by_meters, by_radians, by_scaled, best. Empty if all constraints hold.")
       .def("__str__", &SolverResult::str)
       .def("__getstate__", resultState)
       .def(

@@ -88,7 +88,7 @@ void bindStructure(nb::class_<PyConfig>& config) {
           "recomputeInertias"_a = true, "transformToDiagInertia"_a = false,
           "Gathers the inertia of every link in its frame. recomputeInertias: first, opaque shapes weigh 5 kg per m^2 "
           "of surface and\n"
-          "transparent ones nothing. transformToDiagInertia: link frames move to their centre of mass and principal "
+          "transparent ones nothing. transformToDiagInertia: link frames move to their center of mass and principal "
           "axes; one that\n"
           "cannot move (it has a shape or dofs) gets a child <name>_inertia there, which holds the inertia.")
       .def(

@@ -21,16 +21,16 @@ using Image = nb::ndarray<const T, nb::c_contig, nb::device::cpu>;
 
 constexpr int kNoFrame = 0xffffff;  // as in segmentation images
 
-/// The picture as a quad of rgb bytes; numbers are cut off below 0 and above 255, and shown as grey if there is one per
+/// The picture as a quad of rgb bytes; numbers are cut off below 0 and above 255, and shown as gray if there is one per
 /// pixel.
 template <class T>
 Quad quadOf(const Image<T>& image, const char* who) {
-  const bool grey = image.ndim() == 2;
-  if (!grey && (image.ndim() != 3 || image.shape(2) != 3)) {
+  const bool gray = image.ndim() == 2;
+  if (!gray && (image.ndim() != 3 || image.shape(2) != 3)) {
     std::string shape;
     for (std::size_t i = 0; i < image.ndim(); ++i) shape += cat(i ? ", " : "", image.shape(i));
     throw ValueError(
-        cat(who, ": the picture has shape (", shape, "); expected (height, width, 3), or (height, width) for grey"));
+        cat(who, ": the picture has shape (", shape, "); expected (height, width, 3), or (height, width) for gray"));
   }
   if (image.size() == 0) throw ValueError(cat(who, ": the picture has no pixels"));
   Quad quad;
@@ -40,7 +40,7 @@ Quad quadOf(const Image<T>& image, const char* who) {
   for (std::size_t i = 0; i < image.size(); ++i) {
     const double value = double(image.data()[i]);
     const auto byte = std::uint8_t(std::isnan(value) ? 0. : std::clamp(value, 0., 255.));
-    quad.rgb.insert(quad.rgb.end(), grey ? 3 : 1, byte);
+    quad.rgb.insert(quad.rgb.end(), gray ? 3 : 1, byte);
   }
   return quad;
 }
@@ -106,7 +106,7 @@ void bindViewerInput(nb::module_& m, nb::class_<PyViewer>& viewer) {
            "Shows a text, and waits for a key if told so; what is shown else stays as it is. Returns as Config.view "
            "does.")
       .def("setQuad", setQuad, "id"_a, "rgb"_a, "x"_a, "y"_a, "h"_a,
-           "Shows a picture, uint8 (height, width, 3) or grey (height, width), on top of the scene, in the browser and "
+           "Shows a picture, uint8 (height, width, 3) or gray (height, width), on top of the scene, in the browser and "
            "in getRgb(). x, y: its top left\n"
            "corner, from that of the window, and h: its height, all in heights of the window. id: -1 for another "
            "picture, or that of\n"
@@ -136,7 +136,7 @@ void bindViewerInput(nb::module_& m, nb::class_<PyViewer>& viewer) {
   nb::class_<ImageViewer>(m, "ImageViewer", "Shows pictures in the browser.")
       .def(nb::init<>())
       .def("view", viewImage<std::uint8_t>, "img"_a, "wait"_a = false, "zoom"_a = 1.,
-           "Shows uint8 (height, width, 3), or (height, width) as grey, each pixel `zoom` pixels large. wait: for a "
+           "Shows uint8 (height, width, 3), or (height, width) as gray, each pixel `zoom` pixels large. wait: for a "
            "key.\n"
            "Returns the key, or 0.")
       .def("viewFloat", viewImage<float>, "img"_a, "wait"_a = false, "zoom"_a = 1.,

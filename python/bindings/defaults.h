@@ -3,7 +3,7 @@
 #include <cstdint>
 
 #include "kinegraph/base/random.h"
-#include "kinegraph/solvers/options.h"
+#include "kinegraph/solvers/interface/options.h"
 
 namespace kinegraph::python {
 

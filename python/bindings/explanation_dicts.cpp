@@ -23,14 +23,14 @@ nb::list toDicts(const Explanation& explanation) {
     d["frames"] = conflict.frames;
     d["slices"] = conflict.slices;
     d["rows"] = conflict.rows;
-    d["metres"] = orNone(conflict.violation.metres);
+    d["meters"] = orNone(conflict.violation.meters);
     d["radians"] = orNone(conflict.violation.radians);
     d["scaled"] = conflict.violation.scaled;
     d["time_order"] = conflict.violation.time_order;
     d["details"] = conflict.details;
     d["pull"] = conflict.pull;
     d["suffices"] = conflict.suffices;
-    d["by_metres"] = orNone(conflict.relaxation.metres);
+    d["by_meters"] = orNone(conflict.relaxation.meters);
     d["by_radians"] = orNone(conflict.relaxation.radians);
     d["by_scaled"] = conflict.relaxation.scaled;
     d["remaining"] = conflict.remaining;

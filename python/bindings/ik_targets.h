@@ -3,7 +3,7 @@
 #include <vector>
 
 #include "bindings.h"
-#include "kinegraph/planning/solve_ik.h"
+#include "kinegraph/ik/solve_ik.h"
 
 namespace kinegraph::python {
 

@@ -2,7 +2,7 @@
 
 #include "kinegraph/base/errors.h"
 #include "kinegraph/base/text.h"
-#include "kinegraph/geometry/shape_types.h"
+#include "kinegraph/geometry/shapes/shape_types.h"
 
 namespace kinegraph::python {
 

@@ -9,7 +9,7 @@
 #include "defaults.h"
 #include "kinegraph/base/errors.h"
 #include "kinegraph/base/text.h"
-#include "kinegraph/solvers/penalty_methods.h"
+#include "kinegraph/solvers/methods/penalty_methods.h"
 
 namespace kinegraph::python {
 

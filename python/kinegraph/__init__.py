@@ -1,4 +1,4 @@
-"""Kinegraph: robot scenes, differentiable features, inverse kinematics and k-order motion optimisation.
+"""Kinegraph: robot scenes, differentiable features, inverse kinematics and k-order motion optimization.
 
     import kinegraph as ry
     C = ry.Config()

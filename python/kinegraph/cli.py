@@ -18,7 +18,7 @@ _MESHES = (".h5", ".ply", ".obj", ".stl", ".dae", ".glb")
 
 def _parser() -> argparse.ArgumentParser:
     parser = argparse.ArgumentParser(
-        prog="kinegraph", description="Robot scenes, inverse kinematics and motion optimisation."
+        prog="kinegraph", description="Robot scenes, inverse kinematics and motion optimization."
     )
     parser.add_argument("--version", action="version", version=f"kinegraph {__version__}")
     commands = parser.add_subparsers(dest="command", required=True, metavar="COMMAND")

@@ -10,7 +10,7 @@ from .model_paths import raiPath
 
 
 def randomScene(seed: int = 0, boxes: int = 30) -> Config:
-    """Two robot arms at a table, and many rounded boxes of random size, colour and pose around them."""
+    """Two robot arms at a table, and many rounded boxes of random size, color and pose around them."""
     rng = random.Random(seed)
     C = Config()
     C.addFile(raiPath("scenarios/pandasTable.g"))

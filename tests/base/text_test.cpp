@@ -4,7 +4,7 @@
 
 using namespace kinegraph;
 
-TEST(Text, EditDistanceCountsASwapOfNeighboursAsOne) {
+TEST(Text, EditDistanceCountsASwapOfNeighborsAsOne) {
   EXPECT_EQ(editDistance("gripper", "gripepr"), 1.);
   EXPECT_EQ(editDistance("abc", ""), 3.);
   EXPECT_EQ(editDistance("box", "box"), 0.);

@@ -13,7 +13,7 @@ TEST(BoxRegion, AboveABoxAllRowsAreNegative) {
   EXPECT_TRUE(near(value(config, "aboveBox", {"P", "A"}), numbers({.15, -.25, -.45, -.05}), 1e-14));
 }
 
-TEST(BoxRegion, InsideLeavesAMarginOfACentimetre) {
+TEST(BoxRegion, InsideLeavesAMarginOfACentimeter) {
   const Config config = workedScene();
   EXPECT_TRUE(near(value(config, "insideBox", {"P", "A"}), numbers({.11, -.29, -.09, -.49, -.09, -.09}), 1e-14));
   EXPECT_TRUE(near(value(config, "insideBox", {"B", "A"}), numbers({-.19, -.69, -.09, -.19, .31, -.09}), 1e-14));

@@ -10,7 +10,7 @@ using namespace kinegraph;
 
 namespace {
 
-/// A body of 2 kg that moves freely, its centre of mass at its origin, and one of 1 kg at rest.
+/// A body of 2 kg that moves freely, its center of mass at its origin, and one of 1 kg at rest.
 Config bodies() {
   Config config;
   config.addText(R"g(
@@ -72,7 +72,7 @@ TEST(Physics, IsZeroInFreeFall) {
                    VectorXd(VectorXd::Zero(6)), 1e-12));
 }
 
-TEST(EqCenterOfMass, IsAFramesOffsetFromTheCommonCentreOfTheOthers) {
+TEST(EqCenterOfMass, IsAFramesOffsetFromTheCommonCenterOfTheOthers) {
   const Config config = bodies();
   EXPECT_TRUE(
       near(value(config, "EqCenterOfMass", {"ground", "body", "part"}), numbers({.25 - .5 / 3., 1., -1.}), 1e-12));

@@ -4,7 +4,7 @@
 
 #include <filesystem>
 
-#include "kinegraph/geometry/mesh_file.h"
+#include "kinegraph/geometry/files/mesh_file.h"
 #include "tests/support/near.h"
 #include "tests/support/temporary_folder.h"
 
@@ -52,7 +52,7 @@ TEST(WriteGltf, VerticesStandWhereTheFramesAre) {
   }
 }
 
-TEST(WriteGltf, ColoursAreThoseOfShapesAndVertices) {
+TEST(WriteGltf, ColorsAreThoseOfShapesAndVertices) {
   const Mesh red = readAgain(scene("a: { shape: box, size: [1 1 1], color: [1 0 0 .4] }"));
   for (const auto& color : red.colors) EXPECT_EQ(color, (std::array<std::uint8_t, 4>{255, 0, 0, 102}));
   const Mesh mixed =

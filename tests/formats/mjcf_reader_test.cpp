@@ -230,7 +230,7 @@ TEST_F(MjcfReader, MeshesAreLookedForInMeshdirAndScaled) {
   EXPECT_NE(warnings_[0].find("mesh 'n.obj' is not there"), std::string::npos);
 }
 
-TEST_F(MjcfReader, NeighboursAndExcludedBodiesDoNotCollide) {
+TEST_F(MjcfReader, NeighborsAndExcludedBodiesDoNotCollide) {
   const std::string bodies =
       "<worldbody><geom name='floor' type='plane' size='1 1 1'/>"
       "<body name='a'><joint/><joint axis='1 0 0'/><geom name='ga' size='.1'/>"
@@ -256,7 +256,7 @@ TEST_F(MjcfReader, ACameraLooksAlongItsZAxis) {
   EXPECT_EQ(*config.getFrame("eye").attributes().find("heightAngle")->value.as<double>(), 30.);
 }
 
-TEST_F(MjcfReader, InertiasAreAboutTheCentreOfMass) {
+TEST_F(MjcfReader, InertiasAreAboutTheCenterOfMass) {
   const Config config = world(
       "<body name='a'><inertial pos='1 2 3' mass='2' fullinertia='.3 .2 .25 .01 .02 .03'/></body>"
       "<body name='b'><inertial pos='0 0 0' mass='1' diaginertia='.1 .2 .3' quat='1 0 0 1'/></body>");

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "kinegraph/geometry/shape_types.h"
+#include "kinegraph/geometry/shapes/shape_types.h"
 #include "kinegraph/scene/config.h"
 #include "kinegraph/scene/frame_shapes.h"
 

@@ -4,7 +4,7 @@
 #include <cstdlib>
 
 #include "kinegraph/base/errors.h"
-#include "kinegraph/geometry/image.h"
+#include "kinegraph/geometry/files/image_file.h"
 
 using namespace kinegraph;
 

@@ -9,7 +9,7 @@
 #include <fstream>
 
 #include "kinegraph/base/errors.h"
-#include "kinegraph/geometry/mesh_file.h"
+#include "kinegraph/geometry/files/mesh_file.h"
 
 using namespace kinegraph;
 

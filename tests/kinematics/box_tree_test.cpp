@@ -55,7 +55,7 @@ TEST(BoxTree, OfNothingFindsNothing) {
   tree.forMeeting({Vector3d::Constant(-1.), Vector3d::Constant(1.)}, 1., [](int) { FAIL(); });
 }
 
-TEST(BoxTree, SpreadsWhereNeighboursTravelApart) {
+TEST(BoxTree, SpreadsWhereNeighborsTravelApart) {
   Rng rng(2);
   std::vector<WorldBox> boxes;
   for (int i = 0; i < 200; ++i) boxes.push_back(randomBox(rng));

@@ -5,7 +5,7 @@
 #include <new>
 
 #include "kinegraph/komo/komo.h"
-#include "kinegraph/solvers/augmented_lagrangian.h"
+#include "kinegraph/solvers/methods/augmented_lagrangian.h"
 
 // Where it can be done, all of malloc is counted, because Eigen's matrices do not ask operator new.
 #if defined(__GLIBC__) && !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)

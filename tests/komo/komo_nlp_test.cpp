@@ -2,7 +2,7 @@
 
 #include "kinegraph/komo/komo.h"
 #include "kinegraph/solvers/nlp_solver.h"
-#include "kinegraph/solvers/penalty_nlp.h"
+#include "kinegraph/solvers/problems/penalty_nlp.h"
 #include "tests/support/differences.h"
 #include "tests/support/near.h"
 

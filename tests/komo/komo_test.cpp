@@ -6,7 +6,7 @@
 
 #include "kinegraph/base/errors.h"
 #include "kinegraph/base/text.h"
-#include "kinegraph/solvers/augmented_lagrangian.h"
+#include "kinegraph/solvers/methods/augmented_lagrangian.h"
 
 using namespace kinegraph;
 
@@ -172,7 +172,7 @@ TEST(Komo, ControlObjectivesAreScaledByTime) {
   }
 }
 
-/// It takes over little where little was changed: positions of single frames, of many, joints, colours and masses, also
+/// It takes over little where little was changed: positions of single frames, of many, joints, colors and masses, also
 /// while copies of the scene are held by others.
 TEST(Komo, UpdateRootObjectsFollowsEveryEditThatKeepsTheStructure) {
   Config config = panda();

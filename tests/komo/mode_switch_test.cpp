@@ -7,7 +7,7 @@
 #include "kinegraph/base/errors.h"
 #include "kinegraph/komo/komo.h"
 #include "kinegraph/komo/report.h"
-#include "kinegraph/solvers/augmented_lagrangian.h"
+#include "kinegraph/solvers/methods/augmented_lagrangian.h"
 
 using namespace kinegraph;
 

@@ -45,7 +45,7 @@ def scene(text, attributes="", pose=FORWARD):
 
 
 def rays():
-    """Directions of the pixels' centres in the world, with 1 m along the camera's axis: (HEIGHT, WIDTH, 3)."""
+    """Directions of the pixels' centers in the world, with 1 m along the camera's axis: (HEIGHT, WIDTH, 3)."""
     column, row = np.meshgrid(np.arange(WIDTH) + 0.5, np.arange(HEIGHT) + 0.5)
     x, y = (column - WIDTH / 2) / PIXELS, (row - HEIGHT / 2) / PIXELS
     return np.stack([np.ones_like(x), -x, -y], axis=-1)

@@ -16,7 +16,7 @@ def kinegraph(*arguments):
     )
 
 
-def test_the_demo_follows_its_target_within_a_tenth_of_a_millimetre():
+def test_the_demo_follows_its_target_within_a_tenth_of_a_millimeter():
     program = kinegraph("demo", "--seconds", "2.5", "--no-view")
     assert program.returncode == 0, program.stderr
     *seconds, total = program.stdout.splitlines()

@@ -25,7 +25,7 @@ def solve(komo):
 
 
 @pytest.mark.parametrize("call", ["addContactForceFrame", "addContact_WithPoaFrame"])
-def test_a_box_that_rests_is_held_by_its_weight_below_its_centre(call):
+def test_a_box_that_rests_is_held_by_its_weight_below_its_center(call):
     C = box_on_table(height=0.66)
     C.getFrame("box").setJoint(JT.free)
     komo = ry.KOMO(C, 1, 1, 0, False)
@@ -67,7 +67,7 @@ def test_a_box_on_a_lift_weighs_more_while_it_accelerates():
 
 
 def pushed(mode, slices=6, offset=0.03):
-    """A finger pushes a box on a table, next to its centre."""
+    """A finger pushes a box on a table, next to its center."""
     C = box_on_table()
     C.addFrame("rail", "world").setPosition([-0.055, 0.2 + offset, 0.65])
     C.addFrame("finger", "rail").setShape(ry.ST.sphere, [0.05]).setContact(1).setJoint(JT.transX)

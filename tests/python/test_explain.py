@@ -23,7 +23,7 @@ def best(conflicts: list[dict]) -> dict:
     return next(conflict for conflict in conflicts if conflict["best"])
 
 
-def test_a_target_out_of_reach_is_named_with_the_distance_in_metres(panda):
+def test_a_target_out_of_reach_is_named_with_the_distance_in_meters(panda):
     C = far_target(panda)
     komo = ik(C, (ry.FS.positionDiff, ["l_gripper", "target"], ry.OT.eq, [10.0]))
     ret = ry.NLP_Solver(komo.nlp(), verbose=0).solve()
@@ -37,11 +37,11 @@ def test_a_target_out_of_reach_is_named_with_the_distance_in_metres(panda):
     assert target["frames"] == ["l_gripper", "target"]
     assert target["slices"] == [0]
     assert target["type"] == "eq"
-    assert target["metres"] == pytest.approx(missed, rel=0.05), "not the scaled residual"
+    assert target["meters"] == pytest.approx(missed, rel=0.05), "not the scaled residual"
     assert target["radians"] is None
     assert best(conflicts) is target
     assert target["suffices"]
-    assert target["by_metres"] == pytest.approx(target["metres"], rel=1e-3)
+    assert target["by_meters"] == pytest.approx(target["meters"], rel=1e-3)
     text = ret.explain()
     assert "positionDiff of l_gripper, target in slice 0 (eq) is missed by 2." in text
     assert "gives way by 2." in text
@@ -53,7 +53,7 @@ def test_the_same_amount_is_said_whatever_the_scale(panda):
     amounts = []
     for scale in (1.0, 10.0, 100.0):
         komo = ik(C, (ry.FS.positionDiff, ["l_gripper", "target"], ry.OT.eq, [scale]))
-        amounts.append(komo.conflicts()[0]["metres"])
+        amounts.append(komo.conflicts()[0]["meters"])
     np.testing.assert_allclose(amounts, amounts[0], rtol=1e-3)
 
 
@@ -73,7 +73,7 @@ def test_a_joint_limit_that_is_in_the_way_is_named_in_radians(panda):
     assert "holds at" in komo.explain()
 
 
-def test_shapes_that_overlap_are_named_in_millimetres(panda):
+def test_shapes_that_overlap_are_named_in_millimeters(panda):
     panda.addFrame("wall").setShape(ry.ST.ssBox, [0.3, 0.3, 0.3, 0.01]).setContact(1)
     panda.frame("wall").setPosition([0.3, 0.3, 1.1])
     panda.addFrame("target").setShape(ry.ST.marker, [0.1]).setPosition([0.3, 0.3, 1.1])
@@ -86,7 +86,7 @@ def test_shapes_that_overlap_are_named_in_millimetres(panda):
     names = {c["name"]: c for c in conflicts}
     assert {"accumulatedCollisions", "positionDiff of l_gripper, target"} <= set(names)
     hit = names["accumulatedCollisions"]
-    assert hit["metres"] > 0.005
+    assert hit["meters"] > 0.005
     assert any("wall" in detail and "mm" in detail for detail in hit["details"])
     assert "wall" in komo.explain()
     assert best(conflicts)["name"] == "positionDiff of l_gripper, target", "giving it up lets the hand leave the wall"

@@ -277,7 +277,7 @@ def test_a_box_too_large_for_the_hand_is_called_infeasible_with_its_penetration(
     assert ret.violation == pytest.approx(0.003, abs=2e-4)
     (sums,) = [c for c in komo.conflicts() if c["name"].startswith("accumulatedCollisions")]
     assert sums["suffices"]
-    assert sums["by_metres"] == pytest.approx(0.00303, abs=2e-5)
+    assert sums["by_meters"] == pytest.approx(0.00303, abs=2e-5)
     assert "panda_collCameraWrist and box overlap" in komo.explain()
 
 

@@ -31,7 +31,7 @@ class Rendering : public testing::Test {
 
 }  // namespace
 
-TEST_F(Rendering, AWallTwoMetresAwayIsTwoMetresDeepEverywhere) {
+TEST_F(Rendering, AWallTwoMetersAwayIsTwoMetersDeepEverywhere) {
   Config config;
   config.addText(kWall);
   const CameraImage image = renderer.render(config, forwardCamera());

@@ -38,7 +38,7 @@ TEST(Camera, TheHeightAngleIsTheVerticalAngleOfTheImage) {
   EXPECT_NEAR(cameraWith("heightAngle: 90").focal_length, .5, 1e-12);
 }
 
-TEST(Camera, AHeightInMetresMakesItOrthographic) {
+TEST(Camera, AHeightInMetersMakesItOrthographic) {
   EXPECT_EQ(cameraWith("orthoAbsHeight: 2.5").ortho_height, 2.5);
   EXPECT_EQ(cameraWith("heightAbs: 1.5").ortho_height, 1.5);
 }

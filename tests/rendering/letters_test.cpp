@@ -50,14 +50,14 @@ TEST(Letters, DrawingPutsAPanelWithDarkLettersInTheCorner) {
   constexpr int kWidth = 60, kHeight = 40;
   std::vector<std::uint8_t> rgb(3 * kWidth * kHeight, 0);
   drawLetters(rgb, kWidth, {4, 2, {255, 0, 0, 0, 0, 0, 0, 255}});
-  const auto grey = [&](int row, int column) { return int(rgb[3 * std::size_t(row * kWidth + column)]); };
-  EXPECT_EQ(grey(11, 30), 0);  // above
-  EXPECT_EQ(grey(20, 11), 0);  // beside
-  EXPECT_NEAR(grey(13, 13), .93 * 255, 1);
-  EXPECT_EQ(grey(19, 24), 36);  // the first pixel of the letters
-  EXPECT_NEAR(grey(19, 25), .93 * 255, 1);
-  EXPECT_EQ(grey(20, 27), 36);  // and the last
-  EXPECT_EQ(grey(30, 30), 0);
+  const auto gray = [&](int row, int column) { return int(rgb[3 * std::size_t(row * kWidth + column)]); };
+  EXPECT_EQ(gray(11, 30), 0);  // above
+  EXPECT_EQ(gray(20, 11), 0);  // beside
+  EXPECT_NEAR(gray(13, 13), .93 * 255, 1);
+  EXPECT_EQ(gray(19, 24), 36);  // the first pixel of the letters
+  EXPECT_NEAR(gray(19, 25), .93 * 255, 1);
+  EXPECT_EQ(gray(20, 27), 36);  // and the last
+  EXPECT_EQ(gray(30, 30), 0);
 }
 
 TEST(Letters, DrawingIsCutOffAtThePicture) {

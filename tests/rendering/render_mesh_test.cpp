@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "kinegraph/geometry/tessellation.h"
+#include "kinegraph/geometry/shapes/tessellation.h"
 #include "tests/support/near.h"
 
 using namespace kinegraph;
@@ -68,7 +68,7 @@ TEST(RenderMesh, DoubledVerticesDoNotOpenASurface) {
   EXPECT_EQ(renderMeshes(meshOf(soup))[0].faces.size(), 3u * 12u);
 }
 
-TEST(RenderMesh, ColoursOfVerticesCutTheMeshIntoParts) {
+TEST(RenderMesh, ColorsOfVerticesCutTheMeshIntoParts) {
   Mesh mesh = boxMesh();
   for (const Vector3d& p : mesh.vertices)
     mesh.colors.push_back(p.z() > 0. ? std::array<std::uint8_t, 4>{255, 0, 0, 255}
@@ -80,7 +80,7 @@ TEST(RenderMesh, ColoursOfVerticesCutTheMeshIntoParts) {
   EXPECT_TRUE(near(*parts[1].color, Vector4d(1., 0., 0., 1.), 1e-12));
 }
 
-TEST(RenderMesh, ManyColoursAreMergedIntoFew) {
+TEST(RenderMesh, ManyColorsAreMergedIntoFew) {
   Mesh points;
   for (int i = 0; i < 256; ++i) {
     points.vertices.emplace_back(i, 0., 0.);

@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include "kinegraph/geometry/files/image_file.h"
 #include "kinegraph/rendering/camera_renderer.h"
 #include "kinegraph/scene/frame_shapes.h"
 #include "kinegraph/scene/reader.h"

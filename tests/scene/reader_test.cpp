@@ -9,7 +9,7 @@
 
 #include "kinegraph/base/errors.h"
 #include "kinegraph/base/random.h"
-#include "kinegraph/geometry/shape_types.h"
+#include "kinegraph/geometry/shapes/shape_types.h"
 #include "kinegraph/scene/config.h"
 #include "tests/support/temporary_folder.h"
 
@@ -226,7 +226,7 @@ TEST(Reader, MoreMistakesAreExplained) {
   expectMessage("a: { mass: 1, inertia: [1 2] }", "expected 3 (diagonal), 6 (xx xy xz yy yz zz) or 9 numbers, got 2");
   expectMessage("a: { shape: box, size: [1 -1 1] }", "entry -1");
   expectMessage("a: { shape: mesh, mesh: <nope.ply> }", "does not exist");
-  expectMessage("a: { shape: sphere, size: [1], color: [1 2 3 4 5] }", "expected 1 (grey), 2 (grey alpha)");
+  expectMessage("a: { shape: sphere, size: [1], color: [1 2 3 4 5] }", "expected 1 (gray), 2 (gray alpha)");
   expectMessage("a: {} b: {} (a b c): {}", "has 3 parents");
   expectMessage("a: {} b(a): {} (b a): { joint: hingeX }", "one of its descendants");
   expectMessage("a: {} b(a): { joint: hingeX, mimic: c } c(a): { joint: hingeX, mimic: b }", "does not mimic this one");

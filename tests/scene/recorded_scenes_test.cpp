@@ -6,7 +6,7 @@
 #include <fstream>
 #include <sstream>
 
-#include "kinegraph/geometry/shape_types.h"
+#include "kinegraph/geometry/shapes/shape_types.h"
 #include "kinegraph/gfile/parser.h"
 #include "kinegraph/scene/config.h"
 

@@ -122,10 +122,10 @@ TEST(Explanation, ReportsNumbersThatAreNotFiniteByTheirRow) {
   expectError<ValueError>([&] { explain(nlp, vec({0.})); }, {"row 1", "nan"});
 }
 
-TEST(Amount, SpeaksInMetresAndRadians) {
+TEST(Amount, SpeaksInMetersAndRadians) {
   EXPECT_EQ(Amount{.scaled = .5}.str(), "0.5 (scaled)");
-  EXPECT_EQ((Amount{.scaled = 1., .metres = .0031}.str()), "3.1 mm");
-  EXPECT_EQ((Amount{.scaled = 1., .metres = .031}.str()), "3.1 cm");
-  EXPECT_EQ((Amount{.scaled = 1., .metres = 2.5, .radians = .2}.str()), "2.5 m and 0.2 rad");
+  EXPECT_EQ((Amount{.scaled = 1., .meters = .0031}.str()), "3.1 mm");
+  EXPECT_EQ((Amount{.scaled = 1., .meters = .031}.str()), "3.1 cm");
+  EXPECT_EQ((Amount{.scaled = 1., .meters = 2.5, .radians = .2}.str()), "2.5 m and 0.2 rad");
   EXPECT_EQ((Amount{.scaled = 1., .radians = .2, .time_order = 1}.str()), "0.2 rad/s");
 }

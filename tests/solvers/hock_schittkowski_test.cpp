@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "kinegraph/solvers/augmented_lagrangian.h"
+#include "kinegraph/solvers/methods/augmented_lagrangian.h"
 #include "tests/support/near.h"
 
 namespace kinegraph {

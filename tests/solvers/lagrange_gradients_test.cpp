@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "kinegraph/nlp/callback_nlp.h"
-#include "kinegraph/solvers/augmented_lagrangian.h"
+#include "kinegraph/solvers/methods/augmented_lagrangian.h"
 #include "tests/support/expect_error.h"
 
 using namespace kinegraph;

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "kinegraph/base/text.h"
-#include "kinegraph/geometry/proximity.h"
+#include "kinegraph/geometry/distance/proximity.h"
 #include "kinegraph/scene/config.h"
 
 namespace kinegraph::testing {

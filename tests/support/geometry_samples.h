@@ -3,7 +3,7 @@
 #include <vector>
 
 #include "kinegraph/base/random.h"
-#include "kinegraph/geometry/geometry.h"
+#include "kinegraph/geometry/shapes/geometry.h"
 
 namespace kinegraph::testing {
 

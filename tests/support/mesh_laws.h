@@ -3,7 +3,7 @@
 #include <map>
 #include <utility>
 
-#include "kinegraph/geometry/geometry.h"
+#include "kinegraph/geometry/shapes/geometry.h"
 
 namespace kinegraph::testing {
 

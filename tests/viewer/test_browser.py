@@ -39,7 +39,7 @@ def wait_for_position(config: kg.Config, browser: Browser, frame: str) -> None:
 
 
 def points_of_the_arm(config: kg.Config) -> list[np.ndarray]:
-    """Points inside the links: between neighbouring joints that are not in the same place."""
+    """Points inside the links: between neighboring joints that are not in the same place."""
     joints = [position(config, name) for name in LINKS]
     return [(a + b) / 2 for a, b in pairwise(joints) if np.linalg.norm(a - b) > 0.25]
 
@@ -81,7 +81,7 @@ def test_the_panda_is_seen_on_its_table(panda: kg.Config, browser: Browser) -> N
         color = picture[camera.pixel(point)]
         assert color.min() > 120
         assert np.ptp(color) < 30
-    table = picture[camera.pixel([0.5, 0.4, 0.65])]  # dark grey
+    table = picture[camera.pixel([0.5, 0.4, 0.65])]  # dark gray
     assert 20 < table.min() <= table.max() < 110
 
 

@@ -48,7 +48,7 @@ function gridMaterial(ink: THREE.Color, share: { value: number }): THREE.Materia
   return material;
 }
 
-/** The floor at z = 0: catches shadows, and has lines every metre and every 0.2 m; x is red, y green. */
+/** The floor at z = 0: catches shadows, and has lines every meter and every 0.2 m; x is red, y green. */
 export class Floor {
   readonly group = new THREE.Group();
   private readonly ink = new THREE.Color();

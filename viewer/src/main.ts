@@ -48,7 +48,7 @@ const near = new NearLines(stage, send);
 const quads = new Quads();
 const input = new InputEvents(stage, send);
 const panel = new Panel(display, shown.frames, switched, (id) => selection.select(id));
-stage.onDraw(() => shown.prepare((at) => stage.pixelsPerMetre(at), stage.hurries));
+stage.onDraw(() => shown.prepare((at) => stage.pixelsPerMeter(at), stage.hurries));
 const selection = new Selection(stage, shown.frames, joints, recorded ? null : send, (id) => panel.select(id));
 const timeline = new Timeline(stage, shown, joints, moved);
 const exports = new Exports(stage, timeline, recorded !== null);

@@ -50,10 +50,10 @@ export class LevelMesh extends THREE.Mesh<THREE.BufferGeometry, THREE.Material> 
     super(levels.full, material);
   }
 
-  /** `pixelsPerMetre`: at a place. */
-  refine(pixelsPerMetre: (at: THREE.Vector3) => number, quickly: boolean, until: number): void {
+  /** `pixelsPerMeter`: at a place. */
+  refine(pixelsPerMeter: (at: THREE.Vector3) => number, quickly: boolean, until: number): void {
     const { full, radius } = this.levels;
-    this.geometry = quickly ? this.levels.at(radius * pixelsPerMetre(this.parent!.position), until) : full;
+    this.geometry = quickly ? this.levels.at(radius * pixelsPerMeter(this.parent!.position), until) : full;
   }
 }
 

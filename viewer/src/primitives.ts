@@ -114,10 +114,10 @@ export class PrimitiveMesh extends THREE.Mesh<THREE.BufferGeometry, THREE.Materi
     this.radius = this.geometry.boundingSphere!.radius;
   }
 
-  /** `pixelsPerMetre`: at a place. */
-  refine(pixelsPerMetre: (at: THREE.Vector3) => number): void {
+  /** `pixelsPerMeter`: at a place. */
+  refine(pixelsPerMeter: (at: THREE.Vector3) => number): void {
     if (!isRound(this.type)) return;
-    const pixels = this.radius * pixelsPerMetre(this.parent!.position);
+    const pixels = this.radius * pixelsPerMeter(this.parent!.position);
     const level = LEVELS.findIndex((known) => pixels <= known.pixels);
     if (level === this.level) return;
     this.level = level;

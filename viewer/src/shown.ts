@@ -88,11 +88,11 @@ export class ShownScene {
   }
 
   /** Call before a picture: shapes are drawn as finely as they are large on it, meshes only if it is to be drawn quickly. */
-  prepare(pixelsPerMetre: (at: THREE.Vector3) => number, quickly: boolean): void {
+  prepare(pixelsPerMeter: (at: THREE.Vector3) => number, quickly: boolean): void {
     const until = deadline();
     for (const { object } of this.shown.values()) {
-      if (object instanceof PrimitiveMesh) object.refine(pixelsPerMetre);
-      else if (object instanceof LevelMesh) object.refine(pixelsPerMetre, quickly, until);
+      if (object instanceof PrimitiveMesh) object.refine(pixelsPerMeter);
+      else if (object instanceof LevelMesh) object.refine(pixelsPerMeter, quickly, until);
     }
     this.instances.update(this.primitiveMeshes());
   }

@@ -260,9 +260,9 @@ export class Stage {
     return this.quality.hurries;
   }
 
-  /** Pixels that a metre has at a place. */
-  pixelsPerMetre(at: THREE.Vector3): number {
-    return this.viewpoint.pixelsPerMetre(at, this.canvas.clientHeight * this.renderer.getPixelRatio());
+  /** Pixels that a meter has at a place. */
+  pixelsPerMeter(at: THREE.Vector3): number {
+    return this.viewpoint.pixelsPerMeter(at, this.canvas.clientHeight * this.renderer.getPixelRatio());
   }
 
   /** A double click, or one with the right button, turns about the point that was hit from there on. */

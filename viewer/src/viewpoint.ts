@@ -177,8 +177,8 @@ export class Viewpoint {
     this.camera.updateProjectionMatrix();
   }
 
-  /** Pixels of the page that a metre has at a place, if the page is `height` pixels high. */
-  pixelsPerMetre(at: THREE.Vector3, height: number): number {
+  /** Pixels of the page that a meter has at a place, if the page is `height` pixels high. */
+  pixelsPerMeter(at: THREE.Vector3, height: number): number {
     if (this.height > 0) return (height * this.orthographic.zoom) / (this.orthographic.top - this.orthographic.bottom);
     return height / (2 * this.halfHeight() * Math.max(this.camera.position.distanceTo(at), 1e-3));
   }
@@ -194,7 +194,7 @@ export class Viewpoint {
     };
   }
 
-  /** Half the height of what is seen a metre away, m. */
+  /** Half the height of what is seen a meter away, m. */
   private halfHeight(): number {
     return (0.5 / this.focal) * this.spread();
   }

@@ -42,7 +42,7 @@ std::string exact(double value);
 
 std::string join(const std::vector<std::string>& words, std::string_view separator = ", ");
 
-/// Number of insertions, deletions, replacements and swaps of neighbours that turn `a` into `b`.
+/// Number of insertions, deletions, replacements and swaps of neighbors that turn `a` into `b`.
 /// Upper and lower case count as equal up to a small cost, so that `Box` is near `box`.
 double editDistance(std::string_view a, std::string_view b);
 

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "kinegraph/features/residual.h"
-#include "kinegraph/geometry/proximity.h"
+#include "kinegraph/geometry/distance/proximity.h"
 
 namespace kinegraph {
 

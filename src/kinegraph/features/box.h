@@ -20,7 +20,7 @@ class BoxRegion final : public Feature {
   Vector3d half_;
 };
 
-/// Height of a thing's centre over that of its support, less what it is when it stands on it:
+/// Height of a thing's center over that of its support, less what it is when it stands on it:
 ///     y = z_A - z_B - (height_A + height_B) / 2       1 row, m
 class StandingAbove final : public Feature {
  public:

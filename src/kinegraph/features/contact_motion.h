@@ -89,7 +89,7 @@ class ForceTimesVelocity final : public Feature {
   ContactForce contact_;
 };
 
-/// Zero where a point is behind the centre c of a round object of radius r that moves with the velocity v:
+/// Zero where a point is behind the center c of a round object of radius r that moves with the velocity v:
 ///     y = r v / sqrt(|v|^2 + 1e-6) - (c - p)      3 rows, m
 class PushRadius final : public Feature {
  public:

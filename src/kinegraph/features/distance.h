@@ -1,7 +1,7 @@
 #pragma once
 
 #include "kinegraph/features/feature.h"
-#include "kinegraph/geometry/proximity.h"
+#include "kinegraph/geometry/distance/proximity.h"
 
 namespace kinegraph {
 

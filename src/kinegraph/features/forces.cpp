@@ -25,17 +25,13 @@ double signFor(const ContactForce& contact, const State& state, int frame) {
   return on - back;
 }
 
-Vector3d centerOf(const State& state, int frame) {
-  return state.pose(frame) * state.parameters().frame_mass[frame].com;
-}
-
-/// Sums the forces on a frame and their torques about its centre of mass; `forEach` visits them with their Jacobians'
+/// Sums the forces on a frame and their torques about its center of mass; `forEach` visits them with their Jacobians'
 /// factors.
 struct Wrench {
   Vector3d force = Vector3d::Zero(), torque = Vector3d::Zero();
 
   Wrench(const std::vector<ContactForce>& contacts, const State& state, int frame) {
-    const Vector3d center = centerOf(state, frame);
+    const Vector3d center = frameCenterOfMass(state, frame);
     for (const ContactForce& contact : contacts) {
       const double sign = signFor(contact, state, frame);
       if (sign == 0.) continue;
@@ -49,7 +45,7 @@ struct Wrench {
 /// J += A d force/dq + B d torque/dq.
 void addWrenchJacobian(const std::vector<ContactForce>& contacts, const State& state, int frame, const Factor& A,
                        const Factor& B, JacobianRows J) {
-  const Vector3d center = centerOf(state, frame);
+  const Vector3d center = frameCenterOfMass(state, frame);
   const Factor none = Factor::Zero(A.rows(), 3);
   for (const ContactForce& contact : contacts) {
     const double sign = signFor(contact, state, frame);
@@ -199,7 +195,7 @@ DampedMotion::DampedMotion(int frame, double gravity, const Matrix3d& inertia, s
 void DampedMotion::eval(std::span<const State* const> states, double tau, Eigen::Ref<VectorXd> y,
                         JacobianRows* J) const {
   constexpr double kSeconds = .1;  // 1 / d
-  const Vector3d before = centerOf(*states[0], frame_), now = centerOf(*states[1], frame_);
+  const Vector3d before = frameCenterOfMass(*states[0], frame_), now = frameCenterOfMass(*states[1], frame_);
   y.head<3>() = (now - before) / tau;
   y[2] += kSeconds * gravity_;
   Vector3d turning;

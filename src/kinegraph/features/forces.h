@@ -23,7 +23,7 @@ struct ContactForce {
   void addJacobian(const State& state, const Factor& A, JacobianRows J) const;
 };
 
-/// Weight less contact forces on a body, and the torque of these forces about its centre of mass c (N, N m):
+/// Weight less contact forces on a body, and the torque of these forces about its center of mass c (N, N m):
 ///     y = (m g e_z - sum f_i,  sum (p_i - c) x f_i)      6 rows; zero where it rests
 /// Forces count for the frames that are rigidly joined with those that they act on. Throws ValueError if it has no
 /// mass.
@@ -39,7 +39,7 @@ class TotalForce final : public Feature {
   std::vector<ContactForce> contacts_;
 };
 
-/// Newton's and Euler's equations over one step, with the contact forces F and torques T (about the centre of mass) of
+/// Newton's and Euler's equations over one step, with the contact forces F and torques T (about the center of mass) of
 /// the slice in the middle (m/s and rad/s):
 ///     y = (v_t - v_{t-1} + (0, 0, g) tau - F tau / m,  w_t - w_{t-1} - I_W^-1 (T - w x I_W w) tau)      6 rows
 /// with I_W = R I R^T in the middle slice, and w the mean of both angular velocities. A body without a mass counts as 1

@@ -10,8 +10,6 @@ namespace {
 
 const FrameMass& massOf(const State& state, int frame) { return state.parameters().frame_mass[frame]; }
 
-Vector3d centerOf(const State& state, int frame) { return state.pose(frame) * massOf(state, frame).com; }
-
 }  // namespace
 
 void Energy::eval(std::span<const State* const> states, double tau, Eigen::Ref<VectorXd> y, JacobianRows* J) const {
@@ -19,7 +17,7 @@ void Energy::eval(std::span<const State* const> states, double tau, Eigen::Ref<V
   y[0] = 0.;
   for (int frame : frames_) {
     const double given = massOf(*states[1], frame).mass, mass = given > 0. ? given : 1.;
-    const Vector3d before = centerOf(*states[0], frame), now = centerOf(*states[1], frame),
+    const Vector3d before = frameCenterOfMass(*states[0], frame), now = frameCenterOfMass(*states[1], frame),
                    velocity = (now - before) / tau;
     y[0] += mass * (.5 * velocity.squaredNorm() - kGravity.dot(now));
     if (!J) continue;
@@ -47,7 +45,7 @@ void CenterOfMassOffset::eval(std::span<const State* const> states, double, Eige
   forEachOther([&](int frame, double mass) {
     if (mass == 0.) return;
     total += mass;
-    moment += mass * centerOf(state, frame);
+    moment += mass * frameCenterOfMass(state, frame);
   });
   if (!(total > 0.)) {
     const std::string& name = state.program().frame_name[frame_];
@@ -59,12 +57,13 @@ void CenterOfMassOffset::eval(std::span<const State* const> states, double, Eige
   if (!J) return;
   state.addPointJacobian(frame_, state.position(frame_), 1., *J);
   forEachOther([&](int frame, double mass) {
-    if (mass > 0.) state.addPointJacobian(frame, centerOf(state, frame), -mass / total, *J);
+    if (mass > 0.) state.addPointJacobian(frame, frameCenterOfMass(state, frame), -mass / total, *J);
   });
 }
 
 void FreeFlight::eval(std::span<const State* const> states, double tau, Eigen::Ref<VectorXd> y, JacobianRows* J) const {
-  const Vector3d c[] = {centerOf(*states[0], frame_), centerOf(*states[1], frame_), centerOf(*states[2], frame_)};
+  const Vector3d c[] = {frameCenterOfMass(*states[0], frame_), frameCenterOfMass(*states[1], frame_),
+                        frameCenterOfMass(*states[2], frame_)};
   Vector3d before, now;
   y.head<3>() = (c[2] - 2. * c[1] + c[0]) / tau;
   y[2] += gravity_ * tau;

@@ -7,7 +7,7 @@
 
 namespace kinegraph {
 
-/// Energy of frames as points at their centres of mass c_i, between two configurations (J):
+/// Energy of frames as points at their centers of mass c_i, between two configurations (J):
 ///     y = sum m_i/2 |(c_i(t) - c_i(t-1)) / tau|^2 + 9.81 m_i z_i(t)      1 row
 /// Rotation adds nothing; a frame without a mass counts as 1 kg at its origin.
 class Energy final : public Feature {
@@ -22,7 +22,7 @@ class Energy final : public Feature {
   std::vector<int> frames_;
 };
 
-/// Position of a frame less the common centre of mass of others, in the world:
+/// Position of a frame less the common center of mass of others, in the world:
 ///     y = p_F - sum m_i c_i / sum m_i      3 rows, m
 /// Without others it is that of everything that moves. Evaluating throws ValueError if none of them has a mass.
 class CenterOfMassOffset final : public Feature {
@@ -39,7 +39,7 @@ class CenterOfMassOffset final : public Feature {
 
 /// Change of a frame's velocity less that of free fall, over one step (an impulse per mass, m/s and rad/s):
 ///     y = (v_t - v_{t-1} + (0, 0, g) tau,  w_t - w_{t-1})      6 rows; zero in free flight
-/// v is the velocity of its centre of mass. With g = 0 it is zero for a body that slides on without friction.
+/// v is the velocity of its center of mass. With g = 0 it is zero for a body that slides on without friction.
 class FreeFlight final : public Feature {
  public:
   FreeFlight(int frame, double gravity) : frame_(frame), angular_(frame), gravity_(gravity) {}

@@ -4,7 +4,7 @@
 #include "kinegraph/base/text.h"
 #include "kinegraph/formats/mesh_export.h"
 #include "kinegraph/formats/xml.h"
-#include "kinegraph/geometry/tessellation.h"
+#include "kinegraph/geometry/shapes/tessellation.h"
 
 namespace kinegraph {
 

@@ -10,7 +10,8 @@
 #include <map>
 
 #include "kinegraph/base/text.h"
-#include "kinegraph/geometry/tessellation.h"
+#include "kinegraph/geometry/files/image_file.h"
+#include "kinegraph/geometry/shapes/tessellation.h"
 #include "kinegraph/scene/visual_meshes.h"
 
 namespace kinegraph {
@@ -21,7 +22,7 @@ namespace {
 constexpr int kFloat = 5126, kUint32 = 5125, kByte = 5121, kVertexData = 34962, kIndexData = 34963, kPoints = 0,
               kTriangles = 4;
 constexpr std::uint32_t kGltf = 0x46546C67, kJson = 0x4E4F534A, kBinary = 0x004E4942;
-constexpr std::array<std::uint8_t, 4> kGrey = {204, 204, 204, 255};
+constexpr std::array<std::uint8_t, 4> kGray = {204, 204, 204, 255};
 
 std::string quoted(const std::string& text) {
   static const char* const digits = "0123456789abcdef";
@@ -93,7 +94,7 @@ class GltfWriter {
   struct MeshData {
     int positions = -1, colors = -1, triangles = -1, texcoords = -1;
     std::vector<std::pair<int, int>> textured;  ///< triangles, and the texture on them; `triangles` are the others
-    std::array<std::uint8_t, 4> color = kGrey;  ///< where it has one in all
+    std::array<std::uint8_t, 4> color = kGray;  ///< where it has one in all
   };
 
   static std::string children(const std::vector<std::string>& ids) {

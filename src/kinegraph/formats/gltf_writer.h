@@ -8,7 +8,7 @@
 namespace kinegraph {
 
 /// The scene, as it stands, as a binary glTF 2.0 file (.glb): a node per frame, with its name and its pose in the
-/// parent, and the surface, or points, that a viewer shows for it, in its colours. All hangs on a node `scene` that
+/// parent, and the surface, or points, that a viewer shows for it, in its colors. All hangs on a node `scene` that
 /// turns the z axis into the y axis, which is up in glTF. Shapes of one mesh share its numbers. Markers, cameras and
 /// lines are left out.
 std::string gltfBytes(const Config& config);

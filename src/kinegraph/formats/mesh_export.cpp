@@ -9,8 +9,8 @@
 #include "kinegraph/base/errors.h"
 #include "kinegraph/base/text.h"
 #include "kinegraph/formats/stl_writer.h"
-#include "kinegraph/geometry/convex_hull.h"
-#include "kinegraph/geometry/tessellation.h"
+#include "kinegraph/geometry/shapes/convex_hull.h"
+#include "kinegraph/geometry/shapes/tessellation.h"
 #include "kinegraph/scene/frame_shapes.h"
 
 namespace kinegraph {

@@ -8,7 +8,7 @@
 namespace kinegraph {
 
 /// The surfaces of all shapes with triangles as one mesh in world coordinates (m), with a color per vertex: the mesh's
-/// own, or the frame's, or grey.
+/// own, or the frame's, or gray.
 Mesh worldMesh(const Config& config);
 
 /// Writes a mesh as a binary PLY file with vertex colors. Throws FileError.

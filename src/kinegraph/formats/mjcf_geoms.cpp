@@ -7,8 +7,8 @@
 #include "kinegraph/base/text.h"
 #include "kinegraph/formats/stl_writer.h"
 #include "kinegraph/formats/xml.h"
-#include "kinegraph/geometry/shape_types.h"
-#include "kinegraph/geometry/tessellation.h"
+#include "kinegraph/geometry/shapes/shape_types.h"
+#include "kinegraph/geometry/shapes/tessellation.h"
 
 namespace kinegraph {
 

@@ -11,7 +11,7 @@ namespace kinegraph {
 /// A solid of uniform density.
 struct SolidMass {
   double volume = 0.;                            ///< m^3
-  Vector3d inertia_per_mass = Vector3d::Zero();  ///< about its centre, which is the origin; diagonal, m^2
+  Vector3d inertia_per_mass = Vector3d::Zero();  ///< about its center, which is the origin; diagonal, m^2
 };
 
 /// Of a shape of a scene (box, sphere, capsule, cylinder, or ssBoxElip that is an ellipsoid) with these sizes; nothing

@@ -18,9 +18,9 @@ namespace kinegraph {
 ///                          between, else <body>_joint. Its `q` is what MuJoCo starts with (`ref`, or the pose of a
 ///                          free body).
 ///     ... its place        a frame <joint>_origin before it, if it is not the identity
-///     geom                 a child frame of that name, or <body>_0, <body>_1, ... with colour and contact flag: 0 if
+///     geom                 a child frame of that name, or <body>_0, <body>_1, ... with color and contact flag: 0 if
 ///     it
-///                          never collides, else such that neighbouring bodies do not collide; a plane is a `quad`, 20
+///                          never collides, else such that neighboring bodies do not collide; a plane is a `quad`, 20
 ///                          m wide where it has no end; geoms of the groups 3 and up are transparent red
 ///     site                 a child frame with a marker
 ///     camera               a child frame with a `camera`: turned by 180 degrees about x, so that z looks forward and y

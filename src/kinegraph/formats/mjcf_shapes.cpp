@@ -177,7 +177,7 @@ void MjcfShapes::addMass(const MjcfElement& element, Placed& placed) {
   placed.attributes.addNumbers("inertia", {inertia.begin(), inertia.end()});
 }
 
-/// Colour and contact flag.
+/// Color and contact flag.
 void MjcfShapes::addLooks(const MjcfElement& element, int contact, Placed& placed) {
   std::vector<double> rgba = color(element);
   const bool collides =
@@ -200,7 +200,7 @@ const MjcfElement* MjcfShapes::materialOf(const MjcfElement& element) {
   return nullptr;
 }
 
-/// The picture for the colours of a material: an attribute, or a <layer role="rgb">.
+/// The picture for the colors of a material: an attribute, or a <layer role="rgb">.
 const MjcfElement* MjcfShapes::textureOf(const MjcfElement& material) {
   const XmlAttribute* reference = material.attribute("texture");
   for (const XmlElement* layer : material.xml().all("layer")) {
@@ -215,7 +215,7 @@ const MjcfElement* MjcfShapes::textureOf(const MjcfElement& material) {
   return nullptr;
 }
 
-/// A texture without a file counts with its mean colour.
+/// A texture without a file counts with its mean color.
 std::vector<double> MjcfShapes::color(const MjcfElement& element) {
   if (const std::vector<double> own = values_.numbers(element, "rgba", 4); !own.empty()) return own;
   const MjcfElement* material = materialOf(element);

@@ -5,7 +5,7 @@
 #include <set>
 
 #include "kinegraph/base/text.h"
-#include "kinegraph/geometry/shape_types.h"
+#include "kinegraph/geometry/shapes/shape_types.h"
 #include "kinegraph/gfile/writer.h"
 #include "kinegraph/scene/scene_source.h"
 

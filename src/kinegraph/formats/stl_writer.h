@@ -2,7 +2,7 @@
 
 #include <string>
 
-#include "kinegraph/geometry/geometry.h"
+#include "kinegraph/geometry/shapes/geometry.h"
 
 namespace kinegraph {
 

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "kinegraph/base/errors.h"
-#include "kinegraph/geometry/geometry.h"
+#include "kinegraph/geometry/shapes/geometry.h"
 #include "kinegraph/gfile/parser.h"
 #include "kinegraph/math/pose.h"
 
@@ -30,7 +30,7 @@ struct UrdfShape {
 struct UrdfInertial {
   double mass = 0.;
   Vector3d com = Vector3d::Zero();     ///< in the link
-  Matrix3d matrix = Matrix3d::Zero();  ///< about the centre of mass, in the axes of the link
+  Matrix3d matrix = Matrix3d::Zero();  ///< about the center of mass, in the axes of the link
   SourcePosition where;
 };
 

@@ -9,8 +9,8 @@
 #include "kinegraph/formats/stl_writer.h"
 #include "kinegraph/formats/urdf_model.h"
 #include "kinegraph/formats/xml.h"
-#include "kinegraph/geometry/shape_types.h"
-#include "kinegraph/geometry/tessellation.h"
+#include "kinegraph/geometry/shapes/shape_types.h"
+#include "kinegraph/geometry/shapes/tessellation.h"
 
 namespace kinegraph {
 

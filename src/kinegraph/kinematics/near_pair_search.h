@@ -3,7 +3,7 @@
 #include <memory>
 #include <vector>
 
-#include "kinegraph/geometry/proximity.h"
+#include "kinegraph/geometry/distance/proximity.h"
 #include "kinegraph/kinematics/box_tree.h"
 #include "kinegraph/kinematics/state.h"
 

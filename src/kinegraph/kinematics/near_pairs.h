@@ -6,7 +6,7 @@
 #include <utility>
 #include <vector>
 
-#include "kinegraph/geometry/proximity.h"
+#include "kinegraph/geometry/distance/proximity.h"
 #include "kinegraph/kinematics/near_pair_search.h"
 
 namespace kinegraph {

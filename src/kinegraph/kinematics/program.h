@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-#include "kinegraph/geometry/geometry.h"
+#include "kinegraph/geometry/shapes/geometry.h"
 #include "kinegraph/kinematics/contact_rules.h"
 #include "kinegraph/kinematics/joint.h"
 #include "kinegraph/kinematics/lane_model.h"
@@ -79,7 +79,7 @@ struct Program {
 /// What a frame weighs, as a point.
 struct FrameMass {
   double mass = 0.;                 ///< kg
-  Vector3d com = Vector3d::Zero();  ///< centre of mass in the frame, m
+  Vector3d com = Vector3d::Zero();  ///< center of mass in the frame, m
 };
 
 /// The constants of a Program: where joints sit on their parent link and frames on their link, and what frames weigh.

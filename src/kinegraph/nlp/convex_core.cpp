@@ -32,7 +32,7 @@ constexpr std::array<std::array<int, 3>, kCorners> kDirections = {{{-1, -1, 0},
                                                                    {1, 0, 1},
                                                                    {0, 1, 1}}};
 
-/// How neighbours at a distance l are drawn together: y(l), y'(l) / l and y''(l).
+/// How neighbors at a distance l are drawn together: y(l), y'(l) / l and y''(l).
 struct Attraction {
   double value, slope_per_length, curvature;
 };

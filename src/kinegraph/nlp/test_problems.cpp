@@ -219,7 +219,7 @@ std::shared_ptr<Nlp> linearProgram(int n, Rng& rng) {
       noHessian);
 }
 
-/// Centres of spheres in a row: x y z x y z ...
+/// Centers of spheres in a row: x y z x y z ...
 class SpherePacking final : public Nlp {
  public:
   static constexpr double kRadius = .21, kHeight = 16.;

@@ -6,7 +6,7 @@
 namespace kinegraph {
 
 /// A pinhole or orthographic camera. Its axes: x to the right of the image, y down, z forward.
-/// The centre of the image is on the z axis; pixels are square.
+/// The center of the image is on the z axis; pixels are square.
 struct Camera {
   Pose pose;        ///< in the world
   int width = 640;  ///< pixels

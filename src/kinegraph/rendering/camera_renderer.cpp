@@ -76,7 +76,7 @@ CameraImage shrunk(const CameraImage& fine, int factor) {
 }
 
 /// From a depth buffer, in which 1 is near and 0 is far: 1/z is linear in the values, or z is.
-void toMetres(std::vector<float>& depth, const Camera& camera) {
+void toMeters(std::vector<float>& depth, const Camera& camera) {
   const double near = camera.near, far = camera.far;
   for (float& d : depth) {
     if (d <= 0.f)
@@ -209,7 +209,7 @@ mjvGeom& CameraRenderer::Impl::addGeom(int type, const Vector3d& size, const Rig
   mjv_initGeom(&geom, type, size.data(), X_WG.p.data(), R.data(), rgba.data());
   geom.segid = segment;
   geom.transparent = color[3] < 1.;
-  setCastsShadow(geom, !geom.transparent);
+  geom.castshadow = !geom.transparent;
   geom.specular = .4f;
   geom.shininess = 50.f / 128.f;
   geom.reflectance = 0.f;
@@ -222,7 +222,7 @@ void CameraRenderer::Impl::addMarker(double length, const RigidTransform& X_WG, 
     Matrix3d R;  // z along the axis
     R << Vector3d::Unit((axis + 1) % 3), Vector3d::Unit((axis + 2) % 3), Vector3d::Unit(axis);
     const RigidTransform X_WA = X_WG * RigidTransform{R, Vector3d::Zero()};
-    setCastsShadow(addGeom(mjGEOM_ARROW, {.02 * length, .02 * length, length}, X_WA, colors[axis], segment), false);
+    addGeom(mjGEOM_ARROW, {.02 * length, .02 * length, length}, X_WA, colors[axis], segment).castshadow = false;
   }
 }
 
@@ -395,7 +395,7 @@ CameraImage CameraRenderer::render(SceneTree& scene, const Camera& camera, bool 
   impl_->read(fine, image.rgb.data(), image.depth.data());
   paintBackground(image, impl_->options.background);
   if (factor > 1) image = shrunk(image, factor);
-  toMetres(image.depth, camera);
+  toMeters(image.depth, camera);
   return image;
 }
 

@@ -39,8 +39,8 @@ class CameraRenderer {
   CameraRenderer(const CameraRenderer&) = delete;
   CameraRenderer& operator=(const CameraRenderer&) = delete;
 
-  /// Colours and depth. `visuals_only` leaves out markers and what is transparent. Transparent things show in the
-  /// colours and not in the depth. Throws FileError without EGL or a driver; ValueError for an impossible camera.
+  /// Colors and depth. `visuals_only` leaves out markers and what is transparent. Transparent things show in the
+  /// colors and not in the depth. Throws FileError without EGL or a driver; ValueError for an impossible camera.
   CameraImage render(SceneTree& scene, const Camera& camera, bool visuals_only = true);
   CameraImage render(const Config& config, const Camera& camera, bool visuals_only = true) {
     return render(*config.scene(), camera, visuals_only);

@@ -9,7 +9,7 @@ namespace kinegraph {
 namespace {
 
 constexpr int kMargin = 12, kBesides = 12, kAbove = 7;  // pixels: around the panel, and in it around the letters
-constexpr int kPanel = 255, kInk = 36;                  // grey values
+constexpr int kPanel = 255, kInk = 36;                  // gray values
 constexpr double kSolid = .93;                          // of the panel
 
 /// One byte for each character.

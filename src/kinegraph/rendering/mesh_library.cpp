@@ -1,4 +1,5 @@
 #include "kinegraph/rendering/mesh_library.h"
+#include "kinegraph/geometry/files/image_file.h"
 
 #include <algorithm>
 

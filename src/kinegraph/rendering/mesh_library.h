@@ -16,7 +16,7 @@ namespace kinegraph {
 /// Mesh 0 is the floor.
 class MeshLibrary {
  public:
-  /// A part of a shape: the number of its mesh, its colour if it has its own, and the number of the material with its
+  /// A part of a shape: the number of its mesh, its color if it has its own, and the number of the material with its
   /// picture, or -1.
   struct Part {
     int mesh;

@@ -20,13 +20,6 @@ class MujocoErrors {
 
 using MujocoModel = std::unique_ptr<mjModel, decltype(&mj_deleteModel)>;
 
-/// Before version 4 (with Python 3.10) everything casts a shadow.
-inline void setCastsShadow([[maybe_unused]] mjvGeom& geom, [[maybe_unused]] bool casts) {
-#if mjVERSION_HEADER >= 4000000
-  geom.castshadow = casts;
-#endif
-}
-
 /// A model of nothing: what a rendering context is made from.
 MujocoModel emptyModel();
 

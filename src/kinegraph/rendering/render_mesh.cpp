@@ -6,7 +6,7 @@
 #include <set>
 #include <tuple>
 
-#include "kinegraph/geometry/tessellation.h"
+#include "kinegraph/geometry/shapes/tessellation.h"
 
 namespace kinegraph {
 
@@ -101,10 +101,10 @@ bool isClosed(const std::vector<Triangle>& triangles) {
   return open.empty();
 }
 
-/// What triangles show: one of the mesh's pictures, or a colour.
+/// What triangles show: one of the mesh's pictures, or a color.
 using Paint = std::pair<const TexturedTriangles*, Color>;
 
-/// Which triangles show what; one group without colour if the mesh has none of its own.
+/// Which triangles show what; one group without color if the mesh has none of its own.
 std::map<Paint, std::vector<std::size_t>> groupByPaint(const Mesh& mesh, const std::vector<std::size_t>& triangles,
                                                        bool colored) {
   for (int coarse = 0;; ++coarse) {

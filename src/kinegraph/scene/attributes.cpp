@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "kinegraph/base/text.h"
-#include "kinegraph/geometry/mass.h"
+#include "kinegraph/geometry/shapes/mass.h"
 #include "kinegraph/scene/reader.h"
 #include "kinegraph/scene/scene_source.h"
 #include "kinegraph/scene/scene_tree.h"

@@ -120,7 +120,7 @@ class Config {
   /// Generalized forces u (N m, N) for a velocity and an acceleration of q.
   VectorXd inverseDynamics(const VectorXd& velocity, const VectorXd& acceleration) const;
 
-  /// Total mass of everything that moves, kg, and its centre, world coordinates, m.
+  /// Total mass of everything that moves, kg, and its center, world coordinates, m.
   std::pair<double, Vector3d> centerOfMass() const { return kinegraph::centerOfMass(scene_->state(), inertias()); }
 
   // --- collisions ------------------------------------------------------------------------------------------------

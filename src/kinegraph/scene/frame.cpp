@@ -2,9 +2,9 @@
 
 #include "kinegraph/base/errors.h"
 #include "kinegraph/base/text.h"
-#include "kinegraph/geometry/mass.h"
-#include "kinegraph/geometry/shape_types.h"
-#include "kinegraph/geometry/tessellation.h"
+#include "kinegraph/geometry/shapes/mass.h"
+#include "kinegraph/geometry/shapes/shape_types.h"
+#include "kinegraph/geometry/shapes/tessellation.h"
 
 namespace kinegraph {
 
@@ -175,7 +175,7 @@ Frame& Frame::setColor(const std::vector<double>& c) {
       break;
     default:
       throw ValueError(cat("frame '", getName(),
-                           "': a color has 1 (grey), 2 (grey alpha), 3 (rgb) or 4 (rgba) numbers, not ", c.size()));
+                           "': a color has 1 (gray), 2 (gray alpha), 3 (rgb) or 4 (rgba) numbers, not ", c.size()));
   }
   if (!rgba.allFinite()) throw ValueError(cat("frame '", getName(), "': color has numbers that are not finite"));
   editableShape().color = rgba;

@@ -53,7 +53,7 @@ class Frame {
   Frame& setMesh(Mesh mesh);              ///< triangles; points only where there are none
   Frame& setConvexCore(std::vector<Vector3d> points,
                        double radius);                ///< ssCvx: convex hull of the points swept by a ball
-  Frame& setColor(const std::vector<double>& color);  ///< 1 grey, 2 grey alpha, 3 rgb, 4 rgba, in 0..1
+  Frame& setColor(const std::vector<double>& color);  ///< 1 gray, 2 gray alpha, 3 rgb, 4 rgba, in 0..1
   Frame& setContact(int contact);                     ///< see Config::getCollidablePairs
   ShapeType getShapeType() const;                     ///< ShapeType::none without a shape
   std::vector<double> getSize() const;                ///< empty without a shape

@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
-#include "kinegraph/geometry/collision_body.h"
-#include "kinegraph/geometry/geometry.h"
+#include "kinegraph/geometry/distance/collision_body.h"
+#include "kinegraph/geometry/shapes/geometry.h"
 #include "kinegraph/gfile/value.h"
 #include "kinegraph/kinematics/joint.h"
 #include "kinegraph/math/pose.h"
@@ -62,7 +62,7 @@ struct Shape {
 struct Inertia {
   double mass = 0.;                    ///< kg
   Vector3d com = Vector3d::Zero();     ///< m, in the frame
-  Matrix3d matrix = Matrix3d::Zero();  ///< kg m^2, about the centre of mass, in the frame's axes
+  Matrix3d matrix = Matrix3d::Zero();  ///< kg m^2, about the center of mass, in the frame's axes
 };
 
 /// Attributes as read. Copies share them until one of them is edited, so that scenes are cheap to copy.

@@ -6,12 +6,13 @@
 
 #include "kinegraph/base/errors.h"
 #include "kinegraph/base/text.h"
-#include "kinegraph/geometry/convex_hull.h"
-#include "kinegraph/geometry/h5_file.h"
-#include "kinegraph/geometry/isosurface.h"
-#include "kinegraph/geometry/mesh_file.h"
-#include "kinegraph/geometry/shape_types.h"
-#include "kinegraph/geometry/textured_surface.h"
+#include "kinegraph/geometry/files/h5_file.h"
+#include "kinegraph/geometry/files/image_file.h"
+#include "kinegraph/geometry/files/mesh_file.h"
+#include "kinegraph/geometry/shapes/convex_hull.h"
+#include "kinegraph/geometry/shapes/isosurface.h"
+#include "kinegraph/geometry/shapes/shape_types.h"
+#include "kinegraph/geometry/shapes/textured_surface.h"
 #include "kinegraph/scene/scene_source.h"
 
 namespace kinegraph {

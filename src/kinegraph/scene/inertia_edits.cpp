@@ -4,8 +4,8 @@
 
 #include "kinegraph/base/errors.h"
 #include "kinegraph/base/text.h"
-#include "kinegraph/geometry/mass.h"
-#include "kinegraph/geometry/shape_types.h"
+#include "kinegraph/geometry/shapes/mass.h"
+#include "kinegraph/geometry/shapes/shape_types.h"
 
 namespace kinegraph {
 

@@ -11,7 +11,7 @@ constexpr double kSurfaceDensity = 5.;
 /// frame; the others have none afterwards. Without any mass nothing changes.
 void gatherInertia(FrameData& frame);
 
-/// Moves the frame to the centre of mass of its inertia and turns it to the principal axes, so that the matrix is
+/// Moves the frame to the center of mass of its inertia and turns it to the principal axes, so that the matrix is
 /// diagonal. Everything below it stays where it is in the world. `X` is the new frame in the old one. A mesh, point
 /// cloud or convex hull of the frame stays where it is if `transform_mesh`. Throws ValueError for a frame without
 /// inertia, with dofs, or with a shape that cannot stay where it is (a marker may move).

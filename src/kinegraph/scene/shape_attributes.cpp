@@ -3,11 +3,12 @@
 #include <limits>
 
 #include "kinegraph/base/text.h"
-#include "kinegraph/geometry/grid_file.h"
-#include "kinegraph/geometry/isosurface.h"
-#include "kinegraph/geometry/mesh_file.h"
-#include "kinegraph/geometry/shape_types.h"
-#include "kinegraph/geometry/textured_surface.h"
+#include "kinegraph/geometry/files/grid_file.h"
+#include "kinegraph/geometry/files/image_file.h"
+#include "kinegraph/geometry/files/mesh_file.h"
+#include "kinegraph/geometry/shapes/isosurface.h"
+#include "kinegraph/geometry/shapes/shape_types.h"
+#include "kinegraph/geometry/shapes/textured_surface.h"
 #include "kinegraph/scene/attributes.h"
 #include "kinegraph/scene/scene_source.h"
 #include "kinegraph/scene/scene_tree.h"
@@ -243,7 +244,7 @@ void AttributeReader::applyShape(FrameData& frame) {
     const auto c = numbers(*color);
     const std::size_t n = c ? c->size() : 0;
     if (c && (n < 1 || n > 4))
-      error(*color, cat("expected 1 (grey), 2 (grey alpha), 3 (rgb) or 4 (rgba) numbers, got ", n));
+      error(*color, cat("expected 1 (gray), 2 (gray alpha), 3 (rgb) or 4 (rgba) numbers, got ", n));
     if (n == 1 || n == 2) frame.shape->color = Vector4d((*c)[0], (*c)[0], (*c)[0], n == 2 ? (*c)[1] : 1.);
     if (n == 3 || n == 4) frame.shape->color = Vector4d((*c)[0], (*c)[1], (*c)[2], n == 4 ? (*c)[3] : 1.);
     if (frame.shape->color && !frame.shape->color->allFinite()) error(*color, "expected finite numbers");
@@ -263,7 +264,7 @@ void AttributeReader::applyShape(FrameData& frame) {
 }
 
 /// `texture: <image>`, `texcoords: [right up ...]` for each vertex of a mesh, `texture_repeat: [right up]`. A picture
-/// that cannot be had is worth a warning: the shape shows its colour.
+/// that cannot be had is worth a warning: the shape shows its color.
 void AttributeReader::applyTexture(Shape& shape) {
   if (const Node* node = find({"texcoords"})) {
     const std::vector<double> uv = numbers(*node).value_or(std::vector<double>{});

@@ -2,8 +2,8 @@
 
 #include "kinegraph/base/errors.h"
 #include "kinegraph/base/text.h"
-#include "kinegraph/geometry/mesh_file.h"
-#include "kinegraph/geometry/textured_surface.h"
+#include "kinegraph/geometry/files/mesh_file.h"
+#include "kinegraph/geometry/shapes/textured_surface.h"
 
 namespace kinegraph {
 

@@ -8,8 +8,8 @@
 
 #include "kinegraph/base/errors.h"
 #include "kinegraph/base/text.h"
-#include "kinegraph/solvers/augmented_lagrangian.h"
-#include "kinegraph/solvers/relaxed_nlp.h"
+#include "kinegraph/solvers/methods/augmented_lagrangian.h"
+#include "kinegraph/solvers/problems/relaxed_nlp.h"
 
 namespace kinegraph {
 
@@ -58,7 +58,7 @@ Amount amountOf(const Nlp& nlp, const VectorXd& phi, const std::vector<int>& row
       }
     }
   }
-  if (length >= 0.) out.metres = std::sqrt(length);
+  if (length >= 0.) out.meters = std::sqrt(length);
   if (quaternion >= 0.) raise(out.radians, 2. * angleOfChord(std::sqrt(quaternion)));
   if (axis >= 0.) raise(out.radians, angleOfChord(std::sqrt(axis)));
   return out;
@@ -73,7 +73,7 @@ Amount amountOfSlices(const Nlp& nlp, const VectorXd& phi, const std::vector<int
     const Amount here = amountOf(nlp, phi, some);
     out.scaled = std::max(out.scaled, here.scaled);
     out.time_order = here.time_order;
-    if (!std::isnan(here.metres)) raise(out.metres, here.metres);
+    if (!std::isnan(here.meters)) raise(out.meters, here.meters);
     if (!std::isnan(here.radians)) raise(out.radians, here.radians);
   }
   return out;
@@ -86,9 +86,9 @@ std::string rounded(double value) {
   return out.str();
 }
 
-std::string withUnit(double metres) {
-  if (metres >= 1.) return rounded(metres) + " m";
-  return metres >= .01 ? rounded(1e2 * metres) + " cm" : rounded(1e3 * metres) + " mm";
+std::string withUnit(double meters) {
+  if (meters >= 1.) return rounded(meters) + " m";
+  return meters >= .01 ? rounded(1e2 * meters) + " cm" : rounded(1e3 * meters) + " mm";
 }
 
 std::string slicesText(const std::vector<int>& slices) {
@@ -158,7 +158,7 @@ Amount amountOfBound(const Nlp& nlp, int variable, double beyond) {
   Amount out;
   out.scaled = beyond;
   const Measure measure = nlp.describeVariable(variable).measure;
-  if (measure == Measure::length) out.metres = beyond;
+  if (measure == Measure::length) out.meters = beyond;
   if (measure == Measure::angle) out.radians = beyond;
   return out;
 }
@@ -198,7 +198,7 @@ void tryRelaxing(Nlp& nlp, const VectorXd& x, double tolerance, const Evaluation
 /// In m or rad where it has a unit, so that the scales of objectives do not matter.
 double sizeOf(const Amount& amount) {
   double size = 0.;
-  if (!std::isnan(amount.metres)) size = amount.metres;
+  if (!std::isnan(amount.meters)) size = amount.meters;
   if (!std::isnan(amount.radians)) size = std::max(size, amount.radians);
   return size > 0. ? size : amount.scaled;
 }
@@ -227,7 +227,7 @@ int mostHelpful(const std::vector<Conflict>& conflicts, double violation_now) {
 std::string Amount::str() const {
   const std::string per = time_order == 0 ? "" : time_order == 1 ? "/s" : cat("/s^", time_order);
   std::vector<std::string> words;
-  if (!std::isnan(metres) && (metres > 0. || std::isnan(radians))) words.push_back(withUnit(metres) + per);
+  if (!std::isnan(meters) && (meters > 0. || std::isnan(radians))) words.push_back(withUnit(meters) + per);
   if (!std::isnan(radians) && (radians > 0. || words.empty())) words.push_back(cat(rounded(radians), " rad", per));
   return words.empty() ? cat(rounded(scaled), " (scaled)") : join(words, " and ");
 }

@@ -12,7 +12,7 @@ namespace kinegraph {
 /// By how much something is missed, in its own units.
 struct Amount {
   double scaled = 0.;                                         ///< the largest entry, as the solver sees it
-  double metres = std::numeric_limits<double>::quiet_NaN();   ///< nan: no part of it is a length; per s^time_order
+  double meters = std::numeric_limits<double>::quiet_NaN();   ///< nan: no part of it is a length; per s^time_order
   double radians = std::numeric_limits<double>::quiet_NaN();  ///< nan: no part of it is an angle; per s^time_order
   int time_order = 0;
 

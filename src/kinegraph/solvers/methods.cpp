@@ -6,10 +6,11 @@
 #include "kinegraph/base/errors.h"
 #include "kinegraph/base/text.h"
 #include "kinegraph/nlp/finite_difference_nlp.h"
-#include "kinegraph/solvers/derivative_free.h"
-#include "kinegraph/solvers/first_order.h"
-#include "kinegraph/solvers/penalty_methods.h"
-#include "kinegraph/solvers/sequential_quadratic.h"
+#include "kinegraph/solvers/interface/requirements.h"
+#include "kinegraph/solvers/methods/derivative_free.h"
+#include "kinegraph/solvers/methods/first_order.h"
+#include "kinegraph/solvers/methods/penalty_methods.h"
+#include "kinegraph/solvers/methods/sequential_quadratic.h"
 
 namespace kinegraph {
 

@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "kinegraph/solvers/augmented_lagrangian.h"
+#include "kinegraph/solvers/methods/augmented_lagrangian.h"
 
 namespace kinegraph {
 

@@ -5,9 +5,10 @@
 
 #include "kinegraph/base/errors.h"
 #include "kinegraph/base/text.h"
-#include "kinegraph/solvers/best_so_far.h"
+#include "kinegraph/solvers/interface/best_so_far.h"
+#include "kinegraph/solvers/interface/requirements.h"
 #include "kinegraph/solvers/methods.h"
-#include "kinegraph/solvers/relaxed_nlp.h"
+#include "kinegraph/solvers/problems/relaxed_nlp.h"
 
 namespace kinegraph {
 

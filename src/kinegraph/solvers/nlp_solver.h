@@ -4,7 +4,7 @@
 #include <memory>
 #include <vector>
 
-#include "kinegraph/solvers/augmented_lagrangian.h"
+#include "kinegraph/solvers/methods/augmented_lagrangian.h"
 
 namespace kinegraph {
 

@@ -6,7 +6,7 @@
 #include <span>
 #include <string>
 
-#include "kinegraph/geometry/geometry.h"
+#include "kinegraph/geometry/shapes/geometry.h"
 #include "kinegraph/viewer/commands.h"
 #include "kinegraph/viewer/look.h"
 #include "kinegraph/viewer/near_lines.h"

@@ -3,8 +3,8 @@
 #include <array>
 #include <cstring>
 
-#include "kinegraph/geometry/shape_types.h"
-#include "kinegraph/geometry/tessellation.h"
+#include "kinegraph/geometry/shapes/shape_types.h"
+#include "kinegraph/geometry/shapes/tessellation.h"
 #include "kinegraph/viewer/messages.h"
 
 namespace kinegraph {

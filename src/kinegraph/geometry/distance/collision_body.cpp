@@ -1,0 +1,228 @@
+#include "kinegraph/geometry/distance/collision_body.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "kinegraph/geometry/distance/body_tree.h"
+#include "kinegraph/geometry/distance/grid_field.h"
+#include "kinegraph/geometry/distance/hull.h"
+
+namespace kinegraph {
+
+/// Fills a body in.
+class BodyMaker {
+ public:
+  BodyMaker() : body_(new CollisionBody) {}
+
+  std::shared_ptr<const CollisionBody> take() {
+    body_->bound_radius_ += body_->radius_;
+    return std::move(body_);
+  }
+
+  void sweep(double radius) { body_->radius_ = radius; }
+
+  void setSegment(double length) {
+    if (length <= 0.) return;
+    body_->core_ = CollisionBody::Core::segment;
+    body_->half_length_ = .5 * length;
+    bound(Vector3d::Zero(), {0., 0., .5 * length});
+  }
+
+  void setBox(const Vector3d& half) {
+    body_->core_ = CollisionBody::Core::box;
+    body_->half_sides_ = half;
+    bound(Vector3d::Zero(), half);
+  }
+
+  void setCylinder(double radius, double half_length) {
+    body_->core_ = CollisionBody::Core::cylinder;
+    body_->core_radius_ = std::max(radius, 1e-9);
+    body_->half_length_ = std::max(half_length, 1e-9);
+    bound(Vector3d::Zero(), {body_->core_radius_, body_->core_radius_, body_->half_length_});
+    body_->bound_radius_ = std::hypot(body_->core_radius_, body_->half_length_);
+  }
+
+  void setBoxEllipsoid(const Vector3d& half, const Vector3d& radii) {
+    body_->core_ = CollisionBody::Core::box_ellipsoid;
+    body_->half_sides_ = half;
+    body_->radii_ = radii;
+    bound(Vector3d::Zero(), half + radii);
+    body_->bound_radius_ = half.norm() + radii.maxCoeff();
+  }
+
+  void setHull(const std::vector<Vector3d>& points) {
+    body_->core_ = CollisionBody::Core::hull;
+    boundPoints(points);
+    body_->hull_ = makeHull(points);
+  }
+
+  /// `parts` have no rounding; without any, the parts are the points.
+  void setCompound(const std::vector<Vector3d>& points, std::vector<std::shared_ptr<const CollisionBody>> parts) {
+    body_->core_ = CollisionBody::Core::compound;
+    boundPoints(points);
+    const bool are_points = parts.empty();
+    body_->tree_ = std::make_unique<BodyTree>(std::move(parts), are_points ? points : std::vector<Vector3d>());
+  }
+
+  void setGrid(std::shared_ptr<const Grid> grid, const Vector3d& size) {
+    body_->core_ = CollisionBody::Core::grid;
+    body_->grid_ = std::make_unique<GridField>(std::move(grid), size);
+    bound(Vector3d::Zero(), .5 * size + Vector3d::Constant(body_->grid_->overhang));
+  }
+
+ private:
+  void bound(const Vector3d& center, const Vector3d& half) {
+    body_->bound_center_ = center;
+    body_->bound_half_ = half;
+    body_->bound_radius_ = half.norm();
+  }
+
+  void boundPoints(const std::vector<Vector3d>& points) {
+    Vector3d low = points.front(), high = points.front();
+    for (const Vector3d& p : points) {
+      low = low.cwiseMin(p);
+      high = high.cwiseMax(p);
+    }
+    bound(.5 * (low + high), .5 * (high - low));
+    body_->bound_radius_ = 0.;
+    for (const Vector3d& p : points) {
+      body_->bound_radius_ = std::max(body_->bound_radius_, (p - body_->bound_center_).norm());
+    }
+  }
+
+  std::shared_ptr<CollisionBody> body_;
+};
+
+namespace {
+
+using Parts = std::vector<std::shared_ptr<const CollisionBody>>;
+
+std::shared_ptr<const CollisionBody> hullBody(const std::vector<Vector3d>& points) {
+  BodyMaker maker;
+  maker.setHull(points);
+  return maker.take();
+}
+
+/// The hulls of the convex parts that a mesh names.
+Parts hullsOfParts(const Mesh& mesh) {
+  Parts parts;
+  for (std::size_t i = 0; i < mesh.parts.size(); ++i) {
+    const std::size_t first = mesh.parts[i],
+                      last = i + 1 < mesh.parts.size() ? mesh.parts[i + 1] : mesh.vertices.size();
+    if (first < last) parts.push_back(hullBody({mesh.vertices.begin() + first, mesh.vertices.begin() + last}));
+  }
+  return parts;
+}
+
+/// A segment for every two vertices.
+Parts segments(const Mesh& mesh) {
+  Parts parts;
+  for (std::size_t i = 0; i + 1 < mesh.vertices.size(); i += 2) {
+    parts.push_back(hullBody({mesh.vertices[i], mesh.vertices[i + 1]}));
+  }
+  return parts;
+}
+
+void setMesh(BodyMaker& maker, ShapeType type, const Mesh& mesh) {
+  if (mesh.vertices.empty()) return;
+  if (type == ShapeType::pointCloud) return maker.setCompound(mesh.vertices, {});
+  Parts parts;
+  if (type == ShapeType::mesh) parts = hullsOfParts(mesh);
+  if (type == ShapeType::lines) parts = segments(mesh);
+  if (parts.size() < 2) return maker.setHull(mesh.vertices);
+  maker.setCompound(mesh.vertices, std::move(parts));
+}
+
+}  // namespace
+
+CollisionBody::CollisionBody() = default;
+
+CollisionBody::~CollisionBody() = default;
+
+Vector3d CollisionBody::support(const Vector3d& direction) const {
+  switch (core_) {
+    case Core::segment:
+      return {0., 0., std::copysign(half_length_, direction.z())};
+    case Core::box:
+      return half_sides_.binaryExpr(direction, [](double h, double d) { return std::copysign(h, d); });
+    case Core::cylinder: {
+      const double across = std::hypot(direction.x(), direction.y()), z = std::copysign(half_length_, direction.z());
+      if (across == 0.) return {core_radius_, 0., z};
+      const double scale = core_radius_ / across;
+      return {scale * direction.x(), scale * direction.y(), z};
+    }
+    case Core::hull:
+      return hull_.points[std::size_t(hull_.farthest(direction))];
+    case Core::box_ellipsoid: {
+      const Vector3d corner = half_sides_.binaryExpr(direction, [](double h, double d) { return std::copysign(h, d); });
+      const Vector3d scaled = radii_.cwiseProduct(direction);
+      const double norm = scaled.norm();
+      return norm > 0. ? Vector3d(corner + radii_.cwiseProduct(scaled) / norm) : corner;
+    }
+    default:
+      return Vector3d::Zero();
+  }
+}
+
+std::shared_ptr<const CollisionBody> makeCollisionBody(const Geometry& geometry) {
+  BodyMaker maker;
+  const std::vector<double>& s = geometry.size;
+  const auto halfSize = [&] { return Vector3d(.5 * s[0], .5 * s[1], .5 * s[2]); };
+  switch (geometry.type) {
+    case ShapeType::sphere:
+      maker.sweep(s[0]);
+      break;
+    case ShapeType::capsule:
+      maker.sweep(s[1]);
+      maker.setSegment(s[0]);
+      break;
+    case ShapeType::sdf:
+      if (geometry.grid && !geometry.grid->values.empty()) {
+        maker.setGrid(geometry.grid, 2. * halfSize());
+        break;
+      }
+      [[fallthrough]];
+    case ShapeType::box:
+    case ShapeType::tensor:
+      maker.setBox(halfSize());
+      break;
+    case ShapeType::quad:
+      maker.setBox({.5 * s[0], .5 * s[1], 0.});
+      break;
+    case ShapeType::ssBox:
+      maker.sweep(s[3]);
+      maker.setBox(halfSize() - Vector3d::Constant(s[3]));
+      break;
+    case ShapeType::cylinder:
+      maker.setCylinder(s[1], .5 * s[0]);
+      break;
+    case ShapeType::ssCylinder:
+      maker.sweep(s[2]);
+      maker.setCylinder(s[1] - s[2], .5 * s[0] - s[2]);
+      break;
+    case ShapeType::ssBoxElip:
+      maker.sweep(s[6]);
+      maker.setBoxEllipsoid((halfSize().array() - s[6]).max(0.), {s[3], s[4], s[5]});
+      break;
+    case ShapeType::ssCvx:
+      maker.sweep(s[0]);
+      [[fallthrough]];
+    case ShapeType::mesh:
+    case ShapeType::pointCloud:
+    case ShapeType::lines:
+      if (geometry.mesh) setMesh(maker, geometry.type, *geometry.mesh);
+      break;
+    case ShapeType::none:
+    case ShapeType::marker:
+    case ShapeType::camera:
+      break;
+  }
+  return maker.take();
+}
+
+std::shared_ptr<const CollisionBody> pointBody() {
+  static const std::shared_ptr<const CollisionBody> body = makeCollisionBody(Geometry{});
+  return body;
+}
+
+}  // namespace kinegraph

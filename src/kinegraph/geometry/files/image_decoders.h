@@ -1,0 +1,21 @@
+#pragma once
+
+#include <string_view>
+
+#include "kinegraph/geometry/files/image_file.h"
+
+namespace kinegraph {
+
+/// PNG of all color types and depths, interlaced or not. Throws FileError.
+/// Source: Portable Network Graphics Specification, 2nd ed., W3C 2003.
+Pixels decodePng(std::string_view bytes);
+
+/// JPEG with 8 bits and Huffman codes, sequential or progressive, gray or of three colors. Throws FileError.
+/// Source: CCITT Recommendation T.81, 1992; JPEG File Interchange Format 1.02.
+Pixels decodeJpeg(std::string_view bytes);
+
+/// Unpacks a zlib stream; at most `limit` bytes of it. Throws FileError.
+/// Source: RFC 1950 and RFC 1951.
+std::string unpack(std::string_view bytes, std::size_t limit);
+
+}  // namespace kinegraph

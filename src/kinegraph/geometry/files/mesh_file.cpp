@@ -1,0 +1,162 @@
+#include "kinegraph/geometry/files/mesh_file.h"
+
+#include <assimp/config.h>
+#include <assimp/material.h>
+#include <assimp/postprocess.h>
+#include <assimp/scene.h>
+
+#include <algorithm>
+#include <assimp/Importer.hpp>
+#include <cmath>
+#include <filesystem>
+
+#include "kinegraph/base/errors.h"
+#include "kinegraph/base/text.h"
+#include "kinegraph/geometry/files/h5_file.h"
+#include "kinegraph/geometry/files/mesh_promises.h"
+#include "kinegraph/geometry/files/mesh_textures.h"
+
+namespace kinegraph {
+
+namespace {
+
+std::array<std::uint8_t, 4> bytes(const aiColor4D& color) {
+  const auto byte = [](float x) { return std::uint8_t(std::lround(255.f * std::clamp(x, 0.f, 1.f))); };
+  return {byte(color.r), byte(color.g), byte(color.b), byte(color.a)};
+}
+
+void checkFaces(const aiScene& scene, const std::string& path) {
+  for (unsigned m = 0; m < scene.mNumMeshes; ++m) {
+    const aiMesh& part = *scene.mMeshes[m];
+    for (unsigned f = 0; f < part.mNumFaces; ++f) {
+      const aiFace& face = part.mFaces[f];
+      for (unsigned i = 0; i < face.mNumIndices; ++i) {
+        if (face.mIndices[i] < part.mNumVertices) continue;
+        throw FileError(
+            cat("mesh file '", path, "': face ", f, " names vertex ", face.mIndices[i], " of ", part.mNumVertices));
+      }
+    }
+  }
+}
+
+void append(const aiScene& scene, const aiNode& node, const aiMatrix4x4& above, MeshTextures& textures, Mesh& mesh) {
+  const aiMatrix4x4 transform = above * node.mTransformation;
+  for (unsigned m = 0; m < node.mNumMeshes; ++m) {
+    const aiMesh& part = *scene.mMeshes[node.mMeshes[m]];
+    aiColor4D diffuse(.8f, .8f, .8f, 1.f);
+    if (part.mMaterialIndex < scene.mNumMaterials) {
+      scene.mMaterials[part.mMaterialIndex]->Get(AI_MATKEY_COLOR_DIFFUSE, diffuse);
+    }
+    const std::uint32_t first = std::uint32_t(mesh.vertices.size());
+    for (unsigned v = 0; v < part.mNumVertices; ++v) {
+      const aiVector3D p = transform * part.mVertices[v];
+      mesh.vertices.emplace_back(p.x, p.y, p.z);
+      mesh.colors.push_back(bytes(part.HasVertexColors(0) ? part.mColors[0][v] : diffuse));
+    }
+    const std::size_t first_triangle = mesh.triangles.size();
+    for (unsigned f = 0; f < part.mNumFaces; ++f) {
+      const aiFace& face = part.mFaces[f];
+      if (face.mNumIndices == 3)
+        mesh.triangles.push_back({first + face.mIndices[0], first + face.mIndices[1], first + face.mIndices[2]});
+    }
+    if (!part.HasTextureCoords(0)) continue;
+    std::vector<std::array<float, 2>> coordinates;
+    for (unsigned v = 0; v < part.mNumVertices; ++v)
+      coordinates.push_back({part.mTextureCoords[0][v].x, part.mTextureCoords[0][v].y});
+    addTexture(mesh, first, coordinates, first_triangle, textures.of(part.mMaterialIndex));
+  }
+  for (unsigned child = 0; child < node.mNumChildren; ++child)
+    append(scene, *node.mChildren[child], transform, textures, mesh);
+}
+
+}  // namespace
+
+Mesh readH5Mesh(const std::string& path, const std::string& group) {
+  if (!std::filesystem::is_regular_file(path)) throw FileError(cat("mesh file '", path, "' does not exist"));
+  const H5File file(path);
+  const auto table = [&](const std::string& name, std::uint64_t at_least, std::uint64_t at_most) {
+    H5Dataset data = file.dataset(cat(group, "/", name));
+    if (data.dims.size() != 2 || data.dims[1] < at_least || data.dims[1] > at_most) {
+      throw FileError(cat("mesh file '", path, "': '", group, "/", name, "' is not a table of ", at_least, " columns"));
+    }
+    return data;
+  };
+  Mesh mesh;
+  const H5Dataset vertices = table("vertices", 3, 3);
+  const std::vector<double>& v = vertices.numbers;
+  for (std::size_t i = 0; i < v.size(); i += 3) mesh.vertices.emplace_back(v[i], v[i + 1], v[i + 2]);
+  if (file.contains(cat(group, "/faces"))) {
+    const std::vector<double> f = table("faces", 3, 3).numbers;
+    for (std::size_t i = 0; i < f.size(); ++i) {
+      if (!(f[i] >= 0. && f[i] < double(mesh.vertices.size()))) {
+        throw FileError(cat("mesh file '", path, "': a face names vertex ", f[i], " of ", mesh.vertices.size()));
+      }
+    }
+    for (std::size_t i = 0; i < f.size(); i += 3)
+      mesh.triangles.push_back({std::uint32_t(f[i]), std::uint32_t(f[i + 1]), std::uint32_t(f[i + 2])});
+  }
+  if (file.contains(cat(group, "/colors"))) {
+    const H5Dataset colors = table("colors", 3, 4);
+    const std::size_t columns = colors.dims[1];
+    const auto byte = [](double x) { return std::uint8_t(std::lround(std::clamp(x, 0., 255.))); };
+    for (std::size_t i = 0; i < colors.numbers.size(); i += columns) {
+      const double* c = colors.numbers.data() + i;
+      mesh.colors.push_back({byte(c[0]), byte(c[1]), byte(c[2]), columns == 4 ? byte(c[3]) : std::uint8_t(255)});
+    }
+    if (mesh.colors.size() != 1 && mesh.colors.size() != mesh.vertices.size()) mesh.colors.clear();
+  }
+  const std::string texture = cat(group, "/textureFile"), coordinates = cat(group, "/textureCoords");
+  if (file.contains(coordinates)) {  // to the right and down
+    const H5Dataset uv = table("textureCoords", 2, 2);
+    std::vector<std::array<float, 2>> list;
+    for (std::size_t i = 0; i < uv.numbers.size(); i += 2)
+      list.push_back({float(uv.numbers[i]), float(1. - uv.numbers[i + 1])});
+    std::string name;
+    if (file.contains(texture)) {
+      for (const double letter : file.dataset(texture).numbers) {
+        if (letter > 0. && letter < 128.) name += char(letter);
+      }
+    }
+    if (list.size() == mesh.vertices.size()) addTexture(mesh, 0, list, 0, imageBeside(path, name));
+  }
+  if (file.contains(cat(group, "/parts"))) {
+    for (double part : file.dataset(cat(group, "/parts")).numbers) {
+      if (!(part >= 0. && part <= double(mesh.vertices.size()))) {
+        throw FileError(
+            cat("mesh file '", path, "': a convex part begins at vertex ", part, " of ", mesh.vertices.size()));
+      }
+      mesh.parts.push_back(std::uint32_t(part));
+    }
+    std::sort(mesh.parts.begin(), mesh.parts.end());
+  }
+  return mesh;
+}
+
+Mesh readMeshFile(const std::string& path) {
+  if (!std::filesystem::is_regular_file(path)) throw FileError(cat("mesh file '", path, "' does not exist"));
+  if (path.ends_with(".h5")) return readH5Mesh(path, "mesh");
+  if (path.ends_with(".msh")) return readMshMesh(path);
+  checkMeshPromises(path);
+  Assimp::Importer importer;
+  importer.SetPropertyBool(AI_CONFIG_IMPORT_COLLADA_IGNORE_UP_DIRECTION, true);  // as robot descriptions mean it
+  const aiScene* scene = importer.ReadFile(path, 0);
+  if (scene) checkFaces(*scene, path);  // which the next steps believe
+  if (scene) scene = importer.ApplyPostProcessing(aiProcess_Triangulate | aiProcess_JoinIdenticalVertices);
+  if (!scene || !scene->mRootNode) {
+    throw FileError(cat("mesh file '", path, "' cannot be read: ", importer.GetErrorString()));
+  }
+  Mesh mesh;
+  MeshTextures textures(*scene, path);
+  append(*scene, *scene->mRootNode, aiMatrix4x4(), textures, mesh);
+  mesh.texcoords.resize(mesh.texcoords.empty() ? 0 : mesh.vertices.size());
+  if (mesh.vertices.empty()) throw FileError(cat("mesh file '", path, "' holds no vertices"));
+  const auto broken =
+      std::find_if_not(mesh.vertices.begin(), mesh.vertices.end(), [](const Vector3d& p) { return p.allFinite(); });
+  if (broken != mesh.vertices.end()) {
+    throw FileError(cat("mesh file '", path, "': vertex ", broken - mesh.vertices.begin(), " is (", broken->transpose(),
+                        "); coordinates must be finite"));
+  }
+  return mesh;
+}
+
+}  // namespace kinegraph

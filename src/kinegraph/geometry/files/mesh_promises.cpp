@@ -1,0 +1,75 @@
+#include "kinegraph/geometry/files/mesh_promises.h"
+
+#include <algorithm>
+#include <cctype>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+
+#include "kinegraph/base/errors.h"
+#include "kinegraph/base/text.h"
+
+namespace kinegraph {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr double kAlways = 1e5;  // what may be promised anyway: it costs nothing
+
+/// The text between `at` and the next of `ends`, behind blanks and quotes.
+std::string_view valueBehind(std::string_view text, std::size_t at, std::string_view ends) {
+  at = std::min(text.find_first_not_of(" \t\r\n:=\"'", at), text.size());
+  return text.substr(at, std::min(text.find_first_of(ends, at), text.size()) - at);
+}
+
+/// Calls visit(value) for what stands behind every `key`.
+template <class Visit>
+void forValues(std::string_view text, std::string_view key, std::string_view ends, const Visit& visit) {
+  for (std::size_t at = text.find(key); at != std::string_view::npos; at = text.find(key, at + key.size())) {
+    visit(valueBehind(text, at + key.size(), ends));
+  }
+}
+
+double numberOf(std::string_view text) { return std::strtod(std::string(text.substr(0, 40)).c_str(), nullptr); }
+
+/// The counts of all elements that the header of a PLY file lists.
+double promisesOfPly(std::string_view text) {
+  double promised = 0.;
+  const std::string_view header = text.substr(0, std::min(text.find("end_header"), text.size()));
+  forValues(header, "\nelement ", "\r\n",
+            [&](std::string_view line) { promised += numberOf(line.substr(std::min(line.find(' '), line.size()))); });
+  return promised;
+}
+
+}  // namespace
+
+void checkMeshPromises(const std::string& path) {
+  std::string extension = fs::path(path).extension().string();
+  std::transform(extension.begin(), extension.end(), extension.begin(),
+                 [](unsigned char c) { return char(std::tolower(c)); });
+  const bool ply = extension == ".ply", dae = extension == ".dae", gltf = extension == ".gltf" || extension == ".glb";
+  if (!ply && !dae && !gltf) return;
+  std::ifstream stream(path, std::ios::binary);
+  std::stringstream bytes;
+  bytes << stream.rdbuf();
+  const std::string text = bytes.str();
+  double promised = 0., held = double(text.size());
+  const auto add = [&](std::string_view count) { promised += std::max(numberOf(count), 0.); };
+  if (ply) promised = promisesOfPly(text);
+  if (dae) forValues(text, " count=", "\"'", add);
+  if (gltf) {
+    forValues(text, "\"count\"", ",}", add);
+    forValues(text, "\"uri\"", "\"", [&](std::string_view file) {
+      std::error_code error;
+      const auto size = file.size() < 1000 ? fs::file_size(fs::path(path).parent_path() / std::string(file), error) : 0;
+      if (!error) held += double(size);
+    });
+  }
+  if (promised <= kAlways + held) return;
+  throw FileError(cat("mesh file '", path, "' promises ", exact(promised), " elements, more than its ", exact(held),
+                      " bytes can hold"));
+}
+
+}  // namespace kinegraph

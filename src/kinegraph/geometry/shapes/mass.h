@@ -1,0 +1,18 @@
+#pragma once
+
+#include "kinegraph/geometry/shapes/geometry.h"
+
+namespace kinegraph {
+
+/// Mass properties of a surface of uniform thickness.
+struct ShellMass {
+  double area = 0.;                              ///< m^2
+  Vector3d com = Vector3d::Zero();               ///< m
+  Matrix3d inertia_per_mass = Matrix3d::Zero();  ///< about the center of mass, m^2
+};
+
+/// Of a shape's surface: exact for box and sphere, of the triangles otherwise. Throws ValueError for shapes without
+/// one.
+ShellMass shellMass(const Geometry& geometry);
+
+}  // namespace kinegraph

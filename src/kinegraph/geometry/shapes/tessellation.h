@@ -1,0 +1,11 @@
+#pragma once
+
+#include "kinegraph/geometry/shapes/geometry.h"
+
+namespace kinegraph {
+
+/// The surface of a shape as triangles, outward and closed (a quad: two triangles). Shapes without a surface (marker,
+/// camera, point clouds, lines) give an empty mesh; a mesh gives itself.
+Mesh tessellate(const Geometry& geometry);
+
+}  // namespace kinegraph

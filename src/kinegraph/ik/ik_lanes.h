@@ -1,0 +1,102 @@
+#pragma once
+
+#include <atomic>
+#include <vector>
+
+#include "kinegraph/ik/ik_kernel.h"
+#include "kinegraph/ik/ik_search.h"
+#include "kinegraph/kinematics/lane_program.h"
+
+namespace kinegraph {
+
+/// The kinematics of a problem for ik_kernel.h, and who owns its arrays.
+class IkLaneModel {
+ public:
+  explicit IkLaneModel(const IkProblem& problem);
+
+  /// False where a joint has quaternions, or there are too many rows: lanes cannot do these.
+  bool supported() const { return supported_; }
+  IkKernelModel view() const;
+
+ private:
+  void addTasks(const IkProblem& problem);
+
+  bool supported_ = true;
+  int rows_;
+  LaneLinks links_;
+  std::vector<IkKernelModel::Task> task_;
+  std::vector<IkKernelModel::Column> column_;
+  const double *lower_, *upper_, *longest_;  ///< the problem's
+};
+
+/// Memory for a number of lanes.
+struct LaneBuffer {
+  LaneBuffer(const IkKernelModel& model, int lanes);
+  LaneBuffer(const LaneBuffer&) = delete;
+
+  IkKernelMemory memory;
+
+ private:
+  std::vector<double> storage_;
+};
+
+/// Solves problems that differ in their targets, several attempts side by side in the lanes of wide registers: of
+/// different problems while there are some, else of the same ones. Attempts of a problem are judged in their order, so
+/// that lanes and their number do not change answers.
+class IkLanes {
+ public:
+  /// `width`: number of lanes, one of laneWidths(), 0 for the most.
+  explicit IkLanes(std::shared_ptr<const IkProblem> problem, int width = 0);
+
+  /// results[i] answers problems[i]; `done` counts them.
+  void solve(const std::vector<IkTarget>* problems, int count, IkResult* results, std::atomic<int>& done,
+             const Stop& stop);
+
+ private:
+  /// An attempt that has ended and waits for those before it to be judged.
+  struct Ended {
+    int attempt;
+    IkApproach approach;
+    VectorXd x;
+  };
+  struct Open {
+    int problem = -1;  ///< -1: free
+    IkJob job;
+    int next_attempt = 0;
+    std::vector<Ended> ended;
+  };
+  struct Lane {
+    int open = -1;  ///< -1: idle
+    int attempt = 0;
+    int evals = 0;
+    double before = 0.;
+  };
+
+  bool fill(int lane);
+  void start(int lane, int open);
+  void advance(int lane);
+  void end(int lane, bool met);
+  void judgeEnded(int open);
+  void close(int open, bool cancelled);
+  double& at(double* rows, int row, int lane) const { return rows[row * kernel_.lanes + lane]; }
+
+  std::shared_ptr<const IkProblem> problem_;
+  IkLaneModel model_;
+  IkKernelModel view_;
+  IkKernel kernel_;
+  IkSearch search_;
+  LaneBuffer buffer_;
+  const IkKernelMemory& memory_;
+  std::vector<Open> open_;
+  std::vector<Lane> lanes_;
+  VectorXd start_;
+
+  const std::vector<IkTarget>* problems_ = nullptr;
+  IkResult* results_ = nullptr;
+  std::atomic<int>* done_ = nullptr;
+  const Stop* stop_ = nullptr;
+  int count_ = 0, next_ = 0;
+  bool cancelled_ = false;
+};
+
+}  // namespace kinegraph

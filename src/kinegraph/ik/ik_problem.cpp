@@ -1,0 +1,156 @@
+#include "kinegraph/ik/ik_problem.h"
+
+#include <algorithm>
+#include <limits>
+#include <numbers>
+
+#include "kinegraph/base/errors.h"
+#include "kinegraph/base/text.h"
+
+namespace kinegraph {
+
+namespace {
+
+constexpr double kLongestTurn = .5;  // rad
+
+IkProblem::Task makeTask(const Program& program, const IkTarget& target) {
+  const int frame = frameId(program, target.frame, "solveIk");
+  if (program.last_column[program.frame_link[frame]] < 0) {
+    throw ValueError(cat("solveIk: no active joint moves frame '", target.frame, "'"));
+  }
+  const Vector3d axis = target.kind == IkTarget::Kind::direction ? target.axis.normalized() : Vector3d::UnitZ();
+  return {target.kind, frame, axis};
+}
+
+/// Per dof: does it turn, so that without limits a full turn is worth trying?
+std::vector<char> turningDofs(const Program& program) {
+  using Kind = MotionStep::Kind;
+  std::vector<char> turns(program.dofs, 0);
+  for (std::size_t l = 1; l < program.links.size(); ++l) {
+    const Program::Link& link = program.links[l];
+    int dof = link.dof;
+    for (int s = link.first_step; s < link.first_step + link.steps; ++s) {
+      const Kind kind = program.steps[s].kind;
+      turns[dof] = kind == Kind::rotate || kind == Kind::rotateAbout;
+      dof += program.steps[s].dofs();
+    }
+  }
+  return turns;
+}
+
+}  // namespace
+
+void IkOptions::validate() const {
+  const auto require = [](bool good, const char* field, double value, const char* expected) {
+    if (!good) throw ValueError(cat("solveIk: ", field, " is ", value, "; expected ", expected));
+  };
+  require(position_tolerance > 0., "position_tolerance", position_tolerance, "a positive length in m");
+  require(rotation_tolerance > 0., "rotation_tolerance", rotation_tolerance, "a positive angle in rad");
+  require(attempts >= 1, "attempts", attempts, "at least 1");
+  require(steps >= 1, "steps", steps, "at least 1");
+  require(std::isfinite(margin), "margin", margin, "a length in m");
+  require(start_weight >= 0. && std::isfinite(start_weight), "start_weight", start_weight, "a number >= 0");
+  require(home_weight >= 0. && std::isfinite(home_weight), "home_weight", home_weight, "a number >= 0");
+}
+
+IkProblem::IkProblem(const Config& config, const std::vector<IkTarget>& targets, const IkOptions& given)
+    : options(given), program(config.program()), parameters(config.parameters()) {
+  options.validate();
+  if (targets.empty())
+    throw ValueError("solveIk: there are no targets; expected at least one frame with a pose, position or direction");
+  if (options.best && options.start_weight + options.home_weight == 0.) options.start_weight = 1.;
+  for (const IkTarget& target : targets) {
+    names.push_back(target.frame);
+    tasks.push_back(makeTask(*program, target));
+    rows += tasks.back().rows();
+  }
+  q = config.getJointState().cwiseMax(program->lower).cwiseMin(program->upper);
+  chooseVariables();
+  const double weight = options.start_weight + options.home_weight;
+  pulls = weight > 0.;
+  nearest.resize(variables());
+  for (int v = 0; v < variables(); ++v) {
+    const double home = program->home[dofs[v]], start = q[dofs[v]];
+    nearest[v] = pulls ? (options.start_weight * start + options.home_weight * home) / weight : start;
+  }
+  nearest = nearest.cwiseMax(lower).cwiseMin(upper);
+  if (options.collisions) choosePairs();
+  bodies.emplace(*program, pairs);
+}
+
+void IkProblem::chooseVariables() {
+  variable.assign(program->dofs, -1);
+  for (const Task& task : tasks) {
+    for (int c = program->last_column[program->frame_link[task.frame]]; c >= 0; c = program->column_before[c]) {
+      variable[program->column_dof[c]] = 0;
+    }
+  }
+  for (const Program::DofRange& norm : program->unit_norms) {
+    if (variable[norm.first] == 0) norms_.emplace_back(norm.first, norm.count);
+  }
+  for (int dof = 0; dof < program->dofs; ++dof) {
+    if (variable[dof] < 0) continue;
+    variable[dof] = int(dofs.size());
+    dofs.push_back(dof);
+  }
+  for (auto& norm : norms_) norm.first = variable[norm.first];
+  const std::vector<char> turns = turningDofs(*program);
+  lower.resize(variables());
+  upper.resize(variables());
+  longest.resize(variables());
+  draw_lower_.resize(variables());
+  draw_upper_.resize(variables());
+  for (int v = 0; v < variables(); ++v) {
+    const int dof = dofs[v];
+    lower[v] = program->lower[dof];
+    upper[v] = program->upper[dof];
+    longest[v] = turns[dof] ? kLongestTurn : std::numeric_limits<double>::infinity();
+    const double reach = turns[dof] ? std::numbers::pi : 1.;
+    draw_lower_[v] = std::isfinite(lower[v]) ? lower[v] : std::min(q[dof], upper[v]) - reach;
+    draw_upper_[v] = std::isfinite(upper[v]) ? upper[v] : std::max(q[dof], lower[v]) + reach;
+  }
+  for (const auto& [first, count] : norms_) {
+    for (int v = first; v < first + count; ++v) {
+      longest[v] = kLongestTurn;
+      draw_lower_[v] = std::max(lower[v], -1.);
+      draw_upper_[v] = std::min(upper[v], 1.);
+    }
+  }
+  sequence_ = LowDiscrepancy(variables(), options.seed);
+}
+
+void IkProblem::choosePairs() {
+  const auto moves = [&](int column) { return variable[program->column_dof[column]] >= 0; };
+  for (const auto& pair : program->movingPairs()) {
+    // Up both chains, from the column that comes last, to the one where they meet.
+    int a = program->last_column[program->frame_link[pair.first]],
+        b = program->last_column[program->frame_link[pair.second]];
+    while (a != b) {
+      int& later = a > b ? a : b;
+      if (moves(later)) break;
+      later = program->column_before[later];
+    }
+    if (a != b) pairs.push_back(pair);
+  }
+}
+
+void IkProblem::startingPoint(int i, double* x) const {
+  for (int v = 0; v < variables(); ++v) {
+    x[v] = i == 0 ? q[dofs[v]] : draw_lower_[v] + (draw_upper_[v] - draw_lower_[v]) * sequence_.at(i, v);
+  }
+  normalize(x);
+}
+
+void IkProblem::normalize(double* x) const {
+  for (const auto& [first, count] : norms_) {
+    double square = 0.;
+    for (int v = first; v < first + count; ++v) square += x[v] * x[v];
+    if (square < 1e-20) {
+      x[first] = 1.;
+      continue;
+    }
+    for (int v = first; v < first + count; ++v) x[v] /= std::sqrt(square);
+  }
+}
+
+}  // namespace kinegraph

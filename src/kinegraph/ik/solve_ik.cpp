@@ -1,0 +1,114 @@
+#include "kinegraph/ik/solve_ik.h"
+
+#include <algorithm>
+#include <atomic>
+#include <functional>
+#include <optional>
+
+#include "kinegraph/base/errors.h"
+#include "kinegraph/base/parallel.h"
+#include "kinegraph/base/text.h"
+#include "kinegraph/ik/ik_lanes.h"
+
+namespace kinegraph {
+
+namespace {
+
+constexpr int kLargestPart = 64;  // problems that a thread takes at a time
+
+void requireNumbers(const IkTarget& target) {
+  using Kind = IkTarget::Kind;
+  const auto require = [&](bool good, const char* what) {
+    if (!good) throw ValueError(cat("solveIk: the ", what, " in the target of frame '", target.frame, "'"));
+  };
+  if (target.kind == Kind::direction) {
+    require(target.axis.allFinite() && target.axis.norm() > 0., "axis is zero or not finite");
+    require(target.direction.allFinite() && target.direction.norm() > 0., "direction is zero or not finite");
+    return;
+  }
+  require(target.pose.p.allFinite(), "position is not finite");
+  require(target.pose.q.coeffs().allFinite() && target.pose.q.norm() > 0., "quaternion is zero or not finite");
+}
+
+void requireSameKind(const IkProblem& problem, const std::vector<IkTarget>& targets, std::size_t index) {
+  bool same = problem.tasks.size() == targets.size();
+  for (std::size_t i = 0; same && i < targets.size(); ++i) {
+    same = problem.names[i] == targets[i].frame && problem.tasks[i].kind == targets[i].kind &&
+           (targets[i].kind != IkTarget::Kind::direction || problem.tasks[i].axis == targets[i].axis.normalized());
+  }
+  if (!same)
+    throw ValueError(cat("solveIk: problem ", index, " has other frames or kinds of targets than the first one"));
+}
+
+}  // namespace
+
+std::string ikStatusName(IkStatus status) {
+  switch (status) {
+    case IkStatus::solved:
+      return "solved";
+    case IkStatus::unreached:
+      return "unreached";
+    case IkStatus::colliding:
+      return "colliding";
+    case IkStatus::cancelled:
+      return "cancelled";
+  }
+  return "unknown";
+}
+
+IkResult solveIk(const Config& config, const std::vector<IkTarget>& targets, const IkOptions& options,
+                 const IkWatch& watch) {
+  return IkSolver(config, targets, options).solve({targets}, 1, watch)[0];
+}
+
+std::vector<IkResult> solveIkBatch(const Config& config, const std::vector<std::vector<IkTarget>>& problems,
+                                   const IkOptions& options, int threads, const IkWatch& watch) {
+  if (problems.empty()) return {};
+  return IkSolver(config, problems[0], options).solve(problems, threads, watch);
+}
+
+IkSolver::IkSolver(const Config& config, const std::vector<IkTarget>& targets, const IkOptions& options) {
+  for (const IkTarget& target : targets) requireNumbers(target);
+  problem_ = std::make_shared<const IkProblem>(config, targets, options);
+}
+
+std::vector<IkResult> IkSolver::solve(const std::vector<std::vector<IkTarget>>& problems, int threads,
+                                      const IkWatch& watch) const {
+  if (threads < 1) throw ValueError(cat("solveIk: threads is ", threads, "; expected at least 1"));
+  for (std::size_t i = 0; i < problems.size(); ++i) {
+    requireSameKind(*problem_, problems[i], i);
+    for (const IkTarget& target : problems[i]) requireNumbers(target);
+  }
+  std::vector<IkResult> results(problems.size());
+  const int count = int(problems.size());
+  std::atomic<int> done = 0;
+  std::atomic<bool> stop = false;
+  const std::function<bool()> stopped = [&] { return stop.load(std::memory_order_relaxed); };
+  const std::function<bool()> watching = [&] {  // on the calling thread
+    try {
+      if (watch && watch(done)) stop = true;
+    } catch (...) {
+      stop = true;  // for the other threads
+      throw;
+    }
+    return stopped();
+  };
+  if (threads == 1 || count <= 1) {
+    IkLanes(problem_).solve(problems.data(), count, results.data(), done, watching);
+    return results;
+  }
+  const int part = std::clamp(count / (4 * threads), 1, kLargestPart);
+  std::vector<std::optional<IkLanes>> searches(std::size_t(std::min(threads, count)));
+  forParts(
+      count, part, threads,
+      [&](int worker, int from, int to) {
+        std::optional<IkLanes>& search = searches[std::size_t(worker)];
+        if (!search) search.emplace(problem_);
+        search->solve(&problems[std::size_t(from)], to - from, &results[std::size_t(from)], done,
+                      worker == 0 ? watching : stopped);
+      },
+      watching);
+  return results;
+}
+
+}  // namespace kinegraph

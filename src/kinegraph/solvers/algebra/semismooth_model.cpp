@@ -1,0 +1,432 @@
+#include "kinegraph/solvers/algebra/semismooth_model.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "kinegraph/solvers/algebra/band_algebra.h"
+#include "kinegraph/solvers/algebra/dense_algebra.h"
+
+namespace kinegraph {
+
+template <class Algebra>
+SemismoothModel<Algebra>::SemismoothModel(const Nlp& nlp, const Jacobian& pattern, const std::vector<int>& costs,
+                                          std::vector<int> constraints)
+    : n_(nlp.dimension()),
+      constraints_(std::move(constraints)),
+      has_f_(hasRowsOfTypeF(nlp)),
+      algebra_(nlp, pattern, constraints_, has_f_ || n_ <= kSmall) {  // the Hessian of f terms may be full
+  const int m = int(constraints_.size());
+  linear_costs_.reserve(costs.size());
+  is_equality_.reserve(std::size_t(m));
+  for (int row : costs)
+    (nlp.types()[row] == ObjectiveType::sos && nlp.isLinear(row) ? linear_costs_ : other_costs_).push_back(row);
+  for (int j = 0; j < m; ++j) {
+    is_equality_.push_back(nlp.types()[constraints_[j]] == ObjectiveType::eq);
+    if (is_equality_[j]) equalities_.push_back(j);
+  }
+  const std::span<const Nlp::CurvedRows> curved = nlp.curvedRows();
+  for (int k = 0; k < int(curved.size()); ++k) {
+    const auto place = std::find(constraints_.begin(), constraints_.end(), curved[k].first);
+    if (place == constraints_.end()) continue;
+    curved_.push_back({k, int(place - constraints_.begin()), curved[k].rows, curved[k].column,
+                       MatrixXd(curved[k].width, curved[k].width)});
+  }
+  active_.assign(m, false);
+  factored_active_ = active_;
+  fixed_.assign(std::size_t(size()), false);
+  factored_fixed_ = fixed_;
+  for (std::vector<int>* list : {&inequalities_, &within_reach_, &out_of_reach_, &active_list_})
+    list->reserve(std::size_t(m));
+  for (Vector* v : {&low_, &high_, &g_, &d_, &trial_, &r_, &s_, &Hd_, &Hs_, &trial_Hd_}) *v = algebra_.zeroVector();
+  step_.setZero(n_);
+  for (VectorXd* v : {&linear_, &trial_linear_, &step_linear_}) v->setZero(m);
+}
+
+template <class Algebra>
+void SemismoothModel<Algebra>::setJacobian(const Jacobian& J) {
+  algebra_.setJacobian(J);
+  leaveOutCurvature();
+  is_new_ = true;
+  inequalities_.clear();
+  for (int j = int(equalities_.size()); j < int(constraints_.size()); ++j) {
+    if (!is_equality_[j] && !J.zero_row[constraints_[j]]) inequalities_.push_back(j);
+  }
+}
+
+template <class Algebra>
+bool SemismoothModel<Algebra>::setCosts(Nlp& nlp, const VectorXd& x, const VectorXd& phi, const MatrixXd* curvature) {
+  is_new_ = true;
+  if (!knows_linear_costs_) algebra_.setLinearCosts(linear_costs_);
+  knows_linear_costs_ = true;
+  g_.setZero();
+  algebra_.addLinearCostGradient(linear_costs_, phi, g_);
+  algebra_.useLinearCosts();
+  if (other_costs_.empty() && !has_f_) return true;
+  algebra_.copyLinearCosts();
+  for (int row : other_costs_) {
+    if (nlp.types()[row] == ObjectiveType::f) {
+      algebra_.addCostGradient(row, 1., g_);
+    } else if (nlp.types()[row] == ObjectiveType::sos || phi[row] > 0.) {  // ineqP only where it is violated
+      algebra_.addCostGradient(row, 2. * phi[row], g_);
+      algebra_.addCost(row, 2.);
+    }
+  }
+  if (!has_f_) return true;
+  MatrixXd hessian = MatrixXd::Zero(n_, n_);
+  const bool known = nlp.addCostHessian(x, hessian);
+  if (!known && curvature) hessian = *curvature;
+  for (int j = 0; j < n_; ++j) {
+    for (int i = j; i < n_; ++i) algebra_.addEntry(i, j, hessian(i, j));
+  }
+  return known;
+}
+
+template <class Algebra>
+void SemismoothModel<Algebra>::addCurvature(Nlp& nlp, const VectorXd& multipliers) {
+  for (Curved& curved : curved_) {
+    const std::span<const double> weights(multipliers.data() + curved.constraint, std::size_t(curved.rows));
+    if (std::all_of(weights.begin(), weights.end(), [](double weight) { return weight == 0.; })) continue;
+    algebra_.addBlock(curved.column, curved.H,
+                      [&](Eigen::Ref<MatrixXd> H) { nlp.addCurvature(curved.index, weights, H); });
+    is_curved_ = true;
+  }
+}
+
+template <class Algebra>
+void SemismoothModel<Algebra>::leaveOutCurvature() {
+  is_curved_ = false;
+  algebra_.dropBlocks();
+}
+
+template <class Algebra>
+void SemismoothModel<Algebra>::setNoCosts(double weight) {
+  is_new_ = true;
+  g_.setZero();
+  leaveOutCurvature();
+  algebra_.setMultipleOfIdentity(weight);
+}
+
+template <class Algebra>
+double SemismoothModel<Algebra>::largestCurvature() const {
+  double largest = 1e-6;
+  for (int i = 0; i < n_; ++i) largest = std::max(largest, algebra_.diagonal(i));
+  return largest;
+}
+
+template <class Algebra>
+double SemismoothModel<Algebra>::multiplier(int j, double value, const Problem& problem) const {
+  const double t = problem.lambda[j] + problem.mu * value;
+  return is_equality_[j] ? t : std::max(0., t);
+}
+
+template <class Algebra>
+void SemismoothModel<Algebra>::linearize(const Vector& d, const Problem& problem, VectorXd& linear) const {
+  for (int j : within_reach_) linear[j] = problem.c[j] + algebra_.rowTimes(j, d);
+}
+
+/// An inequality of which the multiplier is zero all over the box does not matter, nor does one that is the same all
+/// over it.
+template <class Algebra>
+void SemismoothModel<Algebra>::findWithinReach(const Problem& problem) {
+  within_reach_.assign(equalities_.begin(), equalities_.end());
+  out_of_reach_.clear();
+  for (int j : inequalities_) {
+    if (problem.lambda[j] + problem.mu * (problem.c[j] + algebra_.largestRise(j, low_, high_)) > 0.) {
+      within_reach_.push_back(j);
+    } else {
+      out_of_reach_.push_back(j);
+      active_[j] = false;
+    }
+  }
+}
+
+template <class Algebra>
+double SemismoothModel<Algebra>::value(const Vector& d, const Vector& Hd, const VectorXd& linear,
+                                       const Problem& problem) const {
+  double sum = g_.dot(d) + .5 * d.dot(Hd) + .5 * problem.shift * d.squaredNorm();
+  for (int j : within_reach_) {
+    const double t = multiplier(j, linear[j], problem);
+    sum += t * t / (2. * problem.mu);
+  }
+  return sum;
+}
+
+/// Rows out of reach have the multiplier zero before and after, zero rows one that stays.
+template <class Algebra>
+double SemismoothModel<Algebra>::decrease(const Problem& problem) const {
+  double sum = 0.;
+  for (int j : within_reach_) {
+    const double before = multiplier(j, problem.c[j], problem), after = multiplier(j, linear_[j], problem);
+    sum += (before - after) * (before + after);
+  }
+  return sum / (2. * problem.mu) - g_.dot(d_) - .5 * d_.dot(Hd_);
+}
+
+/// The first column of the factor that the active rows, the fixed variables and the weights change; the size if none
+/// is.
+template <class Algebra>
+int SemismoothModel<Algebra>::firstChange(const Problem& problem) const {
+  if (!factored_ || problem.mu != factored_mu_ || problem.shift != factored_shift_ || fixed_ != factored_fixed_)
+    return 0;
+  int first = size();
+  for (int j : inequalities_) {
+    if (active_[j] != factored_active_[j]) first = factored_as_is_ ? std::min(first, algebra_.firstColumn(j)) : 0;
+  }
+  return first;
+}
+
+/// Factorizes H + shift I + mu J_A^T J_A, with the rows of fixed variables replaced by the identity, from column
+/// `first` on.
+template <class Algebra>
+bool SemismoothModel<Algebra>::factorize(const Problem& problem, int first) {
+  active_list_.clear();
+  for (int j : within_reach_) {
+    if (active_[j]) active_list_.push_back(j);
+  }
+  double extra = 0.;
+  for (int attempt = 0; attempt < 12; ++attempt) {
+    ++factorizations_;
+    factored_as_is_ = extra == 0.;
+    if (algebra_.factorize(problem.shift + extra, problem.mu, active_list_, fixed_, attempt == 0 ? first : 0))
+      return true;
+    if (is_curved_) return false;
+    double magnitude = 1e-6;  // of the curvatures, which may be negative
+    for (int i = 0; i < n_; ++i) magnitude = std::max(magnitude, std::abs(algebra_.diagonal(i)));
+    extra = extra == 0. ? 1e-3 * magnitude : 4. * extra;
+  }
+  return false;
+}
+
+/// s = -K^-1 r among the variables that are free. One that sits at a bound and would be pushed out is fixed as well.
+template <class Algebra>
+bool SemismoothModel<Algebra>::newtonStep(const Problem& problem) {
+  const bool inside = isInside();
+  for (bool pushed_out = true; pushed_out;) {
+    if (const int first = firstChange(problem); first < size()) {
+      factored_ = factorize(problem, first);
+      if (!factored_) return false;
+      for (int j : inequalities_) factored_active_[j] = active_[j];
+      factored_fixed_ = fixed_;
+      factored_mu_ = problem.mu;
+      factored_shift_ = problem.shift;
+    }
+    s_ = -r_;
+    for (int i = 0; any_fixed_ && i < n_; ++i) {
+      if (fixed_[i]) s_[i] = 0.;
+    }
+    algebra_.solve(s_);
+    pushed_out = false;
+    for (int i = 0; !inside && i < n_; ++i) {
+      if (fixed_[i] || !((d_[i] <= low_[i] && s_[i] < 0.) || (d_[i] >= high_[i] && s_[i] > 0.))) continue;
+      fixed_[i] = any_fixed_ = pushed_out = true;
+    }
+  }
+  return true;
+}
+
+/// J s and H s. Where no variable is fixed, K s = -r tells the latter; for small problems, that is not exact enough.
+template <class Algebra>
+void SemismoothModel<Algebra>::findChangesAlongStep(const Problem& problem) {
+  for (int j : within_reach_) step_linear_[j] = algebra_.rowTimes(j, s_);
+  if (n_ <= kSmall || !factored_as_is_ || any_fixed_) {
+    Hs_.setZero();
+    return algebra_.addHessianProduct(s_, Hs_);
+  }
+  Hs_ = -r_ - problem.shift * s_;
+  for (int j : within_reach_) {
+    if (active_[j]) algebra_.addRowTo(j, -problem.mu * step_linear_[j], Hs_);
+  }
+}
+
+/// The part of the step s that leads to the first bound, at most `most`.
+template <class Algebra>
+double SemismoothModel<Algebra>::roomAlong(double most) const {
+  const auto end = d_ + most * s_;
+  if ((end - low_).cwiseMin(high_ - end).minCoeff() >= 0.) return most;
+  double room = most;
+  for (int i = 0; i < n_; ++i) {
+    if (s_[i] < 0.) room = std::min(room, (low_[i] - d_[i]) / s_[i]);
+    if (s_[i] > 0.) room = std::min(room, (high_[i] - d_[i]) / s_[i]);
+  }
+  return room;
+}
+
+/// The part of the step s, at most `most`, that leads to the least value: where the slope, which is piecewise linear
+/// and grows, is zero. Newton's method finds it in a few steps; halves of the interval make it safe. Exactly 1 if the
+/// step is.
+template <class Algebra>
+double SemismoothModel<Algebra>::lengthAlong(const Problem& problem, double most) const {
+  const double slope = g_.dot(s_) + d_.dot(Hs_) + problem.shift * d_.dot(s_);
+  const double curvature = s_.dot(Hs_) + problem.shift * s_.squaredNorm();
+  double low = 0., high = most, first = 0., alpha = std::min(1., most);
+  for (int iteration = 0; iteration < 30; ++iteration) {
+    double at = slope + alpha * curvature, rise = curvature, scale = std::abs(slope);
+    for (int j : within_reach_) {
+      const double t = multiplier(j, linear_[j] + alpha * step_linear_[j], problem);
+      if (t == 0.) continue;
+      at += t * step_linear_[j];
+      scale += std::abs(t * step_linear_[j]);
+      rise += problem.mu * step_linear_[j] * step_linear_[j];
+    }
+    if (iteration == 0) first = 1e-10 * scale;
+    if (std::abs(at) <= first || (at < 0. && alpha == most)) return alpha;
+    (at < 0. ? low : high) = alpha;
+    double next = std::min(most, alpha - at / rise);
+    if (!(next > low && next < high) && next != most) next = .5 * (low + high);
+    if (high - low <= 1e-12 * high) return low > 0. ? low : next;
+    alpha = next;
+  }
+  return alpha;
+}
+
+/// Adds the part alpha of the step s.
+template <class Algebra>
+void SemismoothModel<Algebra>::move(double alpha) {
+  d_ += alpha * s_;
+  Hd_ += alpha * Hs_;
+  for (int j : within_reach_) linear_[j] += alpha * step_linear_[j];
+  putOnBounds(d_);
+}
+
+/// Is no entry of d at a bound?
+template <class Algebra>
+bool SemismoothModel<Algebra>::isInside() const {
+  return (d_ - low_).cwiseMin(high_ - d_).minCoeff() > 0.;
+}
+
+/// Entries that are outside, or next to a bound, go there.
+template <class Algebra>
+void SemismoothModel<Algebra>::putOnBounds(Vector& d) const {
+  if ((d - low_).cwiseMin(high_ - d).minCoeff() > 2. * kAtBound) return;
+  for (int i = 0; i < n_; ++i) {
+    if (d[i] < low_[i] + kAtBound) d[i] = low_[i];
+    if (d[i] > high_[i] - kAtBound) d[i] = high_[i];
+  }
+}
+
+/// Adds the whole step s and goes back into the box. False, and nothing done, if the value does not fall enough.
+template <class Algebra>
+bool SemismoothModel<Algebra>::moveIntoBox(const Problem& problem, double& moved) {
+  trial_ = d_ + s_;
+  putOnBounds(trial_);
+  linearize(trial_, problem, trial_linear_);
+  trial_Hd_.setZero();
+  algebra_.addHessianProduct(trial_, trial_Hd_);
+  if (value(trial_, trial_Hd_, trial_linear_, problem) > value(d_, Hd_, linear_, problem) + 1e-4 * r_.dot(trial_ - d_))
+    return false;
+  moved = (trial_ - d_).template lpNorm<Eigen::Infinity>();
+  d_.swap(trial_);
+  linear_.swap(trial_linear_);
+  Hd_.swap(trial_Hd_);
+  return true;
+}
+
+/// Are the inequalities that matter at d those of the factor?
+template <class Algebra>
+bool SemismoothModel<Algebra>::keepsActiveSet(const Problem& problem) const {
+  for (int j : within_reach_) {
+    if (!is_equality_[j] && (multiplier(j, linear_[j], problem) > 0.) != bool(factored_active_[j])) return false;
+  }
+  return true;
+}
+
+/// From zero in a new model, else from where it ended the last time if that is better.
+template <class Algebra>
+void SemismoothModel<Algebra>::begin(const Problem& problem) {
+  linear_ = problem.c;
+  const bool goes_on = !is_new_ && (d_.array() >= low_.array()).all() && (d_.array() <= high_.array()).all();
+  if (is_new_) factored_ = false;
+  is_new_ = false;
+  if (goes_on) {
+    double at_zero = 0.;
+    for (int j : within_reach_) {
+      const double t = multiplier(j, problem.c[j], problem);
+      at_zero += t * t / (2. * problem.mu);
+    }
+    trial_linear_ = problem.c;
+    linearize(d_, problem, trial_linear_);
+    if (value(d_, Hd_, trial_linear_, problem) < at_zero) return linear_.swap(trial_linear_);
+  }
+  trial_linear_ = problem.c;
+  d_.setZero();
+  Hd_.setZero();
+}
+
+/// The gradient r at d, which rows are active there, and which variables sit at bounds that hold them. The largest
+/// entry of r among the others.
+template <class Algebra>
+double SemismoothModel<Algebra>::findGradient(const Problem& problem) {
+  r_ = g_ + problem.shift * d_ + Hd_;
+  for (int j : within_reach_) {
+    const double t = multiplier(j, linear_[j], problem);
+    active_[j] = is_equality_[j] || t > 0.;
+    if (t != 0.) algebra_.addRowTo(j, t, r_);
+  }
+  if (any_fixed_) std::fill(fixed_.begin(), fixed_.end(), false);
+  any_fixed_ = false;
+  if (isInside()) return r_.template lpNorm<Eigen::Infinity>();
+  double remaining = 0.;
+  for (int i = 0; i < n_; ++i) {
+    fixed_[i] = (d_[i] <= low_[i] && r_[i] >= 0.) || (d_[i] >= high_[i] && r_[i] <= 0.);
+    any_fixed_ = any_fixed_ || fixed_[i];
+    if (!fixed_[i]) remaining = std::max(remaining, std::abs(r_[i]));
+  }
+  return remaining;
+}
+
+template <class Algebra>
+double SemismoothModel<Algebra>::estimateStep(const Problem& problem) {
+  constexpr double unknown = std::numeric_limits<double>::infinity();
+  if (!factored_ || !factored_as_is_ || problem.mu != factored_mu_ || any_fixed_) return unknown;
+  algebra_.takeBox(problem.low, problem.high, low_, high_);
+  s_ = -g_;
+  for (int j = 0; j < int(constraints_.size()); ++j) {
+    const double t = multiplier(j, problem.c[j], problem);
+    if (!is_equality_[j] && (t > 0.) != bool(factored_active_[j])) return unknown;
+    if (t != 0.) algebra_.addRowTo(j, -t, s_);
+  }
+  algebra_.solve(s_);
+  if ((s_ - low_).cwiseMin(high_ - s_).minCoeff() <= 0.) return unknown;
+  return s_.template lpNorm<Eigen::Infinity>();
+}
+
+template <class Algebra>
+const VectorXd& SemismoothModel<Algebra>::minimize(const Problem& problem) {
+  algebra_.takeBox(problem.low, problem.high, low_, high_);
+  findWithinReach(problem);
+  begin(problem);
+  double reference = 0.;
+  for (int pass = 0; pass < problem.max_passes; ++pass) {
+    const double remaining = findGradient(problem);
+    if (pass == 0) reference = std::max(remaining, 1e-30);
+    if (remaining <= 1e-11 * reference) break;
+    if (!newtonStep(problem)) {
+      if (!is_curved_) break;
+      leaveOutCurvature();
+      Hd_.setZero();
+      algebra_.addHessianProduct(d_, Hd_);
+      continue;
+    }
+    const double room = roomAlong(kLongest);
+    double moved = 0.;
+    if (room < 1. && moveIntoBox(problem, moved)) {
+      if (moved < 1e-10) break;
+      continue;
+    }
+    findChangesAlongStep(problem);
+    const double alpha = room >= 1. && isQuadratic() ? 1. : lengthAlong(problem, room);
+    move(alpha);
+    const bool is_solved = alpha == 1. && !any_fixed_ && keepsActiveSet(problem);
+    const bool reaches_bound = alpha == room && room < 1.;  // the next pass goes along it
+    if (is_solved || (alpha * s_.template lpNorm<Eigen::Infinity>() < 1e-10 && !reaches_bound)) break;
+  }
+  for (int j : out_of_reach_) linear_[j] += algebra_.rowTimes(j, d_);
+  for (int i = 0; i < n_; ++i) step_[i] = d_[i];
+  return step_;
+}
+
+template class SemismoothModel<BandAlgebra>;
+template class SemismoothModel<DenseAlgebra<8>>;
+
+}  // namespace kinegraph

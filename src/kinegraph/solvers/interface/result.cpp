@@ -1,0 +1,42 @@
+#include "kinegraph/solvers/interface/result.h"
+
+#include <algorithm>
+
+#include "kinegraph/base/text.h"
+
+namespace kinegraph {
+
+std::string solverStatusName(SolverStatus status) {
+  switch (status) {
+    case SolverStatus::converged:
+      return "converged";
+    case SolverStatus::infeasible:
+      return "infeasible";
+    case SolverStatus::stalled:
+      return "stalled";
+    case SolverStatus::limit:
+      return "limit";
+    case SolverStatus::cancelled:
+      return "cancelled";
+  }
+  return "";
+}
+
+void SolverResult::setSums(const std::vector<ObjectiveType>& types, const VectorXd& phi, double tolerance) {
+  const ErrorSums sums = sumErrors(types, phi);
+  f = sums.f;
+  sos = sums.sos;
+  ineq = sums.ineq;
+  eq = sums.eq;
+  violation = largestViolation(types, phi);
+  feasible = violation <= std::max(1e-3, 10. * tolerance);
+  done = true;
+}
+
+std::string SolverResult::str() const {
+  std::string dimension = x.size() > 0 ? cat(x.size()) : "";
+  return cat("{ time: ", time, ", evals: ", evals, ", done: ", int(done), ", feasible: ", int(feasible), ", eq: ", eq,
+             ", ineq: ", ineq, ", sos: ", sos, ", f: ", f, ", x-dim: [", dimension, "] }");
+}
+
+}  // namespace kinegraph

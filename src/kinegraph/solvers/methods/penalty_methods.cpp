@@ -1,0 +1,142 @@
+#include "kinegraph/solvers/methods/penalty_methods.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+
+#include "kinegraph/base/errors.h"
+#include "kinegraph/base/text.h"
+#include "kinegraph/solvers/interface/requirements.h"
+#include "kinegraph/solvers/problems/penalty_nlp.h"
+#include "kinegraph/solvers/problems/relaxed_nlp.h"
+
+namespace kinegraph {
+
+namespace {
+
+/// Solves a sequence of other problems on behalf of `nlp`: counts, limits, and what the caller's hook sees.
+class Sequence {
+ public:
+  Sequence(Nlp& nlp, const SolverOptions& options, const EvaluationHook& hook)
+      : nlp_(nlp), options_(options), hook_(hook), phi_(Eigen::Index(nlp.types().size())) {
+    options.validate();
+    options_.verbose = std::max(0, options.verbose - 1);
+  }
+
+  SolverOptions& options() { return options_; }
+
+  /// False if the limit is reached or the caller stops it.
+  bool solve(Nlp& other, VectorXd& x) {
+    options_.stopEvals = limit_ - evals_;
+    const auto hook = [&](const VectorXd& at, const VectorXd&) {
+      nlp_.evaluate(at, phi_, nullptr);
+      return hook_(at, phi_);
+    };
+    last_ = solveAugmentedLagrangian(other, x, options_, last_.dual, hook_ ? EvaluationHook(hook) : EvaluationHook());
+    evals_ += last_.evals;
+    x = last_.x;
+    nlp_.evaluate(x, phi_, nullptr);
+    return last_.status != SolverStatus::cancelled && evals_ < limit_;
+  }
+
+  const VectorXd& phi() const { return phi_; }
+  const SolverResult& last() const { return last_; }
+
+  /// As of the original problem. Where a round was ended from outside, that is the status.
+  SolverResult result(const VectorXd& x, double tolerance, SolverStatus status, std::string message) {
+    SolverResult out;
+    out.x = x;
+    out.dual = VectorXd::Zero(phi_.size());
+    out.evals = evals_;
+    const bool ended =
+        last_.status == SolverStatus::cancelled || (last_.status == SolverStatus::limit && evals_ >= limit_);
+    out.status = ended ? last_.status : status;
+    out.message = ended ? last_.message : std::move(message);
+    nlp_.evaluate(x, phi_, nullptr);
+    out.setSums(nlp_.types(), phi_, tolerance);
+    return out;
+  }
+
+ private:
+  Nlp& nlp_;
+  SolverOptions options_;
+  const EvaluationHook& hook_;
+  VectorXd phi_;
+  SolverResult last_;
+  int evals_ = 0, limit_ = options_.stopEvals;
+};
+
+double violationAfter(const Nlp& nlp, const Sequence& sequence) {
+  return largestViolation(nlp.types(), sequence.phi());
+}
+
+}  // namespace
+
+SolverResult solveSquaredPenalty(Nlp& nlp, const VectorXd& x0, const SolverOptions& options, const EvaluationHook& hook,
+                                 bool single) {
+  const double tolerance = options.constraintTolerance();
+  Sequence sequence(nlp, options, hook);
+  PenaltyNlp penalized(nlp);
+  VectorXd x = x0;
+  double mu = options.muInit;
+  bool going = true;
+  for (int round = 0; going && round < options.stopOuters; ++round) {
+    penalized.setWeight(mu);
+    going = sequence.solve(penalized, x);
+    if (single || violationAfter(nlp, sequence) <= tolerance || mu >= options.muMax) break;
+    mu = std::min(options.muMax, options.muInc * mu);
+  }
+  const double violation = violationAfter(nlp, sequence);
+  const std::string message = cat("penalty weight ", mu, ", violation ", violation, "; ", sequence.last().message);
+  if (single || violation <= tolerance) return sequence.result(x, tolerance, sequence.last().status, message);
+  return sequence.result(x, tolerance, SolverStatus::stalled, message);
+}
+
+SolverResult solveLogBarrier(Nlp& nlp, const VectorXd& x0, const SolverOptions& options, const EvaluationHook& hook) {
+  requireStart(nlp, x0);
+  VectorXd x = x0, phi(Eigen::Index(nlp.types().size()));
+  if (options.boundedNewton) x = x.cwiseMax(nlp.lower()).cwiseMin(nlp.upper());
+  nlp.evaluate(x, phi, nullptr);
+  for (int row = 0; row < phi.size(); ++row) {
+    if (!isInequality(nlp.types()[row]) || phi[row] < 0. || !std::isfinite(phi[row])) continue;
+    throw ValueError(cat("OptMethod.logBarrier starts strictly inside of all inequalities; ", nlp.rowName(row), " is ",
+                         phi[row], " at the start; use slackGN_logBarrier, which finds such a point first"));
+  }
+  Sequence sequence(nlp, options, hook);
+  BarrierNlp barrier(nlp);
+  const double tolerance = options.constraintTolerance();
+  const bool needs_barrier = std::any_of(nlp.types().begin(), nlp.types().end(), isInequality);
+  double mu = options.muLBInit;
+  bool going = true;
+  for (int round = 0; going && round < options.stopOuters; ++round) {
+    barrier.setWeight(mu);
+    going = sequence.solve(barrier, x);
+    if (!needs_barrier || mu <= .01 * options.stopTolerance) break;
+    mu *= options.muLBDec;
+  }
+  SolverStatus status = sequence.last().status;
+  if (status == SolverStatus::stalled && sequence.last().violation <= tolerance)
+    status = SolverStatus::converged;  // at the barrier's own rounding
+  return sequence.result(x, tolerance, status, cat("barrier weight ", mu, "; ", sequence.last().message));
+}
+
+SolverResult solveSlack(Nlp& nlp, const VectorXd& x0, const SolverOptions& options, const EvaluationHook& hook) {
+  Sequence sequence(nlp, options, hook);
+  const double tolerance = options.constraintTolerance();
+  sequence.options().stopTolerance = std::min(options.stopTolerance, tolerance);
+  RelaxedNlp slack(nlp, std::vector<bool>(nlp.types().size(), true));
+  slack.setPadding(options.interiorPadding);
+  VectorXd x = x0;
+  bool going = sequence.solve(slack, x);
+  if (going && violationAfter(nlp, sequence) > tolerance && options.interiorPadding > 0.) {
+    slack.setPadding(0.);  // there may be no interior
+    sequence.solve(slack, x);
+  }
+  const double violation = violationAfter(nlp, sequence);
+  const bool holds = violation <= tolerance;
+  return sequence.result(
+      x, tolerance, holds ? SolverStatus::converged : SolverStatus::infeasible,
+      holds ? cat("all constraints hold to ", violation) : cat("no step reduces the violation; it is ", violation));
+}
+
+}  // namespace kinegraph

@@ -1,0 +1,289 @@
+#include "kinegraph/solvers/methods/sequential_quadratic.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <limits>
+
+#include "kinegraph/base/text.h"
+#include "kinegraph/solvers/algebra/quadratic_program.h"
+#include "kinegraph/solvers/algebra/quasi_newton.h"
+#include "kinegraph/solvers/problems/constrained_function.h"
+
+namespace kinegraph {
+
+namespace {
+
+constexpr int kLargestDimension = 200;  ///< of problems whose curvature is learnt as a full matrix
+
+/// The program with one more variable, in [0, 1]: the part of what the first `rows` are violated by at 0 that may
+/// remain, at the price of half of `weight` times its square. It has a solution wherever 0 fulfils the other rows.
+QuadraticProgram relax(const QuadraticProgram& program, int rows, double weight) {
+  const Eigen::Index n = program.g.size(), m = program.b.size();
+  QuadraticProgram out{MatrixXd::Zero(n + 1, n + 1), VectorXd::Zero(n + 1), MatrixXd::Zero(m + 2, n + 1),
+                       VectorXd::Zero(m + 2), program.equalities};
+  out.H.topLeftCorner(n, n) = program.H;
+  out.H(n, n) = weight;
+  out.g.head(n) = program.g;
+  out.A.topLeftCorner(m, n) = program.A;
+  out.b.head(m) = program.b;
+  for (int j = 0; j < rows; ++j) {
+    if (j < program.equalities || program.b[j] > 0.) out.A(j, n) = -program.b[j];
+  }
+  out.A(m, n) = -1.;
+  out.A(m + 1, n) = 1.;
+  out.b[m + 1] = -1.;
+  return out;
+}
+
+class SequentialQuadratic {
+ public:
+  SequentialQuadratic(Nlp& nlp, const VectorXd& x0, const SolverOptions& options, const EvaluationHook& hook)
+      : nlp_(nlp),
+        options_(options),
+        function_(nlp, x0, options, hook),
+        constraints_(function_.constraints()),
+        equalities_(function_.equalities()),
+        lower_(function_.lower()),
+        upper_(function_.upper()),
+        here_(function_.makePoint()),
+        trial_(here_),
+        tolerance_(options.constraintTolerance()) {
+    here_.x = function_.clip(x0);
+    for (VectorXd* v : {&lambda_, &weights_, &row_scale_}) v->setZero(Eigen::Index(constraints_.size()));
+  }
+
+  SolverResult run() {
+    curvature_.reset(nlp_.dimension());
+    evaluate(here_);
+    function_.requireFiniteStart(here_);
+    function_.remember(here_);
+    iterate();
+    return function_.result(status_ == SolverStatus::converged ? here_ : function_.best(), lambda_, status_, message_);
+  }
+
+ private:
+  /// A step that solves a quadratic program, and what it promises.
+  struct Step {
+    VectorXd d, lambda, linear;  ///< linear: constraints after the step, to first order
+    double relaxed =
+        0.;  ///< part of the violation that the linearized constraints had to keep; 0 if they are consistent
+    bool found = false;
+  };
+
+  void iterate();
+  void linearize(double room);
+  Step solveQuadratic(const VectorXd& c);
+  bool lineSearch(const Step& step);
+  void learnCurvature(const EvaluatedPoint& before);
+
+  /// Evaluates there; the merit function, infinite where numbers are not finite.
+  double tryStep(const VectorXd& d) {
+    trial_.x = function_.clip(here_.x + d);
+    evaluate(trial_);
+    return trial_.finite ? merit(trial_) : std::numeric_limits<double>::infinity();
+  }
+
+  void stop(SolverStatus status, std::string message) {
+    status_ = status;
+    message_ = std::move(message);
+    stopped_ = true;
+  }
+
+  void evaluate(EvaluatedPoint& point) {
+    if (!function_.evaluate(point)) stop(SolverStatus::cancelled, "cancelled by the caller");
+  }
+
+  double broken(int j, double c) const { return j < equalities_ ? std::abs(c) : std::max(0., c); }
+
+  double merit(const EvaluatedPoint& point) const {
+    double sum = point.cost;
+    for (int j = 0; j < weights_.size(); ++j) sum += weights_[j] * broken(j, point.c[j]);
+    return sum;
+  }
+
+  Nlp& nlp_;
+  const SolverOptions& options_;
+  ConstrainedFunction function_;
+  const std::vector<int>& constraints_;
+  int equalities_;
+  const VectorXd &lower_, &upper_;
+  QuasiNewton curvature_;
+  EvaluatedPoint here_, trial_;
+  MatrixXd H_, A_;      ///< of the quadratic program; A with rows of length 1
+  VectorXd row_scale_;  ///< one over their length in J
+  VectorXd lambda_, weights_, gradient_, old_gradient_;
+  double tolerance_;
+  bool stopped_ = false;
+  SolverStatus status_ = SolverStatus::stalled;
+  std::string message_;
+};
+
+/// Gradient and Hessian of the costs, and the constraints' rows. While nothing is known of the curvature of the f rows,
+/// it is such that a step without constraints would be a tenth of `room`.
+void SequentialQuadratic::linearize(double room) {
+  const int n = nlp_.dimension();
+  function_.costGradient(here_.phi, here_.J, gradient_);
+  H_ = curvature_.matrix();
+  if (curvature_.empty()) {
+    function_.generalGradient(here_.J, VectorXd(), old_gradient_);
+    H_.diagonal().setConstant(std::max(1e-8, 10. * old_gradient_.lpNorm<Eigen::Infinity>() / room));
+  }
+  VectorXd row_of_J = VectorXd::Zero(n);
+  for (int row : function_.costs()) {
+    const ObjectiveType type = nlp_.types()[row];
+    if (type != ObjectiveType::sos && !(type == ObjectiveType::ineqP && here_.phi[row] > 0.))
+      continue;  // ineqP only where violated
+    row_of_J.setZero();
+    here_.J.addRowTo(row, 1., row_of_J);
+    H_.noalias() += 2. * row_of_J * row_of_J.transpose();
+  }
+  A_.setZero(Eigen::Index(constraints_.size()), n);
+  for (int j = 0; j < A_.rows(); ++j) {
+    row_of_J.setZero();
+    here_.J.addRowTo(constraints_[j], 1., row_of_J);
+    row_scale_[j] = 1. / std::max(row_of_J.norm(), 1e-8);
+    A_.row(j) = row_scale_[j] * row_of_J.transpose();
+  }
+}
+
+/// min g^T d + 1/2 d^T H d  with c + J d = 0 or <= 0, in the bounds. Where these contradict each other, they are
+/// relaxed: a part of their violation, as small as possible, remains.
+SequentialQuadratic::Step SequentialQuadratic::solveQuadratic(const VectorXd& c) {
+  const int n = nlp_.dimension(), m = int(constraints_.size());
+  const int bounds = int(lower_.array().isFinite().count() + upper_.array().isFinite().count());
+  QuadraticProgram program{H_, gradient_, MatrixXd::Zero(m + bounds, n), VectorXd(m + bounds), equalities_};
+  program.A.topRows(m) = A_;
+  program.b.head(m) = c.cwiseProduct(row_scale_);
+  for (int i = 0, row = m; i < n; ++i) {
+    if (std::isfinite(lower_[i])) {
+      program.A(row, i) = -1.;
+      program.b[row++] = lower_[i] - here_.x[i];
+    }
+    if (std::isfinite(upper_[i])) {
+      program.A(row, i) = 1.;
+      program.b[row++] = here_.x[i] - upper_[i];
+    }
+  }
+  Step step;
+  QuadraticSolution solution = solve(program);
+  double weight = 1e3 * std::max(1., std::abs(here_.cost));
+  for (int attempt = 0; attempt < 4 && m > 0 && (solution.status != QuadraticStatus::solved || step.relaxed >= .9);
+       ++attempt) {
+    QuadraticSolution relaxed = solve(relax(program, m, weight));
+    weight *= 100.;
+    if (relaxed.status != QuadraticStatus::solved) continue;
+    solution = std::move(relaxed);
+    step.relaxed = std::clamp(solution.x[n], 1e-16, 1.);
+  }
+  step.found = solution.status == QuadraticStatus::solved;
+  step.d = solution.x.head(n);
+  step.lambda = solution.multipliers.head(m).cwiseProduct(row_scale_);
+  step.linear = c + (A_ * step.d).cwiseQuotient(row_scale_);
+  return step;
+}
+
+/// Moves along the step, or a correction of it, until the merit function has decreased enough. False if it does not.
+bool SequentialQuadratic::lineSearch(const Step& step) {
+  double slope = gradient_.dot(step.d), reduction = 0.;
+  for (int j = 0; j < weights_.size(); ++j) {
+    const double reduces = broken(j, here_.c[j]) - broken(j, step.linear[j]);
+    if (step.relaxed == 0.)
+      weights_[j] = std::max(std::abs(step.lambda[j]), .5 * (weights_[j] + std::abs(step.lambda[j])));
+    reduction += reduces * row_scale_[j];
+    slope -= weights_[j] * reduces;
+  }
+  const double curvature = step.d.dot(H_ * step.d);
+  if (slope > -.5 * curvature && reduction > 0.) {  // feasibility must weigh more for this to be a descent
+    const double more = (slope + curvature) / reduction;
+    for (int j = 0; j < weights_.size(); ++j) weights_[j] += more * row_scale_[j];
+    slope = -curvature;
+  }
+  const double before = merit(here_), noise = 1e-13 * (1. + std::abs(before));
+  double alpha = 1.;
+  for (int attempt = 0; attempt < 12; ++attempt) {
+    if (function_.evals() >= options_.stopEvals) break;
+    const double after = tryStep(alpha * step.d);
+    if (stopped_) return false;
+    if (after <= before + 1e-4 * alpha * slope + noise) return true;
+    const bool finite = std::isfinite(after);
+    if (attempt == 0 && finite && !constraints_.empty()) {
+      const Step second = solveQuadratic(trial_.c - (A_ * step.d).cwiseQuotient(row_scale_));
+      if (second.found && (second.d - step.d).norm() < step.d.norm()) {
+        const double corrected = tryStep(second.d);
+        if (stopped_) return false;
+        if (corrected <= before + 1e-4 * slope + noise) return true;
+      }
+    }
+    const double parabola = finite ? -.5 * alpha * alpha * slope / (after - before - alpha * slope) : 0.;
+    alpha = std::clamp(parabola, .1 * alpha, .5 * alpha);
+  }
+  return false;
+}
+
+void SequentialQuadratic::learnCurvature(const EvaluatedPoint& before) {
+  function_.generalGradient(before.J, lambda_, old_gradient_);
+  function_.generalGradient(here_.J, lambda_, gradient_);
+  curvature_.update(here_.x - before.x, gradient_ - old_gradient_);
+}
+
+void SequentialQuadratic::iterate() {
+  int resets = 0;
+  for (int count = 0; !stopped_; ++count) {
+    if (function_.evals() >= options_.stopEvals)
+      return stop(SolverStatus::limit, cat("limit of ", options_.stopEvals, " evaluations"));
+    if (count >= options_.stopInners) return stop(SolverStatus::limit, cat("limit of ", options_.stopInners, " steps"));
+    const double room = std::max(1., here_.x.lpNorm<Eigen::Infinity>());
+    linearize(room);
+    const Step step = solveQuadratic(here_.c);
+    const double violation = here_.violation, size = step.d.lpNorm<Eigen::Infinity>();
+    double promised = std::abs(gradient_.dot(step.d));
+    for (int j = 0; j < lambda_.size(); ++j) promised += std::abs(step.lambda[j] * here_.c[j]);
+    const double scale = std::max(1., std::abs(here_.cost));
+    if (options_.verbose > 2) {
+      std::printf("    step %3d  evals %3d  cost %.10g  |d| %.3g  promised %.3g  violation %.3g%s\n", count,
+                  function_.evals(), here_.cost, size, promised, violation,
+                  !step.found         ? "  (no step)"
+                  : step.relaxed > 0. ? "  (relaxed)"
+                                      : "");
+    }
+    if (violation <= tolerance_ && step.found &&
+        ((size <= options_.stopTolerance * room &&
+          promised <= std::max(std::pow(options_.stopTolerance, 2), 1e-12) * scale) ||
+         promised <= 1e-14 * scale)) {
+      lambda_ = step.lambda;
+      return stop(SolverStatus::converged, cat("step ", size, ", its predicted decrease ", promised, ", and violation ",
+                                               violation, " are within tolerances"));
+    }
+    if (!step.found || size <= 1e-15 * room || !lineSearch(step)) {
+      if (stopped_) return;
+      if (function_.evals() >= options_.stopEvals) continue;
+      if (curvature_.empty() || ++resets > 5)
+        return stop(SolverStatus::stalled, "no step decreases the objective as predicted");
+      curvature_.reset(nlp_.dimension());
+      weights_.setZero();
+      continue;
+    }
+    if (step.relaxed < .1) lambda_ = step.lambda;
+    std::swap(here_, trial_);
+    learnCurvature(trial_);
+    function_.remember(here_);
+  }
+}
+
+}  // namespace
+
+bool needsLearntCurvature(Nlp& nlp, const VectorXd& x) {
+  const auto& types = nlp.types();
+  if (std::find(types.begin(), types.end(), ObjectiveType::f) == types.end()) return false;
+  if (nlp.dimension() == 0 || nlp.dimension() > kLargestDimension) return false;
+  MatrixXd hessian = MatrixXd::Zero(nlp.dimension(), nlp.dimension());
+  return !nlp.addCostHessian(x, hessian);
+}
+
+SolverResult solveSequentialQuadratic(Nlp& nlp, const VectorXd& x0, const SolverOptions& options,
+                                      const EvaluationHook& hook) {
+  return SequentialQuadratic(nlp, x0, options, hook).run();
+}
+
+}  // namespace kinegraph

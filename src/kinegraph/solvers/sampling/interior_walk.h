@@ -1,0 +1,10 @@
+#pragma once
+
+#include "kinegraph/solvers/sampling/sampled_problem.h"
+
+namespace kinegraph {
+
+/// Moves a good point some steps within the constraints, by options().interiorMethod. The result is good.
+SampledPoint walkInside(SampledProblem& problem, const SampledPoint& start, int steps, Rng& rng);
+
+}  // namespace kinegraph

@@ -1,0 +1,112 @@
+#include "kinegraph/geometry/distance/collision_body.h"
+
+#include <gtest/gtest.h>
+
+#include "kinegraph/geometry/distance/proximity.h"
+#include "kinegraph/geometry/shapes/shape_types.h"
+#include "kinegraph/geometry/shapes/tessellation.h"
+#include "tests/support/geometry_samples.h"
+
+using namespace kinegraph;
+using namespace kinegraph::testing;
+using Core = CollisionBody::Core;
+
+namespace {
+
+constexpr double kRounding = 1e-9;
+constexpr double kHair = 3e-6;  // by which hulls without volume are thickened
+
+std::vector<Geometry> solidShapes() {
+  return {{ShapeType::box, {.1, .2, .3}, nullptr},
+          {ShapeType::sphere, {.2}, nullptr},
+          {ShapeType::capsule, {.4, .1}, nullptr},
+          {ShapeType::cylinder, {.4, .1}, nullptr},
+          {ShapeType::ssBox, {.4, .3, .2, .05}, nullptr},
+          {ShapeType::ssCylinder, {.4, .2, .05}, nullptr},
+          {ShapeType::ssBoxElip, {.4, .3, .2, .05, .1, .02, .01}, nullptr},
+          sweptHullOf(boxCorners(Vector3d(.1, .2, .3)), .05)};
+}
+
+double distanceTo(const CollisionBody& body, const Vector3d& point) {
+  return proximity(*pointBody(), {Matrix3d::Identity(), point}, body, {}).distance;
+}
+
+}  // namespace
+
+TEST(CollisionBody, RoundShapesAreCoresSweptByABall) {
+  const auto sphere = makeCollisionBody({ShapeType::sphere, {.2}, nullptr});
+  EXPECT_EQ(sphere->core(), Core::point);
+  EXPECT_EQ(sphere->radius(), .2);
+  const auto capsule = makeCollisionBody({ShapeType::capsule, {.4, .1}, nullptr});
+  EXPECT_EQ(capsule->core(), Core::segment);
+  EXPECT_EQ(capsule->halfLength(), .2);
+  EXPECT_EQ(capsule->radius(), .1);
+  const auto rounded = makeCollisionBody({ShapeType::ssBox, {.4, .3, .2, .05}, nullptr});
+  EXPECT_EQ(rounded->core(), Core::box);
+  EXPECT_EQ(rounded->radius(), .05);
+  EXPECT_LT((rounded->halfSides() - Vector3d(.15, .1, .05)).norm(), 1e-15);
+}
+
+TEST(CollisionBody, ACapsuleWithoutLengthIsASphere) {
+  const auto capsule = makeCollisionBody({ShapeType::capsule, {0., .1}, nullptr});
+  EXPECT_EQ(capsule->core(), Core::point);
+  EXPECT_NEAR(distanceTo(*capsule, Vector3d(0, .3, .4)), .4, kRounding);
+}
+
+TEST(CollisionBody, ShapesWithoutExtentAreAPoint) {
+  for (const ShapeType type :
+       {ShapeType::none, ShapeType::marker, ShapeType::camera, ShapeType::mesh, ShapeType::pointCloud}) {
+    const auto body = makeCollisionBody({type, {}, nullptr});
+    EXPECT_EQ(body->core(), Core::point);
+    EXPECT_EQ(body->boundRadius(), 0.);
+    EXPECT_NEAR(distanceTo(*body, Vector3d(.3, 0, .4)), .5, kRounding);
+  }
+}
+
+TEST(CollisionBody, BoundingSphereHoldsTheSurfaceOfEveryShape) {
+  for (const Geometry& geometry : solidShapes()) {
+    const auto body = makeCollisionBody(geometry);
+    for (const Vector3d& p : tessellate(geometry).vertices) {
+      EXPECT_LE((p - body->boundCenter()).norm(), body->boundRadius() + kRounding) << shapeTypeName(geometry.type);
+    }
+  }
+}
+
+TEST(CollisionBody, VerticesOfTheDrawnSurfaceLieOnTheBodyThatDistancesAreComputedWith) {
+  for (const Geometry& geometry : solidShapes()) {
+    const auto body = makeCollisionBody(geometry);
+    for (const Vector3d& p : tessellate(geometry).vertices) {
+      EXPECT_NEAR(distanceTo(*body, p), 0., 1e-7) << shapeTypeName(geometry.type) << " at " << p.transpose();
+    }
+  }
+}
+
+TEST(CollisionBody, PointsBesideTheOriginBoundAsTightlyAsAtIt) {
+  std::vector<Vector3d> corners = boxCorners(Vector3d(.1, .2, .3));
+  for (Vector3d& p : corners) p += Vector3d(5, 6, 7);
+  const auto body = makeCollisionBody(sweptHullOf(corners, .05));
+  EXPECT_LT((body->boundCenter() - Vector3d(5, 6, 7)).norm(), kRounding);
+  EXPECT_NEAR(body->boundRadius(), Vector3d(.1, .2, .3).norm() + .05, kRounding);
+}
+
+TEST(CollisionBody, PointsWithoutVolumeMakeABodyToo) {
+  const double r = .05;
+  const std::vector<std::vector<Vector3d>> flat = {{{.1, .2, .3}},
+                                                   {{0, 0, 0}, {.2, 0, 0}},
+                                                   {{0, 0, 0}, {.2, 0, 0}, {0, .2, 0}},
+                                                   {{0, 0, 0}, {.2, 0, 0}, {0, .2, 0}, {.2, .2, 0}, {.1, .1, 0}},
+                                                   {{0, 0, 0}, {.1, .2, 0}, {.2, .4, 0}, {.3, .6, 0}},
+                                                   std::vector<Vector3d>(5, Vector3d(.1, .2, .3))};
+  for (const auto& points : flat) {
+    const auto body = makeCollisionBody(sweptHullOf(points, r));
+    for (const Vector3d& p : points) EXPECT_NEAR(distanceTo(*body, p + Vector3d(0, 0, 1)), 1. - r, kHair);
+  }
+}
+
+TEST(CollisionBody, AMeshIsItsConvexHull) {
+  Mesh dented;  // a box with a dent in its top
+  dented.vertices = boxCorners(Vector3d(.1, .1, .1));
+  dented.vertices.emplace_back(0., 0., .05);
+  const auto body = makeCollisionBody({ShapeType::mesh, {}, std::make_shared<Mesh>(dented)});
+  EXPECT_NEAR(distanceTo(*body, Vector3d(0, 0, .3)), .2, 1e-7);
+}
