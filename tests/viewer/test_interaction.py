@@ -23,6 +23,10 @@ def set_slider(page: Browser, joint: str, value: float) -> None:
     page.evaluate(f"{slider}.value = {value}; {slider}.dispatchEvent(new Event('input'))")
 
 
+CENTER_OF_MEASURE = """((box) => [box.x + box.width / 2, box.y + box.height / 2])(
+  document.querySelector("#measure-button").getBoundingClientRect())"""
+
+
 @pytest.fixture
 def arm(config: kg.Config) -> kg.Config:
     """A post with a slide on a hinge, a box beside them, and a mug on the box."""
@@ -140,6 +144,49 @@ def test_a_selected_frame_is_copied_as_an_entry_of_a_scene(arm: kg.Config, brows
     assert np.allclose(copied.getJointState(), arm.getJointState())
     assert np.allclose(copied.getFrameState(), arm.getFrameState()[:4], atol=1e-5)
     assert np.allclose(copied.getJointLimits(), arm.getJointLimits())
+
+
+def test_names_are_copied_so_that_they_can_be_read_again(config: kg.Config, browser: Browser) -> None:
+    names = ["base", "1st", "a(b)", "x:y", "it's", "a-b/c.d", "true"]
+    for name in names:
+        config.addFrame(name, "" if name == "base" else "base").setShape(kg.ST.marker, [0.1])
+    open_page(config, browser)
+    copies = []
+    for frame in config.getFrames():
+        config.viewer().select(frame.ID)
+        browser.wait_for(f"kinegraph.selected() === {json.dumps(frame.name)}")
+        copies.append(browser.evaluate("kinegraph.asText()"))
+    copied = kg.Config()
+    copied.addText("\n".join(copies))
+    assert copied.getFrameNames() == names
+
+
+def test_a_button_measures_as_well_and_shows_that_it_is_pressed(arm: kg.Config, browser: Browser) -> None:
+    open_page(arm, browser)
+    browser.press_alt("O")
+    background = "getComputedStyle(document.querySelector('#measure-button')).backgroundColor"
+    released = browser.evaluate(background)
+    browser.click_button("measure")
+    assert browser.is_visible("#measure")
+    pressed = browser.evaluate(background)
+    browser.press("Escape")
+    assert not browser.is_visible("#measure")
+    assert browser.evaluate("document.querySelector('#measure-button').ariaPressed") == "false"
+    browser.mouse("mouseMoved", *browser.evaluate(CENTER_OF_MEASURE))
+    hovered = browser.evaluate(background)
+    assert len({released, hovered, pressed}) == 3
+
+
+def test_a_number_beyond_a_limit_is_told_and_the_limit_taken(arm: kg.Config, browser: Browser) -> None:
+    open_page(arm, browser)
+    browser.press_alt("J")
+    limit = arm.getJointLimits()[1, 0]
+    browser.evaluate("""((x) => { x.value = 77; x.dispatchEvent(new Event("change")); })(
+      document.querySelector("[aria-label='hinge, value']"))""")
+    browser.wait_for(f"Math.abs(kinegraph.joints()[0] - {limit}) < 1e-9")
+    note = browser.evaluate("document.querySelector('.joint .note').textContent")
+    assert note.startswith("77 is beyond the limit")
+    assert browser.is_visible(".joint .note")
 
 
 def test_two_clicks_measure_the_distance(arm: kg.Config, browser: Browser) -> None:

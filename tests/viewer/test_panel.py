@@ -220,3 +220,36 @@ def test_the_picture_is_saved_as_png(page: Browser, tmp_path: Path) -> None:
     assert size[0] * 3 == size[1] * 4
     assert size[0] >= 640
     assert files[0].stat().st_size > 5000  # not an empty canvas
+
+
+def test_keys_reach_the_program_after_a_box_was_ticked(config: kg.Config, browser: Browser) -> None:
+    config.addFrame("box").setShape(kg.ST.box, [0.4, 0.4, 0.4])
+    config.view()
+    browser.open(config.viewer().url)
+    browser.press_alt("O")
+    browser.evaluate("document.querySelector('#options input').focus()")
+    browser.press(" ", code="Space", text=" ")
+    browser.press("q", code="KeyQ", text="q")
+    deadline = time.monotonic() + 10
+    keys = []
+    while ord("q") not in keys and time.monotonic() < deadline:
+        keys.append(config.viewer().takeKey())
+    assert [key for key in keys if key] == [ord("q")]
+
+
+def test_the_tab_key_reaches_the_round_buttons_while_the_panel_is_closed(page: Browser) -> None:
+    reached = set()
+    for _ in range(4):
+        page.press("Tab", code="Tab", windowsVirtualKeyCode=9)
+        reached.add(page.evaluate("document.activeElement.id"))
+    assert {"panel-button", "help-button"} <= reached
+
+
+def test_a_long_message_scrolls(page: Browser, config: kg.Config) -> None:
+    config.view(False, "\n".join(f"line {i}" for i in range(60)))
+    page.wait_for("kinegraph.message().includes('line 59')")
+    inside, whole, bottom = page.evaluate(
+        "((x) => [x.clientHeight, x.scrollHeight, x.getBoundingClientRect().bottom])(document.querySelector('#message'))"
+    )
+    assert inside < whole
+    assert bottom < page.evaluate("innerHeight")

@@ -1,5 +1,8 @@
+import { Group, LineSegments, Mesh, type Object3D, Points, Quaternion, Vector3 } from "three";
 import { GLTFExporter } from "three/addons/exporters/GLTFExporter.js";
 import { find, make } from "./element";
+import type { Shown } from "./shown";
+import { isSeen } from "./display";
 import type { Stage } from "./stage";
 import type { Timeline } from "./timeline";
 
@@ -15,6 +18,42 @@ function saveBlob(blob: Blob, file: string): void {
   setTimeout(() => URL.revokeObjectURL(url), 10000);
 }
 
+/** The same shape as an object of its own; geometries and materials are shared. */
+function copyOf(object: Object3D): Object3D {
+  const plain =
+    object instanceof Mesh
+      ? new Mesh(object.geometry, object.material)
+      : object instanceof Points
+        ? new Points(object.geometry, object.material)
+        : object instanceof LineSegments
+          ? new LineSegments(object.geometry, object.material)
+          : new Group();
+  plain.position.copy(object.position);
+  plain.quaternion.copy(object.quaternion);
+  plain.scale.copy(object.scale);
+  for (const child of object.children) if (isSeen(child)) plain.add(copyOf(child));
+  return plain;
+}
+
+/** The frames, each below its parent, as glTF has it: the y axis is up. What is not seen has no shape. */
+function hierarchyOf(frames: ReadonlyMap<number, Shown>): Group {
+  const root = new Group();
+  root.name = "scene";
+  root.quaternion.setFromAxisAngle(new Vector3(1, 0, 0), -Math.PI / 2);
+  const nodes = new Map(Array.from(frames.keys(), (id) => [id, new Group()]));
+  for (const [id, { message, anchor, object }] of frames) {
+    const node = nodes.get(id)!;
+    const above = frames.get(message.parent)?.anchor;
+    const back = above?.quaternion.clone().invert() ?? new Quaternion();
+    node.name = message.name;
+    node.position.copy(anchor.position).sub(above?.position ?? new Vector3()).applyQuaternion(back);
+    node.quaternion.copy(back).multiply(anchor.quaternion);
+    if (object && isSeen(object)) node.add(copyOf(object));
+    (nodes.get(message.parent) ?? root).add(node);
+  }
+  return root;
+}
+
 /** Saves what is seen: a picture, the shapes, a video of the motion, the page itself. */
 export class Exports {
   private readonly video = make("button", {
@@ -26,6 +65,7 @@ export class Exports {
   constructor(
     private readonly stage: Stage,
     private readonly timeline: Timeline,
+    private readonly frames: ReadonlyMap<number, Shown>,
     isRecording: boolean,
   ) {
     find("exports").append(
@@ -73,11 +113,13 @@ export class Exports {
 
   private async saveModel(): Promise<void> {
     this.stage.drawFully();
-    const binary = await new GLTFExporter().parseAsync(this.stage.frames, { binary: true, onlyVisible: true });
+    const binary = await new GLTFExporter().parseAsync(hierarchyOf(this.frames), { binary: true, onlyVisible: true });
     saveBlob(new Blob([binary as ArrayBuffer], { type: "model/gltf-binary" }), `${document.title}.glb`);
   }
 
+  /** The video has the pixels of the page's pictures at rest, also on machines that draw moving things more coarsely. */
   private async saveVideo(): Promise<void> {
+    this.stage.holdResolution(true);
     const recorder = new MediaRecorder(this.stage.canvas.captureStream(FRAMES_PER_SECOND), {
       mimeType: "video/webm",
       videoBitsPerSecond: 8e6,
@@ -95,6 +137,7 @@ export class Exports {
     }
     recorder.stop();
     await stopped;
+    this.stage.holdResolution(false);
     this.refresh();
     saveBlob(new Blob(parts, { type: "video/webm" }), `${document.title}.webm`);
   }

@@ -1,10 +1,12 @@
 import * as THREE from "three";
 
 const SIZE = 60,
-  SOLID = 10; // m
+  SOLID = 10; // large squares
+const DEPTH = 0.001; // large squares: how far below z = 0 it lies, so that what stands there hides it
 
 const GRID = /* glsl */ `
 uniform vec3 ink;
+uniform float square; // m
 uniform float share; // of the pixels across of a fine picture
 varying vec2 vFloor;
 float gridLine(float spacing) {
@@ -17,8 +19,8 @@ float axisLine(float across) { return 1.0 - min(abs(across) / max(1.5 * fwidth(a
 
 // black where the sun does not reach, lines, red along x and green along y
 const PAINT = /* glsl */ `
-float reach = 1.0 - smoothstep(3.0, 14.0, length(vFloor - cameraPosition.xy));
-float line = max(0.16 * gridLine(0.2), 0.42 * gridLine(1.0)) * reach;
+float reach = 1.0 - smoothstep(3.0, 14.0, length(vFloor - cameraPosition.xy) / square);
+float line = max(0.16 * gridLine(0.2 * square), 0.42 * gridLine(square)) * reach;
 float alongX = axisLine(vFloor.y) * reach, alongY = axisLine(vFloor.x) * reach;
 float night = step(0.35, ink.g);
 vec3 red = mix(vec3(0.45, 0.05, 0.05), vec3(0.8, 0.2, 0.18), night);
@@ -30,10 +32,10 @@ float covered = shade + drawn * (1.0 - shade);
 gl_FragColor = vec4(colored * drawn * (1.0 - shade) / max(covered, 1e-4), covered);
 `;
 
-function gridMaterial(ink: THREE.Color, share: { value: number }): THREE.Material {
+function gridMaterial(ink: THREE.Color, share: { value: number }, square: { value: number }): THREE.Material {
   const material = new THREE.ShadowMaterial({ opacity: 0.26, depthWrite: false, side: THREE.DoubleSide });
   material.onBeforeCompile = (shader) => {
-    Object.assign(shader.uniforms, { ink: { value: ink }, share });
+    Object.assign(shader.uniforms, { ink: { value: ink }, share, square });
     shader.vertexShader = shader.vertexShader
       .replace("void main() {", "varying vec2 vFloor;\nvoid main() {")
       .replace(
@@ -48,12 +50,17 @@ function gridMaterial(ink: THREE.Color, share: { value: number }): THREE.Materia
   return material;
 }
 
-/** The floor at z = 0: catches shadows, and has lines every meter and every 0.2 m; x is red, y green. */
+/** The floor at z = 0: catches shadows, and has lines around large squares and around five times five in each; x is red,
+ * y green. */
 export class Floor {
   readonly group = new THREE.Group();
   private readonly ink = new THREE.Color();
   private readonly share = { value: 1 };
-  private readonly grid = new THREE.Mesh(new THREE.PlaneGeometry(SIZE, SIZE), gridMaterial(this.ink, this.share));
+  private readonly square = { value: 1 }; // m
+  private readonly grid = new THREE.Mesh(
+    new THREE.PlaneGeometry(SIZE, SIZE),
+    gridMaterial(this.ink, this.share, this.square),
+  );
   private readonly solid = new THREE.Mesh(
     new THREE.PlaneGeometry(SOLID, SOLID),
     new THREE.MeshStandardMaterial({ roughness: 0.9 }),
@@ -61,10 +68,19 @@ export class Floor {
 
   constructor() {
     this.grid.receiveShadow = true;
-    this.grid.position.z = -0.001;
-    this.solid.position.z = -0.002;
+    this.grid.renderOrder = -1; // before shapes that one sees through, or it would be painted over them
     this.solid.visible = false;
     this.group.add(this.solid, this.grid);
+    this.setSquare(1);
+  }
+
+  /** Size of the large squares, m. */
+  setSquare(size: number): void {
+    this.square.value = size;
+    for (const [plane, depth] of [[this.grid, DEPTH], [this.solid, 2 * DEPTH]] as const) {
+      plane.scale.set(size, size, 1);
+      plane.position.z = -depth * Math.min(size, 1);
+    }
   }
 
   /** The lines are wherever the camera is. They are a pixel wide, so they are paler where there are fewer: `share` of them across. */

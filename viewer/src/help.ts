@@ -22,22 +22,31 @@ const KEYS: [string, string][] = [
   ...optionNames.map((name): [string, string] => [`Alt ${OPTIONS[name].letter}`, `${OPTIONS[name].label}, on or off`]),
 ];
 
-/** The list of what mouse and keys do. */
+const FINGERS: [string, string][] = [
+  ["one finger", "turn"],
+  ["two fingers", "shift; nearer and farther by spreading them"],
+  ["tap", "select a frame"],
+  ["two taps", "turn about that point"],
+  ["≡", "frames, joints, what is shown, measuring, saving"],
+];
+
+/** The list of what mouse and keys do, or fingers where there is no mouse. */
 export class Help {
   private readonly root = find("help");
   private readonly button = find("help-button");
 
   constructor() {
+    const hasMouse = matchMedia("(any-pointer: fine)").matches;
     this.root.append(
       make(
         "dl",
         {},
-        ...KEYS.flatMap(([key, what]) => [
+        ...(hasMouse ? KEYS : FINGERS).flatMap(([key, what]) => [
           make("dt", {}, make("kbd", { textContent: key })),
           make("dd", { textContent: what }),
         ]),
       ),
-      make("p", { textContent: "All other keys go to the program." }),
+      ...(hasMouse ? [make("p", { textContent: "All other keys go to the program." })] : []),
     );
     this.button.addEventListener("click", () => this.toggle());
   }

@@ -85,10 +85,18 @@ export class JointPanel {
       step: "0.01",
       ariaLabel: `${joint.name}, value`,
     });
-    number.addEventListener(
-      "change",
-      () => Number.isFinite(number.valueAsNumber) && this.ask(index, number.valueAsNumber),
-    );
+    const note = make("span", { className: "note", hidden: true });
+    note.setAttribute("role", "alert");
+    number.addEventListener("change", () => {
+      const asked = number.valueAsNumber;
+      if (!Number.isFinite(asked)) return;
+      const taken = limited ? Math.max(joint.lower, Math.min(asked, joint.upper)) : asked;
+      note.hidden = taken === asked;
+      note.textContent = `${asked} is beyond the limit ${taken} ${joint.unit}, which is taken`;
+      number.value = taken.toFixed(3);
+      this.ask(index, taken);
+    });
+    slider.addEventListener("input", () => (note.hidden = true));
     const limits = limited ? `${joint.lower} to ${joint.upper} ${joint.unit}` : "without limits";
     if (index === 0) this.list.replaceChildren();
     this.list.append(
@@ -99,6 +107,7 @@ export class JointPanel {
         number,
         make("span", { className: "unit", textContent: joint.unit }),
         slider,
+        note,
       ),
     );
     return { slider, number };

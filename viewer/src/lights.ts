@@ -5,8 +5,9 @@ const SUN = new THREE.Vector3(-2.5, 2.2, 4.5),
 const CENTER = new THREE.Vector3(0, 0, 0.8); // what lights of the program shine at
 const SHADOW_PIXELS = 2048; // across the light's view
 const SOFTNESS = 5; // pixels, of the edges of shadows
-const LEAST_SHADOWED = 1,
-  MOST_SHADOWED = 12; // m
+const USUAL_SHADOWED = 1; // m; a ball that is much smaller has finer shadows
+const NORMAL_BIAS = 0.006,
+  FINEST_FOR_BIAS = 12; // m: up to there pixels of the shadow map are small enough for it
 
 /** The sky, a sun that casts shadows, and a weaker light from the other side; or those that the program says. */
 export class Lights {
@@ -17,13 +18,12 @@ export class Lights {
   private readonly others = new THREE.Group();
   private readonly towards = SUN.clone().normalize();
   private readonly center = new THREE.Vector3();
-  private radius = LEAST_SHADOWED;
+  private radius = USUAL_SHADOWED;
 
   constructor() {
     const { shadow } = this.sun;
     this.sun.castShadow = true;
     shadow.bias = -0.0002;
-    shadow.normalBias = 0.006;
     this.group.add(this.sky, this.flat, this.sun, this.sun.target, this.others);
     this.setCoarse(false);
     this.setLook([], false, true);
@@ -65,8 +65,9 @@ export class Lights {
   fitShadows(center: THREE.Vector3, radius: number): void {
     this.center.copy(center);
     this.radius = radius;
-    const reach = THREE.MathUtils.clamp(1.1 * radius, LEAST_SHADOWED, MOST_SHADOWED);
+    const reach = Math.max(1.1 * radius, Math.min(USUAL_SHADOWED, 8 * radius));
     const { camera } = this.sun.shadow;
+    this.sun.shadow.normalBias = NORMAL_BIAS * Math.min(1, reach) * Math.max(1, reach / FINEST_FOR_BIAS);
     this.sun.target.position.copy(center);
     this.sun.position.copy(center).addScaledVector(this.towards, 2 * reach);
     Object.assign(camera, {

@@ -51,12 +51,16 @@ const panel = new Panel(display, shown.frames, switched, (id) => selection.selec
 stage.onDraw(() => shown.prepare((at) => stage.pixelsPerMeter(at), stage.hurries));
 const selection = new Selection(stage, shown.frames, joints, recorded ? null : send, (id) => panel.select(id));
 const timeline = new Timeline(stage, shown, joints, moved);
-const exports = new Exports(stage, timeline, recorded !== null);
+const exports = new Exports(stage, timeline, shown.frames, recorded !== null);
 let unplaced = false; // frames have come whose poses are still to come
 let digits = false; // some switch what is drawn
 let poses = 0; // messages with these that have come
 let announced: MotionMessage | null = null; // its slices are still to come
-find("scale").textContent = "grid: 1 m, 0.2 m";
+const lengthText = (m: number): string => {
+  const [size, unit] = m >= 1000 ? [m / 1000, "km"] : m >= 0.1 ? [m, "m"] : m >= 0.01 ? [100 * m, "cm"] : [1000 * m, "mm"];
+  return `${Number(size.toPrecision(3))} ${unit}`;
+};
+stage.onSquare((square) => (find("scale").textContent = `grid: ${lengthText(square)}, ${lengthText(square / 5)}`));
 find("presets").append(
   ...Object.keys(PRESETS).map((name) => make("button", { textContent: name, onclick: () => lookFrom(name) })),
 );
@@ -154,7 +158,7 @@ function receiveBinary(data: ArrayBuffer): void {
     if (kind === BinaryKind.poses) ++poses;
     if (unplaced && kind === BinaryKind.poses) {
       unplaced = false;
-      stage.fitShadows();
+      stage.fitScene();
     }
     moved();
   }
@@ -225,18 +229,27 @@ function closeTopmost(): boolean {
   return true;
 }
 
-/** Keys that people type into controls are not for the program. */
-const isTyping = (target: EventTarget | null): boolean =>
-  target instanceof HTMLElement && target.closest("input, select, summary, button") !== null;
+const TEXT = /^(text|search|number)$/;
+const OWN_KEYS: Record<string, RegExp> = {
+  range: /^(Arrow|Page|Home|End)/,
+  checkbox: /^ $/,
+};
+
+/** Keys that a control takes itself are not for the program: all that people type into a text, some of the others'. */
+function isTyping({ target, key }: KeyboardEvent): boolean {
+  const control = target instanceof HTMLElement ? target.closest("input, select, summary, button") : null;
+  if (control instanceof HTMLInputElement) return TEXT.test(control.type) || (OWN_KEYS[control.type]?.test(key) ?? true);
+  if (control instanceof HTMLSelectElement) return true;
+  return control !== null && (key === "Enter" || key === " ");
+}
 const leaveControls = (): void => (document.activeElement as HTMLElement | null)?.blur();
 
 addEventListener("keydown", (event) => {
   if (input.blocks) return;
   if (event.altKey && takeAlt(event.code)) return event.preventDefault();
   if (event.key === "Escape" && closeTopmost()) return;
-  const hasControls = panel.isOpen || selection.selected !== null || timeline.current !== null;
-  if (event.key === "Tab" && hasControls) return; // moves on between them
-  if (isTyping(event.target)) return;
+  if (event.key === "Tab") return; // moves on between the controls
+  if (isTyping(event)) return;
   if (event.key === "?") return help.toggle();
   if (event.key === "Home") return stage.home();
   if (timeline.takeKey(event.key)) return event.preventDefault();
@@ -245,7 +258,7 @@ addEventListener("keydown", (event) => {
   const option = digits ? DIGITS[event.key] : undefined;
   if (option) panel.toggle(option);
   send(keyCommand(code, modifiersOf(event)));
-  if (["Tab", "Backspace", " ", "'", "/"].includes(event.key) || event.key.startsWith("Arrow")) event.preventDefault();
+  if (["Backspace", " ", "'", "/"].includes(event.key) || event.key.startsWith("Arrow")) event.preventDefault();
 });
 stage.canvas.addEventListener("pointerdown", leaveControls);
 for (const button of document.querySelectorAll("body > button"))

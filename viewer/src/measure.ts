@@ -7,15 +7,18 @@ const COLOR = 0xd9480f;
 /** Measures between two points that are clicked. */
 export class Measure {
   on = false;
+  private readonly button = find("measure-button");
   private readonly points: THREE.Vector3[] = [];
   private readonly drawn = new THREE.Group();
 
   constructor(private readonly stage: Stage) {
     stage.scene.add(this.drawn);
+    this.button.addEventListener("click", () => this.toggle());
   }
 
   toggle(): void {
     this.on = !this.on;
+    this.button.ariaPressed = String(this.on);
     this.points.length = 0;
     this.show();
   }
@@ -40,7 +43,7 @@ export class Measure {
     }
     const text = find("measure");
     text.hidden = !this.on;
-    text.textContent = "click two points to measure between them (Alt R ends)";
+    text.textContent = "click two points to measure between them (Esc ends)";
     if (a && b) {
       this.drawn.add(
         new THREE.Line(

@@ -39,6 +39,7 @@ export class Memory {
     for (const name of optionNames) if (on.includes(name)) this.display.on.add(name);
     if (!this.cameraIsGiven) {
       this.stage.viewpoint.lookFrom(new Vector3(...position), new Vector3(...target));
+      this.stage.keepCamera();
     }
     return true;
   }

@@ -25,6 +25,7 @@ export class Quality {
   private spent = 0; // ms, of these pictures
   private last = -Infinity; // when the last change was drawn
   private rested = true; // nothing has moved since
+  private isHeld = false; // in full resolution, whatever moves
 
   constructor(private readonly software: boolean) {
     this.finest = software ? LARGEST : Math.min(devicePixelRatio, LARGEST);
@@ -51,8 +52,15 @@ export class Quality {
     return !this.isFull && this.now < Math.min(devicePixelRatio, LARGEST);
   }
 
+  /** All pictures are in full resolution, however long they take; or as usual again. */
+  hold(on: boolean): void {
+    this.isHeld = on;
+    if (on) this.now = this.finest;
+  }
+
   /** Call when a change is about to be drawn. */
   change(time: number): void {
+    if (this.isHeld) return;
     if (this.rested)
       this.pictures = this.spent = 0; // the first of a movement says nothing of how long pictures take
     else this.measure(time - this.last);

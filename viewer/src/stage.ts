@@ -17,6 +17,10 @@ export interface Hit {
 }
 
 const SHADOW_PERIOD = 3; // pictures
+const FOG_FROM = 9,
+  FOG_TO = 28; // m, in usual scenes
+const SMALL = 0.15,
+  LARGE = 8; // m: radii of scenes that the first view does not suit
 /** Towards (0, 0, 0.9). */
 const FIRST_VIEW: CameraMessage = {
   kind: "camera",
@@ -28,6 +32,7 @@ const FIRST_VIEW: CameraMessage = {
   near: 0,
   far: 0,
 };
+const FIRST_DIRECTION = new THREE.Vector3(1.5, 2.6, 0.9);
 const LEFT = 0,
   RIGHT = 2; // buttons
 const STILL = 5; // pixels: a pointer that moves less has clicked
@@ -61,11 +66,15 @@ export class Stage {
   private readonly ticks: ((seconds: number) => void)[] = [];
   private readonly moves: (() => void)[] = [];
   private readonly preparations: (() => void)[] = [];
+  private readonly squareWatchers: ((square: number) => void)[] = [];
   private readonly timer = new THREE.Timer();
   private readonly quality: Quality;
   private dirty = true; // the next picture differs from the last
   private shadowsAreOld = true;
   private picture = 0;
+  private ball = new THREE.Sphere(new THREE.Vector3(), 1); // around all that is seen
+  private isPlaced = false; // the camera, by the program or a person
+  private square = 0; // m, of the floor
 
   constructor(readonly canvas: HTMLCanvasElement) {
     const software = drawsInSoftware();
@@ -80,13 +89,16 @@ export class Stage {
     this.viewpoint = new Viewpoint(
       canvas,
       () => (this.dirty = true),
-      () => this.moves.forEach((move) => move()),
+      () => {
+        this.isPlaced = true;
+        this.moves.forEach((move) => move());
+      },
     );
     new FreeTurning(canvas, this.viewpoint);
     this.scene.add(this.lights.group);
-    this.fitShadows();
     this.scene.add(this.frames, this.floor.group);
     this.viewpoint.set(FIRST_VIEW);
+    this.fitScene();
     addEventListener("resize", () => this.resize());
     matchMedia("(prefers-color-scheme: dark)").addEventListener("change", () => this.paper());
     canvas.addEventListener("dblclick", (event) => this.focus(event));
@@ -136,6 +148,7 @@ export class Stage {
 
   /** As the program says. */
   setCamera(camera: CameraMessage): void {
+    this.isPlaced = true;
     this.viewpoint.set(camera);
     this.redraw();
   }
@@ -157,11 +170,37 @@ export class Stage {
     return box.getBoundingSphere(new THREE.Sphere());
   }
 
-  /** Call when frames have come or gone: what is there casts shadows, however large or far away it is. */
-  fitShadows(): void {
-    const { center, radius } = this.extent();
+  /** The camera is where it is meant to be: what comes does not move it. */
+  keepCamera(): void {
+    this.isPlaced = true;
+  }
+
+  /** Call when frames have come or gone: what is there is seen and casts shadows, however large or far away it is. */
+  fitScene(): void {
+    this.ball = this.extent();
+    const { center, radius } = this.ball;
     this.lights.fitShadows(center, radius);
+    if (!this.isPlaced && radius > 0 && (radius < SMALL || radius > LARGE)) this.viewpoint.start(FIRST_DIRECTION, this.ball);
     this.redraw();
+  }
+
+  /** Range of sight, fog and the floor's squares follow from where the camera is and how far the scene reaches. */
+  private fitView(): void {
+    const reach = this.camera.position.distanceTo(this.ball.center) + this.ball.radius;
+    this.viewpoint.fitRange(reach);
+    const fog = this.scene.fog as THREE.Fog;
+    fog.near = Math.max(FOG_FROM, reach);
+    fog.far = (FOG_TO / FOG_FROM) * fog.near;
+    const square = 10 ** Math.floor(Math.log10(Math.max(this.viewpoint.distance, 1e-6)));
+    if (square === this.square) return;
+    this.square = square;
+    this.floor.setSquare(square);
+    for (const tell of this.squareWatchers) tell(square);
+  }
+
+  /** Called when the floor has other squares; their size in m. */
+  onSquare(tell: (square: number) => void): void {
+    this.squareWatchers.push(tell);
   }
 
   home(): void {
@@ -172,6 +211,13 @@ export class Stage {
   /** Draws now, in full resolution. */
   drawFully(): void {
     this.quality.setFull();
+    this.redraw();
+    this.draw();
+  }
+
+  /** All pictures are in full resolution, as for a video; or as usual again. */
+  holdResolution(on: boolean): void {
+    this.quality.hold(on);
     this.redraw();
     this.draw();
   }
@@ -231,7 +277,7 @@ export class Stage {
     const color = this.ground ?? getComputedStyle(document.documentElement).getPropertyValue("--paper").trim();
     this.scene.background = new THREE.Color(color);
     this.floor.setPaper(this.scene.background);
-    this.scene.fog = new THREE.Fog(color, 9, 28);
+    this.scene.fog = new THREE.Fog(color, FOG_FROM, FOG_TO);
     this.redraw();
   }
 
@@ -279,6 +325,7 @@ export class Stage {
     this.dirty = false;
     if (this.renderer.getPixelRatio() !== this.quality.ratio) this.renderer.setPixelRatio(this.quality.ratio);
     for (const prepare of this.preparations) prepare();
+    this.fitView();
     this.floor.follow(this.camera.position, this.quality.share);
     if (this.lights.setCoarse(this.hurries)) this.renderer.shadowMap.needsUpdate = true;
     else this.updateShadows();

@@ -91,6 +91,7 @@ export class Timeline {
       { capture: true, passive: false },
     );
     addEventListener("resize", () => this.draw());
+    new ResizeObserver(() => this.leaveRoom()).observe(this.root);
   }
 
   get current(): Motion | null {
@@ -164,6 +165,13 @@ export class Timeline {
     if (this.motion.dofs > 0) this.joints.showState(this.motion.state(this.moment));
     this.draw();
     this.moved();
+  }
+
+  /** Panels end above the bar, however high it is: see style.css. */
+  private leaveRoom(): void {
+    const { style } = document.documentElement;
+    if (this.root.hidden) style.removeProperty("--below");
+    else style.setProperty("--below", `${innerHeight - this.root.getBoundingClientRect().top + 10}px`);
   }
 
   private step(by: number): void {

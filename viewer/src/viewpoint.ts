@@ -6,7 +6,10 @@ export type Camera = THREE.PerspectiveCamera | THREE.OrthographicCamera;
 
 const OWN_FOCAL = 0.5 / Math.tan(THREE.MathUtils.degToRad(20)); // in heights of the picture
 const NEAR = 0.01,
-  FAR = 200; // m
+  FAR = 200; // m, of usual scenes
+const NEAR_OF_REACH = 0.002,
+  NEAR_OF_DISTANCE = 0.02,
+  FAR_OF_REACH = 4; // of scenes that are large or looked at closely
 const DISTANCE = 1.5; // m: of what a page turns about, if it is told nothing
 
 /** The camera's axes are x to the right, y down, z forward, and those of three.js x to the right, y up, z backward. */
@@ -25,7 +28,9 @@ export class Viewpoint {
   private height = 0; // m that an orthographic picture is high; 0: perspective
   private aspect = 0; // width over height of the picture that is to fit; 0: none
   private pageAspect = 1;
+  private reach = 0; // m
   private first: CameraMessage | null = null;
+  private given = { near: 0, far: 0 }; // by the program, m; 0: not
   private readonly watchers: ((camera: Camera) => void)[] = [];
 
   /** `changed`: the picture is another one. `moved`: a person has moved the camera. */
@@ -112,10 +117,21 @@ export class Viewpoint {
     this.controls.update();
   }
 
-  /** What is seen lies in between, m along the line of sight; 0: as usual. */
+  /** What is seen lies in between, m along the line of sight; 0: so that all of the scene is seen. */
   private setRange(near: number, far: number): void {
-    for (const camera of [this.perspective, this.orthographic])
-      Object.assign(camera, { near: near > 0 ? near : NEAR, far: far > 0 ? far : FAR });
+    this.given = { near, far };
+    this.fitRange(this.reach);
+  }
+
+  /** How far away what is farthest is, m. Call before a picture. */
+  fitRange(reach: number): void {
+    this.reach = reach;
+    const distance = this.camera.position.distanceTo(this.target);
+    const near = this.given.near || Math.min(Math.max(NEAR, NEAR_OF_REACH * reach), NEAR_OF_DISTANCE * distance);
+    const far = this.given.far || Math.max(FAR, FAR_OF_REACH * reach);
+    if (this.camera.near === near && this.camera.far === far) return;
+    for (const camera of [this.perspective, this.orthographic]) Object.assign(camera, { near, far });
+    this.camera.updateProjectionMatrix();
   }
 
   /** Upright, from a place. */
@@ -126,8 +142,25 @@ export class Viewpoint {
     this.controls.update();
   }
 
-  /** From a direction, at all of a ball. */
-  lookAlong(direction: THREE.Vector3, { center, radius }: THREE.Sphere): void {
+  /** m, from the camera to what it turns about. */
+  get distance(): number {
+    return this.camera.position.distanceTo(this.target);
+  }
+
+  /** The view that `home` comes back to is from a direction, at all of a ball. */
+  start(direction: THREE.Vector3, ball: THREE.Sphere): void {
+    this.aim(direction, ball);
+    const { pose, distance } = this.describe();
+    if (this.first) this.first = { ...this.first, pose, distance };
+  }
+
+  /** A person looks from a direction, at all of a ball. */
+  lookAlong(direction: THREE.Vector3, ball: THREE.Sphere): void {
+    this.aim(direction, ball);
+    this.moved();
+  }
+
+  private aim(direction: THREE.Vector3, { center, radius }: THREE.Sphere): void {
     const half = Math.atan(this.halfHeight());
     const distance = radius / Math.sin(Math.min(half, Math.atan(this.halfHeight() * this.pageAspect)));
     if (this.height > 0) {
@@ -137,7 +170,6 @@ export class Viewpoint {
     this.setRange(0, 0);
     this.camera.updateProjectionMatrix();
     this.lookFrom(center.clone().addScaledVector(direction.clone().normalize(), distance), center);
-    this.moved();
   }
 
   /** Turns about the target, by angles to the right and upwards (rad), and goes nearer by a factor. */
