@@ -112,11 +112,11 @@ void BandAlgebra::addHessianProduct(const Vector& d, Vector& sum) {
   for (Eigen::Index i = 0; i < d.size(); ++i) sum[i] += placed_sum_[place_[i]];
 }
 
-bool BandAlgebra::factorize(double shift, double mu, const std::vector<int>& active, const std::vector<char>& fixed,
+bool BandAlgebra::factorize(double damping, double mu, const std::vector<int>& active, const std::vector<char>& fixed,
                             int first) {
   const int from = BandedMatrix::startBefore(first);
   K_.copyFrom(*H_, from);
-  K_.addToDiagonal(shift, from);
+  K_.addToDiagonal(damping, from);
   for (int j : active) addRow(K_, constraints_[std::size_t(j)], mu, from);
   addBlocksTo(K_, from);
   for (int i = 0; i < n_; ++i) {

@@ -52,10 +52,10 @@ class BandAlgebra {
   }
   void dropBlocks() { blocks_.clear(); }
 
-  /// Makes K = H + shift I + sum_active mu J_j^T J_j, with the rows of fixed variables replaced by the identity, and
+  /// Makes K = H + damping I + sum_active mu J_j^T J_j, with the rows of fixed variables replaced by the identity, and
   /// factorizes it. Just columns from `first` on have changed since the last time. False if it is not positive
   /// definite.
-  bool factorize(double shift, double mu, const std::vector<int>& active, const std::vector<char>& fixed, int first);
+  bool factorize(double damping, double mu, const std::vector<int>& active, const std::vector<char>& fixed, int first);
   void solve(Vector& x);  ///< x <- K^-1 x
 
  private:

@@ -107,9 +107,9 @@ class DenseAlgebra {
     if (H_ == &H_curved_) H_ = before_blocks_;
   }
 
-  bool factorize(double shift, double mu, const std::vector<int>& active, const std::vector<char>& fixed, int) {
+  bool factorize(double damping, double mu, const std::vector<int>& active, const std::vector<char>& fixed, int) {
     K_ = *H_;
-    K_.diagonal().array() += shift;
+    K_.diagonal().array() += damping;
     for (int j : active) addSquare(rows_.col(j), mu);
     for (int i = 0; i < n_; ++i) {
       if (!fixed[std::size_t(i)]) continue;

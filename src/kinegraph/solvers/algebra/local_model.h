@@ -9,7 +9,7 @@ namespace kinegraph {
 
 /// The augmented Lagrangian around a point, with linearized residuals, as a function of a step d in a box:
 ///
-///     m(d) = g^T d + 1/2 d^T (H + shift I) d + 1/(2 mu) sum_j t_j(d)^2,     t_j = lambda_j + mu (c_j + J_j d)
+///     m(d) = g^T d + 1/2 d^T (H + damping I) d + 1/(2 mu) sum_j t_j(d)^2,     t_j = lambda_j + mu (c_j + J_j d)
 ///
 /// with t_j cut off at zero for inequalities. It is piecewise quadratic, and minimized by a semismooth Newton method,
 /// which goes on from the last step where only multipliers, weights or constraints have changed since. Holds all its
@@ -38,7 +38,7 @@ class LocalModel {
     const VectorXd& c;       ///< per constraint
     const VectorXd& lambda;  ///< per constraint
     double mu;
-    double shift;
+    double damping;
     const VectorXd& low;  ///< box of d
     const VectorXd& high;
     int max_passes;
@@ -50,7 +50,7 @@ class LocalModel {
 
   /// The minimizing step; its parts can be asked for then. Counts factorizations.
   virtual const VectorXd& minimize(const Problem& problem) = 0;
-  virtual double decrease(const Problem& problem) const = 0;  ///< m(0) - m(d), without the shift
+  virtual double decrease(const Problem& problem) const = 0;  ///< m(0) - m(d), without the damping
   const VectorXd& step() const { return step_; }
   const VectorXd& linearized() const { return linear_; }  ///< c + J d per constraint
   int factorizations() const { return factorizations_; }

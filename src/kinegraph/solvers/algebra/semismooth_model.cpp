@@ -144,7 +144,7 @@ void SemismoothModel<Algebra>::findWithinReach(const Problem& problem) {
 template <class Algebra>
 double SemismoothModel<Algebra>::value(const Vector& d, const Vector& Hd, const VectorXd& linear,
                                        const Problem& problem) const {
-  double sum = g_.dot(d) + .5 * d.dot(Hd) + .5 * problem.shift * d.squaredNorm();
+  double sum = g_.dot(d) + .5 * d.dot(Hd) + .5 * problem.damping * d.squaredNorm();
   for (int j : within_reach_) {
     const double t = multiplier(j, linear[j], problem);
     sum += t * t / (2. * problem.mu);
@@ -167,7 +167,7 @@ double SemismoothModel<Algebra>::decrease(const Problem& problem) const {
 /// is.
 template <class Algebra>
 int SemismoothModel<Algebra>::firstChange(const Problem& problem) const {
-  if (!factored_ || problem.mu != factored_mu_ || problem.shift != factored_shift_ || fixed_ != factored_fixed_)
+  if (!factored_ || problem.mu != factored_mu_ || problem.damping != factored_damping_ || fixed_ != factored_fixed_)
     return 0;
   int first = size();
   for (int j : inequalities_) {
@@ -176,7 +176,7 @@ int SemismoothModel<Algebra>::firstChange(const Problem& problem) const {
   return first;
 }
 
-/// Factorizes H + shift I + mu J_A^T J_A, with the rows of fixed variables replaced by the identity, from column
+/// Factorizes H + damping I + mu J_A^T J_A, with the rows of fixed variables replaced by the identity, from column
 /// `first` on.
 template <class Algebra>
 bool SemismoothModel<Algebra>::factorize(const Problem& problem, int first) {
@@ -188,7 +188,7 @@ bool SemismoothModel<Algebra>::factorize(const Problem& problem, int first) {
   for (int attempt = 0; attempt < 12; ++attempt) {
     ++factorizations_;
     factored_as_is_ = extra == 0.;
-    if (algebra_.factorize(problem.shift + extra, problem.mu, active_list_, fixed_, attempt == 0 ? first : 0))
+    if (algebra_.factorize(problem.damping + extra, problem.mu, active_list_, fixed_, attempt == 0 ? first : 0))
       return true;
     if (is_curved_) return false;
     double magnitude = 1e-6;  // of the curvatures, which may be negative
@@ -209,7 +209,7 @@ bool SemismoothModel<Algebra>::newtonStep(const Problem& problem) {
       for (int j : inequalities_) factored_active_[j] = active_[j];
       factored_fixed_ = fixed_;
       factored_mu_ = problem.mu;
-      factored_shift_ = problem.shift;
+      factored_damping_ = problem.damping;
     }
     s_ = -r_;
     for (int i = 0; any_fixed_ && i < n_; ++i) {
@@ -233,7 +233,7 @@ void SemismoothModel<Algebra>::findChangesAlongStep(const Problem& problem) {
     Hs_.setZero();
     return algebra_.addHessianProduct(s_, Hs_);
   }
-  Hs_ = -r_ - problem.shift * s_;
+  Hs_ = -r_ - problem.damping * s_;
   for (int j : within_reach_) {
     if (active_[j]) algebra_.addRowTo(j, -problem.mu * step_linear_[j], Hs_);
   }
@@ -257,8 +257,8 @@ double SemismoothModel<Algebra>::roomAlong(double most) const {
 /// step is.
 template <class Algebra>
 double SemismoothModel<Algebra>::lengthAlong(const Problem& problem, double most) const {
-  const double slope = g_.dot(s_) + d_.dot(Hs_) + problem.shift * d_.dot(s_);
-  const double curvature = s_.dot(Hs_) + problem.shift * s_.squaredNorm();
+  const double slope = g_.dot(s_) + d_.dot(Hs_) + problem.damping * d_.dot(s_);
+  const double curvature = s_.dot(Hs_) + problem.damping * s_.squaredNorm();
   double low = 0., high = most, first = 0., alpha = std::min(1., most);
   for (int iteration = 0; iteration < 30; ++iteration) {
     double at = slope + alpha * curvature, rise = curvature, scale = std::abs(slope);
@@ -357,7 +357,7 @@ void SemismoothModel<Algebra>::begin(const Problem& problem) {
 /// entry of r among the others.
 template <class Algebra>
 double SemismoothModel<Algebra>::findGradient(const Problem& problem) {
-  r_ = g_ + problem.shift * d_ + Hd_;
+  r_ = g_ + problem.damping * d_ + Hd_;
   for (int j : within_reach_) {
     const double t = multiplier(j, linear_[j], problem);
     active_[j] = is_equality_[j] || t > 0.;

@@ -82,8 +82,8 @@ class SemismoothModel final : public LocalModel {
   bool any_fixed_ = false;
   Vector low_, high_, g_, d_, trial_, r_, s_, Hd_, Hs_, trial_Hd_;
   VectorXd trial_linear_, step_linear_;
-  bool is_new_ = true, factored_ = false, factored_as_is_ = true;  ///< without more on the diagonal than the shift
-  double factored_mu_ = 0., factored_shift_ = 0.;
+  bool is_new_ = true, factored_ = false, factored_as_is_ = true;  ///< without more on the diagonal than the damping
+  double factored_mu_ = 0., factored_damping_ = 0.;
 };
 
 }  // namespace kinegraph

@@ -9,11 +9,46 @@
 
 namespace kinegraph {
 
-namespace {
+AugmentedLagrangian::AugmentedLagrangian(Nlp& nlp, Memory& memory, const VectorXd& x0, const SolverOptions& options)
+    : nlp_(nlp),
+      options_(options),
+      memory_(memory),
+      constraints_(function_.constraints()),
+      equalities_(function_.equalities()),
+      lower_(function_.lower()),
+      upper_(function_.upper()),
+      tolerance_(options.constraintTolerance()),
+      passes_(nlp.dimension() > kManyVariables ? kPassesOfMany : kPasses),
+      penalty_(options, 1.),
+      damping_(options.damping, options.damping),
+      radius_(options.stepMax),
+      creep_(options) {
+  here_.x = start_ = x0.cwiseMax(lower_).cwiseMin(upper_);
+  lambda_.setZero();
+}
 
-constexpr double kEnough = .02;  ///< part of the violation that a step may leave, to first order
-
-}  // namespace
+SolverResult AugmentedLagrangian::run(const VectorXd& dual) {
+  if (function_.hasGeneralCosts()) curvature_.reset(nlp_.dimension());
+  const bool is_warm = dual.size() == here_.phi.size();
+  if (is_warm) {
+    for (std::size_t j = 0; j < constraints_.size(); ++j) lambda_[Eigen::Index(j)] = dual[constraints_[j]];
+  }
+  evaluate(here_);
+  function_.requireFiniteStart(here_);
+  function_.remember(here_);
+  // Penalty and damping are in units of how steep the costs are; a warm start goes on with the damping that it had.
+  const double cost_weight = Penalty::costWeight(steepness()), first_damping = cost_weight * options_.damping;
+  penalty_ = Penalty(options_, cost_weight);
+  damping_ = Damping(first_damping,
+                     is_warm && memory_.damping > 0. ? std::min(memory_.damping, first_damping) : first_damping);
+  if (nlp_.dimension() == 0) {
+    stop(holds(here_.violation) ? SolverStatus::converged : SolverStatus::infeasible, "there is nothing to vary");
+  } else if (!solvedInOneStep()) {
+    memory_.damping = 0.;
+    iterate();
+  }
+  return function_.result(status_ == SolverStatus::converged ? here_ : function_.best(), lambda_, status_, message_);
+}
 
 /// Goes to the solution of the linearized problem, if that is the solution of the problem.
 bool AugmentedLagrangian::solvedInOneStep() {
@@ -24,7 +59,7 @@ bool AugmentedLagrangian::solvedInOneStep() {
     if (learns_curvature_) return false;
     low_ = lower_ - here_.x;
     high_ = upper_ - here_.x;
-    step = {here_.x + model_.minimize({here_.c, lambda_, 1., 0., low_, high_, 12}), {}};
+    step = {here_.x + model_.minimize({here_.c, lambda_, 1., 0., low_, high_, kPasses}), {}};
   }
   if (!step) return false;
   trial_.x = step->x;
@@ -36,194 +71,248 @@ bool AugmentedLagrangian::solvedInOneStep() {
   return true;
 }
 
+/// Steps towards the least Lagrangian, in rounds. docs/architecture.md describes it in the same order.
 void AugmentedLagrangian::iterate() {
-  const double first_nu = weight_ * options_.damping;
-  double nu = is_warm_ && memory_.damping > 0. ? std::min(memory_.damping, first_nu) : first_nu;
-  memory_.damping = 0.;
-  double growth = 2., last_relative = 1.;
-  bool damped_step_retried = false, model_is_stale = true;
-  int given_up = 0;
-  const double tolerance = options_.stopTolerance;
-  const int passes = nlp_.dimension() > 100 ? 3 : 12;
-  for (int step = 0; !stopped_; ++step) {
-    if (function_.evals() >= options_.stopEvals)
-      return stop(SolverStatus::limit, cat("limit of ", options_.stopEvals, " evaluations"));
-    if (step >= 20 * options_.stopInners)
-      return stop(SolverStatus::limit, cat("limit of ", options_.stopInners, " steps"));
-    if (rounds_ >= options_.stopOuters)
-      return stop(SolverStatus::limit, cat("limit of ", options_.stopOuters, " rounds"));
-    if (model_is_stale) linearize();
-    const double h = model_.largestCurvature(), vc = optimalityError(), violation = here_.violation;
-    box();
-    const LocalModel::Problem problem{here_.c, lambda_, mu_, nu, low_, high_, passes};
-    if (model_is_stale && step > 0 && vc <= tolerance_ && nu <= .1 * h && trouble_.empty() &&
-        model_.estimateStep(problem) <= tolerance) {
-      return converge(nu);
-    }
-    if (model_is_stale) addCurvature();
-    model_is_stale = false;
-    const VectorXd& d = model_.minimize(problem);
-    const double size = d.lpNorm<Eigen::Infinity>();
-    double predicted = model_.decrease(problem);
-    const double scale = std::max(std::abs(here_.cost), 1e-4);
-    const bool tiny = size <= tolerance || predicted <= std::max(tolerance * tolerance, 1e-16) * scale;
-    if (options_.verbose > 2) {
-      std::printf("    step %3d  evals %3d  |d| %.3g  predicted %.3g  violation %.3g  mu %.3g  nu %.3g\n", step,
-                  function_.evals(), size, predicted, vc, mu_, nu);
-    }
-    if (creeps(vc))
+  for (int steps = 0; !stopped_ && !reachedLimit(steps); ++steps) {
+    // 1. Model. At a new point the factor of the last model already tells whether a step would be tiny: most solutions
+    //    end here, without the cost of another factor.
+    const bool is_new_point = model_is_stale_;
+    if (is_new_point) linearize();
+    Step step = startStep();
+    const Problem problem = modelProblem();
+    if (is_new_point && steps > 0 && needsNoStep(step, problem)) return converge();
+    if (is_new_point) addCurvature();
+    model_is_stale_ = false;
+
+    // 2. Step: the least value of the model in a box.
+    findStep(problem, step);
+    if (options_.verbose > 2)
+      std::printf("    step %3d  evals %3d  |d| %.3g  predicted %.3g  violation %.3g  mu %.3g  damping %.3g\n", steps,
+                  function_.evals(), step.size, step.predicted, step.error, problem.mu, problem.damping);
+
+    // 3. Convergence. Costs that creep along a kink would do so for hundreds of evaluations; and a tiny step proves
+    //    nothing while it may be the damping that keeps it short.
+    if (!constraints_.empty() && creep_.creeps(function_.evals(), here_.cost, holds(step.error)))
       return stop(SolverStatus::stalled, cat("the costs hardly fall any more, as along a kink", trouble_));
-    if (tiny && nu > .1 * h && nu < 1e8 && (!damped_step_retried || trouble_.empty())) {
-      nu = std::max(.1 * h, .01 * nu);  // it may be small because of the damping, not because of the problem
-      growth = 2.;
-      damped_step_retried = true;
-      trouble_.clear();
-      continue;
-    }
-    if (tiny && vc <= tolerance_) {
-      if (nu > .1 * h && !trouble_.empty() &&
-          predicted > .1 * size * std::max(scale, .01)) {  // larger steps were refused
-        return stop(SolverStatus::stalled, cat("no step decreases the objective as predicted", trouble_));
-      }
-      return converge(nu);
-    }
-    const bool solved =
-        (size <= omega_ && nu <= .1 * h) || last_relative <= rel_ || tiny || nu > 1e10 || predicted <= 0.;
-    const bool helps = vc <= tolerance_ || (violation > tolerance_ && linearizedViolation() < .5 * violation);
-    if (solved && !(round_just_ended_ && helps && predicted > 0. && nu <= 1e10)) {
-      if (nu > 1e10) {
-        nu = first_nu;
-        if (++given_up == 3)
-          return stop(SolverStatus::stalled, cat("no step decreases the objective as predicted", trouble_));
-      }
-      endRound(vc, size);
-      last_relative = 1.;
-      if (stopped_ || nu > 1e10 || !helps || linearizedViolation() > kEnough * violation || mu_ != problem.mu) continue;
-      predicted = model_.decrease(problem);
-      if (!(predicted > 0.)) continue;
-    }
-    trial_.x = (here_.x + d).cwiseMax(lower_).cwiseMin(upper_);
-    const double before = lagrangian(here_);
-    if (!evaluate(trial_)) return;
-    double after = lagrangian(trial_);
-    const double noise = std::max(1e-12, 1e-10 * std::abs(before));
-    correction_.helped = false;
-    if (trial_.finite && before - after < .5 * predicted && predicted > noise &&
-        function_.evals() < options_.stopEvals) {
-      if (!correctTrial(after, size, nu, passes)) return;
-    }
-    double ratio = (before - after) / predicted;
-    if (std::abs(before - after) < noise && predicted < noise) {  // only gradients tell which point is better
-      ratio = gradientNorm(trial_) < gradientNorm(here_) ? .3 : -1.;
-    }
-    if (ratio > options_.wolfe) {
-      std::swap(here_, trial_);
-      const bool was_refused = growth > 2.;  // a step with less damping, from this point
-      const double excess = 2. * std::min(ratio, 1.2) - 1.;
-      nu = std::max(1e-6, nu * std::max(was_refused || correction_.helped ? .5 : .1, 1. - excess * excess * excess));
-      growth = 2.;
-      if (ratio > .7 && nu <= .1 * h && optimalityError() <= .25 * vc)
-        updateMultipliers(size);  // close: no need to solve it first
-      last_relative = (before - after) / std::max(std::abs(before), .01);
-      learnCurvature(trial_);
-      adaptRadius(size, ratio > .75, false);
-      damped_step_retried = round_just_ended_ = false;
-      trouble_.clear();
-      model_is_stale = true;
-      function_.remember(here_);
-    } else {
-      ++slow_.refused;
-      adaptRadius(size, false, true);
-      trouble_ = trial_.finite ? ", as at a kink"
-                               : cat(": where it would go, ", describeNotFinite(nlp_, trial_.phi, &trial_.J));
-      nu = std::max({nu * growth, .0001 * h, 1e-3});
-      growth *= 2.;
-    }
+    if (step.is_tiny && triesLessDamping(step)) continue;
+    if (step.is_tiny && holds(step.error)) return endAt(step);
+
+    // 4. Round. With an inner problem that is solved, multipliers and penalty are updated. The step at hand is tried
+    //    all the same if it serves the constraints, as it then often does better than what the new model would say.
+    if (roundIsOver(step) && !goesOnAfterRound(problem, step)) continue;
+
+    // 5. Trial. What the model promised and what came of it decide on the step, and on the damping of the next one.
+    if (!tryStep(step)) return;
+    if (step.ratio > options_.wolfe)
+      accept(step);
+    else
+      refuse(step);
   }
 }
 
-/// Where constraints are curved, a long step along their linearization leaves them. Solves the model again with the
-/// constraints as they are at the trial point, and takes the corrected point as the trial if it is better. `value` is
-/// the Lagrangian at the trial point. False if the caller stops it. Source: Nocedal & Wright, ch. 18.3 (second-order
-/// correction).
-bool AugmentedLagrangian::correctTrial(double& value, double size, double shift, int passes) {
-  if (correction_.wait > 0) {
-    --correction_.wait;
-    return true;
-  }
-  corrected_.x = trial_.x - here_.x;
-  corrected_.c = trial_.c;
-  for (std::size_t j = 0; j < constraints_.size(); ++j)
-    corrected_.c[Eigen::Index(j)] -= here_.J.rowTimes(constraints_[j], corrected_.x);
-  const VectorXd& d = model_.minimize({corrected_.c, lambda_, mu_, shift, low_, high_, passes});
-  corrected_.x = (here_.x + d).cwiseMax(lower_).cwiseMin(upper_);
-  bool better = (corrected_.x - trial_.x).lpNorm<Eigen::Infinity>() <= .5 * size;
-  if (better) {
-    if (!evaluate(corrected_)) return false;
-    const double corrected = lagrangian(corrected_);
-    better = corrected < value;
-    if (better) {
-      value = corrected;
-      std::swap(trial_, corrected_);
-    }
-  }
-  correction_.helped = better;
-  correction_.failures = better ? 0 : correction_.failures + 1;
-  if (correction_.failures >= 2) correction_.wait = std::min(2 << correction_.failures, 32);
+bool AugmentedLagrangian::reachedLimit(int steps) {
+  const int most_steps = kStepsPerInner * options_.stopInners;
+  if (function_.evals() >= options_.stopEvals)
+    stop(SolverStatus::limit, cat("limit of ", options_.stopEvals, " evaluations"));
+  else if (steps >= most_steps)
+    stop(SolverStatus::limit, cat("limit of ", most_steps, " steps, ", kStepsPerInner, " times stopInners"));
+  else if (rounds_ >= options_.stopOuters)
+    stop(SolverStatus::limit, cat("limit of ", options_.stopOuters, " rounds"));
+  return stopped_;
+}
+
+AugmentedLagrangian::Step AugmentedLagrangian::startStep() {
+  return {.curvature = model_.largestCurvature(), .error = constraintError(), .violation = here_.violation};
+}
+
+AugmentedLagrangian::Problem AugmentedLagrangian::modelProblem() {
+  makeBox();
+  return {here_.c, lambda_, penalty_.value(), damping_.value(), low_, high_, passes_};
+}
+
+bool AugmentedLagrangian::needsNoStep(const Step& step, const Problem& problem) {
+  return holds(step.error) && damping_.isSmall(step.curvature) && trouble_.empty() &&
+         model_.estimateStep(problem) <= options_.stopTolerance;
+}
+
+void AugmentedLagrangian::findStep(const Problem& problem, Step& step) {
+  const double tolerance = options_.stopTolerance, scale = std::max(std::abs(here_.cost), kLeastScale);
+  step.size = model_.minimize(problem).lpNorm<Eigen::Infinity>();
+  step.predicted = model_.decrease(problem);
+  step.is_tiny = step.size <= tolerance || step.predicted <= std::max(tolerance * tolerance, kLeastDecrease) * scale;
+}
+
+/// A tiny step may be due to the damping. Once after a refusal, and as long as steps are accepted, it is worth a look
+/// how long it is with less.
+bool AugmentedLagrangian::triesLessDamping(const Step& step) {
+  if (damping_.isSmall(step.curvature) || damping_.isHigh() || (tried_less_damping_ && !trouble_.empty())) return false;
+  damping_.relax(step.curvature);
+  tried_less_damping_ = true;
+  trouble_.clear();
   return true;
 }
 
-/// True if the constraints hold, steps are refused again and again, and those that are not hardly decrease the costs:
-/// less than one in 1 / tolerance an evaluation.
-bool AugmentedLagrangian::creeps(double vc) {
-  constexpr int kWindow = 10, kRefused = 3;
-  const int evals = function_.evals();
-  const double now = here_.cost;
-  if (constraints_.empty() || (vc <= tolerance_ && evals < slow_.first + kWindow)) return false;
-  const double least =
-      kWindow * std::min(options_.stopTolerance, options_.stopFTolerance) * std::max(std::abs(now), 1e-4);
-  const bool slow = vc <= tolerance_ && slow_.refused >= kRefused && slow_.cost - now < least;
-  slow_ = {evals, 0, now};
-  return slow;
+/// The constraints hold and the step is tiny: a solution, unless it is tiny only since longer ones were refused, though
+/// the slope is steep.
+void AugmentedLagrangian::endAt(const Step& step) {
+  const double scale = std::max(std::abs(here_.cost), kLeastScale);
+  const bool is_steep = step.predicted > kSteepSlope * step.size * std::max(scale, kLeastSlopeScale);
+  if (!damping_.isSmall(step.curvature) && !trouble_.empty() && is_steep)
+    return stop(SolverStatus::stalled, cat("no step decreases the objective as predicted", trouble_));
+  converge();
 }
 
-/// An inner problem is solved well enough: new multipliers, and a larger penalty if the violation has not fallen.
-void AugmentedLagrangian::endRound(double vc, double step_size) {
+/// Do the constraints hold, or are they nearer to it after the step, to first order?
+bool AugmentedLagrangian::helps(const Step& step) const {
+  return holds(step.error) || (!holds(step.violation) && linearizedViolation() < kHelps * step.violation);
+}
+
+/// Is the inner problem solved? Right after a round a step that helps comes first, so that multipliers do not run away
+/// from where they were computed.
+bool AugmentedLagrangian::roundIsOver(const Step& step) const {
+  const bool is_solved = inner_.isSolved(step.size, !damping_.isSmall(step.curvature)) || step.is_tiny ||
+                         damping_.isLost() || step.predicted <= 0.;
+  return is_solved && !(round_just_ended_ && step.predicted > 0. && !damping_.isLost() && helps(step));
+}
+
+/// Ends the round. True if the step is still to be tried: it helps and nearly meets the linearized constraints, the
+/// penalty is the same, and with the new multipliers it is expected to go down, too.
+bool AugmentedLagrangian::goesOnAfterRound(const Problem& problem, Step& step) {
+  const bool helped = helps(step);
+  if (damping_.isLost()) {
+    damping_.restart();
+    if (++times_lost_ == kMostLost) {
+      stop(SolverStatus::stalled, cat("no step decreases the objective as predicted", trouble_));
+      return false;
+    }
+  }
+  endRound(step);
+  inner_.beginRound();
+  if (stopped_ || damping_.isLost() || !helped || linearizedViolation() > kNearlyFeasible * step.violation ||
+      penalty_.value() != problem.mu)
+    return false;
+  step.predicted = model_.decrease(problem);
+  return step.predicted > 0.;
+}
+
+/// New multipliers, and a larger penalty if the violation has not fallen enough.
+void AugmentedLagrangian::endRound(const Step& step) {
   ++rounds_;
   round_just_ended_ = true;
   if (options_.verbose > 1)
     std::printf("  round %d  evals %d  cost %.6g  violation %.3g  mu %.3g\n", rounds_, function_.evals(), here_.cost,
-                vc, mu_);
-  if (vc > tolerance_) {
-    bad_rounds_ = vc > .7 * last_violation_ && mu_ >= 1e3 * weight_ * options_.muInit ? bad_rounds_ + 1 : 0;
-    if (bad_rounds_ >= 2) {
-      if (locallyInfeasible() && !restored()) {
-        return stop(SolverStatus::infeasible, cat("the constraints contradict each other here; least violation found ",
-                                                  function_.best().violation));
-      }
-      bad_rounds_ = 0;
-      const bool falls = vc < .5 * violation_at_tests_, is_first = cost_at_tests_ == kInfinity;
-      if (falls || is_first || here_.cost < cost_at_tests_ - 1e-4 * std::abs(cost_at_tests_)) {  // slow, but it goes on
-        if (falls) violation_at_tests_ = vc;
-        cost_at_tests_ = here_.cost;
-        failed_tests_ = 0;
-      }
-      if (++failed_tests_ == 6) return stop(SolverStatus::stalled, cat("the violation no longer falls; it is ", vc));
-    }
+                step.error, penalty_.value());
+  if (!holds(step.error) && meetsContradiction(step)) return;
+  updateMultipliers(step.size);
+  if (!holds(step.error) && !violation_.fellEnough(step.error)) penalty_.grow();
+  violation_.sawRound(step.error);
+  inner_.tighten(options_.stopTolerance, holds(step.error));
+}
+
+/// Where the violation does not fall under a large penalty, constraints may contradict each other. True if that ends
+/// it: from here and from a point of least violation there is no way on, or going on has been in vain too often.
+bool AugmentedLagrangian::meetsContradiction(const Step& step) {
+  if (!violation_.isStuck(step.error, penalty_.isMuch())) return false;
+  if (locallyInfeasible() && !restored()) {
+    stop(SolverStatus::infeasible,
+         cat("the constraints contradict each other here; least violation found ", function_.best().violation));
+  } else if (violation_.isHopeless(step.error, here_.cost)) {
+    stop(SolverStatus::stalled, cat("the violation no longer falls; it is ", step.error));
   }
-  updateMultipliers(step_size);
-  if (vc > .25 * last_violation_ && vc > tolerance_) mu_ = std::min(weight_ * options_.muMax, options_.muInc * mu_);
-  last_violation_ = std::min(last_violation_, vc);
-  omega_ = std::max(.3 * omega_, options_.stopTolerance);
-  if (vc <= tolerance_) rel_ = std::max(.5 * rel_, 1e-6);
+  return stopped_;
 }
 
 /// To those of the model, unless the box kept its step short.
 void AugmentedLagrangian::updateMultipliers(double step_size) {
-  if (step_size > .5 * radius_) return;
+  if (!radius_.leavesFree(step_size)) return;
   findMultipliers(model_.linearized(), next_lambda_);
   lambda_.swap(next_lambda_);
   if (options_.lambdaMax > 0.) lambda_ = lambda_.cwiseMin(options_.lambdaMax).cwiseMax(-options_.lambdaMax);
+}
+
+/// Evaluates the end of the step, or of its correction, and compares with what was predicted. False if the caller stops
+/// it.
+bool AugmentedLagrangian::tryStep(Step& step) {
+  trial_.x = (here_.x + model_.step()).cwiseMax(lower_).cwiseMin(upper_);
+  step.before = lagrangian(here_);
+  if (!evaluate(trial_)) return false;
+  step.after = lagrangian(trial_);
+  const double rounding = std::max(kLeastRounding, kRounding * std::abs(step.before));
+  was_corrected_ = false;
+  const bool is_poor = trial_.finite && step.before - step.after < kPoor * step.predicted && step.predicted > rounding;
+  if (is_poor && function_.evals() < options_.stopEvals && correction_.isDue()) {
+    if (!correctTrial(step)) return false;
+  }
+  step.ratio = (step.before - step.after) / step.predicted;
+  if (std::abs(step.before - step.after) < rounding &&
+      step.predicted < rounding)  // only gradients tell which is better
+    step.ratio = gradientNorm(trial_) < gradientNorm(here_) ? kFair : -1.;
+  return true;
+}
+
+/// Where constraints are curved, a long step along their linearization leaves them. Solves the model again with the
+/// constraints as they are at the trial point, and takes the corrected point as the trial if it is better. False if the
+/// caller stops it. Source: Nocedal & Wright, ch. 18.3 (second-order correction).
+bool AugmentedLagrangian::correctTrial(Step& step) {
+  corrected_.x = trial_.x - here_.x;
+  corrected_.c = trial_.c;
+  for (std::size_t j = 0; j < constraints_.size(); ++j)
+    corrected_.c[Eigen::Index(j)] -= here_.J.rowTimes(constraints_[j], corrected_.x);
+  const VectorXd& d =
+      model_.minimize({corrected_.c, lambda_, penalty_.value(), damping_.value(), low_, high_, passes_});
+  corrected_.x = (here_.x + d).cwiseMax(lower_).cwiseMin(upper_);
+  if ((corrected_.x - trial_.x).lpNorm<Eigen::Infinity>() <= kNearCorrection * step.size) {
+    if (!evaluate(corrected_)) return false;
+    const double after = lagrangian(corrected_);
+    was_corrected_ = after < step.after;
+    if (was_corrected_) {
+      step.after = after;
+      std::swap(trial_, corrected_);
+    }
+  }
+  correction_.saw(was_corrected_);
+  return true;
+}
+
+void AugmentedLagrangian::accept(const Step& step) {
+  std::swap(here_, trial_);
+  damping_.accept(step.ratio, was_corrected_);
+  // Close to the solution, where the error falls as fast as Newton's method lets it, multipliers need no round.
+  if (step.ratio > kGood && damping_.isSmall(step.curvature) && constraintError() <= kFastFall * step.error)
+    updateMultipliers(step.size);
+  inner_.sawStep(step.before, step.after);
+  learnCurvature(trial_);
+  radius_.accept(step.size, step.ratio > kVeryGood);
+  tried_less_damping_ = round_just_ended_ = false;
+  trouble_.clear();
+  model_is_stale_ = true;
+  function_.remember(here_);
+}
+
+/// The model stays, its next step is shorter.
+void AugmentedLagrangian::refuse(const Step& step) {
+  creep_.refuse();
+  radius_.refuse();
+  trouble_ =
+      trial_.finite ? ", as at a kink" : cat(": where it would go, ", describeNotFinite(nlp_, trial_.phi, &trial_.J));
+  damping_.refuse(step.curvature);
+}
+
+void AugmentedLagrangian::stop(SolverStatus status, std::string message) {
+  status_ = status;
+  message_ = std::move(message);
+  stopped_ = true;
+}
+
+void AugmentedLagrangian::converge() {
+  memory_.damping = damping_.value();
+  stop(SolverStatus::converged, "step, predicted decrease and violation are within their tolerances");
+}
+
+bool AugmentedLagrangian::evaluate(EvaluatedPoint& point) {
+  if (function_.evaluate(point)) return true;
+  stop(SolverStatus::cancelled, "cancelled by the caller");
+  return false;
 }
 
 }  // namespace kinegraph

@@ -5,6 +5,10 @@
 #include "kinegraph/solvers/algebra/local_model.h"
 #include "kinegraph/solvers/algebra/quasi_newton.h"
 #include "kinegraph/solvers/methods/augmented_lagrangian.h"
+#include "kinegraph/solvers/methods/damping.h"
+#include "kinegraph/solvers/methods/penalty.h"
+#include "kinegraph/solvers/methods/step_radius.h"
+#include "kinegraph/solvers/methods/stopping_rules.h"
 #include "kinegraph/solvers/problems/constrained_function.h"
 
 namespace kinegraph {
@@ -29,166 +33,93 @@ struct AugmentedLagrangianMemory::Parts {
   double damping = 0.;  ///< at the end of the last solution; 0 where it did not converge
 };
 
-/// The method of solveAugmentedLagrangian, on its way.
+/// The method of solveAugmentedLagrangian, on its way. Where Nocedal & Wright, ch. 17.4, write h, f and L, there are
+/// `c` (constraints, equalities first), `cost` and `lagrangian`; lambda and mu are theirs.
 class AugmentedLagrangian {
  public:
   using Memory = AugmentedLagrangianMemory::Parts;
 
-  AugmentedLagrangian(Nlp& nlp, Memory& memory, const VectorXd& x0, const SolverOptions& options)
-      : nlp_(nlp),
-        options_(options),
-        memory_(memory),
-        constraints_(function_.constraints()),
-        equalities_(function_.equalities()),
-        lower_(function_.lower()),
-        upper_(function_.upper()),
-        tolerance_(options.constraintTolerance()) {
-    here_.x = start_ = x0.cwiseMax(lower_).cwiseMin(upper_);
-    lambda_.setZero();
-  }
+  AugmentedLagrangian(Nlp& nlp, Memory& memory, const VectorXd& x0, const SolverOptions& options);
 
-  SolverResult run(const VectorXd& dual) {
-    if (function_.hasGeneralCosts()) curvature_.reset(nlp_.dimension());
-    is_warm_ = dual.size() == here_.phi.size();
-    if (is_warm_) {
-      for (std::size_t j = 0; j < constraints_.size(); ++j) lambda_[Eigen::Index(j)] = dual[constraints_[j]];
-    }
-    evaluate(here_);
-    function_.requireFiniteStart(here_);
-    function_.remember(here_);
-    weight_ = costWeight();
-    mu_ = weight_ * options_.muInit;
-    if (nlp_.dimension() == 0) {
-      stop(here_.violation <= tolerance_ ? SolverStatus::converged : SolverStatus::infeasible,
-           "there is nothing to vary");
-    } else if (!solvedInOneStep()) {
-      iterate();
-    }
-    return function_.result(status_ == SolverStatus::converged ? here_ : function_.best(), lambda_, status_, message_);
-  }
+  SolverResult run(const VectorXd& dual);
 
  private:
+  using Problem = LocalModel::Problem;
+
   static constexpr double kInfinity = std::numeric_limits<double>::infinity();
+  static constexpr int kStepsPerInner = 20;        ///< steps that are allowed for each of stopInners
+  static constexpr int kManyVariables = 100;       ///< from here on, steps
+  static constexpr int kPassesOfMany = 3;          ///< minimize the model in so many passes at most,
+  static constexpr int kPasses = 12;               ///< else in so many
+  static constexpr double kLeastScale = 1e-4;      ///< least costs that predicted decreases are relative to
+  static constexpr double kLeastDecrease = 1e-16;  ///< relative decrease that no step has to predict
+  static constexpr double kRounding = 1e-10;       ///< part of the Lagrangian that may be rounding,
+  static constexpr double kLeastRounding = 1e-12;  ///< and at least so much
+  static constexpr double kHelps = .5;  ///< part of the violation that a step which helps leaves, to first order
+  static constexpr double kNearlyFeasible = .02;  ///< the same for one that is worth trying with new multipliers
+  static constexpr double kFair = .3;             ///< ratio of a step that only gradients tell to be good
+  static constexpr double kPoor = .5;             ///< ratio below which a correction is tried
+  static constexpr double kGood = .7;             ///< ratio above which multipliers may be updated at once
+  static constexpr double kVeryGood = .75;        ///< ratio above which steps may become longer
+  static constexpr double kFastFall = .25;        ///< factor of the error at which multipliers are updated at once
+  static constexpr double kNearCorrection = .5;   ///< part of a step that its correction may have
+  static constexpr double kSteepSlope = .1, kLeastSlopeScale = .01;  ///< a tiny step that predicts more was kept short
+  static constexpr int kMostLost = 3;                                ///< times that damping may be lost
+  static constexpr int kMostRestorations = 5;
+
+  /// A step of the model, and what is known where it starts.
+  struct Step {
+    double curvature;                ///< largest of the costs, what damping is compared with
+    double error;                    ///< of the constraints, see constraintError
+    double violation;                ///< of the worst constraint
+    double size = 0.;                ///< largest entry of the step
+    double predicted = 0.;           ///< decrease of the Lagrangian that the model expects
+    bool is_tiny = false;            ///< no more than the tolerances
+    double ratio = 0.;               ///< of the actual and the predicted decrease, once it has been tried
+    double before = 0., after = 0.;  ///< the Lagrangian at both ends, once it has been tried
+  };
 
   bool solvedInOneStep();
   void iterate();
-  void endRound(double vc, double step_size);
+  bool reachedLimit(int steps);
+  Step startStep();
+  Problem modelProblem();
+  bool needsNoStep(const Step& step, const Problem& problem);
+  void findStep(const Problem& problem, Step& step);
+  bool triesLessDamping(const Step& step);
+  void endAt(const Step& step);
+  bool helps(const Step& step) const;
+  bool roundIsOver(const Step& step) const;
+  bool goesOnAfterRound(const Problem& problem, Step& step);
+  void endRound(const Step& step);
+  bool meetsContradiction(const Step& step);
   void updateMultipliers(double step_size);
-  bool correctTrial(double& value, double size, double shift, int passes);
-  bool creeps(double vc);
+  bool tryStep(Step& step);
+  bool correctTrial(Step& step);
+  void accept(const Step& step);
+  void refuse(const Step& step);
   bool locallyInfeasible();
   bool restored();
   void reduceViolation();
 
-  void stop(SolverStatus status, std::string message) {
-    status_ = status;
-    message_ = std::move(message);
-    stopped_ = true;
-  }
+  void stop(SolverStatus status, std::string message);
+  void converge();
+  bool evaluate(EvaluatedPoint& point);
 
-  void converge(double damping) {
-    memory_.damping = damping;
-    stop(SolverStatus::converged, "step, predicted decrease and violation are within their tolerances");
-  }
+  bool holds(double violation) const { return violation <= tolerance_; }
+  void findMultipliers(const VectorXd& c, VectorXd& t) const;
+  double squaredMultipliers(const VectorXd& c) const;
+  double lagrangian(const EvaluatedPoint& point) const;
+  double linearizedViolation() const;
+  double squaredViolation(const VectorXd& c) const;
+  double gradientNorm(const EvaluatedPoint& point);
+  double constraintError() const;
+  double steepness();
 
-  bool evaluate(EvaluatedPoint& point) {
-    if (function_.evaluate(point)) return true;
-    stop(SolverStatus::cancelled, "cancelled by the caller");
-    return false;
-  }
-
-  /// lambda + mu c, cut off at zero for inequalities.
-  void findMultipliers(const VectorXd& c, VectorXd& t) const {
-    t = lambda_ + mu_ * c;
-    t.tail(t.size() - equalities_) = t.tail(t.size() - equalities_).cwiseMax(0.);
-  }
-
-  /// Sum of the squares of lambda + mu c, cut off at zero for inequalities.
-  double squaredMultipliers(const VectorXd& c) const {
-    const Eigen::Index inequalities = c.size() - equalities_;
-    return (lambda_.head(equalities_) + mu_ * c.head(equalities_)).squaredNorm() +
-           (lambda_.tail(inequalities) + mu_ * c.tail(inequalities)).cwiseMax(0.).squaredNorm();
-  }
-
-  /// Without the constant -lambda^2 / (2 mu).
-  double lagrangian(const EvaluatedPoint& point) const {
-    return point.finite ? point.cost + squaredMultipliers(point.c) / (2. * mu_) : kInfinity;
-  }
-
-  /// The violation that the model expects after its step.
-  double linearizedViolation() const { return worst(model_.linearized()); }
-
-  double worst(const VectorXd& c) const {
-    const Eigen::Index inequalities = c.size() - equalities_;
-    double worst = equalities_ > 0 ? c.head(equalities_).lpNorm<Eigen::Infinity>() : 0.;
-    if (inequalities > 0) worst = std::max(worst, c.tail(inequalities).maxCoeff());
-    return worst;
-  }
-
-  /// Sum of squares of violations.
-  double squaredViolation(const VectorXd& c) const {
-    return c.head(equalities_).squaredNorm() + c.tail(c.size() - equalities_).cwiseMax(0.).squaredNorm();
-  }
-
-  /// Largest entry of the gradient of the Lagrangian, as far as the bounds leave room to go down.
-  double gradientNorm(const EvaluatedPoint& point) {
-    function_.costGradient(point.phi, point.J, gradient_);
-    findMultipliers(point.c, multipliers_);
-    function_.addConstraintGradient(point.J, multipliers_, gradient_);
-    return ((point.x - gradient_).cwiseMax(lower_).cwiseMin(upper_) - point.x).lpNorm<Eigen::Infinity>();
-  }
-
-  /// Violation and failure of complementarity.
-  double optimalityError() const {
-    const Eigen::Index inequalities = here_.c.size() - equalities_;
-    double worst = equalities_ > 0 ? here_.c.head(equalities_).lpNorm<Eigen::Infinity>() : 0.;
-    if (inequalities > 0) {
-      worst = std::max(
-          worst, here_.c.tail(inequalities).cwiseMax(-1. / mu_ * lambda_.tail(inequalities)).lpNorm<Eigen::Infinity>());
-    }
-    return worst;
-  }
-
-  void linearize() {
-    model_.setJacobian(here_.J);
-    learns_curvature_ = !model_.setCosts(nlp_, here_.x, here_.phi, &curvature_.matrix());
-  }
-
-  void addCurvature() {
-    if (learns_curvature_ || nlp_.curvedRows().empty()) return;
-    function_.moveTo(here_);
-    model_.addCurvature(nlp_, lambda_);
-  }
-
-  /// Where the problem does not tell the curvature of its f terms, that of the Lagrangian is learnt from accepted
-  /// steps.
-  void learnCurvature(const EvaluatedPoint& before) {
-    if (!learns_curvature_) return;
-    findMultipliers(model_.linearized(), next_lambda_);
-    VectorXd old_gradient;
-    function_.generalGradient(before.J, next_lambda_, old_gradient);
-    function_.generalGradient(here_.J, next_lambda_, gradient_);
-    curvature_.update(here_.x - before.x, gradient_ - old_gradient);
-  }
-
-  void box() {
-    low_ = (lower_ - here_.x).cwiseMax(-radius_);
-    high_ = (upper_ - here_.x).cwiseMin(radius_);
-  }
-
-  /// Steps that reach the edge of the box and do what was predicted, twice in a row, may become longer.
-  void adaptRadius(double size, bool good, bool rejected) {
-    if (rejected) radius_ = std::max(options_.stepMax, .25 * radius_);
-    steps_at_edge_ = good && size >= .99 * radius_ ? steps_at_edge_ + 1 : 0;
-    if (steps_at_edge_ >= 2) radius_ = std::min(2. * radius_, 1e6 * options_.stepMax);
-  }
-
-  /// Where the costs are steep, as numbers without a unit may be, penalties must be as well. 1 for sums of squares.
-  double costWeight() {
-    if (!function_.hasGeneralCosts()) return 1.;
-    function_.generalGradient(here_.J, VectorXd(), gradient_);
-    return std::max(1., .01 * gradient_.lpNorm<Eigen::Infinity>());
-  }
+  void linearize();
+  void addCurvature();
+  void learnCurvature(const EvaluatedPoint& before);
+  void makeBox();
 
   Nlp& nlp_;
   const SolverOptions& options_;
@@ -204,26 +135,25 @@ class AugmentedLagrangian {
   VectorXd &start_ = memory_.start, &lambda_ = memory_.lambda, &next_lambda_ = memory_.next_lambda,
            &multipliers_ = memory_.multipliers;
   VectorXd &low_ = memory_.low, &high_ = memory_.high, &gradient_ = memory_.gradient;
-  double tolerance_;
-  double weight_ = 1., radius_ = options_.stepMax;
-  int steps_at_edge_ = 0, restorations_ = 0;
-  /// Evaluations since when the constraints hold.
-  struct {
-    int first = 0, refused = 0;
-    double cost = kInfinity;
-  } slow_;
-  struct {
-    int wait = 0, failures = 0;
-    bool helped = false;
-  } correction_;
-  double mu_ = 1., omega_ = .1, last_violation_ = kInfinity, violation_at_tests_ = kInfinity,
-         cost_at_tests_ = kInfinity, rel_ = .02;
-  int rounds_ = 0, bad_rounds_ = 0, failed_tests_ = 0;
-  bool round_just_ended_ = false, is_warm_ = false;
+  const double tolerance_;  ///< of the constraints
+  const int passes_;        ///< of the model's minimization
+
+  Penalty penalty_;
+  Damping damping_;
+  StepRadius radius_;
+  InnerTest inner_;
+  CreepTest creep_;
+  ViolationTest violation_;
+  CorrectionTest correction_;
+  int rounds_ = 0, restorations_ = 0, times_lost_ = 0;
+  bool model_is_stale_ = true;       ///< the point is new since it was made
+  bool tried_less_damping_ = false;  ///< since the last step that was accepted
+  bool round_just_ended_ = false;    ///< no step was accepted since
+  bool was_corrected_ = false;       ///< the trial point
   bool stopped_ = false;
   SolverStatus status_ = SolverStatus::stalled;
   std::string message_;
-  std::string trouble_;  ///< why the last step was rejected; empty if it was not
+  std::string trouble_;  ///< why the last step was refused; empty if it was not
 };
 
 }  // namespace kinegraph

@@ -7,23 +7,39 @@
 
 namespace kinegraph {
 
+namespace {
+
+constexpr double kRegularization = 1e-6;  ///< of the least squares of the violation, by the largest squared entry of J
+constexpr double kCannotFall = .9;  ///< part of the violation that is left where constraints contradict each other
+constexpr double kMuchLess = .5;    ///< part of the violation with which a restoration has succeeded
+constexpr double kNegligible = .1;  ///< part of the tolerance that counts as no violation
+
+constexpr int kMostSteps = 30;          ///< of the search for the least violation
+constexpr double kFirstDamping = 1e-4;  ///< its Levenberg damping,
+constexpr double kDampingGrowth = 10.;  ///< factor after a refused step,
+constexpr double kDampingFall = .1;     ///< and after an accepted one
+constexpr double kGoodRatio = .5;       ///< of the actual and the expected fall of a step that does what it should
+constexpr double kHardlyFalls = 1e-4;   ///< relative fall of the squared violation that is not worth a step
+
+}  // namespace
+
 /// True if no step reduces the linearized violation by a tenth.
 bool AugmentedLagrangian::locallyInfeasible() {
   next_lambda_.setZero();
-  double largest_row = 1e-6;
+  double largest_row = kRegularization;
   for (double value : here_.J.values) largest_row = std::max(largest_row, value * value);
-  model_.setNoCosts(1e-6 * largest_row);
-  box();
-  model_.minimize({here_.c, next_lambda_, 1., 0., low_, high_, 12});
+  model_.setNoCosts(kRegularization * largest_row);
+  makeBox();
+  model_.minimize({here_.c, next_lambda_, 1., 0., low_, high_, kPasses});
   const double before = squaredViolation(here_.c), after = squaredViolation(model_.linearized());
   linearize();
-  return std::sqrt(after) >= .9 * std::sqrt(before);
+  return std::sqrt(after) >= kCannotFall * std::sqrt(before);
 }
 
 /// Goes to a point of least violation, from here or else from the start. True if the violation is much less there, so
 /// that it can go on, with a larger penalty.
 bool AugmentedLagrangian::restored() {
-  const double before = here_.violation, enough = std::max(.5 * before, .1 * tolerance_);
+  const double before = here_.violation, enough = std::max(kMuchLess * before, kNegligible * tolerance_);
   reduceViolation();
   if (!stopped_ && ++restorations_ == 1 && here_.violation > enough) {
     const EvaluatedPoint found = here_;
@@ -33,10 +49,10 @@ bool AugmentedLagrangian::restored() {
     if (!stopped_ && here_.violation > enough && found.violation <= here_.violation) here_ = found;
   }
   function_.forceBest(here_);
-  if (stopped_ || restorations_ > 5 || function_.best().violation > enough) return false;
+  if (stopped_ || restorations_ > kMostRestorations || function_.best().violation > enough) return false;
   lambda_.setZero();
-  mu_ = std::min(weight_ * options_.muMax, std::pow(10., restorations_) * weight_ * options_.muInit);
-  last_violation_ = violation_at_tests_ = cost_at_tests_ = kInfinity;
+  penalty_.restart(restorations_);
+  violation_.restart();
   linearize();
   return true;
 }
@@ -44,29 +60,33 @@ bool AugmentedLagrangian::restored() {
 /// Gauss-Newton steps on the violation alone, so that the answer is the least one and no compromise with the costs.
 void AugmentedLagrangian::reduceViolation() {
   next_lambda_.setZero();
-  double damping = 1e-4;
-  for (int step = 0; step < 30 && function_.evals() < options_.stopEvals; ++step) {
+  double damping = kFirstDamping;
+  for (int step = 0; step < kMostSteps && function_.evals() < options_.stopEvals; ++step) {
     model_.setJacobian(here_.J);
     model_.setNoCosts(0.);
-    box();
-    trial_.x = (here_.x + model_.minimize({here_.c, next_lambda_, 1., damping, low_, high_, 12}))
+    makeBox();
+    trial_.x = (here_.x + model_.minimize({here_.c, next_lambda_, 1., damping, low_, high_, kPasses}))
                    .cwiseMax(lower_)
                    .cwiseMin(upper_);
     if (!evaluate(trial_)) return;
+
+    // The radius follows what steps achieve, as it does on the way to the solution.
     const double before = squaredViolation(here_.c), after = squaredViolation(trial_.c),
                  expected = squaredViolation(model_.linearized());
-    const bool at_edge = model_.step().lpNorm<Eigen::Infinity>() >= .99 * radius_,
-               good = before - after > .5 * (before - expected);
-    if (at_edge && good) radius_ *= 4.;
-    if (!good) radius_ = std::max(options_.stepMax, .25 * radius_);
-    if (before - expected < 1e-4 * before && !at_edge && damping <= 1e-4 * (1. + before)) return;
+    const bool at_edge = radius_.isAtEdge(model_.step().lpNorm<Eigen::Infinity>()),
+               good = before - after > kGoodRatio * (before - expected);
+    if (at_edge && good) radius_.growRestoring();
+    if (!good) radius_.shrink();
+
+    // The least violation: even the linearized one would hardly fall, and nothing keeps the step short.
+    if (before - expected < kHardlyFalls * before && !at_edge && damping <= kFirstDamping * (1. + before)) return;
     if (!(after < before) || !trial_.finite) {
-      damping *= 10.;
+      damping *= kDampingGrowth;
       continue;
     }
     std::swap(here_, trial_);
-    damping *= .1;
-    if (std::sqrt(after) < .1 * tolerance_) return;
+    damping *= kDampingFall;
+    if (std::sqrt(after) < kNegligible * tolerance_) return;
   }
 }
 

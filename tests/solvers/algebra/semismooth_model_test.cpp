@@ -33,9 +33,9 @@ struct Case {
   }
 
   /// The model by its definition.
-  double value(const VectorXd& d, double mu, double shift) const {
+  double value(const VectorXd& d, double mu, double damping) const {
     const VectorXd phi = b + A * d;
-    double sum = phi.head(4).squaredNorm() + phi[4] + .5 * shift * d.squaredNorm();
+    double sum = phi.head(4).squaredNorm() + phi[4] + .5 * damping * d.squaredNorm();
     for (int j = 0; j < 4; ++j) {
       double t = lambda[j] + mu * phi[5 + j];
       if (j > 0) t = std::max(0., t);
@@ -46,16 +46,16 @@ struct Case {
 };
 
 template <class Algebra>
-class LocalModelOf : public testing::Test {
+class SemismoothModelOf : public testing::Test {
  public:
   using Model = SemismoothModel<Algebra>;
 };
 using Algebras = testing::Types<DenseAlgebra<8>, BandAlgebra>;
-TYPED_TEST_SUITE(LocalModelOf, Algebras);
+TYPED_TEST_SUITE(SemismoothModelOf, Algebras);
 
 }  // namespace
 
-TYPED_TEST(LocalModelOf, TheStepThatItFindsIsTheLeastInTheBox) {
+TYPED_TEST(SemismoothModelOf, TheStepThatItFindsIsTheLeastInTheBox) {
   for (int seed = 0; seed < 60; ++seed) {
     const Case c(seed, seed % 2 == 1);
     CallbackNlp nlp(Case::kVariables, c.types, {}, {}, [&](const VectorXd& x, VectorXd& phi, MatrixXd& J) {
@@ -69,27 +69,27 @@ TYPED_TEST(LocalModelOf, TheStepThatItFindsIsTheLeastInTheBox) {
     typename TestFixture::Model model(nlp, J, {0, 1, 2, 3, 4}, {5, 6, 7, 8});
     model.setJacobian(J);
     model.setCosts(nlp, x, phi, nullptr);
-    const double mu = 3., shift = .1;
+    const double mu = 3., damping = .1;
     const VectorXd constraints = phi.tail(4);
-    const LocalModel::Problem problem{constraints, c.lambda, mu, shift, c.low, c.high, 12};
+    const LocalModel::Problem problem{constraints, c.lambda, mu, damping, c.low, c.high, 12};
     const VectorXd d = model.minimize(problem);
     EXPECT_TRUE((d.array() >= c.low.array()).all() && (d.array() <= c.high.array()).all());
     EXPECT_TRUE(near(model.linearized(), (c.b + c.A * d).tail(4), 1e-12));
-    const double least = c.value(d, mu, shift);
+    const double least = c.value(d, mu, damping);
     for (int i = 0; i < Case::kVariables; ++i) {  // enough in a box, as the model is convex and smooth
       for (double step : {1e-3, -1e-3}) {
         VectorXd other = d;
         other[i] = std::clamp(d[i] + step, c.low[i], c.high[i]);
-        EXPECT_GE(c.value(other, mu, shift), least - 1e-12) << "seed " << seed << ", variable " << i;
+        EXPECT_GE(c.value(other, mu, damping), least - 1e-12) << "seed " << seed << ", variable " << i;
       }
     }
     const VectorXd at_zero = VectorXd::Zero(Case::kVariables);
     EXPECT_NEAR(model.decrease(problem), c.value(at_zero, mu, 0.) - c.value(d, mu, 0.), 1e-12);
-    EXPECT_LT(least, c.value(at_zero, mu, shift));
+    EXPECT_LT(least, c.value(at_zero, mu, damping));
   }
 }
 
-TYPED_TEST(LocalModelOf, GoesDownAlsoWhereTheCurvatureIsNegative) {
+TYPED_TEST(SemismoothModelOf, GoesDownAlsoWhereTheCurvatureIsNegative) {
   class Hilltop final : public Nlp {
    public:
     Hilltop() {
@@ -120,7 +120,7 @@ TYPED_TEST(LocalModelOf, GoesDownAlsoWhereTheCurvatureIsNegative) {
   EXPECT_NEAR(model.decrease(problem), 1.5 - .5 * .25 * .25 - .5 * .5, 1e-12);
 }
 
-TYPED_TEST(LocalModelOf, FactorizesOnlyWhereTheActiveRowsChange) {
+TYPED_TEST(SemismoothModelOf, FactorizesOnlyWhereTheActiveRowsChange) {
   const Case c(1);
   CallbackNlp nlp(Case::kVariables, std::vector<ObjectiveType>(Case::kRows, sos), {}, {},
                   [&](const VectorXd& x, VectorXd& phi, MatrixXd& J) {
@@ -174,7 +174,7 @@ class Saddle final : public Nlp {
 
 }  // namespace
 
-TYPED_TEST(LocalModelOf, HasTheCurvatureOfConstraintsUnlessItIsNotConvexThen) {
+TYPED_TEST(SemismoothModelOf, HasTheCurvatureOfConstraintsUnlessItIsNotConvexThen) {
   const VectorXd x = Eigen::Vector2d(.5, .25), far = VectorXd::Constant(2, 100.), lambda = VectorXd::Constant(1, .8);
   for (const double strength : {1., 20.}) {
     Saddle nlp(strength);

@@ -1,0 +1,89 @@
+#include "kinegraph/solvers/methods/stopping_rules.h"
+
+#include <gtest/gtest.h>
+
+using namespace kinegraph;
+
+TEST(InnerTest, AsksForSmallerStepsFromRoundToRound) {
+  constexpr double kLeast = 1e-4;
+  InnerTest test;
+  double smallest = InnerTest::kFirstStep;
+  for (int round = 0; round < 10; ++round) {
+    EXPECT_TRUE(test.isSolved(smallest, false));
+    EXPECT_FALSE(test.isSolved(1.01 * smallest, false));
+    EXPECT_FALSE(test.isSolved(smallest, true)) << "a damped step says nothing";
+    test.tighten(kLeast, false);
+    smallest = std::max(InnerTest::kStepFall * smallest, kLeast);
+  }
+  EXPECT_EQ(smallest, kLeast);
+}
+
+TEST(InnerTest, TakesALagrangianThatHardlyFallsAsSolved) {
+  InnerTest test;
+  test.sawStep(10., 10. * (1. - 1.01 * InnerTest::kFirstDecrease));
+  EXPECT_FALSE(test.isSolved(1., false));
+  test.sawStep(10., 10. * (1. - .99 * InnerTest::kFirstDecrease));
+  EXPECT_TRUE(test.isSolved(1., true));
+  test.tighten(1e-4, false);
+  EXPECT_TRUE(test.isSolved(1., true)) << "where constraints do not hold, it stays rough";
+  test.tighten(1e-4, true);
+  EXPECT_FALSE(test.isSolved(1., true));
+  test.sawStep(10., 10.);
+  test.beginRound();
+  EXPECT_FALSE(test.isSolved(1., true)) << "a new round has its own steps";
+}
+
+TEST(CreepTest, NeedsRefusedStepsAndCostsThatHardlyFall) {
+  SolverOptions options;
+  options.stopTolerance = 1e-2;
+  options.stopFTolerance = 1e-3;
+  const auto creepsAfter = [&](double cost, int refused, bool holds) {
+    CreepTest test(options);
+    EXPECT_FALSE(test.creeps(CreepTest::kWindow, 1., holds)) << "the first window has nothing to compare with";
+    for (int i = 0; i < refused; ++i) test.refuse();
+    return test.creeps(2 * CreepTest::kWindow, cost, holds);
+  };
+  const double least = CreepTest::kWindow * options.stopFTolerance;  // the lesser of both tolerances
+  EXPECT_TRUE(creepsAfter(1. - .9 * least, CreepTest::kRefused, true));
+  EXPECT_FALSE(creepsAfter(1. - 1.1 * least, CreepTest::kRefused, true));
+  EXPECT_FALSE(creepsAfter(1., CreepTest::kRefused - 1, true));
+  EXPECT_FALSE(creepsAfter(1., CreepTest::kRefused, false));
+}
+
+TEST(ViolationTest, IsStuckAfterTwoBadRoundsUnderALargePenalty) {
+  ViolationTest test;
+  test.sawRound(1.);
+  EXPECT_FALSE(test.isStuck(.9, true));
+  EXPECT_TRUE(test.isStuck(.9, true));
+  EXPECT_FALSE(test.isStuck(.5, true)) << "a good round ends the series";
+  EXPECT_FALSE(test.isStuck(.9, true));
+  EXPECT_FALSE(test.isStuck(.9, false)) << "so does a small penalty";
+  EXPECT_TRUE(test.fellEnough(.25));
+  EXPECT_FALSE(test.fellEnough(.26));
+}
+
+TEST(ViolationTest, IsHopelessWithoutProgressOnly) {
+  ViolationTest test;
+  double violation = 1.;
+  for (int i = 0; i < 20; ++i) EXPECT_FALSE(test.isHopeless(violation *= .4, 1.)) << "the violation falls";
+  double cost = 1.;
+  for (int i = 0; i < 20; ++i) EXPECT_FALSE(test.isHopeless(violation, cost *= .99)) << "the costs fall";
+  int times = 1;
+  while (!test.isHopeless(violation, cost)) ++times;
+  EXPECT_EQ(times, ViolationTest::kMostFailures - 1);
+}
+
+TEST(CorrectionTest, PausesLongerAndLongerWhereCorrectionsFail) {
+  CorrectionTest test;
+  const auto pause = [&] {
+    int steps = 0;
+    while (!test.isDue()) ++steps;
+    return steps;
+  };
+  for (const int expected : {0, 8, 16, 32, 32}) {
+    test.saw(false);
+    EXPECT_EQ(pause(), expected);
+  }
+  test.saw(true);
+  EXPECT_EQ(pause(), 0);
+}
