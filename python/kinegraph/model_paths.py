@@ -46,7 +46,7 @@ def raiPath(path: str = "") -> str:
     for folder in folders:
         if (folder / relative).exists():
             return str(folder / relative) + ("/" if relative == "" else "")
-    known = sorted({str(file.relative_to(folder)) for folder in folders for file in folder.rglob("*.g")})
+    known = sorted({str(file.relative_to(folder)) for folder in folders for file in folder.rglob("*.*")})
     near = difflib.get_close_matches(relative, known, 3, 0.5)
-    hint = f"; similar names: {', '.join(near)}" if near else f"; there are: {', '.join(known)}"
+    hint = f"; similar names: {', '.join(near)}" if near else f"; there are: {', '.join(sorted(p.name for p in _SHIPPED.iterdir()))}"
     raise FileError(f"raiPath: there is no model '{path}' in {folders[0]}{hint}")

@@ -1,5 +1,6 @@
 """The robots and scenes that come with the package: names and poses that scripts rely on."""
 
+import collections
 import importlib.util
 import os
 import warnings
@@ -9,12 +10,15 @@ import numpy as np
 import pytest
 
 import kinegraph as ry
+from conftest import DATA, recorded
 
 SHARE = [
     Path(folder)
     for folder in os.environ.get("KINEGRAPH_PACKAGE_PATH", "").split(os.pathsep)
     if folder and (Path(folder) / "example-robot-data").is_dir()
 ]
+# included by others, and nothing on their own
+PARTS = {"pr2_modifications.g", "panda_hand.g", "panda_collision.g"}
 needs_robots = pytest.mark.skipif(not SHARE, reason="needs robots: pip install example-robot-data==6.0.0")
 
 
@@ -68,39 +72,121 @@ def test_the_gripper_closes_symmetrically_and_its_pads_stay_parallel():
     assert gaps[0] == pytest.approx(0.085, abs=0.002) and gaps[0] > gaps[1] > gaps[2] > -0.01  # it is called 2F-85
 
 
-@needs_robots
+RECORDED = sorted(path.stem for path in (DATA / "models").glob("*.json"))
+
+
+def places(names):
+    """For each name its number among equal ones, so that frames without a name are told apart."""
+    seen = collections.Counter()
+    result = []
+    for name in names:
+        result.append((name, seen[name]))
+        seen[name] += 1
+    return result
+
+
+@pytest.mark.parametrize("name", RECORDED)
+def test_a_model_is_as_recorded(name):
+    numbers = recorded(f"models/{name}")
+    C = model(numbers["file"])
+    assert list(C.getJointNames()) == numbers["joint_names"]  # recorded without those that mimic others
+    assert np.allclose(C.getJointState(), numbers["q"], atol=1e-6)
+    limits, theirs = np.array(C.getJointLimits()).reshape(2, -1), np.array(numbers["limits"]).reshape(2, -1)
+    bounded = theirs[0] <= theirs[1]
+    assert np.allclose(limits[:, bounded], theirs[:, bounded], atol=1e-5)  # 2 pi is given as 6.28319
+    assert (limits[0, ~bounded] > limits[1, ~bounded]).all()
+    C.setJointState(numbers["random_q"])
+    frames = dict(zip(places(C.getFrameNames()), C.getFrames()))
+    assert set(frames) == set(places(frame["name"] for frame in numbers["frames"]))
+    for place, theirs in zip(places(frame["name"] for frame in numbers["frames"]), numbers["frames"]):
+        ours = frames[place]
+        parent = ours.getParent()
+        assert (parent.name if parent else None) == theirs["parent"], place
+        assert ours.getJointType() == getattr(ry.JT, theirs.get("joint", "none")), place
+        assert ours.asDict().get("contact", 0) == theirs.get("contact", 0), place
+        sign = np.sign(ours.getPose()[3:] @ theirs["pose"][3:])
+        assert np.allclose(ours.getPose() * np.r_[1, 1, 1, [sign] * 4], theirs["pose"], atol=1e-6), place
+        if "shape" in theirs:
+            assert ours.getShapeType() == getattr(ry.ST, theirs["shape"]), place
+            size = ours.getSize()
+            assert np.allclose(size, theirs["size"][: len(size)]), place  # markers are given more numbers than count
+        assert ours.getMass() == pytest.approx(theirs.get("mass", 0), abs=1e-6), place
+
+
+@pytest.mark.parametrize("name", RECORDED)
+def test_the_same_frames_of_a_model_may_collide(name):
+    numbers = recorded(f"models/{name}")
+    names = model(numbers["file"]).getCollidablePairs()
+    assert len(names) == 2 * numbers["collidable"]
+    if "pairs" in numbers:
+        assert sorted(sorted(pair) for pair in zip(names[::2], names[1::2])) == numbers["pairs"]
+
+
+# what else the collection of the reference has, some of which it cannot load itself
 @pytest.mark.parametrize(
-    "name, dofs, frame, position",
+    "name, dofs",
     [
-        ("g1/g1.g", 29, "left_ankle_roll_joint", [0.0090, 0.1185, 0.0529]),
-        ("g1/g1.yml", 29, "right_knee_joint", [0.0833, -0.1186, 0.3612]),
-        ("allegro/allegro.g", 16, "tip1", [0.0957, 0.0479, 0.2490]),
-        ("allegro/allegro.yml", 16, "tip4", [0.0875, 0.0817, 0.1681]),
+        ("g1/g1_29dof_raw_conv.yml", 29),
+        ("panda/panda_deformable.g", 8),
+        ("pr2/pr2_modify_fixRight.g", 0),
+        ("pr2/pr2_modify_fixLeft.g", 0),
+        ("pr2/pr2_modify_fixHead.g", 0),
+        ("pr2/pr2_modify_fixGrippers.g", 0),
+        ("robotiq/robotiq_clean.g", 1),
+        ("robotiq/robotiq_arg2f_85_model_conv.yml", 1),
+        ("scenarios/climber.g", 5),
+        ("scenarios/climber2.g", 6),
+        ("scenarios/k-bars.g", 0),
+        ("scenarios/k00.g", 14),
+        ("scenarios/panda_fixRobotiq.g", 7),
+        ("scenarios/panda_moveGripper.g", 8),
+        ("scenarios/walker1.g", 4),
+        ("scenarios/walker3.g", 9),
+        ("trossen/trossen_raw_conv.yml", 8),
+        ("ur10/ur10_clean.g", 6),
     ],
 )
-def test_robots_of_the_other_package_stand_as_in_older_scripts(name, dofs, frame, position):
-    C = model(name)
-    assert C.getJointDimension() == dofs
-    assert np.allclose(C.getFrame(frame).getPosition(), position, atol=2e-3)
+def test_a_model_that_the_reference_only_names_has_its_dofs(name, dofs):
+    assert model(name).getJointDimension() == dofs
+
+
+def test_every_model_loads_without_a_warning_and_none_holds_a_mesh():
+    folder = Path(ry.raiPath())
+    for path in [path for ending in ("*.g", "*.yml") for path in folder.rglob(ending)]:
+        if path.name in PARTS:
+            continue
+        C = ry.Config()
+        with warnings.catch_warnings():
+            warnings.simplefilter("error", ry.KinegraphWarning)
+            if path.stem.startswith("pr2_modify"):
+                C.addFile(ry.raiPath("pr2/pr2.g"))
+                continue
+            C.addFile(path)
+        assert len(C) > 0, path
+        assert all(frame.getShapeType() != ry.ST.mesh for frame in C.getFrames() if frame.asDict().get("shape")), path
+    assert not [path for path in folder.rglob("*") if path.suffix in (".h5", ".ply", ".stl", ".dae", ".obj")]
+
+
+def test_robots_stand_free_of_each_other_and_of_themselves():
+    """At the pose that a file gives nothing collides, but for what the reference has in collision, too."""
+    for name in ("g1/g1.g", "allegro/allegro.g", "ranger/ranger.g", "ur10/ur10.g", "trossen/trossen.g", "panda/panda.g"):
+        assert model(name).getCollisions(0.0) == [], name
 
 
 @needs_robots
-def test_the_pr2_drives_and_reaches():
-    C = model("pr2/pr2.g")
-    assert C.getJointNames()[:3] == [f"worldTranslationRotation:{i}" for i in range(3)]
-    assert not [name for name in C.getJointNames() if "caster" in name]
-    assert C.getJointDimension() == 25 and {"l_gripper_joint", "r_gripper_l_finger_joint"} <= set(C.getJointNames())
-    assert np.allclose(C.getFrame("l_wrist_roll_joint").getPosition(), [-0.3998, 0.3779, 0.9513], atol=2e-3)
-
-
-@pytest.mark.parametrize("name", ["pr2/pr2.g", "g1/g1.g", "allegro/allegro.g"])
-def test_a_robot_whose_package_is_missing_says_what_to_install(name, monkeypatch):
-    for variable in ("KINEGRAPH_PACKAGE_PATH", "ROS_PACKAGE_PATH", "AMENT_PREFIX_PATH"):
-        monkeypatch.delenv(variable, raising=False)
-    C = ry.Config()
-    with pytest.raises(ry.ParseError, match="pip install example-robot-data"):
-        C.addFile(ry.raiPath(name))
-    assert len(C) == 0
+@pytest.mark.parametrize("name", ["g1/g1.g", "allegro/allegro.g", "pr2/pr2.g", "ur10/ur10.g"])
+def test_hulls_are_where_the_meshes_of_the_robot_package_are(name):
+    """The corners of what is drawn are within 2 cm of the box around the mesh that viewers show in its place."""
+    C = model(name)
+    pictured = [frame for frame in C.getFrames() if "visual_mesh" in frame.asDict()]
+    assert len(pictured) > 5
+    for frame in pictured:
+        mesh = ry.Config().addFrame("mesh")
+        path = str(frame.asDict()["visual_mesh"]).strip("<>").removeprefix("package:").lstrip("/")
+        mesh.setMeshFile(str(SHARE[0] / path))
+        ours, theirs = frame.getMeshPoints(), mesh.getMeshPoints()
+        assert np.allclose(ours.min(axis=0), theirs.min(axis=0), atol=0.02), frame.name
+        assert np.allclose(ours.max(axis=0), theirs.max(axis=0), atol=0.02), frame.name
 
 
 def test_a_marker_image_has_its_borders_or_says_what_to_install():

@@ -1,0 +1,3 @@
+# The hall of k-hall.g with one pendulum that swings.
+
+Include: <k-hall.g>
