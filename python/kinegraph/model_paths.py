@@ -48,5 +48,9 @@ def raiPath(path: str = "") -> str:
             return str(folder / relative) + ("/" if relative == "" else "")
     known = sorted({str(file.relative_to(folder)) for folder in folders for file in folder.rglob("*.*")})
     near = difflib.get_close_matches(relative, known, 3, 0.5)
-    hint = f"; similar names: {', '.join(near)}" if near else f"; there are: {', '.join(sorted(p.name for p in _SHIPPED.iterdir()))}"
+    hint = (
+        f"; similar names: {', '.join(near)}"
+        if near
+        else f"; there are: {', '.join(sorted(p.name for p in _SHIPPED.iterdir()))}"
+    )
     raise FileError(f"raiPath: there is no model '{path}' in {folders[0]}{hint}")

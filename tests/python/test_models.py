@@ -169,7 +169,14 @@ def test_every_model_loads_without_a_warning_and_none_holds_a_mesh():
 
 def test_robots_stand_free_of_each_other_and_of_themselves():
     """At the pose that a file gives nothing collides, but for what the reference has in collision, too."""
-    for name in ("g1/g1.g", "allegro/allegro.g", "ranger/ranger.g", "ur10/ur10.g", "trossen/trossen.g", "panda/panda.g"):
+    for name in (
+        "g1/g1.g",
+        "allegro/allegro.g",
+        "ranger/ranger.g",
+        "ur10/ur10.g",
+        "trossen/trossen.g",
+        "panda/panda.g",
+    ):
         assert model(name).getCollisions(0.0) == [], name
 
 
