@@ -1,6 +1,5 @@
 """Inverse kinematics in one call."""
 
-import _thread
 import pickle
 import threading
 import time
@@ -11,6 +10,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 import kinegraph as ry
+from interrupts import interrupt_after
 
 DOWN = [0.0, 0.0, -1.0]
 REACHABLE = [0.3, 0.3, 1.1]
@@ -232,8 +232,7 @@ def test_unknown_frames_are_named_with_the_nearest(panda):
 def test_control_c_ends_a_long_search(panda, threads):
     """Without it, this search would take hours."""
     far = np.tile([5.0, 0.0, 0.0], (100, 1))
-    threading.Timer(0.3, _thread.interrupt_main).start()
-    with pytest.raises(KeyboardInterrupt):
+    with pytest.raises(KeyboardInterrupt), interrupt_after(0.3):
         ry.solveIk(panda, {"l_gripper": far}, attempts=10_000_000, threads=threads)
 
 

@@ -17,6 +17,8 @@ from .program import Program
 
 Start = Callable[..., Program]
 
+TWO_PICTURES = "new Promise(done => requestAnimationFrame(() => requestAnimationFrame(() => done(true))))"
+
 
 def wait_until(true: Callable[[], bool]) -> None:
     deadline = time.monotonic() + 60
@@ -194,7 +196,7 @@ def test_keys_do_things_while_a_file_is_watched(browser: Browser, start: Start, 
     browser.wait_for("kinegraph.slice() === null")
     x, y = browser.pixel([0.05, 0, 0])
     browser.call("Input.dispatchMouseEvent", type="mouseMoved", x=x, y=y)
-    time.sleep(0.5)
+    browser.evaluate(TWO_PICTURES)  # with the second, the page has told where the pointer is
     browser.press(" ")
     browser.wait_for("/ at /.test(kinegraph.message())")
     browser.press("q")

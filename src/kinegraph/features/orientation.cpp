@@ -1,5 +1,7 @@
 #include "kinegraph/features/orientation.h"
 
+#include "kinegraph/features/eval_formula.h"
+
 namespace kinegraph {
 
 Eigen::Matrix<double, 4, 3> quaternionRates(const Quaterniond& q) {
@@ -9,6 +11,9 @@ Eigen::Matrix<double, 4, 3> quaternionRates(const Quaterniond& q) {
   return E;
 }
 
+/// Not by the formulas of row_formulas.h: Eigen sums the trace and products of quaternions in another order, and the
+/// rates are a 4 x 3 matrix here, which all dofs share. Both round otherwise, and recorded answers depend on the last
+/// bits of both.
 void Orientation::eval(std::span<const State* const> states, double, Eigen::Ref<VectorXd> y, JacobianRows* J) const {
   const State& state = *states[0];
   using Rates = Eigen::Matrix<double, 4, 3>;
@@ -44,23 +49,24 @@ bool Orientation::addLaneRows(LaneRowList& list) const {
 
 void Axis::eval(std::span<const State* const> states, double, Eigen::Ref<VectorXd> y, JacobianRows* J) const {
   const State& state = *states[0];
-  const Matrix3d none = Matrix3d::Zero();
-  const Vector3d u = state.pose(a_).R.col(axis_);
-  if (kind_ == Kind::relative) {
-    const Matrix3d R_BW = state.pose(b_).R.transpose();
-    y = R_BW * u;
-    if (!J) return;
-    const Matrix3d turn = -R_BW * skew(u);
-    state.addJacobian(a_, Vector3d::Zero(), none, turn, *J);
-    state.addJacobian(b_, Vector3d::Zero(), none, -turn, *J);
-    return;
+  const Vec3d u = vec3(state.pose(a_).R.col(axis_));
+  switch (kind_) {
+    case Kind::world:
+      return evalFormula(lanes::AxisRows<double>{u}, state, a_, -1, y, J);
+    case Kind::difference:
+      return evalFormula(lanes::AxisOffsetRows<double>{u, vec3(state.pose(b_).R.col(axis_))}, state, a_, b_, y, J);
+    case Kind::relative: {
+      // Not by RelativeAxisRows, which turns u and then changes its frame: here that is one matrix for all dofs, whose
+      // products round otherwise, and recorded answers depend on the last bits of both.
+      const Matrix3d R_BW = state.pose(b_).R.transpose(), none = Matrix3d::Zero();
+      const Vector3d axis = state.pose(a_).R.col(axis_);
+      y = R_BW * axis;
+      if (!J) return;
+      const Matrix3d turn = -R_BW * skew(axis);
+      state.addJacobian(a_, Vector3d::Zero(), none, turn, *J);
+      state.addJacobian(b_, Vector3d::Zero(), none, -turn, *J);
+    }
   }
-  y = u;
-  if (J) state.addJacobian(a_, Vector3d::Zero(), none, -skew(u), *J);
-  if (kind_ == Kind::world) return;
-  const Vector3d v = state.pose(b_).R.col(axis_);
-  y -= v;
-  if (J) state.addJacobian(b_, Vector3d::Zero(), none, skew(v), *J);
 }
 
 bool Axis::addLaneRows(LaneRowList& list) const {
@@ -87,12 +93,8 @@ void Axis::addCurvature(const State& state, const VectorXd& weights, Eigen::Ref<
 
 void AxisProduct::eval(std::span<const State* const> states, double, Eigen::Ref<VectorXd> y, JacobianRows* J) const {
   const State& state = *states[0];
-  const Vector3d u = state.pose(a_).R.col(axis_a_), v = state.pose(b_).R.col(axis_b_);
-  y[0] = u.dot(v);
-  if (!J) return;
-  const Eigen::RowVector3d turn = u.cross(v).transpose(), none = Eigen::RowVector3d::Zero();
-  state.addJacobian(a_, Vector3d::Zero(), none, turn, *J);
-  state.addJacobian(b_, Vector3d::Zero(), none, -turn, *J);
+  const Vec3d u = vec3(state.pose(a_).R.col(axis_a_)), v = vec3(state.pose(b_).R.col(axis_b_));
+  evalFormula(lanes::AxisProductRows<double>(u, v), state, a_, b_, y, J);
 }
 
 bool AxisProduct::addLaneRows(LaneRowList& list) const {
@@ -113,12 +115,8 @@ void AxisProduct::addCurvature(const State& state, const VectorXd& weights, Eige
 
 void AxisDifference::eval(std::span<const State* const> states, double, Eigen::Ref<VectorXd> y, JacobianRows* J) const {
   const State& state = *states[0];
-  const Vector3d z = state.pose(a_).R.col(2), other = state.pose(b_).R.col(axis_);
-  y = z - other;
-  if (!J) return;
-  const Matrix3d none = Matrix3d::Zero();
-  state.addJacobian(a_, state.position(a_), none, Matrix3d(-skew(z)), *J);
-  state.addJacobian(b_, state.position(b_), none, skew(other), *J);
+  const Vec3d u = vec3(state.pose(a_).R.col(2)), v = vec3(state.pose(b_).R.col(axis_));
+  evalFormula(lanes::AxisOffsetRows<double>{u, v}, state, a_, b_, y, J);
 }
 
 }  // namespace kinegraph

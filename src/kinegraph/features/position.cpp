@@ -1,26 +1,28 @@
 #include "kinegraph/features/position.h"
 
+#include "kinegraph/features/eval_formula.h"
+
 namespace kinegraph {
 
 void Position::eval(std::span<const State* const> states, double, Eigen::Ref<VectorXd> y, JacobianRows* J) const {
   const State& state = *states[0];
-  const Vector3d p_WA = state.position(a_);
-  if (kind_ == Kind::relative) {
-    const RigidTransform X_WB = state.pose(b_);
-    const Eigen::Matrix<double, Eigen::Dynamic, 3, 0, 3, 3> R_BW = X_WB.R.transpose().topRows(rows_);
-    y = R_BW * (p_WA - X_WB.p);
-    if (!J) return;
-    const Matrix3d zero = Matrix3d::Zero();
-    state.addJacobian(a_, p_WA, R_BW, zero, *J);
-    state.addJacobian(b_, p_WA, -R_BW, zero, *J);
-    return;
+  const Vec3d p_a = vec3(state.position(a_));
+  switch (kind_) {
+    case Kind::world:
+      return evalFormula(lanes::PositionRows<double>{p_a}, state, a_, -1, y, J);
+    case Kind::difference:
+      return evalFormula(lanes::OffsetRows<double>{p_a, vec3(state.position(b_))}, state, a_, b_, y, J);
+    case Kind::relative: {
+      const RigidTransform X = state.pose(b_);
+      // The value is not taken from the formula: Eigen sums x + (y + z), lanes (x + y) + z, and recorded answers depend
+      // on the last bits of both.
+      const Eigen::Matrix<double, Eigen::Dynamic, 3, 0, 3, 3> R_BW = X.R.transpose().topRows(rows_);
+      y = R_BW * (state.position(a_) - X.p);
+      const lanes::RelativePositionRows<double> formula{
+          p_a, {vec3(X.R.col(0)), vec3(X.R.col(1)), vec3(X.R.col(2))}, vec3(X.p)};
+      if (J) addFormulaRates(formula, state, a_, b_, rows_, *J);
+    }
   }
-  y = p_WA;
-  if (J) state.addPointJacobian(a_, p_WA, 1., *J);
-  if (kind_ == Kind::world) return;
-  const Vector3d p_WB = state.position(b_);
-  y -= p_WB;
-  if (J) state.addPointJacobian(b_, p_WB, -1., *J);
 }
 
 /// Relative to a frame only where that stands still.

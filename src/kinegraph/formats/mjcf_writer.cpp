@@ -198,37 +198,34 @@ class MjcfWriter {
     const Joint& joint = *frame.joint;
     const Joint& source = *dofSource(frame).joint;
     const Vector3d anchor = behind.inverse().p;
-    const int moving = int(std::count_if(joint.steps.begin(), joint.steps.end(),
-                                         [](const MotionStep& step) { return step.kind != MotionStep::Kind::time; }));
+    const int moving =
+        int(std::count_if(joint.steps.begin(), joint.steps.end(), [](const MotionStep& step) { return step.moves(); }));
     std::string text;
     int dof = 0, index = 0;
     for (const MotionStep& step : joint.steps) {
       const double scale = motionScale(frame) * step.sign;
-      const Vector3d axis = step.kind == MotionStep::Kind::rotateAbout ? joint.axis
-                            : step.kind == MotionStep::Kind::circle    ? Vector3d::UnitZ().eval()
-                                                                       : Vector3d::Unit(step.axis).eval();
-      const bool slides = step.kind == MotionStep::Kind::translate;
-      if (step.kind != MotionStep::Kind::time) {
+      const Vector3d axis = step.direction(joint.axis);
+      if (step.moves()) {
         const std::string name = unused("joint", moving == 1 ? frame.name : cat(frame.name, "_", index));
         joint_names_[{&frame, dof}] = name;
         text += cat("<joint name=\"", xmlEscaped(name), "\"");
-        if (!slides && !anchor.isZero(0.)) text += cat(" pos=\"", mjcfVector(anchor), "\"");
+        if (!step.slides() && !anchor.isZero(0.)) text += cat(" pos=\"", mjcfVector(anchor), "\"");
         ++index;
       }
       if (step.kind == MotionStep::Kind::quaternion) {
         text += " type=\"ball\"/>\n";
         const Vector4d q = source.q.segment<4>(dof).normalized();
         qpos_.insert(qpos_.end(), q.begin(), q.end());
-      } else if (step.kind == MotionStep::Kind::circle) {
-        text += " axis=\"0 0 1\"/>\n";
+      } else if (step.orients()) {
+        text += cat(" axis=\"", mjcfVector(axis), "\"/>\n");
         qpos_.push_back(2. * std::atan2(source.q[dof + 1], source.q[dof]));
-      } else if (step.kind != MotionStep::Kind::time) {
+      } else if (step.moves()) {
         const Vector3d direction = behind.q.conjugate() * (scale < 0. ? Vector3d(-axis) : axis);
-        text += cat(slides ? " type=\"slide\"" : "", " axis=\"", mjcfVector(direction), "\"",
+        text += cat(step.slides() ? " type=\"slide\"" : "", " axis=\"", mjcfVector(direction), "\"",
                     range(frame, dof, std::abs(scale)), "/>\n");
         qpos_.push_back(std::abs(scale) * source.q[dof]);
       }
-      if (joint.mimic && step.kind != MotionStep::Kind::time)
+      if (joint.mimic && step.moves())
         followers_.push_back({&frame, dof, step.dofs() == 1 ? std::abs(scale / source.scale) : 0.});
       dof += step.dofs();
     }

@@ -189,24 +189,13 @@ class UrdfWriter {
     int dof = 0;
     for (const MotionStep& step : joint.steps) {
       const double scale = motionScale(frame) * step.sign;
-      switch (step.kind) {
-        case MotionStep::Kind::translate:
-          chain.push_back(oneDof(frame, dof, "prismatic", Vector3d::Unit(step.axis), scale));
-          break;
-        case MotionStep::Kind::rotate:
-          chain.push_back(oneDof(frame, dof, "revolute", Vector3d::Unit(step.axis), scale));
-          break;
-        case MotionStep::Kind::rotateAbout:
-          chain.push_back(oneDof(frame, dof, "revolute", joint.axis, scale));
-          break;
-        case MotionStep::Kind::quaternion:
-          for (int i = 0; i < 3; ++i) chain.push_back(continuous(Vector3d::Unit(i)));
-          break;
-        case MotionStep::Kind::circle:
-          chain.push_back(continuous(Vector3d::UnitZ()));
-          break;
-        case MotionStep::Kind::time:
-          break;
+      const Vector3d axis = step.direction(joint.axis);
+      if (step.slides() || step.turns()) {
+        chain.push_back(oneDof(frame, dof, step.slides() ? "prismatic" : "revolute", axis, scale));
+      } else if (step.kind == MotionStep::Kind::quaternion) {
+        for (int i = 0; i < 3; ++i) chain.push_back(continuous(Vector3d::Unit(i)));
+      } else if (step.orients()) {
+        chain.push_back(continuous(axis));
       }
       dof += step.dofs();
     }

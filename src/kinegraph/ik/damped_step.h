@@ -11,8 +11,8 @@ namespace kinegraph {
 ///     min |J dx - e|^2 + damping |dx - pull|^2      lower <= x + dx <= upper
 ///
 /// For little damping it meets the rows and moves as `pull` says where they leave freedom. Variables at a bound that
-/// the step would cross are held, and the others solved for again. Requests no memory after `resize` to the largest
-/// size.
+/// the step would cross are held, and the others solved for again. How it is computed is in damped_rows.h. Requests no
+/// memory after `resize` to the largest size.
 class DampedStep {
  public:
   void resize(int rows, int columns);
@@ -30,13 +30,12 @@ class DampedStep {
              const double* pull);
   const VectorXd& step() const { return step_; }
 
- private:
-  template <int Rows>
-  void solveRows(const double* pull, double damping);
+  /// The damping for rows whose sum of squares is `square`.
+  static double damping(double square);
 
+ private:
   int rows_ = 0, columns_ = 0;
-  std::vector<double> J_, A_, e_, y_, inverse_pivots_;
-  std::vector<char> held_;
+  std::vector<double> J_, A_, e_, y_, inverse_pivots_, keep_;
   VectorXd step_;
 };
 

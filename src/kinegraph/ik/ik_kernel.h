@@ -64,7 +64,4 @@ void runIkAvx2(const IkKernelModel& model, const IkKernelMemory& memory);
 void runIkAvx512(const IkKernelModel& model, const IkKernelMemory& memory);
 }  // namespace lanes
 
-/// Damping of a step whose rows have that sum of squares: little near the targets, so that convergence is quadratic.
-constexpr double kLeastDamping = 1e-9, kDampingPerSquare = 1e-2, kMostSquares = 10.;
-
 }  // namespace kinegraph

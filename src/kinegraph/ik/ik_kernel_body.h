@@ -1,6 +1,7 @@
 // The kernel of ik_kernel.h for registers of `kLanes` doubles. Each source file that includes this is compiled for its
 // own instruction set; all names are local to it, and products are not fused with sums, so that all give the same bits.
 
+#include "kinegraph/ik/damped_rows.h"
 #include "kinegraph/ik/ik_kernel.h"
 #include "kinegraph/kinematics/place_lanes.h"
 
@@ -120,88 +121,24 @@ void measure(const IkKernelModel& model, const IkKernelMemory& memory) {
   *reinterpret_cast<Lane*>(memory.angle) = worst_angle;
 }
 
-/// next = keep J^T (J keep J^T + damping)^-1 error
-template <int Rows>
-void solveRows(const IkKernelModel& model, const IkKernelMemory& memory, Lane damping) {
-  const int m = Rows > 0 ? Rows : model.rows;
-  const Lane* J = reinterpret_cast<const Lane*>(memory.jacobian);
-  const Lane* e = reinterpret_cast<const Lane*>(memory.error);
-  const Lane* keep = reinterpret_cast<const Lane*>(memory.keep);
-  Lane* next = reinterpret_cast<Lane*>(memory.next);
-  constexpr int kSize = Rows > 0 ? Rows : kMostIkRows;
-  Lane A[kSize * kSize], y[kSize], inverse[kSize];  // lower triangle of A, row by row
-  for (int r = 0; r < m; ++r) {
-    for (int s = 0; s < r; ++s) A[r * kSize + s] = Lane{};
-    A[r * kSize + r] = damping;
-    y[r] = e[r];
-  }
-  for (int v = 0; v < model.variables(); ++v) {
-    for (int r = 0; r < m; ++r) {
-      const Lane kept = keep[v] * J[v * m + r];
-      for (int s = 0; s <= r; ++s) A[r * kSize + s] += kept * J[v * m + s];
-    }
-  }
-  const Lane least = 1e-3 * damping;
-  for (int r = 0; r < m; ++r) {  // A = L D L^T in place, and y = L^-1 y on the way
-    Lane* row = A + r * kSize;
-    for (int s = 0; s < r; ++s) {
-      for (int t = 0; t < s; ++t) row[s] -= A[s * kSize + t] * row[t];
-    }
-    Lane pivot = row[r];
-    for (int s = 0; s < r; ++s) {
-      const Lane value = row[s] * inverse[s];
-      pivot -= row[s] * value;
-      row[s] = value;
-      y[r] -= value * y[s];
-    }
-    inverse[r] = 1. / larger(pivot, least);
-  }
-  for (int r = m - 1; r >= 0; --r) {
-    y[r] *= inverse[r];
-    for (int s = r + 1; s < m; ++s) y[r] -= A[s * kSize + r] * y[s];
-  }
-  for (int v = 0; v < model.variables(); ++v) {
-    Lane value{};
-    for (int r = 0; r < m; ++r) value += J[v * m + r] * y[r];
-    next[v] = keep[v] * value;
-  }
-}
-
 void step(const IkKernelModel& model, const IkKernelMemory& memory) {
-  const Lane* x = reinterpret_cast<const Lane*>(memory.x);
-  Lane* keep = reinterpret_cast<Lane*>(memory.keep);
-  Lane* next = reinterpret_cast<Lane*>(memory.next);
-  const Lane square = *reinterpret_cast<const Lane*>(memory.square);
-  const Lane damping = kLeastDamping + kDampingPerSquare * smaller(square, all<Lane>(kMostSquares));
-  for (int v = 0; v < model.variables(); ++v) keep[v] = all<Lane>(1.);
-  for (int pass = 0; pass < 4; ++pass) {
-    switch (model.rows) {
-      case 3:
-        solveRows<3>(model, memory, damping);
-        break;
-      case 6:
-        solveRows<6>(model, memory, damping);
-        break;
-      default:
-        solveRows<0>(model, memory, damping);
-        break;
-    }
-    Mask changed{};
-    for (int v = 0; v < model.variables(); ++v) {
-      const Mask crosses = ((next[v] < 0.) & (x[v] <= model.lower[v])) | ((next[v] > 0.) & (x[v] >= model.upper[v]));
-      keep[v] = crosses ? Lane{} : keep[v];
-      changed |= crosses;
-    }
-    if (!any(changed)) break;
-  }
-  Lane excess = all<Lane>(1.);
-  for (int v = 0; v < model.variables(); ++v) excess = larger(excess, magnitude(next[v]) / model.longest[v]);
-  const Lane share = 1. / excess;
-  for (int v = 0; v < model.variables(); ++v) {
-    const bool limited = model.longest[v] < 1e300;
-    const Lane moved = x[v] + (limited ? share * next[v] : next[v]);
-    next[v] = smaller(larger(moved, all<Lane>(model.lower[v])), all<Lane>(model.upper[v]));
-  }
+  const auto lanes = [](double* numbers) { return reinterpret_cast<Lane*>(numbers); };
+  Lane A[kMostIkRows * kMostIkRows], y[kMostIkRows], inverse_pivots[kMostIkRows];
+  const DampedRows<Lane> rows{model.rows,
+                              model.variables(),
+                              lanes(memory.jacobian),
+                              lanes(memory.error),
+                              nullptr,
+                              lanes(memory.x),
+                              model.lower,
+                              model.upper,
+                              model.longest,
+                              lanes(memory.keep),
+                              lanes(memory.next),
+                              A,
+                              y,
+                              inverse_pivots};
+  dampedStep(rows, dampingOf(*lanes(memory.square)));
 }
 
 void runIk(const IkKernelModel& model, const IkKernelMemory& memory) {

@@ -25,8 +25,7 @@ IkLaneModel::IkLaneModel(const IkProblem& problem)
   supported_ = rows_ <= kMostIkRows;
   for (int l = 1; l < links.links; ++l) {
     for (int s = links.link[l].first_step; s < links.link[l].first_step + links.link[l].steps; ++s) {
-      const MotionKind kind = links.step[s].kind;
-      if (kind == MotionKind::quaternion || kind == MotionKind::circle) supported_ = false;
+      if (kMotionFacts[int(links.step[s].kind)].effect == MotionFacts::Effect::orients) supported_ = false;
     }
   }
   if (supported_) addTasks(problem);

@@ -24,14 +24,12 @@ IkProblem::Task makeTask(const Program& program, const IkTarget& target) {
 
 /// Per dof: does it turn, so that without limits a full turn is worth trying?
 std::vector<char> turningDofs(const Program& program) {
-  using Kind = MotionStep::Kind;
   std::vector<char> turns(program.dofs, 0);
   for (std::size_t l = 1; l < program.links.size(); ++l) {
     const Program::Link& link = program.links[l];
     int dof = link.dof;
     for (int s = link.first_step; s < link.first_step + link.steps; ++s) {
-      const Kind kind = program.steps[s].kind;
-      turns[dof] = kind == Kind::rotate || kind == Kind::rotateAbout;
+      turns[dof] = program.steps[s].turns();
       dof += program.steps[s].dofs();
     }
   }

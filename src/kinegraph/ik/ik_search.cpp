@@ -4,7 +4,6 @@
 #include <cmath>
 
 #include "kinegraph/geometry/distance/proximity.h"
-#include "kinegraph/ik/ik_kernel.h"
 
 namespace kinegraph {
 
@@ -12,8 +11,6 @@ namespace {
 
 constexpr double kSlack = 1e-4;  // m: what colliding pairs are moved apart beyond the margin
 constexpr double kNear = .05;    // m beyond the margin: pairs whose distance a step looks at
-
-double dampingOf(double squares) { return kLeastDamping + kDampingPerSquare * std::min(squares, kMostSquares); }
 
 /// The rotation vector of E = R_target R^T, in world coordinates.
 Vector3d rotationVector(const Matrix3d& R_target, const Matrix3d& R, double& angle) {
@@ -79,7 +76,10 @@ bool IkSearch::targetsMet() const {
          errors_.rotation <= problem_->options.rotation_tolerance;
 }
 
-/// Errors of the targets, and into `step_` their rows; those of the pairs stay.
+/// Errors of the targets, and into `step_` their rows; those of the pairs stay. The kernels in lanes have rows of their
+/// own (ik_kernel_body.h): they take angles from a polynomial that is good to 2e-8, which is enough to find the way and
+/// the same in all lanes, where here they are exact to rounding, because this is what answers are judged by and what
+/// results tell.
 void IkSearch::measureTargets(bool with_jacobian) {
   using Kind = IkTarget::Kind;
   const Program& program = *problem_->program;
@@ -163,8 +163,8 @@ void IkSearch::measureDistances() {
 }
 
 void IkSearch::stepTowardsTargets() {
-  step_.solve(x_.data(), problem_->lower.data(), problem_->upper.data(), problem_->longest.data(), dampingOf(square_),
-              nullptr);
+  step_.solve(x_.data(), problem_->lower.data(), problem_->upper.data(), problem_->longest.data(),
+              DampedStep::damping(square_), nullptr);
   x_ += step_.step();
   problem_->normalize(x_.data());
 }
@@ -190,7 +190,7 @@ void IkSearch::stepApart(const double* pull, double damping) {
       ++row;
     }
     step_.solve(x_.data(), problem_->lower.data(), problem_->upper.data(), problem_->longest.data(),
-                1e-7 + dampingOf(square) + damping, pull);
+                1e-7 + DampedStep::damping(square) + damping, pull);
     bool changed = false;
     row = problem_->rows;
     for (std::size_t n = 0; n < near_.size(); ++n) {

@@ -14,15 +14,11 @@ namespace {
 
 using Kind = MotionStep::Kind;
 
-constexpr MotionStep kTransX{Kind::translate, 0}, kTransY{Kind::translate, 1}, kTransZ{Kind::translate, 2};
-constexpr MotionStep kRotX{Kind::rotate, 0}, kRotY{Kind::rotate, 1}, kRotZ{Kind::rotate, 2};
-constexpr MotionStep kQuaternion{Kind::quaternion};
-
 std::vector<MotionStep> genericSteps(std::string_view code) {
   std::vector<MotionStep> steps;
   for (std::size_t i = 0; i < code.size(); ++i) {
     if (code.substr(i) == "wxyz") {
-      steps.push_back(kQuaternion);
+      steps.push_back({Kind::quaternion});
       return steps;
     }
     const char letter = char(std::tolower(static_cast<unsigned char>(code[i])));
@@ -55,7 +51,50 @@ double twistAngle(const Quaterniond& q, const Vector3d& a) {
   return std::remainder(angle, 2. * M_PI) == -M_PI ? M_PI : std::remainder(angle, 2. * M_PI);
 }
 
-}  // namespace
+/// A joint type: a row here and its number in joint.h are all that it needs.
+struct JointRow {
+  std::string_view name;
+  JointType type;
+  std::vector<MotionStep> steps;
+  bool has_inverses = false;  ///< see hasInverses
+};
+
+/// In the order of the types' numbers.
+const std::vector<JointRow>& jointRows() {
+  static constexpr MotionStep x{Kind::translate, 0}, y{Kind::translate, 1}, z{Kind::translate, 2};
+  static constexpr MotionStep turn_x{Kind::rotate, 0}, turn_y{Kind::rotate, 1}, turn_z{Kind::rotate, 2};
+  static constexpr MotionStep turn{Kind::rotateAbout}, quaternion{Kind::quaternion}, circle{Kind::circle, 2};
+  static const std::vector<JointRow> rows = {
+      {"none", JointType::none, {}},
+      {"hingeX", JointType::hingeX, {turn_x}, true},
+      {"hingeY", JointType::hingeY, {turn_y}, true},
+      {"hingeZ", JointType::hingeZ, {turn_z}, true},
+      {"transX", JointType::transX, {x}, true},
+      {"transY", JointType::transY, {y}, true},
+      {"transZ", JointType::transZ, {z}, true},
+      {"hinge", JointType::hinge, {turn}, true},
+      {"circleZ", JointType::circleZ, {circle}, true},
+      {"transXY", JointType::transXY, {x, y}, true},
+      {"trans3", JointType::trans3, {x, y, z}, true},
+      {"transXYPhi", JointType::transXYPhi, {x, y, turn_z}, true},
+      {"transYPhi", JointType::transYPhi, {y, turn_z}},
+      {"universal", JointType::universal, {turn_x, turn_y}},
+      {"rigid", JointType::rigid, {}, true},
+      {"quatBall", JointType::quatBall, {quaternion}, true},
+      {"phiTransXY", JointType::phiTransXY, {turn_z, x, y}, true},
+      {"XBall", JointType::XBall, {x, quaternion}},
+      {"free", JointType::free, {x, y, z, quaternion}, true},
+      {"generic", JointType::generic, {}},  // its steps are those of its code
+      {"tau", JointType::tau, {{Kind::time}}},
+  };
+  return rows;
+}
+
+const JointRow& jointRow(JointType type) {
+  const auto index = std::size_t(type);
+  if (index >= jointRows().size()) throw ValueError(cat("joint type ", int(type), " does not exist"));
+  return jointRows()[index];
+}
 
 /// What other formats call joints.
 constexpr std::pair<std::string_view, std::string_view> kWordsOfOthers[] = {
@@ -70,32 +109,29 @@ constexpr std::pair<std::string_view, std::string_view> kWordsOfOthers[] = {
     {"spherical", "quatBall"},
     {"planar", "transXYPhi"}};
 
+}  // namespace
+
 const std::vector<std::pair<std::string, JointType>>& jointTypeNames() {
-  static const std::vector<std::pair<std::string, JointType>> names = {
-      {"none", JointType::none},           {"hingeX", JointType::hingeX},         {"hingeY", JointType::hingeY},
-      {"hingeZ", JointType::hingeZ},       {"transX", JointType::transX},         {"transY", JointType::transY},
-      {"transZ", JointType::transZ},       {"hinge", JointType::hinge},           {"circleZ", JointType::circleZ},
-      {"transXY", JointType::transXY},     {"trans3", JointType::trans3},         {"transXYPhi", JointType::transXYPhi},
-      {"transYPhi", JointType::transYPhi}, {"universal", JointType::universal},   {"rigid", JointType::rigid},
-      {"quatBall", JointType::quatBall},   {"phiTransXY", JointType::phiTransXY}, {"XBall", JointType::XBall},
-      {"free", JointType::free},           {"generic", JointType::generic},       {"tau", JointType::tau}};
+  static const std::vector<std::pair<std::string, JointType>> names = [] {
+    std::vector<std::pair<std::string, JointType>> all;
+    for (const JointRow& row : jointRows()) all.emplace_back(row.name, row.type);
+    return all;
+  }();
   return names;
 }
 
 std::string jointTypeName(JointType type) {
-  for (const auto& [name, value] : jointTypeNames()) {
-    if (value == type) return name;
-  }
-  return cat("joint type ", int(type));
+  const bool known = std::size_t(type) < jointRows().size();
+  return known ? std::string(jointRow(type).name) : cat("joint type ", int(type));
 }
 
 JointType jointTypeFromName(std::string_view name) {
   const std::string_view word = name.starts_with("JT_") ? name.substr(3) : name;
-  std::vector<std::string> words;
-  for (const auto& [known, value] : jointTypeNames()) {
-    if (known == word) return value;
-    words.push_back(known);
+  for (const JointRow& row : jointRows()) {
+    if (row.name == word) return row.type;
   }
+  std::vector<std::string> words;
+  for (const JointRow& row : jointRows()) words.emplace_back(row.name);
   const auto meant = std::find_if(std::begin(kWordsOfOthers), std::end(kWordsOfOthers),
                                   [&](const auto& entry) { return entry.first == word; });
   const std::string hint = meant != std::end(kWordsOfOthers) ? cat("; what others call ", word, " is ", meant->second)
@@ -103,51 +139,10 @@ JointType jointTypeFromName(std::string_view name) {
   throw ValueError(cat("unknown joint type '", name, "'; expected one of ", join(words), hint));
 }
 
+bool hasInverses(JointType type) { return jointRow(type).has_inverses; }
+
 std::vector<MotionStep> motionSteps(JointType type, std::string_view code) {
-  switch (type) {
-    case JointType::none:
-    case JointType::rigid:
-      return {};
-    case JointType::hingeX:
-      return {kRotX};
-    case JointType::hingeY:
-      return {kRotY};
-    case JointType::hingeZ:
-      return {kRotZ};
-    case JointType::transX:
-      return {kTransX};
-    case JointType::transY:
-      return {kTransY};
-    case JointType::transZ:
-      return {kTransZ};
-    case JointType::hinge:
-      return {{Kind::rotateAbout}};
-    case JointType::circleZ:
-      return {{Kind::circle}};
-    case JointType::transXY:
-      return {kTransX, kTransY};
-    case JointType::trans3:
-      return {kTransX, kTransY, kTransZ};
-    case JointType::transXYPhi:
-      return {kTransX, kTransY, kRotZ};
-    case JointType::transYPhi:
-      return {kTransY, kRotZ};
-    case JointType::universal:
-      return {kRotX, kRotY};
-    case JointType::quatBall:
-      return {kQuaternion};
-    case JointType::phiTransXY:
-      return {kRotZ, kTransX, kTransY};
-    case JointType::XBall:
-      return {kTransX, kQuaternion};
-    case JointType::free:
-      return {kTransX, kTransY, kTransZ, kQuaternion};
-    case JointType::generic:
-      return genericSteps(code);
-    case JointType::tau:
-      return {{Kind::time}};
-  }
-  throw ValueError(cat("joint type ", int(type), " does not exist"));
+  return type == JointType::generic ? genericSteps(code) : jointRow(type).steps;
 }
 
 int motionDofs(const std::vector<MotionStep>& steps) {
@@ -160,7 +155,7 @@ VectorXd motionIdentity(const std::vector<MotionStep>& steps) {
   VectorXd q = VectorXd::Zero(motionDofs(steps));
   int i = 0;
   for (const MotionStep& step : steps) {
-    if (step.dofs() > 1) q[i] = 1.;
+    if (step.orients()) q[i] = 1.;
     i += step.dofs();
   }
   return q;
@@ -210,7 +205,7 @@ VectorXd projectInSequence(const std::vector<MotionStep>& steps, const Vector3d&
         break;
       case Kind::rotate:
       case Kind::rotateAbout: {
-        const Vector3d a = step.kind == Kind::rotate ? Vector3d(Vector3d::Unit(step.axis)) : axis;
+        const Vector3d a = step.direction(axis);
         const double angle = twistAngle(rest.q, a);
         q[i] = angle / factor;
         rest = Pose(Vector3d::Zero(), Quaterniond(Eigen::AngleAxisd(-angle, a))) * rest;
@@ -238,10 +233,8 @@ VectorXd projectInSequence(const std::vector<MotionStep>& steps, const Vector3d&
 
 VectorXd motionProject(const std::vector<MotionStep>& steps, const Vector3d& axis, double scale, const Pose& X) {
   VectorXd q = projectInSequence(steps, axis, scale, X);
-  const auto rotates = [](const MotionStep& step) {
-    return step.kind == Kind::rotate || step.kind == Kind::rotateAbout;
-  };
-  if (std::count_if(steps.begin(), steps.end(), rotates) < 2) return q;
+  const auto turns = [](const MotionStep& step) { return step.turns(); };
+  if (std::count_if(steps.begin(), steps.end(), turns) < 2) return q;
   const auto error = [&](const VectorXd& at) {
     const Pose E = X.inverse() * motionPose(steps, axis, scale, at.data());
     Vector6d e;

@@ -37,6 +37,9 @@ enum class JointType : int {
 const std::vector<std::pair<std::string, JointType>>& jointTypeNames();
 std::string jointTypeName(JointType type);
 
+/// Are the inverses of this type's motions motions of the same type, with other dofs?
+bool hasInverses(JointType type);
+
 /// The type of that name, with or without the prefix "JT_". Throws ValueError with the legal and the nearest words.
 JointType jointTypeFromName(std::string_view name);
 
@@ -44,12 +47,23 @@ JointType jointTypeFromName(std::string_view name);
 /// reached.
 struct MotionStep {
   using Kind = MotionKind;
+  using Effect = MotionFacts::Effect;
   Kind kind;
   int axis = 0;      ///< 0 x, 1 y, 2 z
   double sign = 1.;  ///< of the dof
 
-  bool turns() const { return kind == Kind::rotate || kind == Kind::rotateAbout; }
-  int dofs() const { return kind == Kind::quaternion ? 4 : kind == Kind::circle ? 2 : 1; }
+  const MotionFacts& facts() const { return kMotionFacts[int(kind)]; }
+  int dofs() const { return facts().dofs; }
+  bool slides() const { return facts().effect == Effect::slides; }
+  bool turns() const { return facts().effect == Effect::turns; }
+  bool orients() const { return facts().effect == Effect::orients; }
+  bool moves() const { return facts().effect != Effect::none; }
+
+  /// The unit axis that it slides along or turns about, in the frame that the previous step reached; `joint_axis` is
+  /// the joint's own. Of no meaning for quaternions and time.
+  Vector3d direction(const Vector3d& joint_axis) const {
+    return kind == Kind::rotateAbout ? joint_axis : Vector3d(Vector3d::Unit(axis));
+  }
 };
 
 /// The steps of a joint type. `code` has a letter per dof for JointType::generic: x y z a b c (capital: negated), wxyz

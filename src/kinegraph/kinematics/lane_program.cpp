@@ -55,12 +55,13 @@ LaneLinks::LaneLinks(const Program& program, const Parameters& parameters, const
     link.first_step = int(step_.size());
     for (int s = program.links[l].first_step; s < program.links[l].first_step + link.steps; ++s) {
       LaneModel::Step step = parameters.step[s];
-      const bool slides = step.kind == MotionKind::translate;
       const int dof = step.variable;
       step.variable = variable[dof];
       step.column = int(column_.size());
       step_.push_back(step);
-      for (int k = 0; k < program.steps[s].dofs(); ++k) column_.push_back({variable[dof + k], !slides});
+      for (int k = 0; k < program.steps[s].dofs(); ++k) {
+        column_.push_back({variable[dof + k], !program.steps[s].slides()});
+      }
     }
     lane_link_[l] = int(link_.size());
     link_.push_back(link);
@@ -83,12 +84,9 @@ std::vector<int> LaneLinks::chain(int link) const {
   std::vector<int> columns;
   for (int l = link; l > 0; l = link_[l].parent) {
     for (int s = link_[l].first_step; s < link_[l].first_step + link_[l].steps; ++s) {
-      const LaneModel::Step& step = step_[s];
-      const int dofs = step.kind == MotionKind::quaternion ? 4
-                       : step.kind == MotionKind::circle   ? 2
-                       : step.kind == MotionKind::time     ? 0
-                                                           : 1;
-      for (int k = 0; k < dofs; ++k) columns.push_back(step.column + k);
+      const MotionFacts& facts = kMotionFacts[int(step_[s].kind)];
+      if (facts.effect == MotionFacts::Effect::none) continue;
+      for (int k = 0; k < facts.dofs; ++k) columns.push_back(step_[s].column + k);
     }
   }
   return columns;

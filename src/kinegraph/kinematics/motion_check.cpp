@@ -49,40 +49,36 @@ void MotionChecker::moveTo(double time) {
   if (bodies_) bodies_->place(state_);
 }
 
-void MotionChecker::boundSteps(const double* to) {
-  using Kind = MotionStep::Kind;
+void MotionChecker::setMotion(const double* from, const double* to) {
   const Program& program = state_.program();
+  from_ = Eigen::Map<const VectorXd>(from, program.dofs);
+  change_ = Eigen::Map<const VectorXd>(to, program.dofs) - from_;
   for (const Program::Link& link : program.links) {
     int dof = link.dof;
     for (int s = link.first_step; s < link.first_step + link.steps; ++s) {
-      const MotionStep& step = program.steps[s];
-      const double scale = std::abs(link.scale), change = std::abs(change_[dof]);
-      StepBound& bound = steps_[s] = {};
-      switch (step.kind) {
-        case Kind::translate:
-          bound.move = scale * change;
-          bound.reach = scale * std::max(std::abs(from_[dof]), std::abs(to[dof]));
-          break;
-        case Kind::rotate:
-        case Kind::rotateAbout:
-          bound.turn = scale * change;
-          break;
-        case Kind::quaternion:
-        case Kind::circle: {  // |w| <= 2 |dq| / |q|, with the least |q| on the way
-          const auto q = from_.segment(dof, step.dofs()), dq = change_.segment(dof, step.dofs());
-          const double square = dq.squaredNorm();
-          if (square == 0.) break;
-          const double nearest = std::clamp(-q.dot(dq) / square, 0., 1.);
-          const double norm = (q + nearest * dq).norm();
-          bound.turn = norm > 1e-9 ? 2. * std::sqrt(square) / norm : std::numeric_limits<double>::infinity();
-          break;
-        }
-        case Kind::time:
-          break;
-      }
-      dof += step.dofs();
+      steps_[s] = boundOf(program.steps[s], std::abs(link.scale), dof, to);
+      dof += program.steps[s].dofs();
     }
   }
+}
+
+MotionChecker::StepBound MotionChecker::boundOf(const MotionStep& step, double scale, int dof, const double* to) const {
+  StepBound bound;
+  const double change = std::abs(change_[dof]);
+  if (step.slides()) {
+    bound.move = scale * change;
+    bound.reach = scale * std::max(std::abs(from_[dof]), std::abs(to[dof]));
+  } else if (step.turns()) {
+    bound.turn = scale * change;
+  } else if (step.orients()) {  // |w| <= 2 |dq| / |q|, with the least |q| on the way
+    const auto q = from_.segment(dof, step.dofs()), dq = change_.segment(dof, step.dofs());
+    const double square = dq.squaredNorm();
+    if (square == 0.) return bound;
+    const double nearest = std::clamp(-q.dot(dq) / square, 0., 1.);
+    const double norm = (q + nearest * dq).norm();
+    bound.turn = norm > 1e-9 ? 2. * std::sqrt(square) / norm : std::numeric_limits<double>::infinity();
+  }
+  return bound;
 }
 
 /// How fast the joint of a link moves what lies within `reach` of the link's origin, which becomes the reach from that
@@ -124,6 +120,15 @@ double MotionChecker::relativeSpeed(int pair) const {
   return speed;
 }
 
+/// A bound of how far any point of a frame's body is moved.
+double MotionChecker::travelOf(int frame) const {
+  const Program& program = state_.program();
+  double reach = reachOf(frame, *program.body[std::size_t(frame)]), travel = 0.;
+  for (int link = state_.link(frame); link != 0; link = program.links[std::size_t(link)].parent)
+    travel += climb(link, reach);
+  return travel;
+}
+
 /// Where a body can be at any time of the motion. The steps' bounds must be those of the motion, of which `state_` is
 /// the start.
 WorldBox MotionChecker::sweptBox(const ContactRules::Body& body) const {
@@ -131,11 +136,8 @@ WorldBox MotionChecker::sweptBox(const ContactRules::Body& body) const {
   const CollisionBody& shape = *state_.program().body[frame];
   const RigidTransform X = state_.pose(body.frame);
   const Vector3d center = X * shape.boundCenter(), half = (X.R.cwiseAbs() * shape.boundHalf()).array() + shape.radius();
-  double reach = reachOf(body.frame, shape), travel = 0.;
-  for (int link = state_.link(body.frame); link != 0; link = state_.program().links[std::size_t(link)].parent)
-    travel += climb(link, reach);
   constexpr double kAnywhere = 1e9;  // m
-  return WorldBox{center - half, center + half}.grown(std::min(travel, kAnywhere));
+  return WorldBox{center - half, center + half}.grown(std::min(travelOf(body.frame), kAnywhere));
 }
 
 /// The pairs on different links that may come within `margin` of each other, in the order of frames.
@@ -167,88 +169,103 @@ void MotionChecker::findPairs(double margin) {
   bodies_->place(state_);
 }
 
+MotionContact MotionChecker::contactOf(int pair) const {
+  const auto [a, b] = pairs_->pairs[std::size_t(pair)];
+  return {time_, pairs_->frames[std::size_t(a)], pairs_->frames[std::size_t(b)], bodies_->proximity(pair).distance};
+}
+
 std::optional<MotionContact> MotionChecker::firstContact(const double* from, const double* to, double margin,
                                                          double tolerance) {
-  const int n = state_.dofs();
-  const auto inPiece = [&](const double* from, const double* to, bool begins) -> std::optional<MotionContact> {
-    from_ = Eigen::Map<const VectorXd>(from, n);
-    change_ = Eigen::Map<const VectorXd>(to, n) - from_;
-    boundSteps(to);
-    const auto contact = [&](int pair) {
-      const auto [a, b] = pairs_->pairs[std::size_t(pair)];
-      return MotionContact{time_, pairs_->frames[std::size_t(a)], pairs_->frames[std::size_t(b)],
-                           bodies_->proximity(pair).distance};
-    };
-    const auto spare = [&](int pair) { return bodies_->proximity(pair).distance - margin; };
-    due_.clear();
-    time_ = -1.;
-    if (resting_) bodies_.reset();  // those of the last motion
-    moveTo(0.);
-    if (resting_) findPairs(margin);
-    speed_.resize(pairs_->pairs.size());
-    for (int pair = 0; pair < bodies_->pairs(); ++pair) {
-      const double speed = speed_[pair] = relativeSpeed(pair);  // 0 for a pair that moves as one
-      if (!bodies_->mayBeNear(pair, margin + speed)) continue;
-      const double now = spare(pair);
-      if (now < 0. || (speed > 0. && (now < tolerance || now / speed == 0.))) return contact(pair);
-      if (now < speed) due_.push_back({now / speed, pair});
-    }
-    if (resting_ && begins) {  // pairs that move as one
-      resting_->place(state_);
-      for (const NearPairSearch::Near& near : resting_->near(margin)) {
-        const int a = resting_->frame(near.a), b = resting_->frame(near.b);
-        if (near.distance < margin && state_.link(a) == state_.link(b)) return MotionContact{0., a, b, near.distance};
-      }
-    }
-    if (due_.empty()) return std::nullopt;
-    // By how much the pairs keep the margin at the end; the rest is free where that and what they keep now cover it.
-    std::array<std::byte, 8192> buffer;
-    std::pmr::monotonic_buffer_resource memory(buffer.data(), buffer.size());
-    std::pmr::vector<double> at_end(speed_.size(), 0., &memory);
-    moveTo(1.);
-    for (const Due& due : due_) at_end[due.pair] = std::max(spare(due.pair), 0.);
-    std::erase_if(due_,
-                  [&](const Due& due) { return due.time * speed_[due.pair] + at_end[due.pair] >= speed_[due.pair]; });
-    std::make_heap(due_.begin(), due_.end());
-    while (!due_.empty()) {
-      std::pop_heap(due_.begin(), due_.end());
-      const auto [time, pair] = due_.back();
-      due_.pop_back();
-      moveTo(time);
-      const double rest = speed_[pair] * (1. - time);
-      if (!bodies_->mayBeNear(pair, margin + rest)) continue;
-      const double now = spare(pair), next = time + now / speed_[pair];
-      if (now < tolerance || next == time) return contact(pair);
-      if (now + at_end[pair] >= rest) continue;
-      due_.push_back({next, pair});
-      std::push_heap(due_.begin(), due_.end());
-    }
-    return std::nullopt;
-  };
-  if (!resting_) return inPiece(from, to, true);
-  // Among many bodies in pieces, in each of which no body moves far, so that few others are in its way.
+  const Limits limits{margin, tolerance};
+  return resting_ ? firstInPieces(from, to, limits) : firstInOnePiece(from, to, limits, true);
+}
+
+/// Among many bodies the motion is cut into pieces, in each of which no body moves far, so that few others are in its
+/// way.
+std::optional<MotionContact> MotionChecker::firstInPieces(const double* from, const double* to, const Limits& limits) {
   constexpr double kPiece = .25, kMostPieces = 256.;  // m
-  from_ = Eigen::Map<const VectorXd>(from, n);
-  change_ = Eigen::Map<const VectorXd>(to, n) - from_;
-  boundSteps(to);
+  setMotion(from, to);
   double farthest = 0.;
   for (const int i : moving_) {
-    const int frame = state_.program().contacts.bodies[std::size_t(i)].frame;
-    double reach = reachOf(frame, *state_.program().body[std::size_t(frame)]), travel = 0.;
-    for (int link = state_.link(frame); link != 0; link = state_.program().links[std::size_t(link)].parent)
-      travel += climb(link, reach);
-    farthest = std::max(farthest, travel);
+    farthest = std::max(farthest, travelOf(state_.program().contacts.bodies[std::size_t(i)].frame));
   }
   const int pieces = int(std::clamp(std::ceil(farthest / kPiece), 1., kMostPieces));
   const VectorXd start = from_, change = change_;
-  VectorXd begin = start, end(n);
+  VectorXd begin = start, end(state_.dofs());
   for (int i = 0; i < pieces; ++i) {
     end = start + double(i + 1) / pieces * change;
-    if (std::optional<MotionContact> contact = inPiece(begin.data(), end.data(), i == 0)) {
+    if (std::optional<MotionContact> contact = firstInOnePiece(begin.data(), end.data(), limits, i == 0)) {
       contact->time = (i + contact->time) / pieces;
       return contact;
     }
     begin = end;
+  }
+  return std::nullopt;
+}
+
+/// `begins`: it is the first piece, where pairs that move as one are looked at, too.
+std::optional<MotionContact> MotionChecker::firstInOnePiece(const double* from, const double* to, const Limits& limits,
+                                                            bool begins) {
+  setMotion(from, to);
+  time_ = -1.;
+  if (resting_) bodies_.reset();  // those of the last motion
+  moveTo(0.);
+  if (resting_) findPairs(limits.margin);
+  if (const auto contact = atTheStart(limits)) return contact;
+  if (resting_ && begins) {
+    if (const auto contact = ofResting(limits.margin)) return contact;
+  }
+  return due_.empty() ? std::nullopt : advance(limits);
+}
+
+/// Measures all pairs at the start: one that is too near there, if any; else `due_` gets those that can become so, each
+/// with the time until which it cannot.
+std::optional<MotionContact> MotionChecker::atTheStart(const Limits& limits) {
+  due_.clear();
+  speed_.resize(pairs_->pairs.size());
+  for (int pair = 0; pair < bodies_->pairs(); ++pair) {
+    const double speed = speed_[pair] = relativeSpeed(pair);  // 0 for a pair that moves as one
+    if (!bodies_->mayBeNear(pair, limits.margin + speed)) continue;
+    const double now = spare(pair, limits);
+    if (now < 0. || (speed > 0. && (now < limits.tolerance || now / speed == 0.))) return contactOf(pair);
+    if (now < speed) due_.push_back({now / speed, pair});
+  }
+  return std::nullopt;
+}
+
+/// Of the pairs that move as one, where these are not among `pairs_`.
+std::optional<MotionContact> MotionChecker::ofResting(double margin) {
+  resting_->place(state_);
+  for (const NearPairSearch::Near& near : resting_->near(margin)) {
+    const int a = resting_->frame(near.a), b = resting_->frame(near.b);
+    if (near.distance < margin && state_.link(a) == state_.link(b)) return MotionContact{0., a, b, near.distance};
+  }
+  return std::nullopt;
+}
+
+/// Goes from one time at which a pair is due to the next, until one is too near or all are shown to keep apart.
+std::optional<MotionContact> MotionChecker::advance(const Limits& limits) {
+  // By how much the pairs keep the margin at the end; the rest is free where that and what they keep now cover it.
+  std::array<std::byte, 8192> buffer;
+  std::pmr::monotonic_buffer_resource memory(buffer.data(), buffer.size());
+  std::pmr::vector<double> at_end(speed_.size(), 0., &memory);
+  moveTo(1.);
+  for (const Due& due : due_) at_end[due.pair] = std::max(spare(due.pair, limits), 0.);
+  std::erase_if(due_,
+                [&](const Due& due) { return due.time * speed_[due.pair] + at_end[due.pair] >= speed_[due.pair]; });
+  std::make_heap(due_.begin(), due_.end());
+  while (!due_.empty()) {
+    std::pop_heap(due_.begin(), due_.end());
+    const auto [time, pair] = due_.back();
+    due_.pop_back();
+    moveTo(time);
+    const double rest = speed_[pair] * (1. - time);
+    if (!bodies_->mayBeNear(pair, limits.margin + rest)) continue;
+    const double now = spare(pair, limits), next = time + now / speed_[pair];
+    if (now < limits.tolerance || next == time) return contactOf(pair);
+    if (now + at_end[pair] >= rest) continue;
+    due_.push_back({next, pair});
+    std::push_heap(due_.begin(), due_.end());
   }
   return std::nullopt;
 }

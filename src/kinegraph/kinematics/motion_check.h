@@ -45,13 +45,28 @@ class MotionChecker {
     double reach = 0.;  ///< largest distance that it moves what follows, m
   };
 
+  /// How near is too near, m.
+  struct Limits {
+    double margin, tolerance;
+  };
+
+  void setMotion(const double* from, const double* to);
   void moveTo(double time);
-  void boundSteps(const double* to);
+  StepBound boundOf(const MotionStep& step, double scale, int dof, const double* to) const;
   double reachOf(int frame, const CollisionBody& body) const;
+  double climb(int link, double& reach) const;
+  double travelOf(int frame) const;
   double relativeSpeed(int pair) const;
   WorldBox sweptBox(const ContactRules::Body& body) const;
   void findPairs(double margin);
-  double climb(int link, double& reach) const;
+
+  std::optional<MotionContact> firstInPieces(const double* from, const double* to, const Limits& limits);
+  std::optional<MotionContact> firstInOnePiece(const double* from, const double* to, const Limits& limits, bool begins);
+  std::optional<MotionContact> atTheStart(const Limits& limits);
+  std::optional<MotionContact> ofResting(double margin);
+  std::optional<MotionContact> advance(const Limits& limits);
+  double spare(int pair, const Limits& limits) const { return bodies_->proximity(pair).distance - limits.margin; }
+  MotionContact contactOf(int pair) const;
 
   State state_;
   std::optional<BodyPairs> pairs_;  ///< where bodies are many, those of the present motion that it can bring together

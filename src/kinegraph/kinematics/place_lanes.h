@@ -31,7 +31,7 @@ void placeLinks(const LaneModel& model, const S* x, S* pose, S* motion) {
   S most{};
   for (int s = 0; s < model.steps; ++s) {
     const LaneModel::Step& step = model.step[s];
-    if (step.kind == MotionKind::rotate || step.kind == MotionKind::rotateAbout)
+    if (kMotionFacts[int(step.kind)].effect == MotionFacts::Effect::turns)
       most = larger(most, magnitude(step.factor * x[step.variable]));
   }
   const bool far = any(most > kMostAngle);

@@ -66,7 +66,7 @@ void connectChains(Program& program) {
     for (int s = link.first_step; s < link.first_step + link.steps; ++s) {
       const MotionStep& step = program.steps[s];
       if (step.turns()) program.turn_dof.push_back(dof);
-      fixed_axes = fixed_axes && step.dofs() == 1;
+      fixed_axes = fixed_axes && !step.orients();
       for (int i = 0; i < step.dofs(); ++i) {
         program.column_before.push_back(last);
         last = int(program.column_dof.size());
@@ -94,7 +94,7 @@ RigidTransform placeJoint(const Program& program, int index, const RigidTransfor
   const MotionStep* const steps = program.steps.data() + link.first_step;
   const ConstantTurn turn = classifyTurn(X_PJ.R.data());
   const bool along_axes =
-      std::all_of(steps, steps + link.steps, [](const MotionStep& step) { return step.dofs() == 1; });
+      std::all_of(steps, steps + link.steps, [](const MotionStep& step) { return !step.orients(); });
   const bool turns_axes = along_axes && turn.kind == ConstantTurn::quarters;
   RigidTransform X_LJ;
   if (turns_axes) {

@@ -60,6 +60,14 @@ class State {
   /// J += factor * d w / d(dq/dt), the angular velocity of the frame in world coordinates. J is 3 x dofs.
   void addAngularJacobian(int frame, double factor, JacobianRows J) const;
 
+  /// Calls visit(dof, twist) for each column that moves a frame, from the frame towards the world.
+  template <class Visit>
+  void forTwists(int frame, const Visit& visit) const {
+    const int *before = program_->column_before.data(), *dof = program_->column_dof.data();
+    const Twist* twists = twists_.data();
+    for (int c = program_->last_column[link(frame)]; c >= 0; c = before[c]) visit(dof[c], twists[c]);
+  }
+
   /// Does any dof move a frame?
   bool moves(int frame) const { return program_->last_column[link(frame)] >= 0; }
 
@@ -80,15 +88,13 @@ class State {
                    const Eigen::MatrixBase<DerivedB>& B_given, JacobianRows J) const {
     const typename DerivedA::PlainObject A = A_given;
     const typename DerivedB::PlainObject B = B_given;
-    for (int c = program_->last_column[link(frame)]; c >= 0; c = program_->column_before[c]) {
-      const Twist& twist = twists_[c];
-      const int dof = program_->column_dof[c];
+    forTwists(frame, [&](int dof, const Twist& twist) {
       const Vector3d velocity = twist.linear + twist.angular.cross(p_WQ);
       for (int r = 0; r < A.rows(); ++r) {
         J(r, dof) += A(r, 0) * velocity[0] + A(r, 1) * velocity[1] + A(r, 2) * velocity[2] +
                      B(r, 0) * twist.angular[0] + B(r, 1) * twist.angular[1] + B(r, 2) * twist.angular[2];
       }
-    }
+    });
   }
 
  private:

@@ -115,7 +115,7 @@ void updateState(const StateArrays& state) {
         storePlace(X, pose);
         moveInMemory<V>(*step, q, turned, pose, twist);
         X = loadPlace<V>(pose);
-        if (step->kind == MotionKind::rotateAbout) turned += 2;
+        if (kMotionFacts[int(step->kind)].effect == MotionFacts::Effect::turns) turned += 2;
       }
     }
     storePlace(X, pose);

@@ -119,8 +119,7 @@ std::vector<int> Komo::setWaypoints(const std::vector<VectorXd>& waypoints, int 
     int dof = link.dof;
     for (int s = link.first_step; s < link.first_step + link.steps; ++s) {
       const MotionStep& motion = program_->steps[s];
-      const bool turns = motion.kind == MotionStep::Kind::rotate || motion.kind == MotionStep::Kind::rotateAbout;
-      if (turns && std::isinf(program_->lower[dof])) endless[dof] = true;
+      if (motion.turns() && std::isinf(program_->lower[dof])) endless[dof] = true;
       dof += motion.dofs();
     }
   }

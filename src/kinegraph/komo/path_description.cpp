@@ -17,9 +17,7 @@ std::vector<Measure> measuresOfDofs(const Program& program) {
     int dof = link.dof;
     for (int s = link.first_step; s < link.first_step + link.steps; ++s) {
       const MotionStep& step = program.steps[s];
-      using Kind = MotionStep::Kind;
-      const bool turns = step.kind == Kind::rotate || step.kind == Kind::rotateAbout;
-      const Measure measure = step.kind == Kind::translate ? Measure::length : turns ? Measure::angle : Measure::number;
+      const Measure measure = step.slides() ? Measure::length : step.turns() ? Measure::angle : Measure::number;
       for (int i = 0; i < step.dofs(); ++i) measures[dof++] = measure;
     }
   }

@@ -42,6 +42,7 @@ S magnitude(S a) {
 }
 
 /// Is a lane of a comparison set?
+inline bool any(bool one) { return one; }
 template <class Mask>
 bool any(Mask mask) {
   Mask found = mask;

@@ -42,7 +42,7 @@ void compileDofs(const SceneTree& scene, Program& program) {
     }
     int first = program.dofs;
     for (const MotionStep& step : joint.steps) {
-      if (step.dofs() > 1) program.unit_norms.push_back({first, step.dofs()});
+      if (step.orients()) program.unit_norms.push_back({first, step.dofs()});
       first += step.dofs();
     }
     program.dofs += joint.dofs();

@@ -94,7 +94,7 @@ std::optional<VectorXd> AttributeReader::readDofValues(const char* key, const Jo
   if (!q.allFinite()) error(*node, "expected finite numbers");
   int first = 0;
   for (const MotionStep& step : joint.steps) {
-    if (step.dofs() > 1) {
+    if (step.orients()) {
       auto part = q.segment(first, step.dofs());
       const double norm = part.norm();
       if (!(norm > 1e-10)) {

@@ -11,28 +11,8 @@ namespace {
 
 /// Is the inverse of every motion of this joint the motion of the negative dofs?
 bool inverseIsNegative(const Joint& joint) {
-  switch (joint.type) {
-    case JointType::transXY:
-    case JointType::trans3:
-    case JointType::rigid:
-      return true;
-    default:
-      return joint.dofs() == 1;
-  }
-}
-
-/// Are the inverses of its motions motions of the same joint type?
-bool isGroup(JointType type) {
-  switch (type) {
-    case JointType::circleZ:
-    case JointType::transXYPhi:
-    case JointType::phiTransXY:
-    case JointType::quatBall:
-    case JointType::free:
-      return true;
-    default:
-      return false;
-  }
+  const auto slides = [](const MotionStep& step) { return step.slides(); };
+  return joint.dofs() <= 1 || std::all_of(joint.steps.begin(), joint.steps.end(), slides);
 }
 
 std::string quoted(const FrameData& frame) { return cat("frame '", frame.name, "'"); }
@@ -49,7 +29,7 @@ Joint inverseJoint(const FrameData& frame, const Pose& relative) {
     joint.upper = -lower;
     return joint;
   }
-  if (!isGroup(joint.type) || joint.mimic) {
+  if (!hasInverses(joint.type) || joint.mimic) {
     throw ValueError(cat("makeRoot: the ", jointTypeName(joint.type), " joint of ", quoted(frame),
                          joint.mimic ? " mimics another and" : "", " cannot be inverted"));
   }

@@ -14,8 +14,7 @@ namespace {
 std::vector<std::string> unitsOf(const Joint& joint) {
   std::vector<std::string> units;
   for (const MotionStep& step : joint.steps) {
-    const bool turns = step.kind == MotionStep::Kind::rotate || step.kind == MotionStep::Kind::rotateAbout;
-    const char* unit = turns ? "rad" : step.kind == MotionStep::Kind::translate ? "m" : "";
+    const char* unit = step.turns() ? "rad" : step.slides() ? "m" : "";
     units.insert(units.end(), std::size_t(step.dofs()), unit);
   }
   return units;

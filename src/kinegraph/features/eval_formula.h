@@ -1,0 +1,49 @@
+#pragma once
+
+// A formula of kinematics/row_formulas.h for the one configuration of a State; local to each source file that includes
+// it, as are the formulas.
+
+#include "kinegraph/features/feature.h"
+#include "kinegraph/kinematics/row_formulas.h"
+
+namespace kinegraph {
+
+namespace {
+
+using Vec3d = lanes::Vec3<double>;
+
+inline Vec3d vec3(const Vector3d& a) { return {a[0], a[1], a[2]}; }
+
+/// A dof, for the formulas.
+struct TwistMotion {
+  Vec3d angular, linear;
+
+  Vec3d velocityAt(const Vec3d& point) const { return linear + cross(angular, point); }
+};
+
+/// J += the Jacobian of the first rows of a formula of frames a and b (-1: of a alone).
+template <class Formula>
+void addFormulaRates(const Formula& formula, const State& state, int a, int b, Eigen::Index rows, JacobianRows J) {
+  double* const entries = J.data();
+  const Eigen::Index stride = J.outerStride();
+  const auto add = [&](int frame, bool of_b) {
+    state.forTwists(frame, [&](int dof, const State::Twist& twist) {
+      double rate[Formula::kRows];
+      formula.rate(TwistMotion{vec3(twist.angular), vec3(twist.linear)}, of_b, rate);
+      for (Eigen::Index r = 0; r < rows; ++r) entries[r * stride + dof] += rate[r];
+    });
+  };
+  add(a, false);
+  if (b >= 0) add(b, true);
+}
+
+/// y = the value of a formula, and J += its Jacobian if J is wanted.
+template <class Formula>
+void evalFormula(const Formula& formula, const State& state, int a, int b, Eigen::Ref<VectorXd> y, JacobianRows* J) {
+  formula.value(y.data());
+  if (J) addFormulaRates(formula, state, a, b, Formula::kRows, *J);
+}
+
+}  // namespace
+
+}  // namespace kinegraph
