@@ -65,7 +65,9 @@ Frame& Frame::setPosition(const Vector3d& position) {
   return setPose({position, getPose().q});
 }
 
-Frame& Frame::setQuaternion(const Quaterniond& rotation) { return setPose({getPose().p, rotation}); }
+Frame& Frame::setQuaternion(const Quaterniond& rotation) {
+  return setPose({getPose().p, unitQuaternion(wxyz(rotation))});
+}
 
 Frame& Frame::setRelativePose(const Pose& pose) {
   FrameData& frame = data();
@@ -90,7 +92,7 @@ Frame& Frame::setRelativePosition(const Vector3d& position) {
 }
 
 Frame& Frame::setRelativeQuaternion(const Quaterniond& rotation) {
-  return setRelativePose({data().relativePose().p, rotation});
+  return setRelativePose({data().relativePose().p, unitQuaternion(wxyz(rotation))});
 }
 
 Frame& Frame::setParent(const Frame& parent, bool keep_world_pose) {
