@@ -11,6 +11,9 @@ from pathlib import Path
 
 SOURCE = Path(__file__).parent.parent / "src" / "kinegraph"
 
+EVERYTHING = ["base", "math", "geometry", "kinematics", "scene", "formats", "features", "nlp", "solvers", "ik", "komo"]
+EVERYTHING += ["planning", "rendering", "viewer", "front"]
+
 BELOW: dict[str, list[str]] = {
     "base": [],
     "math": ["base"],
@@ -34,6 +37,8 @@ BELOW: dict[str, list[str]] = {
     "planning": ["base", "math", "geometry", "kinematics", "scene", "features", "nlp", "komo", "solvers"],
     "rendering": ["base", "math", "geometry", "kinematics", "scene"],
     "viewer": ["base", "math", "gfile", "geometry", "kinematics", "scene", "formats"],
+    "front": EVERYTHING,
+    ".": EVERYTHING,
 }
 
 

@@ -1,16 +1,13 @@
 // Inverse kinematics from C++: brings the gripper of a Franka Panda to a position.
-//     reach MODELS_FOLDER
-#include <cstdio>
+#include <kinegraph/kinegraph.h>
 
-#include "kinegraph/base/errors.h"
-#include "kinegraph/komo/komo.h"
-#include "kinegraph/solvers/nlp_solver.h"
+#include <cstdio>
 
 using namespace kinegraph;
 
-int main(int argc, char** argv) try {
+int main() try {
   Config C;
-  C.addFile(std::string(argc > 1 ? argv[1] : "models") + "/scenarios/pandaSingle.g");
+  C.addFile(modelPath("scenarios/pandaSingle.g"));
   C.addFrame("target", "table").setRelativePosition({.2, .4, .5});
 
   const auto komo = std::make_shared<Komo>(C, 1., 1, 0);

@@ -1,0 +1,73 @@
+# The C++ package: what `cmake --install` puts below a prefix, and what find_package(kinegraph) reads there. Nothing in it
+# knows where the prefix is, so that it can be moved.
+#
+#   include/kinegraph        the headers that users may include, see InstallHeaders.cmake
+#   include/kinegraph/eigen3 Eigen, for projects that have none of their own
+#   lib                      libkinegraph
+#   lib/kinegraph/lib        the libraries that it needs
+#   lib/cmake/kinegraph      kinegraphConfig.cmake
+#   share/kinegraph/models   the models
+include(GNUInstallDirs)
+include(CMakePackageConfigHelpers)
+set(package_folder "${CMAKE_INSTALL_LIBDIR}/cmake/kinegraph")
+set(libraries_folder "${CMAKE_INSTALL_LIBDIR}/kinegraph/lib")
+
+# CMake code that stands, beside an installed static library, for the imported targets that it is linked with.
+function(kinegraph_describe_links result)
+  set(code "")
+  get_target_property(links kinegraph LINK_LIBRARIES)
+  foreach(link IN LISTS links)
+    if(NOT TARGET "${link}" OR link MATCHES "^(Eigen3|Threads)::")
+      continue()
+    endif()
+    get_target_property(type "${link}" TYPE)
+    set(location)
+    foreach(property IMPORTED_LOCATION_RELEASE IMPORTED_LOCATION_NOCONFIG IMPORTED_LOCATION)
+      if(NOT location AND NOT type STREQUAL "INTERFACE_LIBRARY")
+        get_target_property(location "${link}" ${property})
+      endif()
+    endforeach()
+    if(location)
+      file(REAL_PATH "${location}" location)
+      get_filename_component(name "${location}" NAME)
+      string(APPEND code "kinegraph_shipped(${link} ${name})\n")
+    else()
+      string(APPEND code "kinegraph_shipped(${link} \"\")\n")
+    endif()
+  endforeach()
+  set(${result} "${code}" PARENT_SCOPE)
+endfunction()
+
+get_target_property(library_type kinegraph TYPE)
+set(KINEGRAPH_LINKS "")
+if(library_type STREQUAL "STATIC_LIBRARY")
+  find_package(Threads REQUIRED)
+  kinegraph_describe_links(KINEGRAPH_LINKS)
+  # What an archive needs cannot be read from it: this module needs the same.
+  file(WRITE "${CMAKE_CURRENT_BINARY_DIR}/needs.cpp" "")
+  add_library(kinegraph_needs MODULE "${CMAKE_CURRENT_BINARY_DIR}/needs.cpp")
+  target_link_libraries(kinegraph_needs PRIVATE kinegraph)
+  target_link_options(kinegraph_needs PRIVATE -Wl,--no-as-needed)
+  kinegraph_install_libraries(kinegraph_needs "${libraries_folder}" cpp)
+else()
+  kinegraph_install_libraries(kinegraph "${libraries_folder}" cpp)  # libcoal looks in ../lib
+endif()
+
+install(TARGETS kinegraph EXPORT kinegraphTargets COMPONENT cpp)
+install(EXPORT kinegraphTargets NAMESPACE kinegraph:: DESTINATION "${package_folder}" COMPONENT cpp)
+install(CODE "set(source [[${PROJECT_SOURCE_DIR}/src]])\nset(folder [[${CMAKE_INSTALL_INCLUDEDIR}]])" COMPONENT cpp)
+install(SCRIPT "${PROJECT_SOURCE_DIR}/cmake/InstallHeaders.cmake" COMPONENT cpp)
+get_target_property(eigen_folders Eigen3::Eigen INTERFACE_INCLUDE_DIRECTORIES)
+list(GET eigen_folders 0 eigen_folder)
+install(DIRECTORY "${eigen_folder}/Eigen" DESTINATION "${CMAKE_INSTALL_INCLUDEDIR}/kinegraph/eigen3" COMPONENT cpp)
+install(DIRECTORY "${PROJECT_SOURCE_DIR}/models" DESTINATION "${CMAKE_INSTALL_DATADIR}/kinegraph" COMPONENT cpp)
+configure_package_config_file("${PROJECT_SOURCE_DIR}/cmake/kinegraphConfig.cmake.in" "${CMAKE_CURRENT_BINARY_DIR}/kinegraphConfig.cmake"
+                              INSTALL_DESTINATION "${package_folder}"
+                              PATH_VARS CMAKE_INSTALL_INCLUDEDIR CMAKE_INSTALL_DATADIR libraries_folder)
+write_basic_package_version_file("${CMAKE_CURRENT_BINARY_DIR}/kinegraphConfigVersion.cmake" COMPATIBILITY SameMinorVersion)
+install(FILES "${CMAKE_CURRENT_BINARY_DIR}/kinegraphConfig.cmake" "${CMAKE_CURRENT_BINARY_DIR}/kinegraphConfigVersion.cmake"
+        DESTINATION "${package_folder}" COMPONENT cpp)
+
+# In the build folder, too, the models are in share/kinegraph/models: see modelPath.
+file(MAKE_DIRECTORY "${PROJECT_BINARY_DIR}/share/kinegraph")
+file(CREATE_LINK "${PROJECT_SOURCE_DIR}/models" "${PROJECT_BINARY_DIR}/share/kinegraph/models" SYMBOLIC)

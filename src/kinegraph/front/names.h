@@ -1,0 +1,29 @@
+#pragma once
+
+#include "kinegraph/features/registry.h"
+#include "kinegraph/front/model_path.h"
+#include "kinegraph/komo/komo.h"
+#include "kinegraph/solvers/sampling/sampler.h"
+#include "kinegraph/solvers/solve_many.h"
+
+namespace kinegraph {
+
+// The names that Python scripts know. With `namespace ry = kinegraph;` a line of Python is nearly a line of C++.
+
+using FS = FeatureSymbol;
+using OT = ObjectiveType;
+using ST = ShapeType;
+using JT = JointType;
+using SY = SwitchMode;
+using KOMO = Komo;
+using NLP = Nlp;
+using NLP_Solver = NlpSolver;
+using NLP_Sampler = NlpSampler;
+using NLP_SolverOptions = SolverOptions;
+using SolverReturn = SolverResult;
+using SolverReturns = SolveManyResult;
+
+/// The same as modelPath; the older spellings '../rai-robotModels/...' and 'rai-robotModels/...' mean the same file.
+std::string raiPath(const std::string& path);
+
+}  // namespace kinegraph

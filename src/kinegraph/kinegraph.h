@@ -1,0 +1,44 @@
+#pragma once
+
+/// Kinegraph: robot scenes, differentiable features, inverse kinematics and k-order motion optimization.
+///
+///     #include <kinegraph/kinegraph.h>
+///     using namespace kinegraph;
+///
+///     Config C;
+///     C.addFile(modelPath("scenarios/pandaSingle.g"));
+///     C.view();
+///
+/// One header for all that Python's `import kinegraph as ry` has, under the same names; docs/cpp.md says how to build
+/// with it. Lengths are in m, angles in rad, quaternions (w, x, y, z), poses (x, y, z, qw, qx, qy, qz).
+
+#include "kinegraph/base/errors.h"          // what is thrown
+#include "kinegraph/base/random.h"          // Rng
+#include "kinegraph/features/batch.h"       // many configurations at once
+#include "kinegraph/features/eval.h"        // a feature's value and Jacobian
+#include "kinegraph/formats/gltf_writer.h"  // scenes written as files
+#include "kinegraph/formats/mesh_export.h"
+#include "kinegraph/formats/mjcf_writer.h"
+#include "kinegraph/formats/scene_writer.h"
+#include "kinegraph/formats/urdf_writer.h"
+#include "kinegraph/front/camera_view.h"          // CameraView: images
+#include "kinegraph/front/model_path.h"           // modelPath
+#include "kinegraph/front/names.h"                // FS, OT, ST, KOMO, NLP_Solver, ...
+#include "kinegraph/front/own_feature.h"          // functions of frames as features
+#include "kinegraph/ik/solve_ik.h"                // solveIk
+#include "kinegraph/komo/komo.h"                  // Komo: motion problems
+#include "kinegraph/komo/report.h"                // how well a path does
+#include "kinegraph/nlp/callback_nlp.h"           // problems of your own
+#include "kinegraph/nlp/test_problems.h"          // named problems
+#include "kinegraph/planning/multi_start.h"       // one problem from many starts
+#include "kinegraph/planning/skeleton.h"          // what shall hold when, in words
+#include "kinegraph/rendering/camera_renderer.h"  // images from any camera
+#include "kinegraph/rendering/depth_image.h"      // points of a depth image
+#include "kinegraph/scene/config.h"               // Config, Frame
+#include "kinegraph/solvers/explanation.h"        // why constraints do not hold
+#include "kinegraph/solvers/methods.h"            // the methods of NlpSolver
+#include "kinegraph/solvers/nlp_solver.h"         // NlpSolver
+#include "kinegraph/solvers/sampling/sampler.h"   // NlpSampler
+#include "kinegraph/viewer/config_viewer.h"       // the viewer in the browser
+#include "kinegraph/viewer/motions.h"             // motions to show there
+#include "kinegraph/viewer/watch_file.h"          // a scene file shown whenever it changes
