@@ -113,7 +113,7 @@ export class Exports {
 
   private async saveModel(): Promise<void> {
     this.stage.drawFully();
-    const binary = await new GLTFExporter().parseAsync(hierarchyOf(this.frames), { binary: true, onlyVisible: true });
+    const binary = await new GLTFExporter().parseAsync(hierarchyOf(this.frames), { binary: true, onlyVisible: true, trs: true });
     saveBlob(new Blob([binary as ArrayBuffer], { type: "model/gltf-binary" }), `${document.title}.glb`);
   }
 
