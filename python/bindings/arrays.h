@@ -42,7 +42,7 @@ class Array : public nb::object {
   explicit Array(nb::object array) : nb::object(std::move(array)) {}
 };
 
-/// A numpy array of integers: uint32, uint8.
+/// Numpy arrays of other numbers.
 class IndexArray : public nb::object {
   NB_OBJECT_DEFAULT(IndexArray, nb::object, "numpy.typing.NDArray[numpy.uint32]", numpy::isArray)
   explicit IndexArray(nb::object array) : nb::object(std::move(array)) {}
@@ -54,6 +54,18 @@ class FlagArray : public nb::object {
 class ByteArray : public nb::object {
   NB_OBJECT_DEFAULT(ByteArray, nb::object, "numpy.typing.NDArray[numpy.uint8]", numpy::isArray)
   explicit ByteArray(nb::object array) : nb::object(std::move(array)) {}
+};
+class IdArray : public nb::object {
+  NB_OBJECT_DEFAULT(IdArray, nb::object, "numpy.typing.NDArray[numpy.int32]", numpy::isArray)
+  explicit IdArray(nb::object array) : nb::object(std::move(array)) {}
+};
+class CountArray : public nb::object {
+  NB_OBJECT_DEFAULT(CountArray, nb::object, "numpy.typing.NDArray[numpy.int64]", numpy::isArray)
+  explicit CountArray(nb::object array) : nb::object(std::move(array)) {}
+};
+class FloatArray : public nb::object {
+  NB_OBJECT_DEFAULT(FloatArray, nb::object, "numpy.typing.NDArray[numpy.float32]", numpy::isArray)
+  explicit FloatArray(nb::object array) : nb::object(std::move(array)) {}
 };
 
 /// A new numpy array (float64, C order) with these contents.

@@ -4,6 +4,7 @@
 #include <nanobind/stl/vector.h>
 
 #include "bindings.h"
+#include "docs/batch.h"
 #include "feature_arguments.h"
 #include "kinegraph/base/errors.h"
 #include "kinegraph/base/text.h"
@@ -144,32 +145,14 @@ FlagArray isMotionFree(const PyConfig& config, const Numbers& from, const Number
 void bindBatch(nb::class_<PyConfig>& config) {
   config
       .def("evalBatch", evalBatch, "feature"_a, "frames"_a, "Q"_a, "scale"_a = nb::none(), "target"_a = nb::none(),
-           "threads"_a = 1,
-           "eval at each row of Q (N, n): y (N, d) and J (N, d, n). The configuration's own q stays as it is. Runs "
-           "without the\n"
-           "interpreter lock; the result does not depend on the number of threads.")
-      .def("getFramePoses", getFramePoses, "Q"_a, "frames"_a, "threads"_a = 1,
-           "World poses of f frames at each row of Q (N, n): (N, f, 7), x y z (m) qw qx qy qz with qw >= 0.")
-      .def("getFrameJacobians", getFrameJacobians, "Q"_a, "frames"_a, "threads"_a = 1,
-           "Geometric Jacobians of f frames at each row of Q (N, n): (N, f, 6, n), the velocity of the frame's origin "
-           "(m/s) and its\n"
-           "angular velocity (rad/s) in world coordinates, per unit of each dof's velocity.")
-      .def("getDistances", getDistances, "Q"_a, "threads"_a = 1,
-           "Signed distances (m) of the p collidable pairs, as in getCollidablePairs, at each row of Q (N, n): (N, p). "
-           "Negative:\n"
-           "penetration depth.")
-      .def("getNearestPoints", getNearestPoints, "Q"_a = nb::none(), "threads"_a = 1,
-           "For each of the p collidable pairs, as in getCollidablePairs: the signed distance (m), the nearest points "
-           "on both surfaces\n"
-           "(world coordinates, m), and the unit normal from the second to the first. (p,), (p, 2, 3), (p, 3) at the "
-           "present q; with Q\n"
-           "(N, n), at each of its rows: (N, p), (N, p, 2, 3), (N, p, 3). distance = normal . (point 0 - point 1).")
-      .def("isValid", isValid, "Q"_a, "margin"_a = 0., "threads"_a = 1,
-           "For each row of Q (N, n): is q within its limits, and is no collidable pair nearer than margin (m)? (N,) "
-           "bool.")
+           "threads"_a = 1, docs::batch::evalBatch)
+      .def("getFramePoses", getFramePoses, "Q"_a, "frames"_a, "threads"_a = 1, docs::batch::getFramePoses)
+      .def("getFrameJacobians", getFrameJacobians, "Q"_a, "frames"_a, "threads"_a = 1, docs::batch::getFrameJacobians)
+      .def("getDistances", getDistances, "Q"_a, "threads"_a = 1, docs::batch::getDistances)
+      .def("getNearestPoints", getNearestPoints, "Q"_a = nb::none(), "threads"_a = 1, docs::batch::getNearestPoints)
+      .def("isValid", isValid, "Q"_a, "margin"_a = 0., "threads"_a = 1, docs::batch::isValid)
       .def("isMotionFree", isMotionFree, "start"_a, "end"_a, "margin"_a = 0., "tolerance"_a = 1e-4, "threads"_a = 1,
-           "checkMotion for N straight motions, between the rows of start and end (N, n): (N,) bool, True where it "
-           "finds no contact.");
+           docs::batch::isMotionFree);
 }
 
 }  // namespace kinegraph::python

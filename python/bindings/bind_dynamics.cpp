@@ -2,6 +2,7 @@
 
 #include "bindings.h"
 #include "defaults.h"
+#include "docs/dynamics.h"
 #include "kinegraph/scene/earlier_methods.h"
 
 namespace kinegraph::python {
@@ -14,9 +15,7 @@ void bindDynamics(nb::class_<PyConfig>& config) {
             const EquationOfMotion equation = c.equationOfMotion(velocity.values);
             return nb::typed<nb::tuple, Array, Array>(nb::make_tuple(toNumpy(equation.M), toNumpy(equation.F)));
           },
-          "q_dot"_a,
-          "M (n, n) and F (n,) of the equation of motion u = M ddq + F, at q and the velocity dq. Gravity is\n"
-          "9.81 m/s^2 along -z; masses, centers of mass and inertias are those of the frames.")
+          "q_dot"_a, docs::dynamics::dyn_MF)
       .def(
           "equationOfMotion",
           [](const PyConfig& c, const Numbers& velocity, bool gravity) {
@@ -24,34 +23,30 @@ void bindDynamics(nb::class_<PyConfig>& config) {
             if (!gravity) equation.F -= c.equationOfMotion(VectorXd::Zero(velocity.values.size())).F;
             return nb::typed<nb::tuple, Array, Array>(nb::make_tuple(toNumpy(equation.M), toNumpy(equation.F)));
           },
-          "qdot"_a, "gravity"_a = true, "dyn_MF, as scripts of earlier years call it, also without gravity.")
+          "qdot"_a, "gravity"_a = true, docs::dynamics::equationOfMotion)
       .def(
           "stepDynamics",
           [](PyConfig& c, const Numbers& velocity, const Numbers& u, double tau, double noise, bool gravity) {
             return toNumpy(stepDynamics(c, velocity.values, u.values, tau, noise, gravity, defaults().random));
           },
-          "qdot"_a, "u_control"_a, "tau"_a, "dynamicNoise"_a = 0., "gravity"_a = true,
-          "Moves q by tau seconds under the forces u_control (n,), from the velocity qdot (n,); returns the velocity "
-          "then.\n"
-          "A Runge-Kutta step of the equation of motion, without contacts. dynamicNoise: deviation of added "
-          "accelerations.")
+          "qdot"_a, "u_control"_a, "tau"_a, "dynamicNoise"_a = 0., "gravity"_a = true, docs::dynamics::stepDynamics)
       .def(
           "dyn_F0",
           [](const PyConfig& c) { return toNumpy(c.equationOfMotion(VectorXd::Zero(c.getJointDimension())).F); },
-          "F at rest: the generalized forces (n,) that hold the configuration against gravity (N m, N).")
+          "F at rest, shape (n,): the generalized forces (N m, N) that hold the present q against gravity.")
       .def(
           "inverseDynamics",
           [](const PyConfig& c, const Numbers& velocity, const Numbers& acceleration) {
             return toNumpy(c.inverseDynamics(velocity.values, acceleration.values));
           },
-          "q_dot"_a, "q_ddot"_a, "Generalized forces u (n,) that give the acceleration, by recursive Newton-Euler.")
+          "q_dot"_a, "q_ddot"_a, docs::dynamics::inverseDynamics)
       .def(
           "getCenterOfMass",
           [](const PyConfig& c) {
             const auto [mass, center] = c.centerOfMass();
             return nb::typed<nb::tuple, nb::float_, Array>(nb::make_tuple(mass, toNumpy(center.data(), 3)));
           },
-          "Mass of everything that moves (kg) and its center (3,), world coordinates, m.");
+          "Mass of everything that moves (kg) and its center (3,) in world coordinates, m.");
 }
 
 }  // namespace kinegraph::python

@@ -2,10 +2,13 @@
 #include <nanobind/stl/string.h>
 #include <nanobind/stl/vector.h>
 
+#include "arguments.h"
 #include "bindings.h"
+#include "docs/formats.h"
 #include "kinegraph/base/errors.h"
 #include "kinegraph/base/text.h"
 #include "kinegraph/formats/gltf_writer.h"
+#include "kinegraph/formats/mesh_export.h"
 #include "kinegraph/formats/mjcf_writer.h"
 #include "kinegraph/formats/scene_writer.h"
 #include "kinegraph/formats/urdf_writer.h"
@@ -20,20 +23,16 @@ void emitAll(const std::vector<std::string>& warnings) {
   for (const std::string& warning : warnings) emitWarning(warning);
 }
 
-std::string pathText(nb::handle path) { return nb::cast<std::string>(nb::module_::import_("os").attr("fspath")(path)); }
-
-std::string writeG(const PyConfig& config, nb::handle file) {
+std::string writeG(const PyConfig& config, const std::optional<PathText>& file) {
   std::vector<std::string> warnings;
-  const std::string text =
-      file.is_none() ? writeScene(config, &warnings) : saveScene(config, pathText(file), &warnings);
+  const std::string text = file ? saveScene(config, file->text, &warnings) : writeScene(config, &warnings);
   emitAll(warnings);
   return text;
 }
 
-std::string writeURDF(const PyConfig& config, nb::handle file) {
+std::string writeURDF(const PyConfig& config, const std::optional<PathText>& file) {
   std::vector<std::string> warnings;
-  const std::string text =
-      file.is_none() ? writeUrdf(config, {}, &warnings) : saveUrdf(config, pathText(file), &warnings);
+  const std::string text = file ? saveUrdf(config, file->text, &warnings) : writeUrdf(config, {}, &warnings);
   emitAll(warnings);
   return text;
 }
@@ -45,9 +44,9 @@ std::string asMJCF(const PyConfig& config) {
   return text;
 }
 
-std::string writeMJCF(const PyConfig& config, nb::handle file) {
+std::string writeMJCF(const PyConfig& config, const PathText& file) {
   std::vector<std::string> warnings;
-  const std::string text = saveMjcf(config, pathText(file), &warnings);
+  const std::string text = saveMjcf(config, file.text, &warnings);
   emitAll(warnings);
   return text;
 }
@@ -59,15 +58,15 @@ std::string asYaml(const PyConfig& config, bool serial) {
   return text;
 }
 
-nb::dict asDict(const PyConfig& config) {
+Attributes asDict(const PyConfig& config) {
   std::vector<std::string> warnings;
   const Graph graph = describeScene(config, NameRule::unique, &warnings);
   emitAll(warnings);
-  return toDict(graph);
+  return Attributes(toDict(graph));
 }
 
 /// A dict's entries as the lines of a `.g` file: its keys may hold parents and keywords, as a file's do.
-std::string sceneText(nb::dict scene) {
+std::string sceneText(const Attributes& scene) {
   std::string text;
   for (const auto& [key, value] : scene) {
     const auto name = nb::cast<std::string>(key);
@@ -76,49 +75,62 @@ std::string sceneText(nb::dict scene) {
   return text;
 }
 
+void writeCollada(const PyConfig& config, const PathText& file, const std::string& format) {
+  if (format != "collada")
+    throw ValueError(cat("writeCollada: format '", format, "' is not written; expected 'collada'"));
+  saveCollada(config, file.text);
+}
+
+void bindMeshFiles(nb::class_<PyConfig>& config) {
+  config
+      .def(
+          "writeMesh", [](const PyConfig& c, const PathText& file) { saveWorldMesh(c, file.text); }, "filename"_a,
+          docs::formats::writeMesh)
+      .def(
+          "writeMeshes",
+          [](const PyConfig& c, const std::string& prefix, bool, bool enumerate) {
+            return saveMeshes(c, prefix, enumerate);
+          },
+          "pathPrefix"_a, "copyTextures"_a = true, "enumerateAssets"_a = false, docs::formats::writeMeshes)
+      .def(
+          "writeConvexStls",
+          [](const PyConfig& c, const std::string& prefix, double shrink, int) {
+            return saveConvexStls(c, prefix, shrink);
+          },
+          "pathPrefix"_a, "shrinkRadius"_a = -1., "verbose"_a = 1, docs::formats::writeConvexStls)
+      .def("writeCollada", writeCollada, "filename"_a, "format"_a = "collada", docs::formats::writeCollada)
+      .def(
+          "writeGltf", [](const PyConfig& c, const PathText& file) { writeGltf(c, file.text); }, "filename"_a,
+          docs::formats::writeGltf);
+}
+
 }  // namespace
 
-void bindFormats(nb::module_&, nb::class_<PyConfig>& config, nb::class_<Frame>& frame) {
+void bindFormats(nb::class_<PyConfig>& config, nb::class_<Frame>& frame) {
   config
       .def(
           "addDict",
-          [](PyConfig& c, nb::dict scene) {
+          [](PyConfig& c, const Attributes& scene) {
             const std::optional<Frame> first = c.addText(sceneText(scene), "dict");
             emitWarnings(c);
             return first;
           },
-          "dict"_a,
-          "Adds frames given as {'name (parent)': {attribute: value, ...}, ...}, as in a .g file. Returns the first, "
-          "or None.")
-      .def("asDict", asDict,
-           "The scene as {'name(parent)': {attribute: value, ...}, ...}, in the order of the frames; addDict reads it.")
-      .def("asYaml", asYaml, "serial"_a = false, "The scene as text that is YAML and .g at once; serial: on one line.")
-      .def("write", writeG, "filename"_a = nb::none(),
-           "The scene as .g text, numbers exact. With a filename it is written there: as URDF for .urdf, as MJCF for "
-           ".xml, as YAML\n"
-           "for .yml and .yaml, else as .g. Returns the text.")
-      .def("writeURDF", writeURDF, "filename"_a = nb::none(),
-           "The scene as URDF text. With a filename it is written there, and shapes that URDF has no element for go "
-           "into .stl\n"
-           "files in a folder beside it; without one they are left out with a warning.")
+          "dict"_a, docs::formats::addDict)
+      .def("asDict", asDict, docs::formats::asDict)
+      .def("asYaml", asYaml, "serial"_a = false, docs::formats::asYaml)
+      .def("write", writeG, "filename"_a = nb::none(), docs::formats::write)
+      .def("writeURDF", writeURDF, "filename"_a = nb::none(), docs::formats::writeURDF)
       .def("asMJCF", asMJCF,
-           "The scene as MJCF text, which MuJoCo loads with the same poses; meshes stand in the text.")
-      .def("writeMJCF", writeMJCF, "filename"_a,
-           "Writes the scene as MJCF, which MuJoCo loads with the same poses: bodies, joints, geoms and sites have the "
-           "names of\n"
-           "their frames. Meshes that MuJoCo cannot read as they are go into a folder beside it. Returns the text.")
-      .def(
-          "writeGltf", [](const PyConfig& c, nb::handle file) { writeGltf(c, pathText(file)); }, "filename"_a,
-          "Writes the scene, as it stands, as binary glTF (.glb): a node per frame with the surface that is shown for "
-          "it, in its\n"
-          "colors, y up as glTF has it.");
-
+           "The scene as MJCF text, which MuJoCo loads with the same poses. Meshes stand in the text.")
+      .def("writeMJCF", writeMJCF, "filename"_a, docs::formats::writeMJCF);
   frame
       .def(
-          "asDict", [](const Frame& f) { return toDict(describeFrame(f.data())); },
-          "What the frame is now, as attributes of a .g file.")
+          "asDict", [](const Frame& f) { return Attributes(toDict(describeFrame(f.data()))); },
+          "What the frame is now, as the attributes of a .g file.")
       .def(
-          "info", [](const Frame& f) { return toDict(describeFrame(f.data())); }, "The same as asDict.");
+          "info", [](const Frame& f) { return Attributes(toDict(describeFrame(f.data()))); },
+          "What the frame is now, as the attributes of a .g file.");
+  bindMeshFiles(config);
 }
 
 }  // namespace kinegraph::python

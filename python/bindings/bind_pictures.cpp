@@ -3,6 +3,7 @@
 #include <nanobind/stl/vector.h>
 
 #include "bindings.h"
+#include "docs/pictures.h"
 #include "images.h"
 #include "kinegraph/base/errors.h"
 #include "kinegraph/base/text.h"
@@ -108,26 +109,19 @@ void bindPictures(nb::class_<PyViewer>& viewer) {
             CameraImage image = picture(v, v.message());
             return rgbOf(image);
           },
-          "nonThreaded"_a = true,
-          "A picture of the scene, with the message, drawn without a browser: uint8 (height, width, 3).")
+          "nonThreaded"_a = true, docs::pictures::getRgb)
       .def(
           "getDepth",
           [](PyViewer& v, bool) {
             CameraImage image = picture(v, v.message());
             return depthOf(image);
           },
-          "nonThreaded"_a = true,
-          "Its depth along the camera's z axis: float32 (height, width), m; -1 where nothing is.")
+          "nonThreaded"_a = true, docs::pictures::getDepth)
       .def(
           "savePng", [](PyViewer& v, const std::string& path, int count) { return savePicture(v, path, count); },
-          "saveVideoPath"_a = "z.vid/", "count"_a = -1,
-          "Saves a picture, and returns the file's name: `saveVideoPath` itself if it ends in .png; else it is a "
-          "prefix that\n"
-          "gets a number of six digits, which counts up from 0, or from `count`. Folders are made.")
-      .def("setCamera", setViewCamera, "frame"_a.none() = nb::none(),
-           "Looks from a camera frame (or its name) and follows it, as CameraView.setCamera; None: from where viewers "
-           "start.")
-      .def("setCamera", setCameraTarget, "position"_a, "target"_a, "Where to look from, and at: 3 numbers each, m.")
+          "saveVideoPath"_a = "z.vid/", "count"_a = -1, docs::pictures::savePng)
+      .def("setCamera", setViewCamera, "frame"_a.none() = nb::none(), docs::pictures::setCamera)
+      .def("setCamera", setCameraTarget, "position"_a, "target"_a, docs::pictures::setCameraAt)
       .def(
           "setCameraPose",
           [](PyViewer& v, const Numbers& pose) {
@@ -135,21 +129,21 @@ void bindPictures(nb::class_<PyViewer>& viewer) {
             camera.pose = Pose::fromNumbers(pose.values);
             placeCamera(v, camera);
           },
-          "pose7"_a, "Where the camera is, (7,): x to the right of the image, y down, z forward.")
+          "pose7"_a, docs::pictures::setCameraPose)
       .def(
           "getCamera_pose", [](PyViewer& v) { return toNumpy(VectorXd(cameraNow(v).pose.numbers())); },
-          "The camera's pose, (7,).")
+          "The camera's pose, shape (7,): x y z (m) qw qx qy qz.")
       .def(
-          "getCamera_fxycxy", [](PyViewer& v) { return fxycxyOf(cameraNow(v)); }, "fx, fy, cx, cy in pixels.")
+          "getCamera_fxycxy", [](PyViewer& v) { return fxycxyOf(cameraNow(v)); },
+          "fx, fy, cx, cy in pixels, shape (4,).")
       .def(
           "getCamera_focalLength",
           [](PyViewer& v) {
             const double f = cameraNow(v).focal_length;
             return toNumpy(VectorXd(Vector4d(f, f, 0., 0.)));
           },
-          "Focal length in image heights, twice, and two zeros.")
-      .def("focus", focus, "position"_a, "heightAbs"_a = 1.,
-           "Turns the camera to a point, and moves it so far away that heightAbs m fit into the height of the window.")
+          "The focal length in image heights, twice, and two zeros, shape (4,).")
+      .def("focus", focus, "position"_a, "heightAbs"_a = 1., docs::pictures::focus)
       .def(
           "setWindow",
           [](PyViewer& v, const std::string& title, int width, int height) {
@@ -160,15 +154,14 @@ void bindPictures(nb::class_<PyViewer>& viewer) {
             v.camera.resize(width, height);
             v.setTitle(title);
           },
-          "title"_a, "width"_a, "height"_a, "Title of the page, and the size of pictures in pixels.")
+          "title"_a, "width"_a, "height"_a, docs::pictures::setWindow)
       .def(
           "visualsOnly",
           [](PyViewer& v, bool yes) {
             v.visuals_only = yes;
             if (v.isOpen()) openPage(v);
           },
-          "_visualsOnly"_a = true,
-          "Hides markers, transparent shapes and texts, on the page and in pictures; False shows them again.");
+          "_visualsOnly"_a = true, docs::pictures::visualsOnly);
 }
 
 }  // namespace kinegraph::python

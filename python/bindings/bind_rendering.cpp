@@ -3,8 +3,10 @@
 #include <nanobind/stl/string.h>
 #include <nanobind/stl/vector.h>
 
+#include "arguments.h"
 #include "bindings.h"
 #include "defaults.h"
+#include "docs/rendering.h"
 #include "images.h"
 #include "kinegraph/base/errors.h"
 #include "kinegraph/base/text.h"
@@ -48,8 +50,8 @@ DepthNoise depthNoise() {
   return noise;
 }
 
-nb::typed<nb::tuple, nb::any, nb::any> computeImageAndDepth(PyCameraView& view, nb::handle config, bool noisy,
-                                                            bool visuals_only) {
+nb::typed<nb::tuple, ByteArray, FloatArray> computeImageAndDepth(PyCameraView& view, nb::handle config, bool noisy,
+                                                                 bool visuals_only) {
   SceneTree& scene = sceneOf(view, config);
   const Camera camera = view.camera.now();
   const DepthNoise noise = noisy ? depthNoise() : DepthNoise{};
@@ -69,14 +71,14 @@ std::vector<std::int32_t> segment(PyCameraView& view, const Camera& camera, bool
   return view.renderer.segment(scene, camera, visuals_only);
 }
 
-AnyArray segmentationIds(PyCameraView& view, bool visuals_only) {
+IdArray segmentationIds(PyCameraView& view, bool visuals_only) {
   const Camera camera = view.camera.now();
-  return toImage(segment(view, camera, visuals_only), {std::size_t(camera.height), std::size_t(camera.width)});
+  return toImage<IdArray>(segment(view, camera, visuals_only), {std::size_t(camera.height), std::size_t(camera.width)});
 }
 
 /// The first six bits of an id give the two top bits of r, g and b, so that near ids look different; the next 18 the
 /// rest.
-AnyArray segmentationImage(PyCameraView& view, bool visuals_only) {
+ByteArray segmentationImage(PyCameraView& view, bool visuals_only) {
   const Camera camera = view.camera.now();
   std::vector<std::uint8_t> colors;
   for (const std::int32_t frame : segment(view, camera, visuals_only)) {
@@ -86,29 +88,32 @@ AnyArray segmentationImage(PyCameraView& view, bool visuals_only) {
       colors.push_back(std::uint8_t(top | (id >> (6 + 6 * channel) & 63)));
     }
   }
-  return toImage(std::move(colors), {std::size_t(camera.height), std::size_t(camera.width), 3});
+  return toImage<ByteArray>(std::move(colors), {std::size_t(camera.height), std::size_t(camera.width), 3});
 }
 
 using DepthArray = nb::ndarray<const float, nb::ndim<2>, nb::c_contig, nb::device::cpu>;
 
-AnyArray depthImage2PointCloud(const DepthArray& depth, const Numbers& fxycxy) {
+Array depthImage2PointCloud(const DepthArray& depth, const Numbers& fxycxy) {
   if (fxycxy.values.size() != 4)
     throw ValueError(cat("depthImage2PointCloud: fxycxy has ", fxycxy.values.size(), " numbers; expected 4"));
   const std::size_t height = depth.shape(0), width = depth.shape(1);
-  return toImage(depthToPoints(depth.data(), int(height), int(width), Vector4d(fxycxy.values)), {height, width, 3});
+  return toImage<Array>(depthToPoints(depth.data(), int(height), int(width), Vector4d(fxycxy.values)),
+                        {height, width, 3});
 }
 
 }  // namespace
 
 void bindRendering(nb::module_& m) {
   nb::class_<Camera>(m, "CameraViewSensor", "A camera as CameraView.setCamera found it.")
-      .def_ro("width", &Camera::width, "Pixels.")
-      .def_ro("height", &Camera::height, "Pixels.")
-      .def_ro("focalLength", &Camera::focal_length, "In image heights.")
+      .def_ro("width", &Camera::width, "Width of the image in pixels.")
+      .def_ro("height", &Camera::height, "Height of the image in pixels.")
+      .def_ro("focalLength", &Camera::focal_length, "Focal length in image heights.")
       .def_prop_ro(
-          "zRange", [](const Camera& c) { return nb::make_tuple(c.near, c.far); }, "Nearest and farthest depth, m.")
+          "zRange", [](const Camera& c) { return nb::make_tuple(c.near, c.far); },
+          "Nearest and farthest depth that is seen, m.")
       .def_prop_ro(
-          "pose", [](const Camera& c) { return toNumpy(VectorXd(c.pose.numbers())); }, "(7,), when it was set.");
+          "pose", [](const Camera& c) { return toNumpy(VectorXd(c.pose.numbers())); },
+          "World pose when the camera was set, shape (7,): x y z (m) qw qx qy qz.");
 
   nb::class_<PyCameraView>(
       m, "CameraView",
@@ -120,38 +125,24 @@ void bindRendering(nb::module_& m) {
             if (!nb::isinstance<PyConfig>(config)) throw nb::type_error("CameraView: expected a Config");
             new (self) PyCameraView{std::move(config)};
           },
-          "config"_a, "offscreen"_a = true, "verbose"_a = 0,
-          "Sees the configuration as it is whenever an image is computed.")
+          "config"_a, "offscreen"_a = true, "verbose"_a = 0, docs::rendering::make)
       .def(
           "setCamera",
-          [](PyCameraView& v, nb::handle frame) {
+          [](PyCameraView& v, const FrameArgument& frame) {
             v.camera.follow(toFrame(nb::cast<PyConfig&>(v.config), frame));
             return v.camera.now();
           },
-          "cameraFrame"_a,
-          "Looks from a frame, or a frame's name, and follows it. Its attributes: `width`, `height` (pixels; 640, "
-          "480),\n"
-          "`focalLength` (in image heights; 2.414) or `heightAngle` (degrees), `orthoAbsHeight` (m, for an "
-          "orthographic camera),\n"
-          "`zRange` ([nearest, farthest] depth in m; [.1, 10]).")
+          "cameraFrame"_a, docs::rendering::setCamera)
       .def(
-          "getFxycxy", [](const PyCameraView& v) { return fxycxyOf(v.camera.now()); }, "fx, fy, cx, cy in pixels.")
+          "getFxycxy", [](const PyCameraView& v) { return fxycxyOf(v.camera.now()); },
+          "fx, fy, cx, cy in pixels, shape (4,).")
       .def("computeImageAndDepth", computeImageAndDepth, "config"_a.none() = nb::none(), "simulateDepthNoise"_a = false,
-           "visualsOnly"_a = true,
-           "The image, uint8 (height, width, 3), and the depth along the camera's z axis, float32 (height, width), in "
-           "m; -1 where\n"
-           "nothing is within zRange. config: another configuration to look at.\n"
-           "simulateDepthNoise: errors of a stereo camera (parameters DepthNoise/...).\n"
-           "visualsOnly: without markers and transparent shapes; these show in the image, but transparent ones not in "
-           "the depth.")
-      .def("computeSegmentationID", segmentationIds, "visualsOnly"_a = true,
-           "The id of the frame that each pixel shows, int32 (height, width); -1 for the floor and where nothing is.")
+           "visualsOnly"_a = true, docs::rendering::computeImageAndDepth)
+      .def("computeSegmentationID", segmentationIds, "visualsOnly"_a = true, docs::rendering::computeSegmentationID)
       .def("computeSegmentationImage", segmentationImage, "visualsOnly"_a = true,
-           "The ids as colors, uint8 (height, width, 3); white for the floor and where nothing is.");
+           docs::rendering::computeSegmentationImage);
 
-  m.def("depthImage2PointCloud", depthImage2PointCloud, "depth"_a, "fxycxy"_a,
-        "Points (height, width, 3) of a depth image in the camera's frame, m; zeros where the depth is negative.\n"
-        "depth: (height, width), m. fxycxy: fx, fy, cx, cy in pixels, as getFxycxy() gives them.");
+  m.def("depthImage2PointCloud", depthImage2PointCloud, "depth"_a, "fxycxy"_a, docs::rendering::depthImage2PointCloud);
 }
 
 }  // namespace kinegraph::python

@@ -3,6 +3,7 @@
 #include <nanobind/stl/vector.h>
 
 #include "bindings.h"
+#include "docs/skeleton.h"
 #include "feature_arguments.h"
 #include "kinegraph/base/errors.h"
 #include "kinegraph/base/text.h"
@@ -60,74 +61,29 @@ void setSkeleton(PyKomo& komo, nb::handle given) {
   for (const std::string& warning : komo.takeWarnings()) emitWarning(warning);
 }
 
-nb::list entriesOf(const Skeleton& skeleton) {
-  nb::list list;
+using Times = nb::typed<nb::tuple, nb::float_, nb::float_>;
+using Entries = nb::typed<nb::list, nb::typed<nb::tuple, Times, SwitchMode, nb::typed<nb::list, nb::str>>>;
+
+Entries entriesOf(const Skeleton& skeleton) {
+  Entries list;
   for (const Skeleton::Entry& e : skeleton.entries())
     list.append(nb::make_tuple(nb::make_tuple(e.from, e.to), e.symbol, e.frames));
   return list;
 }
 
-}  // namespace
-
-void bindSkeleton(nb::module_& m) {
-  nb::class_<Skeleton>(m, "Skeleton",
-                       "What shall hold when: entries of times (in phases), a symbol of SY and frames. Makes motion "
-                       "problems that obey them.")
-      .def(nb::init<>(), "Without entries.")
+void bindEntries(nb::class_<Skeleton>& skeleton) {
+  skeleton.def(nb::init<>(), "Without entries.")
       .def("addEntry", addEntry, "timeInterval"_a, "symbol"_a, "frames"_a,
            nb::sig("def addEntry(self, timeInterval: numpy.typing.ArrayLike, symbol: SY, frames: typing.Sequence[str] "
                    "| str) -> None"),
-           "timeInterval: [at] or [from, to] in phases, to -1 for the end; of attachments such as SY.stable, until the "
-           "next one of the object.\n"
-           "symbol: of SY. frames: those that it is about: [gripper, object] for touch, [parent, object] for stable, "
-           "stableOn, ...")
-      .def("add", addList, "entries"_a,
-           "Adds entries from a flat list: times, symbol, frames, times, symbol, frames ...")
-      .def("entries", entriesOf, "A list of ((from, to), symbol, frames).")
+           docs::skeleton::addEntry)
+      .def("add", addList, "entries"_a, docs::skeleton::add)
+      .def("entries", entriesOf, "A list of ((from, to), symbol, frames), times in phases.")
       .def("getMaxPhase", &Skeleton::maxPhase, "The last phase of any entry.")
       .def("addExplicitCollisions", &Skeleton::addExplicitCollisions, "collisions"_a,
-           "Frames two by two that never overlap.")
-      .def("addLiftPriors", &Skeleton::addLiftPriors, "lift"_a,
-           "Objects that rise above 0.6 m in the middle of each phase of a path, if nothing else matters more.")
-      .def("useBroadCollisions", &Skeleton::useBroadCollisions, "enable"_a = true,
-           "Shall nothing collide? That is so unless this says no.")
-      .def(
-          "getKomo_path",
-          [](const Skeleton& s, const PyConfig& config, int steps, double acceleration, double, double homing, double) {
-            return wrapped(s.path(config, steps, acceleration, homing));
-          },
-          "Configuration"_a, "stepsPerPhase"_a = 30, "accScale"_a = 1., "lenScale"_a = 1e-2, "homingScale"_a = 1e-2,
-          "collScale"_a = 1e1,
-          "A KOMO of a path, 5 s per phase, with costs on accelerations and on the distance from home (scales; 0 "
-          "leaves one out).\n"
-          "lenScale and collScale are there for older scripts and have no effect.")
-      .def(
-          "getKomo_waypoints",
-          [](const Skeleton& s, const PyConfig& config, double length, double homing, double) {
-            return wrapped(s.waypoints(config, length, homing));
-          },
-          "Configuration"_a, "lenScale"_a = 1e-2, "homingScale"_a = 1e-2, "collScale"_a = 1e1,
-          "A KOMO of one configuration per phase, with costs on the distances between them and from home. collScale "
-          "has no effect.")
-      .def(
-          "getKomo_finalSlice",
-          [](const Skeleton& s, const PyConfig& config, double length, double homing, double) {
-            return wrapped(s.finalSlice(config, length, homing));
-          },
-          "Configuration"_a, "lenScale"_a = 1e-2, "homingScale"_a = 1e-2, "collScale"_a = 1e1,
-          "A KOMO of two configurations: the second is the end, in the first all objects were taken that are held "
-          "then.")
-      .def(
-          "getTwoWaypointProblem",
-          [](const Skeleton&, int t2, const PyKomo& waypoints) {
-            Komo::SubProblem sub = waypoints.subProblem(t2);
-            return nb::make_tuple(PyConfig{std::move(sub.config), nullptr}, toNumpy(sub.start), toNumpy(sub.end));
-          },
-          "t2"_a, "komoWays"_a,
-          nb::sig("def getTwoWaypointProblem(self, t2: int, komoWays: KOMO) -> "
-                  "tuple[Config, numpy.typing.NDArray[numpy.float64], numpy.typing.NDArray[numpy.float64]]"),
-          "For waypoints that are solved: (the scene in phase t2, q before it, q at its end), to plan the motion "
-          "between them.")
+           docs::skeleton::addExplicitCollisions)
+      .def("addLiftPriors", &Skeleton::addLiftPriors, "lift"_a, docs::skeleton::addLiftPriors)
+      .def("useBroadCollisions", &Skeleton::useBroadCollisions, "enable"_a = true, docs::skeleton::useBroadCollisions)
       .def("__getstate__",
            [](const Skeleton& s) {
              nb::list list;
@@ -151,11 +107,58 @@ void bindSkeleton(nb::module_& m) {
       .def("__repr__", [](const Skeleton& s) {
         return cat("<Skeleton: ", s.entries().size(), " entries, ", s.maxPhase(), " phases>");
       });
+}
+
+/// The problems that a skeleton makes.
+void bindProblems(nb::class_<Skeleton>& skeleton) {
+  skeleton
+      .def(
+          "getKomo_path",
+          [](const Skeleton& s, const PyConfig& config, int steps, double acceleration, double, double homing, double) {
+            return wrapped(s.path(config, steps, acceleration, homing));
+          },
+          "Configuration"_a, "stepsPerPhase"_a = 30, "accScale"_a = 1., "lenScale"_a = 1e-2, "homingScale"_a = 1e-2,
+          "collScale"_a = 1e1, docs::skeleton::getKomo_path)
+      .def(
+          "getKomo_waypoints",
+          [](const Skeleton& s, const PyConfig& config, double length, double homing, double) {
+            return wrapped(s.waypoints(config, length, homing));
+          },
+          "Configuration"_a, "lenScale"_a = 1e-2, "homingScale"_a = 1e-2, "collScale"_a = 1e1,
+          docs::skeleton::getKomo_waypoints)
+      .def(
+          "getKomo_finalSlice",
+          [](const Skeleton& s, const PyConfig& config, double length, double homing, double) {
+            return wrapped(s.finalSlice(config, length, homing));
+          },
+          "Configuration"_a, "lenScale"_a = 1e-2, "homingScale"_a = 1e-2, "collScale"_a = 1e1,
+          docs::skeleton::getKomo_finalSlice)
+      .def(
+          "getTwoWaypointProblem",
+          [](const Skeleton&, int t2, const PyKomo& waypoints) {
+            Komo::SubProblem sub = waypoints.subProblem(t2);
+            return nb::make_tuple(PyConfig{std::move(sub.config), nullptr}, toNumpy(sub.start), toNumpy(sub.end));
+          },
+          "t2"_a, "komoWays"_a,
+          nb::sig("def getTwoWaypointProblem(self, t2: int, komoWays: KOMO) -> "
+                  "tuple[Config, numpy.typing.NDArray[numpy.float64], numpy.typing.NDArray[numpy.float64]]"),
+          docs::skeleton::getTwoWaypointProblem);
+}
+
+}  // namespace
+
+void bindSkeleton(nb::module_& m) {
+  nb::class_<Skeleton> skeleton(
+      m, "Skeleton",
+      "What shall hold when: entries of times (in phases), a symbol of SY and frames. Makes motion "
+      "problems that obey them.");
+  bindEntries(skeleton);
+  bindProblems(skeleton);
   nb::object komo = nb::borrow(nb::type<PyKomo>());
   nb::setattr(komo, "setSkeleton",
               nb::cpp_function(setSkeleton, nb::is_method(), nb::name("setSkeleton"), nb::scope(komo), "skeleton"_a,
-                               nb::sig("def setSkeleton(self, skeleton: Skeleton | list) -> None"),
-                               "Adds the entries of a Skeleton, or of a list as for Skeleton.add, to this problem."));
+                               nb::sig("def setSkeleton(self, skeleton: Skeleton | list[typing.Any]) -> None"),
+                               docs::skeleton::setSkeleton));
 }
 
 }  // namespace kinegraph::python

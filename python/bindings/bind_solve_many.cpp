@@ -8,6 +8,7 @@
 
 #include "bindings.h"
 #include "defaults.h"
+#include "docs/solve_many.h"
 #include "kinegraph/base/errors.h"
 #include "kinegraph/base/text.h"
 #include "kinegraph/planning/multi_start.h"
@@ -154,11 +155,11 @@ void bindSolveMany(nb::module_& m) {
       .def_ro("results", &SolveManyResult::results,
               "A SolverReturn each; done is False where an earlier one sufficed, or Ctrl-C came before.")
       .def_ro("chosen", &SolveManyResult::chosen,
-              "Index of the best: feasible before infeasible, then by cost, or by violation.")
+              "Index of the best: feasible ones before infeasible ones, then by cost, or by violation.")
       .def_prop_ro(
           "best", [](const SolveManyResult& r) { return r.best(); }, "The SolverReturn of the best.")
       .def_prop_ro(
-          "feasible", [](const SolveManyResult& r) { return r.best().feasible; }, "The best is feasible.")
+          "feasible", [](const SolveManyResult& r) { return r.best().feasible; }, "True if the best is feasible.")
       .def("__bool__", [](const SolveManyResult& r) { return r.best().feasible; })
       .def("__len__", [](const SolveManyResult& r) { return r.results.size(); })
       .def("__getitem__", resultAt, "index"_a)
@@ -177,31 +178,13 @@ void bindSolveMany(nb::module_& m) {
           "state"_a);
 
   m.def("solveAll", solveEach, "problems"_a, nb::kw_only(), "threads"_a = 1, "best"_a = true, "verbose"_a = 0,
-        "options"_a.none() = nb::none(),
-        "Solves independent problems, on several threads, which do not change the answers: as the choices of a "
-        "discrete decision.\n\n"
-        "Args:\n"
-        "    problems: KOMO, NLP or NLP_Solver objects, all different. A KOMO is left at its solution.\n"
-        "    threads: That share the problems.\n"
-        "    best: Solves all of them; if False, the first one in the list that is feasible ends it.\n"
-        "    verbose: 1 prints a line at the end, and shows a progress bar on the way if it takes long.\n"
-        "    options: NLP_SolverOptions of all but the NLP_Solver objects, which have their own.\n"
-        "Returns:\n"
-        "    SolverReturns: results in the order of the problems, chosen (the index of the best), best. Ctrl-C ends it "
-        "with what there is.");
+        "options"_a.none() = nb::none(), docs::solve_many::solveAll);
 
   nb::object komo = nb::borrow(nb::type<PyKomo>());
   nb::setattr(komo, "solveFromMany",
               nb::cpp_function(solveKomoFromMany, nb::is_method(), nb::name("solveFromMany"), nb::scope(komo),
                                "starts"_a = 8, nb::kw_only(), "best"_a = true, "threads"_a = 1, "seed"_a = 0,
-                               "verbose"_a = 0, "options"_a.none() = nb::none(),
-                               "Solves from several starting points, and leaves the KOMO at the best solution.\n\n"
-                               "starts: their number (the present path, then random ones from seed), or paths (K, T, "
-                               "n). best: solves from all, for the\n"
-                               "feasible solution of least cost; else for the first feasible one. threads do not "
-                               "change the answer. options: of the\n"
-                               "solver, NLP_SolverOptions. Returns SolverReturns: best, chosen, results. Ctrl-C ends "
-                               "it with what there is."));
+                               "verbose"_a = 0, "options"_a.none() = nb::none(), docs::solve_many::solveFromMany));
 }
 
 }  // namespace kinegraph::python

@@ -4,8 +4,10 @@
 
 #include <algorithm>
 
+#include "arguments.h"
 #include "bindings.h"
 #include "defaults.h"
+#include "docs/viewer.h"
 #include "kinegraph/base/errors.h"
 #include "kinegraph/base/text.h"
 #include "kinegraph/viewer/motions.h"
@@ -122,8 +124,8 @@ int viewPath(PyConfig& config, const Numbers& path, double seconds, bool pause,
   return viewer->showMotion(config, motion, pause, message, interrupted);
 }
 
-void watch(PyConfig& config, nb::handle file) {
-  const std::string path = nb::cast<std::string>(nb::module_::import_("os").attr("fspath")(file));
+void watch(PyConfig& config, const PathText& file) {
+  const std::string& path = file.text;
   const std::shared_ptr<PyViewer> viewer = showIn(config);
   viewer->setTitle(cat("ConfigView <", path, ">"));  // before there is a page
   if (!openPage(*viewer)) {
@@ -142,12 +144,8 @@ void watch(PyConfig& config, nb::handle file) {
       interrupted);
 }
 
-}  // namespace
-
-void bindViewer(nb::module_& m, nb::class_<PyConfig>& config) {
-  bindEarlierNames(config);
-  nb::class_<PyViewer> viewer(m, "ConfigurationViewer",
-                              "Shows a configuration in the browser, and makes pictures of it.");
+/// The page in the browser.
+void bindPage(nb::class_<PyViewer>& viewer) {
   viewer.def_prop_ro("url", &PyViewer::url, "The page's address; starts the viewer if it does not run.")
       .def("isOpen", &PyViewer::isOpen, "True while the viewer runs.")
       .def("clients", &PyViewer::clients, "Number of browsers that are connected.")
@@ -157,39 +155,31 @@ void bindViewer(nb::module_& m, nb::class_<PyConfig>& config) {
             const nb::gil_scoped_release unlock;
             return waitForClient(v, seconds);
           },
-          "seconds"_a = 10., "Waits until a browser is connected; False if none came in time.")
-      .def("setMessage", &PyViewer::setMessage, "text"_a, "Text in the corner.")
-      .def("setError", &PyViewer::setError, "text"_a, "Text in a red box; empty removes it.")
-      .def("setTitle", &PyViewer::setTitle, "text"_a, "Title of the page.")
-      .def("takeKey", &PyViewer::takeKey, "The key pressed since the last call, or 0.")
-      .def("hasEdits", &PyViewer::hasEdits,
-           "True if people have moved joints or frames in the browser since the last view(), which takes that over.")
-      .def("select", select, "frame"_a, "Shows the card of the frame with this ID, with handles to move it.")
-      .def("asHtml", pageOf, "A web page with the scene, or the motion, that is shown; it opens without this program.")
+          "seconds"_a = 10., docs::viewer::waitForClient)
+      .def("setMessage", &PyViewer::setMessage, "text"_a, docs::viewer::setMessage)
+      .def("setError", &PyViewer::setError, "text"_a, docs::viewer::setError)
+      .def("setTitle", &PyViewer::setTitle, "text"_a, docs::viewer::setTitle)
+      .def("takeKey", &PyViewer::takeKey, "The code of the key pressed since the last call, or 0.")
+      .def("hasEdits", &PyViewer::hasEdits, docs::viewer::hasEdits)
+      .def("select", select, "frame"_a, docs::viewer::select)
+      .def("asHtml", pageOf, "A web page with the scene, or the motion, that is shown. It opens without this program.")
       .def(
           "saveHtml",
-          [](PyViewer& v, nb::handle path) {
-            nb::module_::import_("pathlib").attr("Path")(path).attr("write_text")(pageOf(v), "encoding"_a = "utf-8");
+          [](PyViewer& v, const PathText& path) {
+            nb::module_::import_("pathlib").attr("Path")(path.text).attr("write_text")(pageOf(v),
+                                                                                       "encoding"_a = "utf-8");
           },
-          "path"_a, "Saves asHtml() as a file, to be opened in any browser, or sent to somebody.")
+          "path"_a, docs::viewer::saveHtml)
       .def(
           "_repr_html_",
           [](PyViewer& v) { return nb::module_::import_("kinegraph.notebook").attr("inlineFrame")(pageOf(v)); },
           "What notebooks show: the scene as it is now.")
       .def("close", &PyViewer::endPage, "Ends the viewer.");
-  bindPictures(viewer);
-  bindViewerInput(m, viewer);
+}
 
-  config
-      .def(
-          "view", view, "pause"_a = false, "message"_a = nb::none(), "offscreen"_a = false,
-          "Shows the configuration in the browser; opens one at the first call if there is a display, and prints its "
-          "address.\n"
-          "In a notebook it appears below the cell.\n"
-          "pause: waits for a key in the browser, or Enter on the terminal. Returns the code of the key pressed since "
-          "the last\n"
-          "call (ord('a'), 13 Enter, 27 Escape ...), or 0. With KINEGRAPH_HEADLESS=1 nothing opens and nothing waits.\n"
-          "offscreen: opens nothing; viewer().getRgb() and the other pictures do without a browser.")
+/// What a Config shows.
+void bindViews(nb::class_<PyConfig>& config) {
+  config.def("view", view, "pause"_a = false, "message"_a = nb::none(), "offscreen"_a = false, docs::viewer::view)
       .def(
           "view_close",
           [](PyConfig& c) {
@@ -201,26 +191,30 @@ void bindViewer(nb::module_& m, nb::class_<PyConfig>& config) {
           [](PyConfig& c) {
             if (openPage(*showIn(c))) c.viewer->update(c);
           },
-          "Kept for older scripts; changes are always seen.")
-      .def("viewer", viewerOf, "The viewer of this configuration.")
-      .def("get_viewer", viewerOf, "The viewer of this configuration.")
+          "Does nothing that view() does not do; older scripts call it.")
+      .def("viewer", viewerOf, "The viewer of this scene.")
+      .def("get_viewer", viewerOf, "The viewer of this scene.")
       .def(
           "set_viewer", [](PyConfig& c, std::shared_ptr<PyViewer> v) { c.viewer = std::move(v); }, "viewer"_a,
-          "Shows this configuration in another one's viewer.")
+          docs::viewer::set_viewer)
       .def("animate", animate,
            "Plays every joint through its limits, in the browser. A key there ends it; q stays as it is.")
-      .def("animateSpline", animateSpline, "T"_a = 3,
-           "Plays a smooth motion by T random joint states within the limits and back, in T + 1 s. A key ends it; q "
-           "stays.")
+      .def("animateSpline", animateSpline, "T"_a = 3, docs::viewer::animateSpline)
       .def("view_path", viewPath, "path"_a, "seconds"_a = 3., "pause"_a = false, "message"_a = nb::none(),
-           "Shows a motion, an array (T, n) of joint states, with a time slider, and waits until it has been played "
-           "once.\n"
-           "pause: then waits for a key. Returns the key, or 0. The joint state stays as it is.")
-      .def("watchFile", watch, "filename"_a,
-           "Loads a scene file, shows it, and again whenever it (or a file that it includes) changes, until q is "
-           "pressed in the\n"
-           "browser, Enter on the terminal, or Ctrl-C. A mistake in the file is shown there and printed; the last "
-           "scene stays.");
+           docs::viewer::view_path)
+      .def("watchFile", watch, "filename"_a, docs::viewer::watchFile);
+}
+
+}  // namespace
+
+void bindViewer(nb::module_& m, nb::class_<PyConfig>& config) {
+  bindEarlierNames(config);
+  nb::class_<PyViewer> viewer(m, "ConfigurationViewer",
+                              "Shows a configuration in the browser, and makes pictures of it.");
+  bindPage(viewer);
+  bindPictures(viewer);
+  bindViewerInput(m, viewer);
+  bindViews(config);
 }
 
 }  // namespace kinegraph::python

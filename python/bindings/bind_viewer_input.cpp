@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "bindings.h"
+#include "docs/viewer_input.h"
 #include "kinegraph/base/errors.h"
 #include "kinegraph/base/text.h"
 #include "py_viewer.h"
@@ -101,30 +102,14 @@ int viewImage(ImageViewer& viewer, const Image<T>& image, bool wait, double zoom
 }  // namespace
 
 void bindViewerInput(nb::module_& m, nb::class_<PyViewer>& viewer) {
-  viewer
-      .def("view", view, "pause"_a = false, "text"_a = nb::none(), "offscreen"_a = false,
-           "Shows a text, and waits for a key if told so; what is shown else stays as it is. Returns as Config.view "
-           "does.")
-      .def("setQuad", setQuad, "id"_a, "rgb"_a, "x"_a, "y"_a, "h"_a,
-           "Shows a picture, uint8 (height, width, 3) or gray (height, width), on top of the scene, in the browser and "
-           "in getRgb(). x, y: its top left\n"
-           "corner, from that of the window, and h: its height, all in heights of the window. id: -1 for another "
-           "picture, or that of\n"
-           "one, to replace it. Returns the id.")
+  viewer.def("view", view, "pause"_a = false, "text"_a = nb::none(), "offscreen"_a = false, docs::viewer_input::view)
+      .def("setQuad", setQuad, "id"_a, "rgb"_a, "x"_a, "y"_a, "h"_a, docs::viewer_input::setQuad)
       .def(
           "setupEventHandler", [](PyViewer& v, bool block) { v.server().requestEvents(block); },
-          "blockDefaultHandler"_a,
-          "Collects what people do with mouse and keys on the page, for getEvents(). blockDefaultHandler: the page "
-          "itself does\n"
-          "nothing with it: the camera stays.")
+          "blockDefaultHandler"_a, docs::viewer_input::setupEventHandler)
       .def(
-          "getEvents", [](PyViewer& v) { return v.server().takeEvents(); },
-          "What people did since the last call: 'click down left', 'key up a', 'scroll up', 'mod shift' (what is held "
-          "from then on).")
-      .def("getEventCursor", eventCursor,
-           "The point of the surface that the pointer is on, in the world, and its normal: six numbers. None before "
-           "the pointer has\n"
-           "been on one; over the background the last one stays. Browsers tell from the first call on.")
+          "getEvents", [](PyViewer& v) { return v.server().takeEvents(); }, docs::viewer_input::getEvents)
+      .def("getEventCursor", eventCursor, docs::viewer_input::getEventCursor)
       .def("getEventCursorObject", eventCursorObject,
            "The id of the frame that the pointer is on; 16777215 over the floor and the background.")
       .def(
@@ -134,13 +119,9 @@ void bindViewerInput(nb::module_& m, nb::class_<PyViewer>& viewer) {
           "getGLFWWindow", [](PyViewer&) { return 0; }, "0: there is no such window.");
 
   nb::class_<ImageViewer>(m, "ImageViewer", "Shows pictures in the browser.")
-      .def(nb::init<>())
-      .def("view", viewImage<std::uint8_t>, "img"_a, "wait"_a = false, "zoom"_a = 1.,
-           "Shows uint8 (height, width, 3), or (height, width) as gray, each pixel `zoom` pixels large. wait: for a "
-           "key.\n"
-           "Returns the key, or 0.")
-      .def("viewFloat", viewImage<float>, "img"_a, "wait"_a = false, "zoom"_a = 1.,
-           "The same for floats in 0..255; what is below or above is cut off.")
+      .def(nb::init<>(), "Shows nothing yet.")
+      .def("view", viewImage<std::uint8_t>, "img"_a, "wait"_a = false, "zoom"_a = 1., docs::viewer_input::viewImage)
+      .def("viewFloat", viewImage<float>, "img"_a, "wait"_a = false, "zoom"_a = 1., docs::viewer_input::viewFloat)
       .def_prop_ro("url", &ImageViewer::url, "The page's address.")
       .def("close", &ImageViewer::close, "Ends the viewer.");
 }

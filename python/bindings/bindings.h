@@ -31,8 +31,13 @@ struct PyConfig : Config {
 
 void bindErrors(nb::module_& m);
 void bindScene(nb::module_& m);
-void bindFrame(nb::module_& m, nb::class_<Frame>& frame);
+void bindJoints(nb::class_<PyConfig>& config);
+void bindCollisions(nb::module_& m, nb::class_<PyConfig>& config);
+void bindFrame(nb::class_<Frame>& frame);
+void bindFramePoses(nb::class_<Frame>& frame);
+void bindFrameJoint(nb::class_<Frame>& frame);
 void bindShapes(nb::class_<Frame>& frame);
+void bindMeshes(nb::class_<Frame>& frame);
 void bindStructure(nb::class_<PyConfig>& config);
 void bindFeatures(nb::module_& m, nb::class_<PyConfig>& config);
 void bindOwnFeatures(nb::module_& m);
@@ -41,9 +46,9 @@ void bindNlp(nb::module_& m);
 void bindSolvers(nb::module_& m);
 void bindKomo(nb::module_& m);
 void bindSkeleton(nb::module_& m);
-void bindPlanning(nb::module_& m);
+void bindIk(nb::module_& m);
 void bindDynamics(nb::class_<PyConfig>& config);
-void bindFormats(nb::module_& m, nb::class_<PyConfig>& config, nb::class_<Frame>& frame);
+void bindFormats(nb::class_<PyConfig>& config, nb::class_<Frame>& frame);
 void bindRendering(nb::module_& m);
 void bindViewer(nb::module_& m, nb::class_<PyConfig>& config);
 

@@ -2,7 +2,9 @@
 
 #include <cstdlib>
 
+#include "arguments.h"
 #include "bindings.h"
+#include "docs/module.h"
 #include "kinegraph/gfile/parser.h"
 #include "nlp_objects.h"
 #include "scene_values.h"
@@ -39,9 +41,9 @@ NB_MODULE(_core, m) {
   bindKomo(m);
   bindSkeleton(m);
   bindSolveMany(m);
-  bindPlanning(m);
+  bindIk(m);
   m.def(
       "parseText",
-      [](const std::string& text, const std::string& name) { return toDict(kinegraph::parse(text, name)); }, "text"_a,
-      "name"_a = "text", "Text in .g syntax as a dict.");
+      [](const std::string& text, const std::string& name) { return Attributes(toDict(kinegraph::parse(text, name))); },
+      "text"_a, "name"_a = "text", docs::module::parseText);
 }

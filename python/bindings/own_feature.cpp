@@ -1,6 +1,7 @@
 #include <nanobind/stl/string.h>
 
 #include "bindings.h"
+#include "docs/own_features.h"
 #include "feature_arguments.h"
 #include "kinegraph/base/errors.h"
 #include "kinegraph/base/text.h"
@@ -182,23 +183,25 @@ void bindOwnFeatures(nb::module_& m) {
       .def_prop_ro(
           "name", [](const FrameView& v) { return v.state->program().frame_name[v.frame]; }, "The frame's name.")
       .def(
-          "getJointState", [](const FrameView& v) { return toNumpy(v.state->q()); }, "q of the configuration (n,).")
+          "getJointState", [](const FrameView& v) { return toNumpy(v.state->q()); },
+          "q of the scene, shape (n,), rad or m.")
       .def(
           "getPosition", [](const FrameView& v) { return toNumpy(VectorXd(v.state->position(v.frame))); },
-          "World position (3,), m.")
+          "World position, shape (3,), m.")
       .def(
           "getQuaternion",
           [](const FrameView& v) { return toNumpy(VectorXd(wxyz(Quaterniond(v.state->pose(v.frame).R)))); },
-          "World orientation (4,): w x y z.")
+          "World rotation, shape (4,): w x y z.")
       .def(
           "getPose", [](const FrameView& v) { return toNumpy(VectorXd(Pose(v.state->pose(v.frame)).numbers())); },
-          "World pose (7,): x y z qw qx qy qz.")
+          "World pose, shape (7,): x y z (m) qw qx qy qz.")
       .def(
           "getRotationMatrix", [](const FrameView& v) { return toNumpy(MatrixXd(v.state->pose(v.frame).R)); },
-          "World orientation (3, 3); its columns are the frame's axes.")
+          "World rotation, shape (3, 3); its columns are the frame's axes.")
       .def("getPositionJacobian", pointJacobian, "point"_a = nb::make_tuple(0., 0., 0.),
-           "(3, n): derivative of the world position of a point of the frame, given in its coordinates (m).")
-      .def("getAngularJacobian", angularJacobian, "(3, n): world angular velocity of the frame per velocity of q.")
+           docs::own_features::getPositionJacobian)
+      .def("getAngularJacobian", angularJacobian,
+           "The world angular velocity of the frame per velocity of q, shape (3, n), rad per rad or m.")
       .def("__repr__",
            [](const FrameView& v) { return cat("<FrameView '", v.state->program().frame_name[v.frame], "'>"); });
 }

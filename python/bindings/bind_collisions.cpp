@@ -1,0 +1,71 @@
+#include <nanobind/stl/optional.h>
+#include <nanobind/stl/pair.h>
+#include <nanobind/stl/string.h>
+
+#include "bindings.h"
+#include "docs/collisions.h"
+#include "kinegraph/base/text.h"
+
+namespace kinegraph::python {
+
+namespace {
+
+/// A MotionContact with names.
+struct Contact {
+  double time, distance;
+  std::pair<std::string, std::string> frames;
+};
+
+nb::typed<nb::list, nb::str> pairList(const PyConfig& config) {
+  nb::list names;
+  for (const auto& [a, b] : config.getCollidablePairs()) {
+    names.append(config.getFrame(a).getName());
+    names.append(config.getFrame(b).getName());
+  }
+  return names;
+}
+
+nb::typed<nb::list, nb::typed<nb::tuple, nb::str, nb::str, nb::float_>> collisions(const PyConfig& config,
+                                                                                   double margin) {
+  nb::list near;
+  for (const Config::NearPair& pair : config.getCollisions(margin)) {
+    near.append(nb::make_tuple(config.getFrame(pair.a).getName(), config.getFrame(pair.b).getName(), pair.distance));
+  }
+  return near;
+}
+
+std::optional<Contact> checkMotion(const PyConfig& config, const Numbers& start, const Numbers& end, double margin,
+                                   double tolerance) {
+  const std::optional<MotionContact> contact = config.checkMotion(start.values, end.values, margin, tolerance);
+  if (!contact) return std::nullopt;
+  return Contact{
+      contact->time, contact->distance, {config.getFrame(contact->a).getName(), config.getFrame(contact->b).getName()}};
+}
+
+}  // namespace
+
+void bindCollisions(nb::module_& m, nb::class_<PyConfig>& config) {
+  nb::class_<Contact>(m, "MotionContact", "Where a motion of q first brings two frames too near.")
+      .def_ro("time", &Contact::time, "In [0, 1]: 0 is the start of the motion, 1 its end. Until then it is free.")
+      .def_ro("distance", &Contact::distance, "Of the two at that time, m; negative: penetration depth.")
+      .def_ro("frames", &Contact::frames, "Their names.")
+      .def("__repr__", [](const Contact& c) {
+        return cat("<MotionContact: ", c.frames.first, " and ", c.frames.second, " at time ", c.time, ", distance ",
+                   c.distance, ">");
+      });
+  config.def("getCollidablePairs", pairList, docs::collisions::getCollidablePairs)
+      .def("getCollisions", collisions, "belowMargin"_a = 0., docs::collisions::getCollisions)
+      .def(
+          "coll_totalViolation", [](const PyConfig& c, bool maximal) { return c.getTotalPenetration(maximal); },
+          "return_maximal"_a = false, docs::collisions::coll_totalViolation)
+      .def(
+          "getCollisionsTotalPenetration", [](const PyConfig& c) { return c.getTotalPenetration(); },
+          "The sum of all penetration depths, m: coll_totalViolation().")
+      .def(
+          "computeCollisions", [](const PyConfig& c) { c.state(); },
+          "Does nothing; older scripts call it. Collisions are always those of the present q.")
+      .def("checkMotion", checkMotion, "start"_a, "end"_a, "margin"_a = 0., "tolerance"_a = 1e-4,
+           docs::collisions::checkMotion);
+}
+
+}  // namespace kinegraph::python

@@ -1,0 +1,36 @@
+#pragma once
+
+/// The manual of what bind_collisions.cpp binds.
+namespace kinegraph::python::docs::collisions {
+
+inline constexpr char getCollidablePairs[] =
+    R"(Names of the frames that may collide, two by two: a1 b1 a2 b2 ... Shapes with `contact` 0 are in no pair.)";
+
+inline constexpr char getCollisions[] = R"(All collidable pairs nearer than a margin, at the present q.
+
+Args:
+    belowMargin: The margin, m; 0 gives the pairs that overlap.
+Returns:
+    A tuple per pair: two names and their distance, m; negative: penetration depth.)";
+
+inline constexpr char coll_totalViolation[] = R"(How deep all collidable pairs overlap, at the present q.
+
+Args:
+    return_maximal: The largest depth in place of the sum.
+Returns:
+    The sum of all penetration depths, or the largest, m.)";
+
+inline constexpr char checkMotion[] =
+    R"(Where a straight motion of q first brings two frames too near. All times of the motion count, not only samples of it.
+
+Args:
+    start: q at the start, shape (n,), rad or m.
+    end: q at the end, shape (n,), rad or m.
+    margin: Distance that all collidable pairs keep, m.
+    tolerance: A pair that comes within margin + tolerance (m) may be reported as well.
+Returns:
+    The first MotionContact, or None where all pairs keep apart.
+Raises:
+    ArgumentError: start or end have another size; the margin is not a distance, or the tolerance not positive.)";
+
+}  // namespace kinegraph::python::docs::collisions

@@ -1,0 +1,164 @@
+#pragma once
+
+/// The manual of what bind_frame_poses.cpp binds.
+namespace kinegraph::python::docs::frame_poses {
+
+inline constexpr char getPose[] = R"(The pose in the world, or in another frame.
+
+Args:
+    relativeTo: The other frame; None: the world.
+Returns:
+    x y z (m) qw qx qy qz, shape (7,).)";
+
+inline constexpr char getPosition[] = R"(The position in the world, or in another frame.
+
+Args:
+    relativeTo: The other frame; None: the world.
+Returns:
+    x y z in m, shape (3,).)";
+
+inline constexpr char getQuaternion[] = R"(The rotation in the world, or in another frame.
+
+Args:
+    relativeTo: The other frame; None: the world.
+Returns:
+    w x y z, shape (4,).)";
+
+inline constexpr char getTransform[] = R"(The pose in the world, or in another frame, as homogeneous matrix.
+
+Args:
+    relativeTo: The other frame; None: the world.
+Returns:
+    Shape (4, 4), lengths in m.)";
+
+inline constexpr char setPose[] = R"(Sets the pose in the world.
+
+Args:
+    pose: 7 numbers x y z (m) qw qx qy qz; 3 numbers, a position; or 4 numbers, a quaternion.
+Returns:
+    The frame itself.
+Raises:
+    ArgumentError: Another size, numbers that are not finite, or a quaternion of length 0.)";
+
+inline constexpr char setPoseFromText[] = R"doc(Sets the pose in the world from text.
+
+Args:
+    pose: Motions one after another, such as "t(0 0 1) d(90 0 0 1)": t in m, d in degrees, r in rad, about an axis.
+Returns:
+    The frame itself.
+Raises:
+    ParseError: The text is not a pose.)doc";
+
+inline constexpr char setPoseByText[] = R"doc(Sets the pose in the world from text.
+
+Args:
+    pose: Motions one after another, such as "t(0 0 1) d(90 0 0 1)": t in m, d in degrees, r in rad, about an axis.
+Returns:
+    The frame itself.
+Raises:
+    ParseError: The text is not a pose.)doc";
+
+inline constexpr char setPosition[] = R"(Sets the position in the world.
+
+Args:
+    position: x y z in m, shape (3,).
+Returns:
+    The frame itself.
+Raises:
+    ArgumentError: Not three finite numbers.)";
+
+inline constexpr char setQuaternion[] = R"(Sets the rotation in the world.
+
+Args:
+    quaternion: w x y z, shape (4,); it is normalized.
+Returns:
+    The frame itself.
+Raises:
+    ArgumentError: Not four finite numbers, or all of them 0.)";
+
+inline constexpr char setRotationMatrix[] = R"(Sets the rotation in the world.
+
+Args:
+    matrix: Shape (3, 3); its columns are the frame's axes.
+Returns:
+    The frame itself.
+Raises:
+    ArgumentError: The matrix is not a rotation.)";
+
+inline constexpr char setRelativePose[] = R"(Sets the pose in the parent.
+
+Args:
+    pose: 7 numbers x y z (m) qw qx qy qz; 3 numbers, a position; or 4 numbers, a quaternion.
+Returns:
+    The frame itself.
+Raises:
+    ArgumentError: Another size, numbers that are not finite, or a quaternion of length 0.)";
+
+inline constexpr char setRelativePoseFromText[] = R"doc(Sets the pose in the parent from text.
+
+Args:
+    pose: Motions one after another, such as "t(0 0 1) d(90 0 0 1)": t in m, d in degrees, r in rad, about an axis.
+Returns:
+    The frame itself.
+Raises:
+    ParseError: The text is not a pose.)doc";
+
+inline constexpr char setRelativePoseByText[] = R"doc(Sets the pose in the parent from text.
+
+Args:
+    pose: Motions one after another, such as "t(0 0 1) d(90 0 0 1)": t in m, d in degrees, r in rad, about an axis.
+Returns:
+    The frame itself.
+Raises:
+    ParseError: The text is not a pose.)doc";
+
+inline constexpr char setRelativePosition[] = R"(Sets the position in the parent.
+
+Args:
+    position: x y z in m, shape (3,).
+Returns:
+    The frame itself.
+Raises:
+    ArgumentError: Not three finite numbers.)";
+
+inline constexpr char setRelativeQuaternion[] = R"(Sets the rotation in the parent.
+
+Args:
+    quaternion: w x y z, shape (4,); it is normalized.
+Returns:
+    The frame itself.
+Raises:
+    ArgumentError: Not four finite numbers, or all of them 0.)";
+
+inline constexpr char setRelativeRotationMatrix[] = R"(Sets the rotation in the parent.
+
+Args:
+    matrix: Shape (3, 3); its columns are the frame's axes.
+Returns:
+    The frame itself.
+Raises:
+    ArgumentError: The matrix is not a rotation.)";
+
+inline constexpr char get_Jacobian_pos[] =
+    R"(The derivative of a point that moves with the frame with respect to q, in world coordinates.
+
+Args:
+    world_pos: The point as it is now, in the world, shape (3,), m; None: the frame's origin.
+Returns:
+    Shape (3, n), m per rad or m.
+Raises:
+    ArgumentError: Not three finite numbers.)";
+
+inline constexpr char get_Jacobian_angular[] =
+    R"(The angular velocity of the frame per velocity of q, in world coordinates, shape (3, n), rad per rad or m.)";
+
+inline constexpr char trans_rel2world[] = R"(A point of the frame in world coordinates.
+
+Args:
+    point: In the frame's coordinates, shape (3,), m.
+Returns:
+    In the world's coordinates, shape (3,), m.
+Raises:
+    ArgumentError: Not three finite numbers.)";
+
+}  // namespace kinegraph::python::docs::frame_poses
