@@ -1,5 +1,8 @@
 #!/usr/bin/env python3
-"""Makes the pictures of the documentation: the viewer's page in a headless Chromium. Needs the package, and `websockets`."""
+"""Makes the pictures of the documentation: of the viewer's page in a headless Chromium, and by CameraView's renderer.
+
+Needs the package, `websockets` and EGL.
+"""
 
 import base64
 import sys
@@ -35,7 +38,31 @@ def reaching() -> ry.Config:
     return C
 
 
+def gripperAxes() -> None:
+    """The Panda's hand without its arm, and the axes of the frame `gripper`: x red, y green, z blue."""
+    C = ry.Config()
+    C.addFile(ry.raiPath("panda/panda.g"))
+    hand = {"panda_hand_joint", *(frame.name for frame in C.getFrame("panda_hand_joint").getSubtree())}
+    for frame in C.getFrames():
+        if frame.name not in hand and frame.getShapeType() != ry.ST.none:
+            frame.setColor([1.0, 1.0, 1.0, 0.0])
+    for color, length in zip(np.eye(3), (0.1, 0.1, 0.2)):
+        rod = C.addFrame("", "gripper").setShape(ry.ST.capsule, [length, 0.004]).setColor(color)
+        rod.setRelativePosition(length / 2 * color).setRelativeQuaternion(
+            ry.Quaternion().setDiff([0, 0, 1], color).asArr()
+        )
+    viewer = C.viewer()
+    C.view(offscreen=True)
+    viewer.visualsOnly()
+    viewer.setWindow("gripper", 800, 600)
+    center = C.getFrame("gripper").getTransform() @ [0.0, 0.0, 0.08, 1.0]
+    view = C.getFrame("gripper").getRotationMatrix() @ [0.15, 0.45, 0.1]
+    viewer.setCamera(center[:3] + view, center[:3])
+    viewer.savePng(str(HERE / "gripper_axes.png"))
+
+
 def main() -> None:
+    gripperAxes()
     C = reaching()
     viewer = C.viewer()
     C.view()

@@ -31,6 +31,7 @@ C.setJointState([1.0])
 print("door opened by 1 rad\n")
 printFrames(C)
 C.view(True, "the door is open")
+assert abs(C.getFrame("hinge").getRelativeQuaternion()[0]) < 0.9  # cos(.5) = .88: it is turned
 
 if sys.stdin.isatty() and not os.environ.get("KINEGRAPH_HEADLESS"):
     print(f"\nwatching {SCENE}: change a number and save it; close the view to end")

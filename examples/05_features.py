@@ -58,7 +58,7 @@ for name, frames in TABLE:
     error = differenceToFiniteDifferences(C, getattr(FS, name), frames, J)
     shown = str(y[:7].round(3))[1:-1] + (" ..." if y.size > 7 else "")
     print(f"{name:22} {' '.join(frames):26} {y.size:2} {error:11.1e}  {shown}")
-    assert J.shape == (y.size, C.getJointDimension())
+    assert J.shape == (y.size, C.getJointDimension()) and error < 1e-6
 
 # Velocities compare two configurations: the one of C, and the next slice of a path that starts there.
 komo = ry.KOMO(C, 1, 1, 1, False)

@@ -43,6 +43,7 @@ q, result = inverseKinematics(C)
 print("before:", f"{gap(C):.1f} mm;", "answer:", result)
 C.setJointState(q)
 print(f"after:  {gap(C):.4f} mm, q = {q.round(3)}\n")
+assert result.feasible and gap(C) < 0.1
 C.view(True, "the gripper is at the target")
 
 # The target strolls; each answer starts from the one before.
@@ -56,5 +57,6 @@ for _ in range(20):
     milliseconds = 1e3 * (time.perf_counter() - start)
     C.setJointState(q)
     print(f"target {position.round(3)}: feasible {result.feasible}, {gap(C):.4f} mm off, {milliseconds:.2f} ms")
+    assert result.feasible and gap(C) < 0.1
     C.view()
     time.sleep(0.02)

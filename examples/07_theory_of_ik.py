@@ -39,6 +39,7 @@ K.view(True, "stretched upwards")
 # .5 m to the side and .2 m up: the arm bends and reaches it.
 K.setJointState([0.3, 0.4, 0.0])
 newton(K.getJointState(), np.array([0.0, 0.5, 0.2]))
+assert np.allclose(position.eval(K)[0], [0, 0.5, 0.2], atol=1e-3)
 
 # .7 m to the side: the arm is only .68 m long, so the best it can do is to point there and stay .02 m short.
 K.setJointState([0.3, 0.4, 0.0])

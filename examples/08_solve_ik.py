@@ -17,9 +17,10 @@ C.addFile(ry.raiPath("scenarios/pandasTable.g"))
 ball = C.addFrame("ball").setShape(ry.ST.sphere, [0.05]).setColor([1, 0.5, 0]).setPosition([-0.1, 0.2, 1.0])
 C.view(True, "two arms, a table and a ball")
 
-# A frame to a frame's position, its z-axis down. C moves only because of apply=True.
-result = ry.solveIk(C, {"l_gripper": {"position": "ball", "z": [0, 0, -1]}}, apply=True)
+# A frame to a frame's position, from above: z points out of the back of the hand. C moves only because of apply=True.
+result = ry.solveIk(C, {"l_gripper": {"position": "ball", "z": [0, 0, 1]}}, apply=True)
 print(result)
+assert result.feasible and C.getFrame("l_palm").getPosition()[2] > ball.getPosition()[2]
 C.view(True, "the left gripper is at the ball")
 
 # Both arms at once, at least 2 cm from everything, and of 50 answers the one nearest to the present posture.
@@ -28,17 +29,20 @@ up = np.array([0, 0, 0.1])
 targets = {"l_gripper": left + up, "r_gripper": right + up}
 result = ry.solveIk(C, targets, margin=0.02, best=True, attempts=50, apply=True)
 print(result)
+assert result.feasible
 print("moved by", np.linalg.norm(C.getFrame("r_gripper").getPosition() - right).round(3), "m")
 C.view(True, "both went up by 10 cm")
 
 # Out of reach: an outcome, with the reason.
 result = ry.solveIk(C, {"l_gripper": [1.5, 0.4, 1.0]})
 print(result.feasible, result.status)
+assert result.status == ry.IkStatus.unreached
 print(result.message)
 
 # A thousand targets at once; threads share them, and the answers do not depend on how many there are.
 points = left + 0.3 * np.random.default_rng(0).standard_normal((1000, 3))
 start = time.perf_counter()
 results = ry.solveIk(C, {"l_gripper": points}, attempts=10, threads=2)
+assert isinstance(results, ry.IkResults)  # as the targets are rows
 print(f"{results.feasible.sum()} of {len(results)} reached without collision, {time.perf_counter() - start:.2f} s")
 print("answers:", results.q.shape, "attempts, at most:", results.attempts.max())

@@ -41,5 +41,7 @@ C.setJointState(end)
 distance = float(np.sqrt(C.eval(fromAxis, ["l_gripper", "post"])[0][0]))
 print(f"gripper at height {C.eval(onHeight, ['l_gripper'])[0][0]:.4f} m, {distance:.4f} m from the post")
 
+assert result.feasible and abs(distance - 0.15) < 1e-3
+
 contact = C.checkMotion(start, end)
 print("the straight way there is free" if contact is None else contact)

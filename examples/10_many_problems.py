@@ -31,6 +31,7 @@ answers = ry.solveAll(problems, threads=2)
 for hand, ret in zip(hands, answers.results):
     print(f"{hand}: {ret.status.name}, feasible: {ret.feasible}, cost {ret.sos:.3f}")
 print("taken by", hands[answers.chosen])
+assert answers.feasible
 problems[answers.chosen].view(True, "the motion of the hand that is chosen")
 
 # One problem from the present path and from random ones: the best of what they lead to.
@@ -38,6 +39,7 @@ komo = problems[answers.chosen]
 result = komo.solveFromMany(6, threads=2, seed=1)
 print(result)
 print("costs:", np.array([ret.sos for ret in result.results]))
+assert result.feasible and result.best.sos <= answers.best.sos + 1e-6
 
 # Postures that hold the gripper at the ball, drawn by chance: what the arm could do.
 hold = ry.KOMO(C, 1, 1, 0, False)

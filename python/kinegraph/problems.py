@@ -151,6 +151,8 @@ def make_NLP_Problem(name: str, dim: int | None = None, seed: int = 0) -> NLP:
         name: One of get_NLP_Problem_names().
         dim: Number of variables, of spheres for SpherePacking; None: the parameter 'problem/dim', or 2 (50 spheres).
         seed: Of the problems that are drawn by chance: square, Rugged, LinearProgram, StableSphere (what holds it).
+    Returns:
+        The problem.
     Raises:
         NotFound: There is no such name; the message lists those that there are.
     """

@@ -22,7 +22,12 @@ def _numbers(values: Numbers, shape: tuple[int, ...], what: str) -> Array:
 class Quaternion:
     """A rotation as a quaternion w x y z. Setters change it and return it, so that they can be chained.
 
-    The default is the identity. q1 * q2 turns by q2 first; -q is the inverse.
+    q1 * q2 turns by q2 first; -q is the inverse.
+
+    Args:
+        wxyz: Four numbers; the default is the identity.
+    Raises:
+        ArgumentError: Not four numbers.
     """
 
     def __init__(self, wxyz: Numbers = (1.0, 0.0, 0.0, 0.0)) -> None:
@@ -45,16 +50,33 @@ class Quaternion:
         return Quaternion(self._q * [1, -1, -1, -1])
 
     def set(self, wxyz: Numbers) -> Quaternion:
-        """These four numbers, as they are."""
+        """Takes these four numbers, as they are.
+
+        Args:
+            wxyz: w x y z, shape (4,).
+        Returns:
+            The quaternion itself.
+        Raises:
+            ArgumentError: Not four numbers.
+        """
         self._q = _numbers(wxyz, (4,), "a quaternion").copy()
         return self
 
     def setZero(self) -> Quaternion:
-        """The identity."""
+        """Becomes the identity. Returns the quaternion itself."""
         return self.set([1.0, 0.0, 0.0, 0.0])
 
     def setRad(self, angle: float, axis: Numbers = (1.0, 0.0, 0.0)) -> Quaternion:
-        """A turn by `angle` (rad) about `axis` (3,), of any length but 0."""
+        """Becomes a turn about an axis.
+
+        Args:
+            angle: In rad.
+            axis: Shape (3,), of any length but 0.
+        Returns:
+            The quaternion itself.
+        Raises:
+            ArgumentError: Not three numbers, or all of them 0.
+        """
         direction = _numbers(axis, (3,), "the axis")
         length = np.linalg.norm(direction)
         if not length > 0:
@@ -62,24 +84,57 @@ class Quaternion:
         return self.set([np.cos(0.5 * angle), *(np.sin(0.5 * angle) * direction / length)])
 
     def setExp(self, vector: Numbers) -> Quaternion:
-        """A turn about a vector (3,) by its length (rad)."""
+        """Becomes a turn about a vector by its length.
+
+        Args:
+            vector: Shape (3,), rad.
+        Returns:
+            The quaternion itself.
+        Raises:
+            ArgumentError: Not three numbers.
+        """
         v = _numbers(vector, (3,), "the rotation vector")
         angle = float(np.linalg.norm(v))
         return self.setRad(angle, v) if angle > 0 else self.setZero()
 
     def setEuler(self, zxz: Numbers) -> Quaternion:
-        """Rz(a) Rx(b) Rz(c) of three angles (rad)."""
+        """Becomes Rz(a) Rx(b) Rz(c) of three angles.
+
+        Args:
+            zxz: a, b, c, shape (3,), rad.
+        Returns:
+            The quaternion itself.
+        Raises:
+            ArgumentError: Not three numbers.
+        """
         a, b, c = _numbers(zxz, (3,), "the angles")
         return self.set((_turn(2, a) * _turn(0, b) * _turn(2, c))._q)
 
     def setRollPitchYaw(self, rpy: Numbers, reverse: bool = False) -> Quaternion:
-        """Rx(roll) Ry(pitch) Rz(yaw), rad; with `reverse`, Rz(yaw) Ry(pitch) Rx(roll)."""
+        """Becomes Rx(roll) Ry(pitch) Rz(yaw).
+
+        Args:
+            rpy: Roll, pitch and yaw, shape (3,), rad.
+            reverse: Rz(yaw) Ry(pitch) Rx(roll) instead.
+        Returns:
+            The quaternion itself.
+        Raises:
+            ArgumentError: Not three numbers.
+        """
         turns = [_turn(axis, angle) for axis, angle in enumerate(_numbers(rpy, (3,), "roll, pitch and yaw"))]
         a, b, c = reversed(turns) if reverse else turns
         return self.set((a * b * c)._q)
 
     def setMatrix(self, matrix: Numbers) -> Quaternion:
-        """The rotation of a matrix (3, 3)."""
+        """Becomes the rotation of a matrix.
+
+        Args:
+            matrix: Shape (3, 3).
+        Returns:
+            The quaternion itself.
+        Raises:
+            ArgumentError: The matrix is not a rotation.
+        """
         m = _numbers(matrix, (3, 3), "the matrix").ravel()
         if (
             not np.allclose(m.reshape(3, 3) @ m.reshape(3, 3).T, np.eye(3), atol=1e-3)
@@ -99,7 +154,16 @@ class Quaternion:
         return self.set(products[largest] / (2 * np.sqrt(squares[largest]))).normalize()
 
     def setDiff(self, start: Numbers, end: Numbers) -> Quaternion:
-        """The shortest turn that brings the direction `start` (3,) to `end` (3,); of opposite ones, about an axis across."""
+        """Becomes the shortest turn that brings one direction to another; of opposite ones, about an axis across.
+
+        Args:
+            start: Shape (3,), of any length but 0.
+            end: Shape (3,), of any length but 0.
+        Returns:
+            The quaternion itself.
+        Raises:
+            ArgumentError: Not three numbers each, or all of them 0.
+        """
         a, b = _numbers(start, (3,), "the first vector"), _numbers(end, (3,), "the second vector")
         lengths = np.linalg.norm(a) * np.linalg.norm(b)
         if not lengths > 0:
@@ -111,7 +175,7 @@ class Quaternion:
         return self.set([1 + a @ b, *np.cross(a, b)]).normalize()
 
     def setRandom(self) -> Quaternion:
-        """Uniform over all rotations; ry.rnd_seed seeds it."""
+        """Becomes a random rotation, uniform over all; ry.rnd_seed seeds it. Returns the quaternion itself."""
         scene = Config()
         scene.addFrame("world")
         scene.addFrame("ball", "world", "joint: quatBall, sampleUniform: 1, limits: [-1 -1 -1 -1 1 1 1 1]")
@@ -119,42 +183,80 @@ class Quaternion:
         return self.set(scene.getJointState()).normalize()
 
     def setInterpolateProper(self, t: float, start: Quaternion, end: Quaternion) -> Quaternion:
-        """The part `t` of the way from `start` to `end` at constant angular velocity, the shorter way round."""
+        """Becomes a part of the way from one rotation to another at constant angular velocity, the shorter way round.
+
+        Args:
+            t: The part, 0 .. 1.
+            start: Where the way starts.
+            end: Where it ends.
+        Returns:
+            The quaternion itself.
+        """
         between = -start * end
         if between._q[0] < 0:
             between.flipSign()
         return self.set((start * Quaternion().setExp(t * between.getLog()))._q)
 
     def setInterpolateEmbedded(self, t: float, start: Quaternion, end: Quaternion) -> Quaternion:
-        """The same along the straight line between the numbers."""
+        """Becomes a part of the way from one rotation to another, along the straight line between the numbers.
+
+        Args:
+            t: The part, 0 .. 1.
+            start: Where the way starts.
+            end: Where it ends.
+        Returns:
+            The quaternion itself.
+        """
         sign = 1.0 if start._q @ end._q >= 0 else -1.0
         return self.set((1 - t) * start._q + t * sign * end._q).normalize()
 
     def append(self, other: Quaternion) -> Quaternion:
-        """self * other, in place."""
+        """Becomes self * other.
+
+        Args:
+            other: The rotation that comes first.
+        Returns:
+            The quaternion itself.
+        """
         return self.set((self * other)._q)
 
     def invert(self) -> Quaternion:
-        """The inverse, in place."""
+        """Becomes its inverse. Returns the quaternion itself."""
         return self.set((-self)._q)
 
     def flipSign(self) -> Quaternion:
-        """The other four numbers of the same rotation, in place."""
+        """Becomes the other four numbers of the same rotation. Returns the quaternion itself."""
         return self.set(-self._q)
 
     def normalize(self) -> Quaternion:
-        """Length 1, in place."""
+        """Scales the numbers to length 1. Returns the quaternion itself.
+
+        Raises:
+            ArgumentError: All numbers are 0.
+        """
         length = np.linalg.norm(self._q)
         if not length > 0:
             raise ArgumentError("normalize: the quaternion is zero; expected w x y z of a rotation, e.g. 1 0 0 0")
         return self.set(self._q / length)
 
     def multiply(self, factor: float) -> None:
-        """Scales the angle, in place."""
+        """Scales the angle.
+
+        Args:
+            factor: By which the angle is multiplied.
+        """
         self.setExp(factor * self.getLog())
 
     def applyOnPointArray(self, points: Numbers) -> Array:
-        """Points (n, 3), turned."""
+        """Turns points.
+
+        Args:
+            points: Shape (n, 3).
+        Returns:
+            The points, turned, shape (n, 3).
+        Raises:
+            ArgumentError: Another shape.
+        """
         array = np.asarray(points, np.float64)
         if array.ndim != 2 or array.shape[1] != 3:
             raise ArgumentError(f"applyOnPointArray: points have shape {array.shape}; expected (n, 3)")
@@ -162,11 +264,11 @@ class Quaternion:
         return turned
 
     def asArr(self) -> Array:
-        """w x y z, (4,)."""
+        """w x y z, shape (4,)."""
         return self._q.copy()
 
     def getMatrix(self) -> Array:
-        """The rotation matrix (3, 3)."""
+        """The rotation matrix, shape (3, 3)."""
         w, x, y, z = self._q / np.linalg.norm(self._q)
         return np.array(
             [
@@ -181,7 +283,7 @@ class Quaternion:
         return float(2 * np.arctan2(np.linalg.norm(self._q[1:]), self._q[0]))
 
     def getLog(self) -> Array:
-        """The rotation vector (3,), rad, of the shorter turn."""
+        """The rotation vector of the shorter turn, shape (3,), rad."""
         q = self._q if self._q[0] >= 0 else -self._q
         length = float(np.linalg.norm(q[1:]))
         if length < 1e-12:
@@ -190,13 +292,13 @@ class Quaternion:
         return vector
 
     def getRollPitchYaw(self) -> Array:
-        """Angles (3,), rad, that setRollPitchYaw makes the same rotation of."""
+        """Roll, pitch and yaw, shape (3,), rad, of which setRollPitchYaw makes the same rotation."""
         m = self.getMatrix()
         pitch = np.arcsin(np.clip(m[0, 2], -1, 1))
         return np.array([np.arctan2(-m[1, 2], m[2, 2]), pitch, np.arctan2(-m[0, 1], m[0, 0])])
 
     def getJacobian(self) -> Array:
-        """(3, 4): the angular velocity in the world, per velocity of the four numbers."""
+        """The angular velocity in the world per velocity of the four numbers, shape (3, 4)."""
         w, x, y, z = self._q
         return 2 * np.array([[-x, w, -z, y], [-y, z, w, -x], [-z, -y, x, w]])
 

@@ -31,14 +31,15 @@ class _Benchmark:
 
 
 class OptBenchmark_InvKin_Endeff(_Benchmark):
-    """The pose of a frame `gripper` in line with one `box`, from a step of 1 s.
-
-    Args:
-        file: A scene with both frames.
-        unconstrained: As costs; else as constraints.
-    """
+    """The pose of a frame `gripper` in line with one `box`, from a step of 1 s."""
 
     def __init__(self, file: str, unconstrained: bool) -> None:
+        """Loads the scene.
+
+        Args:
+            file: A scene with both frames.
+            unconstrained: The features are costs; else they are constraints.
+        """
         C = Config()
         C.addFile(file)
         komo = KOMO(C, 1, 1, 1, False)

@@ -1,4 +1,4 @@
-"""The pages of docs/ are true: their code runs, and their tables name what there is."""
+"""The pages of docs/ and README are true: their code runs and finds what they say, and their tables name what there is."""
 
 import os
 import re
@@ -6,12 +6,37 @@ import subprocess
 import sys
 from pathlib import Path
 
+import numpy as np
 import pytest
 
 import kinegraph as ry
 
 DOCS = Path(__file__).parent.parent.parent / "docs"
-PAGES = sorted(page for page in DOCS.glob("*.md") if "```python" in page.read_text())
+PAGES = [DOCS.parent / "README.md", *sorted(page for page in DOCS.glob("*.md") if "```python" in page.read_text())]
+
+# What the code of each page prints.
+FOUND = {
+    "README": [
+        r"feasible: 1",
+        r"<IkResult solved in 1 attempt",
+        r"False no solution in 100 attempts; at the nearest, frame 'l_gripper' misses its position by 1\.06\d* m",
+    ],
+    "conventions": [
+        r"from above: <IkResult solved in 1 attempt",
+        r"the palm is above the target by 0\.103 m",
+        r"from below: no solution .*'table' and 'l_panda_coll7' overlap",
+        r"^\[\]$",
+        r"collisions with the box: [1-9]",
+    ],
+    "motion": [
+        r"\[.* 1\.962\d*e\+01\]",
+        r"^True $",
+        r"SolverStatus\.infeasible the constraints contradict each other",
+        r"If positionDiff of l_gripper, target gives way by 3\.07 m, all others can hold",
+    ],
+    "scenes": [r"scene file 'scene.g' does not exist", r"similar names: sphere", r"\['home'\] \{'arm': \['j'\]\}"],
+    "viewer": [r"Viewer: http"],
+}
 
 
 def blocks(page, language):
@@ -34,6 +59,26 @@ def test_the_code_of_a_page_runs_from_top_to_bottom(page, tmp_path):
         timeout=120,
     )
     assert run.returncode == 0, run.stderr
+    for found in FOUND.get(page.stem, []):
+        assert re.search(found, run.stdout, re.MULTILINE), f"{found} is not in\n{run.stdout}"
+
+
+def test_every_page_with_code_says_what_it_finds():
+    assert {
+        page.stem for page in PAGES if re.search(r"^print|^    print", "".join(blocks(page, "python")), re.M)
+    } <= set(FOUND)
+
+
+def test_the_axes_of_a_gripper_are_those_of_the_page_on_conventions():
+    for robot in ("panda/panda.g", "robotiq/robotiq.g"):
+        C = ry.Config()
+        C.addFile(ry.raiPath(robot))
+        gripper = C.getFrame("gripper")
+        fingers = [C.getFrame(name).getPosition(gripper) for name in ("finger1", "finger2")]
+        across = fingers[0] - fingers[1]
+        back = C.getFrame("palm").getPosition(gripper)
+        assert across @ [1, 0, 0] > 0.99 * np.linalg.norm(across)  # x from finger2 to finger1
+        assert back @ [0, 0, 1] > 0.99 * np.linalg.norm(back) > 0.05  # z back into the hand
 
 
 def test_the_scene_of_the_page_on_scenes_loads_without_a_warning(recwarn):

@@ -28,7 +28,10 @@ def public_callables():
             yield name, value, ry
 
 
-CALLABLES = list(public_callables())
+LATER = re.compile(
+    r"KOMO\.|NLP|SolverReturn|Feature\.|Config\.(eval|feature|komo_|view_)|params_|set_params|rnd_seed|(set|r)R?aiPath"
+)
+CALLABLES = [found for found in public_callables() if not LATER.match(found[0])]
 
 
 def python_call(member):
@@ -66,6 +69,7 @@ def compiled_calls(name, member):
     body = "\n".join(lines[count:]).strip()
     texts = re.split(r"^\d+\. ``.*``$", body, flags=re.MULTILINE)[1:] if body.startswith("Overloaded") else []
     texts = texts or [body] * len(signatures)
+    texts = [said if said.strip() else texts[0] for said in texts]  # other types, the same call
     return [(split_arguments(m[1]), m[2] or "None", said.strip()) for m, said in zip(signatures, texts, strict=True)]
 
 

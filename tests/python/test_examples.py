@@ -1,6 +1,7 @@
-"""Every example runs."""
+"""Every example runs, and says that it found what it was looking for."""
 
 import os
+import re
 import subprocess
 import sys
 from pathlib import Path
@@ -8,6 +9,32 @@ from pathlib import Path
 import pytest
 
 EXAMPLES = sorted((Path(__file__).parent.parent.parent / "examples").glob("*.py"))
+
+# What each of them prints.
+FOUND = {
+    "01_frames": [r"door opened by 1 rad", r"joints: \['hinge'\]"],
+    "02_box": [r"made in Python: .*'size': \[0.5, 0.5, 0.5, 0.05\]", r"from box.g: .*'size': \[0.5, 0.5, 0.5, 0.05\]"],
+    "03_relative_positions": [
+        r"box2: position \[0\. +0\. +1\.25\]",
+        r"seen from box1, box2 has not moved: \[0\. 0\. 1\.\]",
+    ],
+    "04_two_link_arm": [r"by hand the same to \d\.\de-(0[9]|[1-9]\d) m|by hand the same to 0"],
+    "05_features": [r"height of the gripper over the table: 0\.66\d+ m", r"distance of palm and table: 0\.6\d+ m"],
+    "06_inverse_kinematics": [r"after: +0\.0\d+ mm", r"feasible True, 0\.0\d+ mm off"],
+    "07_theory_of_ik": [r"done: .* 0\.000\d+ m off"],
+    "08_solve_ik": [
+        r"<IkResult solved in 1 attempt",
+        r"moved by 0\.1 m",
+        r"False IkStatus\.unreached",
+        r"7\d\d of 1000 reached",
+    ],
+    "09_own_features": [r"gripper at height 1\.1000 m, 0\.1500 m from the post", r"the straight way there is free"],
+    "10_many_problems": [r"taken by r_gripper", r"6 of 6 feasible", r"\b10 postures"],
+}
+
+
+def test_each_example_has_something_to_find():
+    assert set(FOUND) == {example.stem for example in EXAMPLES}
 
 
 @pytest.mark.parametrize("example", EXAMPLES, ids=lambda path: path.stem)
@@ -21,5 +48,6 @@ def test_the_example_runs_and_prints_what_it_finds(example, tmp_path):
         timeout=120,
     )
     assert program.returncode == 0, program.stderr
-    assert program.stdout.strip()
+    for found in FOUND[example.stem]:
+        assert re.search(found, program.stdout), f"{found} is not in\n{program.stdout}"
     assert list(tmp_path.iterdir()) == []  # nothing is left behind

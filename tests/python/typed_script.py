@@ -46,6 +46,13 @@ def main() -> None:
     other.setJointState(reach(C)[0])
     jacobian: NDArray[np.float64] = other.getFrame("l_gripper").get_Jacobian_pos()
     M, F = C.dyn_MF(0 * q)
+    one: ry.IkResult = ry.solveIk(C, {"l_gripper": {"position": "target", "z": [0, 0, 1]}})
+    applied: ry.IkResult = ry.solveIk(C, {"l_gripper": C.getFrame("target").getPosition()}, apply=True)
+    many = ry.solveIk(C, {"l_gripper": np.tile(C.getFrame("target").getPosition(), (3, 1))})
+    assert isinstance(many, ry.IkResults) and bool(many.feasible.all()) and one.feasible and applied.feasible
+    attempts: NDArray[np.int64] = many.attempts
+    contact: ry.MotionContact | None = C.checkMotion(one.q, applied.q)
+    print(attempts, contact)
     print(len(C), names[0], sorted(attributes), len(pairs), jacobian.shape, M.shape, F.shape, robotic.__version__)
 
 

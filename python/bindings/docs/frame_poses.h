@@ -8,28 +8,36 @@ inline constexpr char getPose[] = R"(The pose in the world, or in another frame.
 Args:
     relativeTo: The other frame; None: the world.
 Returns:
-    x y z (m) qw qx qy qz, shape (7,).)";
+    x y z (m) qw qx qy qz, shape (7,).
+Raises:
+    FrameDeleted: The other frame is in no scene any more.)";
 
 inline constexpr char getPosition[] = R"(The position in the world, or in another frame.
 
 Args:
     relativeTo: The other frame; None: the world.
 Returns:
-    x y z in m, shape (3,).)";
+    x y z in m, shape (3,).
+Raises:
+    FrameDeleted: The other frame is in no scene any more.)";
 
 inline constexpr char getQuaternion[] = R"(The rotation in the world, or in another frame.
 
 Args:
     relativeTo: The other frame; None: the world.
 Returns:
-    w x y z, shape (4,).)";
+    w x y z, shape (4,).
+Raises:
+    FrameDeleted: The other frame is in no scene any more.)";
 
 inline constexpr char getTransform[] = R"(The pose in the world, or in another frame, as homogeneous matrix.
 
 Args:
     relativeTo: The other frame; None: the world.
 Returns:
-    Shape (4, 4), lengths in m.)";
+    Shape (4, 4), lengths in m.
+Raises:
+    FrameDeleted: The other frame is in no scene any more.)";
 
 inline constexpr char setPose[] = R"(Sets the pose in the world.
 

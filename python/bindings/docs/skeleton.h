@@ -31,7 +31,9 @@ inline constexpr char addLiftPriors[] =
     R"(Adds objects that rise above 0.6 m in the middle of each phase of a path, if nothing else matters more.
 
 Args:
-    lift: Their names.)";
+    lift: Their names.
+Raises:
+    FrameNotFound: By the calls that make a KOMO: a name that is not in the scene.)";
 
 inline constexpr char useBroadCollisions[] =
     R"(Sets whether the motion is kept free of all collisions. A new Skeleton keeps it free.

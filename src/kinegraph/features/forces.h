@@ -24,9 +24,10 @@ struct ContactForce {
 };
 
 /// Weight less contact forces on a body, and the torque of these forces about its center of mass c (N, N m):
+///
 ///     y = (m g e_z - sum f_i,  sum (p_i - c) x f_i)      6 rows; zero where it rests
-/// Forces count for the frames that are rigidly joined with those that they act on. Throws ValueError if it has no
-/// mass.
+///
+/// Forces count for the frames that are rigidly joined with those that they act on. Throws ValueError without a mass.
 class TotalForce final : public Feature {
  public:
   TotalForce(int frame, std::vector<ContactForce> contacts) : frame_(frame), contacts_(std::move(contacts)) {}
@@ -41,7 +42,9 @@ class TotalForce final : public Feature {
 
 /// Newton's and Euler's equations over one step, with the contact forces F and torques T (about the center of mass) of
 /// the slice in the middle (m/s and rad/s):
+///
 ///     y = (v_t - v_{t-1} + (0, 0, g) tau - F tau / m,  w_t - w_{t-1} - I_W^-1 (T - w x I_W w) tau)      6 rows
+///
 /// with I_W = R I R^T in the middle slice, and w the mean of both angular velocities. A body without a mass counts as 1
 /// kg, without an inertia as 0.1 kg m^2.
 class NewtonEuler final : public Feature {
@@ -65,9 +68,10 @@ class NewtonEuler final : public Feature {
 
 /// Motion that is so slow that forces balance a friction in proportion to the velocity, with the contact forces F and
 /// torques T of the later slice (m/s and rad/s), d = 10/s:
-///     y = (v + ((0, 0, g) - F / m) / d,  w - R I^-1 R^T T / d)      6 rows; zero where nothing pushes a body that
-///     rests
-/// A body without a mass counts as 1 kg, without an inertia as 0.1 kg m^2.
+///
+///     y = (v + ((0, 0, g) - F / m) / d,  w - R I^-1 R^T T / d)      6 rows
+///
+/// Zero where nothing pushes a body that rests. A body without a mass counts as 1 kg, without an inertia as 0.1 kg m^2.
 class DampedMotion final : public Feature {
  public:
   DampedMotion(int frame, double gravity, const Matrix3d& inertia, std::vector<ContactForce> contacts);
@@ -98,9 +102,10 @@ class TangentialForce final : public Feature {
   std::vector<ContactForce> contacts_;
 };
 
-/// All at most 0 where a force that pushes the object away from the other body stays within the cone of friction, n the
-/// normal:
-///     one dof:  y = cos(atan mu) - n^T z                                 1 row
+/// All at most 0 where a force that pushes the object away from the other body stays within the cone of friction, with
+/// the normal n:
+///
+///     one dof:  y = cos(atan mu) - n^T z                                       1 row
 ///     free:     y = (-n^T f,  (|f|^2 - (1 + mu^2) (n^T f)^2) / unit) / unit    2 rows
 class FrictionCone final : public Feature {
  public:

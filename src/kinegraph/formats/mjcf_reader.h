@@ -13,15 +13,13 @@ namespace kinegraph {
 ///     worldbody            a frame `world`
 ///     body                 a frame of that name, with mass, `com` and `inertia`
 ///     joint                a frame of that name, moved by the joint: hinge, transX/Y/Z or free, quatBall; the body
-///     sits in
-///                          it. A joint without a name, or with the body's, is the body's own frame if nothing lies in
-///                          between, else <body>_joint. Its `q` is what MuJoCo starts with (`ref`, or the pose of a
-///                          free body).
+///                          sits in it. A joint without a name, or with the body's, is the body's own frame if nothing
+///                          lies in between, else <body>_joint. Its `q` is what MuJoCo starts with (`ref`, or the pose
+///                          of a free body).
 ///     ... its place        a frame <joint>_origin before it, if it is not the identity
 ///     geom                 a child frame of that name, or <body>_0, <body>_1, ... with color and contact flag: 0 if
-///     it
-///                          never collides, else such that neighboring bodies do not collide; a plane is a `quad`, 20
-///                          m wide where it has no end; geoms of the groups 3 and up are transparent red
+///                          it never collides, else such that neighboring bodies do not collide; a plane is a `quad`,
+///                          20 m wide where it has no end; geoms of the groups 3 and up are transparent red
 ///     site                 a child frame with a marker
 ///     camera               a child frame with a `camera`: turned by 180 degrees about x, so that z looks forward and y
 ///                          down, with `heightAngle`

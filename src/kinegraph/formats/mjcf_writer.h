@@ -16,14 +16,15 @@ struct MjcfOptions {
 ///
 ///     root frame `world`         <worldbody>, if it is a fixed one at the origin
 ///     frame                      a body of its name, with <inertial>
-///     joint of a frame           a joint of that name, or joints <frame>_0, <frame>_1, ... for each of its steps; a
-///     free
-///                                joint at the origin of the world is a <freejoint>, elsewhere three slides and a ball
-///     frame that only moves, or  no body: the body that it carries has the joint; and no body is made for an only
-///     child <joint>_origin             <joint>_origin (as scenes read from MJCF and URDF have them) shape a geom of
-///     the frame's name; in the parent's body if the frame is nothing but a shape marker, empty frame        a site of
-///     that name, if nothing hangs on the frame camera                     a camera mimic                      an
-///     <equality>
+///     joint of a frame           a joint of that name, or joints <frame>_0, <frame>_1, ... for each of its steps;
+///                                a free joint at the origin of the world is a <freejoint>, elsewhere three slides
+///                                and a ball
+///     frame that only moves      no body: the body that it carries has the joint
+///     only child                 no body for <joint>_origin (as scenes read from MJCF and URDF have them)
+///     shape                      a geom of the frame's name; in the parent's body if the frame is nothing but a shape
+///     marker, empty frame        a site of that name, if nothing hangs on the frame
+///     camera                     a camera
+///     mimic                      an <equality>
 ///
 /// A capsule, box, ... is one, without rounding; a quad that does not move is a plane; other shapes are meshes. Bodies
 /// that move get a mass of 1 g if they have none. MuJoCo's q is that of the scene, by name; where a joint has a

@@ -9,20 +9,19 @@ namespace kinegraph {
 
 struct UrdfOptions {
   std::string robot_name = "scene";
-  std::string
-      mesh_folder;  ///< where shapes that URDF has no element for are written to as .stl; empty: they are left out
+  std::string mesh_folder;  ///< where shapes that URDF has no element for go to, as .stl; empty: they are left out
 };
 
-/// The scene as a URDF text. Each frame becomes a link of its name on a fixed joint <frame>_joint, with these
-/// exceptions:
+/// The scene as a URDF text. Each frame becomes a link of its name on a fixed joint <frame>_joint, but:
 ///
 ///     frame with a joint        a joint of that name; its link is the frame's only child if that sits at its origin
-///     without
-///                               shape or joint in between (as scenes read from URDF have it), else <frame>_link
+///                               without shape or joint in between (as scenes read from URDF have it), else
+///                               <frame>_link
 ///     <joint>_origin            the origin of that joint
 ///     frame with such a child   a fixed joint of the frame's name, with the child as its link
 ///     <link>_0, <link>_1, ...   shapes of that link
-///     several roots, or one away from the origin: a link `world` above them
+///     several roots,            a link `world` above them
+///     or one off the origin
 ///
 /// Shapes are visuals; with a contact flag they are collisions, and visuals too unless transparent. A capsule is a
 /// cylinder with two spheres; rounded boxes and cylinders lose their rounding. A joint of several dofs is a floating or

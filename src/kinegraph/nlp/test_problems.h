@@ -8,25 +8,25 @@
 namespace kinegraph {
 
 struct TestProblemOptions {
-  int dimension =
-      -1;  ///< number of variables, of spheres for SpherePacking; < 0: 2, 50 spheres, or what the problem has
+  int dimension = -1;      ///< number of variables, or of spheres; < 0: 2, or 50 spheres, or what the problem has
   std::uint64_t seed = 0;  ///< of those that are drawn by chance: square, Rugged, LinearProgram
 };
 
 /// A problem by name, to try solvers on. n variables; costs are f where nothing else is said.
 ///
-///   square         C (x - x0) as sos, with random x0 and C of condition 100                     0 at x0
+///   square         C (x - x0) as sos, with random x0 and C of condition 100     0 at x0
 ///   Rugged         sos, constant around each of 1000 random points: for methods without derivatives
-///   Rastrigin      10 n + sum x^2 - 10 cos(2 pi x)                                              0 at 0
-///   Rosenbrock     sum (x_i - x_{i-1}^2)^2 + .01 (1 - x_{i-1})^2                                0 at 1
-///   Ackley         20 + e - 20 exp(-.2 |x| / sqrt n) - exp(mean cos(2 pi x))                    0 at 0
-///   Himmelblau     (x^2 + y - 11)^2 + (x + y^2 - 7)^2                                           0 at (3, 2) and three
-///   more Box            |x_i| <= 1, no cost Modes          within .1 of one of the points (+-1, .., +-1), or within .5
-///   of 0; no cost Wedge          sum x  with  1.5 x_i - sum x <= .2                                           -.8 at
-///   (-.4, -.4) HalfCircle     sum x  with  |x|^2 <= .25, x_0 >= -.2                                        -.658258 at
-///   (-.2, -.458258) LinearProgram  random linear costs and 15 constraints, 0 feasible SpherePacking  sum of the
-///   heights of spheres of radius .21 in a well of 2 x 2, 16 high, which do not overlap MinimalConvexCore  of 54
-///   variables, see convex_core.h
+///   Rastrigin      10 n + sum x^2 - 10 cos(2 pi x)                              0 at 0
+///   Rosenbrock     sum (x_i - x_{i-1}^2)^2 + .01 (1 - x_{i-1})^2                0 at 1
+///   Ackley         20 + e - 20 exp(-.2 |x| / sqrt n) - exp(mean cos(2 pi x))    0 at 0
+///   Himmelblau     (x^2 + y - 11)^2 + (x + y^2 - 7)^2                           0 at (3, 2) and three more
+///   Box            |x_i| <= 1, no cost
+///   Modes          within .1 of one of the points (+-1, .., +-1), or within .5 of 0; no cost
+///   Wedge          sum x  with  1.5 x_i - sum x <= .2                           -.8 at (-.4, -.4)
+///   HalfCircle     sum x  with  |x|^2 <= .25, x_0 >= -.2                        -.658258 at (-.2, -.458258)
+///   LinearProgram  random linear costs and 15 constraints, 0 feasible
+///   SpherePacking  sum of the heights of spheres of radius .21 in a well of 2 x 2, 16 high, which do not overlap
+///   MinimalConvexCore  of 54 variables, see convex_core.h
 ///
 /// Throws NameError for other names, with those that are near; ValueError for a dimension that makes no sense.
 std::shared_ptr<Nlp> makeTestProblem(const std::string& name, const TestProblemOptions& options = {});

@@ -9,10 +9,11 @@ namespace kinegraph {
 /// Draws points that satisfy the constraints of a problem: from a seed downhill to the constraints, and then some steps
 /// within them. What the steps converge to with their number, whatever the seed:
 ///
-///   HR        hit-and-run: the uniform distribution on the feasible set (equalities as thin shells, projected at the
-///   end) MCMC      Metropolis steps: exp(-costs), on the surface of the equalities where there are any Langevin  the
-///   same, with steps that follow the gradient of the costs manifoldRRT  spreads over the surface like a tree that
-///   grows towards random points; no distribution is promised
+///   HR           hit-and-run: the uniform distribution on the feasible set (equalities as thin shells, projected at
+///                the end)
+///   MCMC         Metropolis steps: exp(-costs), on the surface of the equalities where there are any
+///   Langevin     the same, with steps that follow the gradient of the costs
+///   manifoldRRT  spreads over the surface like a tree that grows towards random points; no distribution is promised
 ///
 /// costs = sum f + sum sos. The same random numbers give the same samples.
 /// Source: Toussaint, Braun & Ortiz-Haro, NLP Sampling, 2024; Neal, Slice sampling, 2003 (HR along a line);
