@@ -8,11 +8,7 @@
 
 namespace kinegraph::python {
 
-std::string resultText(const IkResult& result) {
-  if (!result.feasible()) return cat("<IkResult ", ikStatusName(result.status), ": ", result.message, ">");
-  return cat("<IkResult solved in ", result.attempts, result.attempts == 1 ? " attempt" : " attempts", ", within ",
-             result.position_error, " m and ", result.rotation_error, " rad>");
-}
+std::string resultText(const IkResult& result) { return cat("<IkResult ", result.str(), ">"); }
 
 std::string resultsText(const IkResults& results) {
   const auto solved = std::ranges::count_if(results, &IkResult::feasible);

@@ -66,6 +66,8 @@ enum class FeatureSymbol : int {
   scalarProductZX = 53,
   scalarProductZY = 54,
   pairCollisions = 55,
+  negDistance = distance,  ///< other names
+  jointState = qItself,
 };
 
 /// What the registry knows of a symbol.

@@ -56,6 +56,12 @@ std::string ikStatusName(IkStatus status) {
   return "unknown";
 }
 
+std::string IkResult::str() const {
+  if (!feasible()) return cat(ikStatusName(status), ": ", message);
+  return cat("solved in ", attempts, attempts == 1 ? " attempt" : " attempts", ", within ", position_error, " m and ",
+             rotation_error, " rad");
+}
+
 IkResult solveIk(const Config& config, const std::vector<IkTarget>& targets, const IkOptions& options,
                  const IkWatch& watch) {
   return IkSolver(config, targets, options).solve({targets}, 1, watch)[0];

@@ -71,6 +71,7 @@ struct IkResult {
   std::string message;         ///< "" if solved, else what misses what by how much, and what is in the way
 
   bool feasible() const { return status == IkStatus::solved; }
+  std::string str() const;  ///< "solved in 2 attempts, within 1e-8 m and 3e-9 rad", or the status and the message
 };
 
 /// Called now and then by the calling thread, with the number of problems that are done; true ends the search, which

@@ -19,7 +19,11 @@ Config::Config(const SceneTree& scene) : Config() { scene_->append(scene, ""); }
 Config::Config(const Config& other) : Config(*other.scene_) {}
 
 Config& Config::operator=(const Config& other) {
-  if (this != &other) *this = Config(other);
+  if (this != &other) {
+    Config copy(other);
+    copy.viewer_ = viewer_;  // the page goes on, with the other scene
+    *this = std::move(copy);
+  }
   return *this;
 }
 

@@ -13,6 +13,10 @@
 
 namespace kinegraph {
 
+class ConfigViewer;
+class FeatureSource;
+struct Evaluation;
+
 /// A scene as a person edits it: named frames with joints, shapes and masses, and the joint vector q.
 /// Copies are deep. Everything that is derived (world poses, the compiled Program) follows by itself.
 class Config {
@@ -147,6 +151,25 @@ class Config {
   std::optional<MotionContact> checkMotion(const VectorXd& from, const VectorXd& to, double margin = 0.,
                                            double tolerance = 1e-4) const;
 
+  // --- what rooms above the scene add: defined in front, all in kinegraph/kinegraph.h -------------------------------
+
+  /// Value y (d,) of a feature of these frames at the present q, and its Jacobian J (d x n). Throws FrameNotFound, and
+  /// ValueError for a wrong number of frames and for features that need several configurations.
+  Evaluation eval(const FeatureSource& feature, const std::vector<std::string>& frames = {}) const;
+
+  /// Shows the scene in the browser, and takes over what people have changed there; see ConfigViewer::view. `pause`
+  /// waits for a key. Returns the key pressed since the last call, or 0.
+  int view(bool pause = false, const std::string& message = {});
+
+  /// Plays a motion, one joint state per row (T x n), with a time slider; `pause`, then waits for a key. q stays.
+  int viewPath(const MatrixXd& path, double seconds = 3., bool pause = false, const std::string& message = {});
+
+  /// Loads a scene file and shows it, again whenever it changes, until q is pressed; see kinegraph::watchFile.
+  void watchFile(const std::string& path);
+
+  /// What shows this scene. Copies of a Config have viewers of their own.
+  ConfigViewer& viewer();
+
   // --- for computing ---------------------------------------------------------------------------------------------
 
   std::shared_ptr<const Program> program() const { return scene_->program(); }
@@ -165,6 +188,7 @@ class Config {
 
   std::shared_ptr<SceneTree> scene_;
   std::vector<std::string> warnings_;
+  std::shared_ptr<ConfigViewer> viewer_;  ///< null until there is something to show
 };
 
 }  // namespace kinegraph

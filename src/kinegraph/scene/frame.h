@@ -29,6 +29,11 @@ class Frame {
   Pose getPose() const;
   Pose getPose(const Frame& relative_to) const { return relative_to.getPose().inverse() * getPose(); }
   Pose getRelativePose() const;  ///< in the parent; identity for a root
+  Vector3d getPosition() const { return getPose().p; }
+  Quaterniond getQuaternion() const { return getPose().q; }
+  Matrix3d getRotationMatrix() const { return getPose().q.toRotationMatrix(); }
+  Vector3d getRelativePosition() const { return getRelativePose().p; }
+  Quaterniond getRelativeQuaternion() const { return getRelativePose().q; }
 
   /// Sets the world pose. A frame with a joint takes the nearest pose that the joint can reach.
   Frame& setPose(const Pose& pose);

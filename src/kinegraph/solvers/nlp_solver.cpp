@@ -126,6 +126,11 @@ void NlpSolver::forget() {
   solved_dual_.resize(0);
 }
 
+SolverResult NlpSolver::solve() {
+  Rng rng(0);
+  return solve(false, rng);
+}
+
 SolverResult NlpSolver::solve(bool resample, Rng& rng, const EvaluationHook& hook) {
   if (!problem_) throw Error("NLP_Solver: there is no problem to solve; call setProblem first");
   if (resample || x.size() == 0) {

@@ -34,6 +34,7 @@ class NlpSolver {
   /// every evaluation. Throws Error without a problem or for a method that is not available, EvaluationCancelled where
   /// that came before the first value; later, the result is the best point seen.
   SolverResult solve(bool resample, Rng& rng, const EvaluationHook& hook = {});
+  SolverResult solve();  ///< from x, or from the initial point that a generator with seed 0 gives
 
   const std::shared_ptr<Nlp>& problem() const { return problem_; }
   const std::vector<VectorXd>& traceX() const { return trace_x_; }

@@ -1,0 +1,45 @@
+// What a Config does with the rooms above the scene.
+#include <iostream>
+
+#include "kinegraph/features/eval.h"
+#include "kinegraph/viewer/config_viewer.h"
+#include "kinegraph/viewer/motions.h"
+#include "kinegraph/viewer/watch_file.h"
+
+namespace kinegraph {
+
+namespace {
+
+std::optional<std::string> shown(const std::string& message) {
+  return message.empty() ? std::nullopt : std::optional(message);
+}
+
+bool neverStops() { return false; }
+
+}  // namespace
+
+Evaluation Config::eval(const FeatureSource& feature, const std::vector<std::string>& frames) const {
+  return kinegraph::eval(*this, feature, frames);
+}
+
+ConfigViewer& Config::viewer() {
+  if (!viewer_) viewer_ = std::make_shared<ConfigViewer>();
+  return *viewer_;
+}
+
+int Config::view(bool pause, const std::string& message) {
+  return viewer().view(*this, pause, shown(message), neverStops);
+}
+
+int Config::viewPath(const MatrixXd& path, double seconds, bool pause, const std::string& message) {
+  ShownMotion motion = motionAlong(*this, path, seconds);
+  motion.start = ShownMotion::Start::play;
+  return viewer().showMotion(*this, motion, pause, shown(message), neverStops);
+}
+
+void Config::watchFile(const std::string& path) {
+  const auto print = [](const std::string& text) { std::cout << text << std::endl; };
+  kinegraph::watchFile(*this, viewer(), path, print, neverStops);
+}
+
+}  // namespace kinegraph
