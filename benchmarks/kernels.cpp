@@ -122,7 +122,7 @@ void inverseKinematics(Bench& bench, int count) {
   for (int i = 0; i < count; ++i) {
     C.setJointState(bench.posture(i));
     const auto komo = std::make_shared<Komo>(C, 1., 1, 0);
-    komo->addObjective({}, FeatureSymbol::qItself, {}, ObjectiveType::sos, MatrixXd::Constant(1, 1, .1), bench.home);
+    komo->addObjective({}, FeatureSymbol::qItself, {}, ObjectiveType::sos, .1, bench.home);
     komo->addObjective({}, FeatureSymbol::positionDiff, {"l_gripper", "target"}, ObjectiveType::eq,
                        MatrixXd::Constant(1, 1, 10.));
     if (!NlpSolver(makeNlp(komo), 0).solve(false, rng).feasible) throw Error("inverse kinematics: no solution");

@@ -14,6 +14,7 @@
 #include "kinegraph/base/text.h"
 #include "kinegraph/features/registry.h"
 #include "kinegraph/komo/report.h"
+#include "kinegraph/komo/sub_problem.h"
 #include "kinegraph/solvers/nlp_solver.h"
 #include "py_komo.h"
 #include "solving.h"
@@ -48,7 +49,7 @@ Frame addedFrame(PyKomo& komo, const std::string& name) {
 
 nb::list forceInteractions(const PyKomo& komo) {
   nb::list list;
-  for (const Komo::Interaction& interaction : komo.interactions()) {
+  for (const Interaction& interaction : komo.interactions()) {
     nb::dict entry;
     entry["slice"] = interaction.slice;
     entry["onto"] = interaction.object;
@@ -80,12 +81,12 @@ Array pathFrames(const PyKomo& komo) {
 
 nb::typed<nb::list, Array> ownDofs(const PyKomo& komo) {
   nb::list slices;
-  for (int t = 0; t < komo.slices(); ++t) slices.append(toNumpy(komo.ownDofs(t)));
+  for (int t = 0; t < komo.slices(); ++t) slices.append(toNumpy(komo.path().ownDofs(t)));
   return slices;
 }
 
 nb::typed<nb::tuple, PyConfig, Array, Array> subProblem(const PyKomo& komo, int phase) {
-  Komo::SubProblem sub = komo.subProblem(phase);
+  SubProblem sub = kinegraph::subProblem(komo.path(), phase);
   return nb::make_tuple(PyConfig{std::move(sub.config), nullptr}, toNumpy(sub.start), toNumpy(sub.end));
 }
 
@@ -94,7 +95,7 @@ std::vector<int> initWithWaypoints(PyKomo& komo, nb::iterable waypoints, int per
                                    double towards_home, int) {
   std::vector<VectorXd> list;
   for (nb::handle waypoint : waypoints) list.push_back(nb::cast<Numbers>(waypoint).values);
-  return komo.setWaypoints(list, per_phase, interpolate, towards_home);
+  return komo.setWaypoints(list, {per_phase, interpolate, towards_home});
 }
 
 SolverResult optimize(const std::shared_ptr<PyKomo>& komo, double noise, int verbose) {
@@ -102,7 +103,7 @@ SolverResult optimize(const std::shared_ptr<PyKomo>& komo, double noise, int ver
   NlpSolver solver(nlp, verbose);
   solver.options = defaults().solver;
   solver.options.verbose = verbose;
-  VectorXd x = komo->variables();
+  VectorXd x = komo->path().variables();
   Rng rng(defaults().seed);
   for (double& value : x) value += noise * rng.normal();
   solver.setInitialization(x);
@@ -110,7 +111,7 @@ SolverResult optimize(const std::shared_ptr<PyKomo>& komo, double noise, int ver
 }
 
 Explanation explainPath(const std::shared_ptr<PyKomo>& komo, double tolerance) {
-  const VectorXd x = komo->variables();
+  const VectorXd x = komo->path().variables();
   return explainInterruptibly(*makeNlp(komo), x, tolerance);
 }
 
@@ -272,7 +273,7 @@ void bindPath(nb::class_<PyKomo>& komo) {
       .def(
           "getFrame",
           [](const PyKomo& k, const std::string& name, double time) {
-            return k.configuration(k.sliceAt(time)).getFrame(name);
+            return k.configuration(k.path().grid().sliceAt(time)).getFrame(name);
           },
           "frameName"_a, "phaseTime"_a, "A frame as it is in the slice at a phase time; a copy.")
       .def(

@@ -24,22 +24,22 @@ using Message = const std::optional<std::string>&;
 
 nb::dict specs(const PyKomo& komo) {
   nb::dict out;
-  out["x_dim"] = komo.layout().dimension;
+  out["x_dim"] = komo.path().layout().dimension;
   out["dual_dim"] = 0;
   out["T"] = komo.slices();
   out["k"] = komo.order();
-  out["phases"] = komo.phases();
-  out["slicesPerPhase"] = komo.slicesPerPhase();
+  out["phases"] = komo.path().grid().phases();
+  out["slicesPerPhase"] = komo.path().grid().slicesPerPhase();
   out["tau"] = komo.tau();
   out["#slices"] = komo.slices() + komo.order();
-  out["#totalDOF"] = komo.layout().dimension;
-  out["#frames"] = (komo.slices() + komo.order()) * komo.frameCount();
+  out["#totalDOF"] = komo.path().layout().dimension;
+  out["#frames"] = (komo.slices() + komo.order()) * int(komo.path().shownFrames().size());
   return out;
 }
 
-nb::dict entryOf(const Komo::Objective& objective, double error) {
+nb::dict entryOf(const Objective& objective, double error) {
   nb::dict entry;
-  entry["name"] = objective.name;
+  entry["name"] = objective.name();
   std::vector<std::string> frames = objective.frames;
   if (frames.size() > 3) frames = {cat("#", frames.size())};
   entry["frames"] = frames;
@@ -78,15 +78,16 @@ nb::dict report(const PyKomo& komo, bool with_specs, bool list_objectives, bool 
 
 std::vector<std::string> objectiveTags(const PyKomo& komo) {
   std::vector<std::string> tags;
-  for (const Komo::Objective& objective : komo.objectives()) tags.push_back(objectiveTag(komo, objective));
+  for (const Objective& objective : komo.objectives()) tags.push_back(objectiveTag(komo, objective));
   return tags;
 }
 
-int show(PyKomo& komo, const ShownMotion& motion, bool pause, const std::string& text) {
+/// Pictures (getRgb) show the scene as it is in the slice `pictured`.
+int show(PyKomo& komo, const ShownMotion& motion, bool pause, const std::string& text, int pictured) {
   if (!komo.viewer) komo.viewer = std::make_shared<PyViewer>();
   const std::shared_ptr<PyViewer> viewer = komo.viewer;
   const Config config = komo.configuration(-komo.order());
-  viewer->scene = config.scene();
+  viewer->scene = komo.configuration(pictured).scene();
   if (!viewer->isOpen()) viewer->setTitle("KOMO Viewer");
   if (!openPage(*viewer)) return pause ? kEscape : 0;
   const nb::gil_scoped_release unlock;
@@ -94,7 +95,8 @@ int show(PyKomo& komo, const ShownMotion& motion, bool pause, const std::string&
 }
 
 int view(PyKomo& komo, bool pause, Message text) {
-  return show(komo, motionOf(komo), pause, text.value_or(cat("all ", komo.slices() + komo.order(), " slices")));
+  return show(komo, motionOf(komo), pause, text.value_or(cat("all ", komo.slices() + komo.order(), " slices")),
+              -komo.order());
 }
 
 int viewSlice(PyKomo& komo, int slice, bool pause) {
@@ -105,7 +107,7 @@ int viewSlice(PyKomo& komo, int slice, bool pause) {
   ShownMotion motion = motionOf(komo);
   motion.start = ShownMotion::Start::pause;
   motion.first = slice + komo.order();
-  return show(komo, motion, pause, cat("slice ", slice));
+  return show(komo, motion, pause, cat("slice ", slice), slice);
 }
 
 /// A picture of each slice as PREFIX000000.png and so on, without a browser, with what the page tells of the slice.
@@ -127,7 +129,7 @@ int viewPlay(PyKomo& komo, bool pause, Message text, double delay, const std::op
   motion.start = ShownMotion::Start::play;
   const auto count = motion.poses.size();
   motion.seconds = std::clamp(delay, .01, 10.) * double(count);
-  return show(komo, motion, pause, text.value_or(cat(count, " slices")));
+  return show(komo, motion, pause, text.value_or(cat(count, " slices")), komo.slices() - 1);
 }
 
 }  // namespace
@@ -157,7 +159,9 @@ void bindKomoReports(nb::class_<PyKomo>& komo) {
            "a time slider, the errors of the objectives, and what violates them in red. pause: waits for a key. "
            "Returns the key that was pressed, or 0.")
       .def("view_slice", viewSlice, "t"_a, "pause"_a = false,
-           "Shows a slice; the others are at the time slider. Returns the key, or 0.")
+           "Shows a slice, in pictures of the viewer (getRgb), too; on the page the others are at the time slider. "
+           "Returns\n"
+           "the key, or 0.")
       .def("view_play", viewPlay, "pause"_a = false, "txt"_a = nb::none(), "delay"_a = .1,
            "saveVideoPath"_a = nb::none(),
            "Plays the slices, `delay` seconds each, and waits until they have been played once; a key ends it. "

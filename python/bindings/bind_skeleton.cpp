@@ -7,6 +7,7 @@
 #include "feature_arguments.h"
 #include "kinegraph/base/errors.h"
 #include "kinegraph/base/text.h"
+#include "kinegraph/komo/sub_problem.h"
 #include "kinegraph/planning/skeleton.h"
 #include "py_komo.h"
 
@@ -136,7 +137,7 @@ void bindProblems(nb::class_<Skeleton>& skeleton) {
       .def(
           "getTwoWaypointProblem",
           [](const Skeleton&, int t2, const PyKomo& waypoints) {
-            Komo::SubProblem sub = waypoints.subProblem(t2);
+            SubProblem sub = subProblem(waypoints.path(), t2);
             return nb::make_tuple(PyConfig{std::move(sub.config), nullptr}, toNumpy(sub.start), toNumpy(sub.end));
           },
           "t2"_a, "komoWays"_a,

@@ -70,16 +70,16 @@ std::vector<VectorXd> readStarts(PyKomo& komo, nb::handle given, std::uint64_t s
     return cat("solveFromMany: starts are a number, or paths of shape (K, ", T, ", ", n, ")");
   };
   if (!nb::isinstance<nb::iterable>(given)) throw ValueError(expected());
-  const VectorXd before = komo.variables();
+  const VectorXd before = komo.path().variables();
   std::vector<VectorXd> starts;
   for (nb::handle path : given) {
     Numbers numbers;
     if (!readNumbers(path, numbers) || numbers.rank != 2 || int(numbers.rows) != T || int(numbers.columns()) != n)
       throw ValueError(expected());
     komo.setPath(numbers.matrix());
-    starts.push_back(komo.variables());
+    starts.push_back(komo.path().variables());
   }
-  komo.setVariables(before);
+  komo.path().setVariables(before);
   return starts;
 }
 

@@ -36,9 +36,9 @@ FeatureSource toFeature(nb::object object) {
   return recipe;
 }
 
-nb::tuple toTuple(const Komo::Objective& o) {
+nb::tuple toTuple(const Objective& o) {
   const nb::object feature = toObject(o.feature);
-  return nb::make_tuple(o.name, feature, o.frames, int(o.type), toNumpy(o.scale), toNumpy(o.target), o.order, o.times,
+  return nb::make_tuple(o.name(), feature, o.frames, int(o.type), toNumpy(o.scale), toNumpy(o.target), o.order, o.times,
                         o.from, o.to, o.time_integral, o.without_gravity, o.damped);
 }
 
@@ -50,11 +50,10 @@ MatrixXd toMatrix(nb::handle array) {
                                                                                                   rows, columns);
 }
 
-Komo::Objective toObjective(nb::handle state) {
+Objective toObjective(nb::handle state) {
   const nb::tuple t = nb::cast<nb::tuple>(state);
   const FeatureSource feature = toFeature(t[1]);
-  return {nb::cast<std::string>(t[0]),
-          feature,
+  return {feature,
           nb::cast<std::vector<std::string>>(t[2]),
           ObjectiveType(nb::cast<int>(t[3])),
           toMatrix(t[4]),
@@ -71,46 +70,40 @@ Komo::Objective toObjective(nb::handle state) {
 nb::tuple komoState(const PyKomo& komo) {
   Komo::Parts parts = komo.parts();
   nb::list modes, objectives, contacts, states;
-  for (Komo::Parts::Structure& mode : parts.modes) {
+  for (Mode& mode : parts.path.modes) {
     nb::list added;
     for (const auto& [frame, joint] : mode.added)
       added.append(nb::make_tuple(frame, joint.id, joint.stable, joint.parent));
     modes.append(nb::make_tuple(PyConfig{std::move(mode.config), nullptr}, added));
   }
-  for (const Komo::Objective& objective : parts.objectives) objectives.append(toTuple(objective));
+  for (const Objective& objective : parts.objectives) objectives.append(toTuple(objective));
   for (const ContactForce& contact : parts.contacts) contacts.append(toTuple(contact));
-  for (const VectorXd& state : parts.states) states.append(toNumpy(state));
+  for (const VectorXd& state : parts.path.states) states.append(toNumpy(state));
   const bool has_config = komo.slices() > 0 || parts.config.getFrameDimension() > 0;
   const nb::object config = has_config ? nb::cast(PyConfig{std::move(parts.config), nullptr}) : nb::none();
   return nb::make_tuple(config, parts.phases, parts.duration_per_phase, parts.slices_per_phase, parts.order,
-                        parts.next_joint, modes, parts.mode_of, parts.shown_frames, objectives, contacts, states);
+                        parts.path.next_joint, modes, parts.path.mode_of, parts.path.shown_frames, objectives, contacts,
+                        states);
 }
 
 Komo fromState(nb::tuple t) {
   if (nb::handle(t[0]).is_none()) return Komo();
-  Komo::Parts parts{nb::cast<PyConfig&>(t[0]),
-                    nb::cast<double>(t[1]),
-                    nb::cast<double>(t[2]),
-                    nb::cast<int>(t[3]),
-                    nb::cast<int>(t[4]),
-                    nb::cast<int>(t[5]),
-                    {},
-                    nb::cast<std::vector<int>>(t[7]),
-                    nb::cast<std::vector<int>>(t[8]),
-                    {},
-                    {},
-                    {}};
-  for (nb::handle mode : nb::cast<nb::list>(t[6])) {
-    Komo::Parts::Structure structure{nb::cast<PyConfig&>(mode[0]), {}};
-    for (nb::handle added : nb::cast<nb::list>(mode[1])) {
-      structure.added[nb::cast<int>(added[0])] = {nb::cast<int>(added[1]), nb::cast<bool>(added[2]),
-                                                  nb::cast<std::string>(added[3])};
+  Komo::Parts parts{nb::cast<PyConfig&>(t[0]), nb::cast<double>(t[1]), nb::cast<double>(t[2]), nb::cast<int>(t[3]),
+                    nb::cast<int>(t[4])};
+  parts.path.next_joint = nb::cast<int>(t[5]);
+  for (nb::handle state : nb::cast<nb::list>(t[6])) {
+    Mode mode{nb::cast<PyConfig&>(state[0]), {}};
+    for (nb::handle added : nb::cast<nb::list>(state[1])) {
+      mode.added[nb::cast<int>(added[0])] = {nb::cast<int>(added[1]), nb::cast<bool>(added[2]),
+                                             nb::cast<std::string>(added[3])};
     }
-    parts.modes.push_back(std::move(structure));
+    parts.path.modes.push_back(std::move(mode));
   }
+  parts.path.mode_of = nb::cast<std::vector<int>>(t[7]);
+  parts.path.shown_frames = nb::cast<std::vector<int>>(t[8]);
   for (nb::handle objective : nb::cast<nb::list>(t[9])) parts.objectives.push_back(toObjective(objective));
   for (nb::handle contact : nb::cast<nb::list>(t[10])) parts.contacts.push_back(toContact(contact));
-  for (nb::handle state : nb::cast<nb::list>(t[11])) parts.states.push_back(nb::cast<Numbers>(state).values);
+  for (nb::handle state : nb::cast<nb::list>(t[11])) parts.path.states.push_back(nb::cast<Numbers>(state).values);
   return Komo(std::move(parts));
 }
 

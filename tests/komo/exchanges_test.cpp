@@ -18,21 +18,20 @@ Config ballAndBox() {
   return config;
 }
 
-constexpr Komo::Exchange kKinds[] = {Komo::Exchange::slide, Komo::Exchange::stick, Komo::Exchange::complementary,
-                                     Komo::Exchange::bounce};
+constexpr Exchange kKinds[] = {Exchange::slide, Exchange::stick, Exchange::complementary, Exchange::bounce};
 
 }  // namespace
 
 TEST(Exchanges, JacobiansAreThoseOfCentralDifferences) {
-  for (const Komo::Exchange kind : kKinds) {
+  for (const Exchange kind : kKinds) {
     for (const int order : {0, 1, 2}) {
-      if (kind == Komo::Exchange::bounce && order < 2) continue;
+      if (kind == Exchange::bounce && order < 2) continue;
       const auto komo = std::make_shared<Komo>(ballAndBox(), 4., 1, order);
       komo->addExchange({2., 3.}, "box", "ball", kind);
       if (order == 2) komo->addObjective({}, FeatureSymbol::physics, {"box"}, ObjectiveType::eq);
       const auto nlp = makeNlp(komo);
       Rng rng(3);
-      VectorXd x = komo->variables();
+      VectorXd x = komo->path().variables();
       for (double& value : x) value += .03 * rng.normal();
       const JacobianCheck check = checkJacobian(*nlp, x);
       EXPECT_LT(check.error, 1e-4) << int(kind) << ", order " << order << ": " << nlp->rowName(check.row) << ", column "
@@ -43,30 +42,30 @@ TEST(Exchanges, JacobiansAreThoseOfCentralDifferences) {
 
 TEST(Exchanges, AddSixDofsToEachOfTheirSlices) {
   Komo komo(ballAndBox(), 4., 1, 2);
-  komo.addExchange({2., 3.}, "box", "ball", Komo::Exchange::slide);
-  EXPECT_EQ(komo.layout().dimension, 4 * 14 + 2 * 6);
-  komo.addExchange({2., 3.}, "box", "ball", Komo::Exchange::bounce);
-  EXPECT_EQ(komo.layout().dimension, 4 * 14 + 3 * 6) << "a bounce takes one slice";
+  komo.addExchange({2., 3.}, "box", "ball", Exchange::slide);
+  EXPECT_EQ(komo.path().layout().dimension, 4 * 14 + 2 * 6);
+  komo.addExchange({2., 3.}, "box", "ball", Exchange::bounce);
+  EXPECT_EQ(komo.path().layout().dimension, 4 * 14 + 3 * 6) << "a bounce takes one slice";
   ASSERT_EQ(komo.interactions().size(), 3u);
   EXPECT_EQ(komo.interactions()[0].object, "box");
 }
 
 TEST(Exchanges, WhatSticksMovesAlong) {
   Komo komo(ballAndBox(), 3., 1, 1);
-  komo.addExchange({1., 3.}, "box", "ball", Komo::Exchange::stick);
+  komo.addExchange({1., 3.}, "box", "ball", Exchange::stick);
   const auto& objectives = komo.objectives();
   const auto sliding =
-      std::find_if(objectives.begin(), objectives.end(), [](const auto& o) { return o.name == "slidingVelocity"; });
+      std::find_if(objectives.begin(), objectives.end(), [](const auto& o) { return o.name() == "slidingVelocity"; });
   ASSERT_NE(sliding, objectives.end());
   EXPECT_EQ(sliding->from, 1) << "the first slice is where they meet";
   const auto slidingIn = [&](const Vector3d& box_moves, const Vector3d& ball_moves) {
-    VectorXd q = komo.state(1).q();
-    const Program& program = komo.state(1).program();
+    VectorXd q = komo.path().state(1).q();
+    const Program& program = komo.path().state(1).program();
     q.segment<3>(program.frame_dofs[program.frame_index.at("box")].first) += box_moves;
     q.segment<3>(program.frame_dofs[program.frame_index.at("ball")].first) += ball_moves;
-    komo.setSlice(1, q.data());
-    Residual residual = komo.residualIn(*sliding, 1);
-    const State* states[] = {&komo.state(0), &komo.state(1)};
+    komo.path().setSlice(1, q.data());
+    Residual residual = residualIn(*sliding, komo.path(), komo.contacts().forces(), 1);
+    const State* states[] = {&komo.path().state(0), &komo.path().state(1)};
     VectorXd y(3);
     residual.eval(states, 1., y, nullptr);
     return y;
@@ -78,8 +77,8 @@ TEST(Exchanges, WhatSticksMovesAlong) {
 
 TEST(Exchanges, MistakesAreExplained) {
   Komo komo(ballAndBox(), 2., 1, 1);
-  EXPECT_THROW(komo.addExchange({1.}, "box", "ball", Komo::Exchange::bounce), ValueError);
-  EXPECT_THROW(komo.addExchange({1.}, "box", "box", Komo::Exchange::slide), ValueError);
-  EXPECT_THROW(komo.addExchange({1.}, "bux", "ball", Komo::Exchange::slide), FrameNotFound);
-  EXPECT_THROW(komo.addExchange({3.}, "box", "ball", Komo::Exchange::slide), ValueError);
+  EXPECT_THROW(komo.addExchange({1.}, "box", "ball", Exchange::bounce), ValueError);
+  EXPECT_THROW(komo.addExchange({1.}, "box", "box", Exchange::slide), ValueError);
+  EXPECT_THROW(komo.addExchange({1.}, "bux", "ball", Exchange::slide), FrameNotFound);
+  EXPECT_THROW(komo.addExchange({3.}, "box", "ball", Exchange::slide), ValueError);
 }

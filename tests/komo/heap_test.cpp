@@ -64,7 +64,7 @@ std::vector<long> requestsOf(const std::shared_ptr<Komo>& komo) {
   SolverOptions options;
   options.verbose = 0;
   int calls = 0;
-  const VectorXd x = komo->variables();
+  const VectorXd x = komo->path().variables();
   const SolverResult result = solveAugmentedLagrangian(*nlp, x, options, {}, [&](const VectorXd&, const VectorXd&) {
     if (++calls > 3) requests.push_back(heap_requests - before);
     before = heap_requests;
@@ -78,12 +78,10 @@ std::vector<long> requestsOf(const std::shared_ptr<Komo>& komo) {
 std::shared_ptr<Komo> reachingPath(int order) {
   auto komo = std::make_shared<Komo>(armAndBall(), 1., 12, order);
   komo->addControlObjective({}, 2, 1.);
-  komo->addObjective({}, FeatureSymbol::jointLimits, {}, ObjectiveType::ineq, MatrixXd::Constant(1, 1, 1e1));
-  komo->addObjective({}, FeatureSymbol::distance, {"tip", "ball"}, ObjectiveType::ineq, MatrixXd::Constant(1, 1, 1e1));
-  komo->addObjective({}, FeatureSymbol::distance, {"upper", "ball"}, ObjectiveType::ineq,
-                     MatrixXd::Constant(1, 1, 1e1));
-  komo->addObjective({1.}, FeatureSymbol::positionDiff, {"tip", "target"}, ObjectiveType::eq,
-                     MatrixXd::Constant(1, 1, 1e1));
+  komo->addObjective({}, FeatureSymbol::jointLimits, {}, ObjectiveType::ineq, 1e1);
+  komo->addObjective({}, FeatureSymbol::distance, {"tip", "ball"}, ObjectiveType::ineq, 1e1);
+  komo->addObjective({}, FeatureSymbol::distance, {"upper", "ball"}, ObjectiveType::ineq, 1e1);
+  komo->addObjective({1.}, FeatureSymbol::positionDiff, {"tip", "target"}, ObjectiveType::eq, 1e1);
   komo->addObjective({1.}, FeatureSymbol::qItself, {}, ObjectiveType::eq, {}, {}, 1);
   return komo;
 }
@@ -97,8 +95,7 @@ TEST(Heap, AStepOfTheSolverOnAPathWithConstraintsRequestsNoMemory) {
 TEST(Heap, AStepOnAPathWithAGraspRequestsNoMemory) {
   const auto komo = reachingPath(2);
   komo->addModeSwitch({.5, -1.}, SwitchMode::stable, {"tip", "block"});
-  komo->addObjective({.5}, FeatureSymbol::positionDiff, {"tip", "block"}, ObjectiveType::eq,
-                     MatrixXd::Constant(1, 1, 1e1));
+  komo->addObjective({.5}, FeatureSymbol::positionDiff, {"tip", "block"}, ObjectiveType::eq, 1e1);
   komo->addQuaternionNorms();
   for (const long requests : requestsOf(komo)) EXPECT_EQ(requests, 0);
 }

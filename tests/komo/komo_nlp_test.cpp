@@ -21,7 +21,7 @@ std::shared_ptr<Komo> slidingBalls(ObjectiveType type = ObjectiveType::eq) {
   )g");
   auto komo = std::make_shared<Komo>(scene, 1, 4, 1);
   komo->addControlObjective({}, 1, 1.);
-  komo->addObjective({}, FeatureSymbol::accumulatedCollisions, {}, type, MatrixXd::Constant(1, 1, 10.));
+  komo->addObjective({}, FeatureSymbol::accumulatedCollisions, {}, type, 10.);
   komo->addObjective({1.}, FeatureSymbol::qItself, {}, ObjectiveType::eq, {}, Eigen::Vector4d(.5, .5, .5, .6));
   return komo;
 }
@@ -53,8 +53,7 @@ TEST(KomoNlp, SeparatesSumsOfOverlapsIntoPairsAndJoinsThemAgain) {
 TEST(KomoNlp, HasTheJacobianOfDifferencesWithLinearRowsAsTheyWereMade) {
   const auto komo = slidingBalls();
   komo->addControlObjective({}, 0, 1e-2);
-  komo->addObjective({}, FeatureSymbol::positionDiff, {"a", "wall"}, ObjectiveType::sos, MatrixXd::Constant(1, 1, 2.),
-                     {}, 1);
+  komo->addObjective({}, FeatureSymbol::positionDiff, {"a", "wall"}, ObjectiveType::sos, 2., {}, 1);
   const auto nlp = makeNlp(komo);
   const int rows = int(nlp->types().size());
   int linear = 0;
@@ -80,9 +79,8 @@ TEST(KomoNlp, TellsTheSecondDerivativesOfRowsOfOneSlice) {
   )g");
   auto komo = std::make_shared<Komo>(scene, 1, 3, 2);
   komo->addControlObjective({}, 2, 1.);
-  komo->addObjective({}, FeatureSymbol::position, {"tip"}, ObjectiveType::ineq, MatrixXd::Constant(1, 1, .5));
-  komo->addObjective({1.}, FeatureSymbol::positionDiff, {"tip", "goal"}, ObjectiveType::eq,
-                     MatrixXd::Constant(1, 1, 10.));
+  komo->addObjective({}, FeatureSymbol::position, {"tip"}, ObjectiveType::ineq, .5);
+  komo->addObjective({1.}, FeatureSymbol::positionDiff, {"tip", "goal"}, ObjectiveType::eq, 10.);
   const auto nlp = makeNlp(komo);
   const int n = nlp->dimension();
   const auto curved = nlp->curvedRows();

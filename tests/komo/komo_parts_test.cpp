@@ -20,10 +20,8 @@ std::shared_ptr<Komo> graspPath() {
   auto komo = std::make_shared<Komo>(config, 2.5, 4, 2);
   komo->addControlObjective({}, 2, .1);
   komo->addModeSwitch({1., -1.}, SwitchMode::stable, {"tip", "box"});
-  komo->addObjective({1.}, FeatureSymbol::positionDiff, {"tip", "box"}, ObjectiveType::eq,
-                     MatrixXd::Constant(1, 1, 10.));
-  komo->addObjective({2., 2.5}, FeatureSymbol::position, {"box"}, ObjectiveType::eq, MatrixXd::Constant(1, 1, 10.),
-                     Vector3d(0., 1.5, 0.));
+  komo->addObjective({1.}, FeatureSymbol::positionDiff, {"tip", "box"}, ObjectiveType::eq, 10.);
+  komo->addObjective({2., 2.5}, FeatureSymbol::position, {"box"}, ObjectiveType::eq, 10., Vector3d(0., 1.5, 0.));
   Rng rng(3);
   komo->setRandomPath(rng);
   return komo;
@@ -33,8 +31,8 @@ void expectSame(const std::shared_ptr<Komo>& a, const std::shared_ptr<Komo>& b) 
   const auto nlp_a = makeNlp(a), nlp_b = makeNlp(b);
   EXPECT_EQ(nlp_a->types(), nlp_b->types());
   EXPECT_EQ(nlp_a->lower(), nlp_b->lower());
-  const VectorXd x = a->variables();
-  EXPECT_EQ(x, b->variables());
+  const VectorXd x = a->path().variables();
+  EXPECT_EQ(x, b->path().variables());
   VectorXd phi_a(Eigen::Index(nlp_a->types().size())), phi_b = phi_a;
   Jacobian J_a = nlp_a->makeJacobian(), J_b = nlp_b->makeJacobian();
   nlp_a->evaluate(x, phi_a, &J_a);
@@ -52,10 +50,10 @@ TEST(Komo, ACloneIsTheSameProblemAndGoesItsOwnWay) {
   const auto komo = graspPath();
   const auto clone = std::make_shared<Komo>(komo->clone());
   expectSame(komo, clone);
-  const VectorXd before = komo->variables();
-  clone->setVariables(VectorXd::Zero(before.size()));
+  const VectorXd before = komo->path().variables();
+  clone->path().setVariables(VectorXd::Zero(before.size()));
   clone->addRigidSwitch(2., "world", "box");
-  EXPECT_EQ(komo->variables(), before);
+  EXPECT_EQ(komo->path().variables(), before);
   EXPECT_EQ(komo->configuration(9).getFrame("box").getParent()->getName(),
             graspPath()->configuration(9).getFrame("box").getParent()->getName());
   expectSame(komo, graspPath());
@@ -72,10 +70,10 @@ TEST(Komo, PartsMakeItAnew) {
 
 TEST(Komo, PartsThatDoNotFitAreRefused) {
   Komo::Parts parts = graspPath()->parts();
-  parts.states.pop_back();
+  parts.path.states.pop_back();
   expectError<ValueError>([&] { Komo komo(parts); }, {"do not fit"});
   parts = graspPath()->parts();
-  parts.mode_of[3] = 9;
+  parts.path.mode_of[3] = 9;
   expectError<ValueError>([&] { Komo komo(parts); }, {"mode 9"});
 }
 

@@ -19,14 +19,12 @@ Config panda() {
   return config;
 }
 
-MatrixXd scale(double s) { return MatrixXd::Constant(1, 1, s); }
-
 std::shared_ptr<Komo> tutorialIk(const Config& config) {
   const VectorXd home = (VectorXd(7) << 0., -.5, 0., -2., 0., 2., -.5).finished();
   auto komo = std::make_shared<Komo>(config, 1., 1, 0);
-  komo->addObjective({}, FeatureSymbol::qItself, {}, ObjectiveType::sos, scale(.1), config.getJointState());
-  komo->addObjective({}, FeatureSymbol::qItself, {}, ObjectiveType::sos, scale(.1), home);
-  komo->addObjective({}, FeatureSymbol::positionDiff, {"l_gripper", "target"}, ObjectiveType::eq, scale(10.));
+  komo->addObjective({}, FeatureSymbol::qItself, {}, ObjectiveType::sos, .1, config.getJointState());
+  komo->addObjective({}, FeatureSymbol::qItself, {}, ObjectiveType::sos, .1, home);
+  komo->addObjective({}, FeatureSymbol::positionDiff, {"l_gripper", "target"}, ObjectiveType::eq, 10.);
   return komo;
 }
 
@@ -92,8 +90,8 @@ TEST(Komo, JacobiansOfPathsEqualCentralDifferences) {
   komo->addControlObjective({}, 0, 1e-1);
   komo->addObjective({.5, 1.}, FeatureSymbol::poseDiff, {"l_gripper", "target"}, ObjectiveType::sos, {}, {}, 1);
   komo->addObjective({}, FeatureSymbol::angularVel, {"l_gripper"}, ObjectiveType::sos);
-  komo->addObjective({}, FeatureSymbol::linangVel, {"l_gripper"}, ObjectiveType::eq, scale(2.), {}, 2);
-  komo->addObjective({1.}, FeatureSymbol::positionDiff, {"l_gripper", "target"}, ObjectiveType::eq, scale(10.));
+  komo->addObjective({}, FeatureSymbol::linangVel, {"l_gripper"}, ObjectiveType::eq, 2., {}, 2);
+  komo->addObjective({1.}, FeatureSymbol::positionDiff, {"l_gripper", "target"}, ObjectiveType::eq, 10.);
   const auto nlp = makeNlp(komo);
   Rng rng(3);
   VectorXd x = nlp->initialPoint(rng);
@@ -109,7 +107,7 @@ TEST(Komo, LongerPathsTakeNoMoreEvaluations) {
   for (int slices : {32, 128}) {
     auto komo = std::make_shared<Komo>(config, 1., slices, 2);
     komo->addControlObjective({}, 2);
-    komo->addObjective({1.}, FeatureSymbol::positionDiff, {"l_gripper", "target"}, ObjectiveType::eq, scale(10.));
+    komo->addObjective({1.}, FeatureSymbol::positionDiff, {"l_gripper", "target"}, ObjectiveType::eq, 10.);
     komo->addObjective({1.}, FeatureSymbol::qItself, {}, ObjectiveType::eq, {}, {}, 1);
     const auto nlp = makeNlp(komo);
     Rng rng(0);
@@ -120,26 +118,6 @@ TEST(Komo, LongerPathsTakeNoMoreEvaluations) {
     }
     previous = result.evals;
   }
-}
-
-TEST(Komo, TimesSelectTheSlicesOfTheSpecification) {
-  const Komo komo(panda(), 2., 10, 0);
-  using Slices = std::pair<int, int>;
-  EXPECT_EQ(komo.selectSlices({}), Slices(0, 19));
-  EXPECT_EQ(komo.selectSlices({1.}), Slices(9, 9));
-  EXPECT_EQ(komo.selectSlices({.05}), Slices(0, 0));
-  EXPECT_EQ(komo.selectSlices({1.04}), Slices(9, 9));
-  EXPECT_EQ(komo.selectSlices({1.05}), Slices(10, 10));
-  EXPECT_EQ(komo.selectSlices({0., 1.}), Slices(0, 9));
-  EXPECT_EQ(komo.selectSlices({1., 2.}), Slices(9, 19));
-  EXPECT_EQ(komo.selectSlices({.95, 1.05}), Slices(9, 10));
-  EXPECT_EQ(komo.selectSlices({.5, 3.}), Slices(4, 19));
-  EXPECT_EQ(komo.selectSlices({1., -1.}), Slices(9, 19));
-  for (std::vector<double> times : {std::vector<double>{0.}, {3.}, {2., 1.}}) {
-    const auto [from, to] = komo.selectSlices(times);
-    EXPECT_GT(from, to);
-  }
-  EXPECT_THROW(komo.selectSlices({1., 2., 3.}), ValueError);
 }
 
 TEST(Komo, WarnsOfObjectivesThatSelectNothingAndExplainsMistakes) {

@@ -29,7 +29,7 @@ std::shared_ptr<Komo> twoAnswers() {
 
 TEST(SolveFromMany, FindsTheBetterOfTwoAnswersAndLeavesTheKomoThere) {
   const auto komo = twoAnswers();
-  const SolveManyResult alone = solveFromMany(komo, {komo->variables()});
+  const SolveManyResult alone = solveFromMany(komo, {komo->path().variables()});
   EXPECT_TRUE(alone.best().feasible);
   EXPECT_NEAR(alone.best().x[1], M_PI / 2., 1e-3);
   const auto again = twoAnswers();
@@ -38,21 +38,21 @@ TEST(SolveFromMany, FindsTheBetterOfTwoAnswersAndLeavesTheKomoThere) {
   EXPECT_NEAR(many.best().x[0], M_PI / 2., 1e-3);
   EXPECT_NEAR(many.best().x[1], -M_PI / 2., 1e-3);
   EXPECT_LT(many.best().sos, 1e-6);
-  EXPECT_EQ(again->variables(), many.best().x);
+  EXPECT_EQ(again->path().variables(), many.best().x);
 }
 
 TEST(DrawStarts, WhatIsCalledInBetweenMayThrowAndThePathStays) {
   const auto komo = twoAnswers();
-  const VectorXd before = komo->variables();
+  const VectorXd before = komo->path().variables();
   int asked = 0;
   EXPECT_THROW(drawStarts(*komo, 9, 0,
                           [&] {
                             if (++asked == 4) throw std::runtime_error("stop");
                           }),
                std::runtime_error);
-  EXPECT_EQ(komo->variables(), before);
+  EXPECT_EQ(komo->path().variables(), before);
   EXPECT_EQ(drawStarts(*komo, 3, 0).size(), 3u);
-  EXPECT_EQ(komo->variables(), before);
+  EXPECT_EQ(komo->path().variables(), before);
 }
 
 TEST(SolveFromMany, ThreadsDoNotChangeTheAnswer) {
@@ -92,10 +92,10 @@ TEST(SolveFromMany, WithoutAnAnswerTheOneThatViolatesLeastIsChosen) {
 
 TEST(SolveFromMany, DrawnStartsBeginWithThePresentPathWhichStays) {
   const auto komo = twoAnswers();
-  const VectorXd before = komo->variables();
+  const VectorXd before = komo->path().variables();
   const std::vector<VectorXd> starts = drawStarts(*komo, 3, 7);
   EXPECT_EQ(starts[0], before);
-  EXPECT_EQ(komo->variables(), before);
+  EXPECT_EQ(komo->path().variables(), before);
   EXPECT_NE(starts[1], starts[2]);
   EXPECT_EQ(drawStarts(*komo, 3, 7)[2], starts[2]);
 }
@@ -104,7 +104,11 @@ TEST(SolveFromMany, MistakesAreNamed) {
   const auto komo = twoAnswers();
   expectError<ValueError>([&] { solveFromMany(komo, {}); }, {"there are no starts"});
   expectError<ValueError>([&] { solveFromMany(komo, {VectorXd::Zero(3)}); }, {"start 0 has 3 numbers", "has 2"});
-  expectError<ValueError>([&] { solveFromMany(komo, {komo->variables()}, {}, {true, 0}); }, {"number of threads is 0"});
+  expectError<ValueError>(
+      [&] {
+        solveFromMany(komo, {komo->path().variables()}, {}, {true, 0});
+      },
+      {"number of threads is 0"});
   expectError<ValueError>([&] { drawStarts(*komo, 0, 0); }, {"number of starts is 0"});
 }
 

@@ -416,6 +416,26 @@ def test_a_viewer_makes_pictures_without_a_browser(tmp_path):
     assert not viewer.clients()
 
 
+def reddest(rgb) -> np.ndarray:
+    """Where a picture is red."""
+    return np.argwhere((rgb[..., 0] > 100) & (rgb[..., 1] < 60))
+
+
+@needs_egl
+def test_pictures_of_a_motion_show_the_slice_that_is_viewed():
+    C, _ = scene("arm: { joint: transX } ball (arm): { X: [2 0 2], shape: sphere, size: [.3], color: [1 0 0] }")
+    komo = ry.KOMO(C, 1, 10, 1, False)
+    komo.initWithPath(np.linspace(0.1, 1, 10).reshape(10, 1))
+    seen = []
+    for t in (0, 9):
+        komo.view_slice(t)
+        seen.append(komo.get_viewer().getRgb())
+        D = komo.getConfiguration(t)
+        D.view(offscreen=True)
+        np.testing.assert_array_equal(reddest(seen[-1]), reddest(D.viewer().getRgb()))
+    assert (seen[0] != seen[1]).any()
+
+
 @needs_egl
 def test_pictures_show_what_is_on_top_of_the_scene():
     C, _ = scene("")

@@ -6,15 +6,15 @@
 namespace kinegraph {
 
 Residual makeResidual(const State& scene, const FeatureSource& feature, const std::vector<std::string>& frames,
-                      const MatrixXd& scale, const VectorXd& target, int order) {
+                      const Scale& scale, const Target& target, int order) {
   std::vector<int> ids;
   ids.reserve(frames.size());
   for (const std::string& name : frames) ids.push_back(frameId(scene.program(), name, feature.name()));
-  return Residual(feature.make(ids, scene), scale, target, order, feature.name());
+  return Residual(feature.make(ids, scene), scale.matrix(), target.vector(), order, feature.name());
 }
 
 Evaluation eval(const Config& config, const FeatureSource& feature, const std::vector<std::string>& frames,
-                const MatrixXd& scale, const VectorXd& target, int order) {
+                const Scale& scale, const Target& target, int order) {
   Residual residual = makeResidual(config.state(), feature, frames, scale, target, order);
   Evaluation out;
   out.y.resize(residual.rows());

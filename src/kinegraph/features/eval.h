@@ -5,6 +5,7 @@
 
 #include "kinegraph/features/feature_source.h"
 #include "kinegraph/features/residual.h"
+#include "kinegraph/features/scale.h"
 #include "kinegraph/scene/config.h"
 
 namespace kinegraph {
@@ -17,11 +18,11 @@ struct Evaluation {
 
 /// The residual of a feature of named frames of a scene. Errors name the feature, the frames and similar names.
 Residual makeResidual(const State& scene, const FeatureSource& feature, const std::vector<std::string>& frames,
-                      const MatrixXd& scale = {}, const VectorXd& target = {}, int order = -1);
+                      const Scale& scale = {}, const Target& target = {}, int order = -1);
 
 /// Evaluates a feature at the present q. Throws ValueError for features that need several configurations.
 Evaluation eval(const Config& config, const FeatureSource& feature, const std::vector<std::string>& frames,
-                const MatrixXd& scale = {}, const VectorXd& target = {}, int order = -1);
+                const Scale& scale = {}, const Target& target = {}, int order = -1);
 
 /// The same for a residual that has been made, into `y` (rows) and `J` (rows x dofs, filled with zeros).
 void eval(const Config& config, Residual& residual, Eigen::Ref<VectorXd> y, JacobianRows J);

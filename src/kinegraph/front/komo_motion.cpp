@@ -18,7 +18,7 @@ void markViolations(const Komo& komo, const Config& config, const MatrixXd& erro
   double& violation = motion.violations.emplace_back(0.);
   std::vector<int>& marked = motion.marked.emplace_back();
   for (std::size_t o = 0; t >= 0 && o < komo.objectives().size(); ++o) {
-    const Komo::Objective& objective = komo.objectives()[o];
+    const Objective& objective = komo.objectives()[o];
     const double error = isConstraint(objective.type) ? errors(t, Eigen::Index(o)) : 0.;
     violation += error;
     if (error < kTolerance) continue;

@@ -1,10 +1,11 @@
+#include "kinegraph/komo/exchanges.h"
+
 #include <algorithm>
 
 #include "kinegraph/base/errors.h"
 #include "kinegraph/base/text.h"
 #include "kinegraph/features/distance.h"
 #include "kinegraph/kinematics/dynamics.h"
-#include "kinegraph/komo/komo.h"
 
 namespace kinegraph {
 
@@ -13,146 +14,197 @@ namespace {
 constexpr double kElasticity = .9;
 constexpr double kFirstForce = .1;  ///< in weights; not zero, where a cone of friction has its tip
 
-Vector3d nearest(const State& state, Witness::Kind kind, int object, int onto) {
+using enum ObjectiveType;
+
+Vector3d nearest(const State& state, Witness::Kind kind, const ContactForce& contact) {
   const State* states[] = {&state};
   Vector3d value;
-  Witness(kind, object, onto).eval(states, 1., value, nullptr);
+  Witness(kind, contact.object, contact.onto).eval(states, 1., value, nullptr);
   return value;
 }
 
+/// An exchange on its way into a motion: first its dofs, then what it demands of them.
+class NewExchange {
+ public:
+  NewExchange(MotionProblem& motion, const ExchangeDemand& demand)
+      : motion_(motion), path_(motion.path), demand_(demand), pair_({demand.object, demand.onto}) {
+    path_.requireBuilt("addExchange");
+    readFrames();
+    readTimes();
+    const auto& masses = path_.state(-path_.grid().order()).parameters().frame_mass;
+    const double own = masses[contact_.object].mass, mass = own > 0. ? own : masses[contact_.onto].mass;
+    contact_.unit = -kGravity.z() * (mass > 0. ? mass : 1.);
+    contact_.is_free = true;
+  }
+
+  std::string add() {
+    addDofs();
+    startBetweenBodies();
+    demandKind();
+    addCosts();
+    motion_.contacts.add(contact_);
+    return name_;
+  }
+
+ private:
+  void readFrames() {
+    const Program& program = path_.state(-path_.grid().order()).program();
+    contact_.object = frameId(program, demand_.object, "contact");
+    contact_.onto = frameId(program, demand_.onto, "contact");
+    if (contact_.object == contact_.onto) throw ValueError(cat("contact: '", demand_.object, "' cannot push itself"));
+    if (!(demand_.friction > 0.)) {
+      throw ValueError(
+          cat("contact: the coefficient of friction is ", demand_.friction, "; expected a positive number"));
+    }
+  }
+
+  void readTimes() {
+    const TimeGrid& grid = path_.grid();
+    const bool bounces = demand_.kind == Exchange::bounce;
+    if (bounces && grid.order() < 2) {
+      throw ValueError(cat("bounce of '", demand_.object, "' off '", demand_.onto,
+                           "': speeds before and after it need a KOMO with kOrder 2; this one has ", grid.order()));
+    }
+    std::tie(from_, to_) = grid.select(demand_.times);
+    if (bounces) to_ = from_;
+    if (from_ > to_ || from_ >= grid.slices()) {
+      throw ValueError(
+          cat("contact between '", demand_.object, "' and '", demand_.onto, "': its times select no slice"));
+    }
+  }
+
+  /// The point and the force, along the axes of the world.
+  void addDofs() {
+    const Program& before = path_.state(-path_.grid().order()).program();
+    const std::string wanted = cat("poa_", demand_.object, "_", demand_.onto, "_", path_.grid().timeOf(from_));
+    name_ = wanted;
+    for (int count = 2; before.frame_index.contains(name_); ++count) name_ = cat(wanted, "_", count);
+    path_.beginModes();
+    Attachment three;
+    three.type = JointType::trans3;
+    three.stable = false;
+    contact_.point = path_.addDofs(name_, from_, to_, three);
+    contact_.dofs = path_.addDofs(name_ + "_force", from_, to_, three);
+  }
+
+  /// The point starts in the middle between the bodies, the force along the normal.
+  void startBetweenBodies() {
+    for (int t = from_; t <= to_; ++t) {
+      const State& now = path_.state(t);
+      VectorXd q = now.q();
+      const auto& X_W0 = now.pose(0);  // of the frame that the dofs hang below
+      const Vector3d normal = nearest(now, Witness::Kind::normal, contact_);
+      const Vector3d middle =
+          .5 * (nearest(now, Witness::Kind::point_a, contact_) + nearest(now, Witness::Kind::point_b, contact_));
+      q.segment<3>(now.program().frame_dofs[contact_.point].first) = X_W0.R.transpose() * (middle - X_W0.p);
+      q.segment<3>(now.program().frame_dofs[contact_.dofs].first) = kFirstForce * normal;
+      path_.setSlice(t, q.data());
+    }
+  }
+
+  void demandKind() {
+    switch (demand_.kind) {
+      case Exchange::slide:
+        return slide();
+      case Exchange::stick:
+        return stick();
+      case Exchange::complementary:
+        return complement();
+      case Exchange::bounce:
+        return bounce();
+    }
+  }
+
+  void slide() {
+    touch(1e1);
+    require(about("pullingForce"), pair_, ineq, 1e2);
+    require(about("forceAlongNormal"), pair_, eq, 1e1);
+  }
+
+  void stick() {
+    touch(1e2);
+    if (path_.grid().order() == 0)  // the cone points away from the other body
+      return require(about("frictionCone", demand_.friction), pair_, ineq, 1.);
+    require(about("pullingForce"), pair_, ineq, 1e1);
+    require(about("slidingVelocity"), pair_, eq, 1., 1, 1);
+  }
+
+  void complement() {
+    require(about("forceAlongNormal"), pair_, eq, 1e2);
+    require(about("pullingForce"), pair_, ineq, 1e2);
+    require(about("forceTimesDistance"), pair_, eq, 1e2);
+    if (path_.grid().order() >= 1) require(about("forceTimesVelocity"), pair_, eq, 1e2, 1);
+    require(FeatureSymbol::distance, pair_, ineq, 1e1);
+  }
+
+  void bounce() {
+    touch(1e1);
+    require(about("forceAlongNormal"), pair_, eq, 1e1);
+    require(about("pullingForce"), pair_, ineq, 1e1);
+    if (to_ + 1 >= path_.grid().slices()) return;
+    motion_.require({.feature = about("elasticBounce", kElasticity),
+                     .frames = pair_,
+                     .type = eq,
+                     .scale = MatrixXd::Constant(1, 1, 1e1),
+                     .order = 2,
+                     .times = {path_.grid().timeOf(to_ + 1)}});
+  }
+
+  void touch(double scale) {
+    require(FeatureSymbol::distance, {demand_.object, name_}, eq, scale);
+    require(FeatureSymbol::distance, {demand_.onto, name_}, eq, scale);
+    require(FeatureSymbol::distance, pair_, eq, 1e1);
+  }
+
+  /// On the force, and on how it and the point change.
+  void addCosts() {
+    const FeatureSource force = about("force");
+    require(force, pair_, sos, 1e-4, 0);
+    const int smooth = std::min(path_.grid().order(), 2);
+    if (smooth == 0) return;
+    if (demand_.kind != Exchange::bounce) require(force, pair_, sos, 1e-2, smooth, smooth);
+    require(FeatureSymbol::position, {name_}, sos, 1e-2, smooth, smooth);
+  }
+
+  FeatureSource about(const char* what, double parameter = 0.) const {
+    return FeatureRecipe{what, contact_, parameter};
+  }
+
+  /// In all slices of the contact but the first `later`.
+  void require(const FeatureSource& feature, const std::vector<std::string>& frames, ObjectiveType type, double scale,
+               int order = -1, int later = 0) {
+    if (from_ + later > to_) return;
+    motion_.require({.feature = feature,
+                     .frames = frames,
+                     .type = type,
+                     .scale = MatrixXd::Constant(1, 1, scale),
+                     .order = order,
+                     .times = {path_.grid().timeOf(from_), path_.grid().timeOf(to_)}},
+                    later);
+  }
+
+  MotionProblem& motion_;
+  Path& path_;
+  const ExchangeDemand& demand_;
+  std::vector<std::string> pair_;
+  ContactForce contact_;
+  std::string name_;
+  int from_ = 0, to_ = 0;
+};
+
 }  // namespace
 
-Komo::Exchange exchangeFromName(const std::string& name) {
+Exchange exchangeFromName(const std::string& name) {
   static const std::vector<std::string> names = {"slide", "stick", "complementary", "bounce"};
   const auto place = std::find(names.begin(), names.end(), name);
   if (place == names.end())
     throw NameError(
         cat("there is no contact of kind '", name, "'", similarHint(name, names), "; there are ", join(names)));
-  return Komo::Exchange(place - names.begin());
+  return Exchange(place - names.begin());
 }
 
-std::string Komo::addExchange(const std::vector<double>& times, const std::string& object, const std::string& onto,
-                              Exchange kind, double friction) {
-  requireBuilt("addExchange");
-  const Program& before = state(-order_).program();
-  ContactForce contact;
-  contact.object = frameId(before, object, "contact");
-  contact.onto = frameId(before, onto, "contact");
-  if (contact.object == contact.onto) throw ValueError(cat("contact: '", object, "' cannot push itself"));
-  if (!(friction > 0.))
-    throw ValueError(cat("contact: the coefficient of friction is ", friction, "; expected a positive number"));
-  if (kind == Exchange::bounce && order_ < 2) {
-    throw ValueError(cat("bounce of '", object, "' off '", onto,
-                         "': speeds before and after it need a KOMO with kOrder 2; this one has ", order_));
-  }
-  auto [from, to] = selectSlices(times);
-  if (kind == Exchange::bounce) to = from;
-  if (from > to || from >= slices_)
-    throw ValueError(cat("contact between '", object, "' and '", onto, "': its times select no slice"));
-  const double start = double(from + 1) / slices_per_phase_, end = double(to + 1) / slices_per_phase_;
-  const auto& masses = state(-order_).parameters().frame_mass;
-  const double mass = masses[contact.object].mass > 0. ? masses[contact.object].mass : masses[contact.onto].mass;
-  contact.unit = -kGravity.z() * (mass > 0. ? mass : 1.);
-  contact.is_free = true;
-
-  makeModes();
-  std::string name = cat("poa_", object, "_", onto, "_", start);
-  for (int count = 2; before.frame_index.contains(name); ++count)
-    name = cat("poa_", object, "_", onto, "_", start, "_", count);
-  Attachment three;  // along the axes of the world
-  three.type = JointType::trans3;
-  three.stable = false;
-  contact.point = addDofs(name, from, to, three);
-  contact.dofs = addDofs(name + "_force", from, to, three);
-  for (int t = from; t <= to; ++t) {
-    const State& now = state(t);
-    VectorXd q = now.q();
-    const auto& X_W0 = now.pose(0);  // of the frame that the dofs hang below
-    const Vector3d normal = nearest(now, Witness::Kind::normal, contact.object, contact.onto);
-    const Vector3d middle = .5 * (nearest(now, Witness::Kind::point_a, contact.object, contact.onto) +
-                                  nearest(now, Witness::Kind::point_b, contact.object, contact.onto));
-    q.segment<3>(now.program().frame_dofs[contact.point].first) = X_W0.R.transpose() * (middle - X_W0.p);
-    q.segment<3>(now.program().frame_dofs[contact.dofs].first) = kFirstForce * normal;
-    setSlice(t, q.data());
-  }
-
-  const auto require = [&](FeatureSource feature, std::vector<std::string> frames, ObjectiveType type, double scale,
-                           int order = -1, int later = 0) {
-    if (from + later > to) return;
-    std::string what = feature.name();
-    add({std::move(what),
-         std::move(feature),
-         std::move(frames),
-         type,
-         MatrixXd::Constant(1, 1, scale),
-         {},
-         order,
-         {start, end},
-         0,
-         0},
-        later, 0);
-  };
-  using enum ObjectiveType;
-  const std::vector<std::string> pair = {object, onto};
-  const auto touch = [&](double scale) {
-    require(FeatureSymbol::distance, {object, name}, eq, scale);
-    require(FeatureSymbol::distance, {onto, name}, eq, scale);
-    require(FeatureSymbol::distance, pair, eq, 1e1);
-  };
-  const auto about = [&](const char* what, double parameter = 0.) {
-    return FeatureSource(FeatureRecipe{what, contact, parameter});
-  };
-  const FeatureSource along_normal = about("forceAlongNormal"), pulling = about("pullingForce"), force = about("force");
-  const int smooth = std::min(order_, 2);
-  switch (kind) {
-    case Exchange::slide:
-      touch(1e1);
-      require(pulling, pair, ineq, 1e2);
-      require(along_normal, pair, eq, 1e1);
-      break;
-    case Exchange::stick:
-      touch(1e2);
-      if (order_ == 0) {  // the cone points away from the other body
-        require(about("frictionCone", friction), pair, ineq, 1.);
-      } else {
-        require(pulling, pair, ineq, 1e1);
-        require(about("slidingVelocity"), pair, eq, 1., 1, 1);
-      }
-      break;
-    case Exchange::complementary:
-      require(along_normal, pair, eq, 1e2);
-      require(pulling, pair, ineq, 1e2);
-      require(about("forceTimesDistance"), pair, eq, 1e2);
-      if (order_ >= 1) require(about("forceTimesVelocity"), pair, eq, 1e2, 1);
-      require(FeatureSymbol::distance, pair, ineq, 1e1);
-      break;
-    case Exchange::bounce:
-      touch(1e1);
-      require(along_normal, pair, eq, 1e1);
-      require(pulling, pair, ineq, 1e1);
-      if (to + 1 < slices_) {
-        const double after = double(to + 2) / slices_per_phase_;
-        add({"elasticBounce",
-             about("elasticBounce", kElasticity),
-             pair,
-             eq,
-             MatrixXd::Constant(1, 1, 1e1),
-             {},
-             2,
-             {after},
-             0,
-             0},
-            0, 0);
-      }
-      break;
-  }
-  require(force, pair, sos, 1e-4, 0);
-  if (smooth > 0) {
-    if (kind != Exchange::bounce) require(force, pair, sos, 1e-2, smooth, smooth);
-    require(FeatureSymbol::position, {name}, sos, 1e-2, smooth, smooth);
-  }
-  contacts_.push_back(contact);
-  return name;
+std::string addExchange(MotionProblem& motion, const ExchangeDemand& demand) {
+  return NewExchange(motion, demand).add();
 }
 
 }  // namespace kinegraph

@@ -2,6 +2,7 @@
 
 #include "kinegraph/base/errors.h"
 #include "kinegraph/base/text.h"
+#include "kinegraph/komo/komo.h"
 #include "kinegraph/komo/path_description.h"
 
 namespace kinegraph {
@@ -11,7 +12,7 @@ namespace {
 constexpr int kMostSeparateRows = 100000;
 
 /// Does the objective demand that a sum of overlaps is zero?
-bool isSumOfOverlaps(const Komo::Objective& objective) {
+bool isSumOfOverlaps(const Objective& objective) {
   return objective.feature == FeatureSymbol::accumulatedCollisions && objective.order == 0 &&
          objective.scale.size() <= 1 && objective.target.isZero(0.) &&
          (objective.scale.size() == 0 || objective.scale(0) > 0.) &&
@@ -20,55 +21,55 @@ bool isSumOfOverlaps(const Komo::Objective& objective) {
 
 class KomoNlp final : public Nlp {
  public:
-  explicit KomoNlp(std::shared_ptr<Komo> komo) : KomoNlp(komo, komo->objectives()) {}
+  explicit KomoNlp(std::shared_ptr<Komo> komo) : KomoNlp(komo, komo->objectives().all()) {}
 
-  KomoNlp(std::shared_ptr<Komo> komo, std::vector<Komo::Objective> objectives)
-      : komo_(std::move(komo)), problem_(*komo_, std::move(objectives)), structure_(komo_->structureRevision()) {
+  KomoNlp(std::shared_ptr<Komo> komo, std::vector<Objective> objectives)
+      : komo_(std::move(komo)),
+        problem_(komo_->path(), komo_->contacts(), std::move(objectives)),
+        structure_(komo_->path().revision()) {
     types_ = problem_.types();
     linear_ = problem_.linearRows();
-    lower_ = komo_->layout().lower;
-    upper_ = komo_->layout().upper;
+    lower_ = komo_->path().layout().lower;
+    upper_ = komo_->path().layout().upper;
   }
 
   const std::shared_ptr<Komo>& komo() const { return komo_; }
 
   Jacobian makeJacobian() const override {
     requireStructure();
-    return problem_.makeJacobian(*komo_);
+    return problem_.makeJacobian(komo_->path());
   }
 
   void evaluate(const VectorXd& x, VectorXd& phi, Jacobian* J) override {
     requireStructure();
-    komo_->setVariables(x);
-    problem_.evaluate(*komo_, phi, J);
+    komo_->path().setVariables(x);
+    problem_.evaluate(komo_->path(), phi, J);
   }
 
   std::span<const CurvedRows> curvedRows() const override { return problem_.curvedRows(); }
 
   void addCurvature(int k, std::span<const double> weights, Eigen::Ref<MatrixXd> H) override {
     requireStructure();
-    problem_.addCurvature(*komo_, k, weights, H);
+    problem_.addCurvature(komo_->path(), k, weights, H);
   }
 
   bool mayBeQuadratic() const override { return problem_.isLinear(); }
 
   bool mayBeCancelled() const override {
-    return std::ranges::any_of(problem_.objectives(),
-                               [](const Komo::Objective& o) { return o.feature.maker() != nullptr; });
+    return std::ranges::any_of(problem_.objectives(), [](const Objective& o) { return o.feature.maker() != nullptr; });
   }
 
-  void leaveAt(const VectorXd& x) override { komo_->setVariables(x); }
+  void leaveAt(const VectorXd& x) override { komo_->path().setVariables(x); }
 
   /// Overlaps of pairs in place of their sum.
   Separation separation() override {
     if (separation_is_known_) return separation_;
     separation_is_known_ = true;
-    std::vector<Komo::Objective> objectives = problem_.objectives();
+    std::vector<Objective> objectives = problem_.objectives();
     bool any = false;
-    for (Komo::Objective& objective : objectives) {
+    for (Objective& objective : objectives) {
       if (!isSumOfOverlaps(objective)) continue;
       objective.feature = FeatureSymbol::pairCollisions;
-      objective.name = "pairCollisions";
       objective.type = ObjectiveType::ineq;
       any = true;
     }
@@ -90,7 +91,7 @@ class KomoNlp final : public Nlp {
   /// The present path, moved by a little noise so that it is not exactly at a singular posture, within the bounds.
   VectorXd initialPoint(Rng& rng) override {
     requireStructure();
-    VectorXd x = komo_->variables();
+    VectorXd x = komo_->path().variables();
     for (double& value : x) value += .01 * rng.normal();
     return x.cwiseMax(lower_).cwiseMin(upper_);
   }
@@ -98,14 +99,16 @@ class KomoNlp final : public Nlp {
   std::string rowName(int row) const override {
     if (row < 0 || row >= problem_.rows()) return Nlp::rowName(row);
     const PathProblem::Term& term = problem_.termOf(row);
-    const Komo::Objective& objective = problem_.objectives()[term.objective];
+    const Objective& objective = problem_.objectives()[term.objective];
     return cat(objectiveName(objective), ", row ", row - term.first_row, ", slice ", term.slice, " (",
                objectiveTypeName(objective.type), ")");
   }
 
-  RowDescription describeRow(int row) const override { return describePathRow(*komo_, problem_, row); }
-  VariableDescription describeVariable(int variable) const override { return describePathVariable(*komo_, variable); }
-  std::vector<std::string> detailsOf(int row) const override { return pathRowDetails(*komo_, problem_, row); }
+  RowDescription describeRow(int row) const override { return describePathRow(komo_->path(), problem_, row); }
+  VariableDescription describeVariable(int variable) const override {
+    return describePathVariable(komo_->path(), variable);
+  }
+  std::vector<std::string> detailsOf(int row) const override { return pathRowDetails(komo_->path(), problem_, row); }
 
   std::string report(int) const override {
     return cat("KOMO: ", komo_->slices(), " slices of ", komo_->dofs(), " dofs, order ", komo_->order(), ", ",
@@ -115,7 +118,7 @@ class KomoNlp final : public Nlp {
 
  private:
   void requireStructure() const {
-    if (komo_->structureRevision() == structure_) return;
+    if (komo_->path().revision() == structure_) return;
     throw Error("KOMO: a mode switch or frame was added after this nlp() was made; make a new one");
   }
 

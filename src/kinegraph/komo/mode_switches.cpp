@@ -1,216 +1,196 @@
+#include "kinegraph/komo/mode_switches.h"
+
 #include <algorithm>
 
 #include "kinegraph/base/errors.h"
 #include "kinegraph/base/text.h"
-#include "kinegraph/komo/komo.h"
 
 namespace kinegraph {
 
 namespace {
 
-void requireFrame(const Program& program, const std::string& name, const char* call) { frameId(program, name, call); }
+using M = SwitchMode;
 
-}  // namespace
+bool isQuasiStatic(M mode) { return mode == M::quasiStatic || mode == M::quasiStaticOn; }
 
-/// Until the first change all slices share the given configuration's Program; from then on each has a mode.
-void Komo::makeModes() {
-  if (!modes_.empty()) return;
-  modes_.push_back(std::make_shared<Mode>(Mode{Config(*base_), {}}));
+/// Does the object obey physics?
+bool isDynamic(M mode) {
+  return mode == M::dynamic || mode == M::dynamicOn || mode == M::dynamicTrans || isQuasiStatic(mode);
 }
 
-int Komo::addHiddenFrame(const std::string& name) {
-  int id = 0;
-  for (const auto& mode : modes_) id = mode->config.scene()->add(name, nullptr).id;
-  return id;
+/// Is nothing asked of the motion?
+bool isMagic(M mode) { return mode == M::magic || mode == M::magicTrans; }
+
+bool movesAlone(M mode) {
+  return mode == M::dynamic || mode == M::dynamicTrans || mode == M::quasiStatic || mode == M::magic;
 }
 
-void Komo::switchFrom(int slice, const std::string& parent, const std::string& object, const Attachment& attachment) {
-  const int first = std::max(slice, -order_) + order_, joint = next_joint_++;
-  const int base_frame = attachment.base ? addHiddenFrame(object + "_base") : -1;
-  std::map<int, int> changed;  // old mode -> the mode that takes its place
-  for (std::size_t i = std::size_t(first); i < states_.size(); ++i) {
-    const auto [place, is_new] = changed.try_emplace(mode_of_[i], int(modes_.size()));
-    if (is_new) {
-      auto mode = std::make_shared<Mode>(*modes_[mode_of_[i]]);
-      mode->attach(parent, object, attachment, base_frame, joint);
-      modes_.push_back(std::move(mode));
-    }
-    mode_of_[i] = place->second;
+const Program& firstProgram(const Path& path) { return path.state(-path.grid().order()).program(); }
+
+void requireFrame(const Path& path, const std::string& name, const char* call) {
+  frameId(firstProgram(path), name, call);
+}
+
+/// The mode just before a slice.
+const Mode& modeBefore(const Path& path, int slice) { return path.mode(std::max(slice - 1, -path.grid().order())); }
+
+/// The pose or velocity of frames does not jump in a slice.
+void addContinuity(MotionProblem& motion, FeatureSymbol feature, const std::vector<std::string>& frames, double scale,
+                   int order, int slice) {
+  if (slice < 0 || slice >= motion.path.grid().slices()) return;
+  motion.require({.feature = feature,
+                  .frames = frames,
+                  .type = ObjectiveType::eq,
+                  .scale = MatrixXd::Constant(1, 1, scale),
+                  .order = order,
+                  .times = {motion.path.grid().timeOf(slice)}});
+}
+
+/// What a mode without a stable joint asks of the motion, in the slices [from, to].
+void addPhysics(MotionProblem& motion, M mode, const std::string& object, int from, int to) {
+  const TimeGrid& grid = motion.path.grid();
+  const bool damped = isQuasiStatic(mode);
+  const int order = damped ? 1 : 2;
+  if (grid.order() < order || from > to) return;
+  const auto rows = [&](ObjectiveType type, double scale, const std::vector<int>& chosen) {
+    MatrixXd S = MatrixXd::Zero(Eigen::Index(chosen.size()), 6);
+    for (std::size_t i = 0; i < chosen.size(); ++i) S(Eigen::Index(i), chosen[i]) = scale;
+    motion.require({.feature = FeatureSymbol::physics,
+                    .frames = {object},
+                    .type = type,
+                    .scale = chosen.size() == 6 ? MatrixXd::Constant(1, 1, scale) : S,
+                    .order = order,
+                    .times = {grid.timeOf(from), grid.timeOf(to)},
+                    .without_gravity = mode == M::dynamicOn || mode == M::quasiStaticOn,
+                    .damped = damped});
+  };
+  const std::vector<int> all = {0, 1, 2, 3, 4, 5};
+  switch (mode) {
+    case M::dynamicTrans:
+      return rows(ObjectiveType::eq, 1e2, {0, 1, 2});
+    case M::quasiStatic:
+      return rows(ObjectiveType::eq, 1e1, all);
+    case M::quasiStaticOn:
+      rows(ObjectiveType::eq, 1e1, {0, 1, 5});
+      return rows(ObjectiveType::sos, 1., {2, 3, 4});
+    default:
+      return rows(ObjectiveType::eq, 1e2, all);
   }
-  rebuildStates();
 }
 
-/// Makes the states of all slices anew. Joints that were there before keep their dofs; new ones are where their mode
-/// has them.
-void Komo::rebuildStates() {
-  std::vector<State> old = std::move(states_);
-  states_.clear();
-  states_.reserve(old.size());
-  for (std::size_t i = 0; i < old.size(); ++i) {
-    Mode& mode = *modes_[mode_of_[i]];
-    State state(mode.config.program(), mode.config.parameters());
-    VectorXd q = mode.config.getJointState();
-    const Program &now = state.program(), &before = old[i].program();
-    for (std::size_t frame = 0; frame < before.frame_dofs.size(); ++frame) {
-      const auto [first, count] = now.frame_dofs[frame];
-      const auto [first_before, count_before] = before.frame_dofs[frame];
-      const auto added = mode.added.find(int(frame));
-      const bool kept =
-          count > 0 && count == count_before && (added == mode.added.end() || added->second.id != next_joint_ - 1);
-      if (kept) q.segment(first, count) = old[i].q().segment(first_before, count);
-    }
-    state.setJoints(q.data());
-    states_.push_back(std::move(state));
-  }
-  layout_ = makeLayout(states_, order_, stable_, modes_, mode_of_);
-  ++structure_revision_;
-}
-
-void Komo::addContinuity(FeatureSymbol feature, const std::vector<std::string>& frames, double scale, int order,
-                         int slice) {
-  if (slice < 0 || slice >= slices_) return;
-  const double time = double(slice + 1) / slices_per_phase_;
-  add({featureInfo(feature).name,
-       feature,
-       frames,
-       ObjectiveType::eq,
-       MatrixXd::Constant(1, 1, scale),
-       {},
-       order,
-       {time},
-       0,
-       0},
-      0, 0);
-}
-
-void Komo::addModeSwitch(const std::vector<double>& times, SwitchMode mode,
-                         const std::vector<std::string>& given_frames, bool first) {
-  requireBuilt("addModeSwitch");
-  std::vector<std::string> frames = given_frames;
-  using M = SwitchMode;
-  const bool moves_alone = mode == M::dynamic || mode == M::dynamicTrans || mode == M::quasiStatic || mode == M::magic;
-  if (frames.size() == 1 && moves_alone) frames.insert(frames.begin(), program_->frame_name.front());
+/// [parent, object], both in the scene.
+std::pair<std::string, std::string> framesOf(const Path& path, const SwitchDemand& demand) {
+  std::vector<std::string> frames = demand.frames;
+  const bool alone = movesAlone(demand.mode);
+  if (frames.size() == 1 && alone) frames.insert(frames.begin(), path.given().program->frame_name.front());
+  const std::vector<double>& times = demand.times;
   if (times.empty() || times.size() > 2 || !(times[0] >= 0.)) {
     throw ValueError("addModeSwitch: times is [from, to], both phase times; to -1 where the mode holds to the end");
   }
-  const bool ends = times.size() == 2 && times[1] >= 0.;
   if (frames.size() != 2) {
     throw ValueError(
-        cat("addModeSwitch: frames are [parent, object]", moves_alone ? " or [object]" : "", ", got ", frames.size()));
+        cat("addModeSwitch: frames are [parent, object]", alone ? " or [object]" : "", ", got ", frames.size()));
   }
-  const std::string &parent = frames[0], &object = frames[1];
-  requireFrame(state(-order_).program(), parent, "addModeSwitch");
-  requireFrame(state(-order_).program(), object, "addModeSwitch");
-  makeModes();
-  const int from = sliceAt(times[0]), to = ends ? sliceAt(times[1]) : slices_ - 1;
-  if (from >= slices_) {
-    warnings_.push_back(cat("addModeSwitch at time ", times[0], " has no effect; the path ends at ",
-                            double(slices_) / slices_per_phase_));
-    return;
-  }
+  for (const std::string& name : frames) requireFrame(path, name, "addModeSwitch");
+  return {frames[0], frames[1]};
+}
+
+/// Does it begin before the path ends? Leaves a warning if not.
+bool begins(MotionProblem& motion, const char* call, double time) {
+  const TimeGrid& grid = motion.path.grid();
+  if (grid.sliceAt(time) < grid.slices()) return true;
+  motion.objectives.warn(
+      cat(call, " at time ", time, " has no effect; the path ends at ", grid.timeOf(grid.slices() - 1)));
+  return false;
+}
+
+/// That an object does not jump, where a mode begins or where the next one takes over, is about velocities.
+void requireVelocities(const Path& path, const SwitchDemand& demand, int from, int to) {
+  const bool ends = demand.times.size() == 2 && demand.times[1] >= 0. && to < path.grid().slices();
+  const bool at_start = demand.first && from >= 0, at_end = ends && !isDynamic(demand.mode);
+  if (path.grid().order() >= 1 || isMagic(demand.mode) || (!at_start && !at_end)) return;
+  std::vector<std::string> otherwise;
+  if (at_start) otherwise.push_back("firstSwitch=False");
+  if (at_end) otherwise.push_back(cat("times [", demand.times[0], ", -1]"));
+  throw ValueError(cat(
+      "addModeSwitch: that the object does not jump is about velocities; it needs a KOMO with kOrder 1 or more, or ",
+      join(otherwise, " and ")));
+}
+
+}  // namespace
+
+void addModeSwitch(MotionProblem& motion, const SwitchDemand& demand) {
+  Path& path = motion.path;
+  path.requireBuilt("addModeSwitch");
+  const auto [parent, object] = framesOf(path, demand);
+  const M mode = demand.mode;
+  const std::vector<double>& times = demand.times;
+  const bool ends = times.size() == 2 && times[1] >= 0.;
+  path.beginModes();
+  if (!begins(motion, "addModeSwitch", times[0])) return;
+  const int order = path.grid().order(), from = path.grid().sliceAt(times[0]),
+            to = ends ? path.grid().sliceAt(times[1]) : path.grid().slices() - 1;
   if (ends && to < from)
     throw ValueError(cat("addModeSwitch: times [", times[0], ", ", times[1], "] end before they begin"));
-  const bool dynamic = mode == SwitchMode::dynamic || mode == SwitchMode::dynamicOn ||
-                       mode == SwitchMode::dynamicTrans || mode == SwitchMode::quasiStatic ||
-                       mode == SwitchMode::quasiStaticOn;
-  const bool magic = mode == SwitchMode::magic || mode == SwitchMode::magicTrans;  // nothing is asked of the motion
-  if (first && from >= 0 && order_ < 1 && !magic) {
-    throw ValueError(
-        "addModeSwitch: that the object does not jump is about velocities; it needs a KOMO with kOrder 1 or more, or "
-        "firstSwitch=False");
-  }
-  Mode& before = *modes_[mode_of_[std::max(from - 1, -order_) + order_]];
+  requireVelocities(path, demand, from, to);
+  const Mode& before = modeBefore(path, from);
   const FrameData& root = before.movableRoot(object, parent);
   const std::string root_name = root.name;
   std::string held_by;  // where the object was in a stable mode until now
   if (const auto added = before.added.find(root.id); added != before.added.end() && added->second.stable)
     held_by = added->second.parent;
-  switchFrom(from, parent, object, attachmentOf(mode, before.config.getFrame(parent), before.config.getFrame(object)));
-  if (magic) return;
-  if (first) {
+  path.attach(from, parent, object, attachmentOf(mode, before.config.getFrame(parent), before.config.getFrame(object)));
+  if (isMagic(mode)) return;
+  const bool dynamic = isDynamic(mode);
+  if (demand.first) {
     const double scale = dynamic ? 1e2 : 1e1;
     if (held_by.empty()) {
-      addContinuity(FeatureSymbol::pose, {root_name}, scale, 1, from);
+      addContinuity(motion, FeatureSymbol::pose, {root_name}, scale, 1, from);
     } else {
-      addContinuity(FeatureSymbol::poseRel, {object, held_by}, scale, 1, from);
+      addContinuity(motion, FeatureSymbol::poseRel, {object, held_by}, scale, 1, from);
     }
-    if (order_ >= 2 && !dynamic) addContinuity(FeatureSymbol::linangVel, {object}, 1., 2, from + 1);
+    if (order >= 2 && !dynamic) addContinuity(motion, FeatureSymbol::linangVel, {object}, 1., 2, from + 1);
   }
-  if (dynamic) return addPhysics(mode, object, from + 1, to);
+  if (dynamic) return addPhysics(motion, mode, object, from + 1, to);
   if (!ends) return;
-  addContinuity(FeatureSymbol::poseRel, {object, parent}, 1e1, 1, to);
-  if (order_ >= 2) addContinuity(FeatureSymbol::linangVel, {object}, 1., 2, to + 1);
+  addContinuity(motion, FeatureSymbol::poseRel, {object, parent}, 1e1, 1, to);
+  if (order >= 2) addContinuity(motion, FeatureSymbol::linangVel, {object}, 1., 2, to + 1);
 }
 
-void Komo::addRigidSwitch(double time, const std::string& parent, const std::string& object, bool no_jump) {
-  requireBuilt("addRigidSwitch");
-  requireFrame(state(-order_).program(), parent, "addRigidSwitch");
-  requireFrame(state(-order_).program(), object, "addRigidSwitch");
+void addRigidSwitch(MotionProblem& motion, double time, const std::string& parent, const std::string& object,
+                    bool no_jump) {
+  Path& path = motion.path;
+  path.requireBuilt("addRigidSwitch");
+  requireFrame(path, parent, "addRigidSwitch");
+  requireFrame(path, object, "addRigidSwitch");
   if (!(time >= 0.)) throw ValueError(cat("addRigidSwitch: time is ", time, "; expected a phase time"));
-  const int from = sliceAt(time);
-  if (from >= slices_) {
-    warnings_.push_back(
-        cat("addRigidSwitch at time ", time, " has no effect; the path ends at ", double(slices_) / slices_per_phase_));
-    return;
-  }
-  makeModes();
-  const std::string root = modes_[mode_of_[std::max(from - 1, -order_) + order_]]->movableRoot(object, parent).name;
-  switchFrom(from, parent, object, {});
+  if (!begins(motion, "addRigidSwitch", time)) return;
+  const int from = path.grid().sliceAt(time);
+  path.beginModes();
+  const std::string root = modeBefore(path, from).movableRoot(object, parent).name;
+  path.attach(from, parent, object, {});
   if (!no_jump) return;
-  addContinuity(FeatureSymbol::pose, {root}, 1e1, 1, from);
-  if (order_ >= 2) addContinuity(FeatureSymbol::linangVel, {object}, 1., 2, from + 1);
+  addContinuity(motion, FeatureSymbol::pose, {root}, 1e1, 1, from);
+  if (path.grid().order() >= 2) addContinuity(motion, FeatureSymbol::linangVel, {object}, 1., 2, from + 1);
 }
 
-void Komo::addFrameDof(const std::string& name, const std::string& parent, JointType type, bool stable,
-                       const std::string& origin) {
-  requireBuilt("addFrameDof");
-  const Program& program = state(-order_).program();
-  if (name.empty() || program.frame_index.contains(name)) {
-    throw ValueError(cat("addFrameDof: there is a frame '", name, "' already; expected a new name"));
+void addFrameDof(Path& path, const FrameDemand& demand) {
+  path.requireBuilt("addFrameDof");
+  const Program& program = firstProgram(path);
+  if (demand.name.empty() || program.frame_index.contains(demand.name)) {
+    throw ValueError(cat("addFrameDof: there is a frame '", demand.name, "' already; expected a new name"));
   }
-  std::string below = parent;
-  if (parent.empty() && type != JointType::none)
+  std::string below = demand.parent;
+  if (below.empty() && demand.type != JointType::none)
     below = program.frame_index.contains("world") ? "world" : program.frame_name.front();
-  if (!below.empty()) requireFrame(program, below, "addFrameDof");
-  if (!origin.empty()) requireFrame(program, origin, "addFrameDof");
+  if (!below.empty()) requireFrame(path, below, "addFrameDof");
+  if (!demand.origin.empty()) requireFrame(path, demand.origin, "addFrameDof");
+  const JointType type = demand.type;
   if (type == JointType::hinge || type == JointType::generic || type == JointType::tau) {
     throw ValueError(cat("addFrameDof: a ", jointTypeName(type), " joint cannot be added to a motion problem"));
   }
-  makeModes();
-  const int joint = next_joint_++;
-  Pose X_origin;
-  if (!origin.empty()) {
-    const Config& given = modes_[mode_of_[0]]->config;
-    X_origin = given.getFrame(origin).getPose();
-    if (!below.empty()) X_origin = given.getFrame(below).getPose().inverse() * X_origin;
-  }
-  for (const auto& mode : modes_) {
-    SceneTree& scene = *mode->config.scene();
-    FrameData& frame = scene.add(name, nullptr);
-    FrameData* seat = below.empty() ? nullptr : &scene.get(below, "addFrameDof");
-    if (!origin.empty()) {
-      FrameData& at = scene.add(name + "_origin", nullptr);
-      if (seat) scene.link(at, *seat);
-      at.pose = X_origin;
-      seat = &at;
-    }
-    if (seat) scene.link(frame, *seat);
-    Frame(mode->config.scene(), frame).setShape(ShapeType::marker, {.1});
-    if (mode == modes_.front()) {
-      shown_frames_.push_back(frame.id);
-      if (!origin.empty()) shown_frames_.push_back(frame.id + 1);
-    }
-    if (type == JointType::none) continue;
-    const Frame anchor = mode->config.getFrame(below);
-    Attachment attachment;
-    attachment.type = type;
-    attachment.stable = stable;
-    limitByType(attachment, anchor);
-    addJoint(frame, attachment, Pose());
-    if (frame.moves()) mode->added[frame.id] = {joint, stable, below};
-    scene.structureChanged();
-  }
-  rebuildStates();
+  path.beginModes();
+  path.addFrame(demand.name, below, type, demand.stable, demand.origin);
 }
 
 }  // namespace kinegraph

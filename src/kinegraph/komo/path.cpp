@@ -1,8 +1,9 @@
+#include "kinegraph/komo/path.h"
+
 #include <algorithm>
 
 #include "kinegraph/base/errors.h"
 #include "kinegraph/base/text.h"
-#include "kinegraph/komo/komo.h"
 
 namespace kinegraph {
 
@@ -12,48 +13,61 @@ constexpr std::size_t kUsualDofs = 256;
 
 }  // namespace
 
-std::vector<int> Komo::dofsOf(const std::vector<int>& frames, int slice) const {
-  const Program& program = state(slice).program();
-  std::vector<int> dofs;
-  for (int frame : frames) {
-    if (frame < 0 || frame >= int(program.frame_dofs.size()) || program.frame_dofs[frame].count == 0) {
-      throw ValueError(cat("KOMO: frame ", frame, " has no active joint in slice ", slice));
-    }
-    const auto [first, count] = program.frame_dofs[frame];
-    for (int i = first; i < first + count; ++i) dofs.push_back(i);
-  }
-  return dofs;
+void Path::setScene(const Config& config) {
+  given_ = GivenScene(config);
+  shown_frames_.clear();
+  for (const auto& frame : config.scene()->frames()) shown_frames_.push_back(frame->id);
+  build();
 }
 
-MatrixXd Komo::getPath(const std::vector<int>& frames) const {
-  requireBuilt("getPath");
-  MatrixXd path;
-  if (layout_.plain && frames.empty()) {
-    path.resize(slices_, state(0).dofs());
-    for (int t = 0; t < slices_; ++t) path.row(t) = state(t).q();
-    return path;
-  }
-  for (int t = 0; t < slices_; ++t) {
-    const std::vector<int> dofs = dofsOf(frames.empty() ? joint_frames_ : frames, t);
-    if (t == 0) path.resize(slices_, Eigen::Index(dofs.size()));
-    for (std::size_t i = 0; i < dofs.size(); ++i) path(t, Eigen::Index(i)) = state(t).q()[dofs[i]];
-  }
-  return path;
+void Path::setGrid(const TimeGrid& time_grid) {
+  grid_ = time_grid;
+  build();
 }
 
-VectorXd Komo::ownDofs(int slice) const {
+void Path::build() {
+  if (given_.empty() || grid_.empty()) return;
+  const std::size_t count = std::size_t(grid_.slices() + grid_.order());
+  states_.clear();
+  states_.reserve(count);
+  State first(given_.program, given_.parameters);
+  first.setJoints(given_.q.data());
+  for (std::size_t i = 1; i < count; ++i) states_.push_back(first);
+  states_.push_back(std::move(first));
+  modes_ = Modes(count);
+  layOut();
+  ++revision_;
+}
+
+Path Path::clone() const {
+  Path copy(*this);
+  copy.modes_ = modes_.clone();
+  return copy;
+}
+
+void Path::requireBuilt(const char* call) const {
+  if (states_.empty())
+    throw Error(cat("KOMO: ", call, " needs a configuration and a timing; call setConfig and setTiming first"));
+}
+
+void Path::requireSlice(int slice) const {
+  if (slice < -grid_.order() || slice >= grid_.slices())
+    throw ValueError(cat("KOMO: slice ", slice, " is not in ", -grid_.order(), " .. ", grid_.slices() - 1));
+}
+
+VectorXd Path::ownDofs(int slice) const {
   if (layout_.plain) return state(slice).q();
   std::vector<double> values;
-  for (const auto& [first, count] : layout_.owned[slice + order_]) {
+  for (const auto& [first, count] : layout_.owned[std::size_t(slice + grid_.order())]) {
     for (int i = first; i < first + count; ++i) values.push_back(state(slice).q()[i]);
   }
   return Eigen::Map<VectorXd>(values.data(), Eigen::Index(values.size()));
 }
 
-VectorXd Komo::variables() const {
+VectorXd Path::variables() const {
   VectorXd x(layout_.dimension);
   int first = 0;
-  for (int t = layout_.plain ? 0 : -order_; t < slices_; ++t) {
+  for (int t = layout_.plain ? 0 : -grid_.order(); t < grid_.slices(); ++t) {
     const VectorXd own = ownDofs(t);
     x.segment(first, own.size()) = own;
     first += int(own.size());
@@ -61,9 +75,9 @@ VectorXd Komo::variables() const {
   return x;
 }
 
-void Komo::setVariables(const VectorXd& x) {
+void Path::setVariables(const VectorXd& x) {
   if (layout_.plain) {
-    for (int t = 0; t < slices_; ++t) setSlice(t, x.data() + t * program_->dofs);
+    for (int t = 0; t < grid_.slices(); ++t) setSlice(t, x.data() + t * given_.program->dofs);
     return;
   }
   double usual[kUsualDofs];  // solvers call this in their loop, where no memory is requested
@@ -81,10 +95,43 @@ void Komo::setVariables(const VectorXd& x) {
   }
 }
 
-MatrixXd Komo::getFrameState(int slice) const {
-  requireBuilt("getFrameState");
-  if (slice < -order_ || slice >= slices_)
-    throw ValueError(cat("KOMO: slice ", slice, " is not in ", -order_, " .. ", slices_ - 1));
+std::vector<int> Path::dofsOf(const std::vector<int>& frames, int slice) const {
+  const Program& program = state(slice).program();
+  std::vector<int> dofs;
+  for (int frame : frames) {
+    if (frame < 0 || frame >= int(program.frame_dofs.size()) || program.frame_dofs[frame].count == 0) {
+      throw ValueError(cat("KOMO: frame ", frame, " has no active joint in slice ", slice));
+    }
+    const auto [first, count] = program.frame_dofs[frame];
+    for (int i = first; i < first + count; ++i) dofs.push_back(i);
+  }
+  return dofs;
+}
+
+MatrixXd Path::joints(const std::vector<int>& frames) const {
+  MatrixXd rows;
+  if (layout_.plain && frames.empty()) {
+    rows.resize(grid_.slices(), state(0).dofs());
+    for (int t = 0; t < grid_.slices(); ++t) rows.row(t) = state(t).q();
+    return rows;
+  }
+  for (int t = 0; t < grid_.slices(); ++t) {
+    const std::vector<int> dofs = dofsOf(frames.empty() ? given_.joint_frames : frames, t);
+    if (t == 0) rows.resize(grid_.slices(), Eigen::Index(dofs.size()));
+    for (std::size_t i = 0; i < dofs.size(); ++i) rows(t, Eigen::Index(i)) = state(t).q()[dofs[i]];
+  }
+  return rows;
+}
+
+void Path::setJoints(int slice, const VectorXd& q) {
+  VectorXd all = state(slice).q();
+  const std::vector<int> dofs = dofsOf(given_.joint_frames, slice);
+  for (std::size_t i = 0; i < dofs.size(); ++i) all[dofs[i]] = q[Eigen::Index(i)];
+  setSlice(slice, all.data());
+}
+
+MatrixXd Path::framePoses(int slice) const {
+  requireSlice(slice);
   MatrixXd poses(Eigen::Index(shown_frames_.size()), 7);
   for (std::size_t i = 0; i < shown_frames_.size(); ++i) {
     Pose X(state(slice).pose(shown_frames_[i]));
@@ -94,79 +141,141 @@ MatrixXd Komo::getFrameState(int slice) const {
   return poses;
 }
 
-Config Komo::configuration(int slice) const {
-  requireBuilt("getConfiguration");
-  if (slice < -order_ || slice >= slices_)
-    throw ValueError(cat("KOMO: slice ", slice, " is not in ", -order_, " .. ", slices_ - 1));
-  Config config = modes_.empty() ? Config(*base_) : modes_[mode_of_[slice + order_]]->config;
+Config Path::configuration(int slice) const {
+  requireSlice(slice);
+  Config config = modes_.empty() ? Config(*given_.tree) : mode(slice).config;
   config.setJointState(state(slice).q());
-  const auto& frames = config.scene()->frames();
-  for (const auto& source : source_->frames()) {
-    if (source->id < int(frames.size()) && frames[source->id]->name == source->name)
-      frames[source->id]->attributes = source->attributes;
-  }
+  given_.restoreAttributes(config);
   return config;
 }
 
-Komo::SubProblem Komo::subProblem(int phase) const {
-  if (slices_per_phase_ != 1)
-    throw ValueError(cat("getSubProblem is for one slice per phase; this KOMO has ", slices_per_phase_));
-  if (phase < 0 || phase >= slices_ || phase - 1 < -order_) {
-    throw ValueError(cat("getSubProblem: phase ", phase, " is not in ", order_ > 0 ? 0 : 1, " .. ", slices_ - 1));
-  }
-  SubProblem out{configuration(phase - 1), {}, {}};
-  if (!modes_.empty()) {
-    for (const auto& [frame, added] : modes_[mode_of_[phase - 1 + order_]]->added) {
-      if (FrameData& data = *out.config.scene()->frames()[frame]; data.moves()) data.joint->active = false;
+/// Makes the states of all slices anew. Joints that were there before keep their dofs; new ones are where their mode
+/// has them.
+void Path::rebuildStates() {
+  const int newest = modes_.nextJoint() - 1;
+  std::vector<State> old = std::move(states_);
+  states_.clear();
+  states_.reserve(old.size());
+  for (std::size_t i = 0; i < old.size(); ++i) {
+    Mode& mode = modes_.at(i);
+    State state(mode.config.program(), mode.config.parameters());
+    VectorXd q = mode.config.getJointState();
+    const Program &now = state.program(), &before = old[i].program();
+    for (std::size_t frame = 0; frame < before.frame_dofs.size(); ++frame) {
+      const auto [first, count] = now.frame_dofs[frame];
+      const auto [first_before, count_before] = before.frame_dofs[frame];
+      const auto added = mode.added.find(int(frame));
+      const bool kept = count > 0 && count == count_before && (added == mode.added.end() || added->second.id != newest);
+      if (kept) q.segment(first, count) = old[i].q().segment(first_before, count);
     }
+    state.setJoints(q.data());
+    states_.push_back(std::move(state));
   }
-  for (int frame : stable_) out.config.scene()->frames()[frame]->joint->active = false;
-  out.config.scene()->structureChanged();
-  std::vector<int> frames;
-  for (int frame : joint_frames_) {
-    if (!stable_.contains(frame)) frames.push_back(frame);
-  }
-  const auto read = [&](int slice) {
-    const std::vector<int> dofs = dofsOf(frames, slice);
-    return VectorXd(state(slice).q()(dofs));
-  };
-  out.start = read(phase - 1);
-  out.end = read(phase);
-  return out;
+  layOut();
+  ++revision_;
 }
 
-void Komo::updateRootObjects(const Config& config) {
-  requireBuilt("updateRootObjects");
+void Path::attach(int from, const std::string& parent, const std::string& object, const Attachment& attachment) {
+  const int first = std::max(from, -grid_.order()) + grid_.order(), joint = modes_.newJoint();
+  const int base_frame = attachment.base ? modes_.addFrame(object + "_base") : -1;
+  modes_.replace(std::size_t(first), states_.size(),
+                 [&](Mode& mode) { mode.attach(parent, object, attachment, base_frame, joint); });
+  rebuildStates();
+}
+
+int Path::addDofs(const std::string& name, int from, int to, const Attachment& attachment) {
+  const int id = modes_.addFrame(name), joint = modes_.newJoint();
+  modes_.replace(std::size_t(from + grid_.order()), std::size_t(to + 1 + grid_.order()), [&](Mode& mode) {
+    SceneTree& scene = *mode.config.scene();
+    FrameData& frame = *scene.frames()[id];
+    scene.link(frame, *scene.frames().front());
+    addJoint(frame, attachment, Pose());
+    mode.added[id] = {joint, false, scene.frames().front()->name};
+    scene.structureChanged();
+  });
+  rebuildStates();
+  return id;
+}
+
+void Path::addFrame(const std::string& name, const std::string& parent, JointType type, bool stable,
+                    const std::string& origin) {
+  const int joint = modes_.newJoint();
+  Pose X_origin;
+  if (!origin.empty()) {
+    const Config& given = modes_.at(0).config;
+    X_origin = given.getFrame(origin).getPose();
+    if (!parent.empty()) X_origin = given.getFrame(parent).getPose().inverse() * X_origin;
+  }
+  for (const auto& mode : modes_.list()) {
+    SceneTree& scene = *mode->config.scene();
+    FrameData& frame = scene.add(name, nullptr);
+    FrameData* seat = parent.empty() ? nullptr : &scene.get(parent, "addFrameDof");
+    if (!origin.empty()) {
+      FrameData& at = scene.add(name + "_origin", nullptr);
+      if (seat) scene.link(at, *seat);
+      at.pose = X_origin;
+      seat = &at;
+    }
+    if (seat) scene.link(frame, *seat);
+    Frame(mode->config.scene(), frame).setShape(ShapeType::marker, {.1});
+    if (mode == modes_.list().front()) {
+      shown_frames_.push_back(frame.id);
+      if (!origin.empty()) shown_frames_.push_back(frame.id + 1);
+    }
+    if (type == JointType::none) continue;
+    Attachment attachment;
+    attachment.type = type;
+    attachment.stable = stable;
+    limitByType(attachment, mode->config.getFrame(parent));
+    addJoint(frame, attachment, Pose());
+    if (frame.moves()) mode->added[frame.id] = {joint, stable, parent};
+    scene.structureChanged();
+  }
+  rebuildStates();
+}
+
+void Path::updateRootObjects(const Config& config) {
   const auto program = config.program();
-  if (program != program_ && (program->frame_name != program_->frame_name || program->dofs != program_->dofs)) {
+  if (program != given_.program &&
+      (program->frame_name != given_.program->frame_name || program->dofs != given_.program->dofs)) {
     throw ValueError(
         "KOMO: updateRootObjects needs the configuration that the KOMO was made from, with the same frames, joints and "
         "shapes");
   }
-  if (program == program_ && modes_.empty()) {
-    base_.reset();  // so that its memory can be used again
-    base_ = config.scene()->snapshot();
-    parameters_ = config.parameters();
-    for (State& state : states_) state.setParameters(parameters_);
-    return;
+  if (program == given_.program && modes_.empty()) {
+    given_.tree.reset();  // so that its memory can be used again
+    given_.tree = config.scene()->snapshot();
+    given_.parameters = config.parameters();
+  } else {
+    given_.takeOverPoses(config);
+    for (const auto& mode : modes_.list()) takeOverPoses(*mode->config.scene(), config);
   }
-  const auto takeOver = [&](SceneTree& target) {
-    for (const auto& source : config.scene()->frames()) {
-      FrameData& frame = *target.frames()[source->id];
-      const int parent = source->parent ? source->parent->id : -1, parent_here = frame.parent ? frame.parent->id : -1;
-      if (!source->moves() && !frame.moves() && parent == parent_here) frame.pose = source->pose;
-    }
-    target.posesChanged();
-  };
-  const auto base = std::make_shared<SceneTree>();
-  base->append(*base_, {}, false);
-  takeOver(*base);
-  base_ = base;
-  parameters_ = config.parameters();
-  for (const auto& mode : modes_) takeOver(*mode->config.scene());
-  for (std::size_t i = 0; i < states_.size(); ++i) {
-    states_[i].setParameters(modes_.empty() ? parameters_ : modes_[mode_of_[i]]->config.parameters());
+  for (std::size_t i = 0; i < states_.size(); ++i)
+    states_[i].setParameters(modes_.empty() ? given_.parameters : modes_.at(i).config.parameters());
+}
+
+Path::Content Path::content() const {
+  Content content;
+  for (const auto& mode : modes_.list()) content.modes.push_back(*mode);
+  content.mode_of = modes_.ofSlices();
+  content.shown_frames = shown_frames_;
+  content.next_joint = modes_.nextJoint();
+  for (const State& state : states_) content.states.push_back(state.q());
+  return content;
+}
+
+void Path::setContent(Content content) {
+  const std::size_t count = states_.size();
+  bool fits = content.states.size() == count && content.mode_of.size() == count;
+  if (fits) modes_ = Modes(std::move(content.modes), std::move(content.mode_of), content.next_joint);
+  for (std::size_t i = 0; fits && i < count; ++i) {
+    if (!modes_.empty()) states_[i] = State(modes_.at(i).config.program(), modes_.at(i).config.parameters());
+    fits = content.states[i].size() == states_[i].dofs();
+    if (fits) states_[i].setJoints(content.states[i].data());
   }
+  if (!fits) throw ValueError("KOMO: the parts do not fit together");
+  shown_frames_ = std::move(content.shown_frames);
+  layOut();
 }
 
 }  // namespace kinegraph

@@ -37,12 +37,12 @@ bool isJointFeature(const FeatureSource& feature) {
 }
 
 /// The unit that all rows of an objective about joints have; number if they differ.
-Measure measureOfJoints(const Komo& komo, const Komo::Objective& objective, int slice) {
-  const Program& program = komo.state(slice).program();
+Measure measureOfJoints(const Path& path, const Objective& objective, int slice) {
+  const Program& program = path.state(slice).program();
   const std::vector<Measure> all = measuresOfDofs(program);
   std::vector<Measure> used;
   for (const std::string& name : objective.frames) {
-    const auto [first, count] = program.frame_dofs[frameId(program, name, objective.name)];
+    const auto [first, count] = program.frame_dofs[frameId(program, name, objective.name())];
     used.insert(used.end(), all.begin() + first, all.begin() + first + count);
   }
   if (used.empty()) used = all;
@@ -101,13 +101,13 @@ Measure measureOfFeature(FeatureSymbol feature, int row) {
 
 }  // namespace
 
-std::string objectiveName(const Komo::Objective& objective) {
-  return objective.frames.empty() ? objective.name : cat(objective.name, " of ", join(objective.frames, ", "));
+std::string objectiveName(const Objective& objective) {
+  return objective.frames.empty() ? objective.name() : cat(objective.name(), " of ", join(objective.frames, ", "));
 }
 
-RowDescription describePathRow(const Komo& komo, const PathProblem& problem, int row) {
+RowDescription describePathRow(const Path& path, const PathProblem& problem, int row) {
   const PathProblem::Term& term = problem.termOf(row);
-  const Komo::Objective& objective = problem.objectives()[term.objective];
+  const Objective& objective = problem.objectives()[term.objective];
   RowDescription out;
   out.objective = objectiveName(objective);
   out.group = term.objective;
@@ -122,7 +122,7 @@ RowDescription describePathRow(const Komo& komo, const PathProblem& problem, int
   int raw = r;  // the entry of the feature
   if (mixes_rows) scale.row(r).cwiseAbs().maxCoeff(&raw);
   if (isJointFeature(objective.feature)) {
-    out.measure = measureOfJoints(komo, objective, term.slice);
+    out.measure = measureOfJoints(path, objective, term.slice);
   } else if (const auto symbol = objective.feature.symbol()) {
     out.measure = measureOfFeature(*symbol, raw);
   }
@@ -130,21 +130,21 @@ RowDescription describePathRow(const Komo& komo, const PathProblem& problem, int
   return out;
 }
 
-VariableDescription describePathVariable(const Komo& komo, int variable) {
+VariableDescription describePathVariable(const Path& path, int variable) {
   VariableDescription out;
-  const PathLayout& layout = komo.layout();
-  const Program* program = &komo.program();
+  const PathLayout& layout = path.layout();
+  const Program* program = path.given().program.get();
   int dof = -1;
   if (layout.plain) {
-    out.slice = variable / komo.dofs();
-    dof = variable % komo.dofs();
+    out.slice = variable / path.dofs();
+    dof = variable % path.dofs();
   } else {
     for (std::size_t i = 0; i < layout.column.size() && dof < 0; ++i) {
       const auto place = std::find(layout.column[i].begin(), layout.column[i].end(), variable);
       if (place == layout.column[i].end()) continue;
       dof = int(place - layout.column[i].begin());
-      out.slice = int(i) - komo.order();
-      program = &komo.state(out.slice).program();
+      out.slice = int(i) - path.grid().order();
+      program = &path.state(out.slice).program();
     }
   }
   if (dof < 0) return out;
@@ -154,11 +154,11 @@ VariableDescription describePathVariable(const Komo& komo, int variable) {
   return out;
 }
 
-std::vector<std::string> pathRowDetails(const Komo& komo, const PathProblem& problem, int row) {
+std::vector<std::string> pathRowDetails(const Path& path, const PathProblem& problem, int row) {
   const PathProblem::Term& term = problem.termOf(row);
-  const Komo::Objective& objective = problem.objectives()[term.objective];
+  const Objective& objective = problem.objectives()[term.objective];
   if (objective.feature != FeatureSymbol::accumulatedCollisions) return {};
-  const Config config = komo.configuration(term.slice);
+  const Config config = path.configuration(term.slice);
   std::vector<Config::NearPair> near = config.getCollisions(0.);
   std::stable_sort(near.begin(), near.end(), [](const auto& a, const auto& b) { return a.distance < b.distance; });
   std::vector<std::string> pairs;

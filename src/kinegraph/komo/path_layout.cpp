@@ -1,5 +1,7 @@
 #include "kinegraph/komo/path_layout.h"
 
+#include <map>
+
 namespace kinegraph {
 
 namespace {
@@ -33,8 +35,7 @@ PathLayout plainLayout(const std::vector<State>& states, int prefix) {
 
 }  // namespace
 
-PathLayout makeLayout(const std::vector<State>& states, int prefix, const std::set<int>& stable,
-                      const std::vector<std::shared_ptr<Mode>>& modes, const std::vector<int>& mode_of) {
+PathLayout makeLayout(const std::vector<State>& states, int prefix, const std::set<int>& stable, const Modes& modes) {
   if (modes.empty() && stable.empty()) return plainLayout(states, prefix);
   PathLayout layout;
   layout.plain = false;
@@ -52,7 +53,7 @@ PathLayout makeLayout(const std::vector<State>& states, int prefix, const std::s
     for (const DofSet& set : place->second) {
       const Mode::Added* added = nullptr;
       if (!modes.empty()) {
-        const Mode& mode = *modes[mode_of[i]];
+        const Mode& mode = modes.at(i);
         if (const auto found = mode.added.find(set.frame); found != mode.added.end()) added = &found->second;
       }
       const bool is_shared = added ? added->stable : stable.contains(set.frame);

@@ -1,12 +1,10 @@
 #pragma once
 
-#include <map>
-#include <memory>
 #include <set>
 #include <vector>
 
 #include "kinegraph/kinematics/state.h"
-#include "kinegraph/komo/mode.h"
+#include "kinegraph/komo/modes.h"
 
 namespace kinegraph {
 
@@ -21,9 +19,7 @@ struct PathLayout {
   VectorXd lower, upper;                              ///< per entry of x
 };
 
-/// `modes` may be empty (no joint was added); else `mode_of` says which one each slice has. `prefix` is the number of
-/// slices before the start; `stable` the frames whose original joints are shared by all slices.
-PathLayout makeLayout(const std::vector<State>& states, int prefix, const std::set<int>& stable,
-                      const std::vector<std::shared_ptr<Mode>>& modes, const std::vector<int>& mode_of);
+/// `prefix` is the number of slices before the start; `stable` the frames whose original joints are shared by all slices.
+PathLayout makeLayout(const std::vector<State>& states, int prefix, const std::set<int>& stable, const Modes& modes);
 
 }  // namespace kinegraph

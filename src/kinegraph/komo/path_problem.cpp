@@ -27,34 +27,34 @@ bool dependsOnDofs(const FeatureSource& feature) {
 
 }  // namespace
 
-PathProblem::PathProblem(const Komo& komo, std::vector<Komo::Objective> objectives)
-    : objectives_(std::move(objectives)), dimension_(komo.layout().dimension) {
-  const PathLayout& layout = komo.layout();
-  for (int t = -komo.order(); t < komo.slices(); ++t) widest_state_ = std::max(widest_state_, komo.state(t).dofs());
+PathProblem::PathProblem(const Path& path, const Contacts& contacts, std::vector<Objective> objectives)
+    : objectives_(std::move(objectives)), dimension_(path.layout().dimension) {
+  const PathLayout& layout = path.layout();
+  for (int t = -path.grid().order(); t < path.grid().slices(); ++t)
+    widest_state_ = std::max(widest_state_, path.state(t).dofs());
   std::size_t terms = 0;
-  for (const Komo::Objective& objective : objectives_)
-    terms += std::size_t(std::max(objective.to - objective.from + 1, 0));
+  for (const Objective& objective : objectives_) terms += std::size_t(std::max(objective.to - objective.from + 1, 0));
   terms_.reserve(terms);
   segments_.reserve(terms);
   width_.reserve(terms);
   runs_.reserve(terms);
   residuals_.reserve(objectives_.size());
   for (std::size_t o = 0; o < objectives_.size(); ++o) {
-    const Komo::Objective& objective = objectives_[o];
+    const Objective& objective = objectives_[o];
     const bool varies = !layout.plain && dependsOnDofs(objective.feature);
     std::map<const Program*, int> by_program;  // where nothing but the program matters
     for (int t = objective.from; t <= objective.to; ++t) {
       const bool owns = varies && objective.feature == FeatureSymbol::jointLimits;
-      const Program* key = varies ? &komo.state(t).program() : nullptr;
+      const Program* key = varies ? &path.state(t).program() : nullptr;
       auto place = by_program.find(key);
       if (place == by_program.end() || owns) {
-        residuals_.push_back(komo.residualIn(objective, t));
+        residuals_.push_back(residualIn(objective, path, contacts.forces(), t));
         place = by_program.insert_or_assign(key, int(residuals_.size()) - 1).first;
       }
       const int rows = residuals_[place->second].rows();
       terms_.push_back({int(o), t, place->second, int(types_.size()), rows, int(runs_.size()), 0, 0});
       segments_.emplace_back();
-      layOut(komo, terms_.back(), segments_.back());
+      layOut(path, terms_.back(), segments_.back());
       width_.push_back(0);
       for (const auto& segment : segments_.back()) width_.back() += segment.second;
       types_.insert(types_.end(), rows, objective.type);
@@ -73,15 +73,15 @@ PathProblem::PathProblem(const Komo& komo, std::vector<Komo::Objective> objectiv
     }
     if (linear) constant_ = stored_;
   }
-  findCurvedRows(komo);
+  findCurvedRows(path);
   workspace_ = makeWorkspace();
 }
 
 /// Terms of one slice, of which the variables are the joints in their order.
-void PathProblem::findCurvedRows(const Komo& komo) {
+void PathProblem::findCurvedRows(const Path& path) {
   for (std::size_t i = 0; i < terms_.size(); ++i) {
     const Term& term = terms_[i];
-    const State& state = komo.state(term.slice);
+    const State& state = path.state(term.slice);
     if (term.rows == 0 || term.slice < 0 || !residuals_[std::size_t(term.residual)].hasCurvature(state)) continue;
     const Run* const run = term.runs == 1 ? &runs_[std::size_t(term.first_run)] : nullptr;
     if (!run || segments_[i].size() != 1 || run->from != 0 || run->to != 0 || run->width != state.dofs() ||
@@ -108,9 +108,9 @@ PathProblem::Workspace PathProblem::makeWorkspace() const {
 }
 
 /// Finds which columns of x the window of slices touches, and where each of its own columns goes among them.
-void PathProblem::layOut(const Komo& komo, Term& term, std::vector<std::pair<int, int>>& segments) {
+void PathProblem::layOut(const Path& path, Term& term, std::vector<std::pair<int, int>>& segments) {
   const int order = objectives_[term.objective].order, n = widest_state_;
-  const PathLayout& layout = komo.layout();
+  const PathLayout& layout = path.layout();
   if (layout.plain) {
     const int first = std::max(term.slice - order, 0), width = (term.slice - first + 1) * n;
     if (width > 0) segments.push_back({first * n, width});
@@ -120,7 +120,7 @@ void PathProblem::layOut(const Komo& komo, Term& term, std::vector<std::pair<int
   }
   std::vector<std::pair<int, int>> places;  // column of x, column of the window
   for (int i = 0; i <= order; ++i) {
-    const std::vector<int>& column = layout.column[term.slice - order + i + komo.order()];
+    const std::vector<int>& column = layout.column[term.slice - order + i + path.grid().order()];
     for (std::size_t d = 0; d < column.size(); ++d) {
       if (column[d] >= 0) places.push_back({column[d], i * n + int(d)});
     }
@@ -169,7 +169,7 @@ std::vector<char> PathProblem::linearRows() const {
 
 /// First come zeros, for all rows that are zero; then linear rows; then others that are always stored; then, in
 /// evaluateSparse, those that come and go.
-Jacobian PathProblem::makeJacobian(const Komo& komo) const {
+Jacobian PathProblem::makeJacobian(const Path& path) const {
   std::size_t segments = 0, values = std::size_t(stored_);
   for (std::size_t i = 0; i < terms_.size(); ++i) {
     segments += std::size_t(terms_[i].rows) * segments_[i].size();
@@ -201,34 +201,34 @@ Jacobian PathProblem::makeJacobian(const Komo& komo) const {
     }
     if (!residuals_[std::size_t(term.residual)].isLinear() || term.rows == 0) continue;
     if (copied != term.residual) residual.emplace(residuals_[std::size_t(copied = term.residual)]);
-    evaluateTerm(komo, i, *residual, phi.segment(term.first_row, term.rows), J.values.data() + term.first_value,
+    evaluateTerm(path, i, *residual, phi.segment(term.first_row, term.rows), J.values.data() + term.first_value,
                  workspace);
   }
   return J;
 }
 
-std::span<const State* const> PathProblem::statesOf(const Komo& komo, const Term& term, Workspace& workspace) const {
+std::span<const State* const> PathProblem::statesOf(const Path& path, const Term& term, Workspace& workspace) const {
   const int order = objectives_[std::size_t(term.objective)].order;
-  for (int s = 0; s <= order; ++s) workspace.window[std::size_t(s)] = &komo.state(term.slice - order + s);
+  for (int s = 0; s <= order; ++s) workspace.window[std::size_t(s)] = &path.state(term.slice - order + s);
   return {workspace.window.data(), std::size_t(order) + 1};
 }
 
 /// `jacobian`, which may be null, is where the rows of this term are; it comes filled with zeros.
-void PathProblem::evaluateTerm(const Komo& komo, std::size_t index, Residual& residual, Eigen::Ref<VectorXd> phi,
+void PathProblem::evaluateTerm(const Path& path, std::size_t index, Residual& residual, Eigen::Ref<VectorXd> phi,
                                double* jacobian, Workspace& workspace) const {
   const Term& term = terms_[index];
-  const std::span<const State* const> states = statesOf(komo, term, workspace);
+  const std::span<const State* const> states = statesOf(path, term, workspace);
   const int columns = int(states.size()) * widest_state_, width = width_[index];
-  if (!jacobian) return residual.eval(states, komo.tau(), phi, nullptr);
+  if (!jacobian) return residual.eval(states, path.grid().tau(), phi, nullptr);
   const Run& only = runs_[std::size_t(term.first_run)];
   if (term.runs == 1 && only.width == columns && width == columns) {  // straight into the Jacobian
     JacobianRows block = Eigen::Map<RowMajor>(jacobian, term.rows, columns);
-    return residual.eval(states, komo.tau(), phi, &block);
+    return residual.eval(states, path.grid().tau(), phi, &block);
   }
   Eigen::Map<RowMajor> whole(workspace.jacobian.data(), term.rows, columns);
   whole.setZero();
   JacobianRows block = whole;
-  residual.eval(states, komo.tau(), phi, &block);
+  residual.eval(states, path.grid().tau(), phi, &block);
   Eigen::Map<RowMajor> target(jacobian, term.rows, width);
   for (int r = term.first_run; r < term.first_run + term.runs; ++r) {
     const Run& run = runs_[std::size_t(r)];
@@ -237,12 +237,12 @@ void PathProblem::evaluateTerm(const Komo& komo, std::size_t index, Residual& re
 }
 
 /// Appends the rows of this term that are not zero to the values.
-void PathProblem::evaluateSparse(const Komo& komo, std::size_t index, VectorXd& phi, Jacobian& J) {
+void PathProblem::evaluateSparse(const Path& path, std::size_t index, VectorXd& phi, Jacobian& J) {
   const Term& term = terms_[index];
-  const std::span<const State* const> states = statesOf(komo, term, workspace_);
+  const std::span<const State* const> states = statesOf(path, term, workspace_);
   Eigen::Map<RowMajor> whole(workspace_.zeros.data(), term.rows, Eigen::Index(states.size()) * widest_state_);
   JacobianRows block = whole;
-  residuals_[std::size_t(term.residual)].eval(states, komo.tau(), phi.segment(term.first_row, term.rows), &block,
+  residuals_[std::size_t(term.residual)].eval(states, path.grid().tau(), phi.segment(term.first_row, term.rows), &block,
                                               workspace_.zero_row.data());
   const char *now = workspace_.zero_row.data(), *before = J.zero_row.data() + term.first_row;
   for (int i = 0; i < term.rows; ++i) {
@@ -268,25 +268,25 @@ void PathProblem::evaluateSparse(const Komo& komo, std::size_t index, VectorXd& 
   }
 }
 
-void PathProblem::evaluate(const Komo& komo, VectorXd& phi, Jacobian* J) {
+void PathProblem::evaluate(const Path& path, VectorXd& phi, Jacobian* J) {
   if (J) J->values.resize(std::size_t(stored_));
   for (std::size_t i = 0; i < terms_.size(); ++i) {
     const Term& term = terms_[i];
     if (term.rows == 0) continue;
     Residual& residual = residuals_[std::size_t(term.residual)];
     if (J && !storesAllRows(term)) {
-      evaluateSparse(komo, i, phi, *J);
+      evaluateSparse(path, i, phi, *J);
       continue;
     }
     double* values = J && !residual.isLinear() ? J->values.data() + term.first_value : nullptr;
     if (values) std::fill_n(values, std::ptrdiff_t(term.rows) * width_[i], 0.);
-    evaluateTerm(komo, i, residual, phi.segment(term.first_row, term.rows), values, workspace_);
+    evaluateTerm(path, i, residual, phi.segment(term.first_row, term.rows), values, workspace_);
   }
 }
 
-void PathProblem::addCurvature(const Komo& komo, int k, std::span<const double> weights, Eigen::Ref<MatrixXd> H) {
+void PathProblem::addCurvature(const Path& path, int k, std::span<const double> weights, Eigen::Ref<MatrixXd> H) {
   const Term& term = terms_[std::size_t(curved_terms_[std::size_t(k)])];
-  residuals_[std::size_t(term.residual)].addCurvature(komo.state(term.slice), weights, H);
+  residuals_[std::size_t(term.residual)].addCurvature(path.state(term.slice), weights, H);
 }
 
 }  // namespace kinegraph

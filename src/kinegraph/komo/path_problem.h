@@ -4,12 +4,12 @@
 #include <string>
 #include <vector>
 
-#include "kinegraph/komo/komo.h"
+#include "kinegraph/komo/motion_problem.h"
 
 namespace kinegraph {
 
-/// The objectives of a Komo, laid out: which rows of phi each has in each slice, and where its Jacobian goes. Evaluates
-/// at the Komo's present path. It is of the structure that the Komo has when this is made.
+/// Objectives on a path, laid out: which rows of phi each has in each slice, and where its Jacobian goes. Evaluates at
+/// the path as it is then; its structure must be the one that it has when this is made.
 class PathProblem {
  public:
   /// An objective in a slice.
@@ -22,12 +22,11 @@ class PathProblem {
     int first_value;  ///< of its rows in a Jacobian, where these are always stored
   };
 
-  explicit PathProblem(const Komo& komo) : PathProblem(komo, komo.objectives()) {}
-  PathProblem(const Komo& komo, std::vector<Komo::Objective> objectives);
+  PathProblem(const Path& path, const Contacts& contacts, std::vector<Objective> objectives);
 
   const std::vector<Term>& terms() const { return terms_; }
   const std::vector<ObjectiveType>& types() const { return types_; }
-  const std::vector<Komo::Objective>& objectives() const { return objectives_; }
+  const std::vector<Objective>& objectives() const { return objectives_; }
   int rows() const { return int(types_.size()); }
   const Term& termOf(int row) const;
 
@@ -36,14 +35,14 @@ class PathProblem {
 
   const std::vector<Nlp::CurvedRows>& curvedRows() const { return curved_rows_; }
 
-  /// Adds the second derivatives of the k-th of curvedRows at the Komo's present path to H; see Nlp::addCurvature.
-  void addCurvature(const Komo& komo, int k, std::span<const double> weights, Eigen::Ref<MatrixXd> H);
+  /// Adds the second derivatives of the k-th of curvedRows at the present path to H; see Nlp::addCurvature.
+  void addCurvature(const Path& path, int k, std::span<const double> weights, Eigen::Ref<MatrixXd> H);
 
   /// With the values of linear rows; the others are zero.
-  Jacobian makeJacobian(const Komo& komo) const;
+  Jacobian makeJacobian(const Path& path) const;
 
   /// Leaves linear rows of `J` as they are.
-  void evaluate(const Komo& komo, VectorXd& phi, Jacobian* J);
+  void evaluate(const Path& path, VectorXd& phi, Jacobian* J);
 
  private:
   /// Consecutive columns of the window of slices, and where they go in the row.
@@ -59,14 +58,14 @@ class PathProblem {
   };
   Workspace makeWorkspace() const;
   bool storesAllRows(const Term& term) const { return !residuals_[std::size_t(term.residual)].tellsZeroRows(); }
-  std::span<const State* const> statesOf(const Komo& komo, const Term& term, Workspace& workspace) const;
-  void findCurvedRows(const Komo& komo);
-  void layOut(const Komo& komo, Term& term, std::vector<std::pair<int, int>>& segments);
-  void evaluateTerm(const Komo& komo, std::size_t index, Residual& residual, Eigen::Ref<VectorXd> phi, double* jacobian,
+  std::span<const State* const> statesOf(const Path& path, const Term& term, Workspace& workspace) const;
+  void findCurvedRows(const Path& path);
+  void layOut(const Path& path, Term& term, std::vector<std::pair<int, int>>& segments);
+  void evaluateTerm(const Path& path, std::size_t index, Residual& residual, Eigen::Ref<VectorXd> phi, double* jacobian,
                     Workspace& workspace) const;
-  void evaluateSparse(const Komo& komo, std::size_t index, VectorXd& phi, Jacobian& J);
+  void evaluateSparse(const Path& path, std::size_t index, VectorXd& phi, Jacobian& J);
 
-  std::vector<Komo::Objective> objectives_;
+  std::vector<Objective> objectives_;
   std::vector<Term> terms_;
   std::vector<Residual> residuals_;
   std::vector<ObjectiveType> types_;

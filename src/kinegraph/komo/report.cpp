@@ -29,9 +29,9 @@ double sizeOf(ObjectiveType type, double phi) {
 }
 
 /// What the recorded reports call a feature.
-std::string className(const Komo::Objective& objective) {
+std::string className(const Objective& objective) {
   using S = FeatureSymbol;
-  if (objective.name == "physics") return objective.damped ? "F_NewtonEuler_DampedVelocities" : "F_NewtonEuler";
+  if (objective.name() == "physics") return objective.damped ? "F_NewtonEuler_DampedVelocities" : "F_NewtonEuler";
   if (const auto symbol = objective.feature.symbol()) switch (*symbol) {
       case S::distance:
       case S::pairCollision_negScalar:
@@ -49,7 +49,7 @@ std::string className(const Komo::Objective& objective) {
       default:
         break;
     }
-  std::string name = objective.name;
+  std::string name = objective.name();
   if (name.starts_with("scalarProduct")) return "F_ScalarProduct";
   if (name.starts_with("vector"))
     name = cat("Vector", name.ends_with("Diff") ? "Diff" : name.ends_with("Rel") ? "Rel" : "");
@@ -65,9 +65,9 @@ void requireSlice(const Komo& komo, int slice) {
 }  // namespace
 
 PathErrors measurePath(const Komo& komo) {
-  PathProblem problem(komo);
+  PathProblem problem(komo.path(), komo.contacts(), komo.objectives().all());
   VectorXd phi(problem.rows());
-  problem.evaluate(komo, phi, nullptr);
+  problem.evaluate(komo.path(), phi, nullptr);
   PathErrors errors;
   errors.per_slice.setZero(komo.slices(), Eigen::Index(problem.objectives().size()));
   for (const PathProblem::Term& term : problem.terms()) {
@@ -81,7 +81,7 @@ PathErrors measurePath(const Komo& komo) {
   return errors;
 }
 
-std::string objectiveTag(const Komo& komo, const Komo::Objective& objective) {
+std::string objectiveTag(const Komo& komo, const Objective& objective) {
   std::string tag = className(objective);
   const int own =
       objective.feature == FeatureSymbol::angularVel || objective.feature == FeatureSymbol::linangVel ? 1 : 0;
@@ -92,16 +92,16 @@ std::string objectiveTag(const Komo& komo, const Komo::Objective& objective) {
   const bool joints = objective.feature == FeatureSymbol::qItself;
   std::size_t count = objective.frames.size();
   if (joints) {  // each joint counts with its parent
-    count = 2 * (objective.frames.empty() ? komo.jointCount() : objective.frames.size());
+    count = 2 * (objective.frames.empty() ? komo.path().given().joint_frames.size() : objective.frames.size());
   } else if (objective.frames.empty()) {
-    count = std::size_t(komo.frameCount());
+    count = komo.path().shownFrames().size();
   }
   if (objective.frames.empty() || joints || objective.frames.size() > 3) return cat(tag, "[#", count, "]");
   return cat(tag, "[", join(objective.frames, ","), "]");
 }
 
 std::vector<std::string> residualTags(const Komo& komo) {
-  const PathProblem problem(komo);
+  const PathProblem problem(komo.path(), komo.contacts(), komo.objectives().all());
   std::vector<std::string> tags;
   for (const PathProblem::Term& term : problem.terms())
     tags.insert(tags.end(), term.rows, objectiveTag(komo, problem.objectives()[term.objective]));
@@ -121,7 +121,7 @@ std::string sliceErrors(const Komo& komo, int slice, const MatrixXd& per_slice) 
   std::string text;
   for (int o : order) {
     if (!(per_slice(slice, o) > 1e-4)) continue;
-    const Komo::Objective& objective = komo.objectives()[o];
+    const Objective& objective = komo.objectives()[std::size_t(o)];
     text += cat("t:", slice, " #", o, objectiveTag(komo, objective), " ", objectiveTypeName(objective.type), " ",
                 per_slice(slice, o), "\n");
   }

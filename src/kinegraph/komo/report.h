@@ -19,7 +19,7 @@ struct PathErrors {
 PathErrors measurePath(const Komo& komo);
 
 /// A short name: "F_qItself/acc[#14]", "F_PositionDiff[l_gripper,target]".
-std::string objectiveTag(const Komo& komo, const Komo::Objective& objective);
+std::string objectiveTag(const Komo& komo, const Objective& objective);
 
 /// The tag of its objective for each residual of the problem.
 std::vector<std::string> residualTags(const Komo& komo);

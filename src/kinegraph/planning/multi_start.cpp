@@ -10,16 +10,16 @@ namespace kinegraph {
 std::vector<VectorXd> drawStarts(Komo& komo, int count, std::uint64_t seed, const std::function<void()>& between) {
   if (count < 1) throw ValueError(cat("solveFromMany: the number of starts is ", count, "; expected at least 1"));
   Rng rng(seed);
-  std::vector<VectorXd> starts = {komo.variables()};
+  std::vector<VectorXd> starts = {komo.path().variables()};
   struct Restore {
     Komo& komo;
     VectorXd x;
-    ~Restore() { komo.setVariables(x); }
+    ~Restore() { komo.path().setVariables(x); }
   } restore{komo, starts[0]};
   while (int(starts.size()) < count) {
     if (between) between();
     komo.setRandomPath(rng);
-    starts.push_back(komo.variables());
+    starts.push_back(komo.path().variables());
   }
   return starts;
 }
@@ -29,9 +29,9 @@ SolveManyResult solveFromMany(const std::shared_ptr<Komo>& komo, const std::vect
                               const std::function<bool(int)>& watch) {
   if (starts.empty()) throw ValueError("solveFromMany: there are no starts");
   for (std::size_t i = 0; i < starts.size(); ++i) {
-    if (starts[i].size() == komo->layout().dimension) continue;
+    if (starts[i].size() == komo->path().layout().dimension) continue;
     throw ValueError(cat("solveFromMany: start ", i, " has ", starts[i].size(), " numbers; the problem has ",
-                         komo->layout().dimension));
+                         komo->path().layout().dimension));
   }
   std::vector<std::shared_ptr<Nlp>> copies(std::size_t(std::clamp(options.threads, 0, int(starts.size()))));
   for (auto& copy : copies) copy = makeNlp(std::make_shared<Komo>(komo->clone()));
@@ -52,7 +52,7 @@ SolveManyResult solveFromMany(const std::shared_ptr<Komo>& komo, const std::vect
   for (SolverResult& result : all.results) {
     if (result.done) result.problem = problem;
   }
-  if (all.best().x.size() > 0) komo->setVariables(all.best().x);
+  if (all.best().x.size() > 0) komo->path().setVariables(all.best().x);
   return all;
 }
 

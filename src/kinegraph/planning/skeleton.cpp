@@ -120,13 +120,12 @@ Komo Skeleton::path(const Config& config, int steps_per_phase, double accelerati
   if (acceleration_scale > 0.) komo.addControlObjective({}, 2, acceleration_scale);
   if (homing_scale > 0.) komo.addControlObjective({}, 0, homing_scale);
   komo.addQuaternionNorms();
-  if (collisions_)
-    komo.addObjective({}, FeatureSymbol::accumulatedCollisions, {}, ObjectiveType::eq, MatrixXd::Constant(1, 1, 1e1));
+  if (collisions_) komo.addObjective({}, FeatureSymbol::accumulatedCollisions, {}, ObjectiveType::eq, 1e1);
   add(komo, entries_);
   const Eigen::RowVector3d up(0., 0., -1e1);
   for (const std::string& object : lifted_) {
     for (int phase = 0; phase < maxPhase(); ++phase) {
-      if (const auto [first, last] = komo.selectSlices({phase + .3, phase + .7}); first > last) continue;
+      if (const auto [first, last] = komo.path().grid().select({phase + .3, phase + .7}); first > last) continue;
       komo.addObjective({phase + .3, phase + .7}, FeatureSymbol::position, {object}, ObjectiveType::ineqP, up,
                         Vector3d(0., 0., .6));
     }
@@ -139,8 +138,7 @@ Komo Skeleton::waypoints(const Config& config, double length_scale, double homin
   if (length_scale > 0.) komo.addControlObjective({}, 1, length_scale);
   if (homing_scale > 0.) komo.addControlObjective({}, 0, homing_scale);
   komo.addQuaternionNorms();
-  if (collisions_)
-    komo.addObjective({}, FeatureSymbol::accumulatedCollisions, {}, ObjectiveType::eq, MatrixXd::Constant(1, 1, 1e1));
+  if (collisions_) komo.addObjective({}, FeatureSymbol::accumulatedCollisions, {}, ObjectiveType::eq, 1e1);
   add(komo, entries_);
   return komo;
 }
@@ -150,8 +148,7 @@ Komo Skeleton::finalSlice(const Config& config, double length_scale, double homi
   if (length_scale > 0.) komo.addControlObjective({}, 1, length_scale);
   if (homing_scale > 0.) komo.addControlObjective({}, 0, homing_scale);
   komo.addQuaternionNorms();
-  if (collisions_)
-    komo.addObjective({}, FeatureSymbol::accumulatedCollisions, {}, ObjectiveType::sos, MatrixXd::Constant(1, 1, 1e1));
+  if (collisions_) komo.addObjective({}, FeatureSymbol::accumulatedCollisions, {}, ObjectiveType::sos, 1e1);
   add(komo, lastEntries());
   return komo;
 }
@@ -190,7 +187,8 @@ void Skeleton::add(Komo& komo, const std::vector<Entry>& entries) const {
     for (std::size_t j = i + 1; j < attachments.size() && next < 0.; ++j) {
       if (objectOf(attachments[j]) == objectOf(entry)) next = attachments[j].from;
     }
-    if (next >= 0. && komo.sliceAt(next) == komo.sliceAt(entry.from)) continue;  // replaced before it begins
+    if (next >= 0. && komo.path().grid().sliceAt(next) == komo.path().grid().sliceAt(entry.from))
+      continue;  // replaced before it begins
     double to = entry.to;
     if (to <= entry.from || (next >= 0. && to > next)) to = next;
     komo.addModeSwitch({entry.from, to}, entry.symbol, entry.frames, earlier == 0);
@@ -200,7 +198,7 @@ void Skeleton::add(Komo& komo, const std::vector<Entry>& entries) const {
   }
   for (std::size_t i = 0; i + 1 < explicit_pairs_.size(); i += 2) {
     komo.addObjective({}, FeatureSymbol::distance, {explicit_pairs_[i], explicit_pairs_[i + 1]}, ObjectiveType::ineq,
-                      MatrixXd::Constant(1, 1, 1e1));
+                      1e1);
   }
 }
 

@@ -14,8 +14,6 @@ using F = FeatureSymbol;
 using M = SwitchMode;
 using Names = std::vector<std::string>;
 
-MatrixXd number(double scale) { return MatrixXd::Constant(1, 1, scale); }
-
 /// A row that picks one entry of three.
 MatrixXd entryOf(int axis, double scale) {
   MatrixXd row = MatrixXd::Zero(1, 3);
@@ -49,24 +47,24 @@ class Conditions {
     const std::vector<double> at = {from_}, during = {from_, to_};
     switch (symbol_) {
       case M::touch:
-        return require(during, F::distance, f_, eq, number(1e2));
+        return require(during, F::distance, f_, eq, 1e2);
       case M::above:
-        return require(during, F::aboveBox, f_, ineq, number(1e1));
+        return require(during, F::aboveBox, f_, ineq, 1e1);
       case M::inside:
-        return require(during, F::insideBox, f_, ineq, number(1e1));
+        return require(during, F::insideBox, f_, ineq, 1e1);
       case M::oppose:
-        return require(during, F::oppose, f_, eq, number(1e1));
+        return require(during, F::oppose, f_, eq, 1e1);
       case M::restingOn:
         return restingOn(during);
       case M::poseEq:
-        return require(during, F::poseDiff, f_, eq, number(1e2));
+        return require(during, F::poseDiff, f_, eq, 1e2);
       case M::positionEq:
-        return require(during, F::positionDiff, f_, eq, number(1e2));
+        return require(during, F::positionDiff, f_, eq, 1e2);
       case M::stableRelPose:
-        return require({from_, to_ < 0. ? -1. : to_ + 1.}, F::poseRel, f_, eq, number(1e2), {}, 1);
+        return require({from_, to_ < 0. ? -1. : to_ + 1.}, F::poseRel, f_, eq, 1e2, {}, 1);
       case M::stablePose:
         for (const std::string& frame : f_)
-          require({from_, to_ < 0. ? -1. : to_ + 1.}, F::pose, {frame}, eq, number(1e2), {}, 1);
+          require({from_, to_ < 0. ? -1. : to_ + 1.}, F::pose, {frame}, eq, 1e2, {}, 1);
         return;
       case M::downUp:
         return downUp();
@@ -76,18 +74,18 @@ class Conditions {
       case M::relPosY:
         return require(during, F::positionRel, f_, eq, entryOf(1, 1e2));
       case M::contact:
-        return void(exchange(Komo::Exchange::slide));
+        return void(exchange(Exchange::slide));
       case M::contactStick:
-        return void(exchange(Komo::Exchange::stick));
+        return void(exchange(Exchange::stick));
       case M::contactComplementary:
-        return void(exchange(Komo::Exchange::complementary));
+        return void(exchange(Exchange::complementary));
       case M::bounce:
-        return void(exchange(Komo::Exchange::bounce));
+        return void(exchange(Exchange::bounce));
       case M::push:
         return push(during);
       case M::topBoxGrasp:
-        require(at, F::positionDiff, f_, eq, number(1e2));
-        require(at, F::scalarProductXY, f_, eq, number(1e2));
+        require(at, F::positionDiff, f_, eq, 1e2);
+        require(at, F::scalarProductXY, f_, eq, 1e2);
         return fromAbove(at);
       case M::topBoxPlace:
         return topBoxPlace(at);
@@ -102,13 +100,13 @@ class Conditions {
       case M::dampMotion:
         for (const std::string& frame : f_) {
           for (int order = 1; order <= std::min(komo_.order(), 2); ++order)
-            require(during, F::linangVel, {frame}, sos, number(1e-2), {}, order);
+            require(during, F::linangVel, {frame}, sos, 1e-2, {}, order);
         }
         return;
       case M::alignByInt:
-        return require(during, F::scalarProductXX, f_, sos, number(1.));
+        return require(during, F::scalarProductXX, f_, sos, 1.);
       case M::forceBalance:
-        for (const std::string& frame : f_) require(during, F::totalForce, {frame}, eq, number(1e2));
+        for (const std::string& frame : f_) require(during, F::totalForce, {frame}, eq, 1e2);
         return;
       case M::makeFree:  // of the scene, before there is a problem
       case M::end:
@@ -120,15 +118,15 @@ class Conditions {
 
  private:
   /// Conditions of derivatives that the problem has not are left out, as in waypoints.
-  void require(const std::vector<double>& times, F feature, const Names& frames, ObjectiveType type,
-               const MatrixXd& scale, const VectorXd& target = {}, int order = -1) {
+  void require(const std::vector<double>& times, F feature, const Names& frames, ObjectiveType type, const Scale& scale,
+               const Target& target = {}, int order = -1) {
     if (order <= komo_.order()) komo_.addObjective(times, feature, frames, type, scale, target, order);
   }
 
   /// In slices of the path that there are, at least one.
-  void requireNear(double from, double to, F feature, const Names& frames, ObjectiveType type, const MatrixXd& scale,
-                   const VectorXd& target = {}, int order = -1) {
-    const auto [first, last] = komo_.selectSlices({std::max(from, 0.), to});
+  void requireNear(double from, double to, F feature, const Names& frames, ObjectiveType type, const Scale& scale,
+                   const Target& target = {}, int order = -1) {
+    const auto [first, last] = komo_.path().grid().select({std::max(from, 0.), to});
     if (first <= last) require({std::max(from, 0.), to}, feature, frames, type, scale, target, order);
   }
 
@@ -139,7 +137,7 @@ class Conditions {
     return size_ = frame.getSize();
   }
 
-  std::string exchange(Komo::Exchange kind) { return komo_.addExchange({from_, to_}, f_[1], f_[0], kind); }
+  std::string exchange(Exchange kind) { return komo_.addExchange({from_, to_}, f_[1], f_[0], kind); }
 
   /// The lower one's top and what rests on it: round things lie, others stand.
   void restingOn(const std::vector<double>& during) {
@@ -165,15 +163,15 @@ class Conditions {
     }
     require(during, F::positionRel, {f_[1], f_[0]}, eq, entryOf(2, 1e1), Vector3d(0., 0., below + half));
     if (thing.getShapeType() == ShapeType::sphere) return;
-    if (isBox(thing)) return require(during, F::vectorZDiff, f_, eq, number(1e1));
-    require(during, F::scalarProductZZ, f_, eq, number(1e1));
+    if (isBox(thing)) return require(during, F::vectorZDiff, f_, eq, 1e1);
+    require(during, F::scalarProductZZ, f_, eq, 1e1);
   }
 
   void downUp() {
-    const double later = 1. / komo_.slicesPerPhase();
+    const double later = 1. / komo_.path().grid().slicesPerPhase();
     const double end = to_ < 0. ? -1. : to_ + later;
     for (const std::string& frame : f_)
-      requireNear(from_ + later, end, F::position, {frame}, eq, number(1.), Vector3d(0., 0., .1), 2);
+      requireNear(from_ + later, end, F::position, {frame}, eq, 1., Vector3d(0., 0., .1), 2);
   }
 
   void lift(const std::string& frame) {
@@ -189,33 +187,33 @@ class Conditions {
   }
 
   void push(const std::vector<double>& during) {
-    const std::string point = exchange(Komo::Exchange::slide);
+    const std::string point = exchange(Exchange::slide);
     if (const double radius = roundness(); radius > 0. && komo_.order() >= 1 && (to_ < 0. || to_ >= from_ + .8)) {
-      const double margin = komo_.order() == 1 ? 0. : .2, later = 1. / komo_.slicesPerPhase();
+      const double margin = komo_.order() == 1 ? 0. : .2, later = 1. / komo_.path().grid().slicesPerPhase();
       const std::vector<double> times = {from_ + margin + later, to_ < 0. ? -1. : to_ - margin};
-      if (const auto [first, last] = komo_.selectSlices(times); first <= last) {
-        komo_.addObjective(times, FeatureRecipe{"pushRadius", {}, radius}, {point, f_[1]}, sos, number(1.));
+      if (const auto [first, last] = komo_.path().grid().select(times); first <= last) {
+        komo_.addObjective(times, FeatureRecipe{"pushRadius", {}, radius}, {point, f_[1]}, sos, 1.);
       }
     }
     if (komo_.order() < 2) return;
-    require(during, F::position, {f_[1]}, sos, number(.3), {}, 2);
-    for (const std::string& frame : f_) require({to_}, F::pose, {frame}, eq, number(1.), {}, 1);
+    require(during, F::position, {f_[1]}, sos, .3, {}, 2);
+    for (const std::string& frame : f_) require({to_}, F::pose, {frame}, eq, 1., {}, 1);
   }
 
   /// The gripper's z axis points up; a path comes to rest there, from above and up again.
   void fromAbove(const std::vector<double>& at) {
-    require(at, F::vectorZ, {f_[0]}, eq, number(1e2), Vector3d::UnitZ());
+    require(at, F::vectorZ, {f_[0]}, eq, 1e2, Vector3d::UnitZ());
     if (komo_.order() < 2) return;
-    require(at, F::qItself, {}, eq, number(1.), {}, 1);
+    require(at, F::qItself, {}, eq, 1., {}, 1);
     const Vector3d up(0., 0., .1);
-    requireNear(from_ - .1, from_, F::position, {f_[0]}, eq, number(1.), up, 2);
+    requireNear(from_ - .1, from_, F::position, {f_[0]}, eq, 1., up, 2);
     // What is taken or let go moves evenly in the slice after.
-    requireNear(from_ + 2. / komo_.slicesPerPhase(), from_ + .1, F::position, {f_[0]}, eq, number(1.), up, 2);
+    requireNear(from_ + 2. / komo_.path().grid().slicesPerPhase(), from_ + .1, F::position, {f_[0]}, eq, 1., up, 2);
   }
 
   void topBoxPlace(const std::vector<double>& at) {
     const double standing = .5 * (height(scene_.getFrame(f_[1])) + height(scene_.getFrame(f_[2])));
-    require(at, F::positionDiff, {f_[1], f_[2]}, eq, number(1e2), Vector3d(0., 0., standing > 0. ? standing : .08));
+    require(at, F::positionDiff, {f_[1], f_[2]}, eq, 1e2, Vector3d(0., 0., standing > 0. ? standing : .08));
     fromAbove(at);
   }
 
@@ -224,7 +222,7 @@ class Conditions {
     Vector3d on_face = Vector3d::Zero();
     on_face[axis] = .5 * boxOf(f_[1])[std::size_t(axis)];
     require(at, F::positionRel, f_, eq, entryOf(axis, 1e2), on_face);
-    komo_.addObjective(at, FeatureRecipe{"axisDifference", {}, double(axis)}, f_, eq, number(1e2));
+    komo_.addObjective(at, FeatureRecipe{"axisDifference", {}, double(axis)}, f_, eq, 1e2);
     MatrixXd inside = MatrixXd::Constant(6, 1, 1e1);
     inside(axis) = inside(axis + 3) = 0.;
     require(during, F::insideBox, f_, ineq, inside);
@@ -246,14 +244,14 @@ class Conditions {
     require(at, F::positionRel, {f_[0], f_[1]}, ineq, within, room);
     require(at, F::positionRel, {f_[0], f_[1]}, ineq, -within, -room);
     const double t = from_;
-    for (int side : sides) requireNear(t - .2, t, product(0, side), {f_[0], f_[1]}, eq, number(1.));
-    requireNear(t - .3, t, F::distance, {palm, f_[1]}, ineq, number(1e1), VectorXd::Constant(1, -.001));
+    for (int side : sides) requireNear(t - .2, t, product(0, side), {f_[0], f_[1]}, eq, 1.);
+    requireNear(t - .3, t, F::distance, {palm, f_[1]}, ineq, 1e1, -.001);
     if (komo_.order() < 2) return;
     MatrixXd across = MatrixXd::Zero(2, 3);
     across(0, 0) = across(1, 1) = 1e2;
     requireNear(t - .3, t, F::positionRel, {f_[1], f_[0]}, eq, across, {}, 1);
-    requireNear(t - .5, t - .3, F::distance, {palm, f_[1]}, ineq, number(1e1), VectorXd::Constant(1, -.1));
-    require(at, F::qItself, {}, eq, number(1.), {}, 1);
+    requireNear(t - .5, t - .3, F::distance, {palm, f_[1]}, ineq, 1e1, -.1);
+    require(at, F::qItself, {}, eq, 1., {}, 1);
   }
 
   Komo& komo_;

@@ -37,7 +37,7 @@ double jacobianError(Nlp& nlp, const Komo& komo, std::string& where) {
   Rng rng(7);
   double worst = 0.;
   for (int sample = 0; sample < 3; ++sample) {
-    VectorXd x = komo.variables();
+    VectorXd x = komo.path().variables();
     for (double& value : x) value += .1 * rng.normal();
     const JacobianCheck check = checkJacobian(nlp, x);
     if (check.error <= worst) continue;
@@ -49,7 +49,7 @@ double jacobianError(Nlp& nlp, const Komo& komo, std::string& where) {
 
 }  // namespace
 
-TEST(ModeSwitch, JacobiansOfEveryKindEqualCentralDifferences) {
+TEST(ModeSwitches, JacobiansOfEveryKindEqualCentralDifferences) {
   const std::vector<std::pair<SwitchMode, std::string>> kinds = {
       {SwitchMode::stable, "grip"},     {SwitchMode::stableOn, "table"},  {SwitchMode::stableOnX, "table"},
       {SwitchMode::stableOnY, "table"}, {SwitchMode::stableYPhi, "grip"}, {SwitchMode::stableZero, "grip"},
@@ -72,7 +72,7 @@ TEST(ModeSwitch, JacobiansOfEveryKindEqualCentralDifferences) {
   }
 }
 
-TEST(ModeSwitch, JacobiansOfAddedFramesEqualCentralDifferences) {
+TEST(ModeSwitches, JacobiansOfAddedFramesEqualCentralDifferences) {
   for (bool stable : {true, false}) {
     auto komo = std::make_shared<Komo>(armAndBox(), 2., 3, 2);
     komo->addFrameDof("grasp", "grip", JointType::free, stable, "box");
@@ -87,13 +87,15 @@ TEST(ModeSwitch, JacobiansOfAddedFramesEqualCentralDifferences) {
   }
 }
 
-TEST(ModeSwitch, AFlyingBodyFallsWithGravity) {
+TEST(ModeSwitches, AFlyingBodyFallsWithGravity) {
   auto komo = std::make_shared<Komo>(armAndBox(), 2., 10, 2);
   komo->addModeSwitch({.5, -1.}, SwitchMode::dynamic, {"world", "box"});
   const auto nlp = makeNlp(komo);
   const double tau = komo->tau();
-  VectorXd x = komo->variables();
-  const auto column = [&](int slice, int i) { return komo->layout().column[slice + 2][2 + i]; };  // after two hinges
+  VectorXd x = komo->path().variables();
+  const auto column = [&](int slice, int i) {
+    return komo->path().layout().column[slice + 2][2 + i];
+  };  // after two hinges
   const Vector3d start(.3, .2, .63), velocity(1., -.5, 2.);
   for (int slice = 4; slice < 20; ++slice) {
     const double t = (slice - 4) * tau;
@@ -104,7 +106,7 @@ TEST(ModeSwitch, AFlyingBodyFallsWithGravity) {
   nlp->evaluate(x, *std::make_unique<VectorXd>(VectorXd::Zero(Eigen::Index(nlp->types().size()))), nullptr);
   const PathErrors errors = measurePath(*komo);
   for (std::size_t o = 0; o < komo->objectives().size(); ++o) {
-    if (komo->objectives()[o].name != "physics") continue;
+    if (komo->objectives()[o].name() != "physics") continue;
     EXPECT_LT(errors.per_slice.col(Eigen::Index(o)).tail(14).maxCoeff(), 1e-9);
     EXPECT_EQ(komo->objectives()[o].from, 5);
     return;
@@ -112,7 +114,7 @@ TEST(ModeSwitch, AFlyingBodyFallsWithGravity) {
   FAIL() << "there is no objective on the flight";
 }
 
-TEST(ModeSwitch, WhatIsFixedToALargerTreeCanBeSwitched) {
+TEST(ModeSwitches, WhatIsFixedToALargerTreeCanBeSwitched) {
   Komo komo(armAndBox(), 2., 1, 1);
   komo.addModeSwitch({1., -1.}, SwitchMode::stable, {"grip", "fixed"});
   EXPECT_EQ(komo.configuration(0).getFrame("fixed").getParent()->getName(), "grip");
@@ -122,7 +124,7 @@ TEST(ModeSwitch, WhatIsFixedToALargerTreeCanBeSwitched) {
   EXPECT_LT((before.p - after.p).norm(), 1e-12);
 }
 
-TEST(ModeSwitch, AHandleTakesItsObjectAlong) {
+TEST(ModeSwitches, AHandleTakesItsObjectAlong) {
   Komo komo(armAndBox(), 2., 1, 1);
   komo.addModeSwitch({1., -1.}, SwitchMode::stableZero, {"grip", "handle"});
   const Config held = komo.configuration(1);
@@ -132,7 +134,7 @@ TEST(ModeSwitch, AHandleTakesItsObjectAlong) {
             1e-12);
 }
 
-TEST(ModeSwitch, JointFeaturesMeanTheGivenJointsWhateverWasSwitchedBefore) {
+TEST(ModeSwitches, JointFeaturesMeanTheGivenJointsWhateverWasSwitchedBefore) {
   auto komo = std::make_shared<Komo>(armAndBox(), 2., 1, 1);
   komo->addModeSwitch({1., -1.}, SwitchMode::stable, {"grip", "box"});
   komo->addObjective({}, FeatureSymbol::qItself, {}, ObjectiveType::sos, {}, VectorXd::Zero(2));
@@ -141,7 +143,7 @@ TEST(ModeSwitch, JointFeaturesMeanTheGivenJointsWhateverWasSwitchedBefore) {
   EXPECT_EQ(std::count(nlp->types().begin(), nlp->types().end(), ObjectiveType::sos), 4);
 }
 
-TEST(ModeSwitch, MistakesAreExplained) {
+TEST(ModeSwitches, MistakesAreExplained) {
   Komo komo(armAndBox(), 2., 2, 1);
   EXPECT_THROW(komo.addModeSwitch({1., -1.}, SwitchMode::stable, {"grip", "bix"}), FrameNotFound);
   EXPECT_THROW(komo.addModeSwitch({1., -1.}, SwitchMode::stable, {"grip"}), ValueError);
@@ -154,22 +156,22 @@ TEST(ModeSwitch, MistakesAreExplained) {
   EXPECT_THROW(komo.addFrameDof("new", "gripp", JointType::free, true), FrameNotFound);
   EXPECT_THROW(Komo(armAndBox(), 1., 1, 0).addModeSwitch({1., -1.}, SwitchMode::stable, {"grip", "box"}), ValueError);
   EXPECT_TRUE(komo.objectives().empty());
-  EXPECT_EQ(komo.layout().dimension, 8);
+  EXPECT_EQ(komo.path().layout().dimension, 8);
   komo.addModeSwitch({4., -1.}, SwitchMode::stable, {"grip", "box"});
   EXPECT_EQ(komo.takeWarnings().size(), 1u);
 }
 
-TEST(ModeSwitch, AnNlpMadeBeforeAChangeOfTheStructureSaysSo) {
+TEST(ModeSwitches, AnNlpMadeBeforeAChangeOfTheStructureSaysSo) {
   auto komo = std::make_shared<Komo>(armAndBox(), 2., 1, 1);
   komo->addControlObjective({}, 1);
   const auto nlp = makeNlp(komo);
-  const VectorXd x = komo->variables();
+  const VectorXd x = komo->path().variables();
   komo->addModeSwitch({1., -1.}, SwitchMode::stable, {"grip", "box"});
   VectorXd phi(Eigen::Index(nlp->types().size()));
   EXPECT_THROW(nlp->evaluate(x, phi, nullptr), Error);
 }
 
-TEST(ModeSwitch, MovedObjectsAreTakenOverInEveryMode) {
+TEST(ModeSwitches, MovedObjectsAreTakenOverInEveryMode) {
   Config config = armAndBox();
   auto komo = std::make_shared<Komo>(config, 3., 1, 1);
   komo->addModeSwitch({2., -1.}, SwitchMode::stable, {"grip", "box"});
@@ -185,15 +187,15 @@ TEST(ModeSwitch, MovedObjectsAreTakenOverInEveryMode) {
   EXPECT_THROW(komo->updateRootObjects(Config()), ValueError);
 }
 
-TEST(ModeSwitch, SwitchedPathsGrowLinearlyInVariables) {
+TEST(ModeSwitches, SwitchedPathsGrowLinearlyInVariables) {
   for (int slices : {8, 32}) {
     auto komo = std::make_shared<Komo>(armAndBox(), 2., slices, 2);
     komo->addModeSwitch({1., -1.}, SwitchMode::stable, {"grip", "box"});
-    EXPECT_EQ(komo->layout().dimension, 2 * slices * 2 + 7);
+    EXPECT_EQ(komo->path().layout().dimension, 2 * slices * 2 + 7);
   }
 }
 
-TEST(ModeSwitch, StableJointsOfTheSceneAreOneSetOfVariables) {
+TEST(ModeSwitches, StableJointsOfTheSceneAreOneSetOfVariables) {
   Config config;
   config.addText(
       "w: {} a(w): { joint: hingeX, q: .3 } b(a): { joint: transX, q: .5, joint_stable: true, limits: [-1, 1] } c(b): "
@@ -205,11 +207,11 @@ TEST(ModeSwitch, StableJointsOfTheSceneAreOneSetOfVariables) {
     const auto nlp = makeNlp(komo);
     ASSERT_EQ(nlp->dimension(), 7);
     EXPECT_EQ(nlp->types().size(), 6u + 6u);
-    VectorXd x = komo->variables(), phi(12);
+    VectorXd x = komo->path().variables(), phi(12);
     const int stable = order > 0 ? 0 : 1;
     x[stable] = .25;
     nlp->evaluate(x, phi, nullptr);
-    for (int t = 0; t < 3; ++t) EXPECT_EQ(komo->state(t).q()[1], .25);
+    for (int t = 0; t < 3; ++t) EXPECT_EQ(komo->path().state(t).q()[1], .25);
     EXPECT_NEAR(phi[6], -1.25, 1e-12);
     EXPECT_NEAR(phi[11], -.75, 1e-12);
     std::string where;
@@ -217,13 +219,13 @@ TEST(ModeSwitch, StableJointsOfTheSceneAreOneSetOfVariables) {
   }
 }
 
-TEST(ModeSwitch, AddedFramesHaveTheLimitsThatTheirJointsSuggest) {
+TEST(ModeSwitches, AddedFramesHaveTheLimitsThatTheirJointsSuggest) {
   const auto limitsOf = [](JointType type, const char* parent) {
     Komo komo(armAndBox(), 2., 1, 1);
     komo.addFrameDof("new", parent, type, true);
-    const int own = komo.layout().dimension - 2 * komo.dofs();
+    const int own = komo.path().layout().dimension - 2 * komo.dofs();
     VectorXd both(2 * own);
-    both << komo.layout().lower.head(own), komo.layout().upper.head(own);
+    both << komo.path().layout().lower.head(own), komo.path().layout().upper.head(own);
     return both;
   };
   const double turns = 4. * std::acos(0.);
@@ -233,7 +235,7 @@ TEST(ModeSwitch, AddedFramesHaveTheLimitsThatTheirJointsSuggest) {
   EXPECT_FALSE(std::isfinite(limitsOf(JointType::transZ, "table")[0])) << "none";
 }
 
-TEST(ModeSwitch, JointLimitsOfTheSceneAreNotThoseOfAddedFrames) {
+TEST(ModeSwitches, JointLimitsOfTheSceneAreNotThoseOfAddedFrames) {
   const auto komo = std::make_shared<Komo>(armAndBox(), 2., 1, 1);
   komo->addFrameDof("spot", "table", JointType::transXY, false);
   komo->addModeSwitch({2., -1.}, SwitchMode::stable, {"grip", "box"}, false);
@@ -241,17 +243,17 @@ TEST(ModeSwitch, JointLimitsOfTheSceneAreNotThoseOfAddedFrames) {
   EXPECT_EQ(makeNlp(komo)->types().size(), 2u * 4u + 14u) << "two joints per slice, and the grasp once";
 }
 
-TEST(ModeSwitch, ACapsuleBoundsItsGraspByItsLength) {
+TEST(ModeSwitches, ACapsuleBoundsItsGraspByItsLength) {
   Config config = armAndBox();
   config.addFrame("stick")
       .setShape(ShapeType::capsule, {.6, .02})
       .setPose({Vector3d(.3, .2, .63), unitQuaternion({1., 0., 0., 0.})});
   Komo komo(config, 1., 1, 1);
   komo.addModeSwitch({1., -1.}, SwitchMode::stable, {"l2", "stick"});
-  EXPECT_DOUBLE_EQ(komo.layout().upper[2], .9 * .6);
+  EXPECT_DOUBLE_EQ(komo.path().layout().upper[2], .9 * .6);
 }
 
-TEST(ModeSwitch, TheCostPerEvaluationGrowsLinearlyWithTheSlicesThatShareAGrasp) {
+TEST(ModeSwitches, TheCostPerEvaluationGrowsLinearlyWithTheSlicesThatShareAGrasp) {
   const auto secondsPerEvaluation = [](int slices) {
     auto komo = std::make_shared<Komo>(armAndBox(), 2., slices, 2);
     komo->addControlObjective({}, 2, 1e-1);
@@ -262,9 +264,27 @@ TEST(ModeSwitch, TheCostPerEvaluationGrowsLinearlyWithTheSlicesThatShareAGrasp) 
     SolverOptions options;
     options.stopEvals = 12;
     const std::clock_t start = std::clock();
-    const SolverResult result = solveAugmentedLagrangian(*nlp, komo->variables(), options);
+    const SolverResult result = solveAugmentedLagrangian(*nlp, komo->path().variables(), options);
     return double(std::clock() - start) / CLOCKS_PER_SEC / result.evals;
   };
   const double few = secondsPerEvaluation(100), many = secondsPerEvaluation(800);
   EXPECT_LT(many, 24. * few) << "8 times the slices";  // 8 if linear; 64 and more with a factor that fills in
+}
+
+TEST(ModeSwitches, WhatIsAdvisedWithoutVelocitiesWorks) {
+  const auto tell = [](std::vector<double> times, bool first) {
+    Komo komo(armAndBox(), 3., 1, 0);
+    try {
+      komo.addModeSwitch(times, SwitchMode::stable, {"grip", "box"}, first);
+    } catch (const ValueError& error) {
+      EXPECT_TRUE(komo.path().modes().empty() || komo.path().modes().list().size() == 1) << "it began";
+      return std::string(error.what());
+    }
+    EXPECT_EQ(komo.configuration(2).getFrame("box").getParent()->getName(), "grip");
+    return std::string();
+  };
+  EXPECT_NE(tell({1., 2.}, true).find("kOrder 1 or more, or firstSwitch=False and times [1, -1]"), std::string::npos);
+  EXPECT_NE(tell({1., -1.}, true).find("kOrder 1 or more, or firstSwitch=False"), std::string::npos);
+  EXPECT_NE(tell({1., 2.}, false).find("kOrder 1 or more, or times [1, -1]"), std::string::npos);
+  EXPECT_EQ(tell({1., -1.}, false), "");
 }

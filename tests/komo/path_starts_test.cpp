@@ -19,34 +19,34 @@ VectorXd pair(double a, double b) { return Eigen::Vector2d(a, b); }
 
 }  // namespace
 
-TEST(Initialize, WaypointsAreHeldOrBlended) {
+TEST(PathStarts, WaypointsAreHeldOrBlended) {
   Komo komo(slider(), 2., 5, 1);
-  EXPECT_EQ(komo.setWaypoints({pair(1., 0.), pair(-1., 0.)}, 1, false), (std::vector<int>{4, 9}));
+  EXPECT_EQ(komo.setWaypoints({pair(1., 0.), pair(-1., 0.)}), (std::vector<int>{4, 9}));
   const std::vector<double> held = {0, 0, 0, 0, 1, 1, 1, 1, 1, -1};
   for (int t = 0; t < 10; ++t) EXPECT_NEAR(komo.getPath()(t, 0), held[t], 1e-12) << t;
   Komo blended(slider(), 2., 5, 1);
-  blended.setWaypoints({pair(1., 0.), pair(-1., 0.)}, 1, true);
+  blended.setWaypoints({pair(1., 0.), pair(-1., 0.)}, {.interpolate = true});
   const std::vector<double> recorded = {0, .146, .5, .854, 1, .809, .309, -.309, -.809, -1};
   for (int t = 0; t < 10; ++t) EXPECT_NEAR(blended.getPath()(t, 0), recorded[t], 1e-3) << t;
 }
 
-TEST(Initialize, EndlessRotationsTakeTheShortWay) {
+TEST(PathStarts, EndlessRotationsTakeTheShortWay) {
   Komo komo(slider(), 2., 4, 1);
-  komo.setWaypoints({pair(0., 3.), pair(0., -3.)}, 1, true);
+  komo.setWaypoints({pair(0., 3.), pair(0., -3.)}, {.interpolate = true});
   const MatrixXd path = komo.getPath();
   for (int t = 4; t < 8; ++t) EXPECT_LT(std::abs(path(t, 1) - path(t - 1, 1)), .2) << t;
   EXPECT_NEAR(std::remainder(path(7, 1) + 3., 2. * M_PI), 0., 1e-12);
 }
 
-TEST(Initialize, WaypointsOfAProblemWithTheSameSwitchesFit) {
+TEST(PathStarts, WaypointsOfAProblemWithTheSameSwitchesFit) {
   Config config = slider();
   config.addFrame("box").setShape(ShapeType::ssBox, {.1, .1, .1, .01});
   Komo coarse(config, 2., 1, 1), fine(config, 2., 8, 2);
   for (Komo* komo : {&coarse, &fine}) komo->addModeSwitch({1., -1.}, SwitchMode::stable, {"c", "box"});
-  VectorXd x = coarse.variables();
+  VectorXd x = coarse.path().variables();
   for (Eigen::Index i = 0; i < x.size(); ++i) x[i] += .01 * double(i + 1);
-  coarse.setVariables(x);
-  fine.setWaypoints({coarse.ownDofs(0), coarse.ownDofs(1)}, 1, true);
+  coarse.path().setVariables(x);
+  fine.setWaypoints({coarse.path().ownDofs(0), coarse.path().ownDofs(1)}, {.interpolate = true});
   for (int phase : {0, 1}) {
     const Pose wanted = coarse.configuration(phase).getFrame("box").getPose();
     const Pose got = fine.configuration(8 * phase + 7).getFrame("box").getPose();
@@ -55,7 +55,7 @@ TEST(Initialize, WaypointsOfAProblemWithTheSameSwitchesFit) {
   }
 }
 
-TEST(Initialize, RandomPathsStayWithinLimitsAndRepeatWithTheSeed) {
+TEST(PathStarts, RandomPathsStayWithinLimitsAndRepeatWithTheSeed) {
   Komo komo(slider(), 1., 30, 1);
   Rng first(3), second(3);
   komo.setRandomPath(first);
@@ -68,7 +68,7 @@ TEST(Initialize, RandomPathsStayWithinLimitsAndRepeatWithTheSeed) {
   EXPECT_EQ(komo.getPath(), path);
 }
 
-TEST(Initialize, APhaseTakesAPathOfAnyLengthIfResampled) {
+TEST(PathStarts, APhaseTakesAPathOfAnyLengthIfResampled) {
   Komo komo(slider(), 2., 5, 1);
   MatrixXd path(3, 2);
   path << 0, 0, 1, 2, 2, 4;
@@ -79,10 +79,10 @@ TEST(Initialize, APhaseTakesAPathOfAnyLengthIfResampled) {
   EXPECT_THROW(komo.setPhasePath(2, {}, path, true), ValueError);
 }
 
-TEST(Initialize, MistakesAreExplained) {
+TEST(PathStarts, MistakesAreExplained) {
   Komo komo(slider(), 2., 5, 1);
-  EXPECT_THROW(komo.setWaypoints({VectorXd::Zero(3)}, 1, false), ValueError);
-  EXPECT_THROW(komo.setWaypoints({pair(0, 0), pair(0, 0), pair(0, 0)}, 1, false), ValueError);
+  EXPECT_THROW(komo.setWaypoints({VectorXd::Zero(3)}), ValueError);
+  EXPECT_THROW(komo.setWaypoints({pair(0, 0), pair(0, 0), pair(0, 0)}), ValueError);
   EXPECT_THROW(komo.setConstantPath(VectorXd::Zero(3)), ValueError);
   EXPECT_THROW(komo.setPath(MatrixXd::Zero(9, 2)), ValueError);
 }

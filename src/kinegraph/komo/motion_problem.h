@@ -1,0 +1,20 @@
+#pragma once
+
+#include "kinegraph/komo/contacts.h"
+#include "kinegraph/komo/objective_list.h"
+
+namespace kinegraph {
+
+/// A path, what is wanted of it, and the contact forces on it: what mode switches and contacts change together.
+struct MotionProblem {
+  Path path;
+  ObjectiveList objectives;
+  Contacts contacts;
+
+  /// Adds an objective; see ObjectiveList::add.
+  void require(Objective objective, int delta_from = 0, int delta_to = 0) {
+    objectives.add(std::move(objective), path, contacts.forces(), delta_from, delta_to);
+  }
+};
+
+}  // namespace kinegraph

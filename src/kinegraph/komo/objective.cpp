@@ -1,0 +1,95 @@
+#include "kinegraph/komo/objective.h"
+
+#include "kinegraph/base/errors.h"
+#include "kinegraph/base/text.h"
+#include "kinegraph/features/joints.h"
+#include "kinegraph/kinematics/dynamics.h"
+#include "kinegraph/komo/path_features.h"
+
+namespace kinegraph {
+
+namespace {
+
+using Ids = std::vector<int>;
+using Made = std::unique_ptr<Feature>;
+
+/// The joints of the given configuration, or of the frames with these ids, as they are in a slice.
+Made jointsIn(const Objective& objective, const Path& path, const Ids& ids, int slice) {
+  const Program &program = path.state(slice).program(), &given = *path.given().program;
+  std::vector<JointsOfFrames::Part> parts;
+  const Ids& frames = ids.empty() ? path.given().joint_frames : ids;
+  parts.reserve(frames.size());
+  for (int frame : frames) {
+    const int count = program.frame_dofs[frame].count;
+    const bool original = frame < int(given.frame_dofs.size());
+    if (count == 0 || (ids.empty() && original && count != given.frame_dofs[frame].count)) {
+      throw ValueError(cat(objective.name(), ": the joint of frame '", program.frame_name[frame], "' ",
+                           ids.empty() ? "was replaced by a mode switch" : "is not there, or not active", " in slice ",
+                           slice));
+    }
+    parts.push_back({frame, 0, count});
+  }
+  if (!path.layout().plain) return std::make_unique<JointsOfFrames>(std::move(parts));
+  Ids dofs;
+  dofs.reserve(std::size_t(program.dofs));
+  for (const JointsOfFrames::Part& part : parts) {
+    for (int i = 0; i < part.count; ++i) dofs.push_back(program.frame_dofs[part.frame].first + i);
+  }
+  return std::make_unique<JointState>(std::move(dofs));
+}
+
+/// The limits of the given configuration's joints whose dofs a slice owns, and of those that all share; joints that were
+/// added are limited by bounds.
+Made limitsIn(const Path& path, int slice) {
+  const Program& program = path.state(slice).program();
+  std::set<int> owned, dofs;
+  const auto insert = [&](const Program::DofRange& range) {
+    for (int i = range.first; i < range.first + range.count; ++i) dofs.insert(i);
+  };
+  for (const Program::DofRange& range : path.layout().owned[std::size_t(slice + path.grid().order())])
+    owned.insert(range.first);
+  for (std::size_t frame = 0; frame < path.given().tree->frames().size(); ++frame) {
+    const Program::DofRange& range = program.frame_dofs[frame];
+    if (range.count > 0 && owned.contains(range.first)) insert(range);
+  }
+  for (int frame : path.given().shared_joints) insert(program.frame_dofs[frame]);
+  return std::make_unique<JointLimits>(Ids(dofs.begin(), dofs.end()), program);
+}
+
+/// Free flight where no force and no inertia is known.
+Made physicsOf(int frame, const Objective& objective, const Path& path, const std::vector<ContactForce>& forces) {
+  const double gravity = objective.without_gravity ? 0. : -kGravity.z();
+  const auto& frames = path.given().tree->frames();
+  const bool is_given = frame < int(frames.size()) && frames[frame]->inertia;
+  if (forces.empty() && !is_given && !objective.damped) return std::make_unique<FreeFlight>(frame, gravity);
+  const Matrix3d inertia = is_given ? frames[frame]->inertia->matrix : Matrix3d(Matrix3d::Zero());
+  if (objective.damped) return std::make_unique<DampedMotion>(frame, gravity, inertia, forces);
+  return std::make_unique<NewtonEuler>(frame, gravity, inertia, forces);
+}
+
+/// Joints and forces are those of the path; other features are as anywhere.
+Made featureIn(const Objective& objective, const Path& path, const std::vector<ContactForce>& forces, int slice) {
+  const State& state = path.state(slice);
+  Ids ids;
+  for (const std::string& name : objective.frames) ids.push_back(frameId(state.program(), name, objective.name()));
+  using S = FeatureSymbol;
+  const FeatureSource& feature = objective.feature;
+  if (feature == S::qItself) return jointsIn(objective, path, ids, slice);
+  if (feature == S::jointLimits && ids.empty() && !path.layout().plain) return limitsIn(path, slice);
+  if (feature == S::physics && ids.size() == 1) return physicsOf(ids[0], objective, path, forces);
+  if (feature == S::totalForce && ids.size() == 1) return std::make_unique<TotalForce>(ids[0], forces);
+  if (feature == S::contactConstraints && ids.size() == 2)
+    return std::make_unique<TangentialForce>(ids[0], ids[1], forces);
+  return feature.make(ids, state);
+}
+
+}  // namespace
+
+Residual residualIn(const Objective& objective, const Path& path, const std::vector<ContactForce>& forces, int slice) {
+  Residual residual(featureIn(objective, path, forces, slice), objective.scale, objective.target, objective.order,
+                    objective.name());
+  residual.setTimeIntegral(objective.time_integral);
+  return residual;
+}
+
+}  // namespace kinegraph

@@ -1,0 +1,34 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "kinegraph/features/eval.h"
+#include "kinegraph/features/forces.h"
+#include "kinegraph/komo/path.h"
+#include "kinegraph/nlp/nlp.h"
+
+namespace kinegraph {
+
+/// What is wanted of a path: scale * (d^order feature / dt^order - target), in some of its slices.
+struct Objective {
+  FeatureSource feature;
+  std::vector<std::string> frames{};
+  ObjectiveType type;
+  MatrixXd scale{};
+  VectorXd target{};
+  int order = -1;  ///< number of slices it looks at, minus one; -1: the feature's own
+  std::vector<double> times{};
+  int from = 0, to = -1;  ///< slices, inclusive; none if from > to
+  bool time_integral = false;
+  bool without_gravity = false;  ///< of physics
+  bool damped = false;           ///< of physics: forces balance friction, not inertia
+
+  const std::string& name() const { return feature.name(); }
+};
+
+/// An objective's residual in a slice of a path, where these forces count. Where the dofs do not matter it is the same
+/// in all slices. Joint features without frames are of the given configuration's joints.
+Residual residualIn(const Objective& objective, const Path& path, const std::vector<ContactForce>& forces, int slice);
+
+}  // namespace kinegraph

@@ -1,0 +1,33 @@
+#include "kinegraph/komo/objective_list.h"
+
+#include <algorithm>
+#include <tuple>
+
+#include "kinegraph/base/errors.h"
+#include "kinegraph/base/text.h"
+
+namespace kinegraph {
+
+void ObjectiveList::add(Objective objective, const Path& path, const std::vector<ContactForce>& forces, int delta_from,
+                        int delta_to) {
+  const TimeGrid& grid = path.grid();
+  std::tie(objective.from, objective.to) = grid.select(objective.times);
+  objective.from = std::max(objective.from + delta_from, 0);
+  objective.to = std::min(objective.to + delta_to, grid.slices() - 1);
+  const bool empty = objective.from > objective.to;
+  objective.order = residualIn(objective, path, forces, empty ? 0 : objective.from).order();
+  if (objective.order > grid.order()) {
+    throw ValueError(cat(objective.name(), " of order ", objective.order, " needs a KOMO with kOrder ", objective.order,
+                         " or more; this one has ", grid.order()));
+  }
+  if (empty) {
+    std::vector<std::string> words;
+    for (double time : objective.times) words.push_back(cat(time));
+    warn(cat("objective ", objective.name(), " with times [", join(words), "] selects no slice; the ", grid.slices(),
+             grid.slices() == 1 ? " slice is" : " slices are", " at phase times ", grid.timeOf(0), " to ",
+             grid.timeOf(grid.slices() - 1)));
+  }
+  list_.push_back(std::move(objective));
+}
+
+}  // namespace kinegraph

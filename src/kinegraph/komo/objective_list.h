@@ -1,0 +1,41 @@
+#pragma once
+
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "kinegraph/komo/objective.h"
+
+namespace kinegraph {
+
+/// The objectives of a motion problem in the order in which they were added, which is that of its residuals. Each has
+/// been tried on the path: its frames, sizes and order fit.
+class ObjectiveList {
+ public:
+  ObjectiveList() = default;
+  explicit ObjectiveList(std::vector<Objective> known) : list_(std::move(known)) {}  ///< as they were in another list
+
+  /// Adds an objective in the slices that its times select, of which the first and last are moved by `delta_from` and
+  /// `delta_to`. Throws ValueError if it does not fit the path; leaves a warning if it selects no slice.
+  void add(Objective objective, const Path& path, const std::vector<ContactForce>& forces, int delta_from = 0,
+           int delta_to = 0);
+
+  void clear() { list_.clear(); }
+
+  bool empty() const { return list_.empty(); }
+  std::size_t size() const { return list_.size(); }
+  const Objective& operator[](std::size_t i) const { return list_[i]; }
+  auto begin() const { return list_.begin(); }
+  auto end() const { return list_.end(); }
+  const std::vector<Objective>& all() const { return list_; }
+
+  /// Things that have no effect, told once.
+  void warn(std::string warning) { warnings_.push_back(std::move(warning)); }
+  std::vector<std::string> takeWarnings() { return std::exchange(warnings_, {}); }
+
+ private:
+  std::vector<Objective> list_;
+  std::vector<std::string> warnings_;
+};
+
+}  // namespace kinegraph
