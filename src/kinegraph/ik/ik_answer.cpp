@@ -53,6 +53,8 @@ bool IkSearch::judge(IkJob& job, const VectorXd& x, const IkApproach& made, cons
   x_ = x;
   double missed = made.missed;
   Outcome outcome = Outcome::missed;
+  // The approach may have been made in lanes, whose angles are good to 2e-8: what counts is what is measured here, and
+  // the rest of the way is gone here.
   if (made.met) {
     moveTo(x_);
     step_.resize(problem_->rows, problem_->variables());
@@ -64,6 +66,7 @@ bool IkSearch::judge(IkJob& job, const VectorXd& x, const IkApproach& made, cons
   job.cancelled = outcome == Outcome::cancelled;
   const bool done = job.cancelled || job.attempts == attempts;
   if (outcome != Outcome::feasible && job.feasible) return done;
+  // Answers are compared by how near they are, failures by what they miss; any answer is better than a failure.
   const bool first = outcome == Outcome::feasible && !job.feasible;
   const double value = outcome == Outcome::feasible ? costOf(x_) : missed;
   if (!first && value >= job.least) return done;
@@ -81,6 +84,7 @@ IkResult IkSearch::finish(IkJob& job, bool cancelled, const Stop& stop) {
     x_ = job.kept;
     measure();
   }
+  // A failure is told at the point that misses least, since the reasons that are named are those that hold there.
   if (!job.feasible && !job.cancelled) job.feasible = polish(stop);
   IkResult result;
   result.q = q_;
@@ -110,6 +114,8 @@ IkSearch::Outcome IkSearch::bringNear(const Stop& stop) {
   Outcome outcome = Outcome::feasible;
   for (int i = 0; i < 30 && outcome != Outcome::cancelled; ++i) {
     const double before = costOf(x_);
+    // The step goes all the way towards `nearest` in what the targets leave free; where that overshoots, as curved
+    // constraints make it, a smaller share converges.
     pull_ = share * (problem_->nearest - x_);
     stepApart(pull_.data());
     const double moved = step_.step().lpNorm<Eigen::Infinity>();
@@ -119,6 +125,7 @@ IkSearch::Outcome IkSearch::bringNear(const Stop& stop) {
     if (costOf(x_) > before) share = std::max(.5 * share, .05);
     if (stop()) outcome = Outcome::cancelled;
   }
+  // The last step may have left the targets or touched something: the next answer from there may still be the nearest.
   if (outcome != Outcome::cancelled && !feasible() && moveApart(10, stop) == Outcome::feasible) keepIfBetter();
   x_ = kept_;
   measure();
@@ -201,6 +208,7 @@ std::vector<std::string> IkSearch::bindingLimits() {
   step_.resize(problem_->rows, variables);
   std::fill_n(step_.column(0), problem_->rows * variables, 0.);
   measureTargets(true);
+  // The negative gradient of what is missed is what pushes; at a point of least miss it is zero but against limits.
   const double least = kLeastPush * std::sqrt(squaredMiss());
   std::vector<std::string> reasons;
   for (int v = 0; v < variables; ++v) {

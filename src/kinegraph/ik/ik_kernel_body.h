@@ -69,6 +69,7 @@ Vector turnBetween(const Vector& a, const Vector& b, const Vector& across, Lane&
 void measure(const IkKernelModel& model, const IkKernelMemory& memory) {
   Lane* J = reinterpret_cast<Lane*>(memory.jacobian);
   Lane* e = reinterpret_cast<Lane*>(memory.error);
+  // Entries are sums, because joints that mimic one another share a variable.
   for (int i = 0; i < model.variables() * model.rows; ++i) J[i] = Lane{};
   Lane square{}, worst_distance{}, worst_angle{};
   int row = 0;
@@ -91,7 +92,7 @@ void measure(const IkKernelModel& model, const IkKernelMemory& memory) {
       const Vector R_goal[3] = {load(goal), load(goal + 3), load(goal + 6)};
       const Vector turn = turnBetween(R_goal, X.R, angle);
       e[at++] = turn.x, e[at++] = turn.y, e[at++] = turn.z;
-    } else if (task.directed) {
+    } else if (task.directed) {  // two rows, across the wanted direction: a turn about it is free
       const Vector turn = turnBetween(combine(X.R, task.axis), load(goal + 9), across[0], angle);
       e[at++] = dot(turn, across[0]), e[at++] = dot(turn, across[1]);
     }

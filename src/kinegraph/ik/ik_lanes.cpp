@@ -32,6 +32,7 @@ void IkLanes::solve(const std::vector<IkTarget>* problems, int count, IkResult* 
     for (int i = 0; i < count; ++i, ++done) results[i] = search_.solve(problems[i], stop);
     return;
   }
+  // All lanes step together; what differs between them, who is done and what comes next, is settled between the steps.
   for (int run = 0;; ++run) {
     if (run % 16 == 0 && stop()) cancelled_ = true;
     bool busy = false;
@@ -114,6 +115,8 @@ void IkLanes::end(int lane, bool met) {
   judgeEnded(state.open);
 }
 
+/// Attempts end in any order, but are judged in that of their numbers: so the answer is the one that would have been
+/// found without lanes.
 void IkLanes::judgeEnded(int index) {
   Open& open = open_[index];
   for (;;) {
@@ -130,7 +133,7 @@ void IkLanes::close(int index, bool cancelled) {
   results_[open.problem] = search_.finish(open.job, cancelled, *stop_);
   if (!cancelled) ++*done_;
   open.problem = -1;
-  for (Lane& lane : lanes_) {
+  for (Lane& lane : lanes_) {  // attempts that were begun ahead of need are given up
     if (lane.open == index) lane.open = -1;
   }
 }

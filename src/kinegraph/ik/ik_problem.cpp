@@ -77,12 +77,14 @@ IkProblem::IkProblem(const Config& config, const std::vector<IkTarget>& targets,
 }
 
 void IkProblem::chooseVariables() {
+  // Joints that move no target stay where they are, and need no columns.
   variable.assign(program->dofs, -1);
   for (const Task& task : tasks) {
     for (int c = program->last_column[program->frame_link[task.frame]]; c >= 0; c = program->column_before[c]) {
       variable[program->column_dof[c]] = 0;
     }
   }
+  // Quaternions are not kept at norm one by the steps, so it is noted where they are.
   for (const Program::DofRange& norm : program->unit_norms) {
     if (variable[norm.first] == 0) norms_.emplace_back(norm.first, norm.count);
   }
@@ -92,6 +94,8 @@ void IkProblem::chooseVariables() {
     dofs.push_back(dof);
   }
   for (auto& norm : norms_) norm.first = variable[norm.first];
+  // Steps of angles are bounded, because their linear model is good for about half a radian. Where there is no limit,
+  // starting points are drawn around the present value: all angles, and a meter to both sides.
   const std::vector<char> turns = turningDofs(*program);
   lower.resize(variables());
   upper.resize(variables());
@@ -107,6 +111,7 @@ void IkProblem::chooseVariables() {
     draw_lower_[v] = std::isfinite(lower[v]) ? lower[v] : std::min(q[dof], upper[v]) - reach;
     draw_upper_[v] = std::isfinite(upper[v]) ? upper[v] : std::max(q[dof], lower[v]) + reach;
   }
+  // Entries of quaternions are drawn from the cube around the sphere, and brought to norm one.
   for (const auto& [first, count] : norms_) {
     for (int v = first; v < first + count; ++v) {
       longest[v] = kLongestTurn;

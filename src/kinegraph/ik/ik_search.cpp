@@ -140,7 +140,7 @@ void IkSearch::measureDistances() {
   const double margin = problem_->options.margin;
   placed_.place(state_);
   for (int i = 0; i < placed_.pairs(); ++i) {
-    if (!placed_.mayBeNear(i, margin + kNear)) continue;
+    if (!placed_.mayBeNear(i, margin + kNear)) continue;  // most are far, which spheres show
     const Proximity near = placed_.proximity(i);
     if (near.distance > margin + kNear) continue;
     const auto [a, b] = problem_->pairs[i];
@@ -169,8 +169,9 @@ void IkSearch::stepTowardsTargets() {
   problem_->normalize(x_.data());
 }
 
-/// A step that also keeps the near pairs apart: those that it would bring too near become rows, and are let go again
-/// where the row pulls them together.
+/// A step that also keeps the near pairs apart. Which pairs need a row is not known before the step is: those that it
+/// would bring too near get one and the step is solved again; those whose row pulls them together, which no inequality
+/// does, lose it. That is an active set method cut short after a few passes, as the next step looks again.
 void IkSearch::stepApart(const double* pull, double damping) {
   const int variables = problem_->variables();
   const double wanted = problem_->options.margin + kSlack;
@@ -189,6 +190,7 @@ void IkSearch::stepApart(const double* pull, double damping) {
       for (int v = 0; v < variables; ++v) step_.column(v)[row] = gradients_[n * variables + v];
       ++row;
     }
+    // More damping than on the way to the targets: rows of pairs that touch are often dependent.
     step_.solve(x_.data(), problem_->lower.data(), problem_->upper.data(), problem_->longest.data(),
                 1e-7 + DampedStep::damping(square) + damping, pull);
     bool changed = false;
@@ -218,6 +220,8 @@ void IkSearch::measure() {
 }
 
 bool IkSearch::stalls(int step, double square, double& before) {
+  // Far from a solution Gauss-Newton may wander for a while, so that single steps say little: every five they must have
+  // halved the sum of squares, else another starting point is the better use of the time.
   if (step % 5 != 4) return false;
   if (square > .5 * before) return true;
   before = square;
@@ -245,6 +249,7 @@ IkSearch::Outcome IkSearch::avoidCollisions(const Stop& stop) {
   if (problem_->pairs.empty()) return Outcome::feasible;
   measureDistances();
   if (errors_.penetration == 0.) return Outcome::feasible;
+  // The worst pair of every attempt is counted, because a failure is best told by what was mostly in the way.
   ++job_->blocked[std::ranges::min_element(near_, {}, &NearPair::distance)->pair];
   return moveApart(problem_->options.steps, stop);
 }
@@ -255,7 +260,7 @@ IkSearch::Outcome IkSearch::moveApart(int steps, const Stop& stop) {
   for (int i = 0;; ++i) {
     if (feasible()) return Outcome::feasible;
     if (i == steps) return Outcome::missed;
-    if (i % 8 == 7) {
+    if (i % 8 == 7) {  // slower than the way to the targets: which pairs are near changes as they move apart
       if (errors_.sum() > .8 * before) return Outcome::missed;
       before = errors_.sum();
     }
