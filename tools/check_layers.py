@@ -1,15 +1,22 @@
 #!/usr/bin/env python3
-"""Checks who includes whom: every room of src/kinegraph may include only the rooms that this table allows it.
+"""Checks who knows whom: every room of src/kinegraph may include, and link to, only the rooms that this table allows it.
+
+    check_layers.py            reads the includes of all sources
+    check_layers.py BUILD      and what the objects of a build folder leave undefined: a function that is declared in a
+                               room and defined in one above it is an arrow upwards, too
 
 A room that has become a hall is divided into rooms of its own, such as geometry/distance. Where the table names `geometry`,
 all of its rooms are meant.
 """
 
+import json
 import re
+import subprocess
 import sys
+from collections import defaultdict
 from pathlib import Path
 
-SOURCE = Path(__file__).parent.parent / "src" / "kinegraph"
+SOURCE = Path(__file__).resolve().parent.parent / "src" / "kinegraph"
 
 EVERYTHING = ["base", "math", "geometry", "kinematics", "scene", "formats", "features", "nlp", "solvers", "ik", "komo"]
 EVERYTHING += ["planning", "rendering", "viewer", "front"]
@@ -29,8 +36,9 @@ BELOW: dict[str, list[str]] = {
     "solvers": ["base", "math", "nlp", "solvers/interface", "solvers/problems", "solvers/algebra", "solvers/methods"],
     "solvers/sampling": ["base", "math", "nlp", "solvers"],
     "kinematics": ["base", "math", "geometry"],
-    "scene": ["base", "math", "gfile", "geometry", "kinematics"],
-    "formats": ["base", "math", "gfile", "geometry", "kinematics", "scene"],
+    "formats/reading": ["base", "math", "gfile", "geometry"],
+    "scene": ["base", "math", "gfile", "geometry", "kinematics", "formats/reading"],
+    "formats": ["base", "math", "gfile", "geometry", "kinematics", "formats/reading", "scene"],
     "features": ["base", "math", "geometry", "kinematics", "scene"],
     "ik": ["base", "math", "geometry", "kinematics", "scene"],
     "komo": ["base", "math", "geometry", "kinematics", "scene", "features", "nlp"],
@@ -40,6 +48,7 @@ BELOW: dict[str, list[str]] = {
     "front": EVERYTHING,
     ".": EVERYTHING,
 }
+PAGE = "client_page.cpp"  # written by the build, for the viewer
 
 
 def allowed(room: str, other: str) -> bool:
@@ -47,7 +56,8 @@ def allowed(room: str, other: str) -> bool:
     return other == room or any(other == below or other.startswith(below + "/") for below in BELOW[room])
 
 
-def main() -> int:
+def include_problems() -> list[str]:
+    """Rooms that the table does not name, and includes that it does not allow."""
     problems = []
     for file in sorted(SOURCE.rglob("*.[ch]*")):
         room = file.parent.relative_to(SOURCE).as_posix()
@@ -59,7 +69,64 @@ def main() -> int:
             if match and not allowed(room, match[1]):
                 place = file.relative_to(SOURCE.parent.parent)
                 problems.append(f"{place}:{number}: {room} must not include {match[1]}")
-    print("\n".join(dict.fromkeys(problems)) if problems else f"layers: {len(BELOW)} rooms, all includes point down")
+    return list(dict.fromkeys(problems))
+
+
+def room_of_object(source: Path) -> str | None:
+    """The room that a compiled file belongs to; None if it is none of the library's. Files that CMake compiles at once
+    are named after theirs: Unity/unity_geometry.distance.0_cxx.cxx."""
+    if unity := re.fullmatch(r"unity_(.+)\.\d+_cxx\.cxx", source.name):
+        return unity[1].replace(".", "/")
+    if source.name == PAGE:
+        return "viewer"
+    return source.parent.relative_to(SOURCE).as_posix() if source.is_relative_to(SOURCE) else None
+
+
+def objects(build: Path) -> dict[Path, str]:
+    """The object files of the library in a build folder, each with its room."""
+    found = {}
+    for entry in json.loads((build / "compile_commands.json").read_text()):
+        room = room_of_object(Path(entry["file"]))
+        if room and "/kinegraph.dir/" in entry["output"]:
+            found[build / entry["output"]] = room
+    return found
+
+
+def symbol_problems(build: Path) -> tuple[list[str], int]:
+    """Symbols that an object of a room needs and that only rooms which it must not know define; and how many objects
+    were read."""
+    rooms = objects(build)
+    missing = [file.name for file in rooms if not file.exists()]
+    if missing or not rooms:
+        return [f"{build}: {len(missing)} of {len(rooms)} objects of the library are not there; build it before"], 0
+    listing = subprocess.run(["nm", "-A", "--format=posix", *map(str, rooms)], check=True, capture_output=True, text=True)
+    defined: dict[str, set[str]] = defaultdict(set)
+    needed: dict[str, dict[str, str]] = defaultdict(dict)
+    for line in listing.stdout.splitlines():
+        file, _, rest = line.partition(": ")
+        symbol, kind = rest.split()[:2]
+        if kind in "Uwv":
+            needed[symbol][rooms[Path(file)]] = Path(file).name
+        elif kind.isupper() or kind == "u":
+            defined[symbol].add(rooms[Path(file)])
+    problems = []
+    for symbol in sorted(needed.keys() & defined.keys()):
+        for room, file in needed[symbol].items():
+            if not any(allowed(room, other) for other in defined[symbol]):
+                others = ", ".join(sorted(defined[symbol]))
+                name = subprocess.run(["c++filt", symbol], check=True, capture_output=True, text=True).stdout.strip()
+                problems.append(f"{file}: {room} must not need '{name}', which {others} defines")
+    return problems, len(rooms)
+
+
+def main() -> int:
+    problems = include_problems()
+    done = f"layers: {len(BELOW)} rooms, all includes point down"
+    if len(sys.argv) > 1:
+        more, count = symbol_problems(Path(sys.argv[1]).resolve())
+        problems += more
+        done += f", and so do the symbols that {count} objects need"
+    print("\n".join(problems) if problems else done)
     return 1 if problems else 0
 
 

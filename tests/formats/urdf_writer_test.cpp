@@ -5,7 +5,7 @@
 #include <filesystem>
 #include <fstream>
 
-#include "kinegraph/formats/urdf_reader.h"
+#include "kinegraph/formats/reading/urdf_reader.h"
 #include "kinegraph/gfile/writer.h"
 #include "tests/formats/random_scene.h"
 #include "tests/support/temporary_folder.h"

@@ -3,7 +3,7 @@
 #include "kinegraph/base/errors.h"
 #include "kinegraph/base/text.h"
 #include "kinegraph/formats/mesh_export.h"
-#include "kinegraph/formats/xml.h"
+#include "kinegraph/formats/reading/xml.h"
 #include "kinegraph/geometry/shapes/tessellation.h"
 
 namespace kinegraph {

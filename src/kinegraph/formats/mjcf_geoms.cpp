@@ -1,12 +1,12 @@
 #include "kinegraph/formats/mjcf_geoms.h"
 
 #include <algorithm>
-#include <cctype>
 #include <filesystem>
 
+#include "kinegraph/base/file_paths.h"
 #include "kinegraph/base/text.h"
 #include "kinegraph/formats/stl_writer.h"
-#include "kinegraph/formats/xml.h"
+#include "kinegraph/formats/reading/xml.h"
 #include "kinegraph/geometry/shapes/shape_types.h"
 #include "kinegraph/geometry/shapes/tessellation.h"
 
@@ -21,9 +21,7 @@ constexpr std::size_t kMaxStlTriangles = 200000;  // that MuJoCo reads
 
 /// Can MuJoCo read the file itself? (Of STL it knows the binary kind only.)
 bool readableByMujoco(const std::string& path) {
-  std::string extension = fs::path(path).extension().string();
-  std::transform(extension.begin(), extension.end(), extension.begin(),
-                 [](unsigned char c) { return char(std::tolower(c)); });
+  const std::string extension = lowerExtension(path);
   return extension == ".obj" || extension == ".msh";
 }
 

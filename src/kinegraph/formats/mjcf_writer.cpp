@@ -7,7 +7,7 @@
 
 #include "kinegraph/base/text.h"
 #include "kinegraph/formats/mjcf_geoms.h"
-#include "kinegraph/formats/xml.h"
+#include "kinegraph/formats/reading/xml.h"
 
 namespace kinegraph {
 

@@ -1,8 +1,7 @@
-#include <algorithm>
-#include <cctype>
 #include <filesystem>
 #include <fstream>
 
+#include "kinegraph/base/file_paths.h"
 #include "kinegraph/base/errors.h"
 #include "kinegraph/base/text.h"
 #include "kinegraph/formats/mjcf_writer.h"
@@ -43,9 +42,7 @@ std::string saveMjcf(const Config& config, const std::string& path, std::vector<
 }
 
 std::string saveScene(const Config& config, const std::string& path, std::vector<std::string>* warnings) {
-  std::string extension = fs::path(path).extension().string();
-  std::transform(extension.begin(), extension.end(), extension.begin(),
-                 [](unsigned char c) { return char(std::tolower(c)); });
+  const std::string extension = lowerExtension(path);
   if (extension == ".urdf") return saveUrdf(config, path, warnings);
   if (extension == ".xml") return saveMjcf(config, path, warnings);
   const bool yaml = extension == ".yml" || extension == ".yaml";

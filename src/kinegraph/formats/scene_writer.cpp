@@ -4,10 +4,10 @@
 #include <map>
 #include <set>
 
+#include "kinegraph/base/file_paths.h"
 #include "kinegraph/base/text.h"
 #include "kinegraph/geometry/shapes/shape_types.h"
 #include "kinegraph/gfile/writer.h"
-#include "kinegraph/scene/scene_source.h"
 
 namespace kinegraph {
 

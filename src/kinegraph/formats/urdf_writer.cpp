@@ -7,8 +7,8 @@
 
 #include "kinegraph/base/text.h"
 #include "kinegraph/formats/stl_writer.h"
-#include "kinegraph/formats/urdf_model.h"
-#include "kinegraph/formats/xml.h"
+#include "kinegraph/formats/reading/urdf_model.h"
+#include "kinegraph/formats/reading/xml.h"
 #include "kinegraph/geometry/shapes/shape_types.h"
 #include "kinegraph/geometry/shapes/tessellation.h"
 

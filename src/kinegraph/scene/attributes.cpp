@@ -5,10 +5,10 @@
 #include <string_view>
 #include <utility>
 
+#include "kinegraph/base/file_paths.h"
 #include "kinegraph/base/text.h"
 #include "kinegraph/geometry/shapes/mass.h"
 #include "kinegraph/scene/reader.h"
-#include "kinegraph/scene/scene_source.h"
 #include "kinegraph/scene/scene_tree.h"
 
 namespace kinegraph {

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numeric>
 
+#include "kinegraph/base/file_paths.h"
 #include "kinegraph/base/errors.h"
 #include "kinegraph/base/text.h"
 #include "kinegraph/geometry/files/h5_file.h"
@@ -13,7 +14,6 @@
 #include "kinegraph/geometry/shapes/isosurface.h"
 #include "kinegraph/geometry/shapes/shape_types.h"
 #include "kinegraph/geometry/shapes/textured_surface.h"
-#include "kinegraph/scene/scene_source.h"
 
 namespace kinegraph {
 

@@ -1,8 +1,6 @@
 #include "kinegraph/scene/robot_semantics.h"
 
 #include <algorithm>
-#include <cctype>
-#include <filesystem>
 #include <set>
 #include <unordered_map>
 
@@ -223,25 +221,6 @@ class Applier {
 
 void applySemantics(const RobotSemantics& semantics, SceneTree& scene, SceneDiagnostics& diagnostics) {
   Applier(semantics, scene, diagnostics).apply();
-}
-
-bool isSemanticsFile(const std::string& file) {
-  std::string extension = std::filesystem::path(file).extension().string();
-  std::transform(extension.begin(), extension.end(), extension.begin(),
-                 [](unsigned char c) { return char(std::tolower(c)); });
-  return extension == ".srdf";
-}
-
-std::string semanticsBeside(const std::string& file) {
-  namespace fs = std::filesystem;
-  const fs::path path(file);
-  if (path.extension() != ".urdf") return "";
-  const std::string name = path.stem().string() + ".srdf";
-  std::error_code error;
-  for (const fs::path& place : {path.parent_path() / name, path.parent_path().parent_path() / "srdf" / name}) {
-    if (fs::is_regular_file(place, error)) return place.string();
-  }
-  return "";
 }
 
 }  // namespace kinegraph

@@ -4,6 +4,7 @@
 #include <charconv>
 #include <set>
 
+#include "kinegraph/base/file_paths.h"
 #include "kinegraph/base/text.h"
 
 namespace kinegraph {

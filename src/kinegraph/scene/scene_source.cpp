@@ -7,10 +7,11 @@
 #include <set>
 #include <sstream>
 
+#include "kinegraph/base/file_paths.h"
 #include "kinegraph/base/errors.h"
 #include "kinegraph/base/text.h"
 #include "kinegraph/base/utf8.h"
-#include "kinegraph/scene/scene_format.h"
+#include "kinegraph/formats/reading/scene_formats.h"
 
 namespace kinegraph {
 

@@ -3,9 +3,9 @@
 #include <string>
 #include <vector>
 
+#include "kinegraph/formats/reading/srdf_reader.h"
 #include "kinegraph/gfile/value.h"
 #include "kinegraph/scene/diagnostics.h"
-#include "kinegraph/scene/robot_semantics.h"
 
 namespace kinegraph {
 
@@ -31,16 +31,5 @@ SceneSource readSource(std::string_view text, const std::string& name, const std
 
 /// The scene file and all files that it includes, as paths, mistakes in them or not, and also those that do not exist.
 std::vector<std::string> sourceFiles(const std::string& path);
-
-/// An absolute path: `path` with $NAME expanded from the environment, relative to `folder`; file:// in front is
-/// dropped. A path package://NAME/rest (or model://) is looked up in `folder` and all folders above it, then in those
-/// of KINEGRAPH_PACKAGE_PATH, ROS_PACKAGE_PATH and AMENT_PREFIX_PATH; empty if it is in none.
-std::string resolvePath(const std::string& path, const std::string& folder);
-
-/// Why resolvePath found no place for a path in a package, and what helps.
-std::string missingPackageMessage(const std::string& path);
-
-/// "; similar names: ..." of the files beside a missing one, or that its folder does not exist.
-std::string similarFilesHint(const std::string& path);
 
 }  // namespace kinegraph

@@ -2,6 +2,7 @@
 #include <cmath>
 #include <limits>
 
+#include "kinegraph/base/file_paths.h"
 #include "kinegraph/base/text.h"
 #include "kinegraph/geometry/files/grid_file.h"
 #include "kinegraph/geometry/files/image_file.h"
@@ -10,7 +11,6 @@
 #include "kinegraph/geometry/shapes/shape_types.h"
 #include "kinegraph/geometry/shapes/textured_surface.h"
 #include "kinegraph/scene/attributes.h"
-#include "kinegraph/scene/scene_source.h"
 #include "kinegraph/scene/scene_tree.h"
 
 namespace kinegraph {

@@ -9,8 +9,6 @@ namespace kinegraph {
 
 namespace {
 
-double signOf(double x) { return x < 0. ? -1. : 1.; }
-
 /// Half the derivative by s of the squared distance from c + s d to the box |x| <= h. Grows with s.
 double slope(const Vector3d& c, const Vector3d& d, const Vector3d& h, double s) {
   double sum = 0.;

@@ -1,12 +1,12 @@
 #include "kinegraph/geometry/files/mesh_promises.h"
 
 #include <algorithm>
-#include <cctype>
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <sstream>
 
+#include "kinegraph/base/file_paths.h"
 #include "kinegraph/base/errors.h"
 #include "kinegraph/base/text.h"
 
@@ -46,9 +46,7 @@ double promisesOfPly(std::string_view text) {
 }  // namespace
 
 void checkMeshPromises(const std::string& path) {
-  std::string extension = fs::path(path).extension().string();
-  std::transform(extension.begin(), extension.end(), extension.begin(),
-                 [](unsigned char c) { return char(std::tolower(c)); });
+  const std::string extension = lowerExtension(path);
   const bool ply = extension == ".ply", dae = extension == ".dae", gltf = extension == ".gltf" || extension == ".glb";
   if (!ply && !dae && !gltf) return;
   std::ifstream stream(path, std::ios::binary);

@@ -1,11 +1,9 @@
-#include <algorithm>
-#include <cctype>
-#include <filesystem>
+#include "kinegraph/formats/reading/scene_formats.h"
 
-#include "kinegraph/formats/mjcf_reader.h"
-#include "kinegraph/formats/urdf_reader.h"
-#include "kinegraph/formats/xml.h"
-#include "kinegraph/scene/scene_format.h"
+#include "kinegraph/base/file_paths.h"
+#include "kinegraph/formats/reading/mjcf_reader.h"
+#include "kinegraph/formats/reading/urdf_reader.h"
+#include "kinegraph/formats/reading/xml.h"
 
 namespace kinegraph {
 
@@ -24,9 +22,7 @@ const std::vector<SceneFormat>& sceneFormats() {
 }
 
 const SceneFormat* sceneFormatOf(const std::string& file) {
-  std::string extension = std::filesystem::path(file).extension().string();
-  std::transform(extension.begin(), extension.end(), extension.begin(),
-                 [](unsigned char c) { return char(std::tolower(c)); });
+  const std::string extension = lowerExtension(file);
   for (const SceneFormat& format : sceneFormats()) {
     if (extension == format.extension) return &format;
   }

@@ -1,4 +1,4 @@
-#include "kinegraph/formats/urdf_reader.h"
+#include "kinegraph/formats/reading/urdf_reader.h"
 
 #include <gtest/gtest.h>
 

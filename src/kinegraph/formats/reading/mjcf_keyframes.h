@@ -3,8 +3,8 @@
 #include <string>
 #include <vector>
 
-#include "kinegraph/formats/findings.h"
-#include "kinegraph/formats/mjcf_document.h"
+#include "kinegraph/formats/reading/findings.h"
+#include "kinegraph/formats/reading/mjcf_document.h"
 
 namespace kinegraph {
 

@@ -1,4 +1,4 @@
-#include "kinegraph/formats/xml.h"
+#include "kinegraph/formats/reading/xml.h"
 
 #include <tinyxml2.h>
 

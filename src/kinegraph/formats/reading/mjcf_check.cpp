@@ -1,4 +1,4 @@
-#include "kinegraph/formats/mjcf_check.h"
+#include "kinegraph/formats/reading/mjcf_check.h"
 
 #include <algorithm>
 #include <map>

@@ -1,4 +1,4 @@
-#include "kinegraph/formats/mjcf_values.h"
+#include "kinegraph/formats/reading/mjcf_values.h"
 
 #include <algorithm>
 #include <cmath>

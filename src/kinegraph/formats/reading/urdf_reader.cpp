@@ -1,14 +1,14 @@
-#include "kinegraph/formats/urdf_reader.h"
+#include "kinegraph/formats/reading/urdf_reader.h"
 
 #include <filesystem>
 #include <map>
 #include <set>
 
+#include "kinegraph/base/file_paths.h"
 #include "kinegraph/base/text.h"
-#include "kinegraph/formats/axis_motion.h"
-#include "kinegraph/formats/frame_attributes.h"
-#include "kinegraph/formats/urdf_model.h"
-#include "kinegraph/scene/scene_source.h"
+#include "kinegraph/formats/reading/axis_motion.h"
+#include "kinegraph/formats/reading/frame_attributes.h"
+#include "kinegraph/formats/reading/urdf_model.h"
 
 namespace kinegraph {
 

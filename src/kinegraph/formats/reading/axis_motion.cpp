@@ -1,4 +1,4 @@
-#include "kinegraph/formats/axis_motion.h"
+#include "kinegraph/formats/reading/axis_motion.h"
 
 #include <cmath>
 #include <optional>

@@ -1,4 +1,4 @@
-#include "kinegraph/formats/mjcf_couplings.h"
+#include "kinegraph/formats/reading/mjcf_couplings.h"
 
 #include <algorithm>
 

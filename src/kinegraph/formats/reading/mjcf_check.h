@@ -1,7 +1,7 @@
 #pragma once
 
-#include "kinegraph/formats/findings.h"
-#include "kinegraph/formats/mjcf_document.h"
+#include "kinegraph/formats/reading/findings.h"
+#include "kinegraph/formats/reading/mjcf_document.h"
 
 namespace kinegraph {
 

@@ -1,11 +1,14 @@
+#include "kinegraph/formats/reading/srdf_reader.h"
+
 #include <algorithm>
+#include <filesystem>
 #include <map>
 #include <set>
 
+#include "kinegraph/base/file_paths.h"
 #include "kinegraph/base/text.h"
-#include "kinegraph/formats/findings.h"
-#include "kinegraph/formats/xml.h"
-#include "kinegraph/scene/robot_semantics.h"
+#include "kinegraph/formats/reading/findings.h"
+#include "kinegraph/formats/reading/xml.h"
 
 namespace kinegraph {
 
@@ -199,6 +202,20 @@ RobotSemantics readSemantics(std::string_view text, const std::string& file, std
     found.push_back({Diagnostic::Severity::error, error.where(), error.reason()});
     return {};
   }
+}
+
+bool isSemanticsFile(const std::string& file) { return lowerExtension(file) == ".srdf"; }
+
+std::string semanticsBeside(const std::string& file) {
+  namespace fs = std::filesystem;
+  const fs::path path(file);
+  if (path.extension() != ".urdf") return "";
+  const std::string name = path.stem().string() + ".srdf";
+  std::error_code error;
+  for (const fs::path& place : {path.parent_path() / name, path.parent_path().parent_path() / "srdf" / name}) {
+    if (fs::is_regular_file(place, error)) return place.string();
+  }
+  return "";
 }
 
 }  // namespace kinegraph

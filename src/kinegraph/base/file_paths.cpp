@@ -1,3 +1,5 @@
+#include "kinegraph/base/file_paths.h"
+
 #include <algorithm>
 #include <cctype>
 #include <cstdlib>
@@ -6,7 +8,6 @@
 #include <sstream>
 
 #include "kinegraph/base/text.h"
-#include "kinegraph/scene/scene_source.h"
 
 namespace kinegraph {
 
@@ -99,6 +100,12 @@ std::string similarFilesHint(const std::string& path) {
   }
   std::sort(names.begin(), names.end());
   return similarHint(fs::path(path).filename().string(), names);
+}
+
+std::string lowerExtension(const std::string& path) {
+  std::string extension = fs::path(path).extension().string();
+  for (char& c : extension) c = char(std::tolower(static_cast<unsigned char>(c)));
+  return extension;
 }
 
 }  // namespace kinegraph

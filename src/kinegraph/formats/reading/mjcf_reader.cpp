@@ -1,17 +1,17 @@
-#include "kinegraph/formats/mjcf_reader.h"
+#include "kinegraph/formats/reading/mjcf_reader.h"
 
 #include <algorithm>
 #include <map>
 #include <set>
 
 #include "kinegraph/base/text.h"
-#include "kinegraph/formats/axis_motion.h"
-#include "kinegraph/formats/mjcf_check.h"
-#include "kinegraph/formats/mjcf_couplings.h"
-#include "kinegraph/formats/mjcf_document.h"
-#include "kinegraph/formats/mjcf_keyframes.h"
-#include "kinegraph/formats/mjcf_shapes.h"
-#include "kinegraph/formats/mjcf_values.h"
+#include "kinegraph/formats/reading/axis_motion.h"
+#include "kinegraph/formats/reading/mjcf_check.h"
+#include "kinegraph/formats/reading/mjcf_couplings.h"
+#include "kinegraph/formats/reading/mjcf_document.h"
+#include "kinegraph/formats/reading/mjcf_keyframes.h"
+#include "kinegraph/formats/reading/mjcf_shapes.h"
+#include "kinegraph/formats/reading/mjcf_values.h"
 
 namespace kinegraph {
 

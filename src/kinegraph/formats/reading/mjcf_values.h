@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
-#include "kinegraph/formats/findings.h"
-#include "kinegraph/formats/mjcf_document.h"
+#include "kinegraph/formats/reading/findings.h"
+#include "kinegraph/formats/reading/mjcf_document.h"
 #include "kinegraph/math/pose.h"
 
 namespace kinegraph {

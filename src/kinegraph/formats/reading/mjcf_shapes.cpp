@@ -1,11 +1,11 @@
-#include "kinegraph/formats/mjcf_shapes.h"
+#include "kinegraph/formats/reading/mjcf_shapes.h"
 
 #include <algorithm>
 #include <filesystem>
 
+#include "kinegraph/base/file_paths.h"
 #include "kinegraph/base/text.h"
-#include "kinegraph/formats/mjcf_mass.h"
-#include "kinegraph/scene/scene_source.h"
+#include "kinegraph/formats/reading/mjcf_mass.h"
 
 namespace kinegraph {
 

@@ -3,10 +3,10 @@
 #include <map>
 #include <string>
 
-#include "kinegraph/formats/findings.h"
-#include "kinegraph/formats/frame_attributes.h"
-#include "kinegraph/formats/mjcf_document.h"
-#include "kinegraph/formats/mjcf_values.h"
+#include "kinegraph/formats/reading/findings.h"
+#include "kinegraph/formats/reading/frame_attributes.h"
+#include "kinegraph/formats/reading/mjcf_document.h"
+#include "kinegraph/formats/reading/mjcf_values.h"
 
 namespace kinegraph {
 

@@ -1,4 +1,4 @@
-#include "kinegraph/formats/mjcf_keyframes.h"
+#include "kinegraph/formats/reading/mjcf_keyframes.h"
 
 #include <unordered_map>
 

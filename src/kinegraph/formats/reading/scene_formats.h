@@ -10,6 +10,7 @@ namespace kinegraph {
 
 /// A kind of file, other than `.g`, that describes a scene. It is read as if it were a `.g` file with the same frames,
 /// so that Include, Prefix and Edit work with it, and mistakes in values are reported at their places in the file.
+/// Readers know texts and values, not scenes: they lie below the scene, which asks for them by the name of a file.
 struct SceneFormat {
   const char* extension;  ///< with the dot, lower case: ".urdf"
 
@@ -18,8 +19,7 @@ struct SceneFormat {
   ParseResult (*read)(std::string_view text, const std::string& file, const std::string& folder);
 };
 
-/// All of them. Declared here, where files are read, and defined in formats/, the layer above, which knows which there
-/// are.
+/// All of them.
 const std::vector<SceneFormat>& sceneFormats();
 
 /// The format of a file of that name, or null for the .g language.

@@ -5,8 +5,8 @@
 #include <string_view>
 #include <vector>
 
-#include "kinegraph/formats/findings.h"
-#include "kinegraph/formats/xml.h"
+#include "kinegraph/formats/reading/findings.h"
+#include "kinegraph/formats/reading/xml.h"
 
 namespace kinegraph {
 

@@ -1,4 +1,4 @@
-#include "kinegraph/formats/mjcf_mass.h"
+#include "kinegraph/formats/reading/mjcf_mass.h"
 
 #include <cmath>
 

@@ -3,8 +3,8 @@
 #include <map>
 #include <string>
 
-#include "kinegraph/formats/mjcf_document.h"
-#include "kinegraph/formats/mjcf_values.h"
+#include "kinegraph/formats/reading/mjcf_document.h"
+#include "kinegraph/formats/reading/mjcf_values.h"
 
 namespace kinegraph {
 

@@ -1,4 +1,4 @@
-#include "kinegraph/formats/mjcf_reader.h"
+#include "kinegraph/formats/reading/mjcf_reader.h"
 
 #include <filesystem>
 #include <fstream>

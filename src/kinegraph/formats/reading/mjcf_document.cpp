@@ -1,4 +1,4 @@
-#include "kinegraph/formats/mjcf_document.h"
+#include "kinegraph/formats/reading/mjcf_document.h"
 
 #include <algorithm>
 #include <filesystem>
@@ -6,9 +6,9 @@
 #include <iterator>
 #include <sstream>
 
+#include "kinegraph/base/file_paths.h"
 #include "kinegraph/base/text.h"
 #include "kinegraph/base/utf8.h"
-#include "kinegraph/scene/scene_source.h"
 
 namespace kinegraph {
 

@@ -1,11 +1,11 @@
-#include "kinegraph/formats/urdf_model.h"
+#include "kinegraph/formats/reading/urdf_model.h"
 
 #include <algorithm>
 #include <cmath>
 #include <map>
 
 #include "kinegraph/base/text.h"
-#include "kinegraph/formats/xml.h"
+#include "kinegraph/formats/reading/xml.h"
 
 namespace kinegraph {
 
