@@ -39,6 +39,7 @@ BELOW: dict[str, list[str]] = {
     "formats/reading": ["base", "math", "gfile", "geometry"],
     "scene": ["base", "math", "gfile", "geometry", "kinematics", "formats/reading"],
     "formats": ["base", "math", "gfile", "geometry", "kinematics", "formats/reading", "scene"],
+    "compatibility": ["base", "math", "gfile", "geometry", "kinematics", "scene"],
     "features": ["base", "math", "geometry", "kinematics", "scene"],
     "ik": ["base", "math", "geometry", "kinematics", "scene"],
     "komo": ["base", "math", "geometry", "kinematics", "scene", "features", "nlp"],

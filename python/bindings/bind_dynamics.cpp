@@ -3,7 +3,7 @@
 #include "bindings.h"
 #include "defaults.h"
 #include "docs/dynamics.h"
-#include "kinegraph/scene/earlier_methods.h"
+#include "kinegraph/compatibility/earlier_methods.h"
 
 namespace kinegraph::python {
 

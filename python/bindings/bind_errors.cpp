@@ -3,6 +3,7 @@
 #include "bindings.h"
 #include "kinegraph/base/errors.h"
 #include "kinegraph/base/utf8.h"
+#include "python_names.h"
 
 namespace kinegraph::python {
 
@@ -12,7 +13,7 @@ namespace {
 nb::object errorClass(const char* name) { return nb::module_::import_("kinegraph.errors").attr(name); }
 
 void raise(const char* class_name, const std::exception& error) {
-  PyErr_SetString(errorClass(class_name).ptr(), validUtf8(error.what()).c_str());
+  PyErr_SetString(errorClass(class_name).ptr(), validUtf8(inPython(error.what())).c_str());
 }
 
 void raiseParseError(const ParseError& error) {
@@ -48,7 +49,7 @@ void translate(const std::exception_ptr& pointer, void*) {
 void bindErrors(nb::module_&) { nb::register_exception_translator(translate); }
 
 void emitWarning(const std::string& message) {
-  if (PyErr_WarnEx(errorClass("KinegraphWarning").ptr(), validUtf8(message).c_str(), 1) != 0) throw nb::python_error();
+  if (PyErr_WarnEx(errorClass("KinegraphWarning").ptr(), validUtf8(inPython(message)).c_str(), 1) != 0) throw nb::python_error();
 }
 
 void emitWarnings(Config& config) {

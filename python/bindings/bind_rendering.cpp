@@ -36,7 +36,7 @@ SceneTree& sceneOf(const PyCameraView& view, nb::handle config) {
 }
 
 DepthNoise depthNoise() {
-  const nb::object set = nb::module_::import_("kinegraph.parameters").attr("params_get")();
+  const nb::object set = nb::module_::import_("kinegraph.compatibility.parameters").attr("params_get")();
   DepthNoise noise;
   const auto read = [&](double& value, const char* name) {
     value = nb::cast<double>(set.attr("get")(cat("DepthNoise/", name).c_str(), value));

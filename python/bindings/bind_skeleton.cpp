@@ -22,7 +22,7 @@ void addEntry(Skeleton& skeleton, nb::handle times, nb::handle symbol, nb::handl
   std::string one;
   const auto repr = [](nb::handle value) { return nb::cast<std::string>(nb::repr(value)); };
   if (!nb::try_cast(symbol, mode))
-    throw ValueError(cat("Skeleton: ", repr(symbol), " is not a symbol; expected one of ry.SY"));
+    throw ValueError(cat("Skeleton: ", repr(symbol), " is not a symbol; expected one of SY"));
   const std::string what = switchModeName(mode);
   if (!nb::try_cast(times, at)) {
     throw ValueError(cat("Skeleton: the times of ", what, " are ", repr(times), "; expected [at] or [from, to]"));

@@ -16,6 +16,7 @@
 #include "kinegraph/solvers/lagrange_gradients.h"
 #include "kinegraph/solvers/nlp_solver.h"
 #include "nlp_objects.h"
+#include "python_names.h"
 #include "solving.h"
 
 namespace kinegraph::python {
@@ -290,6 +291,7 @@ void bindSolvers(nb::module_& m) {
 
   nb::class_<SolverResult>(m, "SolverReturn", "How a solve ended.")
       .def(nb::init<>())
+      .def(nb::init<const SolverResult&>(), "other"_a, "A copy.")
       .def_prop_ro(
           "x", [](const SolverResult& r) { return toNumpy(r.x); }, "The solution, (n,).")
       .def_prop_ro(
@@ -305,7 +307,8 @@ void bindSolvers(nb::module_& m) {
       .def_ro("eq", &SolverResult::eq, "Sum of violations of equalities.")
       .def_ro("violation", &SolverResult::violation, "Violation of the worst constraint.")
       .def_ro("status", &SolverResult::status, "Why it stopped.")
-      .def_ro("message", &SolverResult::message, "Why it stopped, in a line.")
+      .def_prop_ro(
+          "message", [](const SolverResult& r) { return inPython(r.message); }, "Why it stopped, in a line.")
       .def(
           "dict",
           [](const SolverResult& r) {

@@ -7,7 +7,7 @@
 #include "bindings.h"
 #include "docs/structure.h"
 #include "kinegraph/base/errors.h"
-#include "kinegraph/scene/earlier_methods.h"
+#include "kinegraph/compatibility/earlier_methods.h"
 #include "kinegraph/scene/frame_shapes.h"
 #include "kinegraph/scene/inertia_edits.h"
 #include "kinegraph/scene/tree_edits.h"

@@ -13,7 +13,7 @@ namespace {
 /// A parameter that `params_add` has set.
 template <class T>
 T parameter(const char* name, const T& otherwise, const char* expected) {
-  const nb::object set = nb::module_::import_("kinegraph.parameters").attr("params_get")();
+  const nb::object set = nb::module_::import_("kinegraph.compatibility.parameters").attr("params_get")();
   const nb::object value = set.attr("get")(name, nb::cast(otherwise));
   try {
     return nb::cast<T>(value);

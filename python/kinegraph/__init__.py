@@ -5,7 +5,7 @@
     C.addFile(ry.raiPath("scenarios/pandaSingle.g"))
     C.view()
 
-The package `robotic` hands on the same names: `from robotic import ry` and `import robotic as ry` work as well.
+The package `robotic` has the same names, for scripts written for the reference: `import robotic as ry`.
 Lengths are in m, angles in rad, quaternions (w, x, y, z), poses (x, y, z, qw, qx, qy, qz).
 """
 
@@ -47,6 +47,29 @@ from ._core import (
 )
 from ._core import __version__ as __version__
 from .aruco import getArucoImage
+from .compatibility import OPT_METHODS as _OPT_METHODS
+from .compatibility import addEarlierMethods as _addEarlierMethods
+from .compatibility.parameters import (
+    clear_params,
+    get_params,
+    params_add,
+    params_clear,
+    params_file,
+    params_get,
+    params_print,
+    set_params,
+)
+from .compatibility.skeleton_problems import (
+    ArgWord,
+    OptBench_Skeleton_Handover,
+    OptBench_Skeleton_Pick,
+    OptBench_Skeleton_StackAndBalance,
+    OptBenchmark_InvKin_Endeff,
+    _left,
+    _path,
+    _right,
+    _sequence,
+)
 from .enums import teach
 from .errors import (
     ArgumentError,
@@ -60,31 +83,9 @@ from .errors import (
 )
 from .interactive import interactiveIk
 from .model_paths import raiPath, setRaiPath
-from .parameters import (
-    clear_params,
-    get_params,
-    params_add,
-    params_clear,
-    params_file,
-    params_get,
-    params_print,
-    rnd_seed,
-    rnd_seed_random,
-    set_params,
-)
 from .problems import get_NLP_Problem_names, make_NLP_Problem
 from .quaternion import Quaternion
-from .skeleton_problems import (
-    ArgWord,
-    OptBench_Skeleton_Handover,
-    OptBench_Skeleton_Pick,
-    OptBench_Skeleton_StackAndBalance,
-    OptBenchmark_InvKin_Endeff,
-    _left,
-    _path,
-    _right,
-    _sequence,
-)
+from .seeds import rnd_seed, rnd_seed_random
 
 _model_paths.announce()
 
@@ -99,7 +100,10 @@ def compiled() -> str:
     return f"kinegraph {__version__}"
 
 
-teach(FS, JT, OT, ST, SY, ArgWord, OptMethod)
+teach(FS, JT, OT, ST, SY, ArgWord)
+teach(OptMethod, earlier=_OPT_METHODS)
+_addEarlierMethods()
+NLP_SolverID = OptMethod  # as scripts of earlier years call it
 
 # Written out, so that type checkers know what is exported.
 __all__ = [
@@ -133,6 +137,7 @@ __all__ = [
     "NLP_Factory",
     "NLP_Sampler",
     "NLP_Solver",
+    "NLP_SolverID",
     "NLP_SolverOptions",
     "NotFound",
     "OptBench_Skeleton_Handover",

@@ -9,9 +9,9 @@ from pathlib import Path
 
 from . import __version__
 from ._core import Config, checkFile
+from .compatibility.parameters import params_get
 from .errors import ArgumentError, Error, FileError
 from .model_paths import raiPath
-from .parameters import params_get
 
 _MESHES = (".h5", ".ply", ".obj", ".stl", ".dae", ".glb")
 

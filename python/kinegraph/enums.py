@@ -12,6 +12,7 @@ class _Teaching(enum.EnumMeta):
         if name.startswith("_"):
             raise AttributeError(name)
         members = cls._member_map_
+        name = _earlier.get(cls, {}).get(name, name)
         if name in members:
             return members[name]
         near = difflib.get_close_matches(name, members, 3, 0.5)
@@ -19,7 +20,16 @@ class _Teaching(enum.EnumMeta):
         raise AttributeError(f"{cls.__name__} has no '{name}'{hint}")
 
 
-def teach(*classes: type) -> None:
-    """Lets these enums explain names that they do not have."""
+_earlier: dict[type, dict[str, str]] = {}
+
+
+def teach(*classes: type, earlier: dict[str, str] | None = None) -> None:
+    """Lets these enums explain names that they do not have.
+
+    Args:
+        classes: Enums.
+        earlier: Names of earlier years, each with the member that it means.
+    """
     for each in classes:
         each.__class__ = _Teaching
+        _earlier[each] = earlier or {}

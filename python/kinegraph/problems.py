@@ -6,9 +6,9 @@ import difflib
 import random
 
 from ._core import FS, JT, KOMO, NLP, OT, ST, SY, Config, makeTestProblem, testProblemNames
+from .compatibility.parameters import params_get
 from .errors import NotFound
 from .model_paths import raiPath
-from .parameters import params_get
 
 
 def _panda() -> Config:

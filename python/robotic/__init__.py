@@ -1,13 +1,93 @@
-"""The name under which the tutorials import the package: `from robotic import ry` or `import robotic as ry`."""
+"""Scripts written for the reference run with this package: `from robotic import ry` or `import robotic as ry`.
 
+A thin layer over kinegraph: the same classes and functions under the same names, with two differences. What a solve returns
+is `feasible` by the reference's rule (see `SolverReturn`), and names that the reference has and Kinegraph does not are
+there, and say so when they are used. Both packages can be imported in one process; neither changes the other.
+"""
+
+from __future__ import annotations
+
+import difflib as _difflib
 import sys as _sys
+from typing import TYPE_CHECKING
+from typing import Any as _Any
 
 import kinegraph
 from kinegraph import *  # noqa: F403
+from kinegraph import ArgWord as ArgWord
 from kinegraph import __version__ as __version__
 from kinegraph import test as test
 
-ry = kinegraph
+from . import DataGen, algo, calib, manipulation, nlp, render
+from .not_yet import (
+    BotOp,
+    BSpline,
+    ControlMode,
+    KOMO_ManipulationHelper,
+    KOMO_Objective,
+    LGP_TAMP_Abstraction,
+    LGP_Tool,
+    MujocoLoader,
+    PathFinder,
+    RRT_PathFinder,
+    Simulation,
+    SimulationEngine,
+    SimulationState,
+    SRRT_PathFinder,
+    StepObservation,
+    arg,
+    default_LGP_TAMP_Abstraction,
+    default_Logic2KOMO_Translator,
+    default_TAMP_Provider,
+)
+from .results import NLP_Solver, SolverReturn
 
-_sys.modules[__name__ + ".ry"] = ry
+__all__ = [
+    *kinegraph.__all__,
+    "ArgWord",
+    "BSpline",
+    "BotOp",
+    "ControlMode",
+    "DataGen",
+    "KOMO_ManipulationHelper",
+    "KOMO_Objective",
+    "LGP_TAMP_Abstraction",
+    "LGP_Tool",
+    "MujocoLoader",
+    "PathFinder",
+    "RRT_PathFinder",
+    "SRRT_PathFinder",
+    "Simulation",
+    "SimulationEngine",
+    "SimulationState",
+    "StepObservation",
+    "algo",
+    "arg",
+    "calib",
+    "default_LGP_TAMP_Abstraction",
+    "default_Logic2KOMO_Translator",
+    "default_TAMP_Provider",
+    "manipulation",
+    "nlp",
+    "rai_path",
+    "render",
+    "ry",
+]
+
+
+if not TYPE_CHECKING:  # else any name would do
+
+    def __getattr__(name: str) -> _Any:
+        if name.startswith("__"):
+            raise AttributeError(name)
+        near = _difflib.get_close_matches(name, __all__, 3, 0.5)
+        hint = f"; similar names: {', '.join(near)}" if near else ""
+        raise AttributeError(f"robotic has no '{name}'{hint}")
+
+
+import robotic as ry
+
+rai_path = raiPath().rstrip("/")  # noqa: F405
+_robotic = ry  # where the reference's compiled classes are, in annotations
+_sys.modules[__name__ + ".ry"] = _sys.modules[__name__ + "._robotic"] = ry
 _sys.modules[__name__ + ".test"] = test

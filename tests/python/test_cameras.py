@@ -476,7 +476,7 @@ def test_pictures_show_the_message(monkeypatch):
     viewer.visualsOnly()
     np.testing.assert_array_equal(viewer.getRgb(), plain)
     viewer.visualsOnly(False)
-    monkeypatch.setattr("kinegraph.parameters._values", {"Render/renderText": False})
+    monkeypatch.setattr("kinegraph.compatibility.parameters._values", {"Render/renderText": False})
     np.testing.assert_array_equal(viewer.getRgb(), plain)
     monkeypatch.undo()
     C.view(False, "", offscreen=True)
@@ -491,7 +491,7 @@ def test_pictures_look_as_parameters_say(monkeypatch):
     viewer.setCamera("camera")
     wanted = np.array([153, 102, 51])
     values = {}
-    monkeypatch.setattr("kinegraph.parameters._values", values)
+    monkeypatch.setattr("kinegraph.compatibility.parameters._values", values)
     lit = viewer.getRgb()[HEIGHT // 2, WIDTH // 2]
     assert np.abs(lit - wanted).max() > 5
     values["Render/flatColors"] = True

@@ -59,3 +59,49 @@ def test_pictures(C: ry.Config, tmp_path: Path) -> None:
         pytest.skip(str(error))
     assert rgb.shape == (*depth.shape, 3)
     assert Path(C.view_savePng(f"{tmp_path}/pictures/")).exists()
+
+
+def test_what_collides(C: ry.Config) -> None:
+    assert C.getCollisionFree() and C.getTotalPenetration() == 0.0
+    C["cup"].setContact(1)
+    C.addObject(
+        "block", "table", ry.ST.ssBox, [0.1, 0.1, 0.1], radius=0.01, pos=[0.0, 0.0, 0.1], color=[1, 0, 0]
+    ).setContact(1)
+    assert C["block"].getType() == ry.ST.ssBox and list(C["block"].getSize()) == [0.1, 0.1, 0.1, 0.01]
+    assert not C.getCollisionFree() and C.getTotalPenetration() == pytest.approx(C.coll_totalViolation())
+    assert C.getTotalPenetration() > 0.0
+
+
+def test_the_camera_of_the_view_takes_a_frame_a_pose_or_two_points(C: ry.Config) -> None:
+    C.view_setCamera([3.0, 0.0, 1.0], [0.0, 0.0, 1.0])
+    pose = C.view_pose()
+    np.testing.assert_allclose(pose[:3], [3.0, 0.0, 1.0], atol=1e-6)
+    C.view_setCamera("cup")
+    assert not np.allclose(C.view_pose(), pose)
+    C.view_setCamera(pose)
+    np.testing.assert_allclose(C.view_pose(), pose, atol=1e-6)
+    with pytest.raises(ry.ArgumentError, match="expected a frame or its name, a pose of 7 numbers"):
+        C.view_setCamera([1.0, 2.0])
+
+
+def test_frames_of_a_motion_and_what_it_consists_of(C: ry.Config, capsys: pytest.CaptureFixture[str]) -> None:
+    komo = ry.KOMO(C, 1, 2, 1, False)
+    by_name = komo.addStableFrame("grasp", "hand", ry.JT.free, True, "cup")
+    by_frame = komo.addStableFrame("other", "hand", ry.JT.free, True, C["cup"])
+    for frame in (by_name, by_frame):
+        np.testing.assert_allclose(frame.getPosition(), C["cup"].getPosition(), atol=1e-9)
+    komo.addControlObjective([], 1)
+    komo.reportProblem()
+    assert komo.info_objectiveNames()[0] in capsys.readouterr().out
+    skeleton = ry.Skeleton()
+    skeleton.enableAccumulatedCollisions(True)
+
+
+def test_traces_by_their_earlier_names(C: ry.Config) -> None:
+    komo = ry.KOMO(C, 1, 1, 0, False)
+    komo.addObjective([], ry.FS.jointState, [], ry.OT.sos, target=[0.1, 0.2])
+    solver = ry.NLP_Solver(komo.nlp(), verbose=0).setTracing()
+    solver.solve()
+    np.testing.assert_array_equal(solver.getLog_x(), solver.getTrace_x())
+    np.testing.assert_array_equal(solver.getLog_costs(), solver.getTrace_errs())
+    assert len(solver.getLog_x()) > 0

@@ -72,7 +72,7 @@ def test_nothing_waits_without_a_display():
 
 
 def test_without_a_gui_nothing_opens_and_views_return_escape(monkeypatch):
-    monkeypatch.setattr("kinegraph.parameters._values", {"disableGui": True})
+    monkeypatch.setattr("kinegraph.compatibility.parameters._values", {"disableGui": True})
     monkeypatch.setenv("KINEGRAPH_HEADLESS", "0")
     C = ry.Config()
     C.addFile(ry.raiPath("scenarios/pandaSingle.g"))
@@ -95,7 +95,7 @@ def test_without_a_gui_nothing_opens_and_views_return_escape(monkeypatch):
 
 
 def test_without_interactivity_pages_are_shown_and_nothing_waits(monkeypatch, tmp_path):
-    monkeypatch.setattr("kinegraph.parameters._values", {"noInteractivity": True})
+    monkeypatch.setattr("kinegraph.compatibility.parameters._values", {"noInteractivity": True})
     monkeypatch.setenv("KINEGRAPH_HEADLESS", "0")
     for name in ("DISPLAY", "WAYLAND_DISPLAY"):
         monkeypatch.delenv(name, raising=False)

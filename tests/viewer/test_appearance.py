@@ -74,7 +74,7 @@ def test_shadows_and_floor_are_seen_to_be_missing(
     config: kg.Config, browser: Browser, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     all_shapes(config)
-    monkeypatch.setattr("kinegraph.parameters._values", {"Render/renderShadow": False})
+    monkeypatch.setattr("kinegraph.compatibility.parameters._values", {"Render/renderShadow": False})
     show(config, browser, [0.6, -2.4, 1.7], [0, 0.2, 0.25])
     assert difference(browser.picture(), "shapes", tmp_path)
     kg.params_add(

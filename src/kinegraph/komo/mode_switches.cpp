@@ -110,7 +110,7 @@ void requireVelocities(const Path& path, const SwitchDemand& demand, int from, i
   const bool at_start = demand.first && from >= 0, at_end = ends && !isDynamic(demand.mode);
   if (path.grid().order() >= 1 || isMagic(demand.mode) || (!at_start && !at_end)) return;
   std::vector<std::string> otherwise;
-  if (at_start) otherwise.push_back("firstSwitch=False");
+  if (at_start) otherwise.push_back("first=false");
   if (at_end) otherwise.push_back(cat("times [", demand.times[0], ", -1]"));
   throw ValueError(cat(
       "addModeSwitch: that the object does not jump is about velocities; it needs a KOMO with kOrder 1 or more, or ",

@@ -112,8 +112,8 @@ std::string sliceErrors(const Komo& komo, int slice, const MatrixXd& per_slice) 
   requireSlice(komo, slice);
   const int count = int(komo.objectives().size());
   if (per_slice.rows() != komo.slices() || per_slice.cols() != count) {
-    throw ValueError(cat("info_sliceErrors: errorTraces is ", per_slice.rows(), " x ", per_slice.cols(), "; expected ",
-                         komo.slices(), " x ", count, ", as from info_objectiveErrorTraces"));
+    throw ValueError(cat("sliceErrors: the traces are ", per_slice.rows(), " x ", per_slice.cols(), "; expected ",
+                         komo.slices(), " x ", count, ", as from objectiveErrorTraces"));
   }
   std::vector<int> order(count);
   std::iota(order.begin(), order.end(), 0);

@@ -275,7 +275,7 @@ ScalarEvaluation evaluateScalar(Nlp& nlp, const VectorXd& x) {
       J.addRowTo(row, 1., dense);
       out.hessian.selfadjointView<Eigen::Lower>().rankUpdate(dense, 2.);
     } else if (type != ObjectiveType::none) {
-      throw ValueError(cat("eval_scalar is for problems of f and sos only; ", nlp.rowName(row), " is neither"));
+      throw ValueError(cat("evaluateScalar is for problems of f and sos only; ", nlp.rowName(row), " is neither"));
     }
   }
   out.hessian.triangularView<Eigen::StrictlyUpper>() = out.hessian.transpose();

@@ -5,6 +5,7 @@
 #include "kinegraph/geometry/shapes/mass.h"
 #include "kinegraph/geometry/shapes/shape_types.h"
 #include "kinegraph/geometry/shapes/tessellation.h"
+#include "kinegraph/scene/joint_limits.h"
 
 namespace kinegraph {
 
@@ -205,7 +206,7 @@ Frame& Frame::setJoint(JointType type, const std::vector<double>& limits, const 
   const Pose relative = frame.relativePose();
   if (type == JointType::none) {
     if (!limits.empty() || !axis.empty() || mimic) {
-      throw ValueError(cat("frame '", frame.name, "': JT.none removes the joint and takes no limits, axis or mimic"));
+      throw ValueError(cat("frame '", frame.name, "': JointType::none removes the joint and takes no limits, axis or mimic"));
     }
     frame.joint.reset();
     frame.pose = relative;
@@ -222,9 +223,8 @@ Frame& Frame::setJoint(JointType type, const std::vector<double>& limits, const 
     }
     joint.lower = Eigen::Map<const VectorXd>(limits.data(), dofs);
     joint.upper = Eigen::Map<const VectorXd>(limits.data() + dofs, dofs);
-    if ((joint.lower.array() > joint.upper.array()).any()) {
-      throw ValueError(cat("frame '", frame.name, "': a lower limit is above its upper limit"));
-    }
+    if (const std::string why = limitsMistake(limits); !why.empty())
+      throw ValueError(cat("frame '", frame.name, "': ", why));
   }
   if (!axis.empty()) {
     const Vector3d given = axis.size() == 3 ? Vector3d(axis[0], axis[1], axis[2]) : Vector3d::Zero().eval();

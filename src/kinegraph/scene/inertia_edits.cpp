@@ -118,7 +118,7 @@ Pose moveToPrincipalAxes(SceneTree& scene, FrameData& frame, bool transform_mesh
     refuse(cat("has a shape of type ", shapeTypeName(frame.shape->geometry->type),
                !points                       ? ", which would move with it"
                : frame.shape.use_count() > 1 ? ", which it shares with another frame"
-                                             : "; with True its points stay where they are"));
+                                             : "; with transform_mesh=true its points stay where they are"));
   }
   const Pose X = principalAxes(*frame.inertia), back = X.inverse();
   frame.inertia = inAxes(*frame.inertia, X);

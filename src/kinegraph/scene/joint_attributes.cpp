@@ -2,6 +2,7 @@
 
 #include "kinegraph/base/text.h"
 #include "kinegraph/scene/attributes.h"
+#include "kinegraph/scene/joint_limits.h"
 
 namespace kinegraph {
 
@@ -68,7 +69,7 @@ void AttributeReader::readLimits(Joint& joint) {
   }
   joint.lower = Eigen::Map<const VectorXd>(v->data(), Eigen::Index(dofs));
   joint.upper = Eigen::Map<const VectorXd>(v->data() + dofs, Eigen::Index(dofs));
-  if (!(joint.lower.array() <= joint.upper.array()).all()) error(*limits, "a lower limit is above its upper limit");
+  if (const std::string why = limitsMistake({v->data(), 2 * dofs}); !why.empty()) error(*limits, why);
 }
 
 void AttributeReader::readDofs(Joint& joint) {

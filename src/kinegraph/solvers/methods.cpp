@@ -83,7 +83,7 @@ SolverResult dispatch(Nlp& nlp, const VectorXd& x0, const SolverOptions& options
   }
   std::vector<std::string> names;
   for (OptMethod method : availableMethods()) names.push_back(optMethodName(method));
-  throw ValueError(cat("OptMethod.", optMethodName(options.method), " is not available; there are ", join(names)));
+  throw ValueError(cat("OptMethod::", optMethodName(options.method), " is not available; there are ", join(names)));
 }
 
 }  // namespace

@@ -24,7 +24,7 @@ NlpSolver::NlpSolver(std::shared_ptr<Nlp> problem, int verbose) {
 }
 
 void NlpSolver::setProblem(std::shared_ptr<Nlp> problem) {
-  if (problem_) throw Error("NLP_Solver: a problem has been set already; make a new solver for another one");
+  if (problem_) throw Error("NlpSolver: a problem has been set already; make a new solver for another one");
   problem_ = std::move(problem);
 }
 
@@ -132,7 +132,7 @@ SolverResult NlpSolver::solve() {
 }
 
 SolverResult NlpSolver::solve(bool resample, Rng& rng, const EvaluationHook& hook) {
-  if (!problem_) throw Error("NLP_Solver: there is no problem to solve; call setProblem first");
+  if (!problem_) throw Error("NlpSolver: there is no problem to solve; call setProblem first");
   if (resample || x.size() == 0) {
     x = problem_->initialPoint(rng);
     dual.resize(0);

@@ -16,7 +16,7 @@ void requireNoConstraints(const Nlp& nlp, const char* method) {
   for (int row = 0; row < int(nlp.types().size()); ++row) {
     const ObjectiveType type = nlp.types()[row];
     if (type != ObjectiveType::eq && type != ObjectiveType::ineq && type != ObjectiveType::ineqB) continue;
-    throw ValueError(cat("OptMethod.", method, " takes no constraints; ", nlp.rowName(row),
+    throw ValueError(cat("OptMethod::", method, " takes no constraints; ", nlp.rowName(row),
                          " is one; use augmentedLag, squaredPenalty, logBarrier or slackGN_logBarrier"));
   }
 }

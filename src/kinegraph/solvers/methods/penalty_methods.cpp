@@ -99,7 +99,7 @@ SolverResult solveLogBarrier(Nlp& nlp, const VectorXd& x0, const SolverOptions& 
   nlp.evaluate(x, phi, nullptr);
   for (int row = 0; row < phi.size(); ++row) {
     if (!isInequality(nlp.types()[row]) || phi[row] < 0. || !std::isfinite(phi[row])) continue;
-    throw ValueError(cat("OptMethod.logBarrier starts strictly inside of all inequalities; ", nlp.rowName(row), " is ",
+    throw ValueError(cat("OptMethod::logBarrier starts strictly inside of all inequalities; ", nlp.rowName(row), " is ",
                          phi[row], " at the start; use slackGN_logBarrier, which finds such a point first"));
   }
   Sequence sequence(nlp, options, hook);

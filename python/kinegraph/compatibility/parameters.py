@@ -2,11 +2,10 @@
 
 from __future__ import annotations
 
-import secrets
 from pathlib import Path
 from typing import Any
 
-from ._core import parseText, resetDefaultOptions, setDefaultOption, setDefaultSeed
+from .._core import parseText, resetDefaultOptions, setDefaultOption
 
 _values: dict[str, Any] = {}
 
@@ -47,13 +46,3 @@ def params_print() -> None:
 set_params = params_add
 get_params = params_get
 clear_params = params_clear
-
-
-def rnd_seed(seed: int) -> None:
-    """Seeds what is random from here on: sampled joint states, initial points of solvers."""
-    setDefaultSeed(int(seed))
-
-
-def rnd_seed_random() -> None:
-    """Seeds it with a number that differs in every run."""
-    setDefaultSeed(secrets.randbits(63))

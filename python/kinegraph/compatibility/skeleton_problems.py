@@ -5,9 +5,9 @@ from __future__ import annotations
 import enum
 from typing import ClassVar
 
-from ._core import FS, KOMO, NLP, OT, SY, Config, Skeleton
-from .errors import ArgumentError
-from .model_paths import raiPath
+from .._core import FS, KOMO, NLP, OT, SY, Config, Skeleton
+from ..errors import ArgumentError
+from ..model_paths import raiPath
 
 
 class ArgWord(enum.IntEnum):
@@ -56,7 +56,7 @@ class _SkeletonBenchmark(_Benchmark):
     def __init__(self, sequenceOrPath: ArgWord) -> None:
         word = ArgWord(sequenceOrPath)
         if word not in (ArgWord._sequence, ArgWord._path):
-            raise ArgumentError(f"{type(self).__name__}: the word is {word!r}; expected ry._sequence or ry._path")
+            raise ArgumentError(f"{type(self).__name__}: the word is {word!r}; expected _sequence or _path")
         skeleton = Skeleton()
         skeleton.add([part for entry in self._entries for part in entry])
         C = Config()
@@ -94,7 +94,7 @@ class OptBench_Skeleton_Pick(_SkeletonBenchmark):
     """One of two arms takes a cube from a table.
 
     Args:
-        sequenceOrPath: ry._sequence, a slice per phase, or ry._path, 30 per phase.
+        sequenceOrPath: `_sequence`, a slice per phase, or `_path`, 30 per phase.
     """
 
     _entries: ClassVar[list] = [([1.0], SY.touch, ["R_endeff", "box3"]), ([1.0], SY.stable, ["R_endeff", "box3"])]
@@ -104,7 +104,7 @@ class OptBench_Skeleton_Handover(_SkeletonBenchmark):
     """One arm takes a stick, hands it over to the other, and that one touches a ball with it.
 
     Args:
-        sequenceOrPath: ry._sequence, a slice per phase, or ry._path, 30 per phase.
+        sequenceOrPath: `_sequence`, a slice per phase, or `_path`, 30 per phase.
     """
 
     _entries: ClassVar[list] = [
@@ -120,7 +120,7 @@ class OptBench_Skeleton_StackAndBalance(_SkeletonBenchmark):
     """Two arms stack a plank on a cube and two cubes on the plank; forces between them balance what stands.
 
     Args:
-        sequenceOrPath: ry._sequence, a slice per phase, or ry._path, 30 per phase.
+        sequenceOrPath: `_sequence`, a slice per phase, or `_path`, 30 per phase.
     """
 
     _entries: ClassVar[list] = [

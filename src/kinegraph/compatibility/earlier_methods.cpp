@@ -1,4 +1,4 @@
-#include "kinegraph/scene/earlier_methods.h"
+#include "kinegraph/compatibility/earlier_methods.h"
 
 #include <algorithm>
 #include <cmath>

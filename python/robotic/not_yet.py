@@ -1,0 +1,60 @@
+"""The names of the reference that other work will build, and those that Kinegraph calls otherwise."""
+
+from __future__ import annotations
+
+import enum
+
+import kinegraph
+
+from .pending import pending
+
+_KINEMATIC = "until then KOMO and C.view() move robots kinematically, and C.stepDynamics steps the equation of motion"
+_PATHS = "KOMO finds paths (komo.solveFromMany from several starts), and C.checkMotion says where one collides"
+_PLANS = "Skeleton and KOMO solve a plan whose symbols are given"
+
+BotOp = pending("BotOp", _KINEMATIC)
+Simulation = pending("Simulation", _KINEMATIC)
+SimulationState = pending("SimulationState", _KINEMATIC)
+StepObservation = pending("StepObservation", _KINEMATIC)
+RRT_PathFinder = PathFinder = pending("RRT_PathFinder", _PATHS)
+SRRT_PathFinder = pending("SRRT_PathFinder", _PATHS)
+BSpline = pending(
+    "BSpline", "C.animateSpline and komo.view_play move along a path; numpy.interp or scipy's BSpline evaluate one"
+)
+LGP_Tool = pending("LGP_Tool", _PLANS)
+LGP_TAMP_Abstraction = pending("LGP_TAMP_Abstraction", _PLANS)
+default_LGP_TAMP_Abstraction = pending("default_LGP_TAMP_Abstraction", _PLANS)
+default_TAMP_Provider = pending("default_TAMP_Provider", _PLANS)
+default_Logic2KOMO_Translator = pending("default_Logic2KOMO_Translator", _PLANS)
+KOMO_Objective = pending("KOMO_Objective", "komo.addObjective adds one, komo.report() tells of each")
+KOMO_ManipulationHelper = pending(
+    "KOMO_ManipulationHelper", "KOMO with addModeSwitch and addObjective states the same problems; see docs/motion.md"
+)
+MujocoLoader = pending("MujocoLoader", "C.addFile('scene.xml') reads MJCF files")
+
+
+class ControlMode(enum.IntEnum):
+    """How commands of BotOp and Simulation are meant."""
+
+    none = 0
+    position = 1
+    velocity = 2
+    acceleration = 3
+    spline = 5
+
+
+class SimulationEngine(enum.IntEnum):
+    """What steps a Simulation."""
+
+    physx = 1
+    bullet = 2
+    kinematic = 3
+
+
+class arg:
+    """The words of named problems, as earlier years wrote them."""
+
+    left = kinegraph.ArgWord._left
+    right = kinegraph.ArgWord._right
+    sequence = kinegraph.ArgWord._sequence
+    path = kinegraph.ArgWord._path

@@ -1,0 +1,5 @@
+"""Pictures by another renderer."""
+
+from .pending import pending
+
+NvisiiRenderer = pending("render.NvisiiRenderer", "CameraView(C).computeImageAndDepth draws pictures")

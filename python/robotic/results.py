@@ -1,0 +1,69 @@
+"""Results by the reference's rule of what is feasible: summed violations, where Kinegraph asks of each constraint."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import kinegraph
+
+BOUND = 0.1
+EARLIER_OPTIONS = {"maxLambda": "lambdaMax", "maxStep": "stepMax"}
+
+
+class SolverReturn(kinegraph.SolverReturn):
+    """How a solve ended. feasible: the violations of all equalities sum up to less than 0.1, and so do those of all
+    inequalities. message says how far the worst constraint is from holding where kinegraph's rule would not call this
+    feasible; explain() says why."""
+
+    @property
+    def feasible(self) -> bool:
+        """The summed violations of equalities, and those of inequalities, are below 0.1."""
+        return bool(self.done and self.eq < BOUND and self.ineq < BOUND)
+
+    @property
+    def message(self) -> str:
+        """Why it stopped, in a line, and how far the constraints are from holding if they do not."""
+        said = super().message
+        if super().feasible or not self.done:
+            return said
+        verdict = "feasible" if self.feasible else "not feasible"
+        return (
+            f"{said}; {verdict} by the rule of robotic (eq and ineq below {BOUND}): eq {self.eq:.3g}, ineq {self.ineq:.3g}; "
+            f"the worst constraint is violated by {self.violation:.3g}"
+        )
+
+    def dict(self) -> dict[str, Any]:
+        """evals, time, done, feasible, f, sos, ineq, eq."""
+        return {**super().dict(), "feasible": self.feasible}
+
+    def __str__(self) -> str:
+        return super().__str__().replace(f"feasible: {int(super().feasible)}", f"feasible: {int(self.feasible)}", 1)
+
+    def __repr__(self) -> str:
+        return f"<SolverReturn {self.status.name}: {self}>"
+
+
+class NLP_Solver(kinegraph.NLP_Solver):
+    """Solves an NLP, as kinegraph.NLP_Solver; results speak the reference's rule of what is feasible."""
+
+    def solve(self, resampleInitialization: int = -1, verbose: int = -100) -> SolverReturn:
+        """Solves, from the last x or the problem's initial point. Ctrl-C ends it: the result is then the best so far.
+
+        Args:
+            resampleInitialization: 1: from a new initial point; 0: from the last x; -1: the same if there is one.
+            verbose: Instead of the option, if given.
+        Returns:
+            The outcome; not converging is no error.
+        """
+        return SolverReturn(super().solve(resampleInitialization, verbose))
+
+    def setOptions(self, **options: Any) -> NLP_Solver:
+        """Sets options by name, also those of earlier years (maxLambda, maxStep).
+
+        Args:
+            options: The fields of NLP_SolverOptions.
+        Raises:
+            ArgumentError: There is no such option, or its value is out of range.
+        """
+        super().setOptions(**{EARLIER_OPTIONS.get(name, name): value for name, value in options.items()})
+        return self
