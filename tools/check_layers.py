@@ -44,7 +44,7 @@ BELOW: dict[str, list[str]] = {
     "ik": ["base", "math", "geometry", "kinematics", "scene"],
     "komo": ["base", "math", "geometry", "kinematics", "scene", "features", "nlp"],
     "planning": ["base", "math", "geometry", "kinematics", "scene", "features", "nlp", "komo", "solvers"],
-    "rendering": ["base", "math", "geometry", "kinematics", "scene"],
+    "rendering": ["base", "math", "gfile", "geometry", "kinematics", "scene"],
     "viewer": ["base", "math", "gfile", "geometry", "kinematics", "scene", "formats"],
     "front": EVERYTHING,
     ".": EVERYTHING,

@@ -65,7 +65,7 @@ def test_what_collides(C: ry.Config) -> None:
     assert C.getCollisionFree() and C.getTotalPenetration() == 0.0
     C["cup"].setContact(1)
     C.addObject(
-        "block", "table", ry.ST.ssBox, [0.1, 0.1, 0.1], radius=0.01, pos=[0.0, 0.0, 0.1], color=[1, 0, 0]
+        "block", "hand", ry.ST.ssBox, [0.1, 0.1, 0.1], radius=0.01, pos=[0.0, 0.0, -0.4], color=[1, 0, 0]
     ).setContact(1)
     assert C["block"].getType() == ry.ST.ssBox and list(C["block"].getSize()) == [0.1, 0.1, 0.1, 0.01]
     assert not C.getCollisionFree() and C.getTotalPenetration() == pytest.approx(C.coll_totalViolation())

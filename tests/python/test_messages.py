@@ -28,7 +28,8 @@ def test_the_core_says_nothing_in_python() -> None:
 def unconstrained(method: ry.OptMethod) -> ry.NLP_Solver:
     """A problem with a constraint, for a method that takes none."""
     C = ry.Config()
-    C.addFrame("a").setJoint(ry.JT.hingeX)
+    C.addFrame("base")
+    C.addFrame("a", "base").setJoint(ry.JT.hingeX)
     komo = ry.KOMO(C, 1, 1, 0, False)
     komo.addObjective([], ry.FS.jointState, [], ry.OT.eq, target=[1.0])
     return ry.NLP_Solver(komo.nlp(), verbose=0).setOptions(method=method)
@@ -40,7 +41,8 @@ def test_python_is_told_its_own_names() -> None:
     with pytest.raises(ry.Error, match="^NLP_Solver: there is no problem to solve"):
         ry.NLP_Solver().solve()
     C = ry.Config()
-    C.addFrame("a").setJoint(ry.JT.hingeX)
+    C.addFrame("base")
+    C.addFrame("a", "base").setJoint(ry.JT.hingeX)
     with pytest.raises(ry.ArgumentError, match=r"^Config\.equationOfMotion: got 2 numbers"):
         C.equationOfMotion([0.0, 0.0])
 

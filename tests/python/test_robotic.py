@@ -169,7 +169,7 @@ def test_a_problem_of_ones_own_has_a_base() -> None:
         def evaluate(self, x):
             return np.array([x[0] - 1.0]), np.ones((1, 1))
 
-    assert ry.NLP_Solver(verbose=0).setPyProblem(Hill()).solve().x == pytest.approx([1.0])
+    assert ry.NLP_Solver().setOptions(verbose=0).setPyProblem(Hill()).solve().x == pytest.approx([1.0])
     waves = RastriginSOS()
     x = np.array([0.3, -0.2])
     J = waves.evaluate(x)[1]
