@@ -100,7 +100,9 @@ def symbol_problems(build: Path) -> tuple[list[str], int]:
     missing = [file.name for file in rooms if not file.exists()]
     if missing or not rooms:
         return [f"{build}: {len(missing)} of {len(rooms)} objects of the library are not there; build it before"], 0
-    listing = subprocess.run(["nm", "-A", "--format=posix", *map(str, rooms)], check=True, capture_output=True, text=True)
+    listing = subprocess.run(
+        ["nm", "-A", "--format=posix", *map(str, rooms)], check=True, capture_output=True, text=True
+    )
     defined: dict[str, set[str]] = defaultdict(set)
     needed: dict[str, dict[str, str]] = defaultdict(dict)
     for line in listing.stdout.splitlines():

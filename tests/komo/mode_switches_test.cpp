@@ -283,8 +283,8 @@ TEST(ModeSwitches, WhatIsAdvisedWithoutVelocitiesWorks) {
     EXPECT_EQ(komo.configuration(2).getFrame("box").getParent()->getName(), "grip");
     return std::string();
   };
-  EXPECT_NE(tell({1., 2.}, true).find("kOrder 1 or more, or firstSwitch=False and times [1, -1]"), std::string::npos);
-  EXPECT_NE(tell({1., -1.}, true).find("kOrder 1 or more, or firstSwitch=False"), std::string::npos);
+  EXPECT_NE(tell({1., 2.}, true).find("kOrder 1 or more, or first=false and times [1, -1]"), std::string::npos);
+  EXPECT_NE(tell({1., -1.}, true).find("kOrder 1 or more, or first=false"), std::string::npos);
   EXPECT_NE(tell({1., 2.}, false).find("kOrder 1 or more, or times [1, -1]"), std::string::npos);
   EXPECT_EQ(tell({1., -1.}, false), "");
 }

@@ -269,7 +269,9 @@ def test_digits_are_keys_like_others_elsewhere(balls: kg.Config, browser: Browse
 
 @pytest.mark.parametrize("flat", [False, True])
 def test_colors_without_light(flat: bool, balls: kg.Config, browser: Browser, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr("kinegraph.compatibility.parameters._values", {"Render/flatColors": flat, "Render/lights": [0, 0, 5]})
+    monkeypatch.setattr(
+        "kinegraph.compatibility.parameters._values", {"Render/flatColors": flat, "Render/lights": [0, 0, 5]}
+    )
     wall = balls.addFrame("wall").setShape(kg.ST.box, [3, 1, 3]).setPosition([0, 1.2, 0.5])
     wall.setColor([0.6, 0.4, 0.2])
     balls.view()
