@@ -49,7 +49,8 @@ void translate(const std::exception_ptr& pointer, void*) {
 void bindErrors(nb::module_&) { nb::register_exception_translator(translate); }
 
 void emitWarning(const std::string& message) {
-  if (PyErr_WarnEx(errorClass("KinegraphWarning").ptr(), validUtf8(inPython(message)).c_str(), 1) != 0) throw nb::python_error();
+  if (PyErr_WarnEx(errorClass("KinegraphWarning").ptr(), validUtf8(inPython(message)).c_str(), 1) != 0)
+    throw nb::python_error();
 }
 
 void emitWarnings(Config& config) {

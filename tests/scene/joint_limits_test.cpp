@@ -29,6 +29,9 @@ TEST(LimitsMistake, IsToldOfFilesAndOfCalls) {
   expectError<ParseError>([&] { config.addText("a: {} b (a): { joint: transXY, limits: [-1 1 -2 2] }"); },
                           {"all lower limits come first", "[-1 -2 1 2]"});
   config.addText("a: {} b (a): {}");
-  expectError<ValueError>([&] { config.getFrame("b").setJoint(JointType::transXY, {-1., 1., -1., 1.}); },
-                          {"frame 'b'", "[-1 -1 1 1]"});
+  expectError<ValueError>(
+      [&] {
+        config.getFrame("b").setJoint(JointType::transXY, {-1., 1., -1., 1.});
+      },
+      {"frame 'b'", "[-1 -1 1 1]"});
 }

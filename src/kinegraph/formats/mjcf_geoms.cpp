@@ -5,8 +5,8 @@
 
 #include "kinegraph/base/file_paths.h"
 #include "kinegraph/base/text.h"
-#include "kinegraph/formats/stl_writer.h"
 #include "kinegraph/formats/reading/xml.h"
+#include "kinegraph/formats/stl_writer.h"
 #include "kinegraph/geometry/shapes/shape_types.h"
 #include "kinegraph/geometry/shapes/tessellation.h"
 

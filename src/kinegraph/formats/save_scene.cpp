@@ -1,8 +1,8 @@
 #include <filesystem>
 #include <fstream>
 
-#include "kinegraph/base/file_paths.h"
 #include "kinegraph/base/errors.h"
+#include "kinegraph/base/file_paths.h"
 #include "kinegraph/base/text.h"
 #include "kinegraph/formats/mjcf_writer.h"
 #include "kinegraph/formats/scene_writer.h"

@@ -6,9 +6,9 @@
 #include <set>
 
 #include "kinegraph/base/text.h"
-#include "kinegraph/formats/stl_writer.h"
 #include "kinegraph/formats/reading/urdf_model.h"
 #include "kinegraph/formats/reading/xml.h"
+#include "kinegraph/formats/stl_writer.h"
 #include "kinegraph/geometry/shapes/shape_types.h"
 #include "kinegraph/geometry/shapes/tessellation.h"
 

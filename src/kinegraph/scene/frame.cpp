@@ -206,7 +206,8 @@ Frame& Frame::setJoint(JointType type, const std::vector<double>& limits, const 
   const Pose relative = frame.relativePose();
   if (type == JointType::none) {
     if (!limits.empty() || !axis.empty() || mimic) {
-      throw ValueError(cat("frame '", frame.name, "': JointType::none removes the joint and takes no limits, axis or mimic"));
+      throw ValueError(
+          cat("frame '", frame.name, "': JointType::none removes the joint and takes no limits, axis or mimic"));
     }
     frame.joint.reset();
     frame.pose = relative;

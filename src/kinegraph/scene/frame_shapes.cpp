@@ -4,8 +4,8 @@
 #include <cmath>
 #include <numeric>
 
-#include "kinegraph/base/file_paths.h"
 #include "kinegraph/base/errors.h"
+#include "kinegraph/base/file_paths.h"
 #include "kinegraph/base/text.h"
 #include "kinegraph/geometry/files/h5_file.h"
 #include "kinegraph/geometry/files/image_file.h"

@@ -2,8 +2,8 @@
 
 #include "kinegraph/base/errors.h"
 #include "kinegraph/gfile/parser.h"
-#include "kinegraph/scene/scene_builder.h"
 #include "kinegraph/scene/robot_semantics.h"
+#include "kinegraph/scene/scene_builder.h"
 #include "kinegraph/scene/scene_source.h"
 
 namespace kinegraph {

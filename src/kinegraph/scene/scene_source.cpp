@@ -7,8 +7,8 @@
 #include <set>
 #include <sstream>
 
-#include "kinegraph/base/file_paths.h"
 #include "kinegraph/base/errors.h"
+#include "kinegraph/base/file_paths.h"
 #include "kinegraph/base/text.h"
 #include "kinegraph/base/utf8.h"
 #include "kinegraph/formats/reading/scene_formats.h"

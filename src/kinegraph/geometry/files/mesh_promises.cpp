@@ -6,8 +6,8 @@
 #include <fstream>
 #include <sstream>
 
-#include "kinegraph/base/file_paths.h"
 #include "kinegraph/base/errors.h"
+#include "kinegraph/base/file_paths.h"
 #include "kinegraph/base/text.h"
 
 namespace kinegraph {
