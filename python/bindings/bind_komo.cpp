@@ -101,7 +101,7 @@ std::vector<int> initWithWaypoints(PyKomo& komo, nb::iterable waypoints, int per
 SolverResult optimize(const std::shared_ptr<PyKomo>& komo, double noise, int verbose) {
   const auto nlp = makeNlp(komo);
   NlpSolver solver(nlp, verbose);
-  solver.options = defaults().solver;
+  solver.options = startingOptions();
   solver.options.verbose = verbose;
   VectorXd x = komo->path().variables();
   Rng rng(defaults().seed);

@@ -1,14 +1,13 @@
 #include <nanobind/stl/shared_ptr.h>
 #include <nanobind/stl/string.h>
 
-#include <variant>
-
 #include "bindings.h"
 #include "defaults.h"
 #include "kinegraph/base/errors.h"
 #include "kinegraph/base/text.h"
 #include "kinegraph/solvers/sampling/sampler.h"
 #include "nlp_objects.h"
+#include "option_class.h"
 #include "solving.h"
 
 namespace kinegraph::python {
@@ -23,59 +22,21 @@ struct PySampler {
   explicit PySampler(std::shared_ptr<Nlp> problem) : sampler(std::move(problem)) {}
 };
 
-using Field = std::variant<double SamplerOptions::*, int SamplerOptions::*, std::string SamplerOptions::*>;
-
-const std::vector<std::pair<const char*, Field>>& fields() {
-  using O = SamplerOptions;
-  static const std::vector<std::pair<const char*, Field>> all = {{"seedMethod", &O::seedMethod},
-                                                                 {"seedCandidates", &O::seedCandidates},
-                                                                 {"seedAttempts", &O::seedAttempts},
-                                                                 {"tolerance", &O::tolerance},
-                                                                 {"downhillMethod", &O::downhillMethod},
-                                                                 {"downhillMaxSteps", &O::downhillMaxSteps},
-                                                                 {"penaltyMu", &O::penaltyMu},
-                                                                 {"slackStepAlpha", &O::slackStepAlpha},
-                                                                 {"slackMaxStep", &O::slackMaxStep},
-                                                                 {"slackRegLambda", &O::slackRegLambda},
-                                                                 {"ineqOverstep", &O::ineqOverstep},
-                                                                 {"downhillNoiseMethod", &O::downhillNoiseMethod},
-                                                                 {"downhillNoiseSigma", &O::downhillNoiseSigma},
-                                                                 {"downhillRejectMethod", &O::downhillRejectMethod},
-                                                                 {"interiorMethod", &O::interiorMethod},
-                                                                 {"interiorBurnInSteps", &O::interiorBurnInSteps},
-                                                                 {"interiorSampleSteps", &O::interiorSampleSteps},
-                                                                 {"interiorNoiseSigma", &O::interiorNoiseSigma},
-                                                                 {"hitRunEqMargin", &O::hitRunEqMargin},
-                                                                 {"eps", &O::eps},
-                                                                 {"langevinTauPrime", &O::langevinTauPrime},
-                                                                 {"verbose", &O::verbose}};
-  return all;
-}
-
-void setField(SamplerOptions& options, const std::string& name, nb::handle value) {
-  std::vector<std::string> names;
-  for (const auto& [known, field] : fields()) {
-    names.push_back(known);
-    if (known != name) continue;
-    try {
-      std::visit([&](auto member) { options.*member = nb::cast<std::decay_t<decltype(options.*member)>>(value); },
-                 field);
-    } catch (const nb::cast_error&) {
-      throw ValueError(
-          cat("option ", name, " is ", nb::cast<std::string>(nb::repr(value)), ", which is of a wrong type"));
-    }
-    return;
-  }
-  const bool old =
-      name == "useCentering" || (name == "interiorNoiseMethod" && nb::cast<std::string>(nb::str(value)) == "iso");
-  if (!old) throw ValueError(cat("there is no sampler option '", name, "'", similarHint(name, names)));
+/// Names of older packages that change nothing are ignored.
+const OptionClass<SamplerOptions>& samplerOptions() {
+  using Class = OptionClass<SamplerOptions>;
+  static const Class options(samplerOptionTable(),
+                             {{"useCentering", "interiorNoiseMethod"},
+                              [](const Class&, SamplerOptions&, const std::string& name, nb::handle value) {
+                                if (name == "useCentering" || nb::cast<std::string>(nb::str(value)) == "iso") return;
+                                throw ValueError(cat("NlpSampler: option interiorNoiseMethod is ",
+                                                     nb::cast<std::string>(nb::repr(value)), "; expected 'iso'"));
+                              }});
+  return options;
 }
 
 PySampler& setOptions(PySampler& self, nb::kwargs given) {
-  SamplerOptions options;
-  for (const auto& [name, value] : given) setField(options, nb::cast<std::string>(name), value);
-  options.validate();
-  self.sampler.options = options;
+  samplerOptions().setFields(self.sampler.options, given);
   return self;
 }
 
@@ -87,35 +48,17 @@ SolverResult sample(PySampler& self) {
 }  // namespace
 
 void bindSampler(nb::module_& m) {
+  const std::string set_options_doc =
+      "Sets options by name; all others stay as they are.\n\nArgs:\n    options: Fields:\n\n" +
+      samplerOptions().docs() + "\nReturns:\n    The sampler.";
   nb::class_<PySampler>(m, "NLP_Sampler",
                         "Draws points that satisfy the constraints of a problem. A call of sample() goes from a seed "
                         "downhill to the constraints,\n"
                         "and then makes interior steps within them.")
       .def(nb::init<std::shared_ptr<Nlp>>(), "problem"_a)
+      .def("setOptions", setOptions, "options"_a, nb::rv_policy::none, set_options_doc.c_str())
       .def(
-          "setOptions", setOptions, "options"_a, nb::rv_policy::none,
-          "Sets options by name; all others go to their defaults. Returns the sampler.\n\n"
-          "    seedMethod: 'uni' in the bounds, 'gauss' at the problem's initial point, 'nov' or 'dist' away from "
-          "earlier samples,\n"
-          "        chosen among seedCandidates. seedAttempts: seeds tried until the way down reaches the constraints.\n"
-          "    tolerance: sum of all violations that a sample may have.\n"
-          "    downhillMethod: 'GN' or 'grad', in downhillMaxSteps steps no longer than slackMaxStep, with "
-          "downhillNoiseMethod\n"
-          "        ('none', 'iso', 'cov') of downhillNoiseSigma; downhillRejectMethod 'none', 'Wolfe' or 'MH'.\n"
-          "    interiorMethod: 'HR' (hit-and-run: with many steps uniform on the feasible set), 'MCMC' or 'Langevin' "
-          "(in proportion\n"
-          "        to exp(-costs), on the surface of the equalities), 'manifoldRRT', 'none'; interiorBurnInSteps +\n"
-          "        interiorSampleSteps steps of size interiorNoiseSigma.\n"
-          "    hitRunEqMargin: HR walks where |eq| is below it. eps: violation that HR may have on its way.")
-      .def(
-          "getOptions",
-          [](const PySampler& s) {
-            nb::dict dict;
-            for (const auto& [name, field] : fields()) {
-              std::visit([&, key = name](auto member) { dict[key] = nb::cast(s.sampler.options.*member); }, field);
-            }
-            return dict;
-          },
+          "getOptions", [](const PySampler& s) { return samplerOptions().dict(s.sampler.options); },
           "All options as a dict.")
       .def(
           "setSeed", [](PySampler& s, std::uint64_t seed) -> PySampler& { return s.rng = Rng(seed), s; }, "seed"_a,

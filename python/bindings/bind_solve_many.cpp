@@ -88,10 +88,11 @@ SolveManyResult solveKomoFromMany(const std::shared_ptr<PyKomo>& komo, nb::handl
   if (komo->slices() == 0) throw Error("KOMO: there is no problem yet; call setConfig and setTiming first");
   const std::vector<VectorXd> points = readStarts(*komo, starts, seed);
   Watch watch("solveFromMany", points.size(), verbose);
+  const SolverOptions chosen = options ? *options : startingOptions();
   SolveManyResult all;
   {
     const nb::gil_scoped_release unlock;
-    all = solveFromMany(komo, points, options ? *options : defaults().solver, {best, threads}, std::ref(watch));
+    all = solveFromMany(komo, points, chosen, {best, threads}, std::ref(watch));
   }
   watch.finish(all);
   return all;
@@ -115,7 +116,7 @@ SolveManyResult solveEach(nb::iterable problems, int threads, bool best, int ver
                              "; expected a KOMO, an NLP or an NLP_Solver"));
       }
       NlpSolver& solver = made.emplace_back(std::move(nlp), 0);
-      solver.options = options ? *options : defaults().solver;
+      solver.options = options ? *options : startingOptions();
       solver.options.verbose = 0;
       solver.keeps_memory = false;  // for the next one
       solvers.push_back(&solver);

@@ -4,9 +4,7 @@
 #include <nanobind/stl/vector.h>
 
 #include <algorithm>
-#include <cmath>
 #include <limits>
-#include <variant>
 
 #include "bindings.h"
 #include "defaults.h"
@@ -17,96 +15,16 @@
 #include "kinegraph/solvers/nlp_solver.h"
 #include "nlp_objects.h"
 #include "python_names.h"
+#include "solver_options.h"
 #include "solving.h"
 
 namespace kinegraph::python {
 
-Defaults& defaults() {
-  static Defaults values;
-  return values;
-}
-
 namespace {
 
-using OptionField =
-    std::variant<double SolverOptions::*, int SolverOptions::*, bool SolverOptions::*, OptMethod SolverOptions::*>;
-
-const std::vector<std::pair<std::string, OptionField>>& optionFields() {
-  using O = SolverOptions;
-  static const std::vector<std::pair<std::string, OptionField>> fields = {{"verbose", &O::verbose},
-                                                                          {"stopTolerance", &O::stopTolerance},
-                                                                          {"stopFTolerance", &O::stopFTolerance},
-                                                                          {"stopGTolerance", &O::stopGTolerance},
-                                                                          {"stopEvals", &O::stopEvals},
-                                                                          {"stopInners", &O::stopInners},
-                                                                          {"stopOuters", &O::stopOuters},
-                                                                          {"stepMax", &O::stepMax},
-                                                                          {"damping", &O::damping},
-                                                                          {"stepInc", &O::stepInc},
-                                                                          {"stepDec", &O::stepDec},
-                                                                          {"wolfe", &O::wolfe},
-                                                                          {"muInit", &O::muInit},
-                                                                          {"muInc", &O::muInc},
-                                                                          {"muMax", &O::muMax},
-                                                                          {"muLBInit", &O::muLBInit},
-                                                                          {"muLBDec", &O::muLBDec},
-                                                                          {"lambdaMax", &O::lambdaMax},
-                                                                          {"interiorPadding", &O::interiorPadding},
-                                                                          {"boundedNewton", &O::boundedNewton},
-                                                                          {"finiteDifference", &O::finiteDifference},
-                                                                          {"method", &O::method}};
-  return fields;
-}
-
-/// Numbers such as 1e3 and 1.0 count as whole ones, 0 and 1 as False and True.
-template <class T>
-T optionValue(const std::string& name, nb::handle value) {
-  T out{};
-  if (nb::try_cast(value, out)) return out;
-  double number = 0.;
-  constexpr double kLargest = std::is_same_v<T, bool> ? 1. : 1e9;
-  const bool is_whole = nb::try_cast(value, number) && number == std::floor(number) && std::abs(number) <= kLargest;
-  if (is_whole && !std::is_same_v<T, double>) return T(int(number));
-  const char* expected = std::is_same_v<T, bool>     ? "True or False"
-                         : std::is_same_v<T, double> ? "a number"
-                         : std::is_same_v<T, int>    ? "a whole number"
-                                                     : "one of OptMethod";
-  throw ValueError(
-      cat("solver option ", name, " is ", nb::cast<std::string>(nb::repr(value)), "; expected ", expected));
-}
-
-void setOption(SolverOptions& options, const std::string& name, nb::handle value) {
-  std::vector<std::string> names;
-  for (const auto& [known, field] : optionFields()) {
-    names.push_back(known);
-    if (known != name) continue;
-    std::visit(
-        [&](auto member) { options.*member = optionValue<std::decay_t<decltype(options.*member)>>(name, value); },
-        field);
-    return;
-  }
-  for (const char* old : {"stepInit", "stepMin", "stopLineSteps", "stopTinySteps"}) {
-    if (name == old) return;  // of older packages, without meaning here
-  }
-  throw ValueError(cat("there is no solver option '", name, "'", similarHint(name, names)));
-}
-
-nb::dict optionDict(const SolverOptions& options) {
-  nb::dict dict;
-  for (const auto& [name, field] : optionFields()) {
-    std::visit([&](auto member) { dict[name.c_str()] = nb::cast(options.*member); }, field);
-  }
-  return dict;
-}
-
-/// Every option that is not named goes to its default, as scripts expect; the verbosity of the solver stays.
+/// Sets what is named and nothing else.
 NlpSolver& setOptions(NlpSolver& solver, nb::kwargs given) {
-  SolverOptions options = defaults().solver;
-  options.verbose = solver.options.verbose;
-  options.method = solver.options.method;
-  for (const auto& [name, value] : given) setOption(options, nb::cast<std::string>(name), value);
-  options.validate();
-  solver.options = options;
+  solverOptions().setFields(solver.options, given);
   return solver;
 }
 
@@ -193,95 +111,7 @@ Array errorTrace(const NlpSolver& solver) {
   return stack(rows);
 }
 
-void bindOptions(nb::module_& m) {
-  nb::enum_<OptMethod>(
-      m, "OptMethod", nb::is_arithmetic(),
-      "Solution methods. Those for problems with constraints: augmentedLag (default), squaredPenalty, "
-      "singleSquaredPenalty,\n"
-      "logBarrier, slackGN (constraints only), slackGN_logBarrier, and with the extras ipopt and nlopt: Ipopt, NLopt,\n"
-      "slackGN_Ipopt. Without constraints: newton, LBFGS, gradientDescent, rprop, NelderMead, CMA.\n"
-      "The other names are those of older scripts; using them is an error.")
-      .value("none", OptMethod::none)
-      .value("gradientDescent", OptMethod::gradientDescent)
-      .value("rprop", OptMethod::rprop)
-      .value("LBFGS", OptMethod::LBFGS)
-      .value("newton", OptMethod::newton)
-      .value("augmentedLag", OptMethod::augmentedLag)
-      .value("AugmentedLag", OptMethod::augmentedLag)
-      .value("logBarrier", OptMethod::logBarrier)
-      .value("slackGN_logBarrier", OptMethod::slackGN_logBarrier)
-      .value("squaredPenalty", OptMethod::squaredPenalty)
-      .value("singleSquaredPenalty", OptMethod::singleSquaredPenalty)
-      .value("slackGN", OptMethod::slackGN)
-      .value("NLopt", OptMethod::NLopt)
-      .value("Ipopt", OptMethod::Ipopt)
-      .value("slackGN_Ipopt", OptMethod::slackGN_Ipopt)
-      .value("Ceres", OptMethod::Ceres)
-      .value("LSBO", OptMethod::LSBO)
-      .value("greedy", OptMethod::greedy)
-      .value("NelderMead", OptMethod::NelderMead)
-      .value("CMA", OptMethod::CMA)
-      .value("LS_CMA", OptMethod::LS_CMA)
-      .value("ES", OptMethod::ES);
-
-  nb::class_<SolverOptions> options(m, "NLP_SolverOptions", "Settings of a solver.");
-  options
-      .def(
-          "__init__", [](SolverOptions* self) { new (self) SolverOptions(defaults().solver); },
-          "The defaults, as params_add may have set them.")
-      .def("dict", optionDict, "All settings as a dict.")
-      .def("__repr__",
-           [](const SolverOptions& o) {
-             return cat("NLP_SolverOptions(", nb::cast<std::string>(nb::str(optionDict(o))), ")");
-           })
-      .def("__getstate__",
-           [](const SolverOptions& o) {
-             nb::dict state = optionDict(o);
-             state["method"] = int(o.method);
-             return state;
-           })
-      .def(
-          "__setstate__",
-          [](SolverOptions& o, nb::dict state) {
-            new (&o) SolverOptions();
-            for (const auto& [name, value] : state) {
-              const std::string field = nb::cast<std::string>(name);
-              if (field == "method")
-                o.method = OptMethod(nb::cast<int>(value));
-              else
-                setOption(o, field, value);
-            }
-          },
-          "state"_a);
-  for (const auto& [name, field] : optionFields()) {
-    const std::string setter = "set_" + name, doc = "Sets " + name + "; returns the options.";
-    options.def(
-        setter.c_str(),
-        [name = name](SolverOptions& o, nb::object value) -> SolverOptions& {
-          setOption(o, name, value);
-          return o;
-        },
-        "value"_a, nb::rv_policy::none, doc.c_str());
-  }
-}
-
-}  // namespace
-
-void bindSolvers(nb::module_& m) {
-  bindOptions(m);
-  m.def(
-      "setDefaultSeed",
-      [](std::uint64_t seed) {
-        defaults().seed = seed;
-        defaults().random = Rng(seed);
-      },
-      "seed"_a, "Seed of everything random from here on.");
-  m.def(
-      "setDefaultOption", [](const std::string& name, nb::object value) { setOption(defaults().solver, name, value); },
-      "name"_a, "value"_a, "Default of a solver option from here on.");
-  m.def(
-      "resetDefaultOptions", [] { defaults().solver = {}; }, "Defaults of all solver options as they were at import.");
-
+void bindResult(nb::module_& m) {
   nb::enum_<SolverStatus>(m, "SolverStatus", "Why a solver stopped.")
       .value("converged", SolverStatus::converged)
       .value("infeasible", SolverStatus::infeasible)
@@ -342,19 +172,25 @@ void bindSolvers(nb::module_& m) {
           "__setstate__", [](SolverResult& r, nb::tuple state) { new (&r) SolverResult(resultFrom(state)); }, "state"_a)
       .def("__repr__",
            [](const SolverResult& r) { return cat("<SolverReturn ", solverStatusName(r.status), ": ", r.str(), ">"); });
+}
 
+void bindSolver(nb::module_& m) {
   constexpr auto chain = nb::rv_policy::none;
+  const std::string set_options_doc =
+      "Sets options by name; all others stay as they are.\n\nArgs:\n    options: Fields of "
+      "NLP_SolverOptions:\n\n" +
+      solverOptions().docs() + "\nReturns:\n    The solver.";
   nb::class_<NlpSolver>(m, "NLP_Solver", "Solves an NLP. A second solve() goes on from where the first ended.")
       .def("__init__",
            [](NlpSolver* self) {
              new (self) NlpSolver();
-             self->options = defaults().solver;
+             self->options = startingOptions();
            })
       .def(
           "__init__",
           [](NlpSolver* self, std::shared_ptr<Nlp> problem, int verbose) {
             new (self) NlpSolver(std::move(problem), verbose);
-            self->options = defaults().solver;
+            self->options = startingOptions();
             self->options.verbose = verbose;
           },
           "problem"_a, "verbose"_a = 0)
@@ -366,7 +202,7 @@ void bindSolvers(nb::module_& m) {
           "setPyProblem",
           [](NlpSolver& s, nb::object p) -> NlpSolver& { return s.setProblem(fromPythonProblem(p)), s; }, "problem"_a,
           chain, "A Python object with dimension, types, bounds and evaluate(x) -> (phi, J).")
-      .def("setOptions", setOptions, "options"_a, chain, "Sets options by name; all others go to their defaults.")
+      .def("setOptions", setOptions, "options"_a, chain, set_options_doc.c_str())
       .def(
           "setSolver", [](NlpSolver& s, OptMethod method) -> NlpSolver& { return s.options.method = method, s; },
           "method"_a, chain, "The method.")
@@ -429,7 +265,22 @@ void bindSolvers(nb::module_& m) {
           "(evaluations, 1): the least sum of all errors so far.")
       .def("getTrace_errs", errorTrace, "(evaluations, 4): sums of f, sos, ineq, eq.")
       .def("getTrace_costs", errorTrace, "The same as getTrace_errs.");
+}
 
+}  // namespace
+
+void bindSolvers(nb::module_& m) {
+  bindSolverOptions(m);
+  m.def(
+      "setDefaultSeed",
+      [](std::uint64_t seed) {
+        defaults().seed = seed;
+        defaults().random = Rng(seed);
+      },
+      "seed"_a, "Seed of everything random from here on.");
+
+  bindResult(m);
+  bindSolver(m);
   bindSampler(m);
 }
 

@@ -200,7 +200,7 @@ def test_options_of_the_solver_print_and_pickle_and_name_misspelt_ones():
     options = ry.NLP_SolverOptions().set_damping(0.3).set_method(ry.OptMethod.LBFGS)
     again = pickle.loads(pickle.dumps(options))
     assert again.dict() == options.dict() and again.dict()["damping"] == 0.3
-    assert "'damping': 0.3" in repr(options)
-    with pytest.raises(ry.ArgumentError, match="no solver option 'stopTolerence'; similar names: stopTolerance"):
+    assert "damping=0.3" in repr(options)
+    with pytest.raises(ry.ArgumentError, match="no option 'stopTolerence'; similar names: stopTolerance"):
         ry.NLP_Solver().setOptions(stopTolerence=1e-3)
     ry.NLP_Solver().setOptions(stepInit=1.0, stopLineSteps=10)  # of older scripts

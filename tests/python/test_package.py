@@ -69,6 +69,7 @@ def test_a_parameter_of_the_solver_changes_its_default():
     try:
         ry.params_add({"opt/stopEvals": 7})
         assert ry.NLP_SolverOptions().dict()["stopEvals"] == 7
+        assert ry.NLP_Solver().getOptions().stopEvals == 7
     finally:
         ry.params_clear()
     assert ry.NLP_SolverOptions().dict()["stopEvals"] != 7

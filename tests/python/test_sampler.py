@@ -61,8 +61,8 @@ def test_postures_of_a_robot_that_hold_a_position(interior):
 def test_options_are_told_and_mistakes_named():
     sampler = ry.NLP_Sampler(ry.make_NLP_Problem("Box"))
     assert sampler.setOptions(eps=0.1, useCentering=True, interiorNoiseMethod="iso").getOptions()["eps"] == 0.1
-    assert sampler.setOptions(interiorMethod="MCMC").getOptions()["eps"] == 0.0, "others go to their defaults"
-    with pytest.raises(ry.ArgumentError, match="no sampler option 'interiorMetod'; similar names: interiorMethod"):
+    assert sampler.setOptions(interiorMethod="MCMC").getOptions()["eps"] == 0.1, "others stay as they are"
+    with pytest.raises(ry.ArgumentError, match="no option 'interiorMetod'; similar names: interiorMethod"):
         sampler.setOptions(interiorMetod="HR")
     with pytest.raises(ry.ArgumentError, match="interiorMethod is 'Gibbs'; expected one of none, HR"):
         sampler.setOptions(interiorMethod="Gibbs")

@@ -1,5 +1,6 @@
 """Methods of NLP_Solver, how a solve is watched and ended, and what goes wrong in a user's function."""
 
+import pickle
 import signal
 import subprocess
 import sys
@@ -234,6 +235,40 @@ def test_options_of_another_type_are_taken_or_explained():
         s.setOptions(boundedNewton=2)
     with pytest.raises(ry.ArgumentError, match="damping is 'high'; expected a number"):
         s.setOptions(damping="high")
+
+
+def test_set_options_changes_what_is_named_and_nothing_else():
+    s = ry.NLP_Solver(ry.make_NLP_Problem("Wedge"), verbose=0).setSolver(ry.OptMethod.squaredPenalty)
+    before = s.setOptions(stopEvals=77).getOptions().dict()
+    assert before["verbose"] == 0 and before["method"] == ry.OptMethod.squaredPenalty and before["stopEvals"] == 77
+    after = s.setOptions(damping=0.5).getOptions().dict()
+    assert {name for name in after if after[name] != before[name]} == {"damping"}
+    with pytest.raises(ry.ArgumentError, match="option stepDec is 2; expected a number > 0 and < 1"):
+        s.setOptions(damping=0.7, stepDec=2.0)
+    assert s.getOptions().dict() == after, "all of them or none"
+
+
+def test_options_are_properties_with_defaults_and_help():
+    options = ry.NLP_SolverOptions(damping=0.5, method=ry.OptMethod.newton)
+    assert options.damping == 0.5 and options.method == ry.OptMethod.newton
+    assert options != ry.NLP_SolverOptions() and ry.NLP_SolverOptions() == ry.NLP_SolverOptions()
+    options.stopEvals = 5
+    assert options.dict()["stopEvals"] == 5
+    with pytest.raises(ry.ArgumentError, match="NLP_Solver: option muInc is 1; expected a number > 1"):
+        options.muInc = 1
+    assert options.muInc == ry.NLP_SolverOptions().muInc
+    again = pickle.loads(pickle.dumps(options))
+    assert again == options
+    for name, default in ry.NLP_SolverOptions().dict().items():
+        doc = getattr(ry.NLP_SolverOptions, name).__doc__
+        assert f"Default {default}" in doc, doc
+        assert doc in ry.NLP_SolverOptions.__doc__ and doc in ry.NLP_Solver.setOptions.__doc__
+
+
+def test_the_limit_on_steps_says_how_many_there_were():
+    s = solver(Free()).setOptions(stopInners=0)
+    ret = s.solve()
+    assert ret.status.name == "limit" and ret.message == "limit of 0 steps, 20 times stopInners"
 
 
 @pytest.mark.skipif(sys.platform != "linux", reason="counts page faults as Linux does")

@@ -5,9 +5,10 @@ from __future__ import annotations
 from pathlib import Path
 from typing import Any
 
-from .._core import parseText, resetDefaultOptions, setDefaultOption
+from .._core import NLP_SolverOptions, parseText
 
 _values: dict[str, Any] = {}
+solver_options: dict[str, Any] = {}  # fields of NLP_SolverOptions that scripts have set; solvers start with them
 
 
 def params_add(values: dict[str, Any] | None = None, **more: Any) -> None:
@@ -17,7 +18,9 @@ def params_add(values: dict[str, Any] | None = None, **more: Any) -> None:
     """
     for name, value in {**(values or {}), **more}.items():
         if name.startswith("opt/"):
-            setDefaultOption(name.removeprefix("opt/"), value)
+            field = {name.removeprefix("opt/"): value}
+            NLP_SolverOptions(**field)
+            solver_options.update(field)
         _values[name] = value
 
 
@@ -34,7 +37,7 @@ def params_get() -> dict[str, Any]:
 def params_clear() -> None:
     """Forgets all parameters."""
     _values.clear()
-    resetDefaultOptions()
+    solver_options.clear()
 
 
 def params_print() -> None:

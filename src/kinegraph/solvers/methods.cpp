@@ -50,49 +50,60 @@ SolverResult solveDefault(Nlp& nlp, const VectorXd& x0, const SolverOptions& opt
   return std::move(better);
 }
 
-SolverResult dispatch(Nlp& nlp, const VectorXd& x0, const SolverOptions& options, const VectorXd& dual,
-                      const EvaluationHook& hook, AugmentedLagrangianMemory* memory) {
-  switch (options.method) {
-    case OptMethod::augmentedLag:
-      return solveDefault(nlp, x0, options, dual, hook, memory);
-    case OptMethod::newton:
-      requireNoConstraints(nlp, "newton");
-      return solveAugmentedLagrangian(nlp, x0, options, {}, hook, memory);
-    case OptMethod::gradientDescent:
-      return solveGradientDescent(nlp, x0, options, hook);
-    case OptMethod::rprop:
-      return solveRprop(nlp, x0, options, hook);
-    case OptMethod::LBFGS:
-      return solveLbfgs(nlp, x0, options, hook);
-    case OptMethod::NelderMead:
-      return solveNelderMead(nlp, x0, options, hook);
-    case OptMethod::CMA:
-      return solveCma(nlp, x0, options, hook);
-    case OptMethod::squaredPenalty:
-      return solveSquaredPenalty(nlp, x0, options, hook, false);
-    case OptMethod::singleSquaredPenalty:
-      return solveSquaredPenalty(nlp, x0, options, hook, true);
-    case OptMethod::logBarrier:
-      return solveLogBarrier(nlp, x0, options, hook);
-    case OptMethod::slackGN:
-      return solveSlack(nlp, x0, options, hook);
-    case OptMethod::slackGN_logBarrier:
-      return slackThenBarrier(nlp, x0, options, hook);
-    default:
-      break;
+/// What `solve` was called with.
+struct Call {
+  Nlp& nlp;
+  const VectorXd& x0;
+  const SolverOptions& options;
+  const VectorXd& dual;
+  const EvaluationHook& hook;
+  AugmentedLagrangianMemory* memory;
+};
+
+/// The table of methods: a row each.
+struct MethodRow {
+  OptMethod method;
+  SolverResult (*run)(const Call& call);
+};
+
+using M = OptMethod;
+
+constexpr MethodRow kMethods[] = {
+    {M::augmentedLag, [](const Call& c) { return solveDefault(c.nlp, c.x0, c.options, c.dual, c.hook, c.memory); }},
+    {M::squaredPenalty, [](const Call& c) { return solveSquaredPenalty(c.nlp, c.x0, c.options, c.hook, false); }},
+    {M::singleSquaredPenalty, [](const Call& c) { return solveSquaredPenalty(c.nlp, c.x0, c.options, c.hook, true); }},
+    {M::logBarrier, [](const Call& c) { return solveLogBarrier(c.nlp, c.x0, c.options, c.hook); }},
+    {M::slackGN, [](const Call& c) { return solveSlack(c.nlp, c.x0, c.options, c.hook); }},
+    {M::slackGN_logBarrier, [](const Call& c) { return slackThenBarrier(c.nlp, c.x0, c.options, c.hook); }},
+    {M::newton,
+     [](const Call& c) {
+       requireNoConstraints(c.nlp, "newton");
+       return solveAugmentedLagrangian(c.nlp, c.x0, c.options, {}, c.hook, c.memory);
+     }},
+    {M::LBFGS, [](const Call& c) { return solveLbfgs(c.nlp, c.x0, c.options, c.hook); }},
+    {M::gradientDescent, [](const Call& c) { return solveGradientDescent(c.nlp, c.x0, c.options, c.hook); }},
+    {M::rprop, [](const Call& c) { return solveRprop(c.nlp, c.x0, c.options, c.hook); }},
+    {M::NelderMead, [](const Call& c) { return solveNelderMead(c.nlp, c.x0, c.options, c.hook); }},
+    {M::CMA, [](const Call& c) { return solveCma(c.nlp, c.x0, c.options, c.hook); }},
+};
+
+SolverResult dispatch(const Call& call) {
+  for (const MethodRow& row : kMethods) {
+    if (row.method == call.options.method) return row.run(call);
   }
   std::vector<std::string> names;
-  for (OptMethod method : availableMethods()) names.push_back(optMethodName(method));
-  throw ValueError(cat("OptMethod::", optMethodName(options.method), " is not available; there are ", join(names)));
+  for (const MethodRow& row : kMethods) names.push_back(optMethodName(row.method));
+  throw ValueError(cat("OptMethod::", optMethodName(call.options.method), " is not available; there are ", join(names)));
 }
 
 }  // namespace
 
 const std::vector<OptMethod>& availableMethods() {
-  using M = OptMethod;
-  static const std::vector<M> methods = {
-      M::augmentedLag, M::squaredPenalty, M::singleSquaredPenalty, M::logBarrier, M::slackGN,    M::slackGN_logBarrier,
-      M::newton,       M::LBFGS,          M::gradientDescent,      M::rprop,      M::NelderMead, M::CMA};
+  static const std::vector<OptMethod> methods = [] {
+    std::vector<OptMethod> all;
+    for (const MethodRow& row : kMethods) all.push_back(row.method);
+    return all;
+  }();
   return methods;
 }
 
@@ -102,9 +113,9 @@ SolverResult solve(Nlp& nlp, const VectorXd& x0, const SolverOptions& options, c
   SolverResult result;
   if (options.finiteDifference > 0.) {
     FiniteDifferenceNlp numeric(nlp, options.finiteDifference);
-    result = dispatch(numeric, x0, options, dual, hook, nullptr);
+    result = dispatch({numeric, x0, options, dual, hook, nullptr});
   } else {
-    result = dispatch(nlp, x0, options, dual, hook, memory);
+    result = dispatch({nlp, x0, options, dual, hook, memory});
   }
   result.time = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   return result;

@@ -5,10 +5,15 @@
 #include <cmath>
 
 #include "tests/support/expect_error.h"
+#include "tests/support/field_count.h"
 
 using namespace kinegraph;
 
 TEST(SolverOptions, DefaultsAreValid) { EXPECT_NO_THROW(SolverOptions{}.validate()); }
+
+TEST(SolverOptions, AllFieldsAreInTheTable) {
+  EXPECT_EQ(std::size_t(fieldCount<SolverOptions>()), solverOptionTable().rows().size());
+}
 
 TEST(SolverOptions, AFieldThatMakesNoSenseIsNamedWithItsValue) {
   const auto wrong = [](const char* name, auto member, auto given, const char* shown) {
