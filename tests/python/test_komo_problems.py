@@ -43,6 +43,42 @@ def test_residuals_and_jacobians_are_those_recorded(name):
     np.testing.assert_allclose(product, same * expected["Jv"], atol=1e-6)
 
 
+def saysOneThing(ret):
+    """What feasible, status and explain() say of a result agree."""
+    assert not (ret.feasible and ret.status.name == "infeasible"), ret
+    assert not (not ret.feasible and ret.status.name == "converged"), ret
+    assert ret.feasible == (ret.violation <= 1e-3)
+    if ret.feasible:
+        assert ret.explain(1e-3).startswith("All constraints hold")
+
+
+@pytest.mark.parametrize("options", [{}, {"stopTolerance": 1e-6}, {"stopEvals": 7}], ids=str)
+@pytest.mark.parametrize("name", problems.PROBLEMS)
+def test_feasible_status_and_explanation_agree(name, options):
+    for seed in range(2):
+        _, komo = problems.PROBLEMS[name](ry)
+        nlp = komo.nlp()
+        lower, upper = np.array(nlp.getBounds()).reshape(2, -1)
+        solver = ry.NLP_Solver(nlp, verbose=0).setOptions(**options)
+        saysOneThing(solver.setInitialization(problems.start(np, komo, lower, upper, seed)).solve())
+
+
+@pytest.mark.parametrize("name", ["IK", "IKobstacle", "PushToReach", "StableSphere", "MinimalConvexCore", "Wedge", "Box"])
+def test_they_agree_on_the_named_problems(name):
+    for tolerance in (1e-4, 1e-6):
+        nlp = ry.make_NLP_Problem(name)
+        solver = ry.NLP_Solver(nlp, verbose=0).setOptions(stopTolerance=tolerance)
+        saysOneThing(solver.setInitialization(nlp.getInitializationSample()).solve())
+
+
+def test_a_solver_that_goes_on_tells_the_evaluations_of_this_solve_and_of_all():
+    _, komo = problems.PROBLEMS["path obstacle"](ry)
+    solver = ry.NLP_Solver(komo.nlp(), verbose=0).setOptions(stopEvals=3)
+    assert solver.solve().message == "limit of 3 evaluations"
+    again = solver.solve()
+    assert again.evals == 6 and again.message == "limit of 3 evaluations in this solve; 6 evaluations in all"
+
+
 @pytest.mark.parametrize("seed", [0, 1])
 @pytest.mark.parametrize("name", ["ik position", "joint limits", "path obstacle", "mobile base", "pick waypoints 4cm"])
 def test_problems_that_any_start_solves_are_solved(name, seed):

@@ -107,6 +107,16 @@ const std::vector<OptMethod>& availableMethods() {
   return methods;
 }
 
+void agreeOnFeasibility(SolverResult& result) {
+  if (result.status == SolverStatus::infeasible && result.feasible) {
+    result.status = SolverStatus::stalled;
+    result.message = cat("the constraints hold, but their violation no longer falls; it is ", result.violation);
+  } else if (result.status == SolverStatus::converged && !result.feasible) {
+    result.status = SolverStatus::stalled;
+    result.message = cat("steps are tiny, but a constraint is violated by ", result.violation);
+  }
+}
+
 SolverResult solve(Nlp& nlp, const VectorXd& x0, const SolverOptions& options, const VectorXd& dual,
                    const EvaluationHook& hook, AugmentedLagrangianMemory* memory) {
   const auto start = std::chrono::steady_clock::now();
@@ -117,6 +127,7 @@ SolverResult solve(Nlp& nlp, const VectorXd& x0, const SolverOptions& options, c
   } else {
     result = dispatch({nlp, x0, options, dual, hook, memory});
   }
+  agreeOnFeasibility(result);
   result.time = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   return result;
 }

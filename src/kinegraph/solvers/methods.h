@@ -13,6 +13,10 @@ namespace kinegraph {
 SolverResult solve(Nlp& nlp, const VectorXd& x0, const SolverOptions& options, const VectorXd& dual = {},
                    const EvaluationHook& hook = {}, AugmentedLagrangianMemory* memory = nullptr);
 
+/// One truth of what is feasible: constraints that hold as `feasible` says do not contradict each other, whatever the
+/// method thinks, and with constraints that do not hold nothing has converged. In both cases the status is `stalled`.
+void agreeOnFeasibility(SolverResult& result);
+
 /// The methods that `solve` has.
 const std::vector<OptMethod>& availableMethods();
 

@@ -108,7 +108,10 @@ SolverResult NlpSolver::runMethod(const Separation& separation, const Evaluation
   if (!separation.problem) return result;
   const auto rows = Eigen::Index(problem_->types().size());
   VectorXd phi(rows);
-  if (result.status == SolverStatus::infeasible) reduceViolation(result, separation, seen);
+  // Rows that are feasible one by one may not be so as sums.
+  const bool left_violated =
+      result.status == SolverStatus::stalled && result.feasible && result.violation > options.constraintTolerance();
+  if (result.status == SolverStatus::infeasible || left_violated) reduceViolation(result, separation, seen);
   problem_->evaluate(result.x, phi, nullptr);
   result.dual = separation.joinedDual(result.dual, rows);
   result.setSums(problem_->types(), phi, options.constraintTolerance());
@@ -184,8 +187,11 @@ SolverResult NlpSolver::solve(bool resample, Rng& rng, const EvaluationHook& hoo
   }
   if (!is_own || result.time == 0.) result.time = std::chrono::duration<double>(Clock::now() - start).count();
   if (!keeps_memory) releaseMemory();
+  agreeOnFeasibility(result);
   x = result.x;
   dual = result.dual;
+  if (result.status == SolverStatus::limit && evals_ > 0)
+    result.message += cat(" in this solve; ", evals_ + result.evals, " evaluations in all");
   evals_ += result.evals;
   result.evals = evals_;
   result.problem = problem_;
