@@ -266,7 +266,7 @@ def test_options_are_properties_with_defaults_and_help():
 
 
 def test_the_limit_on_steps_says_how_many_there_were():
-    s = solver(Free()).setOptions(stopInners=0)
+    s = solver(Circle()).setOptions(stopInners=0)
     ret = s.solve()
     assert ret.status.name == "limit" and ret.message == "limit of 0 steps, 20 times stopInners"
 
