@@ -63,7 +63,9 @@ def test_feasible_status_and_explanation_agree(name, options):
         saysOneThing(solver.setInitialization(problems.start(np, komo, lower, upper, seed)).solve())
 
 
-@pytest.mark.parametrize("name", ["IK", "IKobstacle", "PushToReach", "StableSphere", "MinimalConvexCore", "Wedge", "Box"])
+@pytest.mark.parametrize(
+    "name", ["IK", "IKobstacle", "PushToReach", "StableSphere", "MinimalConvexCore", "Wedge", "Box"]
+)
 def test_they_agree_on_the_named_problems(name):
     for tolerance in (1e-4, 1e-6):
         nlp = ry.make_NLP_Problem(name)

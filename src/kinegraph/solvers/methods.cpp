@@ -93,7 +93,8 @@ SolverResult dispatch(const Call& call) {
   }
   std::vector<std::string> names;
   for (const MethodRow& row : kMethods) names.push_back(optMethodName(row.method));
-  throw ValueError(cat("OptMethod::", optMethodName(call.options.method), " is not available; there are ", join(names)));
+  throw ValueError(
+      cat("OptMethod::", optMethodName(call.options.method), " is not available; there are ", join(names)));
 }
 
 }  // namespace
