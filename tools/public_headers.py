@@ -1,0 +1,28 @@
+#!/usr/bin/env python3
+"""Lists the headers that users may include: kinegraph/kinegraph.h and all that it includes, directly or not.
+
+    python tools/public_headers.py src
+
+These are installed, and the shared library exports what they declare (tools/exported_symbols.py).
+"""
+
+import re
+import sys
+from pathlib import Path
+
+INCLUDE = re.compile(r'^#include "(kinegraph/[^"]+)"', re.MULTILINE)
+
+
+def publicHeaders(source: Path) -> list[str]:
+    """Paths relative to the folder `source`, such as kinegraph/scene/config.h, sorted."""
+    found, waiting = set(), ["kinegraph/kinegraph.h"]
+    while waiting:
+        header = waiting.pop()
+        if header not in found:
+            found.add(header)
+            waiting += INCLUDE.findall((source / header).read_text())
+    return sorted(found)
+
+
+if __name__ == "__main__":
+    print("\n".join(publicHeaders(Path(sys.argv[1]))))
