@@ -25,6 +25,7 @@
 #include "kinegraph/front/model_path.h"           // modelPath
 #include "kinegraph/front/names.h"                // FS, OT, ST, KOMO, NLP_Solver, ...
 #include "kinegraph/front/own_feature.h"          // functions of frames as features
+#include "kinegraph/front/solve_all.h"            // several problems at once
 #include "kinegraph/ik/solve_ik.h"                // solveIk
 #include "kinegraph/komo/komo.h"                  // Komo: motion problems
 #include "kinegraph/komo/report.h"                // how well a path does

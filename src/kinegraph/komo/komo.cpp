@@ -15,6 +15,7 @@ Komo::Komo(const Config& config, double phases, int slices_per_phase, int order)
 Komo Komo::clone() const {
   Komo copy(*this);
   copy.motion_.path = path().clone();
+  copy.viewer_ = nullptr;
   return copy;
 }
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <memory>
 #include <string>
 #include <vector>
@@ -11,6 +12,12 @@
 #include "kinegraph/nlp/nlp.h"
 
 namespace kinegraph {
+
+class ConfigViewer;
+struct SolveManyOptions;
+struct SolveManyResult;
+struct SolverOptions;
+struct SolverResult;
 
 /// A motion problem: T configurations (slices) of a scene, tied together by objectives on features of k+1 consecutive
 /// ones. With one phase of one slice and order 0 it is inverse kinematics.
@@ -118,6 +125,30 @@ class Komo {
     startPhaseAt(motion_.path, phase, frames, path, resample);
   }
 
+  // --- what rooms above add: defined in front, all in kinegraph/kinegraph.h ------------------------------------------
+
+  /// This problem for a solver, which leaves the path at its result. It must not outlive the Komo, nor may the Komo be
+  /// moved meanwhile; see makeNlp.
+  std::shared_ptr<Nlp> nlp();
+
+  /// Solves from the present path, and leaves the path at the result. Not converging is a status, not an error.
+  SolverResult solve();
+  SolverResult solve(const SolverOptions& options);
+
+  /// Solves from the present path and from `starts` - 1 random ones (by `seed`), and leaves the path at the best
+  /// result. Throws ValueError for less than one start or thread.
+  SolveManyResult solveFromMany(int starts, const SolveManyOptions& options, std::uint64_t seed = 0);
+
+  /// Shows all slices in the browser, with a time slider, the errors of the objectives, and what violates them in red;
+  /// `pause` waits for a key. Returns the key, or 0.
+  int view(bool pause = false, const std::string& message = {});
+
+  /// Plays the slices, `seconds_per_slice` each, and waits until they have been played once; a key ends it.
+  int viewPlay(bool pause = false, const std::string& message = {}, double seconds_per_slice = .1);
+
+  /// What shows this problem.
+  ConfigViewer& viewer();
+
   // --- the parts ---------------------------------------------------------------------------------------------------
 
   const Path& path() const { return motion_.path; }
@@ -133,6 +164,7 @@ class Komo {
   void requireUntouched(const char* what) const;
 
   MotionProblem motion_;
+  std::shared_ptr<ConfigViewer> viewer_;  ///< null until there is something to show
 };
 
 /// The problem of a Komo, for a solver. It keeps the Komo alive, and leaves it at the point last evaluated. Objectives

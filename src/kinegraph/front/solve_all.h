@@ -1,0 +1,14 @@
+#pragma once
+
+#include <span>
+
+#include "kinegraph/komo/komo.h"
+#include "kinegraph/solvers/solve_many.h"
+
+namespace kinegraph {
+
+/// Solves independent motion problems, each from its present path, and leaves each path at its result; `chosen` is the
+/// best of them. Neither depends on the number of threads. Throws ValueError without problems or threads.
+SolveManyResult solveAll(std::span<Komo> problems, const SolveManyOptions& options = {});
+
+}  // namespace kinegraph
