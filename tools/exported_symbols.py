@@ -16,7 +16,9 @@ from pathlib import Path
 from public_headers import publicHeaders
 
 KINDS = "TDBRVu"  # functions, data, and what classes and templates have once: tables, type information, statics
-OF_CLASS = re.compile(r"^(?:(?:construction )?vtable|typeinfo(?: name)?|VTT|guard variable|(?:non-)?virtual thunk) (?:for|to) ")
+OF_CLASS = re.compile(
+    r"^(?:(?:construction )?vtable|typeinfo(?: name)?|VTT|guard variable|(?:non-)?virtual thunk) (?:for|to) "
+)
 OWNER = re.compile(r"^kinegraph::(\w+)")
 NOT_CODE = re.compile(r'//[^\n]*|/\*.*?\*/|"[^"\n]*"|^#.*?$', re.MULTILINE | re.DOTALL)
 
