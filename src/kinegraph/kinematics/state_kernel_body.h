@@ -115,7 +115,9 @@ void updateState(const StateArrays& state) {
         storePlace(X, pose);
         moveInMemory<V>(*step, q, turned, pose, twist);
         X = loadPlace<V>(pose);
-        if (kMotionFacts[int(step->kind)].effect == MotionFacts::Effect::turns) turned += 2;
+        // Of the kinds that turn the only other one. Asking kMotionFacts here takes registers from the loop: 902
+        // instructions for a Panda instead of 856.
+        if (step->kind == MotionKind::rotateAbout) turned += 2;
       }
     }
     storePlace(X, pose);
