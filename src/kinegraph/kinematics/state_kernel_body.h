@@ -88,6 +88,14 @@ template <class V>
   storePlace(X, place);
 }
 
+/// How many kinds of motion are angles: those that updateState tells apart.
+constexpr int kindsThatTurn() {
+  int count = 0;
+  for (const MotionFacts& facts : kMotionFacts) count += facts.effect == MotionFacts::Effect::turns;
+  return count;
+}
+static_assert(kindsThatTurn() == 2, "updateState knows rotate and rotateAbout: tell it of the new kind");
+
 /// `Width`: of the packs of angles, whose sines and cosines are computed beforehand.
 template <class V, int Width>
 void updateState(const StateArrays& state) {
