@@ -95,7 +95,7 @@ std::string describe(const NamedFeature& f) {
 
 void bindFeatures(nb::module_& m, nb::class_<PyConfig>& config) {
   auto symbols = nb::enum_<FeatureSymbol>(m, "FS", nb::is_arithmetic(), "Feature symbols.");
-  for (const FeatureInfo& info : featureRegistry()) symbols.value(info.name.c_str(), info.symbol);
+  for (const auto& [name, symbol] : featureNames()) symbols.value(name.c_str(), symbol, featureInfo(symbol).value);
 
   bindOwnFeatures(m);
   nb::class_<NamedFeature>(m, "Feature", "A feature of named frames, evaluated on the configuration that is passed.")

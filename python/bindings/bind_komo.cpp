@@ -193,6 +193,13 @@ void bindObjectives(nb::class_<PyKomo>& komo) {
           "times"_a = nb::none(), "scale"_a = 3., "hard"_a = true, "Keeps quaternion dofs at norm one.")
       .def("clearObjectives", &Komo::clearObjectives, "Removes all objectives.")
       .def(
+          "addTimeOptimization",
+          [](PyKomo&) { throw Error("addTimeOptimization: durations are fixed; give them with setTiming"); },
+          "Not available.");
+}
+
+void bindSwitches(nb::class_<PyKomo>& komo) {
+  komo.def(
           "addModeSwitch",
           [](PyKomo& k, const Numbers& times, SwitchMode mode, const std::vector<std::string>& frames, bool first) {
             k.addModeSwitch(times.list(), mode, frames, first);
@@ -217,8 +224,11 @@ void bindObjectives(nb::class_<PyKomo>& komo) {
           "times"_a, "frames"_a, "noJumpStart"_a = true, "From that time on, frames[1] sits at frames[0].")
       .def("addFrameDof", addFrameDof, "name"_a, "parent"_a, "jointType"_a, "stable"_a,
            "originFrameName"_a = nb::none(), "originFrame"_a = nb::none(),
-           "Adds a frame with a joint to all slices. Returns a copy of it.")
-      .def(
+           "Adds a frame with a joint to all slices. Returns a copy of it.");
+}
+
+void bindContacts(nb::class_<PyKomo>& komo) {
+  komo.def(
           "addContactForceFrame",
           [](PyKomo& k, const Numbers& times, const std::string& object, const std::string& from, double friction,
              double mass, const std::string&) {
@@ -248,10 +258,9 @@ void bindObjectives(nb::class_<PyKomo>& komo) {
            "they do not touch) or 'bounce' (off each other, in one slice; kOrder 2). Returns the name of the frame at "
            "the point.\n"
            "What balances the forces is up to FS.totalForce and FS.physics.")
-      .def(
-          "addTimeOptimization",
-          [](PyKomo&) { throw Error("addTimeOptimization: durations are fixed; give them with setTiming"); },
-          "Not available.");
+      .def("getForceInteractions", forceInteractions,
+           "Contact forces, a dict per force and slice: `from` pushes `onto` at `poa` with `force` (N); all in the "
+           "world.");
 }
 
 void bindPath(nb::class_<PyKomo>& komo) {
@@ -289,11 +298,11 @@ void bindPath(nb::class_<PyKomo>& komo) {
           },
           "t"_a, "The scene in slice t, a copy; -1 is the one before the first.")
       .def("getSubProblem", subProblem, "phase"_a,
-           "For one slice per phase: (configuration at the beginning of a phase, its q at the beginning, at the end).")
-      .def("getForceInteractions", forceInteractions,
-           "Contact forces, a dict per force and slice: `from` pushes `onto` at `poa` with `force` (N); all in the "
-           "world.")
-      .def(
+           "For one slice per phase: (configuration at the beginning of a phase, its q at the beginning, at the end).");
+}
+
+void bindStarts(nb::class_<PyKomo>& komo) {
+  komo.def(
           "initWithConstant", [](PyKomo& k, const Numbers& q) { k.setConstantPath(q.values); }, "q"_a,
           "Starts with q in all slices.")
       .def(
@@ -371,7 +380,10 @@ void bindKomo(nb::module_& m) {
         return cat("<KOMO: ", k.slices(), " slices, order ", k.order(), ", ", k.objectives().size(), " objectives>");
       });
   bindObjectives(komo);
+  bindSwitches(komo);
+  bindContacts(komo);
   bindPath(komo);
+  bindStarts(komo);
   bindKomoReports(komo);
   bindKomoCopies(komo);
   bindOldConstructors();

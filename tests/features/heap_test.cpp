@@ -63,7 +63,7 @@ TEST(Heap, ValuesAndJacobiansOfEveryFeatureRequestNoMemory) {
   const std::vector<std::string> names = {"finger", "block", "thumb"};
   int checked = 0;
   for (const FeatureInfo& info : featureRegistry()) {
-    if (!info.available) continue;
+    if (!info.available()) continue;
     const int frames = info.max_frames < 0 ? info.min_frames : info.max_frames;
     for (const MatrixXd& scale : {MatrixXd(), MatrixXd(MatrixXd::Ones(1, 1))}) {
       Residual residual = makeResidual(config.state(), info.symbol, {names.begin(), names.begin() + frames}, scale);

@@ -99,7 +99,7 @@ TEST(Lanes, AllFeaturesGiveWhatOneConfigurationAloneGivesAtEveryWidth) {
   int in_lanes = 0, checked = 0;
   Rng rng(3);
   for (const FeatureInfo& info : featureRegistry()) {
-    if (!info.available || info.symbol == FeatureSymbol::totalForce)
+    if (!info.available() || info.symbol == FeatureSymbol::totalForce)
       continue;  // its frames need a mass: it has no rows in lanes
     for (const std::vector<std::string>& frames : frameChoices(info)) {
       for (int form = 0; form < 4; ++form) {  // as it is; with a number, one per row, and a matrix as scale

@@ -21,17 +21,19 @@ namespace kinegraph {
 namespace {
 
 using S = FeatureSymbol;
+using Ids = std::vector<int>;
+using Made = std::unique_ptr<Feature>;
 
 template <class... Parts>
-std::unique_ptr<Feature> stack(std::unique_ptr<Parts>... parts) {
+Made stack(std::unique_ptr<Parts>... parts) {
   std::vector<std::unique_ptr<Feature>> list;
   (list.push_back(std::move(parts)), ...);
   return std::make_unique<Stacked>(std::move(list));
 }
 
 /// The dofs of the joints of these frames; all dofs if there are no frames.
-std::vector<int> dofsOf(const std::vector<int>& frames, const Program& program, const FeatureInfo& info) {
-  std::vector<int> dofs;
+Ids dofsOf(const Ids& frames, const Program& program, const FeatureInfo& info) {
+  Ids dofs;
   if (frames.empty()) {
     dofs.resize(program.dofs);
     std::iota(dofs.begin(), dofs.end(), 0);
@@ -75,74 +77,155 @@ double heightOf(int frame, const Program& program) {
   }
 }
 
-std::vector<FeatureInfo> makeRegistry() {
-  std::vector<FeatureInfo> list;
-  const auto add = [&](S symbol, const char* name, int min_frames, int max_frames, bool available = true) {
-    list.push_back({symbol, name, min_frames, max_frames, available});
-  };
-  add(S::position, "position", 1, 1);
-  add(S::positionDiff, "positionDiff", 2, 2);
-  add(S::positionRel, "positionRel", 2, 2);
-  add(S::quaternion, "quaternion", 1, 1);
-  add(S::quaternionDiff, "quaternionDiff", 2, 2);
-  add(S::quaternionRel, "quaternionRel", 2, 2);
-  add(S::pose, "pose", 1, 1);
-  add(S::poseDiff, "poseDiff", 2, 2);
-  add(S::poseRel, "poseRel", 2, 2);
-  for (int axis = 0; axis < 3; ++axis) {
-    const std::string name = cat("vector", "XYZ"[axis]);
-    list.push_back({S(int(S::vectorX) + 3 * axis), name, 1, 1, true});
-    list.push_back({S(int(S::vectorXDiff) + 3 * axis), name + "Diff", 2, 2, true});
-    list.push_back({S(int(S::vectorXRel) + 3 * axis), name + "Rel", 2, 2, true});
-  }
-  add(S::scalarProductXX, "scalarProductXX", 2, 2);
-  add(S::scalarProductXY, "scalarProductXY", 2, 2);
-  add(S::scalarProductXZ, "scalarProductXZ", 2, 2);
-  add(S::scalarProductYX, "scalarProductYX", 2, 2);
-  add(S::scalarProductYY, "scalarProductYY", 2, 2);
-  add(S::scalarProductYZ, "scalarProductYZ", 2, 2);
-  add(S::scalarProductZX, "scalarProductZX", 2, 2);
-  add(S::scalarProductZY, "scalarProductZY", 2, 2);
-  add(S::scalarProductZZ, "scalarProductZZ", 2, 2);
-  add(S::gazeAt, "gazeAt", 2, 2);
-  add(S::angularVel, "angularVel", 1, 1);
-  add(S::accumulatedCollisions, "accumulatedCollisions", 0, -1);
-  add(S::pairCollisions, "pairCollisions", 0, -1);
-  add(S::jointLimits, "jointLimits", 0, -1);
-  add(S::distance, "distance", 2, 2);
-  add(S::distance, "negDistance", 2, 2);
-  add(S::oppose, "oppose", 3, 3);
-  add(S::qItself, "qItself", 0, -1);
-  add(S::qItself, "jointState", 0, -1);
-  add(S::aboveBox, "aboveBox", 2, 2);
-  add(S::insideBox, "insideBox", 2, 2);
-  add(S::pairCollision_negScalar, "pairCollision_negScalar", 2, 2);
-  add(S::pairCollision_vector, "pairCollision_vector", 2, 2);
-  add(S::pairCollision_normal, "pairCollision_normal", 2, 2);
-  add(S::pairCollision_p1, "pairCollision_p1", 2, 2);
-  add(S::pairCollision_p2, "pairCollision_p2", 2, 2);
-  add(S::standingAbove, "standingAbove", 2, 2);
-  add(S::totalForce, "totalForce", 1, 1);
-  add(S::physics, "physics", 1, 1);
-  add(S::contactConstraints, "contactConstraints", 2, 2);
-  add(S::energy, "energy", 1, -1);
-  add(S::EqCenterOfMass, "EqCenterOfMass", 1, -1);
-  add(S::transAccelerations, "transAccelerations", 0, -1, false);
-  add(S::transVelocities, "transVelocities", 0, -1, false);
-  add(S::qQuaternionNorms, "qQuaternionNorms", 0, 0);
-  add(S::opposeCentral, "opposeCentral", 3, 3);
-  add(S::linangVel, "linangVel", 1, 1);
-  add(S::AlignXWithDiff, "AlignXWithDiff", 2, 2);
-  add(S::AlignYWithDiff, "AlignYWithDiff", 2, 2);
-  return list;
+// How the features of a family are made.
+
+template <Position::Kind kind>
+Made position(const FeatureInfo&, const Ids& f, const Program&) {
+  if constexpr (kind == Position::Kind::world) return std::make_unique<Position>(kind, f[0]);
+  return std::make_unique<Position>(kind, f[0], f.back());
 }
 
+template <Orientation::Kind kind>
+Made orientation(const FeatureInfo&, const Ids& f, const Program&) {
+  if constexpr (kind == Orientation::Kind::world) return std::make_unique<Orientation>(kind, f[0]);
+  return std::make_unique<Orientation>(kind, f[0], f.back());
+}
+
+template <Position::Kind of_position, Orientation::Kind of_orientation>
+Made pose(const FeatureInfo& info, const Ids& f, const Program& program) {
+  return stack(position<of_position>(info, f, program), orientation<of_orientation>(info, f, program));
+}
+
+template <Axis::Kind kind, int which>
+Made axis(const FeatureInfo&, const Ids& f, const Program&) {
+  if constexpr (kind == Axis::Kind::world) return std::make_unique<Axis>(kind, which, f[0]);
+  return std::make_unique<Axis>(kind, which, f[0], f.back());
+}
+
+template <int of_a, int of_b>
+Made axisProduct(const FeatureInfo&, const Ids& f, const Program&) {
+  return std::make_unique<AxisProduct>(of_a, of_b, f[0], f[1]);
+}
+
+template <Witness::Kind kind>
+Made witness(const FeatureInfo&, const Ids& f, const Program&) {
+  return std::make_unique<Witness>(kind, f[0], f[1]);
+}
+
+template <class T>
+Made oneFrame(const FeatureInfo&, const Ids& f, const Program&) {
+  return std::make_unique<T>(f[0]);
+}
+
+template <class T>
+Made twoFrames(const FeatureInfo&, const Ids& f, const Program&) {
+  return std::make_unique<T>(f[0], f[1]);
+}
+
+std::vector<FeatureInfo> makeRegistry() {
+  using U = FeatureUnit;
+  constexpr U none = U::none, m = U::meter, joint = U::joint, quat = U::quaternion, unit = U::direction,
+              cos = U::cosine, m_s = U::meter_per_second, rad_s = U::radian_per_second, newton = U::newton,
+              newton_m = U::newton_meter, joule = U::joule;
+  constexpr FeatureDofs ofFrames = FeatureDofs::of_frames, ofJoints = FeatureDofs::of_joints,
+                        ofScene = FeatureDofs::of_scene;
+  // symbol, name, alias, frames (what, least, most), rows, units, order, second derivatives, dofs, report, value, maker
+  // clang-format off
+  return {
+      {S::position,                "position",                nullptr,       "a",                    1, 1,  "3",                m,      m,        0, true,  ofFrames, "F_Position", "p_a", position<Position::Kind::world>},
+      {S::positionDiff,            "positionDiff",            nullptr,       "a b",                  2, 2,  "3",                m,      m,        0, true,  ofFrames, "F_PositionDiff", "p_a - p_b", position<Position::Kind::difference>},
+      {S::positionRel,             "positionRel",             nullptr,       "a b",                  2, 2,  "3",                m,      m,        0, true,  ofFrames, "F_PositionRel", "p_a in the coordinates of b", position<Position::Kind::relative>},
+      {S::quaternion,              "quaternion",              nullptr,       "a",                    1, 1,  "4",                quat,   quat,     0, false, ofFrames, "F_Quaternion", "the quaternion of a", orientation<Orientation::Kind::world>},
+      {S::quaternionDiff,          "quaternionDiff",          nullptr,       "a b",                  2, 2,  "4",                quat,   quat,     0, false, ofFrames, "F_QuaternionDiff", "q_a - q_b, with the nearer sign", orientation<Orientation::Kind::difference>},
+      {S::quaternionRel,           "quaternionRel",           nullptr,       "a b",                  2, 2,  "4",                quat,   quat,     0, false, ofFrames, "F_QuaternionRel", "the quaternion of a as seen from b", orientation<Orientation::Kind::relative>},
+      {S::pose,                    "pose",                    nullptr,       "a",                    1, 1,  "7",                m,      quat,     0, false, ofFrames, "F_Pose", "position, then quaternion", pose<Position::Kind::world, Orientation::Kind::world>},
+      {S::poseDiff,                "poseDiff",                nullptr,       "a b",                  2, 2,  "7",                m,      quat,     0, false, ofFrames, "F_PoseDiff", "positionDiff, then quaternionDiff", pose<Position::Kind::difference, Orientation::Kind::difference>},
+      {S::poseRel,                 "poseRel",                 nullptr,       "a b",                  2, 2,  "7",                m,      quat,     0, false, ofFrames, "F_PoseRel", "positionRel, then quaternionRel", pose<Position::Kind::relative, Orientation::Kind::relative>},
+      {S::vectorX,                 "vectorX",                 nullptr,       "a",                    1, 1,  "3",                unit,   unit,     0, true,  ofFrames, "F_Vector", "the x axis of a", axis<Axis::Kind::world, 0>},
+      {S::vectorXDiff,             "vectorXDiff",             nullptr,       "a b",                  2, 2,  "3",                unit,   unit,     0, true,  ofFrames, "F_VectorDiff", "the x axis of a minus that of b", axis<Axis::Kind::difference, 0>},
+      {S::vectorXRel,              "vectorXRel",              nullptr,       "a b",                  2, 2,  "3",                unit,   unit,     0, true,  ofFrames, "F_VectorRel", "the x axis of a in the coordinates of b", axis<Axis::Kind::relative, 0>},
+      {S::vectorY,                 "vectorY",                 nullptr,       "a",                    1, 1,  "3",                unit,   unit,     0, true,  ofFrames, "F_Vector", "the y axis of a", axis<Axis::Kind::world, 1>},
+      {S::vectorYDiff,             "vectorYDiff",             nullptr,       "a b",                  2, 2,  "3",                unit,   unit,     0, true,  ofFrames, "F_VectorDiff", "the y axis of a minus that of b", axis<Axis::Kind::difference, 1>},
+      {S::vectorYRel,              "vectorYRel",              nullptr,       "a b",                  2, 2,  "3",                unit,   unit,     0, true,  ofFrames, "F_VectorRel", "the y axis of a in the coordinates of b", axis<Axis::Kind::relative, 1>},
+      {S::vectorZ,                 "vectorZ",                 nullptr,       "a",                    1, 1,  "3",                unit,   unit,     0, true,  ofFrames, "F_Vector", "the z axis of a", axis<Axis::Kind::world, 2>},
+      {S::vectorZDiff,             "vectorZDiff",             nullptr,       "a b",                  2, 2,  "3",                unit,   unit,     0, true,  ofFrames, "F_VectorDiff", "the z axis of a minus that of b", axis<Axis::Kind::difference, 2>},
+      {S::vectorZRel,              "vectorZRel",              nullptr,       "a b",                  2, 2,  "3",                unit,   unit,     0, true,  ofFrames, "F_VectorRel", "the z axis of a in the coordinates of b", axis<Axis::Kind::relative, 2>},
+      {S::scalarProductXX,         "scalarProductXX",         nullptr,       "a b",                  2, 2,  "1",                cos,    cos,      0, true,  ofFrames, "F_ScalarProduct", "x axis of a times x axis of b", axisProduct<0, 0>},
+      {S::scalarProductXY,         "scalarProductXY",         nullptr,       "a b",                  2, 2,  "1",                cos,    cos,      0, true,  ofFrames, "F_ScalarProduct", "x axis of a times y axis of b", axisProduct<0, 1>},
+      {S::scalarProductXZ,         "scalarProductXZ",         nullptr,       "a b",                  2, 2,  "1",                cos,    cos,      0, true,  ofFrames, "F_ScalarProduct", "x axis of a times z axis of b", axisProduct<0, 2>},
+      {S::scalarProductYX,         "scalarProductYX",         nullptr,       "a b",                  2, 2,  "1",                cos,    cos,      0, true,  ofFrames, "F_ScalarProduct", "y axis of a times x axis of b", axisProduct<1, 0>},
+      {S::scalarProductYY,         "scalarProductYY",         nullptr,       "a b",                  2, 2,  "1",                cos,    cos,      0, true,  ofFrames, "F_ScalarProduct", "y axis of a times y axis of b", axisProduct<1, 1>},
+      {S::scalarProductYZ,         "scalarProductYZ",         nullptr,       "a b",                  2, 2,  "1",                cos,    cos,      0, true,  ofFrames, "F_ScalarProduct", "y axis of a times z axis of b", axisProduct<1, 2>},
+      {S::scalarProductZX,         "scalarProductZX",         nullptr,       "a b",                  2, 2,  "1",                cos,    cos,      0, true,  ofFrames, "F_ScalarProduct", "z axis of a times x axis of b", axisProduct<2, 0>},
+      {S::scalarProductZY,         "scalarProductZY",         nullptr,       "a b",                  2, 2,  "1",                cos,    cos,      0, true,  ofFrames, "F_ScalarProduct", "z axis of a times y axis of b", axisProduct<2, 1>},
+      {S::scalarProductZZ,         "scalarProductZZ",         nullptr,       "a b",                  2, 2,  "1",                cos,    cos,      0, true,  ofFrames, "F_ScalarProduct", "z axis of a times z axis of b", axisProduct<2, 2>},
+      {S::gazeAt,                  "gazeAt",                  nullptr,       "object camera",        2, 2,  "2",                m,      m,        0, true,  ofFrames, "F_GazeAt", "x and y of the object as the camera sees it", [](auto&, const Ids& f, auto&) -> Made { return std::make_unique<Position>(Position::Kind::relative, f[0], f[1], 2); }},
+      {S::qItself,                 "qItself",                 "jointState",  "joints",               0, -1, "1 per dof",        joint,  joint,    0, false, ofJoints, "F_qItself", "q, or that of some joints", [](auto& info, const Ids& f, const Program& program) -> Made { return std::make_unique<JointState>(dofsOf(f, program, info)); }},
+      {S::jointLimits,             "jointLimits",             nullptr,       "joints",               0, -1, "2 per dof",        joint,  joint,    0, false, ofJoints, "F_qLimits", "lower - q, then q - upper: all at most 0 within the limits", [](auto& info, const Ids& f, const Program& program) -> Made { return std::make_unique<JointLimits>(dofsOf(f, program, info), program); }},
+      {S::qQuaternionNorms,        "qQuaternionNorms",        nullptr,       "",                     0, 0,  "1 per quaternion", none,   none,     0, false, ofScene,  "F_qQuaternionNorms", "square of its norm, minus 1", [](auto&, const Ids&, const Program& program) -> Made { return std::make_unique<QuaternionNorms>(program.unit_norms); }},
+      {S::distance,                "distance",                "negDistance", "a b",                  2, 2,  "1",                m,      m,        0, false, ofFrames, "F_PairCollision", "**minus** the signed distance: positive is how deep they overlap", twoFrames<NegDistance>},
+      {S::pairCollision_negScalar, "pairCollision_negScalar", nullptr,       "a b",                  2, 2,  "1",                m,      m,        0, false, ofFrames, "F_PairCollision", "the same as distance", twoFrames<NegDistance>},
+      {S::pairCollision_vector,    "pairCollision_vector",    nullptr,       "a b",                  2, 2,  "3",                m,      m,        0, false, ofFrames, "F_PairCollision", "from the nearest point of b to that of a", witness<Witness::Kind::vector>},
+      {S::pairCollision_normal,    "pairCollision_normal",    nullptr,       "a b",                  2, 2,  "3",                unit,   unit,     0, false, ofFrames, "F_PairCollision", "the unit vector from b to a there", witness<Witness::Kind::normal>},
+      {S::pairCollision_p1,        "pairCollision_p1",        nullptr,       "a b",                  2, 2,  "3",                m,      m,        0, false, ofFrames, "F_PairCollision", "the nearest point of a", witness<Witness::Kind::point_a>},
+      {S::pairCollision_p2,        "pairCollision_p2",        nullptr,       "a b",                  2, 2,  "3",                m,      m,        0, false, ofFrames, "F_PairCollision", "the nearest point of b", witness<Witness::Kind::point_b>},
+      {S::accumulatedCollisions,   "accumulatedCollisions",   nullptr,       "bodies",               0, -1, "1",                m,      m,        0, false, ofScene,  "F_AccumulatedCollisions", "sum of all overlaps (of these frames)", [](auto&, const Ids& f, const Program& program) -> Made { return std::make_unique<AccumulatedCollisions>(f, program); }},
+      {S::pairCollisions,          "pairCollisions",          nullptr,       "bodies",               0, -1, "1 per pair",       m,      m,        0, false, ofScene,  "F_PairCollisions", "how deep each pair that may collide overlaps", [](auto&, const Ids& f, const Program& program) -> Made { return std::make_unique<PairCollisions>(f, program); }},
+      {S::oppose,                  "oppose",                  nullptr,       "finger finger object", 3, 3,  "3",                m,      m,        0, false, ofFrames, "F_Oppose", "zero where the fingers face each other across the object", [](auto&, const Ids& f, auto&) -> Made { return std::make_unique<Oppose>(f[0], f[1], f[2], false); }},
+      {S::opposeCentral,           "opposeCentral",           nullptr,       "finger finger object", 3, 3,  "6",                m,      unit,     0, false, ofFrames, "F_OpposeCentral", "as oppose, and zero where their normals are on one line", [](auto&, const Ids& f, auto&) -> Made { return std::make_unique<Oppose>(f[0], f[1], f[2], true); }},
+      {S::aboveBox,                "aboveBox",                nullptr,       "thing box",            2, 2,  "4",                m,      m,        0, false, ofFrames, "F_AboveBox", "all at most 0 where the thing is above the box", [](auto& info, const Ids& f, const Program& program) -> Made { return std::make_unique<BoxRegion>(BoxRegion::Kind::above, f[0], f[1], boxOf(f[1], program, info)); }},
+      {S::insideBox,               "insideBox",               nullptr,       "thing box",            2, 2,  "6",                m,      m,        0, false, ofFrames, "F_InsideBox", "all at most 0 where the thing is inside of the box", [](auto& info, const Ids& f, const Program& program) -> Made { return std::make_unique<BoxRegion>(BoxRegion::Kind::inside, f[0], f[1], boxOf(f[1], program, info)); }},
+      {S::standingAbove,           "standingAbove",           nullptr,       "thing box",            2, 2,  "1",                m,      m,        0, false, ofFrames, "F_StandingAbove", "zero where the thing stands on the box", [](auto&, const Ids& f, const Program& program) -> Made { return std::make_unique<StandingAbove>(f[0], f[1], .5 * (heightOf(f[0], program) + heightOf(f[1], program))); }},
+      {S::angularVel,              "angularVel",              nullptr,       "a",                    1, 1,  "3",                rad_s,  rad_s,    1, false, ofFrames, "F_AngVel", "angular velocity, from two slices", oneFrame<AngularVelocity>},
+      {S::linangVel,               "linangVel",               nullptr,       "a",                    1, 1,  "6",                m_s,    rad_s,    1, false, ofFrames, "F_LinAngVel", "velocity and angular velocity, from two slices", [](auto&, const Ids& f, auto&) -> Made { return stack(std::make_unique<LinearVelocity>(f[0]), std::make_unique<AngularVelocity>(f[0])); }},
+      {S::AlignXWithDiff,          "AlignXWithDiff",          nullptr,       "a b",                  2, 2,  "3",                unit,   unit,     1, false, ofFrames, "F_AlignXWithDiff", "zero where b moves along the x axis of a", [](auto&, const Ids& f, auto&) -> Made { return std::make_unique<AlignWithMotion>(0, f[0], f[1]); }},
+      {S::AlignYWithDiff,          "AlignYWithDiff",          nullptr,       "a b",                  2, 2,  "3",                unit,   unit,     1, false, ofFrames, "F_AlignYWithDiff", "zero where b moves along the y axis of a", [](auto&, const Ids& f, auto&) -> Made { return std::make_unique<AlignWithMotion>(1, f[0], f[1]); }},
+      {S::energy,                  "energy",                  nullptr,       "masses",               1, -1, "1",                joule,  joule,    1, false, ofFrames, "F_Energy", "kinetic energy of the centers of mass, and potential energy", [](auto&, const Ids& f, auto&) -> Made { return std::make_unique<Energy>(f); }},
+      {S::EqCenterOfMass,          "EqCenterOfMass",          nullptr,       "a masses",             1, -1, "3",                m,      m,        0, false, ofScene,  "F_EqCenterOfMass", "p_a minus the center of the masses", [](auto&, const Ids& f, auto&) -> Made { return std::make_unique<CenterOfMassOffset>(f[0], Ids(f.begin() + 1, f.end())); }},
+      {S::physics,                 "physics",                 nullptr,       "mass",                 1, 1,  "6",                m_s,    rad_s,    2, false, ofFrames, "F_NewtonEuler", "Newton and Euler with contact forces: zero in free fall; with gyroscopic torques in a KOMO", [](auto&, const Ids& f, auto&) -> Made { return std::make_unique<FreeFlight>(f[0], -kGravity.z()); }},
+      {S::totalForce,              "totalForce",              nullptr,       "mass",                 1, 1,  "6",                newton, newton_m, 0, false, ofFrames, "F_TotalForce", "weight and contact forces, then their torques: zero at rest", [](auto&, const Ids& f, auto&) -> Made { return std::make_unique<TotalForce>(f[0], std::vector<ContactForce>()); }},
+      {S::contactConstraints,      "contactConstraints",      nullptr,       "a b",                  2, 2,  "3",                newton, newton,   0, false, ofFrames, "F_ContactConstraints", "the part of the contact force along the surface", [](auto&, const Ids& f, auto&) -> Made { return std::make_unique<TangentialForce>(f[0], f[1], std::vector<ContactForce>()); }},
+      {S::transAccelerations,      "transAccelerations",      nullptr,       "",                     0, -1, "",                 none,   none,     0, false, ofFrames, "F_TransAccelerations", "obsolete; use position with order 1 or 2", nullptr},
+      {S::transVelocities,         "transVelocities",         nullptr,       "",                     0, -1, "",                 none,   none,     0, false, ofFrames, "F_TransVelocities", "obsolete; use position with order 1 or 2", nullptr},
+  };
+  // clang-format on
+}
 std::string framesWanted(const FeatureInfo& info) {
   if (info.max_frames < 0) return cat(info.min_frames, " or more frames");
   return cat(info.min_frames, info.min_frames == 1 ? " frame" : " frames");
 }
 
 }  // namespace
+
+const char* unitName(FeatureUnit unit) {
+  switch (unit) {
+    case FeatureUnit::none:
+      return "-";
+    case FeatureUnit::meter:
+      return "m";
+    case FeatureUnit::radian:
+      return "rad";
+    case FeatureUnit::joint:
+      return "m or rad";
+    case FeatureUnit::quaternion:
+      return "quaternion";
+    case FeatureUnit::direction:
+      return "unit vector";
+    case FeatureUnit::cosine:
+      return "cosine";
+    case FeatureUnit::meter_per_second:
+      return "m/s";
+    case FeatureUnit::radian_per_second:
+      return "rad/s";
+    case FeatureUnit::newton:
+      return "N";
+    case FeatureUnit::newton_meter:
+      return "N m";
+    case FeatureUnit::joule:
+      return "J";
+  }
+  return "-";
+}
 
 const std::vector<FeatureInfo>& featureRegistry() {
   static const std::vector<FeatureInfo> registry = makeRegistry();
@@ -155,7 +238,7 @@ const FeatureInfo& featureInfo(FeatureSymbol symbol) {
     for (const FeatureInfo& info : featureRegistry()) {
       const auto number = std::size_t(info.symbol);
       list.resize(std::max(list.size(), number + 1));
-      if (!list[number]) list[number] = &info;  // before its aliases
+      list[number] = &info;
     }
     return list;
   }();
@@ -164,131 +247,50 @@ const FeatureInfo& featureInfo(FeatureSymbol symbol) {
   throw NameError(cat("feature symbol ", int(symbol), " does not exist"));
 }
 
+const std::vector<std::pair<std::string, FeatureSymbol>>& featureNames() {
+  static const std::vector<std::pair<std::string, FeatureSymbol>> names = [] {
+    std::vector<std::pair<std::string, FeatureSymbol>> list;
+    for (const FeatureInfo& info : featureRegistry()) {
+      list.emplace_back(info.name, info.symbol);
+      if (info.alias) list.emplace_back(info.alias, info.symbol);
+    }
+    return list;
+  }();
+  return names;
+}
+
 FeatureSymbol featureSymbolFromName(std::string_view name) {
   std::vector<std::string> names;
-  for (const FeatureInfo& info : featureRegistry()) {
-    if (info.name == name) return info.symbol;
-    names.push_back(info.name);
+  for (const auto& [known, symbol] : featureNames()) {
+    if (known == name) return symbol;
+    names.push_back(known);
   }
   throw NameError(cat("there is no feature '", name, "'", similarHint(name, names)));
 }
 
-std::unique_ptr<Feature> makeFeature(FeatureSymbol symbol, const std::vector<int>& frames, const Program& program) {
+std::string featureTable() {
+  std::string text = "| feature | frames | rows | unit | order | value |\n|---|---|---|---|---|---|\n";
+  for (const FeatureInfo& info : featureRegistry()) {
+    const std::string unit = unitName(info.unit), later = unitName(info.later_unit);
+    const std::string name = info.alias ? cat("`", info.name, "` = `", info.alias, "`") : cat("`", info.name, "`");
+    const std::string frames =
+        cat(info.min_frames == 0 ? "none" : "", info.min_frames == 0 && info.max_frames ? ", or " : "", info.frames);
+    text += info.available()
+                ? cat("| ", name, " | ", frames, " | ", info.rows, " | ", unit == later ? unit : cat(unit, "; ", later),
+                      " | ", info.order, " | ", info.value, " |\n")
+                : cat("| ", name, " | | | | | ", info.value, " |\n");
+  }
+  return text;
+}
+
+Made makeFeature(FeatureSymbol symbol, const Ids& frames, const Program& program) {
   const FeatureInfo& info = featureInfo(symbol);
   const int count = int(frames.size());
   if (count < info.min_frames || (info.max_frames >= 0 && count > info.max_frames)) {
     throw ValueError(cat(info.name, " takes ", framesWanted(info), ", got ", count));
   }
-  if (!info.available) {
-    throw ValueError(cat(info.name, " is obsolete; use position with order 1 or 2"));
-  }
-  const int a = count > 0 ? frames[0] : -1, b = count > 1 ? frames[1] : -1, c = count > 2 ? frames[2] : -1;
-  switch (symbol) {
-    case S::position:
-      return std::make_unique<Position>(Position::Kind::world, a);
-    case S::positionDiff:
-      return std::make_unique<Position>(Position::Kind::difference, a, b);
-    case S::positionRel:
-      return std::make_unique<Position>(Position::Kind::relative, a, b);
-    case S::quaternion:
-      return std::make_unique<Orientation>(Orientation::Kind::world, a);
-    case S::quaternionDiff:
-      return std::make_unique<Orientation>(Orientation::Kind::difference, a, b);
-    case S::quaternionRel:
-      return std::make_unique<Orientation>(Orientation::Kind::relative, a, b);
-    case S::pose:
-      return stack(std::make_unique<Position>(Position::Kind::world, a),
-                   std::make_unique<Orientation>(Orientation::Kind::world, a));
-    case S::poseDiff:
-      return stack(std::make_unique<Position>(Position::Kind::difference, a, b),
-                   std::make_unique<Orientation>(Orientation::Kind::difference, a, b));
-    case S::poseRel:
-      return stack(std::make_unique<Position>(Position::Kind::relative, a, b),
-                   std::make_unique<Orientation>(Orientation::Kind::relative, a, b));
-    case S::vectorX:
-    case S::vectorY:
-    case S::vectorZ:
-      return std::make_unique<Axis>(Axis::Kind::world, (int(symbol) - int(S::vectorX)) / 3, a);
-    case S::vectorXDiff:
-    case S::vectorYDiff:
-    case S::vectorZDiff:
-      return std::make_unique<Axis>(Axis::Kind::difference, (int(symbol) - int(S::vectorXDiff)) / 3, a, b);
-    case S::vectorXRel:
-    case S::vectorYRel:
-    case S::vectorZRel:
-      return std::make_unique<Axis>(Axis::Kind::relative, (int(symbol) - int(S::vectorXRel)) / 3, a, b);
-    case S::scalarProductXX:
-      return std::make_unique<AxisProduct>(0, 0, a, b);
-    case S::scalarProductXY:
-      return std::make_unique<AxisProduct>(0, 1, a, b);
-    case S::scalarProductXZ:
-      return std::make_unique<AxisProduct>(0, 2, a, b);
-    case S::scalarProductYX:
-      return std::make_unique<AxisProduct>(1, 0, a, b);
-    case S::scalarProductYY:
-      return std::make_unique<AxisProduct>(1, 1, a, b);
-    case S::scalarProductYZ:
-      return std::make_unique<AxisProduct>(1, 2, a, b);
-    case S::scalarProductZX:
-      return std::make_unique<AxisProduct>(2, 0, a, b);
-    case S::scalarProductZY:
-      return std::make_unique<AxisProduct>(2, 1, a, b);
-    case S::scalarProductZZ:
-      return std::make_unique<AxisProduct>(2, 2, a, b);
-    case S::gazeAt:
-      return std::make_unique<Position>(Position::Kind::relative, a, b, 2);
-    case S::angularVel:
-      return std::make_unique<AngularVelocity>(a);
-    case S::linangVel:
-      return stack(std::make_unique<LinearVelocity>(a), std::make_unique<AngularVelocity>(a));
-    case S::energy:
-      return std::make_unique<Energy>(frames);
-    case S::EqCenterOfMass:
-      return std::make_unique<CenterOfMassOffset>(a, std::vector<int>(frames.begin() + 1, frames.end()));
-    case S::physics:
-      return std::make_unique<FreeFlight>(a, -kGravity.z());
-    case S::totalForce:
-      return std::make_unique<TotalForce>(a, std::vector<ContactForce>());
-    case S::contactConstraints:
-      return std::make_unique<TangentialForce>(a, b, std::vector<ContactForce>());
-    case S::AlignXWithDiff:
-      return std::make_unique<AlignWithMotion>(0, a, b);
-    case S::AlignYWithDiff:
-      return std::make_unique<AlignWithMotion>(1, a, b);
-    case S::accumulatedCollisions:
-      return std::make_unique<AccumulatedCollisions>(frames, program);
-    case S::pairCollisions:
-      return std::make_unique<PairCollisions>(frames, program);
-    case S::jointLimits:
-      return std::make_unique<JointLimits>(dofsOf(frames, program, info), program);
-    case S::qItself:
-      return std::make_unique<JointState>(dofsOf(frames, program, info));
-    case S::qQuaternionNorms:
-      return std::make_unique<QuaternionNorms>(program.unit_norms);
-    case S::distance:
-    case S::pairCollision_negScalar:
-      return std::make_unique<NegDistance>(a, b);
-    case S::pairCollision_vector:
-      return std::make_unique<Witness>(Witness::Kind::vector, a, b);
-    case S::pairCollision_normal:
-      return std::make_unique<Witness>(Witness::Kind::normal, a, b);
-    case S::pairCollision_p1:
-      return std::make_unique<Witness>(Witness::Kind::point_a, a, b);
-    case S::pairCollision_p2:
-      return std::make_unique<Witness>(Witness::Kind::point_b, a, b);
-    case S::oppose:
-      return std::make_unique<Oppose>(a, b, c, false);
-    case S::opposeCentral:
-      return std::make_unique<Oppose>(a, b, c, true);
-    case S::aboveBox:
-      return std::make_unique<BoxRegion>(BoxRegion::Kind::above, a, b, boxOf(b, program, info));
-    case S::insideBox:
-      return std::make_unique<BoxRegion>(BoxRegion::Kind::inside, a, b, boxOf(b, program, info));
-    case S::standingAbove:
-      return std::make_unique<StandingAbove>(a, b, .5 * (heightOf(a, program) + heightOf(b, program)));
-    default:
-      throw ValueError(cat(info.name, " is not available"));
-  }
+  if (!info.available()) throw ValueError(cat(info.name, " is ", info.value));
+  return info.make(info, frames, program);
 }
 
 }  // namespace kinegraph

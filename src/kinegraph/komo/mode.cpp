@@ -178,78 +178,97 @@ bool isAttachment(SwitchMode mode) {
   }
 }
 
+namespace {
+
+/// A joint that starts, and is at home, where the object is.
+Attachment fromHere(JointType type, bool stable) {
+  Attachment a;
+  a.type = type;
+  a.stable = stable;
+  a.starts_here = true;
+  a.zero_home = false;
+  return a;
+}
+
+/// The same without turning the object.
+Attachment fromHereWithoutTurning(JointType type, const Frame& parent, const Frame& object) {
+  Attachment a = fromHere(type, false);
+  a.base = Pose();
+  a.base->q = (parent.getPose().inverse() * object.getPose()).q;
+  return a;
+}
+
+/// The sides of the box that a mode needs.
+std::vector<double> boxOf(const Frame& parent, SwitchMode mode, const Frame& object) {
+  if (isBox(parent)) return parent.getSize();
+  throw ValueError(cat("addModeSwitch: ", switchModeName(mode), " needs a box (ssBox) to place '", object.getName(),
+                       "' on; '", parent.getName(), "' has ",
+                       parent.getShapeType() == ShapeType::none ? "no shape" : "another shape"));
+}
+
+/// On the face of a box along an axis.
+Attachment onFace(const std::vector<double>& box, int axis, const Frame& object) {
+  Attachment a;
+  a.type = JointType::transXYPhi;
+  a.starts_here = axis == 2;
+  a.uniform = true;
+  a.base = faceBase(box, axis, height(object));
+  limitSliding(a, .5 * box[axis == 0 ? 2 : 0], .5 * box[axis == 1 ? 2 : 1]);
+  return a;
+}
+
+/// Sliding on the top of a box.
+Attachment onTop(const std::vector<double>& box, const Frame& object) {
+  Attachment a = fromHere(JointType::transXYPhi, false);
+  a.base = faceBase(box, 2, height(object));
+  return a;
+}
+
+/// In the plane of the parent, at the height and with the orientation that the object has.
+Attachment inPlane(const Frame& parent, const Frame& object) {
+  Attachment a = fromHereWithoutTurning(JointType::transXY, parent, object);
+  const Pose relative = parent.getPose().inverse() * object.getPose();
+  const Vector3d along = relative.q.inverse() * relative.p;  // in the axes of the object
+  a.base->p = relative.p - relative.q * Vector3d(along.cwiseProduct(Vector3d(1., 1., 0.)));
+  return a;
+}
+
+}  // namespace
+
 Attachment attachmentOf(SwitchMode mode, const Frame& parent, const Frame& object) {
   using M = SwitchMode;
-  const std::vector<double> box = parent.getSize();
-  const auto requireBox = [&] {
-    if (isBox(parent)) return;
-    throw ValueError(cat("addModeSwitch: ", switchModeName(mode), " needs a box (ssBox) to place '", object.getName(),
-                         "' on; '", parent.getName(), "' has ",
-                         parent.getShapeType() == ShapeType::none ? "no shape" : "another shape"));
-  };
-  Attachment a;
   switch (mode) {
-    case M::stable:
-      a.type = JointType::free;
-      a.starts_here = true;
-      a.zero_home = false;
+    case M::stable: {
+      Attachment a = fromHere(JointType::free, true);
       limitFreeJoint(a, parent, &object);
       return a;
+    }
     case M::stableOn:
+      return onFace(boxOf(parent, mode, object), 2, object);
     case M::stableOnX:
-    case M::stableOnY: {
-      requireBox();
-      const int axis = mode == M::stableOnX ? 0 : mode == M::stableOnY ? 1 : 2;
-      a.type = JointType::transXYPhi;
-      a.starts_here = axis == 2;
-      a.uniform = true;
-      a.base = faceBase(box, axis, height(object));
-      limitSliding(a, .5 * box[axis == 0 ? 2 : 0], .5 * box[axis == 1 ? 2 : 1]);
+      return onFace(boxOf(parent, mode, object), 0, object);
+    case M::stableOnY:
+      return onFace(boxOf(parent, mode, object), 1, object);
+    case M::stableYPhi:
+      return fromHere(JointType::transY, true);
+    case M::stableZero:
+      return {};
+    case M::dynamic:
+    case M::quasiStatic:
+    case M::magic:
+      return fromHere(JointType::free, false);
+    case M::dynamicTrans:
+      return fromHereWithoutTurning(JointType::trans3, parent, object);
+    case M::dynamicOn:
+      return onTop(boxOf(parent, mode, object), object);
+    case M::quasiStaticOn: {
+      const std::vector<double> box = boxOf(parent, mode, object);
+      Attachment a = onTop(box, object);
+      limitSliding(a, .5 * box[0], .5 * box[1]);
       return a;
     }
-    case M::stableYPhi:
-      a.type = JointType::transY;
-      a.starts_here = true;
-      a.zero_home = false;
-      return a;
-    case M::stableZero:
-      return a;
-    case M::dynamic:
-    case M::dynamicTrans:
-    case M::quasiStatic:
-      a.type = mode == M::dynamicTrans ? JointType::trans3 : JointType::free;
-      a.stable = false;
-      a.starts_here = true;
-      a.zero_home = false;
-      if (mode == M::dynamicTrans) {  // it keeps its orientation
-        a.base = Pose();
-        a.base->q = (parent.getPose().inverse() * object.getPose()).q;
-      }
-      return a;
-    case M::dynamicOn:
-    case M::quasiStaticOn:
-      requireBox();
-      a.type = JointType::transXYPhi;
-      a.stable = false;
-      a.starts_here = true;
-      a.zero_home = false;
-      a.base = faceBase(box, 2, height(object));
-      if (mode == M::quasiStaticOn) limitSliding(a, .5 * box[0], .5 * box[1]);
-      return a;
-    case M::magic:
     case M::magicTrans:
-      a.type = mode == M::magic ? JointType::free : JointType::transXY;
-      a.stable = false;
-      a.starts_here = true;
-      a.zero_home = false;
-      if (mode == M::magicTrans) {  // it keeps its orientation and its height
-        const Pose relative = parent.getPose().inverse() * object.getPose();
-        a.base = Pose();
-        a.base->q = relative.q;
-        a.base->p =
-            relative.p - relative.q * Vector3d((relative.q.inverse() * relative.p).cwiseProduct(Vector3d(1., 1., 0.)));
-      }
-      return a;
+      return inPlane(parent, object);
     default:
       throw ValueError(cat(
           "addModeSwitch: ", switchModeName(mode),

@@ -32,10 +32,6 @@ std::string frameOfDof(const Program& program, int dof) {
   return {};
 }
 
-bool isJointFeature(const FeatureSource& feature) {
-  return feature == FeatureSymbol::qItself || feature == FeatureSymbol::jointLimits;
-}
-
 /// The unit that all rows of an objective about joints have; number if they differ.
 Measure measureOfJoints(const Path& path, const Objective& objective, int slice) {
   const Program& program = path.state(slice).program();
@@ -50,53 +46,43 @@ Measure measureOfJoints(const Path& path, const Objective& objective, int slice)
   return same ? used[0] : Measure::number;
 }
 
-/// What entry `row` of a feature is.
-Measure measureOfFeature(FeatureSymbol feature, int row) {
-  using S = FeatureSymbol;
-  switch (feature) {
-    case S::position:
-    case S::positionDiff:
-    case S::positionRel:
-    case S::gazeAt:
-    case S::accumulatedCollisions:
-    case S::pairCollisions:
-    case S::distance:
-    case S::oppose:
-    case S::aboveBox:
-    case S::insideBox:
-    case S::pairCollision_negScalar:
-    case S::pairCollision_vector:
-    case S::pairCollision_p1:
-    case S::pairCollision_p2:
-    case S::standingAbove:
+/// What people are told of a unit. Velocities are lengths and angles per time.
+Measure measureOf(FeatureUnit unit) {
+  switch (unit) {
+    case FeatureUnit::meter:
+    case FeatureUnit::meter_per_second:
       return Measure::length;
-    case S::quaternion:
-    case S::quaternionDiff:
-    case S::quaternionRel:
-      return Measure::quaternion;
-    case S::pose:
-    case S::poseDiff:
-    case S::poseRel:
-      return row < 3 ? Measure::length : Measure::quaternion;
-    case S::vectorX:
-    case S::vectorXDiff:
-    case S::vectorXRel:
-    case S::vectorY:
-    case S::vectorYDiff:
-    case S::vectorYRel:
-    case S::vectorZ:
-    case S::vectorZDiff:
-    case S::vectorZRel:
-      return Measure::axis;
-    case S::angularVel:
+    case FeatureUnit::radian:
+    case FeatureUnit::radian_per_second:
       return Measure::angle;
-    case S::linangVel:
-      return row < 3 ? Measure::length : Measure::angle;
-    default:
-      break;
+    case FeatureUnit::quaternion:
+      return Measure::quaternion;
+    case FeatureUnit::direction:
+      return Measure::axis;
+    case FeatureUnit::cosine:
+      return Measure::cosine;
+    case FeatureUnit::none:
+    case FeatureUnit::joint:  // as the joint says: measureOfJoints
+    case FeatureUnit::newton:
+    case FeatureUnit::newton_meter:
+    case FeatureUnit::joule:
+      return Measure::number;
   }
-  return int(feature) >= int(S::scalarProductXX) && int(feature) <= int(S::scalarProductZZ) ? Measure::cosine
-                                                                                            : Measure::number;
+  return Measure::number;
+}
+
+/// How often a unit is per second.
+int timeOrderOf(FeatureUnit unit) {
+  return unit == FeatureUnit::meter_per_second || unit == FeatureUnit::radian_per_second;
+}
+
+/// Says what entry `entry` of an objective's feature is; one of a person's own is a number.
+void describeEntry(RowDescription& out, const Path& path, const Objective& objective, int slice, int entry) {
+  if (!objective.feature.symbol()) return;
+  const FeatureInfo& info = featureInfo(*objective.feature.symbol());
+  const FeatureUnit unit = info.unitOf(entry);
+  out.time_order = objective.order - info.order + timeOrderOf(unit);
+  out.measure = unit == FeatureUnit::joint ? measureOfJoints(path, objective, slice) : measureOf(unit);
 }
 
 }  // namespace
@@ -121,11 +107,7 @@ RowDescription describePathRow(const Path& path, const PathProblem& problem, int
   if (scale.size() > 1) out.scale = mixes_rows ? scale.row(r).norm() : scale(r, 0);
   int raw = r;  // the entry of the feature
   if (mixes_rows) scale.row(r).cwiseAbs().maxCoeff(&raw);
-  if (isJointFeature(objective.feature)) {
-    out.measure = measureOfJoints(path, objective, term.slice);
-  } else if (const auto symbol = objective.feature.symbol()) {
-    out.measure = measureOfFeature(*symbol, raw);
-  }
+  describeEntry(out, path, objective, term.slice, raw);
   if (out.measure == Measure::cosine && objective.target.size() > 0) out.target = objective.target[0];
   return out;
 }

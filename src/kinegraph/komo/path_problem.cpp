@@ -20,9 +20,7 @@ bool areAllZeroRows(const char* eight) {
 
 /// May the feature depend on which dofs there are, and so on the slice?
 bool dependsOnDofs(const FeatureSource& feature) {
-  return !feature.symbol() || feature == FeatureSymbol::jointLimits || feature == FeatureSymbol::qQuaternionNorms ||
-         feature == FeatureSymbol::accumulatedCollisions || feature == FeatureSymbol::pairCollisions ||
-         feature == FeatureSymbol::qItself;
+  return !feature.symbol() || featureInfo(*feature.symbol()).dofs != FeatureDofs::of_frames;
 }
 
 }  // namespace

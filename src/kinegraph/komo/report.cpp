@@ -30,30 +30,10 @@ double sizeOf(ObjectiveType type, double phi) {
 
 /// What the recorded reports call a feature.
 std::string className(const Objective& objective) {
-  using S = FeatureSymbol;
-  if (objective.name() == "physics") return objective.damped ? "F_NewtonEuler_DampedVelocities" : "F_NewtonEuler";
-  if (const auto symbol = objective.feature.symbol()) switch (*symbol) {
-      case S::distance:
-      case S::pairCollision_negScalar:
-      case S::pairCollision_vector:
-      case S::pairCollision_normal:
-      case S::pairCollision_p1:
-      case S::pairCollision_p2:
-        return "F_PairCollision";
-      case S::jointLimits:
-        return "F_qLimits";
-      case S::angularVel:
-        return "F_AngVel";
-      case S::linangVel:
-        return "F_LinAngVel";
-      default:
-        break;
-    }
+  if (objective.damped) return "F_NewtonEuler_DampedVelocities";
+  if (const auto symbol = objective.feature.symbol()) return featureInfo(*symbol).reported_as;
   std::string name = objective.name();
-  if (name.starts_with("scalarProduct")) return "F_ScalarProduct";
-  if (name.starts_with("vector"))
-    name = cat("Vector", name.ends_with("Diff") ? "Diff" : name.ends_with("Rel") ? "Rel" : "");
-  if (!name.starts_with("q") || name.starts_with("quaternion")) name[0] = char(std::toupper(name[0]));
+  if (!name.starts_with("q")) name[0] = char(std::toupper(name[0]));
   return "F_" + name;
 }
 
