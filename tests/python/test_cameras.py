@@ -71,7 +71,7 @@ def test_images_have_the_cameras_size_and_the_promised_types():
 
 
 @needs_egl
-def test_a_wall_two_metres_away_is_two_metres_deep_in_every_pixel():
+def test_a_wall_two_meters_away_is_two_meters_deep_in_every_pixel():
     _, view = scene("wall: { X: [2.5 0 2], shape: box, size: [1 9 9] }")
     _, depth = view.computeImageAndDepth()
     np.testing.assert_allclose(depth, 2.0, atol=1e-4)
@@ -79,7 +79,7 @@ def test_a_wall_two_metres_away_is_two_metres_deep_in_every_pixel():
 
 @needs_egl
 @pytest.mark.parametrize("range", ["[.01 100]", "[.5 5]", "[1.9 2.1]"])
-def test_depth_is_in_metres_whatever_the_range(range):
+def test_depth_is_in_meters_whatever_the_range(range):
     C = ry.Config()
     C.addText(
         f"camera: {{ X: {FORWARD}, width: 40, height: 30, zRange: {range} }}\n"
@@ -178,7 +178,7 @@ def test_meshes_and_hulls_are_drawn_where_they_are():
 
 
 @needs_egl
-def test_points_are_drawn_a_few_millimetres_thick():
+def test_points_are_drawn_a_few_millimeters_thick():
     C, view = scene("", ", orthoAbsHeight: .2")
     square = np.array([[0, -0.05, -0.05], [0, 0.05, -0.05], [0, 0.05, 0.05], [0, -0.05, 0.05]])
     C.addFrame("points").setPointCloud(square).setPosition([2, 0, 2])
@@ -223,7 +223,7 @@ glass: { X: [1 0 2], shape: box, size: [.1 1 1], color: [1 0 0 .3] }
 
 
 @needs_egl
-def test_segmentation_colours_encode_the_ids():
+def test_segmentation_colors_encode_the_ids():
     C, view = scene("")
     for i in range(70):
         C.addFrame(f"empty{i}")
@@ -239,7 +239,7 @@ def test_segmentation_colours_encode_the_ids():
 
 @needs_egl
 @pytest.mark.parametrize("color", [[1, 0, 0], [0, 1, 0], [0, 0, 1], [0.2, 0.4, 0.6]])
-def test_colours_are_those_of_the_shapes(color):
+def test_colors_are_those_of_the_shapes(color):
     C, view = scene("wall: { X: [2.5 0 2], shape: box, size: [1 9 9] }")
     C.getFrame("wall").setColor(color)
     shown = view.computeImageAndDepth()[0][HEIGHT // 2, WIDTH // 2].astype(float)
@@ -271,7 +271,7 @@ end_header
 
 
 @needs_egl
-def test_meshes_keep_the_colours_of_their_vertices(tmp_path):
+def test_meshes_keep_the_colors_of_their_vertices(tmp_path):
     (tmp_path / "flag.ply").write_text(PLY)
     _, view = scene(f"flag: {{ X: [2 0 2], mesh: <{tmp_path}/flag.ply> }}", ", orthoAbsHeight: 2")
     image = view.computeImageAndDepth()[0].astype(int)

@@ -1,4 +1,4 @@
-# Every primitive, with colours of every length, masses and inertias.
+# Every primitive, with colors of every length, masses and inertias.
 box: { X: [0 0 0], shape: box, size: [1 2 3], mass: 1, color: [.5] }
 sphere: { X: [1 0 0], shape: sphere, size: [.5], mass: 1, color: [.5 .3] }
 capsule: { X: [2 0 0], shape: capsule, size: [2 .5], mass: 1, color: [1 0 0] }
