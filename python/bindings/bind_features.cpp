@@ -4,6 +4,7 @@
 #include <nanobind/stl/vector.h>
 
 #include "bindings.h"
+#include "docs/features.h"
 #include "feature_arguments.h"
 #include "kinegraph/base/errors.h"
 #include "kinegraph/base/text.h"
@@ -99,38 +100,32 @@ void bindFeatures(nb::module_& m, nb::class_<PyConfig>& config) {
 
   bindOwnFeatures(m);
   nb::class_<NamedFeature>(m, "Feature", "A feature of named frames, evaluated on the configuration that is passed.")
-      .def("eval", evalNamed, "config"_a, "Value (d,) and Jacobian (d, n) at the configuration's q.")
+      .def("eval", evalNamed, "config"_a, docs::features::evalOf)
       .def(
           "setScale",
           [](NamedFeature& f, const Numbers& scale) -> NamedFeature& { return f.scale = toScale(scale), f; }, "scale"_a,
-          nb::rv_policy::none, "A number, one per row, or a matrix.")
+          nb::rv_policy::none, docs::features::setScale)
       .def(
           "setTarget",
           [](NamedFeature& f, const Numbers& target) -> NamedFeature& { return f.target = target.values, f; },
-          "target"_a, nb::rv_policy::none, "Subtracted before the scale: a number, or one per row.")
+          "target"_a, nb::rv_policy::none, docs::features::setTarget)
       .def(
           "setOrder", [](NamedFeature& f, int order) -> NamedFeature& { return f.order = order, f; }, "order"_a,
-          nb::rv_policy::none, "Order of the time derivative.")
+          nb::rv_policy::none, docs::features::setOrder)
       .def(
           "dim",
           [](const NamedFeature& f, const PyConfig& c) {
             return makeResidual(c.state(), f.source, f.frames, f.scale, f.target, f.order).rows();
           },
-          "config"_a, "Number of rows.")
+          "config"_a, docs::features::dim)
       .def(
           "description", [](const NamedFeature& f, const PyConfig&) { return describe(f); }, "config"_a,
-          "The feature in words.")
+          docs::features::description)
       .def("__repr__", [](const NamedFeature& f) { return cat("<Feature ", describe(f), ">"); });
 
   config
       .def("eval", evalFeature, "featureSymbol"_a, "frames"_a = std::vector<std::string>(), "scale"_a = nb::none(),
-           "target"_a = nb::none(), "order"_a = -1,
-           "A feature's value (d,) and Jacobian (d, n): scale * (feature - target).\n"
-           "featureSymbol: a symbol of FS, or a function of your own: it is called with a FrameView per frame (without "
-           "frames with\n"
-           "q) and returns y, or y and its Jacobian dy/dq (d, n), which central differences replace where it is left "
-           "out.\n"
-           "frames: names. scale: a number, one per row, or a matrix. target: a number, or one per row.")
+           "target"_a = nb::none(), "order"_a = -1, docs::features::eval)
       .def("evalFeature", evalFeature, "featureSymbol"_a, "frames"_a = std::vector<std::string>(),
            "scale"_a = nb::none(), "target"_a = nb::none(), "order"_a = -1, "The same as eval.")
       .def(
@@ -142,7 +137,7 @@ void bindFeatures(nb::module_& m, nb::class_<PyConfig>& config) {
             return f;
           },
           "featureSymbol"_a, "frames"_a = std::vector<std::string>(), "scale"_a = nb::none(), "target"_a = nb::none(),
-          "order"_a = -1, "A feature object with eval(config), setScale, setTarget and setOrder.");
+          "order"_a = -1, docs::features::feature);
 }
 
 }  // namespace kinegraph::python

@@ -9,6 +9,7 @@
 
 #include "bindings.h"
 #include "defaults.h"
+#include "docs/nlp.h"
 #include "explanation_dicts.h"
 #include "kinegraph/base/errors.h"
 #include "kinegraph/base/text.h"
@@ -140,32 +141,27 @@ void bindNlp(nb::module_& m) {
       .value("none", ObjectiveType::none);
 
   nb::class_<Nlp>(m, "NLP", "Minimize sum f + sum sos^2 subject to ineq <= 0, eq = 0 and bounds.")
-      .def("getDimension", &Nlp::dimension, "Number of variables.")
-      .def_prop_ro("dimension", &Nlp::dimension, "Number of variables.")
+      .def("getDimension", &Nlp::dimension, "The number n of variables.")
+      .def_prop_ro("dimension", &Nlp::dimension, "The number n of variables.")
       .def(
           "getTypes", [](const Nlp& nlp) { return nlp.types(); }, "The OT of each residual.")
       .def(
-          "getFeatureTypes", [](const Nlp& nlp) { return nlp.types(); }, "The same as getTypes.")
+          "getFeatureTypes", [](const Nlp& nlp) { return nlp.types(); }, "The OT of each residual.")
       .def_prop_ro("types", typeNumbers, "The OT of each residual, as numbers.")
-      .def("getBounds", bounds, "(2, n): lower and upper bounds; 0 and -1 where there is none.")
-      .def_prop_ro("bounds", bounds, "(2, n): lower and upper bounds; 0 and -1 where there is none.")
-      .def("evaluate", evaluate, "x"_a,
-           "phi (d,) and J: dense (d, n), or for motion problems triplets (row, column, value).")
-      .def("eval_scalar", evalScalar, "x"_a,
-           "(value, gradient, Hessian) of sum f + sum sos^2, the Hessian of sos as 2 J^T J. For problems without "
-           "constraints.")
-      .def("getFHessian", costHessian, "x"_a, "Hessian of sum f (n, n); (0, 0) if the problem has none to offer.")
+      .def("getBounds", bounds, "Lower and upper bounds, shape (2, n); 0 and -1 where there is none.")
+      .def_prop_ro("bounds", bounds, "Lower and upper bounds, shape (2, n); 0 and -1 where there is none.")
+      .def("evaluate", evaluate, "x"_a, docs::nlp::evaluate)
+      .def("eval_scalar", evalScalar, "x"_a, docs::nlp::eval_scalar)
+      .def("getFHessian", costHessian, "x"_a, docs::nlp::getFHessian)
       .def(
           "getInitializationSample", [](Nlp& nlp) { return toNumpy(nlp.initialPoint(defaults().random)); },
-          "A point to start from.")
+          "A point to start from, shape (n,).")
       .def(
           "getUniformSample", [](Nlp& nlp) { return toNumpy(nlp.uniformPoint(defaults().random)); },
-          "A point uniform in the bounds.")
+          "A random point, uniform within the bounds, shape (n,).")
       .def("checkJacobian", check, "x"_a, "tolerance"_a = 1e-4, "featureNames"_a = std::vector<std::string>(),
-           "Compares J with central differences at x, or at a sample where the size of x does not fit. Prints the ten "
-           "worst entries;\n"
-           "featureNames: one per residual.")
-      .def("checkHessian", checkSecond, "x"_a, "tolerance"_a = 1e-4, "The same for getFHessian.")
+           docs::nlp::checkJacobian)
+      .def("checkHessian", checkSecond, "x"_a, "tolerance"_a = 1e-4, docs::nlp::checkHessian)
       .def(
           "as_KOMO", [](const Nlp& nlp) { return std::static_pointer_cast<PyKomo>(komoOf(nlp)); },
           "The KOMO that this problem was made from, or None.")
@@ -174,10 +170,7 @@ void bindNlp(nb::module_& m) {
           [](std::shared_ptr<Nlp> nlp, double mu, double barrier) {
             return std::shared_ptr<Nlp>(makePenalized(std::move(nlp), mu, barrier));
           },
-          "muSquaredPenalty"_a = -1., "muLogBarrier"_a = -1.,
-          "This problem with its constraints as costs: muSquaredPenalty phi^2 (inequalities: where violated), or for "
-          "inequalities\n"
-          "-muLogBarrier log(-phi). A weight < 0 leaves them as they are.")
+          "muSquaredPenalty"_a = -1., "muLogBarrier"_a = -1., docs::nlp::aug_lag)
       .def("__reduce__", reduce)
       .def(
           "summarizeErrors",
@@ -185,36 +178,35 @@ void bindNlp(nb::module_& m) {
             const ErrorSums s = sumErrors(nlp.types(), phi.values);
             return toNumpy(VectorXd(Vector4d(s.f, s.sos, s.ineq, s.eq)));
           },
-          "phi"_a, "Sums over residuals: f, sos, ineq, eq.")
+          "phi"_a, docs::nlp::summarizeErrors)
       .def(
           "explain",
           [](Nlp& nlp, const Numbers& x, double tolerance) {
             return explainInterruptibly(nlp, x.values, tolerance).str();
           },
-          "x"_a, "tolerance"_a = 1e-3,
-          "In words: which constraints contradict each other around x, by how much, and what helps.")
+          "x"_a, "tolerance"_a = 1e-3, docs::nlp::explain)
       .def(
           "conflicts",
           [](Nlp& nlp, const Numbers& x, double tolerance) {
             return toDicts(explainInterruptibly(nlp, x.values, tolerance));
           },
-          "x"_a, "tolerance"_a = 1e-3, "What explain says, as a list of dicts.")
-      .def("report", &Nlp::report, "verbose"_a = 1, "A line about the problem.");
+          "x"_a, "tolerance"_a = 1e-3, docs::nlp::conflicts)
+      .def("report", &Nlp::report, "verbose"_a = 1, docs::nlp::report);
 
   nb::class_<PyNlpFactory, Nlp>(m, "NLP_Factory",
                                 "A problem whose residuals a Python function computes. It is an NLP once all is set.")
-      .def(nb::init<>())
-      .def("setDimension", &PyNlpFactory::setDimension, "dim"_a, "Number of variables.")
-      .def("setTypes", &PyNlpFactory::setTypes, "featureTypes"_a, "The OT of each residual.")
+      .def(nb::init<>(), "A problem of nothing yet.")
+      .def("setDimension", &PyNlpFactory::setDimension, "dim"_a, docs::nlp::setDimension)
+      .def("setTypes", &PyNlpFactory::setTypes, "featureTypes"_a, docs::nlp::setTypes)
       .def("setFeatureTypes", &PyNlpFactory::setTypes, "featureTypes"_a, "The same as setTypes.")
       .def(
           "setBounds",
           [](PyNlpFactory& f, const Numbers& lower, const Numbers& upper) { f.setBounds(lower.values, upper.values); },
-          "lower"_a, "upper"_a, "Bounds of the variables; upper below lower: none.")
-      .def("setEvalCallback", &PyNlpFactory::setFunction, "fct"_a, "function(x) -> (phi, J), with J dense.")
+          "lower"_a, "upper"_a, docs::nlp::setBounds)
+      .def("setEvalCallback", &PyNlpFactory::setFunction, "fct"_a, docs::nlp::setEvalCallback)
       .def(
           "testCallingEvalCallback", [](PyNlpFactory& f, const Numbers& x) { return evaluate(f, x); }, "x"_a,
-          "Evaluates the function once.");
+          docs::nlp::testCallingEvalCallback);
 
   m.def(
       "makeTestProblem",

@@ -13,8 +13,8 @@ nb::object orNone(double value) { return std::isnan(value) ? nb::none() : nb::ob
 
 }  // namespace
 
-nb::list toDicts(const Explanation& explanation) {
-  nb::list list;
+Conflicts toDicts(const Explanation& explanation) {
+  Conflicts list;
   for (std::size_t i = 0; i < explanation.conflicts.size(); ++i) {
     const Conflict& conflict = explanation.conflicts[i];
     nb::dict d;

@@ -5,7 +5,9 @@
 
 namespace kinegraph::python {
 
+using Conflicts = nb::typed<nb::list, nb::typed<nb::dict, nb::str, nb::any>>;
+
 /// A dict per conflict; lengths or angles that it does not have are None.
-nb::list toDicts(const Explanation& explanation);
+Conflicts toDicts(const Explanation& explanation);
 
 }  // namespace kinegraph::python
