@@ -8,6 +8,8 @@
 #include <numeric>
 #include <thread>
 
+#include "arguments.h"
+#include "docs/komo_reports.h"
 #include "kinegraph/base/errors.h"
 #include "kinegraph/base/text.h"
 #include "kinegraph/front/komo_motion.h"
@@ -54,10 +56,10 @@ nb::dict entryOf(const Objective& objective, double error) {
   return entry;
 }
 
-nb::dict report(const PyKomo& komo, bool with_specs, bool list_objectives, bool plot, bool sort) {
+Attributes report(const PyKomo& komo, bool with_specs, bool list_objectives, bool plot, bool sort) {
   if (plot) emitWarning("KOMO.report: plots are not available; info_objectiveErrorTraces() has the numbers");
   const PathErrors errors = measurePath(komo);
-  nb::dict out;
+  Attributes out;
   if (with_specs) out["specs"] = specs(komo);
   if (list_objectives) {
     std::vector<std::size_t> order(komo.objectives().size());
@@ -136,8 +138,7 @@ int viewPlay(PyKomo& komo, bool pause, Message text, double delay, const std::op
 
 void bindKomoReports(nb::class_<PyKomo>& komo) {
   komo.def("report", report, "specs"_a = false, "listObjectives"_a = true, "plotOverTime"_a = false,
-           "sortByError"_a = true,
-           "The objectives with their errors at the present path, smallest first, and the sums, as a dict.")
+           "sortByError"_a = true, docs::komo_reports::report)
       .def(
           "getReport", [](const PyKomo& k, nb::args, nb::kwargs) { return report(k, false, true, false, true); },
           "The same as report().")
@@ -146,28 +147,18 @@ void bindKomoReports(nb::class_<PyKomo>& komo) {
       .def("info_objectiveNames", objectiveTags, "A short name per objective.")
       .def(
           "info_objectiveErrorTraces", [](const PyKomo& k) { return toNumpy(measurePath(k).per_slice); },
-          "(T, objectives): errors by slice.")
+          "Errors of the objectives by slice, shape (T, objectives).")
       .def(
           "info_sliceErrors",
           [](const PyKomo& k, int t, const Numbers& traces) { return sliceErrors(k, t, traces.matrix()); }, "t"_a,
-          "errorTraces"_a, "The objectives with errors in a slice, largest first, a line each.")
+          "errorTraces"_a, docs::komo_reports::info_sliceErrors)
       .def(
           "info_sliceCollisions", [](const PyKomo& k, int t, double margin) { return sliceCollisions(k, t, margin); },
-          "t"_a, "belowMargin"_a, "The pairs of shapes nearer than a margin in a slice, a line each.")
-      .def("view", view, "pause"_a = false, "txt"_a = nb::none(),
-           "Shows all slices at once, those before the path as well, in the browser, with\n"
-           "a time slider, the errors of the objectives, and what violates them in red. pause: waits for a key. "
-           "Returns the key that was pressed, or 0.")
-      .def("view_slice", viewSlice, "t"_a, "pause"_a = false,
-           "Shows a slice, in pictures of the viewer (getRgb), too; on the page the others are at the time slider. "
-           "Returns\n"
-           "the key, or 0.")
+          "t"_a, "belowMargin"_a, docs::komo_reports::info_sliceCollisions)
+      .def("view", view, "pause"_a = false, "txt"_a = nb::none(), docs::komo_reports::view)
+      .def("view_slice", viewSlice, "t"_a, "pause"_a = false, docs::komo_reports::view_slice)
       .def("view_play", viewPlay, "pause"_a = false, "txt"_a = nb::none(), "delay"_a = .1,
-           "saveVideoPath"_a = nb::none(),
-           "Plays the slices, `delay` seconds each, and waits until they have been played once; a key ends it. "
-           "saveVideoPath: saves\n"
-           "a picture of each slice as <saveVideoPath>000000.png and so on, in place of those that are there. Returns "
-           "the key, or 0.")
+           "saveVideoPath"_a = nb::none(), docs::komo_reports::view_play)
       .def(
           "_repr_html_",
           [](const PyKomo& k) {
@@ -191,7 +182,7 @@ void bindKomoReports(nb::class_<PyKomo>& komo) {
           "The viewer of this problem.")
       .def(
           "set_viewer", [](PyKomo& k, std::shared_ptr<PyViewer> viewer) { k.viewer = std::move(viewer); }, "viewer"_a,
-          "Shows this problem in another one's viewer.");
+          docs::komo_reports::set_viewer);
 }
 
 }  // namespace kinegraph::python

@@ -12,6 +12,9 @@ struct PyKomo : Komo {
   std::shared_ptr<PyViewer> viewer;
 };
 
+/// Its slices: what is in them, and where they start.
+void bindKomoPath(nb::class_<PyKomo>& komo);
+
 /// What a KOMO says about itself, in words, numbers and pictures.
 void bindKomoReports(nb::class_<PyKomo>& komo);
 

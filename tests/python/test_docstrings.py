@@ -85,7 +85,8 @@ def section(text, name):
 
 
 def entries(lines):
-    return [m[1] for line in lines or [] if (m := re.match(r"(\w+): ", line))]
+    named = (re.match(r"(\w+(?:, \w+)*): ", line) for line in lines or [])
+    return [name for m in named if m for name in m[1].split(", ")]
 
 
 def complaints(name, member):
