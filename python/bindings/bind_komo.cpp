@@ -15,7 +15,6 @@
 #include "kinegraph/base/text.h"
 #include "kinegraph/features/registry.h"
 #include "kinegraph/komo/report.h"
-#include "kinegraph/komo/sub_problem.h"
 #include "kinegraph/solvers/nlp_solver.h"
 #include "py_komo.h"
 #include "solving.h"

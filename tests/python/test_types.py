@@ -17,14 +17,10 @@ LATER = [
     "view_getDepth",
     "view_fxycxy",
     "view_pose",
-    "conflicts",
     "dict",
     "reportLagrangeGradients",
     "getTrace_J",
     "getOptions",
-    "getForceInteractions",
-    "report",
-    "getReport",
 ]
 STUB = Path(kinegraph.__file__).parent / "_core.pyi"
 
