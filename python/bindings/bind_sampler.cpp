@@ -1,8 +1,10 @@
 #include <nanobind/stl/shared_ptr.h>
 #include <nanobind/stl/string.h>
 
+#include "arguments.h"
 #include "bindings.h"
 #include "defaults.h"
+#include "docs/sampler.h"
 #include "kinegraph/base/errors.h"
 #include "kinegraph/base/text.h"
 #include "kinegraph/solvers/sampling/sampler.h"
@@ -49,23 +51,23 @@ SolverResult sample(PySampler& self) {
 
 void bindSampler(nb::module_& m) {
   const std::string set_options_doc =
-      "Sets options by name; all others stay as they are.\n\nArgs:\n    options: Fields:\n\n" +
-      samplerOptions().docs() + "\nReturns:\n    The sampler.";
+      "Sets options by name; all others stay as they are.\n\nArgs:\n    options: Fields by name.\n" +
+      samplerOptions().docs("        ") +
+      "Returns:\n    The sampler itself.\nRaises:\n    ArgumentError: There is no such option, or it cannot have this "
+      "value.";
   nb::class_<PySampler>(m, "NLP_Sampler",
                         "Draws points that satisfy the constraints of a problem. A call of sample() goes from a seed "
                         "downhill to the constraints,\n"
                         "and then makes interior steps within them.")
-      .def(nb::init<std::shared_ptr<Nlp>>(), "problem"_a)
+      .def(nb::init<std::shared_ptr<Nlp>>(), "problem"_a, docs::sampler::make)
       .def("setOptions", setOptions, "options"_a, nb::rv_policy::none, set_options_doc.c_str())
       .def(
-          "getOptions", [](const PySampler& s) { return samplerOptions().dict(s.sampler.options); },
+          "getOptions", [](const PySampler& s) { return Attributes(samplerOptions().dict(s.sampler.options)); },
           "All options as a dict.")
       .def(
           "setSeed", [](PySampler& s, std::uint64_t seed) -> PySampler& { return s.rng = Rng(seed), s; }, "seed"_a,
-          nb::rv_policy::none, "The samples that follow depend on it alone. Without it: on rnd_seed.")
-      .def(
-          "sample", sample,
-          "Draws a sample. The SolverReturn is feasible, or its message says where the way down ended. Ctrl-C ends it.")
+          nb::rv_policy::none, docs::sampler::setSeed)
+      .def("sample", sample, docs::sampler::sample)
       .def(
           "getProblem", [](const PySampler& s) { return s.sampler.problem(); }, "The problem.");
 }

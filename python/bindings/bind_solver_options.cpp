@@ -43,7 +43,10 @@ void bindSolverOptions(nb::module_& m) {
           solverOptions().setField(o, name, value);
           return o;
         },
-        "value"_a, nb::rv_policy::none, cat("Sets ", row.name, "; returns the options.").c_str());
+        "value"_a, nb::rv_policy::none,
+        cat("Sets ", row.name, ".\n\nArgs:\n    value: ", row.doc,
+            "\nReturns:\n    The options themselves.\nRaises:\n    ArgumentError: It cannot have this value.")
+            .c_str());
   }
 }
 

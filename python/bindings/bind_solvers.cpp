@@ -6,8 +6,10 @@
 #include <algorithm>
 #include <limits>
 
+#include "arguments.h"
 #include "bindings.h"
 #include "defaults.h"
+#include "docs/solvers.h"
 #include "explanation_dicts.h"
 #include "kinegraph/base/errors.h"
 #include "kinegraph/base/text.h"
@@ -83,9 +85,9 @@ SolverResult resultFrom(nb::tuple state) {
   return r;
 }
 
-nb::dict gradients(NlpSolver& solver, const std::vector<std::string>& names) {
+nb::typed<nb::dict, nb::str, Attributes> gradients(NlpSolver& solver, const std::vector<std::string>& names) {
   if (!solver.problem() || solver.x.size() == 0) throw Error("reportLagrangeGradients: nothing has been solved yet");
-  nb::dict report;
+  nb::typed<nb::dict, nb::str, Attributes> report;
   for (const LagrangeGradient& entry : lagrangeGradients(*solver.problem(), solver.x, solver.dual, names)) {
     nb::dict values;
     values["err"] = entry.error;
@@ -120,12 +122,12 @@ void bindResult(nb::module_& m) {
       .value("cancelled", SolverStatus::cancelled);
 
   nb::class_<SolverResult>(m, "SolverReturn", "How a solve ended.")
-      .def(nb::init<>())
-      .def(nb::init<const SolverResult&>(), "other"_a, "A copy.")
+      .def(nb::init<>(), "Nothing was solved yet.")
+      .def(nb::init<const SolverResult&>(), "other"_a, docs::solvers::copy)
       .def_prop_ro(
-          "x", [](const SolverResult& r) { return toNumpy(r.x); }, "The solution, (n,).")
+          "x", [](const SolverResult& r) { return toNumpy(r.x); }, "The solution, shape (n,).")
       .def_prop_ro(
-          "dual", [](const SolverResult& r) { return toNumpy(r.dual); }, "A multiplier per residual.")
+          "dual", [](const SolverResult& r) { return toNumpy(r.dual); }, "A multiplier per residual, shape (d,).")
       .def_ro("evals", &SolverResult::evals, "Number of evaluations.")
       .def_ro("time", &SolverResult::time, "Seconds.")
       .def_ro("feasible", &SolverResult::feasible,
@@ -142,7 +144,7 @@ void bindResult(nb::module_& m) {
       .def(
           "dict",
           [](const SolverResult& r) {
-            nb::dict d;
+            Attributes d;
             d["evals"] = r.evals;
             d["time"] = r.time;
             d["done"] = r.done;
@@ -153,19 +155,13 @@ void bindResult(nb::module_& m) {
             d["eq"] = r.eq;
             return d;
           },
-          "evals, time, done, feasible, f, sos, ineq, eq.")
+          "The numbers evals, time, done, feasible, f, sos, ineq and eq, as a dict.")
       .def(
           "explain", [](const SolverResult& r, double tolerance) { return explanationOf(r, tolerance).str(); },
-          "tolerance"_a = 1e-3,
-          "In words: which objectives and limits contradict each other where this ended, in which slices, by how many "
-          "m or rad,\n"
-          "and which single one helps most if it gives way. Solves small problems; leaves a KOMO at this solution.")
+          "tolerance"_a = 1e-3, docs::solvers::explain)
       .def(
           "conflicts", [](const SolverResult& r, double tolerance) { return toDicts(explanationOf(r, tolerance)); },
-          "tolerance"_a = 1e-3,
-          "What explain says, as a list of dicts: name, type, frames, slices, meters, radians, scaled, details, pull, "
-          "and of\n"
-          "giving way: suffices, by_meters, by_radians, by_scaled, best. Empty if all constraints hold.")
+          "tolerance"_a = 1e-3, docs::solvers::conflicts)
       .def("__str__", &SolverResult::str)
       .def("__getstate__", resultState)
       .def(
@@ -177,15 +173,18 @@ void bindResult(nb::module_& m) {
 void bindSolver(nb::module_& m) {
   constexpr auto chain = nb::rv_policy::none;
   const std::string set_options_doc =
-      "Sets options by name; all others stay as they are.\n\nArgs:\n    options: Fields of "
-      "NLP_SolverOptions:\n\n" +
-      solverOptions().docs() + "\nReturns:\n    The solver.";
+      "Sets options by name; all others stay as they are.\n\nArgs:\n    options: Fields of NLP_SolverOptions.\n" +
+      solverOptions().docs("        ") +
+      "Returns:\n    The solver itself.\nRaises:\n    ArgumentError: There is no such option, or it cannot have this "
+      "value.";
   nb::class_<NlpSolver>(m, "NLP_Solver", "Solves an NLP. A second solve() goes on from where the first ended.")
-      .def("__init__",
-           [](NlpSolver* self) {
-             new (self) NlpSolver();
-             self->options = startingOptions();
-           })
+      .def(
+          "__init__",
+          [](NlpSolver* self) {
+            new (self) NlpSolver();
+            self->options = startingOptions();
+          },
+          "A solver without a problem.")
       .def(
           "__init__",
           [](NlpSolver* self, std::shared_ptr<Nlp> problem, int verbose) {
@@ -193,66 +192,59 @@ void bindSolver(nb::module_& m) {
             self->options = startingOptions();
             self->options.verbose = verbose;
           },
-          "problem"_a, "verbose"_a = 0)
+          "problem"_a, "verbose"_a = 0, docs::solvers::makeSolver)
       .def(
           "setProblem",
           [](NlpSolver& s, std::shared_ptr<Nlp> p) -> NlpSolver& { return s.setProblem(std::move(p)), s; }, "problem"_a,
-          chain, "The problem to solve; once.")
+          chain, docs::solvers::setProblem)
       .def(
           "setPyProblem",
           [](NlpSolver& s, nb::object p) -> NlpSolver& { return s.setProblem(fromPythonProblem(p)), s; }, "problem"_a,
-          chain, "A Python object with dimension, types, bounds and evaluate(x) -> (phi, J).")
+          chain, docs::solvers::setPyProblem)
       .def("setOptions", setOptions, "options"_a, chain, set_options_doc.c_str())
       .def(
           "setSolver", [](NlpSolver& s, OptMethod method) -> NlpSolver& { return s.options.method = method, s; },
-          "method"_a, chain, "The method.")
+          "method"_a, chain, docs::solvers::setSolver)
       .def(
           "setInitialization",
           [](NlpSolver& s, const Numbers& x) -> NlpSolver& { return s.setInitialization(x.values), s; }, "x"_a, chain,
-          "Where to start; clipped to the bounds.")
-      .def("setProgress", setProgress, "function"_a.none(), "seconds"_a = .1, chain,
-           "Calls function(dict of evals, x, f, sos, ineq, eq) while solving, at most once in that time; returning "
-           "False stops it.\n"
-           "None: no more calls.")
+          docs::solvers::setInitialization)
+      .def("setProgress", setProgress, "function"_a.none(), "seconds"_a = .1, chain, docs::solvers::setProgress)
       .def(
           "setTracing",
           [](NlpSolver& s, bool x, bool e, bool phi, bool J) -> NlpSolver& { return s.setTracing(x, e, phi, J), s; },
           "trace_x"_a = true, "trace_errs"_a = true, "trace_phi"_a = false, "trace_J"_a = false, chain,
-          "Records what is evaluated.")
+          docs::solvers::setTracing)
       .def(
           "clearTracing", [](NlpSolver& s) -> NlpSolver& { return s.clearTracing(), s; }, chain,
-          "Forgets what was recorded.")
-      .def("solve", solve, "resampleInitialization"_a = -1, "verbose"_a = -100,
-           "Solves, from the last x or the problem's initial point. Ctrl-C ends it: the result is then the best so "
-           "far, with\n"
-           "status cancelled.")
+          "Forgets what was recorded. Returns the solver itself.")
+      .def("solve", solve, "resampleInitialization"_a = -1, "verbose"_a = -100, docs::solvers::solve)
       .def("getProblem", &NlpSolver::problem, "The problem.")
       .def(
           "getOptions", [](NlpSolver& s) -> SolverOptions& { return s.options; }, nb::rv_policy::reference_internal,
           "The options; changes take effect.")
       .def_prop_rw(
           "x", [](const NlpSolver& s) { return toNumpy(s.x); }, [](NlpSolver& s, const Numbers& x) { s.x = x.values; },
-          "The point reached.")
+          "The point reached, shape (n,).")
       .def_prop_rw(
           "dual", [](const NlpSolver& s) { return toNumpy(s.dual); },
-          [](NlpSolver& s, const Numbers& d) { s.dual = d.values; }, "A multiplier per residual.")
+          [](NlpSolver& s, const Numbers& d) { s.dual = d.values; }, "A multiplier per residual, shape (d,).")
       .def("reportLagrangeGradients", gradients, "featureNames"_a = std::vector<std::string>(),
-           "What each objective does where this ended: a dict from its name to err (its error), grad (length of its "
-           "part of the\n"
-           "Lagrangian's gradient) and type, the largest grad first, without those whose error is 0. featureNames: one "
-           "per residual.")
+           docs::solvers::reportLagrangeGradients)
       .def(
-          "getTrace_x", [](const NlpSolver& s) { return stack(s.traceX()); }, "(evaluations, n).")
+          "getTrace_x", [](const NlpSolver& s) { return stack(s.traceX()); },
+          "The variables of each evaluation, shape (evaluations, n).")
       .def(
-          "getTrace_phi", [](const NlpSolver& s) { return stack(s.tracePhi()); }, "(evaluations, d).")
+          "getTrace_phi", [](const NlpSolver& s) { return stack(s.tracePhi()); },
+          "The residuals of each evaluation, shape (evaluations, d).")
       .def(
           "getTrace_J",
           [](const NlpSolver& s) {
-            nb::list list;
+            nb::typed<nb::list, Array> list;
             for (const MatrixXd& J : s.traceJacobian()) list.append(toNumpy(J));
             return list;
           },
-          "A dense Jacobian per evaluation.")
+          "The Jacobian of each evaluation, shape (d, n).")
       .def(
           "getTrace_best",
           [](const NlpSolver& s) {
@@ -262,9 +254,9 @@ void bindSolver(nb::module_& m) {
               rows.push_back(VectorXd::Constant(1, best = std::min(best, e.f + e.sos + e.ineq + e.eq)));
             return stack(rows);
           },
-          "(evaluations, 1): the least sum of all errors so far.")
-      .def("getTrace_errs", errorTrace, "(evaluations, 4): sums of f, sos, ineq, eq.")
-      .def("getTrace_costs", errorTrace, "The same as getTrace_errs.");
+          "The least sum of all errors so far, shape (evaluations, 1).")
+      .def("getTrace_errs", errorTrace, "The sums of f, sos, ineq and eq of each evaluation, shape (evaluations, 4).")
+      .def("getTrace_costs", errorTrace, "The sums of f, sos, ineq and eq of each evaluation, shape (evaluations, 4).");
 }
 
 }  // namespace

@@ -7,6 +7,7 @@
 #include <functional>
 #include <utility>
 
+#include "arguments.h"
 #include "bindings.h"
 #include "kinegraph/base/option_table.h"
 
@@ -82,9 +83,9 @@ class OptionClass {
   }
 
   /// A line for each field: its name, default, unit and meaning.
-  std::string docs() const {
+  std::string docs(const char* indent = "    ") const {
     std::string text;
-    for (const auto& row : table_.rows()) text += cat("    ", row.name, ": ", doc(row), "\n");
+    for (const auto& row : table_.rows()) text += cat(indent, row.name, ": ", doc(row), "\n");
     return text;
   }
 
@@ -100,10 +101,12 @@ class OptionClass {
               self.setFields(filled, given);
               new (made) Options(std::move(filled));
             },
-            "fields"_a)
+            "fields"_a,
+            "The defaults, with some fields changed.\n\nArgs:\n    fields: By name.\nRaises:\n    ArgumentError: There "
+            "is no "
+            "such field, or it cannot have this value.")
         .def(
-            "dict", [self](const Options& o) { return self.dict(o); },
-            "All settings.\n\nReturns:\n    dict from the name of each field to its value.")
+            "dict", [self](const Options& o) { return Attributes(self.dict(o)); }, "All settings as a dict.")
         .def(
             "__eq__",
             [self](const Options& a, nb::handle b) {
