@@ -37,23 +37,24 @@ nb::object ofViewer(PyConfig& config, const char* name) { return nb::cast(viewer
 void bindEarlierNames(nb::class_<PyConfig>& config) {
   config
       .def(
-          "view_getRgb", [](PyConfig& c) { return ofViewer(c, "getRgb")(); }, "viewer().getRgb()")
+          "view_getRgb", [](PyConfig& c) { return ByteArray(ofViewer(c, "getRgb")()); },
+          "viewer().getRgb(): a picture, shape (height, width, 3), 0..255.")
       .def(
-          "view_getDepth", [](PyConfig& c) { return ofViewer(c, "getDepth")(); }, "viewer().getDepth()")
+          "view_getDepth", [](PyConfig& c) { return FloatArray(ofViewer(c, "getDepth")()); },
+          "viewer().getDepth(): its depth, shape (height, width), m.")
       .def(
           "view_savePng",
           [](PyConfig& c, const std::string& path) { return nb::cast<std::string>(ofViewer(c, "savePng")(path)); },
-          "pathPrefix"_a = "z.vid/", "viewer().savePng(pathPrefix)")
-      .def(
-          "view_setCamera", [](PyConfig& c, nb::handle frame) { ofViewer(c, "setCamera")(frame); }, "frame"_a,
-          "viewer().setCamera(frame)")
+          "pathPrefix"_a = "z.vid/", docs::viewer::view_savePng)
       .def(
           "view_focalLength", [](PyConfig& c) { return nb::cast<double>(ofViewer(c, "getCamera_focalLength")()[0]); },
           "Focal length of the view in image heights.")
       .def(
-          "view_fxycxy", [](PyConfig& c) { return ofViewer(c, "getCamera_fxycxy")(); }, "viewer().getCamera_fxycxy()")
+          "view_fxycxy", [](PyConfig& c) { return Array(ofViewer(c, "getCamera_fxycxy")()); },
+          "viewer().getCamera_fxycxy(): fx, fy, cx, cy in pixels, shape (4,).")
       .def(
-          "view_pose", [](PyConfig& c) { return ofViewer(c, "getCamera_pose")(); }, "viewer().getCamera_pose()")
+          "view_pose", [](PyConfig& c) { return Array(ofViewer(c, "getCamera_pose")()); },
+          "viewer().getCamera_pose(): x y z (m) qw qx qy qz, shape (7,).")
       .def(
           "view_raise", [](PyConfig& c) { ofViewer(c, "raiseWindow")(); }, "viewer().raiseWindow()")
       .def(
@@ -62,7 +63,7 @@ void bindEarlierNames(nb::class_<PyConfig>& config) {
             const Vector3d position = c.getFrame(frame).getPose().p;
             ofViewer(c, "focus")(toNumpy(position.data(), 3), height);
           },
-          "frameName"_a, "absHeight"_a = 1., "Turns the view to a frame; absHeight m fit into the window.");
+          "frameName"_a, "absHeight"_a = 1., docs::viewer::view_focus);
 }
 
 void select(PyViewer& viewer, int frame) {

@@ -22,7 +22,13 @@ def announce() -> None:
 
 
 def setRaiPath(folder: str | os.PathLike[str]) -> None:
-    """Makes `folder` the model collection that `raiPath` and `$RAI_PATH` refer to."""
+    """Sets the model collection that `raiPath` and `$RAI_PATH` refer to.
+
+    Args:
+        folder: Path of the collection.
+    Raises:
+        FileError: There is no such folder.
+    """
     if not Path(folder).is_dir():
         raise FileError(f"setRaiPath: there is no folder '{folder}'")
     os.environ["RAI_PATH"] = str(Path(folder).resolve())
@@ -34,6 +40,8 @@ def raiPath(path: str = "") -> str:
     Args:
         path: Relative to the model collection: 'panda/panda.g', 'scenarios/pandaSingle.g'. The older spellings
             '../rai-robotModels/...' and 'rai-robotModels/...' mean the same.
+    Returns:
+        The path.
     Raises:
         FileError: Nothing is there; the message lists similar names.
     """

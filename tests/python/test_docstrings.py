@@ -28,8 +28,7 @@ def public_callables():
             yield name, value, ry
 
 
-LATER = re.compile(r"NLP_S|SolverReturn|params_|set_params|rnd_seed|(set|r)R?aiPath|Config\.view_")
-CALLABLES = [found for found in public_callables() if not LATER.match(found[0])]
+CALLABLES = list(public_callables())
 
 
 def python_call(member):

@@ -14,7 +14,7 @@ from ..errors import ArgumentError
 
 
 def getCollisionFree(self: Config) -> bool:
-    """Overlaps no pair of shapes that may collide? getCollisions lists the pairs."""
+    """True if no pair of shapes that may collide overlaps; getCollisions lists those that do."""
     return not self.getCollisions()
 
 
@@ -45,6 +45,8 @@ def addStableFrame(
         initName, initFrame: Where it is at first: the name of a frame, or a frame.
     Returns:
         A copy of the frame.
+    Raises:
+        FrameNotFound: A name that is not in the scene.
     """
     if isinstance(initName, Frame):
         initName, initFrame = None, initName
@@ -59,22 +61,26 @@ def reportProblem(self: KOMO) -> None:
 
 
 def enableAccumulatedCollisions(self: Skeleton, enable: bool = True) -> None:
-    """Shall pairs of shapes stay apart? As useBroadCollisions."""
+    """Sets whether the motion is kept free of all collisions, as useBroadCollisions.
+
+    Args:
+        enable: False: only the pairs of addExplicitCollisions are kept apart.
+    """
     self.useBroadCollisions(enable)
 
 
 def getLog_x(self: NLP_Solver) -> NDArray[np.float64]:
-    """What was evaluated, as getTrace_x; setTracing(True) first."""
+    """The variables of each evaluation, shape (evaluations, n), as getTrace_x; setTracing(True) first."""
     return self.getTrace_x()
 
 
 def getLog_costs(self: NLP_Solver) -> NDArray[np.float64]:
-    """Sums of f, sos, ineq, eq of each evaluation, as getTrace_errs; setTracing(True) first."""
+    """Sums of f, sos, ineq, eq of each evaluation, shape (evaluations, 4), as getTrace_errs; setTracing(True) first."""
     return self.getTrace_errs()
 
 
 def getFxyCxy(self: CameraView) -> NDArray[np.float64]:
-    """fx, fy, cx, cy in pixels, as getFxycxy."""
+    """fx, fy, cx, cy in pixels, shape (4,), as getFxycxy."""
     return self.getFxycxy()
 
 
@@ -99,6 +105,9 @@ def addObject(
         pos, quat: Relative to the parent, (3,) in m and (4,) w x y z.
     Returns:
         The frame.
+    Raises:
+        FrameNotFound: There is no such parent.
+        ArgumentError: Sizes, a color or a pose of another shape.
     """
     frame = self.addFrame(name, parent)
     if shape != ST.none:

@@ -14,7 +14,13 @@ solver_options: dict[str, Any] = {}  # fields of NLP_SolverOptions that scripts 
 def params_add(values: dict[str, Any] | None = None, **more: Any) -> None:
     """Sets parameters, from a dict or from keyword arguments.
 
-    Those named 'opt/<field>' are defaults of NLP_SolverOptions; an unknown field there is an error.
+    Those named 'opt/<field>' are defaults of NLP_SolverOptions.
+
+    Args:
+        values: A dict from names to values.
+        more: The same by keyword.
+    Raises:
+        ArgumentError: NLP_SolverOptions has no such field, or it cannot have this value.
     """
     for name, value in {**(values or {}), **more}.items():
         if name.startswith("opt/"):
@@ -25,7 +31,14 @@ def params_add(values: dict[str, Any] | None = None, **more: Any) -> None:
 
 
 def params_file(filename: str) -> None:
-    """Adds the parameters of a file in .g syntax. A missing file is an error."""
+    """Adds the parameters of a file in .g syntax.
+
+    Args:
+        filename: Path of the file.
+    Raises:
+        FileNotFoundError: There is no such file.
+        ParseError: A mistake in the file.
+    """
     params_add(parseText(Path(filename).read_text(), str(filename)))
 
 
