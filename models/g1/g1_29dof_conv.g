@@ -20,7 +20,7 @@ pelvis: {
 # left leg
 left_hip_pitch_joint_origin (pelvis): { Q: [0 .064452 -.1027] }
 left_hip_pitch_joint (left_hip_pitch_joint_origin): {
-  joint: hingeY, limits: [-2.5307 2.8798], mass: 1.35, com: [.002741 .047791 -.02606],
+  joint: hingeY, limits: [-2.5307 2.8798], ctrl_limits: [32 88 -1], mass: 1.35, com: [.002741 .047791 -.02606],
   inertia: [.001811 3.68e-5 -3.44e-5 .0014193 .000171 .0012812], shape: ssCvx, size: [.01], color: [.2 .2 .2 1],
   core: [
     -.023 .015 -.07, -.023 .086 -.07, .03 .086 -.07, .03 .015 -.07,
@@ -31,7 +31,7 @@ left_hip_pitch_joint (left_hip_pitch_joint_origin): {
 }
 left_hip_roll_joint_origin (left_hip_pitch_joint): { Q: [0 .052 -.030465 .996178685 0 -.08733858 0] }
 left_hip_roll_joint (left_hip_roll_joint_origin): {
-  joint: hingeX, limits: [-.5236 2.9671], mass: 1.52, com: [.029812 -.001045 -.087934],
+  joint: hingeX, limits: [-.5236 2.9671], ctrl_limits: [20 139 -1], mass: 1.52, com: [.029812 -.001045 -.087934],
   inertia: [.0023773 -3.8e-6 -.0003908 .0024123 1.84e-5 .0016595], shape: ssCvx, size: [.01], color: [.7 .7 .7 1],
   core: [
     -.016 -.037 -.114, -.016 .037 -.114, .07 .037 -.114, .07 -.037 -.114,
@@ -42,7 +42,7 @@ left_hip_roll_joint (left_hip_roll_joint_origin): {
 }
 left_hip_yaw_joint_origin (left_hip_roll_joint): { Q: [.025001 0 -.12412] }
 left_hip_yaw_joint (left_hip_yaw_joint_origin): {
-  joint: hingeZ, limits: [-2.7576 2.7576], mass: 1.702, com: [-.057709 -.010981 -.15078],
+  joint: hingeZ, limits: [-2.7576 2.7576], ctrl_limits: [32 88 -1], mass: 1.702, com: [-.057709 -.010981 -.15078],
   inertia: [.0057774 -.0005411 -.0023948 .0076124 -.0007072 .003149], shape: ssCvx, size: [.01], color: [.7 .7 .7 1],
   core: [
     -.116 -.035 -.216, -.116 .019 -.216, -.033 .019 -.216, -.033 -.035 -.216,
@@ -54,7 +54,7 @@ left_hip_yaw_joint (left_hip_yaw_joint_origin): {
 }
 left_knee_joint_origin (left_hip_yaw_joint): { Q: [-.078273 .0021489 -.17734 .996178685 0 .08733858 0] }
 left_knee_joint (left_knee_joint_origin): {
-  joint: hingeY, limits: [-.087267 2.8798], mass: 1.932, com: [.005457 .003964 -.12074],
+  joint: hingeY, limits: [-.087267 2.8798], ctrl_limits: [20 139 -1], mass: 1.932, com: [.005457 .003964 -.12074],
   inertia: [.011329 4.82e-5 -4.49e-5 .011277 -.0007146 .0015168], shape: ssCvx, size: [.01], color: [.7 .7 .7 1],
   core: [
     -.005 -.01 -.305, -.005 .01 -.305, .023 .01 -.305, .023 -.01 -.305,
@@ -66,7 +66,7 @@ left_knee_joint (left_knee_joint_origin): {
 }
 left_ankle_pitch_joint_origin (left_knee_joint): { Q: [0 -.000094445 -.30001] }
 left_ankle_pitch_joint (left_ankle_pitch_joint_origin): {
-  joint: hingeY, limits: [-.87267 .5236], mass: .074, com: [-.007269 0 .011137],
+  joint: hingeY, limits: [-.87267 .5236], ctrl_limits: [30 35 -1], mass: .074, com: [-.007269 0 .011137],
   inertia: [8.4e-6 0 -2.9e-6 1.89e-5 0 1.26e-5], shape: ssCvx, size: [.003], color: [.7 .7 .7 1],
   core: [
     -.021 -.003 -.022, -.021 .004 -.022, .009 .004 -.022, .009 -.003 -.022,
@@ -76,7 +76,7 @@ left_ankle_pitch_joint (left_ankle_pitch_joint_origin): {
 }
 left_ankle_roll_joint_origin (left_ankle_pitch_joint): { Q: [0 0 -.017558] }
 left_ankle_roll_joint (left_ankle_roll_joint_origin): {
-  joint: hingeX, limits: [-.2618 .2618], mass: .608, com: [.026505 0 -.016425],
+  joint: hingeX, limits: [-.2618 .2618], ctrl_limits: [30 35 -1], mass: .608, com: [.026505 0 -.016425],
   inertia: [.0002231 2e-7 8.91e-5 .0016161 -1e-7 .0016667], shape: ssCvx, size: [.01], color: [.2 .2 .2 1],
   core: [
     -.056 -.02 -.025, -.056 -.02 .011, -.056 .02 .011, -.056 .02 -.025,
@@ -90,7 +90,7 @@ left_ankle_roll_joint (left_ankle_roll_joint_origin): {
 # right leg
 right_hip_pitch_joint_origin (pelvis): { Q: [0 -.064452 -.1027] }
 right_hip_pitch_joint (right_hip_pitch_joint_origin): {
-  joint: hingeY, limits: [-2.5307 2.8798], mass: 1.35, com: [.002741 -.047791 -.02606],
+  joint: hingeY, limits: [-2.5307 2.8798], ctrl_limits: [32 88 -1], mass: 1.35, com: [.002741 -.047791 -.02606],
   inertia: [.001811 -3.68e-5 -3.44e-5 .0014193 -.000171 .0012812], shape: ssCvx, size: [.01], color: [.2 .2 .2 1],
   core: [
     -.023 -.086 -.07, -.023 -.015 -.07, .03 -.015 -.07, .03 -.086 -.07,
@@ -101,7 +101,7 @@ right_hip_pitch_joint (right_hip_pitch_joint_origin): {
 }
 right_hip_roll_joint_origin (right_hip_pitch_joint): { Q: [0 -.052 -.030465 .996178685 0 -.08733858 0] }
 right_hip_roll_joint (right_hip_roll_joint_origin): {
-  joint: hingeX, limits: [-2.9671 .5236], mass: 1.52, com: [.029812 .001045 -.087934],
+  joint: hingeX, limits: [-2.9671 .5236], ctrl_limits: [20 139 -1], mass: 1.52, com: [.029812 .001045 -.087934],
   inertia: [.0023773 3.8e-6 -.0003908 .0024123 -1.84e-5 .0016595], shape: ssCvx, size: [.01], color: [.7 .7 .7 1],
   core: [
     -.016 -.037 -.114, -.016 .037 -.114, .07 .037 -.114, .07 -.037 -.114,
@@ -112,7 +112,7 @@ right_hip_roll_joint (right_hip_roll_joint_origin): {
 }
 right_hip_yaw_joint_origin (right_hip_roll_joint): { Q: [.025001 0 -.12412] }
 right_hip_yaw_joint (right_hip_yaw_joint_origin): {
-  joint: hingeZ, limits: [-2.7576 2.7576], mass: 1.702, com: [-.057709 .010981 -.15078],
+  joint: hingeZ, limits: [-2.7576 2.7576], ctrl_limits: [32 88 -1], mass: 1.702, com: [-.057709 .010981 -.15078],
   inertia: [.0057774 .0005411 -.0023948 .0076124 .0007072 .003149], shape: ssCvx, size: [.01], color: [.7 .7 .7 1],
   core: [
     -.116 -.019 -.216, -.116 .035 -.216, -.033 .035 -.216, -.033 -.019 -.216,
@@ -124,7 +124,7 @@ right_hip_yaw_joint (right_hip_yaw_joint_origin): {
 }
 right_knee_joint_origin (right_hip_yaw_joint): { Q: [-.078273 -.0021489 -.17734 .996178685 0 .08733858 0] }
 right_knee_joint (right_knee_joint_origin): {
-  joint: hingeY, limits: [-.087267 2.8798], mass: 1.932, com: [.005457 -.003964 -.12074],
+  joint: hingeY, limits: [-.087267 2.8798], ctrl_limits: [20 139 -1], mass: 1.932, com: [.005457 -.003964 -.12074],
   inertia: [.011329 -4.82e-5 4.49e-5 .011277 .0007146 .0015168], shape: ssCvx, size: [.01], color: [.7 .7 .7 1],
   core: [
     -.005 -.01 -.305, -.005 .01 -.305, .023 .01 -.305, .023 -.01 -.305,
@@ -136,7 +136,7 @@ right_knee_joint (right_knee_joint_origin): {
 }
 right_ankle_pitch_joint_origin (right_knee_joint): { Q: [0 .000094445 -.30001] }
 right_ankle_pitch_joint (right_ankle_pitch_joint_origin): {
-  joint: hingeY, limits: [-.87267 .5236], mass: .074, com: [-.007269 0 .011137],
+  joint: hingeY, limits: [-.87267 .5236], ctrl_limits: [30 35 -1], mass: .074, com: [-.007269 0 .011137],
   inertia: [8.4e-6 0 -2.9e-6 1.89e-5 0 1.26e-5], shape: ssCvx, size: [.003], color: [.7 .7 .7 1],
   core: [
     -.021 -.004 -.022, -.021 .003 -.022, .009 .003 -.022, .009 -.004 -.022,
@@ -146,7 +146,7 @@ right_ankle_pitch_joint (right_ankle_pitch_joint_origin): {
 }
 right_ankle_roll_joint_origin (right_ankle_pitch_joint): { Q: [0 0 -.017558] }
 right_ankle_roll_joint (right_ankle_roll_joint_origin): {
-  joint: hingeX, limits: [-.2618 .2618], mass: .608, com: [.026505 0 -.016425],
+  joint: hingeX, limits: [-.2618 .2618], ctrl_limits: [30 35 -1], mass: .608, com: [.026505 0 -.016425],
   inertia: [.0002231 -2e-7 8.91e-5 .0016161 1e-7 .0016667], shape: ssCvx, size: [.01], color: [.2 .2 .2 1],
   core: [
     -.056 -.02 -.025, -.056 -.02 .011, -.056 .02 .011, -.056 .02 -.025,
@@ -168,7 +168,7 @@ pelvis_contour_link_0 (pelvis): {
   visual_mesh: <package://example-robot-data/robots/g1_description/meshes/pelvis_contour_link.STL>
 }
 waist_yaw_joint (pelvis): {
-  joint: hingeZ, limits: [-2.618 2.618], mass: .244, com: [.003964 0 .018769],
+  joint: hingeZ, limits: [-2.618 2.618], ctrl_limits: [32 88 -1], mass: .244, com: [.003964 0 .018769],
   inertia: [9.9587e-5 -1.833e-6 -1.2617e-5 .00012411 -1.18e-7 .00015586], shape: ssCvx, size: [.01],
   color: [.7 .7 .7 1],
   core: [
@@ -179,7 +179,7 @@ waist_yaw_joint (pelvis): {
 }
 waist_roll_joint_origin (waist_yaw_joint): { Q: [-.0039635 0 .035] }
 waist_roll_joint (waist_roll_joint_origin): {
-  joint: hingeX, limits: [-.52 .52], mass: .047, com: [0 -.000236 .010111],
+  joint: hingeX, limits: [-.52 .52], ctrl_limits: [30 35 -1], mass: .047, com: [0 -.000236 .010111],
   inertia: [7.515e-6 0 0 6.398e-6 9.9e-8 3.988e-6], shape: ssCvx, size: [.005], color: [.7 .7 .7 1],
   core: [
     -.005 -.006 -.005, -.005 .006 -.005, .005 .006 -.005, .005 -.006 -.005,
@@ -188,7 +188,7 @@ waist_roll_joint (waist_roll_joint_origin): {
 }
 waist_pitch_joint_origin (waist_roll_joint): { Q: [0 0 .019] }
 waist_pitch_joint (waist_pitch_joint_origin): {
-  joint: hingeY, limits: [-.52 .52], mass: 9.6, com: [.00331672 .000261479 .179808],
+  joint: hingeY, limits: [-.52 .52], ctrl_limits: [30 35 -1], mass: 9.6, com: [.00331672 .000261479 .179808],
   inertia: [.12406 -8.877e-5 -.00329001 .112061 7.36516e-5 .0326569], shape: ssCvx, size: [.01], color: [.7 .7 .7 1],
   core: [
     -.047 -.075 0, -.047 .074 0, .057 .074 0, .057 -.075 0,
@@ -232,7 +232,7 @@ left_shoulder_pitch_joint_origin (waist_pitch_joint): {
   Q: [.0039563 .10022 .23778 .990264075 .13920148 .000013872 -.000098687]
 }
 left_shoulder_pitch_joint (left_shoulder_pitch_joint_origin): {
-  joint: hingeY, limits: [-3.0892 2.6704], mass: .718, com: [0 .035892 -.011628],
+  joint: hingeY, limits: [-3.0892 2.6704], ctrl_limits: [37 25 -1], mass: .718, com: [0 .035892 -.011628],
   inertia: [.0004291 -9.2e-6 6.4e-6 .000453 2.26e-5 .000423], shape: ssCvx, size: [.01], color: [.7 .7 .7 1],
   core: [
     -.021 .01 -.04, -.021 .062 -.04, .021 .062 -.04, .021 .01 -.04,
@@ -243,7 +243,7 @@ left_shoulder_pitch_joint (left_shoulder_pitch_joint_origin): {
 }
 left_shoulder_roll_joint_origin (left_shoulder_pitch_joint): { Q: [0 .038 -.013831 .990268256 -.13917177 0 0] }
 left_shoulder_roll_joint (left_shoulder_roll_joint_origin): {
-  joint: hingeX, limits: [-1.5882 2.2515], mass: .643, com: [-.000227 .00727 -.063243],
+  joint: hingeX, limits: [-1.5882 2.2515], ctrl_limits: [37 25 -1], mass: .643, com: [-.000227 .00727 -.063243],
   inertia: [.0006177 -1e-6 8.7e-6 .0006912 -5.3e-6 .0003894], shape: ssCvx, size: [.01], color: [.7 .7 .7 1],
   core: [
     -.022 -.016 -.093, -.022 .029 -.093, .022 .029 -.093, .022 -.016 -.093,
@@ -254,7 +254,7 @@ left_shoulder_roll_joint (left_shoulder_roll_joint_origin): {
 }
 left_shoulder_yaw_joint_origin (left_shoulder_roll_joint): { Q: [0 .00624 -.1032] }
 left_shoulder_yaw_joint (left_shoulder_yaw_joint_origin): {
-  joint: hingeZ, limits: [-2.618 2.618], mass: .734, com: [.010773 -.002949 -.072009],
+  joint: hingeZ, limits: [-2.618 2.618], ctrl_limits: [37 25 -1], mass: .734, com: [.010773 -.002949 -.072009],
   inertia: [.0009988 7.9e-6 .0001412 .0010605 -2.86e-5 .0004354], shape: ssCvx, size: [.01], color: [.7 .7 .7 1],
   core: [
     -.02 -.031 -.104, -.02 .012 -.104, .038 .012 -.104, .038 -.031 -.104,
@@ -265,7 +265,7 @@ left_shoulder_yaw_joint (left_shoulder_yaw_joint_origin): {
 }
 left_elbow_joint_origin (left_shoulder_yaw_joint): { Q: [.015783 0 -.080518] }
 left_elbow_joint (left_elbow_joint_origin): {
-  joint: hingeY, limits: [-1.0472 2.0944], mass: .6, com: [.064956 .004454 -.010062],
+  joint: hingeY, limits: [-1.0472 2.0944], ctrl_limits: [37 25 -1], mass: .6, com: [.064956 .004454 -.010062],
   inertia: [.0002891 6.53e-5 1.72e-5 .0004152 -5.6e-6 .0004197], shape: ssCvx, size: [.01], color: [.7 .7 .7 1],
   core: [
     -.02 .028 -.022, -.02 .028 .02, -.02 .028 .02, -.02 .028 -.022,
@@ -276,7 +276,8 @@ left_elbow_joint (left_elbow_joint_origin): {
 }
 left_wrist_roll_joint_origin (left_elbow_joint): { Q: [.1 .00188791 -.01] }
 left_wrist_roll_joint (left_wrist_roll_joint_origin): {
-  joint: hingeX, limits: [-1.9722221 1.9722221], mass: .085445, com: [.0171394 .000537591 4.8864e-7],
+  joint: hingeX, limits: [-1.9722221 1.9722221], ctrl_limits: [37 25 -1], mass: .085445,
+  com: [.0171394 .000537591 4.8864e-7],
   inertia: [4.82154e-5 -4.24511e-6 0 3.7229e-5 0 5.48211e-5], shape: ssCvx, size: [.01], color: [.7 .7 .7 1],
   core: [
     .01 -.02 -.016, .01 -.02 .016, .046 -.02 .016, .046 -.02 -.016,
@@ -287,7 +288,8 @@ left_wrist_roll_joint (left_wrist_roll_joint_origin): {
 }
 left_wrist_pitch_joint_origin (left_wrist_roll_joint): { Q: [.038 0 0] }
 left_wrist_pitch_joint (left_wrist_pitch_joint_origin): {
-  joint: hingeY, limits: [-1.6144296 1.6144296], mass: .4840496, com: [.0229999 -.00111685 -.00111658],
+  joint: hingeY, limits: [-1.6144296 1.6144296], ctrl_limits: [22 5 -1], mass: .4840496,
+  com: [.0229999 -.00111685 -.00111658],
   inertia: [.000165796 -1.23121e-5 1.2317e-5 .000429541 8.14177e-7 .000429537], shape: ssCvx, size: [.01],
   color: [.7 .7 .7 1],
   core: [
@@ -299,7 +301,8 @@ left_wrist_pitch_joint (left_wrist_pitch_joint_origin): {
 }
 left_wrist_yaw_joint_origin (left_wrist_pitch_joint): { Q: [.046 0 0] }
 left_wrist_yaw_joint (left_wrist_yaw_joint_origin): {
-  joint: hingeZ, limits: [-1.6144296 1.6144296], mass: .2545765, com: [.0708244 .000191745 .00161742],
+  joint: hingeZ, limits: [-1.6144296 1.6144296], ctrl_limits: [22 5 -1], mass: .2545765,
+  com: [.0708244 .000191745 .00161742],
   inertia: [.000150445 3.76028e-5 -2.95494e-6 .000643113 3.77548e-6 .000560114], shape: ssCvx, size: [.01],
   color: [.7 .7 .7 1],
   core: [
@@ -324,7 +327,7 @@ right_shoulder_pitch_joint_origin (waist_pitch_joint): {
   Q: [.0039563 -.10021 .23778 .990264075 -.13920148 .000013872 .000098687]
 }
 right_shoulder_pitch_joint (right_shoulder_pitch_joint_origin): {
-  joint: hingeY, limits: [-3.0892 2.6704], mass: .718, com: [0 -.035892 -.011628],
+  joint: hingeY, limits: [-3.0892 2.6704], ctrl_limits: [37 25 -1], mass: .718, com: [0 -.035892 -.011628],
   inertia: [.0004291 9.2e-6 6.4e-6 .000453 -2.26e-5 .000423], shape: ssCvx, size: [.01], color: [.7 .7 .7 1],
   core: [
     -.021 -.062 -.04, -.021 -.01 -.04, .021 -.01 -.04, .021 -.062 -.04,
@@ -335,7 +338,7 @@ right_shoulder_pitch_joint (right_shoulder_pitch_joint_origin): {
 }
 right_shoulder_roll_joint_origin (right_shoulder_pitch_joint): { Q: [0 -.038 -.013831 .990268256 .13917177 0 0] }
 right_shoulder_roll_joint (right_shoulder_roll_joint_origin): {
-  joint: hingeX, limits: [-2.2515 1.5882], mass: .643, com: [-.000227 -.00727 -.063243],
+  joint: hingeX, limits: [-2.2515 1.5882], ctrl_limits: [37 25 -1], mass: .643, com: [-.000227 -.00727 -.063243],
   inertia: [.0006177 1e-6 8.7e-6 .0006912 5.3e-6 .0003894], shape: ssCvx, size: [.01], color: [.7 .7 .7 1],
   core: [
     -.022 -.029 -.093, -.022 .016 -.093, .022 .016 -.093, .022 -.029 -.093,
@@ -346,7 +349,7 @@ right_shoulder_roll_joint (right_shoulder_roll_joint_origin): {
 }
 right_shoulder_yaw_joint_origin (right_shoulder_roll_joint): { Q: [0 -.00624 -.1032] }
 right_shoulder_yaw_joint (right_shoulder_yaw_joint_origin): {
-  joint: hingeZ, limits: [-2.618 2.618], mass: .734, com: [.010773 .002949 -.072009],
+  joint: hingeZ, limits: [-2.618 2.618], ctrl_limits: [37 25 -1], mass: .734, com: [.010773 .002949 -.072009],
   inertia: [.0009988 -7.9e-6 .0001412 .0010605 2.86e-5 .0004354], shape: ssCvx, size: [.01], color: [.7 .7 .7 1],
   core: [
     -.02 -.012 -.104, -.02 .031 -.104, .038 .031 -.104, .038 -.012 -.104,
@@ -357,7 +360,7 @@ right_shoulder_yaw_joint (right_shoulder_yaw_joint_origin): {
 }
 right_elbow_joint_origin (right_shoulder_yaw_joint): { Q: [.015783 0 -.080518] }
 right_elbow_joint (right_elbow_joint_origin): {
-  joint: hingeY, limits: [-1.0472 2.0944], mass: .6, com: [.064956 -.004454 -.010062],
+  joint: hingeY, limits: [-1.0472 2.0944], ctrl_limits: [37 25 -1], mass: .6, com: [.064956 -.004454 -.010062],
   inertia: [.0002891 -6.53e-5 1.72e-5 .0004152 5.6e-6 .0004197], shape: ssCvx, size: [.01], color: [.7 .7 .7 1],
   core: [
     -.02 -.028 -.022, -.02 -.028 .02, -.02 -.028 .02, -.02 -.028 -.022,
@@ -368,7 +371,8 @@ right_elbow_joint (right_elbow_joint_origin): {
 }
 right_wrist_roll_joint_origin (right_elbow_joint): { Q: [.1 -.00188791 -.01] }
 right_wrist_roll_joint (right_wrist_roll_joint_origin): {
-  joint: hingeX, limits: [-1.9722221 1.9722221], mass: .085445, com: [.0171394 -.000537591 4.8864e-7],
+  joint: hingeX, limits: [-1.9722221 1.9722221], ctrl_limits: [37 25 -1], mass: .085445,
+  com: [.0171394 -.000537591 4.8864e-7],
   inertia: [4.82154e-5 4.24511e-6 0 3.7229e-5 0 5.48211e-5], shape: ssCvx, size: [.01], color: [.7 .7 .7 1],
   core: [
     .01 -.02 -.016, .01 -.02 .016, .046 -.02 .016, .046 -.02 -.016,
@@ -379,7 +383,8 @@ right_wrist_roll_joint (right_wrist_roll_joint_origin): {
 }
 right_wrist_pitch_joint_origin (right_wrist_roll_joint): { Q: [.038 0 0] }
 right_wrist_pitch_joint (right_wrist_pitch_joint_origin): {
-  joint: hingeY, limits: [-1.6144296 1.6144296], mass: .4840496, com: [.0229999 .00111685 -.00111658],
+  joint: hingeY, limits: [-1.6144296 1.6144296], ctrl_limits: [22 5 -1], mass: .4840496,
+  com: [.0229999 .00111685 -.00111658],
   inertia: [.000165796 1.23121e-5 1.2317e-5 .000429541 -8.14177e-7 .000429537], shape: ssCvx, size: [.01],
   color: [.7 .7 .7 1],
   core: [
@@ -391,7 +396,8 @@ right_wrist_pitch_joint (right_wrist_pitch_joint_origin): {
 }
 right_wrist_yaw_joint_origin (right_wrist_pitch_joint): { Q: [.046 0 0] }
 right_wrist_yaw_joint (right_wrist_yaw_joint_origin): {
-  joint: hingeZ, limits: [-1.6144296 1.6144296], mass: .2545765, com: [.0708244 -.000191745 .00161742],
+  joint: hingeZ, limits: [-1.6144296 1.6144296], ctrl_limits: [22 5 -1], mass: .2545765,
+  com: [.0708244 -.000191745 .00161742],
   inertia: [.000150445 -3.76028e-5 -2.95494e-6 .000643113 -3.77548e-6 .000560114], shape: ssCvx, size: [.01],
   color: [.7 .7 .7 1],
   core: [

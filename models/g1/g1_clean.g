@@ -19,7 +19,8 @@ pelvis: {
 left_hip_pitch_joint_origin (pelvis): { Q: [0 .064452 -.1027] }
 right_hip_pitch_joint_origin (pelvis): { Q: [0 -.064452 -.1027] }
 waist_yaw_joint (pelvis): {
-  joint: hingeZ, limits: [-2.618 2.618], mass: .168083, inertia: [8.83938e-5 0 -9.9721e-6 .000103081 0 .000150067],
+  joint: hingeZ, limits: [-2.618 2.618], ctrl_limits: [32 88 -1], mass: .168083,
+  inertia: [8.83938e-5 0 -9.9721e-6 .000103081 0 .000150067],
   shape: ssCvx, size: [.01], color: [.7 .7 .7 1],
   core: [
     -.027 -.032 .01, -.027 -.032 .036, .029 -.032 .036, .029 -.032 .01,
@@ -37,7 +38,7 @@ pelvis_contour_link_0 (pelvis): {
   visual_mesh: <package://example-robot-data/robots/g1_description/meshes/pelvis_contour_link.STL>
 }
 left_hip_pitch_joint (left_hip_pitch_joint_origin): {
-  joint: hingeY, limits: [-2.5307 2.8798], mass: .264573,
+  joint: hingeY, limits: [-2.5307 2.8798], ctrl_limits: [32 88 -1], mass: .264573,
   inertia: [.000474721 4.31311e-6 5.93997e-6 .000392354 4.96908e-5 .000375138], shape: ssCvx, size: [.01],
   color: [.2 .2 .2 1],
   core: [
@@ -48,7 +49,7 @@ left_hip_pitch_joint (left_hip_pitch_joint_origin): {
   visual_mesh: <package://example-robot-data/robots/g1_description/meshes/left_hip_pitch_link.STL>
 }
 right_hip_pitch_joint (right_hip_pitch_joint_origin): {
-  joint: hingeY, limits: [-2.5307 2.8798], mass: .264569,
+  joint: hingeY, limits: [-2.5307 2.8798], ctrl_limits: [32 88 -1], mass: .264569,
   inertia: [.000474711 -4.31398e-6 5.94077e-6 .000392343 -4.96889e-5 .000375138], shape: ssCvx, size: [.01],
   color: [.2 .2 .2 1],
   core: [
@@ -62,7 +63,8 @@ waist_roll_joint_origin (waist_yaw_joint): { Q: [-.0039635 0 .035] }
 left_hip_roll_joint_origin (left_hip_pitch_joint): { Q: [0 .052 -.030465 .996178686 0 -.08733857 0] }
 right_hip_roll_joint_origin (right_hip_pitch_joint): { Q: [0 -.052 -.030465 .996178686 0 -.08733857 0] }
 waist_roll_joint (waist_roll_joint_origin): {
-  joint: hingeX, limits: [-.52 .52], mass: .0221562, inertia: [4.0451e-6 3.67093e-6 2.32541e-6],
+  joint: hingeX, limits: [-.52 .52], ctrl_limits: [30 35 -1], mass: .0221562,
+  inertia: [4.0451e-6 3.67093e-6 2.32541e-6],
   shape: ssCvx, size: [.005], color: [.7 .7 .7 1],
   core: [
     -.005 -.006 -.005, -.005 .006 -.005, .005 .006 -.005, .005 -.006 -.005,
@@ -70,7 +72,7 @@ waist_roll_joint (waist_roll_joint_origin): {
   ]
 }
 left_hip_roll_joint (left_hip_roll_joint_origin): {
-  joint: hingeX, limits: [-.5236 2.9671], mass: .388504,
+  joint: hingeX, limits: [-.5236 2.9671], ctrl_limits: [20 139 -1], mass: .388504,
   inertia: [.00122176 -2.52983e-6 -.000212212 .00118448 -1.72307e-6 .00069136], shape: ssCvx, size: [.01],
   color: [.7 .7 .7 1],
   core: [
@@ -81,7 +83,7 @@ left_hip_roll_joint (left_hip_roll_joint_origin): {
   visual_mesh: <package://example-robot-data/robots/g1_description/meshes/left_hip_roll_link.STL>
 }
 right_hip_roll_joint (right_hip_roll_joint_origin): {
-  joint: hingeX, limits: [-2.9671 .5236], mass: .388501,
+  joint: hingeX, limits: [-2.9671 .5236], ctrl_limits: [20 139 -1], mass: .388501,
   inertia: [.00122175 2.52204e-6 -.000212212 .00118447 1.73174e-6 .000691349], shape: ssCvx, size: [.01],
   color: [.7 .7 .7 1],
   core: [
@@ -95,7 +97,7 @@ waist_pitch_joint_origin (waist_roll_joint): { Q: [0 0 .019] }
 left_hip_yaw_joint_origin (left_hip_roll_joint): { Q: [.025001 0 -.12412] }
 right_hip_yaw_joint_origin (right_hip_roll_joint): { Q: [.025001 0 -.12412] }
 waist_pitch_joint (waist_pitch_joint_origin): {
-  joint: hingeY, limits: [-.52 .52], mass: 4.46637, com: [.00435575 .00507317 .15113],
+  joint: hingeY, limits: [-.52 .52], ctrl_limits: [30 35 -1], mass: 4.46637, com: [.00435575 .00507317 .15113],
   inertia: [.0736175 -4.25291e-6 -.0008917 .0665665 .000409521 .0246276], shape: ssCvx, size: [.01],
   color: [.7 .7 .7 1],
   core: [
@@ -106,7 +108,7 @@ waist_pitch_joint (waist_pitch_joint_origin): {
   ]
 }
 left_hip_yaw_joint (left_hip_yaw_joint_origin): {
-  joint: hingeZ, limits: [-2.7576 2.7576], mass: .681619,
+  joint: hingeZ, limits: [-2.7576 2.7576], ctrl_limits: [32 88 -1], mass: .681619,
   inertia: [.0044275 -.000108056 -.00166275 .00545319 -.000187376 .001876], shape: ssCvx, size: [.01],
   color: [.7 .7 .7 1],
   core: [
@@ -118,7 +120,7 @@ left_hip_yaw_joint (left_hip_yaw_joint_origin): {
   visual_mesh: <package://example-robot-data/robots/g1_description/meshes/left_hip_yaw_link.STL>
 }
 right_hip_yaw_joint (right_hip_yaw_joint_origin): {
-  joint: hingeZ, limits: [-2.7576 2.7576], mass: .681613,
+  joint: hingeZ, limits: [-2.7576 2.7576], ctrl_limits: [32 88 -1], mass: .681613,
   inertia: [.00442747 .000108056 -.00166275 .00545319 .000187351 .00187597], shape: ssCvx, size: [.01],
   color: [.7 .7 .7 1],
   core: [
@@ -165,7 +167,7 @@ waist_support_link_0 (waist_pitch_joint): {
 left_knee_joint_origin (left_hip_yaw_joint): { Q: [-.078273 .0021489 -.17734 .996178686 0 .08733857 0] }
 right_knee_joint_origin (right_hip_yaw_joint): { Q: [-.078273 -.0021489 -.17734 .996178686 0 .08733857 0] }
 left_shoulder_pitch_joint (left_shoulder_pitch_joint_origin): {
-  joint: hingeY, limits: [-3.0892 2.6704], mass: .126023,
+  joint: hingeY, limits: [-3.0892 2.6704], ctrl_limits: [37 25 -1], mass: .126023,
   inertia: [.000160485 -1.66228e-7 3.91865e-7 .000151496 1.75614e-5 .000138798], shape: ssCvx, size: [.01],
   color: [.7 .7 .7 1],
   core: [
@@ -176,7 +178,7 @@ left_shoulder_pitch_joint (left_shoulder_pitch_joint_origin): {
   visual_mesh: <package://example-robot-data/robots/g1_description/meshes/left_shoulder_pitch_link.STL>
 }
 right_shoulder_pitch_joint (right_shoulder_pitch_joint_origin): {
-  joint: hingeY, limits: [-3.0892 2.6704], mass: .126023,
+  joint: hingeY, limits: [-3.0892 2.6704], ctrl_limits: [37 25 -1], mass: .126023,
   inertia: [.000160483 1.65124e-7 3.90512e-7 .000151492 -1.75623e-5 .000138793], shape: ssCvx, size: [.01],
   color: [.7 .7 .7 1],
   core: [
@@ -187,7 +189,7 @@ right_shoulder_pitch_joint (right_shoulder_pitch_joint_origin): {
   visual_mesh: <package://example-robot-data/robots/g1_description/meshes/right_shoulder_pitch_link.STL>
 }
 left_knee_joint (left_knee_joint_origin): {
-  joint: hingeY, limits: [-.087267 2.8798], mass: .876712,
+  joint: hingeY, limits: [-.087267 2.8798], ctrl_limits: [20 139 -1], mass: .876712,
   inertia: [.00648182 3.3975e-5 -.000127209 .00672925 -.000358869 .00109586], shape: ssCvx, size: [.01],
   color: [.7 .7 .7 1],
   core: [
@@ -199,7 +201,7 @@ left_knee_joint (left_knee_joint_origin): {
   visual_mesh: <package://example-robot-data/robots/g1_description/meshes/left_knee_link.STL>
 }
 right_knee_joint (right_knee_joint_origin): {
-  joint: hingeY, limits: [-.087267 2.8798], mass: .876714,
+  joint: hingeY, limits: [-.087267 2.8798], ctrl_limits: [20 139 -1], mass: .876714,
   inertia: [.00648176 -3.398e-5 -.000127209 .00672918 .000358822 .00109587], shape: ssCvx, size: [.01],
   color: [.7 .7 .7 1],
   core: [
@@ -215,7 +217,7 @@ right_shoulder_roll_joint_origin (right_shoulder_pitch_joint): { Q: [0 -.038 -.0
 left_ankle_pitch_joint_origin (left_knee_joint): { Q: [0 -.000094445 -.30001] }
 right_ankle_pitch_joint_origin (right_knee_joint): { Q: [0 .000094445 -.30001] }
 left_shoulder_roll_joint (left_shoulder_roll_joint_origin): {
-  joint: hingeX, limits: [-1.5882 2.2515], mass: .246281,
+  joint: hingeX, limits: [-1.5882 2.2515], ctrl_limits: [37 25 -1], mass: .246281,
   inertia: [.000394956 2.09873e-8 -1.93073e-7 .000469736 1.57454e-5 .000272781], shape: ssCvx, size: [.01],
   color: [.7 .7 .7 1],
   core: [
@@ -226,7 +228,7 @@ left_shoulder_roll_joint (left_shoulder_roll_joint_origin): {
   visual_mesh: <package://example-robot-data/robots/g1_description/meshes/left_shoulder_roll_link.STL>
 }
 right_shoulder_roll_joint (right_shoulder_roll_joint_origin): {
-  joint: hingeX, limits: [-2.2515 1.5882], mass: .246283,
+  joint: hingeX, limits: [-2.2515 1.5882], ctrl_limits: [37 25 -1], mass: .246283,
   inertia: [.000394966 -1.6719e-8 -1.89014e-7 .000469741 -1.57405e-5 .000272773], shape: ssCvx, size: [.01],
   color: [.7 .7 .7 1],
   core: [
@@ -237,7 +239,8 @@ right_shoulder_roll_joint (right_shoulder_roll_joint_origin): {
   visual_mesh: <package://example-robot-data/robots/g1_description/meshes/right_shoulder_roll_link.STL>
 }
 left_ankle_pitch_joint (left_ankle_pitch_joint_origin): {
-  joint: hingeY, limits: [-.87267 .5236], mass: .0197524, inertia: [2.78775e-6 0 -5.8987e-7 4.52084e-6 0 2.51425e-6],
+  joint: hingeY, limits: [-.87267 .5236], ctrl_limits: [30 35 -1], mass: .0197524,
+  inertia: [2.78775e-6 0 -5.8987e-7 4.52084e-6 0 2.51425e-6],
   shape: ssCvx, size: [.003], color: [.7 .7 .7 1],
   core: [
     -.021 -.003 -.022, -.021 .004 -.022, .009 .004 -.022, .009 -.003 -.022,
@@ -246,7 +249,8 @@ left_ankle_pitch_joint (left_ankle_pitch_joint_origin): {
   visual_mesh: <package://example-robot-data/robots/g1_description/meshes/left_ankle_pitch_link.STL>
 }
 right_ankle_pitch_joint (right_ankle_pitch_joint_origin): {
-  joint: hingeY, limits: [-.87267 .5236], mass: .0197524, inertia: [2.78777e-6 0 -5.89865e-7 4.52084e-6 0 2.51424e-6],
+  joint: hingeY, limits: [-.87267 .5236], ctrl_limits: [30 35 -1], mass: .0197524,
+  inertia: [2.78777e-6 0 -5.89865e-7 4.52084e-6 0 2.51424e-6],
   shape: ssCvx, size: [.003], color: [.7 .7 .7 1],
   core: [
     -.021 -.004 -.022, -.021 .003 -.022, .009 .003 -.022, .009 -.004 -.022,
@@ -259,7 +263,7 @@ right_shoulder_yaw_joint_origin (right_shoulder_roll_joint): { Q: [0 -.00624 -.1
 left_ankle_roll_joint_origin (left_ankle_pitch_joint): { Q: [0 0 -.017558] }
 right_ankle_roll_joint_origin (right_ankle_pitch_joint): { Q: [0 0 -.017558] }
 left_shoulder_yaw_joint (left_shoulder_yaw_joint_origin): {
-  joint: hingeZ, limits: [-2.618 2.618], mass: .330191,
+  joint: hingeZ, limits: [-2.618 2.618], ctrl_limits: [37 25 -1], mass: .330191,
   inertia: [.00075724 1.01914e-5 .000118153 .000781633 -6.07748e-5 .000303097], shape: ssCvx, size: [.01],
   color: [.7 .7 .7 1],
   core: [
@@ -270,7 +274,7 @@ left_shoulder_yaw_joint (left_shoulder_yaw_joint_origin): {
   visual_mesh: <package://example-robot-data/robots/g1_description/meshes/left_shoulder_yaw_link.STL>
 }
 right_shoulder_yaw_joint (right_shoulder_yaw_joint_origin): {
-  joint: hingeZ, limits: [-2.618 2.618], mass: .330189,
+  joint: hingeZ, limits: [-2.618 2.618], ctrl_limits: [37 25 -1], mass: .330189,
   inertia: [.000757238 -1.01934e-5 .000118161 .000781632 6.07703e-5 .000303094], shape: ssCvx, size: [.01],
   color: [.7 .7 .7 1],
   core: [
@@ -281,7 +285,7 @@ right_shoulder_yaw_joint (right_shoulder_yaw_joint_origin): {
   visual_mesh: <package://example-robot-data/robots/g1_description/meshes/right_shoulder_yaw_link.STL>
 }
 left_ankle_roll_joint (left_ankle_roll_joint_origin): {
-  joint: hingeX, limits: [-.2618 .2618], mass: .456098,
+  joint: hingeX, limits: [-.2618 .2618], ctrl_limits: [30 35 -1], mass: .456098,
   inertia: [.000287801 6.50248e-8 8.30648e-5 .00151895 -1.18792e-7 .0016069], shape: ssCvx, size: [.01],
   color: [.2 .2 .2 1],
   core: [
@@ -293,7 +297,7 @@ left_ankle_roll_joint (left_ankle_roll_joint_origin): {
   visual_mesh: <package://example-robot-data/robots/g1_description/meshes/left_ankle_roll_link.STL>
 }
 right_ankle_roll_joint (right_ankle_roll_joint_origin): {
-  joint: hingeX, limits: [-.2618 .2618], mass: .45609,
+  joint: hingeX, limits: [-.2618 .2618], ctrl_limits: [30 35 -1], mass: .45609,
   inertia: [.0002878 -9.56202e-8 8.30614e-5 .00151893 1.13682e-7 .00160687], shape: ssCvx, size: [.01],
   color: [.2 .2 .2 1],
   core: [
@@ -307,7 +311,7 @@ right_ankle_roll_joint (right_ankle_roll_joint_origin): {
 left_elbow_joint_origin (left_shoulder_yaw_joint): { Q: [.015783 0 -.080518] }
 right_elbow_joint_origin (right_shoulder_yaw_joint): { Q: [.015783 0 -.080518] }
 left_elbow_joint (left_elbow_joint_origin): {
-  joint: hingeY, limits: [-1.0472 2.0944], mass: .133212,
+  joint: hingeY, limits: [-1.0472 2.0944], ctrl_limits: [37 25 -1], mass: .133212,
   inertia: [.000105606 4.41256e-5 1.51768e-5 .000221879 -4.66813e-6 .000221601], shape: ssCvx, size: [.01],
   color: [.7 .7 .7 1],
   core: [
@@ -318,7 +322,7 @@ left_elbow_joint (left_elbow_joint_origin): {
   visual_mesh: <package://example-robot-data/robots/g1_description/meshes/left_elbow_link.STL>
 }
 right_elbow_joint (right_elbow_joint_origin): {
-  joint: hingeY, limits: [-1.0472 2.0944], mass: .133212,
+  joint: hingeY, limits: [-1.0472 2.0944], ctrl_limits: [37 25 -1], mass: .133212,
   inertia: [.000105601 -4.41257e-5 1.5176e-5 .000221877 4.66758e-6 .000221596], shape: ssCvx, size: [.01],
   color: [.7 .7 .7 1],
   core: [
@@ -331,7 +335,7 @@ right_elbow_joint (right_elbow_joint_origin): {
 left_wrist_roll_joint_origin (left_elbow_joint): { Q: [.1 .00188791 -.01] }
 right_wrist_roll_joint_origin (right_elbow_joint): { Q: [.1 -.00188791 -.01] }
 left_wrist_roll_joint (left_wrist_roll_joint_origin): {
-  joint: hingeX, limits: [-1.97222 1.97222], mass: .0819051,
+  joint: hingeX, limits: [-1.97222 1.97222], ctrl_limits: [37 25 -1], mass: .0819051,
   inertia: [5.76855e-5 -6.70778e-7 0 4.18275e-5 0 6.33789e-5], shape: ssCvx, size: [.01], color: [.7 .7 .7 1],
   core: [
     .01 -.02 -.016, .01 -.02 .016, .046 -.02 .016, .046 -.02 -.016,
@@ -341,7 +345,7 @@ left_wrist_roll_joint (left_wrist_roll_joint_origin): {
   visual_mesh: <package://example-robot-data/robots/g1_description/meshes/left_wrist_roll_link.STL>
 }
 right_wrist_roll_joint (right_wrist_roll_joint_origin): {
-  joint: hingeX, limits: [-1.97222 1.97222], mass: .0819045,
+  joint: hingeX, limits: [-1.97222 1.97222], ctrl_limits: [37 25 -1], mass: .0819045,
   inertia: [5.76834e-5 6.70746e-7 0 4.18274e-5 0 6.33769e-5], shape: ssCvx, size: [.01], color: [.7 .7 .7 1],
   core: [
     .01 -.02 -.016, .01 -.02 .016, .046 -.02 .016, .046 -.02 -.016,
@@ -353,7 +357,7 @@ right_wrist_roll_joint (right_wrist_roll_joint_origin): {
 left_wrist_pitch_joint_origin (left_wrist_roll_joint): { Q: [.038 0 0] }
 right_wrist_pitch_joint_origin (right_wrist_roll_joint): { Q: [.038 0 0] }
 left_wrist_pitch_joint (left_wrist_pitch_joint_origin): {
-  joint: hingeY, limits: [-1.61443 1.61443], mass: .102165,
+  joint: hingeY, limits: [-1.61443 1.61443], ctrl_limits: [22 5 -1], mass: .102165,
   inertia: [6.54114e-5 -1.39886e-6 1.39875e-6 .000133698 1.78434e-8 .000133699], shape: ssCvx, size: [.01],
   color: [.7 .7 .7 1],
   core: [
@@ -364,7 +368,7 @@ left_wrist_pitch_joint (left_wrist_pitch_joint_origin): {
   visual_mesh: <package://example-robot-data/robots/g1_description/meshes/left_wrist_pitch_link.STL>
 }
 right_wrist_pitch_joint (right_wrist_pitch_joint_origin): {
-  joint: hingeY, limits: [-1.61443 1.61443], mass: .102164,
+  joint: hingeY, limits: [-1.61443 1.61443], ctrl_limits: [22 5 -1], mass: .102164,
   inertia: [6.54077e-5 1.39993e-6 1.3996e-6 .000133692 -1.67215e-8 .000133692], shape: ssCvx, size: [.01],
   color: [.7 .7 .7 1],
   core: [
@@ -377,7 +381,8 @@ right_wrist_pitch_joint (right_wrist_pitch_joint_origin): {
 left_wrist_yaw_joint_origin (left_wrist_pitch_joint): { Q: [.046 0 0] }
 right_wrist_yaw_joint_origin (right_wrist_pitch_joint): { Q: [.046 0 0] }
 left_wrist_yaw_joint (left_wrist_yaw_joint_origin): {
-  joint: hingeZ, limits: [-1.61443 1.61443], mass: .235411, com: [.0788504 -.00205286 .0021586],
+  joint: hingeZ, limits: [-1.61443 1.61443], ctrl_limits: [22 5 -1], mass: .235411,
+  com: [.0788504 -.00205286 .0021586],
   inertia: [.000185982 6.57578e-5 -7.51085e-6 .000766002 3.21636e-6 .000670575], shape: ssCvx, size: [.01],
   color: [.7 .7 .7 1],
   core: [
@@ -388,7 +393,8 @@ left_wrist_yaw_joint (left_wrist_yaw_joint_origin): {
   visual_mesh: <package://example-robot-data/robots/g1_description/meshes/left_wrist_yaw_link.STL>
 }
 right_wrist_yaw_joint (right_wrist_yaw_joint_origin): {
-  joint: hingeZ, limits: [-1.61443 1.61443], mass: .235418, com: [.0788478 .00205232 .00215915],
+  joint: hingeZ, limits: [-1.61443 1.61443], ctrl_limits: [22 5 -1], mass: .235418,
+  com: [.0788478 .00205232 .00215915],
   inertia: [.00018599 -6.5759e-5 -7.50542e-6 .000766053 -3.21646e-6 .000670623], shape: ssCvx, size: [.01],
   color: [.7 .7 .7 1],
   core: [

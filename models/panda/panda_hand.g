@@ -20,7 +20,7 @@ panda_finger_joint1_origin (panda_hand_joint): { Q: [0 0 .0584] }
 panda_finger_joint2_origin (panda_hand_joint): { Q: [0 0 .0584] }
 
 panda_finger_joint1 (panda_finger_joint1_origin): {
-  joint: transY, limits: [0 .04], q: .04, joint_active: False,
+  joint: transY, limits: [0 .04], ctrl_limits: [.2 20 -1], q: .04, joint_active: False,
   mj_actuator_kp: "500.", mj_joint_damping: "100.",
   shape: ssCvx, size: [.002], color: [.22 .23 .25],
   core: [
@@ -32,7 +32,7 @@ panda_finger_joint1 (panda_finger_joint1_origin): {
 }
 
 panda_finger_joint2 (panda_finger_joint2_origin): {
-  joint: transY, joint_scale: -1, mimic: panda_finger_joint1, limits: [0 .04], q: .04,
+  joint: transY, joint_scale: -1, mimic: panda_finger_joint1, limits: [0 .04], ctrl_limits: [.2 20 -1], q: .04,
   mj_actuator_kp: "500.", mj_joint_damping: "100."
 }
 

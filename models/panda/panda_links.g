@@ -22,7 +22,7 @@ panda_link0: {
 # shoulder: turns about the vertical axis
 panda_joint1_origin (panda_link0): { Q: "t(0 0 .333)" }
 panda_joint1 (panda_joint1_origin): {
-  joint: hingeZ, limits: [-2.8973 2.8973], q: 0,
+  joint: hingeZ, limits: [-2.8973 2.8973], ctrl_limits: [2.175 87 -1], q: 0,
   mj_actuator_kp: "870.", mj_joint_damping: "100.",
   shape: ssCvx, size: [.012], color: [.93 .94 .95],
   core: [
@@ -39,7 +39,7 @@ panda_joint1 (panda_joint1_origin): {
 # shoulder: leans; the axis lies across the arm
 panda_joint2_origin (panda_joint1): { Q: "d(-90 1 0 0)" }
 panda_joint2 (panda_joint2_origin): {
-  joint: hingeZ, limits: [-1.7628 1.7628], q: -.5,
+  joint: hingeZ, limits: [-1.7628 1.7628], ctrl_limits: [2.175 87 -1], q: -.5,
   mj_actuator_kp: "870.", mj_joint_damping: "100.",
   shape: ssCvx, size: [.012], color: [.93 .94 .95],
   core: [
@@ -56,7 +56,7 @@ panda_joint2 (panda_joint2_origin): {
 # upper arm: turns about its own axis (d3)
 panda_joint3_origin (panda_joint2): { Q: "t(0 -.316 0) d(90 1 0 0)" }
 panda_joint3 (panda_joint3_origin): {
-  joint: hingeZ, limits: [-2.8973 2.8973], q: 0,
+  joint: hingeZ, limits: [-2.8973 2.8973], ctrl_limits: [2.175 87 -1], q: 0,
   mj_actuator_kp: "870.", mj_joint_damping: "100.",
   shape: ssCvx, size: [.012], color: [.93 .94 .95],
   core: [
@@ -73,7 +73,7 @@ panda_joint3 (panda_joint3_origin): {
 # elbow, beside the axis of the upper arm (a4)
 panda_joint4_origin (panda_joint3): { Q: "t(.0825 0 0) d(90 1 0 0)" }
 panda_joint4 (panda_joint4_origin): {
-  joint: hingeZ, limits: [-3.0718 -.0698], q: -2,
+  joint: hingeZ, limits: [-3.0718 -.0698], ctrl_limits: [2.175 87 -1], q: -2,
   mj_actuator_kp: "870.", mj_joint_damping: "100.",
   shape: ssCvx, size: [.012], color: [.93 .94 .95],
   core: [
@@ -90,7 +90,7 @@ panda_joint4 (panda_joint4_origin): {
 # forearm: turns about its own axis (a5, d5)
 panda_joint5_origin (panda_joint4): { Q: "t(-.0825 .384 0) d(-90 1 0 0)" }
 panda_joint5 (panda_joint5_origin): {
-  joint: hingeZ, limits: [-2.8973 2.8973], q: 0,
+  joint: hingeZ, limits: [-2.8973 2.8973], ctrl_limits: [2.61 12 -1], q: 0,
   mj_actuator_kp: "120.", mj_joint_damping: "10.",
   shape: ssCvx, size: [.012], color: [.93 .94 .95],
   core: [
@@ -107,7 +107,7 @@ panda_joint5 (panda_joint5_origin): {
 # wrist: bends. The mechanics allow [-.0175 3.7525]; scenes keep clear of the ends
 panda_joint6_origin (panda_joint5): { Q: "d(90 1 0 0)" }
 panda_joint6 (panda_joint6_origin): {
-  joint: hingeZ, limits: [.5 3], q: 2,
+  joint: hingeZ, limits: [.5 3], ctrl_limits: [2.61 12 -1], q: 2,
   mj_actuator_kp: "120.", mj_joint_damping: "10.",
   shape: ssCvx, size: [.012], color: [.93 .94 .95],
   core: [
@@ -126,7 +126,7 @@ panda_joint6 (panda_joint6_origin): {
 # wrist: turns the flange (a7)
 panda_joint7_origin (panda_joint6): { Q: "t(.088 0 0) d(90 1 0 0)" }
 panda_joint7 (panda_joint7_origin): {
-  joint: hingeZ, limits: [-2.8973 2.8973], q: -.5,
+  joint: hingeZ, limits: [-2.8973 2.8973], ctrl_limits: [2.61 12 -1], q: -.5,
   mj_actuator_kp: "120.", mj_joint_damping: "10.",
   shape: ssCvx, size: [.012], color: [.75 .77 .79],
   core: [

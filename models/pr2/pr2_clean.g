@@ -29,18 +29,18 @@ bl_caster_rotation_joint_origin (base_footprint): { Q: [-.2246 .2246 .0792] }
 br_caster_rotation_joint_origin (base_footprint): { Q: [-.2246 -.2246 .0792] }
 torso_lift_joint_origin (base_footprint): { Q: [-.05 0 .790675] }
 fl_caster_rotation_joint (fl_caster_rotation_joint_origin): {
-  joint: hingeZ, limits: [0 0], ctrl_limits: [100 -1 100]
+  joint: hingeZ, limits: [0 0], ctrl_limits: [100 100 -1]
 }
 fr_caster_rotation_joint (fr_caster_rotation_joint_origin): {
-  joint: hingeZ, limits: [0 0], ctrl_limits: [100 -1 100]
+  joint: hingeZ, limits: [0 0], ctrl_limits: [100 100 -1]
 }
 bl_caster_rotation_joint (bl_caster_rotation_joint_origin): {
-  joint: hingeZ, limits: [0 0], ctrl_limits: [100 -1 100]
+  joint: hingeZ, limits: [0 0], ctrl_limits: [100 100 -1]
 }
 br_caster_rotation_joint (br_caster_rotation_joint_origin): {
-  joint: hingeZ, limits: [0 0], ctrl_limits: [100 -1 100]
+  joint: hingeZ, limits: [0 0], ctrl_limits: [100 100 -1]
 }
-torso_lift_joint (torso_lift_joint_origin): { joint: transZ, limits: [0 .31], ctrl_limits: [.013 -1 10000] }
+torso_lift_joint (torso_lift_joint_origin): { joint: transZ, limits: [0 .31], ctrl_limits: [.013 10000 -1] }
 fl_caster_rotation_link (fl_caster_rotation_joint): {
   mass: 3.47308, inertia: [.0124118 -.000711734 .00050273 .0152182 -4.27347e-6 .011764]
 }
@@ -114,23 +114,23 @@ head_pan_joint_origin (torso_lift_joint): { Q: [-.01707 0 .38145] }
 laser_tilt_mount_joint_origin (torso_lift_joint): { Q: [.09893 0 .227] }
 r_shoulder_pan_joint_origin (torso_lift_joint): { Q: [0 -.188 0] }
 l_shoulder_pan_joint_origin (torso_lift_joint): { Q: [0 .188 0] }
-fl_caster_l_wheel_joint (fl_caster_l_wheel_joint_origin): { joint: hingeY, limits: [0 0], ctrl_limits: [100 -1 100] }
-fl_caster_r_wheel_joint (fl_caster_r_wheel_joint_origin): { joint: hingeY, limits: [0 0], ctrl_limits: [100 -1 100] }
-fr_caster_l_wheel_joint (fr_caster_l_wheel_joint_origin): { joint: hingeY, limits: [0 0], ctrl_limits: [100 -1 100] }
-fr_caster_r_wheel_joint (fr_caster_r_wheel_joint_origin): { joint: hingeY, limits: [0 0], ctrl_limits: [100 -1 100] }
-bl_caster_l_wheel_joint (bl_caster_l_wheel_joint_origin): { joint: hingeY, limits: [0 0], ctrl_limits: [100 -1 100] }
-bl_caster_r_wheel_joint (bl_caster_r_wheel_joint_origin): { joint: hingeY, limits: [0 0], ctrl_limits: [100 -1 100] }
-br_caster_l_wheel_joint (br_caster_l_wheel_joint_origin): { joint: hingeY, limits: [0 0], ctrl_limits: [100 -1 100] }
-br_caster_r_wheel_joint (br_caster_r_wheel_joint_origin): { joint: hingeY, limits: [0 0], ctrl_limits: [100 -1 100] }
-head_pan_joint (head_pan_joint_origin): { joint: hingeZ, limits: [-3.007 3.007], ctrl_limits: [6 -1 2.645] }
+fl_caster_l_wheel_joint (fl_caster_l_wheel_joint_origin): { joint: hingeY, limits: [0 0], ctrl_limits: [100 100 -1] }
+fl_caster_r_wheel_joint (fl_caster_r_wheel_joint_origin): { joint: hingeY, limits: [0 0], ctrl_limits: [100 100 -1] }
+fr_caster_l_wheel_joint (fr_caster_l_wheel_joint_origin): { joint: hingeY, limits: [0 0], ctrl_limits: [100 100 -1] }
+fr_caster_r_wheel_joint (fr_caster_r_wheel_joint_origin): { joint: hingeY, limits: [0 0], ctrl_limits: [100 100 -1] }
+bl_caster_l_wheel_joint (bl_caster_l_wheel_joint_origin): { joint: hingeY, limits: [0 0], ctrl_limits: [100 100 -1] }
+bl_caster_r_wheel_joint (bl_caster_r_wheel_joint_origin): { joint: hingeY, limits: [0 0], ctrl_limits: [100 100 -1] }
+br_caster_l_wheel_joint (br_caster_l_wheel_joint_origin): { joint: hingeY, limits: [0 0], ctrl_limits: [100 100 -1] }
+br_caster_r_wheel_joint (br_caster_r_wheel_joint_origin): { joint: hingeY, limits: [0 0], ctrl_limits: [100 100 -1] }
+head_pan_joint (head_pan_joint_origin): { joint: hingeZ, limits: [-3.007 3.007], ctrl_limits: [6 2.645 -1] }
 laser_tilt_mount_joint (laser_tilt_mount_joint_origin): {
-  joint: hingeY, limits: [-.7854 1.48353], ctrl_limits: [10 -1 .65]
+  joint: hingeY, limits: [-.7854 1.48353], ctrl_limits: [10 .65 -1]
 }
 r_shoulder_pan_joint (r_shoulder_pan_joint_origin): {
-  joint: hingeZ, limits: [-2.2854 .714602], ctrl_limits: [2.088 -1 30]
+  joint: hingeZ, limits: [-2.2854 .714602], ctrl_limits: [2.088 30 -1]
 }
 l_shoulder_pan_joint (l_shoulder_pan_joint_origin): {
-  joint: hingeZ, limits: [-.714602 2.2854], ctrl_limits: [2.088 -1 30]
+  joint: hingeZ, limits: [-.714602 2.2854], ctrl_limits: [2.088 30 -1]
 }
 fl_caster_l_wheel_link (fl_caster_l_wheel_joint): {
   mass: .44036, inertia: [.0124118 -.000711734 .00050273 .0152182 -4.27347e-6 .011764]
@@ -282,12 +282,12 @@ l_shoulder_pan_link_0 (l_shoulder_pan_joint): {
   visual_mesh: <package://example-robot-data/robots/pr2_description/meshes/shoulder_v0/shoulder_pan.stl>
 }
 l_shoulder_lift_joint_origin (l_shoulder_pan_joint): { Q: [.1 0 0] }
-head_tilt_joint (head_tilt_joint_origin): { joint: hingeY, limits: [-.471238 1.39626], ctrl_limits: [5 -1 15] }
+head_tilt_joint (head_tilt_joint_origin): { joint: hingeY, limits: [-.471238 1.39626], ctrl_limits: [5 15 -1] }
 r_shoulder_lift_joint (r_shoulder_lift_joint_origin): {
-  joint: hingeY, limits: [-.5236 1.3963], ctrl_limits: [2.082 -1 30]
+  joint: hingeY, limits: [-.5236 1.3963], ctrl_limits: [2.082 30 -1]
 }
 l_shoulder_lift_joint (l_shoulder_lift_joint_origin): {
-  joint: hingeY, limits: [-.5236 1.3963], ctrl_limits: [2.082 -1 30]
+  joint: hingeY, limits: [-.5236 1.3963], ctrl_limits: [2.082 30 -1]
 }
 head_tilt_link (head_tilt_joint): {
   mass: 1.74973, inertia: [.0106023 -.000408814 .00198304 .0118744 .000197909 .00551679]
@@ -368,8 +368,8 @@ l_shoulder_lift_link_0 (l_shoulder_lift_joint): {
   ],
   visual_mesh: <package://example-robot-data/robots/pr2_description/meshes/shoulder_v0/shoulder_lift.stl>
 }
-r_upper_arm_roll_joint (r_shoulder_lift_link): { joint: hingeX, limits: [-3.9 .8], ctrl_limits: [3.27 -1 30] }
-l_upper_arm_roll_joint (l_shoulder_lift_link): { joint: hingeX, limits: [-.8 3.9], ctrl_limits: [3.27 -1 30] }
+r_upper_arm_roll_joint (r_shoulder_lift_link): { joint: hingeX, limits: [-3.9 .8], ctrl_limits: [3.27 30 -1] }
+l_upper_arm_roll_joint (l_shoulder_lift_link): { joint: hingeX, limits: [-.8 3.9], ctrl_limits: [3.27 30 -1] }
 r_upper_arm_roll_link (r_upper_arm_roll_joint): { mass: .1, inertia: [.01 .01 .01] }
 r_upper_arm_roll_link_0 (r_upper_arm_roll_joint): {
   shape: ssCvx, size: [.005], color: [.93 .94 .95],
@@ -418,8 +418,8 @@ l_upper_arm_link_0 (l_upper_arm_roll_joint): {
   visual_mesh: <package://example-robot-data/robots/pr2_description/meshes/upper_arm_v0/upper_arm.stl>
 }
 l_elbow_flex_joint_origin (l_upper_arm_roll_joint): { Q: [.4 0 0] }
-r_elbow_flex_joint (r_elbow_flex_joint_origin): { joint: hingeY, limits: [-2.3213 0], ctrl_limits: [3.3 -1 30] }
-l_elbow_flex_joint (l_elbow_flex_joint_origin): { joint: hingeY, limits: [-2.3213 0], ctrl_limits: [3.3 -1 30] }
+r_elbow_flex_joint (r_elbow_flex_joint_origin): { joint: hingeY, limits: [-2.3213 0], ctrl_limits: [3.3 30 -1] }
+l_elbow_flex_joint (l_elbow_flex_joint_origin): { joint: hingeY, limits: [-2.3213 0], ctrl_limits: [3.3 30 -1] }
 r_elbow_flex_link (r_elbow_flex_joint): {
   mass: 1.90327, inertia: [.00346542 4.06683e-5 .000431716 .00441606 -3.96891e-5 .00359157]
 }
@@ -444,8 +444,8 @@ l_elbow_flex_link_0 (l_elbow_flex_joint): {
   ],
   visual_mesh: <package://example-robot-data/robots/pr2_description/meshes/upper_arm_v0/elbow_flex.stl>
 }
-r_forearm_roll_joint (r_elbow_flex_link): { joint: hingeX, limits: [0 0], ctrl_limits: [3.6 -1 30] }
-l_forearm_roll_joint (l_elbow_flex_link): { joint: hingeX, limits: [0 0], ctrl_limits: [3.6 -1 30] }
+r_forearm_roll_joint (r_elbow_flex_link): { joint: hingeX, limits: [0 0], ctrl_limits: [3.6 30 -1] }
+l_forearm_roll_joint (l_elbow_flex_link): { joint: hingeX, limits: [0 0], ctrl_limits: [3.6 30 -1] }
 r_forearm_roll_link (r_forearm_roll_joint): { mass: .1, inertia: [.01 .01 .01] }
 r_forearm_roll_link_0 (r_forearm_roll_joint): {
   shape: ssCvx, size: [.01], color: [.93 .94 .95],
@@ -506,8 +506,8 @@ l_forearm_cam_frame_0 (l_forearm_roll_joint): {
   Q: [.135 0 .044 .679287972 -.679287972 -.19638699 -.19638699], shape: box, size: [.01 .01 .01]
 }
 l_wrist_flex_joint_origin (l_forearm_roll_joint): { Q: [.321 0 0] }
-r_wrist_flex_joint (r_wrist_flex_joint_origin): { joint: hingeY, limits: [-2.094 0], ctrl_limits: [3.078 -1 10] }
-l_wrist_flex_joint (l_wrist_flex_joint_origin): { joint: hingeY, limits: [-2.094 0], ctrl_limits: [3.078 -1 10] }
+r_wrist_flex_joint (r_wrist_flex_joint_origin): { joint: hingeY, limits: [-2.094 0], ctrl_limits: [3.078 10 -1] }
+l_wrist_flex_joint (l_wrist_flex_joint_origin): { joint: hingeY, limits: [-2.094 0], ctrl_limits: [3.078 10 -1] }
 r_wrist_flex_link (r_wrist_flex_joint): {
   mass: .61402, inertia: [.000651657 2.8864e-7 3.03477e-6 .000198244 -2.2645e-7 .000644505]
 }
@@ -532,8 +532,8 @@ l_wrist_flex_link_0 (l_wrist_flex_joint): {
   ],
   visual_mesh: <package://example-robot-data/robots/pr2_description/meshes/forearm_v0/wrist_flex.stl>
 }
-r_wrist_roll_joint (r_wrist_flex_link): { joint: hingeX, limits: [0 0], ctrl_limits: [3.6 -1 10] }
-l_wrist_roll_joint (l_wrist_flex_link): { joint: hingeX, limits: [0 0], ctrl_limits: [3.6 -1 10] }
+r_wrist_roll_joint (r_wrist_flex_link): { joint: hingeX, limits: [0 0], ctrl_limits: [3.6 10 -1] }
+l_wrist_roll_joint (l_wrist_flex_link): { joint: hingeX, limits: [0 0], ctrl_limits: [3.6 10 -1] }
 r_wrist_roll_link (r_wrist_roll_joint): { mass: .1, inertia: [.01 .01 .01] }
 r_wrist_roll_link_0 (r_wrist_roll_joint): {
   shape: ssCvx, size: [.004], color: [.93 .94 .95],
@@ -589,28 +589,28 @@ l_gripper_r_finger_joint_origin (l_wrist_roll_joint): { Q: [.07691 -.01 0] }
 l_gripper_l_parallel_root_joint_origin (l_wrist_roll_joint): { Q: [.05891 .031 0] }
 l_gripper_r_parallel_root_joint_origin (l_wrist_roll_joint): { Q: [.05891 -.031 0] }
 r_gripper_l_finger_joint (r_gripper_l_finger_joint_origin): {
-  joint: hingeZ, limits: [0 .548], ctrl_limits: [.5 -1 1000]
+  joint: hingeZ, limits: [0 .548], ctrl_limits: [.5 1000 -1]
 }
 r_gripper_r_finger_joint (r_gripper_r_finger_joint_origin): {
-  joint: hingeZ, joint_scale: -1, limits: [0 .548], ctrl_limits: [.5 -1 1000], mimic: r_gripper_l_finger_joint
+  joint: hingeZ, joint_scale: -1, limits: [0 .548], ctrl_limits: [.5 1000 -1], mimic: r_gripper_l_finger_joint
 }
 r_gripper_l_parallel_root_joint (r_gripper_l_parallel_root_joint_origin): {
-  joint: hingeZ, limits: [0 .548], ctrl_limits: [.5 -1 1000], mimic: r_gripper_l_finger_joint
+  joint: hingeZ, limits: [0 .548], ctrl_limits: [.5 1000 -1], mimic: r_gripper_l_finger_joint
 }
 r_gripper_r_parallel_root_joint (r_gripper_r_parallel_root_joint_origin): {
-  joint: hingeZ, joint_scale: -1, limits: [0 .548], ctrl_limits: [.5 -1 1000], mimic: r_gripper_l_finger_joint
+  joint: hingeZ, joint_scale: -1, limits: [0 .548], ctrl_limits: [.5 1000 -1], mimic: r_gripper_l_finger_joint
 }
 l_gripper_l_finger_joint (l_gripper_l_finger_joint_origin): {
-  joint: hingeZ, limits: [0 .548], ctrl_limits: [.5 -1 1000]
+  joint: hingeZ, limits: [0 .548], ctrl_limits: [.5 1000 -1]
 }
 l_gripper_r_finger_joint (l_gripper_r_finger_joint_origin): {
-  joint: hingeZ, joint_scale: -1, limits: [0 .548], ctrl_limits: [.5 -1 1000], mimic: l_gripper_l_finger_joint
+  joint: hingeZ, joint_scale: -1, limits: [0 .548], ctrl_limits: [.5 1000 -1], mimic: l_gripper_l_finger_joint
 }
 l_gripper_l_parallel_root_joint (l_gripper_l_parallel_root_joint_origin): {
-  joint: hingeZ, limits: [0 .548], ctrl_limits: [.5 -1 1000], mimic: l_gripper_l_finger_joint
+  joint: hingeZ, limits: [0 .548], ctrl_limits: [.5 1000 -1], mimic: l_gripper_l_finger_joint
 }
 l_gripper_r_parallel_root_joint (l_gripper_r_parallel_root_joint_origin): {
-  joint: hingeZ, joint_scale: -1, limits: [0 .548], ctrl_limits: [.5 -1 1000], mimic: l_gripper_l_finger_joint
+  joint: hingeZ, joint_scale: -1, limits: [0 .548], ctrl_limits: [.5 1000 -1], mimic: l_gripper_l_finger_joint
 }
 r_gripper_l_finger_link (r_gripper_l_finger_joint): {
   mass: .17126, inertia: [7.7562e-5 1.49095e-6 -9.83385e-6 .000197083 -3.06125e-6 .000181054]
@@ -677,16 +677,16 @@ l_gripper_r_parallel_link (l_gripper_r_parallel_root_joint): {
   mass: .17389, inertia: [7.73841e-5 -2.09309e-6 -8.36228e-6 .000198474 2.4611e-6 .00018107]
 }
 r_gripper_l_finger_tip_joint (r_gripper_l_finger_tip_joint_origin): {
-  joint: hingeZ, joint_scale: -1, limits: [0 .548], ctrl_limits: [.5 -1 1000], mimic: r_gripper_l_finger_joint
+  joint: hingeZ, joint_scale: -1, limits: [0 .548], ctrl_limits: [.5 1000 -1], mimic: r_gripper_l_finger_joint
 }
 r_gripper_r_finger_tip_joint (r_gripper_r_finger_tip_joint_origin): {
-  joint: hingeZ, limits: [0 .548], ctrl_limits: [.5 -1 1000], mimic: r_gripper_l_finger_joint
+  joint: hingeZ, limits: [0 .548], ctrl_limits: [.5 1000 -1], mimic: r_gripper_l_finger_joint
 }
 l_gripper_l_finger_tip_joint (l_gripper_l_finger_tip_joint_origin): {
-  joint: hingeZ, joint_scale: -1, limits: [0 .548], ctrl_limits: [.5 -1 1000], mimic: l_gripper_l_finger_joint
+  joint: hingeZ, joint_scale: -1, limits: [0 .548], ctrl_limits: [.5 1000 -1], mimic: l_gripper_l_finger_joint
 }
 l_gripper_r_finger_tip_joint (l_gripper_r_finger_tip_joint_origin): {
-  joint: hingeZ, limits: [0 .548], ctrl_limits: [.5 -1 1000], mimic: l_gripper_l_finger_joint
+  joint: hingeZ, limits: [0 .548], ctrl_limits: [.5 1000 -1], mimic: l_gripper_l_finger_joint
 }
 r_gripper_l_finger_tip_link (r_gripper_l_finger_tip_joint): {
   mass: .04419, inertia: [8.37047e-6 5.83632e-6 0 9.87067e-6 0 1.54177e-5]
@@ -736,5 +736,5 @@ l_gripper_r_finger_tip_link_0 (l_gripper_r_finger_tip_joint): {
   ],
   visual_mesh: <package://example-robot-data/robots/pr2_description/meshes/gripper_v0/l_finger_tip.stl>
 }
-r_gripper_joint (r_gripper_r_finger_tip_link): { joint: transY, limits: [0 .09], ctrl_limits: [.2 -1 1000] }
-l_gripper_joint (l_gripper_r_finger_tip_link): { joint: transY, limits: [0 .09], ctrl_limits: [.2 -1 1000] }
+r_gripper_joint (r_gripper_r_finger_tip_link): { joint: transY, limits: [0 .09], ctrl_limits: [.2 1000 -1] }
+l_gripper_joint (l_gripper_r_finger_tip_link): { joint: transY, limits: [0 .09], ctrl_limits: [.2 1000 -1] }

@@ -27,7 +27,7 @@ br_caster_rotation_joint_origin (base_footprint_joint): { Q: [-.2246 -.2246 .028
 torso_lift_joint_origin (base_footprint_joint): { Q: [-.05 0 .739675] }
 base_laser_joint (base_laser_joint_origin): { joint: rigid, shape: box, size: [.001 .001 .001] }
 fl_caster_rotation_joint (fl_caster_rotation_joint_origin): {
-  joint: hingeZ, shape: ssCvx, size: [.01], color: [.93 .94 .95],
+  joint: hingeZ, ctrl_limits: [100 100 -1], shape: ssCvx, size: [.01], color: [.93 .94 .95],
   core: [
     -.081 -.077 -.022, -.081 .077 -.022, .064 .077 -.022, .064 -.077 -.022,
     -.081 -.076 .068, -.081 .077 .068, .064 .077 .068, .064 -.076 .068,
@@ -36,7 +36,7 @@ fl_caster_rotation_joint (fl_caster_rotation_joint_origin): {
   visual_mesh: <package://example-robot-data/robots/pr2_description/meshes/base_v0/caster.stl>
 }
 fr_caster_rotation_joint (fr_caster_rotation_joint_origin): {
-  joint: hingeZ, shape: ssCvx, size: [.01], color: [.93 .94 .95],
+  joint: hingeZ, ctrl_limits: [100 100 -1], shape: ssCvx, size: [.01], color: [.93 .94 .95],
   core: [
     -.081 -.077 -.022, -.081 .077 -.022, .064 .077 -.022, .064 -.077 -.022,
     -.081 -.076 .068, -.081 .077 .068, .064 .077 .068, .064 -.076 .068,
@@ -45,7 +45,7 @@ fr_caster_rotation_joint (fr_caster_rotation_joint_origin): {
   visual_mesh: <package://example-robot-data/robots/pr2_description/meshes/base_v0/caster.stl>
 }
 bl_caster_rotation_joint (bl_caster_rotation_joint_origin): {
-  joint: hingeZ, shape: ssCvx, size: [.01], color: [.93 .94 .95],
+  joint: hingeZ, ctrl_limits: [100 100 -1], shape: ssCvx, size: [.01], color: [.93 .94 .95],
   core: [
     -.081 -.077 -.022, -.081 .077 -.022, .064 .077 -.022, .064 -.077 -.022,
     -.081 -.076 .068, -.081 .077 .068, .064 .077 .068, .064 -.076 .068,
@@ -54,7 +54,7 @@ bl_caster_rotation_joint (bl_caster_rotation_joint_origin): {
   visual_mesh: <package://example-robot-data/robots/pr2_description/meshes/base_v0/caster.stl>
 }
 br_caster_rotation_joint (br_caster_rotation_joint_origin): {
-  joint: hingeZ, shape: ssCvx, size: [.01], color: [.93 .94 .95],
+  joint: hingeZ, ctrl_limits: [100 100 -1], shape: ssCvx, size: [.01], color: [.93 .94 .95],
   core: [
     -.081 -.077 -.022, -.081 .077 -.022, .064 .077 -.022, .064 -.077 -.022,
     -.081 -.076 .068, -.081 .077 .068, .064 .077 .068, .064 -.076 .068,
@@ -100,7 +100,7 @@ laser_tilt_mount_joint_origin (torso_lift_joint): { Q: [.09893 0 .227] }
 r_shoulder_pan_joint_origin (torso_lift_joint): { Q: [0 -.188 0] }
 l_shoulder_pan_joint_origin (torso_lift_joint): { Q: [0 .188 0] }
 fl_caster_l_wheel_joint (fl_caster_l_wheel_joint_origin): {
-  joint: hingeY, shape: ssCvx, size: [.01], color: [.93 .94 .95],
+  joint: hingeY, ctrl_limits: [100 100 -1], shape: ssCvx, size: [.01], color: [.93 .94 .95],
   core: [
     -.058 -.009 -.069, -.058 .009 -.069, .058 .009 -.069, .058 -.009 -.069,
     -.069 -.022 0, -.069 .01 0, .069 .01 0, .069 -.022 0,
@@ -109,7 +109,7 @@ fl_caster_l_wheel_joint (fl_caster_l_wheel_joint_origin): {
   visual_mesh: <package://example-robot-data/robots/pr2_description/meshes/base_v0/wheel.stl>
 }
 fl_caster_r_wheel_joint (fl_caster_r_wheel_joint_origin): {
-  joint: hingeY, shape: ssCvx, size: [.01], color: [.93 .94 .95],
+  joint: hingeY, ctrl_limits: [100 100 -1], shape: ssCvx, size: [.01], color: [.93 .94 .95],
   core: [
     -.058 -.009 -.069, -.058 .009 -.069, .058 .009 -.069, .058 -.009 -.069,
     -.069 -.022 0, -.069 .01 0, .069 .01 0, .069 -.022 0,
@@ -118,7 +118,7 @@ fl_caster_r_wheel_joint (fl_caster_r_wheel_joint_origin): {
   visual_mesh: <package://example-robot-data/robots/pr2_description/meshes/base_v0/wheel.stl>
 }
 fr_caster_l_wheel_joint (fr_caster_l_wheel_joint_origin): {
-  joint: hingeY, shape: ssCvx, size: [.01], color: [.93 .94 .95],
+  joint: hingeY, ctrl_limits: [100 100 -1], shape: ssCvx, size: [.01], color: [.93 .94 .95],
   core: [
     -.058 -.009 -.069, -.058 .009 -.069, .058 .009 -.069, .058 -.009 -.069,
     -.069 -.022 0, -.069 .01 0, .069 .01 0, .069 -.022 0,
@@ -127,7 +127,7 @@ fr_caster_l_wheel_joint (fr_caster_l_wheel_joint_origin): {
   visual_mesh: <package://example-robot-data/robots/pr2_description/meshes/base_v0/wheel.stl>
 }
 fr_caster_r_wheel_joint (fr_caster_r_wheel_joint_origin): {
-  joint: hingeY, shape: ssCvx, size: [.01], color: [.93 .94 .95],
+  joint: hingeY, ctrl_limits: [100 100 -1], shape: ssCvx, size: [.01], color: [.93 .94 .95],
   core: [
     -.058 -.009 -.069, -.058 .009 -.069, .058 .009 -.069, .058 -.009 -.069,
     -.069 -.022 0, -.069 .01 0, .069 .01 0, .069 -.022 0,
@@ -136,7 +136,7 @@ fr_caster_r_wheel_joint (fr_caster_r_wheel_joint_origin): {
   visual_mesh: <package://example-robot-data/robots/pr2_description/meshes/base_v0/wheel.stl>
 }
 bl_caster_l_wheel_joint (bl_caster_l_wheel_joint_origin): {
-  joint: hingeY, shape: ssCvx, size: [.01], color: [.93 .94 .95],
+  joint: hingeY, ctrl_limits: [100 100 -1], shape: ssCvx, size: [.01], color: [.93 .94 .95],
   core: [
     -.058 -.009 -.069, -.058 .009 -.069, .058 .009 -.069, .058 -.009 -.069,
     -.069 -.022 0, -.069 .01 0, .069 .01 0, .069 -.022 0,
@@ -145,7 +145,7 @@ bl_caster_l_wheel_joint (bl_caster_l_wheel_joint_origin): {
   visual_mesh: <package://example-robot-data/robots/pr2_description/meshes/base_v0/wheel.stl>
 }
 bl_caster_r_wheel_joint (bl_caster_r_wheel_joint_origin): {
-  joint: hingeY, shape: ssCvx, size: [.01], color: [.93 .94 .95],
+  joint: hingeY, ctrl_limits: [100 100 -1], shape: ssCvx, size: [.01], color: [.93 .94 .95],
   core: [
     -.058 -.009 -.069, -.058 .009 -.069, .058 .009 -.069, .058 -.009 -.069,
     -.069 -.022 0, -.069 .01 0, .069 .01 0, .069 -.022 0,
@@ -154,7 +154,7 @@ bl_caster_r_wheel_joint (bl_caster_r_wheel_joint_origin): {
   visual_mesh: <package://example-robot-data/robots/pr2_description/meshes/base_v0/wheel.stl>
 }
 br_caster_l_wheel_joint (br_caster_l_wheel_joint_origin): {
-  joint: hingeY, shape: ssCvx, size: [.01], color: [.93 .94 .95],
+  joint: hingeY, ctrl_limits: [100 100 -1], shape: ssCvx, size: [.01], color: [.93 .94 .95],
   core: [
     -.058 -.009 -.069, -.058 .009 -.069, .058 .009 -.069, .058 -.009 -.069,
     -.069 -.022 0, -.069 .01 0, .069 .01 0, .069 -.022 0,
@@ -163,7 +163,7 @@ br_caster_l_wheel_joint (br_caster_l_wheel_joint_origin): {
   visual_mesh: <package://example-robot-data/robots/pr2_description/meshes/base_v0/wheel.stl>
 }
 br_caster_r_wheel_joint (br_caster_r_wheel_joint_origin): {
-  joint: hingeY, shape: ssCvx, size: [.01], color: [.93 .94 .95],
+  joint: hingeY, ctrl_limits: [.013 10000 -1], shape: ssCvx, size: [.01], color: [.93 .94 .95],
   core: [
     -.058 -.009 -.069, -.058 .009 -.069, .058 .009 -.069, .058 -.009 -.069,
     -.069 -.022 0, -.069 .01 0, .069 .01 0, .069 -.022 0,
@@ -173,7 +173,7 @@ br_caster_r_wheel_joint (br_caster_r_wheel_joint_origin): {
 }
 imu_joint (imu_joint_origin): { joint: rigid, shape: box, size: [.001 .001 .001] }
 head_pan_joint (head_pan_joint_origin): {
-  joint: hingeZ, limits: [-3.007 3.007], shape: ssCvx, size: [.01], color: [.93 .94 .95],
+  joint: hingeZ, limits: [-3.007 3.007], ctrl_limits: [5 15 -1], shape: ssCvx, size: [.01], color: [.93 .94 .95],
   core: [
     -.073 -.151 -.055, -.073 -.151 .065, .133 -.151 .065, .133 -.151 -.055,
     -.101 -.054 -.055, -.101 -.054 .068, .132 -.054 .068, .132 -.054 -.055,
@@ -183,7 +183,7 @@ head_pan_joint (head_pan_joint_origin): {
   visual_mesh: <package://example-robot-data/robots/pr2_description/meshes/head_v0/head_pan.stl>
 }
 laser_tilt_mount_joint (laser_tilt_mount_joint_origin): {
-  joint: hingeY, limits: [-.7854 1.48353], shape: ssCvx, size: [.01], color: [.93 .94 .95],
+  joint: hingeY, limits: [-.7854 1.48353], ctrl_limits: [2.088 30 -1], shape: ssCvx, size: [.01], color: [.93 .94 .95],
   core: [
     -.051 -.072 -.046, -.051 -.072 .054, .046 -.072 .054, .046 -.072 -.046,
     -.051 0 -.046, -.051 0 .054, .046 0 .054, .046 0 -.046,
@@ -202,7 +202,8 @@ r_shoulder_pan_joint (r_shoulder_pan_joint_origin): {
   visual_mesh: <package://example-robot-data/robots/pr2_description/meshes/shoulder_v0/shoulder_pan.stl>
 }
 l_shoulder_pan_joint (l_shoulder_pan_joint_origin): {
-  joint: hingeZ, limits: [-.714602 2.2854], shape: ssCvx, size: [.01], color: [.93 .94 .95],
+  joint: hingeZ, limits: [-.714602 2.2854], ctrl_limits: [2.088 30 -1], shape: ssCvx, size: [.01],
+  color: [.93 .94 .95],
   core: [
     -.117 -.117 -.481, -.117 .117 -.481, .06 .117 -.481, .06 -.117 -.481,
     -.117 -.117 -.28, -.117 .117 -.28, .055 .117 -.28, .055 -.117 -.28,
@@ -262,7 +263,7 @@ head_tilt_joint (head_tilt_joint_origin): {
 }
 laser_tilt_joint (laser_tilt_joint_origin): { joint: rigid, shape: box, size: [.001 .001 .001] }
 r_shoulder_lift_joint (r_shoulder_lift_joint_origin): {
-  joint: hingeY, limits: [-.5236 1.3963], shape: ssCvx, size: [.01], color: [.93 .94 .95],
+  joint: hingeY, limits: [-.5236 1.3963], ctrl_limits: [2.082 30 -1], shape: ssCvx, size: [.01], color: [.93 .94 .95],
   core: [
     -.085 -.065 -.117, -.085 .065 -.117, .085 .065 -.117, .085 -.065 -.117,
     -.117 -.065 -.042, -.117 .065 -.042, .111 .065 -.042, .111 -.065 -.042,
@@ -272,7 +273,7 @@ r_shoulder_lift_joint (r_shoulder_lift_joint_origin): {
   visual_mesh: <package://example-robot-data/robots/pr2_description/meshes/shoulder_v0/shoulder_lift.stl>
 }
 l_shoulder_lift_joint (l_shoulder_lift_joint_origin): {
-  joint: hingeY, limits: [-.5236 1.3963], shape: ssCvx, size: [.01], color: [.93 .94 .95],
+  joint: hingeY, limits: [-.5236 1.3963], ctrl_limits: [2.082 30 -1], shape: ssCvx, size: [.01], color: [.93 .94 .95],
   core: [
     -.085 -.065 -.117, -.085 .065 -.117, .085 .065 -.117, .085 -.065 -.117,
     -.117 -.065 -.042, -.117 .065 -.042, .111 .065 -.042, .111 -.065 -.042,
@@ -290,7 +291,7 @@ r_shoulder_lift_link (r_shoulder_lift_joint): {
   mass: 2.74988, inertia: [.0210558 .00496704 -.00194809 .0212722 .00110425 .0197575]
 }
 r_upper_arm_roll_joint (r_shoulder_lift_joint): {
-  joint: hingeX, limits: [-3.9 .8], shape: ssCvx, size: [.005], color: [.93 .94 .95],
+  joint: hingeX, limits: [-3.9 .8], ctrl_limits: [3.27 30 -1], shape: ssCvx, size: [.005], color: [.93 .94 .95],
   core: [
     .122 -.052 -.067, .122 .057 -.067, .135 .057 -.067, .135 -.052 -.067,
     .119 -.061 0, .119 .067 0, .119 .067 0, .119 -.061 0,
@@ -302,7 +303,7 @@ l_shoulder_lift_link (l_shoulder_lift_joint): {
   mass: 2.74988, inertia: [.0210558 .00496704 -.00194809 .0212722 .00110425 .0197575]
 }
 l_upper_arm_roll_joint (l_shoulder_lift_joint): {
-  joint: hingeX, limits: [-.8 3.9], shape: ssCvx, size: [.005], color: [.93 .94 .95],
+  joint: hingeX, limits: [-.8 3.9], ctrl_limits: [3.27 30 -1], shape: ssCvx, size: [.005], color: [.93 .94 .95],
   core: [
     .122 -.052 -.067, .122 .057 -.067, .135 .057 -.067, .135 -.052 -.067,
     .119 -.061 0, .119 .067 0, .119 .067 0, .119 -.061 0,
@@ -370,7 +371,7 @@ r_elbow_flex_link (r_elbow_flex_joint): {
   mass: 1.90327, inertia: [.00346542 4.06683e-5 .000431716 .00441606 -3.96891e-5 .00359157]
 }
 r_forearm_roll_joint (r_elbow_flex_joint): {
-  joint: hingeX, shape: ssCvx, size: [.01], color: [.93 .94 .95],
+  joint: hingeX, ctrl_limits: [3.3 30 -1], shape: ssCvx, size: [.01], color: [.93 .94 .95],
   core: [
     -.014 0 0, -.014 0 0, -.014 0 0, -.014 0 0,
     .041 0 0, .041 0 0, .041 0 0, .041 0 0,
@@ -382,7 +383,7 @@ l_elbow_flex_link (l_elbow_flex_joint): {
   mass: 1.90327, inertia: [.00346542 4.06683e-5 .000431716 .00441606 -3.96891e-5 .00359157]
 }
 l_forearm_roll_joint (l_elbow_flex_joint): {
-  joint: hingeX, shape: ssCvx, size: [.01], color: [.93 .94 .95],
+  joint: hingeX, ctrl_limits: [3.3 30 -1], shape: ssCvx, size: [.01], color: [.93 .94 .95],
   core: [
     -.014 0 0, -.014 0 0, -.014 0 0, -.014 0 0,
     .041 0 0, .041 0 0, .041 0 0, .041 0 0,
@@ -453,7 +454,7 @@ narrow_stereo_gazebo_l_stereo_camera_frame_joint (narrow_stereo_frame_joint): {
 r_forearm_cam_frame (r_forearm_cam_frame_joint): { mass: .01, inertia: [.001 .001 .001] }
 r_forearm_cam_optical_frame_joint_origin (r_forearm_cam_frame_joint): { Q: "d(-120 1 1 1)" }
 r_wrist_flex_joint (r_wrist_flex_joint_origin): {
-  joint: hingeY, limits: [-2.094 0], shape: ssCvx, size: [.01], color: [.93 .94 .95],
+  joint: hingeY, limits: [-2.094 0], ctrl_limits: [3.078 10 -1], shape: ssCvx, size: [.01], color: [.93 .94 .95],
   core: [
     -.021 -.011 -.031, -.021 .011 -.031, .018 .011 -.031, .018 -.011 -.031,
     -.027 -.012 -.002, -.027 .012 -.002, .018 .012 -.002, .018 -.012 -.002,
@@ -464,7 +465,7 @@ r_wrist_flex_joint (r_wrist_flex_joint_origin): {
 l_forearm_cam_frame (l_forearm_cam_frame_joint): { mass: .01, inertia: [.001 .001 .001] }
 l_forearm_cam_optical_frame_joint_origin (l_forearm_cam_frame_joint): { Q: "d(-120 1 1 1)" }
 l_wrist_flex_joint (l_wrist_flex_joint_origin): {
-  joint: hingeY, limits: [-2.094 0], shape: ssCvx, size: [.01], color: [.93 .94 .95],
+  joint: hingeY, limits: [-2.094 0], ctrl_limits: [3.078 10 -1], shape: ssCvx, size: [.01], color: [.93 .94 .95],
   core: [
     -.021 -.011 -.031, -.021 .011 -.031, .018 .011 -.031, .018 -.011 -.031,
     -.027 -.012 -.002, -.027 .012 -.002, .018 .012 -.002, .018 -.012 -.002,
@@ -497,7 +498,7 @@ r_wrist_flex_link (r_wrist_flex_joint): {
   mass: .61402, inertia: [.000651657 2.8864e-7 3.03477e-6 .000198244 -2.2645e-7 .000644505]
 }
 r_wrist_roll_joint (r_wrist_flex_joint): {
-  joint: hingeX, shape: ssCvx, size: [.004], color: [.93 .94 .95],
+  joint: hingeX, ctrl_limits: [3.6 10 -1], shape: ssCvx, size: [.004], color: [.93 .94 .95],
   core: [
     .029 -.015 -.015, .029 -.015 .015, .038 -.015 .015, .038 -.015 -.015,
     .029 .015 -.015, .029 .015 .015, .038 .015 .015, .038 .015 -.015
@@ -509,7 +510,7 @@ l_wrist_flex_link (l_wrist_flex_joint): {
   mass: .61402, inertia: [.000651657 2.8864e-7 3.03477e-6 .000198244 -2.2645e-7 .000644505]
 }
 l_wrist_roll_joint (l_wrist_flex_joint): {
-  joint: hingeX, shape: ssCvx, size: [.004], color: [.93 .94 .95],
+  joint: hingeX, ctrl_limits: [3.6 10 -1], shape: ssCvx, size: [.004], color: [.93 .94 .95],
   core: [
     .029 -.015 -.015, .029 -.015 .015, .038 -.015 .015, .038 -.015 -.015,
     .029 .015 -.015, .029 .015 .015, .038 .015 .015, .038 .015 -.015
@@ -589,7 +590,7 @@ narrow_stereo_gazebo_r_stereo_camera_optical_frame_joint (narrow_stereo_gazebo_r
 r_gripper_led_joint (r_gripper_led_joint_origin): { joint: rigid }
 r_gripper_tool_joint (r_gripper_tool_joint_origin): { joint: rigid }
 r_gripper_l_finger_joint (r_gripper_l_finger_joint_origin): {
-  joint: hingeZ, limits: [0 .548], shape: ssCvx, size: [.01], color: [.93 .94 .95],
+  joint: hingeZ, limits: [0 .548], ctrl_limits: [.5 1000 -1], shape: ssCvx, size: [.01], color: [.93 .94 .95],
   core: [
     .001 .001 -.018, .001 .001 .018, .001 .036 .018, .001 .036 -.018,
     .043 .005 -.018, .043 .005 .018, .043 .035 .018, .043 .035 -.018,
@@ -598,19 +599,19 @@ r_gripper_l_finger_joint (r_gripper_l_finger_joint_origin): {
   visual_mesh: <package://example-robot-data/robots/pr2_description/meshes/gripper_v0/l_finger.stl>
 }
 r_gripper_r_finger_joint (r_gripper_r_finger_joint_origin): {
-  joint: hingeZ, joint_scale: -1, limits: [0 .548], mimic: r_gripper_l_finger_joint
+  joint: hingeZ, joint_scale: -1, limits: [0 .548], ctrl_limits: [.5 1000 -1], mimic: r_gripper_l_finger_joint
 }
 r_gripper_l_parallel_root_joint (r_gripper_l_parallel_root_joint_origin): {
-  joint: hingeZ, limits: [0 .548], mimic: r_gripper_l_finger_joint
+  joint: hingeZ, limits: [0 .548], ctrl_limits: [.5 1000 -1], mimic: r_gripper_l_finger_joint
 }
 r_gripper_r_parallel_root_joint (r_gripper_r_parallel_root_joint_origin): {
-  joint: hingeZ, joint_scale: -1, limits: [0 .548], mimic: r_gripper_l_finger_joint
+  joint: hingeZ, joint_scale: -1, limits: [0 .548], ctrl_limits: [.5 1000 -1], mimic: r_gripper_l_finger_joint
 }
 r_gripper_motor_accelerometer_link (r_gripper_motor_accelerometer_joint): { mass: .001, inertia: [.001 .001 .001] }
 l_gripper_led_joint (l_gripper_led_joint_origin): { joint: rigid }
 l_gripper_tool_joint (l_gripper_tool_joint_origin): { joint: rigid }
 l_gripper_l_finger_joint (l_gripper_l_finger_joint_origin): {
-  joint: hingeZ, limits: [0 .548], shape: ssCvx, size: [.01], color: [.93 .94 .95],
+  joint: hingeZ, limits: [0 .548], ctrl_limits: [.5 1000 -1], shape: ssCvx, size: [.01], color: [.93 .94 .95],
   core: [
     .001 .001 -.018, .001 .001 .018, .001 .036 .018, .001 .036 -.018,
     .043 .005 -.018, .043 .005 .018, .043 .035 .018, .043 .035 -.018,
@@ -619,13 +620,13 @@ l_gripper_l_finger_joint (l_gripper_l_finger_joint_origin): {
   visual_mesh: <package://example-robot-data/robots/pr2_description/meshes/gripper_v0/l_finger.stl>
 }
 l_gripper_r_finger_joint (l_gripper_r_finger_joint_origin): {
-  joint: hingeZ, joint_scale: -1, limits: [0 .548], mimic: l_gripper_l_finger_joint
+  joint: hingeZ, joint_scale: -1, limits: [0 .548], ctrl_limits: [.5 1000 -1], mimic: l_gripper_l_finger_joint
 }
 l_gripper_l_parallel_root_joint (l_gripper_l_parallel_root_joint_origin): {
-  joint: hingeZ, limits: [0 .548], mimic: l_gripper_l_finger_joint
+  joint: hingeZ, limits: [0 .548], ctrl_limits: [.5 1000 -1], mimic: l_gripper_l_finger_joint
 }
 l_gripper_r_parallel_root_joint (l_gripper_r_parallel_root_joint_origin): {
-  joint: hingeZ, joint_scale: -1, limits: [0 .548], mimic: l_gripper_l_finger_joint
+  joint: hingeZ, joint_scale: -1, limits: [0 .548], ctrl_limits: [.5 1000 -1], mimic: l_gripper_l_finger_joint
 }
 l_gripper_motor_accelerometer_link (l_gripper_motor_accelerometer_joint): { mass: .001, inertia: [.001 .001 .001] }
 r_gripper_l_finger_link (r_gripper_l_finger_joint): {
@@ -675,7 +676,8 @@ l_gripper_r_parallel_link (l_gripper_r_parallel_root_joint): {
   mass: .17389, inertia: [7.73841e-5 -2.09309e-6 -8.36228e-6 .000198474 2.4611e-6 .00018107]
 }
 r_gripper_l_finger_tip_joint (r_gripper_l_finger_tip_joint_origin): {
-  joint: hingeZ, joint_scale: -1, limits: [0 .548], mimic: r_gripper_l_finger_joint, shape: ssCvx, size: [.005],
+  joint: hingeZ, joint_scale: -1, limits: [0 .548], ctrl_limits: [.5 1000 -1], mimic: r_gripper_l_finger_joint,
+  shape: ssCvx, size: [.005],
   color: [.93 .94 .95],
   core: [
     -.021 .016 -.004, -.021 .016 .004, -.021 .024 .004, -.021 .024 -.004,
@@ -685,10 +687,11 @@ r_gripper_l_finger_tip_joint (r_gripper_l_finger_tip_joint_origin): {
   visual_mesh: <package://example-robot-data/robots/pr2_description/meshes/gripper_v0/l_finger_tip.stl>
 }
 r_gripper_r_finger_tip_joint (r_gripper_r_finger_tip_joint_origin): {
-  joint: hingeZ, limits: [0 .548], mimic: r_gripper_l_finger_joint
+  joint: hingeZ, limits: [0 .548], ctrl_limits: [.5 1000 -1], mimic: r_gripper_l_finger_joint
 }
 l_gripper_l_finger_tip_joint (l_gripper_l_finger_tip_joint_origin): {
-  joint: hingeZ, joint_scale: -1, limits: [0 .548], mimic: l_gripper_l_finger_joint, shape: ssCvx, size: [.005],
+  joint: hingeZ, joint_scale: -1, limits: [0 .548], ctrl_limits: [.5 1000 -1], mimic: l_gripper_l_finger_joint,
+  shape: ssCvx, size: [.005],
   color: [.93 .94 .95],
   core: [
     -.021 .016 -.004, -.021 .016 .004, -.021 .024 .004, -.021 .024 -.004,
@@ -698,7 +701,7 @@ l_gripper_l_finger_tip_joint (l_gripper_l_finger_tip_joint_origin): {
   visual_mesh: <package://example-robot-data/robots/pr2_description/meshes/gripper_v0/l_finger_tip.stl>
 }
 l_gripper_r_finger_tip_joint (l_gripper_r_finger_tip_joint_origin): {
-  joint: hingeZ, limits: [0 .548], mimic: l_gripper_l_finger_joint
+  joint: hingeZ, limits: [0 .548], ctrl_limits: [.5 1000 -1], mimic: l_gripper_l_finger_joint
 }
 r_gripper_l_finger_tip_link (r_gripper_l_finger_tip_joint): {
   mass: .04419, inertia: [8.37047e-6 5.83632e-6 0 9.87067e-6 0 1.54177e-5]

@@ -23,7 +23,7 @@ world_joint (world_joint_origin): {
 # shoulder: turns about the vertical axis, and leans
 shoulder_pan_joint_origin (world_joint): { Q: [0 0 .1273] }
 shoulder_pan_joint (shoulder_pan_joint_origin): {
-  joint: hingeZ, limits: [-6.28319 6.28319], mass: .909582,
+  joint: hingeZ, limits: [-6.28319 6.28319], ctrl_limits: [2.16 330 -1], mass: .909582,
   inertia: [.00565017 -6.93355e-6 -8.74462e-6 .00537262 -4.97716e-5 .00439801], shape: ssCvx, size: [.01],
   color: [.93 .94 .95],
   core: [
@@ -35,7 +35,7 @@ shoulder_pan_joint (shoulder_pan_joint_origin): {
 }
 shoulder_lift_joint_origin (shoulder_pan_joint): { Q: "t(0 .220941 0) d(90 0 1 0)" }
 shoulder_lift_joint (shoulder_lift_joint_origin): {
-  joint: hingeY, limits: [-6.28319 6.28319], mass: 2.43496,
+  joint: hingeY, limits: [-6.28319 6.28319], ctrl_limits: [2.16 330 -1], mass: 2.43496,
   inertia: [.159184 1.47112e-5 -8.39265e-5 .157564 .000647215 .0100854], shape: ssCvx, size: [.01],
   color: [.93 .94 .95],
   core: [
@@ -50,7 +50,7 @@ shoulder_lift_joint (shoulder_lift_joint_origin): {
 # elbow
 elbow_joint_origin (shoulder_lift_joint): { Q: [0 -.1719 .612] }
 elbow_joint (elbow_joint_origin): {
-  joint: hingeY, limits: [-6.28319 6.28319], mass: 1.75122,
+  joint: hingeY, limits: [-6.28319 6.28319], ctrl_limits: [3.15 150 -1], mass: 1.75122,
   inertia: [.0968559 -9.76006e-6 1.57892e-5 .0958587 .000947383 .00463623], shape: ssCvx, size: [.01],
   color: [.93 .94 .95],
   core: [
@@ -65,7 +65,7 @@ elbow_joint (elbow_joint_origin): {
 # wrist: bends, turns, turns the flange
 wrist_1_joint_origin (elbow_joint): { Q: "t(0 0 .5723) d(90 0 1 0)" }
 wrist_1_joint (wrist_1_joint_origin): {
-  joint: hingeY, limits: [-6.28319 6.28319], mass: .361159,
+  joint: hingeY, limits: [-6.28319 6.28319], ctrl_limits: [3.2 54 -1], mass: .361159,
   inertia: [.000895857 1.09527e-6 9.37493e-7 .000848918 -1.01451e-5 .000646337], shape: ssCvx, size: [.01],
   color: [.93 .94 .95],
   core: [
@@ -77,7 +77,7 @@ wrist_1_joint (wrist_1_joint_origin): {
 }
 wrist_2_joint_origin (wrist_1_joint): { Q: [0 .1149 0] }
 wrist_2_joint (wrist_2_joint_origin): {
-  joint: hingeZ, limits: [-6.28319 6.28319], mass: .361992,
+  joint: hingeZ, limits: [-6.28319 6.28319], ctrl_limits: [3.2 54 -1], mass: .361992,
   inertia: [.000898399 -5.86223e-7 -1.0802e-6 .000648368 -1.06317e-5 .000850769], shape: ssCvx, size: [.01],
   color: [.93 .94 .95],
   core: [
@@ -89,7 +89,8 @@ wrist_2_joint (wrist_2_joint_origin): {
 }
 wrist_3_joint_origin (wrist_2_joint): { Q: [0 0 .1157] }
 wrist_3_joint (wrist_3_joint_origin): {
-  joint: hingeY, limits: [-6.28319 6.28319], mass: .108345, inertia: [8.36376e-5 0 1.31385e-8 .000134503 0 8.00354e-5],
+  joint: hingeY, limits: [-6.28319 6.28319], ctrl_limits: [3.2 54 -1], mass: .108345,
+  inertia: [8.36376e-5 0 1.31385e-8 .000134503 0 8.00354e-5],
   shape: ssCvx, size: [.007], color: [.46 .46 .46 1],
   core: [
     -.032 .069 -.037, -.032 .085 -.037, .032 .085 -.037, .032 .069 -.037,

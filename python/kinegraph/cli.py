@@ -12,6 +12,7 @@ from ._core import Config, checkFile
 from .compatibility.parameters import params_get
 from .errors import ArgumentError, Error, FileError
 from .model_paths import raiPath
+from .scene_overview import describeScene
 
 _MESHES = (".h5", ".ply", ".obj", ".stl", ".dae", ".glb")
 
@@ -44,6 +45,7 @@ def _parser() -> argparse.ArgumentParser:
 
     info = commands.add_parser("info", help="what a scene file contains")
     info.add_argument("file")
+    info.add_argument("--frames", action="store_true", help="a line for every frame, not only for what moves")
 
     check = commands.add_parser(
         "check", help="mistakes and oddities in scene files; exit status 1 if there is a mistake"
@@ -89,11 +91,18 @@ def _view(file: str, watch: bool) -> None:
         _load(file).view(True, file)
 
 
-def _info(file: str) -> None:
+def _info(file: str, frames: bool) -> None:
     config = _load(file)
     print(config.report())
-    for frame in config:
-        print(" ", frame)
+    if frames:
+        for frame in config:
+            print(" ", frame)
+        return
+    print(describeScene(config))
+    if any(frame.asDict().get("contact", 0) < 0 for frame in config):
+        print(
+            "A shape with contact -k does not collide with links up to k joints above it (an SRDF file tells pairs instead)."
+        )
 
 
 def _render(file: str, output: str, camera: str | None, size: str | None) -> None:
@@ -124,7 +133,7 @@ def main(arguments: list[str] | None = None) -> int:
         if options.command == "render":
             _render(options.file, options.output, options.camera, options.size)
         if options.command == "info":
-            _info(options.file)
+            _info(options.file, options.frames)
         if options.command == "check":
             return _check(options.files, options.strict)
     except KeyboardInterrupt:

@@ -33,9 +33,37 @@ def test_the_demos_target_never_leaves_the_arms_reach(seed):
 
 
 def test_info_lists_the_frames_of_a_file():
-    program = kinegraph("info", ry.raiPath("scenarios/pandaSingle.g"))
+    program = kinegraph("info", "--frames", ry.raiPath("scenarios/pandaSingle.g"))
     assert program.returncode == 0
     assert "l_gripper" in program.stdout
+
+
+def test_info_shows_what_moves_as_a_tree_with_limits(tmp_path):
+    scene = tmp_path / "scene.g"
+    scene.write_text("""
+        world: {}  table (world): { shape: box, size: [1 1 .1], contact: 1 }
+        drive (world): { joint: transXY, limits: [-1 -2 1 2] }
+        turn (drive): { joint: hingeZ, limits: [-1 2], q: .5, ctrl_limits: [3 7 -1], shape: sphere, size: [.1] }
+        copy (drive): { joint: hingeZ, mimic: turn }
+        lid (turn): { joint: hingeX, joint_active: false }
+        plate (lid): { shape: box, size: [1 1 .1], contact: -2 }
+    """)
+    program = kinegraph("info", str(scene))
+    assert program.returncode == 0, program.stderr
+    assert program.stdout.splitlines()[1:6] == [
+        "world  (*table*)",
+        "└── drive  transXY  q[0:2] = 0 in [-1, 1], 0 in [-2, 2]",
+        "    ├── turn  hingeZ  q[2] = 0.5 in [-1, 2] at 3/s with 7  (turn)",
+        "    │   └── lid  hingeX, not in q  (*plate*)",
+        "    └── copy  hingeZ, follows turn",
+    ]
+    assert "contact -k" in program.stdout
+
+
+def test_info_of_a_large_robot_fits_on_a_page():
+    program = kinegraph("info", ry.raiPath("pr2/pr2.g"))
+    assert program.returncode == 0, program.stderr
+    assert 25 <= len(program.stdout.splitlines()) <= 60
 
 
 @pytest.mark.parametrize("text, words", [("a: { shape: shpere }", "1:13"), (None, "missing.g")])

@@ -18,7 +18,7 @@ SHARE = [
     if folder and (Path(folder) / "example-robot-data").is_dir()
 ]
 # included by others, and nothing on their own
-PARTS = {"pr2_modifications.g", "panda_hand.g", "panda_collision.g"}
+PARTS = {"pr2_modifications.g", "panda_hand.g", "panda_collision.g", "panda_tight_collision.g"}
 needs_robots = pytest.mark.skipif(not SHARE, reason="needs robots: pip install example-robot-data==6.0.0")
 
 
@@ -178,6 +178,51 @@ def test_robots_stand_free_of_each_other_and_of_themselves():
         "panda/panda.g",
     ):
         assert model(name).getCollisions(0.0) == [], name
+
+
+TIGHT = {
+    "panda_coll0": "link0",
+    "panda_coll1": "link1",
+    "panda_coll2": "link2",
+    "panda_coll3": "link3",
+    "panda_coll4": "link4",
+    "panda_coll5": "link5",
+    "panda_coll6": "link6",
+    "panda_coll7": "link7",
+    "palm": "hand",
+    "finger1": "finger",
+}
+
+
+@needs_robots
+def test_the_tight_panda_holds_each_link_within_a_centimeter():
+    C = model("panda/panda_tight.g")
+    directions = np.random.default_rng(0).normal(size=(2000, 3))
+    directions /= np.linalg.norm(directions, axis=1, keepdims=True)
+    for name, link in TIGHT.items():
+        frame = ry.Config().addFrame("mesh")
+        frame.setMeshFile(str(SHARE[0] / f"example-robot-data/robots/panda_description/meshes/collision/{link}.stl"))
+        attributes = C.getFrame(name).asDict()
+        reach = (directions @ np.reshape(attributes["core"], (-1, 3)).T).max(axis=1) + attributes["size"][0]
+        excess = reach - (directions @ frame.getMeshPoints().T).max(axis=1)
+        assert excess.min() > 0 and excess.max() < 0.01, name
+
+
+def test_the_tight_panda_is_free_where_capsules_are_not():
+    """The same joints and frames; beside a plate it is free more often, and its gripper is where it was."""
+    wide, tight = model("panda/panda.g"), model("panda/panda_tight.g")
+    assert set(tight.getFrameNames()) == set(wide.getFrameNames())
+    assert list(tight.getJointNames()) == list(wide.getJointNames()) and tight.getCollisions(0.0) == []
+    for C in (wide, tight):
+        C.addFrame("plate").setShape(ry.ST.box, [1, 0.02, 1.5]).setPosition([0.2, 0.16, 0.75]).setContact(1)
+    assert tight.getCollisions(0.0) == []  # the elbows reach to 13 cm
+    assert {"panda_coll2", "plate"} in [{a, b} for a, b, _ in wide.getCollisions(0.0)]  # their capsules to 18
+    rng = np.random.default_rng(0)
+    lower, upper = wide.getJointLimits()
+    q = lower + rng.random((400, 7)) * (upper - lower)
+    assert np.sum(tight.isValid(q)) > np.sum(wide.isValid(q))
+    wide.setJointState(q[0]), tight.setJointState(q[0])
+    assert np.array_equal(wide.getFrame("gripper").getPose(), tight.getFrame("gripper").getPose())
 
 
 @needs_robots

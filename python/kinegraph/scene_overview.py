@@ -1,0 +1,88 @@
+"""A scene as a tree of what moves, for people to read."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+
+from ._core import JT, Config, Frame
+
+_NAMES_SHOWN = 4
+
+
+def describeScene(config: Config) -> str:
+    """The parts of a scene as a tree: a line for each root and each joint, with the shapes that are fixed to it.
+
+    A joint says its type, where it is in q, its value, `in [lower, upper]` (rad or m), how fast and how strong its motor is
+    where that is known (rad/s or m/s, Nm or N), and the names of shapes; those in `*` take part in collisions.
+    """
+    return "\n".join(_Overview(config).lines())
+
+
+def _moves(frame: Frame) -> bool:
+    return frame.getParent() is None or frame.getJointType() not in (JT.none, JT.rigid)
+
+
+class _Overview:
+    def __init__(self, config: Config) -> None:
+        self.config = config
+        self.members: dict[int, list[Frame]] = {}  # by the id of the part's own frame
+        self.below: dict[int, list[Frame]] = {}
+        part_of: dict[int, int] = {}
+
+        def partOf(frame: Frame) -> int:
+            if frame.ID not in part_of:
+                part_of[frame.ID] = frame.ID if _moves(frame) else partOf(frame.getParent())
+            return part_of[frame.ID]
+
+        for frame in config.getFrames():
+            self.members.setdefault(partOf(frame), []).append(frame)
+            if _moves(frame) and frame.getParent():
+                self.below.setdefault(partOf(frame.getParent()), []).append(frame)
+        self.dofs: dict[str, list[int]] = {}  # places in q, by the name of the joint
+        for i, name in enumerate(config.getJointNames()):
+            self.dofs.setdefault(name if name in self.dofs else name.rsplit(":", 1)[0], []).append(i)
+        self.q, self.limits = config.getJointState(), config.getJointLimits()
+
+    def lines(self) -> Iterator[str]:
+        for frame in self.config.getFrames():
+            if frame.getParent() is None:
+                yield from self._branch(frame, "", "")
+
+    def _branch(self, part: Frame, first: str, others: str) -> Iterator[str]:
+        yield f"{first}{part.name or '(no name)'}{self._joint(part)}{self._shapes(part)}"
+        below = self.below.get(part.ID, [])
+        for child in below:
+            last = child is below[-1]
+            yield from self._branch(child, others + ("└── " if last else "├── "), others + ("    " if last else "│   "))
+
+    def _joint(self, frame: Frame) -> str:
+        if frame.getParent() is None:
+            return ""
+        kind = str(frame.getJointType()).rsplit(".")[-1]
+        attributes = frame.asDict()
+        if "mimic" in attributes:
+            return f"  {kind}, follows {attributes['mimic']}"
+        places = self.dofs.get(frame.name)
+        if places is None:
+            return f"  {kind}, not in q"
+        where = f"q[{places[0]}]" if len(places) == 1 else f"q[{places[0]}:{places[-1] + 1}]"
+        return f"  {kind}  {where} = {', '.join(self._dof(i) for i in places)}{self._motor(attributes)}"
+
+    def _dof(self, i: int) -> str:
+        lower, upper = self.limits[:, i]
+        return f"{self.q[i]:.4g}" + (f" in [{lower:.4g}, {upper:.4g}]" if lower <= upper else "")
+
+    @staticmethod
+    def _motor(attributes: Mapping[str, object]) -> str:
+        velocity, effort, *_ = [*attributes.get("ctrl_limits", []), 0, 0]
+        return (f" at {velocity:.4g}/s" if velocity > 0 else "") + (f" with {effort:.4g}" if effort > 0 else "")
+
+    def _shapes(self, part: Frame) -> str:
+        names = []
+        for frame in self.members[part.ID]:
+            attributes = frame.asDict()
+            if attributes.get("shape", "marker") != "marker":
+                names.append(f"*{frame.name}*" if attributes.get("contact") else frame.name)
+        if len(names) > _NAMES_SHOWN:
+            names[_NAMES_SHOWN:] = [f"and {len(names) - _NAMES_SHOWN} more"]
+        return f"  ({', '.join(names)})" if names else ""
