@@ -6,7 +6,7 @@ function(kinegraph_find_prefix result python)
   execute_process(
     COMMAND "${python}" -c "import cmeel, pathlib; print((pathlib.Path(cmeel.__file__).parent.parent / 'cmeel.prefix').as_posix())"
     OUTPUT_VARIABLE prefix OUTPUT_STRIP_TRAILING_WHITESPACE RESULT_VARIABLE status ERROR_QUIET)
-  if(status EQUAL 0 AND EXISTS "${prefix}/lib/cmake/coal" AND EXISTS "${prefix}/lib/cmake/tinyxml2" AND EXISTS "${prefix}/../mujoco/include")
+  if(status EQUAL 0 AND EXISTS "${prefix}/lib/cmake/Qhull" AND EXISTS "${prefix}/include/boost/json.hpp" AND EXISTS "${prefix}/lib64/cmake/zlib" AND EXISTS "${prefix}/lib/cmake/tinyxml2" AND EXISTS "${prefix}/../mujoco/include")
     set(${result} "${prefix}" PARENT_SCOPE)
   else()
     set(${result} "" PARENT_SCOPE)
@@ -31,27 +31,35 @@ if(NOT KINEGRAPH_PREFIX)
 endif()
 list(PREPEND CMAKE_PREFIX_PATH "${KINEGRAPH_PREFIX}")
 
-set(Boost_NO_WARN_NEW_VERSIONS ON)  # coal asks for a newer Boost than CMake 3.25 knows
 find_package(Eigen3 3.4 CONFIG REQUIRED)
 find_package(assimp CONFIG REQUIRED)
-find_package(coal 3 CONFIG REQUIRED)
+find_package(boost_headers CONFIG REQUIRED)  # Beast and JSON, which need no library
+find_package(Qhull CONFIG REQUIRED)
 find_package(tinyxml2 CONFIG REQUIRED)
+find_package(ZLIB CONFIG REQUIRED HINTS "${KINEGRAPH_PREFIX}/lib64/cmake/zlib")
 find_package(Threads REQUIRED)
 
-# MuJoCo draws camera images. Its wheel has the headers and one library, which needs the C library only.
+# Assimp reads mesh files and MuJoCo draws camera images. Both are large: they are loaded when they are first needed
+# (base/dynamic_library.h), by these names.
+get_target_property(KINEGRAPH_ASSIMP_LIBRARY assimp::assimp IMPORTED_SONAME_RELEASE)
+
+# MuJoCo's wheel has the headers and one library, which needs the C library only.
 get_filename_component(KINEGRAPH_MUJOCO "${KINEGRAPH_PREFIX}/../mujoco" ABSOLUTE)
 file(GLOB library "${KINEGRAPH_MUJOCO}/libmujoco.so.*")
 add_library(mujoco::mujoco SHARED IMPORTED)
 set_target_properties(mujoco::mujoco PROPERTIES IMPORTED_LOCATION "${library}"
                       INTERFACE_INCLUDE_DIRECTORIES "${KINEGRAPH_MUJOCO}/include")
+get_filename_component(KINEGRAPH_MUJOCO_LIBRARY "${library}" NAME)
+set(KINEGRAPH_LIBRARY_FOLDERS "${KINEGRAPH_PREFIX}/lib" "${KINEGRAPH_PREFIX}/lib64" "${KINEGRAPH_MUJOCO}")
 
-# Installs the shared libraries of KINEGRAPH_PREFIX and MuJoCo's that `target` needs into `folder`.
+# Installs the shared libraries of KINEGRAPH_PREFIX and MuJoCo's that `target` needs into `folder`: those that it is
+# linked with, and those that it loads.
 function(kinegraph_install_libraries target folder component)
-  install(CODE "set(prefix [[${KINEGRAPH_PREFIX}]])\nset(mujoco [[${KINEGRAPH_MUJOCO}]])\nset(binary [[$<TARGET_FILE:${target}>]])\nset(folder [[${folder}]])" COMPONENT ${component})
+  install(CODE "set(prefix [[${KINEGRAPH_PREFIX}]])\nset(mujoco [[${KINEGRAPH_MUJOCO}]])\nset(binary [[$<TARGET_FILE:${target}>]])\nset(folder [[${folder}]])\nset(loaded [[${KINEGRAPH_PREFIX}/lib/${KINEGRAPH_ASSIMP_LIBRARY}]] [[${KINEGRAPH_MUJOCO}/${KINEGRAPH_MUJOCO_LIBRARY}]])" COMPONENT ${component})
   install(CODE [[
-    file(GET_RUNTIME_DEPENDENCIES LIBRARIES "${binary}" RESOLVED_DEPENDENCIES_VAR libraries UNRESOLVED_DEPENDENCIES_VAR missing
-         DIRECTORIES "${prefix}/lib" "${mujoco}" PRE_EXCLUDE_REGEXES "^ld-linux" "^lib(c|m|dl|rt|pthread|gcc_s|stdc\\+\\+)\\.so")
-    foreach(library IN LISTS libraries)
+    file(GET_RUNTIME_DEPENDENCIES LIBRARIES "${binary}" ${loaded} RESOLVED_DEPENDENCIES_VAR libraries UNRESOLVED_DEPENDENCIES_VAR missing
+         DIRECTORIES "${prefix}/lib" "${prefix}/lib64" "${mujoco}" PRE_EXCLUDE_REGEXES "^ld-linux" "^lib(c|m|dl|rt|pthread|gcc_s|stdc\\+\\+)\\.so")
+    foreach(library IN LISTS libraries loaded)
       string(FIND "${library}" "${prefix}" in_prefix)
       string(FIND "${library}" "${mujoco}" in_mujoco)
       if(in_prefix EQUAL 0 OR in_mujoco EQUAL 0)

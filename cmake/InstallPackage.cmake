@@ -50,7 +50,7 @@ if(library_type STREQUAL "STATIC_LIBRARY")
   target_link_options(kinegraph_needs PRIVATE -Wl,--no-as-needed)
   kinegraph_install_libraries(kinegraph_needs "${libraries_folder}" cpp)
 else()
-  kinegraph_install_libraries(kinegraph "${libraries_folder}" cpp)  # libcoal looks in ../lib
+  kinegraph_install_libraries(kinegraph "${libraries_folder}" cpp)
 endif()
 
 install(TARGETS kinegraph EXPORT kinegraphTargets COMPONENT cpp)

@@ -42,7 +42,7 @@ def cpp_struct(name: str, fields: dict, inside: list[str] | None = None) -> list
     return [*out, "};"]
 
 
-def make_cpp(schema: dict) -> str:
+def make_header(schema: dict) -> str:
     out = [
         "#pragma once",
         "",
@@ -54,8 +54,6 @@ def make_cpp(schema: dict) -> str:
         "#include <string>",
         "#include <vector>",
         "",
-        '#include "kinegraph/viewer/json.h"',
-        "",
         "namespace kinegraph {",
         "",
         "/// First 4 bytes of a binary message to the client.",
@@ -65,11 +63,22 @@ def make_cpp(schema: dict) -> str:
     ]
     for name, fields in {**schema["types"], **schema["messages"]}.items():
         out += cpp_struct(name, fields)
-        out += ["", f"inline void writeJson(JsonWriter& json, const {name}& m) {{", "  json.beginObject();"]
-        if name in schema["messages"]:
-            out.append(f'  json.field("kind", std::string("{tag(name)}"));')
-        out += [f'  json.field("{field}", m.{field});' for field in fields]
-        out += ["  json.endObject();", "}"]
+    out += ["", "/// Messages as the client reads them."]
+    out += [f"std::string jsonText(const {name}& message);" for name in schema["messages"]]
+    return "\n".join([*out, "", "}  // namespace kinegraph", ""])
+
+
+def make_source(schema: dict) -> str:
+    out = ['#include "kinegraph/viewer/messages.h"', "", f"// {NOTE}", "// clang-format off", ""]
+    out += ['#include "kinegraph/base/json.h"', "", "namespace kinegraph {"]
+    for name, fields in {**schema["types"], **schema["messages"]}.items():
+        kind = [f'{{"kind", "{tag(name)}"}}'] if name in schema["messages"] else []
+        entries = [*kind, *[f'{{"{field}", jsonOf(m.{field})}}' for field in fields]]
+        out += ["", f"static boost::json::value jsonOf(const {name}& m) {{", "  return boost::json::object{"]
+        out += [f"      {entry}," for entry in entries]
+        out += ["  };", "}"]
+    for name in schema["messages"]:
+        out += ["", f"std::string jsonText(const {name}& message) {{ return boost::json::serialize(jsonOf(message)); }}"]
     return "\n".join([*out, "", "}  // namespace kinegraph", ""])
 
 
@@ -137,7 +146,8 @@ def make_ts(schema: dict) -> str:
 def main() -> int:
     schema = json.loads((ROOT / "viewer/messages.json").read_text())
     files = {
-        ROOT / "src/kinegraph/viewer/messages.h": make_cpp(schema),
+        ROOT / "src/kinegraph/viewer/messages.h": make_header(schema),
+        ROOT / "src/kinegraph/viewer/messages.cpp": make_source(schema),
         ROOT / "src/kinegraph/viewer/commands.h": make_commands_cpp(schema),
         ROOT / "viewer/src/messages.ts": make_ts(schema),
     }

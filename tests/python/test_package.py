@@ -107,6 +107,38 @@ print(sorted({name.split('.')[0] for name in sys.modules} & {'scipy', 'matplotli
     assert program.stdout.splitlines() == ["[]", "[]"]
 
 
+def test_mesh_files_and_camera_images_load_their_libraries_when_they_are_first_needed(tmp_path):
+    (tmp_path / "a.stl").write_text(
+        "solid\nfacet\nouter loop\nvertex 0 0 0\nvertex 1 0 0\nvertex 0 1 0\nendloop\nendfacet\nendsolid"
+    )
+    code = """
+import sys, kinegraph
+loaded = lambda: [name for name in ('libassimp', 'libmujoco', 'libcoal') if name in open('/proc/self/maps').read()]
+C = kinegraph.Config()
+print(loaded())
+C.addFrame('a').setMeshFile(sys.argv[1])
+print(loaded(), len(C.getFrame('a').getMeshTriangles()))
+"""
+    run = [sys.executable, "-c", code, str(tmp_path / "a.stl")]
+    program = subprocess.run(run, capture_output=True, text=True, check=True)
+    assert program.stdout.splitlines() == ["[]", "['libassimp'] 1"]
+
+
+def test_a_library_that_is_missing_is_named(tmp_path):
+    """One that is no library stands in for it."""
+    (tmp_path / "libassimp.so.6").write_text("no library")
+    (tmp_path / "a.stl").write_text("solid\nendsolid")
+    code = "import sys, kinegraph; kinegraph.Config().addFrame('a').setMeshFile(sys.argv[1])"
+    environment = {**os.environ, "LD_LIBRARY_PATH": f"{tmp_path}:{os.environ.get('LD_LIBRARY_PATH', '')}"}
+    run = [sys.executable, "-c", code, str(tmp_path / "a.stl")]
+    program = subprocess.run(run, capture_output=True, text=True, env=environment)
+    assert program.returncode == 1
+    assert (
+        "FileError: " in program.stderr
+        and "a mesh file needs the library libassimp.so.6, which cannot be loaded" in program.stderr
+    )
+
+
 def test_a_misspelt_symbol_names_those_that_are_near():
     with pytest.raises(AttributeError, match="FS has no 'postion'; similar names: position"):
         ry.FS.postion  # noqa: B018

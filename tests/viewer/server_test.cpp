@@ -234,7 +234,7 @@ TEST_F(ViewerServerTest, AMotionIsSentAsAWholeAndEnds) {
   motion.texts = {"a", "b", "c"};
   server.showMotion(motion);
   WebsocketClient late(port);
-  readUntil(late, R"("kind":"motion","slices":3,"seconds":1.5,"start":"all")");
+  readUntil(late, R"("kind":"motion","slices":3,"seconds":1.5E0,"start":"all")");
   const auto data = late.next();
   ASSERT_TRUE(data && data->binary);
   EXPECT_EQ(data->data.size(), 4u * (4 + 3 * 2 * 7 + 3));

@@ -71,8 +71,8 @@ TEST(ShownScene, ANewBrowserGetsTextsSceneMeshesAndPoses) {
   EXPECT_EQ(
       *messages[2].data,
       R"({"kind":"scene","count":3,"frames":[{"id":0,"name":"world","parent":-1,"collides":0,"details":"","shape":null},)"
-      R"({"id":1,"name":"box","parent":-1,"collides":0,"details":"","shape":{"type":"box","size":[0.1,0.2,0.3],"color":[0.8,0.8,0.8,1],"mesh":-1}},)"
-      R"({"id":2,"name":"rock","parent":-1,"collides":0,"details":"","shape":{"type":"mesh","size":[],"color":[0.8,0.8,0.8,1],"mesh":0}}]})");
+      R"({"id":1,"name":"box","parent":-1,"collides":0,"details":"","shape":{"type":"box","size":[1E-1,2E-1,3E-1],"color":[8E-1,8E-1,8E-1,1],"mesh":-1}},)"
+      R"({"id":2,"name":"rock","parent":-1,"collides":0,"details":"","shape":{"type":"mesh","size":[],"color":[8E-1,8E-1,8E-1,1],"mesh":0}}]})");
 }
 
 TEST(ShownScene, AnUnchangedSceneSendsNothing) {
@@ -115,7 +115,7 @@ TEST(ShownScene, AChangedColorOrShapeSendsThatFrameAgain) {
   EXPECT_EQ(
       *recolored[0].data,
       R"({"kind":"scene","count":3,"frames":[{"id":2,"name":"b","parent":-1,"collides":0,"details":"","shape":{"type":"box",)"
-      R"("size":[0.1,0.2,0.3],"color":[1,0,0,0.5],"mesh":-1}}]})");
+      R"("size":[1E-1,2E-1,3E-1],"color":[1,0,0,5E-1],"mesh":-1}}]})");
   items[1].geometry = triangle(1.);
   scene.update(items);
   EXPECT_EQ(kinds(scene.messagesSince(seen)), (Kinds{"mesh 0", "scene", "poses 1"}));
@@ -225,5 +225,5 @@ TEST(ShownScene, TextsAndCameraAreSentWhenTheyChange) {
   EXPECT_EQ(*messages[0].data, R"({"kind":"text","title":"","message":"","error":"no such file"})");
   EXPECT_EQ(
       *messages[1].data,
-      R"({"kind":"camera","pose":[1,2,3,1,0,0,0],"distance":1.5,"focal":0.9,"ortho":0,"aspect":1.25,"near":0.5,"far":8})");
+      R"({"kind":"camera","pose":[1,2,3,1,0,0,0],"distance":1.5E0,"focal":9E-1,"ortho":0,"aspect":1.25E0,"near":5E-1,"far":8})");
 }

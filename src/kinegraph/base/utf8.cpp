@@ -25,15 +25,14 @@ std::size_t characterLength(std::string_view text) {
 
 }  // namespace
 
-std::string validUtf8(std::string_view text, std::size_t* replaced) {
-  std::string valid(text);
+std::string validUtf8(std::string_view text, std::size_t* replaced, std::string_view mark) {
+  std::string valid;
+  valid.reserve(text.size());
   std::size_t count = 0;
   for (std::size_t i = 0; i < text.size();) {
     const std::size_t length = characterLength(text.substr(i));
-    if (length == 0) {
-      valid[i] = '?';
-      ++count;
-    }
+    valid += length == 0 ? mark : text.substr(i, length);
+    count += length == 0;
     i += length == 0 ? 1 : length;
   }
   if (replaced) *replaced = count;

@@ -125,8 +125,8 @@ Vector3d builtinSize(const Geometry& shape) {
 
 struct CameraRenderer::Impl {
   explicit Impl(const RendererOptions& renderer_options) : options(renderer_options) {
-    mjr_defaultContext(context.get());
-    mjv_defaultScene(scene.get());
+    mujoco().mjr_defaultContext(context.get());
+    mujoco().mjv_defaultScene(scene.get());
   }
   ~Impl();
 
@@ -164,8 +164,8 @@ CameraRenderer::Impl::~Impl() {
   try {
     const GlContext::Use use(*gl);
     const MujocoErrors errors;
-    mjr_freeContext(context.get());
-    mjv_freeScene(scene.get());
+    mujoco().mjr_freeContext(context.get());
+    mujoco().mjv_freeScene(scene.get());
   } catch (const Error&) {  // the driver is gone, and its memory with it
   }
 }
@@ -185,7 +185,7 @@ std::vector<CameraRenderer::Impl::Item> CameraRenderer::Impl::visibleItems(const
 }
 
 void CameraRenderer::Impl::makeContext() {
-  mjr_freeContext(context.get());
+  mujoco().mjr_freeContext(context.get());
   mjModel listed = **model;  // the arrays are the model's or the library's
   listed.vis.quality.offsamples = 0;
   listed.vis.quality.shadowsize = options.shadows ? 2048 : 0;
@@ -195,8 +195,8 @@ void CameraRenderer::Impl::makeContext() {
   listed.stat.extent = 1.;
   listed.vis.map.shadowclip = kShadowHalfWidth;
   meshes.fill(listed);
-  mjr_makeContext(&listed, context.get(), kFineness * mjFONTSCALE_100);
-  mjr_setBuffer(mjFB_OFFSCREEN, context.get());
+  mujoco().mjr_makeContext(&listed, context.get(), kFineness * mjFONTSCALE_100);
+  mujoco().mjr_setBuffer(mjFB_OFFSCREEN, context.get());
   context->readDepthMap = mjDEPTH_ZEROFAR;
 }
 
@@ -205,7 +205,7 @@ mjvGeom& CameraRenderer::Impl::addGeom(int type, const Vector3d& size, const Rig
   mjvGeom& geom = scene->geoms[scene->ngeom++];
   const Eigen::Matrix<double, 3, 3, Eigen::RowMajor> R = X_WG.R;
   const Eigen::Vector4f rgba = color.cast<float>();
-  mjv_initGeom(&geom, type, size.data(), X_WG.p.data(), R.data(), rgba.data());
+  mujoco().mjv_initGeom(&geom, type, size.data(), X_WG.p.data(), R.data(), rgba.data());
   geom.segid = segment;
   geom.transparent = color[3] < 1.;
   geom.castshadow = !geom.transparent;
@@ -233,8 +233,8 @@ void CameraRenderer::Impl::placeGeoms(const std::vector<Item>& items, const Stat
                                           ? 0
                                           : meshes.parts(item.geometry).size());
   if (std::size_t(scene->maxgeom) < count) {
-    mjv_freeScene(scene.get());
-    mjv_makeScene(model->get(), scene.get(), int(2 * count));
+    mujoco().mjv_freeScene(scene.get());
+    mujoco().mjv_makeScene(model->get(), scene.get(), int(2 * count));
   }
   scene->ngeom = 0;
   if (options.floor) {
@@ -303,7 +303,7 @@ void CameraRenderer::Impl::placeLights() {
 
 void CameraRenderer::Impl::makeRoom(int width, int height) {
   if (width <= context->offWidth && height <= context->offHeight) return;
-  mjr_resizeOffscreen(std::max(width, context->offWidth), std::max(height, context->offHeight), context.get());
+  mujoco().mjr_resizeOffscreen(std::max(width, context->offWidth), std::max(height, context->offHeight), context.get());
 }
 
 /// White letters on black.
@@ -325,11 +325,11 @@ CameraImage CameraRenderer::Impl::write(const std::string& text, int width, int 
   CameraImage image{roundedUp(widest), roundedUp(int(lines.size()) * context->charHeight), {}, {}};
   const mjrRect all{0, 0, image.width, image.height};
   makeRoom(all.width, all.height);
-  mjr_setBuffer(mjFB_OFFSCREEN, context.get());
-  mjr_rectangle(all, 0.f, 0.f, 0.f, 1.f);
+  mujoco().mjr_setBuffer(mjFB_OFFSCREEN, context.get());
+  mujoco().mjr_rectangle(all, 0.f, 0.f, 0.f, 1.f);
   for (std::size_t i = 0; i < lines.size(); ++i) {
     const float from_top = float(int(i + 1) * context->charHeight) / float(all.height);
-    mjr_text(mjFONT_NORMAL, lines[i].c_str(), context.get(), 0.f, 1.f - from_top, 1.f, 1.f, 1.f);
+    mujoco().mjr_text(mjFONT_NORMAL, lines[i].c_str(), context.get(), 0.f, 1.f - from_top, 1.f, 1.f, 1.f);
   }
   image.depth.assign(std::size_t(all.width) * std::size_t(all.height), 0.f);
   image.rgb.resize(3 * image.depth.size());
@@ -358,12 +358,12 @@ void CameraRenderer::Impl::draw(SceneTree& tree, const Camera& camera, bool visu
   scene->flags[mjRND_SHADOW] = options.shadows && !options.flat_colors && !segmentation;
   scene->flags[mjRND_WIREFRAME] = options.wireframe && !segmentation;
   scene->flags[mjRND_SEGMENT] = scene->flags[mjRND_IDCOLOR] = segmentation;
-  mjr_setBuffer(mjFB_OFFSCREEN, context.get());
-  mjr_render({0, 0, camera.width, camera.height}, scene.get(), context.get());
+  mujoco().mjr_setBuffer(mjFB_OFFSCREEN, context.get());
+  mujoco().mjr_render({0, 0, camera.width, camera.height}, scene.get(), context.get());
 }
 
 void CameraRenderer::Impl::read(const Camera& camera, std::uint8_t* rgb, float* depth) {
-  mjr_readPixels(rgb, depth, {0, 0, camera.width, camera.height}, context.get());
+  mujoco().mjr_readPixels(rgb, depth, {0, 0, camera.width, camera.height}, context.get());
   const std::size_t row = std::size_t(camera.width);  // OpenGL's rows run from bottom to top
   for (std::size_t top = 0, bottom = std::size_t(camera.height) - 1; top < bottom; ++top, --bottom) {
     std::swap_ranges(rgb + 3 * row * top, rgb + 3 * row * (top + 1), rgb + 3 * row * bottom);

@@ -1,5 +1,6 @@
 #include "kinegraph/rendering/mujoco.h"
 
+#include "kinegraph/base/dynamic_library.h"
 #include "kinegraph/base/errors.h"
 #include "kinegraph/base/text.h"
 
@@ -11,15 +12,46 @@ void throwErrors(const mjLogMessage* message) {
   if (message->level == mjLOG_ERROR) throw Error(cat("MuJoCo's renderer: ", message->subject));
 }
 
+Mujoco loadMujoco() {
+  const DynamicLibrary library(KINEGRAPH_MUJOCO_LIBRARY, "a camera image");
+  Mujoco functions;
+  library.load(functions.mj_makeSpec, "mj_makeSpec");
+  library.load(functions.mj_deleteSpec, "mj_deleteSpec");
+  library.load(functions.mj_compile, "mj_compile");
+  library.load(functions.mj_deleteModel, "mj_deleteModel");
+  library.load(functions.mjs_getError, "mjs_getError");
+  library.load(functions.mju_setLogHandler, "mju_setLogHandler");
+  library.load(functions.mjv_defaultScene, "mjv_defaultScene");
+  library.load(functions.mjv_makeScene, "mjv_makeScene");
+  library.load(functions.mjv_freeScene, "mjv_freeScene");
+  library.load(functions.mjv_initGeom, "mjv_initGeom");
+  library.load(functions.mjr_defaultContext, "mjr_defaultContext");
+  library.load(functions.mjr_makeContext, "mjr_makeContext");
+  library.load(functions.mjr_freeContext, "mjr_freeContext");
+  library.load(functions.mjr_resizeOffscreen, "mjr_resizeOffscreen");
+  library.load(functions.mjr_setBuffer, "mjr_setBuffer");
+  library.load(functions.mjr_render, "mjr_render");
+  library.load(functions.mjr_readPixels, "mjr_readPixels");
+  library.load(functions.mjr_rectangle, "mjr_rectangle");
+  library.load(functions.mjr_text, "mjr_text");
+  return functions;
+}
+
 }  // namespace
 
-MujocoErrors::MujocoErrors() : before_(mju_setLogHandler(throwErrors)) {}
-MujocoErrors::~MujocoErrors() { mju_setLogHandler(before_); }
+const Mujoco& mujoco() {
+  static const Mujoco functions = loadMujoco();
+  return functions;
+}
+
+MujocoErrors::MujocoErrors() : before_(mujoco().mju_setLogHandler(throwErrors)) {}
+MujocoErrors::~MujocoErrors() { mujoco().mju_setLogHandler(before_); }
 
 MujocoModel emptyModel() {
-  const std::unique_ptr<mjSpec, decltype(&mj_deleteSpec)> spec(mj_makeSpec(), mj_deleteSpec);
-  MujocoModel model(mj_compile(spec.get(), nullptr), mj_deleteModel);
-  if (!model) throw Error(cat("MuJoCo's renderer: ", mjs_getError(spec.get())));
+  const Mujoco& mj = mujoco();
+  const std::unique_ptr<mjSpec, decltype(mj.mj_deleteSpec)> spec(mj.mj_makeSpec(), mj.mj_deleteSpec);
+  MujocoModel model(mj.mj_compile(spec.get(), nullptr), mj.mj_deleteModel);
+  if (!model) throw Error(cat("MuJoCo's renderer: ", mj.mjs_getError(spec.get())));
   return model;
 }
 

@@ -1,7 +1,7 @@
 #include "kinegraph/viewer/recorded_page.h"
 
+#include "kinegraph/base/json.h"
 #include "kinegraph/viewer/client_page.h"
-#include "kinegraph/viewer/json.h"
 #include "kinegraph/viewer/scene_items.h"
 
 namespace kinegraph {
@@ -22,15 +22,9 @@ std::string base64(std::string_view data) {
   return text;
 }
 
-struct Recorded {
-  const Outgoing& message;
-};
-
-void writeJson(JsonWriter& json, const Recorded& recorded) {
-  const Outgoing& message = recorded.message;
-  json.beginObject();
-  json.field(message.binary ? "binary" : "text", message.binary ? base64(*message.data) : *message.data);
-  json.endObject();
+boost::json::value recorded(const Outgoing& message) {
+  if (message.binary) return boost::json::object{{"binary", base64(*message.data)}};
+  return boost::json::object{{"text", jsonOf(*message.data)}};
 }
 
 /// Text that may stand inside a script element: "<" only occurs in strings, where it may be escaped.
@@ -44,14 +38,9 @@ std::string insideScript(const std::string& json) {
 
 std::string recordedPage(const std::vector<Outgoing>& messages) {
   constexpr std::string_view kPlace = "<!-- RECORDING -->";
-  std::string recording = "[";
-  for (const Outgoing& message : messages) {
-    JsonWriter json;
-    writeJson(json, Recorded{message});
-    if (recording.size() > 1) recording += ',';
-    recording += insideScript(json.text());
-  }
-  recording += "]";
+  boost::json::array list;
+  for (const Outgoing& message : messages) list.push_back(recorded(message));
+  const std::string recording = insideScript(boost::json::serialize(list));
   std::string page(clientPage());
   page.replace(page.find(kPlace), kPlace.size(),
                "<script type=\"application/json\" id=\"recording\">" + recording + "</script>");

@@ -4,49 +4,20 @@
 
 #include <cstdlib>
 #include <cstring>
-#include <list>
-#include <thread>
 
 #include "kinegraph/base/errors.h"
 #include "kinegraph/base/text.h"
-#include "kinegraph/viewer/page_connection.h"
+#include "kinegraph/viewer/web_server.h"
 
 namespace kinegraph {
 
-namespace asio = boost::asio;
-namespace beast = boost::beast;
-using tcp = asio::ip::tcp;
-
 class ViewerServer::Impl {
  public:
-  explicit Impl(const ViewerOptions& options) : acceptor_(context_) {
-    state_->scene.title = options.title;
-    beast::error_code error;
-    const asio::ip::address address = asio::ip::make_address(options.host, error);
-    if (error)
-      throw ValueError(cat("ViewerOptions: host is '", options.host,
-                           "'; expected an IP address, for instance 127.0.0.1 or 0.0.0.0"));
-    if (options.port < 0 || options.port > 65535)
-      throw ValueError(cat("ViewerOptions: port is ", options.port, "; expected 0 to 65535"));
-    access_.loopback_only = address.is_loopback();
-    access_.token = options.token.empty() && !access_.loopback_only ? randomToken() : options.token;
-    listen(address, options.port);
-    url_ =
-        cat("http://", access_.loopback_only ? "localhost" : options.host, ":", acceptor_.local_endpoint().port(), "/");
-    if (!access_.token.empty()) url_ += "?token=" + access_.token;
-    accept();
-    thread_ = std::thread([this] { context_.run(); });
-  }
+  explicit Impl(const ViewerOptions& options)
+      : state_(stateTitled(options.title)),
+        web_(options, state_, [this](const Command& command) { receive(command); }) {}
 
-  ~Impl() {
-    asio::post(context_, [this] {
-      beast::error_code ignored;
-      acceptor_.close(ignored);
-      for (const auto& session : sessions_) session->close();
-      context_.stop();
-    });
-    thread_.join();
-  }
+  const std::string& url() const { return web_.url(); }
 
   /// The change is made with the scene locked; all browsers are told if it says that there is something to tell.
   template <class Change>
@@ -56,22 +27,21 @@ class ViewerServer::Impl {
       const std::lock_guard lock(state_->mutex);
       changed = change(state_->scene);
     }
-    if (changed) wakeSessions();
+    if (changed) web_.wake();
   }
 
-  void wakeSessions() {
-    asio::post(context_, [this] {
-      for (const auto& session : sessions_) session->wake();
-    });
-  }
-
-  std::shared_ptr<ViewerState> state_ = std::make_shared<ViewerState>();
-  std::string url_;
+  std::shared_ptr<ViewerState> state_;
   const pid_t process_ = getpid();
   std::function<std::optional<EditedScene>(const Command&)> answer_;  ///< guarded by `answer_mutex_`
   std::mutex answer_mutex_;
 
  private:
+  static std::shared_ptr<ViewerState> stateTitled(const std::string& title) {
+    auto state = std::make_shared<ViewerState>();
+    state->scene.title = title;
+    return state;
+  }
+
   /// On the server's thread.
   void receive(const Command& command) {
     if (const auto* key = std::get_if<KeyCommand>(&command)) return state_->press(*key);
@@ -92,49 +62,7 @@ class ViewerServer::Impl {
     state_->changed.notify_all();
   }
 
-  void listen(const asio::ip::address& address, int first_port) {
-    beast::error_code error;
-    for (int port = first_port; port < first_port + 200 && port <= 65535; ++port) {
-      const tcp::endpoint endpoint(address, static_cast<unsigned short>(port));
-      acceptor_ = tcp::acceptor(context_);
-      acceptor_.open(endpoint.protocol(), error);
-      if (!error)
-        acceptor_.set_option(asio::socket_base::reuse_address(true),
-                             error);  // a program that is started again gets its port back
-      if (!error) acceptor_.bind(endpoint, error);
-      if (!error) acceptor_.listen(asio::socket_base::max_listen_connections, error);
-      if (!error) return;
-    }
-    throw Error(
-        cat("the viewer finds no free port from ", first_port, " on at ", address.to_string(), ": ", error.message()));
-  }
-
-  void accept() {
-    acceptor_.async_accept([this](beast::error_code error, tcp::socket socket) {
-      if (error == asio::error::operation_aborted) return;
-      if (!error) {
-        socket.set_option(tcp::no_delay(true), error);
-        std::make_shared<PageConnection>(
-            std::move(socket), access_, state_,
-            [this](tcp::socket upgraded, HttpRequest request) {
-              auto session = std::make_shared<BrowserSession>(std::move(upgraded), state_,
-                                                              [this](const Command& command) { receive(command); });
-              sessions_.remove_if(
-                  [](const auto& old) { return old.use_count() == 1; });  // those whose browser has gone
-              sessions_.push_back(session);
-              session->start(std::move(request));
-            })
-            ->start();
-      }
-      accept();
-    });
-  }
-
-  asio::io_context context_{1};
-  tcp::acceptor acceptor_;
-  Access access_;
-  std::list<std::shared_ptr<BrowserSession>> sessions_;  ///< touched by the server's thread only
-  std::thread thread_;
+  WebServer web_;  ///< the last, because its thread uses the others
 };
 
 ViewerServer::ViewerServer(const ViewerOptions& options) : impl_(std::make_unique<Impl>(options)) {}
@@ -145,7 +73,7 @@ ViewerServer::~ViewerServer() {
 
 bool ViewerServer::isOurs() const { return impl_->process_ == getpid(); }
 
-std::string ViewerServer::url() const { return impl_->url_; }
+std::string ViewerServer::url() const { return impl_->url(); }
 
 int ViewerServer::clients() const {
   const std::lock_guard lock(impl_->state_->mutex);

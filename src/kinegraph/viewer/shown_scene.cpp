@@ -108,9 +108,7 @@ MotionMessage headOf(const ShownMotion& motion) {
 
 template <class T>
 Outgoing textOf(const T& message) {
-  JsonWriter json;
-  writeJson(json, message);
-  return {std::make_shared<std::string>(json.text()), false};
+  return {std::make_shared<std::string>(jsonText(message)), false};
 }
 
 }  // namespace

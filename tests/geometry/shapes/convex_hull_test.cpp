@@ -1,5 +1,6 @@
 #include "kinegraph/geometry/shapes/convex_hull.h"
 
+#include <coal/shape/convex.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -90,4 +91,22 @@ TEST(ConvexHull, PointsThatAreNotFiniteAreRefused) {
   EXPECT_THROW(convexHull(points), ValueError);
   points.back().y() = std::numeric_limits<double>::infinity();
   EXPECT_THROW(convexHull(points), ValueError);
+}
+
+TEST(ConvexHull, HasTheCornersAndTrianglesThatCoalFindsInTheSameOrder) {
+  Rng rng(7);
+  for (const int count : {4, 8, 60, 500}) {
+    std::vector<Vector3d> points;
+    for (int i = 0; i < count; ++i) points.push_back(randomVector(rng));
+    auto copy = std::make_shared<std::vector<coal::Vec3s>>(points.begin(), points.end());
+    const std::unique_ptr<coal::ConvexBase> base(coal::ConvexBase::convexHull(copy, unsigned(count), true));
+    const auto& expected = dynamic_cast<const coal::Convex<coal::Triangle>&>(*base);
+    const Mesh hull = convexHull(points);
+    ASSERT_EQ(hull.vertices.size(), expected.num_points);
+    ASSERT_EQ(hull.triangles.size(), expected.num_polygons);
+    for (unsigned i = 0; i < expected.num_points; ++i) EXPECT_EQ(hull.vertices[i], (*expected.points)[i]);
+    for (unsigned i = 0; i < expected.num_polygons; ++i) {
+      for (unsigned k = 0; k < 3; ++k) EXPECT_EQ(hull.triangles[i][k], (*expected.polygons)[i][k]) << i;
+    }
+  }
 }

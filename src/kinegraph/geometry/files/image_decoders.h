@@ -10,12 +10,12 @@ namespace kinegraph {
 /// Source: Portable Network Graphics Specification, 2nd ed., W3C 2003.
 Pixels decodePng(std::string_view bytes);
 
-/// JPEG with 8 bits and Huffman codes, sequential or progressive, gray or of three colors. Throws FileError.
+/// JPEG with 8 bits and Huffman codes, sequential or progressive, gray or of three colors. Throws FileError. This is own
+/// code because there is no wheel with libjpeg and its headers to build with, as there is for the other libraries.
 /// Source: CCITT Recommendation T.81, 1992; JPEG File Interchange Format 1.02.
 Pixels decodeJpeg(std::string_view bytes);
 
 /// Unpacks a zlib stream; at most `limit` bytes of it. Throws FileError.
-/// Source: RFC 1950 and RFC 1951.
 std::string unpack(std::string_view bytes, std::size_t limit);
 
 }  // namespace kinegraph

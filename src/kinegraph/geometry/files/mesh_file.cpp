@@ -1,17 +1,12 @@
 #include "kinegraph/geometry/files/mesh_file.h"
 
-#include <assimp/config.h>
-#include <assimp/material.h>
-#include <assimp/postprocess.h>
-#include <assimp/scene.h>
-
 #include <algorithm>
-#include <assimp/Importer.hpp>
 #include <cmath>
 #include <filesystem>
 
 #include "kinegraph/base/errors.h"
 #include "kinegraph/base/text.h"
+#include "kinegraph/geometry/files/assimp.h"
 #include "kinegraph/geometry/files/h5_file.h"
 #include "kinegraph/geometry/files/mesh_promises.h"
 #include "kinegraph/geometry/files/mesh_textures.h"
@@ -25,27 +20,13 @@ std::array<std::uint8_t, 4> bytes(const aiColor4D& color) {
   return {byte(color.r), byte(color.g), byte(color.b), byte(color.a)};
 }
 
-void checkFaces(const aiScene& scene, const std::string& path) {
-  for (unsigned m = 0; m < scene.mNumMeshes; ++m) {
-    const aiMesh& part = *scene.mMeshes[m];
-    for (unsigned f = 0; f < part.mNumFaces; ++f) {
-      const aiFace& face = part.mFaces[f];
-      for (unsigned i = 0; i < face.mNumIndices; ++i) {
-        if (face.mIndices[i] < part.mNumVertices) continue;
-        throw FileError(
-            cat("mesh file '", path, "': face ", f, " names vertex ", face.mIndices[i], " of ", part.mNumVertices));
-      }
-    }
-  }
-}
-
 void append(const aiScene& scene, const aiNode& node, const aiMatrix4x4& above, MeshTextures& textures, Mesh& mesh) {
   const aiMatrix4x4 transform = above * node.mTransformation;
   for (unsigned m = 0; m < node.mNumMeshes; ++m) {
     const aiMesh& part = *scene.mMeshes[node.mMeshes[m]];
     aiColor4D diffuse(.8f, .8f, .8f, 1.f);
     if (part.mMaterialIndex < scene.mNumMaterials) {
-      scene.mMaterials[part.mMaterialIndex]->Get(AI_MATKEY_COLOR_DIFFUSE, diffuse);
+      assimp().aiGetMaterialColor(scene.mMaterials[part.mMaterialIndex], AI_MATKEY_COLOR_DIFFUSE, &diffuse);
     }
     const std::uint32_t first = std::uint32_t(mesh.vertices.size());
     for (unsigned v = 0; v < part.mNumVertices; ++v) {
@@ -137,14 +118,7 @@ Mesh readMeshFile(const std::string& path) {
   if (path.ends_with(".h5")) return readH5Mesh(path, "mesh");
   if (path.ends_with(".msh")) return readMshMesh(path);
   checkMeshPromises(path);
-  Assimp::Importer importer;
-  importer.SetPropertyBool(AI_CONFIG_IMPORT_COLLADA_IGNORE_UP_DIRECTION, true);  // as robot descriptions mean it
-  const aiScene* scene = importer.ReadFile(path, 0);
-  if (scene) checkFaces(*scene, path);  // which the next steps believe
-  if (scene) scene = importer.ApplyPostProcessing(aiProcess_Triangulate | aiProcess_JoinIdenticalVertices);
-  if (!scene || !scene->mRootNode) {
-    throw FileError(cat("mesh file '", path, "' cannot be read: ", importer.GetErrorString()));
-  }
+  const AssimpScene scene = readAssimpScene(path);
   Mesh mesh;
   MeshTextures textures(*scene, path);
   append(*scene, *scene->mRootNode, aiMatrix4x4(), textures, mesh);

@@ -1,13 +1,11 @@
 #include "kinegraph/geometry/files/mesh_textures.h"
 
-#include <assimp/material.h>
-#include <assimp/scene.h>
-
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
 
 #include "kinegraph/base/errors.h"
+#include "kinegraph/geometry/files/assimp.h"
 #include "kinegraph/geometry/files/image_file.h"
 
 namespace kinegraph {
@@ -40,7 +38,9 @@ std::shared_ptr<const Image> MeshTextures::read(unsigned material) const {
   if (material >= scene_.mNumMaterials) return nullptr;
   aiString name;
   for (const aiTextureType type : {aiTextureType_BASE_COLOR, aiTextureType_DIFFUSE}) {
-    if (scene_.mMaterials[material]->GetTexture(type, 0, &name) != aiReturn_SUCCESS) continue;
+    const aiReturn found = assimp().aiGetMaterialTexture(scene_.mMaterials[material], type, 0, &name, nullptr, nullptr,
+                                                         nullptr, nullptr, nullptr, nullptr);
+    if (found != aiReturn_SUCCESS) continue;
     const aiTexture* inside = scene_.GetEmbeddedTexture(name.C_Str());
     if (!inside) return imageBeside(mesh_path_, name.C_Str());
     if (inside->mHeight != 0 || inside->mWidth == 0) return nullptr;  // not compressed

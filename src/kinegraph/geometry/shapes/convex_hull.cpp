@@ -1,15 +1,56 @@
 #include "kinegraph/geometry/shapes/convex_hull.h"
 
-#include <coal/shape/convex.h>
-
 #include <algorithm>
+#include <cstdio>
+#include <cstdlib>
 
 #include "kinegraph/base/errors.h"
 #include "kinegraph/base/text.h"
 
+extern "C" {
+#include <libqhull_r/qhull_ra.h>
+}
+
 namespace kinegraph {
 
 namespace {
+
+/// A run of the library qhull: the hull of points, its facets cut into triangles.
+class Qhull {
+ public:
+  explicit Qhull(const std::vector<Vector3d>& points) : coordinates_(points) {
+    char* text = nullptr;
+    std::size_t length = 0;
+    std::FILE* messages = open_memstream(&text, &length);
+    qh_zero(&qh_, messages);
+    char command[] = "qhull Qt";
+    const int status =
+        qh_new_qhull(&qh_, 3, int(points.size()), coordinates_[0].data(), False, command, nullptr, messages);
+    std::fclose(messages);
+    const std::string said(text, length);
+    std::free(text);
+    if (status == qh_ERRnone) return;
+    release();
+    throw ValueError(cat("the convex hull of ", points.size(), " points cannot be built: ", said.substr(0, said.find('\n'))));
+  }
+  ~Qhull() { release(); }
+  Qhull(const Qhull&) = delete;
+
+  const qhT* operator->() const { return &qh_; }
+  std::size_t indexOf(const vertexT& vertex) const {
+    return std::size_t(vertex.point - coordinates_[0].data()) / 3;
+  }
+
+ private:
+  void release() {
+    int left = 0, total = 0;
+    qh_freeqhull(&qh_, !qh_ALL);
+    qh_memfreeshort(&qh_, &left, &total);
+  }
+
+  std::vector<Vector3d> coordinates_;  ///< qhull takes no constant ones
+  qhT qh_;
+};
 
 /// The point that is highest by `height`.
 template <class Height>
@@ -39,25 +80,23 @@ bool spanVolume(const std::vector<Vector3d>& points) {
 Mesh convexHull(const std::vector<Vector3d>& points) {
   if (points.size() < 4) throw ValueError(cat("a convex hull needs at least 4 points, got ", points.size()));
   if (!spanVolume(points)) throw ValueError(cat("the ", points.size(), " points of a convex hull lie in one plane"));
-  auto copy = std::make_shared<std::vector<coal::Vec3s>>(points.begin(), points.end());
-  std::unique_ptr<coal::ConvexBase> hull;
-  try {
-    hull.reset(coal::ConvexBase::convexHull(copy, unsigned(points.size()), true));
-  } catch (const std::exception& error) {
-    throw ValueError(cat("the convex hull of ", points.size(), " points cannot be built: ", error.what()));
-  }
-  const auto* polytope = dynamic_cast<const coal::Convex<coal::Triangle>*>(hull.get());
-  if (!polytope) throw ValueError("the convex hull has no triangles");
+  Qhull qhull(points);
+  std::vector<std::uint32_t> index_of(points.size());  // of a given point among the vertices
   Mesh mesh;
-  mesh.vertices.assign(polytope->points->begin(), polytope->points->begin() + polytope->num_points);
+  for (const vertexT* vertex = qhull->vertex_list; vertex && vertex->next; vertex = vertex->next) {
+    const std::size_t point = qhull.indexOf(*vertex);
+    index_of[point] = std::uint32_t(mesh.vertices.size());
+    mesh.vertices.push_back(points[point]);
+  }
   Vector3d center = Vector3d::Zero();
   for (const Vector3d& vertex : mesh.vertices) center += vertex / double(mesh.vertices.size());
-  for (unsigned i = 0; i < polytope->num_polygons; ++i) {
-    const auto& polygon = (*polytope->polygons)[i];
-    std::array<std::uint32_t, 3> triangle = {std::uint32_t(polygon[0]), std::uint32_t(polygon[1]),
-                                             std::uint32_t(polygon[2])};
+  for (const facetT* facet = qhull->facet_list; facet && facet->next; facet = facet->next) {
+    if (!facet->good) continue;
+    std::array<std::uint32_t, 3> triangle;
+    for (int k = 0; k < 3; ++k)
+      triangle[std::size_t(k)] = index_of[qhull.indexOf(*static_cast<const vertexT*>(facet->vertices->e[k].p))];
     const Vector3d a = mesh.vertices[triangle[0]], b = mesh.vertices[triangle[1]], c = mesh.vertices[triangle[2]];
-    if ((b - a).cross(c - a).dot(a - center) < 0.) std::swap(triangle[1], triangle[2]);
+    if ((b - a).cross(c - b).dot((a + b + c) / 3. - center) < 0.) std::swap(triangle[0], triangle[1]);
     mesh.triangles.push_back(triangle);
   }
   return mesh;

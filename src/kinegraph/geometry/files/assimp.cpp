@@ -1,0 +1,75 @@
+#include "kinegraph/geometry/files/assimp.h"
+
+#include <assimp/config.h>
+#include <assimp/postprocess.h>
+
+#include <mutex>
+
+#include "kinegraph/base/dynamic_library.h"
+#include "kinegraph/base/errors.h"
+#include "kinegraph/base/text.h"
+
+namespace kinegraph {
+
+namespace {
+
+Assimp loadAssimp() {
+  const DynamicLibrary library(KINEGRAPH_ASSIMP_LIBRARY, "a mesh file");
+  Assimp functions;
+  library.load(functions.aiCreatePropertyStore, "aiCreatePropertyStore");
+  library.load(functions.aiReleasePropertyStore, "aiReleasePropertyStore");
+  library.load(functions.aiSetImportPropertyInteger, "aiSetImportPropertyInteger");
+  library.load(functions.aiImportFileExWithProperties, "aiImportFileExWithProperties");
+  library.load(functions.aiApplyPostProcessing, "aiApplyPostProcessing");
+  library.load(functions.aiReleaseImport, "aiReleaseImport");
+  library.load(functions.aiGetErrorString, "aiGetErrorString");
+  library.load(functions.aiGetMaterialColor, "aiGetMaterialColor");
+  library.load(functions.aiGetMaterialTexture, "aiGetMaterialTexture");
+  return functions;
+}
+
+/// Its C interface keeps one message for all threads, so that one thread reads at a time.
+AssimpScene import(const std::string& path) {
+  static std::mutex reading;
+  const std::lock_guard lock(reading);
+  const Assimp& ai = assimp();
+  const std::unique_ptr<aiPropertyStore, decltype(ai.aiReleasePropertyStore)> settings(ai.aiCreatePropertyStore(),
+                                                                                       ai.aiReleasePropertyStore);
+  // as robot descriptions mean it
+  ai.aiSetImportPropertyInteger(settings.get(), AI_CONFIG_IMPORT_COLLADA_IGNORE_UP_DIRECTION, 1);
+  AssimpScene scene(ai.aiImportFileExWithProperties(path.c_str(), 0, nullptr, settings.get()), ai.aiReleaseImport);
+  if (!scene) throw FileError(cat("mesh file '", path, "' cannot be read: ", ai.aiGetErrorString()));
+  return scene;
+}
+
+void checkFaces(const aiScene& scene, const std::string& path) {
+  for (unsigned m = 0; m < scene.mNumMeshes; ++m) {
+    const aiMesh& part = *scene.mMeshes[m];
+    for (unsigned f = 0; f < part.mNumFaces; ++f) {
+      const aiFace& face = part.mFaces[f];
+      for (unsigned i = 0; i < face.mNumIndices; ++i) {
+        if (face.mIndices[i] < part.mNumVertices) continue;
+        throw FileError(
+            cat("mesh file '", path, "': face ", f, " names vertex ", face.mIndices[i], " of ", part.mNumVertices));
+      }
+    }
+  }
+}
+
+}  // namespace
+
+const Assimp& assimp() {
+  static const Assimp functions = loadAssimp();
+  return functions;
+}
+
+AssimpScene readAssimpScene(const std::string& path) {
+  AssimpScene scene = import(path);
+  checkFaces(*scene, path);  // which the next steps believe
+  const aiScene* whole = scene.release();  // which is released where a step fails
+  scene.reset(assimp().aiApplyPostProcessing(whole, aiProcess_Triangulate | aiProcess_JoinIdenticalVertices));
+  if (!scene || !scene->mRootNode) throw FileError(cat("mesh file '", path, "' cannot be read: it has no triangles"));
+  return scene;
+}
+
+}  // namespace kinegraph
