@@ -53,11 +53,11 @@ get_filename_component(KINEGRAPH_MUJOCO_LIBRARY "${library}" NAME)
 set(KINEGRAPH_LIBRARY_FOLDERS "${KINEGRAPH_PREFIX}/lib" "${KINEGRAPH_PREFIX}/lib64" "${KINEGRAPH_MUJOCO}")
 
 # Installs the shared libraries of KINEGRAPH_PREFIX and MuJoCo's that `target` needs into `folder`: those that it is
-# linked with, and those that it loads.
+# linked with, and those that it loads, which need no others (assimp zlib, which is linked).
 function(kinegraph_install_libraries target folder component)
   install(CODE "set(prefix [[${KINEGRAPH_PREFIX}]])\nset(mujoco [[${KINEGRAPH_MUJOCO}]])\nset(binary [[$<TARGET_FILE:${target}>]])\nset(folder [[${folder}]])\nset(loaded [[${KINEGRAPH_PREFIX}/lib/${KINEGRAPH_ASSIMP_LIBRARY}]] [[${KINEGRAPH_MUJOCO}/${KINEGRAPH_MUJOCO_LIBRARY}]])" COMPONENT ${component})
   install(CODE [[
-    file(GET_RUNTIME_DEPENDENCIES LIBRARIES "${binary}" ${loaded} RESOLVED_DEPENDENCIES_VAR libraries UNRESOLVED_DEPENDENCIES_VAR missing
+    file(GET_RUNTIME_DEPENDENCIES LIBRARIES "${binary}" RESOLVED_DEPENDENCIES_VAR libraries UNRESOLVED_DEPENDENCIES_VAR missing
          DIRECTORIES "${prefix}/lib" "${prefix}/lib64" "${mujoco}" PRE_EXCLUDE_REGEXES "^ld-linux" "^lib(c|m|dl|rt|pthread|gcc_s|stdc\\+\\+)\\.so")
     foreach(library IN LISTS libraries loaded)
       string(FIND "${library}" "${prefix}" in_prefix)
