@@ -11,7 +11,7 @@ import kinegraph as ry
 
 SOURCE = Path(__file__).parents[2] / "src" / "kinegraph"
 # What only Python calls so. ("KOMO" is the name of the method, in any language.)
-PYTHON_NAMES = r"\bry\.|\bNLP_|\bOptMethod\.|\b(?:OT|FS|ST|JT|SY)\.[a-z]|=(?:True|False|None)\b|\bwith (?:True|False)\b|\binfo_|\beval_scalar"
+PYTHON_NAMES = r"\bry\.|\bNLP_|\bOptMethod\.[a-zA-Z]|\b(?:OT|FS|ST|JT|SY)\.[a-z]|=(?:True|False|None)\b|\bwith (?:True|False)\b|\binfo_|\beval_scalar"
 
 
 def test_the_core_says_nothing_in_python() -> None:
