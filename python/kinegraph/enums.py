@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import difflib
 import enum
 from typing import Any
 
@@ -15,6 +14,8 @@ class _Teaching(enum.EnumMeta):
         name = _earlier.get(cls, {}).get(name, name)
         if name in members:
             return members[name]
+        import difflib  # not at import: it takes milliseconds, and few need it
+
         near = difflib.get_close_matches(name, members, 3, 0.5)
         hint = f"; similar names: {', '.join(near)}" if near else f"; expected one of {', '.join(members)}"
         raise AttributeError(f"{cls.__name__} has no '{name}'{hint}")

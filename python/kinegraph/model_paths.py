@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import difflib
 import os
 import sys
 from pathlib import Path
@@ -55,6 +54,8 @@ def raiPath(path: str = "") -> str:
         if (folder / relative).exists():
             return str(folder / relative) + ("/" if relative == "" else "")
     known = sorted({str(file.relative_to(folder)) for folder in folders for file in folder.rglob("*.*")})
+    import difflib  # not at import: it takes milliseconds, and few need it
+
     near = difflib.get_close_matches(relative, known, 3, 0.5)
     hint = (
         f"; similar names: {', '.join(near)}"

@@ -2,9 +2,6 @@
 
 from __future__ import annotations
 
-import difflib
-import random
-
 from ._core import FS, JT, KOMO, NLP, OT, ST, SY, Config, makeTestProblem, testProblemNames
 from .compatibility.parameters import params_get
 from .errors import NotFound
@@ -97,6 +94,8 @@ def _supports(seed: int) -> list[str]:
     """What holds the sphere: for seed 0 what the package robotic draws first, for others each with probability 1/2."""
     if seed == 0:
         return ["box", "l_finger", "r_finger"]
+    import random  # not at import: it takes milliseconds, and few need it
+
     rng = random.Random(seed)
     while True:
         chosen = [name for name in ("box", "wall", "l_finger", "r_finger") if rng.random() < 0.5]
@@ -159,6 +158,8 @@ def make_NLP_Problem(name: str, dim: int | None = None, seed: int = 0) -> NLP:
     if name in _MOTIONS:
         return _MOTIONS[name](seed).nlp()
     if name not in testProblemNames():
+        import difflib  # not at import: it takes milliseconds, and few need it
+
         near = difflib.get_close_matches(name, get_NLP_Problem_names())
         hint = f"; similar names: {', '.join(near)}" if near else ""
         raise NotFound(f"there is no problem {name!r}; expected one of {', '.join(get_NLP_Problem_names())}{hint}")

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-import random
 
 from ._core import ST, Config
 from .model_paths import raiPath
@@ -11,6 +10,8 @@ from .model_paths import raiPath
 
 def randomScene(seed: int = 0, boxes: int = 30) -> Config:
     """Two robot arms at a table, and many rounded boxes of random size, color and pose around them."""
+    import random  # not at import: it takes milliseconds, and few need it
+
     rng = random.Random(seed)
     C = Config()
     C.addFile(raiPath("scenarios/pandasTable.g"))

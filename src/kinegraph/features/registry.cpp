@@ -14,6 +14,7 @@
 #include "kinegraph/features/position.h"
 #include "kinegraph/features/stacked.h"
 #include "kinegraph/features/velocity.h"
+#include "kinegraph/geometry/shapes/shape_kinds.h"
 #include "kinegraph/kinematics/dynamics.h"
 
 namespace kinegraph {
@@ -59,22 +60,7 @@ const Geometry& boxOf(int frame, const Program& program, const FeatureInfo& info
 /// Extent of a shape along its own z axis, m.
 double heightOf(int frame, const Program& program) {
   const auto& geometry = program.geometry[frame];
-  if (!geometry) return 0.;
-  const std::vector<double>& s = geometry->size;
-  switch (geometry->type) {
-    case ShapeType::box:
-    case ShapeType::ssBox:
-      return s[2];
-    case ShapeType::sphere:
-      return 2. * s[0];
-    case ShapeType::capsule:
-      return s[0] + 2. * s[1];
-    case ShapeType::cylinder:
-    case ShapeType::ssCylinder:
-      return s[0];
-    default:
-      return 0.;
-  }
+  return geometry ? shapeHeight(geometry->type, geometry->size) : 0.;
 }
 
 // How the features of a family are made.

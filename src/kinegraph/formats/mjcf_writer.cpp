@@ -8,6 +8,7 @@
 #include "kinegraph/base/text.h"
 #include "kinegraph/formats/mjcf_geoms.h"
 #include "kinegraph/formats/reading/xml.h"
+#include "kinegraph/geometry/shapes/shape_kinds.h"
 
 namespace kinegraph {
 
@@ -18,7 +19,7 @@ const Quaterniond kHalfTurn(0., 1., 0., 0.);      // about x: between our camera
 
 bool hasShape(const FrameData& frame) {
   return frame.shape && frame.shape->geometry->type != ShapeType::none &&
-         frame.shape->geometry->type != ShapeType::marker && frame.shape->geometry->type != ShapeType::camera;
+         !shapeKind(frame.shape->geometry->type).is_symbol;
 }
 
 bool isCamera(const FrameData& frame) { return frame.shape && frame.shape->geometry->type == ShapeType::camera; }

@@ -9,6 +9,7 @@
 #include "kinegraph/formats/reading/urdf_model.h"
 #include "kinegraph/formats/reading/xml.h"
 #include "kinegraph/formats/stl_writer.h"
+#include "kinegraph/geometry/shapes/shape_kinds.h"
 #include "kinegraph/geometry/shapes/shape_types.h"
 #include "kinegraph/geometry/shapes/tessellation.h"
 
@@ -38,7 +39,7 @@ std::string originElement(const Pose& pose) {
 
 bool isVisible(const FrameData& frame) {
   return frame.shape && frame.shape->geometry->type != ShapeType::none &&
-         frame.shape->geometry->type != ShapeType::marker && frame.shape->geometry->type != ShapeType::camera;
+         !shapeKind(frame.shape->geometry->type).is_symbol;
 }
 
 bool isBare(const FrameData& frame) { return !isVisible(frame) && !frame.inertia; }

@@ -5,6 +5,7 @@
 
 #include "kinegraph/base/errors.h"
 #include "kinegraph/base/text.h"
+#include "kinegraph/geometry/shapes/shape_kinds.h"
 
 namespace kinegraph {
 
@@ -86,23 +87,7 @@ double extent(const Frame& frame) {
 
 }  // namespace
 
-double height(const Frame& frame) {
-  const std::vector<double> size = frame.getSize();
-  switch (frame.getShapeType()) {
-    case ShapeType::box:
-    case ShapeType::ssBox:
-      return size[2];
-    case ShapeType::sphere:
-      return 2. * size[0];
-    case ShapeType::capsule:
-      return size[0] + 2. * size[1];
-    case ShapeType::cylinder:
-    case ShapeType::ssCylinder:
-      return size[0];
-    default:
-      return 0.;
-  }
-}
+double height(const Frame& frame) { return shapeHeight(frame.getShapeType(), frame.getSize()); }
 
 namespace {
 

@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "kinegraph/base/text.h"
+#include "kinegraph/geometry/shapes/shape_kinds.h"
 #include "kinegraph/rendering/gl_context.h"
 #include "kinegraph/rendering/mesh_library.h"
 #include "kinegraph/scene/visual_meshes.h"
@@ -87,8 +88,6 @@ void toMeters(std::vector<float>& depth, const Camera& camera) {
       d = float(near * far / (near + d * (far - near)));
   }
 }
-
-bool isMarker(ShapeType type) { return type == ShapeType::marker || type == ShapeType::camera; }
 
 /// Which of MuJoCo's own shapes a type is drawn with, if any.
 std::optional<mjtGeom> builtinShape(ShapeType type) {
@@ -176,7 +175,7 @@ std::vector<CameraRenderer::Impl::Item> CameraRenderer::Impl::visibleItems(const
   for (const auto& frame : tree.frames()) {
     if (!frame->shape || frame->shape->geometry->type == ShapeType::none) continue;
     const Shape& shape = *frame->shape;
-    const bool is_helper = isMarker(shape.geometry->type) || (shape.color && (*shape.color)[3] < 1.);
+    const bool is_helper = shapeKind(shape.geometry->type).is_symbol || (shape.color && (*shape.color)[3] < 1.);
     const bool is_invisible = shape.color && (*shape.color)[3] <= 0.;
     if ((visuals_only && is_helper) || is_invisible) continue;
     const std::shared_ptr<const Geometry> visual = visual_meshes.of(shape);
@@ -230,8 +229,9 @@ void CameraRenderer::Impl::placeGeoms(const std::vector<Item>& items, const Stat
                                       int frames) {
   std::size_t count = 1;
   for (const Item& item : items)
-    count += std::max<std::size_t>(
-        3, isMarker(item.geometry->type) || builtinShape(item.geometry->type) ? 0 : meshes.parts(item.geometry).size());
+    count += std::max<std::size_t>(3, shapeKind(item.geometry->type).is_symbol || builtinShape(item.geometry->type)
+                                          ? 0
+                                          : meshes.parts(item.geometry).size());
   if (std::size_t(scene->maxgeom) < count) {
     mjv_freeScene(scene.get());
     mjv_makeScene(model->get(), scene.get(), int(2 * count));
@@ -248,7 +248,7 @@ void CameraRenderer::Impl::placeGeoms(const std::vector<Item>& items, const Stat
     const RigidTransform& X_WG = state.pose(item.frame);
     const Vector4d color = item.shape->color.value_or(kDefaultColor);
     const int first = scene->ngeom;
-    if (isMarker(item.geometry->type)) {
+    if (shapeKind(item.geometry->type).is_symbol) {
       addMarker(item.geometry->size.empty() ? .1 : item.geometry->size.back(), X_WG, item.frame);
     } else if (const auto builtin = builtinShape(item.geometry->type)) {
       addGeom(*builtin, builtinSize(*item.geometry), X_WG, color, item.frame);
@@ -344,7 +344,7 @@ void CameraRenderer::Impl::draw(SceneTree& tree, const Camera& camera, bool visu
   const std::vector<Item> items = visibleItems(tree, visuals_only);
   MeshLibrary::Shapes shapes;
   for (const Item& item : items) {
-    if (!isMarker(item.geometry->type) && !builtinShape(item.geometry->type)) shapes.insert(item.geometry);
+    if (!shapeKind(item.geometry->type).is_symbol && !builtinShape(item.geometry->type)) shapes.insert(item.geometry);
   }
   if (!model) model = emptyModel();
   if (meshes.update(shapes)) makeContext();

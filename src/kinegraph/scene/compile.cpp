@@ -2,6 +2,7 @@
 #include <limits>
 #include <utility>
 
+#include "kinegraph/geometry/shapes/shape_kinds.h"
 #include "kinegraph/scene/scene_tree.h"
 
 namespace kinegraph {
@@ -142,9 +143,7 @@ const FrameData* partFrame(const FrameData* frame) {
 }
 
 bool takesPart(const FrameData& frame) {
-  if (!frame.shape || frame.shape->contact == 0) return false;
-  const ShapeType type = frame.shape->geometry->type;
-  return type != ShapeType::marker && type != ShapeType::camera;
+  return frame.shape && frame.shape->contact != 0 && !shapeKind(frame.shape->geometry->type).is_symbol;
 }
 
 }  // namespace

@@ -5,6 +5,7 @@
 #include "kinegraph/base/errors.h"
 #include "kinegraph/base/text.h"
 #include "kinegraph/geometry/shapes/mass.h"
+#include "kinegraph/geometry/shapes/shape_kinds.h"
 #include "kinegraph/geometry/shapes/shape_types.h"
 
 namespace kinegraph {
@@ -51,15 +52,7 @@ Inertia inAxes(const Inertia& inertia, const Pose& X) {
 }
 
 bool hasFreePoints(const Geometry& geometry) {
-  switch (geometry.type) {
-    case ShapeType::mesh:
-    case ShapeType::pointCloud:
-    case ShapeType::lines:
-    case ShapeType::ssCvx:
-      return geometry.mesh != nullptr;
-    default:
-      return false;
-  }
+  return shapeKind(geometry.type).hasPoints() && geometry.mesh != nullptr;
 }
 
 bool canMove(const FrameData& frame, bool transform_mesh) {
@@ -87,9 +80,7 @@ void addSurfaceMasses(SceneTree& scene) {
     const bool transparent = frame->shape->color && (*frame->shape->color)[3] < 1.;
     if (transparent && !frame->attributes->find("simulate")) {
       frame->inertia.reset();
-    } else if (geometry.type != ShapeType::marker && geometry.type != ShapeType::camera &&
-               geometry.type != ShapeType::quad && geometry.type != ShapeType::pointCloud &&
-               geometry.type != ShapeType::lines) {
+    } else if (shapeKind(geometry.type).has_inertia) {
       const ShellMass shell = shellMass(geometry);
       const double mass = kSurfaceDensity * shell.area;
       frame->inertia = Inertia{mass, shell.com, mass * shell.inertia_per_mass};

@@ -8,6 +8,7 @@
 #include "kinegraph/geometry/files/image_file.h"
 #include "kinegraph/geometry/files/mesh_file.h"
 #include "kinegraph/geometry/shapes/isosurface.h"
+#include "kinegraph/geometry/shapes/shape_kinds.h"
 #include "kinegraph/geometry/shapes/shape_types.h"
 #include "kinegraph/geometry/shapes/textured_surface.h"
 #include "kinegraph/scene/attributes.h"
@@ -42,6 +43,8 @@ ShapeType shapeTypeOf(const std::string& word) {
     throw;
   }
 }
+
+bool hasGrid(const Geometry& geometry) { return shapeKind(geometry.type).data == ShapeKind::Data::grid; }
 
 bool isMeshFile(const Node& node) { return node.value.as<AngleText>() || node.value.as<std::string>(); }
 
@@ -181,7 +184,7 @@ bool AttributeReader::readGridOf(const Node& file, Geometry& geometry) {
   return guarded(file, [&] {
     GridFile read = readGridFile(path(file));
     if (geometry.type == ShapeType::none) geometry.type = ShapeType::sdf;
-    if (geometry.type != ShapeType::sdf && geometry.type != ShapeType::tensor) {
+    if (!hasGrid(geometry)) {
       throw ValueError(cat("a ", shapeTypeName(geometry.type), " has no grid; the shape is sdf unless it says tensor"));
     }
     geometry.size = {read.size.x(), read.size.y(), read.size.z()};
@@ -211,17 +214,16 @@ bool AttributeReader::readGeometry(Geometry& geometry) {
   bool good = true;
   if (find({"mesh", "mesh_decomp", "mesh_points"})) {
     good = readMesh(geometry);
-  } else if (geometry.type == ShapeType::ssCvx && find({"core"})) {
+  } else if (shapeKind(geometry.type).data == ShapeKind::Data::core_points && find({"core"})) {
     good = readCore(geometry);
   } else if (find({"vertices"})) {
     good = readVertices(geometry);
   } else if (find({"mesh_rope"})) {
     good = readRope(geometry);
   }
-  const bool has_grid = geometry.type == ShapeType::tensor || geometry.type == ShapeType::sdf;
   if (const Node* file = find({"sdf"})) {
     good = readGridOf(*file, geometry) && good;
-  } else if (has_grid && find({"grid_values"})) {
+  } else if (hasGrid(geometry) && find({"grid_values"})) {
     good = readGrid(geometry) && good;
   }
   return good && readSize(geometry);

@@ -4,6 +4,7 @@
 
 #include "kinegraph/base/errors.h"
 #include "kinegraph/base/text.h"
+#include "kinegraph/geometry/shapes/shape_kinds.h"
 #include "kinegraph/scene/tree_edits.h"
 
 namespace kinegraph {
@@ -14,9 +15,8 @@ constexpr double kSamePlace = 1e-10;
 
 bool isEmpty(const Shape& shape) {
   const Geometry& geometry = *shape.geometry;
-  const bool of_points = geometry.type == ShapeType::mesh || geometry.type == ShapeType::pointCloud ||
-                         geometry.type == ShapeType::lines || geometry.type == ShapeType::ssCvx;
-  return geometry.type == ShapeType::none || (of_points && (!geometry.mesh || geometry.mesh->vertices.empty()));
+  return geometry.type == ShapeType::none ||
+         (shapeKind(geometry.type).hasPoints() && (!geometry.mesh || geometry.mesh->vertices.empty()));
 }
 
 void moveBelow(SceneTree& scene, FrameData& frame, FrameData& parent, const Pose& relative) {

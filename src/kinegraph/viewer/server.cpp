@@ -152,6 +152,8 @@ int ViewerServer::clients() const {
   return impl_->state_->clients;
 }
 
+void ViewerServer::show(const std::function<bool(ShownScene&)>& change) { impl_->changeScene(change); }
+
 void ViewerServer::update(std::span<const ViewItem> items) {
   impl_->changeScene([&](ShownScene& scene) { return scene.update(items); });
 }

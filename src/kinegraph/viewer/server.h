@@ -14,6 +14,8 @@
 
 namespace kinegraph {
 
+class ShownScene;
+
 /// What a viewer shows of a frame.
 struct ViewItem {
   std::string name;
@@ -62,6 +64,10 @@ class ViewerServer {
 
   std::string url() const;
   int clients() const;
+
+  /// Changes what is shown, with the scene locked, and tells browsers if `change` returns that there is something to
+  /// tell. The methods below say the same in a word.
+  void show(const std::function<bool(ShownScene&)>& change);
 
   /// Sends what differs from the last call: nothing if nothing does.
   void update(std::span<const ViewItem> items);

@@ -3,6 +3,7 @@
 #include <array>
 #include <cstring>
 
+#include "kinegraph/geometry/shapes/shape_kinds.h"
 #include "kinegraph/geometry/shapes/shape_types.h"
 #include "kinegraph/geometry/shapes/tessellation.h"
 #include "kinegraph/viewer/messages.h"
@@ -75,6 +76,26 @@ std::string encodeQuad(const Quad& quad) {
   return data;
 }
 
+/// kind, dofs, then their values as float64.
+std::string encodeJoints(const VectorXd& q) {
+  std::string data;
+  append(data, BinaryKind::joints);
+  append(data, std::uint32_t(q.size()));
+  for (const double value : q) append(data, value);
+  return data;
+}
+
+CameraMessage messageOf(const PageCamera& camera) {
+  const Vector7d pose = camera.pose.numbers();
+  return {{pose.begin(), pose.end()},
+          camera.distance,
+          camera.focal_length,
+          camera.ortho_height,
+          camera.aspect,
+          camera.near,
+          camera.far};
+}
+
 MotionMessage headOf(const ShownMotion& motion) {
   const char* start = motion.start == ShownMotion::Start::all    ? "all"
                       : motion.start == ShownMotion::Start::play ? "play"
@@ -92,27 +113,15 @@ Outgoing textOf(const T& message) {
   return {std::make_shared<std::string>(json.text()), false};
 }
 
-/// Shapes that the client does not build by itself are sent as triangles.
-bool isSentAsMesh(ShapeType type) {
-  switch (type) {
-    case ShapeType::mesh:
-    case ShapeType::pointCloud:
-    case ShapeType::lines:
-    case ShapeType::ssCvx:
-    case ShapeType::ssBoxElip:
-      return true;
-    default:
-      return false;
-  }
-}
-
 }  // namespace
 
 std::shared_ptr<const ShownScene::SentMesh> ShownScene::meshOf(const ViewItem& item) {
-  if (!item.geometry || !isSentAsMesh(item.geometry->type)) return nullptr;
+  if (!item.geometry || item.geometry->type == ShapeType::none) return nullptr;
+  const ShapeKind& kind = shapeKind(item.geometry->type);
+  if (kind.is_drawn_by_page) return nullptr;
   const auto [place, is_new] = meshes_.try_emplace(item.geometry);
   if (is_new) {
-    const bool has_own = item.geometry->type != ShapeType::ssCvx && item.geometry->mesh;
+    const bool has_own = kind.data == ShapeKind::Data::mesh && item.geometry->mesh;
     const Mesh& mesh = has_own ? *item.geometry->mesh : tessellate(*item.geometry);
     SentMesh sent{next_mesh_++, nullptr};
     std::vector<int> numbers;
@@ -274,20 +283,22 @@ void ShownScene::setCamera(const PageCamera& camera) {
   camera_revision_ = ++revision_;
 }
 
-std::vector<Outgoing> ShownScene::messagesSince(Seen& seen) const {
-  std::vector<Outgoing> out;
-  const auto send = [&](const auto& message) { out.push_back(textOf(message)); };
-  if (text_revision_ > seen.revision) send(TextMessage{title, message, error});
-  if (camera_revision_ > seen.revision) {
-    const Vector7d pose = camera_.pose.numbers();
-    send(CameraMessage{{pose.begin(), pose.end()},
-                       camera_.distance,
-                       camera_.focal_length,
-                       camera_.ortho_height,
-                       camera_.aspect,
-                       camera_.near,
-                       camera_.far});
+FrameMessage ShownScene::frameMessage(std::size_t index) const {
+  const Shown& shown = frames_[index];
+  const ViewItem& item = shown.item;
+  FrameMessage frame{int(index), item.name, item.parent, item.collides, item.details, std::nullopt};
+  if (item.geometry && item.geometry->type != ShapeType::none) {
+    const Vector4d& c = item.color;
+    frame.shape = ShapeMessage{shapeTypeName(item.geometry->type),
+                               item.geometry->size,
+                               {c[0], c[1], c[2], c[3]},
+                               shown.mesh ? shown.mesh->number : -1};
   }
+  return frame;
+}
+
+/// Meshes and pictures that the browser does not have, then looks, then poses.
+void ShownScene::addFrames(Seen& seen, std::vector<Outgoing>& out) const {
   SceneMessage scene;
   scene.count = int(frames_.size());
   std::set<int> meshes, images;
@@ -295,18 +306,7 @@ std::vector<Outgoing> ShownScene::messagesSince(Seen& seen) const {
   std::uint32_t moved = 0;
   for (std::size_t i = 0; i < frames_.size(); ++i) {
     const Shown& shown = frames_[i];
-    if (shown.look_revision > seen.revision) {
-      FrameMessage frame{int(i),      shown.item.name, shown.item.parent, shown.item.collides, shown.item.details,
-                         std::nullopt};
-      if (shown.item.geometry && shown.item.geometry->type != ShapeType::none) {
-        const Vector4d& c = shown.item.color;
-        frame.shape = ShapeMessage{shapeTypeName(shown.item.geometry->type),
-                                   shown.item.geometry->size,
-                                   {c[0], c[1], c[2], c[3]},
-                                   shown.mesh ? shown.mesh->number : -1};
-      }
-      scene.frames.push_back(frame);
-    }
+    if (shown.look_revision > seen.revision) scene.frames.push_back(frameMessage(i));
     if (shown.mesh && meshes.insert(shown.mesh->number).second) {
       for (const auto& image : shown.mesh->images) {
         if (images.insert(image->number).second && !seen.images.contains(image->number))
@@ -320,34 +320,41 @@ std::vector<Outgoing> ShownScene::messagesSince(Seen& seen) const {
       ++moved;
     }
   }
-  if (!scene.frames.empty() || count_revision_ > seen.revision) send(scene);
-  if (moved > 0) {
-    std::string data;
-    append(data, BinaryKind::poses);
-    append(data, moved);
-    out.push_back({std::make_shared<std::string>(data + poses), true});
-  }
-  if (joints_revision_ > seen.revision) {
-    JointsMessage message{structure_, {}};
-    for (const ShownJoint& j : joints_) message.joints.push_back({j.name, j.frame, j.unit, j.lower, j.upper});
-    send(message);
-  }
-  if (q_revision_ > seen.revision) {
-    std::string data;
-    append(data, BinaryKind::joints);
-    append(data, std::uint32_t(q_.size()));
-    for (const double value : q_) append(data, value);
-    out.push_back({std::make_shared<std::string>(std::move(data)), true});
-  }
-  if (look_revision_ > seen.revision) {
-    LookMessage look{look_.visuals_only, {},      {},      look_.shadows, look_.text, {}, look_.flat_colors,
-                     look_.wireframe,    digits_, events_, cursor_};
-    for (const Vector3d& light : look_.lights) look.lights.insert(look.lights.end(), light.begin(), light.end());
-    if (look_.background) look.background.assign(look_.background->data(), look_.background->data() + 3);
-    if (look_.floor) look.floor.assign(look_.floor->data(), look_.floor->data() + 3);
-    if (!look_.has_floor) look.floor = {-1.};
-    send(look);
-  }
+  seen.meshes = std::move(meshes);
+  seen.images = std::move(images);
+  if (!scene.frames.empty() || count_revision_ > seen.revision) out.push_back(textOf(scene));
+  if (moved == 0) return;
+  std::string data;
+  append(data, BinaryKind::poses);
+  append(data, moved);
+  out.push_back({std::make_shared<std::string>(data + poses), true});
+}
+
+JointsMessage ShownScene::jointsMessage() const {
+  JointsMessage message{structure_, {}};
+  for (const ShownJoint& j : joints_) message.joints.push_back({j.name, j.frame, j.unit, j.lower, j.upper});
+  return message;
+}
+
+LookMessage ShownScene::lookMessage() const {
+  LookMessage look{look_.visuals_only, {},      {},      look_.shadows, look_.text, {}, look_.flat_colors,
+                   look_.wireframe,    digits_, events_, cursor_};
+  for (const Vector3d& light : look_.lights) look.lights.insert(look.lights.end(), light.begin(), light.end());
+  if (look_.background) look.background.assign(look_.background->data(), look_.background->data() + 3);
+  if (look_.floor) look.floor.assign(look_.floor->data(), look_.floor->data() + 3);
+  if (!look_.has_floor) look.floor = {-1.};
+  return look;
+}
+
+std::vector<Outgoing> ShownScene::messagesSince(Seen& seen) const {
+  std::vector<Outgoing> out;
+  const auto send = [&](const auto& message) { out.push_back(textOf(message)); };
+  if (text_revision_ > seen.revision) send(TextMessage{title, message, error});
+  if (camera_revision_ > seen.revision) send(messageOf(camera_));
+  addFrames(seen, out);
+  if (joints_revision_ > seen.revision) send(jointsMessage());
+  if (q_revision_ > seen.revision) out.push_back({std::make_shared<std::string>(encodeJoints(q_)), true});
+  if (look_revision_ > seen.revision) send(lookMessage());
   if (near_revision_ > seen.revision) out.push_back({near_, false});
   for (const auto& [id, quad] : quads_) {
     if (quad.first > seen.revision) out.push_back(quad.second);
@@ -357,8 +364,6 @@ std::vector<Outgoing> ShownScene::messagesSince(Seen& seen) const {
     if (motion_.empty()) send(MotionMessage{});
     out.insert(out.end(), motion_.begin(), motion_.end());
   }
-  seen.meshes = std::move(meshes);
-  seen.images = std::move(images);
   seen.revision = revision_;
   return out;
 }

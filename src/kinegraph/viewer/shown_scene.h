@@ -12,6 +12,10 @@
 
 namespace kinegraph {
 
+struct FrameMessage;
+struct JointsMessage;
+struct LookMessage;
+
 /// A message for a browser. Large ones are shared by all browsers.
 struct Outgoing {
   std::shared_ptr<const std::string> data;
@@ -77,6 +81,10 @@ class ShownScene {
   };
   std::shared_ptr<const SentMesh> meshOf(const ViewItem& item);
   std::shared_ptr<const SentImage> sentImage(const std::shared_ptr<const Image>& image);
+  FrameMessage frameMessage(std::size_t index) const;
+  JointsMessage jointsMessage() const;
+  LookMessage lookMessage() const;
+  void addFrames(Seen& seen, std::vector<Outgoing>& out) const;
 
   std::uint64_t revision_ = 1, count_revision_ = 1, text_revision_ = 1, camera_revision_ = 0;
   std::vector<Shown> frames_;

@@ -93,14 +93,14 @@ Feature farthest(const Vector3d& half, const Vector3d& direction) {
   return feature;
 }
 
-/// What is left of a face, a convex polygon of at most eight corners.
-struct FacePart {
+/// A convex polygon of at most eight corners.
+struct ClippedFace {
   std::array<Vector3d, 8> corners;
   int size = 0;
 
   /// Keeps what has side * x[axis] <= half. Source: Sutherland & Hodgman, Reentrant polygon clipping, 1974.
   void clip(int axis, double side, double half) {
-    const FacePart old = *this;
+    const ClippedFace old = *this;
     size = 0;
     for (int i = 0; i < old.size; ++i) {
       const Vector3d &from = old.corners[i], &to = old.corners[(i + 1) % old.size];
@@ -151,15 +151,15 @@ std::optional<Vector3d> aboveFace(const Feature& feature, const Vector3d& half, 
     return i < feature.dimension ? Vector3d(half[feature.free[i]] * R.col(feature.free[i])) : Vector3d::Zero();
   };
   const Vector3d x = side(0), y = side(1);
-  FacePart part;
-  part.corners = {center + x + y, center - x + y, center - x - y, center + x - y};
-  part.size = 4;
+  ClippedFace polygon;
+  polygon.corners = {center + x + y, center - x + y, center - x - y, center + x - y};
+  polygon.size = 4;
   for (const int axis : {u, v}) {
-    part.clip(axis, 1., face[axis]);
-    part.clip(axis, -1., face[axis]);
+    polygon.clip(axis, 1., face[axis]);
+    polygon.clip(axis, -1., face[axis]);
   }
-  if (part.size == 0) return {};
-  return part.center();
+  if (polygon.size == 0) return {};
+  return polygon.center();
 }
 
 /// Where boxes touch that are nearest along an axis.

@@ -4,7 +4,7 @@
 
 namespace kinegraph {
 
-/// -1 below zero, else 1.
+/// 1, also of 0, or -1.
 inline double signOf(double x) { return x < 0. ? -1. : 1.; }
 
 /// The points center + s * axis with |s| <= half; `axis` is a unit vector.

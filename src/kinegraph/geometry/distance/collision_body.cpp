@@ -6,6 +6,7 @@
 #include "kinegraph/geometry/distance/body_tree.h"
 #include "kinegraph/geometry/distance/grid_field.h"
 #include "kinegraph/geometry/distance/hull.h"
+#include "kinegraph/geometry/shapes/shape_kinds.h"
 
 namespace kinegraph {
 
@@ -21,11 +22,11 @@ class BodyMaker {
 
   void sweep(double radius) { body_->radius_ = radius; }
 
-  void setSegment(double length) {
-    if (length <= 0.) return;
+  void setSegment(double half_length) {
+    if (half_length <= 0.) return;
     body_->core_ = CollisionBody::Core::segment;
-    body_->half_length_ = .5 * length;
-    bound(Vector3d::Zero(), {0., 0., .5 * length});
+    body_->half_length_ = half_length;
+    bound(Vector3d::Zero(), {0., 0., half_length});
   }
 
   void setBox(const Vector3d& half) {
@@ -123,14 +124,25 @@ Parts segments(const Mesh& mesh) {
   return parts;
 }
 
-void setMesh(BodyMaker& maker, ShapeType type, const Mesh& mesh) {
-  if (mesh.vertices.empty()) return;
-  if (type == ShapeType::pointCloud) return maker.setCompound(mesh.vertices, {});
-  Parts parts;
-  if (type == ShapeType::mesh) parts = hullsOfParts(mesh);
-  if (type == ShapeType::lines) parts = segments(mesh);
+/// Less than two parts are the hull of all points.
+void setParts(BodyMaker& maker, const Mesh& mesh, Parts parts) {
   if (parts.size() < 2) return maker.setHull(mesh.vertices);
   maker.setCompound(mesh.vertices, std::move(parts));
+}
+
+void setVertices(BodyMaker& maker, ShapeCore::Form form, const Geometry& geometry) {
+  if (!geometry.mesh || geometry.mesh->vertices.empty()) return;
+  const Mesh& mesh = *geometry.mesh;
+  switch (form) {
+    case ShapeCore::Form::points:
+      return maker.setCompound(mesh.vertices, {});
+    case ShapeCore::Form::hulls_of_parts:
+      return setParts(maker, mesh, hullsOfParts(mesh));
+    case ShapeCore::Form::segments:
+      return setParts(maker, mesh, segments(mesh));
+    default:
+      return maker.setHull(mesh.vertices);
+  }
 }
 
 }  // namespace
@@ -165,57 +177,30 @@ Vector3d CollisionBody::support(const Vector3d& direction) const {
 }
 
 std::shared_ptr<const CollisionBody> makeCollisionBody(const Geometry& geometry) {
+  const ShapeKind& kind = shapeKind(geometry.type);
+  const ShapeCore core = kind.core ? kind.core(geometry) : ShapeCore{};
   BodyMaker maker;
-  const std::vector<double>& s = geometry.size;
-  const auto halfSize = [&] { return Vector3d(.5 * s[0], .5 * s[1], .5 * s[2]); };
-  switch (geometry.type) {
-    case ShapeType::sphere:
-      maker.sweep(s[0]);
+  maker.sweep(core.radius);
+  switch (core.form) {
+    case ShapeCore::Form::point:
       break;
-    case ShapeType::capsule:
-      maker.sweep(s[1]);
-      maker.setSegment(s[0]);
+    case ShapeCore::Form::segment:
+      maker.setSegment(core.half_length);
       break;
-    case ShapeType::sdf:
-      if (geometry.grid && !geometry.grid->values.empty()) {
-        maker.setGrid(geometry.grid, 2. * halfSize());
-        break;
-      }
-      [[fallthrough]];
-    case ShapeType::box:
-    case ShapeType::tensor:
-      maker.setBox(halfSize());
+    case ShapeCore::Form::box:
+      maker.setBox(core.half_sides);
       break;
-    case ShapeType::quad:
-      maker.setBox({.5 * s[0], .5 * s[1], 0.});
+    case ShapeCore::Form::cylinder:
+      maker.setCylinder(core.core_radius, core.half_length);
       break;
-    case ShapeType::ssBox:
-      maker.sweep(s[3]);
-      maker.setBox(halfSize() - Vector3d::Constant(s[3]));
+    case ShapeCore::Form::box_ellipsoid:
+      maker.setBoxEllipsoid(core.half_sides, core.radii);
       break;
-    case ShapeType::cylinder:
-      maker.setCylinder(s[1], .5 * s[0]);
+    case ShapeCore::Form::grid:
+      maker.setGrid(geometry.grid, {geometry.size[0], geometry.size[1], geometry.size[2]});
       break;
-    case ShapeType::ssCylinder:
-      maker.sweep(s[2]);
-      maker.setCylinder(s[1] - s[2], .5 * s[0] - s[2]);
-      break;
-    case ShapeType::ssBoxElip:
-      maker.sweep(s[6]);
-      maker.setBoxEllipsoid((halfSize().array() - s[6]).max(0.), {s[3], s[4], s[5]});
-      break;
-    case ShapeType::ssCvx:
-      maker.sweep(s[0]);
-      [[fallthrough]];
-    case ShapeType::mesh:
-    case ShapeType::pointCloud:
-    case ShapeType::lines:
-      if (geometry.mesh) setMesh(maker, geometry.type, *geometry.mesh);
-      break;
-    case ShapeType::none:
-    case ShapeType::marker:
-    case ShapeType::camera:
-      break;
+    default:
+      setVertices(maker, core.form, geometry);
   }
   return maker.take();
 }

@@ -4,26 +4,12 @@
 
 #include "kinegraph/base/errors.h"
 #include "kinegraph/base/text.h"
-#include "kinegraph/geometry/shapes/shape_types.h"
+#include "kinegraph/geometry/shapes/shape_kinds.h"
 #include "kinegraph/geometry/shapes/tessellation.h"
 
 namespace kinegraph {
 
 namespace {
-
-ShellMass boxShell(double a, double b, double c) {
-  const double x = b * c, y = a * c, z = a * b, sum = x + y + z;  // half the areas of the faces across each axis
-  if (sum <= 0.) throw ValueError(cat("a box of ", a, " x ", b, " x ", c, " has no surface to carry a mass"));
-  const auto about = [&](double own, double p, double q, double across_p, double across_q) {
-    return (own * (p * p + q * q) / 12. + across_p * (p * p / 4. + q * q / 12.) +
-            across_q * (p * p / 12. + q * q / 4.)) /
-           sum;
-  };
-  ShellMass shell;
-  shell.area = 2. * sum;
-  shell.inertia_per_mass = Vector3d(about(x, b, c, y, z), about(y, c, a, z, x), about(z, a, b, x, y)).asDiagonal();
-  return shell;
-}
 
 ShellMass meshShell(const Mesh& mesh) {
   ShellMass shell;
@@ -44,15 +30,29 @@ ShellMass meshShell(const Mesh& mesh) {
 
 }  // namespace
 
+ShellMass boxShell(double a, double b, double c) {
+  const double x = b * c, y = a * c, z = a * b, sum = x + y + z;  // half the areas of the faces across each axis
+  if (sum <= 0.) throw ValueError(cat("a box of ", a, " x ", b, " x ", c, " has no surface to carry a mass"));
+  const auto about = [&](double own, double p, double q, double across_p, double across_q) {
+    return (own * (p * p + q * q) / 12. + across_p * (p * p / 4. + q * q / 12.) +
+            across_q * (p * p / 12. + q * q / 4.)) /
+           sum;
+  };
+  ShellMass shell;
+  shell.area = 2. * sum;
+  shell.inertia_per_mass = Vector3d(about(x, b, c, y, z), about(y, c, a, z, x), about(z, a, b, x, y)).asDiagonal();
+  return shell;
+}
+
+ShellMass sphereShell(double radius) {
+  return {4. * std::numbers::pi * radius * radius, Vector3d::Zero(), 2. / 3. * radius * radius * Matrix3d::Identity()};
+}
+
 ShellMass shellMass(const Geometry& geometry) {
-  const std::vector<double>& s = geometry.size;
-  if (geometry.type == ShapeType::box) return boxShell(s[0], s[1], s[2]);
-  if (geometry.type == ShapeType::sphere) {
-    return {4. * std::numbers::pi * s[0] * s[0], Vector3d::Zero(), 2. / 3. * s[0] * s[0] * Matrix3d::Identity()};
-  }
+  const ShapeKind& kind = shapeKind(geometry.type);
+  if (kind.shell) return kind.shell(geometry.size);
   const Mesh mesh = tessellate(geometry);
-  if (mesh.triangles.empty())
-    throw ValueError(cat("a ", shapeTypeName(geometry.type), " has no surface to carry a mass"));
+  if (mesh.triangles.empty()) throw ValueError(cat("a ", kind.name, " has no surface to carry a mass"));
   return meshShell(mesh);
 }
 

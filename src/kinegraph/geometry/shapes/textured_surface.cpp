@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "kinegraph/geometry/shapes/shape_kinds.h"
 #include "kinegraph/geometry/shapes/tessellation.h"
 
 namespace kinegraph {
@@ -12,11 +13,6 @@ namespace {
 
 using Place = std::array<float, 2>;
 using Corners = std::array<Vector3d, 3>;
-
-bool isTurned(ShapeType type) {
-  return type == ShapeType::sphere || type == ShapeType::capsule || type == ShapeType::cylinder ||
-         type == ShapeType::ssCylinder;
-}
 
 Place place(double right, double up) { return {float(right), float(up)}; }
 
@@ -71,7 +67,7 @@ Mesh texturedSurface(const Geometry& geometry, std::shared_ptr<const Image> imag
   if (surface.texcoords.size() == surface.vertices.size()) {
     mesh = surface;
   } else {  // corners of their own for each triangle
-    const bool turned = isTurned(geometry.type);
+    const bool turned = shapeKind(geometry.type).is_turned;
     Vector3d low = surface.vertices[0], high = low;
     for (const Vector3d& p : surface.vertices) {
       low = low.cwiseMin(p);
