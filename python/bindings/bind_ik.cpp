@@ -70,25 +70,26 @@ nb::object solve(PyConfig& config, nb::handle targets, const std::optional<IkOpt
   return nb::cast(std::move(results[0]));
 }
 
-/// What type checkers are told of `solveIk`: targets of type `target` with `apply` give a `result`.
-std::string signature(const std::string& target, const std::string& apply, const std::string& result) {
-  const auto mapping = [&](const char* frame) { return cat("collections.abc.Mapping[", frame, ", ", target, "]"); };
-  return cat("def solveIk(config: Config, targets: ", mapping("str"), " | ", mapping("Frame"),
-             ", options: IkOptions | None = None, *, threads: int = 1, verbose: int = 0, apply: ", apply,
+/// What type checkers are told of `solveIk`: targets with such keys and values, and `apply`, give a `result`.
+std::string signature(const std::string& frame, const std::string& target, const std::string& apply,
+                      const std::string& result) {
+  return cat("def solveIk(config: Config, targets: collections.abc.Mapping[", frame, ", ", target,
+             "], options: IkOptions | None = None, *, threads: int = 1, verbose: int = 0, apply: ", apply,
              ", **fields: float) -> ", result);
 }
 
-/// One function with three signatures: only rows of arrays make a batch, for which `apply` is refused.
+/// One function with a signature for each kind of answer: only rows of arrays make a batch, for which `apply` is refused.
 void bindSolveIk(nb::module_& m) {
   const auto bind = [&](const std::string& text, const auto&... doc) {
     m.def("solveIk", solve, "config"_a, "targets"_a, "options"_a = nb::none(), nb::kw_only(), "threads"_a = 1,
           "verbose"_a = 0, "apply"_a = false, "fields"_a, nb::sig(text.c_str()), doc...);
   };
   const std::string numbers = "collections.abc.Sequence[float]", place = cat("str | Frame | ", numbers);
-  bind(signature(cat(place, " | collections.abc.Mapping[str, ", place, "]"), "bool = False", "IkResult"),
-       docs::ik::solveIk);
-  bind(signature("typing.Any", "typing.Literal[True]", "IkResult"));
-  bind(signature("typing.Any", "bool = False", "IkResult | IkResults"));
+  const std::string target = cat(place, " | collections.abc.Mapping[str, ", place, "]");
+  bind(signature("str", target, "bool = False", "IkResult"), docs::ik::solveIk);
+  bind(signature("Frame", target, "bool = False", "IkResult"));
+  bind(signature("typing.Any", "typing.Any", "typing.Literal[True]", "IkResult"));
+  bind(signature("typing.Any", "typing.Any", "bool = False", "IkResult | IkResults"));
 }
 
 }  // namespace

@@ -1,4 +1,5 @@
 #include <nanobind/ndarray.h>
+#include <nanobind/stl/pair.h>
 #include <nanobind/stl/shared_ptr.h>
 #include <nanobind/stl/string.h>
 #include <nanobind/stl/vector.h>
@@ -109,7 +110,7 @@ void bindRendering(nb::module_& m) {
       .def_ro("height", &Camera::height, "Height of the image in pixels.")
       .def_ro("focalLength", &Camera::focal_length, "Focal length in image heights.")
       .def_prop_ro(
-          "zRange", [](const Camera& c) { return nb::make_tuple(c.near, c.far); },
+          "zRange", [](const Camera& c) { return std::pair(c.near, c.far); },
           "Nearest and farthest depth that is seen, m.")
       .def_prop_ro(
           "pose", [](const Camera& c) { return toNumpy(VectorXd(c.pose.numbers())); },

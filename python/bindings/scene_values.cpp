@@ -1,5 +1,7 @@
 #include "scene_values.h"
 
+#include <nanobind/stl/string.h>
+
 #include "kinegraph/base/errors.h"
 #include "kinegraph/base/text.h"
 #include "kinegraph/geometry/shapes/shape_types.h"

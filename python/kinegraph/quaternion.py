@@ -31,6 +31,13 @@ class Quaternion:
     """
 
     def __init__(self, wxyz: Numbers = (1.0, 0.0, 0.0, 0.0)) -> None:
+        """A quaternion of four numbers.
+
+        Args:
+            wxyz: Shape (4,): w x y z; of any length, as for a rotation only the direction counts.
+        Raises:
+            ArgumentError: It has another shape.
+        """
         self._q = _numbers(wxyz, (4,), "a quaternion").copy()
 
     def __repr__(self) -> str:

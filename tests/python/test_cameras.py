@@ -423,7 +423,9 @@ def reddest(rgb) -> np.ndarray:
 
 @needs_egl
 def test_pictures_of_a_motion_show_the_slice_that_is_viewed():
-    C, _ = scene("arm: { joint: transX } ball (arm): { X: [2 0 2], shape: sphere, size: [.3], color: [1 0 0] }")
+    C = ry.Config()
+    C.addText("world: {} arm (world): { joint: transX }")
+    C.addFrame("ball", "arm").setRelativePosition([0, 0, 1]).setShape(ry.ST.sphere, [0.3]).setColor([1, 0, 0])
     komo = ry.KOMO(C, 1, 10, 1, False)
     komo.initWithPath(np.linspace(0.1, 1, 10).reshape(10, 1))
     seen = []
@@ -433,7 +435,7 @@ def test_pictures_of_a_motion_show_the_slice_that_is_viewed():
         D = komo.getConfiguration(t)
         D.view(offscreen=True)
         np.testing.assert_array_equal(reddest(seen[-1]), reddest(D.viewer().getRgb()))
-    assert (seen[0] != seen[1]).any()
+    assert len(reddest(seen[0])) > 100 and not np.array_equal(reddest(seen[0]), reddest(seen[1]))
 
 
 @needs_egl

@@ -40,7 +40,7 @@ def python_call(member):
 
 
 def split_arguments(text):
-    """name -> annotation of `self, a: int = 3, *, b: tuple[int, str]`."""
+    """name -> annotation of `self, a: int = 3, *, b: tuple[int, str]`, with ** before that of keywords of any name."""
     parts, depth, quote = [""], 0, ""
     for c in text:
         if quote:
@@ -52,8 +52,8 @@ def split_arguments(text):
             parts.append("")
         else:
             parts[-1] += c
-    named = (re.match(r"\s*\**(\w+)(?::\s*(.*?))?(?:\s*=.*)?$", part, re.DOTALL) for part in parts)
-    return {m[1]: m[2] or "" for m in named if m}
+    named = (re.match(r"\s*(\**)(\w+)(?::\s*(.*?))?(?:\s*=.*)?$", part, re.DOTALL) for part in parts)
+    return {m[2]: ("**" if m[1] == "**" else "") + (m[3] or "") for m in named if m}
 
 
 def compiled_calls(name, member):
@@ -94,8 +94,11 @@ def complaints(name, member):
             found.append("no description")
         elif SAYS_ALL.match(text) or text.startswith("The same with"):
             continue
-        if named and entries(section(text, "Args")) != named:
-            found.append(f"Args are {entries(section(text, 'Args'))}; the signature has {named}")
+        said = entries(section(text, "Args"))
+        if named and arguments[named[-1]].startswith("**"):
+            said = said[: len(named)]  # after it come the keywords that there are
+        if named and said != named:
+            found.append(f"Args are {said}; the signature has {named}")
         if named and returned not in ("None", "NoneType") and not section(text, "Returns"):
             found.append(f"returns {returned}, and does not say what")
         if any(MAY_BE_WRONG.search(kind) for kind in arguments.values()) and not section(text, "Raises"):

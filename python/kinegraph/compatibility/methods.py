@@ -24,7 +24,13 @@ def getTotalPenetration(self: Config) -> float:
 
 
 def getType(self: Frame) -> ST:
-    """The type of its shape, as getShapeType."""
+    """The type of its shape, as getShapeType.
+
+    Returns:
+        The type; ST.none where it has no shape.
+    Raises:
+        FrameDeleted: The frame is not there any more.
+    """
     return self.getShapeType()
 
 

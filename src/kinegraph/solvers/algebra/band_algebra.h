@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <vector>
 
 #include "kinegraph/math/banded_matrix.h"
@@ -37,9 +38,11 @@ class BandAlgebra {
   void copyLinearCosts();
   void setMultipleOfIdentity(double weight);
   void addCost(int row, double weight) { addRow(*H_, row, weight, 0); }
-  void addEntry(int i, int j, double value) { H_->at(i, j) += value; }
+  void addEntry(int i, int j, double value) {
+    H_->at(std::max(place_[i], place_[j]), std::min(place_[i], place_[j])) += value;
+  }
   void addCostGradient(int row, double factor, Vector& g) const { J_->addRowTo(row, factor, g); }
-  double diagonal(int i) const { return H_->at(i, i); }
+  double diagonal(int i) const { return H_->at(place_[i], place_[i]); }
   void addHessianProduct(const Vector& d, Vector& sum);
 
   /// A symmetric matrix among consecutive variables, which H has in addition until blocks are dropped. `addTo(M)` adds
