@@ -78,7 +78,10 @@ def make_source(schema: dict) -> str:
         out += [f"      {entry}," for entry in entries]
         out += ["  };", "}"]
     for name in schema["messages"]:
-        out += ["", f"std::string jsonText(const {name}& message) {{ return boost::json::serialize(jsonOf(message)); }}"]
+        out += [
+            "",
+            f"std::string jsonText(const {name}& message) {{ return boost::json::serialize(jsonOf(message)); }}",
+        ]
     return "\n".join([*out, "", "}  // namespace kinegraph", ""])
 
 

@@ -109,7 +109,8 @@ print(sorted({name.split('.')[0] for name in sys.modules} & {'scipy', 'matplotli
 
 def test_mesh_files_and_camera_images_load_their_libraries_when_they_are_first_needed(tmp_path):
     (tmp_path / "a.stl").write_text(
-        "solid\nfacet\nouter loop\nvertex 0 0 0\nvertex 1 0 0\nvertex 0 1 0\nendloop\nendfacet\nendsolid"
+        "solid a\nfacet normal 0 0 1\nouter loop\n"
+        "vertex 0 0 0\nvertex 1 0 0\nvertex 0 1 0\nendloop\nendfacet\nendsolid a\n"
     )
     code = """
 import sys, kinegraph

@@ -29,12 +29,17 @@ std::string validUtf8(std::string_view text, std::size_t* replaced, std::string_
   std::string valid;
   valid.reserve(text.size());
   std::size_t count = 0;
+  std::size_t begin = 0;  // of characters that are not copied yet
   for (std::size_t i = 0; i < text.size();) {
     const std::size_t length = characterLength(text.substr(i));
-    valid += length == 0 ? mark : text.substr(i, length);
-    count += length == 0;
+    if (length == 0) {
+      valid.append(text, begin, i - begin).append(mark);
+      begin = i + 1;
+      ++count;
+    }
     i += length == 0 ? 1 : length;
   }
+  valid.append(text, begin);
   if (replaced) *replaced = count;
   return valid;
 }

@@ -65,7 +65,7 @@ const Assimp& assimp() {
 
 AssimpScene readAssimpScene(const std::string& path) {
   AssimpScene scene = import(path);
-  checkFaces(*scene, path);  // which the next steps believe
+  checkFaces(*scene, path);                // which the next steps believe
   const aiScene* whole = scene.release();  // which is released where a step fails
   scene.reset(assimp().aiApplyPostProcessing(whole, aiProcess_Triangulate | aiProcess_JoinIdenticalVertices));
   if (!scene || !scene->mRootNode) throw FileError(cat("mesh file '", path, "' cannot be read: it has no triangles"));

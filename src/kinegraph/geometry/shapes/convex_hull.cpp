@@ -31,15 +31,14 @@ class Qhull {
     std::free(text);
     if (status == qh_ERRnone) return;
     release();
-    throw ValueError(cat("the convex hull of ", points.size(), " points cannot be built: ", said.substr(0, said.find('\n'))));
+    throw ValueError(
+        cat("the convex hull of ", points.size(), " points cannot be built: ", said.substr(0, said.find('\n'))));
   }
   ~Qhull() { release(); }
   Qhull(const Qhull&) = delete;
 
   const qhT* operator->() const { return &qh_; }
-  std::size_t indexOf(const vertexT& vertex) const {
-    return std::size_t(vertex.point - coordinates_[0].data()) / 3;
-  }
+  std::size_t indexOf(const vertexT& vertex) const { return std::size_t(vertex.point - coordinates_[0].data()) / 3; }
 
  private:
   void release() {
