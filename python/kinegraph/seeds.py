@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-import secrets
+import os
 
 from ._core import setDefaultSeed
 
@@ -18,4 +18,4 @@ def rnd_seed(seed: int) -> None:
 
 def rnd_seed_random() -> None:
     """Seeds it with a number that differs in every run."""
-    setDefaultSeed(secrets.randbits(63))
+    setDefaultSeed(int.from_bytes(os.urandom(8), "little") >> 1)  # 63 bits
