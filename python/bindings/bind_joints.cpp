@@ -8,6 +8,7 @@
 #include "docs/joints.h"
 #include "kinegraph/base/errors.h"
 #include "kinegraph/base/text.h"
+#include "kinegraph/scene/motor_limits.h"
 
 namespace kinegraph::python {
 
@@ -46,6 +47,12 @@ void bindJoints(nb::class_<PyConfig>& config) {
       .def(
           "getJointLimits", [](const PyConfig& c) { return toNumpy(c.getJointLimits()); },
           "Lower and upper limits, shape (2, n), rad or m; 0 and -1 for a dof without limits.")
+      .def(
+          "getVelocityLimits", [](const PyConfig& c) { return toNumpy(getVelocityLimits(c)); },
+          "How fast each dof of q may change, shape (n,), rad/s or m/s; inf where nothing is said (ctrl_limits, URDF).")
+      .def(
+          "getEffortLimits", [](const PyConfig& c) { return toNumpy(getEffortLimits(c)); },
+          "The force or torque that may drive each dof of q, shape (n,), N or Nm; inf where nothing is said.")
       .def(
           "selectJoints", [](PyConfig& c, const Names& names, bool not_those) { c.selectJoints(names, not_those); },
           "jointNames"_a, "notThose"_a = false, docs::joints::selectJoints);

@@ -130,6 +130,18 @@ def test_writing_and_reading_again_gives_the_same_robot(arm: Path, tmp_path: Pat
             )
 
 
+def test_velocity_and_effort_limits_are_those_of_the_file(tmp_path: Path) -> None:
+    (tmp_path / "r.urdf").write_text(
+        """<robot name="r"><link name="a"/><link name="b"/><link name="c"/>
+        <joint name="j" type="revolute"><parent link="a"/><child link="b"/><limit lower="-1" upper="1" effort="87" velocity="2.5"/></joint>
+        <joint name="k" type="continuous"><parent link="b"/><child link="c"/></joint></robot>"""
+    )
+    C = ry.Config()
+    C.addFile(tmp_path / "r.urdf")
+    np.testing.assert_array_equal(C.getVelocityLimits(), [2.5, np.inf])
+    np.testing.assert_array_equal(C.getEffortLimits(), [87, np.inf])
+
+
 needs_pinocchio = pytest.mark.skipif(
     importlib.util.find_spec("pinocchio") is None, reason="compares with Pinocchio: pip install pin"
 )

@@ -1,0 +1,59 @@
+#include "kinegraph/scene/motor_limits.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <vector>
+
+namespace kinegraph {
+
+namespace {
+
+enum class Motor { velocity, effort };
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+/// The number as given for the joint of a frame, about its motion scale * q.
+double given(const FrameData& frame, Motor motor) {
+  const Node* node = frame.attributes->find("ctrl_limits");
+  const NumberArray* limits = node ? node->value.as<NumberArray>() : nullptr;
+  const std::size_t place = motor == Motor::velocity ? 0 : 1;
+  const bool said = limits && limits->numbers.size() > place && limits->numbers[place] > 0.;
+  return said ? limits->numbers[place] : kInfinity;
+}
+
+/// Which dofs of a joint are angles or lengths, and not parts of a quaternion or of a point on a circle.
+std::vector<bool> measurable(const Joint& joint) {
+  std::vector<bool> result;
+  for (const MotionStep& step : joint.steps) {
+    const bool one = step.kind == MotionStep::Kind::translate || step.kind == MotionStep::Kind::rotate ||
+                     step.kind == MotionStep::Kind::rotateAbout;
+    result.insert(result.end(), std::size_t(step.dofs()), one);
+  }
+  return result;
+}
+
+VectorXd motorLimits(SceneTree& scene, Motor motor) {
+  const auto program = scene.program();
+  VectorXd limits = VectorXd::Constant(program->dofs, kInfinity);
+  for (const auto& frame : scene.frames()) {
+    if (!frame->moves() || (frame->joint->mimic && motor == Motor::effort)) continue;
+    const Program::DofRange range = program->frame_dofs[dofSource(*frame).id];
+    const double limit = given(*frame, motor), scale = std::abs(motionScale(*frame));
+    const std::vector<bool> dofs = measurable(*frame->joint);
+    if (limit == kInfinity || scale == 0. || range.count != int(dofs.size())) continue;
+    const double of_q = motor == Motor::velocity ? limit / scale : limit * scale;
+    for (int i = 0; i < range.count; ++i) {
+      if (dofs[std::size_t(i)]) limits[range.first + i] = std::min(limits[range.first + i], of_q);
+    }
+  }
+  return limits;
+}
+
+}  // namespace
+
+VectorXd getVelocityLimits(const Config& config) { return motorLimits(*config.scene(), Motor::velocity); }
+
+VectorXd getEffortLimits(const Config& config) { return motorLimits(*config.scene(), Motor::effort); }
+
+}  // namespace kinegraph
