@@ -5,6 +5,7 @@ set -euo pipefail
 cd "$(dirname "$0")/.."
 export KINEGRAPH_HEADLESS=1 CMAKE_BUILD_PARALLEL_LEVEL="${CMAKE_BUILD_PARALLEL_LEVEL:-$(nproc)}"
 export CXX="${CXX:-g++}"  # one name for both builds, so that ccache knows their objects as the same
+export CCACHE_BASEDIR="$PWD"  # and the files that CMake makes of several sources as the same in both
 export PIP_DISABLE_PIP_VERSION_CHECK=1 PIP_QUIET=1
 step() { echo "== $* ($((SECONDS / 60)) min $((SECONDS % 60)) s)"; }
 quietly() { "$@" >build/last.log 2>&1 || { tail -80 build/last.log; exit 1; }; }
