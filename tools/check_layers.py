@@ -18,7 +18,7 @@ from pathlib import Path
 
 SOURCE = Path(__file__).resolve().parent.parent / "src" / "kinegraph"
 
-EVERYTHING = ["base", "math", "geometry", "kinematics", "scene", "formats", "features", "nlp", "solvers", "ik", "komo"]
+EVERYTHING = ["base", "math", "spline", "geometry", "kinematics", "scene", "formats", "features", "nlp", "solvers", "ik", "komo"]
 EVERYTHING += ["planning", "rendering", "viewer", "front"]
 
 BELOW: dict[str, list[str]] = {
@@ -28,6 +28,7 @@ BELOW: dict[str, list[str]] = {
     "geometry/shapes": ["base", "math"],
     "geometry/distance": ["base", "math", "geometry/shapes"],
     "geometry/files": ["base", "math", "geometry/shapes"],
+    "spline": ["base", "math"],
     "nlp": ["base", "math"],
     "solvers/interface": ["base", "math", "nlp"],
     "solvers/problems": ["base", "math", "nlp", "solvers/interface"],

@@ -42,6 +42,7 @@ NB_MODULE(_core, m) {
   bindSkeleton(m);
   bindSolveMany(m);
   bindIk(m);
+  bindSpline(m);
   m.def(
       "parseText",
       [](const std::string& text, const std::string& name) { return Attributes(toDict(kinegraph::parse(text, name))); },

@@ -21,7 +21,6 @@ from kinegraph import test as test
 from . import DataGen, algo, calib, manipulation, nlp, render
 from .not_yet import (
     BotOp,
-    BSpline,
     ControlMode,
     KOMO_ManipulationHelper,
     KOMO_Objective,
@@ -45,7 +44,6 @@ from .results import NLP_Solver, SolverReturn
 __all__ = [
     *kinegraph.__all__,
     "ArgWord",
-    "BSpline",
     "BotOp",
     "ControlMode",
     "DataGen",

@@ -18,9 +18,6 @@ SimulationState = pending("SimulationState", _KINEMATIC)
 StepObservation = pending("StepObservation", _KINEMATIC)
 RRT_PathFinder = PathFinder = pending("RRT_PathFinder", _PATHS)
 SRRT_PathFinder = pending("SRRT_PathFinder", _PATHS)
-BSpline = pending(
-    "BSpline", "C.animateSpline and komo.view_play move along a path; numpy.interp or scipy's BSpline evaluate one"
-)
 LGP_Tool = pending("LGP_Tool", _PLANS)
 LGP_TAMP_Abstraction = pending("LGP_TAMP_Abstraction", _PLANS)
 default_LGP_TAMP_Abstraction = pending("default_LGP_TAMP_Abstraction", _PLANS)

@@ -41,6 +41,7 @@
 #include "kinegraph/solvers/methods.h"            // the methods of NlpSolver
 #include "kinegraph/solvers/nlp_solver.h"         // NlpSolver
 #include "kinegraph/solvers/sampling/sampler.h"   // NlpSampler
+#include "kinegraph/spline/b_spline.h"            // BSpline
 #include "kinegraph/viewer/config_viewer.h"       // the viewer in the browser
 #include "kinegraph/viewer/motions.h"             // motions to show there
 #include "kinegraph/viewer/watch_file.h"          // a scene file shown whenever it changes
