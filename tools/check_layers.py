@@ -18,7 +18,20 @@ from pathlib import Path
 
 SOURCE = Path(__file__).resolve().parent.parent / "src" / "kinegraph"
 
-EVERYTHING = ["base", "math", "spline", "geometry", "kinematics", "scene", "formats", "features", "nlp", "solvers", "ik", "komo"]
+EVERYTHING = [
+    "base",
+    "math",
+    "spline",
+    "geometry",
+    "kinematics",
+    "scene",
+    "formats",
+    "features",
+    "nlp",
+    "solvers",
+    "ik",
+    "komo",
+]
 EVERYTHING += ["planning", "rendering", "viewer", "front"]
 
 BELOW: dict[str, list[str]] = {

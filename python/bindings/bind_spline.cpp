@@ -36,8 +36,8 @@ void bindSpline(nb::module_& m) {
           "setEndVel"_a = nb::list(), kChain, docs::spline::setCtrlPoints)
       .def(
           "set",
-          [](BSpline& s, int degree, const Numbers& given, const Numbers& times, const Numbers& v0,
-             const Numbers& v1) -> BSpline& { return s.set(degree, points(given, 0), times.values, v0.values, v1.values); },
+          [](BSpline& s, int degree, const Numbers& given, const Numbers& times, const Numbers& v0, const Numbers& v1)
+              -> BSpline& { return s.set(degree, points(given, 0), times.values, v0.values, v1.values); },
           "degree"_a, "points"_a, "times"_a, "setStartVel"_a = nb::list(), "setEndVel"_a = nb::list(), kChain,
           docs::spline::set)
       .def(
@@ -53,8 +53,7 @@ void bindSpline(nb::module_& m) {
           },
           "points"_a, "times"_a, "time_cut"_a, kChain, docs::spline::overwriteSmooth)
       .def(
-          "eval",
-          [](const BSpline& s, const Numbers& times, int k) { return toNumpy(s.eval(times.values, k)); },
+          "eval", [](const BSpline& s, const Numbers& times, int k) { return toNumpy(s.eval(times.values, k)); },
           "sampleTimes"_a, "derivative"_a = 0, docs::spline::eval)
       .def(
           "eval3", [](const BSpline& s, double t) { return toNumpy(s.eval3(t)); }, "t"_a, docs::spline::eval3)
@@ -64,8 +63,10 @@ void bindSpline(nb::module_& m) {
             return toNumpy(s.getBmatrix(times.values, start, end));
           },
           "sampleTimes"_a, "startDuplicates"_a = false, "endDuplicates"_a = false, docs::spline::getBmatrix)
-      .def("getKnots", [](const BSpline& s) { return toNumpy(s.getKnots()); }, docs::spline::getKnots)
-      .def("getCtrlPoints", [](const BSpline& s) { return toNumpy(s.getCtrlPoints()); }, docs::spline::getCtrlPoints)
+      .def(
+          "getKnots", [](const BSpline& s) { return toNumpy(s.getKnots()); }, docs::spline::getKnots)
+      .def(
+          "getCtrlPoints", [](const BSpline& s) { return toNumpy(s.getCtrlPoints()); }, docs::spline::getCtrlPoints)
       .def_prop_ro("degree", &BSpline::degree, "0 to 9.")
       .def("__repr__",
            [](const BSpline& s) {

@@ -11,7 +11,9 @@ using namespace kinegraph;
 
 namespace {
 
-VectorXd numbers(const std::vector<double>& values) { return Eigen::Map<const VectorXd>(values.data(), Eigen::Index(values.size())); }
+VectorXd numbers(const std::vector<double>& values) {
+  return Eigen::Map<const VectorXd>(values.data(), Eigen::Index(values.size()));
+}
 
 void expectNear(const MatrixXd& given, const std::vector<double>& expected, double tolerance = 1e-12) {
   ASSERT_EQ(given.size(), Eigen::Index(expected.size()));
@@ -184,7 +186,8 @@ TEST(BSpline, SaysWhatIsWrongAndStaysAsItWas) {
   expectError<ValueError>([&] { spline.set(2, numbers({0, NAN}), two); }, {"not finite"});
   expectError<ValueError>([&] { spline.append(two, numbers({1, .5})); }, {"times[1] = 0.5 is before 1"});
   expectError<ValueError>([&] { spline.append(two, numbers({-1, .5})); }, {"times[0] = -1 is before 0"});
-  expectError<ValueError>([&] { spline.append(MatrixXd::Zero(1, 2), numbers({1})); }, {"points of 2 numbers; expected 1"});
+  expectError<ValueError>([&] { spline.append(MatrixXd::Zero(1, 2), numbers({1})); },
+                          {"points of 2 numbers; expected 1"});
   expectError<ValueError>([&] { spline.overwriteSmooth(two, numbers({1}), 0.); }, {"points"});
   expectError<ValueError>([&] { spline.eval(0., -1); }, {"derivative is -1"});
   expectError<ValueError>([] { BSpline().eval(0.); }, {"no control points yet"});

@@ -37,7 +37,8 @@ Returns:
 Raises:
     ArgumentError: There are no knots, or sizes do not match them.)";
 
-inline constexpr char set[] = R"(Takes points and their times: setKnots and setCtrlPoints in one. On an error nothing changes.
+inline constexpr char set[] =
+    R"(Takes points and their times: setKnots and setCtrlPoints in one. On an error nothing changes.
 
 Args:
     degree: 0 to 9.

@@ -50,7 +50,8 @@ Basis basisAt(const VectorXd& knots, int degree, double t, int derivative) {
 void requireTimes(const VectorXd& times, const char* call, double after) {
   double last = after;
   for (Eigen::Index i = 0; i < times.size(); ++i) {
-    if (!std::isfinite(times[i])) throw ValueError(cat(call, ": times[", i, "] is ", times[i], "; expected a finite time"));
+    if (!std::isfinite(times[i]))
+      throw ValueError(cat(call, ": times[", i, "] is ", times[i], "; expected a finite time"));
     if (times[i] < last)
       throw ValueError(cat(call, ": times[", i, "] = ", times[i], " is before ", last, "; times must not fall"));
     last = times[i];
@@ -122,7 +123,8 @@ BSpline& BSpline::setCtrlPoints(const MatrixXd& points, bool add_start_duplicate
     if (duplicates() == 0) throw ValueError(cat(call, ": a spline of degree ", degree_, " has no ", name, " to set"));
     requireFinite(*velocity, call, name);
   }
-  ctrl_points_ = stacked({points.row(0).replicate(before, 1), points, points.row(points.rows() - 1).replicate(behind, 1)});
+  ctrl_points_ =
+      stacked({points.row(0).replicate(before, 1), points, points.row(points.rows() - 1).replicate(behind, 1)});
   if (start_velocity.size()) moveDuplicates(false, start_velocity);
   if (end_velocity.size()) moveDuplicates(true, end_velocity);
   return *this;
@@ -142,7 +144,8 @@ void BSpline::moveDuplicates(bool at_end, const VectorXd& velocity) {
 BSpline& BSpline::set(int degree, const MatrixXd& points, const VectorXd& times, const VectorXd& start_velocity,
                       const VectorXd& end_velocity) {
   if (points.rows() != times.size())
-    throw ValueError(cat("BSpline::set: ", points.rows(), " points and ", times.size(), " times; expected a time per point"));
+    throw ValueError(
+        cat("BSpline::set: ", points.rows(), " points and ", times.size(), " times; expected a time per point"));
   BSpline made;
   made.setKnots(degree, times).setCtrlPoints(points, true, true, start_velocity, end_velocity);
   *this = std::move(made);
@@ -159,7 +162,8 @@ BSpline& BSpline::append(const MatrixXd& points, const VectorXd& times, bool ins
   requireFinite(points, call, "points");
   requireTimes(times, call, 0.);
   const VectorXd absolute = stacked({repeated(end(), 1), VectorXd(times.array() + end())});
-  if (!(absolute[absolute.size() - 1] > end())) throw ValueError(cat(call, ": the last time is 0; expected a later one"));
+  if (!(absolute[absolute.size() - 1] > end()))
+    throw ValueError(cat(call, ": the last time is 0; expected a later one"));
   if (inside) {
     appendInside(points, absolute);
     return *this;
@@ -182,8 +186,8 @@ void BSpline::appendInside(const MatrixXd& points, const VectorXd& times) {
   if (degree_ % 2 == 0) around[0] = knots_[count - 1];  // the last inner knot
   const VectorXd inner = degree_ % 2 ? VectorXd(times.head(times.size() - 1)) : innerKnots(degree_, around);
   knots_ = stacked({knots_.head(count), inner, repeated(times[times.size() - 1], degree_ + 1)});
-  ctrl_points_ = stacked({ctrl_points_.topRows(kept), ctrl_points_.bottomRows(1), points,
-                          points.bottomRows(1).replicate(m, 1)});
+  ctrl_points_ =
+      stacked({ctrl_points_.topRows(kept), ctrl_points_.bottomRows(1), points, points.bottomRows(1).replicate(m, 1)});
 }
 
 /// The end and its duplicates stay; with so many knots there as it takes for them to be the motion at that time.
@@ -283,7 +287,8 @@ BSpline BSpline::fromParts(int degree, const VectorXd& knots, const MatrixXd& ct
   if (knots.size() > 0 && count < degree + 1)
     throw ValueError(cat(call, ": ", knots.size(), " knots; expected at least ", 2 * degree + 2));
   if (ctrl_points.rows() > 0 && ctrl_points.rows() != count)
-    throw ValueError(cat(call, ": ", ctrl_points.rows(), " control points; expected ", std::max<Eigen::Index>(count, 0)));
+    throw ValueError(
+        cat(call, ": ", ctrl_points.rows(), " control points; expected ", std::max<Eigen::Index>(count, 0)));
   requireFinite(ctrl_points, call, "ctrl_points");
   BSpline spline;
   spline.degree_ = degree;

@@ -66,8 +66,8 @@ class BSpline {
   const MatrixXd& getCtrlPoints() const { return ctrl_points_; }  ///< one row each, duplicates included
   int dimension() const { return int(ctrl_points_.cols()); }      ///< d
   bool isEmpty() const { return ctrl_points_.rows() == 0; }       ///< has no control points yet
-  double start() const;                                           ///< the first knot, s; throws ValueError without knots
-  double end() const;                                             ///< the last one
+  double start() const;  ///< the first knot, s; throws ValueError without knots
+  double end() const;    ///< the last one
 
   /// From what another one had. Throws ValueError if they do not fit.
   static BSpline fromParts(int degree, const VectorXd& knots, const MatrixXd& ctrl_points);
