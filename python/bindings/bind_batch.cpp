@@ -151,7 +151,7 @@ void bindBatch(nb::class_<PyConfig>& config) {
       .def("getDistances", getDistances, "Q"_a, "threads"_a = 1, docs::batch::getDistances)
       .def("getNearestPoints", getNearestPoints, "Q"_a = nb::none(), "threads"_a = 1, docs::batch::getNearestPoints)
       .def("isValid", isValid, "Q"_a, "margin"_a = 0., "threads"_a = 1, docs::batch::isValid)
-      .def("isMotionFree", isMotionFree, "start"_a, "end"_a, "margin"_a = 0., "tolerance"_a = 1e-4, "threads"_a = 1,
+      .def("isMotionFree", isMotionFree, "start"_a, "end"_a, "margin"_a = 0., "tolerance"_a = 1e-5, "threads"_a = 1,
            docs::batch::isMotionFree);
 }
 

@@ -14,6 +14,7 @@ namespace {
 struct Contact {
   double time, distance;
   std::pair<std::string, std::string> frames;
+  std::optional<std::string> limit;
 };
 
 nb::typed<nb::list, nb::str> pairList(const PyConfig& config) {
@@ -38,18 +39,27 @@ std::optional<Contact> checkMotion(const PyConfig& config, const Numbers& start,
                                    double tolerance) {
   const std::optional<MotionContact> contact = config.checkMotion(start.values, end.values, margin, tolerance);
   if (!contact) return std::nullopt;
-  return Contact{
-      contact->time, contact->distance, {config.getFrame(contact->a).getName(), config.getFrame(contact->b).getName()}};
+  Contact told{contact->time,
+               contact->distance,
+               {config.getFrame(contact->a).getName(), config.getFrame(contact->b).getName()},
+               std::nullopt};
+  if (contact->dof >= 0) told.limit = config.getJointNames()[std::size_t(contact->dof)];
+  return told;
 }
 
 }  // namespace
 
 void bindCollisions(nb::module_& m, nb::class_<PyConfig>& config) {
-  nb::class_<Contact>(m, "MotionContact", "Where a motion of q first brings two frames too near.")
+  nb::class_<Contact>(m, "MotionContact",
+                      "Where a motion of q first brings two frames too near, or a joint beyond its limits.")
       .def_ro("time", &Contact::time, "In [0, 1]: 0 is the start of the motion, 1 its end. Until then it is free.")
-      .def_ro("distance", &Contact::distance, "Of the two at that time, m; negative: penetration depth.")
-      .def_ro("frames", &Contact::frames, "Their names.")
+      .def_ro("distance", &Contact::distance,
+              "Of the two at that time, m; negative: penetration depth. Of a limit: what is left to it, rad or m.")
+      .def_ro("frames", &Contact::frames, "Their names; of a limit, twice that of the joint's frame.")
+      .def_ro("limit", &Contact::limit,
+              "The dof that leaves its limits, as getJointNames has it; None where two frames come too near.")
       .def("__repr__", [](const Contact& c) {
+        if (c.limit) return cat("<MotionContact: joint ", *c.limit, " leaves its limits at time ", c.time, ">");
         return cat("<MotionContact: ", c.frames.first, " and ", c.frames.second, " at time ", c.time, ", distance ",
                    c.distance, ">");
       });
@@ -64,7 +74,7 @@ void bindCollisions(nb::module_& m, nb::class_<PyConfig>& config) {
       .def(
           "computeCollisions", [](const PyConfig& c) { c.state(); },
           "Does nothing; older scripts call it. Collisions are always those of the present q.")
-      .def("checkMotion", checkMotion, "start"_a, "end"_a, "margin"_a = 0., "tolerance"_a = 1e-4,
+      .def("checkMotion", checkMotion, "start"_a, "end"_a, "margin"_a = 0., "tolerance"_a = 1e-5,
            docs::collisions::checkMotion);
 }
 

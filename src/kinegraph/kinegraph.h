@@ -27,6 +27,8 @@
 #include "kinegraph/front/own_feature.h"          // functions of frames as features
 #include "kinegraph/front/solve_all.h"            // several problems at once
 #include "kinegraph/ik/solve_ik.h"                // solveIk
+#include "kinegraph/kinematics/edge_check.h"      // EdgeChecker: is a q, is an edge free?
+#include "kinegraph/kinematics/limit_check.h"     // withinLimits
 #include "kinegraph/komo/komo.h"                  // Komo: motion problems
 #include "kinegraph/komo/report.h"                // how well a path does
 #include "kinegraph/nlp/callback_nlp.h"           // problems of your own

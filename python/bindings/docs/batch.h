@@ -69,11 +69,12 @@ Returns:
 Raises:
     ArgumentError: Q has another shape.)";
 
-inline constexpr char isValid[] = R"(Which of N joint vectors are within their limits and free of collisions.
+inline constexpr char isValid[] = R"(Which of N joint vectors are within their limits and free of collisions. A joint may be 1e-5 rad or m beyond a limit, as
+files round. Pairs that no joint moves apart do not count: they say nothing about q.
 
 Args:
     Q: Joint vectors, shape (N, n), rad or m.
-    margin: Distance that all collidable pairs keep, m.
+    margin: Distance that all pairs keep that joints move apart, m.
     threads: How many share the work.
 Returns:
     Shape (N,), bool.
@@ -85,11 +86,11 @@ inline constexpr char isMotionFree[] = R"(checkMotion for N straight motions of 
 Args:
     start: Where they start, shape (N, n), rad or m.
     end: Where they end, shape (N, n), rad or m.
-    margin: Distance that all collidable pairs keep, m.
+    margin: Distance that all pairs keep that joints move apart, m.
     tolerance: Pairs that come within margin + tolerance (m) may count as contacts.
     threads: How many share the work.
 Returns:
-    Shape (N,), bool: True where there is no contact.
+    Shape (N,), bool: True where the motion meets nothing and stays within the limits.
 Raises:
     ArgumentError: start and end have other shapes.)";
 

@@ -21,15 +21,17 @@ Returns:
     The sum of all penetration depths, or the largest, m.)";
 
 inline constexpr char checkMotion[] =
-    R"(Where a straight motion of q first brings two frames too near. All times of the motion count, not only samples of it.
+    R"(Where a straight motion of q first brings two frames too near, or a joint beyond its limits. All times of the motion count,
+not only samples of it. Pairs that no joint moves apart do not count: they say nothing about q. A joint may be 1e-5 rad or m
+beyond a limit.
 
 Args:
     start: q at the start, shape (n,), rad or m.
     end: q at the end, shape (n,), rad or m.
-    margin: Distance that all collidable pairs keep, m.
+    margin: Distance that all pairs keep that joints move apart, m.
     tolerance: A pair that comes within margin + tolerance (m) may be reported as well.
 Returns:
-    The first MotionContact, or None where all pairs keep apart.
+    The first MotionContact, or None where the motion is free.
 Raises:
     ArgumentError: start or end have another size; the margin is not a distance, or the tolerance not positive.)";
 

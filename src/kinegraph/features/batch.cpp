@@ -6,6 +6,7 @@
 #include "kinegraph/base/parallel.h"
 #include "kinegraph/base/text.h"
 #include "kinegraph/kinematics/lane_program.h"
+#include "kinegraph/kinematics/limit_check.h"
 #include "kinegraph/kinematics/motion_check.h"
 
 namespace kinegraph {
@@ -205,14 +206,12 @@ void nearestPoints(const State& scene, const Eigen::Ref<const RowMatrix>& Q, con
 void areValid(const State& scene, const Eigen::Ref<const RowMatrix>& Q, double margin, std::span<bool> valid,
               const BatchOptions& options) {
   checkJoints(scene, Q);
-  const VectorXd &lower = scene.program().lower, &upper = scene.program().upper;
   struct Worker {
     State state;
     NearPairs pairs;
   };
   forEach(Worker{scene, NearPairs(scene.sharedProgram())}, int(Q.rows()), options, [&](Worker& worker, int i) {
-    const auto q = Q.row(i).transpose().array();
-    valid[i] = (q >= lower.array()).all() && (q <= upper.array()).all();
+    valid[i] = withinLimits(scene.program(), Q.row(i).data());
     if (!valid[i]) return;
     worker.state.setJoints(Q.row(i).data());
     worker.pairs.place(worker.state);
@@ -227,7 +226,9 @@ void areMotionsFree(const State& scene, const Eigen::Ref<const RowMatrix>& from,
   if (from.rows() != to.rows()) throw ValueError(cat("motions: ", from.rows(), " starts and ", to.rows(), " ends"));
   if (!(tolerance > 0.)) throw ValueError(cat("motions: tolerance is ", tolerance, "; expected a distance > 0 in m"));
   forEach(MotionChecker(scene), int(from.rows()), options, [&](MotionChecker& checker, int i) {
-    free[i] = !checker.firstContact(from.row(i).data(), to.row(i).data(), margin, tolerance);
+    const double *start = from.row(i).data(), *end = to.row(i).data();
+    free[i] = withinLimits(scene.program(), start) && withinLimits(scene.program(), end) &&
+              !checker.firstContact(start, end, margin, tolerance);
   });
 }
 

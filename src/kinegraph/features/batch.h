@@ -55,12 +55,14 @@ struct NearestRow {
 void nearestPoints(const State& scene, const Eigen::Ref<const RowMatrix>& Q, const NearestRow& first,
                    const BatchOptions& options = {});
 
-/// Per configuration: are all dofs within their limits, and all collidable pairs at least `margin` (m) apart?
+/// Per configuration: are all dofs within their limits (to kLimitTolerance, 1e-5 rad or m), and all pairs that joints move
+/// apart at least `margin` (m) apart?
 void areValid(const State& scene, const Eigen::Ref<const RowMatrix>& Q, double margin, std::span<bool> valid,
               const BatchOptions& options = {});
 
-/// Per straight motion, from a row of `from` to that row of `to`: do all collidable pairs keep `margin` (m) apart, at
-/// all times of it? `tolerance` (m, > 0) as in MotionChecker. Limits are not looked at.
+/// Per straight motion, from a row of `from` to that row of `to`: are all dofs within their limits, as in areValid, and
+/// do all pairs that joints move apart keep `margin` (m) apart, at all times of it? `tolerance` (m, > 0) as in
+/// MotionChecker.
 void areMotionsFree(const State& scene, const Eigen::Ref<const RowMatrix>& from, const Eigen::Ref<const RowMatrix>& to,
                     double margin, double tolerance, std::span<bool> free, const BatchOptions& options = {});
 

@@ -9,10 +9,11 @@ namespace kinegraph {
 
 namespace {
 
-std::vector<std::pair<int, int>> collidablePairs(const Program& program, const std::vector<int>& frames) {
+std::vector<std::pair<int, int>> pairsOf(const Program& program, const std::vector<int>& frames, PairChoice choice) {
   const auto named = [&](int frame) { return std::find(frames.begin(), frames.end(), frame) != frames.end(); };
   std::vector<std::pair<int, int>> pairs;
   for (const auto& pair : program.collidable()) {
+    if (choice == PairChoice::motion && !program.movesApart(pair.first, pair.second)) continue;
     if (frames.empty() || named(pair.first) || named(pair.second)) pairs.push_back(pair);
   }
   return pairs;
@@ -34,17 +35,17 @@ void forNearOf(const BodyPairs& pairs, const State& state, double margin, const 
 
 }  // namespace
 
-CollisionPairs::CollisionPairs(const Program& program, const std::vector<int>& frames, double margin)
+CollisionPairs::CollisionPairs(const Program& program, const std::vector<int>& frames, double margin, PairChoice choice)
     : margin_(margin), moving_bodies_(program, {}) {
-  const std::vector<std::pair<int, int>> pairs = collidablePairs(program, frames);
+  const std::vector<std::pair<int, int>> pairs = pairsOf(program, frames, choice);
   std::vector<std::pair<int, int>> moving;
   for (int pair = 0; pair < int(pairs.size()); ++pair) {
     const auto [a, b] = pairs[std::size_t(pair)];
-    if (program.frame_link[a] == program.frame_link[b]) {
-      fixed_.push_back({pair, a, b});
-    } else {
+    if (program.movesApart(a, b)) {
       moving_.push_back(pair);
       moving.emplace_back(a, b);
+    } else {
+      fixed_.push_back({pair, a, b});
     }
   }
   moving_bodies_ = BodyPairs(program, moving);
@@ -77,8 +78,9 @@ void CollisionPairs::forNear(const State& state, const Visit& visit) const {
             [&](int place, int a, int b, const Proximity& near) { visit(moving_[std::size_t(place)], a, b, near); });
 }
 
-AccumulatedCollisions::AccumulatedCollisions(const std::vector<int>& frames, const Program& program) : frames_(frames) {
-  if (program.contacts.bodies.size() <= NearPairs::kFew) pairs_.emplace(program, frames, 0.);
+AccumulatedCollisions::AccumulatedCollisions(const std::vector<int>& frames, const Program& program, PairChoice choice)
+    : frames_(frames), choice_(choice) {
+  if (program.contacts.bodies.size() <= NearPairs::kFew) pairs_.emplace(program, frames, 0., choice);
 }
 
 std::unique_ptr<NearPairSearch> AccumulatedCollisions::borrow(const State& state) const {
@@ -103,8 +105,10 @@ void AccumulatedCollisions::eval(std::span<const State* const> states, double, E
   }
   std::unique_ptr<NearPairSearch> search = borrow(state);
   search->place(state);
-  for (const NearPairSearch::Near& pair : search->near(0.))
-    add(search->frame(pair.a), search->frame(pair.b), search->proximity(pair));
+  for (const NearPairSearch::Near& pair : search->near(0.)) {
+    const int a = search->frame(pair.a), b = search->frame(pair.b);
+    if (choice_ == PairChoice::scene || state.program().movesApart(a, b)) add(a, b, search->proximity(pair));
+  }
   const std::lock_guard lock(mutex_);
   idle_.push_back(std::move(search));
 }

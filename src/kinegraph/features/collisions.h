@@ -10,12 +10,16 @@
 
 namespace kinegraph {
 
+/// Which collidable pairs a feature looks at: all of a scene, as it is; or those that joints move apart, which are all
+/// that can be asked of q.
+enum class PairChoice { scene, motion };
+
 /// The collidable pairs, or those of them that involve one of given frames, where bodies are few. Pairs that no joint
 /// moves apart are measured once, until the scene changes.
 class CollisionPairs {
  public:
   /// `frames`: empty means all. Pairs count as near below `margin`, m.
-  CollisionPairs(const Program& program, const std::vector<int>& frames, double margin);
+  CollisionPairs(const Program& program, const std::vector<int>& frames, double margin, PairChoice choice);
 
   int size() const { return int(moving_.size() + fixed_.size()); }
 
@@ -50,7 +54,7 @@ class CollisionPairs {
 ///     y = sum max(0, -distance)      1 row, m
 class AccumulatedCollisions final : public Feature {
  public:
-  AccumulatedCollisions(const std::vector<int>& frames, const Program& program);
+  AccumulatedCollisions(const std::vector<int>& frames, const Program& program, PairChoice choice);
 
   int rows() const override { return 1; }
   void eval(std::span<const State* const> states, double tau, Eigen::Ref<VectorXd> y, JacobianRows* J) const override;
@@ -60,6 +64,7 @@ class AccumulatedCollisions final : public Feature {
   std::unique_ptr<NearPairSearch> borrow(const State& state) const;
 
   std::vector<int> frames_;
+  PairChoice choice_;
   std::optional<CollisionPairs> pairs_;  ///< where bodies are few
   mutable std::mutex mutex_;
   mutable std::vector<std::unique_ptr<NearPairSearch>> idle_;
@@ -72,7 +77,8 @@ class PairCollisions final : public Feature {
  public:
   static constexpr double kFar = .1;  ///< m
 
-  PairCollisions(const std::vector<int>& frames, const Program& program) : pairs_(program, frames, kFar) {}
+  PairCollisions(const std::vector<int>& frames, const Program& program, PairChoice choice)
+      : pairs_(program, frames, kFar, choice) {}
 
   int rows() const override { return pairs_.size(); }
   std::optional<double> flatValue() const override { return -kFar; }

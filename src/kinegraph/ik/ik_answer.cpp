@@ -98,6 +98,9 @@ IkResult IkSearch::finish(IkJob& job, bool cancelled, const Stop& stop) {
                   : targetsMet()  ? IkStatus::colliding
                                   : IkStatus::unreached;
   if (!job.feasible) result.message = explain();
+  if (problem_->in_the_way.empty() || result.status == IkStatus::cancelled) return result;
+  if (job.feasible) result.status = IkStatus::colliding;
+  result.message = cat(result.message, result.message.empty() ? "" : "; ", problem_->in_the_way);
   return result;
 }
 

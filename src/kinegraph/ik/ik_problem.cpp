@@ -124,6 +124,7 @@ void IkProblem::chooseVariables() {
 
 void IkProblem::choosePairs() {
   const auto moves = [&](int column) { return variable[program->column_dof[column]] >= 0; };
+  std::vector<std::pair<int, int>> unmoved;
   for (const auto& pair : program->movingPairs()) {
     // Up both chains, from the column that comes last, to the one where they meet.
     int a = program->last_column[program->frame_link[pair.first]],
@@ -133,8 +134,32 @@ void IkProblem::choosePairs() {
       if (moves(later)) break;
       later = program->column_before[later];
     }
-    if (a != b) pairs.push_back(pair);
+    (a != b ? pairs : unmoved).push_back(pair);
   }
+  if (!unmoved.empty()) describeStuck(unmoved);
+}
+
+/// No answer can be free where other joints than the variables hold a pair too near.
+void IkProblem::describeStuck(const std::vector<std::pair<int, int>>& unmoved) {
+  constexpr int kNamed = 3;
+  State state(program, parameters);
+  state.setJoints(q.data());
+  const BodyPairs listed(*program, unmoved);
+  PlacedBodies placed(listed);
+  placed.place(state);
+  std::vector<std::string> reasons;
+  placed.forMaybeNear(options.margin, [&](int pair) {
+    const double distance = placed.proximity(pair).distance;
+    if (distance >= options.margin) return;
+    const auto [a, b] = unmoved[std::size_t(pair)];
+    const std::string how = distance < 0. ? cat("overlap by ", -distance, " m") : cat("are ", distance, " m apart");
+    reasons.push_back(cat("frames '", program->frame_name[a], "' and '", program->frame_name[b], "' ", how));
+  });
+  if (reasons.empty()) return;
+  const std::size_t more = reasons.size() > kNamed ? reasons.size() - kNamed : 0;
+  reasons.resize(reasons.size() - more);
+  in_the_way = cat(join(reasons, "; "), more > 0 ? cat("; and ", more, " more pairs") : "",
+                   "; no joint that moves a target parts them");
 }
 
 void IkProblem::startingPoint(int i, double* x) const {

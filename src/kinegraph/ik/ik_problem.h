@@ -48,10 +48,12 @@ struct IkProblem {
   bool pulls = false;                      ///< the answer is to be brought as near to `nearest` as the targets allow
   std::vector<std::pair<int, int>> pairs;  ///< of frames that the variables move relative to each other
   std::optional<BodyPairs> bodies;         ///< of these pairs
+  std::string in_the_way;                  ///< pairs that collide whatever the variables are, in words; "" if none do
 
  private:
   void chooseVariables();
   void choosePairs();
+  void describeStuck(const std::vector<std::pair<int, int>>& unmoved);
 
   VectorXd draw_lower_, draw_upper_;
   std::vector<std::pair<int, int>> norms_;  ///< first variable and count

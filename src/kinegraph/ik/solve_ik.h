@@ -82,8 +82,8 @@ using IkWatch = std::function<bool(int done)>;
 ///
 /// Damped Gauss-Newton steps on positions and rotation vectors from many starting points: the Config's q, then an
 /// additive (Kronecker) low-discrepancy sequence. An attempt that reaches its targets in collision goes on with the
-/// distances as further rows. Joints that move none of the target frames stay where they are, and pairs that none of
-/// the others move are not looked at. The Config is not changed; the same arguments give the same bits. Throws
+/// distances as further rows. Joints that move none of the target frames stay where they are. The pairs that count
+/// are those that joints move apart; where one that only such joints move is too near, no answer is `solved`. The Config is not changed; the same arguments give the same bits. Throws
 /// FrameNotFound, and ValueError for targets that no active joint moves. Source: Buss, Introduction to inverse
 /// kinematics with Jacobian transpose, pseudoinverse and damped least squares, 2004.
 IkResult solveIk(const Config& config, const std::vector<IkTarget>& targets, const IkOptions& options = {},

@@ -7,27 +7,21 @@
 
 namespace kinegraph {
 
-namespace {
-
-bool manyBodies(const State& scene) { return scene.program().contacts.bodies.size() > NearPairs::kFew; }
-
-}  // namespace
-
 MotionChecker::MotionChecker(const State& scene)
     : state_(scene),
+      many_(scene.program().contacts.bodies.size() > NearPairs::kFew),
       from_(scene.dofs()),
       change_(scene.dofs()),
       q_(scene.dofs()),
       steps_(scene.program().steps.size()) {
   const Program& program = scene.program();
-  if (!manyBodies(scene)) {
-    pairs_.emplace(program, program.collidable());
+  if (!many_) {
+    pairs_.emplace(program, program.movingPairs());
     bodies_.emplace(*pairs_);
     speed_.resize(pairs_->pairs.size());
     due_.reserve(pairs_->pairs.size());
     return;
   }
-  resting_.emplace(scene.sharedProgram());
   std::vector<WorldBox> boxes;
   for (std::size_t i = 0; i < program.contacts.bodies.size(); ++i) {
     const ContactRules::Body& body = program.contacts.bodies[i];
@@ -171,13 +165,13 @@ void MotionChecker::findPairs(double margin) {
 
 MotionContact MotionChecker::contactOf(int pair) const {
   const auto [a, b] = pairs_->pairs[std::size_t(pair)];
-  return {time_, pairs_->frames[std::size_t(a)], pairs_->frames[std::size_t(b)], bodies_->proximity(pair).distance};
+  return {time_, pairs_->frames[std::size_t(a)], pairs_->frames[std::size_t(b)], bodies_->proximity(pair).distance, -1};
 }
 
 std::optional<MotionContact> MotionChecker::firstContact(const double* from, const double* to, double margin,
                                                          double tolerance) {
   const Limits limits{margin, tolerance};
-  return resting_ ? firstInPieces(from, to, limits) : firstInOnePiece(from, to, limits, true);
+  return many_ ? firstInPieces(from, to, limits) : firstInOnePiece(from, to, limits);
 }
 
 /// Among many bodies the motion is cut into pieces, in each of which no body moves far, so that few others are in its
@@ -194,7 +188,7 @@ std::optional<MotionContact> MotionChecker::firstInPieces(const double* from, co
   VectorXd begin = start, end(state_.dofs());
   for (int i = 0; i < pieces; ++i) {
     end = start + double(i + 1) / pieces * change;
-    if (std::optional<MotionContact> contact = firstInOnePiece(begin.data(), end.data(), limits, i == 0)) {
+    if (std::optional<MotionContact> contact = firstInOnePiece(begin.data(), end.data(), limits)) {
       contact->time = (i + contact->time) / pieces;
       return contact;
     }
@@ -203,18 +197,14 @@ std::optional<MotionContact> MotionChecker::firstInPieces(const double* from, co
   return std::nullopt;
 }
 
-/// `begins`: it is the first piece, where pairs that move as one are looked at, too.
-std::optional<MotionContact> MotionChecker::firstInOnePiece(const double* from, const double* to, const Limits& limits,
-                                                            bool begins) {
+std::optional<MotionContact> MotionChecker::firstInOnePiece(const double* from, const double* to,
+                                                            const Limits& limits) {
   setMotion(from, to);
   time_ = -1.;
-  if (resting_) bodies_.reset();  // those of the last motion
+  if (many_) bodies_.reset();  // those of the last motion
   moveTo(0.);
-  if (resting_) findPairs(limits.margin);
+  if (many_) findPairs(limits.margin);
   if (const auto contact = atTheStart(limits)) return contact;
-  if (resting_ && begins) {
-    if (const auto contact = ofResting(limits.margin)) return contact;
-  }
   return due_.empty() ? std::nullopt : advance(limits);
 }
 
@@ -224,21 +214,11 @@ std::optional<MotionContact> MotionChecker::atTheStart(const Limits& limits) {
   due_.clear();
   speed_.resize(pairs_->pairs.size());
   for (int pair = 0; pair < bodies_->pairs(); ++pair) {
-    const double speed = speed_[pair] = relativeSpeed(pair);  // 0 for a pair that moves as one
+    const double speed = speed_[pair] = relativeSpeed(pair);  // 0 where no joint between them moves
     if (!bodies_->mayBeNear(pair, limits.margin + speed)) continue;
     const double now = spare(pair, limits);
     if (now < 0. || (speed > 0. && (now < limits.tolerance || now / speed == 0.))) return contactOf(pair);
     if (now < speed) due_.push_back({now / speed, pair});
-  }
-  return std::nullopt;
-}
-
-/// Of the pairs that move as one, where these are not among `pairs_`.
-std::optional<MotionContact> MotionChecker::ofResting(double margin) {
-  resting_->place(state_);
-  for (const NearPairSearch::Near& near : resting_->near(margin)) {
-    const int a = resting_->frame(near.a), b = resting_->frame(near.b);
-    if (near.distance < margin && state_.link(a) == state_.link(b)) return MotionContact{0., a, b, near.distance};
   }
   return std::nullopt;
 }

@@ -2,15 +2,17 @@
 
 #include <optional>
 
+#include "kinegraph/kinematics/box_tree.h"
 #include "kinegraph/kinematics/near_pairs.h"
 
 namespace kinegraph {
 
-/// The first pair that a motion brings too near.
+/// The first pair that a motion brings too near; or, where limits are looked at, the first dof that leaves them.
 struct MotionContact {
-  double time = 0.;      ///< s in [0, 1]: until then all pairs keep apart
-  int a = 0, b = 0;      ///< frame ids
-  double distance = 0.;  ///< of the pair at `time`, m
+  double time = 0.;      ///< s in [0, 1]: until then the motion is free
+  int a = 0, b = 0;      ///< frame ids; of a limit, both are the joint's
+  double distance = 0.;  ///< of the pair at `time`, m; of a limit: what is left to it, m or rad, negative beyond
+  int dof = -1;          ///< of a limit: the entry of q; else -1
 };
 
 /// Checks straight motions q(s) = (1 - s) from + s to, 0 <= s <= 1, at all times and not just at samples of them.
@@ -23,7 +25,7 @@ struct MotionContact {
 /// Latombe, Adaptive dynamic collision checking for single and multiple articulated robots, 2005.
 class MotionChecker {
  public:
-  /// For the collidable pairs of a scene, of which `scene` is any State.
+  /// For the pairs of a scene that count (Program::movingPairs). `scene` is any State of it.
   explicit MotionChecker(const State& scene);
 
   MotionChecker(const MotionChecker& other) : MotionChecker(other.state_) {}
@@ -61,9 +63,8 @@ class MotionChecker {
   void findPairs(double margin);
 
   std::optional<MotionContact> firstInPieces(const double* from, const double* to, const Limits& limits);
-  std::optional<MotionContact> firstInOnePiece(const double* from, const double* to, const Limits& limits, bool begins);
+  std::optional<MotionContact> firstInOnePiece(const double* from, const double* to, const Limits& limits);
   std::optional<MotionContact> atTheStart(const Limits& limits);
-  std::optional<MotionContact> ofResting(double margin);
   std::optional<MotionContact> advance(const Limits& limits);
   double spare(int pair, const Limits& limits) const { return bodies_->proximity(pair).distance - limits.margin; }
   MotionContact contactOf(int pair) const;
@@ -71,8 +72,7 @@ class MotionChecker {
   State state_;
   std::optional<BodyPairs> pairs_;  ///< where bodies are many, those of the present motion that it can bring together
   std::optional<PlacedBodies> bodies_;
-  std::optional<NearPairSearch>
-      resting_;  ///< where bodies are many: for pairs that move as one, which are then not in `pairs_`
+  bool many_;                        ///< bodies: then `pairs_` are chosen for each motion
   std::vector<int> fixed_, moving_;  ///< where bodies are many: their places in the Program's contacts
   BoxTree fixed_boxes_;
   VectorXd from_, change_, q_;

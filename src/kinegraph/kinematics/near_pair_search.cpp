@@ -151,10 +151,8 @@ const std::vector<NearPairSearch::Near>& NearPairSearch::near(double margin) {
 
 bool NearPairSearch::apart(double margin) {
   bringUpToDate(margin);
-  for (const Near& pair : fixed_near_) {
-    if (pair.distance < margin) return false;
-  }
   const auto tooNear = [&](std::size_t i) {
+    if (bodies_[std::size_t(moving_[i].a)].link == bodies_[std::size_t(moving_[i].b)].link) return false;
     if (!isNear(moving_[i], margin) || !(moving_[i].distance < margin)) return false;
     suspect_ = i;
     return true;

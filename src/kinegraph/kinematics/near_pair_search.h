@@ -32,8 +32,8 @@ class NearPairSearch {
   /// The pairs that are nearer than `margin`, or that near, by frames. They stay until the next question.
   const std::vector<Near>& near(double margin);
 
-  /// Are all pairs at least `margin` apart? Looks no farther than to the first that is nearer, and first at the one
-  /// that was so the last time.
+  /// Are all pairs that joints move apart at least `margin` apart? Looks no farther than to the first that is nearer,
+  /// and first at the one that was so the last time.
   bool apart(double margin);
 
   int frame(int body) const { return bodies_[std::size_t(body)].frame; }

@@ -127,7 +127,8 @@ class NearPairs {
     });
   }
 
-  /// Are all pairs at least `margin` apart? The pair that was too near the last time is looked at first.
+  /// Are all pairs that joints move apart at least `margin` apart? Those that rest relative to each other say nothing
+  /// about q. The pair that was too near the last time is looked at first.
   bool apart(double margin);
 
  private:

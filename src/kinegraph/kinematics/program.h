@@ -68,7 +68,12 @@ struct Program {
   /// All frame pairs (a < b) that may collide, ascending. Listed when first asked for; threads may ask.
   const std::vector<std::pair<int, int>>& collidable() const;
 
-  /// Those whose frames are on different links, so that a motion can bring them together.
+  /// Are two frames on different links, so that a motion can part them or bring them together? Pairs for which it is
+  /// false are as near at every q: they say nothing about q.
+  bool movesApart(int a, int b) const { return frame_link[std::size_t(a)] != frame_link[std::size_t(b)]; }
+
+  /// Those of them that joints move apart, ascending: the pairs that count wherever it is asked whether a q or a motion
+  /// is free.
   std::vector<std::pair<int, int>> movingPairs() const;
 
  private:

@@ -2,6 +2,7 @@
 
 #include "kinegraph/base/errors.h"
 #include "kinegraph/base/text.h"
+#include "kinegraph/features/collisions.h"
 #include "kinegraph/features/joints.h"
 #include "kinegraph/kinematics/dynamics.h"
 #include "kinegraph/komo/path_features.h"
@@ -67,7 +68,8 @@ Made physicsOf(int frame, const Objective& objective, const Path& path, const st
   return std::make_unique<NewtonEuler>(frame, gravity, inertia, forces);
 }
 
-/// Joints and forces are those of the path; other features are as anywhere.
+/// Joints and forces are those of the path, and of collisions only those count that joints part; other features are as
+/// anywhere.
 Made featureIn(const Objective& objective, const Path& path, const std::vector<ContactForce>& forces, int slice) {
   const State& state = path.state(slice);
   Ids ids;
@@ -80,6 +82,10 @@ Made featureIn(const Objective& objective, const Path& path, const std::vector<C
   if (feature == S::totalForce && ids.size() == 1) return std::make_unique<TotalForce>(ids[0], forces);
   if (feature == S::contactConstraints && ids.size() == 2)
     return std::make_unique<TangentialForce>(ids[0], ids[1], forces);
+  if (feature == S::accumulatedCollisions)
+    return std::make_unique<AccumulatedCollisions>(ids, state.program(), PairChoice::motion);
+  if (feature == S::pairCollisions)
+    return std::make_unique<PairCollisions>(ids, state.program(), PairChoice::motion);
   return feature.make(ids, state);
 }
 

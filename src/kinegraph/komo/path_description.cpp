@@ -145,6 +145,7 @@ std::vector<std::string> pathRowDetails(const Path& path, const PathProblem& pro
   std::stable_sort(near.begin(), near.end(), [](const auto& a, const auto& b) { return a.distance < b.distance; });
   std::vector<std::string> pairs;
   for (const Config::NearPair& pair : near) {
+    if (!config.program()->movesApart(pair.a, pair.b)) continue;  // no joint is asked to part them
     const std::string a = config.getFrame(pair.a).getName(), b = config.getFrame(pair.b).getName();
     const auto named = [&](const std::string& name) {
       return std::find(objective.frames.begin(), objective.frames.end(), name) != objective.frames.end();

@@ -1,3 +1,4 @@
+#include "kinegraph/kinematics/limit_check.h"
 #include "kinegraph/scene/config.h"
 
 #include <algorithm>
@@ -384,7 +385,12 @@ std::optional<MotionContact> Config::checkMotion(const VectorXd& from, const Vec
   if (!std::isfinite(margin)) throw ValueError(cat("checkMotion: margin is ", margin, "; expected a distance in m"));
   if (!(tolerance > 0.))
     throw ValueError(cat("checkMotion: tolerance is ", tolerance, "; expected a distance > 0 in m"));
-  return scene_->motionChecker().firstContact(from.data(), to.data(), margin, tolerance);
+  const std::optional<LimitPassed> limit = firstLimitPassed(*scene_->program(), from.data(), to.data());
+  std::optional<MotionContact> contact =
+      scene_->motionChecker().firstContact(from.data(), to.data(), margin, tolerance);
+  if (!limit || (contact && contact->time < limit->time)) return contact;
+  const int frame = frameOfDof(*scene_->program(), limit->dof);
+  return MotionContact{limit->time, frame, frame, -limit->beyond, limit->dof};
 }
 
 std::string Config::report() const {

@@ -145,11 +145,12 @@ class Config {
   /// Sum of the penetration depths of all pairs, or the largest one, in m.
   double getTotalPenetration(bool largest_only = false) const;
 
-  /// The first pair that comes nearer than `margin` (m) on the straight motion of q between two joint vectors, at any
-  /// time of it and not just at samples; none if all pairs keep apart. Pairs within margin + tolerance may count as too
-  /// near. Throws ValueError for joint vectors of a wrong length, and for a tolerance that is not positive.
+  /// What first ends the straight motion of q between two joint vectors: a pair that comes nearer than `margin` (m), at
+  /// any time of it and not just at samples, or a joint that passes its limits (by more than 1e-5 rad or m). None if the
+  /// motion is free. Pairs that no joint moves apart do not count: they say nothing about q. Pairs within margin +
+  /// tolerance may count as too near. Throws ValueError for joint vectors of a wrong length, and for a tolerance that is not positive.
   std::optional<MotionContact> checkMotion(const VectorXd& from, const VectorXd& to, double margin = 0.,
-                                           double tolerance = 1e-4) const;
+                                           double tolerance = 1e-5) const;
 
   // --- what rooms above the scene add: defined in front, all in kinegraph/kinegraph.h -------------------------------
 
