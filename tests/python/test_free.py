@@ -81,7 +81,9 @@ def test_solveIkIsNotSolvedWhereOtherJointsHoldAPairTooNear():
 
 
 def test_limitsHaveATolerance(scene):
-    np.testing.assert_array_equal(scene.isValid([[np.float32(2.0)], [2.0 + 9e-6], [-2.0 - 9e-6], [2.0 + 2e-5]]), [1, 1, 1, 0])
+    np.testing.assert_array_equal(
+        scene.isValid([[np.float32(2.0)], [2.0 + 9e-6], [-2.0 - 9e-6], [2.0 + 2e-5]]), [1, 1, 1, 0]
+    )
     np.testing.assert_array_equal(scene.isMotionFree([[1.5], [1.5]], [[2.0 + 9e-6], [2.1]]), [True, False])
     contact = scene.checkMotion([1.5], [2.5])
     assert contact.limit == "slide" and contact.time == pytest.approx(0.5) and contact.frames == ("slide", "slide")

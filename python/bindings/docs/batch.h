@@ -69,7 +69,8 @@ Returns:
 Raises:
     ArgumentError: Q has another shape.)";
 
-inline constexpr char isValid[] = R"(Which of N joint vectors are within their limits and free of collisions. A joint may be 1e-5 rad or m beyond a limit, as
+inline constexpr char isValid[] =
+    R"(Which of N joint vectors are within their limits and free of collisions. A joint may be 1e-5 rad or m beyond a limit, as
 files round. Pairs that no joint moves apart do not count: they say nothing about q.
 
 Args:

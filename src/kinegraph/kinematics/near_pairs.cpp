@@ -58,8 +58,7 @@ bool NearPairs::apart(double margin) {
   if (search_) return search_->apart(margin);
   const auto tooNear = [&](int pair) {
     const auto [a, b] = program_->collidable()[std::size_t(pair)];
-    return program_->movesApart(a, b) && bodies_->mayBeNear(pair, margin) &&
-           bodies_->proximity(pair).distance < margin;
+    return program_->movesApart(a, b) && bodies_->mayBeNear(pair, margin) && bodies_->proximity(pair).distance < margin;
   };
   if (suspect_ >= 0 && tooNear(suspect_)) return false;
   for (int pair = 0; pair < bodies_->pairs(); ++pair) {

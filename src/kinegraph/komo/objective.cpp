@@ -84,8 +84,7 @@ Made featureIn(const Objective& objective, const Path& path, const std::vector<C
     return std::make_unique<TangentialForce>(ids[0], ids[1], forces);
   if (feature == S::accumulatedCollisions)
     return std::make_unique<AccumulatedCollisions>(ids, state.program(), PairChoice::motion);
-  if (feature == S::pairCollisions)
-    return std::make_unique<PairCollisions>(ids, state.program(), PairChoice::motion);
+  if (feature == S::pairCollisions) return std::make_unique<PairCollisions>(ids, state.program(), PairChoice::motion);
   return feature.make(ids, state);
 }
 

@@ -1,5 +1,5 @@
-#include "kinegraph/kinematics/limit_check.h"
 #include "kinegraph/scene/config.h"
+#include "kinegraph/kinematics/limit_check.h"
 
 #include <algorithm>
 #include <cmath>
