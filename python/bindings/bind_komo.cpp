@@ -236,7 +236,7 @@ void bindKomo(nb::module_& m) {
   bindObjectives(komo);
   bindSwitches(komo);
   bindContacts(komo);
-  bindKomoPath(komo);
+  bindKomoPath(m, komo);
   bindKomoReports(komo);
   bindKomoCopies(komo);
   bindOldConstructors();

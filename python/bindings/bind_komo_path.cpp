@@ -1,4 +1,5 @@
 #include <nanobind/stl/optional.h>
+#include <nanobind/stl/pair.h>
 #include <nanobind/stl/string.h>
 #include <nanobind/stl/vector.h>
 
@@ -6,6 +7,7 @@
 #include "bindings.h"
 #include "defaults.h"
 #include "docs/komo_path.h"
+#include "kinegraph/base/text.h"
 #include "kinegraph/komo/sub_problem.h"
 #include "py_komo.h"
 
@@ -45,6 +47,23 @@ nb::typed<nb::tuple, PyConfig, Array, Array> subProblem(const PyKomo& komo, int 
   return nb::make_tuple(PyConfig{std::move(sub.config), nullptr}, toNumpy(sub.start), toNumpy(sub.end));
 }
 
+std::vector<PathContact> checkMotion(const PyKomo& komo, double margin, double tolerance) {
+  const nb::gil_scoped_release unlock;
+  return komo.checkMotion(margin, tolerance, CheckInterrupts());
+}
+
+void bindPathContact(nb::module_& m) {
+  nb::class_<PathContact>(m, "PathContact", "Two shapes that the motion between two slices brings too near.")
+      .def_ro("slice", &PathContact::slice, "The slice that the motion leads to.")
+      .def_ro("time", &PathContact::time, "Phase time at which they come too near; until then the motion is free.")
+      .def_prop_ro(
+          "frames", [](const PathContact& c) { return std::pair(c.a, c.b); }, "Their names.")
+      .def_ro("distance", &PathContact::distance, "The least one until the slice, m; negative: penetration depth.")
+      .def_ro("deepest", &PathContact::deepest, "Phase time of the least distance.")
+      .def("__str__", &PathContact::str)
+      .def("__repr__", [](const PathContact& c) { return cat("<PathContact: ", c.str(), ">"); });
+}
+
 /// A sequence of vectors, an array with a row per waypoint, or an array of arrays.
 std::vector<int> initWithWaypoints(PyKomo& komo, nb::iterable waypoints, int per_phase, bool interpolate,
                                    double towards_home, int) {
@@ -55,7 +74,8 @@ std::vector<int> initWithWaypoints(PyKomo& komo, nb::iterable waypoints, int per
 
 }  // namespace
 
-void bindKomoPath(nb::class_<PyKomo>& komo) {
+void bindKomoPath(nb::module_& m, nb::class_<PyKomo>& komo) {
+  bindPathContact(m);
   komo.def("getT", &Komo::slices, "The number T of slices.")
       .def(
           "getPath", [](const PyKomo& k, const std::vector<int>& frames) { return toNumpy(k.getPath(frames)); },
@@ -92,6 +112,10 @@ void bindKomoPath(nb::class_<PyKomo>& komo) {
           },
           "t"_a, docs::komo_path::getConfiguration)
       .def("getSubProblem", subProblem, "phase"_a, docs::komo_path::getSubProblem)
+      .def("checkMotion", checkMotion, "margin"_a = 0., "tolerance"_a = 1e-5, docs::komo_path::checkMotion)
+      .def(
+          "isFree", [](const PyKomo& k, double margin) { return checkMotion(k, margin, 1e-5).empty(); },
+          "margin"_a = 0., docs::komo_path::isFree)
       .def("getForceInteractions", forceInteractions, docs::komo_path::getForceInteractions)
       .def(
           "initWithConstant", [](PyKomo& k, const Numbers& q) { k.setConstantPath(q.values); }, "q"_a,

@@ -64,10 +64,31 @@ Explanation explanationOf(const SolverResult& result, double tolerance) {
   return explainInterruptibly(*result.problem, result.x, tolerance);
 }
 
+std::optional<bool> freeOf(const SolverResult& r) {
+  const nb::gil_scoped_release unlock;
+  return r.free(CheckInterrupts());
+}
+
+std::string messageOf(const SolverResult& r) {
+  std::string text;
+  {
+    const nb::gil_scoped_release unlock;
+    text = r.summary(CheckInterrupts());
+  }
+  return inPython(text);
+}
+
+/// What lies between slices: None, or whether that is free, and where not.
+nb::object verdictState(const SolverResult& r) {
+  const std::optional<bool> free = freeOf(r);
+  return free ? nb::object(nb::make_tuple(*free, r.motion->get().message)) : nb::none();
+}
+
 /// All but the problem.
 nb::tuple resultState(const SolverResult& r) {
+  const nb::object verdict = verdictState(r);
   return nb::make_tuple(toNumpy(r.x), toNumpy(r.dual), r.evals, r.time, r.feasible, r.done, r.f, r.sos, r.ineq, r.eq,
-                        r.violation, int(r.status), r.message);
+                        r.violation, int(r.status), r.message, verdict);
 }
 
 SolverResult resultFrom(nb::tuple state) {
@@ -82,6 +103,9 @@ SolverResult resultFrom(nb::tuple state) {
   for (int i = 0; i < 5; ++i) *numbers[i] = nb::cast<double>(state[6 + i]);
   r.status = SolverStatus(nb::cast<int>(state[11]));
   r.message = nb::cast<std::string>(state[12]);
+  if (const nb::object verdict = state[13]; !verdict.is_none())
+    r.motion = std::make_shared<LazyVerdict>(
+        MotionVerdict{nb::cast<bool>(verdict[0]), nb::cast<std::string>(verdict[1])});
   return r;
 }
 
@@ -139,8 +163,12 @@ void bindResult(nb::module_& m) {
       .def_ro("eq", &SolverResult::eq, "Sum of violations of equalities.")
       .def_ro("violation", &SolverResult::violation, "Violation of the worst constraint.")
       .def_ro("status", &SolverResult::status, "Why it stopped.")
-      .def_prop_ro(
-          "message", [](const SolverResult& r) { return inPython(r.message); }, "Why it stopped, in a line.")
+      .def_prop_ro("message", messageOf,
+                   "Why it stopped, in a line; where the constraints hold but the motion is not free, which shapes meet,\n"
+                   "when, and how deep.")
+      .def_prop_ro("free", freeOf,
+                   "Is the motion free of collisions at all times, straight from slice to slice? None where there are no\n"
+                   "constraints on collisions of all shapes, or slices are waypoints, one per phase. Found when first asked.")
       .def(
           "dict",
           [](const SolverResult& r) {

@@ -13,7 +13,7 @@ struct PyKomo : Komo {
 };
 
 /// Its slices: what is in them, and where they start.
-void bindKomoPath(nb::class_<PyKomo>& komo);
+void bindKomoPath(nb::module_& m, nb::class_<PyKomo>& komo);
 
 /// What a KOMO says about itself, in words, numbers and pictures.
 void bindKomoReports(nb::class_<PyKomo>& komo);

@@ -110,4 +110,29 @@ Args:
 Raises:
     ArgumentError: The scene has other frames.)";
 
+inline constexpr char checkMotion[] =
+    R"(Where the motion is not free of collisions. Between slices q goes straight, from the slice before the start on; what
+hangs where is as in the slice that the motion begins in, so that attached objects move along. All times count, and not
+just samples of them.
+
+Args:
+    margin: How near is too near, m.
+    tolerance: Pairs within margin + tolerance may count, m; > 0.
+Returns:
+    A PathContact for each slice that the motion does not reach freely: the first pair to come too near on the way.
+Raises:
+    ArgumentError: A margin or tolerance that makes no sense.
+    Error: There is no path yet.)";
+
+inline constexpr char isFree[] =
+    R"(Whether the motion is free of collisions at all times, straight in q from slice to slice; checkMotion says where not.
+
+Args:
+    margin: How far all pairs keep apart, m.
+Returns:
+    True if no pair comes nearer.
+Raises:
+    ArgumentError: A margin that is not finite.
+    Error: There is no path yet.)";
+
 }  // namespace kinegraph::python::docs::komo_path

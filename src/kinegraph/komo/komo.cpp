@@ -1,5 +1,7 @@
 #include "kinegraph/komo/komo.h"
 
+#include <cmath>
+
 #include "kinegraph/base/errors.h"
 #include "kinegraph/base/text.h"
 #include "kinegraph/komo/contact_forces.h"
@@ -126,6 +128,15 @@ void Komo::addRigidSwitch(double time, const std::string& parent, const std::str
 void Komo::addFrameDof(const std::string& name, const std::string& parent, JointType type, bool stable,
                        const std::string& origin) {
   kinegraph::addFrameDof(motion_.path, {name, parent, type, stable, origin});
+}
+
+std::vector<PathContact> Komo::checkMotion(double margin, double tolerance,
+                                           const std::function<void()>& between) const {
+  path().requireBuilt("checkMotion");
+  if (!std::isfinite(margin)) throw ValueError(cat("checkMotion: margin is ", margin, "; expected a distance in m"));
+  if (!(tolerance > 0.) || !std::isfinite(tolerance))
+    throw ValueError(cat("checkMotion: tolerance is ", tolerance, "; expected a distance > 0 in m"));
+  return contactsOf(motionsOf(path()), margin, tolerance, between);
 }
 
 std::string Komo::addContactForce(const std::vector<double>& times, const std::string& object, const std::string& onto,

@@ -8,6 +8,7 @@
 #include "kinegraph/features/scale.h"
 #include "kinegraph/komo/exchanges.h"
 #include "kinegraph/komo/motion_problem.h"
+#include "kinegraph/komo/path_motion.h"
 #include "kinegraph/komo/path_starts.h"
 #include "kinegraph/nlp/nlp.h"
 
@@ -111,6 +112,17 @@ class Komo {
   MatrixXd getFrameState(int slice) const;                      ///< frames x 7; see Path::framePoses
   Config configuration(int slice) const;                        ///< a copy of the scene as it is in a slice
   void updateRootObjects(const Config& config);                 ///< see Path::updateRootObjects
+
+  // --- the motion from slice to slice: q goes straight, objects that are attached move along; see path_motion.h --------
+
+  /// Where the motion is not free: for each slice that it leads to, the first pair that comes nearer than `margin` (m) on
+  /// the way, at any time and not just at samples of them; pairs within margin + tolerance (m) may count. Throws
+  /// ValueError for a margin that is not finite, and a tolerance that is not positive.
+  std::vector<PathContact> checkMotion(double margin = 0., double tolerance = 1e-5,
+                                       const std::function<void()>& between = {}) const;
+
+  /// Do all pairs keep `margin` (m) apart, at all times?
+  bool isFree(double margin = 0.) const { return checkMotion(margin).empty(); }
 
   // --- where a solver starts; see path_starts.h ----------------------------------------------------------------------
 

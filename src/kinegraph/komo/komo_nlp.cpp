@@ -19,6 +19,37 @@ bool isSumOfOverlaps(const Objective& objective) {
          (objective.type == ObjectiveType::eq || objective.type == ObjectiveType::ineq);
 }
 
+/// Does the objective forbid collisions of all shapes in its slices?
+bool forbidsCollisions(const Objective& objective) {
+  const bool is_constraint = objective.type == ObjectiveType::eq || objective.type == ObjectiveType::ineq ||
+                             objective.type == ObjectiveType::ineqB;
+  const bool is_of_collisions = objective.feature == FeatureSymbol::accumulatedCollisions ||
+                                objective.feature == FeatureSymbol::pairCollisions;
+  return is_constraint && is_of_collisions && objective.order == 0 && objective.frames.empty();
+}
+
+/// The motions between slices in which collisions are forbidden; none where slices are waypoints, one per phase.
+std::vector<SliceMotion> forbiddenMotions(const Path& path, const std::vector<Objective>& objectives) {
+  if (path.grid().slicesPerPhase() == 1) return {};
+  std::vector<char> counts(std::size_t(path.grid().slices()), false);
+  for (const Objective& objective : objectives) {
+    for (int t = objective.from; t <= objective.to && forbidsCollisions(objective); ++t) counts[std::size_t(t)] = true;
+  }
+  std::vector<SliceMotion> motions;
+  for (int t = firstMotion(path); t < path.grid().slices(); ++t) {
+    if (counts[std::size_t(t)] && (t == 0 || counts[std::size_t(t) - 1])) motions.push_back(motionInto(path, t));
+  }
+  return motions;
+}
+
+MotionVerdict judge(const std::vector<SliceMotion>& motions, const std::function<void()>& between) {
+  constexpr double kTolerance = 1e-5;  // m
+  const std::vector<PathContact> contacts = contactsOf(motions, 0., kTolerance, between);
+  if (contacts.empty()) return {};
+  const auto deepest = std::ranges::min_element(contacts, {}, &PathContact::distance);
+  return {false, deepest->str()};
+}
+
 class KomoNlp final : public Nlp {
  public:
   explicit KomoNlp(std::shared_ptr<Komo> komo) : KomoNlp(komo, komo->objectives().all()) {}
@@ -86,6 +117,16 @@ class KomoNlp final : public Nlp {
     }
     separation_.problem = separate;
     return separation_;
+  }
+
+  std::shared_ptr<const LazyVerdict> motionVerdict(const VectorXd& x) override {
+    if (komo_->path().grid().slicesPerPhase() == 1) return nullptr;
+    if (std::ranges::none_of(problem_.objectives(), forbidsCollisions)) return nullptr;
+    komo_->path().setVariables(x);
+    std::vector<SliceMotion> motions = forbiddenMotions(komo_->path(), problem_.objectives());
+    if (motions.empty()) return nullptr;
+    return std::make_shared<LazyVerdict>(
+        [motions = std::move(motions)](const std::function<void()>& between) { return judge(motions, between); });
   }
 
   /// The present path, moved by a little noise so that it is not exactly at a singular posture, within the bounds.

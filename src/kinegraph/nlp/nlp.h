@@ -7,6 +7,7 @@
 
 #include "kinegraph/base/random.h"
 #include "kinegraph/math/pose.h"
+#include "kinegraph/nlp/motion_verdict.h"
 #include "kinegraph/nlp/row_description.h"
 #include "kinegraph/nlp/separation.h"
 
@@ -103,6 +104,13 @@ class Nlp {
 
   /// The form that is easier to solve, if there is one. It shares the state of this problem.
   virtual Separation separation() { return {}; }
+
+  /// For a motion that is to be free of collisions: is it so at all times, at this x? Null for other problems.
+  virtual std::shared_ptr<const LazyVerdict> motionVerdict(const VectorXd&) { return nullptr; }
+
+  /// For constraints that hold at all times of a motion, of which the separate form has some: looks for others that x
+  /// violates, and takes them up. True if there were any; `separation()` is then a new one.
+  virtual bool refine(const VectorXd&) { return false; }
 
   /// Where a solver starts if the user gives no point. Default: uniform in the bounds, [-1, 1] where there are none.
   virtual VectorXd initialPoint(Rng& rng);

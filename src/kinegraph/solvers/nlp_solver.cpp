@@ -195,8 +195,9 @@ SolverResult NlpSolver::solve(bool resample, Rng& rng, const EvaluationHook& hoo
   evals_ += result.evals;
   result.evals = evals_;
   result.problem = problem_;
+  result.motion = problem_->motionVerdict(result.x);
   if (options.verbose > 0)
-    std::printf("==nlp== %s: %s  %s\n", solverStatusName(result.status).c_str(), result.message.c_str(),
+    std::printf("==nlp== %s: %s  %s\n", solverStatusName(result.status).c_str(), result.summary().c_str(),
                 result.str().c_str());
   return result;
 }

@@ -33,6 +33,16 @@ void SolverResult::setSums(const std::vector<ObjectiveType>& types, const Vector
   done = true;
 }
 
+std::optional<bool> SolverResult::free(const std::function<void()>& between) const {
+  if (!motion) return std::nullopt;
+  return motion->get(between).free;
+}
+
+std::string SolverResult::summary(const std::function<void()>& between) const {
+  if (!motion || !feasible || motion->get(between).free) return message;
+  return cat(message, "; the motion is not free: ", motion->get().message);
+}
+
 std::string SolverResult::str() const {
   std::string dimension = x.size() > 0 ? cat(x.size()) : "";
   return cat("{ time: ", time, ", evals: ", evals, ", done: ", int(done), ", feasible: ", int(feasible), ", eq: ", eq,

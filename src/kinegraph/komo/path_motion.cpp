@@ -1,0 +1,150 @@
+#include "kinegraph/komo/path_motion.h"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+#include "kinegraph/base/text.h"
+
+namespace kinegraph {
+
+namespace {
+
+/// The distance of a pair along a motion.
+class PairAlongMotion {
+ public:
+  PairAlongMotion(const SliceMotion& motion, int a, int b)
+      : motion_(motion), a_(a), b_(b), state_(motion.program, motion.parameters) {}
+
+  double at(double s) {
+    q_ = (1. - s) * motion_.from + s * motion_.to;
+    state_.setJoints(q_.data());
+    return proximity(*motion_.program->body[std::size_t(a_)], state_.pose(a_), *motion_.program->body[std::size_t(b_)],
+                     state_.pose(b_))
+        .distance;
+  }
+
+ private:
+  const SliceMotion& motion_;
+  int a_, b_;
+  State state_;
+  VectorXd q_;
+};
+
+/// Where the pair is nearest from `start` on: the best of some samples, and by golden section around it.
+std::pair<double, double> nearest(PairAlongMotion& pair, double start) {
+  constexpr int kSamples = 64, kSections = 25;
+  constexpr double kGolden = .6180339887498949;
+  const double step = (1. - start) / kSamples;
+  double best = start, least = pair.at(start);
+  const auto see = [&](double s) {
+    const double distance = pair.at(s);
+    if (distance < least) {
+      least = distance;
+      best = s;
+    }
+    return distance;
+  };
+  for (int i = 1; i <= kSamples; ++i) see(i == kSamples ? 1. : start + i * step);
+  double low = std::max(best - step, start), high = std::min(best + step, 1.);
+  double left = high - kGolden * (high - low), right = low + kGolden * (high - low);
+  double of_left = see(left), of_right = see(right);
+  for (int i = 0; i < kSections; ++i) {
+    if (of_left < of_right) {
+      high = std::exchange(right, left);
+      of_right = of_left;
+      of_left = see(left = high - kGolden * (high - low));
+    } else {
+      low = std::exchange(left, right);
+      of_left = of_right;
+      of_right = see(right = low + kGolden * (high - low));
+    }
+  }
+  return {best, least};
+}
+
+PathContact describe(const SliceMotion& motion, const MotionContact& contact) {
+  PairAlongMotion pair(motion, contact.a, contact.b);
+  const auto [deepest, distance] = nearest(pair, contact.time);
+  const auto timeOf = [&](double s) { return motion.begin + s * (motion.end - motion.begin); };
+  const std::vector<std::string>& names = motion.program->frame_name;
+  return {motion.slice, timeOf(contact.time), names[std::size_t(contact.a)], names[std::size_t(contact.b)], distance,
+          timeOf(deepest)};
+}
+
+}  // namespace
+
+std::vector<int> sameDofs(const Path& path, int slice) {
+  const Program &before = path.state(slice - 1).program(), &now = path.state(slice).program();
+  std::vector<int> same(std::size_t(before.dofs), -1);
+  const bool one_mode = &before == &now;
+  for (std::size_t frame = 0; frame < before.frame_dofs.size(); ++frame) {
+    const auto [first, count] = before.frame_dofs[frame];
+    const auto [first_now, count_now] = now.frame_dofs[frame];
+    if (count != count_now) continue;
+    const auto joint = [&](int t) {
+      if (path.modes().empty()) return 0;
+      const auto& added = path.mode(t).added;
+      const auto place = added.find(int(frame));
+      return place == added.end() ? 0 : place->second.id;
+    };
+    if (!one_mode && joint(slice - 1) != joint(slice)) continue;
+    for (int i = 0; i < count; ++i) same[std::size_t(first + i)] = first_now + i;
+  }
+  return same;
+}
+
+int firstMotion(const Path& path) { return path.grid().order() > 0 ? 0 : 1; }
+
+SliceMotion motionInto(const Path& path, int slice) {
+  const State &before = path.state(slice - 1), &now = path.state(slice);
+  SliceMotion motion{slice,
+                     path.grid().timeOf(slice - 1),
+                     path.grid().timeOf(slice),
+                     before.sharedProgram(),
+                     before.sharedParameters(),
+                     before.q(),
+                     before.q()};
+  if (&before.program() == &now.program()) {
+    motion.to = now.q();
+    return motion;
+  }
+  const std::vector<int> same = sameDofs(path, slice);
+  for (std::size_t dof = 0; dof < same.size(); ++dof) {
+    if (same[dof] >= 0) motion.to[Eigen::Index(dof)] = now.q()[same[dof]];
+  }
+  return motion;
+}
+
+std::vector<SliceMotion> motionsOf(const Path& path) {
+  std::vector<SliceMotion> motions;
+  for (int slice = firstMotion(path); slice < path.grid().slices(); ++slice)
+    motions.push_back(motionInto(path, slice));
+  return motions;
+}
+
+std::string PathContact::str() const {
+  const double mm = std::round(-1e5 * distance) / 100.;
+  const std::string pair = cat("'", a, "' and '", b, "' ");
+  const std::string how = distance < 0. ? cat("overlap by ", mm, " mm") : cat("come within ", -mm, " mm");
+  return cat(pair, how, " at phase time ", std::round(1e4 * deepest) / 1e4, ", between slices ", slice - 1, " and ",
+             slice);
+}
+
+std::vector<PathContact> contactsOf(const std::vector<SliceMotion>& motions, double margin, double tolerance,
+                                    const std::function<void()>& between) {
+  std::vector<PathContact> contacts;
+  std::optional<MotionChecker> checker;
+  const SliceMotion* scene = nullptr;  // whose it is
+  for (const SliceMotion& motion : motions) {
+    if (between) between();
+    if (!scene || scene->program != motion.program || scene->parameters != motion.parameters)
+      checker.emplace(State(motion.program, motion.parameters));
+    scene = &motion;
+    if (const auto contact = checker->firstContact(motion.from.data(), motion.to.data(), margin, tolerance))
+      contacts.push_back(describe(motion, *contact));
+  }
+  return contacts;
+}
+
+}  // namespace kinegraph
