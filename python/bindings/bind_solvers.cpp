@@ -104,8 +104,8 @@ SolverResult resultFrom(nb::tuple state) {
   r.status = SolverStatus(nb::cast<int>(state[11]));
   r.message = nb::cast<std::string>(state[12]);
   if (const nb::object verdict = state[13]; !verdict.is_none())
-    r.motion = std::make_shared<LazyVerdict>(
-        MotionVerdict{nb::cast<bool>(verdict[0]), nb::cast<std::string>(verdict[1])});
+    r.motion =
+        std::make_shared<LazyVerdict>(MotionVerdict{nb::cast<bool>(verdict[0]), nb::cast<std::string>(verdict[1])});
   return r;
 }
 
@@ -163,12 +163,14 @@ void bindResult(nb::module_& m) {
       .def_ro("eq", &SolverResult::eq, "Sum of violations of equalities.")
       .def_ro("violation", &SolverResult::violation, "Violation of the worst constraint.")
       .def_ro("status", &SolverResult::status, "Why it stopped.")
-      .def_prop_ro("message", messageOf,
-                   "Why it stopped, in a line; where the constraints hold but the motion is not free, which shapes meet,\n"
-                   "when, and how deep.")
-      .def_prop_ro("free", freeOf,
-                   "Is the motion free of collisions at all times, straight from slice to slice? None where there are no\n"
-                   "constraints on collisions of all shapes, or slices are waypoints, one per phase. Found when first asked.")
+      .def_prop_ro(
+          "message", messageOf,
+          "Why it stopped, in a line; where the constraints hold but the motion is not free, which shapes meet,\n"
+          "when, and how deep.")
+      .def_prop_ro(
+          "free", freeOf,
+          "Is the motion free of collisions at all times, straight from slice to slice? None where there are no\n"
+          "constraints on collisions of all shapes, or slices are waypoints, one per phase. Found when first asked.")
       .def(
           "dict",
           [](const SolverResult& r) {

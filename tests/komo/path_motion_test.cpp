@@ -127,7 +127,8 @@ TEST(PathMotion, SwitchesAsTheSliceIsReached) {
 
 namespace {
 
-SolverResult solveAcross(Komo& komo, const std::vector<double>& times = {}, const std::vector<std::string>& frames = {}) {
+SolverResult solveAcross(Komo& komo, const std::vector<double>& times = {},
+                         const std::vector<std::string>& frames = {}) {
   komo.addControlObjective({}, 2, 1.);
   komo.addObjective(times, FeatureSymbol::accumulatedCollisions, frames, ObjectiveType::eq, 10.);
   komo.addObjective({1.}, FeatureSymbol::qItself, {}, ObjectiveType::eq, {}, VectorXd::Constant(1, 1.));

@@ -27,8 +27,6 @@ TEST(LazyVerdict, IsSoughtAnewWhereTheFirstWhoAskedGaveUp) {
   EXPECT_TRUE(verdict.get().free);
 }
 
-TEST(LazyVerdict, MayBeKnownAlready) {
-  EXPECT_FALSE(LazyVerdict(MotionVerdict{false, "known"}).get().free);
-}
+TEST(LazyVerdict, MayBeKnownAlready) { EXPECT_FALSE(LazyVerdict(MotionVerdict{false, "known"}).get().free); }
 
 }  // namespace kinegraph

@@ -1,5 +1,6 @@
 """Motions that are free of collisions at all times: what is told of them."""
 
+import itertools
 import pickle
 
 import numpy as np
@@ -80,7 +81,7 @@ def test_a_panda_is_checked_as_its_configuration_is() -> None:
         komo = ry.KOMO(C, 1, 3, 1, False)
         komo.initWithPath(path)
         rows = np.vstack([C.getJointState(), path])
-        motions = [C.checkMotion(a, b, tolerance=1e-5) for a, b in zip(rows[:-1], rows[1:], strict=True)]
+        motions = [C.checkMotion(a, b, tolerance=1e-5) for a, b in itertools.pairwise(rows)]
         contacts = komo.checkMotion()
         assert [c.slice for c in contacts] == [t for t, m in enumerate(motions) if m]
         for contact, motion in zip(contacts, filter(None, motions), strict=True):

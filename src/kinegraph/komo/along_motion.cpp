@@ -26,8 +26,7 @@ void AlongMotion::place(double s, const State& begin, const State& end) const {
     const double from = begin.q()[Eigen::Index(dof)], to = same_dofs_[dof] < 0 ? from : end.q()[same_dofs_[dof]];
     work.q[Eigen::Index(dof)] = (1. - s) * from + s * to;
   }
-  if (work.state.sharedParameters() != begin.sharedParameters())
-    work.state.replaceParameters(begin.sharedParameters());
+  if (work.state.sharedParameters() != begin.sharedParameters()) work.state.replaceParameters(begin.sharedParameters());
   work.state.setJoints(work.q.data());
 }
 

@@ -23,8 +23,8 @@ bool isSumOfOverlaps(const Objective& objective) {
 bool forbidsCollisions(const Objective& objective) {
   const bool is_constraint = objective.type == ObjectiveType::eq || objective.type == ObjectiveType::ineq ||
                              objective.type == ObjectiveType::ineqB;
-  const bool is_of_collisions = objective.feature == FeatureSymbol::accumulatedCollisions ||
-                                objective.feature == FeatureSymbol::pairCollisions;
+  const bool is_of_collisions =
+      objective.feature == FeatureSymbol::accumulatedCollisions || objective.feature == FeatureSymbol::pairCollisions;
   return is_constraint && is_of_collisions && objective.order == 0 && objective.frames.empty();
 }
 

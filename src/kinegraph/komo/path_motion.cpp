@@ -68,8 +68,8 @@ PathContact describe(const SliceMotion& motion, const MotionContact& contact) {
   const auto [deepest, distance] = nearest(pair, contact.time);
   const auto timeOf = [&](double s) { return motion.begin + s * (motion.end - motion.begin); };
   const std::vector<std::string>& names = motion.program->frame_name;
-  return {motion.slice, timeOf(contact.time), names[std::size_t(contact.a)], names[std::size_t(contact.b)], distance,
-          timeOf(deepest)};
+  return {motion.slice, timeOf(contact.time), names[std::size_t(contact.a)], names[std::size_t(contact.b)],
+          distance,     timeOf(deepest)};
 }
 
 }  // namespace
@@ -118,8 +118,7 @@ SliceMotion motionInto(const Path& path, int slice) {
 
 std::vector<SliceMotion> motionsOf(const Path& path) {
   std::vector<SliceMotion> motions;
-  for (int slice = firstMotion(path); slice < path.grid().slices(); ++slice)
-    motions.push_back(motionInto(path, slice));
+  for (int slice = firstMotion(path); slice < path.grid().slices(); ++slice) motions.push_back(motionInto(path, slice));
   return motions;
 }
 

@@ -14,7 +14,7 @@ namespace kinegraph {
 /// so that a mode switch happens as its slice is reached; joints that end with it keep their values. It shares nothing
 /// with the path, which may change.
 struct SliceMotion {
-  int slice = 0;               ///< where it ends
+  int slice = 0;                ///< where it ends
   double begin = 0., end = 0.;  ///< phase times
   std::shared_ptr<const Program> program;
   std::shared_ptr<const Parameters> parameters;
@@ -34,11 +34,11 @@ std::vector<SliceMotion> motionsOf(const Path& path);
 
 /// Two shapes that the motion between two slices brings too near.
 struct PathContact {
-  int slice = 0;        ///< where that motion ends
-  double time = 0.;     ///< phase time at which they come too near
-  std::string a, b;     ///< names of their frames
+  int slice = 0;         ///< where that motion ends
+  double time = 0.;      ///< phase time at which they come too near
+  std::string a, b;      ///< names of their frames
   double distance = 0.;  ///< the least one until the slice, m; negative: penetration depth
-  double deepest = 0.;  ///< phase time of that
+  double deepest = 0.;   ///< phase time of that
 
   std::string str() const;  ///< "'a' and 'b' overlap by 3.1 mm at phase time 0.52, between slices 7 and 8"
 };

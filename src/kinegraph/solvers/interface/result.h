@@ -29,7 +29,7 @@ struct SolverResult {
   double f = 0., sos = 0., ineq = 0., eq = 0.;  ///< sums at x, as sumErrors
   double violation = 0.;                        ///< of the worst constraint
   SolverStatus status = SolverStatus::stalled;
-  std::string message;           ///< one line: why it stopped
+  std::string message;                        ///< one line: why it stopped
   std::shared_ptr<const LazyVerdict> motion;  ///< of what lies between the slices of a path; null: nothing to say
   std::shared_ptr<Nlp> problem;  ///< what NlpSolver solved, for `explain`; null from the functions that solve
 
