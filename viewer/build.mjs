@@ -1,5 +1,6 @@
 // Bundles the client into one HTML page with nothing to load: dist/index.html.
 import { spawnSync } from "node:child_process";
+import { createHash } from "node:crypto";
 import { mkdirSync, readFileSync, writeFileSync } from "node:fs";
 
 mkdirSync("dist", { recursive: true });
@@ -11,7 +12,14 @@ if (bundle.status !== 0) {
   process.exit(1);
 }
 const script = bundle.stdout.replaceAll("</script", "<\\/script");
+// The page loads nothing, runs no other script than its own, and talks to its own server only.
+const policy = [
+  "default-src 'none'", `script-src 'sha256-${createHash("sha256").update(script).digest("base64")}'`,
+  "style-src 'unsafe-inline'", "img-src data: blob:", "media-src blob:", "connect-src 'self' data: blob:", "base-uri 'none'",
+  "form-action 'none'",
+].join("; ");
 const page = readFileSync("src/index.html", "utf8")
+  .replace("<!-- POLICY -->", () => `<meta http-equiv="Content-Security-Policy" content="${policy}">`)
   .replace("/* STYLE */", () => readFileSync("src/style.css", "utf8"))
   .replace("/* SCRIPT */", () => script);
 writeFileSync("dist/index.html", page);

@@ -89,8 +89,12 @@ std::string pageOf(PyViewer& viewer) {
   return viewer.isOpen() || !viewer.scene ? viewer.recording() : recordedScene(Config(*viewer.scene));
 }
 
-int view(PyConfig& config, bool pause, const std::optional<std::string>& message, bool offscreen) {
+constexpr int kFirstPort = 7000;
+
+int view(PyConfig& config, bool pause, const std::optional<std::string>& message, bool offscreen,
+         const std::optional<std::string>& host, const std::optional<int>& port) {
   const std::shared_ptr<PyViewer> viewer = showIn(config);
+  if (!offscreen && (host || port)) viewer->serveAt(host.value_or("127.0.0.1"), port.value_or(kFirstPort));
   if (!show(*viewer, message, offscreen)) return pause && !offscreen ? kEscape : 0;
   const nb::gil_scoped_release unlock;
   return viewer->view(config, pause, message, interrupted);
@@ -149,6 +153,10 @@ void watch(PyConfig& config, const PathText& file) {
 void bindPage(nb::class_<PyViewer>& viewer) {
   viewer.def_prop_ro("url", &PyViewer::url, "The page's address; starts the viewer if it does not run.")
       .def("isOpen", &PyViewer::isOpen, "True while the viewer runs.")
+      .def("serveAt", &PyViewer::serveAt, "host"_a, "port"_a = kFirstPort, docs::viewer::serveAt)
+      .def(
+          "isPatient", [](PyViewer&) { return isPatient(); },
+          "True at a terminal and over ssh: what waits for people then waits until a first browser has come.")
       .def("clients", &PyViewer::clients, "Number of browsers that are connected.")
       .def(
           "waitForClient",
@@ -180,7 +188,8 @@ void bindPage(nb::class_<PyViewer>& viewer) {
 
 /// What a Config shows.
 void bindViews(nb::class_<PyConfig>& config) {
-  config.def("view", view, "pause"_a = false, "message"_a = nb::none(), "offscreen"_a = false, docs::viewer::view)
+  config.def("view", view, "pause"_a = false, "message"_a = nb::none(), "offscreen"_a = false,
+             nb::kw_only(), "host"_a = nb::none(), "port"_a = nb::none(), docs::viewer::view)
       .def(
           "view_close",
           [](PyConfig& c) {

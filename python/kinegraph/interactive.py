@@ -14,7 +14,7 @@ _MISSED = [0.9, 0.2, 0.2, 0.6]
 _TOLERANCE = 1e-3  # m, rad
 _QUIT = (13, 27, ord("q"))
 _PERIOD = 1 / 60  # s
-_PATIENCE = 5.0  # s without a browser
+_PATIENCE = 5.0  # s without a browser, where nobody may still come
 
 
 def _approach(config: Config, frame: str, target: str, rotation: bool) -> tuple[float, float]:
@@ -36,8 +36,8 @@ def interactiveIk(config: Config, frame: str, target: str = "ik_target", rotatio
     """Lets people drag a target in the browser; the joints follow, so that `frame` comes as near to it as it can.
 
     The target is green while it is reached and red while it is not, and the page says what is missing. It ends with q,
-    Enter or Escape in the browser, with Ctrl-C, or when no browser has been connected for 5 s. Where nobody can drag
-    anything (KINEGRAPH_HEADLESS is set) the joints go to the target once.
+    Enter or Escape in the browser, with Ctrl-C, or when no browser has been connected for 5 s; at a terminal and over
+    ssh it waits for the first one, and has printed where. Where nobody can drag anything (KINEGRAPH_HEADLESS is set) the joints go to the target once.
 
     Args:
         config: The scene; its joint state follows.
@@ -53,6 +53,7 @@ def interactiveIk(config: Config, frame: str, target: str = "ik_target", rotatio
     viewer = config.viewer()
     moved, state = True, ""
     last_seen = time.monotonic()
+    seen = False
     config.view()
     viewer.select(config.getFrame(target).ID)
     while True:
@@ -67,8 +68,9 @@ def interactiveIk(config: Config, frame: str, target: str = "ik_target", rotatio
         if os.environ.get("KINEGRAPH_HEADLESS", "0") not in ("", "0"):
             break
         if viewer.clients() > 0:
-            last_seen = time.monotonic()
-        if key in _QUIT or time.monotonic() - last_seen > _PATIENCE:
+            last_seen, seen = time.monotonic(), True
+        alone = time.monotonic() - last_seen > _PATIENCE and (seen or not viewer.isPatient())
+        if key in _QUIT or alone:
             break
         time.sleep(_PERIOD)
         moved = viewer.hasEdits()

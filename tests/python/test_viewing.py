@@ -32,7 +32,7 @@ class Viewing:
         environment = {
             name: value
             for name, value in os.environ.items()
-            if name not in ("KINEGRAPH_HEADLESS", "DISPLAY", "WAYLAND_DISPLAY")
+            if name not in ("KINEGRAPH_HEADLESS", "DISPLAY", "WAYLAND_DISPLAY", "SSH_CONNECTION")
         }
         self.program = subprocess.Popen(
             [sys.executable, "-c", PROGRAM.replace("{call}", call)],

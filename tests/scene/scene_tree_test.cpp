@@ -223,5 +223,51 @@ TEST(SceneTree, JointStatesAreThoseOfTheActiveJointsInTheOrderOfTheFrames) {
   EXPECT_EQ(dof, q.size());
 }
 
+/// In scenes of few frames as in scenes of many, and where several have one name.
+TEST(SceneTree, ANameFindsTheFirstAndTheLastFrameAfterAnyEdit) {
+  SceneTree scene;
+  Rng rng(8);
+  const auto name = [&] { return cat("n", int(rng.uniform(0., 30.))); };
+  for (int round = 0; round < 600; ++round) {
+    const double what = rng.uniform();
+    if (what < .6 || scene.frames().size() < 2) {
+      scene.add(name(), scene.frames().empty() || rng.uniform() < .3 ? nullptr : &randomFrame(scene, rng));
+    } else if (what < .8) {
+      scene.remove(randomFrame(scene, rng));
+    } else if (what < .95) {
+      scene.rename(randomFrame(scene, rng), name());
+    } else {
+      scene.sortByDepth();
+    }
+    const std::string wanted = name();
+    FrameData *first = nullptr, *last = nullptr;
+    for (const auto& frame : scene.frames()) {
+      if (frame->name != wanted) continue;
+      if (!first) first = frame.get();
+      last = frame.get();
+    }
+    EXPECT_EQ(scene.find(wanted), first);
+    EXPECT_EQ(std::as_const(scene).find(wanted), first);
+    EXPECT_EQ(scene.findLast(wanted), last);
+  }
+  EXPECT_GT(scene.frames().size(), 32u);
+}
+
+TEST(SceneTree, ABuiltSceneIsNotCompiledAtEveryQuestion) {
+  SceneTree scene;
+  FrameData& world = scene.add("world", nullptr);
+  int compiled = 0;
+  const Program* last = nullptr;
+  for (int i = 0; i < 1000; ++i) {
+    FrameData& frame = scene.add(cat("f", i), &world);
+    frame.pose.p.x() = i;
+    scene.posesChanged();
+    for (int k = 0; k < 3; ++k) EXPECT_DOUBLE_EQ(scene.worldPose(frame).p.x(), i);
+    if (scene.compiled() != last) ++compiled;
+    last = scene.compiled();
+  }
+  EXPECT_LT(compiled, 20);
+}
+
 }  // namespace
 }  // namespace kinegraph

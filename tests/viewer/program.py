@@ -16,7 +16,7 @@ class Program:
     """Runs `code` after `import kinegraph as kg`, with KINEGRAPH_HEADLESS and the display taken away."""
 
     def __init__(self, code: str, folder: Path, environment: dict[str, str]) -> None:
-        hidden = ("KINEGRAPH_HEADLESS", "DISPLAY", "WAYLAND_DISPLAY")
+        hidden = ("KINEGRAPH_HEADLESS", "DISPLAY", "WAYLAND_DISPLAY", "SSH_CONNECTION")
         inherited = {name: value for name, value in os.environ.items() if name not in hidden}
         self._process = subprocess.Popen(
             [sys.executable, "-u", "-c", "import kinegraph as kg\n" + code],

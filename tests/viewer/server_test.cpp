@@ -124,14 +124,28 @@ TEST_F(ViewerServerTest, RefusesAForeignHost) {
 }
 
 TEST_F(ViewerServerTest, RefusesAForeignOrigin) {
-  for (const std::string& origin : std::vector<std::string>{"http://example.com", "null", "https://" + host,
+  for (const std::string& origin : std::vector<std::string>{"http://example.com", "null", "https://example.com",
                                                             "http://localhost", "http://localhost:1"}) {
     EXPECT_TRUE(answerTo(port, WebsocketClient::request(host, origin)).starts_with("HTTP/1.1 403 ")) << origin;
     EXPECT_TRUE(answerTo(port, get("/", host, "Origin: " + origin + "\r\n")).starts_with("HTTP/1.1 403 ")) << origin;
   }
-  TcpClient own(port);
-  own.send(WebsocketClient::request(host, "http://" + host));
-  EXPECT_EQ(own.read(12), "HTTP/1.1 101");
+  for (const std::string& own : {"http://" + host, "https://" + host}) {  // https: behind a proxy
+    TcpClient client(port);
+    client.send(WebsocketClient::request(host, own));
+    EXPECT_EQ(client.read(12), "HTTP/1.1 101") << own;
+  }
+}
+
+TEST_F(ViewerServerTest, OnlyPagesOfThisMachineMayFrameIt) {
+  const std::string answer = answerTo(port, get("/", host));
+  EXPECT_NE(answer.find("\r\nContent-Security-Policy: frame-ancestors 'self' http://localhost:*"), std::string::npos);
+  EXPECT_NE(clientPage().find("content=\"default-src 'none'; script-src 'sha256-"), std::string_view::npos);
+}
+
+TEST(ViewerServer, SaysAnAddressThatWorksElsewhere) {
+  ViewerOptions options = anyPort();
+  options.host = "0.0.0.0";
+  EXPECT_FALSE(ViewerServer(options).url().starts_with("http://0.0.0.0"));
 }
 
 TEST_F(ViewerServerTest, APortInUseIsPassedOver) {

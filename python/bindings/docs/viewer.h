@@ -62,14 +62,28 @@ Raises:
 
 inline constexpr char view[] =
     R"(Shows the scene in the browser, in a notebook below the cell. The first call opens a browser if there is a display,
-and prints the page's address. With KINEGRAPH_HEADLESS=1 nothing opens and nothing waits.
+and prints the page's address. With KINEGRAPH_HEADLESS=1 nothing opens, nothing is printed and nothing waits.
 
 Args:
     pause: Waits for a key in the browser, or Enter on the terminal.
     message: Text in the corner of the page.
     offscreen: Opens nothing; viewer().getRgb() and the other pictures do without a browser.
+    host: Address that the page is served at, "127.0.0.1" by default; "0.0.0.0" for browsers on other machines too,
+        which then need the token in the address that is printed.
+    port: First port that is tried; 7000 by default, 0 for any free one.
 Returns:
-    The code of the key pressed since the last call (ord("a"), 13 Enter, 27 Escape ...), or 0.)";
+    The code of the key pressed since the last call (ord("a"), 13 Enter, 27 Escape ...), or 0.
+Raises:
+    ArgumentError: The host is no IP address, or the port is none.)";
+
+inline constexpr char serveAt[] = R"(Serves the page at another address from now on; one that is open elsewhere ends.
+
+Args:
+    host: IP address: "127.0.0.1" for this machine, "0.0.0.0" for browsers on other machines too.
+    port: First port that is tried; 0 for any free one.
+Raises:
+    ArgumentError: The host is no IP address, or the port is none.
+    Error: This machine does not have the address, or no port is free.)";
 
 inline constexpr char set_viewer[] = R"(Shows this scene in the viewer of another one.
 

@@ -31,13 +31,11 @@ Config& Config::operator=(const Config& other) {
 namespace {
 
 /// Names of `added` that `scene` has already, as a warning; empty if there are none.
-std::string duplicatesWarning(const SceneTree& scene, const SceneTree& added, const std::string& prefix,
+std::string duplicatesWarning(SceneTree& scene, const SceneTree& added, const std::string& prefix,
                               std::string_view file) {
-  const std::vector<std::string> names = scene.names();
-  const std::set<std::string> known(names.begin(), names.end());
   std::vector<std::string> twice;
   for (const std::string& name : added.names()) {
-    if (!name.empty() && known.contains(prefix + name)) twice.push_back(prefix + name);
+    if (!name.empty() && scene.find(prefix + name)) twice.push_back(prefix + name);
   }
   if (twice.empty()) return "";
   const std::size_t count = twice.size();

@@ -24,8 +24,7 @@ Frame& Frame::setName(std::string name) {
     throw ValueError(
         cat("frame '", data().name, "' cannot be renamed to '", name, "', which is the name of another frame"));
   }
-  data().name = std::move(name);
-  scene_->structureChanged();
+  scene_->rename(data(), std::move(name));
   return *this;
 }
 

@@ -69,7 +69,6 @@ void SceneBuilder::build(SceneSource& source) {
 }
 
 void SceneBuilder::interpretExisting(FrameData& frame, const SourceFrame& source) {
-  for (const auto& other : scene_.frames()) index(*other);
   frame.attributes.edit() = attributes(source);
   interpret(frame, source);
   resolveMimicShape(frame, source);
@@ -81,6 +80,7 @@ void SceneBuilder::addFrame(SourceFrame& source) {
   modernize(source.node);
   std::string name = source.node.key;
   if (isTuple(source) && name.empty()) name = "|" + source.node.parents[1];
+  const bool is_taken = name != source.prefix && scene_.find(name);
   FrameData& frame = scene_.add(name, nullptr);
   for (const std::string& tag : source.node.tags) {
     Node flag;
@@ -98,25 +98,18 @@ void SceneBuilder::addFrame(SourceFrame& source) {
     diagnostics_.error(source.node.where, cat("frame '", name, "' has ", source.node.parents.size(),
                                               " parents; one, or two for a joint between them, are possible"));
   }
-  if (name != source.prefix && first_.contains(name)) {
+  if (is_taken) {
     diagnostics_.warning(source.node.where,
                          cat("there is a frame named '", name, "' already; names that refer to it find the first"));
   }
-  index(frame);
-}
-
-void SceneBuilder::index(FrameData& frame) {
-  first_.emplace(frame.name, &frame);
-  last_[frame.name] = &frame;
 }
 
 /// The first (or last) frame of that name, or with the prefix that holds where the name stands. If there is none: an
 /// error.
 FrameData* SceneBuilder::find(const std::string& name, const std::string& prefix, const SourcePosition& where,
                               const std::string& role, bool last) {
-  const auto& frames = last ? last_ : first_;
   for (const std::string& candidate : {name, prefix + name}) {
-    if (const auto found = frames.find(candidate); found != frames.end()) return found->second;
+    if (FrameData* found = last ? scene_.findLast(candidate) : scene_.find(candidate)) return found;
   }
   diagnostics_.error(where, cat(role, " '", name, "' is not a frame of this scene",
                                 diagnostics_.flooded() ? "" : similarHint(name, scene_.names())));
@@ -154,7 +147,7 @@ FrameData* SceneBuilder::findParent(const std::string& name, const FrameData& fr
   int back = 0;
   const auto [end, error] = std::from_chars(name.data(), name.data() + name.size(), back);
   const bool counts = error == std::errc{} && end == name.data() + name.size() && back < 0 && back >= -place;
-  if (counts && !first_.contains(name)) return frames_[place + back];
+  if (counts && !scene_.find(name)) return frames_[place + back];
   return find(name, source.prefix, where, cat("parent of '", frame.name, "':"));
 }
 
@@ -163,7 +156,6 @@ FrameData& SceneBuilder::addOrigin(FrameData& joint_frame, const Pose& before) {
   FrameData& origin = scene_.add(joint_frame.name + "_origin", joint_frame.parent);
   origin.pose = before;
   scene_.link(joint_frame, origin);
-  index(origin);
   return origin;
 }
 
@@ -182,7 +174,6 @@ void SceneBuilder::interpret(FrameData& frame, const SourceFrame& source) {
       !behind->isIdentity(0.)) {  // the joint gets a frame of its own, and this one sits behind it
     if (read.readJoint()) {
       FrameData& joint_frame = scene_.add("|" + frame.name, frame.parent);
-      index(joint_frame);
       read.applyJoint(joint_frame);
       if (before && !before->isIdentity(0.)) addOrigin(joint_frame, *before);
       scene_.link(frame, joint_frame);

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <string>
-#include <unordered_map>
 #include <vector>
 
 #include "kinegraph/scene/attributes.h"
@@ -30,7 +29,6 @@ class SceneBuilder {
   }
 
   void addFrame(SourceFrame& source);
-  void index(FrameData& frame);
   FrameData* find(const std::string& name, const std::string& prefix, const SourcePosition& where,
                   const std::string& role, bool last = false);
   void linkToParent(FrameData& frame, const SourceFrame& source, int place);
@@ -48,8 +46,7 @@ class SceneBuilder {
 
   SceneTree& scene_;
   SceneDiagnostics& diagnostics_;
-  std::vector<FrameData*> frames_;                            ///< one per source frame
-  std::unordered_map<std::string, FrameData*> first_, last_;  ///< of a name
+  std::vector<FrameData*> frames_;  ///< one per source frame
 };
 
 }  // namespace kinegraph

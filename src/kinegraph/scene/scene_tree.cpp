@@ -17,6 +17,7 @@ FrameData& SceneTree::add(std::string name, FrameData* parent) {
   frame->id = int(frames_.size());
   frame->tree = this;
   frames_.push_back(frame);
+  if (names_.ready()) names_.append(*frame);
   if (parent) link(*frame, *parent);
   structureChanged();
   return *frame;
@@ -40,6 +41,7 @@ void SceneTree::remove(FrameData& frame) {
   frame.tree = nullptr;
   for (auto later = place + 1; later != frames_.end(); ++later) --(*later)->id;
   frames_.erase(place);
+  names_.forget();
   structureChanged();
 }
 
@@ -52,14 +54,34 @@ void SceneTree::clear() {
     if (frame->joint) frame->joint->mimic = nullptr;
   }
   frames_.clear();
+  names_.forget();
   structureChanged();
 }
 
 FrameData* SceneTree::find(std::string_view name) const {
-  for (const auto& frame : frames_) {
-    if (frame->name == name) return frame.get();
+  if (names_.ready()) return names_.first(name);
+  const auto found = std::ranges::find(frames_, name, [](const auto& frame) -> std::string_view { return frame->name; });
+  return found == frames_.end() ? nullptr : found->get();
+}
+
+FrameData* SceneTree::findLast(std::string_view name) {
+  indexNames();
+  if (names_.ready()) return names_.last(name);
+  for (auto frame = frames_.rbegin(); frame != frames_.rend(); ++frame) {
+    if ((*frame)->name == name) return frame->get();
   }
   return nullptr;
+}
+
+const SceneTree& SceneTree::indexNames() {
+  if (frames_.size() >= kFewFrames && !names_.ready()) names_.build(frames_);
+  return *this;
+}
+
+void SceneTree::rename(FrameData& frame, std::string name) {
+  frame.name = std::move(name);
+  names_.forget();
+  structureChanged();
 }
 
 FrameData& SceneTree::get(std::string_view name, std::string_view who) const {
@@ -94,6 +116,7 @@ void SceneTree::sortByDepth() {
   };
   std::stable_sort(frames_.begin(), frames_.end(), [&](const auto& a, const auto& b) { return depth(a) < depth(b); });
   for (std::size_t i = 0; i < frames_.size(); ++i) frames_[i]->id = int(i);
+  names_.forget();
   structureChanged();
 }
 
@@ -177,6 +200,7 @@ const std::shared_ptr<const Program>& SceneTree::program() {
   if (compiled_revision_ != structure_revision_) {
     program_ = compileProgram(*this);
     compiled_revision_ = structure_revision_;
+    steps_to_parents_ = 0;
     dof_frames_.clear();
     for (const auto& frame : frames_) {
       if (frame->moves() && frame->joint->active && !frame->joint->mimic) dof_frames_.push_back(frame.get());
@@ -254,8 +278,14 @@ MotionChecker& SceneTree::motionChecker() {
 }
 
 Pose SceneTree::worldPose(const FrameData& frame) {
-  if (asked_since_edit_) return Pose(state().pose(frame.id));
+  const bool is_compiled = compiled_revision_ == structure_revision_;
+  const bool pays = is_compiled ? asked_since_edit_ : steps_to_parents_ > kCompileSteps * frames_.size();
+  return pays ? Pose(state().pose(frame.id)) : poseAlongParents(frame);
+}
+
+Pose SceneTree::poseAlongParents(const FrameData& frame) {
   asked_since_edit_ = true;
+  for (const FrameData* above = &frame; above; above = above->parent) ++steps_to_parents_;
   return frame.worldPose();
 }
 

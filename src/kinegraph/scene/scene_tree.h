@@ -9,6 +9,7 @@
 #include "kinegraph/kinematics/near_pairs.h"
 #include "kinegraph/kinematics/state.h"
 #include "kinegraph/scene/frame_data.h"
+#include "kinegraph/scene/name_index.h"
 
 namespace kinegraph {
 
@@ -34,11 +35,15 @@ class SceneTree {
   void remove(FrameData& frame);
   void clear();
 
-  /// The first frame of that name, or null.
+  /// The first frame of that name, or null. Who may edit the scene has its names indexed on the way.
   FrameData* find(std::string_view name) const;
+  FrameData* find(std::string_view name) { return indexNames().find(name); }
+  FrameData* findLast(std::string_view name);
+  void rename(FrameData& frame, std::string name);
 
   /// The first frame of that name. Throws FrameNotFound with similar names; `who` is the call that asks.
   FrameData& get(std::string_view name, std::string_view who) const;
+  FrameData& get(std::string_view name, std::string_view who) { return indexNames().get(name, who); }
   std::vector<std::string> names() const;
 
   /// Links `frame` below `parent` keeping its relative pose. Throws ValueError if that closes a loop.
@@ -83,6 +88,9 @@ class SceneTree {
 
   std::uint64_t structureRevision() const { return structure_revision_; }
 
+  /// What was compiled last, of this structure or an earlier one; null if nothing was.
+  const Program* compiled() const { return program_.get(); }
+
   /// Compiled on demand and shared until the structure changes.
   const std::shared_ptr<const Program>& program();
   const std::shared_ptr<const Parameters>& parameters();
@@ -93,8 +101,9 @@ class SceneTree {
 
   MotionChecker& motionChecker();
 
-  /// World pose of a frame. The first question after an edit is answered along the parents, so that scenes can be built
-  /// frame by frame without compiling them at every step; those that follow are answered by the State.
+  /// World pose of a frame. The first question after an edit of poses, and many after one of the structure, are answered
+  /// along the parents, so that scenes can be built frame by frame without compiling them at every step; those that
+  /// follow are answered by the State.
   Pose worldPose(const FrameData& frame);
 
   VectorXd jointState();
@@ -116,11 +125,18 @@ class SceneTree {
     }
   };
 
+  static constexpr std::size_t kFewFrames = 32;    ///< found by looking at all
+  static constexpr std::size_t kCompileSteps = 16;  ///< a frame takes as long to compile as so many steps to a parent
+
+  const SceneTree& indexNames();
+  Pose poseAlongParents(const FrameData& frame);
   void moveInParameters();
   void bringUpToDate(Snapshot& snapshot) const;
   void gatherJointState(double* q) const;
 
   std::vector<std::shared_ptr<FrameData>> frames_;
+  NameIndex names_;
+  std::size_t steps_to_parents_ = 0;  ///< since the structure was compiled
   std::uint64_t structure_revision_ = 1, compiled_revision_ = 0, looks_revision_ = 0;
   bool poses_stale_ = true, q_stale_ = true, bodies_stale_ = true, asked_since_edit_ = false;
   std::vector<const FrameData*> moved_;  ///< since the parameters were collected

@@ -15,6 +15,10 @@ bool isLoopbackName(std::string_view host) {
   return name == "localhost" || name == "127.0.0.1" || name == "[::1]";
 }
 
+bool isPageOf(std::string_view host, std::string_view origin) {
+  return origin == cat("http://", host) || origin == cat("https://", host);
+}
+
 /// In a time that does not tell how much of them is the same.
 bool isSame(std::string_view a, std::string_view b) {
   if (a.size() != b.size()) return false;
@@ -25,10 +29,19 @@ bool isSame(std::string_view a, std::string_view b) {
 
 }  // namespace
 
-bool Access::allows(std::string_view host, std::string_view origin, std::string_view target) const {
-  if (loopback_only && !isLoopbackName(host)) return false;
-  if (!origin.empty() && origin != cat("http://", host)) return false;
-  return token.empty() || isSame(target.substr(std::min(target.find('?'), target.size())), cat("?token=", token));
+bool Access::allows(const RequestedAccess& request) const {
+  if (loopback_only && token.empty() && !isLoopbackName(request.host)) return false;
+  if (!request.origin.empty() && !isPageOf(request.host, request.origin) &&
+      (request.forwarded_host.empty() || !isPageOf(request.forwarded_host, request.origin))) {
+    return false;
+  }
+  const std::string_view query = request.target.substr(std::min(request.target.find('?'), request.target.size()));
+  return token.empty() || isSame(query, cat("?token=", token));
+}
+
+std::string_view framePolicy() {
+  return "frame-ancestors 'self' http://localhost:* https://localhost:* http://127.0.0.1:* https://127.0.0.1:* "
+         "vscode-webview:";
 }
 
 std::string randomToken() {

@@ -5,8 +5,33 @@
 
 #include <chrono>
 #include <cstdio>
+#include <cstdlib>
+#include <utility>
+
+#include "kinegraph/base/text.h"
 
 namespace kinegraph {
+
+namespace {
+
+bool isOverSsh() { return std::getenv("SSH_CONNECTION") != nullptr; }
+
+/// Says where the page is.
+void announce(const ViewerServer& server) {
+  const std::string url = server.url();
+  constexpr std::string_view kLocal = "http://localhost:";
+  std::string hint;
+  if (isOverSsh() && url.starts_with(kLocal)) {
+    const std::string port = url.substr(kLocal.size(), url.find('/', kLocal.size()) - kLocal.size());
+    hint = cat(" (on your own machine, after: ssh -L ", port, ":localhost:", port, " and the name of this machine)");
+  }
+  std::printf("Viewer: %s%s\n", url.c_str(), hint.c_str());
+  std::fflush(stdout);
+}
+
+}  // namespace
+
+bool isPatient() { return isatty(STDIN_FILENO) || isOverSsh(); }
 
 ViewerServer& ConfigViewer::server() {
   if (server_ && !server_->isOurs()) server_.reset();
@@ -14,11 +39,25 @@ ViewerServer& ConfigViewer::server() {
     server_ = std::make_unique<ViewerServer>(options_);
     server_->onCommand([edits = edits_](const Command& command) { return edits->apply(command); });
     server_->setMessage(message());
-    std::printf("Viewer: %s\n", server_->url().c_str());
-    std::fflush(stdout);
+    if (!isHeadless()) announce(*server_);
     openBrowser(server_->url());
   }
   return *server_;
+}
+
+void ConfigViewer::serveAt(const std::string& host, int port) {
+  if (server_ && server_->isOurs() && options_.host == host && options_.port == port) return;
+  ViewerOptions options = options_;
+  options.host = host;
+  options.port = port;
+  const ViewerOptions before = std::exchange(options_, std::move(options));
+  server_.reset();
+  try {
+    server();
+  } catch (...) {
+    options_ = before;
+    throw;
+  }
 }
 
 void ConfigViewer::setTitle(const std::string& text) {
@@ -107,8 +146,8 @@ int ConfigViewer::ask(const std::optional<std::string>& message, const Stop& sto
 
 int ConfigViewer::waitKey(const std::string& prompt, const Stop& stop) {
   constexpr auto kPatience = std::chrono::seconds(5);  // a page that is loaded again is back sooner
-  const bool terminal = isatty(STDIN_FILENO);
-  if (terminal) {
+  const bool patient = isPatient();
+  if (isatty(STDIN_FILENO)) {
     std::printf("%s (in the browser, or Enter here)\n", prompt.c_str());
     std::fflush(stdout);
   }
@@ -120,7 +159,7 @@ int ConfigViewer::waitKey(const std::string& prompt, const Stop& stop) {
       last_seen = now;
       seen = true;
     }
-    return (entered = enterWasPressed()) || ((!terminal || seen) && now - last_seen > kPatience) || stop();
+    return (entered = enterWasPressed()) || ((!patient || seen) && now - last_seen > kPatience) || stop();
   });
   return entered ? 13 : key;
 }

@@ -20,7 +20,7 @@ class ConfigViewer {
   /// Takes over what people have changed in browsers (see `takeEdits`), and shows the configuration as it is then.
   /// Returns the key pressed since the last call, or 0. With `pause`, waits for a new key: in the browser, or Enter on
   /// the terminal. Nothing waits where KINEGRAPH_HEADLESS is set, or for more than 5 s in which no browser is
-  /// connected; at a terminal, though, for as long as none has been there.
+  /// connected; at a terminal or over ssh, though, for as long as none has been there.
   int view(Config& config, bool pause, const std::optional<std::string>& message, const Stop& stop);
 
   /// Shows a message, and waits for a key with `pause`, as view does. Changes nothing else.
@@ -60,6 +60,10 @@ class ConfigViewer {
 
   ViewerServer& server();
 
+  /// Serves the page at this address from now on: "0.0.0.0" for browsers on other machines, which then need the token
+  /// that is part of `url()`. A page that runs elsewhere ends. Throws ValueError for an address that cannot be.
+  void serveAt(const std::string& host, int port);
+
   /// With false, nothing waits for people from now on, as with KINEGRAPH_HEADLESS; pages are shown all the same.
   void setWaits(bool waits) { waits_ = waits; }
   bool waits() const { return waits_ && !isHeadless(); }
@@ -78,6 +82,9 @@ class ConfigViewer {
   SceneItems items_;
   std::shared_ptr<SceneEdits> edits_ = std::make_shared<SceneEdits>();
 };
+
+/// True if somebody may still come: at a terminal, or over ssh, where the port is to be forwarded first.
+bool isPatient();
 
 /// True if Enter was pressed on the terminal since the last call.
 bool enterWasPressed();

@@ -142,7 +142,10 @@ void PageConnection::start() {
 
 void PageConnection::answer() {
   HttpRequest request = parser_.release();
-  const bool trusted = access_.allows(request[http::field::host], request[http::field::origin], request.target());
+  const bool trusted = access_.allows({.host = request[http::field::host],
+                                       .forwarded_host = request["X-Forwarded-Host"],
+                                       .origin = request[http::field::origin],
+                                       .target = request.target()});
   const std::string_view path = std::string_view(request.target()).substr(0, request.target().find('?'));
   if (trusted && beast::websocket::is_upgrade(request)) {
     stream_.expires_never();
@@ -153,6 +156,8 @@ void PageConnection::answer() {
   response_.set(http::field::server, "kinegraph");
   response_.set(http::field::cache_control, "no-store");
   response_.set("X-Content-Type-Options", "nosniff");
+  response_.set("Referrer-Policy", "no-referrer");  // addresses may carry a token
+  response_.set("Content-Security-Policy", framePolicy());  // what the page may load is said in the page itself
   response_.keep_alive(false);
   if (!trusted) {
     response_.result(http::status::forbidden);
@@ -171,6 +176,28 @@ void PageConnection::answer() {
   });
 }
 
+/// What browsers elsewhere call this machine, if it listens on all of its addresses: the address that packets to the
+/// outside would have (none is sent), else the machine's name.
+std::string nameElsewhere(const asio::ip::address& listening) {
+  if (!listening.is_unspecified()) return listening.to_string();
+  asio::io_context context;
+  beast::error_code error;
+  asio::ip::udp::socket socket(context);
+  const asio::ip::address outside = asio::ip::make_address(listening.is_v6() ? "2001:db8::1" : "192.0.2.1");
+  socket.open(listening.is_v6() ? asio::ip::udp::v6() : asio::ip::udp::v4(), error);
+  if (!error) socket.connect({outside, 9}, error);
+  if (!error) return socket.local_endpoint().address().to_string();
+  const std::string name = asio::ip::host_name(error);
+  return error || name.empty() ? "localhost" : name;
+}
+
+/// As it stands in an address of a page.
+std::string hostInUrl(const asio::ip::address& listening) {
+  if (listening.is_loopback()) return "localhost";
+  const std::string name = nameElsewhere(listening);
+  return name.find(':') == name.npos ? name : cat("[", name, "]");
+}
+
 }  // namespace
 
 class WebServer::Impl {
@@ -187,8 +214,7 @@ class WebServer::Impl {
     access_.loopback_only = address.is_loopback();
     access_.token = options.token.empty() && !access_.loopback_only ? randomToken() : options.token;
     listen(address, options.port);
-    url_ =
-        cat("http://", access_.loopback_only ? "localhost" : options.host, ":", acceptor_.local_endpoint().port(), "/");
+    url_ = cat("http://", hostInUrl(address), ":", acceptor_.local_endpoint().port(), "/");
     if (!access_.token.empty()) url_ += "?token=" + access_.token;
     accept();
     thread_ = std::thread([this] { context_.run(); });
