@@ -239,7 +239,8 @@ print('key', key)
 
 
 def test_over_ssh_view_waits_for_the_first_browser_and_says_where(browser: Browser, start: Start) -> None:
-    program = start("print('key', kg.Config().view(True, 'who is there?'))", SSH_CONNECTION="192.0.2.1 5 192.0.2.2 22")
+    code = "C = kg.Config()\nC.addFrame('here')\nprint('key', C.view(True, 'who is there?'))"
+    program = start(code, SSH_CONNECTION="192.0.2.1 5 192.0.2.2 22")
     url, hint = program.line("Viewer:").split(" ", 1)
     assert f"ssh -L {url.split(':')[-1].strip('/')}:localhost:" in hint
     time.sleep(6)  # longer than anybody is waited for without ssh
