@@ -188,8 +188,9 @@ void bindPage(nb::class_<PyViewer>& viewer) {
 
 /// What a Config shows.
 void bindViews(nb::class_<PyConfig>& config) {
-  config.def("view", view, "pause"_a = false, "message"_a = nb::none(), "offscreen"_a = false,
-             nb::kw_only(), "host"_a = nb::none(), "port"_a = nb::none(), docs::viewer::view)
+  config
+      .def("view", view, "pause"_a = false, "message"_a = nb::none(), "offscreen"_a = false, nb::kw_only(),
+           "host"_a = nb::none(), "port"_a = nb::none(), docs::viewer::view)
       .def(
           "view_close",
           [](PyConfig& c) {

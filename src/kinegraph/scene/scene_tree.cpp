@@ -60,7 +60,8 @@ void SceneTree::clear() {
 
 FrameData* SceneTree::find(std::string_view name) const {
   if (names_.ready()) return names_.first(name);
-  const auto found = std::ranges::find(frames_, name, [](const auto& frame) -> std::string_view { return frame->name; });
+  const auto found =
+      std::ranges::find(frames_, name, [](const auto& frame) -> std::string_view { return frame->name; });
   return found == frames_.end() ? nullptr : found->get();
 }
 

@@ -125,7 +125,7 @@ class SceneTree {
     }
   };
 
-  static constexpr std::size_t kFewFrames = 32;    ///< found by looking at all
+  static constexpr std::size_t kFewFrames = 32;     ///< found by looking at all
   static constexpr std::size_t kCompileSteps = 16;  ///< a frame takes as long to compile as so many steps to a parent
 
   const SceneTree& indexNames();

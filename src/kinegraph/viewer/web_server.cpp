@@ -156,7 +156,7 @@ void PageConnection::answer() {
   response_.set(http::field::server, "kinegraph");
   response_.set(http::field::cache_control, "no-store");
   response_.set("X-Content-Type-Options", "nosniff");
-  response_.set("Referrer-Policy", "no-referrer");  // addresses may carry a token
+  response_.set("Referrer-Policy", "no-referrer");          // addresses may carry a token
   response_.set("Content-Security-Policy", framePolicy());  // what the page may load is said in the page itself
   response_.keep_alive(false);
   if (!trusted) {
