@@ -32,7 +32,7 @@ EVERYTHING = [
     "ik",
     "komo",
 ]
-EVERYTHING += ["planning", "rendering", "viewer", "front"]
+EVERYTHING += ["planning", "rendering", "simulation", "viewer", "front"]
 
 BELOW: dict[str, list[str]] = {
     "base": [],
@@ -59,6 +59,7 @@ BELOW: dict[str, list[str]] = {
     "komo": ["base", "math", "geometry", "kinematics", "scene", "features", "nlp"],
     "planning": ["base", "math", "geometry", "kinematics", "scene", "features", "nlp", "komo", "solvers"],
     "rendering": ["base", "math", "gfile", "geometry", "kinematics", "scene"],
+    "simulation": ["base", "math", "gfile", "geometry", "kinematics", "scene", "spline", "rendering"],
     "viewer": ["base", "math", "gfile", "geometry", "kinematics", "scene", "formats"],
     "front": EVERYTHING,
     ".": EVERYTHING,

@@ -3,4 +3,5 @@
 
 Include: <panda_arm.g>
 Include: <panda_hand.g>
+Include: <panda_hand_masses.g>
 Include: <panda_tight_collision.g>

@@ -8,6 +8,7 @@
 #include "kinegraph/gfile/parser.h"
 #include "nlp_objects.h"
 #include "scene_values.h"
+#include "simulation_objects.h"
 
 using namespace kinegraph::python;
 using namespace nanobind::literals;
@@ -43,6 +44,7 @@ NB_MODULE(_core, m) {
   bindSolveMany(m);
   bindIk(m);
   bindSpline(m);
+  bindSimulation(m);
   m.def(
       "parseText",
       [](const std::string& text, const std::string& name) { return Attributes(toDict(kinegraph::parse(text, name))); },

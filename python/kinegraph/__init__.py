@@ -24,6 +24,7 @@ from ._core import (
     CameraViewSensor,
     Config,
     ConfigurationViewer,
+    ControlMode,
     Feature,
     Frame,
     FrameView,
@@ -39,6 +40,10 @@ from ._core import (
     NLP_SolverOptions,
     OptMethod,
     PathContact,
+    Simulation,
+    SimulationEngine,
+    SimulationOptions,
+    SimulationState,
     Skeleton,
     SolverReturn,
     SolverReturns,
@@ -102,7 +107,7 @@ def compiled() -> str:
     return f"kinegraph {__version__}"
 
 
-teach(FS, JT, OT, ST, SY, ArgWord)
+teach(FS, JT, OT, ST, SY, ArgWord, ControlMode, SimulationEngine)
 teach(OptMethod, earlier=_OPT_METHODS)
 _addEarlierMethods()
 NLP_SolverID = OptMethod  # as scripts of earlier years call it
@@ -123,6 +128,7 @@ __all__ = [
     "CameraViewSensor",
     "Config",
     "ConfigurationViewer",
+    "ControlMode",
     "Error",
     "Feature",
     "FileError",
@@ -151,6 +157,10 @@ __all__ = [
     "ParseError",
     "PathContact",
     "Quaternion",
+    "Simulation",
+    "SimulationEngine",
+    "SimulationOptions",
+    "SimulationState",
     "Skeleton",
     "SolverReturn",
     "SolverReturns",

@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-import enum
-
 import kinegraph
 
 from .pending import pending
@@ -13,8 +11,6 @@ _PATHS = "KOMO finds paths (komo.solveFromMany from several starts), and C.check
 _PLANS = "Skeleton and KOMO solve a plan whose symbols are given"
 
 BotOp = pending("BotOp", _KINEMATIC)
-Simulation = pending("Simulation", _KINEMATIC)
-SimulationState = pending("SimulationState", _KINEMATIC)
 StepObservation = pending("StepObservation", _KINEMATIC)
 RRT_PathFinder = PathFinder = pending("RRT_PathFinder", _PATHS)
 SRRT_PathFinder = pending("SRRT_PathFinder", _PATHS)
@@ -28,24 +24,6 @@ KOMO_ManipulationHelper = pending(
     "KOMO_ManipulationHelper", "KOMO with addModeSwitch and addObjective states the same problems; see docs/motion.md"
 )
 MujocoLoader = pending("MujocoLoader", "C.addFile('scene.xml') reads MJCF files")
-
-
-class ControlMode(enum.IntEnum):
-    """How commands of BotOp and Simulation are meant."""
-
-    none = 0
-    position = 1
-    velocity = 2
-    acceleration = 3
-    spline = 5
-
-
-class SimulationEngine(enum.IntEnum):
-    """What steps a Simulation."""
-
-    physx = 1
-    bullet = 2
-    kinematic = 3
 
 
 class arg:

@@ -39,6 +39,7 @@
 #include "kinegraph/rendering/depth_image.h"      // points of a depth image
 #include "kinegraph/scene/config.h"               // Config, Frame
 #include "kinegraph/scene/motor_limits.h"         // getVelocityLimits, getEffortLimits
+#include "kinegraph/simulation/simulation.h"      // Simulation
 #include "kinegraph/solvers/explanation.h"        // why constraints do not hold
 #include "kinegraph/solvers/methods.h"            // the methods of NlpSolver
 #include "kinegraph/solvers/nlp_solver.h"         // NlpSolver

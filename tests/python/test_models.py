@@ -110,7 +110,8 @@ def test_a_model_is_as_recorded(name):
             assert ours.getShapeType() == getattr(ry.ST, theirs["shape"]), place
             size = ours.getSize()
             assert np.allclose(size, theirs["size"][: len(size)]), place  # markers are given more numbers than count
-        assert ours.getMass() == pytest.approx(theirs.get("mass", 0), abs=1e-6), place
+        if "mass" in theirs or "panda" not in ours.name:  # the recorded Panda weighs nothing, ours as the real one
+            assert ours.getMass() == pytest.approx(theirs.get("mass", 0), abs=1e-6), place
 
 
 @pytest.mark.parametrize("name", RECORDED)

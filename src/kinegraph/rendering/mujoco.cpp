@@ -1,5 +1,7 @@
 #include "kinegraph/rendering/mujoco.h"
 
+#include <mutex>
+
 #include "kinegraph/base/dynamic_library.h"
 #include "kinegraph/base/errors.h"
 #include "kinegraph/base/text.h"
@@ -9,7 +11,19 @@ namespace kinegraph {
 namespace {
 
 void throwErrors(const mjLogMessage* message) {
-  if (message->level == mjLOG_ERROR) throw Error(cat("MuJoCo's renderer: ", message->subject));
+  if (message->level == mjLOG_ERROR) throw Error(cat("MuJoCo: ", message->subject));
+}
+
+/// MuJoCo has one handler for all threads: the first that asks sets ours, the last one takes it back.
+struct HandlerUse {
+  std::mutex mutex;
+  int users = 0;
+  mjfLogHandler before = nullptr;
+};
+
+HandlerUse& handlerUse() {
+  static HandlerUse use;
+  return use;
 }
 
 Mujoco loadMujoco() {
@@ -44,14 +58,23 @@ const Mujoco& mujoco() {
   return functions;
 }
 
-MujocoErrors::MujocoErrors() : before_(mujoco().mju_setLogHandler(throwErrors)) {}
-MujocoErrors::~MujocoErrors() { mujoco().mju_setLogHandler(before_); }
+MujocoErrors::MujocoErrors() {
+  HandlerUse& use = handlerUse();
+  const std::lock_guard lock(use.mutex);
+  if (use.users++ == 0) use.before = mujoco().mju_setLogHandler(throwErrors);
+}
+
+MujocoErrors::~MujocoErrors() {
+  HandlerUse& use = handlerUse();
+  const std::lock_guard lock(use.mutex);
+  if (--use.users == 0) mujoco().mju_setLogHandler(use.before);
+}
 
 MujocoModel emptyModel() {
   const Mujoco& mj = mujoco();
   const std::unique_ptr<mjSpec, decltype(mj.mj_deleteSpec)> spec(mj.mj_makeSpec(), mj.mj_deleteSpec);
   MujocoModel model(mj.mj_compile(spec.get(), nullptr), mj.mj_deleteModel);
-  if (!model) throw Error(cat("MuJoCo's renderer: ", mj.mjs_getError(spec.get())));
+  if (!model) throw Error(cat("MuJoCo: ", mj.mjs_getError(spec.get())));
   return model;
 }
 

@@ -33,16 +33,14 @@ struct Mujoco {
 /// the library, if it is missing.
 const Mujoco& mujoco();
 
-/// While it lives, errors of MuJoCo are thrown as Error instead of ending the process, and warnings write no log file.
+/// While one lives, errors of MuJoCo are thrown as Error instead of ending the process, and warnings write no log file.
+/// Threads may have one each.
 class MujocoErrors {
  public:
   MujocoErrors();
   ~MujocoErrors();
   MujocoErrors(const MujocoErrors&) = delete;
   MujocoErrors& operator=(const MujocoErrors&) = delete;
-
- private:
-  mjfLogHandler before_;
 };
 
 using MujocoModel = std::unique_ptr<mjModel, decltype(&mj_deleteModel)>;

@@ -1,0 +1,316 @@
+#include <nanobind/stl/string.h>
+#include <nanobind/stl/vector.h>
+
+#include "arguments.h"
+#include "bindings.h"
+#include "docs/simulation.h"
+#include "kinegraph/base/errors.h"
+#include "kinegraph/base/text.h"
+#include "kinegraph/simulation/simulation.h"
+#include "option_class.h"
+#include "simulation_objects.h"
+
+namespace kinegraph::python {
+
+namespace {
+
+/// What Python calls a Simulation; it keeps the Config's object, and so its viewer, alive.
+struct PySimulation {
+  nb::object config;
+  Simulation simulation;
+  int verbose = 0;
+};
+
+const OptionClass<SimulationOptions>& simulationOptions() {
+  static const OptionClass<SimulationOptions> options(simulationOptionTable());
+  return options;
+}
+
+void warn(PySimulation& s) {
+  for (const std::string& warning : s.simulation.takeWarnings()) emitWarning(warning);
+}
+
+/// The defaults, with what scripts of the reference set by `params_add`.
+SimulationOptions startOptions() {
+  const nb::object set = nb::module_::import_("kinegraph.compatibility.parameters").attr("params_get")();
+  SimulationOptions options;
+  options.friction = nb::cast<double>(set.attr("get")("physx/defaultFriction", options.friction));
+  return options;
+}
+
+void make(PySimulation* self, nb::object config, SimulationEngine engine, int verbose, nb::handle options) {
+  if (!nb::isinstance<PyConfig>(config)) throw nb::type_error("Simulation: expected a Config");
+  SimulationOptions chosen = startOptions();
+  if (nb::isinstance<SimulationOptions>(options)) {
+    chosen = nb::cast<const SimulationOptions&>(options);
+  } else if (nb::isinstance<nb::dict>(options)) {
+    simulationOptions().setFields(chosen, nb::cast<nb::dict>(options));
+  } else if (!options.is_none()) {
+    throw nb::type_error("Simulation: options: expected SimulationOptions or a dict");
+  }
+  Simulation made(nb::cast<PyConfig&>(config), engine, chosen);
+  new (self) PySimulation{std::move(config), std::move(made), verbose};
+  warn(*self);
+}
+
+constexpr double kLong = .1;  ///< s of simulated time: from here on Ctrl-C is looked for
+
+void step(PySimulation& s, const Numbers& u, double tau, ControlMode mode) {
+  s.simulation.update();
+  warn(s);
+  {
+    const nb::gil_scoped_release unlock;
+    CheckInterrupts check;
+    std::function<void()> between;
+    if (tau > kLong) between = [&] { check(); };
+    s.simulation.advance(u.values, tau, mode, between);
+  }
+  s.simulation.publish();
+}
+
+void multiStep(PySimulation& s, double tau_step, double tau_sim) {
+  s.simulation.update();
+  CheckInterrupts check;
+  s.simulation.multi_step(tau_step, tau_sim, [&] { check(); });
+}
+
+/// Velocities as scripts have them: (F, 2, 3).
+Array velocityArray(const MatrixXd& velocities) {
+  const NewArray made = newArray(std::size_t(velocities.rows()), 2, 3);
+  for (long i = 0; i < velocities.rows(); ++i) {
+    for (long k = 0; k < 6; ++k) made.data[6 * i + k] = velocities(i, k);
+  }
+  return made.array;
+}
+
+MatrixXd velocityMatrix(const Numbers& given, const char* what) {
+  if (given.values.size() % 6 != 0)
+    throw ValueError(cat(what, " has ", given.values.size(), " numbers; expected shape (F, 2, 3)"));
+  return Eigen::Map<const Eigen::Matrix<double, Eigen::Dynamic, 6, Eigen::RowMajor>>(given.values.data(),
+                                                                                     given.values.size() / 6, 6);
+}
+
+nb::typed<nb::list, nb::dict> contacts(const PySimulation& s) {
+  nb::list found;
+  for (const Contact& contact : s.simulation.getContacts()) {
+    nb::dict each;
+    each["frames"] = nb::make_tuple(contact.frame_a, contact.frame_b);
+    each["position"] = toNumpy(VectorXd(contact.position));
+    each["normal"] = toNumpy(VectorXd(contact.normal));
+    each["distance"] = contact.distance;
+    each["force"] = toNumpy(VectorXd(contact.force));
+    found.append(each);
+  }
+  return nb::typed<nb::list, nb::dict>(found);
+}
+
+std::string name(const PySimulation& s, const FrameArgument& frame) {
+  return toFrame(nb::cast<PyConfig&>(s.config), frame).getName();
+}
+
+Vector3d vector3(const Numbers& given, const char* what) {
+  if (given.values.size() != 3) throw ValueError(cat(what, " has ", given.values.size(), " numbers; expected 3"));
+  return given.values;
+}
+
+void bindState(nb::module_& m) {
+  using State = SimulationState;
+  nb::class_<State>(m, "SimulationState", docs::simulation::state)
+      .def_rw("time", &State::time, "s.")
+      .def_prop_rw(
+          "q", [](const State& s) { return toNumpy(s.q); }, [](State& s, const Numbers& q) { s.q = q.values; },
+          "Joint state, (n,).")
+      .def_prop_rw(
+          "qDot", [](const State& s) { return toNumpy(s.qDot); }, [](State& s, const Numbers& q) { s.qDot = q.values; },
+          "Its velocity, (n,).")
+      .def_prop_rw(
+          "freePos", [](const State& s) { return toNumpy(s.freePos); },
+          [](State& s, const Numbers& p) { s.freePos = p.matrix(); },
+          "World poses of the free frames, (F, 7): x y z (m) qw qx qy qz.")
+      .def_prop_rw(
+          "freeVel", [](const State& s) { return velocityArray(s.freeVel); },
+          [](State& s, const Numbers& v) { s.freeVel = velocityMatrix(v, "freeVel"); },
+          "Their velocities, (F, 2, 3): linear (m/s) and angular (rad/s), world.")
+      .def("__eq__", [](const State& a, nb::handle b) { return nb::isinstance<State>(b) && a == nb::cast<const State&>(b); },
+           "other"_a)
+      .def("__repr__",
+           [](const State& s) {
+             return cat("<SimulationState at ", s.time, " s: ", s.q.size(), " joint values, ", s.freePos.rows(),
+                        " free frames>");
+           })
+      .def("__getstate__",
+           [](const State& s) {
+             return nb::make_tuple(s.time, toNumpy(s.q), toNumpy(s.qDot), toNumpy(s.freePos), velocityArray(s.freeVel),
+                                   nb::bytes(s.remainder.data(), s.remainder.size()));
+           })
+      .def("__setstate__", [](State& s, const nb::tuple& parts) {
+        const auto rest = nb::cast<nb::bytes>(parts[5]);
+        const auto poses = nb::cast<Numbers>(parts[3]);
+        new (&s) State{nb::cast<double>(parts[0]),
+                       nb::cast<Numbers>(parts[1]).values,
+                       nb::cast<Numbers>(parts[2]).values,
+                       poses.values.size() ? poses.matrix() : MatrixXd(0, 7),
+                       velocityMatrix(nb::cast<Numbers>(parts[4]), "freeVel"),
+                       std::string(rest.c_str(), rest.size())};
+      });
+}
+
+void bindMeasuring(nb::class_<PySimulation>& simulation) {
+  using S = PySimulation;
+  simulation.def("getContacts", contacts, docs::simulation::getContacts)
+      .def(
+          "getJointTorques", [](const S& s) { return toNumpy(s.simulation.getJointTorques()); },
+          docs::simulation::getJointTorques)
+      .def(
+          "getExternalTorques", [](const S& s) { return toNumpy(s.simulation.getExternalTorques()); },
+          docs::simulation::getExternalTorques)
+      .def(
+          "addForceTorqueSensor",
+          [](S& s, const FrameArgument& frame) { s.simulation.addForceTorqueSensor(name(s, frame)); }, "frame"_a,
+          docs::simulation::addForceTorqueSensor)
+      .def(
+          "getForceTorque",
+          [](const S& s, const FrameArgument& f) { return toNumpy(VectorXd(s.simulation.getForceTorque(name(s, f)))); },
+          "frame"_a, docs::simulation::getForceTorque)
+      .def(
+          "addAccelerometer", [](S& s, const FrameArgument& f) { s.simulation.addAccelerometer(name(s, f)); }, "frame"_a,
+          docs::simulation::addAccelerometer)
+      .def(
+          "getAcceleration",
+          [](const S& s, const FrameArgument& f) { return toNumpy(VectorXd(s.simulation.getAcceleration(name(s, f)))); },
+          "frame"_a, docs::simulation::getAcceleration)
+      .def(
+          "perturb",
+          [](S& s, const FrameArgument& frame, const Numbers& force, const Numbers& torque, const Numbers& point) {
+            std::optional<Vector3d> at;
+            if (point.values.size() > 0) at = vector3(point, "Simulation.perturb: point");
+            s.simulation.perturb(name(s, frame), vector3(force, "Simulation.perturb: force"),
+                                 torque.values.size() ? vector3(torque, "Simulation.perturb: torque") : Vector3d::Zero(), at);
+          },
+          "frame"_a, "force"_a, "torque"_a = nb::list(), "point"_a = nb::list(), docs::simulation::perturb)
+      .def(
+          "clearPerturbations", [](S& s) { s.simulation.clearPerturbations(); }, docs::simulation::clearPerturbations);
+}
+
+void bindGrippers(nb::class_<PySimulation>& simulation) {
+  using S = PySimulation;
+  simulation
+      .def(
+          "moveGripper",
+          [](S& s, const FrameArgument& f, double width, double speed) {
+            s.simulation.moveGripper(name(s, f), width, speed);
+          },
+          "gripperFrameName"_a, "width"_a, "speed"_a = .3, docs::simulation::moveGripper)
+      .def(
+          "closeGripper",
+          [](S& s, const FrameArgument& f, double width, double speed, double force) {
+            s.simulation.closeGripper(name(s, f), width, speed, force);
+          },
+          "gripperFrameName"_a, "width"_a = 0., "speed"_a = .3, "force"_a = 20., docs::simulation::closeGripper)
+      .def(
+          "gripperIsDone", [](const S& s, const FrameArgument& f) { return s.simulation.gripperIsDone(name(s, f)); },
+          "gripperFrameName"_a, docs::simulation::gripperIsDone)
+      .def(
+          "getGripperWidth", [](const S& s, const FrameArgument& f) { return s.simulation.getGripperWidth(name(s, f)); },
+          "gripperFrameName"_a, docs::simulation::getGripperWidth)
+      .def(
+          "attach",
+          [](S& s, const FrameArgument& a, const FrameArgument& b) { s.simulation.attach(name(s, a), name(s, b)); },
+          "frm"_a, "to"_a, docs::simulation::attach)
+      .def(
+          "detach",
+          [](S& s, const FrameArgument& a, const FrameArgument& b) { s.simulation.detach(name(s, a), name(s, b)); },
+          "frm"_a, "to"_a, docs::simulation::detach);
+}
+
+void bindSplines(nb::class_<PySimulation>& simulation) {
+  using S = PySimulation;
+  simulation
+      .def(
+          "setSplineRef",
+          [](S& s, const Numbers& path, const Numbers& times, bool append) {
+            s.simulation.setSplineRef(path.matrix(), times.values, append);
+          },
+          "path"_a, "times"_a, "append"_a = true, docs::simulation::setSplineRef)
+      .def(
+          "getTimeToSplineEnd", [](const S& s) { return s.simulation.getTimeToSplineEnd(); },
+          docs::simulation::getTimeToSplineEnd)
+      .def(
+          "resetSplineRef", [](S& s, double time) { s.simulation.resetSplineRef(time); }, "ctrl_time"_a = -1.,
+          docs::simulation::resetSplineRef)
+      .def("multi_step", multiStep, "tau_step"_a, "tau_sim"_a = .01, docs::simulation::multi_step);
+}
+
+}  // namespace
+
+void bindSimulation(nb::module_& m) {
+  using S = PySimulation;
+  nb::enum_<SimulationEngine>(m, "SimulationEngine", nb::is_arithmetic(), "What steps a Simulation.")
+      .value("physx", SimulationEngine::physx, "Rigid bodies with contacts: MuJoCo, under the name that scripts know.")
+      .value("bullet", SimulationEngine::bullet, "Refused.")
+      .value("kinematic", SimulationEngine::kinematic, "Joints follow their references exactly, nothing else moves.");
+  nb::enum_<ControlMode>(m, "ControlMode", nb::is_arithmetic(), "How commands of Simulation and BotOp are meant.")
+      .value("none", ControlMode::none, "No vector: motors keep their targets.")
+      .value("position", ControlMode::position, "q at the end of the step.")
+      .value("velocity", ControlMode::velocity, "dq/dt.")
+      .value("acceleration", ControlMode::acceleration, "Of the reference.")
+      .value("positionVelocity", ControlMode::positionVelocity, "q and dq/dt at the end of the step, (2n,).")
+      .value("spline", ControlMode::spline, "No vector: along the spline.")
+      .value("torque", ControlMode::torque, "N m or N.");
+  nb::class_<SimulationOptions> options(m, "SimulationOptions",
+                                        "Settings of a Simulation; every field can be given by name.");
+  simulationOptions().bind(options, "SimulationOptions", startOptions);
+  bindState(m);
+
+  nb::class_<PySimulation> simulation(m, "Simulation", docs::simulation::type);
+  simulation
+      .def("__init__", make, "C"_a, "engine"_a = SimulationEngine::physx, "verbose"_a = 2, "options"_a = nb::none(),
+           nb::sig("def __init__(self, C: Config, engine: SimulationEngine = SimulationEngine.physx, verbose: int = 2, "
+                   "options: SimulationOptions | dict | None = None) -> None"),
+           docs::simulation::make)
+      .def("step", step, "u_control"_a = nb::list(), "tau"_a = .01, "u_mode"_a = ControlMode::none,
+           docs::simulation::step)
+      .def(
+          "get_t", [](const S& s) { return s.simulation.get_t(); }, "Simulated time, s.")
+      .def(
+          "get_q", [](const S& s) { return toNumpy(s.simulation.get_q()); }, "Joint state, (n,).")
+      .def(
+          "get_qDot", [](const S& s) { return toNumpy(s.simulation.get_qDot()); }, "Velocity of the joint state, (n,).")
+      .def(
+          "get_qRef", [](const S& s) { return toNumpy(s.simulation.getReference()); },
+          "The joint state that the motors want, (n,).")
+      .def(
+          "resetTime", [](S& s, double time) { s.simulation.resetTime(time); }, "time"_a = 0., docs::simulation::resetTime)
+      .def(
+          "getFreeFrames", [](const S& s) { return s.simulation.getFreeFrames(); }, docs::simulation::getFreeFrames)
+      .def(
+          "get_frameVelocities", [](const S& s) { return velocityArray(s.simulation.get_frameVelocities()); },
+          docs::simulation::get_frameVelocities)
+      .def(
+          "getState", [](const S& s) { return s.simulation.getState(); }, docs::simulation::getState)
+      .def(
+          "setState", [](S& s, const SimulationState& state) { s.simulation.setState(state); }, "state"_a,
+          docs::simulation::setState)
+      .def(
+          "pushConfigToSim",
+          [](S& s, const Numbers& frames, const Numbers& joints) {
+            s.simulation.pushConfigToSim(frames.values.size()
+                                             ? velocityMatrix(frames, "Simulation.pushConfigToSim: frameVelocities")
+                                             : MatrixXd(),
+                                         joints.values);
+            warn(s);
+          },
+          "frameVelocities"_a = nb::list(), "jointVelocities"_a = nb::list(), docs::simulation::pushConfigToSim)
+      .def(
+          "setVerbose", [](S& s, int verbose) { s.verbose = verbose; }, "verbose"_a, docs::simulation::setVerbose)
+      .def("__repr__", [](const S& s) {
+        return cat("<Simulation at ", s.simulation.get_t(), " s: ", s.simulation.config().getFrameDimension(),
+                   " frames, of which ", s.simulation.getFreeFrames().size(), " are free>");
+      });
+  simulation.def_prop_ro("options", [](const S& s) { return s.simulation.options(); }, "A copy of its settings.");
+  bindSplines(simulation);
+  bindGrippers(simulation);
+  bindMeasuring(simulation);
+}
+
+}  // namespace kinegraph::python

@@ -1,0 +1,29 @@
+#pragma once
+
+#include <mujoco/mujoco.h>
+
+namespace kinegraph {
+
+// clang-format off
+#define KINEGRAPH_PHYSICS_FUNCTIONS(X) \
+  X(mj_makeSpec) X(mj_deleteSpec) X(mj_compile) X(mj_copyModel) X(mj_deleteModel) X(mj_makeData) X(mj_copyData) \
+  X(mj_deleteData) X(mj_forward) X(mj_checkPos) X(mj_checkVel) X(mj_fwdPosition) X(mj_comVel) X(mj_sensorPos) \
+  X(mj_fwdVelocity) X(mj_sensorVel) X(mj_step2) X(mj_mulM) X(mj_setConst) X(mj_stateSize) X(mj_getState) \
+  X(mj_setState) X(mj_contactForce) X(mj_applyFT) X(mj_kinematics) X(mjs_getError) X(mjs_findBody) X(mjs_addBody) \
+  X(mjs_addJoint) X(mjs_addFreeJoint) X(mjs_addGeom) X(mjs_addSite) X(mjs_addMesh) X(mjs_addActuator) \
+  X(mjs_addTendon) X(mjs_wrapJoint) X(mjs_addEquality) X(mjs_addExclude) X(mjs_addPair) X(mjs_addSensor) X(mjs_setName) \
+  X(mjs_setString) X(mjs_setFloat) X(mjs_getId)
+// clang-format on
+
+/// The functions of MuJoCo that steps need, by their own names.
+struct Physics {
+#define KINEGRAPH_MEMBER(name) decltype(&::name) name;
+  KINEGRAPH_PHYSICS_FUNCTIONS(KINEGRAPH_MEMBER)
+#undef KINEGRAPH_MEMBER
+};
+
+/// MuJoCo, loaded by the first call: a program that simulates nothing does without. Throws FileError, which names the
+/// library, if it is missing.
+const Physics& physics();
+
+}  // namespace kinegraph

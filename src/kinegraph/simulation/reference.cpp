@@ -1,0 +1,182 @@
+#include "kinegraph/simulation/reference.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "kinegraph/base/text.h"
+
+namespace kinegraph {
+
+namespace {
+
+bool isBall(const Drive& drive) { return drive.kind == MotionKind::quaternion; }
+
+/// The motion that a drive's numbers in a vector of the scene's q mean.
+double motionOf(const Drive& drive, const double* u, double near) {
+  if (drive.kind != MotionKind::circle) return drive.scale * u[drive.q];
+  const double angle = 2. * std::atan2(u[drive.q + 1], u[drive.q]);
+  return angle + 2. * M_PI * std::round((near - angle) / (2. * M_PI));
+}
+
+}  // namespace
+
+int controlSize(ControlMode mode, int dofs) {
+  switch (mode) {
+    case ControlMode::none:
+    case ControlMode::spline:
+      return 0;
+    case ControlMode::positionVelocity:
+      return 2 * dofs;
+    default:
+      return dofs;
+  }
+}
+
+const char* controlModeName(ControlMode mode) {
+  switch (mode) {
+    case ControlMode::none:
+      return "none";
+    case ControlMode::position:
+      return "position";
+    case ControlMode::velocity:
+      return "velocity";
+    case ControlMode::acceleration:
+      return "acceleration";
+    case ControlMode::positionVelocity:
+      return "positionVelocity";
+    case ControlMode::spline:
+      return "spline";
+    case ControlMode::torque:
+      return "torque";
+  }
+  return "";
+}
+
+void Reference::hold(const SceneModel& model, const mjtNum* qpos, const mjtNum* qvel) {
+  parts_.dofs.assign(model.drives.size(), {});
+  parts_.courses.assign(model.drives.size(), {});
+  parts_.torque = VectorXd::Zero(long(model.drives.size()));
+  parts_.next.assign(model.drives.size(), 0.);
+  parts_.clock.mode = ControlMode::none;
+  for (std::size_t i = 0; i < parts_.dofs.size(); ++i) {
+    const Drive& drive = model.drives[i];
+    if (isBall(drive)) {
+      std::copy_n(qpos + drive.qpos, 4, parts_.dofs[i].turn);
+    } else {
+      parts_.dofs[i].position = parts_.dofs[i].goal = qpos[drive.qpos];
+      parts_.dofs[i].velocity = parts_.dofs[i].rate = qvel[drive.dof];
+    }
+  }
+}
+
+void Reference::courseOf(std::size_t i, const Drive& drive, double goal, double tau, const SimulationOptions& options) {
+  Dof& dof = parts_.dofs[i];
+  dof.goal = goal;
+  const double velocity = (goal - dof.position) / tau;
+  const bool even = std::abs(velocity - dof.velocity) <= options.reference_acceleration * tau &&
+                    std::abs(velocity) <= drive.velocity;
+  parts_.courses[i] = {even ? Path::even : Path::limited, dof.position, dof.velocity, velocity};
+}
+
+void Reference::command(const SceneModel& model, const VectorXd& u, double tau, ControlMode mode,
+                        const SimulationOptions& options) {
+  parts_.clock.mode = mode;
+  parts_.clock.tau = tau;
+  parts_.clock.elapsed = 0.;
+  for (std::size_t i = 0; i < parts_.dofs.size(); ++i) {
+    const Drive& drive = model.drives[i];
+    Dof& dof = parts_.dofs[i];
+    Course& course = parts_.courses[i];
+    if (mode == ControlMode::none || drive.q < 0) {
+      course.path = dof.position == dof.goal ? Path::still : Path::limited;
+    } else if (mode == ControlMode::position || mode == ControlMode::positionVelocity) {
+      if (isBall(drive)) {
+        std::copy_n(wxyz(unitQuaternion(u.segment<4>(drive.q), "a joint's quaternion")).data(), 4, dof.turn);
+      } else if (mode == ControlMode::position) {
+        courseOf(i, drive, motionOf(drive, u.data(), dof.position), tau, options);
+      } else {
+        course = {Path::cubic, dof.position, dof.velocity, drive.scale * u[model.dofs + drive.q]};
+        dof.goal = motionOf(drive, u.data(), dof.position);
+      }
+    } else if (mode == ControlMode::velocity) {
+      course = {Path::given, dof.position, dof.velocity, drive.scale * u[drive.q]};
+    } else if (mode == ControlMode::acceleration) {
+      course = {Path::accelerated, 0., 0., drive.scale * u[drive.q]};
+    } else if (mode == ControlMode::spline) {
+      course.path = Path::still;
+    } else if (mode == ControlMode::torque) {
+      parts_.torque[long(i)] = u[drive.q] / drive.scale;
+    }
+  }
+}
+
+/// The next position of a reference that nears a far goal: so fast that it can still stop there, in steps of h.
+double Reference::limitedStep(const Dof& dof, const Drive& drive, double h, const SimulationOptions& options) {
+  const double a = options.reference_acceleration, left = dof.goal - dof.position, half = .5 * a * h;
+  double wanted = std::min(drive.velocity, std::sqrt(2. * a * std::abs(left) + half * half) - half);
+  wanted = std::copysign(std::min(wanted, std::abs(left) / h), left);
+  const double velocity = std::clamp(wanted, dof.velocity - a * h, dof.velocity + a * h);
+  const double next = dof.position + h * velocity;
+  return std::abs(dof.goal - next) <= 1e-12 ? dof.goal : next;
+}
+
+double Reference::nextPosition(std::size_t i, const Drive& drive, double h, const SimulationOptions& options) {
+  Dof& dof = parts_.dofs[i];
+  const Course& course = parts_.courses[i];
+  const double s = parts_.clock.elapsed / parts_.clock.tau;
+  switch (course.path) {
+    case Path::still:
+      return dof.position;
+    case Path::even:
+      return parts_.clock.last ? dof.goal : course.start + s * (dof.goal - course.start);
+    case Path::limited:
+      return limitedStep(dof, drive, h, options);
+    case Path::given:
+      return dof.goal = course.start + parts_.clock.elapsed * course.end_velocity;
+    case Path::accelerated: {
+      dof.goal = dof.position + h * (dof.rate + .5 * h * course.end_velocity);
+      dof.rate += h * course.end_velocity;
+      return dof.goal;
+    }
+    case Path::cubic: {
+      if (parts_.clock.last) return dof.goal;
+      const double d = dof.goal - course.start, v0 = course.start_velocity * parts_.clock.tau, v1 = course.end_velocity * parts_.clock.tau;
+      return course.start + s * (v0 + s * (3. * d - 2. * v0 - v1 + s * (v0 + v1 - 2. * d)));
+    }
+  }
+  return dof.position;
+}
+
+void Reference::nextOfSpline(const SceneModel& model, double time) {
+  const VectorXd q = spline.eval(time - spline_start, 0);
+  for (std::size_t i = 0; i < parts_.dofs.size(); ++i) {
+    const Drive& drive = model.drives[i];
+    if (drive.q < 0) continue;
+    if (isBall(drive)) {
+      std::copy_n(wxyz(unitQuaternion(q.segment<4>(drive.q), "a spline's quaternion")).data(), 4, parts_.dofs[i].turn);
+    } else {
+      parts_.dofs[i].goal = parts_.next[i] = motionOf(drive, q.data(), parts_.dofs[i].position);
+    }
+  }
+}
+
+void Reference::prepare(const SceneModel& model, double time, double h, bool last, const SimulationOptions& options) {
+  parts_.clock.elapsed += h;
+  parts_.clock.last = last;
+  for (std::size_t i = 0; i < parts_.dofs.size(); ++i)
+    parts_.next[i] = isBall(model.drives[i]) ? 0. : nextPosition(i, model.drives[i], h, options);
+  if (parts_.clock.mode == ControlMode::spline && !spline.isEmpty()) nextOfSpline(model, time + h);
+  for (std::size_t i = 0; i < parts_.dofs.size(); ++i)
+    parts_.dofs[i].acceleration = ((parts_.next[i] - parts_.dofs[i].position) / h - parts_.dofs[i].velocity) / h;
+}
+
+void Reference::shift(double h) {
+  for (std::size_t i = 0; i < parts_.dofs.size(); ++i) {
+    Dof& dof = parts_.dofs[i];
+    dof.velocity = (parts_.next[i] - dof.position) / h;
+    dof.position = parts_.next[i];
+    if (parts_.courses[i].path != Path::accelerated) dof.rate = dof.velocity;
+  }
+}
+
+}  // namespace kinegraph

@@ -1,0 +1,205 @@
+#include "kinegraph/simulation/simulation.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "kinegraph/base/errors.h"
+#include "kinegraph/base/text.h"
+#include "kinegraph/simulation/simulation_impl.h"
+
+namespace kinegraph {
+
+Simulation::Simulation(const Config& config, SimulationEngine engine, const SimulationOptions& options)
+    : impl_(std::make_unique<Impl>(config, engine, options)) {}
+Simulation::~Simulation() = default;
+Simulation::Simulation(Simulation&&) noexcept = default;
+Simulation& Simulation::operator=(Simulation&&) noexcept = default;
+
+Simulation::Impl::Impl(const Config& given, SimulationEngine which, const SimulationOptions& chosen)
+    : config(given.scene()), engine(which), options(chosen) {
+  if (engine == SimulationEngine::bullet)
+    throw ValueError("Simulation: there is no engine bullet; use physx (rigid bodies with contacts) or kinematic");
+  if (engine != SimulationEngine::physx && engine != SimulationEngine::kinematic)
+    throw ValueError(cat("Simulation: there is no engine ", int(engine), "; expected physx (1) or kinematic (3)"));
+  options.validate();
+  world = makeWorld();
+  takeFromConfig(*world);
+  world->settle();
+}
+
+std::unique_ptr<World> Simulation::Impl::makeWorld() {
+  SceneTree& scene = *config.scene();
+  SensorFrames at;
+  for (const auto& frame : force_frames) {
+    if (frame->tree == &scene) at.forces.insert(frame->id);
+  }
+  for (const auto& frame : acceleration_frames) {
+    if (frame->tree == &scene) at.accelerations.insert(frame->id);
+  }
+  auto model = std::make_shared<SceneModel>(makeSceneModel(scene, options, at));
+  auto made = std::make_unique<World>(model, options, engine == SimulationEngine::kinematic);
+  frames = scene.frames();
+  revision = scene.structureRevision();
+  for (const std::string& warning : model->scene.warnings) {
+    if (warned.insert(warning).second) warnings.push_back(warning);
+  }
+  return made;
+}
+
+void Simulation::Impl::takeFromConfig(World& to) const {
+  const SceneModel& model = to.scene();
+  for (const ModelJoint& joint : model.joints)
+    writeJoint(joint, frames[std::size_t(joint.frame)]->joint->q.data(), to.positions());
+  for (std::size_t i = 0; i < model.free_frames.size(); ++i)
+    writeFreePose(config.scene()->worldPose(*frames[std::size_t(model.free_frames[i])]),
+                  to.positions() + model.free_qpos[i]);
+}
+
+void Simulation::update() {
+  Impl& s = *impl_;
+  if (s.config.scene()->structureRevision() != s.revision) s.rebuild();
+}
+
+void Simulation::advance(const VectorXd& u, double tau, ControlMode mode, const std::function<void()>& between) {
+  impl_->world->step(u, tau, mode, between);
+}
+
+void Simulation::publish() { impl_->giveToConfig(); }
+
+void Simulation::step(const VectorXd& u, double tau, ControlMode mode) {
+  update();
+  advance(u, tau, mode);
+  publish();
+}
+
+void Simulation::Impl::giveToConfig() {
+  const SceneModel& model = world->scene();
+  SceneTree& scene = *config.scene();
+  if (scene.structureRevision() != revision) return;
+  const mjtNum* qpos = world->positions();
+  for (const ModelJoint& joint : model.joints) {
+    FrameData& frame = *frames[std::size_t(joint.frame)];
+    VectorXd& q = frame.joint->q;
+    if (joint.first_q >= 0) {
+      readJoint(joint, qpos, q.data());
+      continue;
+    }
+    const VectorXd before = q;
+    readJoint(joint, qpos, q.data());
+    if (q != before) scene.posesChanged();
+  }
+  scene.jointsChanged();
+  for (std::size_t i = 0; i < model.free_frames.size(); ++i) {
+    FrameData& frame = *frames[std::size_t(model.free_frames[i])];
+    Pose pose = readFreePose(qpos + model.free_qpos[i]);
+    if (frame.parent) {
+      const PlacedFrame& on = model.scene.frames[std::size_t(frame.parent->id)];
+      pose = (world->bodyPose(on.body) * on.X_BF).inverse() * pose;
+    }
+    if (frame.moves()) {
+      frame.joint->q = motionProject(frame.joint->steps, frame.joint->axis, motionScale(frame), pose);
+      if (!frame.joint->active) scene.posesChanged();
+    } else {
+      frame.pose = pose;
+      scene.poseChanged(frame);
+    }
+  }
+}
+
+double Simulation::get_t() const { return impl_->world->time(); }
+
+void Simulation::resetTime(double time) {
+  if (!std::isfinite(time)) throw ValueError(cat("Simulation.resetTime: time is ", time, "; expected a finite number"));
+  impl_->world->setTime(time);
+  resetSplineRef();
+}
+
+const Config& Simulation::config() const { return impl_->config; }
+SimulationEngine Simulation::engine() const { return impl_->engine; }
+const SimulationOptions& Simulation::options() const { return impl_->options; }
+
+VectorXd Simulation::Impl::q() const {
+  VectorXd q = VectorXd::Zero(world->scene().dofs);
+  for (const ModelJoint& joint : world->scene().joints) {
+    if (joint.first_q >= 0) readJoint(joint, world->positions(), q.data() + joint.first_q);
+  }
+  return q;
+}
+
+VectorXd Simulation::Impl::qDot() const {
+  VectorXd velocity = VectorXd::Zero(world->scene().dofs);
+  for (const ModelJoint& joint : world->scene().joints) {
+    if (joint.first_q >= 0)
+      readJointVelocity(joint, world->positions(), world->velocities(), velocity.data() + joint.first_q);
+  }
+  return velocity;
+}
+
+MatrixXd Simulation::Impl::freePoses() const {
+  const SceneModel& model = world->scene();
+  MatrixXd poses(long(model.free_frames.size()), 7);
+  for (long i = 0; i < poses.rows(); ++i) {
+    const mjtNum* p = world->positions() + model.free_qpos[std::size_t(i)];
+    poses.row(i) = Eigen::Map<const Vector7d>(p).transpose();
+  }
+  return poses;
+}
+
+MatrixXd Simulation::Impl::freeVelocities() const {
+  const SceneModel& model = world->scene();
+  MatrixXd velocities(long(model.free_frames.size()), 6);
+  for (long i = 0; i < velocities.rows(); ++i) {
+    const mjtNum* v = world->velocities() + model.free_dof[std::size_t(i)];
+    const Pose pose = readFreePose(world->positions() + model.free_qpos[std::size_t(i)]);
+    velocities.row(i).head<3>() = Eigen::Map<const Vector3d>(v).transpose();
+    velocities.row(i).tail<3>() = (pose.q * Vector3d(v[3], v[4], v[5])).transpose();
+  }
+  return velocities;
+}
+
+void Simulation::Impl::setFreeVelocities(const MatrixXd& velocities) {
+  const SceneModel& model = world->scene();
+  for (long i = 0; i < velocities.rows(); ++i) {
+    mjtNum* v = world->velocities() + model.free_dof[std::size_t(i)];
+    const Pose pose = readFreePose(world->positions() + model.free_qpos[std::size_t(i)]);
+    const Vector3d turn = pose.q.conjugate() * Vector3d(velocities.row(i).tail<3>());
+    for (int k = 0; k < 3; ++k) {
+      v[k] = velocities(i, k);
+      v[3 + k] = turn[k];
+    }
+  }
+}
+
+VectorXd Simulation::get_q() const { return impl_->q(); }
+VectorXd Simulation::get_qDot() const { return impl_->qDot(); }
+MatrixXd Simulation::get_frameVelocities() const { return impl_->freeVelocities(); }
+
+std::vector<Frame> Simulation::getFreeFrames() const {
+  std::vector<Frame> found;
+  for (const int id : impl_->world->scene().free_frames)
+    found.emplace_back(impl_->config.scene(), *impl_->frames[std::size_t(id)]);
+  return found;
+}
+
+VectorXd Simulation::getReference() const {
+  const World& world = *impl_->world;
+  std::vector<mjtNum> positions(world.data().qpos, world.data().qpos + world.model().nq);
+  for (std::size_t i = 0; i < world.scene().drives.size(); ++i) {
+    const Drive& drive = world.scene().drives[i];
+    const Reference::Dof& dof = world.reference().dofs()[i];
+    if (drive.kind == MotionKind::quaternion) {
+      std::copy_n(dof.turn, 4, &positions[std::size_t(drive.qpos)]);
+    } else {
+      positions[std::size_t(drive.qpos)] = dof.position;
+    }
+  }
+  VectorXd q = VectorXd::Zero(world.scene().dofs);
+  for (const ModelJoint& joint : world.scene().joints) {
+    if (joint.first_q >= 0) readJoint(joint, positions.data(), q.data() + joint.first_q);
+  }
+  return q;
+}
+
+std::vector<std::string> Simulation::takeWarnings() { return std::exchange(impl_->warnings, {}); }
+
+}  // namespace kinegraph

@@ -1,0 +1,241 @@
+#include <algorithm>
+#include <cmath>
+
+#include "kinegraph/base/errors.h"
+#include "kinegraph/base/text.h"
+#include "kinegraph/simulation/simulation_impl.h"
+
+namespace kinegraph {
+
+namespace {
+
+bool isBelow(const FrameData* frame, const FrameData& above) {
+  while (frame && frame != &above) frame = frame->parent;
+  return frame != nullptr;
+}
+
+/// The frame that a link begins with.
+const FrameData& linkOf(const FrameData& frame) {
+  const FrameData* root = &frame;
+  while (root->parent && !root->joint) root = root->parent;
+  return *root;
+}
+
+void expectPositive(const char* call, const char* what, double value) {
+  if (!(value > 0.) || !std::isfinite(value))
+    throw ValueError(cat(call, ": ", what, " is ", value, "; expected a positive number"));
+}
+
+}  // namespace
+
+const FrameData& Simulation::Impl::frame(const std::string& name, const char* call) const {
+  return config.scene()->get(name, call);
+}
+
+int Simulation::Impl::body(const std::string& name, const char* call) const {
+  return world->scene().scene.frames[std::size_t(frame(name, call).id)].body;
+}
+
+/// The gripper of a frame: that below its link, the nearest in the order of frames.
+std::size_t Simulation::Impl::gripper(const std::string& name, const char* call) const {
+  const FrameData& link = linkOf(frame(name, call));
+  const SceneModel& model = world->scene();
+  for (std::size_t g = 0; g < model.grippers.size(); ++g) {
+    const int joint = model.joints[std::size_t(model.grippers[g].joint)].frame;
+    if (isBelow(frames[std::size_t(joint)].get(), link)) return g;
+  }
+  std::vector<std::string> there;
+  for (const GripperJoint& each : model.grippers)
+    there.push_back(frames[std::size_t(model.joints[std::size_t(each.joint)].frame)]->name);
+  throw ValueError(cat(call, ": below the link of frame '", name,
+                       "' is no gripper, which is a joint that is not active and that others mimic",
+                       there.empty() ? "; the scene has none" : cat("; those of the scene: ", join(there))));
+}
+
+void Simulation::moveGripper(const std::string& gripper, double width, double speed) {
+  closeGripper(gripper, width, speed, 20.);
+}
+
+void Simulation::closeGripper(const std::string& gripper, double width, double speed, double force) {
+  update();
+  Impl& s = *impl_;
+  const char* call = "Simulation.moveGripper";
+  const std::size_t g = s.gripper(gripper, call);
+  if (!std::isfinite(width) || width < 0.)
+    throw ValueError(cat(call, ": width is ", width, " m; expected a number >= 0"));
+  expectPositive(call, "speed", speed);
+  expectPositive(call, "force", force);
+  const GripperJoint& joint = s.world->scene().grippers[g];
+  GripperTask& task = s.world->grippers()[g];
+  task.reference = s.world->positions()[joint.qpos[0]];
+  task.target = std::clamp(width / double(joint.qpos.size()), joint.lower, joint.upper);
+  task.speed = speed;
+  task.force = force;
+  task.still = 0.;
+}
+
+bool Simulation::gripperIsDone(const std::string& gripper) const {
+  return impl_->world->isGripperDone(int(impl_->gripper(gripper, "Simulation.gripperIsDone")));
+}
+
+double Simulation::getGripperWidth(const std::string& gripper) const {
+  const GripperJoint& joint = impl_->world->scene().grippers[impl_->gripper(gripper, "Simulation.getGripperWidth")];
+  return double(joint.qpos.size()) * impl_->world->positions()[joint.qpos[0]];
+}
+
+void Simulation::attach(const std::string& from, const std::string& to) {
+  update();
+  const int a = impl_->body(from, "Simulation.attach"), b = impl_->body(to, "Simulation.attach");
+  if (a == b)
+    throw ValueError(cat("Simulation.attach: '", from, "' and '", to, "' are fixed to each other already"));
+  impl_->world->weld(a, b);
+}
+
+void Simulation::detach(const std::string& from, const std::string& to) {
+  update();
+  const int a = impl_->body(from, "Simulation.detach"), b = impl_->body(to, "Simulation.detach");
+  const bool either = impl_->world->unweld(a, b) || impl_->world->unweld(b, a);
+  if (!either) throw ValueError(cat("Simulation.detach: '", to, "' is not attached to '", from, "'"));
+}
+
+// --- splines ------------------------------------------------------------------------------------------------------
+
+void Simulation::setSplineRef(const MatrixXd& path, const VectorXd& times, bool append) {
+  update();
+  Impl& s = *impl_;
+  const char* call = "Simulation.setSplineRef";
+  const int n = s.world->scene().dofs;
+  if (path.rows() == 0 || path.cols() != n)
+    throw ValueError(cat(call, ": path has shape (", path.rows(), ", ", path.cols(), "); expected (K, ", n, ")"));
+  if (times.size() != 1 && times.size() != path.rows())
+    throw ValueError(cat(call, ": times has ", times.size(), " numbers; expected 1 or ", path.rows()));
+  const VectorXd at = times.size() == path.rows()
+                          ? times
+                          : VectorXd(VectorXd::LinSpaced(path.rows(), times[0] / double(path.rows()), times[0]));
+  if (!(at[0] > 0.)) throw ValueError(cat(call, ": the first time is ", at[0], " s; expected a positive number"));
+  Reference& reference = s.world->reference();
+  const double now = s.world->time(), end = reference.spline.isEmpty() ? now : reference.spline_start + reference.spline.end();
+  BSpline next = reference.spline;
+  if (append && end > now) {
+    next.append(path, at);
+  } else if (!append && end > now) {
+    next.overwriteSmooth(path, at, now - reference.spline_start);
+  } else {
+    MatrixXd points(path.rows() + 1, n);
+    points << getReference().transpose(), path;
+    VectorXd all(at.size() + 1);
+    all << 0., at;
+    next.set(3, points, all);
+    reference.spline_start = now;
+  }
+  reference.spline = next;
+}
+
+double Simulation::getTimeToSplineEnd() const {
+  const Reference& reference = impl_->world->reference();
+  if (reference.spline.isEmpty()) return 0.;
+  return reference.spline_start + reference.spline.end() - impl_->world->time();
+}
+
+void Simulation::resetSplineRef(double ctrl_time) {
+  update();
+  World& world = *impl_->world;
+  const VectorXd q = impl_->q();
+  MatrixXd points(2, q.size());
+  points << q.transpose(), q.transpose();
+  const double length = 1e-3;
+  Reference& reference = world.reference();
+  if (q.size() > 0) reference.spline.set(1, points, Eigen::Vector2d(0., length));
+  reference.spline_start = (ctrl_time < 0. ? world.time() : ctrl_time) - length;
+}
+
+void Simulation::multi_step(double tau_step, double tau_sim, const std::function<void()>& between) {
+  expectPositive("Simulation.multi_step", "tau_step", tau_step);
+  expectPositive("Simulation.multi_step", "tau_sim", tau_sim);
+  const double steps = std::round(tau_step / tau_sim);
+  if (steps > 1e7) throw ValueError(cat("Simulation.multi_step: ", steps, " steps are too many"));
+  update();
+  for (int i = 0; i < int(steps); ++i) {
+    if (between) between();
+    advance({}, tau_sim, ControlMode::spline);
+  }
+  publish();
+}
+
+// --- measuring ----------------------------------------------------------------------------------------------------
+
+std::vector<Contact> Simulation::getContacts() const {
+  const World& world = *impl_->world;
+  const mjData& d = world.computed();
+  const auto name = [&](int geom) {
+    const int frame = world.scene().geom_frame[std::size_t(geom)];
+    return frame < 0 ? std::string("ground") : impl_->frames[std::size_t(frame)]->name;
+  };
+  std::vector<Contact> found;
+  for (int i = 0; i < d.ncon; ++i) {
+    const mjContact& contact = d.contact[i];
+    if (contact.efc_address < 0) continue;
+    mjtNum force[6];
+    physics().mj_contactForce(&world.model(), &d, i, force);
+    // rows of the frame: normal from geom 0 to geom 1, and two tangents
+    const Eigen::Map<const Eigen::Matrix<double, 3, 3, Eigen::RowMajor>> axes(contact.frame);
+    found.push_back({name(contact.geom[0]), name(contact.geom[1]), Eigen::Map<const Vector3d>(contact.pos), axes.row(0),
+                     contact.dist, axes.transpose() * Eigen::Map<const Vector3d>(force)});
+  }
+  return found;
+}
+
+VectorXd Simulation::getJointTorques() const { return impl_->world->driveTorques(); }
+VectorXd Simulation::getExternalTorques() const { return impl_->world->externalTorques(); }
+
+void Simulation::addForceTorqueSensor(const std::string& frame) {
+  impl_->frame(frame, "Simulation.addForceTorqueSensor");
+  impl_->force_frames.push_back(impl_->frames[std::size_t(impl_->frame(frame, "").id)]);
+  impl_->rebuild();
+}
+
+void Simulation::addAccelerometer(const std::string& frame) {
+  impl_->acceleration_frames.push_back(impl_->frames[std::size_t(impl_->frame(frame, "Simulation.addAccelerometer").id)]);
+  impl_->rebuild();
+}
+
+namespace {
+
+const mjtNum* sensorNumbers(const World& world, const std::vector<ModelSensor>& sensors, const FrameData& frame,
+                            const char* call, const char* add) {
+  for (const ModelSensor& sensor : sensors) {
+    if (sensor.frame == frame.id) return world.computed().sensordata + sensor.address;
+  }
+  throw ValueError(cat(call, ": frame '", frame.name, "' has no such sensor; ", add, " makes one"));
+}
+
+}  // namespace
+
+Vector6d Simulation::getForceTorque(const std::string& frame) const {
+  const char* call = "Simulation.getForceTorque";
+  return Eigen::Map<const Vector6d>(sensorNumbers(*impl_->world, impl_->world->scene().force_sensors,
+                                                  impl_->frame(frame, call), call, "addForceTorqueSensor"));
+}
+
+Vector3d Simulation::getAcceleration(const std::string& frame) const {
+  const char* call = "Simulation.getAcceleration";
+  return Eigen::Map<const Vector3d>(sensorNumbers(*impl_->world, impl_->world->scene().accelerometers,
+                                                  impl_->frame(frame, call), call, "addAccelerometer"));
+}
+
+void Simulation::perturb(const std::string& frame, const Vector3d& force, const Vector3d& torque,
+                         const std::optional<Vector3d>& point) {
+  update();
+  const char* call = "Simulation.perturb";
+  if (!force.allFinite() || !torque.allFinite() || (point && !point->allFinite()))
+    throw ValueError(cat(call, ": force, torque or point has numbers that are not finite"));
+  const FrameData& data = impl_->frame(frame, call);
+  const PlacedFrame& placed = impl_->world->scene().scene.frames[std::size_t(data.id)];
+  if (placed.body == 0) throw ValueError(cat(call, ": frame '", frame, "' is fixed to the world and cannot be pushed"));
+  impl_->world->push(placed.body, force, torque,
+                     point ? *point : (impl_->world->bodyPose(placed.body) * placed.X_BF).p);
+}
+
+void Simulation::clearPerturbations() { impl_->world->clearPushes(); }
+
+}  // namespace kinegraph

@@ -1,0 +1,41 @@
+#pragma once
+
+#include "kinegraph/simulation/simulation.h"
+#include "kinegraph/simulation/world.h"
+
+namespace kinegraph {
+
+struct Simulation::Impl {
+  Impl(const Config& given, SimulationEngine which, const SimulationOptions& chosen);
+
+  std::unique_ptr<World> makeWorld();
+  void takeFromConfig(World& to) const;
+  void giveToConfig();
+
+  /// The model anew, of the Config as it is now; what was there before goes on.
+  void rebuild();
+
+  VectorXd q() const;
+  VectorXd qDot() const;
+  MatrixXd freePoses() const;
+  MatrixXd freeVelocities() const;
+  void setFreeVelocities(const MatrixXd& velocities);
+  void setJoints(const VectorXd& q, const VectorXd* velocity);
+
+  /// The frame of that name, and its body. Throws FrameNotFound; `call` is what asks.
+  const FrameData& frame(const std::string& name, const char* call) const;
+  int body(const std::string& name, const char* call) const;
+  std::size_t gripper(const std::string& name, const char* call) const;
+
+  Config config;
+  SimulationEngine engine;
+  SimulationOptions options;
+  std::vector<std::shared_ptr<FrameData>> force_frames, acceleration_frames;  ///< with a sensor
+  std::unique_ptr<World> world;
+  std::vector<std::shared_ptr<FrameData>> frames;  ///< of the model, by id
+  std::uint64_t revision = 0;                      ///< of the scene's structure, as in the model
+  std::vector<std::string> warnings;
+  std::set<std::string> warned;
+};
+
+}  // namespace kinegraph

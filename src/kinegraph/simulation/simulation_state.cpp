@@ -1,0 +1,93 @@
+#include "kinegraph/simulation/simulation_state.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "kinegraph/base/errors.h"
+#include "kinegraph/base/text.h"
+#include "kinegraph/simulation/simulation_impl.h"
+#include "kinegraph/simulation/state_bytes.h"
+
+namespace kinegraph {
+
+namespace {
+
+void expectSize(const char* call, const char* what, std::ptrdiff_t rows, std::ptrdiff_t columns, const MatrixXd& given) {
+  if (given.rows() != rows || given.cols() != columns)
+    throw ValueError(cat(call, ": ", what, " has shape (", given.rows(), ", ", given.cols(), "); expected (", rows, ", ",
+                         columns, ")"));
+  if (!given.allFinite()) throw ValueError(cat(call, ": ", what, " has numbers that are not finite"));
+}
+
+}  // namespace
+
+void Simulation::Impl::setJoints(const VectorXd& q, const VectorXd* velocity) {
+  for (const ModelJoint& joint : world->scene().joints) {
+    if (joint.first_q < 0) continue;
+    writeJoint(joint, q.data() + joint.first_q, world->positions());
+    if (velocity)
+      writeJointVelocity(joint, q.data() + joint.first_q, velocity->data() + joint.first_q, world->velocities());
+  }
+}
+
+SimulationState Simulation::getState() const {
+  const Impl& s = *impl_;
+  return {s.world->time(), s.q(), s.qDot(), s.freePoses(), s.freeVelocities(), stateToBytes(s.world->state())};
+}
+
+void Simulation::setState(const SimulationState& state) {
+  update();
+  Impl& s = *impl_;
+  const char* call = "Simulation.setState";
+  const auto n = s.world->scene().dofs;
+  const auto f = std::ptrdiff_t(s.world->scene().free_frames.size());
+  expectSize(call, "q", n, 1, state.q);
+  expectSize(call, "qDot", n, 1, state.qDot);
+  expectSize(call, "freePos", f, 7, state.freePos);
+  expectSize(call, "freeVel", f, 6, state.freeVel);
+  if (!std::isfinite(state.time)) throw ValueError(cat(call, ": time is ", state.time));
+  for (std::ptrdiff_t i = 0; i < f; ++i) Pose::fromNumbers(state.freePos.row(i).transpose());
+  if (!state.remainder.empty()) s.world->setState(stateFromBytes(state.remainder, *s.world));
+  // what was changed by hand counts
+  const VectorXd q_before = s.q();
+  if (state.q != q_before || state.qDot != s.qDot()) s.setJoints(state.q, &state.qDot);
+  if (state.freePos != s.freePoses()) {
+    for (std::ptrdiff_t i = 0; i < f; ++i)
+      writeFreePose(Pose::fromNumbers(state.freePos.row(i).transpose()),
+                    s.world->positions() + s.world->scene().free_qpos[std::size_t(i)]);
+  }
+  if (state.freeVel != s.freeVelocities()) s.setFreeVelocities(state.freeVel);
+  s.world->setTime(state.time);
+  if (state.q != q_before || state.remainder.empty()) s.world->settle();
+  publish();
+}
+
+void Simulation::pushConfigToSim(const MatrixXd& frame_velocities, const VectorXd& joint_velocities) {
+  update();
+  Impl& s = *impl_;
+  const char* call = "Simulation.pushConfigToSim";
+  const SceneModel& model = s.world->scene();
+  if (frame_velocities.size() > 0)
+    expectSize(call, "frameVelocities", std::ptrdiff_t(model.free_frames.size()), 6, frame_velocities);
+  if (joint_velocities.size() > 0) expectSize(call, "jointVelocities", model.dofs, 1, joint_velocities);
+  s.takeFromConfig(*s.world);
+  std::fill_n(s.world->velocities(), s.world->model().nv, 0.);
+  if (frame_velocities.size() > 0) s.setFreeVelocities(frame_velocities);
+  if (joint_velocities.size() > 0) s.setJoints(s.q(), &joint_velocities);
+  s.world->settle();
+  s.world->forgetForces();
+}
+
+void Simulation::Impl::rebuild() {
+  const std::vector<std::shared_ptr<FrameData>> before = frames;
+  std::unique_ptr<World> next = makeWorld();
+  takeFromConfig(*next);
+  next->settle();
+  next->takeOver(*world, [&](int frame) {
+    const auto found = std::find(before.begin(), before.end(), frames[std::size_t(frame)]);
+    return found == before.end() ? -1 : int(found - before.begin());
+  });
+  world = std::move(next);
+}
+
+}  // namespace kinegraph

@@ -1,0 +1,400 @@
+#include "kinegraph/simulation/world.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "kinegraph/base/errors.h"
+#include "kinegraph/base/text.h"
+#include "kinegraph/rendering/mujoco.h"
+
+namespace kinegraph {
+
+namespace {
+
+constexpr double kGripTolerance = 1e-4;  ///< m: a gripper has arrived
+constexpr double kStill = 1e-3;          ///< m/s: fingers that are slower do not move,
+constexpr double kStillFor = .02;        ///< s: if it lasts
+constexpr double kLongestStep = 1e4;     ///< s, of a call
+
+int stateSize(const mjModel& m) { return physics().mj_stateSize(&m, mjSTATE_INTEGRATION); }
+
+}  // namespace
+
+World::World(std::shared_ptr<const SceneModel> model, const SimulationOptions& options, bool is_kinematic)
+    : model_(std::move(model)), options_(options), is_kinematic_(is_kinematic), physics_(nullptr, physics().mj_deleteModel),
+      data_(nullptr, physics().mj_deleteData), computed_(nullptr, physics().mj_deleteData) {
+  const Physics& mj = physics();
+  const MujocoErrors thrown;
+  physics_.reset(mj.mj_copyModel(nullptr, model_->model.get()));
+  data_.reset(mj.mj_makeData(physics_.get()));
+  if (!data_) throw Error("Simulation: there is not enough memory");
+  welds_.resize(std::size_t(model_->welds));
+  for (const GripperJoint& gripper : model_->grippers) {
+    GripperTask task;
+    task.target = task.reference = data_->qpos[gripper.qpos[0]];
+    grippers_.push_back(task);
+  }
+  bias_.resize(6 * std::size_t(physics_->nbody));
+  wanted_.resize(std::size_t(physics_->nv));
+  torque_.resize(std::size_t(physics_->nv));
+  settle();
+}
+
+void World::settle() {
+  for (const SceneModel::Follower& f : model_->followers) {
+    data_->qpos[f.qpos] = f.ratio * data_->qpos[f.source_qpos];
+    data_->qvel[f.dof] = f.ratio * data_->qvel[f.source_dof];
+  }
+  reference_.hold(*model_, data_->qpos, data_->qvel);
+  for (std::size_t g = 0; g < grippers_.size(); ++g) {
+    GripperTask& task = grippers_[g];
+    task.target = task.reference = data_->qpos[model_->grippers[g].qpos[0]];
+    task.still = 0.;
+  }
+  is_computed_ = copy_is_computed_ = false;
+}
+
+void World::checkCommand(const VectorXd& u, double tau, ControlMode mode) const {
+  if (!(tau > 0.) || tau > kLongestStep)
+    throw ValueError(cat("Simulation.step: tau is ", tau, " s; expected a positive number up to ", kLongestStep));
+  const int size = controlSize(mode, model_->dofs);
+  if (u.size() != size)
+    throw ValueError(cat("Simulation.step: u_control has ", u.size(), " numbers; mode ", controlModeName(mode),
+                         size == 0 ? " takes none" : cat(" takes ", size, ", the joints' ", model_->dofs, " dofs")));
+  if (!u.allFinite()) throw ValueError(cat("Simulation.step: u_control has numbers that are not finite: ", u.transpose()));
+  if (mode == ControlMode::velocity || mode == ControlMode::acceleration || mode == ControlMode::torque) {
+    for (const Drive& drive : model_->drives) {
+      if (drive.q >= 0 && (drive.kind == MotionKind::quaternion || drive.kind == MotionKind::circle))
+        throw ValueError(cat("Simulation.step: mode ", controlModeName(mode), " is not for the joint whose numbers begin at ",
+                             drive.q, ": they are those of a quaternion; use mode position"));
+    }
+  }
+}
+
+void World::step(const VectorXd& u, double tau, ControlMode mode, const std::function<void()>& between) {
+  checkCommand(u, tau, mode);
+  const MujocoErrors thrown;
+  const WorldState before = state();
+  try {
+    const int steps = std::max(1, int(std::ceil(tau / options_.inner_step - 1e-9)));
+    const double h = tau / steps, start = data_->time;
+    physics_->opt.timestep = h;
+    reference_.command(*model_, u, tau, mode, options_);
+    for (int i = 0; i < steps; ++i) {
+      if (between) between();
+      reference_.prepare(*model_, data_->time, h, i + 1 == steps, options_);
+      is_kinematic_ ? followReferences(h) : innerStep(h);
+      reference_.shift(h);
+    }
+    data_->time = start + tau;
+    if (mode == ControlMode::torque) reference_.hold(*model_, data_->qpos, data_->qvel);
+  } catch (...) {
+    setState(before);
+    throw;
+  }
+  checkNumbers(before, data_->time);
+  is_computed_ = !is_kinematic_;
+  copy_is_computed_ = false;
+}
+
+/// Joints are where they shall be, and what is attached goes with them.
+void World::followReferences(double h) {
+  mjData& d = *data_;
+  for (std::size_t i = 0; i < model_->drives.size(); ++i) {
+    const Drive& drive = model_->drives[i];
+    if (drive.kind == MotionKind::quaternion) {
+      std::copy_n(reference_.dofs()[i].turn, 4, d.qpos + drive.qpos);
+    } else {
+      d.qpos[drive.qpos] = reference_.next(i);
+      d.qvel[drive.dof] = (reference_.next(i) - reference_.dofs()[i].position) / h;
+    }
+  }
+  for (std::size_t g = 0; g < grippers_.size(); ++g) {
+    GripperTask& task = grippers_[g];
+    const double way = task.speed * h;
+    task.reference += std::clamp(task.target - task.reference, -way, way);
+    d.qpos[model_->grippers[g].qpos[0]] = task.reference;
+  }
+  for (const SceneModel::Follower& f : model_->followers) d.qpos[f.qpos] = f.ratio * d.qpos[f.source_qpos];
+  for (const WeldedPair& pair : welds_) {
+    const SceneBody& held = model_->scene.bodies[std::size_t(pair.body_b)];
+    if (!pair.active || held.kind != SceneBody::Kind::free) continue;
+    const int id = model_->body_id[std::size_t(pair.body_b)];
+    writeFreePose(bodyPose(pair.body_a) * pair.X_AB, d.qpos + physics_->jnt_qposadr[physics_->body_jntadr[id]]);
+  }
+  d.time += h;
+}
+
+void World::innerStep(double h) {
+  const Physics& mj = physics();
+  mjModel* m = physics_.get();
+  mjData* d = data_.get();
+  mj.mj_checkPos(m, d);
+  mj.mj_checkVel(m, d);
+  moveGrippers(h);
+  mj.mj_fwdPosition(m, d);
+  if (d->ncon > 0) {
+    mj.mj_comVel(m, d);
+    correctContacts(h);
+  }
+  mj.mj_sensorPos(m, d);
+  mj.mj_fwdVelocity(m, d);
+  mj.mj_sensorVel(m, d);
+  driveMotors(h);
+  mj.mj_step2(m, d);
+}
+
+/// MuJoCo leaves the term dJ/dt v out of the rows of contacts, so that what friction holds in a turning hand slips, and
+/// its step lets positions drift by h^2/2 of it. Both vanish with the velocity v* = (1/b + h/2) t (a2 - a1) along the
+/// tangents t, where a_i is the acceleration of the touching point of body i at zero acceleration of the joints, and
+/// b = 2 / (dmax timeconst).
+void World::correctContacts(double h) {
+  const mjModel& m = *physics_;
+  mjData& d = *data_;
+  using Vector = Eigen::Map<const Vector3d>;
+  std::fill_n(bias_.begin(), 6, 0.);
+  for (int b = 1; b < m.nbody; ++b) {
+    mjtNum* a = &bias_[6 * std::size_t(b)];
+    std::copy_n(&bias_[6 * std::size_t(m.body_parentid[b])], 6, a);
+    for (int j = m.body_dofadr[b]; j < m.body_dofadr[b] + m.body_dofnum[b]; ++j) {
+      for (int k = 0; k < 6; ++k) a[k] += d.cdof_dot[6 * j + k] * d.qvel[j];
+    }
+  }
+  const auto acceleration = [&](int b, const Vector3d& point) -> Vector3d {
+    const Vector3d r = point - Vector(d.subtree_com + 3 * m.body_rootid[b]);
+    const mjtNum *A = &bias_[6 * std::size_t(b)], *V = d.cvel + 6 * b;
+    const Vector3d turn = Vector(V), velocity = Vector(V + 3) + turn.cross(r);
+    return Vector(A + 3) + Vector(A).cross(r) + turn.cross(velocity);
+  };
+  for (int i = 0; i < d.ncon; ++i) {
+    mjContact& contact = d.contact[i];
+    if (contact.efc_address < 0 || contact.dim < 3) continue;
+    const Vector point(contact.pos);
+    const Vector3d missing = acceleration(m.geom_bodyid[contact.geom[1]], point) -
+                             acceleration(m.geom_bodyid[contact.geom[0]], point);
+    const double factor = .5 * contact.solimp[1] * contact.solref[0] + .5 * h;
+    contact.surfacevel[0] += factor * Vector(contact.frame + 3).dot(missing);
+    contact.surfacevel[1] += factor * Vector(contact.frame + 6).dot(missing);
+  }
+}
+
+/// tau = M (a_ref + 2 w (v_ref - v) + w^2 (p_ref - p)) + bias - passive, within the motor's limit.
+void World::driveMotors(double h) {
+  const mjModel& m = *physics_;
+  mjData& d = *data_;
+  const double w = options_.servo_frequency;
+  std::fill(wanted_.begin(), wanted_.end(), 0.);
+  const auto& references = reference_.dofs();
+  for (std::size_t i = 0; i < model_->drives.size(); ++i) {
+    const Drive& drive = model_->drives[i];
+    const Reference::Dof& wanted = references[i];
+    if (drive.kind == MotionKind::quaternion) {
+      const Quaterniond now(d.qpos[drive.qpos], d.qpos[drive.qpos + 1], d.qpos[drive.qpos + 2], d.qpos[drive.qpos + 3]);
+      const Eigen::AngleAxisd turn(now.conjugate() *
+                                   Quaterniond(wanted.turn[0], wanted.turn[1], wanted.turn[2], wanted.turn[3]));
+      const double angle = turn.angle() > M_PI ? turn.angle() - 2. * M_PI : turn.angle();
+      for (int k = 0; k < 3; ++k)
+        wanted_[std::size_t(drive.dof + k)] = w * w * angle * turn.axis()[k] - 2. * w * d.qvel[drive.dof + k];
+    } else if (!drive.gains) {
+      wanted_[std::size_t(drive.dof)] = wanted.acceleration + 2. * w * (wanted.velocity - d.qvel[drive.dof]) +
+                                        w * w * (wanted.position - d.qpos[drive.qpos]);
+    }
+  }
+  physics().mj_mulM(&m, &d, torque_.data(), wanted_.data());
+  const bool direct = reference_.mode() == ControlMode::torque;
+  for (std::size_t i = 0; i < model_->drives.size(); ++i) {
+    const Drive& drive = model_->drives[i];
+    const int dofs = drive.kind == MotionKind::quaternion ? 3 : 1;
+    for (int k = drive.dof; k < drive.dof + dofs; ++k) {
+      double torque = torque_[std::size_t(k)];
+      if (direct && drive.q >= 0) {
+        torque = reference_.torque()[long(i)];
+      } else {
+        if (drive.gains && dofs == 1) {
+          // stiffness and damping at the end of the step, so that no gain is too large for it
+          const double kp = drive.gains->first, kd = drive.gains->second;
+          const double error = references[i].position - d.qpos[drive.qpos], rate = references[i].velocity - d.qvel[k];
+          const double inertia = d.M[m.M_rowadr[k] + m.M_rownnz[k] - 1];
+          torque = (kp * (error + h * rate) + kd * rate) / (1. + (h * kd + h * h * kp) / inertia);
+        }
+        torque += d.qfrc_bias[k] - d.qfrc_passive[k];
+      }
+      d.qfrc_applied[k] = std::clamp(torque, -drive.effort, drive.effort);
+    }
+  }
+}
+
+void World::moveGrippers(double h) {
+  mjData& d = *data_;
+  for (std::size_t g = 0; g < grippers_.size(); ++g) {
+    const GripperJoint& gripper = model_->grippers[g];
+    GripperTask& task = grippers_[g];
+    const double way = task.speed * h;
+    task.reference += std::clamp(task.target - task.reference, -way, way);
+    double length = 0., speed = 0.;
+    for (std::size_t i = 0; i < gripper.qpos.size(); ++i) {
+      length += gripper.coefficient / gripper.ratio[i] * d.qpos[gripper.qpos[i]];
+      speed += gripper.coefficient / gripper.ratio[i] * d.qvel[gripper.dof[i]];
+    }
+    const double reach = task.force * double(gripper.qpos.size()) / gripper.stiffness;
+    const double control = std::clamp(task.reference, length - reach, length + reach);
+    d.ctrl[gripper.actuator] = control;
+    task.still = control != task.reference && std::abs(speed) < kStill ? task.still + h : 0.;
+  }
+}
+
+bool World::isGripperDone(int gripper) const {
+  const GripperTask& task = grippers_[std::size_t(gripper)];
+  const double q = data_->qpos[model_->grippers[std::size_t(gripper)].qpos[0]];
+  return (task.reference == task.target && std::abs(q - task.target) < kGripTolerance) || task.still >= kStillFor;
+}
+
+void World::checkNumbers(const WorldState& before, double time) {
+  const auto& warning = data_->warning;
+  const bool full = warning[mjWARN_CONTACTFULL].number > 0 || warning[mjWARN_CNSTRFULL].number > 0;
+  const bool bad = warning[mjWARN_BADQPOS].number > 0 || warning[mjWARN_BADQVEL].number > 0 ||
+                   warning[mjWARN_BADQACC].number > 0;
+  if (!full && !bad) return;
+  setState(before);
+  if (full)
+    throw Error("Simulation.step: more contacts at once than there is memory for; the state is as before the step");
+  throw Error(cat("Simulation.step: numbers leave all bounds before ", time,
+                  " s; the state is as before the step. Look for tiny masses, things that overlap much, or large torques"));
+}
+
+WorldState World::state() const {
+  WorldState state;
+  state.physics.resize(std::size_t(stateSize(*physics_)));
+  physics().mj_getState(physics_.get(), data_.get(), state.physics.data(), mjSTATE_INTEGRATION);
+  state.reference = reference_;
+  state.grippers = grippers_;
+  state.welds = welds_;
+  return state;
+}
+
+void World::setState(const WorldState& state) {
+  physics().mj_setState(physics_.get(), data_.get(), state.physics.data(), mjSTATE_INTEGRATION);
+  for (mjWarningStat& warning : data_->warning) warning = {};
+  reference_ = state.reference;
+  grippers_ = state.grippers;
+  welds_ = state.welds;
+  for (std::size_t slot = 0; slot < welds_.size(); ++slot) activate(slot);
+  is_computed_ = copy_is_computed_ = false;
+}
+
+void World::activate(std::size_t slot) {
+  const WeldedPair& pair = welds_[slot];
+  const int id = model_->first_weld + int(slot);
+  mjModel& m = *physics_;
+  data_->eq_active[id] = pair.active;
+  if (!pair.active) return;
+  m.eq_obj1id[id] = model_->body_id[std::size_t(pair.body_a)];
+  m.eq_obj2id[id] = model_->body_id[std::size_t(pair.body_b)];
+  mjtNum* data = m.eq_data + mjNEQDATA * id;
+  std::fill_n(data, 3, 0.);
+  std::copy_n(pair.X_AB.p.data(), 3, data + 3);
+  std::copy_n(wxyz(pair.X_AB.q).data(), 4, data + 6);
+  data[10] = 1.;
+}
+
+void World::weld(int body_a, int body_b) { weld(body_a, body_b, bodyPose(body_a).inverse() * bodyPose(body_b)); }
+
+void World::weld(int body_a, int body_b, const Pose& X_AB) {
+  for (std::size_t slot = 0; slot < welds_.size(); ++slot) {
+    if (welds_[slot].active) continue;
+    welds_[slot] = {body_a, body_b, X_AB, true};
+    activate(slot);
+    return;
+  }
+  throw ValueError(cat("Simulation.attach: ", welds_.size(), " things are attached, more at once are not possible"));
+}
+
+bool World::unweld(int body_a, int body_b) {
+  bool found = false;
+  for (std::size_t slot = 0; slot < welds_.size(); ++slot) {
+    WeldedPair& pair = welds_[slot];
+    if (!pair.active || pair.body_a != body_a || pair.body_b != body_b) continue;
+    pair.active = false;
+    activate(slot);
+    found = true;
+  }
+  return found;
+}
+
+void World::push(int body, const Vector3d& force, const Vector3d& torque, const Vector3d& point) {
+  const int id = model_->body_id[std::size_t(body)];
+  const Pose X_WB = bodyPose(body);
+  const Vector3d com = X_WB.p + X_WB.q * Vector3d(Eigen::Map<const Vector3d>(physics_->body_ipos + 3 * id));
+  mjtNum* applied = data_->xfrc_applied + 6 * id;
+  const Vector3d about = torque + (point - com).cross(force);
+  for (int i = 0; i < 3; ++i) {
+    applied[i] += force[i];
+    applied[3 + i] += about[i];
+  }
+}
+
+void World::clearPushes() { std::fill_n(data_->xfrc_applied, 6 * physics_->nbody, 0.); }
+
+VectorXd World::driveTorques() const {
+  VectorXd torques = VectorXd::Zero(model_->dofs);
+  for (const Drive& drive : model_->drives) {
+    if (drive.q >= 0 && drive.kind != MotionKind::quaternion)
+      torques[drive.q] = drive.scale * data_->qfrc_applied[drive.dof];
+  }
+  return torques;
+}
+
+const mjData& World::computed() const {
+  if (is_computed_) return *data_;
+  if (!copy_is_computed_) {
+    const Physics& mj = physics();
+    const MujocoErrors thrown;
+    computed_.reset(mj.mj_copyData(computed_.release(), physics_.get(), data_.get()));
+    mj.mj_forward(physics_.get(), computed_.get());
+    copy_is_computed_ = true;
+  }
+  return *computed_;
+}
+
+VectorXd World::externalTorques() const {
+  const mjData& d = computed();
+  std::vector<mjtNum> pushed(std::size_t(physics_->nv), 0.);
+  for (int b = 1; b < physics_->nbody; ++b) {
+    const mjtNum* f = d.xfrc_applied + 6 * b;
+    if (std::any_of(f, f + 6, [](double x) { return x != 0.; }))
+      physics().mj_applyFT(physics_.get(), const_cast<mjData*>(&d), f, f + 3, d.xipos + 3 * b, b, pushed.data());
+  }
+  VectorXd torques = VectorXd::Zero(model_->dofs);
+  for (const Drive& drive : model_->drives) {
+    if (drive.q >= 0 && drive.kind != MotionKind::quaternion)
+      torques[drive.q] = drive.scale * (d.qfrc_constraint[drive.dof] + pushed[std::size_t(drive.dof)]);
+  }
+  return torques;
+}
+
+Pose World::bodyPose(int body) const {
+  const SceneBody& of = model_->scene.bodies[std::size_t(body)];
+  const mjModel& m = *physics_;
+  switch (of.kind) {
+    case SceneBody::Kind::world:
+      return {};
+    case SceneBody::Kind::free:
+      return readFreePose(data_->qpos + m.jnt_qposadr[m.body_jntadr[model_->body_id[std::size_t(body)]]]);
+    case SceneBody::Kind::fixed:
+      return bodyPose(of.parent) * of.X_PB;
+    case SceneBody::Kind::jointed:
+      break;
+  }
+  Pose X = bodyPose(of.parent) * of.X_PB;
+  const int id = model_->body_id[std::size_t(body)];
+  for (int j = m.body_jntadr[id]; j < m.body_jntadr[id] + m.body_jntnum[id]; ++j) {
+    const mjtNum* q = data_->qpos + m.jnt_qposadr[j];
+    const Eigen::Map<const Vector3d> axis(m.jnt_axis + 3 * j);
+    if (m.jnt_type[j] == mjJNT_SLIDE) X = X * Pose(q[0] * axis, Quaterniond::Identity());
+    if (m.jnt_type[j] == mjJNT_HINGE) X = X * Pose(Vector3d::Zero(), Quaterniond(Eigen::AngleAxisd(q[0], axis)));
+    if (m.jnt_type[j] == mjJNT_BALL) X = X * Pose(Vector3d::Zero(), Quaterniond(q[0], q[1], q[2], q[3]));
+  }
+  return X;
+}
+
+}  // namespace kinegraph
