@@ -131,8 +131,10 @@ void bindState(nb::module_& m) {
           "freeVel", [](const State& s) { return velocityArray(s.freeVel); },
           [](State& s, const Numbers& v) { s.freeVel = velocityMatrix(v, "freeVel"); },
           "Their velocities, (F, 2, 3): linear (m/s) and angular (rad/s), world.")
-      .def("__eq__", [](const State& a, nb::handle b) { return nb::isinstance<State>(b) && a == nb::cast<const State&>(b); },
-           "other"_a)
+      .def(
+          "__eq__",
+          [](const State& a, nb::handle b) { return nb::isinstance<State>(b) && a == nb::cast<const State&>(b); },
+          "other"_a)
       .def("__repr__",
            [](const State& s) {
              return cat("<SimulationState at ", s.time, " s: ", s.q.size(), " joint values, ", s.freePos.rows(),
@@ -173,19 +175,22 @@ void bindMeasuring(nb::class_<PySimulation>& simulation) {
           [](const S& s, const FrameArgument& f) { return toNumpy(VectorXd(s.simulation.getForceTorque(name(s, f)))); },
           "frame"_a, docs::simulation::getForceTorque)
       .def(
-          "addAccelerometer", [](S& s, const FrameArgument& f) { s.simulation.addAccelerometer(name(s, f)); }, "frame"_a,
-          docs::simulation::addAccelerometer)
+          "addAccelerometer", [](S& s, const FrameArgument& f) { s.simulation.addAccelerometer(name(s, f)); },
+          "frame"_a, docs::simulation::addAccelerometer)
       .def(
           "getAcceleration",
-          [](const S& s, const FrameArgument& f) { return toNumpy(VectorXd(s.simulation.getAcceleration(name(s, f)))); },
+          [](const S& s, const FrameArgument& f) {
+            return toNumpy(VectorXd(s.simulation.getAcceleration(name(s, f))));
+          },
           "frame"_a, docs::simulation::getAcceleration)
       .def(
           "perturb",
           [](S& s, const FrameArgument& frame, const Numbers& force, const Numbers& torque, const Numbers& point) {
             std::optional<Vector3d> at;
             if (point.values.size() > 0) at = vector3(point, "Simulation.perturb: point");
-            s.simulation.perturb(name(s, frame), vector3(force, "Simulation.perturb: force"),
-                                 torque.values.size() ? vector3(torque, "Simulation.perturb: torque") : Vector3d::Zero(), at);
+            s.simulation.perturb(
+                name(s, frame), vector3(force, "Simulation.perturb: force"),
+                torque.values.size() ? vector3(torque, "Simulation.perturb: torque") : Vector3d::Zero(), at);
           },
           "frame"_a, "force"_a, "torque"_a = nb::list(), "point"_a = nb::list(), docs::simulation::perturb)
       .def(
@@ -211,7 +216,8 @@ void bindGrippers(nb::class_<PySimulation>& simulation) {
           "gripperIsDone", [](const S& s, const FrameArgument& f) { return s.simulation.gripperIsDone(name(s, f)); },
           "gripperFrameName"_a, docs::simulation::gripperIsDone)
       .def(
-          "getGripperWidth", [](const S& s, const FrameArgument& f) { return s.simulation.getGripperWidth(name(s, f)); },
+          "getGripperWidth",
+          [](const S& s, const FrameArgument& f) { return s.simulation.getGripperWidth(name(s, f)); },
           "gripperFrameName"_a, docs::simulation::getGripperWidth)
       .def(
           "attach",
@@ -280,7 +286,8 @@ void bindSimulation(nb::module_& m) {
           "get_qRef", [](const S& s) { return toNumpy(s.simulation.getReference()); },
           "The joint state that the motors want, (n,).")
       .def(
-          "resetTime", [](S& s, double time) { s.simulation.resetTime(time); }, "time"_a = 0., docs::simulation::resetTime)
+          "resetTime", [](S& s, double time) { s.simulation.resetTime(time); }, "time"_a = 0.,
+          docs::simulation::resetTime)
       .def(
           "getFreeFrames", [](const S& s) { return s.simulation.getFreeFrames(); }, docs::simulation::getFreeFrames)
       .def(
@@ -307,7 +314,8 @@ void bindSimulation(nb::module_& m) {
         return cat("<Simulation at ", s.simulation.get_t(), " s: ", s.simulation.config().getFrameDimension(),
                    " frames, of which ", s.simulation.getFreeFrames().size(), " are free>");
       });
-  simulation.def_prop_ro("options", [](const S& s) { return s.simulation.options(); }, "A copy of its settings.");
+  simulation.def_prop_ro(
+      "options", [](const S& s) { return s.simulation.options(); }, "A copy of its settings.");
   bindSplines(simulation);
   bindGrippers(simulation);
   bindMeasuring(simulation);

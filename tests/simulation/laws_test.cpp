@@ -100,8 +100,9 @@ TEST(SimulationLaws, ABallRollsDownWithFiveSeventhsOfTheSlope) {
 
 TEST(SimulationLaws, APendulumKeepsItsEnergy) {
   Config C;
-  C.addText("hub: { X: [0 0 2] } arm (hub): { joint: hingeX, q: 1.5, noMotor: true } "
-            "bob (arm): { Q: [0 0 -.5], shape: sphere, size: [.05], mass: 1 }");
+  C.addText(
+      "hub: { X: [0 0 2] } arm (hub): { joint: hingeX, q: 1.5, noMotor: true } "
+      "bob (arm): { Q: [0 0 -.5], shape: sphere, size: [.05], mass: 1 }");
   const auto energy = [&](const Simulation& s) {
     C.setJointState(s.get_q());
     return kineticEnergy(C.state(), C.inertias(), s.get_qDot()) + potentialEnergy(C.state(), C.inertias());

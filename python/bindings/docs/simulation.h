@@ -60,7 +60,8 @@ inline constexpr char getState[] = R"(All that decides what will happen.
 Returns:
     A SimulationState; setState with it makes what follows the same again, bit for bit.)";
 
-inline constexpr char setState[] = R"(Goes back to a state, of this simulation or of another of the same scene. C follows.
+inline constexpr char setState[] =
+    R"(Goes back to a state, of this simulation or of another of the same scene. C follows.
 
 Args:
     state: Of getState. Fields that were changed count.
@@ -80,7 +81,8 @@ inline constexpr char setVerbose[] = R"(As in the constructor.
 Args:
     verbose: Not used.)";
 
-inline constexpr char setSplineRef[] = R"(A motion for mode spline: a cubic B-spline through the present reference and these points.
+inline constexpr char setSplineRef[] =
+    R"(A motion for mode spline: a cubic B-spline through the present reference and these points.
 
 Args:
     path: (K, n) control points, or (n,) for one.
@@ -119,7 +121,8 @@ Raises:
     FrameNotFound: There is no such frame.
     ArgumentError: It has no gripper, or a number makes no sense.)";
 
-inline constexpr char closeGripper[] = R"(Closes fingers with a force, until something is in between, in the steps that follow.
+inline constexpr char closeGripper[] =
+    R"(Closes fingers with a force, until something is in between, in the steps that follow.
 
 Args:
     gripperFrameName: A frame of the link that carries the fingers.
@@ -179,7 +182,8 @@ inline constexpr char getJointTorques[] = R"(What motors exerted in the last inn
 Returns:
     (n,) in N m or N, what compensates gravity within the robot not counted.)";
 
-inline constexpr char getExternalTorques[] = R"(What acts on joints besides motors: contacts, limits, what is attached, perturbations.
+inline constexpr char getExternalTorques[] =
+    R"(What acts on joints besides motors: contacts, limits, what is attached, perturbations.
 
 Returns:
     (n,) in N m or N.)";
@@ -218,7 +222,8 @@ Raises:
     FrameNotFound: There is no such frame.
     ArgumentError: It has no sensor.)";
 
-inline constexpr char perturb[] = R"(Lets a force and a torque act on the link of a frame until clearPerturbations; several add up.
+inline constexpr char perturb[] =
+    R"(Lets a force and a torque act on the link of a frame until clearPerturbations; several add up.
 
 Args:
     frame: The frame.

@@ -20,7 +20,9 @@ constexpr int kMostRobots = 30;     ///< each has a bit of its own
 int contactBit(int robot) { return robot < 0 ? kThing : 1 << (1 + robot % kMostRobots); }
 
 /// What collides with what: all with all, but a robot with itself.
-bool mayTouch(int robot_a, int robot_b) { return contactBit(robot_a) == kThing || contactBit(robot_a) != contactBit(robot_b); }
+bool mayTouch(int robot_a, int robot_b) {
+  return contactBit(robot_a) == kThing || contactBit(robot_a) != contactBit(robot_b);
+}
 
 void setContactNumbers(mjsGeom* geom, const SimulationOptions& options, double friction) {
   const double solref[] = {.005, 1.}, solimp[] = {.98, .99, .001, .5, 2.};
@@ -97,7 +99,8 @@ void ModelShapes::setMesh(mjsGeom* geom, const std::vector<Vector3d>& points, co
   mj.mjs_setString(geom->meshname, name.c_str());
 }
 
-void ModelShapes::addBody(const CollisionBody& core, const FrameData& frame, mjsBody* body, const Pose& X_BF, int robot) {
+void ModelShapes::addBody(const CollisionBody& core, const FrameData& frame, mjsBody* body, const Pose& X_BF,
+                          int robot) {
   using Core = CollisionBody::Core;
   if (core.core() == Core::compound) {
     for (const auto& part : core.tree().bodies) addBody(*part, frame, body, X_BF, robot);
@@ -164,7 +167,8 @@ void ModelShapes::addFrictionPairs(const std::set<std::pair<int, int>>& excluded
   for (std::size_t i = 0; i < geoms.size(); ++i) {
     for (std::size_t j = i + 1; j < geoms.size(); ++j) {
       const Geom &a = geoms[i], &b = geoms[j];
-      if (a.friction == b.friction || a.body == b.body || !(a.moves || b.moves) || !mayTouch(a.robot, b.robot)) continue;
+      if (a.friction == b.friction || a.body == b.body || !(a.moves || b.moves) || !mayTouch(a.robot, b.robot))
+        continue;
       if (excluded.contains(std::minmax(a.body, b.body))) continue;
       mjsPair* pair = mj.mjs_addPair(spec_, nullptr);
       mj.mjs_setString(pair->geomname1, a.name.c_str());

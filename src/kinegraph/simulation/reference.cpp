@@ -73,8 +73,8 @@ void Reference::courseOf(std::size_t i, const Drive& drive, double goal, double 
   Dof& dof = parts_.dofs[i];
   dof.goal = goal;
   const double velocity = (goal - dof.position) / tau;
-  const bool even = std::abs(velocity - dof.velocity) <= options.reference_acceleration * tau &&
-                    std::abs(velocity) <= drive.velocity;
+  const bool even =
+      std::abs(velocity - dof.velocity) <= options.reference_acceleration * tau && std::abs(velocity) <= drive.velocity;
   parts_.courses[i] = {even ? Path::even : Path::limited, dof.position, dof.velocity, velocity};
 }
 
@@ -140,7 +140,8 @@ double Reference::nextPosition(std::size_t i, const Drive& drive, double h, cons
     }
     case Path::cubic: {
       if (parts_.clock.last) return dof.goal;
-      const double d = dof.goal - course.start, v0 = course.start_velocity * parts_.clock.tau, v1 = course.end_velocity * parts_.clock.tau;
+      const double d = dof.goal - course.start, v0 = course.start_velocity * parts_.clock.tau,
+                   v1 = course.end_velocity * parts_.clock.tau;
       return course.start + s * (v0 + s * (3. * d - 2. * v0 - v1 + s * (v0 + v1 - 2. * d)));
     }
   }

@@ -46,7 +46,8 @@ class Reference {
   Reference() = default;
 
   /// A new command, for the time tau. `u` has the numbers that `mode` asks for; they are finite.
-  void command(const SceneModel& model, const VectorXd& u, double tau, ControlMode mode, const SimulationOptions& options);
+  void command(const SceneModel& model, const VectorXd& u, double tau, ControlMode mode,
+               const SimulationOptions& options);
 
   /// Looks ahead from `time` by an inner step of length h, the `last` one of the command or not: acceleration() is then what
   /// brings a motor that is at the reference to the next one.
@@ -67,7 +68,7 @@ class Reference {
   Parts parts() const { return parts_; }
   void setParts(Parts parts) { parts_ = std::move(parts); }
 
-  BSpline spline;              ///< of q; in time from spline_start
+  BSpline spline;  ///< of q; in time from spline_start
   double spline_start = 0.;
 
  private:

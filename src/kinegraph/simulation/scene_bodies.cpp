@@ -49,21 +49,22 @@ bool isLoose(const FrameData& root, std::vector<std::string>& warnings) {
   });
   if (carries || !weighs) return false;
   if (all_weigh || root.inertia) return true;
-  warnings.push_back(cat("Simulation: frame '", heavy, "' has a mass, but is fixed to '", root.name, "' together with '",
-                         massless, "', which has none: it stays where it is. Give it a joint (JT.rigid) to let it fall"));
+  warnings.push_back(cat("Simulation: frame '", heavy, "' has a mass, but is fixed to '", root.name,
+                         "' together with '", massless,
+                         "', which has none: it stays where it is. Give it a joint (JT.rigid) to let it fall"));
   return false;
 }
 
 void checkInertia(const FrameData& frame) {
   const Inertia& inertia = *frame.inertia;
   if (!(inertia.mass >= 0.) || !std::isfinite(inertia.mass))
-    throw ValueError(cat("Simulation: frame '", frame.name, "' has a mass of ", inertia.mass,
-                         " kg; expected a finite number >= 0"));
+    throw ValueError(
+        cat("Simulation: frame '", frame.name, "' has a mass of ", inertia.mass, " kg; expected a finite number >= 0"));
   if (!inertia.com.allFinite() || !inertia.matrix.allFinite())
     throw ValueError(cat("Simulation: frame '", frame.name, "' has a center of mass or an inertia that is not finite"));
   if (inertia.matrix.diagonal().minCoeff() < 0.)
-    throw ValueError(cat("Simulation: frame '", frame.name, "' has an inertia with a negative diagonal: ",
-                         inertia.matrix.diagonal().transpose()));
+    throw ValueError(cat("Simulation: frame '", frame.name,
+                         "' has an inertia with a negative diagonal: ", inertia.matrix.diagonal().transpose()));
 }
 
 LinkInertia surfaceInertia(const Geometry& geometry, double mass) {
@@ -190,8 +191,8 @@ bool takesPart(const FrameData& frame) {
   if (!frame.shape) return false;
   const Shape& shape = *frame.shape;
   const ShapeType type = shape.geometry->type;
-  if (type == ShapeType::none || shapeKind(type).is_symbol || type == ShapeType::quad || type == ShapeType::pointCloud ||
-      type == ShapeType::lines)
+  if (type == ShapeType::none || shapeKind(type).is_symbol || type == ShapeType::quad ||
+      type == ShapeType::pointCloud || type == ShapeType::lines)
     return false;
   if (shapeKind(type).hasPoints() && (!shape.geometry->mesh || shape.geometry->mesh->vertices.empty())) return false;
   return attributeFlag(frame, "simulate", !shape.color || (*shape.color)[3] >= 1.);

@@ -15,8 +15,8 @@ namespace kinegraph {
 namespace {
 
 constexpr double kInfinite = std::numeric_limits<double>::infinity();
-constexpr int kWelds = 32;               ///< kept for attach
-constexpr double kOverlap = 1e-3;        ///< m: what overlaps more at the start never touches, in one tree
+constexpr int kWelds = 32;                ///< kept for attach
+constexpr double kOverlap = 1e-3;         ///< m: what overlaps more at the start never touches, in one tree
 constexpr double kGripStiffness = 2000.;  ///< N/m; and damping N s/m
 constexpr double kGripDamping = 60.;
 constexpr double kGripLever = .1;  ///< m: turns them into those of fingers that turn
@@ -33,8 +33,12 @@ bool isFingerJoint(const FrameData& frame) {
 class ModelMaker {
  public:
   ModelMaker(SceneTree& scene, const SimulationOptions& options, const SensorFrames& sensors)
-      : scene_(scene), program_(*scene.program()), options_(options), sensors_(sensors),
-        spec_(mj_.mj_makeSpec(), mj_.mj_deleteSpec), shapes_(spec_.get(), options) {}
+      : scene_(scene),
+        program_(*scene.program()),
+        options_(options),
+        sensors_(sensors),
+        spec_(mj_.mj_makeSpec(), mj_.mj_deleteSpec),
+        shapes_(spec_.get(), options) {}
 
   SceneModel make() {
     std::set<int> measured = sensors_.forces;
@@ -224,7 +228,8 @@ class ModelMaker {
   }
 
   const MadeJoint& madeJoint(const FrameData& frame) const {
-    return *std::find_if(made_joints_.begin(), made_joints_.end(), [&](const MadeJoint& j) { return j.frame == &frame; });
+    return *std::find_if(made_joints_.begin(), made_joints_.end(),
+                         [&](const MadeJoint& j) { return j.frame == &frame; });
   }
 
   static std::string jointName(const FrameData& frame, std::size_t step) { return cat("j", frame.id, "_", step); }

@@ -62,11 +62,11 @@ using PhysicsModel = std::unique_ptr<mjModel, decltype(&::mj_deleteModel)>;
 struct SceneModel {
   PhysicsModel model{nullptr, nullptr};
   SceneBodies scene;
-  std::vector<int> body_id;       ///< per body of the scene: the model's
-  std::vector<int> body_of_id;    ///< and back
-  std::vector<int> geom_frame;    ///< per geom: the frame's id; -1 for the ground
+  std::vector<int> body_id;     ///< per body of the scene: the model's
+  std::vector<int> body_of_id;  ///< and back
+  std::vector<int> geom_frame;  ///< per geom: the frame's id; -1 for the ground
   std::vector<ModelJoint> joints;
-  std::vector<int> free_frames;   ///< ids of the frames of free bodies
+  std::vector<int> free_frames;  ///< ids of the frames of free bodies
   std::vector<int> free_qpos, free_dof;
   struct Follower {
     int qpos, dof, source_qpos, source_dof;

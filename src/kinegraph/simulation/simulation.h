@@ -50,7 +50,7 @@ class Simulation {
   void advance(const VectorXd& u, double tau, ControlMode mode, const std::function<void()>& between = {});
   void publish();  ///< sets joints and free bodies in the Config
 
-  double get_t() const;  ///< s
+  double get_t() const;              ///< s
   void resetTime(double time = 0.);  ///< and resetSplineRef
 
   // --- what is ---------------------------------------------------------------------------------------------------
@@ -79,8 +79,8 @@ class Simulation {
   /// A motion for ControlMode::spline through control points `path` (K x n) at `times` (K, s), or one number, the time of all,
   /// in equal parts. Appended at the end of the present one, at rest; else from the present reference on, smoothly.
   void setSplineRef(const MatrixXd& path, const VectorXd& times, bool append = true);
-  double getTimeToSplineEnd() const;                 ///< s; negative after it
-  void resetSplineRef(double ctrl_time = -1.);       ///< a spline that stays at the present q; from that time on, or now
+  double getTimeToSplineEnd() const;            ///< s; negative after it
+  void resetSplineRef(double ctrl_time = -1.);  ///< a spline that stays at the present q; from that time on, or now
 
   /// round(tau_step / tau_sim) steps in spline mode; `between`, where given, as in advance, which undoes one of them.
   void multi_step(double tau_step, double tau_sim, const std::function<void()>& between = {});
@@ -93,7 +93,7 @@ class Simulation {
 
   /// Closes to a width (m) with a force per finger (N), or until something is in between.
   void closeGripper(const std::string& gripper, double width = 0., double speed = .3, double force = 20.);
-  bool gripperIsDone(const std::string& gripper) const;  ///< at its target, to .1 mm, or stopped by something
+  bool gripperIsDone(const std::string& gripper) const;      ///< at its target, to .1 mm, or stopped by something
   double getGripperWidth(const std::string& gripper) const;  ///< m between the fingers
 
   /// Holds the link of frame `to` to that of `from` as they are. Throws FrameNotFound, and ValueError for more than 32.

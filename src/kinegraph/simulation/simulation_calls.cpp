@@ -86,8 +86,7 @@ double Simulation::getGripperWidth(const std::string& gripper) const {
 void Simulation::attach(const std::string& from, const std::string& to) {
   update();
   const int a = impl_->body(from, "Simulation.attach"), b = impl_->body(to, "Simulation.attach");
-  if (a == b)
-    throw ValueError(cat("Simulation.attach: '", from, "' and '", to, "' are fixed to each other already"));
+  if (a == b) throw ValueError(cat("Simulation.attach: '", from, "' and '", to, "' are fixed to each other already"));
   impl_->world->weld(a, b);
 }
 
@@ -114,7 +113,8 @@ void Simulation::setSplineRef(const MatrixXd& path, const VectorXd& times, bool 
                           : VectorXd(VectorXd::LinSpaced(path.rows(), times[0] / double(path.rows()), times[0]));
   if (!(at[0] > 0.)) throw ValueError(cat(call, ": the first time is ", at[0], " s; expected a positive number"));
   Reference& reference = s.world->reference();
-  const double now = s.world->time(), end = reference.spline.isEmpty() ? now : reference.spline_start + reference.spline.end();
+  const double now = s.world->time(),
+               end = reference.spline.isEmpty() ? now : reference.spline_start + reference.spline.end();
   BSpline next = reference.spline;
   if (append && end > now) {
     next.append(path, at);
@@ -195,7 +195,8 @@ void Simulation::addForceTorqueSensor(const std::string& frame) {
 }
 
 void Simulation::addAccelerometer(const std::string& frame) {
-  impl_->acceleration_frames.push_back(impl_->frames[std::size_t(impl_->frame(frame, "Simulation.addAccelerometer").id)]);
+  impl_->acceleration_frames.push_back(
+      impl_->frames[std::size_t(impl_->frame(frame, "Simulation.addAccelerometer").id)]);
   impl_->rebuild();
 }
 

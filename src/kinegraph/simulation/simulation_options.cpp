@@ -14,7 +14,10 @@ const OptionTable<SimulationOptions>& simulationOptionTable() {
   static const OptionTable<Options> table(
       "SimulationOptions",
       {
-          {"inner_step", &Options::inner_step, "s", "A step is made of equal ones that are not longer.",
+          {"inner_step",
+           &Options::inner_step,
+           "s",
+           "A step is made of equal ones that are not longer.",
            {[](double v) { return v >= 1e-5 && v <= .05; }, "1e-5 to .05"}},
           {"servo_frequency", &Options::servo_frequency, "rad/s", "How stiff joints follow their references.",
            OptionRange::positive()},
@@ -28,7 +31,8 @@ const OptionTable<SimulationOptions>& simulationOptionTable() {
           {"armature", &Options::armature, "kg m^2 or kg", "Inertia of motors, added to that of driven joints.",
            OptionRange::notNegative()},
           {"ground", &Options::ground, "", "A plane at z = 0."},
-          {"speculative", &Options::speculative, "", "Contacts before they happen: stops what would fly through thin walls."},
+          {"speculative", &Options::speculative, "",
+           "Contacts before they happen: stops what would fly through thin walls."},
           {"sleep", &Options::sleep, "", "What rests costs nothing; states then replay in the same object only."},
       });
   return table;

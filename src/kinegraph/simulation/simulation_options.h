@@ -24,17 +24,17 @@ enum class ControlMode : int {
 
 /// Settings of a simulation. The defaults hold what is grasped.
 struct SimulationOptions {
-  double inner_step = .002;              ///< s; a step is made of equal ones that are not longer
-  double servo_frequency = 100.;         ///< rad/s: how stiff joints follow; times inner_step at most .5
-  double reference_acceleration = 20.;   ///< rad/s^2 or m/s^2: how fast references of far targets move
-  double friction = 1.;                  ///< of frames without the attribute `friction`
-  double torsional_friction = .005;      ///< m: against spinning on the spot
-  double rolling_friction = 1e-4;        ///< m
-  double gravity = 9.81;                 ///< m/s^2, along -z
-  double armature = .1;                  ///< kg m^2 or kg: inertia of motors, added to that of driven joints
-  bool ground = true;                    ///< a plane at z = 0
-  bool speculative = false;              ///< contacts before they happen: stops what would fly through thin walls
-  bool sleep = false;                    ///< what rests costs nothing; states then replay in the same object only
+  double inner_step = .002;             ///< s; a step is made of equal ones that are not longer
+  double servo_frequency = 100.;        ///< rad/s: how stiff joints follow; times inner_step at most .5
+  double reference_acceleration = 20.;  ///< rad/s^2 or m/s^2: how fast references of far targets move
+  double friction = 1.;                 ///< of frames without the attribute `friction`
+  double torsional_friction = .005;     ///< m: against spinning on the spot
+  double rolling_friction = 1e-4;       ///< m
+  double gravity = 9.81;                ///< m/s^2, along -z
+  double armature = .1;                 ///< kg m^2 or kg: inertia of motors, added to that of driven joints
+  bool ground = true;                   ///< a plane at z = 0
+  bool speculative = false;             ///< contacts before they happen: stops what would fly through thin walls
+  bool sleep = false;                   ///< what rests costs nothing; states then replay in the same object only
 
   /// Throws ValueError, which names the first field that makes no sense.
   void validate() const;

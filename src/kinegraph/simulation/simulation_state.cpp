@@ -12,10 +12,11 @@ namespace kinegraph {
 
 namespace {
 
-void expectSize(const char* call, const char* what, std::ptrdiff_t rows, std::ptrdiff_t columns, const MatrixXd& given) {
+void expectSize(const char* call, const char* what, std::ptrdiff_t rows, std::ptrdiff_t columns,
+                const MatrixXd& given) {
   if (given.rows() != rows || given.cols() != columns)
-    throw ValueError(cat(call, ": ", what, " has shape (", given.rows(), ", ", given.cols(), "); expected (", rows, ", ",
-                         columns, ")"));
+    throw ValueError(cat(call, ": ", what, " has shape (", given.rows(), ", ", given.cols(), "); expected (", rows,
+                         ", ", columns, ")"));
   if (!given.allFinite()) throw ValueError(cat(call, ": ", what, " has numbers that are not finite"));
 }
 

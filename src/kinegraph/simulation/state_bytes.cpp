@@ -143,8 +143,8 @@ WorldState stateFromBytes(std::string_view bytes, const World& world) {
     const WeldBytes& weld = welds[i];
     if (weld.body_a < 0 || weld.body_b < 0 || weld.body_a >= bodies || weld.body_b >= bodies) StateReader::fail();
     const Eigen::Map<const Vector7d> pose(weld.pose);
-    state.welds[i] = {weld.body_a, weld.body_b,
-                      Pose(pose.head<3>(), Quaterniond(pose[3], pose[4], pose[5], pose[6])), weld.active != 0};
+    state.welds[i] = {weld.body_a, weld.body_b, Pose(pose.head<3>(), Quaterniond(pose[3], pose[4], pose[5], pose[6])),
+                      weld.active != 0};
   }
   return state;
 }

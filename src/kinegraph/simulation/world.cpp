@@ -21,8 +21,12 @@ int stateSize(const mjModel& m) { return physics().mj_stateSize(&m, mjSTATE_INTE
 }  // namespace
 
 World::World(std::shared_ptr<const SceneModel> model, const SimulationOptions& options, bool is_kinematic)
-    : model_(std::move(model)), options_(options), is_kinematic_(is_kinematic), physics_(nullptr, physics().mj_deleteModel),
-      data_(nullptr, physics().mj_deleteData), computed_(nullptr, physics().mj_deleteData) {
+    : model_(std::move(model)),
+      options_(options),
+      is_kinematic_(is_kinematic),
+      physics_(nullptr, physics().mj_deleteModel),
+      data_(nullptr, physics().mj_deleteData),
+      computed_(nullptr, physics().mj_deleteData) {
   const Physics& mj = physics();
   const MujocoErrors thrown;
   physics_.reset(mj.mj_copyModel(nullptr, model_->model.get()));
@@ -61,12 +65,14 @@ void World::checkCommand(const VectorXd& u, double tau, ControlMode mode) const 
   if (u.size() != size)
     throw ValueError(cat("Simulation.step: u_control has ", u.size(), " numbers; mode ", controlModeName(mode),
                          size == 0 ? " takes none" : cat(" takes ", size, ", the joints' ", model_->dofs, " dofs")));
-  if (!u.allFinite()) throw ValueError(cat("Simulation.step: u_control has numbers that are not finite: ", u.transpose()));
+  if (!u.allFinite())
+    throw ValueError(cat("Simulation.step: u_control has numbers that are not finite: ", u.transpose()));
   if (mode == ControlMode::velocity || mode == ControlMode::acceleration || mode == ControlMode::torque) {
     for (const Drive& drive : model_->drives) {
       if (drive.q >= 0 && (drive.kind == MotionKind::quaternion || drive.kind == MotionKind::circle))
-        throw ValueError(cat("Simulation.step: mode ", controlModeName(mode), " is not for the joint whose numbers begin at ",
-                             drive.q, ": they are those of a quaternion; use mode position"));
+        throw ValueError(cat("Simulation.step: mode ", controlModeName(mode),
+                             " is not for the joint whose numbers begin at ", drive.q,
+                             ": they are those of a quaternion; use mode position"));
     }
   }
 }
@@ -170,8 +176,8 @@ void World::correctContacts(double h) {
     mjContact& contact = d.contact[i];
     if (contact.efc_address < 0 || contact.dim < 3) continue;
     const Vector point(contact.pos);
-    const Vector3d missing = acceleration(m.geom_bodyid[contact.geom[1]], point) -
-                             acceleration(m.geom_bodyid[contact.geom[0]], point);
+    const Vector3d missing =
+        acceleration(m.geom_bodyid[contact.geom[1]], point) - acceleration(m.geom_bodyid[contact.geom[0]], point);
     const double factor = .5 * contact.solimp[1] * contact.solref[0] + .5 * h;
     contact.surfacevel[0] += factor * Vector(contact.frame + 3).dot(missing);
     contact.surfacevel[1] += factor * Vector(contact.frame + 6).dot(missing);
@@ -252,14 +258,15 @@ bool World::isGripperDone(int gripper) const {
 void World::checkNumbers(const WorldState& before, double time) {
   const auto& warning = data_->warning;
   const bool full = warning[mjWARN_CONTACTFULL].number > 0 || warning[mjWARN_CNSTRFULL].number > 0;
-  const bool bad = warning[mjWARN_BADQPOS].number > 0 || warning[mjWARN_BADQVEL].number > 0 ||
-                   warning[mjWARN_BADQACC].number > 0;
+  const bool bad =
+      warning[mjWARN_BADQPOS].number > 0 || warning[mjWARN_BADQVEL].number > 0 || warning[mjWARN_BADQACC].number > 0;
   if (!full && !bad) return;
   setState(before);
   if (full)
     throw Error("Simulation.step: more contacts at once than there is memory for; the state is as before the step");
-  throw Error(cat("Simulation.step: numbers leave all bounds before ", time,
-                  " s; the state is as before the step. Look for tiny masses, things that overlap much, or large torques"));
+  throw Error(
+      cat("Simulation.step: numbers leave all bounds before ", time,
+          " s; the state is as before the step. Look for tiny masses, things that overlap much, or large torques"));
 }
 
 WorldState World::state() const {

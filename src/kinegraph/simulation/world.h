@@ -15,8 +15,8 @@ struct GripperTask {
   double target = 0.;     ///< of its joint, m or rad
   double reference = 0.;  ///< moves to the target at `speed`
   double speed = .3;
-  double force = 20.;     ///< of each finger, N
-  double still = 0.;      ///< s for which it has not moved although its force is at the limit
+  double force = 20.;  ///< of each finger, N
+  double still = 0.;   ///< s for which it has not moved although its force is at the limit
   bool operator==(const GripperTask&) const = default;
 };
 
