@@ -32,7 +32,7 @@ EVERYTHING = [
     "ik",
     "komo",
 ]
-EVERYTHING += ["planning", "rendering", "simulation", "viewer", "front"]
+EVERYTHING += ["planning", "motion", "rendering", "simulation", "viewer", "front"]
 
 BELOW: dict[str, list[str]] = {
     "base": [],
@@ -58,6 +58,9 @@ BELOW: dict[str, list[str]] = {
     "ik": ["base", "math", "geometry", "kinematics", "scene"],
     "komo": ["base", "math", "geometry", "kinematics", "scene", "features", "nlp"],
     "planning": ["base", "math", "geometry", "kinematics", "scene", "features", "nlp", "komo", "solvers"],
+    "motion": [
+        *["base", "math", "geometry", "kinematics", "scene", "features", "nlp", "komo", "solvers", "ik", "spline"],
+    ],
     "rendering": ["base", "math", "gfile", "geometry", "kinematics", "scene"],
     "simulation": ["base", "math", "gfile", "geometry", "kinematics", "scene", "spline", "rendering"],
     "viewer": ["base", "math", "gfile", "geometry", "kinematics", "scene", "formats"],

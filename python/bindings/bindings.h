@@ -47,6 +47,7 @@ void bindSolvers(nb::module_& m);
 void bindKomo(nb::module_& m);
 void bindSkeleton(nb::module_& m);
 void bindIk(nb::module_& m);
+void bindPathFinder(nb::module_& m);
 void bindSpline(nb::module_& m);
 void bindDynamics(nb::class_<PyConfig>& config);
 void bindFormats(nb::class_<PyConfig>& config, nb::class_<Frame>& frame);

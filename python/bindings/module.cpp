@@ -43,6 +43,7 @@ NB_MODULE(_core, m) {
   bindSkeleton(m);
   bindSolveMany(m);
   bindIk(m);
+  bindPathFinder(m);
   bindSpline(m);
   bindSimulation(m);
   m.def(

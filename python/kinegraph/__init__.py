@@ -40,6 +40,8 @@ from ._core import (
     NLP_SolverOptions,
     OptMethod,
     PathContact,
+    PathReturn,
+    RRT_PathFinder,
     Simulation,
     SimulationEngine,
     SimulationOptions,
@@ -111,6 +113,7 @@ teach(FS, JT, OT, ST, SY, ArgWord, ControlMode, SimulationEngine)
 teach(OptMethod, earlier=_OPT_METHODS)
 _addEarlierMethods()
 NLP_SolverID = OptMethod  # as scripts of earlier years call it
+PathFinder = RRT_PathFinder  # as older scripts call it
 
 # Written out, so that type checkers know what is exported.
 __all__ = [
@@ -156,7 +159,10 @@ __all__ = [
     "OptMethod",
     "ParseError",
     "PathContact",
+    "PathFinder",
+    "PathReturn",
     "Quaternion",
+    "RRT_PathFinder",
     "Simulation",
     "SimulationEngine",
     "SimulationOptions",

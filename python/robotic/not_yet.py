@@ -12,7 +12,6 @@ _PLANS = "Skeleton and KOMO solve a plan whose symbols are given"
 
 BotOp = pending("BotOp", _KINEMATIC)
 StepObservation = pending("StepObservation", _KINEMATIC)
-RRT_PathFinder = PathFinder = pending("RRT_PathFinder", _PATHS)
 SRRT_PathFinder = pending("SRRT_PathFinder", _PATHS)
 LGP_Tool = pending("LGP_Tool", _PLANS)
 LGP_TAMP_Abstraction = pending("LGP_TAMP_Abstraction", _PLANS)

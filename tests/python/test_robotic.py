@@ -140,7 +140,7 @@ def test_options_of_earlier_years_are_those_of_today() -> None:
     [
         "ry.BotOp(None, False)",
         "ry.Simulation.step",
-        "ry.PathFinder()",
+        "ry.SRRT_PathFinder()",
         "ry.algo.box_filter([1])",
         "ry.DataGen.RndStableConfigs()",
     ],

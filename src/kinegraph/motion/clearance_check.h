@@ -1,0 +1,76 @@
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "kinegraph/kinematics/motion_check.h"
+#include "kinegraph/kinematics/near_pairs.h"
+#include "kinegraph/motion/joint_space.h"
+
+namespace kinegraph {
+
+/// What counts as free: all collidable pairs keep `margin` apart, or, near a posture that is itself closer to contact,
+/// what that posture keeps.
+struct Clearance {
+  /// A start or goal that keeps less than the margin.
+  struct Tight {
+    VectorXd q;
+    double margin;  ///< m, that holds around it
+  };
+  static constexpr double kAround = .25;    ///< how far around it, in joint space
+  static constexpr double kTolerance = 1e-5;  ///< m, of the check at all times
+  static constexpr double kGuard = 2e-5;  ///< m, by which searches keep more, so that pieces of what is free are free
+
+  double margin = 0.;            ///< m
+  double guard = 0.;             ///< m, in addition to all margins
+  std::vector<Tight> tight = {};  ///< few
+  double resolution = 1. / 32.;  ///< between postures that are looked at first, in joint space
+};
+
+/// One thread's answers to whether postures and straight motions between them are free.
+class ClearanceCheck {
+ public:
+  /// `space` must stay.
+  ClearanceCheck(const State& scene, const JointSpace& space, Clearance clearance);
+
+  const JointSpace& space() const { return *space_; }
+
+  /// All collidable pairs far enough apart? Limits are not looked at.
+  bool isFree(const VectorXd& q);
+
+  /// Are all postures of the motion free that are looked at: its end, its middle, its quarters, ...? What is not free
+  /// comes to light soon; what is, is nearly always free at all times, too.
+  bool seemsFree(const VectorXd& from, const VectorXd& to);
+
+  /// Is it free at all times? The time of the contact is that on the way from `from` to `to`.
+  std::optional<MotionContact> contact(const VectorXd& from, const VectorXd& to);
+  bool isMotionFree(const VectorXd& from, const VectorXd& to) { return !contact(from, to); }
+
+  /// The least distance of a collidable pair at q, if it is less than `up_to`, and that pair.
+  struct Nearest {
+    double distance;
+    int a, b;  ///< frame ids
+  };
+  std::optional<Nearest> nearest(const VectorXd& q, double up_to);
+  /// All pairs nearer than that.
+  std::vector<Nearest> nearerThan(const VectorXd& q, double up_to);
+
+  long evaluations = 0;  ///< postures that were looked at, and motions
+
+  /// Some of the postures that were not free, spread over all of them.
+  const std::vector<VectorXd>& blocked() const { return blocked_; }
+
+ private:
+  double marginAt(const VectorXd& q) const;
+  void rememberBlocked(const VectorXd& q);
+
+  const JointSpace* space_;
+  Clearance clearance_;
+  State state_;
+  NearPairs pairs_;
+  MotionChecker motions_;
+  std::vector<VectorXd> blocked_;
+  long blocked_count_ = 0, blocked_every_ = 1;
+};
+
+}  // namespace kinegraph

@@ -1,0 +1,144 @@
+"""RRT_PathFinder: paths between two postures, as older scripts ask for them."""
+
+from __future__ import annotations
+
+import pickle
+
+import numpy as np
+import pytest
+
+import kinegraph as ry
+
+BAR_AROUND_BAR = """
+world: {}
+stick(world): {shape: ssBox, size: [0.05, 0.9, 0.1, 0.02], contact: 1}
+base(world): {joint: transXYPhi, limits: [-1.5, -1.5, -4, 1.5, 1.5, 4]}
+bar(base): {shape: ssBox, size: [0.05, 0.6, 0.1, 0.02], contact: 1}
+"""
+START, GOAL = [-0.4, 0.0, 0.0], [0.4, 0.0, 0.0]
+
+
+def barAroundBar() -> ry.Config:
+    C = ry.Config()
+    C.addText(BAR_AROUND_BAR)
+    return C
+
+
+def denselyFree(C: ry.Config, path: np.ndarray, margin: float) -> bool:
+    """Looks at postures every milliradian, by a call that knows nothing of paths."""
+    for a, b in zip(path[:-1], path[1:], strict=True):
+        count = max(2, int(np.linalg.norm(b - a) / 1e-3))
+        if not C.isValid(a + np.linspace(0, 1, count)[:, None] * (b - a), margin=margin).all():
+            return False
+    return True
+
+
+def finder(C: ry.Config) -> ry.RRT_PathFinder:
+    return ry.RRT_PathFinder().setProblem(C).setStartGoal(START, GOAL)
+
+
+def test_a_bar_goes_around_a_bar() -> None:
+    C = barAroundBar()
+    rrt = finder(C)
+    ret = rrt.solve(0)
+    assert ret.feasible and ret.done and ret.evals > 0 and ret.f == ret.eq == ret.ineq == ret.sos == 0
+    assert ret.x.shape[1] == 3 and np.allclose(ret.x[0], START) and np.allclose(ret.x[-1], GOAL)
+    steps = np.linalg.norm(np.diff(ret.x, axis=0), axis=1)
+    assert steps.max() <= 0.1 + 1e-12
+    assert denselyFree(C, ret.x, margin=-1e-4)
+    assert np.allclose(C.getJointState(), 0)  # the scene is left alone
+    assert rrt.get_resampledPath(31).shape == (31, 3)
+    assert np.allclose(rrt.get_resampledPath(len(ret.x)), ret.x)
+
+
+def test_a_free_straight_motion_is_the_path() -> None:
+    C = barAroundBar()
+    ret = ry.RRT_PathFinder().setProblem(C).setStartGoal(START, [-0.4, 0.5, 0.3]).solve(0)
+    assert ret.feasible and ret.evals == 0
+    assert np.linalg.norm(np.diff(ret.x, axis=0), axis=1).sum() == pytest.approx(np.linalg.norm([0.5, 0.3]))
+
+
+def test_a_seed_gives_its_path_again() -> None:
+    C = barAroundBar()
+    paths = []
+    for seed in (3, 3, 4):
+        ry.rnd_seed(seed)
+        paths.append(finder(C).solve(0).x)
+    ry.rnd_seed(0)
+    assert np.array_equal(paths[0], paths[1])
+    assert paths[0].shape != paths[2].shape or not np.array_equal(paths[0], paths[2])
+
+
+def test_the_older_form_of_the_call_is_the_same() -> None:
+    C = barAroundBar()
+    old = ry.PathFinder()
+    old.setProblem(C, [START], [GOAL])
+    assert np.array_equal(old.solve(0).x, finder(C).solve(0).x)
+
+
+@pytest.mark.parametrize("ends", [(START, [0.0, 0.0, 0.0]), ([0.0, 0.0, 0.0], GOAL)])
+def test_an_end_in_collision_is_said_and_no_path_is_claimed(ends: tuple[list[float], list[float]]) -> None:
+    ret = ry.RRT_PathFinder().setProblem(barAroundBar()).setStartGoal(*ends).solve(0)
+    what = "goal" if ends[0] == START else "start"
+    assert not ret.feasible and ret.x.size == 0 and ret.done
+    assert f"the {what} collides: 'stick' and 'bar' overlap by" in ret.message
+
+
+def test_an_end_beyond_limits_is_said() -> None:
+    ret = ry.RRT_PathFinder().setProblem(barAroundBar()).setStartGoal([-5.0, 0.0, 0.0], GOAL).solve(0)
+    assert not ret.feasible and "the start is out of limits: base:0 is at -5, 3.5 beyond" in ret.message
+
+
+def test_only_the_pairs_that_are_named_collide() -> None:
+    C = barAroundBar()
+    C.addFrame("ghost").setShape(ry.ST.sphere, [0.2]).setPosition([0.4, 0.0, 0.0]).setContact(1)
+    assert not finder(C).solve(0).feasible
+    ret = finder(C).setExplicitCollisionPairs(["bar", "stick"]).solve(0)
+    assert ret.feasible and ret.evals > 0  # still around the stick
+    assert finder(C).setExplicitCollisionPairs(["ghost", "stick"]).solve(0).evals == 0  # through everything
+    with pytest.raises(ry.FrameNotFound, match="stik"):
+        finder(C).setExplicitCollisionPairs(["bar", "stik"])
+    with pytest.raises(ry.ArgumentError, match="two for each pair"):
+        finder(C).setExplicitCollisionPairs(["bar"])
+
+
+def test_a_path_that_is_not_there_is_told_with_what_is_in_the_way() -> None:
+    C = barAroundBar()
+    C.getFrame("stick").setShape(ry.ST.box, [0.05, 4.0, 0.1])
+    ret = finder(C).setOptions(maxIters=100).solve(0)
+    assert not ret.feasible and ret.x.size == 0 and ret.status.name == "limit"
+    assert "most motions ended at 'stick' (100 %, by 'bar')" in ret.message
+
+
+def test_a_joint_without_limits_is_named() -> None:
+    C = ry.Config()
+    C.addFrame("rail")
+    C.addFrame("slider", "rail").setJoint(ry.JT.transX)
+    with pytest.raises(ry.ArgumentError, match="no limits are known for slider"):
+        ry.RRT_PathFinder().setProblem(C).setStartGoal([0.0], [1.0]).solve(0)
+
+
+def test_what_makes_no_sense_is_an_error() -> None:
+    C = barAroundBar()
+    with pytest.raises(ry.ArgumentError, match="call setProblem"):
+        ry.RRT_PathFinder().solve(0)
+    with pytest.raises(ry.ArgumentError, match="call setStartGoal"):
+        ry.RRT_PathFinder().setProblem(C).solve(0)
+    with pytest.raises(ry.ArgumentError, match="the start has 2 numbers; expected 3"):
+        ry.RRT_PathFinder().setProblem(C).setStartGoal([0.0, 1.0], GOAL).solve(0)
+    with pytest.raises(ry.ArgumentError, match="starts has 2 rows"):
+        ry.RRT_PathFinder().setProblem(C).setStartGoal([START, GOAL], GOAL)
+    with pytest.raises(ry.ArgumentError, match="stepsize"):
+        ry.RRT_PathFinder().setOptions(stepsize=0)
+    with pytest.raises(ry.ArgumentError, match="similar names: stepsize"):
+        ry.RRT_PathFinder().setOptions(stepsiz=0.1)
+    with pytest.raises(ry.ArgumentError, match="call solve before"):
+        finder(C).get_resampledPath(5)
+    with pytest.raises(ry.ArgumentError, match="only q0"):
+        ry.RRT_PathFinder().setProblem(C, START)
+
+
+def test_a_result_is_a_solver_return_and_is_pickled() -> None:
+    ret = finder(barAroundBar()).solve(0)
+    again = pickle.loads(pickle.dumps(ret))
+    assert isinstance(again, ry.SolverReturn) and np.array_equal(again.x, ret.x) and again.feasible
