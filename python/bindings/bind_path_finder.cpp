@@ -115,7 +115,7 @@ void bindPathFinder(nb::module_& m) {
       .def(
           "__setstate__",
           [](PathResult& r, nb::tuple state) {
-            const nb::object base = nb::type<SolverResult>()();
+            const nb::object base = nb::inst_alloc(nb::type<SolverResult>());
             base.attr("__setstate__")(state[0]);
             new (&r) PathResult{nb::cast<SolverResult>(base), Eigen::Index(nb::cast<std::int64_t>(state[1]))};
           },

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import itertools
 import pickle
 
 import numpy as np
@@ -26,7 +27,7 @@ def barAroundBar() -> ry.Config:
 
 def denselyFree(C: ry.Config, path: np.ndarray, margin: float) -> bool:
     """Looks at postures every milliradian, by a call that knows nothing of paths."""
-    for a, b in zip(path[:-1], path[1:], strict=True):
+    for a, b in itertools.pairwise(path):
         count = max(2, int(np.linalg.norm(b - a) / 1e-3))
         if not C.isValid(a + np.linspace(0, 1, count)[:, None] * (b - a), margin=margin).all():
             return False

@@ -5,14 +5,12 @@
 
 namespace kinegraph {
 
-namespace {
-
-constexpr std::size_t kBlockedKept = 128;  // postures
-
-}  // namespace
-
 ClearanceCheck::ClearanceCheck(const State& scene, const JointSpace& space, Clearance clearance)
-    : space_(&space), clearance_(std::move(clearance)), state_(scene), pairs_(scene.sharedProgram()), motions_(scene) {}
+    : space_(&space),
+      clearance_(std::move(clearance)),
+      edges_(scene, clearance_.margin, Clearance::kTolerance),
+      state_(scene),
+      pairs_(scene.sharedProgram()) {}
 
 double ClearanceCheck::marginAt(const VectorXd& q) const {
   double margin = clearance_.margin;
@@ -23,21 +21,15 @@ double ClearanceCheck::marginAt(const VectorXd& q) const {
   return margin + clearance_.guard;
 }
 
-void ClearanceCheck::rememberBlocked(const VectorXd& q) {
-  if (blocked_count_++ % blocked_every_ != 0) return;
-  blocked_.push_back(q);
-  if (blocked_.size() < kBlockedKept) return;
-  for (std::size_t i = 0; 2 * i < blocked_.size(); ++i) blocked_[i] = blocked_[2 * i];
-  blocked_.resize((blocked_.size() + 1) / 2);
-  blocked_every_ *= 2;
+void ClearanceCheck::countHit() {
+  if (const auto& hit = edges_.lastHit()) ++hits_[{hit->a, hit->b}];
 }
 
 bool ClearanceCheck::isFree(const VectorXd& q) {
   ++evaluations;
-  state_.setJoints(q.data());
-  pairs_.place(state_);
-  if (pairs_.apart(marginAt(q))) return true;
-  rememberBlocked(q);
+  edges_.setMargin(marginAt(q));
+  if (edges_.isFree(q.data())) return true;
+  countHit();
   return false;
 }
 
@@ -71,10 +63,11 @@ std::optional<MotionContact> ClearanceCheck::contact(const VectorXd& from, const
     const double begin = cuts[i - 1], end = cuts[i];
     const VectorXd first = from + begin * change, last = from + end * change;
     ++evaluations;
-    auto contact = motions_.firstContact(first.data(), last.data(), marginAt(.5 * (first + last)), Clearance::kTolerance);
-    if (!contact) continue;
-    contact->time = begin + contact->time * (end - begin);
-    rememberBlocked(from + contact->time * change);
+    edges_.setMargin(marginAt(.5 * (first + last)));
+    if (edges_.isFree(first.data(), last.data())) continue;
+    countHit();
+    MotionContact contact = *edges_.lastHit();
+    contact.time = begin + contact.time * (end - begin);
     return contact;
   }
   return std::nullopt;

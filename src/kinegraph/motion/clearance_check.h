@@ -1,9 +1,10 @@
 #pragma once
 
+#include <map>
 #include <optional>
 #include <vector>
 
-#include "kinegraph/kinematics/motion_check.h"
+#include "kinegraph/kinematics/edge_check.h"
 #include "kinegraph/kinematics/near_pairs.h"
 #include "kinegraph/motion/joint_space.h"
 
@@ -27,6 +28,8 @@ struct Clearance {
   double resolution = 1. / 32.;  ///< between postures that are looked at first, in joint space
 };
 
+using PairCounts = std::map<std::pair<int, int>, long>;
+
 /// One thread's answers to whether postures and straight motions between them are free.
 class ClearanceCheck {
  public:
@@ -42,7 +45,7 @@ class ClearanceCheck {
   /// comes to light soon; what is, is nearly always free at all times, too.
   bool seemsFree(const VectorXd& from, const VectorXd& to);
 
-  /// Is it free at all times? The time of the contact is that on the way from `from` to `to`.
+  /// Is it free at all times? A contact is one of those on the way, its time that on the way from `from` to `to`.
   std::optional<MotionContact> contact(const VectorXd& from, const VectorXd& to);
   bool isMotionFree(const VectorXd& from, const VectorXd& to) { return !contact(from, to); }
 
@@ -57,20 +60,19 @@ class ClearanceCheck {
 
   long evaluations = 0;  ///< postures that were looked at, and motions
 
-  /// Some of the postures that were not free, spread over all of them.
-  const std::vector<VectorXd>& blocked() const { return blocked_; }
+  /// How often a pair of frames (ids) was what a posture or motion ran into.
+  const PairCounts& hits() const { return hits_; }
 
  private:
   double marginAt(const VectorXd& q) const;
-  void rememberBlocked(const VectorXd& q);
+  void countHit();
 
   const JointSpace* space_;
   Clearance clearance_;
+  EdgeChecker edges_;
   State state_;
   NearPairs pairs_;
-  MotionChecker motions_;
-  std::vector<VectorXd> blocked_;
-  long blocked_count_ = 0, blocked_every_ = 1;
+  PairCounts hits_;
 };
 
 }  // namespace kinegraph

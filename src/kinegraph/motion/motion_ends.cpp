@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
-#include <set>
 
 #include "kinegraph/base/errors.h"
 #include "kinegraph/base/text.h"
@@ -21,8 +20,7 @@ void requireState(const VectorXd& q, int dofs, const std::string& what, const ch
   if (!q.allFinite()) throw ValueError(cat(who, ": the ", what, " has numbers that are not finite"));
 }
 
-std::string percent(std::size_t part, std::size_t all) {
-  return cat(int(std::lround(100. * double(part) / double(all))), " %");
+std::string percent(long part, long all) { return cat(int(std::lround(100. * double(part) / double(all))), " %");
 }
 
 }  // namespace
@@ -88,36 +86,30 @@ Clearance clearanceAround(double margin, const std::vector<const MotionEnd*>& en
   return clearance;
 }
 
-std::string obstaclesInWords(ClearanceCheck& check, const Program& program, const std::vector<VectorXd>& blocked,
-                             double margin) {
+std::string obstaclesInWords(const Program& program, const PairCounts& hits) {
   struct Met {
-    std::size_t times = 0;
-    std::set<int> by;
+    long times = 0;
+    std::vector<std::string> by;
   };
   std::map<int, Met> obstacles;  // by frame
-  std::size_t all = 0;
-  for (const VectorXd& q : blocked) {
-    const std::optional<ClearanceCheck::Nearest> pair = check.nearest(q, margin + Clearance::kTolerance);
-    if (!pair) continue;
-    ++all;
+  long all = 0;
+  for (const auto& [pair, times] : hits) {
     // The one that moves less is the obstacle: links are numbered from the world on.
-    const bool a_is_fixed = program.frame_link[std::size_t(pair->a)] <= program.frame_link[std::size_t(pair->b)];
-    Met& met = obstacles[a_is_fixed ? pair->a : pair->b];
-    ++met.times;
-    met.by.insert(a_is_fixed ? pair->b : pair->a);
+    const auto [a, b] = pair;
+    const bool a_moves_less = program.frame_link[std::size_t(a)] <= program.frame_link[std::size_t(b)];
+    Met& met = obstacles[a_moves_less ? a : b];
+    met.times += times;
+    all += times;
+    if (met.by.size() < kNamed) met.by.push_back(cat("'", program.frame_name[std::size_t(a_moves_less ? b : a)], "'"));
   }
-  std::vector<std::pair<std::size_t, int>> order;
-  for (const auto& [frame, met] : obstacles) order.emplace_back(met.times, frame);
-  std::sort(order.begin(), order.end(), [](const auto& x, const auto& y) {
-    return x.first > y.first || (x.first == y.first && x.second < y.second);
-  });
+  std::vector<std::pair<long, int>> order;
+  for (const auto& [frame, met] : obstacles) order.emplace_back(-met.times, frame);
+  std::sort(order.begin(), order.end());
   std::vector<std::string> words;
   for (std::size_t i = 0; i < std::min(order.size(), kNamed); ++i) {
-    std::vector<std::string> by;
-    for (const int frame : obstacles[order[i].second].by)
-      if (by.size() < kNamed) by.push_back(cat("'", program.frame_name[std::size_t(frame)], "'"));
-    words.push_back(cat("'", program.frame_name[std::size_t(order[i].second)], "' (", percent(order[i].first, all),
-                        ", by ", join(by), ")"));
+    const Met& met = obstacles[order[i].second];
+    words.push_back(cat("'", program.frame_name[std::size_t(order[i].second)], "' (", percent(met.times, all), ", by ",
+                        join(met.by), ")"));
   }
   return join(words);
 }

@@ -29,9 +29,8 @@ Clearance clearanceAround(double margin, const std::vector<const MotionEnd*>& en
 /// "'hand' and 'table' overlap by 12 mm, ...": of the deepest pairs.
 std::string pairsInWords(const Program& program, const std::vector<ClearanceCheck::Nearest>& pairs);
 
-/// What most of the postures ran into: "'table' (with 'hand', 'arm'; 61 %), 'wall' (28 %)"; "" if nothing is told.
-std::string obstaclesInWords(ClearanceCheck& check, const Program& program, const std::vector<VectorXd>& blocked,
-                             double margin);
+/// What most of the motions ran into: "'table' (61 %, by 'hand', 'arm'), 'wall' (28 %, by 'hand')"; "" if into nothing.
+std::string obstaclesInWords(const Program& program, const PairCounts& hits);
 
 /// "12 mm", "3.4 um", "1.5 m"
 std::string lengthInWords(double length);

@@ -113,7 +113,7 @@ MatrixXd PathFinder::search(const State& scene, std::uint64_t seed, const Motion
   for (const AttemptReport& attempt : way.attempts) result.evals += int(attempt.draws);
   if (way.points.empty()) {
     result.status = way.was_stopped ? SolverStatus::cancelled : SolverStatus::limit;
-    const std::string met = obstaclesInWords(steering.check(), scene.program(), way.blocked, margin);
+    const std::string met = obstaclesInWords(scene.program(), way.hits);
     result.message = cat(way.was_stopped ? "stopped" : "no path found", " after ", result.evals, " draws",
                          met.empty() ? "" : cat("; most motions ended at ", met));
     return {};

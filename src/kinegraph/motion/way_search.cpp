@@ -73,7 +73,7 @@ class Attempts {
       }
     }
     way.attempts = {{search.draws(), search.effort(), search.nodes(false), search.nodes(true)}};
-    way.blocked = steering.check().blocked();
+    way.hits = steering.check().hits();
     way.trees = {search.tree(false), search.tree(true)};
   }
 
@@ -93,7 +93,7 @@ class Attempts {
         all.goal = one.goal;
         all.was_stopped = false;
       }
-      all.blocked.insert(all.blocked.end(), one.blocked.begin(), one.blocked.end());
+      for (const auto& [pair, times] : one.hits) all.hits[pair] += times;
       if (!one.trees.empty()) all.trees = std::move(one.trees);
     }
     return all;

@@ -35,7 +35,7 @@ struct Way {
   bool was_stopped = false;             ///< by the watch
   long effort = 0;                      ///< of the attempts that count
   std::vector<AttemptReport> attempts;  ///< those that count: up to the one that succeeded
-  std::vector<VectorXd> blocked;        ///< some postures that were not free, of the attempts that failed
+  PairCounts hits;                      ///< what their motions ran into
   std::vector<MotionTree> trees;        ///< of the last attempt that counts: of the starts and of the goals
 };
 
