@@ -36,7 +36,8 @@ PyPathFinder& setOptions(PyPathFinder& finder, nb::kwargs given) {
 /// One joint vector, flat or the only row of a nested list.
 VectorXd oneState(const Numbers& given, const char* what) {
   if (given.rank == 1 || (given.rank == 2 && given.rows == 1)) return given.values;
-  throw ValueError(cat("setStartGoal: ", what, given.rank == 2 ? cat(" has ", given.rows, " rows") : " is no joint vector",
+  throw ValueError(cat("setStartGoal: ", what,
+                       given.rank == 2 ? cat(" has ", given.rows, " rows") : " is no joint vector",
                        "; expected one joint vector, (n,) or (1, n)"));
 }
 

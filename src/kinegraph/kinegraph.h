@@ -31,7 +31,7 @@
 #include "kinegraph/kinematics/limit_check.h"     // withinLimits
 #include "kinegraph/komo/komo.h"                  // Komo: motion problems
 #include "kinegraph/komo/report.h"                // how well a path does
-#include "kinegraph/motion/path_finder.h"          // paths between two postures
+#include "kinegraph/motion/path_finder.h"         // paths between two postures
 #include "kinegraph/nlp/callback_nlp.h"           // problems of your own
 #include "kinegraph/nlp/test_problems.h"          // named problems
 #include "kinegraph/planning/multi_start.h"       // one problem from many starts

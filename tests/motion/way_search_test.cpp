@@ -30,7 +30,8 @@ struct Asked {
   State scene = C.state();
 
   WayRequest request(int threads = 1, std::uint64_t seed = 0) {
-    WayRequest request{.demands = {&scene, &space}, .starts = {{VectorXd{{-1., 1.2}}}}, .goals = {{VectorXd{{1., 1.}}}}};
+    WayRequest request{
+        .demands = {&scene, &space}, .starts = {{VectorXd{{-1., 1.2}}}}, .goals = {{VectorXd{{1., 1.}}}}};
     request.threads = threads;
     request.seed = seed;
     return request;
@@ -157,8 +158,8 @@ TEST(Shorten, LeavesTheEndsAndIsFreeAndNearlyTaut) {
   EXPECT_LT(length, pathLength(asked.space, asked.space.unroll(way.points)));
   // A taut string around both corners of the door, (-+.05, .25), at the disc's radius: two tangents, two arcs, a line.
   const double to_start = std::hypot(.95, .95), to_goal = std::hypot(.95, .75), r = .2;
-  const double arcs = 1.5 * M_PI - (.75 * M_PI + std::acos(r / to_start)) + .5 * M_PI +
-                      (std::atan2(.75, .95) - std::acos(r / to_goal));
+  const double arcs =
+      1.5 * M_PI - (.75 * M_PI + std::acos(r / to_start)) + .5 * M_PI + (std::atan2(.75, .95) - std::acos(r / to_goal));
   const double taut = std::sqrt(to_start * to_start - r * r) + std::sqrt(to_goal * to_goal - r * r) + r * arcs + .1;
   EXPECT_GT(length, taut);
   EXPECT_LT(length, 1.02 * taut);

@@ -55,7 +55,8 @@ Raises:
     FrameNotFound: A frame is not in the scene.
     ArgumentError: The number of names is odd.)";
 
-inline constexpr char solve[] = R"(Searches a path. The same seed (rnd_seed) gives the same path. Ctrl-C ends the search.
+inline constexpr char solve[] =
+    R"(Searches a path. The same seed (rnd_seed) gives the same path. Ctrl-C ends the search.
 
 Args:
     verbose: 0: silent; 1: prints a line; 2 and more: shows the path, too, and waits.

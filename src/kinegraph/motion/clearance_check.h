@@ -18,14 +18,14 @@ struct Clearance {
     VectorXd q;
     double margin;  ///< m, that holds around it
   };
-  static constexpr double kAround = .25;    ///< how far around it, in joint space
+  static constexpr double kAround = .25;      ///< how far around it, in joint space
   static constexpr double kTolerance = 1e-5;  ///< m, of the check at all times
   static constexpr double kGuard = 2e-5;  ///< m, by which searches keep more, so that pieces of what is free are free
 
-  double margin = 0.;            ///< m
-  double guard = 0.;             ///< m, in addition to all margins
+  double margin = 0.;             ///< m
+  double guard = 0.;              ///< m, in addition to all margins
   std::vector<Tight> tight = {};  ///< few
-  double resolution = 1. / 32.;  ///< between postures that are looked at first, in joint space
+  double resolution = 1. / 32.;   ///< between postures that are looked at first, in joint space
 };
 
 using PairCounts = std::map<std::pair<int, int>, long>;

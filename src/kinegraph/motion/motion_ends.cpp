@@ -11,8 +11,8 @@ namespace kinegraph {
 
 namespace {
 
-constexpr double kBeyondLimit = 1e-5;     // rad, m: rounding of files, which counts as at the limit
-constexpr std::size_t kNamed = 3;         // pairs and obstacles
+constexpr double kBeyondLimit = 1e-5;             // rad, m: rounding of files, which counts as at the limit
+constexpr std::size_t kNamed = 3;                 // pairs and obstacles
 constexpr double kRoom = 2. * Clearance::kGuard;  // m, that an end keeps above the margin around it
 
 void requireState(const VectorXd& q, int dofs, const std::string& what, const char* who) {
@@ -20,8 +20,7 @@ void requireState(const VectorXd& q, int dofs, const std::string& what, const ch
   if (!q.allFinite()) throw ValueError(cat(who, ": the ", what, " has numbers that are not finite"));
 }
 
-std::string percent(long part, long all) { return cat(int(std::lround(100. * double(part) / double(all))), " %");
-}
+std::string percent(long part, long all) { return cat(int(std::lround(100. * double(part) / double(all))), " %"); }
 
 }  // namespace
 
@@ -51,8 +50,8 @@ std::string pairsInWords(const Program& program, const std::vector<ClearanceChec
   return join(words);
 }
 
-MotionEnd checkEnd(Steering& steering, const Program& program, const VectorXd& q, double margin, const std::string& what,
-                   const char* who) {
+MotionEnd checkEnd(Steering& steering, const Program& program, const VectorXd& q, double margin,
+                   const std::string& what, const char* who) {
   requireState(q, program.dofs, what, who);
   MotionEnd end;
   end.q = q;

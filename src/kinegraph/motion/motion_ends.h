@@ -20,8 +20,8 @@ struct MotionEnd {
 /// Looks at a posture of which `what` is the name, as "start". Within 1e-5 beyond a limit it is moved to the limit;
 /// a wrong length and numbers that are not finite throw ValueError with `who` in front. Pairs may keep less than the
 /// margin, as long as they keep the lesser of it and 0.
-MotionEnd checkEnd(Steering& steering, const Program& program, const VectorXd& q, double margin, const std::string& what,
-                   const char* who);
+MotionEnd checkEnd(Steering& steering, const Program& program, const VectorXd& q, double margin,
+                   const std::string& what, const char* who);
 
 /// The demands with margins that hold around the ends that keep less.
 Clearance clearanceAround(double margin, const std::vector<const MotionEnd*>& ends);

@@ -11,8 +11,8 @@ namespace kinegraph {
 class MotionTree {
  public:
   struct Node {
-    int parent = -1;  ///< -1: a root
-    int root = 0;     ///< which one it hangs on, in the order of the roots
+    int parent = -1;                                          ///< -1: a root
+    int root = 0;                                             ///< which one it hangs on, in the order of the roots
     double radius = std::numeric_limits<double>::infinity();  ///< draws farther away do not grow from here
     bool is_sure = true;  ///< the motion from its parent is free at all times, as far as is known
   };

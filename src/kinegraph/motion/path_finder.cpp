@@ -23,18 +23,20 @@ const OptionTable<PathFinderOptions>& pathFinderOptionTable() {
   using O = PathFinderOptions;
   using Range = OptionRange;
   static const OptionTable<O> table(
-      kWho,
-      {{"verbose", &O::verbose, "", "0: silent; 1: solve prints a line; 2 and more: and shows the path."},
-       {"stepsize", &O::stepsize, "rad or m", "Longest step from one posture of the path to the next.",
-        Range::positive()},
-       {"subsamples", &O::subsamples, "", "Of older scripts, without effect: motions are checked at all times.",
-        Range::notNegative()},
-       {"maxIters", &O::maxIters, "", "Effort: 40 postures are looked at for each.", Range::atLeastOne()},
-       {"p_connect", &O::p_connect, "", "Of older scripts, without effect: trees always grow towards each other, too.",
-        {[](double v) { return v >= 0. && v <= 1.; }, "a number from 0 to 1"}},
-       {"collisionTolerance", &O::collisionTolerance, "m", "Depth to which each pair may overlap.",
-        Range::notNegative()},
-       {"useBroadCollisions", &O::useBroadCollisions, "", "Of older scripts, without effect."}});
+      kWho, {{"verbose", &O::verbose, "", "0: silent; 1: solve prints a line; 2 and more: and shows the path."},
+             {"stepsize", &O::stepsize, "rad or m", "Longest step from one posture of the path to the next.",
+              Range::positive()},
+             {"subsamples", &O::subsamples, "", "Of older scripts, without effect: motions are checked at all times.",
+              Range::notNegative()},
+             {"maxIters", &O::maxIters, "", "Effort: 40 postures are looked at for each.", Range::atLeastOne()},
+             {"p_connect",
+              &O::p_connect,
+              "",
+              "Of older scripts, without effect: trees always grow towards each other, too.",
+              {[](double v) { return v >= 0. && v <= 1.; }, "a number from 0 to 1"}},
+             {"collisionTolerance", &O::collisionTolerance, "m", "Depth to which each pair may overlap.",
+              Range::notNegative()},
+             {"useBroadCollisions", &O::useBroadCollisions, "", "Of older scripts, without effect."}});
   return table;
 }
 
