@@ -7,6 +7,7 @@
 #include "images.h"
 #include "kinegraph/base/errors.h"
 #include "kinegraph/base/text.h"
+#include "kinegraph/rendering/framing.h"
 #include "kinegraph/viewer/draw_quad.h"
 #include "py_viewer.h"
 
@@ -87,6 +88,15 @@ void setCameraTarget(PyViewer& viewer, const Numbers& position, const Numbers& t
   viewer.aim({.pose = camera.pose, .distance = (to - from).norm(), .ortho_height = camera.ortho_height, .aspect = 1.});
 }
 
+/// Moves the camera to where all that is shown fills the picture. The middle of that; where there is nothing, 0.
+Array fit(PyViewer& viewer) {
+  if (!viewer.scene) throw ValueError("this viewer shows nothing yet; call view() first");
+  const Config config(viewer.scene);
+  placeCamera(viewer, fitted(cameraNow(viewer), config));
+  const std::optional<ShownBall> ball = shownBall(config);
+  return toNumpy(VectorXd(ball ? ball->center : Vector3d::Zero()));
+}
+
 }  // namespace
 
 std::string savePicture(PyViewer& viewer, const std::string& path, int count, const std::optional<std::string>& text) {
@@ -144,6 +154,7 @@ void bindPictures(nb::class_<PyViewer>& viewer) {
           },
           "The focal length in image heights, twice, and two zeros, shape (4,).")
       .def("focus", focus, "position"_a, "heightAbs"_a = 1., docs::pictures::focus)
+      .def("fit", fit, docs::pictures::fit)
       .def(
           "setWindow",
           [](PyViewer& v, const std::string& title, int width, int height) {

@@ -90,6 +90,7 @@ from .errors import (
     NotFound,
     ParseError,
 )
+from .film import saveFilm
 from .interactive import interactiveIk
 from .model_paths import raiPath, setRaiPath
 from .problems import get_NLP_Problem_names, make_NLP_Problem
@@ -191,6 +192,7 @@ __all__ = [
     "raiPath",
     "rnd_seed",
     "rnd_seed_random",
+    "saveFilm",
     "setRaiPath",
     "set_params",
     "solveAll",

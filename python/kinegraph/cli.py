@@ -5,10 +5,11 @@ from __future__ import annotations
 import argparse
 import re
 import sys
+from collections.abc import Callable
 from pathlib import Path
 
 from . import __version__
-from ._core import Config, checkFile
+from ._core import Config, ConfigurationViewer, checkFile
 from .compatibility.parameters import params_get
 from .errors import ArgumentError, Error, FileError
 from .model_paths import raiPath
@@ -40,7 +41,10 @@ def _parser() -> argparse.ArgumentParser:
     render = commands.add_parser("render", help="a picture of a scene file; needs no display")
     render.add_argument("file")
     render.add_argument("-o", "--output", default="out.png", metavar="PNG", help="where to write it (default: out.png)")
-    render.add_argument("--camera", metavar="FRAME", help="a frame to look from (default: from outside)")
+    render.add_argument("--camera", metavar="FRAME", help="a frame to look from (default: from outside, all in the picture)")
+    render.add_argument("--pos", type=_numbers(3), metavar="X,Y,Z", help="where to look from, m")
+    render.add_argument("--target", type=_numbers(3), metavar="X,Y,Z", help="where to look to, m (default: the scene's middle)")
+    render.add_argument("--joints", metavar="Q", help="joint values, rad or m: 0,0.5,...; or the name of a state")
     render.add_argument("--size", metavar="WIDTHxHEIGHT", help="pixels (default: as the camera says)")
 
     info = commands.add_parser("info", help="what a scene file contains")
@@ -105,10 +109,49 @@ def _info(file: str, frames: bool) -> None:
         )
 
 
-def _render(file: str, output: str, camera: str | None, size: str | None) -> None:
-    viewer = _load(file).viewer()
+def _numbers(count: int) -> Callable[[str], list[float]]:
+    """Reads an argument such as 1,2,3 or "1 2 3"."""
+
+    def read(text: str) -> list[float]:
+        words = text.replace(",", " ").split()
+        if len(words) != count:
+            raise argparse.ArgumentTypeError(f"{text!r} has {len(words)} numbers; expected {count}")
+        try:
+            return [float(word) for word in words]
+        except ValueError:
+            raise argparse.ArgumentTypeError(f"{text!r}; expected {count} numbers") from None
+
+    return read
+
+
+def _setJoints(config: Config, joints: str) -> None:
+    """By a list of numbers, or the name of a state."""
+    words = joints.replace(",", " ").split()
+    try:
+        q = [float(word) for word in words]
+    except ValueError:
+        config.setJointState(config.getNamedState(joints))
+        return
+    if len(q) != config.getJointDimension():
+        raise ArgumentError(f"--joints has {len(q)} numbers; the scene has {config.getJointDimension()} dofs")
+    config.setJointState(q)
+
+
+def _aim(viewer: ConfigurationViewer, camera: str | None, pos: list[float] | None, target: list[float] | None) -> None:
     if camera:
         viewer.setCamera(camera)
+        return
+    middle = viewer.fit()
+    if pos or target:
+        viewer.setCamera(pos or viewer.getCamera_pose()[:3], target or middle)
+
+
+def _render(options: argparse.Namespace) -> None:
+    output, size = options.output, options.size
+    config = _load(options.file)
+    if options.joints:
+        _setJoints(config, options.joints)
+    viewer = config.viewer()
     if size:
         numbers = re.fullmatch(r"(\d{1,6})x(\d{1,6})", size)
         if not numbers:
@@ -116,6 +159,7 @@ def _render(file: str, output: str, camera: str | None, size: str | None) -> Non
         viewer.setWindow("", int(numbers[1]), int(numbers[2]))
     if not output.endswith(".png"):
         raise ArgumentError(f"--output is {output!r}; expected a name that ends in .png")
+    _aim(viewer, options.camera, options.pos, options.target)
     print(viewer.savePng(output))
 
 
@@ -131,7 +175,7 @@ def main(arguments: list[str] | None = None) -> int:
         if options.command == "view":
             _view(options.file, options.watch)
         if options.command == "render":
-            _render(options.file, options.output, options.camera, options.size)
+            _render(options)
         if options.command == "info":
             _info(options.file, options.frames)
         if options.command == "check":

@@ -12,6 +12,14 @@ Returns:
 Raises:
     ArgumentError: The viewer shows nothing yet.)";
 
+inline constexpr char fit[] =
+    R"(Moves the camera along its line of sight to where all that pictures show fills the image.
+
+Returns:
+    The middle of what is shown, shape (3,), m; zeros if there is nothing to see.
+Raises:
+    ArgumentError: The viewer shows nothing yet.)";
+
 inline constexpr char getDepth[] = R"(The depth of the picture, along the camera's z axis.
 
 Args:

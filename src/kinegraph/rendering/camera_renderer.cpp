@@ -7,6 +7,7 @@
 #include "kinegraph/base/text.h"
 #include "kinegraph/geometry/shapes/shape_kinds.h"
 #include "kinegraph/rendering/gl_context.h"
+#include "kinegraph/rendering/framing.h"
 #include "kinegraph/rendering/mesh_library.h"
 #include "kinegraph/scene/visual_meshes.h"
 
@@ -177,7 +178,7 @@ std::vector<CameraRenderer::Impl::Item> CameraRenderer::Impl::visibleItems(const
     const Shape& shape = *frame->shape;
     const bool is_helper = shapeKind(shape.geometry->type).is_symbol || (shape.color && (*shape.color)[3] < 1.);
     const bool is_invisible = shape.color && (*shape.color)[3] <= 0.;
-    if ((visuals_only && is_helper) || is_invisible) continue;
+    if ((visuals_only && is_helper) || is_invisible || servesCollisionsOnly(shape)) continue;
     const std::shared_ptr<const Geometry> visual = visual_meshes.of(shape);
     items.push_back({frame->id, &shape, visual ? visual : shape.geometry});
   }

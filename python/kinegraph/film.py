@@ -1,0 +1,113 @@
+"""Motions as films (mp4, webm), drawn without a display."""
+
+from __future__ import annotations
+
+import os
+import time
+from fractions import Fraction
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from ._core import Config
+from .errors import ArgumentError, NotFound
+from .progress import drawProgress
+
+_CODECS = {".mp4": ("h264", "yuv420p"), ".webm": ("libvpx-vp9", "yuv420p")}
+
+
+def _encoder() -> Any:
+    try:
+        import av
+    except ImportError:
+        raise NotFound("saveFilm needs the package av: pip install 'kinegraph[film]'") from None
+    return av
+
+
+def _states(config: Config, path: np.ndarray, count: int) -> np.ndarray:
+    """`count` states at equal steps along the path, linear in between."""
+    numbers = path.shape[1:]
+    dofs, frames = config.getJointDimension(), config.getFrameDimension()
+    if path.ndim not in (2, 3) or len(path) == 0 or numbers not in ((dofs,), (frames, 7)):
+        raise ArgumentError(
+            f"saveFilm: the path has shape {path.shape}; expected (T, {dofs}), joint vectors, or (T, {frames}, 7), poses "
+            "of all frames"
+        )
+    at = np.linspace(0, len(path) - 1, count)
+    before = np.minimum(at.astype(int), max(len(path) - 2, 0))
+    share = (at - before).reshape(-1, *[1] * (path.ndim - 1))
+    after = path[np.minimum(before + 1, len(path) - 1)]
+    if path.ndim == 3:  # of two quaternions for one rotation the nearer one
+        turned = np.sum(path[before][..., 3:] * after[..., 3:], axis=-1, keepdims=True) < 0
+        after = np.concatenate([after[..., :3], np.where(turned, -after[..., 3:], after[..., 3:])], axis=-1)
+    return np.asarray((1 - share) * path[before] + share * after)
+
+
+def saveFilm(
+    file: str | os.PathLike[str],
+    config: Config,
+    path: np.ndarray,
+    seconds: float = 3.0,
+    rate: float = 25.0,
+    size: tuple[int, int] | None = None,
+) -> Path:
+    """Draws a motion and saves it as a film; needs no display. The camera is that of `config.viewer()`.
+
+    A bar on a terminal says how far it is. Ctrl-C ends it and leaves no file. The joints stay as they are.
+
+    Args:
+        file: The file's name, which ends in .mp4 or .webm. Its folder is made if it is missing.
+        config: The scene.
+        path: Joint vectors, shape (T, n), or poses of all frames, shape (T, frames, 7), as `komo.getPathFrames()`; equal
+            times apart.
+        seconds: How long the film is, s.
+        rate: Pictures per second.
+        size: Width and height, pixels; as the viewer's camera, if not given. Odd numbers are made even.
+    Returns:
+        The file's path.
+    Raises:
+        ArgumentError: The path, the name or a number makes no sense.
+        NotFound: The package av (extra `film`) is not installed.
+        OSError: The file cannot be written.
+    """
+    target = Path(file)
+    if target.suffix not in _CODECS:
+        raise ArgumentError(f"saveFilm: the file is '{target}'; expected a name that ends in {' or '.join(_CODECS)}")
+    if not (0 < seconds < float("inf") and 0 < rate < float("inf")):
+        raise ArgumentError(f"saveFilm: seconds is {seconds} and rate is {rate}; expected numbers > 0")
+    av = _encoder()
+    states = _states(config, np.asarray(path, float), max(2, round(seconds * rate)))
+    viewer = config.viewer()
+    config.view(False, None, offscreen=True)
+    if size is not None:
+        viewer.setWindow("", *size)
+    target.parent.mkdir(parents=True, exist_ok=True)
+    unfinished = target.with_name(target.name + ".part" + target.suffix)
+    before = config.getFrameState() if states.ndim == 3 else config.getJointState()
+    set_state = config.setFrameState if states.ndim == 3 else config.setJointState
+    try:
+        _write(av, unfinished, states, set_state, viewer, rate)
+        unfinished.replace(target)
+    finally:
+        set_state(before)
+        unfinished.unlink(missing_ok=True)
+    return target
+
+
+def _write(av: Any, file: Path, states: np.ndarray, set_state: Any, viewer: Any, rate: float) -> None:
+    codec, pixels = _CODECS[file.suffix]
+    began = time.monotonic()
+    with av.open(str(file), "w") as film:
+        stream = None
+        for done, state in enumerate(states):
+            set_state(state)
+            picture = viewer.getRgb()
+            picture = np.ascontiguousarray(picture[: picture.shape[0] // 2 * 2, : picture.shape[1] // 2 * 2])
+            if stream is None:
+                stream = film.add_stream(codec, rate=Fraction(rate).limit_denominator(1000))
+                stream.height, stream.width, stream.pix_fmt = picture.shape[0], picture.shape[1], pixels
+            film.mux(stream.encode(av.VideoFrame.from_ndarray(picture, format="rgb24")))
+            drawProgress(f"film {file.name.split('.part')[0]}", done + 1, len(states), time.monotonic() - began)
+        if stream is not None:
+            film.mux(stream.encode())
