@@ -137,10 +137,7 @@ def _setJoints(config: Config, joints: str) -> None:
     config.setJointState(q)
 
 
-def _aim(viewer: ConfigurationViewer, camera: str | None, pos: list[float] | None, target: list[float] | None) -> None:
-    if camera:
-        viewer.setCamera(camera)
-        return
+def _aim(viewer: ConfigurationViewer, pos: list[float] | None, target: list[float] | None) -> None:
     middle = viewer.fit()
     if pos or target:
         viewer.setCamera(pos or viewer.getCamera_pose()[:3], target or middle)
@@ -152,6 +149,8 @@ def _render(options: argparse.Namespace) -> None:
     if options.joints:
         _setJoints(config, options.joints)
     viewer = config.viewer()
+    if options.camera:
+        viewer.setCamera(options.camera)
     if size:
         numbers = re.fullmatch(r"(\d{1,6})x(\d{1,6})", size)
         if not numbers:
@@ -159,7 +158,8 @@ def _render(options: argparse.Namespace) -> None:
         viewer.setWindow("", int(numbers[1]), int(numbers[2]))
     if not output.endswith(".png"):
         raise ArgumentError(f"--output is {output!r}; expected a name that ends in .png")
-    _aim(viewer, options.camera, options.pos, options.target)
+    if not options.camera:
+        _aim(viewer, options.pos, options.target)
     print(viewer.savePng(output))
 
 

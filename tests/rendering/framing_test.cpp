@@ -31,18 +31,35 @@ TEST(Framing, AllIsInThePictureAndFillsIt) {
     camera.width = round % 2 ? 300 : 900;
     const Camera fit = fitted(camera, C);
     EXPECT_TRUE(fit.pose.q.isApprox(camera.pose.q));
-    const ShownBall ball = *shownBall(C);
-    double largest = 0.;
+    Eigen::Vector2d largest = Eigen::Vector2d::Zero();  // halves of the image
     for (int i = 0; i < 5; ++i) {
-      const Vector3d p = fit.pose.inverse() * C.getFrame(cat("box", i)).getPosition();
-      EXPECT_GT(p.z(), fit.near);
-      EXPECT_LT(p.z(), fit.far);
-      EXPECT_LT(std::abs(p.x() / p.z() * fit.focal_length * fit.height), .5 * fit.width);
-      EXPECT_LT(std::abs(p.y() / p.z() * fit.focal_length), .5);
-      largest = std::max({largest, (C.getFrame(cat("box", i)).getPosition() - ball.center).norm()});
+      for (int corner = 0; corner < 8; ++corner) {
+        const Vector3d offset(corner & 1 ? .5 : -.5, corner & 2 ? .5 : -.5, corner & 4 ? .5 : -.5);
+        const Vector3d at = C.getFrame(cat("box", i)).getPosition() + size * offset;
+        const Vector3d p = fit.pose.q.inverse() * (at - fit.pose.p);
+        EXPECT_GT(p.z(), fit.near);
+        EXPECT_LT(p.z(), fit.far);
+        const Eigen::Vector2d seen = p.head<2>() / p.z() * fit.focal_length;
+        largest = largest.cwiseMax(Eigen::Vector2d(2. * seen.x() * fit.height / fit.width, 2. * seen.y()).cwiseAbs());
+      }
     }
-    EXPECT_GT(largest, .4 * ball.radius);
+    EXPECT_LT(largest.maxCoeff(), .93);
+    EXPECT_GT(largest.maxCoeff(), .9);
   }
+}
+
+TEST(Framing, OrthographicCamerasToo) {
+  Config C;
+  C.addFrame("box", {}, "shape: box, size: [1 1 1], X: [5 6 7]");
+  Camera camera;
+  camera.pose.q = Quaterniond(Eigen::AngleAxisd(.3, Vector3d::UnitX()));
+  camera.ortho_height = 100.;
+  const Camera fit = fitted(camera, C);
+  EXPECT_GT(fit.ortho_height, 1.);
+  EXPECT_LT(fit.ortho_height, 2.);
+  const Vector3d middle = fit.pose.q.inverse() * (Vector3d(5., 6., 7.) - fit.pose.p);
+  EXPECT_TRUE(near(Vector3d(middle.x(), middle.y(), 0.), Vector3d::Zero(), 1e-9));
+  EXPECT_GT(middle.z(), fit.near + .5);
 }
 
 TEST(Framing, NothingToSeeLeavesTheCamera) {

@@ -1,7 +1,7 @@
 #include "kinegraph/rendering/framing.h"
 
 #include <algorithm>
-#include <cmath>
+#include <limits>
 
 #include "kinegraph/geometry/shapes/tessellation.h"
 #include "kinegraph/scene/visual_meshes.h"
@@ -21,7 +21,7 @@ std::vector<Vector3d> shownPoints(const Config& config) {
     const std::shared_ptr<const Geometry> visual = visual_meshes.of(*frame->shape);
     const Geometry& geometry = visual ? *visual : *frame->shape->geometry;
     const Pose X = scene.worldPose(*frame);
-    for (const Vector3f& vertex : tessellate(geometry).vertices) points.push_back(X * vertex.cast<double>());
+    for (const Vector3d& vertex : tessellate(geometry).vertices) points.push_back(X.p + X.q * vertex);
   }
   return points;
 }
@@ -46,18 +46,37 @@ std::optional<ShownBall> shownBall(const Config& config) {
   return ball;
 }
 
+/// The image is bounded by planes through the camera's center c. A point lies on the inner sides of a pair of them if
+///     |x - c_x| <= t (z - c_z),     t the tangent of half the angle between them;
+/// for all points this bounds c_z t - c_x and c_z t + c_x from above, and both bounds are met where the view is narrowest.
 Camera fitted(Camera camera, const Config& config) {
-  const std::optional<ShownBall> ball = shownBall(config);
-  if (!ball) return camera;
-  const double radius = std::max(ball->radius, 1e-3);
-  const double smaller_side = std::min(1., double(camera.width) / camera.height);
-  const double half_angle = std::atan(.5 * smaller_side / camera.focal_length);
-  const double distance = radius / std::sin(half_angle);
-  const Vector3d forward = camera.pose.q * Vector3d::UnitZ();
-  camera.pose.p = ball->center - distance * forward;
-  if (camera.ortho_height > 0.) camera.ortho_height = 2. * radius / smaller_side;
-  camera.near = std::min(camera.near, .5 * (distance - radius));
-  camera.far = std::max(camera.far, 2. * (distance + radius));
+  constexpr double kShare = .92;  // of the image's sides
+  const std::vector<Vector3d> points = shownPoints(config);
+  if (points.empty()) return camera;
+  const Eigen::Vector2d half(.5 * kShare * camera.width / camera.height, .5 * kShare);  // image heights
+  const bool is_pinhole = !(camera.ortho_height > 0.);
+  const Eigen::Vector2d t = is_pinhole ? Eigen::Vector2d(half / camera.focal_length) : Eigen::Vector2d::Zero();
+  Eigen::Vector2d below = Eigen::Vector2d::Constant(std::numeric_limits<double>::infinity()), above = below;
+  double nearest = below.x(), farthest = -below.x();
+  for (const Vector3d& point : points) {
+    const Vector3d p = camera.pose.q.conjugate() * point;
+    below = below.cwiseMin(t * p.z() - p.head<2>());
+    above = above.cwiseMin(t * p.z() + p.head<2>());
+    nearest = std::min(nearest, p.z());
+    farthest = std::max(farthest, p.z());
+  }
+  Vector3d center;
+  center.head<2>() = .5 * (above - below);
+  const double depth = std::max(farthest - nearest, 1e-3), gap = .05 * depth;
+  if (is_pinhole) {
+    center.z() = std::min((.5 * (above + below)).cwiseQuotient(t).minCoeff(), nearest - gap);
+  } else {
+    center.z() = nearest - depth;
+    camera.ortho_height = std::max(-(.5 * (above + below)).cwiseQuotient(half).minCoeff(), 1e-3);
+  }
+  camera.pose.p = camera.pose.q * center;
+  camera.near = std::min(camera.near, .5 * (nearest - center.z()));
+  camera.far = std::max(camera.far, 2. * (farthest - center.z()));
   return camera;
 }
 
