@@ -41,9 +41,13 @@ def _parser() -> argparse.ArgumentParser:
     render = commands.add_parser("render", help="a picture of a scene file; needs no display")
     render.add_argument("file")
     render.add_argument("-o", "--output", default="out.png", metavar="PNG", help="where to write it (default: out.png)")
-    render.add_argument("--camera", metavar="FRAME", help="a frame to look from (default: from outside, all in the picture)")
+    render.add_argument(
+        "--camera", metavar="FRAME", help="a frame to look from (default: from outside, all in the picture)"
+    )
     render.add_argument("--pos", type=_numbers(3), metavar="X,Y,Z", help="where to look from, m")
-    render.add_argument("--target", type=_numbers(3), metavar="X,Y,Z", help="where to look to, m (default: the scene's middle)")
+    render.add_argument(
+        "--target", type=_numbers(3), metavar="X,Y,Z", help="where to look to, m (default: the scene's middle)"
+    )
     render.add_argument("--joints", metavar="Q", help="joint values, rad or m: 0,0.5,...; or the name of a state")
     render.add_argument("--size", metavar="WIDTHxHEIGHT", help="pixels (default: as the camera says)")
 

@@ -37,8 +37,8 @@
 #include "kinegraph/planning/multi_start.h"       // one problem from many starts
 #include "kinegraph/planning/skeleton.h"          // what shall hold when, in words
 #include "kinegraph/rendering/camera_renderer.h"  // images from any camera
-#include "kinegraph/rendering/framing.h"          // a camera that sees all
 #include "kinegraph/rendering/depth_image.h"      // points of a depth image
+#include "kinegraph/rendering/framing.h"          // a camera that sees all
 #include "kinegraph/scene/config.h"               // Config, Frame
 #include "kinegraph/scene/motor_limits.h"         // getVelocityLimits, getEffortLimits
 #include "kinegraph/simulation/simulation.h"      // Simulation

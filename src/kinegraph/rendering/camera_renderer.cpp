@@ -6,8 +6,8 @@
 
 #include "kinegraph/base/text.h"
 #include "kinegraph/geometry/shapes/shape_kinds.h"
-#include "kinegraph/rendering/gl_context.h"
 #include "kinegraph/rendering/framing.h"
+#include "kinegraph/rendering/gl_context.h"
 #include "kinegraph/rendering/mesh_library.h"
 #include "kinegraph/scene/visual_meshes.h"
 
