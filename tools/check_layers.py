@@ -32,7 +32,7 @@ EVERYTHING = [
     "ik",
     "komo",
 ]
-EVERYTHING += ["planning", "motion", "rendering", "simulation", "viewer", "front"]
+EVERYTHING += ["planning", "motion", "rendering", "simulation", "operation", "viewer", "front"]
 
 BELOW: dict[str, list[str]] = {
     "base": [],
@@ -61,6 +61,7 @@ BELOW: dict[str, list[str]] = {
     "motion": [
         *["base", "math", "geometry", "kinematics", "scene", "features", "nlp", "komo", "solvers", "ik", "spline"],
     ],
+    "operation": ["base", "math", "spline", "gfile", "geometry", "kinematics", "scene", "simulation"],
     "rendering": ["base", "math", "gfile", "geometry", "kinematics", "scene"],
     "simulation": ["base", "math", "gfile", "geometry", "kinematics", "scene", "spline", "rendering"],
     "viewer": ["base", "math", "gfile", "geometry", "kinematics", "scene", "formats"],

@@ -3,6 +3,7 @@
 #include "bindings.h"
 #include "kinegraph/base/errors.h"
 #include "kinegraph/base/utf8.h"
+#include "kinegraph/operation/robot_driver.h"
 #include "python_names.h"
 
 namespace kinegraph::python {
@@ -39,6 +40,8 @@ void translate(const std::exception_ptr& pointer, void*) {
     raise("ArgumentError", error);
   } catch (const FileError& error) {
     raise("FileError", error);
+  } catch (const RobotFault& error) {
+    raise("RobotFault", error);
   } catch (const Error& error) {
     raise("Error", error);
   }

@@ -49,6 +49,7 @@ void bindSkeleton(nb::module_& m);
 void bindIk(nb::module_& m);
 void bindPathFinder(nb::module_& m);
 void bindSpline(nb::module_& m);
+void bindOperation(nb::module_& m);
 void bindDynamics(nb::class_<PyConfig>& config);
 void bindFormats(nb::class_<PyConfig>& config, nb::class_<Frame>& frame);
 void bindRendering(nb::module_& m);

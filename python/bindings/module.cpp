@@ -46,6 +46,7 @@ NB_MODULE(_core, m) {
   bindPathFinder(m);
   bindSpline(m);
   bindSimulation(m);
+  bindOperation(m);
   m.def(
       "parseText",
       [](const std::string& text, const std::string& name) { return Attributes(toDict(kinegraph::parse(text, name))); },

@@ -2,25 +2,12 @@
 #include <nanobind/stl/string.h>
 #include <nanobind/stl/vector.h>
 
-#include "kinegraph/base/errors.h"
-#include "kinegraph/base/text.h"
+#include "parameters.h"
 #include "py_viewer.h"
 
 namespace kinegraph::python {
 
 namespace {
-
-/// A parameter that `params_add` has set.
-template <class T>
-T parameter(const char* name, const T& otherwise, const char* expected) {
-  const nb::object set = nb::module_::import_("kinegraph.compatibility.parameters").attr("params_get")();
-  const nb::object value = set.attr("get")(name, nb::cast(otherwise));
-  try {
-    return nb::cast<T>(value);
-  } catch (const nb::cast_error&) {
-    throw ValueError(cat("parameter ", name, " is ", nb::cast<std::string>(nb::repr(value)), "; expected ", expected));
-  }
-}
 
 bool flag(const char* name, bool otherwise) {
   const nb::object value = parameter(name, nb::object(nb::bool_(otherwise)), "");

@@ -25,6 +25,10 @@ class FileError(Error, OSError):
     """A file that is missing or cannot be read."""
 
 
+class RobotFault(Error):
+    """A robot that cannot be moved: it reports an error, or a guard has stopped it."""
+
+
 class ParseError(Error, ValueError):
     """A text that does not follow its grammar, or a scene that makes no sense.
 

@@ -20,14 +20,12 @@ from kinegraph import test as test
 
 from . import DataGen, algo, calib, manipulation, nlp, render
 from .not_yet import (
-    BotOp,
     KOMO_ManipulationHelper,
     KOMO_Objective,
     LGP_TAMP_Abstraction,
     LGP_Tool,
     MujocoLoader,
     SRRT_PathFinder,
-    StepObservation,
     arg,
     default_LGP_TAMP_Abstraction,
     default_Logic2KOMO_Translator,
@@ -38,7 +36,6 @@ from .results import NLP_Solver, SolverReturn
 __all__ = [
     *kinegraph.__all__,
     "ArgWord",
-    "BotOp",
     "DataGen",
     "KOMO_ManipulationHelper",
     "KOMO_Objective",
@@ -46,7 +43,6 @@ __all__ = [
     "LGP_Tool",
     "MujocoLoader",
     "SRRT_PathFinder",
-    "StepObservation",
     "algo",
     "arg",
     "calib",

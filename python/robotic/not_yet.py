@@ -6,12 +6,9 @@ import kinegraph
 
 from .pending import pending
 
-_KINEMATIC = "until then KOMO and C.view() move robots kinematically, and C.stepDynamics steps the equation of motion"
 _PATHS = "KOMO finds paths (komo.solveFromMany from several starts), and C.checkMotion says where one collides"
 _PLANS = "Skeleton and KOMO solve a plan whose symbols are given"
 
-BotOp = pending("BotOp", _KINEMATIC)
-StepObservation = pending("StepObservation", _KINEMATIC)
 SRRT_PathFinder = pending("SRRT_PathFinder", _PATHS)
 LGP_Tool = pending("LGP_Tool", _PLANS)
 LGP_TAMP_Abstraction = pending("LGP_TAMP_Abstraction", _PLANS)

@@ -34,6 +34,9 @@
 #include "kinegraph/motion/path_finder.h"         // paths between two postures
 #include "kinegraph/nlp/callback_nlp.h"           // problems of your own
 #include "kinegraph/nlp/test_problems.h"          // named problems
+#include "kinegraph/operation/bot_op.h"           // BotOp
+#include "kinegraph/operation/kinematic_driver.h" // robots that go exactly where they are told
+#include "kinegraph/operation/recorded_driver.h"  // robots whose answers are known
 #include "kinegraph/planning/multi_start.h"       // one problem from many starts
 #include "kinegraph/planning/skeleton.h"          // what shall hold when, in words
 #include "kinegraph/rendering/camera_renderer.h"  // images from any camera

@@ -34,6 +34,11 @@ FOUND = {
         r"SolverStatus\.infeasible the constraints contradict each other",
         r"If positionDiff of l_gripper, target gives way by 3\.07 m, all others can hold",
     ],
+    "operation": [
+        r"2\.\d\d s, open by 0\.030 m",
+        r"BotOp\.move: joint '\w+' would .*; take at least \d",
+        r"the same to the bit: True",
+    ],
     "scenes": [r"scene file 'scene.g' does not exist", r"similar names: sphere", r"\['home'\] \{'arm': \['j'\]\}"],
     "viewer": [r"Viewer: http"],
 }

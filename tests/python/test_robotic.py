@@ -138,7 +138,7 @@ def test_options_of_earlier_years_are_those_of_today() -> None:
 @pytest.mark.parametrize(
     "use",
     [
-        "ry.BotOp(None, False)",
+        "ry.LGP_Tool(None, None)",
         "ry.Simulation.step",
         "ry.SRRT_PathFinder()",
         "ry.algo.box_filter([1])",

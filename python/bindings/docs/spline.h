@@ -104,7 +104,7 @@ Returns:
 Raises:
     ArgumentError: There are no knots, or a time is not a number.)";
 
-inline constexpr char getKnots[] = R"(The knots, (number of control points + degree + 1,) in s.)";
+inline constexpr char getKnots[] = R"(The knots, in s: (count,), as many as control points and degree + 1.)";
 
 inline constexpr char getCtrlPoints[] = R"(The control points, duplicates included: (count, d).)";
 

@@ -9,8 +9,9 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from .._core import JT, KOMO, ST, CameraView, Config, Frame, NLP_Solver, Skeleton
+from .._core import JT, KOMO, ST, BotOp, CameraView, Config, Frame, NLP_Solver, Skeleton
 from ..errors import ArgumentError
+from . import bot_op
 
 
 def getCollisionFree(self: Config) -> bool:
@@ -152,6 +153,7 @@ def view_setCamera(self: Config, *where: Any) -> None:
 
 
 METHODS: dict[type, Sequence[Callable[..., Any]]] = {
+    BotOp: bot_op.METHODS,
     CameraView: [getFxyCxy],
     Config: [addObject, getCollisionFree, getTotalPenetration, view_setCamera],
     Frame: [getType],

@@ -1,0 +1,9 @@
+#pragma once
+
+#include "bindings.h"
+
+namespace kinegraph::python {
+
+void bindRobotDriver(nb::module_& m);
+
+}  // namespace kinegraph::python

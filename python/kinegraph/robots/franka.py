@@ -1,0 +1,181 @@
+"""Franka's arms with their hand, through panda-python (`pip install kinegraph[franka]`)."""
+
+from __future__ import annotations
+
+import queue
+import threading
+from typing import Any
+
+import numpy as np
+
+from .._core import (
+    Config,
+    GripperCommand,
+    GripperInfo,
+    GripperReading,
+    RobotCommand,
+    RobotDriver,
+    RobotInfo,
+    RobotReading,
+)
+
+STIFFNESS = np.array([600.0, 600.0, 600.0, 600.0, 250.0, 150.0, 50.0])  # N m/rad, panda-python's own
+DAMPING = np.array([50.0, 50.0, 50.0, 20.0, 20.0, 20.0, 10.0])  # N m s/rad
+ACCELERATION = np.array([15.0, 7.5, 10.0, 12.5, 15.0, 20.0, 20.0])  # rad/s^2, of Franka's manual
+
+
+class _Hand:
+    """The hand, whose calls wait until they are done: a thread of its own makes them."""
+
+    def __init__(self, hand: Any) -> None:
+        self._hand = hand
+        self._commands: queue.SimpleQueue[GripperCommand | None] = queue.SimpleQueue()
+        self._lock = threading.Lock()
+        self._open = 0  # commands that are not done
+        self._error = ""
+        self._width = float(hand.read_once().width)
+        self._thread = threading.Thread(target=self._run, daemon=True)
+        self._thread.start()
+
+    def _run(self) -> None:
+        while (command := self._commands.get()) is not None:
+            error = ""
+            try:
+                if command.grasp:
+                    self._hand.grasp(command.width, command.speed, command.force, 1.0, 1.0)
+                else:
+                    self._hand.move(command.width, command.speed)
+            except Exception as problem:
+                error = str(problem)
+            width = float(self._hand.read_once().width)
+            with self._lock:
+                self._open -= 1
+                self._width, self._error = width, error or self._error
+
+    def command(self, command: GripperCommand) -> None:
+        with self._lock:
+            self._open += 1
+        self._commands.put(command)
+
+    def reading(self) -> tuple[GripperReading, str]:
+        with self._lock:
+            return GripperReading(self._width, self._open == 0), self._error
+
+    def clear(self) -> None:
+        with self._lock:
+            self._error = ""
+
+    def close(self) -> None:
+        self._commands.put(None)
+        self._thread.join(timeout=5.0)
+
+
+class FrankaDriver(RobotDriver):
+    """A Panda or FR3 with its hand. Untried on hardware.
+
+    The loop of 1 kHz runs in panda-python's thread; this driver leaves it setpoints. Of a compliance (setCompliance) it
+    takes what each joint gives way by itself: that controller has a stiffness per joint.
+    """
+
+    def __init__(self, config: Config, host: str, hand: bool = True):
+        """An arm at an address; nothing is connected yet.
+
+        Args:
+            config: The scene whose q are the arm's seven joints.
+            host: Address of the arm.
+            hand: It has Franka's hand.
+        """
+        super().__init__()
+        info = RobotInfo.of(config, "Franka")
+        info.compliant = True
+        info.acceleration = ACCELERATION
+        if hand:
+            info.grippers = [GripperInfo("hand", 0.0, 0.08, 0.1, 70.0)]
+        self._info, self._host, self._has_hand = info, host, hand
+        self._panda: Any = None
+        self._controller: Any = None
+        self._hand: _Hand | None = None
+        self._share = np.ones(7)
+
+    def info(self) -> RobotInfo:
+        """The joints of the scene with their limits, and the hand."""
+        return self._info
+
+    def connect(self) -> None:
+        """Connects to the arm and its hand, and holds the arm where it is."""
+        import panda_py
+        from panda_py import libfranka
+
+        self._panda = panda_py.Panda(self._host)
+        if self._has_hand:
+            self._hand = _Hand(libfranka.Gripper(self._host))
+        self._start()
+
+    def _start(self) -> None:
+        from panda_py import controllers
+
+        self._controller = controllers.JointPosition(STIFFNESS, DAMPING)
+        self._share = np.ones(7)
+        state = self._panda.get_state()
+        self._controller.set_control(np.array(state.q), np.zeros(7))
+        self._panda.start_controller(self._controller)
+
+    def disconnect(self) -> None:
+        """Stops the controller, and leaves."""
+        if self._hand is not None:
+            self._hand.close()
+        if self._panda is not None:
+            self._panda.stop_controller()
+        self._panda = self._controller = self._hand = None
+
+    def read(self) -> RobotReading:
+        """Where arm and hand are, what they feel, and what is wrong."""
+        state = self._panda.get_state()
+        error = str(state.current_errors) if state.current_errors else ""
+        grippers = []
+        if self._hand is not None:
+            reading, problem = self._hand.reading()
+            grippers, error = [reading], error or problem
+        time = state.time.to_sec()
+        return RobotReading(time, state.q, state.dq, state.tau_J, state.tau_ext_hat_filtered, grippers, error)
+
+    def write(self, command: RobotCommand) -> None:
+        """Leaves a setpoint.
+
+        Args:
+            command: Where to be.
+        """
+        share = np.ones(7) if command.isStiff() else np.clip(np.diag(command.stiffness), 0.0, 1.0)
+        if not np.array_equal(share, self._share):
+            self._share = share
+            damping = np.sqrt(share) if share.any() else np.full(7, command.damping)
+            self._controller.set_stiffness(STIFFNESS * share)
+            self._controller.set_damping(DAMPING * damping)
+        self._controller.set_control(command.q, command.velocity)
+
+    def stop(self, reason: str) -> None:
+        """Comes to rest: the arm's own brakes hold it.
+
+        Args:
+            reason: Why.
+        """
+        self._panda.stop_controller()
+
+    def recover(self) -> None:
+        """Clears errors, and holds the arm where it is."""
+        self._panda.recover()
+        if self._hand is not None:
+            self._hand.clear()
+        self._start()
+
+    def moveGripper(self, command: GripperCommand) -> None:
+        """Moves the hand, without waiting for it.
+
+        Args:
+            command: What it shall do.
+        Raises:
+            RuntimeError: There is no hand.
+        """
+        if self._hand is None:
+            raise RuntimeError("there is no hand")
+        self._hand.command(command)

@@ -1,0 +1,99 @@
+"""Arms of Universal Robots, through ur-rtde (`pip install kinegraph[ur]`)."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from .._core import Config, RobotCommand, RobotDriver, RobotInfo, RobotReading
+
+
+class UrDriver(RobotDriver):
+    """An arm of Universal Robots with six joints. Untried on hardware.
+
+    It is moved by servoj. Its limits are those of the scene's joints; a UR's controller has limits of its own, and stops
+    beyond them.
+    """
+
+    def __init__(
+        self, config: Config, host: str, lookahead: float = 0.05, gain: float = 600.0, deceleration: float = 10.0
+    ):
+        """An arm at an address; nothing is connected yet.
+
+        Args:
+            config: The scene whose q are the arm's joints, base first.
+            host: Address of the controller.
+            lookahead: How much servoj smooths, .03 to .2 s.
+            gain: How stiffly servoj follows, 100 to 2000.
+            deceleration: Of stops, rad/s^2.
+        """
+        super().__init__()
+        self._info = RobotInfo.of(config, "UR")
+        self._host, self._lookahead, self._gain, self._deceleration = host, lookahead, gain, deceleration
+        self._control: Any = None
+        self._receive: Any = None
+
+    def info(self) -> RobotInfo:
+        """The joints of the scene with their limits."""
+        return self._info
+
+    def connect(self) -> None:
+        """Connects to the controller, and starts the program there that takes commands."""
+        from rtde_control import RTDEControlInterface
+        from rtde_receive import RTDEReceiveInterface
+
+        self._receive = RTDEReceiveInterface(self._host)
+        self._control = RTDEControlInterface(self._host)
+
+    def disconnect(self) -> None:
+        """Comes to rest, and leaves."""
+        if self._control is not None:
+            self._control.servoStop(self._deceleration)
+            self._control.disconnect()
+        if self._receive is not None:
+            self._receive.disconnect()
+        self._control = self._receive = None
+
+    def _error(self) -> str:
+        if not self._receive.isConnected():
+            return "the connection is lost"
+        if self._receive.isEmergencyStopped():
+            return "emergency stop"
+        if self._receive.isProtectiveStopped():
+            return "protective stop"
+        return "" if self._control.isProgramRunning() else "the program on the controller does not run"
+
+    def read(self) -> RobotReading:
+        """Where it is, and what is wrong."""
+        receive = self._receive
+        return RobotReading(receive.getTimestamp(), receive.getActualQ(), receive.getActualQd(), error=self._error())
+
+    def write(self, command: RobotCommand) -> None:
+        """Goes on by a period.
+
+        Args:
+            command: Where to be.
+        Raises:
+            RuntimeError: The controller does not take it.
+        """
+        q = [float(x) for x in command.q]
+        if not self._control.servoJ(q, 0.0, 0.0, command.period, self._lookahead, self._gain):
+            raise RuntimeError(self._error() or "servoj was refused")
+
+    def stop(self, reason: str) -> None:
+        """Comes to rest.
+
+        Args:
+            reason: Why.
+        """
+        self._control.servoStop(self._deceleration)
+
+    def recover(self) -> None:
+        """Starts the program on the controller again, after a stop was released there.
+
+        Raises:
+            RuntimeError: It does not start.
+        """
+        if not self._receive.isConnected():
+            self._receive.reconnect()
+        if not self._control.isProgramRunning() and not self._control.reuploadScript():
+            raise RuntimeError("the program on the controller does not start; is the stop released?")

@@ -1,0 +1,63 @@
+// What a BotOp does with the rooms above it: pictures, and a viewer.
+#include "kinegraph/front/bot_cameras.h"
+
+#include "kinegraph/operation/kinematic_driver.h"
+#include "kinegraph/rendering/depth_image.h"
+#include "kinegraph/viewer/config_viewer.h"
+
+namespace kinegraph {
+
+namespace {
+
+std::shared_ptr<RobotDriver> simulated(const Config& config, bool use_real_robot) {
+  if (use_real_robot) throw ValueError("BotOp: a real robot takes a driver; see RobotDriver");
+  return std::make_shared<KinematicDriver>(config);
+}
+
+/// Shows in the viewer of the configuration that is synced, if it is open.
+BotOpOptions shownInViewers(Config& config) {
+  BotOpOptions options;
+  auto viewer = std::make_shared<ConfigViewer*>(&config.viewer());
+  options.show = [viewer](Config& shown, const std::string& message) {
+    *viewer = &shown.viewer();
+    return shown.viewer().isOpen() ? shown.view(false, message) : 0;
+  };
+  options.watched = [viewer] { return (*viewer)->clients() > 0; };
+  return options;
+}
+
+}  // namespace
+
+Camera BotCameras::camera(const BotOp& bot, const std::string& frame) {
+  bot.update(copy_);
+  return cameraOf(copy_.getFrame(frame));
+}
+
+BotOp::BotOp(Config& config, bool use_real_robot)
+    : BotOp(config, simulated(config, use_real_robot), shownInViewers(config)) {}
+
+BotCameras& BotOp::cameras() {
+  if (!cameras_) cameras_ = std::make_shared<BotCameras>(*this);
+  return *cameras_;
+}
+
+CameraImage BotOp::getImageAndDepth(const std::string& camera) {
+  return cameras().image(cameras().camera(*this, camera));
+}
+
+Vector4d BotOp::getCameraFxycxy(const std::string& camera) { return cameras().camera(*this, camera).fxycxy(); }
+
+std::pair<CameraImage, std::vector<double>> BotOp::getImageDepthPcl(const std::string& camera, bool global_coordinates) {
+  const Camera from = cameras().camera(*this, camera);
+  CameraImage image = cameras().image(from);
+  std::vector<double> points = depthToPoints(image.depth.data(), image.height, image.width, from.fxycxy());
+  if (global_coordinates) {
+    for (std::size_t i = 0; i + 2 < points.size(); i += 3) {
+      Eigen::Map<Vector3d> point(&points[i]);
+      point = from.pose.p + from.pose.q * Vector3d(point);
+    }
+  }
+  return {std::move(image), std::move(points)};
+}
+
+}  // namespace kinegraph

@@ -1,0 +1,221 @@
+"""BotOp from Python: scripts as they are written for it, Ctrl-C, parameters, pictures, and names of earlier years."""
+
+from __future__ import annotations
+
+import gc
+import subprocess
+import sys
+import threading
+import time
+import weakref
+from collections.abc import Iterator
+
+import numpy as np
+import pytest
+
+import kinegraph as ry
+from interrupts import interrupt_after
+
+
+@pytest.fixture(autouse=True)
+def no_parameters() -> Iterator[None]:
+    yield
+    ry.params_clear()
+
+
+@pytest.fixture
+def bot(panda: ry.Config) -> ry.BotOp:
+    return ry.BotOp(panda, False)
+
+
+def test_a_script_moves_there_and_back_and_sees_it_in_its_configuration(panda: ry.Config, bot: ry.BotOp) -> None:
+    home = bot.get_qHome()
+    goal = home + 0.2
+    bot.move([goal, home], [2.0])
+    seen = []
+    while bot.getTimeToEnd() > 0:
+        assert bot.sync(panda, 0.1) == 0
+        seen.append(panda.getJointState())
+        np.testing.assert_array_equal(seen[-1], bot.get_q())
+    assert len(seen) == 20 and bot.get_t() == pytest.approx(2.0)
+    farthest = max(np.abs(q - home).max() for q in seen)
+    assert 0.1 < farthest < 0.2  # a control point is not passed
+    np.testing.assert_allclose(seen[-1], home, atol=1e-12)
+
+
+def test_arguments_have_the_names_that_scripts_use(panda: ry.Config) -> None:
+    bot = ry.BotOp(C=panda, useRealRobot=False)
+    bot.move(path=panda.getJointState()[None, :] + 0.1, times=[1.0])
+    bot.moveTo(panda.getJointState(), timeCost=5.0, overwrite=True)
+    assert bot.wait(panda, forKeyPressed=False, forTimeToEnd=True) == 0
+    bot.gripperClose(ry._left, force=20.0, width=0.02, speed=0.1)
+    assert bot.wait(panda, forKeyPressed=False, forTimeToEnd=False, forGripper=True) == ord("g")
+    assert bot.sync(panda, viewMsg="done") == bot.getKeyPressed() == 0
+    observation = bot.stepObservation()
+    assert isinstance(observation, ry.StepObservation) and observation.ctrlTime == bot.get_t()
+    assert observation.qpos.shape == observation.qvel.shape == observation.qref.shape == (7,)
+    bot.stepAction(np.full(7, 0.01), observation, 0.1, maxAccel=1.0)
+    bot.setCompliance(panda.eval(ry.FS.position, ["l_gripper"])[1], compliance=0.5)
+
+
+def test_the_names_of_earlier_years_are_there(panda: ry.Config, bot: ry.BotOp) -> None:
+    bot.gripperClose(ry.ArgWord._left)
+    bot.wait(panda, forGripper=True, forTimeToEnd=False)
+    assert bot.getGripperPos(0) == pytest.approx(0.05)
+    bot.gripperOpen(ry.ArgWord._left)
+    bot.wait(panda, forGripper=True, forTimeToEnd=False)
+    assert bot.getGripperPos(0) == pytest.approx(0.075)
+    bot.hold(floating=True, damping=False)
+    assert bot.getMode() == ry.LoopMode.floating
+    bot.hold(False, True)
+    assert bot.getMode() == ry.LoopMode.hold
+    bot.cheat_setFramePose("table", [1, 2, 3, 1, 0, 0, 0])
+    assert bot.getWorld().getFrame("table").getPosition() == pytest.approx([1, 2, 3])
+    bot.sound(3)
+    with pytest.raises(ry.NotFound, match="driver of the hardware"):
+        bot.launch_franka(1)
+
+
+def test_the_same_script_gives_the_same_bits_and_its_log_gives_them_again(panda: ry.Config, tmp_path) -> None:
+    def script() -> tuple[ry.BotOp, np.ndarray]:
+        C = ry.Config()
+        C.addFile(ry.raiPath("scenarios/pandaSingle.g"))
+        bot = ry.BotOp(C, False)
+        rng = np.random.default_rng(0)
+        for _ in range(5):
+            bot.moveTo(bot.get_qHome() + 0.3 * rng.normal(size=7).clip(-1, 1), overwrite=True)
+            bot.sync(C, 0.4)
+            bot.gripperMove(0, 0.04)
+        bot.home(C)
+        return bot, C.getFrameState()
+
+    (one, state), (two, other) = script(), script()
+    np.testing.assert_array_equal(state, other)
+    assert one.getLog() == two.getLog() and len(one.getLog()) == 11
+    one.getLog().save(tmp_path / "log.txt")
+    again = ry.BotOp(panda, False)
+    again.replay(ry.CommandLog.load(tmp_path / "log.txt"))
+    np.testing.assert_array_equal(again.get_q(), one.get_q())
+    with pytest.raises(ry.ParseError, match="no command 'dance'"):
+        ry.CommandLog.fromText("kinegraph commands 1\nperiod 0.01\n3 dance\n")
+
+
+@pytest.mark.parametrize("realtime", [False, True])
+def test_ctrl_c_holds_the_robot_within_50_ms_then_raises(panda: ry.Config, realtime: bool) -> None:
+    ry.params_add({"botsim/tau": 0.001})
+    bot = ry.BotOp(panda, realtime=realtime)
+    q = bot.get_qHome().copy()
+    for _ in range(200):  # more than a minute of motion
+        bot.move([q + 0.2 * np.eye(7)[0], q], [2.0])
+    with interrupt_after(0.3) as interrupt, pytest.raises(KeyboardInterrupt):
+        while True:
+            bot.wait(panda)
+            bot.moveTo(q + 0.1)
+    assert time.perf_counter() - interrupt.time < (0.05 if realtime else 0.5)
+    assert bot.getMode() == ry.LoopMode.hold
+    log = bot.getLog().text().splitlines()
+    assert " hold " in log[-2]  # the last thing that the robot was told
+    bot.sync(panda, 0.2)
+    assert np.abs(bot.get_qDot()).max() < 1e-9
+    bot.close()
+
+
+def test_real_time_goes_on_while_the_script_does_something_else(panda: ry.Config) -> None:
+    ry.params_add({"botsim/hyperSpeed": 20.0})
+    bot = ry.BotOp(panda, realtime=True)
+    goal = bot.get_qHome() + 0.1
+    bot.moveTo(goal)
+    end = time.monotonic() + 20.0
+    while bot.getTimeToEnd() > 0.0 and time.monotonic() < end:
+        time.sleep(0.01)
+    np.testing.assert_allclose(bot.get_q(), goal, atol=1e-9)
+    assert bot.sync(panda, 0.1) == 0
+    np.testing.assert_allclose(panda.getJointState(), goal, atol=1e-9)
+
+
+def test_a_bot_that_is_forgotten_ends_its_thread(panda: ry.Config) -> None:
+    before = threading.active_count()
+    bot = ry.BotOp(panda, realtime=True)
+    gone = weakref.ref(bot)
+    del bot
+    gc.collect()
+    assert gone() is None and threading.active_count() == before
+    script = (
+        "import kinegraph as ry; C = ry.Config(); C.addFrame('a'); C.addFrame('b', 'a', 'joint: hingeX'); "
+        "bot = ry.BotOp(C, realtime=True); bot.moveTo([.1])"
+    )
+    run = subprocess.run([sys.executable, "-c", script], capture_output=True, text=True, timeout=60)
+    assert run.returncode == 0 and run.stderr == ""
+
+
+def test_parameters_say_how_time_goes(panda: ry.Config) -> None:
+    ry.params_add({"botsim/tau": 0.02})
+    bot = ry.BotOp(panda)
+    bot.get_t()
+    assert bot.get_t() == pytest.approx(0.02)
+    ry.params_add({"botsim/tau": "fast"})
+    with pytest.raises(ry.ArgumentError, match="botsim/tau is 'fast'; expected a time in s"):
+        ry.BotOp(panda)
+    ry.params_add({"botsim/tau": -1.0})
+    with pytest.raises(ry.ArgumentError, match="period is -1"):
+        ry.BotOp(panda)
+
+
+def test_a_real_robot_needs_a_driver(panda: ry.Config) -> None:
+    with pytest.raises(ry.ArgumentError, match="useRealRobot needs a driver"):
+        ry.BotOp(panda, True)
+    ry.params_add({"bot/blockRealRobot": True})
+    ry.BotOp(panda, True).moveTo(panda.getJointState() + 0.1)  # simulated
+
+
+def test_what_a_robot_cannot_do_is_an_error_with_the_reason(panda: ry.Config, bot: ry.BotOp) -> None:
+    q = bot.get_qHome()
+    with pytest.raises(
+        ry.ArgumentError, match=r"'l_panda_joint1' would 3 /s .* limit is 2.175 /s; take at least 1.37931 times"
+    ):
+        bot.move([q + 2.0 * np.eye(7)[0]], [1.0])
+    with pytest.raises(ry.ArgumentError, match="would go to 9"):
+        bot.moveTo(np.full(7, 9.0))
+    with pytest.raises(ry.ArgumentError, match="points of 3 numbers; the robot has 7 joints"):
+        bot.move([[0.0, 0.0, 0.0]], [1.0])
+    with pytest.raises(ry.ArgumentError, match="there is no gripper 3; the robot has 1: l_gripper"):
+        bot.gripperMove(3)
+    with pytest.raises(ry.FrameNotFound, match="unknown"):
+        bot.getImage("unknown")
+    with pytest.raises(ry.FrameNotFound):
+        bot.attach("l_gripper", "unknown")
+    assert len(bot.getLog()) == 0
+
+
+def test_cameras_see_the_world_as_it_is_now(panda: ry.Config) -> None:
+    panda.addFrame("ball").setShape(ry.ST.sphere, [0.1]).setColor([1, 0, 0]).setPosition([0.0, 0.3, 0.8])
+    bot = ry.BotOp(panda)
+    camera = "cameraTop"
+    rgb, depth = bot.getImageAndDepth(camera)
+    fxycxy = bot.getCameraFxycxy(camera)
+    assert rgb.shape == (*depth.shape, 3) and rgb.dtype == np.uint8 and fxycxy.shape == (4,)
+    red = (rgb[:, :, 0] > 150) & (rgb[:, :, 1] < 80)
+    assert red.sum() > 20
+    _, _, points = bot.getImageDepthPcl(camera, globalCoordinates=True)
+    np.testing.assert_allclose(points[red].mean(axis=0), [0.0, 0.3, 0.88], atol=0.03)
+    _, _, local = bot.getImageDepthPcl(camera)
+    np.testing.assert_allclose(local, ry.depthImage2PointCloud(depth, fxycxy))
+    bot.setFramePose("ball", [0, 0, -5, 1, 0, 0, 0])
+    gone = bot.getImage(camera)
+    assert ((gone[:, :, 0] > 150) & (gone[:, :, 1] < 80)).sum() == 0
+
+
+def test_bots_of_several_arms_move_all_and_each_gripper(tmp_path) -> None:
+    C = ry.Config()
+    C.addFile(ry.raiPath("scenarios/pandasTable.g"))
+    bot = ry.BotOp(C)
+    assert [gripper.name for gripper in bot.getInfo().grippers] == ["l_gripper", "r_gripper"]
+    bot.gripperMove(ry._right, 0.02)
+    bot.moveTo(bot.get_q() + 0.1)
+    bot.wait(C)
+    assert bot.getGripperPos(0) == pytest.approx(0.08) and bot.getGripperPos(1) == pytest.approx(0.02)
+    assert C.getFrame("r_panda_finger_joint1").getJointState() == pytest.approx([0.01])
+    bot.recordTo(tmp_path / "run.dat")
+    bot.sync(C, 0.05)
+    bot.recordTo("")
+    assert np.loadtxt(tmp_path / "run.dat").shape == (5, 1 + 4 * 14)
