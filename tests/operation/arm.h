@@ -16,7 +16,7 @@ gripper (arm2): { Q: [.4 0 0], shape: marker, size: [.03] }
 finger_origin (arm2): { Q: [.4 0 0] }
 finger1 (finger_origin): { joint: transY, limits: [0 .04], ctrl_limits: [.1 30 -1], q: .04, joint_active: False, shape: box, size: [.02 .01 .02] }
 finger2 (finger_origin): { joint: transY, joint_scale: -1, mimic: finger1, shape: box, size: [.02 .01 .02] }
-box: { Q: [.9 0 0], shape: box, size: [.03 .03 .03] }
+box: { X: [.9 0 0], shape: box, size: [.03 .03 .03] }
 )");
   return C;
 }

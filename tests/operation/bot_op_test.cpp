@@ -229,7 +229,8 @@ TEST(BotOp, WhoEndsAWaitingCallHoldsTheRobot) {
   EXPECT_THROW(bot.wait(C), Cancelled);
   EXPECT_EQ(bot.getMode(), LoopMode::hold);
   EXPECT_LT(bot.getLog().ticks, 50);
-  EXPECT_TRUE(std::holds_alternative<HoldRobot>(bot.getLog().entries.back().command));
+  const CommandLog log = bot.getLog();
+  EXPECT_TRUE(std::holds_alternative<HoldRobot>(log.entries.back().command));
 }
 
 TEST(BotOp, StepsOfAPolicyAccelerateConstantly) {
@@ -328,8 +329,8 @@ TEST(BotOp, RecordsARowForEachPeriod) {
 TEST(BotOp, AsksForRowsOfAJacobianThatAreIndependent) {
   Bench b;
   b.bot.setCompliance(row(1., 0.), .5);
-  const auto& entry = b.bot.getLog().entries.back();
-  EXPECT_LT((std::get<SetStiffness>(entry.command).stiffness - Eigen::Vector2d(.5, 1.).asDiagonal().toDenseMatrix()).norm(), 1e-12);
+  const CommandLog log = b.bot.getLog();
+  EXPECT_LT((std::get<SetStiffness>(log.entries.back().command).stiffness - Eigen::Vector2d(.5, 1.).asDiagonal().toDenseMatrix()).norm(), 1e-12);
   expectError<ValueError>([&] { b.bot.setCompliance(MatrixXd::Ones(2, 2)); }, {"not independent"});
   expectError<ValueError>([&] { b.bot.setCompliance(row(1., 0.), 2.); }, {"compliance is 2"});
   expectError<ValueError>([&] { b.bot.setCompliance(MatrixXd::Ones(1, 3)); }, {"3 columns"});

@@ -237,9 +237,7 @@ void BotOp::setCompliance(const MatrixXd& J, double compliance) {
 StepObservation BotOp::stepObservation() {
   ask(askObservation);
   const Lock lock(mutex_);
-  const double now = loop_->time();
-  const MatrixXd reference = loop_->reference(now);
-  return {now, loop_->reading().q, loop_->reading().velocity, reference.row(0).transpose(), reference.row(1).transpose()};
+  return {loop_->time(), loop_->reading().q, loop_->reading().velocity, loop_->commanded(), loop_->commandedVelocity()};
 }
 
 void BotOp::stepAction(const VectorXd& delta, const StepObservation& observation, double lambda, double max_acceleration,
@@ -266,7 +264,7 @@ void BotOp::stepAction(const VectorXd& delta, const StepObservation& observation
   const BSpline motion = BSpline::fromParts(2, knots, points);
   const Lock lock(mutex_);
   loop_->requireReady(call, motion.eval(loop_->time()));
-  loop_->apply(FollowSpline{motion});  // within limits by the guard: a loop of feedback must not end here
+  loop_->apply(FollowSpline{motion});  // kept within limits by the guard: a loop of feedback must not end here
 }
 
 void BotOp::home(Config& C) {

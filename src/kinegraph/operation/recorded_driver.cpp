@@ -23,4 +23,10 @@ RobotReading RecordedDriver::read() {
   return reading;
 }
 
+void RecordedDriver::moveGripper(const GripperCommand& command) {
+  const bool is_there = command.gripper >= 0 && std::size_t(command.gripper) < info_.grippers.size();
+  if (!is_there) return RobotDriver::moveGripper(command);
+  gripper_commands_.push_back(command);
+}
+
 }  // namespace kinegraph

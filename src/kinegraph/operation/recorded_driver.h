@@ -17,7 +17,7 @@ class RecordedDriver final : public RobotDriver {
   void write(const RobotCommand& command) override { commands_.push_back(command); }
   void stop(const std::string& reason) override { stops_.push_back(reason); }
   void recover() override { ++recoveries_; }
-  void moveGripper(const GripperCommand& command) override { gripper_commands_.push_back(command); }
+  void moveGripper(const GripperCommand& command) override;
   void step(double period) override { time_ += period; }
 
   const std::vector<RobotCommand>& commands() const { return commands_; }

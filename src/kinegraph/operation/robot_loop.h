@@ -47,6 +47,10 @@ class RobotLoop {
   const CommandLog& log() const { return log_; }
   RobotDriver& driver() { return *driver_; }
 
+  /// What was written last: the reference now, as far as limits let it be; where the robot is while it floats.
+  const VectorXd& commanded() const { return commanded_; }
+  const VectorXd& commandedVelocity() const { return commanded_velocity_; }
+
   /// The reference at a time, and its derivatives: 3 x n. That of a floating robot is where it is.
   MatrixXd reference(double time) const;
 
