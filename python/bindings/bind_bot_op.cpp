@@ -79,9 +79,12 @@ BotOpOptions optionsOf(PyConfig& config, bool realtime) {
   return options;
 }
 
-std::shared_ptr<RobotDriver> simulatedDriver(const PyConfig& config) { return std::make_shared<KinematicDriver>(config); }
+std::shared_ptr<RobotDriver> simulatedDriver(const PyConfig& config) {
+  return std::make_shared<KinematicDriver>(config);
+}
 
-void make(PyBotOp* self, PyConfig& config, bool use_real_robot, bool, std::shared_ptr<RobotDriver> driver, bool realtime) {
+void make(PyBotOp* self, PyConfig& config, bool use_real_robot, bool, std::shared_ptr<RobotDriver> driver,
+          bool realtime) {
   if (parameter("bot/blockRealRobot", false, "True or False")) {
     use_real_robot = false;
     driver = nullptr;
@@ -135,8 +138,10 @@ void bindState(nb::class_<PyBotOp>& bot) {
       .def("get_qHome", vectorOf<&BotOp::get_qHome>, "Joint values that the configuration had at first, (n,) rad or m.")
       .def("get_tauExternal", vectorOf<&BotOp::get_tauExternal>, docs::operation::get_tauExternal)
       .def("getTimeToEnd", call(&BotOp::getTimeToEnd), docs::operation::getTimeToEnd)
-      .def("getKeyPressed", [](const PyBotOp& b) { return b->getKeyPressed(); }, "The key of the last sync, or 0.")
-      .def("getInfo", [](const PyBotOp& b) { return RobotInfo(b->getInfo()); }, "What robot it is, with its limits.")
+      .def(
+          "getKeyPressed", [](const PyBotOp& b) { return b->getKeyPressed(); }, "The key of the last sync, or 0.")
+      .def(
+          "getInfo", [](const PyBotOp& b) { return RobotInfo(b->getInfo()); }, "What robot it is, with its limits.")
       .def("getFault", call(&BotOp::getFault), "Why it was stopped; empty if it was not.")
       .def("getMode", call(&BotOp::getMode), "How the robot is moved at present.");
 }
@@ -185,7 +190,8 @@ void bindMotions(nb::class_<PyBotOp>& bot) {
       .def("stepObservation", call(&BotOp::stepObservation), "What the robot does and shall do now.")
       .def(
           "stepAction",
-          [](PyBotOp& b, const Numbers& delta, const StepObservation& observation, double lambda, double most, double xi) {
+          [](PyBotOp& b, const Numbers& delta, const StepObservation& observation, double lambda, double most,
+             double xi) {
             const nb::gil_scoped_release unlock;
             b->stepAction(delta.values, observation, lambda, most, xi);
           },
@@ -211,7 +217,8 @@ void bindMotions(nb::class_<PyBotOp>& bot) {
             const nb::gil_scoped_release unlock;
             b->setLimits(velocity.values, acceleration.values, effort.values);
           },
-          "velocity"_a = nb::list(), "acceleration"_a = nb::list(), "effort"_a = nb::list(), docs::operation::setLimits);
+          "velocity"_a = nb::list(), "acceleration"_a = nb::list(), "effort"_a = nb::list(),
+          docs::operation::setLimits);
 }
 
 void bindTime(nb::class_<PyBotOp>& bot) {
@@ -233,7 +240,8 @@ void bindTime(nb::class_<PyBotOp>& bot) {
 }
 
 void bindGrippers(nb::class_<PyBotOp>& bot) {
-  bot.def("gripperMove", call(&BotOp::gripperMove), "id"_a, "width"_a = .075, "speed"_a = .2, docs::operation::gripperMove)
+  bot.def("gripperMove", call(&BotOp::gripperMove), "id"_a, "width"_a = .075, "speed"_a = .2,
+          docs::operation::gripperMove)
       .def("gripperClose", call(&BotOp::gripperClose), "id"_a, "force"_a = 10., "width"_a = .05, "speed"_a = .1,
            docs::operation::gripperClose)
       .def(
@@ -279,7 +287,7 @@ void bindWorld(nb::class_<PyBotOp>& bot) {
             };
             return PyConfig{world()};
           },
-           "A copy of the simulated world as it is now: a Config.");
+          "A copy of the simulated world as it is now: a Config.");
 }
 
 void bindCameras(nb::class_<PyBotOp>& bot) {
@@ -303,8 +311,7 @@ void bindCameras(nb::class_<PyBotOp>& bot) {
           "sensorName"_a, docs::operation::getImage)
       .def(
           "getImageDepthPcl",
-          [](PyBotOp& b, const std::string& camera,
-             bool global) -> nb::typed<nb::tuple, ByteArray, FloatArray, Array> {
+          [](PyBotOp& b, const std::string& camera, bool global) -> nb::typed<nb::tuple, ByteArray, FloatArray, Array> {
             std::pair<CameraImage, std::vector<double>> seen;
             {
               const nb::gil_scoped_release unlock;
@@ -335,13 +342,16 @@ void bindRecords(nb::module_& m, nb::class_<PyBotOp>& bot) {
       .def_ro("ticks", &CommandLog::ticks, "How many periods it is long.")
       .def("__len__", [](const CommandLog& log) { return log.entries.size(); })
       .def("text", &CommandLog::text, "The log as text: a command a line, with numbers that read back as they are.")
-      .def("save", [](const CommandLog& log, const PathText& path) { log.save(path.text); }, "path"_a,
-           docs::operation::saveLog)
-      .def_static("load", [](const PathText& path) { return CommandLog::load(path.text); }, "path"_a,
-                  docs::operation::loadLog)
-      .def_static("fromText", [](const std::string& text) { return CommandLog::fromText(text); }, "text"_a,
-                  docs::operation::logFromText)
-      .def("__eq__", [](const CommandLog& a, const CommandLog& b) { return a.text() == b.text(); }, nb::is_operator());
+      .def(
+          "save", [](const CommandLog& log, const PathText& path) { log.save(path.text); }, "path"_a,
+          docs::operation::saveLog)
+      .def_static(
+          "load", [](const PathText& path) { return CommandLog::load(path.text); }, "path"_a, docs::operation::loadLog)
+      .def_static(
+          "fromText", [](const std::string& text) { return CommandLog::fromText(text); }, "text"_a,
+          docs::operation::logFromText)
+      .def(
+          "__eq__", [](const CommandLog& a, const CommandLog& b) { return a.text() == b.text(); }, nb::is_operator());
   bot.def("getLog", call(&BotOp::getLog), "All that the robot was told so far: a CommandLog.")
       .def(
           "replay",
@@ -371,10 +381,14 @@ void bindOperation(nb::module_& m) {
       .value("fault", LoopMode::fault, "Stopped by a guard or by an error of the robot.");
   nb::class_<StepObservation>(m, "StepObservation", "What a robot does and shall do at one time.")
       .def_ro("ctrlTime", &StepObservation::ctrl_time, "s.")
-      .def_prop_ro("qpos", [](const StepObservation& o) { return toNumpy(o.qpos); }, "Joint values as read, (n,) rad or m.")
-      .def_prop_ro("qvel", [](const StepObservation& o) { return toNumpy(o.qvel); }, "Joint velocities as read, (n,).")
-      .def_prop_ro("qref", [](const StepObservation& o) { return toNumpy(o.qref); }, "Where it shall be, (n,) rad or m.")
-      .def_prop_ro("qvel_ref", [](const StepObservation& o) { return toNumpy(o.qvel_ref); }, "How fast it shall be, (n,).");
+      .def_prop_ro(
+          "qpos", [](const StepObservation& o) { return toNumpy(o.qpos); }, "Joint values as read, (n,) rad or m.")
+      .def_prop_ro(
+          "qvel", [](const StepObservation& o) { return toNumpy(o.qvel); }, "Joint velocities as read, (n,).")
+      .def_prop_ro(
+          "qref", [](const StepObservation& o) { return toNumpy(o.qref); }, "Where it shall be, (n,) rad or m.")
+      .def_prop_ro(
+          "qvel_ref", [](const StepObservation& o) { return toNumpy(o.qvel_ref); }, "How fast it shall be, (n,).");
   nb::class_<PyBotOp> bot(m, "BotOp", nb::is_weak_referenceable(), docs::operation::BotOp);
   bot.def("__init__", make, "C"_a, "useRealRobot"_a = false, "auto_launch"_a = true, "driver"_a.none() = nb::none(),
           "realtime"_a = false, docs::operation::BotOp_make);

@@ -24,8 +24,9 @@ auto fromPython(const char* name, const Call& call) {
   } catch (nb::python_error& error) {
     const nb::gil_scoped_acquire lock;
     if (!error.matches(PyExc_Exception)) throw;
-    throw RobotFault(cat("the driver's ", name, "() raised ", nb::cast<std::string>(nb::str(error.type().attr("__name__"))),
-                         ": ", nb::cast<std::string>(nb::str(error.value()))));
+    throw RobotFault(cat("the driver's ", name, "() raised ",
+                         nb::cast<std::string>(nb::str(error.type().attr("__name__"))), ": ",
+                         nb::cast<std::string>(nb::str(error.value()))));
   } catch (const nb::cast_error&) {
     throw RobotFault(cat("the driver's ", name, "() returned something else than it should"));
   } catch (const Error&) {
@@ -87,7 +88,8 @@ VectorXd orInfinite(const Numbers& given, std::size_t n, double otherwise) {
 }
 
 void bindGrippers(nb::module_& m) {
-  nb::class_<GripperInfo>(m, "GripperInfo", "What a gripper of a robot is. Widths are of the opening between its fingers.")
+  nb::class_<GripperInfo>(m, "GripperInfo",
+                          "What a gripper of a robot is. Widths are of the opening between its fingers.")
       .def(nb::init<std::string, double, double, double, double>(), "name"_a, "min_width"_a = 0., "max_width"_a = .08,
            "max_speed"_a = .2, "max_force"_a = 70., docs::operation::GripperInfo)
       .def_rw("name", &GripperInfo::name, "Its name.")
@@ -101,7 +103,8 @@ void bindGrippers(nb::module_& m) {
       .def_rw("is_done", &GripperReading::is_done, "It has reached the width it was told, or something holds it up.");
   nb::class_<GripperCommand>(m, "GripperCommand", "What a gripper shall do.")
       .def_ro("gripper", &GripperCommand::gripper, "Which one, from 0.")
-      .def_ro("grasp", &GripperCommand::grasp, "Close until something is between the fingers, and hold it with `force`.")
+      .def_ro("grasp", &GripperCommand::grasp,
+              "Close until something is between the fingers, and hold it with `force`.")
       .def_ro("width", &GripperCommand::width, "Where to go, or how wide that is which is grasped, m.")
       .def_ro("speed", &GripperCommand::speed, "m/s of the width.")
       .def_ro("force", &GripperCommand::force, "N, at most.")
@@ -112,16 +115,21 @@ void bindInfo(nb::module_& m) {
   nb::class_<RobotInfo> info(m, "RobotInfo", "What a robot is. Limits are per joint, infinite where there is none.");
   info.def(
           "__init__",
-          [](RobotInfo* self, std::string name, std::vector<std::string> joints, const Numbers& lower, const Numbers& upper,
-             const Numbers& velocity, const Numbers& acceleration, const Numbers& effort, double rate, bool compliant,
-             std::vector<GripperInfo> grippers) {
+          [](RobotInfo* self, std::string name, std::vector<std::string> joints, const Numbers& lower,
+             const Numbers& upper, const Numbers& velocity, const Numbers& acceleration, const Numbers& effort,
+             double rate, bool compliant, std::vector<GripperInfo> grippers) {
             const std::size_t n = joints.size();
             const double all = std::numeric_limits<double>::infinity();
-            RobotInfo made{std::move(name),           std::move(joints),
-                           orInfinite(lower, n, -all), orInfinite(upper, n, all),
-                           orInfinite(velocity, n, all), orInfinite(acceleration, n, all),
-                           orInfinite(effort, n, all), rate,
-                           compliant,                  std::move(grippers)};
+            RobotInfo made{std::move(name),
+                           std::move(joints),
+                           orInfinite(lower, n, -all),
+                           orInfinite(upper, n, all),
+                           orInfinite(velocity, n, all),
+                           orInfinite(acceleration, n, all),
+                           orInfinite(effort, n, all),
+                           rate,
+                           compliant,
+                           std::move(grippers)};
             made.validate();
             new (self) RobotInfo(std::move(made));
           },
@@ -150,8 +158,8 @@ void bindReadings(nb::module_& m) {
           "__init__",
           [](RobotReading* self, double time, const Numbers& q, const Numbers& velocity, const Numbers& effort,
              const Numbers& external, std::vector<GripperReading> grippers, std::string error) {
-            new (self) RobotReading{time,           q.values, velocity.values, effort.values, external.values,
-                                    std::move(grippers), std::move(error)};
+            new (self) RobotReading{
+                time, q.values, velocity.values, effort.values, external.values, std::move(grippers), std::move(error)};
           },
           "time"_a, "q"_a, "velocity"_a, "effort"_a = nb::list(), "external_effort"_a = nb::list(),
           "grippers"_a = nb::list(), "error"_a = "", docs::operation::RobotReading)
@@ -194,8 +202,8 @@ void bindRobotDriver(nb::module_& m) {
       .def("step", &RobotDriver::step, "period"_a, docs::operation::step);
   nb::class_<KinematicDriver, RobotDriver>(m, "KinematicDriver", docs::operation::KinematicDriver)
       .def(
-          "__init__", [](KinematicDriver* self, const PyConfig& config) { new (self) KinematicDriver(config); }, "config"_a,
-          docs::operation::KinematicDriver_make);
+          "__init__", [](KinematicDriver* self, const PyConfig& config) { new (self) KinematicDriver(config); },
+          "config"_a, docs::operation::KinematicDriver_make);
   nb::class_<RecordedDriver, RobotDriver>(m, "RecordedDriver", docs::operation::RecordedDriver)
       .def(
           "__init__",

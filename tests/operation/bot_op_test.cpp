@@ -73,7 +73,7 @@ TEST(BotOp, MoveToTakesTheTimeOfItsFormulaOrWhatLimitsNeed) {
   b.bot.moveTo(pair(.2, 0.));
   EXPECT_NEAR(b.bot.getTimeToEnd(), .1, 1e-9);  // at least
   b.bot.wait(b.C);
-  b.bot.moveTo(pair(-1., 0.), 100.);  // .27 s by the formula: 6.7 rad/s
+  b.bot.moveTo(pair(-1., 0.), 100.);                        // .27 s by the formula: 6.7 rad/s
   EXPECT_NEAR(b.bot.getTimeToEnd(), 1.5 * 1.2 / 2., 1e-6);  // at 2 rad/s
 }
 
@@ -115,7 +115,8 @@ TEST(BotOp, RefusesMotionsBeyondLimitsAndDoesNothing) {
   const auto refused = [&](const MatrixXd& path, const VectorXd& times, std::initializer_list<const char*> parts) {
     expectError<ValueError>([&] { b.bot.move(path, times); }, parts);
   };
-  refused(row(1., 0.), seconds(.5), {"BotOp::move", "'arm1' would 3 /s 0.25 s after its start; its limit is 2 /s; take at least 1.5"});
+  refused(row(1., 0.), seconds(.5),
+          {"BotOp::move", "'arm1' would 3 /s 0.25 s after its start; its limit is 2 /s; take at least 1.5"});
   refused(row(2.5, 0.), seconds(9.), {"'arm1' would go to 2.5; its limits are -2 to 2"});
   refused(MatrixXd::Zero(1, 3), seconds(1.), {"points of 3 numbers; the robot has 2 joints"});
   refused(MatrixXd::Zero(3, 2), pair(1., 2.), {"3 points and 2 times"});
@@ -308,7 +309,8 @@ TEST(BotOp, DoesNotTakeARobotWithOtherJoints) {
   for (VectorXd* limits : {&three.lower, &three.upper, &three.velocity, &three.acceleration, &three.effort})
     *limits = VectorXd::Constant(3, 1.);
   const auto driver = std::make_shared<RecordedDriver>(three, std::vector<RobotReading>(), VectorXd::Zero(3));
-  expectError<ValueError>([&] { BotOp(C, driver); }, {"robot 'plain' has 3 joints; the configuration has 2: arm1, arm2"});
+  expectError<ValueError>([&] { BotOp(C, driver); },
+                          {"robot 'plain' has 3 joints; the configuration has 2: arm1, arm2"});
 }
 
 TEST(BotOp, RecordsARowForEachPeriod) {
@@ -330,7 +332,10 @@ TEST(BotOp, AsksForRowsOfAJacobianThatAreIndependent) {
   Bench b;
   b.bot.setCompliance(row(1., 0.), .5);
   const CommandLog log = b.bot.getLog();
-  EXPECT_LT((std::get<SetStiffness>(log.entries.back().command).stiffness - Eigen::Vector2d(.5, 1.).asDiagonal().toDenseMatrix()).norm(), 1e-12);
+  EXPECT_LT((std::get<SetStiffness>(log.entries.back().command).stiffness -
+             Eigen::Vector2d(.5, 1.).asDiagonal().toDenseMatrix())
+                .norm(),
+            1e-12);
   expectError<ValueError>([&] { b.bot.setCompliance(MatrixXd::Ones(2, 2)); }, {"not independent"});
   expectError<ValueError>([&] { b.bot.setCompliance(row(1., 0.), 2.); }, {"compliance is 2"});
   expectError<ValueError>([&] { b.bot.setCompliance(MatrixXd::Ones(1, 3)); }, {"3 columns"});

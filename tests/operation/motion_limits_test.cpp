@@ -57,7 +57,8 @@ TEST(BrokenLimit, NamesTheJointTheTimeAndWhatWouldDo) {
   EXPECT_FALSE(brokenLimit(spline, 0., robot));
   robot.velocity[1] = 1.;
   const std::string slow = brokenLimit(spline, 0., robot).value();
-  EXPECT_EQ(slow, "joint 'arm2' would 1.5 /s 0.5 s after its start; its limit is 1 /s; take at least 1.5 times as long");
+  EXPECT_EQ(slow,
+            "joint 'arm2' would 1.5 /s 0.5 s after its start; its limit is 1 /s; take at least 1.5 times as long");
   EXPECT_FALSE(brokenLimit(BSpline(3, points, pair(0., 1.5)), 0., robot));  // and it does
   robot.velocity[1] = 2.;
   robot.acceleration[1] = 3.;
@@ -82,7 +83,8 @@ TEST(BrokenLimit, LooksAtTheMotionAndNotAtItsControlPoints) {
 
 TEST(BrokenEffort, IsThatOfAPendulumHeldLevel) {
   Config C;
-  C.addText("base: {}\narm1 (base): { joint: hingeY }\narm2 (arm1): { joint: transX }\nmass (arm2): { Q: [1 0 0], mass: 2 }");
+  C.addText(
+      "base: {}\narm1 (base): { joint: hingeY }\narm2 (arm1): { joint: transX }\nmass (arm2): { Q: [1 0 0], mass: 2 }");
   RobotInfo robot = plainRobot();
   MatrixXd points = MatrixXd::Zero(2, 2);
   const BSpline still(3, points, pair(0., 1.));

@@ -55,7 +55,7 @@ TEST(RobotLoop, IsStoppedByNumbersThatAreNotFinite) {
   EXPECT_EQ(loop.mode(), LoopMode::fault);
   EXPECT_NE(loop.fault().find("not finite"), std::string::npos);
   ASSERT_EQ(driver->stops().size(), 1u);
-  EXPECT_EQ(driver->commands().size(), 4u);  // nothing was written after
+  EXPECT_EQ(driver->commands().size(), 4u);   // nothing was written after
   EXPECT_EQ(loop.reading().q, pair(0., 0.));  // the last one that made sense
 }
 
@@ -68,7 +68,8 @@ TEST(RobotLoop, IsStoppedByAnErrorOfTheRobotUntilItRecovers) {
   loop.step();
   loop.step();
   EXPECT_EQ(loop.fault(), "joint 2: too hot");
-  expectError<RobotFault>([&] { loop.requireReady("move", pair(0., 0.)); }, {"move: the robot was stopped: joint 2: too hot"});
+  expectError<RobotFault>([&] { loop.requireReady("move", pair(0., 0.)); },
+                          {"move: the robot was stopped: joint 2: too hot"});
   expectError<RobotFault>([&] { loop.apply(FollowSpline{straight(0., 1., 0., 1.)}); }, {"too hot"});
   loop.apply(RecoverRobot{});
   EXPECT_EQ(driver->recoveries(), 1);

@@ -32,8 +32,7 @@ Raises:
 inline constexpr char get_tauExternal[] =
     R"(Forces at the joints by what the robot touches, (n,) N m or N: the mean since the last call. NaN if it does not know.)";
 
-inline constexpr char getTimeToEnd[] =
-    R"(Seconds until the motion ends; 0 or less: it has, or there is none.)";
+inline constexpr char getTimeToEnd[] = R"(Seconds until the motion ends; 0 or less: it has, or there is none.)";
 
 inline constexpr char moveTo[] = R"(Goes to joint values and rests there. Does not wait.
 
@@ -62,7 +61,8 @@ Raises:
         effort; the message says of which joint, when, and how much longer it would have to take.
     RobotFault: The robot was stopped, or is not where the motion begins.)";
 
-inline constexpr char moveAutoTimed[] = R"(Goes along a smooth path as fast as limits allow, and rests at its end. Does not wait.
+inline constexpr char moveAutoTimed[] =
+    R"(Goes along a smooth path as fast as limits allow, and rests at its end. Does not wait.
 
 Args:
     path: (K, n) joint values, as for move; the times between points are equal.
@@ -172,7 +172,8 @@ Args:
 Raises:
     ArgumentError: There is no such gripper, or a number makes no sense.)";
 
-inline constexpr char gripperClose[] = R"(Closes a gripper until something is between its fingers, and holds that. Does not wait.
+inline constexpr char gripperClose[] =
+    R"(Closes a gripper until something is between its fingers, and holds that. Does not wait.
 
 Args:
     id: Which one.
@@ -315,7 +316,8 @@ Raises:
     ArgumentError: The robot was moved before, or the log has another period.
     FrameNotFound: The scene is not that of the log.)";
 
-inline constexpr char recordTo[] = R"(Writes a row per period into a file from now on: time, q, velocity, and both as they shall be.
+inline constexpr char recordTo[] =
+    R"(Writes a row per period into a file from now on: time, q, velocity, and both as they shall be.
 
 Args:
     path: Of the file; empty: none.
@@ -332,7 +334,8 @@ inline constexpr char write[] = R"(Moves the robot.
 Args:
     command: Where it shall be a period from now, within its limits.)";
 
-inline constexpr char stopRobot[] = R"(Something is wrong: come to rest. Called once; then nothing is written until recover().
+inline constexpr char stopRobot[] =
+    R"(Something is wrong: come to rest. Called once; then nothing is written until recover().
 
 Args:
     reason: What is wrong.)";
@@ -344,7 +347,8 @@ Args:
 Raises:
     RobotFault: The robot has no grippers.)";
 
-inline constexpr char step[] = R"(Simulated time goes on. The time of a robot that is there goes on by itself: it does nothing.
+inline constexpr char step[] =
+    R"(Simulated time goes on. The time of a robot that is there goes on by itself: it does nothing.
 
 Args:
     period: s.)";

@@ -47,7 +47,8 @@ CameraImage BotOp::getImageAndDepth(const std::string& camera) {
 
 Vector4d BotOp::getCameraFxycxy(const std::string& camera) { return cameras().camera(*this, camera).fxycxy(); }
 
-std::pair<CameraImage, std::vector<double>> BotOp::getImageDepthPcl(const std::string& camera, bool global_coordinates) {
+std::pair<CameraImage, std::vector<double>> BotOp::getImageDepthPcl(const std::string& camera,
+                                                                    bool global_coordinates) {
   const Camera from = cameras().camera(*this, camera);
   CameraImage image = cameras().image(from);
   std::vector<double> points = depthToPoints(image.depth.data(), image.height, image.width, from.fxycxy());

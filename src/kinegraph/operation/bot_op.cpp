@@ -16,14 +16,18 @@ constexpr double kShortest = .1;  // s, that moveTo takes
 
 VectorXd evenTimes(const char* call, const VectorXd& times, Eigen::Index count) {
   if (times.size() == count && count != 1) return times;
-  if (times.size() != 1) throw ValueError(cat(call, ": ", count, " points and ", times.size(), " times; expected one time per point, or one"));
-  if (!(times[0] > 0.) || !std::isfinite(times[0])) throw ValueError(cat(call, ": the time is ", times[0], "; expected more than 0"));
+  if (times.size() != 1)
+    throw ValueError(
+        cat(call, ": ", count, " points and ", times.size(), " times; expected one time per point, or one"));
+  if (!(times[0] > 0.) || !std::isfinite(times[0]))
+    throw ValueError(cat(call, ": the time is ", times[0], "; expected more than 0"));
   return VectorXd::LinSpaced(count, times[0] / double(count), times[0]);
 }
 
 void requirePath(const char* call, const MatrixXd& path, Eigen::Index n) {
   if (path.rows() == 0) throw ValueError(cat(call, ": the path has no points"));
-  if (path.cols() != n) throw ValueError(cat(call, ": points of ", path.cols(), " numbers; the robot has ", n, " joints"));
+  if (path.cols() != n)
+    throw ValueError(cat(call, ": points of ", path.cols(), " numbers; the robot has ", n, " joints"));
   if (!path.allFinite()) throw ValueError(cat(call, ": the path has numbers that are not finite"));
 }
 
@@ -142,7 +146,8 @@ void BotOp::move(const MatrixXd& path, const VectorXd& times, bool overwrite, do
   const BSpline motion = continued(path, all_times, overwrite, overwrite_time);
   const double jump = (motion.eval(now) - loop_->reference(now).row(0).transpose()).cwiseAbs().maxCoeff();
   if (jump > options_.guards.engage_distance)
-    throw ValueError(cat(call, ": overwriting from ", overwrite_time, " s on would make the robot jump by ", jump, " now"));
+    throw ValueError(
+        cat(call, ": overwriting from ", overwrite_time, " s on would make the robot jump by ", jump, " now"));
   engage(call, motion);
 }
 
@@ -173,7 +178,8 @@ void BotOp::moveAutoTimed(const MatrixXd& path, double max_velocity, double max_
   constexpr const char* call = "BotOp::moveAutoTimed";
   requirePath(call, path, home_.size());
   if (!(max_velocity > 0.) || !(max_acceleration > 0.))
-    throw ValueError(cat(call, ": maximal velocity ", max_velocity, " and acceleration ", max_acceleration, "; expected more than 0"));
+    throw ValueError(cat(call, ": maximal velocity ", max_velocity, " and acceleration ", max_acceleration,
+                         "; expected more than 0"));
   const Lock lock(mutex_);
   const MatrixXd from = loop_->reference(timeToEnd() > 0. ? loop_->motion().end() : loop_->time());
   MatrixXd points(path.rows() + 1, path.cols());
@@ -189,8 +195,10 @@ void BotOp::moveAutoTimed(const MatrixXd& path, double max_velocity, double max_
 
 void BotOp::follow(const BSpline& motion) {
   if (motion.isEmpty() || motion.dimension() != home_.size())
-    throw ValueError(cat("BotOp::follow: a motion of ", motion.dimension(), " numbers; the robot has ", home_.size(), " joints"));
-  if (motion.degree() > 3) throw ValueError(cat("BotOp::follow: a motion of degree ", motion.degree(), "; expected 3 at most"));
+    throw ValueError(
+        cat("BotOp::follow: a motion of ", motion.dimension(), " numbers; the robot has ", home_.size(), " joints"));
+  if (motion.degree() > 3)
+    throw ValueError(cat("BotOp::follow: a motion of degree ", motion.degree(), "; expected 3 at most"));
   const Lock lock(mutex_);
   engage("BotOp::follow", motion);
 }
@@ -214,16 +222,19 @@ void BotOp::hold() {
 }
 
 void BotOp::floating(double damping) {
-  if (!(damping >= 0. && damping <= 1.)) throw ValueError(cat("BotOp::floating: damping is ", damping, "; expected 0 to 1"));
+  if (!(damping >= 0. && damping <= 1.))
+    throw ValueError(cat("BotOp::floating: damping is ", damping, "; expected 0 to 1"));
   const Lock lock(mutex_);
   loop_->apply(FloatRobot{damping});
 }
 
 void BotOp::setCompliance(const MatrixXd& J, double compliance) {
   constexpr const char* call = "BotOp::setCompliance";
-  if (!(compliance >= 0. && compliance <= 1.)) throw ValueError(cat(call, ": compliance is ", compliance, "; expected 0 to 1"));
+  if (!(compliance >= 0. && compliance <= 1.))
+    throw ValueError(cat(call, ": compliance is ", compliance, "; expected 0 to 1"));
   if (J.cols() != home_.size() || !J.allFinite())
-    throw ValueError(cat(call, ": J has ", J.cols(), " columns; expected finite numbers for ", home_.size(), " joints"));
+    throw ValueError(
+        cat(call, ": J has ", J.cols(), " columns; expected finite numbers for ", home_.size(), " joints"));
   const Eigen::FullPivLU<MatrixXd> lu(J * J.transpose());
   if (J.rows() == 0 || !lu.isInvertible())
     throw ValueError(cat(call, ": the ", J.rows(), " rows of J are not independent; expected full row rank"));
@@ -240,15 +251,16 @@ StepObservation BotOp::stepObservation() {
   return {loop_->time(), loop_->reading().q, loop_->reading().velocity, loop_->commanded(), loop_->commandedVelocity()};
 }
 
-void BotOp::stepAction(const VectorXd& delta, const StepObservation& observation, double lambda, double max_acceleration,
-                       double xi) {
+void BotOp::stepAction(const VectorXd& delta, const StepObservation& observation, double lambda,
+                       double max_acceleration, double xi) {
   constexpr const char* call = "BotOp::stepAction";
   const Eigen::Index n = home_.size();
   if (delta.size() != n || observation.qref.size() != n || observation.qvel.size() != n)
-    throw ValueError(cat(call, ": delta of ", delta.size(), " numbers, an observation of ", observation.qref.size(), "; expected ", n));
+    throw ValueError(cat(call, ": delta of ", delta.size(), " numbers, an observation of ", observation.qref.size(),
+                         "; expected ", n));
   if (!delta.allFinite() || !(lambda > 0.) || !(max_acceleration > 0.))
-    throw ValueError(cat(call, ": expected a finite delta, lambda (", lambda, ") and max_acceleration (", max_acceleration,
-                         ") more than 0"));
+    throw ValueError(cat(call, ": expected a finite delta, lambda (", lambda, ") and max_acceleration (",
+                         max_acceleration, ") more than 0"));
   VectorXd acceleration = (delta - 2. * xi * lambda * observation.qvel) / (lambda * lambda);
   const double largest = acceleration.cwiseAbs().maxCoeff();
   if (largest > max_acceleration) acceleration *= max_acceleration / largest;
@@ -400,7 +412,8 @@ void BotOp::replay(const CommandLog& log) {
   if (loop_->tick() != 0 || !loop_->log().entries.empty())
     throw ValueError(cat(call, ": the robot was moved before; expected a BotOp that is new"));
   if (log.period != options_.period)
-    throw ValueError(cat(call, ": the log's period is ", log.period, " s; that of this BotOp is ", options_.period, " s"));
+    throw ValueError(
+        cat(call, ": the log's period is ", log.period, " s; that of this BotOp is ", options_.period, " s"));
   const auto go = [&](long tick) {
     while (loop_->tick() < tick) {
       lock.unlock();

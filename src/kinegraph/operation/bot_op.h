@@ -28,9 +28,9 @@ struct BotOpOptions {
 
 /// What a robot says and was told at one time, for `stepAction`.
 struct StepObservation {
-  double ctrl_time = 0.;   ///< s
-  VectorXd qpos, qvel;     ///< as read
-  VectorXd qref, qvel_ref; ///< as told
+  double ctrl_time = 0.;    ///< s
+  VectorXd qpos, qvel;      ///< as read
+  VectorXd qref, qvel_ref;  ///< as told
 };
 
 /// Moves a robot, simulated or there, along motions; opens and closes its grippers; shows how it goes.
@@ -57,16 +57,16 @@ class BotOp {
 
   // --- state -----------------------------------------------------------------------------------------------------------
 
-  double get_t();                        ///< control time, s
-  VectorXd get_q();                      ///< (n,)
-  VectorXd get_qDot();                   ///< (n,)
-  VectorXd get_qHome() const;            ///< q of the configuration that it was made from
-  VectorXd get_tauExternal();            ///< (n,) N m or N; mean since the last call. NaN if the robot does not know
-  double getTimeToEnd();                 ///< s until the motion ends; not positive: it has, or there is none
+  double get_t();              ///< control time, s
+  VectorXd get_q();            ///< (n,)
+  VectorXd get_qDot();         ///< (n,)
+  VectorXd get_qHome() const;  ///< q of the configuration that it was made from
+  VectorXd get_tauExternal();  ///< (n,) N m or N; mean since the last call. NaN if the robot does not know
+  double getTimeToEnd();       ///< s until the motion ends; not positive: it has, or there is none
   int getKeyPressed() const { return key_; }  ///< the one of the last sync
   const RobotInfo& getInfo() const { return loop_->info(); }
   LoopMode getMode() const;
-  std::string getFault() const;          ///< why it was stopped; empty if it was not
+  std::string getFault() const;  ///< why it was stopped; empty if it was not
 
   // --- motions ---------------------------------------------------------------------------------------------------------
 
@@ -86,8 +86,8 @@ class BotOp {
   /// Follows any motion, in control time. It must begin where the robot is.
   void follow(const BSpline& motion);
 
-  void hold();                          ///< comes to rest at once and stays, stiff
-  void floating(double damping = 0.);   ///< no stiffness; damping 0 .. 1 of the robot's
+  void hold();                         ///< comes to rest at once and stays, stiff
+  void floating(double damping = 0.);  ///< no stiffness; damping 0 .. 1 of the robot's
 
   /// Gives way in the directions of the rows of J (k x n), which must be independent: by `compliance` 0 (not) .. 1 (fully).
   void setCompliance(const MatrixXd& J, double compliance = .5);
@@ -96,12 +96,12 @@ class BotOp {
 
   /// Accelerates constantly for lambda s from the observation's reference, with (delta - 2 xi lambda qvel) / lambda^2,
   /// scaled down to max_acceleration; comes to rest in the next lambda s unless another step follows.
-  void stepAction(const VectorXd& delta, const StepObservation& observation, double lambda, double max_acceleration = 5.,
-                  double xi = 1.);
+  void stepAction(const VectorXd& delta, const StepObservation& observation, double lambda,
+                  double max_acceleration = 5., double xi = 1.);
 
-  void home(Config& C);     ///< moves to qHome, waits
-  void stop(Config& C);     ///< holds, waits until it is at rest
-  void recover();           ///< after a fault: clears it, holds where it is
+  void home(Config& C);  ///< moves to qHome, waits
+  void stop(Config& C);  ///< holds, waits until it is at rest
+  void recover();        ///< after a fault: clears it, holds where it is
 
   /// Limits in place of the robot's own, (n,) or one number for all; empty: as they are. Throws ValueError if negative.
   void setLimits(const VectorXd& velocity, const VectorXd& acceleration, const VectorXd& effort);
@@ -121,7 +121,8 @@ class BotOp {
   void gripperMove(int gripper, double width = .075, double speed = .2);
   /// Closes until something is between the fingers, and holds it.
   void gripperClose(int gripper, double force = 10., double width = .05, double speed = .1);
-  void gripperCloseGrasp(int gripper, const std::string& object, double force = 10., double width = .05, double speed = .1);
+  void gripperCloseGrasp(int gripper, const std::string& object, double force = 10., double width = .05,
+                         double speed = .1);
   double getGripperPos(int gripper);  ///< the opening, m
   bool gripperDone(int gripper);
 
@@ -141,7 +142,8 @@ class BotOp {
   Vector4d getCameraFxycxy(const std::string& camera);  ///< fx, fy, cx, cy in pixels
 
   /// Image, depth, and the points of the depth image (height x width x 3), in the camera's axes or in those of the world.
-  std::pair<CameraImage, std::vector<double>> getImageDepthPcl(const std::string& camera, bool global_coordinates = false);
+  std::pair<CameraImage, std::vector<double>> getImageDepthPcl(const std::string& camera,
+                                                               bool global_coordinates = false);
 
   // --- records ---------------------------------------------------------------------------------------------------------
 
@@ -156,7 +158,17 @@ class BotOp {
   void recordTo(const std::string& path);
 
  private:
-  enum Question : int { askTime, askQ, askVelocity, askExternal, askEnd, askGripper, askDone, askObservation, askCount };
+  enum Question : int {
+    askTime,
+    askQ,
+    askVelocity,
+    askExternal,
+    askEnd,
+    askGripper,
+    askDone,
+    askObservation,
+    askCount
+  };
   using Clock = std::chrono::steady_clock;
   using Lock = std::unique_lock<std::mutex>;
 
@@ -184,7 +196,7 @@ class BotOp {
   Config model_;  ///< for efforts
   VectorXd home_;
   std::unique_ptr<RobotLoop> loop_;
-  mutable std::mutex mutex_;  ///< of the loop and all that it changes
+  mutable std::mutex mutex_;          ///< of the loop and all that it changes
   std::array<long, askCount> asked_;  ///< the period at which each question was answered last
   double owed_ = 0.;                  ///< virtual time that is less than a period
   int key_ = 0;

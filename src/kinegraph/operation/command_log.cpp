@@ -38,8 +38,8 @@ struct Writer {
   void operator()(const FloatRobot& c) { out << "float " << exact(c.damping); }
   void operator()(const SetStiffness& c) { write(out << "stiffness", c.stiffness); }
   void operator()(const GripperCommand& c) {
-    out << (c.grasp ? "grasp " : "gripper ") << c.gripper << ' ' << exact(c.width) << ' ' << exact(c.speed) << ' ' << exact(c.force) << ' '
-        << std::quoted(c.object);
+    out << (c.grasp ? "grasp " : "gripper ") << c.gripper << ' ' << exact(c.width) << ' ' << exact(c.speed) << ' '
+        << exact(c.force) << ' ' << std::quoted(c.object);
   }
   void operator()(const AttachFrames& c) {
     out << (c.attach ? "attach " : "detach ") << std::quoted(c.from) << ' ' << std::quoted(c.to);
@@ -171,7 +171,8 @@ CommandLog CommandLog::fromText(const std::string& text, const std::string& name
     Line line(words, where);
     if (ended) line.fail("nothing is expected after the end");
     if (where.line == 2) {
-      if (line.word() != "period" || !((log.period = line.number()) > 0.)) line.fail("expected 'period' and s, more than 0");
+      if (line.word() != "period" || !((log.period = line.number()) > 0.))
+        line.fail("expected 'period' and s, more than 0");
       continue;
     }
     const long tick = line.count();

@@ -43,8 +43,8 @@ struct PlaceFrame {
 /// Go on after a fault.
 struct RecoverRobot {};
 
-using LoopCommand = std::variant<FollowSpline, HoldRobot, FloatRobot, SetStiffness, GripperCommand, AttachFrames, PlaceFrame,
-                                 RecoverRobot>;
+using LoopCommand = std::variant<FollowSpline, HoldRobot, FloatRobot, SetStiffness, GripperCommand, AttachFrames,
+                                 PlaceFrame, RecoverRobot>;
 
 /// All that a robot was told, and when, in periods of control. From the same start, the same log gives the same motion.
 struct CommandLog {
@@ -60,7 +60,7 @@ struct CommandLog {
   std::string text() const;
   static CommandLog fromText(const std::string& text, const std::string& name = "text");  ///< throws ParseError
 
-  void save(const std::string& path) const;          ///< throws FileError
+  void save(const std::string& path) const;         ///< throws FileError
   static CommandLog load(const std::string& path);  ///< throws FileError, ParseError
 };
 

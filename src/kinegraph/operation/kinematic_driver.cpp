@@ -52,8 +52,7 @@ void KinematicDriver::step(double period) {
 }
 
 void KinematicDriver::moveGripper(const GripperCommand& command) {
-  if (command.gripper < 0 || std::size_t(command.gripper) >= grippers_.size())
-    return RobotDriver::moveGripper(command);
+  if (command.gripper < 0 || std::size_t(command.gripper) >= grippers_.size()) return RobotDriver::moveGripper(command);
   Gripper& gripper = grippers_[std::size_t(command.gripper)];
   if (!gripper.held.empty()) {  // whatever it does next, it lets go first
     detach(gripper.scene.info.name, gripper.held);
@@ -87,7 +86,9 @@ void KinematicDriver::detach(const std::string& from, const std::string& to) {
   std::erase(attached_, std::pair(from, to));
 }
 
-void KinematicDriver::setFramePose(const std::string& frame, const Pose& pose) { config_.getFrame(frame).setPose(pose); }
+void KinematicDriver::setFramePose(const std::string& frame, const Pose& pose) {
+  config_.getFrame(frame).setPose(pose);
+}
 
 int KinematicDriver::addObjects(const Config& config) {
   const int before = config_.getFrameDimension();

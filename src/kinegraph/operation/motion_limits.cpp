@@ -83,7 +83,8 @@ std::optional<std::string> brokenLimit(const BSpline& motion, double from, const
     return points.col(i).minCoeff() < robot.lower[i] || points.col(i).maxCoeff() > robot.upper[i];
   };
   for (Eigen::Index i = 0; i < points.cols(); ++i) {
-    if (beyond_limits(i)) points = motion.eval(VectorXd::LinSpaced(kSamples, std::max(from, motion.start()), motion.end()));
+    if (beyond_limits(i))
+      points = motion.eval(VectorXd::LinSpaced(kSamples, std::max(from, motion.start()), motion.end()));
     const double lowest = points.col(i).minCoeff(), highest = points.col(i).maxCoeff();
     if (lowest >= robot.lower[i] - kPositionTolerance && highest <= robot.upper[i] + kPositionTolerance) continue;
     const bool low = lowest < robot.lower[i] - kPositionTolerance;
@@ -97,8 +98,9 @@ std::optional<std::string> brokenLimit(const BSpline& motion, double from, const
       return cat(beyond(robot, i, peaks.velocity_time[i] - from, peaks.velocity[i], " /s", robot.velocity[i]), " /s; ",
                  slower(factor));
     if (peaks.acceleration[i] > kRounding * robot.acceleration[i])
-      return cat(beyond(robot, i, peaks.acceleration_time[i] - from, peaks.acceleration[i], " /s^2", robot.acceleration[i]),
-                 " /s^2; ", slower(factor));
+      return cat(
+          beyond(robot, i, peaks.acceleration_time[i] - from, peaks.acceleration[i], " /s^2", robot.acceleration[i]),
+          " /s^2; ", slower(factor));
   }
   return std::nullopt;
 }
@@ -119,7 +121,8 @@ std::optional<std::string> brokenEffort(const BSpline& motion, double from, doub
   }
   for (Eigen::Index i = 0; i < most.size(); ++i) {
     if (most[i] > kRounding * robot.effort[i])
-      return cat(beyond(robot, i, when[i] - from, most[i], " N m", robot.effort[i]), " N m; take longer, or carry less");
+      return cat(beyond(robot, i, when[i] - from, most[i], " N m", robot.effort[i]),
+                 " N m; take longer, or carry less");
   }
   return std::nullopt;
 }

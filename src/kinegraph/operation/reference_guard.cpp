@@ -7,17 +7,18 @@ namespace kinegraph {
 
 namespace {
 
-constexpr double kSlack = 1. + 1e-6;      // of what a motion that was checked asks between two periods
-constexpr double kLimitSlack = 2e-3;      // rad or m beyond a limit that checked motions may go
+constexpr double kSlack = 1. + 1e-6;  // of what a motion that was checked asks between two periods
+constexpr double kLimitSlack = 2e-3;  // rad or m beyond a limit that checked motions may go
 
 }  // namespace
 
-void keepWithinLimits(RobotCommand& command, const VectorXd& last, const VectorXd& last_velocity, const RobotInfo& robot) {
+void keepWithinLimits(RobotCommand& command, const VectorXd& last, const VectorXd& last_velocity,
+                      const RobotInfo& robot) {
   const double h = command.period;
   for (Eigen::Index i = 0; i < last.size(); ++i) {
     const double fastest = robot.velocity[i], hardest = robot.acceleration[i];
-    const double target =
-        std::clamp(command.q[i], std::min(robot.lower[i] - kLimitSlack, last[i]), std::max(robot.upper[i] + kLimitSlack, last[i]));
+    const double target = std::clamp(command.q[i], std::min(robot.lower[i] - kLimitSlack, last[i]),
+                                     std::max(robot.upper[i] + kLimitSlack, last[i]));
     const double mean = (target - last[i]) / h;
     const bool is_free = target == command.q[i] && std::abs(mean) <= kSlack * fastest &&
                          std::abs(command.velocity[i]) <= kSlack * fastest &&

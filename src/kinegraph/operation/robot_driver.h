@@ -52,11 +52,11 @@ struct RobotReading {
 
 /// Where a robot shall be at the end of a period.
 struct RobotCommand {
-  double period = .01;       ///< s from now
-  VectorXd q, velocity;      ///< at its end
-  VectorXd acceleration;     ///< wanted at its end
-  MatrixXd stiffness;        ///< n x n share of the robot's stiffness: identity is full, 0 is none. Empty: full
-  double damping = 1.;       ///< share of the robot's damping where the stiffness is not full
+  double period = .01;    ///< s from now
+  VectorXd q, velocity;   ///< at its end
+  VectorXd acceleration;  ///< wanted at its end
+  MatrixXd stiffness;     ///< n x n share of the robot's stiffness: identity is full, 0 is none. Empty: full
+  double damping = 1.;    ///< share of the robot's damping where the stiffness is not full
   bool isStiff() const { return stiffness.size() == 0; }
 };
 

@@ -21,7 +21,8 @@ void requireFit(const char* field, const VectorXd& numbers, std::size_t expected
 RobotLoop::RobotLoop(std::shared_ptr<RobotDriver> driver, double period, const GuardLimits& guards)
     : driver_(std::move(driver)), guards_(guards) {
   if (!driver_) throw ValueError("RobotLoop: there is no driver");
-  if (!(period > 0.) || !std::isfinite(period)) throw ValueError(cat("RobotLoop: period is ", period, " s; expected more than 0"));
+  if (!(period > 0.) || !std::isfinite(period))
+    throw ValueError(cat("RobotLoop: period is ", period, " s; expected more than 0"));
   log_.period = period;
   driver_->connect();
   info_ = driver_->info();
@@ -121,7 +122,8 @@ BSpline RobotLoop::braking(double most) const {
   double duration = most;
   for (Eigen::Index i = 0; i < q.size(); ++i)
     duration = std::max(duration, 2. * std::abs(velocity[i]) / info_.acceleration[i]);
-  const VectorXd end = (q + duration / 3. * velocity).cwiseMax(info_.lower.cwiseMin(q)).cwiseMin(info_.upper.cwiseMax(q));
+  const VectorXd end =
+      (q + duration / 3. * velocity).cwiseMax(info_.lower.cwiseMin(q)).cwiseMin(info_.upper.cwiseMax(q));
   VectorXd times(2);
   times << now, now + duration;
   MatrixXd points(2, q.size());

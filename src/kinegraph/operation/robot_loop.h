@@ -32,7 +32,7 @@ class RobotLoop {
   RobotLoop(std::shared_ptr<RobotDriver> driver, double period, const GuardLimits& guards = {});
   ~RobotLoop();
 
-  void step();                              ///< one period
+  void step();                             ///< one period
   void apply(const LoopCommand& command);  ///< now, before the next period; throws what does not fit
 
   double period() const { return log_.period; }

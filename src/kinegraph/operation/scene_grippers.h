@@ -6,9 +6,9 @@ namespace kinegraph {
 
 /// A gripper of a scene: a joint that is no part of q and that others mimic, the fingers.
 struct SceneGripper {
-  GripperInfo info;        ///< named as the frame in its link whose name ends in "gripper", else as the joint
-  std::string joint;       ///< the frame of the joint
-  double opening = 1.;     ///< m of width per unit of the joint's q
+  GripperInfo info;                  ///< named as the frame in its link whose name ends in "gripper", else as the joint
+  std::string joint;                 ///< the frame of the joint
+  double opening = 1.;               ///< m of width per unit of the joint's q
   std::vector<std::string> fingers;  ///< the frames of the joint and of those that mimic it
 };
 
