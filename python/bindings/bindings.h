@@ -47,6 +47,7 @@ void bindSolvers(nb::module_& m);
 void bindKomo(nb::module_& m);
 void bindSkeleton(nb::module_& m);
 void bindIk(nb::module_& m);
+void bindRetime(nb::module_& m);
 void bindPathFinder(nb::module_& m);
 void bindSpline(nb::module_& m);
 void bindOperation(nb::module_& m);

@@ -43,6 +43,7 @@ NB_MODULE(_core, m) {
   bindSkeleton(m);
   bindSolveMany(m);
   bindIk(m);
+  bindRetime(m);
   bindPathFinder(m);
   bindSpline(m);
   bindSimulation(m);

@@ -25,6 +25,7 @@
 #include "kinegraph/front/model_path.h"            // modelPath
 #include "kinegraph/front/names.h"                 // FS, OT, ST, KOMO, NLP_Solver, ...
 #include "kinegraph/front/own_feature.h"           // functions of frames as features
+#include "kinegraph/front/retime_robot.h"          // retime: a robot's path, by its limits
 #include "kinegraph/front/solve_all.h"             // several problems at once
 #include "kinegraph/ik/solve_ik.h"                 // solveIk
 #include "kinegraph/kinematics/edge_check.h"       // EdgeChecker: is a q, is an edge free?
@@ -50,6 +51,7 @@
 #include "kinegraph/solvers/nlp_solver.h"          // NlpSolver
 #include "kinegraph/solvers/sampling/sampler.h"    // NlpSampler
 #include "kinegraph/spline/b_spline.h"             // BSpline
+#include "kinegraph/spline/retime.h"               // retime: the fastest motion along a path
 #include "kinegraph/viewer/config_viewer.h"        // the viewer in the browser
 #include "kinegraph/viewer/motions.h"              // motions to show there
 #include "kinegraph/viewer/watch_file.h"           // a scene file shown whenever it changes

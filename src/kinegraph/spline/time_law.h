@@ -1,0 +1,57 @@
+#pragma once
+
+#include <vector>
+
+namespace kinegraph {
+
+/// Where on a curve a motion is, and how fast: s, ds/dt, d2s/dt2, d3s/dt3.
+struct LawState {
+  double s = 0., speed = 0., acceleration = 0., jerk = 0.;
+};
+
+/// A part of a time law, in its own time tau = t - time. Its acceleration grows with time or with the way:
+///
+///     s'' = acceleration + jerk tau + growth (s - s0);      jerk or growth is zero
+struct LawPhase {
+  double time = 0.;  ///< when it begins, s
+  LawState begin;
+  double growth = 0.;  ///< 1/s^2
+  double end = 0.;     ///< s where it ends
+  int piece = 0;       ///< of the curve
+
+  LawState at(double tau) const;
+};
+
+/// s(t), 0 <= t <= duration(): when a motion is where on its curve.
+class TimeLaw {
+ public:
+  double duration() const { return duration_; }
+  const std::vector<LawPhase>& phases() const { return phases_; }
+
+  /// The phase of this time, held within 0 and duration(); where two meet, the later one. There is one at least.
+  const LawPhase& phaseAt(double t) const;
+
+  /// When the motion is at s first.
+  double timeOf(double s) const;
+
+  /// Appends a phase that begins now and takes `time`; it should end where the next begins.
+  void add(LawPhase phase, double time);
+
+  /// The phase that leads from one speed at s0 to another at s1 at constant acceleration.
+  void addConstantAcceleration(double s0, double s1, double speed0, double speed1, int piece);
+
+  /// The phase from s0 to s1 in which s'^2 is a quadratic of s with these Bernstein coefficients, the middle one > 0.
+  void addQuadratic(double s0, double s1, double first, double middle, double last, int piece);
+
+  /// Appends all phases of another law.
+  void append(const TimeLaw& other);
+
+  /// Everything takes `factor` times as long.
+  void slowDown(double factor);
+
+ private:
+  std::vector<LawPhase> phases_;
+  double duration_ = 0.;
+};
+
+}  // namespace kinegraph
