@@ -18,7 +18,8 @@ using MaybeNumbers = std::optional<Numbers>;
 VectorXd perDof(const char* name, const MaybeNumbers& given, Eigen::Index dofs) {
   if (!given) return {};
   if (given->rank == 0) return VectorXd::Constant(dofs, given->values[0]);
-  if (given->rank != 1) throw ValueError(cat("retime: ", name, " has rank ", given->rank, "; expected one number or one per dof"));
+  if (given->rank != 1)
+    throw ValueError(cat("retime: ", name, " has rank ", given->rank, "; expected one number or one per dof"));
   return given->values;
 }
 
@@ -112,7 +113,7 @@ void bindRetime(nb::module_& m) {
          const MaybeNumbers& jerk, bool torque, const std::string& corners, double tolerance,
          const std::optional<nb::callable>& is_free, const MaybeNumbers& start_velocity,
          const MaybeNumbers& end_velocity, int intervals) {
-        const Request request{corners, tolerance, is_free ? nb::object(*is_free) : nb::none(),
+        const Request request{corners,        tolerance,    is_free ? nb::object(*is_free) : nb::none(),
                               start_velocity, end_velocity, intervals};
         return ofRobot(config, path, velocity, acceleration, jerk, torque, request);
       },
@@ -124,7 +125,7 @@ void bindRetime(nb::module_& m) {
       [](const Numbers& path, const Numbers& velocity, const Numbers& acceleration, const MaybeNumbers& jerk,
          const std::string& corners, double tolerance, const std::optional<nb::callable>& is_free,
          const MaybeNumbers& start_velocity, const MaybeNumbers& end_velocity, int intervals) {
-        const Request request{corners, tolerance, is_free ? nb::object(*is_free) : nb::none(),
+        const Request request{corners,        tolerance,    is_free ? nb::object(*is_free) : nb::none(),
                               start_velocity, end_velocity, intervals};
         return ofPath(path, velocity, acceleration, jerk, request);
       },

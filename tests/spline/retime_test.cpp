@@ -46,9 +46,11 @@ Use useOf(const TimedPath& timed, const MotionLimits& limits, int samples = 4000
   for (int i = 0; i <= samples; ++i) {
     const MotionState state = timed.at(step * i);
     use.velocity = std::max(use.velocity, (state.velocity.array().abs() / limits.velocity.array()).maxCoeff());
-    use.acceleration = std::max(use.acceleration, (state.acceleration.array().abs() / limits.acceleration.array()).maxCoeff());
+    use.acceleration =
+        std::max(use.acceleration, (state.acceleration.array().abs() / limits.acceleration.array()).maxCoeff());
     if (i && limits.limitsJerk())
-      use.jerk = std::max(use.jerk, ((state.acceleration - before).array().abs() / (step * limits.jerk.array())).maxCoeff());
+      use.jerk =
+          std::max(use.jerk, ((state.acceleration - before).array().abs() / (step * limits.jerk.array())).maxCoeff());
     before = state.acceleration;
   }
   return use;
@@ -118,7 +120,8 @@ TEST(Retime, StopsAtCornersAreStops) {
   for (const MotionLimits& limits : {limitsOf(2, 1., 2.), limitsOf(2, 1., 2., 30.)}) {
     const TimedPath timed = retime(corner(), limits, options);
     EXPECT_LT(timed.at(timed.times[1]).velocity.norm(), 1e-6);
-    EXPECT_NEAR(timed.duration(), 2. * retime(line(1.), limitsOf(1, 1., 2., limits.limitsJerk() ? 30. : 0.)).duration(), 1e-9);
+    EXPECT_NEAR(timed.duration(), 2. * retime(line(1.), limitsOf(1, 1., 2., limits.limitsJerk() ? 30. : 0.)).duration(),
+                1e-9);
   }
 }
 

@@ -26,7 +26,9 @@ RowSource torqueRows(const Config& config, const PathCurve& curve) {
   const VectorXd efforts = getEffortLimits(config);
   const std::vector<int> dofs = driven(efforts);
   if (dofs.empty())
-    throw ValueError("retime: torque is asked for, and no joint of the scene has an effort limit (the second number of ctrl_limits)");
+    throw ValueError(
+        "retime: torque is asked for, and no joint of the scene has an effort limit (the second number of "
+        "ctrl_limits)");
   RowSource rows;
   rows.unit = " N m";
   rows.high.resize(Eigen::Index(dofs.size()));
@@ -57,8 +59,8 @@ RowSource torqueRows(const Config& config, const PathCurve& curve) {
 TimedPath retime(const Config& config, const MatrixXd& path, const RobotLimits& limits, const RetimeOptions& options) {
   const int n = config.getJointDimension();
   if (path.cols() != n)
-    throw ValueError(cat("retime: the path has ", path.cols(), " dofs; the scene has ", n, ": ",
-                         join(config.getJointNames())));
+    throw ValueError(
+        cat("retime: the path has ", path.cols(), " dofs; the scene has ", n, ": ", join(config.getJointNames())));
   MotionLimits motion = limits.motion;
   if (motion.velocity.size() == 0) motion.velocity = getVelocityLimits(config);
   if (motion.acceleration.size() == 0) {

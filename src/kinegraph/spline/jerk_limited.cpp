@@ -11,19 +11,19 @@ namespace kinegraph {
 
 namespace {
 
-constexpr double kNoLimit = 1e15;         // stands for an infinite limit
-constexpr double kGap = 2e-4;           // by which the duration may exceed the least one of its intervals, as a share
+constexpr double kNoLimit = 1e15;  // stands for an infinite limit
+constexpr double kGap = 2e-4;      // by which the duration may exceed the least one of its intervals, as a share
 constexpr double kFirstGap = .3, kNextGap = .01;
 constexpr int kMostNewtonSteps = 80;
-constexpr int kSmoothings = 10;         // of the start
-constexpr double kTightenMore = 2e-6;   // than what is exceeded
-constexpr int kTighten = 1;             // rounds, where speeds may be taken back at the end
-constexpr int kTightenMost = 12;        // rounds, where speeds at the ends are given
+constexpr int kSmoothings = 10;        // of the start
+constexpr double kTightenMore = 2e-6;  // than what is exceeded
+constexpr int kTighten = 1;            // rounds, where speeds may be taken back at the end
+constexpr int kTightenMost = 12;       // rounds, where speeds at the ends are given
 constexpr int kFewestIntervals = 12;
-constexpr int kBlendParts = 6;           // of a blend, at least
-constexpr double kRestShare = .5;       // of the time until the largest acceleration, in which s is a cubic of time
-constexpr double kRestWay = .02;        // of the section's length, likewise
-constexpr double kNear = .4;            // of the places' distance: nearer to a knot there is none
+constexpr int kBlendParts = 6;     // of a blend, at least
+constexpr double kRestShare = .5;  // of the time until the largest acceleration, in which s is a cubic of time
+constexpr double kRestWay = .02;   // of the section's length, likewise
+constexpr double kNear = .4;       // of the places' distance: nearer to a knot there is none
 
 /// A part of the grid between stops, and the speeds at its ends.
 struct Section {
@@ -60,7 +60,8 @@ LineMotionLimits limitsAlong(const double* tangent, const MotionLimits& limits) 
 /// of them near the ends where the section is at rest.
 class SectionPlaces {
  public:
-  SectionPlaces(const LawGrid& grid, const Section& section, const TimeLaw& law, const MotionLimits& limits, int intervals)
+  SectionPlaces(const LawGrid& grid, const Section& section, const TimeLaw& law, const MotionLimits& limits,
+                int intervals)
       : grid_(grid), begin_(grid.place(section.begin)), end_(grid.place(section.end)) {
     const double t0 = law.timeOf(begin_), t1 = law.timeOf(end_);
     const int count = std::max(kFewestIntervals, int(std::lround(intervals * (t1 - t0) / law.duration())));
@@ -112,7 +113,8 @@ class SectionPlaces {
     grid_.curve().eval(piece, edge, 1, tangent.data());
     const LineMotionLimits along = limitsAlong(tangent.data(), limits);
     const double way = std::min(kRestWay * (end_ - begin_), first);
-    const double time = std::min({step, kRestShare * along.acceleration / along.jerk, std::cbrt(6. * way / along.jerk)});
+    const double time =
+        std::min({step, kRestShare * along.acceleration / along.jerk, std::cbrt(6. * way / along.jerk)});
     const double rest = along.jerk * time * time * time / 6.;
     std::vector<double> near;
     for (int k = 1; k * k * k * rest < .7 * first; ++k) near.push_back(k * k * k * rest);
@@ -239,8 +241,9 @@ SmoothLaw smoothLaw(const LawGrid& grid, const SquaredSpeeds& first, const Motio
     }
     if (is_found) continue;
     const bool by_start = !section.from.at_rest;
-    smooth.failure = by_start ? LawFailure::start_too_fast
-                              : !section.to.at_rest ? LawFailure::end_too_fast : LawFailure::cannot_move;
+    smooth.failure = by_start              ? LawFailure::start_too_fast
+                     : !section.to.at_rest ? LawFailure::end_too_fast
+                                           : LawFailure::cannot_move;
     smooth.most = std::numeric_limits<double>::quiet_NaN();
     smooth.place = grid.place(section.begin);
     return smooth;

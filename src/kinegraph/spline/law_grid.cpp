@@ -57,7 +57,8 @@ LawGrid::LawGrid(const PathCurve& curve, const MotionLimits& limits, int count, 
   }
   for (int piece = 0; piece < curve.pieces(); ++piece) {
     const double begin = curve.begin(piece), length = curve.end(piece) - begin;
-    const double share = isDivided(piece) ? length / curved + (total > 0. ? weight[piece] / total : length / curved) : 0.;
+    const double share =
+        isDivided(piece) ? length / curved + (total > 0. ? weight[piece] / total : length / curved) : 0.;
     const int parts = isDivided(piece) ? std::max(2, int(std::lround(count * share / 2.))) : 1;
     for (int i = 0; i < parts; ++i) {
       places_.push_back(begin + length * i / parts);
@@ -85,7 +86,7 @@ void LawGrid::expand() {
     double* p = tangents_.col(Eigen::Index(i) * (m + 1)).data();
     const double x = place(i) - curve_->begin(piece_[i]), h = width(i);
     const double *c1 = curve_->coefficient(piece_[i], 1), *c2 = m > 0 ? curve_->coefficient(piece_[i], 2) : nullptr;
-    const double *c3 = m > 1 ? curve_->coefficient(piece_[i], 3) : nullptr;
+    const double* c3 = m > 1 ? curve_->coefficient(piece_[i], 3) : nullptr;
     const double* c4 = m > 2 ? curve_->coefficient(piece_[i], 4) : nullptr;
     for (int j = 0; j < dofs; ++j) {
       // dq/ds = k0 + k1 y + k2 y^2 + k3 y^3 with y = (s - place) / h in [0, 1]
@@ -118,8 +119,7 @@ namespace {
 double bulge(const double* p, int dofs, int degree) {
   double most = 0.;
   const double first = std::abs(p[0]), last = std::abs(p[degree * dofs]);
-  for (int k = 1; k < degree; ++k)
-    most = std::max(most, std::abs(p[k * dofs]) - (first + (last - first) * k / degree));
+  for (int k = 1; k < degree; ++k) most = std::max(most, std::abs(p[k * dofs]) - (first + (last - first) * k / degree));
   return most;
 }
 
@@ -148,7 +148,8 @@ std::vector<double> LawGrid::caps(const VectorXd& velocity) const {
     if (m > 0) {
       for (int j = 0; j < dofs; ++j) {
         const double raised = bulge(p + j, dofs, m);
-        const double u0 = (std::abs(p[j]) + raised) * inverse[j], u1 = (std::abs(p[m * dofs + j]) + raised) * inverse[j];
+        const double u0 = (std::abs(p[j]) + raised) * inverse[j],
+                     u1 = (std::abs(p[m * dofs + j]) + raised) * inverse[j];
         excess = std::max({excess, u0 * u0 * cap0, u1 * u1 * cap1, u0 * (2. * u1 * cap0 + u0 * cap1) / 3.,
                            u1 * (u1 * cap0 + 2. * u0 * cap1) / 3.});
       }

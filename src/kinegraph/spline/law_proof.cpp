@@ -9,16 +9,15 @@ namespace {
 
 constexpr int kMostDegree = 8;  // of b (q''' b + ...)^2 for a path of degree four
 
-constexpr double kBinomial[kMostDegree + 1][kMostDegree + 1] = {
-    {1},
-    {1, 1},
-    {1, 2, 1},
-    {1, 3, 3, 1},
-    {1, 4, 6, 4, 1},
-    {1, 5, 10, 10, 5, 1},
-    {1, 6, 15, 20, 15, 6, 1},
-    {1, 7, 21, 35, 35, 21, 7, 1},
-    {1, 8, 28, 56, 70, 56, 28, 8, 1}};
+constexpr double kBinomial[kMostDegree + 1][kMostDegree + 1] = {{1},
+                                                                {1, 1},
+                                                                {1, 2, 1},
+                                                                {1, 3, 3, 1},
+                                                                {1, 4, 6, 4, 1},
+                                                                {1, 5, 10, 10, 5, 1},
+                                                                {1, 6, 15, 20, 15, 6, 1},
+                                                                {1, 7, 21, 35, 35, 21, 7, 1},
+                                                                {1, 8, 28, 56, 70, 56, 28, 8, 1}};
 
 /// A polynomial on [0, 1] in Bernstein form, its coefficients times the binomials, so that products are convolutions.
 struct Bernstein {
@@ -41,7 +40,8 @@ struct Bernstein {
   Bernstein derivative() const {
     Bernstein rate{std::max(0, degree - 1), {}};
     for (int i = 0; i < degree; ++i)
-      rate.c[i] = degree * (c[i + 1] / kBinomial[degree][i + 1] - c[i] / kBinomial[degree][i]) * kBinomial[rate.degree][i];
+      rate.c[i] =
+          degree * (c[i + 1] / kBinomial[degree][i + 1] - c[i] / kBinomial[degree][i]) * kBinomial[rate.degree][i];
     return rate;
   }
   Bernstein times(double factor) const {

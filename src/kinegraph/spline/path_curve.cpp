@@ -66,7 +66,7 @@ class PathCurveBuilder {
 
 namespace {
 
-constexpr double kSamePoint = 1e-12;    // as a share of the largest number in the path
+constexpr double kSamePoint = 1e-12;      // as a share of the largest number in the path
 constexpr double kSameDirection = 1e-10;  // by which unit vectors may differ, so that their corner is none
 
 /// The points of a path without those that equal their predecessor.

@@ -46,7 +46,8 @@ int PlaneProgram::mostMissed(double x, double y, double tolerance) {
   };
   for (std::size_t k = 0; k < others.size(); ++k) {
     const PlaneRow& row = others[k];
-    const double at = row.u * x + row.w * y + row.t, size = std::min(std::abs(row.high - row.t), std::abs(row.low - row.t));
+    const double at = row.u * x + row.w * y + row.t,
+                 size = std::min(std::abs(row.high - row.t), std::abs(row.low - row.t));
     const double unit = 1. / std::max(size, 1e-6 * std::max(std::abs(row.t), 1e-300));
     offer((at - row.high) * unit, 2 * (rows + int(k)));
     offer((row.low - at) * unit, 2 * (rows + int(k)) + 1);

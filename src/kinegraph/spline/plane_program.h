@@ -21,10 +21,10 @@ class PlaneProgram {
   struct Answer {
     bool is_feasible = false;
     double x = 0., y = 0.;
-    int rows[2] = {0, 0};                ///< where two rows meet; see `rowOffset`
-    double multipliers[2] = {0., 0.};    ///< of both, >= 0; where there is no point, those of a contradiction
-    int third = -1;                      ///< where there is no point: the row that contradicts these two,
-    double contradiction = 0.;           ///< and by how much
+    int rows[2] = {0, 0};              ///< where two rows meet; see `rowOffset`
+    double multipliers[2] = {0., 0.};  ///< of both, >= 0; where there is no point, those of a contradiction
+    int third = -1;                    ///< where there is no point: the row that contradicts these two,
+    double contradiction = 0.;         ///< and by how much
   };
 
   /// The point that is farthest along (dx, dy), both of the same sign and none 0. From vertex to vertex of the rows that

@@ -18,19 +18,26 @@ void RetimeOptions::validate() const {
 
 std::string retimeStatusName(RetimeStatus status) {
   switch (status) {
-    case RetimeStatus::timed: return "timed";
-    case RetimeStatus::start_too_fast: return "start_too_fast";
-    case RetimeStatus::end_too_fast: return "end_too_fast";
-    case RetimeStatus::cannot_move: return "cannot_move";
+    case RetimeStatus::timed:
+      return "timed";
+    case RetimeStatus::start_too_fast:
+      return "start_too_fast";
+    case RetimeStatus::end_too_fast:
+      return "end_too_fast";
+    case RetimeStatus::cannot_move:
+      return "cannot_move";
   }
   return "?";
 }
 
 PathCurve curveOf(const MatrixXd& path, const MotionLimits& limits, const RetimeOptions& options) {
   switch (options.corners) {
-    case Corners::spline: return cubicSpline(path);
-    case Corners::stop: return polyline(path);
-    case Corners::blend: break;
+    case Corners::spline:
+      return cubicSpline(path);
+    case Corners::stop:
+      return polyline(path);
+    case Corners::blend:
+      break;
   }
   return blendedPolyline(path, {options.tolerance, limits.limitsJerk(), options.is_free});
 }
@@ -45,7 +52,7 @@ Corners cornersOfName(const std::string& name) {
 
 namespace {
 
-constexpr double kAlong = 1e-6;      // by which a velocity may leave the path's direction, as a share of it
+constexpr double kAlong = 1e-6;  // by which a velocity may leave the path's direction, as a share of it
 constexpr int kNarrowings = 10;
 constexpr double kExcess = 1e-12;    // of the rows' range: rounding
 constexpr double kNarrowMore = 1.5;  // than what is exceeded
@@ -79,7 +86,8 @@ std::string failureText(const SquaredSpeeds& speeds, const PathCurve& curve, con
   const double start = curve.eval(0., 1).norm(), end = curve.eval(curve.length(), 1).norm();
   switch (speeds.failure) {
     case LawFailure::start_too_fast:
-      return cat("the start velocity is above the limits, or cannot be braked within them", wouldDo(speeds.most * start));
+      return cat("the start velocity is above the limits, or cannot be braked within them",
+                 wouldDo(speeds.most * start));
     case LawFailure::end_too_fast:
       return cat("the end velocity is above the limits, or cannot be reached within them", wouldDo(speeds.most * end));
     case LawFailure::cannot_move: {
@@ -90,17 +98,22 @@ std::string failureText(const SquaredSpeeds& speeds, const PathCurve& curve, con
                  along(curve, speeds.place), ": it takes ", at.c[speeds.row], rows.unit, " to stand still, and ",
                  rows.low[speeds.row], " to ", rows.high[speeds.row], rows.unit, " are allowed");
     }
-    case LawFailure::none: break;
+    case LawFailure::none:
+      break;
   }
   return "";
 }
 
 RetimeStatus statusOf(LawFailure failure) {
   switch (failure) {
-    case LawFailure::start_too_fast: return RetimeStatus::start_too_fast;
-    case LawFailure::end_too_fast: return RetimeStatus::end_too_fast;
-    case LawFailure::cannot_move: return RetimeStatus::cannot_move;
-    case LawFailure::none: break;
+    case LawFailure::start_too_fast:
+      return RetimeStatus::start_too_fast;
+    case LawFailure::end_too_fast:
+      return RetimeStatus::end_too_fast;
+    case LawFailure::cannot_move:
+      return RetimeStatus::cannot_move;
+    case LawFailure::none:
+      break;
   }
   return RetimeStatus::timed;
 }
@@ -208,7 +221,8 @@ TimedPath retime(const MatrixXd& path, const PathCurve& curve, const MotionLimit
   if (!timed.feasible()) return timed;
   timed.law_ = std::move(timing.law);
   timed.times.resize(Eigen::Index(curve.marks().size()));
-  for (Eigen::Index i = 0; i < timed.times.size(); ++i) timed.times[i] = timed.law_.timeOf(curve.marks()[std::size_t(i)]);
+  for (Eigen::Index i = 0; i < timed.times.size(); ++i)
+    timed.times[i] = timed.law_.timeOf(curve.marks()[std::size_t(i)]);
   return timed;
 }
 

@@ -20,8 +20,8 @@ Corners cornersOfName(const std::string& name);
 
 struct RetimeOptions {
   Corners corners = Corners::blend;
-  double tolerance = .01;  ///< of blends: by which they may miss their corner, in every dof (rad or m)
-  BlendCheck is_free;      ///< of blends: whether one may be taken; all are if there is none
+  double tolerance = .01;                 ///< of blends: by which they may miss their corner, in every dof (rad or m)
+  BlendCheck is_free;                     ///< of blends: whether one may be taken; all are if there is none
   VectorXd start_velocity, end_velocity;  ///< (n,), rad/s or m/s, along the path; empty: at rest
   int intervals = 100;                    ///< of the law, on what is curved
   RowSource rows;                         ///< further limits, such as torques; they hold at the ends of the intervals
@@ -52,7 +52,7 @@ class TimedPath {
   RetimeStatus status = RetimeStatus::timed;
   std::string message;  ///< "" if timed, else what is too fast, and what would do
   MatrixXd path;        ///< (K, n), as given
-  VectorXd times;       ///< (K,): when the motion is at each point, or nearest to it in a blend, s; empty without a motion
+  VectorXd times;  ///< (K,): when the motion is at each point, or nearest to it in a blend, s; empty without a motion
 
   bool feasible() const { return status == RetimeStatus::timed; }
   double duration() const { return law_.duration(); }

@@ -8,12 +8,12 @@ namespace kinegraph {
 namespace {
 
 constexpr double kOpen = std::numeric_limits<double>::infinity();
-constexpr double kFirstSlack = 1e-3;     // of a limit, at least
-constexpr double kStartShare = .7;       // of each limit, that the start may use
-constexpr double kToBoundary = .95;      // of the way to where a slack ends
-constexpr double kFixed = 1e30;          // on the diagonal of what is given
-constexpr double kFeasible = 1e-7;       // by which limits may be missed, as a share
-constexpr double kGivenSpan = 1e6;       // stands for an open side of a row, in units of the other
+constexpr double kFirstSlack = 1e-3;  // of a limit, at least
+constexpr double kStartShare = .7;    // of each limit, that the start may use
+constexpr double kToBoundary = .95;   // of the way to where a slack ends
+constexpr double kFixed = 1e30;       // on the diagonal of what is given
+constexpr double kFeasible = 1e-7;    // by which limits may be missed, as a share
+constexpr double kGivenSpan = 1e6;    // stands for an open side of a row, in units of the other
 
 double power(double x, int halves) {  // x^(-halves / 2), halves 1, 3, 5
   const double root = 1. / std::sqrt(x);
@@ -62,7 +62,8 @@ void SmoothProgram::addRows(int k, const LawGrid& grid, const MotionLimits& limi
     for (int j = 0; j < n; ++j) {
       const double a = limits.acceleration[j], jerk = limits.jerk[j];
       if (a < kOpen && (end == 0 || k + 1 == count_)) {  // q' b'/2 + q'' b
-        Quadratic r = end == 0 ? Quadratic{q2[j] - q1[j] / h, q1[j] / h, 0.} : Quadratic{0., -q1[j] / h, q2[j] + q1[j] / h};
+        Quadratic r =
+            end == 0 ? Quadratic{q2[j] - q1[j] / h, q1[j] / h, 0.} : Quadratic{0., -q1[j] / h, q2[j] + q1[j] / h};
         for (double& x : r) x /= a;
         rows_.push_back({r, 0., 1., -1, kAcceleration, {}, {}});
       }
@@ -103,7 +104,8 @@ double SmoothProgram::restCap(const LawGrid& grid, const MotionLimits& limits, b
   const double w = grid.width(interval), sign = at_begin ? 1. : -1.;
   double most_jerk = kOpen, cap = kOpen;
   VectorXd q1(n), q2(n), q3(n);
-  for (double x : {0., .25, .5, .75, 1.}) {  // the polynomials are near q', and w is small: a margin covers what is between
+  for (double x :
+       {0., .25, .5, .75, 1.}) {  // the polynomials are near q', and w is small: a margin covers what is between
     const double s = x * w;
     const double place = at_begin ? grid.place(0) + s : grid.place(interval + 1) - s;
     grid.curve().eval(piece, place, 1, q1.data()), grid.curve().eval(piece, place, 2, q2.data());
@@ -237,7 +239,8 @@ void SmoothProgram::assemble(double barrier) {
       m[3] += weight * a[2] * a[0], m[4] += weight * a[2] * a[1], m[5] += weight * a[2] * a[2];
     };
     const double x = (b[0] + 2. * b[1] + b[2]) / 4., h = width_[k];
-    const double w0 = h / 6. + (k == 0 ? 3. * rest_width_[0] : 0.), w1 = h / 6. + (k + 1 == count_ ? 3. * rest_width_[1] : 0.);
+    const double w0 = h / 6. + (k == 0 ? 3. * rest_width_[0] : 0.),
+                 w1 = h / 6. + (k + 1 == count_ ? 3. * rest_width_[1] : 0.);
     const double e0[3] = {1., 0., 0.}, e1[3] = {0., 1., 0.}, e2[3] = {0., 0., 1.}, mean[3] = {.25, .5, .25};
     add(e0, -.5 * w0 * power(b[0], 3), .75 * w0 * power(b[0], 5));
     add(e2, -.5 * w1 * power(b[2], 3), .75 * w1 * power(b[2], 5));

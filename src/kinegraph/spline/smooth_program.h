@@ -23,7 +23,8 @@ using Quadratic = std::array<double, 3>;
 /// The unknowns are the middle coefficients c_k; a knot is the mean of its neighbors that makes the slope continuous.
 class SmoothProgram {
  public:
-  SmoothProgram(const LawGrid& grid, const MotionLimits& limits, const RowSource& rows, SectionEnd begin, SectionEnd end);
+  SmoothProgram(const LawGrid& grid, const MotionLimits& limits, const RowSource& rows, SectionEnd begin,
+                SectionEnd end);
 
   /// Interior-point steps from the shape `start` of b, in the middle of each interval of the grid, until the duration is
   /// within `gap` of the least one, as a share; `first_gap` is how far it is thought to be at first. False if no law

@@ -83,7 +83,8 @@ double polishedTime(const LawPhase& phase, const LawState& end) {
 void TimeLaw::addQuadratic(double s0, double s1, double first, double middle, double last, int piece) {
   const double h = s1 - s0;
   // s'' = half the slope of s'^2, which grows linearly with s
-  LawPhase phase{0., {s0, std::sqrt(first), (middle - first) / h, 0.}, (first - 2. * middle + last) / (h * h), s1, piece};
+  LawPhase phase{
+      0., {s0, std::sqrt(first), (middle - first) / h, 0.}, (first - 2. * middle + last) / (h * h), s1, piece};
   const double largest = std::max({first, middle, last});
   constexpr double kNoGrowth = 1e-13;  // of s'^2: it is linear
   if (std::abs(phase.growth) * h * h <= kNoGrowth * largest) phase.growth = 0.;

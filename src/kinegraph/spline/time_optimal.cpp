@@ -9,10 +9,10 @@ namespace kinegraph {
 
 namespace {
 
-constexpr double kUnlimited = 1e18;   // stands for an infinite s'^2
+constexpr double kUnlimited = 1e18;    // stands for an infinite s'^2
 constexpr double kMiddleShare = 1e-3;  // of the middle coefficient in what is maximized: fast within the interval, too
 constexpr double kMiddleShareBefore = 1e-6;
-constexpr double kRoom = 1e-10;       // by which ranges are narrowed, so that rounding leaves no interval without a law
+constexpr double kRoom = 1e-10;  // by which ranges are narrowed, so that rounding leaves no interval without a law
 constexpr int kMostCuts = 40;
 
 /// What a line allows: the largest |s''| and s'^2.
@@ -48,7 +48,8 @@ struct Range {
 /// The rows of all intervals in x, y, z: the Bernstein coefficients of s'^2 at the beginning, in the middle, at the end.
 class IntervalRows {
  public:
-  IntervalRows(const LawGrid& grid, const MotionLimits& limits, const RowSource& source, const std::vector<double>& caps);
+  IntervalRows(const LawGrid& grid, const MotionLimits& limits, const RowSource& source,
+               const std::vector<double>& caps);
 
   /// What x may be so that some z in `next` can be reached.
   Range before(int interval, const Range& next);
@@ -157,7 +158,8 @@ void IntervalRows::setProgram(int interval, bool is_before, double given) {
 
 IntervalRows::Extreme IntervalRows::extremeBefore(int interval, double z, double sign) {
   setProgram(interval, true, z);
-  const PlaneProgram::Answer answer = program_.farthest(sign, sign * kMiddleShareBefore, sign > 0. ? &last_before_ : nullptr);
+  const PlaneProgram::Answer answer =
+      program_.farthest(sign, sign * kMiddleShareBefore, sign > 0. ? &last_before_ : nullptr);
   if (sign > 0.) last_before_ = answer;
   const Eigen::ArrayXd& by_z = z_.col(interval);
   const auto growth = [&](int inequality) { return program_.signedValue(inequality, by_z, given_general_); };
@@ -185,7 +187,8 @@ double IntervalRows::searchBefore(int interval, const Range& next, double sign, 
     if (!at.is_feasible) {
       meet = z - at.value / at.slope * (1. + 1e-9);  // where these rows agree
     } else if (at_low.slope > 0. && at_high.slope < 0. && at_low.is_feasible && at_high.is_feasible) {
-      meet = low + (sign * (at_high.value - at_low.value) + at_high.slope * (low - high)) / (at_low.slope - at_high.slope);
+      meet =
+          low + (sign * (at_high.value - at_low.value) + at_high.slope * (low - high)) / (at_low.slope - at_high.slope);
       if (std::min(meet - low, high - meet) <= 1e-11 * next.high) break;
     } else if (at_low.slope == 0. || at_high.slope == 0.) {
       meet = at.slope > 0. ? high : low;
@@ -306,8 +309,8 @@ class TwoPasses {
 
 }  // namespace
 
-SquaredSpeeds fastestSpeeds(const LawGrid& grid, const MotionLimits& limits, const RowSource& source, double start_speed,
-                            double end_speed) {
+SquaredSpeeds fastestSpeeds(const LawGrid& grid, const MotionLimits& limits, const RowSource& source,
+                            double start_speed, double end_speed) {
   return TwoPasses(grid, limits, source).run(start_speed * start_speed, end_speed * end_speed);
 }
 

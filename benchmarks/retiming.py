@@ -1,0 +1,214 @@
+#!/usr/bin/env python3
+"""How fast is `retime`, how near to the least time, and does it keep its limits? Beside toppra, ruckig and an LP reference.
+
+    python benchmarks/retiming.py [--paths 70] [--seed 1] [--references 3]
+
+Random paths of seven dofs, 3 to 11 points spread along a line and moved by 0.2 rad, with the Panda's limits of velocity and
+acceleration ("full"), or a quarter of the accelerations and jerks of ten times that per second ("gentle"). All packages get the same
+cubic spline. Times are processor times, medians; the bound is `retime` with 4000 intervals, and toppra's with as many for the first
+paths (packages that are not installed are left out: toppra==0.6.10, ruckig==0.19.4, scipy). The reference with limits of the
+jerk is a sequence of linear programs over s'^2 on 200 equal intervals, each constraint linearized, from scipy's HiGHS: slow, and
+written without a look at the library. Limits are looked at on 20,000 samples.
+"""
+
+import argparse
+import statistics
+from time import process_time
+
+import numpy as np
+
+import kinegraph as ry
+
+V = np.array([2.175] * 4 + [2.61] * 3)
+A = np.array([15, 7.5, 10, 12.5, 15, 20, 20.0])
+MODES = {"full": (A, 500 * A), "gentle": (A / 4, 10 * A / 4)}
+LOW = np.array([-2.8, -1.7, -2.8, -3.0, -2.8, 0.0, -2.8])
+HIGH = np.array([2.8, 1.7, 2.8, -0.1, 2.8, 3.7, 2.8])
+
+
+def random_path(rng):
+    count = rng.integers(3, 12)
+    at = (np.arange(count) + np.r_[0, rng.uniform(-0.35, 0.35, count - 2), 0]) / (count - 1)
+    moved = rng.normal(size=(count, 7)) * 0.2
+    moved[[0, -1]] = 0
+    a, b = rng.uniform(LOW, HIGH), rng.uniform(LOW, HIGH)
+    return a + at[:, None] * (b - a) + moved
+
+
+def timed(call, repeat=5):
+    best, result = np.inf, None
+    for _ in range(repeat):
+        start = process_time()
+        result = call()
+        best = min(best, process_time() - start)
+    return result, best * 1e6
+
+
+def excess(motion, acceleration, jerk=None):
+    t = np.linspace(0, motion.duration, 20001)
+    _, qd, qdd = motion.at(t)
+    found = [np.max(np.abs(qd) / V), np.max(np.abs(qdd) / acceleration)]
+    if jerk is not None:
+        found.append(np.max(np.abs(np.diff(qdd, axis=0)) / ((t[1] - t[0]) * jerk)))
+    return max(found) - 1
+
+
+def chords(q):
+    return np.r_[0, np.cumsum(np.linalg.norm(np.diff(q, axis=0), axis=1))]
+
+
+def toppra_durations(q, acceleration, intervals):
+    import toppra as ta
+    import toppra.algorithm as algo
+    import toppra.constraint as con
+
+    ta.setup_logging("ERROR")
+    L = chords(q)
+    limits = [
+        con.JointVelocityConstraint(np.stack([-V, V], 1)),
+        con.JointAccelerationConstraint(np.stack([-acceleration, acceleration], 1)),
+    ]
+    grid = np.linspace(0, 1, intervals + 1)
+    instance = algo.TOPPRA(
+        limits, ta.SplineInterpolator(L / L[-1], q), gridpoints=grid, parametrizer="ParametrizeConstAccel"
+    )
+    start = process_time()
+    trajectory = instance.compute_trajectory(0, 0)
+    return trajectory.duration, (process_time() - start) * 1e6
+
+
+def ruckig_duration(q, acceleration, jerk):
+    """Rest to rest along each line."""
+    import ruckig
+
+    start, total = process_time(), 0.0
+    generator = ruckig.Ruckig(7)
+    for a, b in zip(q[:-1], q[1:]):
+        ask = ruckig.InputParameter(7)
+        ask.current_position, ask.target_position = a.tolist(), b.tolist()
+        ask.max_velocity, ask.max_acceleration, ask.max_jerk = V.tolist(), acceleration.tolist(), jerk.tolist()
+        ask.synchronization = ruckig.Synchronization.Phase
+        trajectory = ruckig.Trajectory(7)
+        generator.calculate(ask, trajectory)
+        total += trajectory.duration
+    return total, (process_time() - start) * 1e6
+
+
+def jerk_reference(q, acceleration, jerk, intervals=200, rounds=30):
+    """Least time over b = s'^2 at equal places, each round a linear program around the last answer."""
+    import scipy.sparse as sp
+    from scipy.interpolate import CubicSpline
+    from scipy.optimize import linprog
+
+    L = chords(q)
+    curve = CubicSpline(L, q)
+    n, s = intervals + 1, np.linspace(0, L[-1], intervals + 1)
+    h = s[1]
+    d1, d2, d3 = curve(s, 1), curve(s, 2), curve(s, 3)
+    first = sp.diags([-np.ones(n - 1), np.ones(n - 1)], [-1, 1], shape=(n, n)).tolil() / (2 * h)
+    second = sp.diags([np.ones(n - 1), -2 * np.ones(n), np.ones(n - 1)], [-1, 0, 1], shape=(n, n)).tolil() / h**2
+    first[0], first[-1], second[0], second[-1] = 0, 0, 0, 0
+    first, second = first.tocsr(), second.tocsr()
+    cap = np.min((V / np.maximum(np.abs(d1), 1e-9)) ** 2, axis=1)
+    inner = slice(1, n - 1)
+
+    def used(b):
+        root = np.sqrt(np.maximum(b, 0))[:, None]
+        a = d1 * (first @ b)[:, None] / 2 + d2 * b[:, None]
+        j = root * (d3 * b[:, None] + 1.5 * d2 * (first @ b)[:, None] + d1 * (second @ b)[:, None] / 2)
+        return max(
+            np.sqrt(np.max(b / cap)),
+            np.sqrt(np.max(np.abs(a[inner]) / acceleration)),
+            np.cbrt(np.max(np.abs(j[inner]) / jerk)),
+        )
+
+    def duration(b):
+        root = np.sqrt(np.maximum(b, 0))
+        ends = 3 * h / root[1] + 3 * h / root[-2]  # at rest b grows with s^(4/3)
+        return ends + np.sum(2 * h / (root[1:-2] + root[2:-1]))
+
+    b = np.sin(np.pi * s / L[-1]) ** (4 / 3)
+    b /= used(b) ** 2
+    trust = 0.5
+    for _ in range(rounds):
+        root = np.sqrt(np.maximum(b, 1e-12))
+        rows, sides = [], []
+        for k in range(q.shape[1]):
+            accelerates = (sp.diags(d1[:, k] / 2) @ first + sp.diags(d2[:, k]))[inner]
+            linear = sp.diags(d3[:, k]) + sp.diags(1.5 * d2[:, k]) @ first + sp.diags(d1[:, k] / 2) @ second
+            value = linear @ b
+            jerks = (sp.diags(root) @ linear + sp.diags(value / (2 * root)))[inner]
+            shift = (value * b / (2 * root))[inner]
+            rows += [accelerates, -accelerates, jerks, -jerks]
+            sides += [np.full(n - 2, acceleration[k])] * 2 + [jerk[k] + shift, jerk[k] - shift]
+        low, high = b * (1 - trust), np.minimum(cap, b * (1 + trust) + 1e-9)
+        low[[0, -1]] = high[[0, -1]] = 0
+        cost = np.zeros(n)
+        cost[inner] = -h / (2 * root[inner] ** 3)
+        cost[[1, -2]] *= 1 + 3 / 2
+        answer = linprog(
+            cost / np.abs(cost).max(), sp.vstack(rows).tocsr(), np.concatenate(sides), bounds=np.stack([low, high], 1)
+        )
+        moved = answer.x / max(1.0, used(answer.x)) ** 2 if answer.status == 0 else None
+        if moved is not None and duration(moved) < duration(b) * (1 - 1e-6):
+            b = moved
+        else:
+            trust /= 2
+            if trust < 1e-3:
+                break
+    return duration(b)
+
+
+def has(package):
+    import importlib.util
+
+    return importlib.util.find_spec(package) is not None
+
+
+def line(name, values):
+    print(f"  {name:<46} median {statistics.median(values):10.4g}   p95 {np.percentile(values, 95):10.4g}   max {max(values):10.4g}")
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("--paths", type=int, default=70)
+    parser.add_argument("--seed", type=int, default=1)
+    parser.add_argument("--references", type=int, default=3, help="paths for which slow references are computed")
+    options = parser.parse_args()
+    rng = np.random.default_rng(options.seed)
+    paths = [random_path(rng) for _ in range(options.paths)]
+    for mode, (acceleration, jerk) in MODES.items():
+        print(f"{mode}: {len(paths)} paths")
+        bounds = [ry.retime(q, V, acceleration, corners="spline", intervals=4000).duration for q in paths]
+        for intervals in (50, 100, 200):
+            found = [
+                timed(lambda q=q: ry.retime(q, V, acceleration, corners="spline", intervals=intervals)) for q in paths
+            ]
+            line(f"{intervals} intervals: us", [us for _, us in found])
+            line("    duration / bound", [m.duration / b for (m, _), b in zip(found, bounds)])
+            line("    limits exceeded by", [excess(m, acceleration) for m, _ in found])
+        for corners in ("blend", "stop"):
+            found = [timed(lambda q=q: ry.retime(q, V, acceleration, corners=corners, tolerance=0.05)) for q in paths]
+            line(f"{corners}: us", [us for _, us in found])
+            line("    limits exceeded by", [excess(m, acceleration) for m, _ in found])
+        smooth = [timed(lambda q=q: ry.retime(q, V, acceleration, jerk, corners="spline"), 2) for q in paths]
+        line("with jerk: us", [us for _, us in smooth])
+        line("    duration / without jerk", [m.duration / b for (m, _), b in zip(smooth, bounds)])
+        line("    limits exceeded by", [excess(m, acceleration, jerk) for m, _ in smooth])
+        if has("scipy"):
+            references = [jerk_reference(q, acceleration, jerk) for q in paths[: options.references]]
+            line("    duration / reference by LPs", [m.duration / r for (m, _), r in zip(smooth, references)])
+        if has("toppra"):
+            found = [toppra_durations(q, acceleration, 200) for q in paths]
+            line("toppra, 200 intervals: us", [us for _, us in found])
+            line("    duration / bound", [d / b for (d, _), b in zip(found, bounds)])
+            fine = [toppra_durations(q, acceleration, 4000)[0] for q in paths[: options.references]]
+            line("    with 4000 intervals: duration / bound", [d / b for d, b in zip(fine, bounds)])
+        if has("ruckig"):
+            found = [ruckig_duration(q, acceleration, jerk) for q in paths]
+            line("ruckig, line by line: us", [us for _, us in found])
+            line("    duration / with jerk", [d / m.duration for (d, _), (m, _) in zip(found, smooth)])
+
+
+if __name__ == "__main__":
+    main()
