@@ -12,6 +12,7 @@ written without a look at the library. Limits are looked at on 20,000 samples.
 """
 
 import argparse
+import itertools
 import statistics
 from time import process_time
 
@@ -35,11 +36,11 @@ def random_path(rng):
     return a + at[:, None] * (b - a) + moved
 
 
-def timed(call, repeat=5):
+def timed(q, *limits, repeat=5, **options):
     best, result = np.inf, None
     for _ in range(repeat):
         start = process_time()
-        result = call()
+        result = ry.retime(q, V, *limits, **options)
         best = min(best, process_time() - start)
     return result, best * 1e6
 
@@ -83,7 +84,7 @@ def ruckig_duration(q, acceleration, jerk):
 
     start, total = process_time(), 0.0
     generator = ruckig.Ruckig(7)
-    for a, b in zip(q[:-1], q[1:]):
+    for a, b in itertools.pairwise(q):
         ask = ruckig.InputParameter(7)
         ask.current_position, ask.target_position = a.tolist(), b.tolist()
         ask.max_velocity, ask.max_acceleration, ask.max_jerk = V.tolist(), acceleration.tolist(), jerk.tolist()
@@ -166,7 +167,9 @@ def has(package):
 
 
 def line(name, values):
-    print(f"  {name:<46} median {statistics.median(values):10.4g}   p95 {np.percentile(values, 95):10.4g}   max {max(values):10.4g}")
+    print(
+        f"  {name:<46} median {statistics.median(values):10.4g}   p95 {np.percentile(values, 95):10.4g}   max {max(values):10.4g}"
+    )
 
 
 def main():
@@ -181,17 +184,15 @@ def main():
         print(f"{mode}: {len(paths)} paths")
         bounds = [ry.retime(q, V, acceleration, corners="spline", intervals=4000).duration for q in paths]
         for intervals in (50, 100, 200):
-            found = [
-                timed(lambda q=q: ry.retime(q, V, acceleration, corners="spline", intervals=intervals)) for q in paths
-            ]
+            found = [timed(q, acceleration, corners="spline", intervals=intervals) for q in paths]
             line(f"{intervals} intervals: us", [us for _, us in found])
             line("    duration / bound", [m.duration / b for (m, _), b in zip(found, bounds)])
             line("    limits exceeded by", [excess(m, acceleration) for m, _ in found])
         for corners in ("blend", "stop"):
-            found = [timed(lambda q=q: ry.retime(q, V, acceleration, corners=corners, tolerance=0.05)) for q in paths]
+            found = [timed(q, acceleration, corners=corners, tolerance=0.05) for q in paths]
             line(f"{corners}: us", [us for _, us in found])
             line("    limits exceeded by", [excess(m, acceleration) for m, _ in found])
-        smooth = [timed(lambda q=q: ry.retime(q, V, acceleration, jerk, corners="spline"), 2) for q in paths]
+        smooth = [timed(q, acceleration, jerk, corners="spline", repeat=2) for q in paths]
         line("with jerk: us", [us for _, us in smooth])
         line("    duration / without jerk", [m.duration / b for (m, _), b in zip(smooth, bounds)])
         line("    limits exceeded by", [excess(m, acceleration, jerk) for m, _ in smooth])

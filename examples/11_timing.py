@@ -21,8 +21,8 @@ def panda_path():
     C = ry.Config()
     C.addFile(ry.raiPath("panda/panda.g"))
     start = np.array(C.getJointState())[:7]
-    over = start + [0.8, -0.3, 0.2, 0.4, 0.0, 0.3, 0.1]
-    goal = start + [1.6, 0.5, -0.3, 0.1, 0.4, -0.2, 0.5]
+    over = start + np.array([0.8, -0.3, 0.2, 0.4, 0.0, 0.3, 0.1])
+    goal = start + np.array([1.6, 0.5, -0.3, 0.1, 0.4, -0.2, 0.5])
     return np.array([start, over, goal])
 
 
@@ -36,7 +36,9 @@ def draw(motion, file):
     t = np.linspace(0, motion.duration, 600)
     _, velocity, acceleration = motion.at(t)
     width, height, margin = 720, 160, 40
-    parts = [f'<svg xmlns="http://www.w3.org/2000/svg" width="{width + 2 * margin}" height="{2 * height + 3 * margin}">']
+    parts = [
+        f'<svg xmlns="http://www.w3.org/2000/svg" width="{width + 2 * margin}" height="{2 * height + 3 * margin}">'
+    ]
     parts.append('<rect width="100%" height="100%" fill="white"/>')
     for row, (name, shares) in enumerate(
         (("velocity", velocity / VELOCITY), ("acceleration", acceleration / ACCELERATION))

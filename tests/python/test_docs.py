@@ -40,7 +40,11 @@ FOUND = {
         r"the same to the bit: True",
     ],
     "scenes": [r"scene file 'scene.g' does not exist", r"similar names: sphere", r"\['home'\] \{'arm': \['j'\]\}"],
-    "timing": [r"<TimedPath 4 points in \d\.\d+ s>", r"^\[ True  True\]", r"'arm' cannot be held at .* -3 to 3 N m are allowed"],
+    "timing": [
+        r"<TimedPath 4 points in \d\.\d+ s>",
+        r"^\[ True  True\]",
+        r"'arm' cannot be held at .* -3 to 3 N m are allowed",
+    ],
     "viewer": [r"Viewer: http"],
 }
 

@@ -29,7 +29,11 @@ FOUND = {
         r"7\d\d of 1000 reached",
     ],
     "09_own_features": [r"gripper at height 1\.1000 m, 0\.1500 m from the post", r"the straight way there is free"],
-    "11_timing": [r"stop: 1\.\d+ s", r"blend: \d\.\d+ s, with limits of the jerk \d\.\d+ s", r"passes the middle point"],
+    "11_timing": [
+        r"stop: 1\.\d+ s",
+        r"blend: \d\.\d+ s, with limits of the jerk \d\.\d+ s",
+        r"passes the middle point",
+    ],
     "10_many_problems": [r"taken by r_gripper", r"6 of 6 feasible", r"\b10 postures"],
 }
 
