@@ -32,8 +32,9 @@ void warn(Komo& komo) {
 }
 
 void addObjective(PyKomo& komo, Optional times, const FeatureArgument& feature, const FrameNames& frames,
-                  ObjectiveType type, Optional scale, Optional target, int order) {
-  komo.addObjective(toTimes(times), feature.source(), toNames(frames), type, toScale(scale), toTarget(target), order);
+                  ObjectiveType type, Optional scale, Optional target, int order, double margin) {
+  komo.addObjective(toTimes(times), feature.source(), toNames(frames), type, toScale(scale), toTarget(target), order,
+                    margin);
   warn(komo);
 }
 
@@ -123,15 +124,22 @@ void bindSwitchModes(nb::module_& m) {
 
 void bindObjectives(nb::class_<PyKomo>& komo) {
   komo.def("addObjective", addObjective, "times"_a, "feature"_a, "frames"_a, "type"_a, "scale"_a = nb::none(),
-           "target"_a = nb::none(), "order"_a = -1, docs::komo::addObjective)
+           "target"_a = nb::none(), "order"_a = -1, "margin"_a = 0., docs::komo::addObjective)
       .def("addObjective", addObjective, "time"_a = nb::none(), "feature"_a, "frames"_a = std::vector<std::string>(),
-           "type"_a, "scale"_a = nb::none(), "target"_a = nb::none(), "order"_a = -1,
+           "type"_a, "scale"_a = nb::none(), "target"_a = nb::none(), "order"_a = -1, "margin"_a = 0.,
            nb::sig("def addObjective(self, *, time: numpy.typing.ArrayLike | None = None, feature: FS | "
                    "collections.abc.Callable, frames: "
                    "typing.Sequence[str] | str = [], "
                    "type: OT, scale: numpy.typing.ArrayLike | None = None, target: numpy.typing.ArrayLike | None = "
-                   "None, order: int = -1) -> None"),
+                   "None, order: int = -1, margin: float = 0.0) -> None"),
            docs::komo::addObjectiveByName)
+      .def(
+          "addFreeMotion",
+          [](PyKomo& k, Optional times, double margin, double scale) {
+            k.addFreeMotion(toTimes(times), margin, scale);
+            warn(k);
+          },
+          "times"_a = nb::none(), "margin"_a = 1e-3, "scale"_a = 10., docs::komo::addFreeMotion)
       .def("addControlObjective", addControl, "times"_a, "order"_a, "scale"_a = 1., "target"_a = nb::none(),
            "deltaFromSlice"_a = 0, "deltaToSlice"_a = 0, docs::komo::addControlObjective)
       .def("add_qControlObjective", addControl, "times"_a = nb::none(), "order"_a = 2, "scale"_a = 1.,

@@ -39,7 +39,7 @@ FeatureSource toFeature(nb::object object) {
 nb::tuple toTuple(const Objective& o) {
   const nb::object feature = toObject(o.feature);
   return nb::make_tuple(o.name(), feature, o.frames, int(o.type), toNumpy(o.scale), toNumpy(o.target), o.order, o.times,
-                        o.from, o.to, o.time_integral, o.without_gravity, o.damped);
+                        o.from, o.to, o.time_integral, o.without_gravity, o.damped, o.margin, o.slack, o.on_the_way);
 }
 
 /// An array of shape (rows, columns), rows or columns may be 0.
@@ -64,7 +64,10 @@ Objective toObjective(nb::handle state) {
           nb::cast<int>(t[9]),
           nb::cast<bool>(t[10]),
           nb::cast<bool>(t[11]),
-          nb::cast<bool>(t[12])};
+          nb::cast<bool>(t[12]),
+          nb::cast<double>(t[13]),
+          nb::cast<double>(t[14]),
+          nb::cast<bool>(t[15])};
 }
 
 nb::tuple komoState(const PyKomo& komo) {

@@ -1,7 +1,10 @@
 """Motions that are free of collisions at all times: what is told of them."""
 
+import importlib.util
 import itertools
 import pickle
+from pathlib import Path
+from types import ModuleType
 
 import numpy as np
 import pytest
@@ -77,7 +80,7 @@ def test_a_panda_is_checked_as_its_configuration_is() -> None:
     rng = np.random.default_rng(0)
     agree = set()
     for _ in range(20):
-        path = C.getJointState() + rng.normal(0.0, 0.5, (3, 7)).cumsum(0)
+        path = np.clip(C.getJointState() + rng.normal(0.0, 0.5, (3, 7)).cumsum(0), *C.getJointLimits())
         komo = ry.KOMO(C, 1, 3, 1, False)
         komo.initWithPath(path)
         rows = np.vstack([C.getJointState(), path])
@@ -90,3 +93,66 @@ def test_a_panda_is_checked_as_its_configuration_is() -> None:
             assert contact.distance <= motion.distance + 1e-9
         agree.add(bool(contacts))
     assert agree == {True, False}
+
+
+def benchmark() -> ModuleType:
+    file = Path(__file__).parents[2] / "benchmarks" / "free_between_slices.py"
+    spec = importlib.util.spec_from_file_location("free_between_slices", file)
+    assert spec and spec.loader
+    module = importlib.util.module_from_spec(spec)
+    spec.loader.exec_module(module)
+    return module
+
+
+def test_what_is_called_free_among_thin_walls_is_free() -> None:
+    """A few of the problems of benchmarks/free_between_slices.py, from the straight line through the obstacles."""
+    problems = benchmark()
+    rng = np.random.default_rng(5)
+    free = {False: 0, True: 0}
+    for _ in range(5):
+        C, start, goal = problems.among_obstacles("panda", rng)
+        for at_all_times in free:
+            komo = problems.make_komo(C, goal, 16, at_all_times)
+            komo.initWithPath(problems.line(start, goal, 16))
+            result = ry.NLP_Solver(komo.nlp()).solve()
+            is_free = problems.is_truly_free(C, np.vstack([start, komo.getPath()]))
+            assert is_free or not result.free
+            if at_all_times and result.feasible:
+                assert result.free and komo.isFree(problems.MARGIN), "feasible means free with the margin at all times"
+            free[at_all_times] += result.feasible and is_free
+    assert free[True] >= 4 and free[True] >= free[False]
+
+
+def test_a_motion_that_is_to_be_free_keeps_its_margin() -> None:
+    C = ry.Config()
+    C.addText("""
+        base: {}
+        ball (base): { joint: transXY, shape: sphere, size: [.04], contact: 1 }
+        wall (base): { Q: [.5 -.2 0], shape: box, size: [.03 .6 1.], contact: 1 }
+    """)
+    komo = ry.KOMO(C, 1, 10, 2, False)
+    komo.addControlObjective([], 2, 1.0)
+    komo.addFreeMotion(margin=0.005)
+    komo.addObjective([1.0], ry.FS.jointState, [], ry.OT.eq, [10.0], [1.0, 0.0])
+    s = np.linspace(0.1, 1.0, 10)
+    komo.initWithPath(np.column_stack([s, 0.25 * np.sin(np.pi * s)]))
+    copy = pickle.loads(pickle.dumps(komo))
+    result = ry.NLP_Solver(komo.nlp()).solve()
+    assert result.feasible and result.free and komo.isFree(0.005) and not komo.isFree(0.01)
+    assert np.array_equal(ry.NLP_Solver(copy.nlp()).solve().x, result.x), "a copy is solved to the same bits"
+    assert "free" not in result.message
+    assert komo.report()["totals"]["ineq"] == 0
+
+
+def test_collisions_have_a_margin() -> None:
+    C = ry.Config()
+    C.addText(SCENE)
+    C.setJointState([0.465])  # 20 mm off the wall
+    komo = ry.KOMO(C, 1, 1, 0, False)
+    komo.addObjective([], ry.FS.accumulatedCollisions, [], ry.OT.ineq, [1.0], margin=0.05)
+    komo.addObjective([], ry.FS.negDistance, ["ball", "wall"], ry.OT.ineq, [1.0], margin=0.05)
+    assert np.allclose(komo.info_objectiveErrorTraces(), 0.03)
+    with pytest.raises(ry.ArgumentError, match="jointState|qItself"):
+        komo.addObjective([], ry.FS.jointState, [], ry.OT.ineq, [1.0], margin=0.05)
+    with pytest.raises(ry.ArgumentError, match="margin is -1"):
+        komo.addFreeMotion(margin=-1.0)

@@ -33,6 +33,7 @@ Args:
     scale: A number, one per row of the feature, or a matrix.
     target: A number, or one per row of the feature, in the feature's units.
     order: Of the time derivative; -1: what is usual for the feature.
+    margin: Of accumulatedCollisions, pairCollisions and distance: shapes that are nearer count as colliding, m.
 Raises:
     FrameNotFound: A name that is not in the scene.
     ArgumentError: The feature cannot be made of these frames, times are not in the path, or a size does not fit.)";
@@ -48,9 +49,23 @@ Args:
     scale: A number, one per row of the feature, or a matrix.
     target: A number, or one per row of the feature, in the feature's units.
     order: Of the time derivative; -1: what is usual for the feature.
+    margin: Of accumulatedCollisions, pairCollisions and distance: shapes that are nearer count as colliding, m.
 Raises:
     FrameNotFound: A name that is not in the scene.
     ArgumentError: The feature cannot be made of these frames, times are not in the path, or a size does not fit.)";
+
+inline constexpr char addFreeMotion[] =
+    R"(Keeps all shapes that may collide apart, in slices and at all times between them; q goes straight from slice to slice,
+and objects that are attached move along. The solver first looks at the slices; where the motion between them comes too
+near to something, it takes up the instants at which it does, and goes on. What it then calls feasible keeps the margin at
+all times. Where the start is nearer to something than the margin, the motion to the first slice keeps half of that.
+
+Args:
+    times: In phases: None or [] the whole path, [from, to] a part of it.
+    margin: How far shapes keep apart, m; the solver aims at 1 mm more.
+    scale: Of the residuals: how much a violation of 1 m counts.
+Raises:
+    ArgumentError: A negative margin, a scale that is not positive, or times that are not in the path.)";
 
 inline constexpr char addControlObjective[] =
     R"(Adds the sum of squares of a time derivative of all dofs as cost; for order 0, of the distance from home.

@@ -78,9 +78,10 @@ void CollisionPairs::forNear(const State& state, const Visit& visit) const {
             [&](int place, int a, int b, const Proximity& near) { visit(moving_[std::size_t(place)], a, b, near); });
 }
 
-AccumulatedCollisions::AccumulatedCollisions(const std::vector<int>& frames, const Program& program, PairChoice choice)
-    : frames_(frames), choice_(choice) {
-  if (program.contacts.bodies.size() <= NearPairs::kFew) pairs_.emplace(program, frames, 0., choice);
+AccumulatedCollisions::AccumulatedCollisions(const std::vector<int>& frames, const Program& program, PairChoice choice,
+                                             double margin)
+    : frames_(frames), choice_(choice), margin_(margin) {
+  if (program.contacts.bodies.size() <= NearPairs::kFew) pairs_.emplace(program, frames, margin, choice);
 }
 
 std::unique_ptr<NearPairSearch> AccumulatedCollisions::borrow(const State& state) const {
@@ -96,7 +97,7 @@ void AccumulatedCollisions::eval(std::span<const State* const> states, double, E
   const State& state = *states[0];
   y[0] = 0.;
   const auto add = [&](int a, int b, const Proximity& near) {
-    y[0] -= near.distance;
+    y[0] += margin_ - near.distance;
     if (J) addDistanceGradient(state, a, b, near, -1., *J);
   };
   if (pairs_) {
@@ -105,7 +106,7 @@ void AccumulatedCollisions::eval(std::span<const State* const> states, double, E
   }
   std::unique_ptr<NearPairSearch> search = borrow(state);
   search->place(state);
-  for (const NearPairSearch::Near& pair : search->near(0.)) {
+  for (const NearPairSearch::Near& pair : search->near(margin_)) {
     const int a = search->frame(pair.a), b = search->frame(pair.b);
     if (choice_ == PairChoice::scene || state.program().movesApart(a, b)) add(a, b, search->proximity(pair));
   }
@@ -115,7 +116,7 @@ void AccumulatedCollisions::eval(std::span<const State* const> states, double, E
 
 void PairCollisions::eval(std::span<const State* const> states, double, Eigen::Ref<VectorXd> y, JacobianRows* J) const {
   const State& state = *states[0];
-  y.setConstant(-kFar);
+  y.setConstant(-far_);
   pairs_.forNear(state, [&](int pair, int a, int b, const Proximity& near) {
     y[pair] = -near.distance;
     if (!J) return;

@@ -50,11 +50,12 @@ class CollisionPairs {
   mutable std::shared_ptr<const NearFixed> near_fixed_;
 };
 
-/// Sum of the penetration depths of all collidable pairs, or of those that involve one of the given frames:
-///     y = sum max(0, -distance)      1 row, m
+/// Sum of the penetration depths of all collidable pairs, or of those that involve one of the given frames; with a
+/// margin, of how much they lack to be that far apart:
+///     y = sum max(0, margin - distance)      1 row, m
 class AccumulatedCollisions final : public Feature {
  public:
-  AccumulatedCollisions(const std::vector<int>& frames, const Program& program, PairChoice choice);
+  AccumulatedCollisions(const std::vector<int>& frames, const Program& program, PairChoice choice, double margin = 0.);
 
   int rows() const override { return 1; }
   void eval(std::span<const State* const> states, double tau, Eigen::Ref<VectorXd> y, JacobianRows* J) const override;
@@ -65,26 +66,28 @@ class AccumulatedCollisions final : public Feature {
 
   std::vector<int> frames_;
   PairChoice choice_;
+  double margin_;
   std::optional<CollisionPairs> pairs_;  ///< where bodies are few
   mutable std::mutex mutex_;
   mutable std::vector<std::unique_ptr<NearPairSearch>> idle_;
 };
 
 /// The same pairs with a row each, so that an optimizer sees which are in trouble:
-///     y_i = max(-distance_i, -0.1 m)      m, positive where they penetrate
-/// Pairs farther apart than that are not looked at any closer. As inequality with target -m it keeps them m apart.
+///     y_i = max(-distance_i, -far)      m, positive where they penetrate
+/// Pairs farther apart than that (10 cm) are not looked at any closer. As inequality with target -m it keeps them m apart.
 class PairCollisions final : public Feature {
  public:
   static constexpr double kFar = .1;  ///< m
 
-  PairCollisions(const std::vector<int>& frames, const Program& program, PairChoice choice)
-      : pairs_(program, frames, kFar, choice) {}
+  PairCollisions(const std::vector<int>& frames, const Program& program, PairChoice choice, double far = kFar)
+      : far_(far), pairs_(program, frames, far, choice) {}
 
   int rows() const override { return pairs_.size(); }
-  std::optional<double> flatValue() const override { return -kFar; }
+  std::optional<double> flatValue() const override { return -far_; }
   void eval(std::span<const State* const> states, double tau, Eigen::Ref<VectorXd> y, JacobianRows* J) const override;
 
  private:
+  double far_;
   CollisionPairs pairs_;
 };
 

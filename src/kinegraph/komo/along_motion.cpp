@@ -2,22 +2,25 @@
 
 namespace kinegraph {
 
-AlongMotion::AlongMotion(std::unique_ptr<Feature> feature, std::vector<double> instants, std::vector<int> same_dofs,
-                         const State& begin, Form form)
-    : feature_(std::move(feature)),
+AlongMotion::AlongMotion(Form form, std::unique_ptr<Feature> feature, std::vector<double> instants,
+                         std::vector<int> same_dofs, const State& begin)
+    : form_(form),
+      feature_(std::move(feature)),
       instants_(std::move(instants)),
       same_dofs_(std::move(same_dofs)),
-      form_(form),
       work_(std::make_unique<Workspace>(begin)) {
   work_->q.resize(begin.dofs());
   work_->y.resize(feature_->rows());
   work_->J.resize(feature_->rows(), begin.dofs());
 }
 
-int AlongMotion::rows() const { return feature_->rows() * (form_ == Form::sum ? 1 : int(instants_.size())); }
+int AlongMotion::rows() const {
+  if (!feature_) return form_ == Form::sum ? 1 : 0;
+  return feature_->rows() * (form_ == Form::sum ? 1 : int(instants_.size()));
+}
 
 std::optional<double> AlongMotion::flatValue() const {
-  return form_ == Form::sum ? std::nullopt : feature_->flatValue();
+  return form_ == Form::sum || !feature_ ? std::nullopt : feature_->flatValue();
 }
 
 void AlongMotion::place(double s, const State& begin, const State& end) const {
@@ -47,9 +50,10 @@ void AlongMotion::spread(double s, int first_row, JacobianRows& J) const {
 
 void AlongMotion::eval(std::span<const State* const> states, double tau, Eigen::Ref<VectorXd> y,
                        JacobianRows* J) const {
+  if (form_ == Form::sum) y.setZero();
+  if (!feature_) return;
   const std::lock_guard lock(work_->mutex);
   const State* const at[] = {&work_->state};
-  if (form_ == Form::sum) y.setZero();
   int row = 0;
   for (const double s : instants_) {
     place(s, *states[0], *states[1]);

@@ -15,9 +15,13 @@ class AlongMotion final : public Feature {
  public:
   enum class Form { stacked, sum };
 
-  /// `same_dofs`: per dof of the first configuration that of the second, or -1 for those that keep their value.
-  AlongMotion(std::unique_ptr<Feature> feature, std::vector<double> instants, std::vector<int> same_dofs,
-              const State& begin, Form form);
+  /// Without instants.
+  explicit AlongMotion(Form form) : form_(form) {}
+
+  /// `same_dofs`: per dof of the first configuration that of the second, or -1 for those that keep their value. `begin`
+  /// is any State of the first one.
+  AlongMotion(Form form, std::unique_ptr<Feature> feature, std::vector<double> instants, std::vector<int> same_dofs,
+              const State& begin);
 
   int rows() const override;
   int order() const override { return 1; }
@@ -28,10 +32,10 @@ class AlongMotion final : public Feature {
   void place(double s, const State& begin, const State& end) const;
   void spread(double s, int first_row, JacobianRows& J) const;
 
-  std::unique_ptr<Feature> feature_;
+  Form form_;
+  std::unique_ptr<Feature> feature_;  ///< null without instants
   std::vector<double> instants_;
   std::vector<int> same_dofs_;
-  Form form_;
   /// What one evaluation at a time needs.
   struct Workspace {
     explicit Workspace(const State& scene) : state(scene) {}

@@ -9,6 +9,27 @@
 
 namespace kinegraph {
 
+namespace {
+
+/// As if shapes were that much larger together.
+void setMargin(Objective& objective, double margin) {
+  using S = FeatureSymbol;
+  if (!std::isfinite(margin)) throw ValueError(cat("addObjective: margin is ", margin, "; expected a length in m"));
+  if (objective.feature == S::accumulatedCollisions) {
+    if (margin < 0.) throw ValueError(cat("addObjective: margin is ", margin, "; expected 0 or more, m"));
+    objective.margin = margin;
+  } else if (objective.feature == S::pairCollisions || objective.feature == S::distance ||
+             objective.feature == S::pairCollision_negScalar) {
+    if (objective.target.size() == 0) objective.target = VectorXd::Zero(1);
+    objective.target.array() -= margin;
+  } else {
+    throw ValueError(cat("addObjective: ", objective.name(),
+                         " has no margin; accumulatedCollisions, pairCollisions and distance have one"));
+  }
+}
+
+}  // namespace
+
 Komo::Komo(const Config& config, double phases, int slices_per_phase, int order) {
   setConfig(config);
   setTiming(phases, slices_per_phase, 1., order);
@@ -63,15 +84,38 @@ void Komo::setTiming(double phases, int slices_per_phase, double duration_per_ph
 
 void Komo::addObjective(const std::vector<double>& times, const FeatureSource& feature,
                         const std::vector<std::string>& frames, ObjectiveType type, const Scale& scale,
-                        const Target& target, int order) {
+                        const Target& target, int order, double margin) {
   path().requireBuilt("addObjective");
-  motion_.require({.feature = feature,
-                   .frames = frames,
-                   .type = type,
-                   .scale = scale.matrix(),
-                   .target = target.vector(),
-                   .order = order,
-                   .times = times});
+  Objective objective{.feature = feature,
+                      .frames = frames,
+                      .type = type,
+                      .scale = scale.matrix(),
+                      .target = target.vector(),
+                      .order = order,
+                      .times = times};
+  if (margin != 0.) setMargin(objective, margin);
+  motion_.require(std::move(objective));
+}
+
+void Komo::addFreeMotion(const std::vector<double>& times, double margin, double scale) {
+  constexpr double kSlack = 1e-3;  // m
+  path().requireBuilt("addFreeMotion");
+  if (!(margin >= 0.) || !std::isfinite(margin))
+    throw ValueError(cat("addFreeMotion: margin is ", margin, "; expected 0 or more, m"));
+  if (!(scale > 0.) || !std::isfinite(scale))
+    throw ValueError(cat("addFreeMotion: scale is ", scale, "; expected a number > 0"));
+  Objective objective{.feature = FeatureSymbol::accumulatedCollisions,
+                      .type = ObjectiveType::ineq,
+                      .scale = MatrixXd::Constant(1, 1, scale),
+                      .times = times,
+                      .margin = margin,
+                      .slack = kSlack};
+  motion_.require(objective);
+  const auto [from, to] = path().grid().select(times);
+  const int skipped = from == 0 && firstMotion(path()) == 0 ? 0 : 1;  // motions that do not lead from a slice to another
+  if (from + skipped > to) return;
+  objective.on_the_way = true;
+  motion_.require(std::move(objective), skipped);
 }
 
 void Komo::addControlObjective(const std::vector<double>& times, int order, double scale, const Target& target,

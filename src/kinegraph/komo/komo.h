@@ -57,15 +57,20 @@ class Komo {
 
   /// Adds scale * (d^order feature / dt^order - target) in the slices that `times` selects (see TimeGrid::select).
   /// `order` -1: the feature's own. For joint features no frames are the joints of the configuration as it was given.
+  /// `margin` (m) of accumulatedCollisions, pairCollisions and distance: shapes that are nearer count as colliding.
   /// Throws FrameNotFound and ValueError.
   void addObjective(const std::vector<double>& times, const FeatureSource& feature,
                     const std::vector<std::string>& frames, ObjectiveType type, const Scale& scale = {},
-                    const Target& target = {}, int order = -1);
+                    const Target& target = {}, int order = -1, double margin = 0.);
 
   /// Sum of squares of the order-th derivative of the given configuration's dofs, weighted by their control weights and
   /// integrated over time; order 0 is the distance from home.
   void addControlObjective(const std::vector<double>& times, int order, double scale = 1., const Target& target = {},
                            int delta_from = 0, int delta_to = 0);
+
+  /// Keeps all pairs that may collide `margin` (m) apart in the slices that `times` selects, and at all times of the
+  /// motions between them, of that to the first slice, too; see free_motion.h. Throws ValueError for a margin below 0.
+  void addFreeMotion(const std::vector<double>& times = {}, double margin = 1e-3, double scale = 10.);
 
   /// Keeps quaternions among the dofs of a slice at norm one.
   void addQuaternionNorms(const std::vector<double>& times = {}, double scale = 3., bool hard = true);

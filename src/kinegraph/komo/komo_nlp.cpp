@@ -2,6 +2,7 @@
 
 #include "kinegraph/base/errors.h"
 #include "kinegraph/base/text.h"
+#include "kinegraph/komo/free_motion.h"
 #include "kinegraph/komo/komo.h"
 #include "kinegraph/komo/path_description.h"
 
@@ -10,10 +11,11 @@ namespace kinegraph {
 namespace {
 
 constexpr int kMostSeparateRows = 100000;
+constexpr double kMuch = .01;  // m: so deep a motion that is nearly free is not, but one through a wall
 
 /// Does the objective demand that a sum of overlaps is zero?
 bool isSumOfOverlaps(const Objective& objective) {
-  return objective.feature == FeatureSymbol::accumulatedCollisions && objective.order == 0 &&
+  return objective.feature == FeatureSymbol::accumulatedCollisions && (objective.order == 0 || objective.on_the_way) &&
          objective.scale.size() <= 1 && objective.target.isZero(0.) &&
          (objective.scale.size() == 0 || objective.scale(0) > 0.) &&
          (objective.type == ObjectiveType::eq || objective.type == ObjectiveType::ineq);
@@ -25,19 +27,25 @@ bool forbidsCollisions(const Objective& objective) {
                              objective.type == ObjectiveType::ineqB;
   const bool is_of_collisions =
       objective.feature == FeatureSymbol::accumulatedCollisions || objective.feature == FeatureSymbol::pairCollisions;
-  return is_constraint && is_of_collisions && objective.order == 0 && objective.frames.empty();
+  return is_constraint && is_of_collisions && (objective.order == 0 || objective.on_the_way) && objective.frames.empty();
 }
 
-/// The motions between slices in which collisions are forbidden; none where slices are waypoints, one per phase.
+bool isOnTheWay(const Objective& objective) { return objective.on_the_way; }
+
+/// The motions in which collisions are forbidden: on the way to slices, or in both slices. Where slices are waypoints,
+/// one per phase, the latter says nothing of the motion.
 std::vector<SliceMotion> forbiddenMotions(const Path& path, const std::vector<Objective>& objectives) {
-  if (path.grid().slicesPerPhase() == 1) return {};
-  std::vector<char> counts(std::size_t(path.grid().slices()), false);
+  const bool are_waypoints = path.grid().slicesPerPhase() == 1;
+  std::vector<char> in_slice(std::size_t(path.grid().slices()), false), on_the_way = in_slice;
   for (const Objective& objective : objectives) {
-    for (int t = objective.from; t <= objective.to && forbidsCollisions(objective); ++t) counts[std::size_t(t)] = true;
+    if (!forbidsCollisions(objective) || (are_waypoints && !objective.on_the_way)) continue;
+    std::vector<char>& counts = objective.on_the_way ? on_the_way : in_slice;
+    for (int t = objective.from; t <= objective.to; ++t) counts[std::size_t(t)] = true;
   }
   std::vector<SliceMotion> motions;
   for (int t = firstMotion(path); t < path.grid().slices(); ++t) {
-    if (counts[std::size_t(t)] && (t == 0 || counts[std::size_t(t) - 1])) motions.push_back(motionInto(path, t));
+    const bool in_both = in_slice[std::size_t(t)] && (t == 0 || in_slice[std::size_t(t) - 1]);
+    if (in_both || on_the_way[std::size_t(t)]) motions.push_back(motionInto(path, t));
   }
   return motions;
 }
@@ -102,6 +110,8 @@ class KomoNlp final : public Nlp {
       if (!isSumOfOverlaps(objective)) continue;
       objective.feature = FeatureSymbol::pairCollisions;
       objective.type = ObjectiveType::ineq;
+      if (const double apart = objective.margin + objective.slack; apart != 0.)
+        objective.target = VectorXd::Constant(1, -apart);
       any = true;
     }
     if (!any) return separation_;
@@ -120,13 +130,34 @@ class KomoNlp final : public Nlp {
   }
 
   std::shared_ptr<const LazyVerdict> motionVerdict(const VectorXd& x) override {
-    if (komo_->path().grid().slicesPerPhase() == 1) return nullptr;
+    const bool are_waypoints = komo_->path().grid().slicesPerPhase() == 1;
+    if (are_waypoints && std::ranges::none_of(problem_.objectives(), isOnTheWay)) return nullptr;
     if (std::ranges::none_of(problem_.objectives(), forbidsCollisions)) return nullptr;
     komo_->path().setVariables(x);
     std::vector<SliceMotion> motions = forbiddenMotions(komo_->path(), problem_.objectives());
     if (motions.empty()) return nullptr;
     return std::make_shared<LazyVerdict>(
         [motions = std::move(motions)](const std::function<void()>& between) { return judge(motions, between); });
+  }
+
+  Refinement refine(const VectorXd& x, VectorXd& dual) override {
+    std::vector<Objective> objectives = problem_.objectives();
+    if (std::ranges::none_of(objectives, isOnTheWay)) return Refinement::none;
+    requireStructure();
+    komo_->path().setVariables(x);
+    double lack = 0.;
+    for (Objective& objective : objectives) {
+      if (objective.on_the_way) lack = std::max(lack, addInstants(objective, komo_->path(), probe_));
+    }
+    if (lack == 0.) return Refinement::none;
+    const Separation before = separation();
+    problem_ = PathProblem(komo_->path(), komo_->contacts(), std::move(objectives));
+    separation_ = {};
+    separation_is_known_ = false;
+    const Separation now = separation();
+    if (before.problem && now.problem && dual.size() == Eigen::Index(before.row_of.size()))
+      dual = carriedOver(dual, before, now);
+    return lack > kMuch ? Refinement::much : Refinement::little;
   }
 
   /// The present path, moved by a little noise so that it is not exactly at a singular posture, within the bounds.
@@ -163,8 +194,19 @@ class KomoNlp final : public Nlp {
     throw Error("KOMO: a mode switch or frame was added after this nlp() was made; make a new one");
   }
 
+  /// Multipliers of a separate form that has all terms of one before, and in each of them all rows of it, and more.
+  static VectorXd carriedOver(const VectorXd& dual, const Separation& before, const Separation& now) {
+    const auto& old_terms = static_cast<const KomoNlp&>(*before.problem).problem_.terms();
+    const auto& terms = static_cast<const KomoNlp&>(*now.problem).problem_.terms();
+    VectorXd carried = VectorXd::Zero(Eigen::Index(now.row_of.size()));
+    for (std::size_t i = 0; i < terms.size(); ++i)
+      carried.segment(terms[i].first_row, old_terms[i].rows) = dual.segment(old_terms[i].first_row, old_terms[i].rows);
+    return carried;
+  }
+
   std::shared_ptr<Komo> komo_;
   PathProblem problem_;
+  MotionProbe probe_{kFreeTolerance};
   int structure_;
   Separation separation_;
   bool separation_is_known_ = false;

@@ -5,7 +5,9 @@
 #include "kinegraph/features/collisions.h"
 #include "kinegraph/features/joints.h"
 #include "kinegraph/kinematics/dynamics.h"
+#include "kinegraph/komo/along_motion.h"
 #include "kinegraph/komo/path_features.h"
+#include "kinegraph/komo/path_motion.h"
 
 namespace kinegraph {
 
@@ -68,6 +70,23 @@ Made physicsOf(int frame, const Objective& objective, const Path& path, const st
   return std::make_unique<NewtonEuler>(frame, gravity, inertia, forces);
 }
 
+/// The sum of overlaps or those of all pairs, of a slice or on the way to it. Pairs count up to the margin.
+Made collisionsIn(const Objective& objective, const Path& path, const Ids& ids, int slice) {
+  const bool is_sum = objective.feature == FeatureSymbol::accumulatedCollisions;
+  const auto make = [&](const State& state) -> Made {
+    if (is_sum) return std::make_unique<AccumulatedCollisions>(ids, state.program(), PairChoice::motion, objective.margin);
+    const double far = PairCollisions::kFar + objective.margin + objective.slack;
+    return std::make_unique<PairCollisions>(ids, state.program(), PairChoice::motion, far);
+  };
+  if (!objective.on_the_way) return make(path.state(slice));
+  const AlongMotion::Form form = is_sum ? AlongMotion::Form::sum : AlongMotion::Form::stacked;
+  const auto place = std::size_t(slice - objective.from);
+  if (place >= objective.instants.size() || objective.instants[place].empty())
+    return std::make_unique<AlongMotion>(form);
+  const State& begin = path.state(slice - 1);
+  return std::make_unique<AlongMotion>(form, make(begin), objective.instants[place], sameDofs(path, slice), begin);
+}
+
 /// Joints and forces are those of the path, and of collisions only those count that joints part; other features are as
 /// anywhere.
 Made featureIn(const Objective& objective, const Path& path, const std::vector<ContactForce>& forces, int slice) {
@@ -82,9 +101,8 @@ Made featureIn(const Objective& objective, const Path& path, const std::vector<C
   if (feature == S::totalForce && ids.size() == 1) return std::make_unique<TotalForce>(ids[0], forces);
   if (feature == S::contactConstraints && ids.size() == 2)
     return std::make_unique<TangentialForce>(ids[0], ids[1], forces);
-  if (feature == S::accumulatedCollisions)
-    return std::make_unique<AccumulatedCollisions>(ids, state.program(), PairChoice::motion);
-  if (feature == S::pairCollisions) return std::make_unique<PairCollisions>(ids, state.program(), PairChoice::motion);
+  if (feature == S::accumulatedCollisions || feature == S::pairCollisions)
+    return collisionsIn(objective, path, ids, slice);
   return feature.make(ids, state);
 }
 

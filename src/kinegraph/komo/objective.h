@@ -23,6 +23,12 @@ struct Objective {
   bool time_integral = false;
   bool without_gravity = false;  ///< of physics
   bool damped = false;           ///< of physics: forces balance friction, not inertia
+  double margin = 0.;            ///< of collisions: pairs that are farther apart do not count, m
+  double slack = 0.;             ///< of collisions: by so much more a solver aims to keep pairs apart, m
+  bool on_the_way = false;       ///< of collisions: not in the slices, but at instants of the motions that lead to them
+
+  /// Of those motions, from that to slice `from` on: in [0, 1], the share of the way.
+  std::vector<std::vector<double>> instants{};
 
   const std::string& name() const { return feature.name(); }
 };

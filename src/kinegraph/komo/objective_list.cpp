@@ -16,7 +16,7 @@ void ObjectiveList::add(Objective objective, const Path& path, const std::vector
   objective.to = std::min(objective.to + delta_to, grid.slices() - 1);
   const bool empty = objective.from > objective.to;
   objective.order = residualIn(objective, path, forces, empty ? 0 : objective.from).order();
-  if (objective.order > grid.order()) {
+  if (objective.order > grid.order() && !objective.on_the_way) {
     throw ValueError(cat(objective.name(), " of order ", objective.order, " needs a KOMO with kOrder ", objective.order,
                          " or more; this one has ", grid.order()));
   }

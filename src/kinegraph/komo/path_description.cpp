@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "kinegraph/base/text.h"
+#include "kinegraph/komo/path_motion.h"
 
 namespace kinegraph {
 
@@ -81,14 +82,15 @@ void describeEntry(RowDescription& out, const Path& path, const Objective& objec
   if (!objective.feature.symbol()) return;
   const FeatureInfo& info = featureInfo(*objective.feature.symbol());
   const FeatureUnit unit = info.unitOf(entry);
-  out.time_order = objective.order - info.order + timeOrderOf(unit);
+  out.time_order = objective.on_the_way ? 0 : objective.order - info.order + timeOrderOf(unit);
   out.measure = unit == FeatureUnit::joint ? measureOfJoints(path, objective, slice) : measureOf(unit);
 }
 
 }  // namespace
 
 std::string objectiveName(const Objective& objective) {
-  return objective.frames.empty() ? objective.name() : cat(objective.name(), " of ", join(objective.frames, ", "));
+  const std::string name = objective.name() + (objective.on_the_way ? " between slices" : "");
+  return objective.frames.empty() ? name : cat(name, " of ", join(objective.frames, ", "));
 }
 
 RowDescription describePathRow(const Path& path, const PathProblem& problem, int row) {
@@ -99,7 +101,7 @@ RowDescription describePathRow(const Path& path, const PathProblem& problem, int
   out.group = term.objective;
   out.frames = objective.frames;
   out.slice = term.slice;
-  out.time_order = objective.order;
+  out.time_order = objective.on_the_way ? 0 : objective.order;
   const int r = row - term.first_row;
   const MatrixXd& scale = objective.scale;
   const bool mixes_rows = scale.size() > 1 && (scale.cols() > 1 || scale.rows() != term.rows);
@@ -140,8 +142,14 @@ std::vector<std::string> pathRowDetails(const Path& path, const PathProblem& pro
   const PathProblem::Term& term = problem.termOf(row);
   const Objective& objective = problem.objectives()[term.objective];
   if (objective.feature != FeatureSymbol::accumulatedCollisions) return {};
+  if (objective.on_the_way) {
+    std::vector<std::string> contacts;
+    for (const PathContact& contact : contactsOf({motionInto(path, term.slice)}, objective.margin, 1e-5))
+      contacts.push_back(contact.str());
+    return contacts;
+  }
   const Config config = path.configuration(term.slice);
-  std::vector<Config::NearPair> near = config.getCollisions(0.);
+  std::vector<Config::NearPair> near = config.getCollisions(objective.margin);
   std::stable_sort(near.begin(), near.end(), [](const auto& a, const auto& b) { return a.distance < b.distance; });
   std::vector<std::string> pairs;
   for (const Config::NearPair& pair : near) {
@@ -151,7 +159,8 @@ std::vector<std::string> pathRowDetails(const Path& path, const PathProblem& pro
       return std::find(objective.frames.begin(), objective.frames.end(), name) != objective.frames.end();
     };
     if (!objective.frames.empty() && !named(a) && !named(b)) continue;
-    pairs.push_back(cat(a, " and ", b, " overlap by ", std::round(-1e4 * pair.distance) / 10., " mm"));
+    const double mm = std::round(-1e4 * pair.distance) / 10.;
+    pairs.push_back(cat(a, " and ", b, mm < 0. ? " come within " : " overlap by ", std::abs(mm), " mm"));
   }
   return pairs;
 }

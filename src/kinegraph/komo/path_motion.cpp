@@ -122,6 +122,30 @@ std::vector<SliceMotion> motionsOf(const Path& path) {
   return motions;
 }
 
+MotionProbe::Scene::Scene(const SliceMotion& motion, double tolerance)
+    : program(motion.program), parameters(motion.parameters), checker(State(program, parameters), 0., tolerance) {}
+
+EdgeChecker& MotionProbe::checkerOf(const SliceMotion& motion) {
+  if (!scene_ || scene_->program != motion.program || scene_->parameters != motion.parameters)
+    scene_ = std::make_unique<Scene>(motion, tolerance_);
+  return scene_->checker;
+}
+
+std::optional<MotionContact> MotionProbe::firstContact(const SliceMotion& motion, double margin) {
+  EdgeChecker& checker = checkerOf(motion);
+  checker.setMargin(margin);
+  const double *from = motion.from.data(), *to = motion.to.data();
+  if (checker.isFree(from, to)) return std::nullopt;
+  const std::optional<MotionContact> hit = checker.lastHit();
+  const std::optional<MotionContact> first = checker.firstContact(from, to);
+  return first ? first : hit;
+}
+
+double MotionProbe::clearance(const SliceMotion& motion, double share, double most) {
+  const VectorXd q = (1. - share) * motion.from + share * motion.to;
+  return checkerOf(motion).clearance(q.data(), most);
+}
+
 std::string PathContact::str() const {
   const double mm = std::round(-1e5 * distance) / 100.;
   const std::string pair = cat("'", a, "' and '", b, "' ");
@@ -133,14 +157,10 @@ std::string PathContact::str() const {
 std::vector<PathContact> contactsOf(const std::vector<SliceMotion>& motions, double margin, double tolerance,
                                     const std::function<void()>& between) {
   std::vector<PathContact> contacts;
-  std::optional<MotionChecker> checker;
-  const SliceMotion* scene = nullptr;  // whose it is
+  MotionProbe probe(tolerance);
   for (const SliceMotion& motion : motions) {
     if (between) between();
-    if (!scene || scene->program != motion.program || scene->parameters != motion.parameters)
-      checker.emplace(State(motion.program, motion.parameters));
-    scene = &motion;
-    if (const auto contact = checker->firstContact(motion.from.data(), motion.to.data(), margin, tolerance))
+    if (const auto contact = probe.firstContact(motion, margin))
       contacts.push_back(describe(motion, *contact));
   }
   return contacts;

@@ -2,10 +2,11 @@
 
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
-#include "kinegraph/kinematics/motion_check.h"
+#include "kinegraph/kinematics/edge_check.h"
 #include "kinegraph/komo/path.h"
 
 namespace kinegraph {
@@ -31,6 +32,31 @@ SliceMotion motionInto(const Path& path, int slice);
 
 /// All motions of a path, those out of the slice before the start included.
 std::vector<SliceMotion> motionsOf(const Path& path);
+
+/// Looks at motions between slices, one after the other; those of one scene are cheap.
+class MotionProbe {
+ public:
+  /// Pairs within margin + `tolerance` (m, > 0) may count as too near.
+  explicit MotionProbe(double tolerance) : tolerance_(tolerance) {}
+
+  /// The first pair that a motion brings nearer than `margin` (m), if any.
+  std::optional<MotionContact> firstContact(const SliceMotion& motion, double margin);
+
+  /// The least distance of all pairs at a share of the way, at most `most`, m.
+  double clearance(const SliceMotion& motion, double share, double most);
+
+ private:
+  struct Scene {
+    Scene(const SliceMotion& motion, double tolerance);
+    std::shared_ptr<const Program> program;
+    std::shared_ptr<const Parameters> parameters;
+    EdgeChecker checker;
+  };
+  EdgeChecker& checkerOf(const SliceMotion& motion);
+
+  double tolerance_;
+  std::unique_ptr<Scene> scene_;  ///< of the last motion
+};
 
 /// Two shapes that the motion between two slices brings too near.
 struct PathContact {

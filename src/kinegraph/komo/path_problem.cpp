@@ -42,7 +42,7 @@ PathProblem::PathProblem(const Path& path, const Contacts& contacts, std::vector
     const bool varies = !layout.plain && dependsOnDofs(objective.feature);
     std::map<const Program*, int> by_program;  // where nothing but the program matters
     for (int t = objective.from; t <= objective.to; ++t) {
-      const bool owns = varies && objective.feature == FeatureSymbol::jointLimits;
+      const bool owns = objective.on_the_way || (varies && objective.feature == FeatureSymbol::jointLimits);
       const Program* key = varies ? &path.state(t).program() : nullptr;
       auto place = by_program.find(key);
       if (place == by_program.end() || owns) {

@@ -6,6 +6,7 @@
 
 #include "kinegraph/base/errors.h"
 #include "kinegraph/base/text.h"
+#include "kinegraph/komo/free_motion.h"
 #include "kinegraph/komo/path_problem.h"
 
 namespace kinegraph {
@@ -45,7 +46,7 @@ void requireSlice(const Komo& komo, int slice) {
 }  // namespace
 
 PathErrors measurePath(const Komo& komo) {
-  PathProblem problem(komo.path(), komo.contacts(), komo.objectives().all());
+  PathProblem problem(komo.path(), komo.contacts(), withInstants(komo.objectives().all(), komo.path()));
   VectorXd phi(problem.rows());
   problem.evaluate(komo.path(), phi, nullptr);
   PathErrors errors;
@@ -66,6 +67,7 @@ std::string objectiveTag(const Komo& komo, const Objective& objective) {
   const int own =
       objective.feature == FeatureSymbol::angularVel || objective.feature == FeatureSymbol::linangVel ? 1 : 0;
   const int order = own == 1 && objective.order == 1 ? 0 : objective.order;
+  if (objective.on_the_way) return tag + "/way";
   if (order == 1) tag += "/vel";
   if (order == 2) tag += "/acc";
   if (order > 2) tag += cat("/", order);

@@ -61,6 +61,13 @@ struct Jacobian {
 /// solver, which gives the best it saw before.
 struct EvaluationCancelled {};
 
+/// What was found where a problem looked for constraints that are violated.
+enum class Refinement {
+  none,    ///< nothing: all hold
+  little,  ///< x is near to where all hold
+  much,    ///< x is no place to go on from
+};
+
 /// Minimize  sum_f phi_i + sum_sos phi_i^2  subject to  phi_ineq <= 0,  phi_eq = 0,  lower <= x <= upper.
 /// It is all a solver sees.
 class Nlp {
@@ -108,9 +115,13 @@ class Nlp {
   /// For a motion that is to be free of collisions: is it so at all times, at this x? Null for other problems.
   virtual std::shared_ptr<const LazyVerdict> motionVerdict(const VectorXd&) { return nullptr; }
 
-  /// For constraints that hold at all times of a motion, of which the separate form has some: looks for others that x
-  /// violates, and takes them up. True if there were any; `separation()` is then a new one.
-  virtual bool refine(const VectorXd&) { return false; }
+  /// For constraints that are to hold at all times of a motion, of which the separate form has some: looks for others
+  /// that x violates, and takes them up. `separation()` is then a new one, and `dual`, if it has the multipliers of the
+  /// one before, gets zeros for rows that it did not have.
+  virtual Refinement refine(const VectorXd& x, VectorXd& dual) {
+    (void)x, (void)dual;
+    return Refinement::none;
+  }
 
   /// Where a solver starts if the user gives no point. Default: uniform in the bounds, [-1, 1] where there are none.
   virtual VectorXd initialPoint(Rng& rng);

@@ -1,5 +1,6 @@
 #include "kinegraph/solvers/nlp_solver.h"
 
+#include <algorithm>
 #include <chrono>
 #include <cstdio>
 
@@ -15,6 +16,8 @@ namespace kinegraph {
 namespace {
 
 constexpr int kMostEvalsOfReduction = 50;
+constexpr int kMostRefinements = 16, kMostBeginnings = 8;
+constexpr double kCarefulStep = .1, kCarefulPenalty = 100.;  // of solves that begin anew
 
 }  // namespace
 
@@ -89,6 +92,47 @@ void NlpSolver::reduceViolation(SolverResult& result, const Separation& separati
   }
 }
 
+/// Solves; and where constraints are to hold at all times of a motion, again with those that the solution violates: from
+/// there, or from the beginning, where the solution is no place to go on from.
+SolverResult NlpSolver::runRefining(Separation& separation, const EvaluationHook& watch, const EvaluationHook& seen) {
+  const VectorXd start = x;
+  SolverResult result = runMethod(separation, watch, seen);
+  struct Restore {
+    SolverOptions& options;
+    const SolverOptions given = options;
+    ~Restore() { options = given; }
+  } restore{options};
+  int beginnings = 1;
+  for (int rounds = 0; result.status != SolverStatus::cancelled && result.status != SolverStatus::limit; ++rounds) {
+    const Refinement found = problem_->refine(result.x, solved_dual_);
+    const bool is_lost = found == Refinement::much || !result.feasible;
+    if (found == Refinement::none && (result.feasible || rounds == 0 || beginnings == kMostBeginnings)) break;
+    if (found != Refinement::none) {
+      releaseMemory();
+      if (separation.problem) separation = problem_->separation();
+    }
+    if (rounds == kMostRefinements || (is_lost && beginnings == kMostBeginnings)) {
+      VectorXd phi(Eigen::Index(problem_->types().size()));
+      problem_->evaluate(result.x, phi, nullptr);
+      result.setSums(problem_->types(), phi, options.constraintTolerance());
+      result.status = SolverStatus::limit;
+      result.message = cat("after ", rounds, " refinements constraints are still violated between slices");
+      break;
+    }
+    beginnings += is_lost;
+    if (is_lost) {  // so that it does not leave the way that it begins with
+      options.stepMax = std::min(options.stepMax, kCarefulStep);
+      options.muInit = kCarefulPenalty * restore.given.muInit;
+    }
+    x = is_lost ? start : result.x;
+    dual = is_lost ? VectorXd() : result.dual;
+    const int evals = result.evals;
+    result = runMethod(separation, watch, seen);
+    result.evals += evals;
+  }
+  return result;
+}
+
 /// Solves the form of the problem that the method takes, and says what that means for the problem as it is stated.
 SolverResult NlpSolver::runMethod(const Separation& separation, const EvaluationHook& watch,
                                   const EvaluationHook& seen) {
@@ -145,7 +189,7 @@ SolverResult NlpSolver::solve(bool resample, Rng& rng, const EvaluationHook& hoo
   Clock::time_point told = start;
   int calls = 0;
   const bool is_own = !methods_.contains(options.method);
-  const Separation separation =
+  Separation separation =
       is_own && options.method == OptMethod::augmentedLag ? problem_->separation() : Separation();
   const auto rows = Eigen::Index(problem_->types().size());
   const bool may_be_cancelled = problem_->mayBeCancelled();
@@ -175,7 +219,7 @@ SolverResult NlpSolver::solve(bool resample, Rng& rng, const EvaluationHook& hoo
   const EvaluationHook watch = !needs_watch ? EvaluationHook() : separation.problem ? joined : seen;
   SolverResult result;
   try {
-    result = runMethod(separation, watch, needs_watch ? seen : EvaluationHook());
+    result = runRefining(separation, watch, needs_watch ? seen : EvaluationHook());
   } catch (const EvaluationCancelled&) {
     forget();
     if (!best.isKnown()) throw;

@@ -47,6 +47,7 @@ class NlpSolver {
   bool keeps_memory = true;  ///< for the next solve; else it is given back at the end
 
  private:
+  SolverResult runRefining(Separation& separation, const EvaluationHook& watch, const EvaluationHook& seen);
   SolverResult runMethod(const Separation& separation, const EvaluationHook& watch, const EvaluationHook& seen);
   void releaseMemory();
   void forget();
