@@ -112,7 +112,8 @@ void Komo::addFreeMotion(const std::vector<double>& times, double margin, double
                       .slack = kSlack};
   motion_.require(objective);
   const auto [from, to] = path().grid().select(times);
-  const int skipped = from == 0 && firstMotion(path()) == 0 ? 0 : 1;  // motions that do not lead from a slice to another
+  const int skipped =
+      from == 0 && firstMotion(path()) == 0 ? 0 : 1;  // motions that do not lead from a slice to another
   if (from + skipped > to) return;
   objective.on_the_way = true;
   motion_.require(std::move(objective), skipped);

@@ -27,7 +27,8 @@ bool forbidsCollisions(const Objective& objective) {
                              objective.type == ObjectiveType::ineqB;
   const bool is_of_collisions =
       objective.feature == FeatureSymbol::accumulatedCollisions || objective.feature == FeatureSymbol::pairCollisions;
-  return is_constraint && is_of_collisions && (objective.order == 0 || objective.on_the_way) && objective.frames.empty();
+  return is_constraint && is_of_collisions && (objective.order == 0 || objective.on_the_way) &&
+         objective.frames.empty();
 }
 
 bool isOnTheWay(const Objective& objective) { return objective.on_the_way; }

@@ -74,7 +74,8 @@ Made physicsOf(int frame, const Objective& objective, const Path& path, const st
 Made collisionsIn(const Objective& objective, const Path& path, const Ids& ids, int slice) {
   const bool is_sum = objective.feature == FeatureSymbol::accumulatedCollisions;
   const auto make = [&](const State& state) -> Made {
-    if (is_sum) return std::make_unique<AccumulatedCollisions>(ids, state.program(), PairChoice::motion, objective.margin);
+    if (is_sum)
+      return std::make_unique<AccumulatedCollisions>(ids, state.program(), PairChoice::motion, objective.margin);
     const double far = PairCollisions::kFar + objective.margin + objective.slack;
     return std::make_unique<PairCollisions>(ids, state.program(), PairChoice::motion, far);
   };

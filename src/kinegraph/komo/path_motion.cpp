@@ -160,8 +160,7 @@ std::vector<PathContact> contactsOf(const std::vector<SliceMotion>& motions, dou
   MotionProbe probe(tolerance);
   for (const SliceMotion& motion : motions) {
     if (between) between();
-    if (const auto contact = probe.firstContact(motion, margin))
-      contacts.push_back(describe(motion, *contact));
+    if (const auto contact = probe.firstContact(motion, margin)) contacts.push_back(describe(motion, *contact));
   }
   return contacts;
 }

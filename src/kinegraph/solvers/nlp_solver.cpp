@@ -189,8 +189,7 @@ SolverResult NlpSolver::solve(bool resample, Rng& rng, const EvaluationHook& hoo
   Clock::time_point told = start;
   int calls = 0;
   const bool is_own = !methods_.contains(options.method);
-  Separation separation =
-      is_own && options.method == OptMethod::augmentedLag ? problem_->separation() : Separation();
+  Separation separation = is_own && options.method == OptMethod::augmentedLag ? problem_->separation() : Separation();
   const auto rows = Eigen::Index(problem_->types().size());
   const bool may_be_cancelled = problem_->mayBeCancelled();
   BestSoFar best(*problem_, options.constraintTolerance());
