@@ -203,7 +203,7 @@ TEST(PairCollisions, OfBodiesThatNoJointMovesApartFollowTheSceneWhenTheseArePlac
     wall: { X: [0 .25 0], shape: sphere, size: [.1], contact: 1 }
     post: { X: [.15 .25 0], shape: sphere, size: [.1], contact: 1 }
   )g");
-  const PairCollisions feature({}, *config.program());
+  const PairCollisions feature({}, *config.program(), PairChoice::scene);
   const auto values = [&] {
     const State* state = &config.state();
     VectorXd y(feature.rows());
