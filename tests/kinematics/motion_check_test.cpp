@@ -120,7 +120,7 @@ TEST(MotionChecker, PairsThatNoJointMovesApartDoNotCount) {
 
 TEST(MotionChecker, AJointThatPassesItsLimitsEndsAMotion) {
   Config config = slider();
-  config.addText("other (world): { joint: transY, limits: [-1 1] }");
+  config.addFrame("other", "world", "joint: transY, limits: [-1 1]");
   EXPECT_FALSE(config.checkMotion(numbers({0., 0.}), numbers({.5, 1. + 9e-6})));
   const auto contact = config.checkMotion(numbers({0., 0.}), numbers({.5, -2.}));
   ASSERT_TRUE(contact);

@@ -5,9 +5,10 @@
 #include "kinegraph/base/errors.h"
 #include "kinegraph/base/parallel.h"
 #include "kinegraph/base/text.h"
+#include "kinegraph/kinematics/edge_check.h"
 #include "kinegraph/kinematics/lane_program.h"
 #include "kinegraph/kinematics/limit_check.h"
-#include "kinegraph/kinematics/motion_check.h"
+#include "kinegraph/kinematics/near_pairs.h"
 
 namespace kinegraph {
 
@@ -203,16 +204,45 @@ void nearestPoints(const State& scene, const Eigen::Ref<const RowMatrix>& Q, con
   });
 }
 
+namespace {
+
+/// Rows within limits that follow one another are looked at side by side. `limit(i)` says whether row i is.
+template <class Limit>
+void areFreeInLanes(const State& scene, const Eigen::Ref<const RowMatrix>& Q, double margin, std::span<bool> valid,
+                    const BatchOptions& options, const Limit& limit) {
+  const int parts = (int(Q.rows()) + kPart - 1) / kPart, threads = std::clamp(options.threads, 1, std::max(1, parts));
+  std::vector<EdgeChecker> checkers(std::size_t(threads), EdgeChecker(scene, margin));
+  const auto part = [&](int worker, int from, int to) {
+    const double* rows[EdgeChecker::kLanes];
+    int places[EdgeChecker::kLanes], count = 0;
+    bool free[EdgeChecker::kLanes];
+    for (int i = from; i < to; ++i) {
+      if (limit(i)) {
+        places[count] = i;
+        rows[count++] = Q.row(i).data();
+      }
+      if (count == 0 || (count < EdgeChecker::kLanes && i + 1 < to)) continue;
+      checkers[std::size_t(worker)].areFree({rows, std::size_t(count)}, free);
+      for (int k = 0; k < count; ++k) valid[places[k]] = free[k];
+      count = 0;
+    }
+  };
+  forParts(int(Q.rows()), kPart, threads, part, options.between);
+}
+
+}  // namespace
+
 void areValid(const State& scene, const Eigen::Ref<const RowMatrix>& Q, double margin, std::span<bool> valid,
               const BatchOptions& options) {
   checkJoints(scene, Q);
+  const auto limit = [&](int i) { return valid[i] = withinLimits(scene.program(), Q.row(i).data()); };
+  if (scene.program().contacts.bodies.size() <= NearPairs::kFew) return areFreeInLanes(scene, Q, margin, valid, options, limit);
   struct Worker {
     State state;
     NearPairs pairs;
   };
   forEach(Worker{scene, NearPairs(scene.sharedProgram())}, int(Q.rows()), options, [&](Worker& worker, int i) {
-    valid[i] = withinLimits(scene.program(), Q.row(i).data());
-    if (!valid[i]) return;
+    if (!limit(i)) return;
     worker.state.setJoints(Q.row(i).data());
     worker.pairs.place(worker.state);
     valid[i] = worker.pairs.apart(margin);
@@ -225,10 +255,10 @@ void areMotionsFree(const State& scene, const Eigen::Ref<const RowMatrix>& from,
   checkJoints(scene, to);
   if (from.rows() != to.rows()) throw ValueError(cat("motions: ", from.rows(), " starts and ", to.rows(), " ends"));
   if (!(tolerance > 0.)) throw ValueError(cat("motions: tolerance is ", tolerance, "; expected a distance > 0 in m"));
-  forEach(MotionChecker(scene), int(from.rows()), options, [&](MotionChecker& checker, int i) {
+  forEach(EdgeChecker(scene, margin, tolerance), int(from.rows()), options, [&](EdgeChecker& checker, int i) {
     const double *start = from.row(i).data(), *end = to.row(i).data();
     free[i] = withinLimits(scene.program(), start) && withinLimits(scene.program(), end) &&
-              !checker.firstContact(start, end, margin, tolerance);
+              checker.isFree(start, end);
   });
 }
 

@@ -1,71 +1,44 @@
 #include "kinegraph/kinematics/edge_check.h"
 
-#include <algorithm>
+#include "kinegraph/kinematics/edge_engine.h"
 
 namespace kinegraph {
+
+static_assert(EdgeChecker::kLanes == EdgeEngine::kLanes);
 
 EdgeChecker::EdgeChecker(const State& scene, double margin, double tolerance)
     : state_(scene),
       margin_(margin),
       tolerance_(tolerance),
-      pairs_(scene.program(), scene.program().movingPairs()),
-      bodies_(pairs_),
-      motions_(scene) {}
+      engine_(std::make_unique<EdgeEngine>(scene, tolerance)) {}
+
+EdgeChecker::EdgeChecker(const EdgeChecker& other) : EdgeChecker(other.state_, other.margin_, other.tolerance_) {}
+
+EdgeChecker::~EdgeChecker() = default;
 
 bool EdgeChecker::isFree(const double* q) {
-  last_hit_.reset();
-  state_.setJoints(q);
-  bodies_.place(state_);
-  const auto hits = [&](int pair) {
-    if (!bodies_.mayBeNear(pair, margin_)) return false;
-    const double distance = bodies_.proximity(pair).distance;
-    if (!(distance < margin_)) return false;
-    const auto [a, b] = pairs_.pairs[std::size_t(pair)];
-    last_hit_ = MotionContact{0., pairs_.frames[std::size_t(a)], pairs_.frames[std::size_t(b)], distance};
-    suspect_ = pair;
-    return true;
-  };
-  if (suspect_ >= 0 && hits(suspect_)) return false;
-  for (int pair = 0; pair < bodies_.pairs(); ++pair) {
-    if (pair != suspect_ && hits(pair)) return false;
-  }
-  return true;
+  bool free = true;
+  engine_->areFree(&q, 1, margin_, &free);
+  return free;
 }
 
-bool EdgeChecker::isFree(const double* from, const double* to) {
-  if (!isFree(to)) {
-    last_hit_->time = 1.;
-    return false;
-  }
-  last_hit_ = firstContact(from, to);
-  return !last_hit_;
+void EdgeChecker::areFree(std::span<const double* const> Q, bool* free) {
+  engine_->areFree(Q.data(), int(Q.size()), margin_, free);
 }
+
+bool EdgeChecker::isFree(const double* from, const double* to) { return engine_->isFree(from, to, margin_); }
+
+const std::optional<MotionContact>& EdgeChecker::lastHit() const { return engine_->last_hit; }
 
 std::optional<MotionContact> EdgeChecker::firstContact(const double* from, const double* to) {
-  return motions_.firstContact(from, to, margin_, tolerance_);
+  if (!motions_) motions_ = std::make_unique<MotionChecker>(state_);
+  return motions_->firstContact(from, to, margin_, tolerance_);
 }
 
-double EdgeChecker::clearance(const double* q, double most) {
-  state_.setJoints(q);
-  bodies_.place(state_);
-  for (int pair = 0; pair < bodies_.pairs(); ++pair) {
-    if (bodies_.mayBeNear(pair, most)) most = std::min(most, bodies_.proximity(pair).distance);
-  }
-  return most;
-}
+double EdgeChecker::clearance(const double* q, double most) { return engine_->clearance(q, most); }
 
 double EdgeChecker::clearance(const double* from, const double* to, double most) {
-  double high = std::min({most, clearance(from, most), clearance(to, most)}), low = high - tolerance_;
-  for (double step = .01; motions_.firstContact(from, to, low, .5 * tolerance_); step *= 2.) {
-    high = low;
-    low -= step;
-  }
-  if (high == most && !motions_.firstContact(from, to, most, .5 * tolerance_)) return most;
-  while (high - low > .5 * tolerance_) {
-    const double middle = .5 * (low + high);
-    (motions_.firstContact(from, to, middle, .5 * tolerance_) ? high : low) = middle;
-  }
-  return low;
+  return engine_->clearance(from, to, most);
 }
 
 }  // namespace kinegraph

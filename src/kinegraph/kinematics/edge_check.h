@@ -1,11 +1,15 @@
 #pragma once
 
 #include <limits>
+#include <memory>
 #include <optional>
+#include <span>
 
 #include "kinegraph/kinematics/motion_check.h"
 
 namespace kinegraph {
+
+class EdgeEngine;
 
 /// Answers the questions that a planner asks of one scene, thousands of times: is this q free, is this edge? An edge is
 /// the straight motion q(s) = (1 - s) from + s to, 0 <= s <= 1. Free means that all pairs that joints move apart
@@ -17,10 +21,12 @@ namespace kinegraph {
 /// before, only `lastHit` does: what was hit last is looked at first.
 class EdgeChecker {
  public:
+  static constexpr int kLanes = 8;  ///< configurations that are looked at side by side
+
   /// Any State of the scene will do. Of a pair within margin + tolerance (m, > 0), `isFree` of an edge may say no.
   explicit EdgeChecker(const State& scene, double margin = 0., double tolerance = 1e-5);
-
-  EdgeChecker(const EdgeChecker& other) : EdgeChecker(other.state_, other.margin_, other.tolerance_) {}
+  EdgeChecker(const EdgeChecker& other);
+  ~EdgeChecker();
 
   /// m; the distance that all pairs have to keep. Negative: they may overlap by that much.
   double margin() const { return margin_; }
@@ -31,11 +37,14 @@ class EdgeChecker {
   /// Are all pairs at least `margin` apart at q (dofs numbers)?
   bool isFree(const double* q);
 
-  /// And all along an edge? Ends at the first pair that is found too near, at any time.
+  /// Of at most kLanes configurations at once, per configuration. Quickest where they follow one another.
+  void areFree(std::span<const double* const> Q, bool* free);
+
+  /// Of an edge, at all times. Ends at the first pair that is found too near, at any time.
   bool isFree(const double* from, const double* to);
 
-  /// The pair, time and distance that the last question was answered no for; of a q, the time is 0.
-  const std::optional<MotionContact>& lastHit() const { return last_hit_; }
+  /// A pair, with time and distance, that the last question was answered no for; of configurations, the time is 0.
+  const std::optional<MotionContact>& lastHit() const;
 
   /// What an edge meets first in time; see MotionChecker. None if it is free.
   std::optional<MotionContact> firstContact(const double* from, const double* to);
@@ -43,18 +52,15 @@ class EdgeChecker {
   /// The least distance of all pairs at q, m; `most` if none is nearer than that.
   double clearance(const double* q, double most = std::numeric_limits<double>::infinity());
 
-  /// A lower bound of the least distance of all pairs along an edge, m, by less than `tolerance` below it; `most` if
-  /// none is nearer than that at any time.
+  /// A lower bound of the least distance of all pairs along an edge, m, or of `most` if none is nearer than that; by no
+  /// more than the tolerance.
   double clearance(const double* from, const double* to, double most);
 
  private:
   State state_;
   double margin_, tolerance_;
-  BodyPairs pairs_;
-  PlacedBodies bodies_;
-  MotionChecker motions_;
-  std::optional<MotionContact> last_hit_;
-  int suspect_ = -1;
+  std::unique_ptr<EdgeEngine> engine_;
+  std::unique_ptr<MotionChecker> motions_;  ///< made when it is first asked
 };
 
 }  // namespace kinegraph

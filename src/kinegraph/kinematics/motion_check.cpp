@@ -3,17 +3,20 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
+
+#include "kinegraph/kinematics/edge_engine.h"
 
 namespace kinegraph {
 
 MotionChecker::MotionChecker(const State& scene)
     : state_(scene),
+      edges_(std::make_unique<EdgeEngine>(scene, 1e-5)),
       many_(scene.program().contacts.bodies.size() > NearPairs::kFew),
+      bounds_(scene),
       from_(scene.dofs()),
       change_(scene.dofs()),
       q_(scene.dofs()),
-      steps_(scene.program().steps.size()) {
+      until_(scene.dofs()) {
   const Program& program = scene.program();
   if (!many_) {
     pairs_.emplace(program, program.movingPairs());
@@ -35,6 +38,8 @@ MotionChecker::MotionChecker(const State& scene)
   fixed_boxes_.build(boxes);
 }
 
+MotionChecker::~MotionChecker() = default;
+
 void MotionChecker::moveTo(double time) {
   if (time == time_) return;
   time_ = time;
@@ -47,47 +52,7 @@ void MotionChecker::setMotion(const double* from, const double* to) {
   const Program& program = state_.program();
   from_ = Eigen::Map<const VectorXd>(from, program.dofs);
   change_ = Eigen::Map<const VectorXd>(to, program.dofs) - from_;
-  for (const Program::Link& link : program.links) {
-    int dof = link.dof;
-    for (int s = link.first_step; s < link.first_step + link.steps; ++s) {
-      steps_[s] = boundOf(program.steps[s], std::abs(link.scale), dof, to);
-      dof += program.steps[s].dofs();
-    }
-  }
-}
-
-MotionChecker::StepBound MotionChecker::boundOf(const MotionStep& step, double scale, int dof, const double* to) const {
-  StepBound bound;
-  const double change = std::abs(change_[dof]);
-  if (step.slides()) {
-    bound.move = scale * change;
-    bound.reach = scale * std::max(std::abs(from_[dof]), std::abs(to[dof]));
-  } else if (step.turns()) {
-    bound.turn = scale * change;
-  } else if (step.orients()) {  // |w| <= 2 |dq| / |q|, with the least |q| on the way
-    const auto q = from_.segment(dof, step.dofs()), dq = change_.segment(dof, step.dofs());
-    const double square = dq.squaredNorm();
-    if (square == 0.) return bound;
-    const double nearest = std::clamp(-q.dot(dq) / square, 0., 1.);
-    const double norm = (q + nearest * dq).norm();
-    bound.turn = norm > 1e-9 ? 2. * std::sqrt(square) / norm : std::numeric_limits<double>::infinity();
-  }
-  return bound;
-}
-
-/// How fast the joint of a link moves what lies within `reach` of the link's origin, which becomes the reach from that
-/// of its parent.
-double MotionChecker::climb(int index, double& reach) const {
-  const Program::Link& link = state_.program().links[index];
-  double speed = 0.;
-  for (int s = link.first_step + link.steps - 1; s >= link.first_step; --s) {
-    const StepBound& step = steps_[s];
-    if (step.turn > 0. && reach > 0.) speed += step.turn * reach;
-    speed += step.move;
-    reach += step.reach;
-  }
-  reach += Eigen::Map<const Vector3d>(state_.parameters().link[index].p).norm();
-  return speed;
+  bounds_.setMotion(from, to);
 }
 
 /// How far a body reaches from the origin of its link.
@@ -98,29 +63,16 @@ double MotionChecker::reachOf(int frame, const CollisionBody& body) const {
 double MotionChecker::relativeSpeed(int pair) const {
   const auto [a, b] = pairs_->pairs[std::size_t(pair)];
   const int frame_a = pairs_->frames[std::size_t(a)], frame_b = pairs_->frames[std::size_t(b)];
-  double reach_a = reachOf(frame_a, *pairs_->bodies[std::size_t(a)]),
-         reach_b = reachOf(frame_b, *pairs_->bodies[std::size_t(b)]), speed = 0.;
-  const std::vector<Program::Link>& links = state_.program().links;
-  int link_a = state_.link(frame_a), link_b = state_.link(frame_b);
-  while (link_a != link_b) {  // links come after their parents
-    if (link_a > link_b) {
-      speed += climb(link_a, reach_a);
-      link_a = links[link_a].parent;
-    } else {
-      speed += climb(link_b, reach_b);
-      link_b = links[link_b].parent;
-    }
-  }
-  return speed;
+  return bounds_
+      .relative(state_.link(frame_a), reachOf(frame_a, *pairs_->bodies[std::size_t(a)]), state_.link(frame_b),
+                reachOf(frame_b, *pairs_->bodies[std::size_t(b)]))
+      .speed;
 }
 
 /// A bound of how far any point of a frame's body is moved.
 double MotionChecker::travelOf(int frame) const {
-  const Program& program = state_.program();
-  double reach = reachOf(frame, *program.body[std::size_t(frame)]), travel = 0.;
-  for (int link = state_.link(frame); link != 0; link = program.links[std::size_t(link)].parent)
-    travel += climb(link, reach);
-  return travel;
+  const double reach = reachOf(frame, *state_.program().body[std::size_t(frame)]);
+  return bounds_.ratesOf(state_.link(frame), reach).speed;
 }
 
 /// Where a body can be at any time of the motion. The steps' bounds must be those of the motion, of which `state_` is
@@ -171,6 +123,23 @@ MotionContact MotionChecker::contactOf(int pair) const {
 std::optional<MotionContact> MotionChecker::firstContact(const double* from, const double* to, double margin,
                                                          double tolerance) {
   const Limits limits{margin, tolerance};
+  edges_->setTolerance(tolerance);
+  if (edges_->isFree(from, to, margin)) return std::nullopt;
+  const MotionContact hit = *edges_->last_hit;  // the first contact is no later
+  const Eigen::Map<const VectorXd> start(from, state_.dofs()), end(to, state_.dofs());
+  until_.noalias() = start + hit.time * (end - start);
+  std::optional<MotionContact> contact = first(from, hit.time == 1. ? to : until_.data(), limits);
+  if (!contact) return hit;
+  contact->time *= hit.time;
+  q_.noalias() = start + contact->time * (end - start);
+  state_.setJoints(q_.data());
+  const auto a = std::size_t(contact->a), b = std::size_t(contact->b);
+  const auto& bodies = state_.program().body;
+  contact->distance = proximity(*bodies[a], state_.pose(contact->a), *bodies[b], state_.pose(contact->b)).distance;
+  return contact;
+}
+
+std::optional<MotionContact> MotionChecker::first(const double* from, const double* to, const Limits& limits) {
   return many_ ? firstInPieces(from, to, limits) : firstInOnePiece(from, to, limits);
 }
 

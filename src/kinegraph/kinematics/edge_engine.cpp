@@ -1,0 +1,338 @@
+#include "kinegraph/kinematics/edge_engine.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace kinegraph {
+
+namespace {
+
+constexpr double kPiece = .35;    // m: what a motion moves the fastest point in one piece, at most
+constexpr int kMostPieces = 4096;
+constexpr int kDeepest = 26;      // times that an interval is halved
+constexpr double kExact = 1e-12;  // m: what a direction that was found elsewhere has to keep beyond the margin
+
+/// The farthest corner of a hull, from one that may be near it.
+Vector3d climb(const Hull& hull, const Vector3d& direction, std::uint32_t& corner) {
+  if (hull.first_neighbor.empty()) return hull.points[std::size_t(hull.farthest(direction))];
+  double height = direction.dot(hull.points[corner]);
+  for (bool climbing = true; climbing;) {
+    climbing = false;
+    for (std::uint32_t k = hull.first_neighbor[corner], end = hull.first_neighbor[corner + 1]; k < end; ++k) {
+      const double other = direction.dot(hull.points[hull.neighbors[k]]);
+      if (other <= height) continue;
+      height = other;
+      corner = hull.neighbors[k];
+      climbing = true;
+      break;
+    }
+  }
+  return hull.points[corner];
+}
+
+Vector3d supportOf(const CollisionBody& body, const Vector3d& direction, std::uint32_t& corner) {
+  return body.core() == CollisionBody::Core::hull ? climb(body.hull(), direction, corner) : body.support(direction);
+}
+
+}  // namespace
+
+EdgeEngine::EdgeEngine(const State& scene, double tolerance)
+    : bodies_(scene),
+      samples_(scene, bodies_),
+      bounds_(scene),
+      tolerance_(tolerance),
+      normals_(bodies_.pairs.size()),
+      middles_(kDeepest, scene),
+      from_(scene.dofs()),
+      to_(scene.dofs()),
+      q_(scene.dofs()) {
+  candidates_.reserve(bodies_.pairs.size());
+  piece_times_.reserve(kLanes);
+}
+
+// --- which pairs may be near -----------------------------------------------------------------------------------------
+
+void EdgeEngine::findCandidates(double margin) {
+  candidates_.clear();
+  for (const LinkBodies::Block& block : bodies_.blocks) {
+    if (!samples_.mayBeNear(block.a, block.b, margin)) continue;
+    for (int i = block.first; i < block.last; ++i) addPair(bodies_.pairs[std::size_t(i)], i);
+  }
+  if (bodies_.many) addNearFixed(margin);
+  const auto key = [&](const Candidate& c) { return c.index >= 0 && c.index == suspect_ ? -1e300 : c.least; };
+  std::sort(candidates_.begin(), candidates_.end(), [&](const Candidate& x, const Candidate& y) {
+    const double a = key(x), b = key(y);
+    return a < b || (a == b && (x.pair.a < y.pair.a || (x.pair.a == y.pair.a && x.pair.b < y.pair.b)));
+  });
+}
+
+void EdgeEngine::addPair(const LinkBodies::Pair& pair, int index) {
+  const Lane bounds = samples_.distanceBounds(pair.a, pair.b);
+  candidates_.push_back({pair, index, bounds, bounds.head(samples_.count()).minCoeff()});
+}
+
+/// Where many bodies are fixed to the world: those that a group that moves comes near to.
+void EdgeEngine::addNearFixed(double margin) {
+  for (int g = 0; g < bodies_.moving; ++g) {
+    const PlacedSamples::Sphere& sphere = samples_.sphere(g);
+    const Vector3d low = sphere.center.array() - sphere.radius, high = sphere.center.array() + sphere.radius;
+    near_fixed_.clear();
+    bodies_.fixed_tree.forMeeting({low, high}, std::max(margin, 0.) + 1e-9, [&](int item) {
+      const int other = bodies_.moving + item;
+      if (samples_.mayBeNear(g, other, margin)) bodies_.appendPairs(g, other, near_fixed_);
+    });
+    for (const LinkBodies::Pair& pair : near_fixed_) addPair(pair, -1);
+  }
+}
+
+// --- one pair at one time --------------------------------------------------------------------------------------------
+
+EdgeEngine::Normal& EdgeEngine::normalOf(const Candidate& candidate) {
+  if (candidate.index >= 0) return normals_[std::size_t(candidate.index)];
+  scratch_normal_.stamp = -1;
+  scratch_normal_.corner_a = scratch_normal_.corner_b = 0;
+  return scratch_normal_;
+}
+
+RigidTransform EdgeEngine::poseAt(int body, const Moment& at) {
+  if (at.sample >= 0) return samples_.pose(body, at.sample);
+  return at.state->linkPose(bodies_.link(body)) * bodies_.bodies[std::size_t(body)].X_LB;
+}
+
+/// How far the bodies are apart along the direction; a lower bound of their distance.
+double EdgeEngine::gap(const Candidate& candidate, Normal& normal, const Moment& at) {
+  const LinkBodies::Pair& pair = candidate.pair;
+  const CollisionBody &a = *bodies_.bodies[std::size_t(pair.a)].shape, &b = *bodies_.bodies[std::size_t(pair.b)].shape;
+  const Vector3d n = pair.ancestor == 0 ? normal.n : Vector3d(at.state->linkPose(pair.ancestor).R * normal.n);
+  const RigidTransform X_A = poseAt(pair.a, at), X_B = poseAt(pair.b, at);
+  const Vector3d in_a = -(X_A.R.transpose() * n), in_b = X_B.R.transpose() * n;
+  const double nearest_a = n.dot(X_A.p) - in_a.dot(supportOf(a, in_a, normal.corner_a)),
+               farthest_b = n.dot(X_B.p) + in_b.dot(supportOf(b, in_b, normal.corner_b));
+  return nearest_a - farthest_b - a.radius() - b.radius();
+}
+
+/// The distance; its normal is kept.
+double EdgeEngine::measure(const Candidate& candidate, Normal& normal, const Moment& at) {
+  const LinkBodies::Pair& pair = candidate.pair;
+  const Proximity near = proximity(*bodies_.bodies[std::size_t(pair.a)].shape, poseAt(pair.a, at),
+                                   *bodies_.bodies[std::size_t(pair.b)].shape, poseAt(pair.b, at));
+  normal.n = pair.ancestor == 0 ? near.normal : Vector3d(at.state->linkPose(pair.ancestor).R.transpose() * near.normal);
+  normal.stamp = stamp_;
+  return near.distance;
+}
+
+/// Notes what is too near; false.
+bool EdgeEngine::hit(const Candidate& candidate, double time, double distance) {
+  const int a = bodies_.bodies[std::size_t(candidate.pair.a)].frame, b = bodies_.bodies[std::size_t(candidate.pair.b)].frame;
+  last_hit = MotionContact{time, std::min(a, b), std::max(a, b), distance, -1};
+  suspect_ = candidate.index;
+  return false;
+}
+
+// --- configurations --------------------------------------------------------------------------------------------------
+
+void EdgeEngine::areFree(const double* const* Q, int count, double margin, bool* free) {
+  last_hit.reset();
+  for (int i = 0; i < count; ++i) samples_.setJoints(i, Q[i]);
+  samples_.place(count);
+  findCandidates(margin);
+  std::fill(free, free + count, true);
+  for (const Candidate& candidate : candidates_) {
+    if (candidate.least >= margin) continue;
+    Normal& normal = normalOf(candidate);
+    for (int i = 0; i < count; ++i) {
+      if (!free[i] || candidate.bounds[i] >= margin) continue;
+      const Moment at = sampleAt(i);
+      if (candidate.pair.convex && normal.stamp > 0 && gap(candidate, normal, at) >= margin + kExact) continue;
+      const double distance = measure(candidate, normal, at);
+      if (distance < margin) free[i] = hit(candidate, 0., distance);
+    }
+  }
+}
+
+double EdgeEngine::clearance(const double* q, double most) {
+  samples_.setJoints(0, q);
+  samples_.place(1);
+  findCandidates(most);
+  for (const Candidate& candidate : candidates_) {
+    if (candidate.least < most) most = std::min(most, measure(candidate, normalOf(candidate), sampleAt(0)));
+  }
+  return most;
+}
+
+// --- motions ---------------------------------------------------------------------------------------------------------
+
+EdgeEngine::Moment EdgeEngine::sampleAt(int sample) const {
+  const double time = piece_times_.empty() ? 0. : piece_times_[std::size_t(sample)];
+  return {time, &samples_.state(sample), sample};
+}
+
+const double* EdgeEngine::jointsAt(double time) {
+  if (time == 1.) return to_.data();
+  q_.noalias() = from_ + time * (to_ - from_);
+  return q_.data();
+}
+
+EdgeEngine::Moment EdgeEngine::between(const Moment& a, const Moment& b, int depth) {
+  const double time = .5 * (a.time + b.time);
+  State& state = middles_[std::size_t(depth)];
+  state.setJoints(jointsAt(time));
+  return {time, &state, -1};
+}
+
+/// Places the samples over a part of the motion, and the spheres around all between them.
+void EdgeEngine::placePiece(double from, double to) {
+  piece_times_.resize(kLanes);
+  for (int i = 0; i < kLanes; ++i) {
+    piece_times_[std::size_t(i)] = i == kLanes - 1 ? to : from + (to - from) * i / (kLanes - 1);
+    samples_.setJoints(i, jointsAt(piece_times_[std::size_t(i)]));
+  }
+  samples_.place(kLanes);
+  const double width = (to - from) / (kLanes - 1);
+  for (int g = 0; g < bodies_.moving; ++g) {
+    const LinkBodies::Group& group = bodies_.groups[std::size_t(g)];
+    const MotionBounds::Rates rates = bounds_.ratesOf(group.link, group.center.norm());
+    samples_.setStray(g, std::min(.125 * rates.bend * width * width, .5 * rates.speed * width));
+  }
+}
+
+/// Returns in how many pieces it is looked at.
+int EdgeEngine::setMotion(const double* from, const double* to) {
+  from_ = Eigen::Map<const VectorXd>(from, from_.size());
+  to_ = Eigen::Map<const VectorXd>(to, to_.size());
+  bounds_.setMotion(from, to);
+  double speed = 0.;
+  for (int g = 0; g < bodies_.moving; ++g) {
+    const LinkBodies::Group& group = bodies_.groups[std::size_t(g)];
+    speed = std::max(speed, bounds_.ratesOf(group.link, group.reach).speed);
+  }
+  return std::isfinite(speed) ? int(std::clamp(std::ceil(speed / kPiece), 1., double(kMostPieces))) : 1;
+}
+
+MotionBounds::Rates EdgeEngine::ratesOf(const Candidate& candidate) const {
+  const auto [a, b] = std::pair(candidate.pair.a, candidate.pair.b);
+  return bounds_.relative(bodies_.link(a), bodies_.bodies[std::size_t(a)].reach, bodies_.link(b),
+                          bodies_.bodies[std::size_t(b)].reach);
+}
+
+bool EdgeEngine::isFree(const double* from, const double* to, double margin) {
+  ask();
+  const int pieces = setMotion(from, to);
+  if (pieces > 1) {  // a look at all of it first
+    placePiece(0., 1.);
+    findCandidates(margin);
+    if (!samplesKeep(margin)) return false;
+  }
+  for (int i = pieces - 1; i >= 0; --i) {
+    placePiece(double(i) / pieces, i + 1 == pieces ? 1. : double(i + 1) / pieces);
+    findCandidates(margin);
+    if (!pieceKeeps(margin)) return false;
+  }
+  return true;
+}
+
+/// Does no sample show a pair that is too near?
+bool EdgeEngine::samplesKeep(double margin) {
+  for (const Candidate& candidate : candidates_) {
+    if (candidate.least >= margin) continue;
+    Normal& normal = normalOf(candidate);
+    for (int i = kLanes - 1; i >= 0; --i) {
+      if (candidate.bounds[i] >= margin) continue;
+      const Moment at = sampleAt(i);
+      if (candidate.pair.convex && normal.stamp == stamp_ && gap(candidate, normal, at) >= margin) continue;
+      const double distance = measure(candidate, normal, at);
+      if (distance < margin) return hit(candidate, at.time, distance);
+    }
+  }
+  return true;
+}
+
+bool EdgeEngine::pieceKeeps(double margin) {
+  const double width = piece_times_[1] - piece_times_[0];
+  for (const Candidate& candidate : candidates_) {
+    if (!pairKeeps(candidate, margin, width)) return false;
+  }
+  return true;
+}
+
+/// Does a pair keep the margin between all samples?
+bool EdgeEngine::pairKeeps(const Candidate& candidate, double margin, double width) {
+  const MotionBounds::Rates rates = ratesOf(candidate);
+  const auto farBetween = [&](int i) {
+    return candidate.bounds[i] + candidate.bounds[i + 1] - rates.speed * width >= 2. * margin;
+  };
+  int worst = 0;
+  candidate.bounds.minCoeff(&worst);
+  Normal& normal = normalOf(candidate);
+  if (candidate.least < margin) {  // what is in the way shows here first
+    const double distance = measure(candidate, normal, sampleAt(worst));
+    if (distance < margin) return hit(candidate, piece_times_[std::size_t(worst)], distance);
+  }
+  for (int i = 0; i + 1 < kLanes; ++i) {
+    if (!farBetween(i) && !keeps(candidate, normal, rates, margin, sampleAt(i), sampleAt(i + 1), 0)) return false;
+  }
+  return true;
+}
+
+bool EdgeEngine::keeps(const Candidate& candidate, Normal& normal, const MotionBounds::Rates& rates, double margin,
+                       const Moment& a, const Moment& b, int depth) {
+  const double width = b.time - a.time, bow = .125 * rates.bend * width * width;
+  const auto apart = [&] {
+    return gap(candidate, normal, a) >= margin + bow && gap(candidate, normal, b) >= margin + bow;
+  };
+  const bool convex = candidate.pair.convex && bow < 1e9;
+  if (convex && normal.stamp == stamp_ && apart()) return true;
+  double distances[2];
+  for (const bool second : {false, true}) {
+    const Moment& end = second ? b : a;
+    const double distance = distances[second] = measure(candidate, normal, end);
+    if (distance < margin) return hit(candidate, end.time, distance);
+    if (convex && apart()) return true;
+    if (distance < margin + tolerance_ && rates.speed > 0.) return hit(candidate, end.time, distance);
+  }
+  if (distances[0] + distances[1] - rates.speed * width >= 2. * margin) return true;
+  if (depth == kDeepest) return hit(candidate, a.time, distances[0]);
+  const Moment middle = between(a, b, depth);
+  return keeps(candidate, normal, rates, margin, a, middle, depth + 1) &&
+         keeps(candidate, normal, rates, margin, middle, b, depth + 1);
+}
+
+double EdgeEngine::clearance(const double* from, const double* to, double most) {
+  ask();
+  const int pieces = setMotion(from, to);
+  double least = most;
+  for (int piece = 0; piece < pieces; ++piece) {
+    placePiece(double(piece) / pieces, double(piece + 1) / pieces);
+    findCandidates(least);
+    for (const Candidate& candidate : candidates_) {
+      Normal& normal = normalOf(candidate);
+      const MotionBounds::Rates rates = ratesOf(candidate);
+      const double width = piece_times_[1] - piece_times_[0];
+      for (int i = 0; i + 1 < kLanes; ++i) {
+        if (.5 * (candidate.bounds[i] + candidate.bounds[i + 1] - rates.speed * width) < least - tolerance_)
+          lower(candidate, normal, rates, sampleAt(i), sampleAt(i + 1), 0, least);
+      }
+    }
+  }
+  return least - tolerance_;
+}
+
+/// Brings `least` down to the least distance of a pair between two times, to the tolerance.
+void EdgeEngine::lower(const Candidate& candidate, Normal& normal, const MotionBounds::Rates& rates, const Moment& a,
+                       const Moment& b, int depth, double& least) {
+  const double width = b.time - a.time, bow = .125 * rates.bend * width * width;
+  double sum = 0., along = -std::numeric_limits<double>::infinity();
+  for (const Moment* end : {&a, &b}) {
+    const double distance = measure(candidate, normal, *end);
+    least = std::min(least, distance);
+    sum += distance;
+    if (candidate.pair.convex)
+      along = std::max(along, std::min(gap(candidate, normal, a), gap(candidate, normal, b)) - bow);
+  }
+  if (std::max(.5 * (sum - rates.speed * width), along) >= least - tolerance_ || depth == kDeepest) return;
+  const Moment middle = between(a, b, depth);
+  lower(candidate, normal, rates, a, middle, depth + 1, least);
+  lower(candidate, normal, rates, middle, b, depth + 1, least);
+}
+
+}  // namespace kinegraph

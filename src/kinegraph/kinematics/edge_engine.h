@@ -1,0 +1,107 @@
+#pragma once
+
+#include <cstdint>
+#include <limits>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "kinegraph/kinematics/motion_bounds.h"
+#include "kinegraph/kinematics/motion_check.h"
+#include "kinegraph/kinematics/placed_samples.h"
+
+namespace kinegraph {
+
+/// How EdgeChecker finds its answers.
+///
+/// Eight configurations are placed side by side. Spheres around the links drop most pairs for all of them at once,
+/// boxes most of the others in most of them. Of two convex bodies that are left, a direction n (fixed in the last link
+/// that both hang on) along which they are apart by d at q(s) and by d' at q(s + w) keeps them apart by
+///
+///     min(d, d') - w^2 / 8 max |d^2p / ds^2|
+///
+/// in between, because a twice differentiable function is above its chord by no more than that. n is the normal where
+/// they are nearest at one of the ends; it is tried for all that follows before another one is computed. Other bodies
+/// have (d + d' - w max |dp / ds|) / 2. Where this is not enough, the interval is halved.
+class EdgeEngine {
+ public:
+  using Lane = PlacedSamples::Lane;
+  static constexpr int kLanes = PlacedSamples::kMost;
+
+  EdgeEngine(const State& scene, double tolerance);
+
+  void setTolerance(double tolerance) { tolerance_ = tolerance; }
+
+  /// Per configuration (at most kLanes, a row of `Q` each): are all pairs at least `margin` apart?
+  void areFree(const double* const* Q, int count, double margin, bool* free);
+
+  bool isFree(const double* from, const double* to, double margin);
+
+  double clearance(const double* q, double most);
+  double clearance(const double* from, const double* to, double most);
+
+  std::optional<MotionContact> last_hit;
+
+ private:
+  struct Candidate {
+    LinkBodies::Pair pair;
+    int index;  ///< of the pair, -1 if it is not listed
+    Lane bounds;
+    double least;  ///< of the bounds
+  };
+  /// A direction, and where the supports of both bodies were found along it.
+  struct Normal {
+    int stamp = 0;  ///< of the question that it was computed for
+    Vector3d n;     ///< in the ancestor, unit, from b to a
+    std::uint32_t corner_a = 0, corner_b = 0;
+  };
+  /// A time of the motion: a sample, or a State of its own.
+  struct Moment {
+    double time;
+    const State* state;
+    int sample;  ///< -1: none
+  };
+
+  void ask() {  // directions of questions before are forgotten
+    ++stamp_;
+    last_hit.reset();
+  }
+  int setMotion(const double* from, const double* to);
+  MotionBounds::Rates ratesOf(const Candidate& candidate) const;
+  void findCandidates(double margin);
+  void addPair(const LinkBodies::Pair& pair, int index);
+  void addNearFixed(double margin);
+  void placePiece(double from, double to);
+  Moment sampleAt(int sample) const;
+  Moment between(const Moment& a, const Moment& b, int depth);
+  const double* jointsAt(double time);
+
+  Normal& normalOf(const Candidate& candidate);
+  RigidTransform poseAt(int body, const Moment& at);
+  double gap(const Candidate& candidate, Normal& normal, const Moment& at);
+  double measure(const Candidate& candidate, Normal& normal, const Moment& at);
+  bool hit(const Candidate& candidate, double time, double distance);
+
+  bool samplesKeep(double margin);
+  bool pieceKeeps(double margin);
+  bool pairKeeps(const Candidate& candidate, double margin, double width);
+  bool keeps(const Candidate& candidate, Normal& normal, const MotionBounds::Rates& rates, double margin,
+             const Moment& a, const Moment& b, int depth);
+  void lower(const Candidate& candidate, Normal& normal, const MotionBounds::Rates& rates, const Moment& a,
+             const Moment& b, int depth, double& least);
+
+  LinkBodies bodies_;
+  PlacedSamples samples_;
+  MotionBounds bounds_;
+  double tolerance_;
+  std::vector<Candidate> candidates_;
+  std::vector<Normal> normals_;        ///< per listed pair
+  Normal scratch_normal_;              ///< of a pair that is not listed
+  std::vector<LinkBodies::Pair> near_fixed_;
+  std::vector<State> middles_;         ///< per depth
+  std::vector<double> piece_times_;
+  VectorXd from_, to_, q_;
+  int stamp_ = 1, suspect_ = -1;
+};
+
+}  // namespace kinegraph
