@@ -37,6 +37,13 @@ std::string writeURDF(const PyConfig& config, const std::optional<PathText>& fil
   return text;
 }
 
+std::string asSRDF(const PyConfig& config) {
+  std::vector<std::string> warnings;
+  const std::string text = writeSrdf(config, {}, &warnings);
+  emitAll(warnings);
+  return text;
+}
+
 std::string asMJCF(const PyConfig& config) {
   std::vector<std::string> warnings;
   const std::string text = writeMjcf(config, {}, &warnings);
@@ -120,6 +127,7 @@ void bindFormats(nb::class_<PyConfig>& config, nb::class_<Frame>& frame) {
       .def("asYaml", asYaml, "serial"_a = false, docs::formats::asYaml)
       .def("write", writeG, "filename"_a = nb::none(), docs::formats::write)
       .def("writeURDF", writeURDF, "filename"_a = nb::none(), docs::formats::writeURDF)
+      .def("asSRDF", asSRDF, docs::formats::asSRDF)
       .def("asMJCF", asMJCF,
            "The scene as MJCF text, which MuJoCo loads with the same poses. Meshes stand in the text.")
       .def("writeMJCF", writeMJCF, "filename"_a, docs::formats::writeMJCF);

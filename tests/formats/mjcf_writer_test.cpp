@@ -1,5 +1,6 @@
 #include "kinegraph/formats/mjcf_writer.h"
 
+#include <algorithm>
 #include <filesystem>
 #include <fstream>
 #include <set>
@@ -143,4 +144,26 @@ TEST_F(WriteMjcf, MeshesStandInTheTextOrInFilesBesideIt) {
   Config copy;
   copy.addFile(path);
   EXPECT_EQ(copy.getFrame("tri").getShapeType(), ShapeType::mesh);
+}
+
+TEST_F(WriteMjcf, AJointThatIsNoPartOfQIsFixedWhereItIsAndSaidSo) {
+  const Config config = scene(
+      "a: {} j (a): { joint: hingeX, q: .3 } f_origin (j): { pose: [0 0 1] } f (f_origin): { joint: transY, q: .04, "
+      "joint_active: False } tip (f): { pose: [0 0 0 1 1 0 0] } g (j): { joint: transY, mimic: f, joint_scale: -1 }");
+  MujocoModel model(save(config));
+  model.useKeyframe();
+  EXPECT_LT(model.largestDifference(config, 0), kAgreement);
+  EXPECT_EQ(again(config).getJointNames(), std::vector<std::string>{"j"});
+  ASSERT_EQ(warnings_.size(), 2u);
+  std::sort(warnings_.begin(), warnings_.end());
+  EXPECT_NE(warnings_[0].find("joint 'f' is no part of q"), std::string::npos);
+  EXPECT_NE(warnings_[1].find("joint 'g' is fixed, as 'f' is"), std::string::npos);
+}
+
+TEST_F(WriteMjcf, PairsThatMujocoCannotTestOrTellApartAreNamed) {
+  save(scene(
+      "world: {} base (world): { joint: rigid, shape: sphere, size: [.1], contact: 1 } j (base): { joint: hingeX, shape: sphere, size: "
+      "[.1], contact: 1 } k (j): { joint: hingeX, shape: sphere, size: [.1], contact: 1 }"));
+  ASSERT_EQ(warnings_.size(), 1u);
+  EXPECT_NE(warnings_[0].find("these pairs are lost: j - k"), std::string::npos) << warnings_[0];
 }

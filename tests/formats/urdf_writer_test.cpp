@@ -120,3 +120,98 @@ TEST(WriteUrdf, ShapesWithoutAnElementOfTheirOwnBecomeMeshFiles) {
   const Config back = fromUrdf(writeUrdf(config, {"r", folder.path().string()}));
   EXPECT_EQ(back.getFrame("a_0").getShapeType(), ShapeType::mesh);
 }
+
+TEST(WriteUrdf, AJointThatIsNoPartOfQIsFixedWhereItIsAndSaidSo) {
+  const Config config = scene(
+      "a: {} j (a): { joint: hingeX, q: .3 } f_origin (j): { pose: [0 0 1] } f (f_origin): { joint: transY, q: .04, "
+      "joint_active: False } tip (f): { pose: [0 0 0 1 1 0 0] } g (j): { joint: transY, mimic: f, joint_scale: -1 }");
+  std::vector<std::string> warnings;
+  Config back = fromUrdf(writeUrdf(config, {}, &warnings));
+  EXPECT_EQ(back.getJointNames(), std::vector<std::string>{"j"});
+  back.setJointState(config.getJointState());
+  for (const char* name : {"f", "tip", "g"})
+    EXPECT_TRUE((config.getFrame(name).getPose().inverse() * back.getFrame(name).getPose()).isIdentity(1e-13)) << name;
+  ASSERT_EQ(warnings.size(), 3u);
+  EXPECT_EQ(warnings[0], "joint 'f' is no part of q (joint_active: false) and is fixed at q = 0.04");
+  EXPECT_EQ(warnings[1], "joint 'g' is fixed, as 'f' is that it mimics");
+  EXPECT_EQ(warnings[2], "URDF has no joint state; these joints are not at q = 0, where a reader puts them: j");
+}
+
+TEST(WriteUrdf, LostRoundingIsNamed) {
+  std::vector<std::string> warnings;
+  writeUrdf(scene("a: { shape: ssBox, size: [1 1 1 .1] } b (a): { shape: ssCylinder, size: [1 1 .1] }"), {}, &warnings);
+  ASSERT_EQ(warnings.size(), 1u);
+  EXPECT_NE(warnings[0].find("lose their rounding: a, b"), std::string::npos);
+}
+
+namespace {
+
+constexpr const char* kCollidingArm =
+    "base: { shape: sphere, size: [.1], contact: FLAG } j1 (base): { joint: hingeX, shape: sphere, size: [.1], "
+    "contact: FLAG "
+    "} j2 (j1): { joint: hingeY, shape: sphere, size: [.1], contact: FLAG } j3 (j2): { joint: hingeY, shape: sphere, "
+    "size: "
+    "[.1], contact: FLAG } ";
+
+std::string armWith(const std::string& flag) {
+  std::string text = kCollidingArm;
+  for (std::size_t at; (at = text.find("FLAG")) != std::string::npos;) text.replace(at, 4, flag);
+  return text;
+}
+
+std::size_t pairsAfterSaving(const Config& config, std::vector<std::string>* warnings = nullptr) {
+  const TemporaryFolder folder;
+  const std::string path = (folder.path() / "arm.urdf").string();
+  saveUrdf(config, path, warnings);
+  Config back;
+  back.addFile(path);
+  return back.getCollidablePairs().size();
+}
+
+}  // namespace
+
+TEST(WriteSrdf, PairsThatDoNotCollideAreKeptWhateverLeavesThemOut) {
+  for (const char* flag : {"1", "-1", "-2", "-3"}) {
+    const Config config = scene(armWith(flag));
+    EXPECT_EQ(pairsAfterSaving(config), config.getCollidablePairs().size()) << flag;
+    const Config excluded = scene(armWith(flag) + "Edit base: { contact_exclude: [j2, j3] }");
+    EXPECT_EQ(pairsAfterSaving(excluded), excluded.getCollidablePairs().size()) << flag;
+  }
+}
+
+TEST(WriteSrdf, IsNotNeededWhereTheRuleForUrdfFilesSaysTheSame) {
+  EXPECT_EQ(writeSrdf(scene(armWith("-2"))), "");
+  std::vector<std::string> warnings;
+  writeUrdf(scene(armWith("-2")), {}, &warnings);
+  EXPECT_TRUE(warnings.empty());
+  writeUrdf(scene(armWith("-1")), {}, &warnings);
+  ASSERT_EQ(warnings.size(), 1u);
+  EXPECT_NE(warnings[0].find("which links do not collide"), std::string::npos);
+}
+
+TEST(WriteSrdf, WhatHoldsOfSomeShapesOfALinkOnlyIsWarnedAbout) {
+  const Config config = scene(
+      "base: { shape: sphere, size: [.1], contact: 1 } base_0 (base): { pose: [0 0 1], shape: sphere, size: [.1], "
+      "contact: 1 } "
+      "j (base): { joint: hingeX, shape: sphere, size: [.1], contact: 1, contact_exclude: [base_0] }");
+  std::vector<std::string> warnings;
+  writeSrdf(config, {}, &warnings);
+  ASSERT_EQ(warnings.size(), 1u);
+  EXPECT_NE(warnings[0].find("base - j"), std::string::npos) << warnings[0];
+}
+
+TEST(WriteSrdf, GroupsAndStatesComeBack) {
+  const TemporaryFolder folder;
+  const Config config = scene(
+      "a: {} j (a): { joint: hingeX, joint_groups: [arm], joint_states: { home: .5, arm: { ready: -1 } } } k (j): { "
+      "joint: "
+      "free, joint_states: { home: [1 2 3 .8 0 0 .6] } }");
+  const std::string path = (folder.path() / "arm.urdf").string();
+  saveUrdf(config, path);
+  Config back;
+  back.addFile(path);
+  EXPECT_EQ(back.getStateNames(), config.getStateNames());
+  EXPECT_EQ(back.getNamedState("ready")[0], -1.);
+  EXPECT_TRUE(back.getNamedState("home").isApprox(config.getNamedState("home")));
+  EXPECT_EQ(back.getJointGroups(), config.getJointGroups());
+}

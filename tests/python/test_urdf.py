@@ -147,6 +147,39 @@ needs_pinocchio = pytest.mark.skipif(
 )
 
 
+def pairs(C: ry.Config, joints: set[str]) -> set[frozenset[str]]:
+    """Which links may collide, each by the joint in q that moves it. A capsule is three shapes in URDF."""
+
+    def joint(name: str) -> str:
+        frame = C.getFrame(name)
+        while frame.name.removesuffix("_2") not in joints:  # a base that slides and turns is three joints in URDF
+            if (parent := frame.getParent()) is None:
+                return ""
+            frame = parent
+        return frame.name.removesuffix("_2")
+
+    names = C.getCollidablePairs()
+    found = {frozenset((joint(a), joint(b))) for a, b in zip(names[::2], names[1::2])}
+    return {pair for pair in found if len(pair) == 2}
+
+
+@pytest.mark.parametrize(
+    "name, dofs", [("panda/panda.g", 7), ("panda/panda_tight.g", 7), ("pr2/pr2.g", 25), ("ur10/ur10.g", 6)]
+)
+def test_a_model_keeps_its_dofs_and_pairs_as_urdf(name: str, dofs: int, tmp_path: Path) -> None:
+    C, back = ry.Config(), ry.Config()
+    C.addFile(ry.raiPath(name))
+    with warnings.catch_warnings(record=True) as said:
+        warnings.simplefilter("always")
+        C.writeURDF(tmp_path / "robot.urdf")
+    if "panda" in name:
+        assert any("panda_finger_joint1' is no part of q" in str(warning.message) for warning in said)
+    back.addFile(tmp_path / "robot.urdf")
+    assert back.getJointDimension() == dofs == C.getJointDimension()
+    joints = {joint.split(":")[0] for joint in C.getJointNames()}
+    assert pairs(back, joints) == pairs(C, joints) != set()
+
+
 @needs_pinocchio
 def test_poses_of_an_own_robot_are_those_of_pinocchio(arm: Path) -> None:
     from pinocchio_poses import largestDifference

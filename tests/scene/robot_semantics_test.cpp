@@ -58,6 +58,40 @@ TEST_F(RobotSemanticsTest, AllPairsOfALinkButThoseTakenOut) {
   EXPECT_EQ(config.getCollidablePairs().size(), 2u);  // s1 s2, s2 s3
 }
 
+TEST_F(RobotSemanticsTest, NoFlagLeavesOutAPairThatIsNotNamed) {
+  const char* arm =
+      "world: {} base (world): { shape: sphere, size: [.1], contact: -2 } l1 (base): { joint: hingeX, shape: sphere, "
+      "size: "
+      "[.1], contact: -2 } l2 (l1): { joint: hingeX, shape: sphere, size: [.1], contact: -2 } l3 (l2): { joint: "
+      "hingeX, "
+      "shape: sphere, size: [.1], contact: -2 } ";
+  const char* other =
+      "a (world): { joint: hingeX, shape: sphere, size: [.1], contact: -2 } b (a): { joint: hingeX, shape: sphere, "
+      "size: "
+      "[.1], contact: -2 }";
+  config.clear();
+  config.addText(arm);
+  EXPECT_EQ(config.getCollidablePairs().size(), 0u) << "the flags leave out three links above";
+  semantics.no_contact = {{"l1", "l2", {}}};
+  apply();
+  EXPECT_EQ(config.getCollidablePairs().size(), 5u);  // all 6 but one
+  Config two;
+  two.addText(std::string(arm) + other);
+  const std::size_t before = two.getCollidablePairs().size();
+  applySemantics(semantics, *two.scene(), diagnostics);
+  EXPECT_EQ(two.getCollidablePairs().size(), before + 5);
+  EXPECT_EQ(two.getFrame("b").data().shape->contact, -2) << "another robot keeps its own rule";
+}
+
+TEST_F(RobotSemanticsTest, FlagsStayWhereAFileSaysNothingOfPairs) {
+  config.clear();
+  config.addText(
+      "a: { shape: sphere, size: [.1], contact: -2 } b (a): { joint: hingeX, shape: sphere, size: [.1], contact: -2 }");
+  semantics.groups = {{"arm", {{Kind::joint, "b", "", {}}}}};
+  apply();
+  EXPECT_TRUE(config.getCollidablePairs().empty());
+}
+
 TEST_F(RobotSemanticsTest, GroupsHoldTheMovingJointsOfChainsLinksAndOtherGroups) {
   semantics.groups = {
       {"arm", {{Kind::chain, "base", "l2", {}}}},

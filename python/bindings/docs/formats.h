@@ -88,11 +88,18 @@ inline constexpr char writeURDF[] = R"(The scene as URDF text. What URDF cannot 
 
 Args:
     filename: Where it is written as well. Shapes that URDF has no element for go into .stl files in a folder beside
-        it; without a file they are left out with a warning.
+        it; without a file they are left out with a warning. Links that do not collide, groups of joints and named
+        states go into an .srdf file of the same name (asSRDF). Joints that are no part of q are fixed.
 Returns:
     The text.
 Raises:
     FileError: The file cannot be written.)";
+
+inline constexpr char asSRDF[] =
+    R"(What the text of writeURDF has no words for, as SRDF text: links that do not collide, groups of joints, named states.
+
+Returns:
+    The text; '' if there is nothing to say.)";
 
 inline constexpr char writeMJCF[] =
     R"(Writes the scene as MJCF, which MuJoCo loads with the same poses. Bodies, joints, geoms and sites have the names of

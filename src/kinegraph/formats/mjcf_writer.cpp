@@ -3,11 +3,13 @@
 #include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <set>
 
 #include "kinegraph/base/text.h"
 #include "kinegraph/formats/mjcf_geoms.h"
 #include "kinegraph/formats/reading/xml.h"
+#include "kinegraph/formats/srdf_writer.h"
 #include "kinegraph/geometry/shapes/shape_kinds.h"
 
 namespace kinegraph {
@@ -23,6 +25,9 @@ bool hasShape(const FrameData& frame) {
 }
 
 bool isCamera(const FrameData& frame) { return frame.shape && frame.shape->geometry->type == ShapeType::camera; }
+
+/// Does q move it? Joints that are not active stand still, and so do those that mimic them.
+bool movedByQ(const FrameData& frame) { return frame.moves() && dofSource(frame).joint->active; }
 
 bool turnsFreely(const Joint& joint) {
   const auto is_quaternion = [](const MotionStep& step) { return step.kind == MotionStep::Kind::quaternion; };
@@ -90,6 +95,14 @@ class MjcfWriter {
     return free;
   }
 
+  void warnFixed(const FrameData& frame) {
+    if (!frame.moves()) return;
+    const FrameData& source = dofSource(frame);
+    warn(&source == &frame
+             ? cat("joint '", frame.name, "' is no part of q (joint_active: false) and is fixed where it is")
+             : cat("joint '", frame.name, "' is fixed, as '", source.name, "' is that it mimics"));
+  }
+
   void line(int depth, const std::string& text) { text_ += std::string(std::size_t(2 * depth), ' ') + text + "\n"; }
 
   void addRoot(const FrameData& root) {
@@ -105,7 +118,7 @@ class MjcfWriter {
   /// Nothing but a shape or a place, so that no body is needed for it.
   bool isLeaf(const FrameData& frame) const {
     const bool weighs_apart = frame.inertia && !(hasShape(frame) && frame.parent);  // of a shape, the body has the mass
-    return frame.children.empty() && !frame.moves() && !weighs_apart && !referred_.contains(&frame);
+    return frame.children.empty() && !movedByQ(frame) && !weighs_apart && !referred_.contains(&frame);
   }
 
   /// Is this frame only on the way to its child, which then needs no body above it?
@@ -113,9 +126,9 @@ class MjcfWriter {
     if (frame.children.size() != 1 || hasShape(frame) || isCamera(frame) || frame.inertia || referred_.contains(&frame))
       return false;
     const FrameData& child = *frame.children[0];
-    if (!frame.moves()) return child.moves() && frame.name == child.name + "_origin";
-    if (!child.moves() && dissolves(child)) return !turnsFreely(*frame.joint);  // an origin
-    return !child.moves() && (!turnsFreely(*frame.joint) || child.pose.q.vec().isZero(0.));
+    if (!movedByQ(frame)) return movedByQ(child) && !frame.moves() && frame.name == child.name + "_origin";
+    if (!movedByQ(child) && dissolves(child)) return !turnsFreely(*frame.joint);  // an origin
+    return !movedByQ(child) && (!turnsFreely(*frame.joint) || child.relativePose().q.vec().isZero(0.));
   }
 
   void addBody(const FrameData& top, int parent, bool parent_moves, int depth) {
@@ -123,10 +136,11 @@ class MjcfWriter {
     Pose pose;
     std::vector<ChainJoint> chain;
     for (;; frame = frame->children[0]) {
-      if (frame->moves()) {
+      if (movedByQ(*frame)) {
         chain.push_back({frame, pose});
       } else {
-        pose = pose * frame->pose;
+        warnFixed(*frame);
+        pose = pose * frame->relativePose();
       }
       if (!dissolves(*frame)) break;
     }
@@ -160,7 +174,10 @@ class MjcfWriter {
   void addContent(const FrameData& frame, int body, bool moves, int depth) {
     if (hasShape(frame) || isCamera(frame)) addLeaf(frame, body, Pose(), moves, depth);
     for (const FrameData* child : frame.children) {
-      if (isLeaf(*child)) addLeaf(*child, body, child->pose, moves, depth);
+      if (isLeaf(*child)) {
+        warnFixed(*child);
+        addLeaf(*child, body, child->relativePose(), moves, depth);
+      }
     }
     for (const FrameData* child : frame.children) {
       if (!isLeaf(*child)) addBody(*child, body, moves, depth);
@@ -285,10 +302,15 @@ class MjcfWriter {
   /// Pairs of bodies that MuJoCo would let collide, and the scene does not.
   std::string excludedPairs() {
     std::set<std::pair<int, int>> collidable;
+    std::map<std::pair<int, int>, int> shapes_that_collide;
     for (const auto& [a, b] : config_.getCollidablePairs()) {
-      if (body_of_shape_.contains(a) && body_of_shape_.contains(b))
-        collidable.insert(std::minmax(body_of_shape_.at(a), body_of_shape_.at(b)));
+      if (!body_of_shape_.contains(a) || !body_of_shape_.contains(b)) continue;
+      const std::pair<int, int> pair = std::minmax(body_of_shape_.at(a), body_of_shape_.at(b));
+      collidable.insert(pair);
+      ++shapes_that_collide[pair];
     }
+    std::map<int, int> shapes;  // by body
+    for (const auto& [frame, body] : body_of_shape_) ++shapes[body];
     std::set<int> with_shapes;
     for (const auto& [frame, body] : body_of_shape_) with_shapes.insert(body);
     if (with_shapes.size() > kMaxExclusionBodies) {
@@ -297,14 +319,26 @@ class MjcfWriter {
       return "";
     }
     std::string text;
+    std::vector<std::string> lost, mixed;
     for (const int a : with_shapes) {
       for (const int b : with_shapes) {
         const Body &x = bodies_[a], &y = bodies_[b];
-        if (a >= b || x.weld == y.weld || collidable.contains({a, b})) continue;
-        if ((x.parent_weld == y.weld && y.weld != 0) || (y.parent_weld == x.weld && x.weld != 0)) continue;
+        if (a >= b || x.weld == y.weld) continue;
+        const bool family = (x.parent_weld == y.weld && y.weld != 0) || (y.parent_weld == x.weld && x.weld != 0);
+        if (collidable.contains({a, b})) {
+          if (family) lost.push_back(cat(x.name, " - ", y.name));
+          if (shapes_that_collide[{a, b}] < shapes[a] * shapes[b]) mixed.push_back(cat(x.name, " - ", y.name));
+          continue;
+        }
+        if (family) continue;
         text += cat("    <exclude body1=\"", xmlEscaped(x.name), "\" body2=\"", xmlEscaped(y.name), "\"/>\n");
       }
     }
+    if (!lost.empty())
+      warn(cat("MuJoCo lets no body collide with the one that it hangs on; these pairs are lost: ", joinFirst(lost)));
+    if (!mixed.empty())
+      warn(cat("MJCF excludes pairs of bodies, not of shapes; all shapes of these may collide there: ",
+               joinFirst(mixed)));
     return text;
   }
 

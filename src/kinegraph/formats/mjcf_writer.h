@@ -28,8 +28,9 @@ struct MjcfOptions {
 ///
 /// A capsule, box, ... is one, without rounding; a quad that does not move is a plane; other shapes are meshes. Bodies
 /// that move get a mass of 1 g if they have none. MuJoCo's q is that of the scene, by name; where a joint has a
-/// joint_scale it is |scale| * q. The present q is the keyframe `now`. What cannot be written is left out, and
-/// `warnings` says so.
+/// joint_scale it is |scale| * q. The present q is the keyframe `now`. A joint that is no part of q is fixed where it is,
+/// and so are those that mimic it. Pairs of bodies that do not collide are <exclude>. What cannot be written is left
+/// out, and `warnings` names it.
 std::string writeMjcf(const Config& config, const MjcfOptions& options = {},
                       std::vector<std::string>* warnings = nullptr);
 

@@ -8,6 +8,7 @@
 #include "kinegraph/base/text.h"
 #include "kinegraph/formats/reading/urdf_model.h"
 #include "kinegraph/formats/reading/xml.h"
+#include "kinegraph/formats/srdf_writer.h"
 #include "kinegraph/formats/stl_writer.h"
 #include "kinegraph/geometry/shapes/shape_kinds.h"
 #include "kinegraph/geometry/shapes/shape_types.h"
@@ -57,12 +58,15 @@ bool isOriginOfJoint(const FrameData& frame) {
          frame.name == frame.children[0]->name + "_origin";
 }
 
+/// Does q move it? Joints that are not active stand still, and so do those that mimic them.
+bool isFree(const FrameData& frame) { return frame.moves() && dofSource(frame).joint->active; }
+
 /// The child that is the link of this frame's joint, or null.
 const FrameData* linkOfJoint(const FrameData& frame) {
   if (!frame.parent || !isBare(frame) || frame.children.size() != 1) return nullptr;
   const FrameData& child = *frame.children[0];
   if (child.joint || isShapeOfLink(child) || isOriginOfJoint(child) || !child.pose.p.isZero(0.)) return nullptr;
-  const bool turnable = frame.moves() && frame.joint->steps.size() == 1 && frame.joint->dofs() == 1;
+  const bool turnable = isFree(frame) && frame.joint->steps.size() == 1 && frame.joint->dofs() == 1;
   return turnable || child.pose.isIdentity(0.) ? &child : nullptr;
 }
 
@@ -94,13 +98,25 @@ class UrdfWriter {
       text_ += cat("  <link name=\"", xmlEscaped(world), "\"/>\n");
       for (const FrameData* root : roots) addFixed(*root, world, root->pose);
     }
+    warnOfLosses();
     return cat("<?xml version=\"1.0\"?>\n<robot name=\"", xmlEscaped(options_.robot_name), "\">\n", text_,
                "</robot>\n");
   }
 
+  /// What the text calls what frames are.
+  const UrdfNames& names() const { return names_; }
+
  private:
   void warn(const std::string& message) {
     if (warnings_) warnings_->push_back(message);
+  }
+
+  void warnOfLosses() {
+    const auto tell = [&](const std::vector<std::string>& frames, const char* what) {
+      if (!frames.empty()) warn(cat(what, ": ", joinFirst(frames)));
+    };
+    tell(rounded_, "URDF has no rounded boxes and cylinders; these frames lose their rounding");
+    tell(moved_, "URDF has no joint state; these joints are not at q = 0, where a reader puts them");
   }
 
   static std::string unused(std::set<std::string>& taken, std::string name) {
@@ -120,10 +136,13 @@ class UrdfWriter {
   /// The link of a frame, with the shapes that belong to it, and all that hangs on it.
   void addFrames(const FrameData& frame, const std::string& link) {
     std::string inside;
+    noteContact(frame, link);
     if (frame.inertia) inside += inertial(*frame.inertia);
     if (isVisible(frame)) inside += shape(frame, Pose());
     for (const FrameData* child : frame.children) {
-      if (isShapeOfLink(*child)) inside += shape(*child, child->pose);
+      if (!isShapeOfLink(*child)) continue;
+      inside += shape(*child, child->pose);
+      noteContact(*child, link);
     }
     text_ += inside.empty() ? cat("  <link name=\"", xmlEscaped(link), "\"/>\n")
                             : cat("  <link name=\"", xmlEscaped(link), "\">\n", inside, "  </link>\n");
@@ -132,14 +151,29 @@ class UrdfWriter {
     }
   }
 
+  void noteContact(const FrameData& frame, const std::string& link) {
+    if (isVisible(frame) && frame.shape->contact != 0) names_.link_of_shape[frame.id] = link;
+  }
+
   void addChild(const FrameData& frame, const std::string& parent) {
-    if (isOriginOfJoint(frame)) {
-      addMoving(*frame.children[0], parent, frame.pose);
-    } else if (frame.moves() && frame.joint->type != JointType::tau) {
-      addMoving(frame, parent, Pose());
+    const bool origin = isOriginOfJoint(frame);
+    const FrameData& moving = origin ? *frame.children[0] : frame;
+    const Pose before = origin ? frame.pose : Pose();
+    if (isFree(moving) && moving.joint->type != JointType::tau) {
+      addMoving(moving, parent, before);
     } else {
-      addFixed(frame, parent, frame.relativePose());
+      if (moving.moves() && !isFree(moving)) warnFixed(moving);
+      addFixed(moving, parent, before * moving.relativePose());
     }
+  }
+
+  void warnFixed(const FrameData& frame) {
+    const FrameData& source = dofSource(frame);
+    if (&source != &frame)
+      return warn(cat("joint '", frame.name, "' is fixed, as '", source.name, "' is that it mimics"));
+    std::vector<std::string> q;
+    for (const double value : source.joint->q) q.push_back(exact(value));
+    warn(cat("joint '", frame.name, "' is no part of q (joint_active: false) and is fixed at q = ", join(q, " ")));
   }
 
   void addFixed(const FrameData& frame, const std::string& parent, const Pose& origin) {
@@ -149,7 +183,7 @@ class UrdfWriter {
     joint.type = "fixed";
     joint.parent = parent;
     joint.child = linkName(behind ? behind->name : frame.name);
-    joint.origin = origin;
+    joint.origin = behind ? origin * behind->pose : origin;
     addJoint(joint);
     addFrames(behind ? *behind : frame, joint.child);
   }
@@ -158,6 +192,7 @@ class UrdfWriter {
     const FrameData* behind = linkOfJoint(frame);
     const std::string link = behind ? linkName(behind->name) : newLinkName(frame.name + "_link");
     std::vector<JointElement> chain = jointsOf(frame);
+    if (!frame.joint->mimic && frame.joint->q != motionIdentity(frame.joint->steps)) moved_.push_back(frame.name);
     for (std::size_t i = 0; i < chain.size(); ++i) {
       JointElement& joint = chain[i];
       joint.name = chain.size() == 1 ? jointName(frame.name) : jointName(cat(frame.name, "_", i));
@@ -168,6 +203,7 @@ class UrdfWriter {
         joint.origin = joint.origin * behind->pose;
         joint.axis = behind->pose.q.conjugate() * joint.axis;
       }
+      if (chain.size() == 1) names_.joint_of_frame[frame.id] = joint.name;
       addJoint(joint);
       if (i + 1 < chain.size()) text_ += cat("  <link name=\"", xmlEscaped(joint.child), "\"/>\n");
     }
@@ -243,6 +279,7 @@ class UrdfWriter {
   }
 
   void addJoint(const JointElement& joint) {
+    names_.parent_of_link[joint.child] = joint.parent;
     text_ += cat("  <joint name=\"", xmlEscaped(joint.name), "\" type=\"", joint.type, "\">\n");
     if (const std::string origin = originElement(joint.origin); !origin.empty()) text_ += cat("    ", origin, "\n");
     text_ += cat("    <parent link=\"", xmlEscaped(joint.parent), "\"/>\n    <child link=\"", xmlEscaped(joint.child),
@@ -300,6 +337,7 @@ class UrdfWriter {
   std::vector<std::pair<Pose, std::string>> geometryElements(const FrameData& frame) {
     const Geometry& geometry = *frame.shape->geometry;
     const std::vector<double>& s = geometry.size;
+    if (geometry.type == ShapeType::ssBox || geometry.type == ShapeType::ssCylinder) rounded_.push_back(frame.name);
     const auto cylinder = [](double length, double radius) {
       return cat("<cylinder length=\"", exact(length), "\" radius=\"", exact(radius), "\"/>");
     };
@@ -345,12 +383,26 @@ class UrdfWriter {
   std::string text_;
   std::set<std::string> reserved_;  ///< names of frames
   std::set<std::string> links_, joints_;
+  UrdfNames names_;
+  std::vector<std::string> rounded_, moved_;  ///< frames and joints that URDF cannot say all of
 };
 
 }  // namespace
 
 std::string writeUrdf(const Config& config, const UrdfOptions& options, std::vector<std::string>* warnings) {
-  return UrdfWriter(config, options, warnings).write();
+  UrdfWriter writer(config, options, warnings);
+  std::string text = writer.write();
+  if (warnings && !srdfText(config, options.robot_name, writer.names(), nullptr).empty())
+    warnings->push_back(
+        "which links do not collide, groups of joints or named states are not in the text: URDF has no words for them; "
+        "saved as a file, it gets an SRDF file beside it that says so");
+  return text;
+}
+
+std::string writeSrdf(const Config& config, const UrdfOptions& options, std::vector<std::string>* warnings) {
+  UrdfWriter writer(config, {options.robot_name, ""}, nullptr);
+  writer.write();
+  return srdfText(config, options.robot_name, writer.names(), warnings);
 }
 
 }  // namespace kinegraph

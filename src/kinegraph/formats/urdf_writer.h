@@ -26,13 +26,21 @@ struct UrdfOptions {
 /// Shapes are visuals; with a contact flag they are collisions, and visuals too unless transparent. A capsule is a
 /// cylinder with two spheres; rounded boxes and cylinders lose their rounding. A joint of several dofs is a floating or
 /// planar joint if URDF has that, else a chain of joints <frame>_0, <frame>_1, ... of one dof each; a ball is three of
-/// them. URDF holds no joint state: its zero is q = 0, and where a joint has a joint_scale its unit is that of scale *
-/// q. What cannot be written is left out, and `warnings` says so.
+/// them. A joint that is no part of q is fixed where it is, and so are those that mimic it. URDF holds no joint state:
+/// its zero is q = 0, and where a joint has a joint_scale its unit is that of scale * q. What cannot be written is left
+/// out, and `warnings` names it.
 std::string writeUrdf(const Config& config, const UrdfOptions& options = {},
                       std::vector<std::string>* warnings = nullptr);
 
-/// Writes the scene into a URDF file, named after which is the robot, and shapes that need one into mesh files in the
-/// folder <file without extension>_meshes. Returns the text. Throws FileError.
+/// What URDF has no words for, as an SRDF text that belongs to that of writeUrdf: pairs of links that do not collide,
+/// groups of joints and named states (attributes `joint_groups`, `joint_states`). "" if there is nothing to say: no group
+/// and no state, and links collide as those of a URDF file without SRDF do (Config::getCollidablePairs).
+std::string writeSrdf(const Config& config, const UrdfOptions& options = {},
+                      std::vector<std::string>* warnings = nullptr);
+
+/// Writes the scene into a URDF file, named after which is the robot, shapes that need one into mesh files in the folder
+/// <file without extension>_meshes, and an SRDF file of the same name beside it if there is something to say there.
+/// Returns the text. Throws FileError.
 std::string saveUrdf(const Config& config, const std::string& path, std::vector<std::string>* warnings = nullptr);
 
 }  // namespace kinegraph

@@ -41,6 +41,7 @@ class Applier {
           {semantics_.file, 1, 1},
           "none of the links and joints named here is a frame of the scene; add the robot before");
     }
+    if (!semantics_.no_contact.empty() || !semantics_.contact.empty()) dropFlags();
     excludeContacts();
     for (const auto& group : semantics_.groups) {
       std::set<std::string> seen;
@@ -102,6 +103,69 @@ class Applier {
     FrameData* frame = find(name);
     if (!frame) warnMissing("link", name, where);
     return frame;
+  }
+
+  /// What the file does not name does count: no flag leaves out further pairs.
+  void dropFlags() {
+    for (FrameData* frame : robot()) {
+      if (!hasNegativeFlag(*frame)) continue;
+      frame->shape->contact = 1;
+      scene_.looksChanged(*frame->shape);
+    }
+  }
+
+  static bool hasNegativeFlag(const FrameData& frame) { return frame.shape && frame.shape->contact < 0; }
+
+  /// The frames of the robot: those of its file, or all below the lowest frame that is above all links named here. Above
+  /// that, frames count as long as nothing else hangs on them that has such a flag, and so may be another robot.
+  std::vector<FrameData*> robot() const {
+    std::vector<FrameData*> frames;
+    for (const std::string& name : semantics_.robot) {
+      if (FrameData* frame = find(name)) frames.push_back(frame);
+    }
+    if (!semantics_.robot.empty()) return frames;
+    std::vector<FrameData*> tops;  // one for each tree
+    for (const auto* pairs : {&semantics_.no_contact, &semantics_.contact}) {
+      for (const auto& pair : *pairs) {
+        for (const std::string& name : {pair.a, pair.b}) addBelowTop(find(name), tops);
+      }
+    }
+    for (FrameData* top : tops) {
+      while (top->parent && !hasOtherRobot(*top)) top = top->parent;
+      addBranch(*top, frames);
+    }
+    return frames;
+  }
+
+  static bool isAbove(const FrameData* above, const FrameData* frame) {
+    while (frame && frame != above) frame = frame->parent;
+    return frame != nullptr;
+  }
+
+  static void addBelowTop(FrameData* frame, std::vector<FrameData*>& tops) {
+    if (!frame) return;
+    for (FrameData*& top : tops) {
+      FrameData* common = top;
+      while (common && !isAbove(common, frame)) common = common->parent;
+      if (!common) continue;
+      top = common;
+      return;
+    }
+    tops.push_back(frame);
+  }
+
+  static bool hasOtherRobot(const FrameData& top) {
+    const auto& siblings = top.parent->children;
+    return std::any_of(siblings.begin(), siblings.end(), [&](FrameData* sibling) {
+      std::vector<FrameData*> branch;
+      if (sibling != &top) addBranch(*sibling, branch);
+      return std::any_of(branch.begin(), branch.end(), [](const FrameData* frame) { return hasNegativeFlag(*frame); });
+    });
+  }
+
+  static void addBranch(FrameData& top, std::vector<FrameData*>& frames) {
+    frames.push_back(&top);
+    for (FrameData* child : top.children) addBranch(*child, frames);
   }
 
   void excludeContacts() {

@@ -6,6 +6,7 @@
 
 #include "kinegraph/base/file_paths.h"
 #include "kinegraph/base/text.h"
+#include "kinegraph/scene/robot_semantics.h"
 
 namespace kinegraph {
 

@@ -60,7 +60,7 @@ class SourceReader {
     open_.push_back(absolute.string());
     auto frames = readText(text.str(), path, absolute.parent_path().string());
     open_.pop_back();
-    if (const std::string beside = semanticsBeside(absolute.string()); !beside.empty()) readBeside(beside);
+    if (const std::string beside = semanticsBeside(absolute.string()); !beside.empty()) readBeside(beside, frames);
     return frames;
   }
 
@@ -136,8 +136,8 @@ class SourceReader {
   }
 
  private:
-  /// An SRDF file that nobody asked for: mistakes in it are no reason to refuse the robot.
-  void readBeside(const std::string& path) {
+  /// An SRDF file that nobody asked for: mistakes in it are no reason to refuse the robot, whose frames are given.
+  void readBeside(const std::string& path, const std::vector<SourceFrame>& robot) {
     std::vector<Diagnostic> found;
     std::ifstream stream(path, std::ios::binary);
     std::stringstream bytes;
@@ -153,6 +153,7 @@ class SourceReader {
                                     [](const Diagnostic& d) { return d.severity == Diagnostic::Severity::error; });
     if (!failed) {
       read.asked_for = false;
+      for (const SourceFrame& frame : robot) read.robot.push_back(frame.node.key);
       semantics.push_back(std::move(read));
     }
     for (Diagnostic& diagnostic : found) {

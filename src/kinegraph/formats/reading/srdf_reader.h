@@ -37,6 +37,7 @@ struct RobotSemantics {
   std::vector<Group> groups;
   std::vector<State> states;
   std::vector<std::string> outside;  ///< joints of the robot to its world, which are no frames of it
+  std::vector<std::string> robot;    ///< the frames of the robot's file, if it was found beside that
   std::string file, prefix;          ///< `prefix` is put before the names of frames
   bool asked_for =
       true;  ///< else it was found beside the robot's file, and names that are not there are nobody's mistake
