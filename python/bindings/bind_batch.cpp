@@ -119,6 +119,7 @@ nb::typed<nb::tuple, Array, Array, Array> getNearestPoints(const PyConfig& confi
 FlagArray isValid(const PyConfig& config, const Numbers& Q, double margin, int threads) {
   const auto joints = jointRows(Q, config, "isValid");
   if (!std::isfinite(margin)) throw ValueError(cat("isValid: margin is ", margin, "; expected a distance in m"));
+  warnOfContacts(config);
   const State scene = config.state();
   const NewFlags valid = newFlags(Q.rows);
   unlocked(threads, "isValid", [&](const BatchOptions& options) {
@@ -132,6 +133,7 @@ FlagArray isMotionFree(const PyConfig& config, const Numbers& from, const Number
   const auto starts = jointRows(from, config, "isMotionFree", "start"),
              ends = jointRows(to, config, "isMotionFree", "end");
   if (from.rows != to.rows) throw ValueError(cat("isMotionFree: ", from.rows, " starts and ", to.rows, " ends"));
+  warnOfContacts(config);
   const State scene = config.state();
   const NewFlags free = newFlags(from.rows);
   unlocked(threads, "isMotionFree", [&](const BatchOptions& options) {

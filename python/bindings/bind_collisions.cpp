@@ -1,6 +1,7 @@
 #include <nanobind/stl/optional.h>
 #include <nanobind/stl/pair.h>
 #include <nanobind/stl/string.h>
+#include <nanobind/stl/vector.h>
 
 #include "bindings.h"
 #include "docs/collisions.h"
@@ -37,6 +38,7 @@ nb::typed<nb::list, nb::typed<nb::tuple, nb::str, nb::str, nb::float_>> collisio
 
 std::optional<Contact> checkMotion(const PyConfig& config, const Numbers& start, const Numbers& end, double margin,
                                    double tolerance) {
+  warnOfContacts(config);
   const std::optional<MotionContact> contact = config.checkMotion(start.values, end.values, margin, tolerance);
   if (!contact) return std::nullopt;
   Contact told{contact->time,
@@ -74,6 +76,8 @@ void bindCollisions(nb::module_& m, nb::class_<PyConfig>& config) {
       .def(
           "computeCollisions", [](const PyConfig& c) { c.state(); },
           "Does nothing; older scripts call it. Collisions are always those of the present q.")
+      .def(
+          "contactNotes", [](const PyConfig& c) { return c.contactNotes(); }, docs::collisions::contactNotes)
       .def("checkMotion", checkMotion, "start"_a, "end"_a, "margin"_a = 0., "tolerance"_a = 1e-5,
            docs::collisions::checkMotion);
 }

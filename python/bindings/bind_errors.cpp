@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <nanobind/stl/string.h>
 
 #include "bindings.h"
@@ -58,6 +59,17 @@ void emitWarning(const std::string& message) {
 
 void emitWarnings(Config& config) {
   for (const std::string& warning : config.takeWarnings()) emitWarning(warning);
+}
+
+void warnOfContacts(const PyConfig& config) {
+  const std::uint64_t revision = config.scene()->structureRevision();
+  if (config.noted == revision) return;
+  config.noted = revision;
+  for (const std::string& note : config.contactNotes()) {
+    if (std::find(config.notes.begin(), config.notes.end(), note) != config.notes.end()) continue;
+    config.notes.push_back(note);
+    emitWarning(note);
+  }
 }
 
 void checkInterrupt() {

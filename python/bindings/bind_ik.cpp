@@ -53,6 +53,7 @@ nb::object solve(PyConfig& config, nb::handle targets, const std::optional<IkOpt
   const IkRequest request = readIkTargets(config, targets);
   if (apply && request.is_batch)
     throw ValueError(cat("solveIk: apply is for one problem; the targets are of ", request.problems.size()));
+  if (options.collisions) warnOfContacts(config);
   const IkSolver solver(config, request.problems[0], options);
   Watch watch(request.problems.size(), verbose);
   IkResults results;

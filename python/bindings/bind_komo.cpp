@@ -208,7 +208,8 @@ void bindKomo(nb::module_& m) {
   komo.def(nb::init<>(), "An empty problem; call setConfig and setTiming.")
       .def(
           "__init__",
-          [](PyKomo* self, const PyConfig& config, double phases, int slices, int order, bool) {
+          [](PyKomo* self, const PyConfig& config, double phases, int slices, int order, bool collisions) {
+            if (collisions) warnOfContacts(config);
             new (self) PyKomo{Komo(config, phases, slices, order), nullptr};
           },
           "config"_a, "phases"_a, "slicesPerPhase"_a, "kOrder"_a, "enableCollisions"_a, docs::komo::makePath)

@@ -5,6 +5,7 @@ import pytest
 
 import kinegraph as ry
 
+pytestmark = pytest.mark.filterwarnings("ignore:.*no joint moves them apart")
 
 def bench(n=0):
     """A slider on a bench that it overlaps by 3 mm as a root of its own, below a lamp; `n` balls far away."""
@@ -89,3 +90,25 @@ def test_limitsHaveATolerance(scene):
     assert contact.limit == "slide" and contact.time == pytest.approx(0.5) and contact.frames == ("slide", "slide")
     assert "joint slide leaves its limits" in repr(contact)
     assert scene.checkMotion([0.5], [3.0]).limit is None
+
+
+def test_aNoteSaysOnceWhichPairsNeverMove():
+    C = bench()
+    C.getFrame("wall").setPosition([1.0, 0, 0.61])
+    C.getFrame("base").setPosition([0, 0, 0.047])
+    with pytest.warns(ry.KinegraphWarning, match="'base' and 'floor' overlap and no joint moves them apart"):
+        C.isValid([[0.0]])
+    C.isValid([[0.0]])  # an error if it warned again
+    C.addFrame("far").setPosition([9.0, 0, 0])
+    assert C.checkMotion([0.0], [0.1]) is None
+    assert len(C.contactNotes()) == 1 and C.contactNotes()[0] in C.report()
+
+
+def test_aNoteSaysWhichObstacleIsIgnored():
+    C = bench()
+    C.getFrame("floor").setPosition([0, 0, -0.5])
+    C.addFrame("box").setShape(ry.ST.box, [0.2, 0.2, 0.2]).setPosition([0.2, 0, 0.35])
+    with pytest.warns(ry.KinegraphWarning, match="'box' is near what moves and collides with nothing"):
+        ry.solveIk(C, {"hand": [0.5, 0.0, 0.397]})
+    C.getFrame("box").setContact(1)
+    assert C.contactNotes() == [] and not C.isValid([[0.0]])[0]

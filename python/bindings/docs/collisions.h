@@ -4,7 +4,10 @@
 namespace kinegraph::python::docs::collisions {
 
 inline constexpr char getCollidablePairs[] =
-    R"(Names of the frames that may collide, two by two: a1 b1 a2 b2 ... Shapes with `contact` 0 are in no pair.)";
+    R"(Names of the frames that may collide, two by two: a1 b1 a2 b2 ... Shapes with `contact` 0 are in no pair.
+
+A flag -k leaves out links up to k joints above, `contact_exclude` the frames that it names. Shapes of URDF files have -2;
+where an SRDF file names pairs, only those are left out.)";
 
 inline constexpr char getCollisions[] = R"(All collidable pairs nearer than a margin, at the present q.
 
@@ -19,6 +22,12 @@ Args:
     return_maximal: The largest depth in place of the sum.
 Returns:
     The sum of all penetration depths, or the largest, m.)";
+
+inline constexpr char contactNotes[] = R"(What one may not expect about which shapes collide. Calls that ask whether something is free warn of it,
+once per scene.
+
+Returns:
+    Sentences: of shapes that overlap and that no joint moves apart, and of shapes without `contact` near what moves.)";
 
 inline constexpr char checkMotion[] =
     R"(Where a straight motion of q first brings two frames too near, or a joint beyond its limits. All times of the motion count,

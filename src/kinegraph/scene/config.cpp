@@ -1,5 +1,6 @@
 #include "kinegraph/scene/config.h"
 #include "kinegraph/kinematics/limit_check.h"
+#include "kinegraph/scene/contact_notes.h"
 
 #include <algorithm>
 #include <cmath>
@@ -392,11 +393,25 @@ std::optional<MotionContact> Config::checkMotion(const VectorXd& from, const Vec
 }
 
 std::string Config::report() const {
+  constexpr std::size_t kMostNamed = 40;
   int shapes = 0;
   for (const auto& frame : scene_->frames()) shapes += frame->shape != nullptr;
-  return cat("Configuration: q.N=", getJointDimension(), " #frames=", getFrameDimension(),
-             " #joints=", getJoints().size(), " #shapes=", shapes, " #pairs=", getCollidablePairs().size());
+  const Program& program = *scene_->program();
+  std::vector<std::string> colliding;
+  for (const ContactRules::Body& body : program.contacts.bodies) {
+    if (colliding.size() == kMostNamed) break;
+    colliding.push_back(program.frame_name[std::size_t(body.frame)]);
+  }
+  const std::size_t count = program.contacts.bodies.size();
+  std::string text = cat("Configuration: q.N=", getJointDimension(), " #frames=", getFrameDimension(),
+                         " #joints=", getJoints().size(), " #shapes=", shapes, " #pairs=", getCollidablePairs().size());
+  if (count > 0)
+    text += cat("\ncollide: ", join(colliding, " "), count > kMostNamed ? cat(" and ", count - kMostNamed, " more") : "");
+  for (const std::string& note : contactNotes()) text += cat("\nnote: ", note);
+  return text;
 }
+
+std::vector<std::string> Config::contactNotes() const { return describe(kinegraph::contactNotes(*scene_), *scene_); }
 
 std::vector<std::string> Config::takeWarnings() { return std::exchange(warnings_, {}); }
 

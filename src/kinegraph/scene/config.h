@@ -178,7 +178,12 @@ class Config {
   const State& state() const { return scene_->state(); }
   const std::shared_ptr<SceneTree>& scene() const { return scene_; }
 
+  /// The numbers of frames, joints and shapes, which shapes collide, and contactNotes().
   std::string report() const;
+
+  /// What people may not expect about which shapes collide, a sentence each: shapes that overlap and that no joint moves
+  /// apart; shapes without `contact` near what moves. Python warns of them once per scene.
+  std::vector<std::string> contactNotes() const;
 
   /// What was odd but not wrong in what was read since the last call.
   std::vector<std::string> takeWarnings();

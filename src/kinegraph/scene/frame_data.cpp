@@ -9,12 +9,17 @@ Joint::Joint(JointType joint_type, std::string joint_code)
   q = home = motionIdentity(steps);
 }
 
-const std::shared_ptr<const CollisionBody>& Shape::body() const {
-  if (body_of_ != geometry) {
-    body_ = makeCollisionBody(*geometry);
-    body_of_ = geometry;
+std::shared_ptr<const CollisionBody> Shape::body() const {
+  {
+    const std::lock_guard lock(made_->mutex);
+    if (!made_->of) {
+      made_->body = makeCollisionBody(*geometry);
+      made_->of = geometry;
+    }
+    if (made_->of == geometry) return made_->body;
   }
-  return body_;
+  made_ = std::make_shared<Made>();  // the copies have another geometry
+  return body();
 }
 
 Pose FrameData::relativePose() const {

@@ -3,6 +3,7 @@
 #include <array>
 #include <cstdint>
 #include <memory>
+#include <mutex>
 #include <optional>
 #include <string>
 #include <vector>
@@ -51,12 +52,16 @@ struct Shape {
   std::array<double, 2> texture_repeat = {1., 1.};  ///< how often, to the right and up
   std::uint64_t revision = 0;                       ///< grows when anything here changes
 
-  /// The convex core for distances; made at first use and kept.
-  const std::shared_ptr<const CollisionBody>& body() const;
+  /// What distances are computed with; made at first use, of whichever copy that is, and kept for all of them.
+  std::shared_ptr<const CollisionBody> body() const;
 
  private:
-  mutable std::shared_ptr<const CollisionBody> body_;
-  mutable std::shared_ptr<const Geometry> body_of_;
+  struct Made {
+    std::mutex mutex;
+    std::shared_ptr<const CollisionBody> body;
+    std::shared_ptr<const Geometry> of;
+  };
+  mutable std::shared_ptr<Made> made_ = std::make_shared<Made>();  ///< shared with copies of the same geometry
 };
 
 struct Inertia {
