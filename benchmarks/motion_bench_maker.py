@@ -124,9 +124,7 @@ class Robot:
         request, world = (read(files / f"{kind}{index:04d}.yaml") for kind in ("request", "scene"))
         state = request["start_state"]["joint_state"]
         start = dict(zip(state["name"], state["position"]))
-        goal = {
-            item["joint_name"]: item["position"] for item in request["goal_constraints"][0]["joint_constraints"]
-        }
+        goal = {item["joint_name"]: item["position"] for item in request["goal_constraints"][0]["joint_constraints"]}
         of = lambda values: np.array([values[joint] for joint in self.joints], float)  # noqa: E731
         return Problem(self, scene, index, of(start), of(goal), world["world"]["collision_objects"])
 

@@ -1,5 +1,5 @@
-#include <algorithm>
 #include <nanobind/stl/string.h>
+#include <algorithm>
 
 #include "bindings.h"
 #include "kinegraph/base/errors.h"

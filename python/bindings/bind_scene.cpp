@@ -159,7 +159,8 @@ void bindFrameAccess(nb::class_<PyConfig>& config) {
           "getFrameState", [](const PyConfig& c) { return toNumpy(c.getFrameState()); },
           "World poses of all frames, shape (frames, 7): rows x y z (m) qw qx qy qz with qw >= 0.")
       .def("setFrameState", setFrameState, "X"_a, "frames"_a = Names(), docs::scene::setFrameState)
-      .def("report", &PyConfig::report, "How many frames, joints, dofs and shapes the scene has, which shapes collide, and contactNotes().");
+      .def("report", &PyConfig::report,
+           "How many frames, joints, dofs and shapes the scene has, which shapes collide, and contactNotes().");
 }
 
 }  // namespace

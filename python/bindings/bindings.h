@@ -27,7 +27,7 @@ struct PyConfig : Config {
   mutable RecentCalls calls = {};
   mutable std::shared_ptr<PairDistances> pairs = {};
   VectorXd joints = {};
-  mutable std::uint64_t noted = 0;                ///< structure revision for which notes were given
+  mutable std::uint64_t noted = 0;              ///< structure revision for which notes were given
   mutable std::vector<std::string> notes = {};  ///< those that were given
 };
 

@@ -161,9 +161,10 @@ TEST_F(WriteMjcf, AJointThatIsNoPartOfQIsFixedWhereItIsAndSaidSo) {
 }
 
 TEST_F(WriteMjcf, PairsThatMujocoCannotTestOrTellApartAreNamed) {
-  save(scene(
-      "world: {} base (world): { joint: rigid, shape: sphere, size: [.1], contact: 1 } j (base): { joint: hingeX, shape: sphere, size: "
-      "[.1], contact: 1 } k (j): { joint: hingeX, shape: sphere, size: [.1], contact: 1 }"));
+  save(
+      scene("world: {} base (world): { joint: rigid, shape: sphere, size: [.1], contact: 1 } j (base): { joint: "
+            "hingeX, shape: sphere, size: "
+            "[.1], contact: 1 } k (j): { joint: hingeX, shape: sphere, size: [.1], contact: 1 }"));
   ASSERT_EQ(warnings_.size(), 1u);
   EXPECT_NE(warnings_[0].find("these pairs are lost: j - k"), std::string::npos) << warnings_[0];
 }

@@ -7,6 +7,7 @@ import kinegraph as ry
 
 pytestmark = pytest.mark.filterwarnings("ignore:.*no joint moves them apart")
 
+
 def bench(n=0):
     """A slider on a bench that it overlaps by 3 mm as a root of its own, below a lamp; `n` balls far away."""
     C = ry.Config()

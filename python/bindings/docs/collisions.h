@@ -23,7 +23,8 @@ Args:
 Returns:
     The sum of all penetration depths, or the largest, m.)";
 
-inline constexpr char contactNotes[] = R"(What one may not expect about which shapes collide. Calls that ask whether something is free warn of it,
+inline constexpr char contactNotes[] =
+    R"(What one may not expect about which shapes collide. Calls that ask whether something is free warn of it,
 once per scene.
 
 Returns:

@@ -236,7 +236,8 @@ void areValid(const State& scene, const Eigen::Ref<const RowMatrix>& Q, double m
               const BatchOptions& options) {
   checkJoints(scene, Q);
   const auto limit = [&](int i) { return valid[i] = withinLimits(scene.program(), Q.row(i).data()); };
-  if (scene.program().contacts.bodies.size() <= NearPairs::kFew) return areFreeInLanes(scene, Q, margin, valid, options, limit);
+  if (scene.program().contacts.bodies.size() <= NearPairs::kFew)
+    return areFreeInLanes(scene, Q, margin, valid, options, limit);
   struct Worker {
     State state;
     NearPairs pairs;
@@ -257,8 +258,7 @@ void areMotionsFree(const State& scene, const Eigen::Ref<const RowMatrix>& from,
   if (!(tolerance > 0.)) throw ValueError(cat("motions: tolerance is ", tolerance, "; expected a distance > 0 in m"));
   forEach(EdgeChecker(scene, margin, tolerance), int(from.rows()), options, [&](EdgeChecker& checker, int i) {
     const double *start = from.row(i).data(), *end = to.row(i).data();
-    free[i] = withinLimits(scene.program(), start) && withinLimits(scene.program(), end) &&
-              checker.isFree(start, end);
+    free[i] = withinLimits(scene.program(), start) && withinLimits(scene.program(), end) && checker.isFree(start, end);
   });
 }
 

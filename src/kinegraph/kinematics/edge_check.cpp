@@ -7,10 +7,7 @@ namespace kinegraph {
 static_assert(EdgeChecker::kLanes == EdgeEngine::kLanes);
 
 EdgeChecker::EdgeChecker(const State& scene, double margin, double tolerance)
-    : state_(scene),
-      margin_(margin),
-      tolerance_(tolerance),
-      engine_(std::make_unique<EdgeEngine>(scene, tolerance)) {}
+    : state_(scene), margin_(margin), tolerance_(tolerance), engine_(std::make_unique<EdgeEngine>(scene, tolerance)) {}
 
 EdgeChecker::EdgeChecker(const EdgeChecker& other) : EdgeChecker(other.state_, other.margin_, other.tolerance_) {}
 

@@ -7,7 +7,7 @@ namespace kinegraph {
 
 namespace {
 
-constexpr double kPiece = .35;    // m: what a motion moves the fastest point in one piece, at most
+constexpr double kPiece = .35;  // m: what a motion moves the fastest point in one piece, at most
 constexpr int kMostPieces = 4096;
 constexpr int kDeepest = 26;      // times that an interval is halved
 constexpr double kExact = 1e-12;  // m: what a direction that was found elsewhere has to keep beyond the margin
@@ -123,7 +123,8 @@ double EdgeEngine::measure(const Candidate& candidate, Normal& normal, const Mom
 
 /// Notes what is too near; false.
 bool EdgeEngine::hit(const Candidate& candidate, double time, double distance) {
-  const int a = bodies_.bodies[std::size_t(candidate.pair.a)].frame, b = bodies_.bodies[std::size_t(candidate.pair.b)].frame;
+  const int a = bodies_.bodies[std::size_t(candidate.pair.a)].frame,
+            b = bodies_.bodies[std::size_t(candidate.pair.b)].frame;
   last_hit = MotionContact{time, std::min(a, b), std::max(a, b), distance, -1};
   suspect_ = candidate.index;
   return false;

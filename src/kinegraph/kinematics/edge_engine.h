@@ -95,10 +95,10 @@ class EdgeEngine {
   MotionBounds bounds_;
   double tolerance_;
   std::vector<Candidate> candidates_;
-  std::vector<Normal> normals_;        ///< per listed pair
-  Normal scratch_normal_;              ///< of a pair that is not listed
+  std::vector<Normal> normals_;  ///< per listed pair
+  Normal scratch_normal_;        ///< of a pair that is not listed
   std::vector<LinkBodies::Pair> near_fixed_;
-  std::vector<State> middles_;         ///< per depth
+  std::vector<State> middles_;  ///< per depth
   std::vector<double> piece_times_;
   VectorXd from_, to_, q_;
   int stamp_ = 1, suspect_ = -1;

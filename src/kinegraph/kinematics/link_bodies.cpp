@@ -16,7 +16,8 @@ void bound(LinkBodies::Group& group, const std::vector<LinkBodies::Body>& bodies
     low = low.cwiseMin((centerOf(body).array() - radius).matrix());
     high = high.cwiseMax((centerOf(body).array() + radius).matrix());
   }
-  group.center = group.last == group.first + 1 ? centerOf(bodies[std::size_t(group.first)]) : Vector3d(.5 * (low + high));
+  group.center =
+      group.last == group.first + 1 ? centerOf(bodies[std::size_t(group.first)]) : Vector3d(.5 * (low + high));
   group.radius = group.reach = 0.;
   for (int i = group.first; i < group.last; ++i) {
     const LinkBodies::Body& body = bodies[std::size_t(i)];
@@ -41,7 +42,8 @@ LinkBodies::LinkBodies(const State& scene) : program(scene.sharedProgram()) {
     const auto frame = std::size_t(contacts.bodies[i].frame);
     const auto& shape = program->body[frame];
     const RigidTransform& X_LB = scene.parameters().frame_offset[frame];
-    bodies.push_back({shape, int(frame), int(i), -1, X_LB, (X_LB * shape->boundCenter()).norm() + shape->boundRadius()});
+    bodies.push_back(
+        {shape, int(frame), int(i), -1, X_LB, (X_LB * shape->boundCenter()).norm() + shape->boundRadius()});
   }
   const auto linkOf = [&](const Body& body) { return program->frame_link[std::size_t(body.frame)]; };
   std::stable_sort(bodies.begin(), bodies.end(), [&](const Body& x, const Body& y) {

@@ -52,7 +52,7 @@ struct LinkBodies {
   int moving = 0;             ///< groups
   std::vector<Pair> pairs;
   std::vector<Block> blocks;
-  bool many = false;  ///< are the fixed bodies too many, so that `fixed_tree` has them and `blocks` have not?
+  bool many = false;   ///< are the fixed bodies too many, so that `fixed_tree` has them and `blocks` have not?
   BoxTree fixed_tree;  ///< item i is group moving + i
   std::shared_ptr<const Program> program;
 };

@@ -46,7 +46,7 @@ class MotionBounds {
   void climb(int link, Rates& rates) const;
 
   std::shared_ptr<const Program> program_;
-  std::vector<double> offset_;     ///< per link: how far its joint sits from the origin of its parent, m
+  std::vector<double> offset_;    ///< per link: how far its joint sits from the origin of its parent, m
   std::vector<StepBound> steps_;  ///< as the Program's
 };
 

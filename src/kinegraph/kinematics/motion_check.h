@@ -71,14 +71,14 @@ class MotionChecker {
   std::unique_ptr<EdgeEngine> edges_;  ///< says first whether there is any contact
   std::optional<BodyPairs> pairs_;  ///< where bodies are many, those of the present motion that it can bring together
   std::optional<PlacedBodies> bodies_;
-  bool many_;                        ///< bodies: then `pairs_` are chosen for each motion
+  bool many_;  ///< bodies: then `pairs_` are chosen for each motion
   MotionBounds bounds_;
   std::vector<int> fixed_, moving_;  ///< where bodies are many: their places in the Program's contacts
   BoxTree fixed_boxes_;
   VectorXd from_, change_, q_, until_;
   double time_ = 0.;
-  std::vector<double> speed_;     ///< per pair, m per unit of s
-  std::vector<Due> due_;          ///< a heap, the earliest first
+  std::vector<double> speed_;  ///< per pair, m per unit of s
+  std::vector<Due> due_;       ///< a heap, the earliest first
 };
 
 }  // namespace kinegraph

@@ -22,7 +22,8 @@ Lane boxGap(const Lane (&R_A)[3][3], const Lane (&center_a)[3], const Vector3d& 
   Lane world[3];
   for (int r = 0; r < 3; ++r) world[r] = R_B[r][0] * away[0] + R_B[r][1] * away[1] + R_B[r][2] * away[2];
   for (int k = 0; k < 3; ++k) {
-    if (half_a[k] > 0.) extent += half_a[k] * (R_A[0][k] * world[0] + R_A[1][k] * world[1] + R_A[2][k] * world[2]).abs();
+    if (half_a[k] > 0.)
+      extent += half_a[k] * (R_A[0][k] * world[0] + R_A[1][k] * world[1] + R_A[2][k] * world[2]).abs();
   }
   const Lane norm = square.sqrt();
   return (norm > 1e-9).select(norm - extent / norm.max(1e-9), -std::numeric_limits<double>::infinity());
@@ -100,7 +101,8 @@ Lane PlacedSamples::distanceBounds(int body_a, int body_b) {
   const Placed &a = placed(body_a), &b = placed(body_b);
   const CollisionBody &shape_a = *bodies_->bodies[std::size_t(body_a)].shape,
                       &shape_b = *bodies_->bodies[std::size_t(body_b)].shape;
-  const bool point_a = shape_a.core() == CollisionBody::Core::point, point_b = shape_b.core() == CollisionBody::Core::point;
+  const bool point_a = shape_a.core() == CollisionBody::Core::point,
+             point_b = shape_b.core() == CollisionBody::Core::point;
   Lane gap = Lane::Constant(-std::numeric_limits<double>::infinity());
   if (point_a || !point_b) gap = boxGap(a.R, a.center, shape_a.boundHalf(), b.R, b.center, shape_b.boundHalf());
   if (!point_a) gap = gap.max(boxGap(b.R, b.center, shape_b.boundHalf(), a.R, a.center, shape_a.boundHalf()));

@@ -406,7 +406,8 @@ std::string Config::report() const {
   std::string text = cat("Configuration: q.N=", getJointDimension(), " #frames=", getFrameDimension(),
                          " #joints=", getJoints().size(), " #shapes=", shapes, " #pairs=", getCollidablePairs().size());
   if (count > 0)
-    text += cat("\ncollide: ", join(colliding, " "), count > kMostNamed ? cat(" and ", count - kMostNamed, " more") : "");
+    text +=
+        cat("\ncollide: ", join(colliding, " "), count > kMostNamed ? cat(" and ", count - kMostNamed, " more") : "");
   for (const std::string& note : contactNotes()) text += cat("\nnote: ", note);
   return text;
 }

@@ -85,8 +85,9 @@ std::vector<std::string> describe(const ContactNotes& notes, const SceneTree& sc
   std::vector<std::string> sentences, names;
   for (const auto& [a, b] : notes.resting) names.push_back(cat(nameOf(a), " and ", nameOf(b)));
   if (!names.empty()) {
-    sentences.push_back(cat(listed(names), names.size() == 1 ? " overlap" : " overlap (pairs of frames)",
-                            " and no joint moves them apart: that says nothing about q, and is not counted as a collision"));
+    sentences.push_back(
+        cat(listed(names), names.size() == 1 ? " overlap" : " overlap (pairs of frames)",
+            " and no joint moves them apart: that says nothing about q, and is not counted as a collision"));
   }
   names.clear();
   for (const int frame : notes.passed_through) names.push_back(nameOf(frame));
