@@ -46,6 +46,7 @@
 #include "kinegraph/scene/config.h"                // Config, Frame
 #include "kinegraph/scene/motor_limits.h"          // getVelocityLimits, getEffortLimits
 #include "kinegraph/simulation/simulation.h"       // Simulation
+#include "kinegraph/simulation/simulation_batch.h" // many of them
 #include "kinegraph/solvers/explanation.h"         // why constraints do not hold
 #include "kinegraph/solvers/methods.h"             // the methods of NlpSolver
 #include "kinegraph/solvers/nlp_solver.h"          // NlpSolver

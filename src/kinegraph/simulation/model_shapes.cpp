@@ -61,7 +61,7 @@ void ModelShapes::addGround() {
   setContactNumbers(geom, options_, options_.friction);
   geom->contype = kThing;
   geom->conaffinity = -1;
-  geoms.push_back({geom, "ground", -1, kGroundBody, -1, false, options_.friction});
+  geoms.push_back({geom, "ground", -1, kGroundBody, -1, false, options_.friction, false});
 }
 
 mjsGeom* ModelShapes::addGeom(mjsBody* body, const FrameData& frame, const Pose& X_BF, int robot) {
@@ -77,7 +77,8 @@ mjsGeom* ModelShapes::addGeom(mjsBody* body, const FrameData& frame, const Pose&
   setContactNumbers(geom, options_, friction);
   geom->contype = contactBit(robot);
   geom->conaffinity = robot < 0 ? -1 : ~contactBit(robot);
-  geoms.push_back({geom, name, frame.id, body_number, robot, body_moves, friction});
+  geoms.push_back({geom, name, frame.id, body_number, robot, body_moves, friction,
+                   frame.attributes->find("friction") != nullptr});
   return geom;
 }
 
@@ -162,18 +163,22 @@ void ModelShapes::exclude(const std::string& a, const std::string& b) {
   mj.mjs_setString(pair->bodyname2, b.c_str());
 }
 
-void ModelShapes::addFrictionPairs(const std::set<std::pair<int, int>>& excluded) {
+void ModelShapes::addFrictionPairs(const std::set<std::pair<int, int>>& excluded, bool all_given) {
   const Physics& mj = physics();
   for (std::size_t i = 0; i < geoms.size(); ++i) {
     for (std::size_t j = i + 1; j < geoms.size(); ++j) {
       const Geom &a = geoms[i], &b = geoms[j];
-      if (a.friction == b.friction || a.body == b.body || !(a.moves || b.moves) || !mayTouch(a.robot, b.robot))
+      const bool differ = a.friction != b.friction || (all_given && (a.is_given || b.is_given));
+      if (!differ || a.body == b.body || !(a.moves || b.moves) || !mayTouch(a.robot, b.robot))
         continue;
       if (excluded.contains(std::minmax(a.body, b.body))) continue;
       mjsPair* pair = mj.mjs_addPair(spec_, nullptr);
       mj.mjs_setString(pair->geomname1, a.name.c_str());
       mj.mjs_setString(pair->geomname2, b.name.c_str());
       pair->condim = 6;
+      pair->margin = a.spec->margin + b.spec->margin;
+      std::copy_n(a.spec->solref, 2, pair->solref);
+      std::copy_n(a.spec->solimp, 5, pair->solimp);
       const double mean = .5 * (a.friction + b.friction);
       const double friction[] = {mean, mean, options_.torsional_friction, options_.rolling_friction,
                                  options_.rolling_friction};

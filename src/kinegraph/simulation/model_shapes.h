@@ -23,8 +23,9 @@ class ModelShapes {
   /// Two bodies never touch: those of robots that overlap at the start with others of their tree.
   void exclude(const std::string& a, const std::string& b);
 
-  /// Where frictions differ the mean counts, as pairs of geoms. `excluded` tells pairs of bodies.
-  void addFrictionPairs(const std::set<std::pair<int, int>>& excluded);
+  /// Where frictions differ the mean counts, as pairs of geoms, or where one is given and may be changed. `excluded` tells
+  /// pairs of bodies that never touch.
+  void addFrictionPairs(const std::set<std::pair<int, int>>& excluded, bool all_given);
 
   struct Geom {
     mjsGeom* spec;
@@ -33,6 +34,7 @@ class ModelShapes {
     int robot;
     bool moves;
     double friction;
+    bool is_given;  ///< by the frame's attribute
   };
   std::vector<Geom> geoms;
   int body_number = 0;  ///< of the body that geoms are added to

@@ -64,7 +64,8 @@ void Reference::hold(const SceneModel& model, const mjtNum* qpos, const mjtNum* 
       std::copy_n(qpos + drive.qpos, 4, parts_.dofs[i].turn);
     } else {
       parts_.dofs[i].position = parts_.dofs[i].goal = qpos[drive.qpos];
-      parts_.dofs[i].velocity = parts_.dofs[i].rate = qvel[drive.dof];
+      parts_.dofs[i].velocity = parts_.dofs[i].rate = parts_.dofs[i].slope =
+          qvel[drive.dof];
     }
   }
 }
@@ -72,10 +73,13 @@ void Reference::hold(const SceneModel& model, const mjtNum* qpos, const mjtNum* 
 void Reference::courseOf(std::size_t i, const Drive& drive, double goal, double tau, const SimulationOptions& options) {
   Dof& dof = parts_.dofs[i];
   dof.goal = goal;
-  const double velocity = (goal - dof.position) / tau;
-  const bool even =
-      std::abs(velocity - dof.velocity) <= options.reference_acceleration * tau && std::abs(velocity) <= drive.velocity;
-  parts_.courses[i] = {even ? Path::even : Path::limited, dof.position, dof.velocity, velocity};
+  const double slope = (goal - dof.position) / tau;
+  if (std::abs(slope - dof.slope) > options.reference_acceleration * tau || std::abs(slope) > drive.velocity) {
+    parts_.courses[i].path = Path::limited;
+    return;
+  }
+  parts_.courses[i] = {Path::cubic, dof.position, dof.rate, 1.5 * slope - .5 * dof.slope};
+  dof.slope = slope;
 }
 
 void Reference::command(const SceneModel& model, const VectorXd& u, double tau, ControlMode mode,
@@ -95,7 +99,7 @@ void Reference::command(const SceneModel& model, const VectorXd& u, double tau, 
       } else if (mode == ControlMode::position) {
         courseOf(i, drive, motionOf(drive, u.data(), dof.position), tau, options);
       } else {
-        course = {Path::cubic, dof.position, dof.velocity, drive.scale * u[model.dofs + drive.q]};
+        course = {Path::cubic, dof.position, dof.rate, drive.scale * u[model.dofs + drive.q]};
         dof.goal = motionOf(drive, u.data(), dof.position);
       }
     } else if (mode == ControlMode::velocity) {
@@ -127,8 +131,6 @@ double Reference::nextPosition(std::size_t i, const Drive& drive, double h, cons
   switch (course.path) {
     case Path::still:
       return dof.position;
-    case Path::even:
-      return parts_.clock.last ? dof.goal : course.start + s * (dof.goal - course.start);
     case Path::limited:
       return limitedStep(dof, drive, h, options);
     case Path::given:
@@ -176,7 +178,12 @@ void Reference::shift(double h) {
     Dof& dof = parts_.dofs[i];
     dof.velocity = (parts_.next[i] - dof.position) / h;
     dof.position = parts_.next[i];
-    if (parts_.courses[i].path != Path::accelerated) dof.rate = dof.velocity;
+    if (parts_.courses[i].path == Path::cubic) {
+      if (parts_.clock.last) dof.rate = parts_.courses[i].end_velocity;
+    } else {
+      if (parts_.courses[i].path != Path::accelerated) dof.rate = dof.velocity;
+      dof.slope = dof.velocity;
+    }
   }
 }
 

@@ -8,8 +8,9 @@ namespace kinegraph {
 /// Where motors shall be: position, velocity and acceleration of every drive, in the units of the model's motions, and what
 /// moves them on. A value: copies of it are part of a simulation's state.
 ///
-/// A position that the reference can reach within the step by a change of velocity that motors can follow is approached
-/// evenly; one that is farther away with limited velocity and acceleration.
+/// A position that the reference can reach within the step by a change of velocity that motors can follow is approached on a
+/// cubic, which has at its end the velocity that the last two positions tell, so that a stream of positions is followed without
+/// jerks; one that is farther away is approached with limited velocity and acceleration.
 class Reference {
  public:
   struct Dof {
@@ -17,13 +18,14 @@ class Reference {
     double velocity = 0.;      ///< that brought it here, over the last inner step
     double acceleration = 0.;  ///< for the next one
     double goal = 0.;
-    double rate = 0.;                   ///< of ControlMode::acceleration
+    double rate = 0.;   ///< velocity where it is, of the smooth curve that it follows
+    double slope = 0.;  ///< mean velocity over the last command
     double turn[4] = {1., 0., 0., 0.};  ///< of a ball: the orientation wanted
     bool operator==(const Dof&) const = default;
   };
 
   /// How a drive comes to where it shall be.
-  enum class Path { still, even, limited, given, accelerated, cubic };
+  enum class Path { still, limited, given, accelerated, cubic };
   struct Course {
     Path path = Path::still;
     double start = 0., start_velocity = 0., end_velocity = 0.;

@@ -32,23 +32,22 @@ bool isFingerJoint(const FrameData& frame) {
 
 class ModelMaker {
  public:
-  ModelMaker(SceneTree& scene, const SimulationOptions& options, const SensorFrames& sensors)
+  ModelMaker(SceneTree& scene, const SimulationOptions& options, const ModelExtras& extras)
       : scene_(scene),
         program_(*scene.program()),
         options_(options),
-        sensors_(sensors),
+        extras_(extras),
         spec_(mj_.mj_makeSpec(), mj_.mj_deleteSpec),
         shapes_(spec_.get(), options) {}
 
   SceneModel make() {
-    std::set<int> measured = sensors_.forces;
-    model_.scene = divideScene(scene_, measured);
+    model_.scene = divideScene(scene_, extras_.forces);
     model_.dofs = program_.dofs;
     setOptions();
     addBodies();
     addShapes();
     excludeOverlaps();
-    shapes_.addFrictionPairs(excluded_);
+    shapes_.addFrictionPairs(excluded_, extras_.can_change_frictions);
     couple();
     addGrippers();
     addWelds();
@@ -332,13 +331,13 @@ class ModelMaker {
       std::copy_n(wxyz(placed.X_BF.q).data(), 4, made->quat);
       return name;
     };
-    for (const int frame : sensors_.forces) {
+    for (const int frame : extras_.forces) {
       const std::string name = site(frame, "f");
       addSensor(mjSENS_FORCE, name);
       addSensor(mjSENS_TORQUE, name);
       model_.force_sensors.push_back({frame, 0, 6});
     }
-    for (const int frame : sensors_.accelerations) {
+    for (const int frame : extras_.accelerations) {
       addSensor(mjSENS_ACCELEROMETER, site(frame, "a"));
       model_.accelerometers.push_back({frame, 0, 3});
     }
@@ -471,7 +470,7 @@ class ModelMaker {
   SceneTree& scene_;
   const Program& program_;
   const SimulationOptions& options_;
-  const SensorFrames& sensors_;
+  const ModelExtras& extras_;
   std::unique_ptr<mjSpec, decltype(&::mj_deleteSpec)> spec_;
   ModelShapes shapes_;
   SceneModel model_;
@@ -484,8 +483,8 @@ class ModelMaker {
 
 }  // namespace
 
-SceneModel makeSceneModel(SceneTree& scene, const SimulationOptions& options, const SensorFrames& sensors) {
-  return ModelMaker(scene, options, sensors).make();
+SceneModel makeSceneModel(SceneTree& scene, const SimulationOptions& options, const ModelExtras& extras) {
+  return ModelMaker(scene, options, extras).make();
 }
 
 }  // namespace kinegraph

@@ -80,13 +80,14 @@ struct SceneModel {
   int dofs = 0;  ///< of the scene's q
 };
 
-/// Frames where something is measured.
-struct SensorFrames {
-  std::set<int> forces, accelerations;
+/// What a model has beyond the scene.
+struct ModelExtras {
+  std::set<int> forces, accelerations;   ///< ids of frames where these are measured
+  bool can_change_frictions = false;     ///< of frames with the attribute `friction`: all their pairs are listed
 };
 
 /// Makes the model of a scene at its present state. Throws ValueError for what cannot be simulated, with the frame.
-SceneModel makeSceneModel(SceneTree& scene, const SimulationOptions& options, const SensorFrames& sensors = {});
+SceneModel makeSceneModel(SceneTree& scene, const SimulationOptions& options, const ModelExtras& extras = {});
 
 /// The numbers of q of a joint from the model's positions, or the other way round.
 void readJoint(const ModelJoint& joint, const mjtNum* qpos, double* q);

@@ -11,12 +11,14 @@ namespace kinegraph {
 
 Simulation::Simulation(const Config& config, SimulationEngine engine, const SimulationOptions& options)
     : impl_(std::make_unique<Impl>(config, engine, options)) {}
+Simulation::Simulation(const Simulation& other, SameModel) : impl_(std::make_unique<Impl>(*other.impl_)) {}
+Simulation::Simulation(std::unique_ptr<Impl> impl) : impl_(std::move(impl)) {}
 Simulation::~Simulation() = default;
 Simulation::Simulation(Simulation&&) noexcept = default;
 Simulation& Simulation::operator=(Simulation&&) noexcept = default;
 
-Simulation::Impl::Impl(const Config& given, SimulationEngine which, const SimulationOptions& chosen)
-    : config(given.scene()), engine(which), options(chosen) {
+Simulation::Impl::Impl(const Config& given, SimulationEngine which, const SimulationOptions& chosen, bool for_batch)
+    : config(given.scene()), engine(which), options(chosen), can_change_frictions(for_batch) {
   if (engine == SimulationEngine::bullet)
     throw ValueError("Simulation: there is no engine bullet; use physx (rigid bodies with contacts) or kinematic");
   if (engine != SimulationEngine::physx && engine != SimulationEngine::kinematic)
@@ -27,9 +29,19 @@ Simulation::Impl::Impl(const Config& given, SimulationEngine which, const Simula
   world->settle();
 }
 
+Simulation::Impl::Impl(const Impl& other)
+    : config(other.config.scene()), engine(other.engine), options(other.options),
+      can_change_frictions(other.can_change_frictions), force_frames(other.force_frames),
+      acceleration_frames(other.acceleration_frames),
+      world(std::make_unique<World>(other.world->sharedScene(), options, engine == SimulationEngine::kinematic)),
+      frames(other.frames), revision(other.revision) {
+  world->setState(other.world->state());
+}
+
 std::unique_ptr<World> Simulation::Impl::makeWorld() {
   SceneTree& scene = *config.scene();
-  SensorFrames at;
+  ModelExtras at;
+  at.can_change_frictions = can_change_frictions;
   for (const auto& frame : force_frames) {
     if (frame->tree == &scene) at.forces.insert(frame->id);
   }
@@ -57,11 +69,21 @@ void Simulation::Impl::takeFromConfig(World& to) const {
 
 void Simulation::update() {
   Impl& s = *impl_;
-  if (s.config.scene()->structureRevision() != s.revision) s.rebuild();
+  if (s.config.scene()->structureRevision() == s.revision) return;
+  if (isRecording()) {
+    s.recording->end = getState();
+    s.recording->is_cut = true;
+  }
+  s.rebuild();
 }
 
 void Simulation::advance(const VectorXd& u, double tau, ControlMode mode, const std::function<void()>& between) {
   impl_->world->step(u, tau, mode, between);
+  if (!isRecording()) return;
+  std::vector<double> numbers{tau, double(int(mode))};
+  numbers.insert(numbers.end(), u.begin(), u.end());
+  impl_->note(Recording::Call::Kind::step, std::move(numbers));
+  impl_->notePoses();
 }
 
 void Simulation::publish() { impl_->giveToConfig(); }
@@ -111,7 +133,8 @@ double Simulation::get_t() const { return impl_->world->time(); }
 void Simulation::resetTime(double time) {
   if (!std::isfinite(time)) throw ValueError(cat("Simulation.resetTime: time is ", time, "; expected a finite number"));
   impl_->world->setTime(time);
-  resetSplineRef();
+  impl_->resetSpline(-1.);
+  impl_->note(Recording::Call::Kind::reset_time, {time});
 }
 
 const Config& Simulation::config() const { return impl_->config; }

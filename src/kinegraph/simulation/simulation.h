@@ -6,7 +6,10 @@
 #include <string>
 #include <vector>
 
+#include "kinegraph/rendering/camera_renderer.h"
+#include "kinegraph/rendering/depth_image.h"
 #include "kinegraph/scene/config.h"
+#include "kinegraph/simulation/recording.h"
 #include "kinegraph/simulation/simulation_options.h"
 #include "kinegraph/simulation/simulation_state.h"
 
@@ -100,6 +103,20 @@ class Simulation {
   void attach(const std::string& from, const std::string& to);
   void detach(const std::string& from, const std::string& to);  ///< throws ValueError if they are not attached
 
+  // --- cameras ---------------------------------------------------------------------------------------------------
+
+  /// A camera under a name, at a frame whose attributes say what it is like (see cameraOf); without one, at the frame of that
+  /// name. It is selected. Throws FrameNotFound, and ValueError for attributes that no camera can have.
+  void addSensor(const std::string& name, const std::string& frame = {});
+  void selectSensor(const std::string& name);  ///< throws NameError
+  void setCamera(const std::string& frame);    ///< the same as addSensor(frame)
+  Camera camera() const;                       ///< the selected one, or one that overlooks the scene
+
+  /// What the selected camera sees: colors and depth; with errors of a stereo camera after setSimulateDepthNoise, the same at
+  /// the same time. Throws FileError where nothing can be drawn.
+  CameraImage getImageAndDepth(const DepthNoise& noise = {});
+  void setSimulateDepthNoise(bool noisy);
+
   // --- measuring -------------------------------------------------------------------------------------------------
 
   std::vector<Contact> getContacts() const;  ///< of the last inner step
@@ -119,11 +136,29 @@ class Simulation {
                const std::optional<Vector3d>& point = std::nullopt);
   void clearPerturbations();
 
+  // --- recording -------------------------------------------------------------------------------------------------
+
+  /// From now on everything that is asked of the simulation is kept, so that it can be repeated bit for bit.
+  void startRecording();
+  bool isRecording() const;
+
+  /// Throws ValueError without startRecording. Frames that are added meanwhile end a recording: what was before is returned.
+  Recording stopRecording();
+
   /// What was odd but not wrong since the last call.
   std::vector<std::string> takeWarnings();
 
+  /// setState without the Config, which stays as it is.
+  void restore(const SimulationState& state);
+
+  /// Another one at the same time, of the same model and the same Config, which only one of them should follow.
+  struct SameModel {};
+  Simulation(const Simulation& other, SameModel);
+
  private:
+  friend class SimulationBatch;
   struct Impl;
+  explicit Simulation(std::unique_ptr<Impl> impl);
   std::unique_ptr<Impl> impl_;
 };
 

@@ -72,6 +72,7 @@ void Simulation::closeGripper(const std::string& gripper, double width, double s
   task.speed = speed;
   task.force = force;
   task.still = 0.;
+  s.note(Recording::Call::Kind::gripper, {width, speed, force}, {gripper});
 }
 
 bool Simulation::gripperIsDone(const std::string& gripper) const {
@@ -88,6 +89,7 @@ void Simulation::attach(const std::string& from, const std::string& to) {
   const int a = impl_->body(from, "Simulation.attach"), b = impl_->body(to, "Simulation.attach");
   if (a == b) throw ValueError(cat("Simulation.attach: '", from, "' and '", to, "' are fixed to each other already"));
   impl_->world->weld(a, b);
+  impl_->note(Recording::Call::Kind::attach, {}, {from, to});
 }
 
 void Simulation::detach(const std::string& from, const std::string& to) {
@@ -95,6 +97,7 @@ void Simulation::detach(const std::string& from, const std::string& to) {
   const int a = impl_->body(from, "Simulation.detach"), b = impl_->body(to, "Simulation.detach");
   const bool either = impl_->world->unweld(a, b) || impl_->world->unweld(b, a);
   if (!either) throw ValueError(cat("Simulation.detach: '", to, "' is not attached to '", from, "'"));
+  impl_->note(Recording::Call::Kind::detach, {}, {from, to});
 }
 
 // --- splines ------------------------------------------------------------------------------------------------------
@@ -129,6 +132,10 @@ void Simulation::setSplineRef(const MatrixXd& path, const VectorXd& times, bool 
     reference.spline_start = now;
   }
   reference.spline = next;
+  std::vector<double> numbers{append ? 1. : 0., double(path.rows()), double(path.cols())};
+  numbers.insert(numbers.end(), path.data(), path.data() + path.size());
+  numbers.insert(numbers.end(), times.begin(), times.end());
+  s.note(Recording::Call::Kind::spline, std::move(numbers));
 }
 
 double Simulation::getTimeToSplineEnd() const {
@@ -137,16 +144,22 @@ double Simulation::getTimeToSplineEnd() const {
   return reference.spline_start + reference.spline.end() - impl_->world->time();
 }
 
+void Simulation::Impl::resetSpline(double ctrl_time) {
+  const VectorXd now = q();
+  MatrixXd points(2, now.size());
+  points << now.transpose(), now.transpose();
+  const double length = 1e-3;
+  Reference& reference = world->reference();
+  if (now.size() > 0) reference.spline.set(1, points, Eigen::Vector2d(0., length));
+  reference.spline_start = (ctrl_time < 0. ? world->time() : ctrl_time) - length;
+}
+
 void Simulation::resetSplineRef(double ctrl_time) {
   update();
-  World& world = *impl_->world;
-  const VectorXd q = impl_->q();
-  MatrixXd points(2, q.size());
-  points << q.transpose(), q.transpose();
-  const double length = 1e-3;
-  Reference& reference = world.reference();
-  if (q.size() > 0) reference.spline.set(1, points, Eigen::Vector2d(0., length));
-  reference.spline_start = (ctrl_time < 0. ? world.time() : ctrl_time) - length;
+  if (!std::isfinite(ctrl_time))
+    throw ValueError(cat("Simulation.resetSplineRef: ctrl_time is ", ctrl_time, "; expected a finite number"));
+  impl_->resetSpline(ctrl_time);
+  impl_->note(Recording::Call::Kind::reset_spline, {ctrl_time});
 }
 
 void Simulation::multi_step(double tau_step, double tau_sim, const std::function<void()>& between) {
@@ -233,10 +246,17 @@ void Simulation::perturb(const std::string& frame, const Vector3d& force, const 
   const FrameData& data = impl_->frame(frame, call);
   const PlacedFrame& placed = impl_->world->scene().scene.frames[std::size_t(data.id)];
   if (placed.body == 0) throw ValueError(cat(call, ": frame '", frame, "' is fixed to the world and cannot be pushed"));
+  std::vector<double> numbers(force.begin(), force.end());
+  numbers.insert(numbers.end(), torque.begin(), torque.end());
+  if (point) numbers.insert(numbers.end(), point->begin(), point->end());
+  impl_->note(Recording::Call::Kind::push, std::move(numbers), {frame});
   impl_->world->push(placed.body, force, torque,
                      point ? *point : (impl_->world->bodyPose(placed.body) * placed.X_BF).p);
 }
 
-void Simulation::clearPerturbations() { impl_->world->clearPushes(); }
+void Simulation::clearPerturbations() {
+  impl_->world->clearPushes();
+  impl_->note(Recording::Call::Kind::clear_pushes, {});
+}
 
 }  // namespace kinegraph

@@ -1,12 +1,16 @@
 #pragma once
 
+#include <map>
+#include <set>
+
 #include "kinegraph/simulation/simulation.h"
 #include "kinegraph/simulation/world.h"
 
 namespace kinegraph {
 
 struct Simulation::Impl {
-  Impl(const Config& given, SimulationEngine which, const SimulationOptions& chosen);
+  Impl(const Config& given, SimulationEngine which, const SimulationOptions& chosen, bool for_batch = false);
+  Impl(const Impl& other);  ///< of the same model
 
   std::unique_ptr<World> makeWorld();
   void takeFromConfig(World& to) const;
@@ -20,7 +24,13 @@ struct Simulation::Impl {
   MatrixXd freePoses() const;
   MatrixXd freeVelocities() const;
   void setFreeVelocities(const MatrixXd& velocities);
+  void resetSpline(double ctrl_time);
   void setJoints(const VectorXd& q, const VectorXd* velocity);
+
+  /// Keeps a call that changes what will happen.
+  void note(Recording::Call::Kind kind, std::vector<double> numbers, std::vector<std::string> words = {});
+  void noteState(const SimulationState& state);
+  void notePoses();
 
   /// The frame of that name, and its body. Throws FrameNotFound; `call` is what asks.
   const FrameData& frame(const std::string& name, const char* call) const;
@@ -30,10 +40,16 @@ struct Simulation::Impl {
   Config config;
   SimulationEngine engine;
   SimulationOptions options;
+  bool can_change_frictions = false;
   std::vector<std::shared_ptr<FrameData>> force_frames, acceleration_frames;  ///< with a sensor
   std::unique_ptr<World> world;
   std::vector<std::shared_ptr<FrameData>> frames;  ///< of the model, by id
   std::uint64_t revision = 0;                      ///< of the scene's structure, as in the model
+  std::map<std::string, Frame> cameras;
+  std::string selected_camera;
+  bool has_depth_noise = false;
+  std::unique_ptr<CameraRenderer> renderer;
+  std::unique_ptr<Recording> recording;
   std::vector<std::string> warnings;
   std::set<std::string> warned;
 };

@@ -38,6 +38,11 @@ SimulationState Simulation::getState() const {
 
 void Simulation::setState(const SimulationState& state) {
   update();
+  restore(state);
+  publish();
+}
+
+void Simulation::restore(const SimulationState& state) {
   Impl& s = *impl_;
   const char* call = "Simulation.setState";
   const auto n = s.world->scene().dofs;
@@ -60,7 +65,7 @@ void Simulation::setState(const SimulationState& state) {
   if (state.freeVel != s.freeVelocities()) s.setFreeVelocities(state.freeVel);
   s.world->setTime(state.time);
   if (state.q != q_before || state.remainder.empty()) s.world->settle();
-  publish();
+  s.noteState(state);
 }
 
 void Simulation::pushConfigToSim(const MatrixXd& frame_velocities, const VectorXd& joint_velocities) {
@@ -77,6 +82,7 @@ void Simulation::pushConfigToSim(const MatrixXd& frame_velocities, const VectorX
   if (joint_velocities.size() > 0) s.setJoints(s.q(), &joint_velocities);
   s.world->settle();
   s.world->forgetForces();
+  s.noteState(getState());
 }
 
 void Simulation::Impl::rebuild() {

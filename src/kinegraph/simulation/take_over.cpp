@@ -9,6 +9,25 @@ void World::forgetForces() {
   is_computed_ = copy_is_computed_ = false;
 }
 
+void World::constantsChanged() {
+  const WorldState before = state();
+  physics().mj_setConst(physics_.get(), data_.get());
+  setState(before);
+}
+
+void World::setFriction(int frame, double friction) {
+  mjModel& m = *physics_;
+  const std::vector<int>& of = model_->geom_frame;
+  for (int g = 0; g < m.ngeom; ++g) {
+    if (of[std::size_t(g)] == frame) m.geom_friction[3 * g] = friction;
+  }
+  for (int p = 0; p < m.npair; ++p) {
+    const int a = m.pair_geom1[p], b = m.pair_geom2[p];
+    if (of[std::size_t(a)] != frame && of[std::size_t(b)] != frame) continue;
+    m.pair_friction[5 * p] = m.pair_friction[5 * p + 1] = .5 * (m.geom_friction[3 * a] + m.geom_friction[3 * b]);
+  }
+}
+
 void World::takeOver(const World& old, const std::function<int(int frame)>& old_frame) {
   const SceneModel &to = *model_, &from = *old.model_;
   setTime(old.time());

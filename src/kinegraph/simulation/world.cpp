@@ -16,6 +16,18 @@ constexpr double kStill = 1e-3;          ///< m/s: fingers that are slower do no
 constexpr double kStillFor = .02;        ///< s: if it lasts
 constexpr double kLongestStep = 1e4;     ///< s, of a call
 
+bool hasSurfaceVelocity(const mjModel& m, int geom) {
+  const mjtNum* velocity = m.geom_surfacevel + 6 * geom;
+  return std::any_of(velocity, velocity + 6, [](mjtNum v) { return v != 0.; });
+}
+
+/// MuJoCo's, for solimp with the midpoint .5 and the power 2, which all contacts here have.
+double impedance(const mjContact& contact) {
+  const double x = std::min(1., std::abs(contact.dist - contact.includemargin) / contact.solimp[2]);
+  const double y = x < .5 ? 2. * x * x : 1. - 2. * (1. - x) * (1. - x);
+  return contact.solimp[0] + y * (contact.solimp[1] - contact.solimp[0]);
+}
+
 int stateSize(const mjModel& m) { return physics().mj_stateSize(&m, mjSTATE_INTEGRATION); }
 
 }  // namespace
@@ -153,7 +165,7 @@ void World::innerStep(double h) {
 /// MuJoCo leaves the term dJ/dt v out of the rows of contacts, so that what friction holds in a turning hand slips, and
 /// its step lets positions drift by h^2/2 of it. Both vanish with the velocity v* = (1/b + h/2) t (a2 - a1) along the
 /// tangents t, where a_i is the acceleration of the touching point of body i at zero acceleration of the joints, and
-/// b = 2 / (dmax timeconst).
+/// b = 2 / (dmax timeconst); and along the normal with another distance.
 void World::correctContacts(double h) {
   const mjModel& m = *physics_;
   mjData& d = *data_;
@@ -179,8 +191,15 @@ void World::correctContacts(double h) {
     const Vector3d missing =
         acceleration(m.geom_bodyid[contact.geom[1]], point) - acceleration(m.geom_bodyid[contact.geom[0]], point);
     const double factor = .5 * contact.solimp[1] * contact.solref[0] + .5 * h;
+    // MuJoCo fills in the velocities of surfaces that have one, and leaves those of others as they are in memory
+    if (!hasSurfaceVelocity(m, contact.geom[0]) && !hasSurfaceVelocity(m, contact.geom[1]))
+      std::fill_n(contact.surfacevel, 3, 0.);
     contact.surfacevel[0] += factor * Vector(contact.frame + 3).dot(missing);
     contact.surfacevel[1] += factor * Vector(contact.frame + 6).dot(missing);
+    // the normal has no velocity to set: a change of the distance does the same
+    const double dmax = contact.solimp[1], b = 2. / (dmax * contact.solref[0]);
+    const double k = 1. / (dmax * dmax * contact.solref[0] * contact.solref[0] * contact.solref[1] * contact.solref[1]);
+    d.efc_pos[contact.efc_address] += Vector(contact.frame).dot(missing) * (1. + .5 * h * b) / (k * impedance(contact));
   }
 }
 
@@ -245,7 +264,8 @@ void World::moveGrippers(double h) {
     const double reach = task.force * double(gripper.qpos.size()) / gripper.stiffness;
     const double control = std::clamp(task.reference, length - reach, length + reach);
     d.ctrl[gripper.actuator] = control;
-    task.still = control != task.reference && std::abs(speed) < kStill ? task.still + h : 0.;
+    const bool pushes = control != task.reference || task.reference == task.target;
+    task.still = pushes && std::abs(speed) < kStill ? task.still + h : 0.;
   }
 }
 

@@ -43,9 +43,16 @@ class World {
   World(std::shared_ptr<const SceneModel> model, const SimulationOptions& options, bool is_kinematic = false);
 
   const SceneModel& scene() const { return *model_; }
+  const std::shared_ptr<const SceneModel>& sharedScene() const { return model_; }
   const mjModel& model() const { return *physics_; }
   const mjData& data() const { return *data_; }
+
+  /// For other masses; constantsChanged must follow.
   mjModel& editModel() { return *physics_; }
+  void constantsChanged();
+
+  /// Of the geoms of a frame, and of the pairs that they are in.
+  void setFriction(int frame, double friction);
   double time() const { return data_->time; }
 
   /// Positions and velocities, as of the model's joints; what follows from them is computed in the next step.
@@ -59,6 +66,7 @@ class World {
 
   /// Steps for tau seconds. Throws ValueError for a control vector that does not fit the mode; then nothing has changed.
   /// Throws Error where numbers leave all bounds; then the state is as before the call.
+  void checkCommand(const VectorXd& u, double tau, ControlMode mode) const;
   void step(const VectorXd& u, double tau, ControlMode mode, const std::function<void()>& between = {});
 
   WorldState state() const;
@@ -106,7 +114,6 @@ class World {
   void moveGrippers(double h);
   void activate(std::size_t slot);
   void followReferences(double h);
-  void checkCommand(const VectorXd& u, double tau, ControlMode mode) const;
   void checkNumbers(const WorldState& before, double time);
 
   std::shared_ptr<const SceneModel> model_;
