@@ -1,9 +1,11 @@
+#include <nanobind/ndarray.h>
 #include <nanobind/stl/string.h>
 #include <nanobind/stl/vector.h>
 
 #include "arguments.h"
 #include "bindings.h"
 #include "docs/simulation.h"
+#include "images.h"
 #include "kinegraph/base/errors.h"
 #include "kinegraph/base/text.h"
 #include "kinegraph/simulation/simulation.h"
@@ -40,14 +42,7 @@ SimulationOptions startOptions() {
 
 void make(PySimulation* self, nb::object config, SimulationEngine engine, int verbose, nb::handle options) {
   if (!nb::isinstance<PyConfig>(config)) throw nb::type_error("Simulation: expected a Config");
-  SimulationOptions chosen = startOptions();
-  if (nb::isinstance<SimulationOptions>(options)) {
-    chosen = nb::cast<const SimulationOptions&>(options);
-  } else if (nb::isinstance<nb::dict>(options)) {
-    simulationOptions().setFields(chosen, nb::cast<nb::dict>(options));
-  } else if (!options.is_none()) {
-    throw nb::type_error("Simulation: options: expected SimulationOptions or a dict");
-  }
+  const SimulationOptions chosen = optionsFrom(options);
   Simulation made(nb::cast<PyConfig&>(config), engine, chosen);
   new (self) PySimulation{std::move(config), std::move(made), verbose};
   warn(*self);
@@ -229,6 +224,118 @@ void bindGrippers(nb::class_<PySimulation>& simulation) {
           "frm"_a, "to"_a, docs::simulation::detach);
 }
 
+DepthNoise depthNoise() {
+  const nb::object set = nb::module_::import_("kinegraph.compatibility.parameters").attr("params_get")();
+  DepthNoise noise;
+  const auto read = [&](double& value, const char* name) {
+    value = nb::cast<double>(set.attr("get")(cat("DepthNoise/", name).c_str(), value));
+  };
+  read(noise.baseline, "binocular_baseline");
+  read(noise.overall, "noise_all");
+  read(noise.wide, "noise_wide");
+  read(noise.local, "noise_local");
+  read(noise.pixel, "noise_pixel");
+  noise.validate();
+  return noise;
+}
+
+nb::typed<nb::tuple, ByteArray, FloatArray> getImageAndDepth(PySimulation& s) {
+  const DepthNoise noise = depthNoise();
+  CameraImage image;
+  {
+    const nb::gil_scoped_release unlock;
+    image = s.simulation.getImageAndDepth(noise);
+  }
+  return nb::make_tuple(rgbOf(image), depthOf(image));
+}
+
+void bindCameras(nb::class_<PySimulation>& simulation) {
+  using S = PySimulation;
+  simulation
+      .def(
+          "addSensor",
+          [](S& s, const std::string& sensor, const std::string& frame) { s.simulation.addSensor(sensor, frame); },
+          "sensorName"_a, "frameAttached"_a = "", docs::simulation::addSensor)
+      .def(
+          "selectSensor", [](S& s, const std::string& sensor) { s.simulation.selectSensor(sensor); }, "sensorName"_a,
+          docs::simulation::selectSensor)
+      .def(
+          "setCamera",
+          [](S& s, const FrameArgument& frame) {
+            s.simulation.setCamera(name(s, frame));
+            return s.simulation.camera();
+          },
+          "cameraFrame"_a, docs::simulation::setCamera)
+      .def(
+          "getFxycxy", [](const S& s) { return fxycxyOf(s.simulation.camera()); },
+          "fx, fy, cx, cy of the selected camera in pixels, shape (4,).")
+      .def("getImageAndDepth", getImageAndDepth, docs::simulation::getImageAndDepth)
+      .def(
+          "setSimulateDepthNoise", [](S& s, bool noisy) { s.simulation.setSimulateDepthNoise(noisy); }, "noise"_a,
+          docs::simulation::setSimulateDepthNoise)
+      .def_static(
+          "depthData2pointCloud",
+          [](const nb::ndarray<const float, nb::ndim<2>, nb::c_contig, nb::device::cpu>& depth, const Numbers& fxycxy) {
+            if (fxycxy.values.size() != 4)
+              throw ValueError(cat("depthData2pointCloud: fxycxy has ", fxycxy.values.size(), " numbers; expected 4"));
+            const std::size_t height = depth.shape(0), width = depth.shape(1);
+            return toImage<Array>(depthToPoints(depth.data(), int(height), int(width), Vector4d(fxycxy.values)),
+                                  {height, width, 3});
+          },
+          "depth"_a, "fxycxy"_a, docs::simulation::depthData2pointCloud);
+}
+
+void bindRecording(nb::module_& m, nb::class_<PySimulation>& simulation) {
+  nb::class_<Recording>(m, "SimulationRecording", docs::simulation::recording)
+      .def_prop_ro(
+          "times", [](const Recording& r) { return toNumpy(r.times.data(), r.times.size()); }, "s after each step, (T,).")
+      .def_prop_ro(
+          "q",
+          [](const Recording& r) {
+            MatrixXd path(long(r.q.size()), r.q.empty() ? 0 : r.q[0].size());
+            for (long i = 0; i < path.rows(); ++i) path.row(i) = r.q[std::size_t(i)].transpose();
+            return toNumpy(path);
+          },
+          "Joint state after each step, (T, n).")
+      .def_prop_ro(
+          "freePos",
+          [](const Recording& r) {
+            const std::size_t free = r.freePos.empty() ? 0 : std::size_t(r.freePos[0].rows());
+            const NewArray made = newArray(r.freePos.size(), free, 7);
+            double* at = made.data;
+            for (const MatrixXd& poses : r.freePos) {
+              for (long i = 0; i < poses.rows(); ++i) {
+                for (long k = 0; k < 7; ++k) *at++ = poses(i, k);
+              }
+            }
+            return made.array;
+          },
+          "Poses of the free frames after each step, (T, F, 7).")
+      .def_ro("isCut", &Recording::is_cut, "The scene's structure changed: the recording ends before that.")
+      .def(
+          "save", [](const Recording& r, const PathText& path) { r.save(path.text); }, "path"_a, docs::simulation::save)
+      .def_static(
+          "load", [](const PathText& path) { return Recording::load(path.text); }, "path"_a, docs::simulation::load)
+      .def(
+          "makeConfig", [](const Recording& r) { return PyConfig{r.makeConfig()}; }, docs::simulation::makeConfig)
+      .def(
+          "replay",
+          [](const Recording& r, nb::object config) {
+            Simulation again = r.replay(nb::cast<PyConfig&>(config));
+            return new PySimulation{std::move(config), std::move(again)};
+          },
+          "C"_a, nb::sig("def replay(self, C: Config) -> Simulation"), docs::simulation::replay)
+      .def("__repr__", [](const Recording& r) {
+        return cat("<SimulationRecording of ", r.times.size(), " steps, ", r.calls.size(), " calls>");
+      });
+  using S = PySimulation;
+  simulation
+      .def(
+          "startRecording", [](S& s) { s.simulation.startRecording(); }, docs::simulation::startRecording)
+      .def(
+          "stopRecording", [](S& s) { return s.simulation.stopRecording(); }, docs::simulation::stopRecording);
+}
+
 void bindSplines(nb::class_<PySimulation>& simulation) {
   using S = PySimulation;
   simulation
@@ -248,6 +355,17 @@ void bindSplines(nb::class_<PySimulation>& simulation) {
 }
 
 }  // namespace
+
+SimulationOptions optionsFrom(nb::handle given) {
+  if (nb::isinstance<SimulationOptions>(given)) return nb::cast<const SimulationOptions&>(given);
+  SimulationOptions chosen = startOptions();
+  if (nb::isinstance<nb::dict>(given)) {
+    simulationOptions().setFields(chosen, nb::cast<nb::dict>(given));
+  } else if (!given.is_none()) {
+    throw nb::type_error("Simulation: options: expected SimulationOptions or a dict");
+  }
+  return chosen;
+}
 
 void bindSimulation(nb::module_& m) {
   using S = PySimulation;
@@ -319,6 +437,9 @@ void bindSimulation(nb::module_& m) {
   bindSplines(simulation);
   bindGrippers(simulation);
   bindMeasuring(simulation);
+  bindCameras(simulation);
+  bindRecording(m, simulation);
+  bindSimulationBatch(m);
 }
 
 }  // namespace kinegraph::python

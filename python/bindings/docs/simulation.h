@@ -236,4 +236,96 @@ Raises:
 
 inline constexpr char clearPerturbations[] = R"(Ends all of perturb.)";
 
+inline constexpr char addSensor[] = R"(Adds a camera and selects it.
+
+Args:
+    sensorName: Its name.
+    frameAttached: The frame that it looks from, whose attributes say what it is like (see CameraView.setCamera); else the frame
+        of that name.
+Raises:
+    FrameNotFound: There is no such frame.
+    ArgumentError: Attributes that no camera can have.)";
+
+inline constexpr char selectSensor[] = R"(Chooses the camera of getImageAndDepth.
+
+Args:
+    sensorName: Of addSensor.
+Raises:
+    NotFound: There is no such camera.)";
+
+inline constexpr char setCamera[] = R"(Looks from a frame and follows it.
+
+Args:
+    cameraFrame: The frame: its name, id or Frame.
+Returns:
+    The camera.
+Raises:
+    FrameNotFound: There is no such frame.
+    ArgumentError: Attributes that no camera can have.)";
+
+inline constexpr char getImageAndDepth[] = R"(What the selected camera sees; without one, one that overlooks the scene.
+
+Returns:
+    The image, shape (height, width, 3), 0..255, and the depth along the camera's z axis, shape (height, width), m; -1
+    where nothing is.
+Raises:
+    Error: Drawing needs EGL, which is not there.)";
+
+inline constexpr char setSimulateDepthNoise[] = R"(Lets depth have the errors of a stereo camera (parameters DepthNoise/...), the same at the same time.
+
+Args:
+    noise: True or False.)";
+
+inline constexpr char depthData2pointCloud[] = R"(Points of a depth image in the camera's frame.
+
+Args:
+    depth: (height, width), float32, m.
+    fxycxy: fx, fy, cx, cy in pixels.
+Returns:
+    (height, width, 3); zeros where the depth is negative.
+Raises:
+    ArgumentError: fxycxy does not have 4 numbers.)";
+
+inline constexpr char recording[] = R"(A run of a simulation: the scene, where it started, all calls, and where everything was after each step.)";
+
+inline constexpr char save[] = R"(Writes the recording into a file.
+
+Args:
+    path: The file.
+Raises:
+    FileError: It cannot be written.)";
+
+inline constexpr char load[] = R"(Reads the file of a recording.
+
+Args:
+    path: The file.
+Returns:
+    A SimulationRecording.
+Raises:
+    FileError: It cannot be read.
+    ArgumentError: It is no recording.)";
+
+inline constexpr char makeConfig[] = R"(The scene as it was at the start.
+
+Returns:
+    A Config.)";
+
+inline constexpr char replay[] = R"(Does it all again, bit for bit.
+
+Args:
+    C: Of makeConfig.
+Returns:
+    The Simulation at the end.
+Raises:
+    Error: It ends otherwise than it did; it may be of another version or machine.)";
+
+inline constexpr char startRecording[] = R"(From now on everything that is asked of the simulation is kept.)";
+
+inline constexpr char stopRecording[] = R"(Ends what startRecording began.
+
+Returns:
+    A SimulationRecording.
+Raises:
+    ArgumentError: startRecording was not called.)";
+
 }  // namespace kinegraph::python::docs::simulation
