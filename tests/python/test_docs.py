@@ -45,6 +45,7 @@ FOUND = {
         r"^\[ True  True\]",
         r"'arm' cannot be held at .* -3 to 3 N m are allowed",
     ],
+    "simulation": [r"\(64, 7\) \(64, 1, 7\)"],
     "viewer": [r"Viewer: http"],
 }
 

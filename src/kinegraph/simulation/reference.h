@@ -1,5 +1,7 @@
 #pragma once
 
+#include <cstdint>
+
 #include "kinegraph/simulation/scene_model.h"
 #include "kinegraph/spline/b_spline.h"
 
@@ -25,18 +27,18 @@ class Reference {
   };
 
   /// How a drive comes to where it shall be.
-  enum class Path { still, limited, given, accelerated, cubic };
+  enum class Path : std::int64_t { still, limited, given, accelerated, cubic };
   struct Course {
     Path path = Path::still;
     double start = 0., start_velocity = 0., end_velocity = 0.;
   };
   struct Clock {
     ControlMode mode = ControlMode::none;
+    int last = 0;                   ///< 1 in the last inner step of the present command
     double tau = 0., elapsed = 0.;  ///< of the present command, s
-    bool last = false;              ///< is the inner step the last one of it?
   };
 
-  /// All but the spline.
+  /// All but the spline. Its structs have no padding: they are compared and stored as bytes.
   struct Parts {
     std::vector<Dof> dofs;
     std::vector<Course> courses;

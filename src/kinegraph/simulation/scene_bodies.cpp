@@ -1,5 +1,6 @@
 #include "kinegraph/simulation/scene_bodies.h"
 
+#include <Eigen/Eigenvalues>
 #include <cmath>
 
 #include "kinegraph/base/errors.h"
@@ -65,6 +66,14 @@ void checkInertia(const FrameData& frame) {
   if (inertia.matrix.diagonal().minCoeff() < 0.)
     throw ValueError(cat("Simulation: frame '", frame.name,
                          "' has an inertia with a negative diagonal: ", inertia.matrix.diagonal().transpose()));
+}
+
+/// No body has a moment of inertia that is larger than the sum of the other two.
+void warnOfImpossibleInertia(const FrameData& frame, std::vector<std::string>& warnings) {
+  const Vector3d moments = frame.inertia->matrix.selfadjointView<Eigen::Lower>().eigenvalues();
+  if (2. * moments.maxCoeff() > 1.001 * moments.sum())
+    warnings.push_back(cat("Simulation: frame '", frame.name, "' has principal moments of inertia ", moments.transpose(),
+                           ", which no body has: one is larger than the other two together. Their mean is taken for each"));
 }
 
 LinkInertia surfaceInertia(const Geometry& geometry, double mass) {
@@ -142,6 +151,7 @@ class Divider {
   void addMass(const FrameData& frame) {
     if (!frame.inertia) return;
     checkInertia(frame);
+    warnOfImpossibleInertia(frame, result_.warnings);
     const PlacedFrame& placed = result_.frames[std::size_t(frame.id)];
     LinkInertia part{frame.inertia->mass, frame.inertia->com, frame.inertia->matrix};
     if (part.matrix.isZero() && frame.shape && shapeKind(frame.shape->geometry->type).has_inertia)

@@ -76,7 +76,7 @@ class StateReader {
 
 /// The numbers of a pose, which Eigen does not let copy as bytes.
 struct WeldBytes {
-  int body_a, body_b, active;
+  int body_a, body_b, active, unused;
   double pose[7];
 };
 
@@ -100,7 +100,7 @@ std::string stateToBytes(const WorldState& state) {
   write(state.grippers);
   std::vector<WeldBytes> welds;
   for (const WeldedPair& pair : state.welds) {
-    WeldBytes weld{pair.body_a, pair.body_b, pair.active, {}};
+    WeldBytes weld{pair.body_a, pair.body_b, pair.active, 0, {}};
     const Vector7d pose = pair.X_AB.numbers();
     std::memcpy(weld.pose, pose.data(), sizeof weld.pose);
     welds.push_back(weld);

@@ -1,0 +1,153 @@
+"""How exact and how fast the simulation is: a table of slips, sags and processor times.
+
+    python benchmarks/simulation.py
+
+Times are processor times of this process, best of several rounds, but for the ratio of threads, which is of wall time.
+"""
+
+import time
+
+import numpy as np
+
+import kinegraph as ry
+
+BOX = [0.06, 0.06, 0.06, 0.005]
+START = np.array([0.0, 0.3, 0.68])
+
+
+def panda(box=None, mass=1.0):
+    C = ry.Config()
+    C.addFile(ry.raiPath("scenarios/pandaSingle.g"))
+    if box is not None:
+        C.addFrame("box").setShape(ry.ST.ssBox, BOX).setPosition(box).setMass(mass)
+    return C
+
+
+def reach(position, side):
+    result = ry.solveIk(panda(), {"l_gripper": {"position": position, "z": [0, 0, 1], "y": side}})
+    assert result.feasible
+    return np.array(result.q)
+
+
+def tracking():
+    """A spline of .5 rad in 1 s with all joints: largest error, and that .2 s after, mrad."""
+    C = panda()
+    q = C.getJointState()
+    S = ry.Simulation(C)
+    S.setSplineRef(q + 0.5, [1.0])
+    spline = ry.BSpline().set(3, np.array([q, q + 0.5]), [0.0, 1.0])
+    worst = 0.0
+    for _ in range(100):
+        S.step([], 0.01, ry.ControlMode.spline)
+        worst = max(worst, np.abs(S.get_q() - spline.eval([S.get_t()])[0]).max())
+    S.multi_step(0.2)
+    return 1e3 * worst, 1e3 * np.abs(S.get_q() - q - 0.5).max()
+
+
+def grasp(mass, force, side):
+    """Slips in the hand while it lifts by .2 m, holds 10 s, turns by 1 rad in 1 s; and the error of the place, mm."""
+    above, at, up = (reach(START + [0, 0, z], side) for z in (0.12, 0.0, 0.2))
+    C = panda(START, mass)
+    C.setJointState(above)
+    S = ry.Simulation(C)
+
+    def go(start, end):
+        for s in np.linspace(0.01, 1, 100):
+            S.step(start + (10 * s**3 - 15 * s**4 + 6 * s**5) * (end - start), 0.01, ry.ControlMode.position)
+
+    def in_hand():
+        hand, box = C.getFrame("l_gripper"), C.getFrame("box")
+        return hand.getRotationMatrix().T @ (box.getPosition() - hand.getPosition())
+
+    go(above, at)
+    S.closeGripper("l_gripper", 0.0, 0.1, force)
+    while not S.gripperIsDone("l_gripper"):
+        S.step()
+    places = [in_hand()]
+    go(at, up)
+    places.append(in_hand())
+    for _ in range(1000):
+        S.step()
+    places.append(in_hand())
+    go(up, up + np.eye(7)[0])
+    places.append(in_hand())
+    go(up + np.eye(7)[0], up)
+    go(up, at)
+    slips = [1e3 * np.linalg.norm(b - a) for a, b in zip(places, places[1:])]
+    return [*slips, 1e3 * np.linalg.norm(C.getFrame("box").getPosition() - START)]
+
+
+def tower():
+    """Ten boxes: creep of the top from 1 s to 10 s, and its sag, mm."""
+    C = ry.Config()
+    for i in range(10):
+        C.addFrame(f"b{i}").setShape(ry.ST.ssBox, BOX).setPosition([0, 0, 0.03 + 0.06 * i]).setMass(0.1)
+    S = ry.Simulation(C)
+    S.step([], 1.0)
+    top = C.getFrame("b9").getPosition()
+    S.step([], 9.0)
+    return 1e3 * np.linalg.norm(C.getFrame("b9").getPosition() - top), 1e3 * (0.57 - top[2])
+
+
+def turntable():
+    """A box at a radius of .4 m on a disc that turns at 1 rad/s for 10 s: by how much the radius grows, mm."""
+    C = ry.Config()
+    C.addText("hub: {} disc (hub): { joint: hingeZ, shape: cylinder, size: [.05 .6], mass: 1 }")
+    C.addFrame("box").setShape(ry.ST.ssBox, BOX).setPosition([0.4, 0, 0.055]).setMass(0.1)
+    S = ry.Simulation(C, options={"ground": False})
+    S.pushConfigToSim([[[0, 0.4, 0], [0, 0, 1]]], [1.0])
+    S.step([1.0], 10.0, ry.ControlMode.velocity)
+    return 1e3 * abs(np.linalg.norm(C.getFrame("box").getPosition()[:2]) - 0.4)
+
+
+def best(function, rounds=5):
+    times = []
+    for _ in range(rounds):
+        start = time.process_time()
+        function()
+        times.append(time.process_time() - start)
+    return min(times)
+
+
+def steps():
+    """Processor time of 10 ms of a Panda with a box, us; of making the simulation, ms."""
+    C = panda([-0.3, 0.35, 0.68], 0.1)
+    S = ry.Simulation(C)
+    S.step([], 0.5)
+    return 1e6 * best(lambda: [S.step() for _ in range(200)]) / 200, 1e3 * best(lambda: ry.Simulation(C))
+
+
+def environments():
+    """Steps of 50 ms of environments, Panda with a box, per second of processor time; and how much faster two threads are."""
+    C = panda([-0.3, 0.35, 0.68], 0.1)
+    rate, walls = 0.0, {}
+    for threads in (1, 2):
+        batch = ry.SimulationBatch(C, 32, threads)
+        u = np.full((32, 7), 0.05)
+        batch.step(u, 0.05, ry.ControlMode.velocity)
+        if threads == 1:
+            rate = 320 / best(lambda: [batch.step(u, 0.05, ry.ControlMode.velocity) for _ in range(10)], 3)
+        fastest = np.inf
+        for _ in range(5):
+            start = time.perf_counter()
+            for _ in range(5):
+                batch.step(u, 0.05, ry.ControlMode.velocity)
+            fastest = min(fastest, time.perf_counter() - start)
+        walls[threads] = fastest
+    return rate, walls[1] / walls[2]
+
+
+def main():
+    print("tracking of a spline, largest / .2 s after (mrad): {:.6f} / {:.6f}".format(*tracking()))
+    for side, words in ([1, 0, 0], "along the radius"), ([0, 1, 0], "across it"):
+        for mass, force in (1.0, 30.0), (0.1, 10.0):
+            numbers = " / ".join(f"{value:.4f}" for value in grasp(mass, force, side))
+            print(f"grasp {words}, {mass} kg, {force:.0f} N: lift / hold 10 s / turn / place (mm): {numbers}")
+    print("tower of ten: creep in 9 s / sag (mm): {:.4f} / {:.4f}".format(*tower()))
+    print(f"turntable, 10 s (mm): {turntable():.4f}")
+    print("10 ms of a Panda with a box (us): {:.1f}; creation (ms): {:.1f}".format(*steps()))
+    print("steps of 50 ms per second and core: {:.0f}; two threads: x {:.2f}".format(*environments()))
+
+
+if __name__ == "__main__":
+    main()

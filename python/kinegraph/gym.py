@@ -1,0 +1,261 @@
+"""Environments for gymnasium (`pip install 'kinegraph[gym]'`): a Panda that reaches, one that lifts, and many at once.
+
+    from kinegraph.gym import ReachEnv
+    env = ReachEnv()
+    observation, info = env.reset(seed=0)
+    observation, reward, terminated, truncated, info = env.step(env.action_space.sample())
+
+An action is a velocity of the joints, as a share of the fastest; LiftEnv has one number more, which opens (> 0) or closes the
+hand. A step takes 50 ms. What is random comes from the seed of `reset`, and so all that follows is the same for the same seed.
+"""
+
+from __future__ import annotations
+
+from typing import Any
+
+import gymnasium
+import numpy as np
+from gymnasium.vector.utils import batch_space
+from numpy.typing import NDArray
+
+import kinegraph as ry
+
+_SECONDS = 0.05  # of a step
+_SUBSTEPS = 5
+_HOME_NOISE = 0.1  # rad
+_FARTHEST = 100.0  # of numbers of an observation, m, rad or their rates: all are far below
+
+
+def _panda() -> ry.Config:
+    C = ry.Config()
+    C.addFile(ry.raiPath("scenarios/pandaSingle.g"))
+    return C
+
+
+class _PandaEnv(gymnasium.Env[NDArray[np.float32], NDArray[np.float32]]):
+    """What the environments share: a Panda whose joints get velocities."""
+
+    metadata = {"render_modes": ["rgb_array"], "render_fps": 20}
+
+    def __init__(self, C: ry.Config, actions: int, observations: int, render_mode: str | None) -> None:
+        if render_mode not in (None, "rgb_array"):
+            raise ry.ArgumentError(f"render_mode is {render_mode!r}; expected None or 'rgb_array'")
+        self.render_mode = render_mode
+        self.C = C
+        self.home = np.array(C.getJointState())
+        self.fastest = 0.5 * np.array(C.getVelocityLimits())
+        self.limits = np.array(C.getJointLimits()).reshape(2, -1)
+        self.S = ry.Simulation(C, verbose=0)
+        self.S.setCamera("cameraTop")
+        self.action_space = gymnasium.spaces.Box(-1.0, 1.0, (actions,), np.float32)
+        self.observation_space = gymnasium.spaces.Box(-_FARTHEST, _FARTHEST, (observations,), np.float32)
+
+    def _place(self) -> None:
+        """Puts the arm near its home, by the environment's random numbers."""
+        q = self.home + self.np_random.uniform(-_HOME_NOISE, _HOME_NOISE, self.home.shape)
+        self.C.setJointState(np.clip(q, *self.limits))
+        self.S.pushConfigToSim()
+        self.S.resetTime(0.0)
+
+    def _move(self, action: NDArray[np.float32]) -> None:
+        velocity = np.clip(np.asarray(action, float)[:7], -1, 1) * self.fastest
+        for _ in range(_SUBSTEPS):
+            q = self.S.get_qRef()
+            leaves = (q + 0.05 * velocity < self.limits[0]) | (q + 0.05 * velocity > self.limits[1])
+            self.S.step(np.where(leaves, 0, velocity), _SECONDS / _SUBSTEPS, ry.ControlMode.velocity)
+
+    def _hand(self) -> NDArray[np.float64]:
+        return np.array(self.C.getFrame("l_gripper").getPosition())
+
+    def render(self) -> NDArray[np.uint8] | None:  # type: ignore[override]
+        """What the camera above the table sees.
+
+        Returns:
+            The image, (height, width, 3), or None without render_mode.
+        """
+        return self.S.getImageAndDepth()[0] if self.render_mode else None
+
+
+class ReachEnv(_PandaEnv):
+    """The hand is to come to a random point above the table.
+
+    Args:
+        render_mode: None or "rgb_array".
+    """
+
+    def __init__(self, render_mode: str | None = None) -> None:
+        super().__init__(_panda(), 7, 20, render_mode)
+        self.target = np.zeros(3)
+
+    def _observation(self) -> NDArray[np.float32]:
+        parts = [self.S.get_q(), self.S.get_qDot(), self._hand(), self.target]
+        return np.concatenate(parts).astype(np.float32)
+
+    def reset(
+        self, *, seed: int | None = None, options: dict[str, Any] | None = None
+    ) -> tuple[NDArray[np.float32], dict[str, Any]]:
+        """Begins anew.
+
+        Args:
+            seed: Of all that is random from now on.
+            options: Not used.
+        Returns:
+            The observation (q, velocities, hand, target) and an empty dict.
+        """
+        super().reset(seed=seed)
+        self._place()
+        self.target = self.np_random.uniform([-0.4, 0.1, 0.75], [0.4, 0.5, 1.2])
+        return self._observation(), {}
+
+    def step(self, action: NDArray[np.float32]) -> tuple[NDArray[np.float32], float, bool, bool, dict[str, Any]]:
+        """Goes on by 50 ms.
+
+        Args:
+            action: (7,) in -1..1.
+        Returns:
+            Observation, reward (minus the distance, m), terminated (within 2 cm), False, and `distance`.
+        """
+        self._move(action)
+        distance = float(np.linalg.norm(self._hand() - self.target))
+        return self._observation(), -distance, distance < 0.02, False, {"distance": distance}
+
+
+class LiftEnv(_PandaEnv):
+    """The hand is to lift a box of random weight from a random place on the table.
+
+    Args:
+        render_mode: None or "rgb_array".
+    """
+
+    def __init__(self, render_mode: str | None = None) -> None:
+        C = _panda()
+        C.addFrame("box").setShape(ry.ST.ssBox, [0.05, 0.05, 0.05, 0.005]).setPosition([0, 0.3, 0.676]).setMass(0.1)
+        super().__init__(C, 8, 24, render_mode)
+
+    def _box(self) -> NDArray[np.float64]:
+        return np.array(self.C.getFrame("box").getPose())
+
+    def _observation(self) -> NDArray[np.float32]:
+        width = [self.S.getGripperWidth("l_gripper")]
+        lower = self._box()[:3] - self._hand()
+        parts = [self.S.get_q(), self.S.get_qDot()[:6], self._box(), lower, width]
+        return np.concatenate(parts).astype(np.float32)
+
+    def reset(
+        self, *, seed: int | None = None, options: dict[str, Any] | None = None
+    ) -> tuple[NDArray[np.float32], dict[str, Any]]:
+        """Begins anew.
+
+        Args:
+            seed: Of all that is random from now on.
+            options: Not used.
+        Returns:
+            The observation (q, velocities, pose of the box, box from hand, width of the gripper) and an empty dict.
+        """
+        super().reset(seed=seed)
+        turn = self.np_random.uniform(-np.pi, np.pi) / 2
+        place = [*self.np_random.uniform([-0.15, 0.25], [0.15, 0.4]), 0.676]
+        self.C.getFrame("box").setPose([*place, np.cos(turn), 0, 0, np.sin(turn)])
+        self.C.getFrame("l_panda_finger_joint1").setJointState([0.04])
+        self._place()
+        return self._observation(), {}
+
+    def step(self, action: NDArray[np.float32]) -> tuple[NDArray[np.float32], float, bool, bool, dict[str, Any]]:
+        """Goes on by 50 ms.
+
+        Args:
+            action: (8,) in -1..1; the last number opens or closes the hand.
+        Returns:
+            Observation, reward (height of the box minus its distance from the hand, m), terminated (lifted by 10 cm), False,
+            and `height`.
+        """
+        if action[7] > 0:
+            self.S.moveGripper("l_gripper", 0.08)
+        else:
+            self.S.closeGripper("l_gripper", 0.0, 0.3, 20.0)
+        self._move(action)
+        box = self._box()[:3]
+        height = float(box[2] - 0.675)
+        reward = height - float(np.linalg.norm(box - self._hand()))
+        return self._observation(), reward, height > 0.1, False, {"height": height}
+
+
+class BatchEnv(gymnasium.vector.VectorEnv[NDArray[np.float32], NDArray[np.float32], NDArray[Any]]):
+    """Many reaching Pandas in one SimulationBatch, stepped by threads. Each begins anew in the step after it has arrived.
+
+    Args:
+        num_envs: How many.
+        threads: How many threads step them.
+    """
+
+    def __init__(self, num_envs: int = 16, threads: int = 1) -> None:
+        self.num_envs = num_envs
+        self.C = _panda()
+        self.home = np.array(self.C.getJointState())
+        self.fastest = 0.5 * np.array(self.C.getVelocityLimits())
+        self.limits = np.array(self.C.getJointLimits()).reshape(2, -1)
+        self.batch = ry.SimulationBatch(self.C, num_envs, threads)
+        self.single_action_space = gymnasium.spaces.Box(-1.0, 1.0, (7,), np.float32)
+        self.single_observation_space = gymnasium.spaces.Box(-_FARTHEST, _FARTHEST, (20,), np.float32)
+        self.action_space = batch_space(self.single_action_space, num_envs)
+        self.observation_space = batch_space(self.single_observation_space, num_envs)
+        self.metadata = {"autoreset_mode": gymnasium.vector.AutoresetMode.NEXT_STEP}
+        self.targets = np.zeros((num_envs, 3))
+        self.done = np.zeros(num_envs, bool)
+
+    def _place(self, which: NDArray[np.intp]) -> None:
+        if len(which) == 0:
+            return
+        q = self.home + self.np_random.uniform(-_HOME_NOISE, _HOME_NOISE, (len(which), 7))
+        self.batch.place(which, np.clip(q, *self.limits))
+        self.targets[which] = self.np_random.uniform([-0.4, 0.1, 0.75], [0.4, 0.5, 1.2], (len(which), 3))
+
+    def _hands(self, q: NDArray[np.float64]) -> NDArray[np.float64]:
+        return np.array(self.C.getFramePoses(q, ["l_gripper"])[:, 0, :3])
+
+    def _observations(self) -> NDArray[np.float32]:
+        q = self.batch.q()
+        return np.hstack([q, self.batch.qDot(), self._hands(q), self.targets]).astype(np.float32)
+
+    def reset(
+        self, *, seed: int | list[int | None] | None = None, options: dict[str, Any] | None = None
+    ) -> tuple[NDArray[np.float32], dict[str, Any]]:
+        """Begins all anew.
+
+        Args:
+            seed: One number for all that is random from now on.
+            options: Not used.
+        Returns:
+            Observations, (num_envs, 20), and an empty dict.
+        """
+        if seed is not None:
+            self._np_random, self._np_random_seed = gymnasium.utils.seeding.np_random(
+                seed if isinstance(seed, int) else seed[0]
+            )
+        self.done[:] = False
+        self._place(np.arange(self.num_envs))
+        return self._observations(), {}
+
+    def step(
+        self, actions: NDArray[np.float32]
+    ) -> tuple[NDArray[np.float32], NDArray[Any], NDArray[Any], NDArray[Any], dict[str, Any]]:
+        """All go on by 50 ms.
+
+        Args:
+            actions: (num_envs, 7) in -1..1.
+        Returns:
+            Observations, rewards (minus the distance, m), which have arrived, which were cut off (none), and an empty dict.
+        """
+        velocity = np.clip(np.asarray(actions, float), -1, 1) * self.fastest
+        q = self.batch.q()
+        ahead = q + 2 * _SECONDS * velocity
+        velocity[(ahead < self.limits[0]) | (ahead > self.limits[1])] = 0
+        self.batch.step(velocity, _SECONDS, ry.ControlMode.velocity)
+        began = np.flatnonzero(self.done)
+        self._place(began)
+        observations = self._observations()
+        distance = np.linalg.norm(observations[:, 14:17] - self.targets, axis=1)
+        self.done = distance < 0.02
+        self.done[began] = False
+        rewards = np.where(np.isin(np.arange(self.num_envs), began), 0.0, -distance)
+        return observations, rewards, self.done.copy(), np.zeros(self.num_envs, bool), {}

@@ -1,0 +1,424 @@
+"""Simulation from Python: what it holds, replays, measures and refuses."""
+
+import pickle
+
+import numpy as np
+import pytest
+
+import kinegraph as ry
+
+DOWN = {"z": [0, 0, 1]}
+
+
+def panda():
+    C = ry.Config()
+    C.addFile(ry.raiPath("scenarios/pandaSingle.g"))
+    return C
+
+
+def add_box(C, position, mass=0.1, name="box"):
+    return C.addFrame(name).setPosition(position).setShape(ry.ST.ssBox, [0.06, 0.06, 0.06, 0.005]).setMass(mass)
+
+
+def reach(position, side):
+    C = panda()
+    C.addFrame("target").setPosition(position)
+    result = ry.solveIk(C, {"l_gripper": {"position": "target", "y": side, **DOWN}})
+    assert result.feasible
+    return np.array(result.q)
+
+
+def smooth(s):
+    return 10 * s**3 - 15 * s**4 + 6 * s**5
+
+
+def go(S, start, end, seconds):
+    steps = round(seconds / 0.01)
+    for i in range(steps):
+        S.step(start + smooth((i + 1) / steps) * (end - start), 0.01, ry.ControlMode.position)
+
+
+def in_hand(C):
+    hand, box = C.getFrame("l_gripper"), C.getFrame("box")
+    return hand.getRotationMatrix().T @ (box.getPosition() - hand.getPosition())
+
+
+@pytest.mark.parametrize("side", [[1, 0, 0], [0, 1, 0]])  # fingers close across and along the radius of the turn
+def test_a_box_of_one_kilogram_does_not_slip_in_the_hand(side):
+    start = np.array([0.0, 0.3, 0.68])
+    above, at, up = (reach(start + [0, 0, z], side) for z in (0.12, 0.0, 0.2))
+    turned = up + np.eye(7)[0]
+    C = panda()
+    add_box(C, start, 1.0)
+    C.setJointState(above)
+    S = ry.Simulation(C)
+    go(S, above, at, 1.0)
+    S.closeGripper("l_gripper", 0.0, 0.1, 30.0)
+    for _ in range(100):
+        S.step()
+        if S.gripperIsDone("l_gripper"):
+            break
+    assert S.gripperIsDone("l_gripper")
+    assert S.getGripperWidth("l_gripper") == pytest.approx(0.06, abs=2e-4)
+    before = in_hand(C)
+    go(S, at, up, 1.0)
+    lifted = in_hand(C)
+    assert np.linalg.norm(lifted - before) < 5e-5
+    for _ in range(100):
+        S.step()
+    assert np.linalg.norm(in_hand(C) - lifted) < 1e-5
+    lifted = in_hand(C)
+    go(S, up, turned, 1.0)
+    assert np.linalg.norm(in_hand(C) - lifted) < 1e-5
+    go(S, turned, up, 1.0)
+    go(S, up, at, 1.0)
+    assert np.linalg.norm(C.getFrame("box").getPosition() - start) < 2e-4
+
+
+def test_joints_follow_a_spline_to_a_tenth_of_a_milliradian():
+    C = panda()
+    q = C.getJointState()
+    S = ry.Simulation(C)
+    S.setSplineRef(q + 0.5, [1.0])
+    assert S.getTimeToSplineEnd() == pytest.approx(1.0)
+    spline = ry.BSpline().set(3, np.array([q, q + 0.5]), [0.0, 1.0])
+    for _ in range(100):
+        S.step([], 0.01, ry.ControlMode.spline)
+        assert np.abs(S.get_q() - spline.eval([S.get_t()])[0]).max() < 1e-4
+    S.multi_step(0.2, 0.01)
+    assert S.getTimeToSplineEnd() == pytest.approx(-0.2)
+    assert np.abs(S.get_q() - q - 0.5).max() < 1e-6
+    assert np.allclose(C.getJointState(), S.get_q(), atol=0)
+
+
+@pytest.mark.parametrize("engine", [ry.SimulationEngine.physx, ry.SimulationEngine.kinematic])
+def test_velocities_and_accelerations_move_as_far_as_they_say(engine):
+    C = panda()
+    S = ry.Simulation(C, engine)
+    start = S.get_q()[0]
+    for _ in range(50):
+        S.step([0.3] + [0] * 6, 0.01, ry.ControlMode.velocity)
+    assert S.get_q()[0] - start == pytest.approx(0.15, abs=1e-3)
+    for _ in range(20):
+        S.step()
+    start = S.get_q()[0]
+    for _ in range(50):
+        S.step([1.0] + [0] * 6, 0.01, ry.ControlMode.acceleration)
+    assert S.get_q()[0] - start == pytest.approx(0.125, abs=1e-3)
+
+
+def test_a_far_target_is_reached_within_the_limits_of_velocity():
+    C = panda()
+    S = ry.Simulation(C)
+    goal = C.getJointState() + np.array([1.0, 0.3, -0.5, 0.4, 0.8, 0.3, -0.6])
+    fastest = np.zeros(7)
+    for _ in range(150):
+        S.step(goal, 0.01, ry.ControlMode.position)
+        fastest = np.maximum(fastest, np.abs(S.get_qDot()))
+    assert np.abs(S.get_q() - goal).max() < 1e-5
+    assert (fastest <= 1.01 * np.array(C.getVelocityLimits())).all()
+
+
+def test_torque_mode_accelerates_as_the_equation_of_motion_says():
+    C = ry.Config()
+    C.addFrame("hub").setPosition([0, 0, 1])
+    C.addFrame("arm", "hub").setJoint(ry.JT.hingeZ).setMass(2.0, [0.2, 0.2, 0.3])
+    S = ry.Simulation(C, options={"armature": 0.0})
+    for _ in range(50):
+        S.step([0.6], 0.01, ry.ControlMode.torque)
+    assert S.get_qDot()[0] == pytest.approx(0.6 / 0.3 * 0.5, rel=1e-6)
+    assert S.getJointTorques()[0] == pytest.approx(0.6)
+
+
+def test_a_state_holds_all_that_decides_what_happens():
+    C = panda()
+    add_box(C, [-0.3, 0.35, 0.75])
+    S = ry.Simulation(C)
+    S.setSplineRef(C.getJointState() + 0.2, [0.5])
+    S.moveGripper("l_gripper", 0.02)
+    S.attach("l_gripper", "box")
+    S.multi_step(0.1)
+
+    def future(simulation, config):
+        simulation.multi_step(0.3)
+        return simulation.get_q(), config.getFrame("box").getPose(), simulation.getGripperWidth("l_gripper")
+
+    state = S.getState()
+    expected = future(S, C)
+    S.detach("l_gripper", "box")
+    S.moveGripper("l_gripper", 0.08)
+    S.multi_step(0.2)
+    S.setState(state)
+    assert S.getState() == state
+    again = future(S, C)
+    other = panda()
+    add_box(other, [0.5, 0.5, 1.0])
+    T = ry.Simulation(other)
+    T.setState(pickle.loads(pickle.dumps(state)))
+    elsewhere = future(T, other)
+    for one in again, elsewhere:
+        assert all(np.array_equal(a, b) for a, b in zip(one, expected))
+
+
+def test_fields_of_a_state_may_be_changed():
+    C = panda()
+    add_box(C, [-0.3, 0.35, 0.68])
+    S = ry.Simulation(C)
+    state = S.getState()
+    state.freePos = [[-0.3, 0.35, 1.5, 1, 0, 0, 0]]
+    state.q = state.q + 0.1
+    state.time = 3.0
+    S.setState(state)
+    assert S.get_t() == 3.0
+    assert np.allclose(C.getFrame("box").getPosition(), [-0.3, 0.35, 1.5])
+    S.step()
+    assert np.allclose(S.get_q(), state.q, atol=1e-9)
+    assert S.get_frameVelocities()[0, 0, 2] == pytest.approx(-9.81 * 0.01, rel=1e-6)
+
+
+def test_frames_that_are_added_later_take_part():
+    C = panda()
+    S = ry.Simulation(C)
+    go(S, C.getJointState(), C.getJointState() + 0.1, 0.2)
+    q, t = S.get_q(), S.get_t()
+    add_box(C, [-0.3, 0.35, 0.9])
+    S.step()
+    assert [frame.name for frame in S.getFreeFrames()] == ["box"]
+    assert S.get_t() == pytest.approx(t + 0.01)
+    assert np.allclose(S.get_q(), q, atol=1e-6)
+    for _ in range(100):
+        S.step()
+    assert C.getFrame("box").getPosition()[2] == pytest.approx(0.68, abs=1e-3)
+
+
+def test_pushing_the_config_moves_things():
+    C = panda()
+    add_box(C, [-0.3, 0.35, 0.68])
+    S = ry.Simulation(C)
+    C.getFrame("box").setPosition([-0.3, 0.35, 2.0])
+    S.step()
+    assert C.getFrame("box").getPosition()[2] < 1.0  # what is set in the Config alone does not count
+    C.getFrame("box").setPosition([-0.3, 0.35, 2.0])
+    S.pushConfigToSim([[[1, 0, 0], [0, 0, 2]]])
+    assert np.allclose(S.get_frameVelocities(), [[[1, 0, 0], [0, 0, 2]]])
+    S.step()
+    assert np.allclose(C.getFrame("box").getPosition(), [-0.29, 0.35, 2.0], atol=1e-3)
+
+
+def test_contacts_carry_the_weight():
+    C = panda()
+    add_box(C, [-0.3, 0.35, 0.68], 2.0)
+    S = ry.Simulation(C)
+    for _ in range(50):
+        S.step()
+    contacts = S.getContacts()
+    assert {name for contact in contacts for name in contact["frames"]} == {"box", "table"}
+    down = sum(contact["force"] if contact["frames"][0] == "box" else -contact["force"] for contact in contacts)
+    assert np.allclose(down, [0, 0, -2 * 9.81], atol=1e-3)
+    assert all(abs(contact["normal"][2]) == pytest.approx(1, abs=1e-6) for contact in contacts)
+
+
+def test_a_force_sensor_weighs_the_hand_and_an_accelerometer_knows_down():
+    C = panda()
+    S = ry.Simulation(C)
+    S.addForceTorqueSensor("l_panda_joint8")
+    S.addAccelerometer("l_gripper")
+    for _ in range(20):
+        S.step()
+    weight = (0.73 + 0.015 + 0.015) * 9.81
+    assert np.linalg.norm(S.getForceTorque("l_panda_joint8")[:3]) == pytest.approx(weight, rel=1e-3)
+    up = C.getFrame("l_gripper").getRotationMatrix() @ S.getAcceleration("l_gripper")
+    assert np.allclose(up, [0, 0, 9.81], atol=1e-3)
+    with pytest.raises(ry.ArgumentError, match="addAccelerometer"):
+        S.getAcceleration("table")
+
+
+def test_a_push_is_felt_by_the_joints():
+    C = panda()
+    S = ry.Simulation(C)
+    S.perturb("l_gripper", [0, 0, -10.0])
+    for _ in range(20):
+        S.step()
+    J = C.eval(ry.FS.position, ["l_gripper"])[1]
+    assert np.allclose(S.getExternalTorques(), J.T @ [0, 0, -10.0], atol=1e-2)
+    S.clearPerturbations()
+    S.step()
+    assert np.abs(S.getExternalTorques()).max() < 1e-6
+
+
+def test_what_is_attached_goes_along_until_it_is_detached():
+    C = panda()
+    gripper = C.getFrame("l_gripper").getPosition()
+    add_box(C, gripper - [0, 0, 0.15], 0.5)
+    S = ry.Simulation(C)
+    S.attach("l_gripper", "box")
+    before = in_hand(C)
+    q = C.getJointState()
+    go(S, q, q + np.eye(7)[0], 1.0)
+    assert np.linalg.norm(in_hand(C) - before) < 1e-4
+    S.detach("l_gripper", "box")
+    for _ in range(20):
+        S.step()
+    assert in_hand(C)[2] < before[2] - 0.1
+    with pytest.raises(ry.ArgumentError, match="not attached"):
+        S.detach("l_gripper", "box")
+
+
+def test_a_recording_is_repeated_bit_for_bit(tmp_path):
+    C = panda()
+    add_box(C, [-0.3, 0.35, 0.75])
+    S = ry.Simulation(C)
+    S.step()
+    S.startRecording()
+    S.setSplineRef(C.getJointState() + 0.1, [0.2])
+    S.closeGripper("l_gripper", 0.01, 0.2, 5.0)
+    S.multi_step(0.1)
+    S.perturb("box", [1, 0, 0])
+    S.step(S.get_q(), 0.02, ry.ControlMode.position)
+    S.clearPerturbations()
+    S.pushConfigToSim()
+    S.step()
+    recording = S.stopRecording()
+    assert recording.q.shape == (12, 7) and recording.freePos.shape == (12, 1, 7)
+    recording.save(tmp_path / "run")
+    read = ry.SimulationRecording.load(tmp_path / "run")
+    again = read.replay(read.makeConfig())
+    assert again.getState() == S.getState()
+    (tmp_path / "bad").write_bytes((tmp_path / "run").read_bytes()[:-100])
+    with pytest.raises(ry.ArgumentError, match="recording"):
+        ry.SimulationRecording.load(tmp_path / "bad")
+
+
+def test_environments_of_a_batch_are_simulations_at_any_number_of_threads():
+    C = panda()
+    add_box(C, [-0.3, 0.35, 0.75])
+    rng = np.random.default_rng(0)
+    commands = rng.uniform(-0.5, 0.5, (5, 4, 7))
+    results = []
+    for threads in (1, 2):
+        batch = ry.SimulationBatch(C, 4, threads)
+        for u in commands:
+            batch.step(u, 0.01, ry.ControlMode.velocity, 5)
+        results.append((batch.q(), batch.qDot(), batch.freePos(), batch.freeVel()))
+    assert all(np.array_equal(a, b) for a, b in zip(*results))
+    S = ry.Simulation(C)
+    for u in commands:
+        for _ in range(5):
+            S.step(u[2], 0.01, ry.ControlMode.velocity)
+    assert np.array_equal(S.get_q(), results[0][0][2])
+    batch.reset([2])
+    assert np.allclose(batch.times(), [0.25, 0.25, 0, 0.25])
+
+
+def test_masses_and_frictions_of_a_batch_may_differ():
+    C = ry.Config()
+    C.addFrame("slope", "", "shape: box, size: [6 2 .1], friction: .3").setPose([0, 0, 3, *slope(0.4)])
+    C.addFrame("box", "", "shape: box, size: [.1 .1 .05], mass: 1, friction: .3")
+    C.getFrame("box").setPose([*np.array([0, 0, 3]) + 0.0751 * normal(0.4), *slope(0.4)])
+    batch = ry.SimulationBatch(C, 3)
+    batch.setMasses("box", [0.1, 1, 10])
+    batch.setFrictions("box", [0.1, 0.3, 1.1])
+    batch.step([], 0.5)
+    way = np.linalg.norm(batch.freePos()[:, 0, :3] - C.getFrame("box").getPosition(), axis=1)
+    assert way[0] == pytest.approx(0.5 * 9.81 * (np.sin(0.4) - 0.2 * np.cos(0.4)) * 0.25, rel=0.02)
+    assert way[1] == pytest.approx(0.5 * 9.81 * (np.sin(0.4) - 0.3 * np.cos(0.4)) * 0.25, rel=0.02)
+    assert way[2] < 1e-3
+
+
+def slope(angle):
+    return [np.cos(angle / 2), 0, np.sin(angle / 2), 0]
+
+
+def normal(angle):
+    return np.array([np.sin(angle), 0, np.cos(angle)])
+
+
+def test_mistakes_change_nothing_and_say_what_is_wrong():
+    C = panda()
+    add_box(C, [-0.3, 0.35, 0.68])
+    S = ry.Simulation(C)
+    state = S.getState()
+    for call in (
+        lambda: S.step([0, 0, 0], 0.01, ry.ControlMode.position),
+        lambda: S.step([np.nan] * 7, 0.01, ry.ControlMode.position),
+        lambda: S.step([], 0.0),
+        lambda: S.step([], np.inf),
+        lambda: S.moveGripper("box", 0.1),
+        lambda: S.moveGripper("l_gripper", -1),
+        lambda: S.moveGripper("nobody", 0.1),
+        lambda: S.setSplineRef([[0, 0]], [1.0]),
+        lambda: S.setState(ry.Simulation(panda()).getState()),
+        lambda: S.attach("box", "box"),
+        lambda: S.selectSensor("eye"),
+    ):
+        with pytest.raises(ry.Error):
+            call()
+    assert S.getState() == state
+    with pytest.raises(ry.ArgumentError, match="bullet"):
+        ry.Simulation(C, ry.SimulationEngine.bullet)
+    with pytest.raises(ry.ArgumentError, match="inner_step"):
+        ry.Simulation(C, options={"inner_step": 1.0})
+
+
+def test_scenes_that_cannot_be_simulated_name_the_frame():
+    C = ry.Config()
+    C.addFrame("stone", "", "shape: sphere, size: [.1], mass: 1, friction: -1")
+    with pytest.raises(ry.ArgumentError, match="stone"):
+        ry.Simulation(C)
+    D = ry.Config()
+    D.addFrame("rod").setShape(ry.ST.sphere, [0.1]).setMass(1.0, [0.1, 0.1, 0.3])
+    with pytest.warns(ry.KinegraphWarning, match="rod"):
+        ry.Simulation(D)
+
+
+@pytest.mark.parametrize("attributes", ["mass: 1e-9", "mass: 1e9", "mass: 1, friction: 1e9", "mass: 1, friction: 0"])
+def test_hostile_parameters_give_a_result_or_a_clear_error(attributes):
+    C = ry.Config()
+    for i in range(2):  # they overlap
+        C.addFrame(f"b{i}", "", f"shape: box, size: [.1 .1 .1], {attributes}").setPosition([0, 0, 0.05 + 0.03 * i])
+    S = ry.Simulation(C)
+    try:
+        S.step([], 10.0)
+    except ry.Error as error:
+        assert "all bounds" in str(error)
+        assert S.get_t() == 0
+    assert np.isfinite(S.get_frameVelocities()).all()
+
+
+def test_random_scenes_stay_finite():
+    rng = np.random.default_rng(1)
+    for _ in range(100):
+        C = ry.Config()
+        for i in range(rng.integers(1, 8)):
+            size = rng.uniform(0.03, 0.2, 3)
+            shape, sizes = [
+                (ry.ST.box, size),
+                (ry.ST.sphere, size[:1]),
+                (ry.ST.capsule, size[:2]),
+                (ry.ST.cylinder, size[:2]),
+                (ry.ST.ssBox, [*size, 0.01]),
+            ][rng.integers(5)]
+            frame = C.addFrame(f"f{i}").setShape(shape, list(sizes)).setPosition(rng.uniform(-0.3, 0.3, 3) + [0, 0, 0.5])
+            turn = rng.normal(size=4)
+            frame.setQuaternion(turn / np.linalg.norm(turn))
+            if rng.uniform() < 0.8:
+                frame.setMass(rng.uniform(0.01, 3))
+        S = ry.Simulation(C)
+        for _ in range(10):
+            S.step([], 0.2)
+        assert np.isfinite(C.getFrameState()).all()
+
+
+def test_a_camera_sees_what_falls():
+    C = panda()
+    add_box(C, [0, 0.2, 1.2])
+    S = ry.Simulation(C)
+    S.setCamera("cameraTop")
+    rgb, depth = S.getImageAndDepth()
+    assert rgb.shape == (360, 640, 3) and depth.shape == (360, 640)
+    for _ in range(30):
+        S.step()
+    assert not np.array_equal(S.getImageAndDepth()[1], depth)
+    S.setSimulateDepthNoise(True)
+    assert np.array_equal(S.getImageAndDepth()[1], S.getImageAndDepth()[1])
+    assert S.depthData2pointCloud(depth, S.getFxycxy()).shape == (360, 640, 3)
