@@ -6,6 +6,7 @@ Times are processor times of this process, best of several rounds, but for the r
 """
 
 import time
+from itertools import pairwise
 
 import numpy as np
 
@@ -46,7 +47,7 @@ def tracking():
 
 def grasp(mass, force, side):
     """Slips in the hand while it lifts by .2 m, holds 10 s, turns by 1 rad in 1 s; and the error of the place, mm."""
-    above, at, up = (reach(START + [0, 0, z], side) for z in (0.12, 0.0, 0.2))
+    above, at, up = (reach(START + np.array([0, 0, z]), side) for z in (0.12, 0.0, 0.2))
     C = panda(START, mass)
     C.setJointState(above)
     S = ry.Simulation(C)
@@ -73,7 +74,7 @@ def grasp(mass, force, side):
     places.append(in_hand())
     go(up + np.eye(7)[0], up)
     go(up, at)
-    slips = [1e3 * np.linalg.norm(b - a) for a, b in zip(places, places[1:])]
+    slips = [1e3 * np.linalg.norm(b - a) for a, b in pairwise(places)]
     return [*slips, 1e3 * np.linalg.norm(C.getFrame("box").getPosition() - START)]
 
 
@@ -120,20 +121,20 @@ def steps():
 def environments():
     """Steps of 50 ms of environments, Panda with a box, per second of processor time; and how much faster two threads are."""
     C = panda([-0.3, 0.35, 0.68], 0.1)
-    rate, walls = 0.0, {}
-    for threads in (1, 2):
-        batch = ry.SimulationBatch(C, 32, threads)
-        u = np.full((32, 7), 0.05)
-        batch.step(u, 0.05, ry.ControlMode.velocity)
-        if threads == 1:
-            rate = 320 / best(lambda: [batch.step(u, 0.05, ry.ControlMode.velocity) for _ in range(10)], 3)
-        fastest = np.inf
-        for _ in range(5):
+    u = np.full((32, 7), 0.05)
+
+    def walk(batch, times):
+        for _ in range(times):
+            batch.step(u, 0.05, ry.ControlMode.velocity)
+
+    batches = {threads: ry.SimulationBatch(C, 32, threads) for threads in (1, 2)}
+    walls = {1: np.inf, 2: np.inf}
+    for _ in range(5):
+        for threads, batch in batches.items():
             start = time.perf_counter()
-            for _ in range(5):
-                batch.step(u, 0.05, ry.ControlMode.velocity)
-            fastest = min(fastest, time.perf_counter() - start)
-        walls[threads] = fastest
+            walk(batch, 5)
+            walls[threads] = min(walls[threads], time.perf_counter() - start)
+    rate = 320 / best(lambda: walk(batches[1], 10), 3)
     return rate, walls[1] / walls[2]
 
 

@@ -26,8 +26,8 @@ def in_hand():
     return hand.getRotationMatrix().T @ (box.getPosition() - hand.getPosition())
 
 
-above, at, up = reach(start + [0, 0, 0.12]), reach(start), reach(start + [0, 0, 0.2])
-turned = up + [1, 0, 0, 0, 0, 0, 0]
+above, at, up = reach(start + np.array([0, 0, 0.12])), reach(start), reach(start + np.array([0, 0, 0.2]))
+turned = up + np.eye(7)[0]
 C.setJointState(above)
 S = ry.Simulation(C)
 

@@ -8,7 +8,9 @@ import numpy as np
 from robotic import ry
 
 C = ry.Config()
-C.addFrame("belt", "", "shape: box, size: [2 .3 .1], color: [.2 .2 .2], surfaceVelocity: [.3 0 0]").setPosition([0, 0, 0.5])
+C.addFrame("belt", "", "shape: box, size: [2 .3 .1], color: [.2 .2 .2], surfaceVelocity: [.3 0 0]").setPosition(
+    [0, 0, 0.5]
+)
 C.addFrame("rail", "").setPosition([0.6, 0.4, 0.6])
 C.addFrame("bar", "rail", "joint: transY, limits: [-1 1], shape: box, size: [.3 .05 .08], color: [.8 .3 .2]")
 for i, mass in enumerate([0.05, 0.5, 2.0]):

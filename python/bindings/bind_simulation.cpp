@@ -288,7 +288,8 @@ void bindCameras(nb::class_<PySimulation>& simulation) {
 void bindRecording(nb::module_& m, nb::class_<PySimulation>& simulation) {
   nb::class_<Recording>(m, "SimulationRecording", docs::simulation::recording)
       .def_prop_ro(
-          "times", [](const Recording& r) { return toNumpy(r.times.data(), r.times.size()); }, "s after each step, (T,).")
+          "times", [](const Recording& r) { return toNumpy(r.times.data(), r.times.size()); },
+          "s after each step, (T,).")
       .def_prop_ro(
           "q",
           [](const Recording& r) {

@@ -92,8 +92,8 @@ void bindSimulationBatch(nb::module_& m) {
       .def("getState", &Batch::getState, "environment"_a, docs::simulation_batch::getState)
       .def("setState", &Batch::setState, "environment"_a, "state"_a, docs::simulation_batch::setState)
       .def(
-          "reset", [](Batch& b, const Numbers& ids) { b.reset(environmentList(b, ids)); }, "environments"_a = nb::list(),
-          docs::simulation_batch::reset)
+          "reset", [](Batch& b, const Numbers& ids) { b.reset(environmentList(b, ids)); },
+          "environments"_a = nb::list(), docs::simulation_batch::reset)
       .def("place", place, "environments"_a, "q"_a, "freePos"_a = nb::list(), docs::simulation_batch::place)
       .def(
           "closeGrippers",

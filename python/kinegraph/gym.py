@@ -11,7 +11,7 @@ hand. A step takes 50 ms. What is random comes from the seed of `reset`, and so 
 
 from __future__ import annotations
 
-from typing import Any
+from typing import Any, ClassVar
 
 import gymnasium
 import numpy as np
@@ -35,7 +35,7 @@ def _panda() -> ry.Config:
 class _PandaEnv(gymnasium.Env[NDArray[np.float32], NDArray[np.float32]]):
     """What the environments share: a Panda whose joints get velocities."""
 
-    metadata = {"render_modes": ["rgb_array"], "render_fps": 20}
+    metadata: ClassVar[dict[str, Any]] = {"render_modes": ["rgb_array"], "render_fps": 20}
 
     def __init__(self, C: ry.Config, actions: int, observations: int, render_mode: str | None) -> None:
         if render_mode not in (None, "rgb_array"):

@@ -21,38 +21,38 @@
 #include "kinegraph/formats/mjcf_writer.h"
 #include "kinegraph/formats/scene_writer.h"
 #include "kinegraph/formats/urdf_writer.h"
-#include "kinegraph/front/camera_view.h"           // CameraView: images
-#include "kinegraph/front/model_path.h"            // modelPath
-#include "kinegraph/front/names.h"                 // FS, OT, ST, KOMO, NLP_Solver, ...
-#include "kinegraph/front/own_feature.h"           // functions of frames as features
-#include "kinegraph/front/retime_robot.h"          // retime: a robot's path, by its limits
-#include "kinegraph/front/solve_all.h"             // several problems at once
-#include "kinegraph/ik/solve_ik.h"                 // solveIk
-#include "kinegraph/kinematics/edge_check.h"       // EdgeChecker: is a q, is an edge free?
-#include "kinegraph/kinematics/limit_check.h"      // withinLimits
-#include "kinegraph/komo/komo.h"                   // Komo: motion problems
-#include "kinegraph/komo/report.h"                 // how well a path does
-#include "kinegraph/motion/path_finder.h"          // paths between two postures
-#include "kinegraph/nlp/callback_nlp.h"            // problems of your own
-#include "kinegraph/nlp/test_problems.h"           // named problems
-#include "kinegraph/operation/bot_op.h"            // BotOp
-#include "kinegraph/operation/kinematic_driver.h"  // robots that go exactly where they are told
-#include "kinegraph/operation/recorded_driver.h"   // robots whose answers are known
-#include "kinegraph/planning/multi_start.h"        // one problem from many starts
-#include "kinegraph/planning/skeleton.h"           // what shall hold when, in words
-#include "kinegraph/rendering/camera_renderer.h"   // images from any camera
-#include "kinegraph/rendering/depth_image.h"       // points of a depth image
-#include "kinegraph/rendering/framing.h"           // a camera that sees all
-#include "kinegraph/scene/config.h"                // Config, Frame
-#include "kinegraph/scene/motor_limits.h"          // getVelocityLimits, getEffortLimits
-#include "kinegraph/simulation/simulation.h"       // Simulation
-#include "kinegraph/simulation/simulation_batch.h" // many of them
-#include "kinegraph/solvers/explanation.h"         // why constraints do not hold
-#include "kinegraph/solvers/methods.h"             // the methods of NlpSolver
-#include "kinegraph/solvers/nlp_solver.h"          // NlpSolver
-#include "kinegraph/solvers/sampling/sampler.h"    // NlpSampler
-#include "kinegraph/spline/b_spline.h"             // BSpline
-#include "kinegraph/spline/retime.h"               // retime: the fastest motion along a path
-#include "kinegraph/viewer/config_viewer.h"        // the viewer in the browser
-#include "kinegraph/viewer/motions.h"              // motions to show there
-#include "kinegraph/viewer/watch_file.h"           // a scene file shown whenever it changes
+#include "kinegraph/front/camera_view.h"            // CameraView: images
+#include "kinegraph/front/model_path.h"             // modelPath
+#include "kinegraph/front/names.h"                  // FS, OT, ST, KOMO, NLP_Solver, ...
+#include "kinegraph/front/own_feature.h"            // functions of frames as features
+#include "kinegraph/front/retime_robot.h"           // retime: a robot's path, by its limits
+#include "kinegraph/front/solve_all.h"              // several problems at once
+#include "kinegraph/ik/solve_ik.h"                  // solveIk
+#include "kinegraph/kinematics/edge_check.h"        // EdgeChecker: is a q, is an edge free?
+#include "kinegraph/kinematics/limit_check.h"       // withinLimits
+#include "kinegraph/komo/komo.h"                    // Komo: motion problems
+#include "kinegraph/komo/report.h"                  // how well a path does
+#include "kinegraph/motion/path_finder.h"           // paths between two postures
+#include "kinegraph/nlp/callback_nlp.h"             // problems of your own
+#include "kinegraph/nlp/test_problems.h"            // named problems
+#include "kinegraph/operation/bot_op.h"             // BotOp
+#include "kinegraph/operation/kinematic_driver.h"   // robots that go exactly where they are told
+#include "kinegraph/operation/recorded_driver.h"    // robots whose answers are known
+#include "kinegraph/planning/multi_start.h"         // one problem from many starts
+#include "kinegraph/planning/skeleton.h"            // what shall hold when, in words
+#include "kinegraph/rendering/camera_renderer.h"    // images from any camera
+#include "kinegraph/rendering/depth_image.h"        // points of a depth image
+#include "kinegraph/rendering/framing.h"            // a camera that sees all
+#include "kinegraph/scene/config.h"                 // Config, Frame
+#include "kinegraph/scene/motor_limits.h"           // getVelocityLimits, getEffortLimits
+#include "kinegraph/simulation/simulation.h"        // Simulation
+#include "kinegraph/simulation/simulation_batch.h"  // many of them
+#include "kinegraph/solvers/explanation.h"          // why constraints do not hold
+#include "kinegraph/solvers/methods.h"              // the methods of NlpSolver
+#include "kinegraph/solvers/nlp_solver.h"           // NlpSolver
+#include "kinegraph/solvers/sampling/sampler.h"     // NlpSampler
+#include "kinegraph/spline/b_spline.h"              // BSpline
+#include "kinegraph/spline/retime.h"                // retime: the fastest motion along a path
+#include "kinegraph/viewer/config_viewer.h"         // the viewer in the browser
+#include "kinegraph/viewer/motions.h"               // motions to show there
+#include "kinegraph/viewer/watch_file.h"            // a scene file shown whenever it changes

@@ -34,7 +34,11 @@ FOUND = {
         r"blend: \d\.\d+ s, with limits of the jerk \d\.\d+ s",
         r"passes the middle point",
     ],
-    "15_grasp_and_lift": [r"apart by 0\.0(60|59\d) m|apart by 0\.06 m", r"slipped by 0\.0[0-4]\d+ mm", r"put down at \[.* 0\.68"],
+    "15_grasp_and_lift": [
+        r"apart by 0\.0(60|59\d) m|apart by 0\.06 m",
+        r"slipped by 0\.0[0-4]\d+ mm",
+        r"put down at \[.* 0\.68",
+    ],
     "16_conveyor": [r"the boxes go at \[0\.3 0\.3 0\.3\]", r"heights of the boxes"],
     "10_many_problems": [r"taken by r_gripper", r"6 of 6 feasible", r"\b10 postures"],
 }

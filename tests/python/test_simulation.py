@@ -46,7 +46,7 @@ def in_hand(C):
 @pytest.mark.parametrize("side", [[1, 0, 0], [0, 1, 0]])  # fingers close across and along the radius of the turn
 def test_a_box_of_one_kilogram_does_not_slip_in_the_hand(side):
     start = np.array([0.0, 0.3, 0.68])
-    above, at, up = (reach(start + [0, 0, z], side) for z in (0.12, 0.0, 0.2))
+    above, at, up = (reach(start + np.array([0, 0, z]), side) for z in (0.12, 0.0, 0.2))
     turned = up + np.eye(7)[0]
     C = panda()
     add_box(C, start, 1.0)
@@ -249,7 +249,7 @@ def test_a_push_is_felt_by_the_joints():
 def test_what_is_attached_goes_along_until_it_is_detached():
     C = panda()
     gripper = C.getFrame("l_gripper").getPosition()
-    add_box(C, gripper - [0, 0, 0.15], 0.5)
+    add_box(C, gripper - np.array([0, 0, 0.15]), 0.5)
     S = ry.Simulation(C)
     S.attach("l_gripper", "box")
     before = in_hand(C)
@@ -398,7 +398,9 @@ def test_random_scenes_stay_finite():
                 (ry.ST.cylinder, size[:2]),
                 (ry.ST.ssBox, [*size, 0.01]),
             ][rng.integers(5)]
-            frame = C.addFrame(f"f{i}").setShape(shape, list(sizes)).setPosition(rng.uniform(-0.3, 0.3, 3) + [0, 0, 0.5])
+            frame = (
+                C.addFrame(f"f{i}").setShape(shape, list(sizes)).setPosition(rng.uniform(-0.3, 0.3, 3) + np.array([0, 0, 0.5]))
+            )
             turn = rng.normal(size=4)
             frame.setQuaternion(turn / np.linalg.norm(turn))
             if rng.uniform() < 0.8:

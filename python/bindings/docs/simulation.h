@@ -271,7 +271,8 @@ Returns:
 Raises:
     Error: Drawing needs EGL, which is not there.)";
 
-inline constexpr char setSimulateDepthNoise[] = R"(Lets depth have the errors of a stereo camera (parameters DepthNoise/...), the same at the same time.
+inline constexpr char setSimulateDepthNoise[] =
+    R"(Lets depth have the errors of a stereo camera (parameters DepthNoise/...), the same at the same time.
 
 Args:
     noise: True or False.)";
@@ -286,7 +287,8 @@ Returns:
 Raises:
     ArgumentError: fxycxy does not have 4 numbers.)";
 
-inline constexpr char recording[] = R"(A run of a simulation: the scene, where it started, all calls, and where everything was after each step.)";
+inline constexpr char recording[] =
+    R"(A run of a simulation: the scene, where it started, all calls, and where everything was after each step.)";
 
 inline constexpr char save[] = R"(Writes the recording into a file.
 

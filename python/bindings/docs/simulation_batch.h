@@ -41,7 +41,8 @@ Returns:
 Raises:
     ArgumentError: There is no such environment.)";
 
-inline constexpr char setState[] = R"(Brings an environment to a state of any environment of the same scene, or of a Simulation of it.
+inline constexpr char setState[] =
+    R"(Brings an environment to a state of any environment of the same scene, or of a Simulation of it.
 
 Args:
     environment: 0 to N - 1.
@@ -76,7 +77,8 @@ Raises:
     FrameNotFound: There is no such frame.
     ArgumentError: It has no gripper, or numbers make no sense.)";
 
-inline constexpr char setMasses[] = R"(Gives the body of a frame another mass in each environment; its inertia grows with it.
+inline constexpr char setMasses[] =
+    R"(Gives the body of a frame another mass in each environment; its inertia grows with it.
 
 Args:
     frame: Its name.

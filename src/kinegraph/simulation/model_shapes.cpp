@@ -77,8 +77,8 @@ mjsGeom* ModelShapes::addGeom(mjsBody* body, const FrameData& frame, const Pose&
   setContactNumbers(geom, options_, friction);
   geom->contype = contactBit(robot);
   geom->conaffinity = robot < 0 ? -1 : ~contactBit(robot);
-  geoms.push_back({geom, name, frame.id, body_number, robot, body_moves, friction,
-                   frame.attributes->find("friction") != nullptr});
+  geoms.push_back(
+      {geom, name, frame.id, body_number, robot, body_moves, friction, frame.attributes->find("friction") != nullptr});
   return geom;
 }
 
@@ -169,8 +169,7 @@ void ModelShapes::addFrictionPairs(const std::set<std::pair<int, int>>& excluded
     for (std::size_t j = i + 1; j < geoms.size(); ++j) {
       const Geom &a = geoms[i], &b = geoms[j];
       const bool differ = a.friction != b.friction || (all_given && (a.is_given || b.is_given));
-      if (!differ || a.body == b.body || !(a.moves || b.moves) || !mayTouch(a.robot, b.robot))
-        continue;
+      if (!differ || a.body == b.body || !(a.moves || b.moves) || !mayTouch(a.robot, b.robot)) continue;
       if (excluded.contains(std::minmax(a.body, b.body))) continue;
       mjsPair* pair = mj.mjs_addPair(spec_, nullptr);
       mj.mjs_setString(pair->geomname1, a.name.c_str());

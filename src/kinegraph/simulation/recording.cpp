@@ -137,7 +137,8 @@ std::string Recording::toBytes() const {
   for (const auto& row : simulationOptionTable().rows()) {
     std::visit(
         [&](auto member) {
-          if constexpr (std::is_arithmetic_v<std::decay_t<decltype(options.*member)>>) write.number(double(options.*member));
+          if constexpr (std::is_arithmetic_v<std::decay_t<decltype(options.*member)>>)
+            write.number(double(options.*member));
         },
         row.member);
   }

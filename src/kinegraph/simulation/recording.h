@@ -16,7 +16,18 @@ class Simulation;
 /// same version of the library on the same kind of machine, `replay` repeats it bit for bit.
 struct Recording {
   struct Call {
-    enum class Kind : int { step, gripper, attach, detach, spline, reset_spline, reset_time, set_state, push, clear_pushes };
+    enum class Kind : int {
+      step,
+      gripper,
+      attach,
+      detach,
+      spline,
+      reset_spline,
+      reset_time,
+      set_state,
+      push,
+      clear_pushes
+    };
     Kind kind = Kind::step;
     std::vector<double> numbers;
     std::vector<std::string> words;

@@ -64,8 +64,7 @@ void Reference::hold(const SceneModel& model, const mjtNum* qpos, const mjtNum* 
       std::copy_n(qpos + drive.qpos, 4, parts_.dofs[i].turn);
     } else {
       parts_.dofs[i].position = parts_.dofs[i].goal = qpos[drive.qpos];
-      parts_.dofs[i].velocity = parts_.dofs[i].rate = parts_.dofs[i].slope =
-          qvel[drive.dof];
+      parts_.dofs[i].velocity = parts_.dofs[i].rate = parts_.dofs[i].slope = qvel[drive.dof];
     }
   }
 }

@@ -20,8 +20,8 @@ class Reference {
     double velocity = 0.;      ///< that brought it here, over the last inner step
     double acceleration = 0.;  ///< for the next one
     double goal = 0.;
-    double rate = 0.;   ///< velocity where it is, of the smooth curve that it follows
-    double slope = 0.;  ///< mean velocity over the last command
+    double rate = 0.;                   ///< velocity where it is, of the smooth curve that it follows
+    double slope = 0.;                  ///< mean velocity over the last command
     double turn[4] = {1., 0., 0., 0.};  ///< of a ball: the orientation wanted
     bool operator==(const Dof&) const = default;
   };

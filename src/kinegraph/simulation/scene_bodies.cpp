@@ -72,8 +72,9 @@ void checkInertia(const FrameData& frame) {
 void warnOfImpossibleInertia(const FrameData& frame, std::vector<std::string>& warnings) {
   const Vector3d moments = frame.inertia->matrix.selfadjointView<Eigen::Lower>().eigenvalues();
   if (2. * moments.maxCoeff() > 1.001 * moments.sum())
-    warnings.push_back(cat("Simulation: frame '", frame.name, "' has principal moments of inertia ", moments.transpose(),
-                           ", which no body has: one is larger than the other two together. Their mean is taken for each"));
+    warnings.push_back(
+        cat("Simulation: frame '", frame.name, "' has principal moments of inertia ", moments.transpose(),
+            ", which no body has: one is larger than the other two together. Their mean is taken for each"));
 }
 
 LinkInertia surfaceInertia(const Geometry& geometry, double mass) {

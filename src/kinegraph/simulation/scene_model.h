@@ -82,8 +82,8 @@ struct SceneModel {
 
 /// What a model has beyond the scene.
 struct ModelExtras {
-  std::set<int> forces, accelerations;   ///< ids of frames where these are measured
-  bool can_change_frictions = false;     ///< of frames with the attribute `friction`: all their pairs are listed
+  std::set<int> forces, accelerations;  ///< ids of frames where these are measured
+  bool can_change_frictions = false;    ///< of frames with the attribute `friction`: all their pairs are listed
 };
 
 /// Makes the model of a scene at its present state. Throws ValueError for what cannot be simulated, with the frame.

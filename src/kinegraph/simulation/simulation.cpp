@@ -30,11 +30,15 @@ Simulation::Impl::Impl(const Config& given, SimulationEngine which, const Simula
 }
 
 Simulation::Impl::Impl(const Impl& other)
-    : config(other.config.scene()), engine(other.engine), options(other.options),
-      can_change_frictions(other.can_change_frictions), force_frames(other.force_frames),
+    : config(other.config.scene()),
+      engine(other.engine),
+      options(other.options),
+      can_change_frictions(other.can_change_frictions),
+      force_frames(other.force_frames),
       acceleration_frames(other.acceleration_frames),
       world(std::make_unique<World>(other.world->sharedScene(), options, engine == SimulationEngine::kinematic)),
-      frames(other.frames), revision(other.revision) {
+      frames(other.frames),
+      revision(other.revision) {
   world->setState(other.world->state());
 }
 

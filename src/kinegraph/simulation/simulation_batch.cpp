@@ -32,8 +32,8 @@ struct SimulationBatch::Impl {
       throw ValueError(cat(call, ": ", what, " has ", values.size(), " numbers; expected ", environments.size()));
     for (const double value : values) {
       if (!std::isfinite(value) || value < least || (value == least && !may_be_least))
-        throw ValueError(cat(call, ": ", what, " has ", value, "; expected finite numbers ", may_be_least ? ">= " : "> ",
-                             least));
+        throw ValueError(
+            cat(call, ": ", what, " has ", value, "; expected finite numbers ", may_be_least ? ">= " : "> ", least));
     }
   }
   void perform(const std::function<void(int)>& work, const std::function<void()>& between) const {
@@ -52,7 +52,8 @@ SimulationBatch::SimulationBatch(const Config& config, int count, int threads, S
     : impl_(std::make_unique<Impl>()) {
   if (count < 1 || count > 1000000)
     throw ValueError(cat("SimulationBatch: ", count, " environments; expected 1 to 1000000"));
-  if (threads < 1 || threads > 1024) throw ValueError(cat("SimulationBatch: ", threads, " threads; expected 1 to 1024"));
+  if (threads < 1 || threads > 1024)
+    throw ValueError(cat("SimulationBatch: ", threads, " threads; expected 1 to 1024"));
   impl_->config = config;
   impl_->threads = threads;
   impl_->environments.emplace_back(
@@ -70,7 +71,8 @@ int SimulationBatch::dofs() const { return impl_->world(0).scene().dofs; }
 
 std::vector<std::string> SimulationBatch::freeFrames() const {
   std::vector<std::string> names;
-  for (const int id : impl_->world(0).scene().free_frames) names.push_back(impl_->first().frames[std::size_t(id)]->name);
+  for (const int id : impl_->world(0).scene().free_frames)
+    names.push_back(impl_->first().frames[std::size_t(id)]->name);
   return names;
 }
 
@@ -80,8 +82,8 @@ void SimulationBatch::step(const MatrixXd& u, double tau, ControlMode mode, int 
   if (repeat < 1) throw ValueError(cat(call, ": repeat is ", repeat, "; expected at least 1"));
   const int columns = controlSize(mode, dofs());
   if (columns == 0 ? u.size() != 0 : u.rows() != size() || u.cols() != columns)
-    throw ValueError(cat(call, ": u has shape (", u.rows(), ", ", u.cols(), "); mode ", controlModeName(mode), " takes ",
-                         columns == 0 ? "none" : cat("(", size(), ", ", columns, ")")));
+    throw ValueError(cat(call, ": u has shape (", u.rows(), ", ", u.cols(), "); mode ", controlModeName(mode),
+                         " takes ", columns == 0 ? "none" : cat("(", size(), ", ", columns, ")")));
   for (int i = 0; i < (columns == 0 ? 1 : size()); ++i)
     impl_->world(i).checkCommand(columns == 0 ? VectorXd() : VectorXd(u.row(i)), tau, mode);
   std::mutex mutex;
@@ -160,8 +162,8 @@ void SimulationBatch::place(const std::vector<int>& environments, const MatrixXd
     throw ValueError(cat(call, ": q has shape (", q.rows(), ", ", q.cols(), "); expected finite numbers (", rows, ", ",
                          dofs(), ")"));
   if (poses.size() > 0 && (poses.rows() != rows || poses.cols() != 7 * free || !poses.allFinite()))
-    throw ValueError(cat(call, ": poses has shape (", poses.rows(), ", ", poses.cols(), "); expected finite numbers (", rows,
-                         ", ", 7 * free, ")"));
+    throw ValueError(cat(call, ": poses has shape (", poses.rows(), ", ", poses.cols(), "); expected finite numbers (",
+                         rows, ", ", 7 * free, ")"));
   for (long i = 0; i < rows; ++i) {
     Simulation::Impl& s = *impl_->environments[std::size_t(environments[std::size_t(i)])]->impl_;
     World& world = *s.world;

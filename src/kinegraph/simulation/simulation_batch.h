@@ -32,10 +32,10 @@ class SimulationBatch {
   void step(const MatrixXd& u = {}, double tau = .01, ControlMode mode = ControlMode::none, int repeat = 1,
             const std::function<void()>& between = {});
 
-  VectorXd times() const;         ///< s
-  MatrixXd q() const;             ///< size x n
-  MatrixXd qDot() const;          ///< size x n
-  MatrixXd freePoses() const;     ///< size x 7F, free frames one after the other
+  VectorXd times() const;           ///< s
+  MatrixXd q() const;               ///< size x n
+  MatrixXd qDot() const;            ///< size x n
+  MatrixXd freePoses() const;       ///< size x 7F, free frames one after the other
   MatrixXd freeVelocities() const;  ///< size x 6F
 
   SimulationState getState(int environment) const;
