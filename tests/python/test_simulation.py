@@ -399,7 +399,9 @@ def test_random_scenes_stay_finite():
                 (ry.ST.ssBox, [*size, 0.01]),
             ][rng.integers(5)]
             frame = (
-                C.addFrame(f"f{i}").setShape(shape, list(sizes)).setPosition(rng.uniform(-0.3, 0.3, 3) + np.array([0, 0, 0.5]))
+                C.addFrame(f"f{i}")
+                .setShape(shape, list(sizes))
+                .setPosition(rng.uniform(-0.3, 0.3, 3) + np.array([0, 0, 0.5]))
             )
             turn = rng.normal(size=4)
             frame.setQuaternion(turn / np.linalg.norm(turn))
