@@ -54,6 +54,8 @@ void bindSkeleton(nb::module_& m);
 void bindIk(nb::module_& m);
 void bindRetime(nb::module_& m);
 void bindPathFinder(nb::module_& m);
+void bindPlan(nb::module_& m);
+void bindRoadmap(nb::module_& m);
 void bindSpline(nb::module_& m);
 void bindOperation(nb::module_& m);
 void bindDynamics(nb::class_<PyConfig>& config);

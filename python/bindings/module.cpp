@@ -45,6 +45,8 @@ NB_MODULE(_core, m) {
   bindIk(m);
   bindRetime(m);
   bindPathFinder(m);
+  bindPlan(m);
+  bindRoadmap(m);
   bindSpline(m);
   bindSimulation(m);
   bindOperation(m);

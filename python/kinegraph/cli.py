@@ -7,9 +7,10 @@ import re
 import sys
 from collections.abc import Callable
 from pathlib import Path
+from typing import Any
 
 from . import __version__
-from ._core import Config, ConfigurationViewer, checkFile
+from ._core import Config, ConfigurationViewer, checkFile, planMotion
 from .compatibility.parameters import params_get
 from .errors import ArgumentError, Error, FileError
 from .model_paths import raiPath
@@ -55,6 +56,27 @@ def _parser() -> argparse.ArgumentParser:
     info.add_argument("file")
     info.add_argument("--frames", action="store_true", help="a line for every frame, not only for what moves")
 
+    plan = commands.add_parser(
+        "plan", help="a motion of a scene to a goal, free of collisions; exit status 1 if there is none"
+    )
+    plan.add_argument("file")
+    plan.add_argument(
+        "--goal",
+        required=True,
+        nargs="+",
+        metavar="GOAL",
+        help="a joint state of the scene by name, a number for each joint, or FRAME=X,Y,Z (or X,Y,Z,QW,QX,QY,QZ, or another frame)",
+    )
+    plan.add_argument(
+        "--start", nargs="+", metavar="START", help="a joint state by name, or numbers (default: as the scene)"
+    )
+    plan.add_argument("--margin", type=float, default=0.0, help="distance to keep, m (default: 0)")
+    plan.add_argument("--optimize", default="time", choices=["time", "length", "clearance"], help="(default: time)")
+    plan.add_argument("--seed", type=int, default=0, help="of random postures (default: 0)")
+    plan.add_argument("--time-limit", type=float, default=float("inf"), help="s (default: none)")
+    plan.add_argument("-o", "--output", metavar="CSV", help="a row for each 10 ms of the motion: time, then the joints")
+    plan.add_argument("--no-view", action="store_true", help="print only")
+
     check = commands.add_parser(
         "check", help="mistakes and oddities in scene files; exit status 1 if there is a mistake"
     )
@@ -97,6 +119,57 @@ def _view(file: str, watch: bool) -> None:
         Config().watchFile(file)
     else:
         _load(file).view(True, file)
+
+
+def _target(text: str) -> tuple[str, object]:
+    """FRAME=X,Y,Z as a target of inverse kinematics."""
+    frame, _, place = text.partition("=")
+    try:
+        return frame, [float(number) for number in place.split(",")]
+    except ValueError:
+        return frame, place  # another frame
+
+
+def _posture(config: Config, words: list[str], option: str) -> Any:
+    """Numbers, or the name of a joint state."""
+    if len(words) == 1 and words[0] in config.getStateNames():
+        return config.getNamedState(words[0])
+    try:
+        return [float(word) for word in words]
+    except ValueError:
+        known = ", ".join(config.getStateNames()) or "none"
+        raise ArgumentError(
+            f"{option} is {' '.join(words)!r}; expected numbers, or a joint state of the scene: {known}"
+        ) from None
+
+
+def _plan(options: argparse.Namespace) -> int:
+    config = _load(options.file)
+    words = options.goal
+    goal = dict(_target(word) for word in words) if "=" in words[0] else _posture(config, words, "--goal")
+    start = _posture(config, options.start, "--start") if options.start else None
+    motion = planMotion(
+        config,
+        goal,
+        start,
+        margin=options.margin,
+        optimize=options.optimize,
+        seed=options.seed,
+        time_limit=options.time_limit,
+    )
+    print(motion.explain())
+    if not motion.feasible:
+        return 1
+    if options.output:
+        count = max(2, round(motion.duration / 0.01) + 1)
+        with open(options.output, "w") as file:
+            print("time", *config.getJointNames(), sep=",", file=file)
+            for i in range(count):
+                t = motion.duration * i / (count - 1)
+                print(t, *motion.at(t)[0], sep=",", file=file)
+    if not options.no_view:
+        config.view_path(motion.path, max(1.0, motion.duration), True, "the motion")
+    return 0
 
 
 def _info(file: str, frames: bool) -> None:
@@ -182,6 +255,8 @@ def main(arguments: list[str] | None = None) -> int:
             _render(options)
         if options.command == "info":
             _info(options.file, options.frames)
+        if options.command == "plan":
+            return _plan(options)
         if options.command == "check":
             return _check(options.files, options.strict)
     except KeyboardInterrupt:

@@ -33,6 +33,9 @@
 #include "kinegraph/komo/komo.h"                    // Komo: motion problems
 #include "kinegraph/komo/report.h"                  // how well a path does
 #include "kinegraph/motion/path_finder.h"           // paths between two postures
+#include "kinegraph/motion/plan_motion.h"           // planMotion
+#include "kinegraph/motion/refine_path.h"           // shortcut, smooth
+#include "kinegraph/motion/roadmap.h"               // Roadmap
 #include "kinegraph/nlp/callback_nlp.h"             // problems of your own
 #include "kinegraph/nlp/test_problems.h"            // named problems
 #include "kinegraph/operation/bot_op.h"             // BotOp

@@ -46,7 +46,7 @@ bool ClearanceCheck::seemsFree(const VectorXd& from, const VectorXd& to) {
 }
 
 /// Where margins differ along the motion, it is cut there, and each piece has one margin.
-std::optional<MotionContact> ClearanceCheck::contact(const VectorXd& from, const VectorXd& to) {
+std::optional<MotionContact> ClearanceCheck::contact(const VectorXd& from, const VectorXd& to, double room) {
   const VectorXd change = space_->difference(from, to);
   std::vector<double> cuts = {0., 1.};
   for (const Clearance::Tight& tight : clearance_.tight) {  // where the straight motion enters and leaves the ball
@@ -63,7 +63,7 @@ std::optional<MotionContact> ClearanceCheck::contact(const VectorXd& from, const
     const double begin = cuts[i - 1], end = cuts[i];
     const VectorXd first = from + begin * change, last = from + end * change;
     ++evaluations;
-    edges_.setMargin(marginAt(.5 * (first + last)));
+    edges_.setMargin(marginAt(.5 * (first + last)) + room);
     if (edges_.isFree(first.data(), last.data())) continue;
     countHit();
     MotionContact contact = *edges_.lastHit();
@@ -79,7 +79,8 @@ std::vector<ClearanceCheck::Nearest> ClearanceCheck::nearerThan(const VectorXd& 
   pairs_.place(state_);
   std::vector<Nearest> near;
   pairs_.forDistances(up_to, [&](int a, int b, double distance) {
-    if (distance < up_to) near.push_back({distance, a, b});
+    const bool moves = state_.link(a) != state_.link(b);  // else it says nothing about q
+    if (moves && distance < up_to) near.push_back({distance, a, b});
   });
   std::stable_sort(near.begin(), near.end(),
                    [](const Nearest& x, const Nearest& y) { return x.distance < y.distance; });

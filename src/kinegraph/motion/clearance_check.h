@@ -46,8 +46,9 @@ class ClearanceCheck {
   bool seemsFree(const VectorXd& from, const VectorXd& to);
 
   /// Is it free at all times? A contact is one of those on the way, its time that on the way from `from` to `to`.
-  std::optional<MotionContact> contact(const VectorXd& from, const VectorXd& to);
-  bool isMotionFree(const VectorXd& from, const VectorXd& to) { return !contact(from, to); }
+  /// `room` (m) is kept beyond all margins.
+  std::optional<MotionContact> contact(const VectorXd& from, const VectorXd& to, double room = 0.);
+  bool isMotionFree(const VectorXd& from, const VectorXd& to, double room = 0.) { return !contact(from, to, room); }
 
   /// The least distance of a collidable pair at q, if it is less than `up_to`, and that pair.
   struct Nearest {

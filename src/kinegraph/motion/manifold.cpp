@@ -12,9 +12,9 @@ namespace kinegraph {
 
 namespace {
 
-constexpr int kSteps = 30;
-constexpr double kLongestStep = .3;  // of a dof
-constexpr double kAim = 1e-2;        // projections go for this share of the tolerance
+constexpr int kProjections = 30;
+constexpr double kLongestProjection = .3;  // of a dof
+constexpr double kAim = 1e-2;              // projections go for this share of the tolerance
 
 }  // namespace
 
@@ -76,7 +76,7 @@ std::string Manifold::worst(const VectorXd& q) {
 
 bool Manifold::project(VectorXd& q) {
   if (isEmpty()) return true;
-  for (int step = 0; step < kSteps; ++step) {
+  for (int step = 0; step < kProjections; ++step) {
     measure(q, true);
     if (!y_.allFinite()) return false;
     if (y_.cwiseAbs().maxCoeff() <= kAim * tolerance_) return true;
@@ -84,7 +84,7 @@ bool Manifold::project(VectorXd& q) {
     A.diagonal().array() += 1e-9 + 1e-6 * A.diagonal().maxCoeff();
     VectorXd change = -(J_.transpose() * A.ldlt().solve(y_));
     const double longest = change.cwiseAbs().maxCoeff();
-    if (longest > kLongestStep) change *= kLongestStep / longest;
+    if (longest > kLongestProjection) change *= kLongestProjection / longest;
     if (longest < 1e-14) break;
     q += change;
     space_->clamp(q);

@@ -28,7 +28,7 @@ std::string lengthInWords(double length) {
   const double size = std::abs(length);
   char text[32];
   if (size < 1e-3) {
-    std::snprintf(text, sizeof text, "%.2g um", 1e6 * length);
+    std::snprintf(text, sizeof text, "%.3g um", 1e6 * length);
   } else if (size < 1.) {
     std::snprintf(text, sizeof text, "%.3g mm", 1e3 * length);
   } else {

@@ -12,7 +12,7 @@ namespace kinegraph {
 
 namespace {
 
-constexpr const char* kWho = "PathFinder";
+constexpr const char* kPathFinder = "PathFinder";
 constexpr long kEffortPerIteration = 40;  // postures looked at
 
 double processorTime() { return double(std::clock()) / CLOCKS_PER_SEC; }
@@ -23,20 +23,20 @@ const OptionTable<PathFinderOptions>& pathFinderOptionTable() {
   using O = PathFinderOptions;
   using Range = OptionRange;
   static const OptionTable<O> table(
-      kWho, {{"verbose", &O::verbose, "", "0: silent; 1: solve prints a line; 2 and more: and shows the path."},
-             {"stepsize", &O::stepsize, "rad or m", "Longest step from one posture of the path to the next.",
-              Range::positive()},
-             {"subsamples", &O::subsamples, "", "Of older scripts, without effect: motions are checked at all times.",
-              Range::notNegative()},
-             {"maxIters", &O::maxIters, "", "Effort: 40 postures are looked at for each.", Range::atLeastOne()},
-             {"p_connect",
-              &O::p_connect,
-              "",
-              "Of older scripts, without effect: trees always grow towards each other, too.",
-              {[](double v) { return v >= 0. && v <= 1.; }, "a number from 0 to 1"}},
-             {"collisionTolerance", &O::collisionTolerance, "m", "Depth to which each pair may overlap.",
-              Range::notNegative()},
-             {"useBroadCollisions", &O::useBroadCollisions, "", "Of older scripts, without effect."}});
+      kPathFinder, {{"verbose", &O::verbose, "", "0: silent; 1: solve prints a line; 2 and more: and shows the path."},
+                    {"stepsize", &O::stepsize, "rad or m", "Longest step from one posture of the path to the next.",
+                     Range::positive()},
+                    {"subsamples", &O::subsamples, "",
+                     "Of older scripts, without effect: motions are checked at all times.", Range::notNegative()},
+                    {"maxIters", &O::maxIters, "", "Effort: 40 postures are looked at for each.", Range::atLeastOne()},
+                    {"p_connect",
+                     &O::p_connect,
+                     "",
+                     "Of older scripts, without effect: trees always grow towards each other, too.",
+                     {[](double v) { return v >= 0. && v <= 1.; }, "a number from 0 to 1"}},
+                    {"collisionTolerance", &O::collisionTolerance, "m", "Depth to which each pair may overlap.",
+                     Range::notNegative()},
+                    {"useBroadCollisions", &O::useBroadCollisions, "", "Of older scripts, without effect."}});
   return table;
 }
 
@@ -92,14 +92,14 @@ SolverResult PathFinder::solve(std::uint64_t seed, const MotionWatch& watch) {
 /// No rows if there is no path; the result then says why.
 MatrixXd PathFinder::search(const State& scene, std::uint64_t seed, const MotionWatch& watch, SolverResult& result) {
   const JointSpace space(scene.program());
-  space.requireRanges(kWho);
+  space.requireRanges(kPathFinder);
   const double margin = -options_.collisionTolerance;
   WayRequest request{.demands = {&scene, &space, {.margin = margin}}, .starts = {}, .goals = {}};
   Steering steering(request.demands);
   result.status = SolverStatus::infeasible;
   std::vector<MotionEnd> ends;
   for (const auto& [q, what] : {std::pair(&start_, "start"), std::pair(&goal_, "goal")}) {
-    ends.push_back(checkEnd(steering, scene.program(), *q, margin, what, kWho));
+    ends.push_back(checkEnd(steering, scene.program(), *q, margin, what, kPathFinder));
     if (ends.back().isFree()) continue;
     result.message = ends.back().problem;
     return {};

@@ -8,6 +8,7 @@ namespace {
 
 constexpr double kWorth = 1e-3;  // least gain, as a share of the length
 constexpr int kCornerRounds = 8;
+constexpr int kMostMisses = 30;  // random joints that gain nothing
 
 class Shortener {
  public:
@@ -79,7 +80,9 @@ class Shortener {
   /// Random pairs of places, at first anywhere, later nearer to each other.
   void joinPlaces() {
     double all = length(path_);
-    for (int i = 0; i < options_.cuts && path_.size() > 2; ++i) {
+    int misses = 0;  // in a row
+    for (int i = 0; i < options_.cuts && path_.size() > 2 && misses < kMostMisses; ++i) {
+      ++misses;
       if (i % 8 == 0 && stopped()) return;
       const double reach = all * (1. - .9 * i / options_.cuts), first = rng_.uniform(0., all),
                    second = first + reach * rng_.uniform(.1, 1.);
@@ -93,6 +96,7 @@ class Shortener {
         continue;
       }
       dropUseless();
+      if (length(path_) < (1. - kWorth) * all) misses = 0;
       all = length(path_);
     }
   }

@@ -1,0 +1,73 @@
+"""Part 11: motions from A to B, free of collisions at all times.
+
+`planMotion` searches, shortens, verifies and times a motion. Where there is none, it says why.
+"""
+
+import numpy as np
+
+from robotic import ry
+
+# Among obstacles: around a column, 1 cm from everything, to a place for the gripper.
+C = ry.Config()
+C.addFile(ry.raiPath("scenarios/pandaSingle.g"))
+column = C.addFrame("column", "table").setShape(ry.ST.ssBox, [0.1, 0.1, 0.8, 0.02])
+column.setRelativePosition([0.0, 0.35, 0.4]).setContact(1)
+q = C.getJointState()
+turn = np.array([0.6, 0, 0, 0, 0, 0, 0])
+start = q - turn
+plan = ry.planMotion(C, q + turn, start, margin=0.01)
+print(plan.explain())
+assert plan.feasible and plan.clearance() > 0.0099
+C.view_path(plan.path, plan.duration, True, "around the column")
+
+# With a glass: the gripper keeps its direction all along.
+C.delFrame("column")
+C.setJointState([0.0, -0.5, 0.0, -2.0, 0.0, 2.0, 0.0])
+up, _ = C.eval(ry.FS.vectorZ, ["l_gripper"])
+upright = ry.MotionConstraint(ry.FS.vectorZ, ["l_gripper"], target=up)
+plan = ry.planMotion(C, {"l_gripper": {"position": [0.3, 0.4, 1.1], "z": up}}, constraints=[upright])
+print(plan)
+assert plan.feasible
+for t in np.linspace(0, plan.duration, 50):
+    C.setJointState(plan.at(t)[0])
+    assert np.allclose(C.eval(ry.FS.vectorZ, ["l_gripper"])[0], up, atol=2e-3)
+C.view_path(plan.path, plan.duration, True, "with a glass")
+
+# Two arms at once.
+C = ry.Config()
+C.addFile(ry.raiPath("scenarios/pandasTable.g"))
+left, right = C.getFrame("l_gripper").getPosition(), C.getFrame("r_gripper").getPosition()
+plan = ry.planMotion(
+    C, {"l_gripper": 0.6 * left + 0.4 * right, "r_gripper": right + np.array([0, 0.2, 0.2])}, margin=0.02
+)
+print(plan)
+assert plan.feasible
+C.view_path(plan.path, plan.duration, True, "two arms")
+
+# A mobile base through a door, and a door that is too narrow.
+for width in (0.5, 0.25):
+    C = ry.Config()
+    C.addFrame("floor")
+    base = C.addFrame("base", "floor").setJoint(ry.JT.transXYPhi, [-2.0, -2.0, -4.0, 2.0, 2.0, 4.0])
+    C.addFrame("body", "base").setShape(ry.ST.ssBox, [0.5, 0.3, 0.4, 0.02]).setContact(1)
+    for name, side in (("left", 1), ("right", -1)):
+        wall = C.addFrame(name, "floor").setShape(ry.ST.box, [0.1, 3.0, 1.0]).setContact(1)
+        wall.setRelativePosition([0, side * (1.5 + width / 2), 0])
+    plan = ry.planMotion(C, [1.0, 1.0, 1.57], [-1.0, 1.2, 1.57], evaluations=20000)
+    print(plan)
+    assert plan.feasible == (width > 0.3)
+    if plan.feasible:
+        C.view_path(plan.path, plan.duration, True, "through the door")
+print(plan.message)
+
+# From a point cloud: what a camera saw is an obstacle as it is.
+C = ry.Config()
+C.addFile(ry.raiPath("scenarios/pandaSingle.g"))
+around = np.linspace(0, 2 * np.pi, 60, endpoint=False)
+ring = np.stack([0.06 * np.cos(around), 0.35 + 0.06 * np.sin(around)], axis=1)
+points = np.array([[x, y, z] for z in np.linspace(0, 0.8, 60) for x, y in ring])
+C.addFrame("seen", "table").setPointCloud(points).setContact(1)
+plan = ry.planMotion(C, q + turn, start, margin=0.01)
+print(plan)
+assert plan.feasible
+C.view_path(plan.path, plan.duration, True, "around what was seen")

@@ -1,0 +1,228 @@
+#include <nanobind/stl/optional.h>
+#include <nanobind/stl/string.h>
+#include <nanobind/stl/variant.h>
+#include <nanobind/stl/vector.h>
+
+#include "docs/plan.h"
+#include "feature_arguments.h"
+#include "ik_targets.h"
+#include "kinegraph/motion/plan_motion.h"
+#include "kinegraph/motion/refine_path.h"
+#include "option_class.h"
+#include "python_names.h"
+
+namespace kinegraph::python {
+
+namespace {
+
+const OptionClass<PlanOptions>& optionClass() {
+  static const OptionClass<PlanOptions> options(planOptionTable());
+  return options;
+}
+
+/// A number per dof, or one for all.
+VectorXd limitOf(const char* name, nb::handle given) {
+  Numbers numbers;
+  if (!readNumbers(given, numbers) || numbers.rank > 1)
+    throw ValueError(cat("planMotion: ", name, " is ", nb::cast<std::string>(nb::repr(given)),
+                         "; expected a number, or one per joint"));
+  return numbers.values;
+}
+
+std::vector<MotionConstraint> constraintsOf(nb::handle given) {
+  std::vector<MotionConstraint> all;
+  if (nb::isinstance<MotionConstraint>(given)) return {nb::cast<MotionConstraint>(given)};
+  if (!nb::try_cast(given, all))
+    throw ValueError(
+        "planMotion: constraints are not a list of MotionConstraint, as in "
+        "[ry.MotionConstraint(ry.FS.vectorZ, ['glass'], target=[0, 0, 1])]");
+  return all;
+}
+
+PlanOptions optionsFrom(nb::kwargs given) {
+  PlanOptions options;
+  nb::dict rest;
+  for (const auto& [key, value] : given) {
+    const std::string name = nb::cast<std::string>(key);
+    if (name == "velocity" || name == "acceleration" || name == "jerk") {
+      if (!value.is_none())
+        (name == "velocity"       ? options.velocity
+         : name == "acceleration" ? options.acceleration
+                                  : options.jerk) = limitOf(name.c_str(), value);
+    } else if (name == "constraints") {
+      options.constraints = constraintsOf(value);
+    } else {
+      rest[key] = value;
+    }
+  }
+  optionClass().setFields(options, rest);
+  return options;
+}
+
+std::vector<VectorXd> posturesOf(const Numbers& numbers) {
+  if (numbers.rank == 1) return {numbers.values};
+  std::vector<VectorXd> rows;
+  const MatrixXd matrix = numbers.matrix();
+  for (Eigen::Index i = 0; i < matrix.rows(); ++i) rows.push_back(matrix.row(i).transpose());
+  return rows;
+}
+
+MotionGoal goalOf(const PyConfig& config, nb::handle given) {
+  Numbers numbers;
+  if (nb::isinstance<nb::str>(given)) return MotionGoal::named(nb::cast<std::string>(given));
+  if (nb::isinstance<nb::dict>(given)) {
+    IkRequest request = readIkTargets(config, given);
+    if (request.is_batch) throw ValueError("planMotion: the goal has several rows of targets; expected one of each");
+    return MotionGoal(std::move(request.problems[0]));
+  }
+  std::vector<MotionConstraint> conditions;
+  if (nb::isinstance<MotionConstraint>(given)) return MotionGoal(constraintsOf(given));
+  if (nb::try_cast(given, conditions) && !conditions.empty()) return MotionGoal(std::move(conditions));
+  if (readNumbers(given, numbers) && (numbers.rank == 1 || numbers.rank == 2) && numbers.values.size() > 0)
+    return MotionGoal(posturesOf(numbers));
+  throw ValueError(cat("planMotion: the goal is ", nb::cast<std::string>(nb::repr(given)),
+                       "; expected a joint vector or several, a dict of targets as for solveIk, the name of a joint "
+                       "state, or MotionConstraints"));
+}
+
+MotionPlan plan(const PyConfig& config, nb::handle goal, const std::optional<Numbers>& start, nb::kwargs fields) {
+  const PlanOptions options = optionsFrom(fields);
+  const MotionGoal to = goalOf(config, goal);
+  const std::optional<VectorXd> from = start ? std::optional(start->values) : std::nullopt;
+  const Config scene(config);  // as it is now
+  const nb::gil_scoped_release unlock;
+  CheckInterrupts check;
+  return planMotion(scene, to, options, from, [&] {
+    check();
+    return false;
+  });
+}
+
+nb::typed<nb::tuple, Array, Array, Array> at(const MotionPlan& plan, double t) {
+  const MotionState state = plan.at(t);
+  return nb::make_tuple(toNumpy(state.q), toNumpy(state.velocity), toNumpy(state.acceleration));
+}
+
+nb::typed<nb::list, Attributes> stages(const MotionPlan& plan) {
+  nb::list list;
+  for (const PlanStage& stage : plan.stages) {
+    Attributes one;
+    one["name"] = stage.name;
+    one["seconds"] = stage.seconds;
+    one["evaluations"] = stage.evaluations;
+    one["note"] = stage.note;
+    list.append(one);
+  }
+  return list;
+}
+
+/// Postures and parents of both trees.
+nb::typed<nb::list, nb::typed<nb::tuple, Array, IdArray>> trees(const MotionPlan& plan) {
+  nb::list list;
+  for (const MotionTree& tree : plan.trees) {
+    const std::size_t n = plan.space ? std::size_t(plan.space->dofs()) : 0, count = std::size_t(tree.size());
+    const NewArray q = newArray(count, n), parents = newArray(count);
+    for (int i = 0; i < tree.size(); ++i) {
+      std::copy_n(tree.q(i).data(), n, q.data + std::size_t(i) * n);
+      parents.data[i] = tree.node(i).parent;
+    }
+    list.append(nb::make_tuple(q.array, parents.array.attr("astype")("int32")));
+  }
+  return list;
+}
+
+Array refined(MatrixXd (*refine)(const Config&, const MatrixXd&, const RefineOptions&), const PyConfig& config,
+              const Numbers& path, double margin, double blend, std::uint64_t seed) {
+  const MatrixXd rows = path.matrix();
+  MatrixXd result;
+  {
+    const nb::gil_scoped_release unlock;
+    CheckInterrupts check;
+    result = refine(config, rows, {margin, blend, seed, [&] {
+                                     check();
+                                     return false;
+                                   }});
+  }
+  return toNumpy(result);
+}
+
+void bindConstraint(nb::module_& m) {
+  nb::class_<MotionConstraint>(m, "MotionConstraint", docs::plan::constraint)
+      .def(
+          "__init__",
+          [](MotionConstraint* self, const FeatureArgument& feature, const FrameNames& frames, ObjectiveType type,
+             const std::optional<Numbers>& scale, const std::optional<Numbers>& target) {
+            new (self) MotionConstraint{feature.source(), toNames(frames), type, toScale(scale), toTarget(target)};
+          },
+          "feature"_a, "frames"_a, "type"_a = ObjectiveType::eq, "scale"_a = nb::none(), "target"_a = nb::none(),
+          docs::plan::makeConstraint)
+      .def("__repr__", [](const MotionConstraint& c) {
+        return cat("<MotionConstraint ", c.feature.name(), "(", join(c.frames), ")>");
+      });
+}
+
+void bindMotionPlan(nb::module_& m) {
+  nb::enum_<PlanStatus> status(m, "PlanStatus", "How planMotion ended.");
+  for (int i = 0; i <= int(PlanStatus::cancelled); ++i) {
+    static std::vector<std::string> names(std::size_t(PlanStatus::cancelled) + 1);
+    names[std::size_t(i)] = planStatusName(PlanStatus(i));
+    status.value(names[std::size_t(i)].c_str(), PlanStatus(i));
+  }
+  nb::class_<MotionPlan>(m, "MotionPlan", "What planMotion found.")
+      .def_prop_ro("feasible", &MotionPlan::feasible, "True if there is a motion. It is free at all times.")
+      .def_ro("status", &MotionPlan::status, "How it ended, a PlanStatus.")
+      .def_prop_ro(
+          "message", [](const MotionPlan& p) { return inPython(p.message); },
+          "\"\" if there is a motion; else why there is none.")
+      .def_ro("notes", &MotionPlan::notes, "What is to be known of the motion, as that the start was in contact.")
+      .def_prop_ro(
+          "path", [](const MotionPlan& p) { return toNumpy(p.path); },
+          "Its postures, shape (K, n), rad or m, start and goal included.")
+      .def_prop_ro(
+          "first_way", [](const MotionPlan& p) { return toNumpy(p.first_way); },
+          "The path before it was shortened, shape (L, n).")
+      .def_prop_ro(
+          "times", [](const MotionPlan& p) { return toNumpy(p.times()); },
+          "When the motion passes these postures, or is nearest to them where corners are rounded, shape (K,), s.")
+      .def_prop_ro("duration", &MotionPlan::duration, "s; 0 without a motion.")
+      .def_ro("length", &MotionPlan::length, "Of the path, Euclidean in q.")
+      .def_ro("goal", &MotionPlan::goal, "Which of several goal postures was reached; -1 without a motion.")
+      .def_ro("margin", &MotionPlan::margin, "m, that all pairs keep but around ends that keep less.")
+      .def_prop_ro("stages", stages, "What each stage took: dicts of name, seconds, evaluations, note.")
+      .def_prop_ro("trees", trees,
+                   "Of the last attempt, of start and goals: postures (N, n), and each one's parent (N,).")
+      .def("at", at, "t"_a, docs::plan::at)
+      .def("clearance", &MotionPlan::clearance, "most"_a = .1, docs::plan::clearance)
+      .def(
+          "explain", [](const MotionPlan& p) { return inPython(p.explain()); },
+          "Several lines: how it ended, what each stage took, how the trees look, and the clearance.")
+      .def("__bool__", &MotionPlan::feasible)
+      .def("__repr__", [](const MotionPlan& p) { return cat("<MotionPlan ", p.str(), ">"); });
+}
+
+}  // namespace
+
+void bindPlan(nb::module_& m) {
+  bindConstraint(m);
+  bindMotionPlan(m);
+  const std::string doc = cat(docs::plan::planMotion, optionClass().docs("        "), docs::plan::planMotionRest);
+  m.def(
+      "planMotion", plan, "config"_a, "goal"_a, "start"_a = nb::none(), "fields"_a,
+      nb::sig("def planMotion(config: Config, goal: typing.Any, start: numpy.typing.ArrayLike | None = None, **fields: "
+              "typing.Any) -> MotionPlan"),
+      doc.c_str());
+  m.def(
+      "shortcut",
+      [](const PyConfig& config, const Numbers& path, double margin, std::uint64_t seed) {
+        return refined(shortcut, config, path, margin, 0., seed);
+      },
+      "config"_a, "path"_a, "margin"_a = 0., "seed"_a = 0, docs::plan::shortcut);
+  m.def(
+      "smooth",
+      [](const PyConfig& config, const Numbers& path, double margin, double blend) {
+        return refined(smooth, config, path, margin, blend, 0);
+      },
+      "config"_a, "path"_a, "margin"_a = 0., "blend"_a = .05, docs::plan::smooth);
+}
+
+}  // namespace kinegraph::python

@@ -1,0 +1,92 @@
+#pragma once
+
+namespace kinegraph::python::docs::plan {
+
+inline constexpr char constraint[] =
+    R"(A condition on postures, for planMotion: scale * (feature - target) is zero, or not positive.
+
+    upright = ry.MotionConstraint(ry.FS.vectorZ, ["glass"], target=[0, 0, 1]))";
+
+inline constexpr char makeConstraint[] =
+    R"(Names the feature and its frames; they are looked up when a motion is planned.
+
+Args:
+    feature: A symbol of FS, or a function of frames.
+    frames: A frame's name, or several.
+    type: OT.eq: zero; OT.ineq: not positive.
+    scale: A number, one per row, or a matrix.
+    target: A number, or one per row.
+Raises:
+    ArgumentError: The type is neither eq nor ineq; told by planMotion.
+    FrameNotFound: A frame is not in the scene; told by planMotion.)";
+
+inline constexpr char planMotion[] = R"(A motion to a goal, free of collisions at all times, and when it is where.
+
+    plan = ry.planMotion(C, {"gripper": [.4, .2, .9]}, margin=.01)
+    if plan.feasible: C.view_path(plan.path, plan.duration)
+    else: print(plan.message)
+
+The straight motion is tried first, then trees grow from both ends; what is found is shortened, verified at all times, and
+timed. The scene is not changed. The same arguments give the same bits at any number of threads, unless time_limit ends it.
+Ctrl-C ends it.
+
+Args:
+    config: The scene; obstacles are what collides there, and what is attached to the robot moves with it.
+    goal: A joint vector (n,), several (N, n) of which one is to be reached, a dict of targets as for solveIk, the name of a
+        joint state (C.getStateNames), or a MotionConstraint or several that are to hold.
+    start: A joint vector (n,), rad or m; None: the present q.
+    fields: Options by name; and velocity, acceleration, jerk: limits, a number or one per joint (rad or m, s), by default
+        the model's velocities (1 where it says none), reached in a quarter of a second, and no limit of the jerk;
+        constraints: MotionConstraints that hold all along.
+)";
+
+inline constexpr char planMotionRest[] = R"(Returns:
+    A MotionPlan. Where there is no motion, its message says why.
+Raises:
+    ArgumentError: The goal or an option makes no sense; a joint without limits would have to be drawn.
+    FrameNotFound: A frame is not in the scene.
+    NotFound: The scene knows no joint state of that name.)";
+
+inline constexpr char at[] = R"(Where the motion is at a time, and how it moves.
+
+Args:
+    t: s, held within 0 and duration.
+Returns:
+    q (n,), rad or m, its velocity and its acceleration.
+Raises:
+    ArgumentError: There is no motion.)";
+
+inline constexpr char clearance[] = R"(The least distance of a collidable pair along the path, to 0.1 mm.
+
+Args:
+    most: What counts as far, m.
+Returns:
+    m; most where all pairs are farther apart at all times.
+Raises:
+    ArgumentError: There is no motion.)";
+
+inline constexpr char shortcut[] = R"(A shorter path between the same ends, free at all times.
+
+Args:
+    config: The scene.
+    path: Postures, shape (K, n), rad or m, whose straight motions are free.
+    margin: Distance that all collidable pairs keep, m.
+    seed: Of the places that are joined.
+Returns:
+    The path, shape (L, n).
+Raises:
+    ArgumentError: The path has another shape, or is not free; the message says where.)";
+
+inline constexpr char smooth[] = R"(The same path with rounded corners, as far as that is free at all times.
+
+Args:
+    config: The scene.
+    path: Postures, shape (K, n), rad or m, whose straight motions are free.
+    margin: Distance that all collidable pairs keep, m.
+    blend: By how much corners may be missed, in every dof, rad or m.
+Returns:
+    Postures along it, shape (L, n).
+Raises:
+    ArgumentError: The path has another shape, or is not free; the message says where.)";
+
+}  // namespace kinegraph::python::docs::plan

@@ -1,0 +1,71 @@
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "kinegraph/motion/way_search.h"
+#include "kinegraph/spline/retime.h"
+
+namespace kinegraph {
+
+enum class PlanStatus {
+  solved,         ///< there is a motion, free at all times
+  start_blocked,  ///< the start collides, or is out of limits
+  goal_blocked,   ///< all goals do
+  unreached,      ///< no posture was found at which the goal's targets or conditions hold
+  impossible,     ///< proven: a ball inside of a body does not fit through where it would have to go
+  no_way,         ///< none was found within the effort
+  out_of_time,    ///< nor within the time limit
+  cancelled,      ///< by the watch
+};
+
+std::string planStatusName(PlanStatus status);
+
+/// What a stage of planMotion took.
+struct PlanStage {
+  std::string name;      ///< "ends", "search", "shorten", "verify", "time"
+  double seconds = 0.;   ///< wall time
+  long evaluations = 0;  ///< postures and motions looked at
+  std::string note;      ///< what came of it
+};
+
+/// What planMotion found.
+class MotionPlan {
+ public:
+  PlanStatus status = PlanStatus::cancelled;
+  std::string message;             ///< "" if solved, else why there is no motion
+  std::vector<std::string> notes;  ///< what is to be known of the motion, as that the start was in contact
+  MatrixXd path;                   ///< (K, n): its postures, start and goal included; no rows if there is none
+  MatrixXd first_way;              ///< the same before it was shortened
+  TimedPath timed;                 ///< when it is where; see at()
+  double length = 0.;              ///< of the path, Euclidean in q
+  int goal = -1;                   ///< which of several goal postures was reached, in the order given
+  std::vector<PlanStage> stages;
+  std::vector<AttemptReport> attempts;  ///< with trees
+  std::vector<MotionTree> trees;        ///< of the last attempt: of the start and of the goals
+  double margin = 0.;                   ///< m, that the motion keeps but around ends that keep less
+  double kept = 0.;                     ///< m, that all of it was verified to keep
+
+  bool feasible() const { return status == PlanStatus::solved; }
+
+  /// (K,): when the motion passes the path's postures, or is nearest to them where corners are rounded, s.
+  const VectorXd& times() const { return timed.times; }
+  double duration() const { return feasible() ? timed.duration() : 0.; }
+
+  /// Where the motion is at time t (s), held within 0 and duration(). Throws ValueError if there is no motion.
+  MotionState at(double t) const;
+
+  /// The least distance of a collidable pair along the path's straight motions, m, if less than `most`, else `most`.
+  /// Computed when asked for, to 1e-4 m.
+  double clearance(double most = .1) const;
+
+  /// Several lines: how it ended, what each stage took, and how the trees look.
+  std::string explain() const;
+  std::string str() const;  ///< "solved: 5 postures, 2.31 s" or the status and the message
+
+  std::shared_ptr<const State> scene;       ///< that it was planned in
+  std::shared_ptr<const JointSpace> space;  ///< of its joints
+};
+
+}  // namespace kinegraph

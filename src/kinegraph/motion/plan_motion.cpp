@@ -1,0 +1,353 @@
+#include "kinegraph/motion/plan_motion.h"
+
+#include <algorithm>
+#include <chrono>
+
+#include "kinegraph/base/parallel.h"
+#include "kinegraph/motion/leave_contact.h"
+#include "kinegraph/motion/passage_proof.h"
+#include "kinegraph/motion/plan_goals.h"
+#include "kinegraph/motion/plan_timing.h"
+#include "kinegraph/motion/shorten.h"
+
+namespace kinegraph {
+
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+constexpr const char* kWho = "planMotion";
+constexpr double kMargins[] = {.1, .05, .03, .02, .01, .005};  // m, tried in turn where clearance is asked for
+constexpr long kTryEffort = 4;                                 // of a further try, in efforts of the first
+
+double secondsSince(Clock::time_point began) { return std::chrono::duration<double>(Clock::now() - began).count(); }
+
+/// A start or goal as the search sees it: where it is blocked by a slight contact, the posture behind it.
+struct Gate {
+  MotionEnd end;
+  VectorXd inside;  ///< from where the search begins
+  bool leaves = false;
+  double deepest = 0.;  ///< of the contact that is left, m
+};
+
+/// A way and what it costs.
+struct Candidate {
+  Way way;
+  std::vector<VectorXd> points;
+  double cost = std::numeric_limits<double>::infinity();
+  long evaluations = 0;
+};
+
+class Planner {
+ public:
+  Planner(const Config& config, const PlanOptions& options, const MotionWatch& watch)
+      : config_(config),
+        options_(options),
+        limits_(planLimits(config, options)),
+        watch_([this, &watch] { return (watch && watch() && (cancelled_ = true)) || isLate(); }) {
+    plan_.space = std::make_shared<const JointSpace>(*config.program());
+    plan_.scene = std::make_shared<const State>(config.state());
+    demands_ = {.scene = plan_.scene.get(),
+                .space = plan_.space.get(),
+                .clearance = {.margin = options.margin},
+                .constraints = options.constraints,
+                .constraint_tolerance = options.constraint_tolerance};
+  }
+
+  MotionPlan run(const MotionGoal& goal, const VectorXd& start) {
+    plan_.margin = options_.margin;
+    if (lookAtEnds(goal, start) && findWay()) finish();
+    return std::move(plan_);
+  }
+
+ private:
+  bool isLate() const { return secondsSince(began_) > options_.time_limit; }
+
+  void endStage(const char* name, long evaluations, std::string note = {}) {
+    plan_.stages.push_back({name, secondsSince(stage_began_), evaluations, std::move(note)});
+    stage_began_ = Clock::now();
+  }
+
+  bool fail(PlanStatus status, std::string message) {
+    plan_.status = status;
+    plan_.message = std::move(message);
+    return false;
+  }
+
+  bool failStopped(const std::string& message) {
+    return cancelled_ ? fail(PlanStatus::cancelled, cat("cancelled; ", message))
+                      : fail(PlanStatus::out_of_time, cat("time limit of ", options_.time_limit, " s; ", message));
+  }
+
+  // --- the ends ----------------------------------------------------------------------------------------------------
+
+  /// A blocked end that only touches, or overlaps slightly, is left first.
+  Gate gateOf(Steering& steering, MotionEnd end, const std::string& what) {
+    Gate gate{end, end.q};
+    plan_.space->normalize(gate.inside);
+    const bool slight = !end.near.empty() && end.near.front().distance >= -options_.touching;
+    if (end.isFree() || !slight) return gate;
+    const std::optional<VectorXd> inside = leaveContact(config_, steering, end, options_.margin);
+    if (!inside) return gate;
+    plan_.notes.push_back(cat("the ", what, " is in contact: ", pairsInWords(*config_.program(), end.near),
+                              what == "start" ? "; the motion first leaves it" : "; the motion comes to it last"));
+    gate.inside = *inside;
+    gate.leaves = true;
+    gate.deepest = end.near.front().distance - 2. * Clearance::kTolerance;
+    gate.end = checkEnd(steering, *config_.program(), *inside, options_.margin, what, kWho);
+    gate.end.q = end.q;
+    return gate;
+  }
+
+  bool lookAtEnds(const MotionGoal& goal, const VectorXd& start) {
+    Steering steering(demands_);
+    start_ = gateOf(steering, checkEnd(steering, *config_.program(), start, options_.margin, "start", kWho), "start");
+    if (!start_.end.isFree()) return fail(PlanStatus::start_blocked, start_.end.problem);
+    GoalPostures postures = goalPostures(config_, goal, start_.end.q, steering, options_, watch_);
+    if (!postures.was_reached)
+      return watch_() ? failStopped(postures.message) : fail(PlanStatus::unreached, postures.message);
+    std::string problem;
+    for (std::size_t i = 0; i < postures.ends.size(); ++i) {
+      Gate gate = gateOf(steering, postures.ends[i], "goal");
+      if (gate.end.isFree()) {
+        goals_.push_back(gate);
+        goal_numbers_.push_back(int(i));
+      } else if (problem.empty()) {
+        problem = gate.end.problem;
+      }
+    }
+    endStage("ends", steering.evaluations(),
+             cat(goals_.size(), " of ", postures.ends.size(), " goal postures are free"));
+    if (goals_.empty()) return fail(PlanStatus::goal_blocked, problem);
+    if (plan_.notes.size() > 3) plan_.notes.resize(3);
+    return true;
+  }
+
+  /// Around gates that keep less than the margin, it is what they keep.
+  Clearance clearance(double margin) const {
+    std::vector<MotionEnd> ends;
+    for (const Gate& gate : goals_) ends.push_back(gate.end), ends.back().q = gate.inside;
+    ends.push_back(start_.end);
+    ends.back().q = start_.inside;
+    std::vector<const MotionEnd*> list;
+    for (const MotionEnd& end : ends) list.push_back(&end);
+    Clearance clearance = clearanceAround(margin, list);
+    clearance.guard = Clearance::kGuard;
+    return clearance;
+  }
+
+  // --- the way -----------------------------------------------------------------------------------------------------
+
+  WayRequest request() const {
+    WayRequest request{.demands = demands_, .starts = {start_.inside}, .goals = {}};
+    for (const Gate& gate : goals_) request.goals.push_back(gate.inside);
+    request.seed = options_.seed;
+    request.effort = options_.evaluations;
+    request.threads = options_.threads;
+    request.watch = watch_;
+    return request;
+  }
+
+  bool findWay() {
+    Way way;
+    if (options_.optimize == "clearance") way = searchWithRoom();
+    if (way.points.empty()) {
+      demands_.clearance = clearance(options_.margin);
+      way = searchWay(request());
+    }
+    plan_.attempts = way.attempts;
+    plan_.trees = way.trees;
+    endStage("search", way.effort, noteOf(way));
+    if (way.points.empty()) return failSearch(way);
+    best_ = improve(std::move(way));
+    return true;
+  }
+
+  static std::string noteOf(const Way& way) {
+    if (way.is_line) return "the straight motion is free";
+    return cat(way.attempts.size(), " attempts with trees, ", way.points.empty() ? "no way" : "a way");
+  }
+
+  /// With the largest margin for which a way is found soon.
+  Way searchWithRoom() {
+    for (const double margin : kMargins) {
+      if (margin <= options_.margin || watch_()) continue;
+      demands_.clearance = withEndsAt(margin);
+      WayRequest asked = request();
+      asked.effort = std::max(1l, asked.effort / 20);
+      Way way = searchWay(asked);
+      if (way.points.empty()) continue;
+      plan_.margin = margin;
+      return way;
+    }
+    return {};
+  }
+
+  /// Clearances for a larger margin than the ends were looked at with.
+  Clearance withEndsAt(double margin) {
+    Steering steering(demands_);
+    Clearance larger{.margin = margin, .guard = Clearance::kGuard};
+    std::vector<MotionEnd> ends;
+    for (const Gate& gate : goals_)
+      ends.push_back(checkEnd(steering, *config_.program(), gate.inside, margin, "goal", kWho));
+    ends.push_back(checkEnd(steering, *config_.program(), start_.inside, margin, "start", kWho));
+    std::vector<const MotionEnd*> list;
+    for (const MotionEnd& end : ends) list.push_back(&end);
+    larger.tight = clearanceAround(margin, list).tight;
+    return larger;
+  }
+
+  bool failSearch(const Way& way) {
+    long draws = 0;
+    for (const AttemptReport& attempt : way.attempts) draws += attempt.draws;
+    const AttemptReport last = way.attempts.empty() ? AttemptReport() : way.attempts.back();
+    const std::string met = obstaclesInWords(*config_.program(), way.hits);
+    const std::string words =
+        cat("no way found: ", way.effort, " evaluations, ", draws, " postures drawn in ", way.attempts.size(),
+            " attempts; the last trees have ", last.start_nodes, " postures (start) and ", last.goal_nodes, " (goals)",
+            met.empty() ? "" : cat("; most motions ended at ", met));
+    if (cancelled_) return failStopped(words);
+    std::vector<VectorXd> goals;
+    for (const Gate& gate : goals_) goals.push_back(gate.inside);
+    const bool tight = !demands_.clearance.tight.empty();  // then the margin does not hold everywhere
+    const std::string proof = proveNoWay(*plan_.scene, start_.inside, goals, tight ? 0. : options_.margin);
+    endStage("prove", 0, proof.empty() ? "no proof that there is none" : "");
+    if (!proof.empty()) return fail(PlanStatus::impossible, cat(proof, "; ", words));
+    if (way.was_stopped) return failStopped(words);
+    return fail(PlanStatus::no_way, words);
+  }
+
+  double cost(const std::vector<VectorXd>& points) const {
+    double sum = 0.;
+    for (std::size_t i = 1; i < points.size(); ++i)
+      sum += plan_.space->difference(points[i - 1], points[i]).cwiseProduct(weight()).norm();
+    return sum;
+  }
+
+  VectorXd weight() const {
+    if (options_.optimize == "length") return VectorXd::Ones(limits_.velocity.size());
+    return limits_.velocity.minCoeff() * limits_.velocity.cwiseInverse();
+  }
+
+  /// Shortens the first way, and others that are searched for it; the best one counts.
+  Candidate improve(Way first) {
+    const int tries = first.is_line ? 1 : options_.tries;
+    std::vector<Candidate> candidates;
+    candidates.resize(std::size_t(tries));
+    const long effort = std::min<long>(options_.evaluations, kTryEffort * (first.effort + 1000));
+    const auto attempt = [&](int i, bool asks) {
+      Candidate& candidate = candidates[std::size_t(i)];
+      const MotionWatch watch = asks ? watch_ : MotionWatch([this] { return isLate(); });
+      if (i == 0) {
+        candidate.way = first;
+      } else {
+        if (watch()) return;
+        WayRequest other = request();
+        other.seed = Rng(options_.seed + std::uint64_t(i)).bits();
+        other.effort = effort;
+        other.threads = 1;
+        other.tries_line = false;
+        other.watch = watch;
+        candidate.way = searchWay(other);
+        if (candidate.way.points.empty()) return;
+      }
+      Steering steering(demands_);
+      candidate.points = shorten(steering, candidate.way.points,
+                                 {.weight = weight(), .seed = options_.seed + std::uint64_t(i), .watch = watch});
+      candidate.cost = cost(candidate.points);
+      candidate.evaluations = steering.evaluations() + (i > 0 ? candidate.way.effort : 0);
+    };
+    forParts(
+        tries, 1, options_.threads, [&](int worker, int i, int) { attempt(i, worker == 0); }, [&] { watch_(); });
+    long evaluations = 0;
+    for (const Candidate& candidate : candidates) evaluations += candidate.evaluations;
+    const auto best = std::ranges::min_element(candidates, {}, &Candidate::cost);
+    endStage("shorten", evaluations, cat("the best of ", tries, tries == 1 ? " way" : " ways"));
+    return std::move(*best);
+  }
+
+  // --- the motion --------------------------------------------------------------------------------------------------
+
+  /// The whole path, gates included, as rows.
+  MatrixXd rows(const std::vector<VectorXd>& points, const Way& way) const {
+    std::vector<VectorXd> all = points;
+    if (start_.leaves) {
+      all.insert(all.begin(), start_.end.q);
+    } else {
+      all.front() = start_.end.q;  // an endless joint keeps its turns
+    }
+    if (goals_[std::size_t(way.goal)].leaves) all.push_back(goals_[std::size_t(way.goal)].end.q);
+    return plan_.space->unroll(all);
+  }
+
+  /// Is each straight motion free at all times, but for those that leave and enter contacts, which are known?
+  bool verify(const MatrixXd& path, const Way& way, long& evaluations) {
+    MotionDemands exact = demands_;
+    exact.clearance.guard = 0.;
+    Steering steering(exact);
+    const Eigen::Index first = start_.leaves ? 2 : 1,
+                       last = path.rows() - 1 - (goals_[std::size_t(way.goal)].leaves ? 1 : 0);
+    bool is_free = true;
+    for (Eigen::Index k = first; k <= last && is_free; ++k)
+      is_free = steering.isFree(path.row(k - 1).transpose(), path.row(k).transpose());
+    evaluations += steering.evaluations();
+    return is_free;
+  }
+
+  /// What all of the path keeps: the margin, the least one around the ends, or the depth of a contact that is left.
+  double kept() const {
+    double least = plan_.margin;
+    for (const Clearance::Tight& tight : demands_.clearance.tight) least = std::min(least, tight.margin);
+    for (const Gate* gate : {&start_, &goals_[std::size_t(best_.way.goal)]})
+      if (gate->leaves) least = std::min(least, gate->deepest);
+    return least;
+  }
+
+  void finish() {
+    long evaluations = 0;
+    plan_.path = rows(best_.points, best_.way);
+    const bool is_free = verify(plan_.path, best_.way, evaluations);
+    if (!is_free) {
+      plan_.path = rows(best_.way.points, best_.way);  // as the search had verified it
+      if (!verify(plan_.path, best_.way, evaluations)) {
+        plan_.path.resize(0, 0);
+        fail(PlanStatus::no_way, "the way that was found could not be verified");
+        return;
+      }
+    }
+    plan_.first_way = rows(best_.way.points, best_.way);
+    plan_.goal = goal_numbers_[std::size_t(best_.way.goal)];
+    plan_.kept = kept();
+    plan_.length = pathLength(*plan_.space, plan_.path);
+    endStage("verify", evaluations, is_free ? "" : "the way as it was found, since the shortened one was not free");
+    MotionDemands exact = demands_;
+    exact.clearance.guard = 0.;
+    plan_.timed = timeMotion(exact, plan_.path, limits_, options_.blend);
+    endStage("time", 0, plan_.timed.str());
+    plan_.status = PlanStatus::solved;
+  }
+
+  const Config& config_;
+  const PlanOptions& options_;
+  const MotionLimits limits_;
+  const MotionWatch watch_;
+  const Clock::time_point began_ = Clock::now();
+  Clock::time_point stage_began_ = began_;
+  bool cancelled_ = false;
+  MotionPlan plan_;
+  MotionDemands demands_;
+  Gate start_;
+  std::vector<Gate> goals_;
+  std::vector<int> goal_numbers_;
+  Candidate best_;
+};
+
+}  // namespace
+
+MotionPlan planMotion(const Config& config, const MotionGoal& goal, const PlanOptions& options,
+                      const std::optional<VectorXd>& start, const MotionWatch& watch) {
+  options.validateFor(config.getJointDimension());
+  return Planner(config, options, watch).run(goal, start.value_or(config.getJointState()));
+}
+
+}  // namespace kinegraph

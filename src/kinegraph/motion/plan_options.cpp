@@ -1,0 +1,62 @@
+#include "kinegraph/motion/plan_options.h"
+
+namespace kinegraph {
+
+namespace {
+
+void validateLimit(const VectorXd& limit, const char* name, int dofs) {
+  if (limit.size() > 1 && limit.size() != dofs)
+    throw ValueError(cat("planMotion: ", name, " has ", limit.size(), " numbers; expected one, or ", dofs));
+  for (const double value : limit) {
+    if (!(value > 0.)) throw ValueError(cat("planMotion: ", name, " is ", value, "; expected positive numbers"));
+  }
+}
+
+}  // namespace
+
+const OptionTable<PlanOptions>& planOptionTable() {
+  using O = PlanOptions;
+  using Range = OptionRange;
+  static const OptionTable<O> table(
+      "planMotion",
+      {{"margin", &O::margin, "m",
+        "Distance that all collidable pairs keep; around a start or goal that keeps less, what that keeps.",
+        Range::notNegative()},
+       {"optimize",
+        &O::optimize,
+        "",
+        "What is made small: 'time', 'length', or 'clearance' (the largest margin that is found, then the time).",
+        {"time", "length", "clearance"}},
+       {"tries", &O::tries, "", "Ways that are searched and shortened; the best one counts.", Range::atLeastOne()},
+       {"blend", &O::blend, "rad or m", "By how much corners may be rounded, in every dof; 0 stops at them.",
+        Range::notNegative()},
+       {"touching", &O::touching, "m",
+        "Depth up to which a start or goal in collision is mended: the motion first leaves, and says so.",
+        Range::notNegative()},
+       {"constraint_tolerance", &O::constraint_tolerance, "",
+        "Violation of each row of the constraints that is allowed, in its own unit.", Range::positive()},
+       {"goals", &O::goals, "", "Most postures that are looked for where the goal is targets or conditions.",
+        Range::atLeastOne()},
+       {"evaluations", &O::evaluations, "",
+        "Effort: postures and motions that are looked at by the search of the first way, at most.",
+        Range::atLeastOne()},
+       {"time_limit",
+        &O::time_limit,
+        "s",
+        "Ends the search, or what would improve its answer; effort is what evaluations and tries say.",
+        {[](double v) { return v > 0.; }, "a positive number"}},
+       {"seed", &O::seed, "", "Of random postures; the same one gives the same motion."},
+       {"threads", &O::threads, "", "How many share the work; answers do not depend on it.", Range::atLeastOne()}});
+  return table;
+}
+
+void PlanOptions::validate() const { planOptionTable().validate(*this); }
+
+void PlanOptions::validateFor(int dofs) const {
+  validate();
+  validateLimit(velocity, "velocity", dofs);
+  validateLimit(acceleration, "acceleration", dofs);
+  validateLimit(jerk, "jerk", dofs);
+}
+
+}  // namespace kinegraph

@@ -1,0 +1,85 @@
+#include "kinegraph/motion/plan_timing.h"
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+
+#include "kinegraph/scene/motor_limits.h"
+
+namespace kinegraph {
+
+namespace {
+
+constexpr double kUsualVelocity = 1.;  // rad/s, m/s, where the model says none
+constexpr double kTimeToSpeed = .25;   // s
+constexpr double kBothMove = 2.1;      // two bodies of a pair; and a little, as travel grows meanwhile
+
+VectorXd perDof(const VectorXd& given, int dofs) {
+  return given.size() == 1 ? VectorXd::Constant(dofs, given[0]) : given;
+}
+
+/// How fast any point of a collidable body moves at a posture, at most, m per unit by which every dof changes.
+double travelPerUnit(const State& state) {
+  const Program& program = state.program();
+  double most = 0.;
+  for (std::size_t frame = 0; frame < program.body.size(); ++frame) {
+    const auto& body = program.body[frame];
+    if (!body || !state.moves(int(frame))) continue;
+    const Vector3d center = state.pose(int(frame)) * body->boundCenter();
+    double travel = 0.;
+    state.forTwists(int(frame), [&](int, const State::Twist& twist) {
+      travel += (twist.linear + twist.angular.cross(center)).norm() + twist.angular.norm() * body->boundRadius();
+    });
+    most = std::max(most, travel);
+  }
+  return most;
+}
+
+}  // namespace
+
+MotionLimits planLimits(const Config& config, const PlanOptions& options) {
+  const int n = config.getJointDimension();
+  MotionLimits limits;
+  limits.velocity = options.velocity.size() > 0 ? perDof(options.velocity, n) : getVelocityLimits(config);
+  for (double& velocity : limits.velocity)
+    if (!std::isfinite(velocity)) velocity = kUsualVelocity;
+  limits.acceleration =
+      options.acceleration.size() > 0 ? perDof(options.acceleration, n) : VectorXd(limits.velocity / kTimeToSpeed);
+  if (options.jerk.size() > 0) limits.jerk = perDof(options.jerk, n);
+  return limits;
+}
+
+BlendCheck freeBlends(const MotionDemands& demands) {
+  struct Checker {
+    Steering steering;
+    State state;
+  };
+  const auto checker = std::make_shared<Checker>(Checker{Steering(demands), *demands.scene});
+  const double tolerance = demands.constraint_tolerance;
+  return [checker, tolerance](const MatrixXd& points, double deviation) {
+    auto& [steering, state] = *checker;
+    for (Eigen::Index k = 0; k < points.rows(); ++k) {
+      const VectorXd to = points.row(k).transpose();
+      if (steering.isConstrained() && !(steering.manifold().violation(to) <= tolerance)) return false;
+      if (k == 0) continue;
+      const VectorXd from = points.row(k - 1).transpose();
+      double travel = 0.;
+      for (const VectorXd* q : {&from, &to}) {
+        state.setJoints(q->data());
+        travel = std::max(travel, travelPerUnit(state));
+      }
+      if (!steering.check().isMotionFree(from, to, kBothMove * deviation * travel)) return false;
+    }
+    return true;
+  };
+}
+
+TimedPath timeMotion(const MotionDemands& demands, const MatrixXd& path, const MotionLimits& limits, double blend) {
+  RetimeOptions options;
+  options.corners = blend > 0. ? Corners::blend : Corners::stop;
+  options.tolerance = blend > 0. ? blend : options.tolerance;
+  options.is_free = freeBlends(demands);
+  return retime(path, limits, options);
+}
+
+}  // namespace kinegraph

@@ -1,0 +1,21 @@
+#pragma once
+
+#include "kinegraph/motion/motion_ends.h"
+#include "kinegraph/motion/plan_options.h"
+#include "kinegraph/scene/config.h"
+#include "kinegraph/spline/retime.h"
+
+namespace kinegraph {
+
+/// Most |dq/dt|, |d2q/dt2|, |d3q/dt3| per dof: as the options say, else the model's velocities, 1 rad/s or m/s where it
+/// says none, and accelerations that reach them in a quarter of a second.
+MotionLimits planLimits(const Config& config, const PlanOptions& options);
+
+/// Whether a rounded corner keeps the demands' margins and constraints at all times. `demands` must stay.
+BlendCheck freeBlends(const MotionDemands& demands);
+
+/// The fastest motion along a path. Corners are rounded where that keeps the demands' margins and constraints; at others
+/// it stops.
+TimedPath timeMotion(const MotionDemands& demands, const MatrixXd& path, const MotionLimits& limits, double blend);
+
+}  // namespace kinegraph

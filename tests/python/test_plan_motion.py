@@ -1,0 +1,247 @@
+"""planMotion: from A to B, free at all times, and when it is where."""
+
+from __future__ import annotations
+
+import itertools
+
+import numpy as np
+import pytest
+
+import kinegraph as ry
+
+DOOR = """
+world: {{}}
+left(world): {{shape: box, size: [0.1, 3, 1], Q: [0, {far}, 0], contact: 1}}
+right(world): {{shape: box, size: [0.1, 3, 1], Q: [0, -{far}, 0], contact: 1}}
+base(world): {{joint: transXYPhi, limits: [-2, -2, -4, 2, 2, 4]}}
+body(base): {{shape: ssBox, size: [0.5, 0.3, 0.2, 0.02], contact: 1}}
+"""
+START, GOAL = [-1.0, 1.2, 1.57], [1.0, 1.0, 1.57]
+
+
+def room(door: float = 0.5) -> ry.Config:
+    """A box on wheels, 0.5 m by 0.3 m, and two walls with a door of this width."""
+    C = ry.Config()
+    C.addText(DOOR.format(far=1.5 + door / 2))
+    C.setJointState(START)
+    return C
+
+
+@pytest.fixture
+def column(panda: ry.Config) -> ry.Config:
+    """A Panda at a table with a column in front of it."""
+    panda.addFrame("column", "table").setShape(ry.ST.ssBox, [0.1, 0.1, 0.8, 0.02]).setRelativePosition(
+        [0.0, 0.35, 0.4]
+    ).setContact(1)
+    return panda
+
+
+def leastDistance(C: ry.Config, Q: np.ndarray, step: float = 2e-3) -> float:
+    """Of all pairs that move, at postures every `step`, by a call that knows nothing of motions."""
+    rows = [
+        a + np.linspace(0, 1, max(2, int(np.linalg.norm(b - a) / step)))[:, None] * (b - a)
+        for a, b in itertools.pairwise(Q)
+    ]
+    return float(C.getDistances(np.concatenate(rows)).min())
+
+
+def ends(C: ry.Config) -> tuple[np.ndarray, np.ndarray]:
+    q = C.getJointState()
+    start, goal = q.copy(), q.copy()
+    start[0] -= 0.6
+    goal[0] += 0.6
+    return start, goal
+
+
+def test_a_box_on_wheels_goes_through_a_door() -> None:
+    C = room()
+    plan = ry.planMotion(C, GOAL)
+    assert plan.feasible and plan and plan.status == ry.PlanStatus.solved and plan.message == ""
+    assert np.allclose(plan.path[0], START) and np.allclose(plan.path[-1], GOAL)
+    assert leastDistance(C, plan.path) >= 0
+    assert np.allclose(C.getJointState(), START)
+    assert [stage["name"] for stage in plan.stages] == ["ends", "search", "shorten", "verify", "time"]
+    assert plan.length == pytest.approx(np.linalg.norm(np.diff(plan.path, axis=0), axis=1).sum())
+    assert "trees of" in plan.explain() and plan.clearance() >= 0
+
+
+def test_what_moves_in_time_is_free_and_keeps_the_limits() -> None:
+    C = room()
+    plan = ry.planMotion(C, GOAL, velocity=[0.5, 0.5, 1.0], acceleration=2.0)
+    times = np.linspace(0, plan.duration, 4000)
+    q, v, a = (np.array(x) for x in zip(*(plan.at(t) for t in times), strict=True))
+    assert leastDistance(C, q) >= 0  # roundings of corners included
+    assert (np.abs(v) <= np.array([0.5, 0.5, 1.0]) + 1e-9).all() and (np.abs(a) <= 2 + 1e-9).all()
+    assert np.allclose(q[0], START) and np.allclose(q[-1], GOAL) and np.allclose(v[[0, -1]], 0)
+    assert plan.times[0] == pytest.approx(0, abs=1e-12) and plan.times[-1] == pytest.approx(plan.duration)
+
+
+def test_a_panda_goes_around_a_column_with_a_margin(column: ry.Config) -> None:
+    start, goal = ends(column)
+    plan = ry.planMotion(column, goal, start, margin=0.01, optimize="length")
+    assert plan.feasible, plan.message
+    assert leastDistance(column, plan.path) >= 0.01
+    assert plan.clearance() >= 0.0099
+    assert plan.length <= np.linalg.norm(np.diff(plan.first_way, axis=0), axis=1).sum()
+
+
+@pytest.mark.parametrize("seed", [0, 7])
+def test_the_same_arguments_give_the_same_bits_at_any_number_of_threads(column: ry.Config, seed: int) -> None:
+    start, goal = ends(column)
+    plans = [ry.planMotion(column, goal, start, seed=seed, threads=threads) for threads in (1, 4)]
+    assert plans[0].feasible and np.array_equal(plans[0].path, plans[1].path)
+    assert np.array_equal(plans[0].times, plans[1].times)
+
+
+def test_a_free_straight_motion_is_taken_as_it_is() -> None:
+    plan = ry.planMotion(room(), [-1.0, -1.0, 1.0])
+    assert plan.feasible and plan.path.shape == (2, 3) and "straight" in plan.explain()
+
+
+def test_a_goal_may_be_targets_and_the_motion_reaches_them(column: ry.Config) -> None:
+    start, _ = ends(column)
+    target = [0.35, 0.3, 1.0]
+    plan = ry.planMotion(column, {"l_gripper": target}, start)
+    assert plan.feasible, plan.message
+    column.setJointState(plan.path[-1])
+    assert np.allclose(column.getFrame("l_gripper").getPosition(), target, atol=1e-5)
+    assert leastDistance(column, plan.path) >= 0
+
+
+def test_one_of_several_goals_is_reached_and_told() -> None:
+    plan = ry.planMotion(room(), [[1.0, 1.0, 1.57], [0.0, 1.0, 1.57], [-1.0, -1.5, 1.0]])
+    assert plan.feasible and plan.goal == 2  # the second one is inside of a wall
+
+
+def test_a_goal_may_be_a_state_with_a_name() -> None:
+    C = ry.Config()
+    C.addText("world: {}  a(world): {joint: hingeX, limits: [-1, 1], joint_states: { folded: [0.5] }}")
+    plan = ry.planMotion(C, "folded")
+    assert plan.feasible and plan.path[-1].tolist() == [0.5]
+    with pytest.raises(ry.NotFound, match="folded"):
+        ry.planMotion(C, "foldet")
+
+
+def test_a_constraint_holds_all_along(panda: ry.Config) -> None:
+    panda.setJointState([0.0, -0.5, 0.0, -2.0, 0.0, 2.0, 0.0])
+    upright = ry.MotionConstraint(ry.FS.vectorZ, ["l_gripper"], target=panda.eval(ry.FS.vectorZ, ["l_gripper"])[0])
+    start = panda.getJointState()
+    goal = ry.solveIk(
+        panda, {"l_gripper": {"position": [0.3, 0.4, 1.1], "z": panda.eval(ry.FS.vectorZ, ["l_gripper"])[0]}}
+    )
+    assert goal.feasible
+    plan = ry.planMotion(panda, goal.q, start, constraints=[upright])
+    assert plan.feasible, plan.message
+    z = panda.eval(ry.FS.vectorZ, ["l_gripper"])[0]
+    worst = 0.0
+    for t in np.linspace(0, plan.duration, 500):
+        panda.setJointState(plan.at(t)[0])
+        worst = max(worst, np.abs(panda.eval(ry.FS.vectorZ, ["l_gripper"])[0] - z).max())
+    assert worst <= 1.5e-3
+    assert leastDistance(panda, plan.path) >= 0
+
+
+def test_conditions_may_be_the_goal(column: ry.Config) -> None:
+    start, _ = ends(column)
+    high = ry.MotionConstraint(ry.FS.position, ["l_gripper"], scale=[[0, 0, 1]], target=[0, 0, 1.4])
+    plan = ry.planMotion(column, high, start)
+    assert plan.feasible, plan.message
+    column.setJointState(plan.path[-1])
+    assert column.getFrame("l_gripper").getPosition()[2] == pytest.approx(1.4, abs=1e-3)
+
+
+def test_a_start_that_rests_on_something_is_left_and_said() -> None:
+    C = ry.Config()
+    C.addText("""
+world: {}
+table(world): {shape: box, size: [2, 2, 0.1], Q: [0, 0, -0.05], contact: 1}
+cart(world): {joint: trans3, limits: [-1, -1, 0, 1, 1, 1]}
+box(cart): {shape: box, size: [0.2, 0.2, 0.2], Q: [0, 0, 0.0998], contact: 1}
+""")
+    plan = ry.planMotion(C, [0.5, 0.5, 0.0], [-0.5, 0.5, 0.0])  # both 0.2 mm inside of the table
+    assert plan.feasible, plan.message
+    assert "the start is in contact: 'table' and 'box' overlap by 200 um; the motion first leaves it" in plan.notes
+    assert "the goal is in contact: 'table' and 'box' overlap by 200 um; the motion comes to it last" in plan.notes
+    assert leastDistance(C, plan.path) >= -0.0002 - 1e-6
+    assert leastDistance(C, plan.path[1:-1]) >= 0
+
+
+@pytest.mark.parametrize(
+    ("goal", "status", "words"),
+    [
+        ([0.0, 1.0, 1.57], "goal_blocked", "the goal collides: 'left' and 'body' overlap by"),
+        ([5.0, 1.0, 1.57], "goal_blocked", "the goal is out of limits: base:0 is at 5, 3 beyond"),
+        ({"body": [9.0, 0.0, 0.0]}, "unreached", "the goal is out of reach: .*body"),
+    ],
+)
+def test_a_goal_that_cannot_be_is_told(goal: object, status: str, words: str) -> None:
+    plan = ry.planMotion(room(), goal)
+    assert not plan.feasible and plan.status.name == status and plan.path.size == 0
+    assert __import__("re").search(words, plan.message), plan.message
+    with pytest.raises(ry.ArgumentError, match="there is no motion"):
+        plan.at(0.0)
+
+
+def test_a_start_that_collides_is_told() -> None:
+    plan = ry.planMotion(room(), GOAL, [0.0, 1.0, 0.0])
+    assert plan.status == ry.PlanStatus.start_blocked and "the start collides: 'left' and 'body'" in plan.message
+
+
+def test_where_no_way_is_found_the_message_says_what_is_in_the_way() -> None:
+    plan = ry.planMotion(room(0.31), GOAL, evaluations=3000)
+    assert plan.status in (ry.PlanStatus.no_way, ry.PlanStatus.impossible)
+    assert "most motions ended at 'left'" in plan.message or "most motions ended at 'right'" in plan.message
+    assert len(plan.trees) == 2 and plan.trees[0][0].shape[1] == 3
+
+
+def test_a_time_limit_ends_the_search() -> None:
+    plan = ry.planMotion(room(0.31), GOAL, time_limit=0.05)
+    assert plan.status == ry.PlanStatus.out_of_time and "time limit of 0.05 s" in plan.message
+
+
+def test_clearance_is_asked_for_and_given() -> None:
+    C = room(0.6)
+    near = ry.planMotion(C, GOAL, optimize="length")
+    far = ry.planMotion(C, GOAL, optimize="clearance")
+    assert far.margin >= 0.05 and leastDistance(C, far.path) >= far.margin > leastDistance(C, near.path)
+
+
+def test_shortcut_and_smooth_are_free_and_say_where_a_path_is_not() -> None:
+    C = room()
+    rough = ry.planMotion(C, GOAL).first_way
+    short = ry.shortcut(C, rough)
+    length = lambda path: np.linalg.norm(np.diff(path, axis=0), axis=1).sum()  # noqa: E731
+    assert length(short) < length(rough) and leastDistance(C, short) >= 0
+    round_ = ry.smooth(C, short)
+    turns = [np.diff(path, axis=0) / np.linalg.norm(np.diff(path, axis=0), axis=1)[:, None] for path in (short, round_)]
+    sharpest = [min((a * b).sum() for a, b in itertools.pairwise(turn)) for turn in turns]
+    assert sharpest[1] > sharpest[0] and leastDistance(C, round_) >= 0
+    with pytest.raises(ry.ArgumentError, match="not free between rows 0 and 1: '(left|right)' and 'body'"):
+        ry.shortcut(C, [START, GOAL])
+
+
+def test_what_makes_no_sense_is_an_error() -> None:
+    C = room()
+    with pytest.raises(ry.ArgumentError, match="the goal has 2 numbers; expected 3"):
+        ry.planMotion(C, [0.0, 1.0])
+    with pytest.raises(ry.ArgumentError, match="similar names: margin"):
+        ry.planMotion(C, GOAL, margn=0.1)
+    with pytest.raises(ry.ArgumentError, match="velocity has 2 numbers"):
+        ry.planMotion(C, GOAL, velocity=[1.0, 2.0])
+    with pytest.raises(ry.ArgumentError, match="optimize is 'speed'; expected one of time, length, clearance"):
+        ry.planMotion(C, GOAL, optimize="speed")
+    with pytest.raises(ry.ArgumentError, match="expected a joint vector or several"):
+        ry.planMotion(C, 3)
+    with pytest.raises(ry.ArgumentError, match="neither eq nor ineq"):
+        ry.planMotion(C, GOAL, constraints=[ry.MotionConstraint(ry.FS.position, ["body"], ry.OT.sos)])
+    with pytest.raises(ry.FrameNotFound, match="bdy"):
+        ry.planMotion(C, GOAL, constraints=[ry.MotionConstraint(ry.FS.position, ["bdy"])])
+
+
+def test_obstacles_that_touch_each_other_are_no_collision_of_the_start() -> None:
+    C = room()
+    C.addFrame("lintel").setShape(ry.ST.box, [0.2, 4.0, 0.2]).setPosition([0.0, 0.0, 0.55]).setContact(
+        1
+    )  # in both walls
+    assert ry.planMotion(C, [-1.0, -1.0, 1.0]).feasible
+    assert ry.RRT_PathFinder().setProblem(C).setStartGoal(START, [-1.0, -1.0, 1.0]).solve(0).feasible
