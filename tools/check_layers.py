@@ -32,7 +32,7 @@ EVERYTHING = [
     "ik",
     "komo",
 ]
-EVERYTHING += ["planning", "motion", "rendering", "simulation", "operation", "viewer", "front"]
+EVERYTHING += ["planning", "motion", "logic", "tasks", "rendering", "simulation", "operation", "viewer", "front"]
 
 BELOW: dict[str, list[str]] = {
     "base": [],
@@ -62,6 +62,8 @@ BELOW: dict[str, list[str]] = {
         *["base", "math", "geometry", "kinematics", "scene", "features", "nlp", "komo", "solvers", "ik", "spline"],
     ],
     "operation": ["base", "math", "spline", "gfile", "geometry", "kinematics", "scene", "simulation"],
+    "logic": ["base", "gfile"],
+    "tasks": ["base", "math", "gfile", "logic", "geometry", "kinematics", "scene", "features", "nlp", "komo", "solvers"],
     "rendering": ["base", "math", "gfile", "geometry", "kinematics", "scene"],
     "simulation": ["base", "math", "gfile", "geometry", "kinematics", "scene", "spline", "rendering"],
     "viewer": ["base", "math", "gfile", "geometry", "kinematics", "scene", "formats"],

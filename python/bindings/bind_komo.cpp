@@ -14,6 +14,7 @@
 #include "kinegraph/base/errors.h"
 #include "kinegraph/base/text.h"
 #include "kinegraph/features/registry.h"
+#include "kinegraph/komo/mode_switches.h"
 #include "kinegraph/komo/report.h"
 #include "kinegraph/solvers/nlp_solver.h"
 #include "py_komo.h"
@@ -50,7 +51,9 @@ Frame addedFrame(PyKomo& komo, const std::string& name) {
 
 Frame addFrameDof(PyKomo& komo, const std::string& name, const std::string& parent, JointType type, bool stable,
                   const std::optional<std::string>& origin_name, const std::optional<Frame>& origin) {
-  komo.addFrameDof(name, parent, type, stable, origin ? origin->getName() : origin_name.value_or(""));
+  FrameDemand demand{name, parent, type, stable, origin ? origin->getName() : origin_name.value_or("")};
+  if (origin) demand.origin_pose = origin->getPose();
+  kinegraph::addFrameDof(komo.path(), demand);
   return addedFrame(komo, name);
 }
 

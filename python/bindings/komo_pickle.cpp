@@ -39,7 +39,8 @@ FeatureSource toFeature(nb::object object) {
 nb::tuple toTuple(const Objective& o) {
   const nb::object feature = toObject(o.feature);
   return nb::make_tuple(o.name(), feature, o.frames, int(o.type), toNumpy(o.scale), toNumpy(o.target), o.order, o.times,
-                        o.from, o.to, o.time_integral, o.without_gravity, o.damped, o.margin, o.slack, o.on_the_way);
+                        o.from, o.to, o.time_integral, o.without_gravity, o.damped, o.margin, o.slack, o.on_the_way,
+                        o.frames_known);
 }
 
 /// An array of shape (rows, columns), rows or columns may be 0.
@@ -67,7 +68,8 @@ Objective toObjective(nb::handle state) {
           nb::cast<bool>(t[12]),
           nb::cast<double>(t[13]),
           nb::cast<double>(t[14]),
-          nb::cast<bool>(t[15])};
+          nb::cast<bool>(t[15]),
+          nb::cast<int>(t[16])};
 }
 
 nb::tuple komoState(const PyKomo& komo) {

@@ -3,6 +3,7 @@
 #include <cstdlib>
 
 #include "arguments.h"
+#include "bind_tasks.h"
 #include "bindings.h"
 #include "docs/module.h"
 #include "kinegraph/gfile/parser.h"
@@ -41,6 +42,8 @@ NB_MODULE(_core, m) {
   bindSolvers(m);
   bindKomo(m);
   bindSkeleton(m);
+  bindManipulation(m);
+  bindLogic(m);
   bindSolveMany(m);
   bindIk(m);
   bindRetime(m);

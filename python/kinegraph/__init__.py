@@ -27,6 +27,7 @@ from ._core import (
     Config,
     ConfigurationViewer,
     ControlMode,
+    Domain,
     Feature,
     Frame,
     FrameView,
@@ -39,6 +40,7 @@ from ._core import (
     IkStatus,
     ImageViewer,
     KinematicDriver,
+    LogicProblem,
     LoopMode,
     MotionConstraint,
     MotionContact,
@@ -51,6 +53,7 @@ from ._core import (
     PathContact,
     PathReturn,
     PlanStatus,
+    PlanSearch,
     RecordedDriver,
     RetimeStatus,
     Roadmap,
@@ -77,6 +80,7 @@ from ._core import (
     retime,
     shortcut,
     smooth,
+    sceneFacts,
     solveAll,
     solveIk,
 )
@@ -119,10 +123,15 @@ from .errors import (
 )
 from .film import saveFilm
 from .interactive import interactiveIk
+from .lgp import LGP_TAMP_Abstraction, LGP_Tool, default_LGP_TAMP_Abstraction
+from .manipulation import KOMO_ManipulationHelper, ManipulationModelling
 from .model_paths import raiPath, setRaiPath
 from .problems import get_NLP_Problem_names, make_NLP_Problem
 from .quaternion import Quaternion
 from .seeds import rnd_seed, rnd_seed_random
+from .task_actions import TaskRule, defaultDomain
+from .task_check import checkTaskPlan
+from .tasks import planTask
 
 _model_paths.announce()
 
@@ -162,6 +171,7 @@ __all__ = [
     "Config",
     "ConfigurationViewer",
     "ControlMode",
+    "Domain",
     "Error",
     "Feature",
     "FileError",
@@ -177,10 +187,15 @@ __all__ = [
     "IkResults",
     "IkStatus",
     "ImageViewer",
+    "KOMO_ManipulationHelper",
     "KinegraphWarning",
     "KinematicDriver",
+    "LGP_TAMP_Abstraction",
+    "LGP_Tool",
+    "LogicProblem",
     "LoopMode",
     "MotionConstraint",
+    "ManipulationModelling",
     "MotionContact",
     "MotionPlan",
     "NLP_Factory",
@@ -199,6 +214,7 @@ __all__ = [
     "PathFinder",
     "PathReturn",
     "PlanStatus",
+    "PlanSearch",
     "Quaternion",
     "RRT_PathFinder",
     "RecordedDriver",
@@ -220,14 +236,18 @@ __all__ = [
     "SolverReturn",
     "SolverReturns",
     "StepObservation",
+    "TaskRule",
     "TimedPath",
     "_left",
     "_path",
     "_right",
     "_sequence",
     "checkFile",
+    "checkTaskPlan",
     "clear_params",
     "compiled",
+    "defaultDomain",
+    "default_LGP_TAMP_Abstraction",
     "depthImage2PointCloud",
     "getArucoImage",
     "get_NLP_Problem_names",
@@ -240,11 +260,13 @@ __all__ = [
     "params_get",
     "params_print",
     "planMotion",
+    "planTask",
     "raiPath",
     "retime",
     "rnd_seed",
     "rnd_seed_random",
     "saveFilm",
+    "sceneFacts",
     "setRaiPath",
     "set_params",
     "shortcut",

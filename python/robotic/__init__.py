@@ -17,19 +17,15 @@ from kinegraph import *  # noqa: F403
 from kinegraph import ArgWord as ArgWord
 from kinegraph import __version__ as __version__
 from kinegraph import test as test
+from kinegraph.lgp import default_Logic2KOMO_Translator, default_TAMP_Provider
 
 from . import DataGen, algo, calib, manipulation, nlp, render
+from .manipulation import KOMO_ManipulationHelper, LGP_Tool, ManipulationModelling
 from .not_yet import (
-    KOMO_ManipulationHelper,
     KOMO_Objective,
-    LGP_TAMP_Abstraction,
-    LGP_Tool,
     MujocoLoader,
     SRRT_PathFinder,
     arg,
-    default_LGP_TAMP_Abstraction,
-    default_Logic2KOMO_Translator,
-    default_TAMP_Provider,
 )
 from .results import NLP_Solver, SolverReturn
 
@@ -39,14 +35,12 @@ __all__ = [
     "DataGen",
     "KOMO_ManipulationHelper",
     "KOMO_Objective",
-    "LGP_TAMP_Abstraction",
-    "LGP_Tool",
+    "ManipulationModelling",
     "MujocoLoader",
     "SRRT_PathFinder",
     "algo",
     "arg",
     "calib",
-    "default_LGP_TAMP_Abstraction",
     "default_Logic2KOMO_Translator",
     "default_TAMP_Provider",
     "manipulation",

@@ -1,8 +1,22 @@
-"""Problems of manipulation in a few calls."""
+"""Problems of manipulation in a few calls; results speak the reference's rule of what is feasible."""
 
-from .not_yet import KOMO_ManipulationHelper as KOMO_ManipulationHelper
-from .pending import pending
+from __future__ import annotations
 
-ManipulationModelling = pending(
-    "manipulation.ManipulationModelling", "KOMO with addModeSwitch states the same problems"
-)
+import kinegraph
+
+from .results import NLP_Solver
+
+
+class KOMO_ManipulationHelper(kinegraph.KOMO_ManipulationHelper):
+    """As kinegraph.KOMO_ManipulationHelper; `ret.feasible` is by the reference's rule."""
+
+    _solver = NLP_Solver
+
+
+class LGP_Tool(kinegraph.LGP_Tool):
+    """As kinegraph.LGP_Tool; waypoints are feasible by the reference's rule."""
+
+    _solver = NLP_Solver
+
+
+ManipulationModelling = KOMO_ManipulationHelper  # as scripts of earlier years call it

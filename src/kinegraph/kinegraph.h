@@ -21,17 +21,20 @@
 #include "kinegraph/formats/mjcf_writer.h"
 #include "kinegraph/formats/scene_writer.h"
 #include "kinegraph/formats/urdf_writer.h"
-#include "kinegraph/front/camera_view.h"            // CameraView: images
-#include "kinegraph/front/model_path.h"             // modelPath
-#include "kinegraph/front/names.h"                  // FS, OT, ST, KOMO, NLP_Solver, ...
-#include "kinegraph/front/own_feature.h"            // functions of frames as features
-#include "kinegraph/front/retime_robot.h"           // retime: a robot's path, by its limits
-#include "kinegraph/front/solve_all.h"              // several problems at once
-#include "kinegraph/ik/solve_ik.h"                  // solveIk
-#include "kinegraph/kinematics/edge_check.h"        // EdgeChecker: is a q, is an edge free?
-#include "kinegraph/kinematics/limit_check.h"       // withinLimits
-#include "kinegraph/komo/komo.h"                    // Komo: motion problems
-#include "kinegraph/komo/report.h"                  // how well a path does
+#include "kinegraph/front/camera_view.h"       // CameraView: images
+#include "kinegraph/front/model_path.h"        // modelPath
+#include "kinegraph/front/names.h"             // FS, OT, ST, KOMO, NLP_Solver, ...
+#include "kinegraph/front/own_feature.h"       // functions of frames as features
+#include "kinegraph/front/retime_robot.h"      // retime: a robot's path, by its limits
+#include "kinegraph/front/solve_all.h"         // several problems at once
+#include "kinegraph/ik/solve_ik.h"             // solveIk
+#include "kinegraph/kinematics/edge_check.h"   // EdgeChecker: is a q, is an edge free?
+#include "kinegraph/kinematics/limit_check.h"  // withinLimits
+#include "kinegraph/komo/komo.h"               // Komo: motion problems
+#include "kinegraph/komo/report.h"             // how well a path does
+#include "kinegraph/logic/fol_reader.h"        // domains of actions
+#include "kinegraph/logic/pddl.h"
+#include "kinegraph/logic/plan_search.h"            // PlanSearch
 #include "kinegraph/motion/path_finder.h"           // paths between two postures
 #include "kinegraph/motion/plan_motion.h"           // planMotion
 #include "kinegraph/motion/refine_path.h"           // shortcut, smooth
@@ -56,6 +59,8 @@
 #include "kinegraph/solvers/sampling/sampler.h"     // NlpSampler
 #include "kinegraph/spline/b_spline.h"              // BSpline
 #include "kinegraph/spline/retime.h"                // retime: the fastest motion along a path
+#include "kinegraph/tasks/manipulation_helper.h"    // grasps, placements, pushes
+#include "kinegraph/tasks/scene_facts.h"            // what a scene says in logic
 #include "kinegraph/viewer/config_viewer.h"         // the viewer in the browser
 #include "kinegraph/viewer/motions.h"               // motions to show there
 #include "kinegraph/viewer/watch_file.h"            // a scene file shown whenever it changes

@@ -46,6 +46,7 @@ FOUND = {
         r"'arm' cannot be held at .* -3 to 3 N m are allowed",
     ],
     "simulation": [r"\(64, 7\) \(64, 1, 7\)"],
+    "tasks": [r"^solved: 4 actions", r"\(place jug l_gripper tray\)", r"\(show cup l_gripper\)", "-- feasible"],
     "viewer": [r"Viewer: http"],
 }
 

@@ -134,7 +134,7 @@ Args:
     jointType: Of JT.
     stable: One value of the joint for all slices.
     originFrameName: Name of the frame at whose pose it starts; None: at the parent's.
-    originFrame: That frame itself.
+    originFrame: That frame itself, at the pose that it has, as from getFrame at another time.
 Returns:
     A copy of the new frame.
 Raises:

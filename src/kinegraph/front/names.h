@@ -5,6 +5,7 @@
 #include "kinegraph/komo/komo.h"
 #include "kinegraph/solvers/sampling/sampler.h"
 #include "kinegraph/solvers/solve_many.h"
+#include "kinegraph/tasks/manipulation_helper.h"
 
 namespace kinegraph {
 
@@ -16,6 +17,8 @@ using ST = ShapeType;
 using JT = JointType;
 using SY = SwitchMode;
 using KOMO = Komo;
+using KOMO_ManipulationHelper = ManipulationHelper;
+using ManipulationModelling = ManipulationHelper;
 using NLP = Nlp;
 using NLP_Solver = NlpSolver;
 using NLP_Sampler = NlpSampler;

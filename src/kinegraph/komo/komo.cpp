@@ -158,7 +158,8 @@ void Komo::addQuaternionNorms(const std::vector<double>& times, double scale, bo
                    .type = hard ? ObjectiveType::eq : ObjectiveType::sos,
                    .scale = MatrixXd::Constant(1, 1, scale),
                    .order = 0,
-                   .times = times});
+                   .times = times,
+                   .frames_known = int(path().state(0).program().frame_dofs.size())});
 }
 
 void Komo::addModeSwitch(const std::vector<double>& times, SwitchMode mode, const std::vector<std::string>& frames,

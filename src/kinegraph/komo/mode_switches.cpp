@@ -190,7 +190,9 @@ void addFrameDof(Path& path, const FrameDemand& demand) {
     throw ValueError(cat("addFrameDof: a ", jointTypeName(type), " joint cannot be added to a motion problem"));
   }
   path.beginModes();
-  path.addFrame(demand.name, below, type, demand.stable, demand.origin);
+  std::optional<Pose> origin = demand.origin_pose;
+  if (!origin && !demand.origin.empty()) origin = path.mode(-path.grid().order()).config.getFrame(demand.origin).getPose();
+  path.addFrame(demand.name, below, type, demand.stable, origin);
 }
 
 }  // namespace kinegraph

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -31,6 +32,7 @@ struct FrameDemand {
   JointType type;        ///< none: it does not move
   bool stable;
   std::string origin{};  ///< it moves relative to where this frame is now, relative to the parent; empty: to the parent
+  std::optional<Pose> origin_pose{};  ///< world pose to take in place of the origin's present one
 };
 
 /// Throws FrameNotFound, and ValueError for a name that is there already and for joints that cannot be added.

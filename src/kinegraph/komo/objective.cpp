@@ -1,5 +1,8 @@
 #include "kinegraph/komo/objective.h"
 
+#include <algorithm>
+#include <iterator>
+
 #include "kinegraph/base/errors.h"
 #include "kinegraph/base/text.h"
 #include "kinegraph/features/collisions.h"
@@ -59,6 +62,22 @@ Made limitsIn(const Path& path, int slice) {
   return std::make_unique<JointLimits>(Ids(dofs.begin(), dofs.end()), program);
 }
 
+/// The quaternions among the dofs of a slice, but for those of frames that were added after the objective: a stable
+/// frame's quaternion belongs to the slices before the start.
+Made normsIn(const Objective& objective, const Path& path, int slice) {
+  const Program& program = path.state(slice).program();
+  const auto isKnown = [&](const Program::DofRange& norm) {
+    for (int frame = objective.frames_known; frame < int(program.frame_dofs.size()); ++frame) {
+      const Program::DofRange& range = program.frame_dofs[frame];
+      if (norm.first >= range.first && norm.first < range.first + range.count) return false;
+    }
+    return true;
+  };
+  std::vector<Program::DofRange> norms;
+  std::ranges::copy_if(program.unit_norms, std::back_inserter(norms), isKnown);
+  return std::make_unique<QuaternionNorms>(std::move(norms));
+}
+
 /// Free flight where no force and no inertia is known.
 Made physicsOf(int frame, const Objective& objective, const Path& path, const std::vector<ContactForce>& forces) {
   const double gravity = objective.without_gravity ? 0. : -kGravity.z();
@@ -98,6 +117,7 @@ Made featureIn(const Objective& objective, const Path& path, const std::vector<C
   const FeatureSource& feature = objective.feature;
   if (feature == S::qItself) return jointsIn(objective, path, ids, slice);
   if (feature == S::jointLimits && ids.empty() && !path.layout().plain) return limitsIn(path, slice);
+  if (feature == S::qQuaternionNorms && objective.frames_known >= 0) return normsIn(objective, path, slice);
   if (feature == S::physics && ids.size() == 1) return physicsOf(ids[0], objective, path, forces);
   if (feature == S::totalForce && ids.size() == 1) return std::make_unique<TotalForce>(ids[0], forces);
   if (feature == S::contactConstraints && ids.size() == 2)

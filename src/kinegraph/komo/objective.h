@@ -26,6 +26,7 @@ struct Objective {
   double margin = 0.;            ///< of collisions: pairs that are farther apart do not count, m
   double slack = 0.;             ///< of collisions: by so much more a solver aims to keep pairs apart, m
   bool on_the_way = false;       ///< of collisions: not in the slices, but at instants of the motions that lead to them
+  int frames_known = -1;         ///< of qQuaternionNorms: only the first so many frames count; -1: all
 
   /// Of those motions, from that to slice `from` on: in [0, 1], the share of the way.
   std::vector<std::vector<double>> instants{};

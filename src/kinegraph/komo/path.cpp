@@ -198,19 +198,15 @@ int Path::addDofs(const std::string& name, int from, int to, const Attachment& a
 }
 
 void Path::addFrame(const std::string& name, const std::string& parent, JointType type, bool stable,
-                    const std::string& origin) {
+                    const std::optional<Pose>& origin) {
   const int joint = modes_.newJoint();
-  Pose X_origin;
-  if (!origin.empty()) {
-    const Config& given = modes_.at(0).config;
-    X_origin = given.getFrame(origin).getPose();
-    if (!parent.empty()) X_origin = given.getFrame(parent).getPose().inverse() * X_origin;
-  }
+  Pose X_origin = origin.value_or(Pose());
+  if (origin && !parent.empty()) X_origin = modes_.at(0).config.getFrame(parent).getPose().inverse() * X_origin;
   for (const auto& mode : modes_.list()) {
     SceneTree& scene = *mode->config.scene();
     FrameData& frame = scene.add(name, nullptr);
     FrameData* seat = parent.empty() ? nullptr : &scene.get(parent, "addFrameDof");
-    if (!origin.empty()) {
+    if (origin) {
       FrameData& at = scene.add(name + "_origin", nullptr);
       if (seat) scene.link(at, *seat);
       at.pose = X_origin;
@@ -220,7 +216,7 @@ void Path::addFrame(const std::string& name, const std::string& parent, JointTyp
     Frame(mode->config.scene(), frame).setShape(ShapeType::marker, {.1});
     if (mode == modes_.list().front()) {
       shown_frames_.push_back(frame.id);
-      if (!origin.empty()) shown_frames_.push_back(frame.id + 1);
+      if (origin) shown_frames_.push_back(frame.id + 1);
     }
     if (type == JointType::none) continue;
     Attachment attachment;

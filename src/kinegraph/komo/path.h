@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -70,10 +71,10 @@ class Path {
   /// A frame that is not shown, with a joint to the world in the slices [from, to]. Returns its id.
   int addDofs(const std::string& name, int from, int to, const Attachment& attachment);
 
-  /// A frame in all slices, below `parent` (empty: none), or below one more frame that is where `origin` is relative to
-  /// it now. It has a joint, stable or not, unless the type is none.
+  /// A frame in all slices, below `parent` (empty: none), or below one more frame whose world pose is now `origin`. It
+  /// has a joint, stable or not, unless the type is none.
   void addFrame(const std::string& name, const std::string& parent, JointType type, bool stable,
-                const std::string& origin);
+                const std::optional<Pose>& origin);
 
   /// Takes over the constant poses (root objects, markers) of the configuration. Throws ValueError if its frames and
   /// joints are not those of the given scene.

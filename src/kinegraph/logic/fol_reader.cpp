@@ -1,0 +1,209 @@
+#include "kinegraph/logic/fol_reader.h"
+
+#include <algorithm>
+#include <fstream>
+#include <set>
+#include <sstream>
+
+#include "kinegraph/base/text.h"
+#include "kinegraph/logic/logic_scanner.h"
+
+namespace kinegraph {
+
+namespace {
+
+using Token = LogicScanner::Token;
+
+const std::vector<std::string> kReserved = {"QUIT", "WAIT", "Terminate", "ANY", "INFEASIBLE"};
+
+/// `(p a b)`, `(p a b)!`
+Literal readLiteral(LogicScanner& scan) {
+  Literal literal;
+  literal.where = scan.expect('(', "of a literal such as (on table cup)").where;
+  literal.predicate = scan.expectWord("a predicate").text;
+  while (scan.peek().isWord() || scan.peek().kind == Token::Kind::number) literal.arguments.push_back(scan.take().text);
+  scan.expect(')', "after the arguments of a literal");
+  literal.negated = scan.takeIf('!');
+  if (scan.peek().is('=')) {
+    throw ParseError(scan.peek().where,
+                     cat("literals with values, ", literal.str(), "=..., are not supported; facts hold or do not"));
+  }
+  return literal;
+}
+
+class FolReader {
+ public:
+  FolReader(std::string_view text, const std::string& file) : scan_(text, file, '#') {}
+
+  LogicDomain read() {
+    for (const std::string& word : kReserved) known_.insert(word);
+    while (scan_.peek().kind != Token::Kind::end) readEntry();
+    return std::move(domain_);
+  }
+
+ private:
+  void readEntry() {
+    if (scan_.takeIf(',')) return;
+    const Token word = scan_.expectWord("a symbol, START_STATE, DecisionRule or Rule");
+    if (word.text == "START_STATE") {
+      scan_.takeIf(':');
+      domain_.start = readBlock({});
+    } else if (word.text == "DecisionRule" || word.text == "Rule") {
+      readRule(word);
+    } else if (word.text == "FOL_World" || word.text == "REWARD") {
+      skipBlock();
+    } else if (word.text == "DecisionRules" || scan_.peek().is('{')) {
+      throw ParseError(
+          word.where,
+          cat("unknown block '", word.text, "'; expected START_STATE, DecisionRule, Rule, FOL_World or REWARD",
+              similarHint(word.text, {"START_STATE", "DecisionRule", "Rule", "FOL_World", "REWARD"})));
+    } else if (known_.insert(word.text).second) {
+      domain_.symbols.push_back(word.text);
+    }
+  }
+
+  void skipBlock() {
+    scan_.takeIf(':');
+    scan_.expect('{', "of the block");
+    for (int depth = 1; depth > 0;) {
+      const Token token = scan_.take();
+      if (token.kind == Token::Kind::end) throw ParseError(token.where, "expected '}' of the block, found the end");
+      depth += token.is('{') ? 1 : token.is('}') ? -1 : 0;
+    }
+  }
+
+  /// `{ (p a) (q b)! }`, whose words are declared, or are among `variables`.
+  std::vector<Literal> readBlock(const std::vector<std::string>& variables) {
+    scan_.expect('{', "of a list of literals");
+    std::vector<Literal> literals;
+    while (!scan_.takeIf('}')) {
+      if (scan_.takeIf(',')) continue;
+      if (scan_.peek().isWord()) refuseWord();
+      literals.push_back(readLiteral(scan_));
+      requireKnown(literals.back(), variables);
+    }
+    if (scan_.peek().is('[')) throw ParseError(scan_.peek().where, "rules with probabilities are not supported");
+    return literals;
+  }
+
+  void refuseWord() {
+    if (scan_.peek().text == "aggregate") throw ParseError(scan_.peek().where, "aggregate is not supported");
+    scan_.fail("a literal such as (on table cup), or '}'");
+  }
+
+  void requireKnown(const Literal& literal, const std::vector<std::string>& variables) {
+    const auto require = [&](const std::string& word, const char* what) {
+      if (known_.contains(word) || std::ranges::find(variables, word) != variables.end()) return;
+      if (variables.empty()) return;  // START_STATE names frames of the scene
+      std::vector<std::string> near(known_.begin(), known_.end());
+      near.insert(near.end(), variables.begin(), variables.end());
+      throw ParseError(literal.where, cat("unknown ", what, " '", word, "' in ", literal.str(),
+                                          "; declare it in a line of its own", similarHint(word, near)));
+    };
+    if (!known_.contains(literal.predicate)) {
+      throw ParseError(literal.where, cat("unknown predicate '", literal.predicate, "' in ", literal.str(),
+                                          "; declare it in a line of its own",
+                                          similarHint(literal.predicate, {known_.begin(), known_.end()})));
+    }
+    for (const std::string& word : literal.arguments) require(word, "symbol or variable");
+  }
+
+  void takeLabel(const char* label) {
+    if (scan_.peek().isWord() && scan_.peek().text == label) {
+      scan_.take();
+      scan_.takeIf(':');
+    }
+  }
+
+  void readRule(const Token& kind) {
+    LogicRule rule;
+    rule.where = kind.where;
+    rule.is_decision = kind.text == "DecisionRule";
+    if (scan_.peek().isWord()) rule.name = scan_.take().text;
+    if (rule.name.empty() && rule.is_decision) scan_.fail("the name of the DecisionRule");
+    scan_.takeIf(':');
+    scan_.expect('{', "of the rule");
+    while (!scan_.peek().is('{')) {
+      if (scan_.takeIf(',')) continue;
+      takeLabel("pre");
+      if (scan_.peek().is('{')) break;
+      const Token variable = scan_.expectWord("a variable, or '{' of the precondition");
+      if (std::ranges::find(rule.variables, variable.text) != rule.variables.end())
+        throw ParseError(variable.where, cat("variable '", variable.text, "' is there twice"));
+      rule.variables.push_back(variable.text);
+    }
+    rule.pre = readBlock(rule.variables);
+    scan_.takeIf(',');
+    takeLabel("eff");
+    rule.eff = readBlock(rule.variables);
+    scan_.takeIf(',');
+    if (scan_.peek().isWord() || scan_.peek().is('[')) scan_.fail("'}' of the rule; further entries are not supported");
+    scan_.expect('}', "of the rule");
+    requireBound(rule);
+    domain_.rules.push_back(std::move(rule));
+  }
+
+  void requireBound(const LogicRule& rule) {
+    if (rule.pre.empty()) {
+      throw ParseError(rule.where, cat("the precondition of '", rule.name, "' is empty; it would never fire"));
+    }
+    for (const std::string& variable : rule.variables) {
+      const bool bound = std::ranges::any_of(rule.pre, [&](const Literal& literal) {
+        return !literal.negated && std::ranges::find(literal.arguments, variable) != literal.arguments.end();
+      });
+      if (bound) continue;
+      throw ParseError(rule.where,
+                       cat("rule '", rule.name, "': no literal of the precondition that has to hold has the variable '",
+                           variable, "'; it could be anything"));
+    }
+  }
+
+  LogicScanner scan_;
+  LogicDomain domain_;
+  std::set<std::string> known_;
+};
+
+std::string writeBlock(const std::vector<Literal>& literals) {
+  std::string text = "  {\n";
+  for (const Literal& literal : literals) text += "    " + literal.str() + "\n";
+  return text + "  }\n";
+}
+
+}  // namespace
+
+LogicDomain readFol(std::string_view text, const std::string& file) { return FolReader(text, file).read(); }
+
+LogicDomain readFolFile(const std::string& path) {
+  std::ifstream in(path, std::ios::binary);
+  if (!in) throw FileError(cat("readFol: cannot read '", path, "'"));
+  std::stringstream text;
+  text << in.rdbuf();
+  return readFol(text.str(), path);
+}
+
+std::vector<Literal> readLiterals(std::string_view text, const std::string& file) {
+  LogicScanner scan(text, file, '#');
+  std::vector<Literal> literals;
+  const bool braces = scan.takeIf('{');
+  while (scan.peek().kind != Token::Kind::end && !scan.peek().is('}')) {
+    if (!scan.takeIf(',')) literals.push_back(readLiteral(scan));
+  }
+  if (braces) scan.expect('}', "of the list of literals");
+  if (scan.peek().kind != Token::Kind::end) scan.fail("a literal such as (on table cup)");
+  return literals;
+}
+
+std::string writeFol(const LogicDomain& domain) {
+  std::string text;
+  for (const std::string& symbol : domain.symbols) text += symbol + "\n";
+  text += "START_STATE {" + std::string(domain.start.empty() ? "" : "\n");
+  for (const Literal& literal : domain.start) text += "  " + literal.str() + "\n";
+  text += "}\n";
+  for (const LogicRule& rule : domain.rules) {
+    text += cat(rule.is_decision ? "DecisionRule " : "Rule ", rule.name, " {\n  ", join(rule.variables), "\n");
+    text += writeBlock(rule.pre) + writeBlock(rule.eff) + "}\n";
+  }
+  return text;
+}
+
+}  // namespace kinegraph

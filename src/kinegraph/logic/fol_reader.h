@@ -1,0 +1,35 @@
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "kinegraph/logic/domain.h"
+
+namespace kinegraph {
+
+/// Reads a domain in the language of `.fol` files:
+///
+///     on  busy  is_gripper                     # words that are used below
+///     START_STATE { (busy left) }
+///     DecisionRule pick { Obj, From, Hand,
+///       { (is_gripper Hand) (on From Obj) (busy Hand)! }
+///       { (on From Obj)! (on Hand Obj) (busy Hand) } }
+///     Rule chain { A, B, { (on A B) (moves A) } { (moves B) } }
+///
+/// Commas and line breaks are spaces; `pre:` and `eff:` may stand before the blocks. ANY matches any constant. FOL_World
+/// and REWARD are read and have no effect. Throws ParseError with file:line:column, what was expected and what is near:
+/// for words that are not declared, variables that no positive literal of the precondition binds, and for values,
+/// probabilities and `aggregate`, which are not supported.
+LogicDomain readFol(std::string_view text, const std::string& file = {});
+
+/// The same from a file. Throws FileError.
+LogicDomain readFolFile(const std::string& path);
+
+/// Reads a list of literals, as a goal: `(on tray cup) (busy left)!`
+std::vector<Literal> readLiterals(std::string_view text, const std::string& file = {});
+
+/// Writes a domain in that language.
+std::string writeFol(const LogicDomain& domain);
+
+}  // namespace kinegraph

@@ -1,0 +1,217 @@
+#include "kinegraph/logic/plan_search.h"
+
+#include <algorithm>
+#include <queue>
+#include <tuple>
+
+namespace kinegraph {
+
+namespace {
+
+constexpr int kNever = LandmarkCut::kNever;
+constexpr long kAskEvery = 64;  ///< expansions
+
+}  // namespace
+
+PlanSearch::PlanSearch(GroundProblem ground) : PlanSearch(std::move(ground), Options()) {}
+
+PlanSearch::PlanSearch(GroundProblem ground, Options options)
+    : ground_(std::move(ground)), options_(std::move(options)), landmarks_(ground_) {
+  stateOf(ground_.start);
+}
+
+int PlanSearch::stateOf(const FactSet& facts) {
+  std::vector<int>& same = by_hash_[facts.hash()];
+  for (int state : same) {
+    if (states_[std::size_t(state)].facts == facts) return state;
+  }
+  same.push_back(int(states_.size()));
+  states_.emplace_back();
+  states_.back().facts = facts;
+  states_.back().is_goal = ground_.isGoal(facts);
+  return same.back();
+}
+
+int PlanSearch::bound(int state) {
+  StateInfo& info = states_[std::size_t(state)];
+  if (info.bound < 0) {
+    info.bound = info.is_goal ? 0 : landmarks_(info.facts);
+    info.exact = info.is_goal || info.bound >= kNever;
+  }
+  return info.bound;
+}
+
+bool PlanSearch::isForbidden(int action, const FactSet& facts) const {
+  const auto found = forbidden_.find(action);
+  if (found == forbidden_.end()) return false;
+  return std::ranges::any_of(found->second, [&](const std::vector<int>& nogood) {
+    return std::ranges::all_of(nogood, [&](int fact) { return facts.has(fact); });
+  });
+}
+
+const std::vector<PlanSearch::Edge>& PlanSearch::edges(int state) {
+  if (!states_[std::size_t(state)].expanded) {
+    if (++expansions_ > options_.most_expansions) {
+      status_ = Status::limit;
+      throw Stopped();
+    }
+    if (expansions_ % kAskEvery == 0 && options_.keep_going && !options_.keep_going()) {
+      status_ = Status::cancelled;
+      throw Stopped();
+    }
+    std::vector<Edge> list;
+    const FactSet facts = states_[std::size_t(state)].facts;
+    for (std::size_t a = 0; a < ground_.actions.size(); ++a) {
+      if (!ground_.isApplicable(ground_.actions[a], facts)) continue;
+      const int to = stateOf(ground_.apply(int(a), facts));
+      if (to != state) list.push_back({int(a), to});
+    }
+    states_[std::size_t(state)].edges = std::move(list);
+    states_[std::size_t(state)].expanded = true;
+  }
+  return states_[std::size_t(state)].edges;
+}
+
+/// A* from a state. All that it expands learns a bound of its own distance.
+int PlanSearch::exactDistance(int state) {
+  if (bound(state), states_[std::size_t(state)].exact) return states_[std::size_t(state)].bound;
+  using Entry = std::tuple<int, int, long, int>;  // g + bound, -g, order, state
+  std::priority_queue<Entry, std::vector<Entry>, std::greater<>> open;
+  std::unordered_map<int, std::pair<int, int>> reached;  // state -> g, before
+  std::vector<int> closed;
+  long order = 0;
+  reached[state] = {0, -1};
+  open.push({bound(state), 0, order++, state});
+  while (!open.empty()) {
+    const auto [f, minus_g, number, s] = open.top();
+    open.pop();
+    const int g = -minus_g;
+    if (g > reached[s].first) continue;
+    if (states_[std::size_t(s)].exact) {
+      const int total = g + states_[std::size_t(s)].bound;
+      if (total > f) {  // what was found meanwhile
+        open.push({total, minus_g, order++, s});
+        continue;
+      }
+      for (int c : closed) {
+        StateInfo& info = states_[std::size_t(c)];
+        info.bound = std::max(info.bound, total - reached[c].first);
+      }
+      for (int at = s; at >= 0; at = reached[at].second) {
+        states_[std::size_t(at)].exact = true;
+        states_[std::size_t(at)].bound = total - reached[at].first;
+      }
+      return total;
+    }
+    closed.push_back(s);
+    for (const Edge& edge : edges(s)) {
+      if (isForbidden(edge.action, states_[std::size_t(s)].facts)) continue;
+      const int rest = bound(edge.to);
+      if (rest >= kNever) continue;
+      const auto known = reached.find(edge.to);
+      if (known != reached.end() && known->second.first <= g + 1) continue;
+      reached[edge.to] = {g + 1, s};
+      open.push({g + 1 + rest, -(g + 1), order++, edge.to});
+    }
+  }
+  for (int c : closed) {  // the goal cannot be reached from any of them
+    states_[std::size_t(c)].bound = kNever;
+    states_[std::size_t(c)].exact = true;
+  }
+  return kNever;
+}
+
+int PlanSearch::distance() {
+  try {
+    return exactDistance(0);
+  } catch (Stopped) {
+    return bound(0);
+  }
+}
+
+void PlanSearch::forbid(int action, const std::vector<int>& facts) {
+  forbidden_[action].push_back(facts);
+  if (facts.size() == 1) landmarks_.require(action, facts.front());
+  restart();
+}
+
+void PlanSearch::forbidBeginning(const std::vector<int>& actions) {
+  beginnings_.insert(actions);
+  restart();
+}
+
+/// Distances only grow by what is forbidden: they stay as bounds. Plans that were told are not told again.
+void PlanSearch::restart() {
+  for (StateInfo& info : states_) {
+    info.exact = info.is_goal || (info.exact && info.bound >= kNever);
+    info.on_path = false;
+  }
+  path_.clear();
+  actions_.clear();
+  length_ = 0;
+}
+
+bool PlanSearch::beginsForbidden() const { return !beginnings_.empty() && beginnings_.contains(actions_); }
+
+void PlanSearch::leave() {
+  states_[std::size_t(path_.back().state)].on_path = false;
+  path_.pop_back();
+  if (!actions_.empty()) actions_.pop_back();
+}
+
+/// To the next plan of the present length; false if there is none.
+bool PlanSearch::advance() {
+  while (!path_.empty()) {
+    const int state = path_.back().state, used = int(actions_.size());
+    const std::vector<Edge>& list = edges(state);
+    if (states_[std::size_t(state)].is_goal || path_.back().next >= list.size()) {
+      leave();
+      continue;
+    }
+    const Edge edge = list[path_.back().next++];
+    if (states_[std::size_t(edge.to)].on_path || isForbidden(edge.action, states_[std::size_t(state)].facts)) continue;
+    int total = used + 1 + bound(edge.to);
+    if (total <= length_) total = used + 1 + exactDistance(edge.to);
+    if (total > length_) {
+      next_length_ = std::min(next_length_, total);
+      continue;
+    }
+    actions_.push_back(edge.action);
+    if (beginsForbidden()) {
+      actions_.pop_back();
+      continue;
+    }
+    path_.push_back({edge.to, 0});
+    states_[std::size_t(edge.to)].on_path = true;
+    if (states_[std::size_t(edge.to)].is_goal && int(actions_.size()) == length_ && told_.insert(actions_).second)
+      return true;
+  }
+  return false;
+}
+
+std::optional<std::vector<int>> PlanSearch::next() {
+  status_ = Status::found;
+  try {
+    if (path_.empty()) {
+      length_ = next_length_ = exactDistance(0);
+    } else if (advance()) {
+      return actions_;
+    }
+    while (next_length_ < kNever) {
+      length_ = next_length_;
+      next_length_ = kNever;
+      path_ = {{0, 0}};
+      states_[0].on_path = true;
+      if (states_[0].is_goal && told_.insert(actions_).second) return actions_;
+      if (advance()) return actions_;
+    }
+    status_ = Status::exhausted;
+  } catch (Stopped) {
+    for (StateInfo& info : states_) info.on_path = false;
+    path_.clear();
+    actions_.clear();
+  }
+  return std::nullopt;
+}
+
+}  // namespace kinegraph

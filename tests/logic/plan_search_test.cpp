@@ -1,0 +1,305 @@
+#include "kinegraph/logic/plan_search.h"
+
+#include <gtest/gtest.h>
+
+#include <set>
+
+#include "kinegraph/base/text.h"
+#include "kinegraph/logic/fol_reader.h"
+#include "kinegraph/logic/pddl.h"
+
+namespace kinegraph {
+namespace {
+
+constexpr const char* kPickPlace = R"(
+is_gripper is_object is_place on busy
+DecisionRule pick { Obj, From, Hand,
+  { (is_gripper Hand) (is_object Obj) (on From Obj) (is_place From) (busy Hand)! }
+  { (on From Obj)! (on Hand Obj) (busy Hand) } }
+DecisionRule place { Obj, Hand, To
+  pre: { (is_gripper Hand), (is_object Obj), (on Hand Obj), (is_place To) }
+  eff: { (busy Hand)! (on Hand Obj)! (on To Obj) } }
+)";
+
+/// k cubes on a table, each a place, to be stacked.
+LogicProblem tower(int k) {
+  LogicProblem problem;
+  problem.domain = readFol(kPickPlace);
+  std::string start = "(is_gripper hand) (is_place table) ", goal;
+  for (int i = 0; i < k; ++i) start += cat("(is_object b", i, ") (is_place b", i, ") (on table b", i, ") ");
+  for (int i = 0; i + 1 < k; ++i) goal += cat("(on b", i, " b", i + 1, ") ");
+  problem.start = readLiterals(start);
+  problem.goal = readLiterals(goal);
+  return problem;
+}
+
+std::string words(const PlanSearch& search, const std::vector<int>& plan) {
+  std::vector<std::string> actions;
+  for (int action : plan) actions.push_back(join(search.problem().action(action), " "));
+  return join(actions);
+}
+
+TEST(PlanSearch, PlansComeShortestFirstAndNoneTwice) {
+  PlanSearch search(ground(tower(5)));
+  std::set<std::vector<int>> seen;
+  std::size_t length = 0;
+  for (int i = 0; i < 1000; ++i) {
+    const auto plan = search.next();
+    ASSERT_TRUE(plan) << i;
+    EXPECT_TRUE(seen.insert(*plan).second) << words(search, *plan);
+    EXPECT_GE(plan->size(), length);
+    if (i == 0) EXPECT_EQ(plan->size(), 8u);
+    if (i == 23) EXPECT_EQ(plan->size(), 8u);  // 4! orders of the four moves
+    if (i == 24) EXPECT_EQ(plan->size(), 10u);
+    length = plan->size();
+    FactSet state = search.problem().start;
+    for (int action : *plan) {
+      ASSERT_TRUE(search.problem().isApplicable(search.problem().actions[std::size_t(action)], state));
+      state = search.problem().apply(action, state);
+    }
+    EXPECT_TRUE(search.problem().isGoal(state));
+  }
+}
+
+TEST(PlanSearch, AllPlansWithoutDetoursAreFoundAndThenItIsProvedThatThereAreNoMore) {
+  LogicProblem problem = tower(2);
+  problem.goal = readLiterals("(on b0 b1)");
+  PlanSearch search(ground(problem));
+  int plans = 0;
+  while (search.next()) ++plans;
+  EXPECT_EQ(search.status(), PlanSearch::Status::exhausted);
+  // Enumerated by hand: b1 goes to b0 at once, or b0 visits b1 and comes back to the table first.
+  EXPECT_EQ(plans, 2);
+}
+
+TEST(PlanSearch, ContradictoryGoalsAreProvedImpossible) {
+  LogicProblem problem = tower(3);
+  problem.goal = readLiterals("(on b0 b2) (on b1 b2)");
+  PlanSearch search(ground(problem));
+  EXPECT_FALSE(search.next());
+  EXPECT_EQ(search.status(), PlanSearch::Status::exhausted);
+  EXPECT_EQ(search.distance(), LandmarkCut::kNever);
+}
+
+TEST(PlanSearch, WhatIsForbiddenIsGoneAround) {
+  PlanSearch search(ground(tower(3)));
+  const auto first = search.next();
+  ASSERT_TRUE(first);
+  search.forbid(first->front(), {});
+  EXPECT_FALSE(search.next());  // each pick from the table is needed
+  EXPECT_EQ(search.status(), PlanSearch::Status::exhausted);
+  // Nothing is put onto b1 once b1 is on b0: b2 has to go first.
+  PlanSearch other(ground(tower(3)));
+  int place_b2 = -1, on_b0_b1 = other.problem().factNumber(readLiterals("(on b0 b1)")[0]);
+  for (int a = 0; a < int(other.problem().actions.size()); ++a) {
+    if (words(other, {a}) == "place b2 hand b1") place_b2 = a;
+  }
+  ASSERT_GE(place_b2, 0);
+  ASSERT_GE(on_b0_b1, 0);
+  other.forbid(place_b2, {on_b0_b1});
+  const auto plan = other.next();
+  ASSERT_TRUE(plan);
+  EXPECT_EQ(words(other, *plan), "pick b2 table hand, place b2 hand b1, pick b1 table hand, place b1 hand b0");
+}
+
+TEST(PlanSearch, ABeginningThatIsForbiddenIsNotTakenAgain) {
+  PlanSearch search(ground(tower(3)));
+  const auto first = search.next();
+  search.forbidBeginning({first->begin(), first->begin() + 2});
+  for (int i = 0; i < 20; ++i) {
+    const auto plan = search.next();
+    ASSERT_TRUE(plan);
+    EXPECT_FALSE((*plan)[0] == (*first)[0] && (*plan)[1] == (*first)[1]);
+  }
+}
+
+TEST(PlanSearch, EffortIsLimited) {
+  PlanSearch search(ground(tower(6)), {.most_expansions = 5});
+  EXPECT_FALSE(search.next());
+  EXPECT_EQ(search.status(), PlanSearch::Status::limit);
+}
+
+TEST(PlanSearch, LandmarksAreExactWhereGoalsAreIndependent) {
+  const GroundProblem problem = ground(tower(8));
+  EXPECT_EQ(LandmarkCut(problem)(problem.start), 14);
+  PlanSearch search(problem);
+  const auto plan = search.next();
+  ASSERT_TRUE(plan);
+  EXPECT_EQ(plan->size(), 14u);
+  EXPECT_LT(search.expansions(), 30);
+}
+
+TEST(PlanSearch, RulesFireByThemselves) {
+  LogicProblem problem;
+  problem.domain = readFol(R"(
+    on moves hold free
+    DecisionRule grasp { X { (free X) } { (moves X) } }
+    Rule chain { A, B { (on A B) (moves A) } { (moves B) } }
+  )");
+  problem.start = readLiterals("(on a b) (on b c) (free a)");
+  problem.goal = readLiterals("(moves c)");
+  PlanSearch search(ground(problem));
+  const auto plan = search.next();
+  ASSERT_TRUE(plan);
+  EXPECT_EQ(words(search, *plan), "grasp a");
+}
+
+TEST(PlanSearch, AnyMatchesAllConstants) {
+  LogicProblem problem;
+  problem.domain = readFol(R"(
+    on thing ANY
+    DecisionRule clear { X { (thing X) (on ANY X) } { (on ANY X)! } }
+    DecisionRule put { X Y { (thing X) (thing Y) (on ANY X)! } { (on Y X) } }
+  )");
+  problem.start = readLiterals("(thing a) (thing b) (thing c) (on b a)");
+  problem.goal = readLiterals("(on c a)");
+  EXPECT_THROW(ground(problem), ParseError);  // 'some' is no STRIPS
+  problem.domain = readFol(R"(
+    on thing ANY
+    DecisionRule clear { X Y { (thing X) (thing Y) (on Y X) } { (on ANY X)! } }
+    DecisionRule put { X Y { (thing X) (thing Y) (on ANY X)! } { (on Y X) } }
+  )");
+  PlanSearch search(ground(problem));
+  const auto plan = search.next();
+  ASSERT_TRUE(plan);
+  EXPECT_EQ(words(search, *plan), "clear a b, put a c");
+}
+
+TEST(PlanSearch, NegatedGoalsAndGoalsThatHoldAtTheStart) {
+  LogicProblem problem = tower(2);
+  problem.goal = readLiterals("(on table b0)!");
+  PlanSearch search(ground(problem));
+  const auto plan = search.next();
+  ASSERT_TRUE(plan);
+  EXPECT_EQ(words(search, *plan), "pick b0 table hand");
+  problem.goal = readLiterals("(on table b0)");
+  PlanSearch done(ground(problem));
+  const auto none = done.next();
+  ASSERT_TRUE(none);
+  EXPECT_TRUE(none->empty());
+}
+
+TEST(Grounding, SaysWhatIsOddBeforeTheSearch) {
+  LogicProblem problem = tower(2);
+  problem.goal = readLiterals("(on tabel b0)");
+  try {
+    ground(problem);
+    FAIL();
+  } catch (const ParseError& error) {
+    EXPECT_NE(std::string(error.what()).find("unknown symbol 'tabel' in the goal (on tabel b0); similar names: table"),
+              std::string::npos)
+        << error.what();
+  }
+  problem.goal = readLiterals("(on b0 table)");
+  EXPECT_EQ(oddities(ground(problem)).back(), "nothing can make (on b0 table) of the goal true");
+  problem.domain = readFol(
+      std::string(kPickPlace) + "key\nDecisionRule unlock { X { (key X) (is_object X) } { (busy X) } }", "a.fol");
+  problem.goal = readLiterals("(on b0 b1)");
+  EXPECT_EQ(oddities(ground(problem)).front(),
+            "a.fol:10:1: rule 'unlock' can never fire; no rule and no fact ever makes (key X) true");
+  problem.start.push_back({"on", {"b0"}});
+  EXPECT_THROW(ground(problem), ParseError);
+}
+
+std::string errorOf(const std::string& text) {
+  try {
+    readFol(text, "d.fol");
+  } catch (const ParseError& error) {
+    return error.what();
+  }
+  return "";
+}
+
+TEST(FolReader, SaysWhereAMistakeIsWhatWasExpectedAndWhatIsNear) {
+  EXPECT_EQ(errorOf("on\nDecisionRule a { X { (onn X) } { (on X) } }"),
+            "d.fol:2:22: unknown predicate 'onn' in (onn X); declare it in a line of its own; similar names: on");
+  EXPECT_EQ(errorOf("on\nDecisionRule a { X, Y { (on X) } { (on Y) } }"),
+            "d.fol:2:1: rule 'a': no literal of the precondition that has to hold has the variable 'Y'; it could be "
+            "anything");
+  EXPECT_EQ(errorOf("on\nDecisionRule a { X { (on X } }"),
+            "d.fol:2:28: expected ')' after the arguments of a literal, found '}'");
+  EXPECT_EQ(errorOf("on\nDecisionRule a { X { (on Z) } { (on X) } }").substr(0, 49),
+            "d.fol:2:22: unknown symbol or variable 'Z' in (on");
+  EXPECT_EQ(errorOf("DecisoinRule a { }").substr(0, 43), "d.fol:1:14: unknown block 'a'; expected STA");
+  EXPECT_NE(errorOf("on\nDecisionRule a { X { (on X)=2 } { (on X) } }"), "");
+  EXPECT_NE(errorOf("on\nDecisionRule a { X { aggregate{ } } { (on X) } }"), "");
+}
+
+TEST(FolReader, WhatIsWrittenReadsAsTheSame) {
+  const LogicDomain domain = readFol(kPickPlace);
+  const std::string text = writeFol(domain);
+  EXPECT_EQ(writeFol(readFol(text)), text);
+  EXPECT_EQ(readFol(text).rules[1].eff, domain.rules[1].eff);
+}
+
+TEST(Pddl, AProblemThatIsWrittenAndReadHasTheSamePlans) {
+  const LogicProblem problem = tower(3);
+  const LogicDomain domain = readPddlDomain(writePddlDomain(problem.domain));
+  const LogicProblem again = readPddlProblem(writePddlProblem(problem), domain);
+  PlanSearch a(ground(problem)), b(ground(again));
+  std::set<std::string> of_a, of_b;
+  for (int i = 0; i < 30; ++i) {
+    of_a.insert(words(a, *a.next()));
+    of_b.insert(words(b, *b.next()));
+  }
+  // Plans of one length may come in another order: compare those of the first two lengths, all of which are there.
+  EXPECT_EQ(a.distance(), b.distance());
+  EXPECT_EQ(a.problem().actions.size(), b.problem().actions.size());
+  EXPECT_EQ(a.problem().facts.size(), b.problem().facts.size());
+}
+
+constexpr const char* kLogistics = R"((define (domain logistics)
+  (:requirements :strips :typing :negative-preconditions)
+  (:types truck parcel - thing place)
+  (:predicates (at ?x - thing ?p - place) (in ?x - parcel ?t - truck) (closed ?p - place))
+  (:action drive :parameters (?t - truck ?a ?b - place)
+    :precondition (and (at ?t ?a) (not (closed ?b)) (not (= ?a ?b))) :effect (and (at ?t ?b) (not (at ?t ?a))))
+  (:action load :parameters (?x - parcel ?t - truck ?p - place)
+    :precondition (and (at ?x ?p) (at ?t ?p)) :effect (and (in ?x ?t) (not (at ?x ?p))))
+  (:action unload :parameters (?x - parcel ?t - truck ?p - place)
+    :precondition (and (in ?x ?t) (at ?t ?p)) :effect (and (at ?x ?p) (not (in ?x ?t)))))
+)";
+constexpr const char* kParcel = R"((define (problem p) (:domain logistics)
+  (:objects t - truck x - parcel a b c - place)
+  (:init (at t a) (at x b) (closed c))
+  (:goal (and (at x a) (not (at t a)))))
+)";
+
+TEST(Pddl, TypesNegativePreconditionsAndGoalsMeanWhatTheySay) {
+  const LogicProblem problem = readPddlProblem(kParcel, readPddlDomain(kLogistics));
+  PlanSearch search(ground(problem));
+  const auto plan = search.next();
+  ASSERT_TRUE(plan);
+  EXPECT_EQ(words(search, *plan), "drive t a b, load x t b, drive t b a, unload x t a, drive t a b");
+  const LogicProblem again =
+      readPddlProblem(writePddlProblem(problem), readPddlDomain(writePddlDomain(problem.domain)));
+  PlanSearch second(ground(again));
+  EXPECT_EQ(words(second, *second.next()), words(search, *plan));
+}
+
+TEST(Pddl, SaysWhatIsWrong) {
+  const auto error = [](const std::string& text) {
+    try {
+      readPddlDomain(text, "d.pddl");
+    } catch (const ParseError& e) {
+      return std::string(e.what());
+    }
+    return std::string();
+  };
+  EXPECT_EQ(
+      error(
+          "(define (domain d) (:predicates (p ?x)) (:action a :parameters (?x) :precondition (q ?x) :effect (p ?x)))"),
+      "d.pddl:1:83: unknown predicate 'q'");
+  EXPECT_EQ(error("(define (domain d) (:predicates (p ?x)) (:action a :parameters (?x) :precondition (p ?x ?x) :effect "
+                  "(p ?x)))"),
+            "d.pddl:1:83: predicate 'p' has 1 arguments, got 2");
+  EXPECT_EQ(error("(define (domain d) (:requirements :adl))").substr(0, 14), "d.pddl:1:35: r");
+  EXPECT_NE(error("(define (domain d) (:predicates (p ?x)) (:action a :parameters (?x) :precondition (or (p ?x)) "
+                  ":effect (p ?x)))"),
+            "");
+  EXPECT_NE(error("(define (domain d)"), "");
+  EXPECT_NE(error(std::string(100000, '(')), "");
+}
+
+}  // namespace
+}  // namespace kinegraph

@@ -1,0 +1,195 @@
+"""LGP_Tool and default_LGP_TAMP_Abstraction: plans, the problems that they become, and their solutions."""
+
+import json
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+import kinegraph as ry
+import robotic
+
+DATA = Path(__file__).parent.parent / "data"
+RECORDED = json.loads((DATA / "lgp.json").read_text())["problems"]
+OVERLAPS = ("F_PairCollision", "F_AccumulatedCollisions")
+
+
+def tool(scene, problem=None):
+    C = ry.Config()
+    C.addFile(str(DATA / "lgp" / f"{scene}.g"))
+    tamp = ry.default_LGP_TAMP_Abstraction(C, str(DATA / "lgp" / f"{problem or scene}.lgp"))
+    return C, tamp, ry.LGP_Tool(C, tamp)
+
+
+def runs(values):
+    out = []
+    for value in values:
+        if out and out[-1][0] == value:
+            out[-1][1] += 1
+        else:
+            out.append([value, 1])
+    return out
+
+
+def objectives(komo):
+    """Frames, order, type, times and slices of each, but for the number that a recording gives for all frames."""
+    listed = [o for o in komo.report(False, True, False, False).values() if isinstance(o, dict) and "name" in o]
+    return [
+        [_named(o["frames"], komo), int(o["order"]), o["type"], list(o["times"]), list(map(int, o["slices"]))]
+        for o in listed
+    ]
+
+
+def _named(frames, komo):
+    joints = {"hand", "base"}  # the recording names the joint of a scene with one
+    return [] if not frames or frames[0].startswith("#") or set(frames) == joints else frames
+
+
+def expected_objectives(recorded):
+    return [[_named(o[1], None), o[2], o[3], o[4], o[5]] for o in recorded["objectives"]]
+
+
+def same(o, e):
+    """The reference lists accelerations where a hand closes a slice before the one in which it measures them."""
+    return o[:3] == e[:3] and (o[3:] == e[3:] or (o[1] == 2 and o[4] == [s + 1 for s in e[4]]))
+
+
+@pytest.mark.parametrize("name", RECORDED)
+def test_the_first_plan_that_is_feasible_is_as_long_as_that_of_the_reference(name):
+    C, tamp, _ = tool(name)
+    lgp = robotic.LGP_Tool(C, tamp)
+    assert lgp.solve(verbose=0) and lgp.status == "solved"
+    assert len(lgp.getSolvedPlan()) == len(RECORDED[name]["plan"])
+    assert lgp.getSolvedKOMO().getT() == len(lgp.getSolvedPlan())
+
+
+@pytest.mark.parametrize("name", RECORDED)
+def test_waypoint_problems_are_those_of_the_reference(name):
+    C, tamp, _ = tool(name)
+    recorded, plan = RECORDED[name]["waypoints"], RECORDED[name]["plan"]
+    komo = tamp.setup_sequence(C, len(plan))
+    tamp.add_all(komo, plan, motion=False)
+    nlp = komo.nlp()
+    assert nlp.getDimension() == recorded["dim"] and len(nlp.getTypes()) == recorded["phi_dim"]
+    assert runs(str(t).split(".")[-1] for t in nlp.getTypes()) == recorded["types"]
+    ours, theirs = objectives(komo), expected_objectives(recorded)
+    assert len(ours) == len(theirs) and all(same(o, e) for o, e in zip(ours, theirs, strict=True))
+    phi, J = nlp.evaluate(np.array(recorded["x"]))
+    Jv = np.zeros(len(phi))
+    np.add.at(Jv, J[:, 0].astype(int), J[:, 2] * np.array(recorded["v"])[J[:, 1].astype(int)])
+    tags = np.repeat([f[0] for f in recorded["features"]], [f[1] for f in recorded["features"]])
+    compared = ~np.array([t.startswith((*OVERLAPS, "F_AlignWith")) for t in tags])
+    # The sign of a quaternion, and so of the change of one, carries no meaning.
+    expected, expected_v = np.array(recorded["phi"]), np.array(recorded["Jv"])
+    flipped = (
+        (abs(phi - expected) > 2e-6) & (abs(phi + expected) < 2e-6) & np.array([t.startswith("F_Pose") for t in tags])
+    )
+    sign = np.where(flipped, -1.0, 1.0)
+    assert abs(phi - sign * expected)[compared].max() < 2e-6
+    assert abs(Jv - sign * expected_v)[compared].max() < 1e-4
+
+
+@pytest.mark.parametrize("name", RECORDED)
+def test_motion_problems_are_those_of_the_reference(name):
+    C, tamp, _ = tool(name)
+    recorded, plan = RECORDED[name]["full"], RECORDED[name]["plan"]
+    komo = tamp.setup_motion(C, len(plan))
+    tamp.add_all(komo, plan, motion=True)
+    assert komo.getT() == recorded["T"] and komo.nlp().getDimension() == recorded["dim"]
+    ours, theirs = objectives(komo), expected_objectives(recorded)
+    # The last acceleration is beyond the end: it is in the reference's list, and has no rows there.
+    theirs = [e for e in theirs if not (e[1] == 2 and e[0] and e[4][0] == recorded["T"] - 1)]
+    assert len(ours) == len(theirs) and all(same(o, e) for o, e in zip(ours, theirs, strict=True))
+
+
+def test_a_simple_handover_is_found():
+    """That of which the reference never finds a plan."""
+    _, _, lgp = tool("handover")
+    assert lgp.solve(verbose=0)
+    assert [a[0] for a in lgp.getSolvedPlan()] == ["pick_touch", "handover", "place_straightOn"]
+
+
+def test_the_tutorial_with_one_arm_from_waypoints_to_motions():
+    _C, _, lgp = tool("panda_unblock", "kitchen_single")
+    assert lgp.solve(verbose=0)
+    plan = lgp.getSolvedPlan()
+    assert [a[0] for a in plan] == ["pick_touch", "place_straightOn"] * 2 and {a[1] for a in plan} == {"objG", "objB"}
+    end = lgp.getSolvedKOMO().getConfiguration(3)
+    for obj, tray in (("objG", "trayG"), ("objB", "trayB")):
+        offset = end.getFrame(obj).getPosition() - end.getFrame(tray).getPosition()
+        assert abs(offset[:2]).max() < 0.04 and offset[2] == pytest.approx(0.055, abs=2e-3)
+    piece = lgp.get_piecewiseMotionProblem(1, True)
+    assert piece.getT() == 30
+    results = lgp.solvePiecewiseMotions(verbose=0)
+    assert len(results) == 4
+    np.testing.assert_allclose(lgp.paths[0][-1], lgp.getSolvedKOMO().getPath()[0], atol=2e-2)
+    assert lgp.get_fullMotionProblem(True).getT() == 120
+
+
+def test_the_tutorial_with_two_arms_hands_over():
+    _, _, lgp = tool("bimanual", "kitchen_handover")
+    assert lgp.solve(verbose=0)
+    assert lgp.getSolvedPlan()[0][0] == "pick_touch" and lgp.getSolvedPlan()[-1][-1] == "trayG"
+
+
+def test_a_push_up_a_step_is_not_called_feasible_but_by_the_reference():
+    """The pad is 4 mm higher than the table that the disc slides over."""
+    _, _, lgp = tool("push")
+    assert not lgp.solve(verbose=0) and lgp.status == "not found"
+    assert "end_push g_gripper disc table pad" in lgp.message
+
+
+def test_repeated_calls_give_further_plans_and_end():
+    _, _, lgp = tool("gantry")
+    plans = []
+    while lgp.solve(verbose=0):
+        assert lgp.getSolvedPlan() not in plans
+        plans.append(lgp.getSolvedPlan())
+        if len(plans) > 5:
+            break
+    assert plans and lgp.status in ("solved", "not found", "proved impossible")
+
+
+def test_an_abstraction_of_ones_own(tmp_path):
+    """An action that the default one does not know."""
+    C = ry.Config()
+    C.addFile(str(DATA / "lgp" / "unblock.g"))
+    (tmp_path / "a.fol").write_text(
+        "is_gripper is_object at\nDecisionRule visit { H O { (is_gripper H) (is_object O) } { (at H O) } }"
+    )
+    (tmp_path / "a.lgp").write_text('fol: <a.fol>\nterminal: "(at hand red)"\ngenericCollisions: false\n')
+
+    class Visits(ry.default_LGP_TAMP_Abstraction):
+        def add_action_constraints(self, komo, time, prev_action, action):
+            komo.addObjective([time], ry.FS.positionDiff, action[1:3], ry.OT.eq, [1e1])
+
+    with pytest.raises(ry.ArgumentError, match="unknown action 'visit'; known are pick_touch"):
+        ry.LGP_Tool(C, ry.default_LGP_TAMP_Abstraction(C, str(tmp_path / "a.lgp"))).solve(0)
+    lgp = ry.LGP_Tool(C, Visits(C, str(tmp_path / "a.lgp")))
+    assert lgp.solve(0) and lgp.getSolvedPlan() == [["visit", "hand", "red"]]
+    C.setJointState(lgp.getSolvedKOMO().getPath()[0])
+    np.testing.assert_allclose(C.getFrame("hand").getPosition(), C.getFrame("red").getPosition(), atol=1e-3)
+
+
+def test_mistakes_in_files_are_told_with_their_place(tmp_path):
+    C = ry.Config()
+    C.addFile(str(DATA / "lgp" / "unblock.g"))
+    fol = (DATA / "lgp" / "kitchen.fol").read_text()
+    (tmp_path / "a.fol").write_text(fol)
+
+    def problem(text):
+        (tmp_path / "a.lgp").write_text(text)
+        return ry.default_LGP_TAMP_Abstraction(C, str(tmp_path / "a.lgp"))
+
+    with pytest.raises(ry.FileError, match="nowhere.lgp"):
+        ry.default_LGP_TAMP_Abstraction(C, "nowhere.lgp")
+    with pytest.raises(ry.ParseError, match="there is no `terminal:`"):
+        problem("fol: <a.fol>")
+    with pytest.raises(ry.FrameNotFound, match="redd.*red"):
+        problem('fol: <a.fol>\nterminal: "(on padA red)"\ncoll: [redd blue]')
+    with pytest.raises(ry.ParseError, match="unknown symbol 'padC' in the goal.*similar names: padA"):
+        problem('fol: <a.fol>\nterminal: "(on padC red)"')
+    with pytest.raises(ry.ParseError, match=r"nothing can make \(on hand padA\)"):
+        problem('fol: <a.fol>\nterminal: "(on hand padA)"')
+    with pytest.raises(ry.ArgumentError, match="no plan was found yet"):
+        ry.LGP_Tool(C, problem('fol: <a.fol>\nterminal: "(on padA red)"')).getSolvedPlan()

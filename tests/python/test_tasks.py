@@ -1,0 +1,146 @@
+"""planTask: goals become motions that an independent checker accepts; what is impossible is proved so."""
+
+import re
+import sys
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+import kinegraph as ry
+
+sys.path.insert(0, str(Path(__file__).parent.parent.parent / "benchmarks"))
+import tasks as families
+
+
+def panda() -> ry.Config:
+    C = ry.Config()
+    C.addFile(ry.raiPath("scenarios/pandaSingle.g"))
+    for name, at in (("cup", [-0.3, 0.25, 0.1]), ("jug", [0.25, 0.35, 0.1])):
+        box = C.addFrame(name, "table").setRelativePosition(at).setJoint(ry.JT.rigid)
+        box.setShape(ry.ST.ssBox, [0.05, 0.05, 0.1, 0.005]).setContact(1)
+    tray = C.addFrame("tray", "table").setRelativePosition([0.0, 0.45, 0.055])
+    tray.setShape(ry.ST.ssBox, [0.2, 0.2, 0.01, 0.004]).setContact(1)
+    return C
+
+
+@pytest.mark.parametrize("family", ["tower", "sort", "handover", "crowded"])
+def test_families_are_solved_and_the_checker_agrees(family) -> None:
+    problem = families.FAMILIES[family](0)
+    plan = ry.planTask(problem.C, problem.goal)
+    assert plan.status == "solved", plan
+    assert len(plan.actions) >= problem.least
+    assert ry.checkTaskPlan(problem.C, plan) == []
+    assert plan.path.shape == (plan.segments[-1].stop, problem.C.getJointDimension())
+    assert plan.waypoints.shape == (len(plan.actions), problem.C.getJointDimension())
+
+
+@pytest.mark.parametrize(
+    ("family", "why"),
+    [
+        ("far", "'goal' is at least 0.* m beyond the reach of 'hand'"),
+        (
+            "small",
+            "'a' and 'b' do not fit on 'goal' together: their centers are 0.100 m apart or more, and 0.085 m at most",
+        ),
+        ("contradiction", r"no sequence of actions reaches \(on p a\) and \(on q a\) together"),
+    ],
+)
+def test_what_is_impossible_is_proved_and_the_cause_told(family, why) -> None:
+    problem = families.FAMILIES[family](0)
+    plan = ry.planTask(problem.C, problem.goal)
+    assert plan.status == "proved impossible" and plan.actions == []
+    assert re.search(why, plan.message), plan.message
+
+
+def test_what_is_too_wide_for_the_hand_is_told_with_the_widths() -> None:
+    C = panda()
+    C.getFrame("cup").setShape(ry.ST.ssBox, [0.12, 0.12, 0.12, 0.005])
+    plan = ry.planTask(C, "(on tray cup)")
+    assert plan.status == "proved impossible"
+    assert "'cup' is wider than 'l_gripper' opens (0.080 m)" in plan.message
+
+
+def test_a_panda_puts_things_onto_a_tray_in_a_scene_that_says_nothing_of_logic() -> None:
+    C = panda()
+    before = C.getFrameState()
+    plan = ry.planTask(C, "(on tray cup) (on tray jug)")
+    assert plan.feasible and ry.checkTaskPlan(C, plan) == []
+    assert [a[0] for a in plan.actions] == ["pick", "place"] * 2
+    np.testing.assert_array_equal(C.getFrameState(), before)
+    plan.play(C)
+    for name in ("cup", "jug"):
+        offset = C.getFrame(name).getPosition() - C.getFrame("tray").getPosition()
+        assert abs(offset[:2]).max() < 0.1 and offset[2] == pytest.approx(0.055, abs=2e-3)
+
+
+def test_the_same_call_gives_the_same_bits() -> None:
+    one, other = (ry.planTask(panda(), "(on tray cup)", seed=3) for _ in range(2))
+    assert one.actions == other.actions and one.evaluations == other.evaluations
+    np.testing.assert_array_equal(one.path, other.path)
+
+
+@pytest.mark.parametrize("shape", ["ball", "cylinder", "capsule", "mesh"])
+def test_things_of_all_shapes_are_grasped(shape) -> None:
+    C = panda()
+    cup = C.getFrame("cup")
+    if shape == "ball":
+        cup.setShape(ry.ST.sphere, [0.03]).setRelativePosition([-0.3, 0.25, 0.08])
+    elif shape == "cylinder":
+        cup.setShape(ry.ST.ssCylinder, [0.1, 0.025, 0.005])
+    elif shape == "capsule":
+        cup.setShape(ry.ST.capsule, [0.06, 0.025]).setRelativePosition([-0.3, 0.25, 0.105])
+    else:
+        corners = np.array([[x, y, z] for x in (-0.02, 0.02) for y in (-0.03, 0.03) for z in (-0.05, 0.05)])
+        cup.setConvexMesh(corners).setContact(1)
+    plan = ry.planTask(C, "(on l_gripper cup)")
+    assert plan.feasible, plan
+    assert ry.checkTaskPlan(C, plan) == []
+
+
+def test_an_action_of_ones_own_with_variants() -> None:
+    C, domain = panda(), ry.defaultDomain()
+    domain.addAction("show", ["Obj", "Hand"], "(is_gripper Hand) (is_object Obj) (on Hand Obj)", "(shown Obj)")
+
+    def show(w, time, action, variant):
+        height = {"too high": 3.0, "high": 1.1}[variant]
+        w.komo.addObjective([time], ry.FS.position, [action[1]], ry.OT.eq, [[0, 0, 10.0]], [0, 0, height])
+
+    rules = {"show": ry.TaskRule(show, lambda C, action: ["too high", "high"])}
+    plan = ry.planTask(C, "(shown cup)", domain=domain, rules=rules)
+    assert plan.feasible and [a[0] for a in plan.actions] == ["pick", "show"]
+    assert plan.scenes[-1].getFrame("cup").getPosition()[2] > 0  # the scene in which it is held
+    with pytest.raises(ry.ArgumentError, match="nothing is known of what the actions show ask"):
+        ry.planTask(C, "(shown cup)", domain=domain)
+
+
+def test_the_checker_finds_what_is_wrong_with_a_plan() -> None:
+    C = panda()
+    plan = ry.planTask(C, "(on tray cup)")
+    states = [["(on table cup)"], [], ["(on table cup)"]]
+    assert "the goal (on tray cup) does not hold" in ry.checkTaskPlan(C, plan, states)[0]
+    good = plan.path.copy()
+    plan.path[plan.segments[0].stop - 1] += 0.3  # the hand is not where the cup is
+    assert any("away from what it takes" in w or "overlap" in w for w in ry.checkTaskPlan(C, plan))
+    plan.path[:] = good
+    plan.path[0, 0] = 9.0
+    assert "beyond its limits" in ry.checkTaskPlan(C, plan)[0]
+    plan.path[:] = good
+    plan.path[plan.segments[1].stop - 1, 5] += 0.1  # it is let go in the air
+    assert ry.checkTaskPlan(C, plan) != []
+
+
+def test_mistakes_and_goals_that_hold() -> None:
+    C = panda()
+    with pytest.raises(ry.ParseError, match="unknown symbol 'tary' in the goal.*similar names: tray"):
+        ry.planTask(C, "(on tary cup)")
+    plan = ry.planTask(C, "(on table cup)")
+    assert plan.feasible and plan.actions == [] and "holds already" in plan.message
+    assert ry.planTask(C, "(on cup tray)").status == "proved impossible"
+
+
+def test_effort_ends_it() -> None:
+    problem = families.crowded(0)
+    plan = ry.planTask(problem.C, problem.goal, evaluations=1)
+    assert plan.status == "not found" and "no plan within the effort" in plan.message
+    assert plan.why()
