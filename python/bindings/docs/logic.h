@@ -33,7 +33,8 @@ Raises:
     FileError: It cannot be read.
     ParseError: It is wrong; the message begins with file:line:column.)";
 
-inline constexpr char fromPddlText[] = R"(Reads a domain from text in PDDL: STRIPS, types, negative preconditions, equality.
+inline constexpr char fromPddlText[] =
+    R"(Reads a domain from text in PDDL: STRIPS, types, negative preconditions, equality.
 
 Args:
     text: The text.
@@ -104,7 +105,8 @@ Returns:
 Raises:
     KeyboardInterrupt: Ctrl-C was pressed.)";
 
-inline constexpr char forbid[] = R"(Makes an action impossible in all states where some facts hold, in plans from now on.
+inline constexpr char forbid[] =
+    R"(Makes an action impossible in all states where some facts hold, in plans from now on.
 
 Args:
     action: Its words.
@@ -128,7 +130,8 @@ Returns:
 Raises:
     ArgumentError: There is no such action, or it is not possible then.)";
 
-inline constexpr char sceneFacts[] = R"(What a scene says in logic: the words of frames with `logical: { ... }`, objects, and what is on what.
+inline constexpr char sceneFacts[] =
+    R"(What a scene says in logic: the words of frames with `logical: { ... }`, objects, and what is on what.
 
 Args:
     C: The scene.

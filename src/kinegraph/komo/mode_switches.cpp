@@ -191,7 +191,8 @@ void addFrameDof(Path& path, const FrameDemand& demand) {
   }
   path.beginModes();
   std::optional<Pose> origin = demand.origin_pose;
-  if (!origin && !demand.origin.empty()) origin = path.mode(-path.grid().order()).config.getFrame(demand.origin).getPose();
+  if (!origin && !demand.origin.empty())
+    origin = path.mode(-path.grid().order()).config.getFrame(demand.origin).getPose();
   path.addFrame(demand.name, below, type, demand.stable, origin);
 }
 
