@@ -47,6 +47,7 @@ class _PandaEnv(gymnasium.Env[NDArray[np.float32], NDArray[np.float32]]):
         self.limits = np.array(C.getJointLimits()).reshape(2, -1)
         self.S = ry.Simulation(C, verbose=0)
         self.S.setCamera("cameraTop")
+        self.start = self.S.getState()
         self.action_space = gymnasium.spaces.Box(-1.0, 1.0, (actions,), np.float32)
         self.observation_space = gymnasium.spaces.Box(-_FARTHEST, _FARTHEST, (observations,), np.float32)
 
@@ -103,6 +104,7 @@ class ReachEnv(_PandaEnv):
             The observation (q, velocities, hand, target) and an empty dict.
         """
         super().reset(seed=seed)
+        self.S.setState(self.start)
         self._place()
         self.target = self.np_random.uniform([-0.4, 0.1, 0.75], [0.4, 0.5, 1.2])
         return self._observation(), {}
@@ -153,10 +155,10 @@ class LiftEnv(_PandaEnv):
             The observation (q, velocities, pose of the box, box from hand, width of the gripper) and an empty dict.
         """
         super().reset(seed=seed)
+        self.S.setState(self.start)
         turn = self.np_random.uniform(-np.pi, np.pi) / 2
         place = [*self.np_random.uniform([-0.15, 0.25], [0.15, 0.4]), 0.676]
         self.C.getFrame("box").setPose([*place, np.cos(turn), 0, 0, np.sin(turn)])
-        self.C.getFrame("l_panda_finger_joint1").setJointState([0.04])
         self._place()
         return self._observation(), {}
 
