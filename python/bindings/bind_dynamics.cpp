@@ -4,10 +4,37 @@
 #include "defaults.h"
 #include "docs/dynamics.h"
 #include "kinegraph/compatibility/earlier_methods.h"
+#include "kinegraph/scene/config_dynamics.h"
 
 namespace kinegraph::python {
 
+namespace {
+
+void bindVelocityDynamics(nb::class_<PyConfig>& config) {
+  config
+      .def(
+          "velocityDimension", [](const PyConfig& c) { return velocityDimension(c); },
+          "Number nv of velocities: one per dof, and three for the four numbers of a quaternion.")
+      .def(
+          "velocityMap", [](const PyConfig& c) { return toNumpy(velocityMap(c)); }, docs::dynamics::velocityMap)
+      .def(
+          "rigidBodyDynamics",
+          [](const PyConfig& c, const Numbers& v, bool gravity) {
+            const RigidBodyDynamics terms =
+                rigidBodyDynamics(c, v.values, gravity ? kGravity : Vector3d(Vector3d::Zero()));
+            return nb::typed<nb::tuple, Array, Array, Array>(
+                nb::make_tuple(toNumpy(terms.M), toNumpy(terms.C), toNumpy(terms.g)));
+          },
+          "v"_a, "gravity"_a = true, docs::dynamics::rigidBodyDynamics)
+      .def(
+          "centroidalMomentumMatrix", [](const PyConfig& c) { return toNumpy(centroidalMomentumMatrix(c)); },
+          docs::dynamics::centroidalMomentumMatrix);
+}
+
+}  // namespace
+
 void bindDynamics(nb::class_<PyConfig>& config) {
+  bindVelocityDynamics(config);
   config
       .def(
           "dyn_MF",

@@ -50,6 +50,7 @@
 #include "kinegraph/rendering/depth_image.h"        // points of a depth image
 #include "kinegraph/rendering/framing.h"            // a camera that sees all
 #include "kinegraph/scene/config.h"                 // Config, Frame
+#include "kinegraph/scene/config_dynamics.h"        // rigidBodyDynamics, centroidalMomentumMatrix
 #include "kinegraph/scene/motor_limits.h"           // getVelocityLimits, getEffortLimits
 #include "kinegraph/simulation/simulation.h"        // Simulation
 #include "kinegraph/simulation/simulation_batch.h"  // many of them

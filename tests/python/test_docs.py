@@ -28,6 +28,7 @@ FOUND = {
         r"^\[\]$",
         r"collisions with the box: [1-9]",
     ],
+    "dynamics": [r"^True \d+\.\d+", r"^\[ *[-+\d.e ]* -9\.81"],
     "motion": [
         r"\[.* 1\.962\d*e\+01\]",
         r"^True $",

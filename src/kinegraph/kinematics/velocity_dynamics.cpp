@@ -1,0 +1,171 @@
+#include "kinegraph/kinematics/velocity_dynamics.h"
+
+#include <algorithm>
+
+#include "kinegraph/base/errors.h"
+#include "kinegraph/base/text.h"
+#include "kinegraph/kinematics/spatial_motion.h"
+
+namespace kinegraph {
+
+namespace {
+
+constexpr int kQuaternion = 4, kAngular = 3;
+
+/// Where the velocities of each dof begin in v; of a quaternion, that of its first dof counts.
+struct VelocityLayout {
+  std::vector<int> place;
+  std::vector<char> is_quaternion;  ///< per dof: does one begin here?
+  int size = 0;
+
+  explicit VelocityLayout(const Program& program)
+      : place(std::size_t(program.dofs), -1), is_quaternion(std::size_t(program.dofs), false) {
+    std::vector<char> is_inside(std::size_t(program.dofs), false);
+    for (std::size_t l = 1; l < program.links.size(); ++l) {
+      int index = program.links[l].first_column;
+      for (int s = program.links[l].first_step; s < program.links[l].first_step + program.links[l].steps; ++s) {
+        const int first = program.column_dof[index], count = program.steps[s].dofs();
+        index += count;
+        if (count != kQuaternion) continue;
+        is_quaternion[std::size_t(first)] = true;
+        for (int k = 1; k < count; ++k) is_inside[std::size_t(first + k)] = true;
+      }
+    }
+    for (std::size_t dof = 0; dof < place.size(); ++dof) {
+      if (is_inside[dof]) continue;
+      place[dof] = size;
+      size += is_quaternion[dof] ? kAngular : 1;
+    }
+  }
+};
+
+/// dq/dt of a quaternion (w, x, y, z) for the angular velocity in the axes that it gives: 1/2 q (0, w), per entry of w.
+Eigen::Matrix<double, kQuaternion, kAngular> quaternionRates(const Eigen::Ref<const Eigen::Vector4d>& q) {
+  Eigen::Matrix<double, kQuaternion, kAngular> rates;
+  rates << -q[1], -q[2], -q[3], q[0], -q[3], q[2], q[3], q[0], -q[1], -q[2], q[1], q[0];
+  return .5 * rates;
+}
+
+/// How a link moves with an entry of v, and how that changes over time.
+struct Column {
+  int velocity;
+  Motion motion, rate;
+};
+
+/// Columns of all links, and the velocity of each; a link has those of its parent first.
+struct LinkColumns {
+  std::vector<Column> columns;
+  std::vector<std::vector<int>> of_link;  ///< in `columns`
+  std::vector<Motion> velocity;           ///< per link
+};
+
+LinkColumns findColumns(const State& state, const VelocityLayout& layout, const VectorXd& v) {
+  const Program& program = state.program();
+  LinkColumns out;
+  out.of_link.resize(program.links.size());
+  out.velocity.resize(program.links.size());
+  for (std::size_t l = 1; l < program.links.size(); ++l) {
+    const Program::Link& link = program.links[l];
+    std::vector<int>& own = out.of_link[l];
+    own = out.of_link[std::size_t(link.parent)];
+    Motion V = out.velocity[std::size_t(link.parent)];
+    int index = link.first_column;
+    for (int s = link.first_step; s < link.first_step + link.steps; ++s) {
+      const int first = program.column_dof[index], count = program.steps[s].dofs();
+      const std::size_t begin = out.columns.size();
+      if (count == kQuaternion) {
+        const auto rates = quaternionRates(state.q().segment<kQuaternion>(first));
+        for (int k = 0; k < kAngular; ++k) {
+          Motion motion;
+          for (int i = 0; i < kQuaternion; ++i) motion.add(rates(i, k), column(state, index + i));
+          out.columns.push_back({layout.place[std::size_t(first)] + k, motion, {}});
+        }
+      } else {
+        for (int k = 0; k < count; ++k)
+          out.columns.push_back(
+              {layout.place[std::size_t(program.column_dof[index + k])], column(state, index + k), {}});
+      }
+      index += count;
+      for (std::size_t c = begin; c < out.columns.size(); ++c) V.add(v[out.columns[c].velocity], out.columns[c].motion);
+      for (std::size_t c = begin; c < out.columns.size(); ++c) {
+        out.columns[c].rate = carried(V, out.columns[c].motion);
+        own.push_back(int(c));
+      }
+    }
+    out.velocity[l] = V;
+  }
+  return out;
+}
+
+bool weighsNothing(const LinkInertia& inertia) { return inertia.mass == 0. && inertia.matrix.isZero(0.); }
+
+}  // namespace
+
+int velocityDimension(const Program& program) { return VelocityLayout(program).size; }
+
+MatrixXd velocityMap(const State& state) {
+  const Program& program = state.program();
+  const VelocityLayout layout(program);
+  MatrixXd T = MatrixXd::Zero(program.dofs, layout.size);
+  for (int dof = 0; dof < program.dofs; ++dof) {
+    const int place = layout.place[std::size_t(dof)];
+    if (layout.is_quaternion[std::size_t(dof)])
+      T.block<kQuaternion, kAngular>(dof, place) = quaternionRates(state.q().segment<kQuaternion>(dof));
+    else if (place >= 0)
+      T(dof, place) = 1.;
+  }
+  return T;
+}
+
+RigidBodyDynamics rigidBodyDynamics(const State& state, const std::vector<LinkInertia>& inertias, const VectorXd& v,
+                                    const Vector3d& gravity) {
+  const VelocityLayout layout(state.program());
+  if (v.size() != layout.size)
+    throw ValueError(cat("rigidBodyDynamics: v has ", v.size(), " numbers; the scene has ", layout.size,
+                         " velocities: one per dof, and three per quaternion"));
+  const LinkColumns motions = findColumns(state, layout, v);
+  RigidBodyDynamics out{MatrixXd::Zero(layout.size, layout.size), MatrixXd::Zero(layout.size, layout.size),
+                        VectorXd::Zero(layout.size)};
+  for (std::size_t l = 1; l < inertias.size(); ++l) {
+    if (weighsNothing(inertias[l])) continue;
+    const WorldInertia inertia(inertias[l], state.linkPose(int(l)));
+    const Motion& V = motions.velocity[l];
+    const Wrench momentum = inertia.times(V), weight = inertia.times({Vector3d::Zero(), -gravity});
+    for (const int d : motions.of_link[l]) {
+      const Column& column = motions.columns[std::size_t(d)];
+      const Wrench wrench = inertia.times(column.motion);
+      // What the momentum changes by, split such that C + C^T is the rate of M.
+      Wrench rate = inertia.times(column.rate);
+      rate.add(.5, carried(V, wrench));
+      rate.add(-.5, inertia.times(carried(V, column.motion)));
+      rate.add(.5, carried(column.motion, momentum));
+      for (const int c : motions.of_link[l]) {
+        const Column& other = motions.columns[std::size_t(c)];
+        out.M(other.velocity, column.velocity) += power(other.motion, wrench);
+        out.C(other.velocity, column.velocity) += power(other.motion, rate);
+      }
+      out.g[column.velocity] += power(column.motion, weight);
+    }
+  }
+  return out;
+}
+
+MatrixXd centroidalMomentumMatrix(const State& state, const std::vector<LinkInertia>& inertias) {
+  const VelocityLayout layout(state.program());
+  const LinkColumns motions = findColumns(state, layout, VectorXd::Zero(layout.size));
+  const Vector3d center = centerOfMass(state, inertias).second;
+  MatrixXd A = MatrixXd::Zero(6, layout.size);
+  for (std::size_t l = 1; l < inertias.size(); ++l) {
+    if (weighsNothing(inertias[l])) continue;
+    const WorldInertia inertia(inertias[l], state.linkPose(int(l)));
+    for (const int c : motions.of_link[l]) {
+      const Column& column = motions.columns[std::size_t(c)];
+      const Wrench momentum = inertia.times(column.motion);
+      A.col(column.velocity).head<3>() += momentum.linear;
+      A.col(column.velocity).tail<3>() += momentum.angular - center.cross(momentum.linear);
+    }
+  }
+  return A;
+}
+
+}  // namespace kinegraph

@@ -1,0 +1,22 @@
+#pragma once
+
+#include "kinegraph/kinematics/velocity_dynamics.h"
+#include "kinegraph/scene/config.h"
+
+namespace kinegraph {
+
+// The dynamics of a scene in velocities, at its present q; see kinematics/velocity_dynamics.h.
+
+inline int velocityDimension(const Config& config) { return velocityDimension(config.state().program()); }
+
+inline MatrixXd velocityMap(const Config& config) { return velocityMap(config.state()); }
+
+inline RigidBodyDynamics rigidBodyDynamics(const Config& config, const VectorXd& v, const Vector3d& gravity = kGravity) {
+  return rigidBodyDynamics(config.state(), config.inertias(), v, gravity);
+}
+
+inline MatrixXd centroidalMomentumMatrix(const Config& config) {
+  return centroidalMomentumMatrix(config.state(), config.inertias());
+}
+
+}  // namespace kinegraph
