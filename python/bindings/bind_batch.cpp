@@ -15,15 +15,32 @@ namespace kinegraph::python {
 
 namespace {
 
-Eigen::Map<const RowMatrix> jointRows(const Numbers& Q, const PyConfig& config, const char* call,
-                                      const char* name = "Q") {
-  const int n = config.getJointDimension();
-  if (Q.rank != 2 || (Q.rows > 0 && Q.columns() != std::size_t(n))) {
-    throw ValueError(cat(call, ": ", name, " has ",
-                         Q.rank == 2 ? cat("shape (", Q.rows, ", ", Q.columns(), ")") : cat(Q.rank, " dimensions"),
-                         "; expected (N, ", n, "), a joint vector per row"));
+/// Joint vectors, a row each. A single one, without a row, gets an answer without rows.
+struct JointRows {
+  Eigen::Map<const RowMatrix> q;
+  bool single;
+
+  std::size_t count() const { return std::size_t(q.rows()); }
+
+  /// Of an array with a first axis for the rows.
+  template <class Kind>
+  Kind answer(const Kind& array) const {
+    return single ? Kind(nb::object(array[nb::int_(0)])) : array;
   }
-  return {Q.values.data(), Eigen::Index(Q.rows), n};
+};
+
+JointRows jointRows(const Numbers& Q, const PyConfig& config, const char* call, const char* name = "Q") {
+  const std::size_t n = std::size_t(config.getJointDimension()), size = std::size_t(Q.values.size());
+  const bool single = Q.rank == 1 && size == n && n > 0, empty = size == 0 && Q.rank <= 2 && Q.rank > 0;
+  if (!single && !empty && (Q.rank != 2 || Q.columns() != n)) {
+    throw ValueError(cat(call, ": ", name, " has ",
+                         Q.rank == 2   ? cat("shape (", Q.rows, ", ", Q.columns(), ")")
+                         : Q.rank == 1 ? cat("shape (", Q.rows, ",)")
+                                       : cat(Q.rank, " dimensions"),
+                         "; expected (N, ", n, "), a joint vector per row, or (", n, ",), one joint vector"));
+  }
+  const std::size_t rows = single ? 1 : Q.rank == 2 ? Q.rows : 0;
+  return {{Q.values.data(), Eigen::Index(rows), Eigen::Index(n)}, single};
 }
 
 /// Runs without the interpreter lock; from time to time, looks for Ctrl-C.
@@ -45,13 +62,14 @@ nb::typed<nb::tuple, Array, Array> evalBatch(const PyConfig& config, const Featu
   const auto joints = jointRows(Q, config, "evalBatch");
   const State scene = config.state();
   const Residual residual = makeResidual(scene, feature.source(), toNames(frames), toScale(scale), toTarget(target));
-  const std::size_t count = Q.rows, rows = std::size_t(residual.rows()), n = std::size_t(scene.dofs());
+  const std::size_t count = joints.count(), rows = std::size_t(residual.rows()), n = std::size_t(scene.dofs());
   const NewArray y = newArray(count, rows), J = newArray(count, rows, n);
   auto values = rowsOf(y, count, rows), jacobians = rowsOf(J, count * rows, n);
   JacobianRows view = jacobians;
-  unlocked(threads, "evalBatch",
-           [&](const BatchOptions& options) { kinegraph::evalBatch(scene, residual, joints, values, &view, options); });
-  return nb::make_tuple(y.array, J.array);
+  unlocked(threads, "evalBatch", [&](const BatchOptions& options) {
+    kinegraph::evalBatch(scene, residual, joints.q, values, &view, options);
+  });
+  return nb::make_tuple(joints.answer(y.array), joints.answer(J.array));
 }
 
 Array getFramePoses(const PyConfig& config, const Numbers& Q, const FrameNames& frames, int threads) {
@@ -59,11 +77,11 @@ Array getFramePoses(const PyConfig& config, const Numbers& Q, const FrameNames& 
   const State scene = config.state();
   std::vector<int> ids;
   for (const std::string& name : toNames(frames)) ids.push_back(frameId(scene.program(), name, "getFramePoses"));
-  const NewArray poses = newArray(Q.rows, ids.size(), 7);
-  auto rows = rowsOf(poses, Q.rows, 7 * ids.size());
+  const NewArray poses = newArray(joints.count(), ids.size(), 7);
+  auto rows = rowsOf(poses, joints.count(), 7 * ids.size());
   unlocked(threads, "getFramePoses",
-           [&](const BatchOptions& options) { framePoses(scene, ids, joints, rows, options); });
-  return poses.array;
+           [&](const BatchOptions& options) { framePoses(scene, ids, joints.q, rows, options); });
+  return joints.answer(poses.array);
 }
 
 Array getFrameJacobians(const PyConfig& config, const Numbers& Q, const FrameNames& frames, int threads) {
@@ -72,21 +90,22 @@ Array getFrameJacobians(const PyConfig& config, const Numbers& Q, const FrameNam
   std::vector<int> ids;
   for (const std::string& name : toNames(frames)) ids.push_back(frameId(scene.program(), name, "getFrameJacobians"));
   const std::size_t n = std::size_t(scene.dofs());
-  const NewArray J = newArray(Q.rows, ids.size(), 6, n);
-  const auto rows = rowsOf(J, 6 * Q.rows * ids.size(), n);
+  const NewArray J = newArray(joints.count(), ids.size(), 6, n);
+  const auto rows = rowsOf(J, 6 * joints.count() * ids.size(), n);
   unlocked(threads, "getFrameJacobians",
-           [&](const BatchOptions& options) { frameJacobians(scene, ids, joints, rows, options); });
-  return J.array;
+           [&](const BatchOptions& options) { frameJacobians(scene, ids, joints.q, rows, options); });
+  return joints.answer(J.array);
 }
 
 Array getDistances(const PyConfig& config, const Numbers& Q, int threads) {
   const auto joints = jointRows(Q, config, "getDistances");
   const State scene = config.state();
   const std::size_t pairs = scene.program().collidable().size();
-  const NewArray distances = newArray(Q.rows, pairs);
-  auto rows = rowsOf(distances, Q.rows, pairs);
-  unlocked(threads, "getDistances", [&](const BatchOptions& options) { pairDistances(scene, joints, rows, options); });
-  return distances.array;
+  const NewArray distances = newArray(joints.count(), pairs);
+  auto rows = rowsOf(distances, joints.count(), pairs);
+  unlocked(threads, "getDistances",
+           [&](const BatchOptions& options) { pairDistances(scene, joints.q, rows, options); });
+  return joints.answer(distances.array);
 }
 
 /// Of the present q: (p,), (p, 2, 3), (p, 3).
@@ -108,12 +127,12 @@ nb::typed<nb::tuple, Array, Array, Array> getNearestPoints(const PyConfig& confi
   const auto joints = jointRows(*Q, config, "getNearestPoints");
   const State scene = config.state();
   const std::size_t pairs = scene.program().collidable().size();
-  const NewArray distances = newArray(Q->rows, pairs), points = newArray(Q->rows, pairs, 2, 3),
-                 normals = newArray(Q->rows, pairs, 3);
+  const NewArray distances = newArray(joints.count(), pairs), points = newArray(joints.count(), pairs, 2, 3),
+                 normals = newArray(joints.count(), pairs, 3);
   unlocked(threads, "getNearestPoints", [&](const BatchOptions& options) {
-    nearestPoints(scene, joints, {distances.data, points.data, normals.data}, options);
+    nearestPoints(scene, joints.q, {distances.data, points.data, normals.data}, options);
   });
-  return nb::make_tuple(distances.array, points.array, normals.array);
+  return nb::make_tuple(joints.answer(distances.array), joints.answer(points.array), joints.answer(normals.array));
 }
 
 FlagArray isValid(const PyConfig& config, const Numbers& Q, double margin, int threads) {
@@ -121,25 +140,30 @@ FlagArray isValid(const PyConfig& config, const Numbers& Q, double margin, int t
   if (!std::isfinite(margin)) throw ValueError(cat("isValid: margin is ", margin, "; expected a distance in m"));
   warnOfContacts(config);
   const State scene = config.state();
-  const NewFlags valid = newFlags(Q.rows);
+  const NewFlags valid = newFlags(joints.count());
   unlocked(threads, "isValid", [&](const BatchOptions& options) {
-    areValid(scene, joints, margin, {valid.data, Q.rows}, options);
+    areValid(scene, joints.q, margin, {valid.data, joints.count()}, options);
   });
-  return valid.array;
+  return joints.answer(valid.array);
 }
 
 FlagArray isMotionFree(const PyConfig& config, const Numbers& from, const Numbers& to, double margin, double tolerance,
                        int threads) {
   const auto starts = jointRows(from, config, "isMotionFree", "start"),
              ends = jointRows(to, config, "isMotionFree", "end");
+<<<<<<< HEAD
   if (from.rows != to.rows) throw ValueError(cat("isMotionFree: ", from.rows, " starts and ", to.rows, " ends"));
   warnOfContacts(config);
+=======
+  if (starts.count() != ends.count())
+    throw ValueError(cat("isMotionFree: ", starts.count(), " starts and ", ends.count(), " ends"));
+>>>>>>> a4669dc (bindings: batch calls take one q, and an empty list)
   const State scene = config.state();
-  const NewFlags free = newFlags(from.rows);
+  const NewFlags free = newFlags(starts.count());
   unlocked(threads, "isMotionFree", [&](const BatchOptions& options) {
-    areMotionsFree(scene, starts, ends, margin, tolerance, {free.data, from.rows}, options);
+    areMotionsFree(scene, starts.q, ends.q, margin, tolerance, {free.data, starts.count()}, options);
   });
-  return free.array;
+  return starts.answer(free.array);
 }
 
 }  // namespace

@@ -173,6 +173,27 @@ def test_motionsWithMistakesSayWhich(panda):
         panda.isMotionFree([q], [[0.0, 0.0]])
 
 
+def test_oneConfigurationGivesAnAnswerWithoutRows(panda):
+    q = panda.getJointState() + 0.1
+    y, J = panda.evalBatch(ry.FS.position, ["l_gripper"], q)
+    many_y, many_J = panda.evalBatch(ry.FS.position, ["l_gripper"], [q])
+    assert y.shape == (3,) and J.shape == (3, 7)
+    np.testing.assert_array_equal(y, many_y[0])
+    np.testing.assert_array_equal(J, many_J[0])
+    np.testing.assert_array_equal(panda.getFramePoses(q, ["table"]), panda.getFramePoses([q], ["table"])[0])
+    np.testing.assert_array_equal(panda.getFrameJacobians(q, "table"), panda.getFrameJacobians([q], "table")[0])
+    np.testing.assert_array_equal(panda.getDistances(q), panda.getDistances([q])[0])
+    for one, many in zip(panda.getNearestPoints(q), panda.getNearestPoints([q]), strict=True):
+        np.testing.assert_array_equal(one, many[0])
+    assert panda.isValid(q) == panda.isValid([q])[0]
+    assert panda.isMotionFree(q, q) == panda.isMotionFree([q], [q])[0]
+
+
+def test_anEmptyListIsNoConfigurations(panda):
+    assert panda.getFramePoses([], ["table"]).shape == (0, 1, 7)
+    assert panda.isValid([]).shape == panda.isMotionFree([], []).shape == (0,)
+
+
 def test_noConfigurationsGiveEmptyArrays(panda):
     Q = np.zeros((0, 7))
     y, J = panda.evalBatch(ry.FS.position, ["l_gripper"], Q)
@@ -184,7 +205,7 @@ def test_noConfigurationsGiveEmptyArrays(panda):
 @pytest.mark.parametrize(
     "Q, words",
     [
-        (np.zeros(7), "1 dimensions"),
+        (np.zeros(6), r"\(6,\)"),
         (np.zeros((4, 6)), r"\(4, 6\)"),
         (np.zeros((2, 2, 7)), "3 dimensions"),
         (np.full((3, 7), np.nan), "row 0"),

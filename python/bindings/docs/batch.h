@@ -11,7 +11,7 @@ Runs without the interpreter lock. The result does not depend on the number of t
 Args:
     feature: A symbol of FS, or a function as for eval.
     frames: The name of a frame, or a list of names.
-    Q: Joint vectors, shape (N, n), rad or m.
+    Q: Joint vectors, shape (N, n), rad or m; one, shape (n,), gives an answer without the axis N.
     scale: A factor: a number, one per row of the feature, or a matrix.
     target: Subtracted before the scale: a number, or one per row of the feature.
     threads: How many share the work.
@@ -24,7 +24,7 @@ Raises:
 inline constexpr char getFramePoses[] = R"(World poses of f frames at each of N joint vectors.
 
 Args:
-    Q: Joint vectors, shape (N, n), rad or m.
+    Q: Joint vectors, shape (N, n), rad or m; one, shape (n,), gives an answer without the axis N.
     frames: The name of a frame, or a list of f names.
     threads: How many share the work.
 Returns:
@@ -36,7 +36,7 @@ Raises:
 inline constexpr char getFrameJacobians[] = R"(Geometric Jacobians of f frames at each of N joint vectors.
 
 Args:
-    Q: Joint vectors, shape (N, n), rad or m.
+    Q: Joint vectors, shape (N, n), rad or m; one, shape (n,), gives an answer without the axis N.
     frames: The name of a frame, or a list of f names.
     threads: How many share the work.
 Returns:
@@ -50,7 +50,7 @@ inline constexpr char getDistances[] =
     R"(Signed distances of the p collidable pairs, in the order of getCollidablePairs, at each of N joint vectors.
 
 Args:
-    Q: Joint vectors, shape (N, n), rad or m.
+    Q: Joint vectors, shape (N, n), rad or m; one, shape (n,), gives an answer without the axis N.
     threads: How many share the work.
 Returns:
     Shape (N, p), m; negative: penetration depth.
@@ -74,7 +74,7 @@ inline constexpr char isValid[] =
 files round. Pairs that no joint moves apart do not count: they say nothing about q.
 
 Args:
-    Q: Joint vectors, shape (N, n), rad or m.
+    Q: Joint vectors, shape (N, n), rad or m; one, shape (n,), gives an answer without the axis N.
     margin: Distance that all pairs keep that joints move apart, m.
     threads: How many share the work.
 Returns:
@@ -85,7 +85,7 @@ Raises:
 inline constexpr char isMotionFree[] = R"(checkMotion for N straight motions of q.
 
 Args:
-    start: Where they start, shape (N, n), rad or m.
+    start: Where they start, shape (N, n), rad or m; one, shape (n,), gives an answer without the axis N.
     end: Where they end, shape (N, n), rad or m.
     margin: Distance that all pairs keep that joints move apart, m.
     tolerance: Pairs that come within margin + tolerance (m) may count as contacts.
