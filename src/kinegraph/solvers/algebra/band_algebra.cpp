@@ -1,7 +1,9 @@
 #include "kinegraph/solvers/algebra/band_algebra.h"
 
 #include <algorithm>
+#include <cmath>
 #include <numeric>
+#include <utility>
 
 #include "kinegraph/solvers/algebra/band_layout.h"
 
@@ -86,6 +88,16 @@ void BandAlgebra::setMultipleOfIdentity(double weight) {
   copyLinearCosts();
   H_own_.setZero();
   H_own_.addToDiagonal(weight);
+}
+
+double BandAlgebra::largestEntry() const {
+  double largest = 0.;
+  for (int j = 0; j < n_; ++j) {
+    for (int i = j; i < n_; ++i) {
+      if (H_->keeps(i, j)) largest = std::max(largest, std::abs(std::as_const(*H_).at(i, j)));
+    }
+  }
+  return largest;
 }
 
 void BandAlgebra::addBlocksTo(BandedMatrix& matrix, int from) const {

@@ -42,6 +42,7 @@ class BandAlgebra {
     H_->at(std::max(place_[i], place_[j]), std::min(place_[i], place_[j])) += value;
   }
   void addCostGradient(int row, double factor, Vector& g) const { J_->addRowTo(row, factor, g); }
+  double largestEntry() const;
   double diagonal(int i) const { return H_->at(place_[i], place_[i]); }
   void addHessianProduct(const Vector& d, Vector& sum);
 

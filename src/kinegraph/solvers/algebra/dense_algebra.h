@@ -88,6 +88,7 @@ class DenseAlgebra {
         g[segment.column + i] += factor * J_->values[std::size_t(segment.offset + i)];
     }
   }
+  double largestEntry() const { return H_->topLeftCorner(n_, n_).cwiseAbs().maxCoeff(); }
   double diagonal(int i) const { return i < n_ ? (*H_)(i, i) : 0.; }
   void addHessianProduct(const Vector& d, Vector& sum) const { sum.noalias() += H_->lazyProduct(d); }
 

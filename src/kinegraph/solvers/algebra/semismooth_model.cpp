@@ -74,7 +74,7 @@ bool SemismoothModel<Algebra>::setCosts(Nlp& nlp, const VectorXd& x, const Vecto
   }
   if (!has_f_) return true;
   MatrixXd hessian = MatrixXd::Zero(n_, n_);
-  const bool known = nlp.addCostHessian(x, hessian);
+  const bool known = knows_f_ = nlp.addCostHessian(x, hessian);
   if (!known && curvature) hessian = *curvature;
   for (int j = 0; j < n_; ++j) {
     for (int i = j; i < n_; ++i) algebra_.addEntry(i, j, hessian(i, j));
@@ -191,8 +191,7 @@ bool SemismoothModel<Algebra>::factorize(const Problem& problem, int first) {
     if (algebra_.factorize(problem.damping + extra, problem.mu, active_list_, fixed_, attempt == 0 ? first : 0))
       return true;
     if (is_curved_) return false;
-    double magnitude = 1e-6;  // of the curvatures, which may be negative
-    for (int i = 0; i < n_; ++i) magnitude = std::max(magnitude, std::abs(algebra_.diagonal(i)));
+    const double magnitude = std::max(1e-6, algebra_.largestEntry());  // of the curvatures, which may be negative
     extra = extra == 0. ? 1e-3 * magnitude : 4. * extra;
   }
   return false;
@@ -216,6 +215,7 @@ bool SemismoothModel<Algebra>::newtonStep(const Problem& problem) {
       if (fixed_[i]) s_[i] = 0.;
     }
     algebra_.solve(s_);
+    if (knows_f_ && !factored_as_is_) addNegativeCurvature(problem);
     pushed_out = false;
     for (int i = 0; !inside && i < n_; ++i) {
       if (fixed_[i] || !((d_[i] <= low_[i] && s_[i] < 0.) || (d_[i] >= high_[i] && s_[i] > 0.))) continue;
@@ -223,6 +223,32 @@ bool SemismoothModel<Algebra>::newtonStep(const Problem& problem) {
     }
   }
   return true;
+}
+
+/// Where the least value is at the edge of the box, as curvature is negative: adds the direction in which it is most
+/// so to s, as far as the box is wide. Powers of the inverse of the matrix with more on its diagonal find it.
+/// Source: More & Sorensen, Computing a trust region step, 1983.
+template <class Algebra>
+void SemismoothModel<Algebra>::addNegativeCurvature(const Problem& problem) {
+  constexpr int kPowers = 8;
+  Vector v = algebra_.zeroVector(), Kv = v;
+  for (int i = 0; i < n_; ++i) v[i] = fixed_[i] ? 0. : 1. + .1 * double(i % 7);
+  for (int power = 0; power < kPowers; ++power) {
+    const double length = v.norm();
+    if (!(length > 0.)) return;
+    v /= length;
+    algebra_.solve(v);
+  }
+  v.normalize();
+  algebra_.addHessianProduct(v, Kv);
+  double curvature = v.dot(Kv) + problem.damping;
+  for (int j : active_list_) curvature += problem.mu * std::pow(algebra_.rowTimes(j, v), 2);
+  if (!(curvature < 0.)) return;
+  if (v.dot(r_) > 0.) v = -v;
+  constexpr double kWidest = 1e6;
+  double width = 0.;
+  for (int i = 0; i < n_; ++i) width = std::max(width, high_[i] - low_[i]);
+  s_ += std::min(width, kWidest) * v;
 }
 
 /// J s and H s. Where no variable is fixed, K s = -r tells the latter; for small problems, that is not exact enough.
@@ -378,7 +404,7 @@ double SemismoothModel<Algebra>::findGradient(const Problem& problem) {
 template <class Algebra>
 double SemismoothModel<Algebra>::estimateStep(const Problem& problem) {
   constexpr double unknown = std::numeric_limits<double>::infinity();
-  if (!factored_ || !factored_as_is_ || problem.mu != factored_mu_ || any_fixed_) return unknown;
+  if (knows_f_ || !factored_ || !factored_as_is_ || problem.mu != factored_mu_ || any_fixed_) return unknown;
   algebra_.takeBox(problem.low, problem.high, low_, high_);
   s_ = -g_;
   for (int j = 0; j < int(constraints_.size()); ++j) {
@@ -400,7 +426,7 @@ const VectorXd& SemismoothModel<Algebra>::minimize(const Problem& problem) {
   for (int pass = 0; pass < problem.max_passes; ++pass) {
     const double remaining = findGradient(problem);
     if (pass == 0) reference = std::max(remaining, 1e-30);
-    if (remaining <= 1e-11 * reference) break;
+    if (remaining <= 1e-11 * reference && !(knows_f_ && pass == 0)) break;  // it may be a saddle
     if (!newtonStep(problem)) {
       if (!is_curved_) break;
       leaveOutCurvature();

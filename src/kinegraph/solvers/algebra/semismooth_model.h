@@ -56,6 +56,7 @@ class SemismoothModel final : public LocalModel {
   int firstChange(const Problem& problem) const;
   bool factorize(const Problem& problem, int first);
   bool newtonStep(const Problem& problem);
+  void addNegativeCurvature(const Problem& problem);
   void findChangesAlongStep(const Problem& problem);
   double roomAlong(double most) const;
   /// Is the model the same quadratic function all over the box, and the Newton step exact?
@@ -71,6 +72,7 @@ class SemismoothModel final : public LocalModel {
   std::vector<int> other_costs_;
   const std::vector<int> constraints_;  ///< rows
   bool has_f_ = false, knows_linear_costs_ = false;
+  bool knows_f_ = false;  ///< does the problem tell the Hessian of its f terms? It may be indefinite.
   Algebra algebra_;
   std::vector<Curved> curved_;
   bool is_curved_ = false;                      ///< does H have the curvature of constraints?

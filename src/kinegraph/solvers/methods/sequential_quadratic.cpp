@@ -6,15 +6,14 @@
 #include <limits>
 
 #include "kinegraph/base/text.h"
-#include "kinegraph/solvers/algebra/quadratic_program.h"
-#include "kinegraph/solvers/algebra/quasi_newton.h"
-#include "kinegraph/solvers/problems/constrained_function.h"
+#include "kinegraph/solvers/methods/sequential_quadratic_method.h"
 
 namespace kinegraph {
 
 namespace {
 
-constexpr int kLargestDimension = 200;  ///< of problems whose curvature is learnt as a full matrix
+constexpr int kLargestDimension = 200;  ///< of problems whose curvature is a full matrix
+constexpr int kActivePasses = 3;        ///< quadratic programs of a step, to find what is active
 
 /// The program with one more variable, in [0, 1]: the part of what the first `rows` are violated by at 0 that may
 /// remain, at the price of half of `weight` times its square. It has a solution wherever 0 fulfils the other rows.
@@ -36,108 +35,53 @@ QuadraticProgram relax(const QuadraticProgram& program, int rows, double weight)
   return out;
 }
 
-class SequentialQuadratic {
- public:
-  SequentialQuadratic(Nlp& nlp, const VectorXd& x0, const SolverOptions& options, const EvaluationHook& hook)
-      : nlp_(nlp),
-        options_(options),
-        function_(nlp, x0, options, hook),
-        constraints_(function_.constraints()),
-        equalities_(function_.equalities()),
-        lower_(function_.lower()),
-        upper_(function_.upper()),
-        here_(function_.makePoint()),
-        trial_(here_),
-        tolerance_(options.constraintTolerance()) {
-    here_.x = function_.clip(x0);
-    for (VectorXd* v : {&lambda_, &weights_, &row_scale_}) v->setZero(Eigen::Index(constraints_.size()));
-  }
+}  // namespace
 
-  SolverResult run() {
-    curvature_.reset(nlp_.dimension());
-    evaluate(here_);
-    function_.requireFiniteStart(here_);
-    function_.remember(here_);
-    iterate();
-    return function_.result(status_ == SolverStatus::converged ? here_ : function_.best(), lambda_, status_, message_);
-  }
+SequentialQuadratic::SequentialQuadratic(Nlp& nlp, const VectorXd& x0, const SolverOptions& options,
+                                         const EvaluationHook& hook)
+    : nlp_(nlp),
+      options_(options),
+      function_(nlp, x0, options, hook),
+      constraints_(function_.constraints()),
+      equalities_(function_.equalities()),
+      lower_(function_.lower()),
+      upper_(function_.upper()),
+      here_(function_.makePoint()),
+      trial_(here_),
+      tolerance_(options.constraintTolerance()),
+      knows_curvature_(costCurvature(nlp, x0) == CostCurvature::known) {
+  here_.x = function_.clip(x0);
+  for (VectorXd* v : {&lambda_, &weights_, &row_scale_}) v->setZero(Eigen::Index(constraints_.size()));
+}
 
- private:
-  /// A step that solves a quadratic program, and what it promises.
-  struct Step {
-    VectorXd d, lambda, linear;  ///< linear: constraints after the step, to first order
-    double relaxed =
-        0.;  ///< part of the violation that the linearized constraints had to keep; 0 if they are consistent
-    bool found = false;
-  };
-
-  void iterate();
-  void linearize(double room);
-  Step solveQuadratic(const VectorXd& c);
-  bool lineSearch(const Step& step);
-  void learnCurvature(const EvaluatedPoint& before);
-
-  /// Evaluates there; the merit function, infinite where numbers are not finite.
-  double tryStep(const VectorXd& d) {
-    trial_.x = function_.clip(here_.x + d);
-    evaluate(trial_);
-    return trial_.finite ? merit(trial_) : std::numeric_limits<double>::infinity();
-  }
-
-  void stop(SolverStatus status, std::string message) {
-    status_ = status;
-    message_ = std::move(message);
-    stopped_ = true;
-  }
-
-  void evaluate(EvaluatedPoint& point) {
-    if (!function_.evaluate(point)) stop(SolverStatus::cancelled, "cancelled by the caller");
-  }
-
-  double broken(int j, double c) const { return j < equalities_ ? std::abs(c) : std::max(0., c); }
-
-  double merit(const EvaluatedPoint& point) const {
-    double sum = point.cost;
-    for (int j = 0; j < weights_.size(); ++j) sum += weights_[j] * broken(j, point.c[j]);
-    return sum;
-  }
-
-  Nlp& nlp_;
-  const SolverOptions& options_;
-  ConstrainedFunction function_;
-  const std::vector<int>& constraints_;
-  int equalities_;
-  const VectorXd &lower_, &upper_;
-  QuasiNewton curvature_;
-  EvaluatedPoint here_, trial_;
-  MatrixXd H_, A_;      ///< of the quadratic program; A with rows of length 1
-  VectorXd row_scale_;  ///< one over their length in J
-  VectorXd lambda_, weights_, gradient_, old_gradient_;
-  double tolerance_;
-  bool stopped_ = false;
-  SolverStatus status_ = SolverStatus::stalled;
-  std::string message_;
-};
+SolverResult SequentialQuadratic::run(const VectorXd& dual) {
+  for (Eigen::Index j = 0; knows_curvature_ && dual.size() == here_.phi.size() && j < lambda_.size(); ++j)
+    lambda_[j] = dual[constraints_[std::size_t(j)]];
+  curvature_.reset(nlp_.dimension());
+  if (knows_curvature_) constraint_curvature_.reset(constraints_, nlp_.dimension());
+  evaluate(here_);
+  function_.requireFiniteStart(here_);
+  function_.remember(here_);
+  if (!stopped_ && !solvedInOneStep()) iterate();
+  return function_.result(status_ == SolverStatus::converged ? here_ : function_.best(), lambda_, status_, message_);
+}
 
 /// Gradient and Hessian of the costs, and the constraints' rows. While nothing is known of the curvature of the f rows,
 /// it is such that a step without constraints would be a tenth of `room`.
 void SequentialQuadratic::linearize(double room) {
   const int n = nlp_.dimension();
   function_.costGradient(here_.phi, here_.J, gradient_);
-  H_ = curvature_.matrix();
-  if (curvature_.empty()) {
-    function_.generalGradient(here_.J, VectorXd(), old_gradient_);
-    H_.diagonal().setConstant(std::max(1e-8, 10. * old_gradient_.lpNorm<Eigen::Infinity>() / room));
+  if (knows_curvature_) {
+    findHessian(lambda_);
+  } else {
+    H_ = curvature_.matrix();
+    if (curvature_.empty()) {
+      function_.generalGradient(here_.J, VectorXd(), old_gradient_);
+      H_.diagonal().setConstant(std::max(1e-8, 10. * old_gradient_.lpNorm<Eigen::Infinity>() / room));
+    }
+    addSquaredRows(H_);
   }
   VectorXd row_of_J = VectorXd::Zero(n);
-  for (int row : function_.costs()) {
-    const ObjectiveType type = nlp_.types()[row];
-    if (type != ObjectiveType::sos && !(type == ObjectiveType::ineqP && here_.phi[row] > 0.))
-      continue;  // ineqP only where violated
-    row_of_J.setZero();
-    here_.J.addRowTo(row, 1., row_of_J);
-    H_.noalias() += 2. * row_of_J * row_of_J.transpose();
-  }
   A_.setZero(Eigen::Index(constraints_.size()), n);
   for (int j = 0; j < A_.rows(); ++j) {
     row_of_J.setZero();
@@ -147,26 +91,50 @@ void SequentialQuadratic::linearize(double room) {
   }
 }
 
-/// min g^T d + 1/2 d^T H d  with c + J d = 0 or <= 0, in the bounds. Where these contradict each other, they are
-/// relaxed: a part of their violation, as small as possible, remains.
-SequentialQuadratic::Step SequentialQuadratic::solveQuadratic(const VectorXd& c) {
+/// Gauss-Newton's part of the costs: sos rows, and ineqP only where violated.
+void SequentialQuadratic::addSquaredRows(MatrixXd& H) const {
+  VectorXd row_of_J = VectorXd::Zero(nlp_.dimension());
+  for (int row : function_.costs()) {
+    const ObjectiveType type = nlp_.types()[row];
+    if (type != ObjectiveType::sos && !(type == ObjectiveType::ineqP && here_.phi[row] > 0.)) continue;
+    row_of_J.setZero();
+    here_.J.addRowTo(row, 1., row_of_J);
+    H.noalias() += 2. * row_of_J * row_of_J.transpose();
+  }
+}
+
+QuadraticProgram SequentialQuadratic::makeProgram(const VectorXd& c) const {
   const int n = nlp_.dimension(), m = int(constraints_.size());
-  const int bounds = int(lower_.array().isFinite().count() + upper_.array().isFinite().count());
+  const int bounds =
+      knows_curvature_ ? 2 * n : int(lower_.array().isFinite().count() + upper_.array().isFinite().count());
   QuadraticProgram program{H_, gradient_, MatrixXd::Zero(m + bounds, n), VectorXd(m + bounds), equalities_};
   program.A.topRows(m) = A_;
   program.b.head(m) = c.cwiseProduct(row_scale_);
   for (int i = 0, row = m; i < n; ++i) {
-    if (std::isfinite(lower_[i])) {
+    if (const double low = lower_[i] - here_.x[i]; std::isfinite(low) || knows_curvature_) {
       program.A(row, i) = -1.;
-      program.b[row++] = lower_[i] - here_.x[i];
+      program.b[row++] = std::max(low, -radius_);
     }
-    if (std::isfinite(upper_[i])) {
+    if (const double high = upper_[i] - here_.x[i]; std::isfinite(high) || knows_curvature_) {
       program.A(row, i) = 1.;
-      program.b[row++] = here_.x[i] - upper_[i];
+      program.b[row++] = -std::min(high, radius_);
     }
   }
+  return program;
+}
+
+/// min g^T d + 1/2 d^T H d  with c + J d = 0 or <= 0, in the bounds. Where these contradict each other, they are
+/// relaxed: a part of their violation, as small as possible, remains.
+SequentialQuadratic::Step SequentialQuadratic::solveQuadratic(const VectorXd& c) {
+  const int n = nlp_.dimension(), m = int(constraints_.size());
+  QuadraticProgram program = makeProgram(c);
+  if (knows_curvature_) makeConvex(program);
   Step step;
   QuadraticSolution solution = solve(program);
+  if (knows_curvature_ && solution.status == QuadraticStatus::infeasible) {  // constraints come before the radius
+    leaveRadius(program);
+    solution = solve(program);
+  }
   double weight = 1e3 * std::max(1., std::abs(here_.cost));
   for (int attempt = 0; attempt < 4 && m > 0 && (solution.status != QuadraticStatus::solved || step.relaxed >= .9);
        ++attempt) {
@@ -180,6 +148,9 @@ SequentialQuadratic::Step SequentialQuadratic::solveQuadratic(const VectorXd& c)
   step.d = solution.x.head(n);
   step.lambda = solution.multipliers.head(m).cwiseProduct(row_scale_);
   step.linear = c + (A_ * step.d).cwiseQuotient(row_scale_);
+  for (int j = 0; knows_curvature_ && j < int(program.b.size()); ++j) {
+    if (j < equalities_ || solution.multipliers[j] > 0.) step.active.push_back(j);
+  }
   return step;
 }
 
@@ -193,7 +164,7 @@ bool SequentialQuadratic::lineSearch(const Step& step) {
     reduction += reduces * row_scale_[j];
     slope -= weights_[j] * reduces;
   }
-  const double curvature = step.d.dot(H_ * step.d);
+  const double curvature = knows_curvature_ ? curvatureAlong(step.d) : step.d.dot(H_ * step.d);
   if (slope > -.5 * curvature && reduction > 0.) {  // feasibility must weigh more for this to be a descent
     const double more = (slope + curvature) / reduction;
     for (int j = 0; j < weights_.size(); ++j) weights_[j] += more * row_scale_[j];
@@ -205,7 +176,10 @@ bool SequentialQuadratic::lineSearch(const Step& step) {
     if (function_.evals() >= options_.stopEvals) break;
     const double after = tryStep(alpha * step.d);
     if (stopped_) return false;
-    if (after <= before + 1e-4 * alpha * slope + noise) return true;
+    if (after <= before + 1e-4 * alpha * slope + noise) {
+      if (knows_curvature_) adaptRadius(step, alpha, (after - before) / (slope + .5 * curvature));
+      return true;
+    }
     const bool finite = std::isfinite(after);
     if (attempt == 0 && finite && !constraints_.empty()) {
       const Step second = solveQuadratic(trial_.c - (A_ * step.d).cwiseQuotient(row_scale_));
@@ -221,21 +195,21 @@ bool SequentialQuadratic::lineSearch(const Step& step) {
   return false;
 }
 
-void SequentialQuadratic::learnCurvature(const EvaluatedPoint& before) {
+void SequentialQuadratic::learnCurvature(const EvaluatedPoint& before, const EvaluatedPoint& after) {
+  if (knows_curvature_) return constraint_curvature_.update(after.x - before.x, before.J, after.J);
   function_.generalGradient(before.J, lambda_, old_gradient_);
-  function_.generalGradient(here_.J, lambda_, gradient_);
-  curvature_.update(here_.x - before.x, gradient_ - old_gradient_);
+  function_.generalGradient(after.J, lambda_, gradient_);
+  curvature_.update(after.x - before.x, gradient_ - old_gradient_);
 }
 
 void SequentialQuadratic::iterate() {
-  int resets = 0;
   for (int count = 0; !stopped_; ++count) {
     if (function_.evals() >= options_.stopEvals)
       return stop(SolverStatus::limit, cat("limit of ", options_.stopEvals, " evaluations"));
     if (count >= options_.stopInners) return stop(SolverStatus::limit, cat("limit of ", options_.stopInners, " steps"));
     const double room = std::max(1., here_.x.lpNorm<Eigen::Infinity>());
     linearize(room);
-    const Step step = solveQuadratic(here_.c);
+    const Step step = findStep();
     const double violation = here_.violation, size = step.d.lpNorm<Eigen::Infinity>();
     double promised = std::abs(gradient_.dot(step.d));
     for (int j = 0; j < lambda_.size(); ++j) promised += std::abs(step.lambda[j] * here_.c[j]);
@@ -251,6 +225,8 @@ void SequentialQuadratic::iterate() {
         ((size <= options_.stopTolerance * room &&
           promised <= std::max(std::pow(options_.stopTolerance, 2), 1e-12) * scale) ||
          promised <= 1e-14 * scale)) {
+      if (knows_curvature_ && leavesSaddle(step)) continue;
+      if (stopped_) return;
       lambda_ = step.lambda;
       return stop(SolverStatus::converged, cat("step ", size, ", its predicted decrease ", promised, ", and violation ",
                                                violation, " are within tolerances"));
@@ -258,7 +234,7 @@ void SequentialQuadratic::iterate() {
     if (!step.found || size <= 1e-15 * room || !lineSearch(step)) {
       if (stopped_) return;
       if (function_.evals() >= options_.stopEvals) continue;
-      if (curvature_.empty() || ++resets > 5)
+      if ((curvature_.empty() && !knows_curvature_) || ++resets_ > 5)
         return stop(SolverStatus::stalled, "no step decreases the objective as predicted");
       curvature_.reset(nlp_.dimension());
       weights_.setZero();
@@ -266,24 +242,35 @@ void SequentialQuadratic::iterate() {
     }
     if (step.relaxed < .1) lambda_ = step.lambda;
     std::swap(here_, trial_);
-    learnCurvature(trial_);
+    learnCurvature(trial_, here_);
     function_.remember(here_);
   }
 }
 
-}  // namespace
+SequentialQuadratic::Step SequentialQuadratic::findStep() {
+  Step step = solveQuadratic(here_.c);
+  // What is expected to be active decides how an indefinite Hessian is made convex.
+  for (int pass = 0; knows_curvature_ && pass < kActivePasses && step.found && step.active != active_; ++pass) {
+    active_ = step.active;
+    step = solveQuadratic(here_.c);
+  }
+  return step;
+}
 
-bool needsLearntCurvature(Nlp& nlp, const VectorXd& x) {
+CostCurvature costCurvature(Nlp& nlp, const VectorXd& x) {
   const auto& types = nlp.types();
-  if (std::find(types.begin(), types.end(), ObjectiveType::f) == types.end()) return false;
-  if (nlp.dimension() == 0 || nlp.dimension() > kLargestDimension) return false;
-  MatrixXd hessian = MatrixXd::Zero(nlp.dimension(), nlp.dimension());
-  return !nlp.addCostHessian(x, hessian);
+  const int n = nlp.dimension();
+  if (std::find(types.begin(), types.end(), ObjectiveType::f) == types.end()) return CostCurvature::squares;
+  if (n == 0 || n > kLargestDimension) return CostCurvature::large;
+  MatrixXd hessian = MatrixXd::Zero(n, n);
+  if (!nlp.addCostHessian(x, hessian)) return CostCurvature::unknown;
+  return nlp.curvedRows().empty() && ConstraintCurvature::canHold(types.size(), n) ? CostCurvature::known
+                                                                                   : CostCurvature::large;
 }
 
 SolverResult solveSequentialQuadratic(Nlp& nlp, const VectorXd& x0, const SolverOptions& options,
-                                      const EvaluationHook& hook) {
-  return SequentialQuadratic(nlp, x0, options, hook).run();
+                                      const EvaluationHook& hook, const VectorXd& dual) {
+  return SequentialQuadratic(nlp, x0, options, hook).run(dual);
 }
 
 }  // namespace kinegraph

@@ -1,0 +1,105 @@
+#pragma once
+
+#include <limits>
+
+#include "kinegraph/solvers/algebra/constraint_curvature.h"
+#include "kinegraph/solvers/algebra/indefinite.h"
+#include "kinegraph/solvers/algebra/quadratic_program.h"
+#include "kinegraph/solvers/algebra/quasi_newton.h"
+#include "kinegraph/solvers/methods/sequential_quadratic.h"
+#include "kinegraph/solvers/problems/constrained_function.h"
+
+namespace kinegraph {
+
+/// The method of solveSequentialQuadratic, on its way. What it does with a Hessian that the problem tells is in
+/// known_curvature.cpp.
+class SequentialQuadratic {
+ public:
+  SequentialQuadratic(Nlp& nlp, const VectorXd& x0, const SolverOptions& options, const EvaluationHook& hook);
+
+  SolverResult run(const VectorXd& dual);
+
+ private:
+  /// A step that solves a quadratic program, and what it promises.
+  struct Step {
+    VectorXd d, lambda, linear;  ///< linear: constraints after the step, to first order
+    double relaxed =
+        0.;  ///< part of the violation that the linearized constraints had to keep; 0 if they are consistent
+    bool found = false;
+    std::vector<int> active;  ///< rows of the program with a multiplier
+  };
+
+  void iterate();
+  void linearize(double room);
+  void addSquaredRows(MatrixXd& H) const;
+  QuadraticProgram makeProgram(const VectorXd& c) const;
+  Step findStep();
+  Step solveQuadratic(const VectorXd& c);
+  bool lineSearch(const Step& step);
+  void learnCurvature(const EvaluatedPoint& before, const EvaluatedPoint& after);
+
+  // Where the problem tells the Hessian of its costs.
+  bool solvedInOneStep();
+  void findHessian(const VectorXd& multipliers);
+  void makeConvex(QuadraticProgram& program);
+  double curvatureAlong(const VectorXd& d) const;
+  double leastCurvature();
+  void leaveRadius(QuadraticProgram& program) const;
+  void adaptRadius(const Step& step, double alpha, double ratio);
+  bool leavesSaddle(const Step& step);
+  Restriction restriction(const Step& step) const;
+  void lookAround(const Step& step);
+  bool descendsAlong(const VectorXd& direction, const Step& step);
+  VectorXd onActiveRows(const VectorXd& c, const Step& step) const;
+
+  /// Evaluates there; the merit function, infinite where numbers are not finite.
+  double tryStep(const VectorXd& d) {
+    trial_.x = function_.clip(here_.x + d);
+    evaluate(trial_);
+    return trial_.finite ? merit(trial_) : std::numeric_limits<double>::infinity();
+  }
+
+  void stop(SolverStatus status, std::string message) {
+    status_ = status;
+    message_ = std::move(message);
+    stopped_ = true;
+  }
+
+  void evaluate(EvaluatedPoint& point) {
+    if (!function_.evaluate(point)) stop(SolverStatus::cancelled, "cancelled by the caller");
+  }
+
+  double broken(int j, double c) const { return j < equalities_ ? std::abs(c) : std::max(0., c); }
+
+  double merit(const EvaluatedPoint& point) const {
+    double sum = point.cost;
+    for (int j = 0; j < weights_.size(); ++j) sum += weights_[j] * broken(j, point.c[j]);
+    return sum;
+  }
+
+  Nlp& nlp_;
+  const SolverOptions& options_;
+  ConstrainedFunction function_;
+  const std::vector<int>& constraints_;
+  int equalities_;
+  const VectorXd &lower_, &upper_;
+  QuasiNewton curvature_;
+  EvaluatedPoint here_, trial_;
+  MatrixXd H_, A_;      ///< of the quadratic program; A with rows of length 1
+  VectorXd row_scale_;  ///< one over their length in J
+  VectorXd lambda_, weights_, gradient_, old_gradient_;
+  double tolerance_;
+  bool stopped_ = false;
+  SolverStatus status_ = SolverStatus::stalled;
+  std::string message_;
+  int resets_ = 0;  ///< times that no step was found
+
+  const bool knows_curvature_;
+  ConstraintCurvature constraint_curvature_;
+  MatrixXd W_;               ///< Hessian of the Lagrangian, as far as it is known
+  std::vector<int> active_;  ///< rows of the program that are expected to be active
+  int saddles_ = 0;
+  double radius_ = std::numeric_limits<double>::infinity();  ///< of steps, where the Hessian is known
+};
+
+}  // namespace kinegraph
