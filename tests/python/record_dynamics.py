@@ -25,9 +25,7 @@ def scene():
     for name, parent, at, joint, mass, com, inertia in LINKS:
         lines.append(f"{name} ({parent or 'world'}): {{ pre: [{' '.join(map(str, at))}], joint: {joint} }}")
         numbers = " ".join(map(str, inertia))
-        lines.append(
-            f"{name}_mass ({name}): {{ Q: [{' '.join(map(str, com))}], mass: {mass}, inertia: [{numbers}] }}"
-        )
+        lines.append(f"{name}_mass ({name}): {{ Q: [{' '.join(map(str, com))}], mass: {mass}, inertia: [{numbers}] }}")
     return "\n".join(lines)
 
 

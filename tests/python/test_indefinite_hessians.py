@@ -124,9 +124,7 @@ PROBLEMS = {
         7049.24802,
     ),
     "HS108": (
-        lambda x: (
-            -0.5 * (x[0] * x[3] - x[1] * x[2] + x[2] * x[8] - x[4] * x[8] + x[4] * x[7] - x[5] * x[6])
-        ),
+        lambda x: -0.5 * (x[0] * x[3] - x[1] * x[2] + x[2] * x[8] - x[4] * x[8] + x[4] * x[7] - x[5] * x[6]),
         lambda x: [
             1 - x[2] ** 2 - x[3] ** 2,
             1 - x[8] ** 2,
@@ -191,7 +189,9 @@ class Problem:
 
     def hessian(self, x):
         h = 1e-6 * np.maximum(1, abs(x))
-        columns = [(gradient(self.f, x + d) - gradient(self.f, x - d)) / (2 * s) for d, s in zip(np.diag(h), h, strict=True)]
+        columns = [
+            (gradient(self.f, x + d) - gradient(self.f, x - d)) / (2 * s) for d, s in zip(np.diag(h), h, strict=True)
+        ]
         return 0.5 * (np.array(columns) + np.array(columns).T)
 
 

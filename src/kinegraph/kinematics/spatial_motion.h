@@ -48,9 +48,7 @@ struct WorldInertia {
   }
 };
 
-inline Motion column(const State& state, int index) {
-  return {state.twist(index).angular, state.twist(index).linear};
-}
+inline Motion column(const State& state, int index) { return {state.twist(index).angular, state.twist(index).linear}; }
 
 inline double power(const Motion& motion, const Wrench& wrench) {
   return motion.angular.dot(wrench.angular) + motion.linear.dot(wrench.linear);

@@ -11,7 +11,8 @@ inline int velocityDimension(const Config& config) { return velocityDimension(co
 
 inline MatrixXd velocityMap(const Config& config) { return velocityMap(config.state()); }
 
-inline RigidBodyDynamics rigidBodyDynamics(const Config& config, const VectorXd& v, const Vector3d& gravity = kGravity) {
+inline RigidBodyDynamics rigidBodyDynamics(const Config& config, const VectorXd& v,
+                                           const Vector3d& gravity = kGravity) {
   return rigidBodyDynamics(config.state(), config.inertias(), v, gravity);
 }
 
