@@ -99,7 +99,7 @@ class Problem:
 class Robot:
     """A robot of the set. `shapes` are "meshes" (the convex hulls of the URDF's collision meshes) or "spheres" (those that vamp uses)."""
 
-    def __init__(self, name, shapes="meshes", margin=0.0):
+    def __init__(self, name, shapes="meshes"):
         import kinegraph as ry
 
         self.name, self.folder = name, folder() / name

@@ -37,6 +37,8 @@ PlacedSamples::PlacedSamples(const State& scene, const LinkBodies& bodies)
     const LinkBodies::Group& group = bodies.groups[i];
     spheres_[i] = {group.center, group.radius};  // as it is for those that are fixed
   }
+  if (bodies.many) return;
+  for (auto& placed : placed_) placed = std::make_unique<Placed>();
 }
 
 void PlacedSamples::place(int count) {
@@ -74,7 +76,8 @@ bool PlacedSamples::mayBeNear(int group_a, int group_b, double margin) const {
 const RigidTransform& PlacedSamples::pose(int body, int sample) { return placed(body).pose[sample]; }
 
 const PlacedSamples::Placed& PlacedSamples::placed(int index) {
-  Placed& placed = placed_[std::size_t(index)];
+  if (!placed_[std::size_t(index)]) placed_[std::size_t(index)] = std::make_unique<Placed>();
+  Placed& placed = *placed_[std::size_t(index)];
   if (placed.stamp == stamp_) return placed;
   const LinkBodies::Body& body = bodies_->bodies[std::size_t(index)];
   const int link = bodies_->groups[std::size_t(body.group)].link;
