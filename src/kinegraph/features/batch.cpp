@@ -211,7 +211,9 @@ template <class Limit>
 void areFreeInLanes(const State& scene, const Eigen::Ref<const RowMatrix>& Q, double margin, std::span<bool> valid,
                     const BatchOptions& options, const Limit& limit) {
   const int parts = (int(Q.rows()) + kPart - 1) / kPart, threads = std::clamp(options.threads, 1, std::max(1, parts));
-  std::vector<EdgeChecker> checkers(std::size_t(threads), EdgeChecker(scene, margin));
+  std::vector<EdgeChecker> checkers;
+  checkers.reserve(std::size_t(threads));
+  for (int i = 0; i < threads; ++i) checkers.emplace_back(scene, margin);
   const auto part = [&](int worker, int from, int to) {
     const double* rows[EdgeChecker::kLanes];
     int places[EdgeChecker::kLanes], count = 0;
