@@ -54,7 +54,7 @@ class PlacedSamples {
 
   const LinkBodies* bodies_;
   std::vector<State> states_;
-  std::vector<Sphere> spheres_;  ///< per group
+  std::vector<Sphere> spheres_;                  ///< per group
   std::vector<std::unique_ptr<Placed>> placed_;  ///< per body; of many bodies those that were asked for
   int count_ = 0, stamp_ = 0;
 };
