@@ -11,6 +11,7 @@
 #include "images.h"
 #include "kinegraph/operation/bot_op.h"
 #include "kinegraph/operation/kinematic_driver.h"
+#include "kinegraph/operation/simulated_driver.h"
 #include "operation_objects.h"
 #include "parameters.h"
 #include "py_viewer.h"
@@ -79,8 +80,13 @@ BotOpOptions optionsOf(PyConfig& config, bool realtime) {
   return options;
 }
 
+/// The robot in a copy of the scene, as parameter botsim/engine says.
 std::shared_ptr<RobotDriver> simulatedDriver(const PyConfig& config) {
-  return std::make_shared<KinematicDriver>(config);
+  const auto engine = parameter<std::string>("botsim/engine", "physx", "'physx' or 'kinematic'");
+  if (engine == "kinematic") return std::make_shared<KinematicDriver>(config);
+  if (engine != "physx")
+    throw ValueError(cat("parameter botsim/engine is '", engine, "'; expected 'physx' or 'kinematic'"));
+  return std::make_shared<SimulatedDriver>(config);
 }
 
 void make(PyBotOp* self, PyConfig& config, bool use_real_robot, bool, std::shared_ptr<RobotDriver> driver,

@@ -9,6 +9,7 @@
 #include "kinegraph/base/text.h"
 #include "kinegraph/operation/kinematic_driver.h"
 #include "kinegraph/operation/recorded_driver.h"
+#include "kinegraph/operation/simulated_driver.h"
 #include "operation_objects.h"
 
 namespace kinegraph::python {
@@ -204,6 +205,13 @@ void bindRobotDriver(nb::module_& m) {
       .def(
           "__init__", [](KinematicDriver* self, const PyConfig& config) { new (self) KinematicDriver(config); },
           "config"_a, docs::operation::KinematicDriver_make);
+  nb::class_<SimulatedDriver, RobotDriver>(m, "SimulatedDriver", docs::operation::SimulatedDriver)
+      .def(
+          "__init__",
+          [](SimulatedDriver* self, const PyConfig& config, const SimulationOptions& options) {
+            new (self) SimulatedDriver(config, options);
+          },
+          "config"_a, "options"_a = SimulationOptions(), docs::operation::SimulatedDriver_make);
   nb::class_<RecordedDriver, RobotDriver>(m, "RecordedDriver", docs::operation::RecordedDriver)
       .def(
           "__init__",

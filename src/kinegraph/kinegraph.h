@@ -44,6 +44,7 @@
 #include "kinegraph/operation/bot_op.h"             // BotOp
 #include "kinegraph/operation/kinematic_driver.h"   // robots that go exactly where they are told
 #include "kinegraph/operation/recorded_driver.h"    // robots whose answers are known
+#include "kinegraph/operation/simulated_driver.h"   // robots in a simulated world
 #include "kinegraph/planning/multi_start.h"         // one problem from many starts
 #include "kinegraph/planning/skeleton.h"            // what shall hold when, in words
 #include "kinegraph/rendering/camera_renderer.h"    // images from any camera

@@ -105,6 +105,18 @@ TEST(RobotLoop, IsStoppedByADriverThatThrows) {
   EXPECT_EQ(driver->writes, 3);
 }
 
+TEST(RobotLoop, IsStoppedWhereItDoesNotFollow) {
+  std::vector<RobotReading> readings;
+  for (int i = 0; i < 100; ++i) readings.push_back(reading(i * .01));  // stays where it is
+  const auto driver = std::make_shared<RecordedDriver>(plainRobot(), readings);
+  RobotLoop loop(driver, .01);
+  loop.apply(FollowSpline{straight(0., 1., 0., 1.)});
+  for (int i = 0; i < 60; ++i) loop.step();
+  EXPECT_NE(loop.fault().find("joint 'arm1' is 0.3"), std::string::npos) << loop.fault();
+  EXPECT_NE(loop.fault().find("is something in its way?"), std::string::npos);
+  EXPECT_LT(driver->commands().back().q[0], .32);
+}
+
 TEST(RobotLoop, DoesNotBeginWithARobotThatReportsAnError) {
   RobotReading wrong = reading(0.);
   wrong.error = "emergency stop";

@@ -41,6 +41,8 @@ FOUND = {
     ],
     "16_conveyor": [r"the boxes go at \[0\.3 0\.3 0\.3\]", r"heights of the boxes"],
     "10_many_problems": [r"taken by r_gripper", r"6 of 6 feasible", r"\b10 postures"],
+    "17_policy": [r"  1  -0\.\d+ m #\n", r" 14  -0\.0\d+ m #{30,}", r"reached in (1[5-9]|20) of 20 episodes"],
+    "16_two_robots": [r"the blocks are 0\.1[34]\d m and 0\.1[34]\d m higher", r"the same again, to the bit: True"],
 }
 
 

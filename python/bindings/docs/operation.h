@@ -16,8 +16,8 @@ Ctrl-C holds the robot, then raises. Motions beyond limits of the robot are erro
 inline constexpr char BotOp_make[] = R"(A robot, simulated in a copy of a configuration, or behind a driver.
 
 Parameters that params_add sets: botsim/tau, the period of control, s (.01); botsim/hyperSpeed, seconds of control per second
-while somebody watches or with realtime, not positive: as fast as it can (1); botsim/realtime (False); bot/blockRealRobot,
-True: always simulated (False).
+while somebody watches or with realtime, not positive: as fast as it can (1); botsim/realtime (False); botsim/engine, 'physx' (our
+dynamic engine) or 'kinematic'; bot/blockRealRobot, True: always simulated (False).
 
 Args:
     C: The scene; not changed, and not looked at later. Its joints are those of the robot.
@@ -409,6 +409,17 @@ inline constexpr char KinematicDriver_make[] = R"(A world of its own, as a scene
 
 Args:
     config: The scene.)";
+
+inline constexpr char SimulatedDriver[] =
+    R"(A robot in a simulated world with masses, contacts and friction: what a gripper holds, it holds by force.)";
+
+inline constexpr char SimulatedDriver_make[] = R"(A world of its own, as a scene is now.
+
+Args:
+    config: The scene.
+    options: Of the simulation.
+Raises:
+    ArgumentError: The scene cannot be simulated; the message says why.)";
 
 inline constexpr char RecordedDriver[] =
     R"(A robot of which everything is known beforehand: what it will say. It notes what it is told. For tests.)";

@@ -1,7 +1,7 @@
 // What a BotOp does with the rooms above it: pictures, and a viewer.
 #include "kinegraph/front/bot_cameras.h"
 
-#include "kinegraph/operation/kinematic_driver.h"
+#include "kinegraph/operation/simulated_driver.h"
 #include "kinegraph/rendering/depth_image.h"
 #include "kinegraph/viewer/config_viewer.h"
 
@@ -11,7 +11,7 @@ namespace {
 
 std::shared_ptr<RobotDriver> simulated(const Config& config, bool use_real_robot) {
   if (use_real_robot) throw ValueError("BotOp: a real robot takes a driver; see RobotDriver");
-  return std::make_shared<KinematicDriver>(config);
+  return std::make_shared<SimulatedDriver>(config);
 }
 
 /// Shows in the viewer of the configuration that is synced, if it is open.
@@ -29,6 +29,7 @@ BotOpOptions shownInViewers(Config& config) {
 }  // namespace
 
 Camera BotCameras::camera(const BotOp& bot, const std::string& frame) {
+  if (!copy_.findFrame(frame)) copy_ = bot.getWorld();  // it may be newer than the copy
   bot.update(copy_);
   return cameraOf(copy_.getFrame(frame));
 }

@@ -126,14 +126,17 @@ BSpline BotOp::continued(const MatrixXd& path, const VectorXd& times, bool overw
   return BSpline(3, points, absolute, here.row(1).transpose());
 }
 
-void BotOp::engage(const char* call, const BSpline& motion) {
-  const double now = loop_->time();
-  loop_->requireReady(call, motion.eval(now));
-  if (const auto broken = brokenLimit(motion, now, loop_->info())) throw ValueError(cat(call, ": ", *broken));
-  if (const auto broken = brokenEffort(motion, now, options_.period, loop_->info(), model_))
+/// Follows a motion of which what comes after `from` is new.
+void BotOp::engage(const char* call, const BSpline& motion, double from) {
+  loop_->requireReady(call, motion.eval(loop_->time()));
+  if (const auto broken = brokenLimit(motion, from, loop_->info())) throw ValueError(cat(call, ": ", *broken));
+  if (const auto broken = brokenEffort(motion, from, options_.period, loop_->info(), model_))
     throw ValueError(cat(call, ": ", *broken));
   loop_->apply(FollowSpline{motion});
 }
+
+/// When a motion that is added begins: at the end of what is done now, or now.
+double BotOp::nextStart() const { return loop_->time() + std::max(0., timeToEnd()); }
 
 void BotOp::move(const MatrixXd& path, const VectorXd& times, bool overwrite, double overwrite_time) {
   constexpr const char* call = "BotOp::move";
@@ -143,12 +146,13 @@ void BotOp::move(const MatrixXd& path, const VectorXd& times, bool overwrite, do
   const double now = loop_->time();
   if (overwrite && overwrite_time >= 0. && overwrite_time + all_times[all_times.size() - 1] <= now)
     throw ValueError(cat(call, ": the motion from ", overwrite_time, " s on would be over; it is ", now, " s"));
+  const double from = overwrite ? now : nextStart();
   const BSpline motion = continued(path, all_times, overwrite, overwrite_time);
   const double jump = (motion.eval(now) - loop_->reference(now).row(0).transpose()).cwiseAbs().maxCoeff();
   if (jump > options_.guards.engage_distance)
     throw ValueError(
         cat(call, ": overwriting from ", overwrite_time, " s on would make the robot jump by ", jump, " now"));
-  engage(call, motion);
+  engage(call, motion, from);
 }
 
 void BotOp::moveTo(const VectorXd& q, double time_cost, bool overwrite) {
@@ -171,7 +175,7 @@ void BotOp::moveTo(const VectorXd& q, double time_cost, bool overwrite) {
     duration *= factor * (1. + 1e-9);
     motion = continued(asRow(q), asVector(duration), overwrite, -1.);
   }
-  engage(call, motion);
+  engage(call, motion, goes_on ? motion.end() - duration : now);
 }
 
 void BotOp::moveAutoTimed(const MatrixXd& path, double max_velocity, double max_acceleration) {
@@ -190,7 +194,8 @@ void BotOp::moveAutoTimed(const MatrixXd& path, double max_velocity, double max_
   const VectorXd acceleration = loop_->info().acceleration.cwiseMin(max_acceleration);
   const double duration = std::max({loop_->period(), (peaks.velocity.array() / velocity.array()).maxCoeff(),
                                     std::sqrt((peaks.acceleration.array() / acceleration.array()).maxCoeff())});
-  engage(call, continued(path, evenTimes(call, asVector(duration), path.rows()), false, -1.));
+  const double start = nextStart();
+  engage(call, continued(path, evenTimes(call, asVector(duration), path.rows()), false, -1.), start);
 }
 
 void BotOp::follow(const BSpline& motion) {
@@ -200,7 +205,7 @@ void BotOp::follow(const BSpline& motion) {
   if (motion.degree() > 3)
     throw ValueError(cat("BotOp::follow: a motion of degree ", motion.degree(), "; expected 3 at most"));
   const Lock lock(mutex_);
-  engage("BotOp::follow", motion);
+  engage("BotOp::follow", motion, loop_->time());
 }
 
 void BotOp::holdNow() {

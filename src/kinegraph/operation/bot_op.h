@@ -182,10 +182,12 @@ class BotOp {
   void runThread(const std::stop_token& stop);
   void requireRunning(const char* call) const;
   int show(Config& C, const std::string& message);
+  void takeUp(const Config& C);
   bool isWatched() const { return options_.watched && options_.watched(); }
 
   BSpline continued(const MatrixXd& path, const VectorXd& times, bool overwrite, double cut) const;
-  void engage(const char* call, const BSpline& motion);
+  void engage(const char* call, const BSpline& motion, double from);
+  double nextStart() const;
   void holdNow();
   void gripper(const char* call, GripperCommand command);
   void requireGripper(const char* call, int gripper) const;
@@ -200,6 +202,7 @@ class BotOp {
   std::array<long, askCount> asked_;  ///< the period at which each question was answered last
   double owed_ = 0.;                  ///< virtual time that is less than a period
   int key_ = 0;
+  std::uint64_t seen_structure_ = 0;  ///< of the configuration that was synced last
   VectorXd external_sum_;
   long external_count_ = 0;
   std::unique_ptr<std::ofstream> record_;

@@ -140,8 +140,17 @@ void BotOp::requireRunning(const char* call) const {
     throw RobotFault(cat(call, ": the robot was stopped: ", loop_->fault(), "; call recover() when that is mended"));
 }
 
+/// What was added to the configuration since it was last looked at is part of the world from now on.
+void BotOp::takeUp(const Config& C) {
+  if (C.scene()->structureRevision() == seen_structure_) return;
+  seen_structure_ = C.scene()->structureRevision();
+  const Lock lock(mutex_);
+  if (SimulatedWorld* world = loop_->driver().world()) world->addObjects(C);
+}
+
 int BotOp::sync(Config& C, double wait_time, const std::string& message) {
   key_ = 0;
+  takeUp(C);
   if (options_.realtime) {
     update(C);
     key_ = show(C, message);

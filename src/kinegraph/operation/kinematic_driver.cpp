@@ -74,29 +74,16 @@ void KinematicDriver::moveFingers(Gripper& gripper, double period) {
   attach(gripper.scene.info.name, gripper.held);
 }
 
-void KinematicDriver::attach(const std::string& from, const std::string& to) {
-  config_.attach(from, to);
-  attached_.emplace_back(from, to);
-}
+void KinematicDriver::attach(const std::string& from, const std::string& to) { config_.attach(from, to); }
 
 void KinematicDriver::detach(const std::string& from, const std::string& to) {
   config_.getFrame(from);
   const Frame head = headOfLink(config_.getFrame(to));
   if (head.getParent()) Frame(head).unLink();
-  std::erase(attached_, std::pair(from, to));
 }
 
 void KinematicDriver::setFramePose(const std::string& frame, const Pose& pose) {
   config_.getFrame(frame).setPose(pose);
-}
-
-int KinematicDriver::addObjects(const Config& config) {
-  const int before = config_.getFrameDimension();
-  Config grown = config;
-  for (const auto& [from, to] : attached_) grown.attach(from, to);
-  copyMotion(config_, grown);
-  config_ = grown;
-  return config_.getFrameDimension() - before;
 }
 
 }  // namespace kinegraph

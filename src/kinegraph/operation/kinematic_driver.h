@@ -33,12 +33,11 @@ class KinematicDriver final : public RobotDriver, private SimulatedWorld {
   void attach(const std::string& from, const std::string& to) override;
   void detach(const std::string& from, const std::string& to) override;
   void setFramePose(const std::string& frame, const Pose& pose) override;
-  int addObjects(const Config& config) override;
+  int addObjects(const Config& config) override { return copyNewFrames(config, config_); }
   void moveFingers(Gripper& gripper, double period);
 
   Config config_;
   std::vector<Gripper> grippers_;
-  std::vector<std::pair<std::string, std::string>> attached_;  ///< from, to
   VectorXd target_, target_velocity_, velocity_;
   double time_ = 0.;
 };

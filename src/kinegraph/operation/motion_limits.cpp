@@ -113,7 +113,8 @@ std::optional<std::string> brokenEffort(const BSpline& motion, double from, doub
       std::any_of(inertias.begin(), inertias.end(), [](const LinkInertia& inertia) { return inertia.mass > 0.; });
   if (!any_limit || !any_mass) return std::nullopt;
   VectorXd most = VectorXd::Zero(robot.effort.size()), when = most;
-  for (double t = std::max(from, motion.start()); t < motion.end(); t += period) {
+  const double start = std::max(from, motion.start()), step = std::max(period, (motion.end() - start) / kSamples);
+  for (double t = start; t < motion.end(); t += step) {
     model.setJointState(motion.eval(t));
     const VectorXd effort = model.inverseDynamics(motion.eval(t, 1), motion.eval(t, 2)).cwiseAbs();
     when = (effort.array() > most.array()).select(t, when);

@@ -23,7 +23,8 @@ MotionPeaks peaksOf(const BSpline& motion, double from);
 /// if it respects all. Positions and velocities may be beyond by rounding, positions by 1e-3.
 std::optional<std::string> brokenLimit(const BSpline& motion, double from, const RobotInfo& robot);
 
-/// The same for efforts, by the masses of `model`, at times `period` apart: which joint would need more than it can.
+/// The same for efforts, by the masses of `model`, at times `period` apart, a thousand at most: which joint would need more
+/// than it can.
 /// Nothing is known, and none is told, where masses or limits are not.
 std::optional<std::string> brokenEffort(const BSpline& motion, double from, double period, const RobotInfo& robot,
                                         Config& model);

@@ -88,8 +88,20 @@ void RobotLoop::look(const RobotReading& reading) {
   } else {
     reading_ = reading;
     if (wrong.empty() && still_ > guards_.stale_time) wrong = cat("its clock has stood still for ", still_, " s");
+    if (wrong.empty()) wrong = heldUp();
   }
   if (!wrong.empty()) stop(wrong);
+}
+
+/// Which joint is far from where it was told to be; empty if none is, or if the robot may give way.
+std::string RobotLoop::heldUp() const {
+  if (mode_ == LoopMode::floating || mode_ == LoopMode::fault || stiffness_.size() > 0) return {};
+  for (Eigen::Index i = 0; i < commanded_.size(); ++i) {
+    const double behind = std::abs(commanded_[i] - reading_.q[i]);
+    if (behind > guards_.follow_distance)
+      return cat("joint '", info_.joints[std::size_t(i)], "' is ", behind, " from where it shall be; is something in its way?");
+  }
+  return {};
 }
 
 void RobotLoop::stop(const std::string& reason) {

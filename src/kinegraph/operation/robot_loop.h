@@ -18,6 +18,7 @@ enum class LoopMode : int {
 /// What stops a robot.
 struct GuardLimits {
   double engage_distance = .05;  ///< rad or m: further from the robot no motion may begin
+  double follow_distance = .3;   ///< rad or m: further from where it shall be no stiff robot is moved on
   double stale_time = .1;        ///< s for which a robot's clock may stand still
 };
 
@@ -66,6 +67,7 @@ class RobotLoop {
  private:
   RobotCommand nextCommand();
   void look(const RobotReading& reading);
+  std::string heldUp() const;
   void applyNow(const FollowSpline& command);
   void applyNow(const HoldRobot& command);
   void applyNow(const FloatRobot& command);

@@ -49,8 +49,7 @@ std::vector<SceneGripper> findGrippers(const Config& config) {
     const NumberArray* limits = node ? node->value.as<NumberArray>() : nullptr;
     if (limits && limits->numbers.size() > 0 && limits->numbers[0] > 0.)
       gripper.info.max_speed = gripper.opening * limits->numbers[0];
-    if (limits && limits->numbers.size() > 1 && limits->numbers[1] > 0.)
-      gripper.info.max_force = double(gripper.fingers.size()) * limits->numbers[1];
+    if (limits && limits->numbers.size() > 1 && limits->numbers[1] > 0.) gripper.info.max_force = limits->numbers[1];
     grippers.push_back(gripper);
   }
   return grippers;
@@ -72,6 +71,29 @@ void copyMotion(const Config& from, Config& to) {
       if (differs(pose, to.scene()->worldPose(*other))) Frame(to.scene(), *other).setPose(pose);
     }
   }
+}
+
+int copyNewFrames(const Config& from, Config& to) {
+  std::vector<std::pair<const FrameData*, FrameData*>> copies;
+  SceneTree& tree = *to.scene();
+  for (const auto& frame : from.scene()->frames()) {
+    if (tree.find(frame->name)) continue;
+    FrameData& copy = tree.add(frame->name, frame->parent ? tree.find(frame->parent->name) : nullptr);
+    copy.pose = frame->pose;
+    copy.joint = frame->joint;
+    copy.shape = frame->shape;
+    copy.inertia = frame->inertia;
+    copy.attributes = frame->attributes;
+    copies.emplace_back(frame.get(), &copy);
+  }
+  for (const auto& [frame, copy] : copies) {  // now all are there
+    if (copy->joint && copy->joint->mimic) copy->joint->mimic = tree.find(frame->joint->mimic->name);
+    for (const FrameData* other : frame->no_contact) {
+      if (FrameData* known = tree.find(other->name)) copy->no_contact.push_back(known);
+    }
+  }
+  if (!copies.empty()) tree.structureChanged();
+  return int(copies.size());
 }
 
 Frame headOfLink(const Frame& frame) {

@@ -19,6 +19,9 @@ std::vector<SceneGripper> findGrippers(const Config& config);
 /// that hang on nothing or are attached to something. Frames that only one of them has are left alone.
 void copyMotion(const Config& from, Config& to);
 
+/// Gives `to` the frames of `from` whose names it does not have. Returns their number.
+int copyNewFrames(const Config& from, Config& to);
+
 /// The frame that a frame is fixed to without any joint, the last one upwards.
 Frame headOfLink(const Frame& frame);
 

@@ -1,0 +1,54 @@
+"""Part 16: two robots at a table, moved by one BotOp.
+
+Each arm grasps a block and lifts it, both at once. The world is simulated: the blocks are held by force. All that the robots were
+told is in a log, which gives the same motion again, to the bit.
+"""
+
+import numpy as np
+
+from robotic import ry
+
+np.set_printoptions(precision=3, suppress=True)
+
+
+def scene() -> ry.Config:
+    C = ry.Config()
+    C.addFile(ry.raiPath("scenarios/pandasTable.g"))
+    for side, x in (("l", -0.35), ("r", 0.35)):
+        block = C.addFrame(f"{side}_block").setShape(ry.ST.box, [0.05, 0.05, 0.08]).setColor([1, 0.5, 0])
+        block.setPosition([x, 0.2, 0.64]).setMass(0.2)
+    return C
+
+
+def hands_at(C: ry.Config, height: float) -> np.ndarray:
+    """Joint values of both arms with the hands around their blocks, or above them."""
+    targets = {}
+    for side in "lr":
+        block = C.getFrame(f"{side}_block").getPosition()
+        targets[f"{side}_gripper"] = {"position": block + height * np.eye(3)[2], "z": [0, 0, 1], "x": [1, 0, 0]}
+    answer = ry.solveIk(C, targets)
+    assert answer.feasible, answer.message
+    return answer.q
+
+
+C = scene()
+bot = ry.BotOp(C, False)
+bot.sync(C, 0.3)  # the blocks come to rest on the table
+start = [C.getFrame(f"{side}_block").getPosition()[2] for side in "lr"]
+above, around = hands_at(C, 0.15), hands_at(C, 0.01)
+bot.moveAutoTimed([above, above, around], maxVel=1.5)
+bot.wait(C)
+for hand in (ry._left, ry._right):
+    bot.gripperClose(hand, force=20.0)
+bot.wait(C, forTimeToEnd=False, forGripper=True)
+bot.moveTo(above)
+bot.wait(C)
+bot.sync(C, 1.0)
+lifted = [C.getFrame(f"{side}_block").getPosition()[2] - z for side, z in zip("lr", start)]
+print(f"after {bot.get_t():.1f} s the blocks are {lifted[0]:.3f} m and {lifted[1]:.3f} m higher")
+assert min(lifted) > 0.12
+
+again = ry.BotOp(scene(), False)
+again.replay(bot.getLog())
+print("the same again, to the bit:", np.array_equal(again.get_q(), bot.get_q()))
+C.view(True, "both blocks are lifted")

@@ -1,0 +1,112 @@
+"""What students do in notebooks with their first robot, step by step: motions, following a target, grasping, seeing."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from robotic import ry
+
+
+@pytest.fixture
+def C() -> ry.Config:
+    scene = ry.Config()
+    scene.addFile(ry.raiPath("../rai-robotModels/scenarios/pandaSingle.g"))
+    return scene
+
+
+def reach(C: ry.Config, position: np.ndarray, home: np.ndarray) -> tuple[np.ndarray, ry.SolverReturn]:
+    komo = ry.KOMO(C, 1, 1, 0, False)
+    komo.addObjective([], ry.FS.jointState, [], ry.OT.sos, [1e-1], C.getJointState())
+    komo.addObjective([], ry.FS.jointState, [], ry.OT.sos, [1e-1], home)
+    komo.addObjective([], ry.FS.position, ["l_gripper"], ry.OT.eq, [1e1], position)
+    ret = ry.NLP_Solver(komo.nlp(), verbose=0).solve()
+    return komo.getPath()[0], ret
+
+
+def test_the_first_motions_of_a_robot(C: ry.Config) -> None:
+    bot = ry.BotOp(C, False)
+    bot.home(C)
+    q_home = bot.get_qHome()
+    q1 = q_home.copy()
+    q1[1] += 0.2
+    bot.moveTo(q1)
+    steps = 0
+    while bot.getTimeToEnd() > 0:
+        bot.sync(C, 0.1)
+        steps += 1
+    assert steps == pytest.approx(np.sqrt(6 * 0.2) / 0.1, abs=1.0)
+    assert C.getJointState() == pytest.approx(q1, abs=1e-4)
+    bot.move([q1, q_home, q1, q_home], [1.0, 2.0, 3.0, 4.0])  # there and back and there and back
+    bot.wait(C)
+    assert C.getJointState() == pytest.approx(q_home, abs=1e-4)
+    bot.hold(floating=True, damping=False)
+    bot.wait(C, forKeyPressed=True, forTimeToEnd=False)  # nobody is there to press one
+    bot.hold(floating=False, damping=True)
+    bot.home(C)
+    del bot
+
+
+def test_a_robot_that_follows_a_target(C: ry.Config) -> None:
+    bot = ry.BotOp(C, False)
+    target = C.addFrame("target", "table").setShape(ry.ST.marker, [0.1]).setRelativePosition([0.0, 0.3, 0.3])
+    position = target.getPosition()
+    center = position.copy()
+    rng = np.random.default_rng(0)
+    for _ in range(30):
+        bot.sync(C, 0.1)  # C is where the robot is
+        position = center + 0.98 * (position - center) + 0.02 * rng.normal(size=3)
+        target.setPosition(position)
+        q, ret = reach(C, position, bot.get_qHome())
+        assert ret.feasible
+        bot.moveTo(q, timeCost=5.0, overwrite=True)
+    bot.wait(C)
+    assert C.getFrame("l_gripper").getPosition() == pytest.approx(position, abs=2e-3)
+
+
+def test_grippers_as_they_are_written_in_scripts_of_all_years(C: ry.Config) -> None:
+    bot = ry.BotOp(C, useRealRobot=False)
+    for close in (
+        lambda: bot.gripperClose(ry._left),
+        lambda: bot.gripperClose(ry.ArgWord._left, width=0.0, speed=0.1),
+        lambda: bot.gripperMove(ry._left, width=0.02),
+    ):
+        close()
+        while not bot.gripperDone(ry._left):
+            bot.sync(C, 0.1)
+        assert bot.getGripperPos(ry._left) < 0.021
+        bot.gripperMove(ry._left)
+        bot.wait(C, forTimeToEnd=False, forGripper=True)
+        assert bot.getGripperPos(ry._left) == pytest.approx(0.075, abs=1e-3)
+
+
+def test_what_the_camera_of_a_robot_sees_becomes_part_of_the_scene(C: ry.Config) -> None:
+    C.addFrame("box").setShape(ry.ST.ssBox, [0.12, 0.12, 0.12, 0.005]).setColor([1, 0.5, 0]).setPosition(
+        [0.06, 0.35, 0.7]
+    )
+    bot = ry.BotOp(C, False)
+    bot.sync(C, 0.1)
+    rgb, depth = bot.getImageAndDepth("cameraTop")
+    points = ry.depthImage2PointCloud(depth, bot.getCameraFxycxy("cameraTop"))
+    assert points.shape == (*depth.shape, 3)
+    cloud = (
+        C.addFrame("pcl", "cameraTop")
+        .setPointCloud(points.reshape(-1, 3), rgb.reshape(-1, 3))
+        .setColor([1.0, 0.0, 0.0])
+    )
+    orange = (rgb[:, :, 0] > 120) & (rgb[:, :, 2] < 80)
+    camera = C.getFrame("cameraTop")
+    seen = camera.getPosition() + points[orange] @ camera.getRotationMatrix().T
+    assert seen.mean(axis=0) == pytest.approx([0.06, 0.35, 0.76], abs=0.03)
+    assert cloud.getShapeType() == ry.ST.pointCloud
+
+
+def test_a_bot_without_a_gripper_says_so() -> None:
+    arm = ry.Config()
+    arm.addFrame("base")
+    arm.addFrame("joint", "base", "joint: hingeX, mass: 1")
+    bot = ry.BotOp(arm, False)
+    with pytest.raises(ry.ArgumentError, match="there is no gripper 0; the robot has none"):
+        bot.gripperMove(ry._left)
+    with pytest.raises(ry.FrameNotFound, match="unknown"):
+        bot.getImage("unknown")
