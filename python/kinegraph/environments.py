@@ -10,7 +10,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
-from typing import Any
+from typing import Any, ClassVar
 
 import gymnasium
 import numpy as np
@@ -64,7 +64,7 @@ class RobotEnv(gymnasium.Env[Observation, Array]):
     bit.
     """
 
-    metadata = {"render_modes": ["rgb_array"], "render_fps": 20}
+    metadata: ClassVar[dict[str, Any]] = {"render_modes": ["rgb_array"], "render_fps": 20}
 
     def __init__(
         self,
@@ -171,8 +171,8 @@ class RobotEnv(gymnasium.Env[Observation, Array]):
             self.C.setJointState(np.clip(q, self._lower, self._upper))
         if varied.position:
             for frame in self._things():
-                shift = self.np_random.uniform(-varied.position, varied.position, 2)
-                frame.setPosition(frame.getPosition() + [*shift, 0.0])
+                shift = np.append(self.np_random.uniform(-varied.position, varied.position, 2), 0.0)
+                frame.setPosition(frame.getPosition() + shift)
         self.place(self.C, self.np_random)
         self.simulation.pushConfigToSim()
         self.simulation.resetTime(0.0)

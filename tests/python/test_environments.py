@@ -69,7 +69,7 @@ def test_a_box_can_be_lifted() -> None:
         hand, box = seen[14:17], seen[17:20]
         away = box - hand
         if closed == 0 and np.linalg.norm(away[:2]) > 0.01:
-            target = away + [0, 0, 0.12]
+            target = away + np.array([0, 0, 0.12])
         elif closed == 0 and abs(away[2]) > 0.01:
             target = away
         else:
