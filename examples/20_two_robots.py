@@ -1,4 +1,4 @@
-"""Part 16: two robots at a table, moved by one BotOp.
+"""Part 20: two robots at a table, moved by one BotOp.
 
 Each arm grasps a block and lifts it, both at once. The world is simulated: the blocks are held by force. All that the robots were
 told is in a log, which gives the same motion again, to the bit.
