@@ -26,7 +26,8 @@ void keepWithinLimits(RobotCommand& command, const VectorXd& last, const VectorX
     if (is_free) continue;
     double velocity = std::clamp(mean, -fastest, fastest);
     if (std::isfinite(hardest)) {  // at the reference it must not be faster than that is
-      const double way = target - last[i], along = std::clamp(std::copysign(1., way) * command.velocity[i], 0., fastest);
+      const double way = target - last[i],
+                   along = std::clamp(std::copysign(1., way) * command.velocity[i], 0., fastest);
       const double stoppable = std::sqrt(along * along + 2. * hardest * std::abs(way));
       velocity = std::clamp(velocity, -stoppable, stoppable);
       velocity = std::clamp(velocity, last_velocity[i] - hardest * h, last_velocity[i] + hardest * h);

@@ -99,7 +99,8 @@ std::string RobotLoop::heldUp() const {
   for (Eigen::Index i = 0; i < commanded_.size(); ++i) {
     const double behind = std::abs(commanded_[i] - reading_.q[i]);
     if (behind > guards_.follow_distance)
-      return cat("joint '", info_.joints[std::size_t(i)], "' is ", behind, " from where it shall be; is something in its way?");
+      return cat("joint '", info_.joints[std::size_t(i)], "' is ", behind,
+                 " from where it shall be; is something in its way?");
   }
   return {};
 }
