@@ -201,6 +201,8 @@ class TaskRule:
                 asks: w.komo.addObjective, w.m (a KOMO_ManipulationHelper), w.attach(time, hand, obj),
                 w.put(time, obj, place).
             variants: Called with the scene and the action's words; gives the names of its variants, best first.
+        Raises:
+            TypeError: By planTask: one of them does not take these arguments.
         """
         self.add, self.variants = add, variants
 
