@@ -151,13 +151,9 @@ FlagArray isMotionFree(const PyConfig& config, const Numbers& from, const Number
                        int threads) {
   const auto starts = jointRows(from, config, "isMotionFree", "start"),
              ends = jointRows(to, config, "isMotionFree", "end");
-<<<<<<< HEAD
-  if (from.rows != to.rows) throw ValueError(cat("isMotionFree: ", from.rows, " starts and ", to.rows, " ends"));
-  warnOfContacts(config);
-=======
   if (starts.count() != ends.count())
     throw ValueError(cat("isMotionFree: ", starts.count(), " starts and ", ends.count(), " ends"));
->>>>>>> a4669dc (bindings: batch calls take one q, and an empty list)
+  warnOfContacts(config);
   const State scene = config.state();
   const NewFlags free = newFlags(starts.count());
   unlocked(threads, "isMotionFree", [&](const BatchOptions& options) {
