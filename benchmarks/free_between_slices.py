@@ -10,6 +10,7 @@ Times are processor time, medians and 95th percentiles, building the KOMO includ
 """
 
 import argparse
+import functools
 import itertools
 from time import process_time
 
@@ -19,23 +20,29 @@ import kinegraph as ry
 
 STEP = 1e-3  # rad, of the independent check
 MARGIN = 2e-3  # m
+UR5_JOINTS = ["shoulder_pan", "shoulder_lift", "elbow", "wrist_1", "wrist_2", "wrist_3"]
 MOST = 4000  # growths of the trees
 
 
+@functools.cache
 def robot(name: str) -> ry.Config:
+    C = ry.Config()
     if name == "ur5":
         import motion_bench_maker
 
-        return motion_bench_maker.Robot("ur5").model.copy()
-    C = ry.Config()
-    C.addFile(ry.raiPath({"panda": "panda/panda_tight.g", "ur10": "ur10/ur10.g"}[name]))
+        folder = motion_bench_maker.folder() / "ur5"
+        C.addFile(str(folder / "ur5.urdf"))
+        C.addFile(str(folder / "ur5.srdf"))
+        C.selectJoints([f"{joint}_joint" for joint in UR5_JOINTS])
+    else:
+        C.addFile(ry.raiPath({"panda": "panda/panda_tight.g", "ur10": "ur10/ur10.g"}[name]))
     return C
 
 
 def among_obstacles(name: str, rng: np.random.Generator) -> tuple[ry.Config, np.ndarray, np.ndarray]:
     """A scene, a start and a goal, both free by 1 cm; the straight line between them is not free."""
     while True:
-        C = robot(name)
+        C = robot(name).copy()
         for i in range(6):
             wall = i < 3
             size = [0.03, *rng.uniform(0.3, 0.8, 2)] if wall else list(rng.uniform(0.05, 0.25, 3))

@@ -6,6 +6,7 @@
 #include "bindings.h"
 #include "docs/collisions.h"
 #include "kinegraph/base/text.h"
+#include "kinegraph/scene/ignored_contacts.h"
 
 namespace kinegraph::python {
 
@@ -27,13 +28,21 @@ nb::typed<nb::list, nb::str> pairList(const PyConfig& config) {
   return names;
 }
 
-nb::typed<nb::list, nb::typed<nb::tuple, nb::str, nb::str, nb::float_>> collisions(const PyConfig& config,
-                                                                                   double margin) {
-  nb::list near;
-  for (const Config::NearPair& pair : config.getCollisions(margin)) {
-    near.append(nb::make_tuple(config.getFrame(pair.a).getName(), config.getFrame(pair.b).getName(), pair.distance));
-  }
-  return near;
+using NamedPairs = nb::typed<nb::list, nb::typed<nb::tuple, nb::str, nb::str, nb::float_>>;
+
+NamedPairs withNames(const PyConfig& config, const std::vector<Config::NearPair>& pairs) {
+  nb::list named;
+  for (const Config::NearPair& pair : pairs)
+    named.append(nb::make_tuple(config.getFrame(pair.a).getName(), config.getFrame(pair.b).getName(), pair.distance));
+  return named;
+}
+
+NamedPairs collisions(const PyConfig& config, double margin) {
+  return withNames(config, config.getCollisions(margin));
+}
+
+NamedPairs ignoreCollisions(PyConfig& config, double margin) {
+  return withNames(config, ignoreCollisionsNow(config, margin));
 }
 
 std::optional<Contact> checkMotion(const PyConfig& config, const Numbers& start, const Numbers& end, double margin,
@@ -67,6 +76,7 @@ void bindCollisions(nb::module_& m, nb::class_<PyConfig>& config) {
       });
   config.def("getCollidablePairs", pairList, docs::collisions::getCollidablePairs)
       .def("getCollisions", collisions, "belowMargin"_a = 0., docs::collisions::getCollisions)
+      .def("ignoreCollisionsNow", ignoreCollisions, "margin"_a = 0., docs::collisions::ignoreCollisionsNow)
       .def(
           "coll_totalViolation", [](const PyConfig& c, bool maximal) { return c.getTotalPenetration(maximal); },
           "return_maximal"_a = false, docs::collisions::coll_totalViolation)

@@ -16,6 +16,7 @@
 #include "kinegraph/features/registry.h"
 #include "kinegraph/komo/mode_switches.h"
 #include "kinegraph/komo/report.h"
+#include "kinegraph/komo/step_limit.h"
 #include "kinegraph/solvers/nlp_solver.h"
 #include "py_komo.h"
 #include "solving.h"
@@ -143,6 +144,13 @@ void bindObjectives(nb::class_<PyKomo>& komo) {
             warn(k);
           },
           "times"_a = nb::none(), "margin"_a = 1e-3, "scale"_a = 10., docs::komo::addFreeMotion)
+      .def(
+          "addStepLimit",
+          [](PyKomo& k, double step, Optional times) {
+            addStepLimit(k, step, toTimes(times));
+            warn(k);
+          },
+          "step"_a, "times"_a = nb::none(), docs::komo::addStepLimit)
       .def("addControlObjective", addControl, "times"_a, "order"_a, "scale"_a = 1., "target"_a = nb::none(),
            "deltaFromSlice"_a = 0, "deltaToSlice"_a = 0, docs::komo::addControlObjective)
       .def("add_qControlObjective", addControl, "times"_a = nb::none(), "order"_a = 2, "scale"_a = 1.,

@@ -32,6 +32,7 @@
 #include "kinegraph/kinematics/limit_check.h"  // withinLimits
 #include "kinegraph/komo/komo.h"               // Komo: motion problems
 #include "kinegraph/komo/report.h"             // how well a path does
+#include "kinegraph/komo/step_limit.h"         // addStepLimit
 #include "kinegraph/logic/fol_reader.h"        // domains of actions
 #include "kinegraph/logic/pddl.h"
 #include "kinegraph/logic/plan_search.h"            // PlanSearch
@@ -52,6 +53,7 @@
 #include "kinegraph/rendering/framing.h"            // a camera that sees all
 #include "kinegraph/scene/config.h"                 // Config, Frame
 #include "kinegraph/scene/config_dynamics.h"        // rigidBodyDynamics, centroidalMomentumMatrix
+#include "kinegraph/scene/ignored_contacts.h"       // ignoreCollisionsNow
 #include "kinegraph/scene/motor_limits.h"           // getVelocityLimits, getEffortLimits
 #include "kinegraph/simulation/simulation.h"        // Simulation
 #include "kinegraph/simulation/simulation_batch.h"  // many of them

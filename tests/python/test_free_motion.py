@@ -156,3 +156,29 @@ def test_collisions_have_a_margin() -> None:
         komo.addObjective([], ry.FS.jointState, [], ry.OT.ineq, [1.0], margin=0.05)
     with pytest.raises(ry.ArgumentError, match="margin is -1"):
         komo.addFreeMotion(margin=-1.0)
+
+
+def test_pairs_that_overlap_now_are_ignored_from_then_on() -> None:
+    C = ry.Config()
+    C.addText("""
+        base: { shape: sphere, size: [.1], contact: 1 }
+        a (base): { joint: transX, shape: sphere, size: [.1], contact: 1 }
+        wall (base): { Q: [.5 0 0], shape: box, size: [.1 1 1], contact: 1 }
+    """)
+    assert C.ignoreCollisionsNow() == [("base", "a", pytest.approx(-0.2))]
+    assert C.ignoreCollisionsNow() == [] and C.isValid([[0.0]])[0]
+    C.setJointState([0.45])
+    assert [pair[:2] for pair in C.getCollisions()] == [("a", "wall")]
+
+
+def test_steps_from_slice_to_slice_have_a_limit() -> None:
+    C = ry.Config()
+    C.addText("base: {} arm (base): { joint: hingeZ }")
+    komo = ry.KOMO(C, 1, 8, 2, False)
+    komo.addControlObjective([], 2, 1.0)
+    komo.addStepLimit(0.14)
+    komo.addObjective([1.0], ry.FS.jointState, [], ry.OT.eq, [], [1.0])
+    assert ry.NLP_Solver(komo.nlp()).solve().feasible
+    assert np.abs(np.diff(komo.getPath(), axis=0, prepend=0.0)).max() < 0.14 + 1e-4
+    with pytest.raises(ry.ArgumentError, match="step is 0"):
+        komo.addStepLimit(0.0)

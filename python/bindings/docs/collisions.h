@@ -16,6 +16,16 @@ Args:
 Returns:
     A tuple per pair: two names and their distance, m; negative: penetration depth.)";
 
+inline constexpr char ignoreCollisionsNow[] =
+    R"(Lets the pairs that overlap at the present q never collide from now on, as `contact_exclude` of a scene file does: for
+models of which parts overlap where they are joined. Of a frame that carries shapes of frames fixed to it, these are meant,
+too.
+
+Args:
+    margin: Pairs that are nearer than that count as overlapping, m.
+Returns:
+    A tuple per pair that is left out: two names and their distance, m; negative: penetration depth.)";
+
 inline constexpr char coll_totalViolation[] = R"(How deep all collidable pairs overlap, at the present q.
 
 Args:

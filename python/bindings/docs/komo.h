@@ -67,6 +67,15 @@ Args:
 Raises:
     ArgumentError: A negative margin, a scale that is not positive, or times that are not in the path.)";
 
+inline constexpr char addStepLimit[] =
+    R"(Lets no joint move by more than a step from one slice to the next. It needs a kOrder of 1 or more.
+
+Args:
+    step: The largest step, rad or m.
+    times: In phases: None or [] the whole path, [from, to] a part of it.
+Raises:
+    ArgumentError: A step that is not positive, a kOrder of 0, or times that are not in the path.)";
+
 inline constexpr char addControlObjective[] =
     R"(Adds the sum of squares of a time derivative of all dofs as cost; for order 0, of the distance from home.
 

@@ -142,9 +142,9 @@ class KomoNlp final : public Nlp {
   }
 
   Refinement refine(const VectorXd& x, VectorXd& dual) override {
-    std::vector<Objective> objectives = problem_.objectives();
-    if (std::ranges::none_of(objectives, isOnTheWay)) return Refinement::none;
+    if (std::ranges::none_of(problem_.objectives(), isOnTheWay)) return Refinement::none;
     requireStructure();
+    std::vector<Objective> objectives = problem_.objectives();
     komo_->path().setVariables(x);
     double lack = 0.;
     for (Objective& objective : objectives) {

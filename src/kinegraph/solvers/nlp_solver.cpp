@@ -19,6 +19,15 @@ constexpr int kMostEvalsOfReduction = 50;
 constexpr int kMostRefinements = 16, kMostBeginnings = 8;
 constexpr double kCarefulStep = .1, kCarefulPenalty = 100.;  // of solves that begin anew
 
+/// Tells what the constraints of the last refinement say of the result.
+void giveUpRefining(Nlp& nlp, double tolerance, int rounds, SolverResult& result) {
+  VectorXd phi(Eigen::Index(nlp.types().size()));
+  nlp.evaluate(result.x, phi, nullptr);
+  result.setSums(nlp.types(), phi, tolerance);
+  result.status = SolverStatus::limit;
+  result.message = cat("after ", rounds, " refinements constraints are still violated between slices");
+}
+
 }  // namespace
 
 NlpSolver::NlpSolver(std::shared_ptr<Nlp> problem, int verbose) {
@@ -95,32 +104,28 @@ void NlpSolver::reduceViolation(SolverResult& result, const Separation& separati
 /// Solves; and where constraints are to hold at all times of a motion, again with those that the solution violates: from
 /// there, or from the beginning, where the solution is no place to go on from.
 SolverResult NlpSolver::runRefining(Separation& separation, const EvaluationHook& watch, const EvaluationHook& seen) {
-  const VectorXd start = x;
   SolverResult result = runMethod(separation, watch, seen);
+  const auto may_go_on = [&] { return result.status != SolverStatus::cancelled && result.status != SolverStatus::limit; };
+  if (!may_go_on()) return result;
+  Refinement found = problem_->refine(result.x, solved_dual_);
+  if (found == Refinement::none) return result;
   struct Restore {
     SolverOptions& options;
     const SolverOptions given = options;
     ~Restore() { options = given; }
   } restore{options};
-  int beginnings = 1;
-  for (int rounds = 0; result.status != SolverStatus::cancelled && result.status != SolverStatus::limit; ++rounds) {
-    const Refinement found = problem_->refine(result.x, solved_dual_);
+  const VectorXd start = x;
+  for (int rounds = 1, beginnings = 1; found != Refinement::none || !result.feasible; ++rounds) {
     const bool is_lost = found == Refinement::much || !result.feasible;
-    if (found == Refinement::none && (result.feasible || rounds == 0 || beginnings == kMostBeginnings)) break;
-    if (found != Refinement::none) {
-      releaseMemory();
-      if (separation.problem) separation = problem_->separation();
-    }
-    if (rounds == kMostRefinements || (is_lost && beginnings == kMostBeginnings)) {
-      VectorXd phi(Eigen::Index(problem_->types().size()));
-      problem_->evaluate(result.x, phi, nullptr);
-      result.setSums(problem_->types(), phi, options.constraintTolerance());
-      result.status = SolverStatus::limit;
-      result.message = cat("after ", rounds, " refinements constraints are still violated between slices");
+    if (found == Refinement::none && beginnings == kMostBeginnings) break;  // the constraints that are known contradict
+    releaseMemory();
+    if (separation.problem) separation = problem_->separation();
+    if (rounds > kMostRefinements || (is_lost && beginnings == kMostBeginnings)) {
+      giveUpRefining(*problem_, options.constraintTolerance(), rounds - 1, result);
       break;
     }
-    beginnings += is_lost;
     if (is_lost) {  // so that it does not leave the way that it begins with
+      ++beginnings;
       options.stepMax = std::min(options.stepMax, kCarefulStep);
       options.muInit = kCarefulPenalty * restore.given.muInit;
     }
@@ -129,6 +134,8 @@ SolverResult NlpSolver::runRefining(Separation& separation, const EvaluationHook
     const int evals = result.evals;
     result = runMethod(separation, watch, seen);
     result.evals += evals;
+    if (!may_go_on()) break;
+    found = problem_->refine(result.x, solved_dual_);
   }
   return result;
 }

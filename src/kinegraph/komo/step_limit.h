@@ -1,0 +1,23 @@
+#pragma once
+
+#include <cmath>
+
+#include "kinegraph/base/errors.h"
+#include "kinegraph/base/text.h"
+#include "kinegraph/komo/komo.h"
+
+namespace kinegraph {
+
+/// No joint moves by more than `step` (rad, m) from one slice to the next, in the slices that `times` selects. Two
+/// inequalities per dof, in rad or m. Throws ValueError for a step that is not positive, and a Komo of order 0.
+inline void addStepLimit(Komo& komo, double step, const std::vector<double>& times = {}) {
+  if (!(step > 0.) || !std::isfinite(step))
+    throw ValueError(cat("addStepLimit: step is ", step, "; expected a number > 0, rad or m"));
+  const double tau = komo.tau(), speed = step / tau;
+  for (const double sign : {1., -1.}) {
+    const VectorXd target = VectorXd::Constant(1, sign * speed);
+    komo.addObjective(times, FeatureSymbol::qItself, {}, ObjectiveType::ineq, sign * tau, target, 1);
+  }
+}
+
+}  // namespace kinegraph
