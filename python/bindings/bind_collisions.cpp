@@ -37,9 +37,7 @@ NamedPairs withNames(const PyConfig& config, const std::vector<Config::NearPair>
   return named;
 }
 
-NamedPairs collisions(const PyConfig& config, double margin) {
-  return withNames(config, config.getCollisions(margin));
-}
+NamedPairs collisions(const PyConfig& config, double margin) { return withNames(config, config.getCollisions(margin)); }
 
 NamedPairs ignoreCollisions(PyConfig& config, double margin) {
   return withNames(config, ignoreCollisionsNow(config, margin));

@@ -105,7 +105,9 @@ void NlpSolver::reduceViolation(SolverResult& result, const Separation& separati
 /// there, or from the beginning, where the solution is no place to go on from.
 SolverResult NlpSolver::runRefining(Separation& separation, const EvaluationHook& watch, const EvaluationHook& seen) {
   SolverResult result = runMethod(separation, watch, seen);
-  const auto may_go_on = [&] { return result.status != SolverStatus::cancelled && result.status != SolverStatus::limit; };
+  const auto may_go_on = [&] {
+    return result.status != SolverStatus::cancelled && result.status != SolverStatus::limit;
+  };
   if (!may_go_on()) return result;
   Refinement found = problem_->refine(result.x, solved_dual_);
   if (found == Refinement::none) return result;
