@@ -22,6 +22,7 @@ EVERYTHING = [
     "base",
     "math",
     "spline",
+    "control",
     "geometry",
     "kinematics",
     "scene",
@@ -56,6 +57,7 @@ BELOW: dict[str, list[str]] = {
     "compatibility": ["base", "math", "gfile", "geometry", "kinematics", "scene"],
     "features": ["base", "math", "geometry", "kinematics", "scene"],
     "ik": ["base", "math", "geometry", "kinematics", "scene"],
+    "control": ["base", "math", "geometry", "kinematics", "scene", "features"],
     "komo": ["base", "math", "geometry", "kinematics", "scene", "features", "nlp"],
     "planning": ["base", "math", "geometry", "kinematics", "scene", "features", "nlp", "komo", "solvers"],
     "motion": [

@@ -14,6 +14,7 @@
 
 #include "kinegraph/base/errors.h"          // what is thrown
 #include "kinegraph/base/random.h"          // Rng
+#include "kinegraph/control/diff_ik.h"      // DiffIk: joint velocities, a step at a time
 #include "kinegraph/features/batch.h"       // many configurations at once
 #include "kinegraph/features/eval.h"        // a feature's value and Jacobian
 #include "kinegraph/formats/gltf_writer.h"  // scenes written as files
