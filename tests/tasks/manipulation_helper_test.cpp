@@ -22,7 +22,7 @@ TEST(ManipulationHelper, PicksAndPlacesABoxWhereItIsTold) {
   m.setup_pick_and_place_waypoints(C, "l_gripper", "box");
   m.grasp_box(1., "l_gripper", "box", "l_palm", "x");
   m.place_box(2., "box", "goal", "l_palm", "z");
-  m.target_relative_xy_position(2., "box", "goal", Vector2d(.02, -.03));
+  m.target_relative_xy_position(2., "box", "goal", Eigen::Vector2d(.02, -.03));
   ASSERT_TRUE(m.solve(0).feasible);
   const Config end = m.komo->configuration(1);
   const Pose X = end.getFrame("goal").getPose().inverse() * end.getFrame("box").getPose();

@@ -72,8 +72,10 @@ TEST(SequentialQuadratic, IsWhatTheDefaultMethodUsesWhereTheCurvatureHasToBeLear
   for (const KnownProblem& problem : knownProblems()) {
     KnownNlp with(problem), without(withoutHessian(problem));
     const bool has_f = std::find(problem.types.begin(), problem.types.end(), f) != problem.types.end();
-    EXPECT_EQ(needsLearntCurvature(without, problem.start), has_f) << problem.name;
-    EXPECT_EQ(needsLearntCurvature(with, problem.start), has_f && !problem.cost_hessian) << problem.name;
+    const CostCurvature untold = has_f ? CostCurvature::unknown : CostCurvature::squares;
+    EXPECT_EQ(costCurvature(without, problem.start), untold) << problem.name;
+    EXPECT_EQ(costCurvature(with, problem.start), has_f && problem.cost_hessian ? CostCurvature::known : untold)
+        << problem.name;
   }
 }
 

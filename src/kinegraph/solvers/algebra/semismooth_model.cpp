@@ -404,7 +404,7 @@ double SemismoothModel<Algebra>::findGradient(const Problem& problem) {
 template <class Algebra>
 double SemismoothModel<Algebra>::estimateStep(const Problem& problem) {
   constexpr double unknown = std::numeric_limits<double>::infinity();
-  if (knows_f_ || !factored_ || !factored_as_is_ || problem.mu != factored_mu_ || any_fixed_) return unknown;
+  if (!factored_ || !factored_as_is_ || problem.mu != factored_mu_ || any_fixed_) return unknown;
   algebra_.takeBox(problem.low, problem.high, low_, high_);
   s_ = -g_;
   for (int j = 0; j < int(constraints_.size()); ++j) {

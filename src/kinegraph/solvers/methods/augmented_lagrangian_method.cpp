@@ -95,7 +95,6 @@ void AugmentedLagrangian::iterate() {
     if (!constraints_.empty() && creep_.creeps(function_.evals(), here_.cost, holds(step.error)))
       return stop(SolverStatus::stalled, cat("the costs hardly fall any more, as along a kink", trouble_));
     if (step.is_tiny && triesLessDamping(step)) continue;
-    if (step.is_tiny && holds(step.error) && dropsDamping()) continue;
     if (step.is_tiny && holds(step.error)) return endAt(step);
 
     // 4. Round. With an inner problem that is solved, multipliers and penalty are updated. The step at hand is tried
@@ -151,15 +150,6 @@ bool AugmentedLagrangian::triesLessDamping(const Step& step) {
   tried_less_damping_ = true;
   trouble_.clear();
   return true;
-}
-
-/// A Hessian of the costs that the problem tells may be indefinite. Without damping the model then goes where curvature
-/// is negative, and a saddle is none that it stays at.
-bool AugmentedLagrangian::dropsDamping() {
-  if (!function_.hasGeneralCosts() || learns_curvature_ || dropped_damping_ || damping_.value() <= Damping::kLeast)
-    return false;
-  damping_.drop();
-  return dropped_damping_ = true;
 }
 
 /// The constraints hold and the step is tiny: a solution, unless it is tiny only since longer ones were refused, though
@@ -294,7 +284,7 @@ void AugmentedLagrangian::accept(const Step& step) {
   inner_.sawStep(step.before, step.after);
   learnCurvature(trial_);
   radius_.accept(step.size, step.ratio > kVeryGood);
-  tried_less_damping_ = dropped_damping_ = round_just_ended_ = false;
+  tried_less_damping_ = round_just_ended_ = false;
   trouble_.clear();
   model_is_stale_ = true;
   function_.remember(here_);

@@ -87,7 +87,6 @@ class AugmentedLagrangian {
   bool needsNoStep(const Step& step, const Problem& problem);
   void findStep(const Problem& problem, Step& step);
   bool triesLessDamping(const Step& step);
-  bool dropsDamping();
   void endAt(const Step& step);
   bool helps(const Step& step) const;
   bool roundIsOver(const Step& step) const;
@@ -149,7 +148,6 @@ class AugmentedLagrangian {
   int rounds_ = 0, restorations_ = 0, times_lost_ = 0;
   bool model_is_stale_ = true;       ///< the point is new since it was made
   bool tried_less_damping_ = false;  ///< since the last step that was accepted
-  bool dropped_damping_ = false;     ///< since then as well
   bool round_just_ended_ = false;    ///< no step was accepted since
   bool was_corrected_ = false;       ///< the trial point
   bool stopped_ = false;

@@ -52,9 +52,6 @@ class Damping {
     growth_ = kFirstGrowth;
   }
 
-  /// For a point that is a solution unless damping hides that curvature is negative.
-  void drop() { value_ = kLeast; }
-
   void restart() { value_ = first_; }
 
  private:
