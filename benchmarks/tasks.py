@@ -53,7 +53,7 @@ def _box(C: ry.Config, name: str, parent: str, at: list[float], size: list[float
 
 def _pad(C: ry.Config, name: str, at: list[float], size: list[float]) -> None:
     pad = C.addFrame(name, "base").setRelativePosition([*at, 0.005]).setShape(ry.ST.ssBox, [*size, 0.01, 0.004])
-    pad.setContact(0).setAttributes({"logical": {"is_place": True}})
+    pad.setContact(0).setAttributes({"logical": {"is_place": True}, "simulate": False})
 
 
 def _reach(C: ry.Config) -> None:

@@ -16,7 +16,7 @@ ACCELERATION = np.array([15, 7.5, 10, 12.5, 15, 20, 20])
 COLORS = ["#1f77b4", "#ff7f0e", "#2ca02c", "#d62728", "#9467bd", "#8c564b", "#e377c2"]
 
 
-def panda_path():
+def panda_path() -> np.ndarray:
     """From one posture of a Panda to another, around something."""
     C = ry.Config()
     C.addFile(ry.raiPath("panda/panda.g"))
@@ -26,12 +26,12 @@ def panda_path():
     return np.array([start, over, goal])
 
 
-def curve(x, y, left, top, width, height, peak):
-    points = (f"{left + width * a:.1f},{top + height / 2 * (1 - b / peak):.1f}" for a, b in zip(x, y))
+def curve(x: np.ndarray, y: np.ndarray, left: float, top: float, width: float, height: float, peak: float) -> str:
+    points = (f"{left + width * a:.1f},{top + height / 2 * (1 - b / peak):.1f}" for a, b in zip(x, y, strict=True))
     return " ".join(points)
 
 
-def draw(motion, file):
+def draw(motion: ry.TimedPath, file: str) -> None:
     """Shares of the limits of velocity and acceleration, a curve per joint; the limits are the lines above and below."""
     t = np.linspace(0, motion.duration, 600)
     _, velocity, acceleration = motion.at(t)
@@ -56,7 +56,7 @@ def draw(motion, file):
         out.write("\n".join(parts))
 
 
-def main():
+def main() -> None:
     path = panda_path()
     for corners in ("stop", "blend", "spline"):
         fast = ry.retime(path, VELOCITY, ACCELERATION, corners=corners, tolerance=0.1)

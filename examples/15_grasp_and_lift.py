@@ -15,15 +15,15 @@ start = np.array([0.0, 0.3, 0.68])
 C.addFrame("box").setShape(ry.ST.ssBox, [0.06, 0.06, 0.06, 0.005]).setPosition(start).setColor([1, 0.5, 0]).setMass(1.0)
 
 
-def reach(position):
+def reach(position: np.ndarray) -> np.ndarray:
     result = ry.solveIk(C, {"l_gripper": {"position": position, "z": [0, 0, 1], "y": [1, 0, 0]}})
     assert result.feasible, result.message
     return np.array(result.q)
 
 
-def in_hand():
+def in_hand() -> np.ndarray:
     hand, box = C.getFrame("l_gripper"), C.getFrame("box")
-    return hand.getRotationMatrix().T @ (box.getPosition() - hand.getPosition())
+    return np.asarray(hand.getRotationMatrix().T @ (box.getPosition() - hand.getPosition()))
 
 
 above, at, up = reach(start + np.array([0, 0, 0.12])), reach(start), reach(start + np.array([0, 0, 0.2]))
@@ -32,7 +32,7 @@ C.setJointState(above)
 S = ry.Simulation(C)
 
 
-def go(q, seconds=1.0):
+def go(q: np.ndarray, seconds: float = 1.0) -> None:
     S.setSplineRef([q], [seconds])
     S.multi_step(seconds, 0.01)
 

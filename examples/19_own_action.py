@@ -11,7 +11,7 @@ domain = ry.defaultDomain()
 domain.addAction("show", ["Obj", "Hand"], "(is_gripper Hand) (is_object Obj) (on Hand Obj)", "(shown Obj)")
 
 
-def show(w, time, action, variant):
+def show(w: ry.TaskWaypoints, time: float, action: list[str], variant: str) -> None:
     height = {"high": 1.2, "low": 0.9}[variant]
     w.komo.addObjective([time], ry.FS.position, [action[1]], ry.OT.eq, [[0, 0, 10.0]], [0, 0, height])
 

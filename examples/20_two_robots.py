@@ -28,7 +28,7 @@ def hands_at(C: ry.Config, height: float) -> np.ndarray:
         targets[f"{side}_gripper"] = {"position": block + height * np.eye(3)[2], "z": [0, 0, 1], "x": [1, 0, 0]}
     answer = ry.solveIk(C, targets)
     assert answer.feasible, answer.message
-    return answer.q
+    return np.array(answer.q)
 
 
 C = scene()

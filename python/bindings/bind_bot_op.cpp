@@ -268,14 +268,14 @@ void bindWorld(nb::class_<PyBotOp>& bot) {
            const nb::gil_scoped_release unlock;
            b->attach(from, to);
          },
-         "from"_a, "to"_a, docs::operation::attach)
+         "from_"_a, "to"_a, docs::operation::attach)
       .def(
           "detach",
           [](PyBotOp& b, const std::string& from, const std::string& to) {
             const nb::gil_scoped_release unlock;
             b->detach(from, to);
           },
-          "from"_a, "to"_a, docs::operation::detach)
+          "from_"_a, "to"_a, docs::operation::detach)
       .def(
           "setFramePose",
           [](PyBotOp& b, const std::string& frame, const Numbers& pose) {

@@ -130,7 +130,7 @@ from .model_paths import raiPath, setRaiPath
 from .problems import get_NLP_Problem_names, make_NLP_Problem
 from .quaternion import Quaternion
 from .seeds import rnd_seed, rnd_seed_random
-from .task_actions import TaskRule, defaultDomain
+from .task_actions import TaskRule, TaskWaypoints, defaultDomain
 from .task_check import checkTaskPlan
 from .tasks import planTask
 
@@ -239,6 +239,7 @@ __all__ = [
     "SolverReturns",
     "StepObservation",
     "TaskRule",
+    "TaskWaypoints",
     "TimedPath",
     "_left",
     "_path",

@@ -95,7 +95,7 @@ class Slots:
         self.size += count
 
 
-class Waypoints:
+class TaskWaypoints:
     """The waypoint problem of a sequence of actions, in one variant of each: a slice per action."""
 
     def __init__(self, C: Config, actions: list[Action], variants: list[str], rules: dict[str, TaskRule]) -> None:
@@ -192,7 +192,7 @@ class TaskRule:
     """An action of planTask: what it asks of the waypoints, and in which ways it can be done."""
 
     def __init__(
-        self, add: Callable[[Waypoints, float, Action, str], None], variants: Callable[[Config, Action], list[str]]
+        self, add: Callable[[TaskWaypoints, float, Action, str], None], variants: Callable[[Config, Action], list[str]]
     ) -> None:
         """Makes a rule.
 
@@ -261,7 +261,7 @@ def _widths(frame: Any) -> list[float]:
     return [float(w) for w in points.max(axis=0) - points.min(axis=0)]
 
 
-def _grasp(w: Waypoints, time: float, hand: str, obj: str, variant: str) -> None:
+def _grasp(w: TaskWaypoints, time: float, hand: str, obj: str, variant: str) -> None:
     palm = _palm(w.C, hand)
     if variant == "touch":
         w.komo.addObjective([time], FS.distance, [obj, hand], OT.eq, [1e1])
@@ -276,7 +276,7 @@ def _grasp(w: Waypoints, time: float, hand: str, obj: str, variant: str) -> None
         _grasp_hull(w, time, hand, obj, "xyz".index(variant))
 
 
-def _grasp_hull(w: Waypoints, time: float, hand: str, obj: str, axis: int) -> None:
+def _grasp_hull(w: TaskWaypoints, time: float, hand: str, obj: str, axis: int) -> None:
     """Across a mesh: the fingers close along an axis of the box around its hull, inside of the other sides."""
     points = w.C.getFrame(obj).getMeshPoints()
     middle, half = 0.5 * (points.max(axis=0) + points.min(axis=0)), 0.5 * (points.max(axis=0) - points.min(axis=0))
@@ -292,17 +292,17 @@ def _grasp_hull(w: Waypoints, time: float, hand: str, obj: str, axis: int) -> No
         w.komo.addObjective([time - 0.3, time], FS.distance, [palm, obj], OT.ineq, [1e1], [-0.001])
 
 
-def _pick(w: Waypoints, time: float, action: Action, variant: str) -> None:
+def _pick(w: TaskWaypoints, time: float, action: Action, variant: str) -> None:
     w.attach(time, action[3], action[1])
     _grasp(w, time, action[3], action[1], variant)
 
 
-def _handover(w: Waypoints, time: float, action: Action, variant: str) -> None:
+def _handover(w: TaskWaypoints, time: float, action: Action, variant: str) -> None:
     w.attach(time, action[3], action[1])
     _grasp(w, time, action[3], action[1], variant)
 
 
-def _place(w: Waypoints, time: float, action: Action, variant: str) -> None:
+def _place(w: TaskWaypoints, time: float, action: Action, variant: str) -> None:
     w.put(time, action[1], action[3])
 
 

@@ -13,7 +13,7 @@ import numpy as np
 from ._core import JT, KOMO, Config, Domain, LogicProblem, NLP_Solver, PlanSearch, RRT_PathFinder, sceneFacts, solveIk
 from .errors import ArgumentError
 from .manipulation import KOMO_ManipulationHelper, missed
-from .task_actions import DEFAULT_RULES, Action, TaskRule, Waypoints, allVariants, defaultDomain, sceneWords
+from .task_actions import DEFAULT_RULES, Action, TaskRule, TaskWaypoints, allVariants, defaultDomain, sceneWords
 from .task_check import checkTaskPlan, overlapAlong
 from .task_proofs import Impossible, impossibleActions
 
@@ -199,7 +199,7 @@ class _Task:
     # --- geometry ----------------------------------------------------------------------------------------------------
 
     def _try(self, actions: list[Action]) -> TaskPlan | None:
-        """Waypoints, then motions; forbids what fails."""
+        """TaskWaypoints, then motions; forbids what fails."""
         why = ""
         for found in range(_MOTION_STARTS):
             waypoints = self._waypoints(actions, found)
@@ -222,15 +222,15 @@ class _Task:
         self.causes[why] += 1
         self.tree.append(Branch(actions, why))
 
-    def _solve(self, C: Config, actions: list[Action], seed: int, starts: int) -> tuple[Waypoints | None, str]:
-        """Waypoints that satisfy all that the actions ask, or None and why not."""
+    def _solve(self, C: Config, actions: list[Action], seed: int, starts: int) -> tuple[TaskWaypoints | None, str]:
+        """TaskWaypoints that satisfy all that the actions ask, or None and why not."""
         said = ""
         rng = np.random.default_rng([self.limits["seed"], seed, len(actions)])
         for number, variants in enumerate(allVariants(C, actions, self.rules)):
             if number >= _CHOICES or self._late():
                 break
             for start in range(starts):
-                waypoints = Waypoints(C, actions, variants, self.rules)
+                waypoints = TaskWaypoints(C, actions, variants, self.rules)
                 solver = NLP_Solver(waypoints.komo.nlp(), verbose=0)
                 solver.setInitialization(waypoints.start(None if start == seed == 0 else rng))
                 result = solver.solve(0)
@@ -240,7 +240,7 @@ class _Task:
                 said = said or _cause(waypoints.komo, actions)
         return None, said or f"{_text(actions[-1:])}: the hand cannot hold it"
 
-    def _waypoints(self, actions: list[Action], seed: int) -> Waypoints | None:
+    def _waypoints(self, actions: list[Action], seed: int) -> TaskWaypoints | None:
         waypoints, _ = self._solve(self.C, actions, seed, _STARTS)
         return waypoints
 
@@ -300,7 +300,7 @@ class _Task:
     def _why(self, actions: list[Action], without: list[str]) -> str:
         return self._solve(self._scene(without), actions, 0, 1)[1]
 
-    def _motions(self, waypoints: Waypoints) -> TaskPlan | str:
+    def _motions(self, waypoints: TaskWaypoints) -> TaskPlan | str:
         """The motions between waypoints, checked; or why there is none."""
         paths, scenes = [], []
         for phase, action in enumerate(waypoints.actions):

@@ -15,7 +15,8 @@ namespace {
 Config walker() {
   Config config;
   config.addText(R"g(
-    base: { joint: free, X: "t(.1 .2 .9) d(40 1 2 3)", shape: ssBox, size: [.3 .2 .2 .01], mass: 5 }
+    world: {}
+    base (world): { joint: free, Q: "t(.1 .2 .9) d(40 1 2 3)", shape: ssBox, size: [.3 .2 .2 .01], mass: 5 }
     hip (base): { pre: "t(.1 .1 -.1) d(30 0 1 1)", joint: quatBall, shape: capsule, size: [.4 .05], mass: 2 }
     knee (hip): { pre: [0 0 -.4], joint: hingeY, shape: capsule, size: [.4 .04], mass: 1 }
     foot (knee): { pre: [0 0 -.3], joint: hingeY, mimic: knee, shape: box, size: [.2 .1 .05], mass: .4 }

@@ -50,7 +50,8 @@ def test_info_shows_what_moves_as_a_tree_with_limits(tmp_path):
     """)
     program = kinegraph("info", str(scene))
     assert program.returncode == 0, program.stderr
-    assert program.stdout.splitlines()[1:6] == [
+    assert program.stdout.splitlines()[1:7] == [
+        "collide: table plate",
         "world  (*table*)",
         "└── drive  transXY  q[0:2] = 0 in [-1, 1], 0 in [-2, 2]",
         "    ├── turn  hingeZ  q[2] = 0.5 in [-1, 2] at 3/s with 7  (turn)",

@@ -49,7 +49,6 @@ FOUND = {
     ],
     "simulation": [r"\(64, 7\) \(64, 1, 7\)"],
     "tasks": [r"^solved: 4 actions", r"\(place jug l_gripper tray\)", r"\(show cup l_gripper\)", "-- feasible"],
-    "viewer": [r"Viewer: http"],
 }
 
 

@@ -40,6 +40,17 @@ FOUND = {
         r"put down at \[.* 0\.68",
     ],
     "16_conveyor": [r"the boxes go at \[0\.3 0\.3 0\.3\]", r"heights of the boxes"],
+    "11_plan_motions": [
+        r"^solved: \d+ postures, length 1\.[23]\d+",
+        r"clearance: 10 mm",
+        r"impossible: there is no way: a ball of 150 mm inside of 'body' does not get past 'left', 'right'",
+    ],
+    "17_pick_and_place": [r"-- feasible: pick and place", r"-- feasible: sub_motion 1"],
+    "18_plan_a_task": [
+        r"^solved: 4 actions; checked",
+        r"proved impossible: 'far' is at least 3\.86 m beyond the reach",
+    ],
+    "19_own_action": [r"^solved: 2 actions; checked", r"\(show cup l_gripper\)"],
     "10_many_problems": [r"taken by r_gripper", r"6 of 6 feasible", r"\b10 postures"],
     "20_two_robots": [r"the blocks are 0\.1[34]\d m and 0\.1[34]\d m higher", r"the same again, to the bit: True"],
 }

@@ -104,6 +104,7 @@ def benchmark() -> ModuleType:
     return module
 
 
+@pytest.mark.filterwarnings("ignore:.*overlap and no joint moves them apart")
 def test_what_is_called_free_among_thin_walls_is_free() -> None:
     """A few of the problems of benchmarks/free_between_slices.py, from the straight line through the obstacles."""
     problems = benchmark()
@@ -161,9 +162,10 @@ def test_collisions_have_a_margin() -> None:
 def test_pairs_that_overlap_now_are_ignored_from_then_on() -> None:
     C = ry.Config()
     C.addText("""
-        base: { shape: sphere, size: [.1], contact: 1 }
+        world: {}
+        base (world): { shape: sphere, size: [.1], contact: 1 }
         a (base): { joint: transX, shape: sphere, size: [.1], contact: 1 }
-        wall (base): { Q: [.5 0 0], shape: box, size: [.1 1 1], contact: 1 }
+        wall (world): { Q: [.5 0 0], shape: box, size: [.1 1 1], contact: 1 }
     """)
     assert C.ignoreCollisionsNow() == [("base", "a", pytest.approx(-0.2))]
     assert C.ignoreCollisionsNow() == [] and C.isValid([[0.0]])[0]

@@ -18,7 +18,7 @@ SHARE = [
     if folder and (Path(folder) / "example-robot-data").is_dir()
 ]
 # included by others, and nothing on their own
-PARTS = {"pr2_modifications.g", "panda_hand.g", "panda_collision.g", "panda_tight_collision.g"}
+PARTS = {"pr2_modifications.g", "panda_hand.g", "panda_hand_masses.g", "panda_collision.g", "panda_tight_collision.g"}
 needs_robots = pytest.mark.skipif(not SHARE, reason="needs robots: pip install example-robot-data==6.0.0")
 
 

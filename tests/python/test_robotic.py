@@ -138,8 +138,6 @@ def test_options_of_earlier_years_are_those_of_today() -> None:
 @pytest.mark.parametrize(
     "use",
     [
-        "ry.LGP_Tool(None, None)",
-        "ry.Simulation.step",
         "ry.SRRT_PathFinder()",
         "ry.algo.box_filter([1])",
         "ry.DataGen.RndStableConfigs()",

@@ -149,6 +149,8 @@ def test_repeated_names_are_told_apart_in_a_dict(config: ry.Config) -> None:
 
 @pytest.mark.parametrize("name", ["s.g", "s.yml", "s.yaml", "s.urdf"])
 def test_write_takes_the_format_from_the_file_name(config: ry.Config, tmp_path, name: str) -> None:
+    config.getFrame("a").setShape(ry.ST.box, [1, 1, 1])  # URDF has no rounded boxes, and no joint state
+    config.setJointState([0.0])
     text = config.write(tmp_path / name)
     assert (tmp_path / name).read_text() == text
     again = ry.Config()

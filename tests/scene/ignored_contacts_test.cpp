@@ -7,9 +7,10 @@ namespace kinegraph {
 TEST(IgnoredContacts, ArePairsThatOverlapNowAndNoOthers) {
   Config scene;
   scene.addText(R"g(
-    base: { shape: sphere, size: [.1], contact: 1 }
+    world: {}
+    base (world): { shape: sphere, size: [.1], contact: 1 }
     a (base): { joint: transX, shape: sphere, size: [.1], contact: 1 }
-    wall (base): { Q: [.5 0 0], shape: box, size: [.1 1 1], contact: 1 }
+    wall (world): { Q: [.5 0 0], shape: box, size: [.1 1 1], contact: 1 }
   )g");
   const int base = scene.getFrame("base").id(), a = scene.getFrame("a").id();
   const std::vector<Config::NearPair> ignored = ignoreCollisionsNow(scene);

@@ -216,7 +216,7 @@ Raises:
 inline constexpr char attach[] = R"(Fixes a thing to another one in the simulated world, where it is.
 
 Args:
-    from: A frame, such as the gripper.
+    from_: A frame, such as the gripper.
     to: The thing.
 Raises:
     FrameNotFound: There is no such frame.
@@ -225,7 +225,7 @@ Raises:
 inline constexpr char detach[] = R"(Frees a thing in the simulated world.
 
 Args:
-    from: What it was fixed to.
+    from_: What it was fixed to.
     to: The thing.
 Raises:
     FrameNotFound: There is no such frame.

@@ -8,7 +8,7 @@ namespace {
 
 constexpr double kWorth = 1e-3;  // least gain, as a share of the length
 constexpr int kCornerRounds = 8;
-constexpr int kMostMisses = 30;  // random joints that gain nothing
+constexpr int kMostMisses = 60;  // random joints that gain nothing
 
 class Shortener {
  public:

@@ -52,7 +52,7 @@ bool isLoose(const FrameData& root, std::vector<std::string>& warnings) {
   if (all_weigh || root.inertia) return true;
   warnings.push_back(cat("Simulation: frame '", heavy, "' has a mass, but is fixed to '", root.name,
                          "' together with '", massless,
-                         "', which has none: it stays where it is. Give it a joint (JT.rigid) to let it fall"));
+                         "', which has none: it stays where it is. Give it a joint of type rigid to let it fall"));
   return false;
 }
 
