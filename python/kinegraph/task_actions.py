@@ -99,6 +99,16 @@ class TaskWaypoints:
     """The waypoint problem of a sequence of actions, in one variant of each: a slice per action."""
 
     def __init__(self, C: Config, actions: list[Action], variants: list[str], rules: dict[str, TaskRule]) -> None:
+        """Makes the problem; planTask does.
+
+        Args:
+            C: The scene.
+            actions: The words of each action.
+            variants: In which way each is done.
+            rules: What actions ask, by their first words.
+        Raises:
+            KeyError: An action has no rule.
+        """
         self.C, self.actions, self.variants = C, actions, variants
         self.m = KOMO_ManipulationHelper()
         self.m.setup_sequence(C, len(actions), 1e-2, 1e-2)
@@ -112,14 +122,30 @@ class TaskWaypoints:
         return self.m.komo
 
     def attach(self, time: float, hand: str, obj: str) -> None:
-        """From a time on the hand holds the object, in a pose that is found."""
+        """From a time on the hand holds the object, in a pose that is found.
+
+        Args:
+            time: In phases.
+            hand: The frame that holds.
+            obj: The object's frame.
+        Raises:
+            FrameNotFound: There is no such frame.
+        """
         name = f"grasp_{hand}_{obj}_{round(time)}"
         self.m.add_stable_frame(JT.free, hand, name)
         self.slots.add("grasp", name, 7)
         self._switch(time, name, obj)
 
     def put(self, time: float, obj: str, to: str) -> None:
-        """From a time on the object stands on a place, upright."""
+        """From a time on the object stands on a place, upright.
+
+        Args:
+            time: In phases.
+            obj: The object's frame.
+            to: The place's frame.
+        Raises:
+            FrameNotFound: There is no such frame.
+        """
         name = f"place_{to}_{obj}_{round(time)}"
         self.m.add_place_frame(to, obj, name)
         self.slots.add("place", name, 3)
@@ -139,7 +165,13 @@ class TaskWaypoints:
         self.held[obj] = frame
 
     def start(self, rng: np.random.Generator | None) -> np.ndarray:
-        """A starting point: hands near what they do, placements drawn from `rng`, or in the middle where there is none."""
+        """A starting point: hands near what they do.
+
+        Args:
+            rng: Draws placements and grasps; None: placements are in the middle.
+        Returns:
+            The variables of the problem, shape (n,).
+        """
         x = np.array(self.m.x)
         lower, upper = np.asarray(self.komo.nlp().getBounds())
         where: dict[str, np.ndarray] = {}
