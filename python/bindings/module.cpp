@@ -5,6 +5,7 @@
 #include "arguments.h"
 #include "bind_tasks.h"
 #include "bindings.h"
+#include "control.h"
 #include "docs/module.h"
 #include "kinegraph/gfile/parser.h"
 #include "nlp_objects.h"
@@ -47,6 +48,7 @@ NB_MODULE(_core, m) {
   bindSolveMany(m);
   bindIk(m);
   bindRetime(m);
+  bindDiffIk(m);
   bindPathFinder(m);
   bindPlan(m);
   bindRoadmap(m);

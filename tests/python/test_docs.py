@@ -42,6 +42,7 @@ FOUND = {
         r"the same to the bit: True",
     ],
     "scenes": [r"scene file 'scene.g' does not exist", r"similar names: sphere", r"\['home'\] \{'arm': \['j'\]\}"],
+    "control": [r"DiffIkStatus\.solved", r"'table' and"],
     "timing": [
         r"<TimedPath 4 points in \d\.\d+ s>",
         r"^\[ True  True\]",

@@ -152,7 +152,10 @@ void DiffIk::addIntervals(const VectorXd& q, double dt) {
   }
 }
 
-void DiffIk::addDampers(const State& state) {
+/// Where accelerations are limited, a pair comes no nearer than joints can brake with half of what they have; the other
+/// half is for other pairs, and for gradients that turn.
+void DiffIk::addDampers(const State& state, double dt) {
+  const bool must_brake = acceleration_limit_.allFinite();
   if (pairs_->pairs.empty()) return;
   bodies_->place(state);
   bodies_->forMaybeNear(options_.range, [&](int pair) {
@@ -164,7 +167,11 @@ void DiffIk::addDampers(const State& state) {
     addDistanceGradient(state, pairs_->frames[std::size_t(a)], pairs_->frames[std::size_t(b)], near, 1., row);
     const Eigen::Index at = Eigen::Index(meanings_.size());
     rows_.col(at) = gradient_row_.transpose();
-    bounds_[at] = -options_.collision_gain * (near.distance - options_.margin);
+    const double gap = near.distance - options_.margin;
+    double most = options_.collision_gain * gap;
+    const double deceleration = must_brake ? .5 * gradient_row_.cwiseAbs() * acceleration_limit_ : 0.;
+    if (gap > 0. && deceleration > 0.) most = std::min(most, brakingSpeed(gap, deceleration, dt) * dt);
+    bounds_[at] = -most;
     meanings_.push_back({Meaning::Kind::pair, pair, near.distance});
   });
 }
@@ -211,7 +218,7 @@ const VectorXd& DiffIk::step(double dt, bool apply) {
   meanings_.clear(), gave_way_.clear();
   addCosts(q_);
   addIntervals(q_, dt);
-  addDampers(state);
+  addDampers(state, dt);
   solve();
   velocity_ = change_ / dt;
   if (apply) config_.setJointState(q_ + change_);

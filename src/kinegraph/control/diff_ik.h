@@ -90,7 +90,7 @@ class DiffIk {
   void prepare();
   void addCosts(const VectorXd& q);
   void addIntervals(const VectorXd& q, double dt);
-  void addDampers(const State& state);
+  void addDampers(const State& state, double dt);
   void solve();
   std::string text(const Meaning& meaning) const;
 

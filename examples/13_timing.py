@@ -1,6 +1,6 @@
 """The fastest motion along a path, within limits of velocity, acceleration and jerk.
 
-    python examples/11_timing.py [PICTURE.svg]
+    python examples/13_timing.py [PICTURE.svg]
 
 With a file's name it draws how much of its limits each joint uses, against time.
 """

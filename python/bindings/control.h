@@ -1,0 +1,9 @@
+#pragma once
+
+#include <nanobind/nanobind.h>
+
+namespace kinegraph::python {
+
+void bindDiffIk(nanobind::module_& m);
+
+}  // namespace kinegraph::python
