@@ -15,7 +15,7 @@ const script = bundle.stdout.replaceAll("</script", "<\\/script");
 // The page loads nothing, runs no other script than its own, and talks to its own server only.
 const policy = [
   "default-src 'none'", `script-src 'sha256-${createHash("sha256").update(script).digest("base64")}'`,
-  "style-src 'unsafe-inline'", "img-src data: blob:", "media-src blob:", "connect-src 'self' data: blob:", "base-uri 'none'",
+  "style-src 'unsafe-inline'", "img-src data: blob:", "media-src blob: data:", "connect-src 'self' data: blob:", "base-uri 'none'",
   "form-action 'none'",
 ].join("; ");
 const page = readFileSync("src/index.html", "utf8")

@@ -177,7 +177,7 @@ def test_keys_do_things_while_a_file_is_watched(browser: Browser, start: Start, 
     browser.wait_for("kinegraph.message().includes('random joints')")
     browser.press("i")
     browser.wait_for("kinegraph.message().includes('joints: arm')")
-    browser.drag((320, 100), (380, 130))
+    browser.drag((320, 400), (380, 430))  # below the message
     browser.press("i")
     text = browser.wait_for("kinegraph.message().includes('camera_init') && kinegraph.message()")
     C = kg.Config()
