@@ -5,7 +5,7 @@ import numpy as np
 import kinegraph as ry
 
 
-def main():
+def main() -> None:
     C = ry.Config()
     C.addFile(ry.raiPath("scenarios/pandaSingle.g"))
     target = C.addFrame("target").setShape(ry.ST.marker, [0.2]).setPose(C.getFrame("l_gripper").getPose())
