@@ -135,7 +135,7 @@ def _posture(config: Config, words: list[str], option: str) -> Any:
     if len(words) == 1 and words[0] in config.getStateNames():
         return config.getNamedState(words[0])
     try:
-        return [float(word) for word in words]
+        return [float(number) for word in words for number in word.replace(",", " ").split()]
     except ValueError:
         known = ", ".join(config.getStateNames()) or "none"
         raise ArgumentError(
