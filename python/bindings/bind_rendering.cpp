@@ -7,6 +7,7 @@
 #include "arguments.h"
 #include "bindings.h"
 #include "defaults.h"
+#include "depth_noise.h"
 #include "docs/rendering.h"
 #include "images.h"
 #include "kinegraph/base/errors.h"
@@ -15,6 +16,21 @@
 #include "py_viewer.h"
 
 namespace kinegraph::python {
+
+DepthNoise depthNoise() {
+  const nb::object set = nb::module_::import_("kinegraph.compatibility.parameters").attr("params_get")();
+  DepthNoise noise;
+  const auto read = [&](double& value, const char* name) {
+    value = nb::cast<double>(set.attr("get")(cat("DepthNoise/", name).c_str(), value));
+  };
+  read(noise.baseline, "binocular_baseline");
+  read(noise.overall, "noise_all");
+  read(noise.wide, "noise_wide");
+  read(noise.local, "noise_local");
+  read(noise.pixel, "noise_pixel");
+  noise.validate();
+  return noise;
+}
 
 namespace {
 
@@ -34,21 +50,6 @@ struct PyCameraView {
 
 SceneTree& sceneOf(const PyCameraView& view, nb::handle config) {
   return *nb::cast<PyConfig&>(config.is_none() ? nb::handle(view.config) : config).scene();
-}
-
-DepthNoise depthNoise() {
-  const nb::object set = nb::module_::import_("kinegraph.compatibility.parameters").attr("params_get")();
-  DepthNoise noise;
-  const auto read = [&](double& value, const char* name) {
-    value = nb::cast<double>(set.attr("get")(cat("DepthNoise/", name).c_str(), value));
-  };
-  read(noise.baseline, "binocular_baseline");
-  read(noise.overall, "noise_all");
-  read(noise.wide, "noise_wide");
-  read(noise.local, "noise_local");
-  read(noise.pixel, "noise_pixel");
-  noise.validate();
-  return noise;
 }
 
 nb::typed<nb::tuple, ByteArray, FloatArray> computeImageAndDepth(PyCameraView& view, nb::handle config, bool noisy,

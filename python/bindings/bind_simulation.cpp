@@ -4,6 +4,7 @@
 
 #include "arguments.h"
 #include "bindings.h"
+#include "depth_noise.h"
 #include "docs/simulation.h"
 #include "images.h"
 #include "kinegraph/base/errors.h"
@@ -222,21 +223,6 @@ void bindGrippers(nb::class_<PySimulation>& simulation) {
           "detach",
           [](S& s, const FrameArgument& a, const FrameArgument& b) { s.simulation.detach(name(s, a), name(s, b)); },
           "frm"_a, "to"_a, docs::simulation::detach);
-}
-
-DepthNoise depthNoise() {
-  const nb::object set = nb::module_::import_("kinegraph.compatibility.parameters").attr("params_get")();
-  DepthNoise noise;
-  const auto read = [&](double& value, const char* name) {
-    value = nb::cast<double>(set.attr("get")(cat("DepthNoise/", name).c_str(), value));
-  };
-  read(noise.baseline, "binocular_baseline");
-  read(noise.overall, "noise_all");
-  read(noise.wide, "noise_wide");
-  read(noise.local, "noise_local");
-  read(noise.pixel, "noise_pixel");
-  noise.validate();
-  return noise;
 }
 
 nb::typed<nb::tuple, ByteArray, FloatArray> getImageAndDepth(PySimulation& s) {

@@ -111,7 +111,7 @@ def test_ctrl_c_holds_the_robot_then_raises(panda: ry.Config, realtime: bool) ->
         while True:
             bot.wait(panda)
             bot.moveTo(q + 0.1)
-    assert time.perf_counter() - interrupt.time < 0.5  # 20 ms where nothing else runs
+    assert time.perf_counter() - interrupt.time < 0.5
     assert bot.getMode() == ry.LoopMode.hold
     log = bot.getLog().text().splitlines()
     assert " hold " in log[-2]  # the last thing that the robot was told
