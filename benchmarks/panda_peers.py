@@ -69,8 +69,8 @@ def offset(scene, link, position):
     return [p - b for p, b in zip(position, base)]
 
 
-def pinocchioQuestions(scene):
-    """Pinocchio, with coal for the shapes."""
+def pinocchioModels(scene):
+    """Joints, number of the tip's frame, and shapes with their pairs."""
     import coal
     import numpy as np
     import pinocchio as pin
@@ -97,6 +97,15 @@ def pinocchioQuestions(scene):
         )
     for a, b in scene["pairs"]:
         geometry.addCollisionPair(pin.CollisionPair(ids[a], ids[b]))
+    return model, tip, geometry
+
+
+def pinocchioQuestions(scene):
+    """Pinocchio, with coal for the shapes."""
+    import numpy as np
+    import pinocchio as pin
+
+    model, tip, geometry = pinocchioModels(scene)
     data, geometry_data = model.createData(), geometry.createData()
     world, limits = pin.ReferenceFrame.LOCAL_WORLD_ALIGNED, np.array(scene["limits"])
 

@@ -4,12 +4,14 @@
 
 Each family is a generator of scenes with a seed; positions are drawn so that a plan exists by construction, or none does.
 The hand is a gantry: a frame with three sliding joints, whose limits are its reach. Printed: how many seeds end as
-expected, processor time, and what the independent checker found wrong in plans that were called solved.
+expected (for what is impossible: with the right cause), processor time, and what the independent checker found wrong in
+plans that were called solved.
 """
 
 from __future__ import annotations
 
 import argparse
+import re
 import statistics
 import time
 from collections.abc import Callable
@@ -30,6 +32,7 @@ class Problem:
     goal: str
     expect: str  # a status
     least: int = 0  # actions of the shortest plan
+    why: str = ""  # a pattern that the message of a failure has
 
 
 def _scene() -> ry.Config:
@@ -45,15 +48,42 @@ def _hand(C: ry.Config, name: str, low: list[float], high: list[float]) -> None:
     hand.setJoint(ry.JT.trans3, [*low, *high]).setJointState([0.5 * (a + b) for a, b in zip(low, high, strict=True)])
 
 
+def _fingers(C: ry.Config, name: str, palm: list[float], wrist: float = 0.0) -> None:
+    """A hand with fingers that open 9 cm, and a palm above them; with a wrist that turns about x, to both sides."""
+    carriage = C.addFrame(f"{name}carriage", "base").setJoint(ry.JT.trans3, [-0.9, -0.9, 0.0, 0.9, 0.9, 1.0])
+    carriage.setJointState([0.0, 0.0, 0.5])
+    hand = C.addFrame(f"{name}gripper", f"{name}carriage").setShape(ry.ST.marker, [0.03])
+    hand.setAttributes({"logical": {"is_gripper": True}, "opening": 0.09})
+    if wrist > 0:
+        hand.setJoint(ry.JT.hingeX, [-wrist, wrist]).setJointState([0.0])
+    above = C.addFrame(f"{name}palm", f"{name}gripper").setRelativePosition([0, 0, 0.06 + 0.5 * palm[2]])
+    above.setShape(ry.ST.ssBox, [*palm, 0.004]).setContact(1)
+
+
+def _wall(C: ry.Config, name: str, at: list[float], size: list[float]) -> None:
+    C.addFrame(name, "base").setRelativePosition(at).setShape(ry.ST.ssBox, [*size, 0.004]).setContact(1)
+
+
 def _box(C: ry.Config, name: str, parent: str, at: list[float], size: list[float], is_place: bool = False) -> None:
     words = {"is_object": True, **({"is_place": True} if is_place else {})}
     box = C.addFrame(name, parent).setRelativePosition(at).setJoint(ry.JT.rigid)
-    box.setShape(ry.ST.ssBox, [*size, 0.004]).setContact(1).setAttributes({"logical": words})
+    box.setShape(ry.ST.ssBox, [*size, 0.004]).setColor([1.0, 0.6, 0.2]).setContact(1).setAttributes({"logical": words})
 
 
 def _pad(C: ry.Config, name: str, at: list[float], size: list[float]) -> None:
-    pad = C.addFrame(name, "base").setRelativePosition([*at, 0.005]).setShape(ry.ST.ssBox, [*size, 0.01, 0.004])
+    pad = (
+        C.addFrame(name, "base")
+        .setRelativePosition([*at, 0.005])
+        .setShape(ry.ST.ssBox, [*size, 0.01, 0.004])
+        .setColor([0.3, 0.6, 0.3])
+    )
     pad.setContact(0).setAttributes({"logical": {"is_place": True}, "simulate": False})
+
+
+def _flush(C: ry.Config, name: str, at: list[float], size: list[float]) -> None:
+    """A zone of the table, at its height."""
+    zone = C.addFrame(name, "base").setRelativePosition([*at, -0.005]).setShape(ry.ST.ssBox, [*size, 0.01, 0.004])
+    zone.setColor([0.3, 0.6, 0.3]).setContact(0).setAttributes({"logical": {"is_place": True}, "simulate": False})
 
 
 def _reach(C: ry.Config) -> None:
@@ -117,13 +147,57 @@ def crowded(seed: int) -> Problem:
     return Problem(C, "(on goal obj)", "solved", 4)
 
 
+def turn(seed: int) -> Problem:
+    """A box is to stand upside down; the palm is too wide for the table's height to turn that far in one grasp."""
+    C, rng = _scene(), np.random.default_rng(seed)
+    _fingers(C, "g_", [0.1, 0.2, 0.04], wrist=1.66)
+    _box(C, "obj", "table", [*rng.uniform(-0.5, 0.5, 2).tolist(), 0.11], [0.07, 0.08, 0.12])
+    return Problem(C, "(up zNeg obj)", "solved", 4)
+
+
+def slot(seed: int) -> Problem:
+    """A box goes into a shelf whose roof leaves no room for the hand above it: it has to be held from the side."""
+    C, rng = _scene(), np.random.default_rng(seed)
+    _fingers(C, "g_", [0.08, 0.08, 0.04], wrist=1.66)
+    x = float(rng.uniform(-0.4, 0.4))
+    _pad(C, "shelf", [x, 0.6], [0.2, 0.2])
+    _wall(C, "roof", [x, 0.63, 0.22], [0.3, 0.26, 0.02])
+    _wall(C, "back", [x, 0.77, 0.12], [0.3, 0.02, 0.2])
+    _box(C, "obj", "table", [float(rng.uniform(-0.5, 0.5)), float(rng.uniform(-0.6, 0.0)), 0.125], [0.07, 0.07, 0.15])
+    return Problem(C, "(on shelf obj)", "solved", 2)
+
+
+def carry(seed: int, k: int = 3) -> Problem:
+    """Cups on a tray that one hand reaches and pads that another one reaches: the tray is carried to the middle."""
+    C, rng = _scene(), np.random.default_rng(seed)
+    _hand(C, "left", [-0.9, -0.9, 0.0], [0.15, 0.9, 1.0])
+    _hand(C, "right", [-0.15, -0.9, 0.0], [0.9, 0.9, 1.0])
+    _box(C, "tray", "table", [-0.65, float(rng.uniform(-0.3, 0.3)), 0.06], [0.3, 0.3, 0.02], is_place=True)
+    C.getFrame("tray").setAttributes({"logical": {"is_object": True, "is_place": True, "is_carrier": True}})
+    for i, at in enumerate([[-0.08, -0.08], [0.08, -0.08], [0.0, 0.08]][:k]):
+        _box(C, f"cup{i}", "tray", [*at, 0.06], [0.06, 0.06, 0.1])
+        _pad(C, f"pad{i}", [0.65, -0.4 + 0.4 * i], [0.12, 0.12])
+    return Problem(C, " ".join(f"(on pad{i} cup{i})" for i in range(k)), "solved", 2 + 2 * k)
+
+
+def push(seed: int) -> Problem:
+    """A box that is too wide for the hand is pushed to a zone."""
+    C, rng = _scene(), np.random.default_rng(seed)
+    _fingers(C, "g_", [0.06, 0.06, 0.04])
+    x, y = rng.uniform(-0.4, 0.0, 2).tolist()
+    _box(C, "obj", "table", [x, y, 0.1], [0.15, 0.15, 0.1])
+    C.getFrame("obj").setAttributes({"logical": {"is_object": True, "is_pushable": True}})
+    _flush(C, "zone", [0.5, float(rng.uniform(-0.3, 0.3))], [0.3, 0.3])
+    return Problem(C, "(on zone obj)", "solved", 2)
+
+
 def far(seed: int) -> Problem:
     """No plan: the goal is out of reach."""
     C, rng = _scene(), np.random.default_rng(seed)
     _reach(C)
     _pad(C, "goal", [float(rng.uniform(1.5, 1.8)), 0.0], [0.14, 0.14])
     _box(C, "obj", "table", [-0.2, 0.4, 0.1], [0.08, 0.08, 0.1])
-    return Problem(C, "(on goal obj)", "proved impossible")
+    return Problem(C, "(on goal obj)", "proved impossible", why="'goal' is at least .* beyond the reach of 'hand'")
 
 
 def small(seed: int) -> Problem:
@@ -133,7 +207,7 @@ def small(seed: int) -> Problem:
     _pad(C, "goal", [0.4, 0.3], [0.06, 0.06])
     for name, at in zip("ab", _spots(rng, 2, [-0.8, -0.5], [0.1, 0.5], 0.25), strict=True):
         _box(C, name, "table", [*at, 0.1], [0.1, 0.1, 0.1])
-    return Problem(C, "(on goal a) (on goal b)", "proved impossible")
+    return Problem(C, "(on goal a) (on goal b)", "proved impossible", why="'a' and 'b' do not fit on 'goal' together")
 
 
 def contradiction(seed: int) -> Problem:
@@ -143,7 +217,47 @@ def contradiction(seed: int) -> Problem:
     _pad(C, "p", [0.4, 0.3], [0.14, 0.14])
     _pad(C, "q", [-0.4, 0.3], [0.14, 0.14])
     _box(C, "a", "table", [*rng.uniform(-0.3, 0.0, 2).tolist(), 0.1], [0.1, 0.1, 0.1])
-    return Problem(C, "(on p a) (on q a)", "proved impossible")
+    return Problem(C, "(on p a) (on q a)", "proved impossible", why="no sequence of actions reaches")
+
+
+def wide(seed: int) -> Problem:
+    """No plan: a box is wider than the hand opens."""
+    C, rng = _scene(), np.random.default_rng(seed)
+    _fingers(C, "g_", [0.08, 0.08, 0.04])
+    _pad(C, "goal", [0.4, 0.3], [0.2, 0.2])
+    _box(C, "obj", "table", [*rng.uniform(-0.5, 0.1, 2).tolist(), 0.1], [0.12, 0.13, 0.1])
+    return Problem(C, "(on goal obj)", "proved impossible", why="'obj' is wider than 'g_gripper' opens")
+
+
+def walled(seed: int) -> Problem:
+    """No plan: the object is walled in."""
+    C, rng = _scene(), np.random.default_rng(seed)
+    _fingers(C, "g_", [0.08, 0.08, 0.04])
+    x, y = rng.uniform(-0.5, 0.1, 2).tolist()
+    _box(C, "obj", "table", [x, y, 0.1], [0.07, 0.07, 0.1])
+    for name, at, size in (
+        ("wall0", [-0.08, 0, 0.075], [0.02, 0.18, 0.15]),
+        ("wall1", [0.08, 0, 0.075], [0.02, 0.18, 0.15]),
+        ("wall2", [0, -0.08, 0.075], [0.18, 0.02, 0.15]),
+        ("wall3", [0, 0.08, 0.075], [0.18, 0.02, 0.15]),
+        ("wall_lid", [0, 0, 0.16], [0.18, 0.18, 0.02]),
+    ):
+        _wall(C, name, [x + at[0], y + at[1], at[2]], size)
+    _pad(C, "goal", [0.5, 0.3], [0.2, 0.2])
+    return Problem(C, "(on goal obj)", "not found", why="wall")
+
+
+def nowhere(seed: int) -> Problem:
+    """No plan: a box is to stand upside down, and there is no room to lay it on its side."""
+    C, rng = _scene(), np.random.default_rng(seed)
+    C.getFrame("table").setAttributes({"logical": {}})
+    _fingers(C, "g_", [0.1, 0.2, 0.04], wrist=1.66)
+    x, y = rng.uniform(-0.4, 0.4, 2).tolist()
+    _pad(C, "well", [x, y], [0.1, 0.1])
+    for k, (dx, dy) in enumerate(((-0.06, 0.0), (0.06, 0.0), (0.0, -0.06), (0.0, 0.06))):
+        _wall(C, f"rim{k}", [x + dx, y + dy, 0.03], [0.02, 0.14, 0.04] if dx else [0.14, 0.02, 0.04])
+    _box(C, "obj", "well", [0.0, 0.0, 0.075], [0.07, 0.08, 0.14])
+    return Problem(C, "(up zNeg obj)", "not found", why="lay obj")
 
 
 FAMILIES: dict[str, Callable[[int], Problem]] = {
@@ -151,9 +265,16 @@ FAMILIES: dict[str, Callable[[int], Problem]] = {
     "sort": sort,
     "handover": handover,
     "crowded": crowded,
+    "turn": turn,
+    "slot": slot,
+    "carry": carry,
+    "push": push,
     "far": far,
     "small": small,
     "contradiction": contradiction,
+    "wide": wide,
+    "walled": walled,
+    "nowhere": nowhere,
 }
 
 
@@ -172,7 +293,7 @@ def main() -> None:
             plan = ry.planTask(problem.C, problem.goal, evaluations=options.evaluations, seed=seed)
             seconds.append(time.process_time() - began)
             evaluations.append(plan.evaluations)
-            right += plan.status == problem.expect
+            right += plan.status == problem.expect and bool(re.search(problem.why, plan.message))
             wrong += bool(plan.feasible and ry.checkTaskPlan(problem.C, plan))
         print(
             f"{name:14} {right:4} of {options.seeds:<4} {wrong:5} {statistics.median(seconds):10.2f} {max(seconds):8.2f}"

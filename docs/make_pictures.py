@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
-"""Makes the pictures of the documentation: of the viewer's page in a headless Chromium, and by CameraView's renderer.
+"""Makes the pictures of the documentation: of the viewer's page in a headless Chromium, and by CameraView's renderer; and
+films of tasks.
 
 Needs the package, `websockets` and EGL.
 """
@@ -8,6 +9,7 @@ import base64
 import sys
 import time
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 
@@ -61,8 +63,37 @@ def gripperAxes() -> None:
     viewer.savePng(str(HERE / "gripper_axes.png"))
 
 
+def taskFilm(name: str, C: ry.Config, goal: str, view: list[float], at: list[float]) -> None:
+    """What planTask found for a goal, as a film."""
+    plan = ry.planTask(C, goal)
+    assert plan.feasible, plan
+    viewer = C.viewer()
+    C.view(offscreen=True)
+    viewer.visualsOnly()
+    viewer.setWindow(name, 480, 360)
+    viewer.setCamera(view, at)
+    ry.saveFilm(HERE / f"task_{name}.mp4", C, plan.frames(C), plan.duration, rate=15.0)
+
+
+def taskFilms() -> None:
+    """Of the families of the benchmarks: a tower, two trays, a box that is turned over, cups that are carried."""
+    sys.path.append(str(HERE.parent / "benchmarks"))
+    import panda_tasks
+    import tasks
+
+    taskFilm("tower", *_scene(panda_tasks.tower(0, 4)), [1.1, 1.3, 1.5], [0.0, 0.2, 0.75])
+    taskFilm("sort", *_scene(panda_tasks.sort(0, 4)), [0.9, 1.5, 1.6], [0.0, 0.2, 0.7])
+    taskFilm("turn", *_scene(tasks.turn(0)), [1.2, -1.4, 1.5], [0.0, 0.0, 0.7])
+    taskFilm("carry", *_scene(tasks.carry(0)), [0.3, -1.7, 1.9], [0.0, 0.0, 0.6])
+
+
+def _scene(problem: Any) -> tuple[ry.Config, str]:
+    return problem.C, problem.goal
+
+
 def main() -> None:
     gripperAxes()
+    taskFilms()
     C = reaching()
     viewer = C.viewer()
     C.view()

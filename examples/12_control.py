@@ -25,7 +25,6 @@ def main() -> None:
     for _ in range(600):
         ik.step(0.005)
     print("held back by:", *ik.active, sep="\n    ")
-    C.computeCollisions()
     print(f"overlap: {C.coll_totalViolation():.4f} m")
 
 

@@ -56,8 +56,8 @@ BELOW: dict[str, list[str]] = {
     "formats": ["base", "math", "gfile", "geometry", "kinematics", "formats/reading", "scene"],
     "compatibility": ["base", "math", "gfile", "geometry", "kinematics", "scene"],
     "features": ["base", "math", "geometry", "kinematics", "scene"],
-    "ik": ["base", "math", "geometry", "kinematics", "scene"],
-    "control": ["base", "math", "geometry", "kinematics", "scene", "features"],
+    "ik": ["base", "math", "geometry", "kinematics", "scene", "features"],
+    "control": ["base", "math", "geometry", "kinematics", "scene", "features", "nlp", "komo", "solvers"],
     "komo": ["base", "math", "geometry", "kinematics", "scene", "features", "nlp"],
     "planning": ["base", "math", "geometry", "kinematics", "scene", "features", "nlp", "komo", "solvers"],
     "motion": [

@@ -12,15 +12,19 @@ if (bundle.status !== 0) {
   process.exit(1);
 }
 const script = bundle.stdout.replaceAll("</script", "<\\/script");
+// Small pages in notebooks have the script packed, and this one in its place.
+const unpack = readFileSync("src/unpack.js", "utf8").trim();
+const allowed = [script, unpack].map((text) => `'sha256-${createHash("sha256").update(text).digest("base64")}'`).join(" ");
 // The page loads nothing, runs no other script than its own, and talks to its own server only.
 const policy = [
-  "default-src 'none'", `script-src 'sha256-${createHash("sha256").update(script).digest("base64")}'`,
+  "default-src 'none'", `script-src ${allowed}`,
   "style-src 'unsafe-inline'", "img-src data: blob:", "media-src blob: data:", "connect-src 'self' data: blob:", "base-uri 'none'",
   "form-action 'none'",
 ].join("; ");
 const page = readFileSync("src/index.html", "utf8")
   .replace("<!-- POLICY -->", () => `<meta http-equiv="Content-Security-Policy" content="${policy}">`)
   .replace("/* STYLE */", () => readFileSync("src/style.css", "utf8"))
+  .replace("/* UNPACK */", () => unpack)
   .replace("/* SCRIPT */", () => script);
 writeFileSync("dist/index.html", page);
 console.log(`dist/index.html: ${Math.round(page.length / 1000)} kB`);

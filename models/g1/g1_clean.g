@@ -1,13 +1,14 @@
-# The Unitree G1 humanoid as g1_29dof_conv.g has it, with the masses of hollow shells and another order of q: frames are
-# listed by how many joints they are away from the pelvis.
+# The Unitree G1 humanoid as g1_29dof_conv.g has it, with another order of q: frames are listed by how many joints they are
+# away from the pelvis.
 #
 # Shapes are rounded convex hulls of our own, for the eye only (contact 0): `core` lists the corners of cross
 # sections from one end of a link to the other.
 # A viewer shows `visual_mesh` instead when the Python package example-robot-data is installed.
 
 pelvis: {
-  mass: .793878, com: [.000297452 1.17304e-5 -.0760703],
-  inertia: [.00280151 -1.42902e-7 -1.26125e-6 .00275155 -1.1233e-7 .00255542], shape: ssCvx, size: [.01],
+  mass: 3.814, com: [0 0 -.0760301],
+  inertia: [.0105549 0 2.1e-6 .00931478 0 .0079185],
+  shape: ssCvx, size: [.01],
   color: [.2 .2 .2 1],
   core: [
     -.036 -.054 -.137, -.036 .054 -.137, .036 .054 -.137, .036 -.054 -.137,
@@ -19,8 +20,9 @@ pelvis: {
 left_hip_pitch_joint_origin (pelvis): { Q: [0 .064452 -.1027] }
 right_hip_pitch_joint_origin (pelvis): { Q: [0 -.064452 -.1027] }
 waist_yaw_joint (pelvis): {
-  joint: hingeZ, limits: [-2.618 2.618], ctrl_limits: [32 88 -1], mass: .168083,
-  inertia: [8.83938e-5 0 -9.9721e-6 .000103081 0 .000150067],
+  joint: hingeZ, limits: [-2.618 2.618], ctrl_limits: [32 88 -1],
+  mass: .244, com: [.003964 0 .018769],
+  inertia: [9.9587e-5 -1.833e-6 -1.2617e-5 .00012411 -1.18e-7 .00015586],
   shape: ssCvx, size: [.01], color: [.7 .7 .7 1],
   core: [
     -.027 -.032 .01, -.027 -.032 .036, .029 -.032 .036, .029 -.032 .01,
@@ -38,8 +40,10 @@ pelvis_contour_link_0 (pelvis): {
   visual_mesh: <package://example-robot-data/robots/g1_description/meshes/pelvis_contour_link.STL>
 }
 left_hip_pitch_joint (left_hip_pitch_joint_origin): {
-  joint: hingeY, limits: [-2.5307 2.8798], ctrl_limits: [32 88 -1], mass: .264573,
-  inertia: [.000474721 4.31311e-6 5.93997e-6 .000392354 4.96908e-5 .000375138], shape: ssCvx, size: [.01],
+  joint: hingeY, limits: [-2.5307 2.8798], ctrl_limits: [32 88 -1],
+  mass: 1.35, com: [.002741 .047791 -.02606],
+  inertia: [.001811 3.68e-5 -3.44e-5 .0014193 .000171 .0012812],
+  shape: ssCvx, size: [.01],
   color: [.2 .2 .2 1],
   core: [
     -.023 .015 -.07, -.023 .086 -.07, .03 .086 -.07, .03 .015 -.07,
@@ -49,8 +53,10 @@ left_hip_pitch_joint (left_hip_pitch_joint_origin): {
   visual_mesh: <package://example-robot-data/robots/g1_description/meshes/left_hip_pitch_link.STL>
 }
 right_hip_pitch_joint (right_hip_pitch_joint_origin): {
-  joint: hingeY, limits: [-2.5307 2.8798], ctrl_limits: [32 88 -1], mass: .264569,
-  inertia: [.000474711 -4.31398e-6 5.94077e-6 .000392343 -4.96889e-5 .000375138], shape: ssCvx, size: [.01],
+  joint: hingeY, limits: [-2.5307 2.8798], ctrl_limits: [32 88 -1],
+  mass: 1.35, com: [.002741 -.047791 -.02606],
+  inertia: [.001811 -3.68e-5 -3.44e-5 .0014193 -.000171 .0012812],
+  shape: ssCvx, size: [.01],
   color: [.2 .2 .2 1],
   core: [
     -.023 -.086 -.07, -.023 -.015 -.07, .03 -.015 -.07, .03 -.086 -.07,
@@ -63,8 +69,9 @@ waist_roll_joint_origin (waist_yaw_joint): { Q: [-.0039635 0 .035] }
 left_hip_roll_joint_origin (left_hip_pitch_joint): { Q: [0 .052 -.030465 .996178686 0 -.08733857 0] }
 right_hip_roll_joint_origin (right_hip_pitch_joint): { Q: [0 -.052 -.030465 .996178686 0 -.08733857 0] }
 waist_roll_joint (waist_roll_joint_origin): {
-  joint: hingeX, limits: [-.52 .52], ctrl_limits: [30 35 -1], mass: .0221562,
-  inertia: [4.0451e-6 3.67093e-6 2.32541e-6],
+  joint: hingeX, limits: [-.52 .52], ctrl_limits: [30 35 -1],
+  mass: .047, com: [0 -.000236 .010111],
+  inertia: [7.515e-6 0 0 6.398e-6 9.9e-8 3.988e-6],
   shape: ssCvx, size: [.005], color: [.7 .7 .7 1],
   core: [
     -.005 -.006 -.005, -.005 .006 -.005, .005 .006 -.005, .005 -.006 -.005,
@@ -72,8 +79,10 @@ waist_roll_joint (waist_roll_joint_origin): {
   ]
 }
 left_hip_roll_joint (left_hip_roll_joint_origin): {
-  joint: hingeX, limits: [-.5236 2.9671], ctrl_limits: [20 139 -1], mass: .388504,
-  inertia: [.00122176 -2.52983e-6 -.000212212 .00118448 -1.72307e-6 .00069136], shape: ssCvx, size: [.01],
+  joint: hingeX, limits: [-.5236 2.9671], ctrl_limits: [20 139 -1],
+  mass: 1.52, com: [.029812 -.001045 -.087934],
+  inertia: [.0023773 -3.8e-6 -.0003908 .0024123 1.84e-5 .0016595],
+  shape: ssCvx, size: [.01],
   color: [.7 .7 .7 1],
   core: [
     -.016 -.037 -.114, -.016 .037 -.114, .07 .037 -.114, .07 -.037 -.114,
@@ -83,8 +92,10 @@ left_hip_roll_joint (left_hip_roll_joint_origin): {
   visual_mesh: <package://example-robot-data/robots/g1_description/meshes/left_hip_roll_link.STL>
 }
 right_hip_roll_joint (right_hip_roll_joint_origin): {
-  joint: hingeX, limits: [-2.9671 .5236], ctrl_limits: [20 139 -1], mass: .388501,
-  inertia: [.00122175 2.52204e-6 -.000212212 .00118447 1.73174e-6 .000691349], shape: ssCvx, size: [.01],
+  joint: hingeX, limits: [-2.9671 .5236], ctrl_limits: [20 139 -1],
+  mass: 1.52, com: [.029812 .001045 -.087934],
+  inertia: [.0023773 3.8e-6 -.0003908 .0024123 -1.84e-5 .0016595],
+  shape: ssCvx, size: [.01],
   color: [.7 .7 .7 1],
   core: [
     -.016 -.037 -.114, -.016 .037 -.114, .07 .037 -.114, .07 -.037 -.114,
@@ -97,8 +108,10 @@ waist_pitch_joint_origin (waist_roll_joint): { Q: [0 0 .019] }
 left_hip_yaw_joint_origin (left_hip_roll_joint): { Q: [.025001 0 -.12412] }
 right_hip_yaw_joint_origin (right_hip_roll_joint): { Q: [.025001 0 -.12412] }
 waist_pitch_joint (waist_pitch_joint_origin): {
-  joint: hingeY, limits: [-.52 .52], ctrl_limits: [30 35 -1], mass: 4.46637, com: [.00435575 .00507317 .15113],
-  inertia: [.0736175 -4.25291e-6 -.0008917 .0665665 .000409521 .0246276], shape: ssCvx, size: [.01],
+  joint: hingeY, limits: [-.52 .52], ctrl_limits: [30 35 -1],
+  mass: 9.6, com: [.00331672 .000261479 .179808],
+  inertia: [.12406 -8.877e-5 -.00329001 .112061 7.36516e-5 .0326569],
+  shape: ssCvx, size: [.01],
   color: [.7 .7 .7 1],
   core: [
     -.047 -.075 0, -.047 .074 0, .057 .074 0, .057 -.075 0,
@@ -108,8 +121,10 @@ waist_pitch_joint (waist_pitch_joint_origin): {
   ]
 }
 left_hip_yaw_joint (left_hip_yaw_joint_origin): {
-  joint: hingeZ, limits: [-2.7576 2.7576], ctrl_limits: [32 88 -1], mass: .681619,
-  inertia: [.0044275 -.000108056 -.00166275 .00545319 -.000187376 .001876], shape: ssCvx, size: [.01],
+  joint: hingeZ, limits: [-2.7576 2.7576], ctrl_limits: [32 88 -1],
+  mass: 1.702, com: [-.057709 -.010981 -.15078],
+  inertia: [.0057774 -.0005411 -.0023948 .0076124 -.0007072 .003149],
+  shape: ssCvx, size: [.01],
   color: [.7 .7 .7 1],
   core: [
     -.116 -.035 -.216, -.116 .019 -.216, -.033 .019 -.216, -.033 -.035 -.216,
@@ -120,8 +135,10 @@ left_hip_yaw_joint (left_hip_yaw_joint_origin): {
   visual_mesh: <package://example-robot-data/robots/g1_description/meshes/left_hip_yaw_link.STL>
 }
 right_hip_yaw_joint (right_hip_yaw_joint_origin): {
-  joint: hingeZ, limits: [-2.7576 2.7576], ctrl_limits: [32 88 -1], mass: .681613,
-  inertia: [.00442747 .000108056 -.00166275 .00545319 .000187351 .00187597], shape: ssCvx, size: [.01],
+  joint: hingeZ, limits: [-2.7576 2.7576], ctrl_limits: [32 88 -1],
+  mass: 1.702, com: [-.057709 .010981 -.15078],
+  inertia: [.0057774 .0005411 -.0023948 .0076124 .0007072 .003149],
+  shape: ssCvx, size: [.01],
   color: [.7 .7 .7 1],
   core: [
     -.116 -.019 -.216, -.116 .035 -.216, -.033 .035 -.216, -.033 -.019 -.216,
@@ -167,8 +184,10 @@ waist_support_link_0 (waist_pitch_joint): {
 left_knee_joint_origin (left_hip_yaw_joint): { Q: [-.078273 .0021489 -.17734 .996178686 0 .08733857 0] }
 right_knee_joint_origin (right_hip_yaw_joint): { Q: [-.078273 -.0021489 -.17734 .996178686 0 .08733857 0] }
 left_shoulder_pitch_joint (left_shoulder_pitch_joint_origin): {
-  joint: hingeY, limits: [-3.0892 2.6704], ctrl_limits: [37 25 -1], mass: .126023,
-  inertia: [.000160485 -1.66228e-7 3.91865e-7 .000151496 1.75614e-5 .000138798], shape: ssCvx, size: [.01],
+  joint: hingeY, limits: [-3.0892 2.6704], ctrl_limits: [37 25 -1],
+  mass: .718, com: [0 .035892 -.011628],
+  inertia: [.0004291 -9.2e-6 6.4e-6 .000453 2.26e-5 .000423],
+  shape: ssCvx, size: [.01],
   color: [.7 .7 .7 1],
   core: [
     -.021 .01 -.04, -.021 .062 -.04, .021 .062 -.04, .021 .01 -.04,
@@ -178,8 +197,10 @@ left_shoulder_pitch_joint (left_shoulder_pitch_joint_origin): {
   visual_mesh: <package://example-robot-data/robots/g1_description/meshes/left_shoulder_pitch_link.STL>
 }
 right_shoulder_pitch_joint (right_shoulder_pitch_joint_origin): {
-  joint: hingeY, limits: [-3.0892 2.6704], ctrl_limits: [37 25 -1], mass: .126023,
-  inertia: [.000160483 1.65124e-7 3.90512e-7 .000151492 -1.75623e-5 .000138793], shape: ssCvx, size: [.01],
+  joint: hingeY, limits: [-3.0892 2.6704], ctrl_limits: [37 25 -1],
+  mass: .718, com: [0 -.035892 -.011628],
+  inertia: [.0004291 9.2e-6 6.4e-6 .000453 -2.26e-5 .000423],
+  shape: ssCvx, size: [.01],
   color: [.7 .7 .7 1],
   core: [
     -.021 -.062 -.04, -.021 -.01 -.04, .021 -.01 -.04, .021 -.062 -.04,
@@ -189,8 +210,10 @@ right_shoulder_pitch_joint (right_shoulder_pitch_joint_origin): {
   visual_mesh: <package://example-robot-data/robots/g1_description/meshes/right_shoulder_pitch_link.STL>
 }
 left_knee_joint (left_knee_joint_origin): {
-  joint: hingeY, limits: [-.087267 2.8798], ctrl_limits: [20 139 -1], mass: .876712,
-  inertia: [.00648182 3.3975e-5 -.000127209 .00672925 -.000358869 .00109586], shape: ssCvx, size: [.01],
+  joint: hingeY, limits: [-.087267 2.8798], ctrl_limits: [20 139 -1],
+  mass: 1.932, com: [.005457 .003964 -.12074],
+  inertia: [.011329 4.82e-5 -4.49e-5 .011277 -.0007146 .0015168],
+  shape: ssCvx, size: [.01],
   color: [.7 .7 .7 1],
   core: [
     -.005 -.01 -.305, -.005 .01 -.305, .023 .01 -.305, .023 -.01 -.305,
@@ -201,8 +224,10 @@ left_knee_joint (left_knee_joint_origin): {
   visual_mesh: <package://example-robot-data/robots/g1_description/meshes/left_knee_link.STL>
 }
 right_knee_joint (right_knee_joint_origin): {
-  joint: hingeY, limits: [-.087267 2.8798], ctrl_limits: [20 139 -1], mass: .876714,
-  inertia: [.00648176 -3.398e-5 -.000127209 .00672918 .000358822 .00109587], shape: ssCvx, size: [.01],
+  joint: hingeY, limits: [-.087267 2.8798], ctrl_limits: [20 139 -1],
+  mass: 1.932, com: [.005457 -.003964 -.12074],
+  inertia: [.011329 -4.82e-5 4.49e-5 .011277 .0007146 .0015168],
+  shape: ssCvx, size: [.01],
   color: [.7 .7 .7 1],
   core: [
     -.005 -.01 -.305, -.005 .01 -.305, .023 .01 -.305, .023 -.01 -.305,
@@ -217,8 +242,10 @@ right_shoulder_roll_joint_origin (right_shoulder_pitch_joint): { Q: [0 -.038 -.0
 left_ankle_pitch_joint_origin (left_knee_joint): { Q: [0 -.000094445 -.30001] }
 right_ankle_pitch_joint_origin (right_knee_joint): { Q: [0 .000094445 -.30001] }
 left_shoulder_roll_joint (left_shoulder_roll_joint_origin): {
-  joint: hingeX, limits: [-1.5882 2.2515], ctrl_limits: [37 25 -1], mass: .246281,
-  inertia: [.000394956 2.09873e-8 -1.93073e-7 .000469736 1.57454e-5 .000272781], shape: ssCvx, size: [.01],
+  joint: hingeX, limits: [-1.5882 2.2515], ctrl_limits: [37 25 -1],
+  mass: .643, com: [-.000227 .00727 -.063243],
+  inertia: [.0006177 -1e-6 8.7e-6 .0006912 -5.3e-6 .0003894],
+  shape: ssCvx, size: [.01],
   color: [.7 .7 .7 1],
   core: [
     -.022 -.016 -.093, -.022 .029 -.093, .022 .029 -.093, .022 -.016 -.093,
@@ -228,8 +255,10 @@ left_shoulder_roll_joint (left_shoulder_roll_joint_origin): {
   visual_mesh: <package://example-robot-data/robots/g1_description/meshes/left_shoulder_roll_link.STL>
 }
 right_shoulder_roll_joint (right_shoulder_roll_joint_origin): {
-  joint: hingeX, limits: [-2.2515 1.5882], ctrl_limits: [37 25 -1], mass: .246283,
-  inertia: [.000394966 -1.6719e-8 -1.89014e-7 .000469741 -1.57405e-5 .000272773], shape: ssCvx, size: [.01],
+  joint: hingeX, limits: [-2.2515 1.5882], ctrl_limits: [37 25 -1],
+  mass: .643, com: [-.000227 -.00727 -.063243],
+  inertia: [.0006177 1e-6 8.7e-6 .0006912 5.3e-6 .0003894],
+  shape: ssCvx, size: [.01],
   color: [.7 .7 .7 1],
   core: [
     -.022 -.029 -.093, -.022 .016 -.093, .022 .016 -.093, .022 -.029 -.093,
@@ -239,8 +268,9 @@ right_shoulder_roll_joint (right_shoulder_roll_joint_origin): {
   visual_mesh: <package://example-robot-data/robots/g1_description/meshes/right_shoulder_roll_link.STL>
 }
 left_ankle_pitch_joint (left_ankle_pitch_joint_origin): {
-  joint: hingeY, limits: [-.87267 .5236], ctrl_limits: [30 35 -1], mass: .0197524,
-  inertia: [2.78775e-6 0 -5.8987e-7 4.52084e-6 0 2.51425e-6],
+  joint: hingeY, limits: [-.87267 .5236], ctrl_limits: [30 35 -1],
+  mass: .074, com: [-.007269 0 .011137],
+  inertia: [8.4e-6 0 -2.9e-6 1.89e-5 0 1.26e-5],
   shape: ssCvx, size: [.003], color: [.7 .7 .7 1],
   core: [
     -.021 -.003 -.022, -.021 .004 -.022, .009 .004 -.022, .009 -.003 -.022,
@@ -249,8 +279,9 @@ left_ankle_pitch_joint (left_ankle_pitch_joint_origin): {
   visual_mesh: <package://example-robot-data/robots/g1_description/meshes/left_ankle_pitch_link.STL>
 }
 right_ankle_pitch_joint (right_ankle_pitch_joint_origin): {
-  joint: hingeY, limits: [-.87267 .5236], ctrl_limits: [30 35 -1], mass: .0197524,
-  inertia: [2.78777e-6 0 -5.89865e-7 4.52084e-6 0 2.51424e-6],
+  joint: hingeY, limits: [-.87267 .5236], ctrl_limits: [30 35 -1],
+  mass: .074, com: [-.007269 0 .011137],
+  inertia: [8.4e-6 0 -2.9e-6 1.89e-5 0 1.26e-5],
   shape: ssCvx, size: [.003], color: [.7 .7 .7 1],
   core: [
     -.021 -.004 -.022, -.021 .003 -.022, .009 .003 -.022, .009 -.004 -.022,
@@ -263,8 +294,10 @@ right_shoulder_yaw_joint_origin (right_shoulder_roll_joint): { Q: [0 -.00624 -.1
 left_ankle_roll_joint_origin (left_ankle_pitch_joint): { Q: [0 0 -.017558] }
 right_ankle_roll_joint_origin (right_ankle_pitch_joint): { Q: [0 0 -.017558] }
 left_shoulder_yaw_joint (left_shoulder_yaw_joint_origin): {
-  joint: hingeZ, limits: [-2.618 2.618], ctrl_limits: [37 25 -1], mass: .330191,
-  inertia: [.00075724 1.01914e-5 .000118153 .000781633 -6.07748e-5 .000303097], shape: ssCvx, size: [.01],
+  joint: hingeZ, limits: [-2.618 2.618], ctrl_limits: [37 25 -1],
+  mass: .734, com: [.010773 -.002949 -.072009],
+  inertia: [.0009988 7.9e-6 .0001412 .0010605 -2.86e-5 .0004354],
+  shape: ssCvx, size: [.01],
   color: [.7 .7 .7 1],
   core: [
     -.02 -.031 -.104, -.02 .012 -.104, .038 .012 -.104, .038 -.031 -.104,
@@ -274,8 +307,10 @@ left_shoulder_yaw_joint (left_shoulder_yaw_joint_origin): {
   visual_mesh: <package://example-robot-data/robots/g1_description/meshes/left_shoulder_yaw_link.STL>
 }
 right_shoulder_yaw_joint (right_shoulder_yaw_joint_origin): {
-  joint: hingeZ, limits: [-2.618 2.618], ctrl_limits: [37 25 -1], mass: .330189,
-  inertia: [.000757238 -1.01934e-5 .000118161 .000781632 6.07703e-5 .000303094], shape: ssCvx, size: [.01],
+  joint: hingeZ, limits: [-2.618 2.618], ctrl_limits: [37 25 -1],
+  mass: .734, com: [.010773 .002949 -.072009],
+  inertia: [.0009988 -7.9e-6 .0001412 .0010605 2.86e-5 .0004354],
+  shape: ssCvx, size: [.01],
   color: [.7 .7 .7 1],
   core: [
     -.02 -.012 -.104, -.02 .031 -.104, .038 .031 -.104, .038 -.012 -.104,
@@ -285,8 +320,10 @@ right_shoulder_yaw_joint (right_shoulder_yaw_joint_origin): {
   visual_mesh: <package://example-robot-data/robots/g1_description/meshes/right_shoulder_yaw_link.STL>
 }
 left_ankle_roll_joint (left_ankle_roll_joint_origin): {
-  joint: hingeX, limits: [-.2618 .2618], ctrl_limits: [30 35 -1], mass: .456098,
-  inertia: [.000287801 6.50248e-8 8.30648e-5 .00151895 -1.18792e-7 .0016069], shape: ssCvx, size: [.01],
+  joint: hingeX, limits: [-.2618 .2618], ctrl_limits: [30 35 -1],
+  mass: .608, com: [.026505 0 -.016425],
+  inertia: [.0002231 2e-7 8.91e-5 .0016161 -1e-7 .0016667],
+  shape: ssCvx, size: [.01],
   color: [.2 .2 .2 1],
   core: [
     -.056 -.02 -.025, -.056 -.02 .011, -.056 .02 .011, -.056 .02 -.025,
@@ -297,8 +334,10 @@ left_ankle_roll_joint (left_ankle_roll_joint_origin): {
   visual_mesh: <package://example-robot-data/robots/g1_description/meshes/left_ankle_roll_link.STL>
 }
 right_ankle_roll_joint (right_ankle_roll_joint_origin): {
-  joint: hingeX, limits: [-.2618 .2618], ctrl_limits: [30 35 -1], mass: .45609,
-  inertia: [.0002878 -9.56202e-8 8.30614e-5 .00151893 1.13682e-7 .00160687], shape: ssCvx, size: [.01],
+  joint: hingeX, limits: [-.2618 .2618], ctrl_limits: [30 35 -1],
+  mass: .608, com: [.026505 0 -.016425],
+  inertia: [.0002231 -2e-7 8.91e-5 .0016161 1e-7 .0016667],
+  shape: ssCvx, size: [.01],
   color: [.2 .2 .2 1],
   core: [
     -.056 -.02 -.025, -.056 -.02 .011, -.056 .02 .011, -.056 .02 -.025,
@@ -311,8 +350,10 @@ right_ankle_roll_joint (right_ankle_roll_joint_origin): {
 left_elbow_joint_origin (left_shoulder_yaw_joint): { Q: [.015783 0 -.080518] }
 right_elbow_joint_origin (right_shoulder_yaw_joint): { Q: [.015783 0 -.080518] }
 left_elbow_joint (left_elbow_joint_origin): {
-  joint: hingeY, limits: [-1.0472 2.0944], ctrl_limits: [37 25 -1], mass: .133212,
-  inertia: [.000105606 4.41256e-5 1.51768e-5 .000221879 -4.66813e-6 .000221601], shape: ssCvx, size: [.01],
+  joint: hingeY, limits: [-1.0472 2.0944], ctrl_limits: [37 25 -1],
+  mass: .6, com: [.064956 .004454 -.010062],
+  inertia: [.0002891 6.53e-5 1.72e-5 .0004152 -5.6e-6 .0004197],
+  shape: ssCvx, size: [.01],
   color: [.7 .7 .7 1],
   core: [
     -.02 .028 -.022, -.02 .028 .02, -.02 .028 .02, -.02 .028 -.022,
@@ -322,8 +363,10 @@ left_elbow_joint (left_elbow_joint_origin): {
   visual_mesh: <package://example-robot-data/robots/g1_description/meshes/left_elbow_link.STL>
 }
 right_elbow_joint (right_elbow_joint_origin): {
-  joint: hingeY, limits: [-1.0472 2.0944], ctrl_limits: [37 25 -1], mass: .133212,
-  inertia: [.000105601 -4.41257e-5 1.5176e-5 .000221877 4.66758e-6 .000221596], shape: ssCvx, size: [.01],
+  joint: hingeY, limits: [-1.0472 2.0944], ctrl_limits: [37 25 -1],
+  mass: .6, com: [.064956 -.004454 -.010062],
+  inertia: [.0002891 -6.53e-5 1.72e-5 .0004152 5.6e-6 .0004197],
+  shape: ssCvx, size: [.01],
   color: [.7 .7 .7 1],
   core: [
     -.02 -.028 -.022, -.02 -.028 .02, -.02 -.028 .02, -.02 -.028 -.022,
@@ -335,8 +378,10 @@ right_elbow_joint (right_elbow_joint_origin): {
 left_wrist_roll_joint_origin (left_elbow_joint): { Q: [.1 .00188791 -.01] }
 right_wrist_roll_joint_origin (right_elbow_joint): { Q: [.1 -.00188791 -.01] }
 left_wrist_roll_joint (left_wrist_roll_joint_origin): {
-  joint: hingeX, limits: [-1.97222 1.97222], ctrl_limits: [37 25 -1], mass: .0819051,
-  inertia: [5.76855e-5 -6.70778e-7 0 4.18275e-5 0 6.33789e-5], shape: ssCvx, size: [.01], color: [.7 .7 .7 1],
+  joint: hingeX, limits: [-1.97222 1.97222], ctrl_limits: [37 25 -1],
+  mass: .085445, com: [.0171394 .000537591 4.8864e-7],
+  inertia: [4.82154e-5 -4.24511e-6 0 3.7229e-5 0 5.48211e-5],
+  shape: ssCvx, size: [.01], color: [.7 .7 .7 1],
   core: [
     .01 -.02 -.016, .01 -.02 .016, .046 -.02 .016, .046 -.02 -.016,
     .005 0 -.02, .005 0 .02, .005 0 .02, .005 0 -.02,
@@ -345,8 +390,10 @@ left_wrist_roll_joint (left_wrist_roll_joint_origin): {
   visual_mesh: <package://example-robot-data/robots/g1_description/meshes/left_wrist_roll_link.STL>
 }
 right_wrist_roll_joint (right_wrist_roll_joint_origin): {
-  joint: hingeX, limits: [-1.97222 1.97222], ctrl_limits: [37 25 -1], mass: .0819045,
-  inertia: [5.76834e-5 6.70746e-7 0 4.18274e-5 0 6.33769e-5], shape: ssCvx, size: [.01], color: [.7 .7 .7 1],
+  joint: hingeX, limits: [-1.97222 1.97222], ctrl_limits: [37 25 -1],
+  mass: .085445, com: [.0171394 -.000537591 4.8864e-7],
+  inertia: [4.82154e-5 4.24511e-6 0 3.7229e-5 0 5.48211e-5],
+  shape: ssCvx, size: [.01], color: [.7 .7 .7 1],
   core: [
     .01 -.02 -.016, .01 -.02 .016, .046 -.02 .016, .046 -.02 -.016,
     .005 0 -.02, .005 0 .02, .005 0 .02, .005 0 -.02,
@@ -357,8 +404,10 @@ right_wrist_roll_joint (right_wrist_roll_joint_origin): {
 left_wrist_pitch_joint_origin (left_wrist_roll_joint): { Q: [.038 0 0] }
 right_wrist_pitch_joint_origin (right_wrist_roll_joint): { Q: [.038 0 0] }
 left_wrist_pitch_joint (left_wrist_pitch_joint_origin): {
-  joint: hingeY, limits: [-1.61443 1.61443], ctrl_limits: [22 5 -1], mass: .102165,
-  inertia: [6.54114e-5 -1.39886e-6 1.39875e-6 .000133698 1.78434e-8 .000133699], shape: ssCvx, size: [.01],
+  joint: hingeY, limits: [-1.61443 1.61443], ctrl_limits: [22 5 -1],
+  mass: .4840496, com: [.0229999 -.00111685 -.00111658],
+  inertia: [.000165796 -1.23121e-5 1.2317e-5 .000429541 8.14177e-7 .000429537],
+  shape: ssCvx, size: [.01],
   color: [.7 .7 .7 1],
   core: [
     -.019 -.013 -.018, -.019 -.013 .018, -.019 .011 .018, -.019 .011 -.018,
@@ -368,8 +417,10 @@ left_wrist_pitch_joint (left_wrist_pitch_joint_origin): {
   visual_mesh: <package://example-robot-data/robots/g1_description/meshes/left_wrist_pitch_link.STL>
 }
 right_wrist_pitch_joint (right_wrist_pitch_joint_origin): {
-  joint: hingeY, limits: [-1.61443 1.61443], ctrl_limits: [22 5 -1], mass: .102164,
-  inertia: [6.54077e-5 1.39993e-6 1.3996e-6 .000133692 -1.67215e-8 .000133692], shape: ssCvx, size: [.01],
+  joint: hingeY, limits: [-1.61443 1.61443], ctrl_limits: [22 5 -1],
+  mass: .4840496, com: [.0229999 .00111685 -.00111658],
+  inertia: [.000165796 1.23121e-5 1.2317e-5 .000429541 -8.14177e-7 .000429537],
+  shape: ssCvx, size: [.01],
   color: [.7 .7 .7 1],
   core: [
     -.019 -.011 -.018, -.019 -.011 .018, -.019 .013 .018, -.019 .013 -.018,
@@ -381,9 +432,10 @@ right_wrist_pitch_joint (right_wrist_pitch_joint_origin): {
 left_wrist_yaw_joint_origin (left_wrist_pitch_joint): { Q: [.046 0 0] }
 right_wrist_yaw_joint_origin (right_wrist_pitch_joint): { Q: [.046 0 0] }
 left_wrist_yaw_joint (left_wrist_yaw_joint_origin): {
-  joint: hingeZ, limits: [-1.61443 1.61443], ctrl_limits: [22 5 -1], mass: .235411,
-  com: [.0788504 -.00205286 .0021586],
-  inertia: [.000185982 6.57578e-5 -7.51085e-6 .000766002 3.21636e-6 .000670575], shape: ssCvx, size: [.01],
+  joint: hingeZ, limits: [-1.61443 1.61443], ctrl_limits: [22 5 -1],
+  mass: .2545765, com: [.0708244 .000191745 .00161742],
+  inertia: [.000150445 3.76028e-5 -2.95494e-6 .000643113 3.77548e-6 .000560114],
+  shape: ssCvx, size: [.01],
   color: [.7 .7 .7 1],
   core: [
     -.008 -.013 -.02, -.008 .016 -.02, .032 .016 -.02, .032 -.013 -.02,
@@ -393,9 +445,10 @@ left_wrist_yaw_joint (left_wrist_yaw_joint_origin): {
   visual_mesh: <package://example-robot-data/robots/g1_description/meshes/left_wrist_yaw_link.STL>
 }
 right_wrist_yaw_joint (right_wrist_yaw_joint_origin): {
-  joint: hingeZ, limits: [-1.61443 1.61443], ctrl_limits: [22 5 -1], mass: .235418,
-  com: [.0788478 .00205232 .00215915],
-  inertia: [.00018599 -6.5759e-5 -7.50542e-6 .000766053 -3.21646e-6 .000670623], shape: ssCvx, size: [.01],
+  joint: hingeZ, limits: [-1.61443 1.61443], ctrl_limits: [22 5 -1],
+  mass: .2545765, com: [.0708244 -.000191745 .00161742],
+  inertia: [.000150445 -3.76028e-5 -2.95494e-6 .000643113 -3.77548e-6 .000560114],
+  shape: ssCvx, size: [.01],
   color: [.7 .7 .7 1],
   core: [
     -.008 -.016 -.02, -.008 .013 -.02, .032 .013 -.02, .032 -.016 -.02,

@@ -10,7 +10,7 @@ Include: <ranger_mini_conv.g>
 Prefix!
 
 # the deck is 31.5 cm above the floor
-Edit ranger_base_link (ranger_rot): { Q: [0 0 .315], mass: 20 }
+Edit ranger_base_link (ranger_rot): { Q: [0 0 .315] }
 Edit ranger_fr_joint: { joint: none }
 Edit ranger_fl_joint: { joint: none }
 Edit ranger_br_joint: { joint: none }

@@ -1,9 +1,11 @@
-# The Ranger Mini, with links behind the joints and the masses of hollow shells.
+# The Ranger Mini, with links behind the joints. Masses as in ranger_mini_conv.g.
 #
 # Shapes are rounded convex hulls of our own, for the eye only (contact 0): `core` lists the corners of cross
 # sections from one end of a link to the other.
 
-base_link: { mass: .162716, inertia: [.0007237 -1.55745e-8 0 .000744047 2.24935e-7 2.14413e-5] }
+base_link: {
+  mass: 25.7056, com: [.0326128 .0718265 -.00166507], inertia: [.711027 .000383359 .0416814 1.36554 .00276036 1.84066]
+}
 base_link_0 (base_link): {
   Q: "d(-90 1 0 0)", shape: ssCvx, size: [.01], color: [.79 .82 .93 1],
   core: [
@@ -27,10 +29,22 @@ br_joint (br_joint_origin): { joint: hingeZ, joint_scale: -1 }
 bl_joint (bl_joint_origin): { joint: hingeZ, joint_scale: -1 }
 
 # links of the legs
-fr_Link (fr_joint): { mass: 2.2786, inertia: [.0063625 -1.0581e-7 -4.0831e-7 .006363 -3.4944e-8 .010465] }
-fl_Link (fl_joint): { mass: 2.2786, inertia: [.0063695 -2.1067e-8 -.00016867 .006363 -1.0301e-8 .010458] }
-br_Link (br_joint): { mass: 2.2786, inertia: [.0063627 -2.1069e-8 -1.587e-5 .006363 0 .010465] }
-bl_Link (bl_joint): { mass: 2.2786, inertia: [.0063656 -8.1498e-8 -.00011049 .006363 6.6847e-8 .010462] }
+fr_Link (fr_joint): {
+  mass: 1.34089, com: [-.49413 -.335584 .280301],
+  inertia: [.00931857 -3.63082e-6 -4.19248e-6 .0101184 .000264633 .00405613]
+}
+fl_Link (fl_joint): {
+  mass: 1.33115, com: [-.493868 .257102 .304992],
+  inertia: [.00930652 2.87129e-6 -2.07991e-5 .0101544 -.000255253 .0040282]
+}
+br_Link (br_joint): {
+  mass: 1.34089, com: [-.48713 -.332584 .280301],
+  inertia: [.00931857 -3.63082e-6 -4.19248e-6 .0101184 .000264633 .00405613]
+}
+bl_Link (bl_joint): {
+  mass: 1.33115, com: [-.486868 .260602 .313992],
+  inertia: [.00930652 2.87129e-6 -2.07991e-5 .0101544 -.000255253 .0040282]
+}
 
 # wheels
 fr_Link_0 (fr_Link): {

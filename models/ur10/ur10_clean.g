@@ -35,7 +35,7 @@ shoulder_lift_joint_origin (shoulder_link): { Q: "t(0 .220941 0) d(90 0 1 0)" }
 shoulder_lift_joint (shoulder_lift_joint_origin): {
   joint: hingeY, limits: [-6.28319 6.28319], ctrl_limits: [2.16 330 -1]
 }
-upper_arm_link (shoulder_lift_joint): { mass: 12.93, inertia: [.421754 .421754 .0363656] }
+upper_arm_link (shoulder_lift_joint): { mass: 12.93, com: [0 0 .306], inertia: [.421754 .421754 .0363656] }
 upper_arm_link_0 (upper_arm_link): {
   shape: ssCvx, size: [.01], color: [.93 .94 .95],
   core: [
@@ -49,7 +49,7 @@ upper_arm_link_0 (upper_arm_link): {
 
 elbow_joint_origin (upper_arm_link): { Q: [0 -.1719 .612] }
 elbow_joint (elbow_joint_origin): { joint: hingeY, limits: [-6.28319 6.28319], ctrl_limits: [3.15 150 -1] }
-forearm_link (elbow_joint): { mass: 3.87, inertia: [.11107 .11107 .0108844] }
+forearm_link (elbow_joint): { mass: 3.87, com: [0 0 .28615], inertia: [.11107 .11107 .0108844] }
 forearm_link_0 (forearm_link): {
   shape: ssCvx, size: [.01], color: [.93 .94 .95],
   core: [

@@ -2,7 +2,8 @@
 #
 # Lengths from the manufacturer's table: base 127.3 mm, upper arm 612 mm, forearm 572.3 mm, wrists 114.9, 115.7 and
 # 92.2 mm; the shoulder is 220.94 mm beside the base's axis and the forearm 171.9 mm nearer. Each joint is a pair of
-# frames, `..._origin` where it sits on the link before it and the joint itself. Masses are those of its shells.
+# frames, `..._origin` where it sits on the link before it and the joint itself. Masses and inertias are those of the
+# manufacturer's description.
 # Shapes are rounded convex hulls of our own, for the eye only (contact 0): `core` lists the corners of cross
 # sections from one end of a link to the other.
 # A viewer shows `visual_mesh` instead when the Python package example-robot-data is installed.
@@ -10,7 +11,7 @@
 world: {}
 world_joint_origin (world): { Q: [0 0 1] }
 world_joint (world_joint_origin): {
-  joint: rigid, mass: .328598, inertia: [.000876246 -3.50721e-7 -2.99737e-8 .000730367 2.05527e-6 .00143972],
+  joint: rigid, mass: 4, com: [0 0 0], inertia: [.00610633 .00610633 .01125],
   shape: ssCvx, size: [.009], color: [.37 .37 .37 1],
   core: [
     -.063 -.083 .009, -.063 -.083 .029, .063 -.083 .029, .063 -.083 .009,
@@ -23,8 +24,9 @@ world_joint (world_joint_origin): {
 # shoulder: turns about the vertical axis, and leans
 shoulder_pan_joint_origin (world_joint): { Q: [0 0 .1273] }
 shoulder_pan_joint (shoulder_pan_joint_origin): {
-  joint: hingeZ, limits: [-6.28319 6.28319], ctrl_limits: [2.16 330 -1], mass: .909582,
-  inertia: [.00565017 -6.93355e-6 -8.74462e-6 .00537262 -4.97716e-5 .00439801], shape: ssCvx, size: [.01],
+  joint: hingeZ, limits: [-6.28319 6.28319], ctrl_limits: [2.16 330 -1],
+  mass: 7.778, com: [0 0 0], inertia: [.0314743 .0314743 .0218756],
+  shape: ssCvx, size: [.01],
   color: [.93 .94 .95],
   core: [
     -.065 -.065 -.079, -.065 .076 -.079, .065 .076 -.079, .065 -.065 -.079,
@@ -35,8 +37,9 @@ shoulder_pan_joint (shoulder_pan_joint_origin): {
 }
 shoulder_lift_joint_origin (shoulder_pan_joint): { Q: "t(0 .220941 0) d(90 0 1 0)" }
 shoulder_lift_joint (shoulder_lift_joint_origin): {
-  joint: hingeY, limits: [-6.28319 6.28319], ctrl_limits: [2.16 330 -1], mass: 2.43496,
-  inertia: [.159184 1.47112e-5 -8.39265e-5 .157564 .000647215 .0100854], shape: ssCvx, size: [.01],
+  joint: hingeY, limits: [-6.28319 6.28319], ctrl_limits: [2.16 330 -1],
+  mass: 12.93, com: [0 0 .306], inertia: [.421754 .421754 .0363656],
+  shape: ssCvx, size: [.01],
   color: [.93 .94 .95],
   core: [
     -.065 -.125 -.064, -.065 .03 -.064, .065 .03 -.064, .065 -.125 -.064,
@@ -50,8 +53,9 @@ shoulder_lift_joint (shoulder_lift_joint_origin): {
 # elbow
 elbow_joint_origin (shoulder_lift_joint): { Q: [0 -.1719 .612] }
 elbow_joint (elbow_joint_origin): {
-  joint: hingeY, limits: [-6.28319 6.28319], ctrl_limits: [3.15 150 -1], mass: 1.75122,
-  inertia: [.0968559 -9.76006e-6 1.57892e-5 .0958587 .000947383 .00463623], shape: ssCvx, size: [.01],
+  joint: hingeY, limits: [-6.28319 6.28319], ctrl_limits: [3.15 150 -1],
+  mass: 3.87, com: [0 0 .28615], inertia: [.11107 .11107 .0108844],
+  shape: ssCvx, size: [.01],
   color: [.93 .94 .95],
   core: [
     -.05 -.059 -.048, -.05 .057 -.048, .05 .057 -.048, .05 -.059 -.048,
@@ -65,8 +69,9 @@ elbow_joint (elbow_joint_origin): {
 # wrist: bends, turns, turns the flange
 wrist_1_joint_origin (elbow_joint): { Q: "t(0 0 .5723) d(90 0 1 0)" }
 wrist_1_joint (wrist_1_joint_origin): {
-  joint: hingeY, limits: [-6.28319 6.28319], ctrl_limits: [3.2 54 -1], mass: .361159,
-  inertia: [.000895857 1.09527e-6 9.37493e-7 .000848918 -1.01451e-5 .000646337], shape: ssCvx, size: [.01],
+  joint: hingeY, limits: [-6.28319 6.28319], ctrl_limits: [3.2 54 -1],
+  mass: 1.96, com: [0 0 0], inertia: [.00510825 .00510825 .0055125],
+  shape: ssCvx, size: [.01],
   color: [.93 .94 .95],
   core: [
     -.036 .071 -.047, -.036 .15 -.047, .035 .15 -.047, .035 .071 -.047,
@@ -77,8 +82,9 @@ wrist_1_joint (wrist_1_joint_origin): {
 }
 wrist_2_joint_origin (wrist_1_joint): { Q: [0 .1149 0] }
 wrist_2_joint (wrist_2_joint_origin): {
-  joint: hingeZ, limits: [-6.28319 6.28319], ctrl_limits: [3.2 54 -1], mass: .361992,
-  inertia: [.000898399 -5.86223e-7 -1.0802e-6 .000648368 -1.06317e-5 .000850769], shape: ssCvx, size: [.01],
+  joint: hingeZ, limits: [-6.28319 6.28319], ctrl_limits: [3.2 54 -1],
+  mass: 1.96, com: [0 0 0], inertia: [.00510825 .00510825 .0055125],
+  shape: ssCvx, size: [.01],
   color: [.93 .94 .95],
   core: [
     -.035 -.047 .072, -.035 -.047 .151, .036 -.047 .151, .036 -.047 .072,
@@ -89,8 +95,8 @@ wrist_2_joint (wrist_2_joint_origin): {
 }
 wrist_3_joint_origin (wrist_2_joint): { Q: [0 0 .1157] }
 wrist_3_joint (wrist_3_joint_origin): {
-  joint: hingeY, limits: [-6.28319 6.28319], ctrl_limits: [3.2 54 -1], mass: .108345,
-  inertia: [8.36376e-5 0 1.31385e-8 .000134503 0 8.00354e-5],
+  joint: hingeY, limits: [-6.28319 6.28319], ctrl_limits: [3.2 54 -1],
+  mass: .202, com: [0 0 0], inertia: [.000526462 .000526462 .000568125],
   shape: ssCvx, size: [.007], color: [.46 .46 .46 1],
   core: [
     -.032 .069 -.037, -.032 .085 -.037, .032 .085 -.037, .032 .069 -.037,

@@ -7,6 +7,7 @@
 #include "docs/collisions.h"
 #include "kinegraph/base/text.h"
 #include "kinegraph/scene/ignored_contacts.h"
+#include "kinegraph/scene/self_collisions.h"
 
 namespace kinegraph::python {
 
@@ -56,9 +57,51 @@ std::optional<Contact> checkMotion(const PyConfig& config, const Numbers& start,
   return told;
 }
 
+/// A SelfCollisionMatrix with names.
+struct NamedMatrix {
+  SelfCollisionMatrix matrix;
+  std::vector<std::string> names;  ///< of all frames
+};
+
+using MatrixRows = nb::typed<nb::list, nb::typed<nb::tuple, nb::str, nb::str, nb::str, nb::float_>>;
+
+MatrixRows matrixRows(const NamedMatrix& named) {
+  nb::list rows;
+  for (const SelfCollisionPair& pair : named.matrix.pairs) {
+    rows.append(nb::make_tuple(named.names[std::size_t(pair.a)], named.names[std::size_t(pair.b)],
+                               selfCollisionReasonName(pair.reason), double(pair.collisions) / named.matrix.samples));
+  }
+  return rows;
+}
+
+NamedMatrix selfCollisions(PyConfig& config, int samples, std::uint64_t seed, double margin, double always,
+                           const std::string& root, int threads, bool apply) {
+  NamedMatrix named{{}, config.getFrameNames()};
+  {
+    const nb::gil_scoped_release unlock;
+    named.matrix = selfCollisionMatrix(config, {samples, seed, margin, always, root, threads});
+  }
+  if (apply) ignoreSelfCollisions(config, named.matrix);
+  return named;
+}
+
+void bindSelfCollisions(nb::module_& m, nb::class_<PyConfig>& config) {
+  nb::class_<NamedMatrix>(m, "SelfCollisionMatrix", "Which parts of a robot may collide with one another.")
+      .def_prop_ro("pairs", matrixRows, docs::collisions::pairs)
+      .def_prop_ro(
+          "samples", [](const NamedMatrix& n) { return n.matrix.samples; }, "The number of postures.")
+      .def("__len__", [](const NamedMatrix& n) { return n.matrix.pairs.size(); })
+      .def("__repr__", [](const NamedMatrix& n) { return cat("<SelfCollisionMatrix: ", n.matrix.str(), ">"); });
+  const SelfCollisionOptions defaults;
+  config.def("selfCollisionMatrix", selfCollisions, "samples"_a = defaults.samples, "seed"_a = defaults.seed,
+             "margin"_a = defaults.margin, "always"_a = defaults.always, "root"_a = defaults.root,
+             "threads"_a = defaults.threads, "apply"_a = false, docs::collisions::selfCollisionMatrix);
+}
+
 }  // namespace
 
 void bindCollisions(nb::module_& m, nb::class_<PyConfig>& config) {
+  bindSelfCollisions(m, config);
   nb::class_<Contact>(m, "MotionContact",
                       "Where a motion of q first brings two frames too near, or a joint beyond its limits.")
       .def_ro("time", &Contact::time, "In [0, 1]: 0 is the start of the motion, 1 its end. Until then it is free.")
@@ -78,12 +121,6 @@ void bindCollisions(nb::module_& m, nb::class_<PyConfig>& config) {
       .def(
           "coll_totalViolation", [](const PyConfig& c, bool maximal) { return c.getTotalPenetration(maximal); },
           "return_maximal"_a = false, docs::collisions::coll_totalViolation)
-      .def(
-          "getCollisionsTotalPenetration", [](const PyConfig& c) { return c.getTotalPenetration(); },
-          "The sum of all penetration depths, m: coll_totalViolation().")
-      .def(
-          "computeCollisions", [](const PyConfig& c) { c.state(); },
-          "Does nothing; older scripts call it. Collisions are always those of the present q.")
       .def(
           "contactNotes", [](const PyConfig& c) { return c.contactNotes(); }, docs::collisions::contactNotes)
       .def("checkMotion", checkMotion, "start"_a, "end"_a, "margin"_a = 0., "tolerance"_a = 1e-5,

@@ -36,7 +36,7 @@ void make(DiffIk* self, const PyConfig& config, const std::optional<Numbers>& ve
 void bindDiffIk(nb::module_& m) {
   nb::enum_<DiffIkStatus>(m, "DiffIkStatus", "How a step of DiffIk ended.")
       .value("solved", DiffIkStatus::solved, "All limits and distances are kept.")
-      .value("gave_way", DiffIkStatus::gave_way, "Some could not be; the message says which.");
+      .value("gave_way", DiffIkStatus::gave_way, "Some could not be, or an equality; the message says which.");
   nb::class_<DiffIk>(m, "DiffIk",
                      "Differential inverse kinematics: joint velocities, step by step, that bring features to their "
                      "targets within limits of position, velocity and acceleration, without collisions.")
@@ -46,10 +46,18 @@ void bindDiffIk(nb::module_& m) {
       .def(
           "addTask",
           [](DiffIk& ik, const FeatureArgument& feature, const FrameNames& frames, double weight, double gain,
-             const std::optional<Numbers>& target) {
-            return ik.addTask(feature.source(), toNames(frames), weight, gain, toTarget(target));
+             const std::optional<Numbers>& target, int level) {
+            return ik.addTask(feature.source(), toNames(frames), weight, gain, toTarget(target), level);
           },
-          "feature"_a, "frames"_a, "weight"_a = 1., "gain"_a = 1., "target"_a = nb::none(), docs::diff_ik::addTask)
+          "feature"_a, "frames"_a, "weight"_a = 1., "gain"_a = 1., "target"_a = nb::none(), "level"_a = 0,
+          docs::diff_ik::addTask)
+      .def(
+          "addEquality",
+          [](DiffIk& ik, const FeatureArgument& feature, const FrameNames& frames, double gain,
+             const std::optional<Numbers>& target) {
+            return ik.addEquality(feature.source(), toNames(frames), gain, toTarget(target));
+          },
+          "feature"_a, "frames"_a, "gain"_a = 1., "target"_a = nb::none(), docs::diff_ik::addEquality)
       .def(
           "setTarget", [](DiffIk& ik, int task, const Numbers& target) { ik.setTarget(task, target.values); }, "task"_a,
           "target"_a, docs::diff_ik::setTarget)

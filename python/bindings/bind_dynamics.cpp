@@ -3,7 +3,6 @@
 #include "bindings.h"
 #include "defaults.h"
 #include "docs/dynamics.h"
-#include "kinegraph/compatibility/earlier_methods.h"
 #include "kinegraph/scene/config_dynamics.h"
 
 namespace kinegraph::python {
@@ -51,12 +50,6 @@ void bindDynamics(nb::class_<PyConfig>& config) {
             return nb::typed<nb::tuple, Array, Array>(nb::make_tuple(toNumpy(equation.M), toNumpy(equation.F)));
           },
           "qdot"_a, "gravity"_a = true, docs::dynamics::equationOfMotion)
-      .def(
-          "stepDynamics",
-          [](PyConfig& c, const Numbers& velocity, const Numbers& u, double tau, double noise, bool gravity) {
-            return toNumpy(stepDynamics(c, velocity.values, u.values, tau, noise, gravity, defaults().random));
-          },
-          "qdot"_a, "u_control"_a, "tau"_a, "dynamicNoise"_a = 0., "gravity"_a = true, docs::dynamics::stepDynamics)
       .def(
           "dyn_F0",
           [](const PyConfig& c) { return toNumpy(c.equationOfMotion(VectorXd::Zero(c.getJointDimension())).F); },

@@ -126,8 +126,6 @@ void bindFeatures(nb::module_& m, nb::class_<PyConfig>& config) {
   config
       .def("eval", evalFeature, "featureSymbol"_a, "frames"_a = std::vector<std::string>(), "scale"_a = nb::none(),
            "target"_a = nb::none(), "order"_a = -1, docs::features::eval)
-      .def("evalFeature", evalFeature, "featureSymbol"_a, "frames"_a = std::vector<std::string>(),
-           "scale"_a = nb::none(), "target"_a = nb::none(), "order"_a = -1, "The same as eval.")
       .def(
           "feature",
           [](const PyConfig& c, const FeatureArgument& feature, const FrameNames& frames,

@@ -131,13 +131,9 @@ void bindFormats(nb::class_<PyConfig>& config, nb::class_<Frame>& frame) {
       .def("asMJCF", asMJCF,
            "The scene as MJCF text, which MuJoCo loads with the same poses. Meshes stand in the text.")
       .def("writeMJCF", writeMJCF, "filename"_a, docs::formats::writeMJCF);
-  frame
-      .def(
-          "asDict", [](const Frame& f) { return Attributes(toDict(describeFrame(f.data()))); },
-          "What the frame is now, as the attributes of a .g file.")
-      .def(
-          "info", [](const Frame& f) { return Attributes(toDict(describeFrame(f.data()))); },
-          "What the frame is now, as the attributes of a .g file.");
+  frame.def(
+      "asDict", [](const Frame& f) { return Attributes(toDict(describeFrame(f.data()))); },
+      "What the frame is now, as the attributes of a .g file.");
   bindMeshFiles(config);
 }
 

@@ -78,10 +78,6 @@ void bindAttributes(nb::class_<Frame>& frame) {
       .def(
           "setAttributes", [](Frame& f, const Attributes& d) -> Frame& { return setAttributes(f, d), f; },
           "attributes"_a, kChain, docs::frame::setAttributes)
-      .def(
-          "addAttributes", [](Frame& f, const Attributes& d) -> Frame& { return setAttributes(f, d), f; },
-          "attributes"_a, kChain, "The same as setAttributes.")
-      .def("addAttribute", setAttribute, "key"_a, "value"_a, kChain, "The same as setAttribute.")
       .def("setAttribute", setAttribute, "key"_a, "value"_a, kChain, docs::frame::setAttribute);
 }
 

@@ -25,15 +25,26 @@ void setJointState(PyConfig& config, const NumbersView& q, const std::optional<s
   joints && !joints->empty() ? config.setJointState(config.joints, *joints) : config.setJointState(config.joints);
 }
 
+/// Names of q, then of joints that mimic others: they are there as in the reference, but shift no names of q.
+std::vector<std::string> jointNames(const PyConfig& config) {
+  std::vector<std::string> names = config.getJointNames();
+  for (const Frame& joint : config.getJoints()) {
+    if (!joint.data().joint->mimic) continue;
+    const Eigen::Index dofs = joint.getJointState().size();
+    for (Eigen::Index i = 0; i < dofs; ++i) names.push_back(dofs == 1 ? joint.getName() : cat(joint.getName(), ":", i));
+  }
+  return names;
+}
+
 }  // namespace
 
 void bindJoints(nb::class_<PyConfig>& config) {
   config.def("getJoints", &PyConfig::getJoints, "The frames whose joint is active and has dofs.")
-      .def("getJointNames", &PyConfig::getJointNames, "One name per entry of q.")
+      .def("getJointNames", jointNames, docs::joints::getJointNames)
       .def("getJointIDs", &PyConfig::getJointIDs, "Ids of the frames with active joints.")
-      .def("getDofIDs", &PyConfig::getJointIDs, "The same as getJointIDs.")
-
-      .def("getJointDimension", &PyConfig::getJointDimension, "The number n of active dofs, the length of q.")
+      .def(
+          "getJointDimension", [](const PyConfig& c) { return c.getJointState().size(); },  // compiles nothing
+          "The number n of active dofs, the length of q.")
       .def(
           "getJointState",
           [](const PyConfig& c, const std::optional<Names>& names) {

@@ -58,9 +58,9 @@ Frame addFrameDof(PyKomo& komo, const std::string& name, const std::string& pare
   return addedFrame(komo, name);
 }
 
-std::string addContact(PyKomo& komo, const Numbers& times, const std::string& object, const std::string& onto,
+std::string addContact(PyKomo& komo, const Numbers& times, const std::string& object, const std::string& from,
                        const std::string& kind, double friction) {
-  return komo.addExchange(times.list(), object, onto, exchangeFromName(kind), friction);
+  return komo.addExchange(times.list(), object, from, exchangeFromName(kind), friction);
 }
 
 SolverResult optimize(const std::shared_ptr<PyKomo>& komo, double noise, int verbose) {
@@ -88,37 +88,6 @@ double costs(const PyKomo& komo) {
 double violations(const PyKomo& komo) {
   const ErrorSums sums = measurePath(komo).totals;
   return sums.eq + sums.ineq;
-}
-
-std::shared_ptr<PyKomo> pathProblem(const PyConfig& config, double phases, int slices, double time, int order) {
-  auto komo = std::make_shared<PyKomo>();
-  komo->setConfig(config);
-  komo->setTiming(phases, slices, time, order);
-  return komo;
-}
-
-/// The shorthands of older scripts, on Config.
-void bindOldConstructors() {
-  nb::object config = nb::borrow(nb::type<PyConfig>());
-  nb::setattr(config, "komo_IK",
-              nb::cpp_function(
-                  [](const PyConfig& c, nb::args, nb::kwargs) {
-                    auto komo = pathProblem(c, 1., 1, 1., 1);
-                    komo->addControlObjective({}, 1, 1e-1);
-                    komo->addQuaternionNorms();
-                    return komo;
-                  },
-                  nb::is_method(), nb::name("komo_IK"), nb::scope(config), docs::komo::komo_IK));
-  nb::setattr(config, "komo_path",
-              nb::cpp_function(
-                  [](const PyConfig& c, double phases, int slices, double time, nb::args, nb::kwargs) {
-                    auto komo = pathProblem(c, phases, slices, time, 2);
-                    komo->addControlObjective({}, 2, 1e-1);
-                    komo->addQuaternionNorms();
-                    return komo;
-                  },
-                  nb::is_method(), nb::name("komo_path"), nb::scope(config), "phases"_a, "stepsPerPhase"_a = 20,
-                  "timePerPhase"_a = 5., "args"_a, "kwargs"_a, docs::komo::komo_path));
 }
 
 void bindSwitchModes(nb::module_& m) {
@@ -153,8 +122,6 @@ void bindObjectives(nb::class_<PyKomo>& komo) {
           "step"_a, "times"_a = nb::none(), docs::komo::addStepLimit)
       .def("addControlObjective", addControl, "times"_a, "order"_a, "scale"_a = 1., "target"_a = nb::none(),
            "deltaFromSlice"_a = 0, "deltaToSlice"_a = 0, docs::komo::addControlObjective)
-      .def("add_qControlObjective", addControl, "times"_a = nb::none(), "order"_a = 2, "scale"_a = 1.,
-           "target"_a = nb::none(), "deltaFromSlice"_a = 0, "deltaToSlice"_a = 0, docs::komo::add_qControlObjective)
       .def(
           "addQuaternionNorms",
           [](PyKomo& k, Optional times, double scale, bool hard) {
@@ -228,9 +195,6 @@ void bindKomo(nb::module_& m) {
           "setConfig", [](PyKomo& k, const PyConfig& config, bool) { k.setConfig(config); }, "config"_a,
           "enableCollisions"_a = false, docs::komo::setConfig)
       .def(
-          "setModel", [](PyKomo& k, const PyConfig& config, bool) { k.setConfig(config); }, "config"_a,
-          "enableCollisions"_a = false, "The same as setConfig.")
-      .def(
           "setTiming",
           [](PyKomo& k, double phases, int slices, double duration, int order) {
             k.setTiming(phases, slices, duration, order);
@@ -244,7 +208,8 @@ void bindKomo(nb::module_& m) {
       .def("getConstraintViolations", violations,
            "The sum of the violations of all constraints (eq and ineq) at the present path.")
       .def(
-          "explain", [](const std::shared_ptr<PyKomo>& k, double tolerance) { return explainPath(k, tolerance).str(); },
+          "explain",
+          [](const std::shared_ptr<PyKomo>& k, double tolerance) { return textOf(explainPath(k, tolerance)); },
           "tolerance"_a = 1e-3, docs::komo::explain)
       .def(
           "conflicts",
@@ -259,7 +224,6 @@ void bindKomo(nb::module_& m) {
   bindKomoPath(m, komo);
   bindKomoReports(komo);
   bindKomoCopies(komo);
-  bindOldConstructors();
 }
 
 }  // namespace kinegraph::python

@@ -21,7 +21,7 @@ nb::typed<nb::list, Attributes> forceInteractions(const PyKomo& komo) {
     nb::dict entry;
     entry["slice"] = interaction.slice;
     entry["onto"] = interaction.object;
-    entry["from"] = interaction.onto;
+    entry["from"] = interaction.from;
     entry["poa"] = toNumpy(VectorXd(interaction.point));
     entry["force"] = toNumpy(VectorXd(interaction.force));
     entry["torque"] = toNumpy(VectorXd(VectorXd::Zero(3)));
@@ -80,9 +80,6 @@ void bindKomoPath(nb::module_& m, nb::class_<PyKomo>& komo) {
       .def(
           "getPath", [](const PyKomo& k, const std::vector<int>& frames) { return toNumpy(k.getPath(frames)); },
           "dofIndices"_a = std::vector<int>(), docs::komo_path::getPath)
-      .def(
-          "getPath_qOrg", [](const PyKomo& k) { return toNumpy(k.getPath()); },
-          "The joint vectors of all slices, shape (T, n), rad or m.")
       .def("getPath_qAll", ownDofs,
            "A vector per slice, shape (k,): the dofs that belong to it, those of mode switches included.")
       .def(

@@ -140,9 +140,6 @@ void bindKomoReports(nb::class_<PyKomo>& komo) {
   komo.def("report", report, "specs"_a = false, "listObjectives"_a = true, "plotOverTime"_a = false,
            "sortByError"_a = true, docs::komo_reports::report)
       .def(
-          "getReport", [](const PyKomo& k, nb::args, nb::kwargs) { return report(k, false, true, false, true); },
-          "The same as report().")
-      .def(
           "getFeatureNames", [](const PyKomo& k) { return residualTags(k); }, "A short name per residual.")
       .def("info_objectiveNames", objectiveTags, "A short name per objective.")
       .def(

@@ -128,9 +128,7 @@ nb::object reduce(const Nlp& nlp) {
   return nb::make_tuple(nb::module_::import_("operator").attr("methodcaller")("nlp"), nb::make_tuple(komo));
 }
 
-}  // namespace
-
-void bindNlp(nb::module_& m) {
+void bindObjectiveTypes(nb::module_& m) {
   nb::enum_<ObjectiveType>(m, "OT", nb::is_arithmetic(), "What a residual means: cost or constraint.")
       .value("f", ObjectiveType::f, "cost: phi")
       .value("sos", ObjectiveType::sos, "cost: phi^2")
@@ -139,14 +137,14 @@ void bindNlp(nb::module_& m) {
       .value("ineqB", ObjectiveType::ineqB, "constraint: phi <= 0")
       .value("ineqP", ObjectiveType::ineqP, "cost: max(0, phi)^2")
       .value("none", ObjectiveType::none);
+}
 
+void bindProblem(nb::module_& m) {
   nb::class_<Nlp>(m, "NLP", "Minimize sum f + sum sos^2 subject to ineq <= 0, eq = 0 and bounds.")
       .def("getDimension", &Nlp::dimension, "The number n of variables.")
       .def_prop_ro("dimension", &Nlp::dimension, "The number n of variables.")
       .def(
           "getTypes", [](const Nlp& nlp) { return nlp.types(); }, "The OT of each residual.")
-      .def(
-          "getFeatureTypes", [](const Nlp& nlp) { return nlp.types(); }, "The OT of each residual.")
       .def_prop_ro("types", typeNumbers, "The OT of each residual, as numbers.")
       .def("getBounds", bounds, "Lower and upper bounds, shape (2, n); 0 and -1 where there is none.")
       .def_prop_ro("bounds", bounds, "Lower and upper bounds, shape (2, n); 0 and -1 where there is none.")
@@ -182,7 +180,7 @@ void bindNlp(nb::module_& m) {
       .def(
           "explain",
           [](Nlp& nlp, const Numbers& x, double tolerance) {
-            return explainInterruptibly(nlp, x.values, tolerance).str();
+            return textOf(explainInterruptibly(nlp, x.values, tolerance));
           },
           "x"_a, "tolerance"_a = 1e-3, docs::nlp::explain)
       .def(
@@ -192,13 +190,14 @@ void bindNlp(nb::module_& m) {
           },
           "x"_a, "tolerance"_a = 1e-3, docs::nlp::conflicts)
       .def("report", &Nlp::report, "verbose"_a = 1, docs::nlp::report);
+}
 
+void bindFactory(nb::module_& m) {
   nb::class_<PyNlpFactory, Nlp>(m, "NLP_Factory",
                                 "A problem whose residuals a Python function computes. It is an NLP once all is set.")
       .def(nb::init<>(), "A problem of nothing yet.")
       .def("setDimension", &PyNlpFactory::setDimension, "dim"_a, docs::nlp::setDimension)
       .def("setTypes", &PyNlpFactory::setTypes, "featureTypes"_a, docs::nlp::setTypes)
-      .def("setFeatureTypes", &PyNlpFactory::setTypes, "featureTypes"_a, "The same as setTypes.")
       .def(
           "setBounds",
           [](PyNlpFactory& f, const Numbers& lower, const Numbers& upper) { f.setBounds(lower.values, upper.values); },
@@ -207,7 +206,14 @@ void bindNlp(nb::module_& m) {
       .def(
           "testCallingEvalCallback", [](PyNlpFactory& f, const Numbers& x) { return evaluate(f, x); }, "x"_a,
           docs::nlp::testCallingEvalCallback);
+}
 
+}  // namespace
+
+void bindNlp(nb::module_& m) {
+  bindObjectiveTypes(m);
+  bindProblem(m);
+  bindFactory(m);
   m.def(
       "makeTestProblem",
       [](const std::string& name, int dimension, std::uint64_t seed) {

@@ -6,6 +6,7 @@
 #include "docs/path_finder.h"
 #include "kinegraph/motion/path_finder.h"
 #include "option_class.h"
+#include "python_names.h"
 
 namespace kinegraph::python {
 
@@ -85,7 +86,7 @@ PathResult solve(PyPathFinder& finder, int verbose) {
   verbose = std::max(verbose, finder.options().verbose);
   if (verbose > 0)
     nb::print(cat("RRT_PathFinder: ", result.feasible ? cat("path of ", finder.path().rows(), " postures, ") : "",
-                  result.message, ", ", result.evals, " draws, ", result.time, " s")
+                  inPython(result.message), ", ", result.evals, " draws, ", result.time, " s")
                   .c_str());
   if (verbose > 1 && result.feasible) view(finder, true, result.message, true);
   return result;

@@ -7,6 +7,7 @@
 #include "feature_arguments.h"
 #include "ik_targets.h"
 #include "kinegraph/motion/plan_motion.h"
+#include "kinegraph/motion/plan_picture.h"
 #include "kinegraph/motion/refine_path.h"
 #include "option_class.h"
 #include "python_names.h"
@@ -131,6 +132,28 @@ nb::typed<nb::list, nb::typed<nb::tuple, Array, IdArray>> trees(const MotionPlan
   return list;
 }
 
+nb::typed<nb::list, Attributes> obstaclesOf(const MotionPlan& plan) {
+  nb::list list;
+  for (const MetObstacle& met : plan.obstacles) {
+    Attributes one;
+    one["name"] = met.name;
+    one["share"] = met.share;
+    one["by"] = met.by;
+    list.append(one);
+  }
+  return list;
+}
+
+PyConfig planPictureIn(const MotionPlan& plan, const PyConfig& config, const std::optional<FrameNames>& frames) {
+  return PyConfig{planPicture(config, plan, frames ? toNames(*frames) : std::vector<std::string>()), nullptr};
+}
+
+int viewPlan(const MotionPlan& plan, const PyConfig& config, const std::optional<FrameNames>& frames, bool pause) {
+  const nb::object shown = nb::cast(planPictureIn(plan, config, frames));
+  if (!plan.feasible()) return nb::cast<int>(shown.attr("view")(pause, inPython(plan.message)));
+  return nb::cast<int>(shown.attr("view_path")(toNumpy(plan.path), std::max(plan.duration(), 1e-3), pause, plan.str()));
+}
+
 Array refined(MatrixXd (*refine)(const Config&, const MatrixXd&, const RefineOptions&), const PyConfig& config,
               const Numbers& path, double margin, double blend, std::uint64_t seed) {
   const MatrixXd rows = path.matrix();
@@ -196,8 +219,13 @@ void bindMotionPlan(nb::module_& m) {
       .def(
           "explain", [](const MotionPlan& p) { return inPython(p.explain()); },
           "Several lines: how it ended, what each stage took, how the trees look, and the clearance.")
+      .def_prop_ro("obstacles", obstaclesOf,
+                   "Where no way was found: what most motions ended at, dicts of name, share, by (frames that ran "
+                   "into it), the first one most often.")
+      .def("picture", planPictureIn, "config"_a, "frames"_a = nb::none(), docs::plan::picture)
+      .def("view", viewPlan, "config"_a, "frames"_a = nb::none(), "pause"_a = false, docs::plan::view)
       .def("__bool__", &MotionPlan::feasible)
-      .def("__repr__", [](const MotionPlan& p) { return cat("<MotionPlan ", p.str(), ">"); });
+      .def("__repr__", [](const MotionPlan& p) { return cat("<MotionPlan ", inPython(p.str()), ">"); });
 }
 
 }  // namespace

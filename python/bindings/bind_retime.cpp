@@ -1,5 +1,6 @@
 #include <nanobind/stl/optional.h>
 #include <nanobind/stl/string.h>
+#include <nanobind/stl/vector.h>
 
 #include "arguments.h"
 #include "bindings.h"
@@ -7,6 +8,7 @@
 #include "kinegraph/base/errors.h"
 #include "kinegraph/base/text.h"
 #include "kinegraph/front/retime_robot.h"
+#include "python_names.h"
 
 namespace kinegraph::python {
 
@@ -41,6 +43,7 @@ struct Request {
     options.corners = cornersOfName(corners);
     options.tolerance = tolerance;
     options.intervals = intervals;
+    options.between = [check = CheckInterrupts()]() mutable { check(); };
     if (start_velocity) options.start_velocity = start_velocity->values;
     if (end_velocity) options.end_velocity = end_velocity->values;
     if (!is_free.is_none())
@@ -68,7 +71,10 @@ TimedPath ofRobot(const PyConfig& config, const Numbers& path, const MaybeNumber
   const RobotLimits limits{{perDof("velocity", velocity, q.cols()), perDof("acceleration", acceleration, q.cols()),
                             perDof("jerk", jerk, q.cols())},
                            torque};
-  return retime(config, q, limits, request.options());
+  const RetimeOptions options = request.options();
+  const Config scene(config);  // as it is now
+  const nb::gil_scoped_release unlock;
+  return retime(scene, q, limits, options);
 }
 
 nb::typed<nb::tuple, Array, Array, Array> stateAt(const TimedPath& timed, const Numbers& t) {
@@ -81,6 +87,41 @@ nb::typed<nb::tuple, Array, Array, Array> stateAt(const TimedPath& timed, const 
   return nb::typed<nb::tuple, Array, Array, Array>(nb::make_tuple(q.array, velocity.array, acceleration.array));
 }
 
+nb::tuple timedState(const TimedPath& t) {
+  const PathCurve::Parts curve = t.curve().parts();
+  const NewArray phases = newArray(t.law().phases().size(), 7);
+  std::vector<int> pieces;
+  double* to = phases.data;
+  for (const LawPhase& p : t.law().phases()) {
+    for (const double value : {p.time, p.begin.s, p.begin.speed, p.begin.acceleration, p.begin.jerk, p.growth, p.end})
+      *to++ = value;
+    pieces.push_back(p.piece);
+  }
+  return nb::make_tuple(int(t.status), t.message, toNumpy(t.path), toNumpy(t.times),
+                        nb::make_tuple(curve.dofs, curve.degree, curve.length, curve.begin, curve.marks,
+                                       curve.coefficients, curve.is_line, curve.stops),
+                        phases.array, pieces, t.law().duration());
+}
+
+void setTimedState(TimedPath& t, const nb::tuple& state) {
+  const nb::tuple c = nb::cast<nb::tuple>(state[4]);
+  using Values = std::vector<double>;
+  using Flags = std::vector<bool>;
+  const PathCurve::Parts curve{nb::cast<int>(c[0]),    nb::cast<int>(c[1]),    nb::cast<double>(c[2]),
+                               nb::cast<Values>(c[3]), nb::cast<Values>(c[4]), nb::cast<Values>(c[5]),
+                               nb::cast<Flags>(c[6]),  nb::cast<Flags>(c[7])};
+  const auto phases = nb::cast<Numbers>(state[5]);
+  std::vector<LawPhase> law;
+  const double* from = phases.values.data();
+  for (const int piece : nb::cast<std::vector<int>>(state[6])) {
+    law.push_back({from[0], {from[1], from[2], from[3], from[4]}, from[5], from[6], piece});
+    from += 7;
+  }
+  new (&t) TimedPath(TimedPath::fromParts(RetimeStatus(nb::cast<int>(state[0])), nb::cast<std::string>(state[1]),
+                                          nb::cast<Numbers>(state[2]).matrix(), nb::cast<Numbers>(state[3]).values,
+                                          PathCurve::fromParts(curve), {law, nb::cast<double>(state[7])}));
+}
+
 void bindTimedPath(nb::module_& m) {
   nb::enum_<RetimeStatus>(m, "RetimeStatus", "How retime ended.")
       .value("timed", RetimeStatus::timed, "There is a motion.")
@@ -91,7 +132,9 @@ void bindTimedPath(nb::module_& m) {
   nb::class_<TimedPath>(m, "TimedPath", "A path, and when a motion is where on it.")
       .def_prop_ro("feasible", &TimedPath::feasible, "True if there is a motion.")
       .def_ro("status", &TimedPath::status, "How it ended, a RetimeStatus.")
-      .def_ro("message", &TimedPath::message, "\"\" if there is a motion; else what is too fast, and what would do.")
+      .def_prop_ro(
+          "message", [](const TimedPath& t) { return inPython(t.message); },
+          "\"\" if there is a motion; else what is too fast, and what would do.")
       .def_prop_ro(
           "path", [](const TimedPath& t) { return toNumpy(t.path); }, "The points, shape (K, n), as given.")
       .def_prop_ro(
@@ -100,7 +143,9 @@ void bindTimedPath(nb::module_& m) {
       .def_prop_ro("duration", &TimedPath::duration, "How long the motion takes, s.")
       .def("at", stateAt, "t"_a, docs::retime::at)
       .def("__bool__", &TimedPath::feasible)
-      .def("__repr__", [](const TimedPath& t) { return cat("<TimedPath ", t.str(), ">"); });
+      .def("__getstate__", timedState)
+      .def("__setstate__", setTimedState)
+      .def("__repr__", [](const TimedPath& t) { return cat("<TimedPath ", inPython(t.str()), ">"); });
 }
 
 }  // namespace

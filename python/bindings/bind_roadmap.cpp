@@ -1,10 +1,16 @@
+#include <nanobind/stl/optional.h>
 #include <nanobind/stl/string.h>
+#include <nanobind/stl/variant.h>
+#include <nanobind/stl/vector.h>
 
 #include "arguments.h"
 #include "bindings.h"
 #include "docs/roadmap.h"
+#include "feature_arguments.h"
 #include "kinegraph/base/text.h"
+#include "kinegraph/motion/plan_picture.h"
 #include "kinegraph/motion/roadmap.h"
+#include "python_names.h"
 
 namespace kinegraph::python {
 
@@ -32,11 +38,13 @@ void bindRoadmap(nb::module_& m) {
       .def_prop_ro("feasible", &RoadmapAnswer::feasible, "True if there is a path. It is free at all times.")
       .def_prop_ro(
           "path", [](const RoadmapAnswer& a) { return toNumpy(a.path); }, "Postures, shape (K, n), rad or m.")
-      .def_ro("message", &RoadmapAnswer::message, "\"\" if there is a path; else why there is none.")
+      .def_prop_ro(
+          "message", [](const RoadmapAnswer& a) { return inPython(a.message); },
+          "\"\" if there is a path; else why there is none.")
       .def_ro("checked", &RoadmapAnswer::checked, "Postures and motions that had to be looked at.")
       .def("__bool__", &RoadmapAnswer::feasible)
       .def("__repr__", [](const RoadmapAnswer& a) {
-        return cat("<RoadmapPath ", a.feasible() ? cat(a.path.rows(), " postures") : a.message, ">");
+        return cat("<RoadmapPath ", a.feasible() ? cat(a.path.rows(), " postures") : inPython(a.message), ">");
       });
   nb::class_<Roadmap>(m, "Roadmap", docs::roadmap::type)
       .def(
@@ -60,6 +68,13 @@ void bindRoadmap(nb::module_& m) {
           "save", [](const Roadmap& map, const PathText& file) { map.save(file.text); }, "path"_a, docs::roadmap::save)
       .def(
           "load", [](Roadmap& map, const PathText& file) { map.load(file.text); }, "path"_a, docs::roadmap::load)
+      .def(
+          "picture",
+          [](const Roadmap& map, const PyConfig& config, const std::optional<FrameNames>& frames) {
+            return PyConfig{roadmapPicture(config, map, frames ? toNames(*frames) : std::vector<std::string>()),
+                            nullptr};
+          },
+          "config"_a, "frames"_a = nb::none(), docs::roadmap::picture)
       .def("__len__", &Roadmap::size)
       .def_prop_ro("motions", &Roadmap::motions, "How many motions between postures it has.")
       .def_prop_ro("margin", &Roadmap::margin, "m, that all collidable pairs keep.")

@@ -148,10 +148,8 @@ void bindFrameAccess(nb::class_<PyConfig>& config) {
 
       .def("getFrame", getFrame, "frameName"_a, "warnIfNotExist"_a = true,
            nb::sig("def getFrame(self, frameName: str, warnIfNotExist: bool = True) -> Frame"), docs::scene::getFrame)
-      .def("frame", frameOf, "frame"_a, docs::scene::frame)
-      .def("__getitem__", frameOf, "frame"_a, "The frame of a name or id, as frame() gives it.")
+      .def("__getitem__", frameOf, "frame"_a, docs::scene::frame)
       .def("getFrames", &PyConfig::getFrames, "All frames, in order.")
-      .def("frames", &PyConfig::getFrames, "All frames, in order.")
       .def("getRoots", &PyConfig::getRoots, "The frames without a parent.")
       .def("getFrameNames", &PyConfig::getFrameNames, "The names of all frames, in order.")
       .def("getFrameDimension", &PyConfig::getFrameDimension, "The number of frames.")
@@ -181,6 +179,7 @@ void bindScene(nb::module_& m) {
   bindFeatures(m, config);
   bindBatch(config);
   bindDynamics(config);
+  bindCompatibility(config);
   bindFormats(config, frame);
   bindViewer(m, config);
 }

@@ -1,4 +1,5 @@
 #include <nanobind/ndarray.h>
+#include <nanobind/stl/optional.h>
 #include <nanobind/stl/string.h>
 #include <nanobind/stl/vector.h>
 
@@ -17,13 +18,6 @@ namespace kinegraph::python {
 
 namespace {
 
-/// What Python calls a Simulation; it keeps the Config's object, and so its viewer, alive.
-struct PySimulation {
-  nb::object config;
-  Simulation simulation;
-  int verbose = 0;
-};
-
 const OptionClass<SimulationOptions>& simulationOptions() {
   static const OptionClass<SimulationOptions> options(simulationOptionTable());
   return options;
@@ -41,17 +35,21 @@ SimulationOptions startOptions() {
   return options;
 }
 
-void make(PySimulation* self, nb::object config, SimulationEngine engine, int verbose, nb::handle options) {
+void make(PySimulation* self, nb::object config, SimulationEngine engine, std::optional<int> verbose,
+          nb::handle options) {
   if (!nb::isinstance<PyConfig>(config)) throw nb::type_error("Simulation: expected a Config");
   const SimulationOptions chosen = optionsFrom(options);
   Simulation made(nb::cast<PyConfig&>(config), engine, chosen);
-  new (self) PySimulation{std::move(config), std::move(made), verbose};
+  new (self) PySimulation{std::move(config), std::move(made)};
   warn(*self);
+  showAsTold(*self, verbose);
 }
 
 constexpr double kLong = .1;  ///< s of simulated time: from here on Ctrl-C is looked for
 
 void step(PySimulation& s, const Numbers& u, double tau, ControlMode mode) {
+  const std::shared_ptr<SimulationWatcher> watcher = s.simulation.watcher();
+  while (watcher && !watcher->mayStep(s.simulation)) watcher->rest();
   s.simulation.update();
   warn(s);
   {
@@ -62,6 +60,7 @@ void step(PySimulation& s, const Numbers& u, double tau, ControlMode mode) {
     s.simulation.advance(u.values, tau, mode, between);
   }
   s.simulation.publish();
+  if (watcher) watcher->hasStepped(s.simulation);
 }
 
 void multiStep(PySimulation& s, double tau_step, double tau_sim) {
@@ -86,6 +85,21 @@ MatrixXd velocityMatrix(const Numbers& given, const char* what) {
                                                                                      given.values.size() / 6, 6);
 }
 
+void pushConfig(PySimulation& s, const Numbers& frames, const Numbers& joints) {
+  const bool given = frames.values.size() > 0;
+  s.simulation.pushConfigToSim(given ? velocityMatrix(frames, "Simulation: frameVelocities") : MatrixXd(),
+                               joints.values);
+  warn(s);
+}
+
+/// Scripts of 2024 give what C.getFrameState() gave.
+void setState(PySimulation& s, nb::handle state, nb::handle q, const Numbers& frames, const Numbers& joints) {
+  if (nb::isinstance<SimulationState>(state)) return s.simulation.setState(nb::cast<const SimulationState&>(state));
+  s.config.attr("setFrameState")(state);
+  if (nb::len(q) > 0) s.config.attr("setJointState")(q);
+  pushConfig(s, frames, joints);
+}
+
 nb::typed<nb::list, nb::dict> contacts(const PySimulation& s) {
   nb::list found;
   for (const Contact& contact : s.simulation.getContacts()) {
@@ -107,6 +121,16 @@ std::string name(const PySimulation& s, const FrameArgument& frame) {
 Vector3d vector3(const Numbers& given, const char* what) {
   if (given.values.size() != 3) throw ValueError(cat(what, " has ", given.values.size(), " numbers; expected 3"));
   return given.values;
+}
+
+nb::object getPull(const PySimulation& s) {
+  const std::optional<PulledPoint> pull = s.simulation.getPull();
+  if (!pull) return nb::none();
+  nb::dict found;
+  found["position"] = toNumpy(VectorXd(pull->position));
+  found["target"] = toNumpy(VectorXd(pull->target));
+  found["force"] = toNumpy(VectorXd(pull->force));
+  return found;
 }
 
 void bindState(nb::module_& m) {
@@ -190,6 +214,16 @@ void bindMeasuring(nb::class_<PySimulation>& simulation) {
           },
           "frame"_a, "force"_a, "torque"_a = nb::list(), "point"_a = nb::list(), docs::simulation::perturb)
       .def(
+          "pull",
+          [](S& s, const FrameArgument& frame, const Numbers& point, const Numbers& target) {
+            s.simulation.pull(name(s, frame), vector3(point, "Simulation.pull: point"),
+                              vector3(target, "Simulation.pull: target"));
+          },
+          "frame"_a, "point"_a, "target"_a, docs::simulation::pull)
+      .def(
+          "endPull", [](S& s) { s.simulation.endPull(); }, docs::simulation::endPull)
+      .def("getPull", getPull, nb::sig("def getPull(self) -> dict | None"), docs::simulation::getPull)
+      .def(
           "clearPerturbations", [](S& s) { s.simulation.clearPerturbations(); }, docs::simulation::clearPerturbations);
 }
 
@@ -271,58 +305,6 @@ void bindCameras(nb::class_<PySimulation>& simulation) {
           "depth"_a, "fxycxy"_a, docs::simulation::depthData2pointCloud);
 }
 
-void bindRecording(nb::module_& m, nb::class_<PySimulation>& simulation) {
-  nb::class_<Recording>(m, "SimulationRecording", docs::simulation::recording)
-      .def_prop_ro(
-          "times", [](const Recording& r) { return toNumpy(r.times.data(), r.times.size()); },
-          "s after each step, (T,).")
-      .def_prop_ro(
-          "q",
-          [](const Recording& r) {
-            MatrixXd path(long(r.q.size()), r.q.empty() ? 0 : r.q[0].size());
-            for (long i = 0; i < path.rows(); ++i) path.row(i) = r.q[std::size_t(i)].transpose();
-            return toNumpy(path);
-          },
-          "Joint state after each step, (T, n).")
-      .def_prop_ro(
-          "freePos",
-          [](const Recording& r) {
-            const std::size_t free = r.freePos.empty() ? 0 : std::size_t(r.freePos[0].rows());
-            const NewArray made = newArray(r.freePos.size(), free, 7);
-            double* at = made.data;
-            for (const MatrixXd& poses : r.freePos) {
-              for (long i = 0; i < poses.rows(); ++i) {
-                for (long k = 0; k < 7; ++k) *at++ = poses(i, k);
-              }
-            }
-            return made.array;
-          },
-          "Poses of the free frames after each step, (T, F, 7).")
-      .def_ro("isCut", &Recording::is_cut, "The scene's structure changed: the recording ends before that.")
-      .def(
-          "save", [](const Recording& r, const PathText& path) { r.save(path.text); }, "path"_a, docs::simulation::save)
-      .def_static(
-          "load", [](const PathText& path) { return Recording::load(path.text); }, "path"_a, docs::simulation::load)
-      .def(
-          "makeConfig", [](const Recording& r) { return PyConfig{r.makeConfig()}; }, docs::simulation::makeConfig)
-      .def(
-          "replay",
-          [](const Recording& r, nb::object config) {
-            Simulation again = r.replay(nb::cast<PyConfig&>(config));
-            return new PySimulation{std::move(config), std::move(again)};
-          },
-          "C"_a, nb::sig("def replay(self, C: Config) -> Simulation"), docs::simulation::replay)
-      .def("__repr__", [](const Recording& r) {
-        return cat("<SimulationRecording of ", r.times.size(), " steps, ", r.calls.size(), " calls>");
-      });
-  using S = PySimulation;
-  simulation
-      .def(
-          "startRecording", [](S& s) { s.simulation.startRecording(); }, docs::simulation::startRecording)
-      .def(
-          "stopRecording", [](S& s) { return s.simulation.stopRecording(); }, docs::simulation::stopRecording);
-}
-
 void bindSplines(nb::class_<PySimulation>& simulation) {
   using S = PySimulation;
   simulation
@@ -375,9 +357,11 @@ void bindSimulation(nb::module_& m) {
 
   nb::class_<PySimulation> simulation(m, "Simulation", docs::simulation::type);
   simulation
-      .def("__init__", make, "C"_a, "engine"_a = SimulationEngine::physx, "verbose"_a = 2, "options"_a = nb::none(),
-           nb::sig("def __init__(self, C: Config, engine: SimulationEngine = SimulationEngine.physx, verbose: int = 2, "
-                   "options: SimulationOptions | dict | None = None) -> None"),
+      .def("__init__", make, "C"_a, "engine"_a = SimulationEngine::physx, "verbose"_a = nb::none(),
+           "options"_a = nb::none(),
+           nb::sig(
+               "def __init__(self, C: Config, engine: SimulationEngine = SimulationEngine.physx, verbose: int | None = "
+               "None, options: SimulationOptions | dict | None = None) -> None"),
            docs::simulation::make)
       .def("step", step, "u_control"_a = nb::list(), "tau"_a = .01, "u_mode"_a = ControlMode::none,
            docs::simulation::step)
@@ -400,21 +384,17 @@ void bindSimulation(nb::module_& m) {
           docs::simulation::get_frameVelocities)
       .def(
           "getState", [](const S& s) { return s.simulation.getState(); }, docs::simulation::getState)
+      .def("setState", setState, "state"_a, "jointState"_a = nb::list(), "frameVelocities"_a = nb::list(),
+           "jointVelocities"_a = nb::list(),
+           nb::sig(
+               "def setState(self, state: SimulationState | numpy.typing.ArrayLike, "
+               "jointState: numpy.typing.ArrayLike = [], "
+               "frameVelocities: numpy.typing.ArrayLike = [], jointVelocities: numpy.typing.ArrayLike = []) -> None"),
+           docs::simulation::setState)
+      .def("pushConfigToSim", pushConfig, "frameVelocities"_a = nb::list(), "jointVelocities"_a = nb::list(),
+           docs::simulation::pushConfigToSim)
       .def(
-          "setState", [](S& s, const SimulationState& state) { s.simulation.setState(state); }, "state"_a,
-          docs::simulation::setState)
-      .def(
-          "pushConfigToSim",
-          [](S& s, const Numbers& frames, const Numbers& joints) {
-            s.simulation.pushConfigToSim(frames.values.size()
-                                             ? velocityMatrix(frames, "Simulation.pushConfigToSim: frameVelocities")
-                                             : MatrixXd(),
-                                         joints.values);
-            warn(s);
-          },
-          "frameVelocities"_a = nb::list(), "jointVelocities"_a = nb::list(), docs::simulation::pushConfigToSim)
-      .def(
-          "setVerbose", [](S& s, int verbose) { s.verbose = verbose; }, "verbose"_a, docs::simulation::setVerbose)
+          "setVerbose", [](S& s, int verbose) { showAsTold(s, verbose); }, "verbose"_a, docs::simulation::setVerbose)
       .def("__repr__", [](const S& s) {
         return cat("<Simulation at ", s.simulation.get_t(), " s: ", s.simulation.config().getFrameDimension(),
                    " frames, of which ", s.simulation.getFreeFrames().size(), " are free>");
@@ -426,6 +406,7 @@ void bindSimulation(nb::module_& m) {
   bindMeasuring(simulation);
   bindCameras(simulation);
   bindRecording(m, simulation);
+  bindSimulationView(simulation);
   bindSimulationBatch(m);
 }
 

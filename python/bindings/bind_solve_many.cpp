@@ -14,6 +14,7 @@
 #include "kinegraph/planning/multi_start.h"
 #include "nlp_objects.h"
 #include "py_komo.h"
+#include "python_names.h"
 #include "solving.h"
 
 namespace kinegraph::python {
@@ -42,7 +43,7 @@ class Watch {
     if (here_.wasPressed() && all.best().x.size() == 0) throwKeyboardInterrupt();
     if (verbose_ < 1) return;
     nb::print(cat(what_, ": ", feasible, " of ", done, " are feasible, in ", seconds(), " s; the best: ", all.chosen,
-                  ", ", all.best().str())
+                  ", ", inPython(all.best().str()))
                   .c_str());
   }
 

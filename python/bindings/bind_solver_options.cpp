@@ -27,10 +27,8 @@ SolverOptions startingOptions() {
 void bindSolverOptions(nb::module_& m) {
   nb::enum_<OptMethod> methods(
       m, "OptMethod", nb::is_arithmetic(),
-      "Solution methods. Those of older scripts that are not there are an error where they are "
-      "used.");
+      "Solution methods. Those of older scripts that are not there are an error where they are used.");
   for (const OptMethodName& row : kOptMethods) methods.value(row.name, row.method, row.doc);
-  methods.value("AugmentedLag", OptMethod::augmentedLag, "The same as augmentedLag.");
 
   const std::string doc =
       "Settings of a solver. Every field can be given by name, and is a property:\n\n" + solverOptions().docs();

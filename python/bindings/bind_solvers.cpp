@@ -88,7 +88,7 @@ nb::object verdictState(const SolverResult& r) {
 nb::tuple resultState(const SolverResult& r) {
   const nb::object verdict = verdictState(r);
   return nb::make_tuple(toNumpy(r.x), toNumpy(r.dual), r.evals, r.time, r.feasible, r.done, r.f, r.sos, r.ineq, r.eq,
-                        r.violation, int(r.status), r.message, verdict);
+                        r.violation, int(r.status), r.message, verdict, r.totalEvals);
 }
 
 SolverResult resultFrom(nb::tuple state) {
@@ -106,6 +106,7 @@ SolverResult resultFrom(nb::tuple state) {
   if (const nb::object verdict = state[13]; !verdict.is_none())
     r.motion =
         std::make_shared<LazyVerdict>(MotionVerdict{nb::cast<bool>(verdict[0]), nb::cast<std::string>(verdict[1])});
+  r.totalEvals = nb::cast<int>(state[14]);
   return r;
 }
 
@@ -152,7 +153,9 @@ void bindResult(nb::module_& m) {
           "x", [](const SolverResult& r) { return toNumpy(r.x); }, "The solution, shape (n,).")
       .def_prop_ro(
           "dual", [](const SolverResult& r) { return toNumpy(r.dual); }, "A multiplier per residual, shape (d,).")
-      .def_ro("evals", &SolverResult::evals, "Number of evaluations.")
+      .def_ro("evals", &SolverResult::evals, "Number of evaluations of this solve.")
+      .def_ro("totalEvals", &SolverResult::totalEvals,
+              "Number of evaluations of all solves of the solver so far, this one included.")
       .def_ro("time", &SolverResult::time, "Seconds.")
       .def_ro("feasible", &SolverResult::feasible,
               "No (scaled) constraint is violated by more than 1e-3, or ten tolerances.")
@@ -187,17 +190,48 @@ void bindResult(nb::module_& m) {
           },
           "The numbers evals, time, done, feasible, f, sos, ineq and eq, as a dict.")
       .def(
-          "explain", [](const SolverResult& r, double tolerance) { return explanationOf(r, tolerance).str(); },
+          "explain", [](const SolverResult& r, double tolerance) { return textOf(explanationOf(r, tolerance)); },
           "tolerance"_a = 1e-3, docs::solvers::explain)
       .def(
           "conflicts", [](const SolverResult& r, double tolerance) { return toDicts(explanationOf(r, tolerance)); },
           "tolerance"_a = 1e-3, docs::solvers::conflicts)
-      .def("__str__", &SolverResult::str)
+      .def("__str__", [](const SolverResult& r) { return inPython(r.str()); })
       .def("__getstate__", resultState)
       .def(
           "__setstate__", [](SolverResult& r, nb::tuple state) { new (&r) SolverResult(resultFrom(state)); }, "state"_a)
-      .def("__repr__",
-           [](const SolverResult& r) { return cat("<SolverReturn ", solverStatusName(r.status), ": ", r.str(), ">"); });
+      .def("__repr__", [](const SolverResult& r) {
+        return cat("<SolverReturn ", solverStatusName(r.status), ": ", inPython(r.str()), ">");
+      });
+}
+
+/// What setTracing records.
+void bindTraces(nb::class_<NlpSolver>& solver) {
+  solver
+      .def(
+          "getTrace_x", [](const NlpSolver& s) { return stack(s.traceX()); },
+          "The variables of each evaluation, shape (evaluations, n).")
+      .def(
+          "getTrace_phi", [](const NlpSolver& s) { return stack(s.tracePhi()); },
+          "The residuals of each evaluation, shape (evaluations, d).")
+      .def(
+          "getTrace_J",
+          [](const NlpSolver& s) {
+            nb::typed<nb::list, Array> list;
+            for (const MatrixXd& J : s.traceJacobian()) list.append(toNumpy(J));
+            return list;
+          },
+          "The Jacobian of each evaluation, shape (d, n).")
+      .def(
+          "getTrace_best",
+          [](const NlpSolver& s) {
+            std::vector<VectorXd> rows;
+            double best = std::numeric_limits<double>::infinity();
+            for (const ErrorSums& e : s.traceErrors())
+              rows.push_back(VectorXd::Constant(1, best = std::min(best, e.f + e.sos + e.ineq + e.eq)));
+            return stack(rows);
+          },
+          "The least sum of all errors so far, shape (evaluations, 1).")
+      .def("getTrace_errs", errorTrace, "The sums of f, sos, ineq and eq of each evaluation, shape (evaluations, 4).");
 }
 
 void bindSolver(nb::module_& m) {
@@ -207,7 +241,8 @@ void bindSolver(nb::module_& m) {
       solverOptions().docs("        ") +
       "Returns:\n    The solver itself.\nRaises:\n    ArgumentError: There is no such option, or it cannot have this "
       "value.";
-  nb::class_<NlpSolver>(m, "NLP_Solver", "Solves an NLP. A second solve() goes on from where the first ended.")
+  nb::class_<NlpSolver> solver(m, "NLP_Solver", "Solves an NLP. A second solve() goes on from where the first ended.");
+  solver
       .def(
           "__init__",
           [](NlpSolver* self) {
@@ -260,33 +295,8 @@ void bindSolver(nb::module_& m) {
           "dual", [](const NlpSolver& s) { return toNumpy(s.dual); },
           [](NlpSolver& s, const Numbers& d) { s.dual = d.values; }, "A multiplier per residual, shape (d,).")
       .def("reportLagrangeGradients", gradients, "featureNames"_a = std::vector<std::string>(),
-           docs::solvers::reportLagrangeGradients)
-      .def(
-          "getTrace_x", [](const NlpSolver& s) { return stack(s.traceX()); },
-          "The variables of each evaluation, shape (evaluations, n).")
-      .def(
-          "getTrace_phi", [](const NlpSolver& s) { return stack(s.tracePhi()); },
-          "The residuals of each evaluation, shape (evaluations, d).")
-      .def(
-          "getTrace_J",
-          [](const NlpSolver& s) {
-            nb::typed<nb::list, Array> list;
-            for (const MatrixXd& J : s.traceJacobian()) list.append(toNumpy(J));
-            return list;
-          },
-          "The Jacobian of each evaluation, shape (d, n).")
-      .def(
-          "getTrace_best",
-          [](const NlpSolver& s) {
-            std::vector<VectorXd> rows;
-            double best = std::numeric_limits<double>::infinity();
-            for (const ErrorSums& e : s.traceErrors())
-              rows.push_back(VectorXd::Constant(1, best = std::min(best, e.f + e.sos + e.ineq + e.eq)));
-            return stack(rows);
-          },
-          "The least sum of all errors so far, shape (evaluations, 1).")
-      .def("getTrace_errs", errorTrace, "The sums of f, sos, ineq and eq of each evaluation, shape (evaluations, 4).")
-      .def("getTrace_costs", errorTrace, "The sums of f, sos, ineq and eq of each evaluation, shape (evaluations, 4).");
+           docs::solvers::reportLagrangeGradients);
+  bindTraces(solver);
 }
 
 }  // namespace

@@ -7,7 +7,6 @@
 #include "bindings.h"
 #include "docs/structure.h"
 #include "kinegraph/base/errors.h"
-#include "kinegraph/compatibility/earlier_methods.h"
 #include "kinegraph/scene/frame_shapes.h"
 #include "kinegraph/scene/inertia_edits.h"
 #include "kinegraph/scene/tree_edits.h"
@@ -26,17 +25,6 @@ std::vector<Frame> getShapes(const PyConfig& config, bool shared_only_once) {
   return frames;
 }
 
-nb::tuple forceArrays() {
-  const nb::object zeros = nb::module_::import_("numpy").attr("zeros");
-  return nb::make_tuple(zeros(nb::make_tuple(0, 2), "dtype"_a = "int32"), zeros(nb::make_tuple(0, 3, 3)));
-}
-
-void refuseSlice(const PyConfig&, const Numbers&, int) {
-  throw ValueError(
-      "setJointStateSlice: a Config is a single moment and has no time slices; those of a motion belong to its KOMO, "
-      "where KOMO.initWithPath and KOMO.initWithConstant set them");
-}
-
 void processStructure(PyConfig& config, bool rigid, bool reconnect, bool non_contact, bool transparent) {
   simplifyStructure(*config.scene(), {rigid, reconnect, non_contact, transparent});
 }
@@ -51,11 +39,6 @@ void bindSimplification(nb::class_<PyConfig>& config) {
             processInertias(*c.scene(), {recompute, diagonal});
           },
           "recomputeInertias"_a = true, "transformToDiagInertia"_a = false, docs::structure::processInertias)
-      .def(
-          "sortFrames", [](PyConfig& c) { c.scene()->sortByDepth(); }, "Sorts the frames by depth.")
-      .def(
-          "makeObjectsFree", [](PyConfig& c, const std::vector<std::string>& names) { makeObjectsFree(c, names); },
-          "frameNames"_a, docs::structure::makeObjectsFree)
       .def(
           "makeMeshesSSCvx", [](PyConfig& c, double radius) { makeMeshesConvex(*c.scene(), radius); },
           "radius"_a = .005, docs::structure::makeMeshesSSCvx)
@@ -82,18 +65,6 @@ void bindStructure(nb::class_<PyConfig>& config) {
           "selectJointsBySubtree",
           [](PyConfig& c, const FrameArgument& root) { selectJointsBySubtree(*c.scene(), toFrame(c, root).data()); },
           "root"_a, docs::structure::selectJointsBySubtree)
-      .def(
-          "selectJointsByTag",
-          [](PyConfig& c, const std::vector<std::string>& tags, bool not_those) {
-            selectJointsByTag(c, tags, not_those);
-          },
-          "jointGroups"_a, "notThose"_a = false, docs::structure::selectJointsByTag)
-      .def("setJointStateSlice", refuseSlice, "q"_a, "t"_a, docs::structure::setJointStateSlice)
-      .def(
-          "getForceArrays", [](const PyConfig&) { return forceArrays(); },
-          nb::sig("def getForceArrays(self) -> tuple[numpy.typing.NDArray[numpy.int32], "
-                  "numpy.typing.NDArray[numpy.float64]]"),
-          docs::structure::getForceArrays)
       .def(
           "addH5Object",
           [](PyConfig& c, const std::string& name, const PathText& file, int) {

@@ -31,41 +31,6 @@ const std::shared_ptr<PyViewer>& showIn(PyConfig& config) {
   return config.viewer;
 }
 
-/// What scripts of before 2024 call; `name` is a method of viewer().
-nb::object ofViewer(PyConfig& config, const char* name) { return nb::cast(viewerOf(config)).attr(name); }
-
-void bindEarlierNames(nb::class_<PyConfig>& config) {
-  config
-      .def(
-          "view_getRgb", [](PyConfig& c) { return ByteArray(ofViewer(c, "getRgb")()); },
-          "viewer().getRgb(): a picture, shape (height, width, 3), 0..255.")
-      .def(
-          "view_getDepth", [](PyConfig& c) { return FloatArray(ofViewer(c, "getDepth")()); },
-          "viewer().getDepth(): its depth, shape (height, width), m.")
-      .def(
-          "view_savePng",
-          [](PyConfig& c, const std::string& path) { return nb::cast<std::string>(ofViewer(c, "savePng")(path)); },
-          "pathPrefix"_a = "z.vid/", docs::viewer::view_savePng)
-      .def(
-          "view_focalLength", [](PyConfig& c) { return nb::cast<double>(ofViewer(c, "getCamera_focalLength")()[0]); },
-          "Focal length of the view in image heights.")
-      .def(
-          "view_fxycxy", [](PyConfig& c) { return Array(ofViewer(c, "getCamera_fxycxy")()); },
-          "viewer().getCamera_fxycxy(): fx, fy, cx, cy in pixels, shape (4,).")
-      .def(
-          "view_pose", [](PyConfig& c) { return Array(ofViewer(c, "getCamera_pose")()); },
-          "viewer().getCamera_pose(): x y z (m) qw qx qy qz, shape (7,).")
-      .def(
-          "view_raise", [](PyConfig& c) { ofViewer(c, "raiseWindow")(); }, "viewer().raiseWindow()")
-      .def(
-          "view_focus",
-          [](PyConfig& c, const std::string& frame, double height) {
-            const Vector3d position = c.getFrame(frame).getPose().p;
-            ofViewer(c, "focus")(toNumpy(position.data(), 3), height);
-          },
-          "frameName"_a, "absHeight"_a = 1., docs::viewer::view_focus);
-}
-
 void select(PyViewer& viewer, int frame) {
   const int count = viewer.scene ? int(viewer.scene->frames().size()) : 0;
   if (frame < 0 || frame >= count) {
@@ -197,14 +162,7 @@ void bindViews(nb::class_<PyConfig>& config) {
             if (c.viewer) c.viewer->endPage();
           },
           "Ends the viewer; the next view() starts another.")
-      .def(
-          "view_recopyMeshes",
-          [](PyConfig& c) {
-            if (openPage(*showIn(c))) c.viewer->update(c);
-          },
-          "Does nothing that view() does not do; older scripts call it.")
       .def("viewer", viewerOf, "The viewer of this scene.")
-      .def("get_viewer", viewerOf, "The viewer of this scene.")
       .def(
           "set_viewer", [](PyConfig& c, std::shared_ptr<PyViewer> v) { c.viewer = std::move(v); }, "viewer"_a,
           docs::viewer::set_viewer)
@@ -219,7 +177,6 @@ void bindViews(nb::class_<PyConfig>& config) {
 }  // namespace
 
 void bindViewer(nb::module_& m, nb::class_<PyConfig>& config) {
-  bindEarlierNames(config);
   nb::class_<PyViewer> viewer(m, "ConfigurationViewer",
                               "Shows a configuration in the browser, and makes pictures of it.");
   bindPage(viewer);

@@ -59,6 +59,7 @@ void bindRoadmap(nb::module_& m);
 void bindSpline(nb::module_& m);
 void bindOperation(nb::module_& m);
 void bindDynamics(nb::class_<PyConfig>& config);
+void bindCompatibility(nb::class_<PyConfig>& config);
 void bindFormats(nb::class_<PyConfig>& config, nb::class_<Frame>& frame);
 void bindRendering(nb::module_& m);
 void bindViewer(nb::module_& m, nb::class_<PyConfig>& config);

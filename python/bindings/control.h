@@ -5,5 +5,6 @@
 namespace kinegraph::python {
 
 void bindDiffIk(nanobind::module_& m);
+void bindMpc(nanobind::module_& m);
 
 }  // namespace kinegraph::python

@@ -5,6 +5,8 @@
 
 #include <cmath>
 
+#include "python_names.h"
+
 namespace kinegraph::python {
 
 namespace {
@@ -12,6 +14,15 @@ namespace {
 nb::object orNone(double value) { return std::isnan(value) ? nb::none() : nb::object(nb::float_(value)); }
 
 }  // namespace
+
+std::string textOf(const Explanation& explanation) {
+  std::vector<std::string> names;
+  for (const Conflict& conflict : explanation.conflicts) {
+    names.push_back(conflict.name);
+    names.insert(names.end(), conflict.details.begin(), conflict.details.end());
+  }
+  return inPython(explanation.str(), names);
+}
 
 Conflicts toDicts(const Explanation& explanation) {
   Conflicts list;

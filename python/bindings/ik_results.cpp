@@ -5,10 +5,11 @@
 
 #include "ik_objects.h"
 #include "kinegraph/base/text.h"
+#include "python_names.h"
 
 namespace kinegraph::python {
 
-std::string resultText(const IkResult& result) { return cat("<IkResult ", result.str(), ">"); }
+std::string resultText(const IkResult& result) { return cat("<IkResult ", inPython(result.str()), ">"); }
 
 std::string resultsText(const IkResults& results) {
   const auto solved = std::ranges::count_if(results, &IkResult::feasible);
@@ -33,8 +34,8 @@ Array allJoints(const IkResults& results) {
 }
 
 nb::tuple resultState(const IkResult& r) {
-  return nb::make_tuple(toNumpy(r.q), int(r.status), r.position_error, r.rotation_error, r.penetration, r.attempts,
-                        r.evals, r.message);
+  return nb::make_tuple(toNumpy(r.q), int(r.status), r.position_error, r.rotation_error, r.feature_error, r.penetration,
+                        r.attempts, r.evals, r.message);
 }
 
 IkResult resultFrom(nb::tuple state) {
@@ -43,9 +44,10 @@ IkResult resultFrom(nb::tuple state) {
           nb::cast<double>(state[2]),
           nb::cast<double>(state[3]),
           nb::cast<double>(state[4]),
-          nb::cast<int>(state[5]),
+          nb::cast<double>(state[5]),
           nb::cast<int>(state[6]),
-          nb::cast<std::string>(state[7])};
+          nb::cast<int>(state[7]),
+          nb::cast<std::string>(state[8])};
 }
 
 const IkResult& resultAt(const IkResults& results, std::ptrdiff_t index) {
@@ -67,10 +69,13 @@ void bindResult(nb::module_& m) {
           "The answer, shape (n,), rad or m, or the attempt that missed least; within the limits.")
       .def_prop_ro("feasible", &IkResult::feasible, "True if there is an answer.")
       .def_ro("status", &IkResult::status, "How it ended, an IkStatus.")
-      .def_ro("message", &IkResult::message,
-              "\"\" if solved; else what misses its target by how much, and what is in the way.")
+      .def_prop_ro(
+          "message", [](const IkResult& r) { return inPython(r.message); },
+          "\"\" if solved; else what misses its target by how much, and what is in the way.")
       .def_ro("position_error", &IkResult::position_error, "Position error of the worst target, m.")
       .def_ro("rotation_error", &IkResult::rotation_error, "Rotation error of the worst target, rad.")
+      .def_ro("feature_error", &IkResult::feature_error,
+              "Error of the worst row of a feature, in its units times its scale.")
       .def_ro("penetration", &IkResult::penetration, "How much nearer than the margin the worst pair is, m.")
       .def_ro("attempts", &IkResult::attempts, "Number of starting points that were used.")
       .def_ro("evals", &IkResult::evals, "Number of evaluations of the kinematics.")
@@ -94,6 +99,9 @@ void bindBatchResult(nb::module_& m) {
           "rotation_error", [](const IkResults& r) { return column<Array>(r, "float64", &IkResult::rotation_error); },
           "Rotation error of the worst target of each problem, shape (N,), rad.")
       .def_prop_ro(
+          "feature_error", [](const IkResults& r) { return column<Array>(r, "float64", &IkResult::feature_error); },
+          "Error of the worst row of a feature of each problem, shape (N,), in its units times its scale.")
+      .def_prop_ro(
           "penetration", [](const IkResults& r) { return column<Array>(r, "float64", &IkResult::penetration); },
           "How much nearer than the margin the worst pair of each problem is, shape (N,), m.")
       .def_prop_ro(
@@ -106,7 +114,7 @@ void bindBatchResult(nb::module_& m) {
           "message",
           [](const IkResults& r) {
             nb::typed<nb::list, nb::str> messages;
-            for (const IkResult& result : r) messages.append(result.message);
+            for (const IkResult& result : r) messages.append(inPython(result.message));
             return messages;
           },
           "One line per problem; \"\" where it is solved.")

@@ -11,7 +11,7 @@ namespace kinegraph::python {
 namespace {
 
 nb::tuple toTuple(const ContactForce& c) {
-  return nb::make_tuple(c.object, c.onto, c.point, c.dofs, c.unit, c.is_free);
+  return nb::make_tuple(c.object, c.from, c.point, c.dofs, c.unit, c.is_free);
 }
 
 ContactForce toContact(nb::handle t) {

@@ -49,6 +49,7 @@ NB_MODULE(_core, m) {
   bindIk(m);
   bindRetime(m);
   bindDiffIk(m);
+  bindMpc(m);
   bindPathFinder(m);
   bindPlan(m);
   bindRoadmap(m);

@@ -47,17 +47,30 @@ std::string_view wordInPython(char before, std::string_view word, char after) {
   return lookUp(after == '=' ? std::span<const Names>(kArguments) : kNames, word);
 }
 
+/// Of the longest of these names that the text starts with; 0: none.
+std::size_t lengthOfName(std::string_view text, std::span<const std::string> names) {
+  std::size_t longest = 0;
+  for (const std::string& name : names) {
+    const bool ends = name.size() >= text.size() || !isWord(text[name.size()]);
+    if (text.starts_with(name) && ends) longest = std::max(longest, name.size());
+  }
+  return longest;
+}
+
 }  // namespace
 
-std::string inPython(std::string_view whole) {
-  const std::size_t users = whole.find("similar names: ");  // from there on, names are the user's
-  const std::string_view message = whole.substr(0, users);
+std::string inPython(std::string_view whole, std::span<const std::string> users) {
+  const std::size_t similar = whole.find("similar names: ");  // from there on, names are the user's
+  const std::string_view message = whole.substr(0, similar);
   std::string out;
   bool quoted = false;
   for (std::size_t i = 0; i < message.size();) {
     const char before = i == 0 ? ' ' : message[i - 1], after = i + 1 < message.size() ? message[i + 1] : ' ';
     if (message[i] == '\'' && !isWord(quoted ? after : before)) quoted = !quoted;  // and no apostrophe
-    if (!quoted && message[i] == ':' && after == ':' && isWord(before)) {
+    if (const std::size_t length = isWord(before) ? 0 : lengthOfName(message.substr(i), users)) {
+      out += message.substr(i, length);
+      i += length;
+    } else if (!quoted && message[i] == ':' && after == ':' && isWord(before)) {
       out += '.';
       i += 2;
     } else if (isWord(message[i])) {
@@ -70,7 +83,7 @@ std::string inPython(std::string_view whole) {
       out += message[i++];
     }
   }
-  if (users != std::string_view::npos) out += whole.substr(users);
+  if (similar != std::string_view::npos) out += whole.substr(similar);
   return out;
 }
 

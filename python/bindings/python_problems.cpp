@@ -5,6 +5,7 @@
 
 #include "kinegraph/base/errors.h"
 #include "kinegraph/base/text.h"
+#include "kinegraph/nlp/evaluation_sizes.h"
 #include "nlp_objects.h"
 #include "solving.h"
 
@@ -51,7 +52,6 @@ void callForValue(const std::function<void()>& call) {
 /// Calls function(x) for phi and J.
 void evaluateFunction(const nb::object& function, const VectorXd& x, int rows, VectorXd& phi, MatrixXd& dense,
                       Jacobian* J) {
-  phi.resize(rows);
   const int n = int(x.size());
   callForValue([&] { readEvaluation(function(toNumpy(x)), rows, n, phi, dense); });
   if (J) Eigen::Map<Rows>(J->values.data(), rows, n) = dense;
@@ -102,6 +102,7 @@ class PythonProblem final : public Nlp {
   bool mayBeCancelled() const override { return true; }
 
   void evaluate(const VectorXd& x, VectorXd& phi, Jacobian* J) override {
+    prepareEvaluation(*this, x, phi, J);
     evaluateFunction(evaluate_, x, int(types_.size()), phi, dense_, J);
   }
 
@@ -172,6 +173,7 @@ void PyNlpFactory::setBounds(const VectorXd& lower, const VectorXd& upper) {
 }
 
 void PyNlpFactory::evaluate(const VectorXd& x, VectorXd& phi, Jacobian* J) {
+  prepareEvaluation(*this, x, phi, J);
   if (!function_.is_valid()) throw Error("NLP_Factory: there is no function; call setEvalCallback first");
   evaluateFunction(function_, x, int(types_.size()), phi, J_, J);
 }

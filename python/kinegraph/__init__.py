@@ -47,6 +47,8 @@ from ._core import (
     MotionConstraint,
     MotionContact,
     MotionPlan,
+    Mpc,
+    MpcResult,
     NLP_Factory,
     NLP_Sampler,
     NLP_Solver,
@@ -125,16 +127,25 @@ from .errors import (
     RobotFault,
 )
 from .film import saveFilm
+from .fleets import imap, readResults
+from .fleets import map as map  # not in __all__: a star import keeps Python's own
 from .interactive import interactiveIk
-from .lgp import LGP_TAMP_Abstraction, LGP_Tool, default_LGP_TAMP_Abstraction
+from .lgp import LGP_Tool
+from .lgp_abstraction import LGP_TAMP_Abstraction, default_LGP_TAMP_Abstraction
 from .manipulation import KOMO_ManipulationHelper, ManipulationModelling
 from .model_paths import raiPath, setRaiPath
 from .problems import get_NLP_Problem_names, make_NLP_Problem
 from .quaternion import Quaternion
+from .reachability import reachability
 from .seeds import rnd_seed, rnd_seed_random
-from .task_actions import TaskRule, TaskWaypoints, defaultDomain
+from .streams import Gamepad, TargetFile, drive
+from .task_actions import TaskRule
 from .task_check import checkTaskPlan
-from .tasks import planTask
+from .task_domain import defaultDomain
+from .task_execution import TaskExecution
+from .task_plan import TaskPlan
+from .task_waypoints import TaskWaypoints
+from .tasks import planTask, planTasks
 
 _model_paths.announce()
 
@@ -184,6 +195,7 @@ __all__ = [
     "FrameDeleted",
     "FrameNotFound",
     "FrameView",
+    "Gamepad",
     "GripperCommand",
     "GripperInfo",
     "GripperReading",
@@ -203,6 +215,8 @@ __all__ = [
     "MotionConstraint",
     "MotionContact",
     "MotionPlan",
+    "Mpc",
+    "MpcResult",
     "NLP_Factory",
     "NLP_Sampler",
     "NLP_Solver",
@@ -242,6 +256,9 @@ __all__ = [
     "SolverReturn",
     "SolverReturns",
     "StepObservation",
+    "TargetFile",
+    "TaskExecution",
+    "TaskPlan",
     "TaskRule",
     "TaskWaypoints",
     "TimedPath",
@@ -256,9 +273,11 @@ __all__ = [
     "defaultDomain",
     "default_LGP_TAMP_Abstraction",
     "depthImage2PointCloud",
+    "drive",
     "getArucoImage",
     "get_NLP_Problem_names",
     "get_params",
+    "imap",
     "interactiveIk",
     "make_NLP_Problem",
     "params_add",
@@ -268,7 +287,10 @@ __all__ = [
     "params_print",
     "planMotion",
     "planTask",
+    "planTasks",
     "raiPath",
+    "reachability",
+    "readResults",
     "retime",
     "rnd_seed",
     "rnd_seed_random",

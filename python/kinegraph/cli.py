@@ -77,6 +77,35 @@ def _parser() -> argparse.ArgumentParser:
     plan.add_argument("-o", "--output", metavar="CSV", help="a row for each 10 ms of the motion: time, then the joints")
     plan.add_argument("--no-view", action="store_true", help="print only")
 
+    reach = commands.add_parser(
+        "reachability", help="where a robot reaches, cell by cell, within limits and without collisions"
+    )
+    reach.add_argument("file", help="a scene: .g, .urdf, .xml")
+    reach.add_argument("--frame", help="what is to reach (default: the last frame that a joint moves)")
+    reach.add_argument("--spacing", type=float, default=0.1, help="of the grid, m (default: 0.1)")
+    reach.add_argument(
+        "--directions",
+        type=int,
+        default=0,
+        help="of the frame's z axis, tried at each cell (default: 0, any orientation)",
+    )
+    reach.add_argument("--workers", type=int, help="threads (default: one per processor)")
+    reach.add_argument("-o", "--output", metavar="FILE", help="a row for each cell: .csv or .parquet")
+    reach.add_argument("--picture", metavar="PNG", help="the scene with the cells that are reached")
+    reach.add_argument("--no-view", action="store_true", help="print only")
+
+    pairs = commands.add_parser(
+        "selfcollisions", help="which parts of a robot can collide with one another, found in random postures"
+    )
+    pairs.add_argument("file")
+    pairs.add_argument("--root", metavar="FRAME", help="the robot's first frame (default: the file's first one)")
+    pairs.add_argument("--samples", type=int, default=10000, help="postures (default: 10000)")
+    pairs.add_argument("--seed", type=int, default=0, help="of the postures (default: 0)")
+    pairs.add_argument("--margin", type=float, default=0.0, help="nearer counts as colliding, m (default: 0)")
+    pairs.add_argument(
+        "-o", "--output", metavar="SRDF", help="writes the pairs that need no looking at, for a URDF of the same robot"
+    )
+
     check = commands.add_parser(
         "check", help="mistakes and oddities in scene files; exit status 1 if there is a mistake"
     )
@@ -163,13 +192,29 @@ def _plan(options: argparse.Namespace) -> int:
     if options.output:
         count = max(2, round(motion.duration / 0.01) + 1)
         with open(options.output, "w") as file:
-            print("time", *config.getJointNames(), sep=",", file=file)
+            print("time", *config.getJointNames()[: config.getJointDimension()], sep=",", file=file)
             for i in range(count):
                 t = motion.duration * i / (count - 1)
                 print(t, *motion.at(t)[0], sep=",", file=file)
     if not options.no_view:
         config.view_path(motion.path, max(1.0, motion.duration), True, "the motion")
     return 0
+
+
+def _reachability(options: argparse.Namespace) -> None:
+    from .reachability import reachability
+
+    config = _load(options.file)
+    found = reachability(config, options.frame, options.spacing, options.directions, workers=options.workers)
+    print(found)
+    if options.output:
+        print(found.save(options.output))
+    found.addTo(config)
+    if options.picture:
+        config.viewer().fit()
+        print(config.viewer().savePng(options.picture))
+    if not options.no_view:
+        config.view(True, str(found))
 
 
 def _info(file: str, frames: bool) -> None:
@@ -184,6 +229,20 @@ def _info(file: str, frames: bool) -> None:
         print(
             "A shape with contact -k does not collide with links up to k joints above it (an SRDF file tells pairs instead)."
         )
+
+
+def _selfCollisions(options: argparse.Namespace) -> None:
+    config = _load(options.file)
+    root = options.root or config.getFrameNames()[0]
+    matrix = config.selfCollisionMatrix(
+        samples=options.samples, seed=options.seed, margin=options.margin, root=root, apply=True
+    )
+    width = max(len(name) for pair in matrix.pairs for name in pair[:2])
+    for first, second, reason, share in matrix.pairs:
+        print(f"{first:{width}}  {second:{width}}  {reason:9}  {100 * share:6.2f} %")
+    print(matrix)
+    if options.output:
+        Path(options.output).write_text(config.asSRDF())
 
 
 def _numbers(count: int) -> Callable[[str], list[float]]:
@@ -257,6 +316,10 @@ def main(arguments: list[str] | None = None) -> int:
             _info(options.file, options.frames)
         if options.command == "plan":
             return _plan(options)
+        if options.command == "reachability":
+            _reachability(options)
+        if options.command == "selfcollisions":
+            _selfCollisions(options)
         if options.command == "check":
             return _check(options.files, options.strict)
     except KeyboardInterrupt:

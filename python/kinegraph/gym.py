@@ -1,4 +1,5 @@
-"""Environments for gymnasium (`pip install 'kinegraph[gym]'`): a Panda that reaches, one that lifts, and many at once.
+"""Environments for gymnasium (`pip install 'kinegraph[gym]'`): a Panda that reaches, one that lifts, one that pushes, any scene
+with any reward, and many at once.
 
     from kinegraph.gym import ReachEnv
     env = ReachEnv()
@@ -11,6 +12,7 @@ hand. A step takes 50 ms. What is random comes from the seed of `reset`, and so 
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from typing import Any, ClassVar
 
 import gymnasium
@@ -180,6 +182,112 @@ class LiftEnv(_PandaEnv):
         height = float(box[2] - 0.675)
         reward = height - float(np.linalg.norm(box - self._hand()))
         return self._observation(), reward, height > 0.1, False, {"height": height}
+
+
+class SimulationEnv(gymnasium.Env[NDArray[np.float32], NDArray[np.float32]]):
+    """Any scene, any reward: joints are told velocities, a step takes 50 ms, and time runs out.
+
+    Args:
+        C: The scene, as each episode begins; it follows the simulation.
+        time_limit: s, after which an episode is cut off.
+        reward: Of C as it is after a step.
+        fastest: Velocity that an action of 1 means, rad/s or m/s.
+        render_mode: None, "human" (on the page of C) or "rgb_array".
+    Raises:
+        ArgumentError: Another render_mode, or a time_limit that is not positive.
+    """
+
+    metadata: ClassVar[dict[str, Any]] = {"render_modes": ["human", "rgb_array"], "render_fps": 20}
+
+    def __init__(
+        self,
+        C: ry.Config,
+        time_limit: float,
+        reward: Callable[[ry.Config], float],
+        fastest: float = 1.0,
+        render_mode: str | None = None,
+    ) -> None:
+        if render_mode not in (None, "human", "rgb_array"):
+            raise ry.ArgumentError(f"render_mode is {render_mode!r}; expected None, 'human' or 'rgb_array'")
+        if not time_limit > 0:
+            raise ry.ArgumentError(f"time_limit is {time_limit} s; expected more than 0")
+        self.render_mode = render_mode
+        self.C, self.time_limit, self.reward, self.fastest = C, time_limit, reward, fastest
+        self.S = ry.Simulation(C, verbose=2 if render_mode == "human" else 0)
+        self.start = self.S.getState()
+        dofs = len(C.getJointState())
+        numbers = 2 * dofs + self.start.freePos.size
+        self.action_space = gymnasium.spaces.Box(-1.0, 1.0, (dofs,), np.float32)
+        self.observation_space = gymnasium.spaces.Box(-_FARTHEST, _FARTHEST, (numbers,), np.float32)
+
+    def _observation(self) -> NDArray[np.float32]:
+        state = self.S.getState()
+        parts = np.concatenate([state.q, state.qDot, state.freePos.ravel()])
+        return np.clip(parts, -_FARTHEST, _FARTHEST).astype(np.float32)
+
+    def reset(
+        self, *, seed: int | None = None, options: dict[str, Any] | None = None
+    ) -> tuple[NDArray[np.float32], dict[str, Any]]:
+        """Begins anew.
+
+        Args:
+            seed: Of all that is random from now on.
+            options: Not used.
+        Returns:
+            The observation (q, velocities, poses of what moves freely) and an empty dict.
+        """
+        super().reset(seed=seed)
+        self.S.setState(self.start)
+        return self._observation(), {}
+
+    def step(self, action: NDArray[np.float32]) -> tuple[NDArray[np.float32], float, bool, bool, dict[str, Any]]:
+        """Goes on by 50 ms.
+
+        Args:
+            action: (n,) in -1..1.
+        Returns:
+            Observation, reward, False, whether time has run out, and an empty dict.
+        """
+        velocity = self.fastest * np.clip(np.asarray(action, float), -1, 1)
+        self.S.step(velocity, _SECONDS, ry.ControlMode.velocity)
+        is_over = self.S.get_t() > self.start.time + self.time_limit - _SECONDS / 2
+        return self._observation(), float(self.reward(self.C)), False, is_over, {}
+
+    def render(self) -> NDArray[np.uint8] | None:  # type: ignore[override]
+        """What it looks like now.
+
+        Returns:
+            The viewer's picture, (height, width, 3), with "rgb_array"; else None.
+        """
+        if self.render_mode != "rgb_array":
+            return None
+        self.C.view(offscreen=True)
+        return self.C.viewer().getRgb()
+
+
+class PushEnv(SimulationEnv):
+    """A Panda with a stick in its hand is to push a box over the table to a target.
+
+    Args:
+        time_limit: s, after which an episode is cut off.
+        render_mode: None, "human" (on the page of C) or "rgb_array".
+    """
+
+    def __init__(self, time_limit: float = 10.0, render_mode: str | None = None) -> None:
+        C = _panda()
+        box = C.addFrame("box").setShape(ry.ST.ssBox, [0.1, 0.1, 0.1, 0.005]).setColor([1, 0.5, 0]).setMass(0.1)
+        box.setPosition([0.1, 0.35, 0.7])
+        stick = C.addFrame("stick", "l_gripper").setShape(ry.ST.capsule, [0.3, 0.02]).setColor([0.5, 1, 0])
+        stick.setRelativePosition([0, 0, -0.13])
+        C.addFrame("target").setShape(ry.ST.marker, [0.1]).setPosition([0.5, 0.0, 0.7])
+        C.setJointState([0.0], ["l_panda_joint2"])
+        super().__init__(C, time_limit, self._reward, 1.0, render_mode)
+
+    @staticmethod
+    def _reward(C: ry.Config) -> float:
+        """Minus the distances of stick and box and of box and target, m."""
+        touch = C.eval(ry.FS.negDistance, ["stick", "box"])[0][0]
+        return float(touch - np.linalg.norm(C.eval(ry.FS.positionDiff, ["box", "target"])[0]))
 
 
 class BatchEnv(gymnasium.vector.VectorEnv[NDArray[np.float32], NDArray[np.float32], NDArray[Any]]):

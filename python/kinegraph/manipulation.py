@@ -140,7 +140,7 @@ class KOMO_ManipulationHelper(ManipulationHelper):
             C.setJointState(q)
             C.view(False, f"step {t}\n{self.info}")
             if savePngs:
-                C.view_savePng("z.vid/")
+                C.viewer().savePng("z.vid/")
             time.sleep(duration / len(self.path))
 
     def debug(self, listObjectives: bool = True, plotOverTime: bool = False) -> None:

@@ -5,6 +5,8 @@ from __future__ import annotations
 import html
 import sys
 
+from .embedded_page import embeddedPage
+
 _HEIGHT = 480  # pixels
 
 
@@ -24,5 +26,5 @@ def showInline(url: str) -> None:
 
 
 def inlineFrame(page: str) -> str:
-    """A page as an element of another one."""
-    return f'<iframe srcdoc="{html.escape(page)}" width="100%" height="{_HEIGHT}" style="border: 0"></iframe>'
+    """A page as an element of another one, below 1 MB if that can be had."""
+    return f'<iframe srcdoc="{html.escape(embeddedPage(page))}" width="100%" height="{_HEIGHT}" style="border: 0"></iframe>'

@@ -36,3 +36,33 @@ def clearLine(stream: TextIO | None = None) -> None:
     if stream.isatty():
         stream.write("\r\x1b[K")
         stream.flush()
+
+
+def drawRate(
+    what: str,
+    done: int,
+    total: int | None,
+    before: int,
+    seconds: float,
+    ends: bool = False,
+    stream: TextIO | None = None,
+) -> None:
+    """Redraws how far a run over many items is on `stream` (stderr), if it is a terminal, with its rate and the time left.
+
+    Args:
+        what: The run's name.
+        done: How many items are done.
+        total: How many there are; None if nobody knows.
+        before: How many of those that are done were so at the start.
+        seconds: How long it has run, s.
+        ends: Whether the run is over: then the line stays.
+        stream: Where to draw.
+    """
+    stream = stream or sys.stderr
+    if not stream.isatty():
+        return
+    rate = (done - before) / seconds if seconds > 0 else 0.0
+    share = f"{'█' * (30 * done // max(total, 1)):·<30} {done}/{total}" if total is not None else str(done)
+    left = f", {(total - done) / rate:.0f} s left" if total is not None and rate > 0 and not ends else ""
+    stream.write(f"\r{what} {share}, {rate:.4g}/s, {seconds:.0f} s{left}\x1b[K" + ("\n" if ends else ""))
+    stream.flush()

@@ -39,9 +39,9 @@ class _Overview:
             if _moves(frame) and frame.getParent():
                 self.below.setdefault(partOf(frame.getParent()), []).append(frame)
         self.dofs: dict[str, list[int]] = {}  # places in q, by the name of the joint
-        for i, name in enumerate(config.getJointNames()):
-            self.dofs.setdefault(name if name in self.dofs else name.rsplit(":", 1)[0], []).append(i)
         self.q, self.limits = config.getJointState(), config.getJointLimits()
+        for i, name in enumerate(config.getJointNames()[: len(self.q)]):
+            self.dofs.setdefault(name if name in self.dofs else name.rsplit(":", 1)[0], []).append(i)
 
     def lines(self) -> Iterator[str]:
         for frame in self.config.getFrames():

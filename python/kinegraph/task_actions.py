@@ -4,220 +4,14 @@ from __future__ import annotations
 
 import itertools
 from collections.abc import Callable, Iterator
-from dataclasses import dataclass, field
 from typing import Any
 
 import numpy as np
 
-from ._core import FS, JT, KOMO, OT, ST, Config, Domain, solveIk
+from ._core import FS, OT, ST, Config
 from .errors import ArgumentError
-from .manipulation import KOMO_ManipulationHelper
-
-Action = list[str]
-
-_EDGE = 0.01  # m: how far inside of an edge the center of what stands there is
-_PENETRATION = 1e-3  # m
-
-DEFAULT_FOL = """
-is_gripper is_object is_place on busy
-DecisionRule pick { Obj, From, Hand,
-  { (is_gripper Hand) (is_object Obj) (on From Obj) (is_place From) (busy Hand)! }
-  { (on From Obj)! (on Hand Obj) (busy Hand) } }
-DecisionRule place { Obj, Hand, To,
-  { (is_gripper Hand) (is_object Obj) (on Hand Obj) (is_place To) }
-  { (busy Hand)! (on Hand Obj)! (on To Obj) } }
-DecisionRule handover { Obj, Hand, To,
-  { (is_gripper Hand) (is_object Obj) (on Hand Obj) (is_gripper To) (busy To)! }
-  { (busy Hand)! (on Hand Obj)! (on To Obj) (busy To) } }
-"""
-
-
-def defaultDomain() -> Domain:
-    """The domain of planTask where none is given: pick (Obj From Hand), place (Obj Hand To), handover (Obj Hand To).
-
-    Returns:
-        A domain, to which actions can be added.
-    """
-    return Domain.fromFolText(DEFAULT_FOL, "default domain")
-
-
-def sceneWords(C: Config, facts: list[str]) -> list[str]:
-    """What holds at the start: the words of the scene and, where they name no gripper, no object or no place, what shapes
-    and names suggest.
-
-    Args:
-        C: The scene.
-        facts: Of sceneFacts.
-    Returns:
-        Literals.
-    """
-    said = list(facts)
-    have = {fact[1:].split()[0] for fact in facts}
-    frames = C.getFrames()
-    boxes = (ST.box, ST.ssBox)
-    if "is_gripper" not in have:
-        said += [f"(is_gripper {f.name})" for f in frames if f.name.endswith("gripper")]
-    grippers = {fact[1:-1].split()[1] for fact in said if fact.startswith("(is_gripper ")}
-    objects = {fact[1:-1].split()[1] for fact in said if fact.startswith("(is_object ")}
-    if "is_place" not in have:
-        flat = [f for f in frames if f.getShapeType() in boxes and f.name not in grippers and _is_place(f, objects)]
-        said += [f"(is_place {f.name})" for f in flat]
-    on = {fact[1:-1].split()[2] for fact in said if fact.startswith("(on ")}
-    for name in objects - on:  # it hangs below a frame of which nothing was said
-        parent = C.getFrame(name).getParent()
-        if parent is not None and f"(is_place {parent.name})" in said:
-            said.append(f"(on {parent.name} {name})")
-    return said
-
-
-def _is_place(frame: Any, objects: set[str]) -> bool:
-    """Large enough to carry something, level, and not a part of what moves."""
-    if frame.name in objects:
-        return True
-    level = abs(frame.getRotationMatrix()[2, 2]) > 0.999
-    up: Any = frame
-    while up is not None:
-        if up.getJointType() not in (JT.none, JT.rigid):
-            return False
-        up = up.getParent()
-    return level and min(frame.getSize()[:2]) >= 0.05
-
-
-@dataclass
-class Slots:
-    """Where the dofs of added frames are in x, which has them first."""
-
-    kinds: list[tuple[str, int, str]] = field(default_factory=list)  # what, first, frame
-    size: int = 0
-
-    def add(self, kind: str, name: str, count: int) -> None:
-        self.kinds.append((kind, self.size, name))
-        self.size += count
-
-
-class TaskWaypoints:
-    """The waypoint problem of a sequence of actions, in one variant of each: a slice per action."""
-
-    def __init__(self, C: Config, actions: list[Action], variants: list[str], rules: dict[str, TaskRule]) -> None:
-        """Makes the problem; planTask does.
-
-        Args:
-            C: The scene.
-            actions: The words of each action.
-            variants: In which way each is done.
-            rules: What actions ask, by their first words.
-        Raises:
-            KeyError: An action has no rule.
-        """
-        self.C, self.actions, self.variants = C, actions, variants
-        self.m = KOMO_ManipulationHelper()
-        self.m.setup_sequence(C, len(actions), 1e-2, 1e-2)
-        self.slots = Slots()
-        self.held: dict[str, str] = {}
-        for i, (action, variant) in enumerate(zip(actions, variants, strict=True)):
-            rules[action[0]].add(self, float(i + 1), action, variant)
-
-    @property
-    def komo(self) -> KOMO:
-        return self.m.komo
-
-    def attach(self, time: float, hand: str, obj: str) -> None:
-        """From a time on the hand holds the object, in a pose that is found.
-
-        Args:
-            time: In phases.
-            hand: The frame that holds.
-            obj: The object's frame.
-        Raises:
-            FrameNotFound: There is no such frame.
-        """
-        name = f"grasp_{hand}_{obj}_{round(time)}"
-        self.m.add_stable_frame(JT.free, hand, name)
-        self.slots.add("grasp", name, 7)
-        self._switch(time, name, obj)
-
-    def put(self, time: float, obj: str, to: str) -> None:
-        """From a time on the object stands on a place, upright.
-
-        Args:
-            time: In phases.
-            obj: The object's frame.
-            to: The place's frame.
-        Raises:
-            FrameNotFound: There is no such frame.
-        """
-        name = f"place_{to}_{obj}_{round(time)}"
-        self.m.add_place_frame(to, obj, name)
-        self.slots.add("place", name, 3)
-        self._switch(time, name, obj)
-        half = 0.5 * np.array(self.C.getFrame(to).getSize()[:2])
-        inside = np.maximum(half - _EDGE, 0.5 * half)
-        rows = np.array([[1e1, 0, 0], [0, 1e1, 0]])
-        bound = [inside[0], inside[1], 0.0]
-        self.komo.addObjective([time], FS.positionRel, [obj, to], OT.ineq, rows, bound)
-        self.komo.addObjective([time], FS.positionRel, [obj, to], OT.ineq, -rows, [-b for b in bound])
-
-    def _switch(self, time: float, frame: str, obj: str) -> None:
-        held = self.held.get(obj)
-        self.komo.addRigidSwitch(time, [frame, obj], False)
-        frames, feature = ([obj, held], FS.poseRel) if held else ([obj], FS.pose)
-        self.komo.addObjective([time], feature, frames, OT.eq, [1e1], [], 1)
-        self.held[obj] = frame
-
-    def start(self, rng: np.random.Generator | None) -> np.ndarray:
-        """A starting point: hands near what they do.
-
-        Args:
-            rng: Draws placements and grasps; None: placements are in the middle.
-        Returns:
-            The variables of the problem, shape (n,).
-        """
-        x = np.array(self.m.x)
-        lower, upper = np.asarray(self.komo.nlp().getBounds())
-        where: dict[str, np.ndarray] = {}
-        for kind, first, name in self.slots.kinds:
-            if kind == "place":
-                span = slice(first, first + 2)
-                x[span] = rng.uniform(0.9 * lower[span], 0.9 * upper[span]) if rng is not None else 0.0
-                x[first + 2] = rng.uniform(-1.6, 1.6) if rng is not None else 0.0
-                where[name] = x[span].copy()
-            elif kind == "grasp":
-                x[first : first + 7] = [0, 0, 0, 1, 0, 0, 0]
-                if rng is not None:
-                    x[first + 3 : first + 7] = rng.standard_normal(4)
-                    x[first + 3 : first + 7] /= np.linalg.norm(x[first + 3 : first + 7])
-        q, n = self.C.getJointState(), len(self.C.getJointState())
-        at = {f.name: f.getPosition() for f in self.C.getFrames()}
-        for i, action in enumerate(self.actions):
-            hand, target = hand_and_target(action, at, where, i + 1)
-            if hand is not None and target is not None:
-                if action[0] == "place":
-                    at[action[1]] = target
-                q = _near(self.C, hand, target, q)
-            x[self.slots.size + i * n : self.slots.size + (i + 1) * n] = q
-        return x
-
-
-def hand_and_target(
-    action: Action, at: dict[str, np.ndarray], where: dict[str, np.ndarray], time: int
-) -> tuple[str | None, np.ndarray | None]:
-    """Which hand goes where in an action, as far as it is known."""
-    if action[0] == "pick":
-        return action[3], at.get(action[1])
-    if action[0] == "place":
-        offset = where.get(f"place_{action[3]}_{action[1]}_{time}", np.zeros(2))
-        return action[2], at[action[3]] + [*offset, 0.05]
-    return None, None
-
-
-def _near(C: Config, hand: str, target: np.ndarray, q: np.ndarray) -> np.ndarray:
-    D = C.copy()
-    D.setJointState(q)
-    for wanted in ({"position": target, "z": [0, 0, 1]}, {"position": target}):
-        result = solveIk(D, {hand: wanted}, collisions=False, attempts=10)
-        if result.feasible:
-            return np.array(result.q)
-    return q
+from .task_domain import upOf
+from .task_waypoints import Action, TaskWaypoints
 
 
 class TaskRule:
@@ -239,7 +33,8 @@ class TaskRule:
         self.add, self.variants = add, variants
 
 
-def _palm(C: Config, hand: str) -> str:
+def palmOf(C: Config, hand: str) -> str:
+    """The frame between the fingers of a hand and its arm, which nothing that is held comes into; '' for hands without one."""
     name = hand.removesuffix("gripper") + "palm"
     return name if name != hand and name in C.getFrameNames() else ""
 
@@ -256,7 +51,7 @@ def opening(C: Config, hand: str) -> float | None:
     said = C.getFrame(hand).getAttributes().get("opening")
     if said is not None:
         return float(said)
-    return 0.08 if _palm(C, hand) else None
+    return 0.08 if palmOf(C, hand) else None
 
 
 def graspVariants(C: Config, obj: str, hand: str) -> list[str]:
@@ -294,7 +89,9 @@ def _widths(frame: Any) -> list[float]:
 
 
 def _grasp(w: TaskWaypoints, time: float, hand: str, obj: str, variant: str) -> None:
-    palm = _palm(w.C, hand)
+    palm = palmOf(w.C, hand)
+    if palm:  # the farther inside, the less it turns in the hand
+        w.komo.addObjective([time], FS.positionDiff, [hand, obj], OT.sos, [3e0])
     if variant == "touch":
         w.komo.addObjective([time], FS.distance, [obj, hand], OT.eq, [1e1])
     elif variant == "center":
@@ -320,7 +117,7 @@ def _grasp_hull(w: TaskWaypoints, time: float, hand: str, obj: str, axis: int) -
     products = [FS.scalarProductXX, FS.scalarProductXY, FS.scalarProductXZ]
     for other in others:
         w.komo.addObjective([time - 0.2, time], products[other], [hand, obj], OT.eq, [1e0])
-    if palm := _palm(w.C, hand):
+    if palm := palmOf(w.C, hand):
         w.komo.addObjective([time - 0.3, time], FS.distance, [palm, obj], OT.ineq, [1e1], [-0.001])
 
 
@@ -335,12 +132,49 @@ def _handover(w: TaskWaypoints, time: float, action: Action, variant: str) -> No
 
 
 def _place(w: TaskWaypoints, time: float, action: Action, variant: str) -> None:
-    w.put(time, action[1], action[3])
+    if variant == "upright":
+        w.put(time, action[1], action[3])
+    else:
+        w.lay(time, action[1], action[3], variant)
 
 
+def _lay(w: TaskWaypoints, time: float, action: Action, variant: str) -> None:
+    w.lay(time, action[1], action[3], variant)
+
+
+def _pose(w: TaskWaypoints, time: float, action: Action, variant: str) -> None:
+    w.komo.addObjective([time], FS.poseDiff, [action[1], action[3]], OT.eq, [1e1])
+
+
+def _touch(w: TaskWaypoints, time: float, action: Action, variant: str) -> None:
+    w.touch(time, action[3], action[1])
+
+
+def _push(w: TaskWaypoints, time: float, action: Action, variant: str) -> None:
+    begun = [i for i, a in enumerate(w.actions[: round(time) - 1]) if a[0] == "push_start" and a[1] == action[1]]
+    w.push(float(begun[-1] + 1), time, action[2], action[1], action[3])
+
+
+def _faces(C: Config, action: Action) -> list[str]:
+    return [action[4]] if C.getFrame(action[1]).getShapeType() in (ST.box, ST.ssBox) else []
+
+
+def _stands(C: Config, action: Action) -> list[str]:
+    """Upright, or a box with the face up that it has up already."""
+    face = upOf(C, action[1])
+    is_box = C.getFrame(action[1]).getShapeType() in (ST.box, ST.ssBox)
+    return ["upright"] + ([face] if is_box and face not in ("", "z") else [])
+
+
+UPRIGHT = TaskRule(_place, lambda C, a: ["upright"])  # where the goal says what is up
 DEFAULT_RULES = {
     "pick": TaskRule(_pick, lambda C, a: graspVariants(C, a[1], a[3])),
-    "place": TaskRule(_place, lambda C, a: ["upright"]),
+    "lift": TaskRule(_pick, lambda C, a: graspVariants(C, a[1], a[3])),
+    "place": TaskRule(_place, _stands),
+    "lay": TaskRule(_lay, _faces),
+    "push_start": TaskRule(_touch, lambda C, a: ["touch"]),
+    "push_end": TaskRule(_push, lambda C, a: ["push"]),
+    "pose": TaskRule(_pose, lambda C, a: ["held"]),
     "handover": TaskRule(_handover, lambda C, a: graspVariants(C, a[1], a[3])),
 }
 

@@ -9,7 +9,9 @@ from typing import Any
 import numpy as np
 
 from ._core import JT, ST, Config
-from .task_actions import Action, graspVariants, opening
+from .task_actions import graspVariants, opening
+from .task_domain import PICKS
+from .task_waypoints import Action
 
 _TURNS = (JT.hingeX, JT.hingeY, JT.hingeZ, JT.hinge, JT.quatBall)
 _SLIDES = {JT.transX: [0], JT.transY: [1], JT.transZ: [2], JT.transXY: [0, 1], JT.trans3: [0, 1, 2]}
@@ -81,7 +83,7 @@ def _offset(C: Config, frame: Any) -> tuple[np.ndarray, np.ndarray]:
 def _through_joint(frame: Any, reach: Reach) -> None:
     kind = frame.getJointType()
     if kind in _SLIDES:
-        limits = np.asarray(frame.info().get("limits", []), float)
+        limits = np.asarray(frame.asDict().get("limits", []), float)
         if limits.size != 2 * len(_SLIDES[kind]):
             reach.half = np.full(3, np.inf)
             return
@@ -132,7 +134,7 @@ def impossibleActions(C: Config, actions: list[Action]) -> list[Impossible]:
     reach: dict = {}
     fixed = {f.name for f in C.getFrames() if f.getJointType() != JT.rigid}
     for action in actions:
-        if action[0] == "pick":
+        if action[0] in PICKS:
             found += _pick(C, action, reach, fixed)
         elif action[0] == "place" and action[3] in fixed:
             room = _radius(C, action[1]) + 0.5 * float(np.linalg.norm(C.getFrame(action[3]).getSize()[:3]))
@@ -191,7 +193,11 @@ def _room(C: Config, places: list[Action]) -> list[Impossible]:
         diagonal = float(np.linalg.norm(C.getFrame(to).getSize()[:2]))
         for a, b in itertools.permutations(objects, 2):
             inner = (_inner(C, a), _inner(C, b))
-            if None in inner or sum(inner) <= diagonal or not all(C.getFrame(n).info().get("contact") for n in (a, b)):
+            if (
+                None in inner
+                or sum(inner) <= diagonal
+                or not all(C.getFrame(n).asDict().get("contact") for n in (a, b))
+            ):
                 continue
             first, second = sorted((a, b))
             why = f"'{first}' and '{second}' do not fit on '{to}' together: their centers are {sum(inner):.3f} m apart or more, and {diagonal:.3f} m at most there"

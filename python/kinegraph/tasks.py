@@ -5,98 +5,46 @@ from __future__ import annotations
 import itertools
 import time as clock
 from collections import Counter
-from dataclasses import dataclass, field
+from collections.abc import Iterator
+from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
 
-from ._core import JT, KOMO, Config, Domain, LogicProblem, NLP_Solver, PlanSearch, RRT_PathFinder, sceneFacts, solveIk
+from ._core import KOMO, Config, Domain, LogicProblem, NLP_Solver, PlanSearch, sceneFacts
 from .errors import ArgumentError
-from .manipulation import KOMO_ManipulationHelper, missed
-from .task_actions import DEFAULT_RULES, Action, TaskRule, TaskWaypoints, allVariants, defaultDomain, sceneWords
-from .task_check import checkTaskPlan, overlapAlong
+from .manipulation import missed
+from .task_actions import DEFAULT_RULES, UPRIGHT, TaskRule, allVariants
+from .task_check import checkTaskPlan
+from .task_conflicts import (
+    actionsAlone,
+    contradiction,
+    inTheWay,
+    literals,
+    neededProofs,
+    objectsWithout,
+    standsOnItself,
+    startsWithPick,
+    whileFacts,
+)
+from .task_domain import defaultDomain, sceneWords, wordsOf
+from .task_motions import TaskMotions, TimedRows, motionLimits
+from .task_plan import Branch, TaskPlan
 from .task_proofs import Impossible, impossibleActions
+from .task_waypoints import Action, TaskWaypoints
 
 _STARTS = 3  # of a waypoint problem, for each choice of variants
 _CHOICES = 6  # of variants, at most
-_PENETRATION = 1e-3  # m
-_LIFT = 0.2  # m: how far above its ends a motion is led where the straight one collides
 _MOTION_STARTS = 3  # sets of waypoints whose motions are tried
+_BETTER_STARTS = 16  # the same, where they have motions, and better ones are wanted
 
 
 @dataclass
-class Branch:
-    """A sequence of actions that was tried, and why it was given up; '' where it was not."""
+class _Failure:
+    """Why a waypoint problem has no solution, and the scene at its last waypoint."""
 
-    actions: list[Action]
     why: str
-    proved: bool = False
-
-
-@dataclass
-class TaskPlan:
-    """What planTask found, or why it found nothing.
-
-    status: 'solved', 'proved impossible' (no motion can do it; says why) or 'not found' (within the effort).
-    actions: each a list of words. waypoints: q after each action, shape (K, n). path: shape (T, n), rad or m, with
-    `segments[i]` the rows of action i. causes: why branches were given up, the most frequent first. tree: all branches.
-    """
-
-    status: str
-    message: str
-    actions: list[Action] = field(default_factory=list)
-    waypoints: np.ndarray | None = None
-    path: np.ndarray | None = None
-    segments: list[slice] = field(default_factory=list)
-    causes: list[tuple[str, int]] = field(default_factory=list)
-    tree: list[Branch] = field(default_factory=list)
-    violations: list[str] = field(default_factory=list)
-    evaluations: int = 0
-    expansions: int = 0
-    attachments: list[tuple[str, str]] = field(default_factory=list)
-    scenes: list[Config] = field(default_factory=list)
-    goal: list[str] = field(default_factory=list)
-
-    @property
-    def feasible(self) -> bool:
-        """Whether there is a plan whose motion passed the checker."""
-        return self.status == "solved"
-
-    def __str__(self) -> str:
-        lines = [f"{self.status}: {self.message}"]
-        lines += [f"  {i + 1}. ({' '.join(action)})" for i, action in enumerate(self.actions)]
-        lines += [f"  {count} x {cause}" for cause, count in self.causes[:8]]
-        return "\n".join(lines)
-
-    def why(self) -> str:
-        """Why there is no plan, or what stood in the way of others: causes, the most frequent first.
-
-        Returns:
-            A line per cause.
-        """
-        return "\n".join(f"{cause} ({count} branches)" for cause, count in self.causes) or self.message
-
-    def play(self, C: Config, pause: bool = False) -> None:
-        """Shows the motion of each action in the viewer, with what is held moving along.
-
-        Args:
-            C: A scene whose viewer shows it; it ends as after the plan.
-            pause: Waits for a key before each action.
-        Raises:
-            ArgumentError: There is no motion.
-        """
-        if self.path is None:
-            raise ArgumentError(f"play: there is no motion; {self.message}")
-        for action, rows, scene in zip(self.actions, self.segments, self.scenes, strict=True):
-            if pause:
-                C.view(True, f"({' '.join(action)})")
-            for q in self.path[rows]:
-                scene.setJointState(q)
-                for frame in C.getFrames():
-                    if frame.getParent() is None or frame.getJointType() == JT.rigid:
-                        frame.setPose(scene.getFrame(frame.name).getPose())
-                C.setJointState(q)
-                C.view(False, f"({' '.join(action)})")
+    ghost: Config | None
 
 
 class _Task:
@@ -106,12 +54,13 @@ class _Task:
         self, C: Config, goal: str, domain: Domain | None, rules: dict[str, TaskRule] | None, **limits: Any
     ) -> None:
         self.C = C.copy()
-        self.rules = {**DEFAULT_RULES, **(rules or {})}
+        self.rules = {**DEFAULT_RULES, **({"place": UPRIGHT} if "(up " in goal else {}), **(rules or {})}
         self.domain = defaultDomain() if domain is None else domain
         self.limits = limits
-        self.start = sceneWords(self.C, sceneFacts(self.C))
-        self.problem = LogicProblem(self.domain, " ".join(self.start), goal)
-        self.search = PlanSearch(self.problem)
+        self.regrasps = domain is None  # not tried yet
+        self.motion_limits = motionLimits(self.C, limits["velocity"], limits["acceleration"])
+        self.goal = goal
+        self._begin(sceneWords(self.C, sceneFacts(self.C), goal))
         missing = sorted({a[0] for a in self.search.actions} - set(self.rules))
         if missing:
             raise ArgumentError(
@@ -121,26 +70,56 @@ class _Task:
         self.causes: Counter[str] = Counter()
         self.evaluations = 0
         self.guessed = False  # is anything forbidden that was not proved?
-        self.known: dict[tuple[Any, ...], bool] = {}
+        self.known: dict[tuple[Any, ...], _Failure | None] = {}
         self.deadline = None if limits["seconds"] is None else clock.monotonic() + limits["seconds"]
 
-    def run(self) -> TaskPlan:
+    def _begin(self, start: list[str]) -> None:
+        self.start = start
+        self.problem = LogicProblem(self.domain, " ".join(start), self.goal)
+        self.search = PlanSearch(self.problem)
+
+    def plans(self) -> Iterator[TaskPlan]:
+        """Plans, each faster than the one before; without any, an answer that says why."""
         if self.search.unreachable:
-            return self._end("proved impossible", "; ".join(self.search.oddities))
+            yield self._end("proved impossible", "; ".join(self.search.oddities))
+            return
         proofs = impossibleActions(self.C, self.search.actions) if self.rules["pick"] is DEFAULT_RULES["pick"] else []
+        self._exclude(proofs)
+        best = np.inf
+        while (actions := self._next(best == np.inf, proofs)) is not None:
+            if not actions:
+                q = self.C.getJointState()
+                yield self._end("solved", "the goal holds already", path=q[None], times=np.zeros(1))
+                return
+            for plan in self._try(actions):
+                if plan.duration < best:
+                    best = plan.duration
+                    yield plan
+                if self._spent():
+                    break
+            if self._spent():
+                if best == np.inf:
+                    yield self._end("not found", f"no plan within the effort; {self._first_cause()}")
+                return
+        if best == np.inf:
+            yield self._nothing(proofs)
+
+    def _exclude(self, proofs: list[Impossible]) -> None:
         for proof in proofs:
             self.search.forbid(proof.action, proof.facts)
-        while True:
+
+    def _next(self, none_yet: bool, proofs: list[Impossible]) -> list[Action] | None:
+        """The next plan in logic. Where all fail, things may also be put down to be grasped in another way."""
+        actions = self.search.next()
+        if actions is None and none_yet and self.guessed and self.regrasps and self.search.status != "limit":
+            self.regrasps = False
+            self._begin([*self.start, *(f"(fresh {obj})" for obj in wordsOf(self.start, "is_object"))])
+            self._exclude(proofs)
             actions = self.search.next()
-            if actions is None:
-                return self._nothing(proofs)
-            if not actions:
-                return self._end("solved", "the goal holds already")
-            plan = self._try(actions)
-            if plan is not None:
-                return plan
-            if self.evaluations >= self.limits["evaluations"] or self._late():
-                return self._end("not found", f"no plan within the effort; {self._first_cause()}")
+        return actions
+
+    def _spent(self) -> bool:
+        return self.evaluations >= self.limits["evaluations"] or self._late()
 
     def _late(self) -> bool:
         return self.deadline is not None and clock.monotonic() > self.deadline
@@ -155,34 +134,9 @@ class _Task:
             return self._end("not found", f"all plans in logic fail; {self._first_cause()}")
         for proof in proofs:
             self.causes[proof.why] += 1
-        if not proofs or not self._possible_without(proofs):
-            return self._end("proved impossible", self._contradiction())
-        return self._end("proved impossible", self._needed(proofs))
-
-    def _possible_without(self, proofs: list[Impossible]) -> bool:
-        return PlanSearch(self.problem).next() is not None
-
-    def _needed(self, proofs: list[Impossible]) -> str:
-        """The proofs that matter: with these alone there is no plan; those that can be left out one by one are."""
-        whys = list(dict.fromkeys(proof.why for proof in proofs))
-        for why in list(whys):
-            rest = [w for w in whys if w != why]
-            search = PlanSearch(self.problem)
-            for proof in proofs:
-                if proof.why in rest:
-                    search.forbid(proof.action, proof.facts)
-            if search.next() is None:
-                whys = rest
-        return "; ".join(whys)
-
-    def _contradiction(self) -> str:
-        """The fewest literals of the goal that no sequence of actions reaches together."""
-        goal = self.problem.goal
-        for literal in list(goal):
-            rest = [g for g in goal if g != literal]
-            if rest and PlanSearch(LogicProblem(self.domain, " ".join(self.start), " ".join(rest))).next() is None:
-                goal = rest
-        return f"no sequence of actions reaches {' and '.join(goal)}" + (" together" if len(goal) > 1 else "")
+        if not proofs or PlanSearch(self.problem).next() is None:
+            return self._end("proved impossible", contradiction(self.domain, self.problem, self.start))
+        return self._end("proved impossible", neededProofs(self.problem, proofs))
 
     def _end(self, status: str, message: str, **more: Any) -> TaskPlan:
         return TaskPlan(
@@ -193,97 +147,101 @@ class _Task:
             evaluations=self.evaluations,
             expansions=self.search.expansions,
             goal=self.problem.goal,
+            start=self.start,
             **more,
         )
 
     # --- geometry ----------------------------------------------------------------------------------------------------
 
-    def _try(self, actions: list[Action]) -> TaskPlan | None:
-        """TaskWaypoints, then motions; forbids what fails."""
-        why = ""
-        for found in range(_MOTION_STARTS):
-            waypoints = self._waypoints(actions, found)
-            if waypoints is None:
+    def _try(self, actions: list[Action]) -> Iterator[TaskPlan]:
+        """Plans with these actions, from other waypoints each; forbids what fails."""
+        if cycle := standsOnItself(self.search.states(actions)):
+            self.search.forbidBeginning(actions)
+            self.tree.append(Branch(actions, f"'{cycle}' would stand on itself"))
+            return
+        failed: _Failure | None = None
+        found = False
+        for seed in range(_BETTER_STARTS):
+            if seed >= _MOTION_STARTS and not found:
+                break
+            waypoints = self._solve(self.C, actions, seed)
+            if isinstance(waypoints, _Failure):
+                if seed == 0:
+                    self.known[tuple(map(tuple, actions)), ()] = waypoints
                 break
             plan = self._motions(waypoints)
             if isinstance(plan, TaskPlan):
                 self.tree.append(Branch(actions, ""))
-                return plan
-            why = plan
-        if why:
-            self._give_up(actions, why)
+                found = True
+                yield plan
+            else:
+                failed = plan
+        if found:
+            self.search.forbidBeginning(actions)
+        elif failed:
+            self._give_up(actions, failed.why, failed.ghost)
             self.search.forbidBeginning(actions)
         else:
             self._forbid_failing(actions)
-        return None
 
-    def _give_up(self, actions: list[Action], why: str) -> None:
+    def _give_up(self, actions: list[Action], why: str, ghost: Config | None = None) -> None:
         self.guessed = True
+        if any(branch.actions == actions and branch.why == why for branch in self.tree):
+            return  # tried before regrasps were allowed
         self.causes[why] += 1
-        self.tree.append(Branch(actions, why))
+        self.tree.append(Branch(actions, why, ghost))
 
-    def _solve(self, C: Config, actions: list[Action], seed: int, starts: int) -> tuple[TaskWaypoints | None, str]:
-        """TaskWaypoints that satisfy all that the actions ask, or None and why not."""
-        said = ""
+    def _solve(self, C: Config, actions: list[Action], seed: int) -> TaskWaypoints | _Failure:
+        """TaskWaypoints that satisfy all that the actions ask, or why there are none."""
+        failure: _Failure | None = None
         rng = np.random.default_rng([self.limits["seed"], seed, len(actions)])
-        for number, variants in enumerate(allVariants(C, actions, self.rules)):
-            if number >= _CHOICES or self._late():
-                break
-            for start in range(starts):
-                waypoints = TaskWaypoints(C, actions, variants, self.rules)
-                solver = NLP_Solver(waypoints.komo.nlp(), verbose=0)
-                solver.setInitialization(waypoints.start(None if start == seed == 0 else rng))
+        for variants in itertools.islice(allVariants(C, actions, self.rules), _CHOICES):
+            waypoints = TaskWaypoints(C, actions, variants, self.rules)
+            solver = NLP_Solver(waypoints.komo.nlp(), verbose=0)
+            for start in range(_STARTS):
+                first = start == 0  # the others go farther
+                solver.setInitialization(waypoints.start(None if first and seed == 0 else rng, not first))
                 result = solver.solve(0)
                 self.evaluations += result.evals
                 if result.feasible:
-                    return waypoints, ""
-                said = said or _cause(waypoints.komo, actions)
-        return None, said or f"{_text(actions[-1:])}: the hand cannot hold it"
-
-    def _waypoints(self, actions: list[Action], seed: int) -> TaskWaypoints | None:
-        waypoints, _ = self._solve(self.C, actions, seed, _STARTS)
-        return waypoints
+                    return waypoints
+                if failure is None:
+                    ghost = waypoints.komo.getConfiguration(len(actions) - 1)
+                    failure = _Failure(_cause(waypoints.komo, actions), ghost)
+                if self._late():
+                    return failure
+        return failure or _Failure(f"{_text(actions[-1:])}: the hand cannot hold it", None)
 
     def _forbid_failing(self, actions: list[Action]) -> None:
         """Finds the first action at which it fails, and what stands in its way."""
         count = 1
-        while count < len(actions) and self._possible(actions[:count]):
+        while count < len(actions) and self._failure(actions[:count]) is None:
             count += 1
         beginning = actions[:count]
-        alone = _alone(beginning)
-        if not self._possible(alone, without=self._others(alone)):
-            why = self._why(alone, self._others(alone))
-            self._give_up(beginning, why)
-            if len(alone) == len(beginning) or _starts_with_pick(alone, self.start):
-                self.search.forbid(alone[-1], "")
-            else:
-                self.search.forbidBeginning(beginning)
+        alone = actionsAlone(beginning)
+        others = objectsWithout(alone, self.start)
+        if failure := self._failure(alone, others):
+            self._give_up(beginning, failure.why, failure.ghost)
+            general = len(alone) == len(beginning) or startsWithPick(alone, self.start)
+            self._forbid(beginning, whileFacts(alone, self.start) if general else None)
             return
-        for fact, other in self._in_the_way(alone[-1]):
-            if not self._possible(alone, without=[o for o in self._others(alone) if o != other]):
-                why = f"while {fact}: {self._why(alone, [o for o in self._others(alone) if o != other])}"
-                self._give_up(beginning, why)
-                self.search.forbid(alone[-1], fact)
+        for fact, other in inTheWay(alone[-1], self.start):
+            if failure := self._failure(alone, [o for o in others if o != other]):
+                self._give_up(beginning, f"while {fact}: {failure.why}", failure.ghost)
+                self._forbid(beginning, f"{fact} {whileFacts(alone, self.start)}")
                 return
-        self._give_up(beginning, self._why(beginning, []))
+        failure = self._failure(beginning)
+        assert failure is not None, "what is whole failed"
+        self._give_up(beginning, failure.why, failure.ghost)
         self.search.forbidBeginning(beginning)
 
-    def _others(self, actions: list[Action]) -> list[str]:
-        """Objects that the actions are not about."""
-        used = {word for action in actions for word in action}
-        return [
-            fact[1:-1].split()[1]
-            for fact in self.start
-            if fact.startswith("(is_object ") and fact[1:-1].split()[1] not in used
-        ]
-
-    def _in_the_way(self, action: Action) -> list[tuple[str, str]]:
-        """Facts of the start that put something where the action puts or takes its object."""
-        return [
-            (f, f[1:-1].split()[2])
-            for f in self.start
-            if f.startswith("(on ") and f[1:-1].split()[1] in action[1:] and f[1:-1].split()[2] not in action
-        ]
+    def _forbid(self, beginning: list[Action], facts: str | None) -> None:
+        """The last action is impossible while facts hold; None, or where they do not hold then: after what was done before."""
+        holds = self.search.states(beginning)[-2]
+        if facts is not None and all(fact in holds for fact in literals(facts)):
+            self.search.forbid(beginning[-1], facts.strip())
+        else:
+            self.search.forbidBeginning(beginning)
 
     def _scene(self, without: list[str]) -> Config:
         C = self.C.copy()
@@ -291,32 +249,46 @@ class _Task:
             C.getFrame(name).setContact(0)
         return C
 
-    def _possible(self, actions: list[Action], without: list[str] | tuple[str, ...] = ()) -> bool:
+    def _failure(self, actions: list[Action], without: list[str] | tuple[str, ...] = ()) -> _Failure | None:
+        """Why actions cannot be carried out while some objects are not there; None if they can."""
         key = (tuple(map(tuple, actions)), tuple(without))
         if key not in self.known:
-            self.known[key] = self._solve(self._scene(list(without)), actions, 0, _STARTS)[0] is not None
+            solved = self._solve(self._scene(list(without)), actions, 0)
+            self.known[key] = solved if isinstance(solved, _Failure) else None
         return self.known[key]
 
-    def _why(self, actions: list[Action], without: list[str]) -> str:
-        return self._solve(self._scene(without), actions, 0, 1)[1]
-
-    def _motions(self, waypoints: TaskWaypoints) -> TaskPlan | str:
+    def _motions(self, waypoints: TaskWaypoints) -> TaskPlan | _Failure:
         """The motions between waypoints, checked; or why there is none."""
-        paths, scenes = [], []
+        found = TaskMotions(self.motion_limits, self.start, self.limits["seed"])
+        rows: list[TimedRows] = []
+        scenes: list[Config] = []
         for phase, action in enumerate(waypoints.actions):
             C, q0, q1 = waypoints.komo.getSubProblem(phase)
-            path, why = self._motion(C, q0, q1, action, waypoints.actions[phase - 1] if phase else [])
-            if path is None:
-                return f"{_text([action])}: {why}"
-            paths.append(path)
+            before = waypoints.actions[phase - 1] if phase else []
+            motion, why = found.between(C, rows[-1].path[-1] if rows else q0, q1, action, before)
+            if motion is None:
+                self.evaluations += found.evaluations
+                C.setJointState(q1)
+                return _Failure(f"{_text([action])}: {why}", C)
+            rows.append(motion)
             scenes.append(C)
-        ends = np.cumsum([0] + [len(p) for p in paths])
-        plan = self._end(
+        self.evaluations += found.evaluations
+        plan = self._plan(waypoints, rows, scenes)
+        plan.violations = checkTaskPlan(self.C, plan, self.search.states(plan.actions))
+        return plan if not plan.violations else _Failure(plan.violations[0], None)
+
+    def _plan(self, waypoints: TaskWaypoints, rows: list[TimedRows], scenes: list[Config]) -> TaskPlan:
+        ends = np.cumsum([0] + [len(motion.path) for motion in rows])
+        began = np.cumsum([0.0] + [motion.times[-1] for motion in rows])
+        return self._end(
             "solved",
-            f"{len(paths)} actions; checked: logic, motions free to 1 mm, grasps, placements, support",
+            f"{len(rows)} actions, {began[-1]:.2f} s; checked: logic, motions free to 1 mm at all times, limits, grasps, "
+            "placements, support",
             actions=waypoints.actions,
             waypoints=waypoints.komo.getPath(),
-            path=np.vstack(paths),
+            path=np.vstack([motion.path for motion in rows]),
+            times=np.concatenate([start + motion.times for start, motion in zip(began, rows, strict=False)]),
+            limits=self.motion_limits,
             segments=[slice(int(a), int(b)) for a, b in itertools.pairwise(ends)],
             attachments=[
                 (waypoints.komo.getConfiguration(i).getFrame(a[1]).getParent().name, a[1])
@@ -324,67 +296,6 @@ class _Task:
             ],
             scenes=scenes,
         )
-        plan.violations = checkTaskPlan(self.C, plan, self.search.states(plan.actions))
-        return plan if not plan.violations else plan.violations[0]
-
-    def _motion(
-        self, C: Config, q0: np.ndarray, q1: np.ndarray, action: Action, before: Action
-    ) -> tuple[np.ndarray | None, str]:
-        """A motion of one action: smooth if that is free between its slices, too, else one that trees find."""
-        C.setJointState(q0)
-        for via in (None, _above(C, action, q0, q1)):
-            m = KOMO_ManipulationHelper()
-            m.setup_point_to_point_motion(C, q1)
-            if via is not None:
-                s = np.linspace(0.0, 1.0, m.komo.getT() // 2 + 1)[1:, None]
-                m.komo.initWithPath(np.vstack([q0 + s * (via - q0), via + s * (q1 - via)]))
-            result = NLP_Solver(m.komo.nlp(), verbose=0).solve(0)
-            self.evaluations += result.evals
-            path = np.vstack([q0, m.komo.getPath()])
-            if result.feasible and overlapAlong(C, path) <= _PENETRATION:
-                return path, ""
-        finder = RRT_PathFinder()
-        finder.setOptions(verbose=0, collisionTolerance=_PENETRATION)
-        finder.setProblem(C)
-        finder.setStartGoal([q0], [q1])
-        found = finder.solve(0)
-        self.evaluations += found.evals
-        if not found.feasible:
-            return None, f"no motion was found: {found.message}"
-        path = np.asarray(found.x)
-        overlap = overlapAlong(C, path)
-        return (path, "") if overlap <= _PENETRATION else (None, f"bodies overlap by {overlap:.4f} m on the way")
-
-
-def _above(C: Config, action: Action, q0: np.ndarray, q1: np.ndarray) -> np.ndarray | None:
-    """Joints with the hand above the middle of its way; None if there are none."""
-    hand = {"pick": 3, "handover": 3, "place": 2}.get(action[0])
-    if hand is None:
-        return None
-    D, at = C.copy(), []
-    for q in (q0, q1):
-        D.setJointState(q)
-        at.append(D.getFrame(action[hand]).getPosition())
-    middle = [*(0.5 * (at[0] + at[1]))[:2], max(at[0][2], at[1][2]) + _LIFT]
-    result = solveIk(D, {action[hand]: middle}, attempts=10)
-    return np.array(result.q) if result.feasible else None
-
-
-def _alone(actions: list[Action]) -> list[Action]:
-    """The last action, with the one that gave the hand its object."""
-    last = actions[-1]
-    for i in range(len(actions) - 2, -1, -1):
-        if actions[i][1] == last[1] and last[0] != "pick":
-            return [*_alone(actions[: i + 1]), last]
-        if actions[i][1] == last[1]:
-            break
-    return [last]
-
-
-def _starts_with_pick(actions: list[Action], start: list[str]) -> bool:
-    """Is the object picked where it is at the start?"""
-    first = actions[0]
-    return first[0] == "pick" and f"(on {first[2]} {first[1]})" in start
 
 
 def _cause(komo: KOMO, actions: list[Action]) -> str:
@@ -403,6 +314,8 @@ def planTask(
     seconds: float | None = None,
     evaluations: int = 200000,
     seed: int = 0,
+    velocity: Any = None,
+    acceleration: Any = None,
 ) -> TaskPlan:
     """Finds what to do, and how to move, so that a goal holds: a search in logic proposes sequences of actions; cheap
     proofs of reach, size and room, then waypoints with grasps and placements, then motions say whether bodies can carry
@@ -420,10 +333,64 @@ def planTask(
         seconds: Gives up after that long; None: never. The answer then depends on the machine.
         evaluations: Effort: gives up after so many evaluations of motion problems.
         seed: Of the starts that are drawn.
+        velocity: Most |dq/dt|, a number or one per joint, rad/s or m/s; None: the model's, 1 where it says none.
+        acceleration: Most |d2q/dt2|, the same, rad/s^2 or m/s^2; None: what reaches full speed in half a second.
     Returns:
         A TaskPlan; not finding one is no error.
     Raises:
         ParseError: A word of the goal is not in the scene.
         ArgumentError: Nothing is known of an action.
     """
-    return _Task(C, goal, domain, rules, seconds=seconds, evaluations=evaluations, seed=seed).run()
+    options = {
+        "seconds": seconds,
+        "evaluations": evaluations,
+        "seed": seed,
+        "velocity": velocity,
+        "acceleration": acceleration,
+    }
+    return next(planTasks(C, goal, domain, rules, **options))
+
+
+def planTasks(
+    C: Config,
+    goal: str,
+    domain: Domain | None = None,
+    rules: dict[str, TaskRule] | None = None,
+    seconds: float | None = None,
+    evaluations: int = 200000,
+    seed: int = 0,
+    velocity: Any = None,
+    acceleration: Any = None,
+) -> Iterator[TaskPlan]:
+    """Plans that get better while one waits: the first is that of planTask, each further one takes less time than the one
+    before. They come from other waypoints of the same actions, and from other actions.
+
+        for plan in ry.planTasks(C, "(on tray cup)", evaluations=20000):
+            print(plan.duration)
+
+    Args:
+        C: The scene; it is not changed.
+        goal: As for planTask.
+        domain: As for planTask.
+        rules: As for planTask.
+        seconds: Ends after that long; None: never.
+        evaluations: Effort: ends after so many evaluations of motion problems.
+        seed: Of the starts that are drawn.
+        velocity: As for planTask.
+        acceleration: As for planTask.
+    Returns:
+        An iterator of TaskPlans; where there is none, one that says why.
+    Raises:
+        ParseError: A word of the goal is not in the scene.
+        ArgumentError: Nothing is known of an action.
+    """
+    options = {
+        "seconds": seconds,
+        "evaluations": evaluations,
+        "seed": seed,
+        "velocity": velocity,
+        "acceleration": acceleration,
+    }
+    for plan in _Task(C, goal, domain, rules, **options).plans():
+        plan.again = lambda scene: planTask(scene, goal, domain, rules, **options)
+        yield plan

@@ -17,7 +17,7 @@ from kinegraph import *  # noqa: F403
 from kinegraph import ArgWord as ArgWord
 from kinegraph import __version__ as __version__
 from kinegraph import test as test
-from kinegraph.lgp import default_Logic2KOMO_Translator, default_TAMP_Provider
+from kinegraph.lgp_abstraction import default_Logic2KOMO_Translator, default_TAMP_Provider
 
 from . import DataGen, algo, calib, manipulation, nlp, render
 from .manipulation import KOMO_ManipulationHelper, LGP_Tool, ManipulationModelling

@@ -11,9 +11,14 @@ EARLIER_OPTIONS = {"maxLambda": "lambdaMax", "maxStep": "stepMax"}
 
 
 class SolverReturn(kinegraph.SolverReturn):
-    """How a solve ended. feasible: the violations of all equalities sum up to less than 0.1, and so do those of all
-    inequalities. message says how far the worst constraint is from holding where kinegraph's rule would not call this
+    """How a solve ended. evals counts all solves of the solver, as in the reference. feasible: the violations of all
+    equalities sum up to less than 0.1, and so do those of all inequalities. message says how far the worst constraint is from holding where kinegraph's rule would not call this
     feasible; explain() says why."""
+
+    @property
+    def evals(self) -> int:
+        """Number of evaluations of all solves of the solver so far, this one included."""
+        return self.totalEvals
 
     @property
     def feasible(self) -> bool:
@@ -34,10 +39,11 @@ class SolverReturn(kinegraph.SolverReturn):
 
     def dict(self) -> dict[str, Any]:
         """evals, time, done, feasible, f, sos, ineq, eq."""
-        return {**super().dict(), "feasible": self.feasible}
+        return {**super().dict(), "evals": self.evals, "feasible": self.feasible}
 
     def __str__(self) -> str:
-        return super().__str__().replace(f"feasible: {int(super().feasible)}", f"feasible: {int(self.feasible)}", 1)
+        said = super().__str__().replace(f"evals: {super().evals}", f"evals: {self.evals}", 1)
+        return said.replace(f"feasible: {int(super().feasible)}", f"feasible: {int(self.feasible)}", 1)
 
     def __repr__(self) -> str:
         return f"<SolverReturn {self.status.name}: {self}>"

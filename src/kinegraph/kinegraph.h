@@ -15,6 +15,7 @@
 #include "kinegraph/base/errors.h"          // what is thrown
 #include "kinegraph/base/random.h"          // Rng
 #include "kinegraph/control/diff_ik.h"      // DiffIk: joint velocities, a step at a time
+#include "kinegraph/control/mpc.h"          // Mpc: a motion problem, solved while time goes on
 #include "kinegraph/features/batch.h"       // many configurations at once
 #include "kinegraph/features/eval.h"        // a feature's value and Jacobian
 #include "kinegraph/formats/gltf_writer.h"  // scenes written as files
@@ -26,6 +27,7 @@
 #include "kinegraph/front/model_path.h"        // modelPath
 #include "kinegraph/front/names.h"             // FS, OT, ST, KOMO, NLP_Solver, ...
 #include "kinegraph/front/own_feature.h"       // functions of frames as features
+#include "kinegraph/front/recorded_motion.h"   // recordedMotion: a simulated run as a page plays it
 #include "kinegraph/front/retime_robot.h"      // retime: a robot's path, by its limits
 #include "kinegraph/front/solve_all.h"         // several problems at once
 #include "kinegraph/ik/solve_ik.h"             // solveIk
@@ -39,6 +41,7 @@
 #include "kinegraph/logic/plan_search.h"            // PlanSearch
 #include "kinegraph/motion/path_finder.h"           // paths between two postures
 #include "kinegraph/motion/plan_motion.h"           // planMotion
+#include "kinegraph/motion/plan_picture.h"          // planPicture, roadmapPicture
 #include "kinegraph/motion/refine_path.h"           // shortcut, smooth
 #include "kinegraph/motion/roadmap.h"               // Roadmap
 #include "kinegraph/nlp/callback_nlp.h"             // problems of your own
@@ -56,6 +59,7 @@
 #include "kinegraph/scene/config_dynamics.h"        // rigidBodyDynamics, centroidalMomentumMatrix
 #include "kinegraph/scene/ignored_contacts.h"       // ignoreCollisionsNow
 #include "kinegraph/scene/motor_limits.h"           // getVelocityLimits, getEffortLimits
+#include "kinegraph/scene/self_collisions.h"        // selfCollisionMatrix
 #include "kinegraph/simulation/simulation.h"        // Simulation
 #include "kinegraph/simulation/simulation_batch.h"  // many of them
 #include "kinegraph/solvers/explanation.h"          // why constraints do not hold

@@ -2,8 +2,10 @@
 
 #include <gtest/gtest.h>
 
+#include <Eigen/LU>
 #include <cmath>
 
+#include "tests/control/arm.h"
 #include "tests/support/expect_error.h"
 
 using namespace kinegraph;
@@ -12,21 +14,6 @@ namespace {
 
 constexpr double kStep = .005;  // s
 constexpr double kKept = 1e-9;  // by which a limit may be exceeded
-
-/// Three joints in a plane, of 0.5 m each, a ball at the tip, and a target.
-Config arm() {
-  Config C;
-  C.addText(R"scene(
-base: { }
-j1 (base): { joint: hingeZ, limits: [-3 3], q: .3 }
-j2 (j1): { pre: "t(.5 0 0)", joint: hingeZ, limits: [-2 2], q: .4 }
-j3 (j2): { pre: "t(.5 0 0)", joint: hingeZ, limits: [-2 2], q: .4 }
-tip (j3): { Q: "t(.5 0 0)", shape: sphere, size: [.05], contact: 1 }
-obstacle: { X: "t(5 0 0)", shape: sphere, size: [.1], contact: 1 }
-target: { X: "t(.9 .8 0)" }
-)scene");
-  return C;
-}
 
 DiffIkOptions withLimits(double velocity, double acceleration) {
   DiffIkOptions options;
@@ -42,7 +29,7 @@ double distanceTo(const Config& C, const char* target) {
 }  // namespace
 
 TEST(DiffIk, AFrameComesToItsTarget) {
-  Config C = arm();
+  Config C = planarArm();
   DiffIk ik(C, withLimits(2., 0.));
   ik.addTask(FeatureSymbol::positionDiff, {"tip", "target"});
   for (int i = 0; i < 400; ++i) ik.step(kStep);
@@ -51,7 +38,7 @@ TEST(DiffIk, AFrameComesToItsTarget) {
 }
 
 TEST(DiffIk, LimitsHoldWhileATargetOutOfReachMoves) {
-  Config C = arm();
+  Config C = planarArm();
   DiffIk ik(C, withLimits(1., 5.));
   ik.addTask(FeatureSymbol::positionDiff, {"tip", "target"});
   const MatrixXd limits = C.getJointLimits();
@@ -71,7 +58,7 @@ TEST(DiffIk, LimitsHoldWhileATargetOutOfReachMoves) {
 }
 
 TEST(DiffIk, PairsKeepTheirMargin) {
-  Config C = arm();
+  Config C = planarArm();
   C.getFrame("obstacle").setPosition(C.getFrame("target").getPosition());  // the target is within
   DiffIk ik(C, withLimits(2., 0.));
   ik.addTask(FeatureSymbol::positionDiff, {"tip", "target"});
@@ -85,7 +72,7 @@ TEST(DiffIk, PairsKeepTheirMargin) {
 }
 
 TEST(DiffIk, FromBeyondALimitItGoesBackAsFastAsItMay) {
-  Config C = arm();
+  Config C = planarArm();
   DiffIk ik(C, withLimits(1., 0.));
   ik.addTask(FeatureSymbol::positionDiff, {"tip", "target"});
   C.setJointState(Eigen::Vector3d(.3, 2.1, .4));
@@ -95,7 +82,7 @@ TEST(DiffIk, FromBeyondALimitItGoesBackAsFastAsItMay) {
 }
 
 TEST(DiffIk, DampersThatContradictLimitsGiveWayAndAreNamed) {
-  Config C = arm();
+  Config C = planarArm();
   DiffIk ik(C, withLimits(.1, 0.));
   ik.addTask(FeatureSymbol::positionDiff, {"tip", "target"});
   C.getFrame("obstacle").setPosition(C.getFrame("tip").getPosition() + Vector3d(.05, 0., 0.));
@@ -107,7 +94,7 @@ TEST(DiffIk, DampersThatContradictLimitsGiveWayAndAreNamed) {
 }
 
 TEST(DiffIk, ThePostureDecidesWhatTasksLeaveOpen) {
-  Config C = arm();
+  Config C = planarArm();
   DiffIkOptions options = withLimits(5., 0.);
   options.posture = 1e-2;
   DiffIk ik(C, options);
@@ -117,8 +104,81 @@ TEST(DiffIk, ThePostureDecidesWhatTasksLeaveOpen) {
   EXPECT_LT((C.getJointState() - posture).cwiseAbs().maxCoeff(), 1e-4);
 }
 
+TEST(DiffIk, ATaskOfAHigherLevelHasWhatOthersLeaveOpen) {
+  Config C = planarArm();
+  DiffIkOptions options = withLimits(1e4, 0.);
+  options.posture = 1e-3;
+  const Eigen::Vector3d q = C.getJointState(), wanted(1., -.5, .2);
+  DiffIk ik(C, options);
+  ik.addTask(FeatureSymbol::positionDiff, {"tip", "target"}, 1., .5);
+  ik.addTask(FeatureSymbol::qItself, {}, 100., 1., wanted, 1);  // its weight does not matter to the first
+  const VectorXd step = kStep * ik.step(kStep, false);
+
+  // On paper: least |x - (wanted - q)|^2 subject to J x = -y / 2, by its conditions.
+  MatrixXd J(2, 3);
+  const Evaluation tip = eval(C, FeatureSymbol::positionDiff, {"tip", "target"});
+  J = tip.J.topRows(2);
+  MatrixXd conditions = MatrixXd::Zero(5, 5);
+  conditions.topLeftCorner(3, 3).setIdentity();
+  conditions.bottomLeftCorner(2, 3) = J, conditions.topRightCorner(3, 2) = J.transpose();
+  VectorXd right(5);
+  right << wanted - q, -.5 * tip.y.head(2);
+  const VectorXd expected = conditions.fullPivLu().solve(right).head(3);
+  EXPECT_LT((step - expected).norm(), 1e-6);
+  EXPECT_LT((J * step + .5 * tip.y.head(2)).norm(), 1e-8);
+}
+
+TEST(DiffIk, LevelsKeepLimitsAndPairs) {
+  Config C = planarArm();
+  C.getFrame("obstacle").setPosition({.9, .8, 0.});  // at the target
+  DiffIk ik(C, withLimits(2., 20.));
+  ik.addTask(FeatureSymbol::positionDiff, {"tip", "target"});
+  ik.addTask(FeatureSymbol::qItself, {}, 1., .02, Eigen::Vector3d(3., -2., 2.), 1);
+  ik.addTask(FeatureSymbol::qItself, {"j1"}, 1., .02, VectorXd::Zero(1), 2);
+  const MatrixXd limits = C.getJointLimits();
+  for (int i = 0; i < 600; ++i) {
+    const VectorXd velocity = ik.step(kStep), q = C.getJointState();
+    EXPECT_LE(velocity.cwiseAbs().maxCoeff(), 2. + kKept);
+    EXPECT_GE((q - limits.row(0).transpose()).minCoeff(), -kKept);
+    EXPECT_GE((limits.row(1).transpose() - q).minCoeff(), -kKept);
+    EXPECT_GT(distanceTo(C, "obstacle") - .15, .01 - 1e-4);
+    EXPECT_EQ(ik.status(), DiffIkStatus::solved) << ik.message();
+  }
+  EXPECT_LT(distanceTo(C, "obstacle") - .15, .011);
+}
+
+TEST(DiffIk, EqualitiesHoldWhileTasksPull) {
+  Config C = planarArm();
+  C.getFrame("target").setPosition(C.getFrame("tip").getPosition());
+  DiffIk ik(C, withLimits(1., 10.));
+  ik.addTask(FeatureSymbol::qItself, {}, 100., .01, Eigen::Vector3d(-1., 1.5, 1.));
+  ik.addEquality(FeatureSymbol::positionDiff, {"tip", "target"});
+  const VectorXd before = C.getJointState();
+  for (int i = 0; i < 300; ++i) {
+    ik.step(kStep);
+    EXPECT_EQ(ik.status(), DiffIkStatus::solved) << ik.message();
+    EXPECT_LT(distanceTo(C, "target"), 1e-4);
+  }
+  EXPECT_GT((C.getJointState() - before).norm(), .2);  // within what is open
+}
+
+TEST(DiffIk, AnEqualityThatLimitsForbidGivesWayAndIsNamed) {
+  Config C = planarArm();
+  DiffIk ik(C, withLimits(.5, 0.));
+  const int tip = ik.addEquality(FeatureSymbol::positionDiff, {"tip", "target"});
+  C.getFrame("target").setPosition({5., 0., 0.});
+  const VectorXd velocity = ik.step(kStep);
+  EXPECT_LE(velocity.cwiseAbs().maxCoeff(), .5 + kKept);
+  EXPECT_EQ(ik.status(), DiffIkStatus::gave_way);
+  EXPECT_NE(ik.message().find("equality positionDiff"), std::string::npos) << ik.message();
+  EXPECT_NE(ik.message().find("tip, target by "), std::string::npos) << ik.message();
+  ik.setTarget(tip, eval(C, FeatureSymbol::positionDiff, {"tip", "target"}).y);
+  ik.step(kStep);
+  EXPECT_EQ(ik.status(), DiffIkStatus::solved) << ik.message();
+}
+
 TEST(DiffIk, MistakesAreNamed) {
-  Config C = arm();
+  Config C = planarArm();
   expectError<ValueError>([&] { DiffIk(C, withLimits(-1., 0.)); }, {"velocity", "not positive"});
   DiffIk ik(C);
   expectError<ValueError>([&] { ik.addTask(FeatureSymbol::positionDiff, {"tip", "target"}, 1., 2.); }, {"gain is 2"});

@@ -4,6 +4,7 @@
 
 #include "kinegraph/base/text.h"
 #include "kinegraph/scene/config.h"
+#include "tests/support/two_arms.h"
 
 using namespace kinegraph;
 
@@ -11,39 +12,14 @@ namespace {
 
 constexpr double kTolerance = 1e-5;  ///< m
 
-/// An arm of two joints with a finger, one more that carries a box, and obstacles of all kinds.
+/// Two arms, one of which holds a thing, and obstacles of all kinds.
 std::string scene(const std::string& first, const std::string& second) {
-  return cat(
-      "world: {}\n"
-      "upper(world): { pre: \"t(.1 .1 0) d(70 1 .2 .5)\", ",
-      first,
-      ", shape: capsule, size: [.2 .05], contact: 1 }\n"
-      "lower(upper): { pre: \"t(.15 0 .2) d(-50 .4 1 .3)\", ",
-      second,
-      " }\n"
-      "finger(lower): { Q: \"t(.05 .02 .15) d(35 1 .6 .2)\", shape: capsule, size: [.2 .03], contact: 1 }\n"
-      "held(finger): { Q: \"t(.05 .02 .1) d(35 1 .6 .2)\", shape: cylinder, size: [.1 .03], contact: 1 }\n"
-      "other(world): { pre: \"t(.2 .25 .05) d(-40 .2 .3 1)\", ",
-      second,
-      " }\n"
-      "box(other): { Q: \"t(-.05 .06 .02) d(20 .5 1 .1)\", shape: ssBox, size: [.15 .12 .1 .02], contact: 1 }\n"
-      "ball: { X: \"t(.35 -.05 .3)\", shape: sphere, size: [.06], contact: 1 }\n"
-      "wall: { X: \"t(-.3 0 .2) d(20 1 1 0)\", shape: box, size: [.02 .5 .5], contact: 1 }\n"
-      "points: { X: \"t(.1 -.4 .1)\", shape: pointCloud, vertices: [0 0 0 .05 0 0 .1 .02 .1 0 .1 .1], contact: 1 }\n");
+  return twoArms(first, second) +
+         "held(finger): { Q: \"t(.05 .02 .1) d(35 1 .6 .2)\", shape: cylinder, size: [.1 .03], contact: 1 }\n"
+         "wall: { X: \"t(-.3 0 .2) d(20 1 1 0)\", shape: box, size: [.02 .5 .5], contact: 1 }\n"
+         "points: { X: \"t(.1 -.4 .1)\", shape: pointCloud, vertices: [0 0 0 .05 0 0 .1 .02 .1 0 .1 .1], contact: 1 "
+         "}\n";
 }
-
-struct Joints {
-  const char* first;
-  const char* second;
-};
-
-constexpr Joints kJoints[] = {
-    {"joint: hingeX", "joint: hingeY"},        {"joint: hingeZ, joint_scale: 1.7", "joint: hinge, axis: [1 2 -1]"},
-    {"joint: transX", "joint: transZ"},        {"joint: transXYPhi", "joint: hingeX"},
-    {"joint: phiTransXY", "joint: transYPhi"}, {"joint: universal", "joint: trans3"},
-    {"joint: quatBall", "joint: hingeY"},      {"joint: hingeZ", "joint: free"},
-    {"joint: circleZ", "joint: XBall"},        {"joint: hingeX", "joint: hingeY, mimic: upper, joint_scale: -.6"},
-};
 
 /// The least distance of the pairs that count.
 class Nearest {
@@ -89,7 +65,7 @@ Config withFarBalls(Config config, int count) {
 
 TEST(EdgeChecker, AgreesWithTheMotionCheckerForEveryJointType) {
   Rng rng(5);
-  for (const Joints& joints : kJoints) {
+  for (const Joints& joints : kTwoJoints) {
     Config config;
     config.addText(scene(joints.first, joints.second));
     const Config many = withFarBalls(config, 80);
@@ -124,7 +100,7 @@ TEST(EdgeChecker, AgreesWithTheMotionCheckerForEveryJointType) {
 TEST(EdgeChecker, WhatIsFreeIsFreeInManySamples) {
   constexpr int kSamples = 300;
   Rng rng(6);
-  for (const Joints& joints : kJoints) {
+  for (const Joints& joints : kTwoJoints) {
     Config config;
     config.addText(scene(joints.first, joints.second));
     Nearest nearest(config);

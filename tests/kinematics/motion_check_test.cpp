@@ -4,6 +4,7 @@
 
 #include "kinegraph/base/text.h"
 #include "kinegraph/scene/config.h"
+#include "tests/support/two_arms.h"
 
 using namespace kinegraph;
 
@@ -39,35 +40,6 @@ VectorXd distancesAt(const Config& config, const VectorXd& q) {
   }
   return distances;
 }
-
-std::string scene(const std::string& first, const std::string& second) {
-  return "world: {}\n"
-         "upper(world): { pre: \"t(.1 .1 0) d(70 1 .2 .5)\", " +
-         first +
-         ", shape: capsule, size: [.2 .05], contact: 1 }\n"
-         "lower(upper): { pre: \"t(.15 0 .2) d(-50 .4 1 .3)\", " +
-         second +
-         " }\n"
-         "finger(lower): { Q: \"t(.05 .02 .15) d(35 1 .6 .2)\", shape: capsule, size: [.2 .03], contact: 1 }\n"
-         "other(world): { pre: \"t(.2 .25 .05) d(-40 .2 .3 1)\", " +
-         second +
-         " }\n"
-         "box(other): { Q: \"t(-.05 .06 .02) d(20 .5 1 .1)\", shape: ssBox, size: [.15 .12 .1 .02], contact: 1 }\n"
-         "ball: { X: \"t(.35 -.05 .3)\", shape: sphere, size: [.06], contact: 1 }\n";
-}
-
-struct Joints {
-  const char* first;
-  const char* second;
-};
-
-constexpr Joints kJoints[] = {
-    {"joint: hingeX", "joint: hingeY"},        {"joint: hingeZ, joint_scale: 1.7", "joint: hinge, axis: [1 2 -1]"},
-    {"joint: transX", "joint: transZ"},        {"joint: transXYPhi", "joint: hingeX"},
-    {"joint: phiTransXY", "joint: transYPhi"}, {"joint: universal", "joint: trans3"},
-    {"joint: quatBall", "joint: hingeY"},      {"joint: hingeZ", "joint: free"},
-    {"joint: circleZ", "joint: XBall"},        {"joint: hingeX", "joint: hingeY, mimic: upper, joint_scale: -.6"},
-};
 
 }  // namespace
 
@@ -149,9 +121,9 @@ TEST(MotionChecker, AQuaternionThatPassesZeroIsNotCalledFree) {
 TEST(MotionChecker, AgreesWithManySamplesForEveryJointType) {
   constexpr int kSamples = 400;
   Rng rng(5);
-  for (const Joints& joints : kJoints) {
+  for (const Joints& joints : kTwoJoints) {
     Config config;
-    config.addText(scene(joints.first, joints.second));
+    config.addText(twoArms(joints.first, joints.second));
     MotionChecker checker(config.state());
     const int n = config.getJointDimension();
     int free = 0, hit = 0;
@@ -184,8 +156,8 @@ TEST(MotionChecker, AgreesWithManySamplesForEveryJointType) {
 
 TEST(MotionChecker, AmongManyBodiesFindsTheSameContactsAsAmongFew) {
   Config few, many;
-  few.addText(scene("joint: hingeZ", "joint: hinge, axis: [1 2 -1]"));
-  many.addText(scene("joint: hingeZ", "joint: hinge, axis: [1 2 -1]"));
+  few.addText(twoArms("joint: hingeZ", "joint: hinge, axis: [1 2 -1]"));
+  many.addText(twoArms("joint: hingeZ", "joint: hinge, axis: [1 2 -1]"));
   for (int i = 0; i < 100; ++i)
     many.addText("far" + std::to_string(i) + ": { X: [" + std::to_string(10 + i) +
                  " 0 0], shape: sphere, size: [.3], contact: 1 }");

@@ -22,10 +22,10 @@ TEST(Contacts, TellTheForcesOfEachSliceInTheOrderOfTime) {
   addContactForce(motion, {{2., 3.}, "box", "right", .5, 2.});
   const std::vector<Interaction> list = motion.contacts.interactions(motion.path);
   std::vector<std::pair<int, std::string>> who;
-  for (const Interaction& one : list) who.emplace_back(one.slice, one.onto);
+  for (const Interaction& one : list) who.emplace_back(one.slice, one.from);
   EXPECT_EQ(who, (std::vector<std::pair<int, std::string>>{{0, "left"}, {1, "left"}, {1, "right"}, {2, "right"}}));
   for (const Interaction& one : list) {
-    const double side = one.onto == "left" ? 1. : -1.;
+    const double side = one.from == "left" ? 1. : -1.;
     EXPECT_EQ(one.object, "box");
     EXPECT_NEAR((one.force - Vector3d(side * 2. * 9.81, 0., 0.)).norm(), 0., 1e-9);
     EXPECT_NEAR((one.point - Vector3d(.1 - side * .1, .2, .65)).norm(), 0., 1e-6);

@@ -10,6 +10,7 @@
 #include "kinegraph/komo/komo.h"
 #include "kinegraph/komo/report.h"
 #include "kinegraph/solvers/nlp_solver.h"
+#include "tests/komo/ball_and_wall.h"
 #include "tests/support/expect_error.h"
 #include "tests/support/near.h"
 
@@ -19,13 +20,7 @@ namespace {
 
 /// A ball in the plane, and a wall of 3 cm that it can go around.
 Config ballAndWall() {
-  Config scene;
-  scene.addText(R"g(
-    base: {}
-    ball (base): { joint: transXY, shape: sphere, size: [.04], contact: 1 }
-    wall (base): { Q: [.5 -.2 0], shape: box, size: [.03 .6 1.], contact: 1 }
-  )g");
-  return scene;
+  return kinegraph::ballAndWall("joint: transXY, size: [.04]", "Q: [.5 -.2 0], size: [.03 .6 1.]");
 }
 
 /// From (0, 0) to (1, 0), started on a way around the upper end of the wall, which is at y = .1.

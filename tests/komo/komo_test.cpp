@@ -53,6 +53,34 @@ TEST(Komo, TheTutorialsInverseKinematicsReachesEveryTarget) {
   RecordProperty("evaluations", evals);
 }
 
+TEST(Komo, AKeptPathBeginsWhereTheConfigurationIsNow) {
+  const VectorXd elsewhere = (VectorXd(7) << .2, -.4, .1, -1.8, .1, 1.9, -.3).finished();
+  const auto reach = [](const Config& config) {
+    auto komo = std::make_shared<Komo>(config, 1., 8, 2);
+    komo->addControlObjective({}, 2);
+    komo->addObjective({1.}, FeatureSymbol::positionDiff, {"l_gripper", "target"}, ObjectiveType::eq, 10.);
+    komo->addObjective({1.}, FeatureSymbol::qItself, {}, ObjectiveType::eq, 1., {}, 1);
+    return komo;
+  };
+  Config config = panda();
+  const auto kept = reach(config);
+  const auto nlp = makeNlp(kept);
+  const VectorXd start = kept->path().variables();
+  solveAugmentedLagrangian(*nlp, start, SolverOptions{});
+  config.setJointState(elsewhere);
+  config.getFrame("target").setRelativePosition({.1, .3, .3});
+  kept->updateRootObjects(config);
+  EXPECT_EQ(kept->path().state(-1).q(), elsewhere);
+  EXPECT_EQ(kept->path().state(-2).q(), elsewhere);
+  EXPECT_EQ(kept->path().given().config().getJointState(), elsewhere);
+  const auto fresh = reach(config);
+  const SolverResult of_kept = solveAugmentedLagrangian(*nlp, start, SolverOptions{}),
+                     of_fresh = solveAugmentedLagrangian(*makeNlp(fresh), start, SolverOptions{});
+  EXPECT_TRUE(of_kept.feasible);
+  EXPECT_EQ(of_kept.x, of_fresh.x);
+  EXPECT_LT((kept->getPath().row(0).transpose() - elsewhere).norm(), .1);
+}
+
 TEST(Komo, ReachesAllFarTargetsFromRandomStarts) {
   Config config = panda();
   Rng rng(1);

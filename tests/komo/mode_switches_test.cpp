@@ -187,6 +187,17 @@ TEST(ModeSwitches, MovedObjectsAreTakenOverInEveryMode) {
   EXPECT_THROW(komo->updateRootObjects(Config()), ValueError);
 }
 
+TEST(ModeSwitches, TheStartMovesInEveryModeButNotWhereItIsVariable) {
+  Config config = armAndBox();
+  auto komo = std::make_shared<Komo>(config, 3., 1, 2);
+  komo->addModeSwitch({2., -1.}, SwitchMode::stable, {"grip", "box"});
+  const VectorXd x = komo->path().variables();
+  config.setJointState(Eigen::Vector2d(.3, -.2));
+  komo->updateRootObjects(config);
+  EXPECT_EQ(komo->path().variables(), x);
+  for (int slice : {-2, -1}) EXPECT_EQ(komo->configuration(slice).getJointState().head(2), Eigen::Vector2d(.3, -.2));
+}
+
 TEST(ModeSwitches, SwitchedPathsGrowLinearlyInVariables) {
   for (int slices : {8, 32}) {
     auto komo = std::make_shared<Komo>(armAndBox(), 2., slices, 2);

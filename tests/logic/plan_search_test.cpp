@@ -201,6 +201,33 @@ TEST(Grounding, SaysWhatIsOddBeforeTheSearch) {
   EXPECT_THROW(ground(problem), ParseError);
 }
 
+TEST(Grounding, CombinationsThatWouldNeverEndAreAnErrorThatNamesTheRule) {
+  LogicProblem problem;
+  std::string variables, pre;
+  for (int i = 0; i < 9; ++i) variables += cat("X", i, ", "), pre += cat("(thing X", i, ") ");
+  problem.domain =
+      readFol(cat("thing busy done\nDecisionRule gather { ", variables, "{ ", pre, "} { (done) } }"), "a.fol");
+  std::string start;
+  for (int i = 0; i < 40; ++i) start += cat("(thing t", i, ") ");
+  problem.start = readLiterals(start);
+  const auto errorOfGrounding = [&](std::size_t most) -> std::string {
+    try {
+      ground(problem, most);
+    } catch (const ValueError& error) {
+      return error.what();
+    }
+    return "";
+  };
+  EXPECT_NE(errorOfGrounding(1000).find("ground: a.fol:2:1: rule 'gather' is one too many: facts were held against"),
+            std::string::npos);
+  problem.domain =
+      readFol("thing near\nDecisionRule meet { X, Y, Z, { (thing X) (thing Y) (thing Z) } { (near X Y Z) } }", "b.fol");
+  EXPECT_NE(errorOfGrounding(1000).find("b.fol:2:1: rule 'meet' can make more than 1000 facts true"),
+            std::string::npos);
+  EXPECT_EQ(errorOfGrounding(100000), "");
+  EXPECT_EQ(ground(problem, 100000).actions.size(), 40u * 39u * 38u);
+}
+
 std::string errorOf(const std::string& text) {
   try {
     readFol(text, "d.fol");

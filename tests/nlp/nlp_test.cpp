@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "kinegraph/nlp/callback_nlp.h"
+#include "kinegraph/nlp/test_problems.h"
 #include "tests/support/expect_error.h"
 #include "tests/support/near.h"
 
@@ -61,6 +62,25 @@ VectorXd somewhere(const Nlp& nlp, int seed) {
 }
 
 }  // namespace
+
+TEST(Nlp, EvaluateSizesPhiAndRefusesAnXOrJOfAnotherSize) {
+  CallbackNlp nlp(2, {sos, eq}, {}, {}, [](const VectorXd& x, VectorXd& phi, MatrixXd& J) {
+    phi << x[0], x[1];
+    J.setIdentity();
+  });
+  const auto formula = makeTestProblem("Rosenbrock");
+  for (Nlp* problem : std::initializer_list<Nlp*>{&nlp, formula.get()}) {
+    VectorXd phi;
+    problem->evaluate(VectorXd::Ones(2), phi, nullptr);
+    EXPECT_EQ(phi.size(), Eigen::Index(problem->types().size()));
+    EXPECT_TRUE(phi.allFinite());
+    expectError<ValueError>([&] { problem->evaluate(VectorXd::Ones(3), phi, nullptr); },
+                            {"Nlp::evaluate: x has 3 entries; the problem has 2 variables"});
+    Jacobian J;
+    expectError<ValueError>([&] { problem->evaluate(VectorXd::Ones(2), phi, &J); },
+                            {"Nlp::evaluate: J is 0 x 0; expected ", " x 2, as makeJacobian() gives it"});
+  }
+}
 
 TEST(Jacobian, InSegmentsEqualsTheDenseOne) {
   Windows windows;

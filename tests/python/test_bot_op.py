@@ -223,7 +223,9 @@ def above(C: ry.Config, height: float) -> np.ndarray:
     return answer.q
 
 
-def test_a_box_is_grasped_lifted_and_put_down_by_force_alone(bench: ry.Config) -> None:
+@pytest.mark.parametrize("shape", [ry.ST.box, ry.ST.ssBox])
+def test_a_box_is_grasped_lifted_and_put_down_by_force_alone(bench: ry.Config, shape: ry.ST) -> None:
+    bench.getFrame("box").setShape(shape, [0.05, 0.05, 0.08, 0.005][: 3 if shape == ry.ST.box else 4])
     bot = ry.BotOp(bench, False)
     bot.sync(bench, 0.2)  # the box settles
     q_grasp, q_above = above(bench, 0.0), above(bench, 0.15)

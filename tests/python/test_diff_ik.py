@@ -47,7 +47,6 @@ def test_a_target_below_the_table_is_not_reached_through_it(panda):
         assert np.all(q >= lower - KEPT)
         assert np.all(q <= upper + KEPT)
         before = velocity
-    panda.computeCollisions()
     assert panda.coll_totalViolation() <= 1e-6
     assert any("table" in row for row in ik.active)
 
@@ -90,3 +89,79 @@ def test_with_limited_accelerations_it_brakes_before_the_table() -> None:
         assert np.all(np.abs(velocity - before) <= 20.0 * 0.005 + 1e-9)
         before = velocity
         assert all(distance > 0.0095 for _, _, distance in C.getCollisions(0.02))
+
+
+def least_of(H, g, A, b):
+    """The x that minimizes x' H x / 2 + g' x subject to A x >= b: multipliers by scipy's nnls, then the rows that hold."""
+    nnls = pytest.importorskip("scipy.optimize").nnls
+    L = np.linalg.cholesky(H)
+    turned, free = np.linalg.solve(L, A.T), -np.linalg.solve(L, g)
+    short = b - turned.T @ free  # by which the free minimum misses each row; scaled, so that nnls sees numbers near one
+    scale = max(np.max(np.abs(short)), 1e-12)
+    u = nnls(np.vstack([turned, short / scale]), np.append(np.zeros(len(g)), 1.0))[0]
+    held = np.flatnonzero(u > 1e-9 * max(u.max(), 1.0))
+    K = np.block([[H, -A[held].T], [A[held], np.zeros((len(held), len(held)))]])
+    return np.linalg.solve(K, np.append(-g, b[held]))[: len(g)]
+
+
+@pytest.mark.parametrize("below", [False, True])
+def test_a_step_is_the_answer_of_another_solver_to_the_program_of_the_manual(panda, below):
+    fastest, posture, damping, margin, share, reach = 1.0, 1e-2, 1e-9, 0.01, 0.5, 0.1
+    ik = ry.DiffIk(panda, velocity=fastest, posture=posture, damping=damping)
+    ik.addTask(ry.FS.poseDiff, ["l_gripper", "target"], gain=0.5)
+    start, home = np.array(panda.getFrame("target").getPosition()), np.array(panda.getJointState())
+    lower, upper = panda.getJointLimits()
+    held = 0
+    for i in range(300):
+        way = [0.4 * np.sin(0.02 * i), 0, -0.004 * i if below else 0.002 * i]
+        panda.getFrame("target").setPosition(start + way)
+        q = np.array(panda.getJointState())
+        y, J = (np.array(part) for part in panda.eval(ry.FS.poseDiff, ["l_gripper", "target"]))
+        d, D = (np.array(part) for part in panda.eval(ry.FS.pairCollisions, []))
+        near = (d > -reach) & np.any(D != 0, axis=1)
+        H = J.T @ J + (posture**2 + damping) * np.eye(7)
+        g = 0.5 * J.T @ y + posture**2 * (q - home)
+        low = -np.minimum(fastest * STEP, q - lower)
+        high = np.minimum(fastest * STEP, upper - q)
+        A = np.vstack([np.eye(7), -np.eye(7), -D[near]])
+        b = np.concatenate([low, -high, -share * (-d[near] - margin)])
+        velocity = ik.step(STEP)
+        assert np.max(np.abs(velocity - least_of(H, g, A, b) / STEP)) < 1e-9
+        held = max(held, len(ik.active))
+    assert held >= 2
+
+
+def test_what_tasks_leave_open_goes_to_the_next_level(panda):
+    wanted = panda.getJointState() + np.array([0.5, 0.4, -0.3, 0.2, 0.1, 0.2, 0.3])
+
+    def along_what_is_open():
+        J = np.array(panda.eval(ry.FS.poseDiff, ["l_gripper", "target"])[1])
+        return abs(np.linalg.svd(J)[2][-1] @ (wanted - panda.getJointState()))
+
+    ik = ry.DiffIk(panda, velocity=2.0)
+    ik.addTask(ry.FS.poseDiff, ["l_gripper", "target"])
+    ik.addTask(ry.FS.qItself, [], target=wanted, gain=0.05, weight=100.0, level=1)
+    assert along_what_is_open() > 0.1
+    for _ in range(400):
+        ik.step(STEP)
+    assert np.linalg.norm(panda.eval(ry.FS.poseDiff, ["l_gripper", "target"])[0]) < 1e-4
+    assert along_what_is_open() < 1e-4
+
+
+def test_an_equality_comes_before_tasks_and_says_when_it_gives_way(panda):
+    ik = ry.DiffIk(panda, velocity=1.0)
+    ik.addEquality(ry.FS.vectorZ, "l_gripper", target=panda.eval(ry.FS.vectorZ, ["l_gripper"])[0])
+    ik.addTask(ry.FS.positionDiff, ["l_gripper", "target"], weight=100.0)
+    panda.getFrame("target").setPosition(panda.getFrame("target").getPosition() + np.array([0.3, 0.1, 0]))
+    upright = np.array(panda.eval(ry.FS.vectorZ, ["l_gripper"])[0])
+    for _ in range(200):
+        ik.step(STEP)
+        assert ik.status == ry.DiffIkStatus.solved, ik.message
+    assert np.max(np.abs(panda.eval(ry.FS.vectorZ, ["l_gripper"])[0] - upright)) < 1e-4
+    assert np.linalg.norm(panda.eval(ry.FS.positionDiff, ["l_gripper", "target"])[0]) < 1e-3
+    panda.getFrame("target").setPosition([0, 0, 9])
+    strict = ry.DiffIk(panda, velocity=1.0)
+    strict.addEquality(ry.FS.positionDiff, ["l_gripper", "target"])
+    strict.step(STEP)
+    assert strict.status == ry.DiffIkStatus.gave_way
+    assert "equality positionDiff" in strict.message

@@ -42,7 +42,8 @@ FOUND = {
         r"the same to the bit: True",
     ],
     "scenes": [r"scene file 'scene.g' does not exist", r"similar names: sphere", r"\['home'\] \{'arm': \['j'\]\}"],
-    "control": [r"DiffIkStatus\.solved", r"'table' and"],
+    "control": [r"DiffIkStatus\.solved", r"'table' and", r"^True \d\.?\d*(e-\d+)? \d"],
+    "fleets": [r"<MapResults 200 items in", r"\d+ of 200 reached", r"20000 rows \['item', 'q', 'free', 'error'\]"],
     "timing": [
         r"<TimedPath 4 points in \d\.\d+ s>",
         r"^\[ True  True\]",

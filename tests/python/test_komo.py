@@ -410,3 +410,20 @@ def test_the_configuration_as_given_is_what_counts(panda):
     panda.addFrame("later")
     assert komo.getConfig().getFrame("table") is not None
     assert "later" not in komo.getConfig().getFrameNames()
+
+
+def test_a_mode_switch_without_velocities_follows_its_own_advice():
+    C = ry.Config()
+    C.addFile(ry.raiPath("scenarios/pandaSingle.g"))
+    C.addFrame("box", "table").setJoint(ry.JT.rigid).setShape(ry.ST.box, [0.06] * 3).setRelativePosition([0, 0.3, 0.08])
+    komo = ry.KOMO(C, 2, 1, 0, False)
+    with pytest.raises(ry.ArgumentError, match=r"firstSwitch=False and times \[1, -1\]"):
+        komo.addModeSwitch([1.0, 2.0], ry.SY.stable, ["l_gripper", "box"])
+    komo.addModeSwitch([1.0, -1.0], ry.SY.stable, ["l_gripper", "box"], firstSwitch=False)
+    komo.addObjective([2.0], ry.FS.position, ["box"], ry.OT.eq, [10.0], [0.2, 0.3, 1.0])
+    komo.addObjective([1.0], ry.FS.positionDiff, ["l_gripper", "box"], ry.OT.eq, [10.0])
+    assert ry.NLP_Solver(komo.nlp(), verbose=0).solve().feasible
+    with pytest.warns(ry.KinegraphWarning, match="selects no slice"):
+        komo.addObjective([7.0], ry.FS.vectorZ, ["box"], ry.OT.eq, [1.0])
+    names = komo.info_objectiveNames()
+    assert len(names) == 3 and "box" in names[-1]  # those without slices, too

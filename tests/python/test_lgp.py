@@ -1,5 +1,6 @@
 """LGP_Tool and default_LGP_TAMP_Abstraction: plans, the problems that they become, and their solutions."""
 
+import itertools
 import json
 from pathlib import Path
 
@@ -22,13 +23,7 @@ def tool(scene, problem=None):
 
 
 def runs(values):
-    out = []
-    for value in values:
-        if out and out[-1][0] == value:
-            out[-1][1] += 1
-        else:
-            out.append([value, 1])
-    return out
+    return [[value, len(list(run))] for value, run in itertools.groupby(values)]
 
 
 def objectives(komo):

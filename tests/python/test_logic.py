@@ -81,3 +81,12 @@ def test_a_scene_says_what_is_on_what() -> None:
     C.addFrame("table").setShape(ry.ST.ssBox, [1, 1, 0.1, 0.01]).setAttributes({"logical": {"is_place": True}})
     C.addFrame("cup", "table").setJoint(ry.JT.rigid).setShape(ry.ST.sphere, [0.05])
     assert ry.sceneFacts(C) == ["(is_place table)", "(is_object cup)", "(is_sphere cup)", "(on table cup)"]
+
+
+def test_a_fact_that_two_preconditions_deny_counts_once() -> None:
+    fol = """is_a is_b holds done
+    DecisionRule go { X, Y, { (is_a X) (is_b Y) (holds ANY Y)! (holds X ANY)! } { (holds X Y) } }
+    DecisionRule end { X, Y, { (holds X Y) } { (holds X Y)! (done Y) } }"""
+    goal = "(done p) (done q)"
+    problem = ry.LogicProblem(ry.Domain.fromFolText(fol), "(is_a a) (is_b p) (is_b q)", goal)
+    assert [action[0] for action in ry.PlanSearch(problem).next()] == ["go", "end"] * 2

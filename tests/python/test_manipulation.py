@@ -1,5 +1,6 @@
 """KOMO_ManipulationHelper: the problems that it states, and that they are solved."""
 
+import itertools
 import json
 from pathlib import Path
 
@@ -128,13 +129,7 @@ def build(name):
 
 
 def runs(values):
-    out = []
-    for value in values:
-        if out and out[-1][0] == value:
-            out[-1][1] += 1
-        else:
-            out.append([value, 1])
-    return out
+    return [[value, len(list(run))] for value, run in itertools.groupby(values)]
 
 
 def objectives(komo):

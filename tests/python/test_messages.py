@@ -10,6 +10,7 @@ import pytest
 import kinegraph as ry
 
 SOURCE = Path(__file__).parents[2] / "src" / "kinegraph"
+BINDINGS = Path(__file__).parents[2] / "python" / "bindings"
 # What only Python calls so. ("KOMO" is the name of the method, in any language.)
 PYTHON_NAMES = r"\bry\.|\bNLP_|\bOptMethod\.[a-zA-Z]|\b(?:OT|FS|ST|JT|SY)\.[a-z]|=(?:True|False|None)\b|\bwith (?:True|False)\b|\binfo_|\beval_scalar"
 
@@ -23,6 +24,78 @@ def test_the_core_says_nothing_in_python() -> None:
                 if re.search(PYTHON_NAMES, literal):
                     found.append(f"{file.relative_to(SOURCE)}:{number}: {literal}")
     assert not found, "\n".join(found)
+
+
+def literals(folder: Path) -> set[str]:
+    """All texts in the C++ files of a folder."""
+    texts: set[str] = set()
+    for file in [*folder.rglob("*.cpp"), *folder.rglob("*.h")]:
+        lines = [re.sub(r"//.*", "", line) for line in file.read_text().splitlines() if "#include" not in line]
+        texts.update(re.findall(r'"((?:[^"\\\n]|\\.)*)"', "\n".join(lines)))
+    return texts
+
+
+def test_every_name_of_cpp_in_a_message_is_one_in_python_too() -> None:
+    declared = set()
+    for header in SOURCE.rglob("*.h"):
+        declared.update(re.findall(r"^(?:class|struct|enum class) (\w+)", header.read_text(), re.MULTILINE))
+    table = (BINDINGS / "python_names.cpp").read_text()
+    translated = dict(re.findall(r'Names\{"(\w+)", "(\w+)"\}', table))
+    assert {"Komo", "NlpSolver"} <= declared & set(translated)
+    for name, ours in translated.items():
+        assert name not in declared or hasattr(ry, ours), name
+    words = {"Contacts", "Inertia", "Jacobian", "Look", "Modes", "Recording"}  # of plain English, too
+    only_ours = {"RobotLoop", "ViewerOptions"}  # in calls that C++ has and Python has not
+    assert ry.KOMO_ManipulationHelper  # whose functions are named ManipulationHelper.name in messages, as in C++
+    said = {word for text in literals(SOURCE) for word in re.findall(r"\b([A-Z]\w+)(?=::|\b)", text)}
+    known = words | only_ours | {"ManipulationHelper", "PathCurve"} | set(translated)
+    assert {name for name in said & declared - known if not hasattr(ry, name)} == set()
+
+
+def test_all_that_a_result_says_is_told_in_python() -> None:
+    bound = "".join(file.read_text() for file in BINDINGS.glob("*.cpp"))
+    assert re.findall(r'def_r[ow]\(\s*"(?:message|text)"', bound) == []  # as it is in C++
+    for body in re.findall(r'def_prop_ro\(\s*"message",(.*?)"', bound, re.DOTALL):
+        assert "inPython" in body or "messageOf" in body, body
+
+
+def test_results_of_solvers_and_of_inverse_kinematics_speak_python() -> None:
+    text, ours = "Komo::solve with first=false, 'Komo::a'", "KOMO.solve with firstSwitch=False, 'Komo::a'"
+    for result, at in ((ry.SolverReturn(), 12), (ry.solveIk(*reach()), -1)):
+        state = list(result.__getstate__())
+        assert isinstance(state[at], str)
+        state[at] = text
+        if isinstance(result, ry.IkResult):
+            state[1] = int(ry.IkStatus.unreached.value)
+        result = type(result).__new__(type(result))
+        result.__setstate__(tuple(state))
+        assert result.message == ours
+        assert ours in repr(result) or isinstance(result, ry.SolverReturn)  # which has numbers only
+    kind = type(ry.solveIk(reach()[0], {"hand": [[0.1, 0.2, 0.3], [0.1, 0.2, 0.3]]}))
+    results = kind.__new__(kind)
+    results.__setstate__([tuple(state), tuple(state)])
+    assert results.message == [ours, ours]
+
+
+def test_an_explanation_keeps_the_names_of_frames() -> None:
+    C = ry.Config()
+    C.addFrame("base")
+    C.addFrame("Komo::a", "base").setJoint(ry.JT.transX)
+    komo = ry.KOMO(C, 1, 1, 0, False)
+    for x in (0.0, 1.0):
+        komo.addObjective([], ry.FS.position, ["Komo::a"], ry.OT.eq, target=[x, 0.0, 0.0])
+    result = ry.NLP_Solver(komo.nlp(), verbose=0).solve()
+    assert not result.feasible
+    assert "Komo::a" in result.explain() and "Komo.a" not in result.explain()
+    assert result.explain() == komo.explain() == komo.nlp().explain(result.x)
+
+
+def reach() -> tuple[ry.Config, dict[str, list[float]]]:
+    """A point that a hand on one slide cannot get to."""
+    C = ry.Config()
+    C.addFrame("base")
+    C.addFrame("hand", "base").setJoint(ry.JT.transX)
+    return C, {"hand": [0.1, 0.2, 0.3]}
 
 
 def unconstrained(method: ry.OptMethod) -> ry.NLP_Solver:

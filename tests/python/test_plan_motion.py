@@ -60,7 +60,7 @@ def test_a_box_on_wheels_goes_through_a_door() -> None:
     assert np.allclose(plan.path[0], START) and np.allclose(plan.path[-1], GOAL)
     assert leastDistance(C, plan.path) >= 0
     assert np.allclose(C.getJointState(), START)
-    assert [stage["name"] for stage in plan.stages] == ["ends", "search", "shorten", "verify", "time"]
+    assert [stage["name"] for stage in plan.stages] == ["ends", "search", "shorten", "tighten", "verify", "time"]
     assert plan.length == pytest.approx(np.linalg.norm(np.diff(plan.path, axis=0), axis=1).sum())
     assert "trees of" in plan.explain() and plan.clearance() >= 0
 
@@ -192,6 +192,32 @@ def test_where_no_way_is_found_the_message_says_what_is_in_the_way() -> None:
     assert plan.status in (ry.PlanStatus.no_way, ry.PlanStatus.impossible)
     assert "most motions ended at 'left'" in plan.message or "most motions ended at 'right'" in plan.message
     assert len(plan.trees) == 2 and plan.trees[0][0].shape[1] == 3
+
+
+def test_a_picture_has_the_trees_and_the_path() -> None:
+    C = room()
+    plan = ry.planMotion(C, GOAL)
+    picture = plan.picture(C)
+    names = [frame.name for frame in picture.getFrames()]
+    assert names[len(C.getFrames()) :] == ["start tree", "goal tree", "first way", "path"]
+    drawn = picture.getFrame("path").getMeshPoints()
+    assert np.allclose(drawn[0, :2], START[:2]) and np.allclose(drawn[-1, :2], GOAL[:2])
+    assert len(C.getFrames()) == 5 and plan.obstacles == []
+    with pytest.raises(ry.FrameNotFound, match="bdy"):
+        plan.picture(C, "bdy")
+    with pytest.raises(ry.ArgumentError, match="the scene has 0 dofs; expected 3"):
+        plan.picture(ry.Config())
+
+
+def test_where_there_is_no_way_the_picture_shows_what_most_motions_ended_at() -> None:
+    C = room(0.31)
+    plan = ry.planMotion(C, GOAL, evaluations=3000)
+    worst = plan.obstacles[0]
+    assert worst["name"] in ("left", "right") and worst["by"] == ["body"] and 0.3 < worst["share"] <= 1
+    assert sum(met["share"] for met in plan.obstacles) == pytest.approx(1)
+    picture = plan.picture(C, ["body"])
+    assert "path" not in [frame.name for frame in picture.getFrames()]
+    assert picture.getFrame(worst["name"]).asDict()["color"] == [1.0, 0.0, 0.0]
 
 
 def test_a_time_limit_ends_the_search() -> None:

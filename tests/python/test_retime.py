@@ -1,11 +1,15 @@
 """The fastest motion along a path: limits checked by differences, durations against what is known on paper."""
 
+import pickle
+import threading
+
 import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
 import kinegraph as ry
+from interrupts import interrupt_after
 
 WITHIN = 1e-9
 
@@ -88,6 +92,54 @@ def test_blends_are_asked_for():
     assert asked[0][0][1] == 2
     with pytest.raises(ZeroDivisionError):
         ry.retime([[0, 0], [1, 0], [1, 1]], 1, 2, is_free=lambda points, deviation: 1 / 0)
+
+
+@pytest.mark.parametrize("corners", ["blend", "stop", "spline"])
+@pytest.mark.parametrize("jerk", [None, 30.0])
+def test_copies_move_alike(corners, jerk):
+    path = np.random.default_rng(4).uniform(-2, 2, (6, 3))
+    timed = ry.retime(path, 1, 2, jerk, corners=corners)
+    copy = pickle.loads(pickle.dumps(timed))
+    t = np.linspace(0, timed.duration, 100)
+    assert copy.duration == timed.duration
+    assert repr(copy) == repr(timed)
+    for a, b in zip(timed.at(t), copy.at(t), strict=True):
+        np.testing.assert_array_equal(a, b)
+    np.testing.assert_array_equal(copy.times, timed.times)
+    np.testing.assert_array_equal(copy.path, path)
+
+
+def test_a_failure_and_a_path_without_a_way_can_be_stored():
+    for timed in (ry.retime([[0.0], [1.0]], 10, 2, start_velocity=[3.0]), ry.retime([[1.0, 2.0]], 1, 1)):
+        copy = pickle.loads(pickle.dumps(timed))
+        assert copy.status == timed.status
+        assert copy.message == timed.message
+        np.testing.assert_array_equal(copy.path, timed.path)
+
+
+@pytest.mark.parametrize("jerk", [None, 30.0])
+def test_ctrl_c_ends_it(jerk):
+    path = np.random.default_rng(4).uniform(-2, 2, (6, 3))
+    with pytest.raises(KeyboardInterrupt), interrupt_after(0.2):
+        ry.retime(path, 1, 2, jerk, corners="spline", intervals=1000000)
+
+
+def test_other_threads_run_meanwhile(panda):
+    q = np.array(panda.getJointState())
+    path = np.vstack([q, q + 0.4, q - [0.3, 0, 0, 0, 0.2, 0, 0]])
+    done = threading.Event()
+    counted = []
+
+    def count():
+        while not done.wait(0.001):
+            counted.append(1)
+
+    thread = threading.Thread(target=count)
+    thread.start()
+    ry.retime(panda, path, acceleration=5, jerk=50, corners="spline", intervals=20000)
+    done.set()
+    thread.join()
+    assert len(counted) > 3
 
 
 def test_what_cannot_be_braked_is_an_outcome():

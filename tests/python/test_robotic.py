@@ -128,6 +128,15 @@ def test_a_result_is_pickled_and_explains_itself() -> None:
     assert isinstance(result, kinegraph.SolverReturn) and result.explain()
 
 
+def test_evaluations_add_up_over_the_solves_of_a_solver() -> None:
+    solver = ry.NLP_Solver(contradiction(0.0), verbose=0)
+    first = solver.solve()
+    second = solver.solve()
+    own = kinegraph.SolverReturn.evals.__get__(second)
+    assert first.evals == first.totalEvals and second.evals == first.evals + own
+    assert second.dict()["evals"] == second.evals and f"evals: {second.evals}," in str(second)
+
+
 def test_options_of_earlier_years_are_those_of_today() -> None:
     solver = ry.NLP_Solver(contradiction(0.0), verbose=0)
     assert solver.setOptions(maxLambda=3.0, damping=0.1) is solver

@@ -176,3 +176,43 @@ def test_a_frame_may_be_asked_for_twice_but_not_as_another_one() -> None:
     with pytest.raises(ry.ArgumentError, match="below 'table', not below 'box2'; take another name .such as 'box_2'"):
         C.addFrame("box", C.addFrame("box2"))
     assert C.getFrameNames() == ["table", "box", "box2"]
+
+
+def test_joints_that_mimic_others_are_named_behind_those_of_q():
+    C = ry.Config()
+    C.addFile(ry.raiPath("scenarios/pandaSingle.g"))
+    arm = C.getJointNames()
+    assert len(arm) == C.getJointDimension() == 7
+    C.selectJoints([], notThose=True)
+    assert C.getJointNames() == [*arm, "l_panda_finger_joint1", "l_panda_finger_joint2"]
+    assert C.getJointDimension() == 8  # the second finger mimics the first
+
+
+def test_a_root_gets_a_joint_once_it_has_a_parent_as_the_error_says():
+    C = ry.Config()
+    box = C.addFrame("box")
+    with pytest.raises(ry.ArgumentError, match="call setParent first"):
+        box.setJoint(ry.JT.transX)
+    box.setParent(C.addFrame("world")).setJoint(ry.JT.transX)
+    assert C.getJointNames() == ["box"]
+
+
+def test_a_frame_without_joint_is_attached_once_it_has_one_as_the_error_says():
+    C = ry.Config()
+    C.addFile(ry.raiPath("scenarios/pandaSingle.g"))
+    box = C.addFrame("box", "table").setShape(ry.ST.box, [0.1, 0.1, 0.1]).setRelativePosition([0.3, 0.3, 0.1])
+    before = box.getPosition()
+    with pytest.raises(ry.ArgumentError, match=r"'box' has no joint.*setJoint\(JT.rigid\)"):
+        C.attach("l_gripper", "box")
+    box.setJoint(ry.JT.rigid)
+    C.attach("l_gripper", "box")
+    assert box.getParent().name == "l_gripper" and box.getPosition() == pytest.approx(before, abs=1e-9)
+
+
+def test_limits_the_wrong_way_around_are_written_the_right_way():
+    C = ry.Config()
+    frame = C.addFrame("arm", C.addFrame("world").name)
+    with pytest.raises(ry.ArgumentError, match=r"expected \[lower, upper\]: \[-1 2\]"):
+        frame.setJoint(ry.JT.hingeX, [2, -1])
+    frame.setJoint(ry.JT.hingeX, [-1, 2])
+    assert C.getJointLimits().tolist() == [[-1], [2]]

@@ -1,6 +1,7 @@
 """Simulation from Python: what it holds, replays, measures and refuses."""
 
 import pickle
+import re
 
 import numpy as np
 import pytest
@@ -105,6 +106,27 @@ def test_velocities_and_accelerations_move_as_far_as_they_say(engine):
     for _ in range(50):
         S.step([1.0] + [0] * 6, 0.01, ry.ControlMode.acceleration)
     assert S.get_q()[0] - start == pytest.approx(0.125, abs=1e-3)
+
+
+@pytest.mark.parametrize("mode", [ry.ControlMode.velocity, ry.ControlMode.acceleration])
+def test_what_is_blocked_does_not_wind_up(mode):
+    """A slide pushes against a wall for long; told to go back, it does at once, and nothing has jumped."""
+    C = ry.Config()
+    C.addText(
+        "rail: { multibody: true, X: [0 0 1] } slide (rail): { joint: transX, ctrl_limits: [2 100 -1], shape: box, "
+        "size: [.1 .1 .1], mass: 2 } wall: { X: [.2 0 1], shape: box, size: [.1 .5 .5] }"
+    )
+    S = ry.Simulation(C)
+    for _ in range(300):
+        S.step([0.5], 0.01, mode)
+    assert S.get_q()[0] == pytest.approx(0.1, abs=1e-3)  # at the wall
+    assert S.get_qRef()[0] - S.get_q()[0] == pytest.approx(0.05, abs=2e-2)
+    assert abs(S.getExternalTorques()[0]) == pytest.approx(100, rel=0.02)  # as strong as its motor
+    C.getFrame("wall").setPosition([5, 0, 1])
+    S.pushConfigToSim()
+    for _ in range(30):
+        S.step([-0.5], 0.01, ry.ControlMode.velocity)
+    assert S.get_q()[0] < 0.0
 
 
 def test_a_far_target_is_reached_within_the_limits_of_velocity():
@@ -426,3 +448,83 @@ def test_a_camera_sees_what_falls():
     S.setSimulateDepthNoise(True)
     assert np.array_equal(S.getImageAndDepth()[1], S.getImageAndDepth()[1])
     assert S.depthData2pointCloud(depth, S.getFxycxy()).shape == (360, 640, 3)
+
+
+def test_a_point_is_pulled_by_a_spring_that_is_part_of_the_state():
+    C = ry.Config()
+    C.addFrame("ball").setShape(ry.ST.sphere, [0.1]).setPosition([0, 0, 1.0]).setMass(2.0)
+    C.addFrame("wall").setShape(ry.ST.box, [0.1, 0.1, 0.1]).setPosition([1, 0, 1])
+    S = ry.Simulation(C)
+    assert S.getPull() is None
+    S.pull("ball", [0, 0, 0], [0.3, 0, 1.2])
+    for _ in range(50):
+        S.step()
+    state = S.getState()
+    positions = []
+    for simulation in (S, ry.Simulation(C)):
+        simulation.setState(state)
+        for _ in range(250):
+            simulation.step()
+        positions.append(C.getFrame("ball").getPosition())
+    assert np.array_equal(*positions)
+    # it hangs where the spring of 10 rad/s carries it: g / w^2 below the target
+    assert positions[0] == pytest.approx([0.3, 0, 1.2 - 9.81 / 100], abs=1e-4)
+    assert S.getPull()["force"] == pytest.approx([0, 0, 2 * 9.81], abs=1e-2)
+    assert S.getPull()["position"] == pytest.approx(positions[0], abs=1e-3)
+    S.endPull()
+    S.step([], 0.1)
+    assert S.getPull() is None
+    assert S.get_frameVelocities()[0, 0, 2] == pytest.approx(-0.981, abs=1e-3)  # it falls
+    with pytest.raises(ry.ArgumentError, match="'wall' is fixed to the world"):
+        S.pull("wall", [0, 0, 0], [0, 0, 0])
+
+
+def test_a_recording_is_shown_with_its_fingers_and_saved_as_a_page(tmp_path):
+    C = panda()
+    S = ry.Simulation(C)
+    S.startRecording()
+    S.setSplineRef(C.getJointState() + 0.2, [0.5])
+    S.moveGripper("l_gripper", 0.02)
+    for _ in range(50):
+        S.step([], 0.01, ry.ControlMode.spline)
+    recording = S.stopRecording()
+    recording.save(tmp_path / "run.bin")
+    ry.SimulationRecording.load(tmp_path / "run.bin").saveHtml(tmp_path / "run.html")
+    page = (tmp_path / "run.html").read_text()
+    slices, seconds = re.search(r'\\?"slices\\?":(\d+),\\?"seconds\\?":([\d.E+-]+)', page).groups()
+    assert int(slices) == 26 and float(seconds) == pytest.approx(0.5)
+    assert recording.view() == 0  # nobody is there
+    recording.view_close()
+    with pytest.raises(ry.ArgumentError, match="has no steps"):
+        S.startRecording()
+        S.stopRecording().saveHtml(tmp_path / "none.html")
+
+
+def test_states_of_earlier_years_are_poses_of_frames():
+    C = panda()
+    add_box(C, [0.1, 0.35, 0.9])
+    q, poses = C.getJointState(), C.getFrameState()
+    S = ry.Simulation(C, ry.SimulationEngine.physx, 0)
+    for _ in range(50):
+        S.step(np.full(7, -0.2), 0.01, ry.ControlMode.velocity)
+    assert C.getFrame("box").getPosition()[2] < 0.8
+    S.setState(poses, q)
+    assert S.get_q() == pytest.approx(q) and np.abs(S.get_qDot()).max() == 0
+    assert C.getFrame("box").getPosition() == pytest.approx([0.1, 0.35, 0.9])
+    S.setState(poses)
+    assert S.get_q() == pytest.approx(q)
+
+
+def test_a_run_takes_as_many_steps_as_its_time_has_and_needs_an_end():
+    C = panda()
+    S = ry.Simulation(C)
+    S.setSplineRef(C.getJointState() + 0.2, [0.5])
+    assert S.run(0.5) == 0
+    other = ry.Simulation(panda())
+    other.setSplineRef(other.get_q() + 0.2, [0.5])
+    other.multi_step(0.5)
+    assert np.array_equal(S.get_q(), other.get_q()) and S.get_t() == pytest.approx(0.5)
+    with pytest.raises(ry.ArgumentError, match="say for how many seconds"):
+        S.run()
+    with pytest.raises(ry.ArgumentError, match="tau"):
+        S.run(1.0, tau=0)

@@ -184,7 +184,7 @@ def test_options_say_what_is_wrong(panda):
     for wrong, words in {
         "colisions": "no option 'colisions'.*similar names: collisions",
         "attempts": "attempts is 0; expected at least 1",
-        "tolerance": "position_tolerance is -1; expected a positive length",
+        "tolerance": "position_tolerance is -1; expected a positive number, in m",
         "margin": "margin is 'wide'; expected a number",
     }.items():
         value = {"attempts": 0, "tolerance": -1.0, "margin": "wide"}.get(wrong, False)
@@ -196,6 +196,14 @@ def test_options_say_what_is_wrong(panda):
     with pytest.raises(ry.ArgumentError, match="attempts is -3"):
         options.attempts = -3
     assert options.attempts == 100
+
+
+def test_options_say_what_they_mean():
+    fields = ry.IkOptions().dict()
+    for name, default in fields.items():
+        assert f"Default {default}" in getattr(ry.IkOptions, name).__doc__, name
+    assert "in rad" in ry.IkOptions.rotation_tolerance.__doc__
+    assert ry.IkOptions(attempts=1e2, best=1).dict() == fields | {"best": True}
 
 
 @pytest.mark.parametrize(

@@ -205,13 +205,12 @@ def test_a_kept_problem_is_solved_again_in_few_evaluations(panda):
     komo.addObjective([], ry.FS.jointState, [], ry.OT.sos, [0.1], panda.getJointState())
     komo.addObjective([], ry.FS.positionDiff, ["l_gripper", "target"], ry.OT.eq, [10.0])
     s = ry.NLP_Solver(komo.nlp(), verbose=0)
-    evals = s.solve().evals
+    s.solve()
     for moved, limit in ((0.0, 2), (0.001, 3), (0.01, 5)):
         target.setPosition([0.3, target.getPosition()[1] + moved, 1.0])
         komo.updateRootObjects(panda)
         ret = s.solve()
-        assert ret.feasible and ret.evals - evals <= limit
-        evals = ret.evals
+        assert ret.feasible and ret.evals <= limit
 
 
 def test_traces_and_counts_include_the_way_to_the_least_violation(panda):

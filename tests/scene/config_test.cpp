@@ -227,6 +227,21 @@ TEST(Config, AttachKeepsTheFrameWhereItIs) {
   EXPECT_EQ(config.getFrame("base").getParent(), std::nullopt);
 }
 
+TEST(Config, AttachOfAFrameWithoutJointSaysWhatToDoAndThatWorks) {
+  Config config;
+  config.addText(
+      "table {}\n"
+      "arm (table) { joint: hingeZ }\n"
+      "hand (arm) { pose: [1 0 0] }\n"
+      "box (table) { pose: [1 .2 0], shape: box, size: [.1 .1 .1] }\n");
+  expectError<ValueError>([&] { config.attach("hand", "box"); },
+                          {"'box' has no joint and is fixed to 'table'", "carries 'hand', too", "setJoint"});
+  config.getFrame("box").setJoint(JointType::rigid);
+  config.attach("hand", "box");
+  EXPECT_EQ(config.getFrame("box").getParent()->getName(), "hand");
+  EXPECT_TRUE(config.getFrame("box").getPosition().isApprox(Vector3d(1., .2, 0.), 1e-12));
+}
+
 TEST(Config, MistakesAreExplained) {
   Config config = arm();
   expectError([&] { config.getFrame("lnik2"); }, {"similar names: link2"});

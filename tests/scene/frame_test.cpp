@@ -156,8 +156,17 @@ TEST(Frame, MistakesAreExplained) {
   Config config = tree();
   expectError([&] { config.getFrame("base").setParent(config.getFrame("link")); }, {"one of its descendants"});
   expectError([&] { config.getFrame("base").setRelativePosition({0, 0, 0}); }, {"has no parent"});
-  expectError([&] { config.getFrame("base").setJoint(JointType::hingeX); }, {"cannot have a joint"});
+  expectError([&] { config.getFrame("base").setJoint(JointType::hingeX); },
+              {"cannot have a joint", "call setParent first", "a new frame 'world'"});
   expectError([&] { config.getFrame("ball").setContact(1); }, {"has no shape"});
+}
+
+TEST(Frame, ARootGetsAJointOnceItHasAParentAsTheErrorAdvises) {
+  Config config;
+  config.addFrame("box").setPosition({1., 0., 0.});
+  config.getFrame("box").setParent(config.addFrame("world"), true).setJoint(JointType::transX, {-1., 4.});
+  EXPECT_EQ(config.getJointDimension(), 1);
+  EXPECT_TRUE(config.getFrame("box").getPosition().isApprox(Vector3d(1., 0., 0.), 1e-12));
 }
 
 TEST(Frame, ReattachingKeepsTheRelativeOrTheWorldPose) {

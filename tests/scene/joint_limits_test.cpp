@@ -14,7 +14,16 @@ TEST(LimitsMistake, IsNoneWhereAllLowerLimitsAreBelowTheUpperOnes) {
   EXPECT_EQ(limitsMistake(std::vector<double>{2., 2.}), "");  // one dof that is held
   EXPECT_EQ(limitsMistake(std::vector<double>{-1., -2., 1., 2.}), "");
   EXPECT_EQ(limitsMistake(std::vector<double>{0., 0., 0., 0.}), "");
-  EXPECT_EQ(limitsMistake(std::vector<double>{1., -1.}), "a lower limit is above its upper limit");
+}
+
+TEST(LimitsMistake, WritesLimitsThatAreTheWrongWayAroundTheRightWayAround) {
+  EXPECT_EQ(limitsMistake(std::vector<double>{1., -1.}),
+            "the lower limit 1 is above the upper limit -1; expected [lower, upper]: [-1 1]");
+  EXPECT_EQ(limitsMistake(std::vector<double>{2., -1., 1., 3.}),
+            "a lower limit is above its upper limit: that of dof 0 is 2, and 1; all lower limits come first, then all "
+            "upper ones: [1 -1 2 3] if only these are the wrong way around");
+  EXPECT_EQ(limitsMistake(std::vector<double>{-1., 1.}), "");
+  EXPECT_EQ(limitsMistake(std::vector<double>{1., -1., 2., 3.}), "");  // the advice
 }
 
 TEST(LimitsMistake, WritesLimitsOfEarlierYearsAsTheyAreWrittenToday) {

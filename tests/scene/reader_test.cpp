@@ -156,7 +156,7 @@ TEST(Reader, ErrorsNameThePlaceTheFrameAndTheNearestWord) {
   expectMessage("a: { shape: box, size: [1 1] }", "size of a box has 3 numbers [x y z], not 2");
   expectMessage("a: { X: \"t(1 2)\" }", "'t' takes 3 numbers");
   expectMessage("a: { joint: hingeX }", "without a parent cannot have a joint");
-  expectMessage("a: {} b(a): { joint: hingeX, limits: [1 -1] }", "a lower limit is above");
+  expectMessage("a: {} b(a): { joint: hingeX, limits: [1 -1] }", "the lower limit 1 is above the upper limit -1");
   expectMessage("a: {} b(a): { joint: hingeX, mimic: a }", "'a' has no joint");
   expectMessage("a(b): {} b(a): {}", "one of its descendants");
   expectMessage("a: { shape: box, size: [1 1 1] ", "no error");

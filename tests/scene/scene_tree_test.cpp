@@ -269,5 +269,25 @@ TEST(SceneTree, ABuiltSceneIsNotCompiledAtEveryQuestion) {
   EXPECT_LT(compiled, 20);
 }
 
+TEST(SceneTree, TheJointStateOfASceneThatIsBeingBuiltNeedsNoCompiling) {
+  SceneTree scene;
+  FrameData& world = scene.add("world", nullptr);
+  for (int i = 0; i < 100; ++i) {
+    FrameData& frame = scene.add(cat("f", i), &world);
+    frame.joint = Joint(i % 3 == 0 ? JointType::transXY : i % 3 == 1 ? JointType::hingeX : JointType::rigid);
+    if (i % 3 < 2) frame.joint->q.setConstant(i);
+    frame.joint->active = i % 5 != 0;
+    if (i % 7 == 4)
+      frame.joint->mimic = scene.frames()[std::size_t(i) - 2].get();  // three earlier, as the world is the first
+    scene.structureChanged();
+    const VectorXd q = scene.jointState();
+    EXPECT_EQ(scene.compiled(), nullptr);
+    if (i > 0 && i % 3 == 1 && i % 5 != 0 && i % 7 != 4) EXPECT_EQ(q[q.size() - 1], i);
+  }
+  const VectorXd before = scene.jointState();
+  EXPECT_EQ(before.size(), scene.program()->dofs);
+  EXPECT_EQ(scene.jointState(), before);
+}
+
 }  // namespace
 }  // namespace kinegraph

@@ -178,10 +178,9 @@ class Browser:
         self.mouse("mouseReleased", *points[-1], button="left", modifiers=modifiers)
 
     def click_button(self, text: str) -> None:
-        """Clicks the button with that text."""
-        self.evaluate(
-            f"[...document.querySelectorAll('button')].find((x) => x.textContent === {json.dumps(text)}).click()"
-        )
+        """Clicks the button with that text; one that is to be seen, if there are several."""
+        named = f"[...document.querySelectorAll('button')].filter((x) => x.textContent === {json.dumps(text)})"
+        self.evaluate(f"(({named}).find((x) => x.checkVisibility()) ?? ({named}).at(-1)).click()")
 
     def pixel(self, point: Any) -> tuple[float, float]:
         """Where a point of the scene is on the page: x and y."""

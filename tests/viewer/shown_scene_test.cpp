@@ -227,3 +227,26 @@ TEST(ShownScene, TextsAndCameraAreSentWhenTheyChange) {
       *messages[1].data,
       R"({"kind":"camera","pose":[1,2,3,1,0,0,0],"distance":1.5E0,"focal":9E-1,"ortho":0,"aspect":1.25E0,"near":5E-1,"far":8})");
 }
+
+TEST(ShownScene, ARunIsSentWithEachStepAndItsEndOnce) {
+  ShownScene scene;
+  scene.update(std::vector{item("world")});
+  ShownScene::Seen seen;
+  scene.messagesSince(seen);
+  EXPECT_FALSE(scene.endRun());
+  ShownRun run{1.5, .25, true};
+  run.contacts.push_back({Vector3d(1., 2., 3.), Vector3d(0., 0., 8.)});
+  run.pull = {Vector3d(1., 0., 0.), Vector3d(0., 1., 0.), 7.};
+  scene.setRun(run);
+  const auto messages = scene.messagesSince(seen);
+  ASSERT_EQ(kinds(messages), Kinds{"run"});
+  EXPECT_EQ(
+      *messages[0].data,
+      R"({"kind":"run","shown":1,"time":1.5E0,"factor":2.5E-1,"paused":1,"contacts":[1,2,3,0,0,8],"pull":[1,0,0,0,1,0,7]})");
+  EXPECT_TRUE(scene.messagesSince(seen).empty());
+  EXPECT_TRUE(scene.endRun());
+  const auto end = scene.messagesSince(seen);
+  ASSERT_EQ(kinds(end), Kinds{"run"});
+  EXPECT_TRUE(end[0].data->starts_with(R"({"kind":"run","shown":0,)"));
+  EXPECT_FALSE(scene.endRun());
+}

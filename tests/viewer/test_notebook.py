@@ -9,6 +9,7 @@ import sys
 from pathlib import Path
 from types import SimpleNamespace
 
+import numpy as np
 import pytest
 
 import kinegraph as kg
@@ -70,6 +71,52 @@ def test_a_motion_is_an_element_that_plays_without_a_program(browser: Browser, t
     browser.wait_for("kinegraph.slice() === 3 && Math.abs(kinegraph.position('one')[0] - 1) < 1e-3")
     browser.press("ArrowLeft")
     browser.wait_for("kinegraph.slice() === 2")
+
+
+def knot(turns: int, around: int) -> tuple[np.ndarray, np.ndarray]:
+    """A bumpy ring whose triangles share no vertices, as many files have them."""
+    u, v = np.meshgrid(2 * np.pi * np.arange(turns) / turns, 2 * np.pi * np.arange(around) / around, indexing="ij")
+    radius = 0.3 + 0.1 * (1 + 0.05 * np.sin(9 * u) * np.cos(7 * v)) * np.cos(v)
+    points = np.stack([radius * np.cos(u), radius * np.sin(u), 0.1 * np.sin(v)], axis=-1).reshape(-1, 3)
+    i, j = np.meshgrid(np.arange(turns), np.arange(around), indexing="ij")
+    a, b, c, d = (k % turns * around + m % around for k, m in ((i, j), (i + 1, j), (i + 1, j + 1), (i, j + 1)))
+    triangles = np.concatenate([np.stack([a, b, c], -1).reshape(-1, 3), np.stack([a, c, d], -1).reshape(-1, 3)])
+    return points[triangles.reshape(-1)], np.arange(triangles.size).reshape(-1, 3)
+
+
+def test_a_large_scene_is_a_small_element_that_looks_the_same(
+    config: kg.Config, browser: Browser, tmp_path: Path
+) -> None:
+    points, triangles = knot(300, 200)
+    for i in range(4):
+        config.addFrame(f"ring{i}").setMesh(points * (1 + 0.1 * i), triangles).setPosition([0, 0, 0.4 + 0.3 * i])
+    viewer = config.viewer()
+    whole, element = viewer.asHtml(), viewer._repr_html_()
+    assert len(whole) > 11e6 and len(element) < 1e6
+    (tmp_path / "whole.html").write_text(whole)
+    browser.open((tmp_path / "whole.html").as_uri())
+    before = browser.picture().astype(int)
+    opened(element, browser, tmp_path)
+    assert browser.evaluate("kinegraph.position('ring3')") == pytest.approx([0, 0, 1.3], abs=1e-6)
+    after = browser.picture().astype(int)
+    assert (np.abs(after - before).max(axis=2) > 30).mean() < 0.01 and after.std() > 20
+    assert browser.errors == []
+
+
+def test_messages_are_unpacked_bit_by_bit(browser: Browser, tmp_path: Path) -> None:
+    """Nothing is merged where there is room: all bytes of a motion are those that were saved."""
+    config = kg.Config()
+    config.addFrame("base")
+    config.addFrame("one", "base").setJoint(kg.JT.transX, [-3, 3]).setShape(kg.ST.box, [0.2, 0.2, 0.2])
+    path = np.random.default_rng(0).uniform(-3, 3, (200, 1))
+    config.view_path(path, 2.0)
+    opened(config.viewer()._repr_html_(), browser, tmp_path)
+    config.view_close()
+    for t in (0, 77, 199):
+        browser.wait_for(
+            f"(document.querySelector('#motion input[type=range]').valueAsNumber = {t}, document.querySelector('#motion input[type=range]').dispatchEvent(new Event('input')), kinegraph.slice() === {t})"
+        )
+        assert browser.evaluate("kinegraph.position('one')[0]") == np.float32(path[t, 0])
 
 
 def test_a_viewer_that_was_never_opened_is_a_page_as_well(browser: Browser, tmp_path: Path) -> None:

@@ -37,7 +37,22 @@ export class Connection {
   }
 }
 
-type Recorded = { text: string } | { binary: string }; // bytes in base64
+/** Bytes in base64; packed ones are differences of 32-bit words that are `stride` apart, deflated. */
+type Recorded = { text: string } | { binary: string } | { packed: string; bytes: number; stride: number };
+
+const bytesOf = (base64: string): Uint8Array<ArrayBuffer> => Uint8Array.from(atob(base64), (letter) => letter.charCodeAt(0));
+
+async function unpack(base64: string, bytes: number, stride: number): Promise<ArrayBuffer> {
+  const stream = new Blob([bytesOf(base64)]).stream().pipeThrough(new DecompressionStream("deflate"));
+  const planes = new Uint8Array(await new Response(stream).arrayBuffer()); // all lowest bytes, then the second ones, ...
+  const count = planes.length / 4;
+  const words = new Int32Array(count);
+  for (let i = 0; i < count; ++i) {
+    const code = planes[i]! | (planes[count + i]! << 8) | (planes[2 * count + i]! << 16) | (planes[3 * count + i]! << 24);
+    words[i] = ((code >>> 1) ^ -(code & 1)) + (i < stride ? 0 : words[i - stride]!);
+  }
+  return words.buffer.slice(0, bytes);
+}
 
 /** Messages that are part of the page itself: it then needs no program. */
 export function recordedMessages(): Recorded[] | null {
@@ -45,10 +60,11 @@ export function recordedMessages(): Recorded[] | null {
   return text ? (JSON.parse(text) as Recorded[]) : null;
 }
 
-export function replay(recorded: Recorded[], listener: Listener): void {
+export async function replay(recorded: Recorded[], listener: Listener): Promise<void> {
   listener.opened();
   for (const entry of recorded) {
     if ("text" in entry) listener.message(JSON.parse(entry.text) as ServerMessage);
-    else listener.binary(Uint8Array.from(atob(entry.binary), (letter) => letter.charCodeAt(0)).buffer);
+    else if ("binary" in entry) listener.binary(bytesOf(entry.binary).buffer);
+    else listener.binary(await unpack(entry.packed, entry.bytes, entry.stride));
   }
 }

@@ -21,6 +21,7 @@ import { Motion } from "./motion";
 import { NearLines } from "./near";
 import { Panel } from "./panel";
 import { Quads } from "./quads";
+import { Run } from "./run";
 import { Selection } from "./selection";
 import { ShownScene } from "./shown";
 import { Stage } from "./stage";
@@ -51,6 +52,7 @@ const panel = new Panel(display, shown.frames, switched, (id) => selection.selec
 stage.onDraw(() => shown.prepare((at) => stage.pixelsPerMeter(at), stage.hurries));
 const selection = new Selection(stage, shown.frames, joints, recorded ? null : send, (id) => panel.select(id));
 const timeline = new Timeline(stage, shown, joints, moved);
+const run = new Run(stage, shown.frames, recorded ? null : send);
 const exports = new Exports(stage, timeline, shown.frames, recorded !== null);
 let unplaced = false; // frames have come whose poses are still to come
 let digits = false; // some switch what is drawn
@@ -116,6 +118,7 @@ function receive(message: ServerMessage): void {
     case "joints":
       joints.setJoints(message.structure, message.joints);
       near.setStructure(message.structure);
+      run.pulling.structure = message.structure;
       break;
     case "text":
       document.title = message.title;
@@ -136,11 +139,17 @@ function receive(message: ServerMessage): void {
       announced = message.slices > 0 ? message : null;
       timeline.end();
       near.apply(announced === null);
+      run.setMotion(announced !== null);
       exports.refresh();
+      break;
+    case "run":
+      run.read(message);
       break;
     case "select":
       selection.select(message.frame, "translate");
       break;
+    default:
+      message satisfies never; // every kind of message has its case
   }
   stage.redraw();
 }
@@ -167,6 +176,7 @@ function receiveBinary(data: ArrayBuffer): void {
 const listener: Listener = {
   opened() {
     timeline.end();
+    run.end();
     shown.clear();
     quads.clear();
     find("ended").hidden = true;
@@ -177,7 +187,7 @@ const listener: Listener = {
     find("ended").hidden = false;
   },
 };
-if (recorded) replay(recorded, listener);
+if (recorded) void replay(recorded, listener);
 else connection = new Connection(listener);
 
 stage.onMove(() => {
@@ -209,7 +219,7 @@ function takeAlt(code: string): boolean {
   else if (TURNS[code]) stage.viewpoint.turn(...TURNS[code]);
   else if (code === "KeyP") exports.savePicture();
   else if (code === "KeyR") measure.toggle();
-  else if (code === "KeyK") timeline.toggle();
+  else if (code === "KeyK") timeline.current ? timeline.toggle() : run.toggle();
   else if (code === "KeyG") selection.toggleHandles("translate");
   else if (code === "KeyB") selection.toggleHandles("rotate");
   else return panel.takeKey(code);
@@ -291,6 +301,7 @@ Object.assign(window, {
     slice: () => (timeline.current ? timeline.slice : null),
     marks: () => timeline.markCount,
     playing: () => timeline.isPlaying,
+    run: () => (run.isShown ? { paused: run.isPaused, arrows: run.arrows.count } : null),
     pixel: (x: number, y: number, z: number) => {
       const p = new THREE.Vector3(x, y, z).project(stage.camera);
       return [((p.x + 1) / 2) * stage.canvas.clientWidth, ((1 - p.y) / 2) * stage.canvas.clientHeight];

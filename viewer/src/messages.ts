@@ -113,6 +113,16 @@ export interface MotionMessage {
   traces: TraceMessage[];
 }
 
+export interface RunMessage {
+  kind: "run";
+  shown: number;
+  time: number;
+  factor: number;
+  paused: number;
+  contacts: number[];
+  pull: number[];
+}
+
 export const keyCommand = (code: number, modifiers: number): Uint8Array<ArrayBuffer> =>
   writeCommand(["int", 1], ["int", code], ["int", modifiers]);
 
@@ -140,4 +150,10 @@ export const cursorCommand = (frame: number, point: number[], normal: number[]):
 export const viewpointCommand = (pose: number[], distance: number, focal: number, ortho: number): Uint8Array<ArrayBuffer> =>
   writeCommand(["int", 9], ["number[]", pose], ["number", distance], ["number", focal], ["number", ortho]);
 
-export type ServerMessage = SceneMessage | JointsMessage | TextMessage | CameraMessage | LookMessage | NearMessage | SelectMessage | MotionMessage;
+export const runCommand = (what: number): Uint8Array<ArrayBuffer> =>
+  writeCommand(["int", 10], ["int", what]);
+
+export const pullCommand = (structure: number, frame: number, point: number[], target: number[]): Uint8Array<ArrayBuffer> =>
+  writeCommand(["int", 11], ["int", structure], ["int", frame], ["number[]", point], ["number[]", target]);
+
+export type ServerMessage = SceneMessage | JointsMessage | TextMessage | CameraMessage | LookMessage | NearMessage | SelectMessage | MotionMessage | RunMessage;

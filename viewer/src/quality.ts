@@ -1,6 +1,10 @@
 const SLOW = 25,
   FAST = 15; // ms from one picture to the next, while things move
 const STILL = 150; // ms without a change
+const FRAME = 34; // ms that an animation frame counts at most: behind a slow one, changes may wait
+const MOST_PATIENT = 10; // times as many, where changes keep coming
+const AT_ONCE = 20,
+  LONG = 120; // animation frames: what follows a picture in full resolution so soon, or so late
 const LARGEST = 2; // pixels drawn per pixel of the page, across and down
 const FEWEST = 240; // pixels drawn from top to bottom of a page, if that is between a third and a half of its pixels
 
@@ -23,8 +27,12 @@ export class Quality {
   private now: number;
   private pictures = 0;
   private spent = 0; // ms, of these pictures
-  private last = -Infinity; // when the last change was drawn
+  private still = Infinity; // ms since the last change was drawn
   private rested = true; // nothing has moved since
+  private patience = STILL; // ms without a change before a picture in full resolution
+  private quiet = 0; // animation frames since that picture
+  private tick = 0; // when the last animation frame was
+  private drew = false; // and whether it drew a change
   private isHeld = false; // in full resolution, whatever moves
 
   constructor(private readonly software: boolean) {
@@ -58,30 +66,47 @@ export class Quality {
     if (on) this.now = this.finest;
   }
 
-  /** Call when a change is about to be drawn. */
+  /** Call in an animation frame that is about to draw a change. */
   change(time: number): void {
+    this.begin(time);
     if (this.isHeld) return;
-    if (this.rested)
-      this.pictures = this.spent = 0; // the first of a movement says nothing of how long pictures take
-    else this.measure(time - this.last);
+    if (this.rested) {
+      this.pictures = this.spent = 0;
+      // A picture in full resolution sizes the canvas anew, twice, and is slow where processors draw: not between changes
+      // that keep coming.
+      if (this.quiet < AT_ONCE) this.patience = Math.min(2 * this.patience, MOST_PATIENT * STILL);
+      else if (this.quiet > LONG) this.patience = STILL;
+    }
+    this.drew = !this.rested; // the first of a movement says nothing of how long pictures take
     if (!this.rested || this.software) this.now = this.moving;
-    this.last = time;
+    this.still = 0;
     this.rested = false;
   }
 
-  /** Call when nothing has changed. True if it is time for a picture in full resolution. */
+  /** Call in an animation frame where nothing has changed. True if it is time for a picture in full resolution. */
   rest(time: number): boolean {
-    if (time - this.last < STILL) return false;
+    this.still += Math.min(time - this.tick, FRAME);
+    this.begin(time);
+    if (this.rested) ++this.quiet;
+    if (this.still < this.patience) return false;
+    if (!this.rested) this.quiet = 0;
     this.rested = true;
     if (this.isFull) return false;
     this.now = this.finest;
     return true;
   }
 
+  /** How long a picture takes is the time to the next animation frame. */
+  private begin(time: number): void {
+    if (this.drew) this.measure(time - this.tick);
+    this.tick = time;
+    this.drew = false;
+  }
+
   /** The next picture is as coarse as pictures may become. */
-  setLeast(time: number): void {
+  setLeast(): void {
     this.now = this.least();
-    this.last = time;
+    this.still = 0;
     this.rested = false;
   }
 

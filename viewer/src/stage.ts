@@ -224,7 +224,7 @@ export class Stage {
 
   /** Draws now, as on a machine that is slow while things move. */
   drawHurriedly(): void {
-    this.quality.setLeast(performance.now());
+    this.quality.setLeast();
     this.redraw();
     this.draw();
   }

@@ -27,6 +27,22 @@ Args:
     weight: Multiplies its rows, beside other tasks and the posture.
     gain: Share of the error that one step takes away, in (0, 1].
     target: What it is to become, one number or one per row; None: zero.
+    level: Tasks of a higher level have what those of lower ones leave open; the posture comes last.
+Returns:
+    Number of the task, for setTarget.
+Raises:
+    ArgumentError: The frames do not fit the feature, it needs several configurations, or gain is out of range.
+    FrameNotFound: A frame that is not in the scene.)";
+
+inline constexpr char addEquality[] = R"(A feature that must become zero, or its target, before all tasks.
+
+Limits and distances are kept all the same: where they forbid it, it gives way as little as possible, and message says so.
+
+Args:
+    feature: A symbol of FS, or a function of frames, as for C.eval.
+    frames: Name of the feature's frame, or names of its frames.
+    gain: Share of the error that one step takes away, in (0, 1].
+    target: What it is to become, one number or one per row; None: zero.
 Returns:
     Number of the task, for setTarget.
 Raises:

@@ -1,6 +1,6 @@
 #pragma once
 
-/// The manual of what bind_ik.cpp, ik_options.cpp binds.
+/// The manual of what bind_ik.cpp binds.
 namespace kinegraph::python::docs::ik {
 
 inline constexpr char solveIk[] =
@@ -13,7 +13,11 @@ Args:
     config: The scene.
     targets: A dict from frames to where they are to be, in world coordinates (m): a position (3,), a pose (7,) =
         x y z qw qx qy qz or (4, 4), the name of a frame or a Frame that has the pose; or a dict of position, pose,
-        quaternion, and directions of the frame's axes x, y, z. With rows (N, ...) there are N problems.
+        quaternion, directions of the frame's axes x, y, z, and gaze: a point or frame that its z axis points at, or
+        another axis (3,) of it. With relativeTo, a frame, a dict is in the coordinates of that frame, which may move as
+        well; relativeTo alone means its pose. And from features to their values: (ry.FS.distance, "a", "b") to a number
+        or one per row, or to a dict of target or atMost, tolerance and scale; "centerOfMass" or a tuple of that and of
+        frames to a point. With rows (N, ...) there are N problems.
     options: IkOptions, or None for the defaults.
     threads: How many share the problems of a batch.
     verbose: 1 prints a line at the end, and a progress bar on the way if it takes long.
@@ -25,13 +29,7 @@ Returns:
     what misses its target by how much, and which limits and pairs are in the way.
 Raises:
     FrameNotFound: A name that is not in the scene.
-    ArgumentError: Targets of a wrong shape, or that no active joint moves; an unknown option.)";
-
-inline constexpr char make[] = R"(The defaults, with some settings changed.
-
-Args:
-    fields: Settings by name; tolerance sets position_tolerance (m) and rotation_tolerance (rad).
-Raises:
-    ArgumentError: There is no such setting, or it cannot have this value.)";
+    ArgumentError: Targets of a wrong shape, or that no active joint moves; a target that is where a frame is which the
+        targets move; an unknown option.)";
 
 }  // namespace kinegraph::python::docs::ik

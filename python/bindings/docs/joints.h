@@ -3,6 +3,12 @@
 /// The manual of what bind_joints.cpp binds.
 namespace kinegraph::python::docs::joints {
 
+inline constexpr char getJointNames[] =
+    R"(One name per entry of q: the joint's frame, with `:0`, `:1` ... where it has several dofs.
+
+Returns:
+    n names; behind them those of active joints that mimic others and so have no entry of their own.)";
+
 inline constexpr char getJointState[] = R"(The joint vector q, a copy.
 
 Args:

@@ -3,26 +3,6 @@
 /// The manual of what bind_komo.cpp binds.
 namespace kinegraph::python::docs::komo {
 
-inline constexpr char komo_IK[] =
-    R"(A KOMO of one slice with a cost on leaving the present posture, as older scripts make it.
-
-Args:
-    args: Not used; older scripts pass them.
-    kwargs: Not used; older scripts pass them.
-Returns:
-    The KOMO.)";
-
-inline constexpr char komo_path[] = R"(A KOMO of a path with a cost on accelerations, as older scripts make it.
-
-Args:
-    phases: Number of phases.
-    stepsPerPhase: Slices per phase.
-    timePerPhase: Duration of a phase, s.
-    args: Not used; older scripts pass them.
-    kwargs: Not used; older scripts pass them.
-Returns:
-    The KOMO.)";
-
 inline constexpr char addObjective[] = R"(Adds scale * (feature - target) as costs or constraints of some slices.
 
 Args:
@@ -78,19 +58,6 @@ Raises:
 
 inline constexpr char addControlObjective[] =
     R"(Adds the sum of squares of a time derivative of all dofs as cost; for order 0, of the distance from home.
-
-Args:
-    times: In phases: [] all slices, [t] one, [from, to] both included.
-    order: 0: distance from home; 1: velocity; 2: acceleration.
-    scale: Factor.
-    target: Of the derivative, one number per dof; None: 0.
-    deltaFromSlice: Added to the first slice.
-    deltaToSlice: Added to the last slice.
-Raises:
-    ArgumentError: The order is higher than that of the KOMO, or a size does not fit.)";
-
-inline constexpr char add_qControlObjective[] =
-    R"(Adds the sum of squares of a time derivative of all dofs as cost, as addControlObjective does.
 
 Args:
     times: In phases: [] all slices, [t] one, [from, to] both included.

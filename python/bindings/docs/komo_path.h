@@ -103,10 +103,11 @@ Args:
     verbose: Not used; older scripts pass it.)";
 
 inline constexpr char updateRootObjects[] =
-    R"(Takes over the constant poses of a scene. The path stays, for a warm start.
+    R"(Takes over the constant poses of a scene, and its q as the one that the motion begins from. The path stays, for a
+warm start; targets of objectives stay, too.
 
 Args:
-    config: The scene.
+    config: The scene, with the frames and joints that the problem was made from.
 Raises:
     ArgumentError: The scene has other frames.)";
 

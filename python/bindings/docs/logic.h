@@ -3,46 +3,40 @@
 /// The manual of what bind_logic.cpp binds.
 namespace kinegraph::python::docs::logic {
 
+// What several of them say.
+#define KINEGRAPH_OF_FILE               \
+  "Args:\n"                             \
+  "    file: Its name.\n"               \
+  "Returns:\n"                          \
+  "    The domain.\n"                   \
+  "Raises:\n"                           \
+  "    FileError: It cannot be read.\n" \
+  "    ParseError: It is wrong; the message begins with file:line:column."
+#define KINEGRAPH_OF_TEXT              \
+  "Args:\n"                            \
+  "    text: The text.\n"              \
+  "    name: What messages call it.\n" \
+  "Returns:\n"                         \
+  "    The domain.\n"                  \
+  "Raises:\n"                          \
+  "    ParseError: It is wrong; the message begins with name:line:column."
+
 inline constexpr char fromFol[] = R"(Reads a domain from a .fol file.
 
-Args:
-    file: Its name.
-Returns:
-    The domain.
-Raises:
-    FileError: It cannot be read.
-    ParseError: It is wrong; the message begins with file:line:column.)";
+)" KINEGRAPH_OF_FILE;
 
 inline constexpr char fromFolText[] = R"(Reads a domain from text in the language of .fol files.
 
-Args:
-    text: The text.
-    name: What messages call it.
-Returns:
-    The domain.
-Raises:
-    ParseError: It is wrong; the message begins with name:line:column.)";
+)" KINEGRAPH_OF_TEXT;
 
 inline constexpr char fromPddl[] = R"(Reads a domain from a PDDL file: STRIPS, types, negative preconditions, equality.
 
-Args:
-    file: Its name.
-Returns:
-    The domain.
-Raises:
-    FileError: It cannot be read.
-    ParseError: It is wrong; the message begins with file:line:column.)";
+)" KINEGRAPH_OF_FILE;
 
 inline constexpr char fromPddlText[] =
     R"(Reads a domain from text in PDDL: STRIPS, types, negative preconditions, equality.
 
-Args:
-    text: The text.
-    name: What messages call it.
-Returns:
-    The domain.
-Raises:
-    ParseError: It is wrong; the message begins with name:line:column.)";
+)" KINEGRAPH_OF_TEXT;
 
 inline constexpr char toPddl[] = R"(The domain in PDDL.
 
@@ -137,5 +131,8 @@ Args:
     C: The scene.
 Returns:
     Literals, (on table cup) for example.)";
+
+#undef KINEGRAPH_OF_FILE
+#undef KINEGRAPH_OF_TEXT
 
 }  // namespace kinegraph::python::docs::logic

@@ -3,15 +3,30 @@
 /// The manual of what bind_manipulation.cpp binds.
 namespace kinegraph::python::docs::manipulation {
 
+// What several of them say.
+#define KINEGRAPH_LIMITS                                 \
+  "    accumulated_collisions: Nothing overlaps.\n"      \
+  "    joint_limits: Joints stay within their limits.\n" \
+  "    quaternion_norms: Quaternions have norm one.\n"
+#define KINEGRAPH_GRASP                                                                                      \
+  "    time: In phases; the axes are aligned from 0.2 before it on, and the palm keeps off from 0.3 before " \
+  "it on.\n"                                                                                                 \
+  "    gripper: Name of the gripper frame.\n"
+#define KINEGRAPH_PALM "    palm: Name of the frame that does not touch the object; empty: none.\n"
+#define KINEGRAPH_HAND                 \
+  "    times: [from, to] in phases.\n" \
+  "    gripper: Name of the gripper frame.\n"
+#define KINEGRAPH_TIMES_RAISE                             \
+  "Raises:\n"                                             \
+  "    FrameNotFound: A name that is not in the scene.\n" \
+  "    ArgumentError: Other times."
+
 inline constexpr char setup_inverse_kinematics[] = R"(Sets up a problem of one configuration.
 
 Args:
     C: The scene.
     homing_scale: Weight of the distance from home; 0: none.
-    accumulated_collisions: Nothing overlaps.
-    joint_limits: Joints stay within their limits.
-    quaternion_norms: Quaternions have norm one.
-Raises:
+)" KINEGRAPH_LIMITS R"(Raises:
     ArgumentError: The scene has no joints.)";
 
 inline constexpr char setup_sequence[] = R"(Sets up one configuration for each of K waypoints.
@@ -21,10 +36,7 @@ Args:
     K: How many.
     homing_scale: Weight of the distance from home; 0: none.
     velocity_scale: Weight of the distance from one to the next.
-    accumulated_collisions: Nothing overlaps.
-    joint_limits: Joints stay within their limits.
-    quaternion_norms: Quaternions have norm one.
-Raises:
+)" KINEGRAPH_LIMITS R"(Raises:
     ArgumentError: K is not positive.)";
 
 inline constexpr char setup_motion[] = R"(Sets up a smooth motion that ends at rest.
@@ -35,10 +47,7 @@ Args:
     steps_per_phase: Slices in each.
     homing_scale: Weight of the distance from home; 0: none.
     acceleration_scale: Weight of accelerations.
-    accumulated_collisions: Nothing overlaps in any slice.
-    joint_limits: Joints stay within their limits.
-    quaternion_norms: Quaternions have norm one.
-Raises:
+)" KINEGRAPH_LIMITS R"(Raises:
     ArgumentError: K or steps_per_phase is not positive.)";
 
 inline constexpr char setup_pick_and_place_waypoints[] =
@@ -50,10 +59,7 @@ Args:
     obj: Name of the object. The frame '<obj>_grasp' is where it will be in the gripper.
     homing_scale: Weight of the distance from home; 0: none.
     velocity_scale: Weight of the distance from one to the next.
-    accumulated_collisions: Nothing overlaps.
-    joint_limits: Joints stay within their limits.
-    quaternion_norms: Quaternions have norm one.
-Raises:
+)" KINEGRAPH_LIMITS R"(Raises:
     FrameNotFound: A name that is not in the scene.)";
 
 inline constexpr char setup_point_to_point_motion[] =
@@ -64,10 +70,7 @@ Args:
     q1: Joints at the end, shape (n,), rad or m.
     homing_scale: Weight of the distance from home; 0: none.
     acceleration_scale: Weight of accelerations.
-    accumulated_collisions: Nothing overlaps in any slice.
-    joint_limits: Joints stay within their limits.
-    quaternion_norms: Quaternions have norm one.
-Raises:
+)" KINEGRAPH_LIMITS R"(Raises:
     ArgumentError: q1 has another length.)";
 
 inline constexpr char add_stable_frame[] =
@@ -118,11 +121,8 @@ Raises:
 inline constexpr char grasp_box[] = R"(The fingers close along an axis of a box, and hold it inside of its sides.
 
 Args:
-    time: In phases; the axes are aligned from 0.2 before it on, and the palm keeps off from 0.3 before it on.
-    gripper: Name of the gripper frame.
-    obj: Name of the box; for cylinders and capsules, the box around them counts.
-    palm: Name of the frame that does not touch the object; empty: none.
-    grasp_direction: x, y or z, of the object.
+)" KINEGRAPH_GRASP R"(    obj: Name of the box; for cylinders and capsules, the box around them counts.
+)" KINEGRAPH_PALM R"(    grasp_direction: x, y or z, of the object.
     margin: How far inside of the sides the gripper is, m.
 Raises:
     FrameNotFound: A name that is not in the scene.
@@ -131,11 +131,8 @@ Raises:
 inline constexpr char grasp_cylinder[] = R"(The fingers close across a cylinder or capsule.
 
 Args:
-    time: In phases; the axes are aligned from 0.2 before it on, and the palm keeps off from 0.3 before it on.
-    gripper: Name of the gripper frame.
-    obj: Name of the cylinder.
-    palm: Name of the frame that does not touch the object; empty: none.
-    margin: How far inside of the ends the gripper is, m.
+)" KINEGRAPH_GRASP R"(    obj: Name of the cylinder.
+)" KINEGRAPH_PALM R"(    margin: How far inside of the ends the gripper is, m.
 Raises:
     FrameNotFound: A name that is not in the scene.
     ArgumentError: An object of another shape.)";
@@ -162,9 +159,7 @@ Args:
     table: Name of the frame that it slides over.
     scale: Weight of how the gripper touches.
     helper: Name of the frame that is added, whose y axis is the line; empty: one is made up.
-Raises:
-    FrameNotFound: A name that is not in the scene.
-    ArgumentError: Other times.)";
+)" KINEGRAPH_TIMES_RAISE;
 
 inline constexpr char pull[] = R"(The gripper presses on an object from above and slides it over a table.
 
@@ -173,52 +168,34 @@ Args:
     obj: Name of the object.
     gripper: Name of the gripper frame.
     table: Name of the frame that it slides over.
-Raises:
-    FrameNotFound: A name that is not in the scene.
-    ArgumentError: Other times.)";
+)" KINEGRAPH_TIMES_RAISE;
 
 inline constexpr char retract[] =
     R"(The hand leaves along its z axis, straight and without turning, from where it is in the path at times[0].
 
 Args:
-    times: [from, to] in phases.
-    gripper: Name of the gripper frame.
-    dist: How far it is at the end at least, m.
-Raises:
-    FrameNotFound: A name that is not in the scene.
-    ArgumentError: Other times.)";
+)" KINEGRAPH_HAND R"(    dist: How far it is at the end at least, m.
+)" KINEGRAPH_TIMES_RAISE;
 
 inline constexpr char approach[] =
     R"(The hand comes along its z axis, straight and without turning, to where it is in the path at times[1]. To be called
 after the path was initialized, as setup_point_to_point_motion does.
 
 Args:
-    times: [from, to] in phases.
-    gripper: Name of the gripper frame.
-    dist: How far it is at the beginning at least, m.
-Raises:
-    FrameNotFound: A name that is not in the scene.
-    ArgumentError: Other times.)";
+)" KINEGRAPH_HAND R"(    dist: How far it is at the beginning at least, m.
+)" KINEGRAPH_TIMES_RAISE;
 
 inline constexpr char retractPush[] = R"(The hand leaves what it pushed, back and up.
 
 Args:
-    times: [from, to] in phases.
-    gripper: Name of the gripper frame.
-    dist: How far back and up it is at the end at least, m.
-Raises:
-    FrameNotFound: A name that is not in the scene.
-    ArgumentError: Other times.)";
+)" KINEGRAPH_HAND R"(    dist: How far back and up it is at the end at least, m.
+)" KINEGRAPH_TIMES_RAISE;
 
 inline constexpr char approachPush[] = R"(The hand comes to what it will push, from behind and above.
 
 Args:
-    times: [from, to] in phases.
-    gripper: Name of the gripper frame.
-    dist: How far behind and above it is at the beginning at least, m.
-Raises:
-    FrameNotFound: A name that is not in the scene.
-    ArgumentError: Other times.)";
+)" KINEGRAPH_HAND R"(    dist: How far behind and above it is at the beginning at least, m.
+)" KINEGRAPH_TIMES_RAISE;
 
 inline constexpr char no_collisions[] = R"(Frames keep apart, two by two.
 
@@ -285,5 +262,11 @@ Args:
     scale: Weight.
 Raises:
     ArgumentError: Another number of joints.)";
+
+#undef KINEGRAPH_LIMITS
+#undef KINEGRAPH_GRASP
+#undef KINEGRAPH_PALM
+#undef KINEGRAPH_HAND
+#undef KINEGRAPH_TIMES_RAISE
 
 }  // namespace kinegraph::python::docs::manipulation

@@ -26,8 +26,8 @@ inline constexpr char planMotion[] = R"(A motion to a goal, free of collisions a
     if plan.feasible: C.view_path(plan.path, plan.duration)
     else: print(plan.message)
 
-The straight motion is tried first, then trees grow from both ends; what is found is shortened, verified at all times, and
-timed. The scene is not changed. The same arguments give the same bits at any number of threads, unless time_limit ends it.
+The straight motion is tried first, then trees grow from both ends; what is found is shortened, pulled taut, verified at all
+times, and timed. The scene is not changed. The same arguments give the same bits at any number of threads, unless time_limit ends it.
 Ctrl-C ends it.
 
 Args:
@@ -64,6 +64,31 @@ Returns:
     m; most where all pairs are farther apart at all times.
 Raises:
     ArgumentError: There is no motion.)";
+
+inline constexpr char picture[] =
+    R"(A copy of the scene with lines in it along which frames went: "start tree" (blue) and "goal tree" (orange), "first way"
+(gray), and the "path" (green) that came of it. Where there is none, the obstacle that most motions ended at is red.
+
+Args:
+    config: The scene that was planned in.
+    frames: A frame's name, or several; None: one at the end of each chain.
+Returns:
+    A Config, to be viewed or saved.
+Raises:
+    ArgumentError: The scene has another number of joints.
+    FrameNotFound: A frame is not in the scene.)";
+
+inline constexpr char view[] = R"(Shows the picture, and plays the motion in it.
+
+Args:
+    config: The scene that was planned in.
+    frames: A frame's name, or several; None: one at the end of each chain.
+    pause: Waits for a key.
+Returns:
+    The key that was pressed, 0 if none.
+Raises:
+    ArgumentError: The scene has another number of joints.
+    FrameNotFound: A frame is not in the scene.)";
 
 inline constexpr char shortcut[] = R"(A shorter path between the same ends, free at all times.
 

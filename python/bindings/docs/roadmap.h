@@ -63,4 +63,16 @@ Raises:
     FileError: The file is not there, or damaged.
     ArgumentError: It is a map of other joints.)";
 
+inline constexpr char picture[] =
+    R"(A copy of the scene with lines in it along which frames go on the map's motions: "roadmap".
+
+Args:
+    config: The scene.
+    frames: A frame's name, or several; None: one at the end of each chain.
+Returns:
+    A Config, to be viewed or saved.
+Raises:
+    ArgumentError: The scene has another number of joints.
+    FrameNotFound: A frame is not in the scene.)";
+
 }  // namespace kinegraph::python::docs::roadmap

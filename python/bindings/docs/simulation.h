@@ -15,7 +15,8 @@ inline constexpr char make[] = R"(A simulation of C as it is.
 Args:
     C: The scene; every step changes it.
     engine: physx (rigid bodies with contacts) or kinematic (joints follow their references, nothing else moves).
-    verbose: Not used; a viewer that C.view() has opened shows C.
+    verbose: 2 or more: the page shows it live, see view(), and opens; less: it does not; None: it does if C.view() has opened
+        it before.
     options: SimulationOptions, or a dict of some of their fields.
 Raises:
     ArgumentError: Something that cannot be simulated, such as a negative mass; the engine bullet; a bad option.
@@ -64,7 +65,11 @@ inline constexpr char setState[] =
     R"(Goes back to a state, of this simulation or of another of the same scene. C follows.
 
 Args:
-    state: Of getState. Fields that were changed count.
+    state: Of getState; fields that were changed count. Or poses of all frames, as C.getFrameState() has them: what follows then
+        starts from there, at time and with targets as they are.
+    jointState: (n,), with poses of frames; else q is what they say.
+    frameVelocities: (F, 2, 3) of the free frames, with poses of frames; else they rest.
+    jointVelocities: (n,), likewise.
 Raises:
     ArgumentError: It is of another scene, or has numbers that make no sense.)";
 
@@ -79,7 +84,79 @@ Raises:
 inline constexpr char setVerbose[] = R"(As in the constructor.
 
 Args:
-    verbose: Not used.)";
+    verbose: 2 or more: the page shows it live, and opens; less: it does not.)";
+
+inline constexpr char view[] = R"(Shows the simulation live on C's page, from now on with each step.
+
+The page shows time, real-time factor, contacts and their forces, and has buttons to pause, to take one step, and to reset the
+simulation to where it was at the first call of this. A body that is dragged there (button `pull`) is drawn to the mouse by a
+spring; sliders and handles put things elsewhere. All that takes place in the next step; who touches nothing changes nothing.
+A paused simulation waits within `step`, until it goes on, or 5 s after the last page was closed.
+
+Args:
+    pause: Waits for a key.
+    message: Shown in the corner.
+Returns:
+    The code of the key that was pressed since the last call, or 0.
+Raises:
+    KeyboardInterrupt: Ctrl-C while waiting.)";
+
+inline constexpr char view_close[] = R"(Shows it no longer, and ends the page.)";
+
+inline constexpr char run[] =
+    R"(Lets the simulation run along its spline: step([], tau, ControlMode.spline) again and again.
+
+As fast as it can be computed or, while a browser shows it, as fast as the clock on the wall.
+
+Args:
+    seconds: Simulated time; None: until somebody presses q or Escape on the page.
+    tau: s of each step.
+    speed: Times real time, while a browser shows it; <= 0: as fast as possible.
+Returns:
+    The code of the key that was pressed on the page, or 0; q and Escape end it.
+Raises:
+    ArgumentError: Times that are not positive; no seconds where nobody can press a key.
+    Error: Numbers leave all bounds.
+    KeyboardInterrupt: Ctrl-C.)";
+
+inline constexpr char viewRecording[] = R"(Plays the run on a page of its own, with a time slider.
+
+Args:
+    pause: Waits for a key at the end.
+    message: Shown in the corner.
+Returns:
+    The code of the key that was pressed, or 0.
+Raises:
+    ArgumentError: It has no steps.
+    KeyboardInterrupt: Ctrl-C while waiting.)";
+
+inline constexpr char saveHtml[] = R"(Saves a page that plays the run, with a time slider, and needs no program.
+
+Args:
+    path: Of the HTML file.
+Raises:
+    ArgumentError: It has no steps.
+    FileError: The file cannot be written.)";
+
+inline constexpr char pull[] = R"(Pulls a point to a place, as a hand would: by a damped spring, until endPull.
+
+The force is m (w^2 (target - p) - 2 w dp/dt): p is the point, m the mass of the frame's link with all that hangs on its joints,
+w = 10 rad/s. One point at a time.
+
+Args:
+    frame: A frame of the link, or its name.
+    point: (3,), m, in the frame's axes.
+    target: (3,), m, world.
+Raises:
+    FrameNotFound: There is no such frame.
+    ArgumentError: It is fixed to the world, or a number is not finite.)";
+
+inline constexpr char endPull[] = R"(Lets go of what is pulled.)";
+
+inline constexpr char getPull[] = R"(What is pulled, by pull() or on the page.
+
+Returns:
+    position, target (m) and force (N) of the last inner step, each (3,), world; None if nothing is.)";
 
 inline constexpr char setSplineRef[] =
     R"(A motion for mode spline: a cubic B-spline through the present reference and these points.

@@ -72,7 +72,7 @@ Raises:
 inline constexpr char setProgress[] = R"(Sets a function that is called while it solves, and can end it.
 
 Args:
-    function: Called with a dict of evals, x, f, sos, ineq, eq; False as its answer ends the solve. None: no more
+    function: Called with a dict of evals (of this solve), x, f, sos, ineq, eq; False as its answer ends the solve. None: no more
         calls.
     seconds: Least time between two calls, s.
 Returns:

@@ -21,15 +21,6 @@ Args:
     transformToDiagInertia: Link frames move to their center of mass and principal axes. One that cannot move,
         because it has a shape or dofs, gets a child <name>_inertia there, which holds the inertia.)";
 
-inline constexpr char makeObjectsFree[] =
-    R"(Lets objects move freely: the nearest joint at or above each of these frames becomes a free one, where it is. Roots
-are attached to the first frame of the scene.
-
-Args:
-    frameNames: Names of the frames.
-Raises:
-    FrameNotFound: A name that is not in the scene.)";
-
 inline constexpr char makeMeshesSSCvx[] =
     R"(Replaces every mesh by its convex hull, drawn in and then swept by a ball. Flat meshes stay.
 
@@ -61,28 +52,6 @@ Args:
     root: The frame: its name, id or Frame.
 Raises:
     FrameNotFound: There is no such frame.)";
-
-inline constexpr char selectJointsByTag[] =
-    R"(Makes the joints at frames that have one of some attributes the active ones, and no others.
-
-Args:
-    jointGroups: Names of the attributes.
-    notThose: All joints but these become active.
-Raises:
-    ArgumentError: No frame has one of these attributes.)";
-
-inline constexpr char setJointStateSlice[] =
-    R"(A scene is a single moment and has no time slices: this always raises an error that says what has them.
-
-Args:
-    q: Not used.
-    t: Not used.
-Raises:
-    ArgumentError: Always.)";
-
-inline constexpr char getForceArrays[] =
-    R"(Pairs of frames that exchange forces, ids of shape (k, 2), and for each point of attack, force and torque, shape (k,
-3, 3): k = 0, as a scene has no forces.)";
 
 inline constexpr char addH5Object[] =
     R"(Adds a frame with the inertia of an HDF5 file, and children _mesh, _pts (points) and _decomp (convex parts, which

@@ -3,24 +3,6 @@
 /// The manual of what bind_viewer.cpp binds.
 namespace kinegraph::python::docs::viewer {
 
-inline constexpr char view_savePng[] = R"(viewer().savePng(pathPrefix): saves a picture.
-
-Args:
-    pathPrefix: The file, if it ends in .png; else what stands before a number of six digits and .png.
-Returns:
-    The file's name.
-Raises:
-    OSError: The file cannot be written.)";
-
-inline constexpr char view_focus[] = R"(Turns the view to a frame.
-
-Args:
-    frameName: Name of the frame.
-    absHeight: What fits into the height of the window there, m.
-Raises:
-    FrameNotFound: There is no such frame.
-    ArgumentError: absHeight is not positive.)";
-
 inline constexpr char waitForClient[] = R"(Waits until a browser is connected.
 
 Args:

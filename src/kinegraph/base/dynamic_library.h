@@ -4,6 +4,12 @@
 
 namespace kinegraph {
 
+/// What is made of a list of a library's functions, `#define LIST(X) X(first) X(second)`: the members of a struct that has
+/// a pointer to each under its own name, and the calls that fill `functions`, such a struct, from a DynamicLibrary
+/// `library`.
+#define KINEGRAPH_LIBRARY_MEMBER(name) decltype(&::name) name;
+#define KINEGRAPH_LIBRARY_LOAD(name) library.load(functions.name, #name);
+
 /// A shared library that is loaded when it is first needed, not when the program starts. It is looked for where the
 /// libraries are that this one is linked with, and stays loaded.
 class DynamicLibrary {

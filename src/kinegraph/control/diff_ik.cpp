@@ -16,6 +16,8 @@ namespace {
 constexpr double kNoBound = std::numeric_limits<double>::infinity();
 constexpr double kElasticity = 1e8;  // cost of the square of what dampers give way, in units of the largest other cost
 constexpr double kGivesWay = 1e-9;   // rad or m, from which on it is told
+constexpr double kMissedEquality = 1e-6;  // the same of equalities, in units of the feature
+constexpr double kSpanned = 1e-6;  // share of a row in the open directions, below which it counts as fixed already
 
 void checkLimits(const char* name, const VectorXd& limits, int dofs) {
   if (limits.size() != 0 && limits.size() != dofs)
@@ -73,6 +75,8 @@ void DiffIk::prepare() {
   rows_.resize(n, rows), bounds_.resize(rows), meanings_.reserve(std::size_t(rows)),
       gave_way_.reserve(std::size_t(rows));
   program_rigid_.resize(n, rows), program_elastic_.resize(n + 1, rows + 1);
+  active_rows_.reserve(std::size_t(rows));
+  open_.resize(n, n), turned_.resize(n, n), reduced_cost_.resize(n, n), along_.resize(n);
   for (Task& task : tasks_) {
     task.residual.clear();
     task.residual.push_back(makeResidual(config_.state(), task.feature, task.frames, task.weight, task.target));
@@ -81,15 +85,29 @@ void DiffIk::prepare() {
 }
 
 int DiffIk::addTask(const FeatureSource& feature, const std::vector<std::string>& frames, double weight, double gain,
-                    const VectorXd& target) {
-  if (!(gain > 0. && gain <= 1.)) throw ValueError(cat("DiffIk: gain is ", gain, "; expected a number in (0, 1]"));
-  Residual residual = makeResidual(config_.state(), feature, frames, weight, target);
+                    const VectorXd& target, int level) {
+  if (level == kEquality) throw ValueError(cat("DiffIk: level is ", level, "; that of equalities"));
+  return add({feature, frames, weight, gain, target, level, {}, {}, {}});
+}
+
+int DiffIk::addEquality(const FeatureSource& feature, const std::vector<std::string>& frames, double gain,
+                        const VectorXd& target) {
+  return add({feature, frames, 1., gain, target, kEquality, {}, {}, {}});
+}
+
+int DiffIk::add(Task task) {
+  if (!(task.gain > 0. && task.gain <= 1.))
+    throw ValueError(cat("DiffIk: gain is ", task.gain, "; expected a number in (0, 1]"));
+  Residual residual = makeResidual(config_.state(), task.feature, task.frames, task.weight, task.target);
   if (residual.order() > 0)
     throw ValueError(
         cat("DiffIk: ", residual.name(), " is of order ", residual.order(), "; expected a feature of one q"));
-  const int rows = residual.rows();
-  tasks_.push_back({feature, frames, weight, gain, target, {std::move(residual)}, VectorXd(rows), {}});
-  tasks_.back().J.resize(rows, config_.getJointDimension());
+  task.y.resize(residual.rows()), task.J.resize(residual.rows(), config_.getJointDimension());
+  task.residual.push_back(std::move(residual));
+  const auto place = std::lower_bound(levels_.begin(), levels_.end(), task.level);
+  if (place == levels_.end() || *place != task.level) levels_.insert(place, task.level);
+  tasks_.push_back(std::move(task));
+  gave_way_.reserve(std::size_t(rows_.cols()) + tasks_.size());
   return int(tasks_.size()) - 1;
 }
 
@@ -107,12 +125,14 @@ void DiffIk::setPosture(const VectorXd& q) {
   posture_ = q;
 }
 
-void DiffIk::addCosts(const VectorXd& q) {
-  const double pull = options_.posture * options_.posture;
+/// Of the tasks of a level; the posture's are those of the last one.
+void DiffIk::addCosts(const VectorXd& q, int level, bool is_last) {
+  const double pull = is_last ? options_.posture * options_.posture : 0.;
   cost_.setZero();
   cost_.diagonal().setConstant(pull + options_.damping);
   slope_ = pull * (q - posture_);
   for (Task& task : tasks_) {
+    if (task.level != level) continue;
     task.J.setZero();
     eval(config_, task.residual[0], task.y, task.J);
     cost_.noalias() += task.J.transpose() * task.J;
@@ -176,8 +196,9 @@ void DiffIk::addDampers(const State& state, double dt) {
   });
 }
 
-/// Exactly, where all rows can hold; else dampers share a slack, whose square costs more than all else.
-void DiffIk::solve() {
+/// The first level: exactly, where all rows can hold; else dampers share a slack, whose square costs more than all
+/// else. False if rounding forbids either.
+bool DiffIk::solveFirst() {
   const int n = int(slope_.size()), count = int(meanings_.size());
   program_rigid_.clear();
   program_rigid_.hessian() = cost_, program_rigid_.gradient() = slope_;
@@ -185,28 +206,108 @@ void DiffIk::solve() {
   is_elastic_ = !program_rigid_.solve();
   if (!is_elastic_) {
     change_ = program_rigid_.x();
-  } else {
-    program_elastic_.clear();
-    program_elastic_.hessian().setZero();
-    program_elastic_.hessian().topLeftCorner(n, n) = cost_;
-    program_elastic_.hessian()(n, n) = kElasticity * cost_.diagonal().maxCoeff();
-    program_elastic_.gradient().head(n) = slope_;
-    program_elastic_.gradient()[n] = 0.;
-    for (int r = 0; r < count; ++r) {
-      elastic_row_.head(n) = rows_.col(r);
-      elastic_row_[n] = meanings_[std::size_t(r)].kind == Meaning::Kind::pair ? 1. : 0.;
-      program_elastic_.addRow(elastic_row_, bounds_[r]);
+    noteActive(program_rigid_);
+    return true;
+  }
+  program_elastic_.clear();
+  program_elastic_.hessian().setZero();
+  program_elastic_.hessian().topLeftCorner(n, n) = cost_;
+  program_elastic_.hessian()(n, n) = kElasticity * cost_.diagonal().maxCoeff();
+  program_elastic_.gradient().head(n) = slope_;
+  program_elastic_.gradient()[n] = 0.;
+  for (int r = 0; r < count; ++r) {
+    elastic_row_.head(n) = rows_.col(r);
+    elastic_row_[n] = meanings_[std::size_t(r)].kind == Meaning::Kind::pair ? 1. : 0.;
+    program_elastic_.addRow(elastic_row_, bounds_[r]);
+  }
+  if (!program_elastic_.solve()) return false;
+  change_ = program_elastic_.x().head(n);
+  noteActive(program_elastic_);
+  return true;
+}
+
+/// A further level, in the directions that are open; the others are padded. The step so far keeps all rows.
+void DiffIk::solveRemaining() {
+  const int k = open_count_;
+  const auto open = open_.leftCols(k);
+  program_rigid_.clear();
+  program_rigid_.hessian().setIdentity(), program_rigid_.gradient().setZero();
+  turned_.leftCols(k).noalias() = cost_ * open;
+  reduced_cost_.topLeftCorner(k, k).noalias() = open.transpose() * turned_.leftCols(k);
+  program_rigid_.hessian().topLeftCorner(k, k) = reduced_cost_.topLeftCorner(k, k);
+  slope_.noalias() += cost_ * change_;
+  program_rigid_.gradient().head(k).noalias() = open.transpose() * slope_;
+  along_.setZero();
+  for (int r = 0; r < int(meanings_.size()); ++r) {
+    along_.head(k).noalias() = open.transpose() * rows_.col(r);
+    program_rigid_.addRow(along_, std::min(0., bounds_[r] - rows_.col(r).dot(change_)));
+  }
+  if (!program_rigid_.solve()) return;
+  noteActive(program_rigid_);
+  change_.noalias() += open * program_rigid_.x().head(k);
+}
+
+void DiffIk::noteActive(const ActiveSet& program) {
+  for (int i = 0; i < program.activeCount(); ++i) {
+    const int row = program.active(i);
+    if (row < int(meanings_.size()) && std::ranges::find(active_rows_, row) == active_rows_.end())
+      active_rows_.push_back(row);
+  }
+}
+
+/// What the tasks of a level want is no longer open: a reflection turns each of their rows, as far as it is open, into
+/// the last of the open directions.
+void DiffIk::giveAway(int level) {
+  for (const Task& task : tasks_) {
+    if (task.level != level) continue;
+    for (int r = 0; r < task.J.rows() && open_count_ > 0; ++r) {
+      const int k = open_count_;
+      auto v = along_.head(k);
+      v.noalias() = open_.leftCols(k).transpose() * task.J.row(r).transpose();
+      const double length = v.norm();
+      if (length <= kSpanned * task.J.row(r).norm()) continue;
+      v[k - 1] += v[k - 1] < 0. ? -length : length;
+      const double factor = 2. / v.squaredNorm();
+      for (int i = 0; i < open_.rows(); ++i) {
+        const double part = factor * open_.row(i).head(k).dot(v);
+        open_.row(i).head(k) -= part * v.transpose();
+      }
+      --open_count_;
     }
-    if (program_elastic_.solve()) {
-      change_ = program_elastic_.x().head(n);
-    } else {  // rounding: stand still, as far as accelerations allow
-      change_.setZero();
+  }
+}
+
+/// Level by level, each in what those before it leave open. The slack that the first one needed is that of all.
+void DiffIk::solve() {
+  const std::size_t levels = std::max<std::size_t>(levels_.size(), 1);
+  active_rows_.clear();
+  for (std::size_t i = 0; i < levels; ++i) {
+    const int level = levels_.empty() ? 0 : levels_[i];
+    addCosts(q_, level, i + 1 == levels);
+    if (i == 0) {
+      if (!solveFirst()) {  // stand still, as far as accelerations allow
+        change_.setZero();
+        break;
+      }
+      open_.setIdentity();
+      open_count_ = int(open_.cols());
+    } else {
+      giveAway(levels_[i - 1]);
+      if (open_count_ > 0) solveRemaining();
     }
   }
   change_ = change_.cwiseMax(low_).cwiseMin(high_);
-  for (int r = 0; r < count; ++r) {
+  for (int r = 0; r < int(meanings_.size()); ++r) {
     const double by = bounds_[r] - rows_.col(r).dot(change_);
     if (is_elastic_ && by > kGivesWay) gave_way_.push_back({meanings_[std::size_t(r)], by});
+  }
+  for (int t = 0; t < int(tasks_.size()); ++t) {
+    Task& task = tasks_[std::size_t(t)];
+    if (task.level != kEquality) continue;
+    task.y *= task.gain;
+    task.y.noalias() += task.J * change_;
+    const double by = task.y.lpNorm<Eigen::Infinity>();
+    if (by > kMissedEquality) gave_way_.push_back({{Meaning::Kind::equality, t, 0.}, by});
   }
 }
 
@@ -214,18 +315,22 @@ const VectorXd& DiffIk::step(double dt, bool apply) {
   if (!(dt > 0.)) throw ValueError(cat("DiffIk: dt is ", dt, "; expected a number > 0 (s)"));
   if (config_.program() != program_) prepare();
   const State& state = config_.state();
-  q_ = config_.getJointState();
+  q_ = state.q();
   meanings_.clear(), gave_way_.clear();
-  addCosts(q_);
   addIntervals(q_, dt);
   addDampers(state, dt);
   solve();
   velocity_ = change_ / dt;
-  if (apply) config_.setJointState(q_ + change_);
+  q_ += change_;
+  if (apply) config_.setJointState(q_);
   return velocity_;
 }
 
 std::string DiffIk::text(const Meaning& meaning) const {
+  if (meaning.kind == Meaning::Kind::equality) {
+    const Task& task = tasks_[std::size_t(meaning.index)];
+    return cat("equality ", task.residual[0].name(), " of ", join(task.frames));
+  }
   if (meaning.kind == Meaning::Kind::pair) {
     const auto [a, b] = pairs_->pairs[std::size_t(meaning.index)];
     const auto name = [&](int place) {
@@ -238,10 +343,8 @@ std::string DiffIk::text(const Meaning& meaning) const {
 }
 
 std::vector<std::string> DiffIk::active() const {
-  const ActiveSet& program = is_elastic_ ? program_elastic_ : program_rigid_;
   std::vector<std::string> words;
-  for (int i = 0; i < program.activeCount(); ++i)
-    if (program.active(i) < int(meanings_.size())) words.push_back(text(meanings_[std::size_t(program.active(i))]));
+  for (int row : active_rows_) words.push_back(text(meanings_[std::size_t(row)]));
   return words;
 }
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <limits>
 #include <memory>
 #include <string>
 #include <vector>
@@ -26,7 +27,7 @@ struct DiffIkOptions {
 
 enum class DiffIkStatus {
   solved,    ///< all limits and distances are kept
-  gave_way,  ///< some could not be; `message()` says which
+  gave_way,  ///< some could not be, or an equality; `message()` says which
 };
 
 /// Differential inverse kinematics: joint velocities, step by step, that bring features to their targets.
@@ -38,7 +39,8 @@ enum class DiffIkStatus {
 /// A step solves one quadratic program exactly (ActiveSet) in the change x of q: least squares of weight (y + J x) with y
 /// taken times the task's gain, of the way to the posture, and damping; subject to one interval per joint, which holds
 /// position, velocity and acceleration, and lets no joint be faster than it can brake before its limit; and to velocity
-/// dampers, d' x >= -gain (d - margin), for all pairs within range. The scene is looked at anew in each step: targets and
+/// dampers, d' x >= -gain (d - margin), for all pairs within range. With several levels there is a program for each, in
+/// the directions that no task before it minds. The scene is looked at anew in each step: targets and
 /// obstacles may move. A step never throws because of limits: from beyond a limit it goes back as fast as velocities
 /// allow, and where dampers contradict the limits, they give way as little as possible.
 class DiffIk {
@@ -47,9 +49,15 @@ class DiffIk {
   explicit DiffIk(const Config& config, const DiffIkOptions& options = {});
 
   /// A feature that is to become zero, or `target`. `weight` multiplies its rows; `gain` in (0, 1] is the share of the error
-  /// that one step takes away. Returns the task's number. Throws as makeResidual does.
+  /// that one step takes away. Tasks of a higher `level` have what those of lower ones leave open; the posture comes
+  /// last. Returns the task's number. Throws as makeResidual does.
   int addTask(const FeatureSource& feature, const std::vector<std::string>& frames, double weight = 1.,
-              double gain = 1., const VectorXd& target = {});
+              double gain = 1., const VectorXd& target = {}, int level = 0);
+
+  /// A feature that must become zero, or `target`, before all tasks. Where limits and dampers do not allow the share
+  /// `gain` of the error to be taken away in a step, it gives way as little as possible, and `message()` says so.
+  int addEquality(const FeatureSource& feature, const std::vector<std::string>& frames, double gain = 1.,
+                  const VectorXd& target = {});
 
   void setTarget(int task, const VectorXd& target);
   void setPosture(const VectorXd& q);
@@ -72,14 +80,15 @@ class DiffIk {
     std::vector<std::string> frames;
     double weight, gain;
     VectorXd target;
+    int level;                       ///< of an equality: kEquality
     std::vector<Residual> residual;  ///< one
     VectorXd y;
     Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor> J;
   };
   /// What a row of the program stands for.
   struct Meaning {
-    enum class Kind { lower, upper, pair } kind;
-    int index;     ///< dof, or pair
+    enum class Kind { lower, upper, pair, equality } kind;
+    int index;     ///< dof, pair or task
     double value;  ///< distance of the pair, m
   };
   struct GaveWay {
@@ -88,10 +97,15 @@ class DiffIk {
   };
 
   void prepare();
-  void addCosts(const VectorXd& q);
+  int add(Task task);
+  void addCosts(const VectorXd& q, int level, bool is_last);
   void addIntervals(const VectorXd& q, double dt);
   void addDampers(const State& state, double dt);
   void solve();
+  bool solveFirst();
+  void solveRemaining();
+  void noteActive(const ActiveSet& program);
+  void giveAway(int level);
   std::string text(const Meaning& meaning) const;
 
   Config config_;
@@ -109,8 +123,14 @@ class DiffIk {
   VectorXd bounds_;
   std::vector<Meaning> meanings_;
   std::vector<GaveWay> gave_way_;
+  std::vector<int> levels_, active_rows_;  ///< ascending; rows that hold the last step back
+  MatrixXd open_, turned_, reduced_cost_;  ///< open_: directions that are left, its first open_count_ columns
+  VectorXd along_;
+  int open_count_ = 0;
   ActiveSet program_rigid_, program_elastic_;
   bool is_elastic_ = false;
+
+  static constexpr int kEquality = std::numeric_limits<int>::min();
 };
 
 }  // namespace kinegraph

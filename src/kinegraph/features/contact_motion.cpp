@@ -11,13 +11,13 @@ namespace {
 
 using RowMajor = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 
-/// The normal of a contact, from `onto` to `object`, and its Jacobian.
+/// The normal of a contact, from `from` to `object`, and its Jacobian.
 struct Normal {
   Vector3d n;
   RowMajor J;
 
   Normal(const ContactForce& contact, const State& state, bool wants_jacobian) {
-    const Witness witness(Witness::Kind::normal, contact.object, contact.onto);
+    const Witness witness(Witness::Kind::normal, contact.object, contact.from);
     const State* states[] = {&state};
     if (!wants_jacobian) {
       witness.eval(states, 1., n, nullptr);
@@ -106,11 +106,11 @@ void SlidingVelocity::eval(std::span<const State* const> states, double tau, Eig
   if (!contact_.isIn(now)) return;
   const Eigen::Index columns = J ? J->cols() : 0;
   const PointVelocity object(before, now, now, contact_.object, contact_.point, tau, columns);
-  const PointVelocity onto(before, now, now, contact_.onto, contact_.point, tau, columns);
-  y = object.v - onto.v;
+  const PointVelocity from(before, now, now, contact_.from, contact_.point, tau, columns);
+  y = object.v - from.v;
   if (!J) return;
   object.addJacobian(Matrix3d(Matrix3d::Identity()), *J, columnsOf(*J, 1, 2));
-  onto.addJacobian(Matrix3d(-Matrix3d::Identity()), *J, columnsOf(*J, 1, 2));
+  from.addJacobian(Matrix3d(-Matrix3d::Identity()), *J, columnsOf(*J, 1, 2));
 }
 
 void ElasticBounce::eval(std::span<const State* const> states, double tau, Eigen::Ref<VectorXd> y,
@@ -120,25 +120,25 @@ void ElasticBounce::eval(std::span<const State* const> states, double tau, Eigen
   if (!contact_.isIn(now)) return;
   const Eigen::Index columns = J ? J->cols() / 3 * 2 : 0;
   const PointVelocity object_before(before, now, now, contact_.object, contact_.point, tau, columns);
-  const PointVelocity onto_before(before, now, now, contact_.onto, contact_.point, tau, columns);
+  const PointVelocity from_before(before, now, now, contact_.from, contact_.point, tau, columns);
   const PointVelocity object_after(now, after, now, contact_.object, contact_.point, tau, columns);
-  const PointVelocity onto_after(now, after, now, contact_.onto, contact_.point, tau, columns);
+  const PointVelocity from_after(now, after, now, contact_.from, contact_.point, tau, columns);
   const Normal normal(contact_, now, J);
-  const Vector3d v = object_after.v - onto_after.v + elasticity_ * (object_before.v - onto_before.v);
+  const Vector3d v = object_after.v - from_after.v + elasticity_ * (object_before.v - from_before.v);
   y[0] = normal.n.dot(v);
   if (!J) return;
   const Eigen::RowVector3d A = normal.n.transpose(), B = elasticity_ * A;
   object_after.addJacobian(A, J->rightCols(columns), columnsOf(*J, 1, 3));
-  onto_after.addJacobian(Eigen::RowVector3d(-A), J->rightCols(columns), columnsOf(*J, 1, 3));
+  from_after.addJacobian(Eigen::RowVector3d(-A), J->rightCols(columns), columnsOf(*J, 1, 3));
   object_before.addJacobian(B, J->leftCols(columns), columnsOf(*J, 1, 3));
-  onto_before.addJacobian(Eigen::RowVector3d(-B), J->leftCols(columns), columnsOf(*J, 1, 3));
+  from_before.addJacobian(Eigen::RowVector3d(-B), J->leftCols(columns), columnsOf(*J, 1, 3));
   columnsOf(*J, 1, 3).leftCols(normal.J.cols()) += v.transpose() * normal.J;
 }
 
 void ForceTimesDistance::eval(std::span<const State* const> states, double tau, Eigen::Ref<VectorXd> y,
                               JacobianRows* J) const {
   const PullingForce pull(contact_);
-  const NegDistance overlap(contact_.object, contact_.onto);
+  const NegDistance overlap(contact_.object, contact_.from);
   VectorXd force(1), depth(1);
   if (!J) {
     pull.eval(states, tau, force, nullptr);

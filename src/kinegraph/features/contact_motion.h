@@ -4,7 +4,7 @@
 
 namespace kinegraph {
 
-/// The part of a contact force that pulls its two bodies together, n the normal from `onto` to `object`, in units of
+/// The part of a contact force that pulls its two bodies together, n the normal from `from` to `object`, in units of
 /// the force:
 ///     y = -n^T f / unit      1 row; at most 0 where the bodies push each other away
 class PullingForce final : public Feature {
@@ -30,9 +30,9 @@ class ForceValue final : public Feature {
   ContactForce contact_;
 };
 
-/// Velocity of `object` less that of `onto` at the point of contact p, over the step before (m/s): with the bodies'
+/// Velocity of `object` less that of `from` at the point of contact p, over the step before (m/s): with the bodies'
 /// origins o and angular velocities w,
-///     y = v_object - v_onto,  v_b = (o_b(t) - o_b(t-1)) / tau + w_b x (p - o_b(t))      3 rows; zero where they stick
+///     y = v_object - v_from,  v_b = (o_b(t) - o_b(t-1)) / tau + w_b x (p - o_b(t))      3 rows; zero where they stick
 ///     to each other
 class SlidingVelocity final : public Feature {
  public:
@@ -47,7 +47,7 @@ class SlidingVelocity final : public Feature {
 };
 
 /// Newton's law of impact at the point of contact in the middle one of three slices, v the velocities of `object`
-/// relative to `onto` before and after it, n the normal (m/s):
+/// relative to `from` before and after it, n the normal (m/s):
 ///     y = n^T (v_after + elasticity v_before)      1 row
 class ElasticBounce final : public Feature {
  public:

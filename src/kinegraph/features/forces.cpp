@@ -21,7 +21,7 @@ bool isRigidlyJoined(const State& state, int a, int b) {
 /// 1 if the force acts on the frame, -1 if its opposite does, 0 if neither.
 double signFor(const ContactForce& contact, const State& state, int frame) {
   if (!contact.isIn(state)) return 0.;
-  const double on = isRigidlyJoined(state, contact.object, frame), back = isRigidlyJoined(state, contact.onto, frame);
+  const double on = isRigidlyJoined(state, contact.object, frame), back = isRigidlyJoined(state, contact.from, frame);
   return on - back;
 }
 
@@ -237,7 +237,7 @@ void FrictionCone::eval(std::span<const State* const> states, double tau, Eigen:
   y.setZero();
   if (!contact_.isIn(state)) return;
   RowMajor Jn;
-  const Vector3d n = normalOf(state, contact_.object, contact_.onto, tau, J ? &Jn : nullptr);
+  const Vector3d n = normalOf(state, contact_.object, contact_.from, tau, J ? &Jn : nullptr);
   if (!contact_.is_free) {
     const Vector3d z = state.pose(contact_.point).R.col(2);
     y[0] = std::cos(std::atan(friction_)) - n.dot(z);

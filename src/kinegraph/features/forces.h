@@ -8,9 +8,9 @@
 namespace kinegraph {
 
 /// A force between two frames as part of a motion problem: it acts on `object` at the origin of the frame `point`, and
-/// the opposite one on `onto`. Its size is in the dofs of the joint of a frame `dofs` that stands for nothing else.
+/// the opposite one on `from`. Its size is in the dofs of the joint of a frame `dofs` that stands for nothing else.
 struct ContactForce {
-  int object = -1, onto = -1, point = -1, dofs = -1;
+  int object = -1, from = -1, point = -1, dofs = -1;
   double unit = 1.;      ///< N per unit of its dofs
   bool is_free = false;  ///< three dofs, in world axes; else one, along the z axis of `point`
 

@@ -10,6 +10,38 @@ namespace {
 
 const FrameMass& massOf(const State& state, int frame) { return state.parameters().frame_mass[frame]; }
 
+/// The common center of mass of frames, without any of all that moves; its Jacobian times `factor` is added to J. `who`
+/// asks for it, of the frame `of` or of none (-1).
+Vector3d addCenterOfMass(const State& state, const std::vector<int>& frames, double factor, const char* who, int of,
+                         JacobianRows* J) {
+  const auto forEach = [&](const auto& visit) {
+    if (!frames.empty()) {
+      for (int frame : frames) visit(frame, massOf(state, frame).mass);
+      return;
+    }
+    for (std::size_t frame = 0; frame < state.parameters().frame_mass.size(); ++frame) {
+      if (state.link(int(frame)) > 0) visit(int(frame), massOf(state, int(frame)).mass);
+    }
+  };
+  double total = 0.;
+  Vector3d moment = Vector3d::Zero();
+  forEach([&](int frame, double mass) {
+    if (mass == 0.) return;
+    total += mass;
+    moment += mass * frameCenterOfMass(state, frame);
+  });
+  if (!(total > 0.)) {
+    const std::string whose = of < 0 ? "" : cat(" of '", state.program().frame_name[std::size_t(of)], "'");
+    throw ValueError(cat(who, whose, ": ", frames.empty() ? "nothing that moves" : "none of the frames listed",
+                         " has a mass; give them `mass: ..` or call setMass"));
+  }
+  if (!J) return moment / total;
+  forEach([&](int frame, double mass) {
+    if (mass > 0.) state.addPointJacobian(frame, frameCenterOfMass(state, frame), factor * mass / total, *J);
+  });
+  return moment / total;
+}
+
 }  // namespace
 
 void Energy::eval(std::span<const State* const> states, double tau, Eigen::Ref<VectorXd> y, JacobianRows* J) const {
@@ -28,37 +60,15 @@ void Energy::eval(std::span<const State* const> states, double tau, Eigen::Ref<V
   }
 }
 
+void CenterOfMass::eval(std::span<const State* const> states, double, Eigen::Ref<VectorXd> y, JacobianRows* J) const {
+  y = addCenterOfMass(*states[0], frames_, 1., "centerOfMass", -1, J);
+}
+
 void CenterOfMassOffset::eval(std::span<const State* const> states, double, Eigen::Ref<VectorXd> y,
                               JacobianRows* J) const {
   const State& state = *states[0];
-  double total = 0.;
-  Vector3d moment = Vector3d::Zero();
-  const auto forEachOther = [&](const auto& visit) {
-    if (!others_.empty()) {
-      for (int frame : others_) visit(frame, massOf(state, frame).mass);
-      return;
-    }
-    for (std::size_t frame = 0; frame < state.parameters().frame_mass.size(); ++frame) {
-      if (state.link(int(frame)) > 0) visit(int(frame), massOf(state, int(frame)).mass);
-    }
-  };
-  forEachOther([&](int frame, double mass) {
-    if (mass == 0.) return;
-    total += mass;
-    moment += mass * frameCenterOfMass(state, frame);
-  });
-  if (!(total > 0.)) {
-    const std::string& name = state.program().frame_name[frame_];
-    throw ValueError(cat("EqCenterOfMass of '", name,
-                         "': ", others_.empty() ? "nothing that moves" : "none of the other frames",
-                         " has a mass; give them `mass: ..` or call setMass"));
-  }
-  y = state.position(frame_) - moment / total;
-  if (!J) return;
-  state.addPointJacobian(frame_, state.position(frame_), 1., *J);
-  forEachOther([&](int frame, double mass) {
-    if (mass > 0.) state.addPointJacobian(frame, frameCenterOfMass(state, frame), -mass / total, *J);
-  });
+  y = state.position(frame_) - addCenterOfMass(state, others_, -1., "EqCenterOfMass", frame_, J);
+  if (J) state.addPointJacobian(frame_, state.position(frame_), 1., *J);
 }
 
 void FreeFlight::eval(std::span<const State* const> states, double tau, Eigen::Ref<VectorXd> y, JacobianRows* J) const {

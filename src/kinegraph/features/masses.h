@@ -22,6 +22,20 @@ class Energy final : public Feature {
   std::vector<int> frames_;
 };
 
+/// Common center of mass of frames, in the world:
+///     y = sum m_i c_i / sum m_i      3 rows, m
+/// Without frames it is that of everything that moves. Evaluating throws ValueError if none of them has a mass.
+class CenterOfMass final : public Feature {
+ public:
+  explicit CenterOfMass(std::vector<int> frames) : frames_(std::move(frames)) {}
+
+  int rows() const override { return 3; }
+  void eval(std::span<const State* const> states, double tau, Eigen::Ref<VectorXd> y, JacobianRows* J) const override;
+
+ private:
+  std::vector<int> frames_;
+};
+
 /// Position of a frame less the common center of mass of others, in the world:
 ///     y = p_F - sum m_i c_i / sum m_i      3 rows, m
 /// Without others it is that of everything that moves. Evaluating throws ValueError if none of them has a mass.

@@ -31,7 +31,7 @@ Made ofForceAndParameter(const FeatureRecipe& recipe, const Ids&) {
 
 Made alongNormal(const FeatureRecipe& recipe, const Ids&) {
   const ContactForce& contact = *recipe.contact;
-  return std::make_unique<TangentialForce>(contact.object, contact.onto, std::vector<ContactForce>{contact});
+  return std::make_unique<TangentialForce>(contact.object, contact.from, std::vector<ContactForce>{contact});
 }
 
 Made axisDifference(const FeatureRecipe& recipe, const Ids& f) {

@@ -50,7 +50,7 @@ Ids dofsOf(const Ids& frames, const Program& program, const FeatureInfo& info) {
 
 const Geometry& boxOf(int frame, const Program& program, const FeatureInfo& info) {
   const auto& geometry = program.geometry[frame];
-  if (!geometry || (geometry->type != ShapeType::ssBox && geometry->type != ShapeType::box)) {
+  if (!geometry || shapeKind(geometry->type).body != ShapeKind::Body::box) {
     throw ValueError(
         cat(info.name, ": frame '", program.frame_name[frame], "' must have a shape of type ssBox or box"));
   }

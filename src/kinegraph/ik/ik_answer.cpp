@@ -12,20 +12,6 @@ constexpr double kTouching = 1e-3;   // m beyond the margin: pairs that are name
 constexpr double kLeastPush = 1e-3;  // m, rad: what a limit that is named would gain per unit of what is missed
 constexpr std::size_t kPairsNamed = 3;
 
-const char* kindName(IkTarget::Kind kind) {
-  switch (kind) {
-    case IkTarget::Kind::pose:
-      return "pose";
-    case IkTarget::Kind::position:
-      return "position";
-    case IkTarget::Kind::rotation:
-      return "rotation";
-    case IkTarget::Kind::direction:
-      return "direction";
-  }
-  return "target";
-}
-
 }  // namespace
 
 IkResult IkSearch::solve(const std::vector<IkTarget>& targets, const Stop& stop) {
@@ -90,6 +76,7 @@ IkResult IkSearch::finish(IkJob& job, bool cancelled, const Stop& stop) {
   result.q = q_;
   result.position_error = errors_.position;
   result.rotation_error = errors_.rotation;
+  result.feature_error = errors_.feature;
   result.penetration = errors_.penetration;
   result.attempts = job.attempts;
   result.evals = job.evals;
@@ -175,13 +162,15 @@ std::vector<std::string> IkSearch::misses() const {
   const IkOptions& options = problem_->options;
   std::vector<std::string> reasons;
   for (std::size_t i = 0; i < job_->goals.size(); ++i) {
-    const double position = job_->goals[i].position_error, rotation = job_->goals[i].rotation_error;
+    const IkProblem::Task& task = problem_->tasks[i];
+    const IkGoal& goal = job_->goals[i];
     std::vector<std::string> amounts;
-    if (problem_->tasks[i].placed() && position > options.position_tolerance) amounts.push_back(cat(position, " m"));
-    if (rotation > options.rotation_tolerance) amounts.push_back(cat(rotation, " rad"));
+    if (goal.position_error > options.position_tolerance) amounts.push_back(cat(goal.position_error, " m"));
+    if (goal.rotation_error > options.rotation_tolerance) amounts.push_back(cat(goal.rotation_error, " rad"));
+    if (task.residual && goal.feature_error > task.target.feature->tolerance)
+      amounts.push_back(cat(goal.feature_error, task.unitOf(goal.worst_row)));
     if (amounts.empty()) continue;
-    reasons.push_back(cat("frame '", problem_->names[i], "' misses its ", kindName(problem_->tasks[i].kind), " by ",
-                          join(amounts, " and ")));
+    reasons.push_back(cat(task.name(), " misses its ", task.goal(), " by ", join(amounts, " and ")));
   }
   return reasons;
 }
@@ -224,11 +213,8 @@ std::vector<std::string> IkSearch::bindingLimits() {
     }
     const bool low = x_[v] <= problem_->lower[v] && push < -least, high = x_[v] >= problem_->upper[v] && push > least;
     if (!low && !high) continue;
-    const auto owner = std::ranges::find_if(program.frame_dofs, [&](const Program::DofRange& range) {
-      return problem_->dofs[v] >= range.first && problem_->dofs[v] < range.first + range.count;
-    });
-    const std::string& name = program.frame_name[owner - program.frame_dofs.begin()];
-    reasons.push_back(cat("joint '", name, "' is at its ", low ? "lower" : "upper", " limit ", x_[v]));
+    reasons.push_back(cat("joint '", jointName(program, problem_->dofs[v]), "' is at its ", low ? "lower" : "upper",
+                          " limit ", x_[v]));
   }
   return reasons;
 }

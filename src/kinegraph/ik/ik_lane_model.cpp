@@ -9,7 +9,9 @@ namespace {
 
 std::vector<int> framesOf(const IkProblem& problem) {
   std::vector<int> frames;
-  for (const IkProblem::Task& task : problem.tasks) frames.push_back(task.frame);
+  for (const IkProblem::Task& task : problem.tasks) {
+    if (task.inLanes()) frames.push_back(task.frame);
+  }
   return frames;
 }
 
@@ -22,7 +24,7 @@ IkLaneModel::IkLaneModel(const IkProblem& problem)
       upper_(problem.upper.data()),
       longest_(problem.longest.data()) {
   const LaneModel links = links_.view();
-  supported_ = rows_ <= kMostIkRows;
+  supported_ = rows_ <= kMostIkRows && std::ranges::all_of(problem.tasks, &IkProblem::Task::inLanes);
   for (int l = 1; l < links.links; ++l) {
     for (int s = links.link[l].first_step; s < links.link[l].first_step + links.link[l].steps; ++s) {
       if (kMotionFacts[int(links.step[s].kind)].effect == MotionFacts::Effect::orients) supported_ = false;
@@ -35,15 +37,15 @@ void IkLaneModel::addTasks(const IkProblem& problem) {
   for (const IkProblem::Task& task : problem.tasks) {
     IkKernelModel::Task lane_task{};
     lane_task.placed = task.placed();
-    lane_task.directed = task.kind == IkTarget::Kind::direction;
-    lane_task.turned = task.kind == IkTarget::Kind::pose || task.kind == IkTarget::Kind::rotation;
+    lane_task.directed = task.pointed();
+    lane_task.turned = task.turned();
     lane_task.frame = links_.place(*problem.program, *problem.parameters, task.frame);
     lane_task.first_column = int(column_.size());
     for (int index : links_.chain(lane_task.frame.link)) {
       column_.push_back({index, links_.column(index).variable, links_.column(index).turns});
     }
     lane_task.columns = int(column_.size()) - lane_task.first_column;
-    std::copy_n(task.axis.data(), 3, lane_task.axis);
+    std::copy_n(task.target.axis.data(), 3, lane_task.axis);
     task_.push_back(lane_task);
   }
 }

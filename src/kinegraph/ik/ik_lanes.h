@@ -14,7 +14,8 @@ class IkLaneModel {
  public:
   explicit IkLaneModel(const IkProblem& problem);
 
-  /// False where a joint has quaternions, or there are too many rows: lanes cannot do these.
+  /// False where a joint has quaternions, there are too many rows, or a target is not a place or direction in the
+  /// world: lanes cannot do these.
   bool supported() const { return supported_; }
   IkKernelModel view() const;
 

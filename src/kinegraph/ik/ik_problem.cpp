@@ -1,26 +1,19 @@
 #include "kinegraph/ik/ik_problem.h"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <numbers>
 
 #include "kinegraph/base/errors.h"
 #include "kinegraph/base/text.h"
+#include "kinegraph/kinematics/chains.h"
 
 namespace kinegraph {
 
 namespace {
 
 constexpr double kLongestTurn = .5;  // rad
-
-IkProblem::Task makeTask(const Program& program, const IkTarget& target) {
-  const int frame = frameId(program, target.frame, "solveIk");
-  if (program.last_column[program.frame_link[frame]] < 0) {
-    throw ValueError(cat("solveIk: no active joint moves frame '", target.frame, "'"));
-  }
-  const Vector3d axis = target.kind == IkTarget::Kind::direction ? target.axis.normalized() : Vector3d::UnitZ();
-  return {target.kind, frame, axis};
-}
 
 /// Per dof: does it turn, so that without limits a full turn is worth trying?
 std::vector<char> turningDofs(const Program& program) {
@@ -38,32 +31,21 @@ std::vector<char> turningDofs(const Program& program) {
 
 }  // namespace
 
-void IkOptions::validate() const {
-  const auto require = [](bool good, const char* field, double value, const char* expected) {
-    if (!good) throw ValueError(cat("solveIk: ", field, " is ", value, "; expected ", expected));
-  };
-  require(position_tolerance > 0., "position_tolerance", position_tolerance, "a positive length in m");
-  require(rotation_tolerance > 0., "rotation_tolerance", rotation_tolerance, "a positive angle in rad");
-  require(attempts >= 1, "attempts", attempts, "at least 1");
-  require(steps >= 1, "steps", steps, "at least 1");
-  require(std::isfinite(margin), "margin", margin, "a length in m");
-  require(start_weight >= 0. && std::isfinite(start_weight), "start_weight", start_weight, "a number >= 0");
-  require(home_weight >= 0. && std::isfinite(home_weight), "home_weight", home_weight, "a number >= 0");
-}
-
 IkProblem::IkProblem(const Config& config, const std::vector<IkTarget>& targets, const IkOptions& given)
     : options(given), program(config.program()), parameters(config.parameters()) {
   options.validate();
   if (targets.empty())
     throw ValueError("solveIk: there are no targets; expected at least one frame with a pose, position or direction");
   if (options.best && options.start_weight + options.home_weight == 0.) options.start_weight = 1.;
+  q = config.getJointState().cwiseMax(program->lower).cwiseMin(program->upper);
+  State state(program, parameters);
+  state.setJoints(q.data());
   for (const IkTarget& target : targets) {
-    names.push_back(target.frame);
-    tasks.push_back(makeTask(*program, target));
+    tasks.emplace_back(state, target);
     rows += tasks.back().rows();
   }
-  q = config.getJointState().cwiseMax(program->lower).cwiseMin(program->upper);
-  chooseVariables();
+  chooseVariables(state);
+  for (const Task& task : tasks) requireAtRest(task);
   const double weight = options.start_weight + options.home_weight;
   pulls = weight > 0.;
   nearest.resize(variables());
@@ -76,13 +58,16 @@ IkProblem::IkProblem(const Config& config, const std::vector<IkTarget>& targets,
   bodies.emplace(*program, pairs);
 }
 
-void IkProblem::chooseVariables() {
+void IkProblem::chooseVariables(const State& state) {
   // Joints that move no target stay where they are, and need no columns.
   variable.assign(program->dofs, -1);
   for (const Task& task : tasks) {
-    for (int c = program->last_column[program->frame_link[task.frame]]; c >= 0; c = program->column_before[c]) {
-      variable[program->column_dof[c]] = 0;
+    const std::vector<int> moving = task.dofs(state);
+    if (moving.empty()) {
+      const std::string against = task.reference < 0 ? "" : cat(" relative to '", task.target.relative_to, "'");
+      throw ValueError(cat("solveIk: no active joint ", task.frame < 0 ? "changes " : "moves ", task.name(), against));
     }
+    for (const int dof : moving) variable[dof] = 0;
   }
   // Quaternions are not kept at norm one by the steps, so it is noted where they are.
   for (const Program::DofRange& norm : program->unit_norms) {
@@ -122,19 +107,29 @@ void IkProblem::chooseVariables() {
   sequence_ = LowDiscrepancy(variables(), options.seed);
 }
 
+/// A pose that was taken from a frame must not be left by it while the targets are gone for.
+void IkProblem::requireAtRest(const Task& task) const {
+  const std::string& from = task.target.taken_from;
+  if (from.empty()) return;
+  int mover = -1;
+  forColumnsBetween(*program, frameId(*program, from, "solveIk"), task.reference, [&](int column) {
+    if (mover < 0 && variable[program->column_dof[column]] >= 0) mover = program->column_dof[column];
+  });
+  if (mover < 0) return;
+  const std::string against = task.reference < 0 ? "" : cat(" against '", task.target.relative_to, "'");
+  throw ValueError(cat("solveIk: the target of ", task.name(), " is where frame '", from, "' is, which moves", against,
+                       " with joint '", jointName(*program, mover),
+                       "', as the targets do; to meet it wherever it goes, ", "say relativeTo '", from,
+                       "'; to go where it is now, give its pose as numbers"));
+}
+
 void IkProblem::choosePairs() {
   const auto moves = [&](int column) { return variable[program->column_dof[column]] >= 0; };
   std::vector<std::pair<int, int>> unmoved;
   for (const auto& pair : program->movingPairs()) {
-    // Up both chains, from the column that comes last, to the one where they meet.
-    int a = program->last_column[program->frame_link[pair.first]],
-        b = program->last_column[program->frame_link[pair.second]];
-    while (a != b) {
-      int& later = a > b ? a : b;
-      if (moves(later)) break;
-      later = program->column_before[later];
-    }
-    (a != b ? pairs : unmoved).push_back(pair);
+    bool moved = false;
+    forColumnsBetween(*program, pair.first, pair.second, [&](int column) { moved = moved || moves(column); });
+    (moved ? pairs : unmoved).push_back(pair);
   }
   if (!unmoved.empty()) describeStuck(unmoved);
 }
@@ -179,6 +174,13 @@ void IkProblem::normalize(double* x) const {
     }
     for (int v = first; v < first + count; ++v) x[v] /= std::sqrt(square);
   }
+}
+
+const std::string& jointName(const Program& program, int dof) {
+  const auto owner = std::ranges::find_if(program.frame_dofs, [&](const Program::DofRange& range) {
+    return dof >= range.first && dof < range.first + range.count;
+  });
+  return program.frame_name[std::size_t(owner - program.frame_dofs.begin())];
 }
 
 }  // namespace kinegraph

@@ -5,6 +5,7 @@
 #include <utility>
 #include <vector>
 
+#include "kinegraph/ik/ik_task.h"
 #include "kinegraph/ik/low_discrepancy.h"
 #include "kinegraph/ik/solve_ik.h"
 #include "kinegraph/kinematics/near_pairs.h"
@@ -12,15 +13,9 @@
 namespace kinegraph {
 
 /// What inverse kinematics needs of a Config, computed once: immutable, shared by all attempts, problems and threads.
-/// Its variables x are the dofs that move a target frame.
+/// Its variables x are the dofs that move a target.
 struct IkProblem {
-  struct Task {
-    IkTarget::Kind kind;
-    int frame;      ///< id
-    Vector3d axis;  ///< unit, of a direction, in the frame
-    bool placed() const { return kind == IkTarget::Kind::pose || kind == IkTarget::Kind::position; }
-    int rows() const { return kind == IkTarget::Kind::pose ? 6 : kind == IkTarget::Kind::direction ? 2 : 3; }
-  };
+  using Task = IkTask;
 
   /// Throws FrameNotFound, and ValueError for what makes no sense.
   IkProblem(const Config& config, const std::vector<IkTarget>& targets, const IkOptions& options);
@@ -36,7 +31,6 @@ struct IkProblem {
   IkOptions options;
   std::shared_ptr<const Program> program;
   std::shared_ptr<const Parameters> parameters;
-  std::vector<std::string> names;  ///< of the target frames
   std::vector<Task> tasks;
   int rows = 0;
   std::vector<int> dofs;                   ///< entry of q per variable
@@ -51,7 +45,8 @@ struct IkProblem {
   std::string in_the_way;                  ///< pairs that collide whatever the variables are, in words; "" if none do
 
  private:
-  void chooseVariables();
+  void chooseVariables(const State& state);
+  void requireAtRest(const Task& task) const;
   void choosePairs();
   void describeStuck(const std::vector<std::pair<int, int>>& unmoved);
 
@@ -59,5 +54,8 @@ struct IkProblem {
   std::vector<std::pair<int, int>> norms_;  ///< first variable and count
   LowDiscrepancy sequence_{0, 0};
 };
+
+/// The frame whose joint has a dof.
+const std::string& jointName(const Program& program, int dof);
 
 }  // namespace kinegraph

@@ -14,16 +14,21 @@ using Stop = std::function<bool()>;
 
 /// A target as numbers, and how far it is missed.
 struct IkGoal {
-  Matrix3d R = Matrix3d::Identity();                      ///< of a pose, rotation
-  Vector3d p = Vector3d::Zero();                          ///< position, or unit direction
+  Matrix3d R = Matrix3d::Identity();                      ///< of a pose, rotation; in the world, where it is at present
+  Vector3d p = Vector3d::Zero();                          ///< position, or unit direction; the same
   Vector3d t1 = Vector3d::Zero(), t2 = Vector3d::Zero();  ///< of a direction: unit, across it
+  RigidTransform given;                                   ///< as seen from the frame that the target is relative to
   double position_error = 0., rotation_error = 0.;        ///< at the present x; m, rad
+  double feature_error = 0.;                              ///< of the worst row
+  int worst_row = 0;
+
+  void setDirection(const Vector3d& direction);  ///< `p`, `t1` and `t2`, for a unit vector
 };
 
 /// How the first part of an attempt ended, which goes for the targets alone.
 struct IkApproach {
   bool met;
-  double missed;  ///< position and rotation errors
+  double missed;  ///< position, rotation and feature errors
   int evals;
 };
 
@@ -48,7 +53,7 @@ class IkSearch {
   IkResult solve(const std::vector<IkTarget>& targets, const Stop& stop);
 
   // The same in parts, for those who make the approaches themselves: open, judge until it is true, finish.
-  void open(IkJob& job, const std::vector<IkTarget>& targets) const;
+  void open(IkJob& job, const std::vector<IkTarget>& targets);
 
   /// Goes on from where the approach of attempt number `job.attempts` ended, and keeps what it finds. True if no
   /// further attempt is needed.
@@ -59,10 +64,12 @@ class IkSearch {
   static bool stalls(int step, double square, double& before);
 
  private:
+  static constexpr double kSlack = 1e-4;  ///< m: what colliding pairs are moved apart beyond the margin
+
   /// Largest errors of the targets and of the distances at the present x.
   struct Errors {
-    double position = 0., rotation = 0., penetration = 0.;
-    double sum() const { return position + rotation + penetration; }
+    double position = 0., rotation = 0., feature = 0., penetration = 0.;
+    double sum() const { return position + rotation + feature + penetration; }
   };
   struct NearPair {
     int pair;
@@ -72,6 +79,9 @@ class IkSearch {
 
   void moveTo(const VectorXd& x);
   void measureTargets(bool with_jacobian);
+  void measureFrame(std::size_t target, int row, bool with_jacobian);
+  void measureFeature(std::size_t target, Residual& residual, int row, bool with_jacobian);
+  void placeGoal(const IkProblem::Task& task, IkGoal& goal, const Vector3d& p_WF) const;
   void measureDistances();
   void measure();
   void stepTowardsTargets();
@@ -103,6 +113,10 @@ class IkSearch {
   VectorXd x_;            ///< the variables
   VectorXd pull_, kept_;
   Errors errors_;
+  bool features_met_ = true;         ///< are all within their tolerances?
+  std::vector<Residual> residuals_;  ///< of the tasks that have one, with targets of the job that was opened last
+  VectorXd feature_value_;
+  Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor> feature_jacobian_;
   double square_ = 0.;  ///< sum of squares of the targets' rows
   std::vector<NearPair> near_;
   std::vector<double> gradients_;  ///< of the near pairs' distances, one row of variables each

@@ -16,30 +16,6 @@ namespace {
 
 constexpr int kLargestPart = 64;  // problems that a thread takes at a time
 
-void requireNumbers(const IkTarget& target) {
-  using Kind = IkTarget::Kind;
-  const auto require = [&](bool good, const char* what) {
-    if (!good) throw ValueError(cat("solveIk: the ", what, " in the target of frame '", target.frame, "'"));
-  };
-  if (target.kind == Kind::direction) {
-    require(target.axis.allFinite() && target.axis.norm() > 0., "axis is zero or not finite");
-    require(target.direction.allFinite() && target.direction.norm() > 0., "direction is zero or not finite");
-    return;
-  }
-  require(target.pose.p.allFinite(), "position is not finite");
-  require(target.pose.q.coeffs().allFinite() && target.pose.q.norm() > 0., "quaternion is zero or not finite");
-}
-
-void requireSameKind(const IkProblem& problem, const std::vector<IkTarget>& targets, std::size_t index) {
-  bool same = problem.tasks.size() == targets.size();
-  for (std::size_t i = 0; same && i < targets.size(); ++i) {
-    same = problem.names[i] == targets[i].frame && problem.tasks[i].kind == targets[i].kind &&
-           (targets[i].kind != IkTarget::Kind::direction || problem.tasks[i].axis == targets[i].axis.normalized());
-  }
-  if (!same)
-    throw ValueError(cat("solveIk: problem ", index, " has other frames or kinds of targets than the first one"));
-}
-
 }  // namespace
 
 std::string ikStatusName(IkStatus status) {
@@ -59,7 +35,7 @@ std::string ikStatusName(IkStatus status) {
 std::string IkResult::str() const {
   if (!feasible()) return cat(ikStatusName(status), ": ", message);
   return cat("solved in ", attempts, attempts == 1 ? " attempt" : " attempts", ", within ", position_error, " m and ",
-             rotation_error, " rad");
+             rotation_error, " rad", feature_error > 0. ? cat(", features within ", feature_error) : "");
 }
 
 IkResult solveIk(const Config& config, const std::vector<IkTarget>& targets, const IkOptions& options,
@@ -74,7 +50,6 @@ std::vector<IkResult> solveIkBatch(const Config& config, const std::vector<std::
 }
 
 IkSolver::IkSolver(const Config& config, const std::vector<IkTarget>& targets, const IkOptions& options) {
-  for (const IkTarget& target : targets) requireNumbers(target);
   problem_ = std::make_shared<const IkProblem>(config, targets, options);
 }
 
@@ -82,8 +57,10 @@ std::vector<IkResult> IkSolver::solve(const std::vector<std::vector<IkTarget>>& 
                                       const IkWatch& watch) const {
   if (threads < 1) throw ValueError(cat("solveIk: threads is ", threads, "; expected at least 1"));
   for (std::size_t i = 0; i < problems.size(); ++i) {
-    requireSameKind(*problem_, problems[i], i);
-    for (const IkTarget& target : problems[i]) requireNumbers(target);
+    const std::vector<IkProblem::Task>& tasks = problem_->tasks;
+    if (problems[i].size() != tasks.size())
+      throw ValueError(cat("solveIk: problem ", i, " has other frames or kinds of targets than the first one"));
+    for (std::size_t t = 0; t < tasks.size(); ++t) tasks[t].requireSame(problems[i][t], i);
   }
   std::vector<IkResult> results(problems.size());
   const int count = int(problems.size());

@@ -23,6 +23,12 @@ void EdgeChecker::areFree(std::span<const double* const> Q, bool* free) {
   engine_->areFree(Q.data(), int(Q.size()), margin_, free);
 }
 
+bool EdgeChecker::areAllFree(std::span<const double* const> Q) {
+  return engine_->areAllFree(Q.data(), int(Q.size()), margin_);
+}
+
+void EdgeChecker::forget() { engine_->forget(); }
+
 bool EdgeChecker::isFree(const double* from, const double* to) { return engine_->isFree(from, to, margin_); }
 
 const std::optional<MotionContact>& EdgeChecker::lastHit() const { return engine_->last_hit; }

@@ -40,11 +40,17 @@ class EdgeChecker {
   /// Of at most kLanes configurations at once, per configuration. Quickest where they follow one another.
   void areFree(std::span<const double* const> Q, bool* free);
 
+  /// Are they all free? Ends at the first pair that is found too near, in any of them.
+  bool areAllFree(std::span<const double* const> Q);
+
   /// Of an edge, at all times. Ends at the first pair that is found too near, at any time.
   bool isFree(const double* from, const double* to);
 
   /// A pair, with time and distance, that the last question was answered no for; of configurations, the time is 0.
   const std::optional<MotionContact>& lastHit() const;
+
+  /// Forgets what was hit last, as if nothing had been asked before.
+  void forget();
 
   /// What an edge meets first in time; see MotionChecker. None if it is free.
   std::optional<MotionContact> firstContact(const double* from, const double* to);

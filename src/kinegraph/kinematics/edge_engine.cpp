@@ -37,12 +37,13 @@ Vector3d supportOf(const CollisionBody& body, const Vector3d& direction, std::ui
 }  // namespace
 
 EdgeEngine::EdgeEngine(const State& scene, double tolerance)
-    : bodies_(scene),
+    : scene_(scene),
+      bodies_(scene),
       samples_(scene, bodies_),
       bounds_(scene),
       tolerance_(tolerance),
       normals_(bodies_.pairs.size()),
-      middles_(kDeepest, scene),
+      middles_(kDeepest),
       from_(scene.dofs()),
       to_(scene.dofs()),
       q_(scene.dofs()) {
@@ -94,8 +95,12 @@ EdgeEngine::Normal& EdgeEngine::normalOf(const Candidate& candidate) {
   return scratch_normal_;
 }
 
+RigidTransform EdgeEngine::linkAt(int link, const Moment& at) const {
+  return at.state ? at.state->linkPose(link) : samples_.linkPose(link, at.sample);
+}
+
 RigidTransform EdgeEngine::poseAt(int body, const Moment& at) {
-  if (at.sample >= 0) return samples_.pose(body, at.sample);
+  if (!at.state) return samples_.pose(body, at.sample);
   return at.state->linkPose(bodies_.link(body)) * bodies_.bodies[std::size_t(body)].X_LB;
 }
 
@@ -103,7 +108,7 @@ RigidTransform EdgeEngine::poseAt(int body, const Moment& at) {
 double EdgeEngine::gap(const Candidate& candidate, Normal& normal, const Moment& at) {
   const LinkBodies::Pair& pair = candidate.pair;
   const CollisionBody &a = *bodies_.bodies[std::size_t(pair.a)].shape, &b = *bodies_.bodies[std::size_t(pair.b)].shape;
-  const Vector3d n = pair.ancestor == 0 ? normal.n : Vector3d(at.state->linkPose(pair.ancestor).R * normal.n);
+  const Vector3d n = pair.ancestor == 0 ? normal.n : Vector3d(linkAt(pair.ancestor, at).R * normal.n);
   const RigidTransform X_A = poseAt(pair.a, at), X_B = poseAt(pair.b, at);
   const Vector3d in_a = -(X_A.R.transpose() * n), in_b = X_B.R.transpose() * n;
   const double nearest_a = n.dot(X_A.p) - in_a.dot(supportOf(a, in_a, normal.corner_a)),
@@ -116,7 +121,7 @@ double EdgeEngine::measure(const Candidate& candidate, Normal& normal, const Mom
   const LinkBodies::Pair& pair = candidate.pair;
   const Proximity near = proximity(*bodies_.bodies[std::size_t(pair.a)].shape, poseAt(pair.a, at),
                                    *bodies_.bodies[std::size_t(pair.b)].shape, poseAt(pair.b, at));
-  normal.n = pair.ancestor == 0 ? near.normal : Vector3d(at.state->linkPose(pair.ancestor).R.transpose() * near.normal);
+  normal.n = pair.ancestor == 0 ? near.normal : Vector3d(linkAt(pair.ancestor, at).R.transpose() * near.normal);
   normal.stamp = stamp_;
   return near.distance;
 }
@@ -133,20 +138,39 @@ bool EdgeEngine::hit(const Candidate& candidate, double time, double distance) {
 // --- configurations --------------------------------------------------------------------------------------------------
 
 void EdgeEngine::areFree(const double* const* Q, int count, double margin, bool* free) {
+  std::fill(free, free + count, true);
+  forHits(Q, count, margin, [free](int sample) {
+    free[sample] = false;
+    return true;
+  });
+}
+
+bool EdgeEngine::areAllFree(const double* const* Q, int count, double margin) {
+  bool all_free = true;
+  forHits(Q, count, margin, [&](int) { return all_free = false; });
+  return all_free;
+}
+
+/// Calls hit(sample) for pairs that are too near, of each sample once; until it says no.
+template <class Hit>
+void EdgeEngine::forHits(const double* const* Q, int count, double margin, const Hit& hit_sample) {
   last_hit.reset();
   for (int i = 0; i < count; ++i) samples_.setJoints(i, Q[i]);
   samples_.place(count);
   findCandidates(margin);
-  std::fill(free, free + count, true);
+  bool was_hit[kLanes] = {};
   for (const Candidate& candidate : candidates_) {
     if (candidate.least >= margin) continue;
     Normal& normal = normalOf(candidate);
     for (int i = 0; i < count; ++i) {
-      if (!free[i] || candidate.bounds[i] >= margin) continue;
+      if (was_hit[i] || candidate.bounds[i] >= margin) continue;
       const Moment at = sampleAt(i);
       if (candidate.pair.convex && normal.stamp > 0 && gap(candidate, normal, at) >= margin + kExact) continue;
       const double distance = measure(candidate, normal, at);
-      if (distance < margin) free[i] = hit(candidate, 0., distance);
+      if (distance >= margin) continue;
+      hit(candidate, 0., distance);
+      was_hit[i] = true;
+      if (!hit_sample(i)) return;
     }
   }
 }
@@ -165,7 +189,7 @@ double EdgeEngine::clearance(const double* q, double most) {
 
 EdgeEngine::Moment EdgeEngine::sampleAt(int sample) const {
   const double time = piece_times_.empty() ? 0. : piece_times_[std::size_t(sample)];
-  return {time, &samples_.state(sample), sample};
+  return {time, nullptr, sample};
 }
 
 const double* EdgeEngine::jointsAt(double time) {
@@ -176,9 +200,10 @@ const double* EdgeEngine::jointsAt(double time) {
 
 EdgeEngine::Moment EdgeEngine::between(const Moment& a, const Moment& b, int depth) {
   const double time = .5 * (a.time + b.time);
-  State& state = middles_[std::size_t(depth)];
-  state.setJoints(jointsAt(time));
-  return {time, &state, -1};
+  std::unique_ptr<State>& state = middles_[std::size_t(depth)];
+  if (!state) state = std::make_unique<State>(scene_);
+  state->setJoints(jointsAt(time));
+  return {time, state.get(), 0};
 }
 
 /// Places the samples over a part of the motion, and the spheres around all between them.

@@ -34,7 +34,12 @@ class EdgeEngine {
   /// Per configuration (at most kLanes, a row of `Q` each): are all pairs at least `margin` apart?
   void areFree(const double* const* Q, int count, double margin, bool* free);
 
+  /// Are all of them free? Ends at the first pair that is found too near.
+  bool areAllFree(const double* const* Q, int count, double margin);
+
   bool isFree(const double* from, const double* to, double margin);
+
+  void forget() { suspect_ = -1; }
 
   double clearance(const double* q, double most);
   double clearance(const double* from, const double* to, double most);
@@ -57,8 +62,8 @@ class EdgeEngine {
   /// A time of the motion: a sample, or a State of its own.
   struct Moment {
     double time;
-    const State* state;
-    int sample;  ///< -1: none
+    const State* state;  ///< null: a sample
+    int sample;
   };
 
   void ask() {  // directions of questions before are forgotten
@@ -67,6 +72,8 @@ class EdgeEngine {
   }
   int setMotion(const double* from, const double* to);
   MotionBounds::Rates ratesOf(const Candidate& candidate) const;
+  template <class Hit>
+  void forHits(const double* const* Q, int count, double margin, const Hit& hit);
   void findCandidates(double margin);
   void addPair(const LinkBodies::Pair& pair, int index);
   void addNearFixed(double margin);
@@ -76,6 +83,7 @@ class EdgeEngine {
   const double* jointsAt(double time);
 
   Normal& normalOf(const Candidate& candidate);
+  RigidTransform linkAt(int link, const Moment& at) const;
   RigidTransform poseAt(int body, const Moment& at);
   double gap(const Candidate& candidate, Normal& normal, const Moment& at);
   double measure(const Candidate& candidate, Normal& normal, const Moment& at);
@@ -89,6 +97,7 @@ class EdgeEngine {
   void lower(const Candidate& candidate, Normal& normal, const MotionBounds::Rates& rates, const Moment& a,
              const Moment& b, int depth, double& least);
 
+  State scene_;
   LinkBodies bodies_;
   PlacedSamples samples_;
   MotionBounds bounds_;
@@ -97,7 +106,7 @@ class EdgeEngine {
   std::vector<Normal> normals_;  ///< per listed pair
   Normal scratch_normal_;        ///< of a pair that is not listed
   std::vector<LinkBodies::Pair> near_fixed_;
-  std::vector<State> middles_;  ///< per depth
+  std::vector<std::unique_ptr<State>> middles_;  ///< per depth, made when first needed
   std::vector<double> piece_times_;
   VectorXd from_, to_, q_;
   int stamp_ = 1, suspect_ = -1;

@@ -1,9 +1,11 @@
 #pragma once
 
+#include <algorithm>
 #include <memory>
 #include <vector>
 
 #include "kinegraph/kinematics/link_bodies.h"
+#include "kinegraph/kinematics/sample_kernel.h"
 
 namespace kinegraph {
 
@@ -14,9 +16,12 @@ class PlacedSamples {
   using Lane = Eigen::Array<double, kMost, 1>;
 
   /// `bodies` must stay.
-  PlacedSamples(const State& scene, const LinkBodies& bodies);
+  PlacedSamples(const State& scene, const LinkBodies& bodies, const SampleKernel& kernel = sampleKernel());
+  PlacedSamples(const PlacedSamples&) = delete;
 
-  void setJoints(int sample, const double* q) { states_[std::size_t(sample)].setJoints(q); }
+  void setJoints(int sample, const double* q) {
+    std::copy_n(q, model_.variables, Q_.data() + sample * model_.variables);
+  }
 
   /// To be called when the first `count` samples have their joints. Between samples that follow one another, no point of
   /// a group strays from a straight line by more than its `stray`, m.
@@ -24,7 +29,10 @@ class PlacedSamples {
   void setStray(int group, double stray) { spheres_[std::size_t(group)].radius += stray; }
 
   int count() const { return count_; }
-  const State& state(int sample) const { return states_[std::size_t(sample)]; }
+  /// X_WL of a link.
+  RigidTransform linkPose(int link, int sample) const {
+    return poseIn(memory_.pose, model_.links * LaneMemory::kPerPose, link * LaneMemory::kPerPose, sample);
+  }
 
   /// A sphere around a group in all samples and between them.
   struct Sphere {
@@ -38,7 +46,7 @@ class PlacedSamples {
   bool mayBeNear(int group_a, int group_b, double margin) const;
 
   /// X_WB of a body.
-  const RigidTransform& pose(int body, int sample);
+  RigidTransform pose(int body, int sample) { return poseIn(placed(body).rows, SampleKernel::kPerBody, 0, sample); }
 
   /// Lower bounds of the distance of two bodies in each sample, m: how far their boxes are apart along the direction
   /// from one's to the other's middle. -infinity where that says nothing.
@@ -46,17 +54,34 @@ class PlacedSamples {
 
  private:
   struct Placed {
+    alignas(64) double rows[SampleKernel::kPerBody * kMost];
+    SampleKernel::Offset offset;
     int stamp = 0;
-    RigidTransform pose[kMost];
-    Lane R[3][3], center[3];
   };
   const Placed& placed(int body);
+  std::unique_ptr<Placed> unplaced(int body) const;
 
+  /// A pose of one sample, out of rows of lanes.
+  RigidTransform poseIn(const double* from, int rows, int row, int sample) const {
+    const int width = kernel_->width;
+    from += (sample / width * rows + row) * width + sample % width;
+    RigidTransform X;
+    for (int k = 0; k < 9; ++k) X.R.data()[k] = from[k * width];
+    for (int k = 0; k < 3; ++k) X.p[k] = from[(9 + k) * width];
+    return X;
+  }
+  SampleKernel::Box boxOf(int body);
+
+  const SampleKernel* kernel_;
+  std::shared_ptr<const Parameters> parameters_;
   const LinkBodies* bodies_;
-  std::vector<State> states_;
+  LaneModel model_;
+  LaneMemory memory_{};
+  std::vector<double> storage_;                  ///< of memory_
+  std::vector<double> Q_;                        ///< a row per sample
   std::vector<Sphere> spheres_;                  ///< per group
   std::vector<std::unique_ptr<Placed>> placed_;  ///< per body; of many bodies those that were asked for
-  int count_ = 0, stamp_ = 0;
+  int count_ = 0, groups_ = 0, stamp_ = 0;
 };
 
 }  // namespace kinegraph

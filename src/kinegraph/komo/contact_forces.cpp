@@ -13,11 +13,11 @@ namespace {
 constexpr double kLeastForce = 1e-3, kLargestForce = 10.;  ///< in weights of the object
 
 /// Where two bodies are nearest: the point on the first, and the direction to it from the second.
-std::pair<Vector3d, Vector3d> nearestPoint(const State& state, int object, int onto) {
+std::pair<Vector3d, Vector3d> nearestPoint(const State& state, int object, int from) {
   const State* states[] = {&state};
   Vector3d point, normal;
-  Witness(Witness::Kind::point_a, object, onto).eval(states, 1., point, nullptr);
-  Witness(Witness::Kind::normal, object, onto).eval(states, 1., normal, nullptr);
+  Witness(Witness::Kind::point_a, object, from).eval(states, 1., point, nullptr);
+  Witness(Witness::Kind::normal, object, from).eval(states, 1., normal, nullptr);
   return {point, normal};
 }
 
@@ -27,8 +27,8 @@ ContactForce readDemand(const Path& path, const ContactDemand& demand) {
   const Program& before = path.state(-path.grid().order()).program();
   ContactForce contact;
   contact.object = frameId(before, demand.object, "addContactForceFrame");
-  contact.onto = frameId(before, demand.onto, "addContactForceFrame");
-  if (contact.object == contact.onto)
+  contact.from = frameId(before, demand.from, "addContactForceFrame");
+  if (contact.object == contact.from)
     throw ValueError(cat("addContactForceFrame: '", demand.object, "' cannot push itself"));
   if (!(demand.friction > 0.)) {
     throw ValueError(
@@ -71,7 +71,7 @@ void startContact(Path& path, const ContactForce& contact, const Pose& X_WP, con
 /// The bodies touch at the point, its z axis is along their normals, and the force is within the cone of friction.
 void requireContact(MotionProblem& motion, const ContactDemand& demand, const ContactForce& contact,
                     const std::string& name) {
-  const std::string &object = demand.object, &onto = demand.onto;
+  const std::string &object = demand.object, &from = demand.from;
   const auto require = [&](const FeatureSource& feature, std::vector<std::string> frames, ObjectiveType type,
                            double scale) {
     motion.require({.feature = feature,
@@ -84,13 +84,13 @@ void requireContact(MotionProblem& motion, const ContactDemand& demand, const Co
   const auto align = [&](const std::string& body, double sign) {
     require(FeatureRecipe{"pairNormalAlign", {}, sign}, {name, body}, ObjectiveType::sos, .1);
   };
-  require(FeatureSymbol::distance, {onto, object}, ObjectiveType::ineq, 1e1);
+  require(FeatureSymbol::distance, {from, object}, ObjectiveType::ineq, 1e1);
   require(FeatureSymbol::distance, {object, name}, ObjectiveType::eq, 1e1);
-  require(FeatureSymbol::distance, {onto, name}, ObjectiveType::eq, 1e1);
-  require(FeatureRecipe{"pairNormalsOppose"}, {object, onto, name}, ObjectiveType::sos, 1e1);
+  require(FeatureSymbol::distance, {from, name}, ObjectiveType::eq, 1e1);
+  require(FeatureRecipe{"pairNormalsOppose"}, {object, from, name}, ObjectiveType::sos, 1e1);
   align(object, 1.);
-  align(onto, -1.);
-  require(FeatureRecipe{"frictionCone", contact, demand.friction}, {object, onto, name}, ObjectiveType::ineq, 1.);
+  align(from, -1.);
+  require(FeatureRecipe{"frictionCone", contact, demand.friction}, {object, from, name}, ObjectiveType::ineq, 1.);
 }
 
 }  // namespace
@@ -101,12 +101,12 @@ std::string addContactForce(MotionProblem& motion, const ContactDemand& demand) 
   const auto [from, to] = path.grid().select(demand.times);
   if (from > to) {
     throw ValueError(
-        cat("addContactForceFrame between '", demand.object, "' and '", demand.onto, "': its times select no slice"));
+        cat("addContactForceFrame between '", demand.object, "' and '", demand.from, "': its times select no slice"));
   }
   const int start = -path.grid().order();
   const double time = demand.times.empty() ? path.grid().timeOf(from) : demand.times[0];
-  const std::string name = cat("poa_", demand.object, "_", demand.onto, "_", time);
-  const auto [point, normal] = nearestPoint(path.state(start), contact.object, contact.onto);
+  const std::string name = cat("poa_", demand.object, "_", demand.from, "_", time);
+  const auto [point, normal] = nearestPoint(path.state(start), contact.object, contact.from);
   addFrameDof(path, {.name = name, .parent = demand.object, .type = JointType::free, .stable = true});
   contact.point = frameId(path.state(start).program(), name, "addContactForceFrame");
   contact.dofs = path.addDofs(name + "_force", from, to, forceDofs(demand.is_free));

@@ -10,14 +10,14 @@ namespace kinegraph {
 /// A force at a point that is fixed on an object, in some slices.
 struct ContactDemand {
   std::vector<double> times;
-  std::string object, onto;
+  std::string object, from;
   double friction;       ///< coefficient
   double mass;           ///< kg; forces are in units of its weight
   bool is_free = false;  ///< three dofs per slice; else one, along the z axis of the point
   double distance = 0.;  ///< m: how far off the object the point starts
 };
 
-/// In the slices that its times select, `onto` pushes `object` at a point where they touch, within the cone of friction.
+/// In the slices that its times select, `from` pushes `object` at a point where they touch, within the cone of friction.
 /// The point is a frame on the object, the same in all slices; its name is returned. Throws FrameNotFound and
 /// ValueError.
 std::string addContactForce(MotionProblem& motion, const ContactDemand& demand);

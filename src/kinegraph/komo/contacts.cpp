@@ -10,7 +10,7 @@ std::vector<Interaction> Contacts::interactions(const Path& path) const {
       if (!contact.isIn(state)) continue;
       const std::vector<std::string>& names = state.program().frame_name;
       list.push_back(
-          {t, names[contact.object], names[contact.onto], state.position(contact.point), contact.value(state)});
+          {t, names[contact.object], names[contact.from], state.position(contact.point), contact.value(state)});
     }
   }
   return list;

@@ -12,7 +12,7 @@ namespace kinegraph {
 /// A contact force in a slice.
 struct Interaction {
   int slice;
-  std::string object, onto;
+  std::string object, from;
   Vector3d point;  ///< m, in the world
   Vector3d force;  ///< N, on the object, in the world
 };

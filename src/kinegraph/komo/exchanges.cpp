@@ -19,7 +19,7 @@ using enum ObjectiveType;
 Vector3d nearest(const State& state, Witness::Kind kind, const ContactForce& contact) {
   const State* states[] = {&state};
   Vector3d value;
-  Witness(kind, contact.object, contact.onto).eval(states, 1., value, nullptr);
+  Witness(kind, contact.object, contact.from).eval(states, 1., value, nullptr);
   return value;
 }
 
@@ -27,12 +27,12 @@ Vector3d nearest(const State& state, Witness::Kind kind, const ContactForce& con
 class NewExchange {
  public:
   NewExchange(MotionProblem& motion, const ExchangeDemand& demand)
-      : motion_(motion), path_(motion.path), demand_(demand), pair_({demand.object, demand.onto}) {
+      : motion_(motion), path_(motion.path), demand_(demand), pair_({demand.object, demand.from}) {
     path_.requireBuilt("addExchange");
     readFrames();
     readTimes();
     const auto& masses = path_.state(-path_.grid().order()).parameters().frame_mass;
-    const double own = masses[contact_.object].mass, mass = own > 0. ? own : masses[contact_.onto].mass;
+    const double own = masses[contact_.object].mass, mass = own > 0. ? own : masses[contact_.from].mass;
     contact_.unit = -kGravity.z() * (mass > 0. ? mass : 1.);
     contact_.is_free = true;
   }
@@ -50,8 +50,8 @@ class NewExchange {
   void readFrames() {
     const Program& program = path_.state(-path_.grid().order()).program();
     contact_.object = frameId(program, demand_.object, "contact");
-    contact_.onto = frameId(program, demand_.onto, "contact");
-    if (contact_.object == contact_.onto) throw ValueError(cat("contact: '", demand_.object, "' cannot push itself"));
+    contact_.from = frameId(program, demand_.from, "contact");
+    if (contact_.object == contact_.from) throw ValueError(cat("contact: '", demand_.object, "' cannot push itself"));
     if (!(demand_.friction > 0.)) {
       throw ValueError(
           cat("contact: the coefficient of friction is ", demand_.friction, "; expected a positive number"));
@@ -62,21 +62,21 @@ class NewExchange {
     const TimeGrid& grid = path_.grid();
     const bool bounces = demand_.kind == Exchange::bounce;
     if (bounces && grid.order() < 2) {
-      throw ValueError(cat("bounce of '", demand_.object, "' off '", demand_.onto,
+      throw ValueError(cat("bounce of '", demand_.object, "' off '", demand_.from,
                            "': speeds before and after it need a KOMO with kOrder 2; this one has ", grid.order()));
     }
     std::tie(from_, to_) = grid.select(demand_.times);
     if (bounces) to_ = from_;
     if (from_ > to_ || from_ >= grid.slices()) {
       throw ValueError(
-          cat("contact between '", demand_.object, "' and '", demand_.onto, "': its times select no slice"));
+          cat("contact between '", demand_.object, "' and '", demand_.from, "': its times select no slice"));
     }
   }
 
   /// The point and the force, along the axes of the world.
   void addDofs() {
     const Program& before = path_.state(-path_.grid().order()).program();
-    const std::string wanted = cat("poa_", demand_.object, "_", demand_.onto, "_", path_.grid().timeOf(from_));
+    const std::string wanted = cat("poa_", demand_.object, "_", demand_.from, "_", path_.grid().timeOf(from_));
     name_ = wanted;
     for (int count = 2; before.frame_index.contains(name_); ++count) name_ = cat(wanted, "_", count);
     path_.beginModes();
@@ -152,7 +152,7 @@ class NewExchange {
 
   void touch(double scale) {
     require(FeatureSymbol::distance, {demand_.object, name_}, eq, scale);
-    require(FeatureSymbol::distance, {demand_.onto, name_}, eq, scale);
+    require(FeatureSymbol::distance, {demand_.from, name_}, eq, scale);
     require(FeatureSymbol::distance, pair_, eq, 1e1);
   }
 

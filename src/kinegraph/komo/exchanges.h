@@ -20,12 +20,12 @@ Exchange exchangeFromName(const std::string& name);
 
 struct ExchangeDemand {
   std::vector<double> times;
-  std::string object, onto;
+  std::string object, from;
   Exchange kind;
   double friction = .5;  ///< coefficient
 };
 
-/// In the slices that its times select, `object` and `onto` may push each other: six more dofs per slice, the point
+/// In the slices that its times select, `object` and `from` may push each other: six more dofs per slice, the point
 /// where they do and the force on `object` there. Adds what the kind demands, and small costs on both. Returns the name
 /// of the point. Throws FrameNotFound and ValueError.
 std::string addExchange(MotionProblem& motion, const ExchangeDemand& demand);

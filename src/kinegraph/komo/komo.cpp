@@ -185,19 +185,19 @@ std::vector<PathContact> Komo::checkMotion(double margin, double tolerance,
   return contactsOf(motionsOf(path()), margin, tolerance, between);
 }
 
-std::string Komo::addContactForce(const std::vector<double>& times, const std::string& object, const std::string& onto,
+std::string Komo::addContactForce(const std::vector<double>& times, const std::string& object, const std::string& from,
                                   double friction, double mass) {
-  return kinegraph::addContactForce(motion_, {times, object, onto, friction, mass});
+  return kinegraph::addContactForce(motion_, {times, object, from, friction, mass});
 }
 
 std::string Komo::addFreeContactForce(const std::vector<double>& times, const std::string& object,
-                                      const std::string& onto, double friction, double mass, double distance) {
-  return kinegraph::addContactForce(motion_, {times, object, onto, friction, mass, true, distance});
+                                      const std::string& from, double friction, double mass, double distance) {
+  return kinegraph::addContactForce(motion_, {times, object, from, friction, mass, true, distance});
 }
 
-std::string Komo::addExchange(const std::vector<double>& times, const std::string& object, const std::string& onto,
+std::string Komo::addExchange(const std::vector<double>& times, const std::string& object, const std::string& from,
                               Exchange kind, double friction) {
-  return kinegraph::addExchange(motion_, {times, object, onto, kind, friction});
+  return kinegraph::addExchange(motion_, {times, object, from, kind, friction});
 }
 
 MatrixXd Komo::getPath(const std::vector<int>& frames) const {

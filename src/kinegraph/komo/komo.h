@@ -89,19 +89,19 @@ class Komo {
   // --- contact forces ----------------------------------------------------------------------------------------------
   // What balances them is up to totalForce and physics.
 
-  /// In the slices that `times` selects, `onto` pushes `object` at a point where they touch, within the cone of
+  /// In the slices that `times` selects, `from` pushes `object` at a point where they touch, within the cone of
   /// friction. The point is a frame on the object, the same in all slices; its name is returned. The force is along its
   /// z axis: one more dof per slice, in units of the weight of `mass` kg, up to ten times that.
-  std::string addContactForce(const std::vector<double>& times, const std::string& object, const std::string& onto,
+  std::string addContactForce(const std::vector<double>& times, const std::string& object, const std::string& from,
                               double friction, double mass);
 
   /// The same with a force of any direction in the cone, three dofs per slice. The point starts `distance` off the
   /// object, m.
-  std::string addFreeContactForce(const std::vector<double>& times, const std::string& object, const std::string& onto,
+  std::string addFreeContactForce(const std::vector<double>& times, const std::string& object, const std::string& from,
                                   double friction, double mass, double distance);
 
   /// A point that moves along both surfaces, and a force there: see exchanges.h.
-  std::string addExchange(const std::vector<double>& times, const std::string& object, const std::string& onto,
+  std::string addExchange(const std::vector<double>& times, const std::string& object, const std::string& from,
                           Exchange kind, double friction = .5);
 
   std::vector<Interaction> interactions() const { return motion_.contacts.interactions(motion_.path); }

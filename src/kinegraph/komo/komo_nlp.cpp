@@ -2,9 +2,14 @@
 
 #include "kinegraph/base/errors.h"
 #include "kinegraph/base/text.h"
+#include "kinegraph/komo/detour.h"
+#include "kinegraph/komo/forbidden_motions.h"
 #include "kinegraph/komo/free_motion.h"
 #include "kinegraph/komo/komo.h"
 #include "kinegraph/komo/path_description.h"
+#include "kinegraph/komo/path_rows.h"
+#include "kinegraph/nlp/evaluation_sizes.h"
+#include "kinegraph/nlp/other_ways.h"
 
 namespace kinegraph {
 
@@ -21,45 +26,9 @@ bool isSumOfOverlaps(const Objective& objective) {
          (objective.type == ObjectiveType::eq || objective.type == ObjectiveType::ineq);
 }
 
-/// Does the objective forbid collisions of all shapes in its slices?
-bool forbidsCollisions(const Objective& objective) {
-  const bool is_constraint = objective.type == ObjectiveType::eq || objective.type == ObjectiveType::ineq ||
-                             objective.type == ObjectiveType::ineqB;
-  const bool is_of_collisions =
-      objective.feature == FeatureSymbol::accumulatedCollisions || objective.feature == FeatureSymbol::pairCollisions;
-  return is_constraint && is_of_collisions && (objective.order == 0 || objective.on_the_way) &&
-         objective.frames.empty();
-}
-
 bool isOnTheWay(const Objective& objective) { return objective.on_the_way; }
 
-/// The motions in which collisions are forbidden: on the way to slices, or in both slices. Where slices are waypoints,
-/// one per phase, the latter says nothing of the motion.
-std::vector<SliceMotion> forbiddenMotions(const Path& path, const std::vector<Objective>& objectives) {
-  const bool are_waypoints = path.grid().slicesPerPhase() == 1;
-  std::vector<char> in_slice(std::size_t(path.grid().slices()), false), on_the_way = in_slice;
-  for (const Objective& objective : objectives) {
-    if (!forbidsCollisions(objective) || (are_waypoints && !objective.on_the_way)) continue;
-    std::vector<char>& counts = objective.on_the_way ? on_the_way : in_slice;
-    for (int t = objective.from; t <= objective.to; ++t) counts[std::size_t(t)] = true;
-  }
-  std::vector<SliceMotion> motions;
-  for (int t = firstMotion(path); t < path.grid().slices(); ++t) {
-    const bool in_both = in_slice[std::size_t(t)] && (t == 0 || in_slice[std::size_t(t) - 1]);
-    if (in_both || on_the_way[std::size_t(t)]) motions.push_back(motionInto(path, t));
-  }
-  return motions;
-}
-
-MotionVerdict judge(const std::vector<SliceMotion>& motions, const std::function<void()>& between) {
-  constexpr double kTolerance = 1e-5;  // m
-  const std::vector<PathContact> contacts = contactsOf(motions, 0., kTolerance, between);
-  if (contacts.empty()) return {};
-  const auto deepest = std::ranges::min_element(contacts, {}, &PathContact::distance);
-  return {false, deepest->str()};
-}
-
-class KomoNlp final : public Nlp {
+class KomoNlp final : public Nlp, public OtherWays {
  public:
   explicit KomoNlp(std::shared_ptr<Komo> komo) : KomoNlp(komo, komo->objectives().all()) {}
 
@@ -74,6 +43,7 @@ class KomoNlp final : public Nlp {
   }
 
   const std::shared_ptr<Komo>& komo() const { return komo_; }
+  const PathProblem& problem() const { return problem_; }
 
   Jacobian makeJacobian() const override {
     requireStructure();
@@ -82,6 +52,7 @@ class KomoNlp final : public Nlp {
 
   void evaluate(const VectorXd& x, VectorXd& phi, Jacobian* J) override {
     requireStructure();
+    prepareEvaluation(*this, x, phi, J);
     komo_->path().setVariables(x);
     problem_.evaluate(komo_->path(), phi, J);
   }
@@ -131,9 +102,7 @@ class KomoNlp final : public Nlp {
   }
 
   std::shared_ptr<const LazyVerdict> motionVerdict(const VectorXd& x) override {
-    const bool are_waypoints = komo_->path().grid().slicesPerPhase() == 1;
-    if (are_waypoints && std::ranges::none_of(problem_.objectives(), isOnTheWay)) return nullptr;
-    if (std::ranges::none_of(problem_.objectives(), forbidsCollisions)) return nullptr;
+    if (!forbidsAnyMotion(komo_->path(), problem_.objectives())) return nullptr;
     komo_->path().setVariables(x);
     std::vector<SliceMotion> motions = forbiddenMotions(komo_->path(), problem_.objectives());
     if (motions.empty()) return nullptr;
@@ -144,21 +113,34 @@ class KomoNlp final : public Nlp {
   Refinement refine(const VectorXd& x, VectorXd& dual) override {
     if (std::ranges::none_of(problem_.objectives(), isOnTheWay)) return Refinement::none;
     requireStructure();
-    std::vector<Objective> objectives = problem_.objectives();
     komo_->path().setVariables(x);
-    double lack = 0.;
-    for (Objective& objective : objectives) {
-      if (objective.on_the_way) lack = std::max(lack, addInstants(objective, komo_->path(), probe_));
-    }
+    std::vector<Objective> objectives = problem_.objectives();
+    const double lack = addInstantsTo(objectives);
     if (lack == 0.) return Refinement::none;
     const Separation before = separation();
-    problem_ = PathProblem(komo_->path(), komo_->contacts(), std::move(objectives));
-    separation_ = {};
-    separation_is_known_ = false;
+    takeUp(std::move(objectives));
     const Separation now = separation();
     if (before.problem && now.problem && dual.size() == Eigen::Index(before.row_of.size()))
       dual = carriedOver(dual, before, now);
     return lack > kMuch ? Refinement::much : Refinement::little;
+  }
+
+  /// A detour, with its own instants.
+  std::optional<VectorXd> otherWay(const VectorXd& x, int number) override {
+    std::vector<Objective> objectives = problem_.objectives();
+    const auto on_the_way = std::ranges::find_if(objectives, isOnTheWay);
+    if (on_the_way == objectives.end()) return std::nullopt;
+    requireStructure();
+    komo_->path().setVariables(x);
+    const double apart = on_the_way->margin + on_the_way->slack;
+    std::optional<VectorXd> way = detour(komo_->path(), apart, probe_, number);
+    if (!way) return std::nullopt;
+    *way = way->cwiseMax(lower_).cwiseMin(upper_);
+    komo_->path().setVariables(*way);
+    for (Objective& objective : objectives) objective.instants.clear();
+    addInstantsTo(objectives);
+    takeUp(std::move(objectives));
+    return way;
   }
 
   /// The present path, moved by a little noise so that it is not exactly at a singular posture, within the bounds.
@@ -195,6 +177,21 @@ class KomoNlp final : public Nlp {
     throw Error("KOMO: a mode switch or frame was added after this nlp() was made; make a new one");
   }
 
+  /// Those at which the path violates the objectives; returns by how much, m.
+  double addInstantsTo(std::vector<Objective>& objectives) {
+    double lack = 0.;
+    for (Objective& objective : objectives) {
+      if (objective.on_the_way) lack = std::max(lack, addInstants(objective, komo_->path(), probe_));
+    }
+    return lack;
+  }
+
+  void takeUp(std::vector<Objective> objectives) {
+    problem_ = PathProblem(komo_->path(), komo_->contacts(), std::move(objectives));
+    separation_ = {};
+    separation_is_known_ = false;
+  }
+
   /// Multipliers of a separate form that has all terms of one before, and in each of them all rows of it, and more.
   static VectorXd carriedOver(const VectorXd& dual, const Separation& before, const Separation& now) {
     const auto& old_terms = static_cast<const KomoNlp&>(*before.problem).problem_.terms();
@@ -223,6 +220,17 @@ std::shared_ptr<Nlp> makeNlp(std::shared_ptr<Komo> komo) {
 std::shared_ptr<Komo> komoOf(const Nlp& nlp) {
   const auto* problem = dynamic_cast<const KomoNlp*>(&nlp);
   return problem ? problem->komo() : nullptr;
+}
+
+std::vector<PathRow> pathRows(const Nlp& nlp) {
+  std::vector<PathRow> rows;
+  const auto* of_komo = dynamic_cast<const KomoNlp*>(&nlp);
+  if (!of_komo) return rows;
+  rows.reserve(nlp.types().size());
+  for (const PathProblem::Term& term : of_komo->problem().terms()) {
+    for (int row = 0; row < term.rows; ++row) rows.push_back({term.objective, term.slice, row});
+  }
+  return rows;
 }
 
 }  // namespace kinegraph

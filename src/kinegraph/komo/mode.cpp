@@ -69,20 +69,19 @@ std::string switchModeName(SwitchMode mode) {
 
 namespace {
 
-bool isBox(const Frame& frame) {
-  return frame.getShapeType() == ShapeType::ssBox || frame.getShapeType() == ShapeType::box;
-}
+using Body = ShapeKind::Body;
 
-bool isRound(ShapeType type) {
-  return type == ShapeType::sphere || type == ShapeType::cylinder || type == ShapeType::ssCylinder;
-}
+const ShapeKind& kindOf(const Frame& frame) { return shapeKind(frame.getShapeType()); }
 
-/// Largest extent of a frame's shape, m; 0 without one.
-double extent(const Frame& frame) {
-  const ShapeType type = frame.getShapeType();
+bool isBox(const Frame& frame) { return kindOf(frame).body == Body::box; }
+
+/// What the range of free joints at a frame is measured by, m; 0 without a body.
+double reach(const Frame& frame) {
+  const ShapeKind& kind = kindOf(frame);
   const std::vector<double> size = frame.getSize();
-  if (size.empty() || type == ShapeType::marker) return 0.;
-  return isRound(type) ? 2. * size[0] : *std::max_element(size.begin(), size.end());
+  if (size.empty() || kind.is_symbol) return 0.;
+  const bool doubled = kind.body == Body::ball || kind.body == Body::cylinder;
+  return doubled ? 2. * size[0] : *std::max_element(size.begin(), size.end());
 }
 
 }  // namespace
@@ -104,7 +103,7 @@ Pose faceBase(const std::vector<double>& box, int axis, double object_height) {
 }  // namespace
 
 void limitFreeJoint(Attachment& attachment, const Frame& parent, const Frame* object) {
-  const double range = .9 * (extent(parent) + (object ? extent(*object) : 0.));
+  const double range = .9 * (reach(parent) + (object ? reach(*object) : 0.));
   if (range <= 0.) return;
   attachment.upper = (Eigen::Matrix<double, 7, 1>() << range, range, range, 1.1, 1.1, 1.1, 1.1).finished();
   attachment.lower = -attachment.upper;

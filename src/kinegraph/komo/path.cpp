@@ -248,6 +248,24 @@ void Path::updateRootObjects(const Config& config) {
   }
   for (std::size_t i = 0; i < states_.size(); ++i)
     states_[i].setParameters(modes_.empty() ? given_.parameters : modes_.at(i).config.parameters());
+  if (const VectorXd q = config.getJointState(); q != given_.q) moveStart(q);
+}
+
+/// The slices before the first begin at q, with those of their joints that the given configuration has.
+void Path::moveStart(const VectorXd& q) {
+  given_.q = q;
+  const Program& given = *given_.program;
+  for (int slice = -grid_.order(); slice < 0; ++slice) {
+    VectorXd all = state(slice).q();
+    for (int frame : given_.joint_frames) {
+      const auto [first_given, count_given] = given.frame_dofs[std::size_t(frame)];
+      const auto [first, count] = state(slice).program().frame_dofs[std::size_t(frame)];
+      const bool is_constant =
+          layout_.plain || layout_.column[std::size_t(slice + grid_.order())][std::size_t(first)] < 0;
+      if (count == count_given && is_constant) all.segment(first, count) = q.segment(first_given, count);
+    }
+    setSlice(slice, all.data());
+  }
 }
 
 Path::Content Path::content() const {

@@ -40,6 +40,12 @@ class Path {
   const Mode& mode(int slice) const { return modes_.at(std::size_t(slice + grid_.order())); }  ///< if there are any
   void setSlice(int slice, const double* q) { states_[std::size_t(slice + grid_.order())].setJoints(q); }
 
+  /// Constants of a slice's own, as where objects move by themselves, for the Program that it has; until the next change
+  /// of the structure or of root objects.
+  void setParameters(int slice, std::shared_ptr<const Parameters> parameters) {
+    states_[std::size_t(slice + grid_.order())].setParameters(std::move(parameters));
+  }
+
   VectorXd ownDofs(int slice) const;     ///< those entries of x that belong to the slice
   VectorXd variables() const;            ///< x
   void setVariables(const VectorXd& x);  ///< of layout().dimension entries
@@ -76,8 +82,9 @@ class Path {
   void addFrame(const std::string& name, const std::string& parent, JointType type, bool stable,
                 const std::optional<Pose>& origin);
 
-  /// Takes over the constant poses (root objects, markers) of the configuration. Throws ValueError if its frames and
-  /// joints are not those of the given scene.
+  /// Takes over the constant poses (root objects, markers) of the configuration, and its q as the one that the motion
+  /// begins from: in the slices before the first, but for dofs that are variables. The slices from 0 on stay where they
+  /// are. Throws ValueError if its frames and joints are not those of the given scene.
   void updateRootObjects(const Config& config);
 
   // --- what it consists of beside scene and grid, to make it anew ----------------------------------------------------
@@ -94,6 +101,7 @@ class Path {
  private:
   void build();
   void rebuildStates();
+  void moveStart(const VectorXd& q);
   void layOut() { layout_ = makeLayout(states_, grid_.order(), given_.shared_joints, modes_); }
   void requireSlice(int slice) const;
 

@@ -5,6 +5,8 @@
 #include <optional>
 
 #include "kinegraph/base/text.h"
+#include "kinegraph/kinematics/motion_bounds.h"
+#include "kinegraph/kinematics/near_pairs.h"
 
 namespace kinegraph {
 
@@ -14,19 +16,35 @@ namespace {
 class PairAlongMotion {
  public:
   PairAlongMotion(const SliceMotion& motion, int a, int b)
-      : motion_(motion), a_(a), b_(b), state_(motion.program, motion.parameters) {}
+      : motion_(motion), pair_(*motion.program, {{a, b}}), placed_(pair_), state_(motion.program, motion.parameters) {}
 
   double at(double s) {
     q_ = (1. - s) * motion_.from + s * motion_.to;
     state_.setJoints(q_.data());
-    return proximity(*motion_.program->body[std::size_t(a_)], state_.pose(a_), *motion_.program->body[std::size_t(b_)],
-                     state_.pose(b_))
-        .distance;
+    placed_.place(state_);
+    return placed_.proximity(0).distance;
+  }
+
+  /// No point of one body moves faster than that relative to the other one, m per unit of s.
+  double speed() const {
+    MotionBounds bounds(state_);
+    bounds.setMotion(motion_.from.data(), motion_.to.data());
+    const auto [a, b] = pair_.pairs[0];
+    return bounds.relative(linkOf(a), reachOf(a), linkOf(b), reachOf(b)).speed;
   }
 
  private:
+  int linkOf(int body) const { return state_.link(pair_.frames[std::size_t(body)]); }
+
+  double reachOf(int body) const {
+    const CollisionBody& shape = *pair_.bodies[std::size_t(body)];
+    const RigidTransform& X_LF = state_.parameters().frame_offset[std::size_t(pair_.frames[std::size_t(body)])];
+    return (X_LF * shape.boundCenter()).norm() + shape.boundRadius();
+  }
+
   const SliceMotion& motion_;
-  int a_, b_;
+  BodyPairs pair_;
+  PlacedBodies placed_;
   State state_;
   VectorXd q_;
 };
@@ -61,6 +79,23 @@ std::pair<double, double> nearest(PairAlongMotion& pair, double start) {
     }
   }
   return {best, least};
+}
+
+/// Where a pair comes nearer than the margin first. It cannot do so sooner than its speed allows; what is less deep than
+/// the tolerance may be missed.
+std::optional<MotionContact> firstContactOf(const SliceMotion& motion, std::pair<int, int> frames, double margin,
+                                            double tolerance) {
+  const auto [a, b] = frames;
+  PairAlongMotion pair(motion, a, b);
+  const double speed = pair.speed();
+  for (double s = 0.; s <= 1.;) {
+    const double distance = pair.at(s);
+    if (distance < margin) return MotionContact{s, a, b, distance};
+    if (speed == 0.) break;
+    s += std::max(distance - margin, tolerance) / speed;
+  }
+  const double at_end = pair.at(1.);
+  return at_end < margin ? std::optional(MotionContact{1., a, b, at_end}) : std::nullopt;
 }
 
 PathContact describe(const SliceMotion& motion, const MotionContact& contact) {
@@ -132,6 +167,15 @@ EdgeChecker& MotionProbe::checkerOf(const SliceMotion& motion) {
 }
 
 std::optional<MotionContact> MotionProbe::firstContact(const SliceMotion& motion, double margin) {
+  std::optional<MotionContact> first = motion.of_all ? firstOfAll(motion, margin) : std::nullopt;
+  for (const auto& pair : motion.pairs) {
+    const std::optional<MotionContact> contact = firstContactOf(motion, pair, margin, tolerance_);
+    if (contact && (!first || contact->time < first->time)) first = contact;
+  }
+  return first;
+}
+
+std::optional<MotionContact> MotionProbe::firstOfAll(const SliceMotion& motion, double margin) {
   EdgeChecker& checker = checkerOf(motion);
   checker.setMargin(margin);
   const double *from = motion.from.data(), *to = motion.to.data();

@@ -20,6 +20,8 @@ struct SliceMotion {
   std::shared_ptr<const Program> program;
   std::shared_ptr<const Parameters> parameters;
   VectorXd from, to;
+  bool of_all = true;                        ///< does it count for all pairs that may collide and that joints part?
+  std::vector<std::pair<int, int>> pairs{};  ///< frames whose shapes count as well
 };
 
 /// Per dof of the slice before: the dof of `slice` that is of the same joint, or -1 where there is none.
@@ -39,7 +41,7 @@ class MotionProbe {
   /// Pairs within margin + `tolerance` (m, > 0) may count as too near.
   explicit MotionProbe(double tolerance) : tolerance_(tolerance) {}
 
-  /// The first pair that a motion brings nearer than `margin` (m), if any.
+  /// The first pair that a motion brings nearer than `margin` (m), if any, of those that count for it.
   std::optional<MotionContact> firstContact(const SliceMotion& motion, double margin);
 
   /// The least distance of all pairs at a share of the way, at most `most`, m.
@@ -53,6 +55,7 @@ class MotionProbe {
     EdgeChecker checker;
   };
   EdgeChecker& checkerOf(const SliceMotion& motion);
+  std::optional<MotionContact> firstOfAll(const SliceMotion& motion, double margin);
 
   double tolerance_;
   std::unique_ptr<Scene> scene_;  ///< of the last motion

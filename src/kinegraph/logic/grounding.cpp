@@ -13,6 +13,9 @@ namespace {
 
 using Tuple = std::vector<int>;  ///< numbers of constants
 
+/// How often facts are held against preconditions at most, per action that is allowed.
+constexpr std::size_t kTriesPerAction = 200;
+
 /// What can hold, found by firing all rules and deleting nothing.
 class Grounder {
  public:
@@ -167,6 +170,7 @@ class Grounder {
     }
     const auto facts = reached_.find(order[i]->predicate);
     if (facts == reached_.end()) return;
+    spend(facts->second.size(), rule);
     for (const Tuple& fact : facts->second) {
       Binding next = binding;
       if (bind(rule, *order[i], fact, next)) matchFrom(rule, order, i + 1, next, found);
@@ -182,17 +186,31 @@ class Grounder {
     return true;
   }
 
+  /// Counts how often a fact is held against a precondition. With k of them, n facts are so n^k times at worst.
+  void spend(std::size_t tries, const LogicRule& rule) {
+    tries_ += tries;
+    if (tries_ <= kTriesPerAction * most_) return;
+    throw ValueError(cat("ground: ", rule.where.str(), ": rule '", rule.name,
+                         "' is one too many: facts were held against preconditions ", kTriesPerAction * most_,
+                         " times; preconditions that tie its variables to one another would leave fewer"));
+  }
+
   void reach() {
     for (bool grown = true; grown;) {
       grown = false;
       for (const LogicRule& rule : out_.problem.domain.rules) {
-        std::vector<std::pair<std::string, Tuple>> fresh;
+        std::set<std::pair<std::string, Tuple>> fresh;
         match(rule, [&](const Binding& binding) {
           for (const Literal& effect : rule.eff) {
-            if (!effect.negated) fresh.emplace_back(effect.predicate, tupleOf(effect, &rule, binding));
+            if (effect.negated) continue;
+            Tuple tuple = tupleOf(effect, &rule, binding);
+            if (!reached_[effect.predicate].contains(tuple)) fresh.emplace(effect.predicate, std::move(tuple));
+            if (fresh.size() > most_)
+              throw ValueError(cat("ground: ", rule.where.str(), ": rule '", rule.name, "' can make more than ", most_,
+                                   " facts true; the problem is too large"));
           }
         });
-        for (auto& [predicate, tuple] : fresh) grown |= reached_[predicate].insert(std::move(tuple)).second;
+        for (const auto& [predicate, tuple] : fresh) grown |= reached_[predicate].insert(tuple).second;
       }
     }
   }
@@ -219,13 +237,19 @@ class Grounder {
     std::vector<int> list;
     const auto facts = reached_.find(predicate);
     if (facts == reached_.end()) return list;
-    for (const Tuple& tuple : facts->second) {
-      if (!matches(pattern, tuple)) continue;
+    const auto add = [&](const Tuple& tuple) {
       if (const auto known = number_.find({predicate, tuple}); known != number_.end()) {
         list.push_back(known->second);
       } else {
         holds = true;
       }
+    };
+    if (std::ranges::find(pattern, -1) == pattern.end()) {  // without ANY there is one at most
+      if (facts->second.contains(pattern)) add(pattern);
+      return list;
+    }
+    for (const Tuple& tuple : facts->second) {
+      if (matches(pattern, tuple)) add(tuple);
     }
     return list;
   }
@@ -286,7 +310,7 @@ class Grounder {
   }
 
   GroundProblem out_;
-  std::size_t most_;
+  std::size_t most_, tries_ = 0;
   std::vector<std::string> names_;
   std::map<std::string, int> numbers_;
   std::set<std::string> changing_;

@@ -60,7 +60,8 @@ struct GroundProblem {
 
 /// Finds the facts that can be reached when nothing is ever deleted, and all rules that can fire then. Throws ParseError
 /// with the place for predicates of different numbers of arguments and for words in the goal that are nowhere else, and
-/// ValueError if there are more than `most` ground rules.
+/// ValueError if there are more than `most` ground rules, or so many combinations of facts for one that it would not end
+/// in minutes.
 GroundProblem ground(LogicProblem problem, std::size_t most = 2000000);
 
 /// What is odd about a problem before it is searched, each in a line with its place: predicates in preconditions that

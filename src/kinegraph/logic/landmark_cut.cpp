@@ -4,6 +4,15 @@
 
 namespace kinegraph {
 
+namespace {
+
+/// Each once: who needs a node twice would be made cheaper twice by one cut.
+void pushOnce(std::vector<int>& nodes, int node) {
+  if (std::ranges::find(nodes, node) == nodes.end()) nodes.push_back(node);
+}
+
+}  // namespace
+
 LandmarkCut::LandmarkCut(const GroundProblem& ground) : ground_(ground), negation_(ground.facts.size(), -1) {
   nodes_ = int(ground.facts.size());
   always_ = nodes_++;
@@ -17,7 +26,7 @@ LandmarkCut::LandmarkCut(const GroundProblem& ground) : ground_(ground), negatio
   for (const GroundRule& action : ground.actions) addOperator(action, 1);
   for (const GroundRule& rule : ground.rules) addOperator(rule, 0);
   Operator end{ground.goal, {goal_}, 0};
-  for (int fact : ground.goal_not) end.pre.push_back(negation(fact));
+  for (int fact : ground.goal_not) pushOnce(end.pre, negation(fact));
   if (end.pre.empty()) end.pre.push_back(always_);
   operators_.push_back(std::move(end));
 }
@@ -32,14 +41,15 @@ int LandmarkCut::negation(int fact) {
 }
 
 void LandmarkCut::addOperator(const GroundRule& rule, int cost) {
-  Operator made{rule.pre, rule.adds, cost};
-  for (int fact : rule.pre_not) made.pre.push_back(negation(fact));
+  Operator made{{}, rule.adds, cost};
+  for (int fact : rule.pre) pushOnce(made.pre, fact);
+  for (int fact : rule.pre_not) pushOnce(made.pre, negation(fact));
   if (made.pre.empty()) made.pre.push_back(always_);
   operators_.push_back(std::move(made));
 }
 
 void LandmarkCut::require(int action, int fact_not) {
-  operators_[std::size_t(action)].pre.push_back(negation(fact_not));
+  pushOnce(operators_[std::size_t(action)].pre, negation(fact_not));
   linked_ = false;
 }
 

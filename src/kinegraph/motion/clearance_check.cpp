@@ -25,6 +25,11 @@ void ClearanceCheck::countHit() {
   if (const auto& hit = edges_.lastHit()) ++hits_[{hit->a, hit->b}];
 }
 
+void ClearanceCheck::forget() {
+  hits_.clear();
+  edges_.forget();
+}
+
 bool ClearanceCheck::isFree(const VectorXd& q) {
   ++evaluations;
   edges_.setMargin(marginAt(q));
@@ -34,15 +39,47 @@ bool ClearanceCheck::isFree(const VectorXd& q) {
 }
 
 bool ClearanceCheck::seemsFree(const VectorXd& from, const VectorXd& to) {
+  constexpr int kLanes = EdgeChecker::kLanes;
   const VectorXd change = space_->difference(from, to);
-  if (!isFree(from + change)) return false;
-  const double length = space_->distance(from, to);
-  for (int parts = 2; length * 2. > clearance_.resolution * parts; parts *= 2) {
-    for (int i = 1; i < parts; i += 2) {
-      if (!isFree(from + double(i) / parts * change)) return false;
+  const int parts = std::max(1, int(std::ceil(space_->distance(from, to) / clearance_.resolution)));
+  Places places;
+  int count = 0;
+  for (int k = 1; k <= std::min(parts, kLanes); ++k) places[std::size_t(count++)] = k * parts / std::min(parts, kLanes);
+  if (!areFree(from, change, parts, places, count)) return false;
+  const Places spread = places;
+  count = 0;
+  for (int i = 1, next = 0; i <= parts && parts > kLanes; ++i) {
+    if (i == spread[std::size_t(next)]) {
+      ++next;
+    } else {
+      places[std::size_t(count++)] = i;
     }
+    if (count == 0 || (count < kLanes && i < parts)) continue;
+    if (!areFree(from, change, parts, places, count)) return false;
+    count = 0;
   }
   return true;
+}
+
+/// Are the postures at these places of a motion, in parts of it, free?
+bool ClearanceCheck::areFree(const VectorXd& from, const VectorXd& change, int parts, const Places& places, int count) {
+  const double* rows[EdgeChecker::kLanes];
+  bool one_margin = true;
+  double margin = 0.;
+  for (int i = 0; i < count; ++i) {
+    VectorXd& q = samples_[i];
+    q = from + double(places[std::size_t(i)]) / parts * change;
+    rows[i] = q.data();
+    const double here = marginAt(q);
+    one_margin = one_margin && (i == 0 || here == margin);
+    margin = here;
+  }
+  if (!one_margin) return std::all_of(samples_, samples_ + count, [this](const VectorXd& q) { return isFree(q); });
+  evaluations += count;
+  edges_.setMargin(margin);
+  if (edges_.areAllFree({rows, std::size_t(count)})) return true;
+  countHit();
+  return false;
 }
 
 /// Where margins differ along the motion, it is cut there, and each piece has one margin.

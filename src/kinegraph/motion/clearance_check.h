@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <map>
 #include <optional>
 #include <vector>
@@ -37,12 +38,19 @@ class ClearanceCheck {
   ClearanceCheck(const State& scene, const JointSpace& space, Clearance clearance);
 
   const JointSpace& space() const { return *space_; }
+  const State& scene() const { return edges_.scene(); }
+
+  /// Replaces what counts as free.
+  void setClearance(Clearance clearance) { clearance_ = std::move(clearance); }
+
+  /// What a posture has to keep: the margin that holds there, and the guard, m.
+  double marginAt(const VectorXd& q) const;
 
   /// All collidable pairs far enough apart? Limits are not looked at.
   bool isFree(const VectorXd& q);
 
-  /// Are all postures of the motion free that are looked at: its end, its middle, its quarters, ...? What is not free
-  /// comes to light soon; what is, is nearly always free at all times, too.
+  /// Are the postures of the motion free that are looked at, every `resolution` of it? First some that are spread over
+  /// it, where what is not free comes to light soon; then the others. What seems free nearly always is, at all times.
   bool seemsFree(const VectorXd& from, const VectorXd& to);
 
   /// Is it free at all times? A contact is one of those on the way, its time that on the way from `from` to `to`.
@@ -63,9 +71,12 @@ class ClearanceCheck {
 
   /// How often a pair of frames (ids) was what a posture or motion ran into.
   const PairCounts& hits() const { return hits_; }
+  /// Forgets these counts, and what was hit last.
+  void forget();
 
  private:
-  double marginAt(const VectorXd& q) const;
+  using Places = std::array<int, EdgeChecker::kLanes>;
+  bool areFree(const VectorXd& from, const VectorXd& change, int parts, const Places& places, int count);
   void countHit();
 
   const JointSpace* space_;
@@ -74,6 +85,7 @@ class ClearanceCheck {
   State state_;
   NearPairs pairs_;
   PairCounts hits_;
+  VectorXd samples_[EdgeChecker::kLanes];
 };
 
 }  // namespace kinegraph

@@ -20,6 +20,9 @@ class JointSpace {
 
   int dofs() const { return int(kinds_.size()); }
 
+  /// No dof is endless or part of a direction: the joint vectors are a plain vector space.
+  bool isPlain() const { return plain_; }
+
   /// Names of the dofs that slide, or turn what an endless dof cannot, without limits: nothing can be drawn from them.
   const std::vector<std::string>& dofsWithoutRange() const { return without_range_; }
 
@@ -58,7 +61,7 @@ class JointSpace {
   std::vector<Kind> kinds_;
   std::vector<Program::DofRange> directions_;
   std::vector<std::string> names_, without_range_;
-  bool plain_ = true;  ///< no dof is endless or part of a direction
+  bool plain_ = true;
 };
 
 /// Length of a polyline whose points are rows, as JointSpace measures it.

@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "kinegraph/motion/pair_choice.h"
+#include "kinegraph/motion/pair_gradient.h"
 
 namespace kinegraph {
 
@@ -25,18 +26,11 @@ struct Needs {
 };
 
 Needs needsAt(const State& state, const std::vector<ClearanceCheck::Nearest>& near, double wanted) {
-  const Program& program = state.program();
-  Needs needs{VectorXd::Zero(Eigen::Index(near.size())), Rows::Zero(Eigen::Index(near.size()), program.dofs)};
+  Needs needs{VectorXd::Zero(Eigen::Index(near.size())), Rows::Zero(Eigen::Index(near.size()), state.dofs())};
   for (std::size_t i = 0; i < near.size(); ++i) {
     const auto row = Eigen::Index(i);
-    const auto [distance, a, b] = near[i];
-    const Proximity at =
-        proximity(*program.body[std::size_t(a)], state.pose(a), *program.body[std::size_t(b)], state.pose(b));
-    needs.short_of[row] = std::max(0., wanted - distance);
-    Rows velocity = Rows::Zero(3, program.dofs);
-    state.addPointJacobian(a, at.point_a, 1., velocity);
-    state.addPointJacobian(b, at.point_b, -1., velocity);
-    needs.J.row(row) = at.normal.transpose() * velocity;
+    needs.short_of[row] = std::max(0., wanted - near[i].distance);
+    needs.J.row(row) = pairGradient(state, near[i].a, near[i].b).gradient.transpose();
   }
   return needs;
 }

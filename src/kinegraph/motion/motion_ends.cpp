@@ -20,8 +20,6 @@ void requireState(const VectorXd& q, int dofs, const std::string& what, const ch
   if (!q.allFinite()) throw ValueError(cat(who, ": the ", what, " has numbers that are not finite"));
 }
 
-std::string percent(long part, long all) { return cat(int(std::lround(100. * double(part) / double(all))), " %"); }
-
 }  // namespace
 
 std::string lengthInWords(double length) {
@@ -85,30 +83,35 @@ Clearance clearanceAround(double margin, const std::vector<const MotionEnd*>& en
   return clearance;
 }
 
-std::string obstaclesInWords(const Program& program, const PairCounts& hits) {
-  struct Met {
-    long times = 0;
-    std::vector<std::string> by;
-  };
-  std::map<int, Met> obstacles;  // by frame
+std::vector<MetObstacle> obstaclesMet(const Program& program, const PairCounts& hits) {
+  std::map<int, std::pair<long, MetObstacle>> obstacles;  // by frame
   long all = 0;
   for (const auto& [pair, times] : hits) {
     // The one that moves less is the obstacle: links are numbered from the world on.
     const auto [a, b] = pair;
     const bool a_moves_less = program.frame_link[std::size_t(a)] <= program.frame_link[std::size_t(b)];
-    Met& met = obstacles[a_moves_less ? a : b];
-    met.times += times;
+    auto& [count, met] = obstacles[a_moves_less ? a : b];
+    count += times;
     all += times;
-    if (met.by.size() < kNamed) met.by.push_back(cat("'", program.frame_name[std::size_t(a_moves_less ? b : a)], "'"));
+    met.by.push_back(program.frame_name[std::size_t(a_moves_less ? b : a)]);
   }
-  std::vector<std::pair<long, int>> order;
-  for (const auto& [frame, met] : obstacles) order.emplace_back(-met.times, frame);
-  std::sort(order.begin(), order.end());
+  std::vector<MetObstacle> list;
+  for (auto& [frame, entry] : obstacles) {
+    auto& [count, met] = entry;
+    list.push_back({frame, program.frame_name[std::size_t(frame)], double(count) / double(all), std::move(met.by)});
+  }
+  std::stable_sort(list.begin(), list.end(),
+                   [](const MetObstacle& x, const MetObstacle& y) { return x.share > y.share; });
+  return list;
+}
+
+std::string obstaclesInWords(const std::vector<MetObstacle>& obstacles) {
   std::vector<std::string> words;
-  for (std::size_t i = 0; i < std::min(order.size(), kNamed); ++i) {
-    const Met& met = obstacles[order[i].second];
-    words.push_back(cat("'", program.frame_name[std::size_t(order[i].second)], "' (", percent(met.times, all), ", by ",
-                        join(met.by), ")"));
+  for (std::size_t i = 0; i < std::min(obstacles.size(), kNamed); ++i) {
+    const MetObstacle& met = obstacles[i];
+    std::vector<std::string> by;
+    for (std::size_t k = 0; k < std::min(met.by.size(), kNamed); ++k) by.push_back(cat("'", met.by[k], "'"));
+    words.push_back(cat("'", met.name, "' (", std::lround(100. * met.share), " %, by ", join(by), ")"));
   }
   return join(words);
 }

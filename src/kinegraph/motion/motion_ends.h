@@ -29,8 +29,19 @@ Clearance clearanceAround(double margin, const std::vector<const MotionEnd*>& en
 /// "'hand' and 'table' overlap by 12 mm, ...": of the deepest pairs.
 std::string pairsInWords(const Program& program, const std::vector<ClearanceCheck::Nearest>& pairs);
 
-/// What most of the motions ran into: "'table' (61 %, by 'hand', 'arm'), 'wall' (28 %, by 'hand')"; "" if into nothing.
-std::string obstaclesInWords(const Program& program, const PairCounts& hits);
+/// A frame that motions ended at.
+struct MetObstacle {
+  int frame;  ///< id
+  std::string name;
+  double share;                 ///< of all motions that were not free
+  std::vector<std::string> by;  ///< frames that ran into it
+};
+
+/// The obstacles of these pairs, those first that most motions ended at. Of a pair, it is the one that moves less.
+std::vector<MetObstacle> obstaclesMet(const Program& program, const PairCounts& hits);
+
+/// "'wall' (70 %, by 'hand', 'finger'), ..."
+std::string obstaclesInWords(const std::vector<MetObstacle>& obstacles);
 
 /// "12 mm", "3.4 um", "1.5 m"
 std::string lengthInWords(double length);

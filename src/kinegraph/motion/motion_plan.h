@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "kinegraph/motion/motion_ends.h"
 #include "kinegraph/motion/way_search.h"
 #include "kinegraph/spline/retime.h"
 
@@ -24,7 +25,7 @@ std::string planStatusName(PlanStatus status);
 
 /// What a stage of planMotion took.
 struct PlanStage {
-  std::string name;      ///< "ends", "search", "shorten", "verify", "time"
+  std::string name;      ///< "ends", "search", "shorten", "tighten", "verify", "time"
   double seconds = 0.;   ///< wall time
   long evaluations = 0;  ///< postures and motions looked at
   std::string note;      ///< what came of it
@@ -44,6 +45,7 @@ class MotionPlan {
   std::vector<PlanStage> stages;
   std::vector<AttemptReport> attempts;  ///< with trees
   std::vector<MotionTree> trees;        ///< of the last attempt: of the start and of the goals
+  std::vector<MetObstacle> obstacles;   ///< where there is no way: what most motions ended at, the first one most often
   double margin = 0.;                   ///< m, that the motion keeps but around ends that keep less
   double kept = 0.;                     ///< m, that all of it was verified to keep
 

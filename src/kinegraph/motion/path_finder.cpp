@@ -113,9 +113,10 @@ MatrixXd PathFinder::search(const State& scene, std::uint64_t seed, const Motion
   request.watch = watch;
   const Way way = searchWay(request);
   for (const AttemptReport& attempt : way.attempts) result.evals += int(attempt.draws);
+  result.totalEvals = result.evals;
   if (way.points.empty()) {
     result.status = way.was_stopped ? SolverStatus::cancelled : SolverStatus::limit;
-    const std::string met = obstaclesInWords(scene.program(), way.hits);
+    const std::string met = obstaclesInWords(obstaclesMet(scene.program(), way.hits));
     result.message = cat(way.was_stopped ? "stopped" : "no path found", " after ", result.evals, " draws",
                          met.empty() ? "" : cat("; most motions ended at ", met));
     return {};

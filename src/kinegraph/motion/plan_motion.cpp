@@ -3,12 +3,11 @@
 #include <algorithm>
 #include <chrono>
 
-#include "kinegraph/base/parallel.h"
+#include "kinegraph/motion/improve_way.h"
 #include "kinegraph/motion/leave_contact.h"
 #include "kinegraph/motion/passage_proof.h"
 #include "kinegraph/motion/plan_goals.h"
 #include "kinegraph/motion/plan_timing.h"
-#include "kinegraph/motion/shorten.h"
 
 namespace kinegraph {
 
@@ -18,7 +17,6 @@ using Clock = std::chrono::steady_clock;
 
 constexpr const char* kWho = "planMotion";
 constexpr double kMargins[] = {.1, .05, .03, .02, .01, .005};  // m, tried in turn where clearance is asked for
-constexpr long kTryEffort = 4;                                 // of a further try, in efforts of the first
 
 double secondsSince(Clock::time_point began) { return std::chrono::duration<double>(Clock::now() - began).count(); }
 
@@ -30,20 +28,13 @@ struct Gate {
   double deepest = 0.;  ///< of the contact that is left, m
 };
 
-/// A way and what it costs.
-struct Candidate {
-  Way way;
-  std::vector<VectorXd> points;
-  double cost = std::numeric_limits<double>::infinity();
-  long evaluations = 0;
-};
-
 class Planner {
  public:
   Planner(const Config& config, const PlanOptions& options, const MotionWatch& watch)
       : config_(config),
         options_(options),
         limits_(planLimits(config, options)),
+        crew_(options.threads),
         watch_([this, &watch] { return (watch && watch() && (cancelled_ = true)) || isLate(); }) {
     plan_.space = std::make_shared<const JointSpace>(*config.program());
     plan_.scene = std::make_shared<const State>(config.state());
@@ -100,7 +91,7 @@ class Planner {
   }
 
   bool lookAtEnds(const MotionGoal& goal, const VectorXd& start) {
-    Steering steering(demands_);
+    Steering& steering = crew_.of(0, demands_);
     start_ = gateOf(steering, checkEnd(steering, *config_.program(), start, options_.margin, "start", kWho), "start");
     if (!start_.end.isFree()) return fail(PlanStatus::start_blocked, start_.end.problem);
     GoalPostures postures = goalPostures(config_, goal, start_.end.q, steering, options_, watch_);
@@ -138,13 +129,14 @@ class Planner {
 
   // --- the way -----------------------------------------------------------------------------------------------------
 
-  WayRequest request() const {
+  WayRequest request() {
     WayRequest request{.demands = demands_, .starts = {start_.inside}, .goals = {}};
     for (const Gate& gate : goals_) request.goals.push_back(gate.inside);
     request.seed = options_.seed;
     request.effort = options_.evaluations;
     request.threads = options_.threads;
     request.watch = watch_;
+    request.steering = &crew_.of(0, demands_);
     return request;
   }
 
@@ -159,7 +151,7 @@ class Planner {
     plan_.trees = way.trees;
     endStage("search", way.effort, noteOf(way));
     if (way.points.empty()) return failSearch(way);
-    best_ = improve(std::move(way));
+    improve(way);
     return true;
   }
 
@@ -185,7 +177,7 @@ class Planner {
 
   /// Clearances for a larger margin than the ends were looked at with.
   Clearance withEndsAt(double margin) {
-    Steering steering(demands_);
+    Steering& steering = crew_.of(0, demands_);
     Clearance larger{.margin = margin, .guard = Clearance::kGuard};
     std::vector<MotionEnd> ends;
     for (const Gate& gate : goals_)
@@ -201,7 +193,8 @@ class Planner {
     long draws = 0;
     for (const AttemptReport& attempt : way.attempts) draws += attempt.draws;
     const AttemptReport last = way.attempts.empty() ? AttemptReport() : way.attempts.back();
-    const std::string met = obstaclesInWords(*config_.program(), way.hits);
+    plan_.obstacles = obstaclesMet(*config_.program(), way.hits);
+    const std::string met = obstaclesInWords(plan_.obstacles);
     const std::string words =
         cat("no way found: ", way.effort, " evaluations, ", draws, " postures drawn in ", way.attempts.size(),
             " attempts; the last trees have ", last.start_nodes, " postures (start) and ", last.goal_nodes, " (goals)",
@@ -217,53 +210,20 @@ class Planner {
     return fail(PlanStatus::no_way, words);
   }
 
-  double cost(const std::vector<VectorXd>& points) const {
-    double sum = 0.;
-    for (std::size_t i = 1; i < points.size(); ++i)
-      sum += plan_.space->difference(points[i - 1], points[i]).cwiseProduct(weight()).norm();
-    return sum;
-  }
-
   VectorXd weight() const {
     if (options_.optimize == "length") return VectorXd::Ones(limits_.velocity.size());
     return limits_.velocity.minCoeff() * limits_.velocity.cwiseInverse();
   }
 
-  /// Shortens the first way, and others that are searched for it; the best one counts.
-  Candidate improve(Way first) {
-    const int tries = first.is_line ? 1 : options_.tries;
-    std::vector<Candidate> candidates;
-    candidates.resize(std::size_t(tries));
-    const long effort = std::min<long>(options_.evaluations, kTryEffort * (first.effort + 1000));
-    const auto attempt = [&](int i, bool asks) {
-      Candidate& candidate = candidates[std::size_t(i)];
-      const MotionWatch watch = asks ? watch_ : MotionWatch([this] { return isLate(); });
-      if (i == 0) {
-        candidate.way = first;
-      } else {
-        if (watch()) return;
-        WayRequest other = request();
-        other.seed = Rng(options_.seed + std::uint64_t(i)).bits();
-        other.effort = effort;
-        other.threads = 1;
-        other.tries_line = false;
-        other.watch = watch;
-        candidate.way = searchWay(other);
-        if (candidate.way.points.empty()) return;
-      }
-      Steering steering(demands_);
-      candidate.points = shorten(steering, candidate.way.points,
-                                 {.weight = weight(), .seed = options_.seed + std::uint64_t(i), .watch = watch});
-      candidate.cost = cost(candidate.points);
-      candidate.evaluations = steering.evaluations() + (i > 0 ? candidate.way.effort : 0);
-    };
-    forParts(
-        tries, 1, options_.threads, [&](int worker, int i, int) { attempt(i, worker == 0); }, [&] { watch_(); });
-    long evaluations = 0;
-    for (const Candidate& candidate : candidates) evaluations += candidate.evaluations;
-    const auto best = std::ranges::min_element(candidates, {}, &Candidate::cost);
-    endStage("shorten", evaluations, cat("the best of ", tries, tries == 1 ? " way" : " ways"));
-    return std::move(*best);
+  void improve(const Way& first) {
+    best_ = improveWay(first, request(),
+                       {.tries = options_.tries, .weight = weight(), .late = [this] { return isLate(); }}, crew_);
+    endStage("shorten", best_.evaluations,
+             first.is_line ? "" : cat("the best of ", options_.tries, options_.tries == 1 ? " way" : " ways"));
+    const double before = best_.cost;
+    tighten(best_, request(), weight(), crew_);
+    endStage("tighten", best_.evaluations,
+             best_.cost < before ? cat(lround(1000. * (1. - best_.cost / before)) / 10., " % shorter") : "");
   }
 
   // --- the motion --------------------------------------------------------------------------------------------------
@@ -280,17 +240,23 @@ class Planner {
     return plan_.space->unroll(all);
   }
 
-  /// Is each straight motion free at all times, but for those that leave and enter contacts, which are known?
-  bool verify(const MatrixXd& path, const Way& way, long& evaluations) {
+  /// What keeps the margins without a guard.
+  Steering& exactly() {
     MotionDemands exact = demands_;
     exact.clearance.guard = 0.;
-    Steering steering(exact);
+    return crew_.of(0, exact);
+  }
+
+  /// Is each straight motion free at all times, but for those that leave and enter contacts, which are known?
+  bool verify(const MatrixXd& path, const Way& way, long& evaluations) {
+    Steering& steering = exactly();
+    const long before = steering.evaluations();
     const Eigen::Index first = start_.leaves ? 2 : 1,
                        last = path.rows() - 1 - (goals_[std::size_t(way.goal)].leaves ? 1 : 0);
     bool is_free = true;
     for (Eigen::Index k = first; k <= last && is_free; ++k)
       is_free = steering.isFree(path.row(k - 1).transpose(), path.row(k).transpose());
-    evaluations += steering.evaluations();
+    evaluations += steering.evaluations() - before;
     return is_free;
   }
 
@@ -320,9 +286,7 @@ class Planner {
     plan_.kept = kept();
     plan_.length = pathLength(*plan_.space, plan_.path);
     endStage("verify", evaluations, is_free ? "" : "the way as it was found, since the shortened one was not free");
-    MotionDemands exact = demands_;
-    exact.clearance.guard = 0.;
-    plan_.timed = timeMotion(exact, plan_.path, limits_, options_.blend);
+    plan_.timed = timeMotion(exactly(), plan_.path, limits_, options_.blend);
     endStage("time", 0, plan_.timed.str());
     plan_.status = PlanStatus::solved;
   }
@@ -330,6 +294,7 @@ class Planner {
   const Config& config_;
   const PlanOptions& options_;
   const MotionLimits limits_;
+  SteeringCrew crew_;
   const MotionWatch watch_;
   const Clock::time_point began_ = Clock::now();
   Clock::time_point stage_began_ = began_;
@@ -339,7 +304,7 @@ class Planner {
   Gate start_;
   std::vector<Gate> goals_;
   std::vector<int> goal_numbers_;
-  Candidate best_;
+  ShortWay best_;
 };
 
 }  // namespace

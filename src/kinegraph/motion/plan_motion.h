@@ -12,8 +12,8 @@ namespace kinegraph {
 ///     if (plan.feasible()) C.viewPath(plan.path, plan.duration());
 ///
 /// Stages: the ends are looked at (goal postures are found, and contacts mended that are slight); a way is searched, the
-/// straight one first, then by trees; it is shortened, several times from different ways, and the best one counts; every
-/// straight motion of it is verified at all times; it is timed within limits of velocity, acceleration and jerk, where
+/// straight one first, then by trees; it is shortened, several times from different ways, and the best one counts, which
+/// is pulled taut; every straight motion of it is verified at all times; it is timed within limits of velocity, acceleration and jerk, where
 /// corners are rounded as far as that is free, too. The Config is not changed. The same arguments give the same bits,
 /// at any number of threads, unless time_limit cuts it off. Finding no motion is a status with a message. Throws
 /// ValueError for what makes no sense.

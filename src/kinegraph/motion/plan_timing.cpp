@@ -49,18 +49,14 @@ MotionLimits planLimits(const Config& config, const PlanOptions& options) {
   return limits;
 }
 
-BlendCheck freeBlends(const MotionDemands& demands) {
-  struct Checker {
-    Steering steering;
-    State state;
-  };
-  const auto checker = std::make_shared<Checker>(Checker{Steering(demands), *demands.scene});
-  const double tolerance = demands.constraint_tolerance;
-  return [checker, tolerance](const MatrixXd& points, double deviation) {
-    auto& [steering, state] = *checker;
+BlendCheck freeBlends(Steering& given) {
+  const auto place = std::make_shared<State>(given.check().scene());
+  return [place, &steering = given](const MatrixXd& points, double deviation) {
+    State& state = *place;
     for (Eigen::Index k = 0; k < points.rows(); ++k) {
       const VectorXd to = points.row(k).transpose();
-      if (steering.isConstrained() && !(steering.manifold().violation(to) <= tolerance)) return false;
+      if (steering.isConstrained() && !(steering.manifold().violation(to) <= steering.manifold().tolerance()))
+        return false;
       if (k == 0) continue;
       const VectorXd from = points.row(k - 1).transpose();
       double travel = 0.;
@@ -74,11 +70,11 @@ BlendCheck freeBlends(const MotionDemands& demands) {
   };
 }
 
-TimedPath timeMotion(const MotionDemands& demands, const MatrixXd& path, const MotionLimits& limits, double blend) {
+TimedPath timeMotion(Steering& steering, const MatrixXd& path, const MotionLimits& limits, double blend) {
   RetimeOptions options;
   options.corners = blend > 0. ? Corners::blend : Corners::stop;
   options.tolerance = blend > 0. ? blend : options.tolerance;
-  options.is_free = freeBlends(demands);
+  options.is_free = freeBlends(steering);
   return retime(path, limits, options);
 }
 

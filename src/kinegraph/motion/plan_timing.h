@@ -11,11 +11,11 @@ namespace kinegraph {
 /// says none, and accelerations that reach them in a quarter of a second.
 MotionLimits planLimits(const Config& config, const PlanOptions& options);
 
-/// Whether a rounded corner keeps the demands' margins and constraints at all times. `demands` must stay.
-BlendCheck freeBlends(const MotionDemands& demands);
+/// Whether a rounded corner keeps the margins and constraints of a Steering, which must stay, at all times.
+BlendCheck freeBlends(Steering& steering);
 
-/// The fastest motion along a path. Corners are rounded where that keeps the demands' margins and constraints; at others
-/// it stops.
-TimedPath timeMotion(const MotionDemands& demands, const MatrixXd& path, const MotionLimits& limits, double blend);
+/// The fastest motion along a path. Corners are rounded where that keeps the margins and constraints; at others it
+/// stops.
+TimedPath timeMotion(Steering& steering, const MatrixXd& path, const MotionLimits& limits, double blend);
 
 }  // namespace kinegraph

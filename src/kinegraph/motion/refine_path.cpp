@@ -40,10 +40,9 @@ MatrixXd smooth(const Config& config, const MatrixXd& path, const RefineOptions&
   if (!(options.blend >= 0.)) throw ValueError(cat("smooth: blend is ", options.blend, "; expected a number >= 0"));
   const State scene = config.state();
   const JointSpace space(scene.program());
-  const MotionDemands demands{.scene = &scene, .space = &space, .clearance = {.margin = options.margin}};
-  Steering steering(demands);
+  Steering steering({.scene = &scene, .space = &space, .clearance = {.margin = options.margin}});
   requireFreePath(config, steering, path, "smooth");
-  const PathCurve curve = blendedPolyline(path, {.tolerance = options.blend, .is_free = freeBlends(demands)});
+  const PathCurve curve = blendedPolyline(path, {.tolerance = options.blend, .is_free = freeBlends(steering)});
   std::vector<VectorXd> points = {path.row(0).transpose()};
   for (int piece = 0; piece < curve.pieces(); ++piece) {
     const int count = curve.isLine(piece) ? 1 : kPosturesPerBlend - 1;

@@ -92,8 +92,7 @@ bool Roadmap::nodeIsFree(int node) {
 bool Roadmap::edgeIsFree(Edge& edge) {
   if (edge.known == Known::nothing) {
     const VectorXd &a = nodes_[std::size_t(edge.a)], &b = nodes_[std::size_t(edge.b)];
-    const bool is_free =
-        nodeIsFree(edge.a) && nodeIsFree(edge.b) && steering_->seemsFree(a, b) && steering_->isFree(a, b);
+    const bool is_free = nodeIsFree(edge.a) && nodeIsFree(edge.b) && steering_->isFree(a, b);
     edge.known = is_free ? Known::is_free : Known::is_blocked;
   }
   return edge.known == Known::is_free;

@@ -18,8 +18,10 @@ class Shortener {
   std::vector<VectorXd> run() {
     joinPostures();
     joinPlaces();
-    cutCorners();
-    joinPostures();
+    if (options_.corners) {
+      cutCorners();
+      joinPostures();
+    }
     return std::move(path_);
   }
 

@@ -7,6 +7,7 @@ namespace kinegraph {
 struct ShortenOptions {
   VectorXd weight = {};    ///< per dof, what length means; empty: ones
   int cuts = 200;          ///< tries to cut a corner between random places
+  bool corners = true;     ///< are corners cut at the end?
   std::uint64_t seed = 0;  ///< of these places
   MotionWatch watch = {};
 };

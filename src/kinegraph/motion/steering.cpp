@@ -10,10 +10,6 @@ constexpr double kSpacing = .02;  // between postures at which constraints are l
 
 }  // namespace
 
-bool Steering::seemsFree(const VectorXd& from, const VectorXd& to) {
-  return check_.seemsFree(from, to) && manifold_.holdsAlong(from, to, kSpacing);
-}
-
 bool Steering::isFree(const VectorXd& from, const VectorXd& to) {
   return manifold_.holdsAlong(from, to, kSpacing) && check_.isMotionFree(from, to);
 }
@@ -64,7 +60,7 @@ Steering::Way Steering::onManifold(const VectorXd& from, const VectorXd& target,
 
 std::optional<std::vector<VectorXd>> Steering::between(const VectorXd& from, const VectorXd& to) {
   if (!isConstrained()) {
-    if (check_.seemsFree(from, to) && check_.isMotionFree(from, to)) return std::vector<VectorXd>();
+    if (check_.isMotionFree(from, to)) return std::vector<VectorXd>();
     return std::nullopt;
   }
   Way way = onManifold(from, to, 2. * space().distance(from, to));

@@ -36,10 +36,7 @@ class Steering {
   };
   Way towards(const VectorXd& from, const VectorXd& target, double range);
 
-  /// Does the straight motion seem free, and do the constraints hold?
-  bool seemsFree(const VectorXd& from, const VectorXd& to);
-
-  /// The same at all times for collisions; constraints are looked at every kSpacing.
+  /// Is the straight motion free at all times, and do the constraints hold? These are looked at every kSpacing.
   bool isFree(const VectorXd& from, const VectorXd& to);
 
   /// Postures between two: none if their straight motion is free; with constraints, on the manifold. Nothing if there
@@ -51,6 +48,23 @@ class Steering {
 
   ClearanceCheck check_;
   Manifold manifold_;
+};
+
+/// A Steering for each worker, made when it is first asked for.
+class SteeringCrew {
+ public:
+  explicit SteeringCrew(int workers) : of_(std::size_t(workers)) {}
+
+  /// For demands that differ from those before by no more than the clearance.
+  Steering& of(int worker, const MotionDemands& demands) {
+    std::unique_ptr<Steering>& steering = of_[std::size_t(worker)];
+    if (!steering) steering = std::make_unique<Steering>(demands);
+    steering->check().setClearance(demands.clearance);
+    return *steering;
+  }
+
+ private:
+  std::vector<std::unique_ptr<Steering>> of_;
 };
 
 }  // namespace kinegraph

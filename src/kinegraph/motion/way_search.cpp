@@ -59,7 +59,9 @@ class Attempts {
 
   void attempt(int i, bool asks) {
     if (stopped_ || first_ < i) return;
-    Steering steering(request_.demands);
+    std::optional<Steering> own;
+    Steering& steering = asks && request_.steering ? *request_.steering : own.emplace(request_.demands);
+    steering.check().forget();
     TreeSearch search(steering, request_.starts, request_.goals,
                       {request_.range, attemptSeed(request_.seed, i), efforts_[std::size_t(i)]});
     Result& result = results_[std::size_t(i)];
@@ -117,7 +119,7 @@ std::optional<Way> straightWay(const WayRequest& request, Steering& steering) {
   for (const auto& [length, ends] : lines) {
     const VectorXd &start = request.starts[std::size_t(ends.first)], &goal = request.goals[std::size_t(ends.second)];
     if (request.watch && request.watch()) break;
-    if (!steering.seemsFree(start, goal) || !steering.isFree(start, goal)) continue;
+    if (!steering.isFree(start, goal)) continue;
     Way way;
     way.points = {start, goal};
     way.start = ends.first;
@@ -134,9 +136,11 @@ Way searchWay(const WayRequest& request) {
   request.demands.space->requireRanges("planMotion");
   long spent = 0;
   if (request.tries_line) {
-    Steering steering(request.demands);
+    std::optional<Steering> own;
+    Steering& steering = request.steering ? *request.steering : own.emplace(request.demands);
+    const long before = steering.evaluations();
     std::optional<Way> line = straightWay(request, steering);
-    spent = steering.evaluations();
+    spent = steering.evaluations() - before;
     if (line) {
       line->effort = spent;
       return std::move(*line);

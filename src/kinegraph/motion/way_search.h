@@ -19,6 +19,7 @@ struct WayRequest {
   int threads = 1;
   bool tries_line = true;  ///< first the straight motions, from each start to each goal
   MotionWatch watch = {};
+  Steering* steering = nullptr;  ///< of the same demands, for the calling thread; must stay. None: it makes its own
 };
 
 /// How one attempt with trees ended.

@@ -4,6 +4,7 @@
 
 #include "kinegraph/base/errors.h"
 #include "kinegraph/base/text.h"
+#include "kinegraph/nlp/evaluation_sizes.h"
 
 namespace kinegraph {
 
@@ -25,7 +26,7 @@ CallbackNlp::CallbackNlp(int dimension, std::vector<ObjectiveType> types, Vector
 
 void CallbackNlp::evaluate(const VectorXd& x, VectorXd& phi, Jacobian* J) {
   const int rows = int(types_.size());
-  phi.resize(rows);
+  prepareEvaluation(*this, x, phi, J);
   dense_.setZero(rows, dimension());
   function_(x, phi, dense_);
   if (phi.size() != rows || dense_.rows() != rows || dense_.cols() != dimension()) {

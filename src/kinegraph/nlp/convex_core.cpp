@@ -2,6 +2,8 @@
 
 #include <array>
 
+#include "kinegraph/nlp/evaluation_sizes.h"
+
 namespace kinegraph {
 
 namespace {
@@ -76,7 +78,8 @@ class MinimalConvexCore final : public Nlp {
   }
 
   void evaluate(const VectorXd& x, VectorXd& phi, Jacobian* J) override {
-    phi.setZero(Eigen::Index(types_.size()));
+    prepareEvaluation(*this, x, phi, J);
+    phi.setZero();
     VectorXd pull = VectorXd::Zero(dimension());
     for (const auto& [a, b] : edges_) {
       const Vector3d way = x.segment<3>(3 * a) - x.segment<3>(3 * b);

@@ -1,5 +1,7 @@
 #include "kinegraph/nlp/finite_difference_nlp.h"
 
+#include "kinegraph/nlp/evaluation_sizes.h"
+
 namespace kinegraph {
 
 FiniteDifferenceNlp::FiniteDifferenceNlp(Nlp& nlp, double step)
@@ -10,6 +12,7 @@ FiniteDifferenceNlp::FiniteDifferenceNlp(Nlp& nlp, double step)
 }
 
 void FiniteDifferenceNlp::evaluate(const VectorXd& x, VectorXd& phi, Jacobian* J) {
+  prepareEvaluation(*this, x, phi, J);
   if (J) {
     moved_ = x;
     for (int i = 0; i < x.size(); ++i) {

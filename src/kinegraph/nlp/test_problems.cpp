@@ -11,6 +11,7 @@
 #include "kinegraph/base/errors.h"
 #include "kinegraph/base/text.h"
 #include "kinegraph/nlp/convex_core.h"
+#include "kinegraph/nlp/evaluation_sizes.h"
 
 namespace kinegraph {
 
@@ -37,7 +38,7 @@ class FormulaNlp final : public Nlp {
   }
 
   void evaluate(const VectorXd& x, VectorXd& phi, Jacobian* J) override {
-    phi.resize(J_.rows());
+    prepareEvaluation(*this, x, phi, J);
     J_.setZero();
     function_(x, phi, J_);
     if (!J) return;
@@ -243,7 +244,7 @@ class SpherePacking final : public Nlp {
   }
 
   void evaluate(const VectorXd& x, VectorXd& phi, Jacobian* J) override {
-    phi.resize(Eigen::Index(types_.size()));
+    prepareEvaluation(*this, x, phi, J);
     int row = 0;
     for (int i = 0; i < count_; ++i) {
       for (int j = i + 1; j < count_; ++j, ++row) {

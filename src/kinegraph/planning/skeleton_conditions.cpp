@@ -3,6 +3,7 @@
 
 #include "kinegraph/base/errors.h"
 #include "kinegraph/base/text.h"
+#include "kinegraph/geometry/shapes/shape_kinds.h"
 #include "kinegraph/planning/skeleton.h"
 
 namespace kinegraph {
@@ -29,9 +30,9 @@ F product(int a, int b) {
   return symbols[std::size_t(3 * a + b)];
 }
 
-bool isBox(const Frame& frame) {
-  return frame.getShapeType() == ShapeType::ssBox || frame.getShapeType() == ShapeType::box;
-}
+using Body = ShapeKind::Body;
+
+const ShapeKind& kindOf(const Frame& frame) { return shapeKind(frame.getShapeType()); }
 
 class Conditions {
  public:
@@ -132,7 +133,7 @@ class Conditions {
 
   const std::vector<double>& boxOf(const std::string& name) {
     const Frame frame = scene_.getFrame(name);
-    if (!isBox(frame))
+    if (kindOf(frame).body != Body::box)
       throw ValueError(cat("Skeleton: ", switchModeName(symbol_), " needs a box (ssBox); '", name, "' is none"));
     return size_ = frame.getSize();
   }
@@ -143,27 +144,18 @@ class Conditions {
   void restingOn(const std::vector<double>& during) {
     const double below = .5 * boxOf(f_[0])[2];
     const Frame thing = scene_.getFrame(f_[1]);
-    const std::vector<double> size = thing.getSize();
-    double half = .5 * height(thing);
-    switch (thing.getShapeType()) {
-      case ShapeType::capsule:
-      case ShapeType::cylinder:
-      case ShapeType::ssCylinder:
-        half = size[1];
-        break;
-      case ShapeType::none:
-      case ShapeType::marker:
-        throw ValueError(cat("Skeleton: restingOn: '", f_[1], "' has no shape that could rest on '", f_[0], "'"));
-      default:
-        break;
-    }
+    const ShapeKind& kind = kindOf(thing);
+    if (kind.type == ShapeType::none || kind.is_symbol)
+      throw ValueError(cat("Skeleton: restingOn: '", f_[1], "' has no shape that could rest on '", f_[0], "'"));
+    const bool lies = kind.body == Body::capsule || kind.body == Body::cylinder;
+    const double half = lies ? thing.getSize()[1] : .5 * height(thing);
     if (!(half > 0.)) {
       throw ValueError(cat("Skeleton: restingOn: the height of '", f_[1],
                            "' is not known; give it a box, sphere, capsule or cylinder"));
     }
     require(during, F::positionRel, {f_[1], f_[0]}, eq, entryOf(2, 1e1), Vector3d(0., 0., below + half));
-    if (thing.getShapeType() == ShapeType::sphere) return;
-    if (isBox(thing)) return require(during, F::vectorZDiff, f_, eq, 1e1);
+    if (kind.body == Body::ball) return;
+    if (kind.body == Body::box) return require(during, F::vectorZDiff, f_, eq, 1e1);
     require(during, F::scalarProductZZ, f_, eq, 1e1);
   }
 
@@ -182,8 +174,9 @@ class Conditions {
   /// The radius of the object that is pushed, if it is a ball or a capsule; else 0.
   double roundness() const {
     const Frame object = scene_.getFrame(f_[1]);
-    if (object.getShapeType() == ShapeType::sphere) return object.getSize()[0];
-    return object.getShapeType() == ShapeType::capsule ? object.getSize()[1] : 0.;
+    const Body body = kindOf(object).body;
+    if (body == Body::ball) return object.getSize()[0];
+    return body == Body::capsule ? object.getSize()[1] : 0.;
   }
 
   void push(const std::vector<double>& during) {

@@ -2,7 +2,6 @@
 
 #include <mutex>
 
-#include "kinegraph/base/dynamic_library.h"
 #include "kinegraph/base/errors.h"
 #include "kinegraph/base/text.h"
 
@@ -29,25 +28,7 @@ HandlerUse& handlerUse() {
 Mujoco loadMujoco() {
   const DynamicLibrary library(KINEGRAPH_MUJOCO_LIBRARY, "a camera image");
   Mujoco functions;
-  library.load(functions.mj_makeSpec, "mj_makeSpec");
-  library.load(functions.mj_deleteSpec, "mj_deleteSpec");
-  library.load(functions.mj_compile, "mj_compile");
-  library.load(functions.mj_deleteModel, "mj_deleteModel");
-  library.load(functions.mjs_getError, "mjs_getError");
-  library.load(functions.mju_setLogHandler, "mju_setLogHandler");
-  library.load(functions.mjv_defaultScene, "mjv_defaultScene");
-  library.load(functions.mjv_makeScene, "mjv_makeScene");
-  library.load(functions.mjv_freeScene, "mjv_freeScene");
-  library.load(functions.mjv_initGeom, "mjv_initGeom");
-  library.load(functions.mjr_defaultContext, "mjr_defaultContext");
-  library.load(functions.mjr_makeContext, "mjr_makeContext");
-  library.load(functions.mjr_freeContext, "mjr_freeContext");
-  library.load(functions.mjr_resizeOffscreen, "mjr_resizeOffscreen");
-  library.load(functions.mjr_setBuffer, "mjr_setBuffer");
-  library.load(functions.mjr_render, "mjr_render");
-  library.load(functions.mjr_readPixels, "mjr_readPixels");
-  library.load(functions.mjr_rectangle, "mjr_rectangle");
-  library.load(functions.mjr_text, "mjr_text");
+  KINEGRAPH_MUJOCO_FUNCTIONS(KINEGRAPH_LIBRARY_LOAD)
   return functions;
 }
 

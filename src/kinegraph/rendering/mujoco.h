@@ -4,29 +4,21 @@
 
 #include <memory>
 
+#include "kinegraph/base/dynamic_library.h"
+
 namespace kinegraph {
+
+// clang-format off
+#define KINEGRAPH_MUJOCO_FUNCTIONS(X) \
+  X(mj_makeSpec) X(mj_deleteSpec) X(mj_compile) X(mj_deleteModel) X(mjs_getError) X(mju_setLogHandler) \
+  X(mjv_defaultScene) X(mjv_makeScene) X(mjv_freeScene) X(mjv_initGeom) X(mjr_defaultContext) X(mjr_makeContext) \
+  X(mjr_freeContext) X(mjr_resizeOffscreen) X(mjr_setBuffer) X(mjr_render) X(mjr_readPixels) X(mjr_rectangle) \
+  X(mjr_text)
+// clang-format on
 
 /// The functions of MuJoCo that are used here, by their own names.
 struct Mujoco {
-  decltype(&::mj_makeSpec) mj_makeSpec;
-  decltype(&::mj_deleteSpec) mj_deleteSpec;
-  decltype(&::mj_compile) mj_compile;
-  decltype(&::mj_deleteModel) mj_deleteModel;
-  decltype(&::mjs_getError) mjs_getError;
-  decltype(&::mju_setLogHandler) mju_setLogHandler;
-  decltype(&::mjv_defaultScene) mjv_defaultScene;
-  decltype(&::mjv_makeScene) mjv_makeScene;
-  decltype(&::mjv_freeScene) mjv_freeScene;
-  decltype(&::mjv_initGeom) mjv_initGeom;
-  decltype(&::mjr_defaultContext) mjr_defaultContext;
-  decltype(&::mjr_makeContext) mjr_makeContext;
-  decltype(&::mjr_freeContext) mjr_freeContext;
-  decltype(&::mjr_resizeOffscreen) mjr_resizeOffscreen;
-  decltype(&::mjr_setBuffer) mjr_setBuffer;
-  decltype(&::mjr_render) mjr_render;
-  decltype(&::mjr_readPixels) mjr_readPixels;
-  decltype(&::mjr_rectangle) mjr_rectangle;
-  decltype(&::mjr_text) mjr_text;
+  KINEGRAPH_MUJOCO_FUNCTIONS(KINEGRAPH_LIBRARY_MEMBER)
 };
 
 /// MuJoCo, loaded by the first call: a program that draws no camera images does without. Throws FileError, which names

@@ -138,6 +138,13 @@ void Config::attach(const std::string& parent, const std::string& child) {
   FrameData& target = scene_->get(parent, "attach");
   FrameData* top = &scene_->get(child, "attach");
   while (!top->joint && top->parent) top = top->parent;
+  const FrameData* above = &target;
+  while (above && above != top) above = above->parent;
+  if (above && top->name != child) {
+    throw ValueError(
+        cat("attach: '", child, "' has no joint and is fixed to '", top->name, "', which carries '", parent,
+            "', too; give it a joint of its own first, such as setJoint(JointType::rigid), and it is taken alone"));
+  }
   const Pose world = scene_->worldPose(*top);
   const std::optional<Joint> former_joint = top->joint;
   FrameData* former_parent = top->parent;

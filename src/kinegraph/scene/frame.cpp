@@ -213,7 +213,11 @@ Frame& Frame::setJoint(JointType type, const std::vector<double>& limits, const 
     scene_->structureChanged();
     return *this;
   }
-  if (!frame.parent) throw ValueError(cat("frame '", frame.name, "' has no parent, so it cannot have a joint"));
+  if (!frame.parent) {
+    throw ValueError(cat("frame '", frame.name,
+                         "' has no parent, so it cannot have a joint: a joint moves a frame relative to its ",
+                         "parent; call setParent first, for instance with a new frame 'world' that stays"));
+  }
   Joint joint(type, code);
   const std::size_t dofs = joint.dofs();
   if (!limits.empty()) {

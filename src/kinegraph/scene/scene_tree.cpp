@@ -9,6 +9,13 @@
 
 namespace kinegraph {
 
+namespace {
+
+/// Are the dofs of its joint entries of q?
+bool isDofFrame(const FrameData& frame) { return frame.moves() && frame.joint->active && !frame.joint->mimic; }
+
+}  // namespace
+
 SceneTree::~SceneTree() { clear(); }
 
 FrameData& SceneTree::add(std::string name, FrameData* parent) {
@@ -204,7 +211,7 @@ const std::shared_ptr<const Program>& SceneTree::program() {
     steps_to_parents_ = 0;
     dof_frames_.clear();
     for (const auto& frame : frames_) {
-      if (frame->moves() && frame->joint->active && !frame->joint->mimic) dof_frames_.push_back(frame.get());
+      if (isDofFrame(*frame)) dof_frames_.push_back(frame.get());
     }
     parameters_.reset();
     parameters_before_.reset();
@@ -295,9 +302,17 @@ void SceneTree::gatherJointState(double* q) const {
 }
 
 VectorXd SceneTree::jointState() {
-  VectorXd q(program()->dofs);
-  gatherJointState(q.data());
-  return q;
+  if (compiled_revision_ == structure_revision_) {
+    VectorXd q(program_->dofs);
+    gatherJointState(q.data());
+    return q;
+  }
+  // Between edits of the structure a look at all frames takes a small part of what compiling them would.
+  std::vector<double> values;
+  for (const auto& frame : frames_) {
+    if (isDofFrame(*frame)) values.insert(values.end(), frame->joint->q.begin(), frame->joint->q.end());
+  }
+  return Eigen::Map<const VectorXd>(values.data(), Eigen::Index(values.size()));
 }
 
 void SceneTree::setJointState(const double* q) {

@@ -2,6 +2,8 @@
 
 #include <mujoco/mujoco.h>
 
+#include "kinegraph/base/dynamic_library.h"
+
 namespace kinegraph {
 
 // clang-format off
@@ -17,9 +19,7 @@ namespace kinegraph {
 
 /// The functions of MuJoCo that steps need, by their own names.
 struct Physics {
-#define KINEGRAPH_MEMBER(name) decltype(&::name) name;
-  KINEGRAPH_PHYSICS_FUNCTIONS(KINEGRAPH_MEMBER)
-#undef KINEGRAPH_MEMBER
+  KINEGRAPH_PHYSICS_FUNCTIONS(KINEGRAPH_LIBRARY_MEMBER)
 };
 
 /// MuJoCo, loaded by the first call: a program that simulates nothing does without. Throws FileError, which names the

@@ -1,5 +1,6 @@
 #include "kinegraph/simulation/recording.h"
 
+#include <algorithm>
 #include <cstring>
 #include <fstream>
 #include <sstream>
@@ -13,7 +14,7 @@ namespace kinegraph {
 
 namespace {
 
-constexpr char kRecordingMark[] = "kinegraph recording 1\n";
+constexpr char kRecordingMark[] = "kinegraph recording 2\n";
 using CallKind = Recording::Call::Kind;
 
 class RecordWriter {
@@ -125,6 +126,10 @@ void repeatCall(Simulation& simulation, const Recording::Call& call) {
                                 n.size() > 6 ? std::optional<Vector3d>(vector(6, 3)) : std::nullopt);
     case CallKind::clear_pushes:
       return simulation.clearPerturbations();
+    case CallKind::pull:
+      return simulation.pull(call.words[0], vector(0, 3), vector(3, 3));
+    case CallKind::end_pull:
+      return simulation.endPull();
   }
 }
 
@@ -156,6 +161,7 @@ std::string Recording::toBytes() const {
     write.number(times[i]);
     write.matrix(q[i]);
     write.matrix(freePos[i]);
+    write.matrix(motions[i]);
   }
   write.count(is_cut);
   return std::move(write.bytes);
@@ -179,7 +185,7 @@ Recording Recording::fromBytes(const std::string& bytes) {
   for (std::size_t left = read.count(); left > 0; --left) {
     Call call;
     const std::size_t kind = read.count();
-    if (kind > std::size_t(CallKind::clear_pushes)) RecordReader::fail();
+    if (kind > std::size_t(CallKind::end_pull)) RecordReader::fail();
     call.kind = CallKind(int(kind));
     const MatrixXd numbers = read.matrix();
     call.numbers.assign(numbers.data(), numbers.data() + numbers.size());
@@ -190,6 +196,7 @@ Recording Recording::fromBytes(const std::string& bytes) {
     made.times.push_back(read.number());
     made.q.emplace_back(read.matrix().reshaped());
     made.freePos.push_back(read.matrix());
+    made.motions.emplace_back(read.matrix().reshaped());
   }
   made.is_cut = read.count() != 0;
   return made;
@@ -212,6 +219,20 @@ Recording Recording::load(const std::string& path) {
 
 Config Recording::makeConfig() const { return Config(sceneFromBytes(scene)); }
 
+std::vector<std::vector<Pose>> Recording::framePoses(const std::vector<std::size_t>& steps) const {
+  const Config config = makeConfig();
+  Simulation simulation(config, engine, options);
+  std::vector<std::vector<Pose>> poses;
+  for (const std::size_t step : steps) {
+    if (step >= motions.size())
+      throw ValueError(cat("SimulationRecording: there is no step ", step, "; it has ", motions.size()));
+    simulation.show(motions[step]);
+    std::vector<Pose>& all = poses.emplace_back();
+    for (int i = 0; i < config.getFrameDimension(); ++i) all.emplace_back(config.state().pose(i));
+  }
+  return poses;
+}
+
 Simulation Recording::replay(const Config& config) const {
   Simulation simulation(config, engine, options);
   simulation.setState(start);
@@ -219,6 +240,13 @@ Simulation Recording::replay(const Config& config) const {
   if (!(simulation.getState() == end))
     throw Error("Recording.replay: the run ends otherwise than it did; it may be of another version or machine");
   return simulation;
+}
+
+void Simulation::show(const VectorXd& motions) {
+  World& world = *impl_->world;
+  if (motions.size() != world.model().nq) throw ValueError("Recording: it is not one of the scene that it has");
+  std::copy_n(motions.data(), motions.size(), world.positions());
+  publish();
 }
 
 void Simulation::startRecording() {
@@ -257,6 +285,7 @@ void Simulation::Impl::notePoses() {
   recording->times.push_back(world->time());
   recording->q.push_back(q());
   recording->freePos.push_back(freePoses());
+  recording->motions.emplace_back(Eigen::Map<const VectorXd>(world->positions(), world->model().nq));
 }
 
 }  // namespace kinegraph

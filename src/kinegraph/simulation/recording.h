@@ -26,7 +26,9 @@ struct Recording {
       reset_time,
       set_state,
       push,
-      clear_pushes
+      clear_pushes,
+      pull,
+      end_pull
     };
     Kind kind = Kind::step;
     std::vector<double> numbers;
@@ -42,7 +44,9 @@ struct Recording {
   std::vector<double> times;      ///< s, after each step
   std::vector<VectorXd> q;        ///< then
   std::vector<MatrixXd> freePos;  ///< F x 7
-  bool is_cut = false;            ///< the structure of the scene changed: it ends there
+  std::vector<VectorXd>
+      motions;          ///< of all joints, grippers' and followers' too, and of free bodies, as the engine has them
+  bool is_cut = false;  ///< the structure of the scene changed: it ends there
 
   std::string toBytes() const;
   static Recording fromBytes(const std::string& bytes);  ///< throws ValueError
@@ -51,6 +55,12 @@ struct Recording {
 
   /// The scene as it was at the start.
   Config makeConfig() const;
+
+  /// World poses of all frames (by id) after some of the steps. Throws ValueError for steps that are not there.
+  std::vector<std::vector<Pose>> framePoses(const std::vector<std::size_t>& steps) const;
+
+  /// A page that plays the run, with a time slider, and needs no program. Throws FileError.
+  void saveHtml(const std::string& path) const;
 
   /// Does it all again on `config`, which makeConfig made. Throws Error if it ends otherwise than it did.
   Simulation replay(const Config& config) const;

@@ -9,6 +9,8 @@ namespace kinegraph {
 
 namespace {
 
+constexpr double kFarthestAhead = .05;  ///< rad or m
+
 bool isBall(const Drive& drive) { return drive.kind == MotionKind::quaternion; }
 
 /// The motion that a drive's numbers in a vector of the scene's q mean.
@@ -159,6 +161,22 @@ void Reference::nextOfSpline(const SceneModel& model, double time) {
     } else {
       parts_.dofs[i].goal = parts_.next[i] = motionOf(drive, q.data(), parts_.dofs[i].position);
     }
+  }
+}
+
+void Reference::stayNear(const SceneModel& model, const mjtNum* qpos, const mjtNum* qvel) {
+  for (std::size_t i = 0; i < parts_.dofs.size(); ++i) {
+    Course& course = parts_.courses[i];
+    const bool accelerates = course.path == Path::accelerated;
+    if (course.path != Path::given && !accelerates) continue;
+    const Drive& drive = model.drives[i];
+    Dof& dof = parts_.dofs[i];
+    const double ahead = dof.position - qpos[drive.qpos];
+    if (std::abs(ahead) <= kFarthestAhead) continue;
+    const double back = std::copysign(kFarthestAhead, ahead) - ahead;
+    dof.position += back;
+    course.start += back;
+    if (accelerates) dof.rate = dof.velocity = qvel[drive.dof];
   }
 }
 

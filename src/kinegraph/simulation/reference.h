@@ -57,6 +57,10 @@ class Reference {
   /// brings a motor that is at the reference to the next one.
   void prepare(const SceneModel& model, double time, double h, bool last, const SimulationOptions& options);
 
+  /// Where velocities or accelerations are told, the reference goes no farther ahead of its joint than motors at their limit
+  /// need (.05 rad or m): what is blocked does not jump when it comes free.
+  void stayNear(const SceneModel& model, const mjtNum* qpos, const mjtNum* qvel);
+
   /// The inner step is done.
   void shift(double h);
 

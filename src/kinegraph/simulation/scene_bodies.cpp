@@ -201,11 +201,9 @@ double attributeNumber(const FrameData& frame, const char* key, double otherwise
 bool takesPart(const FrameData& frame) {
   if (!frame.shape) return false;
   const Shape& shape = *frame.shape;
-  const ShapeType type = shape.geometry->type;
-  if (type == ShapeType::none || shapeKind(type).is_symbol || type == ShapeType::quad ||
-      type == ShapeType::pointCloud || type == ShapeType::lines)
-    return false;
-  if (shapeKind(type).hasPoints() && (!shape.geometry->mesh || shape.geometry->mesh->vertices.empty())) return false;
+  const ShapeKind& kind = shapeKind(shape.geometry->type);
+  if (!kind.has_inertia) return false;
+  if (kind.hasPoints() && (!shape.geometry->mesh || shape.geometry->mesh->vertices.empty())) return false;
   return attributeFlag(frame, "simulate", !shape.color || (*shape.color)[3] >= 1.);
 }
 

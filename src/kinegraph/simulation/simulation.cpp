@@ -90,12 +90,18 @@ void Simulation::advance(const VectorXd& u, double tau, ControlMode mode, const 
   impl_->notePoses();
 }
 
+void Simulation::setWatcher(std::shared_ptr<SimulationWatcher> watcher) { impl_->watcher = std::move(watcher); }
+const std::shared_ptr<SimulationWatcher>& Simulation::watcher() const { return impl_->watcher; }
+
 void Simulation::publish() { impl_->giveToConfig(); }
 
 void Simulation::step(const VectorXd& u, double tau, ControlMode mode) {
+  SimulationWatcher* watcher = impl_->watcher.get();
+  while (watcher && !watcher->mayStep(*this)) watcher->rest();
   update();
   advance(u, tau, mode);
   publish();
+  if (watcher) watcher->hasStepped(*this);
 }
 
 void Simulation::Impl::giveToConfig() {

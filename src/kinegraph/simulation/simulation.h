@@ -12,6 +12,7 @@
 #include "kinegraph/simulation/recording.h"
 #include "kinegraph/simulation/simulation_options.h"
 #include "kinegraph/simulation/simulation_state.h"
+#include "kinegraph/simulation/simulation_watcher.h"
 
 namespace kinegraph {
 
@@ -22,6 +23,12 @@ struct Contact {
   Vector3d normal;               ///< unit, from a to b
   double distance;               ///< m, negative: they overlap
   Vector3d force;                ///< that a exerts on b, world, N
+};
+
+/// A point of a frame's link that is pulled.
+struct PulledPoint {
+  Vector3d position, target;  ///< world, m
+  Vector3d force;             ///< of the last inner step, world, N
 };
 
 /// A configuration in time. It works directly on the Config: joints and free bodies there follow every step. Same calls, same
@@ -136,6 +143,30 @@ class Simulation {
                const std::optional<Vector3d>& point = std::nullopt);
   void clearPerturbations();
 
+  /// Pulls a point (in the frame's axes, m) to a place (world, m) by a damped spring, as a hand would, until endPull:
+  /// f = m (w^2 (target - p) - 2 w dp/dt) with w = 10 rad/s and m the mass of the frame's link with all that hangs on its
+  /// joints. One point at a time. Throws FrameNotFound, and ValueError for what is fixed to the world.
+  void pull(const std::string& frame, const Vector3d& point, const Vector3d& target);
+  void endPull();
+  std::optional<PulledPoint> getPull() const;
+
+  // --- on the page -----------------------------------------------------------------------------------------------
+
+  /// Shows it live in the browser, from now on with each step: also time, real-time factor, contacts and their forces. There
+  /// people pause it, let it go on by one step, reset it to where it was at this call, and pull bodies with the mouse; `step`
+  /// does what they ask before it steps. Who asks for nothing changes nothing. Returns the key pressed since the last call, or
+  /// 0; with `pause`, waits for one as Config::view.
+  int view(bool pause = false, const std::string& message = {});
+
+  /// Steps of `tau` s along the spline for so many seconds: as fast as it can be computed or, while a browser shows it, as fast
+  /// as the clock on the wall times `speed` (<= 0: as fast as possible). Ends early if somebody presses q or Escape there.
+  /// Returns the last key pressed there, or 0. `between`, where given and nothing is shown, as in advance.
+  int run(double seconds, double tau = .01, double speed = 1., const std::function<void()>& between = {});
+
+  /// Who looks on, or null.
+  void setWatcher(std::shared_ptr<SimulationWatcher> watcher);
+  const std::shared_ptr<SimulationWatcher>& watcher() const;
+
   // --- recording -------------------------------------------------------------------------------------------------
 
   /// From now on everything that is asked of the simulation is kept, so that it can be repeated bit for bit.
@@ -157,6 +188,8 @@ class Simulation {
 
  private:
   friend class SimulationBatch;
+  friend struct Recording;
+  void show(const VectorXd& motions);  ///< sets the Config to where a recording was
   struct Impl;
   explicit Simulation(std::unique_ptr<Impl> impl);
   std::unique_ptr<Impl> impl_;

@@ -167,6 +167,13 @@ void Simulation::multi_step(double tau_step, double tau_sim, const std::function
   expectPositive("Simulation.multi_step", "tau_sim", tau_sim);
   const double steps = std::round(tau_step / tau_sim);
   if (steps > 1e7) throw ValueError(cat("Simulation.multi_step: ", steps, " steps are too many"));
+  if (impl_->watcher) {
+    for (int i = 0; i < int(steps); ++i) {
+      if (between) between();
+      step({}, tau_sim, ControlMode::spline);
+    }
+    return;
+  }
   update();
   for (int i = 0; i < int(steps); ++i) {
     if (between) between();
@@ -252,6 +259,34 @@ void Simulation::perturb(const std::string& frame, const Vector3d& force, const 
   impl_->note(Recording::Call::Kind::push, std::move(numbers), {frame});
   impl_->world->push(placed.body, force, torque,
                      point ? *point : (impl_->world->bodyPose(placed.body) * placed.X_BF).p);
+}
+
+void Simulation::pull(const std::string& frame, const Vector3d& point, const Vector3d& target) {
+  update();
+  const char* call = "Simulation.pull";
+  if (!point.allFinite() || !target.allFinite())
+    throw ValueError(cat(call, ": point or target has numbers that are not finite"));
+  const FrameData& data = impl_->frame(frame, call);
+  World& world = *impl_->world;
+  const PlacedFrame& placed = world.scene().scene.frames[std::size_t(data.id)];
+  if (!world.canMove(placed.body))
+    throw ValueError(cat(call, ": frame '", frame, "' is fixed to the world and cannot be pulled"));
+  world.pull({placed.body, placed.X_BF.p + placed.X_BF.q * point, target});
+  std::vector<double> numbers(point.begin(), point.end());
+  numbers.insert(numbers.end(), target.begin(), target.end());
+  impl_->note(Recording::Call::Kind::pull, std::move(numbers), {frame});
+}
+
+void Simulation::endPull() {
+  if (impl_->world->pulled().body == 0) return;
+  impl_->world->pull({});
+  impl_->note(Recording::Call::Kind::end_pull, {});
+}
+
+std::optional<PulledPoint> Simulation::getPull() const {
+  const World& world = *impl_->world;
+  if (world.pulled().body == 0) return std::nullopt;
+  return PulledPoint{world.pulledPoint(), world.pulled().target, world.pullForce()};
 }
 
 void Simulation::clearPerturbations() {

@@ -50,6 +50,7 @@ struct Simulation::Impl {
   bool has_depth_noise = false;
   std::unique_ptr<CameraRenderer> renderer;
   std::unique_ptr<Recording> recording;
+  std::shared_ptr<SimulationWatcher> watcher;
   std::vector<std::string> warnings;
   std::set<std::string> warned;
 };

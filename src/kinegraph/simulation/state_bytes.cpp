@@ -1,5 +1,6 @@
 #include "kinegraph/simulation/state_bytes.h"
 
+#include <algorithm>
 #include <cstring>
 #include <type_traits>
 
@@ -9,7 +10,7 @@ namespace kinegraph {
 
 namespace {
 
-constexpr std::uint64_t kMark = 0x31305453474b;  // "KGST01"
+constexpr std::uint64_t kMark = 0x32305453474b;  // "KGST02"
 
 class StateWriter {
  public:
@@ -80,6 +81,11 @@ struct WeldBytes {
   double pose[7];
 };
 
+struct PullBytes {
+  std::int64_t body;
+  double point[3], target[3];
+};
+
 }  // namespace
 
 std::string stateToBytes(const WorldState& state) {
@@ -106,6 +112,10 @@ std::string stateToBytes(const WorldState& state) {
     welds.push_back(weld);
   }
   write(welds);
+  PullBytes pull{state.pull.body, {}, {}};
+  std::copy_n(state.pull.point.data(), 3, pull.point);
+  std::copy_n(state.pull.target.data(), 3, pull.target);
+  write(pull);
   return std::move(write.bytes);
 }
 
@@ -132,6 +142,8 @@ WorldState stateFromBytes(std::string_view bytes, const World& world) {
   read(state.grippers);
   std::vector<WeldBytes> welds;
   read(welds);
+  PullBytes pull{};
+  read(pull);
   if (!read.isDone()) StateReader::fail();
   if (state.physics.size() != now.physics.size() || parts.dofs.size() != now.reference.dofs().size() ||
       state.grippers.size() != now.grippers.size() || welds.size() != now.welds.size())
@@ -139,6 +151,8 @@ WorldState stateFromBytes(std::string_view bytes, const World& world) {
   state.reference.setParts(parts);
   state.reference.spline = spline;
   const int bodies = int(world.scene().scene.bodies.size());
+  if (pull.body < 0 || pull.body >= bodies) StateReader::fail();
+  state.pull = {int(pull.body), Vector3d(pull.point), Vector3d(pull.target)};
   for (std::size_t i = 0; i < welds.size(); ++i) {
     const WeldBytes& weld = welds[i];
     if (weld.body_a < 0 || weld.body_b < 0 || weld.body_a >= bodies || weld.body_b >= bodies) StateReader::fail();

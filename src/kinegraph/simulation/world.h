@@ -27,12 +27,21 @@ struct WeldedPair {
   bool active = false;
 };
 
+/// A point of a body that is drawn to a place by a spring.
+struct Pull {
+  int body = 0;              ///< as in SceneBodies; 0: nothing is pulled
+  Vector3d point{0, 0, 0};   ///< in the body's axes, m
+  Vector3d target{0, 0, 0};  ///< world, m
+  bool operator==(const Pull&) const = default;
+};
+
 /// Everything that a world will do next depends on: two worlds of one model with the same do the same, bit for bit.
 struct WorldState {
   std::vector<mjtNum> physics;
   Reference reference;
   std::vector<GripperTask> grippers;
   std::vector<WeldedPair> welds;
+  Pull pull;
 };
 
 /// A model in time: MuJoCo's data, motors, grippers and welds. Knows no scene.
@@ -94,6 +103,14 @@ class World {
   void push(int body, const Vector3d& force, const Vector3d& torque, const Vector3d& point);
   void clearPushes();
 
+  /// A spring of 10 rad/s with the mass of the body and all that it carries, damped so that it does not swing, draws a point
+  /// of it to a place from now on.
+  void pull(const Pull& pull);
+  const Pull& pulled() const { return pull_; }
+  Vector3d pulledPoint() const;                              ///< where the point is, world
+  const Vector3d& pullForce() const { return pull_force_; }  ///< of the last inner step, N
+  bool canMove(int body) const;                              ///< false: it is fixed to the world
+
   /// The torque of each drive in the last inner step, and what contacts, limits, welds and pushes add.
   VectorXd driveTorques() const;
   VectorXd externalTorques() const;
@@ -111,6 +128,8 @@ class World {
   void innerStep(double h);
   void correctContacts(double h);
   void driveMotors(double h);
+  void addPull();
+  void removePull();
   void moveGrippers(double h);
   void activate(std::size_t slot);
   void followReferences(double h);
@@ -126,6 +145,9 @@ class World {
   Reference reference_;
   std::vector<GripperTask> grippers_;
   std::vector<WeldedPair> welds_;
+  Pull pull_;
+  Vector3d pull_force_{0, 0, 0};
+  Vector6d pushed_before_ = Vector6d::Zero();  ///< what acted on the pulled body before the spring did
   std::vector<mjtNum> bias_, wanted_, torque_;
 };
 

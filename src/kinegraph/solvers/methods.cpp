@@ -130,6 +130,7 @@ SolverResult solve(Nlp& nlp, const VectorXd& x0, const SolverOptions& options, c
     result = dispatch({nlp, x0, options, dual, hook, memory});
   }
   agreeOnFeasibility(result);
+  result.totalEvals = result.evals;
   result.time = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   return result;
 }

@@ -16,17 +16,6 @@ namespace kinegraph {
 namespace {
 
 constexpr int kMostEvalsOfReduction = 50;
-constexpr int kMostRefinements = 16, kMostBeginnings = 8;
-constexpr double kCarefulStep = .1, kCarefulPenalty = 100.;  // of solves that begin anew
-
-/// Tells what the constraints of the last refinement say of the result.
-void giveUpRefining(Nlp& nlp, double tolerance, int rounds, SolverResult& result) {
-  VectorXd phi(Eigen::Index(nlp.types().size()));
-  nlp.evaluate(result.x, phi, nullptr);
-  result.setSums(nlp.types(), phi, tolerance);
-  result.status = SolverStatus::limit;
-  result.message = cat("after ", rounds, " refinements constraints are still violated between slices");
-}
 
 }  // namespace
 
@@ -99,47 +88,6 @@ void NlpSolver::reduceViolation(SolverResult& result, const Separation& separati
     }
     if (found.status == SolverStatus::cancelled) return;
   }
-}
-
-/// Solves; and where constraints are to hold at all times of a motion, again with those that the solution violates: from
-/// there, or from the beginning, where the solution is no place to go on from.
-SolverResult NlpSolver::runRefining(Separation& separation, const EvaluationHook& watch, const EvaluationHook& seen) {
-  SolverResult result = runMethod(separation, watch, seen);
-  const auto may_go_on = [&] {
-    return result.status != SolverStatus::cancelled && result.status != SolverStatus::limit;
-  };
-  if (!may_go_on()) return result;
-  Refinement found = problem_->refine(result.x, solved_dual_);
-  if (found == Refinement::none) return result;
-  struct Restore {
-    SolverOptions& options;
-    const SolverOptions given = options;
-    ~Restore() { options = given; }
-  } restore{options};
-  const VectorXd start = x;
-  for (int rounds = 1, beginnings = 1; found != Refinement::none || !result.feasible; ++rounds) {
-    const bool is_lost = found == Refinement::much || !result.feasible;
-    if (found == Refinement::none && beginnings == kMostBeginnings) break;  // the constraints that are known contradict
-    releaseMemory();
-    if (separation.problem) separation = problem_->separation();
-    if (rounds > kMostRefinements || (is_lost && beginnings == kMostBeginnings)) {
-      giveUpRefining(*problem_, options.constraintTolerance(), rounds - 1, result);
-      break;
-    }
-    if (is_lost) {  // so that it does not leave the way that it begins with
-      ++beginnings;
-      options.stepMax = std::min(options.stepMax, kCarefulStep);
-      options.muInit = kCarefulPenalty * restore.given.muInit;
-    }
-    x = is_lost ? start : result.x;
-    dual = is_lost ? VectorXd() : result.dual;
-    const int evals = result.evals;
-    result = runMethod(separation, watch, seen);
-    result.evals += evals;
-    if (!may_go_on()) break;
-    found = problem_->refine(result.x, solved_dual_);
-  }
-  return result;
 }
 
 /// Solves the form of the problem that the method takes, and says what that means for the problem as it is stated.
@@ -217,7 +165,7 @@ SolverResult NlpSolver::solve(bool resample, Rng& rng, const EvaluationHook& hoo
     if (hook && !hook(at, phi)) return false;
     if (!progress_ || std::chrono::duration<double>(Clock::now() - told).count() < progress_seconds_) return true;
     told = Clock::now();
-    return progress_(evals_ + calls, at, sumErrors(problem_->types(), phi));
+    return progress_(calls, at, sumErrors(problem_->types(), phi));
   };
   EvaluationHook joined;
   if (separation.problem)
@@ -245,7 +193,7 @@ SolverResult NlpSolver::solve(bool resample, Rng& rng, const EvaluationHook& hoo
   if (result.status == SolverStatus::limit && evals_ > 0)
     result.message += cat(" in this solve; ", evals_ + result.evals, " evaluations in all");
   evals_ += result.evals;
-  result.evals = evals_;
+  result.totalEvals = evals_;
   result.problem = problem_;
   result.motion = problem_->motionVerdict(result.x);
   if (options.verbose > 0)

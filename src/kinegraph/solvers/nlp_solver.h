@@ -20,7 +20,7 @@ class NlpSolver {
   void setTracing(bool x, bool errors, bool phi, bool jacobian = false);
   void clearTracing();
 
-  /// Called during solve with the number of evaluations and the point, at most once in `seconds`; returning false stops
+  /// Called during solve with the number of its evaluations and the point, at most once in `seconds`; returning false stops
   /// it.
   using Progress = std::function<bool(int evals, const VectorXd& x, const ErrorSums& errors)>;
   void setProgress(Progress progress, double seconds);

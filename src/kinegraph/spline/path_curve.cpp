@@ -30,6 +30,30 @@ VectorXd PathCurve::eval(double s, int order) const {
   return out;
 }
 
+PathCurve::Parts PathCurve::parts() const {
+  return {dofs_,
+          degree_,
+          length_,
+          begin_,
+          marks_,
+          coefficients_,
+          {is_line_.begin(), is_line_.end()},
+          {stops_.begin(), stops_.end()}};
+}
+
+PathCurve PathCurve::fromParts(const Parts& parts) {
+  const std::size_t pieces = parts.begin.size();
+  if (parts.dofs < 0 || parts.degree < 1 || parts.is_line.size() != pieces || parts.stops.size() != pieces ||
+      parts.coefficients.size() != pieces * std::size_t(parts.dofs) * std::size_t(parts.degree + 1))
+    throw ValueError("PathCurve: the parts of a curve do not fit each other");
+  PathCurve curve;
+  curve.dofs_ = parts.dofs, curve.degree_ = parts.degree, curve.length_ = parts.length;
+  curve.begin_ = parts.begin, curve.marks_ = parts.marks, curve.coefficients_ = parts.coefficients;
+  curve.is_line_.assign(parts.is_line.begin(), parts.is_line.end());
+  curve.stops_.assign(parts.stops.begin(), parts.stops.end());
+  return curve;
+}
+
 /// Appends pieces to a curve.
 class PathCurveBuilder {
  public:

@@ -38,6 +38,16 @@ class PathCurve {
   void eval(int piece, double s, int order, double* out) const;
   VectorXd eval(double s, int order = 0) const;
 
+  /// All that a curve is, to be stored.
+  struct Parts {
+    int dofs = 0, degree = 1;
+    double length = 0.;
+    std::vector<double> begin, marks, coefficients;
+    std::vector<bool> is_line, stops;
+  };
+  Parts parts() const;
+  static PathCurve fromParts(const Parts& parts);  ///< throws ValueError if they do not fit each other
+
   /// Coefficient of (s - begin(piece))^power, (dofs,).
   const double* coefficient(int piece, int power) const { return &coefficients_[at(piece, power)]; }
 

@@ -214,6 +214,7 @@ TimedPath retime(const MatrixXd& path, const PathCurve& curve, const MotionLimit
   }
   const LawGrid grid(timed.curve_, limits, options.intervals, bool(options.rows));
   checkLimited(grid, limits);
+  if (options.between) options.between();
   Timing timing = options.rows ? timingWithRows(grid, limits, options.rows, start, end, options.intervals)
                                : timingOf(grid, limits, {}, start, end, options.intervals);
   timed.status = statusOf(timing.speeds.failure);
@@ -253,6 +254,15 @@ MotionState TimedPath::at(double t) const {
 std::string TimedPath::str() const {
   if (!feasible()) return cat(retimeStatusName(status), ": ", message);
   return cat(path.rows(), path.rows() == 1 ? " point in " : " points in ", duration(), " s");
+}
+
+TimedPath TimedPath::fromParts(RetimeStatus status, std::string message, MatrixXd path, VectorXd times, PathCurve curve,
+                               TimeLaw law) {
+  TimedPath timed;
+  timed.status = status, timed.message = std::move(message);
+  timed.path = std::move(path), timed.times = std::move(times);
+  timed.curve_ = std::move(curve), timed.law_ = std::move(law);
+  return timed;
 }
 
 }  // namespace kinegraph

@@ -25,6 +25,7 @@ struct RetimeOptions {
   VectorXd start_velocity, end_velocity;  ///< (n,), rad/s or m/s, along the path; empty: at rest
   int intervals = 100;                    ///< of the law, on what is curved
   RowSource rows;                         ///< further limits, such as torques; they hold at the ends of the intervals
+  std::function<void()> between;          ///< called before the speeds are sought, and may throw to end it
 
   void validate() const;  ///< throws ValueError
 };
@@ -65,6 +66,10 @@ class TimedPath {
 
   const PathCurve& curve() const { return curve_; }
   const TimeLaw& law() const { return law_; }
+
+  /// What another one had.
+  static TimedPath fromParts(RetimeStatus status, std::string message, MatrixXd path, VectorXd times, PathCurve curve,
+                             TimeLaw law);
 
   std::string str() const;  ///< "12 points in 2.31 s", or the status and the message
 

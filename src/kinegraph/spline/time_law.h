@@ -1,5 +1,6 @@
 #pragma once
 
+#include <utility>
 #include <vector>
 
 namespace kinegraph {
@@ -25,6 +26,11 @@ struct LawPhase {
 /// s(t), 0 <= t <= duration(): when a motion is where on its curve.
 class TimeLaw {
  public:
+  TimeLaw() = default;
+
+  /// What another one had.
+  TimeLaw(std::vector<LawPhase> phases, double duration) : phases_(std::move(phases)), duration_(duration) {}
+
   double duration() const { return duration_; }
   const std::vector<LawPhase>& phases() const { return phases_; }
 

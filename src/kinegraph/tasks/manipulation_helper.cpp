@@ -6,6 +6,7 @@
 
 #include "kinegraph/base/errors.h"
 #include "kinegraph/base/text.h"
+#include "kinegraph/geometry/shapes/shape_kinds.h"
 #include "kinegraph/komo/mode_switches.h"
 #include "kinegraph/komo/sub_problem.h"
 #include "kinegraph/solvers/nlp_solver.h"
@@ -62,11 +63,11 @@ Frame ManipulationHelper::frame(const std::string& name) const {
 
 VectorXd ManipulationHelper::boxSize(const std::string& name, const char* call) const {
   const std::vector<double> size = frame(name).getSize();
-  const ShapeType type = frame(name).getShapeType();
-  if (type == ShapeType::box || type == ShapeType::ssBox) return Eigen::Map<const VectorXd>(size.data(), 3);
+  using Body = ShapeKind::Body;
+  const Body body = shapeKind(frame(name).getShapeType()).body;
+  if (body == Body::box) return Eigen::Map<const VectorXd>(size.data(), 3);
   // What is not a box has the box that its height and width span.
-  if ((type == ShapeType::cylinder || type == ShapeType::ssCylinder || type == ShapeType::capsule) && size.size() > 1)
-    return Vector3d(2. * size[1], 2. * size[1], size[0]);
+  if (body == Body::cylinder || body == Body::capsule) return Vector3d(2. * size[1], 2. * size[1], size[0]);
   throw ValueError(cat("ManipulationHelper.", call, ": frame '", name,
                        "' has no box, cylinder or capsule; give it one with setShape"));
 }

@@ -2,25 +2,26 @@
 
 #include <set>
 
+#include "kinegraph/geometry/shapes/shape_kinds.h"
+
 namespace kinegraph {
 
 namespace {
 
 std::string shapeFact(ShapeType type) {
-  switch (type) {
-    case ShapeType::ssBox:
-    case ShapeType::box:
+  switch (shapeKind(type).body) {
+    case ShapeKind::Body::box:
       return "is_box";
-    case ShapeType::sphere:
+    case ShapeKind::Body::ball:
       return "is_sphere";
-    case ShapeType::capsule:
+    case ShapeKind::Body::capsule:
       return "is_capsule";
-    case ShapeType::cylinder:
-    case ShapeType::ssCylinder:
+    case ShapeKind::Body::cylinder:
       return "is_cylinder";
-    default:
+    case ShapeKind::Body::other:
       return "";
   }
+  return "";
 }
 
 /// The first frame upwards that has a joint, or the root.

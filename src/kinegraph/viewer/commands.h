@@ -69,8 +69,21 @@ struct ViewpointCommand {
   double ortho = 0;
 };
 
+struct RunCommand {
+  static constexpr int kKind = 10;
+  int what = 0;
+};
+
+struct PullCommand {
+  static constexpr int kKind = 11;
+  int structure = 0;
+  int frame = 0;
+  std::vector<double> point;
+  std::vector<double> target;
+};
+
 /// What a browser asks for.
-using Command = std::variant<KeyCommand, SetJointCommand, ResetJointsCommand, RandomJointsCommand, MoveFrameCommand, NearCommand, EventCommand, CursorCommand, ViewpointCommand>;
+using Command = std::variant<KeyCommand, SetJointCommand, ResetJointsCommand, RandomJointsCommand, MoveFrameCommand, NearCommand, EventCommand, CursorCommand, ViewpointCommand, RunCommand, PullCommand>;
 
 /// Reads a binary message from a browser; nothing if it is not exactly one command.
 inline std::optional<Command> readCommand(std::string_view data) {
@@ -121,6 +134,16 @@ inline std::optional<Command> readCommand(std::string_view data) {
     case ViewpointCommand::kKind: {
       ViewpointCommand m;
       if (reader.read(m.pose) && reader.read(m.distance) && reader.read(m.focal) && reader.read(m.ortho) && reader.atEnd()) return m;
+      break;
+    }
+    case RunCommand::kKind: {
+      RunCommand m;
+      if (reader.read(m.what) && reader.atEnd()) return m;
+      break;
+    }
+    case PullCommand::kKind: {
+      PullCommand m;
+      if (reader.read(m.structure) && reader.read(m.frame) && reader.read(m.point) && reader.read(m.target) && reader.atEnd()) return m;
       break;
     }
   }

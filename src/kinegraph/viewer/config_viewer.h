@@ -33,6 +33,9 @@ class ConfigViewer {
   /// shown, with the same structure. True if there were any.
   bool takeEdits(Config& config);
 
+  /// Of the scene that is shown, as in SceneItems.
+  int structure() const { return items_.structure(); }
+
   /// True if people have changed something that takeEdits has not taken over.
   bool hasEdits() const { return edits_->hasAny(); }
 

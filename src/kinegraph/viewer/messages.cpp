@@ -131,6 +131,18 @@ static boost::json::value jsonOf(const MotionMessage& m) {
   };
 }
 
+static boost::json::value jsonOf(const RunMessage& m) {
+  return boost::json::object{
+      {"kind", "run"},
+      {"shown", jsonOf(m.shown)},
+      {"time", jsonOf(m.time)},
+      {"factor", jsonOf(m.factor)},
+      {"paused", jsonOf(m.paused)},
+      {"contacts", jsonOf(m.contacts)},
+      {"pull", jsonOf(m.pull)},
+  };
+}
+
 std::string jsonText(const SceneMessage& message) { return boost::json::serialize(jsonOf(message)); }
 
 std::string jsonText(const JointsMessage& message) { return boost::json::serialize(jsonOf(message)); }
@@ -146,5 +158,7 @@ std::string jsonText(const NearMessage& message) { return boost::json::serialize
 std::string jsonText(const SelectMessage& message) { return boost::json::serialize(jsonOf(message)); }
 
 std::string jsonText(const MotionMessage& message) { return boost::json::serialize(jsonOf(message)); }
+
+std::string jsonText(const RunMessage& message) { return boost::json::serialize(jsonOf(message)); }
 
 }  // namespace kinegraph

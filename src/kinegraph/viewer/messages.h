@@ -112,6 +112,15 @@ struct MotionMessage {
   std::vector<TraceMessage> traces;
 };
 
+struct RunMessage {
+  int shown = 0;
+  double time = 0;
+  double factor = 0;
+  int paused = 0;
+  std::vector<double> contacts;
+  std::vector<double> pull;
+};
+
 /// Messages as the client reads them.
 std::string jsonText(const SceneMessage& message);
 std::string jsonText(const JointsMessage& message);
@@ -121,5 +130,6 @@ std::string jsonText(const LookMessage& message);
 std::string jsonText(const NearMessage& message);
 std::string jsonText(const SelectMessage& message);
 std::string jsonText(const MotionMessage& message);
+std::string jsonText(const RunMessage& message);
 
 }  // namespace kinegraph

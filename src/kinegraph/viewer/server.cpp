@@ -48,6 +48,8 @@ class ViewerServer::Impl {
     if (const auto* event = std::get_if<EventCommand>(&command)) return state_->addEvent(*event);
     if (const auto* cursor = std::get_if<CursorCommand>(&command)) return state_->moveCursor(*cursor);
     if (const auto* viewpoint = std::get_if<ViewpointCommand>(&command)) return state_->moveCamera(*viewpoint);
+    if (const auto* run = std::get_if<RunCommand>(&command)) return state_->steerRun(*run);
+    if (const auto* pull = std::get_if<PullCommand>(&command)) return state_->pull(*pull);
     std::optional<EditedScene> edited;
     try {
       const std::lock_guard lock(answer_mutex_);
@@ -99,6 +101,17 @@ void ViewerServer::showMotion(const ShownMotion& motion) {
 
 void ViewerServer::endMotion() {
   impl_->changeScene([](ShownScene& scene) { return scene.endMotion(); });
+}
+
+void ViewerServer::showRun(const ShownRun& run) {
+  impl_->changeScene([&](ShownScene& scene) {
+    scene.setRun(run);
+    return true;
+  });
+}
+
+void ViewerServer::endRun() {
+  impl_->changeScene([](ShownScene& scene) { return scene.endRun(); });
 }
 
 void ViewerServer::select(int item) {
@@ -183,6 +196,21 @@ std::optional<Cursor> ViewerServer::cursor() {
   impl_->changeScene([&](ShownScene& scene) { return scene.requestCursor(); });
   const std::lock_guard lock(impl_->state_->mutex);
   return impl_->state_->cursor;
+}
+
+RunRequests ViewerServer::takeRunRequests() {
+  const std::lock_guard lock(impl_->state_->mutex);
+  return impl_->state_->run.take();
+}
+
+void ViewerServer::waitRunRequest(double seconds) {
+  std::unique_lock lock(impl_->state_->mutex);
+  impl_->state_->changed.wait_for(lock, std::chrono::duration<double>(seconds));
+}
+
+void ViewerServer::endRunRequests() {
+  const std::lock_guard lock(impl_->state_->mutex);
+  impl_->state_->run = {};
 }
 
 int ViewerServer::takeKey() {

@@ -10,7 +10,9 @@
 #include "kinegraph/viewer/commands.h"
 #include "kinegraph/viewer/look.h"
 #include "kinegraph/viewer/near_lines.h"
+#include "kinegraph/viewer/run_requests.h"
 #include "kinegraph/viewer/shown_motion.h"
+#include "kinegraph/viewer/shown_run.h"
 
 namespace kinegraph {
 
@@ -127,6 +129,14 @@ class ViewerServer {
 
   /// What is under the pointer of the browser in which it moved last. Browsers tell from the first call on.
   std::optional<Cursor> cursor();
+
+  /// Shows that a simulation runs, with buttons to steer it, until `endRun`.
+  void showRun(const ShownRun& run);
+  void endRun();
+
+  RunRequests takeRunRequests();        ///< what people ask of it now; see RunRequests::take
+  void waitRunRequest(double seconds);  ///< for any news from browsers, or for so long
+  void endRunRequests();                ///< nobody asks for anything any more: it is not paused, and nothing is pulled
 
   /// Waits until a browser is connected, for at most so many seconds.
   bool waitForClient(double seconds);

@@ -106,6 +106,19 @@ MotionMessage headOf(const ShownMotion& motion) {
           motion.violations,        motion.marked,  traces};
 }
 
+RunMessage messageOf(const ShownRun& run) {
+  RunMessage message{1, run.time, run.factor, run.is_paused, {}, {}};
+  for (const auto& [position, force] : run.contacts) {
+    message.contacts.insert(message.contacts.end(), position.begin(), position.end());
+    message.contacts.insert(message.contacts.end(), force.begin(), force.end());
+  }
+  if (run.pull) {
+    const auto& [from, to, force] = *run.pull;
+    message.pull = {from.x(), from.y(), from.z(), to.x(), to.y(), to.z(), force};
+  }
+  return message;
+}
+
 template <class T>
 Outgoing textOf(const T& message) {
   return {std::make_shared<std::string>(jsonText(message)), false};
@@ -222,6 +235,18 @@ bool ShownScene::endMotion() {
   if (motion_.empty()) return false;
   motion_.clear();
   motion_revision_ = ++revision_;
+  return true;
+}
+
+void ShownScene::setRun(const ShownRun& run) {
+  run_ = run;
+  run_revision_ = ++revision_;
+}
+
+bool ShownScene::endRun() {
+  if (!run_) return false;
+  run_.reset();
+  run_revision_ = ++revision_;
   return true;
 }
 
@@ -354,6 +379,7 @@ std::vector<Outgoing> ShownScene::messagesSince(Seen& seen) const {
   if (q_revision_ > seen.revision) out.push_back({std::make_shared<std::string>(encodeJoints(q_)), true});
   if (look_revision_ > seen.revision) send(lookMessage());
   if (near_revision_ > seen.revision) out.push_back({near_, false});
+  if (run_revision_ > seen.revision) send(run_ ? messageOf(*run_) : RunMessage{});
   for (const auto& [id, quad] : quads_) {
     if (quad.first > seen.revision) out.push_back(quad.second);
   }

@@ -44,6 +44,8 @@ class ShownScene {
 
   void setMotion(const ShownMotion& motion);
   bool endMotion();
+  void setRun(const ShownRun& run);
+  bool endRun();
   bool setNear(const std::vector<NearLine>& lines);
   void setQuad(const Quad& quad);
   bool setLook(const Look& look);
@@ -98,6 +100,8 @@ class ShownScene {
   std::uint64_t joints_revision_ = 0, q_revision_ = 0, motion_revision_ = 0, select_revision_ = 0;
   int selected_ = -1;
   std::vector<Outgoing> motion_;  ///< as it is sent; empty: there is none
+  std::optional<ShownRun> run_;
+  std::uint64_t run_revision_ = 0;
   PageCamera camera_;
   Look look_;
   int events_ = 0;

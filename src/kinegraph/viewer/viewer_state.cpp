@@ -46,6 +46,22 @@ void ViewerState::moveCamera(const ViewpointCommand& command) {
   camera_moved = true;
 }
 
+void ViewerState::steerRun(const RunCommand& command) {
+  {
+    const std::lock_guard lock(mutex);
+    if (!run.apply(command)) return;
+  }
+  changed.notify_all();
+}
+
+void ViewerState::pull(const PullCommand& command) {
+  {
+    const std::lock_guard lock(mutex);
+    if (!run.apply(command)) return;
+  }
+  changed.notify_all();
+}
+
 void ViewerState::addClient() {
   {
     const std::lock_guard lock(mutex);
@@ -56,7 +72,7 @@ void ViewerState::addClient() {
 
 void ViewerState::removeClient() {
   const std::lock_guard lock(mutex);
-  --clients;
+  if (--clients == 0) run.pull.reset();  // nobody holds it any more
 }
 
 std::vector<Outgoing> ViewerState::messagesSince(ShownScene::Seen& seen) const {

@@ -6,6 +6,7 @@
 #include <string>
 
 #include "kinegraph/viewer/input_events.h"
+#include "kinegraph/viewer/run_requests.h"
 #include "kinegraph/viewer/shown_scene.h"
 
 namespace kinegraph {
@@ -23,11 +24,14 @@ struct ViewerState {
   std::optional<Cursor> cursor;
   std::optional<PageCamera> camera;  ///< where pages look from: as the program said, or where a person turned one to
   bool camera_moved = false;         ///< by a person, since the program was told
+  RunRequests run;
 
   void press(const KeyCommand& key);
   void addEvent(const EventCommand& event);
   void moveCursor(const CursorCommand& cursor);
   void moveCamera(const ViewpointCommand& viewpoint);
+  void steerRun(const RunCommand& command);
+  void pull(const PullCommand& command);
   void addClient();
   void removeClient();
 

@@ -21,13 +21,19 @@ using tcp = asio::ip::tcp;
 
 namespace {
 
+constexpr auto kPause = std::chrono::milliseconds(12);  ///< after each batch: more pictures than that nobody sees
+
 using HttpRequest = http::request<http::string_body>;
 
-/// One browser tab: sends what has changed since it was last told, one batch after the other. On the server's thread.
+/// One browser tab: sends what has changed since it was last told, one batch after the other, with a pause in between, so
+/// that a program that changes much does not drown it. On the server's thread.
 class BrowserSession : public std::enable_shared_from_this<BrowserSession> {
  public:
   BrowserSession(tcp::socket socket, std::shared_ptr<ViewerState> state, WebServer::OnCommand on_command)
-      : socket_(std::move(socket)), state_(std::move(state)), on_command_(std::move(on_command)) {}
+      : socket_(std::move(socket)),
+        pause_(socket_.get_executor()),
+        state_(std::move(state)),
+        on_command_(std::move(on_command)) {}
 
   void start(HttpRequest request);
 
@@ -39,15 +45,17 @@ class BrowserSession : public std::enable_shared_from_this<BrowserSession> {
   void read();
   void receive();
   void write();
+  void pause();
   void leave();
 
   websocket::stream<beast::tcp_stream> socket_;
+  asio::steady_timer pause_;
   std::shared_ptr<ViewerState> state_;
   WebServer::OnCommand on_command_;
   beast::flat_buffer buffer_;
   std::deque<Outgoing> sending_;
   ShownScene::Seen seen_;
-  bool open_ = false;
+  bool open_ = false, pauses_ = false;
 };
 
 void BrowserSession::start(HttpRequest request) {
@@ -64,7 +72,7 @@ void BrowserSession::start(HttpRequest request) {
 }
 
 void BrowserSession::wake() {
-  if (!open_ || !sending_.empty()) return;  // a busy client gets the latest state when it is done
+  if (!open_ || pauses_ || !sending_.empty()) return;  // it gets the latest state when it is done
   for (Outgoing& message : state_->messagesSince(seen_)) sending_.push_back(std::move(message));
   if (!sending_.empty()) write();
 }
@@ -96,9 +104,18 @@ void BrowserSession::write() {
   const auto sent = [self = shared_from_this()](beast::error_code error, std::size_t) {
     if (error) return self->leave();
     self->sending_.pop_front();
-    self->sending_.empty() ? self->wake() : self->write();
+    self->sending_.empty() ? self->pause() : self->write();
   };
   socket_.async_write(asio::buffer(*sending_.front().data), sent);
+}
+
+void BrowserSession::pause() {
+  pauses_ = true;
+  pause_.expires_after(kPause);
+  pause_.async_wait([self = shared_from_this()](beast::error_code error) {
+    self->pauses_ = false;
+    if (!error) self->wake();
+  });
 }
 
 void BrowserSession::leave() {

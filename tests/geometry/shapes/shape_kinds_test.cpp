@@ -83,6 +83,23 @@ TEST(ShapeKinds, TheExtentIsThatOfTheSurface) {
   EXPECT_EQ(shapeHeight(ShapeType::marker, {.1}), 0.);
 }
 
+TEST(ShapeKinds, ABodyHasTheExtentThatItsFirstSizesSay) {
+  using Body = ShapeKind::Body;
+  int told = 0;
+  for (const ShapeKind& kind : shapeKinds()) {
+    if (kind.body == Body::other) continue;
+    const std::vector<double> size = sampleOf(kind).size;
+    const double across = 2. * size[kind.body == Body::ball ? 0 : 1];
+    const Vector3d expected = kind.body == Body::box        ? Vector3d(size[0], size[1], size[2])
+                              : kind.body == Body::ball     ? Vector3d::Constant(across).eval()
+                              : kind.body == Body::cylinder ? Vector3d(across, across, size[0])
+                                                            : Vector3d(across, across, size[0] + across);
+    EXPECT_EQ(kind.extent(size), expected) << kind.name;
+    ++told;
+  }
+  EXPECT_EQ(told, 6);
+}
+
 TEST(ShapeKinds, AnExactShellIsThatOfTheFacetsGiveOrTakeTheirCoarseness) {
   for (const ShapeKind& kind : shapeKinds()) {
     if (!kind.shell) continue;

@@ -31,6 +31,34 @@ TEST(Indefinite, WhereRowsHoldTheNegativeCurvatureTheFunctionOnThemIsTheSame) {
   EXPECT_NEAR(((f.H - W) * there + f.g - g).norm(), 0., 1e-12);
 }
 
+TEST(Indefinite, TheFunctionOnTheRowsIsTheSameHoweverStronglyTheyAreCoupledWithWhatIsFree) {
+  const MatrixXd W = (MatrixXd(3, 3) << 16., -216., 0., -216., 0., 1., 0., 1., .06).finished();
+  const VectorXd g = Eigen::Vector3d(-1., .5, .2), b = VectorXd::Constant(1, -.25);
+  const MatrixXd A = (MatrixXd(1, 3) << 0., 1., 0.).finished();
+  const QuadraticFunction f = convexified(W, g, A, b, 1e-3);
+  EXPECT_TRUE(isConvex(f.H));
+  const auto difference = [&](double x, double z) {
+    const Eigen::Vector3d d(x, .25, z);
+    return .5 * d.dot(f.H * d) + f.g.dot(d) - .5 * d.dot(W * d) - g.dot(d);
+  };
+  EXPECT_NEAR(difference(-1., 2.), difference(2., -3.), 1e-9);
+  const Eigen::Vector3d there(.7, .25, -.3);
+  EXPECT_NEAR(((f.H - W) * there + f.g - g).norm(), 0., 1e-8);
+}
+
+TEST(Indefinite, OnlyCurvatureAlongTheRowsChangesItsSign) {
+  const MatrixXd W = Eigen::Vector3d(-3., 2., 7.).asDiagonal(), A = (MatrixXd(1, 3) << 0., 0., 1.).finished();
+  const QuadraticFunction f = convexified(W, VectorXd::Zero(3), A, VectorXd::Zero(1), 1e-3);
+  EXPECT_TRUE(isConvex(f.H));
+  EXPECT_NEAR((f.H.topLeftCorner(2, 2) - MatrixXd(Eigen::Vector2d(3., 2.).asDiagonal())).norm(), 0., 1e-12);
+}
+
+TEST(Indefinite, AFunctionWithoutCurvatureGetsTheLeast) {
+  const QuadraticFunction f =
+      convexified(MatrixXd::Zero(2, 2), Eigen::Vector2d(1., 0.), MatrixXd(0, 2), VectorXd(0), .5);
+  EXPECT_NEAR((f.H - .5 * MatrixXd::Identity(2, 2)).norm(), 0., 1e-12);
+}
+
 TEST(Indefinite, OtherwiseNoCurvatureIsLessThanTheLeast) {
   const MatrixXd W = (MatrixXd(3, 3) << 0., 3., 1., 3., 0., -2., 1., -2., 0.).finished();  // zero diagonal
   const QuadraticFunction f = convexified(W, Eigen::Vector3d::Ones(), MatrixXd(0, 3), VectorXd(0), .25);

@@ -5,7 +5,6 @@
 
 #include <mutex>
 
-#include "kinegraph/base/dynamic_library.h"
 #include "kinegraph/base/errors.h"
 #include "kinegraph/base/text.h"
 
@@ -16,15 +15,7 @@ namespace {
 Assimp loadAssimp() {
   const DynamicLibrary library(KINEGRAPH_ASSIMP_LIBRARY, "a mesh file");
   Assimp functions;
-  library.load(functions.aiCreatePropertyStore, "aiCreatePropertyStore");
-  library.load(functions.aiReleasePropertyStore, "aiReleasePropertyStore");
-  library.load(functions.aiSetImportPropertyInteger, "aiSetImportPropertyInteger");
-  library.load(functions.aiImportFileExWithProperties, "aiImportFileExWithProperties");
-  library.load(functions.aiApplyPostProcessing, "aiApplyPostProcessing");
-  library.load(functions.aiReleaseImport, "aiReleaseImport");
-  library.load(functions.aiGetErrorString, "aiGetErrorString");
-  library.load(functions.aiGetMaterialColor, "aiGetMaterialColor");
-  library.load(functions.aiGetMaterialTexture, "aiGetMaterialTexture");
+  KINEGRAPH_ASSIMP_FUNCTIONS(KINEGRAPH_LIBRARY_LOAD)
   return functions;
 }
 

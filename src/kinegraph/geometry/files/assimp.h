@@ -7,19 +7,19 @@
 #include <memory>
 #include <string>
 
+#include "kinegraph/base/dynamic_library.h"
+
 namespace kinegraph {
+
+// clang-format off
+#define KINEGRAPH_ASSIMP_FUNCTIONS(X) \
+  X(aiCreatePropertyStore) X(aiReleasePropertyStore) X(aiSetImportPropertyInteger) X(aiImportFileExWithProperties) \
+  X(aiApplyPostProcessing) X(aiReleaseImport) X(aiGetErrorString) X(aiGetMaterialColor) X(aiGetMaterialTexture)
+// clang-format on
 
 /// The functions of assimp that are used here, by their own names.
 struct Assimp {
-  decltype(&::aiCreatePropertyStore) aiCreatePropertyStore;
-  decltype(&::aiReleasePropertyStore) aiReleasePropertyStore;
-  decltype(&::aiSetImportPropertyInteger) aiSetImportPropertyInteger;
-  decltype(&::aiImportFileExWithProperties) aiImportFileExWithProperties;
-  decltype(&::aiApplyPostProcessing) aiApplyPostProcessing;
-  decltype(&::aiReleaseImport) aiReleaseImport;
-  decltype(&::aiGetErrorString) aiGetErrorString;
-  decltype(&::aiGetMaterialColor) aiGetMaterialColor;
-  decltype(&::aiGetMaterialTexture) aiGetMaterialTexture;
+  KINEGRAPH_ASSIMP_FUNCTIONS(KINEGRAPH_LIBRARY_MEMBER)
 };
 
 /// Assimp, loaded by the first call: a scene without such mesh files does without. Throws FileError, which names the

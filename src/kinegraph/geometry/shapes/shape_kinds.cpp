@@ -15,6 +15,7 @@ namespace {
 using Sizes = std::vector<double>;
 using Form = ShapeCore::Form;
 using Data = ShapeKind::Data;
+using Body = ShapeKind::Body;
 
 Vector3d sides(const Sizes& s) { return {s[0], s[1], s[2]}; }
 Vector3d halfSides(const Geometry& g) { return .5 * sides(g.size); }
@@ -102,21 +103,21 @@ std::string repairRoundedCylinder(Sizes& s) {
 
 // clang-format off
 const ShapeKind kKinds[] = {
-    {.type = ShapeType::box, .name = "box", .size_names = "x y z",
+    {.type = ShapeType::box, .name = "box", .size_names = "x y z", .body = Body::box,
      .has_inertia = true, .is_drawn_by_page = true,
      .core = boxCore,
      .surface = boxSurface,
      .shell = [](const Sizes& s) { return boxShell(s[0], s[1], s[2]); },
      .extent = sides,
      .modernize = modernizeBox},
-    {.type = ShapeType::sphere, .name = "sphere", .size_names = "radius",
+    {.type = ShapeType::sphere, .name = "sphere", .size_names = "radius", .body = Body::ball,
      .has_inertia = true, .is_turned = true, .is_drawn_by_page = true,
      .core = [](const Geometry& g) { return ShapeCore{.radius = g.size[0]}; },
      .surface = [](const Geometry& g) { return roundedBox(Vector3d::Zero(), g.size[0]); },
      .shell = [](const Sizes& s) { return sphereShell(s[0]); },
      .extent = [](const Sizes& s) -> Vector3d { return Vector3d::Constant(2. * s[0]); },
      .modernize = modernizeSphere},
-    {.type = ShapeType::capsule, .name = "capsule", .size_names = "length radius",
+    {.type = ShapeType::capsule, .name = "capsule", .size_names = "length radius", .body = Body::capsule,
      .has_inertia = true, .is_turned = true, .is_drawn_by_page = true,
      .core = [](const Geometry& g) {
        return ShapeCore{.form = Form::segment, .radius = g.size[1], .half_length = .5 * g.size[0]};
@@ -129,7 +130,7 @@ const ShapeKind kKinds[] = {
      .has_inertia = true,
      .core = [](const Geometry&) { return ShapeCore{.form = Form::hulls_of_parts}; },
      .surface = [](const Geometry& g) { return g.mesh ? *g.mesh : Mesh{}; }},
-    {.type = ShapeType::cylinder, .name = "cylinder", .size_names = "length radius",
+    {.type = ShapeType::cylinder, .name = "cylinder", .size_names = "length radius", .body = Body::cylinder,
      .has_inertia = true, .is_turned = true, .is_drawn_by_page = true,
      .core = [](const Geometry& g) { return cylinderCore(g.size[0], g.size[1], 0.); },
      .surface = [](const Geometry& g) { return roundedCylinder(g.size[0], g.size[1], 0.); },
@@ -145,7 +146,7 @@ const ShapeKind kKinds[] = {
      .has_inertia = true,
      .core = [](const Geometry& g) { return ShapeCore{.form = Form::hull, .radius = g.size[0]}; },
      .surface = convexCoreSurface},
-    {.type = ShapeType::ssBox, .name = "ssBox", .size_names = "x y z radius",
+    {.type = ShapeType::ssBox, .name = "ssBox", .size_names = "x y z radius", .body = Body::box,
      .has_inertia = true, .is_drawn_by_page = true,
      .core = [](const Geometry& g) {
        return ShapeCore{.form = Form::box, .radius = g.size[3], .half_sides = halfSides(g) - Vector3d::Constant(g.size[3])};
@@ -153,7 +154,7 @@ const ShapeKind kKinds[] = {
      .surface = [](const Geometry& g) { return roundedBox(halfSides(g) - Vector3d::Constant(g.size[3]), g.size[3]); },
      .extent = sides,
      .repair = repairRoundedBox},
-    {.type = ShapeType::ssCylinder, .name = "ssCylinder", .size_names = "length radius rounding",
+    {.type = ShapeType::ssCylinder, .name = "ssCylinder", .size_names = "length radius rounding", .body = Body::cylinder,
      .has_inertia = true, .is_turned = true, .is_drawn_by_page = true,
      .core = [](const Geometry& g) { return cylinderCore(g.size[0], g.size[1], g.size[2]); },
      .surface = [](const Geometry& g) { return roundedCylinder(g.size[0], g.size[1], g.size[2]); },

@@ -29,11 +29,16 @@ struct ShapeKind {
   /// swept along, or a grid of numbers.
   enum class Data { none, mesh, core_points, grid };
 
+  /// The simple body that it counts as, sharp or rounded, where facts, grasps and placements speak of such; its first
+  /// sizes are x y z of a box, the radius of a ball, the length and the radius of the other two.
+  enum class Body { other, box, ball, capsule, cylinder };
+
   ShapeType type = ShapeType::none;
   std::string_view name;           ///< the word of files
   std::string_view size_names{};   ///< a word for each entry of `Geometry::size`
   std::size_t optional_sizes = 0;  ///< entries that may be given although they have no name
   Data data = Data::none;
+  Body body = Body::other;
   bool is_symbol = false;    ///< marks a place, and is no body: never collides, no file format writes it
   bool has_inertia = false;  ///< its surface carries a mass
   bool is_turned = false;    ///< about z: pictures are wound around it

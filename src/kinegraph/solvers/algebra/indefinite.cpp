@@ -11,7 +11,7 @@ namespace kinegraph {
 namespace {
 
 constexpr double kLeastRelative = 1e-8;  ///< curvature that counts as some, as a part of the largest entry
-constexpr double kRowWeight = 10.;       ///< of |A d + b|^2, in units of the largest entry of W
+constexpr double kRowWeight = 10.;       ///< curvature across rows, in units of the largest entry of W, and more
 constexpr double kAdmitted = 1e-9;       ///< of a^T d, for rows of length 1
 
 bool isConvex(const MatrixXd& W, double least) {
@@ -32,16 +32,27 @@ std::vector<Eigen::Index> rowsInTheWay(const MatrixXd& rows, const VectorXd& d) 
 
 QuadraticFunction convexified(const MatrixXd& W, const VectorXd& g, const MatrixXd& A, const VectorXd& b,
                               double least) {
-  const double size = W.cwiseAbs().maxCoeff();
+  const double size = W.cwiseAbs().maxCoeff(), some = kLeastRelative * size;
   QuadraticFunction out{W, g};
-  if (isConvex(W, kLeastRelative * size)) return out;
-  const double weight = kRowWeight * std::max(size, least);
-  out.H.noalias() += weight * A.transpose() * A;
-  out.g.noalias() += weight * A.transpose() * b;
-  if (A.rows() > 0 && isConvex(out.H, kLeastRelative * size)) return out;
-  const Eigen::SelfAdjointEigenSolver<MatrixXd> principal(out.H);
-  const VectorXd curvatures = principal.eigenvalues().cwiseMax(std::max(kLeastRelative * size, least));
-  out.H = principal.eigenvectors() * curvatures.asDiagonal() * principal.eigenvectors().transpose();
+  if (isConvex(W, some)) return out;
+  const MatrixXd Z = nullSpace(A);
+  MatrixXd left = out.H;  // the curvature across the rows that remains at the least value along them
+  if (Z.cols() > 0) {
+    const Eigen::SelfAdjointEigenSolver<MatrixXd> principal(Z.transpose() * W * Z);
+    VectorXd curvatures = principal.eigenvalues();
+    const MatrixXd along = Z * principal.eigenvectors();
+    if (!(curvatures[0] > some)) {  // some negative curvature is not held by rows
+      curvatures = curvatures.cwiseAbs().cwiseMax(std::max(some, least));
+      out.H += along * (curvatures - principal.eigenvalues()).asDiagonal() * along.transpose();
+    }
+    const MatrixXd mixed = out.H * along;
+    left = out.H - mixed * curvatures.cwiseInverse().asDiagonal() * mixed.transpose();
+  }
+  if (A.rows() == 0) return out;
+  const double lowest = Eigen::SelfAdjointEigenSolver<MatrixXd>(left, Eigen::EigenvaluesOnly).eigenvalues()[0],
+               weight = kRowWeight * std::max(size, least) + 2. * std::max(0., -lowest);
+  out.H += weight * (MatrixXd::Identity(W.rows(), W.cols()) - Z * Z.transpose());
+  out.g += weight * A.completeOrthogonalDecomposition().solve(b);
   return out;
 }
 

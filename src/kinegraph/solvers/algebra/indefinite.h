@@ -14,8 +14,8 @@ struct QuadraticFunction {
 
 /// A strictly convex function in place of 1/2 d^T W d + g^T d. As long as W is convex where A d + b = 0, it is the same
 /// there, up to a constant, so that least values with these rows active are the same, and so are their multipliers: it
-/// is W itself, or W with a multiple of |A d + b|^2. Otherwise negative curvatures have their sign changed, so that
-/// steps lead away from saddles. None is less than `least`. The rows of A have length 1.
+/// is W itself, or W with a multiple of the squared distance from where A d + b = 0. Otherwise negative curvatures along
+/// the rows have their sign changed, so that steps lead away from saddles, and none of those is less than `least`.
 /// Sources: Nocedal & Wright, Numerical Optimization, 2nd ed., ch. 3.4 and 18.4; Dauphin et al., Identifying and
 /// attacking the saddle point problem, 2014.
 QuadraticFunction convexified(const MatrixXd& W, const VectorXd& g, const MatrixXd& A, const VectorXd& b, double least);

@@ -20,9 +20,10 @@ std::string solverStatusName(SolverStatus status);
 
 /// How a solve ended. Not converging is a status, not an error.
 struct SolverResult {
-  VectorXd x;     ///< the best point found
-  VectorXd dual;  ///< multiplier per residual, 0 for costs
-  int evals = 0;
+  VectorXd x;             ///< the best point found
+  VectorXd dual;          ///< multiplier per residual, 0 for costs
+  int evals = 0;          ///< of this solve
+  int totalEvals = 0;     ///< of all solves of the solver so far, this one included
   double time = 0.;       ///< s
   bool feasible = false;  ///< no constraint (scaled) is violated by more than max(1e-3, 10 tolerances)
   bool done = false;

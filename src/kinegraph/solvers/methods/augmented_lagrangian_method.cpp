@@ -28,6 +28,11 @@ AugmentedLagrangian::AugmentedLagrangian(Nlp& nlp, Memory& memory, const VectorX
 }
 
 SolverResult AugmentedLagrangian::run(const VectorXd& dual) {
+  search(dual);
+  return function_.result(status_ == SolverStatus::converged ? here_ : function_.best(), lambda_, status_, message_);
+}
+
+void AugmentedLagrangian::search(const VectorXd& dual) {
   if (function_.hasGeneralCosts()) curvature_.reset(nlp_.dimension());
   const bool is_warm = dual.size() == here_.phi.size();
   if (is_warm) {
@@ -47,7 +52,7 @@ SolverResult AugmentedLagrangian::run(const VectorXd& dual) {
     memory_.damping = 0.;
     iterate();
   }
-  return function_.result(status_ == SolverStatus::converged ? here_ : function_.best(), lambda_, status_, message_);
+  memory_.penalty = penalty_.value();
 }
 
 /// Goes to the solution of the linearized problem, if that is the solution of the problem.
@@ -112,9 +117,11 @@ void AugmentedLagrangian::iterate() {
 
 bool AugmentedLagrangian::reachedLimit(int steps) {
   const int most_steps = kStepsPerInner * options_.stopInners;
-  if (function_.evals() >= options_.stopEvals)
-    stop(SolverStatus::limit, cat("limit of ", options_.stopEvals, " evaluations"));
-  else if (steps >= most_steps)
+  if (function_.evals() >= options_.stopEvals) {
+    char text[64];  // loops end here at every call, and request no memory
+    std::snprintf(text, sizeof text, "limit of %d evaluations", options_.stopEvals);
+    stop(SolverStatus::limit, text);
+  } else if (steps >= most_steps)
     stop(SolverStatus::limit, cat("limit of ", most_steps, " steps, ", kStepsPerInner, " times stopInners"));
   else if (rounds_ >= options_.stopOuters)
     stop(SolverStatus::limit, cat("limit of ", options_.stopOuters, " rounds"));
@@ -299,9 +306,9 @@ void AugmentedLagrangian::refuse(const Step& step) {
   damping_.refuse(step.curvature);
 }
 
-void AugmentedLagrangian::stop(SolverStatus status, std::string message) {
+void AugmentedLagrangian::stop(SolverStatus status, std::string_view message) {
   status_ = status;
-  message_ = std::move(message);
+  message_ = message;
   stopped_ = true;
 }
 

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <limits>
+#include <string_view>
 
 #include "kinegraph/solvers/algebra/local_model.h"
 #include "kinegraph/solvers/algebra/quasi_newton.h"
@@ -31,6 +32,8 @@ struct AugmentedLagrangianMemory::Parts {
   std::unique_ptr<LocalModel> model;
   VectorXd start, lambda, next_lambda, multipliers, low, high, gradient;
   double damping = 0.;  ///< at the end of the last solution; 0 where it did not converge
+  double penalty = 0.;  ///< at its end
+  std::string message;  ///< why it ended
 };
 
 /// The method of solveAugmentedLagrangian, on its way. Where Nocedal & Wright, ch. 17.4, write h, f and L, there are
@@ -42,6 +45,11 @@ class AugmentedLagrangian {
   AugmentedLagrangian(Nlp& nlp, Memory& memory, const VectorXd& x0, const SolverOptions& options);
 
   SolverResult run(const VectorXd& dual);
+
+  /// The same without a result: where it ended is in the memory, as `here` and `lambda`.
+  void search(const VectorXd& dual);
+  SolverStatus status() const { return status_; }
+  const std::string& message() const { return message_; }
 
  private:
   using Problem = LocalModel::Problem;
@@ -102,7 +110,7 @@ class AugmentedLagrangian {
   bool restored();
   void reduceViolation();
 
-  void stop(SolverStatus status, std::string message);
+  void stop(SolverStatus status, std::string_view message);
   void converge();
   bool evaluate(EvaluatedPoint& point);
 
@@ -152,7 +160,7 @@ class AugmentedLagrangian {
   bool was_corrected_ = false;       ///< the trial point
   bool stopped_ = false;
   SolverStatus status_ = SolverStatus::stalled;
-  std::string message_;
+  std::string& message_ = memory_.message;
   std::string trouble_;  ///< why the last step was refused; empty if it was not
 };
 

@@ -39,7 +39,7 @@ constexpr double kAtEdge = .9, kRadiusGrowth = 2., kRadiusFall = .5;
 /// Goes to the solution of the quadratic program here, if that is the solution of the problem.
 bool SequentialQuadratic::solvedInOneStep() {
   if (!knows_curvature_) return false;
-  radius_ = kFirstRadius * std::max(1., here_.x.lpNorm<Eigen::Infinity>());
+  radius_ = kFirstRadius;
   if (options_.stopEvals < 2) return false;
   const std::optional<QuadraticStep> step = quadraticStep(function_, here_.x, here_.phi, here_.J);
   if (!step) return false;
@@ -63,44 +63,60 @@ void SequentialQuadratic::findHessian(const VectorXd& multipliers) {
   H_ = W_;
 }
 
-/// Where there is less curvature, steps would be too long to say anything: by the slope that is left to go down.
+/// Where there is less curvature, steps would be too long to say anything: by the slope that is left to go down, with
+/// variables in their units.
 double SequentialQuadratic::leastCurvature() {
   old_gradient_ = gradient_;
   function_.addConstraintGradient(here_.J, lambda_, old_gradient_);
-  const double slope = (function_.clip(here_.x - old_gradient_) - here_.x).lpNorm<Eigen::Infinity>(),
-               room = std::max(1., here_.x.lpNorm<Eigen::Infinity>());
-  return std::max(1e-10, slope / (kLongestStep * room));
+  const VectorXd down = unit_.cwiseProduct(old_gradient_), x = here_.x.cwiseQuotient(unit_);
+  const double slope = ((x - down).cwiseMax(lower_.cwiseQuotient(unit_)).cwiseMin(upper_.cwiseQuotient(unit_)) - x)
+                           .lpNorm<Eigen::Infinity>();
+  return std::max(1e-10, slope / kLongestStep);
 }
 
+/// Rows that hold the step are those that were active in the last program; only touched ones, where others led uphill.
 void SequentialQuadratic::makeConvex(QuadraticProgram& program) {
-  const int count = int(active_.size());
-  MatrixXd A(count, program.A.cols());
-  VectorXd b(count);
-  for (int k = 0; k < count; ++k) {
-    A.row(k) = program.A.row(active_[std::size_t(k)]);
-    b[k] = program.b[active_[std::size_t(k)]];
+  MatrixXd A(0, here_.x.size());
+  VectorXd b(Eigen::Index(active_.size()));
+  for (int j : active_) {
+    if (holds_touched_only_ && j >= equalities_ &&
+        program.b[j] < -kTouching * std::max(1., here_.x.lpNorm<Eigen::Infinity>()))
+      continue;
+    const Eigen::RowVectorXd row = program.A.row(j).cwiseProduct(unit_.transpose());
+    b[A.rows()] = program.b[j] / row.norm();
+    appendRow(A, row / row.norm());
   }
   if (resets_ > 0)
     W_.diagonal().array() += kRegularization * std::pow(kMoreRegularization, resets_) * W_.cwiseAbs().maxCoeff();
-  QuadraticFunction convex = convexified(W_, gradient_, A, b, leastCurvature());
-  H_ = convex.H;
-  program.H = std::move(convex.H);
-  program.g = std::move(convex.g);
+  const QuadraticFunction convex = convexified(unit_.asDiagonal() * W_ * unit_.asDiagonal(),
+                                               unit_.cwiseProduct(gradient_), A, b.head(A.rows()), leastCurvature());
+  const VectorXd inverse = unit_.cwiseInverse();
+  H_ = inverse.asDiagonal() * convex.H * inverse.asDiagonal();
+  program.H = H_;
+  program.g = inverse.cwiseProduct(convex.g);
+}
+
+/// Do costs and violations, weighted by the multipliers, fall along the step at first?
+bool SequentialQuadratic::leadsDown(const Step& step) const {
+  double slope = gradient_.dot(step.d);
+  for (int j = 0; j < step.lambda.size(); ++j)
+    slope -= std::abs(step.lambda[j]) * (broken(j, here_.c[j]) - broken(j, step.linear[j]));
+  return slope < 0.;
 }
 
 /// Only the bounds limit the step then.
 void SequentialQuadratic::leaveRadius(QuadraticProgram& program) const {
   for (int i = 0, row = int(constraints_.size()); i < int(here_.x.size()); ++i) {
-    program.b[row++] = std::max(lower_[i] - here_.x[i], -kNoRadius);
-    program.b[row++] = -std::min(upper_[i] - here_.x[i], kNoRadius);
+    program.b[row++] = std::max(lower_[i] - here_.x[i], -kNoRadius * unit_[i]);
+    program.b[row++] = -std::min(upper_[i] - here_.x[i], kNoRadius * unit_[i]);
   }
 }
 
 /// Steps may be as long as they do what the model says.
 void SequentialQuadratic::adaptRadius(const Step& step, double alpha, double ratio) {
-  const double size = step.d.lpNorm<Eigen::Infinity>(), room = std::max(1., here_.x.lpNorm<Eigen::Infinity>());
+  const double size = step.d.cwiseQuotient(unit_).lpNorm<Eigen::Infinity>();
   if (alpha < 1. || ratio < kPoor)
-    radius_ = std::max(kLeastRadius * room, std::min(radius_, alpha < 1. ? alpha * size : .5 * size));
+    radius_ = std::max(kLeastRadius, std::min(radius_, alpha < 1. ? alpha * size : .5 * size));
   else if (ratio > kGood && size > kAtEdge * radius_)
     radius_ *= kRadiusGrowth;
 }

@@ -113,11 +113,11 @@ QuadraticProgram SequentialQuadratic::makeProgram(const VectorXd& c) const {
   for (int i = 0, row = m; i < n; ++i) {
     if (const double low = lower_[i] - here_.x[i]; std::isfinite(low) || knows_curvature_) {
       program.A(row, i) = -1.;
-      program.b[row++] = std::max(low, -radius_);
+      program.b[row++] = std::max(low, -radius_ * unit_[i]);
     }
     if (const double high = upper_[i] - here_.x[i]; std::isfinite(high) || knows_curvature_) {
       program.A(row, i) = 1.;
-      program.b[row++] = -std::min(high, radius_);
+      program.b[row++] = -std::min(high, radius_ * unit_[i]);
     }
   }
   return program;
@@ -208,6 +208,7 @@ void SequentialQuadratic::iterate() {
       return stop(SolverStatus::limit, cat("limit of ", options_.stopEvals, " evaluations"));
     if (count >= options_.stopInners) return stop(SolverStatus::limit, cat("limit of ", options_.stopInners, " steps"));
     const double room = std::max(1., here_.x.lpNorm<Eigen::Infinity>());
+    unit_ = here_.x.cwiseAbs().cwiseMax(1.);
     linearize(room);
     const Step step = findStep();
     const double violation = here_.violation, size = step.d.lpNorm<Eigen::Infinity>();
@@ -248,10 +249,16 @@ void SequentialQuadratic::iterate() {
 }
 
 SequentialQuadratic::Step SequentialQuadratic::findStep() {
+  holds_touched_only_ = false;
   Step step = solveQuadratic(here_.c);
+  if (!knows_curvature_) return step;
   // What is expected to be active decides how an indefinite Hessian is made convex.
-  for (int pass = 0; knows_curvature_ && pass < kActivePasses && step.found && step.active != active_; ++pass) {
+  for (int pass = 0; pass < kActivePasses && step.found && step.active != active_; ++pass) {
     active_ = step.active;
+    step = solveQuadratic(here_.c);
+  }
+  if (step.found && !leadsDown(step)) {
+    holds_touched_only_ = true;
     step = solveQuadratic(here_.c);
   }
   return step;

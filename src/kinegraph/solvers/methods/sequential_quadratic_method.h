@@ -42,6 +42,7 @@ class SequentialQuadratic {
   bool solvedInOneStep();
   void findHessian(const VectorXd& multipliers);
   void makeConvex(QuadraticProgram& program);
+  bool leadsDown(const Step& step) const;
   double curvatureAlong(const VectorXd& d) const;
   double leastCurvature();
   void leaveRadius(QuadraticProgram& program) const;
@@ -88,6 +89,7 @@ class SequentialQuadratic {
   MatrixXd H_, A_;      ///< of the quadratic program; A with rows of length 1
   VectorXd row_scale_;  ///< one over their length in J
   VectorXd lambda_, weights_, gradient_, old_gradient_;
+  VectorXd unit_;  ///< of each variable: its size here, at least 1
   double tolerance_;
   bool stopped_ = false;
   SolverStatus status_ = SolverStatus::stalled;
@@ -98,6 +100,7 @@ class SequentialQuadratic {
   ConstraintCurvature constraint_curvature_;
   MatrixXd W_;               ///< Hessian of the Lagrangian, as far as it is known
   std::vector<int> active_;  ///< rows of the program that are expected to be active
+  bool holds_touched_only_ = false;
   int saddles_ = 0;
   double radius_ = std::numeric_limits<double>::infinity();  ///< of steps, where the Hessian is known
 };

@@ -3,6 +3,8 @@
 #include <cmath>
 #include <optional>
 
+#include "kinegraph/nlp/evaluation_sizes.h"
+
 namespace kinegraph {
 
 bool isInequality(ObjectiveType type) { return type == ObjectiveType::ineq || type == ObjectiveType::ineqB; }
@@ -20,6 +22,7 @@ PenaltyNlp::PenaltyNlp(Nlp& nlp) : nlp_(nlp), inner_(nlp.makeJacobian()) {
 void PenaltyNlp::setWeight(double mu) { root_ = std::sqrt(mu); }
 
 void PenaltyNlp::evaluate(const VectorXd& x, VectorXd& phi, Jacobian* J) {
+  prepareEvaluation(*this, x, phi, J);
   nlp_.evaluate(x, phi, J ? &inner_ : nullptr);
   if (J) J->copyRows(inner_);
   for (int row = 0; row < phi.size(); ++row) {
@@ -42,6 +45,7 @@ BarrierNlp::BarrierNlp(Nlp& nlp) : nlp_(nlp), inner_(nlp.makeJacobian()), inner_
 }
 
 void BarrierNlp::evaluate(const VectorXd& x, VectorXd& phi, Jacobian* J) {
+  prepareEvaluation(*this, x, phi, J);
   nlp_.evaluate(x, phi, J ? &inner_ : nullptr);
   if (J) J->copyRows(inner_);
   for (int row = 0; row < phi.size(); ++row) {

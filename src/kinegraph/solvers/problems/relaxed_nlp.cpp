@@ -4,6 +4,8 @@
 #include <cmath>
 #include <limits>
 
+#include "kinegraph/nlp/evaluation_sizes.h"
+
 namespace kinegraph {
 
 RelaxedNlp::RelaxedNlp(Nlp& nlp, const std::vector<bool>& relaxed, int variable)
@@ -38,8 +40,8 @@ Jacobian RelaxedNlp::makeJacobian() const {
 }
 
 void RelaxedNlp::evaluate(const VectorXd& x, VectorXd& phi, Jacobian* J) {
+  prepareEvaluation(*this, x, phi, J);
   nlp_.evaluate(x, inner_phi_, J ? &inner_ : nullptr);
-  phi.resize(Eigen::Index(types_.size()));
   phi.head(inner_phi_.size()) = inner_phi_;
   for (int row = 0; padding_ != 0. && row < inner_phi_.size(); ++row) {
     if (types_[row] == ObjectiveType::ineqP) phi[row] += padding_;

@@ -51,7 +51,7 @@ SolverResult NlpSampler::draw(Rng& rng, const EvaluationHook& hook) {
   SolverResult result;
   result.x = point.x;
   result.dual = VectorXd::Zero(point.phi.size());
-  result.evals = problem.evals();
+  result.evals = result.totalEvals = problem.evals();
   result.setSums(problem_->types(), point.phi, 0.);
   result.feasible = problem.good(point);
   result.status = problem.cancelled() ? SolverStatus::cancelled

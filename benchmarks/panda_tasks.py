@@ -1,0 +1,151 @@
+"""Tasks of Panda arms: how long planTask takes, and how many plans reach their goal in simulation.
+
+    python benchmarks/panda_tasks.py [--families tower,sort] [--sizes 3,5] [--seeds 5] [--repairs 3] [--jitter 0.005]
+
+Objects lie where a seed puts them. With --jitter the simulated world has them off by so much (m) from what the plan was made
+for. Printed: how many seeds are planned, processor time, how long the motion takes, how many reach the goal in the simulated
+world open loop, how many with repairs, and why the others stopped.
+"""
+
+from __future__ import annotations
+
+import argparse
+import statistics
+import time
+from collections import Counter
+from collections.abc import Callable
+from dataclasses import dataclass
+
+import numpy as np
+
+import kinegraph as ry
+
+TOP = 0.05  # m: of the table above the frame of the table
+
+
+@dataclass
+class Problem:
+    C: ry.Config
+    goal: str
+    least: int
+
+
+def scene() -> ry.Config:
+    C = ry.Config()
+    C.addFile(ry.raiPath("scenarios/pandaSingle.g"))
+    return C
+
+
+def box(C: ry.Config, name: str, parent: str, at: list[float], size: list[float], friction: float = 1.0) -> None:
+    """A box of .1 kg; `at` is relative to the middle of the parent's upper side."""
+    height = 0.5 * C.getFrame(parent).getSize()[2] + 0.5 * size[2]
+    frame = C.addFrame(name, parent).setRelativePosition([at[0], at[1], height]).setJoint(ry.JT.rigid)
+    frame.setShape(ry.ST.ssBox, [*size, 0.004]).setColor([1.0, 0.6, 0.2]).setContact(1).setMass(0.1)
+    frame.setAttributes({"friction": friction})
+
+
+def pad(C: ry.Config, name: str, at: list[float], size: list[float]) -> None:
+    frame = C.addFrame(name, "table").setRelativePosition([*at, TOP + 0.005])
+    frame.setShape(ry.ST.ssBox, [*size, 0.01, 0.004]).setColor([0.3, 0.6, 0.3]).setContact(1)
+
+
+def spots(rng: np.random.Generator, count: int, low: float, high: float, apart: float) -> list[list[float]]:
+    """Places on the table in front of the arm, at a distance from its base between two numbers, and from each other."""
+    found: list[np.ndarray] = []
+    while len(found) < count:
+        angle, radius = rng.uniform(-1.4, 1.4), rng.uniform(low, high)
+        spot = np.array([radius * np.sin(angle), -0.2 + radius * np.cos(angle)])
+        if all(np.linalg.norm(spot - other) >= apart for other in found):
+            found.append(spot)
+    return [spot.tolist() for spot in found]
+
+
+def tower(seed: int, k: int = 3) -> Problem:
+    """k cubes of 5 cm on a table, to be stacked in order."""
+    C, rng = scene(), np.random.default_rng(seed)
+    for i, at in enumerate(spots(rng, k, 0.35, 0.65, 0.12)):
+        box(C, f"b{i}", "table", at, [0.05, 0.05, 0.05])
+    return Problem(C, " ".join(f"(on b{i + 1} b{i})" for i in range(k - 1)), 2 * (k - 1))
+
+
+def sort(seed: int, k: int = 4) -> Problem:
+    """k boxes, onto two trays with room for half of them each."""
+    C, rng = scene(), np.random.default_rng(seed)
+    room = 0.12 * ((k + 1) // 2)
+    pad(C, "red", [0.5, 0.15], [0.14, room])
+    pad(C, "blue", [-0.5, 0.15], [0.14, room])
+    low = [[x, y] for x in np.linspace(-0.3, 0.3, 4) for y in np.linspace(0.15, 0.5, 4)]
+    for i, cell in enumerate(rng.permutation(len(low))[:k]):
+        at = (np.array(low[cell]) + rng.uniform(-0.02, 0.02, 2)).tolist()
+        box(C, f"o{i}", "table", at, [0.04, 0.05, 0.08])
+    return Problem(C, " ".join(f"(on {'red' if i % 2 else 'blue'} o{i})" for i in range(k)), 2 * k)
+
+
+FAMILIES: dict[str, Callable[[int, int], Problem]] = {"tower": tower, "sort": sort}
+
+
+def moved(C: ry.Config, jitter: float, rng: np.random.Generator) -> ry.Config:
+    """The scene with its objects a little off."""
+    world = C.copy()
+    for frame in world.getFrames():
+        if frame.getMass() > 0 and frame.getJointType() == ry.JT.rigid and frame.getParent().name == "table":
+            at = frame.getRelativePosition() + np.array([*rng.uniform(-jitter, jitter, 2), 0.0])
+            frame.setRelativePosition(at)
+    return world
+
+
+def carriedOut(plan: ry.TaskPlan, world: ry.Config, repairs: int) -> tuple[int, list[str]]:
+    """How many repairs it took to reach the goal, -1 if it was not reached; and why executions stopped."""
+    bot, stops = ry.BotOp(world), []
+    for attempt in range(repairs + 1):
+        run = plan.execute(bot)
+        if run.feasible:
+            return attempt, stops
+        stops.append(run.message)
+        if attempt < repairs:
+            plan = plan.repair(run.C)
+            if not plan.feasible:
+                return -1, [*stops, f"repair: {plan.message}"]
+    return -1, stops
+
+
+def main() -> None:
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("--families", default=",".join(FAMILIES))
+    parser.add_argument("--sizes", default="3")
+    parser.add_argument("--seeds", type=int, default=5)
+    parser.add_argument("--repairs", type=int, default=3)
+    parser.add_argument("--jitter", type=float, default=0.0)
+    options = parser.parse_args()
+    print("family      planned  false  median s  most s  motion s  open loop  with repair")
+    for name in options.families.split(","):
+        for size in map(int, options.sizes.split(",")):
+            planned, false, seconds, motion, reached, stops = 0, 0, [], [], [], Counter[str]()
+            for seed in range(options.seeds):
+                problem = FAMILIES[name](seed, size)
+                began = time.process_time()
+                plan = ry.planTask(problem.C, problem.goal, seed=seed)
+                seconds.append(time.process_time() - began)
+                if not plan.feasible:
+                    stops[plan.message] += 1
+                    continue
+                planned += 1
+                motion.append(plan.duration)
+                false += bool(ry.checkTaskPlan(problem.C, plan))
+                if options.repairs >= 0:
+                    world = moved(problem.C, options.jitter, np.random.default_rng(seed))
+                    attempts, why = carriedOut(plan, world, options.repairs)
+                    reached.append(attempts)
+                    stops.update(why)
+            first, all_ = sum(a == 0 for a in reached), sum(a >= 0 for a in reached)
+            print(
+                f"{name:8}{size:3} {planned:4} of {options.seeds:<3} {false:3} {statistics.median(seconds):9.2f}"
+                f" {max(seconds):7.2f} {statistics.median(motion or [0]):9.1f} {first:7} of {planned:<3} {all_:5} of {planned}",
+                flush=True,
+            )
+            for why, count in stops.most_common(6):
+                print(f"    {count} x {why}")
+
+
+if __name__ == "__main__":
+    main()

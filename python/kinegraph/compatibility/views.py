@@ -1,0 +1,121 @@
+"""Methods of what is shown, and of cameras, by their earlier names."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from .._core import CameraView, Config, ConfigurationViewer, Frame
+from ..errors import ArgumentError
+
+
+def get_viewer(self: Config) -> ConfigurationViewer:
+    """The viewer of this scene, as viewer."""
+    return self.viewer()
+
+
+def view_getRgb(self: Config) -> NDArray[np.uint8]:
+    """A picture, shape (height, width, 3), 0..255, as viewer().getRgb."""
+    return self.viewer().getRgb()
+
+
+def view_getDepth(self: Config) -> NDArray[np.float32]:
+    """The depth of a picture, shape (height, width), m, as viewer().getDepth."""
+    return self.viewer().getDepth()
+
+
+def view_savePng(self: Config, pathPrefix: str = "z.vid/") -> str:
+    """Saves a picture, as viewer().savePng.
+
+    Args:
+        pathPrefix: The file, if it ends in .png; else what stands before a number of six digits and .png.
+    Returns:
+        The file's name.
+    Raises:
+        OSError: The file cannot be written.
+    """
+    return self.viewer().savePng(pathPrefix)
+
+
+def view_focalLength(self: Config) -> float:
+    """Focal length of the view in image heights, the first number of viewer().getCamera_focalLength."""
+    return float(self.viewer().getCamera_focalLength()[0])
+
+
+def view_fxycxy(self: Config) -> NDArray[np.float64]:
+    """fx, fy, cx, cy of the view in pixels, shape (4,), as viewer().getCamera_fxycxy."""
+    return self.viewer().getCamera_fxycxy()
+
+
+def view_pose(self: Config) -> NDArray[np.float64]:
+    """Where the view is: x y z (m) qw qx qy qz, shape (7,), as viewer().getCamera_pose."""
+    return self.viewer().getCamera_pose()
+
+
+def view_raise(self: Config) -> None:
+    """Brings the page to the front, as viewer().raiseWindow."""
+    self.viewer().raiseWindow()
+
+
+def view_focus(self: Config, frameName: str, absHeight: float = 1.0) -> None:
+    """Turns the view to a frame, as viewer().focus to its position.
+
+    Args:
+        frameName: Name of the frame.
+        absHeight: What fits into the height of the window there, m.
+    Raises:
+        FrameNotFound: There is no such frame.
+        ArgumentError: absHeight is not positive.
+    """
+    self.viewer().focus(self.getFrame(frameName).getPosition(), absHeight)
+
+
+def view_recopyMeshes(self: Config) -> None:
+    """Shows the scene as it is now, as view, which does it by itself."""
+    self.view()
+
+
+def view_setCamera(self: Config, *where: Any) -> None:
+    """Looks from a camera frame, from a pose, or from a position at a target.
+
+    Args:
+        where: A frame or its name; (7,): x y z in m, qw qx qy qz, the camera's z forward; or two of (3,): where the
+            camera is and where it looks, m.
+    Raises:
+        ArgumentError: It is none of these.
+    """
+    viewer = self.viewer()
+    if len(where) == 1 and isinstance(where[0], (str, Frame)):
+        return viewer.setCamera(where[0])
+    sizes = [np.size(one) for one in where]
+    if sizes == [7]:
+        return viewer.setCameraPose(where[0])
+    if sizes == [3, 3]:
+        return viewer.setCamera(*where)
+    raise ArgumentError(
+        "view_setCamera: expected a frame or its name, a pose of 7 numbers, or a position and a target of 3 numbers each; "
+        f"got {', '.join(repr(one) for one in where) or 'nothing'}"
+    )
+
+
+def getFxyCxy(self: CameraView) -> NDArray[np.float64]:
+    """fx, fy, cx, cy in pixels, shape (4,), as getFxycxy."""
+    return self.getFxycxy()
+
+
+CONFIG_METHODS = [
+    get_viewer,
+    view_getRgb,
+    view_getDepth,
+    view_savePng,
+    view_focalLength,
+    view_fxycxy,
+    view_pose,
+    view_raise,
+    view_focus,
+    view_recopyMeshes,
+    view_setCamera,
+]
+CAMERA_METHODS = [getFxyCxy]

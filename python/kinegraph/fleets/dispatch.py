@@ -1,0 +1,151 @@
+"""Items go to workers in batches, and results come back in order."""
+
+from __future__ import annotations
+
+import itertools
+from collections import deque
+from collections.abc import Iterator
+from dataclasses import dataclass
+from typing import Any
+
+from ..errors import Error
+from .engines import Engine, WorkerDied
+from .packing import Packed, SceneCache, pack
+from .results import ItemFailure
+from .worker import Answer, Batch
+
+BATCH_SECONDS = 0.1  # that a batch is meant to take: far longer than it takes to hand it over
+BATCH_BYTES = 16 << 20  # that it has at most, if its items are alike
+GROWTH = 8  # times the items of the batch before, at most
+IN_FLIGHT = 3  # batches that a worker has at most: one that it computes, the others so that it need not wait
+WINDOW = 100  # batches per worker, at most, that are done or under way behind one that is not done
+KILLS = 3  # workers that an item may kill
+FRUITLESS = (
+    50  # workers that may die one after another without an answer or an item that is given up: then it is not the items
+)
+
+
+@dataclass
+class _Job:
+    """A batch and how many workers died while they computed it."""
+
+    first: int
+    packed: Packed
+    kills: int = 0
+
+
+class Dispatcher:
+    """Reads items as workers can take them, and keeps no more than a window of results.
+
+    A batch whose worker died is computed again by another one, in halves, so that an item that kills workers ends up alone: after
+    three workers it is given up. The batches that waited for the same worker are not blamed.
+    """
+
+    def __init__(self, engine: Engine, items: Iterator[Any], first: int, total: int | None):
+        """Args:
+        engine: Who computes.
+        items: What is left to compute.
+        first: The number of the first of them.
+        total: How many items there are, the ones before `first` included; None if nobody knows.
+        """
+        self._engine = engine
+        self._items = items
+        self._read = first
+        self._total = total
+        self._next = first
+        self._again: deque[_Job] = deque()
+        self._sent: list[deque[_Job]] = [deque() for _ in range(engine.workers)]
+        self._scenes = [SceneCache() for _ in range(engine.workers)]
+        self._done: dict[int, list[Any]] = {}
+        self._batch_items = 1
+        self._item_seconds: float | None = None
+        self._item_bytes = 1.0
+        self._fruitless = 0
+
+    def results(self) -> Iterator[list[Any]]:
+        """Yields the results of the next items, as many as are there: at least every tenth of a second, also none."""
+        while self._send():
+            for worker, answer in self._engine.receive(0.1):
+                if isinstance(answer, WorkerDied):
+                    self._lost(worker, answer)
+                else:
+                    self._take(self._sent[worker].popleft(), answer)
+            yield self._inOrder()
+
+    def later(self) -> dict[int, Any]:
+        """The results that are there behind items that are not done, by number."""
+        return {first + i: result for first, results in self._done.items() for i, result in enumerate(results)}
+
+    def _send(self) -> bool:
+        """Gives workers what they can take. Returns whether anything is under way."""
+        while (worker := min(range(len(self._sent)), key=lambda i: len(self._sent[i]))) is not None:
+            if len(self._sent[worker]) >= IN_FLIGHT or (job := self._job()) is None:
+                break
+            known = self._scenes[worker]
+            scenes = {key: None if key in known else content for key, content in job.packed.scenes.items()}
+            known.use(dict.fromkeys(scenes))
+            self._engine.send(worker, Batch(job.first, job.packed.data, job.packed.ends, scenes))
+            self._sent[worker].append(job)
+        return any(self._sent)
+
+    def _job(self) -> _Job | None:
+        """What to compute next; None if there is nothing, or the window is full."""
+        if self._again:
+            return self._again.popleft()
+        if len(self._done) + sum(map(len, self._sent)) >= WINDOW * len(self._sent):
+            return None
+        first = self._read
+        items = list(itertools.islice(self._items, self._size()))
+        if not items:
+            return None
+        self._read += len(items)
+        packed = pack(items, lambda i: f"item {first + i}")
+        self._item_bytes = max(1.0, len(packed.data) / len(items))
+        return _Job(first, packed)
+
+    def _size(self) -> int:
+        """How many items the next batch has."""
+        if self._item_seconds is None:
+            return 1
+        wanted = min(
+            BATCH_SECONDS / max(self._item_seconds, 1e-9), BATCH_BYTES / self._item_bytes, GROWTH * self._batch_items
+        )
+        if self._total is not None:  # so that all workers end at about the same time
+            wanted = min(wanted, (self._total - self._read) / (2 * len(self._sent)))
+        self._batch_items = max(1, int(wanted))
+        return self._batch_items
+
+    def _take(self, job: _Job, answer: Answer) -> None:
+        self._done[job.first] = answer.results
+        self._fruitless = 0
+        seconds = answer.seconds / len(job.packed)
+        self._item_seconds = seconds if self._item_seconds is None else 0.7 * self._item_seconds + 0.3 * seconds
+
+    def _lost(self, worker: int, how: WorkerDied) -> None:
+        """A worker died: its first batch is suspicious, the others only waited."""
+        suspect, *others = self._sent[worker] or [None]
+        self._sent[worker].clear()
+        self._scenes[worker].clear()
+        self._again.extend(others)
+        if suspect is None:
+            return
+        self._fruitless += 1
+        if self._fruitless > FRUITLESS:
+            raise Error(f"map: {FRUITLESS} workers ended before they answered anything, the last one {how}")
+        kills, count = suspect.kills + 1, len(suspect.packed)
+        if count == 1 and kills >= KILLS:
+            self._done[suspect.first] = [ItemFailure(suspect.first, f"{kills} workers died of it: {how}")]
+            self._fruitless = 0
+            return
+        middle = (count + 1) // 2
+        for begin, end in ((0, middle), (middle, count)):
+            if begin < end:
+                self._again.appendleft(_Job(suspect.first + begin, suspect.packed.part(begin, end), kills))
+
+    def _inOrder(self) -> list[Any]:
+        results: list[Any] = []
+        while self._next in self._done:
+            block = self._done.pop(self._next)
+            self._next += len(block)
+            results += block
+        return results

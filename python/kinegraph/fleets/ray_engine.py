@@ -1,0 +1,67 @@
+"""Workers on a Ray cluster, or on a local one that is started for them."""
+
+from __future__ import annotations
+
+import pickle
+from collections import deque
+from typing import Any
+
+from ..errors import NotFound
+from .engines import WorkerDied
+from .packing import Packed
+from .worker import Answer, Batch, Worker, packAnswer
+
+
+def _ray() -> Any:
+    try:
+        import ray
+    except ImportError:
+        raise NotFound("engine='ray' needs the package ray: pip install 'kinegraph[ray]'") from None
+    return ray
+
+
+class RayEngine:
+    """Actors of Ray. What is connected already is used (`ray.init(address=...)`); otherwise Ray is started on this machine, and
+    ends with the map."""
+
+    def __init__(self, workers: int | None, function: Packed, seed: int):
+        self._ray = _ray()
+        self._ours = not self._ray.is_initialized()
+        if self._ours:
+            self._ray.init(num_cpus=workers, include_dashboard=False, log_to_driver=False, logging_level="ERROR")
+        self.workers = workers or int(self._ray.cluster_resources().get("CPU", 1))
+        self._setup = self._ray.put(pickle.dumps((function, seed)))  # once per machine
+        self._class = self._ray.remote(num_cpus=1, max_restarts=0)(_RayWorker)
+        self._actors = [self._class.remote(self._setup) for _ in range(self.workers)]
+        self._asked: list[deque[Any]] = [deque() for _ in range(self.workers)]
+
+    def send(self, worker: int, batch: Batch) -> None:
+        self._asked[worker].append(self._actors[worker].run.remote(pickle.dumps(batch)))
+
+    def receive(self, seconds: float) -> list[tuple[int, Answer | WorkerDied]]:
+        first = {asked[0]: number for number, asked in enumerate(self._asked) if asked}
+        ready, _ = self._ray.wait(list(first), num_returns=1, timeout=seconds)
+        return [self._answer(first[reference]) for reference in ready]
+
+    def _answer(self, number: int) -> tuple[int, Answer | WorkerDied]:
+        try:
+            answer: Answer = pickle.loads(self._ray.get(self._asked[number].popleft()))
+            return number, answer
+        except self._ray.exceptions.RayActorError:
+            self._asked[number].clear()
+            self._actors[number] = self._class.remote(self._setup)
+            return number, WorkerDied("killed, or its machine is gone")
+
+    def stop(self) -> None:
+        for actor in self._actors:
+            self._ray.kill(actor)
+        if self._ours:
+            self._ray.shutdown()
+
+
+class _RayWorker:
+    def __init__(self, setup: bytes):
+        self._worker = Worker(*pickle.loads(setup))
+
+    def run(self, batch: bytes) -> bytes:
+        return packAnswer(self._worker.run(pickle.loads(batch)))

@@ -1,0 +1,46 @@
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "kinegraph/nlp/nlp.h"
+
+namespace kinegraph {
+
+/// A motion problem whose rows and variables of the past do not count any more, and whose targets move: what is added to
+/// its residuals, and the bounds of its variables, may change between solves.
+class HorizonNlp final : public Nlp {
+ public:
+  explicit HorizonNlp(std::shared_ptr<Nlp> problem);
+
+  /// Residuals with `past` set are zero from now on.
+  void setPast(int row) { past_[std::size_t(row)] = true; }
+
+  /// Is added to a residual.
+  void setOffset(int row, double offset) { offset_[row] = offset; }
+
+  /// A variable that is given from now on.
+  void fix(int variable, double value) { lower_[variable] = upper_[variable] = value; }
+
+  /// Nothing is past or fixed any more.
+  void free();
+
+  Jacobian makeJacobian() const override { return problem_->makeJacobian(); }
+  void evaluate(const VectorXd& x, VectorXd& phi, Jacobian* J) override;
+  bool mayBeCancelled() const override { return problem_->mayBeCancelled(); }
+  void leaveAt(const VectorXd& x) override { problem_->leaveAt(x); }
+  bool addCostHessian(const VectorXd& x, MatrixXd& H) override { return problem_->addCostHessian(x, H); }
+  std::span<const CurvedRows> curvedRows() const override { return problem_->curvedRows(); }
+  void addCurvature(int k, std::span<const double> weights, Eigen::Ref<MatrixXd> H) override {
+    problem_->addCurvature(k, weights, H);
+  }
+  std::string rowName(int row) const override { return problem_->rowName(row); }
+  bool mayBeQuadratic() const override { return problem_->mayBeQuadratic(); }
+
+ private:
+  std::shared_ptr<Nlp> problem_;
+  std::vector<char> past_;  ///< per residual
+  VectorXd offset_;
+};
+
+}  // namespace kinegraph

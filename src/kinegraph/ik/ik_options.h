@@ -1,0 +1,29 @@
+#pragma once
+
+#include <cstdint>
+
+#include "kinegraph/base/option_table.h"
+
+namespace kinegraph {
+
+/// Settings of solveIk; ikOptionTable() says what each one means.
+struct IkOptions {
+  double position_tolerance = 1e-6;
+  double rotation_tolerance = 1e-6;
+  int attempts = 100;
+  int steps = 25;
+  bool best = false;
+  bool collisions = true;
+  double margin = 0.;
+  double start_weight = 0.;
+  double home_weight = 0.;
+  std::uint64_t seed = 0;
+
+  /// Throws ValueError naming the first field that makes no sense.
+  void validate() const;
+};
+
+/// Name, unit, meaning and range of each field, for messages, bindings and documents.
+const OptionTable<IkOptions>& ikOptionTable();
+
+}  // namespace kinegraph

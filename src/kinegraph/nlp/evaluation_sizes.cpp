@@ -1,0 +1,19 @@
+#include "kinegraph/nlp/evaluation_sizes.h"
+
+#include "kinegraph/base/errors.h"
+#include "kinegraph/base/text.h"
+
+namespace kinegraph {
+
+void prepareEvaluation(const Nlp& nlp, const VectorXd& x, VectorXd& phi, const Jacobian* J) {
+  const auto rows = Eigen::Index(nlp.types().size());
+  if (phi.size() != rows) phi.resize(rows);
+  if (x.size() != nlp.dimension())
+    throw ValueError(
+        cat("Nlp::evaluate: x has ", x.size(), " entries; the problem has ", nlp.dimension(), " variables"));
+  if (J && (J->rows() != int(rows) || J->columns != nlp.dimension()))
+    throw ValueError(cat("Nlp::evaluate: J is ", J->rows(), " x ", J->columns, "; expected ", rows, " x ",
+                         nlp.dimension(), ", as makeJacobian() gives it"));
+}
+
+}  // namespace kinegraph

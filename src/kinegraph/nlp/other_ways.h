@@ -1,0 +1,19 @@
+#pragma once
+
+#include <optional>
+
+#include "kinegraph/math/pose.h"
+
+namespace kinegraph {
+
+/// A problem that may be solvable in several ways, of which a local method finds the one that it starts near to.
+class OtherWays {
+ public:
+  virtual ~OtherWays() = default;
+
+  /// A start on another way than x, and than those of other numbers; the same one for the same number. None if there is
+  /// none to offer.
+  virtual std::optional<VectorXd> otherWay(const VectorXd& x, int number) = 0;
+};
+
+}  // namespace kinegraph

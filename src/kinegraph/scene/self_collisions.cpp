@@ -1,0 +1,214 @@
+#include "kinegraph/scene/self_collisions.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <numbers>
+#include <optional>
+
+#include "kinegraph/base/errors.h"
+#include "kinegraph/base/parallel.h"
+#include "kinegraph/base/random.h"
+#include "kinegraph/base/text.h"
+#include "kinegraph/kinematics/chains.h"
+#include "kinegraph/kinematics/near_pairs.h"
+
+namespace kinegraph {
+
+namespace {
+
+using Reason = SelfCollisionPair::Reason;
+
+constexpr int kPart = 64;  // postures that a thread draws at a time, from a seed of their own
+
+/// How postures are drawn: per dof an interval, and whether a limit is missing that an interval cannot stand for.
+struct Ranges {
+  VectorXd lower, upper;
+  std::vector<char> unbounded;
+};
+
+Ranges rangesOf(const Program& program, const VectorXd& q) {
+  Ranges ranges{program.lower, program.upper, std::vector<char>(std::size_t(program.dofs), 0)};
+  std::vector<char> turns(std::size_t(program.dofs), 0);
+  for (const Program::Link& link : program.links) {
+    int dof = link.dof;
+    for (int s = link.first_step; s < link.first_step + link.steps; ++s) {
+      turns[std::size_t(dof)] = program.steps[std::size_t(s)].turns();
+      dof += program.steps[std::size_t(s)].dofs();
+    }
+  }
+  for (int dof = 0; dof < program.dofs; ++dof) {
+    if (std::isfinite(ranges.lower[dof]) && std::isfinite(ranges.upper[dof])) continue;
+    const double reach = turns[std::size_t(dof)] ? std::numbers::pi : 1.;  // rad, or m around where it is
+    if (!std::isfinite(ranges.lower[dof])) ranges.lower[dof] = std::min(q[dof], ranges.upper[dof]) - reach;
+    if (!std::isfinite(ranges.upper[dof])) ranges.upper[dof] = std::max(q[dof], ranges.lower[dof]) + reach;
+    ranges.unbounded[std::size_t(dof)] = !turns[std::size_t(dof)];
+  }
+  for (const Program::DofRange& norm : program.unit_norms) {  // a direction that is drawn evenly has no limits to miss
+    for (int dof = norm.first; dof < norm.first + norm.count; ++dof) ranges.unbounded[std::size_t(dof)] = 0;
+  }
+  return ranges;
+}
+
+void draw(Rng& rng, const Program& program, const Ranges& ranges, VectorXd& q) {
+  for (int dof = 0; dof < program.dofs; ++dof) q[dof] = rng.uniform(ranges.lower[dof], ranges.upper[dof]);
+  for (const Program::DofRange& norm : program.unit_norms) {
+    for (int dof = norm.first; dof < norm.first + norm.count; ++dof) q[dof] = rng.normal();
+    q.segment(norm.first, norm.count).normalize();
+  }
+}
+
+bool hangsOn(const FrameData* frame, const FrameData& root) {
+  while (frame && frame != &root) frame = frame->parent;
+  return frame == &root;
+}
+
+/// The pairs of frames that carry shapes, and the pairs of shapes of each.
+class PairsOfFrames {
+ public:
+  PairsOfFrames(const Config& config, const std::string& root) {
+    const Program& program = *config.program();
+    const FrameData* first = root.empty() ? nullptr : config.scene()->frames()[config.getFrame(root).id()].get();
+    std::map<int, int> owner_of;
+    for (const ContactRules::Body& body : program.contacts.bodies) owner_of[body.frame] = body.owner;
+    std::map<std::pair<int, int>, int> numbers;
+    const auto counts = [&](int frame) {
+      return first ? hangsOn(config.scene()->frames()[std::size_t(frame)].get(), *first)
+                   : program.frame_link[std::size_t(frame)] != 0;
+    };
+    for (const auto& [a, b] : program.movingPairs()) {
+      if (!counts(a) || !counts(b)) continue;
+      shapes.emplace_back(a, b);
+      const std::pair<int, int> owners = std::minmax(owner_of.at(a), owner_of.at(b));
+      const auto found = numbers.try_emplace(owners, int(frames.size())).first;
+      if (found->second == int(frames.size())) frames.push_back(owners);
+      group.push_back(found->second);
+    }
+  }
+
+  std::vector<std::pair<int, int>> frames, shapes;
+  std::vector<int> group;  ///< per pair of shapes: the place of its frames
+};
+
+bool adjacent(const Program& program, int a, int b) {
+  const int link_a = program.frame_link[std::size_t(a)], link_b = program.frame_link[std::size_t(b)];
+  return program.links[std::size_t(link_a)].parent == link_b || program.links[std::size_t(link_b)].parent == link_a;
+}
+
+/// Per pair of frames: the postures in which it collides.
+std::vector<int> countCollisions(const Config& config, const PairsOfFrames& pairs, const Ranges& ranges,
+                                 const SelfCollisionOptions& options) {
+  const auto program = config.program();
+  const BodyPairs bodies(*program, pairs.shapes);
+  struct Worker {
+    State state;
+    PlacedBodies placed;
+    VectorXd q;
+    std::vector<int> counts, last;
+  };
+  std::vector<std::optional<Worker>> workers(std::size_t(options.threads));
+  forParts(options.samples, kPart, options.threads, [&](int number, int from, int to) {
+    std::optional<Worker>& worker = workers[std::size_t(number)];
+    if (!worker) {
+      worker.emplace(Worker{State(program, config.parameters()), PlacedBodies(bodies), VectorXd(program->dofs),
+                            std::vector<int>(pairs.frames.size(), 0), std::vector<int>(pairs.frames.size(), -1)});
+    }
+    Rng rng(options.seed + std::uint64_t(from) * 0x9E3779B97F4A7C15u);
+    for (int sample = from; sample < to; ++sample) {
+      draw(rng, *program, ranges, worker->q);
+      worker->state.setJoints(worker->q.data());
+      worker->placed.place(worker->state);
+      worker->placed.forMaybeNear(options.margin, [&](int pair) {
+        const std::size_t group = std::size_t(pairs.group[std::size_t(pair)]);
+        if (worker->last[group] == sample || worker->placed.proximity(pair).distance >= options.margin) return;
+        worker->last[group] = sample;
+        ++worker->counts[group];
+      });
+    }
+  });
+  std::vector<int> counts(pairs.frames.size(), 0);
+  for (const std::optional<Worker>& worker : workers) {
+    for (std::size_t i = 0; worker && i < counts.size(); ++i) counts[i] += worker->counts[i];
+  }
+  return counts;
+}
+
+}  // namespace
+
+void SelfCollisionOptions::validate() const {
+  const auto require = [](bool good, const char* what, double value, const char* expected) {
+    if (!good) throw ValueError(cat("selfCollisionMatrix: ", what, " is ", value, "; expected ", expected));
+  };
+  require(samples >= 1, "samples", samples, "at least 1");
+  require(std::isfinite(margin), "margin", margin, "a length in m");
+  require(always > 0. && always <= 1., "always", always, "a share in (0, 1]");
+  require(threads >= 1, "threads", threads, "at least 1");
+}
+
+const char* selfCollisionReasonName(Reason reason) {
+  switch (reason) {
+    case Reason::adjacent:
+      return "adjacent";
+    case Reason::always:
+      return "always";
+    case Reason::never:
+      return "never";
+    case Reason::sometimes:
+      return "sometimes";
+  }
+  return "sometimes";
+}
+
+std::string SelfCollisionMatrix::str() const {
+  const auto count = [&](Reason reason) { return std::ranges::count(pairs, reason, &SelfCollisionPair::reason); };
+  return cat(pairs.size(), " pairs of frames in ", samples, " postures: ", count(Reason::adjacent), " adjacent, ",
+             count(Reason::always), " always in collision, ", count(Reason::never), " never, ",
+             count(Reason::sometimes), " sometimes");
+}
+
+SelfCollisionMatrix selfCollisionMatrix(const Config& config, const SelfCollisionOptions& options) {
+  options.validate();
+  const auto program = config.program();
+  const PairsOfFrames pairs(config, options.root);
+  if (pairs.frames.empty()) {
+    throw ValueError(
+        cat("selfCollisionMatrix: ", options.root.empty() ? "the scene" : cat("frame '", options.root, "'"),
+            " has no two shapes that may collide and that joints move apart; give the shapes `contact`"));
+  }
+  const Ranges ranges = rangesOf(*program, config.getJointState());
+  const std::vector<int> counts = countCollisions(config, pairs, ranges, options);
+  SelfCollisionMatrix matrix;
+  matrix.samples = options.samples;
+  for (std::size_t i = 0; i < counts.size(); ++i) {
+    const auto [a, b] = pairs.frames[i];
+    bool unbounded = false;
+    forColumnsBetween(*program, a, b, [&](int column) {
+      unbounded = unbounded || ranges.unbounded[std::size_t(program->column_dof[std::size_t(column)])];
+    });
+    const Reason reason = adjacent(*program, a, b)                                ? Reason::adjacent
+                          : unbounded                                             ? Reason::sometimes
+                          : counts[i] == 0                                        ? Reason::never
+                          : double(counts[i]) >= options.always * options.samples ? Reason::always
+                                                                                  : Reason::sometimes;
+    matrix.pairs.push_back({a, b, reason, counts[i]});
+  }
+  std::ranges::sort(matrix.pairs, [](const SelfCollisionPair& x, const SelfCollisionPair& y) {
+    return std::pair(x.a, x.b) < std::pair(y.a, y.b);
+  });
+  return matrix;
+}
+
+void ignoreSelfCollisions(Config& config, const SelfCollisionMatrix& matrix) {
+  SceneTree& scene = *config.scene();
+  bool any = false;
+  for (const SelfCollisionPair& pair : matrix.pairs) {
+    if (std::size_t(pair.b) >= scene.frames().size())
+      throw ValueError(cat("ignoreSelfCollisions: the matrix is of another scene: there is no frame ", pair.b));
+    if (pair.matters()) continue;
+    scene.frames()[std::size_t(pair.a)]->no_contact.push_back(scene.frames()[std::size_t(pair.b)].get());
+    any = true;
+  }
+  if (any) scene.structureChanged();
+}
+
+}  // namespace kinegraph

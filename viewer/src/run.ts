@@ -1,0 +1,112 @@
+import { ForceArrows } from "./arrows";
+import { find, make } from "./element";
+import { runCommand, type RunMessage } from "./messages";
+import { Pulling } from "./pulling";
+import type { Shown } from "./shown";
+import type { Stage } from "./stage";
+
+const What = { pause: 1, goOn: 2, step: 3, reset: 4 } as const;
+
+/** A simulation that runs in the program: its time, contacts and forces, and buttons to steer it. */
+export class Run {
+  readonly arrows = new ForceArrows();
+  readonly pulling: Pulling;
+  private message: RunMessage | null = null;
+  private motionIsShown = false;
+  private readonly root = find("run");
+  private readonly playButton = make("button", { className: "play", onclick: () => this.toggle() });
+  private readonly pullButton = make("button", {
+    textContent: "pull",
+    title: "drag a body, and a spring pulls it to the pointer",
+    ariaPressed: "false",
+    onclick: () => this.setPulls(!this.pulling.on),
+  });
+  private readonly contactsBox = make("input", { type: "checkbox", checked: true, onchange: () => this.draw() });
+  private readonly time = make("output", { className: "run-time" });
+  private readonly factor = make("output", { className: "run-factor", title: "simulated seconds per second" });
+  private readonly scale = make("output", { className: "run-scale" });
+
+  /** `send` is null on a saved page: then nothing can be steered. */
+  constructor(
+    private readonly stage: Stage,
+    frames: ReadonlyMap<number, Shown>,
+    private readonly send: ((command: Uint8Array<ArrayBuffer>) => void) | null,
+  ) {
+    this.pulling = new Pulling(stage, frames, (command) => send?.(command));
+    stage.scene.add(this.arrows.group);
+    const ask = (what: number) => (): void => send?.(runCommand(what));
+    const buttons = [
+      this.playButton,
+      make("button", { textContent: "step", title: "one step of the program's", onclick: ask(What.step) }),
+      make("button", { textContent: "reset", title: "to where it was when it was first shown", onclick: ask(What.reset) }),
+      this.pullButton,
+    ];
+    this.root.append(
+      make(
+        "div",
+        { className: "transport" },
+        ...(send ? buttons : []),
+        this.time,
+        this.factor,
+        make("label", {}, this.contactsBox, "contacts"),
+        this.scale,
+      ),
+    );
+  }
+
+  get isShown(): boolean {
+    return this.message !== null && !this.motionIsShown;
+  }
+
+  get isPaused(): boolean {
+    return this.message !== null && this.message.paused !== 0;
+  }
+
+  read(message: RunMessage): void {
+    this.message = message.shown !== 0 ? message : null;
+    this.draw();
+  }
+
+  /** While a motion is shown, what runs is not. */
+  setMotion(shown: boolean): void {
+    this.motionIsShown = shown;
+    this.draw();
+  }
+
+  end(): void {
+    this.message = null;
+    this.draw();
+  }
+
+  toggle(): void {
+    if (this.isShown) this.send?.(runCommand(this.isPaused ? What.goOn : What.pause));
+  }
+
+  private setPulls(on: boolean): void {
+    this.pulling.on = on;
+    this.pullButton.ariaPressed = String(on);
+  }
+
+  private draw(): void {
+    const { message } = this;
+    this.root.hidden = !this.isShown;
+    document.body.classList.toggle("has-run", this.isShown);
+    if (!message || this.motionIsShown) {
+      this.arrows.group.visible = false;
+      this.pulling.show([]);
+      if (!message) this.setPulls(false);
+      return this.stage.redraw();
+    }
+    this.playButton.textContent = this.isPaused ? "▶" : "❚❚";
+    this.playButton.ariaLabel = this.isPaused ? "go on" : "pause";
+    this.time.textContent = `${message.time.toFixed(2)} s`;
+    const factor = message.factor < 10 ? message.factor.toFixed(2) : message.factor.toPrecision(2);
+    this.factor.textContent = this.isPaused ? "paused" : message.factor > 0 ? `${Number(factor)}×` : "";
+    this.arrows.group.visible = this.contactsBox.checked;
+    this.arrows.show(message.contacts);
+    const newton = 0.1 / this.arrows.scale;
+    this.scale.textContent = this.arrows.count > 0 ? `10 cm of arrow: ${Number(newton.toPrecision(2))} N` : "";
+    this.pulling.show(message.pull);
+    this.stage.redraw();
+  }
+}
