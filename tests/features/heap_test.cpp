@@ -13,7 +13,7 @@ namespace {
 using Rows = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 
 /// An arm with all kinds of joints and shapes whose distances have a closed form, close to each other.
-Config arm() {
+Config armOfAllJoints() {
   Config config;
   config.addText(R"g(
     base: { X: "t(0 0 .5)", shape: ssBox, size: [.3 .3 .3 .05], contact: 1 }
@@ -41,7 +41,7 @@ std::vector<VectorXd> someJoints(const Config& config, int count) {
 }  // namespace
 
 TEST(Heap, SettingJointsAndAskingForPosesRequestsNoMemory) {
-  Config config = arm();
+  Config config = armOfAllJoints();
   const std::vector<VectorXd> joints = someJoints(config, 5);
   const Frame finger = config.getFrame("finger");
   config.setJointState(joints[0]);
@@ -58,7 +58,7 @@ TEST(Heap, SettingJointsAndAskingForPosesRequestsNoMemory) {
 }
 
 TEST(Heap, ValuesAndJacobiansOfEveryFeatureRequestNoMemory) {
-  Config config = arm();
+  Config config = armOfAllJoints();
   const std::vector<VectorXd> joints = someJoints(config, 5);
   const std::vector<std::string> names = {"finger", "block", "thumb"};
   int checked = 0;
@@ -85,7 +85,7 @@ TEST(Heap, ValuesAndJacobiansOfEveryFeatureRequestNoMemory) {
 }
 
 TEST(Heap, AMatrixAsScaleAndDifferencesRequestNoMemoryOnceTheyAreWarm) {
-  const Config config = arm();
+  const Config config = armOfAllJoints();
   const std::vector<VectorXd> joints = someJoints(config, 3);
   std::vector<State> states(3, config.state());
   for (int t = 0; t < 3; ++t) states[t].setJoints(joints[t].data());
@@ -102,7 +102,7 @@ TEST(Heap, AMatrixAsScaleAndDifferencesRequestNoMemoryOnceTheyAreWarm) {
 }
 
 TEST(Heap, CollisionsRequestOnlyMemoryForWhatTheyReturn) {
-  Config config = arm();
+  Config config = armOfAllJoints();
   const std::vector<VectorXd> joints = someJoints(config, 5);
   config.getTotalPenetration();
   const long before = heap_requests;
@@ -116,7 +116,7 @@ TEST(Heap, CollisionsRequestOnlyMemoryForWhatTheyReturn) {
 }
 
 TEST(Heap, DistancesOfAllShapesRequestNoMemory) {
-  Config config = arm();
+  Config config = armOfAllJoints();
   const char* names[] = {"cylinder", "mesh", "parts", "cloud", "elip", "cvx", "quad", "sdf"};
   double x = .1;
   for (const char* name : names)
@@ -182,7 +182,7 @@ TEST(Heap, CollisionsOfManyBodiesRequestNoMemoryOnceTheyAreWarm) {
 }
 
 TEST(Heap, AMotionCheckerRequestsNoMemoryPerMotion) {
-  const Config config = arm();
+  const Config config = armOfAllJoints();
   const std::vector<VectorXd> joints = someJoints(config, 6);
   MotionChecker checker(config.state());
   const long before = heap_requests;

@@ -146,7 +146,7 @@ std::vector<Symbol> availableFeatures() {
   return list;
 }
 
-class EveryFeature : public testing::TestWithParam<Symbol> {};
+class EveryFeature : public ::testing::TestWithParam<Symbol> {};
 
 }  // namespace
 
@@ -267,5 +267,5 @@ TEST_P(EveryFeature, TellsTheSecondDerivativesThatItsJacobianHas) {
   if (!info.second_derivatives) EXPECT_EQ(told, 0) << "the registry does not say so";
 }
 
-INSTANTIATE_TEST_SUITE_P(Registry, EveryFeature, testing::ValuesIn(availableFeatures()),
+INSTANTIATE_TEST_SUITE_P(Registry, EveryFeature, ::testing::ValuesIn(availableFeatures()),
                          [](const auto& info) { return info.param.info.name; });

@@ -30,7 +30,7 @@ std::vector<VectorXd> heights(std::initializer_list<double> z) {
   return q;
 }
 
-constexpr double kTau = .1;
+constexpr double kSliceTime = .1;
 
 }  // namespace
 
@@ -38,22 +38,22 @@ TEST(Energy, OfABodyAtRestIsThatOfItsHeight) {
   const Config config = bodies();
   Residual energy = makeResidual(config.state(), FeatureSymbol::energy, {"body"});
   EXPECT_EQ(energy.order(), 1);
-  EXPECT_TRUE(near(overSlices(config, energy, heights({1., 1.}), kTau), numbers({19.62}), 1e-12));
+  EXPECT_TRUE(near(overSlices(config, energy, heights({1., 1.}), kSliceTime), numbers({19.62}), 1e-12));
 }
 
 TEST(Energy, AddsHalfTheMassTimesTheSquaredVelocity) {
   const Config config = bodies();
   Residual energy = makeResidual(config.state(), FeatureSymbol::energy, {"body", "light"});
-  const double v = .2 / kTau;
-  EXPECT_TRUE(
-      near(overSlices(config, energy, heights({1., 1.2}), kTau), numbers({3. * (.5 * v * v + 9.81 * 1.2)}), 1e-12));
+  const double v = .2 / kSliceTime;
+  EXPECT_TRUE(near(overSlices(config, energy, heights({1., 1.2}), kSliceTime),
+                   numbers({3. * (.5 * v * v + 9.81 * 1.2)}), 1e-12));
 }
 
 TEST(Energy, FollowsTheMass) {
   Config config = bodies();
   Residual energy = makeResidual(config.state(), FeatureSymbol::energy, {"body"});
   config.getFrame("body").setMass(5.);
-  EXPECT_TRUE(near(overSlices(config, energy, heights({1., 1.}), kTau), numbers({5. * 9.81}), 1e-12));
+  EXPECT_TRUE(near(overSlices(config, energy, heights({1., 1.}), kSliceTime), numbers({5. * 9.81}), 1e-12));
 }
 
 TEST(Physics, IsGravityTimesTauAtRestInFreeSpace) {
@@ -61,15 +61,16 @@ TEST(Physics, IsGravityTimesTauAtRestInFreeSpace) {
   Residual physics = makeResidual(config.state(), FeatureSymbol::physics, {"body"});
   EXPECT_EQ(physics.order(), 2);
   EXPECT_TRUE(
-      near(overSlices(config, physics, heights({1., 1., 1.}), kTau), numbers({0., 0., .981, 0., 0., 0.}), 1e-12));
+      near(overSlices(config, physics, heights({1., 1., 1.}), kSliceTime), numbers({0., 0., .981, 0., 0., 0.}), 1e-12));
 }
 
 TEST(Physics, IsZeroInFreeFall) {
   const Config config = bodies();
   Residual physics = makeResidual(config.state(), FeatureSymbol::physics, {"body"});
   const auto height = [](double t) { return 1. + 2. * t - 9.81 / 2. * t * t; };
-  EXPECT_TRUE(near(overSlices(config, physics, heights({height(0.), height(kTau), height(2. * kTau)}), kTau),
-                   VectorXd(VectorXd::Zero(6)), 1e-12));
+  EXPECT_TRUE(
+      near(overSlices(config, physics, heights({height(0.), height(kSliceTime), height(2. * kSliceTime)}), kSliceTime),
+           VectorXd(VectorXd::Zero(6)), 1e-12));
 }
 
 TEST(EqCenterOfMass, IsAFramesOffsetFromTheCommonCenterOfTheOthers) {

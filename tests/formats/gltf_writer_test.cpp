@@ -6,6 +6,7 @@
 
 #include "kinegraph/geometry/files/mesh_file.h"
 #include "tests/support/near.h"
+#include "tests/support/scene.h"
 #include "tests/support/temporary_folder.h"
 
 using namespace kinegraph;
@@ -21,12 +22,6 @@ Mesh readAgain(const Config& config) {
   const Matrix3d up = axisRotation(0, M_PI / 2);
   for (Vector3d& p : mesh.vertices) p = up * p;
   return mesh;
-}
-
-Config scene(const std::string& text) {
-  Config config;
-  config.addText(text);
-  return config;
 }
 
 constexpr double kFloatPrecision = 1e-6;

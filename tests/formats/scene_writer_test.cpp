@@ -9,6 +9,7 @@
 #include "kinegraph/base/text.h"
 #include "kinegraph/gfile/writer.h"
 #include "tests/formats/random_scene.h"
+#include "tests/support/scene.h"
 #include "tests/support/temporary_folder.h"
 
 using namespace kinegraph;
@@ -98,12 +99,6 @@ void expectSameScene(const Config& a, const Config& b) {
           << "shapes of frames " << i << " and " << j;
     }
   }
-}
-
-Config scene(const std::string& text) {
-  Config config;
-  config.addText(text);
-  return config;
 }
 
 }  // namespace

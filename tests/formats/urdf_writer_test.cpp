@@ -8,17 +8,12 @@
 #include "kinegraph/formats/reading/urdf_reader.h"
 #include "kinegraph/gfile/writer.h"
 #include "tests/formats/random_scene.h"
+#include "tests/support/scene.h"
 #include "tests/support/temporary_folder.h"
 
 using namespace kinegraph;
 
 namespace {
-
-Config scene(const std::string& text) {
-  Config config;
-  config.addText(text);
-  return config;
-}
 
 Config fromUrdf(const std::string& text) {
   const ParseResult read = readUrdf(text, "r.urdf", "/");
@@ -26,7 +21,7 @@ Config fromUrdf(const std::string& text) {
   return scene(writeFile(read.graph));
 }
 
-constexpr const char* kRobot = R"(<robot name="r">
+constexpr const char* kRobotWithMimic = R"(<robot name="r">
   <link name="base">
     <inertial><origin xyz="0 0 .1"/><mass value="2"/><inertia ixx="1" ixy=".1" ixz="0" iyy="1" iyz="0" izz="1"/></inertial>
     <visual><geometry><box size="1 1 .1"/></geometry><material name="m"><color rgba="1 0 0 1"/></material></visual>
@@ -43,7 +38,7 @@ constexpr const char* kRobot = R"(<robot name="r">
 }  // namespace
 
 TEST(WriteUrdf, ARobotReadFromUrdfComesBackWithTheSameNamesAndPoses) {
-  Config robot = fromUrdf(kRobot);
+  Config robot = fromUrdf(kRobotWithMimic);
   Config back = fromUrdf(writeUrdf(robot));
   EXPECT_EQ(back.getJointNames(), robot.getJointNames());
   EXPECT_EQ(back.getJointLimits(), robot.getJointLimits());

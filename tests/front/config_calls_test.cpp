@@ -8,7 +8,7 @@
 namespace kinegraph {
 namespace {
 
-class ConfigCalls : public testing::Test {
+class ConfigCalls : public ::testing::Test {
  protected:
   void SetUp() override {
     setenv("KINEGRAPH_HEADLESS", "1", 1);

@@ -5,6 +5,7 @@
 #include "kinegraph/base/errors.h"
 #include "kinegraph/base/random.h"
 #include "kinegraph/scene/config.h"
+#include "tests/kinematics/random_vector.h"
 
 namespace kinegraph {
 namespace {
@@ -28,12 +29,6 @@ Config tree() {
     d_end (d): { Q: [.4 0 0], shape: sphere, size: [.05], mass: .4 }
     e (d): { pre: [.5 0 0], joint: hinge, axis: [1 0 0], mimic: d, shape: box, size: [.1 .1 .2], mass: .6 }
   )g");
-}
-
-VectorXd randomVector(int n, Rng& rng) {
-  VectorXd v(n);
-  for (double& entry : v) entry = rng.normal();
-  return v;
 }
 
 double energy(Config& config, const VectorXd& q, const VectorXd& dq) {

@@ -10,7 +10,7 @@ using namespace kinegraph;
 
 namespace {
 
-constexpr double kTolerance = 1e-5;  ///< m
+constexpr double kEdgeTolerance = 1e-5;  ///< m
 
 /// Two arms, one of which holds a thing, and obstacles of all kinds.
 std::string scene(const std::string& first, const std::string& second) {
@@ -72,7 +72,7 @@ TEST(EdgeChecker, AgreesWithTheMotionCheckerForEveryJointType) {
     Nearest nearest(config);
     int free = 0, hit = 0;
     for (const double margin : {0., .01, -.01}) {
-      EdgeChecker checker(config.state(), margin, kTolerance), among(many.state(), margin, kTolerance);
+      EdgeChecker checker(config.state(), margin, kEdgeTolerance), among(many.state(), margin, kEdgeTolerance);
       MotionChecker strict(config.state());
       for (int i = 0; i < 60; ++i) {
         const auto [from, to] = draw(config, rng, i % 3 == 0 ? .6 : .1);
@@ -86,8 +86,8 @@ TEST(EdgeChecker, AgreesWithTheMotionCheckerForEveryJointType) {
           ASSERT_TRUE(checker.lastHit());
           const MotionContact& contact = *checker.lastHit();
           const double there = nearest.at(from + contact.time * (to - from));
-          EXPECT_LT(contact.distance, margin + kTolerance) << joints.first;
-          EXPECT_LT(there, margin + kTolerance) << joints.first;
+          EXPECT_LT(contact.distance, margin + kEdgeTolerance) << joints.first;
+          EXPECT_LT(there, margin + kEdgeTolerance) << joints.first;
           EXPECT_NEAR(nearest.ofPair(contact.a, contact.b), contact.distance, 1e-9) << joints.first;
         }
       }
@@ -113,7 +113,7 @@ TEST(EdgeChecker, WhatIsFreeIsFreeInManySamples) {
         sampled = std::min(sampled, nearest.at(from + double(k) / kSamples * (to - from)));
       EXPECT_LE(least, sampled) << joints.first << ", " << joints.second;
       EXPECT_GT(least, sampled - .01) << joints.first << ", " << joints.second;
-      checker.setMargin(least - 2. * kTolerance);
+      checker.setMargin(least - 2. * kEdgeTolerance);
       EXPECT_TRUE(checker.isFree(from.data(), to.data())) << joints.first;
       checker.setMargin(sampled + 1e-9);
       EXPECT_FALSE(checker.isFree(from.data(), to.data())) << joints.first;
@@ -191,7 +191,7 @@ TEST(EdgeChecker, SlidesAlongASurfaceThatItTouchesAlmost) {
     config.getFrame("table").setPosition({0., 0., -.06 - gap});
     EdgeChecker checker(config.state());
     EXPECT_EQ(checker.isFree(from.data(), to.data()), gap > 0.) << gap;
-    EXPECT_NEAR(checker.clearance(from.data(), to.data(), 1.), gap - kTolerance, 1e-12) << gap;
+    EXPECT_NEAR(checker.clearance(from.data(), to.data(), 1.), gap - kEdgeTolerance, 1e-12) << gap;
   }
 }
 

@@ -39,7 +39,7 @@ std::vector<VectorXd> draws(const State& scene, int count) {
   return Q;
 }
 
-class InLanes : public testing::TestWithParam<int> {};
+class InLanes : public ::testing::TestWithParam<int> {};
 
 TEST_P(InLanes, LinksAndBodiesAreWhereAStatePutsThem) {
   const Config C = crane();
@@ -105,7 +105,7 @@ TEST_P(InLanes, AllWidthsGiveTheSameBits) {
     for (int i = 0; i < 8; ++i) EXPECT_EQ(samples.pose(b, i).p, narrow.pose(b, i).p);
 }
 
-INSTANTIATE_TEST_SUITE_P(Widths, InLanes, testing::ValuesIn(laneWidths()));
+INSTANTIATE_TEST_SUITE_P(Widths, InLanes, ::testing::ValuesIn(laneWidths()));
 
 }  // namespace
 }  // namespace kinegraph

@@ -7,6 +7,7 @@
 #include "kinegraph/base/errors.h"
 #include "kinegraph/base/random.h"
 #include "kinegraph/scene/config_dynamics.h"
+#include "tests/kinematics/random_vector.h"
 
 namespace kinegraph {
 namespace {
@@ -23,12 +24,6 @@ Config walker() {
     tail (base): { pre: [-.2 0 0], joint: transXYPhi, shape: box, size: [.1 .1 .2], mass: .6, inertia: [.01 .002 .001 .02 .003 .03] }
   )g");
   return config;
-}
-
-VectorXd randomVector(int n, Rng& rng) {
-  VectorXd v(n);
-  for (double& entry : v) entry = rng.normal();
-  return v;
 }
 
 VectorXd randomState(const Config& config, Rng& rng) {

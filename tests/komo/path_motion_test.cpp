@@ -12,7 +12,9 @@ namespace kinegraph {
 namespace {
 
 /// A ball that slides along x, and a wall of 3 cm in its way.
-Config ballAndWall() { return kinegraph::ballAndWall("joint: transX, size: [.1]", "Q: [.6 0 0], size: [.03 1 1]"); }
+Config slidingBallAndWall() {
+  return kinegraph::ballAndWall("joint: transX, size: [.1]", "Q: [.6 0 0], size: [.03 1 1]");
+}
 
 MatrixXd column(std::initializer_list<double> numbers) {
   MatrixXd rows(Eigen::Index(numbers.size()), 1);
@@ -52,7 +54,7 @@ void move(Komo& komo, const std::vector<double>& positions) {
 }  // namespace
 
 TEST(PathMotion, FindsAWallThatLiesBetweenSlices) {
-  Komo komo(ballAndWall(), 1, 4, 2);
+  Komo komo(slidingBallAndWall(), 1, 4, 2);
   komo.setPath(column({.25, .45, .95, 1.}));
   EXPECT_TRUE(komo.configuration(1).getCollisions().empty());
   EXPECT_TRUE(komo.configuration(2).getCollisions().empty());
@@ -70,7 +72,7 @@ TEST(PathMotion, FindsAWallThatLiesBetweenSlices) {
 }
 
 TEST(PathMotion, BeginsAtTheSliceBeforeTheStartUnlessThereIsNone) {
-  Config scene = ballAndWall();
+  Config scene = slidingBallAndWall();
   scene.setJointState(VectorXd::Constant(1, .9));
   for (const int order : {0, 1}) {
     Komo komo(scene, 1, 2, order);
@@ -80,7 +82,7 @@ TEST(PathMotion, BeginsAtTheSliceBeforeTheStartUnlessThereIsNone) {
 }
 
 TEST(PathMotion, KeepsTheMarginThatIsAskedFor) {
-  Komo komo(ballAndWall(), 1, 2, 1);
+  Komo komo(slidingBallAndWall(), 1, 2, 1);
   komo.setPath(column({.4, .45}));  // 35 mm from the wall
   EXPECT_TRUE(komo.isFree());
   EXPECT_TRUE(komo.isFree(.034));
@@ -131,7 +133,7 @@ SolverResult solveAcross(Komo& komo, const std::vector<double>& times = {},
 }  // namespace
 
 TEST(PathMotion, IsJudgedAfterASolve) {
-  Komo komo(ballAndWall(), 1, 4, 2);
+  Komo komo(slidingBallAndWall(), 1, 4, 2);
   const SolverResult result = solveAcross(komo);
   EXPECT_TRUE(result.feasible) << "no slice is in the wall";
   ASSERT_TRUE(result.free().has_value());
@@ -144,7 +146,7 @@ TEST(PathMotion, IsJudgedAfterASolve) {
 }
 
 TEST(PathMotion, IsJudgedAsItWasWhenItWasSolved) {
-  Config scene = ballAndWall();
+  Config scene = slidingBallAndWall();
   Komo komo(scene, 1, 4, 2);
   const SolverResult result = solveAcross(komo);
   scene.getFrame("wall").setPosition({0., 0., 9.});
@@ -154,13 +156,13 @@ TEST(PathMotion, IsJudgedAsItWasWhenItWasSolved) {
 }
 
 TEST(PathMotion, IsJudgedWhereCollisionsOfAllShapesAreForbidden) {
-  Komo late(ballAndWall(), 1, 4, 2);
+  Komo late(slidingBallAndWall(), 1, 4, 2);
   EXPECT_TRUE(solveAcross(late, {1.}).free() == std::nullopt) << "in one slice only, no motion";
-  Komo waypoints(ballAndWall(), 4, 1, 2);
+  Komo waypoints(slidingBallAndWall(), 4, 1, 2);
   EXPECT_TRUE(solveAcross(waypoints).free() == std::nullopt) << "one slice per phase";
-  Komo named(ballAndWall(), 1, 4, 2);
+  Komo named(slidingBallAndWall(), 1, 4, 2);
   EXPECT_EQ(solveAcross(named, {}, {"ball"}).free(), false) << "shapes of named frames count, too";
-  Komo at_start(ballAndWall(), 1, 4, 2);
+  Komo at_start(slidingBallAndWall(), 1, 4, 2);
   const SolverResult begun = solveAcross(at_start, {.25, .5});
   EXPECT_EQ(begun.free(), at_start.checkMotion().at(0).slice > 1) << "only up to phase time .5";
 }

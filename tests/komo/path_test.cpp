@@ -9,7 +9,7 @@ using namespace kinegraph;
 
 namespace {
 
-Config armAndBox() {
+Config twoLinksAndBox() {
   Config config;
   config.addText(R"(
     world: {}
@@ -22,7 +22,7 @@ Config armAndBox() {
 
 Path path(double phases, int per_phase, int order) {
   Path path;
-  path.setScene(armAndBox());
+  path.setScene(twoLinksAndBox());
   path.setGrid(TimeGrid(phases, per_phase, 1., order));
   return path;
 }
@@ -42,7 +42,7 @@ TEST(Path, NeedsASceneAndAGridInEitherOrder) {
   expectError<Error>([&] { first.requireBuilt("addObjective"); }, {"addObjective needs"});
   first.setGrid(TimeGrid(1., 3, 1., 1));
   expectError<Error>([&] { first.requireBuilt("addObjective"); }, {"addObjective needs"});
-  first.setScene(armAndBox());
+  first.setScene(twoLinksAndBox());
   first.requireBuilt("addObjective");
   const Path second = path(1., 3, 1);
   EXPECT_EQ(first.joints(), second.joints());

@@ -8,7 +8,7 @@ namespace kinegraph {
 namespace {
 
 /// A box on wheels, .5 m by .3 m, and two walls with a door of that width.
-Config room(double door) {
+Config roomForABox(double door) {
   Config C;
   C.addText(R"(
 world: {}
@@ -27,7 +27,7 @@ body(base): {shape: ssBox, size: [0.5, 0.3, 0.4, 0.02], contact: 1}
 const VectorXd kGoal{{1., 1., 1.57}};
 
 TEST(PlanMotion, GoesThroughADoorInTimeAndKeepsTheMargin) {
-  Config C = room(.5);
+  Config C = roomForABox(.5);
   const MotionPlan plan = planMotion(C, kGoal, {.margin = .02});
   ASSERT_TRUE(plan.feasible()) << plan.message;
   EXPECT_EQ(plan.path.row(0).transpose(), (VectorXd{{-1., 1.2, 1.57}}));
@@ -40,7 +40,7 @@ TEST(PlanMotion, GoesThroughADoorInTimeAndKeepsTheMargin) {
 }
 
 TEST(PlanMotion, ADoorThatIsTooNarrowIsProvenToBe) {
-  const MotionPlan plan = planMotion(room(.28), kGoal, {.evaluations = 2000});
+  const MotionPlan plan = planMotion(roomForABox(.28), kGoal, {.evaluations = 2000});
   EXPECT_EQ(plan.status, PlanStatus::impossible);
   EXPECT_NE(plan.message.find("a ball of 150 mm inside of 'body' does not get past 'left', 'right'"), std::string::npos)
       << plan.message;
@@ -48,13 +48,13 @@ TEST(PlanMotion, ADoorThatIsTooNarrowIsProvenToBe) {
 
 TEST(PlanMotion, ADoorThatIsWideEnoughIsNotProvenAway) {
   for (const double door : {.31, .35, .4}) {
-    const MotionPlan plan = planMotion(room(door), kGoal, {.evaluations = 200});
+    const MotionPlan plan = planMotion(roomForABox(door), kGoal, {.evaluations = 200});
     EXPECT_NE(plan.status, PlanStatus::impossible) << door;
   }
 }
 
 TEST(PlanMotion, TheWatchEndsIt) {
-  const MotionPlan plan = planMotion(room(.31), kGoal, {}, std::nullopt, [] { return true; });
+  const MotionPlan plan = planMotion(roomForABox(.31), kGoal, {}, std::nullopt, [] { return true; });
   EXPECT_EQ(plan.status, PlanStatus::cancelled);
 }
 
@@ -79,8 +79,8 @@ TEST(PlanMotion, AQuaternionIsTurnedTheShorterWay) {
 TEST(PlanMotion, GoalsOfSeveralKindsAreRefused) {
   MotionGoal goal(kGoal);
   goal.state = "home";
-  EXPECT_THROW(planMotion(room(.5), goal), ValueError);
-  EXPECT_THROW(planMotion(room(.5), MotionGoal()), ValueError);
+  EXPECT_THROW(planMotion(roomForABox(.5), goal), ValueError);
+  EXPECT_THROW(planMotion(roomForABox(.5), MotionGoal()), ValueError);
 }
 
 }  // namespace

@@ -10,7 +10,7 @@
 namespace kinegraph {
 namespace {
 
-Config room(double wall_at = 0.) {
+Config roomWithWall(double wall_at = 0.) {
   Config C;
   C.addText(R"(
 world: {}
@@ -22,7 +22,7 @@ wall(world): {shape: box, size: [0.1, 3, 1], contact: 1}
   return C;
 }
 
-const VectorXd kStart{{-1., 0.}}, kGoal{{1., 0.}};
+const VectorXd kStart{{-1., 0.}}, kBehindTheWall{{1., 0.}};
 
 bool isFree(Config& C, const MatrixXd& path) {
   for (Eigen::Index k = 1; k < path.rows(); ++k)
@@ -33,52 +33,52 @@ bool isFree(Config& C, const MatrixXd& path) {
 std::string scratch(const char* name) { return (std::filesystem::temp_directory_path() / name).string(); }
 
 TEST(Roadmap, FindsAFreePathAndKnowsItTheSecondTime) {
-  Config C = room();
+  Config C = roomWithWall();
   Roadmap map(C);
   map.grow(300);
-  const RoadmapAnswer first = map.findPath(kStart, kGoal);
+  const RoadmapAnswer first = map.findPath(kStart, kBehindTheWall);
   ASSERT_TRUE(first.feasible()) << first.message;
   EXPECT_TRUE(isFree(C, first.path));
   EXPECT_EQ(first.path.row(0).transpose(), kStart);
-  EXPECT_EQ(first.path.bottomRows(1).transpose(), kGoal);
+  EXPECT_EQ(first.path.bottomRows(1).transpose(), kBehindTheWall);
   const int size = map.size();
-  const RoadmapAnswer second = map.findPath(kStart, kGoal);
+  const RoadmapAnswer second = map.findPath(kStart, kBehindTheWall);
   EXPECT_EQ(second.path, first.path);
   EXPECT_LT(second.checked, first.checked);
   EXPECT_EQ(map.size(), size);
 }
 
 TEST(Roadmap, AWallThatHasMovedIsSeenAfterSetScene) {
-  Roadmap map(room());
+  Roadmap map(roomWithWall());
   map.grow(300);
-  ASSERT_TRUE(map.findPath(kStart, kGoal).feasible());
-  Config moved = room(.5);
+  ASSERT_TRUE(map.findPath(kStart, kBehindTheWall).feasible());
+  Config moved = roomWithWall(.5);
   map.setScene(moved);
-  const RoadmapAnswer answer = map.findPath(kStart, kGoal);
+  const RoadmapAnswer answer = map.findPath(kStart, kBehindTheWall);
   ASSERT_TRUE(answer.feasible());
   EXPECT_TRUE(isFree(moved, answer.path));
 }
 
 TEST(Roadmap, WhatIsSavedIsLoadedWithWhatIsKnown) {
-  const Config C = room();
+  const Config C = roomWithWall();
   Roadmap map(C, .01, 5);
   map.grow(200);
-  const MatrixXd path = map.findPath(kStart, kGoal).path;
+  const MatrixXd path = map.findPath(kStart, kBehindTheWall).path;
   const std::string file = scratch("kinegraph_roadmap_test.bin");
   map.save(file);
-  Roadmap same(C, .01), other(room(.5), .01);
+  Roadmap same(C, .01), other(roomWithWall(.5), .01);
   same.load(file);
   EXPECT_EQ(same.postures(), map.postures());
   EXPECT_EQ(same.motions(), map.motions());
-  const RoadmapAnswer answer = same.findPath(kStart, kGoal);
+  const RoadmapAnswer answer = same.findPath(kStart, kBehindTheWall);
   EXPECT_EQ(answer.path, path);
   other.load(file);  // another scene: nothing is known
-  EXPECT_GT(other.findPath(kStart, kGoal).checked, answer.checked);
+  EXPECT_GT(other.findPath(kStart, kBehindTheWall).checked, answer.checked);
   std::filesystem::remove(file);
 }
 
 TEST(Roadmap, DamagedFilesAreRefusedAndTheMapStays) {
-  const Config C = room();
+  const Config C = roomWithWall();
   Roadmap map(C);
   map.grow(20);
   const std::string file = scratch("kinegraph_roadmap_damaged.bin");
@@ -95,10 +95,10 @@ TEST(Roadmap, DamagedFilesAreRefusedAndTheMapStays) {
 }
 
 TEST(Roadmap, AStartThatCollidesIsToldAndAMapWithoutAWaySaysSo) {
-  Roadmap map(room());
-  EXPECT_NE(map.findPath(VectorXd{{0., 0.}}, kGoal).message.find("the start collides: 'body' and 'wall'"),
+  Roadmap map(roomWithWall());
+  EXPECT_NE(map.findPath(VectorXd{{0., 0.}}, kBehindTheWall).message.find("the start collides: 'body' and 'wall'"),
             std::string::npos);
-  EXPECT_NE(map.findPath(kStart, kGoal).message.find("grow adds more"), std::string::npos);
+  EXPECT_NE(map.findPath(kStart, kBehindTheWall).message.find("grow adds more"), std::string::npos);
   EXPECT_THROW(map.grow(-1), ValueError);
 }
 

@@ -15,6 +15,8 @@ import pytest
 
 import kinegraph as ry
 from kinegraph.fleets import ItemFailure
+from kinegraph.fleets.dispatch import Dispatcher
+from kinegraph.fleets.worker import Answer, Batch
 
 pytest.importorskip("cloudpickle")
 ENGINES = ["threads", "processes"]
@@ -187,6 +189,38 @@ def test_items_are_read_only_as_far_as_they_are_needed() -> None:
     before = read
     results.close()
     assert read == before
+
+
+class CountingEngine:
+    """Answers each batch at once, and says that each item took a millisecond."""
+
+    def __init__(self, workers: int):
+        self.workers = workers
+        self.sizes: list[int] = []
+        self._answers: list[tuple[int, Answer]] = []
+
+    def send(self, worker: int, batch: Batch) -> None:
+        count = len(batch.ends)
+        self.sizes.append(count)
+        self._answers.append((worker, Answer(batch.first, [None] * count, 0.001 * count)))
+
+    def receive(self, seconds: float) -> list[tuple[int, Answer]]:
+        answers, self._answers = self._answers, []
+        return answers
+
+    def stop(self) -> None:
+        pass
+
+
+@pytest.mark.parametrize(("workers", "items"), [(2, 100), (50, 100), (100, 200)])
+def test_batches_are_of_a_tenth_of_a_second_and_of_more_where_many_workers_wait_for_one_process(
+    workers: int, items: int
+) -> None:
+    engine = CountingEngine(workers)
+    results = Dispatcher(engine, iter(range(1 << 40)), 0, None).results()
+    while not engine.sizes or engine.sizes[-1] < items:
+        next(results)
+    assert max(engine.sizes) == engine.sizes[-1] == items
 
 
 def test_mistakes_are_told(tmp_path: Path) -> None:

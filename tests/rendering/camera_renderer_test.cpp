@@ -24,7 +24,7 @@ Camera forwardCamera() {
 
 constexpr const char* kWall = "wall: { X: [2.5 0 1], shape: box, size: [1 8 8], color: [1 0 0] }";
 
-class Rendering : public testing::Test {
+class Rendering : public ::testing::Test {
  protected:
   CameraRenderer renderer;
 };

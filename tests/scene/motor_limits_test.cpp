@@ -5,18 +5,9 @@
 #include <cmath>
 
 #include "kinegraph/scene/config.h"
+#include "tests/support/scene.h"
 
 using namespace kinegraph;
-
-namespace {
-
-Config scene(const char* text) {
-  Config config;
-  config.addText(text);
-  return config;
-}
-
-}  // namespace
 
 TEST(MotorLimits, AreTheFirstTwoNumbersOfEachJointInTheOrderOfQ) {
   const Config config = scene(

@@ -11,17 +11,12 @@
 #include "kinegraph/base/random.h"
 #include "kinegraph/geometry/shapes/shape_types.h"
 #include "kinegraph/scene/config.h"
+#include "tests/support/scene.h"
 #include "tests/support/temporary_folder.h"
 
 using namespace kinegraph;
 
 namespace {
-
-Config scene(const char* text) {
-  Config config;
-  config.addText(text);
-  return config;
-}
 
 std::string messageOf(const char* text) {
   Config config;

@@ -72,7 +72,7 @@ void expectInertia(const Frame& frame, const Graph& expected) {
 
 }  // namespace
 
-class RecordedScene : public testing::TestWithParam<const char*> {
+class RecordedScene : public ::testing::TestWithParam<const char*> {
  protected:
   RecordedScene() : expected(recording(std::filesystem::path(GetParam()).stem())) {
     scene.addFile(kFolder + GetParam());
@@ -135,5 +135,5 @@ TEST_P(RecordedScene, HasTheCollidablePairs) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Scenes, RecordedScene,
-                         testing::Values("joints.g", "contacts.g", "shapes.g", "specials.g", "blocks.yml"),
+                         ::testing::Values("joints.g", "contacts.g", "shapes.g", "specials.g", "blocks.yml"),
                          [](const auto& info) { return std::filesystem::path(info.param).stem().string(); });

@@ -4,6 +4,7 @@
 
 #include "kinegraph/nlp/callback_nlp.h"
 #include "kinegraph/solvers/nlp_solver.h"
+#include "tests/solvers/numbers.h"
 #include "tests/support/expect_error.h"
 #include "tests/support/near.h"
 
@@ -13,10 +14,6 @@ using enum ObjectiveType;
 namespace {
 
 using Verdict = Explanation::Verdict;
-
-VectorXd vec(std::initializer_list<double> values) {
-  return Eigen::Map<const VectorXd>(values.begin(), Eigen::Index(values.size()));
-}
 
 /// A x - b
 CallbackNlp linear(std::vector<ObjectiveType> types, const MatrixXd& A, const VectorXd& b, const VectorXd& lower = {},

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "kinegraph/solvers/methods/augmented_lagrangian.h"
+#include "tests/solvers/numbers.h"
 #include "tests/support/near.h"
 
 namespace kinegraph {
@@ -12,12 +13,6 @@ namespace kinegraph {
 namespace {
 
 using enum ObjectiveType;
-
-constexpr double kInf = std::numeric_limits<double>::infinity();
-
-VectorXd vec(std::initializer_list<double> values) {
-  return Eigen::Map<const VectorXd>(values.begin(), Eigen::Index(values.size()));
-}
 
 VectorXd all(int n, double value) { return VectorXd::Constant(n, value); }
 
@@ -227,7 +222,7 @@ double stationarityError(KnownNlp& nlp, const SolverResult& result) {
   return std::max(worst, step.lpNorm<Eigen::Infinity>()) / std::max(1., result.dual.lpNorm<Eigen::Infinity>());
 }
 
-class KnownOptimum : public testing::TestWithParam<KnownProblem> {};
+class KnownOptimum : public ::testing::TestWithParam<KnownProblem> {};
 
 }  // namespace
 
@@ -301,7 +296,7 @@ TEST_P(KnownOptimum, SatisfiesTheFirstOrderConditions) {
   EXPECT_LT(stationarityError(nlp, result), 1e-5);
 }
 
-INSTANTIATE_TEST_SUITE_P(HockSchittkowski, KnownOptimum, testing::ValuesIn(knownProblems()),
+INSTANTIATE_TEST_SUITE_P(HockSchittkowski, KnownOptimum, ::testing::ValuesIn(knownProblems()),
                          [](const auto& info) { return info.param.name; });
 
 }  // namespace kinegraph

@@ -68,7 +68,7 @@ CallbackNlp smoothCost(int n) {
   });
 }
 
-class Method : public testing::TestWithParam<M> {
+class Method : public ::testing::TestWithParam<M> {
  protected:
   M method() const { return GetParam(); }
 };
@@ -166,7 +166,7 @@ TEST_P(Method, NamesWhatIsNotANumber) {
   expectError<ValueError>([&] { solve(nlp, VectorXd::Zero(2), precise(method())); }, {"row 1 (sos)", "nan"});
 }
 
-INSTANTIATE_TEST_SUITE_P(Methods, Method, testing::ValuesIn(availableMethods()),
+INSTANTIATE_TEST_SUITE_P(Methods, Method, ::testing::ValuesIn(availableMethods()),
                          [](const auto& info) { return optMethodName(info.param); });
 
 TEST(Methods, ThoseThatAreNotThereAreRefusedWithTheNamesOfThoseThatAre) {

@@ -62,7 +62,7 @@ SolverOptions precise(double tolerance = 1e-7) {
 
 }  // namespace
 
-class SolverLaw : public testing::TestWithParam<KnownProblem> {};
+class SolverLaw : public ::testing::TestWithParam<KnownProblem> {};
 
 TEST_P(SolverLaw, TheOrderOfRowsDoesNotMoveTheSolution) {
   const KnownProblem& problem = GetParam();
@@ -102,5 +102,5 @@ TEST_P(SolverLaw, MoreAccuracyDoesNotCostMore) {
   EXPECT_LE(tight.f + tight.sos, cost + .01 * std::abs(cost) + 2. * bought + 1e-6) << tight.message;
 }
 
-INSTANTIATE_TEST_SUITE_P(KnownProblems, SolverLaw, testing::ValuesIn(knownProblems()),
+INSTANTIATE_TEST_SUITE_P(KnownProblems, SolverLaw, ::testing::ValuesIn(knownProblems()),
                          [](const auto& info) { return info.param.name; });

@@ -6,6 +6,7 @@
 
 #include "kinegraph/nlp/finite_difference_nlp.h"
 #include "kinegraph/solvers/methods.h"
+#include "tests/solvers/numbers.h"
 #include "tests/support/expect_error.h"
 #include "tests/support/near.h"
 
@@ -23,10 +24,6 @@ SolverResult solveFrom(const std::string& name, const VectorXd& start, M method 
   options.stopEvals = 20000;
   options.stopTolerance = options.stopGTolerance = 1e-8;
   return solve(*nlp, start, options);
-}
-
-VectorXd vec(std::initializer_list<double> values) {
-  return Eigen::Map<const VectorXd>(values.begin(), Eigen::Index(values.size()));
 }
 
 }  // namespace

@@ -11,6 +11,10 @@
 
 namespace kinegraph::testing {
 
+constexpr double kRounding = 1e-12;
+constexpr double kIllConditioned = 1e-8;  ///< of the depth where edges are nearly parallel
+constexpr double kNearlyParallel = 1e-5;  ///< slack of points in the band where directions count as parallel
+
 struct BoxPairSample {
   BoxCore a, b;
   std::string what;  ///< printed where a law fails

@@ -7,6 +7,12 @@
 
 namespace kinegraph::testing {
 
+constexpr double kGeneral = 1e-6;  ///< accuracy of the general algorithm for convex bodies
+
+inline RigidTransform at(double x, double y, double z, const Matrix3d& R = Matrix3d::Identity()) {
+  return {R, Vector3d(x, y, z)};
+}
+
 inline Vector3d randomVector(Rng& rng, double spread = 1.) {
   const double x = rng.normal(), y = rng.normal(), z = rng.normal();
   return spread * Vector3d(x, y, z);

@@ -7,6 +7,9 @@
 
 namespace kinegraph::testing {
 
+constexpr double kMergeGrid = 1e-9;  ///< vertices of surfaces merge at this grid
+constexpr double kFacets = .03;      ///< relative loss of volume by cutting a quarter turn into six
+
 /// Edges that are not run through exactly once in each direction: 0 for a closed surface of one orientation.
 inline int openEdges(const Mesh& mesh) {
   std::map<std::pair<std::uint32_t, std::uint32_t>, int> count;

@@ -25,7 +25,7 @@ camera (two): { pose: [0 0 .1] }
   return config;
 }
 
-struct SceneEditsTest : testing::Test {
+struct SceneEditsTest : ::testing::Test {
   Config config = scene();
   SceneEdits edits;
 

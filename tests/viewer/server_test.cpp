@@ -74,7 +74,7 @@ bool eventually(const Condition& condition) {
   return true;
 }
 
-class ViewerServerTest : public testing::Test {
+class ViewerServerTest : public ::testing::Test {
  protected:
   ViewerServer server{anyPort()};
   const int port = portOf(server.url());

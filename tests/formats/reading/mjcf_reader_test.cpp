@@ -38,7 +38,7 @@ class MjcfReader : public ::testing::Test {
   std::vector<std::string> warnings_;
 };
 
-constexpr double kAgreement = 1e-9;
+constexpr double kReaderAgreement = 1e-9;
 
 }  // namespace
 
@@ -88,7 +88,7 @@ TEST_F(MjcfReader, EveryKindOfJointMovesAsInMujoco) {
           "    <body name='c' pos='.5 0 0' xyaxes='0 1 0 -1 .2 .1'><joint axis='0 0 -1' pos='0 .1 0'/>"
           "      <joint axis='0 1 0' pos='0 .1 0'/><geom size='.1'/><site name='end' pos='.1 .2 .3' zaxis='1 1 1'/>"
           "</body></body></body></worldbody>"),
-      kAgreement);
+      kReaderAgreement);
 }
 
 TEST_F(MjcfReader, AnglesAreDegreesUnlessTheCompilerSaysRadian) {
@@ -104,7 +104,7 @@ TEST_F(MjcfReader, EulerSequencesTurnAboutFixedOrTurnedAxes) {
   for (const char* sequence : {"xyz", "zyx", "XYZ", "ZXZ", "xYz"}) {
     EXPECT_LT(difference(std::string("<compiler eulerseq='") + sequence +
                          "'/><worldbody><body name='a' euler='20 30 -40'><joint/><geom size='.1'/></body></worldbody>"),
-              kAgreement)
+              kReaderAgreement)
         << sequence;
   }
 }
@@ -135,7 +135,7 @@ TEST_F(MjcfReader, DefaultsComeFromTheNearestClass) {
   EXPECT_EQ(config.getFrame("h").data().shape->geometry->size, (std::vector<double>{.4, .3}));
   EXPECT_EQ(config.getFrame("i").data().shape->geometry->size, (std::vector<double>{.4, .1}));
   EXPECT_EQ(config.getFrame("i").data().shape->color, Vector4d(1, 0, 0, 1));
-  EXPECT_LT(difference(text), kAgreement);
+  EXPECT_LT(difference(text), kReaderAgreement);
 }
 
 TEST_F(MjcfReader, ShapesHaveFullSizes) {
@@ -163,7 +163,7 @@ TEST_F(MjcfReader, LinesAndFramesPlaceShapesAsInMujoco) {
                        "<body name='b' pos='0 0 1' euler='0 40 0'><frame euler='0 0 50' pos='.1 0 0'>"
                        "<joint axis='1 0 0' pos='0 .2 0'/><geom name='g' size='.1' pos='1 0 "
                        "0'/></frame></body></frame></frame></worldbody>"),
-            kAgreement);
+            kReaderAgreement);
 }
 
 TEST_F(MjcfReader, ALinearEqualityIsAMimic) {
@@ -175,10 +175,10 @@ TEST_F(MjcfReader, ALinearEqualityIsAMimic) {
                             "<equality><joint joint1='z' joint2='y' polycoef='.1 -2 0 0 0'/>"
                             "<joint joint1='y' joint2='x' polycoef='.2 .5'/></equality>";
   EXPECT_EQ(load(chain).getJointNames(), std::vector<std::string>{"x"});
-  EXPECT_LT(difference(chain), kAgreement);
+  EXPECT_LT(difference(chain), kReaderAgreement);
   const std::string constant = bodies + "<equality><joint joint1='y' polycoef='.2'/></equality>";
   EXPECT_EQ(load(constant).getJointNames(), (std::vector<std::string>{"x", "z"}));
-  EXPECT_LT(difference(constant), kAgreement);
+  EXPECT_LT(difference(constant), kReaderAgreement);
   const Config curved = load(bodies + "<equality><joint joint1='y' joint2='x' polycoef='0 1 2'/></equality>");
   EXPECT_EQ(curved.getJointDimension(), 3);
   ASSERT_EQ(warnings_.size(), 1u);

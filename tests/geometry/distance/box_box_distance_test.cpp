@@ -13,11 +13,6 @@ using namespace kinegraph::testing;
 
 namespace {
 
-constexpr double kRounding = 1e-12;
-constexpr double kIllConditioned = 1e-8;  // of the depth where edges are nearly parallel
-constexpr double kNearlyParallel = 1e-5;  // slack of points in the band where directions count as parallel
-constexpr double kGeneral = 1e-6;         // accuracy of the general algorithm for convex bodies
-
 const Vector3d kHalf(.3, .2, .1);
 
 NearestPoints toBoxAtOrigin(const Matrix3d& R, const Vector3d& p, const Vector3d& half) {

@@ -12,10 +12,6 @@ using namespace kinegraph::testing;
 
 namespace {
 
-constexpr double kRounding = 1e-12;
-constexpr double kIllConditioned = 1e-8;  // of the depth where edges are nearly parallel
-constexpr double kNearlyParallel = 1e-5;  // slack of points in the band where directions count as parallel
-
 const BoxCore kBox{{}, Vector3d(.3, .2, .1)};
 
 NearestPoints vertical(double x, double y, double z, double half) {

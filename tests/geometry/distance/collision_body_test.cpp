@@ -13,7 +13,7 @@ using Core = CollisionBody::Core;
 
 namespace {
 
-constexpr double kRounding = 1e-9;
+constexpr double kBodyRounding = 1e-9;
 constexpr double kHair = 3e-6;  // by which hulls without volume are thickened
 
 std::vector<Geometry> solidShapes() {
@@ -50,7 +50,7 @@ TEST(CollisionBody, RoundShapesAreCoresSweptByABall) {
 TEST(CollisionBody, ACapsuleWithoutLengthIsASphere) {
   const auto capsule = makeCollisionBody({ShapeType::capsule, {0., .1}, nullptr});
   EXPECT_EQ(capsule->core(), Core::point);
-  EXPECT_NEAR(distanceTo(*capsule, Vector3d(0, .3, .4)), .4, kRounding);
+  EXPECT_NEAR(distanceTo(*capsule, Vector3d(0, .3, .4)), .4, kBodyRounding);
 }
 
 TEST(CollisionBody, ShapesWithoutExtentAreAPoint) {
@@ -59,7 +59,7 @@ TEST(CollisionBody, ShapesWithoutExtentAreAPoint) {
     const auto body = makeCollisionBody({type, {}, nullptr});
     EXPECT_EQ(body->core(), Core::point);
     EXPECT_EQ(body->boundRadius(), 0.);
-    EXPECT_NEAR(distanceTo(*body, Vector3d(.3, 0, .4)), .5, kRounding);
+    EXPECT_NEAR(distanceTo(*body, Vector3d(.3, 0, .4)), .5, kBodyRounding);
   }
 }
 
@@ -67,7 +67,7 @@ TEST(CollisionBody, BoundingSphereHoldsTheSurfaceOfEveryShape) {
   for (const Geometry& geometry : solidShapes()) {
     const auto body = makeCollisionBody(geometry);
     for (const Vector3d& p : tessellate(geometry).vertices) {
-      EXPECT_LE((p - body->boundCenter()).norm(), body->boundRadius() + kRounding) << shapeTypeName(geometry.type);
+      EXPECT_LE((p - body->boundCenter()).norm(), body->boundRadius() + kBodyRounding) << shapeTypeName(geometry.type);
     }
   }
 }
@@ -85,8 +85,8 @@ TEST(CollisionBody, PointsBesideTheOriginBoundAsTightlyAsAtIt) {
   std::vector<Vector3d> corners = boxCorners(Vector3d(.1, .2, .3));
   for (Vector3d& p : corners) p += Vector3d(5, 6, 7);
   const auto body = makeCollisionBody(sweptHullOf(corners, .05));
-  EXPECT_LT((body->boundCenter() - Vector3d(5, 6, 7)).norm(), kRounding);
-  EXPECT_NEAR(body->boundRadius(), Vector3d(.1, .2, .3).norm() + .05, kRounding);
+  EXPECT_LT((body->boundCenter() - Vector3d(5, 6, 7)).norm(), kBodyRounding);
+  EXPECT_NEAR(body->boundRadius(), Vector3d(.1, .2, .3).norm() + .05, kBodyRounding);
 }
 
 TEST(CollisionBody, PointsWithoutVolumeMakeABodyToo) {

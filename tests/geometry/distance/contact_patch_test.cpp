@@ -15,7 +15,7 @@ using namespace kinegraph::testing;
 namespace {
 
 using Body = std::shared_ptr<const CollisionBody>;
-constexpr double kExact = 1e-9;
+constexpr double kPatchExact = 1e-9;
 
 /// A box as the hull of its corners.
 Body hullOfBox(const Vector3d& half) {
@@ -40,8 +40,6 @@ Body cylinder(double length, double radius) {
   return makeCollisionBody({ShapeType::cylinder, {length, radius}, nullptr});
 }
 
-RigidTransform at(double x, double y, double z, const Matrix3d& R = Matrix3d::Identity()) { return {R, {x, y, z}}; }
-
 /// The middle between the witness points.
 Vector3d middle(const Body& a, const RigidTransform& X_WA, const Body& b, const RigidTransform& X_WB) {
   const Proximity near = proximity(*a, X_WA, *b, X_WB);
@@ -57,10 +55,10 @@ void expectPoint(const Vector3d& found, const Vector3d& expected, double toleran
 TEST(ContactPatch, HullsThatLieOnEachOtherMeetInTheMiddleOfTheirCommonFace) {
   const Body table = hullOfBox({1, 1, .1}), block = hullOfBox({.2, .1, .1});
   for (const double gap : {.05, -.01}) {
-    expectPoint(middle(block, at(.3, .4, .2 + gap), table, at(0, 0, 0)), {.3, .4, .1 + .5 * gap}, kExact);
-    expectPoint(middle(table, at(0, 0, 0), block, at(.3, .4, .2 + gap)), {.3, .4, .1 + .5 * gap}, kExact);
+    expectPoint(middle(block, at(.3, .4, .2 + gap), table, at(0, 0, 0)), {.3, .4, .1 + .5 * gap}, kPatchExact);
+    expectPoint(middle(table, at(0, 0, 0), block, at(.3, .4, .2 + gap)), {.3, .4, .1 + .5 * gap}, kPatchExact);
     expectPoint(middle(block, at(1.1, 0, .2 + gap), table, at(0, 0, 0)), {.95, 0, .1 + .5 * gap},
-                kExact);  // over the edge: x from .9 to 1
+                kPatchExact);  // over the edge: x from .9 to 1
   }
 }
 
@@ -76,7 +74,7 @@ TEST(ContactPatch, HullsOfBoxesMeetWhereTheBoxesDo) {
                          world = randomTransform(rng, 1.);
     const Proximity expected = proximity(*box, world * X, *other, world),
                     found = proximity(*hull, world * X, *other_hull, world);
-    EXPECT_NEAR(found.distance, expected.distance, kExact) << i;
+    EXPECT_NEAR(found.distance, expected.distance, kPatchExact) << i;
     if (expected.distance < -.05) continue;  // deep ones have several shortest pushes
     expectPoint(found.point_a, expected.point_a, 1e-7);
     expectPoint(found.point_b, expected.point_b, 1e-7);
@@ -88,31 +86,32 @@ TEST(ContactPatch, EdgesAlongEachOtherMeetInTheMiddleOfTheirOverlap) {
   const Body bar = hullOfBox({.5, .1, .1});
   const double height = .2 * std::sqrt(2.) + .03;
   expectPoint(middle(bar, at(.6, 0, height, upright), bar, at(0, 0, 0, upright)), {.3, 0, .5 * height},
-              kExact);  // x from .1 to .5
+              kPatchExact);  // x from .1 to .5
   const Matrix3d across = axisRotation(2, M_PI / 2) * upright;
-  expectPoint(middle(bar, at(.2, .3, height, across), bar, at(0, 0, 0, upright)), {.2, 0, .5 * height}, kExact);
+  expectPoint(middle(bar, at(.2, .3, height, across), bar, at(0, 0, 0, upright)), {.2, 0, .5 * height}, kPatchExact);
 }
 
 TEST(ContactPatch, CylindersStandOnTheMiddleOfWhatTheyTouch) {
   const Body table = hullOfBox({1, 1, .1}), can = cylinder(.2, .1), post = prism(6, .1, .1);
   for (const double gap : {.02, -.005}) {
-    expectPoint(middle(can, at(.3, .4, .2 + gap), table, at(0, 0, 0)), {.3, .4, .1 + .5 * gap}, kExact);
-    expectPoint(middle(post, at(.3, .4, .2 + gap), table, at(0, 0, 0)), {.3, .4, .1 + .5 * gap}, kExact);
-    expectPoint(middle(can, at(.3, .4, .2 + gap), can, at(.3, .4, 0)), {.3, .4, .1 + .5 * gap}, kExact);
+    expectPoint(middle(can, at(.3, .4, .2 + gap), table, at(0, 0, 0)), {.3, .4, .1 + .5 * gap}, kPatchExact);
+    expectPoint(middle(post, at(.3, .4, .2 + gap), table, at(0, 0, 0)), {.3, .4, .1 + .5 * gap}, kPatchExact);
+    expectPoint(middle(can, at(.3, .4, .2 + gap), can, at(.3, .4, 0)), {.3, .4, .1 + .5 * gap}, kPatchExact);
     expectPoint(middle(can, at(.1, 0, .2 + gap), can, at(0, 0, 0)), {.05, 0, .1 + .5 * gap},
                 1e-3);  // where two discs overlap
   }
   const Matrix3d lying = axisRotation(0, M_PI / 2);
-  expectPoint(middle(can, at(.3, .4, .22, lying), table, at(0, 0, 0)), {.3, .4, .11}, kExact);
-  expectPoint(middle(can, at(.3, 1.05, .22, lying), table, at(0, 0, 0)), {.3, .975, .11}, kExact);  // y from .95 to 1
-  expectPoint(middle(can, at(0, .1, .21, lying), can, at(0, 0, 0, lying)), {0, .05, .105}, kExact);
+  expectPoint(middle(can, at(.3, .4, .22, lying), table, at(0, 0, 0)), {.3, .4, .11}, kPatchExact);
+  expectPoint(middle(can, at(.3, 1.05, .22, lying), table, at(0, 0, 0)), {.3, .975, .11},
+              kPatchExact);  // y from .95 to 1
+  expectPoint(middle(can, at(0, .1, .21, lying), can, at(0, 0, 0, lying)), {0, .05, .105}, kPatchExact);
 }
 
 TEST(ContactPatch, OfManyCornersIsFoundByWalkingAlongTheRim) {
   const Body drum = prism(40, .3, .1), plate = prism(5, .2, .05);
   ASSERT_FALSE(drum->hull().first_neighbor.empty());
-  expectPoint(middle(plate, at(.05, -.02, .16), drum, at(0, 0, 0)), {.05, -.02, .105}, kExact);
-  expectPoint(middle(drum, at(0, 0, .25), drum, at(0, 0, 0)), {0, 0, .125}, kExact);
+  expectPoint(middle(plate, at(.05, -.02, .16), drum, at(0, 0, 0)), {.05, -.02, .105}, kPatchExact);
+  expectPoint(middle(drum, at(0, 0, .25), drum, at(0, 0, 0)), {0, 0, .125}, kPatchExact);
 }
 
 TEST(ContactPatch, StaysThroughTheStepsOfFiniteDifferences) {

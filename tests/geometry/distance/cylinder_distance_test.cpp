@@ -9,14 +9,14 @@ using namespace kinegraph::testing;
 
 namespace {
 
-constexpr double kRounding = 1e-12;
+constexpr double kCylinderRounding = 1e-12;
 const CylinderCore kCylinder{{}, .3, .5};
 
 void expectNear(const Vector3d& point, double distance, const Vector3d& normal) {
   const NearestPoints near = pointToCylinder(point, kCylinder);
-  EXPECT_NEAR(near.distance, distance, kRounding) << point.transpose();
-  EXPECT_LT((near.normal - normal).norm(), kRounding) << point.transpose();
-  EXPECT_LT((near.point_a - near.point_b - distance * normal).norm(), kRounding) << point.transpose();
+  EXPECT_NEAR(near.distance, distance, kCylinderRounding) << point.transpose();
+  EXPECT_LT((near.normal - normal).norm(), kCylinderRounding) << point.transpose();
+  EXPECT_LT((near.point_a - near.point_b - distance * normal).norm(), kCylinderRounding) << point.transpose();
 }
 
 }  // namespace
@@ -36,8 +36,8 @@ TEST(PointToCylinder, InsideTheNearerOfSideAndCapIsThePush) {
 TEST(PointToCylinder, OnTheSurfaceAndOnTheAxisTheNormalIsAUnitVector) {
   expectNear(Vector3d(0, 0, .5), 0., Vector3d::UnitZ());
   expectNear(Vector3d(.3, 0, 0), 0., Vector3d::UnitX());
-  EXPECT_NEAR(pointToCylinder(Vector3d(0, 0, 0), kCylinder).distance, -.3, kRounding);
-  EXPECT_NEAR(pointToCylinder(Vector3d(0, 0, 0), kCylinder).normal.norm(), 1., kRounding);
+  EXPECT_NEAR(pointToCylinder(Vector3d(0, 0, 0), kCylinder).distance, -.3, kCylinderRounding);
+  EXPECT_NEAR(pointToCylinder(Vector3d(0, 0, 0), kCylinder).normal.norm(), 1., kCylinderRounding);
 }
 
 TEST(PointToCylinder, MovesWithTheCylinder) {
@@ -47,7 +47,7 @@ TEST(PointToCylinder, MovesWithTheCylinder) {
     const RigidTransform X = randomTransform(rng);
     const NearestPoints resting = pointToCylinder(point, kCylinder);
     const NearestPoints moved = pointToCylinder(X * point, {X, kCylinder.radius, kCylinder.half_length});
-    EXPECT_NEAR(moved.distance, resting.distance, kRounding);
+    EXPECT_NEAR(moved.distance, resting.distance, kCylinderRounding);
     EXPECT_LT((moved.normal - X.R * resting.normal).norm(), 1e-9);
     EXPECT_LT((moved.point_b - X * resting.point_b).norm(), 1e-9);
   }

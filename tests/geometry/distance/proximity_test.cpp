@@ -15,18 +15,13 @@ namespace {
 
 using Body = std::shared_ptr<const CollisionBody>;
 
-constexpr double kRounding = 1e-10;
-constexpr double kGeneral = 1e-6;     // accuracy of the general algorithm for convex bodies
+constexpr double kProximityRounding = 1e-10;
 constexpr double kRoundDepth = 1e-4;  // where round sides overlap, which it approaches by facets
 constexpr double kGradient = 1e-4;    // of central differences with that accuracy
 
 Body body(ShapeType type, std::vector<double> size) { return makeCollisionBody({type, std::move(size), nullptr}); }
 
 Body hullBody(const Vector3d& half, double radius) { return makeCollisionBody(sweptHullOf(boxCorners(half), radius)); }
-
-RigidTransform at(double x, double y, double z, const Matrix3d& R = Matrix3d::Identity()) {
-  return {R, Vector3d(x, y, z)};
-}
 
 struct Named {
   std::string name;
@@ -53,7 +48,7 @@ struct Pair {
   const Named &a, &b;
   RigidTransform X_WA, X_WB;
   std::string what;
-  double tolerance() const { return a.closed_form && b.closed_form ? kRounding : kGeneral; }
+  double tolerance() const { return a.closed_form && b.closed_form ? kProximityRounding : kGeneral; }
   Proximity near() const { return proximity(*a.body, X_WA, *b.body, X_WB); }
 };
 
@@ -78,64 +73,64 @@ TEST(Proximity, TwoSpheresAreTheDistanceOfTheirCentersMinusTheRadiiApart) {
   const auto a = body(ShapeType::sphere, {.2}), b = body(ShapeType::sphere, {.1});
   for (const double d : {2., .3, .25}) {
     const Proximity near = proximity(*a, at(.6 * d, .8 * d, 0), *b, {});
-    EXPECT_NEAR(near.distance, d - .3, kRounding);
-    EXPECT_NEAR(near.core_distance, d, kRounding);
-    EXPECT_LT((near.normal - Vector3d(.6, .8, 0)).norm(), kRounding);
-    EXPECT_LT((near.point_a - (d - .2) * Vector3d(.6, .8, 0)).norm(), kRounding);
-    EXPECT_LT((near.point_b - .1 * Vector3d(.6, .8, 0)).norm(), kRounding);
+    EXPECT_NEAR(near.distance, d - .3, kProximityRounding);
+    EXPECT_NEAR(near.core_distance, d, kProximityRounding);
+    EXPECT_LT((near.normal - Vector3d(.6, .8, 0)).norm(), kProximityRounding);
+    EXPECT_LT((near.point_a - (d - .2) * Vector3d(.6, .8, 0)).norm(), kProximityRounding);
+    EXPECT_LT((near.point_b - .1 * Vector3d(.6, .8, 0)).norm(), kProximityRounding);
   }
 }
 
 TEST(Proximity, ASphereBesideACapsuleIsNearestItsSegmentAndBeyondTheEndItsEnd) {
   const auto sphere = body(ShapeType::sphere, {.1}), capsule = body(ShapeType::capsule, {1., .2});
   const Proximity beside = proximity(*sphere, at(.7, 0, .3), *capsule, {});
-  EXPECT_NEAR(beside.distance, .4, kRounding);
-  EXPECT_LT((beside.core_b - Vector3d(0, 0, .3)).norm(), kRounding);
+  EXPECT_NEAR(beside.distance, .4, kProximityRounding);
+  EXPECT_LT((beside.core_b - Vector3d(0, 0, .3)).norm(), kProximityRounding);
   const Proximity beyond = proximity(*sphere, at(.3, 0, .9), *capsule, {});
-  EXPECT_NEAR(beyond.distance, .5 - .3, kRounding);
-  EXPECT_LT((beyond.core_b - Vector3d(0, 0, .5)).norm(), kRounding);
+  EXPECT_NEAR(beyond.distance, .5 - .3, kProximityRounding);
+  EXPECT_LT((beyond.core_b - Vector3d(0, 0, .5)).norm(), kProximityRounding);
 }
 
 TEST(Proximity, CrossedCapsulesAreNearestWhereTheirAxesPass) {
   const auto capsule = body(ShapeType::capsule, {1., .1});
   const Proximity near = proximity(*capsule, at(.2, .4, .1, axisRotation(0, 2. * std::atan(1.))), *capsule, {});
-  EXPECT_NEAR(near.distance, 0., kRounding);
-  EXPECT_LT((near.normal - Vector3d::UnitX()).norm(), kRounding);
-  EXPECT_LT((near.core_b - Vector3d(0, 0, .1)).norm(), kRounding);
+  EXPECT_NEAR(near.distance, 0., kProximityRounding);
+  EXPECT_LT((near.normal - Vector3d::UnitX()).norm(), kProximityRounding);
+  EXPECT_LT((near.core_b - Vector3d(0, 0, .1)).norm(), kProximityRounding);
 }
 
 TEST(Proximity, ParallelCapsulesAreNearestInTheMiddleOfTheStretchTheyShare) {
   const auto capsule = body(ShapeType::capsule, {1., .1});
   for (const double turn : {0., 4. * std::atan(1.)}) {
     const Proximity near = proximity(*capsule, at(.5, 0, .6, axisRotation(0, turn)), *capsule, {});
-    EXPECT_NEAR(near.distance, .3, kRounding);
-    EXPECT_LT((near.core_b - Vector3d(0, 0, .3)).norm(), kRounding);  // they share z from .1 to .5
+    EXPECT_NEAR(near.distance, .3, kProximityRounding);
+    EXPECT_LT((near.core_b - Vector3d(0, 0, .3)).norm(), kProximityRounding);  // they share z from .1 to .5
   }
 }
 
 TEST(Proximity, ASphereTouchesTheRoundedEdgeOfAnSsBox) {
   const auto sphere = body(ShapeType::sphere, {.1}), box = body(ShapeType::ssBox, {1., 1., 1., .2});
   const Proximity near = proximity(*sphere, at(.6, .7, 0), *box, {});  // the core ends at .3
-  EXPECT_NEAR(near.distance, .5 - .3, kRounding);
-  EXPECT_LT((near.point_b - Vector3d(.3 + .12, .3 + .16, 0)).norm(), kRounding);
+  EXPECT_NEAR(near.distance, .5 - .3, kProximityRounding);
+  EXPECT_LT((near.point_b - Vector3d(.3 + .12, .3 + .16, 0)).norm(), kProximityRounding);
 }
 
 TEST(Proximity, BoxesThatOverlapByATenthOfAMeterAreMinusATenthApart) {
   const auto a = body(ShapeType::box, {.4, .4, .4}), b = body(ShapeType::box, {1., 1., 1.});
-  EXPECT_NEAR(proximity(*a, at(0, 0, .6), *b, {}).distance, -.1, kRounding);
-  EXPECT_NEAR(proximity(*b, {}, *a, at(0, 0, .6)).distance, -.1, kRounding);
+  EXPECT_NEAR(proximity(*a, at(0, 0, .6), *b, {}).distance, -.1, kProximityRounding);
+  EXPECT_NEAR(proximity(*b, {}, *a, at(0, 0, .6)).distance, -.1, kProximityRounding);
   const auto rounded = body(ShapeType::ssBox, {.4, .4, .4, .05});
-  EXPECT_NEAR(proximity(*rounded, at(0, 0, .6), *rounded, at(0, 0, .3)).distance, -.1, kRounding);
-  EXPECT_NEAR(proximity(*a, at(.1, 0, 0), *b, {}).distance, -.6, kRounding);
+  EXPECT_NEAR(proximity(*rounded, at(0, 0, .6), *rounded, at(0, 0, .3)).distance, -.1, kProximityRounding);
+  EXPECT_NEAR(proximity(*a, at(.1, 0, 0), *b, {}).distance, -.6, kProximityRounding);
 }
 
 TEST(Proximity, RoundedBoxesAreAsFarApartAsTheirFaces) {
   // A scene of the language's description: two rounded boxes of which one stands .1 above the other.
   const auto a = body(ShapeType::ssBox, {.4, .4, .2, .05}), c = body(ShapeType::ssBox, {.2, .2, .2, .02});
   const Proximity near = proximity(*a, at(1, 2, 3), *c, at(1, 2, 3.3));
-  EXPECT_NEAR(near.distance, .1, kRounding);
-  EXPECT_LT((near.point_a - Vector3d(1, 2, 3.1)).norm(), kRounding);
-  EXPECT_LT((near.normal + Vector3d::UnitZ()).norm(), kRounding);
+  EXPECT_NEAR(near.distance, .1, kProximityRounding);
+  EXPECT_LT((near.point_a - Vector3d(1, 2, 3.1)).norm(), kProximityRounding);
+  EXPECT_LT((near.normal + Vector3d::UnitZ()).norm(), kProximityRounding);
 }
 
 TEST(Proximity, ASphereSeesTheSideTheCapAndTheRimOfACylinder) {
@@ -181,7 +176,7 @@ TEST(Proximity, MovingBothBodiesTogetherMovesThePointsWithThem) {
 TEST(Proximity, WitnessPointsLieTheDistanceApartAlongTheUnitNormal) {
   for (const Pair& pair : randomPairs(20, 4)) {
     const Proximity near = pair.near();
-    EXPECT_NEAR(near.normal.norm(), 1., kRounding) << pair.what;
+    EXPECT_NEAR(near.normal.norm(), 1., kProximityRounding) << pair.what;
     EXPECT_NEAR(near.normal.dot(near.point_a - near.point_b), near.distance, pair.tolerance()) << pair.what;
     EXPECT_NEAR((near.point_a - near.point_b).norm(), std::abs(near.distance), 2. * pair.tolerance()) << pair.what;
     EXPECT_NEAR(near.normal.dot(near.core_a - near.core_b), near.core_distance, pair.tolerance()) << pair.what;
@@ -217,7 +212,8 @@ TEST(Proximity, TheNormalAndTheWitnessPointGiveTheGradientOfTheDistance) {
     if (std::abs(forward - backward) > kGradient * 10.) continue;  // a kink
     ++checked;
     const double expected = near.normal.dot(v + w.cross(near.point_a - pair.X_WA.p));
-    EXPECT_NEAR(.5 * (forward + backward), expected, pair.tolerance() == kRounding ? kGradient : 20. * kGradient)
+    EXPECT_NEAR(.5 * (forward + backward), expected,
+                pair.tolerance() == kProximityRounding ? kGradient : 20. * kGradient)
         << pair.what;
   }
   EXPECT_GT(checked, all * 8 / 10);
@@ -233,7 +229,8 @@ TEST(Proximity, DegenerateContactsGiveFiniteNumbers) {
         const Proximity near = proximity(*a.body, X_WA, *b.body, {});
         EXPECT_TRUE(std::isfinite(near.distance)) << a.name << "-" << b.name << " at " << X_WA.p.transpose();
         EXPECT_TRUE(near.point_a.allFinite() && near.point_b.allFinite()) << a.name << "-" << b.name;
-        EXPECT_NEAR(near.normal.norm(), 1., kRounding) << a.name << "-" << b.name << " at " << X_WA.p.transpose();
+        EXPECT_NEAR(near.normal.norm(), 1., kProximityRounding)
+            << a.name << "-" << b.name << " at " << X_WA.p.transpose();
       }
     }
   }
@@ -264,7 +261,7 @@ TEST(PointToCore, IsTheDistanceOfAPointFromTheCoreOrLessForHulls) {
       if (named.body->core() == CollisionBody::Core::hull) {
         EXPECT_LE(bound, exact + kGeneral) << named.name;
       } else {
-        EXPECT_NEAR(bound, exact, kRounding) << named.name;
+        EXPECT_NEAR(bound, exact, kProximityRounding) << named.name;
       }
       ++(bound > 0. ? outside : inside);
     }

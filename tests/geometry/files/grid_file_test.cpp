@@ -12,7 +12,7 @@ using namespace kinegraph;
 
 namespace {
 
-class GridFileTest : public testing::Test {
+class GridFileTest : public ::testing::Test {
  protected:
   GridFile read(const std::string& text, const std::string& name = "field.txt") {
     return readGridFile(folder_.write(name, text));

@@ -34,7 +34,7 @@ int worst(const std::string& name, bool gray = false) {
   return worst;
 }
 
-std::string messageOf(const std::string& bytes) {
+std::string messageOfImage(const std::string& bytes) {
   try {
     decodeImage({bytes, "x"});
   } catch (const FileError& error) {
@@ -80,18 +80,18 @@ TEST(Image, EveryShortenedFileIsAnErrorOrAPicture) {
   for (const char* name :
        {"colors.png", "interlaced.png", "palette.png", "colors.jpg", "progressive.jpg", "restart.jpg"}) {
     const std::string bytes = readImageFile(dataFile(name))->bytes;
-    for (std::size_t size = 3; size < bytes.size(); size += 7) messageOf(bytes.substr(0, size));
-    EXPECT_NE(messageOf(bytes.substr(0, bytes.size() / 3)), "") << name;
+    for (std::size_t size = 3; size < bytes.size(); size += 7) messageOfImage(bytes.substr(0, size));
+    EXPECT_NE(messageOfImage(bytes.substr(0, bytes.size() / 3)), "") << name;
   }
 }
 
 TEST(Image, PromisesThatTheBytesCannotKeepAreRefused) {
   std::string png = readImageFile(dataFile("colors.png"))->bytes;
   png.replace(16, 8, std::string("\0\0\x70\0\0\0\x70\0", 8));
-  EXPECT_NE(messageOf(png).find("promises 28672 x 28672 pixels"), std::string::npos) << messageOf(png);
+  EXPECT_NE(messageOfImage(png).find("promises 28672 x 28672 pixels"), std::string::npos) << messageOfImage(png);
   std::string jpeg = readImageFile(dataFile("colors.jpg"))->bytes;
   jpeg.replace(jpeg.find("\xff\xc0") + 5, 4, "\x70\x70\x70\x70");
-  EXPECT_NE(messageOf(jpeg).find("promises 28784 x 28784 pixels"), std::string::npos) << messageOf(jpeg);
+  EXPECT_NE(messageOfImage(jpeg).find("promises 28784 x 28784 pixels"), std::string::npos) << messageOfImage(jpeg);
 }
 
 TEST(Image, OtherFilesAreRefused) {

@@ -42,7 +42,7 @@ std::string binaryStl(std::uint32_t announced, const std::vector<std::array<floa
   return file;
 }
 
-std::string messageOf(const std::string& path) {
+std::string messageOfMesh(const std::string& path) {
   try {
     readMeshFile(path);
   } catch (const FileError& error) {
@@ -85,41 +85,41 @@ TEST_F(MeshFile, VertexColorsOfAPlyFileAreKept) {
 }
 
 TEST_F(MeshFile, AMissingFileAndAFolderAreRefusedByName) {
-  EXPECT_NE(messageOf((folder_ / "nothing.stl").string()).find("nothing.stl"), std::string::npos);
-  EXPECT_NE(messageOf(folder_.path().string()), "");
+  EXPECT_NE(messageOfMesh((folder_ / "nothing.stl").string()).find("nothing.stl"), std::string::npos);
+  EXPECT_NE(messageOfMesh(folder_.path().string()), "");
 }
 
 TEST_F(MeshFile, EmptyFilesAreRefused) {
   for (const char* name : {"empty.stl", "empty.obj", "empty.ply", "empty.dae", "empty.glb"}) {
-    EXPECT_NE(messageOf(write(name, "")).find(name), std::string::npos) << name;
+    EXPECT_NE(messageOfMesh(write(name, "")).find(name), std::string::npos) << name;
   }
 }
 
 TEST_F(MeshFile, FilesOfAnotherContentOrEndingAreRefused) {
   for (const char* name : {"text.stl", "text.obj", "text.ply", "text.dae", "text.glb", "text.unknown", "text"}) {
-    EXPECT_NE(messageOf(write(name, "this is a letter, not a mesh\n")).find(name), std::string::npos) << name;
+    EXPECT_NE(messageOfMesh(write(name, "this is a letter, not a mesh\n")).find(name), std::string::npos) << name;
   }
 }
 
 TEST_F(MeshFile, FilesThatBreakOffAreRefused) {
-  EXPECT_NE(messageOf(write("short.stl", binaryStl(1000, {{0, 0, 0, 1, 0, 0, 1, 1, 0}}))), "");
-  EXPECT_NE(messageOf(write("short.glb", std::string("glTF\2\0\0\0\xff\0\0\0", 12))), "");
+  EXPECT_NE(messageOfMesh(write("short.stl", binaryStl(1000, {{0, 0, 0, 1, 0, 0, 1, 1, 0}}))), "");
+  EXPECT_NE(messageOfMesh(write("short.glb", std::string("glTF\2\0\0\0\xff\0\0\0", 12))), "");
 }
 
 TEST_F(MeshFile, FilesWithoutVerticesAreRefused) {
-  EXPECT_NE(messageOf(write("nothing.obj", "# a comment\n")), "");
-  EXPECT_NE(messageOf(write("nothing.stl", binaryStl(0, {}))), "");
+  EXPECT_NE(messageOfMesh(write("nothing.obj", "# a comment\n")), "");
+  EXPECT_NE(messageOfMesh(write("nothing.stl", binaryStl(0, {}))), "");
 }
 
 TEST_F(MeshFile, FacesThatNameMissingVerticesAreRefused) {
-  EXPECT_NE(messageOf(write("beyond.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 9\n")), "");
+  EXPECT_NE(messageOfMesh(write("beyond.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 9\n")), "");
 }
 
 TEST_F(MeshFile, VerticesThatAreNotFiniteAreRefused) {
-  EXPECT_NE(messageOf(write("nan.obj", "v 0 0 0\nv nan 0 0\nv 0 1 0\nf 1 2 3\n")), "");
-  EXPECT_NE(
-      messageOf(write("nan.stl", binaryStl(1, {{0, 0, 0, std::numeric_limits<float>::quiet_NaN(), 0, 0, 1, 1, 0}}))),
-      "");
+  EXPECT_NE(messageOfMesh(write("nan.obj", "v 0 0 0\nv nan 0 0\nv 0 1 0\nf 1 2 3\n")), "");
+  EXPECT_NE(messageOfMesh(
+                write("nan.stl", binaryStl(1, {{0, 0, 0, std::numeric_limits<float>::quiet_NaN(), 0, 0, 1, 1, 0}}))),
+            "");
 }
 
 namespace {
@@ -136,7 +136,7 @@ const char* const kCorners = "0 0 0\n1 0 0\n0 1 0\n3 0 1 ";
 
 TEST_F(MeshFile, AFaceThatNamesAVertexBeyondTheLastIsAnError) {
   EXPECT_EQ(readMeshFile(write("good.ply", ply("3", "1", std::string(kCorners) + "2\n"))).triangles.size(), 1u);
-  const std::string message = messageOf(write("bad.ply", ply("3", "1", std::string(kCorners) + "4\n")));
+  const std::string message = messageOfMesh(write("bad.ply", ply("3", "1", std::string(kCorners) + "4\n")));
   EXPECT_NE(message.find("face 0 names vertex 4 of 3"), std::string::npos) << message;
 }
 
@@ -144,12 +144,12 @@ TEST_F(MeshFile, AHeaderThatPromisesMoreThanTheFileHoldsIsAnErrorAtOnce) {
   const std::string body = std::string(kCorners) + "2\n";
   for (const std::string& text :
        {ply("4000000000", "1", body), ply("3", "4000000000", body), ply("3", "200000", body)}) {
-    const std::string message = messageOf(write("a.ply", text));
+    const std::string message = messageOfMesh(write("a.ply", text));
     EXPECT_NE(message.find("more than its"), std::string::npos) << message;
   }
   const std::string gltf =
       R"({"asset": {"version": "2.0"}, "accessors": [{"componentType": 5126, "count": 100000000, "type": "VEC3"}]})";
-  EXPECT_NE(messageOf(write("a.gltf", gltf)).find("more than its"), std::string::npos);
+  EXPECT_NE(messageOfMesh(write("a.gltf", gltf)).find("more than its"), std::string::npos);
   const std::string dae = R"(<COLLADA><float_array id="a" count="4000000000">1 2 3</float_array></COLLADA>)";
-  EXPECT_NE(messageOf(write("a.DAE", dae)).find("more than its"), std::string::npos);
+  EXPECT_NE(messageOfMesh(write("a.DAE", dae)).find("more than its"), std::string::npos);
 }

@@ -15,7 +15,7 @@ using namespace kinegraph::testing;
 
 namespace {
 
-constexpr double kRounding = 1e-10;
+constexpr double kHullRounding = 1e-10;
 
 /// The largest height of a point above the plane of a triangle, m.
 double farthestOutside(const Mesh& hull, const std::vector<Vector3d>& points) {
@@ -38,7 +38,7 @@ TEST(ConvexHull, HullOfABoxWithPointsInsideIsTheBox) {
   const Mesh hull = convexHull(points);
   EXPECT_EQ(hull.vertices.size(), 8u);
   EXPECT_EQ(hull.triangles.size(), 12u);
-  EXPECT_NEAR(volume(hull), 8. * half.prod(), kRounding);
+  EXPECT_NEAR(volume(hull), 8. * half.prod(), kHullRounding);
 }
 
 TEST(ConvexHull, ContainsAllItsPointsAndIsClosedAndOutward) {
@@ -47,7 +47,7 @@ TEST(ConvexHull, ContainsAllItsPointsAndIsClosedAndOutward) {
     std::vector<Vector3d> points;
     for (int i = 0; i < count; ++i) points.push_back(Vector3d(1, 2, 3) + randomVector(rng));
     const Mesh hull = convexHull(points);
-    EXPECT_LT(farthestOutside(hull, points), kRounding);
+    EXPECT_LT(farthestOutside(hull, points), kHullRounding);
     EXPECT_EQ(openEdges(hull), 0);
     EXPECT_GT(volume(hull), 0.);
   }
@@ -68,13 +68,13 @@ TEST(ConvexHull, AHullIsItsOwnHull) {
   for (int i = 0; i < 60; ++i) points.push_back(randomVector(rng));
   const Mesh once = convexHull(points), twice = convexHull(once.vertices);
   EXPECT_EQ(twice.vertices.size(), once.vertices.size());
-  EXPECT_NEAR(volume(twice), volume(once), kRounding);
+  EXPECT_NEAR(volume(twice), volume(once), kHullRounding);
 }
 
 TEST(ConvexHull, RepeatedPointsDoNotChangeIt) {
   std::vector<Vector3d> points = boxCorners(Vector3d(1, 1, 1));
   for (int i = 0; i < 8; ++i) points.push_back(points[i]);
-  EXPECT_NEAR(volume(convexHull(points)), 8., kRounding);
+  EXPECT_NEAR(volume(convexHull(points)), 8., kHullRounding);
 }
 
 TEST(ConvexHull, TooFewPointsAndPointsInAPlaneOnALineOrInOnePlaceAreRefused) {

@@ -8,6 +8,7 @@
 #include "kinegraph/base/errors.h"
 #include "kinegraph/geometry/shapes/tessellation.h"
 #include "tests/support/geometry_samples.h"
+#include "tests/support/mesh_laws.h"
 
 using namespace kinegraph;
 using namespace kinegraph::testing;
@@ -15,8 +16,7 @@ using std::numbers::pi;
 
 namespace {
 
-constexpr double kRounding = 1e-12;
-constexpr double kFacets = .03;  // relative loss by cutting a quarter turn into six
+constexpr double kMassRounding = 1e-12;
 
 Geometry meshOf(Mesh mesh) { return {ShapeType::mesh, {}, std::make_shared<Mesh>(std::move(mesh))}; }
 
@@ -29,29 +29,29 @@ Mesh moved(Mesh mesh, const RigidTransform& X) {
 
 TEST(ShellMass, OfACubeIsFiveEighteenthsOfTheSquaredSide) {
   const ShellMass shell = shellMass({ShapeType::box, {.3, .3, .3}, nullptr});
-  EXPECT_NEAR(shell.area, 6. * .09, kRounding);
-  EXPECT_LT(shell.com.norm(), kRounding);
-  EXPECT_LT((shell.inertia_per_mass - 5. / 18. * .09 * Matrix3d::Identity()).norm(), kRounding);
+  EXPECT_NEAR(shell.area, 6. * .09, kMassRounding);
+  EXPECT_LT(shell.com.norm(), kMassRounding);
+  EXPECT_LT((shell.inertia_per_mass - 5. / 18. * .09 * Matrix3d::Identity()).norm(), kMassRounding);
 }
 
 TEST(ShellMass, OfASphereIsTwoThirdsOfTheSquaredRadius) {
   const ShellMass shell = shellMass({ShapeType::sphere, {.2}, nullptr});
-  EXPECT_NEAR(shell.area, 4. * pi * .04, kRounding);
-  EXPECT_LT((shell.inertia_per_mass - 2. / 3. * .04 * Matrix3d::Identity()).norm(), kRounding);
+  EXPECT_NEAR(shell.area, 4. * pi * .04, kMassRounding);
+  EXPECT_LT((shell.inertia_per_mass - 2. / 3. * .04 * Matrix3d::Identity()).norm(), kMassRounding);
 }
 
 TEST(ShellMass, OfABoxIsThatOfItsTriangles) {
   const Geometry box{ShapeType::box, {.1, .2, .3}, nullptr};
   const ShellMass closed_form = shellMass(box), triangles = shellMass(meshOf(tessellate(box)));
-  EXPECT_NEAR(closed_form.area, triangles.area, kRounding);
-  EXPECT_LT((closed_form.com - triangles.com).norm(), kRounding);
-  EXPECT_LT((closed_form.inertia_per_mass - triangles.inertia_per_mass).norm(), kRounding);
+  EXPECT_NEAR(closed_form.area, triangles.area, kMassRounding);
+  EXPECT_LT((closed_form.com - triangles.com).norm(), kMassRounding);
+  EXPECT_LT((closed_form.inertia_per_mass - triangles.inertia_per_mass).norm(), kMassRounding);
 }
 
 TEST(ShellMass, OfAFlatBoxIsThatOfARectangle) {
   const ShellMass shell = shellMass({ShapeType::box, {.3, .2, 0.}, nullptr});
   const Vector3d expected(.04 / 12., .09 / 12., .13 / 12.);
-  EXPECT_LT((shell.inertia_per_mass - Matrix3d(expected.asDiagonal())).norm(), kRounding);
+  EXPECT_LT((shell.inertia_per_mass - Matrix3d(expected.asDiagonal())).norm(), kMassRounding);
 }
 
 TEST(ShellMass, OfACylinderIsThatOfATubeWithTwoDiscsWithinTheFacets) {
@@ -61,7 +61,7 @@ TEST(ShellMass, OfACylinderIsThatOfATubeWithTwoDiscsWithinTheFacets) {
   const ShellMass shell = shellMass({ShapeType::cylinder, {L, r}, nullptr});
   EXPECT_NEAR(shell.area, area, kFacets * area);
   EXPECT_NEAR(shell.inertia_per_mass(0, 0), lateral, kFacets * lateral);
-  EXPECT_NEAR(shell.inertia_per_mass(1, 1), shell.inertia_per_mass(0, 0), kRounding);
+  EXPECT_NEAR(shell.inertia_per_mass(1, 1), shell.inertia_per_mass(0, 0), kMassRounding);
   EXPECT_NEAR(shell.inertia_per_mass(2, 2), axial, kFacets * axial);
 }
 
@@ -72,9 +72,9 @@ TEST(ShellMass, MovesWithTheMesh) {
   for (int i = 0; i < 10; ++i) {
     const RigidTransform X = randomTransform(rng);
     const ShellMass shell = shellMass(meshOf(moved(mesh, X)));
-    EXPECT_NEAR(shell.area, resting.area, kRounding);
-    EXPECT_LT((shell.com - X * resting.com).norm(), kRounding);
-    EXPECT_LT((shell.inertia_per_mass - X.R * resting.inertia_per_mass * X.R.transpose()).norm(), kRounding);
+    EXPECT_NEAR(shell.area, resting.area, kMassRounding);
+    EXPECT_LT((shell.com - X * resting.com).norm(), kMassRounding);
+    EXPECT_LT((shell.inertia_per_mass - X.R * resting.inertia_per_mass * X.R.transpose()).norm(), kMassRounding);
   }
 }
 
@@ -88,7 +88,7 @@ TEST(ShellMass, InertiaIsPositiveAndObeysTheTriangleInequality) {
     const Vector3d moments =
         Eigen::SelfAdjointEigenSolver<Matrix3d>(shellMass(geometry).inertia_per_mass).eigenvalues();
     EXPECT_GT(moments[0], 0.);
-    EXPECT_LE(moments[2], moments[0] + moments[1] + kRounding);
+    EXPECT_LE(moments[2], moments[0] + moments[1] + kMassRounding);
   }
 }
 

@@ -6,12 +6,11 @@
 #include "kinegraph/geometry/distance/collision_body.h"
 #include "kinegraph/geometry/shapes/shape_types.h"
 #include "kinegraph/geometry/shapes/tessellation.h"
+#include "tests/support/mesh_laws.h"
 
 using namespace kinegraph;
 
 namespace {
-
-constexpr double kRounding = 1e-9;  // vertices of surfaces merge at this grid
 
 /// A shape of each kind, with sizes that fit each other and the mesh or grid that it takes.
 Geometry sampleOf(const ShapeKind& kind) {
@@ -62,8 +61,8 @@ TEST(ShapeKinds, AShapeCollidesWithinTheBoundsOfItsSurfaceAndReachesThem) {
     ASSERT_TRUE(body->convex()) << kind.name;
     for (int axis = 0; axis < 3; ++axis) {
       const Vector3d out = Vector3d::Unit(axis);
-      EXPECT_NEAR(body->support(out)[axis] + body->radius(), high[axis], kRounding) << kind.name;
-      EXPECT_NEAR(body->support(-out)[axis] - body->radius(), low[axis], kRounding) << kind.name;
+      EXPECT_NEAR(body->support(out)[axis] + body->radius(), high[axis], kMergeGrid) << kind.name;
+      EXPECT_NEAR(body->support(-out)[axis] - body->radius(), low[axis], kMergeGrid) << kind.name;
     }
   }
 }
@@ -74,7 +73,7 @@ TEST(ShapeKinds, TheExtentIsThatOfTheSurface) {
     if (!kind.extent) continue;
     const Geometry geometry = sampleOf(kind);
     const auto [low, high] = boundsOf(tessellate(geometry));
-    EXPECT_NEAR((kind.extent(geometry.size) - (high - low)).norm(), 0., kRounding) << kind.name;
+    EXPECT_NEAR((kind.extent(geometry.size) - (high - low)).norm(), 0., kMergeGrid) << kind.name;
     EXPECT_EQ(shapeHeight(kind.type, geometry.size), kind.extent(geometry.size).z()) << kind.name;
     ++told;
   }

@@ -15,9 +15,6 @@ using namespace kinegraph::testing;
 
 namespace {
 
-constexpr double kRounding = 1e-9;  // vertices merge at this grid
-constexpr double kFacets = .03;     // relative loss of volume by cutting a quarter turn into six
-
 std::vector<Geometry> shapesWithSurface() {
   return {{ShapeType::box, {.1, .2, .3}, nullptr},
           {ShapeType::sphere, {.2}, nullptr},
@@ -77,7 +74,7 @@ TEST(Tessellation, ABoxHasEightCornersAndTwelveTriangles) {
   const Mesh mesh = tessellate({ShapeType::box, {1, 2, 3}, nullptr});
   EXPECT_EQ(mesh.vertices.size(), 8u);
   EXPECT_EQ(mesh.triangles.size(), 12u);
-  EXPECT_NEAR(volume(mesh), 6., kRounding);
+  EXPECT_NEAR(volume(mesh), 6., kMergeGrid);
 }
 
 TEST(Tessellation, VolumesAreThoseOfTheRoundBodiesWithinTheFacets) {
@@ -99,24 +96,24 @@ TEST(Tessellation, SizesAreOuterWidthsIncludingTheRounding) {
   const auto extentOf = [](ShapeType type, std::vector<double> size) {
     return extent(tessellate({type, size, nullptr}));
   };
-  EXPECT_LT((extentOf(ShapeType::box, {1, 2, 3}) - Vector3d(1, 2, 3)).norm(), kRounding);
-  EXPECT_LT((extentOf(ShapeType::ssBox, {1, 2, 3, .2}) - Vector3d(1, 2, 3)).norm(), kRounding);
-  EXPECT_LT((extentOf(ShapeType::sphere, {.5}) - Vector3d(1, 1, 1)).norm(), kRounding);
-  EXPECT_LT((extentOf(ShapeType::capsule, {1, .25}) - Vector3d(.5, .5, 1.5)).norm(), kRounding);
-  EXPECT_LT((extentOf(ShapeType::cylinder, {1, .25}) - Vector3d(.5, .5, 1)).norm(), kRounding);
-  EXPECT_LT((extentOf(ShapeType::ssCylinder, {1, .25, .1}) - Vector3d(.5, .5, 1)).norm(), kRounding);
+  EXPECT_LT((extentOf(ShapeType::box, {1, 2, 3}) - Vector3d(1, 2, 3)).norm(), kMergeGrid);
+  EXPECT_LT((extentOf(ShapeType::ssBox, {1, 2, 3, .2}) - Vector3d(1, 2, 3)).norm(), kMergeGrid);
+  EXPECT_LT((extentOf(ShapeType::sphere, {.5}) - Vector3d(1, 1, 1)).norm(), kMergeGrid);
+  EXPECT_LT((extentOf(ShapeType::capsule, {1, .25}) - Vector3d(.5, .5, 1.5)).norm(), kMergeGrid);
+  EXPECT_LT((extentOf(ShapeType::cylinder, {1, .25}) - Vector3d(.5, .5, 1)).norm(), kMergeGrid);
+  EXPECT_LT((extentOf(ShapeType::ssCylinder, {1, .25, .1}) - Vector3d(.5, .5, 1)).norm(), kMergeGrid);
 }
 
 TEST(Tessellation, AHullSweptByABallIsTheRoundedBox) {
   const Mesh swept = tessellate(sweptHullOf(boxCorners(Vector3d(.15, .1, .05)), .05));
-  EXPECT_NEAR(volume(swept), meshVolume(ShapeType::ssBox, {.4, .3, .2, .05}), kRounding);
+  EXPECT_NEAR(volume(swept), meshVolume(ShapeType::ssBox, {.4, .3, .2, .05}), kMergeGrid);
 }
 
 TEST(Tessellation, AnEllipsoidSweepWithEqualRadiiIsABallSweep) {
   // Core of half sides w/2 - r, swept by a ball of radius e + r.
   const double elliptic = meshVolume(ShapeType::ssBoxElip, {.4, .3, .2, .05, .05, .05, .02});
   const double rounded = meshVolume(ShapeType::ssBox, {.36 + .14, .26 + .14, .16 + .14, .07});
-  EXPECT_NEAR(elliptic, rounded, kRounding);
+  EXPECT_NEAR(elliptic, rounded, kMergeGrid);
 }
 
 TEST(Tessellation, OddSizesLeaveNoCracks) {
@@ -139,7 +136,7 @@ TEST(Tessellation, AQuadIsTwoTrianglesThatLookUp) {
     const Vector3d a = mesh.vertices[i], across = (mesh.vertices[j] - a).cross(mesh.vertices[k] - a);
     area += .5 * across.z();
   }
-  EXPECT_NEAR(area, 6., kRounding);
+  EXPECT_NEAR(area, 6., kMergeGrid);
 }
 
 TEST(Tessellation, AMeshIsItselfAndShapesWithoutSurfaceAreEmpty) {

@@ -8,7 +8,7 @@ namespace {
 
 /// On small problems, and on paths with and without a variable that all slices share, which goes to the border.
 template <class Law>
-void check(int seed, const Law& law) {
+void checkBands(int seed, const Law& law) {
   Rng rng{std::uint64_t(seed)};
   for (int sample = 0; sample < 24; ++sample) {
     AlgebraCase<BandAlgebra> problem(sample % 2 ? 60 + sample : 1 + sample, sample % 4 == 1, rng);
@@ -19,23 +19,23 @@ void check(int seed, const Law& law) {
 }  // namespace
 
 TEST(BandAlgebra, RowsAreThoseOfTheJacobian) {
-  check(0, [](auto& problem, int) { problem.rowsAreThoseOfTheJacobian(); });
+  checkBands(0, [](auto& problem, int) { problem.rowsAreThoseOfTheJacobian(); });
 }
 
 TEST(BandAlgebra, TheLargestRiseIsThatOfTheBestCorner) {
-  check(1, [](auto& problem, int) { problem.theLargestRiseIsThatOfTheBestCorner(); });
+  checkBands(1, [](auto& problem, int) { problem.theLargestRiseIsThatOfTheBestCorner(); });
 }
 
 TEST(BandAlgebra, TheHessianIsThatOfTheSquares) {
-  check(2, [](auto& problem, int) { problem.theHessianIsThatOfTheSquares(); });
+  checkBands(2, [](auto& problem, int) { problem.theHessianIsThatOfTheSquares(); });
 }
 
 TEST(BandAlgebra, TheFactorSolvesWhatItIsMadeOf) {
-  check(3, [](auto& problem, int sample) { problem.theFactorSolvesWhatItIsMadeOf(sample % 3 == 1); });
+  checkBands(3, [](auto& problem, int sample) { problem.theFactorSolvesWhatItIsMadeOf(sample % 3 == 1); });
 }
 
 TEST(BandAlgebra, WhatIsNotPositiveDefiniteIsRefused) {
-  check(4, [](auto& problem, int) { problem.whatIsNotPositiveDefiniteIsRefused(); });
+  checkBands(4, [](auto& problem, int) { problem.whatIsNotPositiveDefiniteIsRefused(); });
 }
 
 TEST(BandAlgebra, AFactorThatIsKeptUpToTheFirstChangeIsThatOfANewOne) {

@@ -10,7 +10,7 @@ constexpr int kMost = 8;
 
 /// On problems of all sizes that it takes.
 template <class Law>
-void check(int seed, const Law& law) {
+void checkDense(int seed, const Law& law) {
   Rng rng{std::uint64_t(seed)};
   for (int sample = 0; sample < 40; ++sample) {
     AlgebraCase<DenseAlgebra<kMost>> problem(1 + sample % kMost, sample % 3 == 0, rng);
@@ -21,23 +21,23 @@ void check(int seed, const Law& law) {
 }  // namespace
 
 TEST(DenseAlgebra, RowsAreThoseOfTheJacobian) {
-  check(0, [](auto& problem, int) { problem.rowsAreThoseOfTheJacobian(); });
+  checkDense(0, [](auto& problem, int) { problem.rowsAreThoseOfTheJacobian(); });
 }
 
 TEST(DenseAlgebra, TheLargestRiseIsThatOfTheBestCorner) {
-  check(1, [](auto& problem, int) { problem.theLargestRiseIsThatOfTheBestCorner(); });
+  checkDense(1, [](auto& problem, int) { problem.theLargestRiseIsThatOfTheBestCorner(); });
 }
 
 TEST(DenseAlgebra, TheHessianIsThatOfTheSquares) {
-  check(2, [](auto& problem, int) { problem.theHessianIsThatOfTheSquares(); });
+  checkDense(2, [](auto& problem, int) { problem.theHessianIsThatOfTheSquares(); });
 }
 
 TEST(DenseAlgebra, TheFactorSolvesWhatItIsMadeOf) {
-  check(3, [](auto& problem, int sample) { problem.theFactorSolvesWhatItIsMadeOf(sample % 2 == 1); });
+  checkDense(3, [](auto& problem, int sample) { problem.theFactorSolvesWhatItIsMadeOf(sample % 2 == 1); });
 }
 
 TEST(DenseAlgebra, WhatIsNotPositiveDefiniteIsRefused) {
-  check(4, [](auto& problem, int) { problem.whatIsNotPositiveDefiniteIsRefused(); });
+  checkDense(4, [](auto& problem, int) { problem.whatIsNotPositiveDefiniteIsRefused(); });
 }
 
 TEST(DenseAlgebra, EntriesThatAreNoVariablesStayZero) {

@@ -3,19 +3,12 @@
 #include <gtest/gtest.h>
 
 #include "kinegraph/base/random.h"
+#include "tests/solvers/numbers.h"
 #include "tests/support/near.h"
 
 namespace kinegraph {
 
 namespace {
-
-MatrixXd randomMatrix(int rows, int columns, Rng& rng) {
-  MatrixXd out(rows, columns);
-  for (int i = 0; i < rows; ++i) {
-    for (int j = 0; j < columns; ++j) out(i, j) = rng.normal();
-  }
-  return out;
-}
 
 /// A program of which x and the multipliers are the solution, as they fulfil the first-order conditions of a convex
 /// problem.

@@ -6,20 +6,13 @@
 #include "kinegraph/base/text.h"
 #include "kinegraph/nlp/callback_nlp.h"
 #include "kinegraph/solvers/methods/augmented_lagrangian.h"
+#include "tests/solvers/numbers.h"
 #include "tests/support/near.h"
 
 using namespace kinegraph;
 using enum ObjectiveType;
 
 namespace {
-
-constexpr double kInf = std::numeric_limits<double>::infinity();
-
-MatrixXd randomMatrix(int rows, int columns, Rng& rng) {
-  MatrixXd M(rows, columns);
-  for (double& value : M.reshaped()) value = rng.normal();
-  return M;
-}
 
 /// A convex quadratic program made around its solution: the gradient of the cost there is a combination of that of
 /// active constraints and bounds, whose multipliers are drawn first. The cost is one f row with its Hessian, or a sum

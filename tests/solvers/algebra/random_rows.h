@@ -2,14 +2,9 @@
 
 #include "kinegraph/base/random.h"
 #include "kinegraph/nlp/nlp.h"
+#include "tests/solvers/numbers.h"
 
 namespace kinegraph {
-
-inline MatrixXd randomMatrix(int rows, int columns, Rng& rng) {
-  MatrixXd M(rows, columns);
-  for (double& value : M.reshaped()) value = rng.normal();
-  return M;
-}
 
 inline VectorXd randomVector(int size, Rng& rng) { return randomMatrix(size, 1, rng); }
 

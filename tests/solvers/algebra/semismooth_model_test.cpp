@@ -46,7 +46,7 @@ struct Case {
 };
 
 template <class Algebra>
-class SemismoothModelOf : public testing::Test {
+class SemismoothModelOf : public ::testing::Test {
  public:
   using Model = SemismoothModel<Algebra>;
 };

@@ -4,6 +4,7 @@
 
 #include "kinegraph/nlp/callback_nlp.h"
 #include "tests/solvers/hock_schittkowski.h"
+#include "tests/solvers/numbers.h"
 #include "tests/support/expect_error.h"
 #include "tests/support/near.h"
 
@@ -12,12 +13,6 @@ using namespace kinegraph;
 namespace {
 
 using enum ObjectiveType;
-
-constexpr double kInf = std::numeric_limits<double>::infinity();
-
-VectorXd vec(std::initializer_list<double> values) {
-  return Eigen::Map<const VectorXd>(values.begin(), Eigen::Index(values.size()));
-}
 
 /// Residuals A x - b of the given types.
 CallbackNlp linear(const MatrixXd& A, const VectorXd& b, std::vector<ObjectiveType> types, VectorXd lower = {},

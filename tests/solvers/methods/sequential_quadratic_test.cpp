@@ -5,6 +5,7 @@
 #include "kinegraph/base/errors.h"
 #include "kinegraph/solvers/methods.h"
 #include "tests/solvers/hock_schittkowski.h"
+#include "tests/solvers/numbers.h"
 #include "tests/support/near.h"
 
 namespace kinegraph {
@@ -12,8 +13,6 @@ namespace kinegraph {
 namespace {
 
 using enum ObjectiveType;
-
-constexpr double kInf = std::numeric_limits<double>::infinity();
 
 SolverOptions exact() {
   SolverOptions options;
@@ -27,7 +26,7 @@ KnownProblem withoutHessian(KnownProblem problem) {
   return problem;
 }
 
-class SequentialQuadratic : public testing::TestWithParam<KnownProblem> {};
+class SequentialQuadratic : public ::testing::TestWithParam<KnownProblem> {};
 
 /// x in [-1, 1] to be 3, at the price x^2.
 KnownProblem unreachable() {
@@ -65,7 +64,7 @@ TEST_P(SequentialQuadratic, IsTheSameBitsTwice) {
             solveSequentialQuadratic(two, problem.start, exact()).x);
 }
 
-INSTANTIATE_TEST_SUITE_P(HockSchittkowski, SequentialQuadratic, testing::ValuesIn(knownProblems()),
+INSTANTIATE_TEST_SUITE_P(HockSchittkowski, SequentialQuadratic, ::testing::ValuesIn(knownProblems()),
                          [](const auto& info) { return info.param.name; });
 
 TEST(SequentialQuadratic, IsWhatTheDefaultMethodUsesWhereTheCurvatureHasToBeLearnt) {

@@ -1,0 +1,15 @@
+#pragma once
+
+#include "kinegraph/base/random.h"
+#include "kinegraph/math/pose.h"
+
+namespace kinegraph {
+
+/// Normally distributed.
+inline VectorXd randomVector(int n, Rng& rng) {
+  VectorXd v(n);
+  for (double& entry : v) entry = rng.normal();
+  return v;
+}
+
+}  // namespace kinegraph

@@ -1,0 +1,16 @@
+#pragma once
+
+#include <string>
+
+#include "kinegraph/scene/config.h"
+
+namespace kinegraph {
+
+/// Of the text of a .g file.
+inline Config scene(const std::string& text) {
+  Config config;
+  config.addText(text);
+  return config;
+}
+
+}  // namespace kinegraph
