@@ -14,7 +14,8 @@ from .packing import Packed, SceneCache, pack
 from .results import ItemFailure
 from .worker import Answer, Batch
 
-BATCH_SECONDS = 0.1  # that a batch is meant to take: far longer than it takes to hand it over
+BATCH_SECONDS = 0.1  # that a batch is meant to take, at least: far longer than it takes to hand it over
+BATCH_SECONDS_PER_WORKER = 0.002  # and for each worker, so that many of them do not keep the one who hands over busy
 BATCH_BYTES = 16 << 20  # that it has at most, if its items are alike
 GROWTH = 8  # times the items of the batch before, at most
 IN_FLIGHT = 3  # batches that a worker has at most: one that it computes, the others so that it need not wait
@@ -107,8 +108,9 @@ class Dispatcher:
         """How many items the next batch has."""
         if self._item_seconds is None:
             return 1
+        batch_seconds = max(BATCH_SECONDS, BATCH_SECONDS_PER_WORKER * len(self._sent))
         wanted = min(
-            BATCH_SECONDS / max(self._item_seconds, 1e-9), BATCH_BYTES / self._item_bytes, GROWTH * self._batch_items
+            batch_seconds / max(self._item_seconds, 1e-9), BATCH_BYTES / self._item_bytes, GROWTH * self._batch_items
         )
         if self._total is not None:  # so that all workers end at about the same time
             wanted = min(wanted, (self._total - self._read) / (2 * len(self._sent)))

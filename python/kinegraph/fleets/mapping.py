@@ -42,7 +42,7 @@ def map(
     that nothing else has used, with copies of the scenes that it refers to. So what the function changes is gone afterwards; only
     what it returns comes back. What is random takes its numbers from `seed`, a parameter that the function may have.
 
-    Items go out in batches of about 0.1 s. A worker that dies (out of memory, killed) loses nothing: its items are computed again. An
+    Items go out in batches of about 0.1 s, of more with more than 50 workers. A worker that dies (out of memory, killed) loses nothing: its items are computed again. An
     item that kills three workers is a failure. A scene travels once to each worker. Items are read as they are needed, and with
     `out` results are not kept, so that ten million items need no more memory than a thousand.
 
