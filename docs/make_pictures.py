@@ -6,7 +6,10 @@ Needs the package, `websockets` and EGL.
 """
 
 import base64
+import shutil
+import subprocess
 import sys
+import tempfile
 import time
 from pathlib import Path
 from typing import Any
@@ -87,6 +90,14 @@ def taskFilms() -> None:
     taskFilm("carry", *_scene(tasks.carry(0)), [0.3, -1.7, 1.9], [0.0, 0.0, 0.6])
 
 
+def planPictures() -> None:
+    """What the example of planning draws."""
+    with tempfile.TemporaryDirectory() as folder:
+        subprocess.run([sys.executable, HERE.parent / "examples" / "11_plan_motions.py", folder], check=True)
+        for picture in Path(folder).iterdir():
+            shutil.copy(picture, HERE / f"plan_{picture.name}")
+
+
 def _scene(problem: Any) -> tuple[ry.Config, str]:
     return problem.C, problem.goal
 
@@ -94,6 +105,7 @@ def _scene(problem: Any) -> tuple[ry.Config, str]:
 def main() -> None:
     gripperAxes()
     taskFilms()
+    planPictures()
     C = reaching()
     viewer = C.viewer()
     C.view()

@@ -1,11 +1,28 @@
 """Part 11: motions from A to B, free of collisions at all times.
 
 `planMotion` searches, shortens, verifies and times a motion. Where there is none, it says why.
+
+    python 11_plan_motions.py [FOLDER]     saves a picture of each search and its path in the folder
 """
+
+import sys
+from pathlib import Path
 
 import numpy as np
 
 from robotic import ry
+
+
+def show(C: ry.Config, plan: ry.MotionPlan, what: str, camera: list[float], at: list[float]) -> None:
+    """Plays the motion, and saves a picture of what was searched if a folder is given."""
+    C.view_path(plan.path, plan.duration, True, what)
+    if len(sys.argv) > 1:
+        picture = plan.picture(C)
+        picture.view(offscreen=True)
+        picture.viewer().setWindow(what, 480, 360)
+        picture.viewer().setCamera(camera, at)
+        picture.viewer().savePng(str(Path(sys.argv[1]) / f"{what.replace(' ', '_')}.png"))
+
 
 # Among obstacles: around a column, 1 cm from everything, to a place for the gripper.
 C = ry.Config()
@@ -18,7 +35,7 @@ start = q - turn
 plan = ry.planMotion(C, q + turn, start, margin=0.01)
 print(plan.explain())
 assert plan.feasible and plan.clearance() > 0.0099
-C.view_path(plan.path, plan.duration, True, "around the column")
+show(C, plan, "around the column", [1.3, 1.5, 1.8], [0.0, 0.1, 1.15])
 
 # With a glass: the gripper keeps its direction all along.
 C.delFrame("column")
@@ -31,7 +48,7 @@ assert plan.feasible
 for t in np.linspace(0, plan.duration, 50):
     C.setJointState(plan.at(t)[0])
     assert np.allclose(C.eval(ry.FS.vectorZ, ["l_gripper"])[0], up, atol=2e-3)
-C.view_path(plan.path, plan.duration, True, "with a glass")
+show(C, plan, "with a glass", [1.2, 1.3, 1.6], [0.1, 0.2, 1.15])
 
 # Two arms at once.
 C = ry.Config()
@@ -42,7 +59,7 @@ plan = ry.planMotion(
 )
 print(plan)
 assert plan.feasible
-C.view_path(plan.path, plan.duration, True, "two arms")
+show(C, plan, "two arms", [0.0, 1.9, 1.9], [0.0, 0.0, 1.1])
 
 # A mobile base through a door, and a door that is too narrow.
 for width in (0.5, 0.25):
@@ -57,7 +74,7 @@ for width in (0.5, 0.25):
     print(plan)
     assert plan.feasible == (width > 0.3)
     if plan.feasible:
-        C.view_path(plan.path, plan.duration, True, "through the door")
+        show(C, plan, "through the door", [-2.6, 0.2, 2.6], [0.0, 0.3, 0.0])
 print(plan.message)
 
 # From a point cloud: what a camera saw is an obstacle as it is.
@@ -70,4 +87,4 @@ C.addFrame("seen", "table").setPointCloud(points).setContact(1)
 plan = ry.planMotion(C, q + turn, start, margin=0.01)
 print(plan)
 assert plan.feasible
-C.view_path(plan.path, plan.duration, True, "around what was seen")
+show(C, plan, "around what was seen", [1.3, 1.5, 1.8], [0.0, 0.1, 1.15])

@@ -6,6 +6,7 @@ import subprocess
 import sys
 import time
 import zlib
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -567,3 +568,23 @@ def test_without_egl_the_error_names_the_packages(tmp_path):
     assert program.returncode == 1
     if "computeImageAndDepth" in program.stderr:
         assert "libEGL.so.1" in program.stderr and "apt-get install libegl1 libgl1-mesa-dri" in program.stderr
+
+
+@needs_egl
+def test_the_examples_of_planning_save_pictures_with_the_paths_in_them(tmp_path):
+    """Paths are green, which nothing else in these scenes is."""
+    example = Path(__file__).parent.parent.parent / "examples" / "11_plan_motions.py"
+    subprocess.run([sys.executable, str(example), str(tmp_path)], check=True, stdout=subprocess.PIPE, timeout=120)
+    pictures = sorted(tmp_path.iterdir())
+    assert [picture.stem for picture in pictures] == [
+        "around_the_column",
+        "around_what_was_seen",
+        "through_the_door",
+        "two_arms",
+        "with_a_glass",
+    ]
+    for picture in pictures:
+        colors = decoded(picture)
+        red, green, blue = (colors[..., i].astype(int) for i in range(3))
+        assert colors.shape == (360, 480, 3)
+        assert np.sum((green > red + 40) & (green > blue + 20)) > 60, picture.name
