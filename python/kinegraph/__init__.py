@@ -9,8 +9,12 @@ The package `robotic` has the same names, for scripts written for the reference:
 Lengths are in m, angles in rad, quaternions (w, x, y, z), poses (x, y, z, qw, qx, qy, qz).
 """
 
+import sys as _sys
+from importlib import import_module as _import_module
+from typing import TYPE_CHECKING as _TYPE_CHECKING
+from typing import Any as _Any
+
 from . import model_paths as _model_paths
-from . import test
 from ._core import (
     FS,
     JT,
@@ -90,7 +94,6 @@ from ._core import (
     solveIk,
 )
 from ._core import __version__ as __version__
-from .aruco import getArucoImage
 from .compatibility import OPT_METHODS as _OPT_METHODS
 from .compatibility import addEarlierMethods as _addEarlierMethods
 from .compatibility.parameters import (
@@ -102,17 +105,6 @@ from .compatibility.parameters import (
     params_get,
     params_print,
     set_params,
-)
-from .compatibility.skeleton_problems import (
-    ArgWord,
-    OptBench_Skeleton_Handover,
-    OptBench_Skeleton_Pick,
-    OptBench_Skeleton_StackAndBalance,
-    OptBenchmark_InvKin_Endeff,
-    _left,
-    _path,
-    _right,
-    _sequence,
 )
 from .enums import teach
 from .errors import (
@@ -126,26 +118,89 @@ from .errors import (
     ParseError,
     RobotFault,
 )
-from .film import saveFilm
-from .fleets import imap, readResults
-from .fleets import map as map  # not in __all__: a star import keeps Python's own
-from .interactive import interactiveIk
-from .lgp import LGP_Tool
-from .lgp_abstraction import LGP_TAMP_Abstraction, default_LGP_TAMP_Abstraction
-from .manipulation import KOMO_ManipulationHelper, ManipulationModelling
 from .model_paths import raiPath, setRaiPath
-from .problems import get_NLP_Problem_names, make_NLP_Problem
-from .quaternion import Quaternion
-from .reachability import reachability
 from .seeds import rnd_seed, rnd_seed_random
-from .streams import Gamepad, TargetFile, drive
-from .task_actions import TaskRule
-from .task_check import checkTaskPlan
-from .task_domain import defaultDomain
-from .task_execution import TaskExecution
-from .task_plan import TaskPlan
-from .task_waypoints import TaskWaypoints
-from .tasks import planTask, planTasks
+
+# What is loaded when it is first used: with it the import takes three times as long.
+if _TYPE_CHECKING:
+    from . import test as test
+    from .aruco import getArucoImage
+    from .compatibility.skeleton_problems import (
+        ArgWord,
+        OptBench_Skeleton_Handover,
+        OptBench_Skeleton_Pick,
+        OptBench_Skeleton_StackAndBalance,
+        OptBenchmark_InvKin_Endeff,
+        _left,
+        _path,
+        _right,
+        _sequence,
+    )
+    from .film import saveFilm
+    from .fleets import imap, readResults
+    from .fleets import map as map  # not in __all__: a star import keeps Python's own
+    from .interactive import interactiveIk
+    from .lgp import LGP_Tool
+    from .lgp_abstraction import LGP_TAMP_Abstraction, default_LGP_TAMP_Abstraction
+    from .manipulation import KOMO_ManipulationHelper, ManipulationModelling
+    from .problems import get_NLP_Problem_names, make_NLP_Problem
+    from .quaternion import Quaternion
+    from .reachable import reachability
+    from .streams import Gamepad, TargetFile, drive
+    from .task_actions import TaskRule
+    from .task_check import checkTaskPlan
+    from .task_domain import defaultDomain
+    from .task_execution import TaskExecution
+    from .task_plan import TaskPlan
+    from .task_waypoints import TaskWaypoints
+    from .tasks import planTask, planTasks
+
+_LATER = {  # module: names
+    "aruco": ("getArucoImage",),
+    "compatibility.skeleton_problems": (
+        "ArgWord",
+        "OptBench_Skeleton_Handover",
+        "OptBench_Skeleton_Pick",
+        "OptBench_Skeleton_StackAndBalance",
+        "OptBenchmark_InvKin_Endeff",
+        "_left",
+        "_path",
+        "_right",
+        "_sequence",
+    ),
+    "film": ("saveFilm",),
+    "fleets": ("imap", "readResults", "map"),
+    "interactive": ("interactiveIk",),
+    "lgp": ("LGP_Tool",),
+    "lgp_abstraction": ("LGP_TAMP_Abstraction", "default_LGP_TAMP_Abstraction"),
+    "manipulation": ("KOMO_ManipulationHelper", "ManipulationModelling"),
+    "problems": ("get_NLP_Problem_names", "make_NLP_Problem"),
+    "quaternion": ("Quaternion",),
+    "reachable": ("reachability",),
+    "streams": ("Gamepad", "TargetFile", "drive"),
+    "task_actions": ("TaskRule",),
+    "task_check": ("checkTaskPlan",),
+    "task_domain": ("defaultDomain",),
+    "task_execution": ("TaskExecution",),
+    "task_plan": ("TaskPlan",),
+    "task_waypoints": ("TaskWaypoints",),
+    "tasks": ("planTask", "planTasks"),
+}
+_MODULE_OF = {name: module for module, names in _LATER.items() for name in names}
+
+
+def __getattr__(name: str) -> _Any:
+    if name in _LATER or name == "test":
+        return _import_module(".test", __name__)
+    if name not in _MODULE_OF:
+        raise AttributeError(f"module '{__name__}' has no attribute '{name}'", name=name, obj=_sys.modules[__name__])
+    value = globals()[name] = getattr(_import_module("." + _MODULE_OF[name], __name__), name)
+    return value
+
+
+def __dir__() -> list[str]:
+    return sorted({*globals(), *_MODULE_OF, "test"})
+
 
 _model_paths.announce()
 
@@ -160,7 +215,7 @@ def compiled() -> str:
     return f"kinegraph {__version__}"
 
 
-teach(FS, JT, OT, ST, SY, ArgWord, ControlMode, SimulationEngine)
+teach(FS, JT, OT, ST, SY, ControlMode, SimulationEngine)
 teach(OptMethod, earlier=_OPT_METHODS)
 _addEarlierMethods()
 NLP_SolverID = OptMethod  # as scripts of earlier years call it

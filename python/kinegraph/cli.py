@@ -202,7 +202,7 @@ def _plan(options: argparse.Namespace) -> int:
 
 
 def _reachability(options: argparse.Namespace) -> None:
-    from .reachability import reachability
+    from .reachable import reachability
 
     config = _load(options.file)
     found = reachability(config, options.frame, options.spacing, options.directions, workers=options.workers)

@@ -9,29 +9,32 @@ from __future__ import annotations
 
 import difflib as _difflib
 import sys as _sys
+from importlib import import_module as _import_module
 from typing import TYPE_CHECKING
 from typing import Any as _Any
 
 import kinegraph
-from kinegraph import *  # noqa: F403
-from kinegraph import ArgWord as ArgWord
 from kinegraph import __version__ as __version__
-from kinegraph import test as test
-from kinegraph.lgp_abstraction import default_Logic2KOMO_Translator, default_TAMP_Provider
 
-from . import DataGen, algo, calib, manipulation, nlp, render
-from .manipulation import KOMO_ManipulationHelper, LGP_Tool, ManipulationModelling
+if TYPE_CHECKING:
+    from kinegraph import *  # noqa: F403
+    from kinegraph import ArgWord as ArgWord
+    from kinegraph import test as test
+    from kinegraph.lgp_abstraction import default_Logic2KOMO_Translator, default_TAMP_Provider
+
+    from . import DataGen, algo, calib, manipulation, nlp, render
+    from .manipulation import KOMO_ManipulationHelper, LGP_Tool, ManipulationModelling
+    from .words import arg
+
 from .not_yet import (
     KOMO_Objective,
     MujocoLoader,
     SRRT_PathFinder,
-    arg,
 )
 from .results import NLP_Solver, SolverReturn
 
 __all__ = [
     *kinegraph.__all__,
-    "ArgWord",
     "DataGen",
     "KOMO_ManipulationHelper",
     "KOMO_Objective",
@@ -51,19 +54,42 @@ __all__ = [
 ]
 
 
+# What is loaded when it is first used, as in kinegraph: module, or names.
+_LATER = {
+    "kinegraph.lgp_abstraction": ("default_Logic2KOMO_Translator", "default_TAMP_Provider"),
+    "robotic.manipulation": ("KOMO_ManipulationHelper", "LGP_Tool", "ManipulationModelling"),
+    "robotic.words": ("arg",),
+}
+_MODULE_OF = {name: module for module, names in _LATER.items() for name in names}
+_SUBMODULES = ("DataGen", "algo", "calib", "manipulation", "nlp", "render", "test")
+
 if not TYPE_CHECKING:  # else any name would do
+    globals().update(
+        {name: vars(kinegraph)[name] for name in kinegraph.__all__ if name in vars(kinegraph) and name not in globals()}
+    )
 
     def __getattr__(name: str) -> _Any:
         if name.startswith("__"):
             raise AttributeError(name)
-        near = _difflib.get_close_matches(name, __all__, 3, 0.5)
-        hint = f"; similar names: {', '.join(near)}" if near else ""
-        raise AttributeError(f"robotic has no '{name}'{hint}")
+        if name in _SUBMODULES:
+            return _import_module("." + name, __name__)
+        if name in _MODULE_OF:
+            value = getattr(_import_module(_MODULE_OF[name]), name)
+        elif name in kinegraph.__all__:
+            value = getattr(kinegraph, name)
+        else:
+            near = _difflib.get_close_matches(name, __all__, 3, 0.5)
+            hint = f"; similar names: {', '.join(near)}" if near else ""
+            raise AttributeError(f"robotic has no '{name}'{hint}")
+        globals()[name] = value
+        return value
+
+    def __dir__() -> list[str]:
+        return sorted({*globals(), *__all__})
 
 
-import robotic as ry
+import robotic as ry  # noqa: E402
 
-rai_path = raiPath().rstrip("/")  # noqa: F405
+rai_path = kinegraph.raiPath().rstrip("/")
 _robotic = ry  # where the reference's compiled classes are, in annotations
 _sys.modules[__name__ + ".ry"] = _sys.modules[__name__ + "._robotic"] = ry
-_sys.modules[__name__ + ".test"] = test

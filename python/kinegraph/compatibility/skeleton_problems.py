@@ -6,6 +6,7 @@ import enum
 from typing import ClassVar
 
 from .._core import FS, KOMO, NLP, OT, SY, Config, Skeleton
+from ..enums import teach
 from ..errors import ArgumentError
 from ..model_paths import raiPath
 
@@ -19,6 +20,7 @@ class ArgWord(enum.IntEnum):
     _path = 3
 
 
+teach(ArgWord)
 _left, _right, _sequence, _path = ArgWord
 
 

@@ -1,0 +1,53 @@
+"""What an import loads, and what is loaded when it is first used."""
+
+import ast
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+import kinegraph
+import robotic
+
+
+def loaded(code: str) -> set[str]:
+    """The modules of the package that a fresh Python has after the code."""
+    tell = "import sys; print(*(m for m in sys.modules if m.partition('.')[0] in ('kinegraph', 'robotic')))"
+    run = subprocess.run([sys.executable, "-c", f"{code}\n{tell}"], check=True, capture_output=True, text=True)
+    return set(run.stdout.split())
+
+
+@pytest.mark.parametrize("package", ["kinegraph", "robotic"])
+def test_an_import_loads_no_room_that_is_not_used(package: str) -> None:
+    modules = loaded(f"import {package}")
+    assert not {f"kinegraph.{module}" for module in kinegraph._LATER} & modules
+    assert "kinegraph.tasks" in loaded(f"import {package}; {package}.planTask")
+
+
+@pytest.mark.parametrize("package", [kinegraph, robotic])
+def test_all_names_are_there_and_told_by_dir(package: object) -> None:
+    for name in package.__all__:
+        assert getattr(package, name) is getattr(package, name), name
+    assert set(package.__all__) <= set(dir(package))
+
+
+def test_what_type_checkers_see_is_what_is_loaded_later() -> None:
+    tree = ast.parse(Path(kinegraph.__file__).read_text())
+    [block] = [
+        node
+        for node in tree.body
+        if isinstance(node, ast.If) and isinstance(node.test, ast.Name) and node.test.id == "_TYPE_CHECKING"
+    ]
+    seen = {
+        (statement.module, alias.asname or alias.name)
+        for statement in block.body
+        if isinstance(statement, ast.ImportFrom) and statement.module
+        for alias in statement.names
+    }
+    assert seen == {(module, name) for module, names in kinegraph._LATER.items() for name in names}
+
+
+def test_a_function_is_not_hidden_by_a_module_of_its_name() -> None:
+    for name in kinegraph._MODULE_OF:
+        assert not (Path(kinegraph.__file__).parent / f"{name}.py").exists(), name
