@@ -106,14 +106,8 @@ def make_commands_cpp(schema: dict) -> str:
     out += ["inline std::optional<Command> readCommand(std::string_view data) {", "  CommandReader reader(data);"]
     out += ["  int kind;", "  if (!reader.read(kind)) return std::nullopt;", "  switch (kind) {"]
     for name, fields in schema["commands"].items():
-        reads = " && ".join([f"reader.read(m.{field})" for field in fields] + ["reader.atEnd()"])
-        out += [
-            f"    case {name}::kKind: {{",
-            f"      {name} m;",
-            f"      if ({reads}) return m;",
-            "      break;",
-            "    }",
-        ]
+        members = "".join(f", &{name}::{field}" for field in fields)
+        out.append(f"    case {name}::kKind: return readFields<{name}>(reader{members});")
     out += ["  }", "  return std::nullopt;", "}", "", "}  // namespace kinegraph", ""]
     return "\n".join(out)
 

@@ -27,12 +27,13 @@ std::vector<Vector3d> points(const Numbers& numbers, const char* what) {
   return list;
 }
 
-/// Colors of n points, 0..255: rows of 3 or 4 numbers, or one such row for all.
+/// Colors of n points, 0..255: rows of 3 or 4 numbers, an image of as many pixels, or one such row for all.
 PointColors colorsOf(OptionalNumbers numbers, std::size_t n) {
   if (!numbers || numbers->values.size() == 0) return {};
   const std::size_t size = std::size_t(numbers->values.size());
   std::size_t columns = numbers->rank == 2 ? numbers->columns() : size;
   if (numbers->rank < 2 && size == 3 * n && n > 1) columns = 3;
+  if (numbers->rank > 2 && n > 0 && size % n == 0) columns = size / n;
   if ((columns != 3 && columns != 4) || (size != columns && size != columns * n)) {
     throw ValueError(cat("got ", size, " color numbers for ", n,
                          " points; expected 3 (rgb) or 4 (rgba) per point, or of one color, in 0..255"));

@@ -3,6 +3,7 @@
 #include <nanobind/stl/variant.h>
 #include <nanobind/stl/vector.h>
 
+#include "docs/path_lines.h"
 #include "docs/plan.h"
 #include "feature_arguments.h"
 #include "ik_targets.h"
@@ -15,6 +16,8 @@
 namespace kinegraph::python {
 
 namespace {
+
+namespace lines = docs::path_lines;
 
 const OptionClass<PlanOptions>& optionClass() {
   static const OptionClass<PlanOptions> options(planOptionTable());
@@ -104,17 +107,25 @@ nb::typed<nb::tuple, Array, Array, Array> at(const MotionPlan& plan, double t) {
   return nb::make_tuple(toNumpy(state.q), toNumpy(state.velocity), toNumpy(state.acceleration));
 }
 
-nb::typed<nb::list, Attributes> stages(const MotionPlan& plan) {
+/// A dict per entry, filled by `tell(entry, dict)`.
+template <class Entry, class Tell>
+nb::typed<nb::list, Attributes> dictsOf(const std::vector<Entry>& entries, const Tell& tell) {
   nb::list list;
-  for (const PlanStage& stage : plan.stages) {
+  for (const Entry& entry : entries) {
     Attributes one;
+    tell(entry, one);
+    list.append(one);
+  }
+  return list;
+}
+
+nb::typed<nb::list, Attributes> stages(const MotionPlan& plan) {
+  return dictsOf(plan.stages, [](const PlanStage& stage, Attributes& one) {
     one["name"] = stage.name;
     one["seconds"] = stage.seconds;
     one["evaluations"] = stage.evaluations;
     one["note"] = stage.note;
-    list.append(one);
-  }
-  return list;
+  });
 }
 
 /// Postures and parents of both trees.
@@ -133,15 +144,11 @@ nb::typed<nb::list, nb::typed<nb::tuple, Array, IdArray>> trees(const MotionPlan
 }
 
 nb::typed<nb::list, Attributes> obstaclesOf(const MotionPlan& plan) {
-  nb::list list;
-  for (const MetObstacle& met : plan.obstacles) {
-    Attributes one;
+  return dictsOf(plan.obstacles, [](const MetObstacle& met, Attributes& one) {
     one["name"] = met.name;
     one["share"] = met.share;
     one["by"] = met.by;
-    list.append(one);
-  }
-  return list;
+  });
 }
 
 PyConfig planPictureIn(const MotionPlan& plan, const PyConfig& config, const std::optional<FrameNames>& frames) {
@@ -222,8 +229,10 @@ void bindMotionPlan(nb::module_& m) {
       .def_prop_ro("obstacles", obstaclesOf,
                    "Where no way was found: what most motions ended at, dicts of name, share, by (frames that ran "
                    "into it), the first one most often.")
-      .def("picture", planPictureIn, "config"_a, "frames"_a = nb::none(), docs::plan::picture)
-      .def("view", viewPlan, "config"_a, "frames"_a = nb::none(), "pause"_a = false, docs::plan::view)
+      .def("picture", planPictureIn, "config"_a, "frames"_a = nb::none(),
+           cat(docs::plan::picture, lines::frames, lines::returnsPicture, lines::raises).c_str())
+      .def("view", viewPlan, "config"_a, "frames"_a = nb::none(), "pause"_a = false,
+           cat(docs::plan::view, lines::frames, docs::plan::viewRest, lines::raises).c_str())
       .def("__bool__", &MotionPlan::feasible)
       .def("__repr__", [](const MotionPlan& p) { return cat("<MotionPlan ", inPython(p.str()), ">"); });
 }

@@ -5,6 +5,7 @@
 
 #include "arguments.h"
 #include "bindings.h"
+#include "docs/path_lines.h"
 #include "docs/roadmap.h"
 #include "feature_arguments.h"
 #include "kinegraph/base/text.h"
@@ -15,6 +16,8 @@
 namespace kinegraph::python {
 
 namespace {
+
+namespace lines = docs::path_lines;
 
 /// Runs without the interpreter lock, and looks for Ctrl-C.
 template <class Work>
@@ -74,7 +77,8 @@ void bindRoadmap(nb::module_& m) {
             return PyConfig{roadmapPicture(config, map, frames ? toNames(*frames) : std::vector<std::string>()),
                             nullptr};
           },
-          "config"_a, "frames"_a = nb::none(), docs::roadmap::picture)
+          "config"_a, "frames"_a = nb::none(),
+          cat(docs::roadmap::picture, lines::frames, lines::returnsPicture, lines::raises).c_str())
       .def("__len__", &Roadmap::size)
       .def_prop_ro("motions", &Roadmap::motions, "How many motions between postures it has.")
       .def_prop_ro("margin", &Roadmap::margin, "m, that all collidable pairs keep.")

@@ -16,10 +16,14 @@ using Names = std::pair<std::string_view, std::string_view>;
 constexpr std::array kNames = {
     Names{"JointType", "JT"},
     Names{"Komo", "KOMO"},
+    Names{"ManipulationHelper", "KOMO_ManipulationHelper"},
     Names{"Nlp", "NLP"},
     Names{"NlpSampler", "NLP_Sampler"},
     Names{"NlpSolver", "NLP_Solver"},
     Names{"ObjectiveType", "OT"},
+    Names{"PathCurve", "TimedPath"},  // which keeps one, and is unpickled with it
+    Names{"Recording", "SimulationRecording"},
+    Names{"RobotLoop", "BotOp"},
     Names{"ShapeType", "ST"},
     Names{"SolverOptions", "NLP_SolverOptions"},
     Names{"SolverResult", "SolverReturn"},

@@ -34,8 +34,37 @@ def _panda() -> ry.Config:
     return C
 
 
-class _PandaEnv(gymnasium.Env[NDArray[np.float32], NDArray[np.float32]]):
-    """What the environments share: a Panda whose joints get velocities."""
+class _OneEnv(gymnasium.Env[NDArray[np.float32], NDArray[np.float32]]):
+    """What environments of one simulation share: each episode begins where the first did."""
+
+    S: ry.Simulation
+    start: ry.SimulationState
+
+    def _observation(self) -> NDArray[np.float32]:
+        raise NotImplementedError
+
+    def _vary(self) -> None:
+        """What is random where an episode begins; nothing is."""
+
+    def reset(
+        self, *, seed: int | None = None, options: dict[str, Any] | None = None
+    ) -> tuple[NDArray[np.float32], dict[str, Any]]:
+        """Begins anew.
+
+        Args:
+            seed: Of all that is random from now on.
+            options: Not used.
+        Returns:
+            The observation and an empty dict.
+        """
+        super().reset(seed=seed)
+        self.S.setState(self.start)
+        self._vary()
+        return self._observation(), {}
+
+
+class _PandaEnv(_OneEnv):
+    """What environments share that are a Panda whose joints get velocities."""
 
     metadata: ClassVar[dict[str, Any]] = {"render_modes": ["rgb_array"], "render_fps": 20}
 
@@ -80,7 +109,7 @@ class _PandaEnv(gymnasium.Env[NDArray[np.float32], NDArray[np.float32]]):
 
 
 class ReachEnv(_PandaEnv):
-    """The hand is to come to a random point above the table.
+    """The hand is to come to a random point above the table. Observed are q, velocities, hand and target.
 
     Args:
         render_mode: None or "rgb_array".
@@ -94,22 +123,9 @@ class ReachEnv(_PandaEnv):
         parts = [self.S.get_q(), self.S.get_qDot(), self._hand(), self.target]
         return np.concatenate(parts).astype(np.float32)
 
-    def reset(
-        self, *, seed: int | None = None, options: dict[str, Any] | None = None
-    ) -> tuple[NDArray[np.float32], dict[str, Any]]:
-        """Begins anew.
-
-        Args:
-            seed: Of all that is random from now on.
-            options: Not used.
-        Returns:
-            The observation (q, velocities, hand, target) and an empty dict.
-        """
-        super().reset(seed=seed)
-        self.S.setState(self.start)
+    def _vary(self) -> None:
         self._place()
         self.target = self.np_random.uniform([-0.4, 0.1, 0.75], [0.4, 0.5, 1.2])
-        return self._observation(), {}
 
     def step(self, action: NDArray[np.float32]) -> tuple[NDArray[np.float32], float, bool, bool, dict[str, Any]]:
         """Goes on by 50 ms.
@@ -125,7 +141,8 @@ class ReachEnv(_PandaEnv):
 
 
 class LiftEnv(_PandaEnv):
-    """The hand is to lift a box of random weight from a random place on the table.
+    """The hand is to lift a box from a random place on the table. Observed are q, velocities, the pose of the box, the box
+    from the hand, and the width of the gripper.
 
     Args:
         render_mode: None or "rgb_array".
@@ -145,24 +162,11 @@ class LiftEnv(_PandaEnv):
         parts = [self.S.get_q(), self.S.get_qDot()[:6], self._box(), lower, width]
         return np.concatenate(parts).astype(np.float32)
 
-    def reset(
-        self, *, seed: int | None = None, options: dict[str, Any] | None = None
-    ) -> tuple[NDArray[np.float32], dict[str, Any]]:
-        """Begins anew.
-
-        Args:
-            seed: Of all that is random from now on.
-            options: Not used.
-        Returns:
-            The observation (q, velocities, pose of the box, box from hand, width of the gripper) and an empty dict.
-        """
-        super().reset(seed=seed)
-        self.S.setState(self.start)
+    def _vary(self) -> None:
         turn = self.np_random.uniform(-np.pi, np.pi) / 2
         place = [*self.np_random.uniform([-0.15, 0.25], [0.15, 0.4]), 0.676]
         self.C.getFrame("box").setPose([*place, np.cos(turn), 0, 0, np.sin(turn)])
         self._place()
-        return self._observation(), {}
 
     def step(self, action: NDArray[np.float32]) -> tuple[NDArray[np.float32], float, bool, bool, dict[str, Any]]:
         """Goes on by 50 ms.
@@ -184,8 +188,9 @@ class LiftEnv(_PandaEnv):
         return self._observation(), reward, height > 0.1, False, {"height": height}
 
 
-class SimulationEnv(gymnasium.Env[NDArray[np.float32], NDArray[np.float32]]):
-    """Any scene, any reward: joints are told velocities, a step takes 50 ms, and time runs out.
+class SimulationEnv(_OneEnv):
+    """Any scene, any reward: joints are told velocities, a step takes 50 ms, and time runs out. Observed are q, velocities and
+    the poses of what moves freely.
 
     Args:
         C: The scene, as each episode begins; it follows the simulation.
@@ -224,21 +229,6 @@ class SimulationEnv(gymnasium.Env[NDArray[np.float32], NDArray[np.float32]]):
         state = self.S.getState()
         parts = np.concatenate([state.q, state.qDot, state.freePos.ravel()])
         return np.clip(parts, -_FARTHEST, _FARTHEST).astype(np.float32)
-
-    def reset(
-        self, *, seed: int | None = None, options: dict[str, Any] | None = None
-    ) -> tuple[NDArray[np.float32], dict[str, Any]]:
-        """Begins anew.
-
-        Args:
-            seed: Of all that is random from now on.
-            options: Not used.
-        Returns:
-            The observation (q, velocities, poses of what moves freely) and an empty dict.
-        """
-        super().reset(seed=seed)
-        self.S.setState(self.start)
-        return self._observation(), {}
 
     def step(self, action: NDArray[np.float32]) -> tuple[NDArray[np.float32], float, bool, bool, dict[str, Any]]:
         """Goes on by 50 ms.

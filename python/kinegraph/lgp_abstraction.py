@@ -42,6 +42,9 @@ class LGP_TAMP_Abstraction:
             plan: The first actions.
         """
 
+    def _begin(self, count: int) -> None:
+        """A problem of that many actions is set up."""
+
     def setup_sequence(self, C: Config, K: int) -> KOMO:
         """The waypoint problem of a plan, without what the actions ask.
 
@@ -51,6 +54,7 @@ class LGP_TAMP_Abstraction:
         Returns:
             A KOMO with a slice per action.
         """
+        self._begin(K)
         komo = KOMO(C, K, 1, 1, False)
         komo.addControlObjective([], 1, 1e-2)
         komo.addQuaternionNorms()
@@ -65,6 +69,7 @@ class LGP_TAMP_Abstraction:
         Returns:
             A KOMO with 30 slices per action, free of collisions, that ends at rest.
         """
+        self._begin(K)
         helper = KOMO_ManipulationHelper()
         helper.setup_motion(C, K, STEPS)
         return helper.komo
@@ -114,7 +119,8 @@ class LGP_TAMP_Abstraction:
 
 class default_LGP_TAMP_Abstraction(LGP_TAMP_Abstraction):
     """Actions from a .lgp file and the .fol file that it names: pick_touch, pick_box, handover, place_straightOn,
-    place_box, poseEq, gripper_push, end_push. Actions of other names need a subclass."""
+    place_box, poseEq, gripper_push, end_push; pick and place, as files of earlier years call the first and the fourth. Actions
+    of other names need a subclass."""
 
     def __init__(self, C: Config, lgp_file: str) -> None:
         """Reads the files, and what the scene says in logic.
@@ -162,33 +168,9 @@ class default_LGP_TAMP_Abstraction(LGP_TAMP_Abstraction):
         """
         self.search.forbidBeginning(plan)
 
-    def setup_sequence(self, C: Config, K: int) -> KOMO:
-        """The waypoint problem of a plan, without what the actions ask.
-
-        Args:
-            C: The scene.
-            K: The number of actions.
-        Returns:
-            A KOMO with a slice per action.
-        """
-        komo = super().setup_sequence(C, K)
+    def _begin(self, count: int) -> None:
         self._held: dict[str, str] = {}
-        self._count = K
-        return komo
-
-    def setup_motion(self, C: Config, K: int) -> KOMO:
-        """The motion problem of a plan, without what the actions ask.
-
-        Args:
-            C: The scene.
-            K: The number of actions.
-        Returns:
-            A KOMO with 30 slices per action, free of collisions, that ends at rest.
-        """
-        komo = super().setup_motion(C, K)
-        self._held = {}
-        self._count = K
-        return komo
+        self._count = count
 
     def add_action_constraints(self, komo: KOMO, time: float, prev_action: Action, action: Action) -> None:
         """Adds what an action asks of the waypoints.

@@ -121,12 +121,7 @@ def _grasp_hull(w: TaskWaypoints, time: float, hand: str, obj: str, axis: int) -
         w.komo.addObjective([time - 0.3, time], FS.distance, [palm, obj], OT.ineq, [1e1], [-0.001])
 
 
-def _pick(w: TaskWaypoints, time: float, action: Action, variant: str) -> None:
-    w.attach(time, action[3], action[1])
-    _grasp(w, time, action[3], action[1], variant)
-
-
-def _handover(w: TaskWaypoints, time: float, action: Action, variant: str) -> None:
+def _take(w: TaskWaypoints, time: float, action: Action, variant: str) -> None:
     w.attach(time, action[3], action[1])
     _grasp(w, time, action[3], action[1], variant)
 
@@ -147,7 +142,7 @@ def _pose(w: TaskWaypoints, time: float, action: Action, variant: str) -> None:
 
 
 def _touch(w: TaskWaypoints, time: float, action: Action, variant: str) -> None:
-    w.touch(time, action[3], action[1])
+    w.attach(time, action[3], action[1], touching=True)
 
 
 def _push(w: TaskWaypoints, time: float, action: Action, variant: str) -> None:
@@ -168,14 +163,14 @@ def _stands(C: Config, action: Action) -> list[str]:
 
 UPRIGHT = TaskRule(_place, lambda C, a: ["upright"])  # where the goal says what is up
 DEFAULT_RULES = {
-    "pick": TaskRule(_pick, lambda C, a: graspVariants(C, a[1], a[3])),
-    "lift": TaskRule(_pick, lambda C, a: graspVariants(C, a[1], a[3])),
+    "pick": TaskRule(_take, lambda C, a: graspVariants(C, a[1], a[3])),
+    "lift": TaskRule(_take, lambda C, a: graspVariants(C, a[1], a[3])),
     "place": TaskRule(_place, _stands),
     "lay": TaskRule(_lay, _faces),
     "push_start": TaskRule(_touch, lambda C, a: ["touch"]),
     "push_end": TaskRule(_push, lambda C, a: ["push"]),
     "pose": TaskRule(_pose, lambda C, a: ["held"]),
-    "handover": TaskRule(_handover, lambda C, a: graspVariants(C, a[1], a[3])),
+    "handover": TaskRule(_take, lambda C, a: graspVariants(C, a[1], a[3])),
 }
 
 

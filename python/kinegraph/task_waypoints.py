@@ -64,13 +64,14 @@ class TaskWaypoints:
     def komo(self) -> KOMO:
         return self.m.komo
 
-    def attach(self, time: float, hand: str, obj: str) -> None:
+    def attach(self, time: float, hand: str, obj: str, touching: bool = False) -> None:
         """From a time on the hand holds the object, in a pose that is found.
 
         Args:
             time: In phases.
-            hand: The frame that holds.
+            hand: The frame that holds, or pushes.
             obj: The object's frame.
+            touching: Their surfaces touch, as where a stick takes something along.
         Raises:
             FrameNotFound: There is no such frame.
         """
@@ -78,6 +79,8 @@ class TaskWaypoints:
         self.m.add_stable_frame(JT.free, hand, name)
         self.slots.add("grasp", name, 7)
         self._switch(time, name, obj)
+        if touching:
+            self.komo.addObjective([time], FS.distance, [obj, hand], OT.eq, [1e1])
 
     def put(self, time: float, obj: str, to: str) -> None:
         """From a time on the object stands on a place, upright.
@@ -122,19 +125,6 @@ class TaskWaypoints:
         self.slots.add("lay " + face, name, 7)
         self._switch(time, name, obj)
         self.m.place_box(time, obj, to, "", face, min(_EDGE, 0.25 * min(self.C.getFrame(to).getSize()[:2])))
-
-    def touch(self, time: float, pusher: str, obj: str) -> None:
-        """From a time on something touches an object, and takes it along.
-
-        Args:
-            time: In phases.
-            pusher: The frame that touches.
-            obj: The object's frame.
-        Raises:
-            FrameNotFound: There is no such frame.
-        """
-        self.attach(time, pusher, obj)
-        self.komo.addObjective([time], FS.distance, [obj, pusher], OT.eq, [1e1])
 
     def push(self, start: float, end: float, pusher: str, obj: str, to: str) -> None:
         """Between two times the object is pushed straight to a place, from behind, without turning.

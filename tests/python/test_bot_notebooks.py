@@ -89,11 +89,11 @@ def test_what_the_camera_of_a_robot_sees_becomes_part_of_the_scene(C: ry.Config)
     rgb, depth = bot.getImageAndDepth("cameraTop")
     points = ry.depthImage2PointCloud(depth, bot.getCameraFxycxy("cameraTop"))
     assert points.shape == (*depth.shape, 3)
-    cloud = (
-        C.addFrame("pcl", "cameraTop")
-        .setPointCloud(points.reshape(-1, 3), rgb.reshape(-1, 3))
-        .setColor([1.0, 0.0, 0.0])
-    )
+    cloud = C.addFrame("pcl", "cameraTop")
+    cloud.setPointCloud(points, rgb)  # images, as the camera gives them
+    np.testing.assert_array_equal(cloud.getMeshPoints(), points.reshape(-1, 3))
+    np.testing.assert_array_equal(cloud.getMeshColors()[:, :3], rgb.reshape(-1, 3))
+    cloud.setColor([1.0, 0.0, 0.0])
     orange = (rgb[:, :, 0] > 120) & (rgb[:, :, 2] < 80)
     camera = C.getFrame("cameraTop")
     seen = camera.getPosition() + points[orange] @ camera.getRotationMatrix().T

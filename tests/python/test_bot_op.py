@@ -308,3 +308,24 @@ def test_bots_of_several_arms_move_all_and_each_gripper(tmp_path) -> None:
     bot.sync(C, 0.05)
     bot.recordTo("")
     assert np.loadtxt(tmp_path / "run.dat").shape == (5, 1 + 4 * 14)
+
+
+def test_a_motion_that_takes_the_place_of_another_begins_where_something_holds_the_robot() -> None:
+    C = ry.Config()
+    C.addFrame("base").setPosition([0, 0, 1])
+    slide = C.addFrame("slide", "base").setJoint(ry.JT.transX, [-1, 1]).setShape(ry.ST.sphere, [0.05])
+    slide.setMass(1).setContact(1)
+    C.addFrame("wall").setPosition([0.35, 0, 1]).setShape(ry.ST.box, [0.1, 1, 1]).setContact(1)
+    bot = ry.BotOp(C, False)
+    bot.moveTo([0.4])
+    bot.sync(C, 2.0)
+    assert C.getJointState() == pytest.approx([0.25], abs=2e-3)  # at the wall
+    for add in (bot.moveTo, lambda q: bot.move([q], [1.0])):
+        with pytest.raises(ry.RobotFault, match="from where the motion begins; call hold"):
+            add([0.4])
+    bot.moveTo([0.4], overwrite=True)  # as a loop does that follows a target
+    assert bot.get_qDot() == pytest.approx([0.0], abs=1e-2)
+    bot.sync(C, 1.0)
+    bot.move([[-0.2]], [1.5], overwrite=True)
+    bot.sync(C, 2.0)
+    assert C.getJointState() == pytest.approx([-0.2], abs=1e-3)

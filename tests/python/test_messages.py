@@ -35,21 +35,33 @@ def literals(folder: Path) -> set[str]:
     return texts
 
 
+TABLE = (BINDINGS / "python_names.cpp").read_text()
+TRANSLATED = dict(re.findall(r'Names\{"(\w+)", "(\w+)"\}', TABLE))
+# Classes of C++ whose names are words, too: where one begins a sentence, and the matrix of derivatives.
+WORDS = r"(?:^|[.:;] )(?:Contacts|Inertia|Look)(?= [a-z])|\b(?:the|a) Jacobian\b"
+
+
 def test_every_name_of_cpp_in_a_message_is_one_in_python_too() -> None:
     declared = set()
     for header in SOURCE.rglob("*.h"):
         declared.update(re.findall(r"^(?:class|struct|enum class) (\w+)", header.read_text(), re.MULTILINE))
-    table = (BINDINGS / "python_names.cpp").read_text()
-    translated = dict(re.findall(r'Names\{"(\w+)", "(\w+)"\}', table))
-    assert {"Komo", "NlpSolver"} <= declared & set(translated)
-    for name, ours in translated.items():
+    assert {"Komo", "NlpSolver"} <= declared & set(TRANSLATED)
+    for name, ours in TRANSLATED.items():
         assert name not in declared or hasattr(ry, ours), name
-    words = {"Contacts", "Inertia", "Jacobian", "Look", "Modes", "Recording"}  # of plain English, too
-    only_ours = {"RobotLoop", "ViewerOptions"}  # in calls that C++ has and Python has not
-    assert ry.KOMO_ManipulationHelper  # whose functions are named ManipulationHelper.name in messages, as in C++
-    said = {word for text in literals(SOURCE) for word in re.findall(r"\b([A-Z]\w+)(?=::|\b)", text)}
-    known = words | only_ours | {"ManipulationHelper", "PathCurve"} | set(translated)
-    assert {name for name in said & declared - known if not hasattr(ry, name)} == set()
+    texts = literals(SOURCE) - set(ry.get_NLP_Problem_names())
+    said = {word for text in texts for word in re.findall(r"\b([A-Z]\w+)(?=::|\b)", re.sub(WORDS, "", text))}
+    assert {name for name in said & declared - set(TRANSLATED) if not hasattr(ry, name)} == set()
+
+
+def test_every_call_that_a_message_names_is_one_in_python_too() -> None:
+    calls = {call for text in literals(SOURCE) for call in re.findall(r"\b([A-Z]\w+)(?:::|\.)([a-z]\w*)", text)}
+    assert len(calls) > 70
+    unknown = set()
+    for owner, method in calls:
+        thing = getattr(ry, TRANSLATED.get(owner, owner), None)
+        if thing is not None and not hasattr(thing, TRANSLATED.get(method, method)):
+            unknown.add(f"{owner}.{method}")
+    assert unknown == set()
 
 
 def test_all_that_a_result_says_is_told_in_python() -> None:
@@ -118,6 +130,12 @@ def test_python_is_told_its_own_names() -> None:
     C.addFrame("a", "base").setJoint(ry.JT.hingeX)
     with pytest.raises(ry.ArgumentError, match=r"^Config\.equationOfMotion: got 2 numbers"):
         C.equationOfMotion([0.0, 0.0])
+    with pytest.raises(ry.Error, match=r"^KOMO_ManipulationHelper\.grasp_box: there is no problem yet"):
+        ry.KOMO_ManipulationHelper().grasp_box(1.0, "a", "base", "base", "x")
+    with pytest.raises(ry.FileError, match=r"^SimulationRecording\.load: 'nowhere' cannot be read"):
+        ry.SimulationRecording.load("nowhere")
+    with pytest.raises(ry.ArgumentError, match="^the viewer's host is 'nowhere'; expected an IP address"):
+        C.viewer().serveAt("nowhere")
 
 
 def test_names_of_the_user_stay_as_they_are() -> None:

@@ -216,3 +216,23 @@ def test_limits_the_wrong_way_around_are_written_the_right_way():
         frame.setJoint(ry.JT.hingeX, [2, -1])
     frame.setJoint(ry.JT.hingeX, [-1, 2])
     assert C.getJointLimits().tolist() == [[-1], [2]]
+
+
+def test_scenes_written_beside_the_folder_of_models_find_them(tmp_path, monkeypatch):
+    """Files of tutorials say <../../rai-robotModels/panda/panda.g>, which is beside the checkout of their author."""
+    (tmp_path / "own").mkdir()
+    scene = tmp_path / "own" / "scene.g"
+    scene.write_text("Prefix: l_\nInclude: <../../rai-robotModels/panda/panda.g>\nPrefix: False\n")
+    C = ry.Config()
+    C.addFile(scene)
+    assert "l_gripper" in C.getFrameNames()
+    (tmp_path / "rai-robotModels" / "panda").mkdir(parents=True)  # what is there comes first
+    (tmp_path / "rai-robotModels" / "panda" / "panda.g").write_text("mine: {}")
+    monkeypatch.chdir(tmp_path)
+    (tmp_path / "near.g").write_text("Include: <rai-robotModels/panda/panda.g>")
+    D = ry.Config()
+    D.addFile("near.g")
+    assert D.getFrameNames() == ["mine"]
+    scene.write_text("Include: <../../rai-robotModels/panda/panada.g>")
+    with pytest.raises(ry.ParseError, match="rai-robotModels/panda/panada.g' does not exist"):
+        ry.Config().addFile(scene)

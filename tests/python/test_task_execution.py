@@ -1,23 +1,15 @@
 """Plans carried out in simulation: what is grasped is held by friction, and what goes wrong is noticed and repaired."""
 
-import sys
-from pathlib import Path
-
 import numpy as np
 import pytest
 
 import kinegraph as ry
-
-sys.path.insert(0, str(Path(__file__).parent.parent.parent / "benchmarks"))
-import panda_tasks
+from task_scenes import panda_tasks, planned
 
 
 @pytest.fixture(scope="module")
 def tower():
-    problem = panda_tasks.tower(1, 2)
-    plan = ry.planTask(problem.C, problem.goal)
-    assert plan.feasible, plan
-    return problem.C, plan
+    return planned(panda_tasks.tower(1, 2))
 
 
 def test_a_tower_is_built_in_simulation(tower) -> None:

@@ -1,8 +1,6 @@
 """Motions of planTask: free at all times, within limits, at rest between actions; and the judge that says so."""
 
 import re
-import sys
-from pathlib import Path
 
 import numpy as np
 import pytest
@@ -10,18 +8,12 @@ import pytest
 import kinegraph as ry
 from kinegraph.task_check import cornersOf
 from kinegraph.task_view import ghostScene
-
-sys.path.insert(0, str(Path(__file__).parent.parent.parent / "benchmarks"))
-import panda_tasks
-import tasks as families
+from task_scenes import families, panda_tasks, planned
 
 
 @pytest.fixture(scope="module")
 def tower():
-    problem = panda_tasks.tower(0, 2)
-    plan = ry.planTask(problem.C, problem.goal)
-    assert plan.feasible, plan
-    return problem.C, plan
+    return planned(panda_tasks.tower(0, 2))
 
 
 def test_the_motion_keeps_its_limits_and_rests_between_actions(tower) -> None:

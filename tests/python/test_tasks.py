@@ -1,16 +1,12 @@
 """planTask: goals become motions that an independent checker accepts; what is impossible is proved so."""
 
 import re
-import sys
-from pathlib import Path
 
 import numpy as np
 import pytest
 
 import kinegraph as ry
-
-sys.path.insert(0, str(Path(__file__).parent.parent.parent / "benchmarks"))
-import tasks as families
+from task_scenes import families
 
 
 def panda() -> ry.Config:

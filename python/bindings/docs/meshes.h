@@ -87,8 +87,8 @@ Raises:
 inline constexpr char setPointCloud[] = R"(Gives the frame a cloud of points.
 
 Args:
-    points: Shape (n, 3), in the frame's coordinates, m.
-    colors: In 0..255: (n, 3) or (n, 4), or one row for all; None: the frame's color.
+    points: Shape (n, 3), or (h, w, 3) as depthImage2PointCloud gives them; in the frame's coordinates, m.
+    colors: In 0..255: (n, 3) or (n, 4), an image (h, w, 3), or one row for all; None: the frame's color.
     normals: Not used; older scripts pass them.
 Returns:
     The frame itself.

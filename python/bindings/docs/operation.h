@@ -42,7 +42,7 @@ long as limits of velocity and acceleration ask for.
 Args:
     q_target: (n,) rad or m.
     timeCost: c: the larger, the faster.
-    overwrite: Instead of what it does now; else after that.
+    overwrite: Instead of what it does now, from where the robot is if something holds it back; else after that.
 Raises:
     ArgumentError: Another number of joints, or joint values beyond limits.
     RobotFault: The robot was stopped, or is not where the motion begins.)";

@@ -71,24 +71,18 @@ inline constexpr char picture[] =
 
 Args:
     config: The scene that was planned in.
-    frames: A frame's name, or several; None: one at the end of each chain.
-Returns:
-    A Config, to be viewed or saved.
-Raises:
-    ArgumentError: The scene has another number of joints.
-    FrameNotFound: A frame is not in the scene.)";
+)";
 
 inline constexpr char view[] = R"(Shows the picture, and plays the motion in it.
 
 Args:
     config: The scene that was planned in.
-    frames: A frame's name, or several; None: one at the end of each chain.
-    pause: Waits for a key.
+)";
+
+inline constexpr char viewRest[] = R"(    pause: Waits for a key.
 Returns:
     The key that was pressed, 0 if none.
-Raises:
-    ArgumentError: The scene has another number of joints.
-    FrameNotFound: A frame is not in the scene.)";
+)";
 
 inline constexpr char shortcut[] = R"(A shorter path between the same ends, free at all times.
 

@@ -68,11 +68,6 @@ inline constexpr char picture[] =
 
 Args:
     config: The scene.
-    frames: A frame's name, or several; None: one at the end of each chain.
-Returns:
-    A Config, to be viewed or saved.
-Raises:
-    ArgumentError: The scene has another number of joints.
-    FrameNotFound: A frame is not in the scene.)";
+)";
 
 }  // namespace kinegraph::python::docs::roadmap

@@ -69,6 +69,17 @@ std::string findInPackages(const std::string& path, const std::string& folder) {
   return "";
 }
 
+/// Scenes that were written beside a folder rai-robotModels name models in it: those of RAI_PATH, where there is no such
+/// folder.
+std::string inModels(const std::string& path) {
+  const std::string models = "rai-robotModels/", folder = environment("RAI_PATH");
+  const std::size_t at = path.rfind("/" + models);
+  std::error_code error;
+  if (folder.empty() || at == std::string::npos || fs::exists(path, error)) return path;
+  const fs::path model = fs::path(folder) / path.substr(at + 1 + models.size());
+  return fs::exists(model, error) ? model.lexically_normal().string() : path;
+}
+
 }  // namespace
 
 std::string resolvePath(const std::string& path, const std::string& folder) {
@@ -77,8 +88,7 @@ std::string resolvePath(const std::string& path, const std::string& folder) {
   }
   const std::string file_scheme = "file://";
   const fs::path expanded = expandEnvironment(path.starts_with(file_scheme) ? path.substr(file_scheme.size()) : path);
-  return expanded.is_absolute() ? expanded.lexically_normal().string()
-                                : (fs::path(folder) / expanded).lexically_normal().string();
+  return inModels((expanded.is_absolute() ? expanded : fs::path(folder) / expanded).lexically_normal().string());
 }
 
 std::string missingPackageMessage(const std::string& path) {

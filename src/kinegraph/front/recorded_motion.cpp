@@ -30,7 +30,7 @@ std::vector<double> elapsed(const Recording& recording) {
 }  // namespace
 
 ShownMotion recordedMotion(const Recording& recording) {
-  if (recording.times.empty()) throw ValueError("SimulationRecording: it has no steps to show");
+  if (recording.times.empty()) throw ValueError("Recording: it has no steps to show");
   const std::vector<double> ends = elapsed(recording);
   const double seconds = ends.back();
   const int slices = std::clamp(int(std::ceil(seconds * kRate - 1e-6)) + 1, 2, kMost);
@@ -53,7 +53,7 @@ void Recording::saveHtml(const std::string& path) const {
   const ShownMotion motion = recordedMotion(*this);
   std::ofstream file(path, std::ios::binary);
   file << recordedScene(makeConfig(), &motion, "Simulation");
-  if (!file.flush()) throw FileError(cat("SimulationRecording.saveHtml: '", path, "' cannot be written"));
+  if (!file.flush()) throw FileError(cat("Recording.saveHtml: '", path, "' cannot be written"));
 }
 
 }  // namespace kinegraph

@@ -135,6 +135,14 @@ void BotOp::engage(const char* call, const BSpline& motion, double from) {
   loop_->apply(FollowSpline{motion});
 }
 
+/// Before a motion takes the place of what is done now: a robot that something keeps from where it should be rests where
+/// it is, and the motion begins there.
+void BotOp::giveWay() {
+  const bool drives = loop_->mode() == LoopMode::follow || loop_->mode() == LoopMode::hold;
+  const VectorXd apart = loop_->reference(loop_->time()).row(0).transpose() - loop_->reading().q;
+  if (drives && apart.cwiseAbs().maxCoeff() > options_.guards.engage_distance) holdNow();
+}
+
 /// When a motion that is added begins: at the end of what is done now, or now.
 double BotOp::nextStart() const { return loop_->time() + std::max(0., timeToEnd()); }
 
@@ -146,6 +154,7 @@ void BotOp::move(const MatrixXd& path, const VectorXd& times, bool overwrite, do
   const double now = loop_->time();
   if (overwrite && overwrite_time >= 0. && overwrite_time + all_times[all_times.size() - 1] <= now)
     throw ValueError(cat(call, ": the motion from ", overwrite_time, " s on would be over; it is ", now, " s"));
+  if (overwrite && overwrite_time < 0.) giveWay();
   const double from = overwrite ? now : nextStart();
   const BSpline motion = continued(path, all_times, overwrite, overwrite_time);
   const double jump = (motion.eval(now) - loop_->reference(now).row(0).transpose()).cwiseAbs().maxCoeff();
@@ -160,6 +169,7 @@ void BotOp::moveTo(const VectorXd& q, double time_cost, bool overwrite) {
   requirePath(call, asRow(q), home_.size());
   if (!(time_cost > 0.)) throw ValueError(cat(call, ": time_cost is ", time_cost, "; expected more than 0"));
   const Lock lock(mutex_);
+  if (overwrite) giveWay();
   const double now = loop_->time();
   const bool goes_on = !overwrite && timeToEnd() > 0.;
   const MatrixXd from = loop_->reference(goes_on ? loop_->motion().end() : now);

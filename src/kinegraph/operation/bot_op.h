@@ -70,8 +70,9 @@ class BotOp {
 
   // --- motions ---------------------------------------------------------------------------------------------------------
 
-  /// Goes to q, after what it does now, or instead with `overwrite`. It takes T = (sqrt(6 c d + v^2) - v) / c of the
-  /// distance d, the velocity v towards it and the cost of time c; at least .1 s and as long as limits ask for.
+  /// Goes to q, after what it does now, or instead with `overwrite` (from where it is, if something holds it back). It
+  /// takes T = (sqrt(6 c d + v^2) - v) / c of the distance d, the velocity v towards it and the cost of time c; at least
+  /// .1 s and as long as limits ask for.
   void moveTo(const VectorXd& q, double time_cost = 1., bool overwrite = false);
 
   /// Goes along a spline of degree 3 of these points (K x n), which it comes near and ends at, at these times (K,) after
@@ -189,6 +190,7 @@ class BotOp {
   void engage(const char* call, const BSpline& motion, double from);
   double nextStart() const;
   void holdNow();
+  void giveWay();
   void gripper(const char* call, GripperCommand command);
   void requireGripper(const char* call, int gripper) const;
   BotCameras& cameras();

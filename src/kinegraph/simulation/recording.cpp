@@ -225,7 +225,7 @@ std::vector<std::vector<Pose>> Recording::framePoses(const std::vector<std::size
   std::vector<std::vector<Pose>> poses;
   for (const std::size_t step : steps) {
     if (step >= motions.size())
-      throw ValueError(cat("SimulationRecording: there is no step ", step, "; it has ", motions.size()));
+      throw ValueError(cat("Recording: there is no step ", step, "; it has ", motions.size()));
     simulation.show(motions[step]);
     std::vector<Pose>& all = poses.emplace_back();
     for (int i = 0; i < config.getFrameDimension(); ++i) all.emplace_back(config.state().pose(i));

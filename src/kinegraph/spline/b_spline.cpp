@@ -269,17 +269,17 @@ MatrixXd BSpline::getBmatrix(const VectorXd& times, bool start_duplicates, bool 
 }
 
 double BSpline::start() const {
-  if (knots_.size() == 0) throw ValueError("BSpline::start: there are no knots yet; call setKnots, or set");
+  if (knots_.size() == 0) throw ValueError("BSpline: there are no knots yet; call setKnots, or set");
   return knots_[0];
 }
 
 double BSpline::end() const {
-  if (knots_.size() == 0) throw ValueError("BSpline::end: there are no knots yet; call setKnots, or set");
+  if (knots_.size() == 0) throw ValueError("BSpline: there are no knots yet; call setKnots, or set");
   return knots_[knots_.size() - 1];
 }
 
 BSpline BSpline::fromParts(int degree, const VectorXd& knots, const MatrixXd& ctrl_points) {
-  constexpr const char* call = "BSpline::fromParts";
+  constexpr const char* call = "BSpline";
   if (degree < 0 || degree > kLargestDegree)
     throw ValueError(cat(call, ": degree is ", degree, "; expected 0 to ", kLargestDegree));
   if (knots.size() > 0) requireTimes(knots, call, -INFINITY);

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <cstdint>
 #include <cstring>
+#include <optional>
 #include <string_view>
 #include <vector>
 
@@ -42,5 +43,13 @@ class CommandReader {
 
   std::string_view rest_;
 };
+
+/// A command of these fields, in this order; nothing if they are not all there is.
+template <class Command, class... Fields>
+std::optional<Command> readFields(CommandReader& reader, Fields Command::*... fields) {
+  Command command;
+  if (!(reader.read(command.*fields) && ...) || !reader.atEnd()) return std::nullopt;
+  return command;
+}
 
 }  // namespace kinegraph

@@ -91,61 +91,17 @@ inline std::optional<Command> readCommand(std::string_view data) {
   int kind;
   if (!reader.read(kind)) return std::nullopt;
   switch (kind) {
-    case KeyCommand::kKind: {
-      KeyCommand m;
-      if (reader.read(m.code) && reader.read(m.modifiers) && reader.atEnd()) return m;
-      break;
-    }
-    case SetJointCommand::kKind: {
-      SetJointCommand m;
-      if (reader.read(m.structure) && reader.read(m.joint) && reader.read(m.value) && reader.atEnd()) return m;
-      break;
-    }
-    case ResetJointsCommand::kKind: {
-      ResetJointsCommand m;
-      if (reader.read(m.structure) && reader.atEnd()) return m;
-      break;
-    }
-    case RandomJointsCommand::kKind: {
-      RandomJointsCommand m;
-      if (reader.read(m.structure) && reader.atEnd()) return m;
-      break;
-    }
-    case MoveFrameCommand::kKind: {
-      MoveFrameCommand m;
-      if (reader.read(m.structure) && reader.read(m.frame) && reader.read(m.pose) && reader.atEnd()) return m;
-      break;
-    }
-    case NearCommand::kKind: {
-      NearCommand m;
-      if (reader.read(m.structure) && reader.read(m.margin) && reader.atEnd()) return m;
-      break;
-    }
-    case EventCommand::kKind: {
-      EventCommand m;
-      if (reader.read(m.what) && reader.read(m.code) && reader.read(m.modifiers) && reader.atEnd()) return m;
-      break;
-    }
-    case CursorCommand::kKind: {
-      CursorCommand m;
-      if (reader.read(m.frame) && reader.read(m.point) && reader.read(m.normal) && reader.atEnd()) return m;
-      break;
-    }
-    case ViewpointCommand::kKind: {
-      ViewpointCommand m;
-      if (reader.read(m.pose) && reader.read(m.distance) && reader.read(m.focal) && reader.read(m.ortho) && reader.atEnd()) return m;
-      break;
-    }
-    case RunCommand::kKind: {
-      RunCommand m;
-      if (reader.read(m.what) && reader.atEnd()) return m;
-      break;
-    }
-    case PullCommand::kKind: {
-      PullCommand m;
-      if (reader.read(m.structure) && reader.read(m.frame) && reader.read(m.point) && reader.read(m.target) && reader.atEnd()) return m;
-      break;
-    }
+    case KeyCommand::kKind: return readFields<KeyCommand>(reader, &KeyCommand::code, &KeyCommand::modifiers);
+    case SetJointCommand::kKind: return readFields<SetJointCommand>(reader, &SetJointCommand::structure, &SetJointCommand::joint, &SetJointCommand::value);
+    case ResetJointsCommand::kKind: return readFields<ResetJointsCommand>(reader, &ResetJointsCommand::structure);
+    case RandomJointsCommand::kKind: return readFields<RandomJointsCommand>(reader, &RandomJointsCommand::structure);
+    case MoveFrameCommand::kKind: return readFields<MoveFrameCommand>(reader, &MoveFrameCommand::structure, &MoveFrameCommand::frame, &MoveFrameCommand::pose);
+    case NearCommand::kKind: return readFields<NearCommand>(reader, &NearCommand::structure, &NearCommand::margin);
+    case EventCommand::kKind: return readFields<EventCommand>(reader, &EventCommand::what, &EventCommand::code, &EventCommand::modifiers);
+    case CursorCommand::kKind: return readFields<CursorCommand>(reader, &CursorCommand::frame, &CursorCommand::point, &CursorCommand::normal);
+    case ViewpointCommand::kKind: return readFields<ViewpointCommand>(reader, &ViewpointCommand::pose, &ViewpointCommand::distance, &ViewpointCommand::focal, &ViewpointCommand::ortho);
+    case RunCommand::kKind: return readFields<RunCommand>(reader, &RunCommand::what);
+    case PullCommand::kKind: return readFields<PullCommand>(reader, &PullCommand::structure, &PullCommand::frame, &PullCommand::point, &PullCommand::target);
   }
   return std::nullopt;
 }

@@ -224,10 +224,10 @@ class WebServer::Impl {
     beast::error_code error;
     const asio::ip::address address = asio::ip::make_address(options.host, error);
     if (error)
-      throw ValueError(cat("ViewerOptions: host is '", options.host,
-                           "'; expected an IP address, for instance 127.0.0.1 or 0.0.0.0"));
+      throw ValueError(
+          cat("the viewer's host is '", options.host, "'; expected an IP address, for instance 127.0.0.1 or 0.0.0.0"));
     if (options.port < 0 || options.port > 65535)
-      throw ValueError(cat("ViewerOptions: port is ", options.port, "; expected 0 to 65535"));
+      throw ValueError(cat("the viewer's port is ", options.port, "; expected 0 to 65535"));
     access_.loopback_only = address.is_loopback();
     access_.token = options.token.empty() && !access_.loopback_only ? randomToken() : options.token;
     listen(address, options.port);

@@ -1,0 +1,18 @@
+#pragma once
+
+/// Parts of the texts of all calls that draw the lines along which frames go.
+namespace kinegraph::python::docs::path_lines {
+
+inline constexpr char frames[] =
+    R"(    frames: A frame's name, or several; None: one at the end of each chain.
+)";
+
+inline constexpr char returnsPicture[] = R"(Returns:
+    A Config, to be viewed or saved.
+)";
+
+inline constexpr char raises[] = R"(Raises:
+    ArgumentError: The scene has another number of joints.
+    FrameNotFound: A frame is not in the scene.)";
+
+}  // namespace kinegraph::python::docs::path_lines
