@@ -45,7 +45,7 @@ int main() try {
 
   // Through a door, and not through one that is too narrow.
   for (const double width : {.5, .25}) {
-    const MotionPlan plan = planMotion(room(width), VectorXd{{1., 1., 1.57}}, {.evaluations = 100000});
+    const MotionPlan plan = planMotion(room(width), VectorXd{{1., 1., 1.57}}, {.evaluations = 20000});
     std::cout << plan.str() << "\n";
     if (plan.feasible() != (width > .3)) return 1;
     if (!plan.feasible()) std::cout << "most motions ended at " << plan.obstacles.front().name << "\n";

@@ -37,14 +37,71 @@ TEST(Detour, EndsWhereThePathEndsAndGoesAroundWhatIsInTheWay) {
   EXPECT_EQ(*way, *again) << "the same for the same number";
   EXPECT_NE(*way, *detour(komo.path(), .01, probe, 2));
   EXPECT_EQ(komo.path().joints(), given) << "the path is as it was";
-  int free = 0;
   for (int number = 1; number <= 8; ++number) {
     komo.path().setVariables(*detour(komo.path(), .01, probe, number));
     EXPECT_EQ(komo.path().joints().row(15), given.row(15));
-    free += komo.isFree();
+    EXPECT_TRUE(komo.isFree(.01 - 2e-5)) << "at all times, number " << number;
     komo.setPath(given);
   }
-  EXPECT_GE(free, 1) << "the others may touch on their way";
+}
+
+TEST(Detour, KeepsWhereThePathIsAtTheEndsOfPhases) {
+  for (const int order : {0, 2}) {
+    Config scene;
+    scene.addText(R"g(
+      base: {}
+      ball (base): { joint: transXY, shape: sphere, size: [.04], contact: 1 }
+      wall (base): { Q: [.5 0 0], shape: box, size: [.03 .6 1.], contact: 1 }
+      bar (base): { Q: [.9 .3 0], shape: box, size: [.3 .03 1.], contact: 1 }
+    )g");
+    Komo komo(scene, 3, 8, order);
+    MatrixXd path(24, 2);
+    for (int t = 0; t < 24; ++t) {  // through the wall, to the other side of the bar, where it stays
+      path(t, 0) = std::min(1., (t + 1) / 8.);
+      path(t, 1) = std::clamp((t - 7) / 8., 0., 1.) * .6;
+    }
+    komo.setPath(path);
+    MotionProbe probe(1e-5);
+    for (int number = 1; number <= 8; ++number) {
+      komo.path().setVariables(*detour(komo.path(), .01, probe, number));
+      const MatrixXd found = komo.path().joints();
+      for (const int t : {7, 15, 20, 23}) EXPECT_EQ(found.row(t), path.row(t)) << t;
+      EXPECT_TRUE(komo.isFree(.01 - 2e-5)) << number;
+      EXPECT_EQ(order == 0, found.row(0) == path.row(0))
+          << "without slices before it, the first one is where it begins";
+      komo.setPath(path);
+    }
+  }
+}
+
+TEST(Detour, KeepsHalfOfWhatAnEndKeeps) {
+  Komo komo = throughWall(16);
+  MatrixXd path = komo.path().joints();
+  path.col(0) *= .565;  // the ball's end is 1 cm behind the wall
+  komo.setPath(path);
+  MotionProbe probe(1e-5);
+  for (int number = 1; number <= 4; ++number) {
+    komo.path().setVariables(*detour(komo.path(), .03, probe, number));
+    EXPECT_TRUE(komo.isFree(.005 - 2e-5)) << number;
+    EXPECT_FALSE(komo.isFree(.0101));
+    komo.setPath(path);
+  }
+}
+
+TEST(Detour, LacksLessThanThePathWhereAnEndIsBlocked) {
+  Komo komo = throughWall(16);
+  MatrixXd path = komo.path().joints();
+  path.col(0) *= .5;  // into the wall
+  komo.setPath(path);
+  MotionProbe probe(1e-5);
+  const auto blocked = [&] { return komo.checkMotion(0., 1e-5).size(); };
+  const std::size_t before = blocked();
+  for (int number = 1; number <= 4; ++number) {
+    komo.path().setVariables(*detour(komo.path(), .01, probe, number));
+    EXPECT_EQ(komo.path().joints().row(15), path.row(15));
+    EXPECT_LE(blocked(), before);
+    komo.setPath(path);
+  }
 }
 
 TEST(Detour, IsTakenWhereTheStraightWayIsBlocked) {

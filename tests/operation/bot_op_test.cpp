@@ -6,6 +6,7 @@
 #include <fstream>
 
 #include "kinegraph/operation/kinematic_driver.h"
+#include "kinegraph/operation/simulated_driver.h"
 #include "tests/operation/arm.h"
 #include "tests/support/expect_error.h"
 #include "tests/support/temporary_folder.h"
@@ -17,6 +18,8 @@ namespace {
 struct Bench {
   Config C = twoJointArm();
   BotOp bot{C, std::make_shared<KinematicDriver>(C)};
+
+  double now() const { return .01 * double(bot.getLog().ticks); }
 };
 
 /// Moves, grasps, pauses and asks in one way.
@@ -89,6 +92,86 @@ TEST(BotOp, OverwritesSmoothly) {
   EXPECT_NEAR(b.bot.get_qDot()[0], .75, .1);
   b.bot.wait(b.C);
   EXPECT_LT((b.bot.get_q() - pair(0., .5)).norm(), 1e-12);
+}
+
+/// Where a robot was told to be, and how fast, at the end of each period.
+std::vector<std::pair<VectorXd, VectorXd>> toldUntil(double end, BotOp& bot, Config& C) {
+  std::vector<std::pair<VectorXd, VectorXd>> told;
+  while (double(bot.getLog().ticks) * .01 < end - 1e-9) {
+    bot.sync(C, .01);
+    const StepObservation now = bot.stepObservation();
+    told.emplace_back(now.qref, now.qvel_ref);
+  }
+  return told;
+}
+
+/// The end of the first motion, from the time on that is given, gives way to another one.
+void expectTakesOver(const std::function<std::shared_ptr<RobotDriver>(const Config&)>& driver, double cut) {
+  Config C = twoJointArm();
+  C.getFrame("box").setPosition({0., 0., 1.});  // out of the way
+  const auto robot = [&] { return std::make_unique<BotOp>(C, driver(C)); };
+  const auto begin = [&](BotOp& bot) {
+    MatrixXd path(3, 2);
+    path << .3, -.2, .1, .4, .6, .2;
+    bot.move(path, seconds(1.5));
+    bot.sync(C, .305);
+  };
+  const auto alone = robot(), both = robot();
+  begin(*alone);
+  begin(*both);
+  MatrixXd path(2, 2);
+  path << -.2, .1, 0., -.3;
+  both->move(path, pair(.6, 1.5), true, cut);
+  EXPECT_NEAR(both->getTimeToEnd(), cut + 1.5 - .3, 1e-9);
+  const auto earlier = toldUntil(cut + 2., *alone, C), told = toldUntil(cut + 2., *both, C);
+  ASSERT_EQ(earlier.size(), told.size());
+  const BSpline first = std::get<FollowSpline>(alone->getLog().entries[0].command).motion;
+  MatrixXd points(3, 2);
+  points << first.eval(cut).transpose(), path;
+  const BSpline second(3, points, Eigen::Vector3d(cut, cut + .6, cut + 1.5), first.eval(cut, 1));
+  for (std::size_t i = 0; i < told.size(); ++i) {
+    const double t = .01 * double(i + 31);
+    const VectorXd q = t <= cut ? earlier[i].first : second.eval(t),
+                   velocity = t <= cut ? earlier[i].second : second.eval(t, 1);
+    EXPECT_LT((told[i].first - q).cwiseAbs().maxCoeff(), 1e-9) << t;
+    EXPECT_LT((told[i].second - velocity).cwiseAbs().maxCoeff(), 1e-9) << t;
+  }
+  EXPECT_LT((both->stepObservation().qpos - pair(0., -.3)).norm(), 1e-3);
+}
+
+TEST(BotOp, OverwritesFromALaterTimeOn) {
+  for (const double cut : {.455, .85, 1.2, 1.5, 1.8}) {  // the last one comes after the end of the motion
+    SCOPED_TRACE(cut);
+    expectTakesOver([](const Config& C) { return std::make_shared<KinematicDriver>(C); }, cut);
+    expectTakesOver([](const Config& C) { return std::make_shared<SimulatedDriver>(C); }, cut);
+  }
+}
+
+TEST(BotOp, OverwritesFromALaterTimeOnWhateverItDoes) {
+  Bench b;
+  b.bot.sync(b.C, .1);
+  b.bot.move(row(.2, 0.), seconds(.5), true, .3);  // it is at rest
+  b.bot.sync(b.C, .2);
+  EXPECT_EQ(b.bot.get_q(), pair(0., 0.));
+  b.bot.sync(b.C, .25);
+  EXPECT_NEAR(b.bot.get_q()[0], .1, 1e-9);
+  b.bot.hold();
+  const double braked = b.now() + .05;
+  b.bot.move(row(0., 0.), seconds(.5), true, braked + .1);
+  b.bot.sync(b.C, .15);
+  EXPECT_LT(b.bot.get_qDot().norm(), 1e-12);
+  EXPECT_GT(b.bot.get_q()[0], .1);
+  b.bot.wait(b.C);
+  EXPECT_LT(b.bot.get_q().norm(), 1e-12);
+  b.bot.floating();
+  b.bot.move(row(.1, 0.), seconds(.5), true, b.now() + .2);
+  b.bot.sync(b.C, .2);
+  EXPECT_LT(b.bot.get_q().norm(), 1e-12);
+  b.bot.wait(b.C);
+  EXPECT_LT((b.bot.get_q() - pair(.1, 0.)).norm(), 1e-12);
+  b.bot.move(row(1.9, 0.), seconds(3.), true, b.now() + .1);
+  expectError<ValueError>([&] { b.bot.move(row(1., 0.), seconds(.2), true, b.now() + .5); },
+                          {"BotOp::move", "'arm1'", "its limit is 2"});
 }
 
 TEST(BotOp, MovesAsFastAsLimitsAllow) {

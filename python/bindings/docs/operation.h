@@ -55,7 +55,8 @@ Args:
     path: (K, n) joint values, rad or m, or (n,) for one point.
     times: (K,) in s after the end of what it does now; or one time, that of the last point, which the others share evenly.
     overwrite: Instead of what it does now, smoothly; times then count from overwriteCtrlTime.
-    overwriteCtrlTime: Control time, s; negative: now.
+    overwriteCtrlTime: Control time, s, until which it goes on with what it does; negative: now. From a time that is over, the motion
+        is taken up where it would be now.
 Raises:
     ArgumentError: Sizes that do not fit, times that fall, or a motion beyond a limit of position, velocity, acceleration or
         effort; the message says of which joint, when, and how much longer it would have to take.

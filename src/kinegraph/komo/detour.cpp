@@ -6,12 +6,15 @@
 #include <limits>
 #include <numbers>
 
-#include "kinegraph/base/random.h"
+#include "kinegraph/komo/tree_way.h"
 
 namespace kinegraph {
 
 namespace {
 
+constexpr int kGrowths = 1500;                              // of trees
+constexpr std::array<double, 4> kRoom = {16., 8., 4., 2.};  // that they look for first, of what is to be kept
+constexpr int kGrowthsWithRoom = 200;
 constexpr int kDraws = 50, kMoves = 120;
 constexpr double kNarrowing = .98;  // of a move, from one to the next
 constexpr int kMostSamples = 32;    // of a path
@@ -96,6 +99,96 @@ class Ways {
   double length_ = 0.;
 };
 
+/// Do all slices have the given scene's joints, and the same constants?
+bool showsOneScene(const Path& path) {
+  for (int slice = firstMotion(path) - 1; slice < path.grid().slices(); ++slice) {
+    const State& state = path.state(slice);
+    if (state.sharedProgram() != path.given().program || state.sharedParameters() != path.state(0).sharedParameters())
+      return false;
+  }
+  return true;
+}
+
+/// `count` configurations along a way, its corners and its end among them, so that motions have about the same length.
+/// None if it has too many corners.
+std::vector<VectorXd> spread(const std::vector<VectorXd>& way, int count) {
+  const int pieces = int(way.size()) - 1;
+  if (pieces > count) return {};
+  std::vector<int> parts(std::size_t(pieces), 1);
+  const auto lengthOf = [&](int i) {
+    return (way[std::size_t(i) + 1] - way[std::size_t(i)]).norm() / parts[std::size_t(i)];
+  };
+  for (int given = pieces; given < count; ++given) {
+    int longest = 0;
+    for (int i = 1; i < pieces; ++i)
+      if (lengthOf(i) > lengthOf(longest)) longest = i;
+    ++parts[std::size_t(longest)];
+  }
+  std::vector<VectorXd> points;
+  for (std::size_t i = 0; i + 1 < way.size(); ++i) {
+    for (int k = 1; k < parts[i]; ++k) points.push_back(way[i] + double(k) / parts[i] * (way[i + 1] - way[i]));
+    points.push_back(way[i + 1]);
+  }
+  return points;
+}
+
+/// Where configurations between two are drawn from.
+TreeRoom roomAround(const Program& program, std::vector<int> dofs, const VectorXd& from, const VectorXd& to) {
+  TreeRoom room{std::move(dofs), {}, {}};
+  room.lower = program.lower(room.dofs), room.upper = program.upper(room.dofs);
+  const double around = std::max((to - from).norm(), .1);
+  for (std::size_t i = 0; i < room.dofs.size(); ++i) {
+    double &lower = room.lower[Eigen::Index(i)], &upper = room.upper[Eigen::Index(i)];
+    const auto [least, most] = std::minmax(from[room.dofs[i]], to[room.dofs[i]]);
+    if (!std::isfinite(lower)) lower = least - around;
+    if (!std::isfinite(upper)) upper = most + around;
+  }
+  return room;
+}
+
+/// The configurations of the slices from `begin` on until the end of a phase, on a way that trees find.
+std::vector<VectorXd> freeLeg(const Path& path, EdgeChecker& checker, double apart, int begin, int end, Rng& rng) {
+  const VectorXd &from = path.state(begin - 1).q(), &to = path.state(end - 1).q();
+  const double most = 20. * apart,
+               kept = std::min(checker.clearance(from.data(), most), checker.clearance(to.data(), most));
+  if (kept <= 0.) return {};
+  const TreeRoom room = roomAround(*path.given().program, bendableDofs(path), from, to);
+  const auto keeping = [&](double margin, int growths) {
+    checker.setMargin(margin);
+    const std::vector<VectorXd> way = treeWay(checker, room, from, to, rng, growths);
+    return way.empty() ? way : spread(way, end - begin);
+  };
+  for (const double more : kRoom) {
+    if (more * apart > .9 * kept) continue;
+    std::vector<VectorXd> leg = keeping(more * apart, kGrowthsWithRoom);
+    if (!leg.empty()) return leg;
+  }
+  return keeping(kept > 1.01 * apart ? apart : .5 * kept, kGrowths);
+}
+
+/// The variables of a path that is free at all times; none where trees do not find one, or where nothing moves.
+std::optional<VectorXd> freeDetour(Path& path, double apart, MotionProbe& probe, int number) {
+  if (!showsOneScene(path)) return std::nullopt;
+  const int first = firstMotion(path), count = path.grid().slices(), of_phase = path.grid().slicesPerPhase();
+  EdgeChecker& checker = probe.checkerOf(motionInto(path, first));
+  Rng rng{std::uint64_t(number)};
+  std::vector<VectorXd> points;
+  for (int begin = first; begin < count;) {
+    const int end = std::min((begin / of_phase + 1) * of_phase, count);
+    const std::vector<VectorXd> leg = freeLeg(path, checker, apart, begin, end, rng);
+    if (leg.empty()) return std::nullopt;
+    points.insert(points.end(), leg.begin(), leg.end());
+    begin = end;
+  }
+  const VectorXd& start = path.state(first - 1).q();
+  if (std::ranges::all_of(points, [&](const VectorXd& q) { return q == start; })) return std::nullopt;
+  const VectorXd given = path.variables();
+  for (std::size_t i = 0; i < points.size(); ++i) path.setJoints(first + int(i), points[i]);
+  const VectorXd found = path.variables();
+  path.setVariables(given);
+  return found;
+}
+
 }  // namespace
 
 std::optional<VectorXd> detour(Path& path, double apart, MotionProbe& probe, int number) {
@@ -103,6 +196,7 @@ std::optional<VectorXd> detour(Path& path, double apart, MotionProbe& probe, int
   const VectorXd given = path.variables();
   Ways ways(path, apart, probe);
   if (ways.dofs() == 0) return std::nullopt;
+  if (const auto free = freeDetour(path, apart, probe, number)) return free;
   Rng rng{std::uint64_t(number)};
   const auto draw = [&](double size) {
     VectorXd drawn(ways.dofs());

@@ -125,7 +125,8 @@ class KomoNlp final : public Nlp, public OtherWays {
     return lack > kMuch ? Refinement::much : Refinement::little;
   }
 
-  /// A detour, with its own instants.
+  /// A detour, with its own instants: the middle of each motion, so that a step does not lead through something thin,
+  /// and those at which it comes too near.
   std::optional<VectorXd> otherWay(const VectorXd& x, int number) override {
     std::vector<Objective> objectives = problem_.objectives();
     const auto on_the_way = std::ranges::find_if(objectives, isOnTheWay);
@@ -137,7 +138,10 @@ class KomoNlp final : public Nlp, public OtherWays {
     if (!way) return std::nullopt;
     *way = way->cwiseMax(lower_).cwiseMin(upper_);
     komo_->path().setVariables(*way);
-    for (Objective& objective : objectives) objective.instants.clear();
+    for (Objective& objective : objectives) {
+      if (objective.on_the_way)
+        objective.instants.assign(std::size_t(std::max(objective.to - objective.from + 1, 0)), {.5});
+    }
     addInstantsTo(objectives);
     takeUp(std::move(objectives));
     return way;

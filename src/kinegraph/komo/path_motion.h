@@ -47,6 +47,9 @@ class MotionProbe {
   /// The least distance of all pairs at a share of the way, at most `most`, m.
   double clearance(const SliceMotion& motion, double share, double most);
 
+  /// What answers for the scene that a motion is in, until a motion of another one is looked at.
+  EdgeChecker& checkerOf(const SliceMotion& motion);
+
  private:
   struct Scene {
     Scene(const SliceMotion& motion, double tolerance);
@@ -54,7 +57,6 @@ class MotionProbe {
     std::shared_ptr<const Parameters> parameters;
     EdgeChecker checker;
   };
-  EdgeChecker& checkerOf(const SliceMotion& motion);
   std::optional<MotionContact> firstOfAll(const SliceMotion& motion, double margin);
 
   double tolerance_;

@@ -61,25 +61,26 @@ bool ClearanceCheck::seemsFree(const VectorXd& from, const VectorXd& to) {
   return true;
 }
 
-/// Are the postures at these places of a motion, in parts of it, free?
+/// Are the postures at these places of a motion, in parts of it, free? Those that follow one another and have one margin
+/// are looked at side by side.
 bool ClearanceCheck::areFree(const VectorXd& from, const VectorXd& change, int parts, const Places& places, int count) {
   const double* rows[EdgeChecker::kLanes];
-  bool one_margin = true;
-  double margin = 0.;
+  double margins[EdgeChecker::kLanes];
   for (int i = 0; i < count; ++i) {
     VectorXd& q = samples_[i];
     q = from + double(places[std::size_t(i)]) / parts * change;
     rows[i] = q.data();
-    const double here = marginAt(q);
-    one_margin = one_margin && (i == 0 || here == margin);
-    margin = here;
+    margins[i] = marginAt(q);
   }
-  if (!one_margin) return std::all_of(samples_, samples_ + count, [this](const VectorXd& q) { return isFree(q); });
-  evaluations += count;
-  edges_.setMargin(margin);
-  if (edges_.areAllFree({rows, std::size_t(count)})) return true;
-  countHit();
-  return false;
+  for (int first = 0, next = 0; first < count; first = next) {
+    while (next < count && margins[next] == margins[first]) ++next;
+    ++evaluations;
+    edges_.setMargin(margins[first]);
+    if (edges_.areAllFree({rows + first, std::size_t(next - first)})) continue;
+    countHit();
+    return false;
+  }
+  return true;
 }
 
 /// Where margins differ along the motion, it is cut there, and each piece has one margin.

@@ -67,7 +67,9 @@ class ClearanceCheck {
   /// All pairs nearer than that.
   std::vector<Nearest> nearerThan(const VectorXd& q, double up_to);
 
-  long evaluations = 0;  ///< postures that were looked at, and motions
+  /// Questions to the kinematics: each is up to EdgeChecker::kLanes postures side by side, wherever the first of them
+  /// is not free, or a motion at all times, or one of its pieces where margins differ.
+  long evaluations = 0;
 
   /// How often a pair of frames (ids) was what a posture or motion ran into.
   const PairCounts& hits() const { return hits_; }

@@ -40,7 +40,7 @@ class Manifold {
   /// Do they hold along a straight motion, as far as postures every `spacing` tell?
   bool holdsAlong(const VectorXd& from, const VectorXd& to, double spacing);
 
-  long evaluations = 0;
+  long evaluations = 0;  ///< postures at which the constraints were computed
 
  private:
   struct Row {

@@ -27,7 +27,7 @@ std::string planStatusName(PlanStatus status);
 struct PlanStage {
   std::string name;      ///< "ends", "search", "shorten", "tighten", "verify", "time"
   double seconds = 0.;   ///< wall time
-  long evaluations = 0;  ///< postures and motions looked at
+  long evaluations = 0;  ///< see PlanOptions: looks at up to eight postures side by side, or at a motion at all times
   std::string note;      ///< what came of it
 };
 

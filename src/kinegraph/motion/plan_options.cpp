@@ -38,7 +38,9 @@ const OptionTable<PlanOptions>& planOptionTable() {
        {"goals", &O::goals, "", "Most postures that are looked for where the goal is targets or conditions.",
         Range::atLeastOne()},
        {"evaluations", &O::evaluations, "",
-        "Effort: postures and motions that are looked at by the search of the first way, at most.",
+        "Effort of the search of the first way, at most: looks at up to eight postures side by side, or at a motion at "
+        "all times; "
+        "postures that are drawn, or at which constraints are computed, count one each.",
         Range::atLeastOne()},
        {"time_limit",
         &O::time_limit,

@@ -15,7 +15,7 @@ namespace kinegraph {
 struct RoadmapAnswer {
   MatrixXd path;        ///< (K, n), free at all times; no rows if there is none
   std::string message;  ///< "" if there is one, else why not
-  long checked = 0;     ///< postures and motions that had to be looked at; none where all was known
+  long checked = 0;     ///< evaluations of Steering that it took; none where all was known
 
   bool feasible() const { return path.rows() > 0; }
 };

@@ -26,6 +26,7 @@ class Steering {
   ClearanceCheck& check() { return check_; }
   Manifold& manifold() { return manifold_; }
   bool isConstrained() const { return !manifold_.isEmpty(); }
+  /// Of the check, and of the constraints: what effort means.
   long evaluations() const { return check_.evaluations + manifold_.evaluations; }
 
   /// Postures on the way towards `target`, up to `range` away, each of which seems to be reached freely from the one

@@ -14,6 +14,9 @@ namespace {
 constexpr int kPieces = 20;          // of a path, about
 constexpr double kShortest = .05;    // piece
 constexpr double kLeastGain = 3e-3;  // of a round, as a share of the length
+constexpr int kRefinements = 2;      // of the pieces that touch something
+constexpr double kFiner = .25;       // is what a refinement gains, of what the one before did
+constexpr double kFinest = .01;      // piece that is refined
 constexpr double kSpare = 1e-3;      // m, that rows keep above what is needed, where the path does
 constexpr double kNearRow = .25;     // pieces: a new row of the same pair as near as that takes the old one's place
 constexpr double kDeepest = .03;     // m: what overlaps more has a direction that says little
@@ -43,14 +46,11 @@ class TautString {
   }
 
   std::vector<VectorXd> run() {
-    int small = 0;  // gains in a row
-    for (int round = 0; round < options_.rounds && !stopped(); ++round) {
-      const double before = length(points_);
-      const Outcome outcome = improve(before);
-      if (outcome == Outcome::nothing_to_gain || step_ < kShortestStep) break;
-      if (outcome == Outcome::blocked) continue;
-      small = length(points_) > (1. - kLeastGain) * before ? small + 1 : 0;
-      if (small > 0 && (outcome == Outcome::whole || small > 1)) break;
+    settle();
+    for (int i = 0; i < kRefinements && !stopped() && refine(); ++i) {
+      least_gain_ *= kFiner;
+      step_ = kFirstStep;
+      settle();
     }
     dropStraight();
     return std::move(points_);
@@ -66,6 +66,42 @@ class TautString {
     double sum = 0.;
     for (std::size_t i = 1; i < points.size(); ++i) sum += distance(points[i - 1], points[i]);
     return sum;
+  }
+
+  /// Rounds until little is gained.
+  void settle() {
+    int small = 0;  // gains in a row
+    for (; rounds_ < options_.rounds && !stopped(); ++rounds_) {
+      const double before = length(points_);
+      const Outcome outcome = improve(before);
+      if (outcome == Outcome::nothing_to_gain || step_ < kShortestStep) break;
+      if (outcome == Outcome::blocked) continue;
+      small = length(points_) > (1. - least_gain_) * before ? small + 1 : 0;
+      if (small > 0 && (outcome == Outcome::whole || small > 1)) break;
+    }
+  }
+
+  /// Halves the pieces at which something pulls: around a corner the path is a polygon, and the more sides it has, the
+  /// shorter it may be. False if there are none.
+  bool refine() {
+    std::vector<char> touches(points_.size() - 1, false);
+    for (const Row& row : rows_)
+      if (row.pull > 0.) touches[std::min(std::size_t(row.place), touches.size() - 1)] = true;
+    Points finer = {points_.front()};
+    std::vector<double> places;  // of the old points among the new ones
+    for (std::size_t i = 0; i < touches.size(); ++i) {
+      touches[i] = touches[i] && distance(points_[i], points_[i + 1]) > kFinest;
+      places.push_back(double(finer.size()) - 1.);
+      if (touches[i]) finer.push_back(.5 * (points_[i] + points_[i + 1]));
+      finer.push_back(points_[i + 1]);
+    }
+    for (Row& row : rows_) {
+      const std::size_t i = std::min(std::size_t(row.place), touches.size() - 1);
+      row.place = places[i] + (touches[i] ? 2. : 1.) * (row.place - double(i));
+    }
+    const bool is_finer = finer.size() > points_.size();
+    points_ = std::move(finer);
+    return is_finer;
   }
 
   /// Postures of the path become points, with others between them such that no piece is long.
@@ -188,7 +224,7 @@ class TautString {
       for (std::size_t i = 0; i < target.size(); ++i) size = std::max(size, (target[i] - points_[i]).norm());
       const double share = std::min(1., step_ / std::max(size, 1e-12));
       Points points = moved(target, share);
-      if (length(points) >= (1. - .2 * kLeastGain) * before) return Outcome::nothing_to_gain;
+      if (length(points) >= (1. - .2 * least_gain_) * before) return Outcome::nothing_to_gain;
       if (!isFree(points)) continue;
       points_ = std::move(points);
       step_ = std::min(2. * step_, kLongestStep);
@@ -270,12 +306,15 @@ class TautString {
   std::vector<double> along_;  ///< per point, the length up to it
   std::vector<Row> rows_;
   double step_ = kFirstStep;  ///< of a point, at most
+  double least_gain_ = kLeastGain;
+  int rounds_ = 0;
 };
 
 }  // namespace
 
 std::vector<VectorXd> pullTaut(Steering& steering, const std::vector<VectorXd>& path, const TautOptions& options) {
   if (steering.isConstrained() || path.size() < 3) return path;
+  steering.check().forget();  // which pair is met first must not depend on what was asked before
   return TautString(steering, path, options).run();
 }
 

@@ -15,7 +15,7 @@ struct WayRequest {
   std::vector<VectorXd> starts, goals;  ///< free, at least one each
   double range = 1.;                    ///< longest motion that trees grow by, in joint space
   std::uint64_t seed = 0;
-  long effort = 1000000;  ///< postures drawn and looked at, in all attempts together, at most
+  long effort = 1000000;  ///< postures drawn, and evaluations of Steering, in all attempts together, at most
   int threads = 1;
   bool tries_line = true;  ///< first the straight motions, from each start to each goal
   MotionWatch watch = {};

@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "kinegraph/base/text.h"
+#include "kinegraph/spline/spline_part.h"
 
 namespace kinegraph {
 
@@ -112,12 +113,25 @@ std::string BotOp::getFault() const {
 
 // --- motions -------------------------------------------------------------------------------------------------------------
 
+/// What is done now, until a later time.
+BSpline BotOp::doneUntil(double time) const {
+  const double now = loop_->time();
+  const bool has_motion = loop_->mode() == LoopMode::follow || loop_->mode() == LoopMode::hold;
+  if (has_motion) return cubicPart(loop_->motion(), now, time);
+  MatrixXd still(2, home_.size());
+  still.rowwise() = loop_->reading().q.transpose();
+  VectorXd times(2);
+  times << now, time;
+  return BSpline(3, still, times);
+}
+
 /// The motion that goes on along a path after what is done now, or instead of it from `cut` on.
 BSpline BotOp::continued(const MatrixXd& path, const VectorXd& times, bool overwrite, double cut) const {
   const double now = loop_->time();
   const bool moves = loop_->mode() == LoopMode::follow && loop_->motion().end() > now;
   if (moves && !overwrite && loop_->motion().degree() == 3) return BSpline(loop_->motion()).append(path, times);
   const double start = overwrite && cut >= 0. ? cut : now;
+  if (start > now) return doneUntil(start).append(path, times);
   const MatrixXd here = loop_->reference(start);
   MatrixXd points(path.rows() + 1, path.cols());
   points << here.row(0), path;
@@ -155,7 +169,7 @@ void BotOp::move(const MatrixXd& path, const VectorXd& times, bool overwrite, do
   if (overwrite && overwrite_time >= 0. && overwrite_time + all_times[all_times.size() - 1] <= now)
     throw ValueError(cat(call, ": the motion from ", overwrite_time, " s on would be over; it is ", now, " s"));
   if (overwrite && overwrite_time < 0.) giveWay();
-  const double from = overwrite ? now : nextStart();
+  const double from = overwrite ? std::max(now, overwrite_time) : nextStart();
   const BSpline motion = continued(path, all_times, overwrite, overwrite_time);
   const double jump = (motion.eval(now) - loop_->reference(now).row(0).transpose()).cwiseAbs().maxCoeff();
   if (jump > options_.guards.engage_distance)

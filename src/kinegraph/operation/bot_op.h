@@ -77,7 +77,9 @@ class BotOp {
 
   /// Goes along a spline of degree 3 of these points (K x n), which it comes near and ends at, at these times (K,) after
   /// the end of what it does now; a single time is that of the last point, the others share it evenly. With `overwrite`,
-  /// what it did ends at `overwrite_time`, or now if that is negative, and times count from there.
+  /// what it does ends at `overwrite_time`, or now if that is negative, and times count from there. Until a time to come
+  /// it goes on with what it does, and then with the velocity that it has there. From a time that is over, it takes up
+  /// the motion where that would be now.
   void move(const MatrixXd& path, const VectorXd& times, bool overwrite = false, double overwrite_time = -1.);
 
   /// The same with the shortest time for which no joint is faster than max_velocity and max_acceleration, nor than its
@@ -186,6 +188,7 @@ class BotOp {
   void takeUp(const Config& C);
   bool isWatched() const { return options_.watched && options_.watched(); }
 
+  BSpline doneUntil(double time) const;
   BSpline continued(const MatrixXd& path, const VectorXd& times, bool overwrite, double cut) const;
   void engage(const char* call, const BSpline& motion, double from);
   double nextStart() const;

@@ -49,10 +49,15 @@ struct Bernstein {
     for (double& x : product.c) x *= factor;
     return product;
   }
-  /// At least the largest |value|; where coefficients are beyond `enough`, those of halves tell more.
-  double bound(double enough, int halvings = 3) const {
+  /// At least the largest |value|.
+  double most() const {
     double most = 0.;
     for (int i = 0; i <= degree; ++i) most = std::max(most, std::abs(c[i]) / kBinomial[degree][i]);
+    return most;
+  }
+  /// The same; where coefficients are beyond `enough`, those of halves tell more.
+  double bound(double enough, int halvings = 3) const {
+    const double most = this->most();
     if (most <= enough || halvings == 0) return most;
     Bernstein first = *this, second = *this;  // de Casteljau
     std::array<double, kMostDegree + 1> x{};
@@ -66,6 +71,14 @@ struct Bernstein {
   }
 };
 
+/// At least the share of a limit that sqrt(b) |p| uses. The largest p and the largest b say enough where both together
+/// keep the limit; else their product is looked at.
+double shareOf(const Bernstein& p, const Bernstein& speed, double most_speed, double limit) {
+  const double together = p.most() * std::sqrt(most_speed);
+  if (together <= limit) return together / limit;
+  return std::sqrt((p * p * speed).bound(limit * limit)) / limit;
+}
+
 }  // namespace
 
 std::array<double, 3> limitShares(const LawGrid& grid, int interval, const std::array<double, 3>& b,
@@ -73,14 +86,14 @@ std::array<double, 3> limitShares(const LawGrid& grid, int interval, const std::
   const double h = grid.width(interval);
   const auto tangent = grid.tangent(interval);
   const Bernstein speed{2, {b[0], 2. * b[1], b[2]}}, slope = speed.derivative(), curve = slope.derivative();
+  const double most_speed = speed.most();
   std::array<double, 3> shares{};
   for (int j = 0; j < tangent.rows(); ++j) {
     Bernstein q1{grid.degree(), {}};
     for (int k = 0; k <= q1.degree; ++k) q1.c[k] = tangent(j, k) * kBinomial[q1.degree][k];
     const Bernstein q2 = q1.derivative(), q3 = q2.derivative();
     const int m = q1.degree;
-    const Bernstein squared = q1 * q1 * speed;
-    shares[0] = std::max(shares[0], std::sqrt(squared.bound(std::pow(limits.velocity[j], 2))) / limits.velocity[j]);
+    shares[0] = std::max(shares[0], shareOf(q1, speed, most_speed, limits.velocity[j]));
     Bernstein acceleration = (q1 * slope).times(.5);
     if (m > 0) acceleration = acceleration.plus(q2 * speed, 1.);
     const double most_acceleration = h * limits.acceleration[j];
@@ -90,7 +103,7 @@ std::array<double, 3> limitShares(const LawGrid& grid, int interval, const std::
     if (m > 0) jerk = jerk.plus(q2 * slope, 1.5);
     if (m > 1) jerk = jerk.plus(q3 * speed, 1.);
     const double most_jerk = h * h * limits.jerk[j];
-    shares[2] = std::max(shares[2], std::sqrt((jerk * jerk * speed).bound(most_jerk * most_jerk)) / most_jerk);
+    shares[2] = std::max(shares[2], shareOf(jerk, speed, most_speed, most_jerk));
   }
   return shares;
 }

@@ -39,55 +39,68 @@ class SmoothProgram {
   void tighten(int k, const std::array<double, 3>& ratios);
 
  private:
+  using Array = Eigen::ArrayXd;
+  static constexpr double kOpen = std::numeric_limits<double>::infinity();  ///< no limit
   enum Kind { kVelocity, kAcceleration, kJerk, kGiven };
 
-  /// |r b + offset| <= size, or size / sqrt(b[root]) where a root is given.
-  struct Row {
-    Quadratic r;
-    double offset, size;
-    int root;
+  /// Rows |r b + offset| <= size, or size / sqrt(b[root]) where a root is given: one of a kind in each of consecutive
+  /// intervals, which are computed side by side.
+  struct Strip {
     Kind kind;
-    double slack[2], dual[2];
+    int root, first;  ///< -1, 0 or 2; the first interval
+    Array r[3], offset, size;
+    Array slack[2], dual[2];            ///< of both sides
+    Array slack_step[2], dual_step[2];  ///< found last
+    int count() const { return int(size.size()); }
   };
   /// c_k or a knot is at most `limit`.
   struct Cap {
-    double limit, slack, dual;
+    double limit, slack, dual, slack_step = 0., dual_step = 0.;
   };
-  /// One inequality h <= 0 at the present point.
-  struct Side {
-    double h, along_root;
+  /// h <= 0 of both sides at the present b, and the slope of both along the coefficient whose root divides the size.
+  template <int N>
+  struct Sides {
+    Eigen::Array<double, N, 1> h[2], along_root;
+  };
+  struct Steps {
+    double primal = 1., dual = 1.;
+  };
+  /// Of all slacks times their multipliers; and by how much a limit is missed at most, as a share.
+  struct Gap {
+    double sum = 0., infeasible = 0.;
   };
 
-  void addRows(int k, const LawGrid& grid, const MotionLimits& limits);
-  void addGivenRows(int k, const LawGrid& grid, const RowSource& rows);
+  Strip& addStrip(Kind kind, int root, int first, int count);
+  void addRows(const LawGrid& grid, const MotionLimits& limits);
+  void addGivenRows(const LawGrid& grid, const RowSource& rows);
   void addCaps(const LawGrid& grid, const MotionLimits& limits);
   double restCap(const LawGrid& grid, const MotionLimits& limits, bool at_begin) const;
   void placeKnots();
-  Side sideOf(const Row& row, const Quadratic& b, int side) const;
+  template <int N>
+  Sides<N> sidesOf(const Strip& strip, Eigen::Index i) const;
   template <class Visit>
   void forCaps(const Visit& visit);
+  int inequalities();
   double duration() const;
   void slowDown();
   void begin(double barrier);
   void assemble(double barrier);
-  void addCost(int k, const Quadratic& b, double weight, int at);
-  void spread(int k, const double gradient[3], const double matrix[6]);
+  void addStrips(double barrier);
+  void addCaps(double barrier);
+  void spread(int k);
   void solveBand();
-  struct Steps {
-    double primal = 1., dual = 1.;
-  };
-  Steps findSteps(double barrier) const;
-  void take(const Steps& steps, double barrier);
-  double gapSum(int* count = nullptr, double* infeasible = nullptr) const;
+  Steps findSteps(double barrier);
+  Gap take(const Steps& steps);
 
   int first_, count_;
   SectionEnd ends_[2];
   double rest_width_[2] = {0., 0.};
-  std::vector<double> width_, left_, right_;  ///< knot k = left_[k] c_(k-1) + right_[k] c_k
-  std::vector<double> middle_, knots_, middle_step_, knot_step_;
-  std::vector<Row> rows_;
-  std::vector<int> row_begin_;
+  Array width_, left_, right_;  ///< knot k = left_[k] c_(k-1) + right_[k] c_k
+  Array middle_, knots_, middle_step_, knot_step_;
+  Array roots_;  ///< 1 / sqrt(b) at the knots
+  std::vector<Strip> strips_;
   std::vector<Cap> middle_caps_, knot_caps_;
+  Array slope_[3], matrix_[6];               ///< on the coefficients of each interval: 0, 1, 2; 00, 10, 11, 20, 21, 22
   std::vector<std::array<double, 3>> band_;  ///< diagonal, and one and two below it
   std::vector<double> gradient_;
 };
