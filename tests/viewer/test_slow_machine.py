@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
+import json
 from pathlib import Path
 
 import numpy as np
+import pytest
 
 import kinegraph as kg
 
@@ -19,6 +21,38 @@ HURRY = """(() => {
   const png = document.getElementById("canvas").toDataURL("image/png").split(",")[1];
   return [png, kinegraph.resolution()];
 })()"""
+
+
+# of each animation frame, at a time in ms, and with a change to draw or not: is it one in full resolution?
+DRAW = """((frames) => {
+  const quality = kinegraph.quality();
+  return frames.map(([time, changes]) => changes ? (quality.change(time), false) : quality.rest(time));
+})(FRAMES)"""
+
+
+class Frames:
+    """Animation frames of a machine that takes `full` ms for a picture in full resolution, `coarse` for others, and no less
+    than `pace` ms from one to the next."""
+
+    def __init__(self, browser: Browser, coarse: float, full: float, pace: float = 16.0) -> None:
+        self._browser, self._coarse, self._full, self._pace = browser, coarse, full, pace
+        self._frames: list[tuple[float, bool]] = []
+        self.now = 0.0
+
+    def draw(self, changes: bool) -> bool:
+        """The next one; true if it is in full resolution."""
+        self._frames.append((self.now, changes))
+        fine = self._browser.evaluate(DRAW.replace("FRAMES", json.dumps(self._frames)))[-1]
+        self.now += max(self._pace, self._full if fine else self._coarse if changes else 0.0)
+        return fine
+
+    def rest(self, until: float) -> list[float]:
+        """Nothing changes; when there were pictures in full resolution."""
+        fine = []
+        while (now := self.now) < until:
+            if self.draw(False):
+                fine.append(now)
+        return fine
 
 
 def means(picture: np.ndarray, cell: int) -> np.ndarray:
@@ -61,3 +95,42 @@ def test_a_model_is_saved_in_full_while_things_move(config: kg.Config, browser: 
     full = browser.evaluate("kinegraph.triangles()")
     browser.evaluate("(kinegraph.hurry(), document.getElementById('model').click())")
     assert browser.evaluate("kinegraph.triangles()") >= full
+
+
+@pytest.fixture
+def page(config: kg.Config, browser: Browser) -> Browser:
+    config.addFrame("world")
+    config.view()
+    browser.open(config.viewer().url)
+    return browser
+
+
+@pytest.mark.parametrize("pace", [16.0, 70.0])
+@pytest.mark.parametrize("full", [40, 800])
+def test_what_is_at_rest_is_soon_seen_in_full_also_if_it_changes_after_that(
+    page: Browser, pace: float, full: float
+) -> None:
+    frames = Frames(page, coarse=10, full=full, pace=pace)
+    for _ in range(8):
+        frames.draw(True)
+        changed = frames.now - pace
+        fine = frames.rest(changed + full + 300 + 3 * pace)  # until people have seen it
+        assert len(fine) == 1
+        assert fine[0] - changed <= 150 + 2 * pace
+
+
+def test_where_changes_would_wait_for_full_pictures_there_are_none_until_they_stop(page: Browser) -> None:
+    frames = Frames(page, coarse=30, full=800)
+    fine = []
+    for _ in range(20):
+        frames.draw(True)
+        fine += frames.rest(frames.now + 400)
+    assert len(fine) <= 2  # from which it is known
+    assert len(frames.rest(frames.now + 1000)) == 1
+
+
+def test_changes_that_wait_behind_a_slow_picture_are_drawn_first(page: Browser) -> None:
+    frames = Frames(page, coarse=600, full=900)
+    for _ in range(6):
+        frames.draw(True)
+        assert not frames.draw(False)  # before the message that came while it was drawn is read

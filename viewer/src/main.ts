@@ -21,6 +21,7 @@ import { Motion } from "./motion";
 import { NearLines } from "./near";
 import { Panel } from "./panel";
 import { Quads } from "./quads";
+import { Quality } from "./quality";
 import { Run } from "./run";
 import { Selection } from "./selection";
 import { ShownScene } from "./shown";
@@ -289,6 +290,7 @@ Object.assign(window, {
     pictures: () => stage.renderer.info.render.frame,
     poses: () => poses,
     resolution: () => stage.resolution,
+    quality: () => new Quality(true),
     hurry: () => stage.drawHurriedly(),
     triangles: () => stage.renderer.info.render.triangles,
     position: (name: string) => stage.frames.getObjectByName(name)?.position.toArray() ?? null,

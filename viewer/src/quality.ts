@@ -1,10 +1,9 @@
 const SLOW = 25,
   FAST = 15; // ms from one picture to the next, while things move
-const STILL = 150; // ms without a change
-const FRAME = 34; // ms that an animation frame counts at most: behind a slow one, changes may wait
-const MOST_PATIENT = 10; // times as many, where changes keep coming
-const AT_ONCE = 20,
-  LONG = 120; // animation frames: what follows a picture in full resolution so soon, or so late
+const STILL = 150,
+  MOST_PATIENT = 1500; // ms without a change before a picture in full resolution: at least, at most
+const QUIET = 2; // animation frames without a change before it: behind one that was slow, changes may wait
+const COUNTED = 3; // animation frames after it that wait for it: who draws lags behind
 const LARGEST = 2; // pixels drawn per pixel of the page, across and down
 const FEWEST = 240; // pixels drawn from top to bottom of a page, if that is between a third and a half of its pixels
 
@@ -27,10 +26,12 @@ export class Quality {
   private now: number;
   private pictures = 0;
   private spent = 0; // ms, of these pictures
-  private still = Infinity; // ms since the last change was drawn
+  private changed = -Infinity; // when the last change was drawn
+  private quiet = 0; // animation frames since
   private rested = true; // nothing has moved since
-  private patience = STILL; // ms without a change before a picture in full resolution
-  private quiet = 0; // animation frames since that picture
+  private full = 0; // when the last picture in full resolution was drawn, after a movement
+  private counted = COUNTED; // animation frames since
+  private patience = STILL; // ms without a change before the next one
   private tick = 0; // when the last animation frame was
   private drew = false; // and whether it drew a change
   private isHeld = false; // in full resolution, whatever moves
@@ -70,43 +71,47 @@ export class Quality {
   change(time: number): void {
     this.begin(time);
     if (this.isHeld) return;
-    if (this.rested) {
-      this.pictures = this.spent = 0;
-      // A picture in full resolution sizes the canvas anew, twice, and is slow where processors draw: not between changes
-      // that keep coming.
-      if (this.quiet < AT_ONCE) this.patience = Math.min(2 * this.patience, MOST_PATIENT * STILL);
-      else if (this.quiet > LONG) this.patience = STILL;
-    }
+    if (this.rested) this.pictures = this.spent = 0;
+    if (this.counted < COUNTED) this.disturb(time);
     this.drew = !this.rested; // the first of a movement says nothing of how long pictures take
     if (!this.rested || this.software) this.now = this.moving;
-    this.still = 0;
+    this.changed = time;
+    this.quiet = 0;
     this.rested = false;
   }
 
   /** Call in an animation frame where nothing has changed. True if it is time for a picture in full resolution. */
   rest(time: number): boolean {
-    this.still += Math.min(time - this.tick, FRAME);
     this.begin(time);
-    if (this.rested) ++this.quiet;
-    if (this.still < this.patience) return false;
-    if (!this.rested) this.quiet = 0;
+    if (++this.quiet < QUIET || time - this.changed < this.patience) return false;
     this.rested = true;
     if (this.isFull) return false;
     this.now = this.finest;
+    this.full = time;
+    this.counted = 0;
     return true;
   }
 
-  /** How long a picture takes is the time to the next animation frame. */
+  /** A picture in full resolution sizes the canvas anew, twice, and takes long where processors draw. It does no harm unless a
+   * change has to wait for it: then changes keep coming, and there is none before they have paused for longer. */
+  private disturb(time: number): void {
+    this.patience = Math.min(Math.max(2 * this.patience, time - this.full), MOST_PATIENT);
+    this.counted = COUNTED;
+  }
+
+  /** How long a picture takes is the time to the next animation frame, or to one that is later. */
   private begin(time: number): void {
     if (this.drew) this.measure(time - this.tick);
     this.tick = time;
     this.drew = false;
+    if (this.counted < COUNTED && ++this.counted === COUNTED) this.patience = STILL;
   }
 
   /** The next picture is as coarse as pictures may become. */
   setLeast(): void {
     this.now = this.least();
-    this.still = 0;
+    this.changed = performance.now();
+    this.quiet = 0;
     this.rested = false;
   }
 
