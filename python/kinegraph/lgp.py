@@ -2,13 +2,18 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable, Iterator
+from functools import partial
+
 import numpy as np
 
 from ._core import FS, KOMO, OT, Config, NLP_Solver, SolverReturn
 from .errors import ArgumentError
+from .in_order import Stopped, checkThreads, inOrder
 from .lgp_abstraction import STEPS, Action, LGP_TAMP_Abstraction
-from .lgp_waypoints import LgpWaypoints, planText
+from .lgp_waypoints import LgpWaypoints, solveFrom
 from .manipulation import KOMO_ManipulationHelper
+from .task_domain import planText
 
 _MOTION_STARTS = 3
 
@@ -26,13 +31,17 @@ class LGP_Tool:
 
     _solver: type[NLP_Solver] = NLP_Solver  # robotic has its own
 
-    def __init__(self, C: Config, tamp: LGP_TAMP_Abstraction, translator: object = None) -> None:
+    def __init__(self, C: Config, tamp: LGP_TAMP_Abstraction, translator: object = None, *, threads: int = 1) -> None:
         """Makes a tool; nothing is searched yet.
 
         Args:
             C: The scene.
             tamp: What is asked for plans, and for what their actions ask.
             translator: Of older scripts; the abstraction does its work.
+            threads: How many solve at the same time, from other starts, or the motions of other actions. What is found is
+                the same, to the bit.
+        Raises:
+            ArgumentError: threads is less than one.
         """
         self.C, self.tamp = C, tamp
         self.status = "not started"
@@ -40,7 +49,8 @@ class LGP_Tool:
         self._plan: list[Action] | None = None
         self._komo: KOMO | None = None
         self._x: np.ndarray | None = None
-        self._waypoints = LgpWaypoints(C, tamp, self._solver)
+        self._threads = checkThreads("LGP_Tool", threads)
+        self._waypoints = LgpWaypoints(C, tamp, self._solver, threads)
 
     @property
     def solves(self) -> int:
@@ -150,12 +160,14 @@ class LGP_Tool:
             ArgumentError: Nothing was found yet.
         """
         self.paths, results = [], []
-        for phase in range(len(self._solved()[0])):
-            komo = self.get_piecewiseMotionProblem(phase, True)
-            results.append(self._solver(komo.nlp(), verbose=0).solve(0))
+        plan = self._solved()[0]
+        pieces = (self.get_piecewiseMotionProblem(phase, True) for phase in range(len(plan)))
+        jobs = (partial(solveFrom, komo, None, self._solver) for komo in pieces)
+        for action, (komo, result) in zip(plan, inOrder(jobs, self._threads), strict=True):
+            results.append(result)
             self.paths.append(komo.getPath())
             if verbose > 0:
-                print(f"-- {planText([self._solved()[0][phase]])}: {results[-1].message}")
+                print(f"-- {planText([action])}: {result.message}")
         return results
 
     def solveFullMotion(self, verbose: int = 1) -> SolverReturn:
@@ -168,20 +180,23 @@ class LGP_Tool:
         Raises:
             ArgumentError: Nothing was found yet.
         """
-        rng = np.random.default_rng(0)
-        for start in range(_MOTION_STARTS):
-            komo = self.get_fullMotionProblem(True)
-            helper = KOMO_ManipulationHelper()
-            helper.komo = komo
-            solver = self._solver(komo.nlp(), verbose=0)
-            solver.setInitialization(helper.x + 0.02 * start * rng.standard_normal(len(helper.x)))
-            result = solver.solve(0)
-            if result.feasible:
+        for tried in inOrder(self._full_motions(), self._threads):
+            if tried[1].feasible:
                 break
-        self.path, self.motion = komo.getPath(), komo
+        self.motion, result = tried
+        self.path = self.motion.getPath()
         if verbose > 0:
             print(f"-- full motion: {result.message}")
         return result
+
+    def _full_motions(self) -> Iterator[Callable[[Stopped], tuple[KOMO, SolverReturn]]]:
+        """The motion over all actions, from the waypoints, and from near them."""
+        rng = np.random.default_rng(0)
+        for start in range(_MOTION_STARTS):
+            helper = KOMO_ManipulationHelper()
+            helper.komo = self.get_fullMotionProblem(True)
+            x = helper.x + 0.02 * start * rng.standard_normal(len(helper.x))
+            yield partial(solveFrom, helper.komo, x, self._solver)
 
     def view_solved(self, pause: bool = True) -> int:
         """Shows the waypoints.

@@ -95,10 +95,12 @@ def _end_push(tamp: default_LGP_TAMP_Abstraction, m: KOMO_ManipulationHelper, ti
 LGP_ACTIONS: dict[str, Callable[[default_LGP_TAMP_Abstraction, KOMO_ManipulationHelper, float, Action], None]] = {
     "pick_touch": _pick_touch,
     "pick_box": _pick_box,
-    "handover": lambda tamp, m, time, a: _pick_touch(tamp, m, time, [a[0], a[1], a[2], a[3]]),
+    "handover": _pick_touch,
     "place_straightOn": _place_straight_on,
     "place_box": _place_box,
     "poseEq": _pose_eq,
     "gripper_push": _push,
     "end_push": _end_push,
+    "pick": _pick_touch,  # as files of earlier years call them
+    "place": _place_straight_on,
 }

@@ -2,13 +2,16 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+import copy
+from functools import partial
 
 import numpy as np
 
-from ._core import KOMO, Config, NLP_Solver
+from ._core import KOMO, Config, NLP_Solver, SolverReturn
+from .in_order import Stopped, inOrder
 from .lgp_abstraction import Action, LGP_TAMP_Abstraction
 from .manipulation import KOMO_ManipulationHelper, missed
+from .task_domain import planText
 
 _STARTS = 4  # of a waypoint problem before another plan is tried
 _NOISE = 0.3
@@ -18,8 +21,8 @@ class LgpWaypoints:
     """Solves the waypoint problems of plans, and remembers which could be solved. `komo` and `x` are the last solved one
     and its variables, `solves` counts starts, `causes` says why problems failed, and how often."""
 
-    def __init__(self, C: Config, tamp: LGP_TAMP_Abstraction, solver: type[NLP_Solver]) -> None:
-        self.C, self.tamp, self.solver = C, tamp, solver
+    def __init__(self, C: Config, tamp: LGP_TAMP_Abstraction, solver: type[NLP_Solver], threads: int) -> None:
+        self.C, self.tamp, self.solver, self.threads = C, tamp, solver, threads
         self.solves = 0
         self.causes: dict[str, int] = {}
         self.komo: KOMO | None = None
@@ -48,21 +51,26 @@ class LgpWaypoints:
         x0 = helper.x
         lower, upper = np.asarray(nlp.getBounds())
         bounded = lower < upper
-        for start in range(_STARTS):
-            x = x0 + _NOISE * start * rng.standard_normal(len(x0))
+        starts = [x0 + _NOISE * start * rng.standard_normal(len(x0)) for start in range(_STARTS)]
+        for x in starts:
             x[bounded] = np.clip(x, lower, upper)[bounded]
-            solver = self.solver(nlp, verbose=0)
-            solver.setInitialization(x)
-            result = solver.solve(0)
+        each = [komo if self.threads == 1 else copy.copy(komo) for _ in starts]
+        jobs = [partial(solveFrom, one, x, self.solver) for one, x in zip(each, starts, strict=True)]
+        for tried, result in inOrder(jobs, self.threads):
             self.solves += 1
             if result.feasible:
-                self.komo, self.x = komo, np.array(result.x)
+                self.komo, self.x = tried, np.array(result.x)
                 return True
-        said = f"{planText(plan[-1:])}: {missed(komo) or result.message}"
+        said = f"{planText(plan[-1:])}: {missed(tried) or result.message}"
         self.causes[said] = self.causes.get(said, 0) + 1
         return False
 
 
-def planText(plan: Sequence[Sequence[str]]) -> str:
-    """Actions as they are written in logic: "(pick cup table hand) (place cup hand tray)"."""
-    return " ".join(f"({' '.join(action)})" for action in plan)
+def solveFrom(
+    komo: KOMO, x: np.ndarray | None, solver: type[NLP_Solver], _stopped: Stopped
+) -> tuple[KOMO, SolverReturn]:
+    """Solves a problem from a start, or from where it is; a job of inOrder. The KOMO is left at the solution."""
+    one = solver(komo.nlp(), verbose=0)
+    if x is not None:
+        one.setInitialization(x)
+    return komo, one.solve(0)

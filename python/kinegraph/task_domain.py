@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from typing import Any
 
 from ._core import JT, ST, Config, Domain
@@ -98,6 +99,11 @@ def upOf(C: Config, name: str) -> str:
     heights = C.getFrame(name).getRotationMatrix()[2]
     axis = int(abs(heights).argmax())
     return "xyz"[axis] + ("Neg" if heights[axis] < 0 else "") if abs(heights[axis]) > 0.9 else ""
+
+
+def planText(plan: Sequence[Sequence[str]]) -> str:
+    """Actions as they are written in logic: "(pick cup table hand) (place cup hand tray)"."""
+    return " ".join(f"({' '.join(action)})" for action in plan)
 
 
 def wordsOf(facts: list[str], predicate: str) -> list[str]:

@@ -146,6 +146,7 @@ class TaskMotions:
 
     def _timed(self, C: Config, postures: np.ndarray) -> TimedRows:
         kept = [0, *(k for k in range(1, len(postures)) if abs(postures[k] - postures[k - 1]).max() > _SAME)]
+        kept[max(len(kept) - 1, 1) :] = [len(postures) - 1]  # it ends where the next motion begins
         for corners in ("blend", "stop"):
             timed = retime(
                 C,
@@ -158,10 +159,10 @@ class TaskMotions:
             )
             if not timed.feasible:
                 continue
-            rows = _rows(timed)
+            rows = _rows(timed, postures)
             if isFree(C, rows.path):
                 return rows
-        return _rows(retime(C, postures[kept], self.limits[0], self.limits[1], corners="stop"))
+        return _rows(retime(C, postures[kept], self.limits[0], self.limits[1], corners="stop"), postures)
 
 
 def _coming(action: Action) -> Action:
@@ -173,10 +174,13 @@ def _coming(action: Action) -> Action:
     return []
 
 
-def _rows(timed: TimedPath) -> TimedRows:
+def _rows(timed: TimedPath, postures: np.ndarray) -> TimedRows:
+    """A motion in rows; the first and the last are those of the postures, to the bit."""
     count = int(np.ceil(timed.duration / _PERIOD)) + 1
     times = np.linspace(0.0, timed.duration, max(count, 2))
-    return TimedRows(np.asarray(timed.at(times)[0]), times)
+    path = np.array(timed.at(times)[0])
+    path[[0, -1]] = postures[[0, -1]]
+    return TimedRows(path, times)
 
 
 def motionLimits(C: Config, velocity: Any, acceleration: Any) -> np.ndarray:

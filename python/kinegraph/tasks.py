@@ -6,15 +6,16 @@ import itertools
 import time as clock
 from collections import Counter
 from collections.abc import Iterator
-from dataclasses import dataclass
+from functools import partial
 from typing import Any
 
 import numpy as np
 
-from ._core import KOMO, Config, Domain, LogicProblem, NLP_Solver, PlanSearch, sceneFacts
+from ._core import Config, Domain, LogicProblem, PlanSearch, sceneFacts
 from .errors import ArgumentError
-from .manipulation import missed
-from .task_actions import DEFAULT_RULES, UPRIGHT, TaskRule, allVariants
+from .in_order import Stopped, checkThreads, inOrder
+from .task_actions import DEFAULT_RULES, UPRIGHT, TaskRule
+from .task_attempts import Failure, TaskAttempts
 from .task_check import checkTaskPlan
 from .task_conflicts import (
     actionsAlone,
@@ -27,24 +28,14 @@ from .task_conflicts import (
     startsWithPick,
     whileFacts,
 )
-from .task_domain import defaultDomain, sceneWords, wordsOf
+from .task_domain import defaultDomain, planText, sceneWords, wordsOf
 from .task_motions import TaskMotions, TimedRows, motionLimits
 from .task_plan import Branch, TaskPlan
 from .task_proofs import Impossible, impossibleActions
 from .task_waypoints import Action, TaskWaypoints
 
-_STARTS = 3  # of a waypoint problem, for each choice of variants
-_CHOICES = 6  # of variants, at most
 _MOTION_STARTS = 3  # sets of waypoints whose motions are tried
 _BETTER_STARTS = 16  # the same, where they have motions, and better ones are wanted
-
-
-@dataclass
-class _Failure:
-    """Why a waypoint problem has no solution, and the scene at its last waypoint."""
-
-    why: str
-    ghost: Config | None
 
 
 class _Task:
@@ -68,10 +59,11 @@ class _Task:
             )
         self.tree: list[Branch] = []
         self.causes: Counter[str] = Counter()
-        self.evaluations = 0
         self.guessed = False  # is anything forbidden that was not proved?
-        self.known: dict[tuple[Any, ...], _Failure | None] = {}
+        self.known: dict[tuple[Any, ...], Failure | None] = {}
         self.deadline = None if limits["seconds"] is None else clock.monotonic() + limits["seconds"]
+        self.threads = checkThreads("planTask", limits["threads"])
+        self.attempts = TaskAttempts(self.rules, limits["seed"], self.threads, self._late)
 
     def _begin(self, start: list[str]) -> None:
         self.start = start
@@ -119,7 +111,7 @@ class _Task:
         return actions
 
     def _spent(self) -> bool:
-        return self.evaluations >= self.limits["evaluations"] or self._late()
+        return self.attempts.evaluations >= self.limits["evaluations"] or self._late()
 
     def _late(self) -> bool:
         return self.deadline is not None and clock.monotonic() > self.deadline
@@ -144,7 +136,7 @@ class _Task:
             message,
             causes=self.causes.most_common(),
             tree=self.tree,
-            evaluations=self.evaluations,
+            evaluations=self.attempts.evaluations,
             expansions=self.search.expansions,
             goal=self.problem.goal,
             start=self.start,
@@ -159,13 +151,13 @@ class _Task:
             self.search.forbidBeginning(actions)
             self.tree.append(Branch(actions, f"'{cycle}' would stand on itself"))
             return
-        failed: _Failure | None = None
+        failed: Failure | None = None
         found = False
         for seed in range(_BETTER_STARTS):
             if seed >= _MOTION_STARTS and not found:
                 break
-            waypoints = self._solve(self.C, actions, seed)
-            if isinstance(waypoints, _Failure):
+            waypoints = self.attempts.find(self.C, actions, seed)
+            if isinstance(waypoints, Failure):
                 if seed == 0:
                     self.known[tuple(map(tuple, actions)), ()] = waypoints
                 break
@@ -190,27 +182,6 @@ class _Task:
             return  # tried before regrasps were allowed
         self.causes[why] += 1
         self.tree.append(Branch(actions, why, ghost))
-
-    def _solve(self, C: Config, actions: list[Action], seed: int) -> TaskWaypoints | _Failure:
-        """TaskWaypoints that satisfy all that the actions ask, or why there are none."""
-        failure: _Failure | None = None
-        rng = np.random.default_rng([self.limits["seed"], seed, len(actions)])
-        for variants in itertools.islice(allVariants(C, actions, self.rules), _CHOICES):
-            waypoints = TaskWaypoints(C, actions, variants, self.rules)
-            solver = NLP_Solver(waypoints.komo.nlp(), verbose=0)
-            for start in range(_STARTS):
-                first = start == 0  # the others go farther
-                solver.setInitialization(waypoints.start(None if first and seed == 0 else rng, not first))
-                result = solver.solve(0)
-                self.evaluations += result.evals
-                if result.feasible:
-                    return waypoints
-                if failure is None:
-                    ghost = waypoints.komo.getConfiguration(len(actions) - 1)
-                    failure = _Failure(_cause(waypoints.komo, actions), ghost)
-                if self._late():
-                    return failure
-        return failure or _Failure(f"{_text(actions[-1:])}: the hand cannot hold it", None)
 
     def _forbid_failing(self, actions: list[Action]) -> None:
         """Finds the first action at which it fails, and what stands in its way."""
@@ -249,33 +220,41 @@ class _Task:
             C.getFrame(name).setContact(0)
         return C
 
-    def _failure(self, actions: list[Action], without: list[str] | tuple[str, ...] = ()) -> _Failure | None:
+    def _failure(self, actions: list[Action], without: list[str] | tuple[str, ...] = ()) -> Failure | None:
         """Why actions cannot be carried out while some objects are not there; None if they can."""
         key = (tuple(map(tuple, actions)), tuple(without))
         if key not in self.known:
-            solved = self._solve(self._scene(list(without)), actions, 0)
-            self.known[key] = solved if isinstance(solved, _Failure) else None
+            solved = self.attempts.find(self._scene(list(without)), actions, 0)
+            self.known[key] = solved if isinstance(solved, Failure) else None
         return self.known[key]
 
-    def _motions(self, waypoints: TaskWaypoints) -> TaskPlan | _Failure:
+    def _motions(self, waypoints: TaskWaypoints) -> TaskPlan | Failure:
         """The motions between waypoints, checked; or why there is none."""
-        found = TaskMotions(self.motion_limits, self.start, self.limits["seed"])
+        actions = waypoints.actions
+        phases = [waypoints.komo.getSubProblem(phase) for phase in range(len(actions))]
+        jobs = [
+            partial(self._motion, *phase, action, before)
+            for phase, action, before in zip(phases, actions, [[], *actions[:-1]], strict=True)
+        ]
         rows: list[TimedRows] = []
-        scenes: list[Config] = []
-        for phase, action in enumerate(waypoints.actions):
-            C, q0, q1 = waypoints.komo.getSubProblem(phase)
-            before = waypoints.actions[phase - 1] if phase else []
-            motion, why = found.between(C, rows[-1].path[-1] if rows else q0, q1, action, before)
+        found = inOrder(jobs, self.threads)
+        for (C, _, q1), action, (motion, why, evaluations) in zip(phases, actions, found, strict=True):
+            self.attempts.evaluations += evaluations
             if motion is None:
-                self.evaluations += found.evaluations
                 C.setJointState(q1)
-                return _Failure(f"{_text([action])}: {why}", C)
+                return Failure(f"{planText([action])}: {why}", C)
             rows.append(motion)
-            scenes.append(C)
-        self.evaluations += found.evaluations
-        plan = self._plan(waypoints, rows, scenes)
+        plan = self._plan(waypoints, rows, [phase[0] for phase in phases])
         plan.violations = checkTaskPlan(self.C, plan, self.search.states(plan.actions))
-        return plan if not plan.violations else _Failure(plan.violations[0], None)
+        return plan if not plan.violations else Failure(plan.violations[0], None)
+
+    def _motion(
+        self, C: Config, q0: np.ndarray, q1: np.ndarray, action: Action, before: Action, _stopped: Stopped
+    ) -> tuple[TimedRows | None, str, int]:
+        """The motion of an action, why there is none, and how many evaluations that took."""
+        motions = TaskMotions(self.motion_limits, self.start, self.limits["seed"])
+        motion, why = motions.between(C, q0, q1, action, before)
+        return motion, why, motions.evaluations
 
     def _plan(self, waypoints: TaskWaypoints, rows: list[TimedRows], scenes: list[Config]) -> TaskPlan:
         ends = np.cumsum([0] + [len(motion.path) for motion in rows])
@@ -298,14 +277,6 @@ class _Task:
         )
 
 
-def _cause(komo: KOMO, actions: list[Action]) -> str:
-    return f"{_text(actions[-1:])}: {missed(komo) or 'the waypoints miss what the actions ask'}"
-
-
-def _text(actions: list[Action]) -> str:
-    return " ".join(f"({' '.join(a)})" for a in actions)
-
-
 def planTask(
     C: Config,
     goal: str,
@@ -316,6 +287,7 @@ def planTask(
     seed: int = 0,
     velocity: Any = None,
     acceleration: Any = None,
+    threads: int = 1,
 ) -> TaskPlan:
     """Finds what to do, and how to move, so that a goal holds: a search in logic proposes sequences of actions; cheap
     proofs of reach, size and room, then waypoints with grasps and placements, then motions say whether bodies can carry
@@ -335,20 +307,15 @@ def planTask(
         seed: Of the starts that are drawn.
         velocity: Most |dq/dt|, a number or one per joint, rad/s or m/s; None: the model's, 1 where it says none.
         acceleration: Most |d2q/dt2|, the same, rad/s^2 or m/s^2; None: what reaches full speed in half a second.
+        threads: How many try variants of actions, and motions, at the same time; the plan is the same, to the bit.
+            They call `rules`, too.
     Returns:
         A TaskPlan; not finding one is no error.
     Raises:
         ParseError: A word of the goal is not in the scene.
         ArgumentError: Nothing is known of an action.
     """
-    options = {
-        "seconds": seconds,
-        "evaluations": evaluations,
-        "seed": seed,
-        "velocity": velocity,
-        "acceleration": acceleration,
-    }
-    return next(planTasks(C, goal, domain, rules, **options))
+    return next(planTasks(C, goal, domain, rules, seconds, evaluations, seed, velocity, acceleration, threads))
 
 
 def planTasks(
@@ -361,6 +328,7 @@ def planTasks(
     seed: int = 0,
     velocity: Any = None,
     acceleration: Any = None,
+    threads: int = 1,
 ) -> Iterator[TaskPlan]:
     """Plans that get better while one waits: the first is that of planTask, each further one takes less time than the one
     before. They come from other waypoints of the same actions, and from other actions.
@@ -378,6 +346,7 @@ def planTasks(
         seed: Of the starts that are drawn.
         velocity: As for planTask.
         acceleration: As for planTask.
+        threads: As for planTask.
     Returns:
         An iterator of TaskPlans; where there is none, one that says why.
     Raises:
@@ -390,6 +359,7 @@ def planTasks(
         "seed": seed,
         "velocity": velocity,
         "acceleration": acceleration,
+        "threads": threads,
     }
     for plan in _Task(C, goal, domain, rules, **options).plans():
         plan.again = lambda scene: planTask(scene, goal, domain, rules, **options)

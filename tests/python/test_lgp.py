@@ -189,3 +189,74 @@ def test_mistakes_in_files_are_told_with_their_place(tmp_path):
         problem('fol: <a.fol>\nterminal: "(on hand padA)"')
     with pytest.raises(ry.ArgumentError, match="no plan was found yet"):
         ry.LGP_Tool(C, problem('fol: <a.fol>\nterminal: "(on padA red)"')).getSolvedPlan()
+
+
+FOL_OF_EARLIER_YEARS = """QUIT
+WAIT
+ANY
+Terminate
+FOL_World{
+  hasWait=false
+  gamma = 1.
+  stepCost = 1.
+}
+## predicates, some of which no rule needs
+is_gripper
+is_object
+is_place
+is_box
+on
+busy
+movable
+INFEASIBLE_pick
+stableOn
+START_STATE {}
+REWARD {
+}
+DecisionRule pick {
+  Obj, From, Hand,
+  { (is_gripper Hand) (is_object Obj) (on From Obj) (busy Hand)! (INFEASIBLE_pick Hand Obj)! }
+  { (on From Obj)! (stableOn From Obj)!  #deletes
+    (on Hand Obj) (busy Hand) (movable Obj)  #logic
+    }
+}
+DecisionRule place {
+  Obj, Hand, To,
+  { (is_gripper Hand) (is_object Obj) (on Hand Obj) (is_place To) (busy Obj)! }
+  { (busy Hand)! (on Hand Obj)! (movable Obj)!  (on To Obj) (stableOn To Obj) }
+}
+Rule chain {
+  Obj1, Obj2,
+  { (is_object Obj1) (is_object Obj2) (on Obj1 Obj2) (movable Obj1) }
+  { (movable Obj2) }
+}
+"""
+
+
+def test_the_first_notebook_on_lgp_runs_as_a_student_runs_it(tmp_path):
+    """With a translator and a provider, and actions that are called pick and place; cell by cell."""
+    (tmp_path / "a.fol").write_text(FOL_OF_EARLIER_YEARS)
+    (tmp_path / "a.lgp").write_text('fol: <a.fol>\nterminal: "(on padA red)"\ngenericCollisions: true\n')
+    C = robotic.Config()
+    C.addFile(str(DATA / "lgp" / "unblock.g"))
+    trans = robotic.default_Logic2KOMO_Translator()
+    tamp = robotic.default_TAMP_Provider(C, str(tmp_path / "a.lgp"))
+    lgp = robotic.LGP_Tool(C, tamp, trans)
+    plans = []
+    for _ in range(2):
+        assert lgp.solve(0)
+        plan = lgp.getSolvedPlan()
+        plans.append(plan)
+        lgp.view_solved(pause=False)
+        assert {action[0] for action in plan} == {"pick", "place"}
+        for k in range(len(plan)):
+            piece = lgp.get_piecewiseMotionProblem(k)
+            robotic.NLP_Solver(piece.nlp(), verbose=0).solve()
+            piece.set_viewer(C.get_viewer())
+            piece.view_play(False, f"piece {plan[k]}")
+        path = lgp.get_fullMotionProblem()
+        robotic.NLP_Solver(path.nlp(), verbose=0).solve()
+        path.set_viewer(C.get_viewer())
+        path.view_play(False, f"all of {plan}")
+    assert plans[0] != plans[1]
+    lgp.view_close()
