@@ -59,6 +59,21 @@ TEST(PullTaut, LengthMeansWhatTheWeightsSay) {
   EXPECT_LT(lengthOf(asked.space, plain), lengthOf(asked.space, weighted));
 }
 
+TEST(PullTaut, FinerCornersAreShorter) {
+  Asked asked{room(.5)};
+  WayRequest request = asked.request();
+  request.demands.clearance.guard = Clearance::kGuard;
+  const Way way = searchWay(request);
+  Steering steering(request.demands);
+  const std::vector<VectorXd> coarse = pullTaut(steering, way.points, {.refinements = 0}),
+                              fine = pullTaut(steering, way.points, {.refinements = 2});
+  const auto excess = [&](const std::vector<VectorXd>& path) { return lengthOf(asked.space, path) - tautLength(); };
+  EXPECT_GT(excess(fine), 0.);
+  EXPECT_LT(excess(fine), .5 * excess(coarse)) << "sides of half the length leave a quarter of it";
+  EXPECT_LT(coarse.size(), fine.size());
+  EXPECT_GE(leastDistance(asked.C, fine), 0.);
+}
+
 TEST(PullTaut, DoesNotDependOnWhatWasAskedBefore) {
   Asked asked{room(.5)};
   WayRequest request = asked.request();

@@ -64,10 +64,11 @@ ShortWay improveWay(const Way& first, const WayRequest& request, const ImproveOp
   return best;
 }
 
-void tighten(ShortWay& best, const WayRequest& request, const VectorXd& weight, SteeringCrew& crew) {
+void tighten(ShortWay& best, const WayRequest& request, const VectorXd& weight, int refinements, SteeringCrew& crew) {
   Steering& steering = crew.of(0, request.demands);
   const long before = steering.evaluations();
-  std::vector<VectorXd> points = pullTaut(steering, best.points, {.weight = weight, .watch = request.watch});
+  std::vector<VectorXd> points =
+      pullTaut(steering, best.points, {.weight = weight, .refinements = refinements, .watch = request.watch});
   const double cost = costOf(*request.demands.space, weight, points);
   best.evaluations = steering.evaluations() - before;
   if (cost >= best.cost) return;

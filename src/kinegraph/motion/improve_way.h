@@ -22,7 +22,7 @@ struct ImproveOptions {
 /// counts, at any number of threads.
 ShortWay improveWay(const Way& first, const WayRequest& request, const ImproveOptions& options, SteeringCrew& crew);
 
-/// Pulls it taut.
-void tighten(ShortWay& best, const WayRequest& request, const VectorXd& weight, SteeringCrew& crew);
+/// Pulls it taut, around corners of so many refinements (TautOptions).
+void tighten(ShortWay& best, const WayRequest& request, const VectorXd& weight, int refinements, SteeringCrew& crew);
 
 }  // namespace kinegraph

@@ -221,7 +221,8 @@ class Planner {
     endStage("shorten", best_.evaluations,
              first.is_line ? "" : cat("the best of ", options_.tries, options_.tries == 1 ? " way" : " ways"));
     const double before = best_.cost;
-    tighten(best_, request(), weight(), crew_);
+    const int refinements = options_.optimize == "length" ? 2 : 0;  // each corner more takes time
+    tighten(best_, request(), weight(), refinements, crew_);
     endStage("tighten", best_.evaluations,
              best_.cost < before ? cat(lround(1000. * (1. - best_.cost / before)) / 10., " % shorter") : "");
   }

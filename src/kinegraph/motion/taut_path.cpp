@@ -14,7 +14,6 @@ namespace {
 constexpr int kPieces = 20;          // of a path, about
 constexpr double kShortest = .05;    // piece
 constexpr double kLeastGain = 3e-3;  // of a round, as a share of the length
-constexpr int kRefinements = 2;      // of the pieces that touch something
 constexpr double kFiner = .25;       // is what a refinement gains, of what the one before did
 constexpr double kFinest = .01;      // piece that is refined
 constexpr double kSpare = 1e-3;      // m, that rows keep above what is needed, where the path does
@@ -47,7 +46,7 @@ class TautString {
 
   std::vector<VectorXd> run() {
     settle();
-    for (int i = 0; i < kRefinements && !stopped() && refine(); ++i) {
+    for (int i = 0; i < options_.refinements && !stopped() && refine(); ++i) {
       least_gain_ *= kFiner;
       step_ = kFirstStep;
       settle();
