@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
+import kinegraph
 from robotic import ry
 
 
@@ -110,3 +111,56 @@ def test_a_bot_without_a_gripper_says_so() -> None:
         bot.gripperMove(ry._left)
     with pytest.raises(ry.FrameNotFound, match="unknown"):
         bot.getImage("unknown")
+
+
+def test_a_motion_that_is_too_fast_takes_longer_in_simulation_with_a_warning(C: ry.Config) -> None:
+    """Notebooks lift what they hold in .1 s; the reference's simulation knows no limits."""
+    bot = ry.BotOp(C, False)
+    q = bot.get_q()
+    up, down = q + 0.4, q
+    with pytest.warns(
+        ry.KinegraphWarning, match=r"its limit is .* /s; take at least .*; it takes \d\.\d+ times as long"
+    ):
+        bot.move([up, down], [0.1, 0.3])
+    assert 0.3 < bot.getTimeToEnd() < 3.0
+    bot.sync(C, 0.5 * bot.getTimeToEnd())
+    assert abs(bot.get_qDot()).max() > 0.3  # it does go there
+    bot.wait(C)
+    np.testing.assert_allclose(bot.get_q(), down, atol=2e-3)
+    with pytest.raises(ry.ArgumentError, match="its limits are"):  # that takes no time
+        bot.move([q + 10.0], [1.0])
+    with pytest.raises(ry.ArgumentError, match="take at least"):
+        kinegraph.BotOp(C, False).move([up, down], [0.1, 0.3])
+
+
+def test_a_grasp_planned_by_the_helper_and_lifted_fast(C: ry.Config) -> None:
+    """Calls of the problem can be made on the helper."""
+    C.addFrame("obj").setPosition([-0.25, 0.1, 0.7]).setShape(ry.ST.ssBox, [0.04, 0.2, 0.1, 0.005]).setMass(0.1)
+    C.getFrame("obj").setContact(1)
+    ways = ry.KOMO_ManipulationHelper()
+    with pytest.raises(AttributeError, match="has no 'addObjective'; there is no problem yet"):
+        ways.addObjective([2.0], ry.FS.position, ["l_gripper"], ry.OT.eq)
+    ways.setup_sequence(C, 2, 1e-2, 1e-1, False, False, False)
+    ways.grasp_box(1.0, "l_gripper", "obj", "l_palm", "x", 0.02)
+    ways.addObjective([2.0], ry.FS.position, ["l_gripper"], ry.OT.eq, scale=[0, 0, 1e0], target=[0, 0, 1])
+    assert ways.solve(0).feasible
+    np.testing.assert_array_equal(ways.getPath(), ways.komo.getPath())
+    with pytest.raises(AttributeError, match="has no 'getPaht'"):
+        ways.getPaht()
+    paths = []
+    for phase in range(2):
+        motion = ways.sub_motion(phase)
+        if phase == 0:
+            motion.approach([0.8, 1.0], "l_gripper")
+        assert motion.solve(0).feasible
+        paths.append(motion.path)
+    bot = ry.BotOp(C, useRealRobot=False)
+    with pytest.warns(ry.KinegraphWarning, match="times as long"):
+        bot.move(paths[0], [1.0])
+    bot.wait(C, forKeyPressed=False, forTimeToEnd=True)
+    bot.gripperMove(ry.ArgWord._left, 0.0, 1.5)
+    bot.wait(C, forKeyPressed=False, forTimeToEnd=False, forGripper=True)
+    with pytest.warns(ry.KinegraphWarning, match="times as long"):
+        bot.move(paths[1], [0.1])
+    bot.wait(C, forKeyPressed=False, forTimeToEnd=True)
+    assert C.getFrame("obj").getPosition()[2] > 0.9  # it is held
