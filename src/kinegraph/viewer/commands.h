@@ -82,8 +82,13 @@ struct PullCommand {
   std::vector<double> target;
 };
 
+struct NotesCommand {
+  static constexpr int kKind = 12;
+  int structure = 0;
+};
+
 /// What a browser asks for.
-using Command = std::variant<KeyCommand, SetJointCommand, ResetJointsCommand, RandomJointsCommand, MoveFrameCommand, NearCommand, EventCommand, CursorCommand, ViewpointCommand, RunCommand, PullCommand>;
+using Command = std::variant<KeyCommand, SetJointCommand, ResetJointsCommand, RandomJointsCommand, MoveFrameCommand, NearCommand, EventCommand, CursorCommand, ViewpointCommand, RunCommand, PullCommand, NotesCommand>;
 
 /// Reads a binary message from a browser; nothing if it is not exactly one command.
 inline std::optional<Command> readCommand(std::string_view data) {
@@ -144,6 +149,11 @@ inline std::optional<Command> readCommand(std::string_view data) {
     case PullCommand::kKind: {
       PullCommand m;
       if (reader.read(m.structure) && reader.read(m.frame) && reader.read(m.point) && reader.read(m.target) && reader.atEnd()) return m;
+      break;
+    }
+    case NotesCommand::kKind: {
+      NotesCommand m;
+      if (reader.read(m.structure) && reader.atEnd()) return m;
       break;
     }
   }
