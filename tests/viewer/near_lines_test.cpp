@@ -28,6 +28,16 @@ TEST(NearLines, JoinTheSurfacesOfPairsWithinTheMargin) {
   EXPECT_NEAR(lines[1].distance, -.02, 1e-9);
 }
 
+TEST(NearLines, OfAFrameWithoutAShapeBeginAtItsOrigin) {
+  Config config = balls({0.});
+  config.addFrame("point").setPosition({.2, 0., 0.});
+  const NearLine line = nearLine(config.state(), 1, 0);
+  EXPECT_EQ(line.names, "point - ball0");
+  EXPECT_NEAR(line.distance, .15, 1e-9);
+  EXPECT_LT((line.a - Vector3d(.2, 0., 0.)).norm(), 1e-6);
+  EXPECT_LT((line.b - Vector3d(.05, 0., 0.)).norm(), 1e-6);
+}
+
 TEST(NearLines, ComeWithEveryEditOnceABrowserHasAskedForThem) {
   const Config config = balls({0., .12});
   SceneEdits edits;

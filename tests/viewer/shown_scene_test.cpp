@@ -250,3 +250,37 @@ TEST(ShownScene, ARunIsSentWithEachStepAndItsEndOnce) {
   EXPECT_TRUE(end[0].data->starts_with(R"({"kind":"run","shown":0,)"));
   EXPECT_FALSE(scene.endRun());
 }
+
+TEST(ShownScene, NotesAreSentWhenTheyChangeAndGoWithTheFramesThatTheyAreAbout) {
+  ShownScene scene;
+  scene.update(std::vector{item("world"), item("box")});
+  scene.setJoints(1, {}, VectorXd());
+  ShownScene::Seen seen;
+  scene.messagesSince(seen);
+  const std::vector<SceneNote> notes{{"'box' is not an obstacle", {1}, true}};
+  EXPECT_TRUE(scene.setNotes(notes));
+  EXPECT_FALSE(scene.setNotes(notes));
+  const auto messages = scene.messagesSince(seen);
+  ASSERT_EQ(kinds(messages), Kinds{"notes"});
+  EXPECT_EQ(*messages[0].data,
+            R"({"kind":"notes","notes":[{"text":"'box' is not an obstacle","frames":[1],"ignored":1}]})");
+  scene.setJoints(2, {}, VectorXd());
+  const auto others = scene.messagesSince(seen);
+  ASSERT_EQ(kinds(others), (Kinds{"joints", "notes"}));
+  EXPECT_EQ(*others[1].data, R"({"kind":"notes","notes":[]})");
+}
+
+TEST(ShownScene, AMotionHasThePairsThatTouchInEachSlice) {
+  ShownScene scene;
+  scene.update(std::vector{item("world")});
+  ShownScene::Seen seen;
+  scene.messagesSince(seen);
+  ShownMotion motion;
+  motion.poses.assign(2, {Pose()});
+  motion.touching = {{}, {{Vector3d(1., 2., 3.), Vector3d(4., 5., 6.), -.5, "a - b"}}};
+  scene.setMotion(motion);
+  const auto messages = scene.messagesSince(seen);
+  const std::string expected = R"("touching":[{"points":[],"distances":[],"names":[]},)"
+                               R"({"points":[1,2,3,4,5,6],"distances":[-5E-1],"names":["a - b"]}])";
+  EXPECT_NE(messages.at(0).data->find(expected), std::string::npos) << *messages.at(0).data;
+}

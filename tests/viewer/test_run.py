@@ -51,6 +51,11 @@ def test_time_contacts_and_forces_are_shown_with_each_step(config: kg.Config, br
     assert "N" in browser.evaluate("document.querySelector('.run-scale').textContent")
     picture = browser.picture().astype(int)
     assert np.sum((picture[..., 0] > 180) & (picture[..., 1] < 80) & (picture[..., 2] > 80)) > 100  # arrows
+    config.viewer().setCamera([0, 0.4, 0.6], [0, 0.15, 0.5])  # near one of them
+    browser.wait_for("document.querySelector('.run-scale').textContent.includes('1 cm of arrow')")
+    near = browser.picture().astype(int)
+    pink = (near[..., 0] > 180) & (near[..., 1] < 80) & (near[..., 2] > 80)
+    assert 100 < pink.sum() < 0.02 * pink.size  # no thicker than from afar
     del S
     browser.wait_for("kinegraph.run() === null")
     assert not browser.is_visible("#run")

@@ -30,7 +30,14 @@ def red(picture: np.ndarray) -> float:
 
 
 @pytest.mark.parametrize(
-    ("size", "grid"), [(0.01, "grid: 1 cm, 2 mm"), (40.0, "grid: 10 m, 2 m"), (2e3, "grid: 1 km, 200 m")]
+    ("size", "grid"),
+    [
+        (0.01, "grid: 1 cm, 2 mm"),
+        (20.0, "grid: 10 m, 2 m"),
+        (40.0, "grid: 10 m, 2 m"),
+        (200.0, "grid: 100 m, 20 m"),
+        (2e3, "grid: 1 km, 200 m"),
+    ],
 )
 def test_a_scene_of_any_size_is_seen_as_large(config: kg.Config, browser: Browser, size: float, grid: str) -> None:
     assert red(show(config, browser, size)) > 0.02
@@ -64,3 +71,29 @@ def test_the_floor_is_not_painted_over_what_one_sees_through(config: kg.Config, 
     x, y = (round(value) for value in browser.pixel([0, 0, 0]))
     through = picture[y - 2 : y + 3, x - 2 : x + 3].reshape(-1, 3)
     assert (through[:, 2] > through[:, 0] + 60).all()  # as blue as the pane everywhere
+
+
+def test_no_shadow_on_the_floor_is_painted_over_what_one_sees_through(config: kg.Config, browser: Browser) -> None:
+    """A plate above the floor has its shadow behind one half of a pane: both halves are as blue."""
+    config.addFrame("plate").setShape(kg.ST.box, [0.6, 0.6, 0.02]).setPosition([-0.4, 0.6, 0.6])
+    pane = config.addFrame("pane").setShape(kg.ST.box, [2, 0.01, 0.6]).setPosition([0, -0.3, 0.3])
+    pane.setColor([0.1, 0.1, 0.9, 0.9])
+    config.view()
+    config.viewer().setCamera([0, -2, 1.4], [0, 0.3, 0])
+    browser.open(config.viewer().url)
+
+    def color(x: float, y: float) -> np.ndarray:
+        column, row = (round(value) for value in browser.pixel([x, y, 0]))
+        return picture[row - 2 : row + 3, column - 2 : column + 3].reshape(-1, 3).mean(axis=0)
+
+    # the sun is at (-2.5, 2.2, 4.5): what is 0.6 m high has its shadow that much farther
+    shadow = -0.4 + 0.6 * 2.5 / 4.5, 0.6 - 0.6 * 2.2 / 4.5
+    picture = np.asarray(browser.picture()).astype(int)
+    through = color(*shadow), color(0.6, shadow[1])
+    browser.press_alt("C")  # without the pane
+    browser.wait_for("kinegraph.idle()")
+    picture = np.asarray(browser.picture()).astype(int)
+    free = color(*shadow), color(0.6, shadow[1])
+    assert np.abs(free[0] - free[1]).max() > 30  # there is one
+    assert np.abs(through[0] - through[1]).max() < 0.2 * np.abs(free[0] - free[1]).max() + 5
+    assert through[0][2] > through[0][0] + 60

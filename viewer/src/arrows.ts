@@ -1,73 +1,72 @@
 import * as THREE from "three";
+import type { Stage } from "./stage";
 
 const COLOR = 0xd6336c;
-const SHAFT = 0.006,
-  HEAD = 0.016,
-  HEAD_LENGTH = 0.035; // m, on the page
-const LONGEST = 0.35; // m, that an arrow shall have
-const SCALES = [0.1, 0.05, 0.02, 0.01, 0.005, 0.002, 0.001, 5e-4, 2e-4, 1e-4, 1e-5, 1e-6]; // m per N
+const SHAFT = 4,
+  HEAD = 12,
+  HEAD_LENGTH = 15,
+  DOT = 7,
+  RIM = 1.5; // pixels: widths, but for the length, and the white rim
+const LONGEST = 0.11; // that an arrow shall be long, in distances of the camera from what it looks at
+const SHORTEST = 0.1; // that the longest shall be long, in parts of that
+const UP = new THREE.Vector3(0, 1, 0);
 
-const material = (): THREE.MeshBasicMaterial => new THREE.MeshBasicMaterial({ color: COLOR, depthTest: false, transparent: true });
+/** An arrow: where it begins, which way, how long it and its head are, and how thick it is as a part of the usual. */
+interface Arrow {
+  from: THREE.Vector3;
+  way: THREE.Vector3; // unit
+  length: number; // m
+  head: number; // m
+  part: number;
+  pixel: number; // m that a pixel has there
+}
 
-/** Forces as arrows that begin where they act, and dots there. All have one scale, which follows the largest force. */
-export class ForceArrows {
+/** Shafts, heads and dots of one color, as thick as arrows with so wide a rim. */
+class Arrows {
   readonly group = new THREE.Group();
-  private shafts = this.instances(new THREE.CylinderGeometry(SHAFT, SHAFT, 1, 8).translate(0, 0.5, 0), 64);
-  private heads = this.instances(new THREE.ConeGeometry(HEAD, 1, 12).translate(0, 0.5, 0), 64);
-  private dots = this.instances(new THREE.SphereGeometry(0.008, 10, 8), 64);
-  private metersPerNewton = SCALES[0]!;
+  private readonly material: THREE.MeshBasicMaterial;
+  private shafts = this.instances(new THREE.CylinderGeometry(0.5, 0.5, 1, 8).translate(0, 0.5, 0), 64);
+  private heads = this.instances(new THREE.ConeGeometry(0.5, 1, 12).translate(0, 0.5, 0), 64);
+  private dots = this.instances(new THREE.SphereGeometry(0.5, 10, 8), 64);
 
-  constructor() {
-    this.group.renderOrder = 2;
+  constructor(
+    color: number,
+    private readonly rim: number,
+    private readonly order: number,
+  ) {
+    this.material = new THREE.MeshBasicMaterial({ color, depthTest: false, transparent: true });
+    for (const mesh of this.all) Object.assign(mesh, { material: this.material, renderOrder: order });
   }
 
-  get count(): number {
-    return this.group.visible ? this.dots.count : 0;
-  }
-
-  /** m on the page per N. */
-  get scale(): number {
-    return this.metersPerNewton;
-  }
-
-  /** `contacts`: x y z (m) and fx fy fz (N) of each. */
-  show(contacts: readonly number[]): void {
-    const count = contacts.length / 6;
-    const forces = Array.from({ length: count }, (_, i) => new THREE.Vector3().fromArray(contacts, 6 * i + 3));
-    this.rescale(Math.max(0, ...forces.map((force) => force.length())));
-    this.reserve(count);
-    const up = new THREE.Vector3(0, 1, 0),
-      turn = new THREE.Quaternion(),
-      matrix = new THREE.Matrix4();
-    forces.forEach((force, i) => {
-      const at = new THREE.Vector3().fromArray(contacts, 6 * i);
-      const length = this.metersPerNewton * force.length(),
-        head = Math.min(HEAD_LENGTH, 0.5 * length);
-      turn.setFromUnitVectors(up, force.clone().normalize());
-      const thickness = head / HEAD_LENGTH;
-      this.shafts.setMatrixAt(i, matrix.compose(at, turn, new THREE.Vector3(thickness, Math.max(length - head, 1e-9), thickness)));
-      const tip = at.clone().addScaledVector(force, length > 0 ? (length - head) / force.length() : 0);
-      this.heads.setMatrixAt(i, matrix.compose(tip, turn, new THREE.Vector3(thickness, Math.max(head, 1e-9), thickness)));
-      this.dots.setMatrixAt(i, matrix.makeTranslation(at));
+  show(arrows: readonly Arrow[]): void {
+    this.reserve(arrows.length);
+    const turn = new THREE.Quaternion(),
+      matrix = new THREE.Matrix4(),
+      size = new THREE.Vector3();
+    const { rim } = this;
+    arrows.forEach(({ from, way, length, head, part, pixel }, i) => {
+      turn.setFromUnitVectors(UP, way);
+      const width = (SHAFT * part + 2 * rim) * pixel;
+      this.shafts.setMatrixAt(i, matrix.compose(from, turn, size.set(width, length - head, width)));
+      const base = from.clone().addScaledVector(way, length - head - rim * pixel);
+      const across = (HEAD * part + 3.5 * rim) * pixel;
+      this.heads.setMatrixAt(i, matrix.compose(base, turn, size.set(across, head + 4 * rim * pixel, across)));
+      const dot = (DOT + 2 * rim) * pixel;
+      this.dots.setMatrixAt(i, matrix.compose(from, turn, size.set(dot, dot, dot)));
     });
-    for (const mesh of [this.shafts, this.heads, this.dots]) {
-      mesh.count = count;
+    for (const mesh of this.all) {
+      mesh.count = arrows.length;
       mesh.instanceMatrix.needsUpdate = true;
     }
   }
 
-  /** Another scale where the longest arrow would be too long, or all would be tiny; else it stays. */
-  private rescale(largest: number): void {
-    const length = largest * this.metersPerNewton;
-    if (largest === 0 || (length <= LONGEST && length >= 0.1 * LONGEST)) return;
-    this.metersPerNewton = SCALES.find((scale) => largest * scale <= LONGEST) ?? SCALES.at(-1)!;
+  private get all(): THREE.InstancedMesh[] {
+    return [this.shafts, this.heads, this.dots];
   }
 
   private instances(geometry: THREE.BufferGeometry, most: number): THREE.InstancedMesh {
-    const mesh = new THREE.InstancedMesh(geometry, material(), most);
-    mesh.frustumCulled = false;
-    mesh.count = 0;
-    mesh.renderOrder = 2;
+    const mesh = new THREE.InstancedMesh(geometry, this.material, most);
+    Object.assign(mesh, { frustumCulled: false, count: 0, renderOrder: this.order });
     this.group.add(mesh);
     return mesh;
   }
@@ -83,5 +82,72 @@ export class ForceArrows {
     this.shafts = renew(this.shafts);
     this.heads = renew(this.heads);
     this.dots = renew(this.dots);
+  }
+}
+
+/**
+ * Forces as arrows that begin where they act, and dots there. All have one scale, which follows the largest force and how far
+ * away the camera is; on the page they are equally thick wherever they are, and have a white rim.
+ */
+export class ForceArrows {
+  readonly group = new THREE.Group();
+  private readonly layers = [new Arrows(0xffffff, RIM, 2), new Arrows(COLOR, 0, 3)];
+  private contacts: readonly number[] = [];
+  private metersPerNewton = 0.1;
+
+  /** `rescaled` is called before a picture with another scale. */
+  constructor(
+    private readonly stage: Stage,
+    private readonly rescaled: () => void,
+  ) {
+    this.group.add(...this.layers.map(({ group }) => group));
+    stage.onDraw(() => this.place());
+  }
+
+  get count(): number {
+    return this.group.visible ? this.contacts.length / 6 : 0;
+  }
+
+  /** m on the page per N. */
+  get scale(): number {
+    return this.metersPerNewton;
+  }
+
+  /** A power of ten in m, at most as long as arrows become: to say the scale with. */
+  get measure(): number {
+    return 10 ** Math.floor(Math.log10(this.longest));
+  }
+
+  /** `contacts`: x y z (m) and fx fy fz (N) of each. */
+  show(contacts: readonly number[]): void {
+    this.contacts = contacts;
+    this.place();
+  }
+
+  private get longest(): number {
+    return LONGEST * Math.max(this.stage.viewpoint.distance, 1e-6);
+  }
+
+  private place(): void {
+    const forces = Array.from({ length: this.contacts.length / 6 }, (_, i) => new THREE.Vector3().fromArray(this.contacts, 6 * i + 3));
+    this.rescale(Math.max(0, ...forces.map((force) => force.length())));
+    const arrows = forces.map((force, i): Arrow => {
+      const from = new THREE.Vector3().fromArray(this.contacts, 6 * i);
+      const pixel = this.stage.resolution / this.stage.pixelsPerMeter(from);
+      const length = Math.max(this.metersPerNewton * force.length(), 1e-9),
+        head = Math.min(HEAD_LENGTH * pixel, 0.6 * length);
+      return { from, way: force.normalize(), length, head, part: head / (HEAD_LENGTH * pixel), pixel };
+    });
+    for (const layer of this.layers) layer.show(arrows);
+  }
+
+  /** Another scale, 1, 2 or 5 times a power of ten, where the longest arrow would be too long, or all would be tiny; else it stays. */
+  private rescale(largest: number): void {
+    const length = largest * this.metersPerNewton;
+    if (largest === 0 || (length <= this.longest && length >= SHORTEST * this.longest)) return;
+    const most = this.longest / largest,
+      ten = 10 ** Math.floor(Math.log10(most));
+    this.metersPerNewton = [5, 2, 1].map((times) => times * ten).find((scale) => scale <= most) ?? ten;
+    this.rescaled();
   }
 }

@@ -11,3 +11,16 @@ export function make<Tag extends keyof HTMLElementTagNameMap>(
 
 /** The element of the page with that id. */
 export const find = <T extends HTMLElement>(id: string): T => document.getElementById(id) as T;
+
+const bars: HTMLElement[] = [];
+
+/** Panels end above this bar while it is there, however high it is: see style.css. */
+export function leaveRoomAbove(bar: HTMLElement): void {
+  bars.push(bar);
+  new ResizeObserver(() => {
+    const { style } = document.documentElement;
+    const top = Math.min(...bars.filter((one) => !one.hidden).map((one) => one.getBoundingClientRect().top));
+    if (Number.isFinite(top)) style.setProperty("--below", `${innerHeight - top + 10}px`);
+    else style.removeProperty("--below");
+  }).observe(bar);
+}

@@ -6,6 +6,7 @@ import { Exports } from "./exports";
 import { Help } from "./help";
 import { JointPanel } from "./joints";
 import { keyCode, modifiersOf } from "./keys";
+import { lengthText } from "./lengths";
 import { Measure } from "./measure";
 import { InputEvents } from "./input";
 import { Memory } from "./memory";
@@ -19,6 +20,7 @@ import {
 } from "./messages";
 import { Motion } from "./motion";
 import { NearLines } from "./near";
+import { Notes } from "./notes";
 import { Panel } from "./panel";
 import { Quads } from "./quads";
 import { Quality } from "./quality";
@@ -49,9 +51,13 @@ const memory = new Memory(stage, display);
 const near = new NearLines(stage, send);
 const quads = new Quads();
 const input = new InputEvents(stage, send);
+const notes = new Notes(stage, shown.frames, recorded ? null : send, () => {
+  panel.showNotes(notes.all, notes.ignored);
+  selection.refresh();
+});
 const panel = new Panel(display, shown.frames, switched, (id) => selection.select(id));
 stage.onDraw(() => shown.prepare((at) => stage.pixelsPerMeter(at), stage.hurries));
-const selection = new Selection(stage, shown.frames, joints, recorded ? null : send, (id) => panel.select(id));
+const selection = new Selection(stage, shown.frames, joints, recorded ? null : send, (id) => panel.select(id), (id) => notes.about(id));
 const timeline = new Timeline(stage, shown, joints, moved);
 const run = new Run(stage, shown.frames, recorded ? null : send);
 const exports = new Exports(stage, timeline, shown.frames, recorded !== null);
@@ -59,10 +65,6 @@ let unplaced = false; // frames have come whose poses are still to come
 let digits = false; // some switch what is drawn
 let poses = 0; // messages with these that have come
 let announced: MotionMessage | null = null; // its slices are still to come
-const lengthText = (m: number): string => {
-  const [size, unit] = m >= 1000 ? [m / 1000, "km"] : m >= 0.1 ? [m, "m"] : m >= 0.01 ? [100 * m, "cm"] : [1000 * m, "mm"];
-  return `${Number(size.toPrecision(3))} ${unit}`;
-};
 stage.onSquare((square) => (find("scale").textContent = `grid: ${lengthText(square)}, ${lengthText(square / 5)}`));
 find("presets").append(
   ...Object.keys(PRESETS).map((name) => make("button", { textContent: name, onclick: () => lookFrom(name) })),
@@ -82,6 +84,7 @@ function switched(): void {
 function redisplay(): void {
   display.apply(shown.frames);
   near.show(display.on.has("near"));
+  notes.show(display.on.has("notes"));
   stage.redraw();
 }
 
@@ -120,6 +123,7 @@ function receive(message: ServerMessage): void {
       joints.setJoints(message.structure, message.joints);
       near.setStructure(message.structure);
       run.pulling.structure = message.structure;
+      notes.setStructure(message.structure);
       break;
     case "text":
       document.title = message.title;
@@ -132,6 +136,9 @@ function receive(message: ServerMessage): void {
       break;
     case "near":
       near.read(message);
+      break;
+    case "notes":
+      notes.read(message.notes);
       break;
     case "look":
       setLook(message);
@@ -166,6 +173,7 @@ function receiveBinary(data: ArrayBuffer): void {
     exports.refresh();
   } else if (shown.readBinary(data)) {
     if (kind === BinaryKind.poses) ++poses;
+    notes.stir();
     if (unplaced && kind === BinaryKind.poses) {
       unplaced = false;
       stage.fitScene();
@@ -283,6 +291,8 @@ Object.assign(window, {
     camera: () => stage.camera.position.toArray(),
     viewpoint: () => stage.viewpoint.describe(),
     nearLines: () => near.count,
+    violatedPairs: () => timeline.pairCount,
+    notes: () => ({ marks: notes.markCount, texts: notes.all.map(({ text }) => text) }),
     quads: () => quads.count,
     meshes: () => shown.meshCount,
     geometries: () => stage.renderer.info.memory.geometries,

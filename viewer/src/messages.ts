@@ -37,6 +37,18 @@ export interface JointMessage {
   upper: number;
 }
 
+export interface LinesMessage {
+  points: number[];
+  distances: number[];
+  names: string[];
+}
+
+export interface NoteMessage {
+  text: string;
+  frames: number[];
+  ignored: number;
+}
+
 export interface TraceMessage {
   name: string;
   type: string;
@@ -90,9 +102,12 @@ export interface LookMessage {
 
 export interface NearMessage {
   kind: "near";
-  points: number[];
-  distances: number[];
-  names: string[];
+  lines: LinesMessage;
+}
+
+export interface NotesMessage {
+  kind: "notes";
+  notes: NoteMessage[];
 }
 
 export interface SelectMessage {
@@ -110,6 +125,7 @@ export interface MotionMessage {
   texts: string[];
   violations: number[];
   marked: number[][];
+  touching: LinesMessage[];
   traces: TraceMessage[];
 }
 
@@ -156,4 +172,7 @@ export const runCommand = (what: number): Uint8Array<ArrayBuffer> =>
 export const pullCommand = (structure: number, frame: number, point: number[], target: number[]): Uint8Array<ArrayBuffer> =>
   writeCommand(["int", 11], ["int", structure], ["int", frame], ["number[]", point], ["number[]", target]);
 
-export type ServerMessage = SceneMessage | JointsMessage | TextMessage | CameraMessage | LookMessage | NearMessage | SelectMessage | MotionMessage | RunMessage;
+export const notesCommand = (structure: number): Uint8Array<ArrayBuffer> =>
+  writeCommand(["int", 12], ["int", structure]);
+
+export type ServerMessage = SceneMessage | JointsMessage | TextMessage | CameraMessage | LookMessage | NearMessage | NotesMessage | SelectMessage | MotionMessage | RunMessage;

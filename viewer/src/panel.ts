@@ -1,9 +1,11 @@
 import { type Display, OPTIONS, type Option, optionNames } from "./display";
 import { find, make } from "./element";
+import type { NoteMessage } from "./messages";
 import type { Shown } from "./shown";
 import { SceneTree } from "./tree";
 
 const TABS = { frames: "T", joints: "J", view: "O" } as const;
+const NAMED = 12; // frames of a note that have a button
 type Tab = keyof typeof TABS;
 const tabNames = Object.keys(TABS) as Tab[];
 
@@ -20,9 +22,9 @@ export class Panel {
     private readonly display: Display,
     private readonly frames: ReadonlyMap<number, Shown>,
     private readonly changed: () => void,
-    select: (id: number) => void,
+    private readonly selectFrame: (id: number) => void,
   ) {
-    this.tree = new SceneTree(find("tree"), find<HTMLInputElement>("search"), display.hidden, changed, select);
+    this.tree = new SceneTree(find("tree"), find<HTMLInputElement>("search"), display.hidden, changed, selectFrame);
     for (const option of optionNames) find("options").append(this.makeBox(option));
     for (const name of tabNames) find("tabs").append(this.makeTab(name));
     this.button.addEventListener("click", () => (this.isOpen ? this.close() : this.open(this.tab)));
@@ -41,6 +43,23 @@ export class Panel {
   /** Call when options have changed elsewhere. */
   refreshOptions(): void {
     for (const [option, box] of this.boxes) box.checked = this.display.on.has(option);
+  }
+
+  /** What the program notes about the scene; `ignored` are frames that are marked. */
+  showNotes(notes: readonly NoteMessage[], ignored: ReadonlySet<number>): void {
+    this.tree.mark(ignored);
+    document.body.classList.toggle("has-notes", ignored.size > 0);
+    const root = find("notes");
+    root.hidden = notes.length === 0;
+    root.replaceChildren(...notes.map((note) => this.makeNote(note)));
+  }
+
+  private makeNote({ text, frames }: NoteMessage): HTMLElement {
+    const names = [...new Set(frames)].slice(0, NAMED).flatMap((id) => {
+      const name = this.frames.get(id)?.message.name;
+      return name === undefined ? [] : [make("button", { textContent: name, onclick: () => this.selectFrame(id) })];
+    });
+    return make("div", {}, make("p", { className: "note", textContent: text }), make("div", { className: "buttons" }, ...names));
   }
 
   select(id: number | null): void {

@@ -5,13 +5,15 @@ import { pullCommand } from "./messages";
 import type { Shown } from "./shown";
 import type { Stage } from "./stage";
 
+const WIDTH = 4; // pixels
+
 /** Draws bodies of a simulation to the pointer: the point that was taken follows in the plane that faces the camera. */
 export class Pulling {
   on = false;
   structure = 0; // of the scene
   private held: { id: number; point: THREE.Vector3; plane: THREE.Plane } | null = null;
   private readonly line = new THREE.Mesh(
-    new THREE.CylinderGeometry(0.004, 0.004, 1, 8).translate(0, 0.5, 0),
+    new THREE.CylinderGeometry(0.5, 0.5, 1, 8).translate(0, 0.5, 0),
     new THREE.MeshBasicMaterial({ color: 0x1971c2, depthTest: false, transparent: true }),
   );
   private readonly force: CSS2DObject = label("", 2, "name force");
@@ -25,6 +27,10 @@ export class Pulling {
     this.line.renderOrder = 2;
     this.line.visible = this.force.visible = false;
     stage.scene.add(this.line, this.force);
+    stage.onDraw(() => {
+      const { scale, position } = this.line;
+      scale.x = scale.z = (WIDTH * stage.resolution) / stage.pixelsPerMeter(position);
+    });
     const { canvas } = stage;
     canvas.addEventListener("pointerdown", (event) => this.take(event), { capture: true });
     canvas.addEventListener("pointermove", (event) => this.drag(event), { capture: true });
@@ -38,7 +44,7 @@ export class Pulling {
     this.line.visible = this.force.visible = shown;
     if (!shown) return;
     const way = new THREE.Vector3().fromArray(spring, 3).sub(this.line.position.fromArray(spring));
-    this.line.scale.set(1, Math.max(way.length(), 1e-6), 1);
+    this.line.scale.y = Math.max(way.length(), 1e-6);
     this.line.quaternion.setFromUnitVectors(new THREE.Vector3(0, 1, 0), way.normalize());
     this.force.position.fromArray(spring, 3);
     const newton = spring[6]!;

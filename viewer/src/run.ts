@@ -1,5 +1,6 @@
 import { ForceArrows } from "./arrows";
-import { find, make } from "./element";
+import { find, leaveRoomAbove, make } from "./element";
+import { lengthText } from "./lengths";
 import { runCommand, type RunMessage } from "./messages";
 import { Pulling } from "./pulling";
 import type { Shown } from "./shown";
@@ -9,7 +10,7 @@ const What = { pause: 1, goOn: 2, step: 3, reset: 4 } as const;
 
 /** A simulation that runs in the program: its time, contacts and forces, and buttons to steer it. */
 export class Run {
-  readonly arrows = new ForceArrows();
+  readonly arrows: ForceArrows;
   readonly pulling: Pulling;
   private message: RunMessage | null = null;
   private motionIsShown = false;
@@ -33,7 +34,9 @@ export class Run {
     private readonly send: ((command: Uint8Array<ArrayBuffer>) => void) | null,
   ) {
     this.pulling = new Pulling(stage, frames, (command) => send?.(command));
+    this.arrows = new ForceArrows(stage, () => this.showScale());
     stage.scene.add(this.arrows.group);
+    leaveRoomAbove(this.root);
     const ask = (what: number) => (): void => send?.(runCommand(what));
     const buttons = [
       this.playButton,
@@ -104,9 +107,13 @@ export class Run {
     this.factor.textContent = this.isPaused ? "paused" : message.factor > 0 ? `${Number(factor)}×` : "";
     this.arrows.group.visible = this.contactsBox.checked;
     this.arrows.show(message.contacts);
-    const newton = 0.1 / this.arrows.scale;
-    this.scale.textContent = this.arrows.count > 0 ? `10 cm of arrow: ${Number(newton.toPrecision(2))} N` : "";
+    this.showScale();
     this.pulling.show(message.pull);
     this.stage.redraw();
+  }
+
+  private showScale(): void {
+    const { scale, measure, count } = this.arrows;
+    this.scale.textContent = count > 0 ? `${lengthText(measure)} of arrow: ${Number((measure / scale).toPrecision(2))} N` : "";
   }
 }

@@ -1,14 +1,17 @@
 import * as THREE from "three";
-import { find, make } from "./element";
+import { find, leaveRoomAbove, make } from "./element";
 import type { JointPanel } from "./joints";
 import { Marks } from "./marks";
+import type { LinesMessage } from "./messages";
 import { Motion } from "./motion";
+import { PairLines } from "./pairs";
 import { colorOf, type Curve, drawCurves, drawViolations, isViolated } from "./plot";
 import { materialsOf } from "./shapes";
 import type { ShownScene } from "./shown";
 import type { Stage } from "./stage";
 
 type Plotted = "joints" | "errors" | null;
+const NOWHERE: LinesMessage = { points: [], distances: [], names: [] };
 const SPEEDS = [0.1, 0.25, 0.5, 1, 2, 4];
 
 /** Plays a motion: a bar with a time slider, speed, curves of the joints, and all slices at once. */
@@ -22,6 +25,7 @@ export class Timeline {
   private plotted: Plotted = null;
   private curvesShown: Curve[] = [];
   private readonly marked: Marks;
+  private readonly touching: PairLines;
   private readonly root = find("motion");
   private readonly playButton = make("button", { className: "play", ariaLabel: "play", onclick: () => this.toggle() });
   private readonly slider = make("input", { type: "range", min: "0", step: "any", ariaLabel: "time" });
@@ -61,6 +65,7 @@ export class Timeline {
     speed.addEventListener("change", () => (this.speed = Number(speed.value)));
     const loopBox = make("input", { type: "checkbox", onchange: () => (this.loop = loopBox.checked) });
     this.marked = new Marks(shown.frames);
+    this.touching = new PairLines(stage, true);
     this.slider.addEventListener("input", () => this.goTo(this.slider.valueAsNumber));
     this.plot.append(this.curves, this.legend);
     this.root.append(
@@ -91,7 +96,7 @@ export class Timeline {
       { capture: true, passive: false },
     );
     addEventListener("resize", () => this.draw());
-    new ResizeObserver(() => this.leaveRoom()).observe(this.root);
+    leaveRoomAbove(this.root);
   }
 
   get current(): Motion | null {
@@ -105,6 +110,11 @@ export class Timeline {
 
   get markCount(): number {
     return this.marked.count;
+  }
+
+  /** Pairs of shapes that violate a constraint in this slice, and how many of these touch or overlap. */
+  get pairCount(): { all: number; touching: number } {
+    return this.touching.count;
   }
 
   get isPlaying(): boolean {
@@ -131,6 +141,7 @@ export class Timeline {
     this.showGhosts(false);
     this.setPlaying(false);
     this.marked.show([]);
+    this.touching.clear();
     this.motion = null;
     this.shown.held = false;
     this.root.hidden = true;
@@ -165,13 +176,6 @@ export class Timeline {
     if (this.motion.dofs > 0) this.joints.showState(this.motion.state(this.moment));
     this.draw();
     this.moved();
-  }
-
-  /** Panels end above the bar, however high it is: see style.css. */
-  private leaveRoom(): void {
-    const { style } = document.documentElement;
-    if (this.root.hidden) style.removeProperty("--below");
-    else style.setProperty("--below", `${innerHeight - this.root.getBoundingClientRect().top + 10}px`);
   }
 
   private step(by: number): void {
@@ -247,5 +251,6 @@ export class Timeline {
     drawViolations(this.marks, message.violations, slices);
     if (!this.plot.hidden) drawCurves(this.curves, this.curvesShown, this.moment, this.plotted === "errors");
     this.marked.show(message.marked[slice] ?? []);
+    this.touching.show(message.touching[slice] ?? NOWHERE);
   }
 }

@@ -6,6 +6,7 @@ export class SceneTree {
   private readonly collapsed = new Set<string>();
   private frames: ReadonlyMap<number, Shown> = new Map();
   private selected: number | null = null;
+  private ignored: ReadonlySet<number> = new Set();
 
   constructor(
     private readonly element: HTMLElement,
@@ -20,6 +21,18 @@ export class SceneTree {
   show(frames: ReadonlyMap<number, Shown>): void {
     this.frames = frames;
     this.fill();
+  }
+
+  /** These frames are obstacles that are ignored. */
+  mark(ignored: ReadonlySet<number>): void {
+    this.ignored = ignored;
+    for (const button of this.element.querySelectorAll<HTMLElement>(".frame")) this.markIf(button);
+  }
+
+  private markIf(button: HTMLElement): void {
+    const ignored = this.ignored.has(Number(button.dataset.id));
+    button.classList.toggle("ignored", ignored);
+    button.title = `select ${button.textContent}${ignored ? ", which is not an obstacle" : ""}`;
   }
 
   select(id: number | null): void {
@@ -66,8 +79,9 @@ export class SceneTree {
       else this.hidden.add(name);
       this.changed();
     });
-    const frame = make("button", { className: "frame", textContent: name, title: `select ${name}` });
+    const frame = make("button", { className: "frame", textContent: name });
     frame.dataset.id = String(id);
+    this.markIf(frame);
     frame.addEventListener("click", (event) => {
       event.preventDefault(); // does not fold the branch
       this.onSelect(id);

@@ -6,7 +6,7 @@
 namespace kinegraph {
 
 /// The path as a motion of the scene as it is before it, with the slices of the prefix; texts tell the objectives that
-/// are violated in a slice, and frames that this is about are marked.
+/// are violated in a slice, and frames that this is about are marked; of pairs of shapes, where they touch.
 ShownMotion motionOf(const Komo& komo);
 
 }  // namespace kinegraph

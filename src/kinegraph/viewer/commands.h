@@ -82,8 +82,13 @@ struct PullCommand {
   std::vector<double> target;
 };
 
+struct NotesCommand {
+  static constexpr int kKind = 12;
+  int structure = 0;
+};
+
 /// What a browser asks for.
-using Command = std::variant<KeyCommand, SetJointCommand, ResetJointsCommand, RandomJointsCommand, MoveFrameCommand, NearCommand, EventCommand, CursorCommand, ViewpointCommand, RunCommand, PullCommand>;
+using Command = std::variant<KeyCommand, SetJointCommand, ResetJointsCommand, RandomJointsCommand, MoveFrameCommand, NearCommand, EventCommand, CursorCommand, ViewpointCommand, RunCommand, PullCommand, NotesCommand>;
 
 /// Reads a binary message from a browser; nothing if it is not exactly one command.
 inline std::optional<Command> readCommand(std::string_view data) {
@@ -102,6 +107,7 @@ inline std::optional<Command> readCommand(std::string_view data) {
     case ViewpointCommand::kKind: return readFields<ViewpointCommand>(reader, &ViewpointCommand::pose, &ViewpointCommand::distance, &ViewpointCommand::focal, &ViewpointCommand::ortho);
     case RunCommand::kKind: return readFields<RunCommand>(reader, &RunCommand::what);
     case PullCommand::kKind: return readFields<PullCommand>(reader, &PullCommand::structure, &PullCommand::frame, &PullCommand::point, &PullCommand::target);
+    case NotesCommand::kKind: return readFields<NotesCommand>(reader, &NotesCommand::structure);
   }
   return std::nullopt;
 }

@@ -85,6 +85,11 @@ void ConfigViewer::noteMessage(const std::string& text) {
   if (isOpen()) server_->setMessage(text);
 }
 
+std::string ConfigViewer::recording() {
+  server().setNotes(edits_->notes());
+  return server().recording();
+}
+
 void ConfigViewer::close() {
   server_.reset();
   remember("");

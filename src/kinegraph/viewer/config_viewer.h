@@ -51,8 +51,8 @@ class ConfigViewer {
   std::string message() const;
   void setError(const std::string& text) { server().setError(text); }
   void setTitle(const std::string& text);
-  void select(int frame) { server().select(frame); }        ///< shows the card of a frame, with handles to move it
-  std::string recording() { return server().recording(); }  ///< an HTML page with all that is shown inside
+  void select(int frame) { server().select(frame); }  ///< shows the card of a frame, with handles to move it
+  std::string recording();                            ///< an HTML page with all that is shown inside
   void setCamera(const PageCamera& camera) { server().setCamera(camera); }
   std::optional<PageCamera> takeViewpoint() { return isOpen() ? server_->takeViewpoint() : std::nullopt; }
   std::string url() { return server().url(); }

@@ -37,6 +37,22 @@ static boost::json::value jsonOf(const JointMessage& m) {
   };
 }
 
+static boost::json::value jsonOf(const LinesMessage& m) {
+  return boost::json::object{
+      {"points", jsonOf(m.points)},
+      {"distances", jsonOf(m.distances)},
+      {"names", jsonOf(m.names)},
+  };
+}
+
+static boost::json::value jsonOf(const NoteMessage& m) {
+  return boost::json::object{
+      {"text", jsonOf(m.text)},
+      {"frames", jsonOf(m.frames)},
+      {"ignored", jsonOf(m.ignored)},
+  };
+}
+
 static boost::json::value jsonOf(const TraceMessage& m) {
   return boost::json::object{
       {"name", jsonOf(m.name)},
@@ -103,9 +119,14 @@ static boost::json::value jsonOf(const LookMessage& m) {
 static boost::json::value jsonOf(const NearMessage& m) {
   return boost::json::object{
       {"kind", "near"},
-      {"points", jsonOf(m.points)},
-      {"distances", jsonOf(m.distances)},
-      {"names", jsonOf(m.names)},
+      {"lines", jsonOf(m.lines)},
+  };
+}
+
+static boost::json::value jsonOf(const NotesMessage& m) {
+  return boost::json::object{
+      {"kind", "notes"},
+      {"notes", jsonOf(m.notes)},
   };
 }
 
@@ -127,6 +148,7 @@ static boost::json::value jsonOf(const MotionMessage& m) {
       {"texts", jsonOf(m.texts)},
       {"violations", jsonOf(m.violations)},
       {"marked", jsonOf(m.marked)},
+      {"touching", jsonOf(m.touching)},
       {"traces", jsonOf(m.traces)},
   };
 }
@@ -154,6 +176,8 @@ std::string jsonText(const CameraMessage& message) { return boost::json::seriali
 std::string jsonText(const LookMessage& message) { return boost::json::serialize(jsonOf(message)); }
 
 std::string jsonText(const NearMessage& message) { return boost::json::serialize(jsonOf(message)); }
+
+std::string jsonText(const NotesMessage& message) { return boost::json::serialize(jsonOf(message)); }
 
 std::string jsonText(const SelectMessage& message) { return boost::json::serialize(jsonOf(message)); }
 

@@ -44,6 +44,18 @@ struct JointMessage {
   double upper = 0;
 };
 
+struct LinesMessage {
+  std::vector<double> points;
+  std::vector<double> distances;
+  std::vector<std::string> names;
+};
+
+struct NoteMessage {
+  std::string text;
+  std::vector<int> frames;
+  int ignored = 0;
+};
+
 struct TraceMessage {
   std::string name;
   std::string type;
@@ -91,9 +103,11 @@ struct LookMessage {
 };
 
 struct NearMessage {
-  std::vector<double> points;
-  std::vector<double> distances;
-  std::vector<std::string> names;
+  LinesMessage lines;
+};
+
+struct NotesMessage {
+  std::vector<NoteMessage> notes;
 };
 
 struct SelectMessage {
@@ -109,6 +123,7 @@ struct MotionMessage {
   std::vector<std::string> texts;
   std::vector<double> violations;
   std::vector<std::vector<int>> marked;
+  std::vector<LinesMessage> touching;
   std::vector<TraceMessage> traces;
 };
 
@@ -128,6 +143,7 @@ std::string jsonText(const TextMessage& message);
 std::string jsonText(const CameraMessage& message);
 std::string jsonText(const LookMessage& message);
 std::string jsonText(const NearMessage& message);
+std::string jsonText(const NotesMessage& message);
 std::string jsonText(const SelectMessage& message);
 std::string jsonText(const MotionMessage& message);
 std::string jsonText(const RunMessage& message);

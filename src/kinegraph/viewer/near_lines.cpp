@@ -5,18 +5,22 @@
 
 namespace kinegraph {
 
+NearLine nearLine(const State& state, int a, int b) {
+  const Program& program = state.program();
+  const BodyPairs pairs(program, {{a, b}});
+  PlacedBodies bodies(pairs);
+  bodies.place(state);
+  const Proximity near = bodies.proximity(0);
+  return {near.point_a, near.point_b, near.distance,
+          cat(program.frame_name[std::size_t(a)], " - ", program.frame_name[std::size_t(b)])};
+}
+
 std::vector<NearLine> nearLines(const Config& config, double margin) {
   constexpr std::size_t kMost = 500;
-  const std::shared_ptr<SceneTree> scene = config.scene();
   const State& state = config.state();
-  const Program& program = state.program();
   std::vector<NearLine> lines;
-  scene->nearPairs().forDistances(margin, [&](int a, int b, double distance) {
-    if (lines.size() >= kMost) return;
-    const Proximity near =
-        proximity(*program.body[std::size_t(a)], state.pose(a), *program.body[std::size_t(b)], state.pose(b));
-    lines.push_back({near.point_a, near.point_b, distance,
-                     cat(program.frame_name[std::size_t(a)], " - ", program.frame_name[std::size_t(b)])});
+  config.scene()->nearPairs().forDistances(margin, [&](int a, int b, double) {
+    if (lines.size() < kMost) lines.push_back(nearLine(state, a, b));
   });
   return lines;
 }

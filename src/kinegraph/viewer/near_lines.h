@@ -14,6 +14,9 @@ struct NearLine {
   std::string names;  ///< of the frames
 };
 
+/// That of two frames, where `state` has them. A frame without a shape counts as a point.
+NearLine nearLine(const State& state, int a, int b);
+
 /// Those of all pairs of `config` that are not farther apart than `margin`, m; the first 500.
 std::vector<NearLine> nearLines(const Config& config, double margin);
 

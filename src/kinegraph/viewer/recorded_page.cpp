@@ -54,6 +54,7 @@ std::string recordedScene(const Config& config, const ShownMotion* motion, const
   scene.title = title;
   scene.update(items.items());
   scene.setJoints(items.structure(), items.joints(), config.getJointState());
+  scene.setNotes(sceneNotes(config));
   if (motion) scene.setMotion(*motion);
   ShownScene::Seen nothing;
   return recordedPage(scene.messagesSince(nothing));

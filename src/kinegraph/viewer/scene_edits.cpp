@@ -32,7 +32,13 @@ std::optional<EditedScene> SceneEdits::apply(const Command& command) {
   if (!scene_ || !change(command)) return std::nullopt;
   EditedScene result{posesOf(*edited_), edited_->getJointState(), {}};
   if (margin_ > 0.) result.near = nearLines(*edited_, margin_);
+  if (std::holds_alternative<NotesCommand>(command)) result.notes = sceneNotes(*edited_);
   return result;
+}
+
+std::vector<SceneNote> SceneEdits::notes() {
+  const std::lock_guard lock(mutex_);
+  return scene_ ? sceneNotes(edited()) : std::vector<SceneNote>{};
 }
 
 bool SceneEdits::takeInto(Config& config) {

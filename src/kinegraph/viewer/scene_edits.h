@@ -25,6 +25,9 @@ class SceneEdits {
 
   bool hasAny() const;
 
+  /// What there is to say about the scene with the changes.
+  std::vector<SceneNote> notes();
+
   /// How near, m, shapes have to be that browsers want to see lines between; 0: none wants to.
   double margin() const;
   void forgetMargin();

@@ -163,6 +163,10 @@ void ViewerServer::setNear(const std::vector<NearLine>& lines) {
   impl_->changeScene([&](ShownScene& scene) { return scene.setNear(lines); });
 }
 
+void ViewerServer::setNotes(const std::vector<SceneNote>& notes) {
+  impl_->changeScene([&](ShownScene& scene) { return scene.setNotes(notes); });
+}
+
 void ViewerServer::setQuad(const Quad& quad) {
   if (quad.columns <= 0 || quad.rows <= 0 ||
       quad.rgb.size() != 3 * std::size_t(quad.columns) * std::size_t(quad.rows)) {

@@ -11,6 +11,7 @@
 #include "kinegraph/viewer/look.h"
 #include "kinegraph/viewer/near_lines.h"
 #include "kinegraph/viewer/run_requests.h"
+#include "kinegraph/viewer/scene_notes.h"
 #include "kinegraph/viewer/shown_motion.h"
 #include "kinegraph/viewer/shown_run.h"
 
@@ -43,6 +44,7 @@ struct EditedScene {
   std::vector<Pose> poses;  ///< of all items, in the world
   VectorXd q;
   std::vector<NearLine> near{};
+  std::optional<std::vector<SceneNote>> notes{};  ///< if somebody asked
 };
 
 struct ViewerOptions {
@@ -83,6 +85,9 @@ class ViewerServer {
 
   /// Lines between shapes that are near each other, for browsers that show them.
   void setNear(const std::vector<NearLine>& lines);
+
+  /// What there is to say about the scene.
+  void setNotes(const std::vector<SceneNote>& notes);
 
   /// A picture on top of the scene; one with the same id is replaced. Throws ValueError for numbers of pixels that do
   /// not match.

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "kinegraph/math/pose.h"
+#include "kinegraph/viewer/near_lines.h"
 
 namespace kinegraph {
 
@@ -20,6 +21,9 @@ struct ShownMotion {
   std::vector<double> violations;        ///< per slice: how much of the constraints is violated; or none
   int prefix = 0;                        ///< so many slices lie before the one that is called 0
   std::vector<std::vector<int>> marked;  ///< per slice: frames whose constraints are violated; or none
+
+  /// Per slice: pairs of shapes that are nearer, or farther apart, than a constraint allows; or none.
+  std::vector<std::vector<NearLine>> touching;
 
   /// An error, or whatever else there is a number of per slice.
   struct Trace {

@@ -1,89 +1,14 @@
 #include "kinegraph/viewer/shown_scene.h"
 
-#include <array>
-#include <cstring>
-
 #include "kinegraph/geometry/shapes/shape_kinds.h"
 #include "kinegraph/geometry/shapes/shape_types.h"
 #include "kinegraph/geometry/shapes/tessellation.h"
+#include "kinegraph/viewer/binary_messages.h"
 #include "kinegraph/viewer/messages.h"
 
 namespace kinegraph {
 
 namespace {
-
-template <class T>
-void append(std::string& data, const T& value) {
-  data.append(reinterpret_cast<const char*>(&value), sizeof value);
-}
-
-/// kind, number, vertices, triangles, colors (0, 1 or as many as vertices), texture coordinates (0 or as many),
-/// textured ranges of triangles; then float32 positions, uint32 indices, float32 texture coordinates, uint32 first,
-/// count, number of the picture for each range, rgba bytes. `images`: the numbers of the pictures.
-std::string encodeMesh(int number, const Mesh& mesh, const std::vector<int>& images) {
-  std::string data;
-  const std::size_t vertices = mesh.vertices.size();
-  const std::size_t colors = mesh.colors.size() == vertices || mesh.colors.size() == 1 ? mesh.colors.size() : 0;
-  append(data, BinaryKind::mesh);
-  append(data, std::uint32_t(number));
-  append(data, std::uint32_t(vertices));
-  append(data, std::uint32_t(mesh.triangles.size()));
-  append(data, std::uint32_t(colors));
-  append(data, std::uint32_t(images.empty() ? 0 : vertices));
-  append(data, std::uint32_t(images.size()));
-  for (const Vector3d& p : mesh.vertices) {
-    for (int i = 0; i < 3; ++i) append(data, float(p[i]));
-  }
-  for (const auto& triangle : mesh.triangles) append(data, triangle);
-  if (!images.empty()) {
-    for (const auto& place : mesh.texcoords) append(data, place);
-  }
-  for (std::size_t i = 0; i < images.size(); ++i) {
-    append(data, std::array{mesh.textures[i].first, mesh.textures[i].count, std::uint32_t(images[i])});
-  }
-  for (std::size_t i = 0; i < colors; ++i) append(data, mesh.colors[i]);
-  return data;
-}
-
-void appendPose(std::string& data, const Pose& pose) {
-  const Vector7d numbers = pose.numbers();
-  for (int k = 0; k < 7; ++k) append(data, float(numbers[k]));
-}
-
-/// kind, slices, frames, dofs, then float32 poses and joint values, slice after slice.
-std::string encodeMotion(const ShownMotion& motion) {
-  std::string data;
-  append(data, BinaryKind::motion);
-  append(data, std::uint32_t(motion.poses.size()));
-  append(data, std::uint32_t(motion.poses.empty() ? 0 : motion.poses[0].size()));
-  append(data, std::uint32_t(motion.q.cols()));
-  for (const auto& slice : motion.poses) {
-    for (const Pose& pose : slice) appendPose(data, pose);
-  }
-  for (Eigen::Index t = 0; t < motion.q.rows(); ++t) {
-    for (Eigen::Index i = 0; i < motion.q.cols(); ++i) append(data, float(motion.q(t, i)));
-  }
-  return data;
-}
-
-/// kind, id, columns, rows, then float32 x, y, height, zoom, then rgb bytes.
-std::string encodeQuad(const Quad& quad) {
-  std::string data;
-  append(data, BinaryKind::quad);
-  for (const int number : {quad.id, quad.columns, quad.rows}) append(data, std::int32_t(number));
-  for (const double number : {quad.x, quad.y, quad.height, quad.zoom}) append(data, float(number));
-  data.append(reinterpret_cast<const char*>(quad.rgb.data()), quad.rgb.size());
-  return data;
-}
-
-/// kind, dofs, then their values as float64.
-std::string encodeJoints(const VectorXd& q) {
-  std::string data;
-  append(data, BinaryKind::joints);
-  append(data, std::uint32_t(q.size()));
-  for (const double value : q) append(data, value);
-  return data;
-}
 
 CameraMessage messageOf(const PageCamera& camera) {
   const Vector7d pose = camera.pose.numbers();
@@ -96,14 +21,33 @@ CameraMessage messageOf(const PageCamera& camera) {
           camera.far};
 }
 
+LinesMessage messageOf(const std::vector<NearLine>& lines) {
+  LinesMessage message;
+  for (const NearLine& line : lines) {
+    message.points.insert(message.points.end(),
+                          {line.a.x(), line.a.y(), line.a.z(), line.b.x(), line.b.y(), line.b.z()});
+    message.distances.push_back(line.distance);
+    message.names.push_back(line.names);
+  }
+  return message;
+}
+
 MotionMessage headOf(const ShownMotion& motion) {
   const char* start = motion.start == ShownMotion::Start::all    ? "all"
                       : motion.start == ShownMotion::Start::play ? "play"
                                                                  : "pause";
   std::vector<TraceMessage> traces;
   for (const ShownMotion::Trace& trace : motion.traces) traces.push_back({trace.name, trace.type, trace.values});
-  return {int(motion.poses.size()), motion.seconds, start, motion.first, motion.prefix, motion.texts,
-          motion.violations,        motion.marked,  traces};
+  std::vector<LinesMessage> touching;
+  for (const std::vector<NearLine>& lines : motion.touching) touching.push_back(messageOf(lines));
+  return {int(motion.poses.size()), motion.seconds, start,    motion.first, motion.prefix, motion.texts,
+          motion.violations,        motion.marked,  touching, traces};
+}
+
+NotesMessage messageOf(const std::vector<SceneNote>& notes) {
+  NotesMessage message;
+  for (const SceneNote& note : notes) message.notes.push_back({note.text, note.frames, note.ignored});
+  return message;
 }
 
 RunMessage messageOf(const ShownRun& run) {
@@ -151,8 +95,8 @@ std::shared_ptr<const ShownScene::SentImage> ShownScene::sentImage(const std::sh
   const auto [place, is_new] = images_.try_emplace(image);
   if (is_new) {
     std::string data;
-    append(data, BinaryKind::image);
-    append(data, std::uint32_t(next_image_));
+    appendBytes(data, BinaryKind::image);
+    appendBytes(data, std::uint32_t(next_image_));
     place->second =
         std::make_shared<SentImage>(SentImage{next_image_++, std::make_shared<std::string>(data + image->bytes)});
   }
@@ -199,6 +143,7 @@ bool ShownScene::setJoints(int structure, const std::vector<ShownJoint>& joints,
     structure_ = structure;
     joints_ = joints;
     joints_revision_ = ++revision_;
+    setNotes({});  // those were of other frames
   }
   if (q.size() != q_.size() || q != q_) {
     q_ = q;
@@ -219,6 +164,7 @@ void ShownScene::setEdited(const EditedScene& edited) {
   }
   setJoints(structure_, joints_, edited.q);
   setNear(edited.near);
+  if (edited.notes) setNotes(*edited.notes);
 }
 
 void ShownScene::select(int frame) {
@@ -258,17 +204,17 @@ bool ShownScene::setText(std::string ShownScene::*field, const std::string& text
 }
 
 bool ShownScene::setNear(const std::vector<NearLine>& lines) {
-  NearMessage message;
-  for (const NearLine& line : lines) {
-    message.points.insert(message.points.end(),
-                          {line.a.x(), line.a.y(), line.a.z(), line.b.x(), line.b.y(), line.b.z()});
-    message.distances.push_back(line.distance);
-    message.names.push_back(line.names);
-  }
-  const Outgoing near = textOf(message);
+  const Outgoing near = textOf(NearMessage{messageOf(lines)});
   if (near_ ? *near_ == *near.data : lines.empty()) return false;
   near_ = near.data;
   near_revision_ = ++revision_;
+  return true;
+}
+
+bool ShownScene::setNotes(const std::vector<SceneNote>& notes) {
+  if (notes == notes_) return false;
+  notes_ = notes;
+  notes_revision_ = ++revision_;
   return true;
 }
 
@@ -338,7 +284,7 @@ void ShownScene::addFrames(Seen& seen, std::vector<Outgoing>& out) const {
       if (!seen.meshes.contains(shown.mesh->number)) out.push_back({shown.mesh->data, true});
     }
     if (shown.pose_revision > seen.revision) {
-      append(poses, std::uint32_t(i));
+      appendBytes(poses, std::uint32_t(i));
       appendPose(poses, shown.item.pose);
       ++moved;
     }
@@ -348,8 +294,8 @@ void ShownScene::addFrames(Seen& seen, std::vector<Outgoing>& out) const {
   if (!scene.frames.empty() || count_revision_ > seen.revision) out.push_back(textOf(scene));
   if (moved == 0) return;
   std::string data;
-  append(data, BinaryKind::poses);
-  append(data, moved);
+  appendBytes(data, BinaryKind::poses);
+  appendBytes(data, moved);
   out.push_back({std::make_shared<std::string>(data + poses), true});
 }
 
@@ -379,6 +325,7 @@ std::vector<Outgoing> ShownScene::messagesSince(Seen& seen) const {
   if (q_revision_ > seen.revision) out.push_back({std::make_shared<std::string>(encodeJoints(q_)), true});
   if (look_revision_ > seen.revision) send(lookMessage());
   if (near_revision_ > seen.revision) out.push_back({near_, false});
+  if (notes_revision_ > seen.revision) send(messageOf(notes_));
   if (run_revision_ > seen.revision) send(run_ ? messageOf(*run_) : RunMessage{});
   for (const auto& [id, quad] : quads_) {
     if (quad.first > seen.revision) out.push_back(quad.second);

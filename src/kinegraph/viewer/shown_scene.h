@@ -47,6 +47,7 @@ class ShownScene {
   void setRun(const ShownRun& run);
   bool endRun();
   bool setNear(const std::vector<NearLine>& lines);
+  bool setNotes(const std::vector<SceneNote>& notes);
   void setQuad(const Quad& quad);
   bool setLook(const Look& look);
   bool requestEvents(int kind);  ///< 1: browsers send events; 2: and do nothing else with mouse and keys
@@ -108,7 +109,8 @@ class ShownScene {
   bool cursor_ = false, digits_ = false;
   std::shared_ptr<const std::string> near_;                  ///< as it is sent
   std::map<int, std::pair<std::uint64_t, Outgoing>> quads_;  ///< by id: since when, and as it is sent
-  std::uint64_t look_revision_ = 0, near_revision_ = 0;
+  std::vector<SceneNote> notes_;
+  std::uint64_t look_revision_ = 0, near_revision_ = 0, notes_revision_ = 0;
 };
 
 }  // namespace kinegraph

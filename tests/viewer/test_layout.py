@@ -1,0 +1,100 @@
+"""Where things are on pages of any size: nothing lies on what people are to use."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from itertools import combinations
+
+import pytest
+
+import kinegraph as kg
+
+from .browser import Browser
+from .camera import HEIGHT, WIDTH
+
+SIZES = {"small window": (800, 600), "phone": (390, 844), "phone on its side": (844, 390), "small phone": (320, 568)}
+PARTS = ["#panel", "#motion", "#run", "#message", "#error", "#panel-button", "#help-button"]
+RECTANGLES = f"""Object.fromEntries({PARTS}.map((name) => [name, document.querySelector(name)])
+  .filter(([, part]) => part.checkVisibility())
+  .map(([name, part]) => [name, ((box) => [box.left, box.top, box.right, box.bottom])(part.getBoundingClientRect())]))"""
+# what people cannot hit with a finger, of all that they are to use
+COVERED = """[...document.querySelectorAll(".transport *, .round, #tabs button")]
+  .filter((x) => x.matches("button, input, select") && x.checkVisibility())
+  .filter((x) => {
+    const { left, top, width, height } = x.getBoundingClientRect();
+    const hit = document.elementFromPoint(left + width / 2, top + height / 2);
+    return hit !== x && hit?.closest("label")?.control !== x;
+  }).map((x) => x.ariaLabel || x.textContent || x.closest("label").textContent)"""
+
+
+@pytest.fixture(params=SIZES)
+def page(request: pytest.FixtureRequest, browser: Browser) -> Iterator[Browser]:
+    width, height = SIZES[request.param]
+    mobile = "phone" in request.param
+    browser.call("Emulation.setDeviceMetricsOverride", width=width, height=height, deviceScaleFactor=1, mobile=mobile)
+    browser.call("Emulation.setTouchEmulationEnabled", enabled=mobile)
+    yield browser
+    browser.call("Emulation.setTouchEmulationEnabled", enabled=False)
+    browser.call("Emulation.setDeviceMetricsOverride", width=WIDTH, height=HEIGHT, deviceScaleFactor=1, mobile=False)
+
+
+def fill(config: kg.Config) -> None:
+    for i in range(40):
+        config.addFrame(f"frame{i}").setShape(kg.ST.box, [0.1, 0.1, 0.1]).setPosition([0.2 * i, 0, 1])
+    config.addFrame("arm", "frame0").setJoint(kg.JT.hingeX, [-1, 1]).setShape(kg.ST.box, [0.1, 0.1, 0.5]).setMass(1.0)
+    config.viewer().setError("an error\nof two lines")
+
+
+def check_nothing_overlaps(page: Browser) -> None:
+    for letter in "TJO":
+        page.press_alt(letter)
+        page.wait_for("kinegraph.idle()")
+        boxes = page.evaluate(RECTANGLES)
+        assert len(boxes) == 6  # all but one of the two bars
+        width, height = page.evaluate("[innerWidth, innerHeight]")
+        for name, (left, top, right, bottom) in boxes.items():
+            assert left >= 0 and top >= 0 and right <= width and bottom <= height, name
+            assert right - left > 20 and bottom - top > 20, name
+        for one, other in combinations(boxes, 2):
+            apart = (
+                boxes[one][2] <= boxes[other][0]
+                or boxes[other][2] <= boxes[one][0]
+                or boxes[one][3] <= boxes[other][1]
+                or boxes[other][3] <= boxes[one][1]
+            )
+            assert apart, (one, other, boxes)
+        assert page.evaluate(COVERED) == []
+
+
+def test_panels_and_messages_leave_the_time_slider_free(config: kg.Config, page: Browser) -> None:
+    fill(config)
+    config.view_path([[0.0], [0.5]], 0.05, message="\n".join(f"line {i}" for i in range(60)))
+    page.open(config.viewer().url)
+    page.wait_for("!kinegraph.playing()")
+    check_nothing_overlaps(page)
+
+
+def test_panels_and_messages_leave_the_buttons_of_a_simulation_free(config: kg.Config, page: Browser) -> None:
+    fill(config)
+    simulation = kg.Simulation(config)
+    simulation.view(False, "\n".join(f"line {i}" for i in range(60)))
+    page.open(config.viewer().url)
+    page.wait_for("kinegraph.run() !== null")
+    check_nothing_overlaps(page)
+
+
+@pytest.mark.parametrize("page", ["phone"], indirect=True)
+def test_the_help_on_a_phone_tells_what_fingers_do(config: kg.Config, page: Browser) -> None:
+    config.addFrame("world")
+    config.view()
+    page.open(config.viewer().url)
+    page.evaluate("document.querySelector('#help-button').click()")
+    assert page.is_visible("#help")
+    text = page.evaluate("document.querySelector('#help').innerText")
+    for what in ("one finger", "two fingers", "tap", "two taps"):
+        assert what in text
+    assert "Alt" not in text and "wheel" not in text
+    left, right = page.evaluate(
+        "((box) => [box.left, box.right])(document.querySelector('#help').getBoundingClientRect())"
+    )
+    assert left >= 0 and right <= 390
