@@ -76,17 +76,15 @@ class KomoNlp final : public Nlp, public OtherWays {
   Separation separation() override {
     if (separation_is_known_) return separation_;
     separation_is_known_ = true;
+    if (std::ranges::none_of(problem_.objectives(), isSumOfOverlaps)) return separation_;
     std::vector<Objective> objectives = problem_.objectives();
-    bool any = false;
     for (Objective& objective : objectives) {
       if (!isSumOfOverlaps(objective)) continue;
       objective.feature = FeatureSymbol::pairCollisions;
       objective.type = ObjectiveType::ineq;
       if (const double apart = objective.margin + objective.slack; apart != 0.)
         objective.target = VectorXd::Constant(1, -apart);
-      any = true;
     }
-    if (!any) return separation_;
     const auto separate = std::make_shared<KomoNlp>(komo_, std::move(objectives));
     if (separate->problem_.rows() > std::max(kMostSeparateRows, 2 * problem_.rows())) return separation_;
     for (std::size_t i = 0; i < problem_.terms().size(); ++i) {  // the same objectives in the same slices

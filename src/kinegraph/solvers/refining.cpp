@@ -30,11 +30,11 @@ void giveUp(Nlp& nlp, double tolerance, int rounds, SolverResult& result) {
 /// there; where the solution is no place to go on from, from the beginning, in short steps; and where that does not help,
 /// from beginnings that the problem offers. All of it together takes no more than the evaluations that are allowed.
 SolverResult NlpSolver::runRefining(Separation& separation, const EvaluationHook& watch, const EvaluationHook& seen) {
-  const VectorXd start = x;
   SolverResult result = runMethod(separation, watch, seen);
   if (result.status == SolverStatus::cancelled) return result;
   Refinement found = problem_->refine(result.x, solved_dual_);
   if (found == Refinement::none) return result;
+  const VectorXd start = x;
   struct Restore {
     SolverOptions& options;
     const SolverOptions given = options;

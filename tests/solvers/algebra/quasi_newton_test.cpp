@@ -41,6 +41,21 @@ TEST(QuasiNewton, LearnsTheHessianOfAQuadratic) {
   EXPECT_LT((estimate.matrix() - H).norm(), .05 * H.norm());
 }
 
+TEST(QuasiNewton, LearnsTheSameInOtherUnits) {
+  Rng rng(2);
+  const MatrixXd A = randomSymmetric(4, rng), H = A * A + MatrixXd::Identity(4, 4);
+  const VectorXd unit = (VectorXd(4) << 1e-3, 1., 1e4, 1e7).finished(), inverse = unit.cwiseInverse();
+  QuasiNewton plain, in_units;
+  plain.reset(4);
+  in_units.reset(unit);
+  for (int i = 0; i < 10; ++i) {
+    const VectorXd s = random(4, rng), y = H * s;
+    plain.update(s, y);
+    in_units.update(unit.cwiseProduct(s), inverse.cwiseProduct(y));
+    EXPECT_TRUE(near(unit.asDiagonal() * in_units.matrix() * unit.asDiagonal(), plain.matrix(), 1e-9));
+  }
+}
+
 TEST(QuasiNewton, StaysPositiveDefiniteWhereTheCurvatureIsNegative) {
   Rng rng(1);
   const MatrixXd H = randomSymmetric(5, rng);

@@ -44,6 +44,31 @@ KnownProblem unreachable() {
           {}};
 }
 
+/// HS54, whose variables are from 1e-3 to 1e8 in size and where the costs are nearly level along the largest; times `size`.
+KnownProblem variablesOfAllSizes(double size) {
+  const VectorXd optimum = size * (VectorXd(6) << 91600. / 7., 79. / 70., 2e6, 10., 1e-3, 1e8).finished();
+  return {"HS54",
+          {f, eq},
+          size * (VectorXd(6) << 0., -10., 0., 0., -1., 0.).finished(),
+          size * (VectorXd(6) << 2e4, 10., 1e7, 20., 1., 2e8).finished(),
+          size * (VectorXd(6) << 6e3, 1.5, 4e6, 2., 3e-3, 5e7).finished(),
+          optimum,
+          -std::exp(-27. / 280.),
+          [size](const VectorXd& scaled, VectorXd& phi, MatrixXd& J) {
+            const VectorXd x = scaled / size;
+            const double a = x[0] - 1e4, b = x[1] - 1., c = x[2] - 2e6, d = x[3] - 10., e = x[4] - 1e-3, g = x[5] - 1e8;
+            const double exponent = (a * a / 6.4e7 + a * b / 2e4 + b * b) / 1.92 + c * c / 9.8e13 + d * d / 5e3 +
+                                    e * e / 5e-3 + g * g / 5e17;
+            phi << -std::exp(-exponent), x[0] + 4e3 * x[1] - 1.76e4;
+            J.row(0) << (2. * a / 6.4e7 + b / 2e4) / 1.92, (a / 2e4 + 2. * b) / 1.92, 2. * c / 9.8e13, 2. * d / 5e3,
+                2. * e / 5e-3, 2. * g / 5e17;
+            J.row(0) *= std::exp(-exponent);
+            J.row(1) << 1., 4e3, 0., 0., 0., 0.;
+            J /= size;
+          },
+          {}};
+}
+
 }  // namespace
 
 TEST_P(SequentialQuadratic, FindsTheKnownOptimumFromFirstDerivatives) {
@@ -75,6 +100,18 @@ TEST(SequentialQuadratic, IsWhatTheDefaultMethodUsesWhereTheCurvatureHasToBeLear
     EXPECT_EQ(costCurvature(without, problem.start), untold) << problem.name;
     EXPECT_EQ(costCurvature(with, problem.start), has_f && problem.cost_hessian ? CostCurvature::known : untold)
         << problem.name;
+  }
+}
+
+TEST(SequentialQuadratic, ConvergesWhereTheCostsAreLevelInUnitsOfEachVariable) {
+  for (const double size : {1., 10.}) {
+    const KnownProblem problem = variablesOfAllSizes(size);
+    KnownNlp nlp(problem);
+    const SolverResult result = solveSequentialQuadratic(nlp, problem.start, exact());
+    EXPECT_EQ(result.status, SolverStatus::converged) << result.message;
+    EXPECT_NEAR(result.f, problem.cost, 1e-8);
+    EXPECT_LE(result.violation, 1e-8);
+    EXPECT_TRUE(near(result.x.cwiseQuotient(problem.optimum), VectorXd::Ones(6), 1e-2)) << result.x.transpose();
   }
 }
 

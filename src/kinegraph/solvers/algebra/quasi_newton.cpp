@@ -6,13 +6,13 @@
 namespace kinegraph {
 
 void QuasiNewton::update(const VectorXd& s, const VectorXd& y) {
-  const double ss = s.squaredNorm(), sy = s.dot(y);
+  const double ss = s.cwiseQuotient(unit_).squaredNorm(), sy = s.dot(y);
   if (!(ss > 1e-24) || !y.allFinite()) return;
-  if (empty_) {  // the first estimate has the size of the curvature along the step
-    if (y.squaredNorm() <= 1e-24 * ss) return;
-    const double curvature =
-        sy > 1e-8 * std::sqrt(ss * y.squaredNorm()) ? y.squaredNorm() / sy : y.norm() / std::sqrt(ss);
-    B_.diagonal().setConstant(curvature);
+  if (empty_) {  // the first estimate has the size of the curvature along the step, in units
+    const double yy = unit_.cwiseProduct(y).squaredNorm();
+    if (yy <= 1e-24 * ss) return;
+    const double curvature = sy > 1e-8 * std::sqrt(ss * yy) ? yy / sy : std::sqrt(yy) / std::sqrt(ss);
+    B_.diagonal() = curvature * unit_.cwiseAbs2().cwiseInverse();
     empty_ = false;
   }
   Bs_.noalias() = B_ * s;

@@ -8,7 +8,14 @@ namespace kinegraph {
 /// Source: Nocedal & Wright, Numerical Optimization, 2nd ed., procedure 18.2.
 class QuasiNewton {
  public:
-  void reset(int n) { B_.setZero(n, n), empty_ = true; }
+  void reset(int n) { reset(VectorXd::Ones(n)); }
+
+  /// In these units, the first estimate is a multiple of the identity.
+  void reset(const VectorXd& unit) {
+    unit_ = unit;
+    B_.setZero(unit.size(), unit.size());
+    empty_ = true;
+  }
 
   /// The gradient changed by `y` over the step `s`.
   void update(const VectorXd& s, const VectorXd& y);
@@ -18,7 +25,7 @@ class QuasiNewton {
 
  private:
   MatrixXd B_;
-  VectorXd Bs_, r_;
+  VectorXd unit_, Bs_, r_;
   bool empty_ = true;
 };
 

@@ -1,9 +1,8 @@
 #pragma once
 
-#include <algorithm>
 #include <vector>
 
-#include "kinegraph/solvers/algebra/local_model.h"
+#include "kinegraph/solvers/algebra/local_function.h"
 
 namespace kinegraph {
 
@@ -11,46 +10,33 @@ namespace kinegraph {
 /// semismooth_model.cpp, for these two.
 /// Source: Qi & Sun, A nonsmooth version of Newton's method, 1993.
 template <class Algebra>
-class SemismoothModel final : public LocalModel {
+class SemismoothModel final : public LocalFunction<Algebra> {
  public:
-  SemismoothModel(const Nlp& nlp, const Jacobian& pattern, const std::vector<int>& costs, std::vector<int> constraints);
-  SemismoothModel(const SemismoothModel&) = delete;
+  using Problem = LocalModel::Problem;
 
-  void setJacobian(const Jacobian& J) override;
-  bool setCosts(Nlp& nlp, const VectorXd& x, const VectorXd& phi, const MatrixXd* curvature) override;
-  void addCurvature(Nlp& nlp, const VectorXd& multipliers) override;
-  void setNoCosts(double weight) override;
-  double largestCurvature() const override;
+  SemismoothModel(const Nlp& nlp, const Jacobian& pattern, const std::vector<int>& costs, std::vector<int> constraints);
+
   double estimateStep(const Problem& problem) override;
   const VectorXd& minimize(const Problem& problem) override;
   double decrease(const Problem& problem) const override;
 
  private:
+  using Function = LocalFunction<Algebra>;
   using Vector = typename Algebra::Vector;
   using Flags = std::vector<char>;
 
-  static constexpr int kSmall = 16;          ///< problems up to this size are taken as dense
   static constexpr double kAtBound = 1e-14;  ///< an entry of the step this near to a bound is put on it
   static constexpr double kLongest = 4.;     ///< most that a Newton step is lengthened
 
-  /// Rows whose curvature the problem tells.
-  struct Curved {
-    int index;       ///< among Nlp::curvedRows
-    int constraint;  ///< that of the first row
-    int rows, column;
-    MatrixXd H;  ///< room for the lower triangle, among the variables from `column` on
-  };
+  using Function::algebra_, Function::n_, Function::size, Function::kSmall, Function::multiplier;
+  using Function::constraints_, Function::equalities_, Function::inequalities_, Function::is_equality_;
+  using Function::g_, Function::is_curved_, Function::is_new_, Function::knows_f_, Function::leaveOutCurvature;
+  using Function::step_, Function::linear_, Function::factorizations_;
 
-  static bool hasRowsOfTypeF(const Nlp& nlp) {
-    return std::find(nlp.types().begin(), nlp.types().end(), ObjectiveType::f) != nlp.types().end();
-  }
-  int size() const { return algebra_.size(); }
-  double multiplier(int j, double value, const Problem& problem) const;
   double value(const Vector& d, const Vector& Hd, const VectorXd& linear, const Problem& problem) const;
   void linearize(const Vector& d, const Problem& problem, VectorXd& linear) const;
   void findWithinReach(const Problem& problem);
   void begin(const Problem& problem);
-  void leaveOutCurvature();
   bool isInside() const;
   double findGradient(const Problem& problem);
   int firstChange(const Problem& problem) const;
@@ -67,24 +53,14 @@ class SemismoothModel final : public LocalModel {
   void putOnBounds(Vector& d) const;
   bool keepsActiveSet(const Problem& problem) const;
 
-  const int n_;                    ///< variables
-  std::vector<int> linear_costs_;  ///< rows whose squares are in H, of which J is the same everywhere
-  std::vector<int> other_costs_;
-  const std::vector<int> constraints_;  ///< rows
-  bool has_f_ = false, knows_linear_costs_ = false;
-  bool knows_f_ = false;  ///< does the problem tell the Hessian of its f terms? It may be indefinite.
-  Algebra algebra_;
-  std::vector<Curved> curved_;
-  bool is_curved_ = false;                      ///< does H have the curvature of constraints?
-  std::vector<int> equalities_, inequalities_;  ///< constraints; of the latter those that depend on x here
-  std::vector<int> within_reach_;               ///< constraints that can matter in the box
-  std::vector<int> out_of_reach_;               ///< those that cannot, and change with d all the same
-  std::vector<int> active_list_;                ///< workspace
-  Flags is_equality_, active_, factored_active_, fixed_, factored_fixed_;
+  std::vector<int> within_reach_;  ///< constraints that can matter in the box
+  std::vector<int> out_of_reach_;  ///< those that cannot, and change with d all the same
+  std::vector<int> active_list_;   ///< workspace
+  Flags active_, factored_active_, fixed_, factored_fixed_;
   bool any_fixed_ = false;
-  Vector low_, high_, g_, d_, trial_, r_, s_, Hd_, Hs_, trial_Hd_;
+  Vector low_, high_, d_, trial_, r_, s_, Hd_, Hs_, trial_Hd_;
   VectorXd trial_linear_, step_linear_;
-  bool is_new_ = true, factored_ = false, factored_as_is_ = true;  ///< without more on the diagonal than the damping
+  bool factored_ = false, factored_as_is_ = true;  ///< without more on the diagonal than the damping
   double factored_mu_ = 0., factored_damping_ = 0.;
 };
 

@@ -14,7 +14,8 @@
 
 namespace kinegraph {
 
-/// What solutions of a problem hand on to the next.
+/// What solutions of a problem hand on to the next. It stays below the 1032 bytes up to which glibc keeps freed memory at
+/// hand: above, solving a small problem that is made anew takes 3 % more instructions.
 struct AugmentedLagrangianMemory::Parts {
   explicit Parts(Nlp& nlp)
       : function(nlp),

@@ -65,14 +65,7 @@ void SequentialQuadratic::findHessian(const VectorXd& multipliers) {
 
 /// Where there is less curvature, steps would be too long to say anything: by the slope that is left to go down, with
 /// variables in their units.
-double SequentialQuadratic::leastCurvature() {
-  old_gradient_ = gradient_;
-  function_.addConstraintGradient(here_.J, lambda_, old_gradient_);
-  const VectorXd down = unit_.cwiseProduct(old_gradient_), x = here_.x.cwiseQuotient(unit_);
-  const double slope = ((x - down).cwiseMax(lower_.cwiseQuotient(unit_)).cwiseMin(upper_.cwiseQuotient(unit_)) - x)
-                           .lpNorm<Eigen::Infinity>();
-  return std::max(1e-10, slope / kLongestStep);
-}
+double SequentialQuadratic::leastCurvature() { return std::max(1e-10, slopeInUnits(lambda_) / kLongestStep); }
 
 /// Rows that hold the step are those that were active in the last program; only touched ones, where others led uphill.
 void SequentialQuadratic::makeConvex(QuadraticProgram& program) {

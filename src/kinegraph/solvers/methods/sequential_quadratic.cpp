@@ -14,6 +14,8 @@ namespace {
 
 constexpr int kLargestDimension = 200;  ///< of problems whose curvature is a full matrix
 constexpr int kActivePasses = 3;        ///< quadratic programs of a step, to find what is active
+constexpr double kLeastSlope = 1e-4;    ///< in units of the variables: less counts as level, whatever the tolerance
+constexpr int kMostTinySteps = 50;      ///< where it is not level
 
 /// The program with one more variable, in [0, 1]: the part of what the first `rows` are violated by at 0 that may
 /// remain, at the price of half of `weight` times its square. It has a solution wherever 0 fulfils the other rows.
@@ -57,7 +59,8 @@ SequentialQuadratic::SequentialQuadratic(Nlp& nlp, const VectorXd& x0, const Sol
 SolverResult SequentialQuadratic::run(const VectorXd& dual) {
   for (Eigen::Index j = 0; knows_curvature_ && dual.size() == here_.phi.size() && j < lambda_.size(); ++j)
     lambda_[j] = dual[constraints_[std::size_t(j)]];
-  curvature_.reset(nlp_.dimension());
+  learning_unit_ = VectorXd::Ones(nlp_.dimension());
+  curvature_.reset(learning_unit_);
   if (knows_curvature_) constraint_curvature_.reset(constraints_, nlp_.dimension());
   evaluate(here_);
   function_.requireFiniteStart(here_);
@@ -67,7 +70,7 @@ SolverResult SequentialQuadratic::run(const VectorXd& dual) {
 }
 
 /// Gradient and Hessian of the costs, and the constraints' rows. While nothing is known of the curvature of the f rows,
-/// it is such that a step without constraints would be a tenth of `room`.
+/// it is such that a step without constraints would be a tenth of `room`, or of the variables' units.
 void SequentialQuadratic::linearize(double room) {
   const int n = nlp_.dimension();
   function_.costGradient(here_.phi, here_.J, gradient_);
@@ -77,7 +80,9 @@ void SequentialQuadratic::linearize(double room) {
     H_ = curvature_.matrix();
     if (curvature_.empty()) {
       function_.generalGradient(here_.J, VectorXd(), old_gradient_);
-      H_.diagonal().setConstant(std::max(1e-8, 10. * old_gradient_.lpNorm<Eigen::Infinity>() / room));
+      const double slope = learning_unit_.cwiseProduct(old_gradient_).lpNorm<Eigen::Infinity>();
+      H_.diagonal() =
+          std::max(1e-8, 10. * slope / (learns_in_units_ ? 1. : room)) * learning_unit_.array().inverse().square();
     }
     addSquaredRows(H_);
   }
@@ -222,22 +227,26 @@ void SequentialQuadratic::iterate() {
                   : step.relaxed > 0. ? "  (relaxed)"
                                       : "");
     }
-    if (violation <= tolerance_ && step.found &&
-        ((size <= options_.stopTolerance * room &&
-          promised <= std::max(std::pow(options_.stopTolerance, 2), 1e-12) * scale) ||
-         promised <= 1e-14 * scale)) {
+    const bool is_tiny = violation <= tolerance_ && step.found &&
+                         ((size <= options_.stopTolerance * room &&
+                           promised <= std::max(std::pow(options_.stopTolerance, 2), 1e-12) * scale) ||
+                          promised <= 1e-14 * scale);
+    if (is_tiny && fulfillsFirstOrder(step.lambda, scale)) {
       if (knows_curvature_ && leavesSaddle(step)) continue;
       if (stopped_) return;
       lambda_ = step.lambda;
       return stop(SolverStatus::converged, cat("step ", size, ", its predicted decrease ", promised, ", and violation ",
                                                violation, " are within tolerances"));
     }
+    if (is_tiny && learnsAnewInUnits()) continue;
+    if (is_tiny && ++tiny_steps_ > kMostTinySteps)
+      return stop(SolverStatus::stalled, "steps are tiny where the objective is not level yet");
     if (!step.found || size <= 1e-15 * room || !lineSearch(step)) {
       if (stopped_) return;
       if (function_.evals() >= options_.stopEvals) continue;
       if ((curvature_.empty() && !knows_curvature_) || ++resets_ > 5)
         return stop(SolverStatus::stalled, "no step decreases the objective as predicted");
-      curvature_.reset(nlp_.dimension());
+      curvature_.reset(learning_unit_);
       weights_.setZero();
       continue;
     }
@@ -246,6 +255,28 @@ void SequentialQuadratic::iterate() {
     learnCurvature(trial_, here_);
     function_.remember(here_);
   }
+}
+
+/// Is the Lagrangian level here, where bounds do not hold x, with variables in their units?
+bool SequentialQuadratic::fulfillsFirstOrder(const VectorXd& multipliers, double scale) {
+  return slopeInUnits(multipliers) <= std::max(options_.stopTolerance, kLeastSlope) * scale;
+}
+
+double SequentialQuadratic::slopeInUnits(const VectorXd& multipliers) {
+  old_gradient_ = gradient_;
+  function_.addConstraintGradient(here_.J, multipliers, old_gradient_);
+  const VectorXd down = unit_.cwiseProduct(old_gradient_), x = here_.x.cwiseQuotient(unit_);
+  return ((x - down).cwiseMax(lower_.cwiseQuotient(unit_)).cwiseMin(upper_.cwiseQuotient(unit_)) - x)
+      .lpNorm<Eigen::Infinity>();
+}
+
+/// Where a tiny step is due to a curvature that was learnt of small variables and taken for that of large ones. Once.
+bool SequentialQuadratic::learnsAnewInUnits() {
+  if (knows_curvature_ || learns_in_units_) return false;
+  learns_in_units_ = true;
+  learning_unit_ = unit_;
+  curvature_.reset(learning_unit_);
+  return true;
 }
 
 SequentialQuadratic::Step SequentialQuadratic::findStep() {

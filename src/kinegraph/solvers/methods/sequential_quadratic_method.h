@@ -37,6 +37,9 @@ class SequentialQuadratic {
   Step solveQuadratic(const VectorXd& c);
   bool lineSearch(const Step& step);
   void learnCurvature(const EvaluatedPoint& before, const EvaluatedPoint& after);
+  bool fulfillsFirstOrder(const VectorXd& multipliers, double scale);
+  double slopeInUnits(const VectorXd& multipliers);
+  bool learnsAnewInUnits();
 
   // Where the problem tells the Hessian of its costs.
   bool solvedInOneStep();
@@ -89,12 +92,15 @@ class SequentialQuadratic {
   MatrixXd H_, A_;      ///< of the quadratic program; A with rows of length 1
   VectorXd row_scale_;  ///< one over their length in J
   VectorXd lambda_, weights_, gradient_, old_gradient_;
-  VectorXd unit_;  ///< of each variable: its size here, at least 1
+  VectorXd unit_;           ///< of each variable: its size here, at least 1
+  VectorXd learning_unit_;  ///< those in which curvature is learnt: ones, or as they were where it was learnt anew
+  bool learns_in_units_ = false;
   double tolerance_;
   bool stopped_ = false;
   SolverStatus status_ = SolverStatus::stalled;
   std::string message_;
-  int resets_ = 0;  ///< times that no step was found
+  int resets_ = 0;      ///< times that no step was found
+  int tiny_steps_ = 0;  ///< where the first-order conditions did not hold
 
   const bool knows_curvature_;
   ConstraintCurvature constraint_curvature_;

@@ -120,27 +120,24 @@ void ConstrainedFunction::addConstraintGradient(const Jacobian& J, const VectorX
     J.addRowTo(constraints_[std::size_t(j)], multipliers[j], gradient);
 }
 
-void ConstrainedFunction::moveTo(const EvaluatedPoint& point) {
+void ConstrainedFunction::moveTo(const PointValues& point) {
   if (evals_ > 0 && last_x_ == point.x) return;
   moved_phi_ = point.phi;
   nlp_.evaluate(point.x, moved_phi_, nullptr);
   last_x_ = point.x;
 }
 
-void ConstrainedFunction::remember(const EvaluatedPoint& point) {
+void ConstrainedFunction::remember(const PointValues& point) {
   const bool both_hold = point.violation <= tolerance_ && best_.violation <= tolerance_;
   if (!has_best_ || (both_hold ? point.cost < best_.cost : point.violation < best_.violation)) forceBest(point);
 }
 
-void ConstrainedFunction::forceBest(const EvaluatedPoint& point) {
+void ConstrainedFunction::forceBest(const PointValues& point) {
   has_best_ = true;
-  best_.x = point.x;
-  best_.phi = point.phi;
-  best_.cost = point.cost;
-  best_.violation = point.violation;
+  best_ = point;
 }
 
-SolverResult ConstrainedFunction::result(const EvaluatedPoint& point, const VectorXd& multipliers, SolverStatus status,
+SolverResult ConstrainedFunction::result(const PointValues& point, const VectorXd& multipliers, SolverStatus status,
                                          std::string message) {
   SolverResult out;
   out.x = point.x;

@@ -9,14 +9,18 @@
 
 namespace kinegraph {
 
-/// A point and what is known there.
-struct EvaluatedPoint {
+/// A point and its values.
+struct PointValues {
   VectorXd x, phi;
-  Jacobian J;
-  VectorXd c;  ///< phi of the constraints
   double cost = 0.;
   double violation = 0.;  ///< of the worst constraint
-  bool finite = true;     ///< are phi and J?
+};
+
+/// A point and all that is known there.
+struct EvaluatedPoint : PointValues {
+  Jacobian J;
+  VectorXd c;          ///< phi of the constraints
+  bool finite = true;  ///< are phi and J?
 };
 
 /// A problem as methods for constraints see it: costs, constraints c (rows of type eq, ineq, ineqB) and a box.
@@ -61,17 +65,16 @@ class ConstrainedFunction {
   void addConstraintGradient(const Jacobian& J, const VectorXd& multipliers, VectorXd& gradient) const;
 
   /// Lets the problem stand at a point that was evaluated, though maybe not as the last one.
-  void moveTo(const EvaluatedPoint& point);
+  void moveTo(const PointValues& point);
 
   /// Takes the point as the best so far if it is: among those within the tolerance the one of least cost, else of least
   /// violation.
-  void remember(const EvaluatedPoint& point);
-  void forceBest(const EvaluatedPoint& point);
-  const EvaluatedPoint& best() const { return best_; }
+  void remember(const PointValues& point);
+  void forceBest(const PointValues& point);
+  const PointValues& best() const { return best_; }
 
   /// How it ended at a point; leaves the problem there. `multipliers` are those of the constraints.
-  SolverResult result(const EvaluatedPoint& point, const VectorXd& multipliers, SolverStatus status,
-                      std::string message);
+  SolverResult result(const PointValues& point, const VectorXd& multipliers, SolverStatus status, std::string message);
 
  private:
   Nlp& nlp_;
@@ -82,7 +85,7 @@ class ConstrainedFunction {
   bool has_f_ = false, has_best_ = false;
   bool only_squares_ = true;  ///< are all costs of type sos?
   VectorXd lower_, upper_, last_x_, moved_phi_;
-  EvaluatedPoint best_;  ///< without J and c
+  PointValues best_;
 };
 
 }  // namespace kinegraph
