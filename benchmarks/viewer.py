@@ -1,14 +1,16 @@
 """How quick are the viewer and the cameras?
 
-    python benchmarks/viewer.py                 all of it; or some of: bundle, first, client, server, ik,
-                                                 camera
+    python benchmarks/viewer.py                 all of it; or some of: bundle, first, client, server, frames,
+                                                 notebook, ik, camera
     python benchmarks/viewer.py client --seconds 20 --size 1280x720
 
 bundle: the page as it is served, compressed. first: from the call of view() until a browser that is already open on the page of
 a program shows the Panda. client: 200 shapes (boxes, spheres, capsules, cylinders, meshes), all moved 60 times per second by a
 program; pictures per second of a headless Chromium that draws in software, with shadows, and how many of the 60 arrive.
 server: share of one core that the server's side of 1000 frames at 60 Hz takes, kinematics included, with a browser's
-connection that reads everything. ik: a target is dragged by its handles on the page while `interactiveIk` runs; how often
+connection that reads everything. frames: 10,000 frames with shapes are added one by one, without a page and with one that is told after
+each; then all are moved while a browser draws them, which counts how often its canvas gets another size. notebook: how large what
+notebooks keep of a Panda and of a motion of it is, and how often the page's script is in it. ik: a target is dragged by its handles on the page while `interactiveIk` runs; how often
 poses arrive at the page, how often it draws, and how often the arm is somewhere else on what it draws. camera: RGB and depth, 640x360, of pandaSingle.
 
 On a busy machine figures are worse than they are. Needs Chromium and the package `websockets` (first, client, server).
@@ -227,6 +229,107 @@ def server() -> None:
         )
 
 
+ADDED = """
+import sys, time
+import numpy as np
+import kinegraph as kg
+
+count, shown = int(sys.argv[1]), sys.argv[2] == "shown"
+C = kg.Config()
+C.view()
+C.viewer().waitForClient(120)
+start, side = time.perf_counter(), int(np.ceil(np.sqrt(count)))
+for i in range(count):
+    C.addFrame(f"f{i}").setShape(kg.ST.box, [.02, .02, .02]).setPosition([i % side / side * 3 - 1.5, i // side / side * 3 - 1.5, .4])
+    if shown:
+        C.view()
+    if (i + 1) % (count // 5) == 0:
+        print("added", i + 1, time.perf_counter() - start, flush=True)
+C.view(False, "all are there")
+time.sleep(600)
+"""
+
+SIZES = """window.sizes = 0;
+new MutationObserver((changes) => (sizes += changes.length)).observe(document.getElementById("canvas"),
+  { attributes: true, attributeFilter: ["width"] });"""
+
+
+def adding(how: str) -> None:
+    count = 10000 if how == "silent" else 2000
+    program, url = start(ADDED, str(count), how)
+    try:
+        with Browser() as browser:
+            browser.open_page(url)
+            browser.evaluate(SIZES)
+            lines = []
+            while len(lines) < 5:
+                line = program.stdout.readline()
+                if line.startswith("added"):
+                    lines.append([float(word) for word in line.split()[1:]])
+            last = lines[-1][1]
+            browser.wait_for("kinegraph.message() == 'all are there'", 300)
+            browser.wait_for(f"kinegraph.frames() == {count} && kinegraph.idle()", 300)
+            sizes = browser.evaluate("sizes")
+    finally:
+        program.kill()
+        program.wait()
+    parts = np.diff([[0.0, 0.0], *lines], axis=0)
+    print(
+        f"frames, {count} added one by one{', each shown' if how == 'shown' else ''}: {last:.2f} s; us per frame in fifths of them: "
+        f"{', '.join(f'{1e6 * seconds / frames:.0f}' for frames, seconds in parts)}; canvas sized {sizes} times"
+    )
+
+
+def many(seconds: float, width: int, height: int) -> None:
+    program, url = start(MOVING, "10000", "moving")
+    try:
+        with Browser() as browser:
+            set_size(browser, width, height)
+            browser.open_page(url)
+            browser.wait_for("kinegraph.frames() == 10000", 120)
+            time.sleep(5)
+            browser.evaluate(SIZES)
+            counters = "[kinegraph.pictures(), kinegraph.poses(), sizes, performance.now()]"
+            before = browser.evaluate(counters)
+            time.sleep(seconds)
+            pictures, messages, sizes, milliseconds = (b - a for a, b in zip(before, browser.evaluate(counters)))
+            share = browser.evaluate("kinegraph.resolution()")
+    finally:
+        program.kill()
+        program.wait()
+    print(
+        f"frames, 10000 that all move, {width}x{height}, software: {1e3 * messages / milliseconds:.1f} messages/s, "
+        f"{1e3 * pictures / milliseconds:.1f} pictures/s, {share:.2f} pixels drawn per pixel across; in {milliseconds / 1e3:.0f} s the "
+        f"canvas got another size {sizes} times"
+    )
+
+
+def frames(seconds: float, width: int, height: int) -> None:
+    adding("silent")
+    adding("shown")
+    many(seconds, width, height)
+
+
+def notebook() -> None:
+    C = kg.Config()
+    C.addFile(kg.raiPath("scenarios/pandaSingle.g"))
+    komo = kg.KOMO(C, 3, 30, 2, False)
+    komo.addControlObjective([], 2, 1e-1)
+    meshes = kg.Config()
+    meshes.addFile(kg.raiPath("panda/panda.g"))
+    for name, shown in {"Panda on its table": C, "Panda alone": meshes}.items():
+        viewer = shown.viewer()
+        whole, element = viewer.asHtml(), viewer._repr_html_()
+        scripts = element.count("id=&quot;client&quot;"), element.count("THREE.WebGLRenderer")
+        print(
+            f"notebook, {name}: {len(whole) / 1e3:.0f} kB as a page, {len(element) / 1e3:.0f} kB in a notebook; the page's script is in it "
+            f"{scripts[0]} times packed, {scripts[1]} times as it is"
+        )
+    print(
+        f"notebook, a motion of 90 slices of it: {len(komo._repr_html_()) / 1e3:.0f} kB; a Config: {len(C._repr_html_()) / 1e3:.0f} kB"
+    )
+
+
 def dragging(seconds: float, width: int, height: int) -> None:
     program, url = start(DRAGGED)
     try:
@@ -277,7 +380,9 @@ def camera() -> None:
 
 def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("what", nargs="*", default=["bundle", "first", "client", "server", "ik", "camera"])
+    parser.add_argument(
+        "what", nargs="*", default=["bundle", "first", "client", "server", "frames", "notebook", "ik", "camera"]
+    )
     parser.add_argument("--seconds", type=float, default=8.0)
     parser.add_argument("--size", default="640x480")
     parser.add_argument("--no-shadows", action="store_true")
@@ -288,6 +393,8 @@ def main() -> None:
         "first": first_picture,
         "client": lambda: client(options.seconds, width, height, not options.no_shadows),
         "server": server,
+        "frames": lambda: frames(options.seconds, width, height),
+        "notebook": notebook,
         "ik": lambda: dragging(options.seconds, width, height),
         "camera": camera,
     }

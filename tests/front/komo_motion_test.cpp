@@ -32,7 +32,8 @@ Config ballAtTable() {
   config.addText(R"(
     table: { X: [1 0 0], shape: box, size: [1 1 1], contact: 1 }
     foot: { X: [.4 0 0], shape: box, size: [.4 .1 .1], contact: 1 }
-    ball: { joint: transX, limits: [-2 2], shape: sphere, size: [.1], contact: 1 }
+    base: { }
+    ball (base): { joint: transX, limits: [-2 2], shape: sphere, size: [.1], contact: 1 }
   )");
   return config;
 }
