@@ -5,6 +5,7 @@ import re
 import subprocess
 import sys
 from pathlib import Path
+from xml.etree import ElementTree
 
 import pytest
 
@@ -63,6 +64,7 @@ FOUND = {
     "23_better_plans": [r"(s after \d+ evaluations\n.*){2}", r"pick cup table l_gripper.*(wall|lid)"],
     "24_two_arms": [r"^solved: 3 actions", r"\(handover rod l_gripper r_gripper\)"],
     "20_two_robots": [r"the blocks are 0\.1[34]\d m and 0\.1[34]\d m higher", r"the same again, to the bit: True"],
+    "26_train_a_policy": [r"from 100 fresh starts: before \d %, after ([5-9]\d|100) %"],
     "21_mpc": [r"nearest to the ball and the table: \d+\.\d mm", r"at the end \d\.\d mm"],
 }
 
@@ -76,7 +78,7 @@ def test_the_example_runs_and_prints_what_it_finds(example, tmp_path):
     program = subprocess.run(
         [sys.executable, "-W", "error", str(example)],
         cwd=tmp_path,
-        env={**os.environ, "TARGETS": "2000"},  # fewer than example 22 makes by itself
+        env={**os.environ, "TARGETS": "2000", "GENERATIONS": "12"},  # fewer than examples 22 and 26 make by themselves
         capture_output=True,
         text=True,
         timeout=120,
@@ -85,3 +87,25 @@ def test_the_example_runs_and_prints_what_it_finds(example, tmp_path):
     for found in FOUND[example.stem]:
         assert re.search(found, program.stdout), f"{found} is not in\n{program.stdout}"
     assert list(tmp_path.iterdir()) == []  # nothing is left behind
+
+
+def test_a_training_draws_its_curve_and_a_seed_gives_the_same_again(tmp_path):
+    example = next(file for file in EXAMPLES if file.stem == "26_train_a_policy")
+    runs = [
+        subprocess.run(
+            [sys.executable, str(example), str(tmp_path / f"{i}.svg")],
+            env={**os.environ, "GENERATIONS": "3"},
+            capture_output=True,
+            text=True,
+            check=True,
+            timeout=120,
+        ).stdout
+        for i in range(2)
+    ]
+    assert runs[0] == runs[1] and runs[0].count("mean reward") == 3
+    drawn = [ElementTree.parse(tmp_path / f"{i}.svg").getroot() for i in range(2)]
+    points = [picture.find("{http://www.w3.org/2000/svg}polyline").get("points") for picture in drawn]
+    assert points[0] == points[1] and len(points[0].split()) == 3
+    rewards = [float(reward) for reward in re.findall(r"mean reward (-[\d.]+)", runs[0])]
+    heights = [float(point.split(",")[1]) for point in points[0].split()]
+    assert sorted(range(3), key=rewards.__getitem__) == sorted(range(3), key=lambda i: -heights[i])
