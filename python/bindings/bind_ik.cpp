@@ -50,7 +50,7 @@ nb::object solve(PyConfig& config, nb::handle targets, const std::optional<IkOpt
                  bool apply, nb::kwargs more) {
   IkOptions options = given.value_or(IkOptions());
   setFields(options, more);
-  const IkRequest request = readIkTargets(config, targets);
+  IkRequest request = readIkTargets(config, targets);
   if (apply && request.is_batch)
     throw ValueError(cat("solveIk: apply is for one problem; the targets are of ", request.problems.size()));
   if (options.collisions) warnOfContacts(config);
@@ -59,7 +59,7 @@ nb::object solve(PyConfig& config, nb::handle targets, const std::optional<IkOpt
   IkResults results;
   {
     const nb::gil_scoped_release unlock;
-    results = solver.solve(request.problems, threads, std::ref(watch));
+    results = solver.solve(std::move(request.problems), threads, std::ref(watch));
     watch.finish();
   }
   if (verbose > 0)

@@ -17,6 +17,7 @@
 #include "kinegraph/solvers/nlp_solver.h"
 #include "nlp_objects.h"
 #include "python_names.h"
+#include "sensitivity.h"
 #include "solver_options.h"
 #include "solving.h"
 
@@ -146,8 +147,8 @@ void bindResult(nb::module_& m) {
       .value("limit", SolverStatus::limit)
       .value("cancelled", SolverStatus::cancelled);
 
-  nb::class_<SolverResult>(m, "SolverReturn", "How a solve ended.")
-      .def(nb::init<>(), "Nothing was solved yet.")
+  nb::class_<SolverResult> result(m, "SolverReturn", "How a solve ended.");
+  result.def(nb::init<>(), "Nothing was solved yet.")
       .def(nb::init<const SolverResult&>(), "other"_a, docs::solvers::copy)
       .def_prop_ro(
           "x", [](const SolverResult& r) { return toNumpy(r.x); }, "The solution, shape (n,).")
@@ -202,6 +203,7 @@ void bindResult(nb::module_& m) {
       .def("__repr__", [](const SolverResult& r) {
         return cat("<SolverReturn ", solverStatusName(r.status), ": ", inPython(r.str()), ">");
       });
+  bindSensitivity(m, result);
 }
 
 /// What setTracing records.

@@ -3,9 +3,12 @@
 #include <algorithm>
 #include <functional>
 
+#include "docs/sensitivity.h"
 #include "ik_objects.h"
 #include "kinegraph/base/text.h"
+#include "kinegraph/front/solution_parameters.h"
 #include "python_names.h"
+#include "sensitivity.h"
 
 namespace kinegraph::python {
 
@@ -33,6 +36,15 @@ Array allJoints(const IkResults& results) {
   return array.array;
 }
 
+Array gradientsOf(const IkResults& results, const Numbers& v, int threads) {
+  MatrixXd gradients;
+  {
+    const nb::gil_scoped_release unlock;
+    gradients = ikGradients(results, v.matrix(), threads);
+  }
+  return toNumpy(gradients);
+}
+
 nb::tuple resultState(const IkResult& r) {
   return nb::make_tuple(toNumpy(r.q), int(r.status), r.position_error, r.rotation_error, r.feature_error, r.penetration,
                         r.attempts, r.evals, r.message);
@@ -57,13 +69,14 @@ const IkResult& resultAt(const IkResults& results, std::ptrdiff_t index) {
   return results[at];
 }
 
-void bindResult(nb::module_& m) {
+nb::class_<IkResult> bindResult(nb::module_& m) {
   nb::enum_<IkStatus>(m, "IkStatus", "How solveIk ended.")
       .value("solved", IkStatus::solved, "All targets within tolerance, no pair nearer than the margin.")
       .value("unreached", IkStatus::unreached, "The nearest attempt misses a target.")
       .value("colliding", IkStatus::colliding, "The nearest attempt meets its targets in collision.")
       .value("cancelled", IkStatus::cancelled, "Before there was an answer.");
-  nb::class_<IkResult>(m, "IkResult", "What solveIk found.")
+  nb::class_<IkResult> bound(m, "IkResult", "What solveIk found.");
+  bound
       .def_prop_ro(
           "q", [](const IkResult& r) { return toNumpy(r.q); },
           "The answer, shape (n,), rad or m, or the attempt that missed least; within the limits.")
@@ -84,11 +97,12 @@ void bindResult(nb::module_& m) {
       .def("__getstate__", resultState)
       .def(
           "__setstate__", [](IkResult& self, nb::tuple state) { new (&self) IkResult(resultFrom(state)); }, "state"_a);
+  return bound;
 }
 
-void bindBatchResult(nb::module_& m) {
-  nb::class_<IkResults>(m, "IkResults", "What solveIk found for N problems. results[i] is the i-th IkResult.")
-      .def_prop_ro("q", allJoints, "The answers, shape (N, n), rad or m.")
+nb::class_<IkResults> bindBatchResult(nb::module_& m) {
+  nb::class_<IkResults> bound(m, "IkResults", "What solveIk found for N problems. results[i] is the i-th IkResult.");
+  bound.def_prop_ro("q", allJoints, "The answers, shape (N, n), rad or m.")
       .def_prop_ro(
           "feasible", [](const IkResults& r) { return column<FlagArray>(r, "bool", &IkResult::feasible); },
           "True where there is an answer, shape (N,).")
@@ -134,13 +148,15 @@ void bindBatchResult(nb::module_& m) {
             for (nb::handle state : states) self.push_back(resultFrom(nb::cast<nb::tuple>(state)));
           },
           "state"_a);
+  return bound;
 }
 
 }  // namespace
 
 void bindIkResults(nb::module_& m) {
-  bindResult(m);
-  bindBatchResult(m);
+  nb::class_<IkResult> result = bindResult(m);
+  bindSensitivity(result);
+  bindBatchResult(m).def("gradients", gradientsOf, "v"_a, nb::kw_only(), "threads"_a = 1, docs::sensitivity::gradients);
 }
 
 }  // namespace kinegraph::python

@@ -23,20 +23,21 @@
 #include "kinegraph/formats/mjcf_writer.h"
 #include "kinegraph/formats/scene_writer.h"
 #include "kinegraph/formats/urdf_writer.h"
-#include "kinegraph/front/camera_view.h"       // CameraView: images
-#include "kinegraph/front/model_path.h"        // modelPath
-#include "kinegraph/front/names.h"             // FS, OT, ST, KOMO, NLP_Solver, ...
-#include "kinegraph/front/own_feature.h"       // functions of frames as features
-#include "kinegraph/front/recorded_motion.h"   // recordedMotion: a simulated run as a page plays it
-#include "kinegraph/front/retime_robot.h"      // retime: a robot's path, by its limits
-#include "kinegraph/front/solve_all.h"         // several problems at once
-#include "kinegraph/ik/solve_ik.h"             // solveIk
-#include "kinegraph/kinematics/edge_check.h"   // EdgeChecker: is a q, is an edge free?
-#include "kinegraph/kinematics/limit_check.h"  // withinLimits
-#include "kinegraph/komo/komo.h"               // Komo: motion problems
-#include "kinegraph/komo/report.h"             // how well a path does
-#include "kinegraph/komo/step_limit.h"         // addStepLimit
-#include "kinegraph/logic/fol_reader.h"        // domains of actions
+#include "kinegraph/front/camera_view.h"          // CameraView: images
+#include "kinegraph/front/model_path.h"           // modelPath
+#include "kinegraph/front/names.h"                // FS, OT, ST, KOMO, NLP_Solver, ...
+#include "kinegraph/front/own_feature.h"          // functions of frames as features
+#include "kinegraph/front/recorded_motion.h"      // recordedMotion: a simulated run as a page plays it
+#include "kinegraph/front/retime_robot.h"         // retime: a robot's path, by its limits
+#include "kinegraph/front/solution_parameters.h"  // Sensitivity: how solutions move with targets, poses, scales
+#include "kinegraph/front/solve_all.h"            // several problems at once
+#include "kinegraph/ik/solve_ik.h"                // solveIk
+#include "kinegraph/kinematics/edge_check.h"      // EdgeChecker: is a q, is an edge free?
+#include "kinegraph/kinematics/limit_check.h"     // withinLimits
+#include "kinegraph/komo/komo.h"                  // Komo: motion problems
+#include "kinegraph/komo/report.h"                // how well a path does
+#include "kinegraph/komo/step_limit.h"            // addStepLimit
+#include "kinegraph/logic/fol_reader.h"           // domains of actions
 #include "kinegraph/logic/pddl.h"
 #include "kinegraph/logic/plan_search.h"            // PlanSearch
 #include "kinegraph/motion/path_finder.h"           // paths between two postures

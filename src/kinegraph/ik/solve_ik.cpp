@@ -9,6 +9,7 @@
 #include "kinegraph/base/parallel.h"
 #include "kinegraph/base/text.h"
 #include "kinegraph/ik/ik_lanes.h"
+#include "kinegraph/ik/ik_nlp.h"
 
 namespace kinegraph {
 
@@ -40,7 +41,7 @@ std::string IkResult::str() const {
 
 IkResult solveIk(const Config& config, const std::vector<IkTarget>& targets, const IkOptions& options,
                  const IkWatch& watch) {
-  return IkSolver(config, targets, options).solve({targets}, 1, watch)[0];
+  return std::move(IkSolver(config, targets, options).solve({targets}, 1, watch)[0]);
 }
 
 std::vector<IkResult> solveIkBatch(const Config& config, const std::vector<std::vector<IkTarget>>& problems,
@@ -53,9 +54,11 @@ IkSolver::IkSolver(const Config& config, const std::vector<IkTarget>& targets, c
   problem_ = std::make_shared<const IkProblem>(config, targets, options);
 }
 
-std::vector<IkResult> IkSolver::solve(const std::vector<std::vector<IkTarget>>& problems, int threads,
+std::vector<IkResult> IkSolver::solve(std::vector<std::vector<IkTarget>> given, int threads,
                                       const IkWatch& watch) const {
   if (threads < 1) throw ValueError(cat("solveIk: threads is ", threads, "; expected at least 1"));
+  const auto question = std::make_shared<const IkQuestion>(problem_, std::move(given));
+  const std::vector<std::vector<IkTarget>>& problems = question->problems;
   for (std::size_t i = 0; i < problems.size(); ++i) {
     const std::vector<IkProblem::Task>& tasks = problem_->tasks;
     if (problems[i].size() != tasks.size())
@@ -64,6 +67,13 @@ std::vector<IkResult> IkSolver::solve(const std::vector<std::vector<IkTarget>>& 
   }
   std::vector<IkResult> results(problems.size());
   const int count = int(problems.size());
+  const auto answered = [&] {
+    for (int i = 0; i < count; ++i) {
+      results[std::size_t(i)].question = question;
+      results[std::size_t(i)].number = i;
+    }
+    return std::move(results);
+  };
   std::atomic<int> done = 0;
   std::atomic<bool> stop = false;
   const std::function<bool()> stopped = [&] { return stop.load(std::memory_order_relaxed); };
@@ -78,7 +88,7 @@ std::vector<IkResult> IkSolver::solve(const std::vector<std::vector<IkTarget>>& 
   };
   if (threads == 1 || count <= 1) {
     IkLanes(problem_).solve(problems.data(), count, results.data(), done, watching);
-    return results;
+    return answered();
   }
   const int part = std::clamp(count / (4 * threads), 1, kLargestPart);
   std::vector<std::optional<IkLanes>> searches(std::size_t(std::min(threads, count)));
@@ -91,7 +101,7 @@ std::vector<IkResult> IkSolver::solve(const std::vector<std::vector<IkTarget>>& 
                       worker == 0 ? watching : stopped);
       },
       watching);
-  return results;
+  return answered();
 }
 
 }  // namespace kinegraph

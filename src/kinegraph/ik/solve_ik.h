@@ -19,6 +19,8 @@ enum class IkStatus {
 
 std::string ikStatusName(IkStatus status);
 
+struct IkQuestion;
+
 struct IkResult {
   VectorXd q;  ///< (n,), within the limits: the answer, or the attempt that missed least
   IkStatus status = IkStatus::cancelled;
@@ -28,7 +30,9 @@ struct IkResult {
   double penetration = 0.;     ///< by which the worst pair is nearer than the margin, m
   int attempts = 0;            ///< starting points used
   int evals = 0;               ///< forward kinematics with Jacobian
-  std::string message;         ///< "" if solved, else what misses what by how much, and what is in the way
+  std::string message{};       ///< "" if solved, else what misses what by how much, and what is in the way
+  std::shared_ptr<const IkQuestion> question{};  ///< for makeNlp (ik_nlp.h); null of a result that was loaded
+  int number = 0;                                ///< of the problem there
 
   bool feasible() const { return status == IkStatus::solved; }
   std::string str() const;  ///< "solved in 2 attempts, within 1e-8 m and 3e-9 rad", or the status and the message
@@ -65,7 +69,7 @@ class IkSolver {
   /// Of the targets all matters here but poses, directions and values.
   IkSolver(const Config& config, const std::vector<IkTarget>& targets, const IkOptions& options = {});
 
-  std::vector<IkResult> solve(const std::vector<std::vector<IkTarget>>& problems, int threads = 1,
+  std::vector<IkResult> solve(std::vector<std::vector<IkTarget>> problems, int threads = 1,
                               const IkWatch& watch = {}) const;
 
  private:

@@ -224,6 +224,11 @@ std::shared_ptr<Komo> komoOf(const Nlp& nlp) {
   return problem ? problem->komo() : nullptr;
 }
 
+const std::vector<Objective>* objectivesOf(const Nlp& nlp) {
+  const auto* of_komo = dynamic_cast<const KomoNlp*>(&nlp);
+  return of_komo ? &of_komo->problem().objectives() : nullptr;
+}
+
 std::vector<PathRow> pathRows(const Nlp& nlp) {
   std::vector<PathRow> rows;
   const auto* of_komo = dynamic_cast<const KomoNlp*>(&nlp);

@@ -2,6 +2,7 @@
 
 #include <vector>
 
+#include "kinegraph/komo/objective.h"
 #include "kinegraph/nlp/nlp.h"
 
 namespace kinegraph {
@@ -15,5 +16,9 @@ struct PathRow {
 
 /// Of all residuals of a problem that was made from a Komo, or of its separate form. Empty for other problems.
 std::vector<PathRow> pathRows(const Nlp& nlp);
+
+/// Its objectives, as they were when it was made from a Komo; null for other problems. Of its separate form: as they
+/// are there.
+const std::vector<Objective>* objectivesOf(const Nlp& nlp);
 
 }  // namespace kinegraph

@@ -62,6 +62,9 @@ class BandAlgebra {
   bool factorize(double damping, double mu, const std::vector<int>& active, const std::vector<char>& fixed, int first);
   void solve(Vector& x);  ///< x <- K^-1 x
 
+  /// What the factorization left of the diagonal entry of a variable: near zero where K is nearly singular.
+  double pivot(int i) const { return K_.at(place_[std::size_t(i)], place_[std::size_t(i)]); }
+
  private:
   /// Part of a row of J whose columns follow one another in the matrices.
   struct Run {

@@ -1,0 +1,275 @@
+#include "kinegraph/komo/path_parameters.h"
+
+#include <algorithm>
+
+#include "kinegraph/base/errors.h"
+#include "kinegraph/base/text.h"
+#include "kinegraph/komo/komo.h"
+#include "kinegraph/komo/path_description.h"
+#include "kinegraph/komo/path_rows.h"
+
+namespace kinegraph {
+
+namespace {
+
+std::shared_ptr<Komo> requireKomo(const Nlp& nlp) {
+  std::shared_ptr<Komo> komo = komoOf(nlp);
+  if (!komo) throw ValueError("the problem is not a KOMO's: it has no objectives and no frames");
+  return komo;
+}
+
+const Objective& requireObjective(const Nlp& nlp, int number) {
+  requireKomo(nlp);
+  const std::vector<Objective>& objectives = *objectivesOf(nlp);
+  if (number < 0 || number >= int(objectives.size()))
+    throw ValueError(cat("there is no objective ", number, "; the problem has ", objectives.size()));
+  const Objective& objective = objectives[std::size_t(number)];
+  if (objective.from > objective.to)
+    throw ValueError(cat("objective ", number, " (", objectiveName(objective),
+                         ") selects no slice: the solution does not depend on it"));
+  if (objective.type == ObjectiveType::none)
+    throw ValueError(cat("objective ", number, " (", objectiveName(objective),
+                         ") has type none: the solution does not depend on it"));
+  return objective;
+}
+
+Residual residualOf(const Nlp& nlp, const Objective& objective) {
+  const std::shared_ptr<Komo> komo = requireKomo(nlp);
+  return residualIn(objective, komo->path(), komo->contacts().forces(), objective.from);
+}
+
+std::vector<std::string> numbered(const std::string& what, int count) {
+  std::vector<std::string> names;
+  for (int i = 0; i < count; ++i) names.push_back(count == 1 ? what : cat(what, ", row ", i));
+  return names;
+}
+
+/// phi = scale (y - target).
+class ObjectiveTarget final : public NlpParameter {
+ public:
+  ObjectiveTarget(int number, const Objective& objective, const Residual& residual)
+      : NlpParameter(cat("target of ", objectiveName(objective)),
+                     numbered(cat("target of ", objectiveName(objective)), count(objective, residual))),
+        objective_(number),
+        is_common_(objective.feature == FeatureSymbol::pairCollisions),
+        mixes_(residual.mixesRows()),
+        scale_(residual.scale()) {}
+
+  void differentiate(const Point& at, int number, VectorXd& phi, VectorXd&) override {
+    const std::vector<PathRow> rows = pathRows(at.nlp);
+    for (std::size_t i = 0; i < rows.size(); ++i) {
+      if (rows[i].objective != objective_) continue;
+      double scale = 1.;
+      if (mixes_)
+        scale = is_common_ ? scale_.row(rows[i].row).sum() : scale_(rows[i].row, number);
+      else if (!is_common_ && rows[i].row != number)
+        continue;
+      else if (scale_.size() > 0)
+        scale = scale_(scale_.size() == 1 ? 0 : rows[i].row);
+      phi[Eigen::Index(i)] -= scale;
+    }
+  }
+
+ private:
+  static int count(const Objective& objective, const Residual& residual) {
+    if (objective.feature == FeatureSymbol::accumulatedCollisions)
+      throw ValueError(
+          "accumulatedCollisions is a sum of overlaps, which has no target that could be moved; pairCollisions has "
+          "one");
+    return objective.feature == FeatureSymbol::pairCollisions ? 1 : residual.feature().rows();
+  }
+
+  int objective_;
+  bool is_common_, mixes_;
+  MatrixXd scale_;
+};
+
+class ObjectiveScale final : public NlpParameter {
+ public:
+  ObjectiveScale(int number, const Objective& objective, const Residual& residual)
+      : NlpParameter(cat("scale of ", objectiveName(objective)),
+                     numbered(cat("scale of ", objectiveName(objective)), count(objective, residual))),
+        objective_(number),
+        scale_(residual.scale().size() == 0 ? VectorXd(VectorXd::Ones(1)) : VectorXd(residual.scale().col(0))) {}
+
+  void differentiate(const Point& at, int number, VectorXd& phi, VectorXd& gradient) override {
+    const std::vector<PathRow> rows = pathRows(at.nlp);
+    for (std::size_t i = 0; i < rows.size(); ++i) {
+      if (rows[i].objective != objective_ || (size() > 1 && rows[i].row != number)) continue;
+      phi[Eigen::Index(i)] += at.phi[Eigen::Index(i)] / scale_[number];
+      const double weight = at.weights[Eigen::Index(i)];
+      if (weight != 0. && !at.J.zero_row[i]) at.J.addRowTo(int(i), weight / scale_[number], gradient);
+    }
+  }
+
+ private:
+  static int count(const Objective& objective, const Residual& residual) {
+    const MatrixXd& scale = residual.scale();
+    if (residual.mixesRows())
+      throw ValueError(cat("the scale of ", objectiveName(objective),
+                           " is a matrix; expected a number, or one per row, to differentiate by"));
+    if ((scale.array() == 0.).any())
+      throw ValueError(
+          cat("the scale of ", objectiveName(objective), " has zeros: nothing is known of what they hide"));
+    return std::max(1, int(scale.size()));
+  }
+
+  int objective_;
+  VectorXd scale_;
+};
+
+/// A frame at rest on its parent, in all slices in which it is.
+class FramePlace final : public MovedParameter {
+ public:
+  FramePlace(const Nlp& nlp, const std::string& name, bool turns)
+      : MovedParameter(cat(turns ? "pose of " : "position of ", name), namesOf(name, turns)) {
+    const Path& path = requireKomo(nlp)->path();
+    frame_ = frameId(path.state(0).program(), name, "sensitivity");
+    std::string joint_of;
+    const auto add = [&](const SceneTree& scene) {
+      const auto copy = std::make_shared<SceneTree>();
+      copy->append(scene, {}, false);
+      const FrameData& frame = *copy->frames()[std::size_t(frame_)];
+      rests_.push_back(!frame.moves());
+      poses_.push_back(frame.pose);
+      scenes_.push_back(copy);
+      if (frame.moves() && frame.parent) joint_of = frame.parent->name;
+    };
+    if (path.modes().empty()) add(*path.given().tree);
+    for (const auto& mode : path.modes().list()) add(*mode->config.scene());
+    if (std::ranges::find(rests_, true) != rests_.end()) return;
+    throw ValueError(cat("frame '", name, "' is where its joint brings it; expected a frame that rests on its parent",
+                         joint_of.empty() ? "" : cat(", as '", joint_of, "' may")));
+  }
+
+ private:
+  static std::vector<std::string> namesOf(const std::string& frame, bool turns) {
+    std::vector<std::string> names;
+    for (const char* axis : {"x", "y", "z"}) names.push_back(cat("position of ", frame, ", ", axis));
+    for (const char* axis : {"x", "y", "z"}) {
+      if (turns) names.push_back(cat("rotation of ", frame, " about ", axis));
+    }
+    return names;
+  }
+
+  void move(Nlp& nlp, int number, double by) override {
+    Path& path = requireKomo(nlp)->path();
+    const int order = path.grid().order();
+    if (given_.empty()) {
+      for (int t = -order; t < path.grid().slices(); ++t) given_.push_back(path.state(t).sharedParameters());
+    }
+    if (by == 0.) {
+      for (int t = -order; t < path.grid().slices(); ++t) path.setParameters(t, given_[std::size_t(t + order)]);
+      given_.clear();
+      return;
+    }
+    std::vector<std::shared_ptr<const Parameters>> moved(scenes_.size());
+    for (int t = -order; t < path.grid().slices(); ++t) {
+      const auto place = std::size_t(t + order);
+      const std::size_t mode = path.modes().empty() ? 0 : std::size_t(path.modes().ofSlices()[place]);
+      if (!rests_[mode]) continue;
+      if (!moved[mode]) moved[mode] = movedIn(mode, path.state(t).program(), *given_[place], number, by);
+      path.setParameters(t, moved[mode]);
+    }
+  }
+
+  std::shared_ptr<const Parameters> movedIn(std::size_t mode, const Program& program, const Parameters& given,
+                                            int number, double by) const {
+    FrameData& frame = *scenes_[mode]->frames()[std::size_t(frame_)];
+    frame.pose = poses_[mode];
+    const Vector3d axis = Vector3d::Unit(number % 3);
+    if (number < 3)
+      frame.pose.p += by * axis;
+    else
+      frame.pose.q = Quaterniond(Eigen::AngleAxisd(by, axis)) * frame.pose.q;
+    const auto moved = std::make_shared<Parameters>(given);
+    updateParameters(frame, program, *moved);
+    return moved;
+  }
+
+  int frame_ = -1;
+  std::vector<std::shared_ptr<SceneTree>> scenes_;        ///< per mode, or the given one
+  std::vector<Pose> poses_;                               ///< of the frame in each
+  std::vector<bool> rests_;                               ///< does it, in each?
+  std::vector<std::shared_ptr<const Parameters>> given_;  ///< per slice, while it is moved
+};
+
+/// The slices before the first.
+class MotionStart final : public MovedParameter {
+ public:
+  explicit MotionStart(const Nlp& nlp) : MovedParameter("start", namesOf(*requireKomo(nlp))) {
+    if (requireKomo(nlp)->order() == 0)
+      throw ValueError("a problem of order 0 has no slices before the first: its solution does not depend on a start");
+  }
+
+ private:
+  static std::vector<std::string> namesOf(const Komo& komo) {
+    const Program& program = *komo.path().given().program;
+    std::vector<std::string> names;
+    for (const int frame : komo.path().given().joint_frames) {
+      const int count = program.frame_dofs[std::size_t(frame)].count;
+      for (int i = 0; i < count; ++i)
+        names.push_back(cat("start of ", program.frame_name[std::size_t(frame)], count > 1 ? cat(", dof ", i) : ""));
+    }
+    return names;
+  }
+
+  void move(Nlp& nlp, int number, double by) override {
+    Path& path = requireKomo(nlp)->path();
+    const int order = path.grid().order();
+    if (given_.empty()) {
+      for (int t = -order; t < 0; ++t) given_.push_back(path.state(t).q());
+    }
+    for (int t = -order; t < 0; ++t) {
+      VectorXd q = given_[std::size_t(t + order)];
+      if (by != 0.) q[path.dofsOf(path.given().joint_frames, t)[std::size_t(number)]] += by;
+      path.setSlice(t, q.data());
+    }
+    if (by == 0.) given_.clear();
+  }
+
+  std::vector<VectorXd> given_;  ///< q of those slices, while it is moved
+};
+
+}  // namespace
+
+int objectiveNumber(const Nlp& nlp, const std::string& name) {
+  requireKomo(nlp);
+  const std::vector<Objective>& objectives = *objectivesOf(nlp);
+  std::vector<std::string> found, known;
+  int number = -1;
+  for (std::size_t i = 0; i < objectives.size(); ++i) {
+    const std::string whole = objectiveName(objectives[i]);
+    known.push_back(whole);
+    if (whole != name && objectives[i].name() != name) continue;
+    found.push_back(cat(i, " (", whole, ")"));
+    number = int(i);
+  }
+  if (found.size() > 1)
+    throw NameError(cat("several objectives are named '", name, "': ", join(found), "; give the number of one"));
+  if (number < 0)
+    throw NameError(cat("there is no objective '", name, "'; the problem has ", join(known), similarHint(name, known)));
+  return number;
+}
+
+std::shared_ptr<NlpParameter> objectiveTarget(const Nlp& nlp, int number) {
+  const Objective& objective = requireObjective(nlp, number);
+  return std::make_shared<ObjectiveTarget>(number, objective, residualOf(nlp, objective));
+}
+
+std::shared_ptr<NlpParameter> objectiveScale(const Nlp& nlp, int number) {
+  const Objective& objective = requireObjective(nlp, number);
+  return std::make_shared<ObjectiveScale>(number, objective, residualOf(nlp, objective));
+}
+
+std::shared_ptr<NlpParameter> framePosition(const Nlp& nlp, const std::string& frame) {
+  return std::make_shared<FramePlace>(nlp, frame, false);
+}
+
+std::shared_ptr<NlpParameter> framePose(const Nlp& nlp, const std::string& frame) {
+  return std::make_shared<FramePlace>(nlp, frame, true);
+}
+
+std::shared_ptr<NlpParameter> motionStart(const Nlp& nlp) { return std::make_shared<MotionStart>(nlp); }
+
+}  // namespace kinegraph

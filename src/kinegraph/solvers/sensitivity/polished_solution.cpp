@@ -1,0 +1,250 @@
+#include "kinegraph/solvers/sensitivity/polished_solution.h"
+
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+#include <limits>
+
+#include "kinegraph/base/errors.h"
+#include "kinegraph/base/text.h"
+#include "kinegraph/solvers/methods/augmented_lagrangian.h"
+
+namespace kinegraph {
+
+namespace {
+
+using enum ObjectiveType;
+
+constexpr double kSettled = 1e-7;        // of a step: the next one would be of the size of its square
+constexpr double kSettledPull = 1e-6;    // of multipliers, relative to the largest gradient
+constexpr double kShort = 1e-2;          // the way that costs go before they count as forces
+constexpr double kStepAccuracy = 1e-10;  // relative, of the linear system
+constexpr int kMostSteps = 15;
+constexpr double kNear = 1e-3;      // of a constraint per length of its gradient: it may be active
+constexpr double kTouching = 1e-6;  // the same: it is
+constexpr double kNoForce = 1e-6;   // of a multiplier, relative to the gradients that it balances
+constexpr double kTight = 1e-8;     // tolerances of the solver that helps
+
+bool isCost(ObjectiveType type) { return type == f || type == sos || type == ineqP; }
+bool isInequality(ObjectiveType type) { return type == ineq || type == ineqB; }
+
+bool offersCostHessian(Nlp& nlp, const VectorXd& x) {
+  bool any = false;
+  for (std::size_t row = 0; row < nlp.types().size(); ++row)
+    any = any || (nlp.types()[row] == f && !nlp.isLinear(int(row)));
+  MatrixXd H = any ? MatrixXd(MatrixXd::Zero(x.size(), x.size())) : MatrixXd();
+  return any && nlp.addCostHessian(x, H);
+}
+
+}  // namespace
+
+PolishedSolution::PolishedSolution(Nlp& nlp, const VectorXd& given, const VectorXd& multipliers,
+                                   const std::vector<char>& is_near, bool holds_weak)
+    : x(given.cwiseMax(nlp.lower()).cwiseMin(nlp.upper())),
+      phi(nlp.types().size()),
+      dual(multipliers),
+      weights(VectorXd::Zero(Eigen::Index(nlp.types().size()))),
+      J(nlp.makeJacobian()),
+      fixed(std::size_t(nlp.dimension()), false),
+      nlp_(nlp),
+      is_near_(is_near),
+      holds_weak_(holds_weak),
+      has_costs_(std::ranges::any_of(nlp.types(), isCost)),
+      tells_costs_(offersCostHessian(nlp, x)),
+      system_(nlp, J, tells_costs_),
+      curvature_(nlp),
+      bound_pull_(VectorXd::Zero(nlp.dimension())) {
+  if (dual.size() == 0) {
+    dual.setZero(phi.size());
+    is_near_.assign(nlp.types().size(), true);
+  }
+  if (!has_costs_) dual.setZero();  // nothing presses
+  const VectorXd start = x;
+  if (!converge()) {
+    x = start;
+    solveTightly();
+    if (!converge())
+      throw Error(
+          "the solution cannot be found exactly: Newton's method on its conditions does not converge from the result, "
+          "nor after further steps of the solver; its derivatives are not known");
+  }
+  classify();
+}
+
+void PolishedSolution::evaluate() {
+  nlp_.evaluate(x, phi, &J);
+  ++evals;
+  if (!phi.allFinite()) throw Error("residuals are not finite at the solution; it has no derivatives");
+}
+
+/// The weights of the gradients, and the Lagrangian's gradient.
+void PolishedSolution::weigh() {
+  squared_.clear();
+  gradient_.setZero(x.size());
+  for (int row = 0; row < int(phi.size()); ++row) {
+    const ObjectiveType type = nlp_.types()[std::size_t(row)];
+    double weight = 0.;
+    if (type == f) {
+      weight = 1.;
+    } else if (type == sos || (type == ineqP && phi[row] > 0.)) {
+      weight = 2. * phi[row];
+      if (!J.zero_row[std::size_t(row)]) squared_.push_back(row);
+    } else if (type == eq || isInequality(type)) {
+      weight = dual[row];
+    }
+    weights[row] = weight;
+    if (weight != 0. && !J.zero_row[std::size_t(row)]) J.addRowTo(row, weight, gradient_);
+  }
+}
+
+/// H at the present point, at which the problem was evaluated last.
+void PolishedSolution::linearize() {
+  BandAlgebra& H = system_.begin(J, squared_);
+  if (tells_costs_) {
+    MatrixXd costs = MatrixXd::Zero(x.size(), x.size());
+    nlp_.addCostHessian(x, costs);
+    for (int j = 0; j < costs.cols(); ++j) {
+      for (int i = j; i < costs.rows(); ++i) H.addEntry(i, j, costs(i, j));
+    }
+  }
+  curvature_.addTo(H, x, weights, J, tells_costs_);
+  curvature_scale_ = system_.largestCurvature();
+  if (curvature_scale_ == 0.) curvature_scale_ = 1.;
+}
+
+/// What presses, or would be violated; at first also what may. False if nothing has changed.
+bool PolishedSolution::chooseActive(bool is_first) {
+  std::vector<int> now;
+  for (int row = 0; row < int(phi.size()); ++row) {
+    const ObjectiveType type = nlp_.types()[std::size_t(row)];
+    const double norm = system_.norm(row);
+    if (type == eq && (norm > 0. || dual[row] != 0.)) now.push_back(row);
+    if (!isInequality(type) || norm == 0.) continue;
+    const double slack = phi[row] / norm, force = dual[row] * norm;
+    const bool may_be = is_first && (force > 0. || (is_near_[std::size_t(row)] && slack > -kNear));
+    if (may_be || force + curvature_scale_ * slack > 0.)
+      now.push_back(row);
+    else
+      dual[row] = 0.;
+  }
+  std::vector<char> held(fixed.size());
+  for (int i = 0; i < int(x.size()); ++i) {
+    const double pull = -gradient_[i], low = nlp_.lower()[i], high = nlp_.upper()[i];
+    held[std::size_t(i)] =
+        low == high || pull + curvature_scale_ * (x[i] - high) > 0. || pull + curvature_scale_ * (x[i] - low) < 0.;
+  }
+  const bool changed = now != active || held != fixed;
+  active = std::move(now);
+  fixed = std::move(held);
+  return changed;
+}
+
+/// One step of Newton's method; true if there will be no further one of any size.
+bool PolishedSolution::step() {
+  VectorXd b(active.size()), dx = VectorXd::Zero(x.size()), change(active.size());
+  for (std::size_t k = 0; k < active.size(); ++k) b[Eigen::Index(k)] = -phi[active[k]];
+  for (int i = 0; i < int(x.size()); ++i) {
+    if (!fixed[std::size_t(i)]) continue;
+    const double pull = -gradient_[i];
+    const bool is_upper = pull + curvature_scale_ * (x[i] - nlp_.upper()[i]) > 0.;
+    dx[i] = (is_upper ? nlp_.upper()[i] : nlp_.lower()[i]) - x[i];
+  }
+  weigh();
+  system_.solve(-gradient_, b, dx, change, kStepAccuracy);
+  moved_ = dx.size() > 0 ? dx.lpNorm<Eigen::Infinity>() : 0.;
+  if (!std::isfinite(moved_)) return false;
+  x += dx;
+  last_step_ = std::move(dx);
+  double changed = 0.;
+  force_scale_ = 0.;
+  for (std::size_t k = 0; has_costs_ && k < active.size(); ++k) {
+    dual[active[k]] += change[Eigen::Index(k)];
+    weights[active[k]] = dual[active[k]];
+    changed = std::max(changed, std::abs(change[Eigen::Index(k)]) * system_.norm(active[k]));
+  }
+  for (int row = 0; row < int(phi.size()); ++row)
+    force_scale_ = std::max(force_scale_, std::abs(weights[row]) * system_.norm(row));
+  force_scale_ = std::max(force_scale_, kShort * curvature_scale_);
+  pulls_settled_ = changed <= kSettledPull * force_scale_;
+  return true;
+}
+
+bool PolishedSolution::converge() {
+  double before = std::numeric_limits<double>::infinity();
+  int worse = 0;
+  for (int i = 0; i < kMostSteps; ++i) {
+    evaluate();
+    weigh();
+    linearize();
+    const bool changed = chooseActive(i == 0);
+    if (!system_.factorize(active, fixed)) return false;
+    if (!step()) return false;
+    const double size = 1. + x.lpNorm<Eigen::Infinity>();
+    if (moved_ <= kSettled * size && pulls_settled_ && (!changed || i == 0)) {
+      // what was taken as active for once may have turned out to pull
+      const auto pulls = [&](int row) {
+        return isInequality(nlp_.types()[std::size_t(row)]) &&
+               dual[row] * system_.norm(row) < -kSettledPull * force_scale_;
+      };
+      if (std::ranges::none_of(active, pulls)) return true;
+    }
+    worse = !changed && moved_ > before ? worse + 1 : 0;
+    if (worse > 3 || moved_ > 10. * size) return false;
+    before = moved_;
+  }
+  return false;
+}
+
+void PolishedSolution::solveTightly() {
+  SolverOptions options;
+  options.verbose = 0;
+  options.stopTolerance = kTight;
+  options.stopGTolerance = kTight;
+  const SolverResult tight = solveAugmentedLagrangian(nlp_, x, options, dual);
+  x = tight.x;
+  dual = tight.dual;
+  evals += tight.evals;
+  std::fill(is_near_.begin(), is_near_.end(), false);
+  active.clear();
+  std::fill(fixed.begin(), fixed.end(), false);
+}
+
+/// Parts what presses from what merely touches. The conditions are as the last step found them, which led here.
+void PolishedSolution::classify() {
+  const double no_force = kNoForce * force_scale_;
+  for (int row = 0; row < int(phi.size()); ++row) {
+    const double norm = system_.norm(row);
+    if (!isInequality(nlp_.types()[std::size_t(row)]) || norm == 0.) continue;
+    const bool is_active = std::ranges::binary_search(active, row);
+    if ((is_active || phi[row] / norm > -kTouching) && dual[row] * norm <= no_force) weak_rows.push_back(row);
+  }
+  for (int row = 0; row < int(phi.size()); ++row) {  // the last step was so short that this is exact
+    if (!J.zero_row[std::size_t(row)]) phi[row] += J.rowTimes(row, last_step_);
+  }
+  weigh();
+  for (int i = 0; i < int(x.size()); ++i) {
+    const double low = nlp_.lower()[i], high = nlp_.upper()[i], pull = -gradient_[i];
+    if (low == high || std::abs(pull) > no_force) continue;
+    if (x[i] - low <= kTouching) weak_lower.push_back(i);
+    if (high - x[i] <= kTouching) weak_upper.push_back(i);
+  }
+  std::vector<int> pressing;
+  std::ranges::copy_if(active, std::back_inserter(pressing),
+                       [&](int row) { return holds_weak_ || !std::ranges::binary_search(weak_rows, row); });
+  if (holds_weak_) {
+    pressing.insert(pressing.end(), weak_rows.begin(), weak_rows.end());
+    std::ranges::sort(pressing);
+    pressing.erase(std::unique(pressing.begin(), pressing.end()), pressing.end());
+  }
+  std::vector<char> held = fixed;
+  for (const std::vector<int>* weak : {&weak_lower, &weak_upper}) {
+    for (const int i : *weak) held[std::size_t(i)] = holds_weak_;
+  }
+  if (pressing == active && held == fixed) return;
+  active = std::move(pressing);
+  fixed = std::move(held);
+  linearize();
+  system_.factorize(active, fixed);
+}
+
+}  // namespace kinegraph
