@@ -4,11 +4,13 @@ from __future__ import annotations
 
 from collections import deque
 from collections.abc import Callable, Iterable, Iterator
-from concurrent.futures import Future, ThreadPoolExecutor
 from threading import Event
-from typing import TypeVar
+from typing import TYPE_CHECKING, TypeVar
 
 from .errors import ArgumentError
+
+if TYPE_CHECKING:
+    from concurrent.futures import Future
 
 T = TypeVar("T")
 Stopped = Callable[[], bool]
@@ -42,6 +44,8 @@ def inOrder(jobs: Iterable[Callable[[Stopped], T]], threads: int) -> Iterator[T]
         for job in jobs:
             yield job(lambda: False)
         return
+    from concurrent.futures import ThreadPoolExecutor  # not at import: it takes milliseconds, and few need it
+
     over = Event()
     pool = ThreadPoolExecutor(threads)
     ahead: deque[Future[T]] = deque()
