@@ -103,6 +103,22 @@ nb::tuple timedState(const TimedPath& t) {
                         phases.array, pieces, t.law().duration());
 }
 
+/// The phases of a time law on a curve of so many pieces.
+std::vector<LawPhase> phasesFrom(const std::vector<double>& numbers, const std::vector<int>& pieces, int of_curve) {
+  if (numbers.size() != 7 * pieces.size())
+    throw ValueError(
+        cat("TimedPath: ", numbers.size(), " numbers for ", pieces.size(), " phases; expected 7 for each"));
+  std::vector<LawPhase> phases;
+  const double* from = numbers.data();
+  for (const int piece : pieces) {
+    if (piece < 0 || piece >= of_curve)
+      throw ValueError(cat("TimedPath: a phase on piece ", piece, " of a curve of ", of_curve, " pieces"));
+    phases.push_back({from[0], {from[1], from[2], from[3], from[4]}, from[5], from[6], piece});
+    from += 7;
+  }
+  return phases;
+}
+
 void setTimedState(TimedPath& t, const nb::tuple& state) {
   const nb::tuple c = nb::cast<nb::tuple>(state[4]);
   using Values = std::vector<double>;
@@ -110,16 +126,13 @@ void setTimedState(TimedPath& t, const nb::tuple& state) {
   const PathCurve::Parts curve{nb::cast<int>(c[0]),    nb::cast<int>(c[1]),    nb::cast<double>(c[2]),
                                nb::cast<Values>(c[3]), nb::cast<Values>(c[4]), nb::cast<Values>(c[5]),
                                nb::cast<Flags>(c[6]),  nb::cast<Flags>(c[7])};
-  const auto phases = nb::cast<Numbers>(state[5]);
-  std::vector<LawPhase> law;
-  const double* from = phases.values.data();
-  for (const int piece : nb::cast<std::vector<int>>(state[6])) {
-    law.push_back({from[0], {from[1], from[2], from[3], from[4]}, from[5], from[6], piece});
-    from += 7;
-  }
-  new (&t) TimedPath(TimedPath::fromParts(RetimeStatus(nb::cast<int>(state[0])), nb::cast<std::string>(state[1]),
-                                          nb::cast<Numbers>(state[2]).matrix(), nb::cast<Numbers>(state[3]).values,
-                                          PathCurve::fromParts(curve), {law, nb::cast<double>(state[7])}));
+  std::vector<LawPhase> law =
+      phasesFrom(nb::cast<Numbers>(state[5]).values, nb::cast<std::vector<int>>(state[6]), int(curve.begin.size()));
+  const auto status = RetimeStatus(nb::cast<int>(state[0]));
+  if (status == RetimeStatus::timed && law.empty()) throw ValueError("TimedPath: a motion without phases");
+  new (&t) TimedPath(TimedPath::fromParts(status, nb::cast<std::string>(state[1]), nb::cast<Numbers>(state[2]).matrix(),
+                                          nb::cast<Numbers>(state[3]).values, PathCurve::fromParts(curve),
+                                          {std::move(law), nb::cast<double>(state[7])}));
 }
 
 void bindTimedPath(nb::module_& m) {

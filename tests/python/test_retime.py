@@ -117,6 +117,26 @@ def test_a_failure_and_a_path_without_a_way_can_be_stored():
         np.testing.assert_array_equal(copy.path, timed.path)
 
 
+def test_a_damaged_state_is_refused():
+    state = list(ry.retime([[0.0], [1.0]], 1, 2).__getstate__())
+    for place, damaged in (
+        (5, state[5][:-1]),
+        (6, [*state[6], 0]),
+        (6, [piece + 1 for piece in state[6]]),
+        (6, [-1 for _ in state[6]]),
+        (5, np.zeros((0, 7))),
+        (4, (*state[4][:5], state[4][5][:-1], *state[4][6:])),
+    ):
+        broken = [*state]
+        broken[place] = damaged
+        with pytest.raises(ry.ArgumentError, match="TimedPath|curve"):
+            ry.TimedPath.__new__(ry.TimedPath).__setstate__(tuple(broken))
+    broken = [*state]
+    broken[5], broken[6] = np.zeros((0, 7)), []
+    with pytest.raises(ry.ArgumentError, match="a motion without phases"):
+        ry.TimedPath.__new__(ry.TimedPath).__setstate__(tuple(broken))
+
+
 @pytest.mark.parametrize("jerk", [None, 30.0])
 def test_ctrl_c_ends_it(jerk):
     path = np.random.default_rng(4).uniform(-2, 2, (6, 3))
