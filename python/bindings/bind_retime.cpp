@@ -104,8 +104,8 @@ nb::tuple timedState(const TimedPath& t) {
 }
 
 /// The phases of a time law on a curve of so many pieces.
-std::vector<LawPhase> phasesFrom(const std::vector<double>& numbers, const std::vector<int>& pieces, int of_curve) {
-  if (numbers.size() != 7 * pieces.size())
+std::vector<LawPhase> phasesFrom(const VectorXd& numbers, const std::vector<int>& pieces, int of_curve) {
+  if (std::size_t(numbers.size()) != 7 * pieces.size())
     throw ValueError(
         cat("TimedPath: ", numbers.size(), " numbers for ", pieces.size(), " phases; expected 7 for each"));
   std::vector<LawPhase> phases;

@@ -9,7 +9,7 @@ namespace kinegraph {
 
 namespace {
 
-Config arms() {
+Config twoArmsAndCup() {
   Config scene;
   scene.addText(R"g(
     base: {}
@@ -28,7 +28,7 @@ Config arms() {
 
 /// That hold in a posture nearby.
 std::vector<std::vector<IkTarget>> kinds() {
-  Config scene = arms();
+  Config scene = twoArmsAndCup();
   scene.setJointState(VectorXd(scene.getJointState() + .1 * VectorXd::Ones(6)));
   const Pose near_by = scene.getFrame("tip").getPose(), cup = scene.getFrame("cup").getPose();
   const IkFeature apart{FeatureSymbol::positionDiff, {"tip", "cup"}};
@@ -44,7 +44,7 @@ std::vector<std::vector<IkTarget>> kinds() {
 }  // namespace
 
 TEST(IkNlp, HoldsAtAnswersAndHasTheJacobianOfDifferences) {
-  const Config scene = arms();
+  const Config scene = twoArmsAndCup();
   for (const double home : {0., 1.}) {
     for (const std::vector<IkTarget>& targets : kinds()) {
       IkOptions options;
@@ -65,7 +65,7 @@ TEST(IkNlp, HoldsAtAnswersAndHasTheJacobianOfDifferences) {
 }
 
 TEST(IkNlp, HasThePairsThatAreNear) {
-  Config scene = arms();
+  Config scene = twoArmsAndCup();
   const Vector3d tip = scene.getFrame("tip").getPose().p;
   scene.getFrame("cup").setPosition(tip + Vector3d(.101, 0., 0.));
   const IkResult result = solveIk(scene, {IkTarget::toPosition("tip", tip)});
@@ -79,7 +79,7 @@ TEST(IkNlp, HasThePairsThatAreNear) {
 }
 
 TEST(IkNlp, TargetsMoveTheirRows) {
-  const Config scene = arms();
+  const Config scene = twoArmsAndCup();
   for (const std::vector<IkTarget>& targets : kinds()) {
     const IkResult result = solveIk(scene, targets);
     ASSERT_TRUE(result.feasible()) << result.message;
@@ -103,7 +103,7 @@ TEST(IkNlp, TargetsMoveTheirRows) {
 }
 
 TEST(IkNlp, IsRefusedForWhatIsNoAnswer) {
-  const Config scene = arms();
+  const Config scene = twoArmsAndCup();
   EXPECT_THROW(makeNlp(IkResult()), ValueError);
   IkOptions once;
   once.attempts = 1;

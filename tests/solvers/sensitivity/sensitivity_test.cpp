@@ -8,6 +8,7 @@
 #include "kinegraph/nlp/callback_nlp.h"
 #include "kinegraph/solvers/methods/augmented_lagrangian.h"
 #include "tests/solvers/hock_schittkowski.h"
+#include "tests/solvers/numbers.h"
 #include "tests/support/near.h"
 
 namespace kinegraph {
@@ -16,12 +17,7 @@ namespace {
 
 using enum ObjectiveType;
 
-constexpr double kInf = std::numeric_limits<double>::infinity();
 constexpr double kStep = 1e-5;
-
-VectorXd vec(std::initializer_list<double> values) {
-  return Eigen::Map<const VectorXd>(values.begin(), Eigen::Index(values.size()));
-}
 
 using Residuals = std::function<void(const VectorXd& x, VectorXd& phi, MatrixXd& J)>;
 
