@@ -172,6 +172,7 @@ def test_a_button_measures_as_well_and_shows_that_it_is_pressed(arm: kg.Config, 
     browser.press("Escape")
     assert not browser.is_visible("#measure")
     assert browser.evaluate("document.querySelector('#measure-button').ariaPressed") == "false"
+    browser.evaluate("document.querySelector('#measure-button').scrollIntoView()")
     browser.mouse("mouseMoved", *browser.evaluate(CENTER_OF_MEASURE))
     hovered = browser.evaluate(background)
     assert len({released, hovered, pressed}) == 3
