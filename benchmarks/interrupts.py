@@ -5,13 +5,14 @@
 
 Another process sends SIGINT at random times, 5 to 300 ms after the start. Each call has to end by a result with status cancelled
 and finite numbers, or by KeyboardInterrupt, as said in the table; a further solve has to work. `early`: ended before the signal,
-which is then awaited. Wall-clock time from the signal to the end; the machine should be quiet. Goal: below 0.1 s.
+which is then awaited. Robots: until one that moves is told to hold (goal: 50 ms). Wall-clock time from the signal to the end; the machine should be quiet. Goal: below 0.1 s.
 """
 
 import argparse
 import signal
 import subprocess
 import sys
+import threading
 from time import perf_counter, sleep
 
 import numpy as np
@@ -130,6 +131,41 @@ def cases():
     yield "building a KOMO", "interrupt", lambda: [motion(10000).nlp() for _ in range(9)]
 
 
+def heldAfter(realtime: bool, busy: bool, times: int, sender, rng) -> list[float]:
+    """Seconds from the signal until a robot that moves is told to hold, each time. Busy: no call of the robot's runs meanwhile."""
+    C = panda()
+    seconds = []
+    for _ in range(times):
+        bot = ry.BotOp(C, realtime=realtime)
+        q = bot.get_qHome().copy()
+        for _ in range(100):
+            bot.move([q + 0.2 * np.eye(7)[0], q], [2.0])
+        held = []
+
+        def look(bot=bot, held=held):
+            while bot.getMode() != ry.LoopMode.hold:
+                sleep(0.0005)
+            held.append(perf_counter())
+
+        watcher = threading.Thread(target=look)
+        watcher.start()
+        sender.stdin.write(f"{rng.uniform(0.005, 0.3)}\n")
+        sender.stdin.flush()
+        try:
+            while True:
+                if busy:
+                    sum(range(10**6))
+                else:
+                    bot.wait(C)
+        except KeyboardInterrupt:
+            pass
+        at = float(sender.stdout.readline())
+        watcher.join()
+        seconds.append(held[0] - at)
+        bot.close()
+    return seconds
+
+
 def isFinite(answer) -> bool:
     results = answer.results if isinstance(answer, ry.SolverReturns) else [answer]
     done = [ret for ret in results if ret.done]
@@ -191,6 +227,14 @@ def main() -> int:
             f"{ways.get(way, 0):{width}d}" for way, width in (("result", 7), ("interrupt", 9), ("early", 6))
         )
         print(f"{name:32s} {counts}   {times}{'   WRONG: ' + str(ways) if wrong else ''}", flush=True)
+    for name, realtime, busy in (
+        ("robot held, virtual time", False, False),
+        ("robot held, real time", True, False),
+        ("the same, script busy", True, True),
+    ):
+        if name.startswith(options.only):
+            seconds = heldAfter(realtime, busy, options.times, sender, rng)
+            print(f"{name:58s} {1e3 * np.median(seconds):6.1f} ms {1e3 * max(seconds):6.1f} ms", flush=True)
     sender.stdin.close()
     return int(failed)
 

@@ -7,8 +7,11 @@
 
 #include "arguments.h"
 #include "bindings.h"
+#include "contact_dicts.h"
 #include "docs/operation.h"
 #include "images.h"
+#include "kinegraph/base/interrupt_watch.h"
+#include "kinegraph/front/bot_stage.h"
 #include "kinegraph/operation/bot_op.h"
 #include "kinegraph/operation/kinematic_driver.h"
 #include "kinegraph/operation/simulated_driver.h"
@@ -19,21 +22,6 @@
 namespace kinegraph::python {
 
 namespace {
-
-/// The viewer in which a robot is shown: that of the configuration that was synced last, if it is open.
-struct Stage {
-  std::weak_ptr<PyViewer> viewer;
-
-  int show(PyConfig& config, const std::string& message) {
-    viewer = config.viewer;
-    if (!config.viewer || !config.viewer->isOpen()) return 0;
-    return config.viewer->view(config, false, message, interrupted);
-  }
-  bool isWatched() const {
-    const auto shown = viewer.lock();
-    return shown && shown->clients() > 0;
-  }
-};
 
 /// What Python calls a BotOp. Its thread may wait for the interpreter, which therefore is not held while it ends.
 class PyBotOp {
@@ -71,12 +59,13 @@ BotOpOptions optionsOf(PyConfig& config, bool realtime) {
   options.period = parameter("botsim/tau", options.period, "a time in s");
   options.hyper_speed = parameter("botsim/hyperSpeed", options.hyper_speed, "a number");
   options.realtime = realtime || parameter("botsim/realtime", false, "True or False");
-  auto stage = std::make_shared<Stage>(Stage{config.viewer});
-  options.show = [stage](Config& shown, const std::string& message) {
-    return stage->show(static_cast<PyConfig&>(shown), message);
+  const auto stage = std::make_shared<BotStage>(config.viewer, interrupted);
+  options.show = [stage](const BotOp& bot, Config& shown, const std::string& message) {
+    return stage->show(bot, shown, static_cast<PyConfig&>(shown).viewer, message);
   };
   options.watched = [stage] { return stage->isWatched(); };
   options.between = checkInterrupt;
+  if (options.realtime) options.interrupted = [watch = std::make_shared<InterruptWatch>()] { return watch->takeNew(); };
   return options;
 }
 
@@ -293,7 +282,17 @@ void bindWorld(nb::class_<PyBotOp>& bot) {
             };
             return PyConfig{world()};
           },
-          "A copy of the simulated world as it is now: a Config.");
+          "A copy of the simulated world as it is now: a Config.")
+      .def(
+          "getContacts",
+          [](PyBotOp& b) {
+            const auto contacts = [&] {
+              const nb::gil_scoped_release unlock;
+              return b->getContacts();
+            };
+            return contactDicts(contacts());
+          },
+          docs::operation::getContacts);
 }
 
 void bindCameras(nb::class_<PyBotOp>& bot) {

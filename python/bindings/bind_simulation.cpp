@@ -5,6 +5,7 @@
 
 #include "arguments.h"
 #include "bindings.h"
+#include "contact_dicts.h"
 #include "depth_noise.h"
 #include "docs/simulation.h"
 #include "images.h"
@@ -100,19 +101,7 @@ void setState(PySimulation& s, nb::handle state, nb::handle q, const Numbers& fr
   pushConfig(s, frames, joints);
 }
 
-nb::typed<nb::list, nb::dict> contacts(const PySimulation& s) {
-  nb::list found;
-  for (const Contact& contact : s.simulation.getContacts()) {
-    nb::dict each;
-    each["frames"] = nb::make_tuple(contact.frame_a, contact.frame_b);
-    each["position"] = toNumpy(VectorXd(contact.position));
-    each["normal"] = toNumpy(VectorXd(contact.normal));
-    each["distance"] = contact.distance;
-    each["force"] = toNumpy(VectorXd(contact.force));
-    found.append(each);
-  }
-  return nb::typed<nb::list, nb::dict>(found);
-}
+nb::typed<nb::list, nb::dict> contacts(const PySimulation& s) { return contactDicts(s.simulation.getContacts()); }
 
 std::string name(const PySimulation& s, const FrameArgument& frame) {
   return toFrame(nb::cast<PyConfig&>(s.config), frame).getName();

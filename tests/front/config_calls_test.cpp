@@ -2,6 +2,7 @@
 
 #include "kinegraph/features/eval.h"
 #include "kinegraph/ik/solve_ik.h"
+#include "kinegraph/simulation/simulation.h"
 #include "kinegraph/viewer/config_viewer.h"
 #include "tests/support/expect_error.h"
 
@@ -37,6 +38,15 @@ TEST_F(ConfigCalls, ViewShowsOnAPageOfItsOwn) {
   config = copy;
   EXPECT_EQ(&config.viewer(), page);
   EXPECT_TRUE(page->isOpen());
+}
+
+TEST_F(ConfigCalls, ASimulationIsShownOnThePageOfItsConfig) {
+  Simulation simulation(config, SimulationEngine::kinematic);
+  simulation.view();
+  EXPECT_TRUE(config.viewer().isOpen());
+  EXPECT_EQ(config.viewer().structure(), 1);
+  simulation.step({}, .01, ControlMode::none);
+  EXPECT_EQ(config.viewer().structure(), 1);
 }
 
 TEST_F(ConfigCalls, AMotionIsPlayedAndTheJointsStay) {

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import gc
+import signal
 import subprocess
 import sys
 import threading
@@ -118,6 +119,36 @@ def test_ctrl_c_holds_the_robot_then_raises(panda: ry.Config, realtime: bool) ->
     bot.sync(panda, 0.2)
     assert np.abs(bot.get_qDot()).max() < 1e-3
     bot.close()
+
+
+def test_ctrl_c_holds_a_robot_in_real_time_whatever_the_script_does(panda: ry.Config) -> None:
+    bot = ry.BotOp(panda, realtime=True)
+    q = bot.get_qHome().copy()
+    for _ in range(200):
+        bot.move([q + 0.2 * np.eye(7)[0], q], [2.0])
+    with pytest.raises(KeyboardInterrupt):  # no call of the robot's runs
+        signal.raise_signal(signal.SIGINT)
+    end = time.monotonic() + 20.0
+    while bot.getMode() != ry.LoopMode.hold and time.monotonic() < end:
+        time.sleep(0.01)
+    assert bot.getMode() == ry.LoopMode.hold
+    bot.moveTo(q + 0.1)  # it can be moved again
+    assert bot.getMode() == ry.LoopMode.follow
+    bot.close()
+    with pytest.raises(KeyboardInterrupt):  # the handler of before is back
+        signal.raise_signal(signal.SIGINT)
+
+
+def test_contacts_of_the_simulated_world(panda: ry.Config) -> None:
+    panda.addFrame("box").setShape(ry.ST.ssBox, [0.1, 0.1, 0.1, 0.01]).setPosition([0.0, 0.4, 0.66]).setMass(1.0)
+    bot = ry.BotOp(panda)
+    bot.sync(panda, 0.5)
+    of_box = [contact for contact in bot.getContacts() if "box" in contact["frames"]]
+    weight = sum(abs(contact["force"][2]) for contact in of_box)
+    assert weight == pytest.approx(9.81, rel=0.05)
+    assert set(of_box[0]["frames"]) == {"box", "table"}
+    ry.params_add({"botsim/engine": "kinematic"})
+    assert ry.BotOp(panda).getContacts() == []
 
 
 def test_real_time_goes_on_while_the_script_does_something_else(panda: ry.Config) -> None:

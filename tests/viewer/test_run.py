@@ -187,3 +187,19 @@ def test_a_run_keeps_real_time_while_somebody_watches_and_gives_the_same_bits(
     for _ in range(100):
         alone.step([], 0.01, kg.ControlMode.spline)
     assert alone.getState() == S.getState()
+
+
+def test_the_contacts_of_a_robot_are_shown_without_buttons(config: kg.Config, browser: Browser) -> None:
+    show(config)
+    config.view()
+    browser.open(config.viewer().url)
+    bot = kg.BotOp(config)
+    bot.sync(config, 0.3)
+    arrows = len(bot.getContacts())
+    assert arrows >= 4
+    browser.wait_for(f"kinegraph.run()?.arrows === {arrows}")
+    visible = "[...document.querySelectorAll('#run button, #run output')].filter((e) => e.offsetParent).map((e) => e.textContent)"
+    shown = browser.evaluate(visible)
+    assert len(shown) == 1 and "of arrow" in shown[0]
+    bot.close()
+    browser.wait_for("kinegraph.run() === null")

@@ -132,6 +132,7 @@ export interface MotionMessage {
 export interface RunMessage {
   kind: "run";
   shown: number;
+  steered: number;
   time: number;
   factor: number;
   paused: number;

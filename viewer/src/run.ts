@@ -26,6 +26,7 @@ export class Run {
   private readonly time = make("output", { className: "run-time" });
   private readonly factor = make("output", { className: "run-factor", title: "simulated seconds per second" });
   private readonly scale = make("output", { className: "run-scale" });
+  private readonly steering: HTMLElement[]; // what only a simulation has that people can steer
 
   /** `send` is null on a saved page: then nothing can be steered. */
   constructor(
@@ -44,13 +45,12 @@ export class Run {
       make("button", { textContent: "reset", title: "to where it was when it was first shown", onclick: ask(What.reset) }),
       this.pullButton,
     ];
+    this.steering = [...(send ? buttons : []), this.time, this.factor];
     this.root.append(
       make(
         "div",
         { className: "transport" },
-        ...(send ? buttons : []),
-        this.time,
-        this.factor,
+        ...this.steering,
         make("label", {}, this.contactsBox, "contacts"),
         this.scale,
       ),
@@ -82,7 +82,7 @@ export class Run {
   }
 
   toggle(): void {
-    if (this.isShown) this.send?.(runCommand(this.isPaused ? What.goOn : What.pause));
+    if (this.isShown && this.message?.steered) this.send?.(runCommand(this.isPaused ? What.goOn : What.pause));
   }
 
   private setPulls(on: boolean): void {
@@ -100,6 +100,7 @@ export class Run {
       if (!message) this.setPulls(false);
       return this.stage.redraw();
     }
+    for (const element of this.steering) element.hidden = message.steered === 0;
     this.playButton.textContent = this.isPaused ? "▶" : "❚❚";
     this.playButton.ariaLabel = this.isPaused ? "go on" : "pause";
     this.time.textContent = `${message.time.toFixed(2)} s`;

@@ -232,6 +232,13 @@ Raises:
     FrameNotFound: There is no such frame.
     RobotFault: The robot is not simulated.)";
 
+inline constexpr char getContacts[] = R"(What touches in the simulated world now, as Simulation.getContacts says it.
+
+Returns:
+    A dict for each point: `frames` (two names, "ground" for the plane z = 0), `position` (m), `normal` (from the first
+    to the second), `distance` (m, negative where they overlap), `force` (N, that the first exerts on the second); world.
+    Nothing in a world without forces, and of a robot that is there.)";
+
 inline constexpr char setFramePose[] = R"(Puts a thing of the simulated world somewhere.
 
 Args:

@@ -1,9 +1,9 @@
 // What a BotOp does with the rooms above it: pictures, and a viewer.
 #include "kinegraph/front/bot_cameras.h"
 
+#include "kinegraph/front/bot_stage.h"
 #include "kinegraph/operation/simulated_driver.h"
 #include "kinegraph/rendering/depth_image.h"
-#include "kinegraph/viewer/config_viewer.h"
 
 namespace kinegraph {
 
@@ -14,15 +14,13 @@ std::shared_ptr<RobotDriver> simulated(const Config& config, bool use_real_robot
   return std::make_shared<SimulatedDriver>(config);
 }
 
-/// Shows in the viewer of the configuration that is synced, if it is open.
-BotOpOptions shownInViewers(Config& config) {
+BotOpOptions shownOnPages(const Config& config) {
   BotOpOptions options;
-  auto viewer = std::make_shared<ConfigViewer*>(&config.viewer());
-  options.show = [viewer](Config& shown, const std::string& message) {
-    *viewer = &shown.viewer();
-    return shown.viewer().isOpen() ? shown.view(false, message) : 0;
+  const auto stage = std::make_shared<BotStage>(config.scene()->viewer, [] { return false; });
+  options.show = [stage](const BotOp& bot, Config& shown, const std::string& message) {
+    return stage->show(bot, shown, shown.scene()->viewer, message);
   };
-  options.watched = [viewer] { return (*viewer)->clients() > 0; };
+  options.watched = [stage] { return stage->isWatched(); };
   return options;
 }
 
@@ -35,7 +33,7 @@ Camera BotCameras::camera(const BotOp& bot, const std::string& frame) {
 }
 
 BotOp::BotOp(Config& config, bool use_real_robot)
-    : BotOp(config, simulated(config, use_real_robot), shownInViewers(config)) {}
+    : BotOp(config, simulated(config, use_real_robot), shownOnPages(config)) {}
 
 BotCameras& BotOp::cameras() {
   if (!cameras_) cameras_ = std::make_shared<BotCameras>(*this);

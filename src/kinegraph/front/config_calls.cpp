@@ -23,8 +23,8 @@ Evaluation Config::eval(const FeatureSource& feature, const std::vector<std::str
 }
 
 ConfigViewer& Config::viewer() {
-  if (!viewer_) viewer_ = std::make_shared<ConfigViewer>();
-  return *viewer_;
+  if (!scene_->viewer) scene_->viewer = std::make_shared<ConfigViewer>();
+  return *scene_->viewer;
 }
 
 int Config::view(bool pause, const std::string& message) {

@@ -7,6 +7,7 @@
 
 #include "kinegraph/base/errors.h"
 #include "kinegraph/base/text.h"
+#include "kinegraph/front/bot_stage.h"
 #include "kinegraph/simulation/simulation_impl.h"
 
 namespace kinegraph {
@@ -15,11 +16,10 @@ namespace {
 
 using Seconds = std::chrono::duration<double>;
 
-constexpr double kRest = .02;           ///< s
-constexpr Seconds kPatience(5.);        ///< without a browser; then a paused simulation goes on
-constexpr Seconds kMeasure(.25);        ///< of which the real-time factor is told
-constexpr Seconds kLate(.05);           ///< what is later is not caught up with
-constexpr std::size_t kContacts = 500;  ///< most that are shown
+constexpr double kRest = .02;     ///< s
+constexpr Seconds kPatience(5.);  ///< without a browser; then a paused simulation goes on
+constexpr Seconds kMeasure(.25);  ///< of which the real-time factor is told
+constexpr Seconds kLate(.05);     ///< what is later is not caught up with
 constexpr int kEscapeKey = 27;
 
 bool endsRun(int key) { return key == kEscapeKey || key == 'q'; }
@@ -120,11 +120,11 @@ bool SimulationView::pull(Simulation& simulation, const std::optional<RunRequest
 
 void SimulationView::show(const Simulation& simulation) {
   viewer_->update(simulation.config());
-  ShownRun run{simulation.get_t(), factor_, is_paused_};
-  for (const Contact& contact : simulation.getContacts()) {
-    if (run.contacts.size() == kContacts) break;
-    run.contacts.push_back({contact.position, contact.force.z() < 0. ? Vector3d(-contact.force) : contact.force});
-  }
+  ShownRun run;
+  run.time = simulation.get_t();
+  run.factor = factor_;
+  run.is_paused = is_paused_;
+  run.contacts = shownContacts(simulation.getContacts());
   if (const auto pull = simulation.getPull()) run.pull = {pull->position, pull->target, pull->force.norm()};
   viewer_->server().showRun(run);
 }
@@ -162,16 +162,10 @@ void SimulationView::keepPace(double tau, double speed) {
   }
 }
 
-namespace {
-
-/// In C++ the page is that of the simulation's own Config.
-std::shared_ptr<ConfigViewer> ownViewer(Config& config) { return {std::shared_ptr<void>(), &config.viewer()}; }
-
-}  // namespace
-
 int Simulation::view(bool pause, const std::string& message) {
   const std::optional<std::string> text = message.empty() ? std::nullopt : std::optional(message);
-  const std::shared_ptr<ConfigViewer> viewer = ownViewer(impl_->config);
+  impl_->config.viewer();  // makes the one of its scene
+  const std::shared_ptr<ConfigViewer>& viewer = impl_->config.scene()->viewer;
   std::shared_ptr<SimulationView> view = SimulationView::of(*this, viewer);
   if (!view) view = SimulationView::begin(*this, viewer, [] {});
   return view->view(*this, pause, text);

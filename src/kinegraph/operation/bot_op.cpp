@@ -403,6 +403,12 @@ Config BotOp::getWorld() const {
   return world->config();
 }
 
+std::vector<Contact> BotOp::getContacts() const {
+  const Lock lock(mutex_);
+  const SimulatedWorld* world = loop_->driver().world();
+  return world ? world->contacts() : std::vector<Contact>{};
+}
+
 void BotOp::update(Config& config) const {
   const Lock lock(mutex_);
   if (SimulatedWorld* world = loop_->driver().world()) {

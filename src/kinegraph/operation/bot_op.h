@@ -13,6 +13,7 @@ namespace kinegraph {
 
 struct CameraImage;
 class BotCameras;
+class BotOp;
 
 /// Settings of a BotOp.
 struct BotOpOptions {
@@ -21,9 +22,14 @@ struct BotOpOptions {
   double hyper_speed = 1.;  ///< seconds of control per second on the wall, where these have to do with each other
   GuardLimits guards;
 
-  std::function<int(Config&, const std::string& message)> show;  ///< shows a scene; returns the key pressed since, or 0
-  std::function<bool()> watched;                                 ///< does somebody look at what is shown?
+  /// Shows a scene, which is where robot and world are; returns the key pressed since the last time, or 0.
+  std::function<int(const BotOp&, Config&, const std::string& message)> show;
+  std::function<bool()> watched;  ///< does somebody look at what is shown?
   std::function<void()> between;  ///< called now and then while a call waits; what it throws ends the call
+
+  /// Where time is real, asked before each period, by the thread that moves the robot: true holds the robot, whatever
+  /// the rest of the program does meanwhile.
+  std::function<bool()> interrupted;
 };
 
 /// What a robot says and was told at one time, for `stepAction`.
@@ -136,6 +142,9 @@ class BotOp {
   void setFramePose(const std::string& frame, const Pose& pose);
 
   Config getWorld() const;  ///< a copy of the simulated world as it is now
+
+  /// What touches in the simulated world now; nothing without forces, and of a robot that is there.
+  std::vector<Contact> getContacts() const;
 
   /// Brings `config`, a copy of an earlier time or another configuration, to the present.
   void update(Config& config) const;

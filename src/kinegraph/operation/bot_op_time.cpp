@@ -111,6 +111,7 @@ void BotOp::runThread(const std::stop_token& stop) {
     {
       const Lock lock(mutex_);
       try {
+        if (options_.interrupted && options_.interrupted() && loop_->mode() == LoopMode::follow) holdNow();
         stepOnce(lock);
       } catch (const std::exception& error) {  // nobody is above
         loop_->stop(error.what());
@@ -131,7 +132,7 @@ int BotOp::show(Config& C, const std::string& message) {
     text += cat(" (", int(100. * loop_->time() / std::max(wall, 1e-3) + .5), " % of real time)");
   }
   if (!message.empty()) text = cat(message, "\n", text);
-  return options_.show(C, text);
+  return options_.show(*this, C, text);
 }
 
 void BotOp::requireRunning(const char* call) const {

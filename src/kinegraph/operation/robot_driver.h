@@ -5,6 +5,7 @@
 
 #include "kinegraph/base/errors.h"
 #include "kinegraph/scene/config.h"
+#include "kinegraph/simulation/contact.h"
 
 namespace kinegraph {
 
@@ -89,6 +90,9 @@ class SimulatedWorld {
 
   /// Takes up the frames of `config` that are not here yet. Returns their number.
   virtual int addObjects(const Config& config) = 0;
+
+  /// What touches now. None in a world without forces.
+  virtual std::vector<Contact> contacts() const { return {}; }
 };
 
 /// What stands between BotOp and a robot: a simulated one, or one that is there. Calls come from one thread at a time.

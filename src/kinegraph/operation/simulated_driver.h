@@ -28,6 +28,7 @@ class SimulatedDriver final : public RobotDriver, private SimulatedWorld {
   void detach(const std::string& from, const std::string& to) override { simulation_.detach(from, to); }
   void setFramePose(const std::string& frame, const Pose& pose) override;
   int addObjects(const Config& config) override { return copyNewFrames(config, config_); }
+  std::vector<Contact> contacts() const override { return simulation_.getContacts(); }
   void stepStiff(double period);
   void stepCompliant(double period);
 

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <filesystem>
 #include <set>
+#include <utility>
 
 #include "kinegraph/base/errors.h"
 #include "kinegraph/base/text.h"
@@ -23,7 +24,7 @@ Config::Config(const Config& other) : Config(*other.scene_) {}
 Config& Config::operator=(const Config& other) {
   if (this != &other) {
     Config copy(other);
-    copy.viewer_ = viewer_;  // the page goes on, with the other scene
+    copy.scene_->viewer = std::exchange(scene_->viewer, nullptr);  // the page goes on, with the other scene
     *this = std::move(copy);
   }
   return *this;

@@ -168,7 +168,7 @@ class Config {
   /// Loads a scene file and shows it, again whenever it changes, until q is pressed; see kinegraph::watchFile.
   void watchFile(const std::string& path);
 
-  /// What shows this scene. Copies of a Config have viewers of their own.
+  /// What shows this scene, also while a Simulation or a BotOp moves it. Copies of a Config have viewers of their own.
   ConfigViewer& viewer();
 
   // --- for computing ---------------------------------------------------------------------------------------------
@@ -194,7 +194,6 @@ class Config {
 
   std::shared_ptr<SceneTree> scene_;
   std::vector<std::string> warnings_;
-  std::shared_ptr<ConfigViewer> viewer_;  ///< null until there is something to show
 };
 
 }  // namespace kinegraph

@@ -13,6 +13,8 @@
 
 namespace kinegraph {
 
+class ConfigViewer;
+
 /// The frames of a configuration and what is compiled from them. Config and Frame are handles on it.
 ///
 /// Whoever changes a frame says which of three things is no longer true: the structure (frames, parents, joints,
@@ -108,6 +110,8 @@ class SceneTree {
 
   VectorXd jointState();
   void setJointState(const double* q);
+
+  std::shared_ptr<ConfigViewer> viewer;  ///< what shows the scene to whoever has a handle on it; null until it is shown
 
  private:
   static constexpr std::size_t kMostMoved = 8;  ///< beyond that, all poses are collected anew

@@ -9,21 +9,13 @@
 #include "kinegraph/rendering/camera_renderer.h"
 #include "kinegraph/rendering/depth_image.h"
 #include "kinegraph/scene/config.h"
+#include "kinegraph/simulation/contact.h"
 #include "kinegraph/simulation/recording.h"
 #include "kinegraph/simulation/simulation_options.h"
 #include "kinegraph/simulation/simulation_state.h"
 #include "kinegraph/simulation/simulation_watcher.h"
 
 namespace kinegraph {
-
-/// Two frames that touch.
-struct Contact {
-  std::string frame_a, frame_b;  ///< "ground" for the plane at z = 0
-  Vector3d position;             ///< world, m
-  Vector3d normal;               ///< unit, from a to b
-  double distance;               ///< m, negative: they overlap
-  Vector3d force;                ///< that a exerts on b, world, N
-};
 
 /// A point of a frame's link that is pulled.
 struct PulledPoint {

@@ -157,6 +157,7 @@ static boost::json::value jsonOf(const RunMessage& m) {
   return boost::json::object{
       {"kind", "run"},
       {"shown", jsonOf(m.shown)},
+      {"steered", jsonOf(m.steered)},
       {"time", jsonOf(m.time)},
       {"factor", jsonOf(m.factor)},
       {"paused", jsonOf(m.paused)},

@@ -129,6 +129,7 @@ struct MotionMessage {
 
 struct RunMessage {
   int shown = 0;
+  int steered = 0;
   double time = 0;
   double factor = 0;
   int paused = 0;

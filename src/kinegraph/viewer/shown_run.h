@@ -19,6 +19,7 @@ struct ShownRun {
   double time = 0.;    ///< s, simulated
   double factor = 0.;  ///< of real time; 0: not known yet
   bool is_paused = false;
+  bool is_steered = true;  ///< people can pause, step, reset and pull it, and see its time
   std::vector<Contact> contacts{};
   std::optional<Spring> pull{};
 };

@@ -51,7 +51,7 @@ NotesMessage messageOf(const std::vector<SceneNote>& notes) {
 }
 
 RunMessage messageOf(const ShownRun& run) {
-  RunMessage message{1, run.time, run.factor, run.is_paused, {}, {}};
+  RunMessage message{1, run.is_steered, run.time, run.factor, run.is_paused, {}, {}};
   for (const auto& [position, force] : run.contacts) {
     message.contacts.insert(message.contacts.end(), position.begin(), position.end());
     message.contacts.insert(message.contacts.end(), force.begin(), force.end());
