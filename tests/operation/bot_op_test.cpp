@@ -42,6 +42,12 @@ CommandLog runScript(BotOp& bot, Config& C) {
 
 }  // namespace
 
+TEST(BotOp, NeedsARobot) {
+  Config nothing;
+  nothing.addText("ball: { shape: sphere, size: [.1], mass: 1 }");
+  expectError<ValueError>([&] { BotOp bot(nothing); }, {"no joints"});
+}
+
 TEST(BotOp, TakesTheTimeThatItIsTold) {
   for (const int count : {1, 2, 5}) {
     Bench b;

@@ -140,7 +140,7 @@ def test_ctrl_c_holds_a_robot_in_real_time_whatever_the_script_does(panda: ry.Co
 
 
 def test_contacts_of_the_simulated_world(panda: ry.Config) -> None:
-    panda.addFrame("box").setShape(ry.ST.ssBox, [0.1, 0.1, 0.1, 0.01]).setPosition([0.0, 0.4, 0.66]).setMass(1.0)
+    panda.addFrame("box").setShape(ry.ST.ssBox, [0.1, 0.1, 0.1, 0.01]).setPosition([0.0, 0.4, 0.701]).setMass(1.0)
     bot = ry.BotOp(panda)
     bot.sync(panda, 0.5)
     of_box = [contact for contact in bot.getContacts() if "box" in contact["frames"]]

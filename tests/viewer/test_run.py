@@ -191,6 +191,8 @@ def test_a_run_keeps_real_time_while_somebody_watches_and_gives_the_same_bits(
 
 def test_the_contacts_of_a_robot_are_shown_without_buttons(config: kg.Config, browser: Browser) -> None:
     show(config)
+    config.addFrame("post").setPosition([1, 0, 0.5])
+    config.addFrame("arm", "post").setJoint(kg.JT.hingeZ).setMass(1.0)
     config.view()
     browser.open(config.viewer().url)
     bot = kg.BotOp(config)

@@ -40,6 +40,7 @@ VectorXd asVector(double number) { return VectorXd::Constant(1, number); }
 BotOp::BotOp(const Config& config, std::shared_ptr<RobotDriver> driver, BotOpOptions options)
     : options_(std::move(options)), model_(config), home_(config.getJointState()) {
   asked_.fill(-1);
+  if (home_.size() == 0) throw ValueError("BotOp: the configuration has no joints that are active; expected a robot");
   const bool is_simulated = driver && driver->world();
   loop_ = std::make_unique<RobotLoop>(std::move(driver), options_.period, options_.guards);
   const std::size_t joints = loop_->info().joints.size();
