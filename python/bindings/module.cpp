@@ -50,6 +50,7 @@ NB_MODULE(_core, m) {
   bindRetime(m);
   bindDiffIk(m);
   bindMpc(m);
+  bindStreams(m);
   bindPathFinder(m);
   bindPlan(m);
   bindRoadmap(m);

@@ -37,6 +37,7 @@ from ._core import (
     Feature,
     Frame,
     FrameView,
+    Gamepad,
     GripperCommand,
     GripperInfo,
     GripperReading,
@@ -83,9 +84,11 @@ from ._core import (
     SolverReturn,
     SolverReturns,
     StepObservation,
+    TargetFile,
     TimedPath,
     checkFile,
     depthImage2PointCloud,
+    drive,
     planMotion,
     retime,
     sceneFacts,
@@ -147,7 +150,6 @@ if _TYPE_CHECKING:
     from .problems import get_NLP_Problem_names, make_NLP_Problem
     from .quaternion import Quaternion
     from .reachable import reachability
-    from .streams import Gamepad, TargetFile, drive
     from .task_actions import TaskRule
     from .task_check import checkTaskPlan
     from .task_domain import defaultDomain
@@ -178,7 +180,6 @@ _LATER = {  # module: names
     "problems": ("get_NLP_Problem_names", "make_NLP_Problem"),
     "quaternion": ("Quaternion",),
     "reachable": ("reachability",),
-    "streams": ("Gamepad", "TargetFile", "drive"),
     "task_actions": ("TaskRule",),
     "task_check": ("checkTaskPlan",),
     "task_domain": ("defaultDomain",),

@@ -24,6 +24,7 @@
 #include "kinegraph/formats/scene_writer.h"
 #include "kinegraph/formats/urdf_writer.h"
 #include "kinegraph/front/camera_view.h"          // CameraView: images
+#include "kinegraph/front/drive.h"                // drive: DiffIk along TargetFile, Gamepad, or by hand
 #include "kinegraph/front/model_path.h"           // modelPath
 #include "kinegraph/front/names.h"                // FS, OT, ST, KOMO, NLP_Solver, ...
 #include "kinegraph/front/own_feature.h"          // functions of frames as features

@@ -7,6 +7,7 @@ import numpy as np
 import pytest
 
 import kinegraph as ry
+from interrupts import interrupt_after
 
 
 @pytest.fixture
@@ -43,17 +44,17 @@ def test_between_rows_positions_go_straight_and_rotations_turn_evenly(tmp_path):
 @pytest.mark.parametrize(
     ("text", "said"),
     [
-        ("0, 1, 2\n", r"csv:1: 3 numbers; expected 4 or 8"),
-        ("0, 1, 2, 3\n1, 1, 2, 3, 1, 0, 0, 0\n", r"csv:2: 8 numbers; expected 4"),
-        ("0, 1, 2, 3\n0, 1, 2, 3\n", r"csv:2: time 0.0 does not come after 0.0"),
-        ("0, 1, 2, 3\n1, 1, 2, inf\n", r"csv:2: numbers that are not finite"),
-        ("0, 1, two, 3\n", r"csv:1: .*'two'.*expected numbers"),
-        ("0, 1, 2, 3, 0, 0, 0, 0\n", r"csv:1: the quaternion is zero"),
+        ("0, 1, 2\n", r"csv:1:1: 3 numbers; expected t, x, y, z"),
+        ("0, 1, 2, 3\n1, 1, 2, 3, 1, 0, 0, 0\n", r"csv:2:1: 8 numbers; the rows before have 4"),
+        ("0, 1, 2, 3\n0, 1, 2, 3\n", r"csv:2:1: time 0 does not come after 0"),
+        ("0, 1, 2, 3\n1, 1, 2, inf\n", r"csv:2:10: 'inf' is not finite"),
+        ("0, 1, two, 3\n", r"csv:1:7: 'two' is no number; expected t, x"),
+        ("0, 1, 2, 3, 0, 0, 0, 0\n", r"csv:1:1: the quaternion is zero"),
         ("t, x, y, z\n", r"no rows"),
     ],
 )
 def test_a_file_that_is_not_as_expected_is_an_error_with_its_place(tmp_path, text, said):
-    with pytest.raises(ry.errors.FileError, match=said):
+    with pytest.raises(ry.errors.ParseError, match=said):
         ry.TargetFile(written(tmp_path, text))
     with pytest.raises(ry.errors.FileError, match="nowhere"):
         ry.TargetFile(tmp_path / "nowhere.csv")
@@ -94,6 +95,17 @@ def test_a_function_of_time_moves_the_target_and_mistakes_are_named(scene):
         ry.drive(ik, C, "traget", lambda t: start, seconds=1)
     with pytest.raises(ry.errors.ArgumentError, match="seconds is 0"):
         ry.drive(ik, C, "target", lambda t: start, seconds=0)
+    with pytest.raises(ry.errors.ArgumentError, match="2 numbers; expected x y z"):
+        ry.drive(ik, C, "target", lambda t: start[:2], seconds=1, realtime=False)
+    with pytest.raises(TypeError, match="expected a TargetFile, a Gamepad"):
+        ry.drive(ik, C, "target", start, seconds=1)
+
+
+def test_ctrl_c_ends_a_drive_and_other_threads_go_on_meanwhile(scene):
+    C, ik = scene
+    start = np.array(C.getFrame("target").getPosition())
+    with pytest.raises(KeyboardInterrupt), interrupt_after(0.2):  # by a thread
+        ry.drive(ik, C, "target", lambda t: start, seconds=60)
 
 
 def test_the_handle_in_the_browser_moves_the_target(scene):

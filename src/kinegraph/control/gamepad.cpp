@@ -1,0 +1,57 @@
+#include "kinegraph/control/gamepad.h"
+
+#include <fcntl.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cmath>
+#include <cstdint>
+#include <cstring>
+
+#include "kinegraph/base/errors.h"
+#include "kinegraph/base/text.h"
+
+namespace kinegraph {
+
+namespace {
+
+/// As the kernel's joystick interface writes them.
+struct Event {
+  std::uint32_t milliseconds;
+  std::int16_t value;
+  std::uint8_t type, number;
+};
+static_assert(sizeof(Event) == 8);
+
+constexpr int kAxis = 2;      // a bit of the type: a stick, no button
+constexpr double kDead = .1;  // of a stick's range: it rests
+constexpr double kEnd = 32767.;
+
+}  // namespace
+
+Gamepad::Gamepad(const std::string& device, double speed, std::array<int, 3> axes)
+    : file_(open(device.c_str(), O_RDONLY | O_NONBLOCK | O_CLOEXEC)), speed_(speed), axes_(axes) {
+  if (file_ < 0)
+    throw FileError(cat("Gamepad: cannot open '", device, "': ", std::strerror(errno), "; is a gamepad connected?"));
+}
+
+Gamepad::~Gamepad() { close(); }
+
+void Gamepad::close() {
+  if (file_ >= 0) ::close(file_);
+  file_ = -1;
+}
+
+Vector3d Gamepad::velocity() {
+  Event event;
+  while (file_ >= 0 && read(file_, &event, sizeof event) == ssize_t(sizeof event)) {
+    if (!(event.type & kAxis)) continue;
+    const double pushed = event.value / kEnd;
+    for (std::size_t i = 0; i < axes_.size(); ++i) {
+      if (axes_[i] == event.number) values_[Eigen::Index(i)] = std::abs(pushed) > kDead ? pushed : 0.;
+    }
+  }
+  return speed_ * Vector3d(values_[0], -values_[1], -values_[2]);
+}
+
+}  // namespace kinegraph
