@@ -138,7 +138,7 @@ void bindSensitivity(nb::module_& m, nb::class_<SolverResult>& result) {
           "active", [](const PySensitivity& s) { return inPython(s.of.active()); },
           "The inequalities and bounds that press, in words.")
       .def_prop_ro(
-          "weak", [](const PySensitivity& s) { return inPython(s.of.weak()); },
+          "weak", [](PySensitivity& s) { return inPython(s.of.weak()); },
           "Those that touch without pressing: the solution has a kink there, and dx/dp is that of one side.")
       .def_prop_ro(
           "withoutEffect", [](PySensitivity& s) { return inPython(s.of.withoutEffect()); },
@@ -147,14 +147,14 @@ void bindSensitivity(nb::module_& m, nb::class_<SolverResult>& result) {
           "freeDirections", [](const PySensitivity& s) { return s.of.freeDirections(); },
           "About how many directions costs and constraints leave free; dx/dp has no part in them.")
       .def_prop_ro(
-          "isRegular", [](const PySensitivity& s) { return s.of.isRegular(); },
+          "isRegular", [](PySensitivity& s) { return s.of.isRegular(); },
           "Is dx/dp the derivative of the solution, with nothing to be said?")
       .def_prop_ro(
-          "message", [](const PySensitivity& s) { return python::inPython(s.of.message()); },
+          "message", [](PySensitivity& s) { return python::inPython(s.of.message()); },
           "What is to be said: kinks, free directions, saddles; \"\" if nothing.")
       .def_prop_ro(
           "evals", [](const PySensitivity& s) { return s.of.evals(); }, "Evaluations that it took to find x exactly.")
-      .def("__repr__", [](const PySensitivity& s) {
+      .def("__repr__", [](PySensitivity& s) {
         const std::string message = s.of.message();
         return cat("<Sensitivity of ", s.of.x().size(), " variables by ", s.of.size(), " numbers",
                    message.empty() ? "" : cat(": ", python::inPython(message)), ">");

@@ -43,7 +43,10 @@ def meshes() -> dict[str, list[bytes]]:
         "h5": [(ROOT / f"tests/data/{name}.h5").read_bytes() for name in ("tetrahedron", "textured")],
         "image": [file.read_bytes() for file in sorted((ROOT / "tests/data/images").iterdir())],
         "srdf": [SRDF.encode()],
-        "targets": [b"t, x, y, z, qw, qx, qy, qz\n0, 0, 0, 1, 1, 0, 0, 0\n2, 1, 0, 1, 0, 0, 0, -2\n", b"# a\n0,1,2,3\n"],
+        "targets": [
+            b"t, x, y, z, qw, qx, qy, qz\n0, 0, 0, 1, 1, 0, 0, 0\n2, 1, 0, 1, 0, 0, 0, -2\n",
+            b"# a\n0,1,2,3\n",
+        ],
     }
 
 

@@ -276,3 +276,17 @@ def test_mistakes_are_told():
         answer.sensitivity("l_griper")
     with pytest.raises(ry.ArgumentError, match="3 numbers; the solution has 7"):
         answer.sensitivity("l_gripper").gradient([1, 2, 3])
+
+
+def test_limits_that_are_given_as_bounds_and_as_an_objective_are_no_kink():
+    C = ry.Config()
+    C.addFile(ry.raiPath("scenarios/pandaSingle.g"))
+    komo = ry.KOMO(C, 1, 1, 0, False)
+    komo.addControlObjective([], 0, 1e-1)
+    komo.addObjective([], ry.FS.jointLimits, [], ry.OT.ineq, [1.0])
+    beyond = C.getJointState() + 2.0 * np.eye(7)[3]  # the limit of the elbow is in between
+    komo.addObjective([1.0], ry.FS.qItself, [], ry.OT.sos, [1.0], beyond)
+    result = ry.NLP_Solver(komo.nlp(), verbose=0).solve()
+    of_target = result.sensitivity(2)  # of the position
+    assert of_target.active, "the problem is no test: no limit presses"
+    assert of_target.isRegular, of_target.message

@@ -130,11 +130,32 @@ TEST(Sensitivity, SaysThatASolutionHasAKinkAndTellsEachSide) {
     Sensitivity right = atZeroOrAbove(0., as_bound), left = atZeroOrAbove(0., as_bound, true);
     EXPECT_NEAR(right.jacobian()(0, 0), 1., 1e-12) << "the side on which it does not hold";
     EXPECT_NEAR(left.jacobian()(0, 0), 0., 1e-12);
-    for (const Sensitivity* side : {&right, &left}) {
+    for (Sensitivity* side : {&right, &left}) {
       EXPECT_FALSE(side->isRegular());
       ASSERT_EQ(side->weak().size(), 1u);
       EXPECT_NE(side->message().find("kink"), std::string::npos);
       EXPECT_NE(side->message().find(side->weak()[0]), std::string::npos);
+    }
+  }
+}
+
+TEST(Sensitivity, ALimitThatWasGivenTwiceIsNoKinkUnlessItMovesAway) {
+  for (const double dual : {0., 2., 1.}) {  // the bound presses, the residual does, or both
+    const auto nlp = problemOf({sos, sos, ineq}, vec({0., -kInf}), vec({kInf, kInf}),
+                               [](const VectorXd& x, VectorXd& phi, MatrixXd& J) {
+                                 phi << x[0] + 1., x[1] - x[0], -2. * x[0];
+                                 J << 1., 0., -1., 1., -2., 0.;
+                               });
+    const auto ofNumbers = [&](NlpParameters numbers) {
+      return Sensitivity(nlp, vec({0., 0.}), vec({0., 0., .5 * dual}), std::move(numbers));
+    };
+    Sensitivity of_costs = ofNumbers({residualTargets(*nlp, {0, 1})});
+    EXPECT_TRUE(of_costs.isRegular()) << of_costs.message();
+    EXPECT_TRUE(near(of_costs.jacobian(), MatrixXd{{0., 0.}, {0., 1.}}, 1e-10));
+    Sensitivity of_row = ofNumbers({residualTargets(*nlp, {2})}), of_bound = ofNumbers({boundsOf(*nlp, {0}, false)});
+    for (Sensitivity* one : {&of_row, &of_bound}) {
+      one->jacobian();
+      EXPECT_FALSE(one->isRegular()) << dual;
     }
   }
 }

@@ -5,6 +5,7 @@
 
 #include "kinegraph/base/errors.h"
 #include "kinegraph/base/text.h"
+#include "kinegraph/solvers/sensitivity/doubled_limits.h"
 #include "kinegraph/solvers/sensitivity/polished_solution.h"
 
 namespace kinegraph {
@@ -78,6 +79,7 @@ Sensitivity::Sensitivity(std::shared_ptr<Nlp> problem, const VectorXd& x, const 
     problem_->leaveAt(x);
     throw;
   }
+  doubled_ = std::make_unique<DoubledLimits>(*solution_);
   problem_->leaveAt(solution_->x);
 }
 
@@ -113,6 +115,7 @@ void Sensitivity::differentiate() {
       of_gradient_.col(column) = gradient;
       for (std::size_t k = 0; k < at.active.size(); ++k) of_rows_(Eigen::Index(k), column) = phi[at.active[k]];
       const auto bound = parameter->bound(number);
+      doubled_->move(at, *nlp_, phi, bound);
       if (!bound || !at.fixed[std::size_t(bound->variable)]) continue;
       const double value = bound->is_upper ? nlp_->upper()[bound->variable] : nlp_->lower()[bound->variable];
       if (at.x[bound->variable] == value) moved_bound_[std::size_t(column)] = bound->variable;
@@ -175,7 +178,8 @@ std::vector<std::string> Sensitivity::active() const {
   return names;
 }
 
-std::vector<std::string> Sensitivity::weak() const {
+std::vector<std::string> Sensitivity::weak() {
+  differentiate();
   std::vector<std::string> names;
   for (const int row : solution_->weak_rows) names.push_back(nlp_->rowName(row));
   for (const int i : solution_->weak_lower) names.push_back(nameOfBound(i, false));
@@ -183,9 +187,9 @@ std::vector<std::string> Sensitivity::weak() const {
   return names;
 }
 
-bool Sensitivity::isRegular() const { return message().empty(); }
+bool Sensitivity::isRegular() { return message().empty(); }
 
-std::string Sensitivity::message() const {
+std::string Sensitivity::message() {
   std::vector<std::string> sentences;
   if (const auto touching = weak(); !touching.empty())
     sentences.push_back(

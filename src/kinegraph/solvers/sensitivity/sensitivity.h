@@ -10,6 +10,7 @@
 
 namespace kinegraph {
 
+class DoubledLimits;
 class PolishedSolution;
 
 struct SensitivityOptions {
@@ -26,7 +27,7 @@ struct SensitivityOptions {
 /// tolerances of the solver do not matter.
 ///
 /// Where constraints touch without pressing the solution has a kink, and dx/dp is that of one side: `weak()` names
-/// them. Where costs and constraints leave directions free (redundant joints without a posture cost) it is the shortest
+/// them. A limit that was given twice, and whose twin presses, is none unless the two move apart. Where costs and constraints leave directions free (redundant joints without a posture cost) it is the shortest
 /// dx/dp: `freeDirections()` counts them.
 /// Source: Fiacco, Introduction to Sensitivity and Stability Analysis in Nonlinear Programming, 1983.
 class Sensitivity {
@@ -56,13 +57,13 @@ class Sensitivity {
   VectorXd gradient(const VectorXd& v);
 
   std::vector<std::string> active() const;  ///< inequalities and bounds that press
-  std::vector<std::string> weak() const;    ///< that touch and do not press: the solution has a kink
+  std::vector<std::string> weak();          ///< that touch and do not press: the solution has a kink
   int freeDirections() const;               ///< about how many; dx/dp has no part in them
   bool isSaddle() const;                    ///< the costs do not grow in all directions that the constraints leave
 
   /// Is dx/dp the derivative, as it is where nothing touches without pressing and no direction is free? ...
-  bool isRegular() const;
-  std::string message() const;  ///< ... else why not, in words.
+  bool isRegular();
+  std::string message();  ///< ... else why not, in words.
 
   /// Numbers that neither costs nor active constraints depend on: dx/dp is zero.
   std::vector<std::string> withoutEffect();
@@ -78,6 +79,7 @@ class Sensitivity {
   NlpParameters parameters_;
   std::vector<std::string> names_;
   std::unique_ptr<PolishedSolution> solution_;
+  std::unique_ptr<DoubledLimits> doubled_;
   VectorXd dual_;
   bool holds_weak_ = false, is_differentiated_ = false, has_jacobian_ = false, is_solvable_ = true;
   MatrixXd of_gradient_, of_rows_;  ///< derivatives of the conditions, a column per number
