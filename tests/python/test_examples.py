@@ -54,7 +54,7 @@ FOUND = {
     ],
     "19_own_action": [r"^solved: 2 actions, \d+\.\d+ s; checked", r"\(show cup l_gripper\)"],
     "10_many_problems": [r"taken by r_gripper", r"6 of 6 feasible", r"\b10 postures"],
-    "26_calibrate": [r"step 4: postures off by 0\.\d+ mrad", r"found within 0\.\d+ mm", r"elbow bent by"],
+    "27_calibrate": [r"step 4: postures off by 0\.\d+ mrad", r"found within 0\.\d+ mm", r"elbow bent by"],
     "22_a_data_set": [r"in \d+ s|in \d\.\d+ s", r"2000 targets, \d\d\.\d % of them", r"of 20 motions found"],
     "21_execute_a_task": [
         r"^solved: 4 actions",
@@ -66,7 +66,7 @@ FOUND = {
     "24_two_arms": [r"^solved: 3 actions", r"\(handover rod l_gripper r_gripper\)"],
     "20_two_robots": [r"the blocks are 0\.1[34]\d m and 0\.1[34]\d m higher", r"the same again, to the bit: True"],
     "26_train_a_policy": [r"from 100 fresh starts: before \d %, after ([5-9]\d|100) %"],
-    "21_mpc": [r"nearest to the ball and the table: \d+\.\d mm", r"at the end \d\.\d mm"],
+    "14_mpc": [r"nearest to the ball and the table: \d+\.\d mm", r"at the end \d\.\d mm"],
 }
 
 
