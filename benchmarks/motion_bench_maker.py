@@ -88,9 +88,9 @@ class Problem:
     goal: np.ndarray
     objects: list = field(repr=False)
 
-    def config(self):
-        """A Config of its own, at the start."""
-        C = self.robot.model.copy()
+    def config(self, robot=None):
+        """A Config of its own, at the start; with another Robot of the same joints, as one of other shapes."""
+        C = (robot or self.robot).model.copy()
         for item in self.objects:
             obstacle(C, item)
         C.setJointState(self.start)

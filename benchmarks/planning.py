@@ -1,17 +1,27 @@
-"""How planMotion does on MotionBenchMaker.
+"""How planMotion does on MotionBenchMaker, beside VAMP and OMPL.
 
     python benchmarks/planning.py [--robot panda] [--indices 1 2 3] [--seeds 0] [--tries 4] [--shapes meshes]
-    python benchmarks/planning.py --indices $(seq 100) --seeds 0 1 2 3 4    # all of it
+    python benchmarks/planning.py --all --seeds 0 1 2 3 4  # all of it
+    python benchmarks/planning.py --all --beside vamp=PYTHON mplib=PYTHON  # and others, in a Python that has them
 
-Says, for each kind of scene and for all: how many problems are solved, how many answers are truly free (an independent look: distances of all
-pairs at postures every milliradian of the path, and every 5 ms of the timed motion), median and 95th percentile of the time of each stage, ms (`first` is the call
-up to the first path; stages are wall time, `all` is processor time of the call but for the timing of the motion), the path's length as a multiple of the
-straight line's, the motion's duration, s, and the path's least clearance, mm. Of each problem, times are the least of the rounds.
+Says, for each kind of scene and for all: how many problems are solved, how many within a second of processor time, how many answers are truly
+free (an independent look at the path and at postures every 5 ms of the timed motion, see `leastDistance`), median and 95th percentile
+of the time of each stage, ms (`first` is the call up to the first path; stages are wall time, `all` is processor time of the call but for
+the timing of the motion), the path's length as a multiple of the straight line's, the motion's duration, s, and the path's least clearance,
+mm. Of each problem, times are the least of the rounds.
+
+Others get the same problems (see planning_peers.py), and their answers are looked at in the same way: with the meshes of the robot,
+and with the shapes that they plan with.
 """
 
 import argparse
 import itertools
+import json
+import subprocess
+import tempfile
 import time
+import warnings
+from pathlib import Path
 
 import motion_bench_maker
 import numpy as np
@@ -19,21 +29,47 @@ import numpy as np
 import kinegraph as ry
 
 STAGES = ["ends", "search", "shorten", "tighten", "verify", "time"]
+REACH = 1.5  # m/rad: of these robots, no joint moves a point faster
+STEP = 1e-3  # rad or m: between postures that are looked at, at least
 
 
-def isFree(C, Q, tolerance=1e-9):
-    """By a call that knows nothing of motions. Pairs whose distance never changes are of parts that no joint moves apart."""
-    D = C.getDistances(Q)
-    return bool((D[:, np.ptp(D, axis=0) > 1e-9] >= -tolerance).all())
+class Look:
+    """At paths of one scene, by a call that knows nothing of motions: distances of all pairs at postures.
 
+    Between two postures no pair comes nearer than half of what it has at both, less what the joints may move it. Where that is not
+    enough a posture between them is looked at, until they are a milliradian apart. Pairs whose distance never changes are of parts
+    that no joint moves apart, and do not count.
+    """
 
-def along(path, step=1e-3):
-    """Postures of a polyline, every `step`."""
-    rows = [path[:1]]
-    for a, b in itertools.pairwise(path):
-        count = max(1, int(np.ceil(np.linalg.norm(b - a) / step)))
-        rows.append(a + (np.arange(1, count + 1) / count)[:, None] * (b - a))
-    return np.concatenate(rows)
+    def __init__(self, C):
+        self.C = C
+        lower, upper = C.getJointLimits()
+        random = np.random.default_rng(0).uniform(lower, upper, (16, len(lower)))
+        self.moves = np.ptp(C.getDistances(random), axis=0) > 1e-9
+
+    def distances(self, Q):
+        return self.C.getDistances(Q)[:, self.moves].min(axis=1)
+
+    def leastDistance(self, path):
+        """Of all postures of the path that were looked at, m; ends soon where it is negative."""
+        a, b = path[:-1], path[1:]
+        least = self.distances(path)
+        of_a, of_b, least = least[:-1], least[1:], least.min()
+        while least >= 0 and len(a):
+            change = b - a
+            rests = (of_a + of_b >= REACH * np.abs(change).sum(axis=1)) | (np.linalg.norm(change, axis=1) <= STEP)
+            a, b, of_a, of_b = a[~rests], b[~rests], of_a[~rests], of_b[~rests]
+            if not len(a):
+                break
+            middle = 0.5 * (a + b)
+            of_middle = self.distances(middle)
+            least = min(least, of_middle.min())
+            a, b = np.concatenate([a, middle]), np.concatenate([middle, b])
+            of_a, of_b = np.concatenate([of_a, of_middle]), np.concatenate([of_middle, of_b])
+        return least
+
+    def isFree(self, path, tolerance=1e-9):
+        return bool(self.leastDistance(path) >= -tolerance)
 
 
 def timed(C, problem, options):
@@ -43,7 +79,8 @@ def timed(C, problem, options):
     wall, processor = time.perf_counter() - wall, time.process_time() - processor
     times = {stage["name"]: 1e3 * stage["seconds"] for stage in plan.stages}
     later = sum(times.get(stage, 0.0) for stage in STAGES[2:])
-    return plan, times | {"first": 1e3 * wall - later, "all": 1e3 * processor - times.get("time", 0.0)}
+    own = {"first": 1e3 * wall - later, "call": 1e3 * processor, "all": 1e3 * processor - times.get("time", 0.0)}
+    return plan, times | own
 
 
 def ours(problem, options, rounds=1):
@@ -59,30 +96,85 @@ def ours(problem, options, rounds=1):
     }
     row |= {key: min(times[key] for _, times in runs) for key in runs[0][1]}
     if plan.feasible:
+        look = Look(C)
         motion = np.array([plan.at(t)[0] for t in np.arange(0, plan.duration, 5e-3)])
-        row["free"] = isFree(C, along(plan.path)) and isFree(C, motion)
+        row["free"] = look.isFree(plan.path) and look.isFree(motion)
         row["ratio"] = plan.length / np.linalg.norm(problem.goal - problem.start)
         row["duration"] = plan.duration
         row["clearance"] = 1e3 * plan.clearance()
     return row
 
 
+def length(path):
+    return float(sum(np.linalg.norm(b - a) for a, b in itertools.pairwise(path)))
+
+
+def others(name, python, robots, problems):
+    """Rows of another planner, which runs in a Python of its own."""
+    pose = lambda frame: frame.getPose().tolist()  # noqa: E731
+    questions = []
+    for problem in problems:
+        frames = [f for f in problem.config().getFrames() if f.name.startswith("obstacle ")]
+        obstacles = [[str(f.getShapeType()).split(".")[-1], f.getSize().tolist(), pose(f)] for f in frames]
+        ends = {"start": problem.start.tolist(), "goal": problem.goal.tolist()}
+        questions.append({"scene": problem.scene, "obstacles": obstacles} | ends)
+    robot = {
+        "name": problems[0].robot.name,
+        "folder": str(problems[0].robot.folder),
+        "joints": problems[0].robot.joints,
+    }
+    with tempfile.TemporaryDirectory() as folder:
+        file = Path(folder) / "questions.json"
+        file.write_text(json.dumps({"robot": robot, "problems": questions}))
+        program = Path(__file__).with_name("planning_peers.py")
+        subprocess.run([python, program, name, file], check=True)
+        rows = json.loads(file.with_suffix(".answers").read_text())
+    for problem, row in zip(problems, rows, strict=True):
+        row["scene"] = problem.scene
+        if not row["solved"]:
+            continue
+        path = np.array(row["path"])
+        path[0], path[-1] = problem.start, problem.goal  # single precision
+        looks = {shapes: Look(problem.config(robot)).leastDistance(path) for shapes, robot in robots.items()}
+        row |= {
+            "free": looks["meshes"] >= -1e-9,
+            "own": looks[row["shapes"]] >= -1e-9,
+            "depth": -1e3 * min(looks[row["shapes"]], 0),
+            "ratio": length(path) / np.linalg.norm(problem.goal - problem.start),
+        }
+    return rows
+
+
 def table(title, rows):
     solved = [row for row in rows if row["solved"]]
-    print(f"\n{title}: {len(solved)} of {len(rows)} solved, {sum(row['free'] for row in solved)} truly free")
+    count = lambda key: sum(bool(row.get(key)) for row in rows)  # noqa: E731
+    soon = sum(row.get("call", 0) < 1e3 for row in solved)
+    words = [
+        f"{len(rows)} problems",
+        f"{count('valid')} with valid ends",
+        f"{len(solved)} solved",
+        f"{soon} within 1 s",
+    ]
+    words.append(f"{count('free')} truly free")
+    if any("own" in row for row in rows):
+        deepest = max(row["depth"] for row in solved)
+        words.append(f"{count('own')} by the shapes of that planner, to {deepest:.1f} mm deep")
+    print(f"\n{title}: {', '.join(words)}")
     for scene in [*motion_bench_maker.SCENES, "all"]:
         of = [row for row in rows if scene in (row["scene"], "all")]
         done = [row for row in of if row["solved"]]
         if not done:
             continue
         words = [f"{scene:17} {len(done):4}/{len(of):<4} free {100 * np.mean([row['free'] for row in done]):5.1f} %"]
-        for key in ["first", *STAGES, "all"]:
+        for key in ["first", *STAGES, "own clock", "all"]:
             values = [row[key] for row in done if key in row]
             if values:
-                words.append(f"{key} {np.median(values):.2f}/{np.percentile(values, 95):.1f}")
-        for key, title in [("ratio", "length"), ("duration", "s"), ("clearance", "mm")]:
-            words.append(f"{title} {np.median([row[key] for row in done]):.3f}")
-        print("  ".join(words))
+                words.append(f"{key} {np.median(values):.3g}/{np.percentile(values, 95):.3g}")
+        for key, unit in [("ratio", "length"), ("duration", "s"), ("clearance", "mm")]:
+            values = [row[key] for row in done if key in row]
+            if values:
+                words.append(f"{unit} {np.median(values):.3f}")
+        print("  ".join(words), flush=True)
 
 
 def main():
@@ -91,21 +183,34 @@ def main():
     parser.add_argument("--shapes", choices=["meshes", "spheres"], default="meshes")
     parser.add_argument("--scenes", nargs="+", choices=motion_bench_maker.SCENES, default=motion_bench_maker.SCENES)
     parser.add_argument("--indices", type=int, nargs="+", default=[1, 2, 3])
-    parser.add_argument("--seeds", type=int, nargs="+", default=[0])
+    parser.add_argument("--all", action="store_true", help="all 100 problems of each scene")
+    parser.add_argument("--seeds", type=int, nargs="*", default=[0])
     parser.add_argument("--tries", type=int, default=4)
+    parser.add_argument("--threads", type=int, default=1)
     parser.add_argument("--rounds", type=int, default=1)
     parser.add_argument("--margin", type=float, default=0.0)
     parser.add_argument("--optimize", default="length")
+    parser.add_argument("--beside", nargs="+", default=[], metavar="NAME=PYTHON")
     arguments = parser.parse_args()
+    warnings.filterwarnings("ignore", ".*no joint moves them apart")  # tables touch their legs
     robot = motion_bench_maker.Robot(arguments.robot, arguments.shapes)
-    problems = list(robot.problems(arguments.scenes, arguments.indices))
+    indices = range(1, 101) if arguments.all else arguments.indices
+    problems = list(robot.problems(arguments.scenes, indices))
+    everything = []
+    names = ["tries", "margin", "optimize", "threads"]
     for seed in arguments.seeds:
-        options = {"seed": seed, "tries": arguments.tries, "margin": arguments.margin, "optimize": arguments.optimize}
+        options = {name: getattr(arguments, name) for name in names} | {"seed": seed}
         rows = [ours(problem, options, arguments.rounds) for problem in problems]
+        everything += rows
         table(f"planMotion, {arguments.robot}, {arguments.shapes}, seed {seed}; ms, median/95th percentile", rows)
         for problem, row in zip(problems, rows, strict=True):
-            if not row["solved"]:
-                print(f"  {problem.scene} {problem.index}: {row['message']}")
+            if not row["solved"] or not row["free"]:
+                print(f"  {problem.scene} {problem.index}: {row['message'] or 'not free'}")
+    if len(arguments.seeds) > 1:
+        table(f"planMotion, {arguments.robot}, {arguments.shapes}, {len(arguments.seeds)} seeds", everything)
+    both = {shapes: motion_bench_maker.Robot(arguments.robot, shapes) for shapes in ["meshes", "spheres"]}
+    for name, python in (item.split("=") for item in arguments.beside):
+        table(f"{name}, {arguments.robot}", others(name, python, both, problems))
 
 
 if __name__ == "__main__":

@@ -195,6 +195,20 @@ TEST(Config, CopiesAreDeep) {
   EXPECT_EQ(copy.getFrame("link1").getPose().p.x() > 4., true);
 }
 
+TEST(Config, CopiesOfACompiledSceneCompileOnlyWhenTheyAreEdited) {
+  Config original = arm();
+  const auto program = original.program();
+  Config copy = original;
+  EXPECT_EQ(copy.program(), program);
+  EXPECT_EQ(copy.getJointState(), original.getJointState());
+  copy.addFrame("more", "base");
+  EXPECT_NE(copy.program(), program);
+  EXPECT_EQ(copy.program()->frame_name.back(), "more");
+  EXPECT_EQ(original.program(), program);
+  original.setJointState(original.getJointState() + VectorXd::Ones(13));
+  EXPECT_NEAR((copy.getJointState() - original.getJointState()).norm(), std::sqrt(13.), 1e-12);
+}
+
 TEST(Config, SnapshotsKeepWhatTheSceneWasAndAreUsedAgain) {
   Config config = arm();
   const auto first = config.scene()->snapshot();

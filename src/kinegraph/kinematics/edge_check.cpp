@@ -31,7 +31,9 @@ void EdgeChecker::forget() { engine_->forget(); }
 
 bool EdgeChecker::isFree(const double* from, const double* to) { return engine_->isFree(from, to, margin_); }
 
-const std::optional<MotionContact>& EdgeChecker::lastHit() const { return engine_->last_hit; }
+const std::optional<MotionContact>& EdgeChecker::lastHit() const { return engine_->measuredHit(); }
+
+const std::optional<MotionContact>& EdgeChecker::lastHitPair() const { return engine_->lastHit(); }
 
 std::optional<MotionContact> EdgeChecker::firstContact(const double* from, const double* to) {
   if (!motions_) motions_ = std::make_unique<MotionChecker>(state_);

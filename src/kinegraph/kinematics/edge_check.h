@@ -48,6 +48,8 @@ class EdgeChecker {
 
   /// A pair, with time and distance, that the last question was answered no for; of configurations, the time is 0.
   const std::optional<MotionContact>& lastHit() const;
+  /// The same without its distance (NaN), which is computed when it is asked for.
+  const std::optional<MotionContact>& lastHitPair() const;
 
   /// Forgets what was hit last, as if nothing had been asked before.
   void forget();

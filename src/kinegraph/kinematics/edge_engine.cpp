@@ -12,27 +12,8 @@ constexpr int kMostPieces = 4096;
 constexpr int kDeepest = 26;      // times that an interval is halved
 constexpr double kExact = 1e-12;  // m: what a direction that was found elsewhere has to keep beyond the margin
 
-/// The farthest corner of a hull, from one that may be near it.
-Vector3d climb(const Hull& hull, const Vector3d& direction, std::uint32_t& corner) {
-  if (hull.first_neighbor.empty()) return hull.points[std::size_t(hull.farthest(direction))];
-  double height = direction.dot(hull.points[corner]);
-  for (bool climbing = true; climbing;) {
-    climbing = false;
-    for (std::uint32_t k = hull.first_neighbor[corner], end = hull.first_neighbor[corner + 1]; k < end; ++k) {
-      const double other = direction.dot(hull.points[hull.neighbors[k]]);
-      if (other <= height) continue;
-      height = other;
-      corner = hull.neighbors[k];
-      climbing = true;
-      break;
-    }
-  }
-  return hull.points[corner];
-}
-
-Vector3d supportOf(const CollisionBody& body, const Vector3d& direction, std::uint32_t& corner) {
-  return body.core() == CollisionBody::Core::hull ? climb(body.hull(), direction, corner) : body.support(direction);
-}
+/// Is the distance to others like it computed in closed form, at once?
+bool hasClosedForm(const CollisionBody& body) { return body.core() <= CollisionBody::Core::box; }
 
 }  // namespace
 
@@ -46,20 +27,22 @@ EdgeEngine::EdgeEngine(const State& scene, double tolerance)
       middles_(kDeepest),
       from_(scene.dofs()),
       to_(scene.dofs()),
-      q_(scene.dofs()) {
+      q_(scene.dofs()),
+      hit_q_(scene.dofs()) {
   candidates_.reserve(bodies_.pairs.size());
   piece_times_.reserve(kLanes);
 }
 
 // --- which pairs may be near -----------------------------------------------------------------------------------------
 
-void EdgeEngine::findCandidates(double margin) {
+/// Pairs of groups that may be within the margin; those that may come nearer than `most` in a sample.
+void EdgeEngine::findCandidates(double margin, double most) {
   candidates_.clear();
   for (const LinkBodies::Block& block : bodies_.blocks) {
     if (!samples_.mayBeNear(block.a, block.b, margin)) continue;
-    for (int i = block.first; i < block.last; ++i) addPair(bodies_.pairs[std::size_t(i)], i);
+    for (int i = block.first; i < block.last; ++i) addPair(bodies_.pairs[std::size_t(i)], i, most);
   }
-  if (bodies_.many) addNearFixed(margin);
+  if (bodies_.many) addNearFixed(margin, most);
   const auto key = [&](const Candidate& c) { return c.index >= 0 && c.index == suspect_ ? -1e300 : c.least; };
   std::sort(candidates_.begin(), candidates_.end(), [&](const Candidate& x, const Candidate& y) {
     const double a = key(x), b = key(y);
@@ -67,13 +50,14 @@ void EdgeEngine::findCandidates(double margin) {
   });
 }
 
-void EdgeEngine::addPair(const LinkBodies::Pair& pair, int index) {
-  const Lane bounds = samples_.distanceBounds(pair.a, pair.b);
-  candidates_.push_back({pair, index, bounds, bounds.head(samples_.count()).minCoeff()});
+void EdgeEngine::addPair(const LinkBodies::Pair& pair, int index, double most) {
+  const Lane bounds = samples_.distanceBounds(pair.a, pair.b, most);
+  const double least = bounds.head(samples_.count()).minCoeff();
+  if (least < most) candidates_.push_back({pair, index, bounds, least});
 }
 
 /// Where many bodies are fixed to the world: those that a group that moves comes near to.
-void EdgeEngine::addNearFixed(double margin) {
+void EdgeEngine::addNearFixed(double margin, double most) {
   for (int g = 0; g < bodies_.moving; ++g) {
     const PlacedSamples::Sphere& sphere = samples_.sphere(g);
     const Vector3d low = sphere.center.array() - sphere.radius, high = sphere.center.array() + sphere.radius;
@@ -82,7 +66,7 @@ void EdgeEngine::addNearFixed(double margin) {
       const int other = bodies_.moving + item;
       if (samples_.mayBeNear(g, other, margin)) bodies_.appendPairs(g, other, near_fixed_);
     });
-    for (const LinkBodies::Pair& pair : near_fixed_) addPair(pair, -1);
+    for (const LinkBodies::Pair& pair : near_fixed_) addPair(pair, -1, most);
   }
 }
 
@@ -91,7 +75,7 @@ void EdgeEngine::addNearFixed(double margin) {
 EdgeEngine::Normal& EdgeEngine::normalOf(const Candidate& candidate) {
   if (candidate.index >= 0) return normals_[std::size_t(candidate.index)];
   scratch_normal_.stamp = -1;
-  scratch_normal_.corner_a = scratch_normal_.corner_b = 0;
+  scratch_normal_.corners = {};
   return scratch_normal_;
 }
 
@@ -111,8 +95,8 @@ double EdgeEngine::gap(const Candidate& candidate, Normal& normal, const Moment&
   const Vector3d n = pair.ancestor == 0 ? normal.n : Vector3d(linkAt(pair.ancestor, at).R * normal.n);
   const RigidTransform X_A = poseAt(pair.a, at), X_B = poseAt(pair.b, at);
   const Vector3d in_a = -(X_A.R.transpose() * n), in_b = X_B.R.transpose() * n;
-  const double nearest_a = n.dot(X_A.p) - in_a.dot(supportOf(a, in_a, normal.corner_a)),
-               farthest_b = n.dot(X_B.p) + in_b.dot(supportOf(b, in_b, normal.corner_b));
+  const double nearest_a = n.dot(X_A.p) - in_a.dot(supportNear(a, in_a, normal.corners.a)),
+               farthest_b = n.dot(X_B.p) + in_b.dot(supportNear(b, in_b, normal.corners.b));
   return nearest_a - farthest_b - a.radius() - b.radius();
 }
 
@@ -126,11 +110,42 @@ double EdgeEngine::measure(const Candidate& candidate, Normal& normal, const Mom
   return near.distance;
 }
 
-/// Notes what is too near; false.
-bool EdgeEngine::hit(const Candidate& candidate, double time, double distance) {
+/// Is the pair at least `margin` apart, as far as that shows at once? If so, a direction is kept that shows it.
+EdgeEngine::Verdict EdgeEngine::judge(const Candidate& candidate, Normal& normal, const Moment& at, double margin) {
+  const LinkBodies::Pair& pair = candidate.pair;
+  const CollisionBody &a = *bodies_.bodies[std::size_t(pair.a)].shape, &b = *bodies_.bodies[std::size_t(pair.b)].shape;
+  if (!pair.convex || (hasClosedForm(a) && hasClosedForm(b))) return Verdict::unknown;
+  const auto found = separation(a, poseAt(pair.a, at), b, poseAt(pair.b, at), margin, normal.corners);
+  if (!found) return Verdict::unknown;
+  if (!found->apart) return Verdict::near;
+  normal.n = pair.ancestor == 0 ? found->normal : Vector3d(linkAt(pair.ancestor, at).R.transpose() * found->normal);
+  normal.stamp = stamp_;
+  return Verdict::apart;
+}
+
+/// Is it nearer than the margin?
+bool EdgeEngine::isNear(const Candidate& candidate, Normal& normal, const Moment& at, double margin) {
+  const Verdict verdict = judge(candidate, normal, at, margin);
+  return verdict == Verdict::unknown ? measure(candidate, normal, at) < margin : verdict == Verdict::near;
+}
+
+const std::optional<MotionContact>& EdgeEngine::measuredHit() {
+  if (last_hit_ && std::isnan(last_hit_->distance)) {
+    scene_.setJoints(hit_q_.data());
+    const auto a = std::size_t(last_hit_->a), b = std::size_t(last_hit_->b);
+    const auto& bodies = scene_.program().body;
+    last_hit_->distance =
+        proximity(*bodies[a], scene_.pose(last_hit_->a), *bodies[b], scene_.pose(last_hit_->b)).distance;
+  }
+  return last_hit_;
+}
+
+/// Notes what is too near, at joints q; false.
+bool EdgeEngine::hit(const Candidate& candidate, double time, const double* q, double distance) {
   const int a = bodies_.bodies[std::size_t(candidate.pair.a)].frame,
             b = bodies_.bodies[std::size_t(candidate.pair.b)].frame;
-  last_hit = MotionContact{time, std::min(a, b), std::max(a, b), distance, -1};
+  last_hit_ = MotionContact{time, std::min(a, b), std::max(a, b), distance, -1};
+  hit_q_ = Eigen::Map<const VectorXd>(q, hit_q_.size());
   suspect_ = candidate.index;
   return false;
 }
@@ -151,28 +166,40 @@ bool EdgeEngine::areAllFree(const double* const* Q, int count, double margin) {
   return all_free;
 }
 
-/// Calls hit(sample) for pairs that are too near, of each sample once; until it says no.
+/// Calls hit(sample) for pairs that are too near, of each sample once; until it says no. What was hit last comes first,
+/// before it is known which other pairs may be near.
 template <class Hit>
 void EdgeEngine::forHits(const double* const* Q, int count, double margin, const Hit& hit_sample) {
-  last_hit.reset();
+  last_hit_.reset();
   for (int i = 0; i < count; ++i) samples_.setJoints(i, Q[i]);
   samples_.place(count);
-  findCandidates(margin);
   bool was_hit[kLanes] = {};
-  for (const Candidate& candidate : candidates_) {
-    if (candidate.least >= margin) continue;
-    Normal& normal = normalOf(candidate);
-    for (int i = 0; i < count; ++i) {
-      if (was_hit[i] || candidate.bounds[i] >= margin) continue;
-      const Moment at = sampleAt(i);
-      if (candidate.pair.convex && normal.stamp > 0 && gap(candidate, normal, at) >= margin + kExact) continue;
-      const double distance = measure(candidate, normal, at);
-      if (distance >= margin) continue;
-      hit(candidate, 0., distance);
-      was_hit[i] = true;
-      if (!hit_sample(i)) return;
-    }
+  if (suspect_ >= 0) {
+    candidates_.clear();
+    addPair(bodies_.pairs[std::size_t(suspect_)], suspect_, margin);
+    if (!candidates_.empty() && !lookAt(candidates_.front(), Q, count, margin, was_hit, hit_sample)) return;
   }
+  findCandidates(margin, margin);
+  for (const Candidate& candidate : candidates_) {
+    if (!lookAt(candidate, Q, count, margin, was_hit, hit_sample)) return;
+  }
+}
+
+/// One pair in all samples that were not hit.
+template <class Hit>
+bool EdgeEngine::lookAt(const Candidate& candidate, const double* const* Q, int count, double margin, bool* was_hit,
+                        const Hit& hit_sample) {
+  Normal& normal = normalOf(candidate);
+  for (int i = 0; i < count; ++i) {
+    if (was_hit[i] || candidate.bounds[i] >= margin) continue;
+    const Moment at = sampleAt(i);
+    if (candidate.pair.convex && normal.stamp > 0 && gap(candidate, normal, at) >= margin + kExact) continue;
+    if (!isNear(candidate, normal, at, margin)) continue;
+    hit(candidate, 0., Q[i]);
+    was_hit[i] = true;
+    if (!hit_sample(i)) return false;
+  }
+  return true;
 }
 
 double EdgeEngine::clearance(const double* q, double most) {
@@ -266,8 +293,7 @@ bool EdgeEngine::samplesKeep(double margin) {
       if (candidate.bounds[i] >= margin) continue;
       const Moment at = sampleAt(i);
       if (candidate.pair.convex && normal.stamp == stamp_ && gap(candidate, normal, at) >= margin) continue;
-      const double distance = measure(candidate, normal, at);
-      if (distance < margin) return hit(candidate, at.time, distance);
+      if (isNear(candidate, normal, at, margin)) return hit(candidate, at.time, jointsAt(at.time));
     }
   }
   return true;
@@ -284,6 +310,7 @@ bool EdgeEngine::pieceKeeps(double margin) {
 /// Does a pair keep the margin between all samples?
 bool EdgeEngine::pairKeeps(const Candidate& candidate, double margin, double width) {
   const MotionBounds::Rates rates = ratesOf(candidate);
+  const double bow = .125 * rates.bend * width * width;
   const auto farBetween = [&](int i) {
     return candidate.bounds[i] + candidate.bounds[i + 1] - rates.speed * width >= 2. * margin;
   };
@@ -291,8 +318,9 @@ bool EdgeEngine::pairKeeps(const Candidate& candidate, double margin, double wid
   candidate.bounds.minCoeff(&worst);
   Normal& normal = normalOf(candidate);
   if (candidate.least < margin) {  // what is in the way shows here first
-    const double distance = measure(candidate, normal, sampleAt(worst));
-    if (distance < margin) return hit(candidate, piece_times_[std::size_t(worst)], distance);
+    const Moment at = sampleAt(worst);
+    const bool shown = bow < 1e9 && judge(candidate, normal, at, margin + bow) == Verdict::apart;
+    if (!shown && isNear(candidate, normal, at, margin)) return hit(candidate, at.time, jointsAt(at.time));
   }
   for (int i = 0; i + 1 < kLanes; ++i) {
     if (!farBetween(i) && !keeps(candidate, normal, rates, margin, sampleAt(i), sampleAt(i + 1), 0)) return false;
@@ -308,16 +336,20 @@ bool EdgeEngine::keeps(const Candidate& candidate, Normal& normal, const MotionB
   };
   const bool convex = candidate.pair.convex && bow < 1e9;
   if (convex && normal.stamp == stamp_ && apart()) return true;
+  for (const Moment* end : {&a, &b}) {
+    if (convex && judge(candidate, normal, *end, margin + bow) == Verdict::apart && apart()) return true;
+  }
   double distances[2];
   for (const bool second : {false, true}) {
     const Moment& end = second ? b : a;
     const double distance = distances[second] = measure(candidate, normal, end);
-    if (distance < margin) return hit(candidate, end.time, distance);
+    if (distance < margin) return hit(candidate, end.time, jointsAt(end.time), distance);
     if (convex && apart()) return true;
-    if (distance < margin + tolerance_ && rates.speed > 0.) return hit(candidate, end.time, distance);
+    if (distance < margin + tolerance_ && rates.speed > 0.)
+      return hit(candidate, end.time, jointsAt(end.time), distance);
   }
   if (distances[0] + distances[1] - rates.speed * width >= 2. * margin) return true;
-  if (depth == kDeepest) return hit(candidate, a.time, distances[0]);
+  if (depth == kDeepest) return hit(candidate, a.time, jointsAt(a.time), distances[0]);
   const Moment middle = between(a, b, depth);
   return keeps(candidate, normal, rates, margin, a, middle, depth + 1) &&
          keeps(candidate, normal, rates, margin, middle, b, depth + 1);

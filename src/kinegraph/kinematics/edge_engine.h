@@ -5,6 +5,7 @@
 #include <optional>
 #include <vector>
 
+#include "kinegraph/geometry/distance/separation.h"
 #include "kinegraph/kinematics/motion_bounds.h"
 #include "kinegraph/kinematics/motion_check.h"
 #include "kinegraph/kinematics/placed_samples.h"
@@ -21,7 +22,8 @@ namespace kinegraph {
 ///
 /// in between, because a twice differentiable function is above its chord by no more than that. n is the normal where
 /// they are nearest at one of the ends; it is tried for all that follows before another one is computed. Other bodies
-/// have (d + d' - w max |dp / ds|) / 2. Where this is not enough, the interval is halved.
+/// have (d + d' - w max |dp / ds|) / 2. Where this is not enough, the interval is halved. Distances are computed only
+/// where it does not show sooner that a pair is apart, or that it is not (see separation.h).
 class EdgeEngine {
  public:
   using Lane = PlacedSamples::Lane;
@@ -44,7 +46,9 @@ class EdgeEngine {
   double clearance(const double* q, double most);
   double clearance(const double* from, const double* to, double most);
 
-  std::optional<MotionContact> last_hit;
+  /// What the last question was answered no for, without its distance (NaN), or with it.
+  const std::optional<MotionContact>& lastHit() const { return last_hit_; }
+  const std::optional<MotionContact>& measuredHit();
 
  private:
   struct Candidate {
@@ -57,7 +61,7 @@ class EdgeEngine {
   struct Normal {
     int stamp = 0;  ///< of the question that it was computed for
     Vector3d n;     ///< in the ancestor, unit, from b to a
-    std::uint32_t corner_a = 0, corner_b = 0;
+    SupportCorners corners;
   };
   /// A time of the motion: a sample, or a State of its own.
   struct Moment {
@@ -68,15 +72,18 @@ class EdgeEngine {
 
   void ask() {  // directions of questions before are forgotten
     ++stamp_;
-    last_hit.reset();
+    last_hit_.reset();
   }
   int setMotion(const double* from, const double* to);
   MotionBounds::Rates ratesOf(const Candidate& candidate) const;
   template <class Hit>
   void forHits(const double* const* Q, int count, double margin, const Hit& hit);
-  void findCandidates(double margin);
-  void addPair(const LinkBodies::Pair& pair, int index);
-  void addNearFixed(double margin);
+  void findCandidates(double margin, double most = std::numeric_limits<double>::infinity());
+  void addPair(const LinkBodies::Pair& pair, int index, double most);
+  void addNearFixed(double margin, double most);
+  template <class Hit>
+  bool lookAt(const Candidate& candidate, const double* const* Q, int count, double margin, bool* was_hit,
+              const Hit& hit);
   void placePiece(double from, double to);
   Moment sampleAt(int sample) const;
   Moment between(const Moment& a, const Moment& b, int depth);
@@ -87,7 +94,11 @@ class EdgeEngine {
   RigidTransform poseAt(int body, const Moment& at);
   double gap(const Candidate& candidate, Normal& normal, const Moment& at);
   double measure(const Candidate& candidate, Normal& normal, const Moment& at);
-  bool hit(const Candidate& candidate, double time, double distance);
+  enum class Verdict { apart, near, unknown };
+  Verdict judge(const Candidate& candidate, Normal& normal, const Moment& at, double margin);
+  bool isNear(const Candidate& candidate, Normal& normal, const Moment& at, double margin);
+  bool hit(const Candidate& candidate, double time, const double* q,
+           double distance = std::numeric_limits<double>::quiet_NaN());
 
   bool samplesKeep(double margin);
   bool pieceKeeps(double margin);
@@ -109,6 +120,8 @@ class EdgeEngine {
   std::vector<std::unique_ptr<State>> middles_;  ///< per depth, made when first needed
   std::vector<double> piece_times_;
   VectorXd from_, to_, q_;
+  std::optional<MotionContact> last_hit_;
+  VectorXd hit_q_;
   int stamp_ = 1, suspect_ = -1;
 };
 

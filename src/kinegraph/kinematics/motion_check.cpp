@@ -125,7 +125,7 @@ std::optional<MotionContact> MotionChecker::firstContact(const double* from, con
   const Limits limits{margin, tolerance};
   edges_->setTolerance(tolerance);
   if (edges_->isFree(from, to, margin)) return std::nullopt;
-  const MotionContact hit = *edges_->last_hit;  // the first contact is no later
+  const MotionContact hit = *edges_->measuredHit();  // the first contact is no later
   const Eigen::Map<const VectorXd> start(from, state_.dofs()), end(to, state_.dofs());
   until_.noalias() = start + hit.time * (end - start);
   std::optional<MotionContact> contact = first(from, hit.time == 1. ? to : until_.data(), limits);

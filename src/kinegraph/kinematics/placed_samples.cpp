@@ -89,11 +89,11 @@ SampleKernel::Box PlacedSamples::boxOf(int body) {
   return {placed(body).rows, {half[0], half[1], half[2]}, shape.core() == CollisionBody::Core::point};
 }
 
-PlacedSamples::Lane PlacedSamples::distanceBounds(int body_a, int body_b) {
+PlacedSamples::Lane PlacedSamples::distanceBounds(int body_a, int body_b, double most) {
   alignas(64) double gaps[kMost] = {};
-  kernel_->boxGaps(boxOf(body_a), boxOf(body_b), groups_, gaps);
   const double radii =
       bodies_->bodies[std::size_t(body_a)].shape->radius() + bodies_->bodies[std::size_t(body_b)].shape->radius();
+  kernel_->boxGaps(boxOf(body_a), boxOf(body_b), groups_, most + radii, gaps);
   return Eigen::Map<const Lane>(gaps) - radii;
 }
 

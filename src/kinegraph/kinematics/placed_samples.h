@@ -1,6 +1,7 @@
 #pragma once
 
 #include <algorithm>
+#include <limits>
 #include <memory>
 #include <vector>
 
@@ -49,8 +50,9 @@ class PlacedSamples {
   RigidTransform pose(int body, int sample) { return poseIn(placed(body).rows, SampleKernel::kPerBody, 0, sample); }
 
   /// Lower bounds of the distance of two bodies in each sample, m: how far their boxes are apart along the direction
-  /// from one's to the other's middle. -infinity where that says nothing.
-  Lane distanceBounds(int body_a, int body_b);
+  /// from one's to the other's middle. -infinity where that says nothing. Bounds that are `most` or more need not be the
+  /// best.
+  Lane distanceBounds(int body_a, int body_b, double most = std::numeric_limits<double>::infinity());
 
  private:
   struct Placed {

@@ -40,8 +40,8 @@ struct SampleKernel {
   void (*boundPoint)(const double* poses, int link_rows, int link_row, const double* point, int groups, double* sphere);
 
   /// How far two boxes are apart, per lane, at least: along the direction from one's to the other's middle, and the other
-  /// way around. -infinity where that says nothing.
-  void (*boxGaps)(const Box& a, const Box& b, int groups, double* gaps);
+  /// way around. -infinity where that says nothing. Lanes whose gap is `enough` or more need not have the best one.
+  void (*boxGaps)(const Box& a, const Box& b, int groups, double enough, double* gaps);
 };
 
 /// That for `width` of laneWidths(), 0 for the widest.

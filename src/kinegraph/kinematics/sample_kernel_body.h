@@ -86,12 +86,12 @@ Lane boxGap(const Lane* rows_a, const double* half_a, const Lane* rows_b, const 
   return norm > least ? norm - extent / larger(norm, least) : nothing;
 }
 
-void sampleBoxGaps(const SampleKernel::Box& a, const SampleKernel::Box& b, int groups, double* gaps) {
+void sampleBoxGaps(const SampleKernel::Box& a, const SampleKernel::Box& b, int groups, double enough, double* gaps) {
   for (int g = 0; g < groups; ++g) {
     const Lane *of_a = packs(a.rows) + g * SampleKernel::kPerBody, *of_b = packs(b.rows) + g * SampleKernel::kPerBody;
     Lane gap = all<Lane>(-__builtin_inf());
     if (a.is_point || !b.is_point) gap = boxGap(of_a, a.half, of_b, b.half);
-    if (!a.is_point) gap = larger(gap, boxGap(of_b, b.half, of_a, a.half));
+    if (!a.is_point && any(gap < all<Lane>(enough))) gap = larger(gap, boxGap(of_b, b.half, of_a, a.half));
     packs(gaps)[g] = gap;
   }
 }

@@ -9,8 +9,7 @@ ClearanceCheck::ClearanceCheck(const State& scene, const JointSpace& space, Clea
     : space_(&space),
       clearance_(std::move(clearance)),
       edges_(scene, clearance_.margin, Clearance::kTolerance),
-      state_(scene),
-      pairs_(scene.sharedProgram()) {}
+      state_(scene) {}
 
 double ClearanceCheck::marginAt(const VectorXd& q) const {
   double margin = clearance_.margin;
@@ -22,7 +21,7 @@ double ClearanceCheck::marginAt(const VectorXd& q) const {
 }
 
 void ClearanceCheck::countHit() {
-  if (const auto& hit = edges_.lastHit()) ++hits_[{hit->a, hit->b}];
+  if (const auto& hit = edges_.lastHitPair()) ++hits_[{hit->a, hit->b}];
 }
 
 void ClearanceCheck::forget() {
@@ -104,7 +103,7 @@ std::optional<MotionContact> ClearanceCheck::contact(const VectorXd& from, const
     edges_.setMargin(marginAt(.5 * (first + last)) + room);
     if (edges_.isFree(first.data(), last.data())) continue;
     countHit();
-    MotionContact contact = *edges_.lastHit();
+    MotionContact contact = *edges_.lastHitPair();
     contact.time = begin + contact.time * (end - begin);
     return contact;
   }
@@ -113,10 +112,13 @@ std::optional<MotionContact> ClearanceCheck::contact(const VectorXd& from, const
 
 std::vector<ClearanceCheck::Nearest> ClearanceCheck::nearerThan(const VectorXd& q, double up_to) {
   ++evaluations;
+  edges_.setMargin(up_to);
+  if (edges_.isFree(q.data())) return {};  // takes less
+  if (!pairs_) pairs_.emplace(state_.sharedProgram());
   state_.setJoints(q.data());
-  pairs_.place(state_);
+  pairs_->place(state_);
   std::vector<Nearest> near;
-  pairs_.forDistances(up_to, [&](int a, int b, double distance) {
+  pairs_->forDistances(up_to, [&](int a, int b, double distance) {
     const bool moves = state_.link(a) != state_.link(b);  // else it says nothing about q
     if (moves && distance < up_to) near.push_back({distance, a, b});
   });

@@ -54,9 +54,12 @@ class ClearanceCheck {
   bool seemsFree(const VectorXd& from, const VectorXd& to);
 
   /// Is it free at all times? A contact is one of those on the way, its time that on the way from `from` to `to`.
-  /// `room` (m) is kept beyond all margins.
+  /// `room` (m) is kept beyond all margins. Its distance is NaN, see lastDistance.
   std::optional<MotionContact> contact(const VectorXd& from, const VectorXd& to, double room = 0.);
   bool isMotionFree(const VectorXd& from, const VectorXd& to, double room = 0.) { return !contact(from, to, room); }
+
+  /// Of the last contact, m.
+  double lastDistance() const { return edges_.lastHit()->distance; }
 
   /// The least distance of a collidable pair at q, if it is less than `up_to`, and that pair.
   struct Nearest {
@@ -85,7 +88,7 @@ class ClearanceCheck {
   Clearance clearance_;
   EdgeChecker edges_;
   State state_;
-  NearPairs pairs_;
+  std::optional<NearPairs> pairs_;  ///< made when it is first needed
   PairCounts hits_;
   VectorXd samples_[EdgeChecker::kLanes];
 };

@@ -20,7 +20,7 @@ void requireFreePath(const Config& config, Steering& steering, const MatrixXd& p
     const auto contact = steering.check().contact(path.row(k - 1).transpose(), path.row(k).transpose());
     if (!contact) continue;
     throw ValueError(cat(who, ": the path is not free between rows ", k - 1, " and ", k, ": ",
-                         pairsInWords(*config.program(), {{contact->distance, contact->a, contact->b}})));
+                         pairsInWords(*config.program(), {{steering.check().lastDistance(), contact->a, contact->b}})));
   }
 }
 

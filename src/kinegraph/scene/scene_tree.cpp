@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <atomic>
+#include <limits>
 #include <unordered_map>
 
 #include "kinegraph/base/errors.h"
@@ -10,6 +11,8 @@
 namespace kinegraph {
 
 namespace {
+
+constexpr auto kAdopted = std::numeric_limits<std::uint64_t>::max();  // revision of a program that an equal scene had
 
 /// Are the dofs of its joint entries of q?
 bool isDofFrame(const FrameData& frame) { return frame.moves() && frame.joint->active && !frame.joint->mimic; }
@@ -164,6 +167,11 @@ FrameData* SceneTree::append(const SceneTree& other, const std::string& prefix, 
     if (copy.joint && copy.joint->mimic) copy.joint->mimic = copyOf(original.joint->mimic);
   }
   structureChanged();
+  if (first == 0 && prefix.empty() && other.program_ && other.compiled_revision_ == other.structure_revision_) {
+    program_ = other.program_;  // an equal scene
+    compiled_revision_ = kAdopted;
+    program();
+  }
   return frames_[first].get();
 }
 
@@ -206,7 +214,7 @@ std::shared_ptr<const SceneTree> SceneTree::snapshot() {
 
 const std::shared_ptr<const Program>& SceneTree::program() {
   if (compiled_revision_ != structure_revision_) {
-    program_ = compileProgram(*this);
+    if (compiled_revision_ != kAdopted) program_ = compileProgram(*this);
     compiled_revision_ = structure_revision_;
     steps_to_parents_ = 0;
     dof_frames_.clear();
