@@ -96,6 +96,18 @@ TEST(PlanAmongMoving, ItGoesOutOfTheWayOfWhatComesToTheStart) {
   EXPECT_GE(leastOfTime(discAndBox(), plan, cart, kFine), .01 - 1e-9);
 }
 
+TEST(PlanAmongMoving, ItStepsAsideOfWhatComesAlongItsWay) {
+  Config C = room(.6);
+  C.addText("cart: {}\nbox(cart): {shape: ssBox, size: [0.5, 0.5, 0.2, 0.01], contact: 1}");
+  C.setJointState(VectorXd{{-1., 0.}});
+  // It comes through the door, over the start, and away; before the door there is room at both sides.
+  const std::vector<MovingObstacle> cart = {moves("cart", {{0., poseAt(1.8, 0.)}, {6., poseAt(-2.4, 0.)}})};
+  const MotionPlan plan = planMotion(C, VectorXd{{1.2, 0.}}, among(cart));
+  ASSERT_TRUE(plan.feasible()) << plan.message;
+  EXPECT_GE(leastOfTime(C, plan, cart, kFine), .01 - 1e-9);
+  expectSmooth(plan, 1., 4.);
+}
+
 TEST(PlanAmongMoving, ThreadsChangeNothing) {
   const std::vector<MovingObstacle> cart = {moves("cart", {{0., poseAt(0., -1.5)}, {3., poseAt(0., 1.5)}})};
   PlanOptions options = among(cart);

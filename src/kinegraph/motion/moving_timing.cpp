@@ -88,13 +88,18 @@ class TimeSearch {
 
   void placeStations() {
     const int count = curve_.length() == 0. ? 0 : limits_.limitsJerk() ? kSmoothStations : kStations;
-    for (int k = 0; k <= count; ++k) {
-      double place = count ? curve_.length() * k / count : 0.;
-      for (int piece = 0; piece < curve_.pieces(); ++piece)
-        if (std::abs(curve_.begin(piece) - place) < kSnap * curve_.length()) place = curve_.begin(piece);
-      places_.push_back(k == count ? curve_.length() : place);
-      postures_.push_back(curve_.eval(places_.back()));
-      passes_.push_back(fastest_.timeOf(places_.back()));
+    for (int k = 0; k <= count; ++k) places_.push_back(count ? curve_.length() * k / count : 0.);
+    for (int piece = 1; piece < curve_.pieces(); ++piece) {
+      for (int k = 1; k < count; ++k)
+        if (std::abs(curve_.begin(piece) - places_[std::size_t(k)]) < kSnap * curve_.length())
+          places_[std::size_t(k)] = curve_.begin(piece);
+      if (curve_.stopsAt(piece)) places_.push_back(curve_.begin(piece));
+    }
+    std::sort(places_.begin(), places_.end());
+    places_.erase(std::unique(places_.begin(), places_.end()), places_.end());
+    for (const double place : places_) {
+      postures_.push_back(curve_.eval(place));
+      passes_.push_back(fastest_.timeOf(place));
     }
     free_times_.resize(places_.size());
     legs_.resize(places_.size() * places_.size());
