@@ -1,5 +1,6 @@
 #include <nanobind/stl/optional.h>
 #include <nanobind/stl/string.h>
+#include <nanobind/stl/unique_ptr.h>
 #include <nanobind/stl/variant.h>
 #include <nanobind/stl/vector.h>
 
@@ -7,7 +8,7 @@
 #include "docs/plan.h"
 #include "feature_arguments.h"
 #include "ik_targets.h"
-#include "kinegraph/motion/plan_motion.h"
+#include "kinegraph/motion/plan_motions.h"
 #include "kinegraph/motion/plan_picture.h"
 #include "kinegraph/motion/refine_path.h"
 #include "option_class.h"
@@ -43,18 +44,42 @@ std::vector<MotionConstraint> constraintsOf(nb::handle given) {
   return all;
 }
 
-PlanOptions optionsFrom(nb::kwargs given) {
-  PlanOptions options;
+/// A dict: frame -> (times, values).
+std::vector<MovingObstacle> movingOf(nb::handle given) {
+  constexpr const char* kExpected =
+      "expected a dict of frame -> (times, values), with values of shape (K, 7), poses, or (K, d), positions of its "
+      "joint";
+  if (!nb::isinstance<nb::dict>(given))
+    throw ValueError(cat("planMotion: moving is ", nb::cast<std::string>(nb::repr(given)), "; ", kExpected));
+  std::vector<MovingObstacle> all;
+  for (const auto& [key, value] : nb::borrow<nb::dict>(given)) {
+    std::string frame;
+    std::vector<nb::object> parts;
+    Numbers times, values;
+    const bool fits = nb::try_cast(key, frame) && nb::try_cast(value, parts) && parts.size() == 2 &&
+                      readNumbers(parts[0], times) && times.rank == 1 && readNumbers(parts[1], values) &&
+                      values.rank == 2;
+    if (!fits) throw ValueError(cat("planMotion: moving[", nb::cast<std::string>(nb::repr(key)), "]: ", kExpected));
+    all.push_back({frame, times.values, values.matrix()});
+  }
+  return all;
+}
+
+PlanOptions optionsFrom(nb::kwargs given, PlanOptions options = {}) {
+  const std::vector<std::pair<std::string, VectorXd*>> vectors = {{"velocity", &options.velocity},
+                                                                  {"acceleration", &options.acceleration},
+                                                                  {"jerk", &options.jerk},
+                                                                  {"start_velocity", &options.start_velocity}};
   nb::dict rest;
   for (const auto& [key, value] : given) {
     const std::string name = nb::cast<std::string>(key);
-    if (name == "velocity" || name == "acceleration" || name == "jerk") {
-      if (!value.is_none())
-        (name == "velocity"       ? options.velocity
-         : name == "acceleration" ? options.acceleration
-                                  : options.jerk) = limitOf(name.c_str(), value);
+    const auto vector = std::find_if(vectors.begin(), vectors.end(), [&](const auto& v) { return v.first == name; });
+    if (vector != vectors.end()) {
+      if (!value.is_none()) *vector->second = limitOf(name.c_str(), value);
     } else if (name == "constraints") {
       options.constraints = constraintsOf(value);
+    } else if (name == "moving") {
+      options.moving = value.is_none() ? std::vector<MovingObstacle>() : movingOf(value);
     } else {
       rest[key] = value;
     }
@@ -100,6 +125,45 @@ MotionPlan plan(const PyConfig& config, nb::handle goal, const std::optional<Num
     check();
     return false;
   });
+}
+
+MotionPlan replan(const MotionPlan& running, const PyConfig& config, double at, nb::handle goal, nb::kwargs fields) {
+  const PlanOptions options = optionsFrom(fields, running.optionsAt(at));
+  const std::optional<MotionGoal> to = goal.is_none() ? std::nullopt : std::optional(goalOf(config, goal));
+  const Config scene(config);
+  const nb::gil_scoped_release unlock;
+  CheckInterrupts check;
+  return replanMotion(scene, running, at, to, options, [&] {
+    check();
+    return false;
+  });
+}
+
+std::unique_ptr<MotionPlans> plans(const PyConfig& config, nb::handle goal, const std::optional<Numbers>& start,
+                                   nb::kwargs fields) {
+  return std::make_unique<MotionPlans>(Config(config), goalOf(config, goal), optionsFrom(fields),
+                                       start ? std::optional(start->values) : std::nullopt);
+}
+
+MotionPlan nextPlan(MotionPlans& plans) {
+  std::optional<MotionPlan> plan;
+  {
+    const nb::gil_scoped_release unlock;
+    CheckInterrupts check;
+    plan = plans.next([&] {
+      check();
+      return false;
+    });
+  }
+  if (!plan) throw nb::stop_iteration();
+  return std::move(*plan);
+}
+
+nb::typed<nb::dict, nb::str, Array> movingAt(const MotionPlan& plan, double t) {
+  nb::dict all;
+  const std::vector<VectorXd> values = plan.movingAt(t);
+  for (std::size_t i = 0; i < values.size(); ++i) all[plan.options.moving[i].frame.c_str()] = toNumpy(values[i]);
+  return nb::borrow<nb::typed<nb::dict, nb::str, Array>>(all);
 }
 
 nb::typed<nb::tuple, Array, Array, Array> at(const MotionPlan& plan, double t) {
@@ -222,6 +286,11 @@ void bindMotionPlan(nb::module_& m) {
       .def_prop_ro("trees", trees,
                    "Of the last attempt, of start and goals: postures (N, n), and each one's parent (N,).")
       .def("at", at, "t"_a, docs::plan::at)
+      .def("movingAt", movingAt, "t"_a, docs::plan::movingAt)
+      .def("replan", replan, "config"_a, "at"_a, "goal"_a = nb::none(), "fields"_a,
+           nb::sig("def replan(self, config: Config, at: float, goal: typing.Any = None, **fields: typing.Any) -> "
+                   "MotionPlan"),
+           docs::plan::replan)
       .def("clearance", &MotionPlan::clearance, "most"_a = .1, docs::plan::clearance)
       .def(
           "explain", [](const MotionPlan& p) { return inPython(p.explain()); },
@@ -248,6 +317,15 @@ void bindPlan(nb::module_& m) {
       nb::sig("def planMotion(config: Config, goal: typing.Any, start: numpy.typing.ArrayLike | None = None, **fields: "
               "typing.Any) -> MotionPlan"),
       doc.c_str());
+  nb::class_<MotionPlans>(m, "MotionPlans", "What planMotions gives: MotionPlans, one by one.")
+      .def(
+          "__iter__", [](nb::handle self) { return nb::borrow(self); },
+          nb::sig("def __iter__(self) -> collections.abc.Iterator[MotionPlan]"))
+      .def("__next__", nextPlan);
+  m.def("planMotions", plans, "config"_a, "goal"_a, "start"_a = nb::none(), "fields"_a,
+        nb::sig("def planMotions(config: Config, goal: typing.Any, start: numpy.typing.ArrayLike | None = None, "
+                "**fields: typing.Any) -> MotionPlans"),
+        docs::plan::planMotions);
   m.def(
       "shortcut",
       [](const PyConfig& config, const Numbers& path, double margin, std::uint64_t seed) {

@@ -43,6 +43,7 @@
 #include "kinegraph/logic/plan_search.h"            // PlanSearch
 #include "kinegraph/motion/path_finder.h"           // paths between two postures
 #include "kinegraph/motion/plan_motion.h"           // planMotion
+#include "kinegraph/motion/plan_motions.h"          // MotionPlans: better and better ones
 #include "kinegraph/motion/plan_picture.h"          // planPicture, roadmapPicture
 #include "kinegraph/motion/refine_path.h"           // shortcut, smooth
 #include "kinegraph/motion/roadmap.h"               // Roadmap

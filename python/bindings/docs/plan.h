@@ -37,7 +37,12 @@ Args:
     start: A joint vector (n,), rad or m; None: the present q.
     fields: Options by name; and velocity, acceleration, jerk: limits, a number or one per joint (rad or m, s), by default
         the model's velocities (1 where it says none), reached in a quarter of a second, and no limit of the jerk;
-        constraints: MotionConstraints that hold all along.
+        constraints: MotionConstraints that hold all along;
+        start_velocity: dq/dt with which the motion begins, shape (n,), rad/s or m/s, by default at rest;
+        moving: what moves by itself meanwhile, a dict of frame -> (times, values): times of shape (K,), s from the begin of
+        the motion; values of shape (K, 7), poses of the frame in the world, or (K, d), positions of its joint, which is no
+        part of q. Between them it goes straight, before and after them it stands still. The motion keeps clear of it at
+        all times, waits where it has to, and can stay where it ends.
 )";
 
 inline constexpr char planMotionRest[] = R"(Returns:
@@ -46,6 +51,29 @@ Raises:
     ArgumentError: The goal or an option makes no sense; a joint without limits would have to be drawn.
     FrameNotFound: A frame is not in the scene.
     NotFound: The scene knows no joint state of that name.)";
+
+inline constexpr char planMotions[] =
+    R"(Motions that get better while one waits: the first is that of planMotion, each further one takes less time than the one
+before, or with optimize="length" is shorter.
+
+    for plan in ry.planMotions(C, goal, margin=.01, improve=200000):
+        print(plan.duration)
+
+Further ways are searched, always with other random numbers, where a shorter one can be. The same arguments give the same
+motions at any number of threads, unless time_limit ends it. Ctrl-C ends it.
+
+Args:
+    config: As for planMotion.
+    goal: As for planMotion.
+    start: A joint vector (n,), rad or m; None: the present q.
+    fields: As for planMotion, without moving and start_velocity. improve: evaluations that are spent on better motions, 1000000
+        by default; time_limit: s, from the first motion on.
+Returns:
+    An iterator of MotionPlans. Where there is no motion, it gives one that says why.
+Raises:
+    ArgumentError: The goal or an option makes no sense; a joint without limits would have to be drawn.
+    FrameNotFound: A frame is not in the scene; told with the first motion.
+    NotFound: The scene knows no joint state of that name; told with the first motion.)";
 
 inline constexpr char at[] = R"(Where the motion is at a time, and how it moves.
 
@@ -56,7 +84,36 @@ Returns:
 Raises:
     ArgumentError: There is no motion.)";
 
-inline constexpr char clearance[] = R"(The least distance of a collidable pair along the path, to 0.1 mm.
+inline constexpr char movingAt[] = R"(Where the obstacles are that move while the robot does.
+
+Args:
+    t: s.
+Returns:
+    A dict of frame -> its pose in the world (7,), x y z qw qx qy qz, or the positions of its joint (d,).)";
+
+inline constexpr char replan[] =
+    R"(A motion that goes on from where this one is at a time, and as fast as it is there, so that a robot which is on its way
+need not stop. The time of the new motion begins at 0 then.
+
+    bend = plan.replan(C, at=1.2, goal=[.4, .2, .9])
+
+Where the rest of this motion leads to the goal and is still free, it stays. With limits of the jerk, the new motion begins
+without acceleration.
+
+Args:
+    config: The scene, which may have changed.
+    at: When, s, held within 0 and duration.
+    goal: As for planMotion; None: where this motion ends.
+    fields: Options that differ from those of this motion. Times of moving obstacles count from the begin of the new motion;
+        those of this motion are taken over such that they do.
+Returns:
+    A MotionPlan. Where there is no motion, its message says why, as that it cannot come to rest in time.
+Raises:
+    ArgumentError: There is no motion to go on from; the goal or an option makes no sense.
+    FrameNotFound: A frame is not in the scene.)";
+
+inline constexpr char clearance[] =
+    R"(The least distance of a collidable pair along the path, to 0.1 mm. Moving obstacles do not count.
 
 Args:
     most: What counts as far, m.

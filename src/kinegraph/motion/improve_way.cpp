@@ -24,16 +24,26 @@ double costOf(const JointSpace& space, const VectorXd& weight, const std::vector
 
 ShortWay improveWay(const Way& first, const WayRequest& request, const ImproveOptions& options, SteeringCrew& crew) {
   std::vector<ShortWay> candidates(std::size_t(first.is_line ? 1 : options.tries));
+  const auto pull = [&](Steering& steering, ShortWay& candidate) {
+    std::vector<VectorXd> points =
+        pullTaut(steering, candidate.points,
+                 {.weight = options.weight, .refinements = options.refinements, .watch = options.late});
+    const double cost = costOf(*request.demands.space, options.weight, points);
+    if (cost >= candidate.cost) return;
+    candidate.points = std::move(points);
+    candidate.cost = cost;
+  };
   const auto attempt = [&](int worker, int i) {
+    const int number = options.first_try + i;
     ShortWay& candidate = candidates[std::size_t(i)];
     Steering& steering = crew.of(worker, request.demands);
     const long before = steering.evaluations();
     const MotionWatch watch = worker == 0 ? request.watch : options.late;
-    if (i == 0) {
+    if (number == 0) {
       candidate.way = first;
     } else {
       WayRequest other = request;
-      other.seed = Rng(request.seed + std::uint64_t(i)).bits();
+      other.seed = Rng(request.seed + std::uint64_t(number)).bits();
       other.effort = std::min(request.effort, kTryEffort * (first.effort + 1000));
       other.threads = 1;
       other.tries_line = false;
@@ -41,15 +51,17 @@ ShortWay improveWay(const Way& first, const WayRequest& request, const ImproveOp
       other.steering = &steering;
       if (watch && watch()) return;
       candidate.way = searchWay(other);
+      candidate.evaluations = steering.evaluations() - before;
       if (candidate.way.points.empty()) return;
     }
-    ShortenOptions shortening{.weight = options.weight, .seed = request.seed + std::uint64_t(i), .watch = watch};
+    ShortenOptions shortening{.weight = options.weight, .seed = request.seed + std::uint64_t(number), .watch = watch};
     if (!steering.isConstrained()) {  // what is pulled taut needs little more than that its postures are joined
       shortening.cuts = kCuts;
       shortening.corners = false;
     }
     candidate.points = shorten(steering, candidate.way.points, shortening);
     candidate.cost = costOf(*request.demands.space, options.weight, candidate.points);
+    if (candidate.cost < options.taut_below) pull(steering, candidate);
     candidate.evaluations = steering.evaluations() - before;
   };
   forParts(

@@ -14,12 +14,15 @@ struct ShortWay {
 
 struct ImproveOptions {
   int tries = 4;
-  VectorXd weight = {};   ///< per dof, what length means
-  MotionWatch late = {};  ///< true ends further tries; any thread may ask
+  int first_try = 0;  ///< number of the first of them, of which its random numbers come; try 0 is the way that is given
+  VectorXd weight = {};    ///< per dof, what length means
+  MotionWatch late = {};   ///< true ends further tries; any thread may ask
+  double taut_below = 0.;  ///< ways that are shortened to less than this are pulled taut, each of them
+  int refinements = 0;     ///< of their corners (TautOptions)
 };
 
 /// Shortens a way, and others that are searched as `request` says, each with random numbers of its own. The best one
-/// counts, at any number of threads.
+/// counts, at any number of threads; it has no points if no way was found.
 ShortWay improveWay(const Way& first, const WayRequest& request, const ImproveOptions& options, SteeringCrew& crew);
 
 /// Pulls it taut, around corners of so many refinements (TautOptions).

@@ -57,6 +57,8 @@ std::vector<std::string> dofNames(const Program& program) {
 JointSpace::JointSpace(const Program& program)
     : lower_(program.lower),
       upper_(program.upper),
+      draw_lower_(program.lower),
+      draw_upper_(program.upper),
       kinds_(std::size_t(program.dofs), Kind::ranged),
       directions_(program.unit_norms),
       names_(dofNames(program)) {
@@ -122,11 +124,16 @@ double JointSpace::squaredDistance(const double* a, const double* b) const {
   return square;
 }
 
+void JointSpace::drawWithin(const VectorXd& lower, const VectorXd& upper) {
+  draw_lower_ = lower_.cwiseMax(lower);
+  draw_upper_ = upper_.cwiseMin(upper);
+}
+
 VectorXd JointSpace::draw(Rng& rng, const VectorXd& like) const {
   VectorXd q = like;
   for (std::size_t i = 0; i < kinds_.size(); ++i) {
     const auto dof = Eigen::Index(i);
-    if (kinds_[i] == Kind::ranged) q[dof] = rng.uniform(lower_[dof], upper_[dof]);
+    if (kinds_[i] == Kind::ranged) q[dof] = rng.uniform(draw_lower_[dof], draw_upper_[dof]);
     if (kinds_[i] == Kind::endless) q[dof] = rng.uniform(-M_PI, M_PI);
     if (kinds_[i] == Kind::direction) q[dof] = rng.normal();
   }

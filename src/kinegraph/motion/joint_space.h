@@ -35,6 +35,9 @@ class JointSpace {
   double distance(const VectorXd& a, const VectorXd& b) const { return std::sqrt(squaredDistance(a.data(), b.data())); }
   double squaredDistance(const double* a, const double* b) const;
 
+  /// From now on dofs with a range are drawn between these (per dof) and their limits.
+  void drawWithin(const VectorXd& lower, const VectorXd& upper);
+
   /// Uniform within ranges; still dofs as in `like`.
   VectorXd draw(Rng& rng, const VectorXd& like) const;
 
@@ -58,6 +61,7 @@ class JointSpace {
   enum class Kind : unsigned char { ranged, endless, direction, still };
 
   const VectorXd lower_, upper_;
+  VectorXd draw_lower_, draw_upper_;
   std::vector<Kind> kinds_;
   std::vector<Program::DofRange> directions_;
   std::vector<std::string> names_, without_range_;

@@ -21,6 +21,8 @@ std::string planStatusName(PlanStatus status) {
       return "impossible";
     case PlanStatus::no_way:
       return "no_way";
+    case PlanStatus::no_timing:
+      return "no_timing";
     case PlanStatus::out_of_time:
       return "out_of_time";
     case PlanStatus::cancelled:
@@ -32,6 +34,18 @@ std::string planStatusName(PlanStatus status) {
 MotionState MotionPlan::at(double t) const {
   if (!feasible()) throw ValueError(cat("MotionPlan.at: there is no motion; ", message));
   return timed.at(t);
+}
+
+std::vector<VectorXd> MotionPlan::movingAt(double t) const {
+  std::vector<VectorXd> values;
+  for (std::size_t i = 0; moving && i < moving->obstacles().size(); ++i) values.push_back(moving->valuesAt(int(i), t));
+  return values;
+}
+
+PlanOptions MotionPlan::optionsAt(double t) const {
+  PlanOptions later = options;
+  for (MovingObstacle& obstacle : later.moving) obstacle.times.array() -= t;
+  return later;
 }
 
 double MotionPlan::clearance(double most) const {

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "kinegraph/motion/motion_ends.h"
+#include "kinegraph/motion/plan_options.h"
 #include "kinegraph/motion/way_search.h"
 #include "kinegraph/spline/retime.h"
 
@@ -17,6 +18,7 @@ enum class PlanStatus {
   unreached,      ///< no posture was found at which the goal's targets or conditions hold
   impossible,     ///< proven: a ball inside of a body does not fit through where it would have to go
   no_way,         ///< none was found within the effort
+  no_timing,      ///< ways were found, but no times at which to go along them that keep clear of moving obstacles
   out_of_time,    ///< nor within the time limit
   cancelled,      ///< by the watch
 };
@@ -25,7 +27,7 @@ std::string planStatusName(PlanStatus status);
 
 /// What a stage of planMotion took.
 struct PlanStage {
-  std::string name;      ///< "ends", "search", "shorten", "tighten", "verify", "time"
+  std::string name;      ///< "ends", "search", "shorten", "tighten", "verify", "time", "moving"
   double seconds = 0.;   ///< wall time
   long evaluations = 0;  ///< see PlanOptions: looks at up to eight postures side by side, or at a motion at all times
   std::string note;      ///< what came of it
@@ -58,16 +60,24 @@ class MotionPlan {
   /// Where the motion is at time t (s), held within 0 and duration(). Throws ValueError if there is no motion.
   MotionState at(double t) const;
 
+  /// Where moving obstacles are at time t (s): values as in MovingObstacle, in the order of options.moving.
+  std::vector<VectorXd> movingAt(double t) const;
+
+  /// The options, for a motion that begins at time t (s) of this one: times of moving obstacles count from then.
+  PlanOptions optionsAt(double t) const;
+
   /// The least distance of a collidable pair along the path's straight motions, m, if less than `most`, else `most`.
-  /// Computed when asked for, to 1e-4 m.
+  /// Computed when asked for, to 1e-4 m. Moving obstacles do not count.
   double clearance(double most = .1) const;
 
   /// Several lines: how it ended, what each stage took, and how the trees look.
   std::string explain() const;
   std::string str() const;  ///< "solved: 5 postures, 2.31 s" or the status and the message
 
-  std::shared_ptr<const State> scene;       ///< that it was planned in
-  std::shared_ptr<const JointSpace> space;  ///< of its joints
+  PlanOptions options;                        ///< that it was planned with
+  std::shared_ptr<const MovingScene> moving;  ///< null where nothing moves but the robot
+  std::shared_ptr<const State> scene;         ///< that it was planned in
+  std::shared_ptr<const JointSpace> space;    ///< of its joints
 };
 
 }  // namespace kinegraph

@@ -42,6 +42,10 @@ const OptionTable<PlanOptions>& planOptionTable() {
         "all times; "
         "postures that are drawn, or at which constraints are computed, count one each.",
         Range::atLeastOne()},
+       {"improve", &O::improve, "",
+        "Effort that is spent on further ways after `tries`: evaluations, each round of ways to its end. planMotions "
+        "takes 1000000 where this is 0.",
+        Range::notNegative()},
        {"time_limit",
         &O::time_limit,
         "s",
@@ -59,6 +63,11 @@ void PlanOptions::validateFor(int dofs) const {
   validateLimit(velocity, "velocity", dofs);
   validateLimit(acceleration, "acceleration", dofs);
   validateLimit(jerk, "jerk", dofs);
+  if (start_velocity.size() > 0 && start_velocity.size() != dofs)
+    throw ValueError(cat("planMotion: start_velocity has ", start_velocity.size(), " numbers; expected ", dofs));
+  if (!start_velocity.allFinite()) throw ValueError("planMotion: start_velocity has numbers that are not finite");
+  if (!moving.empty() && !acceleration.allFinite())
+    throw ValueError("planMotion: acceleration is infinite; among moving obstacles it has to be limited");
 }
 
 }  // namespace kinegraph

@@ -8,6 +8,7 @@
 #include "kinegraph/base/option_table.h"
 #include "kinegraph/ik/solve_ik.h"
 #include "kinegraph/motion/manifold.h"
+#include "kinegraph/motion/moving_scene.h"
 
 namespace kinegraph {
 
@@ -43,6 +44,7 @@ struct PlanOptions {
   double constraint_tolerance = 1e-3;
   int goals = 8;
   int evaluations = 1000000;
+  int improve = 0;
   double time_limit = std::numeric_limits<double>::infinity();
   std::uint64_t seed = 0;
   int threads = 1;
@@ -51,6 +53,8 @@ struct PlanOptions {
   VectorXd acceleration = {};  ///< most |d2q/dt2|; empty: full speed within a quarter of a second
   VectorXd jerk = {};          ///< most |d3q/dt3|; empty: none
   std::vector<MotionConstraint> constraints = {};  ///< that hold all along the path
+  VectorXd start_velocity = {};                    ///< dq/dt with which the motion begins, rad/s or m/s; empty: at rest
+  std::vector<MovingObstacle> moving = {};  ///< what moves meanwhile; times count from the begin of the motion, s
 
   void validate() const;  ///< throws ValueError naming the first field that makes no sense
 

@@ -18,8 +18,9 @@ VectorXd perDof(const VectorXd& given, int dofs) {
   return given.size() == 1 ? VectorXd::Constant(dofs, given[0]) : given;
 }
 
-/// How fast any point of a collidable body moves at a posture, at most, m per unit by which every dof changes.
-double travelPerUnit(const State& state) {
+}  // namespace
+
+double travelOf(const State& state, const VectorXd& change) {
   const Program& program = state.program();
   double most = 0.;
   for (std::size_t frame = 0; frame < program.body.size(); ++frame) {
@@ -27,15 +28,15 @@ double travelPerUnit(const State& state) {
     if (!body || !state.moves(int(frame))) continue;
     const Vector3d center = state.pose(int(frame)) * body->boundCenter();
     double travel = 0.;
-    state.forTwists(int(frame), [&](int, const State::Twist& twist) {
-      travel += (twist.linear + twist.angular.cross(center)).norm() + twist.angular.norm() * body->boundRadius();
+    state.forTwists(int(frame), [&](int dof, const State::Twist& twist) {
+      const double most_of_it =
+          (twist.linear + twist.angular.cross(center)).norm() + twist.angular.norm() * body->boundRadius();
+      travel += std::abs(change[dof]) * most_of_it;
     });
     most = std::max(most, travel);
   }
   return most;
 }
-
-}  // namespace
 
 MotionLimits planLimits(const Config& config, const PlanOptions& options) {
   const int n = config.getJointDimension();
@@ -62,7 +63,7 @@ BlendCheck freeBlends(Steering& given) {
       double travel = 0.;
       for (const VectorXd* q : {&from, &to}) {
         state.setJoints(q->data());
-        travel = std::max(travel, travelPerUnit(state));
+        travel = std::max(travel, travelOf(state, VectorXd::Ones(from.size())));
       }
       if (!steering.check().isMotionFree(from, to, kBothMove * deviation * travel)) return false;
     }

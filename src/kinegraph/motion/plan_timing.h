@@ -11,6 +11,9 @@ namespace kinegraph {
 /// says none, and accelerations that reach them in a quarter of a second.
 MotionLimits planLimits(const Config& config, const PlanOptions& options);
 
+/// How far any point of a collidable body of q moves at a posture, at most, where every dof changes by so much, m.
+double travelOf(const State& state, const VectorXd& change);
+
 /// Whether a rounded corner keeps the margins and constraints of a Steering, which must stay, at all times.
 BlendCheck freeBlends(Steering& steering);
 

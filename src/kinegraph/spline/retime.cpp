@@ -227,21 +227,31 @@ TimedPath retime(const MatrixXd& path, const PathCurve& curve, const MotionLimit
   return timed;
 }
 
+void motionAt(const PathCurve& curve, const TimeLaw& law, double t, double* q, double* velocity, double* acceleration) {
+  const double held = std::clamp(t, 0., law.duration());
+  const LawPhase& phase = law.phaseAt(held);
+  const LawState state = phase.at(held - phase.time);
+  const double s = std::clamp(state.s, phase.begin.s, phase.end);
+  curve.eval(phase.piece, s, 0, q);
+  curve.eval(phase.piece, s, 2, acceleration);
+  curve.eval(phase.piece, s, 1, velocity);
+  for (int j = 0; j < curve.dofs(); ++j) {
+    acceleration[j] = velocity[j] * state.acceleration + acceleration[j] * state.speed * state.speed;
+    velocity[j] *= state.speed;
+  }
+}
+
+MotionState motionAt(const PathCurve& curve, const TimeLaw& law, double t) {
+  const int n = curve.dofs();
+  MotionState state{VectorXd(n), VectorXd(n), VectorXd(n)};
+  motionAt(curve, law, t, state.q.data(), state.velocity.data(), state.acceleration.data());
+  return state;
+}
+
 void TimedPath::at(double t, double* q, double* velocity, double* acceleration) const {
   if (law_.phases().empty()) throw ValueError(cat("retime: there is no motion: ", message));
   if (!(t == t)) throw ValueError("retime: at(t) has a t that is no number");
-  const double held = std::clamp(t, 0., duration());
-  const LawPhase& phase = law_.phaseAt(held);
-  const LawState law = phase.at(held - phase.time);
-  const double s = std::clamp(law.s, phase.begin.s, phase.end);
-  const int n = curve_.dofs();
-  curve_.eval(phase.piece, s, 0, q);
-  curve_.eval(phase.piece, s, 2, acceleration);
-  curve_.eval(phase.piece, s, 1, velocity);
-  for (int j = 0; j < n; ++j) {
-    acceleration[j] = velocity[j] * law.acceleration + acceleration[j] * law.speed * law.speed;
-    velocity[j] *= law.speed;
-  }
+  motionAt(curve_, law_, t, q, velocity, acceleration);
 }
 
 MotionState TimedPath::at(double t) const {

@@ -47,6 +47,10 @@ struct MotionState {
   VectorXd q, velocity, acceleration;
 };
 
+/// The motion of a law along a curve at t s, held within 0 and the law's duration, which has phases; (n,) numbers each.
+void motionAt(const PathCurve& curve, const TimeLaw& law, double t, double* q, double* velocity, double* acceleration);
+MotionState motionAt(const PathCurve& curve, const TimeLaw& law, double t);
+
 /// A path and when a motion is where on it.
 class TimedPath {
  public:

@@ -30,6 +30,7 @@ double TimeLaw::timeOf(double s) const {
   const auto found =
       std::lower_bound(phases_.begin(), phases_.end(), s, [](const LawPhase& p, double at) { return p.end < at; });
   if (found == phases_.end()) return duration_;
+  if (s <= found->begin.s) return found->time;
   const double until = found + 1 == phases_.end() ? duration_ : (found + 1)->time;
   double low = 0., high = until - found->time;
   if (s >= found->end) return until;

@@ -1,0 +1,22 @@
+#pragma once
+
+#include "kinegraph/motion/motion_plan.h"
+#include "kinegraph/scene/config.h"
+
+namespace kinegraph {
+
+/// What is known of where a robot in motion may go on: curves that begin where it is, in the direction of its velocity.
+struct KnownCurves {
+  std::vector<PathCurve> to_goal;  ///< all the way
+  std::vector<PathCurve> to_rest;  ///< as far as it takes to come to rest, the shortest first
+};
+
+/// planMotion among obstacles that stand still, from options.start_velocity: from rest if that is empty or zero.
+///
+/// A known curve to the goal is taken if it is free. Otherwise the motion first goes straight on, as far as it takes to
+/// come to rest, and farther; a way from the end of that line is planned, and the corner between them is rounded, or
+/// the motion stops there. The fastest of these counts. Known curves to where it is at rest come last.
+MotionPlan planInMotion(const Config& config, const MotionGoal& goal, const PlanOptions& options, const VectorXd& start,
+                        const MotionWatch& watch, const KnownCurves& known = {});
+
+}  // namespace kinegraph

@@ -1,0 +1,77 @@
+#include "kinegraph/spline/curve_part.h"
+
+#include <algorithm>
+#include <cassert>
+
+namespace kinegraph {
+
+namespace {
+
+constexpr double kNothing = 1e-12;  // of the curve's length
+
+/// Appends the polynomial of a piece as one of s - begin(piece) - shift, of the degree of `parts`.
+void addPiece(PathCurve::Parts& parts, const PathCurve& curve, int piece, double shift) {
+  const std::size_t n = std::size_t(parts.dofs), first = parts.coefficients.size();
+  parts.coefficients.resize(first + n * std::size_t(parts.degree + 1));
+  for (int from = 0; from <= curve.degree(); ++from) {
+    const double* c = curve.coefficient(piece, from);
+    double factor = 1.;  // of (x + shift)^from: its term of x^to
+    for (int to = from; to >= 0; --to) {
+      double* out = &parts.coefficients[first + std::size_t(to) * n];
+      for (std::size_t j = 0; j < n; ++j) out[j] += factor * c[j];
+      factor *= shift * to / (from - to + 1);
+    }
+  }
+  parts.is_line.push_back(curve.isLine(piece));
+}
+
+}  // namespace
+
+TimeLaw CurvePart::onWhole(const TimeLaw& law) const {
+  std::vector<LawPhase> phases = law.phases();
+  for (LawPhase& phase : phases) {
+    phase.begin.s += begin;
+    phase.end += begin;
+    phase.piece += first_piece;
+  }
+  return {std::move(phases), law.duration()};
+}
+
+CurvePart partOf(const PathCurve& curve, double from, double to) {
+  const double nothing = kNothing * curve.length();
+  from = std::clamp(from, 0., curve.length());
+  to = std::clamp(to, from, curve.length());
+  CurvePart part{{}, from, -1};
+  PathCurve::Parts parts{.dofs = curve.dofs(), .degree = curve.degree(), .length = to - from};
+  for (int piece = curve.pieceAt(from); piece < curve.pieces() && curve.begin(piece) < to; ++piece) {
+    const double begin = std::max(from, curve.begin(piece)), end = std::min(to, curve.end(piece));
+    if (end - begin <= nothing) continue;
+    if (part.first_piece < 0) part.first_piece = piece;
+    parts.stops.push_back(!parts.begin.empty() && curve.stopsAt(piece));
+    parts.begin.push_back(parts.begin.empty() ? 0. : begin - from);
+    addPiece(parts, curve, piece, begin - curve.begin(piece));
+  }
+  part.first_piece = std::max(part.first_piece, 0);
+  parts.marks = {0., parts.length};
+  part.curve = PathCurve::fromParts(parts);
+  return part;
+}
+
+PathCurve joined(const PathCurve& first, const PathCurve& second) {
+  assert(first.dofs() == second.dofs() && "curves of one robot are joined");
+  PathCurve::Parts parts{.dofs = first.dofs(), .degree = std::max(first.degree(), second.degree())};
+  for (const PathCurve* curve : {&first, &second}) {
+    for (int piece = 0; piece < curve->pieces(); ++piece) {
+      if (curve->end(piece) == curve->begin(piece)) continue;
+      parts.begin.push_back(parts.length + curve->begin(piece));
+      parts.stops.push_back(curve->stopsAt(piece) || (curve == &second && piece == 0));
+      addPiece(parts, *curve, piece, 0.);
+    }
+    for (std::size_t i = curve == &second ? 1 : 0; i < curve->marks().size(); ++i)
+      parts.marks.push_back(parts.length + curve->marks()[i]);
+    parts.length += curve->length();
+  }
+  return PathCurve::fromParts(parts);
+}
+
+}  // namespace kinegraph

@@ -1,0 +1,27 @@
+#pragma once
+
+#include "kinegraph/spline/path_curve.h"
+#include "kinegraph/spline/time_law.h"
+
+namespace kinegraph {
+
+/// What a curve does from one place until a later one, as a curve of its own whose s begins at 0.
+struct CurvePart {
+  PathCurve curve;
+  double begin = 0.;    ///< s of the whole curve where it begins
+  int first_piece = 0;  ///< of the whole curve, the one that its first piece is of
+
+  /// A law along the part as one along the whole curve.
+  TimeLaw onWhole(const TimeLaw& law) const;
+};
+
+/// From s = `from` to `to` > from, both held within the curve. Its marks are its ends. Pieces shorter than 1e-12 of the
+/// curve are left out.
+CurvePart partOf(const PathCurve& curve, double from, double to);
+
+/// One curve and then another one, which begins where the first one ends and has as many dofs. The direction counts as
+/// jumping there, so that a motion stops. The marks are those of both, the last one of the first curve and the first one of
+/// the second once.
+PathCurve joined(const PathCurve& first, const PathCurve& second);
+
+}  // namespace kinegraph

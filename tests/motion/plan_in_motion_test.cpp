@@ -1,0 +1,129 @@
+#include "kinegraph/motion/plan_in_motion.h"
+
+#include "kinegraph/base/errors.h"
+#include "tests/motion/moving_room.h"
+#include "tests/motion/plane_room.h"
+
+namespace kinegraph {
+namespace {
+
+PlanOptions brisk() {
+  PlanOptions options{.margin = .01};
+  options.velocity = VectorXd::Constant(1, 1.);
+  options.acceleration = VectorXd::Constant(1, 4.);
+  return options;
+}
+
+/// The disc before a door, on its way through it.
+struct Running {
+  Config C = room(.8);
+  MotionPlan plan;
+
+  Running() {
+    C.setJointState(VectorXd{{-1., 1.2}});
+    plan = planMotion(C, VectorXd{{1., 1.}}, brisk());
+  }
+};
+
+void expectGoesOn(const MotionPlan& before, double time, const MotionPlan& after) {
+  const MotionState left = before.at(time), taken = after.at(0.);
+  EXPECT_TRUE(taken.q.isApprox(left.q, 1e-12));
+  EXPECT_TRUE(taken.velocity.isApprox(left.velocity, 1e-9))
+      << taken.velocity.transpose() << " " << left.velocity.transpose();
+}
+
+TEST(PlanInMotion, ItGoesOnWithItsVelocityToAnotherGoal) {
+  const Running running;
+  ASSERT_TRUE(running.plan.feasible());
+  const VectorXd goal{{-1., -1.2}};
+  for (const double share : {.1, .3, .5, .7}) {
+    const double time = share * running.plan.duration();
+    const MotionPlan plan = replanMotion(running.C, running.plan, time, MotionGoal(goal));
+    ASSERT_TRUE(plan.feasible()) << share << plan.message;
+    expectGoesOn(running.plan, time, plan);
+    expectSmooth(plan, 1., 4.);
+    EXPECT_TRUE(plan.at(plan.duration()).q.isApprox(goal));
+    EXPECT_GE(leastOfTime(running.C, plan, {}, 5e-4, 0.), .01 - 1e-9) << share;
+  }
+}
+
+TEST(PlanInMotion, TheRestOfTheMotionStaysIfNothingHasChanged) {
+  const Running running;
+  const double time = .4 * running.plan.duration();
+  const MotionPlan plan = replanMotion(running.C, running.plan, time);
+  ASSERT_TRUE(plan.feasible()) << plan.message;
+  EXPECT_NEAR(plan.duration(), running.plan.duration() - time, 1e-2);
+  expectGoesOn(running.plan, time, plan);
+  EXPECT_EQ(plan.path.rows(), plan.times().size());
+}
+
+TEST(PlanInMotion, ItGoesAroundWhatHasAppeared) {
+  Running running;
+  const double time = .3 * running.plan.duration();
+  Frame crate = running.C.addFrame("crate");
+  crate.setShape(ShapeType::ssBox, {.3, .3, 1., .01}).setPosition({1., .3, 0.}).setContact(1);
+  const MotionPlan plan = replanMotion(running.C, running.plan, time);
+  ASSERT_TRUE(plan.feasible()) << plan.message;
+  expectGoesOn(running.plan, time, plan);
+  expectSmooth(plan, 1., 4.);
+  EXPECT_GE(leastOfTime(running.C, plan, {}, 5e-4, 0.), .01 - 1e-9);
+}
+
+TEST(PlanInMotion, WhereItCannotStopInTimeItSaysSo) {
+  Running running;
+  const MotionState now = running.plan.at(.3 * running.plan.duration());
+  const VectorXd ahead = now.q + .3 * now.velocity.normalized();
+  Frame crate = running.C.addFrame("crate");
+  crate.setShape(ShapeType::ssBox, {.1, .1, 1., .01}).setPosition({ahead[0], ahead[1], 0.}).setContact(1);
+  const MotionPlan plan = replanMotion(running.C, running.plan, .3 * running.plan.duration());
+  EXPECT_FALSE(plan.feasible());
+  EXPECT_NE(plan.message.find("cannot come to rest"), std::string::npos) << plan.message;
+}
+
+TEST(PlanInMotion, AVelocityAboveTheLimitIsRefused) {
+  Config C = room(.8);
+  PlanOptions options = brisk();
+  options.start_velocity = VectorXd{{1.5, 0.}};
+  const MotionPlan plan = planMotion(C, VectorXd{{-1., -1.}}, options, VectorXd{{-1.5, 1.2}});
+  EXPECT_EQ(plan.status, PlanStatus::start_blocked);
+  EXPECT_NE(plan.message.find("disc:0 is 1.5; its limit is 1"), std::string::npos) << plan.message;
+  options.start_velocity = VectorXd{{1., 0., 0.}};
+  EXPECT_THROW(planMotion(C, VectorXd{{-1., -1.}}, options), ValueError);
+}
+
+TEST(PlanInMotion, ItKeepsClearOfWhatMovesWhileItGoesOn) {
+  Config C = discAndBox();
+  PlanOptions options = brisk();
+  const MotionPlan first = planMotion(C, VectorXd{{1., 0.}}, options);
+  ASSERT_TRUE(first.feasible());
+  options.moving = {moves("cart", {{0., poseAt(.3, -1.)}, {1.5, poseAt(.3, .8)}})};
+  const MotionPlan plan = replanMotion(C, first, .6, std::nullopt, options);
+  ASSERT_TRUE(plan.feasible()) << plan.message;
+  expectGoesOn(first, .6, plan);
+  expectSmooth(plan, 1., 4.);
+  EXPECT_GE(leastOfTime(C, plan, options.moving, 5e-4), .01 - 1e-9);
+  // Times of obstacles count from the new motion on.
+  const MotionPlan again = replanMotion(C, plan, .2);
+  ASSERT_TRUE(again.feasible()) << again.message;
+  EXPECT_DOUBLE_EQ(again.options.moving.front().times[1], 1.3);
+}
+
+TEST(PlanInMotion, LimitsOfTheJerkHoldFromTheFirstMomentOn) {
+  Config C = room(.8);
+  PlanOptions options = brisk();
+  options.jerk = VectorXd::Constant(1, 30.);
+  options.start_velocity = VectorXd{{.6, -.3}};
+  const MotionPlan plan = planMotion(C, VectorXd{{1., 1.}}, options, VectorXd{{-1.2, 1.}});
+  ASSERT_TRUE(plan.feasible()) << plan.message;
+  EXPECT_TRUE(plan.at(0.).velocity.isApprox(options.start_velocity, 1e-9));
+  MotionState before = plan.at(0.);
+  EXPECT_LE(before.acceleration.norm(), 1e-6);
+  for (double t = 1e-3; t <= plan.duration(); t += 1e-3) {
+    const MotionState now = plan.at(t);
+    ASSERT_LE((now.acceleration - before.acceleration).cwiseAbs().maxCoeff(), 30. * 1e-3 * (1. + 1e-6) + 1e-9) << t;
+    before = now;
+  }
+}
+
+}  // namespace
+}  // namespace kinegraph
