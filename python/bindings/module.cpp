@@ -54,6 +54,7 @@ NB_MODULE(_core, m) {
   bindPlan(m);
   bindRoadmap(m);
   bindSpline(m);
+  bindTasks(m);
   bindSimulation(m);
   bindOperation(m);
   m.def(

@@ -83,8 +83,12 @@ from ._core import (
     SolverReturn,
     SolverReturns,
     StepObservation,
+    TaskRule,
+    TaskWaypoints,
     TimedPath,
     checkFile,
+    checkTaskPlan,
+    defaultDomain,
     depthImage2PointCloud,
     planMotion,
     retime,
@@ -148,12 +152,8 @@ if _TYPE_CHECKING:
     from .quaternion import Quaternion
     from .reachable import reachability
     from .streams import Gamepad, TargetFile, drive
-    from .task_actions import TaskRule
-    from .task_check import checkTaskPlan
-    from .task_domain import defaultDomain
     from .task_execution import TaskExecution
     from .task_plan import TaskPlan
-    from .task_waypoints import TaskWaypoints
     from .tasks import planTask, planTasks
 
 _LATER = {  # module: names
@@ -179,12 +179,8 @@ _LATER = {  # module: names
     "quaternion": ("Quaternion",),
     "reachable": ("reachability",),
     "streams": ("Gamepad", "TargetFile", "drive"),
-    "task_actions": ("TaskRule",),
-    "task_check": ("checkTaskPlan",),
-    "task_domain": ("defaultDomain",),
     "task_execution": ("TaskExecution",),
     "task_plan": ("TaskPlan",),
-    "task_waypoints": ("TaskWaypoints",),
     "tasks": ("planTask", "planTasks"),
 }
 _MODULE_OF = {name: module for module, names in _LATER.items() for name in names}
