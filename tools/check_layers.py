@@ -78,6 +78,11 @@ BELOW: dict[str, list[str]] = {
         "nlp",
         "komo",
         "solvers",
+        "ik",
+    ],
+    "tasks/search": [
+        *["base", "math", "spline", "gfile", "logic", "geometry", "kinematics", "scene", "features", "nlp", "komo"],
+        *["solvers", "ik", "motion", "tasks"],
     ],
     "rendering": ["base", "math", "gfile", "geometry", "kinematics", "scene"],
     "simulation": ["base", "math", "gfile", "geometry", "kinematics", "scene", "spline", "rendering"],

@@ -11,6 +11,7 @@
 #include "bindings.h"
 #include "docs/logic.h"
 #include "kinegraph/base/text.h"
+#include "kinegraph/logic/action_words.h"
 #include "kinegraph/logic/fol_reader.h"
 #include "kinegraph/logic/pddl.h"
 #include "kinegraph/logic/plan_search.h"
@@ -28,28 +29,7 @@ using Plan = std::vector<Words>;
 struct PyPlanSearch {
   std::unique_ptr<PlanSearch> search;
 
-  int number(const Words& action) const {
-    const GroundProblem& ground = search->problem();
-    for (int a = 0; a < int(ground.actions.size()); ++a) {
-      if (ground.action(a) == action) return a;
-    }
-    Words all;
-    for (int a = 0; a < int(ground.actions.size()); ++a) all.push_back(join(ground.action(a), " "));
-    throw ValueError(
-        cat("PlanSearch: there is no action (", join(action, " "), ")", similarHint(join(action, " "), all)));
-  }
-
-  std::vector<int> numbers(const Plan& plan) const {
-    std::vector<int> list;
-    for (const Words& action : plan) list.push_back(number(action));
-    return list;
-  }
-
-  Plan words(const std::vector<int>& plan) const {
-    Plan out;
-    for (int action : plan) out.push_back(search->problem().action(action));
-    return out;
-  }
+  const GroundProblem& ground() const { return search->problem(); }
 };
 
 std::string readFile(const PathText& path) {
@@ -95,7 +75,7 @@ std::optional<Plan> nextPlan(PyPlanSearch& self) {
   }
   if (self.search->status() == PlanSearch::Status::cancelled) throwKeyboardInterrupt();
   if (!plan) return std::nullopt;
-  return self.words(*plan);
+  return actionWords(self.ground(), *plan);
 }
 
 const char* statusName(const PyPlanSearch& self) {
@@ -111,29 +91,15 @@ const char* statusName(const PyPlanSearch& self) {
   }
 }
 
-std::vector<Words> statesAlong(const PyPlanSearch& self, const Plan& plan) {
-  const GroundProblem& ground = self.search->problem();
-  FactSet state = ground.start;
-  std::vector<Words> out = {texts(ground.literals(state))};
-  for (int action : self.numbers(plan)) {
-    if (!ground.isApplicable(ground.actions[std::size_t(action)], state)) {
-      throw ValueError(cat("PlanSearch: (", join(ground.action(action), " "), ") is not possible as action ",
-                           out.size(), " of the sequence"));
-    }
-    state = ground.apply(action, state);
-    out.push_back(texts(ground.literals(state)));
-  }
+std::vector<Words> states(const PyPlanSearch& self, const Plan& plan) {
+  std::vector<Words> out;
+  for (const std::vector<Literal>& state : statesAlong(self.ground(), actionNumbers(self.ground(), plan)))
+    out.push_back(texts(state));
   return out;
 }
 
 void forbid(PyPlanSearch& self, const Words& action, const std::string& facts) {
-  std::vector<int> numbers;
-  for (const Literal& fact : readLiterals(facts, "facts")) {
-    numbers.push_back(self.search->problem().factNumber(fact));
-    if (numbers.back() < 0)
-      throw ValueError(cat("PlanSearch.forbid: ", fact.str(), " never changes, or can never hold"));
-  }
-  self.search->forbid(self.number(action), numbers);
+  self.search->forbid(actionNumber(self.ground(), action), changingFacts(self.ground(), readLiterals(facts, "facts")));
 }
 
 bool keepGoing() {
@@ -213,9 +179,10 @@ void bindLogic(nb::module_& m) {
       .def("next", nextPlan, docs::logic::next)
       .def("forbid", forbid, "action"_a, "facts"_a = "", docs::logic::forbid)
       .def(
-          "forbidBeginning", [](PyPlanSearch& s, const Plan& plan) { s.search->forbidBeginning(s.numbers(plan)); },
+          "forbidBeginning",
+          [](PyPlanSearch& s, const Plan& plan) { s.search->forbidBeginning(actionNumbers(s.ground(), plan)); },
           "actions"_a, docs::logic::forbidBeginning)
-      .def("states", statesAlong, "actions"_a, docs::logic::states)
+      .def("states", states, "actions"_a, docs::logic::states)
       .def_prop_ro("status", statusName, "How the last next() ended: found, exhausted, limit or cancelled.")
       .def_prop_ro(
           "expansions", [](const PyPlanSearch& s) { return s.search->expansions(); }, "States expanded so far.")

@@ -9,22 +9,11 @@
 #include "docs/manipulation.h"
 #include "kinegraph/base/errors.h"
 #include "kinegraph/base/text.h"
-#include "kinegraph/tasks/manipulation_helper.h"
-#include "py_komo.h"
+#include "py_manipulation.h"
 
 namespace kinegraph::python {
 
 namespace {
-
-/// Its problems are KOMOs as Python knows them.
-struct PyManipulation : ManipulationHelper {
-  std::shared_ptr<PyKomo> pyKomo() const { return std::static_pointer_cast<PyKomo>(komo); }
-
- protected:
-  std::shared_ptr<Komo> newKomo(const Config& C, double phases, int slices, int order) const override {
-    return std::make_shared<PyKomo>(PyKomo{Komo(C, phases, slices, order), nullptr});
-  }
-};
 
 using M = PyManipulation;
 using Name = const std::string&;

@@ -6,5 +6,6 @@ namespace kinegraph::python {
 
 void bindManipulation(nanobind::module_& m);
 void bindLogic(nanobind::module_& m);
+void bindTasks(nanobind::module_& m);  ///< after what plans and motions are made of
 
 }  // namespace kinegraph::python

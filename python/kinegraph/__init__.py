@@ -86,8 +86,12 @@ from ._core import (
     SolverReturns,
     StepObservation,
     TargetFile,
+    TaskRule,
+    TaskWaypoints,
     TimedPath,
     checkFile,
+    checkTaskPlan,
+    defaultDomain,
     depthImage2PointCloud,
     drive,
     planMotion,
@@ -152,12 +156,8 @@ if _TYPE_CHECKING:
     from .problems import get_NLP_Problem_names, make_NLP_Problem
     from .quaternion import Quaternion
     from .reachable import reachability
-    from .task_actions import TaskRule
-    from .task_check import checkTaskPlan
-    from .task_domain import defaultDomain
     from .task_execution import TaskExecution
     from .task_plan import TaskPlan
-    from .task_waypoints import TaskWaypoints
     from .tasks import planTask, planTasks
 
 _LATER = {  # module: names
@@ -182,12 +182,8 @@ _LATER = {  # module: names
     "problems": ("get_NLP_Problem_names", "make_NLP_Problem"),
     "quaternion": ("Quaternion",),
     "reachable": ("reachability",),
-    "task_actions": ("TaskRule",),
-    "task_check": ("checkTaskPlan",),
-    "task_domain": ("defaultDomain",),
     "task_execution": ("TaskExecution",),
     "task_plan": ("TaskPlan",),
-    "task_waypoints": ("TaskWaypoints",),
     "tasks": ("planTask", "planTasks"),
 }
 _MODULE_OF = {name: module for module, names in _LATER.items() for name in names}

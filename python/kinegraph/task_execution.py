@@ -7,9 +7,9 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from ._core import FS, JT, Config
+from ._core import FS, JT, Config, holderOf
 from .errors import ArgumentError
-from .task_domain import PICKS, PLACES, holderOf, wordsOf
+from .task_domain import PICKS, PLACES, wordsOf
 
 if TYPE_CHECKING:
     from .task_plan import Action, TaskPlan

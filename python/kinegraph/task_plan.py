@@ -8,9 +8,9 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from ._core import JT, Config
+from ._core import JT, Config, treeText
 from .errors import ArgumentError
-from .task_view import ghostScene, treeText
+from .task_view import ghostScene
 
 if TYPE_CHECKING:
     from .task_execution import TaskExecution
@@ -102,7 +102,7 @@ class TaskPlan:
         Returns:
             A line per action.
         """
-        return treeText(self.tree)
+        return treeText([(branch.actions, branch.why) for branch in self.tree])
 
     def view(self, C: Config, pause: bool = True) -> int:
         """Shows a plan: its motion; or, where there is none, the tree of the search and a red ghost of what the farthest

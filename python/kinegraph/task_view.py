@@ -1,4 +1,4 @@
-"""What planTask tried, as text and as a scene: branches with their causes, and the waypoint at which one failed."""
+"""What planTask tried, as a scene: the waypoint at which a branch failed."""
 
 from __future__ import annotations
 
@@ -8,28 +8,10 @@ from ._core import ST, Config
 from .errors import ArgumentError
 
 if TYPE_CHECKING:
-    from .task_plan import Branch, TaskPlan
+    from .task_plan import TaskPlan
 
 _GHOST = [0.9, 0.2, 0.2, 0.4]
 _MOVED = 1e-3  # m or rad: what moved less than that is no ghost
-
-
-def treeText(branches: list[Branch]) -> str:
-    """The branches as a tree: actions that several begin with stand once, causes behind the last one."""
-    lines: list[str] = []
-    shown: list[str] = []
-    for branch in branches:
-        words = [f"({' '.join(action)})" for action in branch.actions]
-        common = 0
-        while common < min(len(words), len(shown)) and words[common] == shown[common]:
-            common += 1
-        if common == len(words):
-            common -= 1
-        lines += [f"{'  ' * depth}{words[depth]}" for depth in range(common, len(words))]
-        if lines:
-            lines[-1] += f": {branch.why}" if branch.why else ": found"
-        shown = words
-    return "\n".join(lines)
 
 
 def ghostScene(plan: TaskPlan, C: Config) -> Config:

@@ -1,0 +1,42 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "kinegraph/logic/grounding.h"
+#include "kinegraph/tasks/search/task_proofs.h"
+
+namespace kinegraph {
+
+// What a failure in geometry says in logic: which actions and facts exclude each other.
+
+/// The last action, with those that gave the hand its object.
+std::vector<TaskAction> actionsAlone(const std::vector<TaskAction>& actions);
+
+/// Is the object picked where it is at the start?
+bool startsWithPick(const std::vector<TaskAction>& actions, const std::vector<Literal>& start);
+
+/// Objects that actions are not about.
+std::vector<std::string> objectsWithout(const std::vector<TaskAction>& actions, const std::vector<Literal>& start);
+
+/// A fact of the start that puts something where an action puts or takes its object, and what that is.
+struct InTheWay {
+  Literal fact;
+  std::string obj;
+};
+std::vector<InTheWay> inTheWay(const TaskAction& action, const std::vector<Literal>& start);
+
+/// Facts of the start on which a failure rests: another grasp may do what this one cannot, and what stands on a carrier
+/// may be brought within reach.
+std::vector<Literal> whileFacts(const std::vector<TaskAction>& alone, const std::vector<Literal>& start);
+
+/// An object that would stand on what stands on it, in one of the states; "" if there is none.
+std::string standsOnItself(const std::vector<std::vector<Literal>>& states);
+
+/// The proofs that matter: with these alone there is no plan; those that can be left out one by one are.
+std::string neededProofs(const GroundProblem& ground, const std::vector<ImpossibleAction>& proofs);
+
+/// The fewest literals of the goal that no sequence of actions reaches together, in words.
+std::string contradiction(const LogicProblem& problem);
+
+}  // namespace kinegraph

@@ -1,0 +1,233 @@
+#include "kinegraph/tasks/search/task_motions.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "kinegraph/base/errors.h"
+#include "kinegraph/base/text.h"
+#include "kinegraph/scene/motor_limits.h"
+#include "kinegraph/spline/retime.h"
+#include "kinegraph/tasks/search/motion_checks.h"
+#include "kinegraph/tasks/task_rules.h"
+
+namespace kinegraph {
+
+namespace {
+
+constexpr double kBack = .07;  ///< m: a hand comes to what it takes, and leaves what it puts down, along its own axis
+constexpr double kUp = .04;    ///< m: what is held is lifted first, and comes down to its place
+constexpr double kTurn = .8;  ///< rad or m: a joint that would move farther on these few centimeters is led another way
+constexpr double kSame = 1e-7;   ///< rad or m: postures that differ by less are one
+constexpr double kPeriod = .01;  ///< s between two rows
+constexpr double kMargin = .01;  ///< m, that motions keep where their ends do, and there is room
+constexpr double kHeld = 4.;     ///< m/s^2: what is held by friction is accelerated by no more
+constexpr double kBlend = .05;   ///< rad or m, by which corners may be missed
+constexpr double kSpeedIn = .5;  ///< s to full speed
+constexpr int kTries = 2;
+constexpr int kSearch = 200000;  ///< evaluations of one search for a way
+constexpr int kPushRows = 50;    ///< by which a straight push is looked at
+
+double farthest(const VectorXd& a, const VectorXd& b) { return (a - b).cwiseAbs().maxCoeff(); }
+
+MatrixXd rowsOf(const std::vector<VectorXd>& postures) {
+  MatrixXd rows(Eigen::Index(postures.size()), postures.at(0).size());
+  for (std::size_t i = 0; i < postures.size(); ++i) rows.row(Eigen::Index(i)) = postures[i];
+  return rows;
+}
+
+/// `count` rows from a to b, both included.
+MatrixXd line(const VectorXd& a, const VectorXd& b, int count) {
+  MatrixXd rows(count, a.size());
+  const VectorXd step = (b - a) / double(count - 1);
+  for (int i = 0; i < count; ++i) rows.row(i) = a + double(i) * step;
+  rows.row(count - 1) = b;
+  return rows;
+}
+
+/// What leaves a place as an action comes there: who puts something down comes from above, who takes it along its axis.
+TaskAction coming(const TaskAction& action) {
+  if (isPick(action)) return {"place", action[1], action[3], action[2]};
+  if (isPlace(action)) return {"pick", action[1], action[3], action[2]};
+  return {};
+}
+
+/// A motion in rows; the first and the last are those of the postures, to the bit.
+TimedRows rowsOf(const TimedPath& timed, const MatrixXd& postures) {
+  const int count = std::max(int(std::ceil(timed.duration() / kPeriod)) + 1, 2);
+  TimedRows rows{MatrixXd(count, postures.cols()), VectorXd(count)};
+  const double step = timed.duration() / double(count - 1);
+  for (int i = 0; i < count; ++i) rows.times[i] = double(i) * step;
+  rows.times[count - 1] = timed.duration();
+  for (int i = 0; i < count; ++i) rows.path.row(i) = timed.at(rows.times[i]).q;
+  rows.path.row(0) = postures.row(0);
+  rows.path.row(count - 1) = postures.row(postures.rows() - 1);
+  return rows;
+}
+
+/// The rows at which postures change; it ends where the next motion begins.
+MatrixXd withoutRepeats(const MatrixXd& postures) {
+  std::vector<Eigen::Index> kept = {0};
+  for (Eigen::Index k = 1; k < postures.rows(); ++k)
+    if ((postures.row(k) - postures.row(k - 1)).cwiseAbs().maxCoeff() > kSame) kept.push_back(k);
+  if (kept.size() > 1) kept.pop_back();
+  kept.push_back(postures.rows() - 1);
+  return postures(kept, Eigen::all);
+}
+
+VectorXd perDof(const char* name, const VectorXd& given, const VectorXd& otherwise) {
+  if (given.size() == 0) return otherwise;
+  if (given.size() == 1) return VectorXd::Constant(otherwise.size(), given[0]);
+  if (given.size() == otherwise.size()) return given;
+  throw ValueError(
+      cat("planTask: ", name, " has ", given.size(), " numbers; expected one, or ", otherwise.size(), ", one per dof"));
+}
+
+}  // namespace
+
+TaskMotions::TaskMotions(MatrixXd limits, const std::vector<Literal>& start, std::uint64_t seed, int threads,
+                         std::function<bool()> stopped)
+    : limits_(std::move(limits)),
+      hands_(wordsOf(start, "is_gripper")),
+      objects_(wordsOf(start, "is_object")),
+      seed_(seed),
+      threads_(threads),
+      stopped_(std::move(stopped)) {}
+
+TaskMotions::Found TaskMotions::between(const Config& C, const VectorXd& q0, const VectorXd& q1,
+                                        const TaskAction& action, const TaskAction& before) {
+  if (action[0] == "push_end") return pushed(C, q0, q1, action[1]);
+  const std::vector<std::string> carried = carriedBy(C, hands_, objects_);
+  std::vector<MotionConstraint> level;
+  for (const std::string& obj : carried) {
+    const Vector3d up = C.getFrame(obj).getRotationMatrix().col(2);
+    level.push_back({.feature = FeatureSymbol::vectorZ, .frames = {obj}, .target = up});
+  }
+  if (level.empty()) {
+    std::vector<VectorXd> postures = piece(C, q0, leaving(C, q0, before));
+    const std::vector<VectorXd> tail = piece(C, q1, leaving(C, q1, coming(action)));
+    if (postures.size() + tail.size() > 2) {
+      const MotionPlan found = way(C, postures.back(), tail.back());
+      if (found.feasible()) {
+        for (Eigen::Index i = 0; i < found.path.rows(); ++i) postures.push_back(found.path.row(i));
+        postures.insert(postures.end(), tail.rbegin(), tail.rend());
+        return {steady(C, timed(C, rowsOf(postures)), {}), ""};
+      }
+    }
+  }
+  const MotionPlan found = way(C, q0, q1, level);
+  if (!found.feasible()) return {std::nullopt, cat("no motion was found: ", found.message)};
+  return {steady(C, timed(C, found.path), carried), ""};
+}
+
+/// A straight motion of an object over what it stands on: the straight one of the joints, or one on that line.
+TaskMotions::Found TaskMotions::pushed(const Config& C, const VectorXd& q0, const VectorXd& q1,
+                                       const std::string& obj) {
+  const MatrixXd straight = rowsOf({q0, q1});
+  if (slidesStraight(C, line(q0, q1, kPushRows), obj) && isFree(C, straight)) return {timed(C, straight), ""};
+  const std::vector<Vector3d> ends = positionsAlong(C, straight, obj);
+  const Vector3d along = (ends[1] - ends[0]) / std::max((ends[1] - ends[0]).norm(), 1e-9);
+  MatrixXd aside(2, 3);
+  aside << -along.y(), along.x(), 0., 0., 0., 1.;
+  Config D = C;
+  D.setJointState(q1);
+  const Matrix3d R = D.getFrame(obj).getRotationMatrix();
+  const MotionPlan found =
+      way(C, q0, q1,
+          {{.feature = FeatureSymbol::position, .frames = {obj}, .scale = aside, .target = ends[0]},
+           {.feature = FeatureSymbol::vectorX, .frames = {obj}, .target = Vector3d(R.col(0))},
+           {.feature = FeatureSymbol::vectorZ, .frames = {obj}, .target = Vector3d(R.col(2))}});
+  if (!found.feasible()) return {std::nullopt, cat("no straight push was found: ", found.message)};
+  return {timed(C, found.path), ""};
+}
+
+MotionPlan TaskMotions::way(const Config& C, const VectorXd& start, const VectorXd& goal,
+                            const std::vector<MotionConstraint>& constraints) {
+  PlanOptions options;
+  options.tries = kTries;
+  options.seed = seed_;
+  options.threads = threads_;
+  options.constraints = constraints;
+  MotionPlan found;
+  for (const double margin : {kMargin, 0.}) {
+    options.margin = margin;
+    options.evaluations = margin == 0. ? kSearch : kSearch / 10;
+    found = planMotion(C, MotionGoal(goal), options, start, stopped_);
+    for (const PlanStage& stage : found.stages) evaluations += stage.evaluations;
+    if (found.feasible()) break;
+  }
+  return found;
+}
+
+/// From q to a posture near it, if that is free; else q alone. The same is free the other way around.
+std::vector<VectorXd> TaskMotions::piece(const Config& C, const VectorXd& q,
+                                         const std::optional<VectorXd>& away) const {
+  if (away && farthest(*away, q) <= kTurn && isFree(C, rowsOf({q, *away}))) return {q, *away};
+  return {q};
+}
+
+/// Joints a few centimeters away from where an action was done: a hand that has put something down goes back, one that has
+/// taken something lifts it.
+std::optional<VectorXd> TaskMotions::leaving(const Config& C, const VectorXd& q, const TaskAction& action) const {
+  if (!isPick(action) && !isPlace(action)) return std::nullopt;
+  const std::string& hand = isPick(action) ? action[3] : action[2];
+  const std::string palm = palmOf(C, hand);
+  Config D = C;
+  D.setJointState(q);
+  Pose pose = D.getFrame(hand).getPose();
+  if (isPick(action)) {
+    pose.p.z() += kUp;
+  } else if (!palm.empty()) {
+    const Vector3d back = D.getFrame(palm).getPosition() - pose.p;
+    const double length = std::sqrt(back.x() * back.x() + back.y() * back.y() + back.z() * back.z());
+    pose.p += kBack * back / length;
+  } else {
+    return std::nullopt;
+  }
+  IkOptions options;
+  options.collisions = false;
+  options.attempts = 1;
+  const IkResult result = solveIk(D, {IkTarget::toPose(hand, Pose::fromNumbers(pose.numbers()))}, options);
+  return result.feasible() ? std::optional(result.q) : std::nullopt;
+}
+
+/// The same motion, so slow that what is held does not slip, and what only stands on that stays there.
+TimedRows TaskMotions::steady(const Config& C, TimedRows rows, const std::vector<std::string>& carried) const {
+  double share = 1.;
+  for (const std::string& obj : objects_) {
+    if (holderOf(C, obj, hands_).empty()) continue;
+    const double most = std::ranges::find(carried, obj) != carried.end() ? kSteady / 1.01 : kHeld;
+    share = std::max(share, accelerationOf(C, rows.path, rows.times, obj) / most);
+  }
+  rows.times *= std::sqrt(share);
+  return rows;
+}
+
+TimedRows TaskMotions::timed(const Config& C, const MatrixXd& postures) const {
+  const MatrixXd kept = withoutRepeats(postures);
+  const MotionLimits limits{limits_.row(0), limits_.row(1), {}};
+  for (const Corners corners : {Corners::blend, Corners::stop}) {
+    RetimeOptions options;
+    options.corners = corners;
+    options.tolerance = kBlend;
+    options.is_free = [&](const MatrixXd& points, double) { return isFree(C, points); };
+    const TimedPath found = retime(kept, limits, options);
+    if (!found.feasible()) continue;
+    const TimedRows rows = rowsOf(found, postures);
+    if (isFree(C, rows.path)) return rows;
+  }
+  RetimeOptions stops;
+  stops.corners = Corners::stop;
+  return rowsOf(retime(kept, limits, stops), postures);
+}
+
+MatrixXd taskMotionLimits(const Config& C, const VectorXd& velocity, const VectorXd& acceleration) {
+  VectorXd model = getVelocityLimits(C);
+  for (double& limit : model)
+    if (!std::isfinite(limit)) limit = 1.;
+  MatrixXd limits(2, model.size());
+  limits.row(0) = perDof("velocity", velocity, model);
+  limits.row(1) = perDof("acceleration", acceleration, VectorXd(limits.row(0).transpose() / kSpeedIn));
+  return limits;
+}
+
+}  // namespace kinegraph

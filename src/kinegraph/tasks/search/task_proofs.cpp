@@ -1,0 +1,233 @@
+#include "kinegraph/tasks/search/task_proofs.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <optional>
+#include <set>
+
+#include "kinegraph/base/text.h"
+#include "kinegraph/geometry/shapes/shape_kinds.h"
+#include "kinegraph/tasks/shape_points.h"
+#include "kinegraph/tasks/task_rules.h"
+
+namespace kinegraph {
+
+namespace {
+
+using Body = ShapeKind::Body;
+
+constexpr double kInf = std::numeric_limits<double>::infinity();
+
+bool isFixed(JointType type) { return type == JointType::none || type == JointType::rigid; }
+
+/// The axes that a joint slides along; none of other joints.
+std::vector<int> slidesAlong(JointType type) {
+  switch (type) {
+    case JointType::transX:
+      return {0};
+    case JointType::transY:
+      return {1};
+    case JointType::transZ:
+      return {2};
+    case JointType::transXY:
+      return {0, 1};
+    case JointType::trans3:
+      return {0, 1, 2};
+    default:
+      return {};
+  }
+}
+
+bool turns(JointType type) {
+  return type == JointType::hingeX || type == JointType::hingeY || type == JointType::hingeZ ||
+         type == JointType::hinge || type == JointType::quatBall;
+}
+
+void goThroughJoint(const Frame& frame, Reach& reach) {
+  const Joint& joint = *frame.data().joint;
+  if (const std::vector<int> axes = slidesAlong(joint.type); !axes.empty()) {
+    if (joint.lower.size() != Eigen::Index(axes.size())) {
+      reach.half.setConstant(kInf);
+      return;
+    }
+    for (std::size_t k = 0; k < axes.size(); ++k) {
+      const double low = joint.lower[Eigen::Index(k)], high = joint.upper[Eigen::Index(k)];
+      reach.center[axes[k]] += .5 * (low + high);
+      reach.half[axes[k]] += .5 * (high - low);
+    }
+  } else if (turns(joint.type)) {
+    reach.radius += (reach.center.cwiseAbs() + reach.half).norm();
+    reach.center = reach.half = Vector3d::Zero();
+  } else {  // mobile bases and free joints have no bound
+    reach.half.setConstant(kInf);
+  }
+}
+
+/// The pose of a frame in its parent where its joint is at zero.
+RigidTransform offsetOf(const Config& C, const Frame& frame) {
+  Config D = C;
+  Frame same = D.getFrame(frame.getName());
+  if (!isFixed(same.getJointType())) {
+    VectorXd q = VectorXd::Zero(same.getJointState().size());
+    if (same.getJointType() == JointType::quatBall) q[0] = 1.;
+    if (same.getJointType() == JointType::free) q[3] = 1.;
+    same.setJointState(q);
+  }
+  return same.getRelativePose().transform();
+}
+
+/// Of a ball around a frame's origin that has its shape in it, m.
+double radiusOf(const Config& C, const std::string& name) {
+  const Frame frame = C.getFrame(name);
+  if (frame.getShapeType() == ShapeType::none || frame.getShapeType() == ShapeType::marker) return 0.;
+  const std::vector<double> size = frame.getSize();
+  switch (shapeKind(frame.getShapeType()).body) {
+    case Body::box:
+      return .5 * Vector3d(size[0], size[1], size[2]).norm();
+    case Body::ball:
+      return size.back();
+    case Body::cylinder:
+      return std::hypot(.5 * size[0], size[1]);
+    case Body::capsule:
+      return std::hypot(.5 * size[0], size[1]) + size[1];
+    default: {
+      double radius = 0.;
+      for (const Vector3d& point : shapePoints(frame)) radius = std::max(radius, point.norm());
+      return radius;
+    }
+  }
+}
+
+/// Half of the least horizontal width of what stands upright, m; none if it is not known.
+std::optional<double> innerRadius(const Config& C, const std::string& name) {
+  const Frame frame = C.getFrame(name);
+  if (frame.getShapeType() == ShapeType::none) return std::nullopt;
+  const std::vector<double> size = frame.getSize();
+  switch (shapeKind(frame.getShapeType()).body) {
+    case Body::box:
+      return .5 * std::min(size[0], size[1]);
+    case Body::ball:
+      return size.back();
+    case Body::cylinder:
+    case Body::capsule:
+      return size[1];
+    default:
+      return std::nullopt;
+  }
+}
+
+bool mayCollide(const Config& C, const std::string& name) {
+  const auto& shape = C.getFrame(name).data().shape;
+  return shape && shape->contact != 0;
+}
+
+class Proofs {
+ public:
+  explicit Proofs(const Config& C) : C_(C) {
+    for (const Frame& frame : C.getFrames())
+      if (frame.getJointType() != JointType::rigid) fixed_.insert(frame.getName());
+  }
+
+  std::vector<ImpossibleAction> of(const std::vector<TaskAction>& actions) {
+    for (const TaskAction& action : actions) {
+      if (isPick(action)) {
+        lookAtPick(action);
+      } else if (action[0] == "place" && fixed_.contains(action[3])) {
+        const double half = .5 * diagonalOf(C_.getFrame(action[3]), 3);
+        lookAtReach(action, action[2], action[3], half + 2. * radiusOf(C_, action[1]) + radiusOf(C_, action[2]));
+      } else if (action[0] == "handover" && graspVariants(C_, action[1], action[3]).empty()) {
+        addTooWide(action);
+      }
+    }
+    lookAtRoom(actions);
+    return std::move(found_);
+  }
+
+ private:
+  void lookAtPick(const TaskAction& action) {
+    const std::string &obj = action[1], &place = action[2], &hand = action[3];
+    if (graspVariants(C_, obj, hand).empty()) return addTooWide(action);
+    if (!fixed_.contains(place)) return;
+    const double half = .5 * diagonalOf(C_.getFrame(place), 2);
+    const double far = (C_.getFrame(obj).getPosition() - C_.getFrame(place).getPosition()).norm();
+    lookAtReach(action, hand, place, std::max(half, far) + 2. * radiusOf(C_, obj) + radiusOf(C_, hand));
+  }
+
+  /// A place that is farther than `room` (m) beyond what a hand reaches.
+  void lookAtReach(const TaskAction& action, const std::string& hand, const std::string& place, double room) {
+    if (!reach_.contains(hand)) reach_[hand] = reachOf(C_, hand);
+    const double beyond = reach_[hand].distance(C_.getFrame(place).getPosition()) - room;
+    if (beyond > 0.)
+      found_.push_back(
+          {action, {}, cat("'", place, "' is at least ", fixed(beyond, 2), " m beyond the reach of '", hand, "'")});
+  }
+
+  void addTooWide(const TaskAction& action) {
+    const double width = opening(C_, action[3]).value_or(0.);
+    found_.push_back({action,
+                      {},
+                      cat("'", action[1], "' is wider than '", action[3], "' opens (", fixed(width, 3),
+                          " m) along all of its axes")});
+  }
+
+  /// Two objects whose centers are on a place cannot be nearer than their inner radii, nor farther than its diagonal.
+  void lookAtRoom(const std::vector<TaskAction>& actions) {
+    std::vector<std::pair<std::string, std::vector<std::string>>> onto;
+    for (const TaskAction& action : actions) {
+      if (action[0] != "place") continue;
+      auto place = std::ranges::find(onto, action[3], [](const auto& entry) { return entry.first; });
+      if (place == onto.end()) place = onto.insert(onto.end(), {action[3], {}});
+      if (std::ranges::find(place->second, action[1]) == place->second.end()) place->second.push_back(action[1]);
+    }
+    for (const auto& [to, objects] : onto)
+      for (const std::string& a : objects)
+        for (const std::string& b : objects)
+          if (a != b) lookAtPair(actions, to, a, b);
+  }
+
+  void lookAtPair(const std::vector<TaskAction>& actions, const std::string& to, const std::string& a,
+                  const std::string& b) {
+    const std::optional<double> one = innerRadius(C_, a), other = innerRadius(C_, b);
+    const double most = diagonalOf(C_.getFrame(to), 2);
+    if (!one || !other || *one + *other <= most || !mayCollide(C_, a) || !mayCollide(C_, b)) return;
+    const auto& [first, second] = std::minmax(a, b);
+    const std::string why =
+        cat("'", first, "' and '", second, "' do not fit on '", to, "' together: their centers are ",
+            fixed(*one + *other, 3), " m apart or more, and ", fixed(most, 3), " m at most there");
+    for (const TaskAction& action : actions)
+      if (action[0] == "place" && action[1] == a && action[3] == to)
+        found_.push_back({action, {Literal{"on", {to, b}}}, why});
+  }
+
+  const Config& C_;
+  std::set<std::string> fixed_;
+  std::map<std::string, Reach> reach_;
+  std::vector<ImpossibleAction> found_;
+};
+
+}  // namespace
+
+double Reach::distance(const Vector3d& point) const {
+  if (!half.allFinite()) return -kInf;
+  return ((point - center).cwiseAbs() - half).cwiseMax(0.).norm() - radius;
+}
+
+Reach reachOf(const Config& C, const std::string& name) {
+  Reach reach;
+  for (std::optional<Frame> frame = C.getFrame(name); frame; frame = frame->getParent()) {
+    if (!isFixed(frame->getJointType())) goThroughJoint(*frame, reach);
+    if (!frame->getParent()) break;
+    const RigidTransform X = offsetOf(C, *frame);
+    reach.center = X * reach.center;
+    if (reach.half.allFinite()) reach.half = Vector3d(X.R.cwiseAbs() * reach.half);
+  }
+  return reach;
+}
+
+std::vector<ImpossibleAction> impossibleActions(const Config& C, const std::vector<TaskAction>& actions) {
+  return Proofs(C).of(actions);
+}
+
+}  // namespace kinegraph

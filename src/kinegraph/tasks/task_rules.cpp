@@ -1,0 +1,208 @@
+#include "kinegraph/tasks/task_rules.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "kinegraph/base/errors.h"
+#include "kinegraph/base/text.h"
+#include "kinegraph/geometry/shapes/shape_kinds.h"
+#include "kinegraph/tasks/shape_points.h"
+#include "kinegraph/tasks/task_waypoints.h"
+
+namespace kinegraph {
+
+namespace {
+
+using F = FeatureSymbol;
+using O = ObjectiveType;
+using Body = ShapeKind::Body;
+using Variants = std::vector<std::string>;
+
+constexpr double kFingers = .08;             ///< m: what a hand with a palm opens if its frame does not say it
+constexpr double kInside = .02;              ///< m: how far from the ends of an object it is grasped
+constexpr std::size_t kCombinations = 4096;  ///< of variants that are ranked
+
+Body bodyOf(const Frame& frame) { return shapeKind(frame.getShapeType()).body; }
+
+double leastSide(const std::vector<double>& size) { return std::min({size[0], size[1], size[2]}); }
+
+/// Of a box, or of the box around a mesh, along x y z, m.
+Vector3d widthsOf(const Frame& frame) {
+  const std::vector<double> size = frame.getSize();
+  if (isBox(frame)) return {size[0], size[1], size[2]};
+  const Eigen::AlignedBox3d around = boxAround(frame);
+  if (around.isEmpty())
+    throw ValueError(cat("planTask: object '", frame.getName(), "' has no shape that can be grasped"));
+  return around.max() - around.min();
+}
+
+/// Across a mesh: the fingers close along an axis of the box around its hull, inside of the other sides.
+void graspHull(TaskWaypoints& w, double time, const std::string& hand, const std::string& obj, int axis) {
+  const Eigen::AlignedBox3d around = boxAround(w.C.getFrame(obj));
+  const Vector3d middle = .5 * (around.max() + around.min()), half = .5 * (around.max() - around.min());
+  const Vector3d inside = half.array() - (.5 * half.array()).min(kInside);
+  std::vector<int> others = {0, 1, 2};
+  others.erase(others.begin() + axis);
+  const MatrixXd all = 1e1 * Eigen::Matrix3d::Identity(), along = all.row(axis), across = all(others, Eigen::all);
+  const Vector3d most = middle + inside, least = middle - inside;
+  w.komo().addObjective({time}, F::positionRel, {hand, obj}, O::eq, along, middle);
+  w.komo().addObjective({time}, F::positionRel, {hand, obj}, O::ineq, across, most);
+  w.komo().addObjective({time}, F::positionRel, {hand, obj}, O::ineq, -across, least);
+  constexpr std::array kProducts = {F::scalarProductXX, F::scalarProductXY, F::scalarProductXZ};
+  for (const int other : others)
+    w.komo().addObjective({time - .2, time}, kProducts[std::size_t(other)], {hand, obj}, O::eq, 1e0);
+  if (const std::string palm = palmOf(w.C, hand); !palm.empty())
+    w.komo().addObjective({time - .3, time}, F::distance, {palm, obj}, O::ineq, 1e1, -.001);
+}
+
+void grasp(TaskWaypoints& w, double time, const std::string& hand, const std::string& obj, const std::string& variant) {
+  const std::string palm = palmOf(w.C, hand);
+  const Frame thing = w.C.getFrame(obj);
+  const std::vector<double> size = thing.getSize();
+  if (!palm.empty())  // the farther inside, the less it turns in the hand
+    w.komo().addObjective({time}, F::positionDiff, {hand, obj}, O::sos, 3e0);
+  if (variant == "touch") {
+    w.komo().addObjective({time}, F::distance, {obj, hand}, O::eq, 1e1);
+  } else if (variant == "center") {
+    w.komo().addObjective({time}, F::positionDiff, {hand, obj}, O::eq, 1e1);
+  } else if (variant == "around") {
+    w.m->grasp_cylinder(time, hand, obj, palm, std::min(kInside, .25 * size[0]));
+  } else if (isBox(thing)) {
+    w.m->grasp_box(time, hand, obj, palm, variant, std::min(kInside, .25 * leastSide(size)));
+  } else {
+    const std::size_t axis = std::string_view("xyz").find(variant);
+    if (variant.size() != 1 || axis == std::string_view::npos)
+      throw ValueError(cat("planTask: '", hand, "' cannot hold '", obj, "' by '", variant, "'; expected x, y or z"));
+    graspHull(w, time, hand, obj, int(axis));
+  }
+}
+
+void take(TaskWaypoints& w, double time, const TaskAction& action, const std::string& variant) {
+  w.attach(time, action[3], action[1]);
+  grasp(w, time, action[3], action[1], variant);
+}
+
+void place(TaskWaypoints& w, double time, const TaskAction& action, const std::string& variant) {
+  if (variant == "upright")
+    w.put(time, action[1], action[3]);
+  else
+    w.lay(time, action[1], action[3], variant);
+}
+
+void holdAt(TaskWaypoints& w, double time, const TaskAction& action, const std::string&) {
+  w.komo().addObjective({time}, F::poseDiff, {action[1], action[3]}, O::eq, 1e1);
+}
+
+void touch(TaskWaypoints& w, double time, const TaskAction& action, const std::string&) {
+  w.attach(time, action[3], action[1], true);
+}
+
+void push(TaskWaypoints& w, double time, const TaskAction& action, const std::string&) {
+  int begun = int(std::lround(time)) - 2;
+  const auto begins = [&](const TaskAction& a) { return a[0] == "push_start" && a[1] == action[1]; };
+  while (begun >= 0 && !begins(w.actions[std::size_t(begun)])) --begun;
+  if (begun < 0) throw ValueError(cat("planTask: the push of '", action[1], "' ends and did not begin"));
+  w.push(double(begun + 1), time, action[2], action[1], action[3]);
+}
+
+Variants graspsOf(const Config& C, const TaskAction& action) { return graspVariants(C, action[1], action[3]); }
+
+/// A box lies on any of its faces.
+Variants faceOf(const Config& C, const TaskAction& action) {
+  return isBox(C.getFrame(action[1])) ? Variants{action[4]} : Variants{};
+}
+
+/// Upright, or a box with the face up that it has up already.
+Variants standsOf(const Config& C, const TaskAction& action) {
+  Variants ways = {"upright"};
+  const std::string face = upOf(C, action[1]);
+  if (isBox(C.getFrame(action[1])) && !face.empty() && face != "z") ways.push_back(face);
+  return ways;
+}
+
+auto only(const char* variant) {
+  return [variant](const Config&, const TaskAction&) { return Variants{variant}; };
+}
+
+}  // namespace
+
+TaskRules defaultTaskRules(bool is_upright) {
+  TaskRules rules = {
+      {"pick", {take, graspsOf}},
+      {"lift", {take, graspsOf}},
+      {"place", {place, standsOf}},
+      {"lay", {place, faceOf}},
+      {"push_start", {touch, only("touch")}},
+      {"push_end", {push, only("push")}},
+      {"pose", {holdAt, only("held")}},
+      {"handover", {take, graspsOf}},
+  };
+  if (is_upright) rules["place"].variants = only("upright");
+  return rules;
+}
+
+std::string palmOf(const Config& C, const std::string& hand) {
+  constexpr std::string_view kGripper = "gripper";
+  const bool is_named = hand.ends_with(kGripper);
+  const std::string name = hand.substr(0, hand.size() - (is_named ? kGripper.size() : 0)) + "palm";
+  return C.findFrame(name) ? name : "";
+}
+
+std::optional<double> opening(const Config& C, const std::string& hand) {
+  const Node* said = C.getFrame(hand).attributes().find("opening");
+  if (const double* width = said ? said->value.as<double>() : nullptr) return *width;
+  return palmOf(C, hand).empty() ? std::nullopt : std::optional(kFingers);
+}
+
+Variants graspVariants(const Config& C, const std::string& obj, const std::string& hand) {
+  const std::optional<double> wide = opening(C, hand);
+  if (!wide) return {"touch"};
+  const Frame frame = C.getFrame(obj);
+  const std::vector<double> size = frame.getSize();
+  const Body body = bodyOf(frame);
+  if (body == Body::ball) return 2. * size.back() <= *wide ? Variants{"center"} : Variants{};
+  if (body == Body::cylinder || body == Body::capsule) return 2. * size[1] <= *wide ? Variants{"around"} : Variants{};
+  const Vector3d widths = widthsOf(frame);
+  std::array<int, 3> axes = {0, 1, 2};
+  std::ranges::stable_sort(axes, {}, [&](int k) { return widths[k]; });
+  Variants ways;
+  for (const int k : axes)
+    if (widths[k] <= *wide) ways.emplace_back(1, "xyz"[k]);
+  return ways;
+}
+
+std::vector<Variants> allVariants(const Config& C, const std::vector<TaskAction>& actions, const TaskRules& rules,
+                                  std::size_t most) {
+  std::vector<Variants> lists;
+  for (const TaskAction& action : actions) {
+    const auto rule = rules.find(action[0]);
+    if (rule == rules.end()) throw NameError(cat("planTask: there is no rule for the action ", action[0]));
+    lists.push_back(rule->second.variants(C, action));
+    if (lists.back().empty()) return {};
+  }
+  // Counted up like the digits of a number, then the ones of the least sum first.
+  using Choice = std::pair<std::size_t, std::vector<std::size_t>>;
+  std::vector<Choice> ranked;
+  std::vector<std::size_t> choice(lists.size(), 0);
+  for (bool more = true; more && ranked.size() < kCombinations;) {
+    std::size_t sum = 0;
+    for (const std::size_t k : choice) sum += k;
+    ranked.emplace_back(sum, choice);
+    more = false;
+    for (std::size_t i = lists.size(); i-- > 0 && !more;) {
+      more = ++choice[i] < lists[i].size();
+      if (!more) choice[i] = 0;
+    }
+  }
+  std::ranges::sort(ranked);
+  std::vector<Variants> all;
+  for (const Choice& one : ranked) {
+    if (all.size() == most) break;
+    Variants& ways = all.emplace_back();
+    for (std::size_t i = 0; i < lists.size(); ++i) ways.push_back(lists[i][one.second[i]]);
+  }
+  return all;
+}
+
+}  // namespace kinegraph
