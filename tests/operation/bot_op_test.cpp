@@ -380,8 +380,8 @@ TEST(BotOp, RealTimeGoesOnByItself) {
   options.realtime = true;
   options.hyper_speed = 20.;
   BotOp bot(C, std::make_shared<KinematicDriver>(C), options);
-  bot.move(row(.3, 0.), seconds(1.));
   const auto begin = std::chrono::steady_clock::now();
+  bot.move(row(.3, 0.), seconds(1.));
   bot.wait(C);
   EXPECT_LE(bot.getTimeToEnd(), 0.);
   EXPECT_LT((bot.get_q() - pair(.3, 0.)).norm(), 1e-12);

@@ -242,7 +242,7 @@ TEST(ShownScene, ARunIsSentWithEachStepAndItsEndOnce) {
   ASSERT_EQ(kinds(messages), Kinds{"run"});
   EXPECT_EQ(
       *messages[0].data,
-      R"({"kind":"run","shown":1,"time":1.5E0,"factor":2.5E-1,"paused":1,"contacts":[1,2,3,0,0,8],"pull":[1,0,0,0,1,0,7]})");
+      R"({"kind":"run","shown":1,"steered":1,"time":1.5E0,"factor":2.5E-1,"paused":1,"contacts":[1,2,3,0,0,8],"pull":[1,0,0,0,1,0,7]})");
   EXPECT_TRUE(scene.messagesSince(seen).empty());
   EXPECT_TRUE(scene.endRun());
   const auto end = scene.messagesSince(seen);
