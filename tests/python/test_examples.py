@@ -67,6 +67,14 @@ FOUND = {
     "20_two_robots": [r"the blocks are 0\.1[34]\d m and 0\.1[34]\d m higher", r"the same again, to the bit: True"],
     "26_train_a_policy": [r"from 100 fresh starts: before \d %, after ([5-9]\d|100) %"],
     "14_mpc": [r"nearest to the ball and the table: \d+\.\d mm", r"at the end \d\.\d mm"],
+    "28_among_what_moves": [
+        r"^<MotionPlan solved",
+        r"waits for \d",
+        r"at the goal, 'l_\w+' meets 'load', which stays there",
+        r"never slower than 0\.[1-9]",
+        r"(length \d\.\d+\n){2}",
+    ],
+    "21_mpc": [r"nearest to the ball and the table: \d+\.\d mm", r"at the end \d\.\d mm"],
 }
 
 

@@ -34,6 +34,9 @@ class MovingScene {
   const std::vector<double>& breaks() const { return breaks_; }
   double end() const { return breaks_.back(); }  ///< from when on everything stands still, s
 
+  /// Is a frame part of an obstacle?
+  bool isObstacle(int frame) const { return belongs_[std::size_t(frame)]; }
+
   /// The joint vector of `state()` for the robot's q at t s.
   VectorXd at(const VectorXd& q, double t) const;
 

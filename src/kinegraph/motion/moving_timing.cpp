@@ -43,7 +43,7 @@ class TimeSearch {
     result_.met = check_.contact(curve_, fastest_, limits_.acceleration);
     if (at_goal.empty() || at_goal.back().end < kForever) {
       const auto [a, b] = blockers(last(), check_.scene().end());
-      result_.message = cat(words(a, b), " at the goal, and stays there");
+      result_.message = cat("at the goal, ", words(a, b), ", which stays there");
       return std::move(result_);
     }
     const bool stays = fastest_.duration() >= at_goal.back().begin;
@@ -203,7 +203,7 @@ class TimeSearch {
     const bool moves = start_speed_ > 0.;
     if (!moves && (interval == int(freeTimes(0).size()) || freeTimes(0)[std::size_t(interval)].begin > 0.)) {
       const auto [a, b] = blockers(0, 0.);
-      result_.message = cat(words(a, b), " at the start, from the beginning");
+      result_.message = cat("at the start, from the beginning, ", words(a, b));
       return;
     }
     nodes_.push_back({0, interval, 0.});
@@ -288,7 +288,8 @@ class TimeSearch {
 
   std::string words(int a, int b) const {
     const Program& program = check_.scene().state().program();
-    return cat("'", program.frame_name[std::size_t(a)], "' and '", program.frame_name[std::size_t(b)], "' meet");
+    if (check_.scene().isObstacle(a)) std::swap(a, b);
+    return cat("'", program.frame_name[std::size_t(a)], "' meets '", program.frame_name[std::size_t(b)], "'");
   }
 
   std::string failure() const {

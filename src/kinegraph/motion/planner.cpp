@@ -14,6 +14,7 @@ namespace {
 constexpr const char* kWho = "planMotion";
 constexpr int kRoundTries = 8;          // ways that are searched side by side, before the best one is known to others
 constexpr double kWorthPulling = 1.25;  // of the best cost: a way that is so much longer is not pulled taut
+constexpr double kWorthTelling = 1e-4;  // of what is made small, by which the next motion is better
 constexpr double kMargins[] = {.1, .05, .03, .02, .01, .005};  // m, tried in turn where clearance is asked for
 
 double secondsSince(std::chrono::steady_clock::time_point began) {
@@ -265,7 +266,7 @@ std::optional<MotionPlan> Planner::better() {
     });
     endStage("improve", further_, cat(tries_ - options_.tries, " further ways"));
     finish();
-    if (plan_.feasible() && value(plan_) < value(before)) return plan_;
+    if (plan_.feasible() && value(plan_) < (1. - kWorthTelling) * value(before)) return plan_;
     plan_ = std::move(before);
   }
   return std::nullopt;

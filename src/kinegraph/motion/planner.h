@@ -25,7 +25,7 @@ class Planner {
 
   MotionPlan run(const MotionGoal& goal, const VectorXd& start);
 
-  /// The next motion that is better than those before; none once options.improve evaluations are spent, or the time is
+  /// The next motion that is better than those before, by a share of 1e-4 at least; none once options.improve evaluations are spent, or the time is
   /// up, or where none can be better.
   std::optional<MotionPlan> better();
 
