@@ -5,7 +5,7 @@
 #include <algorithm>
 
 #include "kinegraph/logic/fol_reader.h"
-#include "support/expect_error.h"
+#include "tests/support/expect_error.h"
 
 namespace kinegraph {
 namespace {
