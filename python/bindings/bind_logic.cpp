@@ -1,5 +1,6 @@
 #include <nanobind/stl/optional.h>
 #include <nanobind/stl/string.h>
+#include <nanobind/stl/string_view.h>
 #include <nanobind/stl/vector.h>
 
 #include <algorithm>
@@ -44,27 +45,6 @@ Words texts(const std::vector<Literal>& literals) {
   Words out;
   for (const Literal& literal : literals) out.push_back(literal.str());
   return out;
-}
-
-void addAction(LogicDomain& domain, const std::string& name, const Words& variables, const std::string& pre,
-               const std::string& eff) {
-  // Through the reader, so that the same is required of it.
-  LogicDomain alone;
-  LogicRule rule{name, variables, {}, readLiterals(pre, "pre"), readLiterals(eff, "eff")};
-  for (const auto* list : {&rule.pre, &rule.eff}) {
-    for (const Literal& literal : *list) {
-      alone.symbols.push_back(literal.predicate);
-      for (const std::string& word : literal.arguments) {
-        if (std::ranges::find(variables, word) == variables.end()) alone.symbols.push_back(word);
-      }
-    }
-  }
-  alone.rules.push_back(rule);
-  const LogicDomain checked = readFol(writeFol(alone), "addAction " + name);
-  for (const std::string& symbol : checked.symbols) {
-    if (std::ranges::find(domain.symbols, symbol) == domain.symbols.end()) domain.symbols.push_back(symbol);
-  }
-  domain.rules.push_back(std::move(rule));
 }
 
 std::optional<Plan> nextPlan(PyPlanSearch& self) {

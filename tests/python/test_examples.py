@@ -74,7 +74,6 @@ FOUND = {
         r"never slower than 0\.[1-9]",
         r"(length \d\.\d+\n){2}",
     ],
-    "21_mpc": [r"nearest to the ball and the table: \d+\.\d mm", r"at the end \d\.\d mm"],
 }
 
 

@@ -206,4 +206,25 @@ std::string writeFol(const LogicDomain& domain) {
   return text;
 }
 
+void addAction(LogicDomain& domain, const std::string& name, const std::vector<std::string>& variables,
+               std::string_view pre, std::string_view eff) {
+  // Through the reader, so that the same is required of it.
+  LogicDomain alone;
+  LogicRule rule{name, variables, {}, readLiterals(pre, "pre"), readLiterals(eff, "eff")};
+  for (const auto* list : {&rule.pre, &rule.eff}) {
+    for (const Literal& literal : *list) {
+      alone.symbols.push_back(literal.predicate);
+      for (const std::string& word : literal.arguments) {
+        if (std::ranges::find(variables, word) == variables.end()) alone.symbols.push_back(word);
+      }
+    }
+  }
+  alone.rules.push_back(rule);
+  const LogicDomain checked = readFol(writeFol(alone), "addAction " + name);
+  for (const std::string& symbol : checked.symbols) {
+    if (std::ranges::find(domain.symbols, symbol) == domain.symbols.end()) domain.symbols.push_back(symbol);
+  }
+  domain.rules.push_back(std::move(rule));
+}
+
 }  // namespace kinegraph

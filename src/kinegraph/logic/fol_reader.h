@@ -29,6 +29,13 @@ LogicDomain readFolFile(const std::string& path);
 /// Reads a list of literals, as a goal: `(on tray cup) (busy left)!`
 std::vector<Literal> readLiterals(std::string_view text, const std::string& file = {});
 
+/// Adds an action, its precondition and effects as lists of literals; words of them that are no variables are declared.
+/// Throws ParseError as readFol does.
+///
+///     addAction(domain, "show", {"Obj", "Hand"}, "(is_gripper Hand) (on Hand Obj)", "(shown Obj)");
+void addAction(LogicDomain& domain, const std::string& name, const std::vector<std::string>& variables,
+               std::string_view pre, std::string_view eff);
+
 /// Writes a domain in that language.
 std::string writeFol(const LogicDomain& domain);
 

@@ -1,0 +1,152 @@
+#include "kinegraph/tasks/search/plan_task.h"
+
+#include <gtest/gtest.h>
+
+#include "kinegraph/front/model_path.h"
+#include "kinegraph/logic/fol_reader.h"
+#include "kinegraph/tasks/search/check_task_plan.h"
+#include "tests/support/expect_error.h"
+#include "tests/tasks/task_scenes.h"
+
+namespace kinegraph {
+namespace {
+
+Config pandaAndCup() {
+  Config C;
+  C.addFile(modelPath("scenarios/pandaSingle.g"));
+  C.addFrame("cup", "table").setRelativePosition({-.3, .25, .1}).setShape(ShapeType::ssBox, {.05, .05, .1, .005});
+  C.getFrame("cup").setJoint(JointType::rigid).setContact(1);
+  C.addFrame("tray", "table").setRelativePosition({0., .45, .055}).setShape(ShapeType::ssBox, {.2, .2, .01, .004});
+  C.getFrame("tray").setContact(1);
+  return C;
+}
+
+std::vector<std::string> namesOf(const TaskPlan& plan) {
+  std::vector<std::string> names;
+  for (const TaskAction& action : plan.actions) names.push_back(action[0]);
+  return names;
+}
+
+TEST(PlanTask, ATowerIsBuiltAndTheCheckerAgrees) {
+  const Config C = cubesOnATable(3);
+  const MatrixXd before = C.getFrameState();
+  const TaskPlan plan = planTask(C, "(on b0 b1) (on b1 b2)");
+  ASSERT_TRUE(plan.feasible()) << plan.str();
+  EXPECT_EQ(namesOf(plan), (std::vector<std::string>{"pick", "place", "pick", "place"}));
+  EXPECT_TRUE(checkTaskPlan(C, plan).empty());
+  EXPECT_EQ(C.getFrameState(), before);
+  EXPECT_EQ(plan.path.rows(), plan.segments.back().end);
+  EXPECT_EQ(plan.waypoints.rows(), 4);
+  EXPECT_EQ(plan.scenes.size(), 4u);
+  EXPECT_EQ(plan.attachments[0].second, plan.actions[0][1]);
+}
+
+TEST(PlanTask, APandaPutsACupOntoATrayInASceneThatSaysNothingOfLogic) {
+  const TaskPlan plan = planTask(pandaAndCup(), "(on tray cup)");
+  ASSERT_TRUE(plan.feasible()) << plan.str();
+  EXPECT_EQ(namesOf(plan), (std::vector<std::string>{"pick", "place"}));
+  EXPECT_TRUE(checkTaskPlan(pandaAndCup(), plan).empty());
+}
+
+TEST(PlanTask, APlanDoesNotDependOnThreads) {
+  const Config C = cubesOnATable(3);
+  const TaskPlan one = planTask(C, "(on b0 b1) (on b1 b2)", {.seed = 4});
+  for (const int threads : {2, 4}) {
+    const TaskPlan other = planTask(C, "(on b0 b1) (on b1 b2)", {.seed = 4, .threads = threads});
+    EXPECT_EQ(other.path, one.path);
+    EXPECT_EQ(other.times, one.times);
+    EXPECT_EQ(other.evaluations, one.evaluations);
+    EXPECT_EQ(other.str(), one.str());
+  }
+}
+
+TEST(PlanTask, PlansGetFasterAsLongAsEffortIsGiven) {
+  const Config C = cubesOnATable(2);
+  TaskPlans plans = planTasks(C, "(on b0 b1)", {.evaluations = 1500});
+  double before = std::numeric_limits<double>::infinity();
+  int count = 0;
+  while (const auto plan = plans.next()) {
+    EXPECT_LT(plan->duration(), before);
+    EXPECT_TRUE(checkTaskPlan(C, *plan).empty());
+    before = plan->duration();
+    ++count;
+  }
+  EXPECT_GT(count, 1);
+  EXPECT_FALSE(plans.next());
+}
+
+TEST(PlanTask, AnActionOfOnesOwnWithVariants) {
+  const Config C = pandaAndCup();
+  TaskOptions options;
+  options.domain = defaultDomain();
+  addAction(*options.domain, "show", {"Obj", "Hand"}, "(is_gripper Hand) (is_object Obj) (on Hand Obj)", "(shown Obj)");
+  EXPECT_THROW(planTask(C, "(shown cup)", options), ValueError);
+  options.rules["show"] = {
+      [](TaskWaypoints& w, double time, const TaskAction& action, const std::string& variant) {
+        const double height = variant == "high" ? 1.1 : 3.;
+        const MatrixXd up = Eigen::RowVector3d(0., 0., 10.);
+        w.komo().addObjective({time}, FeatureSymbol::position, {action[1]}, ObjectiveType::eq, up, {0., 0., height});
+      },
+      [](const Config&, const TaskAction&) {
+        return std::vector<std::string>{"too high", "high"};
+      }};
+  const TaskPlan plan = planTask(C, "(shown cup)", options);
+  ASSERT_TRUE(plan.feasible()) << plan.str();
+  EXPECT_EQ(namesOf(plan), (std::vector<std::string>{"pick", "show"}));
+  Config last = plan.scenes.back();
+  last.setJointState(plan.waypoints.row(1));
+  EXPECT_NEAR(last.getFrame("cup").getPosition().z(), 1.1, 1e-3);
+}
+
+TEST(PlanTask, WhatIsImpossibleIsProvedWithItsCause) {
+  Config C = cubesOnATable(2);
+  C.addFrame("far", "base", "shape: ssBox, size: [.2 .2 .01 .004], rel: [3 0 .005], logical: { is_place }");
+  const TaskPlan far = planTask(C, "(on far b0)");
+  EXPECT_EQ(far.status, TaskStatus::proved_impossible);
+  EXPECT_NE(far.message.find("'far' is at least"), std::string::npos) << far.message;
+  EXPECT_EQ(far.path.rows(), 0);
+  const TaskPlan twice = planTask(C, "(on b1 b0) (on table b0)");
+  EXPECT_EQ(twice.status, TaskStatus::proved_impossible);
+  EXPECT_NE(twice.message.find("no sequence of actions reaches"), std::string::npos) << twice.message;
+}
+
+TEST(PlanTask, AGoalThatHoldsAndEffortThatEnds) {
+  const Config C = cubesOnATable(2);
+  const TaskPlan done = planTask(C, "(on table b0)");
+  EXPECT_TRUE(done.feasible() && done.actions.empty());
+  EXPECT_EQ(done.path, MatrixXd(C.getJointState().transpose()));
+  const TaskPlan none = planTask(C, "(on b0 b1)", {.seconds = 0.});
+  EXPECT_TRUE(none.feasible() || none.status == TaskStatus::not_found);
+}
+
+TEST(PlanTask, ItGoesOnFromAnotherScene) {
+  const Config C = cubesOnATable(2);
+  const TaskPlan plan = planTask(C, "(on b0 b1)");
+  Config moved = C;
+  moved.getFrame("b1").setRelativePosition({.5, .5, .1});
+  const TaskPlan repaired = plan.repair(moved);
+  ASSERT_TRUE(repaired.feasible());
+  EXPECT_TRUE(checkTaskPlan(moved, repaired).empty());
+  EXPECT_FALSE(checkTaskPlan(moved, plan).empty());
+}
+
+TEST(PlanTask, MistakesAreToldBeforeAnythingIsSearched) {
+  const Config C = cubesOnATable(2);
+  expectError<ParseError>([&] { planTask(C, "(on b0 b7)"); }, {"unknown symbol 'b7' in the goal"});
+  expectError<ValueError>([&] { planTask(C, "(on b0 b1)", {.threads = 0}); }, {"threads is 0; expected 1 or more"});
+  expectError<ValueError>([&] { planTask(C, "(on b0 b1)", {.velocity = Eigen::Vector2d(1., 1.)}); },
+                          {"velocity has 2 numbers; expected one, or 3"});
+  TaskOptions options;
+  options.domain = readFol(R"(is_object on
+    DecisionRule pick { Obj, { (is_object Obj) } { (on Obj Obj) } })");
+  expectError<ValueError>([&] { planTask(C, "(on b0 b0)", options); }, {"expected (pick obj from hand)"});
+}
+
+TEST(PlanTask, BetweenMayEndIt) {
+  TaskOptions options;
+  options.between = [] { throw std::runtime_error("pressed"); };
+  EXPECT_THROW(planTask(cubesOnATable(3), "(on b0 b1) (on b1 b2)", options), std::runtime_error);
+}
+
+}  // namespace
+}  // namespace kinegraph

@@ -1,0 +1,25 @@
+#pragma once
+
+#include <string>
+
+#include "kinegraph/scene/config.h"
+
+namespace kinegraph {
+
+/// A table, a hand that slides above it, whose limits are its reach, and cubes that are places, too.
+inline Config cubesOnATable(int count) {
+  Config C;
+  C.addFrame("base").setPosition({0., 0., .6});
+  C.addFrame("table", "base", "shape: ssBox, size: [2 2 .1 .02], contact: 1, rel: [0 0 -.05], logical: { is_place }");
+  C.addFrame(
+      "hand", "base",
+      "shape: marker, size: [.03], joint: trans3, limits: [-.9 -.9 0 .9 .9 1], q: [0 0 .5], logical: { is_gripper }");
+  for (int i = 0; i < count; ++i) {
+    Frame cube = C.addFrame("b" + std::to_string(i), "table", "logical: { is_object, is_place }");
+    cube.setRelativePosition({-.5 + .4 * i, .2 * i, .1}).setJoint(JointType::rigid);
+    cube.setShape(ShapeType::ssBox, {.1, .1, .1, .004}).setContact(1);
+  }
+  return C;
+}
+
+}  // namespace kinegraph
