@@ -43,9 +43,10 @@ bot = ry.BotOp(C, False)
 plan = ry.planMotion(C, goal, start, velocity=0.6, acceleration=1.5)
 
 
-def follow(motion: ry.MotionPlan, **fields: float) -> None:
+def follow(motion: ry.MotionPlan, begin: float | None = None) -> None:
     at = np.linspace(0, motion.duration, 100)[1:]
-    bot.move(np.array([motion.at(t)[0] for t in at]), at, **fields)
+    path = np.array([motion.at(t)[0] for t in at])
+    bot.move(path, at, begin is not None, -1.0 if begin is None else begin)
 
 
 follow(plan)
@@ -54,7 +55,7 @@ while bot.get_t() < 0.4 * plan.duration:
 now = bot.get_t() + 0.1
 bend = plan.replan(C, at=now, goal=goal + np.array([-0.3, 0.3, 0, 0, 0, 0.1, 0]))
 assert bend.feasible
-follow(bend, overwrite=True, overwriteCtrlTime=now)
+follow(bend, now)
 slowest = 1.0
 while bot.get_t() < now + 0.3:
     bot.sync(C, 0.01)
