@@ -43,19 +43,18 @@ bot = ry.BotOp(C, False)
 plan = ry.planMotion(C, goal, start, velocity=0.6, acceleration=1.5)
 
 
-def follow(motion: ry.MotionPlan, begin: float | None = None) -> None:
+def sampled(motion: ry.MotionPlan) -> tuple[np.ndarray, np.ndarray]:
     at = np.linspace(0, motion.duration, 100)[1:]
-    path = np.array([motion.at(t)[0] for t in at])
-    bot.move(path, at, begin is not None, -1.0 if begin is None else begin)
+    return np.array([motion.at(t)[0] for t in at]), at
 
 
-follow(plan)
+bot.move(*sampled(plan))
 while bot.get_t() < 0.4 * plan.duration:
     bot.sync(C, 0.05)
 now = bot.get_t() + 0.1
 bend = plan.replan(C, at=now, goal=goal + np.array([-0.3, 0.3, 0, 0, 0, 0.1, 0]))
 assert bend.feasible
-follow(bend, now)
+bot.move(*sampled(bend), overwrite=True, overwriteCtrlTime=now)
 slowest = 1.0
 while bot.get_t() < now + 0.3:
     bot.sync(C, 0.01)
