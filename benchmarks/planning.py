@@ -205,7 +205,8 @@ def main():
         table(f"planMotion, {arguments.robot}, {arguments.shapes}, seed {seed}; ms, median/95th percentile", rows)
         for problem, row in zip(problems, rows, strict=True):
             if not row["solved"] or not row["free"]:
-                print(f"  {problem.scene} {problem.index}: {row['message'] or 'not free'}")
+                why = "not free" if row["valid"] else "not free, since it begins or ends in contact"
+                print(f"  {problem.scene} {problem.index}: {row['message'] or why}")
     if len(arguments.seeds) > 1:
         table(f"planMotion, {arguments.robot}, {arguments.shapes}, {len(arguments.seeds)} seeds", everything)
     both = {shapes: motion_bench_maker.Robot(arguments.robot, shapes) for shapes in ["meshes", "spheres"]}
