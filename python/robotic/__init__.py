@@ -66,7 +66,11 @@ _SUBMODULES = ("DataGen", "algo", "calib", "manipulation", "nlp", "render", "tes
 
 if not TYPE_CHECKING:  # else any name would do
     globals().update(
-        {name: vars(kinegraph)[name] for name in kinegraph.__all__ if name in vars(kinegraph) and name not in globals()}
+        {
+            name: vars(kinegraph)[name]
+            for name in kinegraph.__all__
+            if name in vars(kinegraph) and name not in globals() and name not in _MODULE_OF
+        }
     )
 
     def __getattr__(name: str) -> _Any:

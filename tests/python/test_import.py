@@ -51,3 +51,16 @@ def test_what_type_checkers_see_is_what_is_loaded_later() -> None:
 def test_a_function_is_not_hidden_by_a_module_of_its_name() -> None:
     for name in kinegraph._MODULE_OF:
         assert not (Path(kinegraph.__file__).parent / f"{name}.py").exists(), name
+
+
+def test_names_of_robotic_are_its_own_whatever_was_used_before() -> None:
+    code = (
+        "import kinegraph\n"
+        "for name in kinegraph.__all__: getattr(kinegraph, name)\n"
+        "import robotic\n"
+        "for name, module in robotic._MODULE_OF.items():\n"
+        "    assert getattr(robotic, name) is getattr(__import__('importlib').import_module(module), name), name\n"
+        "assert issubclass(robotic.LGP_Tool, kinegraph.LGP_Tool) and robotic.LGP_Tool is not kinegraph.LGP_Tool\n"
+    )
+    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True)
+    assert done.returncode == 0, done.stderr
