@@ -36,8 +36,9 @@ Vector3d supportNear(const CollisionBody& body, const Vector3d& direction, std::
   return climb(body.hull(), direction, corner);
 }
 
-std::optional<Separation> separation(const CollisionBody& a, const RigidTransform& X_WA, const CollisionBody& b,
-                                     const RigidTransform& X_WB, double margin, SupportCorners& corners) {
+std::optional<SeparatingDirection> separation(const CollisionBody& a, const RigidTransform& X_WA,
+                                              const CollisionBody& b, const RigidTransform& X_WB, double margin,
+                                              SupportCorners& corners) {
   const double needed = margin + a.radius() + b.radius();
   if (needed < 0.) return std::nullopt;
   const Matrix3d R_AW = X_WA.R.transpose();
@@ -51,13 +52,13 @@ std::optional<Separation> separation(const CollisionBody& a, const RigidTransfor
     const Vector3d p = supportNear(a, -v, corners.a), q = supportNear(b, pair.X_AB.R.transpose() * v, corners.b);
     const MinkowskiPoint point{p, q, pair.difference(p, q)};
     const double square = v.squaredNorm(), along = v.dot(point.w), norm = std::sqrt(square);
-    if (along >= needed * norm) return Separation{true, X_WA.R * (v / norm)};
+    if (along >= needed * norm) return SeparatingDirection{true, X_WA.R * (v / norm)};
     if (simplex.size > 0 && square - along <= kRounding * square) return std::nullopt;
     simplex.add(point);
     bool overlap = false;
     v = simplex.reduce(overlap);
     const double now = v.norm();
-    if (overlap || now < needed * (1. - kRounding)) return Separation{false, {}};
+    if (overlap || now < needed * (1. - kRounding)) return SeparatingDirection{false, {}};
     if (now <= touching || now * now >= before) return std::nullopt;
     before = now * now;
   }

@@ -16,7 +16,7 @@ struct SupportCorners {
 Vector3d supportNear(const CollisionBody& body, const Vector3d& direction, std::uint32_t& corner);
 
 /// Two convex bodies that are apart: a direction (unit, world, from b to a) along which they are that far.
-struct Separation {
+struct SeparatingDirection {
   bool apart;
   Vector3d normal;  ///< if they are
 };
@@ -26,7 +26,8 @@ struct Separation {
 /// overlaps (margin and radii together negative), of which this says nothing. The answer does not depend on where
 /// `corners` are but for what rounding hides. Source: van den Bergen, Collision Detection in Interactive 3D
 /// Environments, 4.3.
-std::optional<Separation> separation(const CollisionBody& a, const RigidTransform& X_WA, const CollisionBody& b,
-                                     const RigidTransform& X_WB, double margin, SupportCorners& corners);
+std::optional<SeparatingDirection> separation(const CollisionBody& a, const RigidTransform& X_WA,
+                                              const CollisionBody& b, const RigidTransform& X_WB, double margin,
+                                              SupportCorners& corners);
 
 }  // namespace kinegraph
