@@ -20,11 +20,6 @@ namespace {
 
 namespace lines = docs::path_lines;
 
-const OptionClass<PlanOptions>& optionClass() {
-  static const OptionClass<PlanOptions> options(planOptionTable());
-  return options;
-}
-
 /// A number per dof, or one for all.
 VectorXd limitOf(const char* name, nb::handle given) {
   Numbers numbers;
@@ -65,26 +60,29 @@ std::vector<MovingObstacle> movingOf(nb::handle given) {
   return all;
 }
 
-PlanOptions optionsFrom(nb::kwargs given, PlanOptions options = {}) {
-  const std::vector<std::pair<std::string, VectorXd*>> vectors = {{"velocity", &options.velocity},
-                                                                  {"acceleration", &options.acceleration},
-                                                                  {"jerk", &options.jerk},
-                                                                  {"start_velocity", &options.start_velocity}};
-  nb::dict rest;
-  for (const auto& [key, value] : given) {
-    const std::string name = nb::cast<std::string>(key);
-    const auto vector = std::find_if(vectors.begin(), vectors.end(), [&](const auto& v) { return v.first == name; });
-    if (vector != vectors.end()) {
-      if (!value.is_none()) *vector->second = limitOf(name.c_str(), value);
-    } else if (name == "constraints") {
-      options.constraints = constraintsOf(value);
-    } else if (name == "moving") {
-      options.moving = value.is_none() ? std::vector<MovingObstacle>() : movingOf(value);
-    } else {
-      rest[key] = value;
-    }
+/// Options that are no single number.
+void setLarge(const OptionClass<PlanOptions>&, PlanOptions& options, const std::string& name, nb::handle value) {
+  if (name == "constraints") {
+    options.constraints = constraintsOf(value);
+  } else if (name == "moving") {
+    options.moving = value.is_none() ? std::vector<MovingObstacle>() : movingOf(value);
+  } else if (!value.is_none()) {
+    VectorXd PlanOptions::*const member = name == "velocity"       ? &PlanOptions::velocity
+                                          : name == "acceleration" ? &PlanOptions::acceleration
+                                          : name == "jerk"         ? &PlanOptions::jerk
+                                                                   : &PlanOptions::start_velocity;
+    options.*member = limitOf(name.c_str(), value);
   }
-  optionClass().setFields(options, rest);
+}
+
+const OptionClass<PlanOptions>& optionClass() {
+  static const OptionClass<PlanOptions> options(
+      planOptionTable(), {{"velocity", "acceleration", "jerk", "start_velocity", "constraints", "moving"}, setLarge});
+  return options;
+}
+
+PlanOptions optionsFrom(nb::kwargs given, PlanOptions options = {}) {
+  optionClass().setFields(options, given);
   return options;
 }
 

@@ -113,6 +113,8 @@ def test_tracks_that_make_no_sense_are_refused(cart: ry.Config) -> None:
     ]:
         with pytest.raises(ry.ArgumentError, match=said):
             ry.planMotion(cart, q, moving=moving)
+    with pytest.raises(ry.ArgumentError, match="no option 'movng'; similar names: moving"):
+        ry.planMotion(cart, q, movng={})
     with pytest.raises(ry.FrameNotFound):
         ry.planMotion(cart, q, moving={"crt": ([0.0], POSES[:1])})
 

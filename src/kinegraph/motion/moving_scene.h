@@ -13,8 +13,9 @@ namespace kinegraph {
 struct MovingObstacle {
   std::string frame;
   VectorXd times;  ///< (K,), rising, s
-  MatrixXd
-      values;  ///< (K, 7): poses in the world, x y z qw qx qy qz, m; or (K, d): positions of the frame's joint of d dofs
+
+  /// (K, 7): poses in the world, x y z qw qx qy qz, m; or (K, d): positions of the frame's joint of d dofs.
+  MatrixXd values;
 };
 
 /// A scene in which obstacles move while time goes on.

@@ -11,8 +11,8 @@ namespace kinegraph {
 
 namespace {
 
-constexpr double kCurveFactors[] = {1.05, 1.5, 2.5,
-                                    4.};  // how far along its curve it may come to rest, as multiples of a guess
+/// How far along its curve it may come to rest, as multiples of a guess.
+constexpr double kCurveFactors[] = {1.05, 1.5, 2.5, 4.};
 
 MotionPlan planWith(const Config& config, const MotionGoal& goal, const PlanOptions& options, const VectorXd& start,
                     const MotionWatch& watch, const KnownCurves& known) {

@@ -25,8 +25,8 @@ class Planner {
 
   MotionPlan run(const MotionGoal& goal, const VectorXd& start);
 
-  /// The next motion that is better than those before, by a share of 1e-4 at least; none once options.improve evaluations are spent, or the time is
-  /// up, or where none can be better.
+  /// The next motion that is better than those before, by a share of 1e-4 at least; none once options.improve evaluations
+  /// are spent, or the time is up, or where none can be better.
   std::optional<MotionPlan> better();
 
  private:

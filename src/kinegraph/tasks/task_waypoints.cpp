@@ -20,6 +20,7 @@ using O = ObjectiveType;
 
 constexpr double kGap = .02;     ///< m: how far things should stand apart that are put on the same place
 constexpr double kBehind = .01;  ///< m: how far behind the middle of an object what pushes it is at least
+constexpr double kBeside = .5;   ///< of half its height: how far above its middle at most
 constexpr double kEdge = .01;    ///< m: how far inside of an edge the center of what stands there is
 constexpr double kTurn = 1.6;    ///< rad: starts of placements are turned by up to that
 constexpr char kRoom[] = "room on ";
@@ -173,9 +174,11 @@ void TaskWaypoints::push(double start, double end, const std::string& pusher, co
   put(end, obj, to);
   komo().addObjective({end}, F::AlignYWithDiff, {helper, obj}, O::eq, 1e0, {}, 1);
   komo().addObjective({end}, F::quaternion, {obj}, O::eq, 1e1, {}, 1);
-  const auto row = [](double x, double y) { return MatrixXd(Eigen::RowVector3d(x, y, 0.)); };
-  komo().addObjective({start}, F::positionRel, {pusher, helper}, O::eq, row(1e1, 0.));
-  komo().addObjective({start}, F::positionRel, {pusher, helper}, O::ineq, row(0., 1e1), {0., -kBehind, 0.});
+  const auto row = [](double x, double y, double z) { return MatrixXd(Eigen::RowVector3d(x, y, z)); };
+  const double height = boxAround(C.getFrame(obj)).max().z();
+  komo().addObjective({start}, F::positionRel, {pusher, helper}, O::eq, row(1e1, 0., 0.));
+  komo().addObjective({start}, F::positionRel, {pusher, helper}, O::ineq, row(0., 1e1, 0.), {0., -kBehind, 0.});
+  komo().addObjective({start}, F::positionRel, {pusher, helper}, O::ineq, row(0., 0., 1e1), {0., 0., kBeside * height});
 }
 
 /// Where a slot begins; of placements, the offset from the middle of the place.

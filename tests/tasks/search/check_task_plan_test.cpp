@@ -71,13 +71,12 @@ TEST(CheckTaskPlan, PushingIsNotPullingNorLifting) {
   C.addFrame("hand", "table", "shape: sphere, size: [.01], joint: trans3, limits: [-1 -1 0 1 1 1]");
   C.addFrame("obj", "table").setRelativePosition({0., 0., .1}).setShape(ShapeType::ssBox, {.1, .1, .1, .004});
   C.getFrame("obj").setJoint(JointType::rigid).setContact(1);
-  const Vector3d beside(-.06, 0., .1);
-  C.setJointState(beside);
-  const auto wrong = [&](const Vector3d& to) {
+  const auto wrong = [&](const Vector3d& to, const Vector3d& from = Vector3d(-.06, 0., .1)) {
+    C.setJointState(from);
     TaskPlan plan;
     plan.actions = {{"push_start", "obj", "table", "hand"}, {"push_end", "obj", "hand", "table"}};
     plan.path.resize(4, 3);
-    plan.path.rowwise() = beside.transpose();
+    plan.path.rowwise() = from.transpose();
     plan.path.row(3) = to;
     plan.times = Vector4d(0., 0., 0., 1.);
     plan.segments = {{0, 2}, {2, 4}};
@@ -87,6 +86,8 @@ TEST(CheckTaskPlan, PushingIsNotPullingNorLifting) {
   EXPECT_NE(wrong({-.4, 0., .1}).find("'obj' is not pushed from behind"), std::string::npos);
   EXPECT_NE(wrong({-.06, .3, .1}).find("'obj' is not pushed from behind"), std::string::npos);
   EXPECT_NE(wrong({.3, 0., .2}).find("'obj' does not slide straight"), std::string::npos);
+  EXPECT_NE(wrong({.3, 0., .16}, {-.03, 0., .16}).find("'obj' is not pushed from behind"), std::string::npos)
+      << "a hand that lies on it";
 }
 
 TEST(CheckTaskPlan, PartsThatDoNotFitAreRefused) {

@@ -123,7 +123,8 @@ class Played {
   /// What is wrong with how things that are touched move: only in a push, straight, away from what pushes, without turning
   /// or being lifted.
   std::string badSliding(const TaskAction& action, const MatrixXd& path) {
-    static const double kAway = cosineOf(30.);  // of the motion of what is pushed, from what pushes it
+    static const double kAway = cosineOf(30.);   // of the motion of what is pushed, from what pushes it
+    static const double kPress = cosineOf(45.);  // of that motion, from where the surfaces touch: friction does no more
     for (const auto& [obj, pusher] : pushed_) {
       const std::vector<Vector3d> at = positionsAlong(scene_, path, obj);
       const Vector3d here = at.front(), moved = at.back() - here;
@@ -135,8 +136,11 @@ class Played {
       if (!slidesStraight(scene_, path, obj)) return cat("'", obj, "' does not slide straight");
       Vector3d away = here - positionsAlong(scene_, path.topRows(1), pusher).front();
       away.z() = 0.;
+      scene_.setJointState(path.row(0));
+      const Vector3d pressed = eval(scene_, FeatureSymbol::pairCollision_normal, {obj, pusher}).y;
       const double length = moved.norm();
-      if (length > kOffPlace && away.dot(moved) < kAway * away.norm() * length)
+      if (length > kOffPlace &&
+          (away.dot(moved) < kAway * away.norm() * length || pressed.dot(moved) < kPress * length))
         return cat("'", obj, "' is not pushed from behind");
     }
     return "";
