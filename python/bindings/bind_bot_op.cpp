@@ -274,24 +274,10 @@ void bindWorld(nb::class_<PyBotOp>& bot) {
           },
           "frame"_a, "pose"_a, docs::operation::setFramePose)
       .def(
-          "getWorld",
-          [](PyBotOp& b) {
-            const auto world = [&] {
-              const nb::gil_scoped_release unlock;
-              return b->getWorld();
-            };
-            return PyConfig{world()};
-          },
+          "getWorld", [](PyBotOp& b) { return PyConfig{call(&BotOp::getWorld)(b)}; },
           "A copy of the simulated world as it is now: a Config.")
       .def(
-          "getContacts",
-          [](PyBotOp& b) {
-            const auto contacts = [&] {
-              const nb::gil_scoped_release unlock;
-              return b->getContacts();
-            };
-            return contactDicts(contacts());
-          },
+          "getContacts", [](PyBotOp& b) { return contactDicts(call(&BotOp::getContacts)(b)); },
           docs::operation::getContacts);
 }
 

@@ -10,12 +10,7 @@ namespace {
 
 /// Two walls with gaps at different places: the first way that is found is seldom the shortest kind of way.
 Config twoWalls() {
-  Config C;
-  C.addText(R"(
-world: {}
-disc(world): {joint: transXY, limits: [-2, -2, 2, 2]}
-body(disc): {shape: cylinder, size: [0.2, 0.05], contact: 1}
-)");
+  Config C = disc(.05);
   int count = 0;
   const auto wall = [&](double x, double low, double high) {
     Frame part = C.addFrame("wall" + std::to_string(count++));

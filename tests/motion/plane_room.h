@@ -7,14 +7,17 @@
 
 namespace kinegraph {
 
-/// A disc that moves in a plane, and a wall with a door of that width.
-inline Config room(double door) {
+/// A disc that moves in a plane.
+inline Config disc(double radius) {
   Config C;
-  C.addText(R"(
-world: {}
-disc(world): {joint: transXY, limits: [-2, -2, 2, 2]}
-body(disc): {shape: cylinder, size: [0.2, 0.2], contact: 1}
-)");
+  C.addText("world: {}  disc(world): {joint: transXY, limits: [-2, -2, 2, 2]}");
+  C.addFrame("body", "disc").setShape(ShapeType::cylinder, {.2, radius}).setContact(1);
+  return C;
+}
+
+/// One, and a wall with a door of that width.
+inline Config room(double door) {
+  Config C = disc(.2);
   for (const double side : {-1., 1.}) {
     Frame wall = C.addFrame(side > 0. ? "right" : "left");
     wall.setShape(ShapeType::box, {.1, 3., 1.}).setPosition({0., side * (1.5 + .5 * door), 0.});

@@ -27,8 +27,9 @@ struct SensitivityOptions {
 /// tolerances of the solver do not matter.
 ///
 /// Where constraints touch without pressing the solution has a kink, and dx/dp is that of one side: `weak()` names
-/// them. A limit that was given twice, and whose twin presses, is none unless the two move apart. Where costs and constraints leave directions free (redundant joints without a posture cost) it is the shortest
-/// dx/dp: `freeDirections()` counts them.
+/// them. A limit that was given twice, and whose twin presses, is none unless the two move apart. Where costs and
+/// constraints leave directions free (redundant joints without a posture cost) it is the shortest dx/dp:
+/// `freeDirections()` counts them.
 /// Source: Fiacco, Introduction to Sensitivity and Stability Analysis in Nonlinear Programming, 1983.
 class Sensitivity {
  public:
