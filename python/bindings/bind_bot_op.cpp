@@ -78,8 +78,8 @@ std::shared_ptr<RobotDriver> simulatedDriver(const PyConfig& config) {
   return std::make_shared<SimulatedDriver>(config);
 }
 
-void make(PyBotOp* self, PyConfig& config, bool use_real_robot, bool, std::shared_ptr<RobotDriver> driver,
-          bool realtime) {
+void makeBot(PyBotOp* self, PyConfig& config, bool use_real_robot, bool, std::shared_ptr<RobotDriver> driver,
+             bool realtime) {
   if (parameter("bot/blockRealRobot", false, "True or False")) {
     use_real_robot = false;
     driver = nullptr;
@@ -381,7 +381,7 @@ void bindOperation(nb::module_& m) {
       .def_prop_ro(
           "qvel_ref", [](const StepObservation& o) { return toNumpy(o.qvel_ref); }, "How fast it shall be, (n,).");
   nb::class_<PyBotOp> bot(m, "BotOp", nb::is_weak_referenceable(), docs::operation::BotOp);
-  bot.def("__init__", make, "C"_a, "useRealRobot"_a = false, "auto_launch"_a = true, "driver"_a.none() = nb::none(),
+  bot.def("__init__", makeBot, "C"_a, "useRealRobot"_a = false, "auto_launch"_a = true, "driver"_a.none() = nb::none(),
           "realtime"_a = false, docs::operation::BotOp_make);
   bindState(bot);
   bindMotions(bot);

@@ -19,9 +19,9 @@ VectorXd limitsOf(const std::optional<Numbers>& given, const PyConfig& config) {
   return given->rank == 0 ? VectorXd::Constant(config.getJointDimension(), given->values[0]) : given->values;
 }
 
-void make(DiffIk* self, const PyConfig& config, const std::optional<Numbers>& velocity,
-          const std::optional<Numbers>& acceleration, double posture, double damping, bool collisions, double margin,
-          double collision_gain, double range) {
+void makeDiffIk(DiffIk* self, const PyConfig& config, const std::optional<Numbers>& velocity,
+                const std::optional<Numbers>& acceleration, double posture, double damping, bool collisions,
+                double margin, double collision_gain, double range) {
   DiffIkOptions options;
   options.velocity = limitsOf(velocity, config);
   options.acceleration = limitsOf(acceleration, config);
@@ -40,7 +40,7 @@ void bindDiffIk(nb::module_& m) {
   nb::class_<DiffIk>(m, "DiffIk",
                      "Differential inverse kinematics: joint velocities, step by step, that bring features to their "
                      "targets within limits of position, velocity and acceleration, without collisions.")
-      .def("__init__", make, "config"_a, "velocity"_a = nb::none(), "acceleration"_a = nb::none(), nb::kw_only(),
+      .def("__init__", makeDiffIk, "config"_a, "velocity"_a = nb::none(), "acceleration"_a = nb::none(), nb::kw_only(),
            "posture"_a = 1e-4, "damping"_a = 1e-9, "collisions"_a = true, "margin"_a = .01, "collision_gain"_a = .5,
            "range"_a = .1, docs::diff_ik::make)
       .def(

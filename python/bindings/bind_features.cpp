@@ -88,7 +88,7 @@ Evaluated evalNamed(const NamedFeature& f, const PyConfig& config) {
   return evalInto(config, own);
 }
 
-std::string describe(const NamedFeature& f) {
+std::string describeFeature(const NamedFeature& f) {
   return cat(f.source.name(), "(", join(f.frames), ")", f.order > 0 ? cat(", order ", f.order) : "");
 }
 
@@ -119,9 +119,9 @@ void bindFeatures(nb::module_& m, nb::class_<PyConfig>& config) {
           },
           "config"_a, docs::features::dim)
       .def(
-          "description", [](const NamedFeature& f, const PyConfig&) { return describe(f); }, "config"_a,
+          "description", [](const NamedFeature& f, const PyConfig&) { return describeFeature(f); }, "config"_a,
           docs::features::description)
-      .def("__repr__", [](const NamedFeature& f) { return cat("<Feature ", describe(f), ">"); });
+      .def("__repr__", [](const NamedFeature& f) { return cat("<Feature ", describeFeature(f), ">"); });
 
   config
       .def("eval", evalFeature, "featureSymbol"_a, "frames"_a = std::vector<std::string>(), "scale"_a = nb::none(),

@@ -96,7 +96,7 @@ int show(PyKomo& komo, const ShownMotion& motion, bool pause, const std::string&
   return viewer->showMotion(config, motion, pause, text, interrupted);
 }
 
-int view(PyKomo& komo, bool pause, Message text) {
+int viewKomo(PyKomo& komo, bool pause, Message text) {
   return show(komo, motionOf(komo), pause, text.value_or(cat("all ", komo.slices() + komo.order(), " slices")),
               -komo.order());
 }
@@ -152,7 +152,7 @@ void bindKomoReports(nb::class_<PyKomo>& komo) {
       .def(
           "info_sliceCollisions", [](const PyKomo& k, int t, double margin) { return sliceCollisions(k, t, margin); },
           "t"_a, "belowMargin"_a, docs::komo_reports::info_sliceCollisions)
-      .def("view", view, "pause"_a = false, "txt"_a = nb::none(), docs::komo_reports::view)
+      .def("view", viewKomo, "pause"_a = false, "txt"_a = nb::none(), docs::komo_reports::view)
       .def("view_slice", viewSlice, "t"_a, "pause"_a = false, docs::komo_reports::view_slice)
       .def("view_play", viewPlay, "pause"_a = false, "txt"_a = nb::none(), "delay"_a = .1,
            "saveVideoPath"_a = nb::none(), docs::komo_reports::view_play)

@@ -15,8 +15,8 @@ namespace kinegraph::python {
 
 namespace {
 
-void make(Mpc* self, const PyKomo& komo, int evaluations, double microseconds, int first_evaluations, double tolerance,
-          double violation, double penalty, bool receding) {
+void makeMpc(Mpc* self, const PyKomo& komo, int evaluations, double microseconds, int first_evaluations,
+             double tolerance, double violation, double penalty, bool receding) {
   new (self) Mpc(komo, {.evaluations = evaluations,
                         .microseconds = microseconds,
                         .first_evaluations = first_evaluations,
@@ -55,7 +55,7 @@ void bindMpc(nb::module_& m) {
       m, "Mpc",
       "Receding horizon: a motion problem that is solved again and again while time goes on, each time from "
       "what it knew: path, multipliers, penalties.")
-      .def("__init__", make, "komo"_a, nb::kw_only(), "evaluations"_a = 50, "microseconds"_a = 0.,
+      .def("__init__", makeMpc, "komo"_a, nb::kw_only(), "evaluations"_a = 50, "microseconds"_a = 0.,
            "first_evaluations"_a = 500, "tolerance"_a = 1e-3, "violation"_a = 1e-4, "penalty"_a = 100.,
            "receding"_a = true, docs::mpc::make)
       .def(

@@ -139,7 +139,7 @@ void bindObjectiveTypes(nb::module_& m) {
       .value("none", ObjectiveType::none);
 }
 
-void bindProblem(nb::module_& m) {
+void bindProblemClass(nb::module_& m) {
   nb::class_<Nlp>(m, "NLP", "Minimize sum f + sum sos^2 subject to ineq <= 0, eq = 0 and bounds.")
       .def("getDimension", &Nlp::dimension, "The number n of variables.")
       .def_prop_ro("dimension", &Nlp::dimension, "The number n of variables.")
@@ -212,7 +212,7 @@ void bindFactory(nb::module_& m) {
 
 void bindNlp(nb::module_& m) {
   bindObjectiveTypes(m);
-  bindProblem(m);
+  bindProblemClass(m);
   bindFactory(m);
   m.def(
       "makeTestProblem",

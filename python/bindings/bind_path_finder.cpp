@@ -65,7 +65,7 @@ PyPathFinder& setPairs(PyPathFinder& finder, const std::vector<std::string>& nam
   return finder;
 }
 
-int view(PyPathFinder& finder, bool pause, const std::optional<std::string>& message, bool) {
+int viewFinder(PyPathFinder& finder, bool pause, const std::optional<std::string>& message, bool) {
   if (finder.path().rows() == 0) throw ValueError("PathFinder.view: there is no path; call solve before");
   const double seconds = std::max(1., .05 * double(finder.path().rows()));
   return nb::cast<int>(finder.scene.attr("view_path")(toNumpy(finder.path()), seconds, pause, message));
@@ -88,7 +88,7 @@ PathResult solve(PyPathFinder& finder, int verbose) {
     nb::print(cat("RRT_PathFinder: ", result.feasible ? cat("path of ", finder.path().rows(), " postures, ") : "",
                   inPython(result.message), ", ", result.evals, " draws, ", result.time, " s")
                   .c_str());
-  if (verbose > 1 && result.feasible) view(finder, true, result.message, true);
+  if (verbose > 1 && result.feasible) viewFinder(finder, true, result.message, true);
   return result;
 }
 
@@ -136,7 +136,7 @@ void bindPathFinder(nb::module_& m) {
       .def(
           "get_resampledPath", [](const Finder& f, int T) { return toNumpy(f.resampledPath(T)); }, "T"_a,
           docs::path_finder::getResampledPath)
-      .def("view", view, "pause"_a, "message"_a = nb::none(), "play"_a = false, docs::path_finder::view);
+      .def("view", viewFinder, "pause"_a, "message"_a = nb::none(), "play"_a = false, docs::path_finder::view);
 }
 
 }  // namespace kinegraph::python

@@ -20,7 +20,7 @@ struct PyRecording : Recording {
   std::shared_ptr<PyViewer> viewer = {};
 };
 
-int view(PyRecording& recording, bool pause, const std::optional<std::string>& message) {
+int viewRecording(PyRecording& recording, bool pause, const std::optional<std::string>& message) {
   const ShownMotion motion = recordedMotion(recording);
   const Config config = recording.makeConfig();
   if (!recording.viewer) recording.viewer = std::make_shared<PyViewer>();
@@ -77,7 +77,7 @@ void bindRecording(nb::module_& m, nb::class_<PySimulation>& simulation) {
             return new PySimulation{std::move(config), std::move(again)};
           },
           "C"_a, nb::sig("def replay(self, C: Config) -> Simulation"), docs::simulation::replay)
-      .def("view", view, "pause"_a = false, "message"_a = nb::none(), docs::simulation::viewRecording)
+      .def("view", viewRecording, "pause"_a = false, "message"_a = nb::none(), docs::simulation::viewRecording)
       .def(
           "saveHtml", [](const PyRecording& r, const PathText& path) { r.saveHtml(path.text); }, "path"_a,
           docs::simulation::saveHtml)

@@ -102,9 +102,9 @@ Array blockOf(PySensitivity& s, std::ptrdiff_t index) {
   return toNumpy(MatrixXd(jacobianOf(s).middleCols(first, end - first)));
 }
 
-std::vector<std::string> inPython(const std::vector<std::string>& texts) {
+std::vector<std::string> textsInPython(const std::vector<std::string>& texts) {
   std::vector<std::string> result;
-  for (const std::string& text : texts) result.push_back(python::inPython(text));
+  for (const std::string& text : texts) result.push_back(inPython(text));
   return result;
 }
 
@@ -132,16 +132,16 @@ void bindSensitivity(nb::module_& m, nb::class_<SolverResult>& result) {
           },
           "index"_a, docs::sensitivity::columns)
       .def_prop_ro(
-          "names", [](const PySensitivity& s) { return inPython(s.of.names()); },
+          "names", [](const PySensitivity& s) { return textsInPython(s.of.names()); },
           "What each of the p numbers is, in words.")
       .def_prop_ro(
-          "active", [](const PySensitivity& s) { return inPython(s.of.active()); },
+          "active", [](const PySensitivity& s) { return textsInPython(s.of.active()); },
           "The inequalities and bounds that press, in words.")
       .def_prop_ro(
-          "weak", [](PySensitivity& s) { return inPython(s.of.weak()); },
+          "weak", [](PySensitivity& s) { return textsInPython(s.of.weak()); },
           "Those that touch without pressing: the solution has a kink there, and dx/dp is that of one side.")
       .def_prop_ro(
-          "withoutEffect", [](PySensitivity& s) { return inPython(s.of.withoutEffect()); },
+          "withoutEffect", [](PySensitivity& s) { return textsInPython(s.of.withoutEffect()); },
           "Of `names`, those that neither costs nor active constraints depend on: dx/dp is zero.")
       .def_prop_ro(
           "freeDirections", [](const PySensitivity& s) { return s.of.freeDirections(); },
@@ -150,14 +150,14 @@ void bindSensitivity(nb::module_& m, nb::class_<SolverResult>& result) {
           "isRegular", [](PySensitivity& s) { return s.of.isRegular(); },
           "Is dx/dp the derivative of the solution, with nothing to be said?")
       .def_prop_ro(
-          "message", [](PySensitivity& s) { return python::inPython(s.of.message()); },
+          "message", [](PySensitivity& s) { return inPython(s.of.message()); },
           "What is to be said: kinks, free directions, saddles; \"\" if nothing.")
       .def_prop_ro(
           "evals", [](const PySensitivity& s) { return s.of.evals(); }, "Evaluations that it took to find x exactly.")
       .def("__repr__", [](PySensitivity& s) {
         const std::string message = s.of.message();
         return cat("<Sensitivity of ", s.of.x().size(), " variables by ", s.of.size(), " numbers",
-                   message.empty() ? "" : cat(": ", python::inPython(message)), ">");
+                   message.empty() ? "" : cat(": ", inPython(message)), ">");
       });
   result.def(
       "sensitivity", ofResult, "parameters"_a, nb::kw_only(), "holdWeak"_a = false,

@@ -36,8 +36,8 @@ SimulationOptions startOptions() {
   return options;
 }
 
-void make(PySimulation* self, nb::object config, SimulationEngine engine, std::optional<int> verbose,
-          nb::handle options) {
+void makeSimulation(PySimulation* self, nb::object config, SimulationEngine engine, std::optional<int> verbose,
+                    nb::handle options) {
   if (!nb::isinstance<PyConfig>(config)) throw nb::type_error("Simulation: expected a Config");
   const SimulationOptions chosen = optionsFrom(options);
   Simulation made(nb::cast<PyConfig&>(config), engine, chosen);
@@ -48,7 +48,7 @@ void make(PySimulation* self, nb::object config, SimulationEngine engine, std::o
 
 constexpr double kLong = .1;  ///< s of simulated time: from here on Ctrl-C is looked for
 
-void step(PySimulation& s, const Numbers& u, double tau, ControlMode mode) {
+void stepSimulation(PySimulation& s, const Numbers& u, double tau, ControlMode mode) {
   const std::shared_ptr<SimulationWatcher> watcher = s.simulation.watcher();
   while (watcher && !watcher->mayStep(s.simulation)) watcher->rest();
   s.simulation.update();
@@ -346,13 +346,13 @@ void bindSimulation(nb::module_& m) {
 
   nb::class_<PySimulation> simulation(m, "Simulation", docs::simulation::type);
   simulation
-      .def("__init__", make, "C"_a, "engine"_a = SimulationEngine::physx, "verbose"_a = nb::none(),
+      .def("__init__", makeSimulation, "C"_a, "engine"_a = SimulationEngine::physx, "verbose"_a = nb::none(),
            "options"_a = nb::none(),
            nb::sig(
                "def __init__(self, C: Config, engine: SimulationEngine = SimulationEngine.physx, verbose: int | None = "
                "None, options: SimulationOptions | dict | None = None) -> None"),
            docs::simulation::make)
-      .def("step", step, "u_control"_a = nb::list(), "tau"_a = .01, "u_mode"_a = ControlMode::none,
+      .def("step", stepSimulation, "u_control"_a = nb::list(), "tau"_a = .01, "u_mode"_a = ControlMode::none,
            docs::simulation::step)
       .def(
           "get_t", [](const S& s) { return s.simulation.get_t(); }, "Simulated time, s.")

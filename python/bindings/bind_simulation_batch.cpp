@@ -28,7 +28,7 @@ VectorXd forEach(const Batch& batch, const Numbers& given) {
   return given.rank == 0 ? VectorXd::Constant(batch.size(), given.values[0]) : given.values;
 }
 
-void step(Batch& batch, const Numbers& u, double tau, ControlMode mode, int repeat) {
+void stepBatch(Batch& batch, const Numbers& u, double tau, ControlMode mode, int repeat) {
   const MatrixXd rows = u.values.size() ? u.matrix() : MatrixXd();
   const nb::gil_scoped_release unlock;
   CheckInterrupts check;
@@ -74,7 +74,7 @@ void bindSimulationBatch(nb::module_& m) {
                   "SimulationEngine.physx, options: SimulationOptions | dict | None = None) -> None"),
           docs::simulation_batch::make)
       .def("__len__", &Batch::size)
-      .def("step", step, "u"_a = nb::list(), "tau"_a = .01, "u_mode"_a = ControlMode::none, "repeat"_a = 1,
+      .def("step", stepBatch, "u"_a = nb::list(), "tau"_a = .01, "u_mode"_a = ControlMode::none, "repeat"_a = 1,
            docs::simulation_batch::step)
       .def(
           "times", [](const Batch& b) { return toNumpy(b.times()); }, "Time of each environment, (N,), s.")

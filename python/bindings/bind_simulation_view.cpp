@@ -43,7 +43,7 @@ std::shared_ptr<SimulationView> liveView(PySimulation& s) {
   return SimulationView::begin<PySimulationView>(s.simulation, viewer, checkInterrupt);
 }
 
-int view(PySimulation& s, bool pause, const std::optional<std::string>& message) {
+int viewSimulation(PySimulation& s, bool pause, const std::optional<std::string>& message) {
   const std::shared_ptr<SimulationView> live = liveView(s);
   if (!live) return pause ? kEscape : 0;
   const nb::gil_scoped_release unlock;
@@ -66,14 +66,14 @@ int run(PySimulation& s, const std::optional<double>& seconds, double tau, doubl
 void showAsTold(PySimulation& s, const std::optional<int>& verbose) {
   const std::shared_ptr<PyViewer>& viewer = configOf(s).viewer;
   if (verbose ? *verbose >= 2 : viewer && viewer->isOpen()) {
-    view(s, false, std::nullopt);
+    viewSimulation(s, false, std::nullopt);
   } else {
     s.simulation.setWatcher(nullptr);
   }
 }
 
 void bindSimulationView(nb::class_<PySimulation>& simulation) {
-  simulation.def("view", view, "pause"_a = false, "message"_a = nb::none(), docs::simulation::view)
+  simulation.def("view", viewSimulation, "pause"_a = false, "message"_a = nb::none(), docs::simulation::view)
       .def(
           "view_close",
           [](PySimulation& s) {

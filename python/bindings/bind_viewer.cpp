@@ -56,8 +56,8 @@ std::string pageOf(PyViewer& viewer) {
 
 constexpr int kFirstPort = 7000;
 
-int view(PyConfig& config, bool pause, const std::optional<std::string>& message, bool offscreen,
-         const std::optional<std::string>& host, const std::optional<int>& port) {
+int viewConfig(PyConfig& config, bool pause, const std::optional<std::string>& message, bool offscreen,
+               const std::optional<std::string>& host, const std::optional<int>& port) {
   const std::shared_ptr<PyViewer> viewer = showIn(config);
   if (!offscreen && (host || port)) viewer->serveAt(host.value_or("127.0.0.1"), port.value_or(kFirstPort));
   if (!show(*viewer, message, offscreen)) return pause && !offscreen ? kEscape : 0;
@@ -154,7 +154,7 @@ void bindPage(nb::class_<PyViewer>& viewer) {
 /// What a Config shows.
 void bindViews(nb::class_<PyConfig>& config) {
   config
-      .def("view", view, "pause"_a = false, "message"_a = nb::none(), "offscreen"_a = false, nb::kw_only(),
+      .def("view", viewConfig, "pause"_a = false, "message"_a = nb::none(), "offscreen"_a = false, nb::kw_only(),
            "host"_a = nb::none(), "port"_a = nb::none(), docs::viewer::view)
       .def(
           "view_close",

@@ -62,7 +62,7 @@ int setQuad(PyViewer& viewer, int id, const Image<std::uint8_t>& rgb, double x, 
   return quad.id;
 }
 
-int view(PyViewer& viewer, bool pause, const std::optional<std::string>& text, bool offscreen) {
+int viewPage(PyViewer& viewer, bool pause, const std::optional<std::string>& text, bool offscreen) {
   if (!show(viewer, text, offscreen)) return pause && !offscreen ? kEscape : 0;
   const nb::gil_scoped_release unlock;
   return viewer.wait(pause, text, interrupted);
@@ -102,7 +102,8 @@ int viewImage(ImageViewer& viewer, const Image<T>& image, bool wait, double zoom
 }  // namespace
 
 void bindViewerInput(nb::module_& m, nb::class_<PyViewer>& viewer) {
-  viewer.def("view", view, "pause"_a = false, "text"_a = nb::none(), "offscreen"_a = false, docs::viewer_input::view)
+  viewer
+      .def("view", viewPage, "pause"_a = false, "text"_a = nb::none(), "offscreen"_a = false, docs::viewer_input::view)
       .def("setQuad", setQuad, "id"_a, "rgb"_a, "x"_a, "y"_a, "h"_a, docs::viewer_input::setQuad)
       .def(
           "setupEventHandler", [](PyViewer& v, bool block) { v.server().requestEvents(block); },

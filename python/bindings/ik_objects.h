@@ -6,6 +6,8 @@
 #include "bindings.h"
 #include "kinegraph/ik/solve_ik.h"
 
+NB_MAKE_OPAQUE(std::vector<kinegraph::IkResult>)  // a type of its own in Python, and no list
+
 namespace kinegraph::python {
 
 /// Answers of a batch.

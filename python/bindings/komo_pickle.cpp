@@ -93,8 +93,14 @@ nb::tuple komoState(const PyKomo& komo) {
 
 Komo fromState(nb::tuple t) {
   if (nb::handle(t[0]).is_none()) return Komo();
-  Komo::Parts parts{nb::cast<PyConfig&>(t[0]), nb::cast<double>(t[1]), nb::cast<double>(t[2]), nb::cast<int>(t[3]),
-                    nb::cast<int>(t[4])};
+  Komo::Parts parts{nb::cast<PyConfig&>(t[0]),
+                    nb::cast<double>(t[1]),
+                    nb::cast<double>(t[2]),
+                    nb::cast<int>(t[3]),
+                    nb::cast<int>(t[4]),
+                    {},
+                    {},
+                    {}};
   parts.path.next_joint = nb::cast<int>(t[5]);
   for (nb::handle state : nb::cast<nb::list>(t[6])) {
     Mode mode{nb::cast<PyConfig&>(state[0]), {}};

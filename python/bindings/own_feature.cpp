@@ -11,7 +11,7 @@ namespace kinegraph::python {
 
 namespace {
 
-using Rows = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+using FeatureRows = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 
 /// A frame as a function of one's own sees it. It shares a State that nobody changes, so it may be kept.
 struct FrameView {
@@ -55,7 +55,7 @@ class OwnFeature final : public Feature {
     if (returned.J.rank == 0) {
       addDifferences(state, *J);
     } else {
-      *J += Eigen::Map<const Rows>(returned.J.values.data(), rows_, state.dofs());
+      *J += Eigen::Map<const FeatureRows>(returned.J.values.data(), rows_, state.dofs());
     }
   }
 
@@ -140,13 +140,13 @@ std::string nameOf(const nb::object& function) {
 Array pointJacobian(const FrameView& view, const Numbers& point) {
   if (point.values.size() != 3)
     throw ValueError(cat("getPositionJacobian: point has ", point.values.size(), " numbers; expected 3"));
-  Rows J = Rows::Zero(3, view.state->dofs());
+  FeatureRows J = FeatureRows::Zero(3, view.state->dofs());
   view.state->addPointJacobian(view.frame, view.state->pose(view.frame) * Vector3d(point.values), 1., J);
   return toNumpy(J);
 }
 
 Array angularJacobian(const FrameView& view) {
-  Rows J = Rows::Zero(3, view.state->dofs());
+  FeatureRows J = FeatureRows::Zero(3, view.state->dofs());
   view.state->addAngularJacobian(view.frame, 1., J);
   return toNumpy(J);
 }
