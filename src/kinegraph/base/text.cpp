@@ -54,14 +54,14 @@ double editDistance(std::string_view a, std::string_view b) {
 }
 
 bool isWithinEditDistance(std::string_view a, std::string_view b, double limit) {
+  if (std::abs(double(a.size()) - double(b.size())) > limit) return false;
   const auto letters = [](std::string_view word) {
     std::uint32_t set = 0;
     for (char c : word) set |= 1u << (static_cast<unsigned char>(c) & 31);  // of either case
     return set;
   };
-  const double longer = std::abs(double(a.size()) - double(b.size()));
   const int other_letters = std::popcount(letters(a) ^ letters(b));  // one replacement brings one and takes one away
-  return longer <= limit && other_letters <= 2. * limit && editDistance(a, b) <= limit;
+  return other_letters <= 2. * limit && editDistance(a, b) <= limit;
 }
 
 std::vector<std::string> similarWords(std::string_view word, const std::vector<std::string>& candidates,

@@ -17,7 +17,7 @@ namespace {
 
 // clang-format off
 /// Attributes that mean something here or elsewhere in the library; a near miss of one of them is worth a warning.
-constexpr const char* kKnownAttributes[] = {
+constexpr std::string_view kKnownAttributes[] = {
     "X", "Q", "pose", "rel", "joint", "q", "limits", "ctrl_limits", "ctrl_H", "joint_scale", "axis", "mimic", "pre",
     "post", "A", "B", "from", "to", "origin", "BinvA", "joint_active", "joint_stable", "sampleUniform", "sampleSdv",
     "shape", "type", "size", "color", "mesh", "meshscale", "mesh_decomp", "mesh_points", "mesh_rope", "core", "sdf",
@@ -37,7 +37,7 @@ constexpr std::pair<std::string_view, std::string_view> kWordsOfOthers[] = {
 
 bool isKnown(const std::string& key) {
   return std::any_of(std::begin(kKnownAttributes), std::end(kKnownAttributes),
-                     [&](const char* word) { return key == word; });
+                     [&](std::string_view word) { return key == word; });
 }
 
 }  // namespace
@@ -199,20 +199,22 @@ void AttributeReader::applyInertia(FrameData& frame) {
 
 void AttributeReader::checkSpelling() {
   for (const Node& node : attributes_.nodes) {
-    if (const Node* first = attributes_.find(node.key); first != &node && isKnown(node.key)) {
+    const bool is_known = isKnown(node.key);
+    if (is_known && attributes_.find(node.key) != &node) {
       warning(node, cat("'", node.key, "' is given twice; the first counts"));
     }
     if (!node.parents.empty()) {
       warning(node, cat("'", node.key, " (", join(node.parents, " "),
                         ")' is inside of this frame, and no frame; is a '}' missing before it?"));
     }
+    if (is_known) continue;
     const auto meant = std::find_if(std::begin(kWordsOfOthers), std::end(kWordsOfOthers),
                                     [&](const auto& entry) { return entry.first == node.key; });
     if (meant != std::end(kWordsOfOthers)) {
       warning(node, cat("unknown attribute '", node.key, "'; did you mean '", meant->second, "'?"));
       continue;
     }
-    if (node.key.size() < 4 || node.value.as<Graph>() || isKnown(node.key)) continue;
+    if (node.key.size() < 4 || node.value.as<Graph>()) continue;
     for (const std::string_view word : kKnownAttributes) {
       if (word.size() < 4 || !isWithinEditDistance(node.key, word, 1.2)) continue;
       warning(node, cat("unknown attribute '", node.key, "'; did you mean '", word, "'?"));
