@@ -54,6 +54,7 @@ void World::step(const VectorXd& u, double tau, ControlMode mode, const std::fun
     const int steps = std::max(1, int(std::ceil(tau / options_.inner_step - 1e-9)));
     const double h = tau / steps, start = data_->time;
     physics_->opt.timestep = h;
+    too_fast_.clear();
     reference_.command(*model_, u, tau, mode, options_);
     for (int i = 0; i < steps; ++i) {
       if (between) between();
@@ -117,6 +118,8 @@ void World::innerStep(double h) {
   mj.mj_fwdVelocity(m, d);
   mj.mj_sensorVel(m, d);
   driveMotors(h);
+  turning_.apply(*m, *d, h);
+  if (const int id = turning_.tooFast(); id != 0) too_fast_.insert(model_->body_of_id[std::size_t(id)]);
   if (pull_.body != 0) addPull();
   mj.mj_step2(m, d);
   if (pull_.body != 0) removePull();
