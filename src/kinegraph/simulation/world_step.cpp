@@ -128,7 +128,8 @@ void World::innerStep(double h) {
 /// MuJoCo leaves the term dJ/dt v out of the rows of contacts, so that what friction holds in a turning hand slips, and
 /// its step lets positions drift by h^2/2 of it. Both vanish with the velocity v* = (1/b + h/2) t (a2 - a1) along the
 /// tangents t, where a_i is the acceleration of the touching point of body i at zero acceleration of the joints, and
-/// b = 2 / (dmax timeconst); and along the normal with another distance.
+/// b = 2 / (dmax timeconst); and along the normal with another distance, which counts the drift of a step, too: MuJoCo
+/// asks for the force that belongs to the distance at the end of the step.
 void World::correctContacts(double h) {
   const mjModel& m = *physics_;
   mjData& d = *data_;
@@ -162,7 +163,8 @@ void World::correctContacts(double h) {
     // the normal has no velocity to set: a change of the distance does the same
     const double dmax = contact.solimp[1], b = 2. / (dmax * contact.solref[0]);
     const double k = 1. / (dmax * dmax * contact.solref[0] * contact.solref[0] * contact.solref[1] * contact.solref[1]);
-    d.efc_pos[contact.efc_address] += Vector(contact.frame).dot(missing) * (1. + .5 * h * b) / (k * impedance(contact));
+    const double shift = (1. + .5 * h * b) / (k * impedance(contact)) + .5 * h * h;
+    d.efc_pos[contact.efc_address] += Vector(contact.frame).dot(missing) * shift;
   }
 }
 
