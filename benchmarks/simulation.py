@@ -228,9 +228,10 @@ def environments():
 def main():
     print("tracking of a spline, largest / .2 s after (mrad): {:.6f} / {:.6f}".format(*tracking()))
     for side, words in ([1, 0, 0], "along the radius"), ([0, 1, 0], "across it"):
-        for mass, force in (1.0, 30.0), (0.1, 10.0):
+        needed = 5.05  # N per kg: what friction needs while the box is lifted
+        for mass, force in (1.0, 30.0), (0.1, 10.0), (1.0, needed * 1.2), (0.1, 0.1 * needed * 1.2):
             numbers = " / ".join(f"{value:.4f}" for value in grasp(mass, force, side))
-            print(f"grasp {words}, {mass} kg, {force:.0f} N: lift / hold 10 s / turn / place (mm): {numbers}")
+            print(f"grasp {words}, {mass} kg, {force:.2f} N: lift / hold 10 s / turn / place (mm): {numbers}")
     print(
         "40 random grasps: held {}, slip while turned, median {:.4f}, worst {:.4f} mm, {:.4f} degrees".format(
             *random_grasps()

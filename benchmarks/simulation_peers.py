@@ -21,6 +21,9 @@ import numpy as np
 BOX = [0.06, 0.06, 0.06, 0.005]
 ROUNDS = 3
 SLOPE = np.deg2rad(20)
+TUMBLING = np.array([0.0008, 0.0010, 0.0016])  # inertia, kg m^2, of a body of .5 kg that turns about the second axis
+TOP = np.array([0.00205, 0.00205, 0.0016])  # about the tip, of a top of .5 kg with its center .05 m above it
+LEAN = np.array([np.cos(0.2), np.sin(0.2), 0, 0])  # of the top: .4 rad
 
 
 def wall(function, *arguments):
@@ -169,6 +172,39 @@ class Ry:
             "turned by 1 rad in 1 s and back": 1e3 * np.linalg.norm(turned - lift),
         }
 
+    def tops(self):
+        if self.ry.__name__ != "kinegraph":
+            return {}
+        C = self.ry.Config()
+        C.addText("body: { X: [0 0 1], mass: .5, inertia: [.0008 .0010 .0016] }")
+        S = self.ry.Simulation(C, options={"gravity": 0})
+
+        def energy():
+            return 0.5 * TUMBLING @ (C.getFrame("body").getRotationMatrix().T @ S.get_frameVelocities()[0, 1]) ** 2
+
+        S.pushConfigToSim([[[0, 0, 0], [12, 40, 8]]])
+        start = energy()
+        S.step([], 5.0)
+        found = {"free body, 40 rad/s, energy after 5 s / before": energy() / start}
+
+        C = self.ry.Config()
+        C.addText(
+            "tip: { X: [0 0 1] } top (tip): { joint: quatBall, noMotor: true } "
+            "disc (top): { Q: [0 0 .05], mass: .5, inertia: [.0008 .0008 .0016] }"
+        )
+        C.setJointState(LEAN)
+        S = self.ry.Simulation(C)
+        S.pushConfigToSim(jointVelocities=50 * np.array([-LEAN[3], LEAN[2], -LEAN[1], LEAN[0]]))
+
+        def energy_of_top():
+            (w, *v), (a, *b) = S.get_q(), S.get_qDot()
+            turn = 2 * (w * np.array(b) - a * np.array(v) - np.cross(v, b))
+            return 0.5 * TOP @ turn**2 + 0.5 * 9.81 * (C.getFrame("disc").getPosition()[2] - 1)
+
+        start = energy_of_top()
+        S.step([], 20.0)
+        return found | {"top on a ball joint, 100 rad/s, energy after 20 s / before": energy_of_top() / start}
+
 
 class Mujoco:
     """MuJoCo with what its manual has as defaults."""
@@ -233,9 +269,35 @@ class Mujoco:
         self.steps(model, data, 3)
         return {"heap of 20 boxes, 10 ms (us)": 1e4 * wall(self.steps, model, data, 1)}
 
+    def tops(self):
+        """With each of its integrators."""
+        free = "<inertial pos='0 0 0' mass='.5' diaginertia='.0008 .0010 .0016'/><freejoint/>"
+        top = "<inertial pos='0 0 .05' mass='.5' diaginertia='.0008 .0008 .0016'/><joint type='ball'/>"
+        found = {
+            "free body, 40 rad/s, energy after 5 s / before": "",
+            "top on a ball joint, 100 rad/s, energy after 20 s / before": "",
+        }
+        for name in ("EULER", "RK4", "IMPLICIT", "IMPLICITFAST"):
+            for (what, words), body, seconds in zip(found.items(), (free, top), (5, 20), strict=True):
+                model, data = self.make(f"<body pos='0 0 1'>{body}</body>", "<option><flag energy='enable'/></option>")
+                model.opt.integrator = getattr(self.mujoco.mjtIntegrator, f"mjINT_{name}")
+                if body == free:
+                    model.opt.gravity[:] = 0
+                    data.qvel[3:] = [12, 40, 8]
+                else:
+                    data.qpos[:] = LEAN
+                    data.qvel[:] = [0, 0, 100]
+                self.mujoco.mj_forward(model, data)
+                start = data.energy.sum() - 0.5 * 9.81 * (body == top)
+                self.steps(model, data, seconds)
+                self.mujoco.mj_forward(model, data)
+                ratio = (data.energy.sum() - 0.5 * 9.81 * (body == top)) / start
+                found[what] = f"{words} {name} {ratio:.5g}".strip()
+        return found
+
 
 TIMED = ["heap", "step_time"]
-SCENES = ["tower", "slope", "turntable", "heap", "tracking", "step_time", "grasp"]
+SCENES = ["tower", "slope", "turntable", "heap", "tracking", "step_time", "grasp", "tops"]
 
 
 def measure(python, engine, scene, postures):

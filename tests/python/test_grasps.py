@@ -37,7 +37,7 @@ def go(S, end, seconds=1.0):
 
 def close(S, force):
     S.closeGripper("l_gripper", 0.0, 0.1, force)
-    for _ in range(200):
+    for _ in range(500):
         S.step()
         if S.gripperIsDone("l_gripper"):
             return
@@ -49,8 +49,8 @@ def in_hand(C, name="box"):
     return hand.getRotationMatrix().T @ (box.getPosition() - hand.getPosition())
 
 
-@pytest.mark.parametrize("friction, creep", [(0.5, 1e-6), (0.8, 2e-3)])
-def test_a_box_is_held_above_the_force_that_friction_needs_and_slips_below(friction, creep):
+@pytest.mark.parametrize("friction", [0.5, 0.8])
+def test_a_box_is_held_above_the_force_that_friction_needs_and_slips_below(friction):
     """Each of two fingers carries m g / 2 by its force F. They lean by 2 mm in 49, so that F needs to be a little less than
     m g / (2 mu): F = m g / 2 (1 - mu t) / (mu + t), t = 2 / 49."""
     mass, lean = 1.0, 2 / 49
@@ -73,8 +73,39 @@ def test_a_box_is_held_above_the_force_that_friction_needs_and_slips_below(frict
         for _ in range(50):
             S.step()
         slips[share] = np.linalg.norm(in_hand(C) - before)
-    assert slips[1.04] < creep
+    assert slips[1.04] < 2e-6
     assert slips[0.96] > 0.05
+
+
+@pytest.mark.parametrize("side, enough", [([1, 0, 0], 1.06), ([0, 1, 0], 1.2)])
+@pytest.mark.parametrize("mass", [1.0, 0.1, 0.02])
+def test_little_more_force_than_friction_needs_holds_a_box_in_motion(mass, side, enough):
+    """Lifted by .2 m in 1 s, which takes 1.15 m/s^2 at most, held for 2 s and turned by 1 rad in 1 s, where the box is also
+    turned about the axis of fingers that close across the radius. With small forces points of contact came and went once, and the box
+    crept down whatever the force was above the limit."""
+    lean, fastest = 2 / 49, 0.2 * 10 / np.sqrt(3)
+    needed = mass * (G + fastest) / 2 * (1 - lean) / (1 + lean)
+    start = np.array([0.0, 0.3, 0.68])
+    above, at, up = (reach(start + z * UP, side) for z in (0.12, 0.0, 0.2))
+    lifts = {}
+    for share in (0.9, enough):
+        C = panda()
+        C.addFrame("box").setShape(ry.ST.ssBox, [0.06, 0.06, 0.06, 0.005]).setPosition(start).setMass(mass)
+        C.setJointState(above)
+        S = ry.Simulation(C)
+        go(S, at)
+        close(S, share * needed)
+        places = [in_hand(C)]
+        go(S, up)
+        places.append(in_hand(C))
+        for _ in range(200):
+            S.step()
+        places.append(in_hand(C))
+        go(S, up + np.eye(7)[0])
+        places.append(in_hand(C))
+        lifts[share] = np.linalg.norm(np.diff(places, axis=0), axis=1)
+    assert np.all(lifts[enough] < [1e-5, 2e-6, 4e-6]), lifts
+    assert lifts[0.9][0] > 1e-3, lifts
 
 
 def test_forty_random_grasps_hold():

@@ -28,7 +28,7 @@ def test_a_spinning_top_precesses_as_lagrange_says(lean, spin):
     )
     q = np.array([np.cos(lean / 2), np.sin(lean / 2), 0, 0])
     C.setJointState(q)
-    S = ry.Simulation(C, options={"inner_step": 5e-4})
+    S = ry.Simulation(C)
     # in its own axes: the turn about the vertical, and what is left of the spin about the third
     turn = [0, rate * np.sin(lean), spin]
     S.pushConfigToSim(jointVelocities=multiplied(q, [0, *np.multiply(turn, 0.5)]))

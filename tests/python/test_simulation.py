@@ -238,6 +238,7 @@ def test_contacts_carry_the_weight():
     down = sum(contact["force"] if contact["frames"][0] == "box" else -contact["force"] for contact in contacts)
     assert np.allclose(down, [0, 0, -2 * 9.81], atol=1e-3)
     assert all(abs(contact["normal"][2]) == pytest.approx(1, abs=1e-6) for contact in contacts)
+    assert all(-1e-4 < contact["distance"] < 0 for contact in contacts)  # of rounded shapes, too
 
 
 def test_a_force_sensor_weighs_the_hand_and_an_accelerometer_knows_down():

@@ -14,8 +14,11 @@ namespace kinegraph {
 namespace {
 
 constexpr double kThinnest = 1e-5;  ///< m: half the least thickness of a core
-constexpr int kThing = 1;           ///< contact bit of what is no robot
-constexpr int kMostRobots = 30;     ///< each has a bit of its own
+/// m: points are looked for at this distance already. MuJoCo asks whether shapes touch by their least distance, and then
+/// measures between faces, which gives up to 1e-5 less: without this, contacts of small forces would come and go.
+constexpr double kLooksAhead = 5e-4;
+constexpr int kThing = 1;        ///< contact bit of what is no robot
+constexpr int kMostRobots = 30;  ///< each has a bit of its own
 
 int contactBit(int robot) { return robot < 0 ? kThing : 1 << (1 + robot % kMostRobots); }
 
@@ -29,6 +32,7 @@ void setContactNumbers(mjsGeom* geom, const SimulationOptions& options, double f
   std::copy_n(solref, 2, geom->solref);
   std::copy_n(solimp, 5, geom->solimp);
   geom->condim = 6;
+  geom->gap = kLooksAhead;
   geom->friction[0] = friction;
   geom->friction[1] = options.torsional_friction;
   geom->friction[2] = options.rolling_friction;
@@ -176,6 +180,7 @@ void ModelShapes::addFrictionPairs(const std::set<std::pair<int, int>>& excluded
       mj.mjs_setString(pair->geomname2, b.name.c_str());
       pair->condim = 6;
       pair->margin = a.spec->margin + b.spec->margin;
+      pair->gap = kLooksAhead;
       std::copy_n(a.spec->solref, 2, pair->solref);
       std::copy_n(a.spec->solimp, 5, pair->solimp);
       const double mean = .5 * (a.friction + b.friction);

@@ -83,11 +83,23 @@ void Simulation::update() {
 
 void Simulation::advance(const VectorXd& u, double tau, ControlMode mode, const std::function<void()>& between) {
   impl_->world->step(u, tau, mode, between);
+  impl_->warnOfTurns();
   if (!isRecording()) return;
   std::vector<double> numbers{tau, double(int(mode))};
   numbers.insert(numbers.end(), u.begin(), u.end());
   impl_->note(Recording::Call::Kind::step, std::move(numbers));
   impl_->notePoses();
+}
+
+void Simulation::Impl::warnOfTurns() {
+  for (const int body : world->tooFast()) {
+    const FrameData* frame = world->scene().scene.bodies[std::size_t(body)].frame;
+    const std::string name = frame ? frame->name : "";
+    if (!warned.insert(cat("turns ", name)).second) continue;
+    warnings.push_back(cat("Simulation: '", name, "' turns by more than .5 rad in an inner step of ",
+                           world->model().opt.timestep,
+                           " s; how it moves is not to be relied on: take a smaller inner_step"));
+  }
 }
 
 void Simulation::setWatcher(std::shared_ptr<SimulationWatcher> watcher) { impl_->watcher = std::move(watcher); }

@@ -200,7 +200,7 @@ std::vector<Contact> Simulation::getContacts() const {
     // rows of the frame: normal from geom 0 to geom 1, and two tangents
     const Eigen::Map<const Eigen::Matrix<double, 3, 3, Eigen::RowMajor>> axes(contact.frame);
     found.push_back({name(contact.geom[0]), name(contact.geom[1]), Eigen::Map<const Vector3d>(contact.pos), axes.row(0),
-                     contact.dist, axes.transpose() * Eigen::Map<const Vector3d>(force)});
+                     contact.dist - contact.includemargin, axes.transpose() * Eigen::Map<const Vector3d>(force)});
   }
   return found;
 }

@@ -31,6 +31,7 @@ struct Simulation::Impl {
   void note(Recording::Call::Kind kind, std::vector<double> numbers, std::vector<std::string> words = {});
   void noteState(const SimulationState& state);
   void notePoses();
+  void warnOfTurns();
 
   /// The frame of that name, and its body. Throws FrameNotFound; `call` is what asks.
   const FrameData& frame(const std::string& name, const char* call) const;

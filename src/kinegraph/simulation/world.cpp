@@ -39,6 +39,7 @@ World::World(std::shared_ptr<const SceneModel> model, const SimulationOptions& o
   bias_.resize(6 * std::size_t(physics_->nbody));
   wanted_.resize(std::size_t(physics_->nv));
   torque_.resize(std::size_t(physics_->nv));
+  turning_ = TurningForces(*model_, *physics_);
   settle();
 }
 

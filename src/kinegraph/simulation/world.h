@@ -2,11 +2,13 @@
 
 #include <functional>
 #include <memory>
+#include <set>
 #include <string>
 #include <vector>
 
 #include "kinegraph/simulation/reference.h"
 #include "kinegraph/simulation/scene_model.h"
+#include "kinegraph/simulation/turning_forces.h"
 
 namespace kinegraph {
 
@@ -103,6 +105,9 @@ class World {
   void push(int body, const Vector3d& force, const Vector3d& torque, const Vector3d& point);
   void clearPushes();
 
+  /// Bodies, as in SceneBodies, that turned by more than .5 rad in an inner step of the last step.
+  const std::set<int>& tooFast() const { return too_fast_; }
+
   /// A spring of 10 rad/s with the mass of the body and all that it carries, damped so that it does not swing, draws a point
   /// of it to a place from now on.
   void pull(const Pull& pull);
@@ -149,6 +154,8 @@ class World {
   Vector3d pull_force_{0, 0, 0};
   Vector6d pushed_before_ = Vector6d::Zero();  ///< what acted on the pulled body before the spring did
   std::vector<mjtNum> bias_, wanted_, torque_;
+  TurningForces turning_;
+  std::set<int> too_fast_;
 };
 
 }  // namespace kinegraph

@@ -54,6 +54,7 @@ void World::step(const VectorXd& u, double tau, ControlMode mode, const std::fun
     const int steps = std::max(1, int(std::ceil(tau / options_.inner_step - 1e-9)));
     const double h = tau / steps, start = data_->time;
     physics_->opt.timestep = h;
+    too_fast_.clear();
     reference_.command(*model_, u, tau, mode, options_);
     for (int i = 0; i < steps; ++i) {
       if (between) between();
@@ -117,6 +118,8 @@ void World::innerStep(double h) {
   mj.mj_fwdVelocity(m, d);
   mj.mj_sensorVel(m, d);
   driveMotors(h);
+  turning_.apply(*m, *d, h);
+  if (const int id = turning_.tooFast(); id != 0) too_fast_.insert(model_->body_of_id[std::size_t(id)]);
   if (pull_.body != 0) addPull();
   mj.mj_step2(m, d);
   if (pull_.body != 0) removePull();
@@ -125,7 +128,8 @@ void World::innerStep(double h) {
 /// MuJoCo leaves the term dJ/dt v out of the rows of contacts, so that what friction holds in a turning hand slips, and
 /// its step lets positions drift by h^2/2 of it. Both vanish with the velocity v* = (1/b + h/2) t (a2 - a1) along the
 /// tangents t, where a_i is the acceleration of the touching point of body i at zero acceleration of the joints, and
-/// b = 2 / (dmax timeconst); and along the normal with another distance.
+/// b = 2 / (dmax timeconst); and along the normal with another distance, which counts the drift of a step, too: MuJoCo
+/// asks for the force that belongs to the distance at the end of the step.
 void World::correctContacts(double h) {
   const mjModel& m = *physics_;
   mjData& d = *data_;
@@ -159,7 +163,8 @@ void World::correctContacts(double h) {
     // the normal has no velocity to set: a change of the distance does the same
     const double dmax = contact.solimp[1], b = 2. / (dmax * contact.solref[0]);
     const double k = 1. / (dmax * dmax * contact.solref[0] * contact.solref[0] * contact.solref[1] * contact.solref[1]);
-    d.efc_pos[contact.efc_address] += Vector(contact.frame).dot(missing) * (1. + .5 * h * b) / (k * impedance(contact));
+    const double shift = (1. + .5 * h * b) / (k * impedance(contact)) + .5 * h * h;
+    d.efc_pos[contact.efc_address] += Vector(contact.frame).dot(missing) * shift;
   }
 }
 
