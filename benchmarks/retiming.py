@@ -1,14 +1,18 @@
 #!/usr/bin/env python3
 """How fast is `retime`, how near to the least time, and does it keep its limits? Beside toppra, ruckig and an LP reference.
 
-    python benchmarks/retiming.py [--paths 70] [--seed 1] [--references 3]
+    python benchmarks/retiming.py [--paths 70] [--seed 1] [--references 3] [--only jerk]
 
 Random paths of seven dofs, 3 to 11 points spread along a line and moved by 0.2 rad, with the Panda's limits of velocity and
 acceleration ("full"), or a quarter of the accelerations and jerks of ten times that per second ("gentle"). All packages get the same
 cubic spline. Times are processor times, medians; the bound is `retime` with 4000 intervals, and toppra's with as many for the first
-paths (packages that are not installed are left out: toppra==0.6.10, ruckig==0.19.4, scipy). The reference with limits of the
-jerk is a sequence of linear programs over s'^2 on 200 equal intervals, each constraint linearized, from scipy's HiGHS: slow, and
-written without a look at the library. Limits are looked at on 20,000 samples.
+paths (packages that are not installed are left out: toppra==0.6.10, ruckig==0.19.4, scipy).
+
+With limits of the jerk, `retime`, toppra and ruckig take turns, path by path, within equal limits of velocity and acceleration; ruckig keeps the jerk,
+too, and stands still at each point (waypoints are not in its free version); toppra knows no limits of the jerk, and its motion exceeds
+them. Durations are compared with the least one, which is `retime` with 3200 intervals, and for the first paths with a reference: a sequence
+of linear programs over s'^2 on 200 and 800 equal intervals, each constraint linearized, from scipy's HiGHS: slow, and written without
+a look at the library. Its limits hold at its places only, so that it may be faster than possible. Limits are looked at on 20,000 samples.
 """
 
 import argparse
@@ -168,47 +172,75 @@ def has(package):
 
 def line(name, values):
     print(
-        f"  {name:<46} median {statistics.median(values):10.4g}   p95 {np.percentile(values, 95):10.4g}   max {max(values):10.4g}"
+        f"  {name:<48} median {statistics.median(values):10.4g}   p95 {np.percentile(values, 95):10.4g}   max {max(values):10.4g}"
     )
 
 
+def without_jerk(paths, acceleration, options):
+    bounds = [ry.retime(q, V, acceleration, corners="spline", intervals=4000).duration for q in paths]
+    for intervals in (50, 100, 200):
+        found = [timed(q, acceleration, corners="spline", intervals=intervals) for q in paths]
+        line(f"{intervals} intervals: us", [us for _, us in found])
+        line("    duration / bound", [m.duration / b for (m, _), b in zip(found, bounds)])
+        line("    limits exceeded by", [excess(m, acceleration) for m, _ in found])
+    for corners in ("blend", "stop"):
+        found = [timed(q, acceleration, corners=corners, tolerance=0.05) for q in paths]
+        line(f"{corners}: us", [us for _, us in found])
+        line("    limits exceeded by", [excess(m, acceleration) for m, _ in found])
+    if has("toppra"):
+        found = [toppra_durations(q, acceleration, 200) for q in paths]
+        line("toppra, 200 intervals: us", [us for _, us in found])
+        line("    duration / bound", [d / b for (d, _), b in zip(found, bounds)])
+        fine = [toppra_durations(q, acceleration, 4000)[0] for q in paths[: options.references]]
+        line("    with 4000 intervals: duration / bound", [d / b for d, b in zip(fine, bounds)])
+
+
+def with_jerk(paths, acceleration, jerk, references):
+    """`retime`, toppra and ruckig in turns."""
+    peers = {
+        "toppra, no limits of the jerk": lambda q: toppra_durations(q, acceleration, 100),
+        "ruckig, from point to point": lambda q: ruckig_duration(q, acceleration, jerk),
+    }
+    peers = {name: peer for name, peer in peers.items() if has(name.split(",")[0])}
+    least = [ry.retime(q, V, acceleration, jerk, corners="spline", intervals=3200).duration for q in paths]
+    motions, times = [], []
+    of_peers = {name: ([], []) for name in peers}
+    for q, best in zip(paths, least):
+        motion, us = timed(q, acceleration, jerk, corners="spline")
+        motions.append(motion)
+        times.append(us)
+        for name, peer in peers.items():
+            turns = [peer(q) for _ in range(5)]
+            of_peers[name][0].append(turns[0][0] / best)
+            of_peers[name][1].append(min(us for _, us in turns))
+    line("with jerk: us", times)
+    line("    duration / least", [m.duration / best for m, best in zip(motions, least)])
+    bounds = [ry.retime(q, V, acceleration, corners="spline", intervals=4000).duration for q in paths]
+    line("    duration / bound without limits of the jerk", [m.duration / b for m, b in zip(motions, bounds)])
+    line("    limits exceeded by", [excess(m, acceleration, jerk) for m in motions])
+    for name, (durations, us) in of_peers.items():
+        line(f"{name}: us", us)
+        line("    duration / least", durations)
+    if has("scipy") and references:
+        for intervals in (200, 800):
+            found = [jerk_reference(q, acceleration, jerk, intervals) for q in paths[:references]]
+            line(f"duration / reference by LPs, {intervals} places", [m.duration / r for m, r in zip(motions, found)])
+
+
 def main():
-    parser = argparse.ArgumentParser(description=__doc__)
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--paths", type=int, default=70)
     parser.add_argument("--seed", type=int, default=1)
     parser.add_argument("--references", type=int, default=3, help="paths for which slow references are computed")
+    parser.add_argument("--only", choices=["jerk"])
     options = parser.parse_args()
     rng = np.random.default_rng(options.seed)
     paths = [random_path(rng) for _ in range(options.paths)]
     for mode, (acceleration, jerk) in MODES.items():
         print(f"{mode}: {len(paths)} paths")
-        bounds = [ry.retime(q, V, acceleration, corners="spline", intervals=4000).duration for q in paths]
-        for intervals in (50, 100, 200):
-            found = [timed(q, acceleration, corners="spline", intervals=intervals) for q in paths]
-            line(f"{intervals} intervals: us", [us for _, us in found])
-            line("    duration / bound", [m.duration / b for (m, _), b in zip(found, bounds)])
-            line("    limits exceeded by", [excess(m, acceleration) for m, _ in found])
-        for corners in ("blend", "stop"):
-            found = [timed(q, acceleration, corners=corners, tolerance=0.05) for q in paths]
-            line(f"{corners}: us", [us for _, us in found])
-            line("    limits exceeded by", [excess(m, acceleration) for m, _ in found])
-        smooth = [timed(q, acceleration, jerk, corners="spline", repeat=2) for q in paths]
-        line("with jerk: us", [us for _, us in smooth])
-        line("    duration / without jerk", [m.duration / b for (m, _), b in zip(smooth, bounds)])
-        line("    limits exceeded by", [excess(m, acceleration, jerk) for m, _ in smooth])
-        if has("scipy"):
-            references = [jerk_reference(q, acceleration, jerk) for q in paths[: options.references]]
-            line("    duration / reference by LPs", [m.duration / r for (m, _), r in zip(smooth, references)])
-        if has("toppra"):
-            found = [toppra_durations(q, acceleration, 200) for q in paths]
-            line("toppra, 200 intervals: us", [us for _, us in found])
-            line("    duration / bound", [d / b for (d, _), b in zip(found, bounds)])
-            fine = [toppra_durations(q, acceleration, 4000)[0] for q in paths[: options.references]]
-            line("    with 4000 intervals: duration / bound", [d / b for d, b in zip(fine, bounds)])
-        if has("ruckig"):
-            found = [ruckig_duration(q, acceleration, jerk) for q in paths]
-            line("ruckig, line by line: us", [us for _, us in found])
-            line("    duration / with jerk", [d / m.duration for (d, _), (m, _) in zip(found, smooth)])
+        if not options.only:
+            without_jerk(paths, acceleration, options)
+        with_jerk(paths, acceleration, jerk, options.references)
 
 
 if __name__ == "__main__":

@@ -2,6 +2,7 @@
 
 import pickle
 import threading
+import time
 
 import numpy as np
 import pytest
@@ -142,6 +143,16 @@ def test_ctrl_c_ends_it(jerk):
     path = np.random.default_rng(4).uniform(-2, 2, (6, 3))
     with pytest.raises(KeyboardInterrupt), interrupt_after(0.2):
         ry.retime(path, 1, 2, jerk, corners="spline", intervals=1000000)
+
+
+def test_ctrl_c_ends_the_search_for_a_law_with_limits_of_the_jerk():
+    path = np.random.default_rng(4).uniform(-2, 2, (6, 7))
+    begin = time.perf_counter()
+    ry.retime(path, 1, 2, 30.0, corners="spline", intervals=30000)
+    whole = time.perf_counter() - begin
+    with pytest.raises(KeyboardInterrupt), interrupt_after(0.5 * whole) as interrupt:
+        ry.retime(path, 1, 2, 30.0, corners="spline", intervals=30000)
+    assert time.perf_counter() - interrupt.time < 0.2  # s; a busy machine needs some of it
 
 
 def test_other_threads_run_meanwhile(panda):

@@ -177,6 +177,41 @@ TEST(Retime, LimitsHoldAllAlongRandomPaths) {
   }
 }
 
+TEST(Retime, WithLimitsOfTheJerkAHundredIntervalsAreNearlyAsFastAsManyMore) {
+  Rng rng(19);
+  RetimeOptions options, fine;
+  options.corners = fine.corners = Corners::spline;
+  fine.intervals = 1600;
+  for (int i = 0; i < 12; ++i) {
+    const MatrixXd path = randomPath(rng, 4 + i % 5, 5);
+    const MotionLimits limits = limitsOf(5, 2., 6., i % 2 ? 60. : 2000.);
+    const TimedPath timed = retime(path, limits, options);
+    ASSERT_TRUE(timed.feasible()) << timed.message;
+    EXPECT_LT(timed.duration(), 1.02 * retime(path, limits, fine).duration()) << i;
+  }
+}
+
+TEST(Retime, WhoIsAskedNowAndThenMayEndIt) {
+  Rng rng(23);
+  const MatrixXd path = randomPath(rng, 6, 3);
+  for (const double jerk : {0., 30.}) {
+    RetimeOptions options;
+    options.corners = Corners::spline;
+    options.intervals = 4000;
+    int asked = 0;
+    options.between = [&] { ++asked; };
+    retime(path, limitsOf(3, 1., 2., jerk), options);
+    EXPECT_GT(asked, jerk > 0. ? 2000 : 200);
+    for (const int last : {1, asked / 2, asked - 1}) {
+      int count = 0;
+      options.between = [&] {
+        if (++count == last) throw ValueError("enough");
+      };
+      expectError<ValueError>([&] { retime(path, limitsOf(3, 1., 2., jerk), options); }, {"enough"});
+    }
+  }
+}
+
 TEST(Retime, VelocityAndAccelerationAreTheDerivativesOfTheMotion) {
   Rng rng(11);
   RetimeOptions options;

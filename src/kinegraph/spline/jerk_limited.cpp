@@ -12,12 +12,14 @@ namespace kinegraph {
 namespace {
 
 constexpr double kNoLimit = 1e15;  // stands for an infinite limit
-constexpr double kGap = 2e-4;      // by which the duration may exceed the least one of its intervals, as a share
+constexpr double kGap = 1e-3;      // by which the duration may exceed the least one of its intervals, as a share
+constexpr double kMissed = 2e-4, kMissedNowhere = 1e-7;  // by which limits may be exceeded before speeds are taken back
+constexpr double kRoughGap = .01;                        // where limits between the places are looked at first
 constexpr double kFirstGap = .3, kNextGap = .01;
 constexpr int kMostNewtonSteps = 80;
-constexpr int kSmoothings = 10;        // of the start
+constexpr double kStartShare = .9;     // of the speeds without limits of the jerk
+constexpr int kSmoothings = 10;        // of these
 constexpr double kTightenMore = 2e-6;  // than what is exceeded
-constexpr int kTighten = 1;            // rounds, where speeds may be taken back at the end
 constexpr int kTightenMost = 12;       // rounds, where speeds at the ends are given
 constexpr int kFewestIntervals = 12;
 constexpr int kBlendParts = 6;     // of a blend, at least
@@ -61,12 +63,13 @@ LineMotionLimits limitsAlong(const double* tangent, const MotionLimits& limits) 
 class SectionPlaces {
  public:
   SectionPlaces(const LawGrid& grid, const Section& section, const TimeLaw& law, const MotionLimits& limits,
-                int intervals)
-      : grid_(grid), begin_(grid.place(section.begin)), end_(grid.place(section.end)) {
+                const LawEffort& effort)
+      : grid_(grid), effort_(effort), begin_(grid.place(section.begin)), end_(grid.place(section.end)) {
     const double t0 = law.timeOf(begin_), t1 = law.timeOf(end_);
-    const int count = std::max(kFewestIntervals, int(std::lround(intervals * (t1 - t0) / law.duration())));
+    const int count = std::max(kFewestIntervals, int(std::lround(effort.intervals * (t1 - t0) / law.duration())));
     const double step = (t1 - t0) / count;
     for (int k = 1; k < count; ++k) {
+      effort.pause(k);
       const double t = t0 + step * k;
       const LawPhase& phase = law.phaseAt(t);
       inner_.push_back(std::clamp(phase.at(t - phase.time).s, begin_, end_));
@@ -127,22 +130,31 @@ class SectionPlaces {
   }
 
   const LawGrid& grid_;
+  const LawEffort& effort_;
   double begin_, end_;
   std::vector<double> inner_;
 };
 
 /// s'^2 of a law in the middle of the intervals of a grid, lowered where the section is at rest.
-std::vector<double> startOf(const LawGrid& places, const TimeLaw& law, const Section& section) {
+std::vector<double> startOf(const LawGrid& places, const TimeLaw& law, const Section& section,
+                            const MotionLimits& limits, const LawEffort& effort) {
   std::vector<double> start;
-  const double begin = places.place(0), end = places.place(places.intervals());
+  const double edges[2] = {places.place(0), places.place(places.intervals())};
+  double jerk[2];
+  for (int end = 0; end < 2; ++end) {
+    const int i = end ? places.intervals() - 1 : 0;
+    jerk[end] = limitsAlong(places.tangent(i).col(end ? places.degree() : 0).data(), limits).jerk;
+  }
   for (int i = 0; i < places.intervals(); ++i) {
-    const double s = places.place(i) + places.width(i) / 2., t = law.timeOf(s);
-    const LawPhase& phase = law.phaseAt(t);
-    const double speed = phase.at(t - phase.time).speed;
-    double share = .5;
-    if (section.from.at_rest) share *= std::cbrt((s - begin) / (s - begin + .1 * (end - begin)));
-    if (section.to.at_rest) share *= std::cbrt((end - s) / (end - s + .1 * (end - begin)));
-    start.push_back(std::max(1e-12, share * speed * speed));
+    effort.pause(i);
+    const double s = places.place(i) + places.width(i) / 2.;
+    double inverse = 1. / std::max(1e-12, law.squaredSpeedAt(s));
+    for (int end = 0; end < 2; ++end) {
+      if (!(end ? section.to : section.from).at_rest) continue;
+      const double j = jerk[end];
+      inverse += 4. / (j * j * std::pow(6. * std::abs(s - edges[end]) / j, 4. / 3.));
+    }
+    start.push_back(kStartShare / inverse);
   }
   for (int round = 0; round < kSmoothings; ++round) {
     double before = start[0];
@@ -162,16 +174,17 @@ struct Shares {
   bool hold() const { return std::max({most[0], most[1], most[2]}) <= 1.; }
 };
 
-Shares sharesOf(const SmoothProgram& program, const LawGrid& places, const MotionLimits& limits) {
+Shares sharesOf(const SmoothProgram& program, const LawProof& proof, const LawEffort& effort) {
   Shares shares;
   for (int k = 0; k < program.count(); ++k) {
-    shares.each.push_back(limitShares(places, program.first() + k, program.at(k), limits));
+    effort.pause(k);
+    shares.each.push_back(proof.shares(program.first() + k, program.at(k)));
     for (int i = 0; i < 3; ++i) shares.most[i] = std::max(shares.most[i], shares.each.back()[i]);
   }
   return shares;
 }
 
-void addProgram(TimeLaw& law, const SmoothProgram& program, const LawGrid& places) {
+void addProgram(TimeLaw& law, const SmoothProgram& program, const LawGrid& places, const LawEffort& effort) {
   const auto restTime = [](double width, double b) { return 3. * width / std::sqrt(b); };
   const int last = places.intervals() - 1, end = program.first() + program.count();
   if (program.first() == 1) {
@@ -179,6 +192,7 @@ void addProgram(TimeLaw& law, const SmoothProgram& program, const LawGrid& place
     law.add({0., {places.place(0), 0., 0., 6. * w / (time * time * time)}, 0., places.place(1), places.piece(0)}, time);
   }
   for (int k = 0; k < program.count(); ++k) {
+    effort.pause(k);
     const int i = program.first() + k;
     const Quadratic b = program.at(k);
     law.addQuadratic(places.place(i), places.place(i + 1), b[0], b[1], b[2], places.piece(i));
@@ -194,28 +208,41 @@ void addProgram(TimeLaw& law, const SmoothProgram& program, const LawGrid& place
   }
 }
 
+/// Where a program exceeds limits between its places, they are narrowed by as much.
+void tighten(SmoothProgram& program, const Shares& shares, const LawEffort& effort) {
+  for (int k = 0; k < program.count(); ++k) {
+    effort.pause(k);
+    std::array<double, 3> ratios = shares.each[std::size_t(k)];
+    for (double& ratio : ratios) ratio = ratio > 1. ? ratio + kTightenMore : 1.;
+    for (const int near : {k, std::min(k + 1, program.count() - 1)}) program.tighten(near, ratios);
+  }
+}
+
 /// The law of a section that is curved; empty if there is none.
 TimeLaw curvedLaw(const LawGrid& grid, const Section& section, const TimeLaw& first, const MotionLimits& limits,
-                  const RowSource& rows, int intervals) {
-  const LawGrid places(grid.curve(), SectionPlaces(grid, section, first, limits, intervals).all());
-  SmoothProgram program(places, limits, rows, section.from, section.to);
-  std::vector<double> start = startOf(places, first, section);
+                  const RowSource& rows, const LawEffort& effort) {
+  const LawGrid places(grid.curve(), SectionPlaces(grid, section, first, limits, effort).all(), effort);
+  const LawProof proof(places, limits);
+  SmoothProgram program(places, limits, rows, section.from, section.to, effort);
+  std::vector<double> start = startOf(places, first, section, limits, effort);
   const bool may_slow_down = section.from.at_rest && section.to.at_rest;
+  const double missed = may_slow_down && !rows ? kMissed : kMissedNowhere;
   TimeLaw law;
-  if (!program.solve(start, kFirstGap, kGap, kMostNewtonSteps)) return law;
-  Shares shares = sharesOf(program, places, limits);
-  for (int round = 0; round < (may_slow_down ? kTighten : kTightenMost) && !shares.hold(); ++round) {
-    for (int k = 0; k < program.count(); ++k) {
-      std::array<double, 3> ratios = shares.each[k];
-      for (double& ratio : ratios) ratio = ratio > 1. ? ratio + kTightenMore : 1.;
-      for (const int near : {k, std::min(k + 1, program.count() - 1)}) program.tighten(near, ratios);
-      start[std::size_t(program.first() + k)] = program.at(k)[1];
-    }
-    if (!program.solve(start, kNextGap, kGap, kMostNewtonSteps)) return law;
-    shares = sharesOf(program, places, limits);
+  program.begin(start, kFirstGap);
+  program.improve(kRoughGap, 1., kMostNewtonSteps);
+  Shares shares = sharesOf(program, proof, effort);
+  if (!shares.hold()) tighten(program, shares, effort);
+  if (!program.improve(kGap, missed, kMostNewtonSteps)) return law;
+  shares = sharesOf(program, proof, effort);
+  for (int round = 0; !may_slow_down && round < kTightenMost && !shares.hold(); ++round) {
+    tighten(program, shares, effort);
+    for (int k = 0; k < program.count(); ++k) start[std::size_t(program.first() + k)] = program.at(k)[1];
+    program.begin(start, kNextGap);
+    if (!program.improve(kGap, missed, kMostNewtonSteps)) return law;
+    shares = sharesOf(program, proof, effort);
   }
   if (!may_slow_down && !shares.hold()) return law;
-  addProgram(law, program, places);
+  addProgram(law, program, places, effort);
   const double factor = std::max({1., shares.most[0], std::sqrt(shares.most[1]), std::cbrt(shares.most[2])});
   if (factor > 1.) law.slowDown(factor);
   return law;
@@ -224,9 +251,9 @@ TimeLaw curvedLaw(const LawGrid& grid, const Section& section, const TimeLaw& fi
 }  // namespace
 
 SmoothLaw smoothLaw(const LawGrid& grid, const SquaredSpeeds& first, const MotionLimits& limits, const RowSource& rows,
-                    int intervals) {
+                    const LawEffort& effort) {
   SmoothLaw smooth;
-  const TimeLaw fast = lawOf(grid, limits, first);
+  const TimeLaw fast = lawOf(grid, limits, first, effort);
   for (const Section& section : sectionsOf(grid, first)) {
     bool is_found = true;
     if (section.end == section.begin + 1 && grid.isLine(section.begin)) {
@@ -235,7 +262,7 @@ SmoothLaw smoothLaw(const LawGrid& grid, const SquaredSpeeds& first, const Motio
                             std::sqrt(section.from.squared_speed), std::sqrt(section.to.squared_speed), along,
                             grid.piece(section.begin));
     } else {
-      TimeLaw law = curvedLaw(grid, section, fast, limits, rows, intervals);
+      TimeLaw law = curvedLaw(grid, section, fast, limits, rows, effort);
       is_found = !law.phases().empty();
       smooth.law.append(law);
     }

@@ -27,6 +27,6 @@ struct SmoothLaw {
 /// Source: Verscheure, Demeulenaere, Swevers, De Schutter, Diehl, Time-optimal path tracking for robots: a convex
 /// optimization approach, 2009; Lipp, Boyd, Variations and extension of the convex-concave procedure, 2016.
 SmoothLaw smoothLaw(const LawGrid& grid, const SquaredSpeeds& first, const MotionLimits& limits, const RowSource& rows,
-                    int intervals);
+                    const LawEffort& effort);
 
 }  // namespace kinegraph

@@ -44,7 +44,7 @@ double weightOf(const PathCurve& curve, const MotionLimits& limits, int piece, V
 
 }  // namespace
 
-LawGrid::LawGrid(const PathCurve& curve, const MotionLimits& limits, int count, bool divide_lines)
+LawGrid::LawGrid(const PathCurve& curve, const MotionLimits& limits, const LawEffort& effort, bool divide_lines)
     : curve_(&curve), whole_lines_(!divide_lines) {
   std::vector<double> weight(std::size_t(curve.pieces()), 0.);
   VectorXd derivative(curve.dofs());
@@ -59,7 +59,7 @@ LawGrid::LawGrid(const PathCurve& curve, const MotionLimits& limits, int count, 
     const double begin = curve.begin(piece), length = curve.end(piece) - begin;
     const double share =
         isDivided(piece) ? length / curved + (total > 0. ? weight[piece] / total : length / curved) : 0.;
-    const int parts = isDivided(piece) ? std::max(2, int(std::lround(count * share / 2.))) : 1;
+    const int parts = isDivided(piece) ? std::max(2, int(std::lround(effort.intervals * share / 2.))) : 1;
     for (int i = 0; i < parts; ++i) {
       places_.push_back(begin + length * i / parts);
       piece_.push_back(piece);
@@ -67,22 +67,24 @@ LawGrid::LawGrid(const PathCurve& curve, const MotionLimits& limits, int count, 
     }
   }
   places_.push_back(curve.length());
-  expand();
+  expand(effort);
 }
 
-LawGrid::LawGrid(const PathCurve& curve, std::vector<double> places)
+LawGrid::LawGrid(const PathCurve& curve, std::vector<double> places, const LawEffort& effort)
     : curve_(&curve), whole_lines_(false), places_(std::move(places)) {
   for (std::size_t i = 0; i + 1 < places_.size(); ++i) {
+    effort.pause(int(i));
     piece_.push_back(curve.pieceAt(places_[i]));
     stops_.push_back(places_[i] == curve.begin(piece_.back()) && curve.stopsAt(piece_.back()));
   }
-  expand();
+  expand(effort);
 }
 
-void LawGrid::expand() {
+void LawGrid::expand(const LawEffort& effort) {
   const int dofs = curve_->dofs(), m = degree();
   tangents_.resize(dofs, Eigen::Index(intervals()) * (m + 1));
   for (int i = 0; i < intervals(); ++i) {
+    effort.pause(i);
     double* p = tangents_.col(Eigen::Index(i) * (m + 1)).data();
     const double x = place(i) - curve_->begin(piece_[i]), h = width(i);
     const double *c1 = curve_->coefficient(piece_[i], 1), *c2 = m > 0 ? curve_->coefficient(piece_[i], 2) : nullptr;
@@ -125,12 +127,13 @@ double bulge(const double* p, int dofs, int degree) {
 
 }  // namespace
 
-std::vector<double> LawGrid::caps(const VectorXd& velocity) const {
+std::vector<double> LawGrid::caps(const VectorXd& velocity, const LawEffort& effort) const {
   const int dofs = curve_->dofs(), m = degree(), count = intervals();
   constexpr double kNone = std::numeric_limits<double>::infinity();
   std::vector<double> caps(std::size_t(count) + 1, kNone);
   Eigen::ArrayXd least(dofs), inverse = velocity.array().inverse();
   for (int i = 0; i < count; ++i) {
+    effort.pause(i);
     const double* p = tangents_.col(Eigen::Index(i) * (m + 1)).data();
     double peak0 = 0., peak1 = 0.;
     for (int j = 0; j < dofs; ++j) {

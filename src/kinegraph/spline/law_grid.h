@@ -33,17 +33,28 @@ struct RowSource {
   explicit operator bool() const { return bool(at); }
 };
 
+/// How finely a law is computed, and what is called now and then meanwhile, if anything is; it may throw to end it.
+struct LawEffort {
+  int intervals = 100;
+  std::function<void()> between;
+
+  /// Asked at the i-th step of what takes many.
+  void pause(int i) const {
+    if (i % 64 == 0 && between) between();
+  }
+};
+
 /// The places where a law is computed, and dq/ds between them as Bernstein polynomials.
 class LawGrid {
  public:
   using Coefficients = Eigen::ArrayXXd;
 
-  /// About `count` intervals, more where a motion within the limits will take longer; lines are one each unless
+  /// About `effort.intervals` of them, more where a motion within the limits will take longer; lines are one each unless
   /// `divide_lines`.
-  LawGrid(const PathCurve& curve, const MotionLimits& limits, int count, bool divide_lines);
+  LawGrid(const PathCurve& curve, const MotionLimits& limits, const LawEffort& effort, bool divide_lines);
 
   /// At these places, which include all knots of the curve.
-  LawGrid(const PathCurve& curve, std::vector<double> places);
+  LawGrid(const PathCurve& curve, std::vector<double> places, const LawEffort& effort);
 
   const PathCurve& curve() const { return *curve_; }
   int intervals() const { return int(piece_.size()); }
@@ -64,10 +75,10 @@ class LawGrid {
   auto tangent(int i) const { return tangents_.middleCols(i * (degree() + 1), degree() + 1); }
 
   /// The largest s'^2 at each place that, interpolated, keeps the velocities between them, too; 0 where it must stop.
-  std::vector<double> caps(const VectorXd& velocity) const;
+  std::vector<double> caps(const VectorXd& velocity, const LawEffort& effort) const;
 
  private:
-  void expand();
+  void expand(const LawEffort& effort);
 
   const PathCurve* curve_;
   bool whole_lines_;

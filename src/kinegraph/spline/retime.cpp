@@ -119,8 +119,9 @@ RetimeStatus statusOf(LawFailure failure) {
 }
 
 /// Something must limit every part of the way.
-void checkLimited(const LawGrid& grid, const MotionLimits& limits) {
+void checkLimited(const LawGrid& grid, const MotionLimits& limits, const LawEffort& effort) {
   for (int i = 0; i < grid.intervals(); ++i) {
+    effort.pause(i);
     std::vector<std::string> moving;
     const auto tangent = grid.tangent(i);
     bool is_limited = false;
@@ -146,10 +147,11 @@ TimedPath retime(const MatrixXd& path, const MotionLimits& limits, const RetimeO
 namespace {
 
 /// By how much the rows of a law exceed their limits at most, each; between the places where they were asked for, too.
-VectorXd excessOf(const TimeLaw& law, const RowSource& rows) {
+VectorXd excessOf(const TimeLaw& law, const RowSource& rows, const LawEffort& effort) {
   VectorXd excess = VectorXd::Zero(rows.high.size());
   constexpr int kParts = 6;
   for (std::size_t i = 0; i < law.phases().size(); ++i) {
+    effort.pause(int(i));
     const LawPhase& phase = law.phases()[i];
     const double time = (i + 1 < law.phases().size() ? law.phases()[i + 1].time : law.duration()) - phase.time;
     for (int k = 0; k <= kParts; ++k) {
@@ -168,15 +170,15 @@ struct Timing {
 };
 
 Timing timingOf(const LawGrid& grid, const MotionLimits& limits, const RowSource& rows, double start, double end,
-                int intervals) {
+                const LawEffort& effort) {
   Timing timing;
-  SquaredSpeeds& speeds = timing.speeds = fastestSpeeds(grid, limits, rows, start, end);
+  SquaredSpeeds& speeds = timing.speeds = fastestSpeeds(grid, limits, rows, start, end, effort);
   if (speeds.failure != LawFailure::none) return timing;
   if (!limits.limitsJerk()) {
-    timing.law = lawOf(grid, limits, speeds);
+    timing.law = lawOf(grid, limits, speeds, effort);
     return timing;
   }
-  SmoothLaw smooth = smoothLaw(grid, speeds, limits, rows, intervals);
+  SmoothLaw smooth = smoothLaw(grid, speeds, limits, rows, effort);
   speeds.failure = smooth.failure, speeds.most = smooth.most, speeds.place = smooth.place;
   timing.law = std::move(smooth.law);
   return timing;
@@ -184,14 +186,14 @@ Timing timingOf(const LawGrid& grid, const MotionLimits& limits, const RowSource
 
 /// The same with rows, whose limits are narrowed by what they exceed between the places.
 Timing timingWithRows(const LawGrid& grid, const MotionLimits& limits, const RowSource& given, double start, double end,
-                      int intervals) {
+                      const LawEffort& effort) {
   RowSource rows = given;
-  Timing timing = timingOf(grid, limits, rows, start, end, intervals);
+  Timing timing = timingOf(grid, limits, rows, start, end, effort);
   for (int round = 0; round < kNarrowings && timing.speeds.failure == LawFailure::none; ++round) {
-    const VectorXd excess = excessOf(timing.law, given);
+    const VectorXd excess = excessOf(timing.law, given, effort);
     if ((excess.array() <= kExcess * (given.high - given.low).array().min(1e9)).all()) break;
     rows.high -= kNarrowMore * excess, rows.low += kNarrowMore * excess;
-    timing = timingOf(grid, limits, rows, start, end, intervals);
+    timing = timingOf(grid, limits, rows, start, end, effort);
   }
   return timing;
 }
@@ -212,18 +214,20 @@ TimedPath retime(const MatrixXd& path, const PathCurve& curve, const MotionLimit
     timed.times = VectorXd::Zero(path.rows());
     return timed;
   }
-  const LawGrid grid(timed.curve_, limits, options.intervals, bool(options.rows));
-  checkLimited(grid, limits);
-  if (options.between) options.between();
-  Timing timing = options.rows ? timingWithRows(grid, limits, options.rows, start, end, options.intervals)
-                               : timingOf(grid, limits, {}, start, end, options.intervals);
+  const LawEffort effort{options.intervals, options.between};
+  const LawGrid grid(timed.curve_, limits, effort, bool(options.rows));
+  checkLimited(grid, limits, effort);
+  Timing timing = options.rows ? timingWithRows(grid, limits, options.rows, start, end, effort)
+                               : timingOf(grid, limits, {}, start, end, effort);
   timed.status = statusOf(timing.speeds.failure);
   timed.message = failureText(timing.speeds, timed.curve_, options.rows);
   if (!timed.feasible()) return timed;
   timed.law_ = std::move(timing.law);
   timed.times.resize(Eigen::Index(curve.marks().size()));
-  for (Eigen::Index i = 0; i < timed.times.size(); ++i)
+  for (Eigen::Index i = 0; i < timed.times.size(); ++i) {
+    effort.pause(int(i));
     timed.times[i] = timed.law_.timeOf(curve.marks()[std::size_t(i)]);
+  }
   return timed;
 }
 

@@ -25,7 +25,7 @@ struct RetimeOptions {
   VectorXd start_velocity, end_velocity;  ///< (n,), rad/s or m/s, along the path; empty: at rest
   int intervals = 100;                    ///< of the law, on what is curved
   RowSource rows;                         ///< further limits, such as torques; they hold at the ends of the intervals
-  std::function<void()> between;          ///< called before the speeds are sought, and may throw to end it
+  std::function<void()> between;          ///< called now and then, and may throw to end it
 
   void validate() const;  ///< throws ValueError
 };

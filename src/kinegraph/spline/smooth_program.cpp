@@ -9,13 +9,21 @@ namespace {
 
 constexpr double kGivenSpan = 1e6;  // stands for an open side of a row, in units of the other
 
+double binomial(int n, int k) {
+  if (k < 0 || k > n) return 0.;
+  double value = 1.;
+  for (int i = 0; i < k; ++i) value = value * (n - i) / (i + 1);
+  return value;
+}
+
 }  // namespace
 
 SmoothProgram::SmoothProgram(const LawGrid& grid, const MotionLimits& limits, const RowSource& rows, SectionEnd begin,
-                             SectionEnd end)
+                             SectionEnd end, const LawEffort& effort)
     : first_(begin.at_rest ? 1 : 0),
       count_(grid.intervals() - int(begin.at_rest) - int(end.at_rest)),
-      ends_{begin, end} {
+      ends_{begin, end},
+      effort_(effort) {
   if (begin.at_rest) rest_width_[0] = grid.width(0);
   if (end.at_rest) rest_width_[1] = grid.width(grid.intervals() - 1);
   width_.resize(count_);
@@ -28,85 +36,114 @@ SmoothProgram::SmoothProgram(const LawGrid& grid, const MotionLimits& limits, co
   // at rest: b = y (x / w)^(4/3) has the slope 4 y / 3 w at its end, so that c = y + h/2 of it
   right_[0] = begin.at_rest ? 1. / (1. + 2. * width_[0] / (3. * rest_width_[0])) : 1.;
   left_[count_] = end.at_rest ? 1. / (1. + 2. * width_[count_ - 1] / (3. * rest_width_[1])) : 1.;
-  addRows(grid, limits);
-  if (rows) addGivenRows(grid, rows);
-  addCaps(grid, limits);
-  for (Array* of_knots : {&knots_, &knot_step_, &roots_}) of_knots->setZero(count_ + 1);
-  for (Array* of_middles : {&middle_, &middle_step_}) of_middles->setZero(count_);
-  for (Array& array : slope_) array.resize(count_);
-  for (Array& array : matrix_) array.resize(count_);
+  const int padded = count_ + 2 * kLanes + 1;
+  for (Array* array : {&middle_, &knots_, &roots_}) array->setOnes(padded);
+  for (Array* array : {&middle_step_, &knot_step_}) array->setZero(padded);
+  for (Array& array : slope_) array.resize(padded);
+  for (Array& array : by_barrier_) array.resize(padded);
+  for (Array& array : matrix_) array.resize(padded);
   band_.resize(std::size_t(count_)), gradient_.resize(std::size_t(count_));
-}
-
-SmoothProgram::Strip& SmoothProgram::addStrip(Kind kind, int root, int first, int count) {
-  Strip& strip = strips_.emplace_back(Strip{kind, root, first, {}, {}, {}, {}, {}, {}, {}});
-  strip.offset.setZero(count), strip.size.setOnes(count);
-  for (Array& r : strip.r) r.setZero(count);
-  for (int side = 0; side < 2; ++side)
-    for (Array* array : {&strip.slack[side], &strip.dual[side], &strip.slack_step[side], &strip.dual_step[side]})
-      array->setZero(count);
-  return strip;
-}
-
-/// Accelerations at the beginning of each interval (and at the end of the last), jerks at both ends.
-void SmoothProgram::addRows(const LawGrid& grid, const MotionLimits& limits) {
-  const int n = grid.curve().dofs(), last = count_ - 1;
-  Eigen::ArrayXXd q[2][3];  // derivatives at both ends of each interval, a column each
-  VectorXd derivative(n);
-  for (int end = 0; end < 2; ++end) {
-    for (int order = 0; order < 3; ++order) {
-      q[end][order].resize(count_, n);
-      for (int k = 0; k < count_; ++k) {
-        grid.curve().eval(grid.piece(first_ + k), grid.place(first_ + k + end), order + 1, derivative.data());
-        q[end][order].row(k) = derivative.transpose().array();
-      }
-    }
+  kinds_ = {kVelocity, kVelocity};
+  for (int j = 0; j < limits.acceleration.size(); ++j) {
+    if (limits.acceleration[j] < kOpen) kinds_.insert(kinds_.end(), std::size_t(grid.degree()) + 1, kAcceleration);
+    if (limits.jerk[j] < kOpen) ++jerks_;
   }
-  for (int j = 0; j < n; ++j) {
-    if (const double a = limits.acceleration[j]; a < kOpen) {  // q' b'/2 + q'' b
-      Strip& strip = addStrip(kAcceleration, -1, 0, count_);
-      strip.r[1] = q[0][0].col(j) / width_ / a;
-      strip.r[0] = q[0][1].col(j) / a - strip.r[1];
-      Strip& at_end = addStrip(kAcceleration, -1, last, 1);
-      at_end.r[1][0] = -q[1][0](last, j) / width_[last] / a;
-      at_end.r[2][0] = q[1][1](last, j) / a - at_end.r[1][0];
-    }
-    const double jerk = limits.jerk[j];
-    for (int end = 0; end < 2 && jerk < kOpen; ++end) {  // q''' b + 3/2 q'' b' + 1/2 q' b''
-      Strip& strip = addStrip(kJerk, 2 * end, 0, count_);
-      const Array turn = 3. / jerk * q[end][1].col(j) / width_;
-      strip.r[0] = strip.r[2] = q[end][0].col(j) / (jerk * width_.square());
-      strip.r[1] = -2. * strip.r[0];
-      strip.r[2 * end] += q[end][2].col(j) / jerk + (end == 0 ? -1. : 1.) * turn;
-      strip.r[1] += (end == 0 ? 1. : -1.) * turn;
+  for (int r = 0; rows && r < rows.high.size(); ++r)
+    if (rows.low[r] > -kOpen || rows.high[r] < kOpen) kinds_.push_back(kGiven);
+  kinds_.insert(kinds_.end(), 2 * std::size_t(jerks_), kJerk);
+  addBlocks();
+  addCaps(grid, limits);
+  addMotionRows(grid, limits);
+  if (rows) addGivenRows(grid, rows);
+}
+
+void SmoothProgram::addBlocks() {
+  const int blocks = (count_ + kLanes - 1) / kLanes;
+  Rows none{};
+  std::fill_n(none.size, kLanes, 1.);
+  rows_.reserve(std::size_t(blocks + 1) * kinds_.size());
+  for (int n = 0; n <= blocks; ++n) {
+    const bool is_end = n == blocks;
+    effort_.pause(n * kLanes);
+    rows_.insert(rows_.end(), kinds_.size(), none);
+    Rows* rows = rows_.data() + std::size_t(n) * kinds_.size();
+    blocks_.push_back({is_end ? count_ - 1 : n * kLanes, beginRoots(), is_end ? 0 : jerks_, is_end ? 0 : jerks_, rows});
+  }
+}
+
+SmoothProgram::RowPlace SmoothProgram::row(int r, int k) {
+  const SmoothKernel::Block& block = k == count_ ? blocks_.back() : blocks_[std::size_t(k / kLanes)];
+  return {block.rows[r], k == count_ ? 0 : k % kLanes};
+}
+
+/// Accelerations: of the Bernstein coefficients of an interval, the last one is the first of the next interval. Jerks at
+/// both ends. With dq/ds = sum_k p_k B_k of degree m, (q' b'/2 + q'' b) w has the coefficients
+///
+///     ((m + 1 - k) p_k (b1 - b0) + k p_k-1 (b2 - b1)) / (m + 1) + m sum_l C(2, l) C(m - 1, k - l) / C(m + 1, k) d_k-l b_l
+///
+/// with d_k = p_k+1 - p_k.
+void SmoothProgram::addMotionRows(const LawGrid& grid, const MotionLimits& limits) {
+  const int m = grid.degree(), top = m + 1;
+  double weight[8][3];
+  for (int c = 0; c <= top; ++c)
+    for (int l = 0; l < 3; ++l) weight[c][l] = m * binomial(2, l) * binomial(m - 1, c - l) / binomial(top, c);
+  for (int k = 0; k < count_; ++k) {
+    effort_.pause(k);
+    const auto p = grid.tangent(first_ + k);
+    const double w = width_[k];
+    int r = 2, jerk = beginRoots();
+    for (int j = 0; j < limits.acceleration.size(); ++j) {
+      const auto coefficient = [&](int c, RowPlace place) {
+        const double unit = 1. / (limits.acceleration[j] * w);
+        const double rise = c <= m ? unit * double(top - c) / top * p(j, c) : 0.;
+        const double fall = c > 0 ? unit * double(c) / top * p(j, c - 1) : 0.;
+        place.add(-rise, rise - fall, fall);
+        for (int l = 0; l < 3; ++l)
+          if (weight[c][l] != 0.) place.rows.r[l][place.lane] += unit * weight[c][l] * (p(j, c - l + 1) - p(j, c - l));
+      };
+      if (limits.acceleration[j] < kOpen) {
+        for (int c = 0; c <= m; ++c) coefficient(c, row(r + c, k));
+        if (k == count_ - 1) coefficient(top, row(r, count_));
+        r += top;
+      }
+      if (!(limits.jerk[j] < kOpen)) continue;
+      for (int end = 0; end < 2; ++end) {  // q''' b + 3/2 q'' b' + 1/2 q' b'', times w^2
+        const int at = end * m;
+        const double unit = 1. / (limits.jerk[j] * w * w), bend = unit * p(j, at);
+        const double turn = m > 0 ? 3. * unit * m * (end ? p(j, m) - p(j, m - 1) : p(j, 1) - p(j, 0)) : 0.;
+        const int middle = end ? m - 1 : 1;
+        const double twist =
+            m > 1 ? unit * m * (m - 1) * (p(j, middle - 1) - 2. * p(j, middle) + p(j, middle + 1)) : 0.;
+        RowPlace place = row(jerk + end * jerks_, k);
+        if (end == 0) {
+          place.add(bend - turn + twist, turn - 2. * bend, bend);
+        } else {
+          place.add(bend, -turn - 2. * bend, bend + turn + twist);
+        }
+      }
+      ++jerk;
     }
   }
 }
 
 void SmoothProgram::addGivenRows(const LawGrid& grid, const RowSource& source) {
-  for (int r = 0; r < source.high.size(); ++r) {
-    if (source.low[r] == -kOpen && source.high[r] == kOpen) continue;
-    addStrip(kGiven, -1, 0, count_), addStrip(kGiven, -1, count_ - 1, 1);
-  }
-  const std::size_t first = strips_.size();
+  const int first = int(std::find(kinds_.begin(), kinds_.end(), kGiven) - kinds_.begin());
   for (int k = 0; k <= count_; ++k) {
+    effort_.pause(k);
     const bool at_end = k == count_;
     const int interval = first_ + k - int(at_end);
     const double h = width_[k - int(at_end)];
     const LawRows at = source.at(grid.place(first_ + k), grid.piece(interval));
-    std::size_t strip = first;
-    for (auto r = source.high.size() - 1; r >= 0; --r) {
+    int of_block = first;
+    for (int r = 0; r < source.high.size(); ++r) {
       double low = source.low[r], high = source.high[r];
       if (low == -kOpen && high == kOpen) continue;
-      strip -= 2;
       if (low == -kOpen) low = high - kGivenSpan * (1. + std::abs(high));
       if (high == kOpen) high = low + kGivenSpan * (1. + std::abs(low));
       const double size = (high - low) / 2., slope = at.a[r] / h / size, turn = at.b[r] / size;
-      Strip& row = strips_[strip + std::size_t(at_end)];
-      const int i = at_end ? 0 : k;
-      row.r[1][i] = at_end ? -slope : slope;
-      row.r[at_end ? 2 : 0][i] = at_end ? turn + slope : turn - slope;
-      row.offset[i] = (at.c[r] - (low + high) / 2.) / size;
+      RowPlace place = row(of_block++, k);
+      place.add(at_end ? 0. : turn - slope, at_end ? -slope : slope, at_end ? turn + slope : 0.);
+      place.rows.offset[place.lane] = (at.c[r] - (low + high) / 2.) / size;
     }
   }
 }
@@ -140,11 +177,23 @@ double SmoothProgram::restCap(const LawGrid& grid, const MotionLimits& limits, b
 }
 
 void SmoothProgram::addCaps(const LawGrid& grid, const MotionLimits& limits) {
-  const std::vector<double> caps = grid.caps(limits.velocity);
-  for (int k = 0; k <= count_; ++k) knot_caps_.push_back({caps[first_ + k], 0., 0.});
-  for (int k = 0; k < count_; ++k) middle_caps_.push_back({(caps[first_ + k] + caps[first_ + k + 1]) / 2., 0., 0.});
-  if (ends_[0].at_rest) knot_caps_.front().limit = std::min(knot_caps_.front().limit, restCap(grid, limits, true));
-  if (ends_[1].at_rest) knot_caps_.back().limit = std::min(knot_caps_.back().limit, restCap(grid, limits, false));
+  std::vector<double> caps = grid.caps(limits.velocity, effort_);
+  double& begin = caps[std::size_t(first_)];
+  double& end = caps[std::size_t(first_ + count_)];
+  const double middle_of_first = (begin + caps[std::size_t(first_ + 1)]) / 2.,
+               middle_of_last = (caps[std::size_t(first_ + count_ - 1)] + end) / 2.;
+  if (ends_[0].at_rest) begin = std::min(begin, restCap(grid, limits, true));
+  if (ends_[1].at_rest) end = std::min(end, restCap(grid, limits, false));
+  for (int k = 0; k < count_; ++k) {
+    const double at_begin = caps[std::size_t(first_ + k)], at_end = caps[std::size_t(first_ + k + 1)];
+    row(0, k).add(1. / at_begin, 0., 0.);
+    row(1, k).add(0.,
+                  k == 0            ? 1. / middle_of_first
+                  : k == count_ - 1 ? 1. / middle_of_last
+                                    : 2. / (at_begin + at_end),
+                  0.);
+  }
+  row(0, count_).add(0., 0., 1. / end);
 }
 
 }  // namespace kinegraph

@@ -1,9 +1,11 @@
 #pragma once
 
 #include <array>
+#include <functional>
 #include <vector>
 
 #include "kinegraph/spline/law_grid.h"
+#include "kinegraph/spline/smooth_kernel.h"
 
 namespace kinegraph {
 
@@ -21,15 +23,21 @@ using Quadratic = std::array<double, 3>;
 /// the section is at rest: there s is a cubic of time, and b grows with s^(4/3).
 ///
 /// The unknowns are the middle coefficients c_k; a knot is the mean of its neighbors that makes the slope continuous.
+/// Velocities and accelerations hold all along: a cap on all coefficients of b, and on the Bernstein coefficients of
+/// q' b'/2 + q'' b. Rows of the caller hold at the knots, jerks at both ends of each interval.
 class SmoothProgram {
  public:
+  /// `effort` must stay.
   SmoothProgram(const LawGrid& grid, const MotionLimits& limits, const RowSource& rows, SectionEnd begin,
-                SectionEnd end);
+                SectionEnd end, const LawEffort& effort);
 
-  /// Interior-point steps from the shape `start` of b, in the middle of each interval of the grid, until the duration is
-  /// within `gap` of the least one, as a share; `first_gap` is how far it is thought to be at first. False if no law
-  /// within the limits was found.
-  bool solve(const std::vector<double>& start, double first_gap, double gap, int most_steps);
+  /// Takes the shape `start` of b, in the middle of each interval of the grid, as where `improve` begins; `gap` is how far
+  /// it is thought to be from the least duration, as a share.
+  void begin(const std::vector<double>& start, double gap);
+
+  /// Interior-point steps until the duration is within `gap` of the least one, as a share, and no limit is exceeded by
+  /// more than `missed`, likewise. False if that takes more than so many steps. May be called again.
+  bool improve(double gap, double missed, int most_steps);
 
   int first() const { return first_; }  ///< the first interval of the grid in which b is quadratic
   int count() const { return count_; }
@@ -40,69 +48,63 @@ class SmoothProgram {
 
  private:
   using Array = Eigen::ArrayXd;
+  using Rows = SmoothKernel::Rows;
+  static constexpr int kLanes = SmoothKernel::kLanes;
   static constexpr double kOpen = std::numeric_limits<double>::infinity();  ///< no limit
   enum Kind { kVelocity, kAcceleration, kJerk, kGiven };
 
-  /// Rows |r b + offset| <= size, or size / sqrt(b[root]) where a root is given: one of a kind in each of consecutive
-  /// intervals, which are computed side by side.
-  struct Strip {
-    Kind kind;
-    int root, first;  ///< -1, 0 or 2; the first interval
-    Array r[3], offset, size;
-    Array slack[2], dual[2];            ///< of both sides
-    Array slack_step[2], dual_step[2];  ///< found last
-    int count() const { return int(size.size()); }
-  };
-  /// c_k or a knot is at most `limit`.
-  struct Cap {
-    double limit, slack, dual, slack_step = 0., dual_step = 0.;
-  };
-  /// h <= 0 of both sides at the present b, and the slope of both along the coefficient whose root divides the size.
-  template <int N>
-  struct Sides {
-    Eigen::Array<double, N, 1> h[2], along_root;
-  };
+  /// How far all may go until a slack, a multiplier or a coefficient ends.
   struct Steps {
     double primal = 1., dual = 1.;
   };
   /// Of all slacks times their multipliers; and by how much a limit is missed at most, as a share.
   struct Gap {
-    double sum = 0., infeasible = 0.;
+    double sum = 0., missed = 0.;
+  };
+  /// A row in an interval.
+  struct RowPlace {
+    Rows& rows;
+    int lane;
+    void add(double r0, double r1, double r2) { rows.r[0][lane] += r0, rows.r[1][lane] += r1, rows.r[2][lane] += r2; }
   };
 
-  Strip& addStrip(Kind kind, int root, int first, int count);
-  void addRows(const LawGrid& grid, const MotionLimits& limits);
+  int rowsPerBlock() const { return int(kinds_.size()); }
+  int beginRoots() const { return int(kinds_.size()) - 2 * jerks_; }
+  /// Row r in interval k; at the end of the last interval for k = count().
+  RowPlace row(int r, int k);
+  void addBlocks();
+  void addMotionRows(const LawGrid& grid, const MotionLimits& limits);
   void addGivenRows(const LawGrid& grid, const RowSource& rows);
   void addCaps(const LawGrid& grid, const MotionLimits& limits);
   double restCap(const LawGrid& grid, const MotionLimits& limits, bool at_begin) const;
   void placeKnots();
-  template <int N>
-  Sides<N> sidesOf(const Strip& strip, Eigen::Index i) const;
-  template <class Visit>
-  void forCaps(const Visit& visit);
-  int inequalities();
   double duration() const;
   void slowDown();
-  void begin(double barrier);
-  void assemble(double barrier);
-  void addStrips(double barrier);
-  void addCaps(double barrier);
+  void takeRootsNow();
+  void forParts(const std::function<void(const SmoothKernel::Block*, int)>& visit) const;
+  void addCost();
+  void assemble();
   void spread(int k);
   void solveBand();
-  Steps findSteps(double barrier);
+  Steps findSteps();
   Gap take(const Steps& steps);
 
   int first_, count_;
   SectionEnd ends_[2];
+  const LawEffort& effort_;
   double rest_width_[2] = {0., 0.};
   Array width_, left_, right_;  ///< knot k = left_[k] c_(k-1) + right_[k] c_k
   Array middle_, knots_, middle_step_, knot_step_;
-  Array roots_;  ///< 1 / sqrt(b) at the knots
-  std::vector<Strip> strips_;
-  std::vector<Cap> middle_caps_, knot_caps_;
-  Array slope_[3], matrix_[6];               ///< on the coefficients of each interval: 0, 1, 2; 00, 10, 11, 20, 21, 22
-  std::vector<std::array<double, 3>> band_;  ///< diagonal, and one and two below it
+  Array roots_;              ///< 1 / sqrt(b) at the knots
+  std::vector<Kind> kinds_;  ///< of the rows of a block: velocity, acceleration, given; jerk where intervals begin, end
+  int jerks_ = 0;            ///< dofs whose jerk is limited
+  std::vector<Rows> rows_;
+  std::vector<SmoothKernel::Block> blocks_;     ///< the last one has what holds at the end
+  Array slope_[3], by_barrier_[3], matrix_[6];  ///< on the coefficients of each interval, see SmoothKernel::Sums
+  std::vector<std::array<double, 3>> band_;     ///< diagonal, and one and two below it
   std::vector<double> gradient_;
+  double barrier_ = 0.;
+  Gap gap_;
 };
 
 }  // namespace kinegraph

@@ -20,36 +20,15 @@ LawState LawPhase::at(double tau) const {
   return {s0 + v * sine + a * C, speed, a * cosine + v * growth * sine, growth * speed};
 }
 
+double LawPhase::squaredSpeed(double s) const {
+  const double way = s - begin.s;
+  return begin.speed * begin.speed + way * (2. * begin.acceleration + way * growth);
+}
+
 const LawPhase& TimeLaw::phaseAt(double t) const {
   const auto after =
       std::upper_bound(phases_.begin(), phases_.end(), t, [](double time, const LawPhase& p) { return time < p.time; });
   return *(after == phases_.begin() ? after : after - 1);
-}
-
-double TimeLaw::timeOf(double s) const {
-  const auto found =
-      std::lower_bound(phases_.begin(), phases_.end(), s, [](const LawPhase& p, double at) { return p.end < at; });
-  if (found == phases_.end()) return duration_;
-  if (s <= found->begin.s) return found->time;
-  const double until = found + 1 == phases_.end() ? duration_ : (found + 1)->time;
-  double low = 0., high = until - found->time;
-  if (s >= found->end) return until;
-  for (int i = 0; i < 60 && high - low > 1e-15 * duration_; ++i) {
-    const double middle = (low + high) / 2.;
-    (found->at(middle).s < s ? low : high) = middle;
-  }
-  return found->time + (low + high) / 2.;
-}
-
-void TimeLaw::add(LawPhase phase, double time) {
-  phase.time = duration_;
-  phases_.push_back(phase);
-  duration_ += time;
-}
-
-void TimeLaw::addConstantAcceleration(double s0, double s1, double speed0, double speed1, int piece) {
-  const double acceleration = (speed1 - speed0) * (speed1 + speed0) / (2. * (s1 - s0));
-  add({0., {s0, speed0, acceleration, 0.}, 0., s1, piece}, 2. * (s1 - s0) / (speed0 + speed1));
 }
 
 namespace {
@@ -80,6 +59,47 @@ double polishedTime(const LawPhase& phase, const LawState& end) {
 }
 
 }  // namespace
+
+std::vector<LawPhase>::const_iterator TimeLaw::phaseTo(double s) const {
+  return std::lower_bound(phases_.begin(), phases_.end(), s, [](const LawPhase& p, double at) { return p.end < at; });
+}
+
+double TimeLaw::squaredSpeedAt(double s) const {
+  const auto found = phaseTo(s);
+  const LawPhase& phase = found == phases_.end() ? phases_.back() : *found;
+  return std::max(0., phase.squaredSpeed(std::clamp(s, phase.begin.s, phase.end)));
+}
+
+double TimeLaw::timeOf(double s) const {
+  const auto found = phaseTo(s);
+  if (found == phases_.end()) return duration_;
+  if (s <= found->begin.s) return found->time;
+  const double until = found + 1 == phases_.end() ? duration_ : (found + 1)->time;
+  double low = 0., high = until - found->time;
+  if (s >= found->end) return until;
+  if (found->begin.jerk == 0.) {
+    const double way = s - found->begin.s, square = found->squaredSpeed(s);
+    const LawState there{s, std::sqrt(std::max(0., square)), found->begin.acceleration + found->growth * way, 0.};
+    const double time = polishedTime(*found, there);
+    if (time >= 0. && time <= high) return found->time + time;
+  }
+  for (int i = 0; i < 60 && high - low > 1e-15 * duration_; ++i) {
+    const double middle = (low + high) / 2.;
+    (found->at(middle).s < s ? low : high) = middle;
+  }
+  return found->time + (low + high) / 2.;
+}
+
+void TimeLaw::add(LawPhase phase, double time) {
+  phase.time = duration_;
+  phases_.push_back(phase);
+  duration_ += time;
+}
+
+void TimeLaw::addConstantAcceleration(double s0, double s1, double speed0, double speed1, int piece) {
+  const double acceleration = (speed1 - speed0) * (speed1 + speed0) / (2. * (s1 - s0));
+  add({0., {s0, speed0, acceleration, 0.}, 0., s1, piece}, 2. * (s1 - s0) / (speed0 + speed1));
+}
 
 void TimeLaw::addQuadratic(double s0, double s1, double first, double middle, double last, int piece) {
   const double h = s1 - s0;

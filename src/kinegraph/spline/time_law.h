@@ -21,6 +21,9 @@ struct LawPhase {
   int piece = 0;       ///< of the curve
 
   LawState at(double tau) const;
+
+  /// s'^2 at s, without a jerk.
+  double squaredSpeed(double s) const;
 };
 
 /// s(t), 0 <= t <= duration(): when a motion is where on its curve.
@@ -40,6 +43,9 @@ class TimeLaw {
   /// When the motion is at s first.
   double timeOf(double s) const;
 
+  /// s'^2 at s, where no phase has a jerk.
+  double squaredSpeedAt(double s) const;
+
   /// Appends a phase that begins now and takes `time`; it should end where the next begins.
   void add(LawPhase phase, double time);
 
@@ -56,6 +62,8 @@ class TimeLaw {
   void slowDown(double factor);
 
  private:
+  std::vector<LawPhase>::const_iterator phaseTo(double s) const;
+
   std::vector<LawPhase> phases_;
   double duration_ = 0.;
 };

@@ -49,7 +49,7 @@ struct Range {
 class IntervalRows {
  public:
   IntervalRows(const LawGrid& grid, const MotionLimits& limits, const RowSource& source,
-               const std::vector<double>& caps);
+               const std::vector<double>& caps, const LawEffort& effort);
 
   /// What x may be so that some z in `next` can be reached.
   Range before(int interval, const Range& next);
@@ -87,13 +87,14 @@ class IntervalRows {
 };
 
 IntervalRows::IntervalRows(const LawGrid& grid, const MotionLimits& limits, const RowSource& source,
-                           const std::vector<double>& caps)
+                           const std::vector<double>& caps, const LawEffort& effort)
     : grid_(grid), source_(source), caps_(caps) {
   for (int j = 0; j < grid.curve().dofs(); ++j)
     if (limits.acceleration[j] < kUnlimited) limited_.push_back(j);
   const int rows = int(limited_.size()) * (grid.degree() + 2);
   x_.resize(rows, grid.intervals()), y_.resize(rows, grid.intervals()), z_.resize(rows, grid.intervals());
   for (int i = 0; i < grid.intervals(); ++i) {
+    effort.pause(i);
     if (!grid.isLine(i)) addInterval(i, limits);
     if (source) addGeneral(i);
   }
@@ -235,8 +236,12 @@ int IntervalRows::worstAtRest(int interval) const {
 /// Both passes, and where they fail.
 class TwoPasses {
  public:
-  TwoPasses(const LawGrid& grid, const MotionLimits& limits, const RowSource& source)
-      : grid_(grid), limits_(limits), caps_(grid.caps(limits.velocity)), rows_(grid, limits, source, caps_) {}
+  TwoPasses(const LawGrid& grid, const MotionLimits& limits, const RowSource& source, const LawEffort& effort)
+      : grid_(grid),
+        limits_(limits),
+        effort_(effort),
+        caps_(grid.caps(limits.velocity, effort)),
+        rows_(grid, limits, source, caps_, effort) {}
 
   SquaredSpeeds run(double start, double end) {
     if (end > caps_.back()) return fail(LawFailure::end_too_fast, caps_.back());
@@ -267,6 +272,7 @@ class TwoPasses {
     open_.resize(caps_.size());
     open_.back() = {end, end};
     for (int i = grid_.intervals() - 1; i >= 0; --i) {
+      effort_.pause(i);
       const Range& next = open_[i + 1];
       const double cap = std::min(caps_[i], kUnlimited);
       open_[i] = grid_.isLine(i) ? Range{std::max(0., next.low - reach(i)), std::min(cap, next.high + reach(i))}
@@ -283,6 +289,7 @@ class TwoPasses {
     speeds_.at.assign(caps_.size(), start);
     speeds_.middle.assign(std::size_t(grid_.intervals()), 0.);
     for (int i = 0; i < grid_.intervals(); ++i) {
+      effort_.pause(i);
       const double now = speeds_.at[i];
       const Range& next = open_[i + 1];
       if (grid_.isLine(i)) {
@@ -301,6 +308,7 @@ class TwoPasses {
 
   const LawGrid& grid_;
   const MotionLimits& limits_;
+  const LawEffort& effort_;
   std::vector<double> caps_;
   IntervalRows rows_;
   std::vector<Range> open_;
@@ -310,13 +318,14 @@ class TwoPasses {
 }  // namespace
 
 SquaredSpeeds fastestSpeeds(const LawGrid& grid, const MotionLimits& limits, const RowSource& source,
-                            double start_speed, double end_speed) {
-  return TwoPasses(grid, limits, source).run(start_speed * start_speed, end_speed * end_speed);
+                            double start_speed, double end_speed, const LawEffort& effort) {
+  return TwoPasses(grid, limits, source, effort).run(start_speed * start_speed, end_speed * end_speed);
 }
 
-TimeLaw lawOf(const LawGrid& grid, const MotionLimits& limits, const SquaredSpeeds& speeds) {
+TimeLaw lawOf(const LawGrid& grid, const MotionLimits& limits, const SquaredSpeeds& speeds, const LawEffort& effort) {
   TimeLaw law;
   for (int i = 0; i < grid.intervals(); ++i) {
+    effort.pause(i);
     const double s0 = grid.place(i), s1 = grid.place(i + 1), b0 = speeds.at[i], b1 = speeds.at[i + 1];
     if (!grid.isLine(i)) {
       law.addQuadratic(s0, s1, b0, speeds.middle[i], b1, grid.piece(i));

@@ -30,9 +30,9 @@ struct SquaredSpeeds {
 /// follow the limits there; every acceleration is a polynomial, and keeps what its Bernstein coefficients keep. Rows of
 /// the caller hold at both ends of each interval. Where all is linear (lines), the answer is exact.
 SquaredSpeeds fastestSpeeds(const LawGrid& grid, const MotionLimits& limits, const RowSource& rows, double start_speed,
-                            double end_speed);
+                            double end_speed, const LawEffort& effort);
 
 /// The law of these speeds. On lines it accelerates, cruises and brakes within the interval.
-TimeLaw lawOf(const LawGrid& grid, const MotionLimits& limits, const SquaredSpeeds& speeds);
+TimeLaw lawOf(const LawGrid& grid, const MotionLimits& limits, const SquaredSpeeds& speeds, const LawEffort& effort);
 
 }  // namespace kinegraph
