@@ -191,6 +191,26 @@ def push(seed: int) -> Problem:
     return Problem(C, "(on zone obj)", "solved", 2)
 
 
+def _stick(C: ry.Config, name: str, at: list[float], angle: float, length: float = 0.5) -> None:
+    """An L: a bar, and a hook across its end."""
+    _box(C, name, "table", [*at, 0.065], [0.03, length, 0.03])
+    C.getFrame(name).setRelativeQuaternion([np.cos(0.5 * angle), 0, 0, np.sin(0.5 * angle)])
+    hook = C.addFrame(f"{name}_hook", name).setRelativePosition([0.085, 0.5 * length - 0.015, 0])
+    hook.setShape(ry.ST.ssBox, [0.14, 0.03, 0.03, 0.004]).setContact(1).setAttributes({"logical": {"is_hook": True}})
+
+
+def hook(seed: int) -> Problem:
+    """A box is beyond the hand's reach, and not beyond that of a stick with a hook."""
+    C, rng = _scene(), np.random.default_rng(seed)
+    _fingers(C, "g_", [0.06, 0.06, 0.04])
+    C.getFrame("g_carriage").setJoint(ry.JT.trans3, [-0.9, -0.9, 0.0, 0.9, 0.1, 1.0]).setJointState([0, -0.4, 0.5])
+    C.getFrame("g_gripper").setJoint(ry.JT.hingeZ, [-2.0, 2.0]).setJointState([0.0])
+    _stick(C, "stick", [float(rng.uniform(-0.6, -0.2)), float(rng.uniform(-0.4, -0.2))], float(rng.uniform(-0.7, 0.7)))
+    _box(C, "obj", "table", [float(rng.uniform(-0.2, 0.4)), float(rng.uniform(0.25, 0.4)), 0.08], [0.06, 0.06, 0.06])
+    _pad(C, "goal", [float(rng.uniform(0.3, 0.6)), float(rng.uniform(-0.5, -0.3))], [0.14, 0.14])
+    return Problem(C, "(on goal obj)", "solved", 6)
+
+
 def far(seed: int) -> Problem:
     """No plan: the goal is out of reach."""
     C, rng = _scene(), np.random.default_rng(seed)
@@ -198,6 +218,15 @@ def far(seed: int) -> Problem:
     _pad(C, "goal", [float(rng.uniform(1.5, 1.8)), 0.0], [0.14, 0.14])
     _box(C, "obj", "table", [-0.2, 0.4, 0.1], [0.08, 0.08, 0.1])
     return Problem(C, "(on goal obj)", "proved impossible", why="'goal' is at least .* beyond the reach of 'hand'")
+
+
+def beyond(seed: int) -> Problem:
+    """No plan: a box is beyond the reach of the hand, and of its stick."""
+    problem = hook(seed)
+    box = problem.C.getFrame("obj")
+    box.setRelativePosition(box.getRelativePosition() + np.array([0.0, 0.6, 0.0]))
+    why = "'obj' is at least .* beyond the reach of 'g_gripper', with 'stick', too"
+    return Problem(problem.C, problem.goal, "proved impossible", why=why)
 
 
 def small(seed: int) -> Problem:
@@ -269,7 +298,9 @@ FAMILIES: dict[str, Callable[[int], Problem]] = {
     "slot": slot,
     "carry": carry,
     "push": push,
+    "hook": hook,
     "far": far,
+    "beyond": beyond,
     "small": small,
     "contradiction": contradiction,
     "wide": wide,

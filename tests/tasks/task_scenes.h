@@ -22,4 +22,21 @@ inline Config cubesOnATable(int count) {
   return C;
 }
 
+/// A hand that cannot leave y <= .1, a stick with a hook at its far end, and a box behind that.
+inline Config stickAndBox(double y) {
+  Config C;
+  C.addFrame("base").setPosition({0., 0., .6});
+  C.addFrame("table", "base", "shape: ssBox, size: [2 2 .1 .02], contact: 1, rel: [0 0 -.05], logical: { is_place }");
+  C.addFrame(
+      "hand", "base",
+      "shape: marker, size: [.03], joint: trans3, limits: [-.9 -.9 0 .9 .1 1], q: [0 -.3 .5], logical: { is_gripper }");
+  C.addFrame("stick", "table", "joint: rigid, logical: { is_object }").setRelativePosition({-.2, -.3, .065});
+  C.getFrame("stick").setShape(ShapeType::ssBox, {.03, .5, .03, .004}).setContact(1);
+  C.addFrame("hook", "stick", "logical: { is_hook }").setRelativePosition({.085, .235, 0.});
+  C.getFrame("hook").setShape(ShapeType::ssBox, {.14, .03, .03, .004}).setContact(1);
+  C.addFrame("box", "table", "joint: rigid, logical: { is_object }").setRelativePosition({.1, y, .08});
+  C.getFrame("box").setShape(ShapeType::ssBox, {.06, .06, .06, .004}).setContact(1);
+  return C;
+}
+
 }  // namespace kinegraph

@@ -129,6 +129,7 @@ Args:
     hand: The frame that holds, or pushes.
     obj: The object's frame.
     touching: Their surfaces touch, as where a stick takes something along.
+    gap: They are that far apart then, m.
 Raises:
     FrameNotFound: There is no such frame.)";
 

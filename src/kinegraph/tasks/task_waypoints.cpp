@@ -1,6 +1,7 @@
 #include "kinegraph/tasks/task_waypoints.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 #include <optional>
@@ -23,6 +24,9 @@ constexpr double kBehind = .01;  ///< m: how far behind the middle of an object 
 constexpr double kBeside = .5;   ///< of half its height: how far above its middle at most
 constexpr double kEdge = .01;    ///< m: how far inside of an edge the center of what stands there is
 constexpr double kTurn = 1.6;    ///< rad: starts of placements are turned by up to that
+constexpr double kLong = 1.5;    ///< a bar is that many times longer than thick
+constexpr std::array kAcross = {F::scalarProductYX, F::scalarProductYY, F::scalarProductYZ};
+constexpr double kHookBehind = .06;  ///< m: how far behind what it pulls a hook starts
 constexpr char kRoom[] = "room on ";
 
 std::string roundText(double time) { return std::to_string(long(std::nearbyint(time))); }
@@ -63,6 +67,16 @@ Vector4d upright(const Vector3d& axis) {
   return q / std::sqrt(q.squaredNorm());
 }
 
+/// The axis along which a box is long; -1 for what is none, or not long.
+int longSide(const Frame& frame) {
+  if (!isBox(frame)) return -1;
+  const std::vector<double> size = frame.getSize();
+  const int axis = int(std::max_element(size.begin(), size.begin() + 3) - size.begin());
+  for (int k = 0; k < 3; ++k)
+    if (k != axis && size[std::size_t(axis)] < kLong * size[std::size_t(k)]) return -1;
+  return axis;
+}
+
 /// The quaternion that turns an axis of an object up, then about that by an angle.
 Vector4d turned(const std::string& face, double about) {
   const int k = int(std::string_view("xyz").find(face[0]));
@@ -88,6 +102,15 @@ VectorXd near(const Config& C, const std::string& hand, const Vector3d& target, 
     if (result.feasible()) return result.q;
   }
   return q;
+}
+
+/// The same for a hook, of a tool that the hand holds in its middle.
+VectorXd nearWithTool(const Config& C, const TaskAction& action, const Vector3d& target, const VectorXd& q) {
+  const std::string &hook = action[startsSliding(action) ? 3 : 2], &tool = action[4], &hand = action[5];
+  Config scene = C;
+  scene.getFrame(tool).setParent(scene.getFrame(hand)).setJoint(JointType::rigid);
+  scene.getFrame(tool).setRelativePose(Pose());
+  return near(scene, hook, target, q);
 }
 
 }  // namespace
@@ -132,12 +155,12 @@ void TaskWaypoints::switchTo(double time, const std::string& frame, const std::s
   held_[obj] = frame;
 }
 
-void TaskWaypoints::attach(double time, const std::string& hand, const std::string& obj, bool touching) {
+void TaskWaypoints::attach(double time, const std::string& hand, const std::string& obj, bool touching, double gap) {
   const std::string name = cat("grasp_", hand, "_", obj, "_", roundText(time));
   m->add_stable_frame(JointType::free, hand, name);
   addSlot(Slot::Kind::grasp, name, 7);
   switchTo(time, name, obj);
-  if (touching) komo().addObjective({time}, F::distance, {obj, hand}, O::eq, 1e1);
+  if (touching) komo().addObjective({time}, F::distance, {obj, hand}, O::eq, 1e1, -gap);
 }
 
 void TaskWaypoints::put(double time, const std::string& obj, const std::string& to) {
@@ -179,6 +202,8 @@ void TaskWaypoints::push(double start, double end, const std::string& pusher, co
   komo().addObjective({start}, F::positionRel, {pusher, helper}, O::eq, row(1e1, 0., 0.));
   komo().addObjective({start}, F::positionRel, {pusher, helper}, O::ineq, row(0., 1e1, 0.), {0., -kBehind, 0.});
   komo().addObjective({start}, F::positionRel, {pusher, helper}, O::ineq, row(0., 0., 1e1), {0., 0., kBeside * height});
+  if (const int across = longSide(C.getFrame(pusher)); across >= 0)  // a bar is across the line
+    komo().addObjective({start}, kAcross[std::size_t(across)], {helper, pusher}, O::eq, 1e0);
 }
 
 /// Where a slot begins; of placements, the offset from the middle of the place.
@@ -227,6 +252,17 @@ VectorXd TaskWaypoints::start(Rng* rng, bool grasps) const {
       target.z() += .05;
       at[action[1]] = target;
       q = near(C, action[2], target, q);
+    }
+    if (action[0] == "hook_start" || action[0] == "hook_end") {
+      const auto end = std::find_if(actions.begin() + std::ptrdiff_t(i), actions.end(), endsSliding);
+      if (action[0] == "hook_end") at[action[1]] = at.at(action[3]);
+      Vector3d target = at.at(action[1]);
+      if (end != actions.end() && action[0] == "hook_start") {
+        const Vector3d way = at.at((*end)[3]) - target;
+        if (const double length = way.head<2>().norm(); length > kGap)
+          target.head<2>() -= kHookBehind / length * way.head<2>();
+      }
+      q = nearWithTool(C, action, target, q);
     }
     x.segment(slot_dofs_ + Eigen::Index(i) * n, n) = q;
   }

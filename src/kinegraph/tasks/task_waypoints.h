@@ -31,8 +31,8 @@ class TaskWaypoints : public std::enable_shared_from_this<TaskWaypoints> {
   Komo& komo() { return *m->komo; }
 
   /// From a time on the hand holds the object, in a pose that is found. `touching`: their surfaces touch, as where a stick
-  /// takes something along.
-  void attach(double time, const std::string& hand, const std::string& obj, bool touching = false);
+  /// takes something along; they are `gap` m apart.
+  void attach(double time, const std::string& hand, const std::string& obj, bool touching = false, double gap = 0.);
 
   /// From a time on the object stands on a place, upright.
   void put(double time, const std::string& obj, const std::string& to);

@@ -18,7 +18,7 @@ constexpr double kLevel = .999, kUp = .9;  ///< cosines of what is level, and of
 constexpr double kLeastPlace = .05;        ///< m: what is narrower carries nothing
 
 constexpr char kDefaultFol[] = R"(
-is_gripper is_object is_place is_face is_pose is_carrier is_pushable on busy up fresh posed pushes z
+is_gripper is_object is_place is_face is_pose is_carrier is_pushable is_hook partOf on busy up fresh posed pushes z
 DecisionRule pick { Obj, From, Hand,
   { (is_gripper Hand) (is_object Obj) (on From Obj) (is_place From) (busy Hand)! (on Obj ANY)!
     (pushes ANY Obj)! }
@@ -30,10 +30,11 @@ DecisionRule place { Obj, Hand, To,
   { (is_gripper Hand) (is_object Obj) (on Hand Obj) (is_place To) (on Obj To)! (pushes Obj ANY)! }
   { (busy Hand)! (on Hand Obj)! (on To Obj) (fresh Obj)! (up ANY Obj)! (up z Obj) } }
 DecisionRule lay { Obj, Hand, To, Face,
-  { (is_gripper Hand) (is_object Obj) (on Hand Obj) (is_place To) (is_face Face) (on Obj To)! }
+  { (is_gripper Hand) (is_object Obj) (on Hand Obj) (is_place To) (is_face Face) (on Obj To)!
+    (pushes Obj ANY)! }
   { (busy Hand)! (on Hand Obj)! (on To Obj) (fresh Obj)! (up ANY Obj)! (up Face Obj) } }
 DecisionRule handover { Obj, Hand, To,
-  { (is_gripper Hand) (is_object Obj) (on Hand Obj) (is_gripper To) (busy To)! }
+  { (is_gripper Hand) (is_object Obj) (on Hand Obj) (is_gripper To) (busy To)! (pushes Obj ANY)! }
   { (busy Hand)! (on Hand Obj)! (on To Obj) (busy To) } }
 DecisionRule push_start { Obj, From, Hand,
   { (is_gripper Hand) (is_pushable Obj) (on From Obj) (is_place From) (busy Hand)! (on Obj ANY)! (pushes ANY Obj)! }
@@ -41,8 +42,15 @@ DecisionRule push_start { Obj, From, Hand,
 DecisionRule push_end { Obj, Hand, To,
   { (is_gripper Hand) (pushes Hand Obj) (is_place To) (on Obj To)! }
   { (pushes Hand Obj)! (busy Hand)! (on ANY Obj)! (on To Obj) (fresh Obj)! } }
+DecisionRule hook_start { Obj, From, Hook, Tool, Hand,
+  { (is_gripper Hand) (is_hook Hook) (partOf Tool Hook) (on Hand Tool) (is_object Obj) (on From Obj) (is_place From)
+    (on Obj ANY)! (pushes ANY Obj)! (pushes Tool ANY)! }
+  { (pushes Tool Obj) } }
+DecisionRule hook_end { Obj, Hook, To, Tool, Hand,
+  { (is_gripper Hand) (is_hook Hook) (partOf Tool Hook) (on Hand Tool) (pushes Tool Obj) (is_place To) (on Obj To)! }
+  { (pushes Tool Obj)! (on ANY Obj)! (on To Obj) (fresh Obj)! } }
 DecisionRule pose { Obj, Hand, Goal,
-  { (is_gripper Hand) (is_object Obj) (on Hand Obj) (is_pose Goal) }
+  { (is_gripper Hand) (is_object Obj) (on Hand Obj) (is_pose Goal) (pushes Obj ANY)! }
   { (posed Obj Goal) } }
 )";
 
@@ -91,7 +99,9 @@ class StartFacts {
       if (holdsAnything(hand)) said_.push_back({"busy", {hand}});
     for (const std::string& name : objects)
       if (const std::string up = upOf(C_, name); !up.empty()) said_.push_back({"up", {up, name}});
-    for (const char* kind : {"is_carrier", "is_pushable"})
+    std::vector<std::string> kinds = {"is_carrier", "is_pushable"};
+    if (has("is_hook")) kinds.emplace_back("is_object");  // anything may be pulled to where it can be grasped
+    for (const std::string& kind : kinds)
       for (const std::string& name : wordsOf(said_, kind)) said_.push_back({"fresh", {name}});
     if (std::ranges::any_of(goal, [](const Literal& g) { return g.predicate == "up"; })) {
       for (const std::string& face : otherFaces()) said_.push_back({"is_face", {face}});
@@ -132,11 +142,26 @@ bool isPick(const TaskAction& action) { return !action.empty() && (action[0] == 
 
 bool isPlace(const TaskAction& action) { return !action.empty() && (action[0] == "place" || action[0] == "lay"); }
 
+bool startsSliding(const TaskAction& action) {
+  return !action.empty() && (action[0] == "push_start" || action[0] == "hook_start");
+}
+
+bool endsSliding(const TaskAction& action) {
+  return !action.empty() && (action[0] == "push_end" || action[0] == "hook_end");
+}
+
 void requireWords(const TaskAction& action) {
   static const std::map<std::string, std::string> known = {
-      {"pick", "obj from hand"},   {"lift", "obj from hand"},   {"place", "obj hand to"},
-      {"lay", "obj hand to face"}, {"handover", "obj hand to"}, {"push_start", "obj from hand"},
-      {"push_end", "obj hand to"}, {"pose", "obj hand goal"},
+      {"pick", "obj from hand"},
+      {"lift", "obj from hand"},
+      {"place", "obj hand to"},
+      {"lay", "obj hand to face"},
+      {"handover", "obj hand to"},
+      {"push_start", "obj from hand"},
+      {"push_end", "obj hand to"},
+      {"pose", "obj hand goal"},
+      {"hook_start", "obj from hook tool hand"},
+      {"hook_end", "obj hook to tool hand"},
   };
   if (action.empty()) throw ValueError("planTask: an action has no words");
   const auto found = known.find(action[0]);

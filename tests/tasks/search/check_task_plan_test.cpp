@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "tests/support/expect_error.h"
+#include "tests/tasks/task_scenes.h"
 
 namespace kinegraph {
 namespace {
@@ -88,6 +89,37 @@ TEST(CheckTaskPlan, PushingIsNotPullingNorLifting) {
   EXPECT_NE(wrong({.3, 0., .2}).find("'obj' does not slide straight"), std::string::npos);
   EXPECT_NE(wrong({.3, 0., .16}, {-.03, 0., .16}).find("'obj' is not pushed from behind"), std::string::npos)
       << "a hand that lies on it";
+}
+
+TEST(CheckTaskPlan, WhatIsPulledIsPulledByAHookThatAHandHolds) {
+  Config C = stickAndBox(.3);
+  C.getFrame("stick").setRelativePosition({.015, .3 + .03 + .0155 - .235, .08});  // the hook is behind the box
+  const Vector3d at = C.getFrame("stick").getPosition() - Vector3d(0., .2, .6);
+  const auto wrong = [&](const Vector3d& way, bool is_held) {
+    C.setJointState(at);
+    TaskPlan plan;
+    plan.actions = {{"hook_start", "box", "table", "hook", "stick", "hand"},
+                    {"hook_end", "box", "hook", "table", "stick", "hand"}};
+    plan.start = {{"is_gripper", {"hand"}}, {"is_object", {"stick"}}, {"is_object", {"box"}}};
+    if (is_held) {
+      plan.actions.insert(plan.actions.begin(), {"pick", "stick", "table", "hand"});
+      plan.segments.push_back({0, 2});
+    }
+    plan.path.resize(6, 3);
+    plan.path.rowwise() = at.transpose();
+    for (int row = 3; row < 6; ++row) plan.path.row(row) = at + .5 * (row - 3) * way;
+    plan.times = (VectorXd(6) << 0., 0., 0., 0., 1., 2.).finished();
+    plan.segments.push_back({0, 2});
+    plan.segments.push_back({3, 6});
+    return firstOf(checkTaskPlan(C, plan));
+  };
+  const Vector3d back(0., -.2, 0.);
+  EXPECT_EQ(wrong(back, true), "");
+  EXPECT_NE(wrong(back, false).find("'hand' does not hold 'stick'"), std::string::npos);
+  EXPECT_NE(wrong(-.5 * back, true).find("'box' is not pushed from behind"), std::string::npos)
+      << "it is not hooked to it";
+  EXPECT_NE(wrong({.2, 0., 0.}, true).find("'box' is not pushed from behind"), std::string::npos);
+  EXPECT_NE(wrong({0., -.2, .1}, true).find("'box' does not slide straight"), std::string::npos);
 }
 
 TEST(CheckTaskPlan, PartsThatDoNotFitAreRefused) {

@@ -110,6 +110,31 @@ TEST(PlanTask, WhatIsImpossibleIsProvedWithItsCause) {
   EXPECT_NE(twice.message.find("no sequence of actions reaches"), std::string::npos) << twice.message;
 }
 
+TEST(PlanTask, WhatIsBeyondReachIsPulledWithAStick) {
+  const Config C = stickAndBox(.3);
+  const TaskPlan plan = planTask(C, "(on hand box)");
+  ASSERT_TRUE(plan.feasible()) << plan.str();
+  EXPECT_EQ(namesOf(plan), (std::vector<std::string>{"pick", "hook_start", "hook_end", "place", "pick"}));
+  EXPECT_TRUE(checkTaskPlan(C, plan).empty());
+  const TaskPlan near = planTask(stickAndBox(.05), "(on hand box)");
+  EXPECT_EQ(namesOf(near), std::vector<std::string>{"pick"}) << "without the stick where that is not needed";
+}
+
+TEST(PlanTask, WhatIsBeyondReachWithAStickTooIsProvedSo) {
+  const TaskPlan plan = planTask(stickAndBox(.95), "(on hand box)");
+  EXPECT_EQ(plan.status, TaskStatus::proved_impossible);
+  EXPECT_NE(plan.message.find("beyond the reach of 'hand', with 'stick', too"), std::string::npos) << plan.message;
+}
+
+TEST(PlanTask, NothingIsPulledUpAStep) {
+  Config C = stickAndBox(.3);
+  C.addFrame("step", "base", "shape: ssBox, size: [.4 .4 .02 .004], rel: [.3 -.3 .01], logical: { is_place }");
+  const TaskPlan plan = planTask(C, "(on step box)");
+  ASSERT_TRUE(plan.feasible()) << plan.str();
+  EXPECT_EQ(plan.actions.back()[0], "place");
+  for (const TaskAction& action : plan.actions) EXPECT_FALSE(action[0] == "hook_end" && action[3] == "step");
+}
+
 TEST(PlanTask, AGoalThatHoldsAndEffortThatEnds) {
   const Config C = cubesOnATable(2);
   const TaskPlan done = planTask(C, "(on table b0)");

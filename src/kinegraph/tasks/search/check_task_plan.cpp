@@ -128,7 +128,7 @@ class Played {
     for (const auto& [obj, pusher] : pushed_) {
       const std::vector<Vector3d> at = positionsAlong(scene_, path, obj);
       const Vector3d here = at.front(), moved = at.back() - here;
-      if (action[0] != "push_end" || action[1] != obj) {
+      if (!endsSliding(action) || action[1] != obj) {
         if (std::ranges::any_of(at, [&](const Vector3d& p) { return (p - here).norm() > kOffPlace; }))
           return cat("'", obj, "' moves, and is not pushed");
         continue;
@@ -166,12 +166,14 @@ class Played {
 
   /// What an action changes in the scene, and what is wrong with it.
   void happen(const TaskAction& action, const std::string& text) {
-    if (isPick(action) || action[0] == "handover" || action[0] == "push_start") {
+    if (action[0] == "hook_start" && holderOf(scene_, action[3], {action[5]}).empty())
+      say(text, cat("'", action[5], "' does not hold '", action[4], "'"));
+    if (isPick(action) || action[0] == "handover" || startsSliding(action)) {
       if (const double apart = gapOf(scene_, action[1], action[3]); apart > kOffPlace)
         say(text, cat("the hand is ", fixed(apart, 4), " m away from what it takes"));
       hang(scene_, action[1], action[3]);
-      if (action[0] == "push_start") pushed_[action[1]] = action[3];
-    } else if (isPlace(action) || action[0] == "push_end") {
+      if (startsSliding(action)) pushed_[action[1]] = action[3];
+    } else if (isPlace(action) || endsSliding(action)) {
       hang(scene_, action[1], action[3]);
       lookAtStanding(action[1], action[3], action[0] == "lay" ? action[4] : "", text);
       pushed_.erase(action[1]);

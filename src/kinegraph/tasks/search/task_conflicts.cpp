@@ -19,8 +19,9 @@ bool isAmong(const std::vector<std::string>& words, const std::string& word) {
 
 std::vector<TaskAction> actionsAlone(const std::vector<TaskAction>& actions) {
   const TaskAction& last = actions.back();
+  const std::string subject = last[0] == "hook_start" ? last[4] : objectOf(last);  // of a hook: the tool
   for (std::size_t i = actions.size() - 1; i-- > 0;) {
-    if (objectOf(actions[i]) != objectOf(last)) continue;
+    if (objectOf(actions[i]) != subject) continue;
     if (isPick(last)) break;
     std::vector<TaskAction> alone = actionsAlone({actions.begin(), actions.begin() + std::ptrdiff_t(i) + 1});
     alone.push_back(last);

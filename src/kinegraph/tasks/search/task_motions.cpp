@@ -95,8 +95,12 @@ TaskMotions::TaskMotions(MatrixXd limits, const std::vector<Literal>& start, std
 
 TaskMotions::Found TaskMotions::between(const Config& C, const VectorXd& q0, const VectorXd& q1,
                                         const TaskAction& action, const TaskAction& before) {
-  if (action[0] == "push_end") return pushed(C, q0, q1, action[1]);
   const std::vector<std::string> carried = carriedBy(C, hands_, objects_);
+  if (endsSliding(action)) {
+    Found found = pushed(C, q0, q1, action[1]);
+    if (found.motion) found.motion = steady(C, std::move(*found.motion), carried);
+    return found;
+  }
   std::vector<MotionConstraint> level;
   for (const std::string& obj : carried) {
     const Vector3d up = C.getFrame(obj).getRotationMatrix().col(2);

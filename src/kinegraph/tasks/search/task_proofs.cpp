@@ -18,6 +18,7 @@ namespace {
 
 using Body = ShapeKind::Body;
 
+constexpr double kStep = 2.5e-3;  ///< m: two millimeters of tolerance of plans, and rounding
 constexpr double kInf = std::numeric_limits<double>::infinity();
 
 bool isFixed(JointType type) { return type == JointType::none || type == JointType::rigid; }
@@ -125,7 +126,7 @@ bool mayCollide(const Config& C, const std::string& name) {
 
 class Proofs {
  public:
-  explicit Proofs(const Config& C) : C_(C) {
+  Proofs(const Config& C, const std::vector<Literal>& start) : C_(C), start_(start) {
     for (const Frame& frame : C.getFrames())
       if (frame.getJointType() != JointType::rigid) fixed_.insert(frame.getName());
   }
@@ -137,6 +138,10 @@ class Proofs {
       } else if (action[0] == "place" && fixed_.contains(action[3])) {
         const double half = .5 * diagonalOf(C_.getFrame(action[3]), 3);
         lookAtReach(action, action[2], action[3], half + 2. * radiusOf(C_, action[1]) + radiusOf(C_, action[2]));
+      } else if (action[0] == "hook_start") {
+        lookAtHook(action);
+      } else if (endsSliding(action)) {
+        lookAtHeights(actions, action);
       } else if (action[0] == "handover" && graspVariants(C_, action[1], action[3]).empty()) {
         addTooWide(action);
       }
@@ -152,16 +157,66 @@ class Proofs {
     if (!fixed_.contains(place)) return;
     const double half = .5 * diagonalOf(C_.getFrame(place), 2);
     const double far = (C_.getFrame(obj).getPosition() - C_.getFrame(place).getPosition()).norm();
-    lookAtReach(action, hand, place, std::max(half, far) + 2. * radiusOf(C_, obj) + radiusOf(C_, hand));
+    const double room = 2. * radiusOf(C_, obj) + radiusOf(C_, hand);
+    lookAtReach(action, hand, place, std::max(half, far) + room);
+    if (staysThere(obj, place)) lookAtReach(action, hand, obj, room, {Literal{"fresh", {obj}}});
+  }
+
+  /// Is it where it was at the start, on something that nothing moves, as long as it is called fresh?
+  bool staysThere(const std::string& obj, const std::string& place) const {
+    if (!contains(start_, {"fresh", {obj}}) || !contains(start_, {"on", {place, obj}})) return false;
+    for (std::optional<Frame> up = C_.getFrame(place); up; up = up->getParent())
+      if (up->getJointType() != JointType::none) return false;
+    return true;
+  }
+
+  /// What is too far away for the hook of a tool, wherever the hand holds that.
+  void lookAtHook(const TaskAction& action) {
+    const std::string &obj = action[1], &tool = action[4], &hand = action[5];
+    if (!staysThere(obj, action[2])) return;
+    double size = radiusOf(C_, tool);
+    const Frame root = C_.getFrame(tool);
+    for (const Frame& part : root.getSubtree())
+      size = std::max(size, part.getPose(root).p.norm() + radiusOf(C_, part.getName()));
+    const double room = 2. * size + radiusOf(C_, obj) + radiusOf(C_, hand);
+    lookAtReach(action, hand, obj, room, {Literal{"fresh", {obj}}}, cat(", with '", tool, "', too"));
+  }
+
+  /// What is pushed or pulled stays at its height, so that it comes to no place at another one.
+  void lookAtHeights(const std::vector<TaskAction>& actions, const TaskAction& action) {
+    const std::optional<double> there = topOf(action[3]);
+    std::set<std::string> from;
+    for (const TaskAction& other : actions)
+      if (startsSliding(other) && other[1] == action[1]) from.insert(other[2]);
+    for (const std::string& place : from) {
+      const std::optional<double> here = topOf(place);
+      if (here && there && std::abs(*here - *there) > kStep)
+        found_.push_back({action,
+                          {Literal{"on", {place, action[1]}}},
+                          cat("'", action[1], "' cannot slide from '", place, "' to '", action[3], "', which is ",
+                              fixed(std::abs(*there - *here), 3), " m ", *there > *here ? "higher" : "lower")});
+    }
+  }
+
+  /// The height of a level box that nothing moves, m.
+  std::optional<double> topOf(const std::string& place) const {
+    const Frame frame = C_.getFrame(place);
+    for (std::optional<Frame> up = frame; up; up = up->getParent())
+      if (up->getJointType() != JointType::none) return std::nullopt;
+    const double level = std::abs(frame.getRotationMatrix()(2, 2));
+    if (!isBox(frame) || level < 1. - 1e-9) return std::nullopt;
+    return frame.getPosition().z() + .5 * frame.getSize()[2];
   }
 
   /// A place that is farther than `room` (m) beyond what a hand reaches.
-  void lookAtReach(const TaskAction& action, const std::string& hand, const std::string& place, double room) {
+  void lookAtReach(const TaskAction& action, const std::string& hand, const std::string& place, double room,
+                   const std::vector<Literal>& facts = {}, const std::string& with = {}) {
     if (!reach_.contains(hand)) reach_[hand] = reachOf(C_, hand);
     const double beyond = reach_[hand].distance(C_.getFrame(place).getPosition()) - room;
     if (beyond > 0.)
       found_.push_back(
-          {action, {}, cat("'", place, "' is at least ", fixed(beyond, 2), " m beyond the reach of '", hand, "'")});
+          {action, facts,
+           cat("'", place, "' is at least ", fixed(beyond, 2), " m beyond the reach of '", hand, "'", with)});
   }
 
   void addTooWide(const TaskAction& action) {
@@ -202,6 +257,7 @@ class Proofs {
   }
 
   const Config& C_;
+  const std::vector<Literal>& start_;
   std::set<std::string> fixed_;
   std::map<std::string, Reach> reach_;
   std::vector<ImpossibleAction> found_;
@@ -226,8 +282,9 @@ Reach reachOf(const Config& C, const std::string& name) {
   return reach;
 }
 
-std::vector<ImpossibleAction> impossibleActions(const Config& C, const std::vector<TaskAction>& actions) {
-  return Proofs(C).of(actions);
+std::vector<ImpossibleAction> impossibleActions(const Config& C, const std::vector<TaskAction>& actions,
+                                                const std::vector<Literal>& start) {
+  return Proofs(C, start).of(actions);
 }
 
 }  // namespace kinegraph

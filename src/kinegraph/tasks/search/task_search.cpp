@@ -147,7 +147,7 @@ std::optional<TaskPlan> TaskSearch::next() {
     if (proves_) {
       Actions all;
       for (int a = 0; a < int(search_->problem().actions.size()); ++a) all.push_back(search_->problem().action(a));
-      proofs_ = impossibleActions(C_, all);
+      proofs_ = impossibleActions(C_, all, options_.domain ? std::vector<Literal>() : start_);
     }
     exclude();
   } else if (trial_ && isSpent()) {
