@@ -211,6 +211,79 @@ def hook(seed: int) -> Problem:
     return Problem(C, "(on goal obj)", "solved", 6)
 
 
+def _cabinet(C: ry.Config, at: list[float], deep: float = 0.4) -> None:
+    """A drawer that opens towards -y, in a cabinet with a roof; `at` is the middle of its front, closed, on the table."""
+    base = C.addFrame("cabinet", "base").setRelativePosition([*at, 0.0])
+    assert base is not None
+    for name, where, size in (
+        ("left", [-0.19, 0.5 * deep, 0.11], [0.02, deep, 0.22]),
+        ("right", [0.19, 0.5 * deep, 0.11], [0.02, deep, 0.22]),
+        ("back", [0, deep + 0.01, 0.11], [0.4, 0.02, 0.22]),
+        ("roof", [0, 0.5 * deep, 0.23], [0.4, deep, 0.02]),
+    ):
+        C.addFrame(f"cabinet_{name}", "cabinet").setRelativePosition(where).setShape(
+            ry.ST.ssBox, [*size, 0.004]
+        ).setContact(1)
+    drawer = C.addFrame("drawer", "cabinet").setJoint(ry.JT.transY, [-0.3, 0.0]).setJointState([0.0])
+    drawer.setAttributes({"logical": {"is_drawer": True}})
+    floor = C.addFrame("drawer_floor", "drawer").setRelativePosition([0, 0.5 * deep - 0.02, 0.02])
+    floor.setShape(ry.ST.ssBox, [0.32, deep - 0.06, 0.02, 0.004]).setContact(1).setAttributes(
+        {"logical": {"is_place": True}}
+    )
+    front = C.addFrame("drawer_front", "drawer").setRelativePosition([0, -0.01, 0.09])
+    front.setShape(ry.ST.ssBox, [0.34, 0.02, 0.16, 0.004]).setContact(1)
+    handle = C.addFrame("handle", "drawer").setRelativePosition([0, -0.06, 0.1])
+    handle.setShape(ry.ST.ssBox, [0.02, 0.02, 0.1, 0.004]).setContact(1).setAttributes({"logical": {"is_handle": True}})
+
+
+def drawer(seed: int) -> Problem:
+    """A drawer is to be opened."""
+    C, rng = _scene(), np.random.default_rng(seed)
+    _fingers(C, "g_", [0.06, 0.06, 0.04], wrist=1.66)
+    _cabinet(C, [float(rng.uniform(-0.4, 0.4)), float(rng.uniform(0.2, 0.4))])
+    return Problem(C, "(opened drawer)", "solved", 2)
+
+
+def door(seed: int) -> Problem:
+    """A door is to be opened; its handle stands upright, and turns in the hand."""
+    C, rng = _scene(), np.random.default_rng(seed)
+    _fingers(C, "g_", [0.06, 0.06, 0.04])
+    C.getFrame("g_gripper").setJoint(ry.JT.hingeZ, [-2.0, 2.0]).setJointState([0.0])
+    is_left = bool(rng.integers(2))
+    side = 1.0 if is_left else -1.0
+    hinge = C.addFrame("hinge", "base").setRelativePosition(
+        [float(rng.uniform(-0.3, 0.3)), float(rng.uniform(0.1, 0.4)), 0.02]
+    )
+    assert hinge is not None
+    door = (
+        C.addFrame("door", "hinge").setJoint(ry.JT.hingeZ, [-1.5, 0.0] if is_left else [0.0, 1.5]).setJointState([0.0])
+    )
+    door.setAttributes({"logical": {"is_door": True}})
+    leaf = C.addFrame("leaf", "door").setRelativePosition([0.2 * side, 0.0, 0.15])
+    leaf.setShape(ry.ST.ssBox, [0.36, 0.02, 0.3, 0.004]).setContact(1)
+    handle = C.addFrame("handle", "door").setRelativePosition([0.34 * side, -0.06, 0.2])
+    handle.setShape(ry.ST.capsule, [0.1, 0.012]).setContact(1).setAttributes({"logical": {"is_handle": True}})
+    return Problem(C, "(opened door)", "solved", 2)
+
+
+def stow(seed: int) -> Problem:
+    """A cup is to be put into a drawer, which is closed and has to be opened first."""
+    C, rng = _scene(), np.random.default_rng(seed)
+    _fingers(C, "g_", [0.06, 0.06, 0.04], wrist=1.66)
+    _cabinet(C, [float(rng.uniform(-0.3, 0.3)), float(rng.uniform(0.3, 0.45))])
+    _box(C, "cup", "table", [float(rng.uniform(-0.6, 0.6)), float(rng.uniform(-0.7, -0.4)), 0.1], [0.06, 0.06, 0.1])
+    return Problem(C, "(on drawer_floor cup)", "solved", 4)
+
+
+def fetch(seed: int) -> Problem:
+    """A cup is in a drawer, which is closed and is to be closed in the end."""
+    C, rng = _scene(), np.random.default_rng(seed)
+    _fingers(C, "g_", [0.06, 0.06, 0.04], wrist=1.66)
+    _cabinet(C, [float(rng.uniform(-0.3, 0.3)), float(rng.uniform(0.3, 0.45))])
+    _box(C, "cup", "drawer_floor", [*rng.uniform([-0.08, -0.05], [0.08, 0.05]).tolist(), 0.06], [0.06, 0.06, 0.1])
+    return Problem(C, "(on table cup) (closed drawer)", "solved", 6)
+
+
 def far(seed: int) -> Problem:
     """No plan: the goal is out of reach."""
     C, rng = _scene(), np.random.default_rng(seed)
@@ -299,6 +372,10 @@ FAMILIES: dict[str, Callable[[int], Problem]] = {
     "carry": carry,
     "push": push,
     "hook": hook,
+    "drawer": drawer,
+    "door": door,
+    "stow": stow,
+    "fetch": fetch,
     "far": far,
     "beyond": beyond,
     "small": small,

@@ -125,6 +125,7 @@ void bindWaypoints(nb::module_& m) {
       .def("put", &TaskWaypoints::put, "time"_a, "obj"_a, "to"_a, docs::tasks::put)
       .def("lay", &TaskWaypoints::lay, "time"_a, "obj"_a, "to"_a, "face"_a, docs::tasks::lay)
       .def("push", &TaskWaypoints::push, "start"_a, "end"_a, "pusher"_a, "obj"_a, "to"_a, docs::tasks::push)
+      .def("guide", &TaskWaypoints::guide, "time"_a, "door"_a, "handle"_a, "hand"_a, "opens"_a, docs::tasks::guide)
       .def("start", startOf, "seed"_a = nb::none(), "grasps"_a = true, docs::tasks::start);
 }
 

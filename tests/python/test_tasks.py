@@ -20,7 +20,7 @@ def panda() -> ry.Config:
     return C
 
 
-@pytest.mark.parametrize("family", ["tower", "sort", "handover", "crowded", "turn", "slot", "carry", "push", "hook"])
+@pytest.mark.parametrize("family", ["tower", "sort", "handover", "crowded", "turn", "slot", "carry", "push", "hook", "drawer", "door", "stow", "fetch"])
 def test_families_are_solved_and_the_checker_agrees(family) -> None:
     problem = families.FAMILIES[family](0)
     plan = ry.planTask(problem.C, problem.goal)

@@ -165,6 +165,18 @@ Args:
 Raises:
     FrameNotFound: There is no such frame.)";
 
+inline constexpr char guide[] = R"(A hand that has held a handle since the time before moves its door or drawer.
+
+Args:
+    time: In phases.
+    door: The frame of the door or drawer.
+    handle: The part of it that is held.
+    hand: The frame that holds it.
+    opens: Until it is open; else until it is closed.
+Raises:
+    ArgumentError: It is no door.
+    FrameNotFound: There is no such frame.)";
+
 inline constexpr char start[] = R"(A starting point: hands near what they do.
 
 Args:

@@ -107,6 +107,16 @@ void push(TaskWaypoints& w, double time, const TaskAction& action, const std::st
   w.push(double(begun + 1), time, action[2], action[1], action[3]);
 }
 
+void hold(TaskWaypoints& w, double time, const TaskAction& action, const std::string& variant) {
+  grasp(w, time, action[3], action[2], variant);
+}
+
+void guide(TaskWaypoints& w, double time, const TaskAction& action, const std::string& variant) {
+  w.guide(time, action[1], action[2], action[3], variant == "open");
+}
+
+Variants holdsOf(const Config& C, const TaskAction& action) { return graspVariants(C, action[2], action[3]); }
+
 Variants graspsOf(const Config& C, const TaskAction& action) { return graspVariants(C, action[1], action[3]); }
 
 /// A box lies on any of its faces.
@@ -138,6 +148,9 @@ TaskRules defaultTaskRules(bool is_upright) {
       {"push_end", {push, only("push")}},
       {"hook_start", {touch, only("touch")}},
       {"hook_end", {push, only("push")}},
+      {"hold", {hold, holdsOf}},
+      {"open", {guide, only("open")}},
+      {"close", {guide, only("close")}},
       {"pose", {holdAt, only("held")}},
       {"handover", {take, graspsOf}},
   };

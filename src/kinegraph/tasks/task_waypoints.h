@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "kinegraph/tasks/manipulation_helper.h"
+#include "kinegraph/tasks/task_doors.h"
 #include "kinegraph/tasks/task_rules.h"
 
 namespace kinegraph {
@@ -45,6 +46,10 @@ class TaskWaypoints : public std::enable_shared_from_this<TaskWaypoints> {
   /// turning.
   void push(double start, double end, const std::string& pusher, const std::string& obj, const std::string& to);
 
+  /// A hand that has held a handle since the time before moves its door or drawer until it is open, or closed. Throws
+  /// ValueError for what is no door.
+  void guide(double time, const std::string& door, const std::string& handle, const std::string& hand, bool opens);
+
   /// A starting point, the variables of the problem: hands near what they do. `rng` draws placements and, where `grasps`,
   /// grasps; without one, placements are in the middle.
   VectorXd start(Rng* rng, bool grasps = true) const;
@@ -60,9 +65,13 @@ class TaskWaypoints : public std::enable_shared_from_this<TaskWaypoints> {
   };
 
   void addSlot(Slot::Kind kind, const std::string& frame, int dofs, const std::string& face = {});
+  void keepDoors();
+  VectorXd startOf(std::size_t action, const VectorXd& before, std::map<std::string, Vector3d>& at,
+                   const std::map<std::string, Vector3d>& offsets) const;
   void switchTo(double time, const std::string& frame, const std::string& obj);
   Vector3d startSlot(const Slot& slot, const Nlp& nlp, VectorXd& x, Rng* rng, bool grasps) const;
 
+  const std::vector<TaskDoor> doors_;
   std::vector<Slot> slots_;
   int slot_dofs_ = 0;
   std::map<std::string, std::string> held_;                 ///< what each object moves with

@@ -9,6 +9,7 @@
 #include "kinegraph/base/text.h"
 #include "kinegraph/logic/fol_reader.h"
 #include "kinegraph/tasks/scene_facts.h"
+#include "kinegraph/tasks/task_doors.h"
 
 namespace kinegraph {
 
@@ -18,7 +19,8 @@ constexpr double kLevel = .999, kUp = .9;  ///< cosines of what is level, and of
 constexpr double kLeastPlace = .05;        ///< m: what is narrower carries nothing
 
 constexpr char kDefaultFol[] = R"(
-is_gripper is_object is_place is_face is_pose is_carrier is_pushable is_hook partOf on busy up fresh posed pushes z
+is_gripper is_object is_place is_face is_pose is_carrier is_pushable is_hook is_handle is_guided partOf on busy up fresh posed
+pushes holds held opened closed ajar z
 DecisionRule pick { Obj, From, Hand,
   { (is_gripper Hand) (is_object Obj) (on From Obj) (is_place From) (busy Hand)! (on Obj ANY)!
     (pushes ANY Obj)! }
@@ -49,17 +51,26 @@ DecisionRule hook_start { Obj, From, Hook, Tool, Hand,
 DecisionRule hook_end { Obj, Hook, To, Tool, Hand,
   { (is_gripper Hand) (is_hook Hook) (partOf Tool Hook) (on Hand Tool) (pushes Tool Obj) (is_place To) (on Obj To)! }
   { (pushes Tool Obj)! (on ANY Obj)! (on To Obj) (fresh Obj)! } }
+DecisionRule hold { Door, Handle, Hand,
+  { (is_gripper Hand) (is_guided Door) (is_handle Handle) (partOf Door Handle) (busy Hand)! (held Door)! }
+  { (busy Hand) (holds Hand Handle) (held Door) } }
+DecisionRule open { Door, Handle, Hand,
+  { (is_gripper Hand) (is_guided Door) (partOf Door Handle) (holds Hand Handle) (opened Door)! }
+  { (busy Hand)! (holds Hand Handle)! (held Door)! (closed Door)! (ajar Door)! (opened Door) } }
+DecisionRule close { Door, Handle, Hand,
+  { (is_gripper Hand) (is_guided Door) (partOf Door Handle) (holds Hand Handle) (closed Door)! }
+  { (busy Hand)! (holds Hand Handle)! (held Door)! (opened Door)! (ajar Door)! (closed Door) } }
 DecisionRule pose { Obj, Hand, Goal,
   { (is_gripper Hand) (is_object Obj) (on Hand Obj) (is_pose Goal) (pushes Obj ANY)! }
   { (posed Obj Goal) } }
 )";
 
-/// Large enough to carry something, level, and not a part of what moves.
-bool isPlaceFrame(const Frame& frame, const std::set<std::string>& objects) {
+/// Large enough to carry something, level, and not a part of what moves, but for drawers.
+bool isPlaceFrame(const Frame& frame, const std::set<std::string>& objects, const std::set<std::string>& drawers) {
   if (objects.contains(frame.getName())) return true;
   for (std::optional<Frame> up = frame; up; up = up->getParent()) {
     const JointType type = up->getJointType();
-    if (type != JointType::none && type != JointType::rigid) return false;
+    if (type != JointType::none && type != JointType::rigid && !drawers.contains(up->getName())) return false;
   }
   const std::vector<double> size = frame.getSize();
   return std::abs(frame.getRotationMatrix()(2, 2)) > kLevel && std::min(size[0], size[1]) >= kLeastPlace;
@@ -88,13 +99,19 @@ class StartFacts {
         if (f.getName().ends_with("gripper")) said_.push_back({"is_gripper", {f.getName()}});
     }
     const std::set<std::string> grippers = setOf(wordsOf(said_, "is_gripper")),
-                                objects = setOf(wordsOf(said_, "is_object"));
+                                objects = setOf(wordsOf(said_, "is_object")),
+                                drawers = setOf(wordsOf(said_, "is_drawer"));
     if (!names_places) {
       for (const Frame& f : frames)
-        if (isBox(f) && !grippers.contains(f.getName()) && isPlaceFrame(f, objects))
+        if (isBox(f) && !grippers.contains(f.getName()) && isPlaceFrame(f, objects, drawers))
           said_.push_back({"is_place", {f.getName()}});
     }
     addWhatIsOn(grippers, objects);
+    const VectorXd q = C_.getJointState();
+    for (const TaskDoor& door : doorsOf(C_)) {
+      said_.push_back({"is_guided", {door.name}});
+      said_.push_back({door.stateAt(q[door.dof]), {door.name}});
+    }
     for (const std::string& hand : grippers)
       if (holdsAnything(hand)) said_.push_back({"busy", {hand}});
     for (const std::string& name : objects)
@@ -162,6 +179,9 @@ void requireWords(const TaskAction& action) {
       {"pose", "obj hand goal"},
       {"hook_start", "obj from hook tool hand"},
       {"hook_end", "obj hook to tool hand"},
+      {"hold", "door handle hand"},
+      {"open", "door handle hand"},
+      {"close", "door handle hand"},
   };
   if (action.empty()) throw ValueError("planTask: an action has no words");
   const auto found = known.find(action[0]);

@@ -37,7 +37,8 @@ const std::vector<std::string>& otherFaces();
 /// what is called is_carrier, with all that stands on it, place (obj hand to), handover (obj hand to), lay (obj hand to
 /// face) where the goal says which face is up, pose (obj hand goal) for frames that are called is_pose, push_start (obj
 /// from hand) and push_end (obj hand to) for what is called is_pushable, hook_start (obj from hook tool hand) and hook_end
-/// (obj hook to tool hand) with a tool of which a part is called is_hook.
+/// (obj hook to tool hand) with a tool of which a part is called is_hook, hold, open and close (door handle hand) for what
+/// is called is_door or is_drawer, with a part that is called is_handle.
 LogicDomain defaultDomain();
 
 /// What holds at the start: what a scene says (sceneFacts) and, where that names no gripper, no object or no place, what

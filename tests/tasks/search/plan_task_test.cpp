@@ -135,6 +135,42 @@ TEST(PlanTask, NothingIsPulledUpAStep) {
   for (const TaskAction& action : plan.actions) EXPECT_FALSE(action[0] == "hook_end" && action[3] == "step");
 }
 
+TEST(PlanTask, ADrawerIsOpenedBecauseTheGeometrySaysSo) {
+  const Config C = drawerAndCup();
+  const TaskPlan plan = planTask(C, "(on floor cup) (closed drawer)");
+  ASSERT_TRUE(plan.feasible()) << plan.str();
+  EXPECT_EQ(namesOf(plan), (std::vector<std::string>{"hold", "open", "pick", "place", "hold", "close"}));
+  EXPECT_TRUE(checkTaskPlan(C, plan).empty());
+  EXPECT_NE(plan.why().find("while (closed drawer): (place cup gripper floor)"), std::string::npos) << plan.why();
+  const Eigen::Index drawer = 4;
+  const RowRange opening = plan.segments[1];
+  EXPECT_LE(plan.path(opening.end - 1, drawer), -.8 * .3);
+  EXPECT_NEAR(plan.path(plan.path.rows() - 1, drawer), 0., .05 * .3);
+  for (const std::size_t still : {0u, 2u, 3u, 4u}) {
+    const auto column = plan.path.col(drawer).segment(plan.segments[still].begin, plan.segments[still].size());
+    EXPECT_EQ(column.maxCoeff(), column.minCoeff()) << still;
+  }
+}
+
+TEST(PlanTask, WhatStandsInADrawerGoesAlong) {
+  Config C = drawerAndCup();
+  C.getFrame("cup").setParent(C.getFrame("floor")).setRelativePosition({0., 0., .06});
+  const TaskPlan plan = planTask(C, "(opened drawer)");
+  ASSERT_TRUE(plan.feasible()) << plan.str();
+  EXPECT_EQ(namesOf(plan), (std::vector<std::string>{"hold", "open"}));
+  C.setJointState(plan.path.row(plan.path.rows() - 1));
+  EXPECT_LE(C.getFrame("cup").getPosition().y(), .48 - .8 * .3);
+  EXPECT_TRUE(planTask(C, "(opened drawer)").actions.empty());
+}
+
+TEST(PlanTask, PlansWithDoorsDoNotDependOnThreads) {
+  const TaskPlan one = planTask(drawerAndCup(), "(on floor cup)"),
+                 other = planTask(drawerAndCup(), "(on floor cup)", {.threads = 4});
+  ASSERT_TRUE(one.feasible()) << one.str();
+  EXPECT_EQ(other.path, one.path);
+  EXPECT_EQ(other.str(), one.str());
+}
+
 TEST(PlanTask, AGoalThatHoldsAndEffortThatEnds) {
   const Config C = cubesOnATable(2);
   const TaskPlan done = planTask(C, "(on table b0)");
