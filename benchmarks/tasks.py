@@ -284,6 +284,27 @@ def fetch(seed: int) -> Problem:
     return Problem(C, "(on table cup) (closed drawer)", "solved", 6)
 
 
+def cleared(seed: int) -> Problem:
+    """A box stands in front of a drawer that is to be opened."""
+    C, rng = _scene(), np.random.default_rng(seed)
+    _fingers(C, "g_", [0.06, 0.06, 0.04], wrist=1.66)
+    x, y = float(rng.uniform(-0.3, 0.3)), float(rng.uniform(0.2, 0.4))
+    _cabinet(C, [x, y])
+    _box(C, "box", "table", [x + float(rng.uniform(-0.12, 0.12)), y - 0.18, 0.1], [0.06, 0.06, 0.1])
+    return Problem(C, "(opened drawer)", "solved", 4)
+
+
+def lower(seed: int) -> Problem:
+    """A tall cup stands in an open drawer: it has to be taken out before the drawer is closed."""
+    C, rng = _scene(), np.random.default_rng(seed)
+    _fingers(C, "g_", [0.06, 0.06, 0.04], wrist=1.66)
+    _cabinet(C, [float(rng.uniform(-0.3, 0.3)), float(rng.uniform(0.4, 0.5))])
+    C.getFrame("drawer").setJointState([-0.29])
+    _box(C, "cup", "drawer_floor", [float(rng.uniform(-0.08, 0.08)), -0.08, 0.135], [0.06, 0.06, 0.25])
+    _pad(C, "tray", [0.6, -0.5], [0.2, 0.2])
+    return Problem(C, "(on tray cup) (closed drawer)", "solved", 4)
+
+
 def far(seed: int) -> Problem:
     """No plan: the goal is out of reach."""
     C, rng = _scene(), np.random.default_rng(seed)
@@ -300,6 +321,34 @@ def beyond(seed: int) -> Problem:
     box.setRelativePosition(box.getRelativePosition() + np.array([0.0, 0.6, 0.0]))
     why = "'obj' is at least .* beyond the reach of 'g_gripper', with 'stick', too"
     return Problem(problem.C, problem.goal, "proved impossible", why=why)
+
+
+def remote(seed: int) -> Problem:
+    """No plan: the handle of a drawer is out of reach, wherever the drawer is."""
+    C, rng = _scene(), np.random.default_rng(seed)
+    _fingers(C, "g_", [0.06, 0.06, 0.04], wrist=1.66)
+    _cabinet(C, [float(rng.uniform(-0.4, 0.4)), float(rng.uniform(1.5, 1.8))])
+    return Problem(
+        C, "(opened drawer)", "proved impossible", why="'handle' is at least .* beyond the reach of 'g_gripper'"
+    )
+
+
+def blocked(seed: int) -> Problem:
+    """No plan: a post stands in front of a drawer."""
+    C, rng = _scene(), np.random.default_rng(seed)
+    _fingers(C, "g_", [0.06, 0.06, 0.04], wrist=1.66)
+    x, y = float(rng.uniform(-0.4, 0.4)), float(rng.uniform(0.2, 0.4))
+    _cabinet(C, [x, y])
+    _wall(C, "post", [x + float(rng.uniform(-0.12, 0.12)), y - float(rng.uniform(0.12, 0.2)), 0.1], [0.03, 0.03, 0.2])
+    return Problem(C, "(opened drawer)", "proved impossible", why="'drawer' meets 'post' at .* % of its range")
+
+
+def tall(seed: int) -> Problem:
+    """No plan: a cup in a drawer that is to be closed is higher than the cabinet."""
+    problem = stow(seed)
+    problem.C.getFrame("cup").setShape(ry.ST.ssBox, [0.06, 0.06, 0.25, 0.004]).setRelativePosition([0.0, -0.5, 0.175])
+    goal = "(on drawer_floor cup) (closed drawer)"
+    return Problem(problem.C, goal, "not found", why="cup overlap")
 
 
 def small(seed: int) -> Problem:
@@ -376,8 +425,13 @@ FAMILIES: dict[str, Callable[[int], Problem]] = {
     "door": door,
     "stow": stow,
     "fetch": fetch,
+    "cleared": cleared,
+    "lower": lower,
     "far": far,
     "beyond": beyond,
+    "remote": remote,
+    "blocked": blocked,
+    "tall": tall,
     "small": small,
     "contradiction": contradiction,
     "wide": wide,

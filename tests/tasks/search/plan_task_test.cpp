@@ -171,6 +171,42 @@ TEST(PlanTask, PlansWithDoorsDoNotDependOnThreads) {
   EXPECT_EQ(other.str(), one.str());
 }
 
+TEST(PlanTask, WhyADoorCannotBeMovedIsProved) {
+  const auto message = [](const Config& C, const std::string& goal) {
+    const TaskPlan plan = planTask(C, goal);
+    EXPECT_EQ(plan.status, TaskStatus::proved_impossible) << plan.str();
+    return plan.message;
+  };
+  Config C = drawerAndCup();
+  C.addFrame("post", "base", "shape: ssBox, size: [.03 .03 .2 .004], contact: 1, rel: [.1 .2 .1]");
+  EXPECT_EQ(message(C, "(opened drawer)"), "'drawer' meets 'post' at 24 % of its range");
+  C.getFrame("drawer").setJointState(VectorXd::Constant(1, -.15));  // the post is behind the front now
+  C.getFrame("post").setRelativePosition({.1, .245, .1});
+  EXPECT_NE(message(C, "(closed drawer)").find("'drawer' meets 'post' at 7 % of its range"), std::string::npos);
+  C = drawerAndCup();
+  C.getFrame("rail").setRelativePosition({0., 1.6, 0.});
+  EXPECT_NE(message(C, "(opened drawer)").find("'handle' is at least "), std::string::npos);
+  C = drawerAndCup();
+  C.getFrame("handle").setShape(ShapeType::ssBox, {.1, .1, .1, .004});
+  EXPECT_EQ(message(C, "(opened drawer)"), "'handle' is wider than 'gripper' opens (0.090 m) along all of its axes");
+  C.getFrame("handle").editAttributes().nodes.clear();
+  EXPECT_EQ(message(C, "(opened drawer)"), "'drawer' has no part that is called is_handle");
+  EXPECT_NE(message(C, "(opened table)").find("'table' is no door or drawer"), std::string::npos);
+}
+
+TEST(PlanTask, WhatIsInADrawerIsNotTheDrawer) {
+  Config C = drawerAndCup();
+  C.getFrame("drawer").setJointState(VectorXd::Constant(1, -.29));
+  C.getFrame("cup").setShape(ShapeType::ssBox, {.06, .06, .25, .004});
+  C.getFrame("cup").setParent(C.getFrame("floor")).setRelativePosition({0., -.08, .135});  // higher than the case
+  C.addFrame("tray", "base", "shape: ssBox, size: [.2 .2 .01 .004], rel: [.6 -.5 .005], logical: { is_place }");
+  const TaskPlan plan = planTask(C, "(on tray cup) (closed drawer)");
+  ASSERT_TRUE(plan.feasible()) << plan.str();
+  EXPECT_EQ(namesOf(plan), (std::vector<std::string>{"pick", "place", "hold", "close"}));
+  const TaskPlan within = planTask(C, "(on floor cup) (closed drawer)", {.evaluations = 3000});
+  EXPECT_EQ(within.status, TaskStatus::not_found) << "that is no proof";
+}
+
 TEST(PlanTask, AGoalThatHoldsAndEffortThatEnds) {
   const Config C = cubesOnATable(2);
   const TaskPlan done = planTask(C, "(on table b0)");

@@ -44,7 +44,7 @@ void TaskSearch::conclude(const Trial& trial) {
     const TaskFailure& failure = *trial.failure;
     const Actions beginning(trial.actions.begin(), trial.actions.begin() + std::ptrdiff_t(failure.action) + 1);
     giveUp(beginning, {whileText(failure.doors) + failure.why, failure.ghost});
-    return forbidLast(beginning, failure.doors);
+    return forbidLast(beginning, withoutConstantDoors(failure.doors));
   }
   if (!trial.found) giveUp(trial.actions, *trial.failure);
   forbidBeginning(trial.actions);
@@ -71,7 +71,7 @@ void TaskSearch::forbidFailing(const Actions& actions) {
     std::vector<Literal> facts = doorsThatMatter(alone, there);
     giveUp(beginning, {whileText(facts) + failure->why, failure->ghost});
     for (Literal& fact : whileFacts(alone, start_)) facts.push_back(std::move(fact));
-    return forbidLast(beginning, is_general ? std::optional(facts) : std::nullopt);
+    return forbidLast(beginning, is_general ? std::optional(withoutConstantDoors(facts)) : std::nullopt);
   }
   const Words others = there.without;
   for (const InTheWay& one : inTheWay(alone.back(), start_)) {
@@ -82,7 +82,7 @@ void TaskSearch::forbidFailing(const Actions& actions) {
       for (Literal& fact : doorsThatMatter(alone, there)) facts.push_back(std::move(fact));
       giveUp(beginning, {whileText(facts) + failure->why, failure->ghost});
       for (Literal& fact : whileFacts(alone, start_)) facts.push_back(std::move(fact));
-      return forbidLast(beginning, facts);
+      return forbidLast(beginning, withoutConstantDoors(facts));
     }
   }
   if (const auto& failure = failureOf(beginning)) giveUp(beginning, *failure);
@@ -106,6 +106,15 @@ std::vector<Literal> TaskSearch::doorsThatMatter(const Actions& actions, const C
   }
   if (doors_.size() > 1 && !failureOf(actions, all)) return facts;
   return {};
+}
+
+/// Without facts about doors that no action moves.
+std::vector<Literal> TaskSearch::withoutConstantDoors(std::vector<Literal> facts) const {
+  const auto is_door = [&](const Literal& fact) {
+    return fact.arguments.size() == 1 && std::ranges::find(doors_, fact.arguments[0], &TaskDoor::name) != doors_.end();
+  };
+  std::erase_if(facts, [&](const Literal& f) { return is_door(f) && search_->problem().factNumber(f) < 0; });
+  return facts;
 }
 
 /// The last action is impossible while facts hold; without facts, or where they do not hold then: after what was done

@@ -143,7 +143,8 @@ std::optional<TaskPlan> TaskSearch::next() {
     has_begun_ = true;
     if (!search_->problem().unreachable.empty()) {
       has_ended_ = true;
-      return end(TaskStatus::proved_impossible, join(oddities(search_->problem()), "; "));
+      const std::string missing = missingOfDoors();
+      return end(TaskStatus::proved_impossible, missing.empty() ? join(oddities(search_->problem()), "; ") : missing);
     }
     if (proves_) {
       Actions all;
@@ -309,6 +310,25 @@ TaskPlan TaskSearch::end(TaskStatus status, std::string message) const {
   plan.start = start_;
   plan.again = [goal = goal_text_, options = options_](const Config& C) { return planTask(C, goal, options); };
   return plan;
+}
+
+/// What a door of the goal needs, to be opened or closed, and does not have; "" if that is not the default domain's.
+std::string TaskSearch::missingOfDoors() const {
+  if (options_.domain) return "";
+  for (const Literal& literal : goal_) {
+    if ((literal.predicate != "opened" && literal.predicate != "closed") || literal.arguments.size() != 1) continue;
+    const std::string& name = literal.arguments[0];
+    if (!contains(start_, {"is_guided", {name}}))
+      return cat("'", name,
+                 "' is no door or drawer; expected a frame that is called is_door or is_drawer, with a joint ",
+                 "of one dof that is active and has limits");
+    const auto is_handle = [&](const Literal& fact) {
+      return fact.predicate == "partOf" && fact.arguments[0] == name &&
+             contains(start_, {"is_handle", {fact.arguments[1]}});
+    };
+    if (std::ranges::none_of(start_, is_handle)) return cat("'", name, "' has no part that is called is_handle");
+  }
+  return "";
 }
 
 /// There is no plan left in logic.

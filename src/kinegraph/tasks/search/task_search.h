@@ -65,6 +65,8 @@ class TaskSearch {
   void forbidFailing(const Actions& actions);
   void forbidLast(const Actions& beginning, const std::optional<std::vector<Literal>>& facts);
   const std::optional<TaskFailure>& failureOf(const Actions& actions, const Circumstances& there = {});
+  std::vector<Literal> withoutConstantDoors(std::vector<Literal> facts) const;
+  std::string missingOfDoors() const;
   std::vector<Literal> doorsThatMatter(const Actions& actions, const Circumstances& there);
   std::variant<TaskPlan, TaskFailure> motionsOf(const TaskWaypoints& waypoints);
   std::vector<Literal> shutBy(const SubProblem& part, const Actions& actions, std::size_t action);
