@@ -191,6 +191,120 @@ def push(seed: int) -> Problem:
     return Problem(C, "(on zone obj)", "solved", 2)
 
 
+def _stick(C: ry.Config, name: str, at: list[float], angle: float, length: float = 0.5) -> None:
+    """An L: a bar, and a hook across its end."""
+    _box(C, name, "table", [*at, 0.065], [0.03, length, 0.03])
+    C.getFrame(name).setRelativeQuaternion([np.cos(0.5 * angle), 0, 0, np.sin(0.5 * angle)])
+    hook = C.addFrame(f"{name}_hook", name).setRelativePosition([0.085, 0.5 * length - 0.015, 0])
+    hook.setShape(ry.ST.ssBox, [0.14, 0.03, 0.03, 0.004]).setContact(1).setAttributes({"logical": {"is_hook": True}})
+
+
+def hook(seed: int) -> Problem:
+    """A box is beyond the hand's reach, and not beyond that of a stick with a hook."""
+    C, rng = _scene(), np.random.default_rng(seed)
+    _fingers(C, "g_", [0.06, 0.06, 0.04])
+    C.getFrame("g_carriage").setJoint(ry.JT.trans3, [-0.9, -0.9, 0.0, 0.9, 0.1, 1.0]).setJointState([0, -0.4, 0.5])
+    C.getFrame("g_gripper").setJoint(ry.JT.hingeZ, [-2.0, 2.0]).setJointState([0.0])
+    _stick(C, "stick", [float(rng.uniform(-0.6, -0.2)), float(rng.uniform(-0.4, -0.2))], float(rng.uniform(-0.7, 0.7)))
+    _box(C, "obj", "table", [float(rng.uniform(-0.2, 0.4)), float(rng.uniform(0.25, 0.4)), 0.08], [0.06, 0.06, 0.06])
+    _pad(C, "goal", [float(rng.uniform(0.3, 0.6)), float(rng.uniform(-0.5, -0.3))], [0.14, 0.14])
+    return Problem(C, "(on goal obj)", "solved", 6)
+
+
+def _cabinet(C: ry.Config, at: list[float], deep: float = 0.4) -> None:
+    """A drawer that opens towards -y, in a cabinet with a roof; `at` is the middle of its front, closed, on the table."""
+    base = C.addFrame("cabinet", "base").setRelativePosition([*at, 0.0])
+    assert base is not None
+    for name, where, size in (
+        ("left", [-0.19, 0.5 * deep, 0.11], [0.02, deep, 0.22]),
+        ("right", [0.19, 0.5 * deep, 0.11], [0.02, deep, 0.22]),
+        ("back", [0, deep + 0.01, 0.11], [0.4, 0.02, 0.22]),
+        ("roof", [0, 0.5 * deep, 0.23], [0.4, deep, 0.02]),
+    ):
+        C.addFrame(f"cabinet_{name}", "cabinet").setRelativePosition(where).setShape(
+            ry.ST.ssBox, [*size, 0.004]
+        ).setContact(1)
+    drawer = C.addFrame("drawer", "cabinet").setJoint(ry.JT.transY, [-0.3, 0.0]).setJointState([0.0])
+    drawer.setAttributes({"logical": {"is_drawer": True}})
+    floor = C.addFrame("drawer_floor", "drawer").setRelativePosition([0, 0.5 * deep - 0.02, 0.02])
+    floor.setShape(ry.ST.ssBox, [0.32, deep - 0.06, 0.02, 0.004]).setContact(1).setAttributes(
+        {"logical": {"is_place": True}}
+    )
+    front = C.addFrame("drawer_front", "drawer").setRelativePosition([0, -0.01, 0.09])
+    front.setShape(ry.ST.ssBox, [0.34, 0.02, 0.16, 0.004]).setContact(1)
+    handle = C.addFrame("handle", "drawer").setRelativePosition([0, -0.06, 0.1])
+    handle.setShape(ry.ST.ssBox, [0.02, 0.02, 0.1, 0.004]).setContact(1).setAttributes({"logical": {"is_handle": True}})
+
+
+def drawer(seed: int) -> Problem:
+    """A drawer is to be opened."""
+    C, rng = _scene(), np.random.default_rng(seed)
+    _fingers(C, "g_", [0.06, 0.06, 0.04], wrist=1.66)
+    _cabinet(C, [float(rng.uniform(-0.4, 0.4)), float(rng.uniform(0.2, 0.4))])
+    return Problem(C, "(opened drawer)", "solved", 2)
+
+
+def door(seed: int) -> Problem:
+    """A door is to be opened; its handle stands upright, and turns in the hand."""
+    C, rng = _scene(), np.random.default_rng(seed)
+    _fingers(C, "g_", [0.06, 0.06, 0.04])
+    C.getFrame("g_gripper").setJoint(ry.JT.hingeZ, [-2.0, 2.0]).setJointState([0.0])
+    is_left = bool(rng.integers(2))
+    side = 1.0 if is_left else -1.0
+    hinge = C.addFrame("hinge", "base").setRelativePosition(
+        [float(rng.uniform(-0.3, 0.3)), float(rng.uniform(0.1, 0.4)), 0.02]
+    )
+    assert hinge is not None
+    door = (
+        C.addFrame("door", "hinge").setJoint(ry.JT.hingeZ, [-1.5, 0.0] if is_left else [0.0, 1.5]).setJointState([0.0])
+    )
+    door.setAttributes({"logical": {"is_door": True}})
+    leaf = C.addFrame("leaf", "door").setRelativePosition([0.2 * side, 0.0, 0.15])
+    leaf.setShape(ry.ST.ssBox, [0.36, 0.02, 0.3, 0.004]).setContact(1)
+    handle = C.addFrame("handle", "door").setRelativePosition([0.34 * side, -0.06, 0.2])
+    handle.setShape(ry.ST.capsule, [0.1, 0.012]).setContact(1).setAttributes({"logical": {"is_handle": True}})
+    return Problem(C, "(opened door)", "solved", 2)
+
+
+def stow(seed: int) -> Problem:
+    """A cup is to be put into a drawer, which is closed and has to be opened first."""
+    C, rng = _scene(), np.random.default_rng(seed)
+    _fingers(C, "g_", [0.06, 0.06, 0.04], wrist=1.66)
+    _cabinet(C, [float(rng.uniform(-0.3, 0.3)), float(rng.uniform(0.3, 0.45))])
+    _box(C, "cup", "table", [float(rng.uniform(-0.6, 0.6)), float(rng.uniform(-0.7, -0.4)), 0.1], [0.06, 0.06, 0.1])
+    return Problem(C, "(on drawer_floor cup)", "solved", 4)
+
+
+def fetch(seed: int) -> Problem:
+    """A cup is in a drawer, which is closed and is to be closed in the end."""
+    C, rng = _scene(), np.random.default_rng(seed)
+    _fingers(C, "g_", [0.06, 0.06, 0.04], wrist=1.66)
+    _cabinet(C, [float(rng.uniform(-0.3, 0.3)), float(rng.uniform(0.3, 0.45))])
+    _box(C, "cup", "drawer_floor", [*rng.uniform([-0.08, -0.05], [0.08, 0.05]).tolist(), 0.06], [0.06, 0.06, 0.1])
+    return Problem(C, "(on table cup) (closed drawer)", "solved", 6)
+
+
+def cleared(seed: int) -> Problem:
+    """A box stands in front of a drawer that is to be opened."""
+    C, rng = _scene(), np.random.default_rng(seed)
+    _fingers(C, "g_", [0.06, 0.06, 0.04], wrist=1.66)
+    x, y = float(rng.uniform(-0.3, 0.3)), float(rng.uniform(0.2, 0.4))
+    _cabinet(C, [x, y])
+    _box(C, "box", "table", [x + float(rng.uniform(-0.12, 0.12)), y - 0.18, 0.1], [0.06, 0.06, 0.1])
+    return Problem(C, "(opened drawer)", "solved", 4)
+
+
+def lower(seed: int) -> Problem:
+    """A tall cup stands in an open drawer: it has to be taken out before the drawer is closed."""
+    C, rng = _scene(), np.random.default_rng(seed)
+    _fingers(C, "g_", [0.06, 0.06, 0.04], wrist=1.66)
+    _cabinet(C, [float(rng.uniform(-0.3, 0.3)), float(rng.uniform(0.4, 0.5))])
+    C.getFrame("drawer").setJointState([-0.29])
+    _box(C, "cup", "drawer_floor", [float(rng.uniform(-0.08, 0.08)), -0.08, 0.135], [0.06, 0.06, 0.25])
+    _pad(C, "tray", [0.6, -0.5], [0.2, 0.2])
+    return Problem(C, "(on tray cup) (closed drawer)", "solved", 4)
+
+
 def far(seed: int) -> Problem:
     """No plan: the goal is out of reach."""
     C, rng = _scene(), np.random.default_rng(seed)
@@ -198,6 +312,43 @@ def far(seed: int) -> Problem:
     _pad(C, "goal", [float(rng.uniform(1.5, 1.8)), 0.0], [0.14, 0.14])
     _box(C, "obj", "table", [-0.2, 0.4, 0.1], [0.08, 0.08, 0.1])
     return Problem(C, "(on goal obj)", "proved impossible", why="'goal' is at least .* beyond the reach of 'hand'")
+
+
+def beyond(seed: int) -> Problem:
+    """No plan: a box is beyond the reach of the hand, and of its stick."""
+    problem = hook(seed)
+    box = problem.C.getFrame("obj")
+    box.setRelativePosition(box.getRelativePosition() + np.array([0.0, 0.6, 0.0]))
+    why = "'obj' is at least .* beyond the reach of 'g_gripper', with 'stick', too"
+    return Problem(problem.C, problem.goal, "proved impossible", why=why)
+
+
+def remote(seed: int) -> Problem:
+    """No plan: the handle of a drawer is out of reach, wherever the drawer is."""
+    C, rng = _scene(), np.random.default_rng(seed)
+    _fingers(C, "g_", [0.06, 0.06, 0.04], wrist=1.66)
+    _cabinet(C, [float(rng.uniform(-0.4, 0.4)), float(rng.uniform(1.5, 1.8))])
+    return Problem(
+        C, "(opened drawer)", "proved impossible", why="'handle' is at least .* beyond the reach of 'g_gripper'"
+    )
+
+
+def blocked(seed: int) -> Problem:
+    """No plan: a post stands in front of a drawer."""
+    C, rng = _scene(), np.random.default_rng(seed)
+    _fingers(C, "g_", [0.06, 0.06, 0.04], wrist=1.66)
+    x, y = float(rng.uniform(-0.4, 0.4)), float(rng.uniform(0.2, 0.4))
+    _cabinet(C, [x, y])
+    _wall(C, "post", [x + float(rng.uniform(-0.12, 0.12)), y - float(rng.uniform(0.12, 0.2)), 0.1], [0.03, 0.03, 0.2])
+    return Problem(C, "(opened drawer)", "proved impossible", why="'drawer' meets 'post' at .* % of its range")
+
+
+def tall(seed: int) -> Problem:
+    """No plan: a cup in a drawer that is to be closed is higher than the cabinet."""
+    problem = stow(seed)
+    problem.C.getFrame("cup").setShape(ry.ST.ssBox, [0.06, 0.06, 0.25, 0.004]).setRelativePosition([0.0, -0.5, 0.175])
+    goal = "(on drawer_floor cup) (closed drawer)"
+    return Problem(problem.C, goal, "not found", why="cup overlap")
 
 
 def small(seed: int) -> Problem:
@@ -269,7 +420,18 @@ FAMILIES: dict[str, Callable[[int], Problem]] = {
     "slot": slot,
     "carry": carry,
     "push": push,
+    "hook": hook,
+    "drawer": drawer,
+    "door": door,
+    "stow": stow,
+    "fetch": fetch,
+    "cleared": cleared,
+    "lower": lower,
     "far": far,
+    "beyond": beyond,
+    "remote": remote,
+    "blocked": blocked,
+    "tall": tall,
     "small": small,
     "contradiction": contradiction,
     "wide": wide,

@@ -120,10 +120,12 @@ void bindWaypoints(nb::module_& m) {
                    "A KOMO_ManipulationHelper on the problem.")
       .def_prop_ro(
           "komo", [](const TaskWaypoints& w) { return std::static_pointer_cast<PyKomo>(w.m->komo); }, "The problem.")
-      .def("attach", &TaskWaypoints::attach, "time"_a, "hand"_a, "obj"_a, "touching"_a = false, docs::tasks::attach)
+      .def("attach", &TaskWaypoints::attach, "time"_a, "hand"_a, "obj"_a, "touching"_a = false, "gap"_a = 0.,
+           docs::tasks::attach)
       .def("put", &TaskWaypoints::put, "time"_a, "obj"_a, "to"_a, docs::tasks::put)
       .def("lay", &TaskWaypoints::lay, "time"_a, "obj"_a, "to"_a, "face"_a, docs::tasks::lay)
       .def("push", &TaskWaypoints::push, "start"_a, "end"_a, "pusher"_a, "obj"_a, "to"_a, docs::tasks::push)
+      .def("guide", &TaskWaypoints::guide, "time"_a, "door"_a, "handle"_a, "hand"_a, "opens"_a, docs::tasks::guide)
       .def("start", startOf, "seed"_a = nb::none(), "grasps"_a = true, docs::tasks::start);
 }
 

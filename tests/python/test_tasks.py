@@ -20,7 +20,26 @@ def panda() -> ry.Config:
     return C
 
 
-@pytest.mark.parametrize("family", ["tower", "sort", "handover", "crowded", "turn", "slot", "carry", "push"])
+@pytest.mark.parametrize(
+    "family",
+    [
+        "tower",
+        "sort",
+        "handover",
+        "crowded",
+        "turn",
+        "slot",
+        "carry",
+        "push",
+        "hook",
+        "drawer",
+        "door",
+        "stow",
+        "fetch",
+        "cleared",
+        "lower",
+    ],
+)
 def test_families_are_solved_and_the_checker_agrees(family) -> None:
     problem = families.FAMILIES[family](0)
     plan = ry.planTask(problem.C, problem.goal)
@@ -40,7 +59,9 @@ def test_a_tray_is_carried_with_what_stands_on_it_level_and_slowly() -> None:
     assert any("'cup0' is accelerated too much for what carries it" in w for w in ry.checkTaskPlan(problem.C, plan))
 
 
-@pytest.mark.parametrize("family", ["far", "small", "contradiction", "wide", "walled", "nowhere"])
+@pytest.mark.parametrize(
+    "family", ["far", "beyond", "remote", "blocked", "tall", "small", "contradiction", "wide", "walled", "nowhere"]
+)
 def test_what_is_impossible_ends_with_its_cause(family) -> None:
     problem = families.FAMILIES[family](0)
     plan = ry.planTask(problem.C, problem.goal)

@@ -129,6 +129,7 @@ Args:
     hand: The frame that holds, or pushes.
     obj: The object's frame.
     touching: Their surfaces touch, as where a stick takes something along.
+    gap: They are that far apart then, m.
 Raises:
     FrameNotFound: There is no such frame.)";
 
@@ -162,6 +163,18 @@ Args:
     obj: The object's frame.
     to: The place's frame.
 Raises:
+    FrameNotFound: There is no such frame.)";
+
+inline constexpr char guide[] = R"(A hand that has held a handle since the time before moves its door or drawer.
+
+Args:
+    time: In phases.
+    door: The frame of the door or drawer.
+    handle: The part of it that is held.
+    hand: The frame that holds it.
+    opens: Until it is open; else until it is closed.
+Raises:
+    ArgumentError: It is no door.
     FrameNotFound: There is no such frame.)";
 
 inline constexpr char start[] = R"(A starting point: hands near what they do.

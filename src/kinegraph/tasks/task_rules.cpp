@@ -21,6 +21,7 @@ using Variants = std::vector<std::string>;
 
 constexpr double kFingers = .08;             ///< m: what a hand with a palm opens if its frame does not say it
 constexpr double kInside = .02;              ///< m: how far from the ends of an object it is grasped
+constexpr double kHookGap = 5e-4;            ///< m: between a hook, which collides, and what it begins to pull
 constexpr std::size_t kCombinations = 4096;  ///< of variants that are ranked
 
 Body bodyOf(const Frame& frame) { return shapeKind(frame.getShapeType()).body; }
@@ -95,16 +96,26 @@ void holdAt(TaskWaypoints& w, double time, const TaskAction& action, const std::
 }
 
 void touch(TaskWaypoints& w, double time, const TaskAction& action, const std::string&) {
-  w.attach(time, action[3], action[1], true);
+  w.attach(time, action[3], action[1], true, action[0] == "hook_start" ? kHookGap : 0.);
 }
 
 void push(TaskWaypoints& w, double time, const TaskAction& action, const std::string&) {
   int begun = int(std::lround(time)) - 2;
-  const auto begins = [&](const TaskAction& a) { return a[0] == "push_start" && a[1] == action[1]; };
+  const auto begins = [&](const TaskAction& a) { return startsSliding(a) && a[1] == action[1]; };
   while (begun >= 0 && !begins(w.actions[std::size_t(begun)])) --begun;
   if (begun < 0) throw ValueError(cat("planTask: the push of '", action[1], "' ends and did not begin"));
   w.push(double(begun + 1), time, action[2], action[1], action[3]);
 }
+
+void hold(TaskWaypoints& w, double time, const TaskAction& action, const std::string& variant) {
+  grasp(w, time, action[3], action[2], variant);
+}
+
+void guide(TaskWaypoints& w, double time, const TaskAction& action, const std::string& variant) {
+  w.guide(time, action[1], action[2], action[3], variant == "open");
+}
+
+Variants holdsOf(const Config& C, const TaskAction& action) { return graspVariants(C, action[2], action[3]); }
 
 Variants graspsOf(const Config& C, const TaskAction& action) { return graspVariants(C, action[1], action[3]); }
 
@@ -135,6 +146,11 @@ TaskRules defaultTaskRules(bool is_upright) {
       {"lay", {place, faceOf}},
       {"push_start", {touch, only("touch")}},
       {"push_end", {push, only("push")}},
+      {"hook_start", {touch, only("touch")}},
+      {"hook_end", {push, only("push")}},
+      {"hold", {hold, holdsOf}},
+      {"open", {guide, only("open")}},
+      {"close", {guide, only("close")}},
       {"pose", {holdAt, only("held")}},
       {"handover", {take, graspsOf}},
   };

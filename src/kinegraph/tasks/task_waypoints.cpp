@@ -1,6 +1,7 @@
 #include "kinegraph/tasks/task_waypoints.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 #include <optional>
@@ -23,6 +24,9 @@ constexpr double kBehind = .01;  ///< m: how far behind the middle of an object 
 constexpr double kBeside = .5;   ///< of half its height: how far above its middle at most
 constexpr double kEdge = .01;    ///< m: how far inside of an edge the center of what stands there is
 constexpr double kTurn = 1.6;    ///< rad: starts of placements are turned by up to that
+constexpr double kLong = 1.5;    ///< a bar is that many times longer than thick
+constexpr std::array kAcross = {F::scalarProductYX, F::scalarProductYY, F::scalarProductYZ};
+constexpr double kHookBehind = .06;  ///< m: how far behind what it pulls a hook starts
 constexpr char kRoom[] = "room on ";
 
 std::string roundText(double time) { return std::to_string(long(std::nearbyint(time))); }
@@ -63,6 +67,16 @@ Vector4d upright(const Vector3d& axis) {
   return q / std::sqrt(q.squaredNorm());
 }
 
+/// The axis along which a box is long; -1 for what is none, or not long.
+int longSide(const Frame& frame) {
+  if (!isBox(frame)) return -1;
+  const std::vector<double> size = frame.getSize();
+  const int axis = int(std::max_element(size.begin(), size.begin() + 3) - size.begin());
+  for (int k = 0; k < 3; ++k)
+    if (k != axis && size[std::size_t(axis)] < kLong * size[std::size_t(k)]) return -1;
+  return axis;
+}
+
 /// The quaternion that turns an axis of an object up, then about that by an angle.
 Vector4d turned(const std::string& face, double about) {
   const int k = int(std::string_view("xyz").find(face[0]));
@@ -74,20 +88,34 @@ Vector4d turned(const std::string& face, double about) {
   return product;
 }
 
-/// Joints that bring a hand to a target, upright if that is possible; else as they are.
+/// Joints that bring a hand to a target, upright if that is possible; else as they are. Doors stay.
 VectorXd near(const Config& C, const std::string& hand, const Vector3d& target, const VectorXd& q) {
-  Config scene = C;
-  scene.setJointState(q);
+  Config all = C;
+  all.setJointState(q);
+  const std::vector<TaskDoor> doors = doorsOf(all);
+  const StillDoors still = withStillDoors(all, doors);
   IkOptions options;
   options.collisions = false;
   options.attempts = 10;
   const IkTarget there = IkTarget::toPosition(hand, target);
   const IkTarget up = IkTarget::toDirection(hand, Vector3d::UnitZ(), Vector3d::UnitZ());
   for (const std::vector<IkTarget>& wanted : {std::vector{there, up}, std::vector{there}}) {
-    const IkResult result = solveIk(scene, wanted, options);
-    if (result.feasible()) return result.q;
+    const IkResult result = solveIk(still.scene, wanted, options);
+    if (!result.feasible()) continue;
+    VectorXd found = q;
+    found(still.dofs) = result.q;
+    return found;
   }
   return q;
+}
+
+/// The same for a hook, of a tool that the hand holds in its middle.
+VectorXd nearWithTool(const Config& C, const TaskAction& action, const Vector3d& target, const VectorXd& q) {
+  const std::string &hook = action[startsSliding(action) ? 3 : 2], &tool = action[4], &hand = action[5];
+  Config scene = C;
+  scene.getFrame(tool).setParent(scene.getFrame(hand)).setJoint(JointType::rigid);
+  scene.getFrame(tool).setRelativePose(Pose());
+  return near(scene, hook, target, q);
 }
 
 }  // namespace
@@ -97,8 +125,10 @@ TaskWaypoints::TaskWaypoints(const Config& config, std::vector<TaskAction> words
     : m(helper ? std::move(helper) : std::make_shared<ManipulationHelper>()),
       C(withRoom(config, words, ways)),
       actions(std::move(words)),
-      variants(std::move(ways)) {
+      variants(std::move(ways)),
+      doors_(doorsOf(C)) {
   m->setup_sequence(C, double(actions.size()), 1e-2, 1e-2);
+  keepDoors();
   std::vector<std::string> hands;
   for (const std::size_t place : {3, 2})
     for (const TaskAction& action : actions)
@@ -117,6 +147,45 @@ void TaskWaypoints::addActions(const TaskRules& rules) {
   }
 }
 
+/// Doors stay where they are but where an action moves them.
+void TaskWaypoints::keepDoors() {
+  for (std::size_t i = 0; i < actions.size(); ++i)
+    for (const TaskDoor& door : doors_)
+      if (!isGuided(actions[i]) || objectOf(actions[i]) != door.name)
+        komo().addObjective({double(i + 1)}, F::qItself, {door.name}, O::eq, 1e2, {}, 1);
+}
+
+void TaskWaypoints::guide(double time, const std::string& name, const std::string& handle, const std::string& hand,
+                          bool opens) {
+  const auto door = std::ranges::find(doors_, name, &TaskDoor::name);
+  if (door == doors_.end())
+    throw ValueError(cat("planTask: '", name,
+                         "' is no door; expected a frame that is called is_door or is_drawer, with a ",
+                         "joint of one dof that has limits"));
+  const auto bound = [&](double share, bool is_most) {  // the joint's sign is that of the way from closed to open
+    const double sign = (is_most ? 1e1 : -1e1) / (door->open - door->closed);
+    komo().addObjective({time}, F::qItself, {name}, O::ineq, sign, VectorXd::Constant(1, door->at(share)));
+  };
+  if (opens) {
+    bound(kOpened + .02, false);
+    bound(kOpenMost, true);
+  } else {
+    const VectorXd shut = VectorXd::Constant(1, door->at(kClose));
+    komo().addObjective({time}, F::qItself, {name}, O::eq, 1e2, shut);
+  }
+  const std::vector<std::string> pair = {hand, handle};
+  switch (gripOf(C, hand, handle)) {
+    case Grip::rigid:
+      komo().addObjective({time}, F::poseRel, pair, O::eq, 1e1, {}, 1);
+      break;
+    case Grip::axis:
+      komo().addObjective({time}, F::vectorZRel, {handle, hand}, O::eq, 1e1, {}, 1);
+      [[fallthrough]];
+    case Grip::point:
+      komo().addObjective({time}, F::positionRel, pair, O::eq, 1e1, {}, 1);
+  }
+}
+
 void TaskWaypoints::addSlot(Slot::Kind kind, const std::string& frame, int dofs, const std::string& face) {
   slots_.push_back({kind, slot_dofs_, frame, face});
   slot_dofs_ += dofs;
@@ -132,12 +201,12 @@ void TaskWaypoints::switchTo(double time, const std::string& frame, const std::s
   held_[obj] = frame;
 }
 
-void TaskWaypoints::attach(double time, const std::string& hand, const std::string& obj, bool touching) {
+void TaskWaypoints::attach(double time, const std::string& hand, const std::string& obj, bool touching, double gap) {
   const std::string name = cat("grasp_", hand, "_", obj, "_", roundText(time));
   m->add_stable_frame(JointType::free, hand, name);
   addSlot(Slot::Kind::grasp, name, 7);
   switchTo(time, name, obj);
-  if (touching) komo().addObjective({time}, F::distance, {obj, hand}, O::eq, 1e1);
+  if (touching) komo().addObjective({time}, F::distance, {obj, hand}, O::eq, 1e1, -gap);
 }
 
 void TaskWaypoints::put(double time, const std::string& obj, const std::string& to) {
@@ -179,6 +248,8 @@ void TaskWaypoints::push(double start, double end, const std::string& pusher, co
   komo().addObjective({start}, F::positionRel, {pusher, helper}, O::eq, row(1e1, 0., 0.));
   komo().addObjective({start}, F::positionRel, {pusher, helper}, O::ineq, row(0., 1e1, 0.), {0., -kBehind, 0.});
   komo().addObjective({start}, F::positionRel, {pusher, helper}, O::ineq, row(0., 0., 1e1), {0., 0., kBeside * height});
+  if (const int across = longSide(C.getFrame(pusher)); across >= 0)  // a bar is across the line
+    komo().addObjective({start}, kAcross[std::size_t(across)], {helper, pusher}, O::eq, 1e0);
 }
 
 /// Where a slot begins; of placements, the offset from the middle of the place.
@@ -217,20 +288,48 @@ VectorXd TaskWaypoints::start(Rng* rng, bool grasps) const {
   std::map<std::string, Vector3d> at;
   for (const Frame& frame : C.getFrames()) at.emplace(frame.getName(), frame.getPosition());
   for (std::size_t i = 0; i < actions.size(); ++i) {
-    const TaskAction& action = actions[i];
-    if (isPick(action) && at.contains(action[1])) {
-      q = near(C, action[3], at.at(action[1]), q);
-    } else if (isPlace(action)) {
-      const auto offset = offsets.find(cat("place_", action[3], "_", action[1], "_", i + 1));
-      Vector3d target = at.at(action[3]);
-      if (offset != offsets.end()) target += offset->second;
-      target.z() += .05;
-      at[action[1]] = target;
-      q = near(C, action[2], target, q);
-    }
+    q = startOf(i, q, at, offsets);
     x.segment(slot_dofs_ + Eigen::Index(i) * n, n) = q;
   }
   return x;
+}
+
+/// Joints after an action that begins at `before`, near what the hand does; and what it moves. `at`: where things are.
+VectorXd TaskWaypoints::startOf(std::size_t i, const VectorXd& before, std::map<std::string, Vector3d>& at,
+                                const std::map<std::string, Vector3d>& offsets) const {
+  const TaskAction& action = actions[i];
+  if (isPick(action) && at.contains(action[1])) return near(C, action[3], at.at(action[1]), before);
+  if (isPlace(action)) {
+    const auto offset = offsets.find(cat("place_", action[3], "_", action[1], "_", i + 1));
+    Vector3d target = at.at(action[3]);
+    if (offset != offsets.end()) target += offset->second;
+    target.z() += .05;
+    at[action[1]] = target;
+    return near(C, action[2], target, before);
+  }
+  if (action[0] == "hook_start") {
+    const auto end = std::find_if(actions.begin() + std::ptrdiff_t(i), actions.end(), endsSliding);
+    Vector3d target = at.at(action[1]);
+    if (end != actions.end()) {
+      const Vector3d way = at.at((*end)[3]) - target;
+      const double length = way.head<2>().norm();
+      if (length > kGap) target.head<2>() -= kHookBehind / length * way.head<2>();
+    }
+    return nearWithTool(C, action, target, before);
+  }
+  if (action[0] == "hook_end") {
+    at[action[1]] = at.at(action[3]);
+    return nearWithTool(C, action, at.at(action[3]), before);
+  }
+  if (isHold(action)) return near(C, action[3], at.at(action[2]), before);
+  const auto door = isGuided(action) ? std::ranges::find(doors_, action[1], &TaskDoor::name) : doors_.end();
+  if (door == doors_.end()) return before;
+  VectorXd q = before;
+  q[door->dof] = door->at(action[0] == "open" ? .5 * (kOpened + kOpenMost) : kClose);
+  Config scene = C;
+  scene.setJointState(q);
+  for (const Frame& moved : scene.getFrame(action[1]).getSubtree()) at[moved.getName()] = moved.getPosition();
+  return near(C, action[3], at.at(action[2]), q);
 }
 
 std::shared_ptr<TaskWaypoints> makeTaskWaypoints(const Config& C, std::vector<TaskAction> actions,

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "kinegraph/tasks/manipulation_helper.h"
+#include "kinegraph/tasks/task_doors.h"
 #include "kinegraph/tasks/task_rules.h"
 
 namespace kinegraph {
@@ -31,8 +32,8 @@ class TaskWaypoints : public std::enable_shared_from_this<TaskWaypoints> {
   Komo& komo() { return *m->komo; }
 
   /// From a time on the hand holds the object, in a pose that is found. `touching`: their surfaces touch, as where a stick
-  /// takes something along.
-  void attach(double time, const std::string& hand, const std::string& obj, bool touching = false);
+  /// takes something along; they are `gap` m apart.
+  void attach(double time, const std::string& hand, const std::string& obj, bool touching = false, double gap = 0.);
 
   /// From a time on the object stands on a place, upright.
   void put(double time, const std::string& obj, const std::string& to);
@@ -44,6 +45,10 @@ class TaskWaypoints : public std::enable_shared_from_this<TaskWaypoints> {
   /// Between `start`, when the pusher touches it, and `end` the object is pushed straight to a place, from behind, without
   /// turning.
   void push(double start, double end, const std::string& pusher, const std::string& obj, const std::string& to);
+
+  /// A hand that has held a handle since the time before moves its door or drawer until it is open, or closed. Throws
+  /// ValueError for what is no door.
+  void guide(double time, const std::string& door, const std::string& handle, const std::string& hand, bool opens);
 
   /// A starting point, the variables of the problem: hands near what they do. `rng` draws placements and, where `grasps`,
   /// grasps; without one, placements are in the middle.
@@ -60,9 +65,13 @@ class TaskWaypoints : public std::enable_shared_from_this<TaskWaypoints> {
   };
 
   void addSlot(Slot::Kind kind, const std::string& frame, int dofs, const std::string& face = {});
+  void keepDoors();
+  VectorXd startOf(std::size_t action, const VectorXd& before, std::map<std::string, Vector3d>& at,
+                   const std::map<std::string, Vector3d>& offsets) const;
   void switchTo(double time, const std::string& frame, const std::string& obj);
   Vector3d startSlot(const Slot& slot, const Nlp& nlp, VectorXd& x, Rng* rng, bool grasps) const;
 
+  const std::vector<TaskDoor> doors_;
   std::vector<Slot> slots_;
   int slot_dofs_ = 0;
   std::map<std::string, std::string> held_;                 ///< what each object moves with

@@ -9,6 +9,7 @@
 #include "kinegraph/base/text.h"
 #include "kinegraph/logic/fol_reader.h"
 #include "kinegraph/tasks/scene_facts.h"
+#include "kinegraph/tasks/task_doors.h"
 
 namespace kinegraph {
 
@@ -18,7 +19,8 @@ constexpr double kLevel = .999, kUp = .9;  ///< cosines of what is level, and of
 constexpr double kLeastPlace = .05;        ///< m: what is narrower carries nothing
 
 constexpr char kDefaultFol[] = R"(
-is_gripper is_object is_place is_face is_pose is_carrier is_pushable on busy up fresh posed pushes z
+is_gripper is_object is_place is_face is_pose is_carrier is_pushable is_hook is_handle is_guided partOf on busy up fresh posed
+pushes holds held opened closed ajar z
 DecisionRule pick { Obj, From, Hand,
   { (is_gripper Hand) (is_object Obj) (on From Obj) (is_place From) (busy Hand)! (on Obj ANY)!
     (pushes ANY Obj)! }
@@ -30,10 +32,11 @@ DecisionRule place { Obj, Hand, To,
   { (is_gripper Hand) (is_object Obj) (on Hand Obj) (is_place To) (on Obj To)! (pushes Obj ANY)! }
   { (busy Hand)! (on Hand Obj)! (on To Obj) (fresh Obj)! (up ANY Obj)! (up z Obj) } }
 DecisionRule lay { Obj, Hand, To, Face,
-  { (is_gripper Hand) (is_object Obj) (on Hand Obj) (is_place To) (is_face Face) (on Obj To)! }
+  { (is_gripper Hand) (is_object Obj) (on Hand Obj) (is_place To) (is_face Face) (on Obj To)!
+    (pushes Obj ANY)! }
   { (busy Hand)! (on Hand Obj)! (on To Obj) (fresh Obj)! (up ANY Obj)! (up Face Obj) } }
 DecisionRule handover { Obj, Hand, To,
-  { (is_gripper Hand) (is_object Obj) (on Hand Obj) (is_gripper To) (busy To)! }
+  { (is_gripper Hand) (is_object Obj) (on Hand Obj) (is_gripper To) (busy To)! (pushes Obj ANY)! }
   { (busy Hand)! (on Hand Obj)! (on To Obj) (busy To) } }
 DecisionRule push_start { Obj, From, Hand,
   { (is_gripper Hand) (is_pushable Obj) (on From Obj) (is_place From) (busy Hand)! (on Obj ANY)! (pushes ANY Obj)! }
@@ -41,17 +44,33 @@ DecisionRule push_start { Obj, From, Hand,
 DecisionRule push_end { Obj, Hand, To,
   { (is_gripper Hand) (pushes Hand Obj) (is_place To) (on Obj To)! }
   { (pushes Hand Obj)! (busy Hand)! (on ANY Obj)! (on To Obj) (fresh Obj)! } }
+DecisionRule hook_start { Obj, From, Hook, Tool, Hand,
+  { (is_gripper Hand) (is_hook Hook) (partOf Tool Hook) (on Hand Tool) (is_object Obj) (on From Obj) (is_place From)
+    (on Obj ANY)! (pushes ANY Obj)! (pushes Tool ANY)! }
+  { (pushes Tool Obj) } }
+DecisionRule hook_end { Obj, Hook, To, Tool, Hand,
+  { (is_gripper Hand) (is_hook Hook) (partOf Tool Hook) (on Hand Tool) (pushes Tool Obj) (is_place To) (on Obj To)! }
+  { (pushes Tool Obj)! (on ANY Obj)! (on To Obj) (fresh Obj)! } }
+DecisionRule hold { Door, Handle, Hand,
+  { (is_gripper Hand) (is_guided Door) (is_handle Handle) (partOf Door Handle) (busy Hand)! (held Door)! }
+  { (busy Hand) (holds Hand Handle) (held Door) } }
+DecisionRule open { Door, Handle, Hand,
+  { (is_gripper Hand) (is_guided Door) (partOf Door Handle) (holds Hand Handle) (opened Door)! }
+  { (busy Hand)! (holds Hand Handle)! (held Door)! (closed Door)! (ajar Door)! (opened Door) } }
+DecisionRule close { Door, Handle, Hand,
+  { (is_gripper Hand) (is_guided Door) (partOf Door Handle) (holds Hand Handle) (closed Door)! }
+  { (busy Hand)! (holds Hand Handle)! (held Door)! (opened Door)! (ajar Door)! (closed Door) } }
 DecisionRule pose { Obj, Hand, Goal,
-  { (is_gripper Hand) (is_object Obj) (on Hand Obj) (is_pose Goal) }
+  { (is_gripper Hand) (is_object Obj) (on Hand Obj) (is_pose Goal) (pushes Obj ANY)! }
   { (posed Obj Goal) } }
 )";
 
-/// Large enough to carry something, level, and not a part of what moves.
-bool isPlaceFrame(const Frame& frame, const std::set<std::string>& objects) {
+/// Large enough to carry something, level, and not a part of what moves, but for drawers.
+bool isPlaceFrame(const Frame& frame, const std::set<std::string>& objects, const std::set<std::string>& drawers) {
   if (objects.contains(frame.getName())) return true;
   for (std::optional<Frame> up = frame; up; up = up->getParent()) {
     const JointType type = up->getJointType();
-    if (type != JointType::none && type != JointType::rigid) return false;
+    if (type != JointType::none && type != JointType::rigid && !drawers.contains(up->getName())) return false;
   }
   const std::vector<double> size = frame.getSize();
   return std::abs(frame.getRotationMatrix()(2, 2)) > kLevel && std::min(size[0], size[1]) >= kLeastPlace;
@@ -80,18 +99,26 @@ class StartFacts {
         if (f.getName().ends_with("gripper")) said_.push_back({"is_gripper", {f.getName()}});
     }
     const std::set<std::string> grippers = setOf(wordsOf(said_, "is_gripper")),
-                                objects = setOf(wordsOf(said_, "is_object"));
+                                objects = setOf(wordsOf(said_, "is_object")),
+                                drawers = setOf(wordsOf(said_, "is_drawer"));
     if (!names_places) {
       for (const Frame& f : frames)
-        if (isBox(f) && !grippers.contains(f.getName()) && isPlaceFrame(f, objects))
+        if (isBox(f) && !grippers.contains(f.getName()) && isPlaceFrame(f, objects, drawers))
           said_.push_back({"is_place", {f.getName()}});
     }
     addWhatIsOn(grippers, objects);
+    const VectorXd q = C_.getJointState();
+    for (const TaskDoor& door : doorsOf(C_)) {
+      said_.push_back({"is_guided", {door.name}});
+      said_.push_back({door.stateAt(q[door.dof]), {door.name}});
+    }
     for (const std::string& hand : grippers)
       if (holdsAnything(hand)) said_.push_back({"busy", {hand}});
     for (const std::string& name : objects)
       if (const std::string up = upOf(C_, name); !up.empty()) said_.push_back({"up", {up, name}});
-    for (const char* kind : {"is_carrier", "is_pushable"})
+    std::vector<std::string> kinds = {"is_carrier", "is_pushable"};
+    if (has("is_hook")) kinds.emplace_back("is_object");  // anything may be pulled to where it can be grasped
+    for (const std::string& kind : kinds)
       for (const std::string& name : wordsOf(said_, kind)) said_.push_back({"fresh", {name}});
     if (std::ranges::any_of(goal, [](const Literal& g) { return g.predicate == "up"; })) {
       for (const std::string& face : otherFaces()) said_.push_back({"is_face", {face}});
@@ -132,11 +159,29 @@ bool isPick(const TaskAction& action) { return !action.empty() && (action[0] == 
 
 bool isPlace(const TaskAction& action) { return !action.empty() && (action[0] == "place" || action[0] == "lay"); }
 
+bool startsSliding(const TaskAction& action) {
+  return !action.empty() && (action[0] == "push_start" || action[0] == "hook_start");
+}
+
+bool endsSliding(const TaskAction& action) {
+  return !action.empty() && (action[0] == "push_end" || action[0] == "hook_end");
+}
+
 void requireWords(const TaskAction& action) {
   static const std::map<std::string, std::string> known = {
-      {"pick", "obj from hand"},   {"lift", "obj from hand"},   {"place", "obj hand to"},
-      {"lay", "obj hand to face"}, {"handover", "obj hand to"}, {"push_start", "obj from hand"},
-      {"push_end", "obj hand to"}, {"pose", "obj hand goal"},
+      {"pick", "obj from hand"},
+      {"lift", "obj from hand"},
+      {"place", "obj hand to"},
+      {"lay", "obj hand to face"},
+      {"handover", "obj hand to"},
+      {"push_start", "obj from hand"},
+      {"push_end", "obj hand to"},
+      {"pose", "obj hand goal"},
+      {"hook_start", "obj from hook tool hand"},
+      {"hook_end", "obj hook to tool hand"},
+      {"hold", "door handle hand"},
+      {"open", "door handle hand"},
+      {"close", "door handle hand"},
   };
   if (action.empty()) throw ValueError("planTask: an action has no words");
   const auto found = known.find(action[0]);

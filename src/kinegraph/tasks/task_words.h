@@ -18,6 +18,12 @@ bool isPick(const TaskAction& action);
 /// A hand puts an object down: place, lay (obj hand to).
 bool isPlace(const TaskAction& action);
 
+/// Something begins to slide on what it stands on: push_start (obj from hand), hook_start (obj from hook tool hand).
+bool startsSliding(const TaskAction& action);
+
+/// It has been slid somewhere: push_end (obj hand to), hook_end (obj hook to tool hand).
+bool endsSliding(const TaskAction& action);
+
 /// Throws ValueError for an action of a name that is known here with too few words, or with none.
 void requireWords(const TaskAction& action);
 
@@ -30,7 +36,9 @@ const std::vector<std::string>& otherFaces();
 /// The domain of planTask where none is given: pick (obj from hand) for what nothing stands on, lift (obj from hand) for
 /// what is called is_carrier, with all that stands on it, place (obj hand to), handover (obj hand to), lay (obj hand to
 /// face) where the goal says which face is up, pose (obj hand goal) for frames that are called is_pose, push_start (obj
-/// from hand) and push_end (obj hand to) for what is called is_pushable.
+/// from hand) and push_end (obj hand to) for what is called is_pushable, hook_start (obj from hook tool hand) and hook_end
+/// (obj hook to tool hand) with a tool of which a part is called is_hook, hold, open and close (door handle hand) for what
+/// is called is_door or is_drawer, with a part that is called is_handle.
 LogicDomain defaultDomain();
 
 /// What holds at the start: what a scene says (sceneFacts) and, where that names no gripper, no object or no place, what

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "tests/support/expect_error.h"
+#include "tests/tasks/task_scenes.h"
 
 namespace kinegraph {
 namespace {
@@ -88,6 +89,104 @@ TEST(CheckTaskPlan, PushingIsNotPullingNorLifting) {
   EXPECT_NE(wrong({.3, 0., .2}).find("'obj' does not slide straight"), std::string::npos);
   EXPECT_NE(wrong({.3, 0., .16}, {-.03, 0., .16}).find("'obj' is not pushed from behind"), std::string::npos)
       << "a hand that lies on it";
+}
+
+TEST(CheckTaskPlan, WhatIsPulledIsPulledByAHookThatAHandHolds) {
+  Config C = stickAndBox(.3);
+  C.getFrame("stick").setRelativePosition({.015, .3 + .03 + .0155 - .235, .08});  // the hook is behind the box
+  const Vector3d at = C.getFrame("stick").getPosition() - Vector3d(0., .2, .6);
+  const auto wrong = [&](const Vector3d& way, bool is_held) {
+    C.setJointState(at);
+    TaskPlan plan;
+    plan.actions = {{"hook_start", "box", "table", "hook", "stick", "hand"},
+                    {"hook_end", "box", "hook", "table", "stick", "hand"}};
+    plan.start = {{"is_gripper", {"hand"}}, {"is_object", {"stick"}}, {"is_object", {"box"}}};
+    if (is_held) {
+      plan.actions.insert(plan.actions.begin(), {"pick", "stick", "table", "hand"});
+      plan.segments.push_back({0, 2});
+    }
+    plan.path.resize(6, 3);
+    plan.path.rowwise() = at.transpose();
+    for (int row = 3; row < 6; ++row) plan.path.row(row) = at + .5 * (row - 3) * way;
+    plan.times = (VectorXd(6) << 0., 0., 0., 0., 1., 2.).finished();
+    plan.segments.push_back({0, 2});
+    plan.segments.push_back({3, 6});
+    return firstOf(checkTaskPlan(C, plan));
+  };
+  const Vector3d back(0., -.2, 0.);
+  EXPECT_EQ(wrong(back, true), "");
+  EXPECT_NE(wrong(back, false).find("'hand' does not hold 'stick'"), std::string::npos);
+  EXPECT_NE(wrong(-.5 * back, true).find("'box' is not pushed from behind"), std::string::npos)
+      << "it is not hooked to it";
+  EXPECT_NE(wrong({.2, 0., 0.}, true).find("'box' is not pushed from behind"), std::string::npos);
+  EXPECT_NE(wrong({0., -.2, .1}, true).find("'box' does not slide straight"), std::string::npos);
+}
+
+/// A hand that takes the handle from above, and pulls the drawer by `way` m.
+TaskPlan pulling(Config& C, double way) {
+  const Vector3d at = C.getFrame("handle").getPosition() - Vector3d(0., 0., .57);
+  VectorXd q(5);
+  q << at, 0., 0.;
+  C.setJointState(q);
+  TaskPlan plan;
+  plan.actions = {{"hold", "drawer", "handle", "gripper"}, {"open", "drawer", "handle", "gripper"}};
+  plan.start = {{"is_gripper", {"gripper"}}, {"is_object", {"cup"}}};
+  plan.path = q.transpose().replicate(12, 1);
+  plan.times = VectorXd::Zero(12);
+  for (int i = 0; i < 10; ++i) {
+    plan.path(2 + i, 1) -= way * i / 9.;
+    plan.path(2 + i, 4) -= way * i / 9.;
+    plan.times[2 + i] = .5 * i;
+  }
+  plan.segments = {{0, 2}, {2, 12}};
+  return plan;
+}
+
+TEST(CheckTaskPlan, ADrawerMovesOnlyWithAHandThatHoldsItsHandle) {
+  Config C = drawerAndCup();
+  TaskPlan plan = pulling(C, .25);
+  EXPECT_EQ(firstOf(checkTaskPlan(C, plan)), "");
+  TaskPlan other = plan;
+  other.actions.erase(other.actions.begin());
+  other.segments.erase(other.segments.begin());
+  EXPECT_NE(firstOf(checkTaskPlan(C, other)).find("'gripper' does not hold 'drawer'"), std::string::npos);
+  other = plan;
+  other.actions[1] = {"pose", "cup", "gripper", "cup"};
+  EXPECT_NE(firstOf(checkTaskPlan(C, other)).find("'drawer' moves, and nobody opens or closes it"), std::string::npos);
+  other = plan;
+  other.path.col(0).segment(4, 3).array() += .0015;
+  EXPECT_NE(firstOf(checkTaskPlan(C, other)).find("'gripper' slips on 'handle' by 0.0015 m"), std::string::npos);
+  other = plan;
+  other.path.col(3).segment(4, 3).array() += .02;
+  EXPECT_NE(firstOf(checkTaskPlan(C, other)).find("'gripper' turns on 'handle'"), std::string::npos);
+  other = plan;
+  other.path.col(4).tail(10).setZero();
+  EXPECT_NE(firstOf(checkTaskPlan(C, other)).find("'gripper' slips on 'handle'"), std::string::npos);
+}
+
+TEST(CheckTaskPlan, ADrawerIsOpenFromFourFifthsOfItsRangeOn) {
+  Config C = drawerAndCup();
+  EXPECT_NE(firstOf(checkTaskPlan(C, pulling(C, .2))).find("'drawer' is not opened: it is at 66.7 % of its range"),
+            std::string::npos);
+  TaskPlan plan = pulling(C, .25);
+  plan.goal = {{"closed", {"drawer"}}, {"opened", {"drawer"}, true}};
+  EXPECT_EQ(checkTaskPlan(C, plan).size(), 2u);
+}
+
+TEST(CheckTaskPlan, WhatIsTakenOfADoorIsItsHandle) {
+  Config C = drawerAndCup();
+  TaskPlan plan = pulling(C, .25);
+  for (TaskAction& action : plan.actions) action[2] = "cup";
+  EXPECT_NE(firstOf(checkTaskPlan(C, plan)).find("'cup' is no handle of a door"), std::string::npos);
+}
+
+TEST(CheckTaskPlan, WhatStandsInADrawerIsNotThrownAbout) {
+  Config C = drawerAndCup();
+  C.getFrame("cup").setParent(C.getFrame("floor")).setRelativePosition({0., 0., .06});
+  TaskPlan plan = pulling(C, .25);
+  EXPECT_EQ(firstOf(checkTaskPlan(C, plan)), "");
+  plan.times *= .04;
+  EXPECT_NE(firstOf(checkTaskPlan(C, plan)).find("'cup' is accelerated too much"), std::string::npos);
 }
 
 TEST(CheckTaskPlan, PartsThatDoNotFitAreRefused) {

@@ -110,6 +110,103 @@ TEST(PlanTask, WhatIsImpossibleIsProvedWithItsCause) {
   EXPECT_NE(twice.message.find("no sequence of actions reaches"), std::string::npos) << twice.message;
 }
 
+TEST(PlanTask, WhatIsBeyondReachIsPulledWithAStick) {
+  const Config C = stickAndBox(.3);
+  const TaskPlan plan = planTask(C, "(on hand box)");
+  ASSERT_TRUE(plan.feasible()) << plan.str();
+  EXPECT_EQ(namesOf(plan), (std::vector<std::string>{"pick", "hook_start", "hook_end", "place", "pick"}));
+  EXPECT_TRUE(checkTaskPlan(C, plan).empty());
+  const TaskPlan near = planTask(stickAndBox(.05), "(on hand box)");
+  EXPECT_EQ(namesOf(near), std::vector<std::string>{"pick"}) << "without the stick where that is not needed";
+}
+
+TEST(PlanTask, WhatIsBeyondReachWithAStickTooIsProvedSo) {
+  const TaskPlan plan = planTask(stickAndBox(.95), "(on hand box)");
+  EXPECT_EQ(plan.status, TaskStatus::proved_impossible);
+  EXPECT_NE(plan.message.find("beyond the reach of 'hand', with 'stick', too"), std::string::npos) << plan.message;
+}
+
+TEST(PlanTask, NothingIsPulledUpAStep) {
+  Config C = stickAndBox(.3);
+  C.addFrame("step", "base", "shape: ssBox, size: [.4 .4 .02 .004], rel: [.3 -.3 .01], logical: { is_place }");
+  const TaskPlan plan = planTask(C, "(on step box)");
+  ASSERT_TRUE(plan.feasible()) << plan.str();
+  EXPECT_EQ(plan.actions.back()[0], "place");
+  for (const TaskAction& action : plan.actions) EXPECT_FALSE(action[0] == "hook_end" && action[3] == "step");
+}
+
+TEST(PlanTask, ADrawerIsOpenedBecauseTheGeometrySaysSo) {
+  const Config C = drawerAndCup();
+  const TaskPlan plan = planTask(C, "(on floor cup) (closed drawer)");
+  ASSERT_TRUE(plan.feasible()) << plan.str();
+  EXPECT_EQ(namesOf(plan), (std::vector<std::string>{"hold", "open", "pick", "place", "hold", "close"}));
+  EXPECT_TRUE(checkTaskPlan(C, plan).empty());
+  EXPECT_NE(plan.why().find("while (closed drawer): (place cup gripper floor)"), std::string::npos) << plan.why();
+  const Eigen::Index drawer = 4;
+  const RowRange opening = plan.segments[1];
+  EXPECT_LE(plan.path(opening.end - 1, drawer), -.8 * .3);
+  EXPECT_NEAR(plan.path(plan.path.rows() - 1, drawer), 0., .05 * .3);
+  for (const std::size_t still : {0u, 2u, 3u, 4u}) {
+    const auto column = plan.path.col(drawer).segment(plan.segments[still].begin, plan.segments[still].size());
+    EXPECT_EQ(column.maxCoeff(), column.minCoeff()) << still;
+  }
+}
+
+TEST(PlanTask, WhatStandsInADrawerGoesAlong) {
+  Config C = drawerAndCup();
+  C.getFrame("cup").setParent(C.getFrame("floor")).setRelativePosition({0., 0., .06});
+  const TaskPlan plan = planTask(C, "(opened drawer)");
+  ASSERT_TRUE(plan.feasible()) << plan.str();
+  EXPECT_EQ(namesOf(plan), (std::vector<std::string>{"hold", "open"}));
+  C.setJointState(plan.path.row(plan.path.rows() - 1));
+  EXPECT_LE(C.getFrame("cup").getPosition().y(), .48 - .8 * .3);
+  EXPECT_TRUE(planTask(C, "(opened drawer)").actions.empty());
+}
+
+TEST(PlanTask, PlansWithDoorsDoNotDependOnThreads) {
+  const TaskPlan one = planTask(drawerAndCup(), "(on floor cup)"),
+                 other = planTask(drawerAndCup(), "(on floor cup)", {.threads = 4});
+  ASSERT_TRUE(one.feasible()) << one.str();
+  EXPECT_EQ(other.path, one.path);
+  EXPECT_EQ(other.str(), one.str());
+}
+
+TEST(PlanTask, WhyADoorCannotBeMovedIsProved) {
+  const auto message = [](const Config& C, const std::string& goal) {
+    const TaskPlan plan = planTask(C, goal);
+    EXPECT_EQ(plan.status, TaskStatus::proved_impossible) << plan.str();
+    return plan.message;
+  };
+  Config C = drawerAndCup();
+  C.addFrame("post", "base", "shape: ssBox, size: [.03 .03 .2 .004], contact: 1, rel: [.1 .2 .1]");
+  EXPECT_EQ(message(C, "(opened drawer)"), "'drawer' meets 'post' at 24 % of its range");
+  C.getFrame("drawer").setJointState(VectorXd::Constant(1, -.15));  // the post is behind the front now
+  C.getFrame("post").setRelativePosition({.1, .245, .1});
+  EXPECT_NE(message(C, "(closed drawer)").find("'drawer' meets 'post' at 7 % of its range"), std::string::npos);
+  C = drawerAndCup();
+  C.getFrame("rail").setRelativePosition({0., 1.6, 0.});
+  EXPECT_NE(message(C, "(opened drawer)").find("'handle' is at least "), std::string::npos);
+  C = drawerAndCup();
+  C.getFrame("handle").setShape(ShapeType::ssBox, {.1, .1, .1, .004});
+  EXPECT_EQ(message(C, "(opened drawer)"), "'handle' is wider than 'gripper' opens (0.090 m) along all of its axes");
+  C.getFrame("handle").editAttributes().nodes.clear();
+  EXPECT_EQ(message(C, "(opened drawer)"), "'drawer' has no part that is called is_handle");
+  EXPECT_NE(message(C, "(opened table)").find("'table' is no door or drawer"), std::string::npos);
+}
+
+TEST(PlanTask, WhatIsInADrawerIsNotTheDrawer) {
+  Config C = drawerAndCup();
+  C.getFrame("drawer").setJointState(VectorXd::Constant(1, -.29));
+  C.getFrame("cup").setShape(ShapeType::ssBox, {.06, .06, .25, .004});
+  C.getFrame("cup").setParent(C.getFrame("floor")).setRelativePosition({0., -.08, .135});  // higher than the case
+  C.addFrame("tray", "base", "shape: ssBox, size: [.2 .2 .01 .004], rel: [.6 -.5 .005], logical: { is_place }");
+  const TaskPlan plan = planTask(C, "(on tray cup) (closed drawer)");
+  ASSERT_TRUE(plan.feasible()) << plan.str();
+  EXPECT_EQ(namesOf(plan), (std::vector<std::string>{"pick", "place", "hold", "close"}));
+  const TaskPlan within = planTask(C, "(on floor cup) (closed drawer)", {.evaluations = 3000});
+  EXPECT_EQ(within.status, TaskStatus::not_found) << "that is no proof";
+}
+
 TEST(PlanTask, AGoalThatHoldsAndEffortThatEnds) {
   const Config C = cubesOnATable(2);
   const TaskPlan done = planTask(C, "(on table b0)");

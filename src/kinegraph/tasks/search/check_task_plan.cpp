@@ -9,6 +9,7 @@
 #include "kinegraph/base/errors.h"
 #include "kinegraph/base/text.h"
 #include "kinegraph/features/eval.h"
+#include "kinegraph/tasks/search/guided_motion.h"
 #include "kinegraph/tasks/search/motion_checks.h"
 #include "kinegraph/tasks/shape_points.h"
 
@@ -85,7 +86,7 @@ double gapOf(const Config& scene, const std::string& a, const std::string& b) {
 /// A plan as it is played.
 class Played {
  public:
-  Played(const Config& C, const TaskPlan& plan) : scene_(C), plan_(plan), ignored_(overlaps(C)) {}
+  Played(const Config& C, const TaskPlan& plan) : scene_(C), plan_(plan), doors_(doorsOf(C)), ignored_(overlaps(C)) {}
 
   Lines wrong() {
     VectorXd q = scene_.getJointState();
@@ -106,6 +107,7 @@ class Played {
         if (!ignored_.contains({a, b})) say(text, cat(a, " and ", b, " overlap where they are left"));
     }
     lookAtFaces();
+    lookAtDoors();
     return wrong_;
   }
 
@@ -116,7 +118,8 @@ class Played {
     std::string broken = badTiming(path, times, q, plan_.limits);
     if (broken.empty()) broken = firstContact(scene_, path);
     if (broken.empty()) broken = badSliding(action, path);
-    if (broken.empty()) broken = badCarrying(path, times);
+    if (broken.empty()) broken = badDoors(action, path);
+    if (broken.empty()) broken = badCarrying(action, path, times);
     return broken;
   }
 
@@ -128,7 +131,7 @@ class Played {
     for (const auto& [obj, pusher] : pushed_) {
       const std::vector<Vector3d> at = positionsAlong(scene_, path, obj);
       const Vector3d here = at.front(), moved = at.back() - here;
-      if (action[0] != "push_end" || action[1] != obj) {
+      if (!endsSliding(action) || action[1] != obj) {
         if (std::ranges::any_of(at, [&](const Vector3d& p) { return (p - here).norm() > kOffPlace; }))
           return cat("'", obj, "' moves, and is not pushed");
         continue;
@@ -146,10 +149,35 @@ class Played {
     return "";
   }
 
-  /// What only stands on something that a hand holds, and tilts or is accelerated too much; looked at in each row.
-  std::string badCarrying(const MatrixXd& path, const VectorXd& times) {
+  /// What is wrong with how doors move: only where an action says so, with a hand that has taken the handle and holds it.
+  std::string badDoors(const TaskAction& action, const MatrixXd& path) {
+    for (const TaskDoor& door : doors_) {
+      const bool is_moved = isGuided(action) && action[1] == door.name;
+      const double most = path.col(door.dof).maxCoeff(), least = path.col(door.dof).minCoeff();
+      if (!is_moved && most - least > kJump) return cat("'", door.name, "' moves, and nobody opens or closes it");
+      const auto held = held_.find(door.name);
+      if (held == held_.end()) {
+        if (is_moved) return cat("'", action[3], "' does not hold '", door.name, "'");
+        continue;
+      }
+      const auto& [handle, hand, taken] = held->second;
+      if (is_moved && (action[2] != handle || action[3] != hand))
+        return cat("'", action[3], "' does not hold '", action[2], "'");
+      const Slip slip = mostSlip(taken, path, hand, handle);
+      if (slip.distance > kOffPlace)
+        return cat("'", hand, "' slips on '", handle, "' by ", fixed(slip.distance, 4), " m");
+      if (slip.cosine < levelCosine()) return cat("'", hand, "' turns on '", handle, "'");
+    }
+    return "";
+  }
+
+  /// What only stands on something that a hand holds, or in a drawer that is moved, and tilts or is accelerated too much; looked at in each row.
+  std::string badCarrying(const TaskAction& action, const MatrixXd& path, const VectorXd& times) {
     static const double kUpright = cosineOf(5.);
-    const Lines carried = carriedBy(scene_, wordsOf(plan_.start, "is_gripper"), wordsOf(plan_.start, "is_object"));
+    const Lines objects = wordsOf(plan_.start, "is_object");
+    Lines carried = carriedBy(scene_, wordsOf(plan_.start, "is_gripper"), objects);
+    if (isGuided(action))
+      for (std::string& obj : movedBy(scene_, action[1], objects)) carried.push_back(std::move(obj));
     std::map<std::string, Vector3d> upright;
     for (const std::string& obj : carried) upright[obj] = scene_.getFrame(obj).getRotationMatrix().col(2);
     for (Eigen::Index row = 0; row < path.rows() && !carried.empty(); ++row) {
@@ -166,15 +194,27 @@ class Played {
 
   /// What an action changes in the scene, and what is wrong with it.
   void happen(const TaskAction& action, const std::string& text) {
-    if (isPick(action) || action[0] == "handover" || action[0] == "push_start") {
+    if (action[0] == "hook_start" && holderOf(scene_, action[3], {action[5]}).empty())
+      say(text, cat("'", action[5], "' does not hold '", action[4], "'"));
+    if (isPick(action) || action[0] == "handover" || startsSliding(action)) {
       if (const double apart = gapOf(scene_, action[1], action[3]); apart > kOffPlace)
         say(text, cat("the hand is ", fixed(apart, 4), " m away from what it takes"));
       hang(scene_, action[1], action[3]);
-      if (action[0] == "push_start") pushed_[action[1]] = action[3];
-    } else if (isPlace(action) || action[0] == "push_end") {
+      if (startsSliding(action)) pushed_[action[1]] = action[3];
+    } else if (isPlace(action) || endsSliding(action)) {
       hang(scene_, action[1], action[3]);
       lookAtStanding(action[1], action[3], action[0] == "lay" ? action[4] : "", text);
       pushed_.erase(action[1]);
+    } else if (isHold(action)) {
+      const auto is_door = [&](const TaskDoor& door) { return door.name == action[1]; };
+      if (std::ranges::none_of(doors_, is_door) || holderOf(scene_, action[2], {action[1]}).empty())
+        say(text, cat("'", action[2], "' is no handle of a door"));
+      if (const double apart = gapOf(scene_, action[2], action[3]); apart > kOffPlace)
+        say(text, cat("the hand is ", fixed(apart, 4), " m away from what it takes"));
+      held_.insert_or_assign(action[1], Held{action[2], action[3], scene_});
+    } else if (isGuided(action)) {
+      lookAtDoor(action[1], action[0] == "open" ? "opened" : "closed", text);
+      held_.erase(action[1]);
     } else if (action[0] == "pose") {
       lookAtPose(action[1], action[3], text);
     }
@@ -205,6 +245,26 @@ class Played {
     say(text, cat("it is ", fixed(apart, 4), " m and ", fixed(degrees, 2), " degrees from the pose"));
   }
 
+  void lookAtDoor(const std::string& name, const std::string& wanted, const std::string& text) {
+    const auto door = std::ranges::find(doors_, name, &TaskDoor::name);
+    if (door == doors_.end()) return;
+    const double q = scene_.getJointState()[door->dof];
+    if (door->stateAt(q) != wanted)
+      say(text, cat("'", name, "' is not ", wanted, ": it is at ", fixed(100. * door->share(q), 1), " % of its range"));
+  }
+
+  /// What the goal says of doors, and is not so.
+  void lookAtDoors() {
+    for (const Literal& literal : plan_.goal) {
+      if (literal.arguments.size() != 1) continue;
+      const auto door = std::ranges::find(doors_, literal.arguments[0], &TaskDoor::name);
+      const bool is_state = literal.predicate == "opened" || literal.predicate == "closed";
+      if (door == doors_.end() || !is_state) continue;
+      if ((door->stateAt(scene_.getJointState()[door->dof]) == literal.predicate) == literal.negated)
+        wrong_.push_back(cat("at the end ", literal.str(), " does not hold"));
+    }
+  }
+
   /// What the goal says of faces, and is not so.
   void lookAtFaces() {
     for (const Literal& literal : plan_.goal) {
@@ -215,8 +275,15 @@ class Played {
     }
   }
 
+  struct Held {
+    std::string handle, hand;
+    Config taken;  ///< as it was then
+  };
+
   Config scene_;
   const TaskPlan& plan_;
+  const std::vector<TaskDoor> doors_;
+  std::map<std::string, Held> held_;           ///< doors that a hand has taken
   const Pairs ignored_;                        ///< what the scene itself has
   std::map<std::string, std::string> pushed_;  ///< by what
   Lines wrong_;

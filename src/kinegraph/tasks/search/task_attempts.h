@@ -15,6 +15,8 @@ namespace kinegraph {
 struct TaskFailure {
   std::string why;
   std::shared_ptr<const Config> ghost;
+  std::size_t action = 0;           ///< that has no motion
+  std::vector<Literal> doors = {};  ///< what is true of doors that shut it off: (closed drawer)
 };
 
 /// Finds the waypoints of sequences of actions: variants are tried, each from several starts, until one is feasible.

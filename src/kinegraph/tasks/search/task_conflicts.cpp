@@ -17,21 +17,24 @@ bool isAmong(const std::vector<std::string>& words, const std::string& word) {
 
 }  // namespace
 
-std::vector<TaskAction> actionsAlone(const std::vector<TaskAction>& actions) {
+ActionsAlone actionsAlone(const std::vector<TaskAction>& actions) {
   const TaskAction& last = actions.back();
+  const std::string subject = last[0] == "hook_start" ? last[4] : objectOf(last);  // of a hook: the tool
   for (std::size_t i = actions.size() - 1; i-- > 0;) {
-    if (objectOf(actions[i]) != objectOf(last)) continue;
-    if (isPick(last)) break;
-    std::vector<TaskAction> alone = actionsAlone({actions.begin(), actions.begin() + std::ptrdiff_t(i) + 1});
-    alone.push_back(last);
+    if (objectOf(actions[i]) != subject) continue;
+    if (isPick(last) || isHold(last)) break;
+    ActionsAlone alone = actionsAlone({actions.begin(), actions.begin() + std::ptrdiff_t(i) + 1});
+    for (std::size_t k = i + 1; k + 1 < actions.size(); ++k)
+      if (isHold(actions[k]) || isGuided(actions[k])) alone.actions.push_back(actions[k]);
+    alone.actions.push_back(last);
     return alone;
   }
-  return {last};
+  return {{last}, actions.size() - 1};
 }
 
 bool startsWithPick(const std::vector<TaskAction>& actions, const std::vector<Literal>& start) {
   const TaskAction& first = actions.front();
-  return isPick(first) && contains(start, {"on", {first[2], first[1]}});
+  return isHold(first) || (isPick(first) && contains(start, {"on", {first[2], first[1]}}));
 }
 
 std::vector<std::string> objectsWithout(const std::vector<TaskAction>& actions, const std::vector<Literal>& start) {

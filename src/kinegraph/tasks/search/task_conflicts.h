@@ -10,10 +10,16 @@ namespace kinegraph {
 
 // What a failure in geometry says in logic: which actions and facts exclude each other.
 
-/// The last action, with those that gave the hand its object.
-std::vector<TaskAction> actionsAlone(const std::vector<TaskAction>& actions);
+/// Some of a sequence of actions, and how many come before the first of them.
+struct ActionsAlone {
+  std::vector<TaskAction> actions;
+  std::size_t before = 0;
+};
 
-/// Is the object picked where it is at the start?
+/// The last action, with those that gave the hand its object, or the handle, and what happened to doors in between.
+ActionsAlone actionsAlone(const std::vector<TaskAction>& actions);
+
+/// Is the first object picked where it is at the start, or is it a door?
 bool startsWithPick(const std::vector<TaskAction>& actions, const std::vector<Literal>& start);
 
 /// Objects that actions are not about.

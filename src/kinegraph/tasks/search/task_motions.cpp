@@ -7,6 +7,7 @@
 #include "kinegraph/base/text.h"
 #include "kinegraph/scene/motor_limits.h"
 #include "kinegraph/spline/retime.h"
+#include "kinegraph/tasks/search/guided_motion.h"
 #include "kinegraph/tasks/search/motion_checks.h"
 #include "kinegraph/tasks/task_rules.h"
 
@@ -17,15 +18,18 @@ namespace {
 constexpr double kBack = .07;  ///< m: a hand comes to what it takes, and leaves what it puts down, along its own axis
 constexpr double kUp = .04;    ///< m: what is held is lifted first, and comes down to its place
 constexpr double kTurn = .8;  ///< rad or m: a joint that would move farther on these few centimeters is led another way
-constexpr double kSame = 1e-7;   ///< rad or m: postures that differ by less are one
-constexpr double kPeriod = .01;  ///< s between two rows
-constexpr double kMargin = .01;  ///< m, that motions keep where their ends do, and there is room
-constexpr double kHeld = 4.;     ///< m/s^2: what is held by friction is accelerated by no more
-constexpr double kBlend = .05;   ///< rad or m, by which corners may be missed
-constexpr double kSpeedIn = .5;  ///< s to full speed
+constexpr double kSame = 1e-7;       ///< rad or m: postures that differ by less are one
+constexpr double kPeriod = .01;      ///< s between two rows
+constexpr double kMargin = .01;      ///< m, that motions keep where their ends do, and there is room
+constexpr double kHeld = 4.;         ///< m/s^2: what is held by friction is accelerated by no more
+constexpr double kBlend = .05;       ///< rad or m, by which corners may be missed
+constexpr double kFineBlend = 2e-3;  ///< the same, where a hand holds what only a joint moves
+constexpr double kUnhurried = 1.02;  ///< of the least time: a spline keeps its limits where they are looked at
+constexpr double kSpeedIn = .5;      ///< s to full speed
 constexpr int kTries = 2;
 constexpr int kSearch = 200000;  ///< evaluations of one search for a way
-constexpr int kPushRows = 50;    ///< by which a straight push is looked at
+constexpr int kSearchBehindDoors = 40000;
+constexpr int kPushRows = 50;  ///< by which a straight push is looked at
 
 double farthest(const VectorXd& a, const VectorXd& b) { return (a - b).cwiseAbs().maxCoeff(); }
 
@@ -47,6 +51,7 @@ MatrixXd line(const VectorXd& a, const VectorXd& b, int count) {
 /// What leaves a place as an action comes there: who puts something down comes from above, who takes it along its axis.
 TaskAction coming(const TaskAction& action) {
   if (isPick(action)) return {"place", action[1], action[3], action[2]};
+  if (isHold(action)) return {"open", action[1], action[2], action[3]};
   if (isPlace(action)) return {"pick", action[1], action[3], action[2]};
   return {};
 }
@@ -87,6 +92,7 @@ VectorXd perDof(const char* name, const VectorXd& given, const VectorXd& otherwi
 TaskMotions::TaskMotions(MatrixXd limits, const std::vector<Literal>& start, std::uint64_t seed, int threads,
                          std::function<bool()> stopped)
     : limits_(std::move(limits)),
+      has_doors_(!wordsOf(start, "is_guided").empty()),
       hands_(wordsOf(start, "is_gripper")),
       objects_(wordsOf(start, "is_object")),
       seed_(seed),
@@ -95,8 +101,60 @@ TaskMotions::TaskMotions(MatrixXd limits, const std::vector<Literal>& start, std
 
 TaskMotions::Found TaskMotions::between(const Config& C, const VectorXd& q0, const VectorXd& q1,
                                         const TaskAction& action, const TaskAction& before) {
-  if (action[0] == "push_end") return pushed(C, q0, q1, action[1]);
+  if (!has_doors_) return among(C, q0, q1, action, before);
+  if (isGuided(action)) return guided(C, q0, q1, action);
+  Config all = C;
+  all.setJointState(q0);
+  const StillDoors still = withStillDoors(all, doorsOf(all));
+  TaskMotions motions = *this;
+  motions.limits_ = limits_(Eigen::all, still.dofs);
+  Found found = motions.among(still.scene, q0(still.dofs), q1(still.dofs), action, before);
+  evaluations = motions.evaluations;
+  if (found.motion) {
+    MatrixXd path = q0.transpose().replicate(found.motion->path.rows(), 1);
+    path(Eigen::all, still.dofs) = found.motion->path;
+    found.motion->path = std::move(path);
+  }
+  return found;
+}
+
+/// A hand moves a door by its handle: along the straight line of the joints, as near as its grip allows, or another way.
+TaskMotions::Found TaskMotions::guided(const Config& C, const VectorXd& q0, const VectorXd& q1,
+                                       const TaskAction& action) {
+  const std::string &handle = action[2], &hand = action[3];
+  Config taken = C;
+  taken.setJointState(q0);
+  MatrixXd postures = guidedPostures(C, q0, q1, hand, handle);
+  if (postures.rows() == 0 || !isFree(C, postures)) {
+    const MotionPlan found = way(C, q0, q1, gripConstraints(taken, hand, handle));
+    if (!found.feasible()) return {std::nullopt, cat("no motion was found that holds '", handle, "': ", found.message)};
+    postures = found.path;
+  }
+  const MotionLimits limits{limits_.row(0), limits_.row(1), {}};
+  for (const auto& [corners, tolerance] :
+       {std::pair(Corners::spline, 0.), std::pair(Corners::blend, kFineBlend), std::pair(Corners::stop, 0.)}) {
+    RetimeOptions options;
+    options.corners = corners;
+    if (tolerance > 0.) options.tolerance = tolerance;
+    const TimedPath timed = retime(withoutRepeats(postures), limits, options);
+    if (!timed.feasible()) continue;
+    TimedRows rows = rowsOf(timed, postures);
+    rows.times *= kUnhurried;
+    const Slip slip = mostSlip(taken, rows.path, hand, handle);
+    if (slip.distance > 1.6 * kSlip || slip.cosine < levelCosine() || !isFree(C, rows.path)) continue;
+    return {slower(C, std::move(rows), movedBy(C, action[1], objects_), kSteady / 1.01), ""};
+  }
+  return {std::nullopt, cat("'", hand, "' slips on '", handle, "'")};
+}
+
+TaskMotions::Found TaskMotions::among(const Config& C, const VectorXd& q0, const VectorXd& q1, const TaskAction& action,
+                                      const TaskAction& before) {
   const std::vector<std::string> carried = carriedBy(C, hands_, objects_);
+  if (endsSliding(action)) {
+    Found found = pushed(C, q0, q1, action[1]);
+    if (found.motion) found.motion = steady(C, std::move(*found.motion), carried);
+    return found;
+  }
   std::vector<MotionConstraint> level;
   for (const std::string& obj : carried) {
     const Vector3d up = C.getFrame(obj).getRotationMatrix().col(2);
@@ -143,14 +201,15 @@ TaskMotions::Found TaskMotions::pushed(const Config& C, const VectorXd& q0, cons
 MotionPlan TaskMotions::way(const Config& C, const VectorXd& start, const VectorXd& goal,
                             const std::vector<MotionConstraint>& constraints) {
   PlanOptions options;
-  options.tries = kTries;
+  options.tries = has_doors_ ? 1 : kTries;
   options.seed = seed_;
   options.threads = threads_;
   options.constraints = constraints;
   MotionPlan found;
   for (const double margin : {kMargin, 0.}) {
     options.margin = margin;
-    options.evaluations = margin == 0. ? kSearch : kSearch / 10;
+    const int most = has_doors_ ? kSearchBehindDoors : kSearch;  // what is shut off is soon given up
+    options.evaluations = margin == 0. ? most : most / 10;
     found = planMotion(C, MotionGoal(goal), options, start, stopped_);
     for (const PlanStage& stage : found.stages) evaluations += stage.evaluations;
     if (found.feasible()) break;
@@ -168,8 +227,8 @@ std::vector<VectorXd> TaskMotions::piece(const Config& C, const VectorXd& q,
 /// Joints a few centimeters away from where an action was done: a hand that has put something down goes back, one that has
 /// taken something lifts it.
 std::optional<VectorXd> TaskMotions::leaving(const Config& C, const VectorXd& q, const TaskAction& action) const {
-  if (!isPick(action) && !isPlace(action)) return std::nullopt;
-  const std::string& hand = isPick(action) ? action[3] : action[2];
+  if (!isPick(action) && !isPlace(action) && !isGuided(action)) return std::nullopt;
+  const std::string& hand = isPlace(action) ? action[2] : action[3];
   const std::string palm = palmOf(C, hand);
   Config D = C;
   D.setJointState(q);
@@ -198,6 +257,15 @@ TimedRows TaskMotions::steady(const Config& C, TimedRows rows, const std::vector
     const double most = std::ranges::find(carried, obj) != carried.end() ? kSteady / 1.01 : kHeld;
     share = std::max(share, accelerationOf(C, rows.path, rows.times, obj) / most);
   }
+  rows.times *= std::sqrt(share);
+  return rows;
+}
+
+/// The same motion, so slow that objects are accelerated by no more than `most` m/s^2.
+TimedRows TaskMotions::slower(const Config& C, TimedRows rows, const std::vector<std::string>& objects,
+                              double most) const {
+  double share = 1.;
+  for (const std::string& obj : objects) share = std::max(share, accelerationOf(C, rows.path, rows.times, obj) / most);
   rows.times *= std::sqrt(share);
   return rows;
 }

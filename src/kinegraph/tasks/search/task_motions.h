@@ -37,15 +37,20 @@ class TaskMotions {
   long evaluations = 0;  ///< so far
 
  private:
+  Found among(const Config& C, const VectorXd& q0, const VectorXd& q1, const TaskAction& action,
+              const TaskAction& before);
+  Found guided(const Config& C, const VectorXd& q0, const VectorXd& q1, const TaskAction& action);
   Found pushed(const Config& C, const VectorXd& q0, const VectorXd& q1, const std::string& obj);
   MotionPlan way(const Config& C, const VectorXd& start, const VectorXd& goal,
                  const std::vector<MotionConstraint>& constraints = {});
   std::vector<VectorXd> piece(const Config& C, const VectorXd& q, const std::optional<VectorXd>& away) const;
   std::optional<VectorXd> leaving(const Config& C, const VectorXd& q, const TaskAction& action) const;
   TimedRows steady(const Config& C, TimedRows rows, const std::vector<std::string>& carried) const;
+  TimedRows slower(const Config& C, TimedRows rows, const std::vector<std::string>& objects, double most) const;
   TimedRows timed(const Config& C, const MatrixXd& postures) const;
 
   MatrixXd limits_;
+  bool has_doors_;
   std::vector<std::string> hands_, objects_;
   std::uint64_t seed_;
   int threads_;

@@ -27,7 +27,9 @@ struct Reach {
 Reach reachOf(const Config& C, const std::string& name);
 
 /// Of all these actions the default ones that no motion can carry out, whatever comes before them, found without any
-/// motion problem: by reach, size and room.
-std::vector<ImpossibleAction> impossibleActions(const Config& C, const std::vector<TaskAction>& actions);
+/// motion problem: by reach, size, room and height. `start`: what holds at first, of which `fresh` says what stays where it
+/// is until it is put or slid elsewhere.
+std::vector<ImpossibleAction> impossibleActions(const Config& C, const std::vector<TaskAction>& actions,
+                                                const std::vector<Literal>& start = {});
 
 }  // namespace kinegraph

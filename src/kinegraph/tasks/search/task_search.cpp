@@ -47,6 +47,7 @@ int requireThreads(int threads) {
 
 TaskSearch::TaskSearch(const Config& C, const std::string& goal, const TaskOptions& options)
     : C_(C),
+      doors_(doorsOf(C)),
       options_(options),
       domain_(options.domain ? *options.domain : defaultDomain()),
       goal_text_(goal),
@@ -142,12 +143,13 @@ std::optional<TaskPlan> TaskSearch::next() {
     has_begun_ = true;
     if (!search_->problem().unreachable.empty()) {
       has_ended_ = true;
-      return end(TaskStatus::proved_impossible, join(oddities(search_->problem()), "; "));
+      const std::string missing = missingOfDoors();
+      return end(TaskStatus::proved_impossible, missing.empty() ? join(oddities(search_->problem()), "; ") : missing);
     }
     if (proves_) {
       Actions all;
       for (int a = 0; a < int(search_->problem().actions.size()); ++a) all.push_back(search_->problem().action(a));
-      proofs_ = impossibleActions(C_, all);
+      proofs_ = impossibleActions(C_, all, options_.domain ? std::vector<Literal>() : start_);
     }
     exclude();
   } else if (trial_ && isSpent()) {
@@ -204,71 +206,9 @@ std::optional<TaskPlan> TaskSearch::nextOf(Trial& trial) {
       return std::move(*plan);
     }
     trial.failure = std::get<TaskFailure>(answer);
+    if (!trial.found && !trial.failure->doors.empty()) break;
   }
   return std::nullopt;
-}
-
-/// Forbids what was tried, or what fails in it.
-void TaskSearch::conclude(const Trial& trial) {
-  if (!trial.found && !trial.failure) return forbidFailing(trial.actions);
-  if (!trial.found) giveUp(trial.actions, *trial.failure);
-  forbidBeginning(trial.actions);
-}
-
-void TaskSearch::giveUp(const Actions& actions, const TaskFailure& failure) {
-  guessed_ = true;
-  const auto is_same = [&](const TaskBranch& b) { return b.actions == actions && b.why == failure.why; };
-  if (std::ranges::any_of(tree_, is_same)) return;  // tried before regrasps were allowed
-  addCause(failure.why);
-  tree_.push_back({actions, failure.why, failure.ghost});
-}
-
-/// Finds the first action at which it fails, and what stands in its way.
-void TaskSearch::forbidFailing(const Actions& actions) {
-  std::size_t count = 1;
-  while (count < actions.size() && !failureOf({actions.begin(), actions.begin() + std::ptrdiff_t(count)})) ++count;
-  const Actions beginning(actions.begin(), actions.begin() + std::ptrdiff_t(count)), alone = actionsAlone(beginning);
-  const Words others = objectsWithout(alone, start_);
-  if (const auto& failure = failureOf(alone, others)) {
-    giveUp(beginning, *failure);
-    const bool is_general = alone.size() == beginning.size() || startsWithPick(alone, start_);
-    return forbidLast(beginning, is_general ? std::optional(whileFacts(alone, start_)) : std::nullopt);
-  }
-  for (const InTheWay& there : inTheWay(alone.back(), start_)) {
-    Words rest = others;
-    std::erase(rest, there.obj);
-    if (const auto& failure = failureOf(alone, rest)) {
-      giveUp(beginning, {cat("while ", there.fact.str(), ": ", failure->why), failure->ghost});
-      std::vector<Literal> facts = {there.fact};
-      for (Literal& fact : whileFacts(alone, start_)) facts.push_back(std::move(fact));
-      return forbidLast(beginning, facts);
-    }
-  }
-  if (const auto& failure = failureOf(beginning)) giveUp(beginning, *failure);
-  forbidBeginning(beginning);
-}
-
-/// The last action is impossible while facts hold; without facts, or where they do not hold then: after what was done
-/// before.
-void TaskSearch::forbidLast(const Actions& beginning, const std::optional<std::vector<Literal>>& facts) {
-  const std::vector<std::vector<Literal>> along = states(beginning);
-  const std::vector<Literal>& holds = along[along.size() - 2];
-  if (facts && std::ranges::all_of(*facts, [&](const Literal& fact) { return contains(holds, fact); }))
-    forbid(beginning.back(), *facts);
-  else
-    forbidBeginning(beginning);
-}
-
-/// Why actions cannot be carried out while some objects are not there; none if they can.
-const std::optional<TaskFailure>& TaskSearch::failureOf(const Actions& actions, const Words& without) {
-  const std::pair<Actions, Words> key{actions, without};
-  if (const auto known = known_.find(key); known != known_.end()) return known->second;
-  Config scene = C_;
-  for (const std::string& name : without) scene.getFrame(name).setContact(0);
-  TaskAttempts::Found found = attempts_.find(scene, actions, 0);
-  std::optional<TaskFailure> failure;
-  if (!found.waypoints) failure = std::move(found.failure);
-  return known_.emplace(key, std::move(failure)).first->second;
 }
 
 /// The motions between waypoints, checked; or why there is none.
@@ -280,7 +220,14 @@ std::variant<TaskPlan, TaskFailure> TaskSearch::motionsOf(const TaskWaypoints& w
   };
   const Actions& actions = waypoints.actions;
   std::vector<Phase> phases;
-  for (int i = 0; i < int(actions.size()); ++i) phases.push_back({subProblem(waypoints.m->komo->path(), i)});
+  const MatrixXd settled = withSettledDoors(C_, actions, waypoints.m->komo->getPath());
+  for (int i = 0; i < int(actions.size()); ++i) {
+    phases.push_back({subProblem(waypoints.m->komo->path(), i)});
+    for (const TaskDoor& door : doors_) {
+      if (i > 0) phases.back().part.start[door.dof] = settled(i - 1, door.dof);
+      phases.back().part.end[door.dof] = settled(i, door.dof);
+    }
+  }
   std::optional<TaskFailure> failure;
   std::vector<TimedRows> rows;
   inOrder(
@@ -300,9 +247,10 @@ std::variant<TaskPlan, TaskFailure> TaskSearch::motionsOf(const TaskWaypoints& w
           rows.push_back(std::move(*phase.found.motion));
           return true;
         }
+        failure = {cat(planText({actions[std::size_t(i)]}), ": ", phase.found.why), nullptr, std::size_t(i),
+                   shutBy(phase.part, actions, std::size_t(i))};
         phase.part.config.setJointState(phase.part.end);
-        failure = {cat(planText({actions[std::size_t(i)]}), ": ", phase.found.why),
-                   std::make_shared<const Config>(std::move(phase.part.config))};
+        failure->ghost = std::make_shared<const Config>(std::move(phase.part.config));
         return false;
       },
       options_.between);
@@ -319,7 +267,7 @@ TaskPlan TaskSearch::planOf(const TaskWaypoints& waypoints, const std::vector<Ti
                             std::vector<Config> scenes) const {
   TaskPlan plan = end(TaskStatus::solved, "");
   plan.actions = waypoints.actions;
-  plan.waypoints = waypoints.m->komo->getPath();
+  plan.waypoints = withSettledDoors(C_, plan.actions, waypoints.m->komo->getPath());
   plan.limits = limits_;
   Eigen::Index count = 0;
   for (const TimedRows& motion : rows) count += motion.path.rows();
@@ -340,6 +288,7 @@ TaskPlan TaskSearch::planOf(const TaskWaypoints& waypoints, const std::vector<Ti
   for (std::size_t i = 0; i < plan.actions.size(); ++i) {
     const Config scene = waypoints.m->komo->configuration(int(i));
     const std::optional<Frame> obj = scene.findFrame(objectOf(plan.actions[i]));
+    if (isHold(plan.actions[i]) || isGuided(plan.actions[i])) continue;
     if (const std::optional<Frame> parent = obj ? obj->getParent() : std::nullopt)
       plan.attachments.emplace_back(parent->getName(), obj->getName());
   }
@@ -361,6 +310,25 @@ TaskPlan TaskSearch::end(TaskStatus status, std::string message) const {
   plan.start = start_;
   plan.again = [goal = goal_text_, options = options_](const Config& C) { return planTask(C, goal, options); };
   return plan;
+}
+
+/// What a door of the goal needs, to be opened or closed, and does not have; "" if that is not the default domain's.
+std::string TaskSearch::missingOfDoors() const {
+  if (options_.domain) return "";
+  for (const Literal& literal : goal_) {
+    if ((literal.predicate != "opened" && literal.predicate != "closed") || literal.arguments.size() != 1) continue;
+    const std::string& name = literal.arguments[0];
+    if (!contains(start_, {"is_guided", {name}}))
+      return cat("'", name,
+                 "' is no door or drawer; expected a frame that is called is_door or is_drawer, with a joint ",
+                 "of one dof that is active and has limits");
+    const auto is_handle = [&](const Literal& fact) {
+      return fact.predicate == "partOf" && fact.arguments[0] == name &&
+             contains(start_, {"is_handle", {fact.arguments[1]}});
+    };
+    if (std::ranges::none_of(start_, is_handle)) return cat("'", name, "' has no part that is called is_handle");
+  }
+  return "";
 }
 
 /// There is no plan left in logic.

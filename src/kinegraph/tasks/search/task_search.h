@@ -1,6 +1,7 @@
 #pragma once
 
 #include <chrono>
+#include <compare>
 #include <exception>
 #include <map>
 #include <memory>
@@ -10,11 +11,13 @@
 #include <variant>
 #include <vector>
 
+#include "kinegraph/komo/sub_problem.h"
 #include "kinegraph/logic/plan_search.h"
 #include "kinegraph/tasks/search/plan_task.h"
 #include "kinegraph/tasks/search/task_attempts.h"
 #include "kinegraph/tasks/search/task_motions.h"
 #include "kinegraph/tasks/search/task_proofs.h"
+#include "kinegraph/tasks/task_doors.h"
 
 namespace kinegraph {
 
@@ -29,6 +32,13 @@ class TaskSearch {
  private:
   using Actions = std::vector<TaskAction>;
   using Words = std::vector<std::string>;
+
+  /// In which actions are tried by themselves.
+  struct Circumstances {
+    Words without;              ///< objects that are not there
+    std::vector<double> doors;  ///< where doors are at first; empty: as they are at the start
+    auto operator<=>(const Circumstances&) const = default;
+  };
 
   /// A plan in logic whose motions are looked for, from other waypoints each.
   struct Trial {
@@ -54,8 +64,12 @@ class TaskSearch {
   void giveUp(const Actions& actions, const TaskFailure& failure);
   void forbidFailing(const Actions& actions);
   void forbidLast(const Actions& beginning, const std::optional<std::vector<Literal>>& facts);
-  const std::optional<TaskFailure>& failureOf(const Actions& actions, const Words& without = {});
+  const std::optional<TaskFailure>& failureOf(const Actions& actions, const Circumstances& there = {});
+  std::vector<Literal> withoutConstantDoors(std::vector<Literal> facts) const;
+  std::string missingOfDoors() const;
+  std::vector<Literal> doorsThatMatter(const Actions& actions, const Circumstances& there);
   std::variant<TaskPlan, TaskFailure> motionsOf(const TaskWaypoints& waypoints);
+  std::vector<Literal> shutBy(const SubProblem& part, const Actions& actions, std::size_t action);
   TaskPlan planOf(const TaskWaypoints& waypoints, const std::vector<TimedRows>& rows, std::vector<Config> scenes) const;
 
   // --- answers
@@ -69,6 +83,7 @@ class TaskSearch {
   void addCause(const std::string& why);
 
   const Config C_;
+  const std::vector<TaskDoor> doors_;
   TaskOptions options_;
   LogicDomain domain_;
   std::string goal_text_;
@@ -88,8 +103,7 @@ class TaskSearch {
   double best_;  ///< s, of the plans so far
   std::vector<TaskBranch> tree_;
   std::vector<std::pair<std::string, int>> causes_;
-  std::map<std::pair<Actions, Words>, std::optional<TaskFailure>>
-      known_;  ///< why actions fail while objects are not there
+  std::map<std::pair<Actions, Circumstances>, std::optional<TaskFailure>> known_;  ///< why actions fail
 };
 
 }  // namespace kinegraph
