@@ -2,14 +2,15 @@
 """Makes the pictures of the documentation: of the viewer's page in a headless Chromium, and by CameraView's renderer; and
 films of tasks.
 
-Needs the package, `websockets` and EGL.
+    python docs/make_pictures.py [FOLDER]
+
+FOLDER is docs if none is given. Needs the package, `websockets`, `av` and EGL. The tests make all of them, too.
 """
 
 import base64
-import shutil
+import os
 import subprocess
 import sys
-import tempfile
 import time
 from pathlib import Path
 from typing import Any
@@ -43,7 +44,7 @@ def reaching() -> ry.Config:
     return C
 
 
-def gripperAxes() -> None:
+def gripperAxes(folder: Path) -> None:
     """The Panda's hand without its arm, and the axes of the frame `gripper`: x red, y green, z blue."""
     C = ry.Config()
     C.addFile(ry.raiPath("panda/panda.g"))
@@ -63,49 +64,60 @@ def gripperAxes() -> None:
     center = C.getFrame("gripper").getTransform() @ [0.0, 0.0, 0.08, 1.0]
     view = C.getFrame("gripper").getRotationMatrix() @ [0.15, 0.45, 0.1]
     viewer.setCamera(center[:3] + view, center[:3])
-    viewer.savePng(str(HERE / "gripper_axes.png"))
+    viewer.savePng(str(folder / "gripper_axes.png"))
 
 
-def taskFilm(name: str, C: ry.Config, goal: str, view: list[float], at: list[float]) -> None:
+def taskFilm(file: Path, C: ry.Config, goal: str, view: list[float], at: list[float]) -> None:
     """What planTask found for a goal, as a film."""
     plan = ry.planTask(C, goal)
     assert plan.feasible, plan
     viewer = C.viewer()
     C.view(offscreen=True)
     viewer.visualsOnly()
-    viewer.setWindow(name, 480, 360)
+    viewer.setWindow(file.stem, 480, 360)
     viewer.setCamera(view, at)
-    ry.saveFilm(HERE / f"task_{name}.mp4", C, plan.frames(C), plan.duration, rate=15.0)
+    ry.saveFilm(file, C, plan.frames(C), plan.duration, rate=15.0)
 
 
-def taskFilms() -> None:
+def taskFilms(folder: Path) -> None:
     """Of the families of the benchmarks: a tower, two trays, a box that is turned over, cups that are carried."""
     sys.path.append(str(HERE.parent / "benchmarks"))
     import panda_tasks
     import tasks
 
-    taskFilm("tower", *_scene(panda_tasks.tower(0, 4)), [1.1, 1.3, 1.5], [0.0, 0.2, 0.75])
-    taskFilm("sort", *_scene(panda_tasks.sort(0, 4)), [0.9, 1.5, 1.6], [0.0, 0.2, 0.7])
-    taskFilm("turn", *_scene(tasks.turn(0)), [1.2, -1.4, 1.5], [0.0, 0.0, 0.7])
-    taskFilm("carry", *_scene(tasks.carry(0)), [0.3, -1.7, 1.9], [0.0, 0.0, 0.6])
+    taskFilm(folder / "task_tower.mp4", *_scene(panda_tasks.tower(0, 4)), [1.1, 1.3, 1.5], [0.0, 0.2, 0.75])
+    taskFilm(folder / "task_sort.mp4", *_scene(panda_tasks.sort(0, 4)), [0.9, 1.5, 1.6], [0.0, 0.2, 0.7])
+    taskFilm(folder / "task_turn.mp4", *_scene(tasks.turn(0)), [1.2, -1.4, 1.5], [0.0, 0.0, 0.7])
+    taskFilm(folder / "task_carry.mp4", *_scene(tasks.carry(0)), [0.3, -1.7, 1.9], [0.0, 0.0, 0.6])
 
 
-def planPictures() -> None:
-    """What the example of planning draws."""
-    with tempfile.TemporaryDirectory() as folder:
-        subprocess.run([sys.executable, HERE.parent / "examples" / "11_plan_motions.py", folder], check=True)
-        for picture in Path(folder).iterdir():
-            shutil.copy(picture, HERE / f"plan_{picture.name}")
+def examplePictures(folder: Path) -> None:
+    """What examples draw: of planning, of simulations, and of how a policy learns."""
+
+    def example(name: str, *arguments: Path) -> None:
+        # quiet, and with a shorter training than the example's own
+        environment = {**os.environ, "KINEGRAPH_HEADLESS": "1", "GENERATIONS": "12"}
+        program = [sys.executable, HERE.parent / "examples" / name, *arguments]
+        subprocess.run(program, check=True, env=environment, stdout=subprocess.DEVNULL)
+
+    plans = folder / "plans"
+    plans.mkdir()
+    example("11_plan_motions.py", plans)
+    for picture in plans.iterdir():
+        picture.rename(folder / f"plan_{picture.name}")
+    plans.rmdir()
+    example("15_grasp_and_lift.py", folder / "simulation_grasp.png")
+    example("16_conveyor.py", folder / "simulation_conveyor.png")
+    example("20_two_robots.py", folder / "simulation_two_robots.png")
+    example("26_train_a_policy.py", folder / "simulation_training.svg")
 
 
 def _scene(problem: Any) -> tuple[ry.Config, str]:
     return problem.C, problem.goal
 
 
-def main() -> None:
-    gripperAxes()
-    taskFilms()
-    planPictures()
+def page(folder: Path) -> None:
+    """The viewer in a browser."""
     C = reaching()
     viewer = C.viewer()
     C.view()
@@ -116,8 +128,13 @@ def main() -> None:
         viewer.setCamera(center + np.array([1.35, 1.35, 0.65]), center)
         time.sleep(5)  # software rendering takes its time
         browser.wait_for("kinegraph.idle()")
-        (HERE / "panda.png").write_bytes(base64.b64decode(browser.call("Page.captureScreenshot", format="png")["data"]))
+        (folder / "panda.png").write_bytes(
+            base64.b64decode(browser.call("Page.captureScreenshot", format="png")["data"])
+        )
 
+
+PICTURES = [gripperAxes, taskFilms, examplePictures, page]
 
 if __name__ == "__main__":
-    main()
+    for make in PICTURES:
+        make(Path(sys.argv[1]) if len(sys.argv) > 1 else HERE)

@@ -1,7 +1,11 @@
 """Part 15: physics. A Panda grasps a box of 1 kg, lifts it, turns, and the box does not slip.
 
 A Simulation moves the Config itself: joints by motors that follow a reference, the box by gravity and contacts.
+
+`python 15_grasp_and_lift.py lifted.png` saves a picture of the box in the hand.
 """
+
+import sys
 
 import numpy as np
 
@@ -46,6 +50,11 @@ print("fingers are apart by", round(S.getGripperWidth("l_gripper"), 4), "m")
 held = in_hand()
 go(up)
 go(turned)
+if len(sys.argv) > 1:
+    C.view(offscreen=True)
+    C.viewer().setWindow("in the hand", 480, 360)
+    C.viewer().setCamera([0.6, 1.6, 1.5], [-0.1, 0.1, 0.95])
+    C.viewer().savePng(sys.argv[1])
 go(up)
 slip = 1e3 * np.linalg.norm(in_hand() - held)
 print(f"lifted and turned; it has slipped by {slip:.4f} mm")

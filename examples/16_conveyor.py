@@ -1,7 +1,9 @@
 """Part 16: a conveyor belt carries boxes of different weight, and a bar pushes them off.
 
-`surfaceVelocity` lets a shape's surface run without moving the shape.
+`surfaceVelocity` lets a shape's surface run without moving the shape. `python 16_conveyor.py falls.png` saves a picture.
 """
+
+import sys
 
 import numpy as np
 
@@ -29,6 +31,11 @@ while C.getFrame("box2").getPosition()[0] < 0.55:
     S.step()
 for _ in range(60):
     S.step([-1.0], 0.01, ry.ControlMode.velocity)
+if len(sys.argv) > 1:
+    C.view(offscreen=True)
+    C.viewer().setWindow("pushed off", 480, 360)
+    C.viewer().setCamera([1.3, -1.7, 1.4], [0.1, 0.0, 0.4])
+    C.viewer().savePng(sys.argv[1])
 for _ in range(100):
     S.step()
 heights = [C.getFrame(f"box{i}").getPosition()[2] for i in range(3)]

@@ -1,8 +1,10 @@
 """Part 20: two robots at a table, moved by one BotOp.
 
 Each arm grasps a block and lifts it, both at once. The world is simulated: the blocks are held by force. All that the robots were
-told is in a log, which gives the same motion again, to the bit.
+told is in a log, which gives the same motion again, to the bit. `python 20_two_robots.py lifted.png` saves a picture.
 """
+
+import sys
 
 import numpy as np
 
@@ -47,6 +49,11 @@ bot.sync(C, 1.0)
 lifted = [C.getFrame(f"{side}_block").getPosition()[2] - z for side, z in zip("lr", start)]
 print(f"after {bot.get_t():.1f} s the blocks are {lifted[0]:.3f} m and {lifted[1]:.3f} m higher")
 assert min(lifted) > 0.12
+if len(sys.argv) > 1:
+    C.view(offscreen=True)
+    C.viewer().setWindow("both lift", 480, 360)
+    C.viewer().setCamera([0.6, 2.0, 1.6], [0.0, 0.0, 0.9])
+    C.viewer().savePng(sys.argv[1])
 
 again = ry.BotOp(scene(), False)
 again.replay(bot.getLog())
