@@ -81,7 +81,89 @@ def sort(seed: int, k: int = 4) -> Problem:
     return Problem(C, " ".join(f"(on {'red' if i % 2 else 'blue'} o{i})" for i in range(k)), 2 * k)
 
 
-FAMILIES: dict[str, Callable[[int, int], Problem]] = {"tower": tower, "sort": sort}
+def cabinet(C: ry.Config, at: list[float]) -> None:
+    """A drawer that opens by .2 m towards the arm, in a cabinet with a roof; `at` is the middle of its front, closed."""
+    C.addFrame("cabinet", "table").setRelativePosition([*at, TOP])
+    for name, where, size in (
+        ("left", [-0.14, 0.15, 0.08], [0.02, 0.3, 0.16]),
+        ("right", [0.14, 0.15, 0.08], [0.02, 0.3, 0.16]),
+        ("back", [0, 0.31, 0.08], [0.3, 0.02, 0.16]),
+        ("roof", [0, 0.16, 0.17], [0.3, 0.32, 0.02]),
+    ):
+        wall = C.addFrame(f"cabinet_{name}", "cabinet").setRelativePosition(where)
+        wall.setShape(ry.ST.ssBox, [*size, 0.004]).setContact(1)
+    drawer = C.addFrame("drawer", "cabinet").setJoint(ry.JT.transY, [-0.2, 0.0]).setJointState([0.0])
+    drawer.setAttributes({"logical": {"is_drawer": True}, "noMotor": True, "jointFriction": 2.0})
+    for name, where, size in (
+        ("floor", [0, 0.14, 0.02], [0.24, 0.26, 0.02]),
+        ("front", [0, -0.01, 0.07], [0.25, 0.02, 0.12]),
+        ("handle", [0, -0.07, 0.1], [0.02, 0.02, 0.08]),
+    ):
+        part = C.addFrame("handle" if name == "handle" else f"drawer_{name}", "drawer").setRelativePosition(where)
+        part.setShape(ry.ST.ssBox, [*size, 0.004]).setContact(1).setMass(0.2)
+    C.getFrame("handle").setAttributes({"logical": {"is_handle": True}})
+
+
+def drawer(seed: int, k: int = 0) -> Problem:
+    """A drawer is to be opened."""
+    C, rng = scene(), np.random.default_rng(seed)
+    cabinet(C, [float(rng.uniform(-0.15, 0.15)), float(rng.uniform(0.4, 0.5))])
+    return Problem(C, "(opened drawer)", 2)
+
+
+def stow(seed: int, k: int = 0) -> Problem:
+    """A box is to be put into a drawer that has to be opened first."""
+    C, rng = scene(), np.random.default_rng(seed)
+    cabinet(C, [float(rng.uniform(-0.1, 0.1)), float(rng.uniform(0.4, 0.5))])
+    side = 1.0 if rng.integers(2) else -1.0
+    box(C, "cup", "table", [side * float(rng.uniform(0.35, 0.5)), float(rng.uniform(0.0, 0.2))], [0.04, 0.05, 0.08])
+    return Problem(C, "(on drawer_floor cup)", 4)
+
+
+def door(seed: int, k: int = 0) -> Problem:
+    """A door is to be opened by its post, which turns in the hand."""
+    C, rng = scene(), np.random.default_rng(seed)
+    side = 1.0 if rng.integers(2) else -1.0
+    C.addFrame("hinge", "table").setRelativePosition([-0.15 * side, float(rng.uniform(0.35, 0.45)), TOP + 0.01])
+    door = C.addFrame("door", "hinge").setJoint(ry.JT.hingeZ, [-1.2, 0.0] if side > 0 else [0.0, 1.2])
+    door.setJointState([0.0]).setAttributes({"logical": {"is_door": True}, "noMotor": True, "jointFriction": 0.2})
+    leaf = C.addFrame("leaf", "door").setRelativePosition([0.15 * side, 0.0, 0.15])
+    leaf.setShape(ry.ST.ssBox, [0.28, 0.02, 0.3, 0.004]).setContact(1).setMass(0.5)
+    post = C.addFrame("handle", "door").setRelativePosition([0.25 * side, -0.07, 0.2])
+    post.setShape(ry.ST.ssCylinder, [0.14, 0.01, 0.003]).setContact(1).setMass(0.1)
+    post.setAttributes({"logical": {"is_handle": True}})
+    return Problem(C, "(opened door)", 2)
+
+
+def fetch(seed: int, k: int = 0) -> Problem:
+    """A box is in a drawer, which is closed and is to be closed in the end."""
+    C, rng = scene(), np.random.default_rng(seed)
+    cabinet(C, [float(rng.uniform(-0.1, 0.1)), float(rng.uniform(0.4, 0.5))])
+    box(C, "cup", "drawer_floor", rng.uniform([-0.05, -0.07], [0.05, -0.03]).tolist(), [0.04, 0.05, 0.08])
+    pad(C, "tray", [0.45 if rng.integers(2) else -0.45, 0.1], [0.2, 0.2])
+    return Problem(C, "(on tray cup) (closed drawer)", 6)
+
+
+def hook(seed: int, k: int = 0) -> Problem:
+    """A box is out of reach, and not of a stick with a hook."""
+    C, rng = scene(), np.random.default_rng(seed)
+    box(C, "stick", "table", [0.45, float(rng.uniform(0.0, 0.2))], [0.03, 0.4, 0.03])
+    bar = C.addFrame("bar", "stick").setRelativePosition([0.085, 0.185, 0])
+    bar.setShape(ry.ST.ssBox, [0.14, 0.03, 0.03, 0.004]).setContact(1).setMass(0.05)
+    bar.setAttributes({"logical": {"is_hook": True}})
+    box(C, "cup", "table", [float(rng.uniform(-0.2, 0.2)), float(rng.uniform(0.72, 0.82))], [0.04, 0.05, 0.08])
+    return Problem(C, "(on l_gripper cup)", 5)
+
+
+FAMILIES: dict[str, Callable[[int, int], Problem]] = {
+    "tower": tower,
+    "sort": sort,
+    "drawer": drawer,
+    "stow": stow,
+    "fetch": fetch,
+    "door": door,
+    "hook": hook,
+}
 
 
 def moved(C: ry.Config, jitter: float, rng: np.random.Generator) -> ry.Config:
@@ -91,6 +173,8 @@ def moved(C: ry.Config, jitter: float, rng: np.random.Generator) -> ry.Config:
         if frame.getMass() > 0 and frame.getJointType() == ry.JT.rigid and frame.getParent().name == "table":
             at = frame.getRelativePosition() + np.array([*rng.uniform(-jitter, jitter, 2), 0.0])
             frame.setRelativePosition(at)
+        elif frame.getMass() > 0 and frame.getJointType() == ry.JT.rigid and frame.getParent().name == "drawer_floor":
+            frame.unLink()  # else it is a part of the drawer in the simulated world
     return world
 
 
@@ -111,7 +195,7 @@ def carriedOut(plan: ry.TaskPlan, world: ry.Config, repairs: int) -> tuple[int, 
 
 def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("--families", default=",".join(FAMILIES))
+    parser.add_argument("--families", default="tower,sort")
     parser.add_argument("--sizes", default="3")
     parser.add_argument("--seeds", type=int, default=5)
     parser.add_argument("--repairs", type=int, default=3)

@@ -303,6 +303,14 @@ void bindTasks(nb::module_& m) {
   m.def(
       "holderOf", [](const PyConfig& C, const std::string& obj, const Words& hands) { return holderOf(C, obj, hands); },
       "C"_a, "obj"_a, "hands"_a, docs::tasks::holderOf);
+  m.def(
+      "doorStates",
+      [](const PyConfig& C) {
+        std::map<std::string, std::string> states;
+        for (const TaskDoor& door : doorsOf(C)) states[door.name] = door.stateAt(C.getJointState()[door.dof]);
+        return states;
+      },
+      "C"_a, docs::tasks::doorStates);
   m.def("defaultDomain", defaultDomain, docs::tasks::defaultDomain);
 }
 

@@ -6,6 +6,7 @@ from collections.abc import Sequence
 
 PICKS = ("pick", "lift")  # a hand takes an object from where it stands
 PLACES = ("place", "lay")  # a hand puts an object down
+GUIDED = ("open", "close")  # a hand moves a door by its handle, and lets go of it
 
 
 def planText(plan: Sequence[Sequence[str]]) -> str:

@@ -7,9 +7,9 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from ._core import FS, JT, Config, holderOf
+from ._core import FS, JT, Config, doorStates, holderOf
 from .errors import ArgumentError
-from .task_domain import PICKS, PLACES, wordsOf
+from .task_domain import GUIDED, PICKS, PLACES, wordsOf
 
 if TYPE_CHECKING:
     from .task_plan import Action, TaskPlan
@@ -59,6 +59,7 @@ def execute(plan: TaskPlan, bot: Any) -> TaskExecution:
             return TaskExecution(False, f"({' '.join(action)}): {why}", number, run.scene())
     scene = run.scene()
     missed = [g for g in plan.goal if g.startswith("(on ") and not _stands(scene, g)]
+    missed += run.missedDoors()
     if missed:
         return TaskExecution(False, f"{', '.join(missed)} does not hold", len(plan.actions), scene)
     return TaskExecution(True, f"all of {len(plan.actions)}", len(plan.actions), scene)
@@ -75,6 +76,10 @@ class _Run:
         self.grippers = {info.name: (number, info) for number, info in enumerate(bot.getInfo().grippers)}
         holders = {obj: holderOf(plan.scenes[0], obj, self.hands) for obj in self.objects} if plan.scenes else {}
         self.held = {obj: hand for obj, hand in holders.items() if hand}
+        self.handles: dict[str, str] = {}  # that are held, and by which hand
+        names = self.seen.getJointNames()
+        self.doors = {door: names.index(door) for door in wordsOf(plan.start, "is_guided")}
+        self.driven = np.array([k for k in range(len(names)) if k not in self.doors.values()], dtype=int)
         self._begin()
 
     def _begin(self) -> None:
@@ -84,12 +89,36 @@ class _Run:
                     f"execute: '{action[1]}' has no mass, so that it stays where it is in the simulated world; call "
                     f"C.getFrame('{action[1]}').setMass(...) before BotOp(C)"
                 )
-        if self.plan.actions and abs(self.bot.get_q() - self.plan.path[0]).max() > _FAR:
+            for door in self.doors:
+                below = {frame.name for frame in self.seen.getFrame(door).getSubtree()}
+                if action[1] in self.objects and action[1] in below:
+                    raise ArgumentError(
+                        f"execute: '{action[1]}' hangs below '{door}', so that it is a part of it in the simulated world; "
+                        f"call C.getFrame('{action[1]}').unLink() before BotOp(C)"
+                    )
+            if action[0] in GUIDED and not self.seen.getFrame(action[1]).getAttributes().get("noMotor", False):
+                raise ArgumentError(
+                    f"execute: a motor moves '{action[1]}' in the simulated world; give its frame the attribute noMotor "
+                    "before BotOp(C), so that a hand can"
+                )
+        if self.plan.actions and self._late(self.plan.path[0]).max() > _FAR:
             raise ArgumentError("execute: the robot is not where the plan begins; go there first, or plan from there")
         self.bot.hold()
         for hand, (number, info) in self.grippers.items():
             if hand not in self.held.values() and self.bot.getGripperPos(number) < 0.9 * info.max_width:
                 self._open(hand)
+
+    def _late(self, q: np.ndarray) -> np.ndarray:
+        """By how much each joint of the robot is not at q; doors are no part of it."""
+        late: np.ndarray = abs(self.bot.get_q() - q)[self.driven]
+        return late
+
+    def missedDoors(self) -> list[str]:
+        """What the goal says of doors, and is not so."""
+        states = doorStates(self.seen)
+        now = {f"({state} {door})" for door, state in states.items()}
+        asked = [g for g in self.plan.goal if g.startswith(("(opened ", "(closed "))]
+        return [g for g in asked if (g.rstrip("!") in now) == g.endswith("!")]
 
     def move(self, number: int) -> str:
         """The motion of an action; '' when it is over."""
@@ -108,9 +137,13 @@ class _Run:
             if not self._touches(hand, obj):
                 del self.held[obj]
                 self._open(hand, obj)
+        for handle, hand in list(self.handles.items()):
+            self._release(handle, hand)
         rows = self.plan.segments[number]
-        path, times = self.plan.path[rows], self.plan.times[rows]
-        if abs(self.bot.get_q() - path[-1]).max() > _FAR:
+        path, times = self.plan.path[rows].copy(), self.plan.times[rows]
+        for dof in self.doors.values():
+            path[:, dof] = self.bot.get_q()[dof]
+        if self.plan.actions[number][0] in GUIDED or self._late(path[-1]).max() > _FAR:
             return
         C = self.scene()
         free = next((k for k in range(len(path) - 1, -1, -1) if _is_clear(C, path[k])), len(path) - 1)
@@ -127,11 +160,20 @@ class _Run:
             self._open(action[2], obj)
         if action[0] in (*PICKS, "handover"):
             self.held[obj] = action[3]
+        if action[0] == "hold":
+            self.handles[action[2]] = action[3]
+            why = self._close(action[3], action[2])
+        if action[0] in GUIDED:
+            self._release(action[2], action[3])
         if action[0] in PLACES:
             self._open(action[2], obj)
             self.held.pop(obj, None)
         self.bot.sync(self.seen, _REST)
         return why
+
+    def _release(self, handle: str, hand: str) -> None:
+        self._open(hand, handle)
+        self.handles.pop(handle, None)
 
     def _close(self, hand: str, obj: str) -> str:
         if hand not in self.grippers:
@@ -161,11 +203,14 @@ class _Run:
         """What is not where the plan has it at a row of an action's motion, the first or the last one."""
         planned = self.plan.scenes[number].copy()
         planned.setJointState(self.plan.path[self.plan.segments[number]][row])
-        late = abs(self.bot.get_q() - planned.getJointState())
+        late = self._late(planned.getJointState())
         if late.max() > _FAR:
-            return (
-                f"the robot is held up: joint '{planned.getJointNames()[int(late.argmax())]}' is {late.max():.3f} off"
-            )
+            joint = planned.getJointNames()[self.driven[int(late.argmax())]]
+            return f"the robot is held up: joint '{joint}' is {late.max():.3f} off"
+        for door, dof in self.doors.items():
+            off = abs(self.seen.getJointState()[dof] - planned.getJointState()[dof])
+            if off > _FAR:
+                return f"'{door}' is {off:.3f} (m or rad) away from where it should be"
         for obj in self.objects:
             is_, shall = self.seen.getFrame(obj), planned.getFrame(obj)
             hand = self.held.get(obj)

@@ -202,10 +202,10 @@ class TaskPlan:
 def _show(C: Config, scene: Config, q: np.ndarray) -> None:
     """Brings a scene to where the scene of an action is at q, with what is held."""
     scene.setJointState(q)
+    C.setJointState(q)
     for frame in C.getFrames():
         if frame.getParent() is None or frame.getJointType() == JT.rigid:
             frame.setPose(scene.getFrame(frame.name).getPose())
-    C.setJointState(q)
 
 
 TaskPlan.__init__.__doc__ = "Initialize self: planTask does."

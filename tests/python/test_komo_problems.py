@@ -108,3 +108,25 @@ def test_a_box_too_large_for_the_hand_is_reported_with_the_pair_and_how_much_is_
     assert not answer.feasible and str(answer.status).endswith("infeasible")
     assert 2.8e-3 < answer.violation < 3.5e-3
     assert "panda_collCameraWrist" in komo.explain() and "box" in komo.explain()
+
+
+def test_pick_and_place_moves_with_its_goal_as_differences_say():
+    """Mode switches, quaternions and collisions: the derivative by where the box is put."""
+    C, komo = problems.PROBLEMS["pick waypoints 4cm"](ry)
+    goal, step = C.getFrame("goal").getPosition(), 1e-5
+
+    def solutionAt(by, start=None):
+        C.getFrame("goal").setPosition(goal + by)
+        komo.updateRootObjects(C)
+        solver = ry.NLP_Solver(komo.nlp(), verbose=0)
+        if start is not None:
+            solver.setInitialization(start)
+        return solver.solve().sensitivity("goal")
+
+    at = solutionAt(np.zeros(3))
+    assert at.isRegular, at.message
+    for k, axis in enumerate(np.eye(3)):
+        ends = [solutionAt(sign * step * axis, at.x).x for sign in (1, -1)]
+        expected = (ends[0] - ends[1]) / (2 * step)
+        np.testing.assert_allclose(at.jacobian[:, k], expected, atol=1e-5 * max(1, abs(expected).max()), rtol=0)
+    assert abs(at.jacobian).max() > 1

@@ -92,6 +92,22 @@ def test_by_the_place_of_an_obstacle_that_presses():
     assert at.names[0] == "position of box, x"
 
 
+@pytest.mark.parametrize("collisions", [ry.FS.pairCollisions, ry.FS.accumulatedCollisions])
+def test_by_the_place_of_what_an_obstacle_hangs_on(collisions):
+    """The frame itself has no shape, and no objective names it."""
+
+    def make(p):
+        C = panda()
+        C.delFrame("box")
+        C.addFrame("mount").setPosition(np.array([0.2, 0.3, 0.5]) + p)
+        C.addFrame("box", "mount").setShape(ry.ST.sphere, [0.15]).setRelativePosition([0, 0, 0.4]).setContact(1)
+        return reach(C, slices=6, order=2, collisions=collisions)
+
+    at = solutionOf(make(np.zeros(3)), None, "mount")
+    assert any("ollisions" in name for name in at.active) and abs(at.jacobian).max() > 0.1
+    assertEqualsDifferences(make, "mount", 3)
+
+
 def test_by_the_pose_of_the_base_turns_all_that_hangs_there():
     C = panda()
     base = C.getFrame("l_panda_base")

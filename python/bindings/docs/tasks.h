@@ -177,6 +177,16 @@ Raises:
     ArgumentError: It is no door.
     FrameNotFound: There is no such frame.)";
 
+inline constexpr char doorStates[] = R"(The doors and drawers of a scene, and whether they are open.
+
+A frame that is called is_door or is_drawer (`logical: { is_door }`), whose joint is active and has one dof and limits. It is
+closed at the limit that is nearer to zero.
+
+Args:
+    C: The scene.
+Returns:
+    By name: 'opened' (from 80 % of the joint's range on), 'closed' (up to 5 %), or 'ajar'.)";
+
 inline constexpr char start[] = R"(A starting point: hands near what they do.
 
 Args:

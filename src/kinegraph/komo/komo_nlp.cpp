@@ -44,6 +44,10 @@ class KomoNlp final : public Nlp, public OtherWays {
 
   const std::shared_ptr<Komo>& komo() const { return komo_; }
   const PathProblem& problem() const { return problem_; }
+  void evaluateTerms(const std::vector<int>& terms, VectorXd& phi, Jacobian& J) {
+    requireStructure();
+    problem_.evaluateTerms(komo_->path(), terms, phi, &J);
+  }
 
   Jacobian makeJacobian() const override {
     requireStructure();
@@ -238,6 +242,21 @@ std::vector<PathRow> pathRows(const Nlp& nlp) {
     for (int row = 0; row < term.rows; ++row) rows.push_back({term.objective, term.slice, row});
   }
   return rows;
+}
+
+std::vector<PathTerm> pathTerms(const Nlp& nlp) {
+  std::vector<PathTerm> terms;
+  const auto* of_komo = dynamic_cast<const KomoNlp*>(&nlp);
+  if (!of_komo) return terms;
+  const PathProblem& problem = of_komo->problem();
+  for (const PathProblem::Term& term : problem.terms())
+    terms.push_back(
+        {term.objective, term.slice, term.first_row, term.rows, problem.isLinear(term), !problem.storesAllRows(term)});
+  return terms;
+}
+
+void evaluatePathTerms(Nlp& nlp, const std::vector<int>& terms, VectorXd& phi, Jacobian& J) {
+  dynamic_cast<KomoNlp&>(nlp).evaluateTerms(terms, phi, J);
 }
 
 }  // namespace kinegraph

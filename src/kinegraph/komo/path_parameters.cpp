@@ -152,23 +152,84 @@ class FramePlace final : public MovedParameter {
     return names;
   }
 
+  /// Terms that look at something else than joints, in trees that the frame is in. Those of an order look back.
+  bool findRows(Nlp& nlp, std::vector<int>& rows) override {
+    const Path& path = requireKomo(nlp)->path();
+    const std::vector<Objective>& objectives = *objectivesOf(nlp);
+    const std::vector<PathTerm> terms = pathTerms(nlp);
+    const int order = path.grid().order();
+    std::vector<char> is_looked_at(std::size_t(path.grid().slices() + order), false);
+    const bool any_comes_and_goes = std::ranges::any_of(terms, [&](const PathTerm& term) {
+      return term.comes_and_goes && maySee(objectives[std::size_t(term.objective)]);
+    });
+    terms_.clear();
+    rows.clear();
+    for (std::size_t i = 0; i < terms.size(); ++i) {
+      const PathTerm& term = terms[i];
+      const Objective& objective = objectives[std::size_t(term.objective)];
+      if (term.is_linear || !(term.comes_and_goes ? any_comes_and_goes : maySee(objective))) continue;
+      terms_.push_back(int(i));
+      for (int row = 0; row < term.rows; ++row) rows.push_back(term.first_row + row);
+      for (int t = term.slice - objective.order; t <= term.slice; ++t) is_looked_at[std::size_t(t + order)] = true;
+    }
+    slices_.clear();
+    for (int t = -order; t < path.grid().slices(); ++t) {
+      if (is_looked_at[std::size_t(t + order)]) slices_.push_back(t);
+    }
+    return true;
+  }
+
+  /// What names frames, all of them in other trees, does not, nor do collisions of what has no shape.
+  bool maySee(const Objective& objective) const {
+    const auto symbol = objective.feature.symbol();
+    if (symbol == FeatureSymbol::accumulatedCollisions || symbol == FeatureSymbol::pairCollisions) return hasShapes();
+    if (scenes_.size() > 1 || objective.feature.maker() || objective.frames.empty()) return true;
+    const auto& frames = scenes_[0]->frames();
+    const auto rootOf = [](const FrameData* frame) {
+      while (frame->parent) frame = frame->parent;
+      return frame;
+    };
+    const FrameData* own = rootOf(frames[std::size_t(frame_)].get());
+    return std::ranges::any_of(objective.frames, [&](const std::string& name) {
+      const auto named = std::ranges::find(frames, name, [](const auto& frame) { return frame->name; });
+      return named == frames.end() || rootOf(named->get()) == own;
+    });
+  }
+
+  /// The frame, or one below it.
+  bool hasShapes() const {
+    return std::ranges::any_of(scenes_, [&](const auto& scene) {
+      const FrameData* own = scene->frames()[std::size_t(frame_)].get();
+      return std::ranges::any_of(scene->frames(), [&](const auto& frame) {
+        if (!frame->shape || frame->shape->geometry->type == ShapeType::marker) return false;
+        const FrameData* above = frame.get();
+        while (above && above != own) above = above->parent;
+        return above == own;
+      });
+    });
+  }
+
+  void evaluate(Nlp& nlp, const VectorXd&, VectorXd& phi, Jacobian& J) override {
+    evaluatePathTerms(nlp, terms_, phi, J);
+  }
+
   void move(Nlp& nlp, int number, double by) override {
     Path& path = requireKomo(nlp)->path();
-    const int order = path.grid().order();
     if (given_.empty()) {
-      for (int t = -order; t < path.grid().slices(); ++t) given_.push_back(path.state(t).sharedParameters());
+      for (const int t : slices_) given_.push_back(path.state(t).sharedParameters());
     }
     if (by == 0.) {
-      for (int t = -order; t < path.grid().slices(); ++t) path.setParameters(t, given_[std::size_t(t + order)]);
+      for (std::size_t i = 0; i < slices_.size(); ++i) path.setParameters(slices_[i], given_[i]);
       given_.clear();
       return;
     }
     std::vector<std::shared_ptr<const Parameters>> moved(scenes_.size());
-    for (int t = -order; t < path.grid().slices(); ++t) {
-      const auto place = std::size_t(t + order);
+    for (std::size_t i = 0; i < slices_.size(); ++i) {
+      const int t = slices_[i];
+      const auto place = std::size_t(t + path.grid().order());
       const std::size_t mode = path.modes().empty() ? 0 : std::size_t(path.modes().ofSlices()[place]);
       if (!rests_[mode]) continue;
-      if (!moved[mode]) moved[mode] = movedIn(mode, path.state(t).program(), *given_[place], number, by);
+      if (!moved[mode]) moved[mode] = movedIn(mode, path.state(t).program(), *given_[i], number, by);
       path.setParameters(t, moved[mode]);
     }
   }
@@ -191,7 +252,9 @@ class FramePlace final : public MovedParameter {
   std::vector<std::shared_ptr<SceneTree>> scenes_;        ///< per mode, or the given one
   std::vector<Pose> poses_;                               ///< of the frame in each
   std::vector<bool> rests_;                               ///< does it, in each?
-  std::vector<std::shared_ptr<const Parameters>> given_;  ///< per slice, while it is moved
+  std::vector<int> terms_;                                ///< of the problem, that may see it
+  std::vector<int> slices_;                               ///< in which they look at the path
+  std::vector<std::shared_ptr<const Parameters>> given_;  ///< in each of these, while it is moved
 };
 
 /// The slices before the first.

@@ -266,20 +266,25 @@ void PathProblem::evaluateSparse(const Path& path, std::size_t index, VectorXd& 
   }
 }
 
+void PathProblem::evaluate(const Path& path, std::size_t index, VectorXd& phi, Jacobian* J) {
+  const Term& term = terms_[index];
+  if (term.rows == 0) return;
+  Residual& residual = residuals_[std::size_t(term.residual)];
+  if (J && !storesAllRows(term)) return evaluateSparse(path, index, phi, *J);
+  double* values = J && !residual.isLinear() ? J->values.data() + term.first_value : nullptr;
+  if (values) std::fill_n(values, std::ptrdiff_t(term.rows) * width_[index], 0.);
+  evaluateTerm(path, index, residual, phi.segment(term.first_row, term.rows), values, workspace_);
+}
+
 void PathProblem::evaluate(const Path& path, VectorXd& phi, Jacobian* J) {
   if (J) J->values.resize(std::size_t(stored_));
-  for (std::size_t i = 0; i < terms_.size(); ++i) {
-    const Term& term = terms_[i];
-    if (term.rows == 0) continue;
-    Residual& residual = residuals_[std::size_t(term.residual)];
-    if (J && !storesAllRows(term)) {
-      evaluateSparse(path, i, phi, *J);
-      continue;
-    }
-    double* values = J && !residual.isLinear() ? J->values.data() + term.first_value : nullptr;
-    if (values) std::fill_n(values, std::ptrdiff_t(term.rows) * width_[i], 0.);
-    evaluateTerm(path, i, residual, phi.segment(term.first_row, term.rows), values, workspace_);
-  }
+  for (std::size_t i = 0; i < terms_.size(); ++i) evaluate(path, i, phi, J);
+}
+
+void PathProblem::evaluateTerms(const Path& path, std::span<const int> terms, VectorXd& phi, Jacobian* J) {
+  const auto comes_and_goes = [&](int term) { return !storesAllRows(terms_[std::size_t(term)]); };
+  if (J && std::ranges::any_of(terms, comes_and_goes)) J->values.resize(std::size_t(stored_));
+  for (const int term : terms) evaluate(path, std::size_t(term), phi, J);
 }
 
 void PathProblem::addCurvature(const Path& path, int k, std::span<const double> weights, Eigen::Ref<MatrixXd> H) {

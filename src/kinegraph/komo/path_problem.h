@@ -44,6 +44,12 @@ class PathProblem {
   /// Leaves linear rows of `J` as they are.
   void evaluate(const Path& path, VectorXd& phi, Jacobian* J);
 
+  /// The same for some of the terms, among them all or none whose rows come and go; leaves the rows of others as they are.
+  void evaluateTerms(const Path& path, std::span<const int> terms, VectorXd& phi, Jacobian* J);
+
+  bool isLinear(const Term& term) const { return residuals_[std::size_t(term.residual)].isLinear(); }
+  bool storesAllRows(const Term& term) const { return !residuals_[std::size_t(term.residual)].tellsZeroRows(); }
+
  private:
   /// Consecutive columns of the window of slices, and where they go in the row.
   struct Run {
@@ -57,7 +63,7 @@ class PathProblem {
     std::vector<const State*> window;
   };
   Workspace makeWorkspace() const;
-  bool storesAllRows(const Term& term) const { return !residuals_[std::size_t(term.residual)].tellsZeroRows(); }
+  void evaluate(const Path& path, std::size_t index, VectorXd& phi, Jacobian* J);
   std::span<const State* const> statesOf(const Path& path, const Term& term, Workspace& workspace) const;
   void findCurvedRows(const Path& path);
   void layOut(const Path& path, Term& term, std::vector<std::pair<int, int>>& segments);

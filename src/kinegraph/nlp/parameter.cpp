@@ -1,6 +1,7 @@
 #include "kinegraph/nlp/parameter.h"
 
 #include <cmath>
+#include <numeric>
 
 #include "kinegraph/base/errors.h"
 #include "kinegraph/base/text.h"
@@ -75,32 +76,34 @@ std::shared_ptr<NlpParameter> boundsOf(const Nlp& nlp, const std::vector<int>& v
   return std::make_shared<Bounds>(nlp, variables, upper);
 }
 
+void MovedParameter::prepare(const Point& at) {
+  if (made_for_ == &at.nlp) return;
+  made_for_ = &at.nlp;
+  J_ = at.J;
+  if (findRows(at.nlp, rows_)) return;
+  rows_.resize(at.nlp.types().size());
+  std::iota(rows_.begin(), rows_.end(), 0);
+}
+
 void MovedParameter::differentiate(const Point& at, int number, VectorXd& phi, VectorXd& gradient) {
-  if (made_for_ != &at.nlp) {
-    J_ = at.nlp.makeJacobian();
-    made_for_ = &at.nlp;
-  }
-  VectorXd gradients[2];  // apart, so that what does not move leaves zeros
+  prepare(at);
   for (const int side : {0, 1}) {
-    const double sign = side == 0 ? 1. : -1.;
-    gradients[side].setZero(gradient.size());
+    gradients_[side].setZero(gradient.size());
     try {
-      move(at.nlp, number, sign * kStep);
+      move(at.nlp, number, side == 0 ? kStep : -kStep);
       phi_.resize(phi.size());
-      at.nlp.evaluate(at.x, phi_, &J_);
+      evaluate(at.nlp, at.x, phi_, J_);
     } catch (...) {
       move(at.nlp, number, 0.);
       throw;
     }
-    if (side == 0)
-      phi_before_ = phi_;
-    else
-      phi += (phi_before_ - phi_) / (2. * kStep);
-    for (int row = 0; row < int(phi.size()); ++row) {
-      if (at.weights[row] != 0. && !J_.zero_row[std::size_t(row)]) J_.addRowTo(row, at.weights[row], gradients[side]);
+    if (side == 0) phi_before_ = phi_;
+    for (const int row : rows_) {
+      if (side == 1) phi[row] += (phi_before_[row] - phi_[row]) / (2. * kStep);
+      if (at.weights[row] != 0. && !J_.zero_row[std::size_t(row)]) J_.addRowTo(row, at.weights[row], gradients_[side]);
     }
   }
-  gradient += (gradients[0] - gradients[1]) / (2. * kStep);
+  gradient += (gradients_[0] - gradients_[1]) / (2. * kStep);
   move(at.nlp, number, 0.);
 }
 

@@ -29,7 +29,7 @@ class NlpParameter {
   };
 
   /// Adds d phi / dp to `phi` and sum_i weights_i d^2 phi_i / dx dp to `gradient`, for one of the numbers. The problem
-  /// may stand elsewhere then.
+  /// stands at x, before and after.
   virtual void differentiate(const Point& at, int number, VectorXd& phi, VectorXd& gradient) = 0;
 
   /// The bound that one of the numbers is, if it is one.
@@ -69,10 +69,20 @@ class MovedParameter : public NlpParameter {
   /// Moves one of the numbers from where it was given; the others are there. By zero: back.
   virtual void move(Nlp& nlp, int number, double by) = 0;
 
+  /// Says which rows may move with the numbers, ascending, where these are not all: false.
+  virtual bool findRows(Nlp&, std::vector<int>&) { return false; }
+
+  /// At x, where the problem stands; at least those rows.
+  virtual void evaluate(Nlp& nlp, const VectorXd& x, VectorXd& phi, Jacobian& J) { nlp.evaluate(x, phi, &J); }
+
  private:
+  void prepare(const Point& at);
+
   const Nlp* made_for_ = nullptr;
+  std::vector<int> rows_;
   Jacobian J_;  ///< workspace, of that problem
   VectorXd phi_, phi_before_;
+  VectorXd gradients_[2];  ///< apart, so that what does not move leaves zeros
 };
 
 }  // namespace kinegraph

@@ -173,6 +173,14 @@ void TaskWaypoints::guide(double time, const std::string& name, const std::strin
     const VectorXd shut = VectorXd::Constant(1, door->at(kClose));
     komo().addObjective({time}, F::qItself, {name}, O::eq, 1e2, shut);
   }
+  const std::vector<std::string> parts = partsOf(C, name);
+  for (const auto& [place, objects] : beside_) {  // what was put elsewhere had better be out of its way
+    if (std::ranges::find(parts, place) != parts.end()) continue;
+    for (const std::string& obj : objects)
+      for (const std::string& part : parts)
+        if (C.getFrame(part).data().shape)
+          komo().addObjective({time}, F::distance, {obj, part}, O::ineqP, 3e0, -2. * kGap);
+  }
   const std::vector<std::string> pair = {hand, handle};
   switch (gripOf(C, hand, handle)) {
     case Grip::rigid:

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <numeric>
 
 namespace kinegraph {
@@ -28,14 +29,23 @@ KktSystem::KktSystem(const Nlp& nlp, const Jacobian& pattern, bool full)
     : n_(nlp.dimension()),
       rows_(upTo(nlp.types().size())),
       algebra_(nlp, pattern, rows_, full),
-      norms_(VectorXd::Zero(Eigen::Index(rows_.size()))) {}
+      norms_(VectorXd::Zero(Eigen::Index(rows_.size()))) {
+  for (const int row : rows_) is_linear_.push_back(nlp.isLinear(row));
+}
 
 BandAlgebra& KktSystem::begin(const Jacobian& J, const std::vector<int>& squared) {
   J_ = J;
   algebra_.setJacobian(J_);
-  algebra_.setLinearCosts({});
+  linear_now_.clear();
+  std::ranges::copy_if(squared, std::back_inserter(linear_now_), [&](int row) { return is_linear_[std::size_t(row)]; });
+  if (linear_now_ != linear_costs_) {
+    algebra_.setLinearCosts(linear_now_);
+    linear_costs_ = linear_now_;
+  }
   algebra_.copyLinearCosts();
-  for (const int row : squared) algebra_.addCost(row, 2.);
+  for (const int row : squared) {
+    if (!is_linear_[std::size_t(row)]) algebra_.addCost(row, 2.);
+  }
   for (int row = 0; row < int(rows_.size()); ++row) {
     double square = 0.;
     for (const Jacobian::Segment& segment : J_.row_segments(row)) {

@@ -50,7 +50,9 @@ class KktSystem {
   int pivotsBelow(double least) const;
 
   int n_;
-  std::vector<int> rows_;  ///< all, as the algebra's constraints
+  std::vector<int> rows_;        ///< all, as the algebra's constraints
+  std::vector<char> is_linear_;  ///< per row: is its J always the same?
+  std::vector<int> linear_costs_, linear_now_;
   BandAlgebra algebra_;
   Jacobian J_;      ///< active rows have norm one, unless they are flat
   VectorXd norms_;  ///< per row of J

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <iterator>
 #include <limits>
+#include <utility>
 
 #include "kinegraph/base/errors.h"
 #include "kinegraph/base/text.h"
@@ -115,6 +116,7 @@ void PolishedSolution::linearize() {
 /// What presses, or would be violated; at first also what may. False if nothing has changed.
 bool PolishedSolution::chooseActive(bool is_first) {
   std::vector<int> now;
+  let_go_ = false;
   for (int row = 0; row < int(phi.size()); ++row) {
     const ObjectiveType type = nlp_.types()[std::size_t(row)];
     const double norm = system_.norm(row);
@@ -125,7 +127,7 @@ bool PolishedSolution::chooseActive(bool is_first) {
     if (may_be || force + curvature_scale_ * slack > 0.)
       now.push_back(row);
     else
-      dual[row] = 0.;
+      let_go_ = std::exchange(dual[row], 0.) != 0. || let_go_;
   }
   std::vector<char> held(fixed.size());
   for (int i = 0; i < int(x.size()); ++i) {
@@ -149,7 +151,7 @@ bool PolishedSolution::step() {
     const bool is_upper = pull + curvature_scale_ * (x[i] - nlp_.upper()[i]) > 0.;
     dx[i] = (is_upper ? nlp_.upper()[i] : nlp_.lower()[i]) - x[i];
   }
-  weigh();
+  if (let_go_) weigh();
   system_.solve(-gradient_, b, dx, change, kStepAccuracy);
   moved_ = dx.size() > 0 ? dx.lpNorm<Eigen::Infinity>() : 0.;
   if (!std::isfinite(moved_)) return false;

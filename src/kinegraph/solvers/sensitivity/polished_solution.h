@@ -51,7 +51,8 @@ class PolishedSolution {
   KktSystem system_;
   LagrangianCurvature curvature_;
   std::vector<int> squared_;
-  VectorXd gradient_;  ///< of the Lagrangian
+  VectorXd gradient_;    ///< of the Lagrangian
+  bool let_go_ = false;  ///< of a residual that pressed, since the last weighing
   VectorXd last_step_;
   double curvature_scale_ = 1.;
   double force_scale_ = 0.;     ///< the largest gradient of a residual with its weight

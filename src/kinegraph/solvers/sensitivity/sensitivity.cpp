@@ -101,6 +101,7 @@ void Sensitivity::differentiate() {
   of_gradient_.setZero(n, size());
   of_rows_.setZero(Eigen::Index(at.active.size()), size());
   moved_bound_.assign(std::size_t(size()), -1);
+  problem_->leaveAt(at.x);
   const NlpParameter::Point point{*nlp_, at.x, at.phi, at.J, at.weights, separation_.row_of};
   VectorXd phi(rows), gradient(n);
   int column = 0;

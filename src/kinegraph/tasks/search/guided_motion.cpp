@@ -9,7 +9,7 @@ namespace {
 
 constexpr double kStep = .02;       ///< rad or m: between postures, of each dof
 constexpr double kFarther = 8.;     ///< times a step: two postures that are farther apart jump
-constexpr double kFine = .2;        ///< of kSlip, to which postures are found
+constexpr double kFine = 1e-3;      ///< to which constraints hold
 constexpr double kPerMeter = 10.;   ///< scale of positions
 constexpr double kDirections = 1.;  ///< scale of axes
 
@@ -49,13 +49,12 @@ std::vector<MotionConstraint> gripConstraints(const Config& C, const std::string
   return all;
 }
 
-MatrixXd guidedPostures(const Config& C, const VectorXd& q0, const VectorXd& q1, const std::string& hand,
-                        const std::string& handle) {
+MatrixXd guidedPostures(const Config& C, const VectorXd& q0, const VectorXd& q1,
+                        const std::vector<MotionConstraint>& constraints) {
   Config scene = C;
-  scene.setJointState(q0);
   const State state = scene.scene()->state();
   const JointSpace space(state.program());
-  Manifold held(state, space, gripConstraints(scene, hand, handle), kFine * kSlip * kPerMeter);
+  Manifold held(state, space, constraints, kFine);
   const VectorXd way = space.difference(q0, q1);
   const int count = std::max(int(std::ceil(way.cwiseAbs().maxCoeff() / kStep)), 2) + 1;
   MatrixXd rows(count, q0.size());

@@ -23,6 +23,7 @@ constexpr double kPeriod = .01;      ///< s between two rows
 constexpr double kMargin = .01;      ///< m, that motions keep where their ends do, and there is room
 constexpr double kHeld = 4.;         ///< m/s^2: what is held by friction is accelerated by no more
 constexpr double kBlend = .05;       ///< rad or m, by which corners may be missed
+constexpr double kTenths = 10.;      ///< per m: scale of positions that are kept to a tenth of a millimeter
 constexpr double kFineBlend = 2e-3;  ///< the same, where a hand holds what only a joint moves
 constexpr double kUnhurried = 1.02;  ///< of the least time: a spline keeps its limits where they are looked at
 constexpr double kSpeedIn = .5;      ///< s to full speed
@@ -124,9 +125,10 @@ TaskMotions::Found TaskMotions::guided(const Config& C, const VectorXd& q0, cons
   const std::string &handle = action[2], &hand = action[3];
   Config taken = C;
   taken.setJointState(q0);
-  MatrixXd postures = guidedPostures(C, q0, q1, hand, handle);
+  const std::vector<MotionConstraint> grip = gripConstraints(taken, hand, handle);
+  MatrixXd postures = guidedPostures(C, q0, q1, grip);
   if (postures.rows() == 0 || !isFree(C, postures)) {
-    const MotionPlan found = way(C, q0, q1, gripConstraints(taken, hand, handle));
+    const MotionPlan found = way(C, q0, q1, grip);
     if (!found.feasible()) return {std::nullopt, cat("no motion was found that holds '", handle, "': ", found.message)};
     postures = found.path;
   }
@@ -189,12 +191,26 @@ TaskMotions::Found TaskMotions::pushed(const Config& C, const VectorXd& q0, cons
   Config D = C;
   D.setJointState(q1);
   const Matrix3d R = D.getFrame(obj).getRotationMatrix();
-  const MotionPlan found =
-      way(C, q0, q1,
-          {{.feature = FeatureSymbol::position, .frames = {obj}, .scale = aside, .target = ends[0]},
-           {.feature = FeatureSymbol::vectorX, .frames = {obj}, .target = Vector3d(R.col(0))},
-           {.feature = FeatureSymbol::vectorZ, .frames = {obj}, .target = Vector3d(R.col(2))}});
-  if (!found.feasible()) return {std::nullopt, cat("no straight push was found: ", found.message)};
+  std::vector<MotionConstraint> line = {
+      {.feature = FeatureSymbol::position, .frames = {obj}, .scale = aside, .target = ends[0]},
+      {.feature = FeatureSymbol::vectorX, .frames = {obj}, .target = Vector3d(R.col(0))},
+      {.feature = FeatureSymbol::vectorZ, .frames = {obj}, .target = Vector3d(R.col(2))}};
+  const MotionPlan found = way(C, q0, q1, line);
+  if (!found.feasible()) {  // what slides touches what it slides on, which planMotion takes for a collision
+    line[0].scale = MatrixXd(kTenths * aside);
+    const MatrixXd postures = guidedPostures(C, q0, q1, line);
+    if (postures.rows() > 0 && isFree(C, postures)) {
+      RetimeOptions options;
+      options.corners = Corners::spline;
+      const TimedPath smooth = retime(withoutRepeats(postures), {limits_.row(0), limits_.row(1), {}}, options);
+      if (smooth.feasible()) {
+        TimedRows rows = rowsOf(smooth, postures);
+        rows.times *= kUnhurried;
+        if (slidesStraight(C, rows.path, obj) && isFree(C, rows.path)) return {std::move(rows), ""};
+      }
+    }
+    return {std::nullopt, cat("no straight push was found: ", found.message)};
+  }
   return {timed(C, found.path), ""};
 }
 
