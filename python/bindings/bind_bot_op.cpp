@@ -23,37 +23,6 @@ namespace kinegraph::python {
 
 namespace {
 
-/// What Python calls a BotOp. Its thread may wait for the interpreter, which therefore is not held while it ends.
-class PyBotOp {
- public:
-  explicit PyBotOp(std::unique_ptr<BotOp> bot) : bot_(std::move(bot)) { open().insert(this); }
-  PyBotOp(const PyBotOp&) = delete;
-  ~PyBotOp() {
-    open().erase(this);
-    close();
-  }
-
-  void close() {
-    const nb::gil_scoped_release unlock;
-    bot_.reset();
-  }
-
-  /// Those that there are; they are closed before the interpreter ends. Needs the interpreter lock.
-  static std::set<PyBotOp*>& open() {
-    static std::set<PyBotOp*> bots;
-    return bots;
-  }
-
-  BotOp& operator*() const {
-    if (!bot_) throw RobotFault("BotOp: it has been closed");
-    return *bot_;
-  }
-  BotOp* operator->() const { return &**this; }
-
- private:
-  std::unique_ptr<BotOp> bot_;
-};
-
 BotOpOptions optionsOf(PyConfig& config, bool realtime) {
   BotOpOptions options;
   options.period = parameter("botsim/tau", options.period, "a time in s");

@@ -17,6 +17,7 @@
 #include "kinegraph/tasks/search/plan_task.h"
 #include "py_manipulation.h"
 #include "python_names.h"
+#include "task_objects.h"
 
 namespace kinegraph::python {
 
@@ -176,9 +177,11 @@ nb::object toPython(TaskPlan plan) {
   return module.attr("TaskPlan")(taskStatusName(plan.status), inPython(plan.message), **fields);
 }
 
-/// What checkTaskPlan needs of a kinegraph.TaskPlan.
-TaskPlan fromPython(nb::handle given) {
+}  // namespace
+
+TaskPlan taskPlanOf(nb::handle given) {
   TaskPlan plan;
+  plan.message = nb::cast<std::string>(given.attr("message"));
   plan.actions = nb::cast<std::vector<TaskAction>>(given.attr("actions"));
   const auto numbers = [&](const char* name) {
     const nb::object value = given.attr(name);
@@ -192,11 +195,21 @@ TaskPlan fromPython(nb::handle given) {
     plan.segments.push_back({nb::cast<Eigen::Index>(rows.attr("start")), nb::cast<Eigen::Index>(rows.attr("stop"))});
   plan.goal = literalsOf(nb::cast<Words>(given.attr("goal")));
   plan.start = literalsOf(nb::cast<Words>(given.attr("start")));
+  for (const nb::handle scene : given.attr("scenes")) plan.scenes.push_back(nb::cast<const PyConfig&>(scene));
+  for (const nb::handle branch : given.attr("tree")) {
+    std::shared_ptr<const Config> ghost;
+    if (!branch.attr("ghost").is_none())
+      ghost = std::make_shared<const Config>(nb::cast<const PyConfig&>(branch.attr("ghost")));
+    plan.tree.push_back({nb::cast<std::vector<TaskAction>>(branch.attr("actions")),
+                         nb::cast<std::string>(branch.attr("why")), std::move(ghost)});
+  }
   return plan;
 }
 
+namespace {
+
 Words checkPlan(const PyConfig& C, nb::handle given, const std::optional<std::vector<Words>>& states) {
-  const TaskPlan plan = fromPython(given);
+  const TaskPlan plan = taskPlanOf(given);
   std::vector<std::vector<Literal>> along;
   if (states)
     for (const Words& state : *states) along.push_back(literalsOf(state));
@@ -285,6 +298,7 @@ void bindTasks(nb::module_& m) {
   bindRule(m);
   bindWaypoints(m);
   bindPlanTask(m);
+  bindTaskPlays(m);
   m.def("checkTaskPlan", checkPlan, "C"_a, "plan"_a, "states"_a = nb::none(),
         nb::sig("def checkTaskPlan(C: Config, plan: TaskPlan, states: "
                 "collections.abc.Sequence[collections.abc.Sequence[str]] | None = None) -> list[str]"),

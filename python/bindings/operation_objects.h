@@ -1,8 +1,43 @@
 #pragma once
 
+#include <memory>
+#include <set>
+
 #include "bindings.h"
+#include "kinegraph/operation/bot_op.h"
 
 namespace kinegraph::python {
+
+/// What Python calls a BotOp. Its thread may wait for the interpreter, which therefore is not held while it ends.
+class PyBotOp {
+ public:
+  explicit PyBotOp(std::unique_ptr<BotOp> bot) : bot_(std::move(bot)) { open().insert(this); }
+  PyBotOp(const PyBotOp&) = delete;
+  ~PyBotOp() {
+    open().erase(this);
+    close();
+  }
+
+  void close() {
+    const nb::gil_scoped_release unlock;
+    bot_.reset();
+  }
+
+  /// Those that there are; they are closed before the interpreter ends. Needs the interpreter lock.
+  static std::set<PyBotOp*>& open() {
+    static std::set<PyBotOp*> bots;
+    return bots;
+  }
+
+  BotOp& operator*() const {
+    if (!bot_) throw RobotFault("BotOp: it has been closed");
+    return *bot_;
+  }
+  BotOp* operator->() const { return &**this; }
+
+ private:
+  std::unique_ptr<BotOp> bot_;
+};
 
 void bindRobotDriver(nb::module_& m);
 

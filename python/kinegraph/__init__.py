@@ -86,6 +86,7 @@ from ._core import (
     SolverReturns,
     StepObservation,
     TargetFile,
+    TaskExecution,
     TaskRule,
     TaskWaypoints,
     TimedPath,
@@ -157,7 +158,6 @@ if _TYPE_CHECKING:
     from .problems import get_NLP_Problem_names, make_NLP_Problem
     from .quaternion import Quaternion
     from .reachable import reachability
-    from .task_execution import TaskExecution
     from .task_plan import TaskPlan
     from .tasks import planTask, planTasks
 
@@ -183,7 +183,6 @@ _LATER = {  # module: names
     "problems": ("get_NLP_Problem_names", "make_NLP_Problem"),
     "quaternion": ("Quaternion",),
     "reachable": ("reachability",),
-    "task_execution": ("TaskExecution",),
     "task_plan": ("TaskPlan",),
     "tasks": ("planTask", "planTasks"),
 }

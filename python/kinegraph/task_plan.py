@@ -4,16 +4,12 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass, field
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 
-from ._core import JT, Config, treeText
+from ._core import Config, TaskExecution, executeTask, ghostScene, showTask, taskFrames, treeText
 from .errors import ArgumentError
-from .task_view import ghostScene
-
-if TYPE_CHECKING:
-    from .task_execution import TaskExecution
 
 Action = list[str]
 
@@ -138,7 +134,7 @@ class TaskPlan:
             if pause:
                 C.view(True, f"({' '.join(action)})")
             for q in path[rows]:
-                _show(C, scene, q)
+                showTask(C, scene, q)
                 C.view(False, f"({' '.join(action)})")
 
     def frames(self, C: Config, rate: float = 25.0) -> np.ndarray:
@@ -152,14 +148,8 @@ class TaskPlan:
         Raises:
             ArgumentError: There is no motion.
         """
-        _, times = self._motion("frames")
-        shown, poses = C.copy(), []
-        for t in np.linspace(0.0, self.duration, max(2, round(self.duration * rate))):
-            part = next((k for k, rows in enumerate(self.segments) if t <= times[rows][-1]), None)
-            if part is not None:
-                _show(shown, self.scenes[part], self.at(t))
-            poses.append(shown.getFrameState())
-        return np.array(poses)
+        self._motion("frames")
+        return taskFrames(self, C, rate)
 
     def execute(self, bot: Any) -> TaskExecution:
         """Moves a robot along the plan, action by action: grippers take and release, and after each motion it is looked at
@@ -173,10 +163,7 @@ class TaskPlan:
             ArgumentError: There is no motion, or the robot cannot begin it.
             RobotFault: The robot was stopped.
         """
-        from .task_execution import execute
-
-        self._motion("execute")
-        return execute(self, bot)
+        return executeTask(self, bot)
 
     def repair(self, C: Config) -> TaskPlan:
         """Plans what is left to do after an execution stopped: to the same goal, from a scene as it is now.
@@ -197,15 +184,6 @@ class TaskPlan:
         if self.path is None or self.times is None:
             raise ArgumentError(f"{call}: there is no motion; {self.message}")
         return self.path, self.times
-
-
-def _show(C: Config, scene: Config, q: np.ndarray) -> None:
-    """Brings a scene to where the scene of an action is at q, with what is held."""
-    scene.setJointState(q)
-    C.setJointState(q)
-    for frame in C.getFrames():
-        if frame.getParent() is None or frame.getJointType() == JT.rigid:
-            frame.setPose(scene.getFrame(frame.name).getPose())
 
 
 TaskPlan.__init__.__doc__ = "Initialize self: planTask does."

@@ -32,6 +32,7 @@
 #include "kinegraph/front/retime_robot.h"         // retime: a robot's path, by its limits
 #include "kinegraph/front/solution_parameters.h"  // Sensitivity: how solutions move with targets, poses, scales
 #include "kinegraph/front/solve_all.h"            // several problems at once
+#include "kinegraph/front/task_execution.h"       // a plan of a task carried out by a BotOp
 #include "kinegraph/ik/solve_ik.h"                // solveIk
 #include "kinegraph/kinematics/edge_check.h"      // EdgeChecker: is a q, is an edge free?
 #include "kinegraph/kinematics/limit_check.h"     // withinLimits

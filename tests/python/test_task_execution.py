@@ -43,34 +43,6 @@ def test_what_is_not_where_it_was_is_noticed_and_repaired(tower) -> None:
     assert repaired.feasible and repaired.execute(bot).feasible
 
 
-def test_what_is_taken_out_of_the_hand_is_noticed(tower) -> None:
-    C, plan = tower
-
-    class Thief:
-        """A robot from whose hand somebody takes the cube on its way."""
-
-        def __init__(self, bot):
-            self.bot, self.moves = bot, 0
-
-        def __getattr__(self, name):
-            return getattr(self.bot, name)
-
-        def move(self, path, times):
-            self.bot.move(path, times)
-            self.moves += 1
-            if self.moves == 2:
-                self.bot.sync(self.bot.getWorld(), 0.5 * times[-1])
-                self.bot.setFramePose("b0", [-0.3, 0.1, 0.7, 1, 0, 0, 0])
-
-    bot = Thief(ry.BotOp(C))
-    run = plan.execute(bot)
-    assert not run.feasible and run.done == 1 and "'b0' is not in 'l_gripper'" in run.message
-    assert run.C.getFrame("b0").getParent().name == "table"
-    repaired = plan.repair(run.C)
-    assert repaired.feasible and [a[0] for a in repaired.actions] == ["pick", "place"]
-    assert repaired.execute(bot.bot).feasible
-
-
 def test_mistakes_are_told_before_anything_moves(tower) -> None:
     C, plan = tower
     light = C.copy()

@@ -73,16 +73,6 @@ Pairs overlaps(const Config& scene) {
   return pairs;
 }
 
-void hang(Config& scene, const std::string& obj, const std::string& parent) {
-  scene.getFrame(obj).setParent(scene.getFrame(parent), true);
-  scene.getFrame(obj).setJoint(JointType::rigid);
-}
-
-/// m, negative where they overlap.
-double gapOf(const Config& scene, const std::string& a, const std::string& b) {
-  return -eval(scene, FeatureSymbol::distance, {a, b}).y[0];
-}
-
 /// A plan as it is played.
 class Played {
  public:

@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "kinegraph/base/text.h"
+#include "kinegraph/features/eval.h"
 #include "kinegraph/tasks/task_words.h"
 
 namespace kinegraph {
@@ -19,6 +20,15 @@ double turnCosine(const Matrix3d& a, const Matrix3d& b) { return .5 * ((a.transp
 double lengthOf(const Vector3d& v) { return std::sqrt(v.x() * v.x() + v.y() * v.y() + v.z() * v.z()); }
 
 }  // namespace
+
+double gapOf(const Config& scene, const std::string& a, const std::string& b) {
+  return -eval(scene, FeatureSymbol::distance, {a, b}).y[0];
+}
+
+void hang(Config& scene, const std::string& obj, const std::string& parent) {
+  scene.getFrame(obj).setParent(scene.getFrame(parent), true);
+  scene.getFrame(obj).setJoint(JointType::rigid);
+}
 
 double levelCosine() {
   static const double cosine = std::cos(.5 * std::numbers::pi / 180.);

@@ -13,6 +13,12 @@ inline constexpr double kSteady = 2.;
 /// How deep shapes may overlap in a plan, and by how much things may miss where they should be, m.
 inline constexpr double kOverlap = 1e-3, kOffPlace = 1e-3;
 
+/// Between the surfaces of two frames, m; negative where they overlap.
+double gapOf(const Config& scene, const std::string& a, const std::string& b);
+
+/// Hangs an object below a frame where it is, as what is held or stands there.
+void hang(Config& scene, const std::string& obj, const std::string& parent);
+
 /// What is level: the cosine of half a degree.
 double levelCosine();
 

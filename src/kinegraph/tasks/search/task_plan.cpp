@@ -24,8 +24,12 @@ std::string taskStatusName(TaskStatus status) {
   }
 }
 
+void TaskPlan::requireMotion(const char* call) const {
+  if (path.rows() == 0 || times.size() != path.rows()) throw ValueError(cat(call, ": there is no motion; ", message));
+}
+
 VectorXd TaskPlan::at(double t) const {
-  if (path.rows() == 0 || times.size() != path.rows()) throw ValueError(cat("at: there is no motion; ", message));
+  requireMotion("at");
   const double* const begin = times.data();
   const Eigen::Index after = std::upper_bound(begin, begin + times.size(), t) - begin;
   if (after == 0) return path.row(0);

@@ -10,6 +10,9 @@
 
 namespace kinegraph {
 
+class BotOp;
+struct TaskExecution;
+
 enum class TaskStatus {
   solved,             ///< the plan passed checkTaskPlan
   proved_impossible,  ///< no motion can do it
@@ -64,6 +67,27 @@ struct TaskPlan {
 
   /// What was tried, as a tree: a line per action, causes behind the last one of a branch.
   std::string searchTree() const;
+
+  /// Shows the plan: its motion, or, where there is none, the tree of the search and the ghostScene. C is the scene that was
+  /// planned in, and ends as it was. Returns the key pressed, or 0.
+  int view(Config& C, bool pause = true) const;
+
+  /// Shows the motion of each action, with what is held moving along; `pause` waits for a key before each. C ends as after
+  /// the plan. Throws ValueError if there is no motion.
+  void play(Config& C, bool pause = false) const;
+
+  /// Where all frames are (frames x 7) at equal steps of time, `rate` per second. Throws ValueError if there is no motion.
+  std::vector<MatrixXd> frames(const Config& C, double rate = 25.) const;
+
+  /// A copy of the scene in which the waypoint that the farthest branch failed at stands as a red ghost. Throws ValueError
+  /// where no branch failed at one.
+  Config ghostScene(const Config& C) const;
+
+  /// Moves a robot along the plan; see kinegraph::execute in front/task_execution.h.
+  TaskExecution execute(BotOp& bot) const;
+
+  /// Throws ValueError if there is no motion; `call` is what asks.
+  void requireMotion(const char* call) const;
 
   /// Plans what is left to do: to the same goal, from a scene as it is now. Throws ValueError for plans that planTask did
   /// not make.

@@ -1,0 +1,37 @@
+// A tower of three cubes, planned, built by a simulated robot, and repaired where something went wrong.
+#include <kinegraph/kinegraph.h>
+
+#include <iostream>
+
+using namespace kinegraph;
+
+int main() try {
+  Config C;
+  C.addFile(modelPath("scenarios/pandaSingle.g"));
+  const auto cube = [&](const std::string& name, double x, double y, const std::vector<double>& color) {
+    Frame frame = C.addFrame(name, "table").setRelativePosition({x, y, .075}).setJoint(JT::rigid);
+    frame.setShape(ST::ssBox, {.05, .05, .05, .004}).setColor(color).setContact(1).setMass(.1);
+  };
+  cube("red", -.3, .2, {1, .3, .2});
+  cube("green", .3, .3, {.3, .8, .3});
+  cube("blue", .1, .45, {.2, .4, 1});
+
+  TaskPlan plan = planTask(C, "(on green red) (on blue green)");
+  std::cout << plan.str() << "\n";
+  std::cout << plan.duration() << " s; after 1 s the arm is at " << plan.at(1.).transpose() << "\n";
+
+  Config world = C;  // where the robot acts, one cube is not where the plan has it
+  world.getFrame("blue").setRelativePosition({.1, .37, .075});
+  BotOp bot(world);
+  TaskExecution run;
+  for (int i = 0; i < 3 && !run.feasible; ++i) {
+    run = plan.execute(bot);
+    std::cout << run.str() << "\n";
+    if (!run.feasible) plan = plan.repair(run.C);
+  }
+  bot.getWorld().view(false, "the tower");
+  return run.feasible ? 0 : 1;
+} catch (const Error& error) {
+  std::cerr << error.what() << "\n";
+  return 1;
+}
