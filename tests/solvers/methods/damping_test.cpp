@@ -62,3 +62,31 @@ TEST(Damping, ReturnsToItsFirstValueWhenItIsLost) {
   damping.restart();
   EXPECT_EQ(damping.value(), .3);
 }
+
+TEST(Damping, MakesUpForCurvatureThatAModelLacks) {
+  Rng rng(1);
+  for (int sample = 0; sample < 100; ++sample) {
+    // f(d) = -g d + a d^2 / 2, and a model that takes the curvature for m
+    const double g = rng.uniform(.1, 10.), m = rng.uniform(.1, 10.), a = m * rng.uniform(1., 2.), d = g / m;
+    const double ratio = (g * d - .5 * a * d * d) / (g * d - .5 * m * d * d);
+    const double lacking = Damping::lacking(ratio, m);
+    EXPECT_NEAR(lacking, Damping::kLackingPart * (a - m), 1e-9);
+    Damping damping(1., Damping::kLeast);
+    damping.meet(ratio, lacking);
+    EXPECT_EQ(damping.value(), ratio < Damping::kOvershot ? lacking : Damping::kLeast);
+    if (ratio >= Damping::kOvershot) continue;
+    damping.accept(1., false);
+    EXPECT_EQ(damping.value(), Damping::kWaryFall * lacking) << "it would overshoot again";
+  }
+}
+
+TEST(Damping, AfterARefusalIsNoMoreThanTheModelLacks) {
+  Damping known(1., Damping::kLeast), unknown(1., Damping::kLeast);
+  known.refuse(1e6, .5);
+  unknown.refuse(1e6);
+  EXPECT_EQ(known.value(), .5);
+  EXPECT_EQ(unknown.value(), Damping::kLeastRefusedOfCurvature * 1e6);
+  known.refuse(1e6, .5);
+  EXPECT_EQ(known.value(), 2. * Damping::kFirstGrowth * .5) << "refused again, it grows all the same";
+  EXPECT_EQ(Damping::lacking(-1e6, 1.), Damping::kLackingPart * Damping::kMostLacking) << "as at a kink";
+}

@@ -6,7 +6,7 @@ using namespace kinegraph;
 
 TEST(InnerTest, AsksForSmallerStepsFromRoundToRound) {
   constexpr double kLeast = 1e-4;
-  InnerTest test;
+  InnerTest test(false);
   double smallest = InnerTest::kFirstStep;
   for (int round = 0; round < 10; ++round) {
     EXPECT_TRUE(test.isSolved(smallest, false));
@@ -18,8 +18,15 @@ TEST(InnerTest, AsksForSmallerStepsFromRoundToRound) {
   EXPECT_EQ(smallest, kLeast);
 }
 
+TEST(InnerTest, AsksForLessFromRoundToRoundWhereThereAreManyVariables) {
+  InnerTest test(true);
+  test.tighten(1e-4, false);
+  EXPECT_TRUE(test.isSolved(InnerTest::kStepFallOfMany * InnerTest::kFirstStep, false));
+  EXPECT_FALSE(test.isSolved(1.01 * InnerTest::kStepFallOfMany * InnerTest::kFirstStep, false));
+}
+
 TEST(InnerTest, TakesALagrangianThatHardlyFallsAsSolved) {
-  InnerTest test;
+  InnerTest test(false);
   test.sawStep(10., 10. * (1. - 1.01 * InnerTest::kFirstDecrease));
   EXPECT_FALSE(test.isSolved(1., false));
   test.sawStep(10., 10. * (1. - .99 * InnerTest::kFirstDecrease));

@@ -18,10 +18,12 @@ AugmentedLagrangian::AugmentedLagrangian(Nlp& nlp, Memory& memory, const VectorX
       lower_(function_.lower()),
       upper_(function_.upper()),
       tolerance_(options.constraintTolerance()),
-      passes_(nlp.dimension() > kManyVariables ? kPassesOfMany : kPasses),
+      has_many_variables_(nlp.dimension() > kManyVariables),
+      passes_(has_many_variables_ ? kPassesOfMany : kPasses),
       penalty_(options, 1.),
       damping_(options.damping, options.damping),
       radius_(options.stepMax),
+      inner_(has_many_variables_),
       creep_(options) {
   here_.x = start_ = x0.cwiseMax(lower_).cwiseMin(upper_);
   lambda_.setZero();
@@ -84,13 +86,14 @@ void AugmentedLagrangian::iterate() {
     const bool is_new_point = model_is_stale_;
     if (is_new_point) linearize();
     Step step = startStep();
-    const Problem problem = modelProblem();
-    if (is_new_point && steps > 0 && needsNoStep(step, problem)) return converge();
+    if (is_new_point && steps > 0 && needsNoStep(step, modelProblem())) return converge();
     if (is_new_point) addCurvature();
     model_is_stale_ = false;
 
     // 2. Step: the least value of the model in a box.
-    findStep(problem, step);
+    findStep(modelProblem(), step);
+    if (has_many_variables_ && round_just_ended_) raisePenalty(step);
+    const Problem problem = modelProblem();
     if (options_.verbose > 2)
       std::printf("    step %3d  evals %3d  |d| %.3g  predicted %.3g  violation %.3g  mu %.3g  damping %.3g\n", steps,
                   function_.evals(), step.size, step.predicted, step.error, problem.mu, problem.damping);
@@ -147,6 +150,23 @@ void AugmentedLagrangian::findStep(const Problem& problem, Step& step) {
   step.size = model_.minimize(problem).lpNorm<Eigen::Infinity>();
   step.predicted = model_.decrease(problem);
   step.is_tiny = step.size <= tolerance || step.predicted <= std::max(tolerance * tolerance, kLeastDecrease) * scale;
+}
+
+/// Where even the model's step would leave much of the violation, a round of evaluations under this penalty would only show
+/// that it must grow: the next penalty is taken at once, if the model does better with it; not beyond what is much, which
+/// only rounds in vain tell to be needed. Source: Curtis, Jiang & Robinson, An adaptive augmented Lagrangian method for
+/// large-scale constrained optimization, 2015 (steering).
+void AugmentedLagrangian::raisePenalty(Step& step) {
+  const double left = linearizedViolation();
+  if (step.is_tiny || damping_.isLost() || penalty_.isMuch() || holds(step.violation) ||
+      left <= Penalty::kSteering * step.violation)
+    return;
+  const Penalty before = penalty_;
+  penalty_.grow();
+  findStep(modelProblem(), step);
+  if (linearizedViolation() <= Penalty::kWorthwhile * left) return;
+  penalty_ = before;
+  findStep(modelProblem(), step);
 }
 
 /// A tiny step may be due to the damping. Once after a refusal, and as long as steps are accepted, it is worth a look
@@ -248,7 +268,8 @@ bool AugmentedLagrangian::tryStep(Step& step) {
   const double rounding = std::max(kLeastRounding, kRounding * std::abs(step.before));
   was_corrected_ = false;
   const bool is_poor = trial_.finite && step.before - step.after < kPoor * step.predicted && step.predicted > rounding;
-  if (is_poor && function_.evals() < options_.stopEvals && correction_.isDue()) {
+  if (is_poor && function_.evals() < options_.stopEvals && (!has_many_variables_ || isSpoiltByPenalties()) &&
+      correction_.isDue()) {
     if (!correctTrial(step)) return false;
   }
   step.ratio = (step.before - step.after) / step.predicted;
@@ -256,6 +277,15 @@ bool AugmentedLagrangian::tryStep(Step& step) {
       step.predicted < rounding)  // only gradients tell which is better
     step.ratio = gradientNorm(trial_) < gradientNorm(here_) ? kFair : -1.;
   return true;
+}
+
+/// What the constraints at the trial point add to what the model said, is it due to their squares? That a correction can
+/// take back. What multipliers make of it is curvature of the Lagrangian, which asks for shorter steps.
+bool AugmentedLagrangian::isSpoiltByPenalties() {
+  findMultipliers(model_.linearized(), next_lambda_);
+  findMultipliers(trial_.c, multipliers_);
+  multipliers_ -= next_lambda_;
+  return multipliers_.squaredNorm() > 2. * next_lambda_.cwiseProduct(multipliers_).lpNorm<1>();
 }
 
 /// Where constraints are curved, a long step along their linearization leaves them. Solves the model again with the
@@ -282,9 +312,15 @@ bool AugmentedLagrangian::correctTrial(Step& step) {
   return true;
 }
 
+/// Of the model, along a step to its least value.
+double AugmentedLagrangian::curvatureAlong(const Step& step) const {
+  return 2. * step.predicted / model_.step().squaredNorm();
+}
+
 void AugmentedLagrangian::accept(const Step& step) {
   std::swap(here_, trial_);
   damping_.accept(step.ratio, was_corrected_);
+  if (has_many_variables_) damping_.meet(step.ratio, Damping::lacking(step.ratio, curvatureAlong(step)));
   // Close to the solution, where the error falls as fast as Newton's method lets it, multipliers need no round.
   if (step.ratio > kGood && damping_.isSmall(step.curvature) && constraintError() <= kFastFall * step.error)
     updateMultipliers(step.size);
@@ -303,7 +339,9 @@ void AugmentedLagrangian::refuse(const Step& step) {
   radius_.refuse();
   trouble_ =
       trial_.finite ? ", as at a kink" : cat(": where it would go, ", describeNotFinite(nlp_, trial_.phi, &trial_.J));
-  damping_.refuse(step.curvature);
+  damping_.refuse(step.curvature, has_many_variables_ && trial_.finite
+                                      ? Damping::lacking(step.ratio, curvatureAlong(step))
+                                      : kInfinity);
 }
 
 void AugmentedLagrangian::stop(SolverStatus status, std::string_view message) {

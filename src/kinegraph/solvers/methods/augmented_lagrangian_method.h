@@ -57,7 +57,7 @@ class AugmentedLagrangian {
 
   static constexpr double kInfinity = std::numeric_limits<double>::infinity();
   static constexpr int kStepsPerInner = 20;        ///< steps that are allowed for each of stopInners
-  static constexpr int kManyVariables = 100;       ///< from here on, steps
+  static constexpr int kManyVariables = 100;       ///< from here on, penalties are steered, and steps
   static constexpr int kPassesOfMany = 3;          ///< minimize the model in so many passes at most,
   static constexpr int kPasses = 12;               ///< else in so many
   static constexpr double kLeastScale = 1e-4;      ///< least costs that predicted decreases are relative to
@@ -95,6 +95,7 @@ class AugmentedLagrangian {
   Problem modelProblem();
   bool needsNoStep(const Step& step, const Problem& problem);
   void findStep(const Problem& problem, Step& step);
+  void raisePenalty(Step& step);
   bool triesLessDamping(const Step& step);
   void endAt(const Step& step);
   bool helps(const Step& step) const;
@@ -104,7 +105,9 @@ class AugmentedLagrangian {
   bool meetsContradiction(const Step& step);
   void updateMultipliers(double step_size);
   bool tryStep(Step& step);
+  bool isSpoiltByPenalties();
   bool correctTrial(Step& step);
+  double curvatureAlong(const Step& step) const;
   void accept(const Step& step);
   void refuse(const Step& step);
   bool locallyInfeasible();
@@ -145,7 +148,8 @@ class AugmentedLagrangian {
            &multipliers_ = memory_.multipliers;
   VectorXd &low_ = memory_.low, &high_ = memory_.high, &gradient_ = memory_.gradient;
   const double tolerance_;  ///< of the constraints
-  const int passes_;        ///< of the model's minimization
+  const bool has_many_variables_;
+  const int passes_;  ///< of the model's minimization
 
   Penalty penalty_;
   Damping damping_;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <algorithm>
+#include <limits>
 
 namespace kinegraph {
 
@@ -19,8 +20,12 @@ class Damping {
   static constexpr double kLeastRefusedOfCurvature = 1e-4;  ///< also as a part of the curvature
   static constexpr double kBestFall = .1;                   ///< least factor after an accepted step
   static constexpr double kWaryFall = .5;                   ///< the same where less damping has just failed
-  static constexpr double kFirstGrowth = 2.;                ///< factor of a refusal; twice as much for the next one
-  static constexpr double kMostRatio = 1.2;  ///< a decrease beyond this part of the predicted one says no more
+  static constexpr double kOvershot = .25;    ///< ratio of a step that is much too long for the curvature there
+  static constexpr int kWarySteps = 3;        ///< steps after it that are wary
+  static constexpr double kLackingPart = .5;  ///< part of the curvature that a model lacks that is made up for
+  static constexpr double kMostLacking = 2.;  ///< in units of what it has
+  static constexpr double kFirstGrowth = 2.;  ///< factor of a refusal; twice as much for the next one
+  static constexpr double kMostRatio = 1.2;   ///< a decrease beyond this part of the predicted one says no more
 
   /// `first` is where it returns to by `restart`, `value` where it starts.
   Damping(double first, double value) : first_(first), value_(value) {}
@@ -36,13 +41,31 @@ class Damping {
   /// After a step whose actual decrease was `ratio` times the predicted one. `wary`: do not fall far.
   void accept(double ratio, bool wary) {
     const double excess = 2. * std::min(ratio, kMostRatio) - 1.;
-    const double least = wary || wasRefused() ? kWaryFall : kBestFall;
+    if (wary_steps_ > 0) --wary_steps_;
+    const double least = wary || wary_steps_ > 0 || wasRefused() ? kWaryFall : kBestFall;
     value_ = std::max(kLeast, value_ * std::max(least, 1. - excess * excess * excess));
     growth_ = kFirstGrowth;
   }
 
-  void refuse(double curvature) {
-    value_ = std::max({value_ * growth_, kLeastRefusedOfCurvature * curvature, kLeastRefused});
+  /// What a model lacks that has this curvature along a step to its least value, where the step came out with this ratio.
+  /// If the actual curvature is k times that, the ratio is 2 - k; half of what is missing is asked for. Growing factor by
+  /// factor from its least value, damping would take a dozen steps to get there, each beyond the least value and back
+  /// again; as a part of the largest curvature it may be a thousand times too large where curvatures differ by that.
+  /// Source: Fletcher, A modified Marquardt subroutine for non-linear least squares, 1971.
+  static double lacking(double ratio, double curvature) {
+    return kLackingPart * std::min(1. - ratio, kMostLacking) * curvature;
+  }
+
+  /// After an accepted step that did less than it should: not below what the model lacks, and slower to fall from there.
+  void meet(double ratio, double lacking) {
+    if (ratio >= kOvershot || !(lacking > value_)) return;
+    value_ = std::min(lacking, kHigh);
+    wary_steps_ = kWarySteps;
+  }
+
+  /// `lacking`: of the model; infinite where that is not known.
+  void refuse(double curvature, double lacking = std::numeric_limits<double>::infinity()) {
+    value_ = std::max({value_ * growth_, std::min(kLeastRefusedOfCurvature * curvature, lacking), kLeastRefused});
     growth_ *= 2.;
   }
 
@@ -56,6 +79,7 @@ class Damping {
 
  private:
   double first_, value_, growth_ = kFirstGrowth;
+  int wary_steps_ = 0;
 };
 
 }  // namespace kinegraph

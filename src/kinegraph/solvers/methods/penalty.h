@@ -11,8 +11,10 @@ namespace kinegraph {
 /// reduced the violation enough, at most muMax; all of them in units of how steep the costs are.
 class Penalty {
  public:
-  static constexpr double kMuch = 1e3;       ///< times the first value: the violation is expected to fall
-  static constexpr double kRestored = 10.;   ///< factor of the first value, for each restoration so far
+  static constexpr double kMuch = 1e3;      ///< times the first value: the violation is expected to fall
+  static constexpr double kRestored = 10.;  ///< factor of the first value, for each restoration so far
+  static constexpr double kSteering = .3;  ///< part of the violation that a step at the beginning of a round may leave,
+  static constexpr double kWorthwhile = .7;  ///< and factor of that for which a larger penalty is taken
   static constexpr double kSteepness = .01;  ///< cost weight for a gradient of the costs of 1
 
   Penalty(const SolverOptions& options, double cost_weight)

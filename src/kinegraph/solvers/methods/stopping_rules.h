@@ -13,11 +13,14 @@ namespace kinegraph {
 class InnerTest {
  public:
   static constexpr double kFirstStep = .1;       ///< largest entry of a step that counts as none, in the first round
-  static constexpr double kStepFall = .3;        ///< its factor from round to round
+  static constexpr double kStepFall = .3;        ///< its factor from round to round,
+  static constexpr double kStepFallOfMany = .5;  ///< and where there are many variables
   static constexpr double kFirstDecrease = .02;  ///< relative decrease that counts as none, in the first round
   static constexpr double kDecreaseFall = .5;    ///< its factor from round to round where constraints hold
   static constexpr double kLeastDecrease = 1e-6;
   static constexpr double kLeastValue = .01;  ///< least value of the Lagrangian that decreases are relative to
+
+  explicit InnerTest(bool has_many_variables) : step_fall_(has_many_variables ? kStepFallOfMany : kStepFall) {}
 
   bool isSolved(double step_size, bool is_damped) const {
     return (step_size <= step_ && !is_damped) || last_decrease_ <= decrease_;
@@ -29,13 +32,13 @@ class InnerTest {
   }
 
   void tighten(double least_step, bool constraints_hold) {
-    step_ = std::max(kStepFall * step_, least_step);
+    step_ = std::max(step_fall_ * step_, least_step);
     if (constraints_hold) decrease_ = std::max(kDecreaseFall * decrease_, kLeastDecrease);
   }
   void beginRound() { last_decrease_ = 1.; }
 
  private:
-  double step_ = kFirstStep, decrease_ = kFirstDecrease, last_decrease_ = 1.;
+  double step_fall_, step_ = kFirstStep, decrease_ = kFirstDecrease, last_decrease_ = 1.;
 };
 
 /// Do the costs creep: do the constraints hold, are steps refused again and again, and do those that are not hardly
