@@ -34,7 +34,7 @@ for _ in range(60):
 if len(sys.argv) > 1:
     C.view(offscreen=True)
     C.viewer().setWindow("pushed off", 480, 360)
-    C.viewer().setCamera([1.3, -1.7, 1.4], [0.1, 0.0, 0.4])
+    C.viewer().setCamera([0.9, -1.5, 1.7], [0.15, -0.1, 0.4])
     C.viewer().savePng(sys.argv[1])
 for _ in range(100):
     S.step()

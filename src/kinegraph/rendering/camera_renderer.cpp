@@ -244,6 +244,7 @@ void CameraRenderer::Impl::placeGeoms(const std::vector<Item>& items, const Stat
     mjvGeom& floor = addGeom(mjGEOM_MESH, Vector3d::Ones(), {}, color, frames);
     floor.dataid = 0;
     floor.specular = 0.f;
+    floor.castshadow = false;  // on itself, in speckles where the light is far
   }
   for (const Item& item : items) {
     const RigidTransform& X_WG = state.pose(item.frame);
