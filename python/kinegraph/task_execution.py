@@ -23,6 +23,7 @@ _OVERLAP = 1e-3  # m: more than that is in the way of a motion
 _TIMEOUT = 3.0  # s for a gripper
 _REST = 0.3  # s for things to come to rest
 _FORCE = 40.0  # N
+_SLOWLY = 3.0  # times longer than it came, a robot goes back
 _FAR = 0.05  # rad or m: by which a robot may be off where a motion begins or ends
 
 
@@ -148,7 +149,7 @@ class _Run:
         C = self.scene()
         free = next((k for k in range(len(path) - 1, -1, -1) if _is_clear(C, path[k])), len(path) - 1)
         if free < len(path) - 1:
-            self.bot.move(path[free:-1][::-1], (times[-1] - times[free:-1])[::-1])
+            self.bot.move(path[free:-1][::-1], _SLOWLY * (times[-1] - times[free:-1])[::-1])
             self.bot.wait(self.seen, forKeyPressed=False)
 
     def grip(self, action: Action) -> str:

@@ -83,3 +83,62 @@ def test_mistakes_are_told_before_anything_moves(tower) -> None:
         plan.execute(ry.BotOp(away))
     with pytest.raises(ry.ArgumentError, match="was not made by planTask"):
         ry.TaskPlan("solved", "").repair(C)
+
+
+def test_a_drawer_is_opened_in_simulation_and_a_box_put_into_it() -> None:
+    C, plan = planned(panda_tasks.stow(0))
+    assert [a[0] for a in plan.actions] == ["hold", "open", "pick", "place"]
+    bot = ry.BotOp(C)
+    run = plan.execute(bot)
+    assert run.feasible, run
+    assert ry.doorStates(C) == {"drawer": "closed"} and ry.doorStates(bot.getWorld()) == {"drawer": "opened"}
+    assert run.C.getFrame("cup").getParent().name == "drawer_floor"
+    assert plan.repair(run.C).actions == []
+
+
+def test_a_drawer_that_is_not_where_it_was_is_noticed_and_repaired() -> None:
+    C, plan = planned(panda_tasks.drawer(0))
+    world = C.copy()
+    world.getFrame("drawer").setJointState([-0.08])
+    bot = ry.BotOp(world)
+    run = plan.execute(bot)
+    assert not run.feasible and "'drawer' is 0.080 (m or rad) away from where it should be" in run.message
+    repaired = plan.repair(run.C)
+    assert repaired.feasible and repaired.start.count("(ajar drawer)") == 1
+    assert repaired.execute(bot).feasible
+
+
+def test_a_drawer_that_comes_loose_is_noticed_and_repaired() -> None:
+    C, plan = planned(panda_tasks.drawer(1))
+
+    class Loose:
+        """A robot whose gripper does not close on the handle the first time."""
+
+        def __init__(self, bot):
+            self.bot, self.is_loose = bot, True
+
+        def __getattr__(self, name):
+            return getattr(self.bot, name)
+
+        def gripperCloseGrasp(self, number, obj, force):
+            if not self.is_loose:
+                self.bot.gripperCloseGrasp(number, obj, force=force)
+            self.is_loose = False
+
+    bot = Loose(ry.BotOp(C))
+    run = plan.execute(bot)
+    assert not run.feasible and run.done == 1 and "'drawer' is 0." in run.message
+    repaired = plan.repair(run.C)
+    assert repaired.feasible and repaired.execute(bot).feasible
+
+
+def test_what_a_simulation_of_drawers_needs_is_told_before_anything_moves() -> None:
+    C, plan = planned(panda_tasks.fetch(0))
+    with pytest.raises(ry.ArgumentError, match=r"'cup' hangs below 'drawer'.*call C.getFrame\('cup'\).unLink\(\)"):
+        plan.execute(ry.BotOp(C))
+    C.getFrame("cup").unLink()
+    driven = C.copy()
+    driven.getFrame("drawer").setAttributes({"noMotor": False})
+    with pytest.raises(ry.ArgumentError, match="a motor moves 'drawer' in the simulated world"):
+        plan.execute(ry.BotOp(driven))
+    assert plan.execute(ry.BotOp(C)).feasible
