@@ -55,3 +55,51 @@ def test_mistakes_are_told_before_anything_moves(tower) -> None:
         plan.execute(ry.BotOp(away))
     with pytest.raises(ry.ArgumentError, match="was not made by planTask"):
         ry.TaskPlan("solved", "").repair(C)
+
+
+def test_a_drawer_is_opened_in_simulation_and_a_box_put_into_it() -> None:
+    C, plan = planned(panda_tasks.stow(0))
+    assert [a[0] for a in plan.actions] == ["hold", "open", "pick", "place"]
+    bot = ry.BotOp(C)
+    run = plan.execute(bot)
+    assert run.feasible, run
+    assert ry.doorStates(C) == {"drawer": "closed"} and ry.doorStates(bot.getWorld()) == {"drawer": "opened"}
+    assert run.C.getFrame("cup").getParent().name == "drawer_floor"
+    assert plan.repair(run.C).actions == []
+
+
+def test_a_drawer_that_is_not_where_it_was_is_noticed_and_repaired() -> None:
+    C, plan = planned(panda_tasks.drawer(0))
+    world = C.copy()
+    world.getFrame("drawer").setJointState([-0.08])
+    bot = ry.BotOp(world)
+    run = plan.execute(bot)
+    assert not run.feasible and "'drawer' is 0.080 (m or rad) away from where it should be" in run.message
+    repaired = plan.repair(run.C)
+    assert repaired.feasible and repaired.start.count("(ajar drawer)") == 1
+    assert repaired.execute(bot).feasible
+
+
+def test_a_drawer_that_slips_out_of_the_hand_is_noticed_and_repaired() -> None:
+    C, plan = planned(panda_tasks.drawer(1))
+    slippery = C.copy()
+    for frame in ("handle", "l_finger1", "l_finger2"):
+        slippery.getFrame(frame).setAttributes({"friction": 0.0})
+    run = plan.execute(ry.BotOp(slippery))
+    assert not run.feasible and run.done == 1 and "'drawer' is 0." in run.message
+    for frame in ("handle", "l_finger1", "l_finger2"):
+        run.C.getFrame(frame).setAttributes({"friction": 1.0})
+    repaired = plan.repair(run.C)
+    assert repaired.feasible and repaired.execute(ry.BotOp(run.C)).feasible
+
+
+def test_what_a_simulation_of_drawers_needs_is_told_before_anything_moves() -> None:
+    C, plan = planned(panda_tasks.fetch(0))
+    with pytest.raises(ry.ArgumentError, match=r"'cup' hangs below 'drawer'.*call C.getFrame\('cup'\).unLink\(\)"):
+        plan.execute(ry.BotOp(C))
+    C.getFrame("cup").unLink()
+    driven = C.copy()
+    driven.getFrame("drawer").setAttributes({"noMotor": False})
+    with pytest.raises(ry.ArgumentError, match="a motor moves 'drawer' in the simulated world"):
+        plan.execute(ry.BotOp(driven))
+    assert plan.execute(ry.BotOp(C)).feasible

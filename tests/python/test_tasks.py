@@ -167,3 +167,24 @@ def test_effort_ends_it() -> None:
     plan = ry.planTask(problem.C, problem.goal, evaluations=1)
     assert plan.status == "not found" and "no plan within the effort" in plan.message
     assert plan.why()
+
+
+def test_what_is_in_a_drawer_is_shown_moving_with_it() -> None:
+    problem = families.fetch(0)
+    C, plan = problem.C, ry.planTask(problem.C, problem.goal)
+    assert [a[0] for a in plan.actions] == ["hold", "open", "pick", "place", "hold", "close"]
+    names, frames = C.getFrameNames(), plan.frames(C, 20.0)
+    opened = round(20.0 * plan.times[plan.segments[1].stop - 1])
+    moved = frames[opened + 1, :, :3] - frames[0, :, :3]
+    way = plan.path[plan.segments[1].stop - 1][C.getJointNames().index("drawer")]
+    for name in ("drawer_front", "handle", "cup"):
+        np.testing.assert_allclose(moved[names.index(name)], [0, way, 0], atol=1e-6)
+    assert np.abs(frames[-1, names.index("drawer_front"), :3] - frames[0, names.index("drawer_front"), :3]).max() < 2e-3
+
+
+def test_doors_and_their_states() -> None:
+    C = families.fetch(0).C
+    for at, state in ((0.0, "closed"), (-0.014, "closed"), (-0.1, "ajar"), (-0.25, "opened")):
+        C.getFrame("drawer").setJointState([at])
+        assert ry.doorStates(C) == {"drawer": state}
+    assert ry.doorStates(panda()) == {}

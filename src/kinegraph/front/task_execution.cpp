@@ -28,6 +28,7 @@ constexpr double kComesToRest = .3;                               ///< s for thi
 constexpr double kGripForce = 40.;                                ///< N
 constexpr double kFar = .05;                                      ///< rad or m: by which a robot may be off a motion
 constexpr double kOpenEnough = .9;                                ///< of the widest opening
+constexpr double kSlowly = 3.;                                    ///< times longer than it came, a robot goes back
 
 Vector3d placeIn(const Config& C, const std::string& hand, const std::string& obj) {
   const Frame frame = C.getFrame(hand);
@@ -179,7 +180,7 @@ class Run {
     if (free < 0 || free == last) return;
     const Eigen::Index count = last - free;
     bot_.move(path.middleRows(free, count).colwise().reverse(),
-              VectorXd((times[last] - times.segment(free, count).array()).reverse()));
+              VectorXd(kSlowly * (times[last] - times.segment(free, count).array()).reverse()));
     bot_.wait(seen_, false);
   }
 

@@ -22,8 +22,9 @@ struct TaskDoor {
   std::string stateAt(double q) const;
 };
 
-/// How far doors are moved: of their range. What opens one aims at a value between the first two.
-inline constexpr double kOpened = .8, kOpenMost = .98, kClosed = .05, kClose = .005;
+/// Of a door's range: from where on it is open, and up to where closed; where one is left that is opened, between two
+/// values, or closed.
+inline constexpr double kOpened = .8, kClosed = .05, kOpenLeast = .85, kOpenMost = .98, kClose = .005;
 
 /// All of a scene whose joints are active.
 std::vector<TaskDoor> doorsOf(const Config& C);

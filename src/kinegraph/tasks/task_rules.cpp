@@ -99,6 +99,23 @@ void touch(TaskWaypoints& w, double time, const TaskAction& action, const std::s
   w.attach(time, action[3], action[1], true, action[0] == "hook_start" ? kHookGap : 0.);
 }
 
+/// The bar of a hook is along a side of a box, whose axis the variant names: it does not turn then as it is pulled.
+void hookOn(TaskWaypoints& w, double time, const TaskAction& action, const std::string& variant) {
+  touch(w, time, action, variant);
+  const int bar = longAxis(w.C.getFrame(action[3]));
+  if (variant == "touch" || bar < 0) return;
+  constexpr std::array kProducts = {std::array{F::scalarProductXX, F::scalarProductXY},
+                                    std::array{F::scalarProductYX, F::scalarProductYY},
+                                    std::array{F::scalarProductZX, F::scalarProductZY}};
+  const F across = kProducts[std::size_t(bar)][variant == "x" ? 0 : 1];
+  w.komo().addObjective({time}, across, {action[3], action[1]}, O::eq, 1e0);
+}
+
+Variants hooksOf(const Config& C, const TaskAction& action) {
+  const bool has_sides = isBox(C.getFrame(action[1])) && longAxis(C.getFrame(action[3])) >= 0;
+  return has_sides ? Variants{"x", "y", "touch"} : Variants{"touch"};
+}
+
 void push(TaskWaypoints& w, double time, const TaskAction& action, const std::string&) {
   int begun = int(std::lround(time)) - 2;
   const auto begins = [&](const TaskAction& a) { return startsSliding(a) && a[1] == action[1]; };
@@ -146,7 +163,7 @@ TaskRules defaultTaskRules(bool is_upright) {
       {"lay", {place, faceOf}},
       {"push_start", {touch, only("touch")}},
       {"push_end", {push, only("push")}},
-      {"hook_start", {touch, only("touch")}},
+      {"hook_start", {hookOn, hooksOf}},
       {"hook_end", {push, only("push")}},
       {"hold", {hold, holdsOf}},
       {"open", {guide, only("open")}},

@@ -24,8 +24,10 @@ constexpr double kBehind = .01;  ///< m: how far behind the middle of an object 
 constexpr double kBeside = .5;   ///< of half its height: how far above its middle at most
 constexpr double kEdge = .01;    ///< m: how far inside of an edge the center of what stands there is
 constexpr double kTurn = 1.6;    ///< rad: starts of placements are turned by up to that
-constexpr double kLong = 1.5;    ///< a bar is that many times longer than thick
 constexpr std::array kAcross = {F::scalarProductYX, F::scalarProductYY, F::scalarProductYZ};
+constexpr std::array kAxes = {F::vectorX, F::vectorY, F::vectorZ};
+constexpr double kLow = .005;        ///< m: above the ground, where a bar pulls without tipping
+constexpr double kNear = .3;         ///< scale of joint motions that a straight line of the joints is to come near to
 constexpr double kHookBehind = .06;  ///< m: how far behind what it pulls a hook starts
 constexpr char kRoom[] = "room on ";
 
@@ -67,14 +69,9 @@ Vector4d upright(const Vector3d& axis) {
   return q / std::sqrt(q.squaredNorm());
 }
 
-/// The axis along which a box is long; -1 for what is none, or not long.
-int longSide(const Frame& frame) {
-  if (!isBox(frame)) return -1;
-  const std::vector<double> size = frame.getSize();
-  const int axis = int(std::max_element(size.begin(), size.begin() + 3) - size.begin());
-  for (int k = 0; k < 3; ++k)
-    if (k != axis && size[std::size_t(axis)] < kLong * size[std::size_t(k)]) return -1;
-  return axis;
+double thicknessOf(const Frame& box) {
+  const std::vector<double> size = box.getSize();
+  return *std::min_element(size.begin(), size.begin() + 3);
 }
 
 /// The quaternion that turns an axis of an object up, then about that by an angle.
@@ -107,6 +104,15 @@ VectorXd near(const Config& C, const std::string& hand, const Vector3d& target, 
     return found;
   }
   return q;
+}
+
+/// Joints somewhere within their limits, from which another way to reach a handle may be found. Doors stay.
+VectorXd elsewhere(const Config& C, const VectorXd& q, Rng& rng) {
+  Config scene = C;
+  scene.setRandom(rng);
+  VectorXd drawn = scene.getJointState();
+  for (const TaskDoor& door : doorsOf(C)) drawn[door.dof] = q[door.dof];
+  return drawn;
 }
 
 /// The same for a hook, of a tool that the hand holds in its middle.
@@ -167,7 +173,7 @@ void TaskWaypoints::guide(double time, const std::string& name, const std::strin
     komo().addObjective({time}, F::qItself, {name}, O::ineq, sign, VectorXd::Constant(1, door->at(share)));
   };
   if (opens) {
-    bound(kOpened + .02, false);
+    bound(kOpenLeast, false);
     bound(kOpenMost, true);
   } else {
     const VectorXd shut = VectorXd::Constant(1, door->at(kClose));
@@ -181,6 +187,7 @@ void TaskWaypoints::guide(double time, const std::string& name, const std::strin
         if (C.getFrame(part).data().shape)
           komo().addObjective({time}, F::distance, {obj, part}, O::ineqP, 3e0, -2. * kGap);
   }
+  komo().addControlObjective({time}, 1, kNear);
   const std::vector<std::string> pair = {hand, handle};
   switch (gripOf(C, hand, handle)) {
     case Grip::rigid:
@@ -256,8 +263,13 @@ void TaskWaypoints::push(double start, double end, const std::string& pusher, co
   komo().addObjective({start}, F::positionRel, {pusher, helper}, O::eq, row(1e1, 0., 0.));
   komo().addObjective({start}, F::positionRel, {pusher, helper}, O::ineq, row(0., 1e1, 0.), {0., -kBehind, 0.});
   komo().addObjective({start}, F::positionRel, {pusher, helper}, O::ineq, row(0., 0., 1e1), {0., 0., kBeside * height});
-  if (const int across = longSide(C.getFrame(pusher)); across >= 0)  // a bar is across the line
+  if (const int across = longAxis(C.getFrame(pusher)); across >= 0) {  // a bar is level, across the line, and low
     komo().addObjective({start}, kAcross[std::size_t(across)], {helper, pusher}, O::eq, 1e0);
+    komo().addControlObjective({end}, 1, kNear);
+    komo().addObjective({start}, kAxes[std::size_t(across)], {pusher}, O::eq, row(0., 0., 1e0));
+    const double low = kLow - height + .5 * thicknessOf(C.getFrame(pusher));
+    komo().addObjective({start}, F::positionRel, {pusher, helper}, O::sos, row(0., 0., 3e0), {0., 0., low});
+  }
 }
 
 /// Where a slot begins; of placements, the offset from the middle of the place.
@@ -296,6 +308,7 @@ VectorXd TaskWaypoints::start(Rng* rng, bool grasps) const {
   std::map<std::string, Vector3d> at;
   for (const Frame& frame : C.getFrames()) at.emplace(frame.getName(), frame.getPosition());
   for (std::size_t i = 0; i < actions.size(); ++i) {
+    if (isHold(actions[i]) && rng && grasps) q = elsewhere(C, q, *rng);
     q = startOf(i, q, at, offsets);
     x.segment(slot_dofs_ + Eigen::Index(i) * n, n) = q;
   }
@@ -333,7 +346,7 @@ VectorXd TaskWaypoints::startOf(std::size_t i, const VectorXd& before, std::map<
   const auto door = isGuided(action) ? std::ranges::find(doors_, action[1], &TaskDoor::name) : doors_.end();
   if (door == doors_.end()) return before;
   VectorXd q = before;
-  q[door->dof] = door->at(action[0] == "open" ? .5 * (kOpened + kOpenMost) : kClose);
+  q[door->dof] = door->at(action[0] == "open" ? .5 * (kOpenLeast + kOpenMost) : kClose);
   Config scene = C;
   scene.setJointState(q);
   for (const Frame& moved : scene.getFrame(action[1]).getSubtree()) at[moved.getName()] = moved.getPosition();

@@ -16,6 +16,7 @@ namespace kinegraph {
 namespace {
 
 constexpr double kLevel = .999, kUp = .9;  ///< cosines of what is level, and of what points up
+constexpr double kLong = 1.5;              ///< a bar is that many times longer than thick
 constexpr double kLeastPlace = .05;        ///< m: what is narrower carries nothing
 
 constexpr char kDefaultFol[] = R"(
@@ -263,6 +264,15 @@ std::string upOf(const Config& C, const std::string& name) {
   Eigen::Index axis = 0;
   if (heights.cwiseAbs().maxCoeff(&axis) <= kUp) return "";
   return std::string(1, "xyz"[axis]) + (heights[axis] < 0. ? "Neg" : "");
+}
+
+int longAxis(const Frame& frame) {
+  if (!isBox(frame)) return -1;
+  const std::vector<double> size = frame.getSize();
+  const int axis = int(std::max_element(size.begin(), size.begin() + 3) - size.begin());
+  for (int k = 0; k < 3; ++k)
+    if (k != axis && size[std::size_t(axis)] < kLong * size[std::size_t(k)]) return -1;
+  return axis;
 }
 
 bool isBox(const Frame& frame) {

@@ -70,6 +70,9 @@ std::vector<std::string> carriedBy(const Config& C, const std::vector<std::strin
 /// The axis of a frame that points up, to 25 degrees: x y z xNeg yNeg zNeg; "" if none does.
 std::string upOf(const Config& C, const std::string& name);
 
+/// The axis along which a box is long (0 to 2), as of a bar; -1 for what is none, or not long.
+int longAxis(const Frame& frame);
+
 /// Is it a box, sharp or rounded?
 bool isBox(const Frame& frame);
 
