@@ -78,7 +78,7 @@ def timed(C, problem, options):
     plan = ry.planMotion(C, problem.goal, problem.start, **options)
     wall, processor = time.perf_counter() - wall, time.process_time() - processor
     times = {stage["name"]: 1e3 * stage["seconds"] for stage in plan.stages}
-    later = sum(times.get(stage, 0.0) for stage in STAGES[2:])
+    later = sum(times.get(stage, 0.0) for stage in [*STAGES[2:], "bend"])
     own = {"first": 1e3 * wall - later, "call": 1e3 * processor, "all": 1e3 * processor - times.get("time", 0.0)}
     return plan, times | own
 
@@ -102,6 +102,10 @@ def ours(problem, options, rounds=1):
         row["ratio"] = plan.length / np.linalg.norm(problem.goal - problem.start)
         row["duration"] = plan.duration
         row["clearance"] = 1e3 * plan.clearance()
+    if plan.feasible and options["slices"]:
+        row["faster"] = (
+            plan.duration / ry.planMotion(C, problem.goal, problem.start, **options | {"slices": 0}).duration
+        )
     return row
 
 
@@ -166,7 +170,7 @@ def table(title, rows):
         if not done:
             continue
         words = [f"{scene:17} {len(done):4}/{len(of):<4} free {100 * np.mean([row['free'] for row in done]):5.1f} %"]
-        for key in ["first", *STAGES, "own clock", "all"]:
+        for key in ["first", *STAGES, "bend", "own clock", "all"]:
             values = [row[key] for row in done if key in row]
             if values:
                 words.append(f"{key} {np.median(values):.3g}/{np.percentile(values, 95):.3g}")
@@ -174,6 +178,9 @@ def table(title, rows):
             values = [row[key] for row in done if key in row]
             if values:
                 words.append(f"{unit} {np.median(values):.3f}")
+        ratios = [row["faster"] for row in done if "faster" in row]
+        if ratios:
+            words.append(f"duration / without KOMO {np.mean(ratios):.3f} (mean)")
         print("  ".join(words), flush=True)
 
 
@@ -190,6 +197,7 @@ def main():
     parser.add_argument("--rounds", type=int, default=1)
     parser.add_argument("--margin", type=float, default=0.0)
     parser.add_argument("--optimize", default="length")
+    parser.add_argument("--slices", type=int, default=0, help="of KOMO as a further stage, with --optimize time")
     parser.add_argument("--beside", nargs="+", default=[], metavar="NAME=PYTHON")
     arguments = parser.parse_args()
     warnings.filterwarnings("ignore", ".*no joint moves them apart")  # tables touch their legs
@@ -197,7 +205,7 @@ def main():
     indices = range(1, 101) if arguments.all else arguments.indices
     problems = list(robot.problems(arguments.scenes, indices))
     everything = []
-    names = ["tries", "margin", "optimize", "threads"]
+    names = ["tries", "margin", "optimize", "slices", "threads"]
     for seed in arguments.seeds:
         options = {name: getattr(arguments, name) for name in names} | {"seed": seed}
         rows = [ours(problem, options, arguments.rounds) for problem in problems]

@@ -60,7 +60,7 @@ BELOW: dict[str, list[str]] = {
     "ik": ["base", "math", "geometry", "kinematics", "scene", "features", "nlp"],
     "control": ["base", "math", "geometry", "kinematics", "scene", "features", "nlp", "komo", "solvers"],
     "komo": ["base", "math", "geometry", "kinematics", "scene", "features", "nlp"],
-    "planning": ["base", "math", "geometry", "kinematics", "scene", "features", "nlp", "komo", "solvers"],
+    "planning": ["base", "math", "geometry", "kinematics", "scene", "features", "nlp", "komo", "solvers", "spline"],
     "motion": [
         *["base", "math", "geometry", "kinematics", "scene", "features", "nlp", "komo", "solvers", "ik", "spline"],
     ],

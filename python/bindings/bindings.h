@@ -57,6 +57,7 @@ void bindPathFinder(nb::module_& m);
 void bindPlan(nb::module_& m);
 void bindRoadmap(nb::module_& m);
 void bindSpline(nb::module_& m);
+void bindSplineMotion(nb::module_& m);
 void bindOperation(nb::module_& m);
 void bindDynamics(nb::class_<PyConfig>& config);
 void bindCompatibility(nb::class_<PyConfig>& config);

@@ -55,6 +55,7 @@ NB_MODULE(_core, m) {
   bindPlan(m);
   bindRoadmap(m);
   bindSpline(m);
+  bindSplineMotion(m);
   bindTasks(m);
   bindSimulation(m);
   bindOperation(m);

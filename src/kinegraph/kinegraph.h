@@ -57,6 +57,7 @@
 #include "kinegraph/operation/simulated_driver.h"    // robots in a simulated world
 #include "kinegraph/planning/multi_start.h"          // one problem from many starts
 #include "kinegraph/planning/skeleton.h"             // what shall hold when, in words
+#include "kinegraph/planning/spline_motion.h"        // motion problems in control points
 #include "kinegraph/rendering/camera_renderer.h"     // images from any camera
 #include "kinegraph/rendering/depth_image.h"         // points of a depth image
 #include "kinegraph/rendering/framing.h"             // a camera that sees all

@@ -67,6 +67,11 @@ FOUND = {
     "20_two_robots": [r"the blocks are 0\.1[34]\d m and 0\.1[34]\d m higher", r"the same again, to the bit: True"],
     "26_train_a_policy": [r"from 100 fresh starts: before \d %, after ([5-9]\d|100) %"],
     "14_mpc": [r"nearest to the ball and the table: \d+\.\d mm", r"at the end \d\.\d mm"],
+    "29_motion_as_a_spline": [
+        r"feasible: True, 70 variables for 420",
+        r"limits hold at all times: True",
+        r"times: True",
+    ],
     "28_among_what_moves": [
         r"^<MotionPlan solved",
         r"waits for \d",

@@ -137,23 +137,6 @@ class PlanInMotion {
     return .5 * kALittle * time;
   }
 
-  /// Is every piece of a curve free at all times?
-  bool isFree(Steering& steering, const PathCurve& curve) {
-    const BlendCheck is_free = freeBlends(steering);
-    for (int piece = 0; piece < curve.pieces(); ++piece) {
-      const double begin = curve.begin(piece), width = curve.end(piece) - begin;
-      const int parts = curve.isLine(piece) ? 1 : kParts;
-      double bend = 0.;  // |q''|, at most
-      for (int power = 2; power <= curve.degree() && parts > 1; ++power)
-        bend += power * (power - 1) * std::pow(width, power - 2) *
-                Eigen::Map<const VectorXd>(curve.coefficient(piece, power), curve.dofs()).cwiseAbs().maxCoeff();
-      std::vector<double> places;
-      for (int k = 0; k <= parts; ++k) places.push_back(begin + k * width / parts);
-      if (!is_free(pointsAt(curve, places), width * width / (parts * parts) / 8. * bend)) return false;
-    }
-    return true;
-  }
-
   RetimeOptions timing() const {
     RetimeOptions options;
     options.start_velocity = velocity_;
@@ -165,7 +148,7 @@ class PlanInMotion {
     const PathCurve whole = marked(curve);
     const MatrixXd rows = pointsAt(whole, whole.marks());
     Steering steering = steeringTo({rows.bottomRows(1).transpose()});
-    if (!isFree(steering, whole)) return false;
+    if (!isFree(steering, whole, kParts)) return false;
     TimedPath timed = retime(rows, whole, limits_, timing());
     if (!timed.feasible()) return false;
     best_ = MotionPlan();
@@ -196,7 +179,7 @@ class PlanInMotion {
       return;
     }
     Steering to_end = steeringTo({end});
-    if (!isFree(to_end, lead)) {
+    if (!isFree(to_end, lead, kParts)) {
       why_ = cat("going on ", is_line ? "straight" : "as before", " is not free");
       return;
     }

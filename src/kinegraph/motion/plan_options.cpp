@@ -4,6 +4,8 @@ namespace kinegraph {
 
 namespace {
 
+constexpr int kMostSlices = 10000;
+
 void validateLimit(const VectorXd& limit, const char* name, int dofs) {
   if (limit.size() > 1 && limit.size() != dofs)
     throw ValueError(cat("planMotion: ", name, " has ", limit.size(), " numbers; expected one, or ", dofs));
@@ -46,6 +48,10 @@ const OptionTable<PlanOptions>& planOptionTable() {
         "Effort that is spent on further ways after `tries`: evaluations, each round of ways to its end. planMotions "
         "takes 1000000 where this is 0.",
         Range::notNegative()},
+       {"slices", &O::slices, "",
+        "Of a KOMO that bends the motion so that it accelerates less; taken if that is free and faster. 0: none, else "
+        "80 are a good number. For 'time' alone, without constraints, moving obstacles and start velocity.",
+        Range::notNegative()},
        {"time_limit",
         &O::time_limit,
         "s",
@@ -65,6 +71,11 @@ void PlanOptions::validateFor(int dofs) const {
   validateLimit(jerk, "jerk", dofs);
   if (start_velocity.size() > 0 && start_velocity.size() != dofs)
     throw ValueError(cat("planMotion: start_velocity has ", start_velocity.size(), " numbers; expected ", dofs));
+  if (slices > 0 && (optimize != "time" || !constraints.empty() || !moving.empty() || start_velocity.size() > 0))
+    throw ValueError(
+        "planMotion: slices is for optimize 'time', without constraints, moving obstacles and start_velocity");
+  if (slices == 1 || slices > kMostSlices)
+    throw ValueError(cat("planMotion: slices is ", slices, "; expected 0, or 2 to ", kMostSlices));
   if (!start_velocity.allFinite()) throw ValueError("planMotion: start_velocity has numbers that are not finite");
   if (!moving.empty() && !acceleration.allFinite())
     throw ValueError("planMotion: acceleration is infinite; among moving obstacles it has to be limited");

@@ -45,6 +45,7 @@ struct PlanOptions {
   int goals = 8;
   int evaluations = 1000000;
   int improve = 0;
+  int slices = 0;
   double time_limit = std::numeric_limits<double>::infinity();
   std::uint64_t seed = 0;
   int threads = 1;

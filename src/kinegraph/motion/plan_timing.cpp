@@ -71,6 +71,22 @@ BlendCheck freeBlends(Steering& given) {
   };
 }
 
+bool isFree(Steering& steering, const PathCurve& curve, int parts_of_piece) {
+  const BlendCheck is_free = freeBlends(steering);
+  for (int piece = 0; piece < curve.pieces(); ++piece) {
+    const double begin = curve.begin(piece), width = curve.end(piece) - begin;
+    const int parts = curve.isLine(piece) ? 1 : parts_of_piece;
+    double bend = 0.;  // |q''|, at most
+    for (int power = 2; power <= curve.degree() && !curve.isLine(piece); ++power)
+      bend += power * (power - 1) * std::pow(width, power - 2) *
+              Eigen::Map<const VectorXd>(curve.coefficient(piece, power), curve.dofs()).cwiseAbs().maxCoeff();
+    MatrixXd points(parts + 1, curve.dofs());
+    for (int k = 0; k <= parts; ++k) points.row(k) = curve.eval(begin + k * width / parts).transpose();
+    if (!is_free(points, width * width / (parts * parts) / 8. * bend)) return false;
+  }
+  return true;
+}
+
 TimedPath timeMotion(Steering& steering, const MatrixXd& path, const MotionLimits& limits, double blend) {
   RetimeOptions options;
   options.corners = blend > 0. ? Corners::blend : Corners::stop;

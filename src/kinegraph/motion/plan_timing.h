@@ -17,6 +17,10 @@ double travelOf(const State& state, const VectorXd& change);
 /// Whether a rounded corner keeps the margins and constraints of a Steering, which must stay, at all times.
 BlendCheck freeBlends(Steering& steering);
 
+/// Is every piece of a curve free at all times, by a Steering's margins and constraints? Each one that is no line is looked at
+/// in so many parts, with room for how far these leave their chords.
+bool isFree(Steering& steering, const PathCurve& curve, int parts);
+
 /// The fastest motion along a path. Corners are rounded where that keeps the margins and constraints; at others it
 /// stops.
 TimedPath timeMotion(Steering& steering, const MatrixXd& path, const MotionLimits& limits, double blend);

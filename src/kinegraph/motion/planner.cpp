@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "kinegraph/motion/bend_motion.h"
 #include "kinegraph/motion/leave_contact.h"
 #include "kinegraph/motion/passage_proof.h"
 #include "kinegraph/motion/plan_goals.h"
@@ -262,7 +263,7 @@ std::optional<MotionPlan> Planner::better() {
     if (best_.cost >= cost) continue;
     MotionPlan before = plan_;
     std::erase_if(plan_.stages, [](const PlanStage& stage) {
-      return stage.name == "improve" || stage.name == "verify" || stage.name == "time";
+      return stage.name == "improve" || stage.name == "verify" || stage.name == "time" || stage.name == "bend";
     });
     endStage("improve", further_, cat(tries_ - options_.tries, " further ways"));
     finish();
@@ -334,7 +335,23 @@ void Planner::finish() {
   endStage("verify", evaluations, is_free ? "" : "the way as it was found, since the shortened one was not free");
   plan_.timed = timeMotion(exactly(), plan_.path, limits_, options_.blend);
   endStage("time", 0, plan_.timed.str());
+  if (options_.slices > 0) bend();
   plan_.status = PlanStatus::solved;
+}
+
+/// Takes what KOMO makes of the motion, if that is faster. Not where the motion leaves or enters contacts.
+void Planner::bend() {
+  const bool leaves = start_.leaves || goals_[std::size_t(best_.way.goal)].leaves;
+  if (leaves || !plan_.timed.feasible() || !config_.program()->unit_norms.empty()) return;
+  const double before = plan_.timed.duration();
+  std::optional<BentMotion> bent =
+      bendMotion(config_, exactly(), plan_.timed, limits_, kept(), options_.slices, watch_);
+  if (bent) {
+    plan_.path = std::move(bent->path);
+    plan_.timed = std::move(bent->timed);
+    plan_.length = pathLength(*plan_.space, plan_.path);
+  }
+  endStage("bend", 0, bent ? cat(plan_.timed.duration(), " s instead of ", before, " s") : "nothing faster was found");
 }
 
 MotionPlan planFromRest(const Config& config, const MotionGoal& goal, const PlanOptions& options, const VectorXd& start,

@@ -64,6 +64,7 @@ class Planner {
   bool verify(const MatrixXd& path, const Way& way, long& evaluations);
   double kept() const;
   void finish();
+  void bend();
 
   const Config& config_;
   const PlanOptions& options_;

@@ -1,0 +1,173 @@
+#include "kinegraph/nlp/mapped_nlp.h"
+
+#include <Eigen/SparseCholesky>
+#include <algorithm>
+
+#include "kinegraph/base/errors.h"
+#include "kinegraph/base/text.h"
+#include "kinegraph/nlp/evaluation_sizes.h"
+
+namespace kinegraph {
+
+namespace {
+
+using Entry = Eigen::SparseMatrix<double, Eigen::RowMajor>::InnerIterator;
+
+}  // namespace
+
+VectorXd LinearMap::fit(const VectorXd& x) const {
+  const Eigen::SparseMatrix<double> normal = M.transpose() * M;
+  const Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> factor(normal);
+  return factor.solve(M.transpose() * (x - offset));
+}
+
+MappedNlp::MappedNlp(std::shared_ptr<Nlp> behind, std::shared_ptr<const LinearMap> map, const VectorXd& lower,
+                     const VectorXd& upper)
+    : behind_(std::move(behind)), map_(std::move(map)) {
+  if (map_->M.rows() != behind_->dimension() || map_->offset.size() != behind_->dimension())
+    throw ValueError(cat("MappedNlp: the map gives ", map_->M.rows(), " variables and an offset of ",
+                         map_->offset.size(), "; the problem has ", behind_->dimension()));
+  if (lower.size() != map_->M.cols() || upper.size() != map_->M.cols())
+    throw ValueError(cat("MappedNlp: ", lower.size(), " lower and ", upper.size(), " upper bounds; the map takes ",
+                         map_->M.cols(), " variables"));
+  types_ = behind_->types();
+  lower_ = lower, upper_ = upper;
+  row_.assign(std::size_t(lower.size()), 0.);
+  layOut();
+}
+
+/// Columns of each row: those of the c on which its variables depend.
+void MappedNlp::layOut() {
+  behind_jacobian_ = behind_->makeJacobian();
+  const Jacobian& from = behind_jacobian_;
+  pattern_ = Jacobian();
+  pattern_.columns = dimension();
+  linear_.clear();
+  std::vector<int> columns;
+  for (int row = 0; row < from.rows(); ++row) {
+    columns.clear();
+    for (const Jacobian::Segment& segment : from.row_segments(row))
+      for (int i = segment.column; i < segment.column + segment.width; ++i)
+        for (Entry entry(map_->M, i); entry; ++entry) columns.push_back(int(entry.col()));
+    std::ranges::sort(columns);
+    columns.erase(std::unique(columns.begin(), columns.end()), columns.end());
+    for (std::size_t i = 0; i < columns.size();) {
+      std::size_t end = i + 1;
+      while (end < columns.size() && columns[end] == columns[end - 1] + 1) ++end;
+      pattern_.segments.push_back({columns[i], int(end - i), int(pattern_.values.size())});
+      pattern_.values.resize(pattern_.values.size() + (end - i), 0.);
+      i = end;
+    }
+    pattern_.row_start.push_back(int(pattern_.segments.size()));
+    linear_.push_back(behind_->isLinear(row));
+  }
+  pattern_.zero_row.assign(std::size_t(from.rows()), 0);
+  for (int row = 0; row < from.rows(); ++row)
+    if (linear_[std::size_t(row)]) transform(row, from, pattern_);
+  curved_.clear();
+  for (const CurvedRows& rows : behind_->curvedRows()) {
+    int first = dimension(), last = -1;
+    for (int i = rows.column; i < rows.column + rows.width; ++i) {
+      for (Entry entry(map_->M, i); entry; ++entry)
+        first = std::min(first, int(entry.col())), last = std::max(last, int(entry.col()));
+    }
+    if (last < first) first = 0, last = 0;
+    curved_.push_back({rows.first, rows.rows, first, last - first + 1});
+  }
+}
+
+Jacobian MappedNlp::makeJacobian() const { return pattern_; }
+
+void MappedNlp::transform(int row, const Jacobian& from, Jacobian& J) const {
+  const auto to = J.row_segments(row);
+  const std::size_t r = std::size_t(row);
+  const bool is_zero = r < from.zero_row.size() && from.zero_row[r];
+  if (!is_zero) {
+    for (const Jacobian::Segment& segment : from.row_segments(row)) {
+      const double* value = from.values.data() + segment.offset;
+      for (int i = segment.column; i < segment.column + segment.width; ++i, ++value) {
+        if (*value == 0.) continue;
+        for (Entry entry(map_->M, i); entry; ++entry) row_[std::size_t(entry.col())] += *value * entry.value();
+      }
+    }
+  } else if (J.zero_row[r]) {
+    return;
+  }
+  J.zero_row[r] = is_zero;
+  for (const Jacobian::Segment& segment : to) {
+    double* at = row_.data() + segment.column;
+    std::copy_n(at, segment.width, J.values.data() + segment.offset);
+    std::fill_n(at, segment.width, 0.);
+  }
+}
+
+void MappedNlp::evaluate(const VectorXd& c, VectorXd& phi, Jacobian* J) {
+  prepareEvaluation(*this, c, phi, J);
+  behind_->evaluate(map_->at(c), phi, J ? &behind_jacobian_ : nullptr);
+  if (!J) return;
+  for (int row = 0; row < pattern_.rows(); ++row)
+    if (!linear_[std::size_t(row)]) transform(row, behind_jacobian_, *J);
+}
+
+bool MappedNlp::addCostHessian(const VectorXd& c, MatrixXd& H) {
+  MatrixXd of_x = MatrixXd::Zero(behind_->dimension(), behind_->dimension());
+  if (!behind_->addCostHessian(map_->at(c), of_x)) return false;
+  H += map_->M.transpose() * of_x * map_->M;
+  return true;
+}
+
+void MappedNlp::addCurvature(int k, std::span<const double> weights, Eigen::Ref<MatrixXd> H) {
+  const CurvedRows &of_x = behind_->curvedRows()[std::size_t(k)], &of_c = curved_[std::size_t(k)];
+  MatrixXd curvature = MatrixXd::Zero(of_x.width, of_x.width), part = MatrixXd::Zero(of_x.width, of_c.width);
+  behind_->addCurvature(k, weights, curvature);
+  for (int i = 0; i < of_x.width; ++i)
+    for (Entry entry(map_->M, of_x.column + i); entry; ++entry) part(i, entry.col() - of_c.column) = entry.value();
+  const MatrixXd mapped = part.transpose() * curvature.selfadjointView<Eigen::Lower>() * part;
+  H.triangularView<Eigen::Lower>() += mapped;
+}
+
+Separation MappedNlp::separation() {
+  Separation separation = behind_->separation();
+  if (separation.problem) separation.problem = std::make_shared<MappedNlp>(separation.problem, map_, lower_, upper_);
+  return separation;
+}
+
+std::shared_ptr<const LazyVerdict> MappedNlp::motionVerdict(const VectorXd& c) {
+  return behind_->motionVerdict(map_->at(c));
+}
+
+Refinement MappedNlp::refine(const VectorXd& c, VectorXd& dual) {
+  const Refinement found = behind_->refine(map_->at(c), dual);
+  if (found != Refinement::none) layOut();
+  return found;
+}
+
+VectorXd MappedNlp::fitted(const VectorXd& x) const { return map_->fit(x).cwiseMax(lower_).cwiseMin(upper_); }
+
+std::optional<VectorXd> MappedNlp::otherWay(const VectorXd& c, int number) {
+  auto* ways = dynamic_cast<OtherWays*>(behind_.get());
+  if (!ways) return std::nullopt;
+  const std::optional<VectorXd> x = ways->otherWay(map_->at(c), number);
+  if (!x) return std::nullopt;
+  layOut();
+  return fitted(*x);
+}
+
+VectorXd MappedNlp::initialPoint(Rng& rng) { return fitted(behind_->initialPoint(rng)); }
+
+/// That of the variable behind on which it has most influence.
+VariableDescription MappedNlp::describeVariable(int variable) const {
+  int most = -1;
+  double weight = 0.;
+  for (int i = 0; i < map_->M.rows(); ++i) {
+    const double here = std::abs(map_->M.coeff(i, variable));
+    if (here > weight) most = i, weight = here;
+  }
+  return most < 0 ? Nlp::describeVariable(variable) : behind_->describeVariable(most);
+}
+
+std::string MappedNlp::report(int verbose) const {
+  return cat(dimension(), " variables for ", behind_->dimension(), " of: ", behind_->report(verbose));
+}
+
+}  // namespace kinegraph
