@@ -61,6 +61,7 @@ def test_an_item_gets_the_same_seed_in_every_run_and_no_other_item_does() -> Non
     assert seeds == list(ry.map(lambda i, seed: seed, range(1000), seed=5, engine="processes"))
     assert len(set(seeds)) == 1000 and all(0 <= seed < 2**63 for seed in seeds)
     assert not set(seeds) & set(ry.map(lambda i, seed: seed, range(1000), seed=6))
+    assert list(ry.map(lambda seed: seed, [7, 8])) == [7, 8]  # items may be seeds
 
 
 @pytest.mark.parametrize("engine", ENGINES)
