@@ -343,8 +343,10 @@ import kinegraph as ry
 
 C = ry.Config()
 C.addFile(ry.raiPath("panda/panda.g"))
+own = os.nice(0)
 
 def solve(x, seed):
+    assert os.nice(0) == own  # as important as this process: others would starve it on a busy machine
     if x == 70:
         os.kill(os.getpid(), signal.SIGKILL)
     return ry.solveIk(C, {"gripper": [0.4, x / 300, 0.5]}, seed=seed % 1000).q.tobytes()
