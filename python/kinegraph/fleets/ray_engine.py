@@ -2,8 +2,11 @@
 
 from __future__ import annotations
 
+import os
 import pickle
 from collections import deque
+from collections.abc import Iterator
+from contextlib import contextmanager
 from typing import Any
 
 from ..errors import NotFound
@@ -20,6 +23,19 @@ def _ray() -> Any:
     return ray
 
 
+@contextmanager
+def _environment(name: str, value: str) -> Iterator[None]:
+    """Sets a variable that is not set: what Ray starts reads it. Its workers have niceness 15 otherwise, and wait for all else."""
+    if name in os.environ:
+        yield
+        return
+    os.environ[name] = value
+    try:
+        yield
+    finally:
+        del os.environ[name]
+
+
 class RayEngine:
     """Actors of Ray. What is connected already is used (`ray.init(address=...)`); otherwise Ray is started on this machine, and
     ends with the map."""
@@ -28,7 +44,8 @@ class RayEngine:
         self._ray = _ray()
         self._ours = not self._ray.is_initialized()
         if self._ours:
-            self._ray.init(num_cpus=workers, include_dashboard=False, log_to_driver=False, logging_level="ERROR")
+            with _environment("RAY_worker_niceness", "0"):
+                self._ray.init(num_cpus=workers, include_dashboard=False, log_to_driver=False, logging_level="ERROR")
         self.workers = workers or int(self._ray.cluster_resources().get("CPU", 1))
         self._setup = self._ray.put(pickle.dumps((function, seed)))  # once per machine
         self._class = self._ray.remote(num_cpus=1, max_restarts=0)(_RayWorker)

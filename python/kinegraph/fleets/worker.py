@@ -87,9 +87,9 @@ class Worker:
 
 
 def takesSeed(function: Callable[..., Any]) -> bool:
-    """Whether a function has a parameter `seed`."""
+    """Whether a function has a parameter `seed` beside the first, which is the item."""
     try:
-        return "seed" in inspect.signature(function).parameters
+        return "seed" in list(inspect.signature(function).parameters)[1:]
     except (TypeError, ValueError):  # some functions in C have no signature
         return False
 
