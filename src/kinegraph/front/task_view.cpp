@@ -44,7 +44,7 @@ std::vector<MatrixXd> TaskPlan::frames(const Config& C, double rate) const {
   const long last = std::max(2L, std::lround(duration() * rate)) - 1;
   std::size_t part = 0;
   for (long k = 0; k <= last; ++k) {
-    const double t = duration() * double(k) / double(last);
+    const double t = k == last ? duration() : duration() * double(k) / double(last);
     while (part < segments.size() && t > times[segments[part].end - 1]) ++part;
     if (part < segments.size()) showTask(shown, there[part], at(t));
     poses.push_back(shown.getFrameState());
