@@ -124,7 +124,9 @@ def door(seed: int, k: int = 0) -> Problem:
     """A door is to be opened by its post, which turns in the hand."""
     C, rng = scene(), np.random.default_rng(seed)
     side = 1.0 if rng.integers(2) else -1.0
-    C.addFrame("hinge", "table").setRelativePosition([-0.15 * side, float(rng.uniform(0.35, 0.45 if side > 0 else 0.37)), TOP + 0.01])
+    C.addFrame("hinge", "table").setRelativePosition(
+        [-0.15 * side, float(rng.uniform(0.35, 0.45 if side > 0 else 0.37)), TOP + 0.01]
+    )
     door = C.addFrame("door", "hinge").setJoint(ry.JT.hingeZ, [-1.0, 0.0] if side > 0 else [0.0, 1.0])
     door.setJointState([0.0]).setAttributes({"logical": {"is_door": True}, "noMotor": True, "jointFriction": 0.5})
     leaf = C.addFrame("leaf", "door").setRelativePosition([0.15 * side, 0.0, 0.15])

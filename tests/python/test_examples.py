@@ -62,6 +62,12 @@ FOUND = {
         r"reached the goal after 4",
     ],
     "25_upside_down": [r"^solved: 4 actions", r"\(lay box g_gripper table", r"z axis is now \[.* -1\. *\]"],
+    "29_open_a_drawer": [
+        r"^solved: 6 actions",
+        r"while \(closed drawer\)",
+        r"reached the goal after 6",
+        r"drawer is closed",
+    ],
     "23_better_plans": [r"(s after \d+ evaluations\n.*){2}", r"pick cup table l_gripper.*(wall|lid)"],
     "24_two_arms": [r"^solved: 3 actions", r"\(handover rod l_gripper r_gripper\)"],
     "20_two_robots": [r"the blocks are 0\.1[34]\d m and 0\.1[34]\d m higher", r"the same again, to the bit: True"],

@@ -98,7 +98,9 @@ inline constexpr char defaultDomain[] =
     R"(The domain of planTask where none is given: pick (Obj From Hand) for what nothing stands on, lift (Obj From Hand) for
 what is called is_carrier, with all that stands on it, place (Obj Hand To), handover (Obj Hand To), lay (Obj Hand To
 Face) where the goal says which face is up, pose (Obj Hand Goal) for frames that are called is_pose, push_start (Obj
-From Hand) and push_end (Obj Hand To) for what is called is_pushable.
+From Hand) and push_end (Obj Hand To) for what is called is_pushable, hook_start (Obj From Hook Tool Hand) and hook_end (Obj
+Hook To Tool Hand) with a tool of which a part is called is_hook, hold, open and close (Door Handle Hand) for what is called
+is_door or is_drawer, with a part that is called is_handle.
 
 Returns:
     A domain, to which actions can be added.)";

@@ -27,6 +27,7 @@ constexpr double kTurn = 1.6;    ///< rad: starts of placements are turned by up
 constexpr std::array kAcross = {F::scalarProductYX, F::scalarProductYY, F::scalarProductYZ};
 constexpr std::array kAxes = {F::vectorX, F::vectorY, F::vectorZ};
 constexpr double kLow = .005;        ///< m: above the ground, where a bar pulls without tipping
+constexpr double kApart = .003;      ///< m: that a hand with a handle keeps from all else, if it can
 constexpr double kNear = .3;         ///< scale of joint motions that a straight line of the joints is to come near to
 constexpr double kHookBehind = .06;  ///< m: how far behind what it pulls a hook starts
 constexpr char kRoom[] = "room on ";
@@ -188,6 +189,8 @@ void TaskWaypoints::guide(double time, const std::string& name, const std::strin
           komo().addObjective({time}, F::distance, {obj, part}, O::ineqP, 3e0, -2. * kGap);
   }
   komo().addControlObjective({time}, 1, kNear);
+  // Motions begin where nothing touches.
+  komo().addObjective({time}, F::accumulatedCollisions, {}, O::sos, 1e2, {}, -1, kApart);
   const std::vector<std::string> pair = {hand, handle};
   switch (gripOf(C, hand, handle)) {
     case Grip::rigid:

@@ -48,6 +48,13 @@ TEST(GuidedMotion, HowAHandMayTurnDependsOnTheHandle) {
   }
 }
 
+TEST(GuidedMotion, ASlipBetweenTwoRowsIsSeen) {
+  const Config C = handAtDoor("ssBox, size: [.02 .02 .1 .004]");
+  MatrixXd rows(2, 4);
+  rows << .4, 0., 0., 0., .4 * std::cos(1.2), .4 * std::sin(1.2), 1.2, 1.2;  // along the chord of the circle
+  EXPECT_NEAR(mostSlip(C, rows, "gripper", "handle").distance, .4 * (1. - std::cos(.6)), 1e-3);
+}
+
 TEST(GuidedMotion, EndsAtWhichTheHandleIsNotHeldHaveNoMotion) {
   const Config C = handAtDoor("ssBox, size: [.02 .02 .1 .004]");
   const VectorXd elsewhere = Vector4d(-.9, .9, 0., 1.2);

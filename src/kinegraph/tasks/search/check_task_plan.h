@@ -14,7 +14,9 @@ namespace kinegraph {
 /// (Config::checkMotion); that a hand touches what it takes, to 1 mm; that what is put down stands level to half a degree,
 /// at the height of its place to 1 mm, with its center 5 mm inside the edges; that what stands on something that is
 /// carried tilts by less than 5 degrees and is accelerated by at most 2 m/s^2; that what is pushed moves straight and
-/// level, away from what pushes it and from where their surfaces touch; and that nothing that is at rest then overlaps.
+/// level, away from what pushes it and from where their surfaces touch, and what is pulled by a tool that a hand holds; that
+/// doors move only while a hand that has taken their handle holds it to 1 mm and half a degree (as far as a round handle
+/// does not turn in it), and are open or closed then; and that nothing that is at rest then overlaps.
 /// Throws ValueError for a plan whose parts do not fit each other and the scene.
 std::vector<std::string> checkTaskPlan(const Config& C, const TaskPlan& plan,
                                        const std::vector<std::vector<Literal>>& states = {});

@@ -102,8 +102,12 @@ Slip mostSlip(const Config& taken, const MatrixXd& path, const std::string& hand
     most = {std::max(most.distance, slip.distance), std::min(most.cosine, slip.cosine)};
   };
   for (Eigen::Index row = 0; row < path.rows(); ++row) {
+    if (row > 0) {
+      const VectorXd before = path.row(row - 1), step = path.row(row).transpose() - before;
+      const int pieces = std::max(2, int(std::ceil(step.cwiseAbs().maxCoeff() / kStep)));
+      for (int i = 1; i < pieces; ++i) look(before + double(i) / pieces * step);
+    }
     look(path.row(row));
-    if (row > 0) look(.5 * (path.row(row) + path.row(row - 1)));
   }
   return most;
 }

@@ -26,7 +26,7 @@ struct Slip {
 /// Between two states of a scene, `taken` and `now`.
 Slip slipOf(const Config& taken, const Config& now, const std::string& hand, const std::string& handle);
 
-/// The most along the rows of a path, and in the middles between them.
+/// The most along a path: at its rows, in the middles between them, and every .02 rad or m.
 Slip mostSlip(const Config& taken, const MatrixXd& path, const std::string& hand, const std::string& handle);
 
 }  // namespace kinegraph
