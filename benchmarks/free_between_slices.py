@@ -134,6 +134,7 @@ def measure(name: str, start_with: str, options: argparse.Namespace) -> None:
     kinds = {"in slices only": False, "at all times": True}
     feasible, told, true, wrong = (dict.fromkeys(kinds, 0) for _ in range(4))
     seconds: dict[str, list[float]] = {kind: [] for kind in kinds}
+    evaluations: dict[str, list[int]] = {kind: [] for kind in kinds}
     ratios, count = [], 0
     while count < options.problems:
         C, start, goal = among_obstacles(name, rng)
@@ -148,6 +149,7 @@ def measure(name: str, start_with: str, options: argparse.Namespace) -> None:
             komo.initWithPath(resampled(path, options.slices))
             result = ry.NLP_Solver(komo.nlp()).solve()
             seconds[kind].append(process_time() - begin)
+            evaluations[kind].append(result.evals)
             is_free = is_truly_free(C, np.vstack([start, komo.getPath()]))
             feasible[kind] += result.feasible
             told[kind] += bool(result.feasible and result.free)
@@ -157,11 +159,13 @@ def measure(name: str, start_with: str, options: argparse.Namespace) -> None:
         if both_free:
             ratios.append(seconds["at all times"][-1] / seconds["in slices only"][-1])
     print(f"\n{name}, {count} problems, T = {options.slices}, started with {start_with}")
-    print(f"{'':16}{'feasible':>10}{'and free':>10}{'and truly':>11}{'free, wrongly':>15}{'ms':>8}{'p95':>8}")
+    print(
+        f"{'':16}{'feasible':>10}{'and free':>10}{'and truly':>11}{'free, wrongly':>15}{'ms':>8}{'p95':>8}{'evaluations':>13}"
+    )
     for kind in kinds:
         ms = 1e3 * np.array(seconds[kind])
         row = f"{kind:16}{feasible[kind]:10}{told[kind]:10}{true[kind]:11}{wrong[kind]:15}"
-        print(f"{row}{np.median(ms):8.1f}{np.percentile(ms, 95):8.1f}")
+        print(f"{row}{np.median(ms):8.1f}{np.percentile(ms, 95):8.1f}{np.median(evaluations[kind]):13.0f}")
     if ratios:
         print(
             f"where both are free, the time is {np.median(ratios):.2f} times that in slices only ({len(ratios)} problems)"

@@ -102,7 +102,7 @@ def ours(problem, options, rounds=1):
         row["ratio"] = plan.length / np.linalg.norm(problem.goal - problem.start)
         row["duration"] = plan.duration
         row["clearance"] = 1e3 * plan.clearance()
-    if plan.feasible and options["slices"]:
+    if plan.feasible and options.get("slices"):
         row["faster"] = (
             plan.duration / ry.planMotion(C, problem.goal, problem.start, **options | {"slices": 0}).duration
         )

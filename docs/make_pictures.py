@@ -112,6 +112,34 @@ def examplePictures(folder: Path) -> None:
     example("26_train_a_policy.py", folder / "simulation_training.svg")
 
 
+def movingFilm(folder: Path) -> None:
+    """A load that is carried past: the arm waits for it; then the arm is sent elsewhere on its way, and bends."""
+    C = ry.Config()
+    C.addFile(ry.raiPath("scenarios/pandaSingle.g"))
+    C.addFrame("cart").setPosition([-0.6, 0.35, 1.1])
+    C.addFrame("load", "cart").setShape(ry.ST.ssBox, [0.3, 0.3, 0.5, 0.02]).setContact(1).setColor([0.8, 0.5, 0.2])
+    turn = np.array([0.6, 0, 0, 0, 0, 0, 0])
+    start, goal = C.getJointState() - turn, C.getJointState() + turn
+    poses = [[-0.6, 0.35, 1.1, 1, 0, 0, 0], [0.6, 0.35, 1.1, 1, 0, 0, 0], [0.6, 1.5, 1.1, 0.7, 0, 0, 0.7]]
+    plan = ry.planMotion(C, goal, start, margin=0.01, moving={"cart": (np.array([0.0, 2.0, 4.0]), np.array(poses))})
+    assert plan.feasible, plan.message
+    at = 0.6 * plan.duration
+    bend = plan.replan(C, at=at, goal=goal + np.array([0.3, 0.4, 0, 0.3, 0, 0, 0]))
+    assert bend.feasible, bend.message
+    frames = []
+    for t in np.arange(0, at + bend.duration + 0.5, 1 / 15):
+        motion, now = (plan, t) if t < at else (bend, t - at)
+        C.setJointState(motion.at(now)[0])
+        C.getFrame("cart").setPose(motion.movingAt(now)["cart"])
+        frames.append(C.getFrameState())
+    viewer = C.viewer()
+    C.view(offscreen=True)
+    viewer.visualsOnly()
+    viewer.setWindow("moving", 480, 360)
+    viewer.setCamera([-1.3, -1.5, 2.7], [0.0, 0.35, 0.95])
+    ry.saveFilm(folder / "plan_among_what_moves.mp4", C, np.array(frames), len(frames) / 15, rate=15.0)
+
+
 def _scene(problem: Any) -> tuple[ry.Config, str]:
     return problem.C, problem.goal
 
@@ -133,7 +161,7 @@ def page(folder: Path) -> None:
         )
 
 
-PICTURES = [gripperAxes, taskFilms, examplePictures, page]
+PICTURES = [gripperAxes, taskFilms, movingFilm, examplePictures, page]
 
 if __name__ == "__main__":
     for make in PICTURES:

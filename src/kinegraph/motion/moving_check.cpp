@@ -9,7 +9,6 @@ namespace kinegraph {
 
 namespace {
 
-constexpr double kMore = 1.05;      // points of the robot move a little farther between the ends of a piece than there
 constexpr double kLongest = .1;     // s, of a piece that is looked at as a whole
 constexpr double kBriefest = 1e-6;  // s
 
@@ -54,13 +53,14 @@ double MovingCheck::roomOf(const Piece& piece, const Moment& from, const Moment&
   const double most = std::max(std::abs(from.speedup), std::abs(to.speedup));  // between them s'' is monotone
   const VectorXd deviation = share * (piece.tangent.size() > 0 ? VectorXd(most * piece.tangent) : piece.acceleration);
   if (deviation.isZero(0.)) return 0.;
+  const VectorXd spread = .5 * (to.q - from.q).cwiseAbs() + deviation;  // from the nearer moment
   double travel = 0.;
   for (const Moment* moment : {&from, &to}) {
     const VectorXd all = scene_->at(moment->q, 0.);
     state_.setJoints(all.data());
-    travel = std::max(travel, travelOf(state_, scene_->changeOf(deviation)));
+    travel = std::max(travel, travelOf(state_, scene_->changeOf(deviation), scene_->changeOf(spread)));
   }
-  return kMore * travel;
+  return travel;
 }
 
 std::optional<MovingContact> MovingCheck::contactIn(const Piece& piece, const Moment& from, const Moment& to) {

@@ -12,7 +12,8 @@ namespace {
 
 constexpr double kUsualVelocity = 1.;  // rad/s, m/s, where the model says none
 constexpr double kTimeToSpeed = .25;   // s
-constexpr double kBothMove = 2.1;      // two bodies of a pair; and a little, as travel grows meanwhile
+constexpr double kBothMove = 2.;       // the bodies of a pair
+constexpr double kNoProof = 1.05;      // where quaternions or circles move a body
 
 VectorXd perDof(const VectorXd& given, int dofs) {
   return given.size() == 1 ? VectorXd::Constant(dofs, given[0]) : given;
@@ -20,20 +21,21 @@ VectorXd perDof(const VectorXd& given, int dofs) {
 
 }  // namespace
 
-double travelOf(const State& state, const VectorXd& change) {
+double travelOf(const State& state, const VectorXd& change, const VectorXd& spread) {
   const Program& program = state.program();
   double most = 0.;
   for (std::size_t frame = 0; frame < program.body.size(); ++frame) {
     const auto& body = program.body[frame];
     if (!body || !state.moves(int(frame))) continue;
     const Vector3d center = state.pose(int(frame)) * body->boundCenter();
-    double travel = 0.;
+    double travel = 0., moved = 0.;  // relative to the joint that is visited, by those that were before
     state.forTwists(int(frame), [&](int dof, const State::Twist& twist) {
-      const double most_of_it =
-          (twist.linear + twist.angular.cross(center)).norm() + twist.angular.norm() * body->boundRadius();
-      travel += std::abs(change[dof]) * most_of_it;
+      const double turn = twist.angular.norm();
+      const double speed = (twist.linear + twist.angular.cross(center)).norm() + turn * (body->boundRadius() + moved);
+      travel += std::abs(change[dof]) * speed;
+      moved += spread[dof] * speed;
     });
-    most = std::max(most, travel);
+    most = std::max(most, state.hasCurvature(int(frame)) ? travel : kNoProof * travel);
   }
   return most;
 }
@@ -60,12 +62,14 @@ BlendCheck freeBlends(Steering& given) {
         return false;
       if (k == 0) continue;
       const VectorXd from = points.row(k - 1).transpose();
+      const VectorXd leaves = VectorXd::Constant(from.size(), deviation);
+      const VectorXd spread = .5 * (to - from).cwiseAbs() + leaves;  // from the nearer end
       double travel = 0.;
       for (const VectorXd* q : {&from, &to}) {
         state.setJoints(q->data());
-        travel = std::max(travel, travelOf(state, VectorXd::Ones(from.size())));
+        travel = std::max(travel, travelOf(state, leaves, spread));
       }
-      if (!steering.check().isMotionFree(from, to, kBothMove * deviation * travel)) return false;
+      if (!steering.check().isMotionFree(from, to, kBothMove * travel)) return false;
     }
     return true;
   };

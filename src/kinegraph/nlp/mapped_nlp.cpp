@@ -25,10 +25,10 @@ MappedNlp::MappedNlp(std::shared_ptr<Nlp> behind, std::shared_ptr<const LinearMa
                      const VectorXd& upper)
     : behind_(std::move(behind)), map_(std::move(map)) {
   if (map_->M.rows() != behind_->dimension() || map_->offset.size() != behind_->dimension())
-    throw ValueError(cat("MappedNlp: the map gives ", map_->M.rows(), " variables and an offset of ",
-                         map_->offset.size(), "; the problem has ", behind_->dimension()));
+    throw ValueError(cat("linear map: it gives ", map_->M.rows(), " variables and an offset of ", map_->offset.size(),
+                         "; the problem has ", behind_->dimension()));
   if (lower.size() != map_->M.cols() || upper.size() != map_->M.cols())
-    throw ValueError(cat("MappedNlp: ", lower.size(), " lower and ", upper.size(), " upper bounds; the map takes ",
+    throw ValueError(cat("linear map: ", lower.size(), " lower and ", upper.size(), " upper bounds; the map takes ",
                          map_->M.cols(), " variables"));
   types_ = behind_->types();
   lower_ = lower, upper_ = upper;

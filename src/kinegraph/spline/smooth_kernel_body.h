@@ -60,14 +60,14 @@ template <Root kRoot>
 }
 
 /// What is added up over the rows of kLanes intervals.
-struct Sum {
+struct RowTotals {
   Lane slope[3]{}, by_barrier[3]{}, matrix[6]{}, gap{}, missed{};
 };
 
 /// With the sides (a, weight, slope) of a row, a = +-r + falls e, these are the sums of slope a and of weight a a^T.
 template <Root kRoot>
 [[gnu::always_inline]] inline void takeRows(Rows& rows, int i, const Place& at, double slack_share, double dual_share,
-                                            Sum& sum) {
+                                            RowTotals& sum) {
   const Value row = valueOf<kRoot>(rows, i, at);
   Lane weight[2], slope[2], inverse[2];
   for (int side = 0; side < 2; ++side) {
@@ -147,7 +147,7 @@ void takeAll(const Coefficients& b, const double* roots, const Block* blocks, in
     for (int i = 0; i < SmoothKernel::kLanes; i += kLanes) {
       const int k = blocks[n].first + i;
       const Place at(b, roots, k);
-      Sum sum;
+      RowTotals sum;
       sum.gap = from(sums.gap + i), sum.missed = from(sums.missed + i);
       forRows(blocks[n], [&]<Root kRoot>(Rows& rows) { takeRows<kRoot>(rows, i, at, slack_share, dual_share, sum); });
       to(sums.gap + i, sum.gap), to(sums.missed + i, sum.missed);

@@ -2,6 +2,7 @@
 
 #include "kinegraph/geometry/distance/contact_patch.h"
 #include "kinegraph/geometry/distance/core_pair.h"
+#include "kinegraph/geometry/distance/separation.h"
 
 namespace kinegraph {
 
@@ -11,13 +12,20 @@ struct Search {
   Simplex simplex;
   Vector3d v;  ///< the point of the difference that is nearest to the origin
   bool overlap = false;
+  SupportCorners corners;  ///< found last: the next ones are near them
 };
+
+MinkowskiPoint supportNear(const CorePair& pair, const Vector3d& m, SupportCorners& corners) {
+  const Vector3d p = supportNear(pair.a, m, corners.a),
+                 q = supportNear(pair.b, -(pair.X_AB.R.transpose() * m), corners.b);
+  return {p, q, pair.difference(p, q)};
+}
 
 /// Goes on until the distance is known to `relative` of its square, or does not improve.
 void descend(const CorePair& pair, double relative, Search& search) {
   const double scale = pair.scale(), touching = 1e-8 * scale;
   for (int iteration = 0; iteration < 200; ++iteration) {
-    const MinkowskiPoint point = pair.support(-search.v);
+    const MinkowskiPoint point = supportNear(pair, -search.v, search.corners);
     const double square = search.v.squaredNorm();
     if (search.simplex.size > 0) {
       const double gain = square - search.v.dot(point.w);
@@ -54,7 +62,7 @@ NearestPoints convexToConvex(const CollisionBody& a, const RigidTransform& X_WA,
   if (!search.overlap) {
     const auto found = [&] {
       const Vector3d m = -search.v.normalized();
-      deepest = {m, m.dot(pair.support(m).w), search.simplex};
+      deepest = {m, m.dot(supportNear(pair, m, search.corners).w), search.simplex};
       const bool refined = refine(pair, deepest);
       const double off = settle(pair, {search.simplex.points.data(), std::size_t(search.simplex.size)}, deepest);
       return refined && off <= 1e-9 * pair.scale();
