@@ -115,15 +115,15 @@ def test_pick_and_place_moves_with_its_goal_as_differences_say():
     C, komo = problems.PROBLEMS["pick waypoints 4cm"](ry)
     goal, step = C.getFrame("goal").getPosition(), 1e-5
 
-    def solutionAt(by, start=None):
+    def solutionAt(by, start):
         C.getFrame("goal").setPosition(goal + by)
         komo.updateRootObjects(C)
         solver = ry.NLP_Solver(komo.nlp(), verbose=0)
-        if start is not None:
-            solver.setInitialization(start)
+        solver.setInitialization(start)
         return solver.solve().sensitivity("goal")
 
-    at = solutionAt(np.zeros(3))
+    bounds = np.array(komo.nlp().getBounds()).reshape(2, -1)
+    at = solutionAt(np.zeros(3), problems.start(np, komo, *bounds, 0))
     assert at.isRegular, at.message
     for k, axis in enumerate(np.eye(3)):
         ends = [solutionAt(sign * step * axis, at.x).x for sign in (1, -1)]
