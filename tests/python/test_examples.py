@@ -97,7 +97,7 @@ def test_the_example_runs_and_prints_what_it_finds(example, tmp_path):
     program = subprocess.run(
         [sys.executable, "-W", "error", str(example)],
         cwd=tmp_path,
-        env={**os.environ, "TARGETS": "2000", "GENERATIONS": "12"},  # fewer than examples 22 and 26 make by themselves
+        env={**os.environ, "TARGETS": "2000", "GENERATIONS": "16"},  # fewer than examples 22 and 26 make by themselves
         capture_output=True,
         text=True,
         timeout=120,
