@@ -6,6 +6,7 @@
 #include "kinegraph/front/task_execution.h"
 #include "kinegraph/front/task_view.h"
 #include "operation_objects.h"
+#include "python_names.h"
 #include "task_objects.h"
 
 namespace kinegraph::python {
@@ -35,7 +36,8 @@ void bindTaskPlays(nb::module_& m) {
   nb::class_<TaskExecution>(m, "TaskExecution", docs::task_plays::execution)
       .def_ro("feasible", &TaskExecution::feasible,
               "All actions were carried out, and what the goal says stands where it says.")
-      .def_ro("message", &TaskExecution::message, "Why it stopped.")
+      .def_prop_ro(
+          "message", [](const TaskExecution& run) { return inPython(run.message); }, "Why it stopped.")
       .def_ro("done", &TaskExecution::done, "The number of actions that were carried out.")
       .def_prop_ro(
           "C",
@@ -43,8 +45,8 @@ void bindTaskPlays(nb::module_& m) {
             return PyConfig{Config(run.C.scene()), nullptr};
           },
           "The scene as it is then: what is held hangs below the hand, what stands on something below that.")
-      .def("__str__", &TaskExecution::str)
-      .def("__repr__", &TaskExecution::str);
+      .def("__str__", [](const TaskExecution& run) { return inPython(run.str()); })
+      .def("__repr__", [](const TaskExecution& run) { return inPython(run.str()); });
   m.def("executeTask", executeTask, "plan"_a, "bot"_a,
         nb::sig("def executeTask(plan: TaskPlan, bot: BotOp) -> TaskExecution"), docs::task_plays::executeTask);
   m.def("taskFrames", framesOf, "plan"_a, "C"_a, "rate"_a = 25.,
