@@ -86,14 +86,17 @@ void AugmentedLagrangian::iterate() {
     const bool is_new_point = model_is_stale_;
     if (is_new_point) linearize();
     Step step = startStep();
-    if (is_new_point && steps > 0 && needsNoStep(step, modelProblem())) return converge();
+    Problem problem = modelProblem();
+    if (is_new_point && steps > 0 && needsNoStep(step, problem)) return converge();
     if (is_new_point) addCurvature();
     model_is_stale_ = false;
 
     // 2. Step: the least value of the model in a box.
-    findStep(modelProblem(), step);
-    if (has_many_variables_ && round_just_ended_) raisePenalty(step);
-    const Problem problem = modelProblem();
+    findStep(problem, step);
+    if (has_many_variables_ && round_just_ended_) {
+      raisePenalty(step);
+      problem.mu = penalty_.value();
+    }
     if (options_.verbose > 2)
       std::printf("    step %3d  evals %3d  |d| %.3g  predicted %.3g  violation %.3g  mu %.3g  damping %.3g\n", steps,
                   function_.evals(), step.size, step.predicted, step.error, problem.mu, problem.damping);
