@@ -284,6 +284,19 @@ TEST(Retime, InfiniteLimitsLimitNothing) {
   expectError<ValueError>([&] { retime(path, limits); }, {"nothing limits the motion at 0 %", "dofs 1"});
 }
 
+TEST(Retime, WhereHardlyAJerkIsLimitedItIsNearlyAsFastAsWithoutLimitsOfIt) {
+  Rng rng(29);
+  const MatrixXd path = randomPath(rng, 5, 2);
+  RetimeOptions options;
+  options.corners = Corners::spline;
+  const double least = retime(path, limitsOf(2, 1., 2.), options).duration();
+  for (const double jerk : {1e6, kNoLimit}) {
+    const TimedPath timed = retime(path, limitsOf(2, 1., 2., jerk), options);
+    ASSERT_TRUE(timed.feasible()) << timed.message;
+    EXPECT_LT(timed.duration(), 1.03 * least);
+  }
+}
+
 TEST(Retime, MistakesAreNamed) {
   const MotionLimits limits = limitsOf(1, 1., 1.);
   expectError<ValueError>([&] { retime(MatrixXd(0, 1), limits); }, {"shape (0, 1)", "K >= 1"});
