@@ -284,6 +284,35 @@ TEST(Retime, InfiniteLimitsLimitNothing) {
   expectError<ValueError>([&] { retime(path, limits); }, {"nothing limits the motion at 0 %", "dofs 1"});
 }
 
+TEST(Retime, WhereHardlyAJerkIsLimitedItIsNearlyAsFastAsWithoutLimitsOfIt) {
+  Rng rng(29);
+  const MatrixXd path = randomPath(rng, 5, 2);
+  RetimeOptions options;
+  options.corners = Corners::spline;
+  const double least = retime(path, limitsOf(2, 1., 2.), options).duration();
+  for (const double jerk : {1e6, kNoLimit}) {
+    const TimedPath timed = retime(path, limitsOf(2, 1., 2., jerk), options);
+    ASSERT_TRUE(timed.feasible()) << timed.message;
+    EXPECT_LT(timed.duration(), 1.03 * least);
+  }
+}
+
+TEST(Retime, WhereTooFewIntervalsHaveNoLawMoreAreTaken) {
+  Rng rng(31);
+  for (int i = 0; i < 250; ++i) {
+    const MatrixXd path = randomPath(rng, 12, 2);
+    MotionLimits limits = limitsOf(2, 1., 1., 1.);
+    for (VectorXd* limit : {&limits.velocity, &limits.acceleration, &limits.jerk})
+      for (double& value : *limit) value = std::pow(10., rng.uniform(-1., 1.));
+    limits.jerk *= 30.;
+    RetimeOptions options;
+    options.tolerance = rng.uniform(.001, .3);
+    options.intervals = 10;
+    const TimedPath timed = retime(path, limits, options);
+    EXPECT_TRUE(timed.feasible()) << i << ": " << timed.message;
+  }
+}
+
 TEST(Retime, MistakesAreNamed) {
   const MotionLimits limits = limitsOf(1, 1., 1.);
   expectError<ValueError>([&] { retime(MatrixXd(0, 1), limits); }, {"shape (0, 1)", "K >= 1"});

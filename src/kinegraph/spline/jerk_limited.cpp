@@ -22,10 +22,11 @@ constexpr int kSmoothings = 10;        // of these
 constexpr double kTightenMore = 2e-6;  // than what is exceeded
 constexpr int kTightenMost = 12;       // rounds, where speeds at the ends are given
 constexpr int kFewestIntervals = 12;
-constexpr int kBlendParts = 6;     // of a blend, at least
-constexpr double kRestShare = .5;  // of the time until the largest acceleration, in which s is a cubic of time
-constexpr double kRestWay = .02;   // of the section's length, likewise
-constexpr double kNear = .4;       // of the places' distance: nearer to a knot there is none
+constexpr int kBlendParts = 6;       // of a blend, at least
+constexpr double kRestShare = .5;    // of the time until the largest acceleration, in which s is a cubic of time
+constexpr double kRestWay = .02;     // of the section's length, likewise
+constexpr double kLeastRest = 1e-6;  // of the first interval otherwise, where hardly a jerk is limited
+constexpr double kNear = .4;         // of the places' distance: nearer to a knot there is none
 
 /// A part of the grid between stops, and the speeds at its ends.
 struct Section {
@@ -118,7 +119,7 @@ class SectionPlaces {
     const double way = std::min(kRestWay * (end_ - begin_), first);
     const double time =
         std::min({step, kRestShare * along.acceleration / along.jerk, std::cbrt(6. * way / along.jerk)});
-    const double rest = along.jerk * time * time * time / 6.;
+    const double rest = std::max(along.jerk * time * time * time / 6., kLeastRest * first);
     std::vector<double> near;
     for (int k = 1; k * k * k * rest < .7 * first; ++k) near.push_back(k * k * k * rest);
     if (near.empty()) near.push_back(first / 2.);

@@ -54,6 +54,8 @@ namespace {
 
 constexpr double kAlong = 1e-6;  // by which a velocity may leave the path's direction, as a share of it
 constexpr int kNarrowings = 10;
+constexpr int kMostTrials = 5;  // each with twice as many intervals
+constexpr int kMostIntervals = 1000000;
 constexpr double kExcess = 1e-12;    // of the rows' range: rounding
 constexpr double kNarrowMore = 1.5;  // than what is exceeded
 
@@ -198,6 +200,11 @@ Timing timingWithRows(const LawGrid& grid, const MotionLimits& limits, const Row
   return timing;
 }
 
+/// Does a law fail by nothing but how coarse its places are?
+bool mayDoWithMore(const Timing& timing) {
+  return timing.speeds.failure == LawFailure::cannot_move && timing.speeds.row < 0;
+}
+
 }  // namespace
 
 TimedPath retime(const MatrixXd& path, const PathCurve& curve, const MotionLimits& limits,
@@ -214,11 +221,15 @@ TimedPath retime(const MatrixXd& path, const PathCurve& curve, const MotionLimit
     timed.times = VectorXd::Zero(path.rows());
     return timed;
   }
-  const LawEffort effort{options.intervals, options.between};
-  const LawGrid grid(timed.curve_, limits, effort, bool(options.rows));
-  checkLimited(grid, limits, effort);
-  Timing timing = options.rows ? timingWithRows(grid, limits, options.rows, start, end, effort)
-                               : timingOf(grid, limits, {}, start, end, effort);
+  LawEffort effort{options.intervals, options.between};
+  Timing timing;
+  for (int trial = 0; trial == 0 || (mayDoWithMore(timing) && trial < kMostTrials); ++trial) {
+    if (trial > 0) effort.intervals = std::max(effort.intervals, std::min(2 * effort.intervals, kMostIntervals));
+    const LawGrid grid(timed.curve_, limits, effort, bool(options.rows));
+    checkLimited(grid, limits, effort);
+    timing = options.rows ? timingWithRows(grid, limits, options.rows, start, end, effort)
+                          : timingOf(grid, limits, {}, start, end, effort);
+  }
   timed.status = statusOf(timing.speeds.failure);
   timed.message = failureText(timing.speeds, timed.curve_, options.rows);
   if (!timed.feasible()) return timed;
