@@ -62,7 +62,7 @@ FOUND = {
         r"reached the goal after 4",
     ],
     "25_upside_down": [r"^solved: 4 actions", r"\(lay box g_gripper table", r"z axis is now \[.* -1\. *\]"],
-    "29_open_a_drawer": [
+    "30_open_a_drawer": [
         r"^solved: 6 actions",
         r"while \(closed drawer\)",
         r"reached the goal after 6",
