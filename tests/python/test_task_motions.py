@@ -6,8 +6,8 @@ import numpy as np
 import pytest
 
 import kinegraph as ry
-from kinegraph._core import ghostScene
 from kinegraph.task_check import cornersOf
+from kinegraph.task_plan import ghostScene
 from task_scenes import families, panda_tasks, planned
 
 
