@@ -80,7 +80,8 @@ def taskFilm(file: Path, C: ry.Config, goal: str, view: list[float], at: list[fl
 
 
 def taskFilms(folder: Path) -> None:
-    """Of the families of the benchmarks: a tower, two trays, a box that is turned over, cups that are carried."""
+    """Of the families of the benchmarks: a tower, two trays, a box that is turned over, a drawer that is opened for a
+    box, cups that are carried."""
     sys.path.append(str(HERE.parent / "benchmarks"))
     import panda_tasks
     import tasks
@@ -88,6 +89,7 @@ def taskFilms(folder: Path) -> None:
     taskFilm(folder / "task_tower.mp4", *_scene(panda_tasks.tower(0, 4)), [1.1, 1.3, 1.5], [0.0, 0.2, 0.75])
     taskFilm(folder / "task_sort.mp4", *_scene(panda_tasks.sort(0, 4)), [0.9, 1.5, 1.6], [0.0, 0.2, 0.7])
     taskFilm(folder / "task_turn.mp4", *_scene(tasks.turn(0)), [1.2, -1.4, 1.5], [0.0, 0.0, 0.7])
+    taskFilm(folder / "task_drawer.mp4", *_scene(panda_tasks.stow(0)), [-0.9, -0.9, 1.7], [0.0, 0.3, 0.75])
     taskFilm(folder / "task_carry.mp4", *_scene(tasks.carry(0)), [0.3, -1.7, 1.9], [0.0, 0.0, 0.6])
 
 
