@@ -2,6 +2,7 @@
 
 import concurrent.futures
 import copy
+import multiprocessing
 import os
 import pickle
 import signal
@@ -221,7 +222,8 @@ def test_a_komo_is_copied_and_pickled_exactly(panda):
 
 def test_problems_and_results_travel_between_processes(arm):
     komos = [reachPoint(arm, 1.0, y) for y in (0.5, 1.0)]
-    with concurrent.futures.ProcessPoolExecutor(2) as pool:
+    fresh = multiprocessing.get_context("spawn")  # other tests leave threads behind, which a fork would not have
+    with concurrent.futures.ProcessPoolExecutor(2, fresh) as pool:
         for komo, (ret, path) in zip(komos, pool.map(solveOne, komos)):
             here, here_path = solveOne(komo)
             assert ret.feasible and ret.status.name == "converged" and ret.evals == here.evals
