@@ -127,8 +127,7 @@ void IkProblem::choosePairs() {
   const auto moves = [&](int column) { return variable[program->column_dof[column]] >= 0; };
   std::vector<std::pair<int, int>> unmoved;
   for (const auto& pair : program->movingPairs()) {
-    bool moved = false;
-    forColumnsBetween(*program, pair.first, pair.second, [&](int column) { moved = moved || moves(column); });
+    const bool moved = anyColumnBetween(*program, pair.first, pair.second, moves);
     (moved ? pairs : unmoved).push_back(pair);
   }
   if (!unmoved.empty()) describeStuck(unmoved);
