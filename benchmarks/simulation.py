@@ -45,43 +45,47 @@ def tracking():
     return 1e3 * worst, 1e3 * np.abs(S.get_q() - q - 0.5).max()
 
 
-def smooth(start, end):
-    """From one to the other in 100 steps that start and end slowly."""
-    for s in np.linspace(0.01, 1, 100):
-        yield start + (10 * s**3 - 15 * s**4 + 6 * s**5) * (end - start)
+class Grasp:
+    """A Panda that takes the thing called box, in a simulation, and where the thing is in its hand."""
+
+    def __init__(self, C, side, force):
+        self.C = C
+        above, at, self.up = (reach(START + np.array([0, 0, z]), side) for z in (0.12, 0.0, 0.2))
+        C.setJointState(above)
+        self.S = ry.Simulation(C)
+        self.go(above, at)
+        self.S.closeGripper("l_gripper", 0.0, 0.1, force)
+        while not self.S.gripperIsDone("l_gripper"):
+            self.S.step()
+        self.at, self.turned = at, self.up + np.eye(7)[0]
+
+    def go(self, start, end):
+        for s in np.linspace(0.01, 1, 100):
+            q = start + (10 * s**3 - 15 * s**4 + 6 * s**5) * (end - start)
+            self.S.step(q, 0.01, ry.ControlMode.position)
+
+    def place(self):
+        """Position (3,), m, and axes (3, 3) in the hand's axes."""
+        hand, box = self.C.getFrame("l_gripper"), self.C.getFrame("box")
+        R = hand.getRotationMatrix().T
+        return R @ (box.getPosition() - hand.getPosition()), R @ box.getRotationMatrix()
 
 
 def grasp(mass, force, side):
     """Slips in the hand while it lifts by .2 m, holds 10 s, turns by 1 rad in 1 s; and the error of the place, mm."""
-    above, at, up = (reach(START + np.array([0, 0, z]), side) for z in (0.12, 0.0, 0.2))
-    C = panda(START, mass)
-    C.setJointState(above)
-    S = ry.Simulation(C)
-
-    def go(start, end):
-        for q in smooth(start, end):
-            S.step(q, 0.01, ry.ControlMode.position)
-
-    def in_hand():
-        hand, box = C.getFrame("l_gripper"), C.getFrame("box")
-        return hand.getRotationMatrix().T @ (box.getPosition() - hand.getPosition())
-
-    go(above, at)
-    S.closeGripper("l_gripper", 0.0, 0.1, force)
-    while not S.gripperIsDone("l_gripper"):
-        S.step()
-    places = [in_hand()]
-    go(at, up)
-    places.append(in_hand())
+    g = Grasp(panda(START, mass), side, force)
+    places = [g.place()[0]]
+    g.go(g.at, g.up)
+    places.append(g.place()[0])
     for _ in range(1000):
-        S.step()
-    places.append(in_hand())
-    go(up, up + np.eye(7)[0])
-    places.append(in_hand())
-    go(up + np.eye(7)[0], up)
-    go(up, at)
+        g.S.step()
+    places.append(g.place()[0])
+    g.go(g.up, g.turned)
+    places.append(g.place()[0])
+    g.go(g.turned, g.up)
+    g.go(g.up, g.at)
     slips = [1e3 * np.linalg.norm(b - a) for a, b in pairwise(places)]
-    return [*slips, 1e3 * np.linalg.norm(C.getFrame("box").getPosition() - START)]
+    return [*slips, 1e3 * np.linalg.norm(g.C.getFrame("box").getPosition() - START)]
 
 
 def random_grasp(rng):
@@ -89,31 +93,15 @@ def random_grasp(rng):
     finger, 1 cm wide, carries weight times 1, and moment with an arm of 3.8 mm. Slip while it turns, mm and degrees; infinite if lost."""
     mass, yaw, aside = rng.uniform(0.05, 1.0), rng.uniform(-0.19, 0.19), rng.uniform(-0.01, 0.01, 2)
     size = [rng.uniform(0.03, 0.06), rng.uniform(0.03, 0.045), rng.uniform(0.03, 0.09), 0.003]
-    above, at, up = (reach(START + np.array([0, 0, z]), [1, 0, 0]) for z in (0.12, 0.0, 0.2))
     C = panda()
     place = [*(START[:2] + aside), START[2] - 0.03 + size[2] / 2]
     C.addFrame("box").setShape(ry.ST.ssBox, size).setPosition(place).setMass(mass)
     C.getFrame("box").setQuaternion([np.cos(yaw / 2), 0, 0, np.sin(yaw / 2)])
-    C.setJointState(above)
-    S = ry.Simulation(C)
-
-    def go(start, end):
-        for q in smooth(start, end):
-            S.step(q, 0.01, ry.ControlMode.position)
-
-    def in_hand():
-        hand, box = C.getFrame("l_gripper"), C.getFrame("box")
-        R = hand.getRotationMatrix().T
-        return R @ (box.getPosition() - hand.getPosition()), R @ box.getRotationMatrix()
-
-    go(above, at)
-    S.closeGripper("l_gripper", 0.0, 0.1, 1.5 * mass * np.hypot(9.81, 2.5) / 2 * (1 + abs(aside[0]) / 0.0038))
-    while not S.gripperIsDone("l_gripper"):
-        S.step()
-    go(at, up)
-    before, axes = in_hand()
-    go(up, up + np.eye(7)[0])
-    after, turned = in_hand()
+    g = Grasp(C, [1, 0, 0], 1.5 * mass * np.hypot(9.81, 2.5) / 2 * (1 + abs(aside[0]) / 0.0038))
+    g.go(g.at, g.up)
+    before, axes = g.place()
+    g.go(g.up, g.turned)
+    after, turned = g.place()
     slip = 1e3 * np.linalg.norm(after - before)
     angle = np.degrees(np.arccos(np.clip((np.trace(axes.T @ turned) - 1) / 2, -1, 1)))
     return (slip, angle) if np.linalg.norm(after) < 0.06 else (np.inf, np.inf)

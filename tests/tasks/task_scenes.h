@@ -6,14 +6,20 @@
 
 namespace kinegraph {
 
-/// A table, a hand that slides above it, whose limits are its reach, and cubes that are places, too.
-inline Config cubesOnATable(int count) {
+/// A table, and a hand that slides above it, whose limits are its reach.
+inline Config handAboveATable(const std::string& limits = "[-.9 -.9 0 .9 .9 1]", const std::string& q = "[0 0 .5]") {
   Config C;
   C.addFrame("base").setPosition({0., 0., .6});
   C.addFrame("table", "base", "shape: ssBox, size: [2 2 .1 .02], contact: 1, rel: [0 0 -.05], logical: { is_place }");
   C.addFrame(
       "hand", "base",
-      "shape: marker, size: [.03], joint: trans3, limits: [-.9 -.9 0 .9 .9 1], q: [0 0 .5], logical: { is_gripper }");
+      "shape: marker, size: [.03], joint: trans3, limits: " + limits + ", q: " + q + ", logical: { is_gripper }");
+  return C;
+}
+
+/// With cubes that are places, too.
+inline Config cubesOnATable(int count) {
+  Config C = handAboveATable();
   for (int i = 0; i < count; ++i) {
     Frame cube = C.addFrame("b" + std::to_string(i), "table", "logical: { is_object, is_place }");
     cube.setRelativePosition({-.5 + .4 * i, .2 * i, .1}).setJoint(JointType::rigid);
@@ -24,12 +30,7 @@ inline Config cubesOnATable(int count) {
 
 /// A hand that cannot leave y <= .1, a stick with a hook at its far end, and a box behind that.
 inline Config stickAndBox(double y) {
-  Config C;
-  C.addFrame("base").setPosition({0., 0., .6});
-  C.addFrame("table", "base", "shape: ssBox, size: [2 2 .1 .02], contact: 1, rel: [0 0 -.05], logical: { is_place }");
-  C.addFrame(
-      "hand", "base",
-      "shape: marker, size: [.03], joint: trans3, limits: [-.9 -.9 0 .9 .1 1], q: [0 -.3 .5], logical: { is_gripper }");
+  Config C = handAboveATable("[-.9 -.9 0 .9 .1 1]", "[0 -.3 .5]");
   C.addFrame("stick", "table", "joint: rigid, logical: { is_object }").setRelativePosition({-.2, -.3, .065});
   C.getFrame("stick").setShape(ShapeType::ssBox, {.03, .5, .03, .004}).setContact(1);
   C.addFrame("hook", "stick", "logical: { is_hook }").setRelativePosition({.085, .235, 0.});
