@@ -8,7 +8,7 @@ from typing import Any
 
 import numpy as np
 
-from ._core import Config, TaskExecution, executeTask, ghostScene, showTask, taskFrames, treeText
+from ._core import BotOp, Config, TaskExecution, executeTask, ghostScene, showTask, taskFrames, treeText
 from .errors import ArgumentError
 
 Action = list[str]
@@ -160,9 +160,12 @@ class TaskPlan:
         Returns:
             How far it came, and why it stopped; `C` is the scene as it was then, for repair.
         Raises:
-            ArgumentError: There is no motion, or the robot cannot begin it.
+            ArgumentError: There is no motion, `bot` is no BotOp, or the robot cannot begin it.
             RobotFault: The robot was stopped.
         """
+        if not isinstance(bot, BotOp):
+            made = "; make one by BotOp(C)" if isinstance(bot, Config) else ""
+            raise ArgumentError(f"execute: expected a BotOp, got {type(bot).__name__}{made}")
         return executeTask(self, bot)
 
     def repair(self, C: Config) -> TaskPlan:

@@ -49,6 +49,8 @@ def test_mistakes_are_told_before_anything_moves(tower) -> None:
     light.getFrame("b0").setMass(0.0)
     with pytest.raises(ry.ArgumentError, match="'b0' has no mass"):
         plan.execute(ry.BotOp(light))
+    with pytest.raises(ry.ArgumentError, match=r"execute: expected a BotOp, got Config; make one by BotOp\(C\)"):
+        plan.execute(C)
     away = C.copy()
     away.setJointState(away.getJointState() + 0.2)
     with pytest.raises(ry.ArgumentError, match="the robot is not where the plan begins"):
