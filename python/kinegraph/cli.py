@@ -13,7 +13,7 @@ from . import __version__
 from ._core import Config, ConfigurationViewer, checkFile, planMotion
 from .compatibility.parameters import params_get
 from .errors import ArgumentError, Error, FileError
-from .model_paths import raiPath
+from .model_paths import raiPath, similarModels
 from .scene_overview import describeScene
 
 _MESHES = (".h5", ".ply", ".obj", ".stl", ".dae", ".glb")
@@ -21,7 +21,9 @@ _MESHES = (".h5", ".ply", ".obj", ".stl", ".dae", ".glb")
 
 def _parser() -> argparse.ArgumentParser:
     parser = argparse.ArgumentParser(
-        prog="kinegraph", description="Robot scenes, inverse kinematics and motion optimization."
+        prog="kinegraph",
+        description="Robot scenes, inverse kinematics, motion planning and optimization.",
+        epilog="A FILE that is not there may be a model that comes with the package: panda/panda.g, scenarios/pandaSingle.g.",
     )
     parser.add_argument("--version", action="version", version=f"kinegraph {__version__}")
     commands = parser.add_subparsers(dest="command", required=True, metavar="COMMAND")
@@ -131,9 +133,22 @@ def _check(files: list[str], strict: bool) -> int:
     return 1 if errors or (strict and warnings) else 0
 
 
+def _find(file: str) -> str:
+    """The path of a file; where there is none, of the model of that name that comes with the package."""
+    path = Path(file)
+    if path.exists() or path.is_absolute():
+        return file
+    try:
+        return raiPath(file)
+    except FileError:
+        if path.parent.is_dir() or not (near := similarModels(file)):
+            return file  # who reads it says what is near
+        raise FileError(f"there is no file or model '{file}'; models with similar names: {', '.join(near)}") from None
+
+
 def _load(file: str) -> Config:
     """A scene, or a mesh as a frame of its own."""
-    config = Config()
+    config, file = Config(), _find(file)
     if Path(file).suffix in _MESHES:
         config.addFrame(Path(file).stem, "", f"mesh: <{Path(file).resolve()}>")
     else:
@@ -143,6 +158,7 @@ def _load(file: str) -> Config:
 
 def _view(file: str, watch: bool) -> None:
     if watch:
+        file = _find(file)
         if not Path(file).exists():
             raise FileError(f"scene file '{file}' does not exist")
         Config().watchFile(file)

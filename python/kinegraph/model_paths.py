@@ -53,13 +53,19 @@ def raiPath(path: str = "") -> str:
     for folder in folders:
         if (folder / relative).exists():
             return str(folder / relative) + ("/" if relative == "" else "")
-    known = sorted({str(file.relative_to(folder)) for folder in folders for file in folder.rglob("*.*")})
-    import difflib  # not at import: it takes milliseconds, and few need it
-
-    near = difflib.get_close_matches(relative, known, 3, 0.5)
+    near = similarModels(relative)
     hint = (
         f"; similar names: {', '.join(near)}"
         if near
         else f"; there are: {', '.join(sorted(p.name for p in _SHIPPED.iterdir()))}"
     )
     raise FileError(f"raiPath: there is no model '{path}' in {folders[0]}{hint}")
+
+
+def similarModels(path: str) -> list[str]:
+    """Up to three models, relative to the model collection, whose names are like `path`."""
+    import difflib  # not at import: it takes milliseconds, and few need it
+
+    folders = [Path(os.environ.get("RAI_PATH", _SHIPPED)), _SHIPPED]
+    known = sorted({str(file.relative_to(folder)) for folder in folders for file in folder.rglob("*.*")})
+    return difflib.get_close_matches(path, known, 3, 0.5)

@@ -10,10 +10,9 @@ import kinegraph as ry
 from kinegraph.demo import followTarget
 
 
-def kinegraph(*arguments):
-    return subprocess.run(
-        [sys.executable, "-m", "kinegraph", *arguments], capture_output=True, text=True, env=os.environ, timeout=120
-    )
+def kinegraph(*arguments, cwd=None):
+    command = [sys.executable, "-m", "kinegraph", *arguments]
+    return subprocess.run(command, capture_output=True, text=True, env=os.environ, cwd=cwd, timeout=120)
 
 
 def test_the_demo_follows_its_target_within_a_tenth_of_a_millimeter():
@@ -115,6 +114,18 @@ def test_view_shows_scenes_and_meshes_and_ends_without_a_display(tmp_path):
     missing = kinegraph("view", "--watch", str(tmp_path / "missing.g"))
     assert missing.returncode == 1
     assert "missing.g' does not exist" in missing.stderr
+
+
+def test_models_of_the_package_are_found_by_their_names(tmp_path):
+    shipped = kinegraph("info", "scenarios/pandaSingle.g", cwd=tmp_path)
+    assert shipped.returncode == 0, shipped.stderr
+    assert shipped.stdout == kinegraph("info", ry.raiPath("scenarios/pandaSingle.g")).stdout
+    (tmp_path / "panda").mkdir()
+    (tmp_path / "panda" / "panda.g").write_text("mine: {}")
+    assert "#frames=1 " in kinegraph("info", "panda/panda.g", cwd=tmp_path).stdout  # one's own file comes first
+    typo = kinegraph("info", "scenarios/pandaSingel.g", cwd=tmp_path)
+    assert typo.returncode == 1
+    assert "models with similar names: scenarios/pandaSingle.g" in typo.stderr
 
 
 @pytest.mark.parametrize("command, words", [("ry_info", "raiPath"), ("ry_view", "a scene")])
