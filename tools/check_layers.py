@@ -80,6 +80,10 @@ BELOW: dict[str, list[str]] = {
         "solvers",
         "ik",
     ],
+    "tasks/lgp": [
+        *["base", "math", "gfile", "logic", "geometry", "kinematics", "scene", "features", "nlp", "komo", "solvers"],
+        "tasks",
+    ],
     "tasks/search": [
         *["base", "math", "spline", "gfile", "logic", "geometry", "kinematics", "scene", "features", "nlp", "komo"],
         *["solvers", "ik", "motion", "tasks"],

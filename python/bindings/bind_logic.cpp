@@ -15,8 +15,8 @@
 #include "kinegraph/logic/action_words.h"
 #include "kinegraph/logic/fol_reader.h"
 #include "kinegraph/logic/pddl.h"
-#include "kinegraph/logic/plan_search.h"
 #include "kinegraph/tasks/scene_facts.h"
+#include "logic_objects.h"
 #include "solving.h"
 
 namespace kinegraph::python {
@@ -25,13 +25,6 @@ namespace {
 
 using Words = std::vector<std::string>;
 using Plan = std::vector<Words>;
-
-/// Plans in words; Ctrl-C ends the search.
-struct PyPlanSearch {
-  std::unique_ptr<PlanSearch> search;
-
-  const GroundProblem& ground() const { return search->problem(); }
-};
 
 std::string readFile(const PathText& path) {
   std::ifstream in(path.text, std::ios::binary);
@@ -88,7 +81,7 @@ bool keepGoing() {
 }
 
 void makeSearch(PyPlanSearch* self, const LogicProblem& problem, long most) {
-  new (self) PyPlanSearch{std::make_unique<PlanSearch>(ground(problem), PlanSearch::Options{most, keepGoing})};
+  new (self) PyPlanSearch{std::make_shared<PlanSearch>(ground(problem), PlanSearch::Options{most, keepGoing})};
 }
 
 void bindDomain(nb::module_& m) {

@@ -22,14 +22,14 @@ struct PyPathFinder : PathFinder {
   nb::object scene;
 };
 
-const OptionClass<PathFinderOptions>& optionClass() {
+const OptionClass<PathFinderOptions>& finderOptionClass() {
   static const OptionClass<PathFinderOptions> options(pathFinderOptionTable());
   return options;
 }
 
 PyPathFinder& setOptions(PyPathFinder& finder, nb::kwargs given) {
   PathFinderOptions options = finder.options();
-  optionClass().setFields(options, given);
+  finderOptionClass().setFields(options, given);
   finder.setOptions(options);
   return finder;
 }

@@ -75,14 +75,14 @@ void setLarge(const OptionClass<PlanOptions>&, PlanOptions& options, const std::
   }
 }
 
-const OptionClass<PlanOptions>& optionClass() {
+const OptionClass<PlanOptions>& planOptionClass() {
   static const OptionClass<PlanOptions> options(
       planOptionTable(), {{"velocity", "acceleration", "jerk", "start_velocity", "constraints", "moving"}, setLarge});
   return options;
 }
 
 PlanOptions optionsFrom(nb::kwargs given, PlanOptions options = {}) {
-  optionClass().setFields(options, given);
+  planOptionClass().setFields(options, given);
   return options;
 }
 
@@ -309,7 +309,7 @@ void bindMotionPlan(nb::module_& m) {
 void bindPlan(nb::module_& m) {
   bindConstraint(m);
   bindMotionPlan(m);
-  const std::string doc = cat(docs::plan::planMotion, optionClass().docs("        "), docs::plan::planMotionRest);
+  const std::string doc = cat(docs::plan::planMotion, planOptionClass().docs("        "), docs::plan::planMotionRest);
   m.def(
       "planMotion", plan, "config"_a, "goal"_a, "start"_a = nb::none(), "fields"_a,
       nb::sig("def planMotion(config: Config, goal: typing.Any, start: numpy.typing.ArrayLike | None = None, **fields: "

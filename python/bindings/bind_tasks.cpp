@@ -33,8 +33,6 @@ Words texts(const std::vector<Literal>& literals) {
 
 std::vector<Literal> literalsOf(const Words& words) { return readLiterals(join(words, " "), "literals"); }
 
-PyConfig sameScene(const Config& C) { return PyConfig{Config(C.scene()), nullptr}; }
-
 // --- rules -------------------------------------------------------------------------------------------------------------
 
 /// A TaskRule whose parts are functions of the user's.
@@ -179,6 +177,8 @@ nb::object toPython(TaskPlan plan) {
 
 }  // namespace
 
+PyConfig sameScene(const Config& C) { return PyConfig{Config(C.scene()), nullptr}; }
+
 TaskPlan taskPlanOf(nb::handle given) {
   TaskPlan plan;
   plan.message = nb::cast<std::string>(given.attr("message"));
@@ -299,6 +299,7 @@ void bindTasks(nb::module_& m) {
   bindWaypoints(m);
   bindPlanTask(m);
   bindTaskPlays(m);
+  bindLgp(m);
   m.def("checkTaskPlan", checkPlan, "C"_a, "plan"_a, "states"_a = nb::none(),
         nb::sig("def checkTaskPlan(C: Config, plan: TaskPlan, states: "
                 "collections.abc.Sequence[collections.abc.Sequence[str]] | None = None) -> list[str]"),

@@ -47,6 +47,8 @@ from ._core import (
     IkStatus,
     ImageViewer,
     KinematicDriver,
+    LGP_TAMP_Abstraction,
+    LGP_Tool,
     LogicProblem,
     LoopMode,
     MotionConstraint,
@@ -93,6 +95,7 @@ from ._core import (
     TimedPath,
     checkFile,
     checkTaskPlan,
+    default_LGP_TAMP_Abstraction,
     defaultDomain,
     depthImage2PointCloud,
     doorStates,
@@ -153,8 +156,6 @@ if _TYPE_CHECKING:
     from .fleets import imap, readResults
     from .fleets import map as map  # not in __all__: a star import keeps Python's own
     from .interactive import interactiveIk
-    from .lgp import LGP_Tool
-    from .lgp_abstraction import LGP_TAMP_Abstraction, default_LGP_TAMP_Abstraction
     from .manipulation import KOMO_ManipulationHelper, ManipulationModelling
     from .problems import get_NLP_Problem_names, make_NLP_Problem
     from .quaternion import Quaternion
@@ -178,8 +179,6 @@ _LATER = {  # module: names
     "film": ("saveFilm",),
     "fleets": ("imap", "readResults", "map"),
     "interactive": ("interactiveIk",),
-    "lgp": ("LGP_Tool",),
-    "lgp_abstraction": ("LGP_TAMP_Abstraction", "default_LGP_TAMP_Abstraction"),
     "manipulation": ("KOMO_ManipulationHelper", "ManipulationModelling"),
     "problems": ("get_NLP_Problem_names", "make_NLP_Problem"),
     "quaternion": ("Quaternion",),

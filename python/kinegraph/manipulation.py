@@ -171,16 +171,4 @@ class KOMO_ManipulationHelper(ManipulationHelper):
         return self.komo
 
 
-def missed(komo: Any) -> str:
-    """The demand of a problem that stands in the way of the others, in words; empty if all hold."""
-    conflicts = komo.conflicts()
-    if not conflicts:
-        return ""
-    worst = next((c for c in conflicts if c["best"]), conflicts[0])
-    if worst["details"]:
-        return str(worst["details"][0])
-    amount = worst["meters"] if worst["meters"] is not None else worst["scaled"]
-    return f"{worst['name']} is missed by {amount:.3f}{' m' if worst['meters'] is not None else ''}"
-
-
 ManipulationModelling = KOMO_ManipulationHelper  # as scripts of earlier years call it

@@ -20,7 +20,7 @@ if TYPE_CHECKING:
     from kinegraph import *  # noqa: F403
     from kinegraph import ArgWord as ArgWord
     from kinegraph import test as test
-    from kinegraph.lgp_abstraction import default_Logic2KOMO_Translator, default_TAMP_Provider
+    from kinegraph.compatibility.lgp import default_Logic2KOMO_Translator, default_TAMP_Provider
 
     from . import DataGen, algo, calib, manipulation, nlp, render
     from .manipulation import KOMO_ManipulationHelper, LGP_Tool, ManipulationModelling
@@ -57,7 +57,7 @@ __all__ = [
 
 # What is loaded when it is first used, as in kinegraph: module, or names.
 _LATER = {
-    "kinegraph.lgp_abstraction": ("default_Logic2KOMO_Translator", "default_TAMP_Provider"),
+    "kinegraph.compatibility.lgp": ("default_Logic2KOMO_Translator", "default_TAMP_Provider"),
     "robotic.manipulation": ("KOMO_ManipulationHelper", "LGP_Tool", "ManipulationModelling"),
     "robotic.words": ("arg",),
 }

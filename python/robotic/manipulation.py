@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Any
 
 import kinegraph
 
-from .results import NLP_Solver
+from .results import NLP_Solver, SolverReturn
 
 
 class KOMO_ManipulationHelper(kinegraph.KOMO_ManipulationHelper):
@@ -27,7 +27,20 @@ class KOMO_ManipulationHelper(kinegraph.KOMO_ManipulationHelper):
 class LGP_Tool(kinegraph.LGP_Tool):
     """As kinegraph.LGP_Tool; waypoints are feasible by the reference's rule."""
 
-    _solver = NLP_Solver
+    def __init__(
+        self, C: kinegraph.Config, tamp: kinegraph.LGP_TAMP_Abstraction, translator: object = None, *, threads: int = 1
+    ) -> None:
+        """Makes a tool; nothing is searched yet.
+
+        Args:
+            C: The scene.
+            tamp: What is asked for plans, and for what their actions ask.
+            translator: Of older scripts; the abstraction does its work.
+            threads: How many solve at the same time.
+        Raises:
+            ArgumentError: threads is less than one.
+        """
+        super().__init__(C, tamp, translator, threads=threads, results=SolverReturn)
 
 
 ManipulationModelling = KOMO_ManipulationHelper  # as scripts of earlier years call it

@@ -74,6 +74,7 @@
 #include "kinegraph/solvers/sampling/sampler.h"      // NlpSampler
 #include "kinegraph/spline/b_spline.h"               // BSpline
 #include "kinegraph/spline/retime.h"                 // retime: the fastest motion along a path
+#include "kinegraph/tasks/lgp/lgp_tool.h"            // LGP_Tool, default_LGP_TAMP_Abstraction
 #include "kinegraph/tasks/manipulation_helper.h"     // grasps, placements, pushes
 #include "kinegraph/tasks/scene_facts.h"             // what a scene says in logic
 #include "kinegraph/tasks/search/check_task_plan.h"  // checkTaskPlan

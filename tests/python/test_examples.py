@@ -68,6 +68,12 @@ FOUND = {
         r"reached the goal after 6",
         r"drawer is closed",
     ],
+    "31_lgp": [
+        r"^-- infeasible: \(grasp objG",
+        r"(?m)^-- feasible: \(grasp objB .*\(place_straightOn objG l_gripper trayG\)$",
+        r"full motion: (step|the costs)",
+        r"objG stands 0\.055 m above trayG",
+    ],
     "23_better_plans": [r"(s after \d+ evaluations\n.*){2}", r"pick cup table l_gripper.*(wall|lid)"],
     "24_two_arms": [r"^solved: 3 actions", r"\(handover rod l_gripper r_gripper\)"],
     "20_two_robots": [r"the blocks are 0\.1[34]\d m and 0\.1[34]\d m higher", r"the same again, to the bit: True"],

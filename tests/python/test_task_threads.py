@@ -1,7 +1,5 @@
-"""Plans are the same, to the bit, at any number of threads: planTask, planTasks, LGP_Tool, and what gives them jobs."""
+"""Plans are the same, to the bit, at any number of threads: planTask, planTasks, LGP_Tool."""
 
-import itertools
-import threading
 from pathlib import Path
 from typing import Any
 
@@ -9,7 +7,6 @@ import numpy as np
 import pytest
 
 import kinegraph as ry
-from kinegraph.in_order import inOrder
 from task_scenes import families, panda_tasks
 
 THREADS = (1, 2, 4)
@@ -110,61 +107,3 @@ def test_a_mistake_in_a_rule_is_told_from_a_thread() -> None:
     for threads in THREADS:
         with pytest.raises(ry.FrameNotFound, match="nowhere"):
             ry.planTask(problem.C, problem.goal, rules=rules, threads=threads)
-
-
-@pytest.mark.parametrize("threads", THREADS)
-def test_results_come_in_order_and_no_more_jobs_run_than_there_are_threads(threads: int) -> None:
-    lock, running, most = threading.Lock(), 0, 0
-
-    def job(number: int, _stopped: Any) -> int:
-        nonlocal running, most
-        with lock:
-            running, most = running + 1, max(most, running + 1)
-        sum(range(1000 * (40 - number)))  # the first ones take longest
-        with lock:
-            running -= 1
-        return number
-
-    jobs = (lambda stopped, number=number: job(number, stopped) for number in range(40))
-    assert list(inOrder(jobs, threads)) == list(range(40))
-    assert 1 <= most <= threads
-
-
-def test_jobs_are_taken_only_as_far_ahead_as_there_are_threads() -> None:
-    taken = itertools.count()
-    jobs = ((lambda stopped, i=i: i) for i in taken)
-    results = inOrder(jobs, 2)
-    assert next(results) == 0
-    results.close()
-    assert next(taken) <= 3
-
-
-def test_a_job_that_is_not_wanted_any_more_is_told() -> None:
-    begun, told_so = threading.Event(), threading.Event()
-
-    def waits(stopped: Any) -> str:
-        begun.set()
-        while not stopped():
-            pass
-        told_so.set()
-        return "not wanted"
-
-    def first(stopped: Any) -> str:
-        assert begun.wait(60)
-        return "first"
-
-    results = inOrder([first, waits], 2)
-    assert next(results) == "first"
-    results.close()
-    assert told_so.wait(60)
-
-
-def test_an_error_of_a_job_is_raised_where_its_result_would_be() -> None:
-    def fails(stopped: Any) -> int:
-        raise ValueError("two")
-
-    for threads in THREADS:
-        results = inOrder([lambda stopped: 1, fails, lambda stopped: 3], threads)
-        assert next(results) == 1
-        with pytest.raises(ValueError, match="two"):
-            next(results)

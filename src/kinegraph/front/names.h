@@ -5,6 +5,7 @@
 #include "kinegraph/komo/komo.h"
 #include "kinegraph/solvers/sampling/sampler.h"
 #include "kinegraph/solvers/solve_many.h"
+#include "kinegraph/tasks/lgp/lgp_tool.h"
 #include "kinegraph/tasks/manipulation_helper.h"
 
 namespace kinegraph {
@@ -19,6 +20,9 @@ using SY = SwitchMode;
 using KOMO = Komo;
 using KOMO_ManipulationHelper = ManipulationHelper;
 using ManipulationModelling = ManipulationHelper;
+using LGP_Tool = LgpTool;
+using LGP_TAMP_Abstraction = LgpAbstraction;
+using default_LGP_TAMP_Abstraction = DefaultLgpAbstraction;
 using NLP = Nlp;
 using NLP_Solver = NlpSolver;
 using NLP_Sampler = NlpSampler;

@@ -1,11 +1,8 @@
 #include "kinegraph/tasks/search/task_attempts.h"
 
-#include <algorithm>
-#include <cmath>
-
 #include "kinegraph/base/text.h"
-#include "kinegraph/solvers/explanation.h"
 #include "kinegraph/solvers/nlp_solver.h"
+#include "kinegraph/tasks/missed_demand.h"
 
 namespace kinegraph {
 
@@ -19,18 +16,6 @@ std::uint64_t combined(std::initializer_list<std::uint64_t> numbers) {
   std::uint64_t seed = 0;
   for (const std::uint64_t number : numbers) seed = Rng(seed ^ number).bits();
   return seed;
-}
-
-/// The demand of a problem that stands in the way of the others, in words; "" if all hold.
-std::string missed(const std::shared_ptr<Komo>& komo, const std::function<void()>& between) {
-  const VectorXd x = komo->path().variables();
-  const Explanation explanation = explain(*makeNlp(komo), x, 1e-3, between);
-  if (explanation.conflicts.empty()) return "";
-  const Conflict& worst = explanation.conflicts[std::size_t(std::max(explanation.best, 0))];
-  if (!worst.details.empty()) return worst.details[0];
-  const bool is_length = !std::isnan(worst.violation.meters);
-  return cat(worst.name, " is missed by ", fixed(is_length ? worst.violation.meters : worst.violation.scaled, 3),
-             is_length ? " m" : "");
 }
 
 std::string last(const std::vector<TaskAction>& actions) { return planText({actions.back()}); }
@@ -87,7 +72,7 @@ TaskAttempts::Attempt TaskAttempts::attempt(const Config& C, const std::vector<T
   if (index > 0 || stopped()) return result;  // it is the first choice of which it is told why
   komo->path().setVariables(first);
   result.failure.ghost = std::make_shared<const Config>(komo->configuration(int(actions.size()) - 1));
-  const std::string cause = missed(komo, [&] { (void)stopped(); });
+  const std::string cause = missedDemand(komo, [&] { (void)stopped(); });
   result.failure.why = cat(last(actions), ": ", cause.empty() ? "the waypoints miss what the actions ask" : cause);
   return result;
 }

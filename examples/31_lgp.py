@@ -1,0 +1,52 @@
+"""Logic-geometric programs: a search in logic proposes plans, waypoints say whether an arm can carry them out."""
+
+from pathlib import Path
+
+import kinegraph as ry
+
+C = ry.Config()
+C.addFile(ry.raiPath("scenarios/pandaSingle.g"))
+for tray, at, color in (("trayG", [0.4, 0.3, 0.055], [0, 0.6, 0]), ("trayB", [-0.3, 0.5, 0.055], [0, 0, 0.6])):
+    frame = C.addFrame(tray, "table").setRelativePosition(at).setColor(color)
+    frame.setShape(ry.ST.ssBox, [0.07, 0.07, 0.01, 0.004]).setAttributes({"logical": {"is_place": True}})
+# objB stands where objG shall be
+for obj, parent, at, color in (
+    ("objG", "table", [-0.2, 0.4, 0.1], [0, 0.7, 0]),
+    ("objB", "trayG", [0, 0, 0.055], [0, 0, 0.7]),
+):
+    frame = C.addFrame(obj, parent).setRelativePosition(at).setJoint(ry.JT.rigid).setColor(color).setContact(1)
+    frame.setShape(ry.ST.ssBox, [0.06, 0.06, 0.1, 0.005]).setAttributes({"logical": {"is_object": True}})
+C.getFrame("table").setAttributes({"logical": {"is_place": True}})
+
+
+class Grasps(ry.default_LGP_TAMP_Abstraction):
+    """An action of our own, and waypoints in which nothing overlaps."""
+
+    def setup_sequence(self, C: ry.Config, K: int) -> ry.KOMO:
+        komo = super().setup_sequence(C, K)
+        komo.addObjective([], ry.FS.accumulatedCollisions, [], ry.OT.eq, [1e0])
+        komo.addObjective([], ry.FS.jointLimits, [], ry.OT.ineq, [1e0])
+        return komo
+
+    def add_action_constraints(self, komo: ry.KOMO, time: float, prev_action: list[str], action: list[str]) -> None:
+        if action[0] != "grasp":
+            return super().add_action_constraints(komo, time, prev_action, action)
+        _, obj, _, hand = action
+        m = ry.KOMO_ManipulationHelper()
+        m.komo = komo
+        held = f"held_{obj}_{round(time)}"
+        m.add_stable_frame(ry.JT.free, hand, held)
+        self.switch(m, time, held, obj)
+        m.grasp_box(time, hand, obj, "l_palm", "y")
+
+
+lgp = ry.LGP_Tool(C, Grasps(C, str(Path(__file__).parent / "31_lgp.lgp")))
+if not lgp.solve():
+    raise SystemExit(lgp.message)
+lgp.view_solved(pause=False)
+lgp.solvePiecewiseMotions()
+result = lgp.solveFullMotion()
+end = lgp.getSolvedKOMO().getConfiguration(len(lgp.getSolvedPlan()) - 1)
+for obj, tray in (("objG", "trayG"), ("objB", "trayB")):
+    off = end.getFrame(obj).getPosition() - end.getFrame(tray).getPosition()
+    print(f"{obj} stands {off[2]:.3f} m above {tray}")
