@@ -29,14 +29,17 @@ class Grasps(ry.default_LGP_TAMP_Abstraction):
         return komo
 
     def add_action_constraints(self, komo: ry.KOMO, time: float, prev_action: list[str], action: list[str]) -> None:
-        if action[0] != "grasp":
-            return super().add_action_constraints(komo, time, prev_action, action)
-        _, obj, _, hand = action
+        if action[0] == "grasp":
+            self.grasp(komo, time, obj=action[1], hand=action[3])
+        else:
+            super().add_action_constraints(komo, time, prev_action, action)
+
+    def grasp(self, komo: ry.KOMO, time: float, obj: str, hand: str) -> None:
         m = ry.KOMO_ManipulationHelper()
         m.komo = komo
         held = f"held_{obj}_{round(time)}"
         m.add_stable_frame(ry.JT.free, hand, held)
-        self.switch(m, time, held, obj)
+        self.switch(m, time, held, obj)  # from then on it moves with the hand
         m.grasp_box(time, hand, obj, "l_palm", "y")
 
 

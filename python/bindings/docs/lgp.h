@@ -4,10 +4,10 @@
 namespace kinegraph::python::docs::lgp {
 
 // What several of them say.
-#define KINEGRAPH_LGP_ACTION                                     \
-  "Args:\n"                                                      \
-  "    komo: The problem.\n"                                     \
-  "    time: When the action is done, in phases.\n"              \
+#define KINEGRAPH_LGP_ACTION                        \
+  "Args:\n"                                         \
+  "    komo: The problem.\n"                        \
+  "    time: When the action is done, in phases.\n" \
   "    prev_action: The action before it, [] if there is none.\n"
 #define KINEGRAPH_LGP_NO_PLAN \
   "Raises:\n"                 \

@@ -1,7 +1,9 @@
 #include "kinegraph/tasks/lgp/lgp_waypoints.h"
 
 #include <algorithm>
+#include <cmath>
 
+#include "kinegraph/base/random.h"
 #include "kinegraph/base/text.h"
 #include "kinegraph/tasks/missed_demand.h"
 
@@ -9,8 +11,9 @@ namespace kinegraph {
 
 namespace {
 
-constexpr int kStarts = 4;     ///< of a waypoint problem before another plan is tried
-constexpr double kNoise = .3;  ///< each further one is that much farther away
+constexpr int kStarts = 4;                    ///< of a waypoint problem before another plan is tried
+constexpr double kNoise = .3;                 ///< each further start is that much farther away
+constexpr std::uint64_t kSeedStep = 1000003;  ///< from problem to problem: none fails as others do
 
 }  // namespace
 
@@ -49,17 +52,25 @@ bool LgpWaypoints::solve(const Plan& plan, int round) {
   return solved.is_solved;
 }
 
-std::vector<VectorXd> LgpWaypoints::starts(const std::shared_ptr<Komo>& problem, int round) const {
+/// The first is where the problem is. Others draw what all slices share, grasps and placements; in further rounds, joints,
+/// too.
+std::vector<VectorXd> LgpWaypoints::starts(const std::shared_ptr<Komo>& problem, int round) {
   const auto nlp = makeNlp(problem);
-  const VectorXd given = problem->path().variables(), lower = nlp->lower(), upper = nlp->upper();
-  Rng rng(options_.seed ^ std::uint64_t(round) << 32);
+  const Path& path = problem->path();
+  const VectorXd given = path.variables(), lower = nlp->lower(), upper = nlp->upper();
+  Eigen::Index shared = given.size();
+  for (int t = 0; t < path.grid().slices(); ++t) shared -= path.ownDofs(t).size();
+  Rng rng(options_.seed + kSeedStep * std::uint64_t(++problems_));
   std::vector<VectorXd> starts;
   for (int start = 0; start < kStarts; ++start) {
-    const double noise = kNoise * (round > 0 ? start + 1 : start);
-    VectorXd& at = starts.emplace_back(given);
-    for (Eigen::Index i = 0; i < at.size(); ++i) {
-      at[i] += noise * rng.normal();
-      if (lower[i] < upper[i]) at[i] = std::clamp(at[i], lower[i], upper[i]);
+    VectorXd& x = starts.emplace_back(given);
+    if (start == 0 && round == 0) continue;
+    for (Eigen::Index i = 0; i < (round > 0 ? x.size() : shared); ++i) {
+      if (i < shared && std::isfinite(lower[i]) && lower[i] < upper[i] && std::isfinite(upper[i]))
+        x[i] = rng.uniform(lower[i], upper[i]);
+      else
+        x[i] += kNoise * std::max(start, 1) * rng.normal();
+      if (lower[i] < upper[i]) x[i] = std::clamp(x[i], lower[i], upper[i]);
     }
   }
   return starts;

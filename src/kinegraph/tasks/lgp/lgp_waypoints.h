@@ -37,11 +37,12 @@ class LgpWaypoints {
  private:
   bool isFeasible(const Plan& plan);
   bool solve(const Plan& plan, int round);
-  std::vector<VectorXd> starts(const std::shared_ptr<Komo>& problem, int round) const;
+  std::vector<VectorXd> starts(const std::shared_ptr<Komo>& problem, int round);
 
   const Config& C_;
   LgpAbstraction& tamp_;
   const LgpOptions& options_;
+  int problems_ = 0;  ///< so far: starts of each are others
   std::map<Plan, bool> known_;
   std::vector<std::pair<std::string, int>> causes_;  ///< in the order in which they came
 };
