@@ -127,6 +127,17 @@ def test_the_tutorial_with_two_arms_hands_over():
     _, _, lgp = tool("bimanual", "kitchen_handover")
     assert lgp.solve(verbose=0)
     assert lgp.getSolvedPlan()[0][0] == "pick_touch" and lgp.getSolvedPlan()[-1][-1] == "trayG"
+    assert lgp.solveFullMotion(verbose=0).feasible and lgp.path.shape == (90, 14)
+
+
+@pytest.mark.parametrize(("scene", "problem"), [("panda_unblock", "kitchen_single"), ("bimanual", "kitchen_handover")])
+def test_the_tutorials_problems_are_solved_whatever_is_drawn(scene, problem, request):
+    request.addfinalizer(lambda: ry.rnd_seed(0))
+    for seed in range(3, 6):
+        ry.rnd_seed(seed)
+        _, _, lgp = tool(scene, problem)
+        assert lgp.solve(verbose=0), seed
+        assert lgp.solveFullMotion(verbose=0).feasible, seed
 
 
 def test_a_push_up_a_step_is_not_called_feasible_but_by_the_reference():
@@ -306,7 +317,8 @@ def test_an_action_of_ones_own_that_takes_something_along():
     lgp = ry.LGP_Tool(C, tamp)
     assert lgp.solve(0) and tamp.seen == (1, False)
     assert lgp.getSolvedKOMO().getConfiguration(0).getFrame("blue").getParent().name == "mine_1"
-    assert lgp.solveFullMotion(0).feasible and tamp.seen == (30, False)
+    assert lgp.solveFullMotion(0).feasible
+    assert lgp.get_fullMotionProblem().getT() == 120 and tamp.seen == (30, False)
     assert tamp.domain.actions[0] == "pick_touch" and tamp.search.status == "found"
 
 

@@ -1,5 +1,6 @@
 #include "kinegraph/tasks/lgp/lgp_tool.h"
 
+#include "kinegraph/komo/report.h"
 #include "tests/support/expect_error.h"
 #include "tests/tasks/lgp/lgp_scenes.h"
 
@@ -35,6 +36,16 @@ TEST(LgpTool, TheTutorialWithTwoArmsHandsOver) {
   ASSERT_TRUE(lgp.solve(0)) << lgp.message;
   EXPECT_EQ(namesOf(lgp), (Words{"pick_touch", "handover", "place_straightOn"}));
   EXPECT_EQ(lgp.getSolvedPlan().back().back(), "trayG");
+
+  // In the waypoints the hands overlap; the motion does not start there.
+  EXPECT_NE(sliceCollisions(*lgp.getSolvedKOMO(), 1, -.01), "");
+  const SolverResult result = lgp.solveFullMotion(0);
+  EXPECT_TRUE(result.feasible) << result.message;
+  for (int t = 0; t < lgp.motion->slices(); ++t) EXPECT_EQ(sliceCollisions(*lgp.motion, t, -2e-3), "") << t;
+  const Config end = lgp.motion->configuration(89);
+  const Vector3d offset = end.getFrame("objG").getPosition() - end.getFrame("trayG").getPosition();
+  EXPECT_LT(offset.head<2>().cwiseAbs().maxCoeff(), .04);
+  EXPECT_NEAR(offset.z(), .055, 2e-3);
 }
 
 TEST(LgpTool, AMotionOverAllActionsEndsWhereTheWaypointsDo) {

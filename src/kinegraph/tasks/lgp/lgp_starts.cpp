@@ -21,18 +21,23 @@ void LgpOptions::tell(const std::string& line) const {
 namespace {
 
 /// From a start, or from the problem's initial point where there is none.
-SolverResult solveOnce(const std::shared_ptr<Komo>& komo, const VectorXd& start, const LgpOptions& options,
-                       const JobStopped& stopped) {
+SolverResult solveOnce(const std::shared_ptr<Komo>& komo, const VectorXd& start, const SolverOptions& options,
+                       std::uint64_t seed, const JobStopped& stopped) {
   NlpSolver solver(makeNlp(komo), 0);
-  solver.options = options.solver;
+  solver.options = options;
   if (start.size() > 0) solver.setInitialization(start);
-  Rng rng(options.seed);
+  Rng rng(seed);
   return solver.solve(false, rng, [&](const VectorXd&, const VectorXd&) { return !stopped(); });
 }
 
 }  // namespace
 
 LgpSolve solveFrom(const std::shared_ptr<Komo>& komo, const std::vector<VectorXd>& starts, const LgpOptions& options) {
+  return solveFrom(komo, starts, options, options.solver);
+}
+
+LgpSolve solveFrom(const std::shared_ptr<Komo>& komo, const std::vector<VectorXd>& starts, const LgpOptions& options,
+                   const SolverOptions& solver) {
   const bool is_parallel = options.threads > 1;
   std::vector<std::shared_ptr<Komo>> each(starts.size(), komo);
   if (is_parallel)
@@ -42,7 +47,8 @@ LgpSolve solveFrom(const std::shared_ptr<Komo>& komo, const std::vector<VectorXd
   inOrder(
       int(starts.size()), options.threads,
       [&](int i, const JobStopped& stopped) {
-        results[std::size_t(i)] = solveOnce(each[std::size_t(i)], starts[std::size_t(i)], options, stopped);
+        results[std::size_t(i)] =
+            solveOnce(each[std::size_t(i)], starts[std::size_t(i)], solver, options.seed, stopped);
       },
       [&](int i) {
         solve.result = std::move(results[std::size_t(i)]);
@@ -62,7 +68,7 @@ void solveEach(const std::vector<std::shared_ptr<Komo>>& problems, const LgpOpti
   inOrder(
       int(problems.size()), options.threads,
       [&](int i, const JobStopped& stopped) {
-        results[std::size_t(i)] = solveOnce(problems[std::size_t(i)], {}, options, stopped);
+        results[std::size_t(i)] = solveOnce(problems[std::size_t(i)], {}, options.solver, options.seed, stopped);
       },
       [&](int i) {
         take(i, std::move(results[std::size_t(i)]));

@@ -38,6 +38,10 @@ struct LgpSolve {
 /// Tries starts in turn, or side by side, until one leads to a solution; leaves the problem where that ended.
 LgpSolve solveFrom(const std::shared_ptr<Komo>& komo, const std::vector<VectorXd>& starts, const LgpOptions& options);
 
+/// The same with other tolerances.
+LgpSolve solveFrom(const std::shared_ptr<Komo>& komo, const std::vector<VectorXd>& starts, const LgpOptions& options,
+                   const SolverOptions& solver);
+
 /// Solves problems of which each is one, from near where they are, side by side. `take` is called for each, in order.
 void solveEach(const std::vector<std::shared_ptr<Komo>>& problems, const LgpOptions& options,
                const std::function<void(int problem, SolverResult result)>& take);

@@ -5,16 +5,46 @@
 #include "kinegraph/base/errors.h"
 #include "kinegraph/base/random.h"
 #include "kinegraph/base/text.h"
+#include "kinegraph/komo/report.h"
 #include "kinegraph/komo/sub_problem.h"
 
 namespace kinegraph {
 
 namespace {
 
-constexpr int kRounds = 3;        ///< in which plans that failed are tried from other starts
-constexpr int kMotionStarts = 3;  ///< of the motion over all actions
-constexpr double kNear = .02;     ///< how far each further one is from the waypoints
+constexpr int kRounds = 3;         ///< in which plans that failed are tried from other starts
+constexpr int kMotionStarts = 3;   ///< of the motion over all actions
+constexpr double kNear = .02;      ///< how far each further one is from the waypoints
+constexpr double kCoarse = 1e-3;   ///< tolerance of the motion that starts at waypoints that do not overlap
+constexpr double kOverlap = 1e-3;  ///< m: how deep shapes may
 constexpr std::size_t kToldCauses = 5;
+
+/// Does nothing overlap in any slice?
+bool isFree(const Komo& komo) {
+  for (int t = 0; t < komo.slices(); ++t)
+    if (!sliceCollisions(komo, t, -kOverlap).empty()) return false;
+  return true;
+}
+
+/// Puts a motion where waypoints of the same plan are; `x` are their variables.
+void startAlong(Komo& motion, const Komo& waypoints, const VectorXd& x) {
+  const MatrixXd rows = waypoints.getPath();
+  std::vector<VectorXd> postures;
+  for (Eigen::Index i = 0; i < rows.rows(); ++i) postures.push_back(rows.row(i));
+  motion.setWaypoints(postures, {1, true, 0.});
+
+  // What all slices share is as it was found; it comes first in both problems.
+  const auto sharedIn = [](const Komo& komo, const VectorXd& all) {
+    Eigen::Index count = all.size();
+    for (int t = 0; t < komo.slices(); ++t) count -= komo.path().ownDofs(t).size();
+    return count;
+  };
+  VectorXd start = motion.path().variables();
+  const Eigen::Index shared = sharedIn(waypoints, x);
+  if (sharedIn(motion, start) != shared) return;  // an abstraction whose motions have other frames
+  start.head(shared) = x.head(shared);
+  motion.path().setVariables(start);
+}
 
 }  // namespace
 
@@ -101,22 +131,29 @@ std::shared_ptr<Komo> LgpTool::get_fullMotionProblem(bool initWithWaypoints) con
   const Plan& plan = getSolvedPlan();
   const std::shared_ptr<Komo> problem = tamp->setup_motion(C, int(plan.size()));
   tamp->add_all(problem, plan, true);
-  if (!initWithWaypoints) return problem;
-  const MatrixXd rows = komo_->getPath();
-  std::vector<VectorXd> postures;
-  for (Eigen::Index i = 0; i < rows.rows(); ++i) postures.push_back(rows.row(i));
-  problem->setWaypoints(postures, {1, true, 0.});
-
-  // What all slices share is as it was found; it comes first in both problems.
-  Eigen::Index shared = x_.size();
-  for (int t = 0; t < komo_->slices(); ++t) shared -= komo_->path().ownDofs(t).size();
-  VectorXd x = problem->path().variables();
-  Eigen::Index own = 0;
-  for (int t = 0; t < problem->slices(); ++t) own += problem->path().ownDofs(t).size();
-  if (shared + own != x.size()) return problem;  // an abstraction whose motions have other frames than its waypoints
-  x.head(shared) = x_.head(shared);
-  problem->path().setVariables(x);
+  if (initWithWaypoints) startAlong(*problem, *komo_, x_);
   return problem;
+}
+
+/// Waypoints may overlap where no pair is named. Then the motion starts at waypoints of the same plan that do not, and that
+/// is done coarsely, as it is near.
+LgpSolve LgpTool::solveFromFreeWaypoints(const std::shared_ptr<Komo>& problem) {
+  const Plan& plan = getSolvedPlan();
+  const std::shared_ptr<Komo> waypoints = tamp->setup_sequence(C, int(plan.size()));
+  tamp->add_all(waypoints, plan, false);
+  waypoints->addObjective({}, FeatureSymbol::accumulatedCollisions, {}, ObjectiveType::eq, 1.);
+  waypoints->addObjective({}, FeatureSymbol::jointLimits, {}, ObjectiveType::ineq, 1.);
+  SolverOptions coarse = options.solver;
+  coarse.stopTolerance = std::max(coarse.stopTolerance, kCoarse);
+  for (int round = 0; round <= kRounds; ++round) {
+    waypoints->path().setVariables(x_);
+    if (round == 0 && isFree(*waypoints)) break;
+    if (!solveFrom(waypoints, waypoints_.starts(waypoints, round), options).is_solved) continue;
+    startAlong(*problem, *waypoints, waypoints->path().variables());
+    const LgpSolve solved = solveFrom(problem, {problem->path().variables()}, options, coarse);
+    if (solved.is_solved) return solved;
+  }
+  return {};
 }
 
 std::vector<SolverResult> LgpTool::solvePiecewiseMotions(int verbose) {
@@ -136,13 +173,16 @@ std::vector<SolverResult> LgpTool::solvePiecewiseMotions(int verbose) {
 SolverResult LgpTool::solveFullMotion(int verbose) {
   const std::shared_ptr<Komo> problem = get_fullMotionProblem();
   const VectorXd given = problem->path().variables();
-  std::vector<VectorXd> starts;
-  Rng rng(options.seed);
-  for (int start = 0; start < kMotionStarts; ++start) {
-    VectorXd& at = starts.emplace_back(given);
-    for (double& value : at) value += kNear * start * rng.normal();
+  LgpSolve solved = solveFromFreeWaypoints(problem);
+  if (!solved.is_solved) {
+    std::vector<VectorXd> starts;
+    Rng rng(options.seed);
+    for (int start = 0; start < kMotionStarts; ++start) {
+      VectorXd& at = starts.emplace_back(given);
+      for (double& value : at) value += kNear * start * rng.normal();
+    }
+    solved = solveFrom(problem, starts, options);
   }
-  const LgpSolve solved = solveFrom(problem, starts, options);
   motion = problem;
   path = motion->getPath();
   if (verbose > 0) options.tell(cat("-- full motion: ", options.describe(solved.result)));

@@ -68,6 +68,7 @@ class LgpTool {
 
  private:
   bool found(const Plan& plan);
+  LgpSolve solveFromFreeWaypoints(const std::shared_ptr<Komo>& problem);
   void conclude(bool is_spent);
 
   LgpWaypoints waypoints_;

@@ -26,6 +26,9 @@ class LgpWaypoints {
   /// A plan that has failed, from other starts, others in each round from 1 on. Are there waypoints?
   bool tryAgain(const Plan& plan, int round) { return solve(plan, round); }
 
+  /// Where the problem of a plan is tried from, others for each problem and in each round.
+  std::vector<VectorXd> starts(const std::shared_ptr<Komo>& problem, int round);
+
   /// Why problems failed, and how often, the most frequent first.
   std::vector<std::pair<std::string, int>> causes() const;
 
@@ -37,8 +40,6 @@ class LgpWaypoints {
  private:
   bool isFeasible(const Plan& plan);
   bool solve(const Plan& plan, int round);
-  std::vector<VectorXd> starts(const std::shared_ptr<Komo>& problem, int round);
-
   const Config& C_;
   LgpAbstraction& tamp_;
   const LgpOptions& options_;
