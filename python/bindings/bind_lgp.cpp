@@ -119,6 +119,14 @@ void makeDefault(DefaultAbstraction* self, const PyConfig& C, const PathText& fi
 
 nb::tuple explicitPairs(const Abstraction& tamp) { return nb::tuple(nb::cast(tamp.explicitCollisions)); }
 
+// Types as subclasses write them.
+#define KINEGRAPH_LGP_ADD "(self, komo: KOMO, time: float, prev_action: list[str], action: list[str]) -> None"
+constexpr char kAdd[] = "def add_action_constraints" KINEGRAPH_LGP_ADD;
+constexpr char kAddMotion[] = "def add_action_constraints_motion" KINEGRAPH_LGP_ADD;
+constexpr char kAddAll[] = "def add_all(self, komo: KOMO, plan: list[list[str]], motion: bool) -> None";
+constexpr char kForbid[] = "def forbidBeginning(self, plan: list[list[str]]) -> None";
+#undef KINEGRAPH_LGP_ADD
+
 // What Python asks of a class is that class' own, whatever a subclass has in its place: that is how super() calls it.
 void bindAbstraction(nb::module_& m) {
   nb::class_<Abstraction, PyAbstraction<Abstraction>>(m, "LGP_TAMP_Abstraction", nb::dynamic_attr(),
@@ -136,7 +144,7 @@ void bindAbstraction(nb::module_& m) {
           docs::lgp::getNewActionSequence)
       .def(
           "forbidBeginning", [](Abstraction& tamp, const LgpPlan& plan) { tamp.Abstraction::forbidBeginning(plan); },
-          "plan"_a, docs::lgp::forbidBeginning)
+          "plan"_a, nb::sig(kForbid), docs::lgp::forbidBeginning)
       .def(
           "setup_sequence",
           [](Abstraction& tamp, const PyConfig& C, int K) { return asPython(tamp.Abstraction::setup_sequence(C, K)); },
@@ -149,7 +157,7 @@ void bindAbstraction(nb::module_& m) {
           "add_action_constraints",
           [](Abstraction& tamp, const std::shared_ptr<PyKomo>& komo, double time, const TaskAction& before,
              const TaskAction& action) { tamp.Abstraction::add_action_constraints(komo, time, before, action); },
-          "komo"_a, "time"_a, "prev_action"_a, "action"_a, docs::lgp::add_action_constraints)
+          "komo"_a, "time"_a, "prev_action"_a, "action"_a, nb::sig(kAdd), docs::lgp::add_action_constraints)
       .def(
           "add_action_constraints_motion",
           [](Abstraction& tamp, const std::shared_ptr<PyKomo>& komo, double time, const TaskAction& before,
@@ -157,14 +165,15 @@ void bindAbstraction(nb::module_& m) {
             tamp.Abstraction::add_action_constraints_motion(komo, time, before, action);
             warnOfProblem(*komo);
           },
-          "komo"_a, "time"_a, "prev_action"_a, "action"_a, docs::lgp::add_action_constraints_motion)
+          "komo"_a, "time"_a, "prev_action"_a, "action"_a, nb::sig(kAddMotion),
+          docs::lgp::add_action_constraints_motion)
       .def(
           "add_all",
           [](Abstraction& tamp, const std::shared_ptr<PyKomo>& komo, const LgpPlan& plan, bool motion) {
             tamp.Abstraction::add_all(komo, plan, motion);
             warnOfProblem(*komo);
           },
-          "komo"_a, "plan"_a, "motion"_a, docs::lgp::add_all);
+          "komo"_a, "plan"_a, "motion"_a, nb::sig(kAddAll), docs::lgp::add_all);
 }
 
 void bindDefault(nb::module_& m) {
@@ -186,7 +195,7 @@ void bindDefault(nb::module_& m) {
       .def(
           "forbidBeginning",
           [](DefaultAbstraction& tamp, const LgpPlan& plan) { tamp.DefaultAbstraction::forbidBeginning(plan); },
-          "plan"_a, docs::lgp::forbid)
+          "plan"_a, nb::sig(kForbid), docs::lgp::forbid)
       .def(
           "add_action_constraints",
           [](DefaultAbstraction& tamp, const std::shared_ptr<PyKomo>& komo, double time, const TaskAction& before,
@@ -194,7 +203,7 @@ void bindDefault(nb::module_& m) {
             tamp.DefaultAbstraction::add_action_constraints(komo, time, before, action);
             warnOfProblem(*komo);
           },
-          "komo"_a, "time"_a, "prev_action"_a, "action"_a, docs::lgp::addDefaultConstraints)
+          "komo"_a, "time"_a, "prev_action"_a, "action"_a, nb::sig(kAdd), docs::lgp::addDefaultConstraints)
       .def(
           "switch",
           [](DefaultAbstraction& tamp, PyManipulation& helper, double time, const std::string& frame,
