@@ -6,17 +6,16 @@ import kinegraph as ry
 
 C = ry.Config()
 C.addFile(ry.raiPath("scenarios/pandaSingle.g"))
-for tray, at, color in (("trayG", [0.4, 0.3, 0.055], [0, 0.6, 0]), ("trayB", [-0.3, 0.5, 0.055], [0, 0, 0.6])):
-    frame = C.addFrame(tray, "table").setRelativePosition(at).setColor(color)
-    frame.setShape(ry.ST.ssBox, [0.07, 0.07, 0.01, 0.004]).setAttributes({"logical": {"is_place": True}})
-# objB stands where objG shall be
-for obj, parent, at, color in (
-    ("objG", "table", [-0.2, 0.4, 0.1], [0, 0.7, 0]),
-    ("objB", "trayG", [0, 0, 0.055], [0, 0, 0.7]),
+for tray, at, color in (
+    ("trayG", [0.4, 0.3, 0.055], [0, 0.6, 0]),
+    ("trayB", [-0.3, 0.5, 0.055], [0, 0, 0.6]),
+    ("stand", [-0.2, 0.25, 0.055], [0.6, 0.6, 0.6]),
 ):
-    frame = C.addFrame(obj, parent).setRelativePosition(at).setJoint(ry.JT.rigid).setColor(color).setContact(1)
-    frame.setShape(ry.ST.ssBox, [0.06, 0.06, 0.1, 0.005]).setAttributes({"logical": {"is_object": True}})
-C.getFrame("table").setAttributes({"logical": {"is_place": True}})
+    frame = C.addFrame(tray, "table", "logical: { is_place }").setRelativePosition(at).setColor(color)
+    frame.setShape(ry.ST.ssBox, [0.07, 0.07, 0.01, 0.004])
+for obj, place, color in (("objG", "stand", [0, 0.7, 0]), ("objB", "trayG", [0, 0, 0.7])):  # where objG shall be
+    frame = C.addFrame(obj, place, "logical: { is_object }").setRelativePosition([0, 0, 0.055]).setColor(color)
+    frame.setJoint(ry.JT.rigid).setShape(ry.ST.ssBox, [0.06, 0.06, 0.1, 0.005]).setContact(1)
 
 
 class Grasps(ry.default_LGP_TAMP_Abstraction):

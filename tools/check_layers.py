@@ -133,8 +133,11 @@ def objects(build: Path) -> dict[Path, str]:
     found = {}
     for entry in json.loads((build / "compile_commands.json").read_text()):
         room = room_of_object(Path(entry["file"]))
-        if room and "/kinegraph.dir/" in entry["output"]:
-            found[build / entry["output"]] = room
+        output = (
+            entry.get("output") or entry["command"].split(" -o ")[1].split()[0]
+        )  # older versions of CMake tell none
+        if room and "/kinegraph.dir/" in output:
+            found[build / output] = room
     return found
 
 

@@ -38,15 +38,15 @@ int main() try {
     Frame frame = C.addFrame(name, "table", "logical: { is_place }").setRelativePosition(at);
     frame.setShape(ST::ssBox, {.07, .07, .01, .004});
   };
-  const auto thing = [&](const std::string& name, const std::string& parent, const Vector3d& at) {
-    Frame frame = C.addFrame(name, parent, "logical: { is_object }").setRelativePosition(at);
+  const auto thing = [&](const std::string& name, const std::string& place) {
+    Frame frame = C.addFrame(name, place, "logical: { is_object }").setRelativePosition({0, 0, .055});
     frame.setJoint(JT::rigid).setShape(ST::ssBox, {.06, .06, .1, .005}).setContact(1);
   };
   tray("trayG", {.4, .3, .055});
   tray("trayB", {-.3, .5, .055});
-  thing("objG", "table", {-.2, .4, .1});
-  thing("objB", "trayG", {0, 0, .055});  // where objG shall be
-  C.addText("Edit table { logical: { is_place } }");
+  tray("stand", {-.2, .25, .055});
+  thing("objG", "stand");
+  thing("objB", "trayG");  // where objG shall be
 
   LGP_Tool lgp(C, std::make_shared<Grasps>(C, SCENES "31_lgp.lgp"));
   if (!lgp.solve()) throw Error(lgp.message);
