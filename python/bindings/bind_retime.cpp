@@ -35,7 +35,7 @@ struct Request {
   std::string corners;
   double tolerance;
   nb::object is_free;
-  MaybeNumbers start_velocity, end_velocity;
+  MaybeNumbers start_velocity, end_velocity, start_acceleration;
   int intervals;
 
   RetimeOptions options() const {
@@ -46,6 +46,7 @@ struct Request {
     options.between = [check = CheckInterrupts()]() mutable { check(); };
     if (start_velocity) options.start_velocity = start_velocity->values;
     if (end_velocity) options.end_velocity = end_velocity->values;
+    if (start_acceleration) options.start_acceleration = start_acceleration->values;
     if (!is_free.is_none())
       options.is_free = [asked = is_free.ptr()](const MatrixXd& blend, double deviation) {
         const nb::gil_scoped_acquire lock;
@@ -170,26 +171,30 @@ void bindRetime(nb::module_& m) {
       [](const PyConfig& config, const Numbers& path, const MaybeNumbers& velocity, const MaybeNumbers& acceleration,
          const MaybeNumbers& jerk, bool torque, const std::string& corners, double tolerance,
          const std::optional<nb::callable>& is_free, const MaybeNumbers& start_velocity,
-         const MaybeNumbers& end_velocity, int intervals) {
+         const MaybeNumbers& end_velocity, int intervals, const MaybeNumbers& start_acceleration) {
         const Request request{corners,        tolerance,    is_free ? nb::object(*is_free) : nb::none(),
-                              start_velocity, end_velocity, intervals};
+                              start_velocity, end_velocity, start_acceleration,
+                              intervals};
         return ofRobot(config, path, velocity, acceleration, jerk, torque, request);
       },
       "config"_a, "path"_a, "velocity"_a = nb::none(), "acceleration"_a = nb::none(), "jerk"_a = nb::none(),
       nb::kw_only(), "torque"_a = false, "corners"_a = "blend", "tolerance"_a = .01, "is_free"_a = nb::none(),
-      "start_velocity"_a = nb::none(), "end_velocity"_a = nb::none(), "intervals"_a = 100, docs::retime::ofRobot);
+      "start_velocity"_a = nb::none(), "end_velocity"_a = nb::none(), "intervals"_a = 100,
+      "start_acceleration"_a = nb::none(), docs::retime::ofRobot);
   m.def(
       "retime",
       [](const Numbers& path, const Numbers& velocity, const Numbers& acceleration, const MaybeNumbers& jerk,
          const std::string& corners, double tolerance, const std::optional<nb::callable>& is_free,
-         const MaybeNumbers& start_velocity, const MaybeNumbers& end_velocity, int intervals) {
+         const MaybeNumbers& start_velocity, const MaybeNumbers& end_velocity, int intervals,
+         const MaybeNumbers& start_acceleration) {
         const Request request{corners,        tolerance,    is_free ? nb::object(*is_free) : nb::none(),
-                              start_velocity, end_velocity, intervals};
+                              start_velocity, end_velocity, start_acceleration,
+                              intervals};
         return ofPath(path, velocity, acceleration, jerk, request);
       },
       "path"_a, "velocity"_a, "acceleration"_a, "jerk"_a = nb::none(), nb::kw_only(), "corners"_a = "blend",
       "tolerance"_a = .01, "is_free"_a = nb::none(), "start_velocity"_a = nb::none(), "end_velocity"_a = nb::none(),
-      "intervals"_a = 100, docs::retime::ofPath);
+      "intervals"_a = 100, "start_acceleration"_a = nb::none(), docs::retime::ofPath);
 }
 
 }  // namespace kinegraph::python

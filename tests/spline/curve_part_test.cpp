@@ -40,6 +40,27 @@ TEST(CurvePart, ALawAlongItIsOneAlongTheWhole) {
   }
 }
 
+TEST(CurvePart, TheRestOfALawIsTheLawFromThenOn) {
+  for (const bool smooth : {false, true}) {
+    const PathCurve curve = someCurve(smooth);
+    MotionLimits limits{VectorXd::Constant(3, 1.), VectorXd::Constant(3, 2.), {}};
+    if (smooth) limits.jerk = VectorXd::Constant(3, 30.);
+    const TimedPath timed = retime(MatrixXd(), curve, limits);
+    for (const double time : {.1, .41 * timed.duration(), .9 * timed.duration()}) {
+      const LawPhase& phase = timed.law().phaseAt(time);
+      const CurvePart part = partOf(curve, phase.at(time - phase.time).s, curve.length());
+      const TimeLaw rest = part.restOf(timed.law(), time);
+      EXPECT_NEAR(rest.duration(), timed.duration() - time, 1e-12);
+      for (double t = 0.; t < rest.duration(); t += .01) {
+        const MotionState now = motionAt(part.curve, rest, t), then = timed.at(time + t);
+        EXPECT_LE((now.q - then.q).norm(), 1e-9) << t;
+        EXPECT_LE((now.velocity - then.velocity).norm(), 1e-9) << t;
+        EXPECT_LE((now.acceleration - then.acceleration).norm(), 1e-7) << t;
+      }
+    }
+  }
+}
+
 TEST(CurvePart, JoinedCurvesStopWhereTheyMeet) {
   const PathCurve curve = someCurve(false);
   const double at = .37 * curve.length();

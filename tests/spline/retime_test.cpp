@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "kinegraph/base/random.h"
+#include "kinegraph/spline/curve_part.h"
 #include "tests/support/expect_error.h"
 
 using namespace kinegraph;
@@ -311,6 +312,89 @@ TEST(Retime, WhereTooFewIntervalsHaveNoLawMoreAreTaken) {
     const TimedPath timed = retime(path, limits, options);
     EXPECT_TRUE(timed.feasible()) << i << ": " << timed.message;
   }
+}
+
+TEST(Retime, ManyIntervalsHaveALawThatIsAsFastAndKeepsTheLimits) {
+  Rng rng(29);
+  const MatrixXd path = randomPath(rng, 4, 2);
+  for (const Corners corners : {Corners::spline, Corners::blend}) {
+    for (const double jerk : {0., 60.}) {
+      const MotionLimits limits = limitsOf(2, 2., 5., jerk);
+      RetimeOptions options;
+      options.corners = corners;
+      options.intervals = 1000;
+      const TimedPath some = retime(path, limits, options);
+      options.intervals = 300000;
+      const TimedPath many = retime(path, limits, options);
+      ASSERT_TRUE(some.feasible() && many.feasible()) << many.message;
+      EXPECT_LE(many.duration(), some.duration() * (1. + 1e-6)) << jerk;
+      EXPECT_GE(many.duration(), .99 * some.duration()) << jerk;
+      const Use use = useOf(many, limits);
+      EXPECT_LE(use.velocity, 1. + kWithin);
+      EXPECT_LE(use.acceleration, 1. + kWithin);
+      EXPECT_LE(use.jerk, 1. + kWithin);  // 0 where it has no limit
+    }
+  }
+}
+
+TEST(Retime, ManyIntervalsEndWhenAskedTo) {
+  Rng rng(31);
+  const MatrixXd path = randomPath(rng, 4, 2);
+  for (const double jerk : {0., 60.}) {
+    RetimeOptions options;
+    options.corners = Corners::spline;
+    options.intervals = 1000000;
+    int count = 0;
+    options.between = [&] {
+      if (++count == 1000) throw ValueError("enough");
+    };
+    expectError<ValueError>([&] { retime(path, limitsOf(2, 1., 2., jerk), options); }, {"enough"});
+  }
+}
+
+TEST(Retime, AMotionGoesOnWithTheAccelerationThatAnotherOneHas) {
+  Rng rng(37);
+  for (int i = 0; i < 20; ++i) {
+    const MatrixXd path = randomPath(rng, 5, 3);
+    const MotionLimits limits = limitsOf(3, 1.5, 4., 60.);
+    RetimeOptions options;
+    options.corners = Corners::spline;
+    const TimedPath before = retime(path, limits, options);
+    ASSERT_TRUE(before.feasible());
+    for (const double share : {.07, .2, .5, .8}) {
+      const double time = share * before.duration();
+      const MotionState now = before.at(time);
+      const LawPhase& phase = before.law().phaseAt(time);
+      const CurvePart rest = partOf(before.curve(), phase.at(time - phase.time).s, before.curve().length());
+      options.start_velocity = now.velocity;
+      options.start_acceleration = now.acceleration;
+      const MotionLimits wider = limitsOf(3, 1.6, 5., 80.);
+      const TimedPath after = retime(MatrixXd(), rest.curve, wider, options);
+      ASSERT_TRUE(after.feasible()) << i << " " << share << " " << after.message;
+      EXPECT_LE((after.at(0.).velocity - now.velocity).norm(), 1e-9);
+      EXPECT_LE((after.at(0.).acceleration - now.acceleration).norm(), 1e-7 * (1. + now.acceleration.norm()));
+      const Use use = useOf(after, wider);
+      EXPECT_LE(use.acceleration, 1. + kWithin);
+      EXPECT_LE(use.jerk, 1. + kWithin);
+      EXPECT_LE(after.duration(), before.duration() - time);
+      options.start_velocity = options.start_acceleration = {};
+    }
+  }
+}
+
+TEST(Retime, AStartAccelerationThatLeavesThePathIsRefused) {
+  RetimeOptions options;
+  options.start_velocity = VectorXd{{1., 0.}};
+  options.start_acceleration = VectorXd{{1., .1}};
+  MatrixXd path(2, 2);
+  path << 0., 0., 1., 0.;
+  const MotionLimits limits = limitsOf(2, 2., 4., 60.);
+  expectError<ValueError>([&] { retime(path, limits, options); }, {"start_acceleration", "leaves the path"});
+  options.start_acceleration = VectorXd{{1., 0.}};
+  EXPECT_NEAR(retime(path, limits, options).at(0.).acceleration[0], 1., 1e-9);
+  expectError<ValueError>([&] { retime(path, limitsOf(2, 2., 4.), options); }, {"limits of the jerk"});
+  options.start_velocity = {};
+  expectError<ValueError>([&] { retime(path, limits, options); }, {"no start_velocity"});
 }
 
 TEST(Retime, MistakesAreNamed) {

@@ -23,6 +23,8 @@ Args:
     start_velocity: dq/dt at the start, shape (n,), along the path; None: at rest.
     end_velocity: dq/dt at the end, shape (n,), along the path; None: at rest.
     intervals: Number of intervals of the time law, on what is curved.
+    start_acceleration: d2q/dt2 at the start, shape (n,), with limits of the jerk: what the path's bend and start_velocity
+        make, and anything along the path; None: the speed does not change at the start.
 Returns:
     TimedPath. If no motion does what is asked, its feasible is False and its message says why.
 Raises:
@@ -45,6 +47,8 @@ Args:
     start_velocity: dq/dt at the start, shape (n,), along the path; None: at rest.
     end_velocity: dq/dt at the end, shape (n,), along the path; None: at rest.
     intervals: Number of intervals of the time law, on what is curved.
+    start_acceleration: d2q/dt2 at the start, shape (n,), with limits of the jerk: what the path's bend and start_velocity
+        make, and anything along the path; None: the speed does not change at the start.
 Returns:
     TimedPath. If no motion does what is asked, its feasible is False and its message says why: a joint that cannot
     hold the arm's weight, for example.

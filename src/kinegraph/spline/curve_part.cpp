@@ -37,6 +37,24 @@ TimeLaw CurvePart::onWhole(const TimeLaw& law) const {
   return {std::move(phases), law.duration()};
 }
 
+TimeLaw CurvePart::restOf(const TimeLaw& whole, double time) const {
+  TimeLaw rest;
+  const std::vector<LawPhase>& phases = whole.phases();
+  for (std::size_t i = std::size_t(&whole.phaseAt(time) - phases.data()); i < phases.size(); ++i) {
+    LawPhase phase = phases[i];
+    const double until = i + 1 < phases.size() ? phases[i + 1].time : whole.duration();
+    const double from = std::max(time, phase.time);
+    if (phase.begin.s - begin >= curve.length()) break;
+    phase.begin = phase.at(from - phase.time);
+    if (phase.growth != 0.) phase.begin.jerk = 0.;  // the growth says how the acceleration changes
+    phase.begin.s = std::max(0., phase.begin.s - begin);
+    phase.end = std::clamp(phase.end - begin, phase.begin.s, curve.length());
+    phase.piece = std::clamp(phase.piece - first_piece, 0, curve.pieces() - 1);
+    if (until > from) rest.add(phase, until - from);
+  }
+  return rest;
+}
+
 CurvePart partOf(const PathCurve& curve, double from, double to) {
   const double nothing = kNothing * curve.length();
   from = std::clamp(from, 0., curve.length());
@@ -57,14 +75,14 @@ CurvePart partOf(const PathCurve& curve, double from, double to) {
   return part;
 }
 
-PathCurve joined(const PathCurve& first, const PathCurve& second) {
+PathCurve joined(const PathCurve& first, const PathCurve& second, bool jumps) {
   assert(first.dofs() == second.dofs() && "curves of one robot are joined");
   PathCurve::Parts parts{.dofs = first.dofs(), .degree = std::max(first.degree(), second.degree())};
   for (const PathCurve* curve : {&first, &second}) {
     for (int piece = 0; piece < curve->pieces(); ++piece) {
       if (curve->end(piece) == curve->begin(piece)) continue;
       parts.begin.push_back(parts.length + curve->begin(piece));
-      parts.stops.push_back(curve->stopsAt(piece) || (curve == &second && piece == 0));
+      parts.stops.push_back(curve->stopsAt(piece) || (jumps && curve == &second && piece == 0));
       addPiece(parts, *curve, piece, 0.);
     }
     for (std::size_t i = curve == &second ? 1 : 0; i < curve->marks().size(); ++i)

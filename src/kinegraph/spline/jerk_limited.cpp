@@ -22,11 +22,13 @@ constexpr int kSmoothings = 10;        // of these
 constexpr double kTightenMore = 2e-6;  // than what is exceeded
 constexpr int kTightenMost = 12;       // rounds, where speeds at the ends are given
 constexpr int kFewestIntervals = 12;
-constexpr int kBlendParts = 6;       // of a blend, at least
-constexpr double kRestShare = .5;    // of the time until the largest acceleration, in which s is a cubic of time
-constexpr double kRestWay = .02;     // of the section's length, likewise
-constexpr double kLeastRest = 1e-6;  // of the first interval otherwise, where hardly a jerk is limited
-constexpr double kNear = .4;         // of the places' distance: nearer to a knot there is none
+constexpr int kMostPlaces = 20000, kSafePlaces = 500;  // of a motion: rounding spoils more, and does not spoil fewer
+constexpr int kBlendParts = 6;                         // of a blend, at least
+constexpr double kRestShare = .5;     // of the time until the largest acceleration, in which s is a cubic of time
+constexpr double kRestWay = .02;      // of the section's length, likewise
+constexpr double kLeastRest = 1e-6;   // of the first interval otherwise, where hardly a jerk is limited
+constexpr double kNear = .4;          // of the places' distance: nearer to a knot there is none
+constexpr double kBrakingShare = .1;  // of s'^2 / s'' where it begins: the longest first interval
 
 /// A part of the grid between stops, and the speeds at its ends.
 struct Section {
@@ -34,8 +36,8 @@ struct Section {
   SectionEnd from, to;
 };
 
-std::vector<Section> sectionsOf(const LawGrid& grid, const SquaredSpeeds& first) {
-  const auto endAt = [&](int place) { return SectionEnd{first.at[place] == 0., first.at[place]}; };
+std::vector<Section> sectionsOf(const LawGrid& grid, const SquaredSpeeds& first, double start_acceleration) {
+  const auto endAt = [&](int place) { return SectionEnd{first.at[place] == 0., first.at[place], 0.}; };
   std::vector<Section> sections;
   int begin = 0;
   for (int i = 1; i <= grid.intervals(); ++i) {
@@ -43,6 +45,7 @@ std::vector<Section> sectionsOf(const LawGrid& grid, const SquaredSpeeds& first)
     sections.push_back({begin, i, endAt(begin), endAt(i)});
     begin = i;
   }
+  if (!sections.front().from.at_rest) sections.front().from.acceleration = start_acceleration;
   return sections;
 }
 
@@ -76,6 +79,7 @@ class SectionPlaces {
       inner_.push_back(std::clamp(phase.at(t - phase.time).s, begin_, end_));
     }
     addKnots(section);
+    if (section.from.acceleration < 0.) addBraking(section.from);
     if (section.from.at_rest) addRest(true, step, limits);
     if (section.to.at_rest) addRest(false, step, limits);
     inner_.insert(inner_.begin(), begin_);
@@ -107,6 +111,13 @@ class SectionPlaces {
     }
     inner_.resize(kept.size() + knots.size());
     std::merge(kept.begin(), kept.end(), knots.begin(), knots.end(), inner_.begin());
+  }
+
+  /// Where it begins to brake: the first interval ends long before it would come to rest at that.
+  void addBraking(const SectionEnd& from) {
+    const double first = (inner_.empty() ? end_ : inner_.front()) - begin_,
+                 most = kBrakingShare * from.squared_speed / -from.acceleration;
+    if (most < first) inner_.insert(inner_.begin(), begin_ + most);
   }
 
   /// The interval in which s is a cubic of time, and places after equal times of it.
@@ -220,8 +231,8 @@ void tighten(SmoothProgram& program, const Shares& shares, const LawEffort& effo
 }
 
 /// The law of a section that is curved; empty if there is none.
-TimeLaw curvedLaw(const LawGrid& grid, const Section& section, const TimeLaw& first, const MotionLimits& limits,
-                  const RowSource& rows, const LawEffort& effort) {
+TimeLaw curvedLawOnce(const LawGrid& grid, const Section& section, const TimeLaw& first, const MotionLimits& limits,
+                      const RowSource& rows, const LawEffort& effort) {
   const LawGrid places(grid.curve(), SectionPlaces(grid, section, first, limits, effort).all(), effort);
   const LawProof proof(places, limits);
   SmoothProgram program(places, limits, rows, section.from, section.to, effort);
@@ -249,15 +260,29 @@ TimeLaw curvedLaw(const LawGrid& grid, const Section& section, const TimeLaw& fi
   return law;
 }
 
+/// The same, with half as many places as long as rounding spoils it: the condition of the matrices grows with the fourth
+/// power of their number. A law that is spoiled is slower than one of few places.
+TimeLaw curvedLaw(const LawGrid& grid, const Section& section, const TimeLaw& first, const MotionLimits& limits,
+                  const RowSource& rows, const LawEffort& effort) {
+  if (effort.intervals <= kSafePlaces) return curvedLawOnce(grid, section, first, limits, rows, effort);
+  LawEffort fewer{kSafePlaces, effort.between};
+  TimeLaw safe = curvedLawOnce(grid, section, first, limits, rows, fewer);
+  for (fewer.intervals = std::min(effort.intervals, kMostPlaces); fewer.intervals > kSafePlaces; fewer.intervals /= 2) {
+    TimeLaw law = curvedLawOnce(grid, section, first, limits, rows, fewer);
+    if (!law.phases().empty() && (safe.phases().empty() || law.duration() <= safe.duration())) return law;
+  }
+  return safe;
+}
+
 }  // namespace
 
-SmoothLaw smoothLaw(const LawGrid& grid, const SquaredSpeeds& first, const MotionLimits& limits, const RowSource& rows,
-                    const LawEffort& effort) {
+SmoothLaw smoothLaw(const LawGrid& grid, const SquaredSpeeds& first, double start_acceleration,
+                    const MotionLimits& limits, const RowSource& rows, const LawEffort& effort) {
   SmoothLaw smooth;
   const TimeLaw fast = lawOf(grid, limits, first, effort);
-  for (const Section& section : sectionsOf(grid, first)) {
+  for (const Section& section : sectionsOf(grid, first, start_acceleration)) {
     bool is_found = true;
-    if (section.end == section.begin + 1 && grid.isLine(section.begin)) {
+    if (section.end == section.begin + 1 && grid.isLine(section.begin) && section.from.acceleration == 0.) {
       const LineMotionLimits along = limitsAlong(grid.tangent(section.begin).data(), limits);
       is_found = addDoubleS(smooth.law, grid.place(section.begin), grid.place(section.end),
                             std::sqrt(section.from.squared_speed), std::sqrt(section.to.squared_speed), along,

@@ -12,7 +12,8 @@ struct SmoothLaw {
   double place = 0.;
 };
 
-/// The fastest law that keeps the limits of the jerk, too. `first` are the fastest speeds without them, on `grid`.
+/// The fastest law that keeps the limits of the jerk, too. `first` are the fastest speeds without them, on `grid`. Where it
+/// does not begin at rest, s'' is `start_acceleration` there.
 ///
 /// Between two stops s'^2 =: b(s) is a quadratic spline, so that s'' is continuous; where the motion begins or ends at
 /// rest, s is a cubic of time. Velocities, accelerations and rows are linear in its coefficients, the time taken is convex
@@ -26,7 +27,7 @@ struct SmoothLaw {
 /// of q' ^2 b, (q' b'/2 + q'' b) and b (...)^2 prove. A line between two stops has the seven phases that are known.
 /// Source: Verscheure, Demeulenaere, Swevers, De Schutter, Diehl, Time-optimal path tracking for robots: a convex
 /// optimization approach, 2009; Lipp, Boyd, Variations and extension of the convex-concave procedure, 2016.
-SmoothLaw smoothLaw(const LawGrid& grid, const SquaredSpeeds& first, const MotionLimits& limits, const RowSource& rows,
-                    const LawEffort& effort);
+SmoothLaw smoothLaw(const LawGrid& grid, const SquaredSpeeds& first, double start_acceleration,
+                    const MotionLimits& limits, const RowSource& rows, const LawEffort& effort);
 
 }  // namespace kinegraph

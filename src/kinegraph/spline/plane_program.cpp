@@ -8,6 +8,7 @@ namespace kinegraph {
 namespace {
 
 constexpr double kTolerance = 1e-11;  // by which a row may be missed, as a share of its limits
+constexpr double kRounding = 2e-15;   // likewise, of the largest of its terms
 constexpr double kFlat = 1e-6;        // sine-like share below which two rows of a guess count as parallel
 constexpr int kMostPivots = 80;
 
@@ -33,12 +34,11 @@ int PlaneProgram::mostMissed(double x, double y, double tolerance) {
   int found = -1;
   if (rows > 0) {
     value_ = u * x + w * y + t;
-    const double peak = value_.abs().maxCoeff();
-    if (peak > 1. + tolerance) {
-      most = peak - 1.;
+    if (value_.abs().maxCoeff() > 1. + tolerance) {
+      const auto rounding = kRounding * ((u * x).abs() + (w * y).abs() + t.abs());
       int r = 0;
-      while (std::abs(value_[r]) != peak) ++r;
-      found = 2 * r + (value_[r] > 0. ? 0 : 1);
+      const double peak = (value_.abs() - rounding).maxCoeff(&r) - 1.;
+      if (peak > tolerance) most = peak, found = 2 * r + (value_[r] > 0. ? 0 : 1);
     }
   }
   const auto offer = [&](double missed, int inequality) {

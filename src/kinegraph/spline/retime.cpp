@@ -76,6 +76,31 @@ double speedOf(const char* name, const VectorXd& velocity, const PathCurve& curv
   return speed;
 }
 
+/// d^2s/dt^2 for the acceleration at the start.
+double startAcceleration(const RetimeOptions& options, const PathCurve& curve, const MotionLimits& limits,
+                         double speed) {
+  const VectorXd& given = options.start_acceleration;
+  if (given.size() == 0) return 0.;
+  if (given.size() != curve.dofs())
+    throw ValueError(
+        cat("retime: start_acceleration has ", given.size(), " entries; the path has ", curve.dofs(), " dofs"));
+  if (!given.allFinite()) throw ValueError("retime: start_acceleration has entries that are not finite");
+  if (!limits.limitsJerk())
+    throw ValueError("retime: start_acceleration is for motions with limits of the jerk; accelerations of others jump");
+  if (speed == 0. && !given.isZero(0.))
+    throw ValueError(
+        "retime: there is a start_acceleration and no start_velocity; motions from rest begin without one");
+  if (speed == 0.) return 0.;
+  const VectorXd direction = curve.eval(0., 1), turned = speed * speed * curve.eval(0., 2);
+  const double along = direction.dot(given - turned) / direction.squaredNorm();
+  const double miss = (given - turned - along * direction).norm();
+  if (miss > kAlong * (given.norm() + turned.norm()))
+    throw ValueError(cat("retime: start_acceleration leaves the path by ", miss, "; there it is (",
+                         turned.transpose().format(Eigen::IOFormat(4, 0, ", ", ", ")),
+                         ") at a constant speed, and something along the velocity may be added"));
+  return along;
+}
+
 std::string along(const PathCurve& curve, double s) {
   return cat("at ", 100. * s / std::max(curve.length(), 1e-300), " % of the path");
 }
@@ -171,31 +196,36 @@ struct Timing {
   SquaredSpeeds speeds;
 };
 
-Timing timingOf(const LawGrid& grid, const MotionLimits& limits, const RowSource& rows, double start, double end,
+/// ds/dt at both ends, and d^2s/dt^2 at the start.
+struct EndSpeeds {
+  double start, end, start_acceleration;
+};
+
+Timing timingOf(const LawGrid& grid, const MotionLimits& limits, const RowSource& rows, const EndSpeeds& ends,
                 const LawEffort& effort) {
   Timing timing;
-  SquaredSpeeds& speeds = timing.speeds = fastestSpeeds(grid, limits, rows, start, end, effort);
+  SquaredSpeeds& speeds = timing.speeds = fastestSpeeds(grid, limits, rows, ends.start, ends.end, effort);
   if (speeds.failure != LawFailure::none) return timing;
   if (!limits.limitsJerk()) {
     timing.law = lawOf(grid, limits, speeds, effort);
     return timing;
   }
-  SmoothLaw smooth = smoothLaw(grid, speeds, limits, rows, effort);
+  SmoothLaw smooth = smoothLaw(grid, speeds, ends.start_acceleration, limits, rows, effort);
   speeds.failure = smooth.failure, speeds.most = smooth.most, speeds.place = smooth.place;
   timing.law = std::move(smooth.law);
   return timing;
 }
 
 /// The same with rows, whose limits are narrowed by what they exceed between the places.
-Timing timingWithRows(const LawGrid& grid, const MotionLimits& limits, const RowSource& given, double start, double end,
+Timing timingWithRows(const LawGrid& grid, const MotionLimits& limits, const RowSource& given, const EndSpeeds& ends,
                       const LawEffort& effort) {
   RowSource rows = given;
-  Timing timing = timingOf(grid, limits, rows, start, end, effort);
+  Timing timing = timingOf(grid, limits, rows, ends, effort);
   for (int round = 0; round < kNarrowings && timing.speeds.failure == LawFailure::none; ++round) {
     const VectorXd excess = excessOf(timing.law, given, effort);
     if ((excess.array() <= kExcess * (given.high - given.low).array().min(1e9)).all()) break;
     rows.high -= kNarrowMore * excess, rows.low += kNarrowMore * excess;
-    timing = timingOf(grid, limits, rows, start, end, effort);
+    timing = timingOf(grid, limits, rows, ends, effort);
   }
   return timing;
 }
@@ -214,8 +244,10 @@ TimedPath retime(const MatrixXd& path, const PathCurve& curve, const MotionLimit
   TimedPath timed;
   timed.path = path;
   timed.curve_ = curve;
-  const double start = speedOf("start_velocity", options.start_velocity, curve, 0.);
-  const double end = speedOf("end_velocity", options.end_velocity, curve, curve.length());
+  EndSpeeds ends{};
+  ends.start = speedOf("start_velocity", options.start_velocity, curve, 0.);
+  ends.end = speedOf("end_velocity", options.end_velocity, curve, curve.length());
+  ends.start_acceleration = startAcceleration(options, curve, limits, ends.start);
   if (curve.length() == 0.) {
     timed.law_.add({}, 0.);
     timed.times = VectorXd::Zero(path.rows());
@@ -227,8 +259,8 @@ TimedPath retime(const MatrixXd& path, const PathCurve& curve, const MotionLimit
     if (trial > 0) effort.intervals = std::max(effort.intervals, std::min(2 * effort.intervals, kMostIntervals));
     const LawGrid grid(timed.curve_, limits, effort, bool(options.rows));
     checkLimited(grid, limits, effort);
-    timing = options.rows ? timingWithRows(grid, limits, options.rows, start, end, effort)
-                          : timingOf(grid, limits, {}, start, end, effort);
+    timing = options.rows ? timingWithRows(grid, limits, options.rows, ends, effort)
+                          : timingOf(grid, limits, {}, ends, effort);
   }
   timed.status = statusOf(timing.speeds.failure);
   timed.message = failureText(timing.speeds, timed.curve_, options.rows);

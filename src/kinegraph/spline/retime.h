@@ -23,6 +23,7 @@ struct RetimeOptions {
   double tolerance = .01;                 ///< of blends: by which they may miss their corner, in every dof (rad or m)
   BlendCheck is_free;                     ///< of blends: whether one may be taken; all are if there is none
   VectorXd start_velocity, end_velocity;  ///< (n,), rad/s or m/s, along the path; empty: at rest
+  VectorXd start_acceleration;            ///< (n,), with limits of the jerk; empty: that of a constant speed
   int intervals = 100;                    ///< of the law, on what is curved
   RowSource rows;                         ///< further limits, such as torques; they hold at the ends of the intervals
   std::function<void()> between;          ///< called now and then, and may throw to end it
@@ -88,10 +89,10 @@ class TimedPath {
 ///
 /// Without limits of the jerk: two passes over s'^2 (time_optimal.h). With them: a program in s'^2 that is linear but for
 /// its cost and the jerk's limit, by an interior-point method whose matrices are bands (jerk_limited.h). The motion
-/// begins and ends at rest unless told otherwise; with limits of the jerk it does so without acceleration. Points that
-/// equal their predecessor take no time. Throws ValueError for a path without points, numbers that are not finite, limits
-/// that are not positive, a dof that moves and that nothing limits, and velocities that do not point along the path; what
-/// cannot be followed is a status.
+/// begins and ends at rest unless told otherwise. With limits of the jerk, the speed ds/dt does not change at both ends, unless
+/// a start acceleration says how: q' s'' + q'' s'^2 with any s''. Points that equal their predecessor take no time. Throws ValueError for a path without points, numbers that are not finite, limits
+/// that are not positive, a dof that moves and that nothing limits, velocities that do not point along the path, and a
+/// start acceleration that leaves it; what cannot be followed is a status.
 TimedPath retime(const MatrixXd& path, const MotionLimits& limits, const RetimeOptions& options = {});
 
 /// The same along a curve through the points of `path`.

@@ -149,7 +149,7 @@ void SmoothProgram::assemble() {
   }
   for (int end = 0; end < 2; ++end) {
     const int k = end == 0 ? 0 : count_ - 1;
-    if (!ends_[end].at_rest) band_[k][0] = kFixed, gradient_[k] = -kFixed * (ends_[end].squared_speed - middle_[k]);
+    if (!ends_[end].at_rest) band_[k][0] = kFixed, gradient_[k] = -kFixed * (given_[end] - middle_[k]);
   }
 }
 
@@ -210,7 +210,7 @@ SmoothProgram::Gap SmoothProgram::take(const Steps& steps) {
   for (int i = 0; i < kLanes; ++i) gap.sum += sums.gap[i], gap.missed = std::max(gap.missed, sums.missed[i]);
   for (int end = 0; end < 2; ++end)
     if (!ends_[end].at_rest)
-      gap.missed = std::max(gap.missed, std::abs(middle_[end ? count_ - 1 : 0] / ends_[end].squared_speed - 1.));
+      gap.missed = std::max(gap.missed, std::abs(middle_[end ? count_ - 1 : 0] / given_[end] - 1.));
   return gap;
 }
 
@@ -227,7 +227,7 @@ bool SmoothProgram::improve(double gap, double missed, int most_steps) {
   }
   if (!(gap_.missed <= missed) || !middle_.allFinite()) return false;
   for (int end = 0; end < 2; ++end)
-    if (!ends_[end].at_rest) middle_[end ? count_ - 1 : 0] = ends_[end].squared_speed;
+    if (!ends_[end].at_rest) middle_[end ? count_ - 1 : 0] = given_[end];
   placeKnots();
   return true;
 }

@@ -34,8 +34,12 @@ SmoothProgram::SmoothProgram(const LawGrid& grid, const MotionLimits& limits, co
     right_[k] = 1. - left_[k];
   }
   // at rest: b = y (x / w)^(4/3) has the slope 4 y / 3 w at its end, so that c = y + h/2 of it
-  right_[0] = begin.at_rest ? 1. / (1. + 2. * width_[0] / (3. * rest_width_[0])) : 1.;
-  left_[count_] = end.at_rest ? 1. / (1. + 2. * width_[count_ - 1] / (3. * rest_width_[1])) : 1.;
+  // else b' = 2 s'' is given, and with it c; the knot is a share of it
+  given_[0] = begin.squared_speed + begin.acceleration * width_[0];
+  given_[1] = end.squared_speed - end.acceleration * width_[count_ - 1];
+  right_[0] = begin.at_rest ? 1. / (1. + 2. * width_[0] / (3. * rest_width_[0])) : begin.squared_speed / given_[0];
+  left_[count_] =
+      end.at_rest ? 1. / (1. + 2. * width_[count_ - 1] / (3. * rest_width_[1])) : end.squared_speed / given_[1];
   const int padded = count_ + 2 * kLanes + 1;
   for (Array* array : {&middle_, &knots_, &roots_}) array->setOnes(padded);
   for (Array* array : {&middle_step_, &knot_step_}) array->setZero(padded);

@@ -12,7 +12,8 @@ namespace kinegraph {
 /// How a section of a curve begins or ends.
 struct SectionEnd {
   bool at_rest = true;
-  double squared_speed = 0.;  ///< s'^2, where it is not at rest; s'' is zero there
+  double squared_speed = 0.;  ///< s'^2, where it is not at rest
+  double acceleration = 0.;   ///< s'' there
 };
 
 /// Bernstein coefficients of b = s'^2 in an interval.
@@ -91,6 +92,7 @@ class SmoothProgram {
 
   int first_, count_;
   SectionEnd ends_[2];
+  double given_[2] = {0., 0.};  ///< middle coefficients of the first and last interval, where it is not at rest
   const LawEffort& effort_;
   double rest_width_[2] = {0., 0.};
   Array width_, left_, right_;  ///< knot k = left_[k] c_(k-1) + right_[k] c_k

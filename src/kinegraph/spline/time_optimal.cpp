@@ -12,7 +12,8 @@ namespace {
 constexpr double kUnlimited = 1e18;    // stands for an infinite s'^2
 constexpr double kMiddleShare = 1e-3;  // of the middle coefficient in what is maximized: fast within the interval, too
 constexpr double kMiddleShareBefore = 1e-6;
-constexpr double kRoom = 1e-10;  // by which ranges are narrowed, so that rounding leaves no interval without a law
+constexpr double kRoom = 1e-10;       // by which ranges are narrowed, so that rounding leaves no interval without a law
+constexpr double kLeastStep = 1e-13;  // of the largest s'^2, where rounding leaves nothing of a smaller one
 constexpr int kMostCuts = 40;
 
 /// What a line allows: the largest |s''| and s'^2.
@@ -186,7 +187,8 @@ double IntervalRows::searchBefore(int interval, const Range& next, double sign, 
     if (high - low <= 1e-13 * next.high) break;
     double meet = (low + high) / 2.;
     if (!at.is_feasible) {
-      meet = z - at.value / at.slope * (1. + 1e-9);  // where these rows agree
+      const double step = std::abs(at.value / at.slope) * (1. + 1e-9) + kLeastStep * next.high;
+      meet = at.slope > 0. ? z + step : z - step;  // where these rows agree
     } else if (at_low.slope > 0. && at_high.slope < 0. && at_low.is_feasible && at_high.is_feasible) {
       meet =
           low + (sign * (at_high.value - at_low.value) + at_high.slope * (low - high)) / (at_low.slope - at_high.slope);
