@@ -76,6 +76,21 @@ MotionBounds::Rates MotionBounds::ratesOf(int link, double reach, int ancestor) 
   return rates;
 }
 
+MotionBounds::Rates MotionBounds::directionOf(int index, int ancestor) const {
+  Rates rates{0., 0., 1.};
+  double twist = 0.;
+  while (index != ancestor) {
+    const Program::Link& link = program_->links[std::size_t(index)];
+    for (int s = link.first_step; s < link.first_step + link.steps; ++s) {
+      rates.speed += steps_[std::size_t(s)].turn;
+      twist += steps_[std::size_t(s)].twist;
+    }
+    index = link.parent;
+  }
+  rates.bend = rates.speed * rates.speed + twist;
+  return rates;
+}
+
 int MotionBounds::commonLink(int link_a, int link_b) const {
   while (link_a != link_b) {  // links come after their parents
     int& later = link_a > link_b ? link_a : link_b;

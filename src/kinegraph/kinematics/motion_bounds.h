@@ -28,6 +28,9 @@ class MotionBounds {
   /// Of all points within `reach` (m) of a link's origin, relative to another link that it hangs on.
   Rates ratesOf(int link, double reach, int ancestor = 0) const;
 
+  /// Of unit vectors fixed to a link, relative to another link that it hangs on: |du/ds| and |d^2u/ds^2|, at most.
+  Rates directionOf(int link, int ancestor = 0) const;
+
   /// Of the points of two bodies relative to each other: both relative to the last link that both hang on.
   Rates relative(int link_a, double reach_a, int link_b, double reach_b) const;
 

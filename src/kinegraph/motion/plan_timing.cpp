@@ -56,12 +56,10 @@ BlendCheck freeBlends(Steering& given) {
   const auto place = std::make_shared<State>(given.check().scene());
   return [place, &steering = given](const MatrixXd& points, double deviation) {
     State& state = *place;
-    for (Eigen::Index k = 0; k < points.rows(); ++k) {
+    for (Eigen::Index k = 1; k < points.rows(); ++k) {
       const VectorXd to = points.row(k).transpose();
-      if (steering.isConstrained() && !(steering.manifold().violation(to) <= steering.manifold().tolerance()))
-        return false;
-      if (k == 0) continue;
       const VectorXd from = points.row(k - 1).transpose();
+      if (!steering.manifold().holdsAlong(from, to, Steering::kSpacing, deviation)) return false;
       const VectorXd leaves = VectorXd::Constant(from.size(), deviation);
       const VectorXd spread = .5 * (to - from).cwiseAbs() + leaves;  // from the nearer end
       double travel = 0.;

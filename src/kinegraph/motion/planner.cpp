@@ -109,6 +109,8 @@ bool Planner::lookAtEnds(const MotionGoal& goal, const VectorXd& start) {
   endStage("ends", steering.evaluations(), cat(goals_.size(), " of ", postures.ends.size(), " goal postures are free"));
   if (goals_.empty()) return fail(PlanStatus::goal_blocked, problem);
   if (plan_.notes.size() > 3) plan_.notes.resize(3);
+  for (const std::string& name : steering.manifold().sampled())
+    plan_.notes.push_back(cat("the constraint ", name, " was looked at every ", Steering::kSpacing, " along the way"));
   return true;
 }
 

@@ -4,9 +4,8 @@ namespace kinegraph {
 
 namespace {
 
-constexpr double kStep = .1;      // between postures on a manifold
-constexpr double kLeast = 1e-3;   // a step shorter than this gets nowhere
-constexpr double kSpacing = .02;  // between postures at which constraints are looked at
+constexpr double kStep = .1;     // between postures on a manifold
+constexpr double kLeast = 1e-3;  // a step shorter than this gets nowhere
 
 }  // namespace
 

@@ -18,6 +18,8 @@ struct MotionDemands {
 /// on short ones from one posture at which they hold to the next. Every thread has its own.
 class Steering {
  public:
+  static constexpr double kSpacing = .02;  ///< between postures at which constraints are looked at first
+
   explicit Steering(const MotionDemands& demands)
       : check_(*demands.scene, *demands.space, demands.clearance),
         manifold_(*demands.scene, *demands.space, demands.constraints, demands.constraint_tolerance) {}
@@ -37,7 +39,7 @@ class Steering {
   };
   Way towards(const VectorXd& from, const VectorXd& target, double range);
 
-  /// Is the straight motion free at all times, and do the constraints hold? These are looked at every kSpacing.
+  /// Is the straight motion free at all times, and do the constraints hold at all times (see Manifold::holdsAlong)?
   bool isFree(const VectorXd& from, const VectorXd& to);
 
   /// Postures between two: none if their straight motion is free; with constraints, on the manifold. Nothing if there
