@@ -67,17 +67,20 @@ void setLarge(const OptionClass<PlanOptions>&, PlanOptions& options, const std::
   } else if (name == "moving") {
     options.moving = value.is_none() ? std::vector<MovingObstacle>() : movingOf(value);
   } else if (!value.is_none()) {
-    VectorXd PlanOptions::*const member = name == "velocity"       ? &PlanOptions::velocity
-                                          : name == "acceleration" ? &PlanOptions::acceleration
-                                          : name == "jerk"         ? &PlanOptions::jerk
-                                                                   : &PlanOptions::start_velocity;
+    VectorXd PlanOptions::*const member = name == "velocity"         ? &PlanOptions::velocity
+                                          : name == "acceleration"   ? &PlanOptions::acceleration
+                                          : name == "jerk"           ? &PlanOptions::jerk
+                                          : name == "start_velocity" ? &PlanOptions::start_velocity
+                                                                     : &PlanOptions::start_acceleration;
     options.*member = limitOf(name.c_str(), value);
   }
 }
 
 const OptionClass<PlanOptions>& planOptionClass() {
   static const OptionClass<PlanOptions> options(
-      planOptionTable(), {{"velocity", "acceleration", "jerk", "start_velocity", "constraints", "moving"}, setLarge});
+      planOptionTable(),
+      {{"velocity", "acceleration", "jerk", "start_velocity", "start_acceleration", "constraints", "moving"},
+       setLarge});
   return options;
 }
 

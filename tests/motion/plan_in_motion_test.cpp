@@ -125,5 +125,78 @@ TEST(PlanInMotion, LimitsOfTheJerkHoldFromTheFirstMomentOn) {
   }
 }
 
+/// The disc as before, and limits of its jerk.
+struct RunningGently {
+  Config C = room(.8);
+  MotionPlan plan;
+
+  RunningGently() {
+    PlanOptions options = brisk();
+    options.jerk = VectorXd::Constant(1, 30.);
+    plan = planMotion(C, VectorXd{{1., 1.}}, options, VectorXd{{-1., 1.2}});
+  }
+};
+
+/// Looks at what limits of the jerk say, from `time` of the motion before on.
+void expectGentle(const MotionPlan& before, double time, const MotionPlan& after) {
+  const MotionState left = before.at(time);
+  EXPECT_LE((after.at(0.).acceleration - left.acceleration).norm(), 1e-6);
+  VectorXd last = left.acceleration;
+  constexpr double kStep = 1e-3;
+  for (double t = kStep; t <= after.duration(); t += kStep) {
+    const VectorXd now = after.at(t).acceleration;
+    ASSERT_LE((now - last).cwiseAbs().maxCoeff(), 30. * kStep * (1. + 1e-6) + 1e-9) << t;
+    last = now;
+  }
+}
+
+TEST(PlanInMotion, ItGoesOnWithItsAccelerationToAnotherGoal) {
+  const RunningGently running;
+  ASSERT_TRUE(running.plan.feasible());
+  for (const VectorXd& goal : {VectorXd{{-1., -1.2}}, VectorXd{{1.2, -1.}}}) {
+    for (const double share : {.02, .1, .25, .4, .55, .7, .85, .95}) {
+      const double time = share * running.plan.duration();
+      const MotionPlan plan = replanMotion(running.C, running.plan, time, MotionGoal(goal));
+      ASSERT_TRUE(plan.feasible()) << share << plan.message;
+      EXPECT_TRUE(plan.notes.empty()) << share << " " << plan.notes.front();
+      expectGoesOn(running.plan, time, plan);
+      expectSmooth(plan, 1., 4.);
+      expectGentle(running.plan, time, plan);
+      EXPECT_TRUE(plan.at(plan.duration()).q.isApprox(goal));
+      EXPECT_EQ(plan.path.rows(), plan.times().size());
+      EXPECT_GE(leastOfTime(running.C, plan, {}, 5e-4, 0.), .01 - 1e-9) << share;
+    }
+  }
+}
+
+TEST(PlanInMotion, TheRestOfAGentleMotionIsThatMotion) {
+  const RunningGently running;
+  const double time = .3 * running.plan.duration();
+  const MotionPlan plan = replanMotion(running.C, running.plan, time);
+  ASSERT_TRUE(plan.feasible()) << plan.message;
+  EXPECT_NEAR(plan.duration(), running.plan.duration() - time, 1e-12);
+  for (double t = 0.; t < plan.duration(); t += .01) {
+    const MotionState now = plan.at(t), then = running.plan.at(time + t);
+    ASSERT_LE((now.q - then.q).norm(), 1e-9) << t;
+    ASSERT_LE((now.acceleration - then.acceleration).norm(), 1e-7) << t;
+  }
+}
+
+TEST(PlanInMotion, AStartAccelerationThatMakesNoSenseIsRefused) {
+  Config C = room(.8);
+  PlanOptions options = brisk();
+  options.start_velocity = VectorXd{{.5, 0.}};
+  options.start_acceleration = VectorXd{{1., 0.}};
+  EXPECT_THROW(planMotion(C, VectorXd{{-1., -1.}}, options), ValueError);  // no limits of the jerk
+  options.jerk = VectorXd::Constant(1, 30.);
+  options.start_acceleration = VectorXd{{4.5, 0.}};
+  const MotionPlan plan = planMotion(C, VectorXd{{-1., -1.}}, options, VectorXd{{-1.5, 1.2}});
+  EXPECT_EQ(plan.status, PlanStatus::start_blocked);
+  EXPECT_NE(plan.message.find("start acceleration of disc:0 is 4.5; its limit is 4"), std::string::npos)
+      << plan.message;
+  options.start_acceleration = VectorXd{{1.}};
+  EXPECT_THROW(planMotion(C, VectorXd{{-1., -1.}}, options), ValueError);
+}
+
 }  // namespace
 }  // namespace kinegraph

@@ -39,6 +39,7 @@ Args:
         the model's velocities (1 where it says none), reached in a quarter of a second, and no limit of the jerk;
         constraints: MotionConstraints that hold all along;
         start_velocity: dq/dt with which the motion begins, shape (n,), rad/s or m/s, by default at rest;
+        start_acceleration: d2q/dt2 likewise, with limits of the jerk; by default none;
         moving: what moves by itself meanwhile, a dict of frame -> (times, values): times of shape (K,), s from the begin of
         the motion; values of shape (K, 7), poses of the frame in the world, or (K, d), positions of its joint, which is no
         part of q. Between them it goes straight, before and after them it stands still. The motion keeps clear of it at
@@ -66,7 +67,7 @@ Args:
     config: As for planMotion.
     goal: As for planMotion.
     start: A joint vector (n,), rad or m; None: the present q.
-    fields: As for planMotion, without moving and start_velocity. improve: evaluations that are spent on better motions, 1000000
+    fields: As for planMotion, without moving, start_velocity and start_acceleration. improve: evaluations that are spent on better motions, 1000000
         by default; time_limit: s, from the first motion on.
 Returns:
     An iterator of MotionPlans. Where there is no motion, it gives one that says why.
@@ -97,8 +98,8 @@ need not stop. The time of the new motion begins at 0 then.
 
     bend = plan.replan(C, at=1.2, goal=[.4, .2, .9])
 
-Where the rest of this motion leads to the goal and is still free, it stays. With limits of the jerk, the new motion begins
-without acceleration.
+Where the rest of this motion leads to the goal and is still free, it stays. With limits of the jerk, the new motion has the
+acceleration of this one at first, too, but among moving obstacles.
 
 Args:
     config: The scene, which may have changed.

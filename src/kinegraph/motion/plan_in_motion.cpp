@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "kinegraph/motion/eased_start.h"
 #include "kinegraph/motion/plan_timing.h"
 #include "kinegraph/motion/planner.h"
 #include "kinegraph/spline/curve_part.h"
@@ -14,8 +15,9 @@ namespace {
 constexpr const char* kStarting = "planMotion";
 constexpr double kLineFactors[] = {1., 2., 4.};  // lines on which it goes on, as multiples of what it takes to stop
 constexpr double kALittle = 1. + 1e-6;           // more than what it takes, so that rounding does no harm
-constexpr double kAboveLimits = 1e-9;  // by which velocities of a running motion may be above limits, as a share
-constexpr int kParts = 16;             // of what is curved, when it is looked at
+constexpr double kAboveLimits = 1e-9;            // by which what a running motion has may be above limits, as a share
+constexpr int kParts = 16;                       // of what is curved, when it is looked at
+constexpr double kBeyond = 1e-12;                // rad, m: by which rounding may leave the limits of joints
 
 /// Places of a curve between which it is straight, or nearly so.
 std::vector<double> placesAlong(const PathCurve& curve) {
@@ -35,6 +37,16 @@ MatrixXd pointsAt(const PathCurve& curve, const std::vector<double>& places) {
   return points;
 }
 
+/// The motion of a law that is known; of its phases, s says on which pieces they are.
+TimedPath timedBy(TimeLaw law, const MatrixXd& rows, const PathCurve& curve) {
+  std::vector<LawPhase> phases = law.phases();
+  for (LawPhase& phase : phases) phase.piece = curve.pieceAt(.5 * (phase.begin.s + phase.end));
+  law = TimeLaw(std::move(phases), law.duration());
+  VectorXd times(Eigen::Index(curve.marks().size()));
+  for (Eigen::Index i = 0; i < times.size(); ++i) times[i] = law.timeOf(curve.marks()[std::size_t(i)]);
+  return TimedPath::fromParts(RetimeStatus::timed, "", rows, std::move(times), curve, std::move(law));
+}
+
 /// The same curve with marks at all of these places.
 PathCurve marked(const PathCurve& curve) {
   PathCurve::Parts parts = curve.parts();
@@ -52,23 +64,28 @@ class PlanInMotion {
         at_rest_(options),
         start_(start),
         velocity_(options.start_velocity),
+        acceleration_(options.start_acceleration),
         watch_(watch),
         limits_(planLimits(config, options)),
         space_(*config.program()),
         scene_(config.state()) {
-    at_rest_.start_velocity = {};
+    at_rest_.start_velocity = at_rest_.start_acceleration = {};
     at_rest_.moving.clear();
   }
 
   MotionPlan run(const KnownCurves& known) {
-    if (!allowsVelocity() || !looksAtStart()) return std::move(best_);
-    for (const PathCurve& curve : known.to_goal)
-      if (takeWhole(curve)) return std::move(best_);
+    if (!allowed("velocity", velocity_, limits_.velocity) ||
+        !allowed("acceleration", acceleration_, limits_.acceleration) || !looksAtStart())
+      return std::move(best_);
+    for (const KnownCurves::Timed& rest : known.to_goal)
+      if (takeWhole(rest)) return std::move(best_);
     if (velocity_.isZero(0.)) return planFromRest(config_, goal_, at_rest_, start_, watch_);
-    for (const double farther : kLineFactors)
-      if (!isStopped()) tryLine(farther * distanceToRest());
-    for (const PathCurve& curve : known.to_rest)
-      if (!best_.feasible() && !isStopped()) tryLead(marked(curve), false);
+    tryAll(known);
+    if (!best_.feasible() && acceleration_.size() > 0 && !isStopped()) {
+      acceleration_ = {};
+      tryAll(known);
+      if (best_.feasible()) best_.notes.push_back("the motion begins without the start acceleration");
+    }
     if (!best_.feasible() && best_.message.empty()) {
       best_.status = PlanStatus::no_way;
       best_.message = cat("the motion cannot come to rest: ", why_);
@@ -79,6 +96,16 @@ class PlanInMotion {
  private:
   bool isStopped() const { return watch_ && watch_(); }
 
+  void tryAll(const KnownCurves& known) {
+    const Lead eased = easing();
+    for (const double farther : kLineFactors)
+      if (!isStopped()) tryLine(eased, farther);
+    for (const PathCurve& curve : known.to_rest)
+      if (!best_.feasible() && !isStopped()) tryLead({marked(curve), {}, "as before"});
+    for (const KnownCurves::Timed& stop : known.to_stop)
+      if (!best_.feasible() && !isStopped()) tryLead({marked(stop.curve), stop.law, "as before"});
+  }
+
   MotionDemands demandsAround(const std::vector<const MotionEnd*>& ends) {
     return {.scene = &scene_,
             .space = &space_,
@@ -87,17 +114,16 @@ class PlanInMotion {
             .constraint_tolerance = options_.constraint_tolerance};
   }
 
-  bool allowsVelocity() {
-    for (Eigen::Index j = 0; j < velocity_.size(); ++j) {
-      double& limit = limits_.velocity[j];
-      const double speed = std::abs(velocity_[j]);
-      if (speed > limit * (1. + kAboveLimits)) {
+  /// Does what the motion begins with keep the limits? What rounding adds to it widens them.
+  bool allowed(const char* what, const VectorXd& given, VectorXd& limits) {
+    for (Eigen::Index j = 0; j < given.size(); ++j) {
+      if (std::abs(given[j]) > limits[j] * (1. + kAboveLimits)) {
         best_.status = PlanStatus::start_blocked;
         best_.message =
-            cat("the start velocity of ", space_.nameOf(int(j)), " is ", velocity_[j], "; its limit is ", limit);
+            cat("the start ", what, " of ", space_.nameOf(int(j)), " is ", given[j], "; its limit is ", limits[j]);
         return false;
       }
-      limit = std::max(limit, speed * (1. + 1e-12));
+      limits[j] = std::max(limits[j], std::abs(given[j]) * (1. + 1e-12));
     }
     return true;
   }
@@ -122,11 +148,11 @@ class PlanInMotion {
     return Steering(demandsAround(list));
   }
 
-  /// Factor on the velocity: the distance that it takes to come to rest, by constant acceleration and jerk.
-  double distanceToRest() const {
+  /// Factor on a velocity: the distance that it takes to come to rest, by constant acceleration and jerk.
+  double distanceToRest(const VectorXd& velocity) const {
     double acceleration = std::numeric_limits<double>::infinity(), jerk = acceleration;  // as multiples of the velocity
-    for (Eigen::Index j = 0; j < velocity_.size(); ++j) {
-      const double speed = std::abs(velocity_[j]);
+    for (Eigen::Index j = 0; j < velocity.size(); ++j) {
+      const double speed = std::abs(velocity[j]);
       if (speed == 0.) continue;
       acceleration = std::min(acceleration, limits_.acceleration[j] / speed);
       if (limits_.limitsJerk()) jerk = std::min(jerk, limits_.jerk[j] / speed);
@@ -140,16 +166,36 @@ class PlanInMotion {
   RetimeOptions timing() const {
     RetimeOptions options;
     options.start_velocity = velocity_;
+    options.start_acceleration = acceleration_;
     return options;
   }
 
+  /// Where it goes first: a curve, its end, and how.
+  struct Lead {
+    PathCurve curve;  ///< no pieces: there is none, and its end is the start
+    TimeLaw law;      ///< that ends at rest; no phases: it is timed with what follows
+    std::string how;
+    VectorXd end = {}, velocity = {};  ///< of easing: there
+  };
+
+  /// The curve on which accelerations go to zero.
+  Lead easing() const {
+    Lead lead{{}, {}, "straight", start_, velocity_};
+    if (acceleration_.size() == 0 || acceleration_.isZero(0.)) return lead;
+    const EasedStart eased = easeOff(start_, velocity_, acceleration_, limits_);
+    lead.curve = eased.curve.pieces() > 0 ? marked(eased.curve) : PathCurve();
+    lead.end = eased.q, lead.velocity = eased.velocity;
+    return lead;
+  }
+
   /// The rest of a motion that is known.
-  bool takeWhole(const PathCurve& curve) {
-    const PathCurve whole = marked(curve);
+  bool takeWhole(const KnownCurves::Timed& rest) {
+    const PathCurve whole = marked(rest.curve);
     const MatrixXd rows = pointsAt(whole, whole.marks());
     Steering steering = steeringTo({rows.bottomRows(1).transpose()});
     if (!isFree(steering, whole, kParts)) return false;
-    TimedPath timed = retime(rows, whole, limits_, timing());
+    TimedPath timed =
+        rest.law.phases().empty() ? retime(rows, whole, limits_, timing()) : timedBy(rest.law, rows, whole);
     if (!timed.feasible()) return false;
     best_ = MotionPlan();
     best_.status = PlanStatus::solved;
@@ -161,26 +207,38 @@ class PlanInMotion {
     best_.margin = options_.margin;
     best_.kept = std::min(first_.kept, steering.check().marginAt(rows.bottomRows(1).transpose()));
     best_.stages.push_back({"verify", 0., steering.evaluations(), "the rest of the present motion is free"});
+    for (const std::string& name : steering.manifold().sampled())
+      best_.notes.push_back(
+          cat("the constraint ", name, " was looked at every ", Steering::kSpacing, " along the way"));
     best_.timed = std::move(timed);
     return true;
   }
 
-  void tryLine(double distance) {
+  /// Straight on from where the accelerations are zero, so many times as far as it takes to come to rest.
+  void tryLine(const Lead& eased, double farther) {
+    if (eased.curve.pieces() == 0 && acceleration_.size() > 0 && !acceleration_.isZero(0.)) {
+      why_ = "where its accelerations are zero it hardly moves";
+      return;
+    }
     MatrixXd points(2, start_.size());
-    points << start_.transpose(), (start_ + distance * velocity_).transpose();
-    tryLead(polyline(points), true);
+    points << eased.end.transpose(),
+        (eased.end + farther * distanceToRest(eased.velocity) * eased.velocity).transpose();
+    const PathCurve line = polyline(points);
+    Lead lead = eased;
+    lead.curve = eased.curve.pieces() > 0 ? joined(eased.curve, line, false) : line;
+    tryLead(lead, &eased.curve);
   }
 
-  /// Plans from the end of a lead.
-  void tryLead(const PathCurve& lead, bool is_line) {
-    const VectorXd end = lead.eval(lead.length());
-    if (const std::string beyond = space_.beyondLimits(end, 0.); !beyond.empty()) {
-      why_ = cat("going on ", is_line ? "straight" : "as before", " leaves the limits: ", beyond);
+  /// Plans from the end of a lead. Where it ends with a line behind `eased`, the corner may be rounded.
+  void tryLead(const Lead& lead, const PathCurve* eased = nullptr) {
+    const VectorXd end = lead.curve.eval(lead.curve.length());
+    if (const std::string beyond = eased ? firstBeyond(lead.curve) : space_.beyondLimits(end, 0.); !beyond.empty()) {
+      why_ = cat("going on ", lead.how, " leaves the limits: ", beyond);
       return;
     }
     Steering to_end = steeringTo({end});
-    if (!isFree(to_end, lead, kParts)) {
-      why_ = cat("going on ", is_line ? "straight" : "as before", " is not free");
+    if (!isFree(to_end, lead.curve, kParts)) {
+      why_ = cat("going on ", lead.how, " is not free");
       return;
     }
     MotionPlan plan = planFromRest(config_, goal_, at_rest_, end, watch_);
@@ -189,13 +247,14 @@ class PlanInMotion {
       return;
     }
     Steering steering = steeringTo({end, plan.path.bottomRows(1).transpose()});
-    const MatrixXd before = pointsAt(lead, lead.marks());
+    const MatrixXd before = pointsAt(lead.curve, lead.curve.marks());
     MatrixXd rows(before.rows() + plan.path.rows() - 1, before.cols());
     rows << before, plan.path.bottomRows(plan.path.rows() - 1);
-    TimedPath timed = retime(rows, joined(lead, plan.timed.curve()), limits_, timing());
-    if (is_line) {
-      const PathCurve rounded = blendedPolyline(rows, {options_.blend, limits_.limitsJerk(), freeBlends(steering)});
-      TimedPath smoother = retime(rows, rounded, limits_, timing());
+    const PathCurve whole = joined(lead.curve, plan.timed.curve());
+    TimedPath timed = lead.law.phases().empty() ? retime(rows, whole, limits_, timing())
+                                                : timedBy(lawBehind(lead, plan.timed.law()), rows, whole);
+    if (eased) {
+      TimedPath smoother = retime(rows, rounded(*eased, rows, steering), limits_, timing());
       if (smoother.feasible() && (!timed.feasible() || smoother.duration() < timed.duration()))
         timed = std::move(smoother);
     }
@@ -214,11 +273,37 @@ class PlanInMotion {
     best_ = std::move(plan);
   }
 
+  /// The law of a lead, and then another one along what follows.
+  static TimeLaw lawBehind(const Lead& lead, const TimeLaw& onward) {
+    TimeLaw law = lead.law;
+    law.append(CurvePart{{}, lead.curve.length(), 0}.onWhole(onward));
+    return law;
+  }
+
+  /// The lines through these points, the first of which are on an eased curve, with rounded corners.
+  PathCurve rounded(const PathCurve& eased, const MatrixXd& rows, Steering& steering) const {
+    const BlendOptions blends{options_.blend, limits_.limitsJerk(), freeBlends(steering)};
+    if (eased.pieces() == 0) return blendedPolyline(rows, blends);
+    const auto before = Eigen::Index(eased.marks().size()) - 1;
+    return joined(eased, blendedPolyline(rows.bottomRows(rows.rows() - before), blends), false);
+  }
+
+  /// What of a curve is beyond the limits of joints, in words; "" if nothing is. A polynomial keeps within its Bernstein
+  /// coefficients.
+  std::string firstBeyond(const PathCurve& curve) const {
+    for (int piece = 0; piece < curve.pieces(); ++piece) {
+      for (const VectorXd& q : bernsteinOf(curve, piece))
+        if (std::string beyond = space_.beyondLimits(q, kBeyond); !beyond.empty()) return beyond;
+    }
+    return "";
+  }
+
   const Config& config_;
   const MotionGoal& goal_;
   const PlanOptions& options_;
   PlanOptions at_rest_;
   const VectorXd start_, velocity_;
+  VectorXd acceleration_;
   const MotionWatch& watch_;
   MotionLimits limits_;
   const JointSpace space_;

@@ -22,14 +22,32 @@ MotionPlan planWith(const Config& config, const MotionGoal& goal, const PlanOpti
   return plan;
 }
 
-/// Along the curve of a running motion, from s on.
-KnownCurves knownCurves(const TimedPath& running, double s, double speed, const MotionLimits& limits, bool has_goal) {
+bool areSame(const MotionLimits& a, const MotionLimits& b) {
+  return a.velocity == b.velocity && a.acceleration == b.acceleration && a.jerk.size() == b.jerk.size() &&
+         (a.jerk.size() == 0 || a.jerk == b.jerk);
+}
+
+/// Where a motion stands still next, after `time`.
+double nextStop(const TimeLaw& law, double time, double length) {
+  for (const LawPhase& phase : law.phases())
+    if (phase.time > time && phase.begin.speed < 1e-9) return phase.begin.s;
+  return length;
+}
+
+/// Along the curve of a running motion, where it is at `time`, from s on. Its law is of use where it `keeps` the limits.
+KnownCurves knownCurves(const TimedPath& running, double time, double s, double speed, const MotionLimits& limits,
+                        bool keeps, bool has_goal) {
   KnownCurves known;
   const PathCurve& curve = running.curve();
   const double rest = curve.length() - s;
   if (rest <= 1e-9 * curve.length()) return known;
-  if (!has_goal) known.to_goal.push_back(partOf(curve, s, curve.length()).curve);
+  const auto timed = [&](double to) {
+    const CurvePart part = partOf(curve, s, to);
+    return KnownCurves::Timed{part.curve, keeps ? part.restOf(running.law(), time) : TimeLaw()};
+  };
+  if (!has_goal) known.to_goal.push_back(timed(curve.length()));
   if (speed == 0.) return known;
+  if (keeps) known.to_stop.push_back(timed(nextStop(running.law(), time, curve.length())));
   const VectorXd tangent = curve.eval(s, 1).cwiseAbs();
   const double braking = (limits.acceleration.array() / tangent.array().max(1e-12)).minCoeff();
   const double distance = .5 * speed * speed / braking;
@@ -53,6 +71,9 @@ MotionPlan replanMotion(const Config& config, const MotionPlan& running, double 
   const MotionState now = running.at(time);
   PlanOptions options = given.value_or(running.optionsAt(time));
   options.start_velocity = now.velocity;
+  options.start_acceleration = {};
+  if (options.jerk.size() > 0 && options.moving.empty() && !now.velocity.isZero(0.))
+    options.start_acceleration = now.acceleration;
   options.validateFor(config.getJointDimension());
   if (now.q.size() != config.getJointDimension())
     throw ValueError(
@@ -61,8 +82,9 @@ MotionPlan replanMotion(const Config& config, const MotionPlan& running, double 
   const double held = std::clamp(time, 0., law.duration());
   const LawPhase& phase = law.phaseAt(held);
   const LawState state = phase.at(held - phase.time);
-  const KnownCurves known = knownCurves(running.timed, std::clamp(state.s, phase.begin.s, phase.end), state.speed,
-                                        planLimits(config, options), goal.has_value());
+  const MotionLimits limits = planLimits(config, options);
+  const KnownCurves known = knownCurves(running.timed, held, std::clamp(state.s, phase.begin.s, phase.end), state.speed,
+                                        limits, areSame(limits, planLimits(config, running.options)), goal.has_value());
   return planWith(config, goal ? *goal : MotionGoal(VectorXd(running.path.bottomRows(1).transpose())), options, now.q,
                   watch, known);
 }

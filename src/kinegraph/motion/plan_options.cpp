@@ -14,6 +14,21 @@ void validateLimit(const VectorXd& limit, const char* name, int dofs) {
   }
 }
 
+void validateStartAcceleration(const PlanOptions& options, int dofs) {
+  const VectorXd& given = options.start_acceleration;
+  if (given.size() == 0) return;
+  if (given.size() != dofs)
+    throw ValueError(cat("planMotion: start_acceleration has ", given.size(), " numbers; expected ", dofs));
+  if (!given.allFinite()) throw ValueError("planMotion: start_acceleration has numbers that are not finite");
+  if (given.isZero(0.)) return;
+  if (options.jerk.size() == 0)
+    throw ValueError("planMotion: start_acceleration is for motions with limits of the jerk; give jerk, too");
+  if (options.start_velocity.size() == 0 || options.start_velocity.isZero(0.))
+    throw ValueError("planMotion: there is a start_acceleration and no start_velocity; from rest there is none");
+  if (!options.moving.empty())
+    throw ValueError("planMotion: among moving obstacles the motion begins without start_acceleration");
+}
+
 }  // namespace
 
 const OptionTable<PlanOptions>& planOptionTable() {
@@ -77,6 +92,7 @@ void PlanOptions::validateFor(int dofs) const {
   if (slices == 1 || slices > kMostSlices)
     throw ValueError(cat("planMotion: slices is ", slices, "; expected 0, or 2 to ", kMostSlices));
   if (!start_velocity.allFinite()) throw ValueError("planMotion: start_velocity has numbers that are not finite");
+  validateStartAcceleration(*this, dofs);
   if (!moving.empty() && !acceleration.allFinite())
     throw ValueError("planMotion: acceleration is infinite; among moving obstacles it has to be limited");
 }

@@ -55,6 +55,7 @@ struct PlanOptions {
   VectorXd jerk = {};          ///< most |d3q/dt3|; empty: none
   std::vector<MotionConstraint> constraints = {};  ///< that hold all along the path
   VectorXd start_velocity = {};                    ///< dq/dt with which the motion begins, rad/s or m/s; empty: at rest
+  VectorXd start_acceleration = {};                ///< d2q/dt2, with start_velocity and limits of the jerk; empty: none
   std::vector<MovingObstacle> moving = {};  ///< what moves meanwhile; times count from the begin of the motion, s
 
   void validate() const;  ///< throws ValueError naming the first field that makes no sense
