@@ -134,11 +134,35 @@ def test_a_constraint_holds_all_along(panda: ry.Config) -> None:
     assert plan.feasible, plan.message
     z = panda.eval(ry.FS.vectorZ, ["l_gripper"])[0]
     worst = 0.0
-    for t in np.linspace(0, plan.duration, 500):
+    for t in np.linspace(0, plan.duration, 5000):
         panda.setJointState(plan.at(t)[0])
         worst = max(worst, np.abs(panda.eval(ry.FS.vectorZ, ["l_gripper"])[0] - z).max())
-    assert worst <= 1.5e-3
+    assert worst <= 1e-3
+    assert plan.notes == []
     assert leastDistance(panda, plan.path) >= 0
+
+
+def test_a_constraint_that_is_looked_at_in_samples_alone_is_told() -> None:
+    C = room()
+    above = ry.MotionConstraint(ry.FS.distance, ["body", "left"], ry.OT.ineq)  # minus the distance
+    plan = ry.planMotion(C, [1.0, 1.0, 1.57], constraints=[above])
+    assert plan.feasible, plan.message
+    assert any("distance" in note and "every 0.02" in note for note in plan.notes)
+
+
+def test_a_motion_is_planned_anew_without_a_jump_of_its_acceleration() -> None:
+    C = room()
+    limits = {"velocity": 1.0, "acceleration": 4.0, "jerk": 40.0}
+    plan = ry.planMotion(C, [1.0, 1.0, 1.57], **limits)
+    assert plan.feasible
+    for share in (0.1, 0.35, 0.6, 0.9):
+        at = share * plan.duration
+        bend = plan.replan(C, at=at, goal=[-1.0, -1.2, 1.0])
+        assert bend.feasible, bend.message
+        for before, after in zip(plan.at(at), bend.at(0.0), strict=True):
+            assert after == pytest.approx(before, abs=1e-6)
+    with pytest.raises(ry.ArgumentError, match="start_acceleration is for motions with limits of the jerk"):
+        ry.planMotion(C, [1.0, 1.0, 1.57], start_velocity=[0.1, 0, 0], start_acceleration=[1.0, 0, 0])
 
 
 def test_conditions_may_be_the_goal(column: ry.Config) -> None:

@@ -95,6 +95,14 @@ def test_blends_are_asked_for():
         ry.retime([[0, 0], [1, 0], [1, 1]], 1, 2, is_free=lambda points, deviation: 1 / 0)
 
 
+def test_a_motion_may_begin_with_an_acceleration():
+    motion = ry.retime([[0.0], [1.0]], 1, 2, 30, start_velocity=[0.4], start_acceleration=[-1.5])
+    _, velocity, acceleration = motion.at(0.0)
+    assert (velocity[0], acceleration[0]) == pytest.approx((0.4, -1.5), abs=1e-9)
+    with pytest.raises(ry.ArgumentError, match="start_acceleration has 2 entries"):
+        ry.retime([[0.0], [1.0]], 1, 2, 30, start_velocity=[0.4], start_acceleration=[1.0, 0.0])
+
+
 @pytest.mark.parametrize("corners", ["blend", "stop", "spline"])
 @pytest.mark.parametrize("jerk", [None, 30.0])
 def test_copies_move_alike(corners, jerk):
