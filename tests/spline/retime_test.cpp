@@ -324,7 +324,7 @@ TEST(Retime, ManyIntervalsHaveALawThatIsAsFastAndKeepsTheLimits) {
       options.corners = corners;
       options.intervals = 1000;
       const TimedPath some = retime(path, limits, options);
-      options.intervals = 300000;
+      options.intervals = corners == Corners::spline ? 300000 : 30000;  // blends are short
       const TimedPath many = retime(path, limits, options);
       ASSERT_TRUE(some.feasible() && many.feasible()) << many.message;
       EXPECT_LE(many.duration(), some.duration() * (1. + 1e-6)) << jerk;
