@@ -1,6 +1,6 @@
 """Tasks of Panda arms: how long planTask takes, and how many plans reach their goal in simulation.
 
-    python benchmarks/panda_tasks.py [--families tower,sort] [--sizes 3,5] [--seeds 5] [--repairs 3] [--jitter 0.005]
+    python benchmarks/panda_tasks.py [--families tower,sort] [--sizes 3,5] [--seeds 5] [--first 0] [--repairs 3] [--jitter 0.005]
 
 Objects lie where a seed puts them. With --jitter the simulated world has them off by so much (m) from what the plan was made
 for. Printed: how many seeds are planned, processor time, how long the motion takes, how many reach the goal in the simulated
@@ -200,6 +200,7 @@ def main() -> None:
     parser.add_argument("--families", default="tower,sort")
     parser.add_argument("--sizes", default="3")
     parser.add_argument("--seeds", type=int, default=5)
+    parser.add_argument("--first", type=int, default=0, help="the first seed")
     parser.add_argument("--repairs", type=int, default=3)
     parser.add_argument("--jitter", type=float, default=0.0)
     options = parser.parse_args()
@@ -207,7 +208,7 @@ def main() -> None:
     for name in options.families.split(","):
         for size in map(int, options.sizes.split(",")):
             planned, false, seconds, motion, reached, stops = 0, 0, [], [], [], Counter[str]()
-            for seed in range(options.seeds):
+            for seed in range(options.first, options.first + options.seeds):
                 problem = FAMILIES[name](seed, size)
                 began = time.process_time()
                 plan = ry.planTask(problem.C, problem.goal, seed=seed)

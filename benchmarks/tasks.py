@@ -1,6 +1,6 @@
 """Families of manipulation problems, and how planTask does on them.
 
-    python benchmarks/tasks.py [--families tower,crowded] [--seeds 5] [--evaluations 200000]
+    python benchmarks/tasks.py [--families tower,crowded] [--seeds 5] [--first 0] [--evaluations 200000]
 
 Each family is a generator of scenes with a seed; positions are drawn so that a plan exists by construction, or none does.
 The hand is a gantry: a frame with three sliding joints, whose limits are its reach. Printed: how many seeds end as
@@ -444,12 +444,13 @@ def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--families", default=",".join(FAMILIES))
     parser.add_argument("--seeds", type=int, default=5)
+    parser.add_argument("--first", type=int, default=0, help="the first seed")
     parser.add_argument("--evaluations", type=int, default=200000)
     options = parser.parse_args()
     print(f"{'family':14} as expected   false   median s   most s   evaluations")
     for name in options.families.split(","):
         right, wrong, seconds, evaluations = 0, 0, [], []
-        for seed in range(options.seeds):
+        for seed in range(options.first, options.first + options.seeds):
             problem = FAMILIES[name](seed)
             began = time.process_time()
             plan = ry.planTask(problem.C, problem.goal, evaluations=options.evaluations, seed=seed)

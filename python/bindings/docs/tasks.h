@@ -54,7 +54,7 @@ Looked at: that the goal holds in logic after the last action; that the motion d
 begins and ends, and keeps its limits of velocity and acceleration; that joints are within their limits and nothing
 overlaps by more than 1 mm, at all times and not only in samples (`Config.checkMotion`); that a hand touches what it
 takes, to 1 mm; that what is put down stands level to half a degree, at the height of its place to 1 mm, with its center
-5 mm inside the edges; that what stands on something that is carried tilts by less than 5 degrees and is accelerated by
+5 mm inside the edges, and its center of mass above what it shares with the place; that what stands on something that is carried tilts by less than 5 degrees and is accelerated by
 at most 2 m/s^2; that what is pushed moves straight and level, away from what pushes it; and that nothing that is at
 rest then overlaps.
 

@@ -8,6 +8,7 @@
 #include "kinegraph/base/text.h"
 #include "kinegraph/geometry/shapes/shape_kinds.h"
 #include "kinegraph/tasks/shape_points.h"
+#include "kinegraph/tasks/task_tools.h"
 #include "kinegraph/tasks/task_waypoints.h"
 
 namespace kinegraph {
@@ -22,6 +23,9 @@ using Variants = std::vector<std::string>;
 constexpr double kFingers = .08;             ///< m: what a hand with a palm opens if its frame does not say it
 constexpr double kInside = .02;              ///< m: how far from the ends of an object it is grasped
 constexpr double kHookGap = 5e-4;            ///< m: between a hook, which collides, and what it begins to pull
+constexpr double kAbove = .003;              ///< m: that a tool keeps from the ground where it pulls
+constexpr double kPlay = .002;               ///< m: by which it may be higher, where it is as low as it can be
+constexpr double kSafe = .5;                 ///< of the height at which what it pulls tips
 constexpr std::size_t kCombinations = 4096;  ///< of variants that are ranked
 
 Body bodyOf(const Frame& frame) { return shapeKind(frame.getShapeType()).body; }
@@ -57,12 +61,20 @@ void graspHull(TaskWaypoints& w, double time, const std::string& hand, const std
     w.komo().addObjective({time - .3, time}, F::distance, {palm, obj}, O::ineq, 1e1, -.001);
 }
 
+/// The farther inside, and the nearer to what it weighs, the less it turns in the hand.
+void nearCenter(TaskWaypoints& w, double time, const std::string& hand, const std::string& obj) {
+  const Vector3d center = centerOfBody(w.C.getFrame(obj));
+  if (isCentered(center))
+    w.komo().addObjective({time}, F::positionDiff, {hand, obj}, O::sos, 3e0);
+  else
+    w.komo().addObjective({time}, F::positionRel, {hand, obj}, O::sos, 3e0, center);
+}
+
 void grasp(TaskWaypoints& w, double time, const std::string& hand, const std::string& obj, const std::string& variant) {
   const std::string palm = palmOf(w.C, hand);
   const Frame thing = w.C.getFrame(obj);
   const std::vector<double> size = thing.getSize();
-  if (!palm.empty())  // the farther inside, the less it turns in the hand
-    w.komo().addObjective({time}, F::positionDiff, {hand, obj}, O::sos, 3e0);
+  if (!palm.empty()) nearCenter(w, time, hand, obj);
   if (variant == "touch") {
     w.komo().addObjective({time}, F::distance, {obj, hand}, O::eq, 1e1);
   } else if (variant == "center") {
@@ -99,11 +111,33 @@ void touch(TaskWaypoints& w, double time, const TaskAction& action, const std::s
   w.attach(time, action[3], action[1], true, action[0] == "hook_start" ? kHookGap : 0.);
 }
 
-/// The bar of a hook is along a side of a box, whose axis the variant names: it does not turn then as it is pulled.
+/// A bar presses with an upright face, which can give way only downwards, and so low that what it pulls does not tip: its
+/// tool lies flat, a little above the ground.
+void layFlat(TaskWaypoints& w, double time, const TaskAction& action, const std::string& variant) {
+  const Frame obj = w.C.getFrame(action[1]), place = w.C.getFrame(action[2]), bar = w.C.getFrame(action[3]),
+              tool = w.C.getFrame(action[4]);
+  const int along = longAxis(bar), up = flatAxis(bar, tool);
+  constexpr std::array kAxes = {F::vectorX, F::vectorY, F::vectorZ};
+  const MatrixXd height = Eigen::RowVector3d(0., 0., 1e1);
+  w.komo().addObjective({time}, kAxes[std::size_t(3 - along - up)], {action[3]}, O::eq, .1 * height);
+  const Eigen::AlignedBox3d around = boxAround(obj);
+  const Vector3d sides = around.sizes();
+  const double depth = variant == "x" ? sides.x() : variant == "y" ? sides.y() : std::min(sides.x(), sides.y());
+  const double lowest = .5 * bar.getSize()[std::size_t(up)] + kAbove + kPlay;
+  const double most = around.min().z() + std::max(lowest, kSafe * tippingHeight(obj, place, depth));
+  w.komo().addObjective({time}, F::positionDiff, {action[3], action[1]}, O::ineq, height, {0., 0., most});
+  for (const Frame& part : shapesOf(tool))
+    w.komo().addObjective({time}, F::distance, {part.getName(), action[2]}, O::ineq, 1e1, -kAbove);
+}
+
+/// The bar of a hook is along a side of a box, across the axis that the variant names: it does not turn then as it is pulled
+/// along that.
 void hookOn(TaskWaypoints& w, double time, const TaskAction& action, const std::string& variant) {
   touch(w, time, action, variant);
   const int bar = longAxis(w.C.getFrame(action[3]));
-  if (variant == "touch" || bar < 0) return;
+  if (bar < 0) return;
+  layFlat(w, time, action, variant);
+  if (variant == "touch") return;
   constexpr std::array kProducts = {std::array{F::scalarProductXX, F::scalarProductXY},
                                     std::array{F::scalarProductYX, F::scalarProductYY},
                                     std::array{F::scalarProductZX, F::scalarProductZY}};
@@ -111,9 +145,14 @@ void hookOn(TaskWaypoints& w, double time, const TaskAction& action, const std::
   w.komo().addObjective({time}, across, {action[3], action[1]}, O::eq, 1e0);
 }
 
+/// Of the sides of a box first the one along which it comes nearer to the hand.
 Variants hooksOf(const Config& C, const TaskAction& action) {
-  const bool has_sides = isBox(C.getFrame(action[1])) && longAxis(C.getFrame(action[3])) >= 0;
-  return has_sides ? Variants{"x", "y", "touch"} : Variants{"touch"};
+  const Frame obj = C.getFrame(action[1]);
+  if (!isBox(obj) || longAxis(C.getFrame(action[3])) < 0) return {"touch"};
+  const Vector3d way = C.getFrame(action[5]).getPosition() - obj.getPosition();
+  const Matrix3d R = obj.getRotationMatrix();
+  if (std::abs(R.col(0).dot(way)) >= std::abs(R.col(1).dot(way))) return {"x", "y", "touch"};
+  return {"y", "x", "touch"};
 }
 
 void push(TaskWaypoints& w, double time, const TaskAction& action, const std::string&) {

@@ -3,14 +3,14 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <numbers>
 #include <optional>
 #include <set>
 
 #include "kinegraph/base/errors.h"
 #include "kinegraph/base/text.h"
-#include "kinegraph/ik/solve_ik.h"
+#include "kinegraph/tasks/pull_start.h"
 #include "kinegraph/tasks/shape_points.h"
+#include "kinegraph/tasks/task_tools.h"
 
 namespace kinegraph {
 
@@ -23,19 +23,18 @@ constexpr double kGap = .02;     ///< m: how far things should stand apart that 
 constexpr double kBehind = .01;  ///< m: how far behind the middle of an object what pushes it is at least
 constexpr double kBeside = .5;   ///< of half its height: how far above its middle at most
 constexpr double kEdge = .01;    ///< m: how far inside of an edge the center of what stands there is
-constexpr double kTurn = 1.6;    ///< rad: starts of placements are turned by up to that
 constexpr std::array kAcross = {F::scalarProductYX, F::scalarProductYY, F::scalarProductYZ};
 constexpr std::array kAxes = {F::vectorX, F::vectorY, F::vectorZ};
-constexpr double kLow = .005;        ///< m: above the ground, where a bar pulls without tipping
-constexpr double kApart = .003;      ///< m: that a hand with a handle keeps from all else, if it can
-constexpr double kNear = .3;         ///< scale of joint motions that a straight line of the joints is to come near to
-constexpr double kHookBehind = .06;  ///< m: how far behind what it pulls a hook starts
-constexpr char kRoom[] = "room on ";
+constexpr double kLow = .005;    ///< m: above the ground, where a bar pulls without tipping
+constexpr double kApart = .003;  ///< m: that a hand with a handle keeps from all else, if it can
+constexpr double kNear = .3;     ///< scale of joint motions that a straight line of the joints is to come near to
+constexpr char kRoom[] = "room on ", kWeight[] = "weight of ";
 
 std::string roundText(double time) { return std::to_string(long(std::nearbyint(time))); }
 
-/// A scene; where something is laid on a place, with a large frame there: a free frame below it has wide limits.
-Config withRoom(const Config& C, const std::vector<TaskAction>& actions, const std::vector<std::string>& variants) {
+/// A scene with what its objects and places lack: where something is laid on a place, a large frame there, as a free frame
+/// below it has wide limits; where something that is put down weighs more on one side, a frame at its center of mass.
+Config prepared(const Config& C, const std::vector<TaskAction>& actions, const std::vector<std::string>& variants) {
   if (variants.size() != actions.size())
     throw ValueError(
         cat("TaskWaypoints: ", variants.size(), " variants for ", actions.size(), " actions; expected one for each"));
@@ -46,6 +45,11 @@ Config withRoom(const Config& C, const std::vector<TaskAction>& actions, const s
     if (isPlace(actions[i]) && is_laid) places.insert(actions[i][3]);
   }
   Config scene = C;
+  for (const TaskAction& action : actions) {
+    if (!isPlace(action) || scene.findFrame(kWeight + action[1])) continue;
+    const Vector3d center = centerOfBody(scene.getFrame(action[1]));
+    if (!isCentered(center)) scene.addFrame(kWeight + action[1], action[1]).setRelativePosition(center);
+  }
   for (const std::string& place : places) {
     const double side = placeSides(scene.getFrame(place)).maxCoeff() + 1.;
     scene.addFrame(kRoom + place, place)
@@ -56,73 +60,14 @@ Config withRoom(const Config& C, const std::vector<TaskAction>& actions, const s
   return scene;
 }
 
-Vector4d turnAbout(const Vector3d& axis, double angle) {
-  Vector4d q;
-  q << std::cos(.5 * angle), std::sin(.5 * angle) * axis;
-  return q;
-}
-
-/// The shortest turn that brings an axis of an object up.
-Vector4d upright(const Vector3d& axis) {
-  if (axis.z() < -1. + 1e-12) return turnAbout(axis.cross(Vector3d::UnitY()), std::numbers::pi);
-  Vector4d q;
-  q << 1. + axis.z(), axis.cross(Vector3d::UnitZ());
-  return q / std::sqrt(q.squaredNorm());
-}
-
 double thicknessOf(const Frame& box) {
   const std::vector<double> size = box.getSize();
   return *std::min_element(size.begin(), size.begin() + 3);
 }
 
-/// The quaternion that turns an axis of an object up, then about that by an angle.
-Vector4d turned(const std::string& face, double about) {
-  const int k = int(std::string_view("xyz").find(face[0]));
-  const Vector4d q = turnAbout(Vector3d::UnitZ(), about),
-                 r = upright((face.ends_with("Neg") ? -1. : 1.) * Vector3d::Unit(k));
-  const Vector3d v = q.tail<3>(), b = r.tail<3>();
-  Vector4d product;
-  product << q[0] * r[0] - v.dot(b), q[0] * b + r[0] * v + v.cross(b);
-  return product;
-}
-
-/// Joints that bring a hand to a target, upright if that is possible; else as they are. Doors stay.
-VectorXd near(const Config& C, const std::string& hand, const Vector3d& target, const VectorXd& q) {
-  Config all = C;
-  all.setJointState(q);
-  const std::vector<TaskDoor> doors = doorsOf(all);
-  const StillDoors still = withStillDoors(all, doors);
-  IkOptions options;
-  options.collisions = false;
-  options.attempts = 10;
-  const IkTarget there = IkTarget::toPosition(hand, target);
-  const IkTarget up = IkTarget::toDirection(hand, Vector3d::UnitZ(), Vector3d::UnitZ());
-  for (const std::vector<IkTarget>& wanted : {std::vector{there, up}, std::vector{there}}) {
-    const IkResult result = solveIk(still.scene, wanted, options);
-    if (!result.feasible()) continue;
-    VectorXd found = q;
-    found(still.dofs) = result.q;
-    return found;
-  }
-  return q;
-}
-
-/// Joints somewhere within their limits, from which another way to reach a handle may be found. Doors stay.
-VectorXd elsewhere(const Config& C, const VectorXd& q, Rng& rng) {
-  Config scene = C;
-  scene.setRandom(rng);
-  VectorXd drawn = scene.getJointState();
-  for (const TaskDoor& door : doorsOf(C)) drawn[door.dof] = q[door.dof];
-  return drawn;
-}
-
-/// The same for a hook, of a tool that the hand holds in its middle.
-VectorXd nearWithTool(const Config& C, const TaskAction& action, const Vector3d& target, const VectorXd& q) {
-  const std::string &hook = action[startsSliding(action) ? 3 : 2], &tool = action[4], &hand = action[5];
-  Config scene = C;
-  scene.getFrame(tool).setParent(scene.getFrame(hand)).setJoint(JointType::rigid);
-  scene.getFrame(tool).setRelativePose(Pose());
-  return near(scene, hook, target, q);
+bool isOn(const Frame& obj, const Frame& place) {
+  const std::optional<Frame> below = obj.getParent();
+  return below && *below == place;
 }
 
 }  // namespace
@@ -130,7 +75,7 @@ VectorXd nearWithTool(const Config& C, const TaskAction& action, const Vector3d&
 TaskWaypoints::TaskWaypoints(const Config& config, std::vector<TaskAction> words, std::vector<std::string> ways,
                              std::shared_ptr<ManipulationHelper> helper)
     : m(helper ? std::move(helper) : std::make_shared<ManipulationHelper>()),
-      C(withRoom(config, words, ways)),
+      C(prepared(config, words, ways)),
       actions(std::move(words)),
       variants(std::move(ways)),
       doors_(doorsOf(C)) {
@@ -236,8 +181,11 @@ void TaskWaypoints::put(double time, const std::string& obj, const std::string& 
   const Vector3d inside(std::max(half.x() - kEdge, .5 * half.x()), std::max(half.y() - kEdge, .5 * half.y()), 0.);
   MatrixXd rows = MatrixXd::Zero(2, 3);
   rows(0, 0) = rows(1, 1) = 1e1;
-  komo().addObjective({time}, F::positionRel, {obj, to}, O::ineq, rows, inside);
-  komo().addObjective({time}, F::positionRel, {obj, to}, O::ineq, -rows, -inside);
+  for (const std::string& what : {obj, kWeight + obj}) {
+    if (!C.findFrame(what)) continue;
+    komo().addObjective({time}, F::positionRel, {what, to}, O::ineq, rows, inside);
+    komo().addObjective({time}, F::positionRel, {what, to}, O::ineq, -rows, -inside);
+  }
   for (const std::string& other : beside_[to])  // room for fingers, where there is room
     komo().addObjective({time}, F::distance, {obj, other}, O::ineqP, 3e0, -kGap);
   beside_[to].push_back(obj);
@@ -269,91 +217,15 @@ void TaskWaypoints::push(double start, double end, const std::string& pusher, co
   if (const int across = longAxis(C.getFrame(pusher)); across >= 0) {  // a bar is level, across the line, and low
     komo().addObjective({start}, kAcross[std::size_t(across)], {helper, pusher}, O::eq, 1e0);
     komo().addControlObjective({end}, 1, kNear);
+    if (isOn(C.getFrame(obj), C.getFrame(to)))  // no farther than has to be, and not nowhere
+      komo().addObjective(
+          {end}, F::position, {obj}, O::sos, kNear,
+          usualPull(C, actions.at(std::size_t(std::lround(end)) - 1), variants.at(std::size_t(std::lround(start)) - 1)),
+          1);
     komo().addObjective({start}, kAxes[std::size_t(across)], {pusher}, O::eq, row(0., 0., 1e0));
     const double low = kLow - height + .5 * thicknessOf(C.getFrame(pusher));
     komo().addObjective({start}, F::positionRel, {pusher, helper}, O::sos, row(0., 0., 3e0), {0., 0., low});
   }
-}
-
-/// Where a slot begins; of placements, the offset from the middle of the place.
-Vector3d TaskWaypoints::startSlot(const Slot& slot, const Nlp& nlp, VectorXd& x, Rng* rng, bool grasps) const {
-  const int first = slot.first;
-  const auto draw = [&](double low, double high) { return rng ? rng->uniform(low, high) : 0.; };
-  if (slot.kind == Slot::Kind::place) {
-    for (int i = first; i < first + 2; ++i) x[i] = draw(.9 * nlp.lower()[i], .9 * nlp.upper()[i]);
-    x[first + 2] = draw(-kTurn, kTurn);
-  } else if (slot.kind == Slot::Kind::lay) {
-    for (int i = first; i < first + 2; ++i) x[i] = draw(-.1, .1);
-    x[first + 2] = .1;
-    x.segment<4>(first + 3) = turned(slot.face, draw(-kTurn, kTurn));
-  } else if (slot.kind == Slot::Kind::grasp) {
-    x.segment<7>(first) << 0., 0., 0., 1., 0., 0., 0.;
-    if (rng && grasps) {
-      for (int i = first + 3; i < first + 7; ++i) x[i] = rng->normal();
-      double squares = 0.;
-      for (int i = first + 3; i < first + 7; ++i) squares += x[i] * x[i];
-      x.segment<4>(first + 3) /= std::sqrt(squares);
-    }
-  }
-  return {x[first], slot.kind == Slot::Kind::push ? 0. : x[first + 1], 0.};
-}
-
-VectorXd TaskWaypoints::start(Rng* rng, bool grasps) const {
-  VectorXd x = m->komo->path().variables();
-  const std::shared_ptr<Nlp> nlp = makeNlp(m->komo);
-  std::map<std::string, Vector3d> offsets;
-  for (const Slot& slot : slots_) {
-    const Vector3d offset = startSlot(slot, *nlp, x, rng, grasps);
-    if (slot.kind == Slot::Kind::place || slot.kind == Slot::Kind::lay) offsets[slot.frame] = offset;
-  }
-  VectorXd q = C.getJointState();
-  const Eigen::Index n = q.size();
-  std::map<std::string, Vector3d> at;
-  for (const Frame& frame : C.getFrames()) at.emplace(frame.getName(), frame.getPosition());
-  for (std::size_t i = 0; i < actions.size(); ++i) {
-    if (isHold(actions[i]) && rng && grasps) q = elsewhere(C, q, *rng);
-    q = startOf(i, q, at, offsets);
-    x.segment(slot_dofs_ + Eigen::Index(i) * n, n) = q;
-  }
-  return x;
-}
-
-/// Joints after an action that begins at `before`, near what the hand does; and what it moves. `at`: where things are.
-VectorXd TaskWaypoints::startOf(std::size_t i, const VectorXd& before, std::map<std::string, Vector3d>& at,
-                                const std::map<std::string, Vector3d>& offsets) const {
-  const TaskAction& action = actions[i];
-  if (isPick(action) && at.contains(action[1])) return near(C, action[3], at.at(action[1]), before);
-  if (isPlace(action)) {
-    const auto offset = offsets.find(cat("place_", action[3], "_", action[1], "_", i + 1));
-    Vector3d target = at.at(action[3]);
-    if (offset != offsets.end()) target += offset->second;
-    target.z() += .05;
-    at[action[1]] = target;
-    return near(C, action[2], target, before);
-  }
-  if (action[0] == "hook_start") {
-    const auto end = std::find_if(actions.begin() + std::ptrdiff_t(i), actions.end(), endsSliding);
-    Vector3d target = at.at(action[1]);
-    if (end != actions.end()) {
-      const Vector3d way = at.at((*end)[3]) - target;
-      const double length = way.head<2>().norm();
-      if (length > kGap) target.head<2>() -= kHookBehind / length * way.head<2>();
-    }
-    return nearWithTool(C, action, target, before);
-  }
-  if (action[0] == "hook_end") {
-    at[action[1]] = at.at(action[3]);
-    return nearWithTool(C, action, at.at(action[3]), before);
-  }
-  if (isHold(action)) return near(C, action[3], at.at(action[2]), before);
-  const auto door = isGuided(action) ? std::ranges::find(doors_, action[1], &TaskDoor::name) : doors_.end();
-  if (door == doors_.end()) return before;
-  VectorXd q = before;
-  q[door->dof] = door->at(action[0] == "open" ? .5 * (kOpenLeast + kOpenMost) : kClose);
-  Config scene = C;
-  scene.setJointState(q);
-  for (const Frame& moved : scene.getFrame(action[1]).getSubtree()) at[moved.getName()] = moved.getPosition();
-  return near(C, action[3], at.at(action[2]), q);
 }
 
 std::shared_ptr<TaskWaypoints> makeTaskWaypoints(const Config& C, std::vector<TaskAction> actions,

@@ -12,6 +12,7 @@
 #include "kinegraph/tasks/search/guided_motion.h"
 #include "kinegraph/tasks/search/motion_checks.h"
 #include "kinegraph/tasks/shape_points.h"
+#include "kinegraph/tasks/task_tools.h"
 
 namespace kinegraph {
 
@@ -224,6 +225,8 @@ class Played {
     const double inside = (.5 * sides - relative.head<2>().cwiseAbs()).minCoeff();
     if (inside < std::min(kEdge, .25 * sides.minCoeff()) - 1e-6)
       say(text, cat("its center is ", fixed(inside, 4), " m inside the edge"));
+    else if (!isSupported(thing, place))
+      say(text, "it falls over: its center of mass is not above what it stands on");
   }
 
   void lookAtPose(const std::string& obj, const std::string& goal, const std::string& text) {

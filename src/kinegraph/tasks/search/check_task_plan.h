@@ -12,7 +12,8 @@ namespace kinegraph {
 /// motion does not jump, is at rest where an action begins and ends, and keeps its limits of velocity and acceleration;
 /// that joints are within their limits and nothing overlaps by more than 1 mm, at all times and not only in samples
 /// (Config::checkMotion); that a hand touches what it takes, to 1 mm; that what is put down stands level to half a degree,
-/// at the height of its place to 1 mm, with its center 5 mm inside the edges; that what stands on something that is
+/// at the height of its place to 1 mm, with its center 5 mm inside the edges, and its center of mass, with all that is fixed
+/// to it, above what it shares with the place; that what stands on something that is
 /// carried tilts by less than 5 degrees and is accelerated by at most 2 m/s^2; that what is pushed moves straight and
 /// level, away from what pushes it and from where their surfaces touch, and what is pulled by a tool that a hand holds; that
 /// doors move only while a hand that has taken their handle holds it to 1 mm and half a degree (as far as a round handle

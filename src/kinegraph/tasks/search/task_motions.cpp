@@ -5,6 +5,7 @@
 
 #include "kinegraph/base/errors.h"
 #include "kinegraph/base/text.h"
+#include "kinegraph/features/eval.h"
 #include "kinegraph/scene/motor_limits.h"
 #include "kinegraph/spline/retime.h"
 #include "kinegraph/tasks/search/guided_motion.h"
@@ -15,8 +16,10 @@ namespace kinegraph {
 
 namespace {
 
-constexpr double kBack = .07;  ///< m: a hand comes to what it takes, and leaves what it puts down, along its own axis
-constexpr double kUp = .04;    ///< m: what is held is lifted first, and comes down to its place
+constexpr double kBack = .07;   ///< m: a hand comes to what it takes, and leaves what it puts down, along its own axis
+constexpr double kUp = .04;     ///< m: what is held is lifted first, and comes down to its place
+constexpr double kAside = .04;  ///< m: a hook comes from behind to what it pulls, and goes back from it
+constexpr double kPulled = 1.;  ///< m/s^2: what is pulled is accelerated by no more, so that it does not tip
 constexpr double kTurn = .8;  ///< rad or m: a joint that would move farther on these few centimeters is led another way
 constexpr double kSame = 1e-7;       ///< rad or m: postures that differ by less are one
 constexpr double kPeriod = .01;      ///< s between two rows
@@ -54,6 +57,7 @@ TaskAction coming(const TaskAction& action) {
   if (isPick(action)) return {"place", action[1], action[3], action[2]};
   if (isHold(action)) return {"open", action[1], action[2], action[3]};
   if (isPlace(action)) return {"pick", action[1], action[3], action[2]};
+  if (action[0] == "hook_start") return {"hook_end", action[1], action[3], action[2], action[4], action[5]};
   return {};
 }
 
@@ -155,6 +159,8 @@ TaskMotions::Found TaskMotions::among(const Config& C, const VectorXd& q0, const
   if (endsSliding(action)) {
     Found found = pushed(C, q0, q1, action[1]);
     if (found.motion) found.motion = steady(C, std::move(*found.motion), carried);
+    if (found.motion && action[0] == "hook_end")
+      found.motion = slower(C, std::move(*found.motion), {action[1]}, kPulled);
     return found;
   }
   std::vector<MotionConstraint> level;
@@ -241,16 +247,21 @@ std::vector<VectorXd> TaskMotions::piece(const Config& C, const VectorXd& q,
 }
 
 /// Joints a few centimeters away from where an action was done: a hand that has put something down goes back, one that has
-/// taken something lifts it.
+/// taken something lifts it, and a hook goes away from what it has pulled.
 std::optional<VectorXd> TaskMotions::leaving(const Config& C, const VectorXd& q, const TaskAction& action) const {
-  if (!isPick(action) && !isPlace(action) && !isGuided(action)) return std::nullopt;
-  const std::string& hand = isPlace(action) ? action[2] : action[3];
+  const bool is_pulled = !action.empty() && action[0] == "hook_end";
+  if (!isPick(action) && !isPlace(action) && !isGuided(action) && !is_pulled) return std::nullopt;
+  const std::string& hand = is_pulled ? action[5] : isPlace(action) ? action[2] : action[3];
   const std::string palm = palmOf(C, hand);
   Config D = C;
   D.setJointState(q);
   Pose pose = D.getFrame(hand).getPose();
   if (isPick(action)) {
     pose.p.z() += kUp;
+  } else if (is_pulled) {
+    Vector3d back = -eval(D, FeatureSymbol::pairCollision_normal, {action[1], action[2]}).y;
+    back.z() = 0.;
+    pose.p += kAside * back.normalized();
   } else if (!palm.empty()) {
     const Vector3d back = D.getFrame(palm).getPosition() - pose.p;
     const double length = std::sqrt(back.x() * back.x() + back.y() * back.y() + back.z() * back.z());
