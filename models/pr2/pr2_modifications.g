@@ -43,15 +43,10 @@ l_ft_sensor (l_wrist_roll_joint): {
 }
 
 # points to command
+base_footprint_marker (worldTranslationRotation): { shape: marker, size: [.5], color: [1 0 0] }
 endeffBase (torso_lift_joint): { Q: "t(0 0 -.2) d(90 0 1 0)", shape: marker, size: [.1], color: [1 0 0] }
 endeffHead (head_tilt_joint): { Q: "t(0 -.08 .12) d(180 0 1 1)", shape: marker, size: [.1], color: [1 0 0] }
 endeffWorkspace (torso_lift_joint): { Q: "t(-.1 0 -.6) d(120 -1 1 -1)", shape: marker, size: [.1], color: [1 0 0] }
-pr2R (r_wrist_roll_joint): {
-  Q: "t(.18 0 0) d(120 1 -1 -1)", shape: ssBox, size: [.03 .03 .05 .01], color: [1 1 0], logical: { gripper }
-}
-pr2L (l_wrist_roll_joint): {
-  Q: "t(.18 0 0) d(120 1 -1 -1)", shape: ssBox, size: [.03 .03 .05 .01], color: [1 1 0], logical: { gripper }
-}
 
 # where it looks from
 endeffEyes (head_tilt_joint): { Q: "t(0 -.05 .12) d(180 0 -1 1)", shape: marker, size: [.1], color: [1 1 0] }
@@ -61,4 +56,11 @@ endeffKinect (head_tilt_joint): {
 endeffLaser (laser_tilt_mount_joint): {
   Q: "t(-.00300578 .00167121 .0122175) d(120 -1 1 -1)", shape: camera, size: [.1], color: [1 1 1], zRange: [.1 2]
 }
-base_footprint_marker (worldTranslationRotation): { shape: marker, size: [.5], color: [1 0 0] }
+
+# grippers
+pr2R (r_wrist_roll_joint): {
+  Q: "t(.18 0 0) d(120 1 -1 -1)", shape: ssBox, size: [.03 .03 .05 .01], color: [1 1 0], logical: { gripper }
+}
+pr2L (l_wrist_roll_joint): {
+  Q: "t(.18 0 0) d(120 1 -1 -1)", shape: ssBox, size: [.03 .03 .05 .01], color: [1 1 0], logical: { gripper }
+}

@@ -58,19 +58,21 @@ hookTip (hook): {
 Include: <ringBox.g>
 Edit box (table): { joint: rigid, Q: "t(1.25 -.7 .15) d(45 0 0 1)" }
 
-# three sides of a drawer with a ball in it
+# three sides of a drawer
 drawer (table): { Q: [-1.2 .5 .1] }
 drawerA (drawer): { Q: [0 -.15 0], shape: ssBox, size: [.45 .05 .1 .02], color: [.6 .6 .6], contact: 1 }
 drawerB (drawer): { Q: [-.2 0 0], shape: ssBox, size: [.05 .35 .1 .02], color: [.6 .6 .6], contact: 1 }
 drawerC (drawer): { Q: [.2 0 0], shape: ssBox, size: [.05 .35 .1 .02], color: [.6 .6 .6], contact: 1 }
-ball1 (drawer): { joint: rigid, shape: sphere, size: [.05], color: [1 1 .6] }
 
-# a bucket (bottom and four walls) with a ball in it, and a ball beside it
+# a bucket (bottom and four walls)
 bucket (table): { Q: [.5 1 .15] }
 bucketA (bucket): { Q: [0 0 -.075], shape: ssBox, size: [.33 .33 .03 .01], color: [.6 .6 .6], contact: 1 }
 bucketA1 (bucket): { Q: [0 -.15 0], shape: ssBox, size: [.33 .03 .15 .01], color: [.6 .6 .6], contact: 1 }
 bucketA2 (bucket): { Q: [0 .15 0], shape: ssBox, size: [.33 .03 .15 .01], color: [.6 .6 .6], contact: 1 }
 bucketB (bucket): { Q: [-.15 0 0], shape: ssBox, size: [.03 .33 .15 .01], color: [.6 .6 .6], contact: 1 }
 bucketC (bucket): { Q: [.15 0 0], shape: ssBox, size: [.03 .33 .15 .01], color: [.6 .6 .6], contact: 1 }
+
+# balls in the drawer, beside the bucket and in it
+ball1 (drawer): { joint: rigid, shape: sphere, size: [.05], color: [1 1 .6] }
 ball2 (table): { joint: rigid, Q: [.8 .5 .1], shape: sphere, size: [.05], color: [1 1 .6] }
 ball3 (bucket): { joint: rigid, shape: sphere, size: [.05], color: [1 1 .6] }

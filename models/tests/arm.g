@@ -19,7 +19,7 @@ j5 (arm4): { joint: quatBall, pre: "t(0 0 .2) d(45 0 0 1)", limits: [0 -1 -1 -1 
 j6 (arm5): { joint: hingeX, pre: "t(0 0 .2) d(45 0 0 1)", limits: [-2 2] }
 j7 (arm6): { joint: hingeX, pre: "t(0 0 .2) d(45 0 0 1)", limits: [-2 2] }
 
-endeff (arm7): { Q: [0 0 .3], shape: marker, size: [.1] }
-
 target: { X: [.7 -.5 1.2], shape: sphere, size: [.05], color: [0 .5 0] }
 obstacle: { X: [1 -1.5 1], shape: sphere, size: [.5], color: [1 0 0], contact }
+
+endeff (arm7): { Q: [0 0 .3], shape: marker, size: [.1] }

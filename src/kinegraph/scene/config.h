@@ -139,7 +139,7 @@ class Config {
   /// with the frames that it names; there, a shape counts as that of its parent, too, if it is fixed to it.
   std::vector<std::pair<int, int>> getCollidablePairs() const { return scene_->program()->collidable(); }
 
-  /// All collidable pairs whose distance is at most `margin`, by id.
+  /// All collidable pairs whose distance is at most `margin`, by id, also those that no joint moves apart.
   std::vector<NearPair> getCollisions(double margin = 0.) const;
 
   /// Sum of the penetration depths of all pairs, or the largest one, in m.
