@@ -159,7 +159,7 @@ void bindMotions(nb::class_<PyBotOp>& bot) {
             const nb::gil_scoped_release unlock;
             b->stepAction(delta.values, observation, lambda, most, xi);
           },
-          "delta"_a, "observation"_a, "lmbda"_a, "maxAccel"_a = 5., "xi"_a = 1., docs::operation::stepAction)
+          "delta"_a, "obs"_a, "lmbda"_a, "maxAccel"_a = 5., "xi"_a = 1., docs::operation::stepAction)
       .def(
           "home",
           [](PyBotOp& b, PyConfig& c) {

@@ -188,7 +188,9 @@ void bindFramePoses(nb::class_<Frame>& frame) {
   bindReading(frame);
   bindSetting(frame);
   bindSettingInParent(frame);
-  frame.def("get_Jacobian_pos", positionJacobian, "world_pos"_a = nb::none(), docs::frame_poses::get_Jacobian_pos)
+  frame
+      .def("get_Jacobian_pos", positionJacobian, "world_pos_optional"_a = nb::none(),
+           docs::frame_poses::get_Jacobian_pos)
       .def("get_Jacobian_angular", angularJacobian, docs::frame_poses::get_Jacobian_angular)
       .def(
           "trans_rel2world",

@@ -114,7 +114,7 @@ void bindMotions(nb::class_<M>& helper) {
           (m.*call)(times.list(), gripper, dist);
           warn(m);
         },
-        "times"_a, "gripper"_a, "dist"_a = .03, text);
+        "time_interval"_a, "gripper"_a, "dist"_a = .03, text);
   };
   using H = ManipulationHelper;
   moving("retract", &H::retract, docs::manipulation::retract);
@@ -128,7 +128,7 @@ void bindMotions(nb::class_<M>& helper) {
             m.straight_push(times.list(), obj, gripper, table, scale, frame);
             warn(m);
           },
-          "times"_a, "obj"_a, "gripper"_a, "table"_a, "scale"_a = 1e1, "helper"_a = "",
+          "time_interval"_a, "obj"_a, "gripper"_a, "table"_a, "scale"_a = 1e1, "helper"_a = "",
           docs::manipulation::straight_push)
       .def(
           "pull",
@@ -147,21 +147,21 @@ void bindConditions(nb::class_<M>& helper) {
             m.no_collisions(times.list(), pairs, margin, scale);
             warn(m);
           },
-          "times"_a, "pairs"_a, "margin"_a = .001, "scale"_a = 1e1, docs::manipulation::no_collisions)
+          "time_interval"_a, "objs"_a, "margin"_a = .001, "scale"_a = 1e1, docs::manipulation::no_collisions)
       .def(
           "freeze_joint",
           [](M& m, const Numbers& times, const std::vector<std::string>& joints) {
             m.freeze_joint(times.list(), joints);
             warn(m);
           },
-          "times"_a, "joints"_a, docs::manipulation::freeze_joint)
+          "time_interval"_a, "joints"_a, docs::manipulation::freeze_joint)
       .def(
           "freeze_relativePose",
           [](M& m, const Numbers& times, Name to, Name from) {
             m.freeze_relativePose(times.list(), to, from);
             warn(m);
           },
-          "times"_a, "to"_a, "from_"_a, docs::manipulation::freeze_relativePose)
+          "time_interval"_a, "obj"_a, "relFrom"_a, docs::manipulation::freeze_relativePose)
       .def(
           "target_position",
           [](M& m, double time, Name obj, const Numbers& at) {

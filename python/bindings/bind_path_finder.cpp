@@ -125,8 +125,8 @@ void bindPathFinder(nb::module_& m) {
   nb::class_<Finder>(m, "RRT_PathFinder", docs::path_finder::type)
       .def(nb::init<>(), docs::path_finder::make)
       .def("setOptions", setOptions, "options"_a, kChain, docs::path_finder::setOptions)
-      .def("setProblem", setProblem, "C"_a, "q0"_a = nb::none(), "qT"_a = nb::none(), kChain,
-           nb::sig("def setProblem(self, C: Config, q0: numpy.typing.ArrayLike | None = None, qT: "
+      .def("setProblem", setProblem, "Configuration"_a, "q0"_a = nb::none(), "qT"_a = nb::none(), kChain,
+           nb::sig("def setProblem(self, Configuration: Config, q0: numpy.typing.ArrayLike | None = None, qT: "
                    "numpy.typing.ArrayLike | None = None) -> RRT_PathFinder"),
            docs::path_finder::setProblem)
       .def("setStartGoal", setStartGoal, "starts"_a, "goals"_a, kChain, docs::path_finder::setStartGoal)

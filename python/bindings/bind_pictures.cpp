@@ -130,7 +130,7 @@ void bindPictures(nb::class_<PyViewer>& viewer) {
       .def(
           "savePng", [](PyViewer& v, const std::string& path, int count) { return savePicture(v, path, count); },
           "saveVideoPath"_a = "z.vid/", "count"_a = -1, docs::pictures::savePng)
-      .def("setCamera", setViewCamera, "frame"_a.none() = nb::none(), docs::pictures::setCamera)
+      .def("setCamera", setViewCamera, "camFrame"_a.none() = nb::none(), docs::pictures::setCamera)
       .def("setCamera", setCameraTarget, "position"_a, "target"_a, docs::pictures::setCameraAt)
       .def(
           "setCameraPose",
@@ -139,7 +139,7 @@ void bindPictures(nb::class_<PyViewer>& viewer) {
             camera.pose = Pose::fromNumbers(pose.values);
             placeCamera(v, camera);
           },
-          "pose7"_a, docs::pictures::setCameraPose)
+          "pose_7d"_a, docs::pictures::setCameraPose)
       .def(
           "getCamera_pose", [](PyViewer& v) { return toNumpy(VectorXd(cameraNow(v).pose.numbers())); },
           "The camera's pose, shape (7,): x y z (m) qw qx qy qz.")
@@ -153,7 +153,7 @@ void bindPictures(nb::class_<PyViewer>& viewer) {
             return toNumpy(VectorXd(Vector4d(f, f, 0., 0.)));
           },
           "The focal length in image heights, twice, and two zeros, shape (4,).")
-      .def("focus", focus, "position"_a, "heightAbs"_a = 1., docs::pictures::focus)
+      .def("focus", focus, "position_3d"_a, "heightAbs"_a = 1., docs::pictures::focus)
       .def("fit", fit, docs::pictures::fit)
       .def(
           "setWindow",

@@ -134,7 +134,7 @@ void bindRendering(nb::module_& m) {
             v.camera.follow(toFrame(nb::cast<PyConfig&>(v.config), frame));
             return v.camera.now();
           },
-          "cameraFrame"_a, docs::rendering::setCamera)
+          "cameraFrameName"_a, docs::rendering::setCamera)
       .def(
           "getFxycxy", [](const PyCameraView& v) { return fxycxyOf(v.camera.now()); },
           "fx, fy, cx, cy in pixels, shape (4,).")

@@ -274,14 +274,14 @@ void bindCameras(nb::class_<PySimulation>& simulation) {
             s.simulation.setCamera(name(s, frame));
             return s.simulation.camera();
           },
-          "cameraFrame"_a, docs::simulation::setCamera)
+          "sensorName"_a, docs::simulation::setCamera)
       .def(
           "getFxycxy", [](const S& s) { return fxycxyOf(s.simulation.camera()); },
           "fx, fy, cx, cy of the selected camera in pixels, shape (4,).")
       .def("getImageAndDepth", getImageAndDepth, docs::simulation::getImageAndDepth)
       .def(
-          "setSimulateDepthNoise", [](S& s, bool noisy) { s.simulation.setSimulateDepthNoise(noisy); }, "noise"_a,
-          docs::simulation::setSimulateDepthNoise)
+          "setSimulateDepthNoise", [](S& s, bool noisy) { s.simulation.setSimulateDepthNoise(noisy); },
+          "_setSimulateDepthNoise"_a, docs::simulation::setSimulateDepthNoise)
       .def_static(
           "depthData2pointCloud",
           [](const nb::ndarray<const float, nb::ndim<2>, nb::c_contig, nb::device::cpu>& depth, const Numbers& fxycxy) {

@@ -45,18 +45,18 @@ void bindSpline(nb::module_& m) {
           [](BSpline& s, const Numbers& given, const Numbers& times, bool inside) -> BSpline& {
             return s.append(points(given, std::size_t(times.values.size())), times.values, inside);
           },
-          "points"_a, "times"_a, "inside"_a = false, kChain, docs::spline::append)
+          "points"_a, "times_rel"_a, "inside"_a = false, kChain, docs::spline::append)
       .def(
           "overwriteSmooth",
           [](BSpline& s, const Numbers& given, const Numbers& times, double cut) -> BSpline& {
             return s.overwriteSmooth(points(given, std::size_t(times.values.size())), times.values, cut);
           },
-          "points"_a, "times"_a, "time_cut"_a, kChain, docs::spline::overwriteSmooth)
+          "points"_a, "times_rel"_a, "time_cut"_a, kChain, docs::spline::overwriteSmooth)
       .def(
           "eval", [](const BSpline& s, const Numbers& times, int k) { return toNumpy(s.eval(times.values, k)); },
           "sampleTimes"_a, "derivative"_a = 0, docs::spline::eval)
       .def(
-          "eval3", [](const BSpline& s, double t) { return toNumpy(s.eval3(t)); }, "t"_a, docs::spline::eval3)
+          "eval3", [](const BSpline& s, double t) { return toNumpy(s.eval3(t)); }, "time"_a, docs::spline::eval3)
       .def(
           "getBmatrix",
           [](const BSpline& s, const Numbers& times, bool start, bool end) {

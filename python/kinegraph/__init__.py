@@ -111,6 +111,7 @@ from ._core import (
 )
 from ._core import __version__ as __version__
 from .compatibility import OPT_METHODS as _OPT_METHODS
+from .compatibility import addAbsentNames as _addAbsentNames
 from .compatibility import addEarlierMethods as _addEarlierMethods
 from .compatibility.parameters import (
     clear_params,
@@ -218,6 +219,7 @@ def compiled() -> str:
 teach(FS, JT, OT, ST, SY, ControlMode, SimulationEngine)
 teach(OptMethod, earlier=_OPT_METHODS)
 _addEarlierMethods()
+_addAbsentNames()
 NLP_SolverID = OptMethod  # as scripts of earlier years call it
 PathFinder = RRT_PathFinder  # as older scripts call it
 

@@ -75,8 +75,8 @@ class KOMO_ManipulationHelper(ManipulationHelper):
         homing_scale: float = 1e-2,
         acceleration_scale: float = 1e-1,
         accumulated_collisions: bool = True,
-        joint_limits: bool = True,
         quaternion_norms: bool = False,
+        joint_limits: bool = True,
     ) -> KOMO_ManipulationHelper:
         """The motion of one phase of a solved sequence, from waypoint to waypoint, with attachments as they are then.
 
@@ -86,8 +86,8 @@ class KOMO_ManipulationHelper(ManipulationHelper):
             homing_scale: Weight of the distance from home; 0: none.
             acceleration_scale: Weight of accelerations.
             accumulated_collisions: Nothing overlaps in any slice.
-            joint_limits: Joints stay within their limits.
             quaternion_norms: Quaternions have norm one.
+            joint_limits: Joints stay within their limits.
         Returns:
             A helper with that motion, to which more can be added before it is solved.
         Raises:

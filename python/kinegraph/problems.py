@@ -143,11 +143,11 @@ def get_NLP_Problem_names() -> list[str]:
     return [*testProblemNames(), *_MOTIONS]
 
 
-def make_NLP_Problem(name: str, dim: int | None = None, seed: int = 0) -> NLP:
+def make_NLP_Problem(problem_name: str, dim: int | None = None, seed: int = 0) -> NLP:
     """A problem by name.
 
     Args:
-        name: One of get_NLP_Problem_names().
+        problem_name: One of get_NLP_Problem_names().
         dim: Number of variables, of spheres for SpherePacking; None: the parameter 'problem/dim', or 2 (50 spheres).
         seed: Of the problems that are drawn by chance: square, Rugged, LinearProgram, StableSphere (what holds it).
     Returns:
@@ -155,13 +155,15 @@ def make_NLP_Problem(name: str, dim: int | None = None, seed: int = 0) -> NLP:
     Raises:
         NotFound: There is no such name; the message lists those that there are.
     """
-    if name in _MOTIONS:
-        return _MOTIONS[name](seed).nlp()
-    if name not in testProblemNames():
+    if problem_name in _MOTIONS:
+        return _MOTIONS[problem_name](seed).nlp()
+    if problem_name not in testProblemNames():
         import difflib  # not at import: it takes milliseconds, and few need it
 
-        near = difflib.get_close_matches(name, get_NLP_Problem_names())
+        near = difflib.get_close_matches(problem_name, get_NLP_Problem_names())
         hint = f"; similar names: {', '.join(near)}" if near else ""
-        raise NotFound(f"there is no problem {name!r}; expected one of {', '.join(get_NLP_Problem_names())}{hint}")
+        raise NotFound(
+            f"there is no problem {problem_name!r}; expected one of {', '.join(get_NLP_Problem_names())}{hint}"
+        )
     size = params_get().get("problem/dim", -1) if dim is None else dim
-    return makeTestProblem(name, int(size), seed)
+    return makeTestProblem(problem_name, int(size), seed)

@@ -56,28 +56,28 @@ class Quaternion:
     def __neg__(self) -> Quaternion:
         return Quaternion(self._q * [1, -1, -1, -1])
 
-    def set(self, wxyz: Numbers) -> Quaternion:
+    def set(self, q: Numbers) -> Quaternion:
         """Takes these four numbers, as they are.
 
         Args:
-            wxyz: w x y z, shape (4,).
+            q: w x y z, shape (4,).
         Returns:
             The quaternion itself.
         Raises:
             ArgumentError: Not four numbers.
         """
-        self._q = _numbers(wxyz, (4,), "a quaternion").copy()
+        self._q = _numbers(q, (4,), "a quaternion").copy()
         return self
 
     def setZero(self) -> Quaternion:
         """Becomes the identity. Returns the quaternion itself."""
         return self.set([1.0, 0.0, 0.0, 0.0])
 
-    def setRad(self, angle: float, axis: Numbers = (1.0, 0.0, 0.0)) -> Quaternion:
+    def setRad(self, radians: float, axis: Numbers = (1.0, 0.0, 0.0)) -> Quaternion:
         """Becomes a turn about an axis.
 
         Args:
-            angle: In rad.
+            radians: By how much.
             axis: Shape (3,), of any length but 0.
         Returns:
             The quaternion itself.
@@ -88,61 +88,61 @@ class Quaternion:
         length = np.linalg.norm(direction)
         if not length > 0:
             raise ArgumentError("setRad: the axis has length 0")
-        return self.set([np.cos(0.5 * angle), *(np.sin(0.5 * angle) * direction / length)])
+        return self.set([np.cos(0.5 * radians), *(np.sin(0.5 * radians) * direction / length)])
 
-    def setExp(self, vector: Numbers) -> Quaternion:
+    def setExp(self, vector_w: Numbers) -> Quaternion:
         """Becomes a turn about a vector by its length.
 
         Args:
-            vector: Shape (3,), rad.
+            vector_w: Shape (3,), rad.
         Returns:
             The quaternion itself.
         Raises:
             ArgumentError: Not three numbers.
         """
-        v = _numbers(vector, (3,), "the rotation vector")
+        v = _numbers(vector_w, (3,), "the rotation vector")
         angle = float(np.linalg.norm(v))
         return self.setRad(angle, v) if angle > 0 else self.setZero()
 
-    def setEuler(self, zxz: Numbers) -> Quaternion:
+    def setEuler(self, euler_zxz: Numbers) -> Quaternion:
         """Becomes Rz(a) Rx(b) Rz(c) of three angles.
 
         Args:
-            zxz: a, b, c, shape (3,), rad.
+            euler_zxz: a, b, c, shape (3,), rad.
         Returns:
             The quaternion itself.
         Raises:
             ArgumentError: Not three numbers.
         """
-        a, b, c = _numbers(zxz, (3,), "the angles")
+        a, b, c = _numbers(euler_zxz, (3,), "the angles")
         return self.set((_turn(2, a) * _turn(0, b) * _turn(2, c))._q)
 
-    def setRollPitchYaw(self, rpy: Numbers, reverse: bool = False) -> Quaternion:
+    def setRollPitchYaw(self, roll_pitch_yaw: Numbers, reverse: bool = False) -> Quaternion:
         """Becomes Rx(roll) Ry(pitch) Rz(yaw).
 
         Args:
-            rpy: Roll, pitch and yaw, shape (3,), rad.
+            roll_pitch_yaw: Roll, pitch and yaw, shape (3,), rad.
             reverse: Rz(yaw) Ry(pitch) Rx(roll) instead.
         Returns:
             The quaternion itself.
         Raises:
             ArgumentError: Not three numbers.
         """
-        turns = [_turn(axis, angle) for axis, angle in enumerate(_numbers(rpy, (3,), "roll, pitch and yaw"))]
+        turns = [_turn(axis, angle) for axis, angle in enumerate(_numbers(roll_pitch_yaw, (3,), "roll, pitch and yaw"))]
         a, b, c = reversed(turns) if reverse else turns
         return self.set((a * b * c)._q)
 
-    def setMatrix(self, matrix: Numbers) -> Quaternion:
+    def setMatrix(self, R: Numbers) -> Quaternion:
         """Becomes the rotation of a matrix.
 
         Args:
-            matrix: Shape (3, 3).
+            R: Shape (3, 3).
         Returns:
             The quaternion itself.
         Raises:
             ArgumentError: The matrix is not a rotation.
         """
-        m = _numbers(matrix, (3, 3), "the matrix").ravel()
+        m = _numbers(R, (3, 3), "the matrix").ravel()
         if (
             not np.allclose(m.reshape(3, 3) @ m.reshape(3, 3).T, np.eye(3), atol=1e-3)
             or np.linalg.det(m.reshape(3, 3)) < 0
@@ -217,15 +217,15 @@ class Quaternion:
         sign = 1.0 if start._q @ end._q >= 0 else -1.0
         return self.set((1 - t) * start._q + t * sign * end._q).normalize()
 
-    def append(self, other: Quaternion) -> Quaternion:
-        """Becomes self * other.
+    def append(self, q: Quaternion) -> Quaternion:
+        """Becomes self * q.
 
         Args:
-            other: The rotation that comes first.
+            q: The rotation that comes first.
         Returns:
             The quaternion itself.
         """
-        return self.set((self * other)._q)
+        return self.set((self * q)._q)
 
     def invert(self) -> Quaternion:
         """Becomes its inverse. Returns the quaternion itself."""
@@ -246,25 +246,25 @@ class Quaternion:
             raise ArgumentError("normalize: the quaternion is zero; expected w x y z of a rotation, e.g. 1 0 0 0")
         return self.set(self._q / length)
 
-    def multiply(self, factor: float) -> None:
+    def multiply(self, f: float) -> None:
         """Scales the angle.
 
         Args:
-            factor: By which the angle is multiplied.
+            f: By which the angle is multiplied.
         """
-        self.setExp(factor * self.getLog())
+        self.setExp(f * self.getLog())
 
-    def applyOnPointArray(self, points: Numbers) -> Array:
+    def applyOnPointArray(self, pts: Numbers) -> Array:
         """Turns points.
 
         Args:
-            points: Shape (n, 3).
+            pts: Shape (n, 3).
         Returns:
             The points, turned, shape (n, 3).
         Raises:
             ArgumentError: Another shape.
         """
-        array = np.asarray(points, np.float64)
+        array = np.asarray(pts, np.float64)
         if array.ndim != 2 or array.shape[1] != 3:
             raise ArgumentError(f"applyOnPointArray: points have shape {array.shape}; expected (n, 3)")
         turned: Array = array @ self.getMatrix().T

@@ -7,13 +7,13 @@ import os
 from ._core import setDefaultSeed
 
 
-def rnd_seed(seed: int) -> None:
+def rnd_seed(s: int) -> None:
     """Seeds what is random from here on: sampled joint states, initial points of solvers.
 
     Args:
-        seed: A whole number; the same one gives the same numbers.
+        s: A whole number; the same one gives the same numbers.
     """
-    setDefaultSeed(int(seed))
+    setDefaultSeed(int(s))
 
 
 def rnd_seed_random() -> None:

@@ -76,6 +76,11 @@ if not TYPE_CHECKING:  # else any name would do
     def __getattr__(name: str) -> _Any:
         if name.startswith("__"):
             raise AttributeError(name)
+        if name in ("src", "tools"):
+            try:
+                return _import_module("." + name, __name__)
+            except ImportError as error:  # says what does the same
+                raise AttributeError(str(error)) from None
         if name in _SUBMODULES:
             return _import_module("." + name, __name__)
         if name in _MODULE_OF:

@@ -151,7 +151,7 @@ inline constexpr char get_Jacobian_pos[] =
     R"(The derivative of a point that moves with the frame with respect to q, in world coordinates.
 
 Args:
-    world_pos: The point as it is now, in the world, shape (3,), m; None: the frame's origin.
+    world_pos_optional: The point as it is now, in the world, shape (3,), m; None: the frame's origin.
 Returns:
     Shape (3, n), m per rad or m.
 Raises:

@@ -13,8 +13,8 @@ namespace kinegraph::python::docs::manipulation {
   "it on.\n"                                                                                                 \
   "    gripper: Name of the gripper frame.\n"
 #define KINEGRAPH_PALM "    palm: Name of the frame that does not touch the object; empty: none.\n"
-#define KINEGRAPH_HAND                 \
-  "    times: [from, to] in phases.\n" \
+#define KINEGRAPH_HAND                         \
+  "    time_interval: [from, to] in phases.\n" \
   "    gripper: Name of the gripper frame.\n"
 #define KINEGRAPH_TIMES_RAISE                             \
   "Raises:\n"                                             \
@@ -153,7 +153,7 @@ Raises:
 inline constexpr char straight_push[] = R"(The gripper pushes an object along a line.
 
 Args:
-    times: [from, to] in phases.
+    time_interval: [from, to] in phases.
     obj: Name of the object.
     gripper: Name of the gripper frame.
     table: Name of the frame that it slides over.
@@ -200,8 +200,8 @@ Args:
 inline constexpr char no_collisions[] = R"(Frames keep apart, two by two.
 
 Args:
-    times: [], [at] or [from, to] in phases.
-    pairs: Their names, two by two.
+    time_interval: [], [at] or [from, to] in phases.
+    objs: Their names, two by two.
     margin: The least distance, m.
     scale: Weight.
 Raises:
@@ -211,7 +211,7 @@ Raises:
 inline constexpr char freeze_joint[] = R"(Joints do not move.
 
 Args:
-    times: [], [at] or [from, to] in phases.
+    time_interval: [], [at] or [from, to] in phases.
     joints: Names of their frames.
 Raises:
     FrameNotFound: A name that is not in the scene.)";
@@ -219,9 +219,9 @@ Raises:
 inline constexpr char freeze_relativePose[] = R"(A frame does not move relative to another.
 
 Args:
-    times: [], [at] or [from, to] in phases.
-    to: Name of the frame.
-    from_: Name of the other.
+    time_interval: [], [at] or [from, to] in phases.
+    obj: Name of the frame.
+    relFrom: Name of the other.
 Raises:
     FrameNotFound: A name that is not in the scene.)";
 

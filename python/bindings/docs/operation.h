@@ -106,7 +106,7 @@ then comes to rest in as many, unless another step follows.
 
 Args:
     delta: (n,) where to go, relative to where it shall be now, rad or m.
-    observation: What stepObservation gave.
+    obs: What stepObservation gave.
     lmbda: Time scale, s.
     maxAccel: The largest entry of a; a is scaled down to it.
     xi: Damping ratio.

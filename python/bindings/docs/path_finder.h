@@ -27,7 +27,7 @@ Raises:
 inline constexpr char setProblem[] = R"(Sets the scene, which is read when solve is called, and not changed.
 
 Args:
-    C: The scene.
+    Configuration: The scene.
     q0: The start, as in setStartGoal, if given.
     qT: The goal, as in setStartGoal, if given.
 Returns:

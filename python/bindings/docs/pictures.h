@@ -43,7 +43,7 @@ Raises:
 inline constexpr char setCamera[] = R"(Looks from a camera frame and follows it, as CameraView.setCamera does.
 
 Args:
-    frame: The Frame, or its name; None: looks from where viewers start.
+    camFrame: The Frame, or its name; None: looks from where viewers start.
 Raises:
     FrameNotFound: There is no such frame.
     ArgumentError: A name is given before the viewer shows anything.)";
@@ -59,14 +59,14 @@ Raises:
 inline constexpr char setCameraPose[] = R"(Moves the camera.
 
 Args:
-    pose7: Its pose, shape (7,): x y z (m) qw qx qy qz; x to the right of the image, y down, z forward.
+    pose_7d: Its pose, shape (7,): x y z (m) qw qx qy qz; x to the right of the image, y down, z forward.
 Raises:
     ArgumentError: Not a pose.)";
 
 inline constexpr char focus[] = R"(Turns the camera to a point, and moves it to where a height fits into the window.
 
 Args:
-    position: The point, shape (3,), m.
+    position_3d: The point, shape (3,), m.
     heightAbs: The height at the point, m.
 Raises:
     ArgumentError: Not three numbers, a height that is not positive, or a camera that is at the point.)";

@@ -19,7 +19,7 @@ heights; 2.414) or `heightAngle` (degrees), `orthoAbsHeight` (m, for an orthogra
 farthest] depth in m; [.1, 10]).
 
 Args:
-    cameraFrame: The frame: its name, id or Frame.
+    cameraFrameName: The frame: its name, id or Frame.
 Returns:
     The camera, with these attributes.
 Raises:

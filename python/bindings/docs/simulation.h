@@ -333,7 +333,7 @@ Raises:
 inline constexpr char setCamera[] = R"(Looks from a frame and follows it.
 
 Args:
-    cameraFrame: The frame: its name, id or Frame.
+    sensorName: The frame: its name, id or Frame.
 Returns:
     The camera.
 Raises:
@@ -352,7 +352,7 @@ inline constexpr char setSimulateDepthNoise[] =
     R"(Lets depth have the errors of a stereo camera (parameters DepthNoise/...), the same at the same time.
 
 Args:
-    noise: True or False.)";
+    _setSimulateDepthNoise: True or False.)";
 
 inline constexpr char depthData2pointCloud[] = R"(Points of a depth image in the camera's frame.
 

@@ -55,7 +55,7 @@ inline constexpr char append[] = R"(Goes on to more points after the present end
 
 Args:
     points: (k, d); one point may be (d,).
-    times: (k,) in s, after the end of what is there.
+    times_rel: (k,) in s, after the end of what is there.
     inside: False: the motion passes through what was its end; at rest if it ended at rest, else with its velocity. True: that
         point becomes an inner one, which the motion only comes near.
 Returns:
@@ -67,7 +67,7 @@ inline constexpr char overwriteSmooth[] = R"(Forgets all but position and veloci
 
 Args:
     points: (k, d); one point may be (d,).
-    times: (k,) in s, after time_cut.
+    times_rel: (k,) in s, after time_cut.
     time_cut: When the new motion starts, s.
 Returns:
     The spline itself.
@@ -87,7 +87,7 @@ Raises:
 inline constexpr char eval3[] = R"(Position, velocity and acceleration at a time.
 
 Args:
-    t: s.
+    time: s.
 Returns:
     (3, d).
 Raises:

@@ -53,17 +53,17 @@ def getCameraFxypxy(self: BotOp, sensorName: str) -> NDArray[Any]:
     return self.getCameraFxycxy(sensorName)
 
 
-def cheat_setFramePose(self: BotOp, frame: str, pose: ArrayLike) -> None:
+def cheat_setFramePose(self: BotOp, name: str, pose: ArrayLike) -> None:
     """Puts a thing of the simulated world somewhere, as setFramePose.
 
     Args:
-        frame: Its name.
+        name: Its name.
         pose: (7,) x y z in m, qw qx qy qz.
     Raises:
         FrameNotFound: There is no such frame.
         ArgumentError: It is no pose.
     """
-    self.setFramePose(frame, pose)
+    self.setFramePose(name, pose)
 
 
 def setControllerWriteData(self: BotOp, _n: int) -> None:
@@ -85,15 +85,15 @@ def sound(self: BotOp, noteRelToC: int = 0, a: float = 0.5, decay: float = 0.000
     """
 
 
-def launch_camera(self: BotOp, sensorName: str) -> None:
+def launch_camera(self: BotOp, sensor: str) -> None:
     """Looks whether there is such a camera; they need no launching.
 
     Args:
-        sensorName: A frame.
+        sensor: A frame.
     Raises:
         FrameNotFound: There is no such frame.
     """
-    self.getCameraFxycxy(sensorName)
+    self.getCameraFxycxy(sensor)
 
 
 def _refused(name: str) -> Any:

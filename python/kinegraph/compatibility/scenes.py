@@ -11,17 +11,17 @@ from .._core import KOMO, ST, Config, Frame
 from ..errors import ArgumentError
 
 
-def frame(self: Config, frame: str | int) -> Frame:
+def frame(self: Config, frameID: str | int) -> Frame:
     """A frame, as getFrame.
 
     Args:
-        frame: Its name or id.
+        frameID: Its name or id.
     Returns:
         The frame.
     Raises:
         FrameNotFound: There is no such frame.
     """
-    return self[frame]
+    return self[frameID]
 
 
 def frames(self: Config) -> list[Frame]:
