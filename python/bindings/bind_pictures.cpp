@@ -20,7 +20,7 @@ CameraImage picture(PyViewer& viewer, const std::string& text) {
   if (!viewer.scene) throw ValueError("this viewer shows nothing yet; call view() first");
   const Camera camera = cameraNow(viewer);
   const Look look = lookOfParameters();
-  RendererOptions options{.supersampling = 2, .shadows = look.shadows, .floor = look.has_floor};
+  RendererOptions options{.supersampling = 2, .slices = 48, .shadows = look.shadows, .floor = look.has_floor};
   if (look.background) options.background = *look.background;
   if (look.floor) options.floor_color = *look.floor;
   options.lights = look.lights;

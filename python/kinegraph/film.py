@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import os
 import time
+from concurrent.futures import Future, ThreadPoolExecutor
 from fractions import Fraction
 from pathlib import Path
 from typing import Any
@@ -14,7 +15,10 @@ from ._core import Config
 from .errors import ArgumentError, NotFound
 from .progress import drawProgress
 
-_CODECS = {".mp4": ("h264", "yuv420p"), ".webm": ("libvpx-vp9", "yuv420p")}
+_CODECS = {  # and how fast they are to be
+    ".mp4": ("h264", {"preset": "veryfast"}),
+    ".webm": ("libvpx-vp9", {"deadline": "realtime", "cpu-used": "6", "row-mt": "1"}),
+}
 
 
 def _encoder() -> Any:
@@ -96,18 +100,27 @@ def saveFilm(
 
 
 def _write(av: Any, file: Path, states: np.ndarray, set_state: Any, viewer: Any, rate: float) -> None:
-    codec, pixels = _CODECS[file.suffix]
+    """Draws one picture while the one before is encoded."""
+    codec, options = _CODECS[file.suffix]
     began = time.monotonic()
-    with av.open(str(file), "w") as film:
-        stream = None
+    encoded: Future[None] | None = None
+    with av.open(str(file), "w") as film, ThreadPoolExecutor(1) as encoder:
+        stream = film.add_stream(codec, rate=Fraction(rate).limit_denominator(1000), options=options)
+        stream.pix_fmt = "yuv420p"
+
+        def encode(picture: np.ndarray) -> None:
+            film.mux(stream.encode(av.VideoFrame.from_ndarray(picture, format="rgb24")))
+
         for done, state in enumerate(states):
             set_state(state)
             picture = viewer.getRgb()
             picture = np.ascontiguousarray(picture[: picture.shape[0] // 2 * 2, : picture.shape[1] // 2 * 2])
-            if stream is None:
-                stream = film.add_stream(codec, rate=Fraction(rate).limit_denominator(1000))
-                stream.height, stream.width, stream.pix_fmt = picture.shape[0], picture.shape[1], pixels
-            film.mux(stream.encode(av.VideoFrame.from_ndarray(picture, format="rgb24")))
+            if encoded is None:
+                stream.height, stream.width = picture.shape[:2]
+            else:
+                encoded.result()
+            encoded = encoder.submit(encode, picture)
             drawProgress(f"film {file.name.split('.part')[0]}", done + 1, len(states), time.monotonic() - began)
-        if stream is not None:
-            film.mux(stream.encode())
+        if encoded is not None:
+            encoded.result()
+        film.mux(stream.encode())

@@ -16,7 +16,6 @@ namespace kinegraph {
 namespace {
 
 constexpr int kFineness = 2;             // pixels of letters that become one, across and down
-constexpr int kSlices = 128;             // around builtin round shapes
 constexpr float kShadowHalfWidth = 2.5;  // m, of what the first light's shadow map covers
 const Vector4d kDefaultColor(.8, .8, .8, 1.);
 
@@ -62,17 +61,29 @@ void paintBackground(CameraImage& image, const Vector3d& color) {
 /// Each pixel the mean of factor x factor; its depth that of the one in their middle.
 CameraImage shrunk(const CameraImage& fine, int factor) {
   CameraImage image{fine.width / factor, fine.height / factor, {}, {}};
-  const auto at = [&](int row, int column) { return std::size_t(row) * std::size_t(fine.width) + std::size_t(column); };
-  for (int row = 0; row < fine.height; row += factor) {
-    for (int column = 0; column < fine.width; column += factor) {
-      image.depth.push_back(fine.depth[at(row + factor / 2, column + factor / 2)]);
-      int sum[3] = {};
-      for (int i = 0; i < factor * factor; ++i) {
-        const std::uint8_t* rgb = &fine.rgb[3 * at(row + i / factor, column + i % factor)];
-        for (int k = 0; k < 3; ++k) sum[k] += rgb[k];
+  const std::size_t row_length = std::size_t(fine.width), count = std::size_t(image.width) * std::size_t(image.height);
+  image.depth.resize(count);
+  image.rgb.resize(3 * count);
+  std::vector<int> sums(3 * std::size_t(image.width));
+  const int cell = factor * factor;
+  for (int row = 0; row < image.height; ++row) {
+    std::fill(sums.begin(), sums.end(), cell / 2);
+    for (int i = 0; i < factor; ++i) {
+      const std::uint8_t* rgb = &fine.rgb[3 * row_length * std::size_t(row * factor + i)];
+      for (int column = 0; column < image.width; ++column) {
+        int* sum = &sums[3 * std::size_t(column)];
+        for (int k = 0; k < factor; ++k, rgb += 3) {
+          sum[0] += rgb[0];
+          sum[1] += rgb[1];
+          sum[2] += rgb[2];
+        }
       }
-      for (int s : sum) image.rgb.push_back(std::uint8_t((s + factor * factor / 2) / (factor * factor)));
     }
+    const std::size_t start = std::size_t(row) * std::size_t(image.width);
+    for (std::size_t i = 0; i < sums.size(); ++i) image.rgb[3 * start + i] = std::uint8_t(sums[i] / cell);
+    const float* depth = &fine.depth[row_length * std::size_t(row * factor + factor / 2) + std::size_t(factor / 2)];
+    for (int column = 0; column < image.width; ++column)
+      image.depth[start + std::size_t(column)] = depth[column * factor];
   }
   return image;
 }
@@ -189,9 +200,9 @@ void CameraRenderer::Impl::makeContext() {
   mujoco().mjr_freeContext(context.get());
   mjModel listed = **model;  // the arrays are the model's or the library's
   listed.vis.quality.offsamples = 0;
-  listed.vis.quality.shadowsize = options.shadows ? 2048 : 0;
-  listed.vis.quality.numslices = kSlices;
-  listed.vis.quality.numstacks = kSlices / 2;
+  listed.vis.quality.shadowsize = options.shadows ? 1024 : 0;
+  listed.vis.quality.numslices = options.slices;
+  listed.vis.quality.numstacks = options.slices / 2;
   listed.vis.quality.numquads = 1;
   listed.stat.extent = 1.;
   listed.vis.map.shadowclip = kShadowHalfWidth;

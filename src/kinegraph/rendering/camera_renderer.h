@@ -13,6 +13,7 @@ namespace kinegraph {
 /// How pictures look. The defaults are a sensor's: fast.
 struct RendererOptions {
   int supersampling = 1;                   ///< pixels drawn per pixel, across and down, against jagged edges
+  int slices = 128;                        ///< around balls, cylinders and capsules; even
   bool shadows = false;                    ///< of the first light; costs time
   bool floor = true;                       ///< a square of 10 m at z = 0, seen from above only
   Vector3d background = Vector3d::Ones();  ///< rgb in 0..1
