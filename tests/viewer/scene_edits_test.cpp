@@ -34,6 +34,20 @@ struct SceneEditsTest : ::testing::Test {
   int id(const char* name) const { return config.getFrame(name).id(); }
 };
 
+/// What a new reader says of each frame, and one that has read the scene before every edit.
+void expectSameAsAnew(const Config& config, SceneItems& known) {
+  SceneItems anew;
+  anew.read(config);
+  known.read(config);
+  ASSERT_EQ(known.items().size(), anew.items().size());
+  for (std::size_t i = 0; i < anew.items().size(); ++i) {
+    const ViewItem &a = known.items()[i], &b = anew.items()[i];
+    EXPECT_EQ(std::tie(a.name, a.parent, a.details, a.geometry, a.collides, a.color),
+              std::tie(b.name, b.parent, b.details, b.geometry, b.collides, b.color))
+        << "frame " << i;
+  }
+}
+
 }  // namespace
 
 TEST_F(SceneEditsTest, AJointIsSeenAtOnceAndTakenWhenAsked) {
@@ -153,4 +167,36 @@ TEST(SceneItems, TellTheJointsAndWhatElseThereIsToSay) {
   config.getFrame("box").setColor({1., 0., 0.});
   items.read(config);
   EXPECT_EQ(items.items()[0].details, "shape: box, size: [0.1 0.1 0.1], color: [1 0 0]");
+}
+
+TEST(SceneItems, SayWhatAnEditHasChangedAndWhatFollowsFromIt) {
+  Config config = scene();
+  SceneItems known;
+  const auto look = [&] { expectSameAsAnew(config, known); };
+  look();
+  config.addFrame("a", "box").setShape(ShapeType::sphere, {.1});
+  look();
+  config.addFrame("b", "a");
+  look();
+  config.getFrame("a").setContact(1);
+  look();
+  config.getFrame("a").setMass(2.);
+  look();
+  config.getFrame("a").setMass(3.);
+  look();
+  config.getFrame("b").setJoint(JointType::hingeX);
+  look();
+  config.getFrame("b").setJoint(JointType::none);
+  look();
+  config.getFrame("b").setShape(ShapeType::box, {.1, .2, .3});
+  config.getFrame("b").setColor({1., 0., 0.});
+  look();
+  config.getFrame("a").setName("c");
+  look();
+  config.getFrame("b").setParent(config.getFrame("box"));
+  look();
+  config.delFrame("c");
+  look();
+  config.addFrame("c");
+  look();
 }

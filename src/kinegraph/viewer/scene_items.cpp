@@ -20,6 +20,9 @@ std::vector<std::string> unitsOf(const Joint& joint) {
   return units;
 }
 
+/// What is said of it depends on more than the frame itself holds.
+bool refersToOthers(const FrameData& frame) { return frame.joint || !frame.no_contact.empty(); }
+
 std::vector<ShownJoint> jointsOf(const Config& config) {
   const auto program = config.program();
   const std::vector<std::string> names = config.getJointNames();
@@ -58,6 +61,35 @@ std::vector<Pose> posesOf(const Config& config) {
   return poses;
 }
 
+bool SceneItems::Told::knows(const FrameData& frame) const {
+  const auto same_numbers = [](const Inertia& a, const Inertia& b) {
+    return a.mass == b.mass && a.com == b.com && a.matrix == b.matrix;
+  };
+  if (&*attributes != &*frame.attributes || inertia.has_value() != frame.inertia.has_value()) return false;
+  if (inertia && !same_numbers(*inertia, *frame.inertia)) return false;
+  if (!frame.shape) return !geometry;
+  return shape.lock() == frame.shape && geometry == frame.shape->geometry && look == frame.shape->revision &&
+         contact == frame.shape->contact;
+}
+
+void SceneItems::Told::remember(const FrameData& frame) {
+  refers_to_others = refersToOthers(frame);
+  attributes = frame.attributes;
+  inertia = frame.inertia;
+  shape = frame.shape;
+  geometry = frame.shape ? frame.shape->geometry : nullptr;
+  look = frame.shape ? frame.shape->revision : 0;
+  contact = frame.shape ? frame.shape->contact : 0;
+}
+
+/// Most frames of a scene that is built step by step are as they were: to write all of them anew would be most of the
+/// work.
+bool SceneItems::saysTheSame(const FrameData& frame, bool same_structure) const {
+  const Told& told = told_[std::size_t(frame.id)];
+  const bool refers = told.refers_to_others || refersToOthers(frame);
+  return (same_structure || !refers) && told.knows(frame);
+}
+
 bool SceneItems::isOf(const Config& config) const {
   return scene_.lock() == config.scene() && scene_structure_ == config.scene()->structureRevision();
 }
@@ -72,7 +104,7 @@ void SceneItems::read(const Config& config) {
     ++structure_;
     joints_ = jointsOf(config);
     items_.resize(frames.size());
-    looks_.assign(frames.size(), 0);
+    told_.resize(frames.size());
   }
   for (std::size_t i = 0; i < frames.size(); ++i) {
     const FrameData& frame = *frames[i];
@@ -80,9 +112,8 @@ void SceneItems::read(const Config& config) {
     if (item.name != frame.name) item.name = frame.name;
     item.parent = frame.parent ? frame.parent->id : -1;
     item.pose = Pose(state.pose(int(i)));
-    const std::uint64_t look = frame.shape ? frame.shape->revision : 0;
-    if (same && look == looks_[i]) continue;
-    looks_[i] = look;
+    if (saysTheSame(frame, same)) continue;
+    told_[i].remember(frame);
     item.details = detailsOf(frame);
     item.geometry = nullptr;
     if (!frame.shape) continue;

@@ -27,7 +27,21 @@ class SceneItems {
   std::uint64_t scene_structure_ = 0;
   int structure_ = 0;
   std::vector<ViewItem> items_;
-  std::vector<std::uint64_t> looks_;  ///< of each frame's shape, when its details were written
+  /// What the details of a frame follow from; with a joint or exclusions, from the structure, too.
+  struct Told {
+    bool refers_to_others = false;  ///< it had such
+    SharedGraph attributes;
+    std::optional<Inertia> inertia;
+    std::weak_ptr<const Shape> shape;
+    std::shared_ptr<const Geometry> geometry;
+    std::uint64_t look = 0;  ///< revision of the shape
+    int contact = 0;
+    bool knows(const FrameData& frame) const;
+    void remember(const FrameData& frame);
+  };
+  bool saysTheSame(const FrameData& frame, bool same_structure) const;
+
+  std::vector<Told> told_;  ///< per frame, when its details were written
   std::vector<ShownJoint> joints_;
   VisualMeshes visual_meshes_;
 };
