@@ -101,10 +101,10 @@ export class ShownScene {
     const count = view.getUint32(4, true);
     for (let i = 0; i < count; ++i) {
       const at = 8 + 32 * i;
-      const pose = new Float32Array(7);
-      for (let k = 0; k < 7; ++k) pose[k] = view.getFloat32(at + 4 + 4 * k, true);
       const id = view.getUint32(at, true);
-      this.poses.set(id, pose);
+      let pose = this.poses.get(id); // thousands of them come many times a second: none is made anew
+      if (!pose) this.poses.set(id, (pose = new Float32Array(7)));
+      for (let k = 0; k < 7; ++k) pose[k] = view.getFloat32(at + 4 + 4 * k, true);
       if (!this.held) this.place(id);
     }
   }
