@@ -179,7 +179,7 @@ void bindAbstraction(nb::module_& m) {
 void bindDefault(nb::module_& m) {
   nb::class_<DefaultAbstraction, Abstraction, PyAbstraction<DefaultAbstraction>>(m, "default_LGP_TAMP_Abstraction",
                                                                                  docs::lgp::defaultAbstraction)
-      .def("__init__", makeDefault, "C"_a, "lgp_file"_a, docs::lgp::makeDefault)
+      .def("__init__", makeDefault, "C"_a, "lgp_config_file"_a, docs::lgp::makeDefault)
       .def_prop_ro(
           "domain", [](const DefaultAbstraction& tamp) { return tamp.domain(); }, "Its actions and rules, a Domain.")
       .def_prop_ro(

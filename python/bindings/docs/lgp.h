@@ -84,7 +84,7 @@ inline constexpr char makeDefault[] = R"doc(Reads the files, and what the scene 
 
 Args:
     C: The scene.
-    lgp_file: Name of the .lgp file: `fol: <file>`, `terminal: "(on tray cup)"`, `coll: [a b]`.
+    lgp_config_file: Name of the .lgp file: `fol: <file>`, `terminal: "(on tray cup)"`, `coll: [a b]`.
 Raises:
     FileError: A file cannot be read.
     ParseError: A file is wrong, or the goal has an unknown word.)doc";
