@@ -143,6 +143,16 @@ def test_the_tree_shows_hides_and_searches_frames(page: Browser) -> None:
     page.wait_for("document.querySelector('#panel').hidden")
 
 
+def test_names_at_the_end_of_a_long_chain_fit_into_the_tree(config: kg.Config, browser: Browser) -> None:
+    for i in range(24):
+        config.addFrame(f"joint_{i:02d}_origin", f"joint_{i - 1:02d}_origin" if i else "")
+    config.view()
+    browser.open(config.viewer().url)
+    browser.press_alt("T")
+    right = "[...document.querySelectorAll('#tree .frame')].at(-1).getBoundingClientRect().right"
+    assert browser.evaluate(right) <= browser.evaluate("document.querySelector('#tree').getBoundingClientRect().right")
+
+
 def test_the_tree_follows_the_scene(page: Browser, config: kg.Config) -> None:
     page.press_alt("T")
     page.evaluate("document.querySelector('[aria-label=\"show ghost\"]').click()")
