@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <limits>
+#include <optional>
+#include <set>
 
 #include "kinegraph/geometry/shapes/mass.h"
 #include "kinegraph/tasks/shape_points.h"
@@ -76,6 +78,14 @@ double gapTo(const Eigen::Vector2d& point, const Polygon& polygon) {
   return is_inside ? 0. : nearest;
 }
 
+/// The frames with a joint that moves, from a frame upwards.
+std::set<std::string> movingAbove(const Frame& frame) {
+  std::set<std::string> moving;
+  for (std::optional<Frame> up = frame; up; up = up->getParent())
+    if (up->data().moves()) moving.insert(up->getName());
+  return moving;
+}
+
 double frictionOf(const Frame& frame) {
   constexpr double kUsual = 1.;
   const Node* said = frame.attributes().find("friction");
@@ -114,6 +124,42 @@ Vector3d centerOfBody(const Frame& body) {
     if (all.mass > 0.) return all.at / all.mass;
   }
   return Vector3d::Zero();
+}
+
+FramePairs wedgedPairs(const Config& C, const std::vector<std::string>& hands, const std::vector<std::string>& objects,
+                       double depth) {
+  FramePairs pairs;
+  for (const std::string& obj : objects) {
+    const std::string hand = holderOf(C, obj, hands);
+    if (hand.empty()) continue;
+    const std::set<std::string> arm = movingAbove(C.getFrame(hand));
+    Config scene = C;
+    std::set<std::string> parts;
+    for (const Frame& part : fixedTo(scene.getFrame(obj))) parts.insert(part.getName());
+    scene.getFrame(obj).unLink();
+    for (const Config::NearPair& pair : scene.getCollisions(-depth)) {
+      const std::string a = scene.getFrame(pair.a).getName(), b = scene.getFrame(pair.b).getName();
+      if (parts.contains(a) == parts.contains(b)) continue;
+      const std::set<std::string> above = movingAbove(C.getFrame(parts.contains(a) ? b : a));
+      if (std::ranges::any_of(above, [&](const std::string& joint) { return arm.contains(joint); }))
+        pairs.emplace_back(a, b);
+    }
+  }
+  return pairs;
+}
+
+void ignorePairs(Config& C, const FramePairs& pairs) {
+  for (const auto& [a, b] : pairs) C.getFrame(a).data().no_contact.push_back(&C.getFrame(b).data());
+  if (!pairs.empty()) C.scene()->structureChanged();
+}
+
+void mindPairs(Config& C, const FramePairs& pairs) {
+  for (const auto& [a, b] : pairs) {
+    std::vector<FrameData*>& ignored = C.getFrame(a).data().no_contact;
+    const auto found = std::ranges::find(ignored, &C.getFrame(b).data());
+    if (found != ignored.end()) ignored.erase(found);
+  }
+  if (!pairs.empty()) C.scene()->structureChanged();
 }
 
 bool isCentered(const Vector3d& center) { return center.squaredNorm() < kFine * kFine; }

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "kinegraph/scene/config.h"
@@ -17,6 +18,16 @@ bool isCentered(const Vector3d& center);
 /// Does what touches a place along its lower side rest there: is its center of mass above what both share? To 1 mm, as the
 /// scene is. The place is a box that is level.
 bool isSupported(const Frame& obj, const Frame& place);
+
+/// Pairs of frames that overlap by more than `depth` (m) where hands hold objects: a part of what is held, and one of the robot.
+/// Models of hands are wider than hands, and what is held may have turned or slipped.
+using FramePairs = std::vector<std::pair<std::string, std::string>>;
+FramePairs wedgedPairs(const Config& C, const std::vector<std::string>& hands, const std::vector<std::string>& objects,
+                       double depth);
+
+/// Lets pairs never collide, or again.
+void ignorePairs(Config& C, const FramePairs& pairs);
+void mindPairs(Config& C, const FramePairs& pairs);
 
 /// The frames of a body that have a shape: its own, and those that are fixed to it.
 std::vector<Frame> shapesOf(const Frame& body);

@@ -5,6 +5,7 @@
 #include "kinegraph/front/model_path.h"
 #include "kinegraph/logic/fol_reader.h"
 #include "kinegraph/tasks/search/check_task_plan.h"
+#include "kinegraph/tasks/task_tools.h"
 #include "tests/support/expect_error.h"
 #include "tests/tasks/task_scenes.h"
 
@@ -118,6 +119,19 @@ TEST(PlanTask, WhatIsBeyondReachIsPulledWithAStick) {
   EXPECT_TRUE(checkTaskPlan(C, plan).empty());
   const TaskPlan near = planTask(stickAndBox(.05), "(on hand box)");
   EXPECT_EQ(namesOf(near), std::vector<std::string>{"pick"}) << "without the stick where that is not needed";
+}
+
+TEST(PlanTask, WhatHasSlippedIntoTheModelOfTheHandIsPutDown) {
+  Config C = drawerAndCup();
+  C.getFrame("cup").setParent(C.getFrame("gripper")).setJoint(JointType::rigid).setRelativePosition({0., 0., .015});
+  EXPECT_FALSE(wedgedPairs(C, {"gripper"}, {"cup"}, 1e-3).empty());
+  TaskPlan plan = planTask(C, "(on table cup)");
+  ASSERT_TRUE(plan.feasible()) << plan.str();
+  EXPECT_TRUE(checkTaskPlan(C, plan).empty());
+  plan.actions.push_back({"pick", "cup", "table", "gripper"});  // the hand has not gone away from it
+  plan.segments.push_back({plan.path.rows() - 1, plan.path.rows()});
+  ASSERT_FALSE(checkTaskPlan(C, plan).empty());
+  EXPECT_NE(checkTaskPlan(C, plan)[0].find("overlap still"), std::string::npos);
 }
 
 TEST(PlanTask, WhatIsBeyondReachWithAStickTooIsProvedSo) {

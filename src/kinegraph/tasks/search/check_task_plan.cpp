@@ -77,7 +77,15 @@ Pairs overlaps(const Config& scene) {
 /// A plan as it is played.
 class Played {
  public:
-  Played(const Config& C, const TaskPlan& plan) : scene_(C), plan_(plan), doors_(doorsOf(C)), ignored_(overlaps(C)) {}
+  Played(const Config& C, const TaskPlan& plan)
+      : scene_(C),
+        plan_(plan),
+        doors_(doorsOf(C)),
+        wedged_(wedgedPairs(C, wordsOf(plan.start, "is_gripper"), wordsOf(plan.start, "is_object"), kOverlap)),
+        ignored_(overlaps(C)) {
+    for (const auto& [a, b] : wedged_) depth_.push_back(-gapOf(C, a, b));
+    ignorePairs(scene_, wedged_);
+  }
 
   Lines wrong() {
     VectorXd q = scene_.getJointState();
@@ -93,6 +101,7 @@ class Played {
       }
       q = path.row(path.rows() - 1);
       scene_.setJointState(q);
+      if (is_freed_) mind(text);
       happen(action, text);
       for (const auto& [a, b] : overlaps(scene_))
         if (!ignored_.contains({a, b})) say(text, cat(a, " and ", b, " overlap where they are left"));
@@ -103,11 +112,39 @@ class Played {
   }
 
  private:
+  /// What was held at first and overlapped the hand has been put down, and the hand has gone away from it.
+  void mind(const std::string& text) {
+    mindPairs(scene_, wedged_);
+    for (const auto& [a, b] : wedged_)
+      if (-gapOf(scene_, a, b) > kOverlap) say(text, cat(a, " and ", b, " overlap still"));
+    wedged_.clear();
+    is_freed_ = false;
+  }
+
+  bool isWedged(const std::string& obj) const {
+    const auto isPart = [&](const std::string& name) { return name == obj || !holderOf(scene_, name, {obj}).empty(); };
+    return std::ranges::any_of(wedged_, [&](const auto& pair) { return isPart(pair.first) || isPart(pair.second); });
+  }
+
+  /// What overlaps where it is held must not do so more than it did.
+  std::string badWedges(const MatrixXd& path) {
+    for (std::size_t i = 0; i < wedged_.size(); ++i) {
+      for (Eigen::Index row = 0; row < path.rows(); ++row) {
+        scene_.setJointState(path.row(row));
+        const auto& [a, b] = wedged_[i];
+        if (const double depth = -gapOf(scene_, a, b); depth > depth_[i] + kOverlap)
+          return cat(a, " and ", b, " overlap by ", fixed(depth, 4), " m, more than at the start");
+      }
+    }
+    return "";
+  }
+
   void say(const std::string& action, const std::string& what) { wrong_.push_back(cat(action, ": ", what)); }
 
   std::string brokenMotion(const TaskAction& action, const MatrixXd& path, const VectorXd& times, const VectorXd& q) {
     std::string broken = badTiming(path, times, q, plan_.limits);
     if (broken.empty()) broken = firstContact(scene_, path);
+    if (broken.empty()) broken = badWedges(path);
     if (broken.empty()) broken = badSliding(action, path);
     if (broken.empty()) broken = badDoors(action, path);
     if (broken.empty()) broken = badCarrying(action, path, times);
@@ -191,11 +228,13 @@ class Played {
       if (const double apart = gapOf(scene_, action[1], action[3]); apart > kOffPlace)
         say(text, cat("the hand is ", fixed(apart, 4), " m away from what it takes"));
       hang(scene_, action[1], action[3]);
+      is_freed_ = is_freed_ || (action[0] == "handover" && isWedged(action[1]));
       if (startsSliding(action)) pushed_[action[1]] = action[3];
     } else if (isPlace(action) || endsSliding(action)) {
       hang(scene_, action[1], action[3]);
       lookAtStanding(action[1], action[3], action[0] == "lay" ? action[4] : "", text);
       pushed_.erase(action[1]);
+      is_freed_ = is_freed_ || (isPlace(action) && isWedged(action[1]));
     } else if (isHold(action)) {
       const auto is_door = [&](const TaskDoor& door) { return door.name == action[1]; };
       if (std::ranges::none_of(doors_, is_door) || holderOf(scene_, action[2], {action[1]}).empty())
@@ -277,6 +316,9 @@ class Played {
   const TaskPlan& plan_;
   const std::vector<TaskDoor> doors_;
   std::map<std::string, Held> held_;           ///< doors that a hand has taken
+  FramePairs wedged_;                          ///< that overlap where something is held at first
+  std::vector<double> depth_;                  ///< by how much, m
+  bool is_freed_ = false;                      ///< that was put down
   const Pairs ignored_;                        ///< what the scene itself has
   std::map<std::string, std::string> pushed_;  ///< by what
   Lines wrong_;

@@ -18,6 +18,7 @@ namespace kinegraph {
 /// level, away from what pushes it and from where their surfaces touch, and what is pulled by a tool that a hand holds; that
 /// doors move only while a hand that has taken their handle holds it to 1 mm and half a degree (as far as a round handle
 /// does not turn in it), and are open or closed then; and that nothing that is at rest then overlaps.
+/// What a hand holds at the start may overlap the robot as it does then, until it is put down and the hand has left it.
 /// Throws ValueError for a plan whose parts do not fit each other and the scene.
 std::vector<std::string> checkTaskPlan(const Config& C, const TaskPlan& plan,
                                        const std::vector<std::vector<Literal>>& states = {});

@@ -10,7 +10,9 @@
 #include "kinegraph/logic/action_words.h"
 #include "kinegraph/logic/fol_reader.h"
 #include "kinegraph/tasks/search/check_task_plan.h"
+#include "kinegraph/tasks/search/motion_checks.h"
 #include "kinegraph/tasks/search/task_conflicts.h"
+#include "kinegraph/tasks/task_tools.h"
 
 namespace kinegraph {
 
@@ -38,6 +40,15 @@ TaskRules rulesWith(const TaskRules& own, bool upright) {
   return rules;
 }
 
+/// A scene in which what a hand holds may overlap the robot where it does so now, until it is put down.
+Config withoutWedges(const Config& C) {
+  const std::vector<Literal> facts = taskFacts(C);
+  const FramePairs pairs = wedgedPairs(C, wordsOf(facts, "is_gripper"), wordsOf(facts, "is_object"), kOverlap);
+  Config scene = C;
+  ignorePairs(scene, pairs);
+  return scene;
+}
+
 int requireThreads(int threads) {
   if (threads < 1) throw ValueError(cat("planTask: threads is ", threads, "; expected 1 or more"));
   return threads;
@@ -46,7 +57,8 @@ int requireThreads(int threads) {
 }  // namespace
 
 TaskSearch::TaskSearch(const Config& C, const std::string& goal, const TaskOptions& options)
-    : C_(C),
+    : given_(C),
+      C_(withoutWedges(C)),
       doors_(doorsOf(C)),
       options_(options),
       domain_(options.domain ? *options.domain : defaultDomain()),
@@ -258,7 +270,7 @@ std::variant<TaskPlan, TaskFailure> TaskSearch::motionsOf(const TaskWaypoints& w
   std::vector<Config> scenes;
   for (Phase& phase : phases) scenes.push_back(std::move(phase.part.config));
   TaskPlan plan = planOf(waypoints, rows, std::move(scenes));
-  plan.violations = checkTaskPlan(C_, plan, states(plan.actions));
+  plan.violations = checkTaskPlan(given_, plan, states(plan.actions));
   if (!plan.violations.empty()) return TaskFailure{plan.violations[0], nullptr};
   return plan;
 }

@@ -82,7 +82,8 @@ class TaskSearch {
   std::string firstCause() const;
   void addCause(const std::string& why);
 
-  const Config C_;
+  const Config given_;
+  const Config C_;  ///< in which what is held may overlap the robot as it does at the start
   const std::vector<TaskDoor> doors_;
   TaskOptions options_;
   LogicDomain domain_;
