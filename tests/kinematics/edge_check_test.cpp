@@ -195,6 +195,40 @@ TEST(EdgeChecker, SlidesAlongASurfaceThatItTouchesAlmost) {
   }
 }
 
+TEST(EdgeChecker, FindsWherePairsComeNearestOnTheWay) {
+  constexpr int kFine = 400;
+  constexpr double kMost = .08, kNearEnough = 2e-3;  // m
+  Config config;
+  config.addText(scene("joint: hingeX", "joint: hingeY"));
+  EdgeChecker checker(config.state());
+  Nearest nearest(config);
+  Rng rng(3);
+  int found = 0;
+  for (int trial = 0; trial < 60; ++trial) {
+    const auto [from, to] = draw(config, rng, .2);
+    const auto q = [&](double s) -> VectorXd { return (1. - s) * from + s * to; };
+    const auto distanceOf = [&](const MotionContact& pair, double s) {
+      nearest.at(q(s));
+      return nearest.ofPair(pair.a, pair.b);
+    };
+    double least_found = kMost;
+    for (const MotionContact& approach : checker.approaches(from.data(), to.data(), kMost)) {
+      const auto [time, a, b, distance, dof] = approach;
+      EXPECT_TRUE(time > 0. && time < 1. && a < b && distance < kMost);
+      EXPECT_NEAR(distanceOf(approach, time), distance, 1e-9);
+      for (const double step : {-.15, .15})
+        if (time + step > 0. && time + step < 1.) EXPECT_GT(distanceOf(approach, time + step), distance - kNearEnough);
+      least_found = std::min(least_found, distance);
+    }
+    double inside = kMost, ends = std::min({kMost, nearest.at(from), nearest.at(to)});
+    for (int i = 1; i < kFine; ++i) inside = std::min(inside, nearest.at(q(double(i) / kFine)));
+    if (inside > ends - kNearEnough) continue;  // it comes nearest at an end
+    EXPECT_LT(least_found, inside + kNearEnough) << trial;
+    ++found;
+  }
+  EXPECT_GT(found, 2);
+}
+
 TEST(EdgeChecker, AQuaternionThatPassesZeroIsNotCalledFree) {
   Config config;
   config.addText(

@@ -46,4 +46,9 @@ double EdgeChecker::clearance(const double* from, const double* to, double most)
   return engine_->clearance(from, to, most);
 }
 
+const std::vector<MotionContact>& EdgeChecker::approaches(const double* from, const double* to, double most) {
+  engine_->findApproaches(from, to, most, approaches_);
+  return approaches_;
+}
+
 }  // namespace kinegraph

@@ -4,6 +4,7 @@
 #include <memory>
 #include <optional>
 #include <span>
+#include <vector>
 
 #include "kinegraph/kinematics/motion_check.h"
 
@@ -64,11 +65,17 @@ class EdgeChecker {
   /// more than the tolerance.
   double clearance(const double* from, const double* to, double most);
 
+  /// Where pairs come nearer than `most` (m) and nearer than just before and just after, between the ends of an edge.
+  /// Looked for among samples of it (8 for each .35 m that a point moves at most) and near them: what one finds, not a
+  /// proof.
+  const std::vector<MotionContact>& approaches(const double* from, const double* to, double most);
+
  private:
   State state_;
   double margin_, tolerance_;
   std::unique_ptr<EdgeEngine> engine_;
   std::unique_ptr<MotionChecker> motions_;  ///< made when it is first asked
+  std::vector<MotionContact> approaches_;
 };
 
 }  // namespace kinegraph

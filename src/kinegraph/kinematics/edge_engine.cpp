@@ -226,7 +226,10 @@ const double* EdgeEngine::jointsAt(double time) {
 }
 
 EdgeEngine::Moment EdgeEngine::between(const Moment& a, const Moment& b, int depth) {
-  const double time = .5 * (a.time + b.time);
+  return momentAt(.5 * (a.time + b.time), depth);
+}
+
+EdgeEngine::Moment EdgeEngine::momentAt(double time, int depth) {
   std::unique_ptr<State>& state = middles_[std::size_t(depth)];
   if (!state) state = std::make_unique<State>(scene_);
   state->setJoints(jointsAt(time));

@@ -46,6 +46,8 @@ class EdgeEngine {
   double clearance(const double* q, double most);
   double clearance(const double* from, const double* to, double most);
 
+  void findApproaches(const double* from, const double* to, double most, std::vector<MotionContact>& found);
+
   /// What the last question was answered no for, without its distance (NaN), or with it.
   const std::optional<MotionContact>& lastHit() const { return last_hit_; }
   const std::optional<MotionContact>& measuredHit();
@@ -87,6 +89,7 @@ class EdgeEngine {
   void placePiece(double from, double to);
   Moment sampleAt(int sample) const;
   Moment between(const Moment& a, const Moment& b, int depth);
+  Moment momentAt(double time, int depth);
   const double* jointsAt(double time);
 
   Normal& normalOf(const Candidate& candidate);
@@ -105,6 +108,8 @@ class EdgeEngine {
   bool pairKeeps(const Candidate& candidate, double margin, double width);
   bool keeps(const Candidate& candidate, Normal& normal, const MotionBounds::Rates& rates, double margin,
              const Moment& a, const Moment& b, int depth);
+  double distanceBelow(double most, const Candidate& candidate, Normal& normal, const Moment& at);
+  void addApproaches(const Candidate& candidate, double most, std::vector<MotionContact>& found);
   void lower(const Candidate& candidate, Normal& normal, const MotionBounds::Rates& rates, const Moment& a,
              const Moment& b, int depth, double& least);
 

@@ -1,26 +1,33 @@
 #include "kinegraph/komo/along_motion.h"
 
+#include <algorithm>
+
+#include "kinegraph/features/distance.h"
+
 namespace kinegraph {
 
-AlongMotion::AlongMotion(Form form, std::unique_ptr<Feature> feature, std::vector<double> instants,
-                         std::vector<int> same_dofs, const State& begin)
-    : form_(form),
-      feature_(std::move(feature)),
-      instants_(std::move(instants)),
-      same_dofs_(std::move(same_dofs)),
-      work_(std::make_unique<Workspace>(begin)) {
-  work_->q.resize(begin.dofs());
-  work_->y.resize(feature_->rows());
-  work_->J.resize(feature_->rows(), begin.dofs());
+namespace {
+
+/// Do the spheres around two bodies show that they are that far apart?
+bool areFar(const CollisionBody& a, const RigidTransform& X_WA, const CollisionBody& b, const RigidTransform& X_WB,
+            double most) {
+  const double reach = a.boundRadius() + b.boundRadius() + most;
+  return reach >= 0. && (X_WA * a.boundCenter() - X_WB * b.boundCenter()).squaredNorm() > reach * reach;
 }
 
-int AlongMotion::rows() const {
-  if (!feature_) return form_ == Form::sum ? 1 : 0;
-  return feature_->rows() * (form_ == Form::sum ? 1 : int(instants_.size()));
+}  // namespace
+
+AlongMotion::AlongMotion(Form form, double most, std::vector<PairInstant> instants, std::vector<int> same_dofs,
+                         const State& begin)
+    : form_(form), most_(most), instants_(std::move(instants)), same_dofs_(std::move(same_dofs)) {
+  for (std::size_t i = 0; i < instants_.size(); ++i)
+    if (!instants_[i].isEmpty()) in_order_.push_back(int(i));
+  std::ranges::stable_sort(in_order_, {}, [&](int i) { return instants_[std::size_t(i)].share; });
+  if (!in_order_.empty()) work_ = std::make_unique<Workspace>(begin);
 }
 
 std::optional<double> AlongMotion::flatValue() const {
-  return form_ == Form::sum || !feature_ ? std::nullopt : feature_->flatValue();
+  return form_ == Form::sum ? std::nullopt : std::optional(-most_);
 }
 
 void AlongMotion::place(double s, const State& begin, const State& end) const {
@@ -33,44 +40,40 @@ void AlongMotion::place(double s, const State& begin, const State& end) const {
   work.state.setJoints(work.q.data());
 }
 
-/// Adds the Jacobian at q(s) to the columns of both configurations.
-void AlongMotion::spread(double s, int first_row, JacobianRows& J) const {
-  const auto& at = work_->J;
+/// Adds the gradient at q(s) to the columns of both configurations.
+void AlongMotion::spread(double s, int row, JacobianRows& J) const {
   const Eigen::Index second = J.cols() / 2;
-  for (Eigen::Index row = 0; row < at.rows(); ++row) {
-    for (std::size_t dof = 0; dof < same_dofs_.size(); ++dof) {
-      const double value = at(row, Eigen::Index(dof));
-      if (value == 0.) continue;
-      const bool stays = same_dofs_[dof] < 0;
-      J(first_row + row, Eigen::Index(dof)) += stays ? value : (1. - s) * value;
-      if (!stays) J(first_row + row, second + same_dofs_[dof]) += s * value;
-    }
+  for (std::size_t dof = 0; dof < same_dofs_.size(); ++dof) {
+    const double value = work_->gradient(0, Eigen::Index(dof));
+    if (value == 0.) continue;
+    const bool stays = same_dofs_[dof] < 0;
+    J(row, Eigen::Index(dof)) += stays ? value : (1. - s) * value;
+    if (!stays) J(row, second + same_dofs_[dof]) += s * value;
   }
 }
 
-void AlongMotion::eval(std::span<const State* const> states, double tau, Eigen::Ref<VectorXd> y,
-                       JacobianRows* J) const {
-  if (form_ == Form::sum) y.setZero();
-  if (!feature_) return;
+void AlongMotion::eval(std::span<const State* const> states, double, Eigen::Ref<VectorXd> y, JacobianRows* J) const {
+  y.setConstant(form_ == Form::sum ? 0. : -most_);
+  if (!work_) return;
   const std::lock_guard lock(work_->mutex);
-  const State* const at[] = {&work_->state};
-  int row = 0;
-  for (const double s : instants_) {
-    place(s, *states[0], *states[1]);
-    if (J) {
-      work_->J.setZero();
-      JacobianRows view = work_->J;
-      feature_->eval(at, tau, work_->y, &view);
-      spread(s, row, *J);
-    } else {
-      feature_->eval(at, tau, work_->y, nullptr);
-    }
-    if (form_ == Form::sum) {
-      y += work_->y;
-    } else {
-      y.segment(row, feature_->rows()) = work_->y;
-      row += feature_->rows();
-    }
+  const State& state = work_->state;
+  double placed = -1.;
+  for (const int i : in_order_) {
+    const auto& [share, a, b] = instants_[std::size_t(i)];
+    if (share != placed) place(placed = share, *states[0], *states[1]);
+    const CollisionBody &body_a = *state.program().body[std::size_t(a)],
+                        &body_b = *state.program().body[std::size_t(b)];
+    const RigidTransform X_WA = state.pose(a), X_WB = state.pose(b);
+    if (areFar(body_a, X_WA, body_b, X_WB, most_)) continue;
+    const Proximity near = proximity(body_a, X_WA, body_b, X_WB);
+    if (near.distance >= most_) continue;
+    const int row = form_ == Form::sum ? 0 : i;
+    y[row] = form_ == Form::sum ? y[row] + most_ - near.distance : -near.distance;
+    if (!J) continue;
+    work_->gradient.setZero();
+    JacobianRows gradient = work_->gradient;
+    addDistanceGradient(state, a, b, near, -1., gradient);
+    spread(share, row, *J);
   }
 }
 

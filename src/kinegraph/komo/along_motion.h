@@ -5,46 +5,46 @@
 #include <vector>
 
 #include "kinegraph/features/feature.h"
+#include "kinegraph/komo/pair_instant.h"
 
 namespace kinegraph {
 
-/// A feature of one configuration at instants s of the motion to the next one,
+/// How near pairs of shapes come at instants s of the motion from one configuration to the next one,
 ///     q(s) = (1 - s) q_0 + s q_1,     J(s) = ((1 - s) J, s J)     at q(s)
-/// either its values one below the other, or their sum: zero where there are no instants.
+/// either a row each, y_i = max(-distance_i, -most), of which those without a pair are -most; or the sum of what they
+/// lack, y = sum_i max(0, most - distance_i). In m.
 class AlongMotion final : public Feature {
  public:
   enum class Form { stacked, sum };
 
-  /// Without instants.
-  explicit AlongMotion(Form form) : form_(form) {}
-
-  /// `same_dofs`: per dof of the first configuration that of the second, or -1 for those that keep their value. `begin`
-  /// is any State of the first one.
-  AlongMotion(Form form, std::unique_ptr<Feature> feature, std::vector<double> instants, std::vector<int> same_dofs,
+  /// `most` in m. `same_dofs`: per dof of the first configuration that of the second, or -1 for those that keep their
+  /// value. `begin` is any State of the first one.
+  AlongMotion(Form form, double most, std::vector<PairInstant> instants, std::vector<int> same_dofs,
               const State& begin);
 
-  int rows() const override;
+  int rows() const override { return form_ == Form::sum ? 1 : int(instants_.size()); }
   int order() const override { return 1; }
   std::optional<double> flatValue() const override;
   void eval(std::span<const State* const> states, double tau, Eigen::Ref<VectorXd> y, JacobianRows* J) const override;
 
  private:
   void place(double s, const State& begin, const State& end) const;
-  void spread(double s, int first_row, JacobianRows& J) const;
+  void spread(double s, int row, JacobianRows& J) const;
 
   Form form_;
-  std::unique_ptr<Feature> feature_;  ///< null without instants
-  std::vector<double> instants_;
+  double most_;
+  std::vector<PairInstant> instants_;
+  std::vector<int> in_order_;  ///< those that are not empty, by their shares
   std::vector<int> same_dofs_;
   /// What one evaluation at a time needs.
   struct Workspace {
-    explicit Workspace(const State& scene) : state(scene) {}
+    explicit Workspace(const State& scene) : state(scene), q(scene.dofs()), gradient(1, scene.dofs()) {}
     std::mutex mutex;
     State state;
-    VectorXd q, y;
-    Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor> J;
+    VectorXd q;
+    Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor> gradient;  ///< one row
   };
-  std::unique_ptr<Workspace> work_;
+  std::unique_ptr<Workspace> work_;  ///< null where all are empty
 };
 
 }  // namespace kinegraph

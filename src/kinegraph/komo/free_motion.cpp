@@ -2,12 +2,17 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 
 namespace kinegraph {
 
 namespace {
 
-constexpr double kThrough = .01;  // m: what is so deep is not a corner that is cut
+constexpr double kThrough = .01;   // m: what is so deep is not a corner that is cut
+constexpr double kReserve = 5e-3;  // m, beyond what a solver aims at: pairs that come so near count from then on
+constexpr double kSame = .1;       // share of the way: instants of a pair that are so near to each other say the same,
+constexpr double kEqual = 1e-9;    // and are the same
+constexpr double kMoved = .01;     // rad or m that a dof moves, at least, before a motion is looked at anew
 
 /// The margin that the motion can keep.
 double marginOf(const Objective& objective, const SliceMotion& motion, MotionProbe& probe) {
@@ -16,67 +21,89 @@ double marginOf(const Objective& objective, const SliceMotion& motion, MotionPro
   return at_begin < limit ? std::max(.5 * at_begin, 0.) : objective.margin;
 }
 
-/// What a motion lacks to keep a margin.
-struct Lack {
-  double most = 0.;              ///< m
-  std::vector<double> instants;  ///< shares of the way at which it lacks more than just before and after
-};
+int motionsOf(const Objective& objective) { return std::max(objective.to - objective.from + 1, 0); }
 
-/// From samples of the way, and the first contact, where these miss it.
-Lack findLack(const SliceMotion& motion, double margin, double first, MotionProbe& probe) {
-  constexpr int kSamples = 32;
-  std::vector<double> lacks;
-  for (int i = 0; i <= kSamples; ++i) lacks.push_back(margin - probe.clearance(motion, double(i) / kSamples, margin));
-  Lack found;
-  for (int i = 0; i <= kSamples; ++i) {
-    const auto lackAt = [&](int k) { return k < 0 || k > kSamples ? 0. : lacks[std::size_t(k)]; };
-    const double here = lackAt(i);
-    if (here <= 0.) continue;
-    found.most = std::max(found.most, here);
-    const bool is_peak = here > lackAt(i - 1) && here >= lackAt(i + 1);
-    if (is_peak) found.instants.push_back(double(i) / kSamples);
-  }
-  if (found.instants.empty()) {
-    found.instants.push_back(first);
-    found.most = std::max(margin - probe.clearance(motion, first, margin), kFreeTolerance);
-  }
+bool has(const std::vector<PairInstant>& instants, const PairInstant& one, double near) {
+  return std::ranges::any_of(instants, [&](const PairInstant& other) {
+    return other.a == one.a && other.b == one.b && std::abs(other.share - one.share) <= near;
+  });
+}
+
+/// In place of an empty one. False if there is none.
+bool fill(std::vector<PairInstant>& instants, const PairInstant& one) {
+  const auto empty = std::ranges::find_if(instants, &PairInstant::isEmpty);
+  if (empty == instants.end()) return false;
+  *empty = one;
+  return true;
+}
+
+void add(std::vector<PairInstant>& instants, const PairInstant& one) {
+  if (!has(instants, one, kEqual) && !fill(instants, one)) instants.push_back(one);
+}
+
+/// What is too near on a motion: where it comes nearest on the way, else what was found at any time.
+std::vector<MotionContact> violationsOf(const SliceMotion& motion, double margin, MotionProbe& probe) {
+  if (probe.isFree(motion, margin)) return {};
+  const MotionContact hit = probe.lastHit();
+  std::vector<MotionContact> found = probe.approaches(motion, margin + kFreeTolerance);
+  if (found.empty()) found.push_back(hit);
   return found;
 }
 
-}  // namespace
+double lackOf(const MotionContact& contact, double margin) {
+  return std::max(margin + kFreeTolerance - contact.distance, kFreeTolerance);
+}
 
-namespace {
+/// Puts what was found in place of empty instants; what violates the margin also where there are others near to it. Was
+/// there any? `lack` becomes the largest one.
+bool fillWith(const std::vector<MotionContact>& found, double margin, std::vector<PairInstant>& instants,
+              double& lack) {
+  bool any = false;
+  for (const MotionContact& contact : found) {
+    lack = std::max(lack, margin - contact.distance);
+    const PairInstant instant{contact.time, contact.a, contact.b};
+    const double near = contact.distance < margin ? kEqual : kSame;
+    if (!has(instants, instant, near)) any = fill(instants, instant) || any;
+  }
+  return any;
+}
 
 /// Where a motion goes right through something, the next one may do so a little earlier or later. So that it cannot,
 /// the motions around it get instants in their middle, and then in the middle of these.
-void guard(Objective& objective, int through) {
+void guard(Objective& objective, int through, const MotionContact& contact) {
   const int count = int(objective.instants.size()), reach = std::max(2, count / 8);
   for (int i = std::max(through - reach, 0); i <= std::min(through + reach, count - 1); ++i) {
-    std::vector<double>& instants = objective.instants[std::size_t(i)];
-    if (std::ranges::find(instants, .5) == instants.end()) {
-      instants.push_back(.5);
-    } else if (std::ranges::find(instants, .25) == instants.end()) {
-      instants.insert(instants.end(), {.25, .75});
+    std::vector<PairInstant>& instants = objective.instants[std::size_t(i)];
+    const auto at = [&](double share) { return PairInstant{share, contact.a, contact.b}; };
+    if (!has(instants, at(.5), 0.)) {
+      add(instants, at(.5));
+    } else {
+      add(instants, at(.25));
+      add(instants, at(.75));
     }
   }
 }
 
 }  // namespace
 
+bool LookedAt::isFar(const SliceMotion& motion) const {
+  const auto moved = [](const VectorXd& a, const VectorXd& b) { return (a - b).lpNorm<Eigen::Infinity>(); };
+  return from.size() == 0 || std::max(moved(from, motion.from), moved(to, motion.to)) >= kMoved;
+}
+
 double addInstants(Objective& objective, const Path& path, MotionProbe& probe) {
   double most = 0.;
-  const int count = std::max(objective.to - objective.from + 1, 0);
+  const int count = motionsOf(objective);
   objective.instants.resize(std::size_t(count));
   for (int i = 0; i < count; ++i) {
     const SliceMotion motion = motionInto(path, objective.from + i);
     const double margin = marginOf(objective, motion, probe);
-    const std::optional<MotionContact> contact = probe.firstContact(motion, margin);
-    if (!contact) continue;
-    const Lack lack = findLack(motion, margin + kFreeTolerance, contact->time, probe);
-    most = std::max(most, lack.most);
-    std::vector<double>& known = objective.instants[std::size_t(i)];
-    known.insert(known.end(), lack.instants.begin(), lack.instants.end());
-    if (lack.most > kThrough) guard(objective, i);
+    for (const MotionContact& contact : violationsOf(motion, margin, probe)) {
+      const double lack = lackOf(contact, margin);
+      most = std::max(most, lack);
+      add(objective.instants[std::size_t(i)], {contact.time, contact.a, contact.b});
+      if (lack > kThrough) guard(objective, i, contact);
+    }
   }
   return most;
 }
@@ -87,6 +114,46 @@ std::vector<Objective> withInstants(std::vector<Objective> objectives, const Pat
     if (objective.on_the_way) addInstants(objective, path, probe);
   }
   return objectives;
+}
+
+FilledInstants fillInstants(Objective& objective, const Path& path, MotionProbe& probe, bool is_solution,
+                            std::vector<LookedAt>& looked_at) {
+  FilledInstants filled;
+  looked_at.resize(objective.instants.size());
+  for (int i = 0; i < int(objective.instants.size()); ++i) {
+    const SliceMotion motion = motionInto(path, objective.from + i);
+    LookedAt& last = looked_at[std::size_t(i)];
+    if (!is_solution && !last.isFar(motion)) continue;
+    const double margin = marginOf(objective, motion, probe);
+    std::vector<MotionContact> found;
+    if (is_solution) {
+      found = violationsOf(motion, margin, probe);
+      if (found.empty()) continue;
+      for (const MotionContact& contact : found) filled.lack = std::max(filled.lack, lackOf(contact, margin));
+    } else {
+      last = {motion.from, motion.to};
+    }
+    const double reach = margin < objective.margin ? margin : margin + objective.slack + kReserve;
+    std::ranges::copy(probe.approaches(motion, reach), std::back_inserter(found));
+    if (fillWith(found, margin, objective.instants[std::size_t(i)], filled.lack)) filled.motions.push_back(i);
+  }
+  return filled;
+}
+
+void keepRoom(Objective& objective, int count) {
+  objective.instants.resize(std::size_t(motionsOf(objective)));
+  for (std::vector<PairInstant>& instants : objective.instants) {
+    const auto empty = std::ranges::count_if(instants, &PairInstant::isEmpty);
+    if (empty < count) instants.resize(instants.size() + std::size_t(count - empty));
+  }
+}
+
+void addApproaches(Objective& objective, const Path& path, MotionProbe& probe, double most) {
+  objective.instants.resize(std::size_t(motionsOf(objective)));
+  for (std::size_t i = 0; i < objective.instants.size(); ++i) {
+    for (const MotionContact& contact : probe.approaches(motionInto(path, objective.from + int(i)), most))
+      add(objective.instants[i], {contact.time, contact.a, contact.b});
+  }
 }
 
 }  // namespace kinegraph

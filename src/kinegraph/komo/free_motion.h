@@ -20,4 +20,28 @@ double addInstants(Objective& objective, const Path& path, MotionProbe& probe);
 /// The objectives, those on the way with the instants at which the path violates them.
 std::vector<Objective> withInstants(std::vector<Objective> objectives, const Path& path);
 
+/// A motion between two slices, where it was when it was looked at last.
+struct LookedAt {
+  VectorXd from, to;  ///< empty: it was not yet
+
+  bool isFar(const SliceMotion& motion) const;
+};
+
+struct FilledInstants {
+  double lack = 0.;          ///< by how much a pair is nearer than the margin, at most, m
+  std::vector<int> motions;  ///< that have instants which were empty
+};
+
+/// As addInstants, while a solver is at work: in place of empty instants only, and also where pairs nearly come so
+/// near. Motions that have hardly moved since they were looked at are left out. `is_solution`: all are looked at, and
+/// at all times; instants are added to those that are not free.
+FilledInstants fillInstants(Objective& objective, const Path& path, MotionProbe& probe, bool is_solution,
+                            std::vector<LookedAt>& looked_at);
+
+/// As many instants that are empty for each motion.
+void keepRoom(Objective& objective, int count);
+
+/// Adds those at which pairs come nearer than `most` (m) on the way.
+void addApproaches(Objective& objective, const Path& path, MotionProbe& probe, double most);
+
 }  // namespace kinegraph

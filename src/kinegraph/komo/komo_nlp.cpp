@@ -10,6 +10,7 @@
 #include "kinegraph/komo/path_rows.h"
 #include "kinegraph/nlp/evaluation_sizes.h"
 #include "kinegraph/nlp/other_ways.h"
+#include "kinegraph/nlp/room_for_constraints.h"
 
 namespace kinegraph {
 
@@ -17,6 +18,8 @@ namespace {
 
 constexpr int kMostSeparateRows = 100000;
 constexpr double kMuch = .01;  // m: so deep a motion that is nearly free is not, but one through a wall
+constexpr int kRoom = 8;       // instants of a motion that a solver can take up before its problem is laid out anew
+constexpr double kNear = .05;  // m: what a detour comes so near to counts from its beginning on
 
 /// Does the objective demand that a sum of overlaps is zero?
 bool isSumOfOverlaps(const Objective& objective) {
@@ -28,7 +31,12 @@ bool isSumOfOverlaps(const Objective& objective) {
 
 bool isOnTheWay(const Objective& objective) { return objective.on_the_way; }
 
-class KomoNlp final : public Nlp, public OtherWays {
+/// Has it rows for instants that are not known yet?
+bool keepsRoom(const Objective& objective) {
+  return objective.on_the_way && objective.feature == FeatureSymbol::pairCollisions;
+}
+
+class KomoNlp final : public Nlp, public OtherWays, public RoomForConstraints {
  public:
   explicit KomoNlp(std::shared_ptr<Komo> komo) : KomoNlp(komo, komo->objectives().all()) {}
 
@@ -84,6 +92,7 @@ class KomoNlp final : public Nlp, public OtherWays {
     std::vector<Objective> objectives = problem_.objectives();
     for (Objective& objective : objectives) {
       if (!isSumOfOverlaps(objective)) continue;
+      if (objective.on_the_way) keepRoom(objective, kRoom);
       objective.feature = FeatureSymbol::pairCollisions;
       objective.type = ObjectiveType::ineq;
       if (const double apart = objective.margin + objective.slack; apart != 0.)
@@ -117,6 +126,11 @@ class KomoNlp final : public Nlp, public OtherWays {
     requireStructure();
     komo_->path().setVariables(x);
     std::vector<Objective> objectives = problem_.objectives();
+    if (const KomoNlp* solved = separate()) {
+      if (solved->free_at_.size() == x.size() && solved->free_at_ == x) return Refinement::none;
+      for (std::size_t i = 0; i < objectives.size(); ++i)
+        if (objectives[i].on_the_way) objectives[i].instants = solved->problem_.objectives()[i].instants;
+    }
     const double lack = addInstantsTo(objectives);
     if (lack == 0.) return Refinement::none;
     const Separation before = separation();
@@ -127,8 +141,26 @@ class KomoNlp final : public Nlp, public OtherWays {
     return lack > kMuch ? Refinement::much : Refinement::little;
   }
 
-  /// A detour, with its own instants: the middle of each motion, so that a step does not lead through something thin,
-  /// and those at which it comes too near.
+  bool hasRoom() const override { return std::ranges::any_of(problem_.objectives(), keepsRoom); }
+
+  Refinement takeUp(const VectorXd& x, bool is_solution, VectorXd& phi, Jacobian& J, std::vector<int>& rows) override {
+    requireStructure();
+    komo_->path().setVariables(x);
+    double lack = 0.;
+    looked_at_.resize(problem_.objectives().size());
+    for (std::size_t o = 0; o < problem_.objectives().size(); ++o) {
+      if (!keepsRoom(problem_.objectives()[o])) continue;
+      Objective objective = problem_.objectives()[o];
+      const FilledInstants filled = fillInstants(objective, komo_->path(), probe_, is_solution, looked_at_[o]);
+      lack = std::max(lack, filled.lack);
+      for (const int motion : filled.motions) fillMotion(o, objective, motion, phi, J, rows);
+    }
+    if (is_solution && lack == 0.) free_at_ = x;
+    return lack > kMuch ? Refinement::much : lack > 0. ? Refinement::little : Refinement::none;
+  }
+
+  /// A detour, with its own instants: those at which it comes near to something, so that a step does not lead through
+  /// it.
   std::optional<VectorXd> otherWay(const VectorXd& x, int number) override {
     std::vector<Objective> objectives = problem_.objectives();
     const auto on_the_way = std::ranges::find_if(objectives, isOnTheWay);
@@ -141,8 +173,9 @@ class KomoNlp final : public Nlp, public OtherWays {
     *way = way->cwiseMax(lower_).cwiseMin(upper_);
     komo_->path().setVariables(*way);
     for (Objective& objective : objectives) {
-      if (objective.on_the_way)
-        objective.instants.assign(std::size_t(std::max(objective.to - objective.from + 1, 0)), {.5});
+      if (!objective.on_the_way) continue;
+      objective.instants.clear();
+      addApproaches(objective, komo_->path(), probe_, kNear);
     }
     addInstantsTo(objectives);
     takeUp(std::move(objectives));
@@ -192,6 +225,24 @@ class KomoNlp final : public Nlp, public OtherWays {
     return lack;
   }
 
+  /// The separate form, where it is known.
+  const KomoNlp* separate() const { return static_cast<const KomoNlp*>(separation_.problem.get()); }
+
+  /// The instants of one motion of an objective in place of those that it had.
+  void fillMotion(std::size_t number, const Objective& objective, int motion, VectorXd& phi, Jacobian& J,
+                  std::vector<int>& rows) {
+    const auto isIt = [&](const PathProblem::Term& term) {
+      return term.objective == int(number) && term.slice == objective.from + motion;
+    };
+    const auto term = std::ranges::find_if(problem_.terms(), isIt);
+    const std::vector<PairInstant>&now = objective.instants[std::size_t(motion)],
+          &before = problem_.objectives()[number].instants[std::size_t(motion)];
+    for (int row = 0; row < term->rows; ++row)
+      if (before[std::size_t(row)].isEmpty() && !now[std::size_t(row)].isEmpty()) rows.push_back(term->first_row + row);
+    problem_.setInstants(komo_->path(), komo_->contacts(), *term, now);
+    problem_.evaluateTerm(komo_->path(), std::size_t(term - problem_.terms().begin()), phi, J);
+  }
+
   void takeUp(std::vector<Objective> objectives) {
     problem_ = PathProblem(komo_->path(), komo_->contacts(), std::move(objectives));
     separation_ = {};
@@ -211,6 +262,8 @@ class KomoNlp final : public Nlp, public OtherWays {
   std::shared_ptr<Komo> komo_;
   PathProblem problem_;
   MotionProbe probe_{kFreeTolerance};
+  std::vector<std::vector<LookedAt>> looked_at_;  ///< per objective, per motion
+  VectorXd free_at_;                              ///< where a solver found nothing to take up
   int structure_;
   Separation separation_;
   bool separation_is_known_ = false;

@@ -89,22 +89,29 @@ Made physicsOf(int frame, const Objective& objective, const Path& path, const st
   return std::make_unique<NewtonEuler>(frame, gravity, inertia, forces);
 }
 
+/// Pairs that are farther apart than that are not looked at any closer, m. Of motions that are to be free it is half as
+/// much: what a step brings into the way is found as they are looked at.
+double farOf(const Objective& objective) {
+  const double far = (objective.slack > 0. ? .5 : 1.) * PairCollisions::kFar,
+               apart = objective.margin + objective.slack;
+  return far + std::max(apart - .5 * far, 0.);
+}
+
 /// The sum of overlaps or those of all pairs, of a slice or on the way to it. Pairs count up to the margin.
 Made collisionsIn(const Objective& objective, const Path& path, const Ids& ids, int slice) {
   const bool is_sum = objective.feature == FeatureSymbol::accumulatedCollisions;
-  const auto make = [&](const State& state) -> Made {
-    if (is_sum)
-      return std::make_unique<AccumulatedCollisions>(ids, state.program(), PairChoice::motion, objective.margin);
-    const double far = PairCollisions::kFar + objective.margin + objective.slack;
-    return std::make_unique<PairCollisions>(ids, state.program(), PairChoice::motion, far);
-  };
-  if (!objective.on_the_way) return make(path.state(slice));
-  const AlongMotion::Form form = is_sum ? AlongMotion::Form::sum : AlongMotion::Form::stacked;
-  const auto place = std::size_t(slice - objective.from);
-  if (place >= objective.instants.size() || objective.instants[place].empty())
-    return std::make_unique<AlongMotion>(form);
-  const State& begin = path.state(slice - 1);
-  return std::make_unique<AlongMotion>(form, make(begin), objective.instants[place], sameDofs(path, slice), begin);
+  const double far = farOf(objective);
+  if (objective.on_the_way) {
+    const AlongMotion::Form form = is_sum ? AlongMotion::Form::sum : AlongMotion::Form::stacked;
+    const auto place = std::size_t(slice - objective.from);
+    const bool has_instants = place < objective.instants.size();
+    return std::make_unique<AlongMotion>(form, is_sum ? objective.margin : far,
+                                         has_instants ? objective.instants[place] : std::vector<PairInstant>(),
+                                         sameDofs(path, slice), path.state(slice - 1));
+  }
+  const Program& program = path.state(slice).program();
+  if (is_sum) return std::make_unique<AccumulatedCollisions>(ids, program, PairChoice::motion, objective.margin);
+  return std::make_unique<PairCollisions>(ids, program, PairChoice::motion, far);
 }
 
 /// Joints and forces are those of the path, and of collisions only those count that joints part; other features are as

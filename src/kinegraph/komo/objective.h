@@ -5,6 +5,7 @@
 
 #include "kinegraph/features/eval.h"
 #include "kinegraph/features/forces.h"
+#include "kinegraph/komo/pair_instant.h"
 #include "kinegraph/komo/path.h"
 #include "kinegraph/nlp/nlp.h"
 
@@ -28,8 +29,8 @@ struct Objective {
   bool on_the_way = false;       ///< of collisions: not in the slices, but at instants of the motions that lead to them
   int frames_known = -1;         ///< of qQuaternionNorms: only the first so many frames count; -1: all
 
-  /// Of those motions, from that to slice `from` on: in [0, 1], the share of the way.
-  std::vector<std::vector<double>> instants{};
+  /// Of those motions, from that to slice `from` on.
+  std::vector<std::vector<PairInstant>> instants{};
 
   const std::string& name() const { return feature.name(); }
 };

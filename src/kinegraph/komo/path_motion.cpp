@@ -185,6 +185,19 @@ std::optional<MotionContact> MotionProbe::firstOfAll(const SliceMotion& motion, 
   return first ? first : hit;
 }
 
+bool MotionProbe::isFree(const SliceMotion& motion, double margin) {
+  EdgeChecker& checker = checkerOf(motion);
+  checker.forget();
+  checker.setMargin(margin);
+  return checker.isFree(motion.from.data(), motion.to.data());
+}
+
+const std::vector<MotionContact>& MotionProbe::approaches(const SliceMotion& motion, double most) {
+  EdgeChecker& checker = checkerOf(motion);
+  checker.forget();
+  return checker.approaches(motion.from.data(), motion.to.data(), most);
+}
+
 double MotionProbe::clearance(const SliceMotion& motion, double share, double most) {
   const VectorXd q = (1. - share) * motion.from + share * motion.to;
   return checkerOf(motion).clearance(q.data(), most);

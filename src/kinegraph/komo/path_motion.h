@@ -44,6 +44,13 @@ class MotionProbe {
   /// The first pair that a motion brings nearer than `margin` (m), if any, of those that count for it.
   std::optional<MotionContact> firstContact(const SliceMotion& motion, double margin);
 
+  /// Do all pairs keep `margin` (m) all along? If not, lastHit tells one that does not.
+  bool isFree(const SliceMotion& motion, double margin);
+  const MotionContact& lastHit() const { return *scene_->checker.lastHit(); }
+
+  /// Where pairs come nearer than `most` (m) on the way, and nearer than just before and just after; see EdgeChecker.
+  const std::vector<MotionContact>& approaches(const SliceMotion& motion, double most);
+
   /// The least distance of all pairs at a share of the way, at most `most`, m.
   double clearance(const SliceMotion& motion, double share, double most);
 

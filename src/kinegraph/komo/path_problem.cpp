@@ -287,6 +287,13 @@ void PathProblem::evaluateTerms(const Path& path, std::span<const int> terms, Ve
   for (const int term : terms) evaluate(path, std::size_t(term), phi, J);
 }
 
+void PathProblem::setInstants(const Path& path, const Contacts& contacts, const Term& term,
+                              std::vector<PairInstant> instants) {
+  Objective& objective = objectives_[std::size_t(term.objective)];
+  objective.instants[std::size_t(term.slice - objective.from)] = std::move(instants);
+  residuals_[std::size_t(term.residual)] = residualIn(objective, path, contacts.forces(), term.slice);
+}
+
 void PathProblem::addCurvature(const Path& path, int k, std::span<const double> weights, Eigen::Ref<MatrixXd> H) {
   const Term& term = terms_[std::size_t(curved_terms_[std::size_t(k)])];
   residuals_[std::size_t(term.residual)].addCurvature(path.state(term.slice), weights, H);

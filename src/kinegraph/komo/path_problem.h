@@ -47,6 +47,12 @@ class PathProblem {
   /// The same for some of the terms, among them all or none whose rows come and go; leaves the rows of others as they are.
   void evaluateTerms(const Path& path, std::span<const int> terms, VectorXd& phi, Jacobian* J);
 
+  /// Of an objective on the way to a slice: other instants, as many as before.
+  void setInstants(const Path& path, const Contacts& contacts, const Term& term, std::vector<PairInstant> instants);
+
+  /// One of the terms, by its place, after evaluating others at the same path.
+  void evaluateTerm(const Path& path, std::size_t index, VectorXd& phi, Jacobian& J) { evaluate(path, index, phi, &J); }
+
   bool isLinear(const Term& term) const { return residuals_[std::size_t(term.residual)].isLinear(); }
   bool storesAllRows(const Term& term) const { return !residuals_[std::size_t(term.residual)].tellsZeroRows(); }
 

@@ -142,6 +142,18 @@ Refinement MappedNlp::refine(const VectorXd& c, VectorXd& dual) {
   return found;
 }
 
+bool MappedNlp::hasRoom() const {
+  const auto* room = dynamic_cast<const RoomForConstraints*>(behind_.get());
+  return room && room->hasRoom();
+}
+
+Refinement MappedNlp::takeUp(const VectorXd& c, bool is_solution, VectorXd& phi, Jacobian& J, std::vector<int>& rows) {
+  auto& room = dynamic_cast<RoomForConstraints&>(*behind_);
+  const Refinement found = room.takeUp(map_->at(c), is_solution, phi, behind_jacobian_, rows);
+  if (!rows.empty()) evaluate(c, phi, &J);  // what is behind may have been evaluated elsewhere since
+  return found;
+}
+
 VectorXd MappedNlp::fitted(const VectorXd& x) const { return map_->fit(x).cwiseMax(lower_).cwiseMin(upper_); }
 
 std::optional<VectorXd> MappedNlp::otherWay(const VectorXd& c, int number) {

@@ -5,6 +5,7 @@
 
 #include "kinegraph/nlp/nlp.h"
 #include "kinegraph/nlp/other_ways.h"
+#include "kinegraph/nlp/room_for_constraints.h"
 
 namespace kinegraph {
 
@@ -21,7 +22,7 @@ struct LinearMap {
 
 /// A problem in fewer variables c, on which its own depend linearly: as of a path that is a spline, in control points.
 /// Residuals, and what is said of them, are those of the problem behind, which is left at the x of the c last evaluated.
-class MappedNlp final : public Nlp, public OtherWays {
+class MappedNlp final : public Nlp, public OtherWays, public RoomForConstraints {
  public:
   /// Bounds are of c. Throws ValueError if the map or the bounds do not have the problem's size.
   MappedNlp(std::shared_ptr<Nlp> behind, std::shared_ptr<const LinearMap> map, const VectorXd& lower,
@@ -37,6 +38,8 @@ class MappedNlp final : public Nlp, public OtherWays {
   Separation separation() override;
   std::shared_ptr<const LazyVerdict> motionVerdict(const VectorXd& c) override;
   Refinement refine(const VectorXd& c, VectorXd& dual) override;
+  bool hasRoom() const override;
+  Refinement takeUp(const VectorXd& c, bool is_solution, VectorXd& phi, Jacobian& J, std::vector<int>& rows) override;
   std::optional<VectorXd> otherWay(const VectorXd& c, int number) override;
   VectorXd initialPoint(Rng& rng) override;
   std::string rowName(int row) const override { return behind_->rowName(row); }

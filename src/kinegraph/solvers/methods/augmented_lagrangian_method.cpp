@@ -87,7 +87,10 @@ void AugmentedLagrangian::iterate() {
     if (is_new_point) linearize();
     Step step = startStep();
     Problem problem = modelProblem();
-    if (is_new_point && steps > 0 && needsNoStep(step, problem)) return converge();
+    if (is_new_point && steps > 0 && needsNoStep(step, problem)) {
+      if (takesUpConstraints(true)) continue;
+      return converge();
+    }
     if (is_new_point) addCurvature();
     model_is_stale_ = false;
 
@@ -106,7 +109,10 @@ void AugmentedLagrangian::iterate() {
     if (!constraints_.empty() && creep_.creeps(function_.evals(), here_.cost, holds(step.error)))
       return stop(SolverStatus::stalled, cat("the costs hardly fall any more, as along a kink", trouble_));
     if (step.is_tiny && triesLessDamping(step)) continue;
-    if (step.is_tiny && holds(step.error)) return endAt(step);
+    if (step.is_tiny && holds(step.error)) {
+      endAt(step);
+      continue;
+    }
 
     // 4. Round. With an inner problem that is solved, multipliers and penalty are updated. The step at hand is tried
     //    all the same if it serves the constraints, as it then often does better than what the new model would say.
@@ -189,7 +195,30 @@ void AugmentedLagrangian::endAt(const Step& step) {
   const bool is_steep = step.predicted > kSteepSlope * step.size * std::max(scale, kLeastSlopeScale);
   if (!damping_.isSmall(step.curvature) && !trouble_.empty() && is_steep)
     return stop(SolverStatus::stalled, cat("no step decreases the objective as predicted", trouble_));
-  converge();
+  if (!takesUpConstraints(true)) converge();
+}
+
+/// Where the problem finds constraints that this point violates, or soon may, it goes on with them, and with all that
+/// is known of the others. False if there are none.
+bool AugmentedLagrangian::takesUpConstraints(bool is_solution) {
+  if (refinements_ == kMostRefinements) return false;
+  const Refinement found = function_.takeUpConstraints(here_, is_solution, filled_rows_);
+  if (found == Refinement::much && is_solution) {
+    stop(SolverStatus::stalled, "constraints that were not known before are violated by much");
+    return true;
+  }
+  if (filled_rows_.empty()) return false;
+  ++refinements_;
+  if (options_.verbose > 1)
+    std::printf("  evals %d  %zu rows taken up  violation %.3g\n", function_.evals(), filled_rows_.size(),
+                here_.violation);
+  for (std::size_t j = 0; j < constraints_.size(); ++j)
+    if (std::ranges::find(filled_rows_, constraints_[j]) != filled_rows_.end()) lambda_[Eigen::Index(j)] = 0.;
+  violation_.restart();
+  tried_less_damping_ = false;
+  trouble_.clear();
+  model_is_stale_ = true;
+  return true;
 }
 
 /// Do the constraints hold, or are they nearer to it after the step, to first order?
@@ -218,8 +247,8 @@ bool AugmentedLagrangian::goesOnAfterRound(const Problem& problem, Step& step) {
   }
   endRound(step);
   inner_.beginRound();
-  if (stopped_ || damping_.isLost() || !helped || linearizedViolation() > kNearlyFeasible * step.violation ||
-      penalty_.value() != problem.mu)
+  if (stopped_ || model_is_stale_ || damping_.isLost() || !helped ||
+      linearizedViolation() > kNearlyFeasible * step.violation || penalty_.value() != problem.mu)
     return false;
   step.predicted = model_.decrease(problem);
   return step.predicted > 0.;
@@ -237,6 +266,7 @@ void AugmentedLagrangian::endRound(const Step& step) {
   if (!holds(step.error) && !violation_.fellEnough(step.error)) penalty_.grow();
   violation_.sawRound(step.error);
   inner_.tighten(options_.stopTolerance, holds(step.error));
+  takesUpConstraints(false);
 }
 
 /// Where the violation does not fall under a large penalty, constraints may contradict each other. True if that ends

@@ -75,6 +75,7 @@ class AugmentedLagrangian {
   static constexpr double kSteepSlope = .1, kLeastSlopeScale = .01;  ///< a tiny step that predicts more was kept short
   static constexpr int kMostLost = 3;                                ///< times that damping may be lost
   static constexpr int kMostRestorations = 5;
+  static constexpr int kMostRefinements = 40;  ///< times that constraints are taken up
 
   /// A step of the model, and what is known where it starts.
   struct Step {
@@ -103,6 +104,7 @@ class AugmentedLagrangian {
   bool goesOnAfterRound(const Problem& problem, Step& step);
   void endRound(const Step& step);
   bool meetsContradiction(const Step& step);
+  bool takesUpConstraints(bool is_solution);
   void updateMultipliers(double step_size);
   bool tryStep(Step& step);
   bool isSpoiltByPenalties();
@@ -158,7 +160,8 @@ class AugmentedLagrangian {
   CreepTest creep_;
   ViolationTest violation_;
   CorrectionTest correction_;
-  int rounds_ = 0, restorations_ = 0, times_lost_ = 0;
+  int rounds_ = 0, restorations_ = 0, times_lost_ = 0, refinements_ = 0;
+  std::vector<int> filled_rows_;     ///< workspace
   bool model_is_stale_ = true;       ///< the point is new since it was made
   bool tried_less_damping_ = false;  ///< since the last step that was accepted
   bool round_just_ended_ = false;    ///< no step was accepted since

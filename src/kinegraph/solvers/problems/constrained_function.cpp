@@ -10,7 +10,12 @@
 namespace kinegraph {
 
 ConstrainedFunction::ConstrainedFunction(Nlp& nlp)
-    : nlp_(nlp), lower_(nlp.lower()), upper_(nlp.upper()), last_x_(lower_), moved_phi_(nlp.types().size()) {
+    : nlp_(nlp),
+      room_(dynamic_cast<RoomForConstraints*>(&nlp)),
+      lower_(nlp.lower()),
+      upper_(nlp.upper()),
+      last_x_(lower_),
+      moved_phi_(nlp.types().size()) {
   costs_.reserve(nlp.types().size());
   constraints_.reserve(nlp.types().size());
   std::vector<int> inequalities;
@@ -68,6 +73,12 @@ bool ConstrainedFunction::evaluate(EvaluatedPoint& point) {
   nlp_.evaluate(point.x, point.phi, &point.J);
   last_x_ = point.x;
   ++evals_;
+  summarize(point);
+  return !*hook_ || (*hook_)(point.x, point.phi);
+}
+
+/// What follows from phi and J.
+void ConstrainedFunction::summarize(EvaluatedPoint& point) const {
   for (std::size_t j = 0; j < constraints_.size(); ++j) point.c[Eigen::Index(j)] = point.phi[constraints_[j]];
   point.cost = cost(point.phi);
   const Eigen::Index inequalities = point.c.size() - equalities_;
@@ -75,7 +86,17 @@ bool ConstrainedFunction::evaluate(EvaluatedPoint& point) {
   if (equalities_ > 0) point.violation = point.c.head(equalities_).lpNorm<Eigen::Infinity>();
   if (inequalities > 0) point.violation = std::max(point.violation, point.c.tail(inequalities).maxCoeff());
   point.finite = describeNotFinite(nlp_, point.phi, &point.J).empty();
-  return !*hook_ || (*hook_)(point.x, point.phi);
+}
+
+Refinement ConstrainedFunction::takeUpConstraints(EvaluatedPoint& point, bool is_solution, std::vector<int>& rows) {
+  rows.clear();
+  if (!room_ || !room_->hasRoom()) return Refinement::none;
+  const Refinement found = room_->takeUp(point.x, is_solution, point.phi, point.J, rows);
+  last_x_ = point.x;
+  if (rows.empty()) return found;
+  summarize(point);
+  forceBest(point);
+  return found;
 }
 
 void ConstrainedFunction::requireFiniteStart(const EvaluatedPoint& point) const {

@@ -3,6 +3,7 @@
 #include <string>
 #include <vector>
 
+#include "kinegraph/nlp/room_for_constraints.h"
 #include "kinegraph/solvers/interface/evaluation_hook.h"
 #include "kinegraph/solvers/interface/options.h"
 #include "kinegraph/solvers/interface/result.h"
@@ -53,6 +54,10 @@ class ConstrainedFunction {
   bool evaluate(EvaluatedPoint& point);
   int evals() const { return evals_; }
 
+  /// Lets the problem take up constraints (RoomForConstraints) that are violated at a point. `rows` were empty before;
+  /// where there are any, the best point so far is this one, as nothing is known of the others.
+  Refinement takeUpConstraints(EvaluatedPoint& point, bool is_solution, std::vector<int>& rows);
+
   /// Throws ValueError, naming the row, if numbers are not finite.
   void requireFiniteStart(const EvaluatedPoint& point) const;
 
@@ -77,7 +82,10 @@ class ConstrainedFunction {
   SolverResult result(const PointValues& point, const VectorXd& multipliers, SolverStatus status, std::string message);
 
  private:
+  void summarize(EvaluatedPoint& point) const;
+
   Nlp& nlp_;
+  RoomForConstraints* room_;  ///< the problem, if it is one
   const EvaluationHook* hook_ = nullptr;
   double tolerance_ = 0.;
   std::vector<int> costs_, constraints_;

@@ -1,0 +1,24 @@
+#pragma once
+
+#include <vector>
+
+#include "kinegraph/nlp/nlp.h"
+
+namespace kinegraph {
+
+/// A problem that a solver works at, with empty rows: constraints that are to hold at all times of a motion and are not
+/// known yet have room there.
+class RoomForConstraints {
+ public:
+  virtual ~RoomForConstraints() = default;
+
+  virtual bool hasRoom() const = 0;
+
+  /// Takes up constraints that x violates, or soon may. `phi` and `J`, which are those of x, are brought up to date;
+  /// `rows` are those that were empty, of which multipliers say nothing. `is_solution`: nothing else is left to do at
+  /// x, so all are looked for, and only where x violates some. Leaves the problem at x.
+  virtual Refinement takeUp(const VectorXd& x, bool is_solution, VectorXd& phi, Jacobian& J,
+                            std::vector<int>& rows) = 0;
+};
+
+}  // namespace kinegraph
