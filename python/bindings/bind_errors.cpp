@@ -1,5 +1,8 @@
 #include <nanobind/stl/string.h>
 #include <algorithm>
+#include <filesystem>
+#include <new>
+#include <stdexcept>
 
 #include "bindings.h"
 #include "kinegraph/base/errors.h"
@@ -26,6 +29,10 @@ void raiseParseError(const ParseError& error) {
   PyErr_SetObject(errorClass("ParseError").ptr(), instance.ptr());
 }
 
+void raiseOfMemory() {
+  PyErr_SetString(PyExc_MemoryError, "there is not enough memory for this; is one of the numbers too large?");
+}
+
 void translate(const std::exception_ptr& pointer, void*) {
   try {
     std::rethrow_exception(pointer);
@@ -45,6 +52,12 @@ void translate(const std::exception_ptr& pointer, void*) {
     raise("RobotFault", error);
   } catch (const Error& error) {
     raise("Error", error);
+  } catch (const std::filesystem::filesystem_error& error) {
+    raise("FileError", error);
+  } catch (const std::length_error&) {
+    raiseOfMemory();
+  } catch (const std::bad_alloc&) {
+    raiseOfMemory();
   }
 }
 

@@ -124,14 +124,14 @@ void bindRendering(nb::module_& m) {
       .def(
           "__init__",
           [](PyCameraView* self, nb::object config, bool, int) {
-            if (!nb::isinstance<PyConfig>(config)) throw nb::type_error("CameraView: expected a Config");
+            if (!nb::isinstance<PyConfig>(config)) throw nb::next_overload();
             new (self) PyCameraView{std::move(config)};
           },
           "config"_a, "offscreen"_a = true, "verbose"_a = 0, docs::rendering::make)
       .def(
           "setCamera",
           [](PyCameraView& v, const FrameArgument& frame) {
-            v.camera.follow(toFrame(nb::cast<PyConfig&>(v.config), frame));
+            v.camera.follow(toFrame(nb::cast<PyConfig&>(v.config), frame, "setCamera"));
             return v.camera.now();
           },
           "cameraFrameName"_a, docs::rendering::setCamera)

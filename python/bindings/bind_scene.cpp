@@ -13,8 +13,9 @@
 
 namespace kinegraph::python {
 
-Frame toFrame(const Config& config, nb::handle name_or_id) {
-  if (nb::isinstance<nb::str>(name_or_id)) return config.getFrame(nb::cast<std::string>(name_or_id));
+Frame toFrame(const Config& config, nb::handle name_or_id, const char* who) {
+  if (nb::isinstance<nb::str>(name_or_id))
+    return Frame(config.scene(), config.scene()->get(nb::cast<std::string>(name_or_id), who));
   if (nb::isinstance<nb::int_>(name_or_id)) return config.getFrame(nb::cast<int>(name_or_id));
   if (nb::isinstance<Frame>(name_or_id)) return nb::cast<Frame>(name_or_id);
   throw ValueError(cat("a frame is given by its name or id, not by a ",
@@ -117,7 +118,8 @@ void bindBuilding(nb::class_<PyConfig>& config) {
           [](PyConfig& c, const std::string& name, const std::optional<FrameArgument>& parent,
              const std::string& args) {
             const bool root = !parent || (nb::isinstance<nb::str>(*parent) && nb::len(*parent) == 0);
-            return withWarnings(c, root ? c.addFrame(name, "", args) : c.addFrame(name, toFrame(c, *parent), args));
+            return withWarnings(
+                c, root ? c.addFrame(name, "", args) : c.addFrame(name, toFrame(c, *parent, "addFrame"), args));
           },
           "name"_a, "parent"_a = "", "args"_a = "", docs::scene::addFrame)
       .def(
@@ -136,7 +138,7 @@ void bindBuilding(nb::class_<PyConfig>& config) {
           },
           "A copy that shares nothing that can be changed, like copy.copy and copy.deepcopy.")
       .def(
-          "delFrame", [](PyConfig& c, const FrameArgument& f) { c.delFrame(toFrame(c, f)); }, "frame"_a,
+          "delFrame", [](PyConfig& c, const FrameArgument& f) { c.delFrame(toFrame(c, f, "delFrame")); }, "frame"_a,
           docs::scene::delFrame)
       .def(
           "attach", [](PyConfig& c, const std::string& parent, const std::string& child) { c.attach(parent, child); },

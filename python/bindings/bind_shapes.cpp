@@ -92,8 +92,14 @@ void bindShapes(nb::class_<Frame>& frame) {
           },
           "type"_a, "size"_a, kChain, docs::shapes::setShapeByName)
       .def(
-          "setColor", [](Frame& f, const Numbers& color) -> Frame& { return f.setColor(color.list()); }, "color"_a,
-          kChain, docs::shapes::setColor)
+          "setColor",
+          [](Frame& f, const Numbers& color) -> Frame& {
+            f.setColor(color.list());
+            if ((color.values.array() > 1.).any())
+              emitWarning("color has numbers above 1; they are in 0..1, those of 0..255 divided by 255");
+            return f;
+          },
+          "color"_a, kChain, docs::shapes::setColor)
       .def(
           "setContact", [](Frame& f, int contact) -> Frame& { return f.setContact(contact); }, "contact"_a, kChain,
           docs::shapes::setContact)

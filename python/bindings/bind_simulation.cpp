@@ -38,7 +38,7 @@ SimulationOptions startOptions() {
 
 void makeSimulation(PySimulation* self, nb::object config, SimulationEngine engine, std::optional<int> verbose,
                     nb::handle options) {
-  if (!nb::isinstance<PyConfig>(config)) throw nb::type_error("Simulation: expected a Config");
+  if (!nb::isinstance<PyConfig>(config)) throw nb::next_overload();
   const SimulationOptions chosen = optionsFrom(options);
   Simulation made(nb::cast<PyConfig&>(config), engine, chosen);
   new (self) PySimulation{std::move(config), std::move(made)};
@@ -67,7 +67,10 @@ void stepSimulation(PySimulation& s, const Numbers& u, double tau, ControlMode m
 void multiStep(PySimulation& s, double tau_step, double tau_sim) {
   s.simulation.update();
   CheckInterrupts check;
-  s.simulation.multi_step(tau_step, tau_sim, [&] { check(); });
+  const auto go = [&] { s.simulation.multi_step(tau_step, tau_sim, [&] { check(); }); };
+  if (s.simulation.watcher()) return go();
+  const nb::gil_scoped_release unlock;
+  go();
 }
 
 /// Velocities as scripts have them: (F, 2, 3).

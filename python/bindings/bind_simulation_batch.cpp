@@ -66,7 +66,7 @@ void bindSimulationBatch(nb::module_& m) {
       .def(
           "__init__",
           [](Batch* self, nb::handle config, int n, int threads, SimulationEngine engine, nb::handle options) {
-            if (!nb::isinstance<PyConfig>(config)) throw nb::type_error("SimulationBatch: expected a Config");
+            if (!nb::isinstance<PyConfig>(config)) throw nb::next_overload();
             new (self) Batch(nb::cast<PyConfig&>(config), n, threads, engine, optionsFrom(options));
           },
           "C"_a, "n"_a, "threads"_a = 1, "engine"_a = SimulationEngine::physx, "options"_a = nb::none(),

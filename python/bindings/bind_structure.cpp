@@ -63,7 +63,9 @@ void bindStructure(nb::class_<PyConfig>& config) {
       .def("getShapes", getShapes, "shared_only_once"_a = true, docs::structure::getShapes)
       .def(
           "selectJointsBySubtree",
-          [](PyConfig& c, const FrameArgument& root) { selectJointsBySubtree(*c.scene(), toFrame(c, root).data()); },
+          [](PyConfig& c, const FrameArgument& root) {
+            selectJointsBySubtree(*c.scene(), toFrame(c, root, "selectJointsBySubtree").data());
+          },
           "root"_a, docs::structure::selectJointsBySubtree)
       .def(
           "addH5Object",

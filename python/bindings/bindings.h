@@ -8,6 +8,7 @@
 #include <string>
 
 #include "arrays.h"
+#include "kinds.h"
 #include "kinegraph/features/residual_cache.h"
 #include "kinegraph/scene/config.h"
 #include "recent_calls.h"
@@ -69,8 +70,9 @@ void bindViewer(nb::module_& m, nb::class_<PyConfig>& config);
 void emitWarnings(Config& config);
 void emitWarning(const std::string& message);
 
-/// A Frame or a frame's name, id in the configuration.
-Frame toFrame(const Config& config, nb::handle name_or_id);
+/// A Frame or a frame's name, id in the configuration. Throws FrameNotFound for a name that is not there, which says that
+/// `who` asked for it.
+Frame toFrame(const Config& config, nb::handle name_or_id, const char* who = "getFrame");
 
 /// For long calls that run without the interpreter lock: takes it, and throws KeyboardInterrupt if Ctrl-C was pressed.
 void checkInterrupt();

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "arrays.h"
+#include "kinds.h"
 #include "kinegraph/features/feature_source.h"
 
 namespace kinegraph::python {

@@ -5,6 +5,7 @@
 #include "arguments.h"
 #include "bind_tasks.h"
 #include "bindings.h"
+#include "call_errors.h"
 #include "control.h"
 #include "docs/module.h"
 #include "kinegraph/gfile/parser.h"
@@ -63,4 +64,5 @@ NB_MODULE(_core, m) {
       "parseText",
       [](const std::string& text, const std::string& name) { return Attributes(toDict(kinegraph::parse(text, name))); },
       "text"_a, "name"_a = "text", docs::module::parseText);
+  explainWrongArguments(m);
 }

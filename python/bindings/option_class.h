@@ -27,8 +27,11 @@ T optionValue(const std::string& where, nb::handle value) {
   const char* expected = std::is_same_v<T, bool>          ? "True or False"
                          : std::is_same_v<T, double>      ? "a number"
                          : std::is_same_v<T, std::string> ? "a text"
-                         : std::is_enum_v<T>              ? "a member of its enum"
                                                           : "a whole number";
+  if constexpr (std::is_enum_v<T>)
+    throw ValueError(cat(where, " is ", nb::cast<std::string>(nb::repr(value)), "; expected one of ",
+                         nb::cast<std::string>(nb::type<T>().attr("__name__")), ": ",
+                         nb::cast<std::string>(nb::str(", ").attr("join")(nb::type<T>().attr("__members__")))));
   throw ValueError(cat(where, " is ", nb::cast<std::string>(nb::repr(value)), "; expected ", expected));
 }
 

@@ -69,6 +69,14 @@ SolverResult solveOutside(const char* name, Nlp& nlp, const VectorXd& x0, const 
   return out;
 }
 
+/// Whether Ctrl-C was pressed shortly before, too: who does that wants to leave the loop around the solves.
+bool isSecondPress() {
+  using Clock = std::chrono::steady_clock;
+  static Clock::time_point last{};  // signals reach the main thread only, which holds the interpreter lock here
+  const Clock::time_point before = std::exchange(last, Clock::now());
+  return before != Clock::time_point{} && last - before < std::chrono::seconds(1);
+}
+
 }  // namespace
 
 SolvingHere*& SolvingHere::current() {
@@ -84,13 +92,13 @@ bool SolvingHere::pressedCtrlC() {
   if (pressed_) return true;
   const nb::gil_scoped_acquire lock;
   if (PyErr_CheckSignals() == 0) return false;
-  if (!PyErr_ExceptionMatches(PyExc_KeyboardInterrupt)) throw nb::python_error();
+  if (!PyErr_ExceptionMatches(PyExc_KeyboardInterrupt) || isSecondPress()) throw nb::python_error();
   PyErr_Clear();
   return pressed_ = true;
 }
 
 bool SolvingHere::isPressedBy(const nb::python_error& error) {
-  return pressed_ = pressed_ || error.matches(PyExc_KeyboardInterrupt);
+  return pressed_ = pressed_ || (error.matches(PyExc_KeyboardInterrupt) && !isSecondPress());
 }
 
 bool callUser(const std::function<void()>& call) {

@@ -126,6 +126,7 @@ from .compatibility.parameters import (
 from .enums import teach
 from .errors import (
     ArgumentError,
+    ArgumentTypeError,
     Error,
     FileError,
     FrameDeleted,
@@ -234,6 +235,7 @@ __all__ = [
     "SY",
     "ArgWord",
     "ArgumentError",
+    "ArgumentTypeError",
     "BSpline",
     "BotOp",
     "CameraView",

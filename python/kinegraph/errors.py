@@ -9,6 +9,10 @@ class ArgumentError(Error, ValueError):
     """An argument has the wrong size, range or kind."""
 
 
+class ArgumentTypeError(ArgumentError, TypeError):
+    """An argument is of another type than expected, is missing, or has a name that there is not."""
+
+
 class NotFound(Error, LookupError):
     """A name that is not there; the message lists similar ones."""
 

@@ -12,11 +12,24 @@ Numbers = npt.ArrayLike
 Array = npt.NDArray[np.float64]
 
 
+def _asNumbers(values: Numbers, what_is: str, shape: str) -> Array:
+    try:
+        return np.asarray(values, np.float64)
+    except (TypeError, ValueError):
+        raise ArgumentError(f"{what_is} {values!r}; expected numbers, shape {shape}") from None
+
+
 def _numbers(values: Numbers, shape: tuple[int, ...], what: str) -> Array:
-    array = np.asarray(values, np.float64)
-    if array.shape != shape:
+    array = _asNumbers(values, f"{what} is", str(shape))
+    if array.size != np.prod(shape) or (array.ndim == 2 and 1 not in array.shape and array.shape != shape):
         raise ArgumentError(f"{what} has shape {array.shape}; expected {shape}")
-    return array
+    return array.reshape(shape)
+
+
+def _rotation(value: object, what: str) -> Quaternion:
+    if isinstance(value, Quaternion):
+        return value
+    raise ArgumentError(f"{what} is {value!r}; expected a Quaternion, as of Quaternion([1, 0, 0, 0])")
 
 
 class Quaternion:
@@ -49,6 +62,8 @@ class Quaternion:
     __hash__ = None  # type: ignore[assignment]  # it changes
 
     def __mul__(self, other: Quaternion) -> Quaternion:
+        if not isinstance(other, Quaternion):
+            return NotImplemented
         w, v = self._q[0], self._q[1:]
         a, b = other._q[0], other._q[1:]
         return Quaternion([w * a - v @ b, *(w * b + a * v + np.cross(v, b))])
@@ -198,8 +213,10 @@ class Quaternion:
             end: Where it ends.
         Returns:
             The quaternion itself.
+        Raises:
+            ArgumentError: What is given is no Quaternion.
         """
-        between = -start * end
+        between = -_rotation(start, "the start") * _rotation(end, "the end")
         if between._q[0] < 0:
             between.flipSign()
         return self.set((start * Quaternion().setExp(t * between.getLog()))._q)
@@ -213,8 +230,10 @@ class Quaternion:
             end: Where it ends.
         Returns:
             The quaternion itself.
+        Raises:
+            ArgumentError: What is given is no Quaternion.
         """
-        sign = 1.0 if start._q @ end._q >= 0 else -1.0
+        sign = 1.0 if _rotation(start, "the start")._q @ _rotation(end, "the end")._q >= 0 else -1.0
         return self.set((1 - t) * start._q + t * sign * end._q).normalize()
 
     def append(self, q: Quaternion) -> Quaternion:
@@ -224,8 +243,10 @@ class Quaternion:
             q: The rotation that comes first.
         Returns:
             The quaternion itself.
+        Raises:
+            ArgumentError: It is no Quaternion.
         """
-        return self.set((self * q)._q)
+        return self.set((self * _rotation(q, "q"))._q)
 
     def invert(self) -> Quaternion:
         """Becomes its inverse. Returns the quaternion itself."""
@@ -264,7 +285,7 @@ class Quaternion:
         Raises:
             ArgumentError: Another shape.
         """
-        array = np.asarray(pts, np.float64)
+        array = _asNumbers(pts, "the points are", "(n, 3)")
         if array.ndim != 2 or array.shape[1] != 3:
             raise ArgumentError(f"applyOnPointArray: points have shape {array.shape}; expected (n, 3)")
         turned: Array = array @ self.getMatrix().T

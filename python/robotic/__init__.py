@@ -1,8 +1,8 @@
 """Scripts written for the reference run with this package: `from robotic import ry` or `import robotic as ry`.
 
-A thin layer over kinegraph: the same classes and functions under the same names, with three differences. What a solve
+A thin layer over kinegraph: the same classes and functions under the same names, with four differences. What a solve
 returns is `feasible` by the reference's rule (see `SolverReturn`), a simulated `BotOp` takes longer for what is too fast for
-it, with a warning, and names that the reference has and Kinegraph does not are there, and say so when they are used. Both packages can be imported in one process; neither changes the other.
+it, with a warning, `Config.getFrame` gives None for a frame that is not there, with a warning, and names that the reference has and Kinegraph does not are there, and say so when they are used. Both packages can be imported in one process; neither changes the other.
 """
 
 from __future__ import annotations
@@ -33,6 +33,7 @@ from .not_yet import (
 )
 from .operation import BotOp
 from .results import NLP_Solver, SolverReturn
+from .scenes import Config
 
 __all__ = [
     *kinegraph.__all__,

@@ -6,6 +6,7 @@ os.environ["KINEGRAPH_HEADLESS"] = "1"
 
 import json
 import signal
+import time
 from pathlib import Path
 
 import pytest
@@ -21,6 +22,12 @@ DATA = Path(__file__).parent.parent / "data"
 def recorded(name: str) -> dict:
     """Numbers recorded from another implementation; the file says which."""
     return json.loads((DATA / f"{name}.json").read_text())
+
+
+@pytest.fixture
+def first_ctrl_c() -> None:
+    """The next Ctrl-C is no second one within a second, which would leave a loop of solves."""
+    time.sleep(1.05)
 
 
 @pytest.fixture

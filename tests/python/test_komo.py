@@ -427,3 +427,15 @@ def test_a_mode_switch_without_velocities_follows_its_own_advice():
         komo.addObjective([7.0], ry.FS.vectorZ, ["box"], ry.OT.eq, [1.0])
     names = komo.info_objectiveNames()
     assert len(names) == 3 and "box" in names[-1]  # those without slices, too
+
+
+def test_more_slices_than_memory_holds_are_refused():
+    with pytest.raises(ry.ArgumentError, match=r"1e\+09 phases of 1000 slices are more than 10000000"):
+        ry.KOMO(ry.Config(), 1e9, 1000, 2, False)
+
+
+def test_a_start_at_no_waypoints_is_a_mistake():
+    C = ry.Config()
+    C.addText("world: {}\nj (world): { joint: hingeX }")
+    with pytest.raises(ry.ArgumentError, match="there are no waypoints"):
+        ry.KOMO(C, 2, 1, 0, False).initWithWaypoints([])

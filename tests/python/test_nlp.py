@@ -204,3 +204,14 @@ def test_options_of_the_solver_print_and_pickle_and_name_misspelt_ones():
     with pytest.raises(ry.ArgumentError, match="no option 'stopTolerence'; similar names: stopTolerance"):
         ry.NLP_Solver().setOptions(stopTolerence=1e-3)
     ry.NLP_Solver().setOptions(stepInit=1.0, stopLineSteps=10)  # of older scripts
+
+
+@pytest.mark.parametrize("phi", [[], np.zeros((0, 7)), np.zeros(99)])
+def test_residuals_of_another_problem_are_refused(phi):
+    with pytest.raises(ry.ArgumentError, match=r"sumErrors: got \d+ residuals; expected 1"):
+        ry.make_NLP_Problem("Rastrigin").summarizeErrors(phi)
+
+
+def test_a_method_is_one_of_its_enum():
+    with pytest.raises(ry.ArgumentError, match="option method is 'Newton'; expected one of OptMethod: none, .*newton"):
+        ry.NLP_SolverOptions().set_method("Newton")

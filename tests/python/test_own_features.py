@@ -205,6 +205,7 @@ def raisingKomo(panda, function) -> ry.KOMO:
     return komo
 
 
+@pytest.mark.usefixtures("first_ctrl_c")
 @pytest.mark.parametrize("way", ["solve", "solveAll", "solveFromMany"])
 def test_ctrl_c_in_it_ends_a_solve_with_the_best_path_so_far(panda, way):
     height = Interrupting(10**9)
@@ -236,6 +237,7 @@ def test_ctrl_c_before_there_is_a_path_or_outside_of_a_solve_is_an_interrupt(pan
                 call()
 
 
+@pytest.mark.usefixtures("first_ctrl_c")
 def test_ctrl_c_in_a_feature_within_a_problem_within_a_solve(panda):
     """Features that the function of a problem evaluates are part of that function."""
     height = Interrupting(10**9)

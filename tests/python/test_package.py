@@ -22,7 +22,7 @@ NAMES = [
 
 
 def test_both_packages_are_one():
-    assert robotic.Config is ry.Config and robotic.ry.Config is ry.Config
+    assert robotic.KOMO is ry.KOMO and robotic.ry.Config is robotic.Config and issubclass(robotic.Config, ry.Config)
     assert re.fullmatch(r"\d+\.\d+\.\d+", ry.__version__) and robotic.__version__ == ry.__version__ == ry.version()
 
 

@@ -88,3 +88,28 @@ def test_mistakes_are_explained() -> None:
         ry.Quaternion().setRad(1, [0, 0, 0])
     with pytest.raises(ry.ArgumentError, match="zero"):
         ry.Quaternion([0, 0, 0, 0]).normalize()
+
+
+def test_numbers_of_a_script_may_be_a_row_or_flat() -> None:
+    close(ry.Quaternion().set([np.array([0.0, 1, 0, 0])]), 0, 1, 0, 0)
+    close(ry.Quaternion().setMatrix([1, 0, 0, 0, 0, -1, 0, 1, 0]), HALF, HALF, 0, 0)
+    with pytest.raises(ry.ArgumentError, match=r"the matrix has shape \(3, 2\)"):
+        ry.Quaternion().setMatrix(np.zeros((3, 2)))
+    with pytest.raises(ry.ArgumentError, match=r"a quaternion is 'abcd'; expected numbers, shape \(4,\)"):
+        ry.Quaternion().set("abcd")
+
+
+@pytest.mark.parametrize(
+    "call",
+    [
+        lambda q: q.append(3),
+        lambda q: q.setInterpolateProper(0.5, q, [1, 0, 0, 0]),
+        lambda q: q.setInterpolateEmbedded(0.5, "a", q),
+        lambda q: q.applyOnPointArray({}),
+    ],
+)
+def test_what_is_no_rotation_or_point_is_refused(call) -> None:
+    with pytest.raises(ry.ArgumentError, match="expected a Quaternion|expected numbers"):
+        call(ry.Quaternion())
+    with pytest.raises(TypeError):
+        ry.Quaternion() * 3

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import copy
 import importlib
 import pickle
 
@@ -102,7 +103,7 @@ def test_all_spellings_of_the_import_give_the_same_module() -> None:
     from robotic import ry as inner
 
     assert inner is ry and _robotic is ry and importlib.import_module("robotic._robotic") is ry
-    assert ry.Config is kinegraph.Config and ry.KOMO is kinegraph.KOMO  # no second world of objects
+    assert issubclass(ry.Config, kinegraph.Config) and ry.KOMO is kinegraph.KOMO  # no second world of objects
 
 
 def test_each_package_speaks_its_own_rule_of_feasible() -> None:
@@ -184,3 +185,25 @@ def test_a_problem_of_ones_own_has_a_base() -> None:
         step = 1e-6 * np.eye(2)[i]
         slope = (waves.evaluate(x + step)[0] - waves.evaluate(x - step)[0]) / 2e-6
         np.testing.assert_allclose(J[:, i], slope, atol=1e-4)
+
+
+def test_a_frame_that_is_not_there_is_none() -> None:
+    C = ry.Config()
+    C.addFrame("table")
+    with pytest.warns(kinegraph.KinegraphWarning, match="'tabel' doesn't exist; similar names: table"):
+        assert C.getFrame("tabel") is None
+    assert C.getFrame("tabel", False) is None and C.getFrame("table").name == "table"
+    with pytest.warns(kinegraph.KinegraphWarning, match="'cloud' doesn't exist"):
+        C.delFrame("cloud")  # as notebooks do before they add it
+    with pytest.raises(kinegraph.FrameNotFound):
+        kinegraph.Config().getFrame("tabel")
+
+
+@pytest.mark.parametrize("copied", [copy.copy, copy.deepcopy, ry.Config.copy, lambda C: pickle.loads(pickle.dumps(C))])
+def test_copies_of_scenes_are_of_the_same_kind(copied) -> None:
+    C = ry.Config()
+    C.addFrame("table")
+    again = copied(C)
+    assert type(again) is ry.Config and again.getFrameNames() == ["table"]
+    again.addFrame("cup")
+    assert C.getFrame("cup", False) is None

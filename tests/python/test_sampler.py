@@ -70,6 +70,7 @@ def test_options_are_told_and_mistakes_named():
         sampler.setOptions(eps="much")
 
 
+@pytest.mark.usefixtures("first_ctrl_c")
 @pytest.mark.parametrize("way", ["raised in it", "signal"])
 def test_ctrl_c_ends_it(way):
     """A signal counts once the function it came in has returned, whether or not the interpreter has raised KeyboardInterrupt."""

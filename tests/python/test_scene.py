@@ -116,7 +116,12 @@ MISTAKES = [
     (lambda C: C.getFrame("table").setShape("shpere", [1]), ry.Error, "shpere.*sphere"),
     (lambda C: C.getFrame("table").setShape(ry.ST.box, [1]), ry.ArgumentError, "box.*3"),
     (lambda C: C.getFrame("table").setColor([1, 2, 3, 4, 5]), ry.ArgumentError, "5"),
-    (lambda C: C.addFrame("x", "tabel"), ry.FrameNotFound, "tabel.*table"),
+    (lambda C: C.addFrame("x", "tabel"), ry.FrameNotFound, "addFrame: .*tabel.*table"),
+    (lambda C: C.delFrame("tabel"), ry.FrameNotFound, "delFrame: .*tabel.*table"),
+    (lambda C: C.addFile(""), ry.FileError, "scene file '' does not exist"),
+    (lambda C: C.getFrame("table").setMeshFile("x" * 3000), ry.FileError, "xxx"),
+    (lambda C: C.getFrame("table").setJoint(ry.JT.hingeX, [np.nan, 1]), ry.ArgumentError, "table.*limit is nan"),
+    (lambda C: C.getCollisions(np.nan), ry.ArgumentError, "margin is nan"),
     (lambda C: C.addFile("no_such_file.g"), ry.FileError, "no_such_file.g"),
     (lambda C: C.attach("table", "nothing"), ry.FrameNotFound, "nothing"),
     (lambda C: C.frame(1000), ry.Error, "1000"),
@@ -236,3 +241,9 @@ def test_scenes_written_beside_the_folder_of_models_find_them(tmp_path, monkeypa
     scene.write_text("Include: <../../rai-robotModels/panda/panada.g>")
     with pytest.raises(ry.ParseError, match="rai-robotModels/panda/panada.g' does not exist"):
         ry.Config().addFile(scene)
+
+
+def test_a_color_of_0_to_255_is_hardly_meant():
+    C = ry.Config()
+    with pytest.warns(ry.KinegraphWarning, match=r"numbers above 1; they are in 0\.\.1"):
+        C.addFrame("ball").setShape(ry.ST.sphere, [0.1]).setColor([255, 0, 0])

@@ -2,6 +2,7 @@
 
 import pickle
 import re
+import threading
 
 import numpy as np
 import pytest
@@ -529,3 +530,19 @@ def test_a_run_takes_as_many_steps_as_its_time_has_and_needs_an_end():
         S.run()
     with pytest.raises(ry.ArgumentError, match="tau"):
         S.run(1.0, tau=0)
+
+
+def test_other_threads_run_during_many_steps(panda):
+    counted = []
+    stop = threading.Event()
+
+    def count():
+        while not stop.wait(0.001):
+            counted.append(1)
+
+    counter = threading.Thread(target=count)
+    counter.start()
+    ry.Simulation(panda).multi_step(20.0)
+    stop.set()
+    counter.join()
+    assert len(counted) > 10

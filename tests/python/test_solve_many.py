@@ -173,6 +173,7 @@ def endlessProblem(function) -> ry.NLP_Solver:
     return solver.setSolver(ry.OptMethod.CMA).setInitialization([-1.0])
 
 
+@pytest.mark.usefixtures("first_ctrl_c")
 @pytest.mark.parametrize(("threads", "sender"), [(1, "main"), (2, "main"), (2, "other")])
 def test_ctrl_c_ends_all_with_what_there_is(threads, sender):
     """The signal comes in a function that the main thread or another one calls, the third time at the earliest."""

@@ -110,6 +110,7 @@ def test_a_mistake_in_the_function_reaches_the_caller():
         solver(Wrong()).solve()
 
 
+@pytest.mark.usefixtures("first_ctrl_c")
 @pytest.mark.parametrize("method", ["augmentedLag", "LBFGS", "NelderMead"])
 def test_ctrl_c_in_a_users_function_ends_it_with_the_best_so_far(method):
     class Slow(Free):
@@ -136,6 +137,7 @@ def test_ctrl_c_before_the_first_value_is_an_interrupt():
         solver(Slow()).solve()
 
 
+@pytest.mark.usefixtures("first_ctrl_c")
 def test_ctrl_c_ends_a_long_motion_problem_which_then_holds_the_best_path(panda):
     panda.addFrame("target").setPosition([0.4, 0.3, 1.2])
     komo = ry.KOMO(panda, 1, 200, 2, False)
@@ -297,3 +299,16 @@ print((resource.getrusage(resource.RUSAGE_SELF).ru_minflt - before) / 10)
 """
     faults = subprocess.run([sys.executable, "-c", script], capture_output=True, text=True, check=True).stdout
     assert float(faults) < 50
+
+
+@pytest.mark.usefixtures("first_ctrl_c")
+def test_a_second_ctrl_c_within_a_second_leaves_a_loop_of_solves():
+    class Slow(Free):
+        def evaluate(self, x):
+            if self.evals == 1:
+                signal.raise_signal(signal.SIGINT)
+            return super().evaluate(x)
+
+    assert solver(Slow()).solve().message == "interrupted by Ctrl-C"
+    with pytest.raises(KeyboardInterrupt):
+        solver(Slow()).solve()

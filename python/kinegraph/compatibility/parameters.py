@@ -2,10 +2,13 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from pathlib import Path
+from types import NoneType
 from typing import Any
 
 from .._core import NLP_SolverOptions, parseText
+from ..errors import ArgumentError, FileError
 
 _values: dict[str, Any] = {}
 solver_options: dict[str, Any] = {}  # fields of NLP_SolverOptions that scripts have set; solvers start with them
@@ -20,8 +23,10 @@ def params_add(values: dict[str, Any] | None = None, **more: Any) -> None:
         values: A dict from names to values.
         more: The same by keyword.
     Raises:
-        ArgumentError: NLP_SolverOptions has no such field, or it cannot have this value.
+        ArgumentError: NLP_SolverOptions has no such field, or it cannot have this value; or values is no dict.
     """
+    if not isinstance(values, (Mapping, NoneType)):
+        raise ArgumentError(f"params_add: values is {values!r}; expected a dict from names to values")
     for name, value in {**(values or {}), **more}.items():
         if name.startswith("opt/"):
             field = {name.removeprefix("opt/"): value}
@@ -36,10 +41,14 @@ def params_file(filename: str) -> None:
     Args:
         filename: Path of the file.
     Raises:
-        FileNotFoundError: There is no such file.
+        FileError: There is no such file, or it cannot be read.
         ParseError: A mistake in the file.
     """
-    params_add(parseText(Path(filename).read_text(), str(filename)))
+    try:
+        text = Path(filename).read_text()
+    except (OSError, TypeError, ValueError) as error:
+        raise FileError(f"params_file: parameter file {filename!r} cannot be read: {error}") from None
+    params_add(parseText(text, str(filename)))
 
 
 def params_get() -> dict[str, Any]:

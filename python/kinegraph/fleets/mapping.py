@@ -72,6 +72,8 @@ def map(
     from .writing import ResultFolder
 
     _checkChoice("errors", errors, ("collect", "raise"))
+    if not isinstance(items, Iterable):
+        raise ArgumentError(f"map: items is {items!r}; expected a list, an array, a generator ...")
     started = time.monotonic()
     total = len(items) if hasattr(items, "__len__") else None
     folder = None if out is None else ResultFolder(Path(out), _describe(function, seed, total))

@@ -165,6 +165,7 @@ std::vector<int> startAtWaypoints(Path& path, const std::vector<VectorXd>& waypo
   path.requireBuilt("initWithWaypoints");
   if (options.per_phase < 1)
     throw ValueError(cat("initWithWaypoints: waypointSlicesPerPhase is ", options.per_phase, "; expected at least 1"));
+  if (waypoints.empty()) throw ValueError("initWithWaypoints: there are no waypoints; expected at least one");
   std::vector<int> slices;
   std::vector<VectorXd> joints;
   for (std::size_t i = 0; i < waypoints.size(); ++i) {

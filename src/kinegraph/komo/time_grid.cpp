@@ -8,6 +8,12 @@
 
 namespace kinegraph {
 
+namespace {
+
+constexpr int kMostSlices = 10'000'000;  // several GB of states
+
+}  // namespace
+
 TimeGrid::TimeGrid(double phases, int slices_per_phase, double duration_per_phase, int order) {
   if (!(phases > 0.) || !std::isfinite(phases))
     throw ValueError(cat("KOMO: phases is ", phases, "; expected a positive number"));
@@ -17,6 +23,9 @@ TimeGrid::TimeGrid(double phases, int slices_per_phase, double duration_per_phas
     throw ValueError(cat("KOMO: kOrder is ", order, "; expected 0 (poses) to 2 (accelerations), at most 10"));
   if (!(duration_per_phase > 0.))
     throw ValueError(cat("KOMO: durationPerPhase is ", duration_per_phase, " s; expected a positive number"));
+  if (!(phases * slices_per_phase <= kMostSlices))
+    throw ValueError(cat("KOMO: ", phases, " phases of ", slices_per_phase, " slices are more than ", kMostSlices,
+                         " slices; phases and slicesPerPhase are numbers, and not seconds or steps of a controller"));
   phases_ = phases;
   slices_ = int(std::ceil(phases * slices_per_phase - 1e-9));
   slices_per_phase_ = slices_per_phase;

@@ -98,6 +98,8 @@ std::vector<std::string> Nlp::detailsOf(int) const { return {}; }
 std::string Nlp::report(int) const { return cat("NLP: ", dimension(), " variables, ", types_.size(), " residuals"); }
 
 ErrorSums sumErrors(const std::vector<ObjectiveType>& types, const VectorXd& phi) {
+  if (std::size_t(phi.size()) != types.size())
+    throw ValueError(cat("sumErrors: got ", phi.size(), " residuals; expected ", types.size()));
   ErrorSums sums;
   for (std::size_t i = 0; i < types.size(); ++i) {
     const double y = phi[Eigen::Index(i)];

@@ -368,6 +368,7 @@ VectorXd Config::inverseDynamics(const VectorXd& velocity, const VectorXd& accel
 }
 
 std::vector<Config::NearPair> Config::getCollisions(double margin) const {
+  if (std::isnan(margin)) throw ValueError("getCollisions: the margin is nan; expected a distance, m");
   std::vector<NearPair> near;
   scene_->nearPairs().forDistances(margin, [&](int a, int b, double distance) { near.push_back({a, b, distance}); });
   return near;

@@ -1,12 +1,15 @@
 #include "kinegraph/scene/joint_limits.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "kinegraph/base/text.h"
 
 namespace kinegraph {
 
 std::string limitsMistake(std::span<const double> limits) {
+  if (std::any_of(limits.begin(), limits.end(), [](double limit) { return std::isnan(limit); }))
+    return "a limit is nan; one that is not there is -inf, or inf";
   const std::size_t dofs = limits.size() / 2;
   std::size_t crossed = dofs;
   bool all_equal = true, in_turn = dofs > 1, a_range = false;

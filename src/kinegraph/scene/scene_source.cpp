@@ -34,8 +34,8 @@ class SourceReader {
   /// `included_at` is where the file is named, if it is.
   std::vector<SourceFrame> readFile(const std::string& path, const SourcePosition& included_at) {
     files.push_back(path);
-    const fs::path absolute = fs::absolute(path).lexically_normal();
     std::error_code error;
+    const fs::path absolute = fs::absolute(path, error).lexically_normal();
     const auto refuse = [&](const std::string& message) {
       if (!included_at.known()) throw FileError(message);
       diagnostics_.error(included_at, message);
