@@ -10,6 +10,8 @@
 
 namespace kinegraph {
 
+class PathFinder;
+
 // The names that Python scripts know. With `namespace ry = kinegraph;` a line of Python is nearly a line of C++.
 
 using FS = FeatureSymbol;
@@ -23,12 +25,16 @@ using ManipulationModelling = ManipulationHelper;
 using LGP_Tool = LgpTool;
 using LGP_TAMP_Abstraction = LgpAbstraction;
 using default_LGP_TAMP_Abstraction = DefaultLgpAbstraction;
+using RRT_PathFinder = PathFinder;
 using NLP = Nlp;
 using NLP_Solver = NlpSolver;
 using NLP_Sampler = NlpSampler;
 using NLP_SolverOptions = SolverOptions;
 using SolverReturn = SolverResult;
 using SolverReturns = SolveManyResult;
+
+/// Numbers of a BotOp's grippers.
+inline constexpr int _left = 0, _right = 1;
 
 /// The same as modelPath; the older spellings '../rai-robotModels/...' and 'rai-robotModels/...' mean the same file.
 std::string raiPath(const std::string& path);
