@@ -59,7 +59,10 @@ MISTAKES = [
     (lambda C, k: ry.KOMO("scene.g", 1, 1, 0, False), r"KOMO: config is 'scene.g' \(str\); expected Config"),
     (lambda C, k: ry.NLP_Solver(k), r"NLP_Solver: problem is <KOMO.* expected NLP; write komo.nlp\(\)"),
     (lambda C, k: ry.Simulation(C, "physx"), r"engine is 'physx' .* write SimulationEngine.physx"),
-    (lambda C, k: ry.RRT_PathFinder().setProblem(3), r"RRT_PathFinder.setProblem: C is 3 \(int\); expected Config"),
+    (
+        lambda C, k: ry.RRT_PathFinder().setProblem(3),
+        r"RRT_PathFinder.setProblem: Configuration is 3 \(int\); expected Config",
+    ),
     (lambda C, k: ry.CameraView(3), r"CameraView: config is 3 \(int\); expected Config"),
     (lambda C, k: ry.SimulationBatch("C", 2), r"SimulationBatch: \w+ is 'C' \(str\); expected Config"),
     (lambda C, k: ry.planTask(C, 3), r"planTask: goal is 3 \(int\); expected str"),
