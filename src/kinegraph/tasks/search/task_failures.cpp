@@ -43,33 +43,41 @@ void TaskSearch::conclude(const Trial& trial) {
   if (!trial.found && !trial.failure->doors.empty()) {
     const TaskFailure& failure = *trial.failure;
     const Actions beginning(trial.actions.begin(), trial.actions.begin() + std::ptrdiff_t(failure.action) + 1);
-    giveUp(beginning, {whileText(failure.doors) + failure.why, failure.ghost});
+    giveUp(beginning, whileText(failure.doors), causeOf(failure));
     return forbidLast(beginning, withoutConstantDoors(failure.doors));
   }
-  if (!trial.found) giveUp(trial.actions, *trial.failure);
+  if (!trial.found) giveUp(trial.actions, "", causeOf(*trial.failure));
   forbidBeginning(trial.actions);
 }
 
-void TaskSearch::giveUp(const Actions& actions, const TaskFailure& failure) {
+TaskCause TaskSearch::causeOf(const TaskFailure& failure) {
+  return std::make_shared<TaskCause::element_type>(
+      ahead_.later<TaskFailure>([failure](const JobStopped&) { return failure; }));
+}
+
+void TaskSearch::giveUp(const Actions& actions, const std::string& words, TaskCause cause) {
   guessed_ = true;
-  const auto is_same = [&](const TaskBranch& b) { return b.actions == actions && b.why == failure.why; };
-  if (std::ranges::any_of(tree_, is_same)) return;  // tried before regrasps were allowed
-  addCause(failure.why);
-  tree_.push_back({actions, failure.why, failure.ghost});
+  cause->begin(Wanted::likely);
+  branches_.push_back({actions, words, std::move(cause), true});
 }
 
 /// Finds the first action at which it fails, and what stands in its way.
 void TaskSearch::forbidFailing(const Actions& actions) {
+  const auto first = [&](std::size_t count) {
+    return Actions(actions.begin(), actions.begin() + std::ptrdiff_t(count));
+  };
   std::size_t count = 1;
-  while (count < actions.size() && !failureOf({actions.begin(), actions.begin() + std::ptrdiff_t(count)})) ++count;
-  const Actions beginning(actions.begin(), actions.begin() + std::ptrdiff_t(count));
+  expectAll(unknownBeginnings(actions), Wanted::likely);
+  while (count < actions.size() && !failureOf(first(count))) ++count;
+  const Actions beginning = first(count);
+  expectNothing();
   const auto [alone, before] = actionsAlone(beginning);
   const std::vector<Literal> then = states(beginning)[before];
   Circumstances there{objectsWithout(alone, start_), doorsIn(C_, doors_, start_, then)};
-  if (const auto& failure = failureOf(alone, there)) {
+  if (const TaskCause cause = failureOf(alone, there)) {
     const bool is_general = alone.size() == beginning.size() || startsWithPick(alone, start_);
     std::vector<Literal> facts = doorsThatMatter(alone, there);
-    giveUp(beginning, {whileText(facts) + failure->why, failure->ghost});
+    giveUp(beginning, whileText(facts), cause);
     for (Literal& fact : whileFacts(alone, start_)) facts.push_back(std::move(fact));
     return forbidLast(beginning, is_general ? std::optional(withoutConstantDoors(facts)) : std::nullopt);
   }
@@ -77,15 +85,15 @@ void TaskSearch::forbidFailing(const Actions& actions) {
   for (const InTheWay& one : inTheWay(alone.back(), start_)) {
     there.without = others;
     std::erase(there.without, one.obj);
-    if (const auto& failure = failureOf(alone, there)) {
+    if (const TaskCause cause = failureOf(alone, there)) {
       std::vector<Literal> facts = {one.fact};
       for (Literal& fact : doorsThatMatter(alone, there)) facts.push_back(std::move(fact));
-      giveUp(beginning, {whileText(facts) + failure->why, failure->ghost});
+      giveUp(beginning, whileText(facts), cause);
       for (Literal& fact : whileFacts(alone, start_)) facts.push_back(std::move(fact));
       return forbidLast(beginning, withoutConstantDoors(facts));
     }
   }
-  if (const auto& failure = failureOf(beginning)) giveUp(beginning, *failure);
+  if (const TaskCause& cause = failureOf(beginning)) giveUp(beginning, "", cause);
   forbidBeginning(beginning);
 }
 
@@ -128,42 +136,12 @@ void TaskSearch::forbidLast(const Actions& beginning, const std::optional<std::v
     forbidBeginning(beginning);
 }
 
-/// Why actions cannot be carried out in some circumstances; none if they can.
-const std::optional<TaskFailure>& TaskSearch::failureOf(const Actions& actions, const Circumstances& there) {
-  const std::pair<Actions, Circumstances> key{actions, there};
-  if (const auto known = known_.find(key); known != known_.end()) return known->second;
-  Config scene = C_;
-  for (const std::string& name : there.without) scene.getFrame(name).setContact(0);
-  if (!there.doors.empty()) {
-    VectorXd q = scene.getJointState();
-    for (std::size_t i = 0; i < doors_.size(); ++i) q[doors_[i].dof] = there.doors[i];
-    scene.setJointState(q);
-  }
-  TaskAttempts::Found found = attempts_.find(scene, actions, 0);
-  std::optional<TaskFailure> failure;
-  if (!found.waypoints) failure = std::move(found.failure);
-  return known_.emplace(key, std::move(failure)).first->second;
-}
-
-/// Facts about doors that are not open and shut off what an action has to do: that is in one of them, or has a motion
-/// where they are not.
-std::vector<Literal> TaskSearch::shutBy(const SubProblem& part, const Actions& actions, std::size_t i) {
-  if (isHold(actions[i]) || isGuided(actions[i])) return {};
-  std::vector<Literal> shut;
-  Config scene = part.config;
-  for (const TaskDoor& door : doors_) {
-    const Literal fact{door.stateAt(part.start[door.dof]), {door.name}};
-    if (fact.predicate == "opened") continue;
-    if (!movedBy(C_, door.name, actions[i]).empty()) return {fact};
-    shut.push_back(fact);
-    for (const std::string& name : partsOf(C_, door.name)) scene.getFrame(name).setContact(0);
-  }
-  if (shut.empty()) return {};
-  TaskMotions motions(limits_, start_, options_.seed, options_.threads, [this] { return isLate(); });
-  const bool is_free =
-      motions.between(scene, part.start, part.end, actions[i], i ? actions[i - 1] : TaskAction()).motion.has_value();
-  attempts_.evaluations += motions.evaluations;
-  return is_free ? shut : std::vector<Literal>();
+/// Why actions cannot be carried out in some circumstances; null if they can.
+const TaskCause& TaskSearch::failureOf(const Actions& actions, const Circumstances& there) {
+  const std::pair key(actions, there);
+  const auto known = known_.find(key);
+  if (known != known_.end()) return known->second;
+  return known_.emplace(key, waypointsOf(actions, there).cause).first->second;
 }
 
 }  // namespace kinegraph

@@ -94,18 +94,27 @@ VectorXd perDof(const char* name, const VectorXd& given, const VectorXd& otherwi
 
 }  // namespace
 
-TaskMotions::TaskMotions(MatrixXd limits, const std::vector<Literal>& start, std::uint64_t seed, int threads,
-                         std::function<bool()> stopped)
-    : limits_(std::move(limits)),
+TaskMotions::TaskMotions(WorkAhead& ahead, MatrixXd limits, const std::vector<Literal>& start, std::uint64_t seed)
+    : ahead_(ahead),
+      limits_(std::move(limits)),
       has_doors_(!wordsOf(start, "is_guided").empty()),
       hands_(wordsOf(start, "is_gripper")),
       objects_(wordsOf(start, "is_object")),
-      seed_(seed),
-      threads_(threads),
-      stopped_(std::move(stopped)) {}
+      seed_(seed) {}
 
 TaskMotions::Found TaskMotions::between(const Config& C, const VectorXd& q0, const VectorXd& q1,
-                                        const TaskAction& action, const TaskAction& before) {
+                                        const TaskAction& action, const TaskAction& before, const JobStopped& stopped,
+                                        const std::function<int()>& threads) const {
+  TaskMotions motions = *this;
+  motions.stopped_ = stopped;
+  motions.threads_ = threads;
+  Found found = motions.search(C, q0, q1, action, before);
+  found.evaluations = motions.evaluations_;
+  return found;
+}
+
+TaskMotions::Found TaskMotions::search(const Config& C, const VectorXd& q0, const VectorXd& q1,
+                                       const TaskAction& action, const TaskAction& before) {
   if (!has_doors_) return among(C, q0, q1, action, before);
   if (isGuided(action)) return guided(C, q0, q1, action);
   Config all = C;
@@ -114,7 +123,7 @@ TaskMotions::Found TaskMotions::between(const Config& C, const VectorXd& q0, con
   TaskMotions motions = *this;
   motions.limits_ = limits_(Eigen::all, still.dofs);
   Found found = motions.among(still.scene, q0(still.dofs), q1(still.dofs), action, before);
-  evaluations = motions.evaluations;
+  evaluations_ = motions.evaluations_;
   if (found.motion) {
     MatrixXd path = q0.transpose().replicate(found.motion->path.rows(), 1);
     path(Eigen::all, still.dofs) = found.motion->path;
@@ -168,11 +177,15 @@ TaskMotions::Found TaskMotions::among(const Config& C, const VectorXd& q0, const
     const Vector3d up = C.getFrame(obj).getRotationMatrix().col(2);
     level.push_back({.feature = FeatureSymbol::vectorZ, .frames = {obj}, .target = up});
   }
+  Later<Way> direct;  // without leaving and coming along an axis
   if (level.empty()) {
     std::vector<VectorXd> postures = piece(C, q0, leaving(C, q0, before));
     const std::vector<VectorXd> tail = piece(C, q1, leaving(C, q1, coming(action)));
     if (postures.size() + tail.size() > 2) {
-      const MotionPlan found = way(C, postures.back(), tail.back());
+      const MotionPlan found = way(C, postures.back(), tail.back(), {}, [&] {
+        direct = wayLater(C, q0, q1);
+        direct.begin(Wanted::likely);
+      });
       if (found.feasible()) {
         for (Eigen::Index i = 0; i < found.path.rows(); ++i) postures.push_back(found.path.row(i));
         postures.insert(postures.end(), tail.rbegin(), tail.rend());
@@ -180,7 +193,7 @@ TaskMotions::Found TaskMotions::among(const Config& C, const VectorXd& q0, const
       }
     }
   }
-  const MotionPlan found = way(C, q0, q1, level);
+  const MotionPlan found = direct ? taken(direct.get()) : way(C, q0, q1, level);
   if (!found.feasible()) return {std::nullopt, cat("no motion was found: ", found.message)};
   return {steady(C, timed(C, found.path), carried), ""};
 }
@@ -221,22 +234,41 @@ TaskMotions::Found TaskMotions::pushed(const Config& C, const VectorXd& q0, cons
 }
 
 MotionPlan TaskMotions::way(const Config& C, const VectorXd& start, const VectorXd& goal,
-                            const std::vector<MotionConstraint>& constraints) {
+                            const std::vector<MotionConstraint>& constraints,
+                            const std::function<void()>& at_first_failure) {
   PlanOptions options;
   options.tries = has_doors_ ? 1 : kTries;
   options.seed = seed_;
-  options.threads = threads_;
   options.constraints = constraints;
   MotionPlan found;
   for (const double margin : {kMargin, 0.}) {
     options.margin = margin;
     const int most = has_doors_ ? kSearchBehindDoors : kSearch;  // what is shut off is soon given up
     options.evaluations = margin == 0. ? most : most / 10;
+    options.threads = threads_();
     found = planMotion(C, MotionGoal(goal), options, start, stopped_);
-    for (const PlanStage& stage : found.stages) evaluations += stage.evaluations;
+    for (const PlanStage& stage : found.stages) evaluations_ += stage.evaluations;
     if (found.feasible()) break;
+    if (margin > 0. && at_first_failure) at_first_failure();
   }
   return found;
+}
+
+/// The same, on another thread if one is free.
+Later<TaskMotions::Way> TaskMotions::wayLater(const Config& C, const VectorXd& start, const VectorXd& goal) const {
+  return ahead_.later<Way>(
+      [motions = *this, scene = std::make_shared<const Config>(C), start, goal](const JobStopped& stopped) mutable {
+        motions.evaluations_ = 0;
+        motions.threads_ = [] { return 1; };
+        motions.stopped_ = [stopped, outer = motions.stopped_] { return stopped() || (outer && outer()); };
+        MotionPlan plan = motions.way(*scene, start, goal);
+        return Way{std::move(plan), motions.evaluations_};
+      });
+}
+
+MotionPlan TaskMotions::taken(Way& way) {
+  evaluations_ += way.evaluations;
+  return std::move(way.plan);
 }
 
 /// From q to a posture near it, if that is free; else q alone. The same is free the other way around.

@@ -6,10 +6,8 @@
 
 #include "kinegraph/base/errors.h"
 #include "kinegraph/base/text.h"
-#include "kinegraph/komo/sub_problem.h"
 #include "kinegraph/logic/action_words.h"
 #include "kinegraph/logic/fol_reader.h"
-#include "kinegraph/tasks/search/check_task_plan.h"
 #include "kinegraph/tasks/search/motion_checks.h"
 #include "kinegraph/tasks/search/task_conflicts.h"
 #include "kinegraph/tasks/task_tools.h"
@@ -57,7 +55,7 @@ int requireThreads(int threads) {
 }  // namespace
 
 TaskSearch::TaskSearch(const Config& C, const std::string& goal, const TaskOptions& options)
-    : given_(C),
+    : given_(std::make_shared<const Config>(C)),
       C_(withoutWedges(C)),
       doors_(doorsOf(C)),
       options_(options),
@@ -66,17 +64,19 @@ TaskSearch::TaskSearch(const Config& C, const std::string& goal, const TaskOptio
       goal_(readLiterals(goal, "goal")),
       limits_(taskMotionLimits(C, options.velocity, options.acceleration)),
       deadline_(deadlineAfter(options.seconds)),
-      attempts_({rulesWith(options.rules, speaksOfFaces(goal_)), options.seed, requireThreads(options.threads),
-                 [this] { return isLate(); }, options.between, options.helper}),
+      settings_{rulesWith(options.rules, speaksOfFaces(goal_)), options.seed, requireThreads(options.threads),
+                [this] { return isLate(); }, options.helper},
       proves_(!options.rules.contains("pick")),
       may_regrasp_(!options.domain),
-      best_(kNone) {
+      best_(kNone),
+      scene_(std::make_shared<const Config>(C_)),
+      ahead_(options.threads, options.between) {
   begin(taskFacts(C_, goal_));
   std::set<std::string> missing;
   for (int a = 0; a < int(search_->problem().actions.size()); ++a) {
     const TaskAction action = search_->problem().action(a);
     requireWords(action);
-    if (!attempts_.rules().contains(action[0])) missing.insert(action[0]);
+    if (!settings_.rules.contains(action[0])) missing.insert(action[0]);
   }
   if (!missing.empty())
     throw ValueError(cat("planTask: nothing is known of what the actions ", join({missing.begin(), missing.end()}),
@@ -89,6 +89,7 @@ void TaskSearch::begin(std::vector<Literal> start) {
   start_ = std::move(start);
   problem_ = {"problem", domain_, {}, domain_.start, goal_};
   problem_.start.insert(problem_.start.end(), start_.begin(), start_.end());
+  trials_ = std::make_shared<const TaskTrials>(ahead_, settings_, scene_, given_, limits_, goal_, start_);
   PlanSearch::Options limits;
   limits.keep_going = [this] {
     try {
@@ -142,7 +143,7 @@ bool TaskSearch::mayBeginTrial(const Actions& actions) {
   const std::string cycle = standsOnItself(states(actions));
   if (cycle.empty()) return true;
   forbidBeginning(actions);
-  tree_.push_back({actions, cat("'", cycle, "' would stand on itself"), nullptr});
+  branches_.push_back({actions, cat("'", cycle, "' would stand on itself"), nullptr});
   return false;
 }
 
@@ -151,6 +152,19 @@ bool TaskSearch::mayBeginTrial(const Actions& actions) {
 bool TaskSearch::hasPlan() const { return best_ < kNone; }
 
 std::optional<TaskPlan> TaskSearch::next() {
+  struct Rest {  // nobody works while nobody waits
+    TaskSearch& search;
+    ~Rest() {
+      search.ahead_.rest();
+      search.expectNothing();
+    }
+  };
+  ahead_.rest();
+  const Rest rest{*this};
+  return nextPlan();
+}
+
+std::optional<TaskPlan> TaskSearch::nextPlan() {
   if (!has_begun_) {
     has_begun_ = true;
     if (!search_->problem().unreachable.empty()) {
@@ -178,7 +192,7 @@ std::optional<TaskPlan> TaskSearch::next() {
         plan.times = VectorXd::Zero(1);
         return plan;
       }
-      if (mayBeginTrial(*actions)) trial_.emplace(Trial{*actions, 0, false, {}});
+      if (mayBeginTrial(*actions)) trial_.emplace(Trial{*actions, states(*actions)});
     }
     while (trial_ && !has_ended_) {
       std::optional<TaskPlan> plan = nextOf(*trial_);
@@ -198,128 +212,132 @@ std::optional<TaskPlan> TaskSearch::next() {
   return std::nullopt;
 }
 
+// --- waypoints -------------------------------------------------------------------------------------------------------
+
+std::shared_ptr<const Config> TaskSearch::sceneIn(const Circumstances& there) const {
+  if (there == Circumstances()) return scene_;
+  auto scene = std::make_shared<Config>(*scene_);
+  for (const std::string& name : there.without) scene->getFrame(name).setContact(0);
+  VectorXd q = scene->getJointState();  // which compiles it, for all copies
+  if (there.doors.empty()) return scene;
+  for (std::size_t i = 0; i < doors_.size(); ++i) q[doors_[i].dof] = there.doors[i];
+  scene->setJointState(q);
+  return scene;
+}
+
+/// Waypoints that may be asked for are looked for, where there are threads for that. Any thread may expect some.
+void TaskSearch::expect(const Actions& actions, const Circumstances& there, Wanted first) {
+  if (options_.threads == 1) return;
+  const std::scoped_lock lock(expecting_);
+  auto known = expected_.find({actions, there});
+  if (known == expected_.end())
+    known = expected_.try_emplace({actions, there}, ahead_, settings_, sceneIn(there), actions, 0).first;
+  known->second.begin(first, Wanted::maybe);
+}
+
+void TaskSearch::expectAll(const std::vector<Actions>& all, Wanted first) {
+  for (const Actions& actions : all) expect(actions, {}, first);
+}
+
+/// Those that will say at which action a plan without waypoints fails.
+std::vector<TaskSearch::Actions> TaskSearch::unknownBeginnings(const Actions& actions) const {
+  std::vector<Actions> unknown;
+  for (std::size_t count = 1; count < actions.size(); ++count) {
+    Actions beginning(actions.begin(), actions.begin() + std::ptrdiff_t(count));
+    const auto known = known_.find({beginning, {}});
+    if (known == known_.end())
+      unknown.push_back(std::move(beginning));
+    else if (known->second)
+      break;
+  }
+  return unknown;
+}
+
+void TaskSearch::expectNothing() {
+  const std::scoped_lock lock(expecting_);
+  expected_.clear();
+}
+
+TaskAttempt::Found TaskSearch::waypointsOf(const Actions& actions, const Circumstances& there) {
+  std::optional<TaskAttempt> own;
+  TaskAttempt* attempt = nullptr;
+  {
+    const std::scoped_lock lock(expecting_);
+    const auto known = expected_.find({actions, there});
+    attempt = known != expected_.end() ? &known->second : &own.emplace(ahead_, settings_, sceneIn(there), actions, 0);
+  }
+  TaskAttempt::Found found = attempt->find();
+  evaluations_ += found.evaluations;
+  return found;
+}
+
+bool TaskSearch::isKnownToFail(const Actions& actions) const {
+  const auto known = known_.find({actions, {}});
+  return known != known_.end() && known->second;
+}
+
 // --- in geometry -----------------------------------------------------------------------------------------------------
+
+/// What comes of the waypoints of a seed.
+Later<TaskTrials::Outcome> TaskSearch::outcomeOf(const Trial& trial, int seed, Wanted wanted) {
+  TaskTrials::Order order{trial.actions, trial.states, seed, wanted};
+  if (seed == 0)
+    order.at_first_failure = [this, all = unknownBeginnings(trial.actions)] { expectAll(all, Wanted::maybe); };
+  return ahead_.later<TaskTrials::Outcome>(
+      [trials = trials_, order = std::move(order)](const JobStopped& stopped) { return trials->run(order, stopped); });
+}
 
 /// A plan from the next waypoints that have one; none where there are no more.
 std::optional<TaskPlan> TaskSearch::nextOf(Trial& trial) {
-  while (trial.seed < (trial.found ? kBetterStarts : kMotionStarts)) {
+  auto& later = trial.later;
+  const auto seeds = [&] { return trial.found ? kBetterStarts : kMotionStarts; };
+  while (trial.seed < seeds()) {
     const int seed = trial.seed++;
-    const TaskAttempts::Found found = attempts_.find(C_, trial.actions, seed);
-    if (!found.waypoints) {
-      if (seed == 0) known_[{trial.actions, {}}] = found.failure;
+    if (seed == 0 && isKnownToFail(trial.actions)) break;
+    if (!later.contains(seed)) later[seed] = outcomeOf(trial, seed, Wanted::surely);
+    const int ahead = trial.found || needs_seeds_ ? options_.threads - 1 : 0;
+    for (int next = seed + 1; next <= std::min(seed + ahead, seeds() - 1); ++next) {
+      if (later.contains(next)) continue;
+      later[next] = outcomeOf(trial, next, Wanted::maybe);
+      later[next].begin(Wanted::maybe);
+    }
+    TaskTrials::Outcome& outcome = later[seed].get();
+    evaluations_ += outcome.evaluations;
+    if (outcome.cause) {
+      if (seed == 0) known_[{trial.actions, {}}] = outcome.cause;
       trial.seed = kBetterStarts;
       break;
     }
-    auto answer = motionsOf(*found.waypoints);
-    if (TaskPlan* plan = std::get_if<TaskPlan>(&answer)) {
-      tree_.push_back({trial.actions, "", nullptr});
-      plan->tree = tree_;
+    if (outcome.plan) {
+      branches_.push_back({trial.actions, "", nullptr});
       trial.found = true;
-      return std::move(*plan);
+      return completed(std::move(*outcome.plan));
     }
-    trial.failure = std::get<TaskFailure>(answer);
+    needs_seeds_ = true;
+    trial.failure = outcome.failure;
     if (!trial.found && !trial.failure->doors.empty()) break;
   }
   return std::nullopt;
 }
 
-/// The motions between waypoints, checked; or why there is none.
-std::variant<TaskPlan, TaskFailure> TaskSearch::motionsOf(const TaskWaypoints& waypoints) {
-  struct Phase {
-    SubProblem part;
-    TaskMotions::Found found = {};
-    long evaluations = 0;
-  };
-  const Actions& actions = waypoints.actions;
-  std::vector<Phase> phases;
-  const MatrixXd settled = withSettledDoors(C_, actions, waypoints.m->komo->getPath());
-  for (int i = 0; i < int(actions.size()); ++i) {
-    phases.push_back({subProblem(waypoints.m->komo->path(), i)});
-    for (const TaskDoor& door : doors_) {
-      if (i > 0) phases.back().part.start[door.dof] = settled(i - 1, door.dof);
-      phases.back().part.end[door.dof] = settled(i, door.dof);
-    }
-  }
-  std::optional<TaskFailure> failure;
-  std::vector<TimedRows> rows;
-  inOrder(
-      int(phases.size()), options_.threads,
-      [&](int i, const JobStopped& stopped) {
-        Phase& phase = phases[std::size_t(i)];
-        TaskMotions motions(limits_, start_, options_.seed, options_.threads, stopped);
-        const TaskAction before = i == 0 ? TaskAction() : actions[std::size_t(i) - 1];
-        const Config scene = phase.part.config;  // a thread's own
-        phase.found = motions.between(scene, phase.part.start, phase.part.end, actions[std::size_t(i)], before);
-        phase.evaluations = motions.evaluations;
-      },
-      [&](int i) {
-        Phase& phase = phases[std::size_t(i)];
-        attempts_.evaluations += phase.evaluations;
-        if (phase.found.motion) {
-          rows.push_back(std::move(*phase.found.motion));
-          return true;
-        }
-        failure = {cat(planText({actions[std::size_t(i)]}), ": ", phase.found.why), nullptr, std::size_t(i),
-                   shutBy(phase.part, actions, std::size_t(i))};
-        phase.part.config.setJointState(phase.part.end);
-        failure->ghost = std::make_shared<const Config>(std::move(phase.part.config));
-        return false;
-      },
-      options_.between);
-  if (failure) return *failure;
-  std::vector<Config> scenes;
-  for (Phase& phase : phases) scenes.push_back(std::move(phase.part.config));
-  TaskPlan plan = planOf(waypoints, rows, std::move(scenes));
-  plan.violations = checkTaskPlan(given_, plan, states(plan.actions));
-  if (!plan.violations.empty()) return TaskFailure{plan.violations[0], nullptr};
-  return plan;
-}
-
-TaskPlan TaskSearch::planOf(const TaskWaypoints& waypoints, const std::vector<TimedRows>& rows,
-                            std::vector<Config> scenes) const {
-  TaskPlan plan = end(TaskStatus::solved, "");
-  plan.actions = waypoints.actions;
-  plan.waypoints = withSettledDoors(C_, plan.actions, waypoints.m->komo->getPath());
-  plan.limits = limits_;
-  Eigen::Index count = 0;
-  for (const TimedRows& motion : rows) count += motion.path.rows();
-  plan.path.resize(count, limits_.cols());
-  plan.times.resize(count);
-  double begins = 0.;
-  Eigen::Index row = 0;
-  for (const TimedRows& motion : rows) {
-    const Eigen::Index size = motion.path.rows();
-    plan.path.middleRows(row, size) = motion.path;
-    plan.times.segment(row, size) = motion.times.array() + begins;
-    plan.segments.push_back({row, row + size});
-    row += size;
-    begins += motion.times[size - 1];
-  }
-  plan.message = cat(rows.size(), " actions, ", fixed(begins, 2),
-                     " s; checked: logic, motions free to 1 mm at all times, limits, grasps, placements, support");
-  for (std::size_t i = 0; i < plan.actions.size(); ++i) {
-    const Config scene = waypoints.m->komo->configuration(int(i));
-    const std::optional<Frame> obj = scene.findFrame(objectOf(plan.actions[i]));
-    if (isHold(plan.actions[i]) || isGuided(plan.actions[i])) continue;
-    if (const std::optional<Frame> parent = obj ? obj->getParent() : std::nullopt)
-      plan.attachments.emplace_back(parent->getName(), obj->getName());
-  }
-  plan.scenes = std::move(scenes);
-  return plan;
-}
-
 // --- answers ---------------------------------------------------------------------------------------------------------
 
-TaskPlan TaskSearch::end(TaskStatus status, std::string message) const {
+TaskPlan TaskSearch::end(TaskStatus status, std::string message) {
   TaskPlan plan;
   plan.status = status;
   plan.message = std::move(message);
-  plan.causes = causesByCount();
-  plan.tree = tree_;
-  plan.evaluations = attempts_.evaluations;
-  plan.expansions = search_->expansions();
   plan.goal = goal_;
   plan.start = start_;
+  return completed(std::move(plan));
+}
+
+/// With what is to tell of the search so far.
+TaskPlan TaskSearch::completed(TaskPlan plan) {
+  settle();
+  plan.causes = causesByCount();
+  plan.tree = tree_;
+  plan.evaluations = evaluations_;
+  plan.expansions = search_->expansions();
   plan.again = [goal = goal_text_, options = options_](const Config& C) { return planTask(C, goal, options); };
   return plan;
 }
@@ -354,6 +372,20 @@ TaskPlan TaskSearch::nothing() {
   return end(TaskStatus::proved_impossible, neededProofs(search_->problem(), proofs_));
 }
 
+/// Finds the causes out that are not known yet.
+void TaskSearch::settle() {
+  for (const Branch& branch : std::exchange(branches_, {})) {
+    const TaskFailure failure = branch.cause ? branch.cause->get() : TaskFailure();
+    const std::string why = branch.words + failure.why;
+    const auto is_same = [&](const TaskBranch& b) { return b.actions == branch.actions && b.why == why; };
+    if (branch.is_given_up) {
+      if (std::ranges::any_of(tree_, is_same)) continue;  // tried before regrasps were allowed
+      addCause(why);
+    }
+    tree_.push_back({branch.actions, why, failure.ghost});
+  }
+}
+
 void TaskSearch::addCause(const std::string& why) {
   const auto known = std::ranges::find(causes_, why, &std::pair<std::string, int>::first);
   if (known == causes_.end())
@@ -368,7 +400,8 @@ std::vector<std::pair<std::string, int>> TaskSearch::causesByCount() const {
   return sorted;
 }
 
-std::string TaskSearch::firstCause() const {
+std::string TaskSearch::firstCause() {
+  settle();
   const auto causes = causesByCount();
   return causes.empty() ? "nothing was tried" : causes[0].first;
 }

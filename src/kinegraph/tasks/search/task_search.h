@@ -5,18 +5,16 @@
 #include <exception>
 #include <map>
 #include <memory>
+#include <mutex>
 #include <optional>
 #include <string>
 #include <utility>
-#include <variant>
 #include <vector>
 
-#include "kinegraph/komo/sub_problem.h"
 #include "kinegraph/logic/plan_search.h"
 #include "kinegraph/tasks/search/plan_task.h"
-#include "kinegraph/tasks/search/task_attempts.h"
-#include "kinegraph/tasks/search/task_motions.h"
 #include "kinegraph/tasks/search/task_proofs.h"
+#include "kinegraph/tasks/search/task_trials.h"
 #include "kinegraph/tasks/task_doors.h"
 
 namespace kinegraph {
@@ -43,9 +41,19 @@ class TaskSearch {
   /// A plan in logic whose motions are looked for, from other waypoints each.
   struct Trial {
     Actions actions;
-    int seed = 0;                        ///< of the waypoints that come next
-    bool found = false;                  ///< was there a plan?
-    std::optional<TaskFailure> failure;  ///< of motions
+    std::vector<std::vector<Literal>> states;              ///< along them
+    int seed = 0;                                          ///< of the waypoints that come next
+    bool found = false;                                    ///< was there a plan?
+    std::optional<TaskFailure> failure = {};               ///< of motions
+    std::map<int, Later<TaskTrials::Outcome>> later = {};  ///< by seed
+  };
+
+  /// What was tried; why it was given up is found out in the end.
+  struct Branch {
+    Actions actions;
+    std::string words;  ///< before the cause
+    TaskCause cause;    ///< null: there is nothing to find out
+    bool is_given_up = false;
   };
 
   // --- in logic
@@ -58,31 +66,42 @@ class TaskSearch {
   std::vector<std::vector<Literal>> states(const Actions& actions) const;
   bool mayBeginTrial(const Actions& actions);
 
+  // --- waypoints
+  std::shared_ptr<const Config> sceneIn(const Circumstances& there) const;
+  void expect(const Actions& actions, const Circumstances& there, Wanted first);
+  void expectAll(const std::vector<Actions>& all, Wanted first);
+  std::vector<Actions> unknownBeginnings(const Actions& actions) const;
+  void expectNothing();
+  TaskAttempt::Found waypointsOf(const Actions& actions, const Circumstances& there);
+  bool isKnownToFail(const Actions& actions) const;
+
   // --- in geometry
+  Later<TaskTrials::Outcome> outcomeOf(const Trial& trial, int seed, Wanted wanted);
   std::optional<TaskPlan> nextOf(Trial& trial);
   void conclude(const Trial& trial);
-  void giveUp(const Actions& actions, const TaskFailure& failure);
+  TaskCause causeOf(const TaskFailure& failure);
+  void giveUp(const Actions& actions, const std::string& words, TaskCause cause);
   void forbidFailing(const Actions& actions);
   void forbidLast(const Actions& beginning, const std::optional<std::vector<Literal>>& facts);
-  const std::optional<TaskFailure>& failureOf(const Actions& actions, const Circumstances& there = {});
+  const TaskCause& failureOf(const Actions& actions, const Circumstances& there = {});
   std::vector<Literal> withoutConstantDoors(std::vector<Literal> facts) const;
   std::string missingOfDoors() const;
   std::vector<Literal> doorsThatMatter(const Actions& actions, const Circumstances& there);
-  std::variant<TaskPlan, TaskFailure> motionsOf(const TaskWaypoints& waypoints);
-  std::vector<Literal> shutBy(const SubProblem& part, const Actions& actions, std::size_t action);
-  TaskPlan planOf(const TaskWaypoints& waypoints, const std::vector<TimedRows>& rows, std::vector<Config> scenes) const;
 
   // --- answers
-  bool isSpent() const { return attempts_.evaluations >= options_.evaluations || isLate(); }
+  std::optional<TaskPlan> nextPlan();
+  bool isSpent() const { return evaluations_ >= options_.evaluations || isLate(); }
   bool isLate() const { return std::chrono::steady_clock::now() > deadline_; }
   bool hasPlan() const;
   TaskPlan nothing();
-  TaskPlan end(TaskStatus status, std::string message) const;
+  TaskPlan end(TaskStatus status, std::string message);
+  TaskPlan completed(TaskPlan plan);
+  void settle();
   std::vector<std::pair<std::string, int>> causesByCount() const;
-  std::string firstCause() const;
+  std::string firstCause();
   void addCause(const std::string& why);
 
-  const Config given_;
+  const std::shared_ptr<const Config> given_;
   const Config C_;  ///< in which what is held may overlap the robot as it does at the start
   const std::vector<TaskDoor> doors_;
   TaskOptions options_;
@@ -91,7 +110,8 @@ class TaskSearch {
   std::vector<Literal> goal_, start_;
   MatrixXd limits_;
   std::chrono::steady_clock::time_point deadline_;
-  TaskAttempts attempts_;
+  const TaskAttempt::Settings settings_;
+  long evaluations_ = 0;  ///< so far
   LogicProblem problem_;
   std::unique_ptr<PlanSearch> search_;
   std::exception_ptr interruption_;  ///< by `options_.between` while logic was searched
@@ -101,10 +121,17 @@ class TaskSearch {
   bool guessed_ = false;      ///< is anything forbidden that was not proved?
   bool may_regrasp_ = false;  ///< not tried yet: things may be put down to be grasped in another way
   std::optional<Trial> trial_;
-  double best_;  ///< s, of the plans so far
+  double best_;                   ///< s, of the plans so far
+  std::vector<Branch> branches_;  ///< of which the causes are not known yet; they come after those of tree_
   std::vector<TaskBranch> tree_;
   std::vector<std::pair<std::string, int>> causes_;
-  std::map<std::pair<Actions, Circumstances>, std::optional<TaskFailure>> known_;  ///< why actions fail
+  std::map<std::pair<Actions, Circumstances>, TaskCause> known_;  ///< why actions fail; null: they do not
+  bool needs_seeds_ = false;                                      ///< has a plan with waypoints had no motion?
+  const std::shared_ptr<const Config> scene_;                     ///< a copy of C_ that threads share
+  std::shared_ptr<const TaskTrials> trials_;
+  std::mutex expecting_;
+  WorkAhead ahead_;
+  std::map<std::pair<Actions, Circumstances>, TaskAttempt> expected_;  ///< that may be worked at
 };
 
 }  // namespace kinegraph
