@@ -9,7 +9,8 @@ inline constexpr char getCollidablePairs[] =
 A flag -k leaves out links up to k joints above, `contact_exclude` the frames that it names. Shapes of URDF files have -2;
 where an SRDF file names pairs, only those are left out.)";
 
-inline constexpr char getCollisions[] = R"(All collidable pairs nearer than a margin, at the present q, also those that no joint moves apart. What judges a
+inline constexpr char getCollisions[] =
+    R"(All collidable pairs nearer than a margin, at the present q, also those that no joint moves apart. What judges a
 posture or a motion (`isValid`, `solveIk`, `planMotion`, KOMO) leaves these out, as no q mends them.
 
 Args:
