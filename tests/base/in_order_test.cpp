@@ -82,5 +82,14 @@ TEST(InOrder, BetweenMayEndItAlsoWhereJobsTakeLong) {
   }
 }
 
+TEST(InOrder, BetweenMayEndItAlsoWhereJobsTakeNoTime) {
+  for (const int threads : {1, 2}) {
+    const auto nothing = [](int, const JobStopped&) {};
+    EXPECT_THROW(inOrder(
+                     2, threads, nothing, [](int) { return true; }, [] { throw std::runtime_error("pressed"); }),
+                 std::runtime_error);
+  }
+}
+
 }  // namespace
 }  // namespace kinegraph

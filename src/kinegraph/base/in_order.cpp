@@ -78,6 +78,7 @@ class JobsAhead {
   }
 
   void wait(int job) {
+    if (between_) between_();  // also where no job takes long
     std::unique_lock lock(mutex_);
     while (!changed_.wait_for(lock, kLook, [&] { return ended_[std::size_t(job)].is_over; })) {
       lock.unlock();
@@ -106,6 +107,7 @@ void inOrder(int count, int threads, const Job& job, const Take& take, const Bet
     return false;
   };
   for (int i = 0; i < count; ++i) {
+    if (between) between();
     job(i, stopped);
     if (!take(i)) return;
   }

@@ -12,8 +12,8 @@ using JobStopped = std::function<bool()>;
 /// does not depend on how many there are. `job(i, stopped)` leaves its result where `take(i)`, on the calling thread,
 /// finds it; once `take` is false the others are not wanted. No job begins before all but `threads - 1` of the ones
 /// before it were taken. With one thread all run on the calling thread, one after the other. Where a job throws, the
-/// exception is passed on in place of `take(i)`. `between`, where given, is asked on the calling thread every 20 ms while
-/// it waits; it may throw to end it. Returns when no job runs any more.
+/// exception is passed on in place of `take(i)`. `between`, where given, is asked on the calling thread before it waits for a
+/// job, and every 20 ms while it waits; it may throw to end it. Returns when no job runs any more.
 void inOrder(int count, int threads, const std::function<void(int job, const JobStopped& stopped)>& job,
              const std::function<bool(int job)>& take, const std::function<void()>& between = {});
 
