@@ -24,6 +24,13 @@ def recorded(name: str) -> dict:
     return json.loads((DATA / f"{name}.json").read_text())
 
 
+@pytest.fixture(autouse=True)
+def first_seed():
+    """What a test draws does not depend on the tests before it."""
+    yield
+    ry.rnd_seed(0)
+
+
 @pytest.fixture
 def first_ctrl_c() -> None:
     """The next Ctrl-C is no second one within a second, which would leave a loop of solves."""
