@@ -39,7 +39,8 @@ class Dispatcher:
     """Reads items as workers can take them, and keeps no more than a window of results.
 
     A batch whose worker died is computed again by another one, in halves, so that an item that kills workers ends up alone: after
-    three workers it is given up. The batches that waited for the same worker are not blamed.
+    three workers it is given up. The batches that waited for the same worker are not blamed. A batch that is computed again has its
+    worker for itself: the answer of the one before it may be lost with the worker, which would then be blamed on that one.
     """
 
     def __init__(self, engine: Engine, items: Iterator[Any], first: int, total: int | None):
@@ -79,8 +80,10 @@ class Dispatcher:
 
     def _send(self) -> bool:
         """Gives workers what they can take. Returns whether anything is under way."""
-        while (worker := min(range(len(self._sent)), key=lambda i: len(self._sent[i]))) is not None:
-            if len(self._sent[worker]) >= IN_FLIGHT or (job := self._job()) is None:
+        while (worker := self._freeWorker()) is not None:
+            if self._again and self._again[0].kills and self._sent[worker]:
+                break  # until a worker has nothing else
+            if (job := self._job()) is None:
                 break
             known = self._scenes[worker]
             scenes = {key: None if key in known else content for key, content in job.packed.scenes.items()}
@@ -88,6 +91,11 @@ class Dispatcher:
             self._engine.send(worker, Batch(job.first, job.packed.data, job.packed.ends, scenes))
             self._sent[worker].append(job)
         return any(self._sent)
+
+    def _freeWorker(self) -> int | None:
+        """The one with the fewest batches, of those that can take a further one."""
+        free = [i for i, sent in enumerate(self._sent) if len(sent) < IN_FLIGHT and not (sent and sent[0].kills)]
+        return min(free, key=lambda i: len(self._sent[i]), default=None)
 
     def _job(self) -> _Job | None:
         """What to compute next; None if there is nothing, or the window is full."""
