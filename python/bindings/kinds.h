@@ -31,9 +31,14 @@ struct KindCaster {
   NB_TYPE_CASTER(T, const_name<T>())
 
   bool from_python(handle source, std::uint32_t flags, cleanup_list* cleanup) noexcept {
-    if (kinegraph::python::isMember(source)) flags &= ~std::uint32_t(cast_flags::convert);
+    constexpr std::uint32_t convert = std::uint32_t(cast_flags::convert);
     std::int64_t number;
-    if (!NB_CALL(enum_from_python)(NB_CTX_C(cleanup), &typeid(T), source.ptr(), &number, flags)) return false;
+    const auto take = [&](std::uint32_t how) {
+      return NB_CALL(enum_from_python)(NB_CTX_C(cleanup), &typeid(T), source.ptr(), &number, how);
+    };
+    if (!take(flags & ~convert)) {  // it is no member of this one, as it nearly always is
+      if (!(flags & convert) || kinegraph::python::isMember(source) || !take(flags)) return false;
+    }
     value = T(number);
     return true;
   }
