@@ -223,7 +223,8 @@ PyConfig planPictureIn(const MotionPlan& plan, const PyConfig& config, const std
 int viewPlan(const MotionPlan& plan, const PyConfig& config, const std::optional<FrameNames>& frames, bool pause) {
   const nb::object shown = nb::cast(planPictureIn(plan, config, frames));
   if (!plan.feasible()) return nb::cast<int>(shown.attr("view")(pause, inPython(plan.message)));
-  return nb::cast<int>(shown.attr("view_path")(toNumpy(plan.path), std::max(plan.duration(), 1e-3), pause, plan.str()));
+  const double seconds = std::max(plan.options.timing ? plan.duration() : plan.length, 1e-3);
+  return nb::cast<int>(shown.attr("view_path")(toNumpy(plan.path), seconds, pause, plan.str()));
 }
 
 Array refined(MatrixXd (*refine)(const Config&, const MatrixXd&, const RefineOptions&), const PyConfig& config,

@@ -53,6 +53,19 @@ TEST(PlanMotion, ADoorThatIsWideEnoughIsNotProvenAway) {
   }
 }
 
+TEST(PlanMotion, ProofAndTimingAreLeftOutWhereNobodyAsksForThem) {
+  const MotionPlan none = planMotion(roomForABox(.28), kGoal, {.evaluations = 2000, .proof = false});
+  EXPECT_EQ(none.status, PlanStatus::no_way);
+  const MotionPlan timed = planMotion(roomForABox(.5), kGoal),
+                   path = planMotion(roomForABox(.5), kGoal, {.timing = false});
+  ASSERT_TRUE(path.feasible());
+  EXPECT_EQ(path.path, timed.path);
+  EXPECT_EQ(path.times().size(), 0);
+  EXPECT_EQ(path.str().find(" s"), std::string::npos) << path.str();
+  EXPECT_THROW(path.at(0.), ValueError);
+  EXPECT_THROW(planMotion(roomForABox(.5), kGoal, {.slices = 20, .timing = false}), ValueError);
+}
+
 TEST(PlanMotion, TheWatchEndsIt) {
   const MotionPlan plan = planMotion(roomForABox(.31), kGoal, {}, std::nullopt, [] { return true; });
   EXPECT_EQ(plan.status, PlanStatus::cancelled);

@@ -165,6 +165,23 @@ def test_a_motion_is_planned_anew_without_a_jump_of_its_acceleration() -> None:
         ry.planMotion(C, [1.0, 1.0, 1.57], start_velocity=[0.1, 0, 0], start_acceleration=[1.0, 0, 0])
 
 
+def test_a_path_without_times_is_the_same_path() -> None:
+    C = room()
+    timed = ry.planMotion(C, [1.0, 1.0, 1.57])
+    plan = ry.planMotion(C, [1.0, 1.0, 1.57], timing=False)
+    assert plan.feasible and np.array_equal(plan.path, timed.path)
+    assert len(plan.times) == 0 and plan.duration == 0
+    assert [stage["name"] for stage in plan.stages].count("time") == 0
+    with pytest.raises(ry.ArgumentError, match="has no times"):
+        plan.at(0.0)
+    with pytest.raises(ry.ArgumentError, match="need timing"):
+        ry.planMotion(C, [1.0, 1.0, 1.57], timing=False, start_velocity=[0.1, 0, 0])
+    better = list(ry.planMotions(C, [1.0, 1.0, 1.57], timing=False, improve=2000))
+    lengths = [one.length for one in better]
+    assert lengths == sorted(lengths, reverse=True)
+    assert plan.view(C, pause=False) is not None
+
+
 def test_conditions_may_be_the_goal(column: ry.Config) -> None:
     start, _ = ends(column)
     high = ry.MotionConstraint(ry.FS.position, ["l_gripper"], scale=[[0, 0, 1]], target=[0, 0, 1.4])

@@ -33,6 +33,7 @@ std::string planStatusName(PlanStatus status) {
 
 MotionState MotionPlan::at(double t) const {
   if (!feasible()) throw ValueError(cat("MotionPlan.at: there is no motion; ", message));
+  if (!options.timing) throw ValueError("MotionPlan.at: the path has no times; it was planned without timing");
   return timed.at(t);
 }
 
@@ -61,7 +62,7 @@ double MotionPlan::clearance(double most) const {
 
 std::string MotionPlan::str() const {
   if (!feasible()) return cat(planStatusName(status), ": ", message);
-  return cat("solved: ", path.rows(), " postures, length ", length, ", ", duration(), " s");
+  return cat("solved: ", path.rows(), " postures, length ", length, options.timing ? cat(", ", duration(), " s") : "");
 }
 
 std::string MotionPlan::explain() const {

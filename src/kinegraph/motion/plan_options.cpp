@@ -67,6 +67,9 @@ const OptionTable<PlanOptions>& planOptionTable() {
         "Of a KOMO that bends the motion so that it accelerates less; taken if that is free and faster. 0: none, else "
         "80 are a good number. For 'time' alone, without constraints, moving obstacles and start velocity.",
         Range::notNegative()},
+       {"proof", &O::proof, "",
+        "Where no way is found, a proof that there is none is looked for; without, the status is 'no_way' sooner."},
+       {"timing", &O::timing, "", "The motion gets times; without, there is a path alone, and `at` has nothing to say."},
        {"time_limit",
         &O::time_limit,
         "s",
@@ -86,6 +89,8 @@ void PlanOptions::validateFor(int dofs) const {
   validateLimit(jerk, "jerk", dofs);
   if (start_velocity.size() > 0 && start_velocity.size() != dofs)
     throw ValueError(cat("planMotion: start_velocity has ", start_velocity.size(), " numbers; expected ", dofs));
+  if (!timing && (slices > 0 || !moving.empty() || start_velocity.size() > 0))
+    throw ValueError("planMotion: slices, moving obstacles and start_velocity need timing");
   if (slices > 0 && (optimize != "time" || !constraints.empty() || !moving.empty() || start_velocity.size() > 0))
     throw ValueError(
         "planMotion: slices is for optimize 'time', without constraints, moving obstacles and start_velocity");

@@ -56,6 +56,8 @@ struct PlanOptions {
   std::vector<MotionConstraint> constraints = {};  ///< that hold all along the path
   VectorXd start_velocity = {};                    ///< dq/dt with which the motion begins, rad/s or m/s; empty: at rest
   VectorXd start_acceleration = {};                ///< d2q/dt2, with start_velocity and limits of the jerk; empty: none
+  bool proof = true;                               ///< where no way is found, a proof that there is none is looked for
+  bool timing = true;                              ///< the path gets times; else `timed` is empty
   std::vector<MovingObstacle> moving = {};  ///< what moves meanwhile; times count from the begin of the motion, s
 
   void validate() const;  ///< throws ValueError naming the first field that makes no sense

@@ -198,8 +198,11 @@ bool Planner::failSearch(const Way& way) {
   std::vector<VectorXd> goals;
   for (const Gate& gate : goals_) goals.push_back(gate.inside);
   const bool tight = !demands_.clearance.tight.empty();  // then the margin does not hold everywhere
-  const std::string proof = proveNoWay(*plan_.scene, start_.inside, goals, tight ? 0. : options_.margin);
-  endStage("prove", 0, proof.empty() ? "no proof that there is none" : "");
+  std::string proof;
+  if (options_.proof) {
+    proof = proveNoWay(*plan_.scene, start_.inside, goals, tight ? 0. : options_.margin);
+    endStage("prove", 0, proof.empty() ? "no proof that there is none" : "");
+  }
   if (!proof.empty()) return fail(PlanStatus::impossible, cat(proof, "; ", words));
   if (way.was_stopped) return failStopped(words);
   return fail(PlanStatus::no_way, words);
@@ -257,7 +260,7 @@ void Planner::drawWhereShorter() {
 
 std::optional<MotionPlan> Planner::better() {
   if (!plan_.feasible() || best_.way.is_line) return std::nullopt;
-  const bool by_length = options_.optimize == "length";
+  const bool by_length = options_.optimize == "length" || !options_.timing;
   const auto value = [&](const MotionPlan& plan) { return by_length ? plan.length : plan.duration(); };
   while (further_ < options_.improve && !watch_()) {
     const double cost = best_.cost;
@@ -335,8 +338,10 @@ void Planner::finish() {
   plan_.kept = kept();
   plan_.length = pathLength(*plan_.space, plan_.path);
   endStage("verify", evaluations, is_free ? "" : "the way as it was found, since the shortened one was not free");
-  plan_.timed = timeMotion(exactly(), plan_.path, limits_, options_.blend);
-  endStage("time", 0, plan_.timed.str());
+  if (options_.timing) {
+    plan_.timed = timeMotion(exactly(), plan_.path, limits_, options_.blend);
+    endStage("time", 0, plan_.timed.str());
+  }
   if (options_.slices > 0) bend();
   plan_.status = PlanStatus::solved;
 }

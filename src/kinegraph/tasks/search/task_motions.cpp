@@ -240,9 +240,11 @@ MotionPlan TaskMotions::way(const Config& C, const VectorXd& start, const Vector
   options.tries = has_doors_ ? 1 : kTries;
   options.seed = seed_;
   options.constraints = constraints;
+  options.timing = false;
   MotionPlan found;
   for (const double margin : {kMargin, 0.}) {
     options.margin = margin;
+    options.proof = margin == 0. && !at_first_failure;           // who has another way does not ask why
     const int most = has_doors_ ? kSearchBehindDoors : kSearch;  // what is shut off is soon given up
     options.evaluations = margin == 0. ? most : most / 10;
     options.threads = threads_();
