@@ -89,6 +89,17 @@ TEST(PlanAmongMoving, WhatStaysAtTheGoalIsNamed) {
   EXPECT_THROW(plan.at(0.), ValueError);
 }
 
+TEST(PlanAmongMoving, WhatComesToTheGoalLaterIsNamed) {
+  // The robot is about to arrive, and cannot get away from what comes soon after that, and passes by.
+  for (int k = 0; k < 12; ++k) {
+    PlanOptions options = among({moves("cart", {{.1, poseAt(1., -1.9)}, {.7 + .01 * k, poseAt(1., 1.9)}})});
+    options.start_velocity = VectorXd{{.6, 0.}};
+    const MotionPlan plan = planMotion(discAndBox(), kAcross, options, VectorXd{{.95, 0.}});
+    EXPECT_EQ(plan.status, PlanStatus::no_timing);
+    EXPECT_NE(plan.message.find("'body' meets 'box'"), std::string::npos) << k << plan.message;
+  }
+}
+
 TEST(PlanAmongMoving, ItGoesOutOfTheWayOfWhatComesToTheStart) {
   const std::vector<MovingObstacle> cart = {moves("cart", {{0., poseAt(-1., -1.8)}, {3.6, poseAt(-1., 1.8)}})};
   const MotionPlan plan = planMotion(discAndBox(), kAcross, among(cart));

@@ -91,6 +91,18 @@ TEST(PlanInMotion, AVelocityAboveTheLimitIsRefused) {
   EXPECT_THROW(planMotion(C, VectorXd{{-1., -1.}}, options), ValueError);
 }
 
+TEST(PlanInMotion, TheTimeLimitIsThatOfAllThatIsTried) {
+  Config C = room(.8);
+  PlanOptions options = brisk();
+  options.start_velocity = VectorXd{{.5, 0.}};
+  options.time_limit = 1e-9;
+  const MotionPlan plan = planMotion(C, VectorXd{{1., -1.}}, options, VectorXd{{-1.5, 1.2}});
+  EXPECT_EQ(plan.status, PlanStatus::out_of_time) << plan.message;
+  EXPECT_NE(plan.message.find("time limit of 1e-09 s"), std::string::npos) << plan.message;
+  options.time_limit = 1e300;
+  EXPECT_TRUE(planMotion(C, VectorXd{{1., -1.}}, options, VectorXd{{-1.5, 1.2}}).feasible());
+}
+
 TEST(PlanInMotion, ItKeepsClearOfWhatMovesWhileItGoesOn) {
   Config C = discAndBox();
   PlanOptions options = brisk();
@@ -167,6 +179,48 @@ TEST(PlanInMotion, ItGoesOnWithItsAccelerationToAnotherGoal) {
       EXPECT_GE(leastOfTime(running.C, plan, {}, 5e-4, 0.), .01 - 1e-9) << share;
     }
   }
+}
+
+TEST(PlanInMotion, AmongWhatMovesItGoesOnWithItsAcceleration) {
+  Config C = discAndBox();
+  PlanOptions options = brisk();
+  options.jerk = VectorXd::Constant(1, 30.);
+  const MotionPlan first = planMotion(C, VectorXd{{1., .2}}, options);
+  ASSERT_TRUE(first.feasible());
+  int bent = 0;
+  for (const std::optional<MotionGoal>& goal : {std::optional<MotionGoal>(), {MotionGoal(VectorXd{{.4, -1.}})}}) {
+    for (const double share : {.03, .1, .2, .3, .4, .8}) {
+      for (const double speed : {.6, 1.}) {
+        const double time = share * first.duration(), begin = time - .4;
+        options.moving = {moves("cart", {{begin, poseAt(.4, -1.6)}, {begin + 2.4 / speed, poseAt(.4, .8)}})};
+        PlanOptions later = options;
+        later.moving.front().times.array() -= time;
+        const MotionPlan plan = replanMotion(C, first, time, goal, later);
+        ASSERT_TRUE(plan.feasible()) << share << " " << plan.message;
+        for (const std::string& note : plan.notes) EXPECT_EQ(note.find("without"), std::string::npos) << share;
+        expectGoesOn(first, time, plan);
+        expectSmooth(plan, 1., 4.);
+        expectGentle(first, time, plan);
+        EXPECT_GE(leastOfTime(C, plan, later.moving, 5e-4), .01 - 1e-9) << share << " " << speed;
+        bent += first.at(time).acceleration.norm() > .1;
+      }
+    }
+  }
+  EXPECT_GE(bent, 12);  // of 24: there it has an acceleration
+}
+
+TEST(PlanInMotion, AmongWhatMovesAStartAccelerationIsThatOfTheMotion) {
+  Config C = discAndBox();
+  PlanOptions options = brisk();
+  options.jerk = VectorXd::Constant(1, 30.);
+  options.start_velocity = VectorXd{{.5, .2}};
+  options.start_acceleration = VectorXd{{1.5, -1.}};
+  options.moving = {moves("cart", {{0., poseAt(.2, -1.4)}, {2.4, poseAt(.2, 1.)}})};
+  const MotionPlan plan = planMotion(C, VectorXd{{1., 0.}}, options);
+  ASSERT_TRUE(plan.feasible()) << plan.message;
+  EXPECT_TRUE(plan.at(0.).velocity.isApprox(options.start_velocity, 1e-9));
+  EXPECT_TRUE(plan.at(0.).acceleration.isApprox(options.start_acceleration, 1e-6));
+  EXPECT_GE(leastOfTime(C, plan, options.moving, 5e-4), .01 - 1e-9);
 }
 
 TEST(PlanInMotion, TheRestOfAGentleMotionIsThatMotion) {

@@ -140,6 +140,29 @@ def test_a_robot_on_its_way_goes_on_to_another_goal(cart: ry.Config) -> None:
         ry.planMotion(cart, [0.0] * 7).replan(cart, at=0.1)
 
 
+@pytest.mark.parametrize("share", [0.1, 0.3, 0.6])
+def test_what_moves_lets_a_robot_go_on_with_its_acceleration(cart: ry.Config, share: float) -> None:
+    start, goal = ends(cart)
+    limits = {"velocity": 1.5, "acceleration": 6.0, "jerk": 40.0, "margin": 0.01}
+    plan = ry.planMotion(cart, goal, start, **limits)
+    at = share * plan.duration
+    other = goal + np.array([-0.8, 0.2, 0, 0, 0, 0.1, 0])
+    poses = np.array([[0.8, 1.0, 1.1, 1, 0, 0, 0], [-0.1, 0.45, 1.1, 1, 0, 0, 0], [-1.2, 0.8, 1.1, 1, 0, 0, 0]])
+    tracks = {"cart": (TIMES, poses)}
+    for target in (None, other):
+        bend = plan.replan(cart, at=at, goal=target, moving=tracks)
+        assert bend.feasible, bend.message
+        assert not [note for note in bend.notes if "without" in note]
+        for before, after, tolerance in zip(plan.at(at), bend.at(0), (1e-12, 1e-9, 1e-6), strict=True):
+            np.testing.assert_allclose(after, before, atol=tolerance)
+        assert leastOfTime(cart, bend, tracks, 4e-3) >= 0.01 - 1e-6
+        step = 1e-3
+        states = [bend.at(t) for t in np.arange(0, bend.duration, step)]
+        for values, limit in zip((1, 2), (1.5, 6.0), strict=True):
+            assert np.abs([state[values] for state in states]).max() <= limit * (1 + 1e-9)
+        assert np.abs(np.diff([state[2] for state in states], axis=0)).max() <= 40 * step * (1 + 1e-6)
+
+
 def test_a_running_bot_takes_a_new_plan_without_a_stop(cart: ry.Config) -> None:
     start, goal = ends(cart)
     limits = {"velocity": 0.6, "acceleration": 1.5, "margin": 0.01}

@@ -15,8 +15,9 @@ constexpr int kStations = 16, kSmoothStations = 8;   // besides the start; fewer
 constexpr double kSlower[] = {1., 1.4, 2., 3., 5.};  // what a leg takes, as a multiple of the least
 constexpr double kStepShare = 1. / 40., kLeastStep = .02, kMostStep = .1;  // of departures: of the duration; s
 constexpr long kMostTries = 20000;
-constexpr double kSnap = 1e-6;        // of the curve: a station so near to a knot is there
-constexpr double kJustBefore = 1e-3;  // s
+constexpr double kStill = 1e-9;  // 1/s
+constexpr double kSame = 1e-12;  // of the curve
+constexpr double kSnap = 1e-6;   // of the curve: a station so near to a knot is there
 constexpr double kForever = std::numeric_limits<double>::infinity();
 
 /// The robot may stand at a station.
@@ -33,8 +34,11 @@ class TimeSearch {
         check_(check),
         watch_(watch),
         step_(std::clamp(kStepShare * fastest_.duration(), kLeastStep, kMostStep)) {
-    const LawPhase& first = fastest_.phases().front();
-    start_speed_ = first.begin.speed;
+    const std::vector<LawPhase>& phases = fastest_.phases();
+    start_speed_ = phases.front().begin.speed;
+    const auto stop =
+        std::find_if(phases.begin() + 1, phases.end(), [](const LawPhase& p) { return p.begin.speed < kStill; });
+    first_stop_ = stop == phases.end() ? curve_.length() : stop->begin.s;
   }
 
   MovingTiming run() {
@@ -42,7 +46,8 @@ class TimeSearch {
     const std::vector<FreeTime>& at_goal = freeTimes(last());
     result_.met = check_.contact(curve_, fastest_, limits_.acceleration);
     if (at_goal.empty() || at_goal.back().end < kForever) {
-      const auto [a, b] = blockers(last(), check_.scene().end());
+      const double end = check_.scene().end();
+      const auto [a, b] = blockers(last(), end, end);
       result_.message = cat("at the goal, ", words(a, b), ", which stays there");
       return std::move(result_);
     }
@@ -53,7 +58,8 @@ class TimeSearch {
       return std::move(result_);
     }
     if (!result_.met) {  // it comes to the goal later
-      const auto [a, b] = blockers(last(), at_goal.back().begin - kJustBefore);
+      const double free_from = at_goal.back().begin;
+      const auto [a, b] = blockers(last(), std::max(0., free_from - step_), free_from);
       result_.met = MovingContact{at_goal.back().begin, a, b, curve_.length()};
     }
     if (curve_.length() > 0.) search();
@@ -151,15 +157,29 @@ class TimeSearch {
 
   Leg& legOf(int from, int to) {
     Leg& leg = legs_[std::size_t(from) * places_.size() + std::size_t(to)];
-    if (leg.was_made) return leg;
+    if (!leg.was_made) leg = makeLeg(places_[std::size_t(from)], places_[std::size_t(to)]);
+    return leg;
+  }
+
+  Leg makeLeg(double from, double to) const {
+    Leg leg;
     leg.was_made = true;
-    const CurvePart part = partOf(curve_, places_[std::size_t(from)], places_[std::size_t(to)]);
+    const CurvePart part = partOf(curve_, from, to);
     RetimeOptions options;
     options.intervals = 20 + int(80. * part.curve.length() / curve_.length());
-    if (from == 0 && start_speed_ > 0.) options.start_velocity = start_speed_ * part.curve.eval(0., 1);
+    if (from == 0. && start_speed_ > 0.) {
+      const MotionState start = motionAt(curve_, fastest_, 0.);
+      options.start_velocity = start.velocity;
+      if (limits_.limitsJerk()) options.start_acceleration = start.acceleration;
+    }
     const TimedPath timed = retime(MatrixXd(), part.curve, limits_, options);
     leg.is_possible = timed.feasible();
-    if (leg.is_possible) leg.law = part.onWhole(timed.law());
+    if (leg.is_possible) {
+      leg.law = part.onWhole(timed.law());
+    } else if (from == 0. && std::abs(to - first_stop_) <= kSame * curve_.length()) {
+      leg.law = part.onWhole(part.restOf(fastest_, 0.));  // the law that is known stops there
+      leg.is_possible = true;
+    }
     return leg;
   }
 
@@ -202,7 +222,7 @@ class TimeSearch {
     const int interval = intervalAfter(0, 0.);
     const bool moves = start_speed_ > 0.;
     if (!moves && (interval == int(freeTimes(0).size()) || freeTimes(0)[std::size_t(interval)].begin > 0.)) {
-      const auto [a, b] = blockers(0, 0.);
+      const auto [a, b] = blockers(0, 0., 0.);
       result_.message = cat("at the start, from the beginning, ", words(a, b));
       return;
     }
@@ -281,8 +301,9 @@ class TimeSearch {
 
   // --- words -------------------------------------------------------------------------------------------------------
 
-  std::pair<int, int> blockers(int station, double t) {
-    check_.isFree(postures_[std::size_t(station)], t);
+  /// The pair for which it cannot stand at a station from one time to another.
+  std::pair<int, int> blockers(int station, double begin, double end) {
+    check_.staysFree(postures_[std::size_t(station)], begin, end);
     return check_.lastPair();
   }
 
@@ -306,7 +327,7 @@ class TimeSearch {
   MovingCheck& check_;
   const MotionWatch& watch_;
   const double step_;  ///< of departures, s
-  double start_speed_;
+  double start_speed_, first_stop_;
   std::vector<double> places_, passes_;  ///< of stations: s, and when the fastest law passes
   std::vector<VectorXd> postures_;
   std::vector<std::optional<std::vector<FreeTime>>> free_times_;

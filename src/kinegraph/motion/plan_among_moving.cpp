@@ -5,7 +5,6 @@
 
 #include "kinegraph/motion/moving_timing.h"
 #include "kinegraph/motion/plan_timing.h"
-#include "kinegraph/spline/curve_part.h"
 
 namespace kinegraph {
 
@@ -36,7 +35,7 @@ class PlanAmongMoving {
         options_(options),
         start_(start),
         known_(known),
-        limits_(planLimits(config, options)),
+        limits_(limitsFromStart(planLimits(config, options), options)),
         scene_(std::make_shared<const MovingScene>(config, options.moving, "planMotion")),
         check_(*scene_, options.margin),
         watch_([this, &watch] { return (watch && watch()) || secondsSinceBegin() > options_.time_limit; }),
@@ -78,7 +77,7 @@ class PlanAmongMoving {
     still.moving.clear();
     still.seed = seed;
     if (was_reached_) still.evaluations = std::min(still.evaluations, kOtherEffort);
-    if (std::isfinite(still.time_limit)) still.time_limit = std::max(1e-9, still.time_limit - secondsSinceBegin());
+    still.time_limit = options_.timeLeft(secondsSinceBegin());
     MotionPlan plan = planInMotion(scene, goal_, still, start_, user_watch_, known_);
     if (!plan.feasible()) {
       if (!was_reached_) failure_ = std::move(plan);
@@ -149,20 +148,19 @@ class PlanAmongMoving {
     PlanOptions still = options_;
     still.moving.clear();
     still.evaluations = std::min(still.evaluations, kOtherEffort);
+    KnownCurves known = known_;
+    known.to_goal.clear();
     for (const VectorXd& refuge : refuges(scene, failed_goal_)) {
       if (watch_()) return;
-      const MotionPlan aside = planInMotion(scene, MotionGoal(refuge), still, start_, user_watch_, {});
+      still.time_limit = options_.timeLeft(secondsSinceBegin());
+      const MotionPlan aside = planInMotion(scene, MotionGoal(refuge), still, start_, user_watch_, known);
       PlanOptions at_rest = still;
-      at_rest.start_velocity = {};
+      at_rest.time_limit = options_.timeLeft(secondsSinceBegin());
+      at_rest.start_velocity = at_rest.start_acceleration = {};
       MotionPlan onward = planInMotion(scene, goal_, at_rest, refuge, user_watch_, {});
       if (!aside.feasible() || !onward.feasible()) continue;
-      MatrixXd rows(aside.path.rows() + onward.path.rows() - 1, aside.path.cols());
-      rows << aside.path, onward.path.bottomRows(onward.path.rows() - 1);
-      RetimeOptions timing;
-      timing.start_velocity = options_.start_velocity;
-      onward.timed = retime(rows, joined(aside.timed.curve(), onward.timed.curve()), limits_, timing);
-      if (!onward.timed.feasible()) continue;
-      onward.path = onward.first_way = rows;
+      onward.timed = inTurn(aside.timed, onward.timed);
+      onward.path = onward.first_way = onward.timed.path;
       onward.length += aside.length;
       onward.kept = std::min(aside.kept, onward.kept);
       consider(std::move(onward), "by a place where nothing comes");

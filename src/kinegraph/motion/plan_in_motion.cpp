@@ -1,6 +1,7 @@
 #include "kinegraph/motion/plan_in_motion.h"
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 
 #include "kinegraph/motion/eased_start.h"
@@ -37,16 +38,6 @@ MatrixXd pointsAt(const PathCurve& curve, const std::vector<double>& places) {
   return points;
 }
 
-/// The motion of a law that is known; of its phases, s says on which pieces they are.
-TimedPath timedBy(TimeLaw law, const MatrixXd& rows, const PathCurve& curve) {
-  std::vector<LawPhase> phases = law.phases();
-  for (LawPhase& phase : phases) phase.piece = curve.pieceAt(.5 * (phase.begin.s + phase.end));
-  law = TimeLaw(std::move(phases), law.duration());
-  VectorXd times(Eigen::Index(curve.marks().size()));
-  for (Eigen::Index i = 0; i < times.size(); ++i) times[i] = law.timeOf(curve.marks()[std::size_t(i)]);
-  return TimedPath::fromParts(RetimeStatus::timed, "", rows, std::move(times), curve, std::move(law));
-}
-
 /// The same curve with marks at all of these places.
 PathCurve marked(const PathCurve& curve) {
   PathCurve::Parts parts = curve.parts();
@@ -66,7 +57,7 @@ class PlanInMotion {
         velocity_(options.start_velocity),
         acceleration_(options.start_acceleration),
         watch_(watch),
-        limits_(planLimits(config, options)),
+        limits_(limitsFromStart(planLimits(config, options), options)),
         space_(*config.program()),
         scene_(config.state()) {
     at_rest_.start_velocity = at_rest_.start_acceleration = {};
@@ -79,27 +70,41 @@ class PlanInMotion {
       return std::move(best_);
     for (const KnownCurves::Timed& rest : known.to_goal)
       if (takeWhole(rest)) return std::move(best_);
-    if (velocity_.isZero(0.)) return planFromRest(config_, goal_, at_rest_, start_, watch_);
+    if (velocity_.isZero(0.)) return planOnward(start_);
     tryAll(known);
-    if (!best_.feasible() && acceleration_.size() > 0 && !isStopped()) {
-      acceleration_ = {};
-      tryAll(known);
-      if (best_.feasible()) best_.notes.push_back("the motion begins without the start acceleration");
-    }
-    if (!best_.feasible() && best_.message.empty()) {
-      best_.status = PlanStatus::no_way;
-      best_.message = cat("the motion cannot come to rest: ", why_);
-    }
+    if (!best_.feasible() && best_.message.empty()) fail();
     return std::move(best_);
   }
 
  private:
-  bool isStopped() const { return watch_ && watch_(); }
+  bool isCancelled() const { return watch_ && watch_(); }
+  bool isStopped() const { return isCancelled() || seconds() > options_.time_limit; }
+  double seconds() const { return std::chrono::duration<double>(std::chrono::steady_clock::now() - began_).count(); }
+
+  /// Nothing was planned.
+  void fail() {
+    if (isCancelled()) {
+      best_.status = PlanStatus::cancelled;
+      best_.message = "cancelled before the motion came to rest";
+    } else if (isStopped()) {
+      best_.status = PlanStatus::out_of_time;
+      best_.message = cat("time limit of ", options_.time_limit, " s; no way to come to rest was found");
+    } else {
+      best_.status = PlanStatus::no_way;
+      best_.message = cat("the motion cannot come to rest: ", why_);
+    }
+  }
+
+  /// From an end of the first piece on, in the time that is left.
+  MotionPlan planOnward(const VectorXd& from) {
+    at_rest_.time_limit = options_.timeLeft(seconds());
+    return planFromRest(config_, goal_, at_rest_, from, watch_);
+  }
 
   void tryAll(const KnownCurves& known) {
     const Lead eased = easing();
-    for (const double farther : kLineFactors)
-      if (!isStopped()) tryLine(eased, farther);
+    for (const double farther : kLineFactors)  // the first one finds straight motions also where there is no time
+      if (farther == kLineFactors[0] || !isStopped()) tryLine(eased, farther);
     for (const PathCurve& curve : known.to_rest)
       if (!best_.feasible() && !isStopped()) tryLead({marked(curve), {}, "as before"});
     for (const KnownCurves::Timed& stop : known.to_stop)
@@ -114,16 +119,14 @@ class PlanInMotion {
             .constraint_tolerance = options_.constraint_tolerance};
   }
 
-  /// Does what the motion begins with keep the limits? What rounding adds to it widens them.
-  bool allowed(const char* what, const VectorXd& given, VectorXd& limits) {
+  /// Does what the motion begins with keep the limits?
+  bool allowed(const char* what, const VectorXd& given, const VectorXd& limits) {
     for (Eigen::Index j = 0; j < given.size(); ++j) {
-      if (std::abs(given[j]) > limits[j] * (1. + kAboveLimits)) {
-        best_.status = PlanStatus::start_blocked;
-        best_.message =
-            cat("the start ", what, " of ", space_.nameOf(int(j)), " is ", given[j], "; its limit is ", limits[j]);
-        return false;
-      }
-      limits[j] = std::max(limits[j], std::abs(given[j]) * (1. + 1e-12));
+      if (std::abs(given[j]) <= limits[j]) continue;
+      best_.status = PlanStatus::start_blocked;
+      best_.message =
+          cat("the start ", what, " of ", space_.nameOf(int(j)), " is ", given[j], "; its limit is ", limits[j]);
+      return false;
     }
     return true;
   }
@@ -241,7 +244,7 @@ class PlanInMotion {
       why_ = cat("going on ", lead.how, " is not free");
       return;
     }
-    MotionPlan plan = planFromRest(config_, goal_, at_rest_, end, watch_);
+    MotionPlan plan = planOnward(end);
     if (!plan.feasible()) {
       if (!best_.feasible()) best_ = std::move(plan);
       return;
@@ -250,9 +253,9 @@ class PlanInMotion {
     const MatrixXd before = pointsAt(lead.curve, lead.curve.marks());
     MatrixXd rows(before.rows() + plan.path.rows() - 1, before.cols());
     rows << before, plan.path.bottomRows(plan.path.rows() - 1);
-    const PathCurve whole = joined(lead.curve, plan.timed.curve());
-    TimedPath timed = lead.law.phases().empty() ? retime(rows, whole, limits_, timing())
-                                                : timedBy(lawBehind(lead, plan.timed.law()), rows, whole);
+    TimedPath timed = lead.law.phases().empty()
+                          ? retime(rows, joined(lead.curve, plan.timed.curve()), limits_, timing())
+                          : inTurn(timedBy(lead.law, before, lead.curve), plan.timed);
     if (eased) {
       TimedPath smoother = retime(rows, rounded(*eased, rows, steering), limits_, timing());
       if (smoother.feasible() && (!timed.feasible() || smoother.duration() < timed.duration()))
@@ -271,13 +274,6 @@ class PlanInMotion {
     plan.path = std::move(rows);
     plan.timed = std::move(timed);
     best_ = std::move(plan);
-  }
-
-  /// The law of a lead, and then another one along what follows.
-  static TimeLaw lawBehind(const Lead& lead, const TimeLaw& onward) {
-    TimeLaw law = lead.law;
-    law.append(CurvePart{{}, lead.curve.length(), 0}.onWhole(onward));
-    return law;
   }
 
   /// The lines through these points, the first of which are on an eased curve, with rounded corners.
@@ -303,9 +299,10 @@ class PlanInMotion {
   const PlanOptions& options_;
   PlanOptions at_rest_;
   const VectorXd start_, velocity_;
-  VectorXd acceleration_;
+  const VectorXd acceleration_;
   const MotionWatch& watch_;
-  MotionLimits limits_;
+  const std::chrono::steady_clock::time_point began_ = std::chrono::steady_clock::now();
+  const MotionLimits limits_;
   const JointSpace space_;
   const State scene_;
   MotionEnd first_;
@@ -313,7 +310,19 @@ class PlanInMotion {
   std::string why_;
 };
 
+void widen(VectorXd& limits, const VectorXd& given) {
+  for (Eigen::Index j = 0; j < given.size(); ++j)
+    if (std::abs(given[j]) <= limits[j] * (1. + kAboveLimits))
+      limits[j] = std::max(limits[j], std::abs(given[j]) * (1. + 1e-12));
+}
+
 }  // namespace
+
+MotionLimits limitsFromStart(MotionLimits limits, const PlanOptions& options) {
+  widen(limits.velocity, options.start_velocity);
+  widen(limits.acceleration, options.start_acceleration);
+  return limits;
+}
 
 MotionPlan planInMotion(const Config& config, const MotionGoal& goal, const PlanOptions& options, const VectorXd& start,
                         const MotionWatch& watch, const KnownCurves& known) {

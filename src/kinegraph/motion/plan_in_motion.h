@@ -16,6 +16,10 @@ struct KnownCurves {
   std::vector<Timed> to_stop;      ///< to where it would stand still next
 };
 
+/// Limits that a motion keeps which begins with options.start_velocity and start_acceleration: where rounding has made these
+/// larger than the limits, they are the limits.
+MotionLimits limitsFromStart(MotionLimits limits, const PlanOptions& options);
+
 /// planMotion among obstacles that stand still, from options.start_velocity: from rest if that is empty or zero.
 ///
 /// A known curve to the goal is taken if it is free. Otherwise the motion first goes straight on, as far as it takes to
@@ -23,7 +27,6 @@ struct KnownCurves {
 /// the motion stops there. The fastest of these counts. Known curves to where it is at rest come last.
 ///
 /// With options.start_acceleration a curve leads to the line, on which each dof's acceleration goes to zero at a constant jerk.
-/// Where nothing can be timed so, the motion begins without acceleration, and a note says so.
 MotionPlan planInMotion(const Config& config, const MotionGoal& goal, const PlanOptions& options, const VectorXd& start,
                         const MotionWatch& watch, const KnownCurves& known = {});
 

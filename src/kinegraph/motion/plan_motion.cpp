@@ -1,5 +1,6 @@
 #include "kinegraph/motion/plan_motion.h"
 
+#include <chrono>
 #include <cmath>
 
 #include "kinegraph/motion/plan_among_moving.h"
@@ -14,10 +15,27 @@ namespace {
 /// How far along its curve it may come to rest, as multiples of a guess.
 constexpr double kCurveFactors[] = {1.05, 1.5, 2.5, 4.};
 
+/// From a start acceleration, or without it where nothing can be timed so, and then a note says it.
 MotionPlan planWith(const Config& config, const MotionGoal& goal, const PlanOptions& options, const VectorXd& start,
                     const MotionWatch& watch, const KnownCurves& known) {
-  MotionPlan plan = options.moving.empty() ? planInMotion(config, goal, options, start, watch, known)
-                                           : planAmongMoving(config, goal, options, start, watch, known);
+  const auto began = std::chrono::steady_clock::now();
+  const auto plan_by = [&](const PlanOptions& by) {
+    return by.moving.empty() ? planInMotion(config, goal, by, start, watch, known)
+                             : planAmongMoving(config, goal, by, start, watch, known);
+  };
+  MotionPlan plan = plan_by(options);
+  const bool accelerates = options.start_acceleration.size() > 0 && !options.start_acceleration.isZero(0.);
+  if (accelerates && (plan.status == PlanStatus::no_way || plan.status == PlanStatus::no_timing)) {
+    PlanOptions without = options;
+    without.start_acceleration = {};
+    const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - began).count();
+    without.time_limit = options.timeLeft(seconds);
+    MotionPlan other = plan_by(without);
+    if (other.feasible()) {
+      plan = std::move(other);
+      plan.notes.push_back("the motion begins without the start acceleration");
+    }
+  }
   plan.options = options;
   return plan;
 }
@@ -72,8 +90,7 @@ MotionPlan replanMotion(const Config& config, const MotionPlan& running, double 
   PlanOptions options = given.value_or(running.optionsAt(time));
   options.start_velocity = now.velocity;
   options.start_acceleration = {};
-  if (options.jerk.size() > 0 && options.moving.empty() && !now.velocity.isZero(0.))
-    options.start_acceleration = now.acceleration;
+  if (options.jerk.size() > 0 && !now.velocity.isZero(0.)) options.start_acceleration = now.acceleration;
   options.validateFor(config.getJointDimension());
   if (now.q.size() != config.getJointDimension())
     throw ValueError(

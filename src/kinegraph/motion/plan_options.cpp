@@ -1,10 +1,13 @@
 #include "kinegraph/motion/plan_options.h"
 
+#include <algorithm>
+
 namespace kinegraph {
 
 namespace {
 
 constexpr int kMostSlices = 10000;
+constexpr double kAMoment = 1e-9;  // s
 
 void validateLimit(const VectorXd& limit, const char* name, int dofs) {
   if (limit.size() > 1 && limit.size() != dofs)
@@ -25,8 +28,6 @@ void validateStartAcceleration(const PlanOptions& options, int dofs) {
     throw ValueError("planMotion: start_acceleration is for motions with limits of the jerk; give jerk, too");
   if (options.start_velocity.size() == 0 || options.start_velocity.isZero(0.))
     throw ValueError("planMotion: there is a start_acceleration and no start_velocity; from rest there is none");
-  if (!options.moving.empty())
-    throw ValueError("planMotion: among moving obstacles the motion begins without start_acceleration");
 }
 
 }  // namespace
@@ -82,6 +83,8 @@ const OptionTable<PlanOptions>& planOptionTable() {
 }
 
 void PlanOptions::validate() const { planOptionTable().validate(*this); }
+
+double PlanOptions::timeLeft(double seconds) const { return std::max(kAMoment, time_limit - seconds); }
 
 void PlanOptions::validateFor(int dofs) const {
   validate();

@@ -64,6 +64,9 @@ struct PlanOptions {
 
   /// The same for a scene with that many dofs.
   void validateFor(int dofs) const;
+
+  /// What is left of time_limit after so many seconds, and a moment at least.
+  double timeLeft(double seconds) const;
 };
 
 const OptionTable<PlanOptions>& planOptionTable();

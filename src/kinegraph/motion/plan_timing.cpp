@@ -5,6 +5,7 @@
 #include <memory>
 
 #include "kinegraph/scene/motor_limits.h"
+#include "kinegraph/spline/curve_part.h"
 
 namespace kinegraph {
 
@@ -87,6 +88,23 @@ bool isFree(Steering& steering, const PathCurve& curve, int parts_of_piece) {
     if (!is_free(points, width * width / (parts * parts) / 8. * bend)) return false;
   }
   return true;
+}
+
+TimedPath timedBy(TimeLaw law, const MatrixXd& rows, const PathCurve& curve) {
+  std::vector<LawPhase> phases = law.phases();
+  for (LawPhase& phase : phases) phase.piece = curve.pieceAt(.5 * (phase.begin.s + phase.end));
+  law = TimeLaw(std::move(phases), law.duration());
+  VectorXd times(Eigen::Index(curve.marks().size()));
+  for (Eigen::Index i = 0; i < times.size(); ++i) times[i] = law.timeOf(curve.marks()[std::size_t(i)]);
+  return TimedPath::fromParts(RetimeStatus::timed, "", rows, std::move(times), curve, std::move(law));
+}
+
+TimedPath inTurn(const TimedPath& first, const TimedPath& second) {
+  MatrixXd rows(first.path.rows() + second.path.rows() - 1, first.path.cols());
+  rows << first.path, second.path.bottomRows(second.path.rows() - 1);
+  TimeLaw law = first.law();
+  law.append(CurvePart{{}, first.curve().length(), 0}.onWhole(second.law()));
+  return timedBy(std::move(law), rows, joined(first.curve(), second.curve()));
 }
 
 TimedPath timeMotion(Steering& steering, const MatrixXd& path, const MotionLimits& limits, double blend) {

@@ -26,6 +26,13 @@ BlendCheck freeBlends(Steering& steering);
 /// in so many parts, with room for how far these leave their chords.
 bool isFree(Steering& steering, const PathCurve& curve, int parts);
 
+/// The motion of a law that is known along a curve, which is as `rows` at its marks; of its phases, s says on which pieces they
+/// are.
+TimedPath timedBy(TimeLaw law, const MatrixXd& rows, const PathCurve& curve);
+
+/// One motion and then another one: the first ends at rest where the second begins at rest.
+TimedPath inTurn(const TimedPath& first, const TimedPath& second);
+
 /// The fastest motion along a path. Corners are rounded where that keeps the margins and constraints; at others it
 /// stops.
 TimedPath timeMotion(Steering& steering, const MatrixXd& path, const MotionLimits& limits, double blend);
