@@ -35,7 +35,7 @@ int main() try {
   const MotionPlan around = planMotion(C, goal, {.margin = .01}, start);
   std::cout << around.explain() << "\n";
   if (!around.feasible() || around.clearance() < .0099) return 1;
-  const Config picture = planPicture(C, around);  // with the trees, the way as it was found, and the path, as lines
+  const Config picture = around.picture(C);  // with the trees, the way as it was found, and the path, as lines
   std::cout << picture.getFrames().size() - C.getFrames().size() << " frames of lines\n";
 
   // To where the gripper is at a place: several postures are goals at once.

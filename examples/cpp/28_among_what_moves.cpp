@@ -59,7 +59,7 @@ int main() try {
   const double now = .4 * plan.duration();
   VectorXd elsewhere = goal;
   elsewhere[0] -= .3, elsewhere[1] += .3;
-  const MotionPlan bend = replanMotion(C, plan, now, MotionGoal(elsewhere));
+  const MotionPlan bend = plan.replan(C, now, MotionGoal(elsewhere));
   std::cout << "another goal after " << now << " s: " << bend.str() << "\n";
   if (!bend.feasible() || (bend.at(0.).velocity - plan.at(now).velocity).norm() > 1e-9) return 1;
 

@@ -134,7 +134,7 @@ void bindPathFinder(nb::module_& m) {
            docs::path_finder::setExplicitCollisionPairs)
       .def("solve", solve, "verbose"_a = 1, docs::path_finder::solve)
       .def(
-          "get_resampledPath", [](const Finder& f, int T) { return toNumpy(f.resampledPath(T)); }, "T"_a,
+          "get_resampledPath", [](const Finder& f, int T) { return toNumpy(f.get_resampledPath(T)); }, "T"_a,
           docs::path_finder::getResampledPath)
       .def("view", viewFinder, "pause"_a, "message"_a = nb::none(), "play"_a = false, docs::path_finder::view);
 }

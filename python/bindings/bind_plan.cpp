@@ -8,10 +8,8 @@
 #include "docs/plan.h"
 #include "feature_arguments.h"
 #include "ik_targets.h"
-#include "kinegraph/motion/plan_motions.h"
-#include "kinegraph/motion/plan_picture.h"
 #include "kinegraph/motion/refine_path.h"
-#include "option_class.h"
+#include "plan_objects.h"
 #include "python_names.h"
 
 namespace kinegraph::python {
@@ -76,14 +74,6 @@ void setLarge(const OptionClass<PlanOptions>&, PlanOptions& options, const std::
   }
 }
 
-const OptionClass<PlanOptions>& planOptionClass() {
-  static const OptionClass<PlanOptions> options(
-      planOptionTable(),
-      {{"velocity", "acceleration", "jerk", "start_velocity", "start_acceleration", "constraints", "moving"},
-       setLarge});
-  return options;
-}
-
 PlanOptions optionsFrom(nb::kwargs given, PlanOptions options = {}) {
   planOptionClass().setFields(options, given);
   return options;
@@ -115,59 +105,66 @@ MotionGoal goalOf(const PyConfig& config, nb::handle given) {
                        "state, or MotionConstraints"));
 }
 
-MotionPlan plan(const PyConfig& config, nb::handle goal, const std::optional<Numbers>& start, nb::kwargs fields) {
+PyMotionPlan plan(const PyConfig& config, nb::handle goal, const std::optional<Numbers>& start, nb::kwargs fields) {
   const PlanOptions options = optionsFrom(fields);
   const MotionGoal to = goalOf(config, goal);
   const std::optional<VectorXd> from = start ? std::optional(start->values) : std::nullopt;
-  const Config scene(config);  // as it is now
+  const auto scene = std::make_shared<const Config>(config);  // as it is now
   const nb::gil_scoped_release unlock;
   CheckInterrupts check;
-  return planMotion(scene, to, options, from, [&] {
-    check();
-    return false;
-  });
+  return {planMotion(*scene, to, options, from,
+                     [&] {
+                       check();
+                       return false;
+                     }),
+          scene};
 }
 
-MotionPlan replan(const MotionPlan& running, const PyConfig& config, double at, nb::handle goal, nb::kwargs fields) {
+PyMotionPlan replan(const PyMotionPlan& running, const PyConfig& config, double at, nb::handle goal,
+                    nb::kwargs fields) {
   const PlanOptions options = optionsFrom(fields, running.optionsAt(at));
   const std::optional<MotionGoal> to = goal.is_none() ? std::nullopt : std::optional(goalOf(config, goal));
-  const Config scene(config);
+  const auto scene = std::make_shared<const Config>(config);
   const nb::gil_scoped_release unlock;
   CheckInterrupts check;
-  return replanMotion(scene, running, at, to, options, [&] {
-    check();
-    return false;
-  });
+  return {running.replan(*scene, at, to, options,
+                         [&] {
+                           check();
+                           return false;
+                         }),
+          scene};
 }
 
-std::unique_ptr<MotionPlans> plans(const PyConfig& config, nb::handle goal, const std::optional<Numbers>& start,
-                                   nb::kwargs fields) {
-  return std::make_unique<MotionPlans>(Config(config), goalOf(config, goal), optionsFrom(fields),
-                                       start ? std::optional(start->values) : std::nullopt);
+std::unique_ptr<PyMotionPlans> plans(const PyConfig& config, nb::handle goal, const std::optional<Numbers>& start,
+                                     nb::kwargs fields) {
+  const auto scene = std::make_shared<const Config>(config);
+  return std::unique_ptr<PyMotionPlans>(
+      new PyMotionPlans{scene, MotionPlans(*scene, goalOf(config, goal), optionsFrom(fields),
+                                           start ? std::optional(start->values) : std::nullopt)});
 }
 
-MotionPlan nextPlan(MotionPlans& plans) {
+PyMotionPlan nextPlan(PyMotionPlans& plans) {
   std::optional<MotionPlan> plan;
   {
     const nb::gil_scoped_release unlock;
     CheckInterrupts check;
-    plan = plans.next([&] {
+    plan = plans.plans.next([&] {
       check();
       return false;
     });
   }
   if (!plan) throw nb::stop_iteration();
-  return std::move(*plan);
+  return {std::move(*plan), plans.config};
 }
 
-nb::typed<nb::dict, nb::str, Array> movingAt(const MotionPlan& plan, double t) {
+nb::typed<nb::dict, nb::str, Array> movingAt(const PyMotionPlan& plan, double t) {
   nb::dict all;
   const std::vector<VectorXd> values = plan.movingAt(t);
   for (std::size_t i = 0; i < values.size(); ++i) all[plan.options.moving[i].frame.c_str()] = toNumpy(values[i]);
   return nb::borrow<nb::typed<nb::dict, nb::str, Array>>(all);
 }
 
-nb::typed<nb::tuple, Array, Array, Array> at(const MotionPlan& plan, double t) {
+nb::typed<nb::tuple, Array, Array, Array> at(const PyMotionPlan& plan, double t) {
   const MotionState state = plan.at(t);
   return nb::make_tuple(toNumpy(state.q), toNumpy(state.velocity), toNumpy(state.acceleration));
 }
@@ -184,7 +181,7 @@ nb::typed<nb::list, Attributes> dictsOf(const std::vector<Entry>& entries, const
   return list;
 }
 
-nb::typed<nb::list, Attributes> stages(const MotionPlan& plan) {
+nb::typed<nb::list, Attributes> stages(const PyMotionPlan& plan) {
   return dictsOf(plan.stages, [](const PlanStage& stage, Attributes& one) {
     one["name"] = stage.name;
     one["seconds"] = stage.seconds;
@@ -194,7 +191,7 @@ nb::typed<nb::list, Attributes> stages(const MotionPlan& plan) {
 }
 
 /// Postures and parents of both trees.
-nb::typed<nb::list, nb::typed<nb::tuple, Array, IdArray>> trees(const MotionPlan& plan) {
+nb::typed<nb::list, nb::typed<nb::tuple, Array, IdArray>> trees(const PyMotionPlan& plan) {
   nb::list list;
   for (const MotionTree& tree : plan.trees) {
     const std::size_t n = plan.space ? std::size_t(plan.space->dofs()) : 0, count = std::size_t(tree.size());
@@ -208,7 +205,7 @@ nb::typed<nb::list, nb::typed<nb::tuple, Array, IdArray>> trees(const MotionPlan
   return list;
 }
 
-nb::typed<nb::list, Attributes> obstaclesOf(const MotionPlan& plan) {
+nb::typed<nb::list, Attributes> obstaclesOf(const PyMotionPlan& plan) {
   return dictsOf(plan.obstacles, [](const MetObstacle& met, Attributes& one) {
     one["name"] = met.name;
     one["share"] = met.share;
@@ -216,11 +213,11 @@ nb::typed<nb::list, Attributes> obstaclesOf(const MotionPlan& plan) {
   });
 }
 
-PyConfig planPictureIn(const MotionPlan& plan, const PyConfig& config, const std::optional<FrameNames>& frames) {
-  return PyConfig{planPicture(config, plan, frames ? toNames(*frames) : std::vector<std::string>()), nullptr};
+PyConfig planPictureIn(const PyMotionPlan& plan, const PyConfig& config, const std::optional<FrameNames>& frames) {
+  return PyConfig{plan.picture(config, frames ? toNames(*frames) : std::vector<std::string>()), nullptr};
 }
 
-int viewPlan(const MotionPlan& plan, const PyConfig& config, const std::optional<FrameNames>& frames, bool pause) {
+int viewPlan(const PyMotionPlan& plan, const PyConfig& config, const std::optional<FrameNames>& frames, bool pause) {
   const nb::object shown = nb::cast(planPictureIn(plan, config, frames));
   if (!plan.feasible()) return nb::cast<int>(shown.attr("view")(pause, inPython(plan.message)));
   const double seconds = std::max(plan.options.timing ? plan.duration() : plan.length, 1e-3);
@@ -242,8 +239,8 @@ Array refined(MatrixXd (*refine)(const Config&, const MatrixXd&, const RefineOpt
   return toNumpy(result);
 }
 
-void bindConstraint(nb::module_& m) {
-  nb::class_<MotionConstraint>(m, "MotionConstraint", docs::plan::constraint)
+nb::class_<MotionConstraint> bindConstraint(nb::module_& m) {
+  return nb::class_<MotionConstraint>(m, "MotionConstraint", docs::plan::constraint)
       .def(
           "__init__",
           [](MotionConstraint* self, const FeatureArgument& feature, const FrameNames& frames, ObjectiveType type,
@@ -257,28 +254,28 @@ void bindConstraint(nb::module_& m) {
       });
 }
 
-void bindMotionPlan(nb::module_& m) {
+nb::class_<PyMotionPlan> bindMotionPlan(nb::module_& m) {
   nb::enum_<PlanStatus> status(m, "PlanStatus", "How planMotion ended.");
   for (int i = 0; i <= int(PlanStatus::cancelled); ++i) {
     static std::vector<std::string> names(std::size_t(PlanStatus::cancelled) + 1);
     names[std::size_t(i)] = planStatusName(PlanStatus(i));
     status.value(names[std::size_t(i)].c_str(), PlanStatus(i));
   }
-  nb::class_<MotionPlan>(m, "MotionPlan", "What planMotion found.")
+  return nb::class_<PyMotionPlan>(m, "MotionPlan", docs::plan::type)
       .def_prop_ro("feasible", &MotionPlan::feasible, "True if there is a motion. It is free at all times.")
       .def_ro("status", &MotionPlan::status, "How it ended, a PlanStatus.")
       .def_prop_ro(
-          "message", [](const MotionPlan& p) { return inPython(p.message); },
+          "message", [](const PyMotionPlan& p) { return inPython(p.message); },
           "\"\" if there is a motion; else why there is none.")
       .def_ro("notes", &MotionPlan::notes, "What is to be known of the motion, as that the start was in contact.")
       .def_prop_ro(
-          "path", [](const MotionPlan& p) { return toNumpy(p.path); },
+          "path", [](const PyMotionPlan& p) { return toNumpy(p.path); },
           "Its postures, shape (K, n), rad or m, start and goal included.")
       .def_prop_ro(
-          "first_way", [](const MotionPlan& p) { return toNumpy(p.first_way); },
+          "first_way", [](const PyMotionPlan& p) { return toNumpy(p.first_way); },
           "The path before it was shortened, shape (L, n).")
       .def_prop_ro(
-          "times", [](const MotionPlan& p) { return toNumpy(p.times()); },
+          "times", [](const PyMotionPlan& p) { return toNumpy(p.times()); },
           "When the motion passes these postures, or is nearest to them where corners are rounded, shape (K,), s.")
       .def_prop_ro("duration", &MotionPlan::duration, "s; 0 without a motion.")
       .def_ro("length", &MotionPlan::length, "Of the path, Euclidean in q.")
@@ -295,7 +292,7 @@ void bindMotionPlan(nb::module_& m) {
            docs::plan::replan)
       .def("clearance", &MotionPlan::clearance, "most"_a = .1, docs::plan::clearance)
       .def(
-          "explain", [](const MotionPlan& p) { return inPython(p.explain()); },
+          "explain", [](const PyMotionPlan& p) { return inPython(p.explain()); },
           "Several lines: how it ended, what each stage took, how the trees look, and the clearance.")
       .def_prop_ro("obstacles", obstaclesOf,
                    "Where no way was found: what most motions ended at, dicts of name, share, by (frames that ran "
@@ -305,21 +302,30 @@ void bindMotionPlan(nb::module_& m) {
       .def("view", viewPlan, "config"_a, "frames"_a = nb::none(), "pause"_a = false,
            cat(docs::plan::view, lines::frames, docs::plan::viewRest, lines::raises).c_str())
       .def("__bool__", &MotionPlan::feasible)
-      .def("__repr__", [](const MotionPlan& p) { return cat("<MotionPlan ", inPython(p.str()), ">"); });
+      .def("__repr__", [](const PyMotionPlan& p) { return cat("<MotionPlan ", inPython(p.str()), ">"); });
 }
 
 }  // namespace
 
+const OptionClass<PlanOptions>& planOptionClass() {
+  static const OptionClass<PlanOptions> options(
+      planOptionTable(),
+      {{"velocity", "acceleration", "jerk", "start_velocity", "start_acceleration", "constraints", "moving"},
+       setLarge});
+  return options;
+}
+
 void bindPlan(nb::module_& m) {
-  bindConstraint(m);
-  bindMotionPlan(m);
+  nb::class_<MotionConstraint> constraint = bindConstraint(m);
+  nb::class_<PyMotionPlan> motion_plan = bindMotionPlan(m);
+  bindPlanCopies(constraint, motion_plan);
   const std::string doc = cat(docs::plan::planMotion, planOptionClass().docs("        "), docs::plan::planMotionRest);
   m.def(
       "planMotion", plan, "config"_a, "goal"_a, "start"_a = nb::none(), "fields"_a,
       nb::sig("def planMotion(config: Config, goal: typing.Any, start: numpy.typing.ArrayLike | None = None, **fields: "
               "typing.Any) -> MotionPlan"),
       doc.c_str());
-  nb::class_<MotionPlans>(m, "MotionPlans", "What planMotions gives: MotionPlans, one by one.")
+  nb::class_<PyMotionPlans>(m, "MotionPlans", "What planMotions gives: MotionPlans, one by one.")
       .def(
           "__iter__", [](nb::handle self) { return nb::borrow(self); },
           nb::sig("def __iter__(self) -> collections.abc.Iterator[MotionPlan]"))

@@ -3,61 +3,27 @@
 #include <nanobind/stl/string.h>
 #include <nanobind/stl/vector.h>
 
-#include "feature_arguments.h"
+#include "pickling.h"
 #include "py_komo.h"
 
 namespace kinegraph::python {
 
 namespace {
 
-nb::tuple toTuple(const ContactForce& c) {
-  return nb::make_tuple(c.object, c.from, c.point, c.dofs, c.unit, c.is_free);
-}
-
-ContactForce toContact(nb::handle t) {
-  return {nb::cast<int>(t[0]), nb::cast<int>(t[1]),    nb::cast<int>(t[2]),
-          nb::cast<int>(t[3]), nb::cast<double>(t[4]), nb::cast<bool>(t[5])};
-}
-
-/// A number for a symbol, a tuple for a recipe, or a function.
-nb::object toObject(const FeatureSource& feature) {
-  if (feature.symbol()) return nb::int_(int(*feature.symbol()));
-  const FeatureRecipe* recipe = feature.recipe();
-  if (!recipe) return functionOf(feature);
-  const nb::object contact = recipe->contact ? nb::object(toTuple(*recipe->contact)) : nb::none();
-  return nb::make_tuple(recipe->name, contact, recipe->parameter);
-}
-
-FeatureSource toFeature(nb::object object) {
-  if (nb::isinstance<nb::int_>(object)) return FeatureSymbol(nb::cast<int>(object));
-  if (!nb::isinstance<nb::tuple>(object)) return ownFeature(object);
-  FeatureRecipe recipe{nb::cast<std::string>(object[0]), {}, nb::cast<double>(object[2])};
-  if (!nb::object(object[1]).is_none()) recipe.contact = toContact(object[1]);
-  return recipe;
-}
-
 nb::tuple toTuple(const Objective& o) {
-  const nb::object feature = toObject(o.feature);
+  const nb::object feature = featureState(o.feature);
   return nb::make_tuple(o.name(), feature, o.frames, int(o.type), toNumpy(o.scale), toNumpy(o.target), o.order, o.times,
                         o.from, o.to, o.time_integral, o.without_gravity, o.damped, o.margin, o.slack, o.on_the_way,
                         o.frames_known);
 }
 
-/// An array of shape (rows, columns), rows or columns may be 0.
-MatrixXd toMatrix(nb::handle array) {
-  const auto [rows, columns] = nb::cast<std::pair<Eigen::Index, Eigen::Index>>(array.attr("shape"));
-  const Numbers numbers = nb::cast<Numbers>(array);
-  return Eigen::Map<const Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>>(numbers.values.data(),
-                                                                                                  rows, columns);
-}
-
 Objective toObjective(nb::handle state) {
   const nb::tuple t = nb::cast<nb::tuple>(state);
-  const FeatureSource feature = toFeature(t[1]);
+  const FeatureSource feature = featureFrom(t[1]);
   return {feature,
           nb::cast<std::vector<std::string>>(t[2]),
           ObjectiveType(nb::cast<int>(t[3])),
-          toMatrix(t[4]),
+          matrixFrom(t[4]),
           nb::cast<Numbers>(t[5]).values,
           nb::cast<int>(t[6]),
           nb::cast<std::vector<double>>(t[7]),
@@ -82,7 +48,7 @@ nb::tuple komoState(const PyKomo& komo) {
     modes.append(nb::make_tuple(PyConfig{std::move(mode.config), nullptr}, added));
   }
   for (const Objective& objective : parts.objectives) objectives.append(toTuple(objective));
-  for (const ContactForce& contact : parts.contacts) contacts.append(toTuple(contact));
+  for (const ContactForce& contact : parts.contacts) contacts.append(contactState(contact));
   for (const VectorXd& state : parts.path.states) states.append(toNumpy(state));
   const bool has_config = komo.slices() > 0 || parts.config.getFrameDimension() > 0;
   const nb::object config = has_config ? nb::cast(PyConfig{std::move(parts.config), nullptr}) : nb::none();
@@ -113,7 +79,7 @@ Komo fromState(nb::tuple t) {
   parts.path.mode_of = nb::cast<std::vector<int>>(t[7]);
   parts.path.shown_frames = nb::cast<std::vector<int>>(t[8]);
   for (nb::handle objective : nb::cast<nb::list>(t[9])) parts.objectives.push_back(toObjective(objective));
-  for (nb::handle contact : nb::cast<nb::list>(t[10])) parts.contacts.push_back(toContact(contact));
+  for (nb::handle contact : nb::cast<nb::list>(t[10])) parts.contacts.push_back(contactFrom(contact));
   for (nb::handle state : nb::cast<nb::list>(t[11])) parts.path.states.push_back(nb::cast<Numbers>(state).values);
   return Komo(std::move(parts));
 }

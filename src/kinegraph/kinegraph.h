@@ -46,7 +46,6 @@
 #include "kinegraph/motion/path_finder.h"            // paths between two postures
 #include "kinegraph/motion/plan_motion.h"            // planMotion
 #include "kinegraph/motion/plan_motions.h"           // MotionPlans: better and better ones
-#include "kinegraph/motion/plan_picture.h"           // planPicture, roadmapPicture
 #include "kinegraph/motion/refine_path.h"            // shortcut, smooth
 #include "kinegraph/motion/roadmap.h"                // Roadmap
 #include "kinegraph/nlp/callback_nlp.h"              // problems of your own

@@ -38,7 +38,7 @@ TEST(PlanInMotion, ItGoesOnWithItsVelocityToAnotherGoal) {
   const VectorXd goal{{-1., -1.2}};
   for (const double share : {.1, .3, .5, .7}) {
     const double time = share * running.plan.duration();
-    const MotionPlan plan = replanMotion(running.C, running.plan, time, MotionGoal(goal));
+    const MotionPlan plan = running.plan.replan(running.C, time, MotionGoal(goal));
     ASSERT_TRUE(plan.feasible()) << share << plan.message;
     expectGoesOn(running.plan, time, plan);
     expectSmooth(plan, 1., 4.);
@@ -50,7 +50,7 @@ TEST(PlanInMotion, ItGoesOnWithItsVelocityToAnotherGoal) {
 TEST(PlanInMotion, TheRestOfTheMotionStaysIfNothingHasChanged) {
   const Running running;
   const double time = .4 * running.plan.duration();
-  const MotionPlan plan = replanMotion(running.C, running.plan, time);
+  const MotionPlan plan = running.plan.replan(running.C, time);
   ASSERT_TRUE(plan.feasible()) << plan.message;
   EXPECT_NEAR(plan.duration(), running.plan.duration() - time, 1e-2);
   expectGoesOn(running.plan, time, plan);
@@ -62,7 +62,7 @@ TEST(PlanInMotion, ItGoesAroundWhatHasAppeared) {
   const double time = .3 * running.plan.duration();
   Frame crate = running.C.addFrame("crate");
   crate.setShape(ShapeType::ssBox, {.3, .3, 1., .01}).setPosition({1., .3, 0.}).setContact(1);
-  const MotionPlan plan = replanMotion(running.C, running.plan, time);
+  const MotionPlan plan = running.plan.replan(running.C, time);
   ASSERT_TRUE(plan.feasible()) << plan.message;
   expectGoesOn(running.plan, time, plan);
   expectSmooth(plan, 1., 4.);
@@ -75,7 +75,7 @@ TEST(PlanInMotion, WhereItCannotStopInTimeItSaysSo) {
   const VectorXd ahead = now.q + .3 * now.velocity.normalized();
   Frame crate = running.C.addFrame("crate");
   crate.setShape(ShapeType::ssBox, {.1, .1, 1., .01}).setPosition({ahead[0], ahead[1], 0.}).setContact(1);
-  const MotionPlan plan = replanMotion(running.C, running.plan, .3 * running.plan.duration());
+  const MotionPlan plan = running.plan.replan(running.C, .3 * running.plan.duration());
   EXPECT_FALSE(plan.feasible());
   EXPECT_NE(plan.message.find("cannot come to rest"), std::string::npos) << plan.message;
 }
@@ -109,13 +109,13 @@ TEST(PlanInMotion, ItKeepsClearOfWhatMovesWhileItGoesOn) {
   const MotionPlan first = planMotion(C, VectorXd{{1., 0.}}, options);
   ASSERT_TRUE(first.feasible());
   options.moving = {moves("cart", {{0., poseAt(.3, -1.)}, {1.5, poseAt(.3, .8)}})};
-  const MotionPlan plan = replanMotion(C, first, .6, std::nullopt, options);
+  const MotionPlan plan = first.replan(C, .6, std::nullopt, options);
   ASSERT_TRUE(plan.feasible()) << plan.message;
   expectGoesOn(first, .6, plan);
   expectSmooth(plan, 1., 4.);
   EXPECT_GE(leastOfTime(C, plan, options.moving, 5e-4), .01 - 1e-9);
   // Times of obstacles count from the new motion on.
-  const MotionPlan again = replanMotion(C, plan, .2);
+  const MotionPlan again = plan.replan(C, .2);
   ASSERT_TRUE(again.feasible()) << again.message;
   EXPECT_DOUBLE_EQ(again.options.moving.front().times[1], 1.3);
 }
@@ -168,7 +168,7 @@ TEST(PlanInMotion, ItGoesOnWithItsAccelerationToAnotherGoal) {
   for (const VectorXd& goal : {VectorXd{{-1., -1.2}}, VectorXd{{1.2, -1.}}}) {
     for (const double share : {.02, .1, .25, .4, .55, .7, .85, .95}) {
       const double time = share * running.plan.duration();
-      const MotionPlan plan = replanMotion(running.C, running.plan, time, MotionGoal(goal));
+      const MotionPlan plan = running.plan.replan(running.C, time, MotionGoal(goal));
       ASSERT_TRUE(plan.feasible()) << share << plan.message;
       EXPECT_TRUE(plan.notes.empty()) << share << " " << plan.notes.front();
       expectGoesOn(running.plan, time, plan);
@@ -195,7 +195,7 @@ TEST(PlanInMotion, AmongWhatMovesItGoesOnWithItsAcceleration) {
         options.moving = {moves("cart", {{begin, poseAt(.4, -1.6)}, {begin + 2.4 / speed, poseAt(.4, .8)}})};
         PlanOptions later = options;
         later.moving.front().times.array() -= time;
-        const MotionPlan plan = replanMotion(C, first, time, goal, later);
+        const MotionPlan plan = first.replan(C, time, goal, later);
         ASSERT_TRUE(plan.feasible()) << share << " " << plan.message;
         for (const std::string& note : plan.notes) EXPECT_EQ(note.find("without"), std::string::npos) << share;
         expectGoesOn(first, time, plan);
@@ -226,7 +226,7 @@ TEST(PlanInMotion, AmongWhatMovesAStartAccelerationIsThatOfTheMotion) {
 TEST(PlanInMotion, TheRestOfAGentleMotionIsThatMotion) {
   const RunningGently running;
   const double time = .3 * running.plan.duration();
-  const MotionPlan plan = replanMotion(running.C, running.plan, time);
+  const MotionPlan plan = running.plan.replan(running.C, time);
   ASSERT_TRUE(plan.feasible()) << plan.message;
   EXPECT_NEAR(plan.duration(), running.plan.duration() - time, 1e-12);
   for (double t = 0.; t < plan.duration(); t += .01) {

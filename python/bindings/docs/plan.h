@@ -76,6 +76,9 @@ Raises:
     FrameNotFound: A frame is not in the scene; told with the first motion.
     NotFound: The scene knows no joint state of that name; told with the first motion.)";
 
+inline constexpr char type[] = R"(What planMotion found. It can be copied and pickled, as to send it from one process to
+another; its scene as it was then goes along.)";
+
 inline constexpr char at[] = R"(Where the motion is at a time, and how it moves.
 
 Args:

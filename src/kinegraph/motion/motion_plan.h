@@ -1,6 +1,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -62,6 +63,22 @@ class MotionPlan {
 
   /// Where moving obstacles are at time t (s): values as in MovingObstacle, in the order of options.moving.
   std::vector<VectorXd> movingAt(double t) const;
+
+  /// A motion that goes on from where this one is at time t (s), and as fast as it is there, to a goal, or to its own one, in
+  /// a scene that may have changed. With limits of the jerk it has the acceleration of that time, too. Its own time begins at
+  /// 0 then. If the rest of the present motion leads to the goal and is free, it stays. No options: optionsAt(t). Throws
+  /// ValueError if there is no motion.
+  MotionPlan replan(const Config& config, double t, const std::optional<MotionGoal>& goal = std::nullopt,
+                    const std::optional<PlanOptions>& options = std::nullopt, const MotionWatch& watch = {}) const;
+
+  /// A copy of the scene that was planned in, and lines in it along which frames went: "start tree" (blue) and "goal tree"
+  /// (orange) of the last attempt, "first way" (gray), and the "path" (green) that came of it. Where there is none, the
+  /// obstacle that most motions ended at is red. Frames are given by names; none: one on each link that no other one hangs
+  /// on. Throws ValueError for a scene with another number of dofs, FrameNotFound for a name.
+  Config picture(const Config& config, const std::vector<std::string>& frames = {}) const;
+
+  /// Shows the picture in the browser, and plays the motion in it; as Config::view.
+  int view(const Config& config, const std::vector<std::string>& frames = {}, bool pause = false) const;
 
   /// The options, for a motion that begins at time t (s) of this one: times of moving obstacles count from then.
   PlanOptions optionsAt(double t) const;

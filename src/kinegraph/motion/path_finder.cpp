@@ -54,6 +54,10 @@ PathFinder& PathFinder::setProblem(const Config& config) {
   return *this;
 }
 
+PathFinder& PathFinder::setProblem(const Config& config, const VectorXd& start, const VectorXd& goal) {
+  return setProblem(config).setStartGoal(start, goal);
+}
+
 PathFinder& PathFinder::setStartGoal(const VectorXd& start, const VectorXd& goal) {
   start_ = start;
   goal_ = goal;
@@ -127,7 +131,7 @@ MatrixXd PathFinder::search(const State& scene, std::uint64_t seed, const Motion
   return resampleBySteps(space, space.unroll(points), options_.stepsize);
 }
 
-MatrixXd PathFinder::resampledPath(int T) const {
+MatrixXd PathFinder::get_resampledPath(int T) const {
   if (path_.rows() == 0) throw ValueError("get_resampledPath: there is no path; call solve before");
   return resampleByIndex(path_, T);
 }

@@ -42,6 +42,9 @@ class PathFinder {
 
   PathFinder& setProblem(const Config& config);
 
+  /// With the start and the goal, as in setStartGoal.
+  PathFinder& setProblem(const Config& config, const VectorXd& start, const VectorXd& goal);
+
   /// One joint vector each, of any length until `solve`.
   PathFinder& setStartGoal(const VectorXd& start, const VectorXd& goal);
 
@@ -56,7 +59,10 @@ class PathFinder {
   const MatrixXd& path() const { return path_; }
 
   /// T postures along the path, T x n: evenly in its index. Throws ValueError before there is one.
-  MatrixXd resampledPath(int T) const;
+  MatrixXd get_resampledPath(int T) const;
+
+  /// Plays the path in the viewer of the scene; as Config::viewPath. Throws ValueError before there is one.
+  int view(bool pause = false, const std::string& message = {}) const;
 
   const Config* config() const { return config_; }
 

@@ -37,22 +37,24 @@ class PlanAmongMoving {
         known_(known),
         limits_(limitsFromStart(planLimits(config, options), options)),
         scene_(std::make_shared<const MovingScene>(config, options.moving, "planMotion")),
+        still_(scene_->standing()),
         check_(*scene_, options.margin),
         watch_([this, &watch] { return (watch && watch()) || secondsSinceBegin() > options_.time_limit; }),
         user_watch_(watch) {}
 
   MotionPlan run() {
     keepWhatStartKeeps();
-    tryIn(scene_->standing(), options_.seed, "among what stands still");
+    tryIn(still_, options_.seed, "among what stands still");
     const bool may_improve = was_reached_ && !isDone();
     if (may_improve && scene_->end() > 0.) {
       tryIn(scene_->standing({scene_->end()}), options_.seed, "around where obstacles end");
       tryIn(scene_->standing(spreadTimes(scene_->end())), options_.seed, "around all places of obstacles");
     }
     for (int i = 1; i <= kOtherSeeds && may_improve && !best_.feasible(); ++i)
-      tryIn(scene_->standing(), options_.seed + std::uint64_t(i), "with other random numbers");
+      tryIn(still_, options_.seed + std::uint64_t(i), "with other random numbers");
     if (may_improve && !best_.feasible()) tryRefuges();
     if (!best_.feasible()) best_ = std::move(failure_);
+    if (best_.scene) best_.scene = std::make_shared<const State>(still_.state());  // without copies of obstacles
     best_.moving = scene_;
     best_.notes.insert(best_.notes.end(), notes_.begin(), notes_.end());
     return std::move(best_);
@@ -117,9 +119,9 @@ class PlanAmongMoving {
 
   /// Postures to which no obstacle comes, away from each other: in turn the nearest one to the start, and the one that is
   /// the smallest detour on a straight way to the goal.
-  std::vector<VectorXd> refuges(const Config& scene, const VectorXd& goal) {
-    const JointSpace space(*scene.program());
-    const State state = scene.state();
+  std::vector<VectorXd> refuges(const VectorXd& goal) {
+    const JointSpace space(*still_.program());
+    const State state = still_.state();
     ClearanceCheck still(state, space, {.margin = options_.margin, .guard = Clearance::kGuard});
     Rng rng(options_.seed);
     std::vector<VectorXd> found;
@@ -143,21 +145,20 @@ class PlanAmongMoving {
 
   /// Ways by a posture to which no obstacle comes, to wait there.
   void tryRefuges() {
-    const Config scene = scene_->standing();
-    if (failed_goal_.size() == 0 || !JointSpace(*scene.program()).dofsWithoutRange().empty()) return;
+    if (failed_goal_.size() == 0 || !JointSpace(*still_.program()).dofsWithoutRange().empty()) return;
     PlanOptions still = options_;
     still.moving.clear();
     still.evaluations = std::min(still.evaluations, kOtherEffort);
     KnownCurves known = known_;
     known.to_goal.clear();
-    for (const VectorXd& refuge : refuges(scene, failed_goal_)) {
+    for (const VectorXd& refuge : refuges(failed_goal_)) {
       if (watch_()) return;
       still.time_limit = options_.timeLeft(secondsSinceBegin());
-      const MotionPlan aside = planInMotion(scene, MotionGoal(refuge), still, start_, user_watch_, known);
+      const MotionPlan aside = planInMotion(still_, MotionGoal(refuge), still, start_, user_watch_, known);
       PlanOptions at_rest = still;
       at_rest.time_limit = options_.timeLeft(secondsSinceBegin());
       at_rest.start_velocity = at_rest.start_acceleration = {};
-      MotionPlan onward = planInMotion(scene, goal_, at_rest, refuge, user_watch_, {});
+      MotionPlan onward = planInMotion(still_, goal_, at_rest, refuge, user_watch_, {});
       if (!aside.feasible() || !onward.feasible()) continue;
       onward.timed = inTurn(aside.timed, onward.timed);
       onward.path = onward.first_way = onward.timed.path;
@@ -195,6 +196,7 @@ class PlanAmongMoving {
   const KnownCurves& known_;
   const MotionLimits limits_;
   const std::shared_ptr<const MovingScene> scene_;
+  const Config still_;  ///< the scene without obstacles
   MovingCheck check_;
   const Clock::time_point began_ = Clock::now();
   const MotionWatch watch_;

@@ -62,6 +62,8 @@ class PlanInMotion {
         scene_(config.state()) {
     at_rest_.start_velocity = at_rest_.start_acceleration = {};
     at_rest_.moving.clear();
+    best_.scene = std::make_shared<const State>(scene_);
+    best_.space = std::make_shared<const JointSpace>(space_);
   }
 
   MotionPlan run(const KnownCurves& known) {

@@ -82,28 +82,27 @@ MotionPlan planMotion(const Config& config, const MotionGoal& goal, const PlanOp
   return planWith(config, goal, options, start.value_or(config.getJointState()), watch, {});
 }
 
-MotionPlan replanMotion(const Config& config, const MotionPlan& running, double time,
-                        const std::optional<MotionGoal>& goal, const std::optional<PlanOptions>& given,
-                        const MotionWatch& watch) {
+MotionPlan MotionPlan::replan(const Config& config, double time, const std::optional<MotionGoal>& goal,
+                              const std::optional<PlanOptions>& given, const MotionWatch& watch) const {
   if (!std::isfinite(time)) throw ValueError("replan: the time is not finite");
-  const MotionState now = running.at(time);
-  PlanOptions options = given.value_or(running.optionsAt(time));
-  options.start_velocity = now.velocity;
-  options.start_acceleration = {};
-  if (options.jerk.size() > 0 && !now.velocity.isZero(0.)) options.start_acceleration = now.acceleration;
-  options.validateFor(config.getJointDimension());
+  const MotionState now = at(time);
+  PlanOptions next = given.value_or(optionsAt(time));
+  next.start_velocity = now.velocity;
+  next.start_acceleration = {};
+  if (next.jerk.size() > 0 && !now.velocity.isZero(0.)) next.start_acceleration = now.acceleration;
+  next.validateFor(config.getJointDimension());
   if (now.q.size() != config.getJointDimension())
     throw ValueError(
         cat("replan: the running motion has ", now.q.size(), " dofs; the scene has ", config.getJointDimension()));
-  const TimeLaw& law = running.timed.law();
+  const TimeLaw& law = timed.law();
   const double held = std::clamp(time, 0., law.duration());
   const LawPhase& phase = law.phaseAt(held);
   const LawState state = phase.at(held - phase.time);
-  const MotionLimits limits = planLimits(config, options);
-  const KnownCurves known = knownCurves(running.timed, held, std::clamp(state.s, phase.begin.s, phase.end), state.speed,
-                                        limits, areSame(limits, planLimits(config, running.options)), goal.has_value());
-  return planWith(config, goal ? *goal : MotionGoal(VectorXd(running.path.bottomRows(1).transpose())), options, now.q,
-                  watch, known);
+  const MotionLimits limits = planLimits(config, next);
+  const KnownCurves known = knownCurves(timed, held, std::clamp(state.s, phase.begin.s, phase.end), state.speed, limits,
+                                        areSame(limits, planLimits(config, options)), goal.has_value());
+  return planWith(config, goal ? *goal : MotionGoal(VectorXd(path.bottomRows(1).transpose())), next, now.q, watch,
+                  known);
 }
 
 }  // namespace kinegraph

@@ -24,11 +24,4 @@ namespace kinegraph {
 MotionPlan planMotion(const Config& config, const MotionGoal& goal, const PlanOptions& options = {},
                       const std::optional<VectorXd>& start = std::nullopt, const MotionWatch& watch = {});
 
-/// A motion that goes on from where `running` is at `time` s, and as fast as it is there, to a goal, or to its own one, in a
-/// scene that may have changed. With limits of the jerk it has the acceleration of that time, too. Its own time begins at 0 then. If the rest of the present motion leads to the goal and is
-/// free, it stays. No options: running.optionsAt(time). Throws ValueError if there is no running motion.
-MotionPlan replanMotion(const Config& config, const MotionPlan& running, double time,
-                        const std::optional<MotionGoal>& goal = std::nullopt,
-                        const std::optional<PlanOptions>& options = std::nullopt, const MotionWatch& watch = {});
-
 }  // namespace kinegraph

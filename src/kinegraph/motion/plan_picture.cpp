@@ -1,10 +1,11 @@
-#include "kinegraph/motion/plan_picture.h"
-
+// How plans and roadmaps look in the scene.
 #include <algorithm>
 #include <cmath>
 
 #include "kinegraph/base/errors.h"
 #include "kinegraph/base/text.h"
+#include "kinegraph/motion/motion_plan.h"
+#include "kinegraph/motion/roadmap.h"
 #include "kinegraph/scene/frame_shapes.h"
 
 namespace kinegraph {
@@ -82,29 +83,23 @@ class Drawing {
 
 }  // namespace
 
-Config planPicture(const Config& config, const MotionPlan& plan, const std::vector<std::string>& frames) {
-  Drawing drawing(config, *plan.space, frames, "planPicture");
-  for (std::size_t i = 0; i < plan.trees.size(); ++i) {
-    drawing.addTree(plan.trees[i]);
+Config MotionPlan::picture(const Config& config, const std::vector<std::string>& frames) const {
+  Drawing drawing(config, *space, frames, "MotionPlan.picture");
+  for (std::size_t i = 0; i < trees.size(); ++i) {
+    drawing.addTree(trees[i]);
     drawing.draw(i == 0 ? "start tree" : "goal tree", i == 0 ? kBlue : kOrange);
   }
-  drawing.addPath(plan.first_way);
+  drawing.addPath(first_way);
   drawing.draw("first way", kGray);
-  drawing.addPath(plan.path);
+  drawing.addPath(path);
   drawing.draw("path", kGreen);
-  if (!plan.feasible() && !plan.obstacles.empty())
-    drawing.picture().getFrame(plan.obstacles.front().frame).setColor({1., 0., 0.});
+  if (!feasible() && !obstacles.empty()) drawing.picture().getFrame(obstacles.front().frame).setColor({1., 0., 0.});
   return std::move(drawing.picture());
 }
 
-Config roadmapPicture(const Config& config, const Roadmap& map, const std::vector<std::string>& frames) {
-  const JointSpace space(*config.program());
-  Drawing drawing(config, space, frames, "roadmapPicture");
-  const MatrixXd postures = map.postures();
-  if (postures.rows() > 0 && postures.cols() != space.dofs())
-    throw ValueError(cat("roadmapPicture: the scene has ", space.dofs(), " dofs; expected ", postures.cols()));
-  for (const auto& [a, b] : map.motionEnds())
-    drawing.addMotion(postures.row(a).transpose(), postures.row(b).transpose());
+Config Roadmap::picture(const Config& config, const std::vector<std::string>& frames) const {
+  Drawing drawing(config, *space_, frames, "Roadmap.picture");
+  for (const auto& [a, b] : motionEnds()) drawing.addMotion(nodes_[std::size_t(a)], nodes_[std::size_t(b)]);
   drawing.draw("roadmap", kBlue);
   return std::move(drawing.picture());
 }

@@ -14,7 +14,8 @@ namespace kinegraph {
 namespace {
 
 constexpr std::size_t kNeighbors = 12;
-constexpr char kMagic[8] = {'K', 'G', 'R', 'O', 'A', 'D', '0', '1'};
+constexpr char kMagic[8] = {'K', 'G', 'R', 'O', 'A', 'D', '0', '2'};
+constexpr char kEarlierMagic[8] = {'K', 'G', 'R', 'O', 'A', 'D', '0', '1'};  // without how it draws on
 
 std::unique_ptr<Steering> steeringFor(const State& scene, const JointSpace& space, double margin) {
   return std::make_unique<Steering>(
@@ -232,6 +233,12 @@ std::uint64_t Roadmap::sceneCode() const {
 
 void Roadmap::save(const std::string& path) const {
   std::ofstream out(path, std::ios::binary);
+  save(out);
+  out.flush();
+  if (!out) throw FileError(cat(path, ": the roadmap could not be written"));
+}
+
+void Roadmap::save(std::ostream& out) const {
   out.write(kMagic, sizeof kMagic);
   const std::string joints = join(dofNames(scene_->program()), "\n");
   put(out, std::uint64_t(joints.size()));
@@ -250,17 +257,23 @@ void Roadmap::save(const std::string& path) const {
     put(out, edge.length);
     put(out, edge.known);
   }
-  out.flush();
-  if (!out) throw FileError(cat(path, ": the roadmap could not be written"));
+  put(out, rng_);
 }
 
 void Roadmap::load(const std::string& path) {
-  std::ifstream in(path, std::ios::binary | std::ios::ate);
+  std::ifstream in(path, std::ios::binary);
   if (!in) throw FileError(cat(path, ": no such file"));
-  const auto bytes = std::uint64_t(in.tellg());
-  in.seekg(0);
+  load(in, path);
+}
+
+void Roadmap::load(std::istream& in, const std::string& path) {
+  const auto begin = in.tellg();
+  const auto bytes = std::uint64_t(in.seekg(0, std::ios::end).tellg() - begin);
+  in.seekg(begin);
   char magic[sizeof kMagic];
-  if (!in.read(magic, sizeof magic) || std::memcmp(magic, kMagic, sizeof magic) != 0)
+  const bool is_read = bool(in.read(magic, sizeof magic));
+  const bool draws_on = is_read && std::memcmp(magic, kMagic, sizeof magic) == 0;
+  if (!is_read || (!draws_on && std::memcmp(magic, kEarlierMagic, sizeof magic) != 0))
     throw FileError(cat(path, ": not a roadmap"));
   const auto counted = [&](const char* what) {
     const auto count = take<std::uint64_t>(in, path);
@@ -296,7 +309,9 @@ void Roadmap::load(const std::string& path) {
       edges_of[std::size_t(node)].push_back(int(e));
     }
   }
+  const Rng rng = draws_on ? take<Rng>(in, path) : rng_;
   nodes_ = std::move(nodes);
+  rng_ = rng;
   node_known_ = std::move(known);
   edges_ = std::move(edges);
   edges_of_ = std::move(edges_of);

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <iosfwd>
 #include <memory>
 #include <string>
 #include <vector>
@@ -44,12 +45,20 @@ class Roadmap {
   /// The scene is another one now, with the same joints; else ValueError.
   void setScene(const Config& config);
 
-  /// Writes postures and what is known of motions. Throws FileError.
+  /// Writes postures, what is known of motions, and how it draws on. Throws FileError.
   void save(const std::string& path) const;
+  void save(std::ostream& out) const;
 
   /// Reads them in place of its own. Throws FileError for a file that is not there or damaged, ValueError for a map of
   /// other joints. What is known of motions is taken over only if the scene is the same as when it was saved.
   void load(const std::string& path);
+
+  /// The same from a stream that can be sought in; `name` is for messages.
+  void load(std::istream& in, const std::string& name);
+
+  /// A copy of a scene with these joints, and lines in it along which frames go: "roadmap" (blue) are all motions that are not
+  /// known to be blocked. Frames and errors as in MotionPlan::picture.
+  Config picture(const Config& config, const std::vector<std::string>& frames = {}) const;
 
   int size() const { return int(nodes_.size()); }
   int motions() const { return int(edges_.size()); }
