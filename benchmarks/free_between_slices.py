@@ -2,9 +2,11 @@
 forbidden in slices only, and with `addFreeMotion`.
 
     python benchmarks/free_between_slices.py [--robot panda ur5] [--problems 100] [--slices 32] [--seed 1] [--start tree line]
+        [--spline 16]
 
 Each problem starts with the straight line from start to goal, which collides, or with a path that a tree has found, which does
 not. Of the answers it is looked at every 1e-3 rad whether they are free: that is independent of what the solver and the result say.
+With --spline the problems are solved in so many control points of a cubic spline (`SplineMotion`), and it is the spline that is looked at.
 Times are processor time, medians and 95th percentiles, building the KOMO included. UR5 comes from the package of the planning problems
 (benchmarks/motion_bench_maker.py).
 """
@@ -129,6 +131,16 @@ def is_truly_free(C: ry.Config, rows: np.ndarray) -> bool:
     return bool(C.isValid(np.clip(np.vstack(dense), limits[0], limits[1])).all())
 
 
+def solve(komo: ry.KOMO, points: int) -> tuple[ry.SolverReturn, np.ndarray]:
+    """The result, and rows of its motion from the start on, straight from one to the next or nearly so."""
+    if points == 0:
+        result = ry.NLP_Solver(komo.nlp()).solve()
+        return result, np.vstack([komo.getConfiguration(-1).getJointState(), komo.getPath()])
+    motion = ry.SplineMotion(komo, points)
+    result = ry.NLP_Solver(motion.nlp()).solve()
+    return result, motion.spline().eval(np.linspace(0, 1, 2000))
+
+
 def measure(name: str, start_with: str, options: argparse.Namespace) -> None:
     rng = np.random.default_rng(options.seed)
     kinds = {"in slices only": False, "at all times": True}
@@ -147,10 +159,10 @@ def measure(name: str, start_with: str, options: argparse.Namespace) -> None:
             begin = process_time()
             komo = make_komo(C, goal, options.slices, at_all_times)
             komo.initWithPath(resampled(path, options.slices))
-            result = ry.NLP_Solver(komo.nlp()).solve()
+            result, rows = solve(komo, options.spline)
             seconds[kind].append(process_time() - begin)
             evaluations[kind].append(result.evals)
-            is_free = is_truly_free(C, np.vstack([start, komo.getPath()]))
+            is_free = is_truly_free(C, rows)
             feasible[kind] += result.feasible
             told[kind] += bool(result.feasible and result.free)
             true[kind] += bool(result.feasible and is_free)
@@ -158,7 +170,8 @@ def measure(name: str, start_with: str, options: argparse.Namespace) -> None:
             both_free = both_free and result.feasible and is_free
         if both_free:
             ratios.append(seconds["at all times"][-1] / seconds["in slices only"][-1])
-    print(f"\n{name}, {count} problems, T = {options.slices}, started with {start_with}")
+    points = f", {options.spline} control points" if options.spline else ""
+    print(f"\n{name}, {count} problems, T = {options.slices}{points}, started with {start_with}")
     print(
         f"{'':16}{'feasible':>10}{'and free':>10}{'and truly':>11}{'free, wrongly':>15}{'ms':>8}{'p95':>8}{'evaluations':>13}"
     )
@@ -178,6 +191,9 @@ def main() -> None:
     parser.add_argument("--problems", type=int, default=100)
     parser.add_argument("--slices", type=int, default=32)
     parser.add_argument("--seed", type=int, default=1)
+    parser.add_argument(
+        "--spline", type=int, default=0, help="control points of a spline; 0: straight from slice to slice"
+    )
     parser.add_argument("--start", nargs="+", default=["tree", "line"], choices=["tree", "line"])
     options = parser.parse_args()
     for name in options.robot:

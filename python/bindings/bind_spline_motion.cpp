@@ -19,6 +19,7 @@ void bindSplineMotion(nb::module_& m) {
           "komo"_a, "points"_a = 8, "degree"_a = 3, nb::kw_only(), "ends_at_rest"_a = true, docs::splineMotion::make)
       .def("nlp", &SplineMotion::nlp, docs::splineMotion::nlp)
       .def("spline", &SplineMotion::spline, docs::splineMotion::spline)
+      .def("isFree", &SplineMotion::isFree, "margin"_a = 0., docs::splineMotion::isFree)
       .def("__repr__", [](const SplineMotion& s) {
         return cat("<SplineMotion ", s.options().points, " control points of degree ", s.options().degree, ", ",
                    s.komo()->slices(), " slices>");

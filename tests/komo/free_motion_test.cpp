@@ -1,16 +1,14 @@
 #include "kinegraph/komo/free_motion.h"
 
-#include <coal/distance.h>
-#include <coal/shape/geometric_shapes.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
 
-#include "kinegraph/geometry/distance/collision_body.h"
 #include "kinegraph/komo/komo.h"
 #include "kinegraph/komo/report.h"
 #include "kinegraph/solvers/nlp_solver.h"
 #include "tests/komo/ball_and_wall.h"
+#include "tests/support/coal_distance.h"
 #include "tests/support/expect_error.h"
 #include "tests/support/near.h"
 
@@ -43,34 +41,6 @@ VectorXd sharesOf(const Objective& objective, std::size_t motion) {
   VectorXd shares(Eigen::Index(instants.size()));
   for (std::size_t i = 0; i < instants.size(); ++i) shares[Eigen::Index(i)] = instants[i].share;
   return shares;
-}
-
-std::unique_ptr<coal::ShapeBase> coalShape(const CollisionBody& body) {
-  switch (body.core()) {
-    case CollisionBody::Core::point:
-      return std::make_unique<coal::Sphere>(0.);
-    case CollisionBody::Core::segment:
-      return std::make_unique<coal::Capsule>(0., 2. * body.halfLength());
-    default:
-      return std::make_unique<coal::Box>(2. * body.halfSides());
-  }
-}
-
-/// The least distance of all pairs that joints move apart, by coal.
-double coalDistance(const State& state) {
-  double least = 1.;
-  for (const auto& [a, b] : state.program().movingPairs()) {
-    const CollisionBody &body_a = *state.program().body[std::size_t(a)],
-                        &body_b = *state.program().body[std::size_t(b)];
-    const RigidTransform X_a = state.pose(a), X_b = state.pose(b);
-    const auto shape_a = coalShape(body_a), shape_b = coalShape(body_b);
-    coal::DistanceRequest request;
-    coal::DistanceResult result;
-    const double cores = coal::distance(shape_a.get(), coal::Transform3s(X_a.R, X_a.p), shape_b.get(),
-                                        coal::Transform3s(X_b.R, X_b.p), request, result);
-    least = std::min(least, cores - body_a.radius() - body_b.radius());
-  }
-  return least;
 }
 
 /// The least distance on the whole motion, by coal, at steps of `step` of the dof that moves most.
@@ -116,7 +86,8 @@ TEST(FreeMotion, AddsInstantsWhereTheMotionIsTooNear) {
   Objective on_the_way = komo.objectives()[1];
   EXPECT_EQ(on_the_way.from, 1) << "no motion leads to slice 0";
   MotionProbe probe(kFreeTolerance);
-  EXPECT_NEAR(addInstants(on_the_way, komo.path(), probe), .065, 1e-4);
+  LinesBetweenSlices lines(komo.path(), probe);
+  EXPECT_NEAR(addInstants(on_the_way, lines), .065, 1e-4);
   ASSERT_EQ(on_the_way.instants.size(), 3u);
   EXPECT_TRUE(near(sharesOf(on_the_way, 0), VectorXd::Constant(1, .5), 1e-9))
       << "beside a motion that goes right through";
@@ -128,7 +99,7 @@ TEST(FreeMotion, AddsInstantsWhereTheMotionIsTooNear) {
   EXPECT_EQ(names[std::size_t(instant.b)], "wall");
   path.col(0) << 0., .1, .2, .3;
   komo.setPath(path);
-  EXPECT_EQ(addInstants(on_the_way, komo.path(), probe), 0.) << "free";
+  EXPECT_EQ(addInstants(on_the_way, lines), 0.) << "free";
   path.col(0) << .7, .6, .58, .3;
   komo.setPath(path);
   EXPECT_GT(measurePath(komo).per_slice(3, 1), 10. * .05) << "reports see it";

@@ -7,7 +7,8 @@ inline constexpr char type[] = R"(The motion problem of a KOMO, whose slices lie
 
 Its variables are the control points: few of them for many slices. The motion is smooth whatever the objectives are, and can be
 executed as it is. It begins at rest in the configuration that the KOMO was given, and takes all of its joints; limits of joints are
-bounds of the control points, so that they hold at all times. Other variables, as of objects that are held, stay as they are.
+bounds of the control points, so that they hold at all times. Where its motion is to be free at all times (`addFreeMotion`) the spline
+is, and what results say of that (`free`) is said of the spline. Other variables, as of objects that are held, stay as they are.
 
     motion = ry.SplineMotion(komo, points=8)
     result = ry.NLP_Solver(motion.nlp()).solve()
@@ -40,5 +41,17 @@ Returns:
     A BSpline in s from the start on.
 Raises:
     Error: Some joints are shared by all slices, and no part of the spline.)";
+
+inline constexpr char isFree[] =
+    R"(Do all pairs of shapes that joints move apart keep a distance on the spline, at all times?
+
+Of the spline through the KOMO's present path; what is held moves along. True only where it is proved.
+
+Args:
+    margin: m; of pairs within margin + 3e-5 the answer may be no.
+Returns:
+    True or False.
+Raises:
+    ArgumentError: A margin that is not finite.)";
 
 }  // namespace kinegraph::python::docs::splineMotion

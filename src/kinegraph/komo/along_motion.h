@@ -1,11 +1,10 @@
 #pragma once
 
 #include <memory>
-#include <mutex>
 #include <vector>
 
 #include "kinegraph/features/feature.h"
-#include "kinegraph/komo/pair_instant.h"
+#include "kinegraph/komo/instant_pairs.h"
 
 namespace kinegraph {
 
@@ -22,29 +21,20 @@ class AlongMotion final : public Feature {
   AlongMotion(Form form, double most, std::vector<PairInstant> instants, std::vector<int> same_dofs,
               const State& begin);
 
-  int rows() const override { return form_ == Form::sum ? 1 : int(instants_.size()); }
+  int rows() const override { return form_ == Form::sum ? 1 : instants_; }
   int order() const override { return 1; }
   std::optional<double> flatValue() const override;
   void eval(std::span<const State* const> states, double tau, Eigen::Ref<VectorXd> y, JacobianRows* J) const override;
 
  private:
-  void place(double s, const State& begin, const State& end) const;
-  void spread(double s, int row, JacobianRows& J) const;
+  void place(double s, const State& begin, const State& end, VectorXd& q) const;
+  void spread(double s, int row, const InstantPairs::Gradient& gradient, JacobianRows& J) const;
 
   Form form_;
   double most_;
-  std::vector<PairInstant> instants_;
-  std::vector<int> in_order_;  ///< those that are not empty, by their shares
+  int instants_;
   std::vector<int> same_dofs_;
-  /// What one evaluation at a time needs.
-  struct Workspace {
-    explicit Workspace(const State& scene) : state(scene), q(scene.dofs()), gradient(1, scene.dofs()) {}
-    std::mutex mutex;
-    State state;
-    VectorXd q;
-    Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor> gradient;  ///< one row
-  };
-  std::unique_ptr<Workspace> work_;  ///< null where all are empty
+  std::unique_ptr<InstantPairs> pairs_;  ///< null where all instants are empty
 };
 
 }  // namespace kinegraph

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <iterator>
 
+#include "kinegraph/features/collisions.h"
+
 namespace kinegraph {
 
 namespace {
@@ -15,9 +17,9 @@ constexpr double kEqual = 1e-9;    // and are the same
 constexpr double kMoved = .01;     // rad or m that a dof moves, at least, before a motion is looked at anew
 
 /// The margin that the motion can keep.
-double marginOf(const Objective& objective, const SliceMotion& motion, MotionProbe& probe) {
-  if (motion.slice > 0 || objective.margin == 0.) return objective.margin;
-  const double limit = objective.margin + 2. * kFreeTolerance, at_begin = probe.clearance(motion, 0., limit);
+double marginOf(const Objective& objective, int slice, BetweenSlices& motions) {
+  if (slice > 0 || objective.margin == 0.) return objective.margin;
+  const double limit = objective.margin + 2. * kFreeTolerance, at_begin = motions.clearanceAtBegin(slice, limit);
   return at_begin < limit ? std::max(.5 * at_begin, 0.) : objective.margin;
 }
 
@@ -42,11 +44,11 @@ void add(std::vector<PairInstant>& instants, const PairInstant& one) {
 }
 
 /// What is too near on a motion: where it comes nearest on the way, else what was found at any time.
-std::vector<MotionContact> violationsOf(const SliceMotion& motion, double margin, MotionProbe& probe) {
-  if (probe.isFree(motion, margin)) return {};
-  const MotionContact hit = probe.lastHit();
-  std::vector<MotionContact> found = probe.approaches(motion, margin + kFreeTolerance);
-  if (found.empty()) found.push_back(hit);
+std::vector<MotionContact> violationsOf(BetweenSlices& motions, int slice, double margin) {
+  const std::optional<MotionContact> hit = motions.tooNear(slice, margin);
+  if (!hit) return {};
+  std::vector<MotionContact> found = motions.approaches(slice, margin + kFreeTolerance);
+  if (found.empty()) found.push_back(*hit);
   return found;
 }
 
@@ -91,14 +93,25 @@ bool LookedAt::isFar(const SliceMotion& motion) const {
   return from.size() == 0 || std::max(moved(from, motion.from), moved(to, motion.to)) >= kMoved;
 }
 
-double addInstants(Objective& objective, const Path& path, MotionProbe& probe) {
+double farOf(const Objective& objective) {
+  const double far = (objective.slack > 0. ? .5 : 1.) * PairCollisions::kFar,
+               apart = objective.margin + objective.slack;
+  return far + std::max(apart - .5 * far, 0.);
+}
+
+Refinement refinementOf(double lack) {
+  constexpr double kMuch = .01;  // m: so deep a motion that is nearly free is not, but one through a wall
+  return lack > kMuch ? Refinement::much : lack > 0. ? Refinement::little : Refinement::none;
+}
+
+double addInstants(Objective& objective, BetweenSlices& motions) {
   double most = 0.;
   const int count = motionsOf(objective);
   objective.instants.resize(std::size_t(count));
   for (int i = 0; i < count; ++i) {
-    const SliceMotion motion = motionInto(path, objective.from + i);
-    const double margin = marginOf(objective, motion, probe);
-    for (const MotionContact& contact : violationsOf(motion, margin, probe)) {
+    const int slice = objective.from + i;
+    const double margin = marginOf(objective, slice, motions);
+    for (const MotionContact& contact : violationsOf(motions, slice, margin)) {
       const double lack = lackOf(contact, margin);
       most = std::max(most, lack);
       add(objective.instants[std::size_t(i)], {contact.time, contact.a, contact.b});
@@ -110,31 +123,33 @@ double addInstants(Objective& objective, const Path& path, MotionProbe& probe) {
 
 std::vector<Objective> withInstants(std::vector<Objective> objectives, const Path& path) {
   MotionProbe probe(kFreeTolerance);
+  LinesBetweenSlices lines(path, probe);
   for (Objective& objective : objectives) {
-    if (objective.on_the_way) addInstants(objective, path, probe);
+    if (objective.on_the_way) addInstants(objective, lines);
   }
   return objectives;
 }
 
-FilledInstants fillInstants(Objective& objective, const Path& path, MotionProbe& probe, bool is_solution,
+FilledInstants fillInstants(Objective& objective, BetweenSlices& motions, bool is_solution,
                             std::vector<LookedAt>& looked_at) {
   FilledInstants filled;
   looked_at.resize(objective.instants.size());
   for (int i = 0; i < int(objective.instants.size()); ++i) {
-    const SliceMotion motion = motionInto(path, objective.from + i);
+    const int slice = objective.from + i;
+    const SliceMotion motion = motions.motionInto(slice);
     LookedAt& last = looked_at[std::size_t(i)];
     if (!is_solution && !last.isFar(motion)) continue;
-    const double margin = marginOf(objective, motion, probe);
+    const double margin = marginOf(objective, slice, motions);
     std::vector<MotionContact> found;
     if (is_solution) {
-      found = violationsOf(motion, margin, probe);
+      found = violationsOf(motions, slice, margin);
       if (found.empty()) continue;
       for (const MotionContact& contact : found) filled.lack = std::max(filled.lack, lackOf(contact, margin));
     } else {
       last = {motion.from, motion.to};
     }
     const double reach = margin < objective.margin ? margin : margin + objective.slack + kReserve;
-    std::ranges::copy(probe.approaches(motion, reach), std::back_inserter(found));
+    std::ranges::copy(motions.approaches(slice, reach), std::back_inserter(found));
     if (fillWith(found, margin, objective.instants[std::size_t(i)], filled.lack)) filled.motions.push_back(i);
   }
   return filled;
@@ -148,10 +163,10 @@ void keepRoom(Objective& objective, int count) {
   }
 }
 
-void addApproaches(Objective& objective, const Path& path, MotionProbe& probe, double most) {
+void addApproaches(Objective& objective, BetweenSlices& motions, double most) {
   objective.instants.resize(std::size_t(motionsOf(objective)));
   for (std::size_t i = 0; i < objective.instants.size(); ++i) {
-    for (const MotionContact& contact : probe.approaches(motionInto(path, objective.from + int(i)), most))
+    for (const MotionContact& contact : motions.approaches(objective.from + int(i), most))
       add(objective.instants[i], {contact.time, contact.a, contact.b});
   }
 }

@@ -1,3 +1,5 @@
+#include "kinegraph/komo/komo_nlp.h"
+
 #include <algorithm>
 
 #include "kinegraph/base/errors.h"
@@ -17,9 +19,6 @@ namespace kinegraph {
 namespace {
 
 constexpr int kMostSeparateRows = 100000;
-constexpr double kMuch = .01;  // m: so deep a motion that is nearly free is not, but one through a wall
-constexpr int kRoom = 8;       // instants of a motion that a solver can take up before its problem is laid out anew
-constexpr double kNear = .05;  // m: what a detour comes so near to counts from its beginning on
 
 /// Does the objective demand that a sum of overlaps is zero?
 bool isSumOfOverlaps(const Objective& objective) {
@@ -92,7 +91,7 @@ class KomoNlp final : public Nlp, public OtherWays, public RoomForConstraints {
     std::vector<Objective> objectives = problem_.objectives();
     for (Objective& objective : objectives) {
       if (!isSumOfOverlaps(objective)) continue;
-      if (objective.on_the_way) keepRoom(objective, kRoom);
+      if (objective.on_the_way) keepRoom(objective, kRoomOfMotion);
       objective.feature = FeatureSymbol::pairCollisions;
       objective.type = ObjectiveType::ineq;
       if (const double apart = objective.margin + objective.slack; apart != 0.)
@@ -138,7 +137,7 @@ class KomoNlp final : public Nlp, public OtherWays, public RoomForConstraints {
     const Separation now = separation();
     if (before.problem && now.problem && dual.size() == Eigen::Index(before.row_of.size()))
       dual = carriedOver(dual, before, now);
-    return lack > kMuch ? Refinement::much : Refinement::little;
+    return refinementOf(lack);
   }
 
   bool hasRoom() const override { return std::ranges::any_of(problem_.objectives(), keepsRoom); }
@@ -148,15 +147,16 @@ class KomoNlp final : public Nlp, public OtherWays, public RoomForConstraints {
     komo_->path().setVariables(x);
     double lack = 0.;
     looked_at_.resize(problem_.objectives().size());
+    LinesBetweenSlices lines(komo_->path(), probe_);
     for (std::size_t o = 0; o < problem_.objectives().size(); ++o) {
       if (!keepsRoom(problem_.objectives()[o])) continue;
       Objective objective = problem_.objectives()[o];
-      const FilledInstants filled = fillInstants(objective, komo_->path(), probe_, is_solution, looked_at_[o]);
+      const FilledInstants filled = fillInstants(objective, lines, is_solution, looked_at_[o]);
       lack = std::max(lack, filled.lack);
       for (const int motion : filled.motions) fillMotion(o, objective, motion, phi, J, rows);
     }
     if (is_solution && lack == 0.) free_at_ = x;
-    return lack > kMuch ? Refinement::much : lack > 0. ? Refinement::little : Refinement::none;
+    return refinementOf(lack);
   }
 
   /// A detour, with its own instants: those at which it comes near to something, so that a step does not lead through
@@ -172,10 +172,11 @@ class KomoNlp final : public Nlp, public OtherWays, public RoomForConstraints {
     if (!way) return std::nullopt;
     *way = way->cwiseMax(lower_).cwiseMin(upper_);
     komo_->path().setVariables(*way);
+    LinesBetweenSlices lines(komo_->path(), probe_);
     for (Objective& objective : objectives) {
       if (!objective.on_the_way) continue;
       objective.instants.clear();
-      addApproaches(objective, komo_->path(), probe_, kNear);
+      addApproaches(objective, lines, kNearToDetour);
     }
     addInstantsTo(objectives);
     takeUp(std::move(objectives));
@@ -219,8 +220,9 @@ class KomoNlp final : public Nlp, public OtherWays, public RoomForConstraints {
   /// Those at which the path violates the objectives; returns by how much, m.
   double addInstantsTo(std::vector<Objective>& objectives) {
     double lack = 0.;
+    LinesBetweenSlices lines(komo_->path(), probe_);
     for (Objective& objective : objectives) {
-      if (objective.on_the_way) lack = std::max(lack, addInstants(objective, komo_->path(), probe_));
+      if (objective.on_the_way) lack = std::max(lack, addInstants(objective, lines));
     }
     return lack;
   }
@@ -274,6 +276,10 @@ class KomoNlp final : public Nlp, public OtherWays, public RoomForConstraints {
 std::shared_ptr<Nlp> makeNlp(std::shared_ptr<Komo> komo) {
   if (komo->slices() == 0) throw Error("KOMO: there is no problem yet; call setConfig and setTiming first");
   return std::make_shared<KomoNlp>(std::move(komo));
+}
+
+std::shared_ptr<Nlp> makeNlp(std::shared_ptr<Komo> komo, std::vector<Objective> objectives) {
+  return std::make_shared<KomoNlp>(std::move(komo), std::move(objectives));
 }
 
 std::shared_ptr<Komo> komoOf(const Nlp& nlp) {

@@ -9,6 +9,7 @@
 #include "kinegraph/features/joints.h"
 #include "kinegraph/kinematics/dynamics.h"
 #include "kinegraph/komo/along_motion.h"
+#include "kinegraph/komo/free_motion.h"
 #include "kinegraph/komo/path_features.h"
 #include "kinegraph/komo/path_motion.h"
 
@@ -87,14 +88,6 @@ Made physicsOf(int frame, const Objective& objective, const Path& path, const st
   const Matrix3d inertia = is_given ? frames[frame]->inertia->matrix : Matrix3d(Matrix3d::Zero());
   if (objective.damped) return std::make_unique<DampedMotion>(frame, gravity, inertia, forces);
   return std::make_unique<NewtonEuler>(frame, gravity, inertia, forces);
-}
-
-/// Pairs that are farther apart than that are not looked at any closer, m. Of motions that are to be free it is half as
-/// much: what a step brings into the way is found as they are looked at.
-double farOf(const Objective& objective) {
-  const double far = (objective.slack > 0. ? .5 : 1.) * PairCollisions::kFar,
-               apart = objective.margin + objective.slack;
-  return far + std::max(apart - .5 * far, 0.);
 }
 
 /// The sum of overlaps or those of all pairs, of a slice or on the way to it. Pairs count up to the margin.

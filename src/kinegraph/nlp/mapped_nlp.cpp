@@ -103,6 +103,10 @@ void MappedNlp::transform(int row, const Jacobian& from, Jacobian& J) const {
 
 void MappedNlp::evaluate(const VectorXd& c, VectorXd& phi, Jacobian* J) {
   prepareEvaluation(*this, c, phi, J);
+  evaluateRows(c, phi, J);
+}
+
+void MappedNlp::evaluateRows(const VectorXd& c, VectorXd& phi, Jacobian* J) {
   behind_->evaluate(map_->at(c), phi, J ? &behind_jacobian_ : nullptr);
   if (!J) return;
   for (int row = 0; row < pattern_.rows(); ++row)
@@ -132,38 +136,7 @@ Separation MappedNlp::separation() {
   return separation;
 }
 
-std::shared_ptr<const LazyVerdict> MappedNlp::motionVerdict(const VectorXd& c) {
-  return behind_->motionVerdict(map_->at(c));
-}
-
-Refinement MappedNlp::refine(const VectorXd& c, VectorXd& dual) {
-  const Refinement found = behind_->refine(map_->at(c), dual);
-  if (found != Refinement::none) layOut();
-  return found;
-}
-
-bool MappedNlp::hasRoom() const {
-  const auto* room = dynamic_cast<const RoomForConstraints*>(behind_.get());
-  return room && room->hasRoom();
-}
-
-Refinement MappedNlp::takeUp(const VectorXd& c, bool is_solution, VectorXd& phi, Jacobian& J, std::vector<int>& rows) {
-  auto& room = dynamic_cast<RoomForConstraints&>(*behind_);
-  const Refinement found = room.takeUp(map_->at(c), is_solution, phi, behind_jacobian_, rows);
-  if (!rows.empty()) evaluate(c, phi, &J);  // what is behind may have been evaluated elsewhere since
-  return found;
-}
-
 VectorXd MappedNlp::fitted(const VectorXd& x) const { return map_->fit(x).cwiseMax(lower_).cwiseMin(upper_); }
-
-std::optional<VectorXd> MappedNlp::otherWay(const VectorXd& c, int number) {
-  auto* ways = dynamic_cast<OtherWays*>(behind_.get());
-  if (!ways) return std::nullopt;
-  const std::optional<VectorXd> x = ways->otherWay(map_->at(c), number);
-  if (!x) return std::nullopt;
-  layOut();
-  return fitted(*x);
-}
 
 VectorXd MappedNlp::initialPoint(Rng& rng) { return fitted(behind_->initialPoint(rng)); }
 

@@ -4,8 +4,6 @@
 #include <memory>
 
 #include "kinegraph/nlp/nlp.h"
-#include "kinegraph/nlp/other_ways.h"
-#include "kinegraph/nlp/room_for_constraints.h"
 
 namespace kinegraph {
 
@@ -22,7 +20,7 @@ struct LinearMap {
 
 /// A problem in fewer variables c, on which its own depend linearly: as of a path that is a spline, in control points.
 /// Residuals, and what is said of them, are those of the problem behind, which is left at the x of the c last evaluated.
-class MappedNlp final : public Nlp, public OtherWays, public RoomForConstraints {
+class MappedNlp final : public Nlp {
  public:
   /// Bounds are of c. Throws ValueError if the map or the bounds do not have the problem's size.
   MappedNlp(std::shared_ptr<Nlp> behind, std::shared_ptr<const LinearMap> map, const VectorXd& lower,
@@ -30,17 +28,16 @@ class MappedNlp final : public Nlp, public OtherWays, public RoomForConstraints 
 
   Jacobian makeJacobian() const override;
   void evaluate(const VectorXd& c, VectorXd& phi, Jacobian* J) override;
+  /// The same of sizes that fit; `J` may have further rows behind those of this problem, which stay as they are.
+  void evaluateRows(const VectorXd& c, VectorXd& phi, Jacobian* J);
+  /// The c whose x is nearest, within the bounds.
+  VectorXd fitted(const VectorXd& x) const;
   bool mayBeCancelled() const override { return behind_->mayBeCancelled(); }
   void leaveAt(const VectorXd& c) override { behind_->leaveAt(map_->at(c)); }
   bool addCostHessian(const VectorXd& c, MatrixXd& H) override;
   std::span<const CurvedRows> curvedRows() const override { return curved_; }
   void addCurvature(int k, std::span<const double> weights, Eigen::Ref<MatrixXd> H) override;
   Separation separation() override;
-  std::shared_ptr<const LazyVerdict> motionVerdict(const VectorXd& c) override;
-  Refinement refine(const VectorXd& c, VectorXd& dual) override;
-  bool hasRoom() const override;
-  Refinement takeUp(const VectorXd& c, bool is_solution, VectorXd& phi, Jacobian& J, std::vector<int>& rows) override;
-  std::optional<VectorXd> otherWay(const VectorXd& c, int number) override;
   VectorXd initialPoint(Rng& rng) override;
   std::string rowName(int row) const override { return behind_->rowName(row); }
   RowDescription describeRow(int row) const override { return behind_->describeRow(row); }
@@ -52,7 +49,6 @@ class MappedNlp final : public Nlp, public OtherWays, public RoomForConstraints 
  private:
   void layOut();
   void transform(int row, const Jacobian& from, Jacobian& J) const;
-  VectorXd fitted(const VectorXd& x) const;
 
   std::shared_ptr<Nlp> behind_;
   std::shared_ptr<const LinearMap> map_;
