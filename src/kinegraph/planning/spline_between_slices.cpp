@@ -10,7 +10,7 @@ namespace {
 constexpr double kLeastStray = 2e-5;       // m: chords from which the spline strays less are not halved
 constexpr double kLeastPart = 1e-3;        // of the way: shorter ones neither, as where a quaternion is zero
 constexpr double kToldStray = 1e-4;        // m, of what is told of contacts
-constexpr double kApproachStray = 1e-3;    // m, of chords on which approaches are looked for
+constexpr double kApproachStray = 2e-3;    // m, of chords on which approaches are looked for
 constexpr double kMostApproachParts = 16;  // of a polynomial
 constexpr double kOverlap = .125;          // of such chords, so that they see what comes nearest where they meet
 

@@ -82,11 +82,15 @@ VectorXd SplineCurve::at(int slice, double share) const {
 }
 
 SliceMotion SplineCurve::line(int slice, double begin, double end) const {
-  SliceMotion line = motionInto(slice);
-  const double start = line.begin, width = line.end - line.begin;
-  line.begin = start + begin * width, line.end = start + end * width;
-  line.from = at(slice, begin), line.to = at(slice, end);
-  return line;
+  const SliceMotion& whole = motionInto(slice);
+  const double width = whole.end - whole.begin;
+  return {slice,
+          whole.begin + begin * width,
+          whole.begin + end * width,
+          whole.program,
+          whole.parameters,
+          begin == 0. ? whole.from : at(slice, begin),
+          end == 1. ? whole.to : at(slice, end)};
 }
 
 double SplineCurve::stray(const SliceMotion& line, double begin, double end) {

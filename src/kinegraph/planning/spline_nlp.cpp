@@ -54,7 +54,7 @@ SplineNlp::SplineNlp(const SplineNlp& summed, std::shared_ptr<MappedNlp> slices)
       layout_(summed.layout_),
       slices_(std::move(slices)),
       is_separate_(true),
-      rows_(komo_->path(), layout_, summed.rows_.objectives(), true),
+      rows_(komo_->path(), summed.rows_, summed.rows_.objectives(), true),
       curve_(summed.curve_) {
   layOut();
 }
@@ -130,7 +130,7 @@ double SplineNlp::addInstantsTo(std::vector<Objective>& objectives) {
 }
 
 void SplineNlp::replace(std::vector<Objective> objectives) {
-  rows_ = SplineRows(komo_->path(), layout_, std::move(objectives), is_separate_);
+  rows_ = SplineRows(komo_->path(), rows_, std::move(objectives), is_separate_);
   separation_ = {};
   separation_is_known_ = false;
   layOut();

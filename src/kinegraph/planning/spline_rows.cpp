@@ -33,14 +33,30 @@ SplineRows::SplineRows(const Path& path, std::shared_ptr<const SplineLayout> lay
       is_separate_(is_separate),
       tau_(path.grid().tau()),
       row_(VectorXd::Zero(layout_->lower.size())) {
-  if (objectives_.empty()) return;
-  for (int slice = 0; slice < path.grid().slices(); ++slice) motions_.push_back(motionInto(path, slice));
+  std::vector<Motion> motions;
+  for (int slice = 0; slice < path.grid().slices() && !objectives_.empty(); ++slice)
+    motions.push_back(motionInto(path, slice));
+  motions_ = std::make_shared<const std::vector<Motion>>(std::move(motions));
+  layOut(path);
+}
+
+SplineRows::SplineRows(const Path& path, const SplineRows& other, std::vector<Objective> objectives, bool is_separate)
+    : layout_(other.layout_),
+      objectives_(std::move(objectives)),
+      is_separate_(is_separate),
+      tau_(other.tau_),
+      motions_(other.motions_),
+      row_(other.row_) {
+  layOut(path);
+}
+
+void SplineRows::layOut(const Path& path) {
   for (std::size_t o = 0; o < objectives_.size(); ++o) {
     Objective& objective = objectives_[o];
-    keepRoom(objective, is_separate ? kRoomOfMotion : 0);
+    keepRoom(objective, is_separate_ ? kRoomOfMotion : 0);
     for (int slice = objective.from; slice <= objective.to; ++slice) {
       std::vector<PairInstant> instants = objective.instants[std::size_t(slice - objective.from)];
-      const int rows = is_separate ? int(instants.size()) : 1;
+      const int rows = is_separate_ ? int(instants.size()) : 1;
       terms_.push_back({int(o), slice, rows_, rows});
       instants_.emplace_back();
       setInstants(path, int(terms_.size()) - 1, std::move(instants));
@@ -101,7 +117,7 @@ const SplineRows::Term& SplineRows::termOf(int row) const {
 void SplineRows::addTo(Jacobian& J) const {
   for (const Term& term : terms_) {
     for (int row = 0; row < term.rows; ++row) {
-      for (const auto& [column, width] : motions_[std::size_t(term.slice)].segments) {
+      for (const auto& [column, width] : (*motions_)[std::size_t(term.slice)].segments) {
         J.segments.push_back({column, width, int(J.values.size())});
         J.values.resize(J.values.size() + std::size_t(width), 0.);
       }
@@ -113,7 +129,7 @@ void SplineRows::addTo(Jacobian& J) const {
 
 void SplineRows::place(const Path& path, const Term& term, double share, const VectorXd& weights, VectorXd& q) const {
   const VectorXd &from = path.state(term.slice - 1).q(), &to = path.state(term.slice).q();
-  const Motion& motion = motions_[std::size_t(term.slice)];
+  const Motion& motion = (*motions_)[std::size_t(term.slice)];
   for (const OtherDof& other : motion.others) {
     const double at_begin = from[other.dof];
     q[other.dof] = other.same < 0 ? at_begin : (1. - share) * at_begin + share * to[other.same];
@@ -159,7 +175,7 @@ void SplineRows::evaluateTerm(int number, const Path& path, const VectorXd& c, i
                               Jacobian* J) {
   const Term& term = terms_[std::size_t(number)];
   const Objective& objective = objectives_[std::size_t(term.objective)];
-  const Motion& motion = motions_[std::size_t(term.slice)];
+  const Motion& motion = (*motions_)[std::size_t(term.slice)];
   Instants& instants = instants_[std::size_t(number)];
   const double scale = objective.scale(0, 0), aim = objective.margin + objective.slack;
   const int first = first_row + term.first_row;

@@ -23,6 +23,8 @@ class SplineRows {
 
   SplineRows(const Path& path, std::shared_ptr<const SplineLayout> layout, std::vector<Objective> objectives,
              bool is_separate);
+  /// Of the same path and layout, with other objectives or in the other form.
+  SplineRows(const Path& path, const SplineRows& other, std::vector<Objective> objectives, bool is_separate);
 
   int rows() const { return rows_; }
   const std::vector<Objective>& objectives() const { return objectives_; }
@@ -58,6 +60,7 @@ class SplineRows {
     std::vector<VectorXd> weights;        ///< of control points, per instant
   };
 
+  void layOut(const Path& path);
   Motion motionInto(const Path& path, int slice) const;
   void place(const Path& path, const Term& term, double share, const VectorXd& weights, VectorXd& q) const;
   void spread(const Motion& motion, double share, const VectorXd& weights, double factor,
@@ -70,10 +73,10 @@ class SplineRows {
   double tau_;
   int rows_ = 0;
   std::vector<Term> terms_;
-  std::vector<Instants> instants_;  ///< per term
-  std::vector<Motion> motions_;     ///< per slice
-  MatrixXd points_;                 ///< of c
-  VectorXd row_;                    ///< of the Jacobian
+  std::vector<Instants> instants_;                      ///< per term
+  std::shared_ptr<const std::vector<Motion>> motions_;  ///< per slice
+  MatrixXd points_;                                     ///< of c
+  VectorXd row_;                                        ///< of the Jacobian
 };
 
 }  // namespace kinegraph
