@@ -124,6 +124,29 @@ def test_what_is_called_free_among_thin_walls_is_free() -> None:
     assert free[True] >= 4 and free[True] >= free[False]
 
 
+@pytest.mark.filterwarnings("ignore:.*overlap.* and no joint moves them apart")
+def test_a_spline_that_is_called_free_is_free() -> None:
+    """With few slices, so that the spline leaves the lines between them by much."""
+    problems = benchmark()
+    rng = np.random.default_rng(31)
+    feasible = 0
+    for _ in range(4):
+        C, start, goal = problems.among_obstacles("panda", rng)
+        komo = problems.make_komo(C, goal, 10, True)
+        komo.initWithPath(problems.line(start, goal, 10))
+        motion = ry.SplineMotion(komo, 8)
+        result = ry.NLP_Solver(motion.nlp()).solve()
+        assert result.free is motion.isFree()
+        if not result.feasible:
+            continue
+        feasible += 1
+        assert result.free and motion.isFree(problems.MARGIN)
+        limits = C.getJointLimits()
+        samples = np.clip(motion.spline().eval(np.linspace(0, 1, 5000)), limits[0], limits[1])
+        assert C.isValid(samples, margin=problems.MARGIN - 1e-6).all()
+    assert feasible >= 3
+
+
 def test_a_motion_that_is_to_be_free_keeps_its_margin() -> None:
     C = ry.Config()
     C.addText("""

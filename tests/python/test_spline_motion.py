@@ -41,6 +41,15 @@ def test_the_reports_are_those_of_the_komo(komo):
     assert komo.getConstraintViolations() < 1e-3
 
 
+def test_verdicts_are_about_the_spline(komo):
+    motion = ry.SplineMotion(komo, 5)
+    result = ry.NLP_Solver(motion.nlp(), verbose=0).solve()
+    assert result.feasible and result.free is motion.isFree(0.0) is motion.isFree()
+    assert not motion.isFree(1.0)
+    with pytest.raises(ry.ArgumentError, match="margin is nan"):
+        motion.isFree(float("nan"))
+
+
 def test_what_does_not_fit_is_said(komo):
     with pytest.raises(ry.ArgumentError, match="points is 25; expected 1 to 24"):
         ry.SplineMotion(komo, 25)
