@@ -7,6 +7,7 @@
 // CMakeLists.txt), so that all widths give the same bits.
 
 #include <type_traits>
+#include <utility>
 
 namespace kinegraph::lanes {
 
@@ -41,17 +42,25 @@ S magnitude(S a) {
   return a < S{} ? -a : a;
 }
 
+/// Half of a pack; `begin` is its first lane.
+template <class Mask, int... Lane>
+[[gnu::always_inline]] inline auto half(Mask mask, int begin, std::integer_sequence<int, Lane...>) {
+  constexpr int kCount = sizeof...(Lane);
+  return begin == 0 ? __builtin_shufflevector(mask, mask, Lane...)
+                    : __builtin_shufflevector(mask, mask, kCount + Lane...);
+}
+
 /// Is a lane of a comparison set?
 inline bool any(bool one) { return one; }
 template <class Mask>
-bool any(Mask mask) {
-  Mask found = mask;
-  for (int i = kWidth<Mask> / 2; i > 0; i /= 2) {
-    Mask other = found;
-    for (int k = 0; k < i; ++k) other[k] = found[k + i];
-    found |= other;
+[[gnu::always_inline]] inline bool any(Mask mask) {
+  constexpr int kHalf = kWidth<Mask> / 2;
+  if constexpr (kHalf == 1) {
+    return (mask[0] | mask[1]) != 0;
+  } else {
+    constexpr std::make_integer_sequence<int, kHalf> lanes;
+    return any(half(mask, 0, lanes) | half(mask, kHalf, lanes));
   }
-  return found[0] != 0;
 }
 
 inline double root(double a) { return __builtin_sqrt(a); }
