@@ -141,7 +141,8 @@ FlagArray isValid(const PyConfig& config, const Numbers& Q, double margin, int t
   warnOfContacts(config);
   const State scene = config.state();
   const NewFlags valid = newFlags(joints.count());
-  unlocked(threads, "isValid", [&](const BatchOptions& options) {
+  unlocked(threads, "isValid", [&](BatchOptions options) {
+    options.checkers = &config.checkers;
     areValid(scene, joints.q, margin, {valid.data, joints.count()}, options);
   });
   return joints.answer(valid.array);
@@ -156,7 +157,8 @@ FlagArray isMotionFree(const PyConfig& config, const Numbers& from, const Number
   warnOfContacts(config);
   const State scene = config.state();
   const NewFlags free = newFlags(starts.count());
-  unlocked(threads, "isMotionFree", [&](const BatchOptions& options) {
+  unlocked(threads, "isMotionFree", [&](BatchOptions options) {
+    options.checkers = &config.checkers;
     areMotionsFree(scene, starts.q, ends.q, margin, tolerance, {free.data, starts.count()}, options);
   });
   return starts.answer(free.array);

@@ -10,6 +10,7 @@
 #include "arrays.h"
 #include "kinds.h"
 #include "kinegraph/features/residual_cache.h"
+#include "kinegraph/kinematics/edge_checkers.h"
 #include "kinegraph/scene/config.h"
 #include "recent_calls.h"
 
@@ -27,6 +28,7 @@ struct PyConfig : Config {
   mutable ResidualCache residuals = {};
   mutable RecentCalls calls = {};
   mutable std::shared_ptr<PairDistances> pairs = {};
+  mutable EdgeCheckers checkers = {};
   VectorXd joints = {};
   mutable std::uint64_t noted = 0;              ///< structure revision for which notes were given
   mutable std::vector<std::string> notes = {};  ///< those that were given

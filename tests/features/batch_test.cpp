@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <memory>
+#include <set>
 
 #include "kinegraph/features/eval.h"
 #include "tests/features/heap.h"
@@ -99,6 +100,39 @@ TEST(Batch, GivesTheSameNumbersOnAnyNumberOfThreads) {
   const RowMatrix Q = randomJoints(1001, 3);
   const Results one = evaluateAll(config, Q, 1);
   for (int threads : {2, 3, 8}) EXPECT_TRUE(evaluateAll(config, Q, threads) == one) << threads;
+}
+
+TEST(Batch, CheckersThatAreKeptAreOfTheSceneThatIsAsked) {
+  Config config = arm();
+  const RowMatrix Q = randomJoints(200, 3);
+  EdgeCheckers kept;
+  const auto answers = [&](double margin, int threads, EdgeCheckers* checkers) {
+    const auto valid = std::make_unique<bool[]>(std::size_t(Q.rows()));
+    areValid(config.state(), Q, margin, {valid.get(), std::size_t(Q.rows())},
+             {.threads = threads, .checkers = checkers});
+    const auto free = std::make_unique<bool[]>(std::size_t(Q.rows() - 1));
+    areMotionsFree(config.state(), Q.topRows(Q.rows() - 1), Q.bottomRows(Q.rows() - 1), margin, 1e-4,
+                   {free.get(), std::size_t(Q.rows() - 1)}, {.threads = threads, .checkers = checkers});
+    std::vector<bool> all(valid.get(), valid.get() + Q.rows());
+    all.insert(all.end(), free.get(), free.get() + Q.rows() - 1);
+    return all;
+  };
+  std::set<std::vector<bool>> different;
+  for (const double x : {2., .3, .1}) {
+    Frame post = config.findFrame("post") ? config.getFrame("post") : config.addFrame("post");
+    post.setShape(ShapeType::sphere, {.1}).setPosition({x, 0., .2}).setContact(1);
+    for (const double margin : {0., .02}) {
+      const std::vector<bool> wanted = answers(margin, 1, nullptr);
+      for (const int threads : {1, 3}) EXPECT_EQ(answers(margin, threads, &kept), wanted);
+      different.insert(wanted);
+    }
+  }
+  EXPECT_GT(different.size(), 2u);
+  const auto first = kept.take(config.state(), .01, 1e-4);
+  EXPECT_EQ(first->margin(), .01);
+  Config other(config);
+  other.addFrame("other");
+  EXPECT_EQ(kept.take(other.state(), 0.)->scene().sharedProgram(), other.program());
 }
 
 TEST(Batch, NoConfigurationsAreFine) {

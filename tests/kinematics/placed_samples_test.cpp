@@ -11,7 +11,7 @@ namespace kinegraph {
 namespace {
 
 /// Joints of many types, bodies of many kinds, turned any way.
-Config crane() {
+Config crane(const std::string& more = "") {
   Config C;
   C.addText(R"(
 world: {}
@@ -23,7 +23,7 @@ wrist(arm): {joint: quatBall, Q: [0.8, 0, 0]}
 hook(wrist): {shape: sphere, size: [0.06], Q: [0, 0, -0.1], contact: 1}
 plate(wrist): {shape: box, size: [0.2, 0.1, 0.02], Q: [0.1, 0, -0.2], contact: 1}
 crate(world): {shape: box, size: [0.4, 0.4, 0.4], Q: [0.9, 0.2, 0.2, 0.9, 0, 0, 0.3], contact: 1}
-)");
+)" + more);
   return C;
 }
 
@@ -72,11 +72,12 @@ TEST_P(InLanes, BoundsAreBelowDistancesAndSpheresAroundBodies) {
   samples.place(8);
   int told = 0;
   for (const LinkBodies::Pair& pair : bodies.pairs) {
-    const PlacedSamples::Lane bounds = samples.distanceBounds(pair.a, pair.b);
+    const auto [bounds, tops] = samples.distanceBounds(pair.a, pair.b);
     for (int i = 0; i < 8; ++i) {
       const LinkBodies::Body &a = bodies.bodies[std::size_t(pair.a)], &b = bodies.bodies[std::size_t(pair.b)];
-      EXPECT_LE(bounds[i],
-                proximity(*a.shape, samples.pose(pair.a, i), *b.shape, samples.pose(pair.b, i)).distance + 1e-12);
+      const double distance = proximity(*a.shape, samples.pose(pair.a, i), *b.shape, samples.pose(pair.b, i)).distance;
+      EXPECT_LE(bounds[i], distance + 1e-12);
+      EXPECT_GE(tops[i], distance - 1e-12);
       told += bounds[i] > 0.;
       for (const int body : {pair.a, pair.b}) {
         const PlacedSamples::Sphere& sphere = samples.sphere(bodies.bodies[std::size_t(body)].group);
@@ -89,8 +90,79 @@ TEST_P(InLanes, BoundsAreBelowDistancesAndSpheresAroundBodies) {
   EXPECT_GT(told, 20);
 }
 
+/// Also hulls of few and of many corners, and what is round.
+Config craneAmongHulls() {
+  Config C = crane(R"(
+drum(arm): {shape: cylinder, size: [0.3, 0.1], Q: [0.2, 0.1, 0.2, 0.8, 0.1, 0.2, 0.3], contact: 1}
+pad(world): {shape: ssBoxElip, size: [0.2, 0.1, 0.1, 0.05, 0.1, 0.07, 0.02], Q: [0.4, 0.9, 0.2, 0.8, 0.3, 0, 0], contact: 1}
+)");
+  Rng rng(3);
+  for (const auto& [name, parent, corners] :
+       {std::tuple("pebble", "wrist", 7), {"rock", "wrist", 200}, {"stone", "arm", 30}, {"boulder", "world", 150}}) {
+    std::vector<Vector3d> points;
+    for (int i = 0; i < corners; ++i)
+      points.push_back(.2 * Vector3d(rng.normal(), rng.normal(), rng.normal()).normalized());
+    C.addFrame(name, parent).setRelativePosition({.3, .2, .1}).setConvexCore(points, .01).setContact(1);
+  }
+  return C;
+}
+
+TEST_P(InLanes, GapsAreFromTheFarthestPointOfOneToThatOfTheOther) {
+  const Config C = craneAmongHulls();
+  State state = C.state();
+  const LinkBodies bodies(state);
+  PlacedSamples samples(state, bodies, sampleKernel(GetParam()));
+  const std::vector<VectorXd> Q = draws(state, 8);
+  for (int i = 0; i < 8; ++i) samples.setJoints(i, Q[std::size_t(i)].data());
+  samples.place(8);
+  Rng rng(2);
+  ASSERT_GT(bodies.pairs.size(), 20u);
+  for (const LinkBodies::Pair& pair : bodies.pairs) {
+    const CollisionBody &a = *bodies.bodies[std::size_t(pair.a)].shape, &b = *bodies.bodies[std::size_t(pair.b)].shape;
+    SupportCorners corners;
+    for (const int link : {0, bodies.link(pair.a)}) {
+      const Vector3d n = Vector3d(rng.normal(), rng.normal(), rng.normal()).normalized();
+      const PlacedSamples::Lane gaps = samples.gaps(pair.a, pair.b, n, link, corners);
+      for (int i = 0; i < 8; ++i) {
+        const Vector3d world = samples.linkPose(link, i).R * n;
+        const RigidTransform X_A = samples.pose(pair.a, i), X_B = samples.pose(pair.b, i);
+        const Vector3d least = X_A * a.support(-(X_A.R.transpose() * world)),
+                       most = X_B * b.support(X_B.R.transpose() * world);
+        EXPECT_NEAR(gaps[i], world.dot(least - most) - a.radius() - b.radius(), 1e-12);
+        EXPECT_LE(gaps[i], proximity(a, X_A, b, X_B).distance + 1e-9);
+      }
+    }
+  }
+}
+
+TEST_P(InLanes, WhatDoesNotMoveIsNearAGroupAllAtOnce) {
+  const Config C = craneAmongHulls();
+  const State state = C.state();
+  const LinkBodies bodies(state);
+  PlacedSamples samples(state, bodies, sampleKernel(GetParam()));
+  Rng rng(4);
+  int near = 0, far = 0;
+  for (int draw = 0; draw < 20; ++draw) {
+    const std::vector<VectorXd> Q = draws(state, 1);
+    samples.setJoints(0, VectorXd(Q[0] * rng.uniform(.5, 2.)).data());
+    samples.place(1);
+    for (int g = 0; g < bodies.moving; ++g) {
+      for (const double margin : {0., .3, -.1, -10.}) {
+        const std::vector<std::int64_t>& found = samples.nearFixed(g, margin);
+        for (int other = bodies.moving; other < int(bodies.groups.size()); ++other) {
+          const bool is_near = found[std::size_t(other - bodies.moving)] != 0;
+          EXPECT_EQ(is_near, samples.mayBeNear(g, other, margin));
+          is_near ? ++near : ++far;
+        }
+      }
+    }
+  }
+  EXPECT_GT(near, 20);
+  EXPECT_GT(far, 20);
+}
+
 TEST_P(InLanes, AllWidthsGiveTheSameBits) {
-  const Config C = crane();
+  const Config C = craneAmongHulls();
   const State state = C.state();
   const LinkBodies bodies(state);
   PlacedSamples samples(state, bodies, sampleKernel(GetParam())), narrow(state, bodies, sampleKernel(2));
@@ -99,8 +171,16 @@ TEST_P(InLanes, AllWidthsGiveTheSameBits) {
     for (int i = 0; i < 8; ++i) each->setJoints(i, Q[std::size_t(i)].data());
     each->place(8);
   }
-  for (const LinkBodies::Pair& pair : bodies.pairs)
-    EXPECT_TRUE((samples.distanceBounds(pair.a, pair.b) == narrow.distanceBounds(pair.a, pair.b)).all());
+  for (const LinkBodies::Pair& pair : bodies.pairs) {
+    const auto [least, most] = samples.distanceBounds(pair.a, pair.b);
+    const auto [narrow_least, narrow_most] = narrow.distanceBounds(pair.a, pair.b);
+    EXPECT_TRUE((least == narrow_least).all() && (most == narrow_most).all());
+    SupportCorners corners, narrow_corners;
+    const Vector3d n = Vector3d(.3, -.5, .8).normalized();
+    EXPECT_TRUE((samples.gaps(pair.a, pair.b, n, pair.ancestor, corners) ==
+                 narrow.gaps(pair.a, pair.b, n, pair.ancestor, narrow_corners))
+                    .all());
+  }
   for (int b = 0; b < int(bodies.bodies.size()); ++b)
     for (int i = 0; i < 8; ++i) EXPECT_EQ(samples.pose(b, i).p, narrow.pose(b, i).p);
 }

@@ -14,7 +14,8 @@ namespace kinegraph {
 
 namespace {
 
-constexpr int kPart = 32;  ///< configurations that a thread takes at once
+constexpr int kPart = 32;            ///< configurations that a thread takes at once
+constexpr double kTolerance = 1e-5;  ///< m; of no account where postures alone are looked at
 
 void checkJoints(const State& scene, const Eigen::Ref<const RowMatrix>& Q) {
   if (Q.cols() != scene.dofs()) {
@@ -206,14 +207,33 @@ void nearestPoints(const State& scene, const Eigen::Ref<const RowMatrix>& Q, con
 
 namespace {
 
+/// A checker for each thread, which goes back to those that are kept.
+class Crew {
+ public:
+  Crew(const State& scene, double margin, double tolerance, int count, const BatchOptions& options)
+      : kept_(options.checkers ? options.checkers : &own_) {
+    const int threads = std::clamp(options.threads, 1, std::max(1, (count + kPart - 1) / kPart));
+    while (int(checkers_.size()) < threads) checkers_.push_back(kept_->take(scene, margin, tolerance));
+  }
+  Crew(const Crew&) = delete;
+  ~Crew() {
+    for (auto& checker : checkers_) kept_->giveBack(std::move(checker));
+  }
+
+  int size() const { return int(checkers_.size()); }
+  EdgeChecker& of(int worker) { return *checkers_[std::size_t(worker)]; }
+
+ private:
+  EdgeCheckers own_;
+  EdgeCheckers* kept_;
+  std::vector<std::unique_ptr<EdgeChecker>> checkers_;
+};
+
 /// Rows within limits that follow one another are looked at side by side. `limit(i)` says whether row i is.
 template <class Limit>
 void areFreeInLanes(const State& scene, const Eigen::Ref<const RowMatrix>& Q, double margin, std::span<bool> valid,
                     const BatchOptions& options, const Limit& limit) {
-  const int parts = (int(Q.rows()) + kPart - 1) / kPart, threads = std::clamp(options.threads, 1, std::max(1, parts));
-  std::vector<EdgeChecker> checkers;
-  checkers.reserve(std::size_t(threads));
-  for (int i = 0; i < threads; ++i) checkers.emplace_back(scene, margin);
+  Crew crew(scene, margin, kTolerance, int(Q.rows()), options);
   const auto part = [&](int worker, int from, int to) {
     const double* rows[EdgeChecker::kLanes];
     int places[EdgeChecker::kLanes], count = 0;
@@ -224,12 +244,12 @@ void areFreeInLanes(const State& scene, const Eigen::Ref<const RowMatrix>& Q, do
         rows[count++] = Q.row(i).data();
       }
       if (count == 0 || (count < EdgeChecker::kLanes && i + 1 < to)) continue;
-      checkers[std::size_t(worker)].areFree({rows, std::size_t(count)}, free);
+      crew.of(worker).areFree({rows, std::size_t(count)}, free);
       for (int k = 0; k < count; ++k) valid[places[k]] = free[k];
       count = 0;
     }
   };
-  forParts(int(Q.rows()), kPart, threads, part, options.between);
+  forParts(int(Q.rows()), kPart, crew.size(), part, options.between);
 }
 
 }  // namespace
@@ -258,10 +278,14 @@ void areMotionsFree(const State& scene, const Eigen::Ref<const RowMatrix>& from,
   checkJoints(scene, to);
   if (from.rows() != to.rows()) throw ValueError(cat("motions: ", from.rows(), " starts and ", to.rows(), " ends"));
   if (!(tolerance > 0.)) throw ValueError(cat("motions: tolerance is ", tolerance, "; expected a distance > 0 in m"));
-  forEach(EdgeChecker(scene, margin, tolerance), int(from.rows()), options, [&](EdgeChecker& checker, int i) {
-    const double *start = from.row(i).data(), *end = to.row(i).data();
-    free[i] = withinLimits(scene.program(), start) && withinLimits(scene.program(), end) && checker.isFree(start, end);
-  });
+  Crew crew(scene, margin, tolerance, int(from.rows()), options);
+  const auto part = [&](int worker, int first, int end) {
+    for (int i = first; i < end; ++i) {
+      const double *a = from.row(i).data(), *b = to.row(i).data();
+      free[i] = withinLimits(scene.program(), a) && withinLimits(scene.program(), b) && crew.of(worker).isFree(a, b);
+    }
+  };
+  forParts(int(from.rows()), kPart, crew.size(), part, options.between);
 }
 
 }  // namespace kinegraph

@@ -6,6 +6,7 @@
 
 #include "kinegraph/features/residual.h"
 #include "kinegraph/geometry/distance/proximity.h"
+#include "kinegraph/kinematics/edge_checkers.h"
 
 namespace kinegraph {
 
@@ -17,6 +18,7 @@ struct BatchOptions {
   int threads = 1;                     ///< the calling one included
   std::function<void()> between = {};  ///< called on the calling thread every few configurations; may throw to stop
   int lanes = 0;                       ///< configurations side by side: one of laneWidths(), 0 for the widest
+  EdgeCheckers* checkers = nullptr;    ///< what areValid and areMotionsFree keep for the next call; none: nothing
 };
 
 // What follows evaluates many configurations of a scene, the rows of Q (N x dofs), and needs no memory per

@@ -5,12 +5,6 @@
 
 namespace kinegraph {
 
-namespace {
-
-constexpr double kFar = std::numeric_limits<double>::infinity();  // what is no nearer than was asked for
-
-}  // namespace
-
 void EdgeEngine::findApproaches(const double* from, const double* to, double most, std::vector<MotionContact>& found) {
   ask();
   found.clear();
@@ -22,7 +16,7 @@ void EdgeEngine::findApproaches(const double* from, const double* to, double mos
   }
 }
 
-/// The distance where it is below `most`, else kFar.
+/// The distance where it is below `most`, else kFar: it is no nearer than was asked for.
 double EdgeEngine::distanceBelow(double most, const Candidate& candidate, Normal& normal, const Moment& at) {
   if (candidate.pair.convex && normal.stamp == stamp_ && gap(candidate, normal, at) >= most) return kFar;
   if (judge(candidate, normal, at, most) == Verdict::apart) return kFar;

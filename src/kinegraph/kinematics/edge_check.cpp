@@ -13,6 +13,11 @@ EdgeChecker::EdgeChecker(const EdgeChecker& other) : EdgeChecker(other.state_, o
 
 EdgeChecker::~EdgeChecker() = default;
 
+void EdgeChecker::setTolerance(double tolerance) {
+  tolerance_ = tolerance;
+  engine_->setTolerance(tolerance);
+}
+
 bool EdgeChecker::isFree(const double* q) {
   bool free = true;
   engine_->areFree(&q, 1, margin_, &free);

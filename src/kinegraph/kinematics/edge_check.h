@@ -32,6 +32,7 @@ class EdgeChecker {
   /// m; the distance that all pairs have to keep. Negative: they may overlap by that much.
   double margin() const { return margin_; }
   void setMargin(double margin) { margin_ = margin; }
+  void setTolerance(double tolerance);
 
   const State& scene() const { return state_; }
 

@@ -22,6 +22,8 @@ EdgeEngine::EdgeEngine(const State& scene, double tolerance)
       bodies_(scene),
       samples_(scene, bodies_),
       bounds_(scene),
+      group_rates_(std::size_t(bodies_.moving)),
+      body_rates_(bodies_.bodies.size()),
       tolerance_(tolerance),
       normals_(bodies_.pairs.size()),
       middles_(kDeepest),
@@ -35,29 +37,43 @@ EdgeEngine::EdgeEngine(const State& scene, double tolerance)
 
 // --- which pairs may be near -----------------------------------------------------------------------------------------
 
-/// Pairs of groups that may be within the margin; those that may come nearer than `most` in a sample.
-void EdgeEngine::findCandidates(double margin, double most) {
+/// Pairs of groups that may be within the margin; those that may come nearer than `most` in a sample. Ends with a pair
+/// that inner balls show to be nearer than `near` in one, and returns it.
+const EdgeEngine::Candidate* EdgeEngine::findCandidates(double margin, double most, double near) {
   candidates_.clear();
+  const std::vector<std::int64_t>* near_fixed = nullptr;
+  int near_group = -1;
   for (const LinkBodies::Block& block : bodies_.blocks) {
-    if (!samples_.mayBeNear(block.a, block.b, margin)) continue;
-    for (int i = block.first; i < block.last; ++i) addPair(bodies_.pairs[std::size_t(i)], i, most);
+    if (!bodies_.fixed(block.b)) {
+      if (!samples_.mayBeNear(block.a, block.b, margin)) continue;
+    } else {
+      if (near_group != block.a) near_fixed = &samples_.nearFixed(near_group = block.a, margin);
+      if (!(*near_fixed)[std::size_t(block.b - bodies_.moving)]) continue;
+    }
+    for (int i = block.first; i < block.last; ++i) {
+      if (addPair(bodies_.pairs[std::size_t(i)], i, most, near)) return &candidates_.back();
+    }
   }
-  if (bodies_.many) addNearFixed(margin, most);
+  if (bodies_.many && addNearFixed(margin, most, near)) return &candidates_.back();
   const auto key = [&](const Candidate& c) { return c.index >= 0 && c.index == suspect_ ? -1e300 : c.least; };
   std::sort(candidates_.begin(), candidates_.end(), [&](const Candidate& x, const Candidate& y) {
     const double a = key(x), b = key(y);
     return a < b || (a == b && (x.pair.a < y.pair.a || (x.pair.a == y.pair.a && x.pair.b < y.pair.b)));
   });
+  return nullptr;
 }
 
-void EdgeEngine::addPair(const LinkBodies::Pair& pair, int index, double most) {
-  const Lane bounds = samples_.distanceBounds(pair.a, pair.b, most);
-  const double least = bounds.head(samples_.count()).minCoeff();
-  if (least < most) candidates_.push_back({pair, index, bounds, least});
+/// Returns whether inner balls show that it is nearer than `near` in a sample.
+bool EdgeEngine::addPair(const LinkBodies::Pair& pair, int index, double most, double near) {
+  const auto [least, top] = samples_.distanceBounds(pair.a, pair.b, most);
+  Candidate candidate = {pair, index, least, least.head(samples_.count()).minCoeff()};
+  const bool is_near = top.head(samples_.count()).minCoeff(&candidate.touching) < near;
+  if (is_near || candidate.least < most) candidates_.push_back(candidate);
+  return is_near;
 }
 
 /// Where many bodies are fixed to the world: those that a group that moves comes near to.
-void EdgeEngine::addNearFixed(double margin, double most) {
+bool EdgeEngine::addNearFixed(double margin, double most, double near) {
   for (int g = 0; g < bodies_.moving; ++g) {
     const PlacedSamples::Sphere& sphere = samples_.sphere(g);
     const Vector3d low = sphere.center.array() - sphere.radius, high = sphere.center.array() + sphere.radius;
@@ -66,8 +82,11 @@ void EdgeEngine::addNearFixed(double margin, double most) {
       const int other = bodies_.moving + item;
       if (samples_.mayBeNear(g, other, margin)) bodies_.appendPairs(g, other, near_fixed_);
     });
-    for (const LinkBodies::Pair& pair : near_fixed_) addPair(pair, -1, most);
+    for (const LinkBodies::Pair& pair : near_fixed_) {
+      if (addPair(pair, -1, most, near)) return true;
+    }
   }
+  return false;
 }
 
 // --- one pair at one time --------------------------------------------------------------------------------------------
@@ -98,6 +117,14 @@ double EdgeEngine::gap(const Candidate& candidate, Normal& normal, const Moment&
   const double nearest_a = n.dot(X_A.p) - in_a.dot(supportNear(a, in_a, normal.corners.a)),
                farthest_b = n.dot(X_B.p) + in_b.dot(supportNear(b, in_b, normal.corners.b));
   return nearest_a - farthest_b - a.radius() - b.radius();
+}
+
+/// The same in all samples, computed anew where the direction has changed.
+const EdgeEngine::Lane& EdgeEngine::gapsIn(SampleGaps& known, const Candidate& candidate, Normal& normal) {
+  if (known.known && known.n == normal.n) return known.gaps;
+  const LinkBodies::Pair& pair = candidate.pair;
+  known = {normal.n, samples_.gaps(pair.a, pair.b, normal.n, pair.ancestor, normal.corners), true};
+  return known.gaps;
 }
 
 /// The distance; its normal is kept.
@@ -154,7 +181,7 @@ bool EdgeEngine::hit(const Candidate& candidate, double time, const double* q, d
 
 void EdgeEngine::areFree(const double* const* Q, int count, double margin, bool* free) {
   std::fill(free, free + count, true);
-  forHits(Q, count, margin, [free](int sample) {
+  forHits(Q, count, margin, true, [free](int sample) {
     free[sample] = false;
     return true;
   });
@@ -162,24 +189,29 @@ void EdgeEngine::areFree(const double* const* Q, int count, double margin, bool*
 
 bool EdgeEngine::areAllFree(const double* const* Q, int count, double margin) {
   bool all_free = true;
-  forHits(Q, count, margin, [&](int) { return all_free = false; });
+  forHits(Q, count, margin, false, [&](int) { return all_free = false; });
   return all_free;
 }
 
 /// Calls hit(sample) for pairs that are too near, of each sample once; until it says no. What was hit last comes first,
-/// before it is known which other pairs may be near.
+/// before it is known which other pairs may be near. Not all: one hit is enough.
 template <class Hit>
-void EdgeEngine::forHits(const double* const* Q, int count, double margin, const Hit& hit_sample) {
+void EdgeEngine::forHits(const double* const* Q, int count, double margin, bool all, const Hit& hit_sample) {
   last_hit_.reset();
   for (int i = 0; i < count; ++i) samples_.setJoints(i, Q[i]);
   samples_.place(count);
+  const double near = all ? -kFar : margin;
+  const auto hitAtOnce = [&](const Candidate& candidate) {
+    hit(candidate, 0., Q[candidate.touching]);
+    hit_sample(candidate.touching);
+  };
   bool was_hit[kLanes] = {};
   if (suspect_ >= 0) {
     candidates_.clear();
-    addPair(bodies_.pairs[std::size_t(suspect_)], suspect_, margin);
+    if (addPair(bodies_.pairs[std::size_t(suspect_)], suspect_, margin, near)) return hitAtOnce(candidates_.front());
     if (!candidates_.empty() && !lookAt(candidates_.front(), Q, count, margin, was_hit, hit_sample)) return;
   }
-  findCandidates(margin, margin);
+  if (const Candidate* touching = findCandidates(margin, margin, near)) return hitAtOnce(*touching);
   for (const Candidate& candidate : candidates_) {
     if (!lookAt(candidate, Q, count, margin, was_hit, hit_sample)) return;
   }
@@ -190,11 +222,11 @@ template <class Hit>
 bool EdgeEngine::lookAt(const Candidate& candidate, const double* const* Q, int count, double margin, bool* was_hit,
                         const Hit& hit_sample) {
   Normal& normal = normalOf(candidate);
+  SampleGaps gaps;
   for (int i = 0; i < count; ++i) {
     if (was_hit[i] || candidate.bounds[i] >= margin) continue;
-    const Moment at = sampleAt(i);
-    if (candidate.pair.convex && normal.stamp > 0 && gap(candidate, normal, at) >= margin + kExact) continue;
-    if (!isNear(candidate, normal, at, margin)) continue;
+    if (candidate.pair.convex && normal.stamp > 0 && gapsIn(gaps, candidate, normal)[i] >= margin + kExact) continue;
+    if (!isNear(candidate, normal, sampleAt(i), margin)) continue;
     hit(candidate, 0., Q[i]);
     was_hit[i] = true;
     if (!hit_sample(i)) return false;
@@ -246,8 +278,7 @@ void EdgeEngine::placePiece(double from, double to) {
   samples_.place(kLanes);
   const double width = (to - from) / (kLanes - 1);
   for (int g = 0; g < bodies_.moving; ++g) {
-    const LinkBodies::Group& group = bodies_.groups[std::size_t(g)];
-    const MotionBounds::Rates rates = bounds_.ratesOf(group.link, group.center.norm());
+    const MotionBounds::Rates& rates = group_rates_[std::size_t(g)];
     samples_.setStray(g, std::min(.125 * rates.bend * width * width, .5 * rates.speed * width));
   }
 }
@@ -260,29 +291,47 @@ int EdgeEngine::setMotion(const double* from, const double* to) {
   double speed = 0.;
   for (int g = 0; g < bodies_.moving; ++g) {
     const LinkBodies::Group& group = bodies_.groups[std::size_t(g)];
+    group_rates_[std::size_t(g)] = bounds_.ratesOf(group.link, group.center.norm());
     speed = std::max(speed, bounds_.ratesOf(group.link, group.reach).speed);
   }
   return std::isfinite(speed) ? int(std::clamp(std::ceil(speed / kPiece), 1., double(kMostPieces))) : 1;
 }
 
-MotionBounds::Rates EdgeEngine::ratesOf(const Candidate& candidate) const {
+/// Of the points of both bodies relative to each other.
+MotionBounds::Rates EdgeEngine::ratesOf(const Candidate& candidate) {
   const auto [a, b] = std::pair(candidate.pair.a, candidate.pair.b);
+  if (candidate.pair.ancestor == 0) {
+    const MotionBounds::Rates &of_a = ratesInWorld(a), &of_b = ratesInWorld(b);
+    return {of_a.speed + of_b.speed, of_a.bend + of_b.bend, of_a.reach + of_b.reach};
+  }
   return bounds_.relative(bodies_.link(a), bodies_.bodies[std::size_t(a)].reach, bodies_.link(b),
                           bodies_.bodies[std::size_t(b)].reach);
+}
+
+const MotionBounds::Rates& EdgeEngine::ratesInWorld(int body) {
+  BodyRates& known = body_rates_[std::size_t(body)];
+  if (known.stamp != stamp_)
+    known = {stamp_, bounds_.ratesOf(bodies_.link(body), bodies_.bodies[std::size_t(body)].reach)};
+  return known.rates;
 }
 
 bool EdgeEngine::isFree(const double* from, const double* to, double margin) {
   ask();
   const int pieces = setMotion(from, to);
+  const auto touches = [&] {
+    const Candidate* touching = findCandidates(margin, kFar, margin);
+    if (!touching) return false;
+    const double time = sampleAt(touching->touching).time;
+    hit(*touching, time, jointsAt(time));
+    return true;
+  };
   if (pieces > 1) {  // a look at all of it first
     placePiece(0., 1.);
-    findCandidates(margin);
-    if (!samplesKeep(margin)) return false;
+    if (touches() || !samplesKeep(margin)) return false;
   }
   for (int i = pieces - 1; i >= 0; --i) {
     placePiece(double(i) / pieces, i + 1 == pieces ? 1. : double(i + 1) / pieces);
-    findCandidates(margin);
-    if (!pieceKeeps(margin)) return false;
+    if (touches() || !pieceKeeps(margin)) return false;
   }
   return true;
 }
@@ -292,10 +341,11 @@ bool EdgeEngine::samplesKeep(double margin) {
   for (const Candidate& candidate : candidates_) {
     if (candidate.least >= margin) continue;
     Normal& normal = normalOf(candidate);
+    SampleGaps gaps;
     for (int i = kLanes - 1; i >= 0; --i) {
       if (candidate.bounds[i] >= margin) continue;
       const Moment at = sampleAt(i);
-      if (candidate.pair.convex && normal.stamp == stamp_ && gap(candidate, normal, at) >= margin) continue;
+      if (candidate.pair.convex && normal.stamp == stamp_ && gapsIn(gaps, candidate, normal)[i] >= margin) continue;
       if (isNear(candidate, normal, at, margin)) return hit(candidate, at.time, jointsAt(at.time));
     }
   }
@@ -325,8 +375,15 @@ bool EdgeEngine::pairKeeps(const Candidate& candidate, double margin, double wid
     const bool shown = bow < 1e9 && judge(candidate, normal, at, margin + bow) == Verdict::apart;
     if (!shown && isNear(candidate, normal, at, margin)) return hit(candidate, at.time, jointsAt(at.time));
   }
+  SampleGaps gaps;
+  const auto apartBetween = [&](int i) {
+    if (!candidate.pair.convex || bow >= 1e9 || normal.stamp != stamp_) return false;
+    const Lane& of = gapsIn(gaps, candidate, normal);
+    return of[i] >= margin + bow && of[i + 1] >= margin + bow;
+  };
   for (int i = 0; i + 1 < kLanes; ++i) {
-    if (!farBetween(i) && !keeps(candidate, normal, rates, margin, sampleAt(i), sampleAt(i + 1), 0)) return false;
+    if (farBetween(i) || apartBetween(i)) continue;
+    if (!keeps(candidate, normal, rates, margin, sampleAt(i), sampleAt(i + 1), 0)) return false;
   }
   return true;
 }

@@ -28,6 +28,7 @@ class EdgeEngine {
  public:
   using Lane = PlacedSamples::Lane;
   static constexpr int kLanes = PlacedSamples::kMost;
+  static constexpr double kFar = std::numeric_limits<double>::infinity();
 
   EdgeEngine(const State& scene, double tolerance);
 
@@ -57,13 +58,20 @@ class EdgeEngine {
     LinkBodies::Pair pair;
     int index;  ///< of the pair, -1 if it is not listed
     Lane bounds;
-    double least;  ///< of the bounds
+    double least;      ///< of the bounds
+    int touching = 0;  ///< the sample in which it is nearest, as far as inner balls show
   };
   /// A direction, and where the supports of both bodies were found along it.
   struct Normal {
     int stamp = 0;  ///< of the question that it was computed for
     Vector3d n;     ///< in the ancestor, unit, from b to a
     SupportCorners corners;
+  };
+  /// How far a pair is apart in all samples, along the direction that it had when it was asked.
+  struct SampleGaps {
+    Vector3d n;
+    Lane gaps;
+    bool known = false;
   };
   /// A time of the motion: a sample, or a State of its own.
   struct Moment {
@@ -77,12 +85,13 @@ class EdgeEngine {
     last_hit_.reset();
   }
   int setMotion(const double* from, const double* to);
-  MotionBounds::Rates ratesOf(const Candidate& candidate) const;
+  MotionBounds::Rates ratesOf(const Candidate& candidate);
+  const MotionBounds::Rates& ratesInWorld(int body);
   template <class Hit>
-  void forHits(const double* const* Q, int count, double margin, const Hit& hit);
-  void findCandidates(double margin, double most = std::numeric_limits<double>::infinity());
-  void addPair(const LinkBodies::Pair& pair, int index, double most);
-  void addNearFixed(double margin, double most);
+  void forHits(const double* const* Q, int count, double margin, bool all, const Hit& hit);
+  const Candidate* findCandidates(double margin, double most = kFar, double near = -kFar);
+  bool addPair(const LinkBodies::Pair& pair, int index, double most, double near);
+  bool addNearFixed(double margin, double most, double near);
   template <class Hit>
   bool lookAt(const Candidate& candidate, const double* const* Q, int count, double margin, bool* was_hit,
               const Hit& hit);
@@ -96,6 +105,7 @@ class EdgeEngine {
   RigidTransform linkAt(int link, const Moment& at) const;
   RigidTransform poseAt(int body, const Moment& at);
   double gap(const Candidate& candidate, Normal& normal, const Moment& at);
+  const Lane& gapsIn(SampleGaps& known, const Candidate& candidate, Normal& normal);
   double measure(const Candidate& candidate, Normal& normal, const Moment& at);
   enum class Verdict { apart, near, unknown };
   Verdict judge(const Candidate& candidate, Normal& normal, const Moment& at, double margin);
@@ -117,6 +127,12 @@ class EdgeEngine {
   LinkBodies bodies_;
   PlacedSamples samples_;
   MotionBounds bounds_;
+  std::vector<MotionBounds::Rates> group_rates_;  ///< of the centers of groups that move, of this motion
+  struct BodyRates {
+    int stamp = 0;  ///< of the question
+    MotionBounds::Rates rates;
+  };
+  std::vector<BodyRates> body_rates_;  ///< in the world, of those that were asked for
   double tolerance_;
   std::vector<Candidate> candidates_;
   std::vector<Normal> normals_;  ///< per listed pair

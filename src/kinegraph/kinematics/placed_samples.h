@@ -5,6 +5,7 @@
 #include <memory>
 #include <vector>
 
+#include "kinegraph/geometry/distance/separation.h"
 #include "kinegraph/kinematics/link_bodies.h"
 #include "kinegraph/kinematics/sample_kernel.h"
 
@@ -46,18 +47,29 @@ class PlacedSamples {
   /// certain.
   bool mayBeNear(int group_a, int group_b, double margin) const;
 
+  /// The same for a group that moves and all that do not: zero for those of which it is certain. Of few bodies alone.
+  const std::vector<std::int64_t>& nearFixed(int group, double margin);
+
   /// X_WB of a body.
   RigidTransform pose(int body, int sample) { return poseIn(placed(body).rows, SampleKernel::kPerBody, 0, sample); }
 
-  /// Lower bounds of the distance of two bodies in each sample, m: how far their boxes are apart along the direction
-  /// from one's to the other's middle. -infinity where that says nothing. Bounds that are `most` or more need not be the
-  /// best.
-  Lane distanceBounds(int body_a, int body_b, double most = std::numeric_limits<double>::infinity());
+  /// Bounds of the distance of two bodies in each sample, m. `least`: how far their boxes are apart along the direction
+  /// from one's to the other's middle; -infinity where that says nothing. Those that are `most` or more need not be the
+  /// best. `most`: of a ball within one and the box of the other; infinity where that says nothing.
+  struct Bounds {
+    Lane least, most;
+  };
+  Bounds distanceBounds(int body_a, int body_b, double most = std::numeric_limits<double>::infinity());
+
+  /// How far two convex bodies are apart along a direction, in each sample, m; a lower bound of their distance. The unit
+  /// vector n, from b to a, is fixed in a link. The farthest corners are looked for from `corners` on.
+  Lane gaps(int body_a, int body_b, const Vector3d& n, int link, SupportCorners& corners);
 
  private:
   struct Placed {
     alignas(64) double rows[SampleKernel::kPerBody * kMost];
     SampleKernel::Offset offset;
+    SampleKernel::Convex core;  ///< of a convex body
     int stamp = 0;
   };
   const Placed& placed(int body);
@@ -73,15 +85,19 @@ class PlacedSamples {
     return X;
   }
   SampleKernel::Box boxOf(int body);
+  void layOutFixed();
 
   const SampleKernel* kernel_;
   std::shared_ptr<const Parameters> parameters_;
   const LinkBodies* bodies_;
   LaneModel model_;
   LaneMemory memory_{};
-  std::vector<double> storage_;                  ///< of memory_
-  std::vector<double> Q_;                        ///< a row per sample
-  std::vector<Sphere> spheres_;                  ///< per group
+  std::vector<double> storage_;  ///< of memory_
+  std::vector<double> Q_;        ///< a row per sample
+  std::vector<Sphere> spheres_;  ///< per group
+  std::vector<double> fixed_storage_;
+  SampleKernel::FixedBoxes fixed_{};             ///< of groups, in their order
+  std::vector<std::int64_t> near_;               ///< per group that does not move
   std::vector<std::unique_ptr<Placed>> placed_;  ///< per body; of many bodies those that were asked for
   int count_ = 0, groups_ = 0, stamp_ = 0;
 };

@@ -63,6 +63,19 @@ template <class Mask>
   }
 }
 
+/// The least number of a pack.
+inline double leastOf(double one) { return one; }
+template <class S>
+[[gnu::always_inline]] inline double leastOf(S pack) {
+  constexpr int kHalf = kWidth<S> / 2;
+  if constexpr (kHalf == 1) {
+    return smaller(double(pack[0]), double(pack[1]));
+  } else {
+    constexpr std::make_integer_sequence<int, kHalf> lanes;
+    return leastOf(smaller(half(pack, 0, lanes), half(pack, kHalf, lanes)));
+  }
+}
+
 inline double root(double a) { return __builtin_sqrt(a); }
 template <class S>
 S root(S a) {

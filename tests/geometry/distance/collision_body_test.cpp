@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include "kinegraph/base/random.h"
 #include "kinegraph/geometry/distance/proximity.h"
 #include "kinegraph/geometry/shapes/shape_types.h"
 #include "kinegraph/geometry/shapes/tessellation.h"
@@ -70,6 +71,24 @@ TEST(CollisionBody, BoundingSphereHoldsTheSurfaceOfEveryShape) {
       EXPECT_LE((p - body->boundCenter()).norm(), body->boundRadius() + kBodyRounding) << shapeTypeName(geometry.type);
     }
   }
+}
+
+TEST(CollisionBody, InnerBallIsAsDeepAsTheMiddleIs) {
+  Rng rng(1);
+  std::vector<Vector3d> corners;  // of a lump beside the origin
+  for (int i = 0; i < 100; ++i)
+    corners.push_back(Vector3d(.5 + .2 * rng.normal(), .1 * rng.normal(), .2 * rng.normal()));
+  std::vector<Geometry> shapes = solidShapes();
+  shapes.push_back(sweptHullOf(corners, .02));
+  for (const Geometry& geometry : shapes) {
+    const auto body = makeCollisionBody(geometry);
+    const double depth = -distanceTo(*body, body->boundCenter()), inner = body->innerRadius() + body->radius();
+    EXPECT_LE(inner, depth + 1e-7) << shapeTypeName(geometry.type);
+    EXPECT_GT(inner, .0) << shapeTypeName(geometry.type);
+    if (geometry.type != ShapeType::ssBoxElip) EXPECT_NEAR(inner, depth, 1e-6) << shapeTypeName(geometry.type);
+  }
+  const auto flat = makeCollisionBody(sweptHullOf({{0, 0, 0}, {.2, 0, 0}, {0, .2, 0}}, .01));
+  EXPECT_EQ(flat->innerRadius(), 0.);
 }
 
 TEST(CollisionBody, VerticesOfTheDrawnSurfaceLieOnTheBodyThatDistancesAreComputedWith) {

@@ -32,6 +32,7 @@ class BodyMaker {
   void setBox(const Vector3d& half) {
     body_->core_ = CollisionBody::Core::box;
     body_->half_sides_ = half;
+    body_->inner_radius_ = half.minCoeff();
     bound(Vector3d::Zero(), half);
   }
 
@@ -41,6 +42,7 @@ class BodyMaker {
     body_->half_length_ = std::max(half_length, 1e-9);
     bound(Vector3d::Zero(), {body_->core_radius_, body_->core_radius_, body_->half_length_});
     body_->bound_radius_ = std::hypot(body_->core_radius_, body_->half_length_);
+    body_->inner_radius_ = std::min(body_->core_radius_, body_->half_length_);
   }
 
   void setBoxEllipsoid(const Vector3d& half, const Vector3d& radii) {
@@ -49,12 +51,13 @@ class BodyMaker {
     body_->radii_ = radii;
     bound(Vector3d::Zero(), half + radii);
     body_->bound_radius_ = half.norm() + radii.maxCoeff();
+    body_->inner_radius_ = half.minCoeff() + radii.minCoeff();
   }
 
   void setHull(const std::vector<Vector3d>& points) {
     body_->core_ = CollisionBody::Core::hull;
     boundPoints(points);
-    body_->hull_ = makeHull(points);
+    body_->hull_ = makeHull(points, body_->bound_center_, body_->inner_radius_);
   }
 
   /// `parts` have no rounding; without any, the parts are the points.

@@ -57,6 +57,9 @@ class CollisionBody {
     return bound_half_;
   }  ///< half sides of the core's bounding box about boundCenter()
 
+  /// A ball of this radius about boundCenter() is within a convex core, m; 0 where none is known.
+  double innerRadius() const { return inner_radius_; }
+
   /// The point of a convex core that is farthest along a direction. Local coordinates.
   Vector3d support(const Vector3d& direction) const;
 
@@ -68,7 +71,7 @@ class CollisionBody {
   double radius_ = 0., half_length_ = 0., core_radius_ = 0.;
   Vector3d half_sides_ = Vector3d::Zero(), radii_ = Vector3d::Zero();
   Vector3d bound_center_ = Vector3d::Zero(), bound_half_ = Vector3d::Zero();
-  double bound_radius_ = 0.;
+  double bound_radius_ = 0., inner_radius_ = 0.;
   Hull hull_;
   std::unique_ptr<const BodyTree> tree_;
   std::unique_ptr<const GridField> grid_;

@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <limits>
 #include <set>
 
 #include "kinegraph/geometry/distance/hull.h"
@@ -8,7 +9,20 @@ namespace kinegraph {
 
 namespace {
 
-constexpr std::size_t kMany = 48;  ///< points from which on walking along neighbors is quicker than looking at all
+constexpr double kFacetRounding = 1e-9;  ///< m
+constexpr std::size_t kMany = 48;   ///< points from which on walking along neighbors is quicker than looking at all
+
+/// How far a point is within all facets, m; 0 outside.
+double depthIn(const Mesh& hull, const Vector3d& point) {
+  double depth = std::numeric_limits<double>::infinity();
+  for (const auto& triangle : hull.triangles) {
+    const Vector3d& a = hull.vertices[triangle[0]];
+    const Vector3d normal = (hull.vertices[triangle[1]] - a).cross(hull.vertices[triangle[2]] - a).normalized();
+    if (normal.isZero(.5)) return 0.;  // a triangle without extent
+    depth = std::min(depth, normal.dot(a - point));
+  }
+  return std::max(depth - kFacetRounding, 0.);
+}
 
 }  // namespace
 
@@ -40,8 +54,9 @@ int Hull::farthest(const Vector3d& direction) const {
   return best;
 }
 
-Hull makeHull(const std::vector<Vector3d>& points) {
+Hull makeHull(const std::vector<Vector3d>& points, const Vector3d& center, double& inner) {
   Hull hull;
+  inner = 0.;
   if (!spanVolume(points)) {
     std::set<std::array<double, 3>> known;
     for (const Vector3d& p : points) {
@@ -50,6 +65,7 @@ Hull makeHull(const std::vector<Vector3d>& points) {
     return hull;
   }
   Mesh mesh = convexHull(points);
+  inner = depthIn(mesh, center);
   hull.points = std::move(mesh.vertices);
   if (hull.points.size() < kMany) return hull;
   std::vector<std::set<std::uint32_t>> next(hull.points.size());
