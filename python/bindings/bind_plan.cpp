@@ -321,7 +321,7 @@ void bindPlan(nb::module_& m) {
   bindPlanCopies(constraint, motion_plan);
   const std::string doc = cat(docs::plan::planMotion, planOptionClass().docs("        "), docs::plan::planMotionRest);
   m.def(
-      "planMotion", plan, "config"_a, "goal"_a, "start"_a = nb::none(), "fields"_a,
+      "planMotion", plan, "config"_a, "goal"_a.none(), "start"_a = nb::none(), "fields"_a,
       nb::sig("def planMotion(config: Config, goal: typing.Any, start: numpy.typing.ArrayLike | None = None, **fields: "
               "typing.Any) -> MotionPlan"),
       doc.c_str());
@@ -330,7 +330,7 @@ void bindPlan(nb::module_& m) {
           "__iter__", [](nb::handle self) { return nb::borrow(self); },
           nb::sig("def __iter__(self) -> collections.abc.Iterator[MotionPlan]"))
       .def("__next__", nextPlan);
-  m.def("planMotions", plans, "config"_a, "goal"_a, "start"_a = nb::none(), "fields"_a,
+  m.def("planMotions", plans, "config"_a, "goal"_a.none(), "start"_a = nb::none(), "fields"_a,
         nb::sig("def planMotions(config: Config, goal: typing.Any, start: numpy.typing.ArrayLike | None = None, "
                 "**fields: typing.Any) -> MotionPlans"),
         docs::plan::planMotions);

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "kinegraph/base/errors.h"
+#include "kinegraph/base/text.h"
 
 namespace kinegraph {
 namespace {
@@ -44,6 +45,51 @@ TEST(PlanMotion, ADoorThatIsTooNarrowIsProvenToBe) {
   EXPECT_EQ(plan.status, PlanStatus::impossible);
   EXPECT_NE(plan.message.find("a ball of 150 mm inside of 'body' does not get past 'left', 'right'"), std::string::npos)
       << plan.message;
+}
+
+/// A body on a base of these joints, before two walls that leave a door.
+Config roomForA(const std::string& body, const std::string& joints, double door) {
+  Config C;
+  C.addText(cat("world: {}\nbase(world): {joint: ", joints, "}\nbody(base): {", body, ", contact: 1}"));
+  for (const double side : {1., -1.}) {
+    Frame wall = C.addFrame(side > 0. ? "left" : "right");
+    wall.setShape(ShapeType::ssBox, {.2, 3., 1., .01}).setPosition({0., side * (.5 * door + 1.5), 0.}).setContact(1);
+  }
+  return C;
+}
+
+TEST(PlanMotion, WhatStandsUprightIsWiderThanTheBallInIt) {
+  const std::string turns = "transXYPhi, limits: [-2, -2, -4, 2, 2, 4]",
+                    slides = "trans3, limits: [-2, -2, -.1, 2, 2, .1]";
+  struct Case {
+    std::string body, joints, words;
+    double too_narrow, wide_enough;
+  };
+  for (const auto& [body, joints, words, too_narrow, wide_enough] :
+       {Case{"shape: cylinder, size: [.1, .2]", turns, "'body'", .38, .41},
+        Case{"shape: ssBox, size: [.5, .4, .1, .02]", turns, "an upright cylinder of radius 200 mm inside of 'body'",
+             .38, .41},
+        Case{"shape: ssBox, size: [.1, .4, .1, .02]", slides, "'body'", .36, .41},
+        Case{"Q: [0, 0, 0, .9, .4, 0, 0], shape: cylinder, size: [.1, .2]", slides, "'body'", .3, .41}}) {
+    for (const double door : {too_narrow, wide_enough}) {
+      const Config C = roomForA(body, joints, door);
+      const VectorXd start{{-1., .5, 0.}}, goal{{1., 1., 0.}};
+      const MotionPlan plan = planMotion(C, goal, {.evaluations = 200}, start);
+      if (door == too_narrow) {
+        EXPECT_EQ(plan.status, PlanStatus::impossible) << body << plan.message;
+        EXPECT_NE(plan.message.find("there is no way: " + words + " does not get past"), std::string::npos)
+            << plan.message;
+      } else {
+        EXPECT_NE(plan.status, PlanStatus::impossible) << body << plan.message;
+      }
+    }
+  }
+  // A cylinder that tips over gets through a door that is wider than it is long.
+  const Config C = roomForA("shape: cylinder, size: [.1, .2]",
+                            "free, limits: [-2, -2, -2, -1, -1, -1, -1, 2, 2, 2, 1, 1, 1, 1]", .3);
+  VectorXd start = VectorXd::Zero(7), goal = start;
+  start.head<4>() << -1., .5, 0., 1., goal.head<4>() << 1., 1., 0., 1.;
+  EXPECT_NE(planMotion(C, goal, {.evaluations = 200}, start).status, PlanStatus::impossible);
 }
 
 TEST(PlanMotion, ADoorThatIsWideEnoughIsNotProvenAway) {

@@ -297,8 +297,10 @@ def test_what_makes_no_sense_is_an_error() -> None:
         ry.planMotion(C, GOAL, velocity=[1.0, 2.0])
     with pytest.raises(ry.ArgumentError, match="optimize is 'speed'; expected one of time, length, clearance"):
         ry.planMotion(C, GOAL, optimize="speed")
-    with pytest.raises(ry.ArgumentError, match="expected a joint vector or several"):
-        ry.planMotion(C, 3)
+    for goal in (3, None):
+        for call in (ry.planMotion, ry.planMotions):
+            with pytest.raises(ry.ArgumentError, match=f"the goal is {goal}; expected a joint vector or several"):
+                call(C, goal)
     with pytest.raises(ry.ArgumentError, match="neither eq nor ineq"):
         ry.planMotion(C, GOAL, constraints=[ry.MotionConstraint(ry.FS.position, ["body"], ry.OT.sos)])
     with pytest.raises(ry.FrameNotFound, match="bdy"):

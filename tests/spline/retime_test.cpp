@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <limits>
+#include <numbers>
 
 #include "kinegraph/base/random.h"
 #include "kinegraph/spline/curve_part.h"
@@ -135,6 +136,17 @@ TEST(Retime, BlendsMissTheirCornerByTheToleranceAndAreFasterThanStops) {
     EXPECT_GT(timed.at(timed.times[1]).velocity.norm(), .1);
     options.corners = Corners::stop;
     EXPECT_LT(timed.duration(), retime(corner(), limits, options).duration());
+  }
+}
+
+TEST(Retime, WhereItTurnsBackARoundedCornerTakesNoLongerThanAStop) {
+  const MotionLimits limits{VectorXd::Ones(2), VectorXd::Ones(2), VectorXd::Constant(2, 10.)};
+  for (const double degrees : {0., .01, .1, .3, 1., 5.}) {
+    const double a = degrees / 180. * std::numbers::pi;
+    const MatrixXd path{{0., 0.}, {1., 0.}, {1. - std::cos(a), std::sin(a)}};
+    const double stops = retime(path, limits, {.corners = Corners::stop}).duration();
+    for (const double tolerance : {1e-3, .01, .1, .3})
+      EXPECT_LE(retime(path, limits, {.tolerance = tolerance}).duration(), 1.03 * stops) << degrees << " " << tolerance;
   }
 }
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <optional>
 #include <set>
 
 #include "kinegraph/base/text.h"
@@ -15,6 +16,8 @@ namespace {
 constexpr double kMostCells = 300000.;
 constexpr std::size_t kMostBodies = 4;  // the thickest ones
 constexpr double kRounding = 1e-6;      // m
+constexpr double kDepth = 2e-5;         // of a body's size: by which depths of round bodies may be wrong
+constexpr double kParallel = 1e-9;      // rad
 constexpr double kThin = 1e-4;          // m: an extent below this is one layer of cells
 
 struct Extent {
@@ -67,22 +70,26 @@ Extent reachOf(const State& scene, int link, const Vector3d& point) {
   return box;
 }
 
-/// A ball inside of a body that moves, and what it must not come near.
-struct InnerBall {
+/// What is inside of a body that moves, at all postures with the same axes in the world, and what that must not come near.
+struct Core {
   int frame;
   Vector3d center;  ///< in the frame, m
-  double radius;    ///< m
+  double radius;    ///< of the largest ball around it, m
   std::vector<int> obstacles;
+  std::string words = {};
+  std::shared_ptr<const CollisionBody> body = pointBody();
+  Matrix3d R = Matrix3d::Identity();  ///< the body's axes
+  double thicker = 0.;                ///< by how much the core is, m
 };
 
-std::vector<InnerBall> thickestBalls(const State& scene) {
+std::vector<Core> thickestBodies(const State& scene) {
   const Program& program = scene.program();
   const auto point = pointBody();
-  std::vector<InnerBall> balls;
+  std::vector<Core> balls;
   for (std::size_t frame = 0; frame < program.body.size(); ++frame) {
     const auto& body = program.body[frame];
     if (!body || program.frame_link[frame] == 0) continue;
-    InnerBall ball{int(frame), body->boundCenter(), 0., {}};
+    Core ball{int(frame), body->boundCenter(), 0., {}};
     for (const auto& [a, b] : program.movingPairs()) {
       if (a == int(frame) && program.frame_link[std::size_t(b)] == 0) ball.obstacles.push_back(b);
       if (b == int(frame) && program.frame_link[std::size_t(a)] == 0) ball.obstacles.push_back(a);
@@ -95,12 +102,50 @@ std::vector<InnerBall> thickestBalls(const State& scene) {
   return balls;
 }
 
-/// The places that a ball's center can be brought to, as cells.
+Core ballOf(Core core, const std::string& name) {
+  core.words = cat("a ball of ", lengthInWords(core.radius), " inside of '", name, "'");
+  core.thicker = core.radius;
+  return core;
+}
+
+/// More than a ball where joints turn the body about one direction of the world alone, or not at all: the body, if it looks
+/// the same then, or the upright cylinder in a box.
+std::optional<Core> uprightOf(Core core, const State& scene, const std::string& name) {
+  const std::shared_ptr<const CollisionBody>& body = scene.program().body[std::size_t(core.frame)];
+  if (!body->convex()) return std::nullopt;
+  Vector3d axis = Vector3d::Zero();
+  bool is_one = true;
+  scene.forTwists(core.frame, [&](int, const State::Twist& twist) {
+    const double turn = twist.angular.norm();
+    if (turn == 0.) return;
+    if (axis.isZero(0.)) axis = twist.angular / turn;
+    is_one &= axis.cross(twist.angular).norm() <= kParallel * turn;
+  });
+  if (!is_one) return std::nullopt;
+  core.R = scene.pose(core.frame).R;
+  core.body = body;
+  core.words = cat("'", name, "'");
+  const Vector3d local = core.R.transpose() * axis;
+  int along = 0;
+  const bool has_axis = local.cwiseAbs().maxCoeff(&along) > 1. - kParallel;
+  const auto kind = body->core();
+  const bool is_round = kind == CollisionBody::Core::segment || kind == CollisionBody::Core::cylinder;
+  if (axis.isZero(0.) || (is_round && has_axis && along == 2)) return core;
+  if (kind != CollisionBody::Core::box || !has_axis) return std::nullopt;
+  const Vector3d& half = body->halfSides();
+  const double radius = std::min(half[(along + 1) % 3], half[(along + 2) % 3]) + body->radius();
+  core.body = makeCollisionBody({ShapeType::cylinder, {2. * half[along], radius}, nullptr});
+  core.R = Eigen::Quaterniond::FromTwoVectors(Vector3d::UnitZ(), axis).toRotationMatrix();
+  core.words = cat("an upright cylinder of radius ", lengthInWords(radius), " inside of '", name, "'");
+  return core;
+}
+
+/// The places that a core's center can be brought to, as cells.
 class PlaceGrid {
  public:
-  PlaceGrid(const State& scene, const InnerBall& ball, double margin) : scene_(scene), ball_(ball), margin_(margin) {
-    const RigidTransform& offset = scene.parameters().frame_offset[std::size_t(ball.frame)];
-    const Extent reach = reachOf(scene, scene.link(ball.frame), offset * ball.center);
+  PlaceGrid(const State& scene, const Core& core, double margin) : scene_(scene), core_(core), margin_(margin) {
+    const RigidTransform& offset = scene.parameters().frame_offset[std::size_t(core.frame)];
+    const Extent reach = reachOf(scene, scene.link(core.frame), offset * core.center);
     low_ = reach.low.array() - 1e-9;
     const Vector3d size = (reach.high - reach.low).cwiseMax(kThin);
     const int wide = int((size.array() > kThin).count());
@@ -144,7 +189,7 @@ class PlaceGrid {
 
   std::size_t cellOf(const VectorXd& q) {
     scene_.setJoints(q.data());
-    const Vector3d at = scene_.pose(ball_.frame) * ball_.center;
+    const Vector3d at = scene_.pose(core_.frame) * core_.center;
     std::size_t cell = 0;
     for (int k = 2; k >= 0; --k) {
       const int i = std::clamp(int((at[k] - low_[k]) / edge_[k]), 0, count_[k] - 1);
@@ -177,14 +222,16 @@ class PlaceGrid {
     const std::array<int, 3> at = placeOf(cell);
     Vector3d center;
     for (int k = 0; k < 3; ++k) center[k] = low_[k] + (at[std::size_t(k)] + .5) * edge_[k];
-    const double near = ball_.radius + margin_ - .5 * edge_.norm() - kRounding;
-    if (near <= 0.) return false;
+    const double size = core_.body->boundRadius();
+    const double near = core_.thicker + margin_ - .5 * edge_.norm() - kRounding - kDepth * size;
+    if (near + size <= 0.) return false;
     const Program& program = scene_.program();
-    for (const int frame : ball_.obstacles) {
+    const RigidTransform X_WC{core_.R, center - core_.R * core_.body->boundCenter()};
+    for (const int frame : core_.obstacles) {
       const CollisionBody& body = *program.body[std::size_t(frame)];
       const RigidTransform X = scene_.pose(frame);
-      if (!mayBeWithin(body, X, center, near)) continue;
-      if (proximity(*point_, {Matrix3d::Identity(), center}, body, X).distance >= near) continue;
+      if (!mayBeWithin(body, X, center, near + size)) continue;
+      if (proximity(*core_.body, X_WC, body, X).distance >= near) continue;
       closers_.insert(frame);
       return true;
     }
@@ -192,9 +239,8 @@ class PlaceGrid {
   }
 
   State scene_;
-  const InnerBall& ball_;
+  const Core& core_;
   double margin_;
-  std::shared_ptr<const CollisionBody> point_ = pointBody();
   Vector3d low_, edge_;
   int count_[3] = {1, 1, 1};
   bool is_possible_ = false;
@@ -206,15 +252,20 @@ class PlaceGrid {
 
 std::string proveNoWay(const State& scene, const VectorXd& start, const std::vector<VectorXd>& goals, double margin) {
   const Program& program = scene.program();
-  for (const InnerBall& ball : thickestBalls(scene)) {
-    PlaceGrid grid(scene, ball, margin);
+  std::vector<Core> cores;
+  for (const Core& body : thickestBodies(scene)) {
+    const std::string& name = program.frame_name[std::size_t(body.frame)];
+    cores.push_back(ballOf(body, name));
+    if (std::optional<Core> upright = uprightOf(body, scene, name)) cores.push_back(std::move(*upright));
+  }
+  for (const Core& core : cores) {
+    PlaceGrid grid(scene, core, margin);
     if (!grid.separates(start, goals)) continue;
     std::vector<std::string> names;
     for (const int frame : grid.closers()) {
       if (names.size() < 4) names.push_back(cat("'", program.frame_name[std::size_t(frame)], "'"));
     }
-    return cat("there is no way: a ball of ", lengthInWords(ball.radius), " inside of '",
-               program.frame_name[std::size_t(ball.frame)], "' does not get past ", join(names),
+    return cat("there is no way: ", core.words, " does not get past ", join(names),
                margin > 0. ? cat(" with a margin of ", lengthInWords(margin)) : "");
   }
   return "";

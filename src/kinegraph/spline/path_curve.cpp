@@ -217,10 +217,16 @@ struct Blend {
 constexpr int kBlendSamples = 9;
 constexpr int kSmallerBlends = 6;  // halvings, before a corner stays one
 
+/// Of the mean of both directions: below it a corner turns back, nearly, and a smooth blend would have to stand still in it,
+/// but for a moment.
+constexpr double kTurnsBack = .0035;
+
 /// The largest blend that is within tolerance and free; `half` is 0 if there is none.
 Blend findBlend(const DistinctPoints& distinct, int corner, const BlendOptions& options) {
   Blend blend{distinct.points.col(corner), distinct.direction(corner - 1), distinct.direction(corner), 0.,
               options.smooth};
+  const double mean = .5 * (distinct.direction(corner - 1) + distinct.direction(corner)).norm();
+  if (options.smooth && mean < kTurnsBack) return blend;
   const double turn = blend.turn().cwiseAbs().maxCoeff();
   const double room = std::min(distinct.chord[corner - 1], distinct.chord[corner]) / 2.;
   blend.half = std::min(room, options.tolerance / (Blend::miss(options.smooth) * turn));

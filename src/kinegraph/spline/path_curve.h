@@ -75,7 +75,8 @@ struct BlendOptions {
 /// their predecessor are at the same s. Throws ValueError without points, or for numbers that are not finite.
 PathCurve polyline(const MatrixXd& points);
 
-/// Lines whose corners are rounded: parabolas, or quartics where `smooth`. No blend begins beyond the middle of a line.
+/// Lines whose corners are rounded: parabolas, or quartics where `smooth`. No blend begins beyond the middle of a line. Where
+/// `smooth`, corners that turn back to within .4 degrees stay.
 PathCurve blendedPolyline(const MatrixXd& points, const BlendOptions& options = {});
 
 /// The cubic spline through the points with continuous second derivatives; the first two pieces are one polynomial, as
