@@ -343,6 +343,9 @@ def main(arguments: list[str] | None = None) -> int:
     except Error as error:
         print(f"kinegraph: {error}", file=sys.stderr)
         return 1
+    except OSError as error:  # a file that cannot be written
+        print(f"kinegraph: {error.filename}: {error.strerror}", file=sys.stderr)
+        return 1
     return 0
 
 

@@ -4,6 +4,7 @@ import os
 import subprocess
 import sys
 
+import numpy as np
 import pytest
 
 import kinegraph as ry
@@ -135,3 +136,15 @@ def test_the_commands_of_robotic_are_there(command, words):
     program = subprocess.run([sys.executable, "-c", code, *arguments], capture_output=True, text=True, timeout=120)
     assert program.returncode == 0, program.stderr
     assert words in program.stdout
+
+
+def test_plan_writes_the_motion_and_says_where_it_cannot(tmp_path):
+    scene = ry.raiPath("scenarios/pandaSingle.g")
+    goal = ["--goal", "l_gripper=0.3,0.3,1.1", "--no-view"]
+    done = kinegraph("plan", scene, *goal, "-o", str(tmp_path / "motion.csv"))
+    assert done.returncode == 0, done.stderr
+    rows = np.loadtxt(tmp_path / "motion.csv", delimiter=",", skiprows=1)
+    assert rows.shape[1] == 8 and rows[0, 0] == 0 and (np.diff(rows[:, 0]) > 0).all()
+    nowhere = kinegraph("plan", scene, *goal, "-o", str(tmp_path / "none" / "motion.csv"))
+    assert nowhere.returncode == 1 and "Traceback" not in nowhere.stderr
+    assert nowhere.stderr.endswith("motion.csv: No such file or directory\n")

@@ -264,6 +264,34 @@ TEST(Retime, WhatCannotBeBrakedIsSaid) {
   expectError<ValueError>([&] { timed.at(0.); }, {"there is no motion", "cannot be braked"});
 }
 
+TEST(Retime, WhatItSaysWouldDoDoesAndLittleMoreDoesNot) {
+  const MatrixXd path{{0., 0.}, {.2, .1}, {.25, .4}, {.6, .5}};
+  int told = 0;
+  for (const double jerk : {0., 5., 60.}) {
+    const MotionLimits limits = jerk > 0. ? limitsOf(2, 1., 2., jerk) : limitsOf(2, 1., 2.);
+    for (const bool at_start : {true, false}) {
+      for (const Corners corners : {Corners::blend, Corners::stop}) {
+        RetimeOptions options;
+        options.corners = corners;
+        VectorXd& velocity = at_start ? options.start_velocity : options.end_velocity;
+        const VectorXd along =
+            (at_start ? path.row(1) - path.row(0) : path.row(3) - path.row(2)).transpose().normalized();
+        velocity = 1.05 * along;
+        const TimedPath timed = retime(path, limits, options);
+        const std::size_t said = timed.message.find("a length of at most ");
+        if (timed.feasible() || said == std::string::npos) continue;
+        ++told;
+        const double most = std::stod(timed.message.substr(said + 20));
+        velocity = most * along;
+        EXPECT_TRUE(retime(path, limits, options).feasible()) << jerk << " " << at_start << " " << most;
+        velocity = 1.02 * most * along;
+        EXPECT_FALSE(retime(path, limits, options).feasible()) << jerk << " " << at_start << " " << most;
+      }
+    }
+  }
+  EXPECT_GE(told, 6);
+}
+
 TEST(Retime, RowsOfTheCallerHoldAtAllPlacesAndSayWhatCannotBeHeld) {
   RowSource rows;  // s'' + s'^2 + c <= 3, with c = 1 + s
   rows.low = VectorXd::Constant(1, -kNoLimit), rows.high = VectorXd::Constant(1, 3.);

@@ -297,7 +297,6 @@ SmoothLaw smoothLaw(const LawGrid& grid, const SquaredSpeeds& first, double star
     smooth.failure = by_start              ? LawFailure::start_too_fast
                      : !section.to.at_rest ? LawFailure::end_too_fast
                                            : LawFailure::cannot_move;
-    smooth.most = std::numeric_limits<double>::quiet_NaN();
     smooth.place = grid.place(section.begin);
     return smooth;
   }

@@ -8,7 +8,6 @@ namespace kinegraph {
 struct SmoothLaw {
   TimeLaw law;
   LawFailure failure = LawFailure::none;
-  double most = 0.;  ///< as in SquaredSpeeds
   double place = 0.;
 };
 

@@ -56,8 +56,10 @@ constexpr double kAlong = 1e-6;  // by which a velocity may leave the path's dir
 constexpr int kNarrowings = 10;
 constexpr int kMostTrials = 5;  // each with twice as many intervals
 constexpr int kMostIntervals = 1000000;
-constexpr double kExcess = 1e-12;    // of the rows' range: rounding
-constexpr double kNarrowMore = 1.5;  // than what is exceeded
+constexpr int kTrialHalvings = 24, kIntervalsOfTrials = 100;  // of what would do
+constexpr double kBelowBound[] = {1e-6, 1e-4};                // by so much, as a share, is what a message then says
+constexpr double kExcess = 1e-12;                             // of the rows' range: rounding
+constexpr double kNarrowMore = 1.5;                           // than what is exceeded
 
 /// ds/dt for a velocity at s.
 double speedOf(const char* name, const VectorXd& velocity, const PathCurve& curve, double s) {
@@ -105,18 +107,12 @@ std::string along(const PathCurve& curve, double s) {
   return cat("at ", 100. * s / std::max(curve.length(), 1e-300), " % of the path");
 }
 
-std::string wouldDo(double length) {
-  return std::isfinite(length) ? cat("; a length of at most ", length, " would do") : "";
-}
-
 std::string failureText(const SquaredSpeeds& speeds, const PathCurve& curve, const RowSource& rows) {
-  const double start = curve.eval(0., 1).norm(), end = curve.eval(curve.length(), 1).norm();
   switch (speeds.failure) {
     case LawFailure::start_too_fast:
-      return cat("the start velocity is above the limits, or cannot be braked within them",
-                 wouldDo(speeds.most * start));
+      return "the start velocity is above the limits, or cannot be braked within them";
     case LawFailure::end_too_fast:
-      return cat("the end velocity is above the limits, or cannot be reached within them", wouldDo(speeds.most * end));
+      return "the end velocity is above the limits, or cannot be reached within them";
     case LawFailure::cannot_move: {
       const std::string name = speeds.row >= 0 && speeds.row < int(rows.names.size()) ? rows.names[speeds.row] : "";
       if (speeds.row < 0) return cat("no speed keeps the limits ", along(curve, speeds.place));
@@ -165,10 +161,41 @@ void checkLimited(const LawGrid& grid, const MotionLimits& limits, const LawEffo
 
 }  // namespace
 
+namespace {
+
+/// Of an end velocity that is too fast, what would do, in words; "" where that is not known. By bisection.
+std::string whatWouldDo(const TimedPath& failed, const MotionLimits& limits, const RetimeOptions& options) {
+  const bool is_start = failed.status == RetimeStatus::start_too_fast;
+  if ((!is_start && failed.status != RetimeStatus::end_too_fast) || options.start_acceleration.size() > 0) return "";
+  RetimeOptions slower = options;
+  VectorXd& velocity = is_start ? slower.start_velocity : slower.end_velocity;
+  const VectorXd given = velocity;
+  const auto does = [&](double share) {
+    velocity = share * given;
+    return retime(MatrixXd(), failed.curve(), limits, slower).feasible();
+  };
+  slower.intervals = std::min(options.intervals, kIntervalsOfTrials);
+  double low = 0., high = 1.;
+  for (int i = 0; i < kTrialHalvings; ++i) {
+    const double middle = .5 * (low + high);
+    (does(middle) ? low : high) = middle;
+  }
+  slower.intervals = options.intervals;
+  for (const double below : kBelowBound) {
+    const std::string length = cat((1. - below) * low * given.norm());  // rounded, and so looked at again
+    if (low > 0. && does(std::stod(length) / given.norm())) return cat("; a length of at most ", length, " would do");
+  }
+  return "";
+}
+
+}  // namespace
+
 TimedPath retime(const MatrixXd& path, const MotionLimits& limits, const RetimeOptions& options) {
   options.validate();
   if (path.cols() > 0) limits.validate(int(path.cols()));
-  return retime(path, curveOf(path, limits, options), limits, options);
+  TimedPath timed = retime(path, curveOf(path, limits, options), limits, options);
+  timed.message += whatWouldDo(timed, limits, options);
+  return timed;
 }
 
 namespace {
@@ -211,7 +238,7 @@ Timing timingOf(const LawGrid& grid, const MotionLimits& limits, const RowSource
     return timing;
   }
   SmoothLaw smooth = smoothLaw(grid, speeds, ends.start_acceleration, limits, rows, effort);
-  speeds.failure = smooth.failure, speeds.most = smooth.most, speeds.place = smooth.place;
+  speeds.failure = smooth.failure, speeds.place = smooth.place;
   timing.law = std::move(smooth.law);
   return timing;
 }

@@ -246,11 +246,11 @@ class TwoPasses {
         rows_(grid, limits, source, caps_, effort) {}
 
   SquaredSpeeds run(double start, double end) {
-    if (end > caps_.back()) return fail(LawFailure::end_too_fast, caps_.back());
+    if (end > caps_.back()) return fail(LawFailure::end_too_fast);
     if (!backwards(end)) return speeds_;
     const double slack = kSlack * std::max(1., start);
-    if (start > open_[0].high + slack) return fail(LawFailure::start_too_fast, open_[0].high);
-    if (start < open_[0].low - slack) return fail(LawFailure::end_too_fast, 0.);
+    if (start > open_[0].high + slack) return fail(LawFailure::start_too_fast);
+    if (start < open_[0].low - slack) return fail(LawFailure::end_too_fast);
     forwards(std::clamp(start, open_[0].low, open_[0].high));
     return speeds_;
   }
@@ -261,8 +261,8 @@ class TwoPasses {
   double reach(int i) const { return 2. * grid_.width(i) * lineLimits(grid_, limits_, i).acceleration; }
 
   /// A row of the caller that forbids to stand still somewhere is the reason, where there is one.
-  SquaredSpeeds& fail(LawFailure failure, double most) {
-    speeds_.failure = failure, speeds_.most = std::sqrt(most);
+  SquaredSpeeds& fail(LawFailure failure) {
+    speeds_.failure = failure;
     for (int i = 0; i < grid_.intervals() && speeds_.row < 0; ++i) {
       speeds_.row = rows_.worstAtRest(i);
       if (speeds_.row >= 0) speeds_.failure = LawFailure::cannot_move, speeds_.place = grid_.place(i);
@@ -280,7 +280,7 @@ class TwoPasses {
       open_[i] = grid_.isLine(i) ? Range{std::max(0., next.low - reach(i)), std::min(cap, next.high + reach(i))}
                                  : rows_.before(i, next);
       if (open_[i].is_empty || open_[i].low > open_[i].high) {
-        fail(LawFailure::end_too_fast, 0.);
+        fail(LawFailure::end_too_fast);
         return false;
       }
     }
@@ -297,12 +297,12 @@ class TwoPasses {
       if (grid_.isLine(i)) {
         speeds_.at[i + 1] = std::min(now + reach(i), next.high);
         if (speeds_.at[i + 1] < next.low * (1. - kSlack)) {
-          fail(LawFailure::end_too_fast, speeds_.at[i + 1]);
+          fail(LawFailure::end_too_fast);
           return;
         }
       } else if (!rows_.after(i, now, next, speeds_.middle[i], speeds_.at[i + 1]) || speeds_.middle[i] <= 0.) {
         speeds_.place = grid_.place(i);
-        fail(LawFailure::cannot_move, 0.);
+        fail(LawFailure::cannot_move);
         return;
       }
     }

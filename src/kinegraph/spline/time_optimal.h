@@ -17,7 +17,6 @@ enum class LawFailure {
 struct SquaredSpeeds {
   std::vector<double> at, middle;
   LawFailure failure = LawFailure::none;
-  double most = 0.;   ///< start_too_fast, end_too_fast: the largest speed ds/dt that would do
   double place = 0.;  ///< cannot_move: s
   int row = -1;       ///< cannot_move: of the caller's rows, the one that is missed by most when standing still
 };
