@@ -10,7 +10,7 @@ namespace kinegraph {
 namespace {
 
 constexpr double kFacetRounding = 1e-9;  ///< m
-constexpr std::size_t kMany = 48;   ///< points from which on walking along neighbors is quicker than looking at all
+constexpr std::size_t kMany = 48;  ///< points from which on walking along neighbors is quicker than looking at all
 
 /// How far a point is within all facets, m; 0 outside.
 double depthIn(const Mesh& hull, const Vector3d& point) {
