@@ -7,8 +7,21 @@ namespace kinegraph {
 namespace {
 
 constexpr double kFirstRadius = 4., kLeastRadius = 1., kRadiusRate = 1e-4;  // of the dynamic domain
-constexpr int kSurprises = 4;  // after these, motions are checked at all times before they are added
-constexpr int kAskEvery = 16;  // draws
+constexpr int kSurprises = 4;   // after these, motions are checked at all times before they are added
+constexpr int kAskEvery = 16;   // draws
+constexpr int kNearEvery = 16;  // draws; of these, those that nothing grows to are drawn near the tree instead
+
+/// A posture within the radius of one of the tree's. Where all that a tree has is next to obstacles, as in a narrow passage
+/// or a space of many dofs, hardly a posture of the whole space is near enough to grow to.
+VectorXd drawNear(const MotionTree& tree, const JointSpace& space, Rng& rng) {
+  const int i = std::min(int(rng.uniform(0., tree.size())), tree.size() - 1);
+  const double radius = std::min(tree.node(i).radius, kFirstRadius);
+  const VectorXd from = tree.q(i), away = space.difference(from, space.draw(rng, from));
+  VectorXd q = from + rng.uniform(0., radius) / std::max(away.norm(), 1e-9) * away;
+  space.clamp(q);
+  space.normalize(q);
+  return q;
+}
 
 }  // namespace
 
@@ -35,7 +48,12 @@ bool TreeSearch::grow() {
   VectorXd target = steering_.space().draw(rng_, tree.q(0));
   if (steering_.isConstrained() && !steering_.manifold().project(target)) return false;
   double distance = 0.;
-  const int near = tree.nearest(target, distance);
+  int near = tree.nearest(target, distance);
+  if (distance > tree.node(near).radius && draws_ % kNearEvery == 0) {
+    target = drawNear(tree, steering_.space(), rng_);
+    if (steering_.isConstrained() && !steering_.manifold().project(target)) return false;
+    near = tree.nearest(target, distance);
+  }
   if (distance == 0. || tree.node(near).radius < distance) return false;
   bool reached = false;
   const int added = extend(tree, near, target, reached);
