@@ -18,6 +18,7 @@ constexpr std::size_t kMostBodies = 4;  // the thickest ones
 constexpr double kRounding = 1e-6;      // m
 constexpr double kDepth = 2e-5;         // of a body's size: by which depths of round bodies may be wrong
 constexpr double kParallel = 1e-9;      // rad
+constexpr long kCellsPerLook = 16;      // at the watch
 constexpr double kThin = 1e-4;          // m: an extent below this is one layer of cells
 
 struct Extent {
@@ -163,7 +164,7 @@ class PlaceGrid {
   }
 
   /// Is there no path of open cells from the start's cell to one of the goals'? Notes obstacles that close cells.
-  bool separates(const VectorXd& start, const std::vector<VectorXd>& goals) {
+  bool separates(const VectorXd& start, const std::vector<VectorXd>& goals, const MotionWatch& watch) {
     if (!is_possible_) return false;
     std::set<std::size_t> wanted;
     for (const VectorXd& goal : goals) wanted.insert(cellOf(goal));
@@ -173,6 +174,7 @@ class PlaceGrid {
       const std::size_t cell = front.back();
       front.pop_back();
       if (wanted.count(cell)) return false;
+      if (++visited_ % kCellsPerLook == 0 && watch && watch()) return false;
       forNeighbors(cell, [&](std::size_t next) {
         if (state_[next] != Cell::unknown) return;
         state_[next] = isClosed(next) ? Cell::closed : Cell::reached;
@@ -244,13 +246,15 @@ class PlaceGrid {
   Vector3d low_, edge_;
   int count_[3] = {1, 1, 1};
   bool is_possible_ = false;
+  long visited_ = 0;
   std::vector<Cell> state_;
   std::set<int> closers_;
 };
 
 }  // namespace
 
-std::string proveNoWay(const State& scene, const VectorXd& start, const std::vector<VectorXd>& goals, double margin) {
+std::string proveNoWay(const State& scene, const VectorXd& start, const std::vector<VectorXd>& goals, double margin,
+                       const MotionWatch& watch) {
   const Program& program = scene.program();
   std::vector<Core> cores;
   for (const Core& body : thickestBodies(scene)) {
@@ -259,8 +263,9 @@ std::string proveNoWay(const State& scene, const VectorXd& start, const std::vec
     if (std::optional<Core> upright = uprightOf(body, scene, name)) cores.push_back(std::move(*upright));
   }
   for (const Core& core : cores) {
+    if (watch && watch()) return "";
     PlaceGrid grid(scene, core, margin);
-    if (!grid.separates(start, goals)) continue;
+    if (!grid.separates(start, goals, watch)) continue;
     std::vector<std::string> names;
     for (const int frame : grid.closers()) {
       if (names.size() < 4) names.push_back(cat("'", program.frame_name[std::size_t(frame)], "'"));

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "kinegraph/motion/clearance_check.h"
+#include "kinegraph/motion/way_search.h"
 
 namespace kinegraph {
 
@@ -15,6 +16,8 @@ namespace kinegraph {
 /// if it is not, and all of a convex body that does not turn. A grid covers all places that its joints can bring the center to (interval
 /// arithmetic). A cell is closed if the ball, or what else is there, comes nearer than the margin to one obstacle that never
 /// moves wherever in the cell its center is. Where no path of open cells, corners included, joins the places, there is no way.
-std::string proveNoWay(const State& scene, const VectorXd& start, const std::vector<VectorXd>& goals, double margin);
+/// The watch may end it.
+std::string proveNoWay(const State& scene, const VectorXd& start, const std::vector<VectorXd>& goals, double margin,
+                       const MotionWatch& watch = {});
 
 }  // namespace kinegraph

@@ -69,7 +69,9 @@ const OptionTable<PlanOptions>& planOptionTable() {
         "80 are a good number. For 'time' alone, without constraints, moving obstacles and start velocity.",
         Range::notNegative()},
        {"proof", &O::proof, "",
-        "Where no way is found, a proof that there is none is looked for; without, the status is 'no_way' sooner."},
+        "Where no way is found, a proof that there is none is looked for, up to 1.25 times the time limit; without, "
+        "the "
+        "status is 'no_way' sooner."},
        {"timing", &O::timing, "",
         "The motion gets times; without, there is a path alone, and `at` has nothing to say."},
        {"time_limit",

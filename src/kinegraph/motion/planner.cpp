@@ -15,6 +15,7 @@ namespace {
 constexpr const char* kWho = "planMotion";
 constexpr int kRoundTries = 8;          // ways that are searched side by side, before the best one is known to others
 constexpr double kWorthPulling = 1.25;  // of the best cost: a way that is so much longer is not pulled taut
+constexpr double kProofUntil = 1.25;    // of the time limit
 constexpr double kWorthTelling = 1e-4;  // of what is made small, by which the next motion is better
 constexpr double kMargins[] = {.1, .05, .03, .02, .01, .005};  // m, tried in turn where clearance is asked for
 
@@ -34,7 +35,8 @@ Planner::Planner(const Config& config, const PlanOptions& options, const MotionW
       options_(options),
       limits_(planLimits(config, options)),
       crew_(options.threads),
-      watch_([this, &watch] { return (watch && watch() && (cancelled_ = true)) || isLate(); }),
+      ask_(watch),
+      watch_([this] { return isCancelled() || isLate(); }),
       draws_(*config.program()) {
   plan_.space = std::make_shared<const JointSpace>(*config.program());
   plan_.scene = std::make_shared<const State>(config.state());
@@ -50,6 +52,8 @@ MotionPlan Planner::run(const MotionGoal& goal, const VectorXd& start) {
   if (lookAtEnds(goal, start) && findWay()) finish();
   return plan_;
 }
+
+bool Planner::isCancelled() { return ask_ && ask_() && (cancelled_ = true); }
 
 bool Planner::isLate() const { return secondsSince(began_) > options_.time_limit; }
 
@@ -200,11 +204,12 @@ bool Planner::failSearch(const Way& way) {
   const bool tight = !demands_.clearance.tight.empty();  // then the margin does not hold everywhere
   std::string proof;
   if (options_.proof) {
-    proof = proveNoWay(*plan_.scene, start_.inside, goals, tight ? 0. : options_.margin);
+    const auto is_enough = [this] { return isCancelled() || secondsSince(began_) > kProofUntil * options_.time_limit; };
+    proof = proveNoWay(*plan_.scene, start_.inside, goals, tight ? 0. : options_.margin, is_enough);
     endStage("prove", 0, proof.empty() ? "no proof that there is none" : "");
   }
   if (!proof.empty()) return fail(PlanStatus::impossible, cat(proof, "; ", words));
-  if (way.was_stopped) return failStopped(words);
+  if (way.was_stopped || cancelled_) return failStopped(words);
   return fail(PlanStatus::no_way, words);
 }
 

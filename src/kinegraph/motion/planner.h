@@ -40,6 +40,7 @@ class Planner {
     double deepest = 0.;  ///< of the contact that is left, m
   };
 
+  bool isCancelled();
   bool isLate() const;
   void endStage(const char* name, long evaluations, std::string note = {});
   bool fail(PlanStatus status, std::string message);
@@ -70,6 +71,7 @@ class Planner {
   const PlanOptions& options_;
   const MotionLimits limits_;
   SteeringCrew crew_;
+  const MotionWatch& ask_;  ///< of the caller
   const MotionWatch watch_;
   const Clock::time_point began_ = Clock::now();
   Clock::time_point stage_began_ = began_;
