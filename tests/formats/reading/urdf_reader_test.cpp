@@ -61,6 +61,15 @@ TEST_F(UrdfReader, FramesAreNamedAfterLinksAndJoints) {
             (std::vector<double>{3., 5., -1.}));
 }
 
+TEST_F(UrdfReader, InfiniteLimitsAreNone) {
+  Config config = load(joint("revolute", "<limit lower='-inf' upper='inf' effort='inf' velocity='+inf'/>"));
+  EXPECT_EQ(config.getJointLimits(), (MatrixXd(2, 1) << 0, -1).finished()) << "which says that there are none";
+  EXPECT_EQ(config.getFrame("j").attributes().find("ctrl_limits"), nullptr);
+  config = load(joint("prismatic", "<axis xyz='1 0 0'/><limit lower='0' upper='inf'/>"));
+  EXPECT_EQ(config.getJointLimits()(0, 0), 0.);
+  EXPECT_GE(config.getJointLimits()(1, 0), 1e9);
+}
+
 TEST_F(UrdfReader, AJointNamedAsALinkIsToldApart) {
   const Config config = load(
       "<link name='a'/><link name='b'/><joint name='b' type='continuous'><parent link='a'/><child link='b'/></joint>");

@@ -89,6 +89,14 @@ class UrdfParser {
     return fallback.value_or(0.);
   }
 
+  /// A limit, 0 by default; "inf" is `unlimited`, "-inf" minus that.
+  double limitOf(const XmlElement& limit, const char* name, double unlimited) {
+    const XmlAttribute* attribute = limit.attribute(name);
+    if (attribute && (attribute->value == "inf" || attribute->value == "+inf")) return unlimited;
+    if (attribute && attribute->value == "-inf") return -unlimited;
+    return number(limit, name, 0.);
+  }
+
   Vector3d vector(const XmlElement& element, const char* name, const Vector3d& fallback) {
     const XmlAttribute* attribute = element.attribute(name);
     if (!attribute) return fallback;
@@ -263,11 +271,11 @@ class UrdfParser {
       return;
     }
     joint.limit_where = limit->where;
-    joint.effort = number(*limit, "effort", 0.);
-    joint.velocity = number(*limit, "velocity", 0.);
+    joint.effort = limitOf(*limit, "effort", 0.);  // 0: none is known
+    joint.velocity = limitOf(*limit, "velocity", 0.);
     if (!bounded) return;
-    joint.lower = number(*limit, "lower", 0.);
-    joint.upper = number(*limit, "upper", 0.);
+    joint.lower = limitOf(*limit, "lower", kUrdfUnlimited);
+    joint.upper = limitOf(*limit, "upper", kUrdfUnlimited);
     joint.limited = joint.lower > -kUrdfUnlimited || joint.upper < kUrdfUnlimited;
     if (joint.lower > joint.upper) {
       error(limit->where, cat(context_, "its lower limit ", joint.lower, " is above its upper limit ", joint.upper));
