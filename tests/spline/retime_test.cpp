@@ -255,6 +255,21 @@ TEST(Retime, VelocitiesAtTheEndsAreKept) {
   }
 }
 
+TEST(Retime, AccelerationsKeepTheirLimitsWhereItHardlyAccelerates) {
+  Rng rng(3);
+  for (int i = 0; i < 300; ++i) {
+    const double velocity = rng.uniform(.1, 2.), acceleration = rng.uniform(.5, 9.);
+    RetimeOptions options;
+    options.start_velocity = VectorXd{{velocity * (1. - std::pow(10., rng.uniform(-16., -6.)))}};
+    const double from = rng.uniform(-3., 3.);
+    const TimedPath timed =
+        retime(MatrixXd{{from}, {from + rng.uniform(3., 9.)}}, limitsOf(1, velocity, acceleration), options);
+    ASSERT_TRUE(timed.feasible()) << timed.message;
+    for (const LawPhase& phase : timed.law().phases())
+      EXPECT_LE(timed.at(phase.time).acceleration.norm(), acceleration * (1. + kWithin)) << phase.time;
+  }
+}
+
 TEST(Retime, WhatCannotBeBrakedIsSaid) {
   RetimeOptions options;
   options.start_velocity = VectorXd::Constant(1, 3.);

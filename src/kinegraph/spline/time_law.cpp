@@ -96,9 +96,9 @@ void TimeLaw::add(LawPhase phase, double time) {
   duration_ += time;
 }
 
-void TimeLaw::addConstantAcceleration(double s0, double s1, double speed0, double speed1, int piece) {
+void TimeLaw::addConstantAcceleration(double s0, double s1, double speed0, double speed1, double most, int piece) {
   const double acceleration = (speed1 - speed0) * (speed1 + speed0) / (2. * (s1 - s0));
-  add({0., {s0, speed0, acceleration, 0.}, 0., s1, piece}, 2. * (s1 - s0) / (speed0 + speed1));
+  add({0., {s0, speed0, std::clamp(acceleration, -most, most), 0.}, 0., s1, piece}, 2. * (s1 - s0) / (speed0 + speed1));
 }
 
 void TimeLaw::addQuadratic(double s0, double s1, double first, double middle, double last, int piece) {

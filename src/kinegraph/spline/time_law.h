@@ -49,8 +49,9 @@ class TimeLaw {
   /// Appends a phase that begins now and takes `time`; it should end where the next begins.
   void add(LawPhase phase, double time);
 
-  /// The phase that leads from one speed at s0 to another at s1 at constant acceleration.
-  void addConstantAcceleration(double s0, double s1, double speed0, double speed1, int piece);
+  /// The phase that leads from one speed at s0 to another at s1 at constant acceleration, of which `most` is known: in brief
+  /// phases rounding makes more of it.
+  void addConstantAcceleration(double s0, double s1, double speed0, double speed1, double most, int piece);
 
   /// The phase from s0 to s1 in which s'^2 is a quadratic of s with these Bernstein coefficients, the middle one > 0.
   void addQuadratic(double s0, double s1, double first, double middle, double last, int piece);

@@ -339,9 +339,9 @@ TimeLaw lawOf(const LawGrid& grid, const MotionLimits& limits, const SquaredSpee
     const double top = std::sqrt(peak);
     const double risen = std::min(s1, s0 + (peak - b0) / (2. * line.acceleration));
     const double falls = std::max(risen, s1 - (peak - b1) / (2. * line.acceleration));
-    if (risen > s0) law.addConstantAcceleration(s0, risen, v0, top, grid.piece(i));
-    if (falls > risen) law.addConstantAcceleration(risen, falls, top, top, grid.piece(i));
-    if (s1 > falls) law.addConstantAcceleration(falls, s1, top, v1, grid.piece(i));
+    if (risen > s0) law.addConstantAcceleration(s0, risen, v0, top, line.acceleration, grid.piece(i));
+    if (falls > risen) law.addConstantAcceleration(risen, falls, top, top, 0., grid.piece(i));
+    if (s1 > falls) law.addConstantAcceleration(falls, s1, top, v1, line.acceleration, grid.piece(i));
   }
   return law;
 }
