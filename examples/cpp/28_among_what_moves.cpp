@@ -64,8 +64,8 @@ int main() try {
   if (!bend.feasible() || (bend.at(0.).velocity - plan.at(now).velocity).norm() > 1e-9) return 1;
 
   // The first way that is found is seldom the shortest kind of way.
-  MotionPlans better(twoWalls(), VectorXd{{1.5, .9}}, {.optimize = "length", .tries = 1, .improve = 20000},
-                     VectorXd{{-1.5, -1.}});
+  MotionPlans better = planMotions(twoWalls(), VectorXd{{1.5, .9}},
+                                   {.optimize = "length", .tries = 1, .improve = 20000}, VectorXd{{-1.5, -1.}});
   double length = 0.;
   while (const auto found = better.next()) std::cout << "length " << (length = found->length) << "\n";
   return length > 0. && length < 3.7 ? 0 : 1;

@@ -35,7 +35,7 @@ PlanOptions shortest(int improve) {
 }
 
 TEST(PlanMotions, EachIsShorterThanTheOneBeforeAndFree) {
-  MotionPlans plans(twoWalls(), kOtherSide, shortest(20000));
+  MotionPlans plans = planMotions(twoWalls(), kOtherSide, shortest(20000));
   Config C = twoWalls();
   double before = 1e9, first = 0.;
   int count = 0;

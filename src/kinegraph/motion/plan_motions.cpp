@@ -39,4 +39,9 @@ std::optional<MotionPlan> MotionPlans::next(const MotionWatch& watch) {
   return plan;
 }
 
+MotionPlans planMotions(const Config& config, const MotionGoal& goal, const PlanOptions& options,
+                        const std::optional<VectorXd>& start) {
+  return MotionPlans(config, goal, options, start);
+}
+
 }  // namespace kinegraph

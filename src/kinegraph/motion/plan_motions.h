@@ -11,7 +11,7 @@ class Planner;
 /// Motions that get better while one waits: the first is that of planMotion, each further one is shorter, or takes less
 /// time, than the one before, as options.optimize says.
 ///
-///     MotionPlans plans(C, goal, {.margin = .01, .improve = 200000});
+///     MotionPlans plans = planMotions(C, goal, {.margin = .01, .improve = 200000});
 ///     while (std::optional<MotionPlan> plan = plans.next()) C.viewPath(plan->path, plan->duration());
 ///
 /// Further ways are searched with options.improve evaluations (1000000 if that is 0), where a shorter one can be. The
@@ -36,5 +36,8 @@ class MotionPlans {
   MotionWatch watch_, ask_;
   std::unique_ptr<Planner> planner_;  ///< made by the first call
 };
+
+MotionPlans planMotions(const Config& config, const MotionGoal& goal, const PlanOptions& options = {},
+                        const std::optional<VectorXd>& start = std::nullopt);
 
 }  // namespace kinegraph
