@@ -1,6 +1,7 @@
 #include <gtest/gtest.h>
 
 #include "kinegraph/komo/mode_switches.h"
+#include "kinegraph/nlp/other_ways.h"
 #include "kinegraph/planning/spline_motion.h"
 #include "kinegraph/scene/config.h"
 #include "kinegraph/solvers/nlp_solver.h"
@@ -108,6 +109,49 @@ TEST(FreeSpline, WhatIsCalledFeasibleKeepsTheMarginAtAllTimesOnRandomProblems) {
   }
   EXPECT_GE(feasible, 10);
   EXPECT_LT(free_in_slices_only, feasible);
+}
+
+TEST(FreeSpline, LinesThroughObstaclesAreLeftForWaysAroundThem) {
+  Rng rng(33);
+  int evals = 0, blocked = 0;
+  constexpr int kProblems = 20;
+  for (int i = 0; i < kProblems; ++i) {
+    const Problem problem = drawnProblem(rng);
+    const auto komo = problemOf(problem, 16, true);
+    const auto nlp = makeNlp(komo);
+    const VectorXd line = komo->path().variables();
+    blocked += dynamic_cast<OtherWays&>(*nlp).wayAt(line) == WayKind::blocked;
+    NlpSolver solver(nlp, 0);
+    solver.setInitialization(line);
+    const SolverResult result = solver.solve();
+    EXPECT_TRUE(result.feasible) << i << ": " << result.summary();
+    EXPECT_EQ(result.free(), true) << i;
+    EXPECT_EQ(dynamic_cast<OtherWays&>(*nlp).wayAt(result.x), WayKind::free) << i;
+    evals += result.evals;
+  }
+  EXPECT_GT(blocked, 5);
+  EXPECT_LT(evals, 80 * kProblems);
+}
+
+TEST(FreeSpline, StartsThatHardlyMoveAreNoWays) {
+  Config scene;
+  scene.addText(R"(
+base: {}
+ball (base): { joint: transXY, shape: sphere, size: [.1], contact: 1 }
+wall (base): { shape: box, size: [.03 1 1], X: [.6 0 0], contact: 1 }
+)");
+  const auto komo = std::make_shared<Komo>(scene, 1., 10, 2);
+  komo->addFreeMotion({}, kMargin);
+  Rng rng(5);
+  const auto lines = makeNlp(komo), spline = SplineMotion(komo, {.points = 8}).nlp();
+  const auto wayAt = [](Nlp& nlp, const VectorXd& x) { return dynamic_cast<OtherWays&>(nlp).wayAt(x); };
+  for (const auto& nlp : {lines, spline}) EXPECT_EQ(wayAt(*nlp, nlp->initialPoint(rng)), WayKind::still);
+  for (const auto& [goal, kind] : {std::pair(.4, WayKind::free), std::pair(1.2, WayKind::blocked)}) {
+    MatrixXd path = MatrixXd::Zero(10, 2);
+    path.col(0) = VectorXd::LinSpaced(10, .1 * goal, goal);
+    komo->setPath(path);
+    for (const auto& nlp : {lines, spline}) EXPECT_EQ(wayAt(*nlp, nlp->initialPoint(rng)), kind) << goal;
+  }
 }
 
 TEST(FreeSpline, VerdictsAgreeWithSamplesOfRandomSplines) {

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "kinegraph/komo/path_motion.h"
+#include "kinegraph/nlp/other_ways.h"
 
 namespace kinegraph {
 
@@ -25,6 +26,9 @@ class BetweenSlices {
   /// The least distance of all pairs where the motion begins, at most `most`, m.
   virtual double clearanceAtBegin(int slice, double most) = 0;
 };
+
+/// Of the motions that lead to the slices [from, to].
+WayKind wayOf(BetweenSlices& motions, int from, int to);
 
 /// q goes straight from slice to slice of a path.
 class LinesBetweenSlices final : public BetweenSlices {

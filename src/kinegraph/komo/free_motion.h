@@ -11,7 +11,7 @@ namespace kinegraph {
 // trajectory optimization with non-convex obstacles, 2021.
 
 inline constexpr double kFreeTolerance = 1e-5;  ///< of checks of motions, m
-inline constexpr int kRoomOfMotion = 8;  ///< instants that a solver can take up before its problem is laid out anew
+inline constexpr int kRoomOfMotion = 16;  ///< instants that a solver can take up before its problem is laid out anew
 inline constexpr double kNearToDetour = .05;  ///< m: what a detour comes so near to counts from its beginning on
 
 /// Pairs that are farther apart than that are not looked at any closer in the separate form of an objective of collisions, m.

@@ -159,6 +159,13 @@ class KomoNlp final : public Nlp, public OtherWays, public RoomForConstraints {
     return refinementOf(lack);
   }
 
+  WayKind wayAt(const VectorXd& x) override {
+    requireStructure();
+    komo_->path().setVariables(x);
+    LinesBetweenSlices lines(komo_->path(), probe_);
+    return wayOf(lines, firstMotion(komo_->path()), komo_->slices() - 1);
+  }
+
   /// A detour, with its own instants: those at which it comes near to something, so that a step does not lead through
   /// it.
   std::optional<VectorXd> otherWay(const VectorXd& x, int number) override {

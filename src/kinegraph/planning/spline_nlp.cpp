@@ -188,6 +188,12 @@ Refinement SplineNlp::takeUp(const VectorXd& c, bool is_solution, VectorXd& phi,
   return refinementOf(lack);
 }
 
+WayKind SplineNlp::wayAt(const VectorXd& c) {
+  moveTo(c);
+  SplineBetweenSlices spline(curve_, probe_);
+  return wayOf(spline, 0, komo_->slices() - 1);
+}
+
 /// The spline that is nearest to a detour of the path, with the instants at which it comes near to something.
 std::optional<VectorXd> SplineNlp::otherWay(const VectorXd& c, int number) {
   std::vector<Objective> objectives = rows_.objectives();

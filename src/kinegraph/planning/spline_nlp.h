@@ -34,6 +34,7 @@ class SplineNlp final : public Nlp, public OtherWays, public RoomForConstraints 
   Refinement refine(const VectorXd& c, VectorXd& dual) override;
   bool hasRoom() const override { return is_separate_ && rows_.rows() > 0; }
   Refinement takeUp(const VectorXd& c, bool is_solution, VectorXd& phi, Jacobian& J, std::vector<int>& rows) override;
+  WayKind wayAt(const VectorXd& c) override;
   std::optional<VectorXd> otherWay(const VectorXd& c, int number) override;
   VectorXd initialPoint(Rng& rng) override { return slices_->initialPoint(rng); }
   std::string rowName(int row) const override;

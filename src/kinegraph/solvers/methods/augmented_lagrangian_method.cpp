@@ -120,10 +120,12 @@ void AugmentedLagrangian::iterate() {
 
     // 5. Trial. What the model promised and what came of it decide on the step, and on the damping of the next one.
     if (!tryStep(step)) return;
-    if (step.ratio > options_.wolfe)
+    if (step.ratio > options_.wolfe) {
       accept(step);
-    else
+      if (function_.takesUpAtEachStep()) takesUpConstraints(false);
+    } else {
       refuse(step);
+    }
   }
 }
 

@@ -57,6 +57,7 @@ class ConstrainedFunction {
   /// Lets the problem take up constraints (RoomForConstraints) that are violated at a point. `rows` were empty before;
   /// where there are any, the best point so far is this one, as nothing is known of the others.
   Refinement takeUpConstraints(EvaluatedPoint& point, bool is_solution, std::vector<int>& rows);
+  bool takesUpAtEachStep() const { return room_ && room_->isAskedAtEachStep(); }
 
   /// Throws ValueError, naming the row, if numbers are not finite.
   void requireFiniteStart(const EvaluatedPoint& point) const;
