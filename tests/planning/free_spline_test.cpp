@@ -133,6 +133,17 @@ TEST(FreeSpline, LinesThroughObstaclesAreLeftForWaysAroundThem) {
   EXPECT_LT(evals, 80 * kProblems);
 }
 
+TEST(FreeSpline, ALimitOfRoundsEndsAProblemOfSlicesAtOnce) {
+  Rng rng(8);
+  const auto komo = problemOf(drawnProblem(rng), 16, false);
+  NlpSolver solver(makeNlp(komo), 0);
+  solver.options.stopOuters = 1;
+  solver.setInitialization(VectorXd::Zero(komo->path().layout().dimension));
+  const SolverResult result = solver.solve();
+  EXPECT_EQ(result.status, SolverStatus::limit) << result.summary();
+  EXPECT_LE(result.evals, 6);
+}
+
 TEST(FreeSpline, StartsThatHardlyMoveAreNoWays) {
   Config scene;
   scene.addText(R"(

@@ -68,11 +68,13 @@ SolverResult NlpSolver::runRefining(Separation& separation, const EvaluationHook
   const VectorXd start = x;
   OtherWays* const ways = roomIn(separation) ? dynamic_cast<OtherWays*>(problem_.get()) : nullptr;
   const WayKind kind = ways ? ways->wayAt(start) : WayKind::free;
-  if (kind == WayKind::blocked) options.stopEvals = std::min(options.stopEvals, kMostEvalsOfBlocked);
+  const bool may_be_cut_off = kind == WayKind::blocked && options.stopEvals > kMostEvalsOfBlocked;
+  if (may_be_cut_off) options.stopEvals = kMostEvalsOfBlocked;
   SolverResult result = runMethod(separation, watch, seen);
   if (result.status == SolverStatus::cancelled) return result;
   Refinement found = problem_->refine(result.x, solved_dual_);
-  const bool was_cut_off = result.status == SolverStatus::limit && result.evals < restore.given.stopEvals;
+  const bool was_cut_off =
+      may_be_cut_off && result.status == SolverStatus::limit && result.evals >= kMostEvalsOfBlocked;
   if (found == Refinement::none && !was_cut_off) return result;
   const NextBeginnings next(ways, kind, start, result.feasible ? result.x : start);
   bool is_first = true;
