@@ -101,16 +101,12 @@ VectorXd JointSpace::difference(const VectorXd& from, const VectorXd& to) const 
   return change;
 }
 
-double JointSpace::squaredDistance(const double* a, const double* b) const {
+double JointSpace::squaredDistanceOfKinds(const double* a, const double* b) const {
   double square = 0.;
-  const std::size_t n = kinds_.size();
-  if (plain_) {
-    for (std::size_t i = 0; i < n; ++i) square += (b[i] - a[i]) * (b[i] - a[i]);
-    return square;
-  }
-  for (std::size_t i = 0; i < n; ++i) {
+  for (std::size_t i = 0; i < kinds_.size(); ++i) {
     if (kinds_[i] == Kind::direction) continue;
-    const double change = kinds_[i] == Kind::endless ? std::remainder(b[i] - a[i], kTurn) : b[i] - a[i];
+    double change = b[i] - a[i];
+    if (kinds_[i] == Kind::endless && std::abs(change) > M_PI) change = std::remainder(change, kTurn);
     square += change * change;
   }
   for (const Program::DofRange& range : directions_) {

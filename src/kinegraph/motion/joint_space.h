@@ -33,7 +33,12 @@ class JointSpace {
   VectorXd difference(const VectorXd& from, const VectorXd& to) const;
 
   double distance(const VectorXd& a, const VectorXd& b) const { return std::sqrt(squaredDistance(a.data(), b.data())); }
-  double squaredDistance(const double* a, const double* b) const;
+  double squaredDistance(const double* a, const double* b) const {
+    if (!plain_) return squaredDistanceOfKinds(a, b);
+    double square = 0.;
+    for (std::size_t i = 0; i < kinds_.size(); ++i) square += (b[i] - a[i]) * (b[i] - a[i]);
+    return square;
+  }
 
   /// From now on dofs with a range are drawn between these (per dof) and their limits.
   void drawWithin(const VectorXd& lower, const VectorXd& upper);
@@ -59,6 +64,8 @@ class JointSpace {
 
  private:
   enum class Kind : unsigned char { ranged, endless, direction, still };
+
+  double squaredDistanceOfKinds(const double* a, const double* b) const;
 
   const VectorXd lower_, upper_;
   VectorXd draw_lower_, draw_upper_;
