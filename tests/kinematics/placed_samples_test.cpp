@@ -39,6 +39,13 @@ std::vector<VectorXd> draws(const State& scene, int count) {
   return Q;
 }
 
+/// Eight postures.
+void placeDraws(PlacedSamples& samples, const State& scene) {
+  const std::vector<VectorXd> Q = draws(scene, 8);
+  for (int i = 0; i < 8; ++i) samples.setJoints(i, Q[std::size_t(i)].data());
+  samples.place(8);
+}
+
 class InLanes : public ::testing::TestWithParam<int> {};
 
 TEST_P(InLanes, LinksAndBodiesAreWhereAStatePutsThem) {
@@ -64,12 +71,10 @@ TEST_P(InLanes, LinksAndBodiesAreWhereAStatePutsThem) {
 
 TEST_P(InLanes, BoundsAreBelowDistancesAndSpheresAroundBodies) {
   const Config C = crane();
-  State state = C.state();
+  const State state = C.state();
   const LinkBodies bodies(state);
   PlacedSamples samples(state, bodies, sampleKernel(GetParam()));
-  const std::vector<VectorXd> Q = draws(state, 8);
-  for (int i = 0; i < 8; ++i) samples.setJoints(i, Q[std::size_t(i)].data());
-  samples.place(8);
+  placeDraws(samples, state);
   int told = 0;
   for (const LinkBodies::Pair& pair : bodies.pairs) {
     const auto [bounds, tops] = samples.distanceBounds(pair.a, pair.b);
@@ -109,12 +114,10 @@ pad(world): {shape: ssBoxElip, size: [0.2, 0.1, 0.1, 0.05, 0.1, 0.07, 0.02], Q: 
 
 TEST_P(InLanes, GapsAreFromTheFarthestPointOfOneToThatOfTheOther) {
   const Config C = craneAmongHulls();
-  State state = C.state();
+  const State state = C.state();
   const LinkBodies bodies(state);
   PlacedSamples samples(state, bodies, sampleKernel(GetParam()));
-  const std::vector<VectorXd> Q = draws(state, 8);
-  for (int i = 0; i < 8; ++i) samples.setJoints(i, Q[std::size_t(i)].data());
-  samples.place(8);
+  placeDraws(samples, state);
   Rng rng(2);
   ASSERT_GT(bodies.pairs.size(), 20u);
   for (const LinkBodies::Pair& pair : bodies.pairs) {
@@ -166,11 +169,7 @@ TEST_P(InLanes, AllWidthsGiveTheSameBits) {
   const State state = C.state();
   const LinkBodies bodies(state);
   PlacedSamples samples(state, bodies, sampleKernel(GetParam())), narrow(state, bodies, sampleKernel(2));
-  const std::vector<VectorXd> Q = draws(state, 8);
-  for (PlacedSamples* each : {&samples, &narrow}) {
-    for (int i = 0; i < 8; ++i) each->setJoints(i, Q[std::size_t(i)].data());
-    each->place(8);
-  }
+  for (PlacedSamples* each : {&samples, &narrow}) placeDraws(*each, state);
   for (const LinkBodies::Pair& pair : bodies.pairs) {
     const auto [least, most] = samples.distanceBounds(pair.a, pair.b);
     const auto [narrow_least, narrow_most] = narrow.distanceBounds(pair.a, pair.b);

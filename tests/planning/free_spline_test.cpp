@@ -7,6 +7,7 @@
 #include "kinegraph/solvers/nlp_solver.h"
 #include "tests/support/coal_distance.h"
 #include "tests/support/expect_error.h"
+#include "tests/support/planar_arm.h"
 
 namespace kinegraph {
 namespace {
@@ -22,15 +23,7 @@ struct Problem {
 Problem drawnProblem(Rng& rng) {
   for (;;) {
     Config scene;
-    scene.addText(R"(
-base: {}
-j1 (base): { joint: hingeZ, limits: [-3 3] }
-l1 (j1): { shape: capsule, size: [.5 .03], Q: [.25 0 0 .7071068 0 .7071068 0], contact: 1 }
-j2 (j1): { joint: hingeZ, pre: [.5 0 0], limits: [-3 3] }
-l2 (j2): { shape: capsule, size: [.5 .03], Q: [.25 0 0 .7071068 0 .7071068 0], contact: -1 }
-j3 (j2): { joint: hingeZ, pre: [.5 0 0], limits: [-3 3] }
-tip (j3): { shape: sphere, size: [.05], Q: [.3 0 0], contact: -1 }
-)");
+    scene.addText(planarArm());
     for (int i = 0; i < 3; ++i) {
       const double radius = rng.uniform(.7, 1.2), angle = rng.uniform(-2., 2.), size = rng.uniform(.04, .1);
       Frame obstacle = scene.addFrame("obstacle" + std::to_string(i));

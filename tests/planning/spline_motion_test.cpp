@@ -6,6 +6,7 @@
 #include "kinegraph/scene/config.h"
 #include "kinegraph/solvers/nlp_solver.h"
 #include "tests/support/expect_error.h"
+#include "tests/support/planar_arm.h"
 
 namespace kinegraph {
 namespace {
@@ -13,15 +14,7 @@ namespace {
 /// A planar arm of three joints, and a ball in its way.
 Config arm() {
   Config C;
-  C.addText(R"(
-base: {}
-j1 (base): { joint: hingeZ, limits: [-3 3] }
-l1 (j1): { shape: capsule, size: [.5 .03], Q: [.25 0 0 .7071068 0 .7071068 0], contact: 1 }
-j2 (j1): { joint: hingeZ, pre: [.5 0 0], limits: [-3 3] }
-l2 (j2): { shape: capsule, size: [.5 .03], Q: [.25 0 0 .7071068 0 .7071068 0], contact: -1 }
-j3 (j2): { joint: hingeZ, pre: [.5 0 0], limits: [-3 3] }
-tip (j3): { shape: sphere, size: [.05], Q: [.3 0 0], contact: -1 }
-target: { X: [.3 .9 0] }
+  C.addText(planarArm() + R"(target: { X: [.3 .9 0] }
 ball: { shape: sphere, size: [.15], X: [1.1 .35 0], contact: 1 }
 )");
   return C;
