@@ -43,3 +43,12 @@ def panda() -> ry.Config:
     C = ry.Config()
     C.addFile(ry.raiPath("scenarios/pandaSingle.g"))
     return C
+
+
+@pytest.fixture
+def column(panda: ry.Config) -> ry.Config:
+    """A Panda at a table with a column in front of it."""
+    panda.addFrame("column", "table").setShape(ry.ST.ssBox, [0.1, 0.1, 0.8, 0.02]).setRelativePosition(
+        [0.0, 0.35, 0.4]
+    ).setContact(1)
+    return panda

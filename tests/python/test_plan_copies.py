@@ -16,14 +16,6 @@ TURN = np.array([0.6, 0, 0, 0, 0, 0, 0])
 COPIES: list[Callable] = [lambda thing: pickle.loads(pickle.dumps(thing)), copy.copy, copy.deepcopy]
 
 
-@pytest.fixture
-def column(panda: ry.Config) -> ry.Config:
-    panda.addFrame("column", "table").setShape(ry.ST.ssBox, [0.1, 0.1, 0.8, 0.02]).setRelativePosition(
-        [0, 0.35, 0.4]
-    ).setContact(1)
-    return panda
-
-
 def states(plan: ry.MotionPlan) -> np.ndarray:
     return np.array([np.concatenate(plan.at(t)) for t in np.linspace(0, plan.duration, 50)])
 

@@ -27,15 +27,6 @@ def room(door: float = 0.5) -> ry.Config:
     return C
 
 
-@pytest.fixture
-def column(panda: ry.Config) -> ry.Config:
-    """A Panda at a table with a column in front of it."""
-    panda.addFrame("column", "table").setShape(ry.ST.ssBox, [0.1, 0.1, 0.8, 0.02]).setRelativePosition(
-        [0.0, 0.35, 0.4]
-    ).setContact(1)
-    return panda
-
-
 def leastDistance(C: ry.Config, Q: np.ndarray, step: float = 2e-3) -> float:
     """Of all pairs that move, at postures every `step`, by a call that knows nothing of motions."""
     rows = [
