@@ -9,9 +9,9 @@
 #include <map>
 #include <string>
 
-#include "kinegraph/base/errors.h"
-#include "kinegraph/base/random.h"
-#include "kinegraph/base/text.h"
+#include "kinegraph/common/errors.h"
+#include "kinegraph/common/random.h"
+#include "kinegraph/common/text.h"
 #include "kinegraph/features/batch.h"
 #include "kinegraph/komo/komo.h"
 #include "kinegraph/solvers/nlp_solver.h"

@@ -9,7 +9,7 @@
 #include <ctime>
 #include <string>
 
-#include "kinegraph/base/text.h"
+#include "kinegraph/common/text.h"
 #include "kinegraph/gfile/parser.h"
 #include "kinegraph/gfile/scanner.h"
 

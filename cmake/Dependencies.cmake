@@ -42,7 +42,7 @@ find_package(ZLIB CONFIG REQUIRED HINTS "${KINEGRAPH_PREFIX}/lib64/cmake/zlib")
 find_package(Threads REQUIRED)
 
 # Assimp reads mesh files and MuJoCo draws camera images. Both are large: they are loaded when they are first needed
-# (base/dynamic_library.h), by these names.
+# (common/dynamic_library.h), by these names.
 get_target_property(KINEGRAPH_ASSIMP_LIBRARY assimp::assimp IMPORTED_SONAME_RELEASE)
 
 # MuJoCo's wheel has the headers and one library, which needs the C library only.

@@ -69,8 +69,8 @@ def make_header(schema: dict) -> str:
 
 
 def make_source(schema: dict) -> str:
-    out = ['#include "kinegraph/viewer/messages.h"', "", f"// {NOTE}", "// clang-format off", ""]
-    out += ['#include "kinegraph/base/json.h"', "", "namespace kinegraph {"]
+    out = ['#include "kinegraph/viewer/messages/messages.h"', "", f"// {NOTE}", "// clang-format off", ""]
+    out += ['#include "kinegraph/common/json.h"', "", "namespace kinegraph {"]
     for name, fields in {**schema["types"], **schema["messages"]}.items():
         kind = [f'{{"kind", "{tag(name)}"}}'] if name in schema["messages"] else []
         entries = [*kind, *[f'{{"{field}", jsonOf(m.{field})}}' for field in fields]]
@@ -97,7 +97,7 @@ def make_commands_cpp(schema: dict) -> str:
         "#include <variant>",
         "",
     ]
-    out += ['#include "kinegraph/viewer/command_reader.h"', "", "namespace kinegraph {"]
+    out += ['#include "kinegraph/viewer/messages/command_reader.h"', "", "namespace kinegraph {"]
     for number, (name, fields) in enumerate(schema["commands"].items(), 1):
         out += cpp_struct(name, fields, [f"  static constexpr int kKind = {number};"])
     names = ", ".join(schema["commands"])
@@ -143,9 +143,9 @@ def make_ts(schema: dict) -> str:
 def main() -> int:
     schema = json.loads((ROOT / "viewer/messages.json").read_text())
     files = {
-        ROOT / "src/kinegraph/viewer/messages.h": make_header(schema),
-        ROOT / "src/kinegraph/viewer/messages.cpp": make_source(schema),
-        ROOT / "src/kinegraph/viewer/commands.h": make_commands_cpp(schema),
+        ROOT / "src/kinegraph/viewer/messages/messages.h": make_header(schema),
+        ROOT / "src/kinegraph/viewer/messages/messages.cpp": make_source(schema),
+        ROOT / "src/kinegraph/viewer/messages/commands.h": make_commands_cpp(schema),
         ROOT / "viewer/src/messages.ts": make_ts(schema),
     }
     drifted = [file for file, text in files.items() if not file.exists() or file.read_text() != text]

@@ -4,7 +4,7 @@
 //     then
 //                                                  the frame's position, and the joints' limits
 #include "calls.h"
-#include "kinegraph/base/errors.h"
+#include "kinegraph/common/errors.h"
 #include "kinegraph/scene/config.h"
 
 using namespace kinegraph;

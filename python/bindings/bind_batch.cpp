@@ -6,8 +6,8 @@
 #include "bindings.h"
 #include "docs/batch.h"
 #include "feature_arguments.h"
-#include "kinegraph/base/errors.h"
-#include "kinegraph/base/text.h"
+#include "kinegraph/common/errors.h"
+#include "kinegraph/common/text.h"
 #include "kinegraph/features/batch.h"
 #include "kinegraph/features/eval.h"
 

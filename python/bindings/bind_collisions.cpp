@@ -5,7 +5,7 @@
 
 #include "bindings.h"
 #include "docs/collisions.h"
-#include "kinegraph/base/text.h"
+#include "kinegraph/common/text.h"
 #include "kinegraph/scene/ignored_contacts.h"
 #include "kinegraph/scene/self_collisions.h"
 

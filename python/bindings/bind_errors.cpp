@@ -5,9 +5,9 @@
 #include <stdexcept>
 
 #include "bindings.h"
-#include "kinegraph/base/errors.h"
-#include "kinegraph/base/utf8.h"
-#include "kinegraph/operation/robot_driver.h"
+#include "kinegraph/common/errors.h"
+#include "kinegraph/common/utf8.h"
+#include "kinegraph/robot/robot_driver.h"
 #include "python_names.h"
 
 namespace kinegraph::python {

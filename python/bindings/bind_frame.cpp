@@ -5,8 +5,8 @@
 #include "arguments.h"
 #include "bindings.h"
 #include "docs/frame.h"
-#include "kinegraph/scene/reader.h"
-#include "kinegraph/scene/tree_edits.h"
+#include "kinegraph/scene/loading/reader.h"
+#include "kinegraph/scene/tree/tree_edits.h"
 #include "scene_values.h"
 
 namespace kinegraph::python {

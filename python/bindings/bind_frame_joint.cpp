@@ -5,10 +5,10 @@
 #include "arguments.h"
 #include "bindings.h"
 #include "docs/frame_joint.h"
-#include "kinegraph/base/errors.h"
-#include "kinegraph/base/text.h"
-#include "kinegraph/scene/inertia_edits.h"
-#include "kinegraph/scene/tree_edits.h"
+#include "kinegraph/common/errors.h"
+#include "kinegraph/common/text.h"
+#include "kinegraph/scene/tree/inertia_edits.h"
+#include "kinegraph/scene/tree/tree_edits.h"
 
 namespace kinegraph::python {
 

@@ -6,9 +6,9 @@
 #include "arguments.h"
 #include "bindings.h"
 #include "docs/frame_poses.h"
-#include "kinegraph/base/errors.h"
-#include "kinegraph/base/text.h"
-#include "kinegraph/scene/reader.h"
+#include "kinegraph/common/errors.h"
+#include "kinegraph/common/text.h"
+#include "kinegraph/scene/loading/reader.h"
 
 namespace kinegraph::python {
 

@@ -7,8 +7,8 @@
 #include "docs/ik.h"
 #include "ik_objects.h"
 #include "ik_targets.h"
-#include "kinegraph/base/errors.h"
-#include "kinegraph/base/text.h"
+#include "kinegraph/common/errors.h"
+#include "kinegraph/common/text.h"
 
 namespace kinegraph::python {
 

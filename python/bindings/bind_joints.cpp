@@ -6,8 +6,8 @@
 #include "bindings.h"
 #include "defaults.h"
 #include "docs/joints.h"
-#include "kinegraph/base/errors.h"
-#include "kinegraph/base/text.h"
+#include "kinegraph/common/errors.h"
+#include "kinegraph/common/text.h"
 #include "kinegraph/scene/motor_limits.h"
 
 namespace kinegraph::python {

@@ -7,8 +7,8 @@
 #include "bindings.h"
 #include "defaults.h"
 #include "docs/komo_path.h"
-#include "kinegraph/base/text.h"
-#include "kinegraph/komo/sub_problem.h"
+#include "kinegraph/common/text.h"
+#include "kinegraph/komo/path/sub_problem.h"
 #include "py_komo.h"
 
 namespace kinegraph::python {

@@ -10,9 +10,9 @@
 
 #include "arguments.h"
 #include "docs/komo_reports.h"
-#include "kinegraph/base/errors.h"
-#include "kinegraph/base/text.h"
-#include "kinegraph/front/komo_motion.h"
+#include "kinegraph/common/errors.h"
+#include "kinegraph/common/text.h"
+#include "kinegraph/api/komo_motion.h"
 #include "kinegraph/komo/report.h"
 #include "kinegraph/viewer/recorded_page.h"
 #include "py_komo.h"

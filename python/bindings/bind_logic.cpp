@@ -11,11 +11,11 @@
 #include "bind_tasks.h"
 #include "bindings.h"
 #include "docs/logic.h"
-#include "kinegraph/base/text.h"
+#include "kinegraph/common/text.h"
 #include "kinegraph/logic/action_words.h"
 #include "kinegraph/logic/fol_reader.h"
 #include "kinegraph/logic/pddl.h"
-#include "kinegraph/tasks/scene_facts.h"
+#include "kinegraph/task_planning/scene_facts.h"
 #include "logic_objects.h"
 #include "solving.h"
 

@@ -7,8 +7,8 @@
 #include "bind_tasks.h"
 #include "bindings.h"
 #include "docs/manipulation.h"
-#include "kinegraph/base/errors.h"
-#include "kinegraph/base/text.h"
+#include "kinegraph/common/errors.h"
+#include "kinegraph/common/text.h"
 #include "py_manipulation.h"
 
 namespace kinegraph::python {

@@ -8,8 +8,8 @@
 #include "arguments.h"
 #include "bindings.h"
 #include "docs/meshes.h"
-#include "kinegraph/base/errors.h"
-#include "kinegraph/base/text.h"
+#include "kinegraph/common/errors.h"
+#include "kinegraph/common/text.h"
 #include "kinegraph/geometry/shapes/convex_hull.h"
 #include "kinegraph/scene/frame_shapes.h"
 

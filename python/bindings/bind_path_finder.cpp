@@ -4,7 +4,7 @@
 
 #include "defaults.h"
 #include "docs/path_finder.h"
-#include "kinegraph/motion/path_finder.h"
+#include "kinegraph/planning/path_finder.h"
 #include "option_class.h"
 #include "python_names.h"
 

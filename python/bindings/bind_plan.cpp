@@ -8,7 +8,7 @@
 #include "docs/plan.h"
 #include "feature_arguments.h"
 #include "ik_targets.h"
-#include "kinegraph/motion/refine_path.h"
+#include "kinegraph/planning/refine_path.h"
 #include "plan_objects.h"
 #include "python_names.h"
 

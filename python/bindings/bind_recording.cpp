@@ -5,9 +5,9 @@
 #include "arguments.h"
 #include "bindings.h"
 #include "docs/simulation.h"
-#include "kinegraph/base/errors.h"
-#include "kinegraph/base/text.h"
-#include "kinegraph/front/recorded_motion.h"
+#include "kinegraph/common/errors.h"
+#include "kinegraph/common/text.h"
+#include "kinegraph/api/recorded_motion.h"
 #include "py_viewer.h"
 #include "simulation_objects.h"
 

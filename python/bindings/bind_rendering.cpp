@@ -10,8 +10,8 @@
 #include "depth_noise.h"
 #include "docs/rendering.h"
 #include "images.h"
-#include "kinegraph/base/errors.h"
-#include "kinegraph/base/text.h"
+#include "kinegraph/common/errors.h"
+#include "kinegraph/common/text.h"
 #include "kinegraph/rendering/depth_image.h"
 #include "py_viewer.h"
 

@@ -5,9 +5,9 @@
 #include "arguments.h"
 #include "bindings.h"
 #include "docs/retime.h"
-#include "kinegraph/base/errors.h"
-#include "kinegraph/base/text.h"
-#include "kinegraph/front/retime_robot.h"
+#include "kinegraph/common/errors.h"
+#include "kinegraph/common/text.h"
+#include "kinegraph/api/retime_robot.h"
 #include "python_names.h"
 
 namespace kinegraph::python {

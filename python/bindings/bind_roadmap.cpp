@@ -10,8 +10,8 @@
 #include "docs/path_lines.h"
 #include "docs/roadmap.h"
 #include "feature_arguments.h"
-#include "kinegraph/base/text.h"
-#include "kinegraph/motion/roadmap.h"
+#include "kinegraph/common/text.h"
+#include "kinegraph/planning/roadmap.h"
 #include "pickling.h"
 #include "python_names.h"
 

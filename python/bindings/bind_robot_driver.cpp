@@ -6,10 +6,10 @@
 #include "arguments.h"
 #include "bindings.h"
 #include "docs/operation.h"
-#include "kinegraph/base/text.h"
-#include "kinegraph/operation/kinematic_driver.h"
-#include "kinegraph/operation/recorded_driver.h"
-#include "kinegraph/operation/simulated_driver.h"
+#include "kinegraph/common/text.h"
+#include "kinegraph/robot/kinematic_driver.h"
+#include "kinegraph/robot/recorded_driver.h"
+#include "kinegraph/robot/simulated_driver.h"
 #include "operation_objects.h"
 
 namespace kinegraph::python {

@@ -5,11 +5,11 @@
 #include "arguments.h"
 #include "bindings.h"
 #include "docs/scene.h"
-#include "kinegraph/base/errors.h"
-#include "kinegraph/base/text.h"
+#include "kinegraph/common/errors.h"
+#include "kinegraph/common/text.h"
 #include "kinegraph/geometry/shapes/shape_types.h"
-#include "kinegraph/scene/reader.h"
-#include "kinegraph/scene/scene_bytes.h"
+#include "kinegraph/scene/loading/reader.h"
+#include "kinegraph/scene/tree/scene_bytes.h"
 
 namespace kinegraph::python {
 

@@ -2,9 +2,9 @@
 #include <nanobind/stl/vector.h>
 
 #include "docs/sensitivity.h"
-#include "kinegraph/base/errors.h"
-#include "kinegraph/base/text.h"
-#include "kinegraph/front/solution_parameters.h"
+#include "kinegraph/common/errors.h"
+#include "kinegraph/common/text.h"
+#include "kinegraph/api/solution_parameters.h"
 #include "python_names.h"
 #include "sensitivity.h"
 

@@ -6,9 +6,9 @@
 
 #include "bindings.h"
 #include "docs/simulation.h"
-#include "kinegraph/base/errors.h"
-#include "kinegraph/base/text.h"
-#include "kinegraph/front/simulation_view.h"
+#include "kinegraph/common/errors.h"
+#include "kinegraph/common/text.h"
+#include "kinegraph/api/simulation_view.h"
 #include "py_viewer.h"
 #include "simulation_objects.h"
 

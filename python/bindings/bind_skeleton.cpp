@@ -5,10 +5,10 @@
 #include "bindings.h"
 #include "docs/skeleton.h"
 #include "feature_arguments.h"
-#include "kinegraph/base/errors.h"
-#include "kinegraph/base/text.h"
-#include "kinegraph/komo/sub_problem.h"
-#include "kinegraph/planning/skeleton.h"
+#include "kinegraph/common/errors.h"
+#include "kinegraph/common/text.h"
+#include "kinegraph/komo/path/sub_problem.h"
+#include "kinegraph/trajectory_optimization/skeleton.h"
 #include "py_komo.h"
 
 namespace kinegraph::python {

@@ -3,8 +3,8 @@
 #include "arguments.h"
 #include "bindings.h"
 #include "docs/spline.h"
-#include "kinegraph/base/text.h"
-#include "kinegraph/spline/b_spline.h"
+#include "kinegraph/common/text.h"
+#include "kinegraph/trajectories/b_spline.h"
 
 namespace kinegraph::python {
 

@@ -3,8 +3,8 @@
 
 #include "bindings.h"
 #include "docs/spline_motion.h"
-#include "kinegraph/base/text.h"
-#include "kinegraph/planning/spline_motion.h"
+#include "kinegraph/common/text.h"
+#include "kinegraph/trajectory_optimization/spline_motion.h"
 #include "py_komo.h"
 
 namespace kinegraph::python {

@@ -6,8 +6,8 @@
 #include "bindings.h"
 #include "control.h"
 #include "docs/streams.h"
-#include "kinegraph/base/text.h"
-#include "kinegraph/front/drive.h"
+#include "kinegraph/common/text.h"
+#include "kinegraph/api/servo.h"
 
 namespace kinegraph::python {
 

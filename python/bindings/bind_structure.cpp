@@ -6,10 +6,10 @@
 #include "arguments.h"
 #include "bindings.h"
 #include "docs/structure.h"
-#include "kinegraph/base/errors.h"
+#include "kinegraph/common/errors.h"
 #include "kinegraph/scene/frame_shapes.h"
-#include "kinegraph/scene/inertia_edits.h"
-#include "kinegraph/scene/tree_edits.h"
+#include "kinegraph/scene/tree/inertia_edits.h"
+#include "kinegraph/scene/tree/tree_edits.h"
 
 namespace kinegraph::python {
 

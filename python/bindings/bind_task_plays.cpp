@@ -3,8 +3,8 @@
 
 #include "arrays.h"
 #include "docs/task_plays.h"
-#include "kinegraph/front/task_execution.h"
-#include "kinegraph/front/task_view.h"
+#include "kinegraph/api/task_execution.h"
+#include "kinegraph/api/task_view.h"
 #include "operation_objects.h"
 #include "python_names.h"
 #include "task_objects.h"

@@ -8,8 +8,8 @@
 
 #include "bindings.h"
 #include "docs/viewer_input.h"
-#include "kinegraph/base/errors.h"
-#include "kinegraph/base/text.h"
+#include "kinegraph/common/errors.h"
+#include "kinegraph/common/text.h"
 #include "py_viewer.h"
 
 namespace kinegraph::python {

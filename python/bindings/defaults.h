@@ -2,7 +2,7 @@
 
 #include <cstdint>
 
-#include "kinegraph/base/random.h"
+#include "kinegraph/common/random.h"
 #include "kinegraph/solvers/interface/options.h"
 
 namespace kinegraph::python {

@@ -5,8 +5,8 @@
 
 #include "docs/sensitivity.h"
 #include "ik_objects.h"
-#include "kinegraph/base/text.h"
-#include "kinegraph/front/solution_parameters.h"
+#include "kinegraph/common/text.h"
+#include "kinegraph/api/solution_parameters.h"
 #include "python_names.h"
 #include "sensitivity.h"
 

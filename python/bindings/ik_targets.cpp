@@ -4,8 +4,8 @@
 
 #include <algorithm>
 
-#include "kinegraph/base/errors.h"
-#include "kinegraph/base/text.h"
+#include "kinegraph/common/errors.h"
+#include "kinegraph/common/text.h"
 #include "kinegraph/features/eval.h"
 
 namespace kinegraph::python {

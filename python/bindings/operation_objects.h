@@ -4,7 +4,7 @@
 #include <set>
 
 #include "bindings.h"
-#include "kinegraph/operation/bot_op.h"
+#include "kinegraph/robot/bot_op.h"
 
 namespace kinegraph::python {
 

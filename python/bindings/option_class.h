@@ -9,7 +9,7 @@
 
 #include "arguments.h"
 #include "bindings.h"
-#include "kinegraph/base/option_table.h"
+#include "kinegraph/common/option_table.h"
 
 namespace kinegraph::python {
 

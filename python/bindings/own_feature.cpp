@@ -3,8 +3,8 @@
 #include "bindings.h"
 #include "docs/own_features.h"
 #include "feature_arguments.h"
-#include "kinegraph/base/errors.h"
-#include "kinegraph/base/text.h"
+#include "kinegraph/common/errors.h"
+#include "kinegraph/common/text.h"
 #include "solving.h"
 
 namespace kinegraph::python {

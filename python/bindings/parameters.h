@@ -3,8 +3,8 @@
 #include <string>
 
 #include "bindings.h"
-#include "kinegraph/base/errors.h"
-#include "kinegraph/base/text.h"
+#include "kinegraph/common/errors.h"
+#include "kinegraph/common/text.h"
 
 namespace kinegraph::python {
 

@@ -2,7 +2,7 @@
 
 #include <memory>
 
-#include "kinegraph/tasks/manipulation_helper.h"
+#include "kinegraph/task_planning/manipulation_helper.h"
 #include "py_komo.h"
 
 namespace kinegraph::python {

@@ -2,8 +2,8 @@
 
 #include <nanobind/stl/string.h>
 
-#include "kinegraph/base/errors.h"
-#include "kinegraph/base/text.h"
+#include "kinegraph/common/errors.h"
+#include "kinegraph/common/text.h"
 #include "kinegraph/geometry/shapes/shape_types.h"
 
 namespace kinegraph::python {

@@ -7,8 +7,8 @@
 #include <utility>
 
 #include "defaults.h"
-#include "kinegraph/base/errors.h"
-#include "kinegraph/base/text.h"
+#include "kinegraph/common/errors.h"
+#include "kinegraph/common/text.h"
 #include "kinegraph/solvers/methods/penalty_methods.h"
 
 namespace kinegraph::python {

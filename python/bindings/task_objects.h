@@ -1,7 +1,7 @@
 #pragma once
 
 #include "bindings.h"
-#include "kinegraph/tasks/search/task_plan.h"
+#include "kinegraph/task_planning/search/task_plan.h"
 
 namespace kinegraph::python {
 

@@ -5,7 +5,7 @@
 #include <Eigen/Cholesky>
 #include <Eigen/LU>
 
-#include "kinegraph/base/random.h"
+#include "kinegraph/common/random.h"
 
 using namespace kinegraph;
 

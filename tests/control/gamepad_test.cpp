@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <fstream>
 
-#include "kinegraph/base/errors.h"
+#include "kinegraph/common/errors.h"
 #include "tests/support/expect_error.h"
 #include "tests/support/temporary_folder.h"
 

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "kinegraph/base/errors.h"
+#include "kinegraph/common/errors.h"
 #include "tests/support/expect_error.h"
 
 using namespace kinegraph;

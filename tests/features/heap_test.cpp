@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "kinegraph/features/eval.h"
-#include "kinegraph/kinematics/motion_check.h"
+#include "kinegraph/collision/motion_check.h"
 #include "tests/support/crowd.h"
 
 using namespace kinegraph;

@@ -1,7 +1,7 @@
 #include <gtest/gtest.h>
 
-#include "kinegraph/base/errors.h"
-#include "kinegraph/base/text.h"
+#include "kinegraph/common/errors.h"
+#include "kinegraph/common/text.h"
 #include "kinegraph/features/registry.h"
 #include "kinegraph/features/residual.h"
 #include "kinegraph/scene/config.h"

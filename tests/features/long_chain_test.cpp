@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "kinegraph/base/text.h"
+#include "kinegraph/common/text.h"
 #include "kinegraph/features/eval.h"
 
 using namespace kinegraph;

@@ -3,7 +3,7 @@
 #include <cstdint>
 #include <cstdlib>
 
-#include "kinegraph/base/errors.h"
+#include "kinegraph/common/errors.h"
 #include "kinegraph/geometry/files/image_file.h"
 
 using namespace kinegraph;

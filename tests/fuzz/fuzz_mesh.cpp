@@ -8,7 +8,7 @@
 #include <filesystem>
 #include <fstream>
 
-#include "kinegraph/base/errors.h"
+#include "kinegraph/common/errors.h"
 #include "kinegraph/geometry/files/mesh_file.h"
 
 using namespace kinegraph;

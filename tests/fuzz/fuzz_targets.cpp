@@ -3,7 +3,7 @@
 #include <cstdlib>
 #include <string_view>
 
-#include "kinegraph/base/errors.h"
+#include "kinegraph/common/errors.h"
 #include "kinegraph/control/target_file.h"
 
 /// Rows of targets: what is read gives finite poses at all times; all else that may come of it is an Error.

@@ -5,10 +5,10 @@
 #include <filesystem>
 #include <string_view>
 
-#include "kinegraph/base/errors.h"
-#include "kinegraph/formats/scene_writer.h"
+#include "kinegraph/common/errors.h"
+#include "kinegraph/exporters/scene_writer.h"
 #include "kinegraph/scene/config.h"
-#include "kinegraph/scene/robot_semantics.h"
+#include "kinegraph/scene/loading/robot_semantics.h"
 
 using namespace kinegraph;
 

@@ -4,8 +4,8 @@
 
 #include <cmath>
 
-#include "kinegraph/base/random.h"
-#include "kinegraph/base/text.h"
+#include "kinegraph/common/random.h"
+#include "kinegraph/common/text.h"
 #include "kinegraph/gfile/writer.h"
 
 using namespace kinegraph;

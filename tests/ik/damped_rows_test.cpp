@@ -4,7 +4,7 @@
 
 #include <vector>
 
-#include "kinegraph/base/random.h"
+#include "kinegraph/common/random.h"
 #include "kinegraph/ik/damped_step.h"
 
 namespace kinegraph::lanes {

@@ -4,7 +4,7 @@
 
 #include <limits>
 
-#include "kinegraph/base/random.h"
+#include "kinegraph/common/random.h"
 
 namespace kinegraph {
 namespace {

@@ -2,8 +2,8 @@
 
 #include <gtest/gtest.h>
 
-#include "kinegraph/base/errors.h"
-#include "kinegraph/base/random.h"
+#include "kinegraph/common/errors.h"
+#include "kinegraph/common/random.h"
 #include "kinegraph/scene/config.h"
 #include "tests/kinematics/random_vector.h"
 

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "kinegraph/base/random.h"
+#include "kinegraph/common/random.h"
 #include "kinegraph/math/pose.h"
 
 namespace kinegraph {

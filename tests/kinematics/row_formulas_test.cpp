@@ -4,7 +4,7 @@
 
 #include <functional>
 
-#include "kinegraph/base/random.h"
+#include "kinegraph/common/random.h"
 #include "kinegraph/math/pose.h"
 
 namespace kinegraph::lanes {

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "kinegraph/base/random.h"
+#include "kinegraph/common/random.h"
 #include "kinegraph/scene/config.h"
 
 using namespace kinegraph;

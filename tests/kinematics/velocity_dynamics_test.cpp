@@ -4,8 +4,8 @@
 
 #include <Eigen/Eigenvalues>
 
-#include "kinegraph/base/errors.h"
-#include "kinegraph/base/random.h"
+#include "kinegraph/common/errors.h"
+#include "kinegraph/common/random.h"
 #include "kinegraph/scene/config_dynamics.h"
 #include "tests/kinematics/random_vector.h"
 

@@ -2,7 +2,7 @@
 
 #include <string>
 
-#include "kinegraph/base/text.h"
+#include "kinegraph/common/text.h"
 #include "kinegraph/scene/config.h"
 
 namespace kinegraph {

@@ -1,6 +1,6 @@
 #include <gtest/gtest.h>
 
-#include "kinegraph/base/errors.h"
+#include "kinegraph/common/errors.h"
 #include "kinegraph/komo/komo.h"
 
 using namespace kinegraph;

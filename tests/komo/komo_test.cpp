@@ -4,8 +4,8 @@
 
 #include <chrono>
 
-#include "kinegraph/base/errors.h"
-#include "kinegraph/base/text.h"
+#include "kinegraph/common/errors.h"
+#include "kinegraph/common/text.h"
 #include "kinegraph/solvers/methods/augmented_lagrangian.h"
 
 using namespace kinegraph;

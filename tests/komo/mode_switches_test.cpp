@@ -4,7 +4,7 @@
 #include <cmath>
 #include <ctime>
 
-#include "kinegraph/base/errors.h"
+#include "kinegraph/common/errors.h"
 #include "kinegraph/komo/komo.h"
 #include "kinegraph/komo/report.h"
 #include "kinegraph/solvers/methods/augmented_lagrangian.h"

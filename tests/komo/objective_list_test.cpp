@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "kinegraph/base/errors.h"
+#include "kinegraph/common/errors.h"
 #include "tests/support/expect_error.h"
 
 using namespace kinegraph;

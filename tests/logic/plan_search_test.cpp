@@ -4,7 +4,7 @@
 
 #include <set>
 
-#include "kinegraph/base/text.h"
+#include "kinegraph/common/text.h"
 #include "kinegraph/logic/fol_reader.h"
 #include "kinegraph/logic/pddl.h"
 

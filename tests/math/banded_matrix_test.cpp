@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <limits>
 
-#include "kinegraph/base/random.h"
+#include "kinegraph/common/random.h"
 
 using namespace kinegraph;
 

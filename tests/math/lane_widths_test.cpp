@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "kinegraph/base/errors.h"
+#include "kinegraph/common/errors.h"
 
 namespace kinegraph {
 namespace {

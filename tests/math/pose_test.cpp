@@ -4,8 +4,8 @@
 
 #include <numbers>
 
-#include "kinegraph/base/errors.h"
-#include "kinegraph/base/random.h"
+#include "kinegraph/common/errors.h"
+#include "kinegraph/common/random.h"
 
 using namespace kinegraph;
 

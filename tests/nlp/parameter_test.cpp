@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "kinegraph/base/errors.h"
+#include "kinegraph/common/errors.h"
 #include "kinegraph/nlp/callback_nlp.h"
 #include "tests/support/near.h"
 

@@ -2,8 +2,8 @@
 
 #include <gtest/gtest.h>
 
-#include "kinegraph/base/random.h"
-#include "kinegraph/base/text.h"
+#include "kinegraph/common/random.h"
+#include "kinegraph/common/text.h"
 #include "tests/support/near.h"
 
 using namespace kinegraph;

@@ -4,7 +4,7 @@
 
 #include <functional>
 
-#include "kinegraph/base/errors.h"
+#include "kinegraph/common/errors.h"
 #include "tests/support/crowd.h"
 #include "tests/support/expect_error.h"
 

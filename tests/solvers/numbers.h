@@ -3,7 +3,7 @@
 #include <initializer_list>
 #include <limits>
 
-#include "kinegraph/base/random.h"
+#include "kinegraph/common/random.h"
 #include "kinegraph/math/pose.h"
 
 namespace kinegraph {

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "kinegraph/base/text.h"
+#include "kinegraph/common/text.h"
 #include "kinegraph/geometry/distance/box_distance.h"
 #include "tests/support/geometry_samples.h"
 

@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "kinegraph/base/text.h"
+#include "kinegraph/common/text.h"
 #include "kinegraph/geometry/distance/proximity.h"
 #include "kinegraph/scene/config.h"
 

@@ -5,7 +5,7 @@
 #include <initializer_list>
 #include <string>
 
-#include "kinegraph/base/errors.h"
+#include "kinegraph/common/errors.h"
 
 namespace kinegraph {
 

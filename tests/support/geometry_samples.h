@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "kinegraph/base/random.h"
+#include "kinegraph/common/random.h"
 #include "kinegraph/geometry/shapes/geometry.h"
 
 namespace kinegraph::testing {

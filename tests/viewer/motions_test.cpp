@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "kinegraph/base/errors.h"
+#include "kinegraph/common/errors.h"
 
 using namespace kinegraph;
 

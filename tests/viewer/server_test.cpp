@@ -5,11 +5,11 @@
 #include <chrono>
 #include <thread>
 
-#include "kinegraph/base/errors.h"
-#include "kinegraph/base/random.h"
+#include "kinegraph/common/errors.h"
+#include "kinegraph/common/random.h"
 #include "kinegraph/viewer/client_page.h"
-#include "kinegraph/viewer/input_events.h"
-#include "kinegraph/viewer/messages.h"
+#include "kinegraph/viewer/messages/input_events.h"
+#include "kinegraph/viewer/messages/messages.h"
 #include "tests/viewer/websocket_client.h"
 
 using namespace kinegraph;

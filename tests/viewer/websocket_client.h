@@ -13,7 +13,7 @@
 #include <string>
 #include <utility>
 
-#include "kinegraph/viewer/commands.h"
+#include "kinegraph/viewer/messages/commands.h"
 
 namespace kinegraph::test {
 

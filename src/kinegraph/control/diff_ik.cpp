@@ -4,8 +4,8 @@
 #include <cmath>
 #include <limits>
 
-#include "kinegraph/base/errors.h"
-#include "kinegraph/base/text.h"
+#include "kinegraph/common/errors.h"
+#include "kinegraph/common/text.h"
 #include "kinegraph/features/distance.h"
 #include "kinegraph/scene/motor_limits.h"
 

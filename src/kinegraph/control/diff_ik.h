@@ -7,7 +7,7 @@
 
 #include "kinegraph/control/active_set.h"
 #include "kinegraph/features/eval.h"
-#include "kinegraph/kinematics/near_pairs.h"
+#include "kinegraph/collision/near_pairs.h"
 #include "kinegraph/scene/config.h"
 
 namespace kinegraph {

@@ -8,8 +8,8 @@
 #include <cstdint>
 #include <cstring>
 
-#include "kinegraph/base/errors.h"
-#include "kinegraph/base/text.h"
+#include "kinegraph/common/errors.h"
+#include "kinegraph/common/text.h"
 
 namespace kinegraph {
 

@@ -7,7 +7,7 @@
 
 #include "kinegraph/control/horizon_nlp.h"
 #include "kinegraph/komo/komo.h"
-#include "kinegraph/komo/path_rows.h"
+#include "kinegraph/komo/path_components.h"
 #include "kinegraph/solvers/interface/options.h"
 #include "kinegraph/solvers/interface/result.h"
 #include "kinegraph/solvers/methods/augmented_lagrangian.h"

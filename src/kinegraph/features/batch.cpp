@@ -2,13 +2,13 @@
 
 #include <algorithm>
 
-#include "kinegraph/base/errors.h"
-#include "kinegraph/base/parallel.h"
-#include "kinegraph/base/text.h"
-#include "kinegraph/kinematics/edge_check.h"
-#include "kinegraph/kinematics/lane_program.h"
-#include "kinegraph/kinematics/limit_check.h"
-#include "kinegraph/kinematics/near_pairs.h"
+#include "kinegraph/common/errors.h"
+#include "kinegraph/common/parallel.h"
+#include "kinegraph/common/text.h"
+#include "kinegraph/collision/edge_check.h"
+#include "kinegraph/kinematics/lane_kinematics.h"
+#include "kinegraph/collision/limit_check.h"
+#include "kinegraph/collision/near_pairs.h"
 
 namespace kinegraph {
 

@@ -6,7 +6,7 @@
 
 #include "kinegraph/features/residual.h"
 #include "kinegraph/geometry/distance/proximity.h"
-#include "kinegraph/kinematics/edge_checkers.h"
+#include "kinegraph/collision/edge_checkers.h"
 
 namespace kinegraph {
 

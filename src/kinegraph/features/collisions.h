@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "kinegraph/features/feature.h"
-#include "kinegraph/kinematics/near_pairs.h"
+#include "kinegraph/collision/near_pairs.h"
 
 namespace kinegraph {
 

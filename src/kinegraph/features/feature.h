@@ -3,7 +3,7 @@
 #include <optional>
 #include <span>
 
-#include "kinegraph/kinematics/lane_program.h"
+#include "kinegraph/kinematics/lane_kinematics.h"
 #include "kinegraph/kinematics/state.h"
 
 namespace kinegraph {

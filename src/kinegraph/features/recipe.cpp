@@ -2,8 +2,8 @@
 
 #include <map>
 
-#include "kinegraph/base/errors.h"
-#include "kinegraph/base/text.h"
+#include "kinegraph/common/errors.h"
+#include "kinegraph/common/text.h"
 #include "kinegraph/features/contact_motion.h"
 #include "kinegraph/features/orientation.h"
 

@@ -2,8 +2,8 @@
 
 #include <numeric>
 
-#include "kinegraph/base/errors.h"
-#include "kinegraph/base/text.h"
+#include "kinegraph/common/errors.h"
+#include "kinegraph/common/text.h"
 #include "kinegraph/features/box.h"
 #include "kinegraph/features/collisions.h"
 #include "kinegraph/features/distance.h"

@@ -1,6 +1,6 @@
 #include <limits>
 
-#include "kinegraph/base/text.h"
+#include "kinegraph/common/text.h"
 #include "kinegraph/gfile/grammar.h"
 #include "kinegraph/gfile/typed_array.h"
 

@@ -1,6 +1,6 @@
 #include <algorithm>
 
-#include "kinegraph/base/text.h"
+#include "kinegraph/common/text.h"
 #include "kinegraph/gfile/grammar.h"
 
 namespace kinegraph {

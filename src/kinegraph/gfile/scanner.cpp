@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <charconv>
 
-#include "kinegraph/base/text.h"
+#include "kinegraph/common/text.h"
 
 namespace kinegraph {
 

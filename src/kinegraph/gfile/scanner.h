@@ -4,7 +4,7 @@
 #include <string_view>
 #include <vector>
 
-#include "kinegraph/base/errors.h"
+#include "kinegraph/common/errors.h"
 
 namespace kinegraph {
 

@@ -2,7 +2,7 @@
 #include <cstdint>
 #include <cstring>
 
-#include "kinegraph/base/text.h"
+#include "kinegraph/common/text.h"
 #include "kinegraph/gfile/typed_array.h"
 
 namespace kinegraph {

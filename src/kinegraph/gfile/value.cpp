@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <utility>
 
-#include "kinegraph/base/text.h"
+#include "kinegraph/common/text.h"
 
 namespace kinegraph {
 

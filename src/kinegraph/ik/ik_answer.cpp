@@ -1,7 +1,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "kinegraph/base/text.h"
+#include "kinegraph/common/text.h"
 #include "kinegraph/ik/ik_search.h"
 
 namespace kinegraph {

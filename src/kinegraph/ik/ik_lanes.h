@@ -5,7 +5,7 @@
 
 #include "kinegraph/ik/ik_kernel.h"
 #include "kinegraph/ik/ik_search.h"
-#include "kinegraph/kinematics/lane_program.h"
+#include "kinegraph/kinematics/lane_kinematics.h"
 
 namespace kinegraph {
 

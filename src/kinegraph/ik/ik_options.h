@@ -2,7 +2,7 @@
 
 #include <cstdint>
 
-#include "kinegraph/base/option_table.h"
+#include "kinegraph/common/option_table.h"
 
 namespace kinegraph {
 

@@ -5,8 +5,8 @@
 #include <limits>
 #include <numbers>
 
-#include "kinegraph/base/errors.h"
-#include "kinegraph/base/text.h"
+#include "kinegraph/common/errors.h"
+#include "kinegraph/common/text.h"
 #include "kinegraph/kinematics/chains.h"
 
 namespace kinegraph {

@@ -8,7 +8,7 @@
 #include "kinegraph/ik/ik_task.h"
 #include "kinegraph/ik/low_discrepancy.h"
 #include "kinegraph/ik/solve_ik.h"
-#include "kinegraph/kinematics/near_pairs.h"
+#include "kinegraph/collision/near_pairs.h"
 
 namespace kinegraph {
 

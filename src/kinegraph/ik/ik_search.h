@@ -5,7 +5,7 @@
 
 #include "kinegraph/ik/damped_step.h"
 #include "kinegraph/ik/ik_problem.h"
-#include "kinegraph/kinematics/near_pairs.h"
+#include "kinegraph/collision/near_pairs.h"
 
 namespace kinegraph {
 

@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <set>
 
-#include "kinegraph/base/errors.h"
-#include "kinegraph/base/random.h"
-#include "kinegraph/base/text.h"
+#include "kinegraph/common/errors.h"
+#include "kinegraph/common/random.h"
+#include "kinegraph/common/text.h"
 #include "kinegraph/features/eval.h"
 #include "kinegraph/features/masses.h"
 #include "kinegraph/kinematics/chains.h"

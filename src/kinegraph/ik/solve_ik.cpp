@@ -5,9 +5,9 @@
 #include <functional>
 #include <optional>
 
-#include "kinegraph/base/errors.h"
-#include "kinegraph/base/parallel.h"
-#include "kinegraph/base/text.h"
+#include "kinegraph/common/errors.h"
+#include "kinegraph/common/parallel.h"
+#include "kinegraph/common/text.h"
 #include "kinegraph/ik/ik_lanes.h"
 #include "kinegraph/ik/ik_nlp.h"
 

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "kinegraph/kinematics/program.h"
+#include "kinegraph/kinematics/kinematic_model.h"
 
 namespace kinegraph {
 

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "kinegraph/kinematics/constant_turn.h"
+#include "kinegraph/kinematics/constant_rotation.h"
 #include "kinegraph/kinematics/motion_kind.h"
 
 namespace kinegraph {

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "kinegraph/geometry/distance/collision_body.h"
-#include "kinegraph/kinematics/box_tree.h"
+#include "kinegraph/geometry/distance/box_tree.h"
 #include "kinegraph/kinematics/state.h"
 
 namespace kinegraph {

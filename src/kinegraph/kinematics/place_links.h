@@ -3,7 +3,7 @@
 // Forward kinematics of one joint, for double or packs of doubles; local to each source file that includes it, as is
 // lane_math.h. State and the kernels in lanes are made of it.
 
-#include "kinegraph/kinematics/constant_turn.h"
+#include "kinegraph/kinematics/constant_rotation.h"
 #include "kinegraph/kinematics/motion_kind.h"
 #include "kinegraph/math/lane_math.h"
 

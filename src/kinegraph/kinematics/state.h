@@ -3,7 +3,7 @@
 #include <memory>
 #include <vector>
 
-#include "kinegraph/kinematics/program.h"
+#include "kinegraph/kinematics/kinematic_model.h"
 
 namespace kinegraph {
 

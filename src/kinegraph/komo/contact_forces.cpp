@@ -1,7 +1,7 @@
 #include "kinegraph/komo/contact_forces.h"
 
-#include "kinegraph/base/errors.h"
-#include "kinegraph/base/text.h"
+#include "kinegraph/common/errors.h"
+#include "kinegraph/common/text.h"
 #include "kinegraph/features/distance.h"
 #include "kinegraph/kinematics/dynamics.h"
 #include "kinegraph/komo/mode_switches.h"

@@ -2,8 +2,8 @@
 
 #include <cmath>
 
-#include "kinegraph/base/errors.h"
-#include "kinegraph/base/text.h"
+#include "kinegraph/common/errors.h"
+#include "kinegraph/common/text.h"
 #include "kinegraph/komo/contact_forces.h"
 #include "kinegraph/komo/mode_switches.h"
 

@@ -6,10 +6,10 @@
 #include <vector>
 
 #include "kinegraph/features/scale.h"
-#include "kinegraph/komo/exchanges.h"
+#include "kinegraph/komo/force_exchange.h"
 #include "kinegraph/komo/motion_problem.h"
-#include "kinegraph/komo/path_motion.h"
-#include "kinegraph/komo/path_starts.h"
+#include "kinegraph/komo/path/path_motion.h"
+#include "kinegraph/komo/path/path_initialization.h"
 #include "kinegraph/nlp/nlp.h"
 
 namespace kinegraph {

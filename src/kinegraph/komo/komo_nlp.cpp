@@ -2,17 +2,17 @@
 
 #include <algorithm>
 
-#include "kinegraph/base/errors.h"
-#include "kinegraph/base/text.h"
-#include "kinegraph/komo/detour.h"
-#include "kinegraph/komo/forbidden_motions.h"
-#include "kinegraph/komo/free_motion.h"
+#include "kinegraph/common/errors.h"
+#include "kinegraph/common/text.h"
+#include "kinegraph/komo/collision/alternative_path.h"
+#include "kinegraph/komo/collision_report.h"
+#include "kinegraph/komo/continuous_collisions.h"
 #include "kinegraph/komo/komo.h"
 #include "kinegraph/komo/path_description.h"
-#include "kinegraph/komo/path_rows.h"
+#include "kinegraph/komo/path_components.h"
 #include "kinegraph/nlp/evaluation_sizes.h"
-#include "kinegraph/nlp/other_ways.h"
-#include "kinegraph/nlp/room_for_constraints.h"
+#include "kinegraph/nlp/initial_guesses.h"
+#include "kinegraph/nlp/lazy_constraints.h"
 
 namespace kinegraph {
 

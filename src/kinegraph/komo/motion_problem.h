@@ -1,6 +1,6 @@
 #pragma once
 
-#include "kinegraph/komo/contacts.h"
+#include "kinegraph/komo/path/contacts.h"
 #include "kinegraph/komo/objective_list.h"
 
 namespace kinegraph {

@@ -3,15 +3,15 @@
 #include <algorithm>
 #include <iterator>
 
-#include "kinegraph/base/errors.h"
-#include "kinegraph/base/text.h"
+#include "kinegraph/common/errors.h"
+#include "kinegraph/common/text.h"
 #include "kinegraph/features/collisions.h"
 #include "kinegraph/features/joints.h"
 #include "kinegraph/kinematics/dynamics.h"
-#include "kinegraph/komo/along_motion.h"
-#include "kinegraph/komo/free_motion.h"
-#include "kinegraph/komo/path_features.h"
-#include "kinegraph/komo/path_motion.h"
+#include "kinegraph/komo/collision/sampled_collisions.h"
+#include "kinegraph/komo/continuous_collisions.h"
+#include "kinegraph/komo/path/path_features.h"
+#include "kinegraph/komo/path/path_motion.h"
 
 namespace kinegraph {
 

@@ -5,8 +5,8 @@
 
 #include "kinegraph/features/eval.h"
 #include "kinegraph/features/forces.h"
-#include "kinegraph/komo/pair_instant.h"
-#include "kinegraph/komo/path.h"
+#include "kinegraph/komo/collision/collision_sample.h"
+#include "kinegraph/komo/path/path.h"
 #include "kinegraph/nlp/nlp.h"
 
 namespace kinegraph {

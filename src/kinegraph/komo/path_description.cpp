@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "kinegraph/base/text.h"
-#include "kinegraph/komo/path_motion.h"
+#include "kinegraph/common/text.h"
+#include "kinegraph/komo/path/path_motion.h"
 
 namespace kinegraph {
 

@@ -2,11 +2,11 @@
 
 #include <algorithm>
 
-#include "kinegraph/base/errors.h"
-#include "kinegraph/base/text.h"
+#include "kinegraph/common/errors.h"
+#include "kinegraph/common/text.h"
 #include "kinegraph/komo/komo.h"
 #include "kinegraph/komo/path_description.h"
-#include "kinegraph/komo/path_rows.h"
+#include "kinegraph/komo/path_components.h"
 
 namespace kinegraph {
 

@@ -4,9 +4,9 @@
 #include <cmath>
 #include <numeric>
 
-#include "kinegraph/base/errors.h"
-#include "kinegraph/base/text.h"
-#include "kinegraph/komo/free_motion.h"
+#include "kinegraph/common/errors.h"
+#include "kinegraph/common/text.h"
+#include "kinegraph/komo/continuous_collisions.h"
 #include "kinegraph/komo/path_problem.h"
 
 namespace kinegraph {

@@ -5,7 +5,7 @@
 #include <utility>
 #include <vector>
 
-#include "kinegraph/base/errors.h"
+#include "kinegraph/common/errors.h"
 
 namespace kinegraph {
 

@@ -5,7 +5,7 @@
 #include <set>
 #include <sstream>
 
-#include "kinegraph/base/text.h"
+#include "kinegraph/common/text.h"
 #include "kinegraph/logic/logic_scanner.h"
 
 namespace kinegraph {

@@ -5,7 +5,7 @@
 #include <map>
 #include <set>
 
-#include "kinegraph/base/text.h"
+#include "kinegraph/common/text.h"
 
 namespace kinegraph {
 

@@ -2,7 +2,7 @@
 
 #include <cctype>
 
-#include "kinegraph/base/text.h"
+#include "kinegraph/common/text.h"
 
 namespace kinegraph {
 

@@ -3,7 +3,7 @@
 #include <string>
 #include <string_view>
 
-#include "kinegraph/base/errors.h"
+#include "kinegraph/common/errors.h"
 
 namespace kinegraph {
 

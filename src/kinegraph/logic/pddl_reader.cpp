@@ -1,7 +1,7 @@
 #include <algorithm>
 #include <map>
 
-#include "kinegraph/base/text.h"
+#include "kinegraph/common/text.h"
 #include "kinegraph/logic/logic_scanner.h"
 #include "kinegraph/logic/pddl.h"
 

@@ -2,7 +2,7 @@
 #include <map>
 #include <set>
 
-#include "kinegraph/base/text.h"
+#include "kinegraph/common/text.h"
 #include "kinegraph/logic/pddl.h"
 
 namespace kinegraph {

@@ -3,8 +3,8 @@
 #include <Eigen/SparseCholesky>
 #include <algorithm>
 
-#include "kinegraph/base/errors.h"
-#include "kinegraph/base/text.h"
+#include "kinegraph/common/errors.h"
+#include "kinegraph/common/text.h"
 #include "kinegraph/nlp/evaluation_sizes.h"
 
 namespace kinegraph {

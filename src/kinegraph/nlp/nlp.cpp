@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "kinegraph/base/errors.h"
-#include "kinegraph/base/text.h"
+#include "kinegraph/common/errors.h"
+#include "kinegraph/common/text.h"
 
 namespace kinegraph {
 

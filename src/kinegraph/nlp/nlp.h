@@ -5,9 +5,9 @@
 #include <string>
 #include <vector>
 
-#include "kinegraph/base/random.h"
+#include "kinegraph/common/random.h"
 #include "kinegraph/math/pose.h"
-#include "kinegraph/nlp/motion_verdict.h"
+#include "kinegraph/nlp/validity_report.h"
 #include "kinegraph/nlp/row_description.h"
 #include "kinegraph/nlp/separation.h"
 

@@ -8,8 +8,8 @@
 #include <map>
 #include <numbers>
 
-#include "kinegraph/base/errors.h"
-#include "kinegraph/base/text.h"
+#include "kinegraph/common/errors.h"
+#include "kinegraph/common/text.h"
 #include "kinegraph/nlp/convex_core.h"
 #include "kinegraph/nlp/evaluation_sizes.h"
 

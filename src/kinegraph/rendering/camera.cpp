@@ -4,7 +4,7 @@
 #include <numbers>
 #include <optional>
 
-#include "kinegraph/base/text.h"
+#include "kinegraph/common/text.h"
 
 namespace kinegraph {
 

@@ -4,12 +4,12 @@
 #include <cmath>
 #include <optional>
 
-#include "kinegraph/base/text.h"
+#include "kinegraph/common/text.h"
 #include "kinegraph/geometry/shapes/shape_kinds.h"
 #include "kinegraph/rendering/framing.h"
 #include "kinegraph/rendering/gl_context.h"
 #include "kinegraph/rendering/mesh_library.h"
-#include "kinegraph/scene/visual_meshes.h"
+#include "kinegraph/scene/tree/visual_meshes.h"
 
 namespace kinegraph {
 

@@ -4,7 +4,7 @@
 #include <limits>
 
 #include "kinegraph/geometry/shapes/tessellation.h"
-#include "kinegraph/scene/visual_meshes.h"
+#include "kinegraph/scene/tree/visual_meshes.h"
 
 namespace kinegraph {
 

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "kinegraph/base/utf8.h"
+#include "kinegraph/common/utf8.h"
 
 namespace kinegraph {
 

@@ -4,7 +4,7 @@
 
 #include <memory>
 
-#include "kinegraph/base/dynamic_library.h"
+#include "kinegraph/common/dynamic_library.h"
 
 namespace kinegraph {
 

@@ -1,6 +1,6 @@
 #include "kinegraph/scene/config.h"
-#include "kinegraph/kinematics/limit_check.h"
-#include "kinegraph/scene/contact_notes.h"
+#include "kinegraph/collision/limit_check.h"
+#include "kinegraph/scene/tree/contact_warnings.h"
 
 #include <algorithm>
 #include <cmath>
@@ -8,12 +8,12 @@
 #include <set>
 #include <utility>
 
-#include "kinegraph/base/errors.h"
-#include "kinegraph/base/text.h"
+#include "kinegraph/common/errors.h"
+#include "kinegraph/common/text.h"
 #include "kinegraph/gfile/parser.h"
-#include "kinegraph/scene/named_states.h"
-#include "kinegraph/scene/reader.h"
-#include "kinegraph/scene/robot_semantics.h"
+#include "kinegraph/scene/tree/named_states.h"
+#include "kinegraph/scene/loading/reader.h"
+#include "kinegraph/scene/loading/robot_semantics.h"
 
 namespace kinegraph {
 

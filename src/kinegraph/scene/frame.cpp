@@ -1,11 +1,11 @@
 #include "kinegraph/scene/frame.h"
 
-#include "kinegraph/base/errors.h"
-#include "kinegraph/base/text.h"
+#include "kinegraph/common/errors.h"
+#include "kinegraph/common/text.h"
 #include "kinegraph/geometry/shapes/mass.h"
 #include "kinegraph/geometry/shapes/shape_types.h"
 #include "kinegraph/geometry/shapes/tessellation.h"
-#include "kinegraph/scene/joint_limits.h"
+#include "kinegraph/scene/tree/joint_limits.h"
 
 namespace kinegraph {
 

@@ -4,9 +4,9 @@
 #include <cmath>
 #include <numeric>
 
-#include "kinegraph/base/errors.h"
-#include "kinegraph/base/file_paths.h"
-#include "kinegraph/base/text.h"
+#include "kinegraph/common/errors.h"
+#include "kinegraph/common/file_paths.h"
+#include "kinegraph/common/text.h"
 #include "kinegraph/geometry/files/h5_file.h"
 #include "kinegraph/geometry/files/image_file.h"
 #include "kinegraph/geometry/files/mesh_file.h"

@@ -6,12 +6,12 @@
 #include <numbers>
 #include <optional>
 
-#include "kinegraph/base/errors.h"
-#include "kinegraph/base/parallel.h"
-#include "kinegraph/base/random.h"
-#include "kinegraph/base/text.h"
+#include "kinegraph/common/errors.h"
+#include "kinegraph/common/parallel.h"
+#include "kinegraph/common/random.h"
+#include "kinegraph/common/text.h"
 #include "kinegraph/kinematics/chains.h"
-#include "kinegraph/kinematics/near_pairs.h"
+#include "kinegraph/collision/near_pairs.h"
 
 namespace kinegraph {
 

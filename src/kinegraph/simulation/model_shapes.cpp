@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "kinegraph/base/text.h"
+#include "kinegraph/common/text.h"
 #include "kinegraph/geometry/distance/body_tree.h"
 #include "kinegraph/geometry/distance/grid_field.h"
 #include "kinegraph/geometry/shapes/convex_hull.h"

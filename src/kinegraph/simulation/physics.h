@@ -2,7 +2,7 @@
 
 #include <mujoco/mujoco.h>
 
-#include "kinegraph/base/dynamic_library.h"
+#include "kinegraph/common/dynamic_library.h"
 
 namespace kinegraph {
 

@@ -5,9 +5,9 @@
 #include <fstream>
 #include <sstream>
 
-#include "kinegraph/base/errors.h"
-#include "kinegraph/base/text.h"
-#include "kinegraph/scene/scene_bytes.h"
+#include "kinegraph/common/errors.h"
+#include "kinegraph/common/text.h"
+#include "kinegraph/scene/tree/scene_bytes.h"
 #include "kinegraph/simulation/simulation_impl.h"
 
 namespace kinegraph {

@@ -3,10 +3,10 @@
 #include <Eigen/Eigenvalues>
 #include <cmath>
 
-#include "kinegraph/base/errors.h"
-#include "kinegraph/base/text.h"
+#include "kinegraph/common/errors.h"
+#include "kinegraph/common/text.h"
 #include "kinegraph/geometry/shapes/shape_kinds.h"
-#include "kinegraph/scene/inertia_edits.h"
+#include "kinegraph/scene/tree/inertia_edits.h"
 
 namespace kinegraph {
 

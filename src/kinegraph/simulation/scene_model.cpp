@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "kinegraph/base/errors.h"
-#include "kinegraph/base/text.h"
+#include "kinegraph/common/errors.h"
+#include "kinegraph/common/text.h"
 #include "kinegraph/geometry/distance/proximity.h"
 #include "kinegraph/simulation/model_index.h"
 #include "kinegraph/simulation/model_shapes.h"

@@ -4,9 +4,9 @@
 #include <cmath>
 #include <mutex>
 
-#include "kinegraph/base/errors.h"
-#include "kinegraph/base/parallel.h"
-#include "kinegraph/base/text.h"
+#include "kinegraph/common/errors.h"
+#include "kinegraph/common/parallel.h"
+#include "kinegraph/common/text.h"
 #include "kinegraph/rendering/mujoco.h"
 #include "kinegraph/simulation/simulation_impl.h"
 

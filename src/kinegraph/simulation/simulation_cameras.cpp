@@ -1,7 +1,7 @@
 #include <bit>
 
-#include "kinegraph/base/errors.h"
-#include "kinegraph/base/text.h"
+#include "kinegraph/common/errors.h"
+#include "kinegraph/common/text.h"
 #include "kinegraph/rendering/depth_image.h"
 #include "kinegraph/simulation/simulation_impl.h"
 

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "kinegraph/base/option_table.h"
+#include "kinegraph/common/option_table.h"
 
 namespace kinegraph {
 

@@ -4,7 +4,7 @@
 #include <cstring>
 #include <type_traits>
 
-#include "kinegraph/base/errors.h"
+#include "kinegraph/common/errors.h"
 
 namespace kinegraph {
 

@@ -8,7 +8,7 @@
 
 #include "kinegraph/simulation/reference.h"
 #include "kinegraph/simulation/scene_model.h"
-#include "kinegraph/simulation/turning_forces.h"
+#include "kinegraph/simulation/gyroscopic_forces.h"
 
 namespace kinegraph {
 

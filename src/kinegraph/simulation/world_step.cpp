@@ -1,8 +1,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "kinegraph/base/errors.h"
-#include "kinegraph/base/text.h"
+#include "kinegraph/common/errors.h"
+#include "kinegraph/common/text.h"
 #include "kinegraph/rendering/mujoco.h"
 #include "kinegraph/simulation/world.h"
 

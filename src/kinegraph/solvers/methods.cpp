@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <chrono>
 
-#include "kinegraph/base/errors.h"
-#include "kinegraph/base/text.h"
+#include "kinegraph/common/errors.h"
+#include "kinegraph/common/text.h"
 #include "kinegraph/nlp/finite_difference_nlp.h"
 #include "kinegraph/solvers/interface/requirements.h"
 #include "kinegraph/solvers/methods/derivative_free.h"

@@ -4,8 +4,8 @@
 #include <chrono>
 #include <cstdio>
 
-#include "kinegraph/base/errors.h"
-#include "kinegraph/base/text.h"
+#include "kinegraph/common/errors.h"
+#include "kinegraph/common/text.h"
 #include "kinegraph/solvers/interface/best_so_far.h"
 #include "kinegraph/solvers/interface/requirements.h"
 #include "kinegraph/solvers/methods.h"

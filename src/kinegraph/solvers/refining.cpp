@@ -1,8 +1,8 @@
 #include <algorithm>
 
-#include "kinegraph/base/text.h"
-#include "kinegraph/nlp/other_ways.h"
-#include "kinegraph/nlp/room_for_constraints.h"
+#include "kinegraph/common/text.h"
+#include "kinegraph/nlp/initial_guesses.h"
+#include "kinegraph/nlp/lazy_constraints.h"
 #include "kinegraph/solvers/nlp_solver.h"
 
 namespace kinegraph {

@@ -5,9 +5,9 @@
 #include <chrono>
 #include <set>
 
-#include "kinegraph/base/errors.h"
-#include "kinegraph/base/parallel.h"
-#include "kinegraph/base/text.h"
+#include "kinegraph/common/errors.h"
+#include "kinegraph/common/parallel.h"
+#include "kinegraph/common/text.h"
 
 namespace kinegraph {
 

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <random>
 
-#include "kinegraph/base/text.h"
+#include "kinegraph/common/text.h"
 
 namespace kinegraph {
 

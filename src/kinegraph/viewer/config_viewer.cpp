@@ -8,7 +8,7 @@
 #include <cstdlib>
 #include <utility>
 
-#include "kinegraph/base/text.h"
+#include "kinegraph/common/text.h"
 
 namespace kinegraph {
 

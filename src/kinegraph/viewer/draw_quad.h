@@ -1,6 +1,6 @@
 #pragma once
 
-#include "kinegraph/viewer/look.h"
+#include "kinegraph/viewer/messages/look.h"
 
 namespace kinegraph {
 

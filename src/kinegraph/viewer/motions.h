@@ -1,7 +1,7 @@
 #pragma once
 
 #include "kinegraph/scene/config.h"
-#include "kinegraph/viewer/shown_motion.h"
+#include "kinegraph/viewer/messages/shown_motion.h"
 
 namespace kinegraph {
 

@@ -1,6 +1,6 @@
 #include "kinegraph/viewer/recorded_page.h"
 
-#include "kinegraph/base/json.h"
+#include "kinegraph/common/json.h"
 #include "kinegraph/viewer/client_page.h"
 #include "kinegraph/viewer/scene_items.h"
 

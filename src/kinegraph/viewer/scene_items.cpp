@@ -2,8 +2,8 @@
 
 #include <algorithm>
 
-#include "kinegraph/base/text.h"
-#include "kinegraph/formats/scene_writer.h"
+#include "kinegraph/common/text.h"
+#include "kinegraph/exporters/scene_writer.h"
 #include "kinegraph/gfile/writer.h"
 
 namespace kinegraph {

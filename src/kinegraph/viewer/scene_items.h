@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "kinegraph/scene/config.h"
-#include "kinegraph/scene/visual_meshes.h"
+#include "kinegraph/scene/tree/visual_meshes.h"
 #include "kinegraph/viewer/server.h"
 
 namespace kinegraph {

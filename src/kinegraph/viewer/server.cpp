@@ -5,8 +5,8 @@
 #include <cstdlib>
 #include <cstring>
 
-#include "kinegraph/base/errors.h"
-#include "kinegraph/base/text.h"
+#include "kinegraph/common/errors.h"
+#include "kinegraph/common/text.h"
 #include "kinegraph/viewer/web_server.h"
 
 namespace kinegraph {

@@ -7,13 +7,13 @@
 #include <string>
 
 #include "kinegraph/geometry/shapes/geometry.h"
-#include "kinegraph/viewer/commands.h"
-#include "kinegraph/viewer/look.h"
-#include "kinegraph/viewer/near_lines.h"
-#include "kinegraph/viewer/run_requests.h"
-#include "kinegraph/viewer/scene_notes.h"
-#include "kinegraph/viewer/shown_motion.h"
-#include "kinegraph/viewer/shown_run.h"
+#include "kinegraph/viewer/messages/commands.h"
+#include "kinegraph/viewer/messages/look.h"
+#include "kinegraph/viewer/messages/near_lines.h"
+#include "kinegraph/viewer/messages/run_requests.h"
+#include "kinegraph/viewer/messages/scene_notes.h"
+#include "kinegraph/viewer/messages/shown_motion.h"
+#include "kinegraph/viewer/messages/shown_run.h"
 
 namespace kinegraph {
 

@@ -3,8 +3,8 @@
 #include "kinegraph/geometry/shapes/shape_kinds.h"
 #include "kinegraph/geometry/shapes/shape_types.h"
 #include "kinegraph/geometry/shapes/tessellation.h"
-#include "kinegraph/viewer/binary_messages.h"
-#include "kinegraph/viewer/messages.h"
+#include "kinegraph/viewer/messages/binary_messages.h"
+#include "kinegraph/viewer/messages/messages.h"
 
 namespace kinegraph {
 

@@ -5,8 +5,8 @@
 #include <optional>
 #include <string>
 
-#include "kinegraph/viewer/input_events.h"
-#include "kinegraph/viewer/run_requests.h"
+#include "kinegraph/viewer/messages/input_events.h"
+#include "kinegraph/viewer/messages/run_requests.h"
 #include "kinegraph/viewer/shown_scene.h"
 
 namespace kinegraph {

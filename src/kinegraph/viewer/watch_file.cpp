@@ -2,9 +2,9 @@
 
 #include <thread>
 
-#include "kinegraph/base/errors.h"
-#include "kinegraph/base/text.h"
-#include "kinegraph/scene/scene_source.h"
+#include "kinegraph/common/errors.h"
+#include "kinegraph/common/text.h"
+#include "kinegraph/scene/loading/scene_source.h"
 #include "kinegraph/viewer/file_changes.h"
 #include "kinegraph/viewer/watch_keys.h"
 

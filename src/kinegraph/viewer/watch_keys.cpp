@@ -1,10 +1,10 @@
 #include "kinegraph/viewer/watch_keys.h"
 
-#include "kinegraph/base/errors.h"
-#include "kinegraph/base/text.h"
-#include "kinegraph/formats/mesh_export.h"
-#include "kinegraph/formats/scene_writer.h"
-#include "kinegraph/formats/urdf_writer.h"
+#include "kinegraph/common/errors.h"
+#include "kinegraph/common/text.h"
+#include "kinegraph/exporters/mesh_export.h"
+#include "kinegraph/exporters/scene_writer.h"
+#include "kinegraph/exporters/urdf_writer.h"
 #include "kinegraph/viewer/motions.h"
 #include "kinegraph/viewer/scene_items.h"
 

@@ -6,8 +6,8 @@
 #include <list>
 #include <thread>
 
-#include "kinegraph/base/errors.h"
-#include "kinegraph/base/text.h"
+#include "kinegraph/common/errors.h"
+#include "kinegraph/common/text.h"
 #include "kinegraph/viewer/access.h"
 #include "kinegraph/viewer/client_page.h"
 

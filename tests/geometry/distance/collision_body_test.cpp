@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "kinegraph/base/random.h"
+#include "kinegraph/common/random.h"
 #include "kinegraph/geometry/distance/proximity.h"
 #include "kinegraph/geometry/shapes/shape_types.h"
 #include "kinegraph/geometry/shapes/tessellation.h"

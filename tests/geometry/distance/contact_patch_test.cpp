@@ -4,8 +4,8 @@
 
 #include <gtest/gtest.h>
 
-#include "kinegraph/base/random.h"
-#include "kinegraph/base/text.h"
+#include "kinegraph/common/random.h"
+#include "kinegraph/common/text.h"
 #include "kinegraph/geometry/distance/proximity.h"
 #include "tests/support/geometry_samples.h"
 

@@ -7,7 +7,7 @@
 
 #include <cmath>
 
-#include "kinegraph/base/text.h"
+#include "kinegraph/common/text.h"
 #include "kinegraph/geometry/distance/proximity.h"
 #include "tests/support/geometry_samples.h"
 

@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "kinegraph/base/text.h"
+#include "kinegraph/common/text.h"
 #include "kinegraph/geometry/shapes/shape_types.h"
 #include "tests/support/geometry_samples.h"
 

@@ -4,7 +4,7 @@
 
 #include <cstring>
 
-#include "kinegraph/base/errors.h"
+#include "kinegraph/common/errors.h"
 #include "tests/support/expect_error.h"
 #include "tests/support/temporary_folder.h"
 

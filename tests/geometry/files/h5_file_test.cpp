@@ -6,8 +6,8 @@
 #include <fstream>
 #include <sstream>
 
-#include "kinegraph/base/errors.h"
-#include "kinegraph/base/random.h"
+#include "kinegraph/common/errors.h"
+#include "kinegraph/common/random.h"
 #include "kinegraph/geometry/files/mesh_file.h"
 #include "tests/support/temporary_folder.h"
 

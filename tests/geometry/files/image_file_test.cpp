@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "kinegraph/base/text.h"
+#include "kinegraph/common/text.h"
 #include "tests/support/expect_error.h"
 #include "tests/support/temporary_folder.h"
 

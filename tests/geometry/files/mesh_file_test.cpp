@@ -8,7 +8,7 @@
 #include <fstream>
 #include <limits>
 
-#include "kinegraph/base/errors.h"
+#include "kinegraph/common/errors.h"
 #include "tests/support/mesh_laws.h"
 #include "tests/support/temporary_folder.h"
 

@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <limits>
 
-#include "kinegraph/base/errors.h"
+#include "kinegraph/common/errors.h"
 #include "tests/support/geometry_samples.h"
 #include "tests/support/mesh_laws.h"
 

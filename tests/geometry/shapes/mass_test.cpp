@@ -5,7 +5,7 @@
 #include <Eigen/Eigenvalues>
 #include <numbers>
 
-#include "kinegraph/base/errors.h"
+#include "kinegraph/common/errors.h"
 #include "kinegraph/geometry/shapes/tessellation.h"
 #include "tests/support/geometry_samples.h"
 #include "tests/support/mesh_laws.h"

@@ -5,7 +5,7 @@
 #include <functional>
 #include <limits>
 
-#include "kinegraph/base/errors.h"
+#include "kinegraph/common/errors.h"
 #include "kinegraph/geometry/shapes/shape_kinds.h"
 
 using namespace kinegraph;

@@ -3,7 +3,7 @@
 #include <Eigen/Cholesky>
 #include <Eigen/LU>
 
-#include "kinegraph/base/text.h"
+#include "kinegraph/common/text.h"
 #include "kinegraph/nlp/callback_nlp.h"
 #include "kinegraph/solvers/methods/augmented_lagrangian.h"
 #include "tests/solvers/numbers.h"

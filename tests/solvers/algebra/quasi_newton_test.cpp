@@ -4,7 +4,7 @@
 
 #include <Eigen/Eigenvalues>
 
-#include "kinegraph/base/random.h"
+#include "kinegraph/common/random.h"
 #include "tests/support/near.h"
 
 using namespace kinegraph;

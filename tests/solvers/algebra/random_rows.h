@@ -1,6 +1,6 @@
 #pragma once
 
-#include "kinegraph/base/random.h"
+#include "kinegraph/common/random.h"
 #include "kinegraph/nlp/nlp.h"
 #include "tests/solvers/numbers.h"
 

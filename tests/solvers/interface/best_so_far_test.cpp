@@ -6,7 +6,7 @@
 #include <limits>
 #include <vector>
 
-#include "kinegraph/base/text.h"
+#include "kinegraph/common/text.h"
 #include "kinegraph/nlp/callback_nlp.h"
 #include "kinegraph/solvers/methods.h"
 #include "kinegraph/solvers/nlp_solver.h"

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "kinegraph/base/errors.h"
+#include "kinegraph/common/errors.h"
 #include "kinegraph/solvers/methods.h"
 #include "tests/solvers/hock_schittkowski.h"
 #include "tests/solvers/numbers.h"

@@ -7,7 +7,7 @@
 #include <memory>
 #include <string>
 
-#include "kinegraph/base/dynamic_library.h"
+#include "kinegraph/common/dynamic_library.h"
 
 namespace kinegraph {
 

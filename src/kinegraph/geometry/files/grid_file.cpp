@@ -8,8 +8,8 @@
 #include <iterator>
 #include <map>
 
-#include "kinegraph/base/errors.h"
-#include "kinegraph/base/text.h"
+#include "kinegraph/common/errors.h"
+#include "kinegraph/common/text.h"
 #include "kinegraph/geometry/files/h5_file.h"
 #include "kinegraph/geometry/shapes/isosurface.h"
 

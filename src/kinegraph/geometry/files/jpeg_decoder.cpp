@@ -4,8 +4,8 @@
 #include <numbers>
 #include <optional>
 
-#include "kinegraph/base/errors.h"
-#include "kinegraph/base/text.h"
+#include "kinegraph/common/errors.h"
+#include "kinegraph/common/text.h"
 #include "kinegraph/geometry/files/image_decoders.h"
 #include "kinegraph/geometry/files/jpeg_entropy.h"
 

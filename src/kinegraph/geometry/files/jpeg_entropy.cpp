@@ -1,6 +1,6 @@
 #include "kinegraph/geometry/files/jpeg_entropy.h"
 
-#include "kinegraph/base/errors.h"
+#include "kinegraph/common/errors.h"
 
 namespace kinegraph {
 

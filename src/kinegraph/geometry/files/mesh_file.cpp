@@ -4,8 +4,8 @@
 #include <cmath>
 #include <filesystem>
 
-#include "kinegraph/base/errors.h"
-#include "kinegraph/base/text.h"
+#include "kinegraph/common/errors.h"
+#include "kinegraph/common/text.h"
 #include "kinegraph/geometry/files/assimp.h"
 #include "kinegraph/geometry/files/h5_file.h"
 #include "kinegraph/geometry/files/mesh_promises.h"

@@ -6,9 +6,9 @@
 #include <fstream>
 #include <sstream>
 
-#include "kinegraph/base/errors.h"
-#include "kinegraph/base/file_paths.h"
-#include "kinegraph/base/text.h"
+#include "kinegraph/common/errors.h"
+#include "kinegraph/common/file_paths.h"
+#include "kinegraph/common/text.h"
 
 namespace kinegraph {
 

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <filesystem>
 
-#include "kinegraph/base/errors.h"
+#include "kinegraph/common/errors.h"
 #include "kinegraph/geometry/files/assimp.h"
 #include "kinegraph/geometry/files/image_file.h"
 

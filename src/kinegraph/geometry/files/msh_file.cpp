@@ -3,8 +3,8 @@
 #include <fstream>
 #include <iterator>
 
-#include "kinegraph/base/errors.h"
-#include "kinegraph/base/text.h"
+#include "kinegraph/common/errors.h"
+#include "kinegraph/common/text.h"
 #include "kinegraph/geometry/files/mesh_file.h"
 
 namespace kinegraph {

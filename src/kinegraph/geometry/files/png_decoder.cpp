@@ -4,8 +4,8 @@
 #include <optional>
 #include <utility>
 
-#include "kinegraph/base/errors.h"
-#include "kinegraph/base/text.h"
+#include "kinegraph/common/errors.h"
+#include "kinegraph/common/text.h"
 #include "kinegraph/geometry/files/image_decoders.h"
 
 namespace kinegraph {

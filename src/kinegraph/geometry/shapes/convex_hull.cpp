@@ -4,8 +4,8 @@
 #include <cstdio>
 #include <cstdlib>
 
-#include "kinegraph/base/errors.h"
-#include "kinegraph/base/text.h"
+#include "kinegraph/common/errors.h"
+#include "kinegraph/common/text.h"
 
 extern "C" {
 #include <libqhull_r/qhull_ra.h>

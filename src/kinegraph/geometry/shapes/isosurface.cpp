@@ -4,8 +4,8 @@
 #include <cmath>
 #include <unordered_map>
 
-#include "kinegraph/base/errors.h"
-#include "kinegraph/base/text.h"
+#include "kinegraph/common/errors.h"
+#include "kinegraph/common/text.h"
 
 namespace kinegraph {
 

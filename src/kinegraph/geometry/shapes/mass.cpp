@@ -2,8 +2,8 @@
 
 #include <numbers>
 
-#include "kinegraph/base/errors.h"
-#include "kinegraph/base/text.h"
+#include "kinegraph/common/errors.h"
+#include "kinegraph/common/text.h"
 #include "kinegraph/geometry/shapes/shape_kinds.h"
 #include "kinegraph/geometry/shapes/tessellation.h"
 

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "kinegraph/base/text.h"
+#include "kinegraph/common/text.h"
 
 namespace kinegraph {
 

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <cstdio>
 
-#include "kinegraph/base/text.h"
+#include "kinegraph/common/text.h"
 #include "kinegraph/solvers/methods/quadratic_step.h"
 
 namespace kinegraph {

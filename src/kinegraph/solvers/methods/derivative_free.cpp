@@ -6,7 +6,7 @@
 
 #include <Eigen/Eigenvalues>
 
-#include "kinegraph/base/text.h"
+#include "kinegraph/common/text.h"
 #include "kinegraph/solvers/problems/cost_function.h"
 
 namespace kinegraph {

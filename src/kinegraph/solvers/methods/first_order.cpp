@@ -4,7 +4,7 @@
 #include <cmath>
 #include <deque>
 
-#include "kinegraph/base/text.h"
+#include "kinegraph/common/text.h"
 #include "kinegraph/solvers/problems/cost_function.h"
 
 namespace kinegraph {

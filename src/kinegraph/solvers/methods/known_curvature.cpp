@@ -2,7 +2,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "kinegraph/base/text.h"
+#include "kinegraph/common/text.h"
 #include "kinegraph/solvers/algebra/indefinite.h"
 #include "kinegraph/solvers/methods/quadratic_step.h"
 #include "kinegraph/solvers/methods/sequential_quadratic_method.h"

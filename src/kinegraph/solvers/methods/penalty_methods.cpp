@@ -4,8 +4,8 @@
 #include <chrono>
 #include <cmath>
 
-#include "kinegraph/base/errors.h"
-#include "kinegraph/base/text.h"
+#include "kinegraph/common/errors.h"
+#include "kinegraph/common/text.h"
 #include "kinegraph/solvers/interface/requirements.h"
 #include "kinegraph/solvers/problems/penalty_nlp.h"
 #include "kinegraph/solvers/problems/relaxed_nlp.h"

@@ -5,7 +5,7 @@
 #include <cstdio>
 #include <limits>
 
-#include "kinegraph/base/text.h"
+#include "kinegraph/common/text.h"
 #include "kinegraph/solvers/methods/sequential_quadratic_method.h"
 
 namespace kinegraph {

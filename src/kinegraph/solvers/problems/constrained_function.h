@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "kinegraph/nlp/room_for_constraints.h"
+#include "kinegraph/nlp/lazy_constraints.h"
 #include "kinegraph/solvers/interface/evaluation_hook.h"
 #include "kinegraph/solvers/interface/options.h"
 #include "kinegraph/solvers/interface/result.h"

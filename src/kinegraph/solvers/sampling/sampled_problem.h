@@ -1,6 +1,6 @@
 #pragma once
 
-#include "kinegraph/base/random.h"
+#include "kinegraph/common/random.h"
 #include "kinegraph/solvers/interface/evaluation_hook.h"
 #include "kinegraph/solvers/interface/options.h"
 #include "kinegraph/solvers/interface/result.h"

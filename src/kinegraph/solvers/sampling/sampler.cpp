@@ -5,7 +5,7 @@
 #include <cstdio>
 #include <limits>
 
-#include "kinegraph/base/text.h"
+#include "kinegraph/common/text.h"
 #include "kinegraph/solvers/interface/best_so_far.h"
 #include "kinegraph/solvers/sampling/interior_walk.h"
 

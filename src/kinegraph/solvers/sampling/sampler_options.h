@@ -2,7 +2,7 @@
 
 #include <string>
 
-#include "kinegraph/base/option_table.h"
+#include "kinegraph/common/option_table.h"
 
 namespace kinegraph {
 

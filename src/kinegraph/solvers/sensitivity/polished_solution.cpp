@@ -6,8 +6,8 @@
 #include <limits>
 #include <utility>
 
-#include "kinegraph/base/errors.h"
-#include "kinegraph/base/text.h"
+#include "kinegraph/common/errors.h"
+#include "kinegraph/common/text.h"
 #include "kinegraph/solvers/methods/augmented_lagrangian.h"
 
 namespace kinegraph {

@@ -1,0 +1,79 @@
+#include "kinegraph/api/retime_robot.h"
+
+#include <limits>
+#include <memory>
+
+#include "kinegraph/common/errors.h"
+#include "kinegraph/common/text.h"
+#include "kinegraph/scene/motor_limits.h"
+
+namespace kinegraph {
+
+namespace {
+
+constexpr double kNoEffortLimit = std::numeric_limits<double>::infinity();
+
+/// The dofs whose efforts are limited.
+std::vector<int> driven(const VectorXd& efforts) {
+  std::vector<int> dofs;
+  for (int j = 0; j < efforts.size(); ++j)
+    if (efforts[j] < kNoEffortLimit) dofs.push_back(j);
+  return dofs;
+}
+
+/// Rows of inverse dynamics along a curve: M q' s'' + (M q'' + C(q, q') q') s'^2 + gravity.
+RowSource torqueRows(const Config& config, const PathCurve& curve) {
+  const VectorXd efforts = getEffortLimits(config);
+  const std::vector<int> dofs = driven(efforts);
+  if (dofs.empty())
+    throw ValueError(
+        "retime: torque is asked for, and no joint of the scene has an effort limit (the second number of "
+        "ctrl_limits)");
+  RowSource rows;
+  rows.unit = " N m";
+  rows.high.resize(Eigen::Index(dofs.size()));
+  for (std::size_t r = 0; r < dofs.size(); ++r) rows.high[Eigen::Index(r)] = efforts[dofs[r]];
+  rows.low = -rows.high;
+  const std::vector<std::string> names = config.getJointNames();
+  for (const int j : dofs) rows.names.push_back(names[std::size_t(j)]);
+  const auto robot = std::make_shared<Config>(config);
+  rows.at = [robot, dofs, &curve](double s, int piece) {
+    const int n = curve.dofs();
+    VectorXd q(n), first(n), second(n);
+    curve.eval(piece, s, 0, q.data()), curve.eval(piece, s, 1, first.data()), curve.eval(piece, s, 2, second.data());
+    robot->setJointState(q);
+    const VectorXd rest = VectorXd::Zero(n), held = robot->inverseDynamics(rest, rest);
+    const VectorXd a = robot->inverseDynamics(rest, first) - held, b = robot->inverseDynamics(first, second) - held;
+    LawRows at{VectorXd(dofs.size()), VectorXd(dofs.size()), VectorXd(dofs.size())};
+    for (std::size_t r = 0; r < dofs.size(); ++r) {
+      const Eigen::Index row = Eigen::Index(r);
+      at.a[row] = a[dofs[r]], at.b[row] = b[dofs[r]], at.c[row] = held[dofs[r]];
+    }
+    return at;
+  };
+  return rows;
+}
+
+}  // namespace
+
+TimedPath retime(const Config& config, const MatrixXd& path, const RobotLimits& limits, const RetimeOptions& options) {
+  const int n = config.getJointDimension();
+  if (path.cols() != n)
+    throw ValueError(
+        cat("retime: the path has ", path.cols(), " dofs; the scene has ", n, ": ", join(config.getJointNames())));
+  MotionLimits motion = limits.motion;
+  if (motion.velocity.size() == 0) motion.velocity = getVelocityLimits(config);
+  if (motion.acceleration.size() == 0) {
+    if (!limits.torque)
+      throw ValueError("retime: acceleration is not given; expected a number per dof or one for all, or torque");
+    motion.acceleration = VectorXd::Constant(n, kNoEffortLimit);
+  }
+  if (!limits.torque) return retime(path, motion, options);
+  motion.validate(n);
+  const PathCurve curve = curveOf(path, motion, options);
+  RetimeOptions with_torque = options;
+  with_torque.rows = torqueRows(config, curve);
+  return retime(path, curve, motion, with_torque);
+}
+
+}  // namespace kinegraph

@@ -1,0 +1,83 @@
+#include "kinegraph/api/servo.h"
+
+#include <chrono>
+#include <cmath>
+#include <limits>
+#include <thread>
+
+#include "kinegraph/common/errors.h"
+#include "kinegraph/common/text.h"
+
+namespace kinegraph {
+
+namespace {
+
+using Clock = std::chrono::steady_clock;
+using Seconds = std::chrono::duration<double>;
+
+constexpr double kPicture = 1. / 30.;  // s from one to the next
+constexpr Seconds kLook(.02);          // between two looks at whether the call shall end
+
+void place(Frame& frame, const VectorXd& pose) {
+  if (pose.size() != 3 && pose.size() != 7)
+    throw ValueError(cat("drive: the source gives ", pose.size(), " numbers; expected x y z, or x y z qw qx qy qz"));
+  if (pose.size() == 7) {
+    frame.setPose(Pose::fromNumbers(pose));
+  } else {
+    frame.setPosition(pose);
+  }
+}
+
+void waitUntil(Clock::time_point end, const std::function<void()>& between) {
+  for (auto now = Clock::now(); now < end; now = Clock::now()) {
+    std::this_thread::sleep_until(std::min(end, now + std::chrono::duration_cast<Clock::duration>(kLook)));
+    if (between) between();
+  }
+}
+
+/// `move` brings the target to where it is at a time.
+void driveBy(DiffIk& ik, Config& config, const std::function<void(double t)>& move, bool shows,
+             const DriveOptions& options) {
+  if (!(options.seconds > 0.) || !(options.dt > 0.))
+    throw ValueError(cat("drive: seconds is ", options.seconds, ", dt is ", options.dt, "; expected numbers > 0"));
+  const auto begun = Clock::now();
+  double shown_at = -std::numeric_limits<double>::infinity();
+  const double steps = std::round(options.seconds / options.dt);
+  for (double i = 1.; i <= steps; ++i) {
+    const double t = i * options.dt;
+    if (move) move(t);
+    if (shows && t - shown_at >= kPicture) {
+      if (options.view) {
+        options.view(config);
+      } else {
+        config.view();
+      }
+      shown_at = t;
+    }
+    ik.step(options.dt);
+    if (options.between) options.between();
+    if (options.realtime) waitUntil(begun + std::chrono::duration_cast<Clock::duration>(Seconds(t)), options.between);
+  }
+}
+
+}  // namespace
+
+void drive(DiffIk& ik, Config& config, const std::string& target, const TargetSource& source,
+           const DriveOptions& options) {
+  Frame frame = config.getFrame(target);
+  driveBy(
+      ik, config, [&](double t) { place(frame, source(t)); }, options.show.value_or(false), options);
+}
+
+void drive(DiffIk& ik, Config& config, const std::string& target, Gamepad& gamepad, const DriveOptions& options) {
+  Frame frame = config.getFrame(target);
+  const auto push = [&](double) { frame.setPosition(frame.getPosition() + options.dt * gamepad.velocity()); };
+  driveBy(ik, config, push, options.show.value_or(false), options);
+}
+
+void drive(DiffIk& ik, Config& config, const std::string& target, const DriveOptions& options) {
+  config.getFrame(target);
+  driveBy(ik, config, nullptr, options.show.value_or(true), options);
+}
+
+}  // namespace kinegraph

@@ -1,0 +1,183 @@
+#include "kinegraph/api/simulation_view.h"
+
+#include <algorithm>
+#include <cmath>
+#include <thread>
+#include <utility>
+
+#include "kinegraph/common/errors.h"
+#include "kinegraph/common/text.h"
+#include "kinegraph/api/bot_stage.h"
+#include "kinegraph/simulation/simulation_impl.h"
+
+namespace kinegraph {
+
+namespace {
+
+using Seconds = std::chrono::duration<double>;
+
+constexpr double kRest = .02;     ///< s
+constexpr Seconds kPatience(5.);  ///< without a browser; then a paused simulation goes on
+constexpr Seconds kMeasure(.25);  ///< of which the real-time factor is told
+constexpr Seconds kLate(.05);     ///< what is later is not caught up with
+constexpr int kEscapeKey = 27;
+
+bool endsRun(int key) { return key == kEscapeKey || key == 'q'; }
+
+}  // namespace
+
+SimulationView::SimulationView(const Simulation& simulation, std::shared_ptr<ConfigViewer> viewer, Check check)
+    : viewer_(std::move(viewer)),
+      check_(std::move(check)),
+      start_(simulation.getState()),
+      structure_(simulation.config().scene()->structureRevision()) {}
+
+SimulationView::~SimulationView() {
+  if (viewer_->isOpen()) viewer_->server().endRun();
+}
+
+std::shared_ptr<SimulationView> SimulationView::of(const Simulation& simulation,
+                                                   const std::shared_ptr<ConfigViewer>& viewer) {
+  const auto view = std::dynamic_pointer_cast<SimulationView>(simulation.watcher());
+  return view && view->viewer_ == viewer ? view : nullptr;
+}
+
+bool SimulationView::somebodyWatches() {
+  const Clock::time_point now = Clock::now();
+  if (viewer_->clients() > 0) last_seen_ = now;
+  return now - last_seen_ < kPatience;
+}
+
+bool SimulationView::mayStep(Simulation& simulation) {
+  if (!viewer_->isOpen()) return true;
+  const RunRequests asked = viewer_->server().takeRunRequests();
+  bool changed = takeEdits(simulation);
+  if (asked.reset) {
+    simulation.setState(start_);
+    changed = true;
+  }
+  changed = pull(simulation, asked.pull) || changed;
+  const bool holds = asked.paused && viewer_->waits() && somebodyWatches(), waits = holds && asked.steps == 0;
+  if (asked.paused && !holds) viewer_->server().endRunRequests();
+  if (std::exchange(is_paused_, holds) != holds) {
+    measured_ = {};  // the time in between does not count
+    changed = true;
+  }
+  if (waits && changed) show(simulation);
+  return !waits;
+}
+
+void SimulationView::rest() {
+  viewer_->server().waitRunRequest(kRest);
+  check_();
+}
+
+void SimulationView::hasStepped(Simulation& simulation) {
+  if (!viewer_->isOpen()) return;
+  const std::uint64_t structure = simulation.config().scene()->structureRevision();
+  if (std::exchange(structure_, structure) != structure) start_ = simulation.getState();  // of the scene as it is now
+  measureSpeed(simulation.get_t());
+  show(simulation);
+}
+
+void SimulationView::measureSpeed(double time) {
+  const Clock::time_point now = Clock::now();
+  if (measured_ != Clock::time_point{}) {
+    if (now - measured_ < kMeasure && time >= measured_time_) return;
+    factor_ = std::max(time - measured_time_, 0.) / Seconds(now - measured_).count();
+  }
+  measured_ = now;
+  measured_time_ = time;
+}
+
+/// What people have moved on the page is there, and goes on as fast as it was.
+bool SimulationView::takeEdits(Simulation& simulation) {
+  Config config(simulation.config().scene());
+  if (!viewer_->takeEdits(config)) return false;
+  const MatrixXd frames = simulation.get_frameVelocities();
+  const VectorXd joints = simulation.get_qDot();
+  simulation.pushConfigToSim(frames, joints);
+  return true;
+}
+
+bool SimulationView::pull(Simulation& simulation, const std::optional<RunRequests::Pull>& asked) {
+  if (asked == pulled_) return false;
+  pulled_ = asked;
+  if (!asked) {
+    simulation.endPull();
+    return true;
+  }
+  const Config& config = simulation.config();
+  if (asked->structure != viewer_->structure() || asked->frame < 0 || asked->frame >= config.getFrameDimension())
+    return false;
+  try {
+    simulation.pull(config.getFrame(asked->frame).getName(), asked->point, asked->target);
+  } catch (const ValueError&) {  // it is fixed to the world
+    return false;
+  }
+  return true;
+}
+
+void SimulationView::show(const Simulation& simulation) {
+  viewer_->update(simulation.config());
+  ShownRun run;
+  run.time = simulation.get_t();
+  run.factor = factor_;
+  run.is_paused = is_paused_;
+  run.contacts = shownContacts(simulation.getContacts());
+  if (const auto pull = simulation.getPull()) run.pull = {pull->position, pull->target, pull->force.norm()};
+  viewer_->server().showRun(run);
+}
+
+int SimulationView::view(Simulation& simulation, bool pause, const std::optional<std::string>& message) {
+  show(simulation);
+  return viewer_->wait(pause, message, [this] {
+    check_();
+    return false;
+  });
+}
+
+int SimulationView::run(Simulation& simulation, double seconds, double tau, double speed) {
+  int last = 0;
+  due_ = {};
+  for (double left = std::round(seconds / tau); left > 0.; --left) {
+    check_();
+    simulation.step({}, tau, ControlMode::spline);
+    if (const int key = viewer_->takeKey()) last = key;
+    if (endsRun(last)) break;
+    if (speed > 0. && viewer_->clients() > 0) keepPace(tau, speed);
+  }
+  return last;
+}
+
+/// Waits until the clock on the wall has gone on by tau / speed since the last call.
+void SimulationView::keepPace(double tau, double speed) {
+  const Clock::time_point now = Clock::now();
+  if (now - due_ > kLate + Seconds(tau / speed)) due_ = now;  // the first time, or after a pause
+  due_ += std::chrono::duration_cast<Clock::duration>(Seconds(tau / speed));
+  while (Clock::now() < due_) {
+    std::this_thread::sleep_until(
+        std::min(due_, Clock::now() + std::chrono::duration_cast<Clock::duration>(Seconds(kRest))));
+    check_();
+  }
+}
+
+int Simulation::view(bool pause, const std::string& message) {
+  const std::optional<std::string> text = message.empty() ? std::nullopt : std::optional(message);
+  impl_->config.viewer();  // makes the one of its scene
+  const std::shared_ptr<ConfigViewer>& viewer = impl_->config.scene()->viewer;
+  std::shared_ptr<SimulationView> view = SimulationView::of(*this, viewer);
+  if (!view) view = SimulationView::begin(*this, viewer, [] {});
+  return view->view(*this, pause, text);
+}
+
+int Simulation::run(double seconds, double tau, double speed, const std::function<void()>& between) {
+  if (!(seconds >= 0.) || !(tau > 0.))
+    throw ValueError(cat("Simulation.run: seconds ", seconds, ", tau ", tau, "; expected 0 or more, and more than 0"));
+  if (const auto view = std::dynamic_pointer_cast<SimulationView>(impl_->watcher))
+    return view->run(*this, seconds, tau, speed);
+  if (seconds > 0.) multi_step(seconds, tau, between);
+  return 0;
+}
+
+}  // namespace kinegraph

@@ -1,0 +1,338 @@
+#include "kinegraph/api/task_execution.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <numbers>
+
+#include "kinegraph/common/errors.h"
+#include "kinegraph/common/text.h"
+#include "kinegraph/simulation/scene_bodies.h"
+#include "kinegraph/task_planning/search/motion_checks.h"
+#include "kinegraph/task_planning/task_doors.h"
+
+namespace kinegraph {
+
+namespace {
+
+using Words = std::vector<std::string>;
+
+constexpr double kSlipped = .02;                                  ///< m: by which what is held may move in the hand
+constexpr double kOff = .03;                                      ///< m: by which what stands somewhere may be off
+const double kUpright = std::cos(10. * std::numbers::pi / 180.);  ///< what tilts more has fallen
+constexpr double kEmpty = 2e-3;                                   ///< m: a gripper that is as narrow holds nothing
+constexpr double kTouch = 5e-3;                                   ///< m: what is nearer than that stands there
+constexpr double kTimeout = 3., kLook = .05;                      ///< s for a gripper, and from look to look
+constexpr double kComesToRest = .3;                               ///< s for things to come to rest
+constexpr double kGripForce = 40.;                                ///< N
+constexpr double kFar = .05;                                      ///< rad or m: by which a robot may be off a motion
+constexpr double kOpenEnough = .9;                                ///< of the widest opening
+constexpr double kSlowly = 3.;                                    ///< times longer than it came, a robot goes back
+
+Vector3d placeIn(const Config& C, const std::string& hand, const std::string& obj) {
+  const Frame frame = C.getFrame(hand);
+  return frame.getRotationMatrix().transpose() * (C.getFrame(obj).getPosition() - frame.getPosition());
+}
+
+bool isClear(Config& C, const VectorXd& q) {
+  C.setJointState(q);
+  return C.getCollisions(-kOverlap).empty();
+}
+
+/// The place that an object stands on: the nearest one of those that it touches and whose middle is lower; "" if none.
+std::string placeBelow(const Config& C, const std::string& obj, const Words& places) {
+  const double height = C.getFrame(obj).getPosition().z();
+  double nearest = std::numeric_limits<double>::infinity();
+  std::string below;
+  for (const std::string& place : places) {
+    if (place == obj || !(C.getFrame(place).getPosition().z() < height)) continue;
+    const double gap = std::abs(gapOf(C, obj, place));
+    if (gap < nearest || (gap == nearest && place < below)) nearest = gap, below = place;
+  }
+  return nearest <= kTouch ? below : "";
+}
+
+/// One execution: the world as it is seen, and which hand holds what.
+class Run {
+ public:
+  Run(const TaskPlan& plan, BotOp& bot, Config& seen)
+      : plan_(plan),
+        bot_(bot),
+        seen_(seen),
+        hands_(wordsOf(plan.start, "is_gripper")),
+        objects_(wordsOf(plan.start, "is_object")),
+        places_(wordsOf(plan.start, "is_place")) {
+    const std::vector<GripperInfo>& grippers = bot.getInfo().grippers;
+    for (std::size_t i = 0; i < grippers.size(); ++i) grippers_[grippers[i].name] = int(i);
+    for (const std::string& obj : objects_) {
+      const std::string hand = plan.scenes.empty() ? "" : holderOf(plan.scenes[0], obj, hands_);
+      if (!hand.empty()) held_[obj] = hand;
+    }
+    const Words names = seen.getJointNames(), doors = wordsOf(plan.start, "is_guided");
+    for (std::size_t k = 0; k < names.size(); ++k) {
+      if (std::ranges::find(doors, names[k]) != doors.end())
+        doors_[names[k]] = Eigen::Index(k);
+      else
+        driven_.push_back(Eigen::Index(k));
+    }
+  }
+
+  TaskExecution toTheEnd() {
+    begin();
+    for (std::size_t i = 0; i < plan_.actions.size(); ++i) {
+      std::string why = look(i, false);
+      if (why.empty()) {
+        move(i);
+        why = look(i, true);
+      }
+      if (why.empty()) why = grip(plan_.actions[i]);
+      if (why.empty()) why = look(i, true);
+      if (why.empty()) continue;
+      back(i);
+      return {false, cat(planText({plan_.actions[i]}), ": ", why), int(i), scene()};
+    }
+    Config end = scene();
+    const Words missed = missedGoals(end);
+    const int count = int(plan_.actions.size());
+    if (!missed.empty()) return {false, join(missed, ", ") + " does not hold", count, std::move(end)};
+    return {true, cat("all of ", count), count, std::move(end)};
+  }
+
+ private:
+  void begin() {
+    for (const TaskAction& action : plan_.actions) {
+      const std::string obj = objectOf(action);
+      const bool is_object = std::ranges::find(objects_, obj) != objects_.end();
+      if (is_object) requireMovable(obj);
+      if (isGuided(action) && !attributeFlag(seen_.getFrame(obj).data(), "noMotor", false))
+        throw ValueError(
+            cat("execute: a motor moves '", obj,
+                "' in the simulated world; give its frame the attribute noMotor before BotOp(C), so that a "
+                "hand can"));
+    }
+    if (!plan_.actions.empty() && late(plan_.path.row(0)).maxCoeff() > kFar)
+      throw ValueError("execute: the robot is not where the plan begins; go there first, or plan from there");
+    bot_.hold();
+    for (const auto& [hand, number] : grippers_) {
+      const bool holds = std::ranges::any_of(held_, [&](const auto& pair) { return pair.second == hand; });
+      if (!holds && bot_.getGripperPos(number) < kOpenEnough * infoOf(number).max_width) open(hand);
+    }
+  }
+
+  void requireMovable(const std::string& obj) const {
+    if (!(seen_.getFrame(obj).getMass() > 0.))
+      throw ValueError(cat("execute: '", obj,
+                           "' has no mass, so that it stays where it is in the simulated world; call "
+                           "C.getFrame('",
+                           obj, "').setMass(...) before BotOp(C)"));
+    for (const auto& [door, dof] : doors_) {
+      for (const Frame& below : seen_.getFrame(door).getSubtree())
+        if (below.getName() == obj)
+          throw ValueError(cat("execute: '", obj, "' hangs below '", door,
+                               "', so that it is a part of it in the simulated world; call C.getFrame('", obj,
+                               "').unLink() before BotOp(C)"));
+    }
+  }
+
+  const GripperInfo& infoOf(int number) const { return bot_.getInfo().grippers[std::size_t(number)]; }
+
+  /// By how much each joint of the robot is not at q; doors are no part of it.
+  VectorXd late(const VectorXd& q) { return (bot_.get_q() - q).cwiseAbs()(driven_); }
+
+  MatrixXd pathOf(std::size_t i) const {
+    return plan_.path.middleRows(plan_.segments[i].begin, plan_.segments[i].size());
+  }
+  VectorXd timesOf(std::size_t i) const {
+    return plan_.times.segment(plan_.segments[i].begin, plan_.segments[i].size());
+  }
+
+  /// The motion of an action.
+  void move(std::size_t i) {
+    const MatrixXd path = pathOf(i);
+    const VectorXd times = timesOf(i);
+    const Eigen::Index last = times.size() - 1;
+    if (times[last] > times[0]) {
+      bot_.move(path.bottomRows(last), VectorXd(times.tail(last).array() - times[0]));
+      bot_.wait(seen_, false);
+    }
+    bot_.sync(seen_, kComesToRest);
+  }
+
+  /// After a failure: opens hands that have lost what they held, and goes out of what is in the way, along the motion by
+  /// which the robot came.
+  void back(std::size_t i) {
+    const std::map<std::string, std::string> held = held_, handles = handles_;
+    for (const auto& [obj, hand] : held) {
+      if (touches(hand, obj)) continue;
+      held_.erase(obj);
+      open(hand, obj);
+    }
+    for (const auto& [handle, hand] : handles) release(handle, hand);
+    MatrixXd path = pathOf(i);
+    const VectorXd times = timesOf(i), q = bot_.get_q();
+    for (const auto& [door, dof] : doors_) path.col(dof).setConstant(q[dof]);
+    const Eigen::Index last = path.rows() - 1;
+    if (isGuided(plan_.actions[i]) || late(path.row(last)).maxCoeff() > kFar) return;
+    Config C = scene();
+    Eigen::Index free = last;
+    while (free >= 0 && !isClear(C, path.row(free))) --free;
+    if (free < 0 || free == last) return;
+    const Eigen::Index count = last - free;
+    bot_.move(path.middleRows(free, count).colwise().reverse(),
+              VectorXd(kSlowly * (times[last] - times.segment(free, count).array()).reverse()));
+    bot_.wait(seen_, false);
+  }
+
+  /// Takes or releases what the action is about; says what went wrong.
+  std::string grip(const TaskAction& action) {
+    const std::string& obj = action[1];
+    std::string why;
+    if (isPick(action) || action[0] == "handover") {
+      why = close(action[3], obj);
+      if (action[0] == "handover" && why.empty()) open(action[2], obj);
+      held_[obj] = action[3];
+    } else if (isHold(action)) {
+      handles_[action[2]] = action[3];
+      why = close(action[3], action[2]);
+    } else if (isGuided(action)) {
+      release(action[2], action[3]);
+    } else if (isPlace(action)) {
+      open(action[2], obj);
+      held_.erase(obj);
+    }
+    bot_.sync(seen_, kComesToRest);
+    return why;
+  }
+
+  void release(const std::string& handle, const std::string& hand) {
+    open(hand, handle);
+    handles_.erase(handle);
+  }
+
+  std::string close(const std::string& hand, const std::string& obj) {
+    const auto gripper = grippers_.find(hand);
+    if (gripper == grippers_.end()) {
+      bot_.attach(hand, obj);
+      return "";
+    }
+    const int number = gripper->second;
+    bot_.gripperCloseGrasp(number, obj, std::min(kGripForce, infoOf(number).max_force));
+    waitFor(number);
+    const bool is_empty = bot_.getGripperPos(number) < infoOf(number).min_width + kEmpty;
+    return is_empty ? cat("'", hand, "' closed on nothing") : "";
+  }
+
+  void open(const std::string& hand, const std::string& obj = {}) {
+    const auto gripper = grippers_.find(hand);
+    if (gripper != grippers_.end()) {
+      bot_.gripperMove(gripper->second, infoOf(gripper->second).max_width);
+      waitFor(gripper->second);
+    } else if (!obj.empty()) {
+      bot_.detach(hand, obj);
+    }
+  }
+
+  void waitFor(int gripper) {
+    for (int k = 0; k < int(std::lround(kTimeout / kLook)); ++k) {
+      bot_.sync(seen_, kLook);
+      if (bot_.gripperDone(gripper)) return;
+    }
+  }
+
+  /// What is not where the plan has it at the beginning or the end of an action's motion.
+  std::string look(std::size_t i, bool at_end) {
+    Config planned = plan_.scenes[i];
+    const RowRange& rows = plan_.segments[i];
+    const VectorXd q = plan_.path.row(at_end ? rows.end - 1 : rows.begin);
+    planned.setJointState(q);
+    Eigen::Index worst = 0;
+    if (const double most = late(q).maxCoeff(&worst); most > kFar) {
+      const std::string joint = planned.getJointNames()[std::size_t(driven_[std::size_t(worst)])];
+      return cat("the robot is held up: joint '", joint, "' is ", fixed(most, 3), " off");
+    }
+    for (const auto& [door, dof] : doors_) {
+      if (const double off = std::abs(seen_.getJointState()[dof] - q[dof]); off > kFar)
+        return cat("'", door, "' is ", fixed(off, 3), " (m or rad) away from where it should be");
+    }
+    for (const std::string& obj : objects_)
+      if (std::string why = wrongWith(obj, planned); !why.empty()) return why;
+    return "";
+  }
+
+  std::string wrongWith(const std::string& obj, const Config& planned) const {
+    if (const auto hand = held_.find(obj); hand != held_.end()) {
+      const double off = (placeIn(seen_, hand->second, obj) - placeIn(planned, hand->second, obj)).norm();
+      return off > kSlipped ? cat("'", obj, "' is not in '", hand->second, "': it is ", fixed(off, 3), " m off") : "";
+    }
+    const Frame is = seen_.getFrame(obj), shall = planned.getFrame(obj);
+    const double off = (is.getPosition() - shall.getPosition()).norm();
+    if (off > kOff) return cat("'", obj, "' is ", fixed(off, 3), " m away from where it should be");
+    const bool is_level = is.getRotationMatrix().col(2).dot(shall.getRotationMatrix().col(2)) >= kUpright;
+    return is_level ? "" : cat("'", obj, "' has tilted");
+  }
+
+  /// What the goal says of where things are and of doors, and is not so.
+  Words missedGoals(const Config& C) const {
+    Words missed;
+    for (const Literal& literal : plan_.goal) {
+      if (literal.predicate != "on" || literal.arguments.size() != 2) continue;
+      const std::optional<Frame> parent = C.getFrame(literal.arguments[1]).getParent();
+      if ((parent && parent->getName() == literal.arguments[0]) == literal.negated) missed.push_back(literal.str());
+    }
+    const VectorXd q = seen_.getJointState();
+    const std::vector<TaskDoor> doors = doorsOf(seen_);
+    for (const Literal& literal : plan_.goal) {
+      if ((literal.predicate != "opened" && literal.predicate != "closed") || literal.arguments.size() != 1) continue;
+      const auto door = std::ranges::find(doors, literal.arguments[0], &TaskDoor::name);
+      const bool holds = door != doors.end() && door->stateAt(q[door->dof]) == literal.predicate;
+      if (holds == literal.negated) missed.push_back(literal.str());
+    }
+    return missed;
+  }
+
+  bool touches(const std::string& hand, const std::string& obj) const { return gapOf(seen_, obj, hand) <= kTouch; }
+
+  /// The world as it is seen, with what is held below the hand, and what stands on something below that.
+  Config scene() const {
+    Config C = seen_;
+    for (const auto& [obj, hand] : held_)
+      if (touches(hand, obj)) hang(C, obj, hand);
+    Words objects = objects_;
+    std::ranges::sort(objects);
+    std::ranges::stable_sort(objects, {}, [&](const std::string& obj) { return C.getFrame(obj).getPosition().z(); });
+    for (const std::string& obj : objects) {
+      if (!holderOf(C, obj, hands_).empty()) continue;
+      if (const std::string under = placeBelow(C, obj, places_); !under.empty()) hang(C, obj, under);
+    }
+    return C;
+  }
+
+  const TaskPlan& plan_;
+  BotOp& bot_;
+  Config& seen_;
+  const Words hands_, objects_, places_;
+  std::map<std::string, int> grippers_;         ///< their numbers, by the names of hands
+  std::map<std::string, std::string> held_;     ///< objects, and by which hand
+  std::map<std::string, std::string> handles_;  ///< that are held, and by which hand
+  std::map<std::string, Eigen::Index> doors_;   ///< where they are in q
+  std::vector<Eigen::Index> driven_;            ///< the rest of q
+};
+
+}  // namespace
+
+std::string TaskExecution::str() const {
+  return cat(feasible ? "reached the goal" : "stopped", " after ", done, " actions: ", message);
+}
+
+TaskExecution execute(const TaskPlan& plan, BotOp& bot, Config& seen) {
+  plan.requireMotion("execute");
+  return Run(plan, bot, seen).toTheEnd();
+}
+
+TaskExecution TaskPlan::execute(BotOp& bot) const {
+  Config seen = bot.getWorld();
+  return kinegraph::execute(*this, bot, seen);
+}
+
+}  // namespace kinegraph

@@ -1,0 +1,29 @@
+#include "kinegraph/collision/edge_checkers.h"
+
+namespace kinegraph {
+
+std::unique_ptr<EdgeChecker> EdgeCheckers::take(const State& scene, double margin, double tolerance) {
+  std::unique_ptr<EdgeChecker> checker;
+  {
+    const std::lock_guard lock(mutex_);
+    std::erase_if(kept_, [&](const auto& one) {
+      return one->scene().sharedProgram() != scene.sharedProgram() ||
+             one->scene().sharedParameters() != scene.sharedParameters();
+    });
+    if (!kept_.empty()) {
+      checker = std::move(kept_.back());
+      kept_.pop_back();
+    }
+  }
+  if (!checker) return std::make_unique<EdgeChecker>(scene, margin, tolerance);
+  checker->setMargin(margin);
+  checker->setTolerance(tolerance);
+  return checker;
+}
+
+void EdgeCheckers::giveBack(std::unique_ptr<EdgeChecker> checker) {
+  const std::lock_guard lock(mutex_);
+  kept_.push_back(std::move(checker));
+}
+
+}  // namespace kinegraph

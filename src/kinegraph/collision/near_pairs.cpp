@@ -1,0 +1,72 @@
+#include "kinegraph/collision/near_pairs.h"
+
+namespace kinegraph {
+
+BodyPairs::BodyPairs(const Program& program, const std::vector<std::pair<int, int>>& frame_pairs) {
+  static const std::shared_ptr<const CollisionBody> point = pointBody();
+  std::vector<int> place(program.frame_link.size(), -1);
+  const auto body = [&](int frame) {
+    if (place[frame] < 0) {
+      place[frame] = int(frames.size());
+      frames.push_back(frame);
+      bodies.push_back(program.body[frame] ? program.body[frame] : point);
+    }
+    return place[frame];
+  };
+  pairs.reserve(frame_pairs.size());
+  reach.reserve(frame_pairs.size());
+  for (const auto& [a, b] : frame_pairs) {
+    const int place_a = body(a);
+    pairs.emplace_back(place_a, body(b));
+    reach.push_back(bodies[pairs.back().first]->boundRadius() + bodies[pairs.back().second]->boundRadius());
+  }
+}
+
+void PlacedBodies::place(const State& state) {
+  for (std::size_t i = 0; i < poses_.size(); ++i) {
+    RigidTransform& pose = poses_[i];
+    pose = state.pose(pairs_->frames[i]);
+    centers_[i].noalias() = pose.R * pairs_->bodies[i]->boundCenter() + pose.p;
+  }
+}
+
+bool PlacedBodies::coresMayBeNear(int a, int b, double margin) const {
+  if (margin < 0.) return true;  // a center inside of a core is at 0, however deep
+  const CollisionBody &body_a = *pairs_->bodies[a], &body_b = *pairs_->bodies[b];
+  return mayBeWithin(body_a, poses_[a], centers_[b], body_b.boundRadius() + margin) &&
+         mayBeWithin(body_b, poses_[b], centers_[a], body_a.boundRadius() + margin);
+}
+
+NearPairs::NearPairs(std::shared_ptr<const Program> program) : program_(std::move(program)) {
+  if (program_->contacts.bodies.size() > kFew) {
+    search_.emplace(program_);
+  } else {
+    pairs_.emplace(*program_, program_->collidable());
+    bodies_.emplace(*pairs_);
+  }
+}
+
+void NearPairs::place(const State& state) {
+  if (search_) {
+    search_->place(state);
+  } else {
+    bodies_->place(state);
+  }
+}
+
+bool NearPairs::apart(double margin) {
+  if (search_) return search_->apart(margin);
+  const auto tooNear = [&](int pair) {
+    const auto [a, b] = program_->collidable()[std::size_t(pair)];
+    return program_->movesApart(a, b) && bodies_->mayBeNear(pair, margin) && bodies_->proximity(pair).distance < margin;
+  };
+  if (suspect_ >= 0 && tooNear(suspect_)) return false;
+  for (int pair = 0; pair < bodies_->pairs(); ++pair) {
+    if (pair == suspect_ || !tooNear(pair)) continue;
+    suspect_ = pair;
+    return false;
+  }
+  return true;
+}
+
+}  // namespace kinegraph

@@ -1,0 +1,142 @@
+#pragma once
+
+#include <memory>
+#include <memory_resource>
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include "kinegraph/geometry/distance/proximity.h"
+#include "kinegraph/collision/near_pair_search.h"
+
+namespace kinegraph {
+
+/// Pairs of frames with shapes, and each of their bodies once.
+struct BodyPairs {
+  /// Pairs of frame ids; frames without a shape count as points.
+  BodyPairs(const Program& program, const std::vector<std::pair<int, int>>& frame_pairs);
+
+  std::vector<int> frames;                                   ///< ids
+  std::vector<std::shared_ptr<const CollisionBody>> bodies;  ///< of those frames
+  std::vector<std::pair<int, int>> pairs;                    ///< places in `frames`
+  std::vector<double> reach;                                 ///< per pair: sum of the radii of bounding spheres
+};
+
+/// The bodies of pairs where a State puts them. Before a pair's exact distance is computed, bounds may show
+/// that it is far: those of the bounding spheres, then those of one's sphere and the other one's core.
+class PlacedBodies {
+ public:
+  /// `pairs` must stay. Memory for the poses comes from `memory`.
+  explicit PlacedBodies(const BodyPairs& pairs, std::pmr::memory_resource* memory = std::pmr::get_default_resource())
+      : pairs_(&pairs), poses_(pairs.frames.size(), memory), centers_(pairs.frames.size(), memory) {}
+
+  void place(const State& state);
+
+  int pairs() const { return int(pairs_->pairs.size()); }
+
+  Proximity proximity(int pair) const {
+    const auto [a, b] = pairs_->pairs[pair];
+    return kinegraph::proximity(*pairs_->bodies[a], poses_[a], *pairs_->bodies[b], poses_[b]);
+  }
+
+  /// May the pair be nearer than `margin`, or that near? False is certain.
+  bool mayBeNear(int pair, double margin) const {
+    const auto [a, b] = pairs_->pairs[pair];
+    const double reach = pairs_->reach[pair] + margin;
+    if (reach < 0.) return true;  // a depth that spheres say nothing about
+    return (centers_[a] - centers_[b]).squaredNorm() <= reach * reach && coresMayBeNear(a, b, margin);
+  }
+
+  /// Calls visit(pair) for all that may be.
+  template <class Visit>
+  void forMaybeNear(double margin, const Visit& visit) const {
+    const std::pair<int, int>* pairs = pairs_->pairs.data();
+    const double* reaches = pairs_->reach.data();
+    const Center* centers = centers_.data();
+    for (int pair = 0, count = this->pairs(); pair < count; ++pair) {
+      const Vector3d &a = centers[pairs[pair].first], &b = centers[pairs[pair].second];
+      const double x = a[0] - b[0], y = a[1] - b[1], z = a[2] - b[2], reach = reaches[pair] + margin;
+      const bool spheres_are_far = x * x + y * y + z * z > reach * reach && reach >= 0.;
+      if (!spheres_are_far && (reach < 0. || coresMayBeNear(pairs[pair].first, pairs[pair].second, margin)))
+        visit(pair);
+    }
+  }
+
+ private:
+  bool coresMayBeNear(int a, int b, double margin) const;
+
+  /// Without zeros, which would be written for nothing.
+  struct Placed : RigidTransform {
+    Placed() {}
+  };
+  struct Center : Vector3d {
+    Center() {}
+  };
+
+  const BodyPairs* pairs_;
+  std::pmr::vector<Placed> poses_;
+  std::pmr::vector<Center> centers_;  ///< of the bounding spheres
+};
+
+/// Distances of all collidable pairs of a scene, with nearest points.
+class PairDistances {
+ public:
+  explicit PairDistances(std::shared_ptr<const Program> program)
+      : program_(std::move(program)), pairs_(*program_, program_->collidable()), bodies_(pairs_) {}
+  PairDistances(const PairDistances& other) : PairDistances(other.program_) {}
+
+  const std::shared_ptr<const Program>& program() const { return program_; }
+
+  /// Calls visit(i, proximity) for pair i of program()->collidable(), in turn.
+  template <class Visit>
+  void forAll(const State& state, const Visit& visit) {
+    bodies_.place(state);
+    for (int pair = 0; pair < bodies_.pairs(); ++pair) visit(pair, bodies_.proximity(pair));
+  }
+
+ private:
+  std::shared_ptr<const Program> program_;
+  BodyPairs pairs_;
+  PlacedBodies bodies_;
+};
+
+/// The collidable pairs of a scene. Those of few bodies are looked at one by one, those of many by a NearPairSearch;
+/// the answers are the same.
+class NearPairs {
+ public:
+  static constexpr std::size_t kFew = 64;  ///< bodies
+
+  explicit NearPairs(std::shared_ptr<const Program> program);
+  NearPairs(const NearPairs& other) : NearPairs(other.program_) {}
+
+  /// `state` must stay while this is asked.
+  void place(const State& state);
+
+  /// Calls visit(a, b, distance) for the frames of the pairs nearer than `margin`, or that near, by frames.
+  template <class Visit>
+  void forDistances(double margin, const Visit& visit) {
+    if (search_) {
+      for (const NearPairSearch::Near& pair : search_->near(margin))
+        visit(search_->frame(pair.a), search_->frame(pair.b), pair.distance);
+      return;
+    }
+    bodies_->forMaybeNear(margin, [&](int pair) {
+      const double distance = bodies_->proximity(pair).distance;
+      const auto [a, b] = program_->collidable()[std::size_t(pair)];
+      if (distance <= margin) visit(a, b, distance);
+    });
+  }
+
+  /// Are all pairs that joints move apart at least `margin` apart? Those that rest relative to each other say nothing
+  /// about q. The pair that was too near the last time is looked at first.
+  bool apart(double margin);
+
+ private:
+  std::shared_ptr<const Program> program_;
+  std::optional<NearPairSearch> search_;
+  std::optional<BodyPairs> pairs_;
+  std::optional<PlacedBodies> bodies_;
+  int suspect_ = -1;
+};
+
+}  // namespace kinegraph

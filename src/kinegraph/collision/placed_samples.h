@@ -1,0 +1,105 @@
+#pragma once
+
+#include <algorithm>
+#include <limits>
+#include <memory>
+#include <vector>
+
+#include "kinegraph/geometry/distance/separation.h"
+#include "kinegraph/kinematics/link_bodies.h"
+#include "kinegraph/collision/sample_kernel.h"
+
+namespace kinegraph {
+
+/// The bodies of a scene in several configurations, side by side.
+class PlacedSamples {
+ public:
+  static constexpr int kMost = 8;  ///< configurations
+  using Lane = Eigen::Array<double, kMost, 1>;
+
+  /// `bodies` must stay.
+  PlacedSamples(const State& scene, const LinkBodies& bodies, const SampleKernel& kernel = sampleKernel());
+  PlacedSamples(const PlacedSamples&) = delete;
+
+  void setJoints(int sample, const double* q) {
+    std::copy_n(q, model_.variables, Q_.data() + sample * model_.variables);
+  }
+
+  /// To be called when the first `count` samples have their joints. Between samples that follow one another, no point of
+  /// a group strays from a straight line by more than its `stray`, m.
+  void place(int count);
+  void setStray(int group, double stray) { spheres_[std::size_t(group)].radius += stray; }
+
+  int count() const { return count_; }
+  /// X_WL of a link.
+  RigidTransform linkPose(int link, int sample) const {
+    return poseIn(memory_.pose, model_.links * LaneMemory::kPerPose, link * LaneMemory::kPerPose, sample);
+  }
+
+  /// A sphere around a group in all samples and between them.
+  struct Sphere {
+    Vector3d center;
+    double radius;
+  };
+  const Sphere& sphere(int group) const { return spheres_[std::size_t(group)]; }
+
+  /// May any two bodies of these groups come within `margin` (m) of each other, in any sample or between them? False is
+  /// certain.
+  bool mayBeNear(int group_a, int group_b, double margin) const;
+
+  /// The same for a group that moves and all that do not: zero for those of which it is certain. Of few bodies alone.
+  const std::vector<std::int64_t>& nearFixed(int group, double margin);
+
+  /// X_WB of a body.
+  RigidTransform pose(int body, int sample) { return poseIn(placed(body).rows, SampleKernel::kPerBody, 0, sample); }
+
+  /// Bounds of the distance of two bodies in each sample, m. `least`: how far their boxes are apart along the direction
+  /// from one's to the other's middle; -infinity where that says nothing. Those that are `most` or more need not be the
+  /// best. `most`: of a ball within one and the box of the other; infinity where that says nothing.
+  struct Bounds {
+    Lane least, most;
+  };
+  Bounds distanceBounds(int body_a, int body_b, double most = std::numeric_limits<double>::infinity());
+
+  /// How far two convex bodies are apart along a direction, in each sample, m; a lower bound of their distance. The unit
+  /// vector n, from b to a, is fixed in a link. The farthest corners are looked for from `corners` on.
+  Lane gaps(int body_a, int body_b, const Vector3d& n, int link, SupportCorners& corners);
+
+ private:
+  struct Placed {
+    alignas(64) double rows[SampleKernel::kPerBody * kMost];
+    SampleKernel::Offset offset;
+    SampleKernel::Convex core;  ///< of a convex body
+    int stamp = 0;
+  };
+  const Placed& placed(int body);
+  std::unique_ptr<Placed> unplaced(int body) const;
+
+  /// A pose of one sample, out of rows of lanes.
+  RigidTransform poseIn(const double* from, int rows, int row, int sample) const {
+    const int width = kernel_->width;
+    from += (sample / width * rows + row) * width + sample % width;
+    RigidTransform X;
+    for (int k = 0; k < 9; ++k) X.R.data()[k] = from[k * width];
+    for (int k = 0; k < 3; ++k) X.p[k] = from[(9 + k) * width];
+    return X;
+  }
+  SampleKernel::Box boxOf(int body);
+  void layOutFixed();
+
+  const SampleKernel* kernel_;
+  std::shared_ptr<const Parameters> parameters_;
+  const LinkBodies* bodies_;
+  LaneModel model_;
+  LaneMemory memory_{};
+  std::vector<double> storage_;  ///< of memory_
+  std::vector<double> Q_;        ///< a row per sample
+  std::vector<Sphere> spheres_;  ///< per group
+  std::vector<double> fixed_storage_;
+  SampleKernel::FixedBoxes fixed_{};             ///< of groups, in their order
+  std::vector<std::int64_t> near_;               ///< per group that does not move
+  std::vector<std::unique_ptr<Placed>> placed_;  ///< per body; of many bodies those that were asked for
+  int count_ = 0, groups_ = 0, stamp_ = 0;
+};
+
+}  // namespace kinegraph

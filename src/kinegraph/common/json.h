@@ -1,0 +1,42 @@
+#pragma once
+
+#include <boost/json.hpp>
+#include <cmath>
+#include <concepts>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "kinegraph/common/utf8.h"
+
+namespace kinegraph {
+
+// Values of Boost.JSON as browsers and glTF files take them. For implementations only: it is slow to compile.
+
+/// Numbers that are not finite are null; whole ones have no exponent.
+boost::json::value jsonOf(double number);
+
+inline boost::json::value jsonOf(std::integral auto number) { return std::int64_t(number); }
+
+/// Bytes that are not UTF-8, which readers of JSON refuse, become U+FFFD.
+inline boost::json::value jsonOf(std::string_view text) {
+  return boost::json::string(validUtf8(text, nullptr, "\xef\xbf\xbd"));
+}
+
+inline boost::json::value jsonOf(const std::string& text) { return jsonOf(std::string_view(text)); }
+
+template <class T>
+boost::json::value jsonOf(const std::vector<T>& list) {
+  boost::json::array values;
+  values.reserve(list.size());
+  for (const T& entry : list) values.push_back(jsonOf(entry));
+  return values;
+}
+
+template <class T>
+boost::json::value jsonOf(const std::optional<T>& value) {
+  return value ? jsonOf(*value) : boost::json::value();
+}
+
+}  // namespace kinegraph

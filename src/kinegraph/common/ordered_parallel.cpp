@@ -1,0 +1,116 @@
+#include "kinegraph/common/ordered_parallel.h"
+
+#include <algorithm>
+#include <atomic>
+#include <chrono>
+#include <condition_variable>
+#include <exception>
+#include <mutex>
+#include <system_error>
+#include <thread>
+#include <vector>
+
+namespace kinegraph {
+
+namespace {
+
+using Job = std::function<void(int, const JobStopped&)>;
+using Take = std::function<bool(int)>;
+using Between = std::function<void()>;
+
+constexpr std::chrono::milliseconds kLook{20};
+
+class JobsAhead {
+ public:
+  JobsAhead(int count, int threads, const Job& job, const Between& between)
+      : count_(count), threads_(threads), job_(job), between_(between), ended_(std::size_t(count)) {
+    const int workers = std::min(count, threads);
+    workers_.reserve(std::size_t(workers));
+    try {
+      for (int i = 0; i < workers; ++i) workers_.emplace_back([this] { work(); });
+    } catch (const std::system_error&) {  // no more threads
+      if (workers_.empty()) throw;
+    }
+  }
+
+  ~JobsAhead() {
+    {
+      const std::scoped_lock lock(mutex_);
+      over_ = true;
+    }
+    changed_.notify_all();
+  }
+
+  void run(const Take& take) {
+    for (int i = 0; i < count_; ++i) {
+      wait(i);
+      if (ended_[std::size_t(i)].failure) std::rethrow_exception(ended_[std::size_t(i)].failure);
+      if (!take(i)) return;
+      const std::scoped_lock lock(mutex_);
+      taken_ = i + 1;
+      changed_.notify_all();
+    }
+  }
+
+ private:
+  struct End {
+    bool is_over = false;
+    std::exception_ptr failure;
+  };
+
+  void work() {
+    std::unique_lock lock(mutex_);
+    while (true) {
+      changed_.wait(lock, [this] { return over_ || next_ == count_ || next_ < taken_ + threads_; });
+      if (over_ || next_ == count_) return;
+      const int i = next_++;
+      lock.unlock();
+      std::exception_ptr failure;
+      try {
+        job_(i, [this] { return over_.load(); });
+      } catch (...) {
+        failure = std::current_exception();
+      }
+      lock.lock();
+      ended_[std::size_t(i)] = {true, failure};
+      changed_.notify_all();
+    }
+  }
+
+  void wait(int job) {
+    if (between_) between_();  // also where no job takes long
+    std::unique_lock lock(mutex_);
+    while (!changed_.wait_for(lock, kLook, [&] { return ended_[std::size_t(job)].is_over; })) {
+      lock.unlock();
+      if (between_) between_();
+      lock.lock();
+    }
+  }
+
+  const int count_, threads_;
+  const Job& job_;
+  const Between& between_;
+  std::mutex mutex_;
+  std::condition_variable changed_;
+  std::atomic<bool> over_ = false;
+  int next_ = 0, taken_ = 0;
+  std::vector<End> ended_;
+  std::vector<std::jthread> workers_;  ///< the last: they are joined before the rest is gone
+};
+
+}  // namespace
+
+void inOrder(int count, int threads, const Job& job, const Take& take, const Between& between) {
+  if (threads > 1 && count > 0) return JobsAhead(count, threads, job, between).run(take);
+  const JobStopped stopped = [&] {
+    if (between) between();
+    return false;
+  };
+  for (int i = 0; i < count; ++i) {
+    if (between) between();
+    job(i, stopped);
+    if (!take(i)) return;
+  }
+}
+
+}  // namespace kinegraph

@@ -1,0 +1,111 @@
+#include "kinegraph/common/parallel.h"
+
+#include <algorithm>
+#include <atomic>
+#include <chrono>
+#include <condition_variable>
+#include <exception>
+#include <mutex>
+#include <system_error>
+#include <thread>
+#include <vector>
+
+namespace kinegraph {
+
+namespace {
+
+constexpr std::chrono::milliseconds kWatch{20};
+
+class Parts {
+ public:
+  Parts(int count, int part, const std::function<void(int, int, int)>& work, const std::function<void()>& between)
+      : count_(count),
+        part_(part),
+        parts_(count / part + (count % part > 0)),
+        work_(work),
+        between_(between),
+        failed_(parts_) {}
+
+  void run(int threads) {
+    {
+      std::vector<std::jthread> others;
+      others.reserve(std::size_t(std::max(0, std::min(threads, parts_) - 1)));
+      try {
+        for (int worker = 1; worker < std::min(threads, parts_); ++worker) {
+          ++busy_;
+          others.emplace_back([this, worker] { help(worker); });
+        }
+      } catch (const std::system_error&) {  // no more threads
+        --busy_;
+      }
+      takeParts(0);
+      waitForOthers();
+    }
+    if (stopped_) std::rethrow_exception(stopped_);
+    if (failure_) std::rethrow_exception(failure_);
+  }
+
+ private:
+  void takeParts(int worker) {
+    for (int i = next_++; i < parts_; i = next_++) {
+      if (worker == 0 && !askBetween()) return;
+      try {
+        work_(worker, i * part_, std::min(count_ - i * part_, part_) + i * part_);
+      } catch (...) {
+        const std::scoped_lock lock(mutex_);
+        if (i < failed_) failure_ = std::current_exception();
+        failed_ = std::min(failed_, i);
+        next_ = parts_;
+        return;
+      }
+    }
+  }
+
+  /// On the calling thread. False: stop.
+  bool askBetween() {
+    if (!between_ || stopped_) return !stopped_;
+    try {
+      between_();
+      return true;
+    } catch (...) {
+      stopped_ = std::current_exception();
+      next_ = parts_;
+      return false;
+    }
+  }
+
+  void help(int worker) {
+    takeParts(worker);
+    const std::scoped_lock lock(mutex_);
+    if (--busy_ == 0) all_done_.notify_one();
+  }
+
+  void waitForOthers() {
+    std::unique_lock lock(mutex_);
+    while (!all_done_.wait_for(lock, kWatch, [this] { return busy_ == 0; })) {
+      lock.unlock();
+      askBetween();
+      lock.lock();
+    }
+    lock.unlock();
+    askBetween();
+  }
+
+  const int count_, part_, parts_;
+  const std::function<void(int, int, int)>& work_;
+  const std::function<void()>& between_;
+  std::atomic<int> next_ = 0, busy_ = 0;  ///< part to take next; other threads that still run
+  std::mutex mutex_;
+  std::condition_variable all_done_;
+  std::exception_ptr failure_, stopped_;
+  int failed_;
+};
+
+}  // namespace
+
+void forParts(int count, int part, int threads, const std::function<void(int, int, int)>& work,
+              const std::function<void()>& between) {
+  Parts(count, part, work, between).run(threads);
+}
+
+}  // namespace kinegraph

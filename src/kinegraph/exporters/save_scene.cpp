@@ -1,0 +1,62 @@
+#include <filesystem>
+#include <fstream>
+
+#include "kinegraph/common/errors.h"
+#include "kinegraph/common/file_paths.h"
+#include "kinegraph/common/text.h"
+#include "kinegraph/exporters/mjcf_writer.h"
+#include "kinegraph/exporters/scene_writer.h"
+#include "kinegraph/exporters/urdf_writer.h"
+
+namespace kinegraph {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+void writeText(const std::string& text, const std::string& path) {
+  std::ofstream stream(path, std::ios::binary);
+  stream << text;
+  stream.flush();
+  if (!stream) throw FileError(cat("scene file '", path, "' cannot be written"));
+}
+
+}  // namespace
+
+std::string saveUrdf(const Config& config, const std::string& path, std::vector<std::string>* warnings) {
+  UrdfOptions options;
+  options.robot_name = fs::path(path).stem().string();
+  options.mesh_folder = (fs::path(path).parent_path() / (options.robot_name + "_meshes")).string();
+  const std::string semantics = writeSrdf(config, options, warnings);
+  std::vector<std::string> of_text;
+  const std::string text = writeUrdf(config, options, &of_text);
+  if (!semantics.empty()) of_text.pop_back();  // that the text alone does not hold what the file beside it does
+  if (warnings) warnings->insert(warnings->end(), of_text.begin(), of_text.end());
+  writeText(text, path);
+  const std::string beside = fs::path(path).replace_extension(".srdf").string();
+  std::error_code ignored;
+  fs::remove(beside, ignored);  // what an earlier scene of that name had to say
+  if (!semantics.empty()) writeText(semantics, beside);
+  return text;
+}
+
+std::string saveMjcf(const Config& config, const std::string& path, std::vector<std::string>* warnings) {
+  MjcfOptions options;
+  options.model_name = fs::path(path).stem().string();
+  options.mesh_folder = (fs::path(path).parent_path() / (options.model_name + "_meshes")).string();
+  const std::string text = writeMjcf(config, options, warnings);
+  writeText(text, path);
+  return text;
+}
+
+std::string saveScene(const Config& config, const std::string& path, std::vector<std::string>* warnings) {
+  const std::string extension = lowerExtension(path);
+  if (extension == ".urdf") return saveUrdf(config, path, warnings);
+  if (extension == ".xml") return saveMjcf(config, path, warnings);
+  const bool yaml = extension == ".yml" || extension == ".yaml";
+  const std::string text = yaml ? writeYaml(config, false, warnings) : writeScene(config, warnings);
+  writeText(text, path);
+  return text;
+}
+
+}  // namespace kinegraph

@@ -1,0 +1,237 @@
+#include "kinegraph/komo/collision/alternative_path.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+#include "kinegraph/komo/collision/tree_way.h"
+
+namespace kinegraph {
+
+namespace {
+
+constexpr int kGrowths = 1500;                              // of trees
+constexpr std::array<double, 4> kRoom = {16., 8., 4., 2.};  // that they look for first, of what is to be kept
+constexpr int kGrowthsWithRoom = 200;
+constexpr int kDraws = 50, kMoves = 120;
+constexpr double kNarrowing = .98;  // of a move, from one to the next
+constexpr int kMostSamples = 32;    // of a path
+constexpr double kLongWay = .02;    // that makes a way worse, m per unit of d as long as the way
+constexpr std::array<double, 6> kKnots = {0., .1, .35, .65, .9, 1.};
+constexpr int kFree = int(kKnots.size()) - 2;
+
+/// The dofs of the given configuration that may be bent: no quaternions, and none that all slices share.
+std::vector<int> bendableDofs(const Path& path) {
+  const Program& program = *path.given().program;
+  std::vector<char> may(std::size_t(program.dofs), false);
+  for (const int frame : path.given().joint_frames) {
+    if (path.given().isShared(frame)) continue;
+    const auto [first, count] = program.frame_dofs[std::size_t(frame)];
+    std::fill_n(may.begin() + first, count, true);
+  }
+  for (const auto& [first, count] : program.unit_norms) std::fill_n(may.begin() + first, count, false);
+  std::vector<int> dofs;
+  for (int dof = 0; dof < program.dofs; ++dof)
+    if (may[std::size_t(dof)]) dofs.push_back(dof);
+  return dofs;
+}
+
+/// Ways that d makes of a path, given by a column per knot between the ends.
+class Ways {
+ public:
+  Ways(Path& path, double apart, MotionProbe& probe)
+      : path_(path), apart_(apart), probe_(probe), dofs_(bendableDofs(path)), given_(path.joints()) {
+    const Program& program = *path.given().program;
+    VectorXd begin = given_.row(0).transpose();
+    if (firstMotion(path) == 0) begin = path.state(-1).q()(path.dofsOf(path.given().joint_frames, -1));
+    const VectorXd way = given_.row(given_.rows() - 1).transpose() - begin;
+    length_ = std::max(way(dofs_).norm(), .1);
+    lower_ = program.lower(dofs_), upper_ = program.upper(dofs_);
+  }
+
+  int dofs() const { return int(dofs_.size()); }
+  double length() const { return length_; }
+
+  void bend(const MatrixXd& d) {
+    const int count = int(given_.rows()), before = firstMotion(path_) == 0 ? 1 : 0;
+    for (int slice = 0; slice + 1 < count; ++slice) {
+      const double s = double(slice + before) / (count - 1 + before);
+      VectorXd q = given_.row(slice).transpose();
+      const VectorXd bent = q(dofs_) + at(s, d);
+      q(dofs_) = bent.cwiseMax(lower_).cwiseMin(upper_);
+      path_.setJoints(slice, q);
+    }
+    path_.setVariables(path_.variables());  // dofs that slices share
+  }
+
+  /// What the path lacks to be apart of everything, m, summed over samples; and a little for the length of d.
+  double lack(const MatrixXd& d) {
+    bend(d);
+    const int first = firstMotion(path_), count = path_.grid().slices() - first;
+    const int stride = std::max(1, count / kMostSamples);
+    double sum = kLongWay * d.norm() / length_;
+    for (int slice = first; slice < first + count; slice += stride)
+      sum += apart_ - probe_.clearance(motionInto(path_, slice), .5, apart_);
+    return sum;
+  }
+
+ private:
+  static VectorXd at(double s, const MatrixXd& d) {
+    VectorXd sum = VectorXd::Zero(d.rows());
+    for (int i = 0; i <= kFree; ++i) {
+      const double share = (s - kKnots[std::size_t(i)]) / (kKnots[std::size_t(i) + 1] - kKnots[std::size_t(i)]);
+      if (share < 0. || share > 1.) continue;
+      if (i > 0) sum += (1. - share) * d.col(i - 1);
+      if (i < kFree) sum += share * d.col(i);
+      break;
+    }
+    return sum;
+  }
+
+  Path& path_;
+  double apart_;
+  MotionProbe& probe_;
+  std::vector<int> dofs_;
+  MatrixXd given_;
+  VectorXd lower_, upper_;
+  double length_ = 0.;
+};
+
+/// Do all slices have the given scene's joints, and the same constants?
+bool showsOneScene(const Path& path) {
+  for (int slice = firstMotion(path) - 1; slice < path.grid().slices(); ++slice) {
+    const State& state = path.state(slice);
+    if (state.sharedProgram() != path.given().program || state.sharedParameters() != path.state(0).sharedParameters())
+      return false;
+  }
+  return true;
+}
+
+/// `count` configurations along a way, its corners and its end among them, so that motions have about the same length.
+/// None if it has too many corners.
+std::vector<VectorXd> spread(const std::vector<VectorXd>& way, int count) {
+  const int pieces = int(way.size()) - 1;
+  if (pieces > count) return {};
+  std::vector<int> parts(std::size_t(pieces), 1);
+  const auto lengthOf = [&](int i) {
+    return (way[std::size_t(i) + 1] - way[std::size_t(i)]).norm() / parts[std::size_t(i)];
+  };
+  for (int given = pieces; given < count; ++given) {
+    int longest = 0;
+    for (int i = 1; i < pieces; ++i)
+      if (lengthOf(i) > lengthOf(longest)) longest = i;
+    ++parts[std::size_t(longest)];
+  }
+  std::vector<VectorXd> points;
+  for (std::size_t i = 0; i + 1 < way.size(); ++i) {
+    for (int k = 1; k < parts[i]; ++k) points.push_back(way[i] + double(k) / parts[i] * (way[i + 1] - way[i]));
+    points.push_back(way[i + 1]);
+  }
+  return points;
+}
+
+/// Where configurations between two are drawn from.
+TreeRoom roomAround(const Program& program, std::vector<int> dofs, const VectorXd& from, const VectorXd& to) {
+  TreeRoom room{std::move(dofs), {}, {}};
+  room.lower = program.lower(room.dofs), room.upper = program.upper(room.dofs);
+  const double around = std::max((to - from).norm(), .1);
+  for (std::size_t i = 0; i < room.dofs.size(); ++i) {
+    double &lower = room.lower[Eigen::Index(i)], &upper = room.upper[Eigen::Index(i)];
+    const auto [least, most] = std::minmax(from[room.dofs[i]], to[room.dofs[i]]);
+    if (!std::isfinite(lower)) lower = least - around;
+    if (!std::isfinite(upper)) upper = most + around;
+  }
+  return room;
+}
+
+/// The configurations of the slices from `begin` on until the end of a phase, on a way that trees find.
+std::vector<VectorXd> freeLeg(const Path& path, EdgeChecker& checker, double apart, int begin, int end, Rng& rng) {
+  const VectorXd &from = path.state(begin - 1).q(), &to = path.state(end - 1).q();
+  const double most = 20. * apart,
+               kept = std::min(checker.clearance(from.data(), most), checker.clearance(to.data(), most));
+  if (kept <= 0.) return {};
+  const TreeRoom room = roomAround(*path.given().program, bendableDofs(path), from, to);
+  const auto keeping = [&](double margin, int growths) {
+    checker.setMargin(margin);
+    const std::vector<VectorXd> way = treeWay(checker, room, from, to, rng, growths);
+    return way.empty() ? way : spread(way, end - begin);
+  };
+  for (const double more : kRoom) {
+    if (more * apart > .9 * kept) continue;
+    std::vector<VectorXd> leg = keeping(more * apart, kGrowthsWithRoom);
+    if (!leg.empty()) return leg;
+  }
+  return keeping(kept > 1.01 * apart ? apart : .5 * kept, kGrowths);
+}
+
+/// The variables of a path that is free at all times; none where trees do not find one, or where nothing moves.
+std::optional<VectorXd> freeDetour(Path& path, double apart, MotionProbe& probe, int number) {
+  if (!showsOneScene(path)) return std::nullopt;
+  const int first = firstMotion(path), count = path.grid().slices(), of_phase = path.grid().slicesPerPhase();
+  EdgeChecker& checker = probe.checkerOf(motionInto(path, first));
+  Rng rng{std::uint64_t(number)};
+  std::vector<VectorXd> points;
+  for (int begin = first; begin < count;) {
+    const int end = std::min((begin / of_phase + 1) * of_phase, count);
+    const std::vector<VectorXd> leg = freeLeg(path, checker, apart, begin, end, rng);
+    if (leg.empty()) return std::nullopt;
+    points.insert(points.end(), leg.begin(), leg.end());
+    begin = end;
+  }
+  const VectorXd& start = path.state(first - 1).q();
+  if (std::ranges::all_of(points, [&](const VectorXd& q) { return q == start; })) return std::nullopt;
+  const VectorXd given = path.variables();
+  for (std::size_t i = 0; i < points.size(); ++i) path.setJoints(first + int(i), points[i]);
+  const VectorXd found = path.variables();
+  path.setVariables(given);
+  return found;
+}
+
+}  // namespace
+
+std::optional<VectorXd> detour(Path& path, double apart, MotionProbe& probe, int number) {
+  if (path.grid().slices() < 3) return std::nullopt;
+  const VectorXd given = path.variables();
+  Ways ways(path, apart, probe);
+  if (ways.dofs() == 0) return std::nullopt;
+  if (const auto free = freeDetour(path, apart, probe, number)) return free;
+  Rng rng{std::uint64_t(number)};
+  const auto draw = [&](double size) {
+    VectorXd drawn(ways.dofs());
+    for (double& value : drawn) value = size * rng.normal();
+    return drawn;
+  };
+  const double unit = ways.length() / std::sqrt(double(ways.dofs()));
+  MatrixXd best;
+  double least = std::numeric_limits<double>::infinity();
+  const auto offer = [&](const MatrixXd& candidate) {
+    const double lack = ways.lack(candidate);
+    if (lack < least) least = lack, best = candidate;
+  };
+  for (int i = 0; i < kDraws; ++i) {  // bows, to one side or to both
+    const double size = unit * (.2 + .8 * (i + 1) / kDraws);
+    const VectorXd a = draw(size), b = draw(.5 * size);
+    MatrixXd drawn(ways.dofs(), kFree);
+    for (int k = 0; k < kFree; ++k) {
+      const double angle = std::numbers::pi * kKnots[std::size_t(k) + 1];
+      drawn.col(k) = std::sin(angle) * a + std::sin(2. * angle) * b + draw(.1 * size);
+    }
+    offer(drawn);
+  }
+  double size = .3 * unit;
+  for (int i = 0; i < kMoves; ++i, size *= kNarrowing) {  // of one posture, or of all
+    MatrixXd moved = best;
+    const int one = int(rng.uniform(0., kFree + 1.));
+    for (int k = 0; k < kFree; ++k)
+      if (one == k || one == kFree) moved.col(k) += draw(size);
+    offer(moved);
+  }
+  ways.bend(best);
+  const VectorXd found = path.variables();
+  path.setVariables(given);
+  return found;
+}
+
+}  // namespace kinegraph

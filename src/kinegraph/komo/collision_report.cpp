@@ -1,0 +1,135 @@
+#include "kinegraph/komo/collision_report.h"
+
+#include <algorithm>
+#include <iterator>
+
+namespace kinegraph {
+
+namespace {
+
+using FramePairs = std::vector<std::pair<int, int>>;  // ascending
+
+/// Collisions that are forbidden at a time.
+struct Forbidden {
+  bool all = false;  ///< of all shapes that may collide
+  FramePairs named;  ///< some of these
+  FramePairs apart;  ///< frames that keep a distance; their shapes need not be among those
+
+  bool any() const { return all || !named.empty() || !apart.empty(); }
+};
+
+enum class Kind { none, all, named, apart };
+
+/// What an objective forbids in its slices.
+Kind kindOf(const Objective& objective) {
+  using S = FeatureSymbol;
+  const bool is_inequality = objective.type == ObjectiveType::ineq || objective.type == ObjectiveType::ineqB;
+  if (objective.order != 0 && !objective.on_the_way) return Kind::none;
+  if (objective.feature == S::accumulatedCollisions || objective.feature == S::pairCollisions) {
+    if (!is_inequality && objective.type != ObjectiveType::eq) return Kind::none;
+    return objective.frames.empty() ? Kind::all : Kind::named;
+  }
+  const bool keeps_apart = objective.feature == S::distance && is_inequality &&
+                           (objective.scale.size() == 0 || (objective.scale.array() > 0.).all()) &&
+                           (objective.target.size() == 0 || (objective.target.array() <= 0.).all());
+  return keeps_apart ? Kind::apart : Kind::none;
+}
+
+void addPairs(const Program& program, const Objective& objective, Kind kind, Forbidden& to) {
+  std::vector<int> ids;
+  for (const std::string& name : objective.frames) ids.push_back(frameId(program, name, objective.name()));
+  if (kind == Kind::apart) {
+    if (program.movesApart(ids[0], ids[1])) to.apart.emplace_back(std::minmax(ids[0], ids[1]));
+    return;
+  }
+  const std::vector<ContactRules::Body>& bodies = program.contacts.bodies;
+  for (std::size_t i = 0; i < bodies.size(); ++i) {
+    if (std::ranges::find(ids, bodies[i].frame) == ids.end()) continue;
+    for (std::size_t j = 0; j < bodies.size(); ++j) {
+      const int a = bodies[i].frame, b = bodies[j].frame;
+      if (j != i && program.movesApart(a, b) && program.contacts.allow(i, j)) to.named.emplace_back(std::minmax(a, b));
+    }
+  }
+}
+
+void sortUnique(FramePairs& pairs) {
+  std::ranges::sort(pairs);
+  pairs.erase(std::unique(pairs.begin(), pairs.end()), pairs.end());
+}
+
+/// In a slice, or on the way to it; frames are those of the slice whose Program this is.
+Forbidden forbiddenIn(const std::vector<Objective>& objectives, const Program& program, int slice, bool on_the_way) {
+  Forbidden found;
+  for (const Objective& objective : objectives) {
+    if (objective.on_the_way != on_the_way || slice < objective.from || slice > objective.to) continue;
+    const Kind kind = kindOf(objective);
+    if (kind == Kind::all) found.all = true;
+    if (kind == Kind::named || kind == Kind::apart) addPairs(program, objective, kind, found);
+  }
+  sortUnique(found.named);
+  sortUnique(found.apart);
+  return found;
+}
+
+/// What is forbidden at both times.
+Forbidden inBoth(const Forbidden& one, const Forbidden& other) {
+  const auto common = [](const FramePairs& a, const FramePairs& b, FramePairs& to) {
+    std::ranges::set_intersection(a, b, std::back_inserter(to));
+  };
+  Forbidden both;
+  both.all = one.all && other.all;
+  if (one.all != other.all) {
+    both.named = one.all ? other.named : one.named;
+  } else {
+    common(one.named, other.named, both.named);
+  }
+  common(one.apart, other.apart, both.apart);
+  return both;
+}
+
+Forbidden forbiddenOnMotion(const Path& path, const std::vector<Objective>& objectives, int slice) {
+  const Program& program = path.state(slice - 1).program();
+  Forbidden found = forbiddenIn(objectives, program, slice, true);
+  if (path.grid().slicesPerPhase() == 1) return found;
+  Forbidden at_end = forbiddenIn(objectives, program, slice, false);
+  const Forbidden both =
+      slice == 0 ? std::move(at_end) : inBoth(forbiddenIn(objectives, program, slice - 1, false), at_end);
+  found.all = found.all || both.all;
+  found.named.insert(found.named.end(), both.named.begin(), both.named.end());
+  found.apart.insert(found.apart.end(), both.apart.begin(), both.apart.end());
+  return found;
+}
+
+}  // namespace
+
+bool forbidsAnyMotion(const Path& path, const std::vector<Objective>& objectives) {
+  const bool are_waypoints = path.grid().slicesPerPhase() == 1;
+  return std::ranges::any_of(objectives, [&](const Objective& objective) {
+    return kindOf(objective) != Kind::none && (objective.on_the_way || !are_waypoints) &&
+           std::max(objective.from, firstMotion(path)) <= objective.to;
+  });
+}
+
+std::vector<SliceMotion> forbiddenMotions(const Path& path, const std::vector<Objective>& objectives) {
+  std::vector<SliceMotion> motions;
+  for (int slice = firstMotion(path); slice < path.grid().slices(); ++slice) {
+    Forbidden forbidden = forbiddenOnMotion(path, objectives, slice);
+    if (!forbidden.any()) continue;
+    SliceMotion& motion = motions.emplace_back(motionInto(path, slice));
+    motion.of_all = forbidden.all;
+    if (!forbidden.all) motion.pairs = std::move(forbidden.named);
+    motion.pairs.insert(motion.pairs.end(), forbidden.apart.begin(), forbidden.apart.end());
+    sortUnique(motion.pairs);
+  }
+  return motions;
+}
+
+MotionVerdict judge(const std::vector<SliceMotion>& motions, const std::function<void()>& between) {
+  constexpr double kTolerance = 1e-5;  // m
+  const std::vector<PathContact> contacts = contactsOf(motions, 0., kTolerance, between);
+  if (contacts.empty()) return {};
+  const auto deepest = std::ranges::min_element(contacts, {}, &PathContact::distance);
+  return {false, deepest->str()};
+}
+
+}  // namespace kinegraph

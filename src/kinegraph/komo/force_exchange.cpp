@@ -1,0 +1,210 @@
+#include "kinegraph/komo/force_exchange.h"
+
+#include <algorithm>
+
+#include "kinegraph/common/errors.h"
+#include "kinegraph/common/text.h"
+#include "kinegraph/features/distance.h"
+#include "kinegraph/kinematics/dynamics.h"
+
+namespace kinegraph {
+
+namespace {
+
+constexpr double kElasticity = .9;
+constexpr double kFirstForce = .1;  ///< in weights; not zero, where a cone of friction has its tip
+
+using enum ObjectiveType;
+
+Vector3d nearest(const State& state, Witness::Kind kind, const ContactForce& contact) {
+  const State* states[] = {&state};
+  Vector3d value;
+  Witness(kind, contact.object, contact.from).eval(states, 1., value, nullptr);
+  return value;
+}
+
+/// An exchange on its way into a motion: first its dofs, then what it demands of them.
+class NewExchange {
+ public:
+  NewExchange(MotionProblem& motion, const ExchangeDemand& demand)
+      : motion_(motion), path_(motion.path), demand_(demand), pair_({demand.object, demand.from}) {
+    path_.requireBuilt("addExchange");
+    readFrames();
+    readTimes();
+    const auto& masses = path_.state(-path_.grid().order()).parameters().frame_mass;
+    const double own = masses[contact_.object].mass, mass = own > 0. ? own : masses[contact_.from].mass;
+    contact_.unit = -kGravity.z() * (mass > 0. ? mass : 1.);
+    contact_.is_free = true;
+  }
+
+  std::string add() {
+    addDofs();
+    startBetweenBodies();
+    demandKind();
+    addCosts();
+    motion_.contacts.add(contact_);
+    return name_;
+  }
+
+ private:
+  void readFrames() {
+    const Program& program = path_.state(-path_.grid().order()).program();
+    contact_.object = frameId(program, demand_.object, "contact");
+    contact_.from = frameId(program, demand_.from, "contact");
+    if (contact_.object == contact_.from) throw ValueError(cat("contact: '", demand_.object, "' cannot push itself"));
+    if (!(demand_.friction > 0.)) {
+      throw ValueError(
+          cat("contact: the coefficient of friction is ", demand_.friction, "; expected a positive number"));
+    }
+  }
+
+  void readTimes() {
+    const TimeGrid& grid = path_.grid();
+    const bool bounces = demand_.kind == Exchange::bounce;
+    if (bounces && grid.order() < 2) {
+      throw ValueError(cat("bounce of '", demand_.object, "' off '", demand_.from,
+                           "': speeds before and after it need a KOMO with kOrder 2; this one has ", grid.order()));
+    }
+    std::tie(from_, to_) = grid.select(demand_.times);
+    if (bounces) to_ = from_;
+    if (from_ > to_ || from_ >= grid.slices()) {
+      throw ValueError(
+          cat("contact between '", demand_.object, "' and '", demand_.from, "': its times select no slice"));
+    }
+  }
+
+  /// The point and the force, along the axes of the world.
+  void addDofs() {
+    const Program& before = path_.state(-path_.grid().order()).program();
+    const std::string wanted = cat("poa_", demand_.object, "_", demand_.from, "_", path_.grid().timeOf(from_));
+    name_ = wanted;
+    for (int count = 2; before.frame_index.contains(name_); ++count) name_ = cat(wanted, "_", count);
+    path_.beginModes();
+    Attachment three;
+    three.type = JointType::trans3;
+    three.stable = false;
+    contact_.point = path_.addDofs(name_, from_, to_, three);
+    contact_.dofs = path_.addDofs(name_ + "_force", from_, to_, three);
+  }
+
+  /// The point starts in the middle between the bodies, the force along the normal.
+  void startBetweenBodies() {
+    for (int t = from_; t <= to_; ++t) {
+      const State& now = path_.state(t);
+      VectorXd q = now.q();
+      const auto& X_W0 = now.pose(0);  // of the frame that the dofs hang below
+      const Vector3d normal = nearest(now, Witness::Kind::normal, contact_);
+      const Vector3d middle =
+          .5 * (nearest(now, Witness::Kind::point_a, contact_) + nearest(now, Witness::Kind::point_b, contact_));
+      q.segment<3>(now.program().frame_dofs[contact_.point].first) = X_W0.R.transpose() * (middle - X_W0.p);
+      q.segment<3>(now.program().frame_dofs[contact_.dofs].first) = kFirstForce * normal;
+      path_.setSlice(t, q.data());
+    }
+  }
+
+  void demandKind() {
+    switch (demand_.kind) {
+      case Exchange::slide:
+        return slide();
+      case Exchange::stick:
+        return stick();
+      case Exchange::complementary:
+        return complement();
+      case Exchange::bounce:
+        return bounce();
+    }
+  }
+
+  void slide() {
+    touch(1e1);
+    require(about("pullingForce"), pair_, ineq, 1e2);
+    require(about("forceAlongNormal"), pair_, eq, 1e1);
+  }
+
+  void stick() {
+    touch(1e2);
+    if (path_.grid().order() == 0)  // the cone points away from the other body
+      return require(about("frictionCone", demand_.friction), pair_, ineq, 1.);
+    require(about("pullingForce"), pair_, ineq, 1e1);
+    require(about("slidingVelocity"), pair_, eq, 1., 1, 1);
+  }
+
+  void complement() {
+    require(about("forceAlongNormal"), pair_, eq, 1e2);
+    require(about("pullingForce"), pair_, ineq, 1e2);
+    require(about("forceTimesDistance"), pair_, eq, 1e2);
+    if (path_.grid().order() >= 1) require(about("forceTimesVelocity"), pair_, eq, 1e2, 1);
+    require(FeatureSymbol::distance, pair_, ineq, 1e1);
+  }
+
+  void bounce() {
+    touch(1e1);
+    require(about("forceAlongNormal"), pair_, eq, 1e1);
+    require(about("pullingForce"), pair_, ineq, 1e1);
+    if (to_ + 1 >= path_.grid().slices()) return;
+    motion_.require({.feature = about("elasticBounce", kElasticity),
+                     .frames = pair_,
+                     .type = eq,
+                     .scale = MatrixXd::Constant(1, 1, 1e1),
+                     .order = 2,
+                     .times = {path_.grid().timeOf(to_ + 1)}});
+  }
+
+  void touch(double scale) {
+    require(FeatureSymbol::distance, {demand_.object, name_}, eq, scale);
+    require(FeatureSymbol::distance, {demand_.from, name_}, eq, scale);
+    require(FeatureSymbol::distance, pair_, eq, 1e1);
+  }
+
+  /// On the force, and on how it and the point change.
+  void addCosts() {
+    const FeatureSource force = about("force");
+    require(force, pair_, sos, 1e-4, 0);
+    const int smooth = std::min(path_.grid().order(), 2);
+    if (smooth == 0) return;
+    if (demand_.kind != Exchange::bounce) require(force, pair_, sos, 1e-2, smooth, smooth);
+    require(FeatureSymbol::position, {name_}, sos, 1e-2, smooth, smooth);
+  }
+
+  FeatureSource about(const char* what, double parameter = 0.) const {
+    return FeatureRecipe{what, contact_, parameter};
+  }
+
+  /// In all slices of the contact but the first `later`.
+  void require(const FeatureSource& feature, const std::vector<std::string>& frames, ObjectiveType type, double scale,
+               int order = -1, int later = 0) {
+    if (from_ + later > to_) return;
+    motion_.require({.feature = feature,
+                     .frames = frames,
+                     .type = type,
+                     .scale = MatrixXd::Constant(1, 1, scale),
+                     .order = order,
+                     .times = {path_.grid().timeOf(from_), path_.grid().timeOf(to_)}},
+                    later);
+  }
+
+  MotionProblem& motion_;
+  Path& path_;
+  const ExchangeDemand& demand_;
+  std::vector<std::string> pair_;
+  ContactForce contact_;
+  std::string name_;
+  int from_ = 0, to_ = 0;
+};
+
+}  // namespace
+
+Exchange exchangeFromName(const std::string& name) {
+  static const std::vector<std::string> names = {"slide", "stick", "complementary", "bounce"};
+  const auto place = std::find(names.begin(), names.end(), name);
+  if (place == names.end())
+    throw NameError(
+        cat("there is no contact of kind '", name, "'", similarHint(name, names), "; there are ", join(names)));
+  return Exchange(place - names.begin());
+}
+
+std::string addExchange(MotionProblem& motion, const ExchangeDemand& demand) {
+  return NewExchange(motion, demand).add();
+}
+
+}  // namespace kinegraph

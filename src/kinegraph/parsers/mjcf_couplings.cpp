@@ -1,0 +1,98 @@
+#include "kinegraph/parsers/mjcf_couplings.h"
+
+#include <algorithm>
+
+#include "kinegraph/common/text.h"
+
+namespace kinegraph {
+
+namespace {
+
+std::string typeOf(const MjcfElement& joint, MjcfValues& values) {
+  if (joint.xml().name == "freejoint") return "free";
+  return values.word(joint, "type", {"hinge", "slide", "ball", "free"}, "hinge");
+}
+
+/// Replaces sources that follow others by those; of joints that follow each other in a circle, one is let go.
+void resolveChains(std::map<std::string, MjcfCoupling>& couplings, Findings& findings) {
+  for (auto entry = couplings.begin(); entry != couplings.end();) {
+    auto& [name, coupling] = *entry;
+    std::size_t steps = 0;
+    auto next = couplings.find(coupling.source);
+    while (next != couplings.end() && steps++ <= couplings.size()) {
+      if (next->first == name) break;
+      coupling.offset += coupling.factor * next->second.offset;
+      coupling.factor *= next->second.factor;
+      coupling.source = next->second.source;
+      next = couplings.find(coupling.source);
+    }
+    if (next == couplings.end()) {
+      ++entry;
+      continue;
+    }
+    findings.warn(coupling.where,
+                  cat("joint '", name, "' follows itself by way of others; it is read as one that moves by itself"));
+    entry = couplings.erase(entry);
+  }
+}
+
+}  // namespace
+
+double mjcfReference(const MjcfElement& joint, MjcfValues& values) {
+  const std::string type = typeOf(joint, values);
+  const double reference = values.number(joint, "ref", 0.);
+  return type == "hinge" ? values.radians(reference) : type == "slide" ? reference : 0.;
+}
+
+std::map<std::string, MjcfCoupling> mjcfCouplings(const MjcfDocument& document,
+                                                  const std::map<std::string, MjcfElement>& joints, MjcfValues& values,
+                                                  Findings& findings) {
+  std::vector<std::string> names;
+  for (const auto& [name, element] : joints) names.push_back(name);
+  std::map<std::string, MjcfCoupling> couplings;
+  for (const XmlElement* xml : document.inSections("equality", "joint")) {
+    const MjcfElement element(*xml, {});
+    if (values.word(element, "active", {"true", "false"}, "true") == "false") continue;
+    const auto find = [&](const char* role) -> const MjcfElement* {
+      const XmlAttribute* name = xml->attribute(role);
+      if (!name) return nullptr;
+      const auto found = joints.find(name->value);
+      if (found != joints.end()) return &found->second;
+      findings.error(name->where,
+                     cat("<equality>: there is no joint '", name->value, "'", similarHint(name->value, names)));
+      return nullptr;
+    };
+    const MjcfElement* first = find("joint1");
+    const MjcfElement* second = find("joint2");
+    if (!first && !xml->attribute("joint1"))
+      findings.error(xml->where, "<joint> in <equality> has no attribute 'joint1'");
+    if (!first || (!second && xml->attribute("joint2"))) continue;
+    const std::string name = first->name();
+    std::vector<double> c = {0., 1., 0., 0., 0.};
+    const std::vector<double> given = values.upTo(element, "polycoef", 5);
+    std::copy(given.begin(), given.end(), c.begin());
+    const auto moves_by_itself = [&](const std::string& why) {
+      findings.warn(xml->where, cat("<equality>: ", why, "; joint '", name, "' is read as one that moves by itself"));
+    };
+    const auto has_one_dof = [&](const MjcfElement& joint) {
+      const std::string type = typeOf(joint, values);
+      return type == "hinge" || type == "slide";
+    };
+    if (second && (c[2] != 0. || c[3] != 0. || c[4] != 0.)) {
+      moves_by_itself("the polynomial is not linear");
+    } else if (!has_one_dof(*first) || (second && !has_one_dof(*second))) {
+      moves_by_itself("only hinge and slide joints can follow each other");
+    } else if (couplings.contains(name)) {
+      moves_by_itself(cat("joint '", name, "' follows another joint already"));
+    } else if (!second || c[1] == 0.) {
+      couplings[name] = {"", mjcfReference(*first, values) + c[0], 0., xml->where};
+    } else {
+      const double offset = mjcfReference(*first, values) + c[0] - c[1] * mjcfReference(*second, values);
+      couplings[name] = {second->name(), offset, c[1], xml->where};
+    }
+  }
+  resolveChains(couplings, findings);
+  return couplings;
+}
+
+}  // namespace kinegraph

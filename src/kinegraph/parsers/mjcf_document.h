@@ -1,0 +1,91 @@
+#pragma once
+
+#include <map>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "kinegraph/parsers/findings.h"
+#include "kinegraph/parsers/xml.h"
+
+namespace kinegraph {
+
+/// An element of an MJCF file, and those in its default classes that say what it leaves open.
+class MjcfElement {
+ public:
+  MjcfElement(const XmlElement& xml, std::vector<const XmlElement*> defaults)
+      : xml_(&xml), defaults_(std::move(defaults)) {}
+
+  const XmlElement& xml() const { return *xml_; }
+  const SourcePosition& where() const { return xml_->where; }
+  const XmlAttribute* own(std::string_view name) const { return xml_->attribute(name); }
+
+  /// The element's own attribute, or that of the nearest default, or null.
+  const XmlAttribute* attribute(std::string_view name) const;
+
+  /// All of them, the farthest default first.
+  std::vector<const XmlAttribute*> layers(std::string_view name) const;
+
+  /// Its name, or "".
+  std::string name() const;
+
+  /// `<geom name="x">`: for messages.
+  std::string describe() const;
+
+ private:
+  const XmlElement* xml_;
+  std::vector<const XmlElement*> defaults_;  ///< nearest first
+};
+
+/// What the element <compiler> says about how the others are to be read.
+struct MjcfSettings {
+  bool degrees = true;                ///< angles
+  std::string euler_order = "xyz";    ///< lower case: about the axes of the turned frame
+  bool limited_by_range = true;       ///< a joint with a range is limited
+  bool strip_mesh_path = false;       ///< of a mesh file, only its name counts
+  bool masses_of_geoms = true;        ///< of bodies without <inertial>
+  bool masses_only_of_geoms = false;  ///< <inertial> does not count
+  std::string mesh_folder;            ///< as it is written
+  std::string texture_folder;         ///< as it is written
+};
+
+/// An MJCF text with all that it includes, and its default classes.
+class MjcfDocument {
+ public:
+  /// Mistakes go to `findings`. Files that the text includes are relative to `folder`, or to the file that names them.
+  MjcfDocument(std::string_view text, const std::string& file, const std::string& folder, Findings& findings);
+
+  const XmlElement& root() const { return root_; }
+  const MjcfSettings& settings() const { return settings_; }
+  std::vector<SourceText>& included() { return included_; }
+
+  /// All elements <section><name/></section>.
+  std::vector<const XmlElement*> inSections(std::string_view section, std::string_view name) const;
+
+  /// `xml` with its defaults: of its own class, or of `childclass`, or of the outermost class.
+  MjcfElement element(const XmlElement& xml, const std::string& childclass = {}) const;
+
+  /// Is there a default class of that name? If not, an error.
+  bool checkClass(const XmlAttribute& reference) const;
+
+ private:
+  struct Class {
+    std::vector<const XmlElement*> elements;  ///< <default>
+    const Class* outer = nullptr;
+  };
+
+  void expand(XmlElement& element, const std::string& folder, std::vector<std::string>& open);
+  void include(const XmlElement& element, const std::string& folder, std::vector<std::string>& open,
+               std::vector<XmlElement>& into);
+  void readSettings();
+  void collectClasses(const XmlElement& element, const Class* outer);
+
+  Findings& findings_;
+  XmlElement root_;
+  std::string main_folder_;
+  std::vector<SourceText> included_;
+  MjcfSettings settings_;
+  std::map<std::string, Class> classes_;
+};
+
+}  // namespace kinegraph

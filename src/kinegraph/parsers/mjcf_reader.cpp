@@ -1,0 +1,414 @@
+#include "kinegraph/parsers/mjcf_reader.h"
+
+#include <algorithm>
+#include <map>
+#include <set>
+
+#include "kinegraph/common/text.h"
+#include "kinegraph/parsers/axis_motion.h"
+#include "kinegraph/parsers/mjcf_check.h"
+#include "kinegraph/parsers/mjcf_couplings.h"
+#include "kinegraph/parsers/mjcf_document.h"
+#include "kinegraph/parsers/mjcf_keyframes.h"
+#include "kinegraph/parsers/mjcf_shapes.h"
+#include "kinegraph/parsers/mjcf_values.h"
+
+namespace kinegraph {
+
+namespace {
+
+/// A joint of a body, and the <frame> that it stands in.
+struct BodyJoint {
+  MjcfElement element;
+  Pose frame;
+};
+
+/// Where the elements of a body are put.
+struct Place {
+  std::string frame;  ///< of the scene
+  std::string body;   ///< its name
+  Pose pose;          ///< of the coordinates in that frame: other than the identity in <frame>
+  std::string childclass;
+  bool on_world = true;        ///< fixed to the world
+  bool hangs_on_world = true;  ///< or one joint away from it
+  int contact = 1;             ///< flag of its geoms
+  bool weigh = false;          ///< they have masses
+};
+
+class MjcfReader {
+ public:
+  MjcfReader(MjcfDocument& document, const std::string& folder, Findings& findings)
+      : document_(document),
+        findings_(findings),
+        values_(document.settings(), findings),
+        shapes_(document, values_, folder, findings) {}
+
+  Graph read() {
+    const std::vector<const XmlElement*> worlds = document_.root().all("worldbody");
+    names_.insert("world");
+    for (const char* kind : {"body", "joint", "freejoint", "site", "camera", "geom"}) {
+      for (const XmlElement* world : worlds) nameAll(*world, kind, "world");
+    }
+    for (const XmlElement* world : worlds) collectJoints(*world, "");
+    couplings_ = mjcfCouplings(document_, named_joints_, values_, findings_);
+    collectExclusions();
+    if (findings_.failed()) return {};
+    FrameAttributes attributes(worlds.empty() ? document_.root().where : worlds[0]->where);
+    addFrame("world", "", document_.root().where, std::move(attributes));
+    Place place;
+    place.frame = place.body = "world";
+    for (const XmlElement* world : worlds) addShapes(*world, place);
+    for (const XmlElement* world : worlds) addBodies(*world, place);
+    for (Node& frame : graph_.nodes) {
+      Node* mimic = std::get<Graph>(frame.value.data).find("mimic");
+      const auto body =
+          mimic ? bodies_of_joints_.find(std::get<std::string>(mimic->value.data)) : bodies_of_joints_.end();
+      if (body != bodies_of_joints_.end()) mimic->value.data = body->second;
+    }
+    for (MjcfJointPlace& joint : joints_) {
+      if (const auto body = bodies_of_joints_.find(joint.frame); body != bodies_of_joints_.end())
+        joint.frame = body->second;
+    }
+    addKeyframes(document_, joints_, graph_, findings_);
+    return std::move(graph_);
+  }
+
+ private:
+  /// `name`, or what is made of it if that is taken.
+  std::string unusedName(const std::string& name, const std::string& kind) {
+    if (names_.insert(name).second) return name;
+    const std::string longer = cat(name, "_", kind);
+    if (names_.insert(longer).second) return longer;
+    for (int& number = numbers_[longer];;) {
+      const std::string numbered = cat(longer, "_", ++number);
+      if (names_.insert(numbered).second) return numbered;
+    }
+  }
+
+  /// Gives every element of a kind the name of its frame.
+  void nameAll(const XmlElement& container, const std::string& kind, const std::string& body) {
+    int shapes = 0;
+    nameIn(container, kind, body, shapes);
+  }
+
+  void nameIn(const XmlElement& container, const std::string& kind, const std::string& body, int& shapes) {
+    for (const XmlElement& child : container.children) {
+      if (child.name == kind) nameOne(child, kind == "freejoint" ? "joint" : kind, body, shapes);
+      if (child.name == "body") nameAll(child, kind, frame_of_.at(&child));
+      if (child.name == "frame") nameIn(child, kind, body, shapes);
+    }
+  }
+
+  void nameOne(const XmlElement& element, const std::string& kind, const std::string& body, int& shapes) {
+    const XmlAttribute* given = element.attribute("name");
+    if (given && !given->value.empty()) {
+      frame_of_[&element] = unusedName(given->value, kind);
+      const auto [other, is_new] = elements_.emplace(std::pair(kind, given->value), &element);
+      if (!is_new && (kind == "body" || kind == "joint")) {
+        findings_.error(given->where,
+                        cat("there is a ", kind, " '", given->value, "' already, at ", other->second->where.str()));
+      }
+    } else if (kind == "geom") {
+      frame_of_[&element] = unusedName(cat(body, "_", shapes), kind);
+    } else {
+      frame_of_[&element] = unusedName(cat(body, "_", kind), kind);
+    }
+    if (kind == "geom") ++shapes;
+  }
+
+  static std::string childclassOf(const XmlElement& element, const std::string& otherwise) {
+    const XmlAttribute* own = element.attribute("childclass");
+    return own ? own->value : otherwise;
+  }
+
+  /// An element with its defaults, checked.
+  MjcfElement element(const XmlElement& xml, const std::string& childclass) {
+    checkMjcfAttributes(xml, findings_);
+    if (const XmlAttribute* reference = xml.attribute("class")) document_.checkClass(*reference);
+    return document_.element(xml, childclass);
+  }
+
+  /// All joints with names; checks the elements of all bodies on the way.
+  void collectJoints(const XmlElement& container, const std::string& outer_class) {
+    checkMjcfBody(container, findings_);
+    if (const XmlAttribute* reference = container.attribute("childclass")) document_.checkClass(*reference);
+    const std::string childclass = childclassOf(container, outer_class);
+    for (const XmlElement& child : container.children) {
+      if (child.name == "body" || child.name == "frame") collectJoints(child, childclass);
+      if (child.name != "joint" && child.name != "freejoint") continue;
+      const MjcfElement joint = element(child, childclass);
+      if (!joint.name().empty()) named_joints_.emplace(joint.name(), joint);
+    }
+  }
+
+  /// Bodies whose contacts are excluded, by the element of the first of them.
+  void collectExclusions() {
+    std::vector<std::string> bodies = {"world"};
+    for (const auto& [key, element] : elements_) {
+      if (key.first == "body") bodies.push_back(key.second);
+    }
+    for (const XmlElement* exclude : document_.inSections("contact", "exclude")) {
+      std::vector<std::string> frames;
+      for (const char* role : {"body1", "body2"}) {
+        const XmlAttribute* name = exclude->attribute(role);
+        if (!name) {
+          findings_.error(exclude->where, cat("<exclude> has no attribute '", role, "'"));
+          continue;
+        }
+        const auto found = elements_.find({"body", name->value});
+        if (found == elements_.end() && name->value != "world") {
+          findings_.error(name->where,
+                          cat("<exclude>: there is no body '", name->value, "'", similarHint(name->value, bodies)));
+          continue;
+        }
+        frames.push_back(found == elements_.end() ? "world" : frame_of_.at(found->second));
+      }
+      if (frames.size() == 2 && frames[0] != "world") excluded_[frames[0]].push_back(frames[1]);
+      if (frames.size() == 2 && frames[0] == "world") excluded_[frames[1]].push_back(frames[0]);
+    }
+  }
+
+  void addFrame(const std::string& name, const std::string& parent, const SourcePosition& where,
+                FrameAttributes attributes) {
+    graph_.nodes.push_back(attributes.takeFrame(name, parent, where));
+  }
+
+  /// The same place, in the coordinates of a <frame>.
+  Place inFrame(const XmlElement& frame, const Place& place) {
+    Place inner = place;
+    inner.pose = place.pose * values_.pose(MjcfElement(frame, {}));
+    inner.childclass = childclassOf(frame, place.childclass);
+    return inner;
+  }
+
+  void addShapes(const XmlElement& container, const Place& place) {
+    for (const XmlElement& child : container.children) {
+      if (child.name == "frame") {
+        addShapes(child, inFrame(child, place));
+        continue;
+      }
+      const bool is_geom = child.name == "geom", is_site = child.name == "site";
+      if (!is_geom && !is_site && child.name != "camera") continue;
+      const MjcfElement described = element(child, place.childclass);
+      MjcfShapes::Placed placed = is_geom   ? shapes_.geom(described, place.contact, place.weigh)
+                                  : is_site ? shapes_.site(described)
+                                            : shapes_.camera(described);
+      placed.attributes.addPose(place.pose * placed.pose);
+      addFrame(frame_of_.at(&child), place.frame, child.where, std::move(placed.attributes));
+    }
+  }
+
+  void addBodies(const XmlElement& container, const Place& place) {
+    for (const XmlElement& child : container.children) {
+      if (child.name == "frame") addBodies(child, inFrame(child, place));
+      if (child.name == "body") addBody(child, place);
+    }
+  }
+
+  std::vector<BodyJoint> jointsOf(const XmlElement& container, const Place& place) {
+    std::vector<BodyJoint> joints;
+    for (const XmlElement& child : container.children) {
+      if (child.name == "joint" || child.name == "freejoint")
+        joints.push_back({document_.element(child, place.childclass), place.pose});
+      if (child.name != "frame") continue;
+      const std::vector<BodyJoint> inner = jointsOf(child, inFrame(child, place));
+      joints.insert(joints.end(), inner.begin(), inner.end());
+    }
+    return joints;
+  }
+
+  void addBody(const XmlElement& body, const Place& outer) {
+    checkMjcfAttributes(body, findings_);
+    const std::string& name = frame_of_.at(&body);
+    Place place;
+    place.frame = place.body = name;
+    place.childclass = childclassOf(body, outer.childclass);
+    Pose pose = outer.pose * values_.pose(MjcfElement(body, {}));
+    std::string parent = outer.frame;
+    const std::vector<BodyJoint> joints = jointsOf(body, place);
+    std::optional<FrameAttributes> own_joint;
+    int moving = 0;
+    for (std::size_t i = 0; i < joints.size(); ++i) {
+      const bool last = i + 1 == joints.size();
+      if (addJoint(joints[i], outer, last ? name : "", joints.size() == 1, parent, pose, own_joint)) ++moving;
+    }
+    place.on_world = outer.on_world && moving == 0;
+    place.hangs_on_world = moving > 0 ? outer.on_world : outer.hangs_on_world;
+    place.contact = place.hangs_on_world ? 1 : moving > 0 ? -moving : outer.contact;
+    FrameAttributes attributes = own_joint ? std::move(*own_joint) : FrameAttributes(body.where);
+    if (!own_joint) attributes.addPose(pose);
+    const XmlElement* inertial = body.child("inertial");
+    const MjcfSettings& settings = document_.settings();
+    place.weigh = settings.masses_only_of_geoms || (settings.masses_of_geoms && !inertial);
+    if (inertial && !settings.masses_only_of_geoms) addInertial(*inertial, attributes);
+    if (const auto others = excluded_.find(name); others != excluded_.end())
+      attributes.add("contact_exclude", StringArray(others->second));
+    addFrame(name, parent, body.where, std::move(attributes));
+    addShapes(body, place);
+    addBodies(body, place);
+  }
+
+  /// Adds the frames of a joint below `parent` at `pose`, and sets both to where the next thing goes. A last joint
+  /// without a name may be the frame `body` itself: then `own` gets its attributes instead. Returns whether it moves.
+  bool addJoint(const BodyJoint& joint, const Place& outer, const std::string& body, bool alone, std::string& parent,
+                Pose& pose, std::optional<FrameAttributes>& own) {
+    const MjcfElement& element = joint.element;
+    const std::string type = element.xml().name == "freejoint"
+                                 ? "free"
+                                 : values_.word(element, "type", {"hinge", "slide", "ball", "free"}, "hinge");
+    FrameAttributes attributes(element.where());
+    const std::string& name = frame_of_.at(&element.xml());
+    joints_.push_back({name, type == "free" ? 7 : type == "ball" ? 4 : 1});
+    const auto place = [&](const Pose& before, const Pose& behind) {
+      if (!before.isIdentity(0.)) {
+        FrameAttributes at(element.where());
+        at.addPose(before);
+        const std::string origin = unusedName(name + "_origin", "origin");
+        addFrame(origin, parent, element.where(), std::move(at));
+        parent = origin;
+      }
+      pose = behind;
+      if ((element.name().empty() || element.name() == body) && !body.empty() && behind.isIdentity(0.)) {
+        own = std::move(attributes);
+        bodies_of_joints_[name] = body;
+        return;
+      }
+      addFrame(name, parent, element.where(), std::move(attributes));
+      parent = name;
+    };
+    if (type == "free") {
+      if (outer.body != "world" || !alone) {
+        findings_.error(element.where(), cat(element.describe(), ": a free joint must be the only one of its body, ",
+                                             "and that directly in <worldbody>"));
+        return true;
+      }
+      const Vector7d start = pose.numbers();
+      attributes.add("joint", std::string("free"));
+      attributes.addNumbers("q", {start.begin(), start.end()});
+      place(Pose(), Pose());
+      return true;
+    }
+    const Pose anchor(joint.frame.p + joint.frame.q * values_.vector(element, "pos", Vector3d::Zero()),
+                      Quaterniond::Identity());
+    if (type == "ball") {
+      attributes.add("joint", std::string("quatBall"));
+      place(pose * anchor, anchor.inverse());
+      return true;
+    }
+    return addAxisJoint(joint, type, anchor, pose, attributes, place);
+  }
+
+  template <class PlaceJoint>
+  bool addAxisJoint(const BodyJoint& joint, const std::string& type, const Pose& given_anchor, const Pose& pose,
+                    FrameAttributes& attributes, const PlaceJoint& place) {
+    const MjcfElement& element = joint.element;
+    Vector3d axis = joint.frame.q * values_.vector(element, "axis", Vector3d::UnitZ());
+    if (!(axis.norm() > 1e-10)) {
+      findings_.error(element.attribute("axis")->where, cat(element.describe(), ": its axis is zero"));
+      return true;
+    }
+    axis.normalize();
+    const bool slides = type == "slide";
+    const Pose anchor = slides ? Pose() : given_anchor;
+    const AxisMotion motion = slides ? slidingAlong(axis) : turningAbout(axis);
+    const double reference = mjcfReference(element, values_);
+    const auto coupling = couplings_.find(element.name());
+    const bool coupled = !element.name().empty() && coupling != couplings_.end();
+    const double offset = (coupled ? coupling->second.offset : 0.) - reference;
+    Pose before = pose * anchor;
+    if (offset != 0.)
+      before = before * (slides ? Pose(offset * axis, Quaterniond::Identity())
+                                : Pose(Vector3d::Zero(), Quaterniond(Eigen::AngleAxisd(offset, axis))));
+    if (coupled && coupling->second.source.empty()) {
+      attributes.addPose(before);
+      place(Pose(), anchor.inverse());
+      return false;
+    }
+    const Pose turn(Vector3d::Zero(), motion.turn);
+    attributes.add("joint", std::string(motion.type));
+    if (std::string_view(motion.type) == "hinge") attributes.addNumbers("axis", {axis.begin(), axis.end()});
+    double scale = motion.scale;
+    if (coupled) {  // it multiplies the motion of the source, that one's scale included
+      const MjcfElement& source = named_joints_.at(coupling->second.source);
+      scale *= coupling->second.factor * scaleOf(source);
+      attributes.add("mimic", frame_of_.at(&source.xml()));
+    }
+    if (scale != 1.) attributes.add("joint_scale", scale);
+    addLimits(element, slides, attributes);
+    if (!coupled && reference != 0.) attributes.addNumbers("q", {reference});
+    place(before * turn, turn.inverse() * anchor.inverse());
+    return true;
+  }
+
+  /// 1, or -1 for a slide against a coordinate axis.
+  double scaleOf(const MjcfElement& joint) {
+    const Vector3d axis = values_.vector(joint, "axis", Vector3d::UnitZ());
+    const bool slides = values_.word(joint, "type", {"hinge", "slide", "ball", "free"}, "hinge") == "slide";
+    return slides && axis.norm() > 0. ? slidingAlong(axis.normalized()).scale : 1.;
+  }
+
+  void addLimits(const MjcfElement& element, bool slides, FrameAttributes& attributes) {
+    const std::string limited = values_.word(element, "limited", {"auto", "true", "false"}, "auto");
+    const std::vector<double> range = values_.numbers(element, "range", 2);
+    const bool by_range = document_.settings().limited_by_range && !range.empty();
+    if (limited == "false" || (limited == "auto" && !by_range) || range.empty()) return;
+    if (range[0] > range[1]) {
+      findings_.error(element.attribute("range")->where,
+                      cat(element.describe(), ": its lower limit ", range[0], " is above its upper limit ", range[1]));
+    }
+    const auto internal = [&](double value) { return slides ? value : values_.radians(value); };
+    attributes.addNumbers("limits", {internal(range[0]), internal(range[1])});
+  }
+
+  void addInertial(const XmlElement& xml, FrameAttributes& attributes) {
+    checkMjcfAttributes(xml, findings_);
+    const MjcfElement element(xml, {});
+    const double mass = values_.number(element, "mass", 0.);
+    if (!xml.attribute("mass") || mass < 0.) {
+      return findings_.error(xml.where, xml.attribute("mass") ? cat("<inertial>: the mass ", mass, " kg is negative")
+                                                              : std::string("<inertial> has no attribute 'mass'"));
+    }
+    if (mass == 0.) return;
+    const Pose frame = values_.pose(element);
+    Matrix3d own = Matrix3d::Zero();
+    if (const std::vector<double> m = values_.numbers(element, "fullinertia", 6); !m.empty()) {
+      own << m[0], m[3], m[4], m[3], m[1], m[5], m[4], m[5], m[2];
+    } else {
+      own = values_.vector(element, "diaginertia", Vector3d::Zero()).asDiagonal();
+    }
+    const Matrix3d R = frame.q.toRotationMatrix(), m = R * own * R.transpose();
+    attributes.add("mass", mass);
+    attributes.addNumbers("com", {frame.p.begin(), frame.p.end()});
+    attributes.addNumbers("inertia", {m(0, 0), m(0, 1), m(0, 2), m(1, 1), m(1, 2), m(2, 2)});
+  }
+
+  MjcfDocument& document_;
+  Findings& findings_;
+  MjcfValues values_;
+  MjcfShapes shapes_;
+  Graph graph_;
+  std::set<std::string> names_;         ///< of frames
+  std::map<std::string, int> numbers_;  ///< the last one behind a name
+  std::map<const XmlElement*, std::string> frame_of_;
+  std::map<std::pair<std::string, std::string>, const XmlElement*> elements_;  ///< by kind and name
+  std::map<std::string, std::string> bodies_of_joints_;  ///< frames of joints that are those of their bodies
+  std::vector<MjcfJointPlace> joints_;                   ///< in the order of qpos
+  std::map<std::string, MjcfElement> named_joints_;
+  std::map<std::string, MjcfCoupling> couplings_;
+  std::map<std::string, std::vector<std::string>> excluded_;  ///< frames, by frame
+};
+
+}  // namespace
+
+ParseResult readMjcf(std::string_view text, const std::string& file, const std::string& folder) {
+  ParseResult result;
+  Findings findings(result.diagnostics);
+  MjcfDocument document(text, file, folder, findings);
+  if (!findings.failed()) checkMjcfSections(document, findings);
+  if (!findings.failed()) result.graph = MjcfReader(document, folder, findings).read();
+  if (findings.failed()) result.graph = {};
+  result.included = std::move(document.included());
+  return result;
+}
+
+}  // namespace kinegraph

@@ -1,0 +1,293 @@
+#include "kinegraph/parsers/mjcf_shapes.h"
+
+#include <algorithm>
+#include <filesystem>
+
+#include "kinegraph/common/file_paths.h"
+#include "kinegraph/common/text.h"
+#include "kinegraph/parsers/mjcf_mass.h"
+
+namespace kinegraph {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+constexpr double kEndlessPlane = 20.;  // m, full width of a plane without end
+constexpr int kFirstHiddenGroup = 3;   // of those that MuJoCo's own viewer does not show
+constexpr double kMarkerLength = .05;  // m
+
+std::vector<std::string> namesIn(const std::map<std::string, MjcfElement>& assets) {
+  std::vector<std::string> names;
+  for (const auto& [name, element] : assets) names.push_back(name);
+  return names;
+}
+
+}  // namespace
+
+MjcfShapes::MjcfShapes(const MjcfDocument& document, MjcfValues& values, const std::string& folder, Findings& findings)
+    : document_(document), values_(values), folder_(folder), findings_(findings) {
+  for (const XmlElement* xml : document_.inSections("asset", "mesh")) {
+    const MjcfElement mesh = document_.element(*xml);
+    const XmlAttribute* file = mesh.own("file");
+    const std::string name = mesh.name().empty() && file ? fs::path(file->value).stem().string() : mesh.name();
+    const auto [other, is_new] = meshes_.emplace(name, mesh);
+    if (!is_new)
+      findings_.warn(xml->where, cat("there is a mesh '", name, "' already, at ", other->second.where().str(),
+                                     "; that one is taken"));
+  }
+  for (const XmlElement* xml : document_.inSections("asset", "texture")) {
+    const MjcfElement texture = document_.element(*xml);
+    const XmlAttribute* file = texture.own("file");
+    textures_.emplace(texture.name().empty() && file ? fs::path(file->value).stem().string() : texture.name(), texture);
+  }
+  for (const XmlElement* xml : document_.inSections("asset", "material"))
+    materials_.emplace(document_.element(*xml).name(), document_.element(*xml));
+}
+
+MjcfShapes::Placed MjcfShapes::geom(const MjcfElement& element, int contact, bool weigh) {
+  static const std::vector<std::string> types = {"plane",    "hfield", "sphere", "capsule", "ellipsoid",
+                                                 "cylinder", "box",    "mesh",   "sdf"};
+  Placed placed{values_.pose(element), FrameAttributes(element.where())};
+  const std::string type = values_.word(element, "type", types, "sphere");
+  const auto line = element.attribute("fromto") ? values_.line(element) : std::nullopt;
+  if (line) placed.pose = line->first;
+  if (type == "hfield") {
+    findings_.warn(element.where(), cat(element.describe(), ": height fields are not read"));
+  } else if (type == "mesh" || type == "sdf" || element.attribute("mesh")) {
+    addMesh(element, placed);
+  } else {
+    addPrimitive(element, type, line ? line->second : 0., placed);
+  }
+  if (!placed.attributes.find("shape") && !placed.attributes.find("mesh")) return placed;
+  addLooks(element, contact, placed);
+  if (weigh && type != "plane") addMass(element, placed);
+  return placed;
+}
+
+void MjcfShapes::addPrimitive(const MjcfElement& element, const std::string& type, double line_length, Placed& placed) {
+  std::vector<double> size = values_.upTo(element, "size", 3);
+  const std::size_t given = size.size(), radial = type == "box" || type == "ellipsoid" ? 2 : 1;
+  std::size_t needed = type == "sphere" ? 1 : type == "plane" || radial == 1 ? 2 : 3;
+  if (line_length > 0.) {  // the size tells only how thick it is
+    needed = 1;
+    size.resize(3);
+    if (radial == 2) size[1] = size[0];
+    size[radial] = .5 * line_length;
+  }
+  if (given < needed) {
+    const SourcePosition where = given > 0 ? element.attribute("size")->where : element.where();
+    return findings_.error(where, cat(element.describe(), ": a ", type, " has a size of ", needed,
+                                      needed == 1 ? " number, got " : " numbers, got ", given));
+  }
+  const bool endless = type == "plane";
+  for (std::size_t i = 0; i < needed; ++i) {
+    if (size[i] > 0. || (endless && size[i] == 0.)) continue;
+    return findings_.error(element.attribute("size")->where,
+                           cat(element.describe(), ": a size of ", size[i], " m; expected a positive number"));
+  }
+  const auto add = [&](const char* shape, std::vector<double> full) {
+    placed.attributes.add("shape", std::string(shape));
+    placed.attributes.addNumbers("size", std::move(full));
+  };
+  if (type == "plane") {
+    const auto width = [](double half) { return half > 0. ? 2. * half : kEndlessPlane; };
+    add("quad", {width(size[0]), width(size[1])});
+  } else if (type == "sphere") {
+    add("sphere", {size[0]});
+  } else if (type == "ellipsoid") {
+    add("ssBoxElip", {0., 0., 0., size[0], size[1], size[2], 0.});
+  } else if (type == "box") {
+    add("box", {2. * size[0], 2. * size[1], 2. * size[2]});
+  } else {
+    add(type.c_str(), {2. * size[1], size[0]});
+  }
+}
+
+void MjcfShapes::addMesh(const MjcfElement& element, Placed& placed) {
+  const XmlAttribute* reference = element.attribute("mesh");
+  if (!reference) return findings_.error(element.where(), cat(element.describe(), " has no attribute 'mesh'"));
+  const auto found = meshes_.find(reference->value);
+  if (found == meshes_.end()) {
+    return findings_.error(reference->where, cat(element.describe(), ": there is no mesh '", reference->value,
+                                                 "' in <asset>", similarHint(reference->value, namesIn(meshes_))));
+  }
+  const MjcfElement& mesh = found->second;
+  const XmlAttribute* file = mesh.own("file");
+  const Vector3d scale = values_.vector(mesh, "scale", Vector3d::Ones());
+  const Vector3d moved = values_.vector(mesh, "refpos", Vector3d::Zero());
+  const std::vector<double> turned = values_.numbers(mesh, "refquat", 4);
+  Quaterniond back = Quaterniond::Identity();
+  if (!turned.empty()) back = Quaterniond(turned[0], turned[1], turned[2], turned[3]).normalized().conjugate();
+  if (!back.coeffs().allFinite()) back = Quaterniond::Identity();
+  if (!turned.empty() && scale != Vector3d::Constant(scale[0]))
+    findings_.warn(mesh.where(), cat(mesh.describe(), ": 'refquat' together with an uneven 'scale' is read wrongly"));
+  placed.pose = placed.pose * Pose(back * Vector3d(-scale.cwiseProduct(moved)), back);
+  if (!file) return addInlineMesh(mesh, scale, placed);
+  const MjcfSettings& settings = document_.settings();
+  const std::string name = settings.strip_mesh_path ? fs::path(file->value).filename().string() : file->value;
+  const std::string path = resolvePath((fs::path(settings.mesh_folder) / name).string(), folder_);
+  std::error_code ignored;
+  if (!fs::is_regular_file(path, ignored)) {
+    return findings_.warn(file->where, cat("mesh '", name, "' is not there (", path, ")", similarFilesHint(path)));
+  }
+  placed.attributes.add("mesh", AngleText{path});
+  if (scale != Vector3d::Ones()) placed.attributes.addNumbers("meshscale", {scale.begin(), scale.end()});
+}
+
+/// A mesh whose numbers stand in the file: with faces, or the hull of its vertices.
+void MjcfShapes::addInlineMesh(const MjcfElement& mesh, const Vector3d& scale, Placed& placed) {
+  const auto list = [&](const char* name) {
+    const XmlAttribute* attribute = mesh.own(name);
+    const auto numbers = attribute ? numbersIn(attribute->value) : std::vector<double>();
+    if (!numbers || numbers->size() % 3 != 0)
+      findings_.error(attribute->where, cat(mesh.describe(), " ", name, ": expected n x 3 numbers"));
+    return numbers.value_or(std::vector<double>{});
+  };
+  std::vector<double> points = list("vertex"), faces = list("face");
+  if (points.empty()) return findings_.warn(mesh.where(), cat(mesh.describe(), " has neither 'file' nor 'vertex'"));
+  for (std::size_t i = 0; i < points.size(); ++i) points[i] *= scale[i % 3];
+  placed.attributes.add("shape", std::string(faces.empty() ? "ssCvx" : "mesh"));
+  placed.attributes.addNumbers(faces.empty() ? "core" : "vertices", std::move(points));
+  if (faces.empty()) placed.attributes.addNumbers("size", {0.});
+  if (!faces.empty()) placed.attributes.addNumbers("triangles", std::move(faces));
+}
+
+/// Of a body without <inertial>. Meshes have one only if it is given, and are then hollow.
+void MjcfShapes::addMass(const MjcfElement& element, Placed& placed) {
+  const Node* shape = placed.attributes.find("shape");
+  const Node* size = placed.attributes.find("size");
+  const auto solid =
+      shape && size ? solidMass(*shape->value.as<std::string>(), size->value.as<NumberArray>()->numbers) : std::nullopt;
+  const bool given = element.attribute("mass") != nullptr;
+  if (!given && !solid) {
+    return findings_.warn(element.where(), cat(element.describe(),
+                                               ": the mass of a mesh is not computed from its "
+                                               "density; give its 'mass', or an <inertial>"));
+  }
+  const double density = values_.number(element, "density", 1000.);
+  const double mass = given ? values_.number(element, "mass", 0.) : density * solid->volume;
+  if (mass < 0.)
+    return findings_.error(element.where(), cat(element.describe(), ": its mass, ", mass, " kg, is negative"));
+  if (mass == 0.) return;
+  placed.attributes.add("mass", mass);
+  if (!solid) return;
+  const Vector3d inertia = mass * solid->inertia_per_mass;
+  placed.attributes.addNumbers("com", {0., 0., 0.});
+  placed.attributes.addNumbers("inertia", {inertia.begin(), inertia.end()});
+}
+
+/// Color and contact flag.
+void MjcfShapes::addLooks(const MjcfElement& element, int contact, Placed& placed) {
+  std::vector<double> rgba = color(element);
+  const bool collides =
+      values_.number(element, "contype", 1.) != 0. || values_.number(element, "conaffinity", 1.) != 0.;
+  const bool hidden = values_.number(element, "group", 0.) >= kFirstHiddenGroup;
+  if (hidden && rgba[3] > .2) rgba = {1., 0., 0., .2};
+  placed.attributes.addNumbers("color", std::move(rgba));
+  if (!hidden) addTexture(element, placed);
+  if (collides) placed.attributes.add("contact", double(contact));
+}
+
+/// The material of a geom; null if it has none, which is worth a warning if it names one.
+const MjcfElement* MjcfShapes::materialOf(const MjcfElement& element) {
+  const XmlAttribute* reference = element.attribute("material");
+  if (!reference) return nullptr;
+  const auto found = materials_.find(reference->value);
+  if (found != materials_.end()) return &found->second;
+  findings_.warn(reference->where, cat(element.describe(), ": there is no material '", reference->value, "' in <asset>",
+                                       similarHint(reference->value, namesIn(materials_))));
+  return nullptr;
+}
+
+/// The picture for the colors of a material: an attribute, or a <layer role="rgb">.
+const MjcfElement* MjcfShapes::textureOf(const MjcfElement& material) {
+  const XmlAttribute* reference = material.attribute("texture");
+  for (const XmlElement* layer : material.xml().all("layer")) {
+    const XmlAttribute* role = layer->attribute("role");
+    if (!reference && (!role || role->value == "rgb")) reference = layer->attribute("texture");
+  }
+  if (!reference) return nullptr;
+  const auto found = textures_.find(reference->value);
+  if (found != textures_.end()) return &found->second;
+  findings_.warn(reference->where, cat(material.describe(), ": there is no texture '", reference->value, "' in <asset>",
+                                       similarHint(reference->value, namesIn(textures_))));
+  return nullptr;
+}
+
+/// A texture without a file counts with its mean color.
+std::vector<double> MjcfShapes::color(const MjcfElement& element) {
+  if (const std::vector<double> own = values_.numbers(element, "rgba", 4); !own.empty()) return own;
+  const MjcfElement* material = materialOf(element);
+  if (!material) return {.5, .5, .5, 1.};
+  std::vector<double> rgba = values_.numbers(*material, "rgba", 4);
+  if (rgba.empty()) rgba = {1., 1., 1., 1.};
+  const MjcfElement* texture = textureOf(*material);
+  if (!texture || !texture->attribute("builtin") || texture->attribute("builtin")->value == "none") return rgba;
+  const Vector3d first = values_.vector(*texture, "rgb1", Vector3d::Constant(.8)),
+                 second = values_.vector(*texture, "rgb2", Vector3d::Constant(.5));
+  const Vector3d mean = texture->attribute("builtin")->value == "flat" ? first : Vector3d(.5 * (first + second));
+  for (int i = 0; i < 3; ++i) rgba[std::size_t(i)] *= mean[i];
+  return rgba;
+}
+
+/// The picture on a geom. How often it is repeated counts where the geom itself does not say where it is: on planes and
+/// boxes.
+void MjcfShapes::addTexture(const MjcfElement& element, Placed& placed) {
+  const XmlAttribute* reference = element.attribute("material");
+  const auto found = reference ? materials_.find(reference->value) : materials_.end();  // color() has warned
+  const MjcfElement* material = found != materials_.end() ? &found->second : nullptr;
+  const MjcfElement* texture = material ? textureOf(*material) : nullptr;
+  const XmlAttribute* file = texture ? texture->own("file") : nullptr;
+  if (!file) return;
+  const MjcfSettings& settings = document_.settings();
+  const std::string name = settings.strip_mesh_path ? fs::path(file->value).filename().string() : file->value;
+  placed.attributes.add("texture",
+                        AngleText{resolvePath((fs::path(settings.texture_folder) / name).string(), folder_)});
+  const std::vector<double> repeat = values_.numbers(*material, "texrepeat", 2);
+  const Node* size = placed.attributes.find("size");
+  if (repeat.empty() || !size || placed.attributes.find("mesh")) return;
+  const XmlAttribute* uniform = material->attribute("texuniform");
+  const std::vector<double>& extent = size->value.as<NumberArray>()->numbers;
+  std::vector<double> times = repeat;
+  for (std::size_t i = 0; i < 2 && uniform && uniform->value == "true" && extent.size() > 1; ++i) times[i] *= extent[i];
+  placed.attributes.addNumbers("texture_repeat", std::move(times));
+}
+
+MjcfShapes::Placed MjcfShapes::site(const MjcfElement& element) {
+  Placed placed{values_.pose(element), FrameAttributes(element.where())};
+  const auto line = element.attribute("fromto") ? values_.line(element) : std::nullopt;
+  if (line) placed.pose = line->first;
+  const std::vector<double> rgba = values_.numbers(element, "rgba", 4);
+  const bool hidden = values_.number(element, "group", 0.) >= kFirstHiddenGroup || (!rgba.empty() && rgba[3] == 0.);
+  if (!hidden) {
+    placed.attributes.add("shape", std::string("marker"));
+    placed.attributes.addNumbers("size", {kMarkerLength});
+  }
+  return placed;
+}
+
+MjcfShapes::Placed MjcfShapes::camera(const MjcfElement& element) {
+  Placed placed{values_.pose(element), FrameAttributes(element.where())};
+  placed.pose.q = placed.pose.q * Quaterniond(0., 1., 0., 0.);  // MuJoCo's looks along -z with y up
+  placed.attributes.add("shape", std::string("camera"));
+  const double angle = values_.number(element, "fovy", 45.);
+  if (!(angle > 0. && angle < 180.)) {
+    findings_.error(element.attribute("fovy")->where,
+                    cat(element.describe(), ": a vertical angle of ", angle, " degrees; expected 0 to 180"));
+    return placed;
+  }
+  placed.attributes.add("heightAngle", angle);
+  const std::vector<double> pixels = values_.numbers(element, "resolution", 2);
+  if (!pixels.empty()) {
+    placed.attributes.add("width", pixels[0]);
+    placed.attributes.add("height", pixels[1]);
+  }
+  const std::string mode =
+      values_.word(element, "mode", {"fixed", "track", "trackcom", "targetbody", "targetbodycom"}, "fixed");
+  if (mode != "fixed")
+    findings_.warn(element.where(), cat(element.describe(), ": a camera of mode '", mode, "' is read as a fixed one"));
+  return placed;
+}
+
+}  // namespace kinegraph

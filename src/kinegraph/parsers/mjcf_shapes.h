@@ -1,0 +1,47 @@
+#pragma once
+
+#include <map>
+#include <string>
+
+#include "kinegraph/parsers/findings.h"
+#include "kinegraph/parsers/frame_attributes.h"
+#include "kinegraph/parsers/mjcf_document.h"
+#include "kinegraph/parsers/mjcf_values.h"
+
+namespace kinegraph {
+
+/// Geoms, sites and cameras of an MJCF file as frames.
+class MjcfShapes {
+ public:
+  /// Mesh files are relative to `folder`.
+  MjcfShapes(const MjcfDocument& document, MjcfValues& values, const std::string& folder, Findings& findings);
+
+  struct Placed {
+    Pose pose;  ///< in the body
+    FrameAttributes attributes;
+  };
+
+  /// `contact` is the flag of geoms that collide; `weigh`: it has a mass.
+  Placed geom(const MjcfElement& element, int contact, bool weigh);
+  Placed site(const MjcfElement& element);
+  Placed camera(const MjcfElement& element);
+
+ private:
+  void addMesh(const MjcfElement& element, Placed& placed);
+  void addInlineMesh(const MjcfElement& mesh, const Vector3d& scale, Placed& placed);
+  void addPrimitive(const MjcfElement& element, const std::string& type, double line_length, Placed& placed);
+  void addMass(const MjcfElement& element, Placed& placed);
+  void addLooks(const MjcfElement& element, int contact, Placed& placed);
+  const MjcfElement* materialOf(const MjcfElement& element);
+  const MjcfElement* textureOf(const MjcfElement& material);
+  std::vector<double> color(const MjcfElement& element);
+  void addTexture(const MjcfElement& element, Placed& placed);
+
+  const MjcfDocument& document_;
+  MjcfValues& values_;
+  std::string folder_;
+  Findings& findings_;
+  std::map<std::string, MjcfElement> meshes_, materials_, textures_;
+};
+
+}  // namespace kinegraph

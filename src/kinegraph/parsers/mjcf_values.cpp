@@ -1,0 +1,147 @@
+#include "kinegraph/parsers/mjcf_values.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "kinegraph/common/text.h"
+
+namespace kinegraph {
+
+namespace {
+
+constexpr double kTiny = 1e-10;  // shorter directions are none
+
+struct Rotation {
+  const char* name;
+  std::size_t numbers;
+};
+constexpr Rotation kRotations[] = {{"quat", 4}, {"axisangle", 4}, {"xyaxes", 6}, {"zaxis", 3}, {"euler", 3}};
+
+}  // namespace
+
+Quaterniond turnZTo(const Vector3d& v) {
+  const Vector3d direction = v.normalized(), axis = Vector3d::UnitZ().cross(direction);
+  if (axis.norm() < kTiny) return direction[2] > 0. ? Quaterniond::Identity() : Quaterniond(0., 1., 0., 0.);
+  return Quaterniond(Eigen::AngleAxisd(std::atan2(axis.norm(), direction[2]), axis.normalized()));
+}
+
+std::optional<std::vector<double>> MjcfValues::parse(const MjcfElement& element, const XmlAttribute& attribute,
+                                                     std::size_t least, std::size_t most) {
+  auto found = numbersIn(attribute.value);
+  if (found && found->size() >= least && found->size() <= most) return found;
+  const std::string shown = attribute.value.size() > 60 ? attribute.value.substr(0, 60) + "..." : attribute.value;
+  findings_.error(attribute.where,
+                  cat(element.describe(), " ", attribute.name, "=\"", shown, "\": expected ",
+                      least == most ? "" : cat(least, " to "), most, most == 1 ? " number" : " numbers"));
+  return std::nullopt;
+}
+
+std::vector<double> MjcfValues::numbers(const MjcfElement& element, const char* name, std::size_t count) {
+  const XmlAttribute* attribute = element.attribute(name);
+  return attribute ? parse(element, *attribute, count, count).value_or(std::vector<double>{}) : std::vector<double>{};
+}
+
+std::vector<double> MjcfValues::upTo(const MjcfElement& element, const char* name, std::size_t most) {
+  std::vector<double> all;
+  for (const XmlAttribute* layer : element.layers(name)) {
+    const std::vector<double> some = parse(element, *layer, 1, most).value_or(std::vector<double>{});
+    all.resize(std::max(all.size(), some.size()));
+    std::copy(some.begin(), some.end(), all.begin());
+  }
+  return all;
+}
+
+double MjcfValues::number(const MjcfElement& element, const char* name, double fallback) {
+  const std::vector<double> v = numbers(element, name, 1);
+  return v.empty() ? fallback : v[0];
+}
+
+Vector3d MjcfValues::vector(const MjcfElement& element, const char* name, const Vector3d& fallback) {
+  const std::vector<double> v = numbers(element, name, 3);
+  return v.empty() ? fallback : Vector3d(v[0], v[1], v[2]);
+}
+
+std::string MjcfValues::word(const MjcfElement& element, const char* name, const std::vector<std::string>& words,
+                             const std::string& fallback) {
+  const XmlAttribute* attribute = element.attribute(name);
+  if (!attribute) return fallback;
+  if (std::find(words.begin(), words.end(), attribute->value) != words.end()) return attribute->value;
+  findings_.error(attribute->where, cat(element.describe(), " ", name, "=\"", attribute->value, "\": expected one of ",
+                                        join(words), similarHint(attribute->value, words)));
+  return fallback;
+}
+
+double MjcfValues::radians(double angle) const { return settings_.degrees ? angle / 180. * M_PI : angle; }
+
+Quaterniond MjcfValues::euler(const std::vector<double>& angles) const {
+  Quaterniond q = Quaterniond::Identity();
+  for (int i = 0; i < 3; ++i) {
+    const char letter = settings_.euler_order[i];
+    const bool fixed = letter <= 'Z';
+    const Quaterniond turn(Eigen::AngleAxisd(radians(angles[i]), Vector3d::Unit(letter - (fixed ? 'X' : 'x'))));
+    q = fixed ? turn * q : q * turn;
+  }
+  return q;
+}
+
+std::optional<Quaterniond> MjcfValues::rotation(const MjcfElement& element, const XmlAttribute& attribute) {
+  const std::string& name = attribute.name;
+  const auto* kind =
+      std::find_if(std::begin(kRotations), std::end(kRotations), [&](const Rotation& r) { return name == r.name; });
+  const auto v = parse(element, attribute, kind->numbers, kind->numbers);
+  if (!v) return std::nullopt;
+  const auto refuse = [&](const char* message) {
+    findings_.error(attribute.where, cat(element.describe(), " ", name, "=\"", attribute.value, "\": ", message));
+    return std::nullopt;
+  };
+  if (name == "quat") {
+    const Quaterniond q((*v)[0], (*v)[1], (*v)[2], (*v)[3]);
+    if (!(q.norm() > kTiny)) return refuse("the quaternion is zero");
+    return q.normalized();
+  }
+  if (name == "euler") return euler(*v);
+  const Vector3d first((*v)[0], (*v)[1], (*v)[2]);
+  if (!(first.norm() > kTiny)) return refuse("the axis is zero");
+  if (name == "axisangle") return Quaterniond(Eigen::AngleAxisd(radians((*v)[3]), first.normalized()));
+  if (name == "zaxis") return turnZTo(first);
+  Matrix3d R;
+  R.col(0) = first.normalized();
+  const Vector3d second((*v)[3], (*v)[4], (*v)[5]);
+  R.col(1) = second - R.col(0).dot(second) * R.col(0);
+  if (!(R.col(1).norm() > kTiny)) return refuse("the two axes are parallel");
+  R.col(1).normalize();
+  R.col(2) = R.col(0).cross(R.col(1));
+  return Quaterniond(R).normalized();
+}
+
+Pose MjcfValues::pose(const MjcfElement& element) {
+  Pose pose;
+  pose.p = vector(element, "pos", Vector3d::Zero());
+  const XmlAttribute* given = nullptr;
+  for (const Rotation& kind : kRotations) {
+    const XmlAttribute* own = element.own(kind.name);
+    if (own && given) {
+      findings_.error(own->where, cat(element.describe(), ": '", kind.name, "' and '", given->name,
+                                      "' both give the rotation; one of them is enough"));
+    }
+    if (own) given = own;
+  }
+  for (const Rotation& kind : kRotations) {
+    if (!given) given = element.attribute(kind.name);
+  }
+  if (given) pose.q = rotation(element, *given).value_or(Quaterniond::Identity());
+  return pose;
+}
+
+std::optional<std::pair<Pose, double>> MjcfValues::line(const MjcfElement& element) {
+  const std::vector<double> v = numbers(element, "fromto", 6);
+  if (v.empty()) return std::nullopt;
+  const Vector3d from(v[0], v[1], v[2]), to(v[3], v[4], v[5]);
+  if (!((from - to).norm() > kTiny)) {
+    findings_.error(element.attribute("fromto")->where, cat(element.describe(), ": its two ends are the same point"));
+    return std::nullopt;
+  }
+  return std::pair(Pose(.5 * (from + to), turnZTo(from - to)), (from - to).norm());
+}
+
+}  // namespace kinegraph

@@ -1,0 +1,53 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "kinegraph/parsers/findings.h"
+#include "kinegraph/parsers/mjcf_document.h"
+#include "kinegraph/math/pose.h"
+
+namespace kinegraph {
+
+/// Reads the attributes of MJCF elements as numbers, words and poses. Mistakes go to the findings, and give the
+/// default.
+class MjcfValues {
+ public:
+  MjcfValues(const MjcfSettings& settings, Findings& findings) : settings_(settings), findings_(findings) {}
+
+  double number(const MjcfElement& element, const char* name, double fallback);
+  Vector3d vector(const MjcfElement& element, const char* name, const Vector3d& fallback);
+
+  /// `count` numbers, or none.
+  std::vector<double> numbers(const MjcfElement& element, const char* name, std::size_t count);
+
+  /// Up to `most` numbers, or none. Where an element gives fewer than its defaults, the latter's others remain.
+  std::vector<double> upTo(const MjcfElement& element, const char* name, std::size_t most);
+
+  /// One of `words`; `fallback` if there is none.
+  std::string word(const MjcfElement& element, const char* name, const std::vector<std::string>& words,
+                   const std::string& fallback);
+
+  double radians(double angle) const;
+
+  /// Of `pos` and one of quat, axisangle, xyaxes, zaxis, euler.
+  Pose pose(const MjcfElement& element);
+
+  /// Of `fromto`: a pose with its z axis along the line and the origin in its middle, and the length of the line.
+  std::optional<std::pair<Pose, double>> line(const MjcfElement& element);
+
+ private:
+  std::optional<std::vector<double>> parse(const MjcfElement& element, const XmlAttribute& attribute, std::size_t least,
+                                           std::size_t most);
+  std::optional<Quaterniond> rotation(const MjcfElement& element, const XmlAttribute& attribute);
+  Quaterniond euler(const std::vector<double>& angles) const;
+
+  const MjcfSettings& settings_;
+  Findings& findings_;
+};
+
+/// The rotation that turns the z axis into the direction of `v` on the shortest way.
+Quaterniond turnZTo(const Vector3d& v);
+
+}  // namespace kinegraph

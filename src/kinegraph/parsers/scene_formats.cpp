@@ -1,0 +1,32 @@
+#include "kinegraph/parsers/scene_formats.h"
+
+#include "kinegraph/common/file_paths.h"
+#include "kinegraph/parsers/mjcf_reader.h"
+#include "kinegraph/parsers/urdf_reader.h"
+#include "kinegraph/parsers/xml.h"
+
+namespace kinegraph {
+
+namespace {
+
+/// A .xml is URDF if its root says so, and otherwise MJCF.
+ParseResult readXml(std::string_view text, const std::string& file, const std::string& folder) {
+  return xmlRootName(text) == "robot" ? readUrdf(text, file, folder) : readMjcf(text, file, folder);
+}
+
+}  // namespace
+
+const std::vector<SceneFormat>& sceneFormats() {
+  static const std::vector<SceneFormat> formats = {{".urdf", readUrdf}, {".xml", readXml}};
+  return formats;
+}
+
+const SceneFormat* sceneFormatOf(const std::string& file) {
+  const std::string extension = lowerExtension(file);
+  for (const SceneFormat& format : sceneFormats()) {
+    if (extension == format.extension) return &format;
+  }
+  return nullptr;
+}
+
+}  // namespace kinegraph

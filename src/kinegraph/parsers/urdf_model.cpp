@@ -1,0 +1,307 @@
+#include "kinegraph/parsers/urdf_model.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+#include "kinegraph/common/text.h"
+#include "kinegraph/parsers/xml.h"
+
+namespace kinegraph {
+
+namespace {
+
+Quaterniond rollPitchYaw(const Vector3d& rpy) {
+  const auto about = [](double angle, int axis) { return Quaterniond(Eigen::AngleAxisd(angle, Vector3d::Unit(axis))); };
+  return about(rpy[2], 2) * about(rpy[1], 1) * about(rpy[0], 0);
+}
+
+class UrdfParser {
+ public:
+  explicit UrdfParser(std::vector<Diagnostic>& found) : found_(found) {}
+
+  UrdfModel parse(const XmlElement& robot) {
+    if (robot.name != "robot") {
+      error(robot.where, cat("the root of a URDF file is <robot>, not <", robot.name, ">"));
+      return {};
+    }
+    if (const XmlAttribute* name = robot.attribute("name")) model_.name = name->value;
+    collectMaterials(robot);
+    for (const XmlElement& element : robot.children) {
+      if (element.name == "link") {
+        readLink(element);
+      } else if (element.name == "joint") {
+        readJoint(element);
+      } else {
+        checkElement(element);
+      }
+    }
+    if (model_.links.empty()) error(robot.where, "this robot has no <link>");
+    return std::move(model_);
+  }
+
+ private:
+  void error(const SourcePosition& where, std::string message) {
+    found_.push_back({Diagnostic::Severity::error, where, std::move(message)});
+  }
+  void warn(const SourcePosition& where, std::string message) {
+    found_.push_back({Diagnostic::Severity::warning, where, std::move(message)});
+  }
+
+  /// Materials are named at the top of the file, or where they are first used, which may be after another use.
+  void collectMaterials(const XmlElement& element) {
+    for (const XmlElement& child : element.children) {
+      const XmlAttribute* name = child.name == "material" ? child.attribute("name") : nullptr;
+      if (name && (child.child("color") || child.child("texture"))) materials_.emplace(name->value, &child);
+      if (child.name == "link" || child.name == "visual") collectMaterials(child);
+    }
+  }
+
+  void checkElement(const XmlElement& element) {
+    if (element.name.starts_with("xacro:")) {
+      error(element.where, cat("<", element.name, "> is a macro; expand the file first: xacro in.xacro > out.urdf"));
+    }
+    for (const char* known : {"link", "joint", "material"}) {
+      if (element.name != known && editDistance(element.name, known) <= 1.2) {
+        error(element.where, cat("unknown element <", element.name, ">; did you mean <", known, ">?"));
+      }
+    }
+  }
+
+  std::optional<std::string> text(const XmlElement& element, const char* name) {
+    if (const XmlAttribute* attribute = element.attribute(name)) return attribute->value;
+    error(element.where, cat(context_, "<", element.name, "> has no attribute '", name, "'"));
+    return std::nullopt;
+  }
+
+  std::vector<double> numbers(const XmlAttribute& attribute, const XmlElement& element, std::size_t count) {
+    const auto found = numbersIn(attribute.value);
+    if (found && found->size() == count) return *found;
+    error(attribute.where, cat(context_, "<", element.name, "> ", attribute.name, "=\"", attribute.value,
+                               "\": expected ", count, count == 1 ? " number" : " numbers"));
+    return std::vector<double>(count, 0.);
+  }
+
+  /// A number, which must be there unless there is a default.
+  double number(const XmlElement& element, const char* name, std::optional<double> fallback = std::nullopt) {
+    if (const XmlAttribute* attribute = element.attribute(name)) return numbers(*attribute, element, 1)[0];
+    if (!fallback) error(element.where, cat(context_, "<", element.name, "> has no attribute '", name, "'"));
+    return fallback.value_or(0.);
+  }
+
+  /// A limit, 0 by default; "inf" is `unlimited`, "-inf" minus that.
+  double limitOf(const XmlElement& limit, const char* name, double unlimited) {
+    const XmlAttribute* attribute = limit.attribute(name);
+    if (attribute && (attribute->value == "inf" || attribute->value == "+inf")) return unlimited;
+    if (attribute && attribute->value == "-inf") return -unlimited;
+    return number(limit, name, 0.);
+  }
+
+  Vector3d vector(const XmlElement& element, const char* name, const Vector3d& fallback) {
+    const XmlAttribute* attribute = element.attribute(name);
+    if (!attribute) return fallback;
+    const std::vector<double> v = numbers(*attribute, element, 3);
+    return {v[0], v[1], v[2]};
+  }
+
+  Pose origin(const XmlElement& element) {
+    const XmlElement* origin = element.child("origin");
+    if (!origin) return {};
+    return {vector(*origin, "xyz", Vector3d::Zero()), rollPitchYaw(vector(*origin, "rpy", Vector3d::Zero()))};
+  }
+
+  void readLink(const XmlElement& element) {
+    context_.clear();
+    UrdfLink link;
+    link.where = element.where;
+    link.name = text(element, "name").value_or("");
+    context_ = cat("link '", link.name, "': ");
+    for (const UrdfLink& other : model_.links) {
+      if (other.name == link.name)
+        error(element.where, cat("there is a link '", link.name, "' already, at ", other.where.str()));
+    }
+    if (const XmlElement* inertial = element.child("inertial")) link.inertial = readInertial(*inertial);
+    for (const XmlElement* visual : element.all("visual")) readShape(*visual, link);
+    for (const XmlElement* collision : element.all("collision")) readShape(*collision, link);
+    model_.links.push_back(std::move(link));
+  }
+
+  UrdfInertial readInertial(const XmlElement& element) {
+    UrdfInertial inertial;
+    inertial.where = element.where;
+    const XmlElement* mass = element.child("mass");
+    if (mass) inertial.mass = number(*mass, "value");
+    if (!mass) error(element.where, cat(context_, "<inertial> has no <mass value=\"...\"/>"));
+    if (inertial.mass < 0.) error(mass->where, cat(context_, "the mass ", inertial.mass, " kg is negative"));
+    const Pose frame = origin(element);
+    inertial.com = frame.p;
+    if (const XmlElement* m = element.child("inertia")) {
+      const double xx = number(*m, "ixx"), yy = number(*m, "iyy"), zz = number(*m, "izz");
+      const double xy = number(*m, "ixy", 0.), xz = number(*m, "ixz", 0.), yz = number(*m, "iyz", 0.);
+      Matrix3d own;
+      own << xx, xy, xz, xy, yy, yz, xz, yz, zz;
+      const Matrix3d R = frame.q.toRotationMatrix();
+      inertial.matrix = R * own * R.transpose();
+    }
+    return inertial;
+  }
+
+  void readShape(const XmlElement& element, UrdfLink& link) {
+    UrdfShape shape;
+    shape.collision = element.name == "collision";
+    shape.where = element.where;
+    shape.origin = origin(element);
+    const XmlElement* geometry = element.child("geometry");
+    if (!geometry || geometry->children.empty()) {
+      error(element.where, cat(context_, "<", element.name, "> has no <geometry> with a shape in it"));
+      return;
+    }
+    const XmlElement& g = geometry->children.front();
+    shape.where = g.where;
+    if (g.name == "box") {
+      const Vector3d size = vector(g, "size", Vector3d::Zero());
+      if (!g.attribute("size")) text(g, "size");
+      shape.type = ShapeType::box;
+      shape.size = {size[0], size[1], size[2]};
+    } else if (g.name == "sphere") {
+      shape.type = ShapeType::sphere;
+      shape.size = {number(g, "radius")};
+    } else if (g.name == "cylinder" || g.name == "capsule") {
+      shape.type = g.name == "cylinder" ? ShapeType::cylinder : ShapeType::capsule;
+      shape.size = {number(g, "length"), number(g, "radius")};
+    } else if (g.name == "mesh") {
+      shape.type = ShapeType::mesh;
+      shape.mesh = text(g, "filename").value_or("");
+      if (const XmlAttribute* scale = g.attribute("scale")) {
+        const auto given = numbersIn(scale->value);
+        shape.scale =
+            given && given->size() == 1 ? Vector3d::Constant((*given)[0]).eval() : vector(g, "scale", Vector3d::Ones());
+      }
+    } else {
+      error(g.where, cat(context_, "unknown geometry <", g.name, ">; expected box, sphere, cylinder, capsule or mesh"));
+      return;
+    }
+    if (const XmlElement* material = element.child("material")) readMaterial(*material, shape);
+    link.shapes.push_back(std::move(shape));
+  }
+
+  void readMaterial(const XmlElement& element, UrdfShape& shape) {
+    const XmlElement* source = &element;
+    const XmlAttribute* name = element.attribute("name");
+    if (!element.child("color") && !element.child("texture") && name) {
+      const auto found = materials_.find(name->value);
+      if (found == materials_.end()) {
+        std::vector<std::string> known;
+        for (const auto& [key, material] : materials_) known.push_back(key);
+        warn(name->where, cat(context_, "there is no material '", name->value, "'", similarHint(name->value, known)));
+        return;
+      }
+      source = found->second;
+    }
+    if (const XmlElement* color = source->child("color")) {
+      if (const XmlAttribute* rgba = color->attribute("rgba")) {
+        const std::vector<double> c = numbers(*rgba, *color, 4);
+        shape.color = Vector4d(c[0], c[1], c[2], c[3]);
+      }
+    }
+    if (const XmlElement* texture = source->child("texture")) {
+      if (const XmlAttribute* file = texture->attribute("filename")) shape.texture = file->value;
+    }
+  }
+
+  std::optional<UrdfJointType> jointType(const XmlElement& element) {
+    static const std::map<std::string, UrdfJointType> types = {
+        {"fixed", UrdfJointType::fixed},           {"revolute", UrdfJointType::revolute},
+        {"continuous", UrdfJointType::continuous}, {"prismatic", UrdfJointType::prismatic},
+        {"planar", UrdfJointType::planar},         {"floating", UrdfJointType::floating}};
+    const auto word = text(element, "type");
+    if (!word) return std::nullopt;
+    if (const auto found = types.find(*word); found != types.end()) return found->second;
+    std::vector<std::string> known;
+    for (const auto& [name, type] : types) known.push_back(name);
+    error(element.attribute("type")->where,
+          cat(context_, "unknown joint type '", *word, "'; expected one of ", join(known), similarHint(*word, known)));
+    return std::nullopt;
+  }
+
+  std::string linkOf(const XmlElement& element, const char* role, SourcePosition& where) {
+    const XmlElement* link = element.child(role);
+    where = link ? link->where : element.where;
+    if (!link) error(element.where, cat(context_, "has no <", role, " link=\"...\"/>"));
+    return link ? text(*link, "link").value_or("") : "";
+  }
+
+  void readJoint(const XmlElement& element) {
+    context_.clear();
+    UrdfJoint joint;
+    joint.where = joint.limit_where = element.where;
+    joint.name = text(element, "name").value_or("");
+    context_ = cat("joint '", joint.name, "': ");
+    for (const UrdfJoint& other : model_.joints) {
+      if (other.name == joint.name)
+        error(element.where, cat("there is a joint '", joint.name, "' already, at ", other.where.str()));
+    }
+    joint.type = jointType(element).value_or(UrdfJointType::fixed);
+    joint.parent = linkOf(element, "parent", joint.parent_where);
+    joint.child = linkOf(element, "child", joint.child_where);
+    joint.origin = origin(element);
+    if (const XmlElement* axis = element.child("axis");
+        axis && joint.type != UrdfJointType::fixed && joint.type != UrdfJointType::floating) {
+      const Vector3d direction = vector(*axis, "xyz", Vector3d::UnitX());
+      if (!(direction.norm() > 1e-10)) {
+        error(axis->where, cat(context_, "its axis is zero"));
+      } else {
+        joint.axis = direction.normalized();
+      }
+    }
+    readLimits(element, joint);
+    if (const XmlElement* mimic = element.child("mimic")) {
+      joint.mimic = UrdfMimic{text(*mimic, "joint").value_or(""), number(*mimic, "multiplier", 1.),
+                              number(*mimic, "offset", 0.), mimic->where};
+    }
+    model_.joints.push_back(std::move(joint));
+  }
+
+  void readLimits(const XmlElement& element, UrdfJoint& joint) {
+    const bool bounded = joint.type == UrdfJointType::revolute || joint.type == UrdfJointType::prismatic;
+    const XmlElement* limit = element.child("limit");
+    if (!limit) {
+      if (bounded)
+        warn(element.where, cat(context_, "a joint of this type should have a <limit>; it is taken to have none"));
+      return;
+    }
+    joint.limit_where = limit->where;
+    joint.effort = limitOf(*limit, "effort", 0.);  // 0: none is known
+    joint.velocity = limitOf(*limit, "velocity", 0.);
+    if (!bounded) return;
+    joint.lower = limitOf(*limit, "lower", kUrdfUnlimited);
+    joint.upper = limitOf(*limit, "upper", kUrdfUnlimited);
+    joint.limited = joint.lower > -kUrdfUnlimited || joint.upper < kUrdfUnlimited;
+    if (joint.lower > joint.upper) {
+      error(limit->where, cat(context_, "its lower limit ", joint.lower, " is above its upper limit ", joint.upper));
+    }
+  }
+
+  std::vector<Diagnostic>& found_;
+  UrdfModel model_;
+  std::map<std::string, const XmlElement*> materials_;
+  std::string context_;  ///< "link 'x': ", for messages
+};
+
+}  // namespace
+
+UrdfModel parseUrdf(std::string_view text, const std::string& file, std::vector<Diagnostic>& found) {
+  try {
+    return UrdfParser(found).parse(parseXml(text, file));
+  } catch (const ParseError& e) {
+    found.push_back({Diagnostic::Severity::error, e.where(), e.reason()});
+    return {};
+  }
+}
+
+bool hasErrors(const std::vector<Diagnostic>& found) {
+  const auto is_error = [](const Diagnostic& diagnostic) { return diagnostic.severity == Diagnostic::Severity::error; };
+  return std::any_of(found.begin(), found.end(), is_error);
+}
+
+}  // namespace kinegraph

@@ -1,0 +1,81 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "kinegraph/common/errors.h"
+#include "kinegraph/geometry/shapes/geometry.h"
+#include "kinegraph/gfile/parser.h"
+#include "kinegraph/math/pose.h"
+
+namespace kinegraph {
+
+/// What a URDF file says, with places for messages. SI units.
+
+/// A <visual> or <collision>.
+struct UrdfShape {
+  bool collision = false;
+  Pose origin;                        ///< in the link
+  ShapeType type = ShapeType::none;   ///< box, sphere, cylinder, capsule or mesh
+  std::vector<double> size;           ///< as in Geometry
+  std::string mesh;                   ///< the file, as it is written
+  Vector3d scale = Vector3d::Ones();  ///< of the mesh
+  std::optional<Vector4d> color;      ///< of the material
+  std::string texture;
+  SourcePosition where;
+};
+
+struct UrdfInertial {
+  double mass = 0.;
+  Vector3d com = Vector3d::Zero();     ///< in the link
+  Matrix3d matrix = Matrix3d::Zero();  ///< about the center of mass, in the axes of the link
+  SourcePosition where;
+};
+
+struct UrdfLink {
+  std::string name;
+  std::optional<UrdfInertial> inertial;
+  std::vector<UrdfShape> shapes;
+  SourcePosition where;
+};
+
+struct UrdfMimic {
+  std::string joint;
+  double multiplier = 1., offset = 0.;
+  SourcePosition where;
+};
+
+/// A limit of this size or more, rad or m, stands for none: URDF wants limits of every prismatic joint.
+constexpr double kUrdfUnlimited = 1e9;
+
+enum class UrdfJointType { fixed, revolute, continuous, prismatic, planar, floating };
+
+struct UrdfJoint {
+  std::string name;
+  UrdfJointType type = UrdfJointType::fixed;
+  std::string parent, child;  ///< links
+  Pose origin;                ///< in the parent link
+  Vector3d axis = Vector3d::UnitX();
+  bool limited = false;
+  double lower = 0., upper = 0.;      ///< if limited
+  double effort = 0., velocity = 0.;  ///< 0: not given
+  std::optional<UrdfMimic> mimic;
+  SourcePosition where, parent_where, child_where, limit_where;
+};
+
+struct UrdfModel {
+  std::string name;
+  std::vector<UrdfLink> links;
+  std::vector<UrdfJoint> joints;
+};
+
+/// Reads a URDF text, as far as it can be read; what is wrong or odd about it goes to `found`. That links and joints
+/// form a tree is for others to check.
+UrdfModel parseUrdf(std::string_view text, const std::string& file, std::vector<Diagnostic>& found);
+
+/// Is there an error among these?
+bool hasErrors(const std::vector<Diagnostic>& found);
+
+}  // namespace kinegraph

@@ -1,0 +1,299 @@
+#include "kinegraph/parsers/urdf_reader.h"
+
+#include <filesystem>
+#include <map>
+#include <set>
+
+#include "kinegraph/common/file_paths.h"
+#include "kinegraph/common/text.h"
+#include "kinegraph/parsers/axis_motion.h"
+#include "kinegraph/parsers/frame_attributes.h"
+#include "kinegraph/parsers/urdf_model.h"
+
+namespace kinegraph {
+
+namespace {
+
+AxisMotion motionOf(const UrdfJoint& joint) {
+  switch (joint.type) {
+    case UrdfJointType::fixed:
+      return {"none"};
+    case UrdfJointType::revolute:
+    case UrdfJointType::continuous:
+      return turningAbout(joint.axis);
+    case UrdfJointType::prismatic:
+      return slidingAlong(joint.axis);
+    case UrdfJointType::planar:
+      return {"transXYPhi", 1., Quaterniond::FromTwoVectors(Vector3d::UnitZ(), joint.axis)};
+    case UrdfJointType::floating:
+      return {"free"};
+  }
+  return {"none"};
+}
+
+/// The pose that a joint of one dof has at `q`.
+Pose poseAt(const UrdfJoint& joint, double q) {
+  if (joint.type == UrdfJointType::prismatic) return {q * joint.axis, Quaterniond::Identity()};
+  return {Vector3d::Zero(), Quaterniond(Eigen::AngleAxisd(q, joint.axis))};
+}
+
+bool hasOneDof(const UrdfJoint& joint) {
+  return joint.type == UrdfJointType::revolute || joint.type == UrdfJointType::continuous ||
+         joint.type == UrdfJointType::prismatic;
+}
+
+class UrdfReader {
+ public:
+  UrdfReader(UrdfModel model, const std::string& folder, std::vector<Diagnostic>& found)
+      : model_(std::move(model)), folder_(folder), found_(found) {}
+
+  Graph read() {
+    if (hasErrors(found_)) return {};
+    nameEverything();
+    linkUp();
+    const UrdfLink* root = hasErrors(found_) ? nullptr : findRoot();
+    if (root) resolveMimics();
+    if (!hasErrors(found_)) addLink(*root, "", Quaterniond::Identity());
+    return std::move(graph_);
+  }
+
+ private:
+  void error(const SourcePosition& where, std::string message) {
+    found_.push_back({Diagnostic::Severity::error, where, std::move(message)});
+  }
+  void warn(const SourcePosition& where, std::string message) {
+    found_.push_back({Diagnostic::Severity::warning, where, std::move(message)});
+  }
+
+  /// A name that is not taken yet: `name` itself, or with underscores behind it.
+  std::string unusedName(std::string name) {
+    while (!names_.insert(name).second) name += "_";
+    return name;
+  }
+
+  void nameEverything() {
+    for (const UrdfLink& link : model_.links) {
+      names_.insert(link.name);
+      links_[link.name] = &link;
+    }
+    for (const UrdfJoint& joint : model_.joints) {
+      frame_of_joint_[&joint] = unusedName(names_.contains(joint.name) ? joint.name + "_joint" : joint.name);
+    }
+  }
+
+  std::vector<std::string> linkNames() const {
+    std::vector<std::string> names;
+    for (const UrdfLink& link : model_.links) names.push_back(link.name);
+    return names;
+  }
+
+  /// Finds out which joint hangs where.
+  void linkUp() {
+    for (const UrdfJoint& joint : model_.joints) {
+      for (const auto& [link, where] :
+           {std::pair(joint.parent, joint.parent_where), std::pair(joint.child, joint.child_where)}) {
+        if (!links_.contains(link)) {
+          error(where, cat("joint '", joint.name, "': there is no link '", link, "'", similarHint(link, linkNames())));
+        }
+      }
+      const auto [above, is_first] = joint_above_.emplace(joint.child, &joint);
+      if (!is_first) {
+        error(joint.child_where,
+              cat("link '", joint.child, "' hangs on two joints: '", above->second->name, "' and '", joint.name, "'"));
+      }
+      joints_below_[joint.parent].push_back(&joint);
+    }
+  }
+
+  /// The link that the tree hangs on. An error and null if there is no such thing.
+  const UrdfLink* findRoot() {
+    std::vector<const UrdfLink*> roots;
+    for (const UrdfLink& link : model_.links) {
+      if (!joint_above_.contains(link.name)) roots.push_back(&link);
+    }
+    if (roots.empty()) {
+      error(model_.joints.front().where, "the joints of this robot form a loop; a URDF file describes a tree");
+      return nullptr;
+    }
+    if (roots.size() > 1) {
+      error(roots[1]->where, cat("there are two links without a joint above them: '", roots[0]->name, "' and '",
+                                 roots[1]->name, "'; a URDF file describes one tree"));
+      return nullptr;
+    }
+    std::set<std::string> reached;
+    reach(roots[0]->name, reached);
+    for (const UrdfLink& link : model_.links) {
+      if (reached.contains(link.name)) continue;
+      error(link.where, cat("link '", link.name, "' hangs on itself: the joints above it form a loop"));
+      return nullptr;
+    }
+    return roots[0];
+  }
+
+  void reach(const std::string& link, std::set<std::string>& reached) const {
+    reached.insert(link);
+    const auto below = joints_below_.find(link);
+    if (below == joints_below_.end()) return;
+    for (const UrdfJoint* joint : below->second) reach(joint->child, reached);
+  }
+
+  const UrdfJoint* findJoint(const std::string& name) const {
+    for (const UrdfJoint& joint : model_.joints) {
+      if (joint.name == name) return &joint;
+    }
+    return nullptr;
+  }
+
+  /// Makes every mimic refer to the joint that really has the dof. One without a source loses its mimic, and one whose
+  /// source is fixed is fixed as well: such files are about, and their robots are as good as those without mimics.
+  void resolveMimics() {
+    std::vector<std::string> names;
+    for (const UrdfJoint& joint : model_.joints) names.push_back(joint.name);
+    for (UrdfJoint& joint : model_.joints) {
+      if (joint.type == UrdfJointType::fixed) joint.mimic.reset();  // as reduced models have it
+      if (!joint.mimic || findJoint(joint.mimic->joint)) continue;
+      warn(joint.mimic->where,
+           cat("joint '", joint.name, "' mimics '", joint.mimic->joint,
+               "', which is no joint; it is read as one that moves by itself", similarHint(joint.mimic->joint, names)));
+      joint.mimic.reset();
+    }
+    for (UrdfJoint& joint : model_.joints) followMimic(joint);
+    for (UrdfJoint& joint : model_.joints) {
+      if (!joint.mimic || findJoint(joint.mimic->joint)->type != UrdfJointType::fixed) continue;
+      warn(joint.mimic->where,
+           cat("joint '", joint.name, "' mimics '", joint.mimic->joint, "', which is fixed; it is read as fixed, too"));
+      joint.origin = joint.origin * poseAt(joint, joint.mimic->offset);
+      joint.type = UrdfJointType::fixed;
+      joint.mimic.reset();
+    }
+  }
+
+  void followMimic(UrdfJoint& joint) {
+    std::set<const UrdfJoint*> seen = {&joint};
+    while (joint.mimic) {
+      const UrdfJoint& source = *findJoint(joint.mimic->joint);
+      const std::string who = cat("joint '", joint.name, "' mimics '", source.name, "', ");
+      if (!hasOneDof(joint) || (!hasOneDof(source) && source.type != UrdfJointType::fixed)) {
+        error(joint.mimic->where, cat(who, "but only revolute, continuous and prismatic joints can mimic each other"));
+      } else if (!seen.insert(&source).second) {
+        error(joint.mimic->where, cat(who, "which mimics it in turn"));
+      } else if (source.mimic) {
+        joint.mimic->offset += joint.mimic->multiplier * source.mimic->offset;
+        joint.mimic->multiplier *= source.mimic->multiplier;
+        joint.mimic->joint = source.mimic->joint;
+        continue;
+      }
+      return;
+    }
+  }
+
+  void addFrame(const std::string& name, const std::string& parent, const SourcePosition& where,
+                FrameAttributes attributes) {
+    graph_.nodes.push_back(attributes.takeFrame(name, parent, where));
+  }
+
+  void addLink(const UrdfLink& link, const std::string& parent, const Quaterniond& turn) {
+    FrameAttributes attributes(link.inertial ? link.inertial->where : link.where);
+    attributes.addPose({Vector3d::Zero(), turn});
+    if (link.inertial && link.inertial->mass > 0.) {
+      const Matrix3d& m = link.inertial->matrix;
+      attributes.add("mass", link.inertial->mass);
+      if (!link.inertial->com.isZero(0.))
+        attributes.addNumbers("com", {link.inertial->com.begin(), link.inertial->com.end()});
+      attributes.addNumbers("inertia", {m(0, 0), m(0, 1), m(0, 2), m(1, 1), m(1, 2), m(2, 2)});
+    }
+    addFrame(link.name, parent, link.where, std::move(attributes));
+    for (std::size_t i = 0; i < link.shapes.size(); ++i) addShape(link.shapes[i], link.name, i);
+    for (const UrdfJoint* joint : joints_below_[link.name]) addJoint(*joint);
+  }
+
+  void addShape(const UrdfShape& shape, const std::string& link, std::size_t index) {
+    FrameAttributes attributes(shape.where);
+    attributes.addPose(shape.origin);
+    const std::string name = unusedName(cat(link, "_", index));
+    bool known = true;
+    if (shape.type == ShapeType::mesh) {
+      const std::string path = resolvePath(shape.mesh, folder_);
+      std::error_code ignored;
+      known = std::filesystem::is_regular_file(path, ignored);
+      if (known) {
+        attributes.add("mesh", AngleText{path});
+        if (shape.scale != Vector3d::Ones())
+          attributes.addNumbers("meshscale", {shape.scale.begin(), shape.scale.end()});
+      } else {
+        warn(shape.where, cat("link '", link, "': mesh '", shape.mesh, "' is not there",
+                              path.empty() ? "; packages are looked for in the folders above the file and in those of "
+                                             "KINEGRAPH_PACKAGE_PATH, ROS_PACKAGE_PATH and AMENT_PREFIX_PATH"
+                                           : cat(" (", path, ")")));
+      }
+    } else {
+      static const std::map<ShapeType, std::string> words = {{ShapeType::box, "box"},
+                                                             {ShapeType::sphere, "sphere"},
+                                                             {ShapeType::cylinder, "cylinder"},
+                                                             {ShapeType::capsule, "capsule"}};
+      attributes.add("shape", words.at(shape.type));
+      attributes.addNumbers("size", shape.size);
+    }
+    if (known && shape.collision) {
+      attributes.addNumbers("color", {1., 0., 0., .2});
+      attributes.add("contact", -2.);
+    } else if (known && shape.color) {
+      attributes.addNumbers("color", {shape.color->begin(), shape.color->end()});
+    }
+    if (known && !shape.texture.empty()) attributes.add("texture", AngleText{resolvePath(shape.texture, folder_)});
+    addFrame(name, link, shape.where, std::move(attributes));
+  }
+
+  void addJoint(const UrdfJoint& joint) {
+    const std::string& name = frame_of_joint_.at(&joint);
+    const AxisMotion motion = motionOf(joint);
+    Pose origin = joint.origin;
+    if (joint.mimic) origin = origin * poseAt(joint, joint.mimic->offset);
+    origin = origin * Pose(Vector3d::Zero(), motion.turn);
+    FrameAttributes attributes(joint.limit_where);
+    std::string parent = joint.parent;
+    if (joint.type == UrdfJointType::fixed) {
+      attributes.addPose(origin);
+    } else {
+      if (!origin.isIdentity(0.)) {
+        FrameAttributes at(joint.where);
+        at.addPose(origin);
+        parent = unusedName(name + "_origin");
+        addFrame(parent, joint.parent, joint.where, std::move(at));
+      }
+      attributes.add("joint", std::string(motion.type));
+      if (std::string_view(motion.type) == "hinge")
+        attributes.addNumbers("axis", {joint.axis.begin(), joint.axis.end()});
+      double scale = motion.scale;  // of a mimic it multiplies the motion of its source, that one's scale included
+      if (joint.mimic) scale *= joint.mimic->multiplier * motionOf(*findJoint(joint.mimic->joint)).scale;
+      if (scale != 1.) attributes.add("joint_scale", scale);
+      if (joint.limited) attributes.addNumbers("limits", {joint.lower, joint.upper});
+      if (joint.effort != 0. || joint.velocity != 0.)
+        attributes.addNumbers("ctrl_limits", {joint.velocity, joint.effort, -1.});
+      if (joint.mimic) attributes.add("mimic", frame_of_joint_.at(findJoint(joint.mimic->joint)));
+    }
+    addFrame(name, parent, joint.where, std::move(attributes));
+    addLink(*links_.at(joint.child), name, motion.turn.conjugate());
+  }
+
+  UrdfModel model_;
+  const std::string& folder_;
+  std::vector<Diagnostic>& found_;
+  Graph graph_;
+  std::set<std::string> names_;
+  std::map<std::string, const UrdfLink*> links_;
+  std::map<const UrdfJoint*, std::string> frame_of_joint_;
+  std::map<std::string, const UrdfJoint*> joint_above_;                ///< by link
+  std::map<std::string, std::vector<const UrdfJoint*>> joints_below_;  ///< by link
+};
+
+}  // namespace
+
+ParseResult readUrdf(std::string_view text, const std::string& file, const std::string& folder) {
+  ParseResult result;
+  UrdfModel model = parseUrdf(text, file, result.diagnostics);
+  result.graph = UrdfReader(std::move(model), folder, result.diagnostics).read();
+  return result;
+}
+
+}  // namespace kinegraph

@@ -1,0 +1,348 @@
+#include "kinegraph/planning/dynamic_obstacles/dynamic_timing.h"
+
+#include <algorithm>
+#include <cmath>
+#include <queue>
+
+#include "kinegraph/common/text.h"
+#include "kinegraph/trajectories/curve_part.h"
+
+namespace kinegraph {
+
+namespace {
+
+constexpr int kStations = 16, kSmoothStations = 8;   // besides the start; fewer where limits of the jerk make legs dear
+constexpr double kSlower[] = {1., 1.4, 2., 3., 5.};  // what a leg takes, as a multiple of the least
+constexpr double kStepShare = 1. / 40., kLeastStep = .02, kMostStep = .1;  // of departures: of the duration; s
+constexpr long kMostTries = 20000;
+constexpr double kStill = 1e-9;  // 1/s
+constexpr double kSame = 1e-12;  // of the curve
+constexpr double kSnap = 1e-6;   // of the curve: a station so near to a knot is there
+constexpr double kForever = std::numeric_limits<double>::infinity();
+
+/// The robot may stand at a station.
+struct FreeTime {
+  double begin, end;
+};
+
+class TimeSearch {
+ public:
+  TimeSearch(const TimedPath& fastest, const MotionLimits& limits, MovingCheck& check, const MotionWatch& watch)
+      : curve_(fastest.curve()),
+        fastest_(fastest.law()),
+        limits_(limits),
+        check_(check),
+        watch_(watch),
+        step_(std::clamp(kStepShare * fastest_.duration(), kLeastStep, kMostStep)) {
+    const std::vector<LawPhase>& phases = fastest_.phases();
+    start_speed_ = phases.front().begin.speed;
+    const auto stop =
+        std::find_if(phases.begin() + 1, phases.end(), [](const LawPhase& p) { return p.begin.speed < kStill; });
+    first_stop_ = stop == phases.end() ? curve_.length() : stop->begin.s;
+  }
+
+  MovingTiming run() {
+    placeStations();
+    const std::vector<FreeTime>& at_goal = freeTimes(last());
+    result_.met = check_.contact(curve_, fastest_, limits_.acceleration);
+    if (at_goal.empty() || at_goal.back().end < kForever) {
+      const double end = check_.scene().end();
+      const auto [a, b] = blockers(last(), end, end);
+      result_.message = cat("at the goal, ", words(a, b), ", which stays there");
+      return std::move(result_);
+    }
+    const bool stays = fastest_.duration() >= at_goal.back().begin;
+    if (!result_.met && stays) {
+      result_.was_found = result_.is_fastest = true;
+      result_.law = fastest_;
+      return std::move(result_);
+    }
+    if (!result_.met) {  // it comes to the goal later
+      const double free_from = at_goal.back().begin;
+      const auto [a, b] = blockers(last(), std::max(0., free_from - step_), free_from);
+      result_.met = MovingContact{at_goal.back().begin, a, b, curve_.length()};
+    }
+    if (curve_.length() > 0.) search();
+    if (!result_.was_found && result_.message.empty()) result_.message = failure();
+    return std::move(result_);
+  }
+
+ private:
+  struct Node {
+    int station, interval;
+    double arrival;
+    int before = -1;  ///< the node that it was reached from,
+    int slower = 0;   ///< by a leg that takes kSlower[slower] times as long
+    double departure = 0.;
+  };
+  struct Entry {
+    double least;  ///< no motion that goes on from here arrives at the goal earlier
+    long order;
+    int node, to, slower;
+    double departure;
+    bool operator<(const Entry& other) const {
+      return least > other.least || (least == other.least && order > other.order);
+    }
+  };
+  struct Leg {
+    bool was_made = false, is_possible = false;
+    TimeLaw law;
+    double suspect = 0.;  ///< when, after its beginning, it met something the last time
+  };
+
+  int last() const { return int(places_.size()) - 1; }
+
+  void placeStations() {
+    const int count = curve_.length() == 0. ? 0 : limits_.limitsJerk() ? kSmoothStations : kStations;
+    for (int k = 0; k <= count; ++k) places_.push_back(count ? curve_.length() * k / count : 0.);
+    for (int piece = 1; piece < curve_.pieces(); ++piece) {
+      for (int k = 1; k < count; ++k)
+        if (std::abs(curve_.begin(piece) - places_[std::size_t(k)]) < kSnap * curve_.length())
+          places_[std::size_t(k)] = curve_.begin(piece);
+      if (curve_.stopsAt(piece)) places_.push_back(curve_.begin(piece));
+    }
+    std::sort(places_.begin(), places_.end());
+    places_.erase(std::unique(places_.begin(), places_.end()), places_.end());
+    for (const double place : places_) {
+      postures_.push_back(curve_.eval(place));
+      passes_.push_back(fastest_.timeOf(place));
+    }
+    free_times_.resize(places_.size());
+    legs_.resize(places_.size() * places_.size());
+  }
+
+  // --- where it may stand ------------------------------------------------------------------------------------------
+
+  const std::vector<FreeTime>& freeTimes(int station) {
+    std::optional<std::vector<FreeTime>>& known = free_times_[std::size_t(station)];
+    if (known) return *known;
+    known.emplace();
+    const VectorXd& q = postures_[std::size_t(station)];
+    const std::vector<double>& breaks = check_.scene().breaks();
+    for (std::size_t i = 1; i < breaks.size(); ++i) addFreeTimes(q, breaks[i - 1], breaks[i], *known);
+    if (check_.isFree(q, breaks.back())) add({breaks.back(), kForever}, *known);
+    return *known;
+  }
+
+  static void add(FreeTime more, std::vector<FreeTime>& times) {
+    if (!times.empty() && times.back().end == more.begin) {
+      times.back().end = more.end;
+    } else {
+      times.push_back(more);
+    }
+  }
+
+  void addFreeTimes(const VectorXd& q, double begin, double end, std::vector<FreeTime>& times) {
+    if (check_.staysFree(q, begin, end)) {
+      add({begin, end}, times);
+    } else if (end - begin > .5 * step_) {
+      const double middle = .5 * (begin + end);
+      addFreeTimes(q, begin, middle, times);
+      addFreeTimes(q, middle, end, times);
+    }
+  }
+
+  /// The first free time of a station that ends after t, or their number.
+  int intervalAfter(int station, double t) {
+    const std::vector<FreeTime>& times = freeTimes(station);
+    return int(std::partition_point(times.begin(), times.end(), [&](const FreeTime& f) { return f.end < t; }) -
+               times.begin());
+  }
+
+  bool wasVisited(int station, int interval) const {
+    return std::ranges::any_of(nodes_, [&](const Node& n) { return n.station == station && n.interval == interval; });
+  }
+
+  // --- legs --------------------------------------------------------------------------------------------------------
+
+  Leg& legOf(int from, int to) {
+    Leg& leg = legs_[std::size_t(from) * places_.size() + std::size_t(to)];
+    if (!leg.was_made) leg = makeLeg(places_[std::size_t(from)], places_[std::size_t(to)]);
+    return leg;
+  }
+
+  Leg makeLeg(double from, double to) const {
+    Leg leg;
+    leg.was_made = true;
+    const CurvePart part = partOf(curve_, from, to);
+    RetimeOptions options;
+    options.intervals = 20 + int(80. * part.curve.length() / curve_.length());
+    if (from == 0. && start_speed_ > 0.) {
+      const MotionState start = motionAt(curve_, fastest_, 0.);
+      options.start_velocity = start.velocity;
+      if (limits_.limitsJerk()) options.start_acceleration = start.acceleration;
+    }
+    const TimedPath timed = retime(MatrixXd(), part.curve, limits_, options);
+    leg.is_possible = timed.feasible();
+    if (leg.is_possible) {
+      leg.law = part.onWhole(timed.law());
+    } else if (from == 0. && std::abs(to - first_stop_) <= kSame * curve_.length()) {
+      leg.law = part.onWhole(part.restOf(fastest_, 0.));  // the law that is known stops there
+      leg.is_possible = true;
+    }
+    return leg;
+  }
+
+  /// The least time from rest at a station to the goal.
+  double restOf(int station) {
+    if (station == last()) return 0.;
+    const Leg& leg = legOf(station, last());
+    return leg.is_possible ? leg.law.duration() : fastest_.duration() - passes_[std::size_t(station)];
+  }
+
+  void expand(int index) {
+    const Node node = nodes_[std::size_t(index)];
+    const bool moves = node.station == 0 && start_speed_ > 0.;
+    for (int to = node.station + 1; to <= last(); ++to) {
+      const double least = passes_[std::size_t(to)] - passes_[std::size_t(node.station)];
+      for (int slower = 0; slower < (moves ? 1 : int(std::size(kSlower))); ++slower)
+        push({node.arrival + kSlower[slower] * least, 0, index, to, slower, node.arrival});
+    }
+  }
+
+  void push(Entry entry) {
+    entry.order = order_++;
+    queue_.push(entry);
+  }
+
+  bool isFree(Leg& leg, int slower, double departure) {
+    const double factor = kSlower[slower];
+    ++result_.tries;
+    if (!check_.isFree(motionAt(curve_, leg.law, leg.suspect).q, departure + factor * leg.suspect)) return false;
+    TimeLaw law = leg.law;
+    if (factor != 1.) law.slowDown(factor);
+    const auto contact = check_.contact(curve_, law, limits_.acceleration, departure);
+    if (contact) leg.suspect = (contact->time - departure) / factor;
+    return !contact;
+  }
+
+  // --- the search --------------------------------------------------------------------------------------------------
+
+  void search() {
+    const int interval = intervalAfter(0, 0.);
+    const bool moves = start_speed_ > 0.;
+    if (!moves && (interval == int(freeTimes(0).size()) || freeTimes(0)[std::size_t(interval)].begin > 0.)) {
+      const auto [a, b] = blockers(0, 0., 0.);
+      result_.message = cat("at the start, from the beginning, ", words(a, b));
+      return;
+    }
+    nodes_.push_back({0, interval, 0.});
+    expand(0);
+    while (!queue_.empty() && result_.tries < kMostTries) {
+      if (watch_ && watch_()) return;
+      const Entry entry = queue_.top();
+      queue_.pop();
+      if (!take(entry)) continue;
+      result_.was_found = true;
+      assemble(int(nodes_.size()) - 1);
+      return;
+    }
+  }
+
+  /// True if it arrives at the goal.
+  bool take(Entry entry) {
+    const Node node = nodes_[std::size_t(entry.node)];
+    Leg& leg = legOf(node.station, entry.to);
+    if (!leg.is_possible) return false;
+    const double takes = kSlower[entry.slower] * leg.law.duration(), arrival = entry.departure + takes,
+                 least = arrival + restOf(entry.to);
+    if (least > entry.least) {  // what it really takes was not known
+      entry.least = least;
+      push(entry);
+      return false;
+    }
+    const int interval = intervalAfter(entry.to, arrival);
+    const std::vector<FreeTime>& times = freeTimes(entry.to);
+    if (interval == int(times.size())) return false;
+    const FreeTime there = times[std::size_t(interval)];
+    const bool stays = entry.to != last() || there.end == kForever;
+    if (there.begin > arrival) {
+      later(entry, node, there.begin - arrival);
+    } else if (!stays || wasVisited(entry.to, interval)) {
+      later(entry, node, there.end - arrival);
+    } else if (!isFree(leg, entry.slower, entry.departure)) {
+      later(entry, node, 0.);
+    } else {
+      nodes_.push_back({entry.to, interval, arrival, entry.node, entry.slower, entry.departure});
+      if (entry.to == last()) return true;
+      expand(int(nodes_.size()) - 1);
+      later(entry, node, there.end - arrival);
+    }
+    return false;
+  }
+
+  /// Tries it again at a later departure, by `least` at least.
+  void later(Entry entry, const Node& node, double least) {
+    const bool moves = node.station == 0 && start_speed_ > 0., changes = entry.departure < check_.scene().end();
+    if (moves || !changes || least == kForever) return;
+    const double by = std::max(step_, least);
+    if (entry.departure + by > freeTimes(node.station)[std::size_t(node.interval)].end) return;
+    entry.departure += by;
+    entry.least += by;
+    push(entry);
+  }
+
+  void assemble(int goal) {
+    std::vector<int> chain;
+    for (int i = goal; i > 0; i = nodes_[std::size_t(i)].before) chain.push_back(i);
+    std::reverse(chain.begin(), chain.end());
+    for (const int i : chain) {
+      const Node &node = nodes_[std::size_t(i)], &before = nodes_[std::size_t(node.before)];
+      const double place = places_[std::size_t(before.station)], wait = node.departure - before.arrival;
+      if (wait > 0.) {
+        result_.waits.push_back({before.arrival, wait, place});
+        result_.law.add({0., {place, 0., 0., 0.}, 0., place, curve_.pieceAt(place)}, wait);
+      }
+      TimeLaw law = legOf(before.station, node.station).law;
+      if (node.slower) law.slowDown(kSlower[node.slower]);
+      result_.law.append(law);
+    }
+  }
+
+  // --- words -------------------------------------------------------------------------------------------------------
+
+  /// The pair for which it cannot stand at a station from one time to another.
+  std::pair<int, int> blockers(int station, double begin, double end) {
+    check_.staysFree(postures_[std::size_t(station)], begin, end);
+    return check_.lastPair();
+  }
+
+  std::string words(int a, int b) const {
+    const Program& program = check_.scene().state().program();
+    if (check_.scene().isObstacle(a)) std::swap(a, b);
+    return cat("'", program.frame_name[std::size_t(a)], "' meets '", program.frame_name[std::size_t(b)], "'");
+  }
+
+  std::string failure() const {
+    if (watch_ && watch_()) return "stopped before a timing was found";
+    const MovingContact& met = *result_.met;
+    return cat("no timing along the way was found in ", result_.tries, " tries: without waiting, ", words(met.a, met.b),
+               " at ", met.time, " s, ", std::lround(100. * met.place / std::max(curve_.length(), 1e-300)),
+               " % of the way");
+  }
+
+  const PathCurve& curve_;
+  const TimeLaw& fastest_;
+  const MotionLimits& limits_;
+  MovingCheck& check_;
+  const MotionWatch& watch_;
+  const double step_;  ///< of departures, s
+  double start_speed_, first_stop_;
+  std::vector<double> places_, passes_;  ///< of stations: s, and when the fastest law passes
+  std::vector<VectorXd> postures_;
+  std::vector<std::optional<std::vector<FreeTime>>> free_times_;
+  std::vector<Leg> legs_;
+  std::vector<Node> nodes_;
+  std::priority_queue<Entry> queue_;
+  long order_ = 0;
+  MovingTiming result_;
+};
+
+}  // namespace
+
+MovingTiming timeAmongMoving(const TimedPath& fastest, const MotionLimits& limits, MovingCheck& check,
+                             const MotionWatch& watch) {
+  return TimeSearch(fastest, limits, check, watch).run();
+}
+
+}  // namespace kinegraph

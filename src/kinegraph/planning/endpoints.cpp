@@ -1,0 +1,119 @@
+#include "kinegraph/planning/endpoints.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+#include "kinegraph/common/errors.h"
+#include "kinegraph/common/text.h"
+
+namespace kinegraph {
+
+namespace {
+
+constexpr double kBeyondLimit = 1e-5;             // rad, m: rounding of files, which counts as at the limit
+constexpr std::size_t kNamed = 3;                 // pairs and obstacles
+constexpr double kRoom = 2. * Clearance::kGuard;  // m, that an end keeps above the margin around it
+
+void requireState(const VectorXd& q, int dofs, const std::string& what, const char* who) {
+  if (q.size() != dofs) throw ValueError(cat(who, ": the ", what, " has ", q.size(), " numbers; expected ", dofs));
+  if (!q.allFinite()) throw ValueError(cat(who, ": the ", what, " has numbers that are not finite"));
+}
+
+}  // namespace
+
+std::string lengthInWords(double length) {
+  const double size = std::abs(length);
+  char text[32];
+  if (size < 1e-3) {
+    std::snprintf(text, sizeof text, "%.3g um", 1e6 * length);
+  } else if (size < 1.) {
+    std::snprintf(text, sizeof text, "%.3g mm", 1e3 * length);
+  } else {
+    std::snprintf(text, sizeof text, "%.3g m", length);
+  }
+  return text;
+}
+
+std::string pairsInWords(const Program& program, const std::vector<ClearanceCheck::Nearest>& pairs) {
+  std::vector<std::string> words;
+  for (std::size_t i = 0; i < std::min(pairs.size(), kNamed); ++i) {
+    const ClearanceCheck::Nearest& pair = pairs[i];
+    words.push_back(cat("'", program.frame_name[std::size_t(pair.a)], "' and '",
+                        program.frame_name[std::size_t(pair.b)], "' ",
+                        pair.distance < 0. ? cat("overlap by ", lengthInWords(-pair.distance))
+                                           : cat("are ", lengthInWords(pair.distance), " apart")));
+  }
+  if (pairs.size() > kNamed) words.push_back(cat("and ", pairs.size() - kNamed, " more pairs"));
+  return join(words);
+}
+
+MotionEnd checkEnd(Steering& steering, const Program& program, const VectorXd& q, double margin,
+                   const std::string& what, const char* who) {
+  requireState(q, program.dofs, what, who);
+  MotionEnd end;
+  end.q = q;
+  end.kept = margin;
+  const std::string beyond = steering.space().beyondLimits(q, kBeyondLimit);
+  if (!beyond.empty()) {
+    end.problem = cat("the ", what, " is out of limits: ", beyond);
+    return end;
+  }
+  steering.space().clamp(end.q);
+  end.near = steering.check().nearerThan(end.q, margin + kRoom);
+  if (!end.near.empty()) end.kept = std::min(margin, end.near.front().distance);
+  if (!end.near.empty() && end.near.front().distance < std::min(margin, 0.) + kRoom) {
+    end.problem = cat("the ", what, " collides: ", pairsInWords(program, end.near));
+  } else if (steering.isConstrained()) {
+    const double violation = steering.manifold().violation(end.q);
+    if (violation > steering.manifold().tolerance())
+      end.problem = cat("the ", what, " violates the constraint ", steering.manifold().worst(end.q), " by ", violation);
+  }
+  return end;
+}
+
+Clearance clearanceAround(double margin, const std::vector<const MotionEnd*>& ends) {
+  Clearance clearance;
+  clearance.margin = margin;
+  for (const MotionEnd* end : ends) {
+    if (end->near.empty()) continue;
+    const double around = std::max(std::min(margin, end->near.front().distance - kRoom), std::min(margin, 0.));
+    if (around < margin) clearance.tight.push_back({end->q, around});
+  }
+  return clearance;
+}
+
+std::vector<MetObstacle> obstaclesMet(const Program& program, const PairCounts& hits) {
+  std::map<int, std::pair<long, MetObstacle>> obstacles;  // by frame
+  long all = 0;
+  for (const auto& [pair, times] : hits) {
+    // The one that moves less is the obstacle: links are numbered from the world on.
+    const auto [a, b] = pair;
+    const bool a_moves_less = program.frame_link[std::size_t(a)] <= program.frame_link[std::size_t(b)];
+    auto& [count, met] = obstacles[a_moves_less ? a : b];
+    count += times;
+    all += times;
+    met.by.push_back(program.frame_name[std::size_t(a_moves_less ? b : a)]);
+  }
+  std::vector<MetObstacle> list;
+  for (auto& [frame, entry] : obstacles) {
+    auto& [count, met] = entry;
+    list.push_back({frame, program.frame_name[std::size_t(frame)], double(count) / double(all), std::move(met.by)});
+  }
+  std::stable_sort(list.begin(), list.end(),
+                   [](const MetObstacle& x, const MetObstacle& y) { return x.share > y.share; });
+  return list;
+}
+
+std::string obstaclesInWords(const std::vector<MetObstacle>& obstacles) {
+  std::vector<std::string> words;
+  for (std::size_t i = 0; i < std::min(obstacles.size(), kNamed); ++i) {
+    const MetObstacle& met = obstacles[i];
+    std::vector<std::string> by;
+    for (std::size_t k = 0; k < std::min(met.by.size(), kNamed); ++k) by.push_back(cat("'", met.by[k], "'"));
+    words.push_back(cat("'", met.name, "' (", std::lround(100. * met.share), " %, by ", join(by), ")"));
+  }
+  return join(words);
+}
+
+}  // namespace kinegraph

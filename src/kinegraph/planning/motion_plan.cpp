@@ -1,0 +1,84 @@
+#include "kinegraph/planning/motion_plan.h"
+
+#include "kinegraph/common/errors.h"
+#include "kinegraph/common/text.h"
+#include "kinegraph/collision/edge_check.h"
+#include "kinegraph/planning/endpoints.h"
+
+namespace kinegraph {
+
+std::string planStatusName(PlanStatus status) {
+  switch (status) {
+    case PlanStatus::solved:
+      return "solved";
+    case PlanStatus::start_blocked:
+      return "start_blocked";
+    case PlanStatus::goal_blocked:
+      return "goal_blocked";
+    case PlanStatus::unreached:
+      return "unreached";
+    case PlanStatus::impossible:
+      return "impossible";
+    case PlanStatus::no_way:
+      return "no_way";
+    case PlanStatus::no_timing:
+      return "no_timing";
+    case PlanStatus::out_of_time:
+      return "out_of_time";
+    case PlanStatus::cancelled:
+      return "cancelled";
+  }
+  return "unknown";
+}
+
+MotionState MotionPlan::at(double t) const {
+  if (!feasible()) throw ValueError(cat("MotionPlan.at: there is no motion; ", message));
+  if (!options.timing) throw ValueError("MotionPlan.at: the path has no times; it was planned without timing");
+  return timed.at(t);
+}
+
+std::vector<VectorXd> MotionPlan::movingAt(double t) const {
+  std::vector<VectorXd> values;
+  for (std::size_t i = 0; moving && i < moving->obstacles().size(); ++i) values.push_back(moving->valuesAt(int(i), t));
+  return values;
+}
+
+PlanOptions MotionPlan::optionsAt(double t) const {
+  PlanOptions later = options;
+  for (MovingObstacle& obstacle : later.moving) obstacle.times.array() -= t;
+  return later;
+}
+
+double MotionPlan::clearance(double most) const {
+  if (!feasible()) throw ValueError(cat("MotionPlan.clearance: there is no motion; ", message));
+  EdgeChecker checker(*scene, 0., 1e-4);
+  double least = most;
+  for (Eigen::Index k = 0; k < path.rows(); ++k) {
+    const VectorXd from = path.row(std::max<Eigen::Index>(k - 1, 0)).transpose(), to = path.row(k).transpose();
+    least = checker.clearance(from.data(), to.data(), least);
+  }
+  return std::max(least, std::min(kept, most));
+}
+
+std::string MotionPlan::str() const {
+  if (!feasible()) return cat(planStatusName(status), ": ", message);
+  return cat("solved: ", path.rows(), " postures, length ", length, options.timing ? cat(", ", duration(), " s") : "");
+}
+
+std::string MotionPlan::explain() const {
+  std::string text = str();
+  for (const std::string& note : notes) text += cat("\n  ", note);
+  for (const PlanStage& stage : stages) {
+    text += cat("\n  ", stage.name, ": ", 1e3 * stage.seconds, " ms, ", stage.evaluations, " evaluations",
+                stage.note.empty() ? "" : cat("; ", stage.note));
+  }
+  for (std::size_t i = 0; i < attempts.size(); ++i) {
+    const AttemptReport& attempt = attempts[i];
+    text += cat("\n  attempt ", i + 1, ": ", attempt.draws, " postures drawn, trees of ", attempt.start_nodes,
+                " (start) and ", attempt.goal_nodes, " (goals) postures");
+  }
+  if (feasible()) text += cat("\n  clearance: ", clearance() < .1 ? lengthInWords(clearance()) : "100 mm or more");
+  return text;
+}
+
+}  // namespace kinegraph

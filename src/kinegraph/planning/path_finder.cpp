@@ -1,0 +1,166 @@
+#include "kinegraph/planning/path_finder.h"
+
+#include <algorithm>
+#include <cmath>
+#include <ctime>
+
+#include "kinegraph/planning/endpoints.h"
+#include "kinegraph/planning/pair_choice.h"
+#include "kinegraph/planning/smoothing/shortcut.h"
+
+namespace kinegraph {
+
+namespace {
+
+constexpr const char* kPathFinder = "PathFinder";
+constexpr long kEffortPerIteration = 40;  // postures looked at
+
+double processorTime() { return double(std::clock()) / CLOCKS_PER_SEC; }
+
+}  // namespace
+
+const OptionTable<PathFinderOptions>& pathFinderOptionTable() {
+  using O = PathFinderOptions;
+  using Range = OptionRange;
+  static const OptionTable<O> table(
+      kPathFinder, {{"verbose", &O::verbose, "", "0: silent; 1: solve prints a line; 2 and more: and shows the path."},
+                    {"stepsize", &O::stepsize, "rad or m", "Longest step from one posture of the path to the next.",
+                     Range::positive()},
+                    {"subsamples", &O::subsamples, "",
+                     "Of older scripts, without effect: motions are checked at all times.", Range::notNegative()},
+                    {"maxIters", &O::maxIters, "", "Effort: 40 postures are looked at for each.", Range::atLeastOne()},
+                    {"p_connect",
+                     &O::p_connect,
+                     "",
+                     "Of older scripts, without effect: trees always grow towards each other, too.",
+                     {[](double v) { return v >= 0. && v <= 1.; }, "a number from 0 to 1"}},
+                    {"collisionTolerance", &O::collisionTolerance, "m", "Depth to which each pair may overlap.",
+                     Range::notNegative()},
+                    {"useBroadCollisions", &O::useBroadCollisions, "", "Of older scripts, without effect."}});
+  return table;
+}
+
+void PathFinderOptions::validate() const { pathFinderOptionTable().validate(*this); }
+
+PathFinder& PathFinder::setOptions(const PathFinderOptions& options) {
+  options.validate();
+  options_ = options;
+  return *this;
+}
+
+PathFinder& PathFinder::setProblem(const Config& config) {
+  config_ = &config;
+  path_.resize(0, 0);
+  return *this;
+}
+
+PathFinder& PathFinder::setProblem(const Config& config, const VectorXd& start, const VectorXd& goal) {
+  return setProblem(config).setStartGoal(start, goal);
+}
+
+PathFinder& PathFinder::setStartGoal(const VectorXd& start, const VectorXd& goal) {
+  start_ = start;
+  goal_ = goal;
+  path_.resize(0, 0);
+  return *this;
+}
+
+PathFinder& PathFinder::setExplicitCollisionPairs(std::vector<std::pair<std::string, std::string>> pairs) {
+  if (config_) {
+    for (const auto& [a, b] : pairs) {
+      config_->scene()->get(a, "setExplicitCollisionPairs");
+      config_->scene()->get(b, "setExplicitCollisionPairs");
+    }
+  }
+  pairs_ = std::move(pairs);
+  return *this;
+}
+
+SolverResult PathFinder::solve(std::uint64_t seed, const MotionWatch& watch) {
+  if (!config_) throw ValueError("PathFinder: there is no scene; call setProblem before solve");
+  if (start_.size() == 0) throw ValueError("PathFinder: there are no start and goal; call setStartGoal before solve");
+  const double began = processorTime();
+  const State scene =
+      pairs_.empty() ? config_->state() : onlyPairs(*config_, pairs_, "setExplicitCollisionPairs").state();
+  SolverResult result;
+  path_ = search(scene, seed, watch, result);
+  result.done = true;
+  result.feasible = path_.rows() > 0;
+  result.status = result.feasible ? SolverStatus::converged : result.status;
+  const Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor> rows = path_;
+  result.x = Eigen::Map<const VectorXd>(rows.data(), rows.size());
+  result.time = processorTime() - began;
+  return result;
+}
+
+/// No rows if there is no path; the result then says why.
+MatrixXd PathFinder::search(const State& scene, std::uint64_t seed, const MotionWatch& watch, SolverResult& result) {
+  const JointSpace space(scene.program());
+  space.requireRanges(kPathFinder);
+  const double margin = -options_.collisionTolerance;
+  WayRequest request{.demands = {&scene, &space, {.margin = margin}}, .starts = {}, .goals = {}};
+  Steering steering(request.demands);
+  result.status = SolverStatus::infeasible;
+  std::vector<MotionEnd> ends;
+  for (const auto& [q, what] : {std::pair(&start_, "start"), std::pair(&goal_, "goal")}) {
+    ends.push_back(checkEnd(steering, scene.program(), *q, margin, what, kPathFinder));
+    if (ends.back().isFree()) continue;
+    result.message = ends.back().problem;
+    return {};
+  }
+  request.demands.clearance = clearanceAround(margin, {&ends[0], &ends[1]});
+  request.demands.clearance.guard = Clearance::kGuard;
+  request.starts = {ends[0].q};
+  request.goals = {ends[1].q};
+  request.seed = seed;
+  request.effort = kEffortPerIteration * options_.maxIters;
+  request.watch = watch;
+  const Way way = searchWay(request);
+  for (const AttemptReport& attempt : way.attempts) result.evals += int(attempt.draws);
+  result.totalEvals = result.evals;
+  if (way.points.empty()) {
+    result.status = way.was_stopped ? SolverStatus::cancelled : SolverStatus::limit;
+    const std::string met = obstaclesInWords(obstaclesMet(scene.program(), way.hits));
+    result.message = cat(way.was_stopped ? "stopped" : "no path found", " after ", result.evals, " draws",
+                         met.empty() ? "" : cat("; most motions ended at ", met));
+    return {};
+  }
+  Steering shortening(request.demands);
+  const std::vector<VectorXd> points = shorten(shortening, way.points, {.seed = seed, .watch = watch});
+  result.message = cat(way.is_line ? "the straight motion is free" : "found by trees");
+  return resampleBySteps(space, space.unroll(points), options_.stepsize);
+}
+
+MatrixXd PathFinder::get_resampledPath(int T) const {
+  if (path_.rows() == 0) throw ValueError("get_resampledPath: there is no path; call solve before");
+  return resampleByIndex(path_, T);
+}
+
+MatrixXd resampleBySteps(const JointSpace& space, const MatrixXd& path, double step) {
+  std::vector<VectorXd> points = {path.row(0).transpose()};
+  for (Eigen::Index k = 1; k < path.rows(); ++k) {
+    const VectorXd from = path.row(k - 1).transpose(), to = path.row(k).transpose();
+    const int parts = std::max(1, int(std::ceil(space.distance(from, to) / step)));
+    for (int i = 1; i < parts; ++i) points.push_back(from + double(i) / parts * (to - from));
+    points.push_back(to);
+  }
+  MatrixXd rows(Eigen::Index(points.size()), path.cols());
+  for (std::size_t i = 0; i < points.size(); ++i) rows.row(Eigen::Index(i)) = points[i].transpose();
+  return rows;
+}
+
+MatrixXd resampleByIndex(const MatrixXd& path, int T) {
+  if (T < 1) throw ValueError(cat("get_resampledPath: T is ", T, "; expected at least 1"));
+  MatrixXd rows(T, path.cols());
+  const Eigen::Index last = path.rows() - 1;
+  for (int t = 0; t < T; ++t) {
+    const double at = T > 1 ? double(last) * t / (T - 1) : 0.;
+    const Eigen::Index k = std::min(Eigen::Index(at), std::max<Eigen::Index>(last - 1, 0));
+    const double share = at - double(k);
+    rows.row(t) = path.row(k);
+    if (last > 0) rows.row(t) += share * (path.row(k + 1) - path.row(k));
+  }
+  return rows;
+}
+
+}  // namespace kinegraph

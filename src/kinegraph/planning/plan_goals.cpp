@@ -1,0 +1,126 @@
+#include "kinegraph/planning/plan_goals.h"
+
+#include <algorithm>
+
+#include "kinegraph/common/errors.h"
+#include "kinegraph/common/text.h"
+#include "kinegraph/ik/ik_problem.h"
+
+namespace kinegraph {
+
+namespace {
+
+constexpr const char* kGoalsOf = "planMotion";
+constexpr double kSame = .05;  // joint space: postures nearer than this are one goal
+constexpr int kDrawsPerGoal = 4;
+
+class GoalFinder {
+ public:
+  GoalFinder(const Config& config, const VectorXd& start, Steering& steering, const PlanOptions& options,
+             const MotionWatch& watch)
+      : config_(config), steering_(steering), options_(options), watch_(watch), start_(start) {}
+
+  GoalPostures of(const MotionGoal& goal) {
+    const int kinds = !goal.postures.empty() + !goal.targets.empty() + !goal.conditions.empty() + !goal.state.empty();
+    if (kinds != 1)
+      throw ValueError(cat(kGoalsOf, ": the goal ", kinds ? "is of several kinds" : "is empty",
+                           "; expected joint vectors, targets, conditions, or the name of a joint state"));
+    if (!goal.state.empty()) add(config_.getNamedState(goal.state), cat("goal '", goal.state, "'"));
+    for (std::size_t i = 0; i < goal.postures.size(); ++i)
+      add(goal.postures[i], goal.postures.size() == 1 ? "goal" : cat("goal ", i));
+    if (!goal.targets.empty()) fromTargets(goal.targets);
+    if (!goal.conditions.empty()) fromConditions(goal.conditions);
+    return std::move(found_);
+  }
+
+ private:
+  void add(const VectorXd& q, const std::string& what) {
+    found_.ends.push_back(checkEnd(steering_, *config_.program(), q, options_.margin, what, kGoalsOf));
+  }
+
+  bool isNew(const VectorXd& q) const {
+    return std::ranges::none_of(found_.ends,
+                                [&](const MotionEnd& end) { return steering_.space().distance(end.q, q) < kSame; });
+  }
+
+  bool hasEnough() const { return int(found_.ends.size()) >= options_.goals || (watch_ && watch_()); }
+
+  /// Solutions of inverse kinematics from the start, and from random postures of the joints that move the targets.
+  void fromTargets(const std::vector<IkTarget>& targets) {
+    Config scene(config_);
+    scene.setJointState(start_);
+    IkOptions ik;
+    ik.margin = options_.margin + 2. * Clearance::kGuard;
+    ik.seed = options_.seed;
+    const std::vector<int> dofs = IkProblem(scene, targets, ik).dofs;
+    Rng rng(options_.seed);
+    std::string failure;
+    for (int i = 0; i < kDrawsPerGoal * options_.goals && !hasEnough(); ++i) {
+      if (i > 0) {
+        const VectorXd drawn = steering_.space().draw(rng, start_);
+        VectorXd from = start_;
+        for (const int dof : dofs) from[dof] = drawn[dof];
+        scene.setJointState(from);
+        ik.attempts = 4;
+      }
+      const IkResult result = solveIk(scene, targets, ik);
+      if (result.feasible() && !isNew(result.q)) continue;
+      if (result.feasible()) {
+        add(result.q, "goal");
+      } else if (failure.empty()) {
+        failure = result.message;
+        if (i == 0) break;  // a hundred attempts failed
+      }
+    }
+    if (found_.ends.empty()) {
+      found_.was_reached = false;
+      found_.message = cat("the goal is out of reach: ", failure);
+    }
+  }
+
+  /// Random postures, and the start, brought to where the conditions hold.
+  void fromConditions(std::vector<MotionConstraint> conditions) {
+    conditions.insert(conditions.end(), options_.constraints.begin(), options_.constraints.end());
+    Manifold manifold(config_.state(), steering_.space(), conditions, options_.constraint_tolerance);
+    Rng rng(options_.seed);
+    double least = std::numeric_limits<double>::infinity();
+    std::string missed;
+    std::vector<MotionEnd> blocked;
+    for (int i = 0; i < 8 * kDrawsPerGoal * options_.goals && !hasEnough(); ++i) {
+      VectorXd q = i == 0 ? start_ : steering_.space().draw(rng, start_);
+      if (!manifold.project(q)) {
+        const double violation = manifold.violation(q);
+        if (violation < least) missed = manifold.worst(q);
+        least = std::min(least, violation);
+      } else if (isNew(q)) {
+        add(q, "goal");
+        if (found_.ends.back().isFree()) continue;
+        blocked.push_back(std::move(found_.ends.back()));
+        found_.ends.pop_back();
+      }
+    }
+    if (!found_.ends.empty()) return;
+    if (!blocked.empty()) {
+      found_.ends = {std::move(blocked.front())};
+      return;
+    }
+    found_.was_reached = false;
+    found_.message = cat("the goal is out of reach: ", missed, " is missed by ", least, " at least");
+  }
+
+  const Config& config_;
+  Steering& steering_;
+  const PlanOptions& options_;
+  const MotionWatch& watch_;
+  const VectorXd start_;
+  GoalPostures found_;
+};
+
+}  // namespace
+
+GoalPostures goalPostures(const Config& config, const MotionGoal& goal, const VectorXd& start, Steering& steering,
+                          const PlanOptions& options, const MotionWatch& watch) {
+  return GoalFinder(config, start, steering, options, watch).of(goal);
+}
+
+}  // namespace kinegraph

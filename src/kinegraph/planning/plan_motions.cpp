@@ -1,0 +1,47 @@
+#include "kinegraph/planning/plan_motions.h"
+
+#include "kinegraph/planning/planner.h"
+
+namespace kinegraph {
+
+namespace {
+
+constexpr int kImprove = 1000000;  // evaluations, where the options say none
+
+}  // namespace
+
+MotionPlans::MotionPlans(const Config& config, MotionGoal goal, PlanOptions options,
+                         const std::optional<VectorXd>& start)
+    : config_(config),
+      goal_(std::move(goal)),
+      options_(std::move(options)),
+      start_(start.value_or(config_.getJointState())),
+      ask_([this] { return watch_ && watch_(); }) {
+  options_.validateFor(config_.getJointDimension());
+  if (!options_.moving.empty() || (options_.start_velocity.size() > 0 && !options_.start_velocity.isZero(0.)))
+    throw ValueError("planMotions: moving obstacles and start_velocity are not known here; call planMotion");
+  if (options_.improve == 0) options_.improve = kImprove;
+}
+
+MotionPlans::~MotionPlans() = default;
+
+std::optional<MotionPlan> MotionPlans::next(const MotionWatch& watch) {
+  watch_ = watch;
+  std::optional<MotionPlan> plan;
+  if (planner_) {
+    plan = planner_->better();
+  } else {
+    planner_ = std::make_unique<Planner>(config_, options_, ask_);
+    plan = planner_->run(goal_, start_);
+  }
+  watch_ = {};
+  if (plan) plan->options = options_;
+  return plan;
+}
+
+MotionPlans planMotions(const Config& config, const MotionGoal& goal, const PlanOptions& options,
+                        const std::optional<VectorXd>& start) {
+  return MotionPlans(config, goal, options, start);
+}
+
+}  // namespace kinegraph

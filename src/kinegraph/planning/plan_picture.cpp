@@ -1,0 +1,107 @@
+// How plans and roadmaps look in the scene.
+#include <algorithm>
+#include <cmath>
+
+#include "kinegraph/common/errors.h"
+#include "kinegraph/common/text.h"
+#include "kinegraph/planning/motion_plan.h"
+#include "kinegraph/planning/roadmap.h"
+#include "kinegraph/scene/frame_shapes.h"
+
+namespace kinegraph {
+
+namespace {
+
+constexpr double kDrawnStep = .1;  // joint space: what is straight in q is curved in the world
+constexpr int kMostPerMotion = 40;
+using Color = std::array<std::uint8_t, 4>;
+constexpr Color kBlue = {40, 110, 220, 255}, kOrange = {240, 140, 30, 255}, kGray = {120, 120, 120, 255},
+                kGreen = {20, 160, 60, 255};
+
+/// One frame on each link at the end of a chain.
+std::vector<int> tips(const Program& program) {
+  std::vector<char> ends(program.links.size(), 1);
+  for (const Program::Link& link : program.links) ends[std::size_t(link.parent)] = 0;
+  std::vector<int> frames;
+  for (std::size_t l = 1; l < program.links.size(); ++l)
+    if (ends[l]) frames.push_back(program.links[l].frame);
+  return frames;
+}
+
+/// Lines along which frames go.
+class Drawing {
+ public:
+  Drawing(const Config& config, const JointSpace& space, const std::vector<std::string>& frames, const char* who)
+      : picture_(config), space_(space), state_(config.state()) {
+    if (config.getJointDimension() != space.dofs())
+      throw ValueError(cat(who, ": the scene has ", config.getJointDimension(), " dofs; expected ", space.dofs(),
+                           ", those that were planned for"));
+    const Program& program = *config.program();
+    for (const std::string& name : frames) frames_.push_back(frameId(program, name, who));
+    if (frames.empty()) frames_ = tips(program);
+  }
+
+  void addMotion(const VectorXd& from, const VectorXd& to) {
+    const VectorXd change = space_.difference(from, to);
+    const int parts = std::clamp(int(std::ceil(change.norm() / kDrawnStep)), 1, kMostPerMotion);
+    for (const int frame : frames_) {
+      for (int i = 0; i <= parts; ++i) {
+        const VectorXd q = from + double(i) / parts * change;
+        state_.setJoints(q.data());
+        points_.push_back(state_.position(frame));
+        if (i > 0 && i < parts) points_.push_back(points_.back());
+      }
+    }
+  }
+
+  void addPath(const MatrixXd& path) {
+    for (Eigen::Index k = 1; k < path.rows(); ++k) addMotion(path.row(k - 1).transpose(), path.row(k).transpose());
+  }
+
+  void addTree(const MotionTree& tree) {
+    for (int i = 0; i < tree.size(); ++i)
+      if (tree.node(i).parent >= 0) addMotion(tree.q(tree.node(i).parent), tree.q(i));
+  }
+
+  /// Puts what was added into the picture.
+  void draw(const std::string& name, const Color& color) {
+    if (points_.empty()) return;
+    Frame frame = picture_.addFrame(name);
+    setLines(frame, points_, {color});
+    points_.clear();
+  }
+
+  Config& picture() { return picture_; }
+
+ private:
+  Config picture_;
+  const JointSpace& space_;
+  State state_;
+  std::vector<int> frames_;
+  std::vector<Vector3d> points_;
+};
+
+}  // namespace
+
+Config MotionPlan::picture(const Config& config, const std::vector<std::string>& frames) const {
+  Drawing drawing(config, *space, frames, "MotionPlan.picture");
+  for (std::size_t i = 0; i < trees.size(); ++i) {
+    drawing.addTree(trees[i]);
+    drawing.draw(i == 0 ? "start tree" : "goal tree", i == 0 ? kBlue : kOrange);
+  }
+  drawing.addPath(first_way);
+  drawing.draw("first way", kGray);
+  drawing.addPath(path);
+  drawing.draw("path", kGreen);
+  if (!feasible() && !obstacles.empty()) drawing.picture().getFrame(obstacles.front().frame).setColor({1., 0., 0.});
+  return std::move(drawing.picture());
+}
+
+Config Roadmap::picture(const Config& config, const std::vector<std::string>& frames) const {
+  Drawing drawing(config, *space_, frames, "Roadmap.picture");
+  for (const auto& [a, b] : motionEnds()) drawing.addMotion(nodes_[std::size_t(a)], nodes_[std::size_t(b)]);
+  drawing.draw("roadmap", kBlue);
+  return std::move(drawing.picture());
+}
+
+}  // namespace kinegraph

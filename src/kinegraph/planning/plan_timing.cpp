@@ -1,0 +1,99 @@
+#include "kinegraph/planning/plan_timing.h"
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+
+#include "kinegraph/collision/travel_bound.h"
+#include "kinegraph/scene/motor_limits.h"
+#include "kinegraph/trajectories/curve_part.h"
+
+namespace kinegraph {
+
+namespace {
+
+constexpr double kUsualVelocity = 1.;  // rad/s, m/s, where the model says none
+constexpr double kTimeToSpeed = .25;   // s
+constexpr double kBothMove = 2.;       // the bodies of a pair
+
+VectorXd perDof(const VectorXd& given, int dofs) {
+  return given.size() == 1 ? VectorXd::Constant(dofs, given[0]) : given;
+}
+
+}  // namespace
+
+MotionLimits planLimits(const Config& config, const PlanOptions& options) {
+  const int n = config.getJointDimension();
+  MotionLimits limits;
+  limits.velocity = options.velocity.size() > 0 ? perDof(options.velocity, n) : getVelocityLimits(config);
+  for (double& velocity : limits.velocity)
+    if (!std::isfinite(velocity)) velocity = kUsualVelocity;
+  limits.acceleration =
+      options.acceleration.size() > 0 ? perDof(options.acceleration, n) : VectorXd(limits.velocity / kTimeToSpeed);
+  if (options.jerk.size() > 0) limits.jerk = perDof(options.jerk, n);
+  return limits;
+}
+
+BlendCheck freeBlends(Steering& given) {
+  const auto place = std::make_shared<State>(given.check().scene());
+  return [place, &steering = given](const MatrixXd& points, double deviation) {
+    State& state = *place;
+    for (Eigen::Index k = 1; k < points.rows(); ++k) {
+      const VectorXd to = points.row(k).transpose();
+      const VectorXd from = points.row(k - 1).transpose();
+      if (!steering.manifold().holdsAlong(from, to, Steering::kSpacing, deviation)) return false;
+      const VectorXd leaves = VectorXd::Constant(from.size(), deviation);
+      const VectorXd spread = .5 * (to - from).cwiseAbs() + leaves;  // from the nearer end
+      double travel = 0.;
+      for (const VectorXd* q : {&from, &to}) {
+        state.setJoints(q->data());
+        travel = std::max(travel, travelOf(state, leaves, spread));
+      }
+      if (!steering.check().isMotionFree(from, to, kBothMove * travel)) return false;
+    }
+    return true;
+  };
+}
+
+bool isFree(Steering& steering, const PathCurve& curve, int parts_of_piece) {
+  const BlendCheck is_free = freeBlends(steering);
+  for (int piece = 0; piece < curve.pieces(); ++piece) {
+    const double begin = curve.begin(piece), width = curve.end(piece) - begin;
+    const int parts = curve.isLine(piece) ? 1 : parts_of_piece;
+    double bend = 0.;  // |q''|, at most
+    for (int power = 2; power <= curve.degree() && !curve.isLine(piece); ++power)
+      bend += power * (power - 1) * std::pow(width, power - 2) *
+              Eigen::Map<const VectorXd>(curve.coefficient(piece, power), curve.dofs()).cwiseAbs().maxCoeff();
+    MatrixXd points(parts + 1, curve.dofs());
+    for (int k = 0; k <= parts; ++k) points.row(k) = curve.eval(begin + k * width / parts).transpose();
+    if (!is_free(points, width * width / (parts * parts) / 8. * bend)) return false;
+  }
+  return true;
+}
+
+TimedPath timedBy(TimeLaw law, const MatrixXd& rows, const PathCurve& curve) {
+  std::vector<LawPhase> phases = law.phases();
+  for (LawPhase& phase : phases) phase.piece = curve.pieceAt(.5 * (phase.begin.s + phase.end));
+  law = TimeLaw(std::move(phases), law.duration());
+  VectorXd times(Eigen::Index(curve.marks().size()));
+  for (Eigen::Index i = 0; i < times.size(); ++i) times[i] = law.timeOf(curve.marks()[std::size_t(i)]);
+  return TimedPath::fromParts(RetimeStatus::timed, "", rows, std::move(times), curve, std::move(law));
+}
+
+TimedPath inTurn(const TimedPath& first, const TimedPath& second) {
+  MatrixXd rows(first.path.rows() + second.path.rows() - 1, first.path.cols());
+  rows << first.path, second.path.bottomRows(second.path.rows() - 1);
+  TimeLaw law = first.law();
+  law.append(CurvePart{{}, first.curve().length(), 0}.onWhole(second.law()));
+  return timedBy(std::move(law), rows, joined(first.curve(), second.curve()));
+}
+
+TimedPath timeMotion(Steering& steering, const MatrixXd& path, const MotionLimits& limits, double blend) {
+  RetimeOptions options;
+  options.corners = blend > 0. ? Corners::blend : Corners::stop;
+  options.tolerance = blend > 0. ? blend : options.tolerance;
+  options.is_free = freeBlends(steering);
+  return retime(path, limits, options);
+}
+
+}  // namespace kinegraph

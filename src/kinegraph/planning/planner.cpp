@@ -1,0 +1,377 @@
+#include "kinegraph/planning/planner.h"
+
+#include <algorithm>
+
+#include "kinegraph/planning/smooth_motion.h"
+#include "kinegraph/planning/retreat_motion.h"
+#include "kinegraph/planning/infeasibility_proof.h"
+#include "kinegraph/planning/plan_goals.h"
+#include "kinegraph/planning/plan_timing.h"
+
+namespace kinegraph {
+
+namespace {
+
+constexpr const char* kWho = "planMotion";
+constexpr int kRoundTries = 8;          // ways that are searched side by side, before the best one is known to others
+constexpr double kWorthPulling = 1.25;  // of the best cost: a way that is so much longer is not pulled taut
+constexpr double kProofUntil = 1.25;    // of the time limit
+constexpr double kWorthTelling = 1e-4;  // of what is made small, by which the next motion is better
+constexpr double kMargins[] = {.1, .05, .03, .02, .01, .005};  // m, tried in turn where clearance is asked for
+
+double secondsSince(std::chrono::steady_clock::time_point began) {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now() - began).count();
+}
+
+std::string noteOf(const Way& way) {
+  if (way.is_line) return "the straight motion is free";
+  return cat(way.attempts.size(), " attempts with trees, ", way.points.empty() ? "no way" : "a way");
+}
+
+}  // namespace
+
+Planner::Planner(const Config& config, const PlanOptions& options, const MotionWatch& watch)
+    : config_(config),
+      options_(options),
+      limits_(planLimits(config, options)),
+      crew_(options.threads),
+      ask_(watch),
+      watch_([this] { return isCancelled() || isLate(); }),
+      draws_(*config.program()) {
+  plan_.space = std::make_shared<const JointSpace>(*config.program());
+  plan_.scene = std::make_shared<const State>(config.state());
+  demands_ = {.scene = plan_.scene.get(),
+              .space = &draws_,
+              .clearance = {.margin = options.margin},
+              .constraints = options.constraints,
+              .constraint_tolerance = options.constraint_tolerance};
+}
+
+MotionPlan Planner::run(const MotionGoal& goal, const VectorXd& start) {
+  plan_.margin = options_.margin;
+  if (lookAtEnds(goal, start) && findWay()) finish();
+  return plan_;
+}
+
+bool Planner::isCancelled() { return ask_ && ask_() && (cancelled_ = true); }
+
+bool Planner::isLate() const { return secondsSince(began_) > options_.time_limit; }
+
+void Planner::endStage(const char* name, long evaluations, std::string note) {
+  plan_.stages.push_back({name, secondsSince(stage_began_), evaluations, std::move(note)});
+  stage_began_ = Clock::now();
+}
+
+bool Planner::fail(PlanStatus status, std::string message) {
+  plan_.status = status;
+  plan_.message = std::move(message);
+  return false;
+}
+
+bool Planner::failStopped(const std::string& message) {
+  return cancelled_ ? fail(PlanStatus::cancelled, cat("cancelled; ", message))
+                    : fail(PlanStatus::out_of_time, cat("time limit of ", options_.time_limit, " s; ", message));
+}
+
+// --- the ends ----------------------------------------------------------------------------------------------------
+
+/// A blocked end that only touches, or overlaps slightly, is left first.
+Planner::Gate Planner::gateOf(Steering& steering, MotionEnd end, const std::string& what) {
+  Gate gate{end, end.q};
+  plan_.space->normalize(gate.inside);
+  const bool slight = !end.near.empty() && end.near.front().distance >= -options_.touching;
+  if (end.isFree() || !slight) return gate;
+  const std::optional<VectorXd> inside = leaveContact(config_, steering, end, options_.margin);
+  if (!inside) return gate;
+  plan_.notes.push_back(cat("the ", what, " is in contact: ", pairsInWords(*config_.program(), end.near),
+                            what == "start" ? "; the motion first leaves it" : "; the motion comes to it last"));
+  gate.inside = *inside;
+  gate.leaves = true;
+  gate.deepest = end.near.front().distance - 2. * Clearance::kTolerance;
+  gate.end = checkEnd(steering, *config_.program(), *inside, options_.margin, what, kWho);
+  gate.end.q = end.q;
+  return gate;
+}
+
+bool Planner::lookAtEnds(const MotionGoal& goal, const VectorXd& start) {
+  Steering& steering = crew_.of(0, demands_);
+  start_ = gateOf(steering, checkEnd(steering, *config_.program(), start, options_.margin, "start", kWho), "start");
+  if (!start_.end.isFree()) return fail(PlanStatus::start_blocked, start_.end.problem);
+  GoalPostures postures = goalPostures(config_, goal, start_.end.q, steering, options_, watch_);
+  if (!postures.was_reached)
+    return watch_() ? failStopped(postures.message) : fail(PlanStatus::unreached, postures.message);
+  std::string problem;
+  for (std::size_t i = 0; i < postures.ends.size(); ++i) {
+    Gate gate = gateOf(steering, postures.ends[i], "goal");
+    if (gate.end.isFree()) {
+      goals_.push_back(gate);
+      goal_numbers_.push_back(int(i));
+    } else if (problem.empty()) {
+      problem = gate.end.problem;
+    }
+  }
+  endStage("ends", steering.evaluations(), cat(goals_.size(), " of ", postures.ends.size(), " goal postures are free"));
+  if (goals_.empty()) return fail(PlanStatus::goal_blocked, problem);
+  if (plan_.notes.size() > 3) plan_.notes.resize(3);
+  for (const std::string& name : steering.manifold().sampled())
+    plan_.notes.push_back(cat("the constraint ", name, " was looked at every ", Steering::kSpacing, " along the way"));
+  return true;
+}
+
+/// Around gates that keep less than the margin, it is what they keep.
+Clearance Planner::clearance(double margin) const {
+  std::vector<MotionEnd> ends;
+  for (const Gate& gate : goals_) ends.push_back(gate.end), ends.back().q = gate.inside;
+  ends.push_back(start_.end);
+  ends.back().q = start_.inside;
+  std::vector<const MotionEnd*> list;
+  for (const MotionEnd& end : ends) list.push_back(&end);
+  Clearance clearance = clearanceAround(margin, list);
+  clearance.guard = Clearance::kGuard;
+  return clearance;
+}
+
+// --- the way -----------------------------------------------------------------------------------------------------
+
+WayRequest Planner::request() {
+  WayRequest request{.demands = demands_, .starts = {start_.inside}, .goals = {}};
+  for (const Gate& gate : goals_) request.goals.push_back(gate.inside);
+  request.seed = options_.seed;
+  request.effort = options_.evaluations;
+  request.threads = options_.threads;
+  request.watch = watch_;
+  request.steering = &crew_.of(0, demands_);
+  return request;
+}
+
+bool Planner::findWay() {
+  Way way;
+  if (options_.optimize == "clearance") way = searchWithRoom();
+  if (way.points.empty()) {
+    demands_.clearance = clearance(options_.margin);
+    way = searchWay(request());
+  }
+  plan_.attempts = way.attempts;
+  plan_.trees = way.trees;
+  endStage("search", way.effort, noteOf(way));
+  if (way.points.empty()) return failSearch(way);
+  improve(way);
+  return true;
+}
+
+/// With the largest margin for which a way is found soon.
+Way Planner::searchWithRoom() {
+  for (const double margin : kMargins) {
+    if (margin <= options_.margin || watch_()) continue;
+    demands_.clearance = withEndsAt(margin);
+    WayRequest asked = request();
+    asked.effort = std::max(1l, asked.effort / 20);
+    Way way = searchWay(asked);
+    if (way.points.empty()) continue;
+    plan_.margin = margin;
+    return way;
+  }
+  return {};
+}
+
+/// Clearances for a larger margin than the ends were looked at with.
+Clearance Planner::withEndsAt(double margin) {
+  Steering& steering = crew_.of(0, demands_);
+  Clearance larger{.margin = margin, .guard = Clearance::kGuard};
+  std::vector<MotionEnd> ends;
+  for (const Gate& gate : goals_)
+    ends.push_back(checkEnd(steering, *config_.program(), gate.inside, margin, "goal", kWho));
+  ends.push_back(checkEnd(steering, *config_.program(), start_.inside, margin, "start", kWho));
+  std::vector<const MotionEnd*> list;
+  for (const MotionEnd& end : ends) list.push_back(&end);
+  larger.tight = clearanceAround(margin, list).tight;
+  return larger;
+}
+
+bool Planner::failSearch(const Way& way) {
+  long draws = 0;
+  for (const AttemptReport& attempt : way.attempts) draws += attempt.draws;
+  const AttemptReport last = way.attempts.empty() ? AttemptReport() : way.attempts.back();
+  plan_.obstacles = obstaclesMet(*config_.program(), way.hits);
+  const std::string met = obstaclesInWords(plan_.obstacles);
+  const std::string words =
+      cat("no way found: ", way.effort, " evaluations, ", draws, " postures drawn in ", way.attempts.size(),
+          " attempts; the last trees have ", last.start_nodes, " postures (start) and ", last.goal_nodes, " (goals)",
+          met.empty() ? "" : cat("; most motions ended at ", met));
+  if (cancelled_) return failStopped(words);
+  std::vector<VectorXd> goals;
+  for (const Gate& gate : goals_) goals.push_back(gate.inside);
+  const bool tight = !demands_.clearance.tight.empty();  // then the margin does not hold everywhere
+  std::string proof;
+  if (options_.proof) {
+    const auto is_enough = [this] { return isCancelled() || secondsSince(began_) > kProofUntil * options_.time_limit; };
+    proof = proveNoWay(*plan_.scene, start_.inside, goals, tight ? 0. : options_.margin, is_enough);
+    endStage("prove", 0, proof.empty() ? "no proof that there is none" : "");
+  }
+  if (!proof.empty()) return fail(PlanStatus::impossible, cat(proof, "; ", words));
+  if (way.was_stopped || cancelled_) return failStopped(words);
+  return fail(PlanStatus::no_way, words);
+}
+
+VectorXd Planner::weight() const {
+  if (options_.optimize == "length") return VectorXd::Ones(limits_.velocity.size());
+  return limits_.velocity.minCoeff() * limits_.velocity.cwiseInverse();
+}
+
+void Planner::improve(const Way& first) {
+  tries_ = options_.tries;
+  best_ = improveWay(first, request(),
+                     {.tries = options_.tries, .weight = weight(), .late = [this] { return isLate(); }}, crew_);
+  endStage("shorten", best_.evaluations,
+           first.is_line ? "" : cat("the best of ", options_.tries, options_.tries == 1 ? " way" : " ways"));
+  const double before = best_.cost;
+  const int refinements = options_.optimize == "length" ? 2 : 0;  // each corner more takes time
+  tighten(best_, request(), weight(), refinements, crew_);
+  endStage("tighten", best_.evaluations,
+           best_.cost < before ? cat(lround(1000. * (1. - best_.cost / before)) / 10., " % shorter") : "");
+}
+
+/// The next round of ways.
+void Planner::improveFurther() {
+  drawWhereShorter();
+  ImproveOptions options{
+      .tries = kRoundTries, .first_try = tries_, .weight = weight(), .late = [this] { return isLate(); }};
+  options.taut_below = kWorthPulling * best_.cost;
+  options.refinements = options_.optimize == "length" ? 2 : 0;
+  ShortWay found = improveWay(best_.way, request(), options, crew_);
+  tries_ += kRoundTries;
+  further_ += std::max(found.evaluations, 1l);
+  if (found.points.empty() || found.cost >= best_.cost) return;
+  best_ = std::move(found);
+}
+
+/// A way from start to goal through q is not shorter than |q - start| + |q - goal|.
+void Planner::drawWhereShorter() {
+  const VectorXd w = weight(), start = start_.inside;
+  VectorXd lower = start, upper = start;
+  for (const Gate& gate : goals_) {
+    const VectorXd change = draws_.difference(start, gate.inside).cwiseProduct(w);
+    const double a = .5 * best_.cost, direct = change.norm(), b2 = a * a - .25 * direct * direct;
+    if (b2 < 0.) continue;
+    for (Eigen::Index j = 0; j < w.size(); ++j) {
+      const double along = direct > 0. ? change[j] / direct : 0.;
+      const double half = std::sqrt(a * a * along * along + b2 * (1. - along * along)) / w[j];
+      lower[j] = std::min(lower[j], .5 * (start[j] + gate.inside[j]) - half);
+      upper[j] = std::max(upper[j], .5 * (start[j] + gate.inside[j]) + half);
+    }
+  }
+  draws_.drawWithin(lower, upper);
+}
+
+std::optional<MotionPlan> Planner::better() {
+  if (!plan_.feasible() || best_.way.is_line) return std::nullopt;
+  const bool by_length = options_.optimize == "length" || !options_.timing;
+  const auto value = [&](const MotionPlan& plan) { return by_length ? plan.length : plan.duration(); };
+  while (further_ < options_.improve && !watch_()) {
+    const double cost = best_.cost;
+    improveFurther();
+    if (best_.cost >= cost) continue;
+    MotionPlan before = plan_;
+    std::erase_if(plan_.stages, [](const PlanStage& stage) {
+      return stage.name == "improve" || stage.name == "verify" || stage.name == "time" || stage.name == "bend";
+    });
+    endStage("improve", further_, cat(tries_ - options_.tries, " further ways"));
+    finish();
+    if (plan_.feasible() && value(plan_) < (1. - kWorthTelling) * value(before)) return plan_;
+    plan_ = std::move(before);
+  }
+  return std::nullopt;
+}
+
+// --- the motion ----------------------------------------------------------------------------------------------------
+
+/// The whole path, gates included, as rows.
+MatrixXd Planner::rows(const std::vector<VectorXd>& points, const Way& way) const {
+  std::vector<VectorXd> all = points;
+  if (start_.leaves) {
+    all.insert(all.begin(), start_.end.q);
+  } else {
+    all.front() = start_.end.q;  // an endless joint keeps its turns
+  }
+  if (goals_[std::size_t(way.goal)].leaves) all.push_back(goals_[std::size_t(way.goal)].end.q);
+  return plan_.space->unroll(all);
+}
+
+/// What keeps the margins without a guard.
+Steering& Planner::exactly() {
+  MotionDemands exact = demands_;
+  exact.clearance.guard = 0.;
+  return crew_.of(0, exact);
+}
+
+/// Is each straight motion free at all times, but for those that leave and enter contacts, which are known?
+bool Planner::verify(const MatrixXd& path, const Way& way, long& evaluations) {
+  Steering& steering = exactly();
+  const long before = steering.evaluations();
+  const Eigen::Index first = start_.leaves ? 2 : 1,
+                     last = path.rows() - 1 - (goals_[std::size_t(way.goal)].leaves ? 1 : 0);
+  bool is_free = true;
+  for (Eigen::Index k = first; k <= last && is_free; ++k)
+    is_free = steering.isFree(path.row(k - 1).transpose(), path.row(k).transpose());
+  evaluations += steering.evaluations() - before;
+  return is_free;
+}
+
+/// What all of the path keeps: the margin, the least one around the ends, or the depth of a contact that is left.
+double Planner::kept() const {
+  double least = plan_.margin;
+  for (const Clearance::Tight& tight : demands_.clearance.tight) least = std::min(least, tight.margin);
+  for (const Gate* gate : {&start_, &goals_[std::size_t(best_.way.goal)]})
+    if (gate->leaves) least = std::min(least, gate->deepest);
+  return least;
+}
+
+void Planner::finish() {
+  long evaluations = 0;
+  plan_.path = rows(best_.points, best_.way);
+  const bool is_free = verify(plan_.path, best_.way, evaluations);
+  if (!is_free) {
+    plan_.path = rows(best_.way.points, best_.way);  // as the search had verified it
+    if (!verify(plan_.path, best_.way, evaluations)) {
+      plan_.path.resize(0, 0);
+      fail(PlanStatus::no_way, "the way that was found could not be verified");
+      return;
+    }
+  }
+  plan_.first_way = rows(best_.way.points, best_.way);
+  plan_.goal = goal_numbers_[std::size_t(best_.way.goal)];
+  plan_.kept = kept();
+  plan_.length = pathLength(*plan_.space, plan_.path);
+  endStage("verify", evaluations, is_free ? "" : "the way as it was found, since the shortened one was not free");
+  if (options_.timing) {
+    plan_.timed = timeMotion(exactly(), plan_.path, limits_, options_.blend);
+    endStage("time", 0, plan_.timed.str());
+  }
+  if (options_.slices > 0) bend();
+  plan_.status = PlanStatus::solved;
+}
+
+/// Takes what KOMO makes of the motion, if that is faster. Not where the motion leaves or enters contacts.
+void Planner::bend() {
+  const bool leaves = start_.leaves || goals_[std::size_t(best_.way.goal)].leaves;
+  if (leaves || !plan_.timed.feasible() || !config_.program()->unit_norms.empty()) return;
+  const double before = plan_.timed.duration();
+  std::optional<BentMotion> bent =
+      bendMotion(config_, exactly(), plan_.timed, limits_, kept(), options_.slices, watch_);
+  if (bent) {
+    plan_.path = std::move(bent->path);
+    plan_.timed = std::move(bent->timed);
+    plan_.length = pathLength(*plan_.space, plan_.path);
+  }
+  endStage("bend", 0, bent ? cat(plan_.timed.duration(), " s instead of ", before, " s") : "nothing faster was found");
+}
+
+MotionPlan planFromRest(const Config& config, const MotionGoal& goal, const PlanOptions& options, const VectorXd& start,
+                        const MotionWatch& watch) {
+  Planner planner(config, options, watch);
+  MotionPlan plan = planner.run(goal, start);
+  while (std::optional<MotionPlan> better = planner.better()) plan = std::move(*better);
+  return plan;
+}
+
+}  // namespace kinegraph

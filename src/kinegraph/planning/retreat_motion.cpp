@@ -1,0 +1,89 @@
+#include "kinegraph/planning/retreat_motion.h"
+
+#include <Eigen/Cholesky>
+#include <algorithm>
+
+#include "kinegraph/planning/pair_choice.h"
+#include "kinegraph/planning/steering/pair_gradient.h"
+
+namespace kinegraph {
+
+namespace {
+
+constexpr double kAway = 2e-3;        // m, beyond the margin: where pairs are pushed to
+constexpr double kWatched = 2e-2;     // m, beyond that: pairs that must not come nearer meanwhile
+constexpr double kLongestPush = .05;  // of a dof
+constexpr double kFarthest = .5;      // from the end, in joint space
+constexpr int kPushes = 50;
+constexpr double kDeeper = 1e-6;  // m, of rounding
+
+using Rows = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+
+/// Distances of near pairs less what they are to keep, and how they change.
+struct Needs {
+  VectorXd short_of;  ///< m, positive where a pair is too near
+  Rows J;
+};
+
+Needs needsAt(const State& state, const std::vector<ClearanceCheck::Nearest>& near, double wanted) {
+  Needs needs{VectorXd::Zero(Eigen::Index(near.size())), Rows::Zero(Eigen::Index(near.size()), state.dofs())};
+  for (std::size_t i = 0; i < near.size(); ++i) {
+    const auto row = Eigen::Index(i);
+    needs.short_of[row] = std::max(0., wanted - near[i].distance);
+    needs.J.row(row) = pairGradient(state, near[i].a, near[i].b).gradient.transpose();
+  }
+  return needs;
+}
+
+/// Pushes near pairs apart until all keep `wanted`.
+std::optional<VectorXd> push(State state, Steering& steering, const VectorXd& from, double wanted) {
+  VectorXd q = from;
+  for (int step = 0; step < kPushes; ++step) {
+    const std::vector<ClearanceCheck::Nearest> near = steering.check().nearerThan(q, wanted + kWatched);
+    if (near.empty() || near.front().distance >= wanted) return q;
+    state.setJoints(q.data());
+    const Needs needs = needsAt(state, near, wanted + .25 * kAway);
+    MatrixXd A = needs.J * needs.J.transpose();
+    A.diagonal().array() += 1e-4 * std::max(A.diagonal().maxCoeff(), 1e-9);
+    VectorXd change = needs.J.transpose() * A.ldlt().solve(needs.short_of);
+    const double longest = change.cwiseAbs().maxCoeff();
+    if (!(longest > 1e-9)) return std::nullopt;
+    if (longest > kLongestPush) change *= kLongestPush / longest;
+    q += change;
+    steering.space().clamp(q);
+    steering.space().normalize(q);
+    if (steering.isConstrained() && !steering.manifold().project(q)) return std::nullopt;
+    if (steering.space().distance(from, q) > kFarthest) return std::nullopt;
+  }
+  return std::nullopt;
+}
+
+/// Do the pairs in contact never overlap more than at the end, on the way to `q`, and are all other pairs free?
+bool leavesWell(const Config& config, Steering& steering, const MotionEnd& end, const VectorXd& q, double deepest) {
+  const Program& program = *config.program();
+  std::vector<std::pair<int, int>> ids;
+  std::vector<std::pair<std::string, std::string>> names;
+  for (const ClearanceCheck::Nearest& pair : end.near) {
+    if (pair.distance > 2. * Clearance::kGuard) continue;
+    ids.emplace_back(pair.a, pair.b);
+    names.emplace_back(program.frame_name[std::size_t(pair.a)], program.frame_name[std::size_t(pair.b)]);
+  }
+  const VectorXd to = end.q + steering.space().difference(end.q, q);
+  MotionChecker others(withoutPairs(config, ids).state()), these(onlyPairs(config, names, "planMotion").state());
+  return !others.firstContact(end.q.data(), to.data(), 0., Clearance::kTolerance) &&
+         !these.firstContact(end.q.data(), to.data(), deepest - Clearance::kTolerance - kDeeper, kDeeper);
+}
+
+}  // namespace
+
+std::optional<VectorXd> leaveContact(const Config& config, Steering& steering, const MotionEnd& end, double margin) {
+  if (end.near.empty()) return std::nullopt;
+  const double deepest = std::min(0., end.near.front().distance);
+  for (const double wanted : {margin + kAway, .5 * kAway}) {
+    const std::optional<VectorXd> q = push(config.state(), steering, end.q, wanted);
+    if (q && leavesWell(config, steering, end, *q, deepest)) return q;
+  }
+  return std::nullopt;
+}
+
+}  // namespace kinegraph

@@ -1,0 +1,91 @@
+#include "kinegraph/planning/smoothing/improve_path.h"
+
+#include <algorithm>
+
+#include "kinegraph/common/parallel.h"
+#include "kinegraph/planning/smoothing/shortcut.h"
+#include "kinegraph/planning/smoothing/rope_shortcut.h"
+
+namespace kinegraph {
+
+namespace {
+
+constexpr long kTryEffort = 4;  // of a further try, in efforts of the first
+constexpr int kCuts = 30;       // random ones
+
+double costOf(const JointSpace& space, const VectorXd& weight, const std::vector<VectorXd>& points) {
+  double sum = 0.;
+  for (std::size_t i = 1; i < points.size(); ++i)
+    sum += space.difference(points[i - 1], points[i]).cwiseProduct(weight).norm();
+  return sum;
+}
+
+}  // namespace
+
+ShortWay improveWay(const Way& first, const WayRequest& request, const ImproveOptions& options, SteeringCrew& crew) {
+  std::vector<ShortWay> candidates(std::size_t(first.is_line ? 1 : options.tries));
+  const auto pull = [&](Steering& steering, ShortWay& candidate) {
+    std::vector<VectorXd> points =
+        pullTaut(steering, candidate.points,
+                 {.weight = options.weight, .refinements = options.refinements, .watch = options.late});
+    const double cost = costOf(*request.demands.space, options.weight, points);
+    if (cost >= candidate.cost) return;
+    candidate.points = std::move(points);
+    candidate.cost = cost;
+  };
+  const auto attempt = [&](int worker, int i) {
+    const int number = options.first_try + i;
+    ShortWay& candidate = candidates[std::size_t(i)];
+    Steering& steering = crew.of(worker, request.demands);
+    const long before = steering.evaluations();
+    const MotionWatch watch = worker == 0 ? request.watch : options.late;
+    if (number == 0) {
+      candidate.way = first;
+    } else {
+      WayRequest other = request;
+      other.seed = Rng(request.seed + std::uint64_t(number)).bits();
+      other.effort = std::min(request.effort, kTryEffort * (first.effort + 1000));
+      other.threads = 1;
+      other.tries_line = false;
+      other.watch = watch;
+      other.steering = &steering;
+      if (watch && watch()) return;
+      candidate.way = searchWay(other);
+      candidate.evaluations = steering.evaluations() - before;
+      if (candidate.way.points.empty()) return;
+    }
+    ShortenOptions shortening{.weight = options.weight, .seed = request.seed + std::uint64_t(number), .watch = watch};
+    if (!steering.isConstrained()) {  // what is pulled taut needs little more than that its postures are joined
+      shortening.cuts = kCuts;
+      shortening.corners = false;
+    }
+    candidate.points = shorten(steering, candidate.way.points, shortening);
+    candidate.cost = costOf(*request.demands.space, options.weight, candidate.points);
+    if (candidate.cost < options.taut_below) pull(steering, candidate);
+    candidate.evaluations = steering.evaluations() - before;
+  };
+  forParts(
+      int(candidates.size()), 1, request.threads, [&](int worker, int i, int) { attempt(worker, i); },
+      [&] {
+        if (request.watch) request.watch();
+      });
+  long evaluations = 0;
+  for (const ShortWay& candidate : candidates) evaluations += candidate.evaluations;
+  ShortWay best = std::move(*std::ranges::min_element(candidates, {}, &ShortWay::cost));
+  best.evaluations = evaluations;
+  return best;
+}
+
+void tighten(ShortWay& best, const WayRequest& request, const VectorXd& weight, int refinements, SteeringCrew& crew) {
+  Steering& steering = crew.of(0, request.demands);
+  const long before = steering.evaluations();
+  std::vector<VectorXd> points =
+      pullTaut(steering, best.points, {.weight = weight, .refinements = refinements, .watch = request.watch});
+  const double cost = costOf(*request.demands.space, weight, points);
+  best.evaluations = steering.evaluations() - before;
+  if (cost >= best.cost) return;
+  best.points = std::move(points);
+  best.cost = cost;
+}
+
+}  // namespace kinegraph

@@ -1,0 +1,182 @@
+#include "kinegraph/planning/steering/manifold.h"
+
+#include <Eigen/Cholesky>
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "kinegraph/common/errors.h"
+#include "kinegraph/common/text.h"
+
+namespace kinegraph {
+
+namespace {
+
+constexpr int kProjections = 30;
+constexpr double kLongestProjection = .3;  // of a dof
+constexpr double kAim = 1e-2;              // projections go for this share of the tolerance
+constexpr int kDeepest = 10;               // times that an interval is halved
+
+}  // namespace
+
+Manifold::Manifold(const State& scene, const JointSpace& space, const std::vector<MotionConstraint>& constraints,
+                   double tolerance)
+    : space_(&space), tolerance_(tolerance), state_(scene), motion_(scene) {
+  for (const MotionConstraint& constraint : constraints) {
+    const std::string name = cat(constraint.feature.name(), "(", join(constraint.frames), ")");
+    if (constraint.type != ObjectiveType::eq && constraint.type != ObjectiveType::ineq)
+      throw ValueError(cat("planMotion: the constraint ", name, " is neither eq nor ineq"));
+    Residual residual = makeResidual(scene, constraint.feature, constraint.frames, constraint.scale, constraint.target);
+    if (residual.order() != 0)
+      throw ValueError(
+          cat("planMotion: the constraint ", name, " needs several configurations; expected one of positions"));
+    const bool is_equality = constraint.type == ObjectiveType::eq;
+    is_equality_.insert(is_equality_.end(), std::size_t(residual.rows()), is_equality);
+    RowBounds bounds(scene, residual);
+    const bool is_bounded = bounds.areKnown() && (is_equality || residual.feature().quaternionRow() < 0);
+    residuals_.push_back({std::move(residual), constraint.type, name, std::move(bounds), is_bounded});
+  }
+  const auto rows = Eigen::Index(is_equality_.size());
+  y_.resize(rows);
+  J_.resize(rows, scene.dofs());
+  bend_.resize(rows), stray_.resize(rows);
+}
+
+/// Calls visit(row, first, count) for each constraint.
+template <class Visit>
+void Manifold::forRows(const Visit& visit) {
+  int first = 0;
+  for (Row& row : residuals_) {
+    const int count = row.residual.rows();
+    visit(row, first, count);
+    first += count;
+  }
+}
+
+/// Values of all rows into y_.
+void Manifold::evalRows(const VectorXd& q, JacobianRows* J) {
+  ++evaluations;
+  state_.setJoints(q.data());
+  const std::array<const State*, 1> states = {&state_};
+  forRows([&](Row& row, int first, int count) {
+    if (!J) return row.residual.eval(states, 1., y_.segment(first, count), nullptr);
+    JacobianRows own = J->middleRows(first, count);
+    row.residual.eval(states, 1., y_.segment(first, count), &own);
+  });
+}
+
+void Manifold::measure(const VectorXd& q, bool with_jacobian) {
+  J_.setZero();
+  JacobianRows J = J_;
+  evalRows(q, with_jacobian ? &J : nullptr);
+  for (Eigen::Index i = 0; i < y_.size(); ++i) {
+    if (is_equality_[std::size_t(i)] || y_[i] > 0.) continue;
+    y_[i] = 0.;
+    J_.row(i).setZero();
+  }
+}
+
+double Manifold::violation(const VectorXd& q) {
+  if (isEmpty()) return 0.;
+  measure(q, false);
+  return y_.cwiseAbs().maxCoeff();
+}
+
+std::string Manifold::worst(const VectorXd& q) {
+  measure(q, false);
+  Eigen::Index worst = 0;
+  if (y_.size() > 0) y_.cwiseAbs().maxCoeff(&worst);
+  int first = 0;
+  for (const Row& row : residuals_) {
+    first += row.residual.rows();
+    if (worst < first) return row.name;
+  }
+  return "";
+}
+
+bool Manifold::project(VectorXd& q) {
+  if (isEmpty()) return true;
+  for (int step = 0; step < kProjections; ++step) {
+    measure(q, true);
+    if (!y_.allFinite()) return false;
+    if (y_.cwiseAbs().maxCoeff() <= kAim * tolerance_) return true;
+    MatrixXd A = J_ * J_.transpose();
+    A.diagonal().array() += 1e-9 + 1e-6 * A.diagonal().maxCoeff();
+    VectorXd change = -(J_.transpose() * A.ldlt().solve(y_));
+    const double longest = change.cwiseAbs().maxCoeff();
+    if (longest > kLongestProjection) change *= kLongestProjection / longest;
+    if (longest < 1e-14) break;
+    q += change;
+    space_->clamp(q);
+    space_->normalize(q);
+  }
+  return violation(q) <= .5 * tolerance_;
+}
+
+std::vector<std::string> Manifold::sampled() const {
+  std::vector<std::string> names;
+  for (const Row& row : residuals_)
+    if (!row.is_bounded) names.push_back(row.name);
+  return names;
+}
+
+/// Sets bend_ and stray_ for a straight motion.
+void Manifold::boundRates(const VectorXd& from, const VectorXd& change, double stray) {
+  const VectorXd to = from + change;
+  VectorXd unused(bend_.size());
+  bend_.setZero(), stray_.setZero();
+  const auto bound = [&](const VectorXd& moves, VectorXd& speed, VectorXd& bend) {
+    forRows([&](Row& row, int first, int count) {
+      if (row.is_bounded) row.bounds.eval(motion_, moves, speed.segment(first, count), bend.segment(first, count));
+    });
+  };
+  motion_.setMotion(from.data(), to.data());
+  bound(change, unused, bend_);
+  if (stray == 0.) return;
+  const VectorXd away = VectorXd::Constant(from.size(), stray), farthest = from.cwiseAbs().cwiseMax(to.cwiseAbs()),
+                 beyond = farthest + away;
+  motion_.setMotion(farthest.data(), beyond.data());
+  unused.setZero();
+  bound(away, stray_, unused);
+}
+
+Manifold::Moment Manifold::momentAt(const VectorXd& from, const VectorXd& change, double time) {
+  evalRows(from + time * change, nullptr);
+  return {time, y_};
+}
+
+/// Are all rows within the tolerance, with room?
+bool Manifold::keep(const VectorXd& values, const VectorXd& room) const {
+  for (Eigen::Index i = 0; i < values.size(); ++i) {
+    const double violation = is_equality_[std::size_t(i)] ? std::abs(values[i]) : values[i];
+    if (!(violation + room[i] <= tolerance_)) return false;
+  }
+  return true;
+}
+
+bool Manifold::holdsBetween(const VectorXd& from, const VectorXd& change, const Moment& a, const Moment& b, int depth) {
+  const double width = b.time - a.time;
+  const VectorXd room = stray_ + .125 * width * width * bend_;
+  if (keep(a.values, room) && keep(b.values, room)) return true;
+  if (depth == kDeepest) return false;
+  const Moment middle = momentAt(from, change, .5 * (a.time + b.time));
+  return keep(middle.values, stray_) && holdsBetween(from, change, a, middle, depth + 1) &&
+         holdsBetween(from, change, middle, b, depth + 1);
+}
+
+bool Manifold::holdsAlong(const VectorXd& from, const VectorXd& to, double spacing, double stray) {
+  if (isEmpty()) return true;
+  const VectorXd change = space_->difference(from, to);
+  const int parts = std::max(2, int(std::ceil(space_->distance(from, to) / spacing)));
+  boundRates(from, change, stray);
+  Moment before = momentAt(from, change, 0.);
+  if (!keep(before.values, stray_)) return false;
+  for (int i = 1; i <= parts; ++i) {
+    Moment now = momentAt(from, change, double(i) / parts);
+    if (!keep(now.values, stray_) || !holdsBetween(from, change, before, now, 0)) return false;
+    before = std::move(now);
+  }
+  return true;
+}
+
+}  // namespace kinegraph

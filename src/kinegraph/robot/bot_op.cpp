@@ -1,0 +1,219 @@
+#include "kinegraph/robot/bot_op.h"
+
+#include <algorithm>
+#include <cmath>
+#include <fstream>
+#include <limits>
+
+#include "kinegraph/common/text.h"
+
+namespace kinegraph {
+
+BotOp::BotOp(const Config& config, std::shared_ptr<RobotDriver> driver, BotOpOptions options)
+    : options_(std::move(options)), model_(config), home_(config.getJointState()) {
+  asked_.fill(-1);
+  if (home_.size() == 0) throw ValueError("BotOp: the configuration has no joints that are active; expected a robot");
+  const bool is_simulated = driver && driver->world();
+  loop_ = std::make_unique<RobotLoop>(std::move(driver), options_.period, options_.guards);
+  const std::size_t joints = loop_->info().joints.size();
+  if (joints != std::size_t(home_.size()))
+    throw ValueError(cat("BotOp: robot '", loop_->info().name, "' has ", joints, " joints; the configuration has ",
+                         home_.size(), ": ", join(config.getJointNames())));
+  if (options_.realtime && !is_simulated) options_.hyper_speed = 1.;
+  if (options_.realtime && !(options_.hyper_speed > 0.)) options_.realtime = false;  // as fast as it can
+  if (options_.realtime) thread_ = std::jthread([this](const std::stop_token& stop) { runThread(stop); });
+}
+
+BotOp::~BotOp() {
+  thread_.request_stop();
+  if (thread_.joinable()) thread_.join();
+}
+
+// --- state ---------------------------------------------------------------------------------------------------------------
+
+double BotOp::get_t() {
+  ask(askTime);
+  const Lock lock(mutex_);
+  return loop_->time();
+}
+
+VectorXd BotOp::get_q() {
+  ask(askQ);
+  const Lock lock(mutex_);
+  return loop_->reading().q;
+}
+
+VectorXd BotOp::get_qDot() {
+  ask(askVelocity);
+  const Lock lock(mutex_);
+  return loop_->reading().velocity;
+}
+
+VectorXd BotOp::get_qHome() const { return home_; }
+
+VectorXd BotOp::get_tauExternal() {
+  ask(askExternal);
+  const Lock lock(mutex_);
+  VectorXd mean = VectorXd::Constant(home_.size(), std::numeric_limits<double>::quiet_NaN());
+  if (external_count_ > 0) {
+    mean = external_sum_ / double(external_count_);
+  } else if (loop_->reading().external_effort.size() > 0) {
+    mean = loop_->reading().external_effort;
+  }
+  external_count_ = 0;
+  return mean;
+}
+
+double BotOp::getTimeToEnd() {
+  ask(askEnd);
+  const Lock lock(mutex_);
+  return timeToEnd();
+}
+
+double BotOp::timeToEnd() const {
+  return loop_->mode() == LoopMode::follow ? loop_->motion().end() - loop_->time() : 0.;
+}
+
+LoopMode BotOp::getMode() const {
+  const Lock lock(mutex_);
+  return loop_->mode();
+}
+
+std::string BotOp::getFault() const {
+  const Lock lock(mutex_);
+  return loop_->fault();
+}
+
+// --- grippers ------------------------------------------------------------------------------------------------------------
+
+void BotOp::requireGripper(const char* call, int gripper) const {
+  const auto& grippers = loop_->info().grippers;
+  if (gripper >= 0 && std::size_t(gripper) < grippers.size()) return;
+  std::vector<std::string> names;
+  for (const GripperInfo& info : grippers) names.push_back(info.name);
+  throw ValueError(cat(call, ": there is no gripper ", gripper, "; the robot has ",
+                       names.empty() ? std::string("none") : cat(names.size(), ": ", join(names))));
+}
+
+void BotOp::gripper(const char* call, GripperCommand command) {
+  const Lock lock(mutex_);
+  requireGripper(call, command.gripper);
+  const GripperInfo& info = loop_->info().grippers[std::size_t(command.gripper)];
+  if (!std::isfinite(command.width) || !(command.speed > 0.) || !(command.force > 0.))
+    throw ValueError(cat(call, ": width ", command.width, ", speed ", command.speed, ", force ", command.force,
+                         "; expected finite numbers, speed and force more than 0"));
+  command.width = std::clamp(command.width, info.min_width, info.max_width);
+  command.speed = std::min(command.speed, info.max_speed);
+  command.force = std::min(command.force, info.max_force);
+  loop_->apply(command);
+}
+
+void BotOp::gripperMove(int gripper, double width, double speed) {
+  this->gripper("BotOp::gripperMove", {gripper, false, width, speed, 1e9, {}});
+}
+
+void BotOp::gripperClose(int gripper, double force, double width, double speed) {
+  this->gripper("BotOp::gripperClose", {gripper, true, width, speed, force, {}});
+}
+
+void BotOp::gripperCloseGrasp(int gripper, const std::string& object, double force, double width, double speed) {
+  if (loop_->driver().world()) model_.getFrame(object);  // throws FrameNotFound
+  this->gripper("BotOp::gripperCloseGrasp", {gripper, true, width, speed, force, object});
+}
+
+double BotOp::getGripperPos(int gripper) {
+  requireGripper("BotOp::getGripperPos", gripper);
+  ask(askGripper);
+  const Lock lock(mutex_);
+  return loop_->reading().grippers.at(std::size_t(gripper)).width;
+}
+
+bool BotOp::gripperDone(int gripper) {
+  requireGripper("BotOp::gripperDone", gripper);
+  ask(askDone);
+  const Lock lock(mutex_);
+  return loop_->reading().grippers.at(std::size_t(gripper)).is_done;
+}
+
+// --- the simulated world -------------------------------------------------------------------------------------------------
+
+Config BotOp::getWorld() const {
+  const Lock lock(mutex_);
+  SimulatedWorld* world = loop_->driver().world();
+  if (!world) throw RobotFault(cat("BotOp::getWorld: robot '", loop_->info().name, "' is not simulated"));
+  return world->config();
+}
+
+std::vector<Contact> BotOp::getContacts() const {
+  const Lock lock(mutex_);
+  const SimulatedWorld* world = loop_->driver().world();
+  return world ? world->contacts() : std::vector<Contact>{};
+}
+
+void BotOp::update(Config& config) const {
+  const Lock lock(mutex_);
+  if (SimulatedWorld* world = loop_->driver().world()) {
+    world->updateConfig(config);
+  } else {
+    config.setJointState(loop_->reading().q);
+  }
+}
+
+void BotOp::attach(const std::string& from, const std::string& to) {
+  const Lock lock(mutex_);
+  loop_->apply(AttachFrames{from, to, true});
+}
+
+void BotOp::detach(const std::string& from, const std::string& to) {
+  const Lock lock(mutex_);
+  loop_->apply(AttachFrames{from, to, false});
+}
+
+void BotOp::setFramePose(const std::string& frame, const Pose& pose) {
+  const Lock lock(mutex_);
+  loop_->apply(PlaceFrame{frame, pose});
+}
+
+// --- records -------------------------------------------------------------------------------------------------------------
+
+CommandLog BotOp::getLog() const {
+  const Lock lock(mutex_);
+  return loop_->log();
+}
+
+void BotOp::replay(const CommandLog& log) {
+  constexpr const char* call = "BotOp::replay";
+  Lock lock(mutex_);
+  if (options_.realtime) throw ValueError(cat(call, ": time is real here; a log is replayed in virtual time"));
+  if (loop_->tick() != 0 || !loop_->log().entries.empty())
+    throw ValueError(cat(call, ": the robot was moved before; expected a BotOp that is new"));
+  if (log.period != options_.period)
+    throw ValueError(
+        cat(call, ": the log's period is ", log.period, " s; that of this BotOp is ", options_.period, " s"));
+  const auto go = [&](long tick) {
+    while (loop_->tick() < tick) {
+      lock.unlock();
+      advanceVirtually(options_.period);
+      lock.lock();
+    }
+  };
+  for (const CommandLog::Entry& entry : log.entries) {
+    go(entry.tick);
+    loop_->apply(entry.command);
+  }
+  go(log.ticks);
+}
+
+void BotOp::recordTo(const std::string& path) {
+  const Lock lock(mutex_);
+  record_.reset();
+  if (path.empty()) return;
+  record_ = std::make_unique<std::ofstream>(path);
+  if (!*record_) {
+    record_.reset();
+    throw FileError(cat("BotOp::recordTo: cannot write '", path, "'"));
+  }
+  *record_ << "# t, q, velocity, reference of q, of velocity; joints: " << join(loop_->info().joints, " ") << '\n';
+}
+
+}  // namespace kinegraph

@@ -1,0 +1,183 @@
+// How time goes on in a BotOp.
+#include <algorithm>
+#include <fstream>
+
+#include "kinegraph/common/text.h"
+#include "kinegraph/robot/bot_op.h"
+
+namespace kinegraph {
+
+namespace {
+
+using std::chrono::duration;
+using std::chrono::duration_cast;
+using std::chrono::milliseconds;
+
+constexpr milliseconds kLook{20};     // between two looks at whether a call shall end
+constexpr milliseconds kCatchUp{50};  // what is later than that is not caught up with: time slips
+
+std::chrono::steady_clock::duration wallTime(double seconds, double speed) {
+  return duration_cast<std::chrono::steady_clock::duration>(duration<double>(seconds / speed));
+}
+
+}  // namespace
+
+void BotOp::stepOnce(const Lock&) {
+  try {
+    loop_->step();
+  } catch (...) {  // no error of the driver's, which stops the robot, but somebody who ends the program
+    holdNow();
+    throw;
+  }
+  const RobotReading& reading = loop_->reading();
+  if (reading.external_effort.size() > 0) {
+    if (external_count_++ == 0) external_sum_ = VectorXd::Zero(home_.size());
+    external_sum_ += reading.external_effort;
+  }
+  if (!record_) return;
+  const MatrixXd reference = loop_->reference(loop_->time());
+  *record_ << exact(loop_->time());
+  for (const double x : reading.q) *record_ << ' ' << exact(x);
+  for (const double x : reading.velocity) *record_ << ' ' << exact(x);
+  for (const double x : reference.topRows(2).reshaped<Eigen::RowMajor>()) *record_ << ' ' << exact(x);
+  *record_ << '\n';
+}
+
+void BotOp::look() {
+  looked_ = Clock::now();
+  if (!options_.between) return;
+  try {
+    options_.between();
+  } catch (...) {
+    const Lock lock(mutex_);
+    holdNow();
+    throw;
+  }
+}
+
+void BotOp::ask(Question question) {
+  if (options_.realtime) return;
+  long& asked = asked_[std::size_t(question)];
+  if (asked == loop_->tick()) advanceVirtually(options_.period);
+  asked = loop_->tick();
+}
+
+/// Keeps virtual time from being faster than that on the wall, as far as it is not late.
+void BotOp::pace() {
+  const auto now = Clock::now();
+  next_ += wallTime(options_.period, options_.hyper_speed);
+  if (next_ + kCatchUp < now) next_ = now;
+  while (Clock::now() < next_) {
+    std::this_thread::sleep_until(std::min(next_, Clock::now() + kLook));
+    look();
+  }
+}
+
+void BotOp::advanceVirtually(double seconds) {
+  owed_ += seconds;
+  const bool paced = options_.hyper_speed > 0. && isWatched();
+  for (; owed_ >= options_.period * (1. - 1e-9); owed_ -= options_.period) {
+    {
+      const Lock lock(mutex_);
+      stepOnce(lock);
+    }
+    if (paced) pace();
+    if (Clock::now() - looked_ > kLook) look();
+  }
+  if (owed_ < 1e-9 * options_.period) owed_ = 0.;
+}
+
+void BotOp::waitRealtime(double seconds, bool keys_end_it) {
+  const auto end = Clock::now() + wallTime(seconds, options_.hyper_speed);
+  for (auto now = Clock::now(); now < end && !(keys_end_it && key_); now = Clock::now()) {
+    std::this_thread::sleep_until(std::min(end, now + kLook));
+    look();
+  }
+}
+
+void BotOp::advance(double seconds, bool keys_end_it) {
+  if (!(seconds >= 0.)) throw ValueError(cat("BotOp: a time of ", seconds, " s to wait; expected 0 or more"));
+  look();
+  if (options_.realtime) {
+    waitRealtime(seconds, keys_end_it);
+  } else {
+    advanceVirtually(seconds);
+  }
+}
+
+void BotOp::runThread(const std::stop_token& stop) {
+  auto next = Clock::now();
+  while (!stop.stop_requested()) {
+    {
+      const Lock lock(mutex_);
+      try {
+        if (options_.interrupted && options_.interrupted() && loop_->mode() == LoopMode::follow) holdNow();
+        stepOnce(lock);
+      } catch (const std::exception& error) {  // nobody is above
+        loop_->stop(error.what());
+      }
+    }
+    next += wallTime(options_.period, options_.hyper_speed);
+    const auto now = Clock::now();
+    if (next + kCatchUp < now) next = now;
+    std::this_thread::sleep_until(next);
+  }
+}
+
+int BotOp::show(Config& C, const std::string& message) {
+  if (!options_.show) return 0;
+  std::string text = cat("control time ", loop_->time(), " s");
+  if (options_.realtime || isWatched()) {
+    const double wall = duration<double>(Clock::now() - started_).count();
+    text += cat(" (", int(100. * loop_->time() / std::max(wall, 1e-3) + .5), " % of real time)");
+  }
+  if (!message.empty()) text = cat(message, "\n", text);
+  return options_.show(*this, C, text);
+}
+
+void BotOp::requireRunning(const char* call) const {
+  const Lock lock(mutex_);
+  if (loop_->mode() == LoopMode::fault)
+    throw RobotFault(cat(call, ": the robot was stopped: ", loop_->fault(), "; call recover() when that is mended"));
+}
+
+/// What was added to the configuration since it was last looked at is part of the world from now on.
+void BotOp::takeUp(const Config& C) {
+  if (C.scene()->structureRevision() == seen_structure_) return;
+  seen_structure_ = C.scene()->structureRevision();
+  const Lock lock(mutex_);
+  if (SimulatedWorld* world = loop_->driver().world()) world->addObjects(C);
+}
+
+int BotOp::sync(Config& C, double wait_time, const std::string& message) {
+  key_ = 0;
+  takeUp(C);
+  if (options_.realtime) {
+    update(C);
+    key_ = show(C, message);
+    advance(wait_time, true);
+    update(C);
+  } else {
+    advance(wait_time, false);
+    update(C);
+    key_ = show(C, message);
+  }
+  requireRunning("BotOp::sync");
+  return key_;
+}
+
+int BotOp::wait(Config& C, bool for_key, bool for_end, bool for_gripper, double sync_period) {
+  if (!(sync_period > 0.)) throw ValueError(cat("BotOp::wait: sync_period is ", sync_period, "; expected more than 0"));
+  for (;;) {
+    const int key = sync(C, sync_period);
+    if (for_key && key) return key;
+    const Lock lock(mutex_);
+    if (for_end && timeToEnd() <= 0.) return 0;
+    const auto& grippers = loop_->reading().grippers;
+    const bool done = std::all_of(grippers.begin(), grippers.end(), [](const GripperReading& g) { return g.is_done; });
+    if (for_gripper && done) return 'g';
+    if (!for_end && !for_gripper && !(for_key && isWatched())) return 0;
+  }
+}
+
+}  // namespace kinegraph

@@ -1,0 +1,203 @@
+#include "kinegraph/robot/command_log.h"
+
+#include <fstream>
+#include <iomanip>
+#include <sstream>
+
+#include "kinegraph/common/text.h"
+
+namespace kinegraph {
+
+namespace {
+
+constexpr const char* kHeader = "kinegraph commands 1";
+
+// --- writing -------------------------------------------------------------------------------------------------------
+
+void write(std::ostream& out, const VectorXd& numbers) {
+  out << ' ' << numbers.size();
+  for (const double x : numbers) out << ' ' << exact(x);
+}
+
+void write(std::ostream& out, const MatrixXd& numbers) {
+  out << ' ' << numbers.rows() << ' ' << numbers.cols();
+  for (const double x : numbers.reshaped<Eigen::RowMajor>()) out << ' ' << exact(x);
+}
+
+void write(std::ostream& out, const BSpline& spline) {
+  out << ' ' << spline.degree();
+  write(out, spline.getKnots());
+  write(out, spline.getCtrlPoints());
+}
+
+struct Writer {
+  std::ostream& out;
+
+  void operator()(const FollowSpline& c) { write(out << "follow", c.motion); }
+  void operator()(const HoldRobot& c) { write(out << "hold", c.motion); }
+  void operator()(const FloatRobot& c) { out << "float " << exact(c.damping); }
+  void operator()(const SetStiffness& c) { write(out << "stiffness", c.stiffness); }
+  void operator()(const GripperCommand& c) {
+    out << (c.grasp ? "grasp " : "gripper ") << c.gripper << ' ' << exact(c.width) << ' ' << exact(c.speed) << ' '
+        << exact(c.force) << ' ' << std::quoted(c.object);
+  }
+  void operator()(const AttachFrames& c) {
+    out << (c.attach ? "attach " : "detach ") << std::quoted(c.from) << ' ' << std::quoted(c.to);
+  }
+  void operator()(const PlaceFrame& c) { write(out << "place " << std::quoted(c.frame), VectorXd(c.pose.numbers())); }
+  void operator()(const RecoverRobot&) { out << "recover"; }
+};
+
+// --- reading -------------------------------------------------------------------------------------------------------
+
+/// One line of a log; whatever is wrong with it is an error with its place.
+class Line {
+ public:
+  Line(const std::string& text, SourcePosition where) : in_(text), where_(std::move(where)) {}
+
+  [[noreturn]] void fail(const std::string& reason) { throw ParseError(where_, reason); }
+
+  std::string word() {
+    std::string word;
+    if (!(in_ >> word)) fail("the line ends too early");
+    return word;
+  }
+
+  double number() {
+    const std::string text = word();
+    try {
+      std::size_t used = 0;
+      const double value = std::stod(text, &used);
+      if (used == text.size()) return value;
+    } catch (const std::exception&) {
+    }
+    fail(cat("'", text, "' is no number"));
+  }
+
+  long count() {
+    const double value = number();
+    if (!(value >= 0.) || value > 1e7 || value != double(long(value))) fail(cat("expected a count, not ", value));
+    return long(value);
+  }
+
+  std::string quoted() {
+    std::string text;
+    if (!(in_ >> std::quoted(text))) fail("expected a name in quotes");
+    return text;
+  }
+
+  VectorXd vector() {
+    VectorXd numbers(count());
+    for (double& x : numbers) x = number();
+    return numbers;
+  }
+
+  MatrixXd matrix() {
+    const long rows = count(), columns = count();
+    if (rows * columns > 10'000'000) fail("too many numbers");
+    MatrixXd numbers(rows, columns);
+    for (double& x : numbers.reshaped<Eigen::RowMajor>()) x = number();
+    return numbers;
+  }
+
+  BSpline spline() {
+    const int degree = int(count());
+    const VectorXd knots = vector();
+    try {
+      return BSpline::fromParts(degree, knots, matrix());
+    } catch (const ValueError& error) {
+      fail(error.what());
+    }
+  }
+
+ private:
+  std::istringstream in_;
+  SourcePosition where_;
+};
+
+LoopCommand readCommand(Line& line) {
+  const std::string kind = line.word();
+  if (kind == "follow") return FollowSpline{line.spline()};
+  if (kind == "hold") return HoldRobot{line.spline()};
+  if (kind == "float") return FloatRobot{line.number()};
+  if (kind == "stiffness") return SetStiffness{line.matrix()};
+  if (kind == "gripper" || kind == "grasp") {
+    GripperCommand command;
+    command.grasp = kind == "grasp";
+    command.gripper = int(line.count());
+    command.width = line.number();
+    command.speed = line.number();
+    command.force = line.number();
+    command.object = line.quoted();
+    return command;
+  }
+  if (kind == "attach" || kind == "detach") {
+    const std::string from = line.quoted(), to = line.quoted();
+    return AttachFrames{from, to, kind == "attach"};
+  }
+  if (kind == "place") {
+    const std::string frame = line.quoted();
+    const VectorXd pose = line.vector();
+    if (pose.size() != 7) line.fail(cat("a pose of ", pose.size(), " numbers; expected 7"));
+    return PlaceFrame{frame, Pose(pose.head<3>(), Quaterniond(pose[3], pose[4], pose[5], pose[6]))};
+  }
+  if (kind == "recover") return RecoverRobot{};
+  line.fail(cat("no command '", kind, "'"));
+}
+
+}  // namespace
+
+std::string CommandLog::text() const {
+  std::ostringstream out;
+  out << kHeader << "\nperiod " << exact(period) << "\n";
+  for (const Entry& entry : entries) {
+    out << entry.tick << ' ';
+    std::visit(Writer{out}, entry.command);
+    out << '\n';
+  }
+  out << ticks << " end\n";
+  return out.str();
+}
+
+CommandLog CommandLog::fromText(const std::string& text, const std::string& name) {
+  std::istringstream in(text);
+  CommandLog log;
+  std::string words;
+  SourcePosition where{name, 1, 1};
+  if (!std::getline(in, words) || words != kHeader) throw ParseError(where, cat("expected '", kHeader, "'"));
+  for (bool ended = false; std::getline(in, words);) {
+    ++where.line;
+    if (words.empty()) continue;
+    Line line(words, where);
+    if (ended) line.fail("nothing is expected after the end");
+    if (where.line == 2) {
+      if (line.word() != "period" || !((log.period = line.number()) > 0.))
+        line.fail("expected 'period' and s, more than 0");
+      continue;
+    }
+    const long tick = line.count();
+    if (tick < log.ticks) line.fail(cat("period ", tick, " comes after ", log.ticks));
+    log.ticks = tick;
+    if (words.ends_with(" end")) {
+      ended = true;
+    } else {
+      log.entries.push_back({tick, readCommand(line)});
+    }
+  }
+  return log;
+}
+
+void CommandLog::save(const std::string& path) const {
+  std::ofstream file(path);
+  if (!(file << text()) || !file.flush()) throw FileError(cat("CommandLog::save: cannot write '", path, "'"));
+}
+
+CommandLog CommandLog::load(const std::string& path) {
+  std::ifstream file(path);
+  if (!file) throw FileError(cat("CommandLog::load: cannot read '", path, "'"));
+  std::ostringstream text;
+  text << file.rdbuf();
+  return fromText(text.str(), path);
+}
+
+}  // namespace kinegraph

@@ -1,0 +1,89 @@
+#include "kinegraph/robot/kinematic_driver.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace kinegraph {
+
+KinematicDriver::KinematicDriver(const Config& config)
+    : config_(config),
+      target_(config_.getJointState()),
+      target_velocity_(VectorXd::Zero(target_.size())),
+      velocity_(target_velocity_) {
+  for (const SceneGripper& found : findGrippers(config_)) {
+    Gripper gripper{found, {}, found.opening * config_.getFrame(found.joint).getJointState()[0], true, {}};
+    gripper.command.width = gripper.width;
+    grippers_.push_back(std::move(gripper));
+  }
+}
+
+RobotInfo KinematicDriver::info() {
+  RobotInfo info = RobotInfo::of(config_, "kinematic");
+  info.compliant = true;  // where nothing pushes, it makes no difference
+  for (const Gripper& gripper : grippers_) info.grippers.push_back(gripper.scene.info);
+  return info;
+}
+
+RobotReading KinematicDriver::read() {
+  RobotReading reading;
+  reading.time = time_;
+  reading.q = config_.getJointState();
+  reading.velocity = velocity_;
+  for (const Gripper& gripper : grippers_) reading.grippers.push_back({gripper.width, gripper.is_done});
+  return reading;
+}
+
+void KinematicDriver::write(const RobotCommand& command) {
+  const bool floats = !command.isStiff() && command.stiffness.isZero(0.);
+  target_ = floats ? config_.getJointState() : command.q;
+  target_velocity_ = floats ? VectorXd(VectorXd::Zero(target_.size())) : command.velocity;
+}
+
+void KinematicDriver::stop(const std::string&) {
+  target_ = config_.getJointState();
+  target_velocity_.setZero();
+}
+
+void KinematicDriver::step(double period) {
+  config_.setJointState(target_);
+  velocity_ = target_velocity_;
+  for (Gripper& gripper : grippers_) moveFingers(gripper, period);
+  time_ += period;
+}
+
+void KinematicDriver::moveGripper(const GripperCommand& command) {
+  if (command.gripper < 0 || std::size_t(command.gripper) >= grippers_.size()) return RobotDriver::moveGripper(command);
+  Gripper& gripper = grippers_[std::size_t(command.gripper)];
+  if (!gripper.held.empty()) {  // whatever it does next, it lets go first
+    detach(gripper.scene.info.name, gripper.held);
+    gripper.held.clear();
+  }
+  gripper.command = command;
+  gripper.is_done = false;
+}
+
+/// Towards the width of the command; what is grasped by name is held when the fingers are as wide as it was told to be.
+void KinematicDriver::moveFingers(Gripper& gripper, double period) {
+  if (gripper.is_done) return;
+  const double step = gripper.command.speed * period, left = gripper.command.width - gripper.width;
+  gripper.is_done = std::abs(left) <= step;
+  gripper.width = gripper.is_done ? gripper.command.width : gripper.width + std::copysign(step, left);
+  config_.setJointState(VectorXd::Constant(1, gripper.width / gripper.scene.opening), {gripper.scene.joint});
+  if (!gripper.is_done || !gripper.command.grasp || gripper.command.object.empty()) return;
+  gripper.held = gripper.command.object;
+  attach(gripper.scene.info.name, gripper.held);
+}
+
+void KinematicDriver::attach(const std::string& from, const std::string& to) { config_.attach(from, to); }
+
+void KinematicDriver::detach(const std::string& from, const std::string& to) {
+  config_.getFrame(from);
+  const Frame head = headOfLink(config_.getFrame(to));
+  if (head.getParent()) Frame(head).unLink();
+}
+
+void KinematicDriver::setFramePose(const std::string& frame, const Pose& pose) {
+  config_.getFrame(frame).setPose(pose);
+}
+
+}  // namespace kinegraph

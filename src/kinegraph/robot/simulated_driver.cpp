@@ -1,0 +1,100 @@
+#include "kinegraph/robot/simulated_driver.h"
+
+#include <cmath>
+
+namespace kinegraph {
+
+namespace {
+
+/// rad/s: how stiff a compliant robot is where it does not give way. A motor that holds its torque for an inner step is
+/// stable far beyond, and what touches the robot feels less of it.
+constexpr double kCompliantFrequency = 30.;
+
+}  // namespace
+
+SimulatedDriver::SimulatedDriver(const Config& config, const SimulationOptions& options)
+    : config_(config), simulation_(config_, SimulationEngine::physx, options), grippers_(findGrippers(config_)) {
+  stop("");
+}
+
+RobotInfo SimulatedDriver::info() {
+  RobotInfo info = RobotInfo::of(config_, "simulated");
+  info.compliant = true;
+  for (const SceneGripper& gripper : grippers_) info.grippers.push_back(gripper.info);
+  return info;
+}
+
+RobotReading SimulatedDriver::read() {
+  RobotReading reading{simulation_.get_t(),
+                       simulation_.get_q(),
+                       simulation_.get_qDot(),
+                       simulation_.getJointTorques(),
+                       simulation_.getExternalTorques(),
+                       {},
+                       {}};
+  for (const SceneGripper& gripper : grippers_)
+    reading.grippers.push_back(
+        {simulation_.getGripperWidth(gripper.info.name), simulation_.gripperIsDone(gripper.info.name)});
+  return reading;
+}
+
+void SimulatedDriver::stop(const std::string&) {
+  command_ = RobotCommand();
+  command_.q = simulation_.get_q();
+  command_.velocity = command_.acceleration = VectorXd::Zero(command_.q.size());
+}
+
+void SimulatedDriver::moveGripper(const GripperCommand& command) {
+  if (command.gripper < 0 || std::size_t(command.gripper) >= grippers_.size()) return RobotDriver::moveGripper(command);
+  const SceneGripper& gripper = grippers_[std::size_t(command.gripper)];
+  const double of_finger = command.speed / double(gripper.fingers.size());
+  if (command.grasp) {
+    simulation_.closeGripper(gripper.info.name, gripper.info.min_width, of_finger, command.force);
+  } else {
+    simulation_.moveGripper(gripper.info.name, command.width, of_finger);
+  }
+}
+
+void SimulatedDriver::step(double period) {
+  if (command_.isStiff()) {
+    stepStiff(period);
+  } else {
+    stepCompliant(period);
+  }
+}
+
+void SimulatedDriver::stepStiff(double period) {
+  VectorXd reference(2 * command_.q.size());
+  reference << command_.q, command_.velocity;
+  simulation_.step(reference, period, ControlMode::positionVelocity);
+}
+
+/// Torques of springs and dampers that make the mass of the robot swing with one frequency, in the directions that are
+/// stiff; anew for each inner step.
+void SimulatedDriver::stepCompliant(double period) {
+  const Eigen::Index n = command_.q.size();
+  const double w = kCompliantFrequency;
+  const double armature = simulation_.options().armature;
+  const int parts = std::max(1, int(std::ceil(period / simulation_.options().inner_step - 1e-9)));
+  const bool floats = command_.stiffness.isZero(0.);
+  for (int i = 0; i < parts; ++i) {
+    const VectorXd velocity = simulation_.get_qDot();
+    MatrixXd mass = config_.equationOfMotion(VectorXd::Zero(n)).M;
+    mass.diagonal().array() += armature;
+    VectorXd wanted = 2. * w * (floats ? command_.damping : 1.) * (command_.velocity - velocity);
+    if (!floats) {
+      const VectorXd pull = w * w * (command_.q - simulation_.get_q());
+      wanted = command_.stiffness * (pull + wanted) + command_.acceleration;
+    }
+    simulation_.step(mass * wanted, period / parts, ControlMode::torque);
+  }
+}
+
+void SimulatedDriver::setFramePose(const std::string& frame, const Pose& pose) {
+  const MatrixXd velocities = simulation_.get_frameVelocities();
+  const VectorXd joint_velocities = simulation_.get_qDot();
+  config_.getFrame(frame).setPose(pose);
+  simulation_.pushConfigToSim(velocities, joint_velocities);
+}
+
+}  // namespace kinegraph

@@ -1,0 +1,172 @@
+#include <algorithm>
+#include <limits>
+#include <utility>
+
+#include "kinegraph/geometry/shapes/shape_kinds.h"
+#include "kinegraph/scene/tree/scene_tree.h"
+
+namespace kinegraph {
+
+namespace {
+
+/// Is this frame moved by a joint whose dofs are in q?
+bool isLinkFrame(const FrameData& frame) { return frame.moves() && dofSource(frame).joint->active; }
+
+/// All frames, parents before children.
+std::vector<const FrameData*> topologicalOrder(const SceneTree& scene) {
+  std::vector<const FrameData*> order;
+  order.reserve(scene.frames().size());
+  for (const auto& frame : scene.frames()) {
+    if (!frame->parent) order.push_back(frame.get());
+  }
+  for (std::size_t i = 0; i < order.size(); ++i) {
+    order.insert(order.end(), order[i]->children.begin(), order[i]->children.end());
+  }
+  return order;
+}
+
+/// Numbers the dofs in the order of the frame list and collects what belongs to each.
+void compileDofs(const SceneTree& scene, Program& program) {
+  const double inf = std::numeric_limits<double>::infinity();
+  std::vector<double> lower, upper, home, weight;
+  program.frame_dofs.resize(scene.frames().size());
+  for (const auto& frame : scene.frames()) {
+    if (!isLinkFrame(*frame) || frame->joint->mimic) continue;
+    const Joint& joint = *frame->joint;
+    program.frame_dofs[frame->id] = {program.dofs, joint.dofs()};
+    for (int i = 0; i < joint.dofs(); ++i) {
+      const bool limited = joint.lower.size() > 0 && joint.lower[i] <= joint.upper[i];
+      lower.push_back(limited ? joint.lower[i] : -inf);
+      upper.push_back(limited ? joint.upper[i] : inf);
+      home.push_back(joint.home[i]);
+      weight.push_back(joint.control_weight);
+    }
+    int first = program.dofs;
+    for (const MotionStep& step : joint.steps) {
+      if (step.orients()) program.unit_norms.push_back({first, step.dofs()});
+      first += step.dofs();
+    }
+    program.dofs += joint.dofs();
+  }
+  for (const auto& frame : scene.frames()) {
+    if (isLinkFrame(*frame)) program.frame_dofs[frame->id] = program.frame_dofs[dofSource(*frame).id];
+  }
+  const auto vector = [](const std::vector<double>& values) {
+    return VectorXd(Eigen::Map<const VectorXd>(values.data(), Eigen::Index(values.size())));
+  };
+  program.lower = vector(lower);
+  program.upper = vector(upper);
+  program.home = vector(home);
+  program.control_weight = vector(weight);
+}
+
+}  // namespace
+
+std::shared_ptr<const Program> compileProgram(const SceneTree& scene) {
+  auto program = std::make_shared<Program>();
+  const std::size_t count = scene.frames().size();
+  compileDofs(scene, *program);
+  program->links.push_back({});
+  nameFrames(*program, scene.names());
+  program->frame_link.resize(count);
+  for (const FrameData* frame : topologicalOrder(scene)) {
+    const int parent_link = frame->parent ? program->frame_link[frame->parent->id] : 0;
+    program->frame_link[frame->id] = parent_link;
+    if (!isLinkFrame(*frame)) continue;
+    Program::Link link;
+    link.parent = parent_link;
+    link.frame = frame->id;
+    link.first_step = int(program->steps.size());
+    link.steps = int(frame->joint->steps.size());
+    link.dof = program->frame_dofs[frame->id].first;
+    link.scale = motionScale(*frame);
+    link.axis = frame->joint->axis;
+    program->steps.insert(program->steps.end(), frame->joint->steps.begin(), frame->joint->steps.end());
+    program->frame_link[frame->id] = int(program->links.size());
+    program->links.push_back(link);
+  }
+  connectChains(*program);
+  program->geometry.resize(count);
+  program->body.resize(count);
+  for (const auto& frame : scene.frames()) {
+    if (!frame->shape) continue;
+    program->geometry[frame->id] = frame->shape->geometry;
+    program->body[frame->id] = frame->shape->body();
+  }
+  program->contacts = contactRules(scene);
+  return program;
+}
+
+namespace {
+
+/// Its parent has been placed.
+RigidTransform placeInLink(const FrameData& frame, const Program& program, Parameters& parameters) {
+  const RigidTransform base = frame.parent ? parameters.frame_offset[frame.parent->id] : RigidTransform{};
+  if (isLinkFrame(frame)) return placeJoint(program, program.frame_link[frame.id], base, parameters);
+  return base * frame.relativePose().transform();
+}
+
+}  // namespace
+
+void updateParameters(const FrameData& frame, const Program& program, Parameters& parameters) {
+  RigidTransform& offset = parameters.frame_offset[frame.id];
+  const RigidTransform before = std::exchange(offset, placeInLink(frame, program, parameters));
+  if (isLinkFrame(frame) && offset.R == before.R) return;  // frames below move with its link, where they are as before
+  for (const FrameData* child : frame.children) updateParameters(*child, program, parameters);
+}
+
+std::shared_ptr<const Parameters> collectParameters(const SceneTree& scene, const Program& program) {
+  auto parameters = std::make_shared<Parameters>(emptyParameters(program));
+  for (const FrameData* frame : topologicalOrder(scene)) {
+    parameters->frame_offset[frame->id] = placeInLink(*frame, program, *parameters);
+    if (frame->inertia) parameters->frame_mass[frame->id] = {frame->inertia->mass, frame->inertia->com};
+  }
+  return parameters;
+}
+
+std::vector<LinkInertia> collectInertias(const SceneTree& scene, const Program& program, const Parameters& parameters) {
+  std::vector<LinkInertia> links(program.links.size());
+  for (const auto& frame : scene.frames()) {
+    if (!frame->inertia) continue;
+    links[program.frame_link[frame->id]].add({frame->inertia->mass, frame->inertia->com, frame->inertia->matrix},
+                                             parameters.frame_offset[frame->id]);
+  }
+  return links;
+}
+
+namespace {
+
+/// The frame with a joint, or root, that a frame is rigidly fixed to.
+const FrameData* partFrame(const FrameData* frame) {
+  while (!frame->joint && frame->parent) frame = frame->parent;
+  return frame;
+}
+
+bool takesPart(const FrameData& frame) {
+  return frame.shape && frame.shape->contact != 0 && !shapeKind(frame.shape->geometry->type).is_symbol;
+}
+
+}  // namespace
+
+ContactRules contactRules(const SceneTree& scene) {
+  ContactRules rules;
+  std::vector<int> part_of(scene.frames().size(), -1);  // of frames that are a part's own
+  for (const auto& frame : scene.frames()) {
+    if (partFrame(frame.get()) != frame.get()) continue;
+    part_of[frame->id] = int(rules.parts.size());
+    rules.parts.push_back({-1, frame->joint.has_value()});
+  }
+  for (const auto& frame : scene.frames()) {
+    if (part_of[frame->id] >= 0 && frame->parent)
+      rules.parts[part_of[frame->id]].parent = part_of[partFrame(frame->parent)->id];
+    for (const FrameData* other : frame->no_contact) rules.excluded.push_back(std::minmax(frame->id, other->id));
+    if (!takesPart(*frame)) continue;
+    const int owner =
+        frame->parent && !frame->joint ? frame->parent->id : frame->id;  // a shape that is fixed to a parent is its
+    rules.bodies.push_back({frame->id, part_of[partFrame(frame.get())->id], frame->shape->contact, owner});
+  }
+  std::sort(rules.excluded.begin(), rules.excluded.end());
+  return rules;
+}
+
+}  // namespace kinegraph

@@ -1,0 +1,102 @@
+#include "kinegraph/scene/tree/contact_warnings.h"
+
+#include <algorithm>
+
+#include "kinegraph/common/text.h"
+#include "kinegraph/geometry/shapes/shape_kinds.h"
+
+namespace kinegraph {
+
+namespace {
+
+constexpr double kDeep = 1e-3, kNear = .05;  // m
+constexpr std::size_t kNamed = 3;
+
+std::vector<std::pair<int, int>> restingPairs(const State& state) {
+  NearPairSearch search(state.sharedProgram());
+  search.place(state);
+  std::vector<std::pair<int, int>> resting;
+  for (const NearPairSearch::Near& near : search.near(-kDeep)) {
+    const int a = search.frame(near.a), b = search.frame(near.b);
+    if (!state.program().movesApart(a, b)) resting.emplace_back(a, b);
+  }
+  return resting;
+}
+
+Proximity proximityOf(const State& state, int a, int b) {
+  return proximity(*state.program().body[std::size_t(a)], state.pose(a), *state.program().body[std::size_t(b)],
+                   state.pose(b));
+}
+
+/// Is the frame's shape drawn around one that collides and belongs to the same frame?
+bool isLookOfAnother(const FrameData& frame, const State& state) {
+  const auto ownerOf = [](const FrameData& f) { return f.parent && !f.joint ? f.parent->id : f.id; };
+  const auto& frames = frame.tree->frames();
+  for (const ContactRules::Body& body : state.program().contacts.bodies) {
+    const FrameData& other = *frames[std::size_t(body.frame)];
+    if (ownerOf(other) != ownerOf(frame) && body.frame != ownerOf(frame) && ownerOf(other) != frame.id) continue;
+    const double size = std::min(state.program().body[std::size_t(frame.id)]->boundRadius(),
+                                 state.program().body[std::size_t(other.id)]->boundRadius());
+    if (proximityOf(state, frame.id, other.id).distance < -.1 * size) return true;
+  }
+  return false;
+}
+
+bool isOpaque(const Shape& shape) { return !shape.color || (*shape.color)[3] >= 1.; }
+
+std::vector<int> passedThrough(const SceneTree& scene, const State& state) {
+  const Program& program = state.program();
+  std::vector<int> frames;
+  for (const auto& frame : scene.frames()) {
+    if (!frame->shape || frame->shape->contact != 0 || program.frame_link[std::size_t(frame->id)] != 0) continue;
+    if (shapeKind(frame->shape->geometry->type).is_symbol || !isOpaque(*frame->shape)) continue;
+    if (frame->attributes->find("simulate")) continue;
+    const CollisionBody& shape = *program.body[std::size_t(frame->id)];
+    const Vector3d center = state.pose(frame->id) * shape.boundCenter();
+    const auto isNear = [&](const ContactRules::Body& body) {
+      if (program.frame_link[std::size_t(body.frame)] == 0) return false;
+      const CollisionBody& other = *program.body[std::size_t(body.frame)];
+      const double reach = shape.boundRadius() + other.boundRadius() + kNear;
+      if ((state.pose(body.frame) * other.boundCenter() - center).squaredNorm() > reach * reach) return false;
+      return proximityOf(state, frame->id, body.frame).distance < kNear;
+    };
+    const bool near = std::any_of(program.contacts.bodies.begin(), program.contacts.bodies.end(), isNear);
+    if (near && !isLookOfAnother(*frame, state)) frames.push_back(frame->id);
+  }
+  return frames;
+}
+
+/// The first few, and how many more.
+std::string listed(std::vector<std::string> names) {
+  const std::size_t count = names.size();
+  names.resize(std::min(count, kNamed));
+  return cat(join(names, ", "), count > kNamed ? cat(" and ", count - kNamed, " more") : "");
+}
+
+}  // namespace
+
+ContactNotes contactNotes(SceneTree& scene) {
+  const State& state = scene.state();
+  return {restingPairs(state), passedThrough(scene, state)};
+}
+
+std::vector<std::string> describe(const ContactNotes& notes, const SceneTree& scene) {
+  const auto nameOf = [&](int frame) { return cat("'", scene.frames()[std::size_t(frame)]->name, "'"); };
+  std::vector<std::string> sentences, names;
+  for (const auto& [a, b] : notes.resting) names.push_back(cat(nameOf(a), " and ", nameOf(b)));
+  if (!names.empty()) {
+    sentences.push_back(
+        cat(listed(names), names.size() == 1 ? " overlap" : " overlap (pairs of frames)",
+            " and no joint moves them apart: that says nothing about q, and is not counted as a collision"));
+  }
+  names.clear();
+  for (const int frame : notes.passed_through) names.push_back(nameOf(frame));
+  if (!names.empty()) {
+    sentences.push_back(cat(listed(names), names.size() == 1 ? " is" : " are",
+                            " near what moves and collides with nothing, because `contact` is 0; setContact(1) makes an"
+                            " obstacle of a frame, and `simulate` in its attributes says that this is meant"));
+  }
+  return sentences;
+}
+
+}  // namespace kinegraph

@@ -1,0 +1,46 @@
+#include "kinegraph/scene/tree/joint_limits.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "kinegraph/common/text.h"
+
+namespace kinegraph {
+
+std::string limitsMistake(std::span<const double> limits) {
+  if (std::any_of(limits.begin(), limits.end(), [](double limit) { return std::isnan(limit); }))
+    return "a limit is nan; one that is not there is -inf, or inf";
+  const std::size_t dofs = limits.size() / 2;
+  std::size_t crossed = dofs;
+  bool all_equal = true, in_turn = dofs > 1, a_range = false;
+  for (std::size_t i = 0; i < dofs; ++i) {
+    if (crossed == dofs && limits[i] > limits[dofs + i]) crossed = i;
+    all_equal &= limits[i] == limits[dofs + i];
+    in_turn &= limits[2 * i] <= limits[2 * i + 1];
+    a_range |= limits[2 * i] < limits[2 * i + 1];
+  }
+  if (crossed == dofs && !(all_equal && in_turn && a_range)) return "";
+  if (dofs == 1)
+    return cat("the lower limit ", limits[0], " is above the upper limit ", limits[1], "; expected [lower, upper]: [",
+               limits[1], " ", limits[0], "]");
+  std::string mistake = "each lower limit equals its upper limit";
+  if (crossed < dofs)
+    mistake = cat("a lower limit is above its upper limit: that of dof ", crossed, " is ", limits[crossed], ", and ",
+                  limits[dofs + crossed]);
+  mistake += "; all lower limits come first, then all upper ones";
+  std::string lower, upper;
+  if (in_turn) {
+    for (std::size_t i = 0; i < dofs; ++i) {
+      lower += cat(limits[2 * i], " ");
+      upper += cat(limits[2 * i + 1], i + 1 < dofs ? " " : "");
+    }
+    return cat(mistake, ": [", lower, upper, "] if these are the lower and upper limit of each dof in turn");
+  }
+  for (std::size_t i = 0; i < dofs; ++i) {
+    lower += cat(std::min(limits[i], limits[dofs + i]), " ");
+    upper += cat(std::max(limits[i], limits[dofs + i]), i + 1 < dofs ? " " : "");
+  }
+  return cat(mistake, ": [", lower, upper, "] if only these are the wrong way around");
+}
+
+}  // namespace kinegraph

@@ -1,0 +1,146 @@
+#include "kinegraph/simulation/gyroscopic_forces.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace kinegraph {
+
+namespace {
+
+constexpr double kSlow =
+    1e-3;  ///< rad per step: the energy of what turns less grows by less than h/2 (kSlow/h)^2 per s
+constexpr double kTooFast = .5;  ///< rad per step
+constexpr int kMostIterations = 20;
+constexpr double kAccuracy = 1e-13;       ///< of an angular momentum, relative
+constexpr double kJointAccuracy = 1e-10;  ///< of velocities of joints, relative
+
+using Vector = Eigen::Map<const Vector3d>;
+using Rotation = Eigen::Map<const Eigen::Matrix<double, 3, 3, Eigen::RowMajor>>;
+
+Matrix3d rotation(const Vector3d& turn) {
+  const double angle = turn.norm();
+  if (angle == 0.) return Matrix3d::Identity();
+  return Eigen::AngleAxisd(angle, turn / angle).toRotationMatrix();
+}
+
+Matrix3d crossMatrix(const Vector3d& v) {
+  Matrix3d m;
+  m << 0., -v.z(), v.y(), v.z(), 0., -v.x(), -v.y(), v.x(), 0.;
+  return m;
+}
+
+/// The w' of which exp(h w'/2) I w' is the given angular momentum, from a w that is near; false if none is found.
+bool findTurn(const Matrix3d& I, const Vector3d& momentum, double h, Vector3d& w) {
+  for (int i = 0; i < kMostIterations; ++i) {
+    const Vector3d turned = rotation(-.5 * h * w) * momentum;
+    const Vector3d missing = I * w - turned;
+    if (missing.norm() <= kAccuracy * momentum.norm()) return true;
+    w -= (I - .5 * h * crossMatrix(turned)).partialPivLu().solve(missing);
+  }
+  return false;
+}
+
+}  // namespace
+
+TurningForces::TurningForces(const SceneModel& scene, const mjModel& model) {
+  std::vector<char> is_driven(std::size_t(model.nv), false), is_listed(std::size_t(model.nv), false);
+  for (const Drive& drive : scene.drives)
+    std::fill_n(is_driven.begin() + drive.dof, drive.kind == MotionKind::quaternion ? 3 : 1, true);
+  for (const GripperJoint& gripper : scene.grippers) {
+    for (const int dof : gripper.dof) is_driven[std::size_t(dof)] = true;
+  }
+  for (const SceneModel::Follower& follower : scene.followers) is_driven[std::size_t(follower.dof)] = true;
+
+  std::vector<char> turns(std::size_t(model.ntree), false);
+  for (int dof = 0; dof < model.nv; ++dof) {
+    const int joint = model.dof_jntid[dof], tree = model.dof_treeid[dof];
+    const bool is_free = model.jnt_type[joint] == mjJNT_FREE;
+    if (is_free && model.tree_dofnum[tree] == 6) {
+      if (dof == model.jnt_dofadr[joint]) free_.push_back({model.dof_bodyid[dof], dof});
+      is_listed[std::size_t(dof)] = true;
+    } else if (!is_driven[std::size_t(dof)] && model.jnt_type[joint] != mjJNT_SLIDE &&
+               !(is_free && dof < model.jnt_dofadr[joint] + 3)) {
+      turns[std::size_t(tree)] = true;
+      turns_.push_back(dof);
+    }
+  }
+  for (int dof = 0; dof < model.nv; ++dof) {
+    if (!is_driven[std::size_t(dof)] && !is_listed[std::size_t(dof)] && turns[std::size_t(model.dof_treeid[dof])])
+      joint_dofs_.push_back(dof);
+  }
+  for (std::vector<mjtNum>* numbers : {&velocity_, &middle_, &bias_, &force_, &change_})
+    numbers->resize(std::size_t(model.nv));
+}
+
+void TurningForces::apply(mjModel& m, mjData& d, double h) {
+  too_fast_ = 0;
+  for (const FreeBody& free : free_) applyToFree(d, free, h);
+  applyToJoints(m, d, h);
+}
+
+void TurningForces::applyToFree(mjData& d, const FreeBody& free, double h) {
+  Eigen::Map<Vector6d> applied(d.qfrc_applied + free.dof);
+  applied.setZero();
+  const Vector3d w = Vector(d.qvel + free.dof + 3);
+  const double angle = h * w.norm();
+  if (!(angle > kSlow)) return;
+  if (angle > kTooFast) too_fast_ = free.body;
+  const Rotation R(d.xmat + 9 * free.body);
+  const mjtNum* inertia = d.crb + 10 * free.body;
+  const double mass = inertia[9];
+  Matrix3d I;
+  I << inertia[0], inertia[3], inertia[4], inertia[3], inertia[1], inertia[5], inertia[4], inertia[5], inertia[2];
+  I = R.transpose() * I * R;
+  const Vector3d center = R.transpose() * (Vector(d.subtree_com + 3 * free.body) - Vector(d.xpos + 3 * free.body));
+  Vector3d next = w;
+  if (!findTurn(I, rotation(-.5 * h * w) * (I * w), h, next)) return;
+
+  // the origin moves such that the center goes on straight
+  const Vector3d to_next = next - w;
+  const Vector3d velocity = (2. * center - rotation(-h * w) * center - rotation(h * next) * center) / h;
+  // MuJoCo solves (M + h C) dv = h f with C the derivative of the forces Q of turning by the velocity, and
+  // C dv = Q(v + dv) - Q(v) - Q(dv); Q(v) is in f already
+  const Matrix3d C = crossMatrix(center), about_origin = I - mass * C * C;
+  const auto pull = [&](const Vector3d& of) -> Vector3d { return mass * of.cross(of.cross(center)); };
+  const auto turn = [&](const Vector3d& of) -> Vector3d { return of.cross(about_origin * of); };
+  applied.head<3>() = R * (mass / h * (velocity + to_next.cross(center)) + pull(next) - pull(to_next));
+  applied.tail<3>() = (mass * center.cross(velocity) + about_origin * to_next) / h + turn(next) - turn(to_next);
+}
+
+/// The middle (v + v')/2 by repetition, where v' is what follows without contacts and damping.
+void TurningForces::applyToJoints(const mjModel& m, mjData& d, double h) {
+  for (const int dof : joint_dofs_) d.qfrc_applied[dof] = 0.;
+  double fastest = 0.;
+  for (const int dof : turns_) {
+    const double angle = h * std::abs(d.qvel[dof]);
+    fastest = std::max(fastest, angle);
+    if (angle > kTooFast) too_fast_ = m.dof_bodyid[dof];
+  }
+  if (!(fastest > kSlow)) return;
+  const Physics& mj = physics();
+  const int n = m.nv;
+  std::copy_n(d.qvel, n, velocity_.begin());
+  std::copy_n(d.qvel, n, middle_.begin());
+  std::copy_n(d.qfrc_bias, n, bias_.begin());
+  const double largest = std::abs(*std::ranges::max_element(velocity_, {}, [](double v) { return std::abs(v); }));
+  bool is_found = false;
+  for (int i = 0; i < kMostIterations && !is_found; ++i) {
+    for (int k = 0; k < n; ++k) force_[std::size_t(k)] = d.qfrc_applied[k] + d.qfrc_gravcomp[k] - bias_[std::size_t(k)];
+    mj.mj_solveM(&m, &d, change_.data(), force_.data(), 1);
+    double moved = 0.;
+    for (int k = 0; k < n; ++k) {
+      const double next = velocity_[std::size_t(k)] + .5 * h * change_[std::size_t(k)];
+      moved = std::max(moved, std::abs(next - middle_[std::size_t(k)]));
+      middle_[std::size_t(k)] = d.qvel[k] = next;
+    }
+    is_found = moved <= kJointAccuracy * largest;
+    mj.mj_comVel(&m, &d);
+    mj.mj_rne(&m, &d, 0, bias_.data());
+  }
+  std::copy_n(velocity_.begin(), n, d.qvel);
+  mj.mj_comVel(&m, &d);
+  if (!is_found) return;
+  for (const int dof : joint_dofs_) d.qfrc_applied[dof] = d.qfrc_bias[dof] - bias_[std::size_t(dof)];
+}
+
+}  // namespace kinegraph

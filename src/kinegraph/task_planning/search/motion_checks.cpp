@@ -1,0 +1,116 @@
+#include "kinegraph/task_planning/search/motion_checks.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "kinegraph/common/text.h"
+#include "kinegraph/features/eval.h"
+#include "kinegraph/task_planning/task_actions.h"
+
+namespace kinegraph {
+
+namespace {
+
+constexpr double kStraight = 1e-10;  ///< rad or m: what is off a line by less than that does not turn
+
+/// The cosine of the turn between two orientations.
+double turnCosine(const Matrix3d& a, const Matrix3d& b) { return .5 * ((a.transpose() * b).trace() - 1.); }
+
+double lengthOf(const Vector3d& v) { return std::sqrt(v.x() * v.x() + v.y() * v.y() + v.z() * v.z()); }
+
+}  // namespace
+
+double gapOf(const Config& scene, const std::string& a, const std::string& b) {
+  return -eval(scene, FeatureSymbol::distance, {a, b}).y[0];
+}
+
+void hang(Config& scene, const std::string& obj, const std::string& parent) {
+  scene.getFrame(obj).setParent(scene.getFrame(parent), true);
+  scene.getFrame(obj).setJoint(JointType::rigid);
+}
+
+double levelCosine() {
+  static const double cosine = std::cos(.5 * std::numbers::pi / 180.);
+  return cosine;
+}
+
+std::string firstContact(const Config& scene, const MatrixXd& path) {
+  const MatrixXd corners = cornersOf(path);
+  for (Eigen::Index i = 0; i + 1 < corners.rows(); ++i) {
+    const auto contact = scene.checkMotion(corners.row(i), corners.row(i + 1), -kOverlap);
+    if (!contact) continue;
+    if (contact->dof >= 0)
+      return cat("joint ", scene.getJointNames()[std::size_t(contact->dof)], " is beyond its limits");
+    return cat(scene.getFrame(contact->a).getName(), " and ", scene.getFrame(contact->b).getName(), " overlap by ",
+               fixed(-contact->distance, 4), " m on the way");
+  }
+  return "";
+}
+
+bool isFree(const Config& scene, const MatrixXd& path) { return firstContact(scene, path).empty(); }
+
+MatrixXd cornersOf(const MatrixXd& path) {
+  if (path.rows() < 2) return path;
+  std::vector<Eigen::Index> kept = {0};
+  for (Eigen::Index row = 1; row + 1 < path.rows(); ++row) {
+    const VectorXd chord = path.row(row + 1) - path.row(kept.back()), offset = path.row(row) - path.row(kept.back());
+    const double share = offset.dot(chord) / std::max(chord.dot(chord), 1e-300);
+    if (!(share >= 0. && share <= 1.) || (offset - share * chord).cwiseAbs().maxCoeff() > kStraight)
+      kept.push_back(row);
+  }
+  kept.push_back(path.rows() - 1);
+  return path(kept, Eigen::all);
+}
+
+std::vector<Vector3d> positionsAlong(const Config& scene, const MatrixXd& path, const std::string& frame) {
+  Config C = scene;
+  const Frame moved = C.getFrame(frame);
+  std::vector<Vector3d> at;
+  for (Eigen::Index row = 0; row < path.rows(); ++row) {
+    C.setJointState(path.row(row));
+    at.push_back(moved.getPosition());
+  }
+  return at;
+}
+
+bool slidesStraight(const Config& scene, const MatrixXd& path, const std::string& obj) {
+  const std::vector<Vector3d> at = positionsAlong(scene, path, obj);
+  const Vector3d chord = at.back() - at.front();
+  const double length = std::max(chord.norm(), 1e-9);
+  Config C = scene;
+  C.setJointState(path.row(0));
+  const Frame moved = C.getFrame(obj);
+  const Matrix3d first = moved.getRotationMatrix();
+  double before = 0.;
+  for (std::size_t i = 0; i < at.size(); ++i) {
+    const double share = (at[i] - at[0]).dot(chord) / length;
+    const double aside = (at[i] - at[0] - share * chord / length).norm();
+    if (aside > kOffPlace || std::abs(at[i].z() - at[0].z()) > kOffPlace) return false;
+    if (i > 0 && share - before <= -kOffPlace) return false;
+    before = share;
+    C.setJointState(path.row(Eigen::Index(i)));
+    if (turnCosine(first, moved.getRotationMatrix()) < levelCosine()) return false;
+  }
+  return true;
+}
+
+double accelerationOf(const Config& scene, const MatrixXd& path, const VectorXd& times, const std::string& frame) {
+  const std::vector<Vector3d> at = positionsAlong(scene, path, frame);
+  std::vector<double> steps;
+  std::vector<Vector3d> velocity;
+  for (std::size_t i = 0; i + 1 < at.size(); ++i) {
+    const double step = times[Eigen::Index(i) + 1] - times[Eigen::Index(i)];
+    if (!(step > 0.)) continue;
+    steps.push_back(step);
+    velocity.push_back((at[i + 1] - at[i]) / step);
+  }
+  if (velocity.size() < 2) return 0.;
+  double most =
+      std::max(lengthOf(2. * velocity.front() / steps.front()), lengthOf(2. * velocity.back() / steps.back()));
+  for (std::size_t i = 0; i + 1 < velocity.size(); ++i)
+    most = std::max(most, lengthOf((velocity[i + 1] - velocity[i]) / (.5 * (steps[i + 1] + steps[i]))));
+  return most;
+}
+
+}  // namespace kinegraph

@@ -1,0 +1,362 @@
+#include "kinegraph/task_planning/search/task_motions.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "kinegraph/common/errors.h"
+#include "kinegraph/common/text.h"
+#include "kinegraph/features/eval.h"
+#include "kinegraph/scene/motor_limits.h"
+#include "kinegraph/trajectories/retime.h"
+#include "kinegraph/task_planning/search/guided_motion.h"
+#include "kinegraph/task_planning/search/motion_checks.h"
+#include "kinegraph/task_planning/task_rules.h"
+
+namespace kinegraph {
+
+namespace {
+
+constexpr double kBack = .07;   ///< m: a hand comes to what it takes, and leaves what it puts down, along its own axis
+constexpr double kUp = .04;     ///< m: what is held is lifted first, and comes down to its place
+constexpr double kAside = .04;  ///< m: a hook comes from behind to what it pulls, and goes back from it
+constexpr double kPulled = 1.;  ///< m/s^2: what is pulled is accelerated by no more, so that it does not tip
+constexpr double kTurn = .8;  ///< rad or m: a joint that would move farther on these few centimeters is led another way
+constexpr double kSame = 1e-7;       ///< rad or m: postures that differ by less are one
+constexpr double kPeriod = .01;      ///< s between two rows
+constexpr double kMargin = .01;      ///< m, that motions keep where their ends do, and there is room
+constexpr double kHeld = 4.;         ///< m/s^2: what is held by friction is accelerated by no more
+constexpr double kBlend = .05;       ///< rad or m, by which corners may be missed
+constexpr double kTenths = 10.;      ///< per m: scale of positions that are kept to a tenth of a millimeter
+constexpr double kFineBlend = 2e-3;  ///< the same, where a hand holds what only a joint moves
+constexpr double kUnhurried = 1.02;  ///< of the least time: a spline keeps its limits where they are looked at
+constexpr double kSpeedIn = .5;      ///< s to full speed
+constexpr int kTries = 2;
+constexpr int kSearch = 200000;  ///< evaluations of one search for a way
+constexpr int kSearchBehindDoors = 40000;
+constexpr int kPushRows = 50;  ///< by which a straight push is looked at
+
+double farthest(const VectorXd& a, const VectorXd& b) { return (a - b).cwiseAbs().maxCoeff(); }
+
+MatrixXd rowsOf(const std::vector<VectorXd>& postures) {
+  MatrixXd rows(Eigen::Index(postures.size()), postures.at(0).size());
+  for (std::size_t i = 0; i < postures.size(); ++i) rows.row(Eigen::Index(i)) = postures[i];
+  return rows;
+}
+
+/// `count` rows from a to b, both included.
+MatrixXd line(const VectorXd& a, const VectorXd& b, int count) {
+  MatrixXd rows(count, a.size());
+  const VectorXd step = (b - a) / double(count - 1);
+  for (int i = 0; i < count; ++i) rows.row(i) = a + double(i) * step;
+  rows.row(count - 1) = b;
+  return rows;
+}
+
+/// What leaves a place as an action comes there: who puts something down comes from above, who takes it along its axis.
+TaskAction coming(const TaskAction& action) {
+  if (isPick(action)) return {"place", action[1], action[3], action[2]};
+  if (isHold(action)) return {"open", action[1], action[2], action[3]};
+  if (isPlace(action)) return {"pick", action[1], action[3], action[2]};
+  if (action[0] == "hook_start") return {"hook_end", action[1], action[3], action[2], action[4], action[5]};
+  return {};
+}
+
+/// A motion in rows; the first and the last are those of the postures, to the bit.
+TimedRows rowsOf(const TimedPath& timed, const MatrixXd& postures) {
+  const int count = std::max(int(std::ceil(timed.duration() / kPeriod)) + 1, 2);
+  TimedRows rows{MatrixXd(count, postures.cols()), VectorXd(count)};
+  const double step = timed.duration() / double(count - 1);
+  for (int i = 0; i < count; ++i) rows.times[i] = double(i) * step;
+  rows.times[count - 1] = timed.duration();
+  for (int i = 0; i < count; ++i) rows.path.row(i) = timed.at(rows.times[i]).q;
+  rows.path.row(0) = postures.row(0);
+  rows.path.row(count - 1) = postures.row(postures.rows() - 1);
+  return rows;
+}
+
+/// The rows at which postures change; it ends where the next motion begins.
+MatrixXd withoutRepeats(const MatrixXd& postures) {
+  std::vector<Eigen::Index> kept = {0};
+  for (Eigen::Index k = 1; k < postures.rows(); ++k)
+    if ((postures.row(k) - postures.row(k - 1)).cwiseAbs().maxCoeff() > kSame) kept.push_back(k);
+  if (kept.size() > 1) kept.pop_back();
+  kept.push_back(postures.rows() - 1);
+  return postures(kept, Eigen::all);
+}
+
+VectorXd perDof(const char* name, const VectorXd& given, const VectorXd& otherwise) {
+  if (given.size() == 0) return otherwise;
+  if (given.size() == 1) return VectorXd::Constant(otherwise.size(), given[0]);
+  if (given.size() == otherwise.size()) return given;
+  throw ValueError(
+      cat("planTask: ", name, " has ", given.size(), " numbers; expected one, or ", otherwise.size(), ", one per dof"));
+}
+
+}  // namespace
+
+TaskMotions::TaskMotions(WorkAhead& ahead, MatrixXd limits, const std::vector<Literal>& start, std::uint64_t seed)
+    : ahead_(ahead),
+      limits_(std::move(limits)),
+      has_doors_(!wordsOf(start, "is_guided").empty()),
+      hands_(wordsOf(start, "is_gripper")),
+      objects_(wordsOf(start, "is_object")),
+      seed_(seed) {}
+
+TaskMotions::Found TaskMotions::between(const Config& C, const VectorXd& q0, const VectorXd& q1,
+                                        const TaskAction& action, const TaskAction& before, const JobStopped& stopped,
+                                        const std::function<int()>& threads) const {
+  TaskMotions motions = *this;
+  motions.stopped_ = stopped;
+  motions.threads_ = threads;
+  Found found = motions.search(C, q0, q1, action, before);
+  found.evaluations = motions.evaluations_;
+  return found;
+}
+
+TaskMotions::Found TaskMotions::search(const Config& C, const VectorXd& q0, const VectorXd& q1,
+                                       const TaskAction& action, const TaskAction& before) {
+  if (!has_doors_) return among(C, q0, q1, action, before);
+  if (isGuided(action)) return guided(C, q0, q1, action);
+  Config all = C;
+  all.setJointState(q0);
+  const StillDoors still = withStillDoors(all, doorsOf(all));
+  TaskMotions motions = *this;
+  motions.limits_ = limits_(Eigen::all, still.dofs);
+  Found found = motions.among(still.scene, q0(still.dofs), q1(still.dofs), action, before);
+  evaluations_ = motions.evaluations_;
+  if (found.motion) {
+    MatrixXd path = q0.transpose().replicate(found.motion->path.rows(), 1);
+    path(Eigen::all, still.dofs) = found.motion->path;
+    found.motion->path = std::move(path);
+  }
+  return found;
+}
+
+/// A hand moves a door by its handle: along the straight line of the joints, as near as its grip allows, or another way.
+TaskMotions::Found TaskMotions::guided(const Config& C, const VectorXd& q0, const VectorXd& q1,
+                                       const TaskAction& action) {
+  const std::string &handle = action[2], &hand = action[3];
+  Config taken = C;
+  taken.setJointState(q0);
+  const std::vector<MotionConstraint> grip = gripConstraints(taken, hand, handle);
+  MatrixXd postures = guidedPostures(C, q0, q1, grip);
+  if (postures.rows() == 0 || !isFree(C, postures)) {
+    const MotionPlan found = way(C, q0, q1, grip);
+    if (!found.feasible()) return {std::nullopt, cat("no motion was found that holds '", handle, "': ", found.message)};
+    postures = found.path;
+  }
+  const MotionLimits limits{limits_.row(0), limits_.row(1), {}};
+  for (const auto& [corners, tolerance] :
+       {std::pair(Corners::spline, 0.), std::pair(Corners::blend, kFineBlend), std::pair(Corners::stop, 0.)}) {
+    RetimeOptions options;
+    options.corners = corners;
+    if (tolerance > 0.) options.tolerance = tolerance;
+    const TimedPath timed = retime(withoutRepeats(postures), limits, options);
+    if (!timed.feasible()) continue;
+    TimedRows rows = rowsOf(timed, postures);
+    rows.times *= kUnhurried;
+    const Slip slip = mostSlip(taken, rows.path, hand, handle);
+    if (slip.distance > 1.6 * kSlip || slip.cosine < levelCosine() || !isFree(C, rows.path)) continue;
+    return {slower(C, std::move(rows), movedBy(C, action[1], objects_), kSteady / 1.01), ""};
+  }
+  return {std::nullopt, cat("'", hand, "' slips on '", handle, "'")};
+}
+
+TaskMotions::Found TaskMotions::among(const Config& C, const VectorXd& q0, const VectorXd& q1, const TaskAction& action,
+                                      const TaskAction& before) {
+  const std::vector<std::string> carried = carriedBy(C, hands_, objects_);
+  if (endsSliding(action)) {
+    Found found = pushed(C, q0, q1, action[1]);
+    if (found.motion) found.motion = steady(C, std::move(*found.motion), carried);
+    if (found.motion && action[0] == "hook_end")
+      found.motion = slower(C, std::move(*found.motion), {action[1]}, kPulled);
+    return found;
+  }
+  std::vector<MotionConstraint> level;
+  for (const std::string& obj : carried) {
+    const Vector3d up = C.getFrame(obj).getRotationMatrix().col(2);
+    level.push_back({.feature = FeatureSymbol::vectorZ, .frames = {obj}, .target = up});
+  }
+  Later<Way> direct;  // without leaving and coming along an axis
+  if (level.empty()) {
+    std::vector<VectorXd> postures = piece(C, q0, leaving(C, q0, before));
+    const std::vector<VectorXd> tail = piece(C, q1, leaving(C, q1, coming(action)));
+    if (postures.size() + tail.size() > 2) {
+      const MotionPlan found = way(C, postures.back(), tail.back(), {}, [&] {
+        direct = wayLater(C, q0, q1);
+        direct.begin(Wanted::likely);
+      });
+      if (found.feasible()) {
+        for (Eigen::Index i = 0; i < found.path.rows(); ++i) postures.push_back(found.path.row(i));
+        postures.insert(postures.end(), tail.rbegin(), tail.rend());
+        return {steady(C, timed(C, rowsOf(postures)), {}), ""};
+      }
+    }
+  }
+  const MotionPlan found = direct ? taken(direct.get()) : way(C, q0, q1, level);
+  if (!found.feasible()) return {std::nullopt, cat("no motion was found: ", found.message)};
+  return {steady(C, timed(C, found.path), carried), ""};
+}
+
+/// A straight motion of an object over what it stands on: the straight one of the joints, or one on that line.
+TaskMotions::Found TaskMotions::pushed(const Config& C, const VectorXd& q0, const VectorXd& q1,
+                                       const std::string& obj) {
+  const MatrixXd straight = rowsOf({q0, q1});
+  if (slidesStraight(C, line(q0, q1, kPushRows), obj) && isFree(C, straight)) return {timed(C, straight), ""};
+  const std::vector<Vector3d> ends = positionsAlong(C, straight, obj);
+  const Vector3d along = (ends[1] - ends[0]) / std::max((ends[1] - ends[0]).norm(), 1e-9);
+  MatrixXd aside(2, 3);
+  aside << -along.y(), along.x(), 0., 0., 0., 1.;
+  Config D = C;
+  D.setJointState(q1);
+  const Matrix3d R = D.getFrame(obj).getRotationMatrix();
+  std::vector<MotionConstraint> line = {
+      {.feature = FeatureSymbol::position, .frames = {obj}, .scale = aside, .target = ends[0]},
+      {.feature = FeatureSymbol::vectorX, .frames = {obj}, .target = Vector3d(R.col(0))},
+      {.feature = FeatureSymbol::vectorZ, .frames = {obj}, .target = Vector3d(R.col(2))}};
+  const MotionPlan found = way(C, q0, q1, line);
+  if (!found.feasible()) {  // what slides touches what it slides on, which planMotion takes for a collision
+    line[0].scale = MatrixXd(kTenths * aside);
+    const MatrixXd postures = guidedPostures(C, q0, q1, line);
+    if (postures.rows() > 0 && isFree(C, postures)) {
+      RetimeOptions options;
+      options.corners = Corners::spline;
+      const TimedPath smooth = retime(withoutRepeats(postures), {limits_.row(0), limits_.row(1), {}}, options);
+      if (smooth.feasible()) {
+        TimedRows rows = rowsOf(smooth, postures);
+        rows.times *= kUnhurried;
+        if (slidesStraight(C, rows.path, obj) && isFree(C, rows.path)) return {std::move(rows), ""};
+      }
+    }
+    return {std::nullopt, cat("no straight push was found: ", found.message)};
+  }
+  return {timed(C, found.path), ""};
+}
+
+MotionPlan TaskMotions::way(const Config& C, const VectorXd& start, const VectorXd& goal,
+                            const std::vector<MotionConstraint>& constraints,
+                            const std::function<void()>& at_first_failure) {
+  PlanOptions options;
+  options.tries = has_doors_ ? 1 : kTries;
+  options.seed = seed_;
+  options.constraints = constraints;
+  options.timing = false;
+  MotionPlan found;
+  for (const double margin : {kMargin, 0.}) {
+    options.margin = margin;
+    options.proof = margin == 0. && !at_first_failure;           // who has another way does not ask why
+    const int most = has_doors_ ? kSearchBehindDoors : kSearch;  // what is shut off is soon given up
+    options.evaluations = margin == 0. ? most : most / 10;
+    options.threads = threads_();
+    found = planMotion(C, MotionGoal(goal), options, start, stopped_);
+    for (const PlanStage& stage : found.stages) evaluations_ += stage.evaluations;
+    if (found.feasible()) break;
+    if (margin > 0. && at_first_failure) at_first_failure();
+  }
+  return found;
+}
+
+/// The same, on another thread if one is free.
+Later<TaskMotions::Way> TaskMotions::wayLater(const Config& C, const VectorXd& start, const VectorXd& goal) const {
+  return ahead_.later<Way>(
+      [motions = *this, scene = std::make_shared<const Config>(C), start, goal](const JobStopped& stopped) mutable {
+        motions.evaluations_ = 0;
+        motions.threads_ = [] { return 1; };
+        motions.stopped_ = [stopped, outer = motions.stopped_] { return stopped() || (outer && outer()); };
+        MotionPlan plan = motions.way(*scene, start, goal);
+        return Way{std::move(plan), motions.evaluations_};
+      });
+}
+
+MotionPlan TaskMotions::taken(Way& way) {
+  evaluations_ += way.evaluations;
+  return std::move(way.plan);
+}
+
+/// From q to a posture near it, if that is free; else q alone. The same is free the other way around.
+std::vector<VectorXd> TaskMotions::piece(const Config& C, const VectorXd& q,
+                                         const std::optional<VectorXd>& away) const {
+  if (away && farthest(*away, q) <= kTurn && isFree(C, rowsOf({q, *away}))) return {q, *away};
+  return {q};
+}
+
+/// Joints a few centimeters away from where an action was done: a hand that has put something down goes back, one that has
+/// taken something lifts it, and a hook goes away from what it has pulled.
+std::optional<VectorXd> TaskMotions::leaving(const Config& C, const VectorXd& q, const TaskAction& action) const {
+  const bool is_pulled = !action.empty() && action[0] == "hook_end";
+  if (!isPick(action) && !isPlace(action) && !isGuided(action) && !is_pulled) return std::nullopt;
+  const std::string& hand = is_pulled ? action[5] : isPlace(action) ? action[2] : action[3];
+  const std::string palm = palmOf(C, hand);
+  Config D = C;
+  D.setJointState(q);
+  Pose pose = D.getFrame(hand).getPose();
+  if (isPick(action)) {
+    pose.p.z() += kUp;
+  } else if (is_pulled) {
+    Vector3d back = -eval(D, FeatureSymbol::pairCollision_normal, {action[1], action[2]}).y;
+    back.z() = 0.;
+    pose.p += kAside * back.normalized();
+  } else if (!palm.empty()) {
+    const Vector3d back = D.getFrame(palm).getPosition() - pose.p;
+    const double length = std::sqrt(back.x() * back.x() + back.y() * back.y() + back.z() * back.z());
+    pose.p += kBack * back / length;
+  } else {
+    return std::nullopt;
+  }
+  IkOptions options;
+  options.collisions = false;
+  options.attempts = 1;
+  const IkResult result = solveIk(D, {IkTarget::toPose(hand, Pose::fromNumbers(pose.numbers()))}, options);
+  return result.feasible() ? std::optional(result.q) : std::nullopt;
+}
+
+/// The same motion, so slow that what is held does not slip, and what only stands on that stays there.
+TimedRows TaskMotions::steady(const Config& C, TimedRows rows, const std::vector<std::string>& carried) const {
+  double share = 1.;
+  for (const std::string& obj : objects_) {
+    if (holderOf(C, obj, hands_).empty()) continue;
+    const double most = std::ranges::find(carried, obj) != carried.end() ? kSteady / 1.01 : kHeld;
+    share = std::max(share, accelerationOf(C, rows.path, rows.times, obj) / most);
+  }
+  rows.times *= std::sqrt(share);
+  return rows;
+}
+
+/// The same motion, so slow that objects are accelerated by no more than `most` m/s^2.
+TimedRows TaskMotions::slower(const Config& C, TimedRows rows, const std::vector<std::string>& objects,
+                              double most) const {
+  double share = 1.;
+  for (const std::string& obj : objects) share = std::max(share, accelerationOf(C, rows.path, rows.times, obj) / most);
+  rows.times *= std::sqrt(share);
+  return rows;
+}
+
+TimedRows TaskMotions::timed(const Config& C, const MatrixXd& postures) const {
+  const MatrixXd kept = withoutRepeats(postures);
+  const MotionLimits limits{limits_.row(0), limits_.row(1), {}};
+  for (const Corners corners : {Corners::blend, Corners::stop}) {
+    RetimeOptions options;
+    options.corners = corners;
+    options.tolerance = kBlend;
+    options.is_free = [&](const MatrixXd& points, double) { return isFree(C, points); };
+    const TimedPath found = retime(kept, limits, options);
+    if (!found.feasible()) continue;
+    const TimedRows rows = rowsOf(found, postures);
+    if (isFree(C, rows.path)) return rows;
+  }
+  RetimeOptions stops;
+  stops.corners = Corners::stop;
+  return rowsOf(retime(kept, limits, stops), postures);
+}
+
+MatrixXd taskMotionLimits(const Config& C, const VectorXd& velocity, const VectorXd& acceleration) {
+  VectorXd model = getVelocityLimits(C);
+  for (double& limit : model)
+    if (!std::isfinite(limit)) limit = 1.;
+  MatrixXd limits(2, model.size());
+  limits.row(0) = perDof("velocity", velocity, model);
+  limits.row(1) = perDof("acceleration", acceleration, VectorXd(limits.row(0).transpose() / kSpeedIn));
+  return limits;
+}
+
+}  // namespace kinegraph

@@ -1,0 +1,40 @@
+#include "kinegraph/task_planning/shape_points.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "kinegraph/common/errors.h"
+#include "kinegraph/common/text.h"
+#include "kinegraph/geometry/shapes/tessellation.h"
+
+namespace kinegraph {
+
+std::vector<Vector3d> shapePoints(const Frame& frame) {
+  const auto& shape = frame.data().shape;
+  if (!shape) return {};
+  const Geometry& geometry = *shape->geometry;
+  if (geometry.mesh && geometry.type != ShapeType::ssCvx) return geometry.mesh->vertices;
+  return tessellate(geometry).vertices;
+}
+
+Eigen::AlignedBox3d boxAround(const Frame& frame) {
+  Eigen::AlignedBox3d box;
+  for (const Vector3d& point : shapePoints(frame)) box.extend(point);
+  return box;
+}
+
+Eigen::Vector2d placeSides(const Frame& place) {
+  const std::vector<double> size = place.getSize();
+  if (size.size() < 2)
+    throw ValueError(cat("planTask: nothing can stand on '", place.getName(), "'; expected a box as a place"));
+  return {size[0], size[1]};
+}
+
+double diagonalOf(const Frame& frame, std::size_t count) {
+  const std::vector<double> size = frame.getSize();
+  double squares = 0.;
+  for (std::size_t k = 0; k < std::min(count, size.size()); ++k) squares += size[k] * size[k];
+  return std::sqrt(squares);
+}
+
+}  // namespace kinegraph

@@ -1,0 +1,280 @@
+#include "kinegraph/task_planning/task_rules.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "kinegraph/common/errors.h"
+#include "kinegraph/common/text.h"
+#include "kinegraph/geometry/shapes/shape_kinds.h"
+#include "kinegraph/task_planning/shape_points.h"
+#include "kinegraph/task_planning/task_tools.h"
+#include "kinegraph/task_planning/task_waypoints.h"
+
+namespace kinegraph {
+
+namespace {
+
+using F = FeatureSymbol;
+using O = ObjectiveType;
+using Body = ShapeKind::Body;
+using Variants = std::vector<std::string>;
+
+constexpr double kFingers = .08;             ///< m: what a hand with a palm opens if its frame does not say it
+constexpr double kInside = .02;              ///< m: how far from the ends of an object it is grasped
+constexpr double kHookGap = 5e-4;            ///< m: between a hook, which collides, and what it begins to pull
+constexpr double kAbove = .003;              ///< m: that a tool keeps from the ground where it pulls
+constexpr double kPlay = .002;               ///< m: by which it may be higher, where it is as low as it can be
+constexpr double kSafe = .5;                 ///< of the height at which what it pulls tips
+constexpr std::size_t kCombinations = 4096;  ///< of variants that are ranked
+
+Body bodyOf(const Frame& frame) { return shapeKind(frame.getShapeType()).body; }
+
+double leastSide(const std::vector<double>& size) { return std::min({size[0], size[1], size[2]}); }
+
+/// Of a box, or of the box around a mesh, along x y z, m.
+Vector3d widthsOf(const Frame& frame) {
+  const std::vector<double> size = frame.getSize();
+  if (isBox(frame)) return {size[0], size[1], size[2]};
+  const Eigen::AlignedBox3d around = boxAround(frame);
+  if (around.isEmpty())
+    throw ValueError(cat("planTask: object '", frame.getName(), "' has no shape that can be grasped"));
+  return around.max() - around.min();
+}
+
+/// Across a mesh: the fingers close along an axis of the box around its hull, inside of the other sides.
+void graspHull(TaskWaypoints& w, double time, const std::string& hand, const std::string& obj, int axis) {
+  const Eigen::AlignedBox3d around = boxAround(w.C.getFrame(obj));
+  const Vector3d middle = .5 * (around.max() + around.min()), half = .5 * (around.max() - around.min());
+  const Vector3d inside = half.array() - (.5 * half.array()).min(kInside);
+  std::vector<int> others = {0, 1, 2};
+  others.erase(others.begin() + axis);
+  const MatrixXd all = 1e1 * Eigen::Matrix3d::Identity(), along = all.row(axis), across = all(others, Eigen::all);
+  const Vector3d most = middle + inside, least = middle - inside;
+  w.komo().addObjective({time}, F::positionRel, {hand, obj}, O::eq, along, middle);
+  w.komo().addObjective({time}, F::positionRel, {hand, obj}, O::ineq, across, most);
+  w.komo().addObjective({time}, F::positionRel, {hand, obj}, O::ineq, -across, least);
+  constexpr std::array kProducts = {F::scalarProductXX, F::scalarProductXY, F::scalarProductXZ};
+  for (const int other : others)
+    w.komo().addObjective({time - .2, time}, kProducts[std::size_t(other)], {hand, obj}, O::eq, 1e0);
+  if (const std::string palm = palmOf(w.C, hand); !palm.empty())
+    w.komo().addObjective({time - .3, time}, F::distance, {palm, obj}, O::ineq, 1e1, -.001);
+}
+
+/// The farther inside, and the nearer to what it weighs, the less it turns in the hand.
+void nearCenter(TaskWaypoints& w, double time, const std::string& hand, const std::string& obj) {
+  const Vector3d center = centerOfBody(w.C.getFrame(obj));
+  if (isCentered(center))
+    w.komo().addObjective({time}, F::positionDiff, {hand, obj}, O::sos, 3e0);
+  else
+    w.komo().addObjective({time}, F::positionRel, {hand, obj}, O::sos, 3e0, center);
+}
+
+void grasp(TaskWaypoints& w, double time, const std::string& hand, const std::string& obj, const std::string& variant) {
+  const std::string palm = palmOf(w.C, hand);
+  const Frame thing = w.C.getFrame(obj);
+  const std::vector<double> size = thing.getSize();
+  if (!palm.empty()) nearCenter(w, time, hand, obj);
+  if (variant == "touch") {
+    w.komo().addObjective({time}, F::distance, {obj, hand}, O::eq, 1e1);
+  } else if (variant == "center") {
+    w.komo().addObjective({time}, F::positionDiff, {hand, obj}, O::eq, 1e1);
+  } else if (variant == "around") {
+    w.m->grasp_cylinder(time, hand, obj, palm, std::min(kInside, .25 * size[0]));
+  } else if (isBox(thing)) {
+    w.m->grasp_box(time, hand, obj, palm, variant, std::min(kInside, .25 * leastSide(size)));
+  } else {
+    const std::size_t axis = std::string_view("xyz").find(variant);
+    if (variant.size() != 1 || axis == std::string_view::npos)
+      throw ValueError(cat("planTask: '", hand, "' cannot hold '", obj, "' by '", variant, "'; expected x, y or z"));
+    graspHull(w, time, hand, obj, int(axis));
+  }
+}
+
+void take(TaskWaypoints& w, double time, const TaskAction& action, const std::string& variant) {
+  w.attach(time, action[3], action[1]);
+  grasp(w, time, action[3], action[1], variant);
+}
+
+void place(TaskWaypoints& w, double time, const TaskAction& action, const std::string& variant) {
+  if (variant == "upright")
+    w.put(time, action[1], action[3]);
+  else
+    w.lay(time, action[1], action[3], variant);
+}
+
+void holdAt(TaskWaypoints& w, double time, const TaskAction& action, const std::string&) {
+  w.komo().addObjective({time}, F::poseDiff, {action[1], action[3]}, O::eq, 1e1);
+}
+
+void touch(TaskWaypoints& w, double time, const TaskAction& action, const std::string&) {
+  w.attach(time, action[3], action[1], true, action[0] == "hook_start" ? kHookGap : 0.);
+}
+
+/// A bar presses with an upright face, which can give way only downwards, and so low that what it pulls does not tip: its
+/// tool lies flat, a little above the ground.
+void layFlat(TaskWaypoints& w, double time, const TaskAction& action, const std::string& variant) {
+  const Frame obj = w.C.getFrame(action[1]), place = w.C.getFrame(action[2]), bar = w.C.getFrame(action[3]),
+              tool = w.C.getFrame(action[4]);
+  const int along = longAxis(bar), up = flatAxis(bar, tool);
+  constexpr std::array kAxes = {F::vectorX, F::vectorY, F::vectorZ};
+  const MatrixXd height = Eigen::RowVector3d(0., 0., 1e1);
+  w.komo().addObjective({time}, kAxes[std::size_t(3 - along - up)], {action[3]}, O::eq, .1 * height);
+  const Eigen::AlignedBox3d around = boxAround(obj);
+  const Vector3d sides = around.sizes();
+  const double depth = variant == "x" ? sides.x() : variant == "y" ? sides.y() : std::min(sides.x(), sides.y());
+  const double lowest = .5 * bar.getSize()[std::size_t(up)] + kAbove + kPlay;
+  const double most = around.min().z() + std::max(lowest, kSafe * tippingHeight(obj, place, depth));
+  w.komo().addObjective({time}, F::positionDiff, {action[3], action[1]}, O::ineq, height, {0., 0., most});
+  for (const Frame& part : shapesOf(tool))
+    w.komo().addObjective({time}, F::distance, {part.getName(), action[2]}, O::ineq, 1e1, -kAbove);
+}
+
+/// The bar of a hook is along a side of a box, across the axis that the variant names: it does not turn then as it is pulled
+/// along that.
+void hookOn(TaskWaypoints& w, double time, const TaskAction& action, const std::string& variant) {
+  touch(w, time, action, variant);
+  const int bar = longAxis(w.C.getFrame(action[3]));
+  if (bar < 0) return;
+  layFlat(w, time, action, variant);
+  if (variant == "touch") return;
+  constexpr std::array kProducts = {std::array{F::scalarProductXX, F::scalarProductXY},
+                                    std::array{F::scalarProductYX, F::scalarProductYY},
+                                    std::array{F::scalarProductZX, F::scalarProductZY}};
+  const F across = kProducts[std::size_t(bar)][variant == "x" ? 0 : 1];
+  w.komo().addObjective({time}, across, {action[3], action[1]}, O::eq, 1e0);
+}
+
+/// Of the sides of a box first the one along which it comes nearer to the hand.
+Variants hooksOf(const Config& C, const TaskAction& action) {
+  const Frame obj = C.getFrame(action[1]);
+  if (!isBox(obj) || longAxis(C.getFrame(action[3])) < 0) return {"touch"};
+  const Vector3d way = C.getFrame(action[5]).getPosition() - obj.getPosition();
+  const Matrix3d R = obj.getRotationMatrix();
+  if (std::abs(R.col(0).dot(way)) >= std::abs(R.col(1).dot(way))) return {"x", "y", "touch"};
+  return {"y", "x", "touch"};
+}
+
+void push(TaskWaypoints& w, double time, const TaskAction& action, const std::string&) {
+  int begun = int(std::lround(time)) - 2;
+  const auto begins = [&](const TaskAction& a) { return startsSliding(a) && a[1] == action[1]; };
+  while (begun >= 0 && !begins(w.actions[std::size_t(begun)])) --begun;
+  if (begun < 0) throw ValueError(cat("planTask: the push of '", action[1], "' ends and did not begin"));
+  w.push(double(begun + 1), time, action[2], action[1], action[3]);
+}
+
+void hold(TaskWaypoints& w, double time, const TaskAction& action, const std::string& variant) {
+  grasp(w, time, action[3], action[2], variant);
+}
+
+void guide(TaskWaypoints& w, double time, const TaskAction& action, const std::string& variant) {
+  w.guide(time, action[1], action[2], action[3], variant == "open");
+}
+
+Variants holdsOf(const Config& C, const TaskAction& action) { return graspVariants(C, action[2], action[3]); }
+
+Variants graspsOf(const Config& C, const TaskAction& action) { return graspVariants(C, action[1], action[3]); }
+
+/// A box lies on any of its faces.
+Variants faceOf(const Config& C, const TaskAction& action) {
+  return isBox(C.getFrame(action[1])) ? Variants{action[4]} : Variants{};
+}
+
+/// Upright, or a box with the face up that it has up already.
+Variants standsOf(const Config& C, const TaskAction& action) {
+  Variants ways = {"upright"};
+  const std::string face = upOf(C, action[1]);
+  if (isBox(C.getFrame(action[1])) && !face.empty() && face != "z") ways.push_back(face);
+  return ways;
+}
+
+auto only(const char* variant) {
+  return [variant](const Config&, const TaskAction&) { return Variants{variant}; };
+}
+
+}  // namespace
+
+TaskRules defaultTaskRules(bool is_upright) {
+  TaskRules rules = {
+      {"pick", {take, graspsOf}},
+      {"lift", {take, graspsOf}},
+      {"place", {place, standsOf}},
+      {"lay", {place, faceOf}},
+      {"push_start", {touch, only("touch")}},
+      {"push_end", {push, only("push")}},
+      {"hook_start", {hookOn, hooksOf}},
+      {"hook_end", {push, only("push")}},
+      {"hold", {hold, holdsOf}},
+      {"open", {guide, only("open")}},
+      {"close", {guide, only("close")}},
+      {"pose", {holdAt, only("held")}},
+      {"handover", {take, graspsOf}},
+  };
+  if (is_upright) rules["place"].variants = only("upright");
+  return rules;
+}
+
+std::string palmOf(const Config& C, const std::string& hand) {
+  constexpr std::string_view kGripper = "gripper";
+  const bool is_named = hand.ends_with(kGripper);
+  const std::string name = hand.substr(0, hand.size() - (is_named ? kGripper.size() : 0)) + "palm";
+  return C.findFrame(name) ? name : "";
+}
+
+std::optional<double> opening(const Config& C, const std::string& hand) {
+  const Node* said = C.getFrame(hand).attributes().find("opening");
+  if (const double* width = said ? said->value.as<double>() : nullptr) return *width;
+  return palmOf(C, hand).empty() ? std::nullopt : std::optional(kFingers);
+}
+
+Variants graspVariants(const Config& C, const std::string& obj, const std::string& hand) {
+  const std::optional<double> wide = opening(C, hand);
+  if (!wide) return {"touch"};
+  const Frame frame = C.getFrame(obj);
+  const std::vector<double> size = frame.getSize();
+  const Body body = bodyOf(frame);
+  if (body == Body::ball) return 2. * size.back() <= *wide ? Variants{"center"} : Variants{};
+  if (body == Body::cylinder || body == Body::capsule) return 2. * size[1] <= *wide ? Variants{"around"} : Variants{};
+  const Vector3d widths = widthsOf(frame);
+  std::array<int, 3> axes = {0, 1, 2};
+  std::ranges::stable_sort(axes, {}, [&](int k) { return widths[k]; });
+  Variants ways;
+  for (const int k : axes)
+    if (widths[k] <= *wide) ways.emplace_back(1, "xyz"[k]);
+  return ways;
+}
+
+std::vector<Variants> allVariants(const Config& C, const std::vector<TaskAction>& actions, const TaskRules& rules,
+                                  std::size_t most) {
+  std::vector<Variants> lists;
+  for (const TaskAction& action : actions) {
+    const auto rule = rules.find(action[0]);
+    if (rule == rules.end()) throw NameError(cat("planTask: there is no rule for the action ", action[0]));
+    lists.push_back(rule->second.variants(C, action));
+    if (lists.back().empty()) return {};
+  }
+  // Counted up like the digits of a number, then the ones of the least sum first.
+  using Choice = std::pair<std::size_t, std::vector<std::size_t>>;
+  std::vector<Choice> ranked;
+  std::vector<std::size_t> choice(lists.size(), 0);
+  for (bool more = true; more && ranked.size() < kCombinations;) {
+    std::size_t sum = 0;
+    for (const std::size_t k : choice) sum += k;
+    ranked.emplace_back(sum, choice);
+    more = false;
+    for (std::size_t i = lists.size(); i-- > 0 && !more;) {
+      more = ++choice[i] < lists[i].size();
+      if (!more) choice[i] = 0;
+    }
+  }
+  std::ranges::sort(ranked);
+  std::vector<Variants> all;
+  for (const Choice& one : ranked) {
+    if (all.size() == most) break;
+    Variants& ways = all.emplace_back();
+    for (std::size_t i = 0; i < lists.size(); ++i) ways.push_back(lists[i][one.second[i]]);
+  }
+  return all;
+}
+
+}  // namespace kinegraph

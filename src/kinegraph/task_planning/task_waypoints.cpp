@@ -1,0 +1,239 @@
+#include "kinegraph/task_planning/task_waypoints.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <optional>
+#include <set>
+
+#include "kinegraph/common/errors.h"
+#include "kinegraph/common/text.h"
+#include "kinegraph/task_planning/pull_start.h"
+#include "kinegraph/task_planning/shape_points.h"
+#include "kinegraph/task_planning/task_tools.h"
+
+namespace kinegraph {
+
+namespace {
+
+using F = FeatureSymbol;
+using O = ObjectiveType;
+
+constexpr double kGap = .02;     ///< m: how far things should stand apart that are put on the same place
+constexpr double kBehind = .01;  ///< m: how far behind the middle of an object what pushes it is at least
+constexpr double kBeside = .5;   ///< of half its height: how far above its middle at most
+constexpr double kEdge = .01;    ///< m: how far inside of an edge the center of what stands there is
+constexpr std::array kAcross = {F::scalarProductYX, F::scalarProductYY, F::scalarProductYZ};
+constexpr std::array kAxes = {F::vectorX, F::vectorY, F::vectorZ};
+constexpr double kLow = .005;    ///< m: above the ground, where a bar pulls without tipping
+constexpr double kApart = .003;  ///< m: that a hand with a handle keeps from all else, if it can
+constexpr double kNear = .3;     ///< scale of joint motions that a straight line of the joints is to come near to
+constexpr char kRoom[] = "room on ", kWeight[] = "weight of ";
+
+std::string roundText(double time) { return std::to_string(long(std::nearbyint(time))); }
+
+/// A scene with what its objects and places lack: where something is laid on a place, a large frame there, as a free frame
+/// below it has wide limits; where something that is put down weighs more on one side, a frame at its center of mass.
+Config prepared(const Config& C, const std::vector<TaskAction>& actions, const std::vector<std::string>& variants) {
+  if (variants.size() != actions.size())
+    throw ValueError(
+        cat("TaskWaypoints: ", variants.size(), " variants for ", actions.size(), " actions; expected one for each"));
+  std::set<std::string> places;
+  for (const TaskAction& action : actions) requireWords(action);
+  for (std::size_t i = 0; i < actions.size(); ++i) {
+    const bool is_laid = std::ranges::find(otherFaces(), variants[i]) != otherFaces().end();
+    if (isPlace(actions[i]) && is_laid) places.insert(actions[i][3]);
+  }
+  Config scene = C;
+  for (const TaskAction& action : actions) {
+    if (!isPlace(action) || scene.findFrame(kWeight + action[1])) continue;
+    const Vector3d center = centerOfBody(scene.getFrame(action[1]));
+    if (!isCentered(center)) scene.addFrame(kWeight + action[1], action[1]).setRelativePosition(center);
+  }
+  for (const std::string& place : places) {
+    const double side = placeSides(scene.getFrame(place)).maxCoeff() + 1.;
+    scene.addFrame(kRoom + place, place)
+        .setShape(ShapeType::box, {side, side, side})
+        .setColor({1., 1., 1., 0.})
+        .setContact(0);
+  }
+  return scene;
+}
+
+double thicknessOf(const Frame& box) {
+  const std::vector<double> size = box.getSize();
+  return *std::min_element(size.begin(), size.begin() + 3);
+}
+
+bool isOn(const Frame& obj, const Frame& place) {
+  const std::optional<Frame> below = obj.getParent();
+  return below && *below == place;
+}
+
+}  // namespace
+
+TaskWaypoints::TaskWaypoints(const Config& config, std::vector<TaskAction> words, std::vector<std::string> ways,
+                             std::shared_ptr<ManipulationHelper> helper)
+    : m(helper ? std::move(helper) : std::make_shared<ManipulationHelper>()),
+      C(prepared(config, words, ways)),
+      actions(std::move(words)),
+      variants(std::move(ways)),
+      doors_(doorsOf(C)) {
+  m->setup_sequence(C, double(actions.size()), 1e-2, 1e-2);
+  keepDoors();
+  std::vector<std::string> hands;
+  for (const std::size_t place : {3, 2})
+    for (const TaskAction& action : actions)
+      if (action.size() > place) hands.push_back(action[place]);
+  for (const TaskAction& action : actions) {
+    if (action.size() < 2 || !config.findFrame(action[1])) continue;
+    if (const std::string hand = holderOf(config, action[1], hands); !hand.empty()) held_[action[1]] = hand;
+  }
+}
+
+void TaskWaypoints::addActions(const TaskRules& rules) {
+  for (std::size_t i = 0; i < actions.size(); ++i) {
+    const auto rule = rules.find(actions[i][0]);
+    if (rule == rules.end()) throw NameError(cat("TaskWaypoints: there is no rule for the action ", actions[i][0]));
+    rule->second.add(*this, double(i + 1), actions[i], variants[i]);
+  }
+}
+
+/// Doors stay where they are but where an action moves them.
+void TaskWaypoints::keepDoors() {
+  for (std::size_t i = 0; i < actions.size(); ++i)
+    for (const TaskDoor& door : doors_)
+      if (!isGuided(actions[i]) || objectOf(actions[i]) != door.name)
+        komo().addObjective({double(i + 1)}, F::qItself, {door.name}, O::eq, 1e2, {}, 1);
+}
+
+void TaskWaypoints::guide(double time, const std::string& name, const std::string& handle, const std::string& hand,
+                          bool opens) {
+  const auto door = std::ranges::find(doors_, name, &TaskDoor::name);
+  if (door == doors_.end())
+    throw ValueError(cat("planTask: '", name,
+                         "' is no door; expected a frame that is called is_door or is_drawer, with a ",
+                         "joint of one dof that has limits"));
+  const auto bound = [&](double share, bool is_most) {  // the joint's sign is that of the way from closed to open
+    const double sign = (is_most ? 1e1 : -1e1) / (door->open - door->closed);
+    komo().addObjective({time}, F::qItself, {name}, O::ineq, sign, VectorXd::Constant(1, door->at(share)));
+  };
+  if (opens) {
+    bound(kOpenLeast, false);
+    bound(kOpenMost, true);
+  } else {
+    const VectorXd shut = VectorXd::Constant(1, door->at(kClose));
+    komo().addObjective({time}, F::qItself, {name}, O::eq, 1e2, shut);
+  }
+  const std::vector<std::string> parts = partsOf(C, name);
+  for (const auto& [place, objects] : beside_) {  // what was put elsewhere had better be out of its way
+    if (std::ranges::find(parts, place) != parts.end()) continue;
+    for (const std::string& obj : objects)
+      for (const std::string& part : parts)
+        if (C.getFrame(part).data().shape)
+          komo().addObjective({time}, F::distance, {obj, part}, O::ineqP, 3e0, -2. * kGap);
+  }
+  komo().addControlObjective({time}, 1, kNear);
+  // Motions begin where nothing touches.
+  komo().addObjective({time}, F::accumulatedCollisions, {}, O::sos, 1e2, {}, -1, kApart);
+  const std::vector<std::string> pair = {hand, handle};
+  switch (gripOf(C, hand, handle)) {
+    case Grip::rigid:
+      komo().addObjective({time}, F::poseRel, pair, O::eq, 1e1, {}, 1);
+      break;
+    case Grip::axis:
+      komo().addObjective({time}, F::vectorZRel, {handle, hand}, O::eq, 1e1, {}, 1);
+      [[fallthrough]];
+    case Grip::point:
+      komo().addObjective({time}, F::positionRel, pair, O::eq, 1e1, {}, 1);
+  }
+}
+
+void TaskWaypoints::addSlot(Slot::Kind kind, const std::string& frame, int dofs, const std::string& face) {
+  slots_.push_back({kind, slot_dofs_, frame, face});
+  slot_dofs_ += dofs;
+}
+
+void TaskWaypoints::switchTo(double time, const std::string& frame, const std::string& obj) {
+  komo().addRigidSwitch(time, frame, obj, false);
+  const auto held = held_.find(obj);
+  if (held == held_.end())
+    komo().addObjective({time}, F::pose, {obj}, O::eq, 1e1, {}, 1);
+  else
+    komo().addObjective({time}, F::poseRel, {obj, held->second}, O::eq, 1e1, {}, 1);
+  held_[obj] = frame;
+}
+
+void TaskWaypoints::attach(double time, const std::string& hand, const std::string& obj, bool touching, double gap) {
+  const std::string name = cat("grasp_", hand, "_", obj, "_", roundText(time));
+  m->add_stable_frame(JointType::free, hand, name);
+  addSlot(Slot::Kind::grasp, name, 7);
+  switchTo(time, name, obj);
+  if (touching) komo().addObjective({time}, F::distance, {obj, hand}, O::eq, 1e1, -gap);
+}
+
+void TaskWaypoints::put(double time, const std::string& obj, const std::string& to) {
+  const std::string name = cat("place_", to, "_", obj, "_", roundText(time));
+  m->add_place_frame(to, obj, name);
+  addSlot(Slot::Kind::place, name, 3);
+  switchTo(time, name, obj);
+  const Eigen::Vector2d half = .5 * placeSides(C.getFrame(to));
+  const Vector3d inside(std::max(half.x() - kEdge, .5 * half.x()), std::max(half.y() - kEdge, .5 * half.y()), 0.);
+  MatrixXd rows = MatrixXd::Zero(2, 3);
+  rows(0, 0) = rows(1, 1) = 1e1;
+  for (const std::string& what : {obj, kWeight + obj}) {
+    if (!C.findFrame(what)) continue;
+    komo().addObjective({time}, F::positionRel, {what, to}, O::ineq, rows, inside);
+    komo().addObjective({time}, F::positionRel, {what, to}, O::ineq, -rows, -inside);
+  }
+  for (const std::string& other : beside_[to])  // room for fingers, where there is room
+    komo().addObjective({time}, F::distance, {obj, other}, O::ineqP, 3e0, -kGap);
+  beside_[to].push_back(obj);
+  if (C.getFrame(to).getJointType() == JointType::rigid)  // on something small and loose the middle is safest
+    komo().addObjective({time}, F::positionRel, {obj, to}, O::sos, .3 * rows);
+}
+
+void TaskWaypoints::lay(double time, const std::string& obj, const std::string& to, const std::string& face) {
+  const std::string name = cat("place_", to, "_", obj, "_", roundText(time));
+  m->add_stable_frame(JointType::free, kRoom + to, name);
+  addSlot(Slot::Kind::lay, name, 7, face);
+  switchTo(time, name, obj);
+  m->place_box(time, obj, to, "", face, std::min(kEdge, .25 * placeSides(C.getFrame(to)).minCoeff()));
+}
+
+void TaskWaypoints::push(double start, double end, const std::string& pusher, const std::string& obj,
+                         const std::string& to) {
+  const std::string helper = cat("push_", pusher, "_", obj, "_", roundText(end));
+  m->add_stable_frame(JointType::hingeZ, obj, helper);
+  addSlot(Slot::Kind::push, helper, 1);
+  put(end, obj, to);
+  komo().addObjective({end}, F::AlignYWithDiff, {helper, obj}, O::eq, 1e0, {}, 1);
+  komo().addObjective({end}, F::quaternion, {obj}, O::eq, 1e1, {}, 1);
+  const auto row = [](double x, double y, double z) { return MatrixXd(Eigen::RowVector3d(x, y, z)); };
+  const double height = boxAround(C.getFrame(obj)).max().z();
+  komo().addObjective({start}, F::positionRel, {pusher, helper}, O::eq, row(1e1, 0., 0.));
+  komo().addObjective({start}, F::positionRel, {pusher, helper}, O::ineq, row(0., 1e1, 0.), {0., -kBehind, 0.});
+  komo().addObjective({start}, F::positionRel, {pusher, helper}, O::ineq, row(0., 0., 1e1), {0., 0., kBeside * height});
+  if (const int across = longAxis(C.getFrame(pusher)); across >= 0) {  // a bar is level, across the line, and low
+    komo().addObjective({start}, kAcross[std::size_t(across)], {helper, pusher}, O::eq, 1e0);
+    komo().addControlObjective({end}, 1, kNear);
+    if (isOn(C.getFrame(obj), C.getFrame(to)))  // no farther than has to be, and not nowhere
+      komo().addObjective(
+          {end}, F::position, {obj}, O::sos, kNear,
+          usualPull(C, actions.at(std::size_t(std::lround(end)) - 1), variants.at(std::size_t(std::lround(start)) - 1)),
+          1);
+    komo().addObjective({start}, kAxes[std::size_t(across)], {pusher}, O::eq, row(0., 0., 1e0));
+    const double low = kLow - height + .5 * thicknessOf(C.getFrame(pusher));
+    komo().addObjective({start}, F::positionRel, {pusher, helper}, O::sos, row(0., 0., 3e0), {0., 0., low});
+  }
+}
+
+std::shared_ptr<TaskWaypoints> makeTaskWaypoints(const Config& C, std::vector<TaskAction> actions,
+                                                 std::vector<std::string> variants, const TaskRules& rules,
+                                                 std::shared_ptr<ManipulationHelper> helper) {
+  const auto waypoints = std::make_shared<TaskWaypoints>(C, std::move(actions), std::move(variants), std::move(helper));
+  waypoints->addActions(rules);
+  return waypoints;
+}
+
+}  // namespace kinegraph

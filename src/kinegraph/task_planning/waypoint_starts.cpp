@@ -1,0 +1,163 @@
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <optional>
+
+#include "kinegraph/common/text.h"
+#include "kinegraph/ik/solve_ik.h"
+#include "kinegraph/task_planning/pull_start.h"
+#include "kinegraph/task_planning/task_waypoints.h"
+
+// Where searches for waypoints begin.
+namespace kinegraph {
+
+namespace {
+
+constexpr double kTurn = 1.6;  ///< rad: starts of placements are turned by up to that
+
+Vector4d turnAbout(const Vector3d& axis, double angle) {
+  Vector4d q;
+  q << std::cos(.5 * angle), std::sin(.5 * angle) * axis;
+  return q;
+}
+
+/// The shortest turn that brings an axis of an object up.
+Vector4d upright(const Vector3d& axis) {
+  if (axis.z() < -1. + 1e-12) return turnAbout(axis.cross(Vector3d::UnitY()), std::numbers::pi);
+  Vector4d q;
+  q << 1. + axis.z(), axis.cross(Vector3d::UnitZ());
+  return q / std::sqrt(q.squaredNorm());
+}
+
+/// The quaternion that turns an axis of an object up, then about that by an angle.
+Vector4d turned(const std::string& face, double about) {
+  const int k = int(std::string_view("xyz").find(face[0]));
+  const Vector4d q = turnAbout(Vector3d::UnitZ(), about),
+                 r = upright((face.ends_with("Neg") ? -1. : 1.) * Vector3d::Unit(k));
+  const Vector3d v = q.tail<3>(), b = r.tail<3>();
+  Vector4d product;
+  product << q[0] * r[0] - v.dot(b), q[0] * b + r[0] * v + v.cross(b);
+  return product;
+}
+
+/// Joints that bring a hand to a target, upright if that is possible; else as they are. Doors stay.
+VectorXd near(const Config& C, const std::string& hand, const Vector3d& target, const VectorXd& q) {
+  Config all = C;
+  all.setJointState(q);
+  const std::vector<TaskDoor> doors = doorsOf(all);
+  const StillDoors still = withStillDoors(all, doors);
+  IkOptions options;
+  options.collisions = false;
+  options.attempts = 10;
+  const IkTarget there = IkTarget::toPosition(hand, target);
+  const IkTarget up = IkTarget::toDirection(hand, Vector3d::UnitZ(), Vector3d::UnitZ());
+  for (const std::vector<IkTarget>& wanted : {std::vector{there, up}, std::vector{there}}) {
+    const IkResult result = solveIk(still.scene, wanted, options);
+    if (!result.feasible()) continue;
+    VectorXd found = q;
+    found(still.dofs) = result.q;
+    return found;
+  }
+  return q;
+}
+
+/// Joints somewhere within their limits, from which another way to reach a handle may be found. Doors stay.
+VectorXd elsewhere(const Config& C, const VectorXd& q, Rng& rng) {
+  Config scene = C;
+  scene.setRandom(rng);
+  VectorXd drawn = scene.getJointState();
+  for (const TaskDoor& door : doorsOf(C)) drawn[door.dof] = q[door.dof];
+  return drawn;
+}
+
+/// Joints that bring a hook to a target, of a tool that the hand holds in its middle.
+VectorXd nearWithTool(const Config& C, const TaskAction& action, const Vector3d& target, const VectorXd& q) {
+  const std::string &hook = action[startsSliding(action) ? 3 : 2], &tool = action[4], &hand = action[5];
+  Config scene = C;
+  scene.getFrame(tool).setParent(scene.getFrame(hand)).setJoint(JointType::rigid);
+  scene.getFrame(tool).setRelativePose(Pose());
+  return near(scene, hook, target, q);
+}
+
+}  // namespace
+
+/// Where a slot begins; of placements, the offset from the middle of the place.
+Vector3d TaskWaypoints::startSlot(const Slot& slot, const Nlp& nlp, VectorXd& x, Rng* rng, bool grasps) const {
+  const int first = slot.first;
+  const auto draw = [&](double low, double high) { return rng ? rng->uniform(low, high) : 0.; };
+  if (slot.kind == Slot::Kind::place) {
+    for (int i = first; i < first + 2; ++i) x[i] = draw(.9 * nlp.lower()[i], .9 * nlp.upper()[i]);
+    x[first + 2] = draw(-kTurn, kTurn);
+  } else if (slot.kind == Slot::Kind::lay) {
+    for (int i = first; i < first + 2; ++i) x[i] = draw(-.1, .1);
+    x[first + 2] = .1;
+    x.segment<4>(first + 3) = turned(slot.face, draw(-kTurn, kTurn));
+  } else if (slot.kind == Slot::Kind::grasp) {
+    x.segment<7>(first) << 0., 0., 0., 1., 0., 0., 0.;
+    if (rng && grasps) {
+      for (int i = first + 3; i < first + 7; ++i) x[i] = rng->normal();
+      double squares = 0.;
+      for (int i = first + 3; i < first + 7; ++i) squares += x[i] * x[i];
+      x.segment<4>(first + 3) /= std::sqrt(squares);
+    }
+  }
+  return {x[first], slot.kind == Slot::Kind::push ? 0. : x[first + 1], 0.};
+}
+
+VectorXd TaskWaypoints::start(Rng* rng, bool grasps) const {
+  VectorXd x = m->komo->path().variables();
+  const std::shared_ptr<Nlp> nlp = makeNlp(m->komo);
+  std::map<std::string, Vector3d> offsets;
+  for (const Slot& slot : slots_) {
+    const Vector3d offset = startSlot(slot, *nlp, x, rng, grasps);
+    if (slot.kind == Slot::Kind::place || slot.kind == Slot::Kind::lay) offsets[slot.frame] = offset;
+  }
+  std::optional<PullStart> pulls;
+  const auto slotOf = [&](const std::string& name) {
+    const auto slot = std::ranges::find(slots_, name, &Slot::frame);
+    return slot == slots_.end() ? -1 : slot->first;
+  };
+  if (pullsWithBar(C, actions)) pulls.emplace(C, actions, variants, slotOf, rng);
+  VectorXd q = C.getJointState();
+  const Eigen::Index n = q.size();
+  std::map<std::string, Vector3d> at;
+  for (const Frame& frame : C.getFrames()) at.emplace(frame.getName(), frame.getPosition());
+  for (std::size_t i = 0; i < actions.size(); ++i) {
+    if (isHold(actions[i]) && rng && grasps) q = elsewhere(C, q, *rng);
+    const VectorXd usual = startOf(i, q, at, offsets);
+    q = pulls ? pulls->after(i, q, x).value_or(usual) : usual;
+    x.segment(slot_dofs_ + Eigen::Index(i) * n, n) = q;
+  }
+  return x;
+}
+
+/// Joints after an action that begins at `before`, near what the hand does; and what it moves. `at`: where things are.
+VectorXd TaskWaypoints::startOf(std::size_t i, const VectorXd& before, std::map<std::string, Vector3d>& at,
+                                const std::map<std::string, Vector3d>& offsets) const {
+  const TaskAction& action = actions[i];
+  if (isPick(action) && at.contains(action[1])) return near(C, action[3], at.at(action[1]), before);
+  if (isPlace(action)) {
+    const auto offset = offsets.find(cat("place_", action[3], "_", action[1], "_", i + 1));
+    Vector3d target = at.at(action[3]);
+    if (offset != offsets.end()) target += offset->second;
+    target.z() += .05;
+    at[action[1]] = target;
+    return near(C, action[2], target, before);
+  }
+  if (action[0] == "hook_start") return nearWithTool(C, action, at.at(action[1]), before);
+  if (action[0] == "hook_end") {
+    at[action[1]] = at.at(action[3]);
+    return nearWithTool(C, action, at.at(action[3]), before);
+  }
+  if (isHold(action)) return near(C, action[3], at.at(action[2]), before);
+  const auto door = isGuided(action) ? std::ranges::find(doors_, action[1], &TaskDoor::name) : doors_.end();
+  if (door == doors_.end()) return before;
+  VectorXd q = before;
+  q[door->dof] = door->at(action[0] == "open" ? .5 * (kOpenLeast + kOpenMost) : kClose);
+  Config scene = C;
+  scene.setJointState(q);
+  for (const Frame& moved : scene.getFrame(action[1]).getSubtree()) at[moved.getName()] = moved.getPosition();
+  return near(C, action[3], at.at(action[2]), q);
+}
+
+}  // namespace kinegraph

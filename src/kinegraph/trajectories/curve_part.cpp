@@ -1,0 +1,95 @@
+#include "kinegraph/trajectories/curve_part.h"
+
+#include <algorithm>
+#include <cassert>
+
+namespace kinegraph {
+
+namespace {
+
+constexpr double kNothing = 1e-12;  // of the curve's length
+
+/// Appends the polynomial of a piece as one of s - begin(piece) - shift, of the degree of `parts`.
+void addPiece(PathCurve::Parts& parts, const PathCurve& curve, int piece, double shift) {
+  const std::size_t n = std::size_t(parts.dofs), first = parts.coefficients.size();
+  parts.coefficients.resize(first + n * std::size_t(parts.degree + 1));
+  for (int from = 0; from <= curve.degree(); ++from) {
+    const double* c = curve.coefficient(piece, from);
+    double factor = 1.;  // of (x + shift)^from: its term of x^to
+    for (int to = from; to >= 0; --to) {
+      double* out = &parts.coefficients[first + std::size_t(to) * n];
+      for (std::size_t j = 0; j < n; ++j) out[j] += factor * c[j];
+      factor *= shift * to / (from - to + 1);
+    }
+  }
+  parts.is_line.push_back(curve.isLine(piece));
+}
+
+}  // namespace
+
+TimeLaw CurvePart::onWhole(const TimeLaw& law) const {
+  std::vector<LawPhase> phases = law.phases();
+  for (LawPhase& phase : phases) {
+    phase.begin.s += begin;
+    phase.end += begin;
+    phase.piece += first_piece;
+  }
+  return {std::move(phases), law.duration()};
+}
+
+TimeLaw CurvePart::restOf(const TimeLaw& whole, double time) const {
+  TimeLaw rest;
+  const std::vector<LawPhase>& phases = whole.phases();
+  for (std::size_t i = std::size_t(&whole.phaseAt(time) - phases.data()); i < phases.size(); ++i) {
+    LawPhase phase = phases[i];
+    const double until = i + 1 < phases.size() ? phases[i + 1].time : whole.duration();
+    const double from = std::max(time, phase.time);
+    if (phase.begin.s - begin >= curve.length()) break;
+    phase.begin = phase.at(from - phase.time);
+    if (phase.growth != 0.) phase.begin.jerk = 0.;  // the growth says how the acceleration changes
+    phase.begin.s = std::max(0., phase.begin.s - begin);
+    phase.end = std::clamp(phase.end - begin, phase.begin.s, curve.length());
+    phase.piece = std::clamp(phase.piece - first_piece, 0, curve.pieces() - 1);
+    if (until > from) rest.add(phase, until - from);
+  }
+  return rest;
+}
+
+CurvePart partOf(const PathCurve& curve, double from, double to) {
+  const double nothing = kNothing * curve.length();
+  from = std::clamp(from, 0., curve.length());
+  to = std::clamp(to, from, curve.length());
+  CurvePart part{{}, from, -1};
+  PathCurve::Parts parts{.dofs = curve.dofs(), .degree = curve.degree(), .length = to - from};
+  for (int piece = curve.pieceAt(from); piece < curve.pieces() && curve.begin(piece) < to; ++piece) {
+    const double begin = std::max(from, curve.begin(piece)), end = std::min(to, curve.end(piece));
+    if (end - begin <= nothing) continue;
+    if (part.first_piece < 0) part.first_piece = piece;
+    parts.stops.push_back(!parts.begin.empty() && curve.stopsAt(piece));
+    parts.begin.push_back(parts.begin.empty() ? 0. : begin - from);
+    addPiece(parts, curve, piece, begin - curve.begin(piece));
+  }
+  part.first_piece = std::max(part.first_piece, 0);
+  parts.marks = {0., parts.length};
+  part.curve = PathCurve::fromParts(parts);
+  return part;
+}
+
+PathCurve joined(const PathCurve& first, const PathCurve& second, bool jumps) {
+  assert(first.dofs() == second.dofs() && "curves of one robot are joined");
+  PathCurve::Parts parts{.dofs = first.dofs(), .degree = std::max(first.degree(), second.degree())};
+  for (const PathCurve* curve : {&first, &second}) {
+    for (int piece = 0; piece < curve->pieces(); ++piece) {
+      if (curve->end(piece) == curve->begin(piece)) continue;
+      parts.begin.push_back(parts.length + curve->begin(piece));
+      parts.stops.push_back(curve->stopsAt(piece) || (jumps && curve == &second && piece == 0));
+      addPiece(parts, *curve, piece, 0.);
+    }
+    for (std::size_t i = curve == &second ? 1 : 0; i < curve->marks().size(); ++i)
+      parts.marks.push_back(parts.length + curve->marks()[i]);
+    parts.length += curve->length();
+  }
+  return PathCurve::fromParts(parts);
+}
+
+}  // namespace kinegraph

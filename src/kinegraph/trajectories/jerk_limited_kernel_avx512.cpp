@@ -1,0 +1,13 @@
+namespace kinegraph::lanes {
+namespace {
+constexpr int kLanes = 8;
+}
+}  // namespace kinegraph::lanes
+
+#include "kinegraph/trajectories/jerk_limited_kernel_body.h"
+
+namespace kinegraph::lanes {
+
+const SmoothKernel kSmoothKernelAvx512 = kKernel;
+
+}  // namespace kinegraph::lanes

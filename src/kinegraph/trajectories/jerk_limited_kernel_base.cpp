@@ -1,0 +1,13 @@
+namespace kinegraph::lanes {
+namespace {
+constexpr int kLanes = 2;
+}
+}  // namespace kinegraph::lanes
+
+#include "kinegraph/trajectories/jerk_limited_kernel_body.h"
+
+namespace kinegraph::lanes {
+
+const SmoothKernel kSmoothKernelBase = kKernel;
+
+}  // namespace kinegraph::lanes

@@ -1,0 +1,342 @@
+#include "kinegraph/trajectories/path_curve.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "kinegraph/common/errors.h"
+#include "kinegraph/common/text.h"
+
+namespace kinegraph {
+
+int PathCurve::pieceAt(double s) const {
+  const auto after = std::upper_bound(begin_.begin(), begin_.end(), s);
+  return std::max(0, int(after - begin_.begin()) - 1);
+}
+
+void PathCurve::eval(int piece, double s, int order, double* out) const {
+  const double x = s - begin_[piece];
+  std::fill_n(out, dofs_, 0.);
+  for (int power = is_line_[piece] ? 1 : degree_; power >= order; --power) {
+    double factor = 1.;
+    for (int k = 0; k < order; ++k) factor *= power - k;
+    const double* c = coefficient(piece, power);
+    for (int j = 0; j < dofs_; ++j) out[j] = out[j] * x + factor * c[j];
+  }
+}
+
+VectorXd PathCurve::eval(double s, int order) const {
+  VectorXd out(dofs_);
+  eval(pieceAt(s), s, order, out.data());
+  return out;
+}
+
+PathCurve::Parts PathCurve::parts() const {
+  return {dofs_,
+          degree_,
+          length_,
+          begin_,
+          marks_,
+          coefficients_,
+          {is_line_.begin(), is_line_.end()},
+          {stops_.begin(), stops_.end()}};
+}
+
+PathCurve PathCurve::fromParts(const Parts& parts) {
+  const std::size_t pieces = parts.begin.size();
+  if (parts.dofs < 0 || parts.degree < 1 || parts.is_line.size() != pieces || parts.stops.size() != pieces ||
+      parts.coefficients.size() != pieces * std::size_t(parts.dofs) * std::size_t(parts.degree + 1))
+    throw ValueError("PathCurve: the parts of a curve do not fit each other");
+  PathCurve curve;
+  curve.dofs_ = parts.dofs, curve.degree_ = parts.degree, curve.length_ = parts.length;
+  curve.begin_ = parts.begin, curve.marks_ = parts.marks, curve.coefficients_ = parts.coefficients;
+  curve.is_line_.assign(parts.is_line.begin(), parts.is_line.end());
+  curve.stops_.assign(parts.stops.begin(), parts.stops.end());
+  return curve;
+}
+
+/// Appends pieces to a curve.
+class PathCurveBuilder {
+ public:
+  PathCurveBuilder(int dofs, int degree) {
+    curve_.dofs_ = dofs;
+    curve_.degree_ = degree;
+  }
+
+  double length() const { return curve_.length_; }
+
+  /// Columns of `coefficients` (n, up to degree + 1): of 1, x, x^2, ... with x from 0 to `length`.
+  void add(const MatrixXd& coefficients, double length, bool is_line, bool stops = false) {
+    curve_.begin_.push_back(curve_.length_);
+    curve_.length_ += length;
+    curve_.is_line_.push_back(is_line);
+    curve_.stops_.push_back(stops);
+    curve_.coefficients_.resize(curve_.coefficients_.size() + std::size_t(curve_.degree_ + 1) * curve_.dofs_);
+    std::copy_n(coefficients.data(), coefficients.size(), &curve_.coefficients_[curve_.at(curve_.pieces() - 1, 0)]);
+  }
+
+  void addLine(const VectorXd& from, const VectorXd& direction, double length, bool stops) {
+    MatrixXd coefficients(from.size(), 2);
+    coefficients << from, direction;
+    add(coefficients, length, true, stops);
+  }
+
+  void mark(double s) { curve_.marks_.push_back(s); }
+
+  PathCurve take() { return std::move(curve_); }
+
+ private:
+  PathCurve curve_;
+};
+
+namespace {
+
+constexpr double kSamePoint = 1e-12;      // as a share of the largest number in the path
+constexpr double kSameDirection = 1e-10;  // by which unit vectors may differ, so that their corner is none
+
+/// The points of a path without those that equal their predecessor.
+struct DistinctPoints {
+  MatrixXd points;         ///< (n, K): a column each
+  std::vector<int> place;  ///< of each given point among the columns
+  VectorXd chord;          ///< lengths, (K - 1,)
+
+  DistinctPoints() = default;
+  explicit DistinctPoints(const MatrixXd& given);
+  int count() const { return int(points.cols()); }
+
+  /// Without the points that are no corners.
+  DistinctPoints corners() const;
+
+  VectorXd direction(int line) const { return (points.col(line + 1) - points.col(line)) / chord[line]; }
+  void checkFinite(const MatrixXd& given) const;
+};
+
+void DistinctPoints::checkFinite(const MatrixXd& given) const {
+  if (given.rows() == 0 || given.cols() == 0)
+    throw ValueError(cat("retime: the path has shape (", given.rows(), ", ", given.cols(),
+                         "); expected (K, n) with K >= 1 points of n >= 1 dofs"));
+  for (int i = 0; i < given.rows(); ++i)
+    for (int j = 0; j < given.cols(); ++j)
+      if (!std::isfinite(given(i, j)))
+        throw ValueError(cat("retime: path[", i, ", ", j, "] is ", given(i, j), "; expected a finite number"));
+}
+
+DistinctPoints::DistinctPoints(const MatrixXd& given) {
+  checkFinite(given);
+  const double same = kSamePoint * std::max(1., given.cwiseAbs().maxCoeff());
+  points.resize(given.cols(), given.rows());
+  chord.resize(std::max<Eigen::Index>(0, given.rows() - 1));
+  int count = 0;
+  for (int i = 0; i < given.rows(); ++i) {
+    const double length = count ? (given.row(i).transpose() - points.col(count - 1)).norm() : 0.;
+    if (count == 0 || length > same) {
+      if (count) chord[count - 1] = length;
+      points.col(count++) = given.row(i).transpose();
+    }
+    place.push_back(count - 1);
+  }
+  points.conservativeResize(Eigen::NoChange, count);
+  chord.conservativeResize(count - 1);
+}
+
+DistinctPoints DistinctPoints::corners() const {
+  DistinctPoints kept;
+  kept.points.resize(points.rows(), count());
+  kept.chord.resize(chord.size());
+  int corners = 0;
+  for (int i = 0; i < count(); ++i) {
+    const bool is_end = i == 0 || i == count() - 1;
+    const bool is_corner = is_end || (direction(i) - direction(i - 1)).cwiseAbs().maxCoeff() > kSameDirection;
+    if (is_corner) {
+      if (corners) kept.chord[corners - 1] = (points.col(i) - kept.points.col(corners - 1)).norm();
+      kept.points.col(corners++) = points.col(i);
+    }
+    kept.place.push_back(is_corner ? corners - 1 : -corners);  // on the line that began at corner |place| - 1
+  }
+  kept.points.conservativeResize(Eigen::NoChange, corners);
+  kept.chord.conservativeResize(corners - 1);
+  return kept;
+}
+
+/// A curve that stays where it is.
+PathCurve restingCurve(const DistinctPoints& distinct) {
+  PathCurveBuilder curve(int(distinct.points.rows()), 1);
+  curve.addLine(distinct.points.col(0), VectorXd::Zero(distinct.points.rows()), 0., false);
+  for (std::size_t i = 0; i < distinct.place.size(); ++i) curve.mark(0.);
+  return curve.take();
+}
+
+void markAll(PathCurveBuilder& curve, const DistinctPoints& distinct, const std::vector<double>& at) {
+  for (const int place : distinct.place) curve.mark(at[std::size_t(place)]);
+}
+
+/// A corner P between unit directions u and v, rounded from P - half u to P + half v: its direction u + (v - u) w(x)
+/// with w(x) = x or, smooth, 3 x^2 - 2 x^3, x in [0, 1], s = 2 half x.
+struct Blend {
+  VectorXd corner, in, out;
+  double half = 0.;
+  bool smooth = false;
+
+  VectorXd turn() const { return out - in; }
+  VectorXd begin() const { return corner - half * in; }
+
+  /// How far the middle is from the corner, as a share of half |v - u|.
+  static double miss(bool smooth) { return smooth ? 3. / 16. : 1. / 4.; }
+
+  MatrixXd coefficients() const {
+    const double length = 2. * half;
+    MatrixXd c = MatrixXd::Zero(corner.size(), smooth ? 5 : 3);
+    c.col(0) = begin();
+    c.col(1) = in;
+    if (smooth) {  // the integral of w is x^3 - x^4 / 2
+      c.col(3) = turn() / (length * length);
+      c.col(4) = -turn() / (2. * length * length * length);
+    } else {
+      c.col(2) = turn() / (2. * length);
+    }
+    return c;
+  }
+
+  /// Points along it for the check, ends included.
+  MatrixXd samples(int count) const {
+    MatrixXd points(count, corner.size());
+    for (int i = 0; i < count; ++i) {
+      const double x = double(i) / (count - 1);
+      const double integral = smooth ? x * x * x - x * x * x * x / 2. : x * x / 2.;
+      points.row(i) = (begin() + 2. * half * (x * in + integral * turn())).transpose();
+    }
+    return points;
+  }
+
+  /// By which the curve leaves the chords of that many samples: |q''| h^2 / 8, |q''| <= (1.5 or 1) |turn| / length.
+  double deviation(int count) const {
+    const double step = 2. * half / (count - 1);
+    return (smooth ? 1.5 : 1.) * turn().cwiseAbs().maxCoeff() / (2. * half) * step * step / 8.;
+  }
+};
+
+constexpr int kBlendSamples = 9;
+constexpr int kSmallerBlends = 6;  // halvings, before a corner stays one
+
+/// Of the mean of both directions: below it a corner turns back, nearly, and a smooth blend would have to stand still in it,
+/// but for a moment.
+constexpr double kTurnsBack = .0035;
+
+/// The largest blend that is within tolerance and free; `half` is 0 if there is none.
+Blend findBlend(const DistinctPoints& distinct, int corner, const BlendOptions& options) {
+  Blend blend{distinct.points.col(corner), distinct.direction(corner - 1), distinct.direction(corner), 0.,
+              options.smooth};
+  const double mean = .5 * (distinct.direction(corner - 1) + distinct.direction(corner)).norm();
+  if (options.smooth && mean < kTurnsBack) return blend;
+  const double turn = blend.turn().cwiseAbs().maxCoeff();
+  const double room = std::min(distinct.chord[corner - 1], distinct.chord[corner]) / 2.;
+  blend.half = std::min(room, options.tolerance / (Blend::miss(options.smooth) * turn));
+  if (!options.is_free || blend.half <= 0.) return blend;
+  for (int i = 0; i <= kSmallerBlends; ++i, blend.half /= 2.)
+    if (options.is_free(blend.samples(kBlendSamples), blend.deviation(kBlendSamples))) return blend;
+  blend.half = 0.;
+  return blend;
+}
+
+}  // namespace
+
+PathCurve polyline(const MatrixXd& points) { return blendedPolyline(points, {0., false, {}}); }
+
+PathCurve blendedPolyline(const MatrixXd& points, const BlendOptions& options) {
+  if (!(options.tolerance >= 0.))
+    throw ValueError(cat("retime: tolerance is ", options.tolerance, "; expected a number >= 0 (rad or m)"));
+  const DistinctPoints all(points);
+  if (all.count() == 1) return restingCurve(all);
+  const DistinctPoints distinct = all.corners();
+  const int last = distinct.count() - 1;
+  PathCurveBuilder curve(int(points.cols()), options.tolerance == 0. ? 1 : options.smooth ? 4 : 2);
+  std::vector<double> corner_at{0.};
+  double begun = 0.;  // how much of the present line the blend before it has taken
+  bool stops = false;
+  for (int line = 0; line < last; ++line) {
+    const VectorXd direction = distinct.direction(line);
+    const bool is_corner = line + 1 < last;
+    const Blend blend = is_corner ? findBlend(distinct, line + 1, options) : Blend{};
+    const double rest = distinct.chord[line] - begun - blend.half;
+    if (rest > kSamePoint * distinct.chord[line]) {
+      curve.addLine(distinct.points.col(line) + begun * direction, direction, rest, stops);
+      stops = false;
+    }
+    corner_at.push_back(curve.length() + blend.half);
+    if (blend.half > 0.) curve.add(blend.coefficients(), 2. * blend.half, false, stops);
+    stops = is_corner && blend.half == 0.;
+    begun = blend.half;
+  }
+  std::vector<double> marks;
+  for (int i = 0; i < all.count(); ++i) {
+    const int place = distinct.place[std::size_t(i)];
+    const std::size_t corner = std::size_t(place < 0 ? -place - 1 : place);
+    marks.push_back(corner_at[corner] +
+                    (place < 0 ? (all.points.col(i) - distinct.points.col(Eigen::Index(corner))).norm() : 0.));
+  }
+  markAll(curve, all, marks);
+  return curve.take();
+}
+
+namespace {
+
+/// Slopes of the not-a-knot spline at its points, (n, K), K >= 3: for K = 3 those of the parabola.
+MatrixXd splineSlopes(const DistinctPoints& distinct) {
+  const int last = distinct.count() - 1;
+  const VectorXd& h = distinct.chord;
+  MatrixXd secant(distinct.points.rows(), last), right(distinct.points.rows(), last + 1);
+  for (int i = 0; i < last; ++i) secant.col(i) = distinct.direction(i);
+  VectorXd below = VectorXd::Zero(last + 1), diagonal(last + 1), above = VectorXd::Zero(last + 1);
+  for (int i = 1; i < last; ++i) {
+    below[i] = h[i], diagonal[i] = 2. * (h[i - 1] + h[i]), above[i] = h[i - 1];
+    right.col(i) = 3. * (h[i] * secant.col(i - 1) + h[i - 1] * secant.col(i));
+  }
+  const auto endRow = [&](int end, int line, int next) {  // the third derivative is continuous at the point between
+    const double width = h[line] + h[next];
+    diagonal[end] = h[next];
+    (end == 0 ? above : below)[end] = width;
+    right.col(end) =
+        ((h[line] + 2. * width) * h[next] * secant.col(line) + h[line] * h[line] * secant.col(next)) / width;
+  };
+  if (last == 2) {  // the two rows above would be the same: a parabola has the mean slope in between
+    diagonal[0] = diagonal[2] = 1., above[0] = below[2] = 1.;
+    right.col(0) = 2. * secant.col(0), right.col(2) = 2. * secant.col(1);
+  } else {
+    endRow(0, 0, 1);
+    endRow(last, last - 1, last - 2);
+  }
+  for (int i = 1; i <= last; ++i) {
+    const double factor = below[i] / diagonal[i - 1];
+    diagonal[i] -= factor * above[i - 1];
+    right.col(i) -= factor * right.col(i - 1);
+  }
+  right.col(last) /= diagonal[last];
+  for (int i = last - 1; i >= 0; --i) right.col(i) = (right.col(i) - above[i] * right.col(i + 1)) / diagonal[i];
+  return right;
+}
+
+}  // namespace
+
+PathCurve cubicSpline(const MatrixXd& points) {
+  const DistinctPoints distinct(points);
+  const int last = distinct.count() - 1;
+  if (last == 0) return restingCurve(distinct);
+  if (last == 1) return blendedPolyline(points, {0., false, {}});
+  const MatrixXd slope = splineSlopes(distinct);
+  PathCurveBuilder curve(int(points.cols()), 3);
+  std::vector<double> marks{0.};
+  MatrixXd c(points.cols(), 4);
+  for (int i = 0; i < last; ++i) {
+    const double h = distinct.chord[i];
+    const VectorXd secant = distinct.direction(i);
+    c.col(0) = distinct.points.col(i);
+    c.col(1) = slope.col(i);
+    c.col(2) = (3. * secant - 2. * slope.col(i) - slope.col(i + 1)) / h;
+    c.col(3) = (slope.col(i) + slope.col(i + 1) - 2. * secant) / (h * h);
+    curve.add(c, h, false);
+    marks.push_back(curve.length());
+  }
+  markAll(curve, distinct, marks);
+  return curve.take();
+}
+
+}  // namespace kinegraph

@@ -1,0 +1,352 @@
+#include "kinegraph/trajectories/retime.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "kinegraph/common/errors.h"
+#include "kinegraph/common/text.h"
+#include "kinegraph/trajectories/jerk_limited.h"
+#include "kinegraph/trajectories/time_optimal.h"
+
+namespace kinegraph {
+
+void RetimeOptions::validate() const {
+  if (intervals < 2 || intervals > 1000000)
+    throw ValueError(cat("retime: intervals is ", intervals, "; expected 2 to 1000000"));
+  if (!(tolerance >= 0.)) throw ValueError(cat("retime: tolerance is ", tolerance, "; expected a number >= 0"));
+}
+
+std::string retimeStatusName(RetimeStatus status) {
+  switch (status) {
+    case RetimeStatus::timed:
+      return "timed";
+    case RetimeStatus::start_too_fast:
+      return "start_too_fast";
+    case RetimeStatus::end_too_fast:
+      return "end_too_fast";
+    case RetimeStatus::cannot_move:
+      return "cannot_move";
+  }
+  return "?";
+}
+
+PathCurve curveOf(const MatrixXd& path, const MotionLimits& limits, const RetimeOptions& options) {
+  switch (options.corners) {
+    case Corners::spline:
+      return cubicSpline(path);
+    case Corners::stop:
+      return polyline(path);
+    case Corners::blend:
+      break;
+  }
+  return blendedPolyline(path, {options.tolerance, limits.limitsJerk(), options.is_free});
+}
+
+Corners cornersOfName(const std::string& name) {
+  static const std::vector<std::string> names = {"blend", "stop", "spline"};
+  const auto found = std::find(names.begin(), names.end(), name);
+  if (found == names.end())
+    throw ValueError(cat("retime: corners is '", name, "'; expected one of ", join(names), similarHint(name, names)));
+  return Corners(found - names.begin());
+}
+
+namespace {
+
+constexpr double kAlong = 1e-6;  // by which a velocity may leave the path's direction, as a share of it
+constexpr int kNarrowings = 10;
+constexpr int kMostTrials = 5;  // each with twice as many intervals
+constexpr int kMostIntervals = 1000000;
+constexpr int kTrialHalvings = 24, kIntervalsOfTrials = 100;  // of what would do
+constexpr double kBelowBound[] = {1e-6, 1e-4};                // by so much, as a share, is what a message then says
+constexpr double kExcess = 1e-12;                             // of the rows' range: rounding
+constexpr double kNarrowMore = 1.5;                           // than what is exceeded
+
+/// ds/dt for a velocity at s.
+double speedOf(const char* name, const VectorXd& velocity, const PathCurve& curve, double s) {
+  if (velocity.size() == 0) return 0.;
+  if (velocity.size() != curve.dofs())
+    throw ValueError(cat("retime: ", name, " has ", velocity.size(), " entries; the path has ", curve.dofs(), " dofs"));
+  if (!velocity.allFinite()) throw ValueError(cat("retime: ", name, " has entries that are not finite"));
+  if (velocity.isZero(0.)) return 0.;
+  const VectorXd direction = curve.eval(s, 1);
+  const double norm2 = direction.squaredNorm();
+  const double speed = norm2 > 0. ? velocity.dot(direction) / norm2 : 0.;
+  const double miss = (velocity - speed * direction).norm() / velocity.norm();
+  if (speed <= 0. || miss > kAlong)
+    throw ValueError(cat("retime: ", name, " does not point along the path; there the path goes along (",
+                         direction.normalized().transpose().format(Eigen::IOFormat(4, 0, ", ", ", ")), ")"));
+  return speed;
+}
+
+/// d^2s/dt^2 for the acceleration at the start.
+double startAcceleration(const RetimeOptions& options, const PathCurve& curve, const MotionLimits& limits,
+                         double speed) {
+  const VectorXd& given = options.start_acceleration;
+  if (given.size() == 0) return 0.;
+  if (given.size() != curve.dofs())
+    throw ValueError(
+        cat("retime: start_acceleration has ", given.size(), " entries; the path has ", curve.dofs(), " dofs"));
+  if (!given.allFinite()) throw ValueError("retime: start_acceleration has entries that are not finite");
+  if (!limits.limitsJerk())
+    throw ValueError("retime: start_acceleration is for motions with limits of the jerk; accelerations of others jump");
+  if (speed == 0. && !given.isZero(0.))
+    throw ValueError(
+        "retime: there is a start_acceleration and no start_velocity; motions from rest begin without one");
+  if (speed == 0.) return 0.;
+  const VectorXd direction = curve.eval(0., 1), turned = speed * speed * curve.eval(0., 2);
+  const double along = direction.dot(given - turned) / direction.squaredNorm();
+  const double miss = (given - turned - along * direction).norm();
+  if (miss > kAlong * (given.norm() + turned.norm()))
+    throw ValueError(cat("retime: start_acceleration leaves the path by ", miss, "; there it is (",
+                         turned.transpose().format(Eigen::IOFormat(4, 0, ", ", ", ")),
+                         ") at a constant speed, and something along the velocity may be added"));
+  return along;
+}
+
+std::string along(const PathCurve& curve, double s) {
+  return cat("at ", 100. * s / std::max(curve.length(), 1e-300), " % of the path");
+}
+
+std::string failureText(const SquaredSpeeds& speeds, const PathCurve& curve, const RowSource& rows) {
+  switch (speeds.failure) {
+    case LawFailure::start_too_fast:
+      return "the start velocity is above the limits, or cannot be braked within them";
+    case LawFailure::end_too_fast:
+      return "the end velocity is above the limits, or cannot be reached within them";
+    case LawFailure::cannot_move: {
+      const std::string name = speeds.row >= 0 && speeds.row < int(rows.names.size()) ? rows.names[speeds.row] : "";
+      if (speeds.row < 0) return cat("no speed keeps the limits ", along(curve, speeds.place));
+      const LawRows at = rows.at(speeds.place, curve.pieceAt(speeds.place));
+      return cat(name.empty() ? cat("row ", speeds.row) : cat("'", name, "'"), " cannot be held ",
+                 along(curve, speeds.place), ": it takes ", at.c[speeds.row], rows.unit, " to stand still, and ",
+                 rows.low[speeds.row], " to ", rows.high[speeds.row], rows.unit, " are allowed");
+    }
+    case LawFailure::none:
+      break;
+  }
+  return "";
+}
+
+RetimeStatus statusOf(LawFailure failure) {
+  switch (failure) {
+    case LawFailure::start_too_fast:
+      return RetimeStatus::start_too_fast;
+    case LawFailure::end_too_fast:
+      return RetimeStatus::end_too_fast;
+    case LawFailure::cannot_move:
+      return RetimeStatus::cannot_move;
+    case LawFailure::none:
+      break;
+  }
+  return RetimeStatus::timed;
+}
+
+/// Something must limit every part of the way.
+void checkLimited(const LawGrid& grid, const MotionLimits& limits, const LawEffort& effort) {
+  for (int i = 0; i < grid.intervals(); ++i) {
+    effort.pause(i);
+    std::vector<std::string> moving;
+    const auto tangent = grid.tangent(i);
+    bool is_limited = false;
+    for (int j = 0; j < tangent.rows(); ++j) {
+      if (tangent.row(j).abs().maxCoeff() == 0.) continue;
+      moving.push_back(std::to_string(j));
+      is_limited |= std::isfinite(limits.velocity[j]) || std::isfinite(limits.acceleration[j]);
+    }
+    if (is_limited || moving.empty()) continue;
+    throw ValueError(cat("retime: nothing limits the motion ", along(grid.curve(), grid.place(i)), ", where dofs ",
+                         join(moving), " move: their velocities and accelerations are infinite"));
+  }
+}
+
+}  // namespace
+
+namespace {
+
+/// Of an end velocity that is too fast, what would do, in words; "" where that is not known. By bisection.
+std::string whatWouldDo(const TimedPath& failed, const MotionLimits& limits, const RetimeOptions& options) {
+  const bool is_start = failed.status == RetimeStatus::start_too_fast;
+  if ((!is_start && failed.status != RetimeStatus::end_too_fast) || options.start_acceleration.size() > 0) return "";
+  RetimeOptions slower = options;
+  VectorXd& velocity = is_start ? slower.start_velocity : slower.end_velocity;
+  const VectorXd given = velocity;
+  const auto does = [&](double share) {
+    velocity = share * given;
+    return retime(MatrixXd(), failed.curve(), limits, slower).feasible();
+  };
+  slower.intervals = std::min(options.intervals, kIntervalsOfTrials);
+  double low = 0., high = 1.;
+  for (int i = 0; i < kTrialHalvings; ++i) {
+    const double middle = .5 * (low + high);
+    (does(middle) ? low : high) = middle;
+  }
+  slower.intervals = options.intervals;
+  for (const double below : kBelowBound) {
+    const std::string length = cat((1. - below) * low * given.norm());  // rounded, and so looked at again
+    if (low > 0. && does(std::stod(length) / given.norm())) return cat("; a length of at most ", length, " would do");
+  }
+  return "";
+}
+
+}  // namespace
+
+TimedPath retime(const MatrixXd& path, const MotionLimits& limits, const RetimeOptions& options) {
+  options.validate();
+  if (path.cols() > 0) limits.validate(int(path.cols()));
+  TimedPath timed = retime(path, curveOf(path, limits, options), limits, options);
+  timed.message += whatWouldDo(timed, limits, options);
+  return timed;
+}
+
+namespace {
+
+/// By how much the rows of a law exceed their limits at most, each; between the places where they were asked for, too.
+VectorXd excessOf(const TimeLaw& law, const RowSource& rows, const LawEffort& effort) {
+  VectorXd excess = VectorXd::Zero(rows.high.size());
+  constexpr int kParts = 6;
+  for (std::size_t i = 0; i < law.phases().size(); ++i) {
+    effort.pause(int(i));
+    const LawPhase& phase = law.phases()[i];
+    const double time = (i + 1 < law.phases().size() ? law.phases()[i + 1].time : law.duration()) - phase.time;
+    for (int k = 0; k <= kParts; ++k) {
+      const LawState state = phase.at(time * k / kParts);
+      const LawRows at = rows.at(state.s, phase.piece);
+      const VectorXd value = at.a * state.acceleration + at.b * state.speed * state.speed + at.c;
+      excess = excess.cwiseMax(value - rows.high).cwiseMax(rows.low - value);
+    }
+  }
+  return excess;
+}
+
+struct Timing {
+  TimeLaw law;
+  SquaredSpeeds speeds;
+};
+
+/// ds/dt at both ends, and d^2s/dt^2 at the start.
+struct EndSpeeds {
+  double start, end, start_acceleration;
+};
+
+Timing timingOf(const LawGrid& grid, const MotionLimits& limits, const RowSource& rows, const EndSpeeds& ends,
+                const LawEffort& effort) {
+  Timing timing;
+  SquaredSpeeds& speeds = timing.speeds = fastestSpeeds(grid, limits, rows, ends.start, ends.end, effort);
+  if (speeds.failure != LawFailure::none) return timing;
+  if (!limits.limitsJerk()) {
+    timing.law = lawOf(grid, limits, speeds, effort);
+    return timing;
+  }
+  SmoothLaw smooth = smoothLaw(grid, speeds, ends.start_acceleration, limits, rows, effort);
+  speeds.failure = smooth.failure, speeds.place = smooth.place;
+  timing.law = std::move(smooth.law);
+  return timing;
+}
+
+/// The same with rows, whose limits are narrowed by what they exceed between the places.
+Timing timingWithRows(const LawGrid& grid, const MotionLimits& limits, const RowSource& given, const EndSpeeds& ends,
+                      const LawEffort& effort) {
+  RowSource rows = given;
+  Timing timing = timingOf(grid, limits, rows, ends, effort);
+  for (int round = 0; round < kNarrowings && timing.speeds.failure == LawFailure::none; ++round) {
+    const VectorXd excess = excessOf(timing.law, given, effort);
+    if ((excess.array() <= kExcess * (given.high - given.low).array().min(1e9)).all()) break;
+    rows.high -= kNarrowMore * excess, rows.low += kNarrowMore * excess;
+    timing = timingOf(grid, limits, rows, ends, effort);
+  }
+  return timing;
+}
+
+/// Does a law fail by nothing but how coarse its places are?
+bool mayDoWithMore(const Timing& timing) {
+  return timing.speeds.failure == LawFailure::cannot_move && timing.speeds.row < 0;
+}
+
+}  // namespace
+
+TimedPath retime(const MatrixXd& path, const PathCurve& curve, const MotionLimits& limits,
+                 const RetimeOptions& options) {
+  options.validate();
+  limits.validate(curve.dofs());
+  TimedPath timed;
+  timed.path = path;
+  timed.curve_ = curve;
+  EndSpeeds ends{};
+  ends.start = speedOf("start_velocity", options.start_velocity, curve, 0.);
+  ends.end = speedOf("end_velocity", options.end_velocity, curve, curve.length());
+  ends.start_acceleration = startAcceleration(options, curve, limits, ends.start);
+  if (curve.length() == 0.) {
+    timed.law_.add({}, 0.);
+    timed.times = VectorXd::Zero(path.rows());
+    return timed;
+  }
+  LawEffort effort{options.intervals, options.between};
+  Timing timing;
+  for (int trial = 0; trial == 0 || (mayDoWithMore(timing) && trial < kMostTrials); ++trial) {
+    if (trial > 0) effort.intervals = std::max(effort.intervals, std::min(2 * effort.intervals, kMostIntervals));
+    const LawGrid grid(timed.curve_, limits, effort, bool(options.rows));
+    checkLimited(grid, limits, effort);
+    timing = options.rows ? timingWithRows(grid, limits, options.rows, ends, effort)
+                          : timingOf(grid, limits, {}, ends, effort);
+  }
+  timed.status = statusOf(timing.speeds.failure);
+  timed.message = failureText(timing.speeds, timed.curve_, options.rows);
+  if (!timed.feasible()) return timed;
+  timed.law_ = std::move(timing.law);
+  timed.times.resize(Eigen::Index(curve.marks().size()));
+  for (Eigen::Index i = 0; i < timed.times.size(); ++i) {
+    effort.pause(int(i));
+    timed.times[i] = timed.law_.timeOf(curve.marks()[std::size_t(i)]);
+  }
+  return timed;
+}
+
+void motionAt(const PathCurve& curve, const TimeLaw& law, double t, double* q, double* velocity, double* acceleration) {
+  const double held = std::clamp(t, 0., law.duration());
+  const LawPhase& phase = law.phaseAt(held);
+  const LawState state = phase.at(held - phase.time);
+  const double s = std::clamp(state.s, phase.begin.s, phase.end);
+  curve.eval(phase.piece, s, 0, q);
+  curve.eval(phase.piece, s, 2, acceleration);
+  curve.eval(phase.piece, s, 1, velocity);
+  for (int j = 0; j < curve.dofs(); ++j) {
+    acceleration[j] = velocity[j] * state.acceleration + acceleration[j] * state.speed * state.speed;
+    velocity[j] *= state.speed;
+  }
+}
+
+MotionState motionAt(const PathCurve& curve, const TimeLaw& law, double t) {
+  const int n = curve.dofs();
+  MotionState state{VectorXd(n), VectorXd(n), VectorXd(n)};
+  motionAt(curve, law, t, state.q.data(), state.velocity.data(), state.acceleration.data());
+  return state;
+}
+
+void TimedPath::at(double t, double* q, double* velocity, double* acceleration) const {
+  if (law_.phases().empty()) throw ValueError(cat("retime: there is no motion: ", message));
+  if (!(t == t)) throw ValueError("retime: at(t) has a t that is no number");
+  motionAt(curve_, law_, t, q, velocity, acceleration);
+}
+
+MotionState TimedPath::at(double t) const {
+  const int n = curve_.dofs();
+  MotionState state{VectorXd(n), VectorXd(n), VectorXd(n)};
+  at(t, state.q.data(), state.velocity.data(), state.acceleration.data());
+  return state;
+}
+
+std::string TimedPath::str() const {
+  if (!feasible()) return cat(retimeStatusName(status), ": ", message);
+  return cat(path.rows(), path.rows() == 1 ? " point in " : " points in ", duration(), " s");
+}
+
+TimedPath TimedPath::fromParts(RetimeStatus status, std::string message, MatrixXd path, VectorXd times, PathCurve curve,
+                               TimeLaw law) {
+  TimedPath timed;
+  timed.status = status, timed.message = std::move(message);
+  timed.path = std::move(path), timed.times = std::move(times);
+  timed.curve_ = std::move(curve), timed.law_ = std::move(law);
+  return timed;
+}
+
+}  // namespace kinegraph

@@ -1,0 +1,211 @@
+#include "kinegraph/trajectory_optimization/spline_constraints.h"
+
+#include <algorithm>
+
+#include "kinegraph/komo/continuous_collisions.h"
+
+namespace kinegraph {
+
+namespace {
+
+using MapEntry = Eigen::SparseMatrix<double, Eigen::RowMajor>::InnerIterator;
+
+/// Consecutive columns: first, width.
+std::vector<std::pair<int, int>> segmentsOf(std::vector<int> columns) {
+  std::ranges::sort(columns);
+  columns.erase(std::unique(columns.begin(), columns.end()), columns.end());
+  std::vector<std::pair<int, int>> segments;
+  for (const int column : columns) {
+    if (!segments.empty() && segments.back().first + segments.back().second == column)
+      ++segments.back().second;
+    else
+      segments.emplace_back(column, 1);
+  }
+  return segments;
+}
+
+}  // namespace
+
+SplineRows::SplineRows(const Path& path, std::shared_ptr<const SplineLayout> layout, std::vector<Objective> objectives,
+                       bool is_separate)
+    : layout_(std::move(layout)),
+      objectives_(std::move(objectives)),
+      is_separate_(is_separate),
+      tau_(path.grid().tau()),
+      row_(VectorXd::Zero(layout_->lower.size())) {
+  std::vector<Motion> motions;
+  for (int slice = 0; slice < path.grid().slices() && !objectives_.empty(); ++slice)
+    motions.push_back(motionInto(path, slice));
+  motions_ = std::make_shared<const std::vector<Motion>>(std::move(motions));
+  layOut(path);
+}
+
+SplineRows::SplineRows(const Path& path, const SplineRows& other, std::vector<Objective> objectives, bool is_separate)
+    : layout_(other.layout_),
+      objectives_(std::move(objectives)),
+      is_separate_(is_separate),
+      tau_(other.tau_),
+      motions_(other.motions_),
+      row_(other.row_) {
+  layOut(path);
+}
+
+void SplineRows::layOut(const Path& path) {
+  for (std::size_t o = 0; o < objectives_.size(); ++o) {
+    Objective& objective = objectives_[o];
+    keepRoom(objective, is_separate_ ? kRoomOfMotion : 0);
+    for (int slice = objective.from; slice <= objective.to; ++slice) {
+      std::vector<PairInstant> instants = objective.instants[std::size_t(slice - objective.from)];
+      const int rows = is_separate_ ? int(instants.size()) : 1;
+      terms_.push_back({int(o), slice, rows_, rows});
+      instants_.emplace_back();
+      setInstants(path, int(terms_.size()) - 1, std::move(instants));
+      rows_ += rows;
+    }
+  }
+}
+
+SplineRows::Motion SplineRows::motionInto(const Path& path, int slice) const {
+  Motion motion;
+  std::vector<int> columns;
+  const std::vector<int> all = path.dofsOf(path.given().joint_frames, slice - 1), same = sameDofs(path, slice);
+  for (const int j : layout_->splined) motion.splined.push_back(all[std::size_t(j)]);
+  const auto entriesOf = [&](int of_slice, int dof) {
+    std::vector<Entry> entries;
+    const int column = columnOf(path, of_slice, dof);
+    if (column < 0) return entries;
+    for (MapEntry entry(layout_->map->M, column); entry; ++entry) {
+      entries.push_back({int(entry.col()), entry.value()});
+      columns.push_back(int(entry.col()));
+    }
+    return entries;
+  };
+  for (int dof = 0; dof < int(same.size()); ++dof) {
+    if (std::ranges::find(motion.splined, dof) != motion.splined.end()) continue;
+    OtherDof other{dof, same[std::size_t(dof)], entriesOf(slice - 1, dof), {}};
+    if (other.same >= 0) other.after = entriesOf(slice, other.same);
+    motion.others.push_back(std::move(other));
+  }
+  for (const double share : {0., .25, .5, .75, 1.}) {  // no more than one knot is on the way
+    const VectorXd weights = layout_->weightsAt((slice + share) * tau_);
+    for (Eigen::Index i = 1; i < weights.size(); ++i)
+      for (Eigen::Index d = 0; d < layout_->columns.cols() && weights[i] != 0.; ++d)
+        columns.push_back(layout_->columns(i - 1, d));
+  }
+  motion.segments = segmentsOf(std::move(columns));
+  return motion;
+}
+
+void SplineRows::setInstants(const Path& path, int number, std::vector<PairInstant> instants) {
+  const Term& term = terms_[std::size_t(number)];
+  Objective& objective = objectives_[std::size_t(term.objective)];
+  objective.instants[std::size_t(term.slice - objective.from)] = instants;
+  Instants& of_term = instants_[std::size_t(number)];
+  of_term.pairs.reset();
+  of_term.weights.assign(instants.size(), VectorXd());
+  for (std::size_t i = 0; i < instants.size(); ++i)
+    if (!instants[i].isEmpty()) of_term.weights[i] = layout_->weightsAt((term.slice + instants[i].share) * tau_);
+  if (!std::ranges::all_of(instants, &PairInstant::isEmpty))
+    of_term.pairs = std::make_unique<InstantPairs>(
+        std::move(instants), is_separate_ ? farOf(objective) : objective.margin, path.state(term.slice - 1));
+}
+
+const SplineRows::Term& SplineRows::termOf(int row) const {
+  return *std::ranges::find_if(terms_, [&](const Term& term) { return row < term.first_row + term.rows; });
+}
+
+void SplineRows::addTo(Jacobian& J) const {
+  for (const Term& term : terms_) {
+    for (int row = 0; row < term.rows; ++row) {
+      for (const auto& [column, width] : (*motions_)[std::size_t(term.slice)].segments) {
+        J.segments.push_back({column, width, int(J.values.size())});
+        J.values.resize(J.values.size() + std::size_t(width), 0.);
+      }
+      J.row_start.push_back(int(J.segments.size()));
+      J.zero_row.push_back(1);
+    }
+  }
+}
+
+void SplineRows::place(const Path& path, const Term& term, double share, const VectorXd& weights, VectorXd& q) const {
+  const VectorXd &from = path.state(term.slice - 1).q(), &to = path.state(term.slice).q();
+  const Motion& motion = (*motions_)[std::size_t(term.slice)];
+  for (const OtherDof& other : motion.others) {
+    const double at_begin = from[other.dof];
+    q[other.dof] = other.same < 0 ? at_begin : (1. - share) * at_begin + share * to[other.same];
+  }
+  for (std::size_t d = 0; d < motion.splined.size(); ++d)
+    q[motion.splined[d]] = weights.dot(points_.col(Eigen::Index(d)));
+}
+
+/// Adds a gradient by q, times a factor, to the row by c.
+void SplineRows::spread(const Motion& motion, double share, const VectorXd& weights, double factor,
+                        const InstantPairs::Gradient& gradient) {
+  for (std::size_t d = 0; d < motion.splined.size(); ++d) {
+    const double value = factor * gradient(0, motion.splined[d]);
+    if (value == 0.) continue;
+    for (Eigen::Index i = 1; i < weights.size(); ++i)
+      if (weights[i] != 0.) row_[layout_->columns(i - 1, Eigen::Index(d))] += value * weights[i];
+  }
+  for (const OtherDof& other : motion.others) {
+    const double value = factor * gradient(0, other.dof);
+    if (value == 0.) continue;
+    for (const Entry& entry : other.before)
+      row_[entry.column] += (other.same < 0 ? 1. : 1. - share) * value * entry.weight;
+    for (const Entry& entry : other.after) row_[entry.column] += share * value * entry.weight;
+  }
+}
+
+/// Takes the row by c.
+void SplineRows::collect(const Motion& motion, int row, Jacobian& J) {
+  const auto to = J.row_segments(row);
+  for (std::size_t k = 0; k < motion.segments.size(); ++k) {
+    auto values = row_.segment(motion.segments[k].first, motion.segments[k].second);
+    Eigen::Map<VectorXd>(J.values.data() + to[k].offset, values.size()) = values;
+    values.setZero();
+  }
+  J.zero_row[std::size_t(row)] = 0;
+}
+
+void SplineRows::evaluate(const Path& path, const VectorXd& c, int first_row, VectorXd& phi, Jacobian* J) {
+  for (int term = 0; term < int(terms_.size()); ++term) evaluateTerm(term, path, c, first_row, phi, J);
+}
+
+void SplineRows::evaluateTerm(int number, const Path& path, const VectorXd& c, int first_row, VectorXd& phi,
+                              Jacobian* J) {
+  const Term& term = terms_[std::size_t(number)];
+  const Objective& objective = objectives_[std::size_t(term.objective)];
+  const Motion& motion = (*motions_)[std::size_t(term.slice)];
+  Instants& instants = instants_[std::size_t(number)];
+  const double scale = objective.scale(0, 0), aim = objective.margin + objective.slack;
+  const int first = first_row + term.first_row;
+  phi.segment(first, term.rows).setConstant(is_separate_ ? scale * (aim - farOf(objective)) : 0.);
+  if (J) {
+    for (int row = first; row < first + term.rows; ++row) {
+      if (J->zero_row[std::size_t(row)]) continue;
+      collect(motion, row, *J);  // zeros
+      J->zero_row[std::size_t(row)] = 1;
+    }
+  }
+  if (!instants.pairs) return;
+  points_ = layout_->pointsOf(c);
+  const std::vector<PairInstant>& all = objective.instants[std::size_t(term.slice - objective.from)];
+  const auto weightsOf = [&](double share) -> const VectorXd& {
+    const auto at = std::ranges::find_if(all, [&](const PairInstant& i) { return !i.isEmpty() && i.share == share; });
+    return instants.weights[std::size_t(at - all.begin())];
+  };
+  const auto place_at = [&](double share, VectorXd& q) { place(path, term, share, weightsOf(share), q); };
+  bool any = false;
+  const auto see = [&](int i, double distance, const InstantPairs::Gradient& gradient) {
+    const int row = is_separate_ ? first + i : first;
+    phi[row] = is_separate_ ? scale * (aim - distance) : phi[row] + scale * (objective.margin - distance);
+    if (!J) return;
+    spread(motion, all[std::size_t(i)].share, instants.weights[std::size_t(i)], -scale, gradient);
+    if (is_separate_) collect(motion, row, *J);
+    any = true;
+  };
+  instants.pairs->visit(path.state(term.slice - 1).sharedParameters(), J != nullptr, place_at, see);
+  if (J && any && !is_separate_) collect(motion, first, *J);
+}
+
+}  // namespace kinegraph

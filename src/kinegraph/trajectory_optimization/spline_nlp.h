@@ -1,0 +1,71 @@
+#pragma once
+
+#include <memory>
+#include <optional>
+
+#include "kinegraph/komo/continuous_collisions.h"
+#include "kinegraph/komo/komo.h"
+#include "kinegraph/nlp/mapped_nlp.h"
+#include "kinegraph/nlp/initial_guesses.h"
+#include "kinegraph/nlp/lazy_constraints.h"
+#include "kinegraph/trajectory_optimization/spline_curve.h"
+#include "kinegraph/trajectory_optimization/spline_constraints.h"
+
+namespace kinegraph {
+
+/// The problem of a SplineMotion: that of its Komo in the control points of the spline. What is to be free between slices
+/// (objectives that are `on_the_way`) is so on the spline, and verdicts are about the spline: rows for instants of it come
+/// behind those of the slices, and are taken up as those of a Komo are; see free_motion.h.
+class SplineNlp final : public Nlp, public OtherWays, public RoomForConstraints {
+ public:
+  SplineNlp(std::shared_ptr<Komo> komo, std::shared_ptr<const SplineLayout> layout);
+
+  Jacobian makeJacobian() const override;
+  void evaluate(const VectorXd& c, VectorXd& phi, Jacobian* J) override;
+  bool mayBeCancelled() const override { return slices_->mayBeCancelled(); }
+  void leaveAt(const VectorXd& c) override { slices_->leaveAt(c); }
+  bool addCostHessian(const VectorXd& c, MatrixXd& H) override { return slices_->addCostHessian(c, H); }
+  std::span<const CurvedRows> curvedRows() const override { return slices_->curvedRows(); }
+  void addCurvature(int k, std::span<const double> weights, Eigen::Ref<MatrixXd> H) override {
+    slices_->addCurvature(k, weights, H);
+  }
+  Separation separation() override;
+  std::shared_ptr<const LazyVerdict> motionVerdict(const VectorXd& c) override;
+  Refinement refine(const VectorXd& c, VectorXd& dual) override;
+  bool hasRoom() const override { return is_separate_ && rows_.rows() > 0; }
+  Refinement takeUp(const VectorXd& c, bool is_solution, VectorXd& phi, Jacobian& J, std::vector<int>& rows) override;
+  WayKind wayAt(const VectorXd& c) override;
+  std::optional<VectorXd> otherWay(const VectorXd& c, int number) override;
+  VectorXd initialPoint(Rng& rng) override { return slices_->initialPoint(rng); }
+  std::string rowName(int row) const override;
+  RowDescription describeRow(int row) const override;
+  VariableDescription describeVariable(int variable) const override { return slices_->describeVariable(variable); }
+  std::vector<std::string> detailsOf(int row) const override;
+  std::string report(int verbose) const override { return slices_->report(verbose); }
+  bool mayBeQuadratic() const override { return rows_.rows() == 0 && slices_->mayBeQuadratic(); }
+
+ private:
+  SplineNlp(const SplineNlp& summed, std::shared_ptr<MappedNlp> slices);
+
+  int rowsOfSlices() const { return int(slices_->types().size()); }
+  void layOut();
+  void moveTo(const VectorXd& c);
+  double addInstantsTo(std::vector<Objective>& objectives);
+  void replace(std::vector<Objective> objectives);
+  VectorXd carriedOver(const VectorXd& dual, const SplineRows& before, const SplineRows& now) const;
+
+  std::shared_ptr<Komo> komo_;
+  std::shared_ptr<const SplineLayout> layout_;
+  std::shared_ptr<MappedNlp> slices_;
+  bool is_separate_;
+  SplineRows rows_;
+  SplineCurve curve_;
+  MotionProbe probe_{kFreeTolerance};
+  std::vector<std::vector<LookedAt>> looked_at_;  ///< per objective, per motion
+  VectorXd free_at_;                              ///< where a solver found nothing to take up
+  VectorXd phi_;                                  ///< of the slices
+  Separation separation_;
+  bool separation_is_known_ = false;
+};
+
+}  // namespace kinegraph

@@ -1,0 +1,115 @@
+#pragma once
+
+// Made by tools/generate_messages.py from viewer/messages.json; change that file instead.
+// clang-format off
+
+#include <optional>
+#include <string_view>
+#include <variant>
+
+#include "kinegraph/viewer/messages/command_reader.h"
+
+namespace kinegraph {
+
+struct KeyCommand {
+  static constexpr int kKind = 1;
+  int code = 0;
+  int modifiers = 0;
+};
+
+struct SetJointCommand {
+  static constexpr int kKind = 2;
+  int structure = 0;
+  int joint = 0;
+  double value = 0;
+};
+
+struct ResetJointsCommand {
+  static constexpr int kKind = 3;
+  int structure = 0;
+};
+
+struct RandomJointsCommand {
+  static constexpr int kKind = 4;
+  int structure = 0;
+};
+
+struct MoveFrameCommand {
+  static constexpr int kKind = 5;
+  int structure = 0;
+  int frame = 0;
+  std::vector<double> pose;
+};
+
+struct NearCommand {
+  static constexpr int kKind = 6;
+  int structure = 0;
+  double margin = 0;
+};
+
+struct EventCommand {
+  static constexpr int kKind = 7;
+  int what = 0;
+  int code = 0;
+  int modifiers = 0;
+};
+
+struct CursorCommand {
+  static constexpr int kKind = 8;
+  int frame = 0;
+  std::vector<double> point;
+  std::vector<double> normal;
+};
+
+struct ViewpointCommand {
+  static constexpr int kKind = 9;
+  std::vector<double> pose;
+  double distance = 0;
+  double focal = 0;
+  double ortho = 0;
+};
+
+struct RunCommand {
+  static constexpr int kKind = 10;
+  int what = 0;
+};
+
+struct PullCommand {
+  static constexpr int kKind = 11;
+  int structure = 0;
+  int frame = 0;
+  std::vector<double> point;
+  std::vector<double> target;
+};
+
+struct NotesCommand {
+  static constexpr int kKind = 12;
+  int structure = 0;
+};
+
+/// What a browser asks for.
+using Command = std::variant<KeyCommand, SetJointCommand, ResetJointsCommand, RandomJointsCommand, MoveFrameCommand, NearCommand, EventCommand, CursorCommand, ViewpointCommand, RunCommand, PullCommand, NotesCommand>;
+
+/// Reads a binary message from a browser; nothing if it is not exactly one command.
+inline std::optional<Command> readCommand(std::string_view data) {
+  CommandReader reader(data);
+  int kind;
+  if (!reader.read(kind)) return std::nullopt;
+  switch (kind) {
+    case KeyCommand::kKind: return readFields<KeyCommand>(reader, &KeyCommand::code, &KeyCommand::modifiers);
+    case SetJointCommand::kKind: return readFields<SetJointCommand>(reader, &SetJointCommand::structure, &SetJointCommand::joint, &SetJointCommand::value);
+    case ResetJointsCommand::kKind: return readFields<ResetJointsCommand>(reader, &ResetJointsCommand::structure);
+    case RandomJointsCommand::kKind: return readFields<RandomJointsCommand>(reader, &RandomJointsCommand::structure);
+    case MoveFrameCommand::kKind: return readFields<MoveFrameCommand>(reader, &MoveFrameCommand::structure, &MoveFrameCommand::frame, &MoveFrameCommand::pose);
+    case NearCommand::kKind: return readFields<NearCommand>(reader, &NearCommand::structure, &NearCommand::margin);
+    case EventCommand::kKind: return readFields<EventCommand>(reader, &EventCommand::what, &EventCommand::code, &EventCommand::modifiers);
+    case CursorCommand::kKind: return readFields<CursorCommand>(reader, &CursorCommand::frame, &CursorCommand::point, &CursorCommand::normal);
+    case ViewpointCommand::kKind: return readFields<ViewpointCommand>(reader, &ViewpointCommand::pose, &ViewpointCommand::distance, &ViewpointCommand::focal, &ViewpointCommand::ortho);
+    case RunCommand::kKind: return readFields<RunCommand>(reader, &RunCommand::what);
+    case PullCommand::kKind: return readFields<PullCommand>(reader, &PullCommand::structure, &PullCommand::frame, &PullCommand::point, &PullCommand::target);
+    case NotesCommand::kKind: return readFields<NotesCommand>(reader, &NotesCommand::structure);
+  }
+  return std::nullopt;
+}
+
+}  // namespace kinegraph

@@ -1,0 +1,61 @@
+#include "kinegraph/viewer/messages/run_requests.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "kinegraph/viewer/messages/commands.h"
+
+namespace kinegraph {
+
+namespace {
+
+constexpr int kPause = 1, kGoOn = 2, kStep = 3, kReset = 4;  // viewer/src/run.ts has the same
+constexpr int kMostSteps = 1000;                             ///< that wait
+constexpr double kFar = 1e6;                                 ///< m: nothing of use is there
+
+bool isPoint(const std::vector<double>& numbers) {
+  return numbers.size() == 3 &&
+         std::all_of(numbers.begin(), numbers.end(), [](double x) { return std::abs(x) <= kFar; });
+}
+
+}  // namespace
+
+bool RunRequests::apply(const RunCommand& command) {
+  switch (command.what) {
+    case kPause:
+      paused = true;
+      return true;
+    case kGoOn:
+      paused = false;
+      steps = 0;
+      return true;
+    case kStep:
+      paused = true;
+      steps = std::min(steps + 1, kMostSteps);
+      return true;
+    case kReset:
+      reset = true;
+      return true;
+    default:
+      return false;
+  }
+}
+
+bool RunRequests::apply(const PullCommand& command) {
+  if (command.point.empty() && command.target.empty()) {
+    pull.reset();
+    return true;
+  }
+  if (!isPoint(command.point) || !isPoint(command.target)) return false;
+  pull = {command.structure, command.frame, Vector3d(command.point.data()), Vector3d(command.target.data())};
+  return true;
+}
+
+RunRequests RunRequests::take() {
+  const RunRequests now = *this;
+  reset = false;
+  if (steps > 0) --steps;
+  return now;
+}
+
+}  // namespace kinegraph

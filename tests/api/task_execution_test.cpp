@@ -1,0 +1,113 @@
+#include "kinegraph/api/task_execution.h"
+
+#include <gtest/gtest.h>
+
+#include "kinegraph/api/model_path.h"
+#include "kinegraph/robot/simulated_driver.h"
+#include "kinegraph/task_planning/search/plan_task.h"
+#include "tests/support/expect_error.h"
+
+namespace kinegraph {
+namespace {
+
+Config pandaAndCubes() {
+  Config C;
+  C.addFile(modelPath("scenarios/pandaSingle.g"));
+  const Vector3d places[] = {{-.3, .25, .075}, {.3, .3, .075}};
+  for (int i = 0; i < 2; ++i) {
+    Frame cube = C.addFrame("b" + std::to_string(i), "table").setRelativePosition(places[i]).setJoint(JointType::rigid);
+    cube.setShape(ShapeType::ssBox, {.05, .05, .05, .004}).setContact(1).setMass(.1);
+  }
+  return C;
+}
+
+double heightOf(const Config& C) { return C.getFrame("b0").getPosition().z(); }
+
+struct Stacking {
+  Config C = pandaAndCubes();
+  TaskPlan plan = planTask(C, "(on b1 b0)");
+};
+
+TEST(TaskExecution, ACubeIsPutOntoAnotherByForcesAlone) {
+  Stacking s;
+  ASSERT_TRUE(s.plan.feasible()) << s.plan.str();
+  const double before = heightOf(s.C);
+  BotOp bot(s.C);
+  const TaskExecution run = s.plan.execute(bot);
+  EXPECT_TRUE(run.feasible) << run.str();
+  EXPECT_EQ(run.done, 2);
+  EXPECT_EQ(run.str(), "reached the goal after 2 actions: all of 2");
+  EXPECT_EQ(run.C.getFrame("b0").getParent()->getName(), "b1");
+  EXPECT_NEAR(heightOf(bot.getWorld()), before + .05, 1e-3);
+  BotOp again(s.C);
+  EXPECT_EQ(s.plan.execute(again).C.getFrameState(), run.C.getFrameState());
+}
+
+TEST(TaskExecution, WhatIsTakenOutOfTheHandIsNoticedAndRepaired) {
+  Stacking s;
+  const double before = heightOf(s.C);
+  BotOp* robot = nullptr;
+  bool is_taken = false;
+  BotOpOptions options;
+  options.show = [&](const BotOp&, Config& C, const std::string&) {
+    if (is_taken || heightOf(C) < before + .06) return 0;
+    is_taken = true;
+    robot->setFramePose("b0", {{-.3, .1, .7}, Quaterniond::Identity()});
+    return 0;
+  };
+  BotOp bot(s.C, std::make_shared<SimulatedDriver>(s.C), options);
+  robot = &bot;
+  const TaskExecution run = s.plan.execute(bot);
+  EXPECT_FALSE(run.feasible);
+  EXPECT_EQ(run.done, 1);
+  EXPECT_NE(run.message.find("'b0' is not in 'l_gripper'"), std::string::npos) << run.message;
+  EXPECT_EQ(run.C.getFrame("b0").getParent()->getName(), "table");
+  const TaskPlan repaired = s.plan.repair(run.C);
+  ASSERT_TRUE(repaired.feasible()) << repaired.str();
+  EXPECT_TRUE(repaired.execute(bot).feasible);
+}
+
+TEST(TaskExecution, MistakesAreToldBeforeAnythingMoves) {
+  Stacking s;
+  Config light = s.C;
+  light.getFrame("b0").setMass(0.);
+  BotOp of_light(light);
+  expectError<ValueError>([&] { s.plan.execute(of_light); }, {"'b0' has no mass"});
+  BotOp bot(s.C);
+  expectError<ValueError>([&] { TaskPlan().execute(bot); }, {"execute", "there is no motion"});
+  expectError<ValueError>([&] { TaskPlan().frames(s.C); }, {"frames", "there is no motion"});
+}
+
+TEST(TaskView, FramesShowWhatIsHeldInTheHandAndEndWhereThePlanDoes) {
+  Stacking s;
+  const std::vector<MatrixXd> frames = s.plan.frames(s.C, 10.);
+  EXPECT_EQ(long(frames.size()), std::lround(s.plan.duration() * 10.));
+  Config C = s.C;
+  C.setFrameState(frames.back());
+  EXPECT_NEAR((C.getFrame("b0").getPosition() - C.getFrame("b1").getPosition()).z(), .05, 1e-3);
+  double highest = 0.;
+  for (const MatrixXd& poses : frames) {
+    C.setFrameState(poses);
+    highest = std::max(highest, heightOf(C));
+    if (heightOf(C) < heightOf(s.C) + .06) continue;
+    EXPECT_LT((C.getFrame("b0").getPosition() - C.getFrame("l_gripper").getPosition()).norm(), .05);
+  }
+  EXPECT_GT(highest, heightOf(s.C) + .06);
+}
+
+TEST(TaskView, TheGhostIsWhereTheFarthestBranchFailed) {
+  Stacking s;
+  Config there = s.C;
+  there.getFrame("b0").setPosition({0., .3, 1.});
+  TaskPlan failed;
+  failed.message = "nothing";
+  expectError<ValueError>([&] { failed.ghostScene(s.C); }, {"no branch failed"});
+  failed.tree.push_back({{{"pick", "b0", "table", "l_gripper"}}, "why", std::make_shared<const Config>(there)});
+  const Config ghost = failed.ghostScene(s.C);
+  EXPECT_EQ(ghost.getFrames().size(), s.C.getFrames().size() + 1);
+  EXPECT_EQ(ghost.getFrame("ghost of b0").getPosition(), there.getFrame("b0").getPosition());
+  EXPECT_EQ(ghost.getFrame("ghost of b0").getShapeType(), ShapeType::ssBox);
+}
+
+}  // namespace
+}  // namespace kinegraph

@@ -1,0 +1,271 @@
+#include "kinegraph/parsers/urdf_reader.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+
+#include "kinegraph/scene/config.h"
+#include "tests/support/temporary_folder.h"
+
+using namespace kinegraph;
+
+namespace {
+
+/// A scene read from a URDF text, through a file as users do it.
+class UrdfReader : public ::testing::Test {
+ protected:
+  Config load(const std::string& inside) {
+    std::ofstream(folder_ / "r.urdf") << "<robot name='r'>\n" << inside << "\n</robot>";
+    Config config;
+    config.addFile((folder_ / "r.urdf").string());
+    return config;
+  }
+
+  /// What loading says, without the folder.
+  std::string messageOf(const std::string& inside) {
+    try {
+      load(inside);
+    } catch (const ParseError& error) {
+      const std::string message = error.what(), folder = folder_.path().string() + "/";
+      EXPECT_TRUE(message.starts_with(folder)) << message;
+      return message.substr(folder.size());
+    }
+    return "no error";
+  }
+
+  static std::string joint(const char* type, const char* more) {
+    return std::string("<link name='a'/><link name='b'/><joint name='j' type='") + type +
+           "'><parent link='a'/><child link='b'/>" + more + "</joint>";
+  }
+
+  TemporaryFolder folder_;
+};
+
+void expectPosition(const Config& config, const char* frame, double x, double y, double z) {
+  EXPECT_LT((config.getFrame(frame).getPose().p - Vector3d(x, y, z)).norm(), 1e-12)
+      << frame << " is at " << config.getFrame(frame).getPose().p.transpose();
+}
+
+}  // namespace
+
+TEST_F(UrdfReader, FramesAreNamedAfterLinksAndJoints) {
+  const Config config = load(joint(
+      "revolute", "<origin xyz='1 0 0'/><axis xyz='0 0 1'/><limit lower='-1' upper='2' effort='5' velocity='3'/>"));
+  EXPECT_EQ(config.getFrameNames(), (std::vector<std::string>{"a", "j_origin", "j", "b"}));
+  EXPECT_EQ(config.getJointNames(), std::vector<std::string>{"j"});
+  EXPECT_EQ(config.getFrame("j").getJointType(), JointType::hingeZ);
+  EXPECT_EQ(config.getJointLimits(), (MatrixXd(2, 1) << -1, 2).finished());
+  EXPECT_EQ(config.getFrame("j").attributes().find("ctrl_limits")->value.as<NumberArray>()->numbers,
+            (std::vector<double>{3., 5., -1.}));
+}
+
+TEST_F(UrdfReader, InfiniteLimitsAreNone) {
+  Config config = load(joint("revolute", "<limit lower='-inf' upper='inf' effort='inf' velocity='+inf'/>"));
+  EXPECT_EQ(config.getJointLimits(), (MatrixXd(2, 1) << 0, -1).finished()) << "which says that there are none";
+  EXPECT_EQ(config.getFrame("j").attributes().find("ctrl_limits"), nullptr);
+  config = load(joint("prismatic", "<axis xyz='1 0 0'/><limit lower='0' upper='inf'/>"));
+  EXPECT_EQ(config.getJointLimits()(0, 0), 0.);
+  EXPECT_GE(config.getJointLimits()(1, 0), 1e9);
+}
+
+TEST_F(UrdfReader, AJointNamedAsALinkIsToldApart) {
+  const Config config = load(
+      "<link name='a'/><link name='b'/><joint name='b' type='continuous'><parent link='a'/><child link='b'/></joint>");
+  EXPECT_EQ(config.getFrameNames(), (std::vector<std::string>{"a", "b_joint", "b"}));
+}
+
+TEST_F(UrdfReader, RollPitchYawTurnsAboutFixedAxes) {
+  const Config config = load(joint("fixed", "<origin rpy='0.1 0.2 0.3'/>"));
+  const Matrix3d expected = axisRotation(2, .3) * axisRotation(1, .2) * axisRotation(0, .1);
+  EXPECT_LT((config.getFrame("b").getPose().transform().R - expected).norm(), 1e-14);
+}
+
+TEST_F(UrdfReader, APrismaticJointSlidesAlongAnyAxis) {
+  for (const auto& [axis, direction] : {std::pair("1 0 0", Vector3d(1, 0, 0)), std::pair("0 -1 0", Vector3d(0, -1, 0)),
+                                        std::pair("3 0 4", Vector3d(.6, 0, .8))}) {
+    Config config = load(
+        joint("prismatic",
+              (std::string("<origin xyz='1 2 3'/><axis xyz='") + axis + "'/><limit lower='0' upper='1'/>").c_str()));
+    config.setJointState(VectorXd::Constant(1, .5));
+    const Pose b = config.getFrame("b").getPose();
+    EXPECT_LT((b.p - Vector3d(1, 2, 3) - .5 * direction).norm(), 1e-14) << axis;
+    EXPECT_LT((b.transform().R - Matrix3d::Identity()).norm(), 1e-14) << axis;
+  }
+}
+
+TEST_F(UrdfReader, APlanarJointMovesAcrossItsAxis) {
+  Config config = load(joint("planar", "<axis xyz='1 0 0'/>"));
+  config.setJointState(Vector3d(.3, .4, .5));
+  const Pose b = config.getFrame("b").getPose();
+  EXPECT_NEAR(b.p[0], 0., 1e-15);
+  EXPECT_NEAR(b.p.norm(), .5, 1e-14);
+  EXPECT_LT((b.transform().R - axisRotation(0, .5)).norm(), 1e-14);
+}
+
+TEST_F(UrdfReader, AFloatingJointIsFree) {
+  EXPECT_EQ(load(joint("floating", "")).getFrame("j").getJointType(), JointType::free);
+}
+
+TEST_F(UrdfReader, MimicsFollowWithMultiplierAndOffsetThroughOthers) {
+  const auto next = [](const char* name, const char* parent, const char* more) {
+    return std::string("<link name='l_") + name + "'/><joint name='" + name + "' type='revolute'><parent link='" +
+           parent + "'/><child link='l_" + name + "'/>" + more + "<limit lower='-3' upper='3'/></joint>";
+  };
+  Config config =
+      load("<link name='a'/>" + next("c", "a", "<axis xyz='0 -1 0'/><mimic joint='d' multiplier='-2' offset='.1'/>") +
+           next("d", "a", "<axis xyz='0 0 1'/><mimic joint='e' multiplier='.5' offset='.2'/>") + next("e", "a", ""));
+  EXPECT_EQ(config.getJointNames(), std::vector<std::string>{"e"});
+  config.setJointState(VectorXd::Constant(1, .4));
+  const double d = .5 * .4 + .2, c = -2. * d + .1;
+  EXPECT_LT((config.getFrame("l_d").getPose().transform().R - axisRotation(2, d)).norm(), 1e-14);
+  EXPECT_LT((config.getFrame("l_c").getPose().transform().R - axisRotation(1, -c)).norm(), 1e-14);
+}
+
+TEST_F(UrdfReader, AMimicFollowsASourceThatSlidesBackwards) {
+  Config config = load(joint("prismatic", "<axis xyz='-1 0 0'/><limit lower='0' upper='1'/>") +
+                       "<link name='c'/><joint name='m' type='prismatic'><parent link='a'/><child link='c'/>"
+                       "<axis xyz='0 1 0'/><limit lower='0' upper='1'/><mimic joint='j' multiplier='2'/></joint>");
+  config.setJointState(VectorXd::Constant(1, .25));
+  expectPosition(config, "b", -.25, 0, 0);
+  expectPosition(config, "c", 0, .5, 0);
+}
+
+TEST_F(UrdfReader, AMimicOfNothingMovesByItselfAndOneOfAFixedJointIsFixed) {
+  Config config = load(joint("continuous", "<mimic joint='nothing'/>") +
+                       "<link name='c'/><joint name='f' type='fixed'><parent link='b'/><child link='c'/></joint>"
+                       "<link name='d'/><joint name='m' type='prismatic'><parent link='c'/><child link='d'/>"
+                       "<limit lower='0' upper='1'/><mimic joint='f' multiplier='3' offset='.5'/></joint>");
+  EXPECT_EQ(config.getJointNames(), std::vector<std::string>{"j"});
+  expectPosition(config, "d", .5, 0, 0);
+  const std::vector<std::string> warnings = config.takeWarnings();
+  ASSERT_EQ(warnings.size(), 2u);
+  EXPECT_NE(warnings[0].find("joint 'j' mimics 'nothing', which is no joint"), std::string::npos) << warnings[0];
+  EXPECT_NE(warnings[1].find("joint 'm' mimics 'f', which is fixed"), std::string::npos) << warnings[1];
+}
+
+TEST_F(UrdfReader, JointsThatMimicEachOtherAreRefused) {
+  EXPECT_NE(messageOf(joint("continuous", "<mimic joint='j'/>")).find("joint 'j' mimics 'j', which mimics it in turn"),
+            std::string::npos);
+}
+
+TEST_F(UrdfReader, ALinkCarriesItsInertiaInItsOwnAxes) {
+  const Config config = load(
+      "<link name='a'><inertial><origin xyz='.1 .2 .3' rpy='0 0 1.5707963267948966'/><mass value='2'/>"
+      "<inertia ixx='1' iyy='2' izz='3' ixy='0' ixz='0' iyz='0'/></inertial></link>");
+  const Inertia inertia = config.getFrame("a").getInertia().value();
+  EXPECT_EQ(inertia.mass, 2.);
+  EXPECT_EQ(inertia.com, Vector3d(.1, .2, .3));
+  EXPECT_LT((inertia.matrix - Matrix3d(Vector3d(2, 1, 3).asDiagonal())).norm(), 1e-12);
+}
+
+TEST_F(UrdfReader, ShapesAreChildFramesWithColorsAndContacts) {
+  const Config config = load(
+      "<material name='blue'><color rgba='0 0 1 1'/></material>"
+      "<link name='a'>"
+      "<visual><origin xyz='0 0 1'/><geometry><cylinder length='2' radius='.1'/></geometry><material "
+      "name='blue'/></visual>"
+      "<visual><geometry><sphere radius='.5'/></geometry></visual>"
+      "<collision><geometry><box size='1 2 3'/></geometry></collision></link>");
+  EXPECT_EQ(config.getFrameNames(), (std::vector<std::string>{"a", "a_0", "a_1", "a_2"}));
+  expectPosition(config, "a_0", 0, 0, 1);
+  EXPECT_EQ(config.getFrame("a_0").getSize(), (std::vector<double>{2., .1}));
+  EXPECT_EQ(config.getFrame("a_0").data().shape->color.value(), Vector4d(0, 0, 1, 1));
+  EXPECT_EQ(config.getFrame("a_0").data().shape->contact, 0);
+  EXPECT_EQ(config.getFrame("a_1").getShapeType(), ShapeType::sphere);
+  EXPECT_EQ(config.getFrame("a_2").getSize(), (std::vector<double>{1., 2., 3.}));
+  EXPECT_EQ(config.getFrame("a_2").data().shape->contact, -2);
+}
+
+TEST_F(UrdfReader, MeshesOfPackagesAreFoundAboveTheFile) {
+  std::filesystem::create_directories(folder_ / "meshes");
+  std::ofstream(folder_ / "meshes" / "t.obj") << "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n";
+  std::ofstream(folder_ / "package.xml") << "<package><name>my_robot</name></package>";
+  for (const std::string& file : {std::string("meshes/t.obj"), std::string("package://my_robot/meshes/t.obj"),
+                                  "package://" + folder_.path().filename().string() + "/meshes/t.obj"}) {
+    const Config config = load("<link name='a'><visual><geometry><mesh filename='" + file +
+                               "' scale='1 2 3'/></geometry></visual></link>");
+    ASSERT_TRUE(config.getFrame("a_0").data().shape) << file;
+    const Mesh& mesh = *config.getFrame("a_0").data().shape->geometry->mesh;
+    ASSERT_EQ(mesh.vertices.size(), 3u);
+    EXPECT_EQ(mesh.vertices[0] + mesh.vertices[1] + mesh.vertices[2], Vector3d(1, 2, 0));
+  }
+}
+
+TEST_F(UrdfReader, AColladaMeshIsNotTurnedByItsUpAxis) {
+  std::ofstream(folder_ / "t.dae")
+      << "<?xml version='1.0'?><COLLADA xmlns='http://www.collada.org/2005/11/COLLADASchema' version='1.4.1'>"
+         "<asset><unit meter='1'/><up_axis>Z_UP</up_axis></asset><library_geometries><geometry id='g'><mesh>"
+         "<source id='p'><float_array id='a' count='9'>0 0 0 1 0 0 0 0 2</float_array><technique_common>"
+         "<accessor source='#a' count='3' stride='3'><param name='X' type='float'/><param name='Y' type='float'/>"
+         "<param name='Z' type='float'/></accessor></technique_common></source>"
+         "<vertices id='v'><input semantic='POSITION' source='#p'/></vertices>"
+         "<triangles count='1'><input semantic='VERTEX' source='#v' offset='0'/><p>0 1 2</p></triangles>"
+         "</mesh></geometry></library_geometries><library_visual_scenes><visual_scene id='s'><node id='n'>"
+         "<instance_geometry url='#g'/></node></visual_scene></library_visual_scenes>"
+         "<scene><instance_visual_scene url='#s'/></scene></COLLADA>";
+  const Config config = load("<link name='a'><visual><geometry><mesh filename='t.dae'/></geometry></visual></link>");
+  Vector3d sum = Vector3d::Zero();
+  for (const Vector3d& p : config.getFrame("a_0").data().shape->geometry->mesh->vertices) sum += p;
+  EXPECT_EQ(sum, Vector3d(1, 0, 2));
+}
+
+TEST_F(UrdfReader, AMissingMeshIsAWarningAndLeavesTheFrame) {
+  Config config =
+      load("<link name='a'><visual><geometry><mesh filename='package://nowhere/a.stl'/></geometry></visual></link>");
+  EXPECT_FALSE(config.getFrame("a_0").data().shape);
+  const std::vector<std::string> warnings = config.takeWarnings();
+  ASSERT_EQ(warnings.size(), 1u);
+  EXPECT_NE(warnings[0].find("r.urdf:2:34: link 'a': mesh 'package://nowhere/a.stl' is not there"), std::string::npos)
+      << warnings[0];
+}
+
+TEST_F(UrdfReader, AGFileIncludesAndEditsARobot) {
+  load(joint("continuous", ""));
+  std::ofstream(folder_ / "scene.g")
+      << "world: {}\nPrefix: l_\nInclude: <r.urdf>\nEdit l_a(world): { pose: [1 0 0] }\n";
+  Config config;
+  config.addFile((folder_ / "scene.g").string());
+  EXPECT_EQ(config.getFrameNames(), (std::vector<std::string>{"world", "l_a", "l_j", "l_b"}));
+  expectPosition(config, "l_b", 1, 0, 0);
+}
+
+TEST_F(UrdfReader, MistakesAreReportedWithTheirPlacesAllAtOnce) {
+  const std::string message = messageOf(
+      "<link name='a'/>\n"
+      "<link name='a'/>\n"
+      "<joint name='j' type='revolut'>\n"
+      "  <parent link='a'/><child link='b'/>\n"
+      "  <origin xyz='1 2'/>\n"
+      "</joint>");
+  EXPECT_NE(message.find("r.urdf:3:1: there is a link 'a' already, at "), std::string::npos) << message;
+  EXPECT_NE(message.find("r.urdf:4:17: joint 'j': unknown joint type 'revolut'; expected one of "), std::string::npos)
+      << message;
+  EXPECT_NE(message.find("r.urdf:6:11: joint 'j': <origin> xyz=\"1 2\": expected 3 numbers"), std::string::npos)
+      << message;
+}
+
+TEST_F(UrdfReader, WhatIsNoTreeIsRefused) {
+  const auto fixed = [](const char* name, const char* parent, const char* child) {
+    return std::string("<joint name='") + name + "' type='fixed'><parent link='" + parent + "'/><child link='" + child +
+           "'/></joint>\n";
+  };
+  const std::string links = "<link name='hand'/><link name='arm'/><link name='base'/>\n";
+  EXPECT_NE(messageOf(links + fixed("j", "base", "hnd")).find("there is no link 'hnd'; similar names: hand"),
+            std::string::npos);
+  EXPECT_NE(
+      messageOf(links + fixed("j", "base", "arm")).find("two links without a joint above them: 'hand' and 'base'"),
+      std::string::npos);
+  EXPECT_NE(messageOf(links + fixed("j", "base", "arm") + fixed("k", "hand", "arm"))
+                .find("link 'arm' hangs on two joints: 'j' and 'k'"),
+            std::string::npos);
+  EXPECT_NE(messageOf(links + fixed("j", "hand", "arm") + fixed("k", "arm", "hand")).find("form a loop"),
+            std::string::npos);
+}
+
+TEST_F(UrdfReader, AMistakeInAValueIsReportedWhereItStands) {
+  EXPECT_EQ(
+      messageOf("<link name='a'>\n<visual><geometry><sphere radius='-1'/></geometry></visual></link>").substr(0, 14),
+      "r.urdf:3:19: f");
+}

@@ -1,0 +1,158 @@
+#include "kinegraph/robot/robot_loop.h"
+
+#include <gtest/gtest.h>
+
+#include "tests/robot/arm.h"
+#include "tests/support/expect_error.h"
+
+using namespace kinegraph;
+
+namespace {
+
+std::shared_ptr<RecordedDriver> obedient() {
+  return std::make_shared<RecordedDriver>(plainRobot(), std::vector<RobotReading>(), pair(0., 0.));
+}
+
+RobotReading reading(double time, double q0 = 0.) { return {time, pair(q0, 0.), pair(0., 0.), {}, {}, {}, {}}; }
+
+/// What goes wrong after `good` readings.
+std::shared_ptr<RecordedDriver> goesWrong(int good, const RobotReading& wrong) {
+  std::vector<RobotReading> readings;
+  for (int i = 0; i < good; ++i) readings.push_back(reading(i * .01));
+  readings.push_back(wrong);
+  return std::make_shared<RecordedDriver>(plainRobot(), readings);
+}
+
+BSpline straight(double from, double to, double start, double end) {
+  MatrixXd points(2, 2);
+  points << from, 0., to, 0.;
+  return BSpline(3, points, pair(start, end));
+}
+
+}  // namespace
+
+TEST(RobotLoop, WritesTheReferenceAtTheEndOfEachPeriod) {
+  const auto driver = obedient();
+  RobotLoop loop(driver, .01);
+  const BSpline motion = straight(0., .5, 0., 1.);
+  loop.apply(FollowSpline{motion});
+  for (int i = 0; i < 120; ++i) loop.step();
+  ASSERT_EQ(driver->commands().size(), 120u);
+  for (int i = 0; i < 120; ++i) {
+    EXPECT_EQ(driver->commands()[std::size_t(i)].q, motion.eval((i + 1) * .01)) << i;
+    EXPECT_EQ(driver->commands()[std::size_t(i)].velocity, motion.eval((i + 1) * .01, 1)) << i;
+  }
+  EXPECT_EQ(loop.reading().q, pair(.5, 0.));
+  EXPECT_EQ(loop.tick(), 120);
+}
+
+TEST(RobotLoop, IsStoppedByNumbersThatAreNotFinite) {
+  RobotReading wrong = reading(.05);
+  wrong.q[1] = NAN;
+  const auto driver = goesWrong(4, wrong);
+  RobotLoop loop(driver, .01);
+  for (int i = 0; i < 10; ++i) loop.step();
+  EXPECT_EQ(loop.mode(), LoopMode::fault);
+  EXPECT_NE(loop.fault().find("not finite"), std::string::npos);
+  ASSERT_EQ(driver->stops().size(), 1u);
+  EXPECT_EQ(driver->commands().size(), 4u);   // nothing was written after
+  EXPECT_EQ(loop.reading().q, pair(0., 0.));  // the last one that made sense
+}
+
+TEST(RobotLoop, IsStoppedByAnErrorOfTheRobotUntilItRecovers) {
+  RobotReading wrong = reading(.05);
+  wrong.error = "joint 2: too hot";
+  std::vector<RobotReading> readings = {reading(0.), reading(.01), wrong, reading(.06, .2)};
+  const auto driver = std::make_shared<RecordedDriver>(plainRobot(), readings);
+  RobotLoop loop(driver, .01);
+  loop.step();
+  loop.step();
+  EXPECT_EQ(loop.fault(), "joint 2: too hot");
+  expectError<RobotFault>([&] { loop.requireReady("move", pair(0., 0.)); },
+                          {"move: the robot was stopped: joint 2: too hot"});
+  expectError<RobotFault>([&] { loop.apply(FollowSpline{straight(0., 1., 0., 1.)}); }, {"too hot"});
+  loop.apply(RecoverRobot{});
+  EXPECT_EQ(driver->recoveries(), 1);
+  EXPECT_EQ(loop.mode(), LoopMode::hold);
+  EXPECT_EQ(loop.reference(loop.time()).row(0), row(.2, 0.));  // where it is, not where it was
+}
+
+TEST(RobotLoop, IsStoppedByAClockThatStandsStill) {
+  std::vector<RobotReading> readings(100, reading(1.));
+  const auto driver = std::make_shared<RecordedDriver>(plainRobot(), readings);
+  RobotLoop loop(driver, .01);
+  int ticks = 0;
+  while (loop.mode() != LoopMode::fault && ticks < 90) loop.step(), ++ticks;
+  EXPECT_NE(loop.fault().find("clock has stood still"), std::string::npos);
+  EXPECT_NEAR(ticks * .01, .1, .021);
+}
+
+TEST(RobotLoop, IsStoppedByADriverThatThrows) {
+  struct Broken : RobotDriver {
+    RobotInfo info() override { return plainRobot(); }
+    RobotReading read() override { return reading(time += .01); }
+    void write(const RobotCommand&) override {
+      if (++writes == 3) throw RobotFault("the cable is out");
+    }
+    void stop(const std::string&) override { throw RobotFault("nobody listens"); }
+    double time = 0.;
+    int writes = 0;
+  };
+  const auto driver = std::make_shared<Broken>();
+  RobotLoop loop(driver, .01);
+  for (int i = 0; i < 5; ++i) loop.step();
+  EXPECT_EQ(loop.fault(), "the cable is out; and stopping it failed: nobody listens");
+  EXPECT_EQ(driver->writes, 3);
+}
+
+TEST(RobotLoop, IsStoppedWhereItDoesNotFollow) {
+  std::vector<RobotReading> readings;
+  for (int i = 0; i < 100; ++i) readings.push_back(reading(i * .01));  // stays where it is
+  const auto driver = std::make_shared<RecordedDriver>(plainRobot(), readings);
+  RobotLoop loop(driver, .01);
+  loop.apply(FollowSpline{straight(0., 1., 0., 1.)});
+  for (int i = 0; i < 60; ++i) loop.step();
+  EXPECT_NE(loop.fault().find("joint 'arm1' is 0.3"), std::string::npos) << loop.fault();
+  EXPECT_NE(loop.fault().find("is something in its way?"), std::string::npos);
+  EXPECT_LT(driver->commands().back().q[0], .32);
+}
+
+TEST(RobotLoop, DoesNotBeginWithARobotThatReportsAnError) {
+  RobotReading wrong = reading(0.);
+  wrong.error = "emergency stop";
+  expectError<RobotFault>([&] { RobotLoop(goesWrong(0, wrong), .01); }, {"'plain' cannot be moved: emergency stop"});
+  RobotReading short_one = reading(0.);
+  short_one.q = VectorXd::Zero(3);
+  expectError<RobotFault>([&] { RobotLoop(goesWrong(0, short_one), .01); }, {"a q of 3 numbers; expected 2"});
+}
+
+TEST(RobotLoop, RefusesAMotionThatBeginsFarFromTheRobot) {
+  RobotLoop loop(obedient(), .01);
+  loop.requireReady("move", pair(.04, 0.));
+  expectError<RobotFault>([&] { loop.requireReady("move", pair(.06, 0.)); },
+                          {"move: joint 'arm1' is at 0, 0.06 from where the motion begins; call hold() first"});
+}
+
+TEST(RobotLoop, BrakesToRestWithinItsLimits) {
+  const auto driver = obedient();
+  RobotLoop loop(driver, .01);
+  loop.info().acceleration.setConstant(10.);
+  loop.apply(FollowSpline{straight(0., 1., 0., 1.)});
+  for (int i = 0; i < 50; ++i) loop.step();  // 1.5 rad/s
+  const BSpline braking = loop.braking();
+  EXPECT_NEAR(braking.end() - loop.time(), 2. * 1.5 / 10., 1e-9);
+  EXPECT_LE(peaksOf(braking, loop.time()).acceleration[0], 10. + 1e-9);
+  loop.apply(HoldRobot{braking});
+  for (int i = 0; i < 40; ++i) loop.step();
+  EXPECT_NEAR(driver->commands().back().velocity[0], 0., 1e-12);
+  EXPECT_NEAR(loop.reading().q[0], .5 + 1.5 * .3 / 3., 1e-9);
+}
+
+TEST(RobotLoop, DoesNotAskAStiffRobotToGiveWay) {
+  RobotLoop loop(obedient(), .01);
+  expectError<RobotFault>([&] { loop.apply(FloatRobot{}); }, {"'plain' cannot float"});
+  expectError<RobotFault>([&] { loop.apply(SetStiffness{MatrixXd::Zero(2, 2)}); }, {"cannot be compliant"});
+  expectError<RobotFault>([&] { loop.apply(GripperCommand{}); }, {"has no gripper 0"});
+  expectError<RobotFault>([&] { loop.apply(PlaceFrame{}); }, {"is not simulated"});
+  EXPECT_TRUE(loop.log().entries.empty());  // what was refused was not done
+}

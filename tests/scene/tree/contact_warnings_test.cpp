@@ -1,0 +1,68 @@
+#include "kinegraph/scene/tree/contact_warnings.h"
+
+#include <gtest/gtest.h>
+
+#include "kinegraph/scene/config.h"
+
+using namespace kinegraph;
+
+namespace {
+
+/// An arm that stands 3 mm in the floor, and a box near its hand.
+Config arm(const std::string& box) {
+  Config config;
+  config.addText(R"g(
+    floor: { X: [0 0 -.05], shape: box, size: [4 4 .1], contact: 1 }
+    base: { X: [0 0 .047], shape: box, size: [.2 .2 .1], contact: 1 }
+    look (base): { shape: cylinder, size: [.1 .1] }
+    arm (base): { pre: [0 0 .3], joint: hingeZ }
+    hand (arm): { Q: [.5 0 0], shape: sphere, size: [.1], contact: 1 }
+    near: { X: [.5 .3 .2], shape: box, size: [.2 .4 .2], )g" +
+                 box + "}\n far: { X: [0 3 0], shape: box, size: [.2 .2 .2] }");
+  return config;
+}
+
+}  // namespace
+
+TEST(ContactNotes, NameShapesThatOverlapAtEveryQ) {
+  const Config config = arm("contact: 1");
+  const ContactNotes notes = contactNotes(*config.scene());
+  ASSERT_EQ(notes.resting.size(), 1u);
+  EXPECT_EQ(config.getFrame(notes.resting[0].first).getName(), "floor");
+  EXPECT_EQ(config.getFrame(notes.resting[0].second).getName(), "base");
+  EXPECT_TRUE(notes.passed_through.empty()) << "what is drawn around the base is not meant, nor what is far";
+  ASSERT_EQ(config.contactNotes().size(), 1u);
+  EXPECT_NE(config.contactNotes()[0].find("'floor' and 'base' overlap and no joint"), std::string::npos);
+}
+
+TEST(ContactNotes, NameShapesThatCollideWithNothing) {
+  const Config config = arm("");
+  const ContactNotes notes = contactNotes(*config.scene());
+  ASSERT_EQ(notes.passed_through.size(), 1u);
+  EXPECT_EQ(config.getFrame(notes.passed_through[0]).getName(), "near");
+  EXPECT_NE(config.report().find("note: 'near' is near what moves"), std::string::npos) << config.report();
+  EXPECT_NE(config.report().find("collide: floor base hand"), std::string::npos) << config.report();
+}
+
+TEST(ContactNotes, SayNothingOfShapesThatAreMeant) {
+  for (const char* meant : {"simulate", "color: [1 0 0 .3]"}) {
+    EXPECT_TRUE(contactNotes(*arm(meant).scene()).passed_through.empty()) << meant;
+  }
+}
+
+TEST(Shape, CopiesOfAConfigThatWasNeverUsedShareItsBodies) {
+  const Config original = arm("contact: 1");
+  Config first(original), second(original);
+  first.addFrame("more").setShape(ShapeType::sphere, {.1});
+  second.addFrame("more").setShape(ShapeType::sphere, {.2});
+  const int frames = original.getFrameDimension();
+  for (int i = 0; i < frames; ++i) {
+    EXPECT_EQ(first.program()->body[std::size_t(i)], second.program()->body[std::size_t(i)]) << "made once";
+    EXPECT_EQ(first.program()->body[std::size_t(i)], original.program()->body[std::size_t(i)]);
+  }
+  first.getFrame("hand").setShape(ShapeType::sphere, {.3});
+  const auto hand = std::size_t(first.getFrame("hand").id());
+  EXPECT_NE(first.program()->body[hand], original.program()->body[hand]);
+  EXPECT_EQ(first.program()->body[hand]->radius(), .3);
+  EXPECT_EQ(second.program()->body[hand]->radius(), .1);
+}

@@ -1,0 +1,465 @@
+#include "kinegraph/trajectories/retime.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+#include "kinegraph/common/random.h"
+#include "kinegraph/trajectories/curve_part.h"
+#include "tests/support/expect_error.h"
+
+using namespace kinegraph;
+
+namespace {
+
+constexpr double kWithin = 1e-9;  // by which a limit may be exceeded, as a share
+constexpr double kNoLimit = std::numeric_limits<double>::infinity();
+
+MotionLimits limitsOf(int dofs, double velocity, double acceleration, double jerk = 0.) {
+  MotionLimits limits{VectorXd::Constant(dofs, velocity), VectorXd::Constant(dofs, acceleration), {}};
+  if (jerk > 0.) limits.jerk = VectorXd::Constant(dofs, jerk);
+  return limits;
+}
+
+MatrixXd line(double length) {
+  MatrixXd path(2, 1);
+  path << 0., length;
+  return path;
+}
+
+MatrixXd corner() {
+  MatrixXd path(3, 2);
+  path << 0., 0., 1., 0., 1., 1.;
+  return path;
+}
+
+/// How much of its limits a motion uses at most, at `samples` times: of the velocity, the acceleration, and the jerk by
+/// differences of accelerations (their mean over a step is no larger than the jerk).
+struct Use {
+  double velocity = 0., acceleration = 0., jerk = 0.;
+};
+
+Use useOf(const TimedPath& timed, const MotionLimits& limits, int samples = 4000) {
+  Use use;
+  const double step = timed.duration() / samples;
+  VectorXd before;
+  for (int i = 0; i <= samples; ++i) {
+    const MotionState state = timed.at(step * i);
+    use.velocity = std::max(use.velocity, (state.velocity.array().abs() / limits.velocity.array()).maxCoeff());
+    use.acceleration =
+        std::max(use.acceleration, (state.acceleration.array().abs() / limits.acceleration.array()).maxCoeff());
+    if (i && limits.limitsJerk())
+      use.jerk =
+          std::max(use.jerk, ((state.acceleration - before).array().abs() / (step * limits.jerk.array())).maxCoeff());
+    before = state.acceleration;
+  }
+  return use;
+}
+
+MatrixXd randomPath(Rng& rng, int points, int dofs) {
+  MatrixXd path(points, dofs);
+  for (int i = 0; i < points; ++i)
+    for (int j = 0; j < dofs; ++j) path(i, j) = rng.uniform(-2., 2.);
+  return path;
+}
+
+}  // namespace
+
+TEST(Retime, ALineTakesWhatBangCruiseBangTakes) {
+  // to 2 m/s in 0.5 s over 0.5 m, and down likewise; 9 m at 2 m/s
+  EXPECT_NEAR(retime(line(10.), limitsOf(1, 2., 4.)).duration(), 5.5, 1e-12);
+  // too short for that speed: two halves of 0.5 m at 4 m/s^2
+  EXPECT_NEAR(retime(line(1.), limitsOf(1, 2., 4.)).duration(), 2. * std::sqrt(2. * .5 / 4.), 1e-12);
+}
+
+TEST(Retime, ALineWithJerkTakesWhatTheSevenPhasesTake) {
+  // jerk 8 for 0.5 s to 4 m/s^2, 0 hold; 2 m/s after 1 s and 1 m; 8 m at 2 m/s; the same down
+  EXPECT_NEAR(retime(line(10.), limitsOf(1, 2., 4., 8.)).duration(), 1. + 4. + 1., 1e-9);
+  // four phases of equal time t with jerk 1: the way is 2 t^3
+  EXPECT_NEAR(retime(line(2.), limitsOf(1, 100., 100., 1.)).duration(), 4., 1e-9);
+}
+
+TEST(Retime, PathsThatGoNowhereTakeNoTime) {
+  const MatrixXd one = MatrixXd::Constant(1, 3, .5), equal = MatrixXd::Constant(4, 3, .5);
+  for (const MatrixXd& path : {one, equal}) {
+    const TimedPath timed = retime(path, limitsOf(3, 1., 1., 1.));
+    EXPECT_TRUE(timed.feasible());
+    EXPECT_EQ(timed.duration(), 0.);
+    EXPECT_EQ(timed.times, VectorXd::Zero(path.rows()));
+    EXPECT_EQ(timed.at(1.).q, VectorXd::Constant(3, .5));
+    EXPECT_EQ(timed.at(1.).velocity, VectorXd::Zero(3));
+  }
+}
+
+TEST(Retime, EqualPointsAreAtTheSameTime) {
+  MatrixXd path(4, 1);
+  path << 0., 1., 1., 2.;
+  const TimedPath timed = retime(path, limitsOf(1, 1., 1.));
+  EXPECT_EQ(timed.times[1], timed.times[2]);
+  EXPECT_NEAR(timed.duration(), retime(line(2.), limitsOf(1, 1., 1.)).duration(), 1e-12);
+}
+
+TEST(Retime, AMotionIsAtEachPointAtItsTime) {
+  Rng rng(3);
+  for (const Corners corners : {Corners::stop, Corners::spline}) {
+    const MatrixXd path = randomPath(rng, 6, 3);
+    RetimeOptions options;
+    options.corners = corners;
+    for (const MotionLimits& limits : {limitsOf(3, 1., 2.), limitsOf(3, 1., 2., 20.)}) {
+      const TimedPath timed = retime(path, limits, options);
+      ASSERT_TRUE(timed.feasible()) << timed.message;
+      for (int i = 0; i < path.rows(); ++i)
+        EXPECT_LT((timed.at(timed.times[i]).q - path.row(i).transpose()).cwiseAbs().maxCoeff(), 1e-8);
+    }
+  }
+}
+
+TEST(Retime, StopsAtCornersAreStops) {
+  RetimeOptions options;
+  options.corners = Corners::stop;
+  for (const MotionLimits& limits : {limitsOf(2, 1., 2.), limitsOf(2, 1., 2., 30.)}) {
+    const TimedPath timed = retime(corner(), limits, options);
+    EXPECT_LT(timed.at(timed.times[1]).velocity.norm(), 1e-6);
+    EXPECT_NEAR(timed.duration(), 2. * retime(line(1.), limitsOf(1, 1., 2., limits.limitsJerk() ? 30. : 0.)).duration(),
+                1e-9);
+  }
+}
+
+TEST(Retime, BlendsMissTheirCornerByTheToleranceAndAreFasterThanStops) {
+  for (const MotionLimits& limits : {limitsOf(2, 1., 2.), limitsOf(2, 1., 2., 30.)}) {
+    RetimeOptions options;
+    options.tolerance = .02;
+    const TimedPath timed = retime(corner(), limits, options);
+    EXPECT_NEAR((timed.at(timed.times[1]).q - Eigen::Vector2d(1., 0.)).cwiseAbs().maxCoeff(), .02, 1e-6);
+    EXPECT_GT(timed.at(timed.times[1]).velocity.norm(), .1);
+    options.corners = Corners::stop;
+    EXPECT_LT(timed.duration(), retime(corner(), limits, options).duration());
+  }
+}
+
+TEST(Retime, WhereItTurnsBackARoundedCornerTakesNoLongerThanAStop) {
+  const MotionLimits limits{VectorXd::Ones(2), VectorXd::Ones(2), VectorXd::Constant(2, 10.)};
+  for (const double degrees : {0., .01, .1, .3, 1., 5.}) {
+    const double a = degrees / 180. * std::numbers::pi;
+    const MatrixXd path{{0., 0.}, {1., 0.}, {1. - std::cos(a), std::sin(a)}};
+    const double stops = retime(path, limits, {.corners = Corners::stop}).duration();
+    for (const double tolerance : {1e-3, .01, .1, .3})
+      EXPECT_LE(retime(path, limits, {.tolerance = tolerance}).duration(), 1.03 * stops) << degrees << " " << tolerance;
+  }
+}
+
+TEST(Retime, BlendsThatAreNotFreeBecomeSmallerAndThenStops) {
+  RetimeOptions options;
+  options.tolerance = .1;
+  int asked = 0;
+  options.is_free = [&](const MatrixXd& points, double deviation) {
+    ++asked;
+    EXPECT_LT(deviation, .01);
+    return points.col(1).maxCoeff() < .1;  // how far along the second line it goes
+  };
+  const TimedPath small = retime(corner(), limitsOf(2, 1., 2.), options);
+  EXPECT_GT(asked, 1);
+  EXPECT_GT(small.at(small.times[1]).velocity.norm(), .05);
+  options.is_free = [](const MatrixXd&, double) { return false; };
+  const TimedPath stopping = retime(corner(), limitsOf(2, 1., 2.), options);
+  EXPECT_LT(stopping.at(stopping.times[1]).velocity.norm(), 1e-6);
+}
+
+TEST(Retime, LimitsHoldAllAlongRandomPaths) {
+  Rng rng(7);
+  for (int i = 0; i < 60; ++i) {
+    const int dofs = 1 + i % 7, points = 2 + i % 9;
+    const MatrixXd path = randomPath(rng, points, dofs);
+    MotionLimits limits = limitsOf(dofs, 1., 1., i % 2 ? 10. : 0.);
+    for (int j = 0; j < dofs; ++j) {
+      limits.velocity[j] = rng.uniform(.2, 3.), limits.acceleration[j] = rng.uniform(.5, 20.);
+      if (limits.limitsJerk()) limits.jerk[j] = rng.uniform(5., 500.);
+    }
+    RetimeOptions options;
+    options.corners = Corners(i % 3);
+    options.tolerance = rng.uniform(0., .3);
+    options.intervals = 40;
+    const TimedPath timed = retime(path, limits, options);
+    ASSERT_TRUE(timed.feasible()) << i << ": " << timed.message;
+    const Use use = useOf(timed, limits, 2000);
+    EXPECT_LE(use.velocity, 1. + kWithin) << i;
+    EXPECT_LE(use.acceleration, 1. + kWithin) << i;
+    EXPECT_LE(use.jerk, 1. + 1e-6) << i;  // of differences, which round
+  }
+}
+
+TEST(Retime, WithLimitsOfTheJerkAHundredIntervalsAreNearlyAsFastAsManyMore) {
+  Rng rng(19);
+  RetimeOptions options, fine;
+  options.corners = fine.corners = Corners::spline;
+  fine.intervals = 1600;
+  for (int i = 0; i < 12; ++i) {
+    const MatrixXd path = randomPath(rng, 4 + i % 5, 5);
+    const MotionLimits limits = limitsOf(5, 2., 6., i % 2 ? 60. : 2000.);
+    const TimedPath timed = retime(path, limits, options);
+    ASSERT_TRUE(timed.feasible()) << timed.message;
+    EXPECT_LT(timed.duration(), 1.02 * retime(path, limits, fine).duration()) << i;
+  }
+}
+
+TEST(Retime, WhoIsAskedNowAndThenMayEndIt) {
+  Rng rng(23);
+  const MatrixXd path = randomPath(rng, 6, 3);
+  for (const double jerk : {0., 30.}) {
+    RetimeOptions options;
+    options.corners = Corners::spline;
+    options.intervals = 4000;
+    int asked = 0;
+    options.between = [&] { ++asked; };
+    retime(path, limitsOf(3, 1., 2., jerk), options);
+    EXPECT_GT(asked, jerk > 0. ? 2000 : 200);
+    for (const int last : {1, asked / 2, asked - 1}) {
+      int count = 0;
+      options.between = [&] {
+        if (++count == last) throw ValueError("enough");
+      };
+      expectError<ValueError>([&] { retime(path, limitsOf(3, 1., 2., jerk), options); }, {"enough"});
+    }
+  }
+}
+
+TEST(Retime, VelocityAndAccelerationAreTheDerivativesOfTheMotion) {
+  Rng rng(11);
+  RetimeOptions options;
+  options.corners = Corners::spline;
+  const TimedPath timed = retime(randomPath(rng, 6, 3), limitsOf(3, 2., 5., 50.), options);
+  constexpr double kStep = 1e-5;
+  for (int i = 1; i < 50; ++i) {
+    const double t = timed.duration() * i / 50.;
+    const MotionState before = timed.at(t - kStep), at = timed.at(t), after = timed.at(t + kStep);
+    EXPECT_LT(((after.q - before.q) / (2. * kStep) - at.velocity).cwiseAbs().maxCoeff(), 1e-6);
+    EXPECT_LT(((after.velocity - before.velocity) / (2. * kStep) - at.acceleration).cwiseAbs().maxCoeff(), 1e-3);
+  }
+}
+
+TEST(Retime, VelocitiesAtTheEndsAreKept) {
+  Rng rng(5);
+  const MatrixXd path = randomPath(rng, 5, 2);
+  for (const double jerk : {0., 200.}) {
+    RetimeOptions options;
+    options.start_velocity = .3 * (path.row(1) - path.row(0)).transpose().normalized();
+    options.end_velocity = .2 * (path.row(4) - path.row(3)).transpose().normalized();
+    const MotionLimits limits = limitsOf(2, 1., 4., jerk);
+    const TimedPath timed = retime(path, limits, options);
+    ASSERT_TRUE(timed.feasible()) << timed.message;
+    EXPECT_LT((timed.at(0.).velocity - options.start_velocity).norm(), 1e-9);
+    EXPECT_LT((timed.at(timed.duration()).velocity - options.end_velocity).norm(), 1e-9);
+    EXPECT_LE(useOf(timed, limits).acceleration, 1. + kWithin);
+  }
+}
+
+TEST(Retime, AccelerationsKeepTheirLimitsWhereItHardlyAccelerates) {
+  Rng rng(3);
+  for (int i = 0; i < 300; ++i) {
+    const double velocity = rng.uniform(.1, 2.), acceleration = rng.uniform(.5, 9.);
+    RetimeOptions options;
+    options.start_velocity = VectorXd{{velocity * (1. - std::pow(10., rng.uniform(-16., -6.)))}};
+    const double from = rng.uniform(-3., 3.);
+    const TimedPath timed =
+        retime(MatrixXd{{from}, {from + rng.uniform(3., 9.)}}, limitsOf(1, velocity, acceleration), options);
+    ASSERT_TRUE(timed.feasible()) << timed.message;
+    for (const LawPhase& phase : timed.law().phases())
+      EXPECT_LE(timed.at(phase.time).acceleration.norm(), acceleration * (1. + kWithin)) << phase.time;
+  }
+}
+
+TEST(Retime, WhatCannotBeBrakedIsSaid) {
+  RetimeOptions options;
+  options.start_velocity = VectorXd::Constant(1, 3.);
+  const TimedPath timed = retime(line(1.), limitsOf(1, 10., 2.), options);  // sqrt(2 * 2 * 1) = 2 can be braked
+  EXPECT_EQ(timed.status, RetimeStatus::start_too_fast);
+  EXPECT_NE(timed.message.find("at most 2 would do"), std::string::npos) << timed.message;
+  expectError<ValueError>([&] { timed.at(0.); }, {"there is no motion", "cannot be braked"});
+}
+
+TEST(Retime, WhatItSaysWouldDoDoesAndLittleMoreDoesNot) {
+  const MatrixXd path{{0., 0.}, {.2, .1}, {.25, .4}, {.6, .5}};
+  int told = 0;
+  for (const double jerk : {0., 5., 60.}) {
+    const MotionLimits limits = jerk > 0. ? limitsOf(2, 1., 2., jerk) : limitsOf(2, 1., 2.);
+    for (const bool at_start : {true, false}) {
+      for (const Corners corners : {Corners::blend, Corners::stop}) {
+        RetimeOptions options;
+        options.corners = corners;
+        VectorXd& velocity = at_start ? options.start_velocity : options.end_velocity;
+        const VectorXd along =
+            (at_start ? path.row(1) - path.row(0) : path.row(3) - path.row(2)).transpose().normalized();
+        velocity = 1.05 * along;
+        const TimedPath timed = retime(path, limits, options);
+        const std::size_t said = timed.message.find("a length of at most ");
+        if (timed.feasible() || said == std::string::npos) continue;
+        ++told;
+        const double most = std::stod(timed.message.substr(said + 20));
+        velocity = most * along;
+        EXPECT_TRUE(retime(path, limits, options).feasible()) << jerk << " " << at_start << " " << most;
+        velocity = 1.02 * most * along;
+        EXPECT_FALSE(retime(path, limits, options).feasible()) << jerk << " " << at_start << " " << most;
+      }
+    }
+  }
+  EXPECT_GE(told, 6);
+}
+
+TEST(Retime, RowsOfTheCallerHoldAtAllPlacesAndSayWhatCannotBeHeld) {
+  RowSource rows;  // s'' + s'^2 + c <= 3, with c = 1 + s
+  rows.low = VectorXd::Constant(1, -kNoLimit), rows.high = VectorXd::Constant(1, 3.);
+  rows.names = {"shoulder"};
+  rows.at = [](double s, int) {
+    return LawRows{VectorXd::Constant(1, 1.), VectorXd::Constant(1, 1.), VectorXd::Constant(1, 1. + s)};
+  };
+  RetimeOptions options;
+  options.rows = rows;
+  const TimedPath timed = retime(line(1.), limitsOf(1, 10., 10.), options);
+  ASSERT_TRUE(timed.feasible()) << timed.message;
+  for (int i = 0; i <= 1000; ++i) {
+    const MotionState state = timed.at(timed.duration() * i / 1000.);
+    EXPECT_LE(state.acceleration[0] + state.velocity[0] * state.velocity[0] + 1. + state.q[0], 3. + 1e-3);
+  }
+  options.rows.high[0] = 1.5;
+  const TimedPath held = retime(line(1.), limitsOf(1, 10., 10.), options);
+  EXPECT_EQ(held.status, RetimeStatus::cannot_move);
+  EXPECT_NE(held.message.find("'shoulder' cannot be held"), std::string::npos) << held.message;
+}
+
+TEST(Retime, InfiniteLimitsLimitNothing) {
+  MotionLimits limits = limitsOf(2, 1., 2.);
+  limits.velocity[1] = limits.acceleration[1] = kNoLimit;
+  MatrixXd path(2, 2);
+  path << 0., 0., 1., 1.;
+  EXPECT_NEAR(retime(path, limits).duration(), 1.5, 1e-12);
+  limits.acceleration[0] = kNoLimit;
+  EXPECT_NEAR(retime(path, limits).duration(), 1., 1e-6);
+  path(1, 0) = 0.;
+  expectError<ValueError>([&] { retime(path, limits); }, {"nothing limits the motion at 0 %", "dofs 1"});
+}
+
+TEST(Retime, WhereHardlyAJerkIsLimitedItIsNearlyAsFastAsWithoutLimitsOfIt) {
+  Rng rng(29);
+  const MatrixXd path = randomPath(rng, 5, 2);
+  RetimeOptions options;
+  options.corners = Corners::spline;
+  const double least = retime(path, limitsOf(2, 1., 2.), options).duration();
+  for (const double jerk : {1e6, kNoLimit}) {
+    const TimedPath timed = retime(path, limitsOf(2, 1., 2., jerk), options);
+    ASSERT_TRUE(timed.feasible()) << timed.message;
+    EXPECT_LT(timed.duration(), 1.03 * least);
+  }
+}
+
+TEST(Retime, WhereTooFewIntervalsHaveNoLawMoreAreTaken) {
+  Rng rng(31);
+  for (int i = 0; i < 250; ++i) {
+    const MatrixXd path = randomPath(rng, 12, 2);
+    MotionLimits limits = limitsOf(2, 1., 1., 1.);
+    for (VectorXd* limit : {&limits.velocity, &limits.acceleration, &limits.jerk})
+      for (double& value : *limit) value = std::pow(10., rng.uniform(-1., 1.));
+    limits.jerk *= 30.;
+    RetimeOptions options;
+    options.tolerance = rng.uniform(.001, .3);
+    options.intervals = 10;
+    const TimedPath timed = retime(path, limits, options);
+    EXPECT_TRUE(timed.feasible()) << i << ": " << timed.message;
+  }
+}
+
+TEST(Retime, ManyIntervalsHaveALawThatIsAsFastAndKeepsTheLimits) {
+  Rng rng(29);
+  const MatrixXd path = randomPath(rng, 4, 2);
+  for (const Corners corners : {Corners::spline, Corners::blend}) {
+    for (const double jerk : {0., 60.}) {
+      const MotionLimits limits = limitsOf(2, 2., 5., jerk);
+      RetimeOptions options;
+      options.corners = corners;
+      options.intervals = 1000;
+      const TimedPath some = retime(path, limits, options);
+      options.intervals = corners == Corners::spline ? 300000 : 30000;  // blends are short
+      const TimedPath many = retime(path, limits, options);
+      ASSERT_TRUE(some.feasible() && many.feasible()) << many.message;
+      EXPECT_LE(many.duration(), some.duration() * (1. + 1e-6)) << jerk;
+      EXPECT_GE(many.duration(), .99 * some.duration()) << jerk;
+      const Use use = useOf(many, limits);
+      EXPECT_LE(use.velocity, 1. + kWithin);
+      EXPECT_LE(use.acceleration, 1. + kWithin);
+      EXPECT_LE(use.jerk, 1. + kWithin);  // 0 where it has no limit
+    }
+  }
+}
+
+TEST(Retime, ManyIntervalsEndWhenAskedTo) {
+  Rng rng(31);
+  const MatrixXd path = randomPath(rng, 4, 2);
+  for (const double jerk : {0., 60.}) {
+    RetimeOptions options;
+    options.corners = Corners::spline;
+    options.intervals = 1000000;
+    int count = 0;
+    options.between = [&] {
+      if (++count == 1000) throw ValueError("enough");
+    };
+    expectError<ValueError>([&] { retime(path, limitsOf(2, 1., 2., jerk), options); }, {"enough"});
+  }
+}
+
+TEST(Retime, AMotionGoesOnWithTheAccelerationThatAnotherOneHas) {
+  Rng rng(37);
+  for (int i = 0; i < 20; ++i) {
+    const MatrixXd path = randomPath(rng, 5, 3);
+    const MotionLimits limits = limitsOf(3, 1.5, 4., 60.);
+    RetimeOptions options;
+    options.corners = Corners::spline;
+    const TimedPath before = retime(path, limits, options);
+    ASSERT_TRUE(before.feasible());
+    for (const double share : {.07, .2, .5, .8}) {
+      const double time = share * before.duration();
+      const MotionState now = before.at(time);
+      const LawPhase& phase = before.law().phaseAt(time);
+      const CurvePart rest = partOf(before.curve(), phase.at(time - phase.time).s, before.curve().length());
+      options.start_velocity = now.velocity;
+      options.start_acceleration = now.acceleration;
+      const MotionLimits wider = limitsOf(3, 1.6, 5., 80.);
+      const TimedPath after = retime(MatrixXd(), rest.curve, wider, options);
+      ASSERT_TRUE(after.feasible()) << i << " " << share << " " << after.message;
+      EXPECT_LE((after.at(0.).velocity - now.velocity).norm(), 1e-9);
+      EXPECT_LE((after.at(0.).acceleration - now.acceleration).norm(), 1e-7 * (1. + now.acceleration.norm()));
+      const Use use = useOf(after, wider);
+      EXPECT_LE(use.acceleration, 1. + kWithin);
+      EXPECT_LE(use.jerk, 1. + kWithin);
+      EXPECT_LE(after.duration(), before.duration() - time);
+      options.start_velocity = options.start_acceleration = {};
+    }
+  }
+}
+
+TEST(Retime, AStartAccelerationThatLeavesThePathIsRefused) {
+  RetimeOptions options;
+  options.start_velocity = VectorXd{{1., 0.}};
+  options.start_acceleration = VectorXd{{1., .1}};
+  MatrixXd path(2, 2);
+  path << 0., 0., 1., 0.;
+  const MotionLimits limits = limitsOf(2, 2., 4., 60.);
+  expectError<ValueError>([&] { retime(path, limits, options); }, {"start_acceleration", "leaves the path"});
+  options.start_acceleration = VectorXd{{1., 0.}};
+  EXPECT_NEAR(retime(path, limits, options).at(0.).acceleration[0], 1., 1e-9);
+  expectError<ValueError>([&] { retime(path, limitsOf(2, 2., 4.), options); }, {"limits of the jerk"});
+  options.start_velocity = {};
+  expectError<ValueError>([&] { retime(path, limits, options); }, {"no start_velocity"});
+}
+
+TEST(Retime, MistakesAreNamed) {
+  const MotionLimits limits = limitsOf(1, 1., 1.);
+  expectError<ValueError>([&] { retime(MatrixXd(0, 1), limits); }, {"shape (0, 1)", "K >= 1"});
+  expectError<ValueError>([&] { retime(line(std::nan("")), limits); }, {"path[1, 0]", "nan"});
+  expectError<ValueError>([&] { retime(line(1.), limitsOf(2, 1., 1.)); }, {"velocity has 2 entries", "1 dofs"});
+  expectError<ValueError>([&] { retime(line(1.), limitsOf(1, 1., 0.)); }, {"acceleration[0] is 0"});
+  RetimeOptions options;
+  options.start_velocity = VectorXd::Constant(1, -1.);
+  expectError<ValueError>([&] { retime(line(1.), limits, options); }, {"start_velocity", "along the path"});
+  expectError<ValueError>([&] { cornersOfName("splin"); }, {"'splin'", "similar names: spline"});
+}
