@@ -94,7 +94,7 @@ def scene(C):
     return lines
 
 
-def aligator(program, problems, weight, tolerance):
+def aligator(model, problems, weight, tolerance):
     lower, upper = panda().getJointLimits()
     text = scene(panda()) + f"{len(problems)} {SLICES} {TAU} {weight:.17g} {OF_TARGET}\n"
     text += numbers([*lower, *-VELOCITY, *upper, *VELOCITY])
@@ -103,7 +103,7 @@ def aligator(program, problems, weight, tolerance):
     with tempfile.TemporaryDirectory() as folder:
         file = Path(folder) / "problems"
         file.write_text(text)
-        out = subprocess.run([program, str(file), str(tolerance)], capture_output=True, text=True, check=True).stdout
+        out = subprocess.run([model, str(file), str(tolerance)], capture_output=True, text=True, check=True).stdout
     rows = np.array([line.split() for line in out.splitlines()], dtype=float)
     return rows[:, 0], list(rows[:, 2:].reshape(len(rows), SLICES, 7))
 

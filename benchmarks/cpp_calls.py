@@ -111,7 +111,7 @@ def printTable(reports):
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("program", help="the compiled benchmarks/cpp_calls/kinegraph.cpp")
+    parser.add_argument("model", help="the compiled benchmarks/cpp_calls/kinegraph.cpp")
     parser.add_argument("--reference", help="a python in which `import robotic` gives the reference package")
     parser.add_argument("--peers", help="a python that has Pinocchio")
     parser.add_argument("--rounds", type=int, default=11)
@@ -120,7 +120,7 @@ def main():
         parser.error("--rounds must be at least 1")
     with tempfile.TemporaryDirectory() as name:
         folder = Path(name)
-        ours = [os.path.abspath(options.program), str(MODELS / "scenarios/pandaSingle.g"), FRAME]
+        ours = [os.path.abspath(options.model), str(MODELS / "scenarios/pandaSingle.g"), FRAME]
         chain, vectors = folder / "chain.txt", folder / "joint_vectors.txt"
         chain.write_text(run(ours, folder))
         lower, upper = ([float(number) for number in line.split()[1:]] for line in chain.read_text().splitlines()[-2:])

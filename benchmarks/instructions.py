@@ -35,9 +35,9 @@ COUNTS = {  # calls with and without what is done once
 }
 
 
-def count(program: str, kernel: str, calls: int) -> int:
+def count(model: str, kernel: str, calls: int) -> int:
     command = ["valgrind", "--tool=cachegrind", "--cache-sim=no", "--cachegrind-out-file=/dev/null"]
-    run = subprocess.run([*command, program, ROOT / "models", kernel, str(calls)], capture_output=True, text=True)
+    run = subprocess.run([*command, model, ROOT / "models", kernel, str(calls)], capture_output=True, text=True)
     total = re.search(r"I +refs: +([\d,]+)", run.stderr)
     if run.returncode or not total:
         sys.exit(f"{kernel}: {run.stderr}")
@@ -46,13 +46,13 @@ def count(program: str, kernel: str, calls: int) -> int:
 
 def main() -> int:
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("program", help="the compiled benchmarks/kernels.cpp")
+    parser.add_argument("model", help="the compiled benchmarks/kernels.cpp")
     parser.add_argument("--record", action="store_true", help="keep the counts as those to compare with")
     options = parser.parse_args()
     if not shutil.which("valgrind"):
         print("valgrind is not installed")
         return 77
-    conditions = subprocess.check_output([options.program, "--conditions"], text=True).strip()
+    conditions = subprocess.check_output([options.model, "--conditions"], text=True).strip()
     recorded = json.loads(RECORD.read_text()) if RECORD.exists() else {"conditions": "", "kernels": {}}
     if not options.record and recorded["conditions"] != conditions:
         print(f"recorded under other conditions: {recorded['conditions']}; here: {conditions}")
@@ -60,7 +60,7 @@ def main() -> int:
     kernels, grown = {}, []
     print(f"{'instructions per call':28}{'recorded':>12}{'now':>12}")
     for kernel, (few, many) in COUNTS.items():
-        now = (count(options.program, kernel, many) - count(options.program, kernel, few)) // (many - few)
+        now = (count(options.model, kernel, many) - count(options.model, kernel, few)) // (many - few)
         before = recorded["kernels"].get(kernel, now)
         kernels[kernel] = now
         print(f"{kernel:28}{before:12d}{now:12d}  {100 * (now / before - 1):+.1f} %")

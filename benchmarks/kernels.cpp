@@ -29,18 +29,18 @@ struct Bench {
     config.addFrame("target", "table").setRelativePosition({.1, .4, .5});
     home = config.getJointState();
     Rng rng(1);
-    for (VectorXd& q : postures) {
+    for (VectorXd& q : configurations) {
       q = home;
       for (double& angle : q) angle += rng.uniform(-.3, .3);
     }
     gripper = config.getFrame("l_gripper").data().id;
   }
-  const VectorXd& posture(int i) const { return postures[std::size_t(i) % postures.size()]; }
+  const VectorXd& posture(int i) const { return configurations[std::size_t(i) % configurations.size()]; }
 
   std::string file;
   Config config;
   VectorXd home;
-  std::array<VectorXd, 16> postures;
+  std::array<VectorXd, 16> configurations;
   int gripper;
 };
 

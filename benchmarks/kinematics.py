@@ -52,7 +52,7 @@ def worker(options):
     C = ry.Config()
     C.addFile(ry.raiPath("scenarios/pandaSingle.g"))
     limits = np.asarray(C.getJointLimits())
-    Q = postures(limits, options.count)
+    Q = configurations(limits, options.count)
     questions = singles(ry, C, limits)
     times = {f"{name} single": timeLoop(C.setJointState, single, Q[:100]) for name, single in questions.items()}
     report = {"times": times, "versions": versions(ry), "numpy": np.__version__}
@@ -79,7 +79,7 @@ def peerWorker(options):
 
     questions = panda_peers.load(options.worker, options.scene)
     limits = np.array(json.loads(Path(options.scene).read_text())["limits"])
-    Q = postures(limits, options.count)
+    Q = configurations(limits, options.count)
     times = {f"{name} single": timeLoop(lambda q: None, single, Q[:100]) for name, single in questions.items()}
     answers = {"tip": list(questions["position"](Q[0])[0]), "valid": sum(map(questions["valid"], Q[:100]))}
     if "distances" in questions:
@@ -87,7 +87,7 @@ def peerWorker(options):
     Path(options.out).write_text(json.dumps({"times": times, "answers": answers}))
 
 
-def postures(limits, count):
+def configurations(limits, count):
     import numpy as np
 
     return limits[0] + np.random.default_rng(1).random((count, limits.shape[1])) * (limits[1] - limits[0])

@@ -130,8 +130,8 @@ def others(name, python, robots, problems):
     with tempfile.TemporaryDirectory() as folder:
         file = Path(folder) / "questions.json"
         file.write_text(json.dumps({"robot": robot, "problems": questions}))
-        program = Path(__file__).with_name("planning_peers.py")
-        subprocess.run([python, program, name, file], check=True)
+        model = Path(__file__).with_name("planning_peers.py")
+        subprocess.run([python, model, name, file], check=True)
         rows = json.loads(file.with_suffix(".answers").read_text())
     for problem, row in zip(problems, rows, strict=True):
         row["scene"] = problem.scene

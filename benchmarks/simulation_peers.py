@@ -35,9 +35,9 @@ def wall(function, *arguments):
 class Ry:
     """Kinegraph and robotic: one interface."""
 
-    def __init__(self, module, postures="{}"):
+    def __init__(self, module, configurations="{}"):
         self.ry = importlib.import_module(module)
-        self.postures = json.loads(postures)  # of the grasp
+        self.configurations = json.loads(configurations)  # of the grasp
 
     def simulation(self, C):
         return self.ry.Simulation(C, self.ry.SimulationEngine.physx, 0)
@@ -135,13 +135,13 @@ class Ry:
         }
 
     def grasp(self):
-        postures = self.postures
+        configurations = self.configurations
         C = self.panda()
         box = self.add_box(C, "box", [0, 0.3, 0.68])
-        C.setJointState(postures["above"])
+        C.setJointState(configurations["above"])
         S = self.simulation(C)
         hand = C.getFrame("l_gripper")
-        q = np.array(postures["above"])
+        q = np.array(configurations["above"])
 
         def go(end, seconds=1.0):
             nonlocal q
@@ -157,15 +157,15 @@ class Ry:
         def held():
             return hand.getRotationMatrix().T @ (box.getPosition() - hand.getPosition())
 
-        go(postures["at"])
+        go(configurations["at"])
         S.moveGripper("l_gripper", 0.0, 0.1)
         for _ in range(150):
             S.step(q, 0.01, self.ry.ControlMode.position)
         before = held()
-        go(postures["up"])
+        go(configurations["up"])
         lift = held()
         go(q + np.eye(7)[0])
-        go(postures["up"])
+        go(configurations["up"])
         turned = held()
         return {
             "box of .1 kg in the hand, slip when lifted": 1e3 * np.linalg.norm(lift - before),
@@ -300,12 +300,12 @@ TIMED = ["heap", "step_time"]
 SCENES = ["tower", "slope", "turntable", "heap", "tracking", "step_time", "grasp", "tops"]
 
 
-def measure(python, engine, scene, postures):
+def measure(python, engine, scene, configurations):
     """What a scene gives in an engine; nothing if it has none of that."""
     own = engine == "kinegraph"  # which has a package `robotic` of its own: the others must not find it
     environment = {name: value for name, value in os.environ.items() if own or name != "PYTHONPATH"}
     run = subprocess.run(
-        [python, __file__, "--one", engine, scene, postures],
+        [python, __file__, "--one", engine, scene, configurations],
         capture_output=True,
         text=True,
         check=False,
@@ -316,13 +316,13 @@ def measure(python, engine, scene, postures):
     return json.loads(run.stdout.rsplit("RESULT", 1)[1])
 
 
-def one(engine, scene, postures):
-    world = Mujoco() if engine == "mujoco" else Ry(engine, postures)
+def one(engine, scene, configurations):
+    world = Mujoco() if engine == "mujoco" else Ry(engine, configurations)
     found = getattr(world, scene)() if hasattr(world, scene) else {}
     print("RESULT" + json.dumps(found))
 
 
-def postures():
+def configurations():
     """Of the grasp, found once, so that both arms do the same."""
     import kinegraph as ry
 
@@ -348,7 +348,7 @@ def main():
         return
     engines = {"kinegraph": sys.executable, "robotic": arguments.robotic, "mujoco": arguments.mujoco}
     engines = {name: python for name, python in engines.items() if python}
-    poses = postures()
+    poses = configurations()
     for scene in SCENES:
         best = {name: {} for name in engines}
         for _ in range(ROUNDS if scene in TIMED else 1):

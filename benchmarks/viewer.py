@@ -107,17 +107,17 @@ setInterval(() => {
 def start(code: str, *arguments: str) -> tuple[subprocess.Popen, str]:
     """A program and the address of its viewer."""
     environment = {k: v for k, v in os.environ.items() if k not in ("KINEGRAPH_HEADLESS", "DISPLAY", "WAYLAND_DISPLAY")}
-    program = subprocess.Popen(
+    model = subprocess.Popen(
         [sys.executable, "-u", "-c", code, *arguments],
         env=environment,
         stdout=subprocess.PIPE,
         text=True,
         stdin=subprocess.DEVNULL,
     )
-    assert program.stdout
-    for line in program.stdout:
+    assert model.stdout
+    for line in model.stdout:
         if line.startswith("Viewer: "):
-            return program, line.split()[1]
+            return model, line.split()[1]
     raise RuntimeError("the program has not started its viewer")
 
 
@@ -174,7 +174,7 @@ def first_picture() -> None:
 
 
 def client(seconds: float, width: int, height: int, shadows: bool) -> None:
-    program, url = start(MOVING, "200", "moving")
+    model, url = start(MOVING, "200", "moving")
     try:
         with Browser() as browser:
             set_size(browser, width, height)
@@ -190,8 +190,8 @@ def client(seconds: float, width: int, height: int, shadows: bool) -> None:
             pictures, messages, milliseconds = (b - a for a, b in zip(before, browser.evaluate(counters)))
             share = browser.evaluate("kinegraph.resolution()")
     finally:
-        program.kill()
-        program.wait()
+        model.kill()
+        model.wait()
     rate, arrived = 1e3 * pictures / milliseconds, 1e3 * messages / milliseconds
     print(
         f"client, 200 moving shapes, {width}x{height}, software: "
@@ -204,7 +204,7 @@ def server() -> None:
     from websockets.sync.client import connect
 
     for moves in ("moving", "still"):
-        program, url = start(MOVING, "1000", moves)
+        model, url = start(MOVING, "1000", moves)
         with connect(url.replace("http", "ws"), max_size=None) as socket:
             received = 0
 
@@ -219,11 +219,11 @@ def server() -> None:
             threading.Thread(target=read, daemon=True).start()
             shares = []
             while len(shares) < 4:
-                line = program.stdout.readline()
+                line = model.stdout.readline()
                 if line.startswith("core"):
                     shares.append(float(line.split()[1]))
-            program.kill()
-            program.wait()
+            model.kill()
+            model.wait()
         print(
             f"server, 1000 frames at 60 Hz, {moves}: {100 * statistics.median(shares[1:]):.1f} % of a core, {received} messages"
         )
@@ -256,14 +256,14 @@ new MutationObserver((changes) => (sizes += changes.length)).observe(document.ge
 
 def adding(how: str) -> None:
     count = 10000 if how == "silent" else 2000
-    program, url = start(ADDED, str(count), how)
+    model, url = start(ADDED, str(count), how)
     try:
         with Browser() as browser:
             browser.open_page(url)
             browser.evaluate(SIZES)
             lines = []
             while len(lines) < 5:
-                line = program.stdout.readline()
+                line = model.stdout.readline()
                 if line.startswith("added"):
                     lines.append([float(word) for word in line.split()[1:]])
             last = lines[-1][1]
@@ -271,8 +271,8 @@ def adding(how: str) -> None:
             browser.wait_for(f"kinegraph.frames() == {count} && kinegraph.idle()", 300)
             sizes = browser.evaluate("sizes")
     finally:
-        program.kill()
-        program.wait()
+        model.kill()
+        model.wait()
     parts = np.diff([[0.0, 0.0], *lines], axis=0)
     print(
         f"frames, {count} added one by one{', each shown' if how == 'shown' else ''}: {last:.2f} s; us per frame in fifths of them: "
@@ -281,7 +281,7 @@ def adding(how: str) -> None:
 
 
 def many(seconds: float, width: int, height: int) -> None:
-    program, url = start(MOVING, "10000", "moving")
+    model, url = start(MOVING, "10000", "moving")
     try:
         with Browser() as browser:
             set_size(browser, width, height)
@@ -295,8 +295,8 @@ def many(seconds: float, width: int, height: int) -> None:
             pictures, messages, sizes, milliseconds = (b - a for a, b in zip(before, browser.evaluate(counters)))
             share = browser.evaluate("kinegraph.resolution()")
     finally:
-        program.kill()
-        program.wait()
+        model.kill()
+        model.wait()
     print(
         f"frames, 10000 that all move, {width}x{height}, software: {1e3 * messages / milliseconds:.1f} messages/s, "
         f"{1e3 * pictures / milliseconds:.1f} pictures/s, {share:.2f} pixels drawn per pixel across; in {milliseconds / 1e3:.0f} s the "
@@ -331,7 +331,7 @@ def notebook() -> None:
 
 
 def dragging(seconds: float, width: int, height: int) -> None:
-    program, url = start(DRAGGED)
+    model, url = start(DRAGGED)
     try:
         with Browser() as browser:
             set_size(browser, width, height)
@@ -342,15 +342,15 @@ def dragging(seconds: float, width: int, height: int) -> None:
             browser.evaluate(DRAG.replace("PLACE", f"[{x}, {y}]"))
             time.sleep(2)
             counters = "[places.length, moves, kinegraph.pictures(), kinegraph.poses(), performance.now()]"
-            before, used = browser.evaluate(counters), [processor_time(p) for p in (program.pid, browser.process_id)]
+            before, used = browser.evaluate(counters), [processor_time(p) for p in (model.pid, browser.process_id)]
             time.sleep(seconds)
-            used = [processor_time(p) - u for p, u in zip((program.pid, browser.process_id), used)]
+            used = [processor_time(p) - u for p, u in zip((model.pid, browser.process_id), used)]
             places, moves, pictures, messages, passed = (b - a for a, b in zip(before, browser.evaluate(counters)))
             apart = np.diff(browser.evaluate("places")[before[0] :])
             share = browser.evaluate("kinegraph.resolution()")
     finally:
-        program.kill()
-        program.wait()
+        model.kill()
+        model.wait()
     passed /= 1e3
     print(
         f"ik, {width}x{height}, {moves / passed:.0f} moves/s of the pointer: {messages / passed:.1f} messages/s with "

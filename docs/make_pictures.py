@@ -123,7 +123,7 @@ def movingFilm(folder: Path) -> None:
     turn = np.array([0.6, 0, 0, 0, 0, 0, 0])
     start, goal = C.getJointState() - turn, C.getJointState() + turn
     poses = [[-0.6, 0.35, 1.1, 1, 0, 0, 0], [0.6, 0.35, 1.1, 1, 0, 0, 0], [0.6, 1.5, 1.1, 0.7, 0, 0, 0.7]]
-    plan = ry.planMotion(C, goal, start, margin=0.01, moving={"cart": (np.array([0.0, 2.0, 4.0]), np.array(poses))})
+    plan = ry.planMotion(C, goal, start, margin=0.01, obstacle_trajectories={"cart": (np.array([0.0, 2.0, 4.0]), np.array(poses))})
     assert plan.feasible, plan.message
     at = 0.6 * plan.duration
     bend = plan.replan(C, at=at, goal=goal + np.array([0.3, 0.4, 0, 0.3, 0, 0, 0]))
@@ -132,7 +132,7 @@ def movingFilm(folder: Path) -> None:
     for t in np.arange(0, at + bend.duration + 0.5, 1 / 15):
         motion, now = (plan, t) if t < at else (bend, t - at)
         C.setJointState(motion.at(now)[0])
-        C.getFrame("cart").setPose(motion.movingAt(now)["cart"])
+        C.getFrame("cart").setPose(motion.obstaclesAt(now)["cart"])
         frames.append(C.getFrameState())
     viewer = C.viewer()
     C.view(offscreen=True)

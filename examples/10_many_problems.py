@@ -47,5 +47,5 @@ hold.addObjective([], ry.FS.jointLimits, [], ry.OT.ineq)
 hold.addObjective([], ry.FS.positionDiff, [hands[answers.chosen], "ball"], ry.OT.eq, [1e0])
 sampler = ry.NLP_Sampler(hold.nlp()).setOptions(interiorMethod="MCMC", interiorSampleSteps=10)
 samples = [sampler.sample() for _ in range(10)]
-postures = np.array([ret.x for ret in samples if ret.feasible])
-print(len(postures), "postures; each joint spreads by", postures.std(axis=0))
+configurations = np.array([ret.x for ret in samples if ret.feasible])
+print(len(configurations), "postures; each joint spreads by", configurations.std(axis=0))

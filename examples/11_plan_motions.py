@@ -70,7 +70,7 @@ for width in (0.5, 0.25):
     for name, side in (("left", 1), ("right", -1)):
         wall = C.addFrame(name, "floor").setShape(ry.ST.box, [0.1, 3.0, 1.0]).setContact(1)
         wall.setRelativePosition([0, side * (1.5 + width / 2), 0])
-    plan = ry.planMotion(C, [1.0, 1.0, 1.57], [-1.0, 1.2, 1.57], evaluations=20000)
+    plan = ry.planMotion(C, [1.0, 1.0, 1.57], [-1.0, 1.2, 1.57], max_evaluations=20000)
     print(plan)
     assert plan.feasible == (width > 0.3)
     if plan.feasible:

@@ -44,8 +44,8 @@ def draw(motion: ry.TimedPath, file: str) -> None:
         (("velocity", velocity / VELOCITY), ("acceleration", acceleration / ACCELERATION))
     ):
         top = margin + row * (height + margin)
-        for level in (-1, 0, 1):
-            y = top + height / 2 * (1 - level / 1.1)
+        for priority in (-1, 0, 1):
+            y = top + height / 2 * (1 - priority / 1.1)
             parts.append(f'<line x1="{margin}" x2="{margin + width}" y1="{y}" y2="{y}" stroke="#999"/>')
         parts.append(f'<text x="{margin}" y="{top - 6}" font-family="sans-serif" font-size="13">{name} / limit</text>')
         for joint, color in enumerate(COLORS):

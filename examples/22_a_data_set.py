@@ -37,7 +37,7 @@ print(f"{table.num_rows} targets, {100 * feasible.mean():.1f} % of them within r
 assert table.num_rows == sum(items) and 0.2 < feasible.mean() < 1
 
 # Motions to some of the postures that were found. What a function gives may be a dict: one row.
-postures = np.stack(table.filter(table["feasible"])["q"].to_numpy())[:20]
+configurations = np.stack(table.filter(table["feasible"])["q"].to_numpy())[:20]
 
 
 def move(goal: np.ndarray, seed: int) -> dict[str, object]:
@@ -45,8 +45,8 @@ def move(goal: np.ndarray, seed: int) -> dict[str, object]:
     return {"goal": goal, "feasible": motion.feasible, "duration": motion.duration, "message": motion.message}
 
 
-print(ry.map(move, postures, engine="processes", seed=2, out=f"{folder}/motions"))
+print(ry.map(move, configurations, engine="processes", seed=2, out=f"{folder}/motions"))
 motions = list(ry.readResults(f"{folder}/motions"))
 durations = [motion["duration"] for motion in motions if motion["feasible"]]
 print(f"{len(durations)} of {len(motions)} motions found; they take {np.median(durations):.2f} s (median)")
-assert len(motions) == len(postures) and len(durations) > 15
+assert len(motions) == len(configurations) and len(durations) > 15

@@ -19,14 +19,14 @@ start, goal = q - turn, q + turn
 # A load is carried past, in front of the arm, and then away: where it is when.
 times = np.array([0.0, 2.0, 4.0])
 poses = np.array([[-0.6, 0.35, 1.1, 1, 0, 0, 0], [0.6, 0.35, 1.1, 1, 0, 0, 0], [0.6, 1.5, 1.1, 0.7, 0, 0, 0.7]])
-plan = ry.planMotion(C, goal, start, margin=0.01, moving={"cart": (times, poses)})
-print(plan, *plan.notes, sep="\n")
+plan = ry.planMotion(C, goal, start, margin=0.01, obstacle_trajectories={"cart": (times, poses)})
+print(plan, *plan.warnings, sep="\n")
 assert plan.feasible
 
 # Both together, every 10 ms; nothing touches.
 for t in np.arange(0, plan.duration + 1, 0.01):
     C.setJointState(plan.at(t)[0])
-    C.getFrame("cart").setPose(plan.movingAt(t)["cart"])
+    C.getFrame("cart").setPose(plan.obstaclesAt(t)["cart"])
     assert not [pair for pair in C.getCollisions(0.009) if "load" in pair[:2]]
     C.view(False, f"among what moves, {t:.2f} s")
 
@@ -35,7 +35,7 @@ C.setJointState(goal)
 hand = C.getFrame("l_gripper").getPosition()
 C.setJointState(start)
 stays = np.array([[0, 2, 1, 1, 0, 0, 0], [*hand, 1, 0, 0, 0]])
-print(ry.planMotion(C, goal, start, moving={"cart": ([0.0, 1.0], stays)}).message)
+print(ry.planMotion(C, goal, start, obstacle_trajectories={"cart": ([0.0, 1.0], stays)}).message)
 
 # On its way the robot is sent elsewhere: it goes on with its velocity, and bends.
 C.getFrame("cart").setPosition([0, 2, 1])
@@ -75,6 +75,6 @@ for x, pieces in walls.items():
     for low, high in pieces:
         wall = C.addFrame(f"wall {x} {low}").setShape(ry.ST.box, [0.1, high - low, 1.0]).setContact(1)
         wall.setPosition([x, 0.5 * (low + high), 0])
-for plan in ry.planMotions(C, [1.5, 0.9], [-1.5, -1.0], optimize="length", tries=1, improve=20000):
+for plan in ry.planMotions(C, [1.5, 0.9], [-1.5, -1.0], optimize="length", restarts=1, improvement_evaluations=20000):
     print(f"length {plan.length:.3f}")
 C.view_path(plan.path, plan.duration, True, "shorter and shorter")

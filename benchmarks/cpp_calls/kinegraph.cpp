@@ -22,15 +22,15 @@ void printRow(const VectorXd& numbers) {
 void describe(const Config& config, int frame) {
   State state = config.state();
   state.setJoints(VectorXd::Zero(state.dofs()).eval().data());
-  const Program& program = state.program();
-  for (std::size_t link = 1; link < program.links.size(); ++link) {
+  const KinematicModel& model = state.model();
+  for (std::size_t link = 1; link < model.links.size(); ++link) {
     VectorXd joint(6);
-    joint << state.twist(program.links[link].first_column).angular, state.position(program.links[link].frame);
+    joint << state.twist(model.links[link].first_column).angular, state.position(model.links[link].frame);
     printRow(joint);
   }
   printRow(state.position(frame));
-  printRow(program.lower);
-  printRow(program.upper);
+  printRow(model.lower);
+  printRow(model.upper);
 }
 
 void time(const Config& config, int frame, const std::vector<calls::Numbers>& joint_vectors) {

@@ -11,7 +11,7 @@ namespace {
 bool keepsClear(Config& C, const MotionPlan& plan) {
   for (double t = 0.; t <= plan.duration() + 1.; t += .01) {
     C.setJointState(plan.at(t).q);
-    C.getFrame("cart").setPose(Pose::fromNumbers(plan.movingAt(t).front()));
+    C.getFrame("cart").setPose(Pose::fromNumbers(plan.obstaclesAt(t).front()));
     const int load = C.getFrame("load").id();
     for (const Config::NearPair& pair : C.getCollisions(.009))
       if (pair.a == load || pair.b == load) return false;
@@ -47,7 +47,7 @@ int main() try {
   // A load is carried past, in front of the arm, and then away: where it is when.
   MatrixXd poses(3, 7);
   poses << -.6, .35, 1.1, 1., 0., 0., 0., .6, .35, 1.1, 1., 0., 0., 0., .6, 1.5, 1.1, .7, 0., 0., .7;
-  const std::vector<MovingObstacle> moving = {{"cart", VectorXd{{0., 2., 4.}}, poses}};
+  const std::vector<ObstacleTrajectory> moving = {{"cart", VectorXd{{0., 2., 4.}}, poses}};
   const MotionPlan past = planMotion(C, goal, {.margin = .01, .moving = moving}, start);
   std::cout << past.str() << "\n";
   for (const std::string& note : past.notes) std::cout << note << "\n";

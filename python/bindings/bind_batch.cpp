@@ -76,7 +76,7 @@ Array getFramePoses(const PyConfig& config, const Numbers& Q, const FrameNames& 
   const auto joints = jointRows(Q, config, "getFramePoses");
   const State scene = config.state();
   std::vector<int> ids;
-  for (const std::string& name : toNames(frames)) ids.push_back(frameId(scene.program(), name, "getFramePoses"));
+  for (const std::string& name : toNames(frames)) ids.push_back(frameId(scene.model(), name, "getFramePoses"));
   const NewArray poses = newArray(joints.count(), ids.size(), 7);
   auto rows = rowsOf(poses, joints.count(), 7 * ids.size());
   unlocked(threads, "getFramePoses",
@@ -88,7 +88,7 @@ Array getFrameJacobians(const PyConfig& config, const Numbers& Q, const FrameNam
   const auto joints = jointRows(Q, config, "getFrameJacobians");
   const State scene = config.state();
   std::vector<int> ids;
-  for (const std::string& name : toNames(frames)) ids.push_back(frameId(scene.program(), name, "getFrameJacobians"));
+  for (const std::string& name : toNames(frames)) ids.push_back(frameId(scene.model(), name, "getFrameJacobians"));
   const std::size_t n = std::size_t(scene.dofs());
   const NewArray J = newArray(joints.count(), ids.size(), 6, n);
   const auto rows = rowsOf(J, 6 * joints.count() * ids.size(), n);
@@ -100,7 +100,7 @@ Array getFrameJacobians(const PyConfig& config, const Numbers& Q, const FrameNam
 Array getDistances(const PyConfig& config, const Numbers& Q, int threads) {
   const auto joints = jointRows(Q, config, "getDistances");
   const State scene = config.state();
-  const std::size_t pairs = scene.program().collidable().size();
+  const std::size_t pairs = scene.model().collidable().size();
   const NewArray distances = newArray(joints.count(), pairs);
   auto rows = rowsOf(distances, joints.count(), pairs);
   unlocked(threads, "getDistances",
@@ -111,10 +111,10 @@ Array getDistances(const PyConfig& config, const Numbers& Q, int threads) {
 /// Of the present q: (p,), (p, 2, 3), (p, 3).
 nb::typed<nb::tuple, Array, Array, Array> nearestPointsHere(const PyConfig& config) {
   const State& state = config.state();
-  if (!config.pairs || config.pairs->program() != state.sharedProgram()) {
-    config.pairs = std::make_shared<PairDistances>(state.sharedProgram());
+  if (!config.pairs || config.pairs->model() != state.sharedModel()) {
+    config.pairs = std::make_shared<PairDistances>(state.sharedModel());
   }
-  const std::size_t pairs = state.program().collidable().size();
+  const std::size_t pairs = state.model().collidable().size();
   const NewArray distances = newArray(pairs), points = newArray(pairs, 2, 3), normals = newArray(pairs, 3);
   const NearestRow row{distances.data, points.data, normals.data};
   config.pairs->forAll(state, [&](int pair, const Proximity& near) { row.write(pair, near); });
@@ -126,7 +126,7 @@ nb::typed<nb::tuple, Array, Array, Array> getNearestPoints(const PyConfig& confi
   if (!Q) return nearestPointsHere(config);
   const auto joints = jointRows(*Q, config, "getNearestPoints");
   const State scene = config.state();
-  const std::size_t pairs = scene.program().collidable().size();
+  const std::size_t pairs = scene.model().collidable().size();
   const NewArray distances = newArray(joints.count(), pairs), points = newArray(joints.count(), pairs, 2, 3),
                  normals = newArray(joints.count(), pairs, 3);
   unlocked(threads, "getNearestPoints", [&](const BatchOptions& options) {

@@ -122,7 +122,7 @@ void bindCollisions(nb::module_& m, nb::class_<PyConfig>& config) {
           "coll_totalViolation", [](const PyConfig& c, bool maximal) { return c.getTotalPenetration(maximal); },
           "return_maximal"_a = false, docs::collisions::coll_totalViolation)
       .def(
-          "contactNotes", [](const PyConfig& c) { return c.contactNotes(); }, docs::collisions::contactNotes)
+          "contactWarnings", [](const PyConfig& c) { return c.contactWarnings(); }, docs::collisions::contactWarnings)
       .def("checkMotion", checkMotion, "start"_a, "end"_a, "margin"_a = 0., "tolerance"_a = 1e-5,
            docs::collisions::checkMotion);
 }

@@ -36,7 +36,7 @@ void makeDiffIk(DiffIk* self, const PyConfig& config, const std::optional<Number
 void bindDiffIk(nb::module_& m) {
   nb::enum_<DiffIkStatus>(m, "DiffIkStatus", "How a step of DiffIk ended.")
       .value("solved", DiffIkStatus::solved, "All limits and distances are kept.")
-      .value("gave_way", DiffIkStatus::gave_way, "Some could not be, or an equality; the message says which.");
+      .value("constraints_relaxed", DiffIkStatus::constraints_relaxed, "Some could not be, or an equality; the message says which.");
   nb::class_<DiffIk>(m, "DiffIk",
                      "Differential inverse kinematics: joint velocities, step by step, that bring features to their "
                      "targets within limits of position, velocity and acceleration, without collisions.")
@@ -46,10 +46,10 @@ void bindDiffIk(nb::module_& m) {
       .def(
           "addTask",
           [](DiffIk& ik, const FeatureArgument& feature, const FrameNames& frames, double weight, double gain,
-             const std::optional<Numbers>& target, int level) {
-            return ik.addTask(feature.source(), toNames(frames), weight, gain, toTarget(target), level);
+             const std::optional<Numbers>& target, int priority) {
+            return ik.addTask(feature.source(), toNames(frames), weight, gain, toTarget(target), priority);
           },
-          "feature"_a, "frames"_a, "weight"_a = 1., "gain"_a = 1., "target"_a = nb::none(), "level"_a = 0,
+          "feature"_a, "frames"_a, "weight"_a = 1., "gain"_a = 1., "target"_a = nb::none(), "priority"_a = 0,
           docs::diff_ik::addTask)
       .def(
           "addEquality",

@@ -78,7 +78,7 @@ void warnOfContacts(const PyConfig& config) {
   const std::uint64_t revision = config.scene()->structureRevision();
   if (config.noted == revision) return;
   config.noted = revision;
-  for (const std::string& note : config.contactNotes()) {
+  for (const std::string& note : config.contactWarnings()) {
     if (std::find(config.notes.begin(), config.notes.end(), note) != config.notes.end()) continue;
     config.notes.push_back(note);
     emitWarning(note);

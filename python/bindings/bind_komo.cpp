@@ -52,7 +52,7 @@ Frame addedFrame(PyKomo& komo, const std::string& name) {
 
 Frame addFrameDof(PyKomo& komo, const std::string& name, const std::string& parent, JointType type, bool stable,
                   const std::optional<std::string>& origin_name, const std::optional<Frame>& origin) {
-  FrameDemand demand{name, parent, type, stable, origin ? origin->getName() : origin_name.value_or("")};
+  FrameSpec demand{name, parent, type, stable, origin ? origin->getName() : origin_name.value_or("")};
   if (origin) demand.origin_pose = origin->getPose();
   kinegraph::addFrameDof(komo.path(), demand);
   return addedFrame(komo, name);
@@ -60,7 +60,7 @@ Frame addFrameDof(PyKomo& komo, const std::string& name, const std::string& pare
 
 std::string addContact(PyKomo& komo, const Numbers& times, const std::string& object, const std::string& from,
                        const std::string& kind, double friction) {
-  return komo.addExchange(times.list(), object, from, exchangeFromName(kind), friction);
+  return komo.addForceExchange(times.list(), object, from, forceExchangeFromName(kind), friction);
 }
 
 SolverResult optimize(const std::shared_ptr<PyKomo>& komo, double noise, int verbose) {

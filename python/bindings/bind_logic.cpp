@@ -172,7 +172,7 @@ void bindLogic(nb::module_& m) {
           "unreachable", [](const PyPlanSearch& s) { return texts(s.search->problem().unreachable); },
           "Literals of the goal that nothing can make true.")
       .def_prop_ro(
-          "oddities", [](const PyPlanSearch& s) { return oddities(s.search->problem()); },
+          "diagnostics", [](const PyPlanSearch& s) { return diagnostics(s.search->problem()); },
           "What is odd about the problem, a line each: rules that can never fire, and why.");
   m.def(
       "sceneFacts", [](const PyConfig& C) { return texts(sceneFacts(C)); }, "C"_a, docs::logic::sceneFacts);

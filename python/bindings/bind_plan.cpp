@@ -38,13 +38,13 @@ std::vector<MotionConstraint> constraintsOf(nb::handle given) {
 }
 
 /// A dict: frame -> (times, values).
-std::vector<MovingObstacle> movingOf(nb::handle given) {
+std::vector<ObstacleTrajectory> movingOf(nb::handle given) {
   constexpr const char* kExpected =
       "expected a dict of frame -> (times, values), with values of shape (K, 7), poses, or (K, d), positions of its "
       "joint";
   if (!nb::isinstance<nb::dict>(given))
     throw ValueError(cat("planMotion: moving is ", nb::cast<std::string>(nb::repr(given)), "; ", kExpected));
-  std::vector<MovingObstacle> all;
+  std::vector<ObstacleTrajectory> all;
   for (const auto& [key, value] : nb::borrow<nb::dict>(given)) {
     std::string frame;
     std::vector<nb::object> parts;
@@ -62,8 +62,8 @@ std::vector<MovingObstacle> movingOf(nb::handle given) {
 void setLarge(const OptionClass<PlanOptions>&, PlanOptions& options, const std::string& name, nb::handle value) {
   if (name == "constraints") {
     options.constraints = constraintsOf(value);
-  } else if (name == "moving") {
-    options.moving = value.is_none() ? std::vector<MovingObstacle>() : movingOf(value);
+  } else if (name == "obstacle_trajectories") {
+    options.obstacle_trajectories = value.is_none() ? std::vector<ObstacleTrajectory>() : movingOf(value);
   } else if (!value.is_none()) {
     VectorXd PlanOptions::*const member = name == "velocity"         ? &PlanOptions::velocity
                                           : name == "acceleration"   ? &PlanOptions::acceleration
@@ -79,7 +79,7 @@ PlanOptions optionsFrom(nb::kwargs given, PlanOptions options = {}) {
   return options;
 }
 
-std::vector<VectorXd> posturesOf(const Numbers& numbers) {
+std::vector<VectorXd> configurationsOf(const Numbers& numbers) {
   if (numbers.rank == 1) return {numbers.values};
   std::vector<VectorXd> rows;
   const MatrixXd matrix = numbers.matrix();
@@ -99,7 +99,7 @@ MotionGoal goalOf(const PyConfig& config, nb::handle given) {
   if (nb::isinstance<MotionConstraint>(given)) return MotionGoal(constraintsOf(given));
   if (nb::try_cast(given, conditions) && !conditions.empty()) return MotionGoal(std::move(conditions));
   if (readNumbers(given, numbers) && (numbers.rank == 1 || numbers.rank == 2) && numbers.values.size() > 0)
-    return MotionGoal(posturesOf(numbers));
+    return MotionGoal(configurationsOf(numbers));
   throw ValueError(cat("planMotion: the goal is ", nb::cast<std::string>(nb::repr(given)),
                        "; expected a joint vector or several, a dict of targets as for solveIk, the name of a joint "
                        "state, or MotionConstraints"));
@@ -157,10 +157,10 @@ PyMotionPlan nextPlan(PyMotionPlans& plans) {
   return {std::move(*plan), plans.config};
 }
 
-nb::typed<nb::dict, nb::str, Array> movingAt(const PyMotionPlan& plan, double t) {
+nb::typed<nb::dict, nb::str, Array> obstaclesAt(const PyMotionPlan& plan, double t) {
   nb::dict all;
-  const std::vector<VectorXd> values = plan.movingAt(t);
-  for (std::size_t i = 0; i < values.size(); ++i) all[plan.options.moving[i].frame.c_str()] = toNumpy(values[i]);
+  const std::vector<VectorXd> values = plan.obstaclesAt(t);
+  for (std::size_t i = 0; i < values.size(); ++i) all[plan.options.obstacle_trajectories[i].frame.c_str()] = toNumpy(values[i]);
   return nb::borrow<nb::typed<nb::dict, nb::str, Array>>(all);
 }
 
@@ -267,12 +267,12 @@ nb::class_<PyMotionPlan> bindMotionPlan(nb::module_& m) {
       .def_prop_ro(
           "message", [](const PyMotionPlan& p) { return inPython(p.message); },
           "\"\" if there is a motion; else why there is none.")
-      .def_ro("notes", &MotionPlan::notes, "What is to be known of the motion, as that the start was in contact.")
+      .def_ro("notes", &MotionPlan::warnings, "What is to be known of the motion, as that the start was in contact.")
       .def_prop_ro(
           "path", [](const PyMotionPlan& p) { return toNumpy(p.path); },
           "Its postures, shape (K, n), rad or m, start and goal included.")
       .def_prop_ro(
-          "first_way", [](const PyMotionPlan& p) { return toNumpy(p.first_way); },
+          "raw_path", [](const PyMotionPlan& p) { return toNumpy(p.raw_path); },
           "The path before it was shortened, shape (L, n).")
       .def_prop_ro(
           "times", [](const PyMotionPlan& p) { return toNumpy(p.times()); },
@@ -285,7 +285,7 @@ nb::class_<PyMotionPlan> bindMotionPlan(nb::module_& m) {
       .def_prop_ro("trees", trees,
                    "Of the last attempt, of start and goals: postures (N, n), and each one's parent (N,).")
       .def("at", at, "t"_a, docs::plan::at)
-      .def("movingAt", movingAt, "t"_a, docs::plan::movingAt)
+      .def("obstaclesAt", obstaclesAt, "t"_a, docs::plan::obstaclesAt)
       .def("replan", replan, "config"_a, "at"_a, "goal"_a = nb::none(), "fields"_a,
            nb::sig("def replan(self, config: Config, at: float, goal: typing.Any = None, **fields: typing.Any) -> "
                    "MotionPlan"),
@@ -310,7 +310,7 @@ nb::class_<PyMotionPlan> bindMotionPlan(nb::module_& m) {
 const OptionClass<PlanOptions>& planOptionClass() {
   static const OptionClass<PlanOptions> options(
       planOptionTable(),
-      {{"velocity", "acceleration", "jerk", "start_velocity", "start_acceleration", "constraints", "moving"},
+      {{"velocity", "acceleration", "jerk", "start_velocity", "start_acceleration", "constraints", "obstacle_trajectories"},
        setLarge});
   return options;
 }

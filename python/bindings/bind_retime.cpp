@@ -90,10 +90,10 @@ nb::typed<nb::tuple, Array, Array, Array> stateAt(const TimedPath& timed, const 
 
 nb::tuple timedState(const TimedPath& t) {
   const PathCurve::Parts curve = t.curve().parts();
-  const NewArray phases = newArray(t.law().phases().size(), 7);
+  const NewArray phases = newArray(t.scaling().phases().size(), 7);
   std::vector<int> pieces;
   double* to = phases.data;
-  for (const LawPhase& p : t.law().phases()) {
+  for (const ScalingPhase& p : t.scaling().phases()) {
     for (const double value : {p.time, p.begin.s, p.begin.speed, p.begin.acceleration, p.begin.jerk, p.growth, p.end})
       *to++ = value;
     pieces.push_back(p.piece);
@@ -101,15 +101,15 @@ nb::tuple timedState(const TimedPath& t) {
   return nb::make_tuple(int(t.status), t.message, toNumpy(t.path), toNumpy(t.times),
                         nb::make_tuple(curve.dofs, curve.degree, curve.length, curve.begin, curve.marks,
                                        curve.coefficients, curve.is_line, curve.stops),
-                        phases.array, pieces, t.law().duration());
+                        phases.array, pieces, t.scaling().duration());
 }
 
 /// The phases of a time law on a curve of so many pieces.
-std::vector<LawPhase> phasesFrom(const VectorXd& numbers, const std::vector<int>& pieces, int of_curve) {
+std::vector<ScalingPhase> phasesFrom(const VectorXd& numbers, const std::vector<int>& pieces, int of_curve) {
   if (std::size_t(numbers.size()) != 7 * pieces.size())
     throw ValueError(
         cat("TimedPath: ", numbers.size(), " numbers for ", pieces.size(), " phases; expected 7 for each"));
-  std::vector<LawPhase> phases;
+  std::vector<ScalingPhase> phases;
   const double* from = numbers.data();
   for (const int piece : pieces) {
     if (piece < 0 || piece >= of_curve)
@@ -127,13 +127,13 @@ void setTimedState(TimedPath& t, const nb::tuple& state) {
   const PathCurve::Parts curve{nb::cast<int>(c[0]),    nb::cast<int>(c[1]),    nb::cast<double>(c[2]),
                                nb::cast<Values>(c[3]), nb::cast<Values>(c[4]), nb::cast<Values>(c[5]),
                                nb::cast<Flags>(c[6]),  nb::cast<Flags>(c[7])};
-  std::vector<LawPhase> law =
+  std::vector<ScalingPhase> scaling =
       phasesFrom(nb::cast<Numbers>(state[5]).values, nb::cast<std::vector<int>>(state[6]), int(curve.begin.size()));
   const auto status = RetimeStatus(nb::cast<int>(state[0]));
-  if (status == RetimeStatus::timed && law.empty()) throw ValueError("TimedPath: a motion without phases");
+  if (status == RetimeStatus::timed && scaling.empty()) throw ValueError("TimedPath: a motion without phases");
   new (&t) TimedPath(TimedPath::fromParts(status, nb::cast<std::string>(state[1]), nb::cast<Numbers>(state[2]).matrix(),
                                           nb::cast<Numbers>(state[3]).values, PathCurve::fromParts(curve),
-                                          {std::move(law), nb::cast<double>(state[7])}));
+                                          {std::move(scaling), nb::cast<double>(state[7])}));
 }
 
 void bindTimedPath(nb::module_& m) {

@@ -39,8 +39,8 @@ auto watched(const Work& work) {
   });
 }
 
-RoadmapAnswer findPath(PyRoadmap& map, const Numbers& start, const Numbers& goal) {
-  return watched([&](const MotionWatch& watch) { return map.findPath(start.values, goal.values, watch); });
+RoadmapPath findPath(PyRoadmap& map, const Numbers& start, const Numbers& goal) {
+  return watched([&](const CancellationToken& watch) { return map.findPath(start.values, goal.values, watch); });
 }
 
 nb::tuple mapState(const PyRoadmap& map) {
@@ -61,24 +61,24 @@ void setMapState(PyRoadmap& map, const nb::tuple& state) {
 }  // namespace
 
 void bindRoadmap(nb::module_& m) {
-  nb::class_<RoadmapAnswer>(m, "RoadmapPath", "What a Roadmap answers.")
-      .def_prop_ro("feasible", &RoadmapAnswer::feasible, "True if there is a path. It is free at all times.")
+  nb::class_<RoadmapPath>(m, "RoadmapPath", "What a Roadmap answers.")
+      .def_prop_ro("feasible", &RoadmapPath::feasible, "True if there is a path. It is free at all times.")
       .def_prop_ro(
-          "path", [](const RoadmapAnswer& a) { return toNumpy(a.path); }, "Postures, shape (K, n), rad or m.")
+          "path", [](const RoadmapPath& a) { return toNumpy(a.path); }, "Postures, shape (K, n), rad or m.")
       .def_prop_ro(
-          "message", [](const RoadmapAnswer& a) { return inPython(a.message); },
+          "message", [](const RoadmapPath& a) { return inPython(a.message); },
           "\"\" if there is a path; else why there is none.")
-      .def_ro("checked", &RoadmapAnswer::checked, "Postures and motions that had to be looked at.")
-      .def("__bool__", &RoadmapAnswer::feasible)
+      .def_ro("checked", &RoadmapPath::checked, "Postures and motions that had to be looked at.")
+      .def("__bool__", &RoadmapPath::feasible)
       .def("__repr__",
-           [](const RoadmapAnswer& a) {
+           [](const RoadmapPath& a) {
              return cat("<RoadmapPath ", a.feasible() ? cat(a.path.rows(), " postures") : inPython(a.message), ">");
            })
-      .def("__getstate__", [](const RoadmapAnswer& a) { return nb::make_tuple(toNumpy(a.path), a.message, a.checked); })
+      .def("__getstate__", [](const RoadmapPath& a) { return nb::make_tuple(toNumpy(a.path), a.message, a.checked); })
       .def(
           "__setstate__",
-          [](RoadmapAnswer& a, const nb::tuple& state) {
-            new (&a) RoadmapAnswer{matrixFrom(state[0]), nb::cast<std::string>(state[1]), nb::cast<long>(state[2])};
+          [](RoadmapPath& a, const nb::tuple& state) {
+            new (&a) RoadmapPath{matrixFrom(state[0]), nb::cast<std::string>(state[1]), nb::cast<long>(state[2])};
           },
           "state"_a);
   nb::class_<PyRoadmap>(m, "Roadmap", docs::roadmap::type)
@@ -90,11 +90,11 @@ void bindRoadmap(nb::module_& m) {
           "config"_a, "margin"_a = 0., "seed"_a = 0, docs::roadmap::make)
       .def(
           "grow",
-          [](PyRoadmap& map, int postures) -> PyRoadmap& {
-            watched([&](const MotionWatch& watch) { map.grow(postures, watch); });
+          [](PyRoadmap& map, int configurations) -> PyRoadmap& {
+            watched([&](const CancellationToken& watch) { map.grow(configurations, watch); });
             return map;
           },
-          "postures"_a, kChain, docs::roadmap::grow)
+          "configurations"_a, kChain, docs::roadmap::grow)
       .def("findPath", findPath, "start"_a, "goal"_a, docs::roadmap::findPath)
       .def(
           "setScene",
@@ -122,7 +122,7 @@ void bindRoadmap(nb::module_& m) {
       .def_prop_ro("motions", &Roadmap::motions, "How many motions between postures it has.")
       .def_prop_ro("margin", &Roadmap::margin, "m, that all collidable pairs keep.")
       .def_prop_ro(
-          "postures", [](const PyRoadmap& map) { return toNumpy(map.postures()); }, "Shape (N, n), rad or m.")
+          "configurations", [](const PyRoadmap& map) { return toNumpy(map.configurations()); }, "Shape (N, n), rad or m.")
       .def("__repr__", [](const PyRoadmap& map) {
         return cat("<Roadmap of ", map.size(), " postures and ", map.motions(), " motions>");
       });

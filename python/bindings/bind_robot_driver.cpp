@@ -49,8 +49,8 @@ struct PyRobotDriver : RobotDriver {
   void disconnect() override {
     fromPython("disconnect", [&] { NB_OVERRIDE(disconnect); });
   }
-  RobotReading read() override {
-    return fromPython("read", [&]() -> RobotReading { NB_OVERRIDE_PURE(read); });
+  RobotState read() override {
+    return fromPython("read", [&]() -> RobotState { NB_OVERRIDE_PURE(read); });
   }
   void write(const RobotCommand& command) override {
     fromPython("write", [&] { NB_OVERRIDE_PURE(write, RobotCommand(command)); });
@@ -98,10 +98,10 @@ void bindGrippers(nb::module_& m) {
       .def_rw("max_width", &GripperInfo::max_width, "m.")
       .def_rw("max_speed", &GripperInfo::max_speed, "m/s of the width.")
       .def_rw("max_force", &GripperInfo::max_force, "N.");
-  nb::class_<GripperReading>(m, "GripperReading", "A gripper as it is.")
-      .def(nb::init<double, bool>(), "width"_a = 0., "is_done"_a = true, docs::operation::GripperReading)
-      .def_rw("width", &GripperReading::width, "m.")
-      .def_rw("is_done", &GripperReading::is_done, "It has reached the width it was told, or something holds it up.");
+  nb::class_<GripperState>(m, "GripperState", "A gripper as it is.")
+      .def(nb::init<double, bool>(), "width"_a = 0., "is_done"_a = true, docs::operation::GripperState)
+      .def_rw("width", &GripperState::width, "m.")
+      .def_rw("is_done", &GripperState::is_done, "It has reached the width it was told, or something holds it up.");
   nb::class_<GripperCommand>(m, "GripperCommand", "What a gripper shall do.")
       .def_ro("gripper", &GripperCommand::gripper, "Which one, from 0.")
       .def_ro("grasp", &GripperCommand::grasp,
@@ -153,24 +153,24 @@ void bindInfo(nb::module_& m) {
 }
 
 void bindReadings(nb::module_& m) {
-  nb::class_<RobotReading> reading(m, "RobotReading", "A robot as it is.");
-  reading
+  nb::class_<RobotState> state(m, "RobotState", "A robot as it is.");
+  state
       .def(
           "__init__",
-          [](RobotReading* self, double time, const Numbers& q, const Numbers& velocity, const Numbers& effort,
-             const Numbers& external, std::vector<GripperReading> grippers, std::string error) {
-            new (self) RobotReading{
+          [](RobotState* self, double time, const Numbers& q, const Numbers& velocity, const Numbers& effort,
+             const Numbers& external, std::vector<GripperState> grippers, std::string error) {
+            new (self) RobotState{
                 time, q.values, velocity.values, effort.values, external.values, std::move(grippers), std::move(error)};
           },
           "time"_a, "q"_a, "velocity"_a, "effort"_a = nb::list(), "external_effort"_a = nb::list(),
-          "grippers"_a = nb::list(), "error"_a = "", docs::operation::RobotReading)
-      .def_rw("time", &RobotReading::time, "Of the robot's clock, s.")
-      .def_rw("grippers", &RobotReading::grippers, "A GripperReading for each of its grippers.")
-      .def_rw("error", &RobotReading::error, "What the robot says is wrong; empty if nothing is.");
-  vectorField(reading, "q", &RobotReading::q, "(n,) rad or m.");
-  vectorField(reading, "velocity", &RobotReading::velocity, "(n,) rad/s or m/s.");
-  vectorField(reading, "effort", &RobotReading::effort, "(n,) of its motors, N m or N; empty if unknown.");
-  vectorField(reading, "external_effort", &RobotReading::external_effort,
+          "grippers"_a = nb::list(), "error"_a = "", docs::operation::RobotState)
+      .def_rw("time", &RobotState::time, "Of the robot's clock, s.")
+      .def_rw("grippers", &RobotState::grippers, "A GripperState for each of its grippers.")
+      .def_rw("error", &RobotState::error, "What the robot says is wrong; empty if nothing is.");
+  vectorField(state, "q", &RobotState::q, "(n,) rad or m.");
+  vectorField(state, "velocity", &RobotState::velocity, "(n,) rad/s or m/s.");
+  vectorField(state, "effort", &RobotState::effort, "(n,) of its motors, N m or N; empty if unknown.");
+  vectorField(state, "external_effort", &RobotState::external_effort,
               "(n,) by what it touches, N m or N; empty if unknown.");
 
   nb::class_<RobotCommand> command(m, "RobotCommand", "Where a robot shall be at the end of a period.");
@@ -195,7 +195,7 @@ void bindRobotDriver(nb::module_& m) {
       .def("info", &RobotDriver::info, "What robot it is: a RobotInfo, the same at all times after connect().")
       .def("connect", &RobotDriver::connect, "Called once, before all else.")
       .def("disconnect", &RobotDriver::disconnect, "Called once, at the end.")
-      .def("read", &RobotDriver::read, "The robot as it is: a RobotReading.")
+      .def("read", &RobotDriver::read, "The robot as it is: a RobotState.")
       .def("write", &RobotDriver::write, "command"_a, docs::operation::write)
       .def("stop", &RobotDriver::stop, "reason"_a, docs::operation::stopRobot)
       .def("recover", &RobotDriver::recover, "Clears errors, so that it can be moved again.")
@@ -215,10 +215,10 @@ void bindRobotDriver(nb::module_& m) {
   nb::class_<RecordedDriver, RobotDriver>(m, "RecordedDriver", docs::operation::RecordedDriver)
       .def(
           "__init__",
-          [](RecordedDriver* self, RobotInfo info, std::vector<RobotReading> readings, const Numbers& start) {
-            new (self) RecordedDriver(std::move(info), std::move(readings), start.values);
+          [](RecordedDriver* self, RobotInfo info, std::vector<RobotState> states, const Numbers& start) {
+            new (self) RecordedDriver(std::move(info), std::move(states), start.values);
           },
-          "info"_a, "readings"_a = nb::list(), "start"_a = nb::list(), docs::operation::RecordedDriver_make)
+          "info"_a, "states"_a = nb::list(), "start"_a = nb::list(), docs::operation::RecordedDriver_make)
       .def("commands", &RecordedDriver::commands, "All RobotCommands so far.")
       .def("gripperCommands", &RecordedDriver::gripperCommands, "All GripperCommands so far.")
       .def("stops", &RecordedDriver::stops, "The reasons for which it was stopped.")

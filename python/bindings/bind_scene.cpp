@@ -160,7 +160,7 @@ void bindFrameAccess(nb::class_<PyConfig>& config) {
           "World poses of all frames, shape (frames, 7): rows x y z (m) qw qx qy qz with qw >= 0.")
       .def("setFrameState", setFrameState, "X"_a, "frames"_a = Names(), docs::scene::setFrameState)
       .def("report", &PyConfig::report,
-           "How many frames, joints, dofs and shapes the scene has, which shapes collide, and contactNotes().");
+           "How many frames, joints, dofs and shapes the scene has, which shapes collide, and contactWarnings().");
 }
 
 }  // namespace

@@ -115,8 +115,8 @@ Vector3d vector3(const Numbers& given, const char* what) {
   return given.values;
 }
 
-nb::object getPull(const PySimulation& s) {
-  const std::optional<PulledPoint> pull = s.simulation.getPull();
+nb::object getPerturbation(const PySimulation& s) {
+  const std::optional<Perturbation> pull = s.simulation.getPerturbation();
   if (!pull) return nb::none();
   nb::dict found;
   found["position"] = toNumpy(VectorXd(pull->position));
@@ -213,8 +213,8 @@ void bindMeasuring(nb::class_<PySimulation>& simulation) {
           },
           "frame"_a, "point"_a, "target"_a, docs::simulation::pull)
       .def(
-          "endPull", [](S& s) { s.simulation.endPull(); }, docs::simulation::endPull)
-      .def("getPull", getPull, nb::sig("def getPull(self) -> dict | None"), docs::simulation::getPull)
+          "endPerturbation", [](S& s) { s.simulation.endPerturbation(); }, docs::simulation::endPerturbation)
+      .def("getPerturbation", getPerturbation, nb::sig("def getPerturbation(self) -> dict | None"), docs::simulation::getPerturbation)
       .def(
           "clearPerturbations", [](S& s) { s.simulation.clearPerturbations(); }, docs::simulation::clearPerturbations);
 }

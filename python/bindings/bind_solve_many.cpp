@@ -65,7 +65,7 @@ class Watch {
 
 /// A number of starts: the present path and random ones; or an array of paths (K, T, n).
 std::vector<VectorXd> readStarts(PyKomo& komo, nb::handle given, std::uint64_t seed) {
-  if (nb::isinstance<nb::int_>(given)) return drawStarts(komo, nb::cast<int>(given), seed, CheckInterrupts());
+  if (nb::isinstance<nb::int_>(given)) return sampleStarts(komo, nb::cast<int>(given), seed, CheckInterrupts());
   const int T = komo.slices(), n = komo.dofs();
   const auto expected = [&] {
     return cat("solveFromMany: starts are a number, or paths of shape (K, ", T, ", ", n, ")");

@@ -106,7 +106,7 @@ SolverResult resultFrom(nb::tuple state) {
   r.message = nb::cast<std::string>(state[12]);
   if (const nb::object verdict = state[13]; !verdict.is_none())
     r.motion =
-        std::make_shared<LazyVerdict>(MotionVerdict{nb::cast<bool>(verdict[0]), nb::cast<std::string>(verdict[1])});
+        std::make_shared<LazyValidity>(ValidityReport{nb::cast<bool>(verdict[0]), nb::cast<std::string>(verdict[1])});
   r.totalEvals = nb::cast<int>(state[14]);
   return r;
 }

@@ -24,9 +24,9 @@ TargetSource sourceOf(nb::handle given) {
   };
 }
 
-void driveFromPython(DiffIk& ik, const nb::object& config, const std::string& target, const nb::object& source,
+void servoFromPython(DiffIk& ik, const nb::object& config, const std::string& target, const nb::object& source,
                      double seconds, double dt, const std::optional<bool>& show, bool realtime) {
-  DriveOptions options;
+  ServoOptions options;
   options.seconds = seconds, options.dt = dt;
   options.show = show, options.realtime = realtime;
   options.view = [&](Config&) {
@@ -37,16 +37,16 @@ void driveFromPython(DiffIk& ik, const nb::object& config, const std::string& ta
   PyConfig& scene = nb::cast<PyConfig&>(config);
   if (source.is_none()) {
     const nb::gil_scoped_release unlock;
-    return drive(ik, scene, target, options);
+    return servo(ik, scene, target, options);
   }
   if (nb::isinstance<Gamepad>(source)) {
     Gamepad& gamepad = nb::cast<Gamepad&>(source);
     const nb::gil_scoped_release unlock;
-    return drive(ik, scene, target, gamepad, options);
+    return servo(ik, scene, target, gamepad, options);
   }
   const TargetSource poses = sourceOf(source);
   const nb::gil_scoped_release unlock;
-  drive(ik, scene, target, poses, options);
+  servo(ik, scene, target, poses, options);
 }
 
 }  // namespace
@@ -71,8 +71,8 @@ void bindStreams(nb::module_& m) {
       .def(
           "velocity", [](Gamepad& gamepad) { return toNumpy(VectorXd(gamepad.velocity())); }, docs::streams::velocity)
       .def("close", &Gamepad::close, "Closes the device; the sticks stay where they were.");
-  m.def("drive", driveFromPython, "ik"_a, "config"_a, "target"_a, "source"_a = nb::none(), nb::kw_only(), "seconds"_a,
-        "dt"_a = .005, "show"_a = nb::none(), "realtime"_a = true, docs::streams::drive,
+  m.def("servo", servoFromPython, "ik"_a, "config"_a, "target"_a, "source"_a = nb::none(), nb::kw_only(), "seconds"_a,
+        "dt"_a = .005, "show"_a = nb::none(), "realtime"_a = true, docs::streams::servo,
         nb::sig("def drive(ik: DiffIk, config: Config, target: str, source: "
                 "collections.abc.Callable[[float], numpy.typing.ArrayLike] | Gamepad | None = None, *, seconds: float, "
                 "dt: float = 0.005, show: bool | None = None, realtime: bool = True) -> None"));

@@ -53,11 +53,11 @@ void bindTaskPlays(nb::module_& m) {
         nb::sig("def taskFrames(plan: TaskPlan, C: Config, rate: float = 25.0) -> numpy.ndarray"),
         docs::task_plays::frames);
   m.def(
-      "ghostScene",
+      "failedConfiguration",
       [](nb::handle plan, const PyConfig& C) {
-        return PyConfig{taskPlanOf(plan).ghostScene(C), nullptr};
+        return PyConfig{taskPlanOf(plan).failedConfiguration(C), nullptr};
       },
-      "plan"_a, "C"_a, nb::sig("def ghostScene(plan: TaskPlan, C: Config) -> Config"), docs::task_plays::ghostScene);
+      "plan"_a, "C"_a, nb::sig("def failedConfiguration(plan: TaskPlan, C: Config) -> Config"), docs::task_plays::failedConfiguration);
   m.def(
       "showTask", [](PyConfig& C, PyConfig& scene, const Numbers& q) { showTask(C, scene, q.values); }, "C"_a,
       "scene"_a, "q"_a, docs::task_plays::show);

@@ -34,7 +34,7 @@ struct PyConfig : Config {
   mutable std::vector<std::string> notes = {};  ///< those that were given
 };
 
-/// Warns of `contactNotes`, of each once per scene.
+/// Warns of `contactWarnings`, of each once per scene.
 void warnOfContacts(const PyConfig& config);
 
 void bindErrors(nb::module_& m);

@@ -29,9 +29,9 @@ std::shared_ptr<const nb::object> sharedObject(nb::object object) {
 
 /// A feature that a Python function of frames computes. Its Jacobian is what the function returns beside the value, or
 /// that of central differences over the dofs that move the frames.
-class OwnFeature final : public Feature {
+class CustomFeature final : public Feature {
  public:
-  OwnFeature(std::shared_ptr<const nb::object> function, std::string name, std::vector<int> frames, const State& scene)
+  CustomFeature(std::shared_ptr<const nb::object> function, std::string name, std::vector<int> frames, const State& scene)
       : function_(std::move(function)), name_(std::move(name)), frames_(std::move(frames)) {
     rows_ = int(call(scene).y.size());
   }
@@ -114,14 +114,14 @@ class OwnFeature final : public Feature {
   }
 
   std::vector<int> movingDofs(const State& state) const {
-    const Program& program = state.program();
-    std::vector<bool> moves(std::size_t(program.dofs), frames_.empty());
+    const KinematicModel& model = state.model();
+    std::vector<bool> moves(std::size_t(model.dofs), frames_.empty());
     for (int frame : frames_) {
-      for (int c = program.last_column[state.link(frame)]; c >= 0; c = program.column_before[c])
-        moves[program.column_dof[c]] = true;
+      for (int c = model.last_column[state.link(frame)]; c >= 0; c = model.column_before[c])
+        moves[model.column_dof[c]] = true;
     }
     std::vector<int> dofs;
-    for (int dof = 0; dof < program.dofs; ++dof) {
+    for (int dof = 0; dof < model.dofs; ++dof) {
       if (moves[dof]) dofs.push_back(dof);
     }
     return dofs;
@@ -161,7 +161,7 @@ struct OwnFeatureMaker {
 
   std::unique_ptr<Feature> operator()(const std::vector<int>& frames, const State& state) const {
     const nb::gil_scoped_acquire lock;
-    return std::make_unique<OwnFeature>(function, name, frames, state);
+    return std::make_unique<CustomFeature>(function, name, frames, state);
   }
 };
 
@@ -181,7 +181,7 @@ nb::object functionOf(const FeatureSource& source) {
 void bindOwnFeatures(nb::module_& m) {
   nb::class_<FrameView>(m, "FrameView", "A frame at one configuration, as a feature of your own sees it.")
       .def_prop_ro(
-          "name", [](const FrameView& v) { return v.state->program().frame_name[v.frame]; }, "The frame's name.")
+          "name", [](const FrameView& v) { return v.state->model().frame_name[v.frame]; }, "The frame's name.")
       .def(
           "getJointState", [](const FrameView& v) { return toNumpy(v.state->q()); },
           "q of the scene, shape (n,), rad or m.")
@@ -203,7 +203,7 @@ void bindOwnFeatures(nb::module_& m) {
       .def("getAngularJacobian", angularJacobian,
            "The world angular velocity of the frame per velocity of q, shape (3, n), rad per rad or m.")
       .def("__repr__",
-           [](const FrameView& v) { return cat("<FrameView '", v.state->program().frame_name[v.frame], "'>"); });
+           [](const FrameView& v) { return cat("<FrameView '", v.state->model().frame_name[v.frame], "'>"); });
 }
 
 }  // namespace kinegraph::python

@@ -34,9 +34,9 @@ nb::dict optionFields(const PlanOptions& options) {
   for (const MotionConstraint& constraint : options.constraints) constraints.append(constraint);
   fields["constraints"] = constraints;
   nb::dict moving;
-  for (const MovingObstacle& obstacle : options.moving)
+  for (const ObstacleTrajectory& obstacle : options.obstacle_trajectories)
     moving[obstacle.frame.c_str()] = nb::make_tuple(toNumpy(obstacle.times), toNumpy(obstacle.values));
-  fields["moving"] = moving;
+  fields["obstacle_trajectories"] = moving;
   return fields;
 }
 
@@ -78,25 +78,25 @@ MotionTree treeFrom(nb::handle state, const JointSpace& space) {
 nb::tuple planState(const PyMotionPlan& p) {
   nb::list stages, attempts, trees, obstacles;
   for (const PlanStage& s : p.stages) stages.append(nb::make_tuple(s.name, s.seconds, s.evaluations, s.note));
-  for (const AttemptReport& a : p.attempts)
-    attempts.append(nb::make_tuple(a.draws, a.effort, a.start_nodes, a.goal_nodes));
+  for (const SearchReport& a : p.attempts)
+    attempts.append(nb::make_tuple(a.samples, a.evaluations, a.start_nodes, a.goal_nodes));
   for (const MotionTree& tree : p.trees) trees.append(treeState(tree, p.space->dofs()));
   for (const MetObstacle& o : p.obstacles) obstacles.append(nb::make_tuple(o.frame, o.name, o.share, o.by));
-  const nb::object timed = p.timed.law().phases().empty() ? nb::none() : nb::cast(p.timed);
+  const nb::object timed = p.timed.scaling().phases().empty() ? nb::none() : nb::cast(p.timed);
   return nb::make_tuple(PyConfig{Config(*p.config), nullptr}, optionFields(p.options), int(p.status), p.message,
-                        p.notes, toNumpy(p.path), toNumpy(p.first_way), timed, p.length, p.goal, stages, attempts,
-                        trees, obstacles, p.margin, p.kept);
+                        p.notes, toNumpy(p.path), toNumpy(p.raw_path), timed, p.length, p.goal, stages, attempts,
+                        trees, obstacles, p.margin, p.verified_margin);
 }
 
 /// The scene without what moves, and the joints of its robot.
 void setScene(PyMotionPlan& plan) {
   Config still(*plan.config);
-  if (!plan.options.moving.empty()) {
-    plan.moving = std::make_shared<const MovingScene>(*plan.config, plan.options.moving, "MotionPlan");
-    still = plan.moving->standing();
+  if (!plan.options.obstacle_trajectories.empty()) {
+    plan.dynamic_scene = std::make_shared<const DynamicScene>(*plan.config, plan.options.obstacle_trajectories, "MotionPlan");
+    still = plan.dynamic_scene->standing();
   }
   plan.scene = std::make_shared<const State>(still.state());
-  plan.space = std::make_shared<const JointSpace>(*still.program());
+  plan.space = std::make_shared<const JointSpace>(*still.model());
 }
 
 PyMotionPlan planFrom(const nb::tuple& t) {
@@ -106,9 +106,9 @@ PyMotionPlan planFrom(const nb::tuple& t) {
   setScene(plan);
   plan.status = PlanStatus(nb::cast<int>(t[2]));
   plan.message = nb::cast<std::string>(t[3]);
-  plan.notes = nb::cast<std::vector<std::string>>(t[4]);
+  plan.warnings = nb::cast<std::vector<std::string>>(t[4]);
   plan.path = matrixFrom(t[5]);
-  plan.first_way = matrixFrom(t[6]);
+  plan.raw_path = matrixFrom(t[6]);
   if (!nb::handle(t[7]).is_none()) plan.timed = nb::cast<const TimedPath&>(t[7]);
   plan.length = nb::cast<double>(t[8]);
   plan.goal = nb::cast<int>(t[9]);
@@ -122,7 +122,7 @@ PyMotionPlan planFrom(const nb::tuple& t) {
     plan.obstacles.push_back({nb::cast<int>(o[0]), nb::cast<std::string>(o[1]), nb::cast<double>(o[2]),
                               nb::cast<std::vector<std::string>>(o[3])});
   plan.margin = nb::cast<double>(t[14]);
-  plan.kept = nb::cast<double>(t[15]);
+  plan.verified_margin = nb::cast<double>(t[15]);
   return plan;
 }
 

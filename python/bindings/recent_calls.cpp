@@ -24,7 +24,7 @@ RecentCalls::Call* RecentCalls::find(const State& scene, nb::handle symbol, nb::
   if (!isKnown(given)) return nullptr;
   const std::span<PyObject*> names = items(given);
   for (Call& call : calls_) {
-    if (!call.symbol.is(symbol) || call.program != scene.sharedProgram() || call.order != order ||
+    if (!call.symbol.is(symbol) || call.model != scene.sharedModel() || call.order != order ||
         call.frames.size() != names.size())
       continue;
     bool same = true;
@@ -38,7 +38,7 @@ RecentCalls::Call* RecentCalls::add(const State& scene, nb::handle symbol, nb::h
                                     const std::shared_ptr<Residual>& residual) {
   PyObject* given = frames.ptr();
   if (!isKnown(given)) return nullptr;
-  Call made{scene.sharedProgram(), nb::borrow(symbol), {}, order, residual, {}, {}};
+  Call made{scene.sharedModel(), nb::borrow(symbol), {}, order, residual, {}, {}};
   for (PyObject* name : items(given)) {
     if (!PyUnicode_CheckExact(name)) return nullptr;
     made.frames.push_back(nb::borrow(name));

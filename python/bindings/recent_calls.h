@@ -11,7 +11,7 @@ namespace kinegraph::python {
 class RecentCalls {
  public:
   struct Call {
-    std::shared_ptr<const Program> program;
+    std::shared_ptr<const KinematicModel> model;
     nb::object symbol;
     std::vector<nb::object> frames;  ///< strings
     int order = -1;

@@ -158,8 +158,8 @@ def _grid(config: Config, frame: str, spacing: float, seed: int) -> np.ndarray:
         raise ArgumentError(
             f"reachability: the joints {', '.join(endless)} have no limits; set them with setJointLimits"
         )
-    postures = np.random.default_rng(seed).uniform(low, high, (4096, len(low)))
-    places = np.asarray(config.getFramePoses(postures, frame))[:, 0, :3]
+    configurations = np.random.default_rng(seed).uniform(low, high, (4096, len(low)))
+    places = np.asarray(config.getFramePoses(configurations, frame))[:, 0, :3]
     if np.ptp(places, axis=0).max() < 1e-9:
         raise ArgumentError(f"reachability: no joint moves frame '{frame}'")
     first = np.floor(places.min(axis=0) / spacing - 0.5).astype(int)

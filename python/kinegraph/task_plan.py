@@ -8,7 +8,7 @@ from typing import Any
 
 import numpy as np
 
-from ._core import BotOp, Config, TaskExecution, executeTask, ghostScene, showTask, taskFrames, treeText
+from ._core import BotOp, Config, TaskExecution, executeTask, failedConfiguration, showTask, taskFrames, treeText
 from .errors import ArgumentError
 
 Action = list[str]
@@ -118,7 +118,7 @@ class TaskPlan:
             key = C.view(pause, str(self))
             C.setFrameState(before)
             return int(key or 0)
-        return int(ghostScene(self, C).view(pause, f"{self.message}\n{self.searchTree()}") or 0)
+        return int(failedConfiguration(self, C).view(pause, f"{self.message}\n{self.searchTree()}") or 0)
 
     def play(self, C: Config, pause: bool = False) -> None:
         """Shows the motion of each action in the viewer, with what is held moving along.

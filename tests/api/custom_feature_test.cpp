@@ -26,7 +26,7 @@ Config arm() {
 
 const std::vector<std::string> kEnd = {"end"};
 
-TEST(OwnFeature, ValueAndJacobianAreWhatTheFunctionReturns) {
+TEST(CustomFeature, ValueAndJacobianAreWhatTheFunctionReturns) {
   const Config config = arm();
   const FeatureSource mine = ownFeature(
       "mine", [](Frames f) { return FeatureValue(VectorXd(f[0].getPosition()), f[0].getPositionJacobian()); });
@@ -35,7 +35,7 @@ TEST(OwnFeature, ValueAndJacobianAreWhatTheFunctionReturns) {
   EXPECT_TRUE(own.J.isApprox(known.J, 1e-14));
 }
 
-TEST(OwnFeature, WithoutAJacobianCentralDifferencesReplaceIt) {
+TEST(CustomFeature, WithoutAJacobianCentralDifferencesReplaceIt) {
   const Config config = arm();
   const FeatureSource mine = ownFeature("mine", [](Frames f) { return FeatureValue(VectorXd(f[0].getPosition())); });
   const Evaluation own = eval(config, mine, kEnd), known = eval(config, FeatureSymbol::position, kEnd);
@@ -44,7 +44,7 @@ TEST(OwnFeature, WithoutAJacobianCentralDifferencesReplaceIt) {
   EXPECT_EQ(own.J.col(2).norm(), 0.);  // `other` does not move the frame
 }
 
-TEST(OwnFeature, TheJacobianOfAPointAndOfTheRotationAreThoseOfTheRegistry) {
+TEST(CustomFeature, TheJacobianOfAPointAndOfTheRotationAreThoseOfTheRegistry) {
   const Config config = arm();
   const FeatureSource axis = ownFeature("axis", [](Frames f) {
     const Vector3d z = f[0].getRotationMatrix().col(2);
@@ -55,7 +55,7 @@ TEST(OwnFeature, TheJacobianOfAPointAndOfTheRotationAreThoseOfTheRegistry) {
   EXPECT_TRUE(own.J.isApprox(known.J, 1e-12));
 }
 
-TEST(OwnFeature, WithoutFramesAllDofsAreDifferentiated) {
+TEST(CustomFeature, WithoutFramesAllDofsAreDifferentiated) {
   const Config config = arm();
   int calls = 0;
   const FeatureSource constant = ownFeature("constant", [&calls](Frames frames) {
@@ -67,7 +67,7 @@ TEST(OwnFeature, WithoutFramesAllDofsAreDifferentiated) {
   EXPECT_EQ(calls, 1 + 1 + 2 * config.getJointDimension());
 }
 
-TEST(OwnFeature, ResultsOfAnotherSizeAreToldWithTheName) {
+TEST(CustomFeature, ResultsOfAnotherSizeAreToldWithTheName) {
   const Config config = arm();
   const FeatureSource wide = ownFeature("wide", [](Frames) { return FeatureValue(1., MatrixXd::Zero(2, 2)); });
   expectError<ValueError>([&] { eval(config, wide, kEnd); }, {"feature wide", "2 x 2", "expected 1 x 3"});

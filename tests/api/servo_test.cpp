@@ -8,7 +8,7 @@
 namespace kinegraph {
 namespace {
 
-class Drive : public ::testing::Test {
+class Servo : public ::testing::Test {
  protected:
   void SetUp() override {
     config.addText(
@@ -23,42 +23,42 @@ class Drive : public ::testing::Test {
 
   Config config;
   std::optional<DiffIk> ik;
-  DriveOptions options;
+  ServoOptions options;
 };
 
-TEST_F(Drive, FollowsAFileOrAFunction) {
-  drive(*ik, config, "target", TargetFile::fromText("0, 0, 0, 0\n.4, .2, .1, 0\n"), options);
+TEST_F(Servo, FollowsAFileOrAFunction) {
+  servo(*ik, config, "target", TargetFile::fromText("0, 0, 0, 0\n.4, .2, .1, 0\n"), options);
   EXPECT_TRUE(hand().isApprox(Vector3d(.2, .1, 0.), 1e-3));
-  drive(
+  servo(
       *ik, config, "target", [](double t) { return Vector3d(.2 - .2 * t, .1, 0.); }, options);
   EXPECT_TRUE(hand().isApprox(Vector3d(.1, .1, 0.), 1e-2));
 }
 
-TEST_F(Drive, ByHandItShowsTheScene) {
+TEST_F(Servo, ByHandItShowsTheScene) {
   int shown = 0;
   options.view = [&](Config& scene) {
     ++shown;
     scene.getFrame("target").setPosition(Vector3d(.05, 0., 0.));
   };
-  drive(*ik, config, "target", options);
+  servo(*ik, config, "target", options);
   EXPECT_NEAR(shown, 15, 1);
   EXPECT_TRUE(hand().isApprox(Vector3d(.05, 0., 0.), 1e-3));
   options.show = false;
-  drive(*ik, config, "target", options);
+  servo(*ik, config, "target", options);
   EXPECT_NEAR(shown, 15, 1);
 }
 
-TEST_F(Drive, MistakesAreNamed) {
+TEST_F(Servo, MistakesAreNamed) {
   const auto still = [](double) { return Vector3d::Zero(); };
-  expectError<FrameNotFound>([&] { drive(*ik, config, "traget", still, options); }, {"traget", "target"});
+  expectError<FrameNotFound>([&] { servo(*ik, config, "traget", still, options); }, {"traget", "target"});
   expectError<ValueError>(
       [&] {
-        drive(
+        servo(
             *ik, config, "target", [](double) { return VectorXd(2); }, options);
       },
       {"2 numbers"});
   options.dt = 0.;
-  expectError<ValueError>([&] { drive(*ik, config, "target", still, options); }, {"dt is 0"});
+  expectError<ValueError>([&] { servo(*ik, config, "target", still, options); }, {"dt is 0"});
 }
 
 }  // namespace

@@ -101,9 +101,9 @@ TEST(TaskView, TheGhostIsWhereTheFarthestBranchFailed) {
   there.getFrame("b0").setPosition({0., .3, 1.});
   TaskPlan failed;
   failed.message = "nothing";
-  expectError<ValueError>([&] { failed.ghostScene(s.C); }, {"no branch failed"});
+  expectError<ValueError>([&] { failed.failedConfiguration(s.C); }, {"no branch failed"});
   failed.tree.push_back({{{"pick", "b0", "table", "l_gripper"}}, "why", std::make_shared<const Config>(there)});
-  const Config ghost = failed.ghostScene(s.C);
+  const Config ghost = failed.failedConfiguration(s.C);
   EXPECT_EQ(ghost.getFrames().size(), s.C.getFrames().size() + 1);
   EXPECT_EQ(ghost.getFrame("ghost of b0").getPosition(), there.getFrame("b0").getPosition());
   EXPECT_EQ(ghost.getFrame("ghost of b0").getShapeType(), ShapeType::ssBox);

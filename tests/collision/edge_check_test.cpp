@@ -24,7 +24,7 @@ std::string scene(const std::string& first, const std::string& second) {
 /// The least distance of the pairs that count.
 class Nearest {
  public:
-  explicit Nearest(const Config& config) : state_(config.state()), pairs_(config.program()->movingPairs()) {}
+  explicit Nearest(const Config& config) : state_(config.state()), pairs_(config.model()->movingPairs()) {}
 
   double at(const VectorXd& q) {
     state_.setJoints(q.data());
@@ -33,7 +33,7 @@ class Nearest {
     return nearest;
   }
   double ofPair(int a, int b) const {
-    return proximity(*state_.program().body[std::size_t(a)], state_.pose(a), *state_.program().body[std::size_t(b)],
+    return proximity(*state_.model().body[std::size_t(a)], state_.pose(a), *state_.model().body[std::size_t(b)],
                      state_.pose(b))
         .distance;
   }
@@ -48,7 +48,7 @@ struct Motion {
 };
 
 Motion draw(const Config& config, Rng& rng, double step) {
-  VectorXd from = config.program()->home, to = from;
+  VectorXd from = config.model()->home, to = from;
   for (double& x : from) x += .6 * rng.normal();
   to = from;
   for (double& x : to) x += step * rng.normal();

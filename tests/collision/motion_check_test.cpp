@@ -36,7 +36,7 @@ VectorXd distancesAt(const Config& config, const VectorXd& q) {
   for (std::size_t i = 0; i < pairs.size(); ++i) {
     const auto [a, b] = pairs[i];
     distances[Eigen::Index(i)] =
-        proximity(*state.program().body[a], state.pose(a), *state.program().body[b], state.pose(b)).distance;
+        proximity(*state.model().body[a], state.pose(a), *state.model().body[b], state.pose(b)).distance;
   }
   return distances;
 }
@@ -128,7 +128,7 @@ TEST(MotionChecker, AgreesWithManySamplesForEveryJointType) {
     const int n = config.getJointDimension();
     int free = 0, hit = 0;
     for (int motion = 0; motion < 40; ++motion) {
-      VectorXd from = config.program()->home, to = from;
+      VectorXd from = config.model()->home, to = from;
       for (double& x : from) x += .6 * rng.normal();
       for (double& x : to) x += .6 * rng.normal();
       const double margin = motion % 2 == 0 ? 0. : .01;
@@ -165,7 +165,7 @@ TEST(MotionChecker, AmongManyBodiesFindsTheSameContactsAsAmongFew) {
   Rng rng(6);
   int hit = 0;
   for (int motion = 0; motion < 60; ++motion) {
-    VectorXd from = few.program()->home, to = from;
+    VectorXd from = few.model()->home, to = from;
     for (double& x : from) x += .6 * rng.normal();
     for (double& x : to) x += .6 * rng.normal();
     const auto expected = checker.firstContact(from.data(), to.data(), 0., kTolerance),
@@ -198,10 +198,10 @@ TEST(MotionChecker, AmongManyBodiesThatMoveAgreesWithManySamples) {
                 " .25], joint: ", i % 2 ? "free" : "trans3", ", shape: ssBox, size: [.2 .1 .15 .02], contact: 1 }\n");
   }
   config.addText(text);
-  const VectorXd home = config.program()->home;
+  const VectorXd home = config.model()->home;
   MotionChecker checker(config.state());
   State state = config.state();
-  PairDistances pairs(config.program());
+  PairDistances pairs(config.model());
   const auto nearestAt = [&](const VectorXd& q) {
     state.setJoints(q.data());
     double nearest = 1e9;
@@ -228,8 +228,8 @@ TEST(MotionChecker, AmongManyBodiesThatMoveAgreesWithManySamples) {
       EXPECT_LT(contact->distance, margin + 1e-3) << motion;
       EXPECT_GE(nearestAt(from + .5 * contact->time * (to - from)), margin) << motion;
       nearestAt(from + contact->time * (to - from));
-      const double there = proximity(*state.program().body[std::size_t(contact->a)], state.pose(contact->a),
-                                     *state.program().body[std::size_t(contact->b)], state.pose(contact->b))
+      const double there = proximity(*state.model().body[std::size_t(contact->a)], state.pose(contact->a),
+                                     *state.model().body[std::size_t(contact->b)], state.pose(contact->b))
                                .distance;
       EXPECT_NEAR(there, contact->distance, 1e-12) << motion;
     }

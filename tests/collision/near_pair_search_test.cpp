@@ -24,7 +24,7 @@ void expectAll(NearPairSearch& search, const Config& config, double margin, cons
 
 TEST(NearPairSearch, FindsWhatMeasuringAllPairsFindsOnARandomWalk) {
   Config config = crowd(90, .7, 1);
-  NearPairSearch search(config.program());
+  NearPairSearch search(config.model());
   Rng rng(2);
   VectorXd q = config.getJointState();
   std::size_t near = 0;
@@ -44,7 +44,7 @@ TEST(NearPairSearch, FindsWhatMeasuringAllPairsFindsOnARandomWalk) {
       expectAll(search, config, margin, cat("step ", step, ", margin ", margin));
       near += search.near(margin).size();
     }
-    NearPairSearch again(config.program());
+    NearPairSearch again(config.model());
     again.place(config.state());
     again.near(0.);
     fresh += again.measured();
@@ -56,7 +56,7 @@ TEST(NearPairSearch, FindsWhatMeasuringAllPairsFindsOnARandomWalk) {
 
 TEST(NearPairSearch, MeasuresNothingAgainWhereNothingMoved) {
   Config config = crowd(100, .5, 3);
-  NearPairSearch search(config.program());
+  NearPairSearch search(config.model());
   search.place(config.state());
   const std::size_t near = search.near(.05).size();
   const long measured = search.measured();
@@ -70,7 +70,7 @@ TEST(NearPairSearch, MeasuresNothingAgainWhereNothingMoved) {
 TEST(NearPairSearch, OfSomeFramesFindsTheirPairsOnly) {
   const Config config = crowd(100, .5, 4);
   const int one = config.getFrame("body3").id(), two = config.getFrame("link4").id();
-  NearPairSearch all(config.program()), some(config.program(), {one, two});
+  NearPairSearch all(config.model()), some(config.model(), {one, two});
   all.place(config.state());
   some.place(config.state());
   std::vector<std::pair<int, int>> expected, found;
@@ -87,7 +87,7 @@ TEST(NearPairSearch, ABodyThatTurnsOnTheSpotIsSeenToMove) {
   Config config = crowd(80, 3., 5);
   config.addFrame("pivot", "world", "pre: [9 0 0], joint: hingeZ, shape: box, size: [1 .02 .02], contact: 1");
   config.addFrame("post", "", "X: [9 .3 0], shape: sphere, size: [.02], contact: 1");
-  NearPairSearch search(config.program());
+  NearPairSearch search(config.model());
   VectorXd q = config.getJointState();
   bool met = false;
   for (double angle = 0.; angle < 1.7; angle += .01) {
@@ -102,7 +102,7 @@ TEST(NearPairSearch, ABodyThatTurnsOnTheSpotIsSeenToMove) {
 
 TEST(NearPairs, OfManyBodiesAreApartWhereNoPairIsNear) {
   Config config = crowd(100, 6., 6);
-  NearPairs pairs(config.program());
+  NearPairs pairs(config.model());
   Rng rng(7);
   int apart = 0, near = 0;
   for (int i = 0; i < 60; ++i) {
@@ -121,7 +121,7 @@ TEST(NearPairs, OfManyBodiesAreApartWhereNoPairIsNear) {
 
 TEST(NearPairSearch, ThatAsksWhetherAllAreApartStopsAtThePairThatIsNot) {
   Config config = crowd(100, 1.2, 6);
-  NearPairSearch search(config.program()), all(config.program());
+  NearPairSearch search(config.model()), all(config.model());
   search.place(config.state());
   all.place(config.state());
   EXPECT_FALSE(search.apart(.1));

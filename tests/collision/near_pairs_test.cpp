@@ -28,7 +28,7 @@ Config chain() {
 TEST(BodyPairs, HaveEachFrameOnce) {
   const Config config = chain();
   const int marker = config.getFrame("marker").id();
-  const BodyPairs pairs(*config.program(), {{0, 2}, {1, 2}, {0, marker}});
+  const BodyPairs pairs(*config.model(), {{0, 2}, {1, 2}, {0, marker}});
   EXPECT_EQ(pairs.frames, (std::vector<int>{0, 2, 1, marker}));
   EXPECT_EQ(pairs.pairs, (std::vector<std::pair<int, int>>{{0, 1}, {2, 1}, {0, 3}}));
   EXPECT_EQ(pairs.bodies[3]->core(), CollisionBody::Core::point) << "a frame that cannot collide counts as a point";
@@ -36,7 +36,7 @@ TEST(BodyPairs, HaveEachFrameOnce) {
 
 TEST(PlacedBodies, NeverDenyAPairWithinTheMarginAndDenyMostOfTheOthers) {
   Config config = chain();
-  const BodyPairs pairs(*config.program(), config.getCollidablePairs());
+  const BodyPairs pairs(*config.model(), config.getCollidablePairs());
   ASSERT_GT(pairs.pairs.size(), 10u);
   PlacedBodies bodies(pairs);
   Rng rng(4);
@@ -52,7 +52,7 @@ TEST(PlacedBodies, NeverDenyAPairWithinTheMarginAndDenyMostOfTheOthers) {
         const bool may = bodies.mayBeNear(pair, margin);
         const auto [a, b] = config.getCollidablePairs()[pair];
         const Proximity exact =
-            proximity(*state.program().body[a], state.pose(a), *state.program().body[b], state.pose(b));
+            proximity(*state.model().body[a], state.pose(a), *state.model().body[b], state.pose(b));
         EXPECT_EQ(bodies.proximity(pair).distance, exact.distance);
         if (exact.distance <= margin) {
           EXPECT_TRUE(may) << a << ", " << b << " at " << exact.distance << ", margin " << margin;

@@ -69,8 +69,8 @@ wall (base): { shape: box, size: [1 .02 1], X: [0 .8 0], contact: 1 }
     for (Eigen::Index dof = 0; dof < q.size(); ++dof) off[dof] += rng.uniform(-1., 1.) * stray[dof];
     here.setJoints(q.data());
     there.setJoints(off.data());
-    for (const auto& [a, b] : scene.program().movingPairs()) {
-      const auto &body_a = *scene.program().body[std::size_t(a)], &body_b = *scene.program().body[std::size_t(b)];
+    for (const auto& [a, b] : scene.model().movingPairs()) {
+      const auto &body_a = *scene.model().body[std::size_t(a)], &body_b = *scene.model().body[std::size_t(b)];
       const double change = proximity(body_a, there.pose(a), body_b, there.pose(b)).distance -
                             proximity(body_a, here.pose(a), body_b, here.pose(b)).distance;
       EXPECT_LE(std::abs(change), at_most + 1e-9);

@@ -10,13 +10,13 @@
 namespace kinegraph {
 namespace {
 
-TEST(InOrder, ResultsAreTakenInOrderAndNoMoreJobsRunThanThereAreThreads) {
+TEST(OrderedParallelFor, ResultsAreTakenInOrderAndNoMoreJobsRunThanThereAreThreads) {
   for (const int threads : {1, 2, 4}) {
     std::atomic<int> running = 0, most = 0;
     std::vector<int> results(40), taken;
-    inOrder(
+    orderedParallelFor(
         40, threads,
-        [&](int i, const JobStopped&) {
+        [&](int i, const CancellationToken&) {
           const int now = ++running;
           for (int seen = most; seen < now && !most.compare_exchange_weak(seen, now);) {
           }
@@ -34,18 +34,18 @@ TEST(InOrder, ResultsAreTakenInOrderAndNoMoreJobsRunThanThereAreThreads) {
   }
 }
 
-TEST(InOrder, JobsAreBegunOnlyAsFarAheadAsThereAreThreads) {
+TEST(OrderedParallelFor, JobsAreBegunOnlyAsFarAheadAsThereAreThreads) {
   std::atomic<int> begun = 0;
-  inOrder(
-      1000, 3, [&](int, const JobStopped&) { ++begun; }, [](int i) { return i < 4; });
+  orderedParallelFor(
+      1000, 3, [&](int, const CancellationToken&) { ++begun; }, [](int i) { return i < 4; });
   EXPECT_LE(begun, 5 + 2);
 }
 
-TEST(InOrder, AJobThatIsNotWantedAnyMoreIsTold) {
+TEST(OrderedParallelFor, AJobThatIsNotWantedAnyMoreIsTold) {
   std::atomic<bool> waits = false;
-  inOrder(
+  orderedParallelFor(
       2, 2,
-      [&](int i, const JobStopped& stopped) {
+      [&](int i, const CancellationToken& stopped) {
         if (i == 0) {
           while (!waits) std::this_thread::yield();
           return;
@@ -57,12 +57,12 @@ TEST(InOrder, AJobThatIsNotWantedAnyMoreIsTold) {
   EXPECT_TRUE(waits);  // and it has returned
 }
 
-TEST(InOrder, AnErrorOfAJobIsThrownWhereItsResultWouldBeTaken) {
+TEST(OrderedParallelFor, AnErrorOfAJobIsThrownWhereItsResultWouldBeTaken) {
   for (const int threads : {1, 2, 4}) {
     int taken = 0;
-    EXPECT_THROW(inOrder(
+    EXPECT_THROW(orderedParallelFor(
                      3, threads,
-                     [](int i, const JobStopped&) {
+                     [](int i, const CancellationToken&) {
                        if (i == 1) throw std::runtime_error("two");
                      },
                      [&](int) { return ++taken > 0; }),
@@ -71,21 +71,21 @@ TEST(InOrder, AnErrorOfAJobIsThrownWhereItsResultWouldBeTaken) {
   }
 }
 
-TEST(InOrder, BetweenMayEndItAlsoWhereJobsTakeLong) {
+TEST(OrderedParallelFor, BetweenMayEndItAlsoWhereJobsTakeLong) {
   for (const int threads : {1, 2}) {
-    const auto forever = [](int, const JobStopped& stopped) {
+    const auto forever = [](int, const CancellationToken& stopped) {
       while (!stopped()) std::this_thread::yield();
     };
-    EXPECT_THROW(inOrder(
+    EXPECT_THROW(orderedParallelFor(
                      2, threads, forever, [](int) { return true; }, [] { throw std::runtime_error("pressed"); }),
                  std::runtime_error);
   }
 }
 
-TEST(InOrder, BetweenMayEndItAlsoWhereJobsTakeNoTime) {
+TEST(OrderedParallelFor, BetweenMayEndItAlsoWhereJobsTakeNoTime) {
   for (const int threads : {1, 2}) {
-    const auto nothing = [](int, const JobStopped&) {};
-    EXPECT_THROW(inOrder(
+    const auto nothing = [](int, const CancellationToken&) {};
+    EXPECT_THROW(orderedParallelFor(
                      2, threads, nothing, [](int) { return true; }, [] { throw std::runtime_error("pressed"); }),
                  std::runtime_error);
   }

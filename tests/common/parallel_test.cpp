@@ -11,11 +11,11 @@
 
 using namespace kinegraph;
 
-TEST(ForParts, DoesEveryIndexOnceWhateverTheNumberOfThreads) {
+TEST(ParallelFor, DoesEveryIndexOnceWhateverTheNumberOfThreads) {
   for (int threads : {1, 2, 5}) {
     for (int count : {0, 1, 7, 8, 9, 100}) {
       std::vector<std::atomic<int>> done(std::size_t(count) + 1);
-      forParts(count, 8, threads, [&](int, int from, int to) {
+      parallelFor(count, 8, threads, [&](int, int from, int to) {
         EXPECT_LT(from, to);
         EXPECT_LE(to - from, 8);
         for (int i = from; i < to; ++i) ++done[i];
@@ -26,19 +26,19 @@ TEST(ForParts, DoesEveryIndexOnceWhateverTheNumberOfThreads) {
   }
 }
 
-TEST(ForParts, NumbersTheWorkersAndTheFirstIsTheCallingThread) {
+TEST(ParallelFor, NumbersTheWorkersAndTheFirstIsTheCallingThread) {
   const auto caller = std::this_thread::get_id();
-  forParts(64, 1, 3, [&](int worker, int, int) {
+  parallelFor(64, 1, 3, [&](int worker, int, int) {
     EXPECT_GE(worker, 0);
     EXPECT_LT(worker, 3);
     EXPECT_EQ(worker == 0, std::this_thread::get_id() == caller);
   });
 }
 
-TEST(ForParts, PassesOnTheExceptionOfTheFirstPartThatThrows) {
+TEST(ParallelFor, PassesOnTheExceptionOfTheFirstPartThatThrows) {
   for (int threads : {1, 4}) {
     try {
-      forParts(40, 2, threads, [](int, int from, int) {
+      parallelFor(40, 2, threads, [](int, int from, int) {
         if (from >= 10) throw std::runtime_error(std::to_string(from));
       });
       FAIL() << "no exception";
@@ -48,9 +48,9 @@ TEST(ForParts, PassesOnTheExceptionOfTheFirstPartThatThrows) {
   }
 }
 
-TEST(ForParts, StopsWhereBetweenThrows) {
+TEST(ParallelFor, StopsWhereBetweenThrows) {
   int parts = 0, calls = 0;
-  EXPECT_THROW(forParts(
+  EXPECT_THROW(parallelFor(
                    100, 1, 1, [&](int, int, int) { ++parts; },
                    [&] {
                      if (++calls == 4) throw std::runtime_error("stop");
@@ -59,12 +59,12 @@ TEST(ForParts, StopsWhereBetweenThrows) {
   EXPECT_EQ(parts, 3);
 }
 
-TEST(ForParts, AsksBetweenWhileItWaitsForTheOthersAndAtTheEnd) {
+TEST(ParallelFor, AsksBetweenWhileItWaitsForTheOthersAndAtTheEnd) {
   for (int threads : {1, 2, 3}) {
     const auto caller = std::this_thread::get_id();
     std::atomic<int> asked = 0;
     // whoever is not the caller waits until the caller, which has nothing left to do, has asked three times more
-    forParts(
+    parallelFor(
         threads, 1, threads,
         [&](int worker, int, int) {
           for (const int before = asked; worker > 0 && asked < before + 3;)
@@ -78,14 +78,14 @@ TEST(ForParts, AsksBetweenWhileItWaitsForTheOthersAndAtTheEnd) {
   }
 }
 
-TEST(ForParts, WhatBetweenThrowsWhileItWaitsIsPassedOnOnceTheOthersHaveEnded) {
+TEST(ParallelFor, WhatBetweenThrowsWhileItWaitsIsPassedOnOnceTheOthersHaveEnded) {
   std::atomic<bool> other_runs = false, other_ended = false, stop = false;
   const auto between = [&] {
     if (!other_runs) return;
     stop = true;
     throw std::runtime_error("stop");
   };
-  EXPECT_THROW(forParts(
+  EXPECT_THROW(parallelFor(
                    2, 1, 2,
                    [&](int worker, int, int) {
                      if (worker == 0) {

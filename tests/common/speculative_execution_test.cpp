@@ -17,47 +17,47 @@ void waitFor(const std::atomic<bool>& done) {
   while (!done) std::this_thread::yield();
 }
 
-TEST(WorkAhead, ResultsAreThoseOfTheirWorkAtAnyNumberOfThreads) {
+TEST(SpeculativeExecutor, ResultsAreThoseOfTheirWorkAtAnyNumberOfThreads) {
   for (const int threads : kThreads) {
-    WorkAhead ahead(threads);
-    std::vector<Later<int>> squares;
+    SpeculativeExecutor ahead(threads);
+    std::vector<Speculative<int>> squares;
     for (int i = 0; i < 40; ++i) {
-      squares.push_back(ahead.later<int>([i](const JobStopped&) { return i * i; }));
-      squares.back().begin(i % 2 == 0 ? Wanted::maybe : Wanted::surely);
+      squares.push_back(ahead.later<int>([i](const CancellationToken&) { return i * i; }));
+      squares.back().begin(i % 2 == 0 ? Priority::maybe : Priority::surely);
     }
     for (int i = 0; i < 40; ++i) EXPECT_EQ(squares[std::size_t(i)].get(), i * i);
   }
 }
 
-TEST(WorkAhead, WhatIsNotBegunIsDoneWhereItIsGotAndNowhereElse) {
+TEST(SpeculativeExecutor, WhatIsNotBegunIsDoneWhereItIsGotAndNowhereElse) {
   for (const int threads : kThreads) {
-    WorkAhead ahead(threads);
+    SpeculativeExecutor ahead(threads);
     std::atomic<int> done = 0;
-    const auto count = [&](const JobStopped&) {
+    const auto count = [&](const CancellationToken&) {
       ++done;
       return std::this_thread::get_id();
     };
-    const Later<std::thread::id> one = ahead.later<std::thread::id>(count), other = ahead.later<std::thread::id>(count);
+    const Speculative<std::thread::id> one = ahead.later<std::thread::id>(count), other = ahead.later<std::thread::id>(count);
     EXPECT_EQ(one.get(), std::this_thread::get_id());
     EXPECT_EQ(one.get(), std::this_thread::get_id());
     EXPECT_EQ(done, 1);
   }
 }
 
-TEST(WorkAhead, WhatIsWantedMoreIsDoneFirst) {
-  WorkAhead ahead(2);
+TEST(SpeculativeExecutor, WhatIsWantedMoreIsDoneFirst) {
+  SpeculativeExecutor ahead(2);
   std::atomic<bool> go = false, is_busy = false, done = false;
   std::vector<int> order;  // of the one thread beside this one
-  const Later<int> first = ahead.later<int>([&](const JobStopped&) {
+  const Speculative<int> first = ahead.later<int>([&](const CancellationToken&) {
     is_busy = true;
     waitFor(go);
     return 0;
   });
   first.begin();
   waitFor(is_busy);
-  std::vector<Later<int>> others;
-  for (const Wanted wanted : {Wanted::maybe, Wanted::likely, Wanted::surely, Wanted::likely}) {
-    others.push_back(ahead.later<int>([&, i = int(others.size())](const JobStopped&) {
+  std::vector<Speculative<int>> others;
+  for (const Priority wanted : {Priority::maybe, Priority::likely, Priority::surely, Priority::likely}) {
+    others.push_back(ahead.later<int>([&, i = int(others.size())](const CancellationToken&) {
       order.push_back(i);
       if (i == 0) done = true;
       return i;
@@ -69,11 +69,11 @@ TEST(WorkAhead, WhatIsWantedMoreIsDoneFirst) {
   EXPECT_EQ(order, (std::vector<int>{2, 1, 3, 0}));
 }
 
-TEST(WorkAhead, WorkThatIsNotWantedAnyMoreIsTold) {
-  WorkAhead ahead(2);
+TEST(SpeculativeExecutor, WorkThatIsNotWantedAnyMoreIsTold) {
+  SpeculativeExecutor ahead(2);
   std::atomic<bool> begun = false, told = false;
   {
-    const Later<int> later = ahead.later<int>([&](const JobStopped& stopped) {
+    const Speculative<int> later = ahead.later<int>([&](const CancellationToken& stopped) {
       begun = true;
       while (!stopped()) std::this_thread::yield();
       told = true;
@@ -85,13 +85,13 @@ TEST(WorkAhead, WorkThatIsNotWantedAnyMoreIsTold) {
   waitFor(told);
 }
 
-TEST(WorkAhead, WorkMayGetResultsThatItMadeItself) {
+TEST(SpeculativeExecutor, WorkMayGetResultsThatItMadeItself) {
   for (const int threads : kThreads) {
-    WorkAhead ahead(threads);
+    SpeculativeExecutor ahead(threads);
     const std::function<int(int)> fibonacci = [&](int n) {
       if (n < 2) return n;
-      const Later<int> one = ahead.later<int>([&, n](const JobStopped&) { return fibonacci(n - 1); });
-      const Later<int> other = ahead.later<int>([&, n](const JobStopped&) { return fibonacci(n - 2); });
+      const Speculative<int> one = ahead.later<int>([&, n](const CancellationToken&) { return fibonacci(n - 1); });
+      const Speculative<int> other = ahead.later<int>([&, n](const CancellationToken&) { return fibonacci(n - 2); });
       one.begin(), other.begin();
       return one.get() + other.get();
     };
@@ -99,25 +99,25 @@ TEST(WorkAhead, WorkMayGetResultsThatItMadeItself) {
   }
 }
 
-TEST(WorkAhead, AnErrorIsThrownWhereTheResultIsGot) {
+TEST(SpeculativeExecutor, AnErrorIsThrownWhereTheResultIsGot) {
   for (const int threads : kThreads) {
-    WorkAhead ahead(threads);
-    const Later<int> good = ahead.later<int>([](const JobStopped&) { return 1; });
-    const Later<int> bad = ahead.later<int>([](const JobStopped&) -> int { throw std::runtime_error("bad"); });
-    const Later<int> not_got = ahead.later<int>([](const JobStopped&) -> int { throw std::runtime_error("worse"); });
-    for (const Later<int>* later : {&bad, &good, &not_got}) later->begin();
+    SpeculativeExecutor ahead(threads);
+    const Speculative<int> good = ahead.later<int>([](const CancellationToken&) { return 1; });
+    const Speculative<int> bad = ahead.later<int>([](const CancellationToken&) -> int { throw std::runtime_error("bad"); });
+    const Speculative<int> not_got = ahead.later<int>([](const CancellationToken&) -> int { throw std::runtime_error("worse"); });
+    for (const Speculative<int>* later : {&bad, &good, &not_got}) later->begin();
     EXPECT_EQ(good.get(), 1);
     EXPECT_THROW(bad.get(), std::runtime_error);
   }
 }
 
-TEST(WorkAhead, BetweenEndsAllAndWhatWasNotGotCanBeGotAfterwards) {
+TEST(SpeculativeExecutor, BetweenEndsAllAndWhatWasNotGotCanBeGotAfterwards) {
   for (const int threads : kThreads) {
     std::atomic<bool> is_pressed = true, may_end = false;
-    WorkAhead ahead(threads, [&] {
+    SpeculativeExecutor ahead(threads, [&] {
       if (is_pressed) throw std::runtime_error("pressed");
     });
-    const Later<int> later = ahead.later<int>([&](const JobStopped& stopped) {
+    const Speculative<int> later = ahead.later<int>([&](const CancellationToken& stopped) {
       while (!may_end && !stopped()) std::this_thread::yield();
       return may_end ? 7 : 0;
     });
@@ -130,11 +130,11 @@ TEST(WorkAhead, BetweenEndsAllAndWhatWasNotGotCanBeGotAfterwards) {
   }
 }
 
-TEST(WorkAhead, BetweenEndsWorkThatGetsResults) {
+TEST(SpeculativeExecutor, BetweenEndsWorkThatGetsResults) {
   for (const int threads : kThreads) {
-    WorkAhead ahead(threads, [] { throw std::runtime_error("pressed"); });
-    const Later<int> outer = ahead.later<int>([&](const JobStopped&) {
-      const Later<int> inner = ahead.later<int>([](const JobStopped& stopped) {
+    SpeculativeExecutor ahead(threads, [] { throw std::runtime_error("pressed"); });
+    const Speculative<int> outer = ahead.later<int>([&](const CancellationToken&) {
+      const Speculative<int> inner = ahead.later<int>([](const CancellationToken& stopped) {
         while (!stopped()) std::this_thread::yield();
         return 1;
       });
@@ -145,11 +145,11 @@ TEST(WorkAhead, BetweenEndsWorkThatGetsResults) {
   }
 }
 
-TEST(WorkAhead, AtRestNobodyWorksAndThereafterTheyGoOn) {
-  WorkAhead ahead(2);
+TEST(SpeculativeExecutor, AtRestNobodyWorksAndThereafterTheyGoOn) {
+  SpeculativeExecutor ahead(2);
   std::atomic<int> running = 0, runs = 0;
   std::atomic<bool> begun = false;
-  const Later<int> later = ahead.later<int>([&](const JobStopped& stopped) {
+  const Speculative<int> later = ahead.later<int>([&](const CancellationToken& stopped) {
     ++running;
     begun = true;
     while (runs == 0 && !stopped()) std::this_thread::yield();

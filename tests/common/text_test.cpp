@@ -12,9 +12,9 @@ TEST(Text, EditDistanceCountsASwapOfNeighborsAsOne) {
 
 TEST(Text, SimilarWordsFindsTypingMistakesAndParts) {
   const std::vector<std::string> names = {"l_gripper", "l_palm", "target", "table"};
-  EXPECT_EQ(similarWords("l_griper", names).front(), "l_gripper");
-  EXPECT_EQ(similarWords("gripper", names).front(), "l_gripper");
-  EXPECT_TRUE(similarWords("zzz", names).empty());
+  EXPECT_EQ(similarNames("l_griper", names).front(), "l_gripper");
+  EXPECT_EQ(similarNames("gripper", names).front(), "l_gripper");
+  EXPECT_TRUE(similarNames("zzz", names).empty());
   EXPECT_EQ(similarHint("Table", names), "; similar names: table");
 }
 

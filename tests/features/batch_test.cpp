@@ -132,7 +132,7 @@ TEST(Batch, CheckersThatAreKeptAreOfTheSceneThatIsAsked) {
   EXPECT_EQ(first->margin(), .01);
   Config other(config);
   other.addFrame("other");
-  EXPECT_EQ(kept.take(other.state(), 0.)->scene().sharedProgram(), other.program());
+  EXPECT_EQ(kept.take(other.state(), 0.)->scene().sharedModel(), other.model());
 }
 
 TEST(Batch, NoConfigurationsAreFine) {

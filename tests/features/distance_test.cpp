@@ -203,7 +203,7 @@ TEST(PairCollisions, OfBodiesThatNoJointMovesApartFollowTheSceneWhenTheseArePlac
     wall: { X: [0 .25 0], shape: sphere, size: [.1], contact: 1 }
     post: { X: [.15 .25 0], shape: sphere, size: [.1], contact: 1 }
   )g");
-  const PairCollisions feature({}, *config.program(), PairChoice::scene);
+  const PairCollisions feature({}, *config.model(), PairChoice::scene);
   const auto values = [&] {
     const State* state = &config.state();
     VectorXd y(feature.rows());
@@ -220,10 +220,10 @@ TEST(PairCollisions, OfBodiesThatNoJointMovesApartFollowTheSceneWhenTheseArePlac
       config.setJointState(numbers({q}));
       const auto [y, rate] = values();
       int row = 0;
-      for (const auto& [a, b] : config.program()->collidable()) {
+      for (const auto& [a, b] : config.model()->collidable()) {
         const double distance = (config.state().position(a) - config.state().position(b)).norm() - .2;
         EXPECT_NEAR(y[row], std::max(-distance, -.1), 1e-12) << x << ", " << q;
-        if (config.program()->frame_link[a] == config.program()->frame_link[b]) EXPECT_EQ(rate[row], 0.);
+        if (config.model()->frame_link[a] == config.model()->frame_link[b]) EXPECT_EQ(rate[row], 0.);
         ++row;
       }
     }

@@ -85,7 +85,7 @@ std::vector<std::vector<int>> frameChoices(const FeatureInfo& info, const Config
 }
 
 VectorXd randomJoints(const Config& config, Rng& rng) {
-  VectorXd q = config.program()->home;
+  VectorXd q = config.model()->home;
   for (double& x : q) x += .3 * rng.normal();
   return q;
 }
@@ -162,7 +162,7 @@ TEST_P(EveryFeature, HasTheJacobianOfCentralDifferences) {
       for (int order = 0; order <= 2; ++order) {
         std::unique_ptr<Residual> residual;
         try {
-          residual = std::make_unique<Residual>(makeFeature(info.symbol, frames, *config.program()), MatrixXd(),
+          residual = std::make_unique<Residual>(makeFeature(info.symbol, frames, *config.model()), MatrixXd(),
                                                 VectorXd(), order, info.name);
         } catch (const ValueError& error) {  // frames without a joint, an order below the feature's own
           refusal = error.what();
@@ -193,12 +193,12 @@ TEST_P(EveryFeature, HasAJacobianThatScaleAndTargetTransformLikeTheValue) {
   for (const Scene& joints : kScenes) {
     const Config config = makeScene(joints);
     const std::vector<int> frames = frameChoices(info, config).front();
-    const int rows = makeFeature(info.symbol, frames, *config.program())->rows();
-    const int least_order = makeFeature(info.symbol, frames, *config.program())->order();
+    const int rows = makeFeature(info.symbol, frames, *config.model())->rows();
+    const int least_order = makeFeature(info.symbol, frames, *config.model())->order();
     if (rows == 0) continue;
     for (int order = least_order; order <= 2; ++order) {
       for (const MatrixXd& scale : {random(1, 1), random(rows, 1), random(2, rows)}) {
-        Residual residual(makeFeature(info.symbol, frames, *config.program()), scale, random(rows, 1), order,
+        Residual residual(makeFeature(info.symbol, frames, *config.model()), scale, random(rows, 1), order,
                           info.name);
         ASSERT_EQ(residual.rows(), residual.mixesRows() ? 2 : rows);
         checkSamples(residual, config, rng,
@@ -226,7 +226,7 @@ TEST_P(EveryFeature, TellsTheSecondDerivativesThatItsJacobianHas) {
     for (const std::vector<int>& frames : choices) {
       std::shared_ptr<const Feature> feature;
       try {
-        feature = makeFeature(info.symbol, frames, *config.program());
+        feature = makeFeature(info.symbol, frames, *config.model());
       } catch (const ValueError&) {  // frames without a joint
         continue;
       }

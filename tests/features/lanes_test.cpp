@@ -41,7 +41,7 @@ RowMatrix randomJoints(const Config& config, int count, double spread = 1.) {
   Rng rng(7);
   RowMatrix Q(count, config.getJointDimension());
   for (int i = 0; i < count; ++i) {
-    for (int k = 0; k < Q.cols(); ++k) Q(i, k) = config.program()->home[k] + spread * rng.normal();
+    for (int k = 0; k < Q.cols(); ++k) Q(i, k) = config.model()->home[k] + spread * rng.normal();
   }
   return Q;
 }

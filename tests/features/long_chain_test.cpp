@@ -44,9 +44,9 @@ TEST(LongChain, OfAThousandJointsRollsUpToAPolygon) {
 
 TEST(LongChain, TakesMemoryThatGrowsLikeItsJoints) {
   const Config config = chain();
-  const Program& program = *config.program();
-  for (std::size_t size : {program.links.size(), program.steps.size(), program.column_dof.size(),
-                           program.column_before.size(), program.last_column.size(), program.frame_link.size()}) {
+  const KinematicModel& model = *config.model();
+  for (std::size_t size : {model.links.size(), model.steps.size(), model.column_dof.size(),
+                           model.column_before.size(), model.last_column.size(), model.frame_link.size()}) {
     EXPECT_LE(size, 3 * std::size_t(kJoints));
   }
 }

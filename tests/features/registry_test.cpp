@@ -48,7 +48,7 @@ TEST(Registry, SaysHowManyFramesAndRowsThereAreAndOfWhichOrderTheyAre) {
     };
     EXPECT_TRUE(info.max_frames < 0 || words(info.frames) == info.max_frames) << info.name;
     EXPECT_LE(info.min_frames, info.max_frames < 0 ? 2 : info.max_frames) << info.name;
-    const auto feature = makeFeature(info.symbol, someFrames(info, config), *config.program());
+    const auto feature = makeFeature(info.symbol, someFrames(info, config), *config.model());
     EXPECT_EQ(feature->order(), info.order) << info.name;
     const std::string rows = info.rows;
     if (rows.find(' ') != std::string::npos) continue;  // they depend on the scene

@@ -89,7 +89,7 @@ TEST(IkLanes, RowsAndJacobianAreThoseOfTheState) {
   const Config config = treeOfJoints();
   const std::vector<IkTarget> targets = targetsOf(config);
   const IkProblem problem(config, targets, {});
-  State state(problem.program, problem.parameters);
+  State state(problem.model, problem.parameters);
   using Rows = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
   const int n = config.getJointDimension();
   ASSERT_EQ(problem.variables(), n);

@@ -89,7 +89,7 @@ TEST(IkProblem, StartingPointsAreWithinLimitsOfNormOneAndTheFirstIsThePresentOne
       EXPECT_LE(x[v], problem.upper[v]);
       if (i == 0) EXPECT_EQ(x[v], config.getJointState()[problem.dofs[v]]);
     }
-    const int first = problem.variable[config.program()->unit_norms.at(0).first];
+    const int first = problem.variable[config.model()->unit_norms.at(0).first];
     EXPECT_NEAR(x.segment(first, 4).norm(), 1., 1e-15);
     if (i > 0) EXPECT_NE(x, before);
     before = x;

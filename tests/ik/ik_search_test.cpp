@@ -27,12 +27,12 @@ post: { X: [.6 0 .2], shape: cylinder, size: [1 .05], contact: 1 }
 /// Where frames are at random joints, so that every target can be reached.
 std::vector<std::vector<IkTarget>> reachable(Config config, int count) {
   Rng rng(3);
-  const auto program = config.program();
+  const auto model = config.model();
   std::vector<std::vector<IkTarget>> problems;
   for (int i = 0; i < count; ++i) {
-    VectorXd q(program->dofs);
+    VectorXd q(model->dofs);
     for (int k = 0; k < q.size(); ++k)
-      q[k] = rng.uniform(std::max(program->lower[k], -3.), std::min(program->upper[k], 3.));
+      q[k] = rng.uniform(std::max(model->lower[k], -3.), std::min(model->upper[k], 3.));
     config.setJointState(q);
     const Pose X = config.getFrame("hand").getPose();
     problems.push_back(

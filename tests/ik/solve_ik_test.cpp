@@ -31,11 +31,11 @@ Config planarArm(const std::string& limits = {}) {
 std::vector<std::vector<IkTarget>> reachablePoses(Config config, const std::string& frame, int count,
                                                   std::uint64_t seed, bool without_collisions) {
   Rng rng(seed);
-  const auto program = config.program();
+  const auto model = config.model();
   std::vector<std::vector<IkTarget>> problems;
   while (int(problems.size()) < count) {
-    VectorXd q(program->dofs);
-    for (int i = 0; i < q.size(); ++i) q[i] = rng.uniform(program->lower[i], program->upper[i]);
+    VectorXd q(model->dofs);
+    for (int i = 0; i < q.size(); ++i) q[i] = rng.uniform(model->lower[i], model->upper[i]);
     config.setJointState(q);
     if (without_collisions && config.getTotalPenetration() > 0.) continue;
     problems.push_back({IkTarget::toPose(frame, config.getFrame(frame).getPose())});
@@ -67,13 +67,13 @@ TEST(SolveIk, TheElbowAngleOfATwoLinkArmIsThatOfTheCosineRule) {
 TEST(SolveIk, PosesFromRandomJointsOfThePandaAreReachedToTheTolerance) {
   Config config = panda();
   const auto problems = reachablePoses(config, "l_gripper", 1000, 1, false);
-  const auto program = config.program();
+  const auto model = config.model();
   int solved = 0;
   const std::vector<IkResult> results = solveIkBatch(config, problems, withoutCollisions());
   for (std::size_t i = 0; i < results.size(); ++i) {
     const IkResult& result = results[i];
-    EXPECT_TRUE((result.q.array() >= program->lower.array()).all() &&
-                (result.q.array() <= program->upper.array()).all());
+    EXPECT_TRUE((result.q.array() >= model->lower.array()).all() &&
+                (result.q.array() <= model->upper.array()).all());
     if (!result.feasible()) continue;
     ++solved;
     const auto [distance, angle] = missOf(config, result.q, problems[i][0]);

@@ -23,23 +23,23 @@ std::vector<Matrix3d> quarterTurns() {
   return turns;
 }
 
-TEST(ConstantTurn, ColumnsAndSignsOfQuarterTurnsMultiplyAsTheMatrixDoes) {
+TEST(ConstantRotation, ColumnsAndSignsOfQuarterTurnsMultiplyAsTheMatrixDoes) {
   Rng rng(1);
   for (const Matrix3d& R : quarterTurns()) {
-    const ConstantTurn turn = classifyTurn(R.data());
-    EXPECT_EQ(turn.kind, R.isIdentity(0.) ? ConstantTurn::none : ConstantTurn::quarters);
+    const ConstantRotation turn = classifyRotation(R.data());
+    EXPECT_EQ(turn.kind, R.isIdentity(0.) ? ConstantRotation::none : ConstantRotation::quarters);
     const Matrix3d left = Matrix3d::NullaryExpr([&] { return rng.normal(); });
     for (int k = 0; k < 3; ++k) EXPECT_EQ(left * R.col(k), turn.sign[k] * left.col(turn.column[k]));
   }
 }
 
-TEST(ConstantTurn, RoundingIsForgivenAndAnythingMoreIsAGeneralTurn) {
+TEST(ConstantRotation, RoundingIsForgivenAndAnythingMoreIsAGeneralTurn) {
   for (Matrix3d R : quarterTurns()) {
-    const ConstantTurn::Kind kind = classifyTurn(R.data()).kind;
+    const ConstantRotation::Kind kind = classifyRotation(R.data()).kind;
     const Matrix3d rounded = R + Matrix3d::Constant(3e-16);
-    EXPECT_EQ(classifyTurn(rounded.data()).kind, kind);
+    EXPECT_EQ(classifyRotation(rounded.data()).kind, kind);
     const Matrix3d turned = R * axisRotation(1, 1e-9);
-    EXPECT_EQ(classifyTurn(turned.data()).kind, ConstantTurn::general);
+    EXPECT_EQ(classifyRotation(turned.data()).kind, ConstantRotation::general);
   }
 }
 

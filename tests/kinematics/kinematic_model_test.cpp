@@ -28,7 +28,7 @@ Config arm(const std::string& base) {
 }
 
 VectorXd someJoints(const Config& config, Rng& rng) {
-  VectorXd q = config.program()->home;
+  VectorXd q = config.model()->home;
   for (double& x : q) x += .5 * rng.normal();
   return q;
 }

@@ -20,13 +20,13 @@ Config twoArms() {
   return config;
 }
 
-TEST(LaneProgram, HasTheLinksThatMoveTheFramesAndNoOthers) {
+TEST(LaneKinematics, HasTheLinksThatMoveTheFramesAndNoOthers) {
   const Config config = twoArms();
-  const auto program = config.program();
+  const auto model = config.model();
   const std::vector<int> variable = {-1, -1, 0, 1};  // the joints of the second arm
-  const int end = frameId(*program, "b_end", "test");
-  const LaneLinks links(*program, *config.parameters(), {end}, variable, 2);
-  const LaneRows::Frame place = links.place(*program, *config.parameters(), end);
+  const int end = frameId(*model, "b_end", "test");
+  const LaneLinks links(*model, *config.parameters(), {end}, variable, 2);
+  const LaneRows::Frame place = links.place(*model, *config.parameters(), end);
   const std::vector<int> chain = links.chain(place.link);
   ASSERT_EQ(chain.size(), 2u);
   std::vector<int> variables;
@@ -40,7 +40,7 @@ TEST(LaneProgram, HasTheLinksThatMoveTheFramesAndNoOthers) {
   EXPECT_EQ(turns, 1);
 }
 
-TEST(LaneProgram, RowsAreCountedOneBelowTheOther) {
+TEST(LaneKinematics, RowsAreCountedOneBelowTheOther) {
   LaneRowList list;
   list.addPosition(LaneRows::Block::position, 0);
   list.addPose(1);

@@ -36,13 +36,13 @@ struct Numbers {
 };
 
 Numbers computed(UpdateState update, const State& state, const VectorXd& q) {
-  const Program& program = state.program();
+  const KinematicModel& model = state.model();
   const Parameters& parameters = state.parameters();
-  Numbers numbers{std::vector<double>(2 * program.turn_dof.size()), std::vector<double>(12 * program.links.size() + 1),
-                  std::vector<double>(6 * program.column_dof.size() + 1)};
+  Numbers numbers{std::vector<double>(2 * model.turn_dof.size()), std::vector<double>(12 * model.links.size() + 1),
+                  std::vector<double>(6 * model.column_dof.size() + 1)};
   for (const int k : {0, 4, 8}) numbers.poses[std::size_t(k)] = 1.;
-  update({parameters.link.data(), int(parameters.link.size()), parameters.step.data(), program.turn_dof.data(),
-          parameters.turn_factor.data(), int(program.turn_dof.size()), q.data(), numbers.turned.data(),
+  update({parameters.link.data(), int(parameters.link.size()), parameters.step.data(), model.turn_dof.data(),
+          parameters.turn_factor.data(), int(model.turn_dof.size()), q.data(), numbers.turned.data(),
           numbers.poses.data(), numbers.twists.data()});
   return numbers;
 }
@@ -54,19 +54,19 @@ TEST(StateKernel, AllGiveTheSameBitsAndThoseOfTheState) {
   State state = config.state();
   Rng rng(2);
   for (int i = 0; i < 50; ++i) {
-    VectorXd q = state.program().home;
+    VectorXd q = state.model().home;
     for (double& x : q) x += (i % 10 == 9 ? 1e6 : 1.) * rng.normal();  // angles of many turns, too
     state.setJoints(q.data());
     const Numbers base = computed(lanes::updateStateBase, state, q), chosen = computed(stateKernel(), state, q);
     EXPECT_EQ(base.poses, chosen.poses) << i;
     EXPECT_EQ(base.twists, chosen.twists) << i;
     EXPECT_EQ(base.turned, chosen.turned) << i;
-    for (std::size_t link = 0; link < state.program().links.size(); ++link) {
+    for (std::size_t link = 0; link < state.model().links.size(); ++link) {
       const RigidTransform& pose = state.linkPose(int(link));
       EXPECT_EQ(Eigen::Map<const Matrix3d>(base.poses.data() + 12 * link), pose.R) << i;
       EXPECT_EQ(Eigen::Map<const Vector3d>(base.poses.data() + 12 * link + 9), pose.p) << i;
     }
-    for (std::size_t column = 0; column < state.program().column_dof.size(); ++column) {
+    for (std::size_t column = 0; column < state.model().column_dof.size(); ++column) {
       EXPECT_EQ(Eigen::Map<const Vector3d>(base.twists.data() + 6 * column), state.twist(int(column)).angular) << i;
       EXPECT_EQ(Eigen::Map<const Vector3d>(base.twists.data() + 6 * column + 3), state.twist(int(column)).linear) << i;
     }

@@ -11,7 +11,7 @@ namespace {
 /// A chain with one joint of every type, each on the previous one, with random constant transforms, and one frame on
 /// every link. The second half of it mimics nothing; the last link mimics the first joint with scale -2.
 struct Chain {
-  std::shared_ptr<Program> program = std::make_shared<Program>();
+  std::shared_ptr<KinematicModel> model = std::make_shared<KinematicModel>();
   std::shared_ptr<Parameters> parameters = std::make_shared<Parameters>();
 };
 
@@ -22,18 +22,18 @@ Chain makeChain(Rng& rng) {
     for (double& x : numbers) x = .5 * rng.normal();
     return Pose::fromNumbers(numbers).transform();
   };
-  Program& program = *chain.program;
-  program.links.push_back({});
+  KinematicModel& model = *chain.model;
+  model.links.push_back({});
   const auto addLink = [&](const std::vector<MotionStep>& steps, int dof, double scale) {
-    Program::Link link;
-    link.parent = int(program.links.size()) - 1;
-    link.first_step = int(program.steps.size());
+    KinematicModel::Link link;
+    link.parent = int(model.links.size()) - 1;
+    link.first_step = int(model.steps.size());
     link.steps = int(steps.size());
     link.dof = dof;
     link.scale = scale;
     link.axis = Vector3d(1, 2, -1).normalized();
-    program.steps.insert(program.steps.end(), steps.begin(), steps.end());
-    program.links.push_back(link);
+    model.steps.insert(model.steps.end(), steps.begin(), steps.end());
+    model.links.push_back(link);
   };
   std::vector<double> home;
   for (const auto& [name, type] : jointTypeNames()) {
@@ -43,13 +43,13 @@ Chain makeChain(Rng& rng) {
     for (double x : motionIdentity(steps)) home.push_back(x);
   }
   addLink(motionSteps(JointType::hingeX), 0, -2.);
-  for (std::size_t l = 0; l < program.links.size(); ++l) program.frame_link.push_back(int(l));
-  program.dofs = int(home.size());
-  program.home = Eigen::Map<VectorXd>(home.data(), program.dofs);
-  connectChains(program);
-  *chain.parameters = emptyParameters(program);
-  for (std::size_t l = 0; l < program.links.size(); ++l) {
-    if (l > 0) placeJoint(program, int(l), random_transform(), *chain.parameters);
+  for (std::size_t l = 0; l < model.links.size(); ++l) model.frame_link.push_back(int(l));
+  model.dofs = int(home.size());
+  model.home = Eigen::Map<VectorXd>(home.data(), model.dofs);
+  connectChains(model);
+  *chain.parameters = emptyParameters(model);
+  for (std::size_t l = 0; l < model.links.size(); ++l) {
+    if (l > 0) placeJoint(model, int(l), random_transform(), *chain.parameters);
     chain.parameters->frame_offset[l] = random_transform();
   }
   return chain;
@@ -60,10 +60,10 @@ Chain makeChain(Rng& rng) {
 TEST(State, JacobiansEqualCentralDifferencesForEveryJointType) {
   Rng rng(4);
   const Chain chain = makeChain(rng);
-  State state(chain.program, chain.parameters);
-  const int n = state.dofs(), frames = int(chain.program->frame_link.size());
+  State state(chain.model, chain.parameters);
+  const int n = state.dofs(), frames = int(chain.model->frame_link.size());
   for (int sample = 0; sample < 5; ++sample) {
-    VectorXd q = chain.program->home;
+    VectorXd q = chain.model->home;
     for (double& x : q) x += .3 * rng.normal();
     for (int frame = 0; frame < frames; ++frame) {
       const Vector3d point(.1, -.2, .3);
@@ -103,8 +103,8 @@ TEST(State, JacobiansEqualCentralDifferencesForEveryJointType) {
 TEST(State, WeightedJacobianIsTheSumOfItsParts) {
   Rng rng(5);
   const Chain chain = makeChain(rng);
-  State state(chain.program, chain.parameters);
-  const int n = state.dofs(), frame = int(chain.program->frame_link.size()) - 1;
+  State state(chain.model, chain.parameters);
+  const int n = state.dofs(), frame = int(chain.model->frame_link.size()) - 1;
   const Vector3d p(.3, .2, .1);
   MatrixXd A(2, 3), B(2, 3);
   A << 1, 2, 3, 4, 5, 6;

@@ -28,7 +28,7 @@ Config walker() {
 
 VectorXd randomState(const Config& config, Rng& rng) {
   VectorXd q = randomVector(config.getJointDimension(), rng);
-  for (const auto& range : config.state().program().unit_norms) q.segment(range.first, range.count).normalize();
+  for (const auto& range : config.state().model().unit_norms) q.segment(range.first, range.count).normalize();
   return q;
 }
 
@@ -52,7 +52,7 @@ TEST(VelocityDynamics, AFreeJointHasSixVelocitiesAndABallThree) {
 TEST(VelocityDynamics, TheMapKeepsTheNormsOfQuaternions) {
   const Sample sample(1);
   const VectorXd dq = velocityMap(sample.config) * sample.v;
-  for (const auto& range : sample.config.state().program().unit_norms)
+  for (const auto& range : sample.config.state().model().unit_norms)
     EXPECT_NEAR(sample.q.segment(range.first, range.count).dot(dq.segment(range.first, range.count)), 0., 1e-14);
 }
 

@@ -29,8 +29,8 @@ Komo jumpingBall() {
   return komo;
 }
 
-std::string verdictOf(const Komo& komo) {
-  return judge(forbiddenMotions(komo.path(), komo.objectives().all()), {}).message;
+std::string validityOf(const Komo& komo) {
+  return judge(constrainedMotions(komo.path(), komo.objectives().all()), {}).message;
 }
 
 }  // namespace
@@ -38,24 +38,24 @@ std::string verdictOf(const Komo& komo) {
 TEST(ForbiddenMotions, NamedFramesCountAndOthersDoNot) {
   Komo komo = jumpingBall();
   komo.addObjective({}, F::accumulatedCollisions, {"post"}, T::eq, 10.);
-  EXPECT_TRUE(forbidsAnyMotion(komo.path(), komo.objectives().all()));
-  const std::vector<SliceMotion> motions = forbiddenMotions(komo.path(), komo.objectives().all());
+  EXPECT_TRUE(constrainsAnyMotion(komo.path(), komo.objectives().all()));
+  const std::vector<SliceMotion> motions = constrainedMotions(komo.path(), komo.objectives().all());
   ASSERT_EQ(motions.size(), 3u);
   EXPECT_FALSE(motions[0].of_all);
   ASSERT_EQ(motions[0].pairs.size(), 1u);
-  const std::string contact = verdictOf(komo);
+  const std::string contact = validityOf(komo);
   EXPECT_NE(contact.find("'ball' and 'post' overlap"), std::string::npos) << contact;
   Komo before = jumpingBall();
   before.addObjective({0., .75}, F::pairCollisions, {"post"}, T::ineq, 10.);
-  EXPECT_EQ(verdictOf(before), "") << "it jumps over the post later";
+  EXPECT_EQ(validityOf(before), "") << "it jumps over the post later";
 }
 
 TEST(ForbiddenMotions, BothTimesMustForbidIt) {
   Komo komo = jumpingBall();
   komo.addObjective({0., .5}, F::accumulatedCollisions, {"wall"}, T::eq, 10.);
-  EXPECT_EQ(verdictOf(komo), "") << "it is forbidden until slice 1, and the jump leads to slice 2";
+  EXPECT_EQ(validityOf(komo), "") << "it is forbidden until slice 1, and the jump leads to slice 2";
   komo.addObjective({.75}, F::accumulatedCollisions, {}, T::eq, 10.);
-  const std::string contact = verdictOf(komo);
+  const std::string contact = validityOf(komo);
   EXPECT_NE(contact.find("'ball' and 'wall' overlap"), std::string::npos) << contact;
   EXPECT_EQ(contact.find("post"), std::string::npos);
 }
@@ -66,13 +66,13 @@ TEST(ForbiddenMotions, DistancesThatAreKeptCountForShapesThatNeverCollide) {
   path << 0., .3, .31, .32;
   komo.setPath(path);
   komo.addObjective({}, F::accumulatedCollisions, {}, T::eq, 10.);
-  EXPECT_EQ(verdictOf(komo), "");
+  EXPECT_EQ(validityOf(komo), "");
   komo.addObjective({}, F::distance, {"ball", "ghost"}, T::ineq, 10.);
-  const std::string contact = verdictOf(komo);
+  const std::string contact = validityOf(komo);
   EXPECT_NE(contact.find("'ball' and 'ghost' overlap by 65 mm"), std::string::npos) << contact;
   Komo touching = jumpingBall();
   touching.addObjective({}, F::distance, {"ball", "ghost"}, T::eq, 10.);
-  EXPECT_FALSE(forbidsAnyMotion(touching.path(), touching.objectives().all())) << "it is to touch";
+  EXPECT_FALSE(constrainsAnyMotion(touching.path(), touching.objectives().all())) << "it is to touch";
 }
 
 TEST(ForbiddenMotions, ResultsTellIt) {

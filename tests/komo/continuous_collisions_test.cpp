@@ -37,9 +37,9 @@ Komo aroundWall(int slices) {
 
 /// The instants of a motion, in the order in which they were added.
 VectorXd sharesOf(const Objective& objective, std::size_t motion) {
-  const std::vector<PairInstant>& instants = objective.instants[motion];
-  VectorXd shares(Eigen::Index(instants.size()));
-  for (std::size_t i = 0; i < instants.size(); ++i) shares[Eigen::Index(i)] = instants[i].share;
+  const std::vector<CollisionSample>& samples = objective.samples[motion];
+  VectorXd shares(Eigen::Index(samples.size()));
+  for (std::size_t i = 0; i < samples.size(); ++i) shares[Eigen::Index(i)] = samples[i].share;
   return shares;
 }
 
@@ -47,7 +47,7 @@ VectorXd sharesOf(const Objective& objective, std::size_t motion) {
 double coalDistanceAlong(const Komo& komo, double step) {
   double least = 1.;
   for (const SliceMotion& motion : motionsOf(komo.path())) {
-    State state(motion.program, motion.parameters);
+    State state(motion.model, motion.parameters);
     const int count = int((motion.to - motion.from).cwiseAbs().maxCoeff() / step) + 1;
     for (int i = 0; i <= count; ++i) {
       const VectorXd q = motion.from + double(i) / count * (motion.to - motion.from);
@@ -86,20 +86,20 @@ TEST(FreeMotion, AddsInstantsWhereTheMotionIsTooNear) {
   Objective on_the_way = komo.objectives()[1];
   EXPECT_EQ(on_the_way.from, 1) << "no motion leads to slice 0";
   MotionProbe probe(kFreeTolerance);
-  LinesBetweenSlices lines(komo.path(), probe);
-  EXPECT_NEAR(addInstants(on_the_way, lines), .065, 1e-4);
-  ASSERT_EQ(on_the_way.instants.size(), 3u);
+  LinearSliceMotions lines(komo.path(), probe);
+  EXPECT_NEAR(addSamples(on_the_way, lines), .065, 1e-4);
+  ASSERT_EQ(on_the_way.samples.size(), 3u);
   EXPECT_TRUE(near(sharesOf(on_the_way, 0), VectorXd::Constant(1, .5), 1e-9))
       << "beside a motion that goes right through";
   EXPECT_TRUE(near(sharesOf(on_the_way, 1), Eigen::Vector3d(.5, .25, .75), 1e-9));
   EXPECT_TRUE(near(sharesOf(on_the_way, 2), VectorXd::Constant(1, .5), 1e-9));
-  const PairInstant& instant = on_the_way.instants[1][0];
-  const std::vector<std::string>& names = komo.path().state(0).program().frame_name;
-  EXPECT_EQ(names[std::size_t(instant.a)], "ball");
-  EXPECT_EQ(names[std::size_t(instant.b)], "wall");
+  const CollisionSample& sample = on_the_way.samples[1][0];
+  const std::vector<std::string>& names = komo.path().state(0).model().frame_name;
+  EXPECT_EQ(names[std::size_t(sample.a)], "ball");
+  EXPECT_EQ(names[std::size_t(sample.b)], "wall");
   path.col(0) << 0., .1, .2, .3;
   komo.setPath(path);
-  EXPECT_EQ(addInstants(on_the_way, lines), 0.) << "free";
+  EXPECT_EQ(addSamples(on_the_way, lines), 0.) << "free";
   path.col(0) << .7, .6, .58, .3;
   komo.setPath(path);
   EXPECT_GT(measurePath(komo).per_slice(3, 1), 10. * .05) << "reports see it";

@@ -18,16 +18,16 @@ Config ballAndBox() {
   return config;
 }
 
-constexpr Exchange kKinds[] = {Exchange::slide, Exchange::stick, Exchange::complementary, Exchange::bounce};
+constexpr ForceExchange kKinds[] = {ForceExchange::slide, ForceExchange::stick, ForceExchange::complementary, ForceExchange::bounce};
 
 }  // namespace
 
 TEST(Exchanges, JacobiansAreThoseOfCentralDifferences) {
-  for (const Exchange kind : kKinds) {
+  for (const ForceExchange kind : kKinds) {
     for (const int order : {0, 1, 2}) {
-      if (kind == Exchange::bounce && order < 2) continue;
+      if (kind == ForceExchange::bounce && order < 2) continue;
       const auto komo = std::make_shared<Komo>(ballAndBox(), 4., 1, order);
-      komo->addExchange({2., 3.}, "box", "ball", kind);
+      komo->addForceExchange({2., 3.}, "box", "ball", kind);
       if (order == 2) komo->addObjective({}, FeatureSymbol::physics, {"box"}, ObjectiveType::eq);
       const auto nlp = makeNlp(komo);
       Rng rng(3);
@@ -42,9 +42,9 @@ TEST(Exchanges, JacobiansAreThoseOfCentralDifferences) {
 
 TEST(Exchanges, AddSixDofsToEachOfTheirSlices) {
   Komo komo(ballAndBox(), 4., 1, 2);
-  komo.addExchange({2., 3.}, "box", "ball", Exchange::slide);
+  komo.addForceExchange({2., 3.}, "box", "ball", ForceExchange::slide);
   EXPECT_EQ(komo.path().layout().dimension, 4 * 14 + 2 * 6);
-  komo.addExchange({2., 3.}, "box", "ball", Exchange::bounce);
+  komo.addForceExchange({2., 3.}, "box", "ball", ForceExchange::bounce);
   EXPECT_EQ(komo.path().layout().dimension, 4 * 14 + 3 * 6) << "a bounce takes one slice";
   ASSERT_EQ(komo.interactions().size(), 3u);
   EXPECT_EQ(komo.interactions()[0].object, "box");
@@ -52,7 +52,7 @@ TEST(Exchanges, AddSixDofsToEachOfTheirSlices) {
 
 TEST(Exchanges, WhatSticksMovesAlong) {
   Komo komo(ballAndBox(), 3., 1, 1);
-  komo.addExchange({1., 3.}, "box", "ball", Exchange::stick);
+  komo.addForceExchange({1., 3.}, "box", "ball", ForceExchange::stick);
   const auto& objectives = komo.objectives();
   const auto sliding =
       std::find_if(objectives.begin(), objectives.end(), [](const auto& o) { return o.name() == "slidingVelocity"; });
@@ -60,9 +60,9 @@ TEST(Exchanges, WhatSticksMovesAlong) {
   EXPECT_EQ(sliding->from, 1) << "the first slice is where they meet";
   const auto slidingIn = [&](const Vector3d& box_moves, const Vector3d& ball_moves) {
     VectorXd q = komo.path().state(1).q();
-    const Program& program = komo.path().state(1).program();
-    q.segment<3>(program.frame_dofs[program.frame_index.at("box")].first) += box_moves;
-    q.segment<3>(program.frame_dofs[program.frame_index.at("ball")].first) += ball_moves;
+    const KinematicModel& model = komo.path().state(1).model();
+    q.segment<3>(model.frame_dofs[model.frame_index.at("box")].first) += box_moves;
+    q.segment<3>(model.frame_dofs[model.frame_index.at("ball")].first) += ball_moves;
     komo.path().setSlice(1, q.data());
     Residual residual = residualIn(*sliding, komo.path(), komo.contacts().forces(), 1);
     const State* states[] = {&komo.path().state(0), &komo.path().state(1)};
@@ -77,8 +77,8 @@ TEST(Exchanges, WhatSticksMovesAlong) {
 
 TEST(Exchanges, MistakesAreExplained) {
   Komo komo(ballAndBox(), 2., 1, 1);
-  EXPECT_THROW(komo.addExchange({1.}, "box", "ball", Exchange::bounce), ValueError);
-  EXPECT_THROW(komo.addExchange({1.}, "box", "box", Exchange::slide), ValueError);
-  EXPECT_THROW(komo.addExchange({1.}, "bux", "ball", Exchange::slide), FrameNotFound);
-  EXPECT_THROW(komo.addExchange({3.}, "box", "ball", Exchange::slide), ValueError);
+  EXPECT_THROW(komo.addForceExchange({1.}, "box", "ball", ForceExchange::bounce), ValueError);
+  EXPECT_THROW(komo.addForceExchange({1.}, "box", "box", ForceExchange::slide), ValueError);
+  EXPECT_THROW(komo.addForceExchange({1.}, "bux", "ball", ForceExchange::slide), FrameNotFound);
+  EXPECT_THROW(komo.addForceExchange({3.}, "box", "ball", ForceExchange::slide), ValueError);
 }

@@ -191,11 +191,11 @@ TEST(Grounding, SaysWhatIsOddBeforeTheSearch) {
         << error.what();
   }
   problem.goal = readLiterals("(on b0 table)");
-  EXPECT_EQ(oddities(ground(problem)).back(), "nothing can make (on b0 table) of the goal true");
+  EXPECT_EQ(diagnostics(ground(problem)).back(), "nothing can make (on b0 table) of the goal true");
   problem.domain = readFol(
       std::string(kPickPlace) + "key\nDecisionRule unlock { X { (key X) (is_object X) } { (busy X) } }", "a.fol");
   problem.goal = readLiterals("(on b0 b1)");
-  EXPECT_EQ(oddities(ground(problem)).front(),
+  EXPECT_EQ(diagnostics(ground(problem)).front(),
             "a.fol:10:1: rule 'unlock' can never fire; no rule and no fact ever makes (key X) true");
   problem.start.push_back({"on", {"b0"}});
   EXPECT_THROW(ground(problem), ParseError);

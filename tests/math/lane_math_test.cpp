@@ -18,7 +18,7 @@ Two draw(Rng& rng, double spread) {
   return pack;
 }
 
-Vec3<Two> drawVector(Rng& rng) { return {draw(rng, 1.), draw(rng, 1.), draw(rng, 1.)}; }
+Vec3<Two> sampleVector(Rng& rng) { return {draw(rng, 1.), draw(rng, 1.), draw(rng, 1.)}; }
 
 template <class V>
 Vector3d lane(const V& a, int i) {
@@ -71,7 +71,7 @@ TEST(LaneMath, ProductsOfVectorsAreThoseOfEigenInEveryLane) {
   Rng rng(3);
   const double weights[3] = {.5, 0., -2.};
   for (int sample = 0; sample < 100; ++sample) {
-    const Vec3<Two> a = drawVector(rng), b = drawVector(rng), columns[3] = {a, b, drawVector(rng)};
+    const Vec3<Two> a = sampleVector(rng), b = sampleVector(rng), columns[3] = {a, b, sampleVector(rng)};
     const Vec3<Two> across = cross(a, b), sum = combine(columns, weights);
     const Two inner = dot(a, b);
     for (int i = 0; i < 2; ++i) {

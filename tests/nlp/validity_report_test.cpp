@@ -6,11 +6,11 @@
 
 namespace kinegraph {
 
-TEST(LazyVerdict, IsFoundOnceWhenItIsFirstAskedFor) {
+TEST(LazyValidity, IsFoundOnceWhenItIsFirstAskedFor) {
   int calls = 0;
-  const LazyVerdict verdict([&](const std::function<void()>&) {
+  const LazyValidity verdict([&](const std::function<void()>&) {
     ++calls;
-    return MotionVerdict{false, "a meets b"};
+    return ValidityReport{false, "a meets b"};
   });
   EXPECT_EQ(calls, 0);
   EXPECT_FALSE(verdict.get().free);
@@ -18,15 +18,15 @@ TEST(LazyVerdict, IsFoundOnceWhenItIsFirstAskedFor) {
   EXPECT_EQ(calls, 1);
 }
 
-TEST(LazyVerdict, IsSoughtAnewWhereTheFirstWhoAskedGaveUp) {
-  const LazyVerdict verdict([](const std::function<void()>& between) {
+TEST(LazyValidity, IsSoughtAnewWhereTheFirstWhoAskedGaveUp) {
+  const LazyValidity verdict([](const std::function<void()>& between) {
     between();
-    return MotionVerdict{};
+    return ValidityReport{};
   });
   EXPECT_THROW(verdict.get([] { throw std::runtime_error("enough"); }), std::runtime_error);
   EXPECT_TRUE(verdict.get().free);
 }
 
-TEST(LazyVerdict, MayBeKnownAlready) { EXPECT_FALSE(LazyVerdict(MotionVerdict{false, "known"}).get().free); }
+TEST(LazyValidity, MayBeKnownAlready) { EXPECT_FALSE(LazyValidity(ValidityReport{false, "known"}).get().free); }
 
 }  // namespace kinegraph

@@ -27,8 +27,8 @@ inline VectorXd poseAt(double x, double y, double angle = 0.) {
 }
 
 /// A frame that is at these poses at these times.
-inline MovingObstacle moves(const std::string& frame, const std::vector<std::pair<double, VectorXd>>& track) {
-  MovingObstacle obstacle{frame, VectorXd(Eigen::Index(track.size())),
+inline ObstacleTrajectory moves(const std::string& frame, const std::vector<std::pair<double, VectorXd>>& track) {
+  ObstacleTrajectory obstacle{frame, VectorXd(Eigen::Index(track.size())),
                           MatrixXd(Eigen::Index(track.size()), track.front().second.size())};
   for (std::size_t i = 0; i < track.size(); ++i) {
     obstacle.times[Eigen::Index(i)] = track[i].first;
@@ -39,11 +39,11 @@ inline MovingObstacle moves(const std::string& frame, const std::vector<std::pai
 
 /// The least distance of the disc and anything else, by a look at every `step` s of the motion and for a while after it. What moves is
 /// placed as the text says: straight between poses, with a normalized quaternion; joints straight.
-inline double leastOfTime(Config C, const MotionPlan& plan, const std::vector<MovingObstacle>& obstacles, double step,
+inline double leastOfTime(Config C, const MotionPlan& plan, const std::vector<ObstacleTrajectory>& obstacles, double step,
                           double after = 3.) {
   double least = 1.;
   for (double t = 0.; t <= plan.duration() + after; t += step) {
-    for (const MovingObstacle& obstacle : obstacles) {
+    for (const ObstacleTrajectory& obstacle : obstacles) {
       Eigen::Index k = 0;
       while (k + 1 < obstacle.times.size() && obstacle.times[k + 1] <= t) ++k;
       VectorXd values = obstacle.values.row(k).transpose();

@@ -32,7 +32,7 @@ void expectGoesOn(const MotionPlan& before, double time, const MotionPlan& after
       << taken.velocity.transpose() << " " << left.velocity.transpose();
 }
 
-TEST(PlanInMotion, ItGoesOnWithItsVelocityToAnotherGoal) {
+TEST(PlanFromVelocity, ItGoesOnWithItsVelocityToAnotherGoal) {
   const Running running;
   ASSERT_TRUE(running.plan.feasible());
   const VectorXd goal{{-1., -1.2}};
@@ -47,7 +47,7 @@ TEST(PlanInMotion, ItGoesOnWithItsVelocityToAnotherGoal) {
   }
 }
 
-TEST(PlanInMotion, TheRestOfTheMotionStaysIfNothingHasChanged) {
+TEST(PlanFromVelocity, TheRestOfTheMotionStaysIfNothingHasChanged) {
   const Running running;
   const double time = .4 * running.plan.duration();
   const MotionPlan plan = running.plan.replan(running.C, time);
@@ -57,7 +57,7 @@ TEST(PlanInMotion, TheRestOfTheMotionStaysIfNothingHasChanged) {
   EXPECT_EQ(plan.path.rows(), plan.times().size());
 }
 
-TEST(PlanInMotion, ItGoesAroundWhatHasAppeared) {
+TEST(PlanFromVelocity, ItGoesAroundWhatHasAppeared) {
   Running running;
   const double time = .3 * running.plan.duration();
   Frame crate = running.C.addFrame("crate");
@@ -69,7 +69,7 @@ TEST(PlanInMotion, ItGoesAroundWhatHasAppeared) {
   EXPECT_GE(leastOfTime(running.C, plan, {}, 5e-4, 0.), .01 - 1e-9);
 }
 
-TEST(PlanInMotion, WhereItCannotStopInTimeItSaysSo) {
+TEST(PlanFromVelocity, WhereItCannotStopInTimeItSaysSo) {
   Running running;
   const MotionState now = running.plan.at(.3 * running.plan.duration());
   const VectorXd ahead = now.q + .3 * now.velocity.normalized();
@@ -80,47 +80,47 @@ TEST(PlanInMotion, WhereItCannotStopInTimeItSaysSo) {
   EXPECT_NE(plan.message.find("cannot come to rest"), std::string::npos) << plan.message;
 }
 
-TEST(PlanInMotion, AVelocityAboveTheLimitIsRefused) {
+TEST(PlanFromVelocity, AVelocityAboveTheLimitIsRefused) {
   Config C = room(.8);
   PlanOptions options = brisk();
   options.start_velocity = VectorXd{{1.5, 0.}};
   const MotionPlan plan = planMotion(C, VectorXd{{-1., -1.}}, options, VectorXd{{-1.5, 1.2}});
-  EXPECT_EQ(plan.status, PlanStatus::start_blocked);
+  EXPECT_EQ(plan.status, PlanStatus::invalid_start);
   EXPECT_NE(plan.message.find("disc:0 is 1.5; its limit is 1"), std::string::npos) << plan.message;
   options.start_velocity = VectorXd{{1., 0., 0.}};
   EXPECT_THROW(planMotion(C, VectorXd{{-1., -1.}}, options), ValueError);
 }
 
-TEST(PlanInMotion, TheTimeLimitIsThatOfAllThatIsTried) {
+TEST(PlanFromVelocity, TheTimeLimitIsThatOfAllThatIsTried) {
   Config C = room(.8);
   PlanOptions options = brisk();
   options.start_velocity = VectorXd{{.5, 0.}};
   options.time_limit = 1e-9;
   const MotionPlan plan = planMotion(C, VectorXd{{1., -1.}}, options, VectorXd{{-1.5, 1.2}});
-  EXPECT_EQ(plan.status, PlanStatus::out_of_time) << plan.message;
+  EXPECT_EQ(plan.status, PlanStatus::timeout) << plan.message;
   EXPECT_NE(plan.message.find("time limit of 1e-09 s"), std::string::npos) << plan.message;
   options.time_limit = 1e300;
   EXPECT_TRUE(planMotion(C, VectorXd{{1., -1.}}, options, VectorXd{{-1.5, 1.2}}).feasible());
 }
 
-TEST(PlanInMotion, ItKeepsClearOfWhatMovesWhileItGoesOn) {
+TEST(PlanFromVelocity, ItKeepsClearOfWhatMovesWhileItGoesOn) {
   Config C = discAndBox();
   PlanOptions options = brisk();
   const MotionPlan first = planMotion(C, VectorXd{{1., 0.}}, options);
   ASSERT_TRUE(first.feasible());
-  options.moving = {moves("cart", {{0., poseAt(.3, -1.)}, {1.5, poseAt(.3, .8)}})};
+  options.obstacle_trajectories = {moves("cart", {{0., poseAt(.3, -1.)}, {1.5, poseAt(.3, .8)}})};
   const MotionPlan plan = first.replan(C, .6, std::nullopt, options);
   ASSERT_TRUE(plan.feasible()) << plan.message;
   expectGoesOn(first, .6, plan);
   expectSmooth(plan, 1., 4.);
-  EXPECT_GE(leastOfTime(C, plan, options.moving, 5e-4), .01 - 1e-9);
+  EXPECT_GE(leastOfTime(C, plan, options.obstacle_trajectories, 5e-4), .01 - 1e-9);
   // Times of obstacles count from the new motion on.
   const MotionPlan again = plan.replan(C, .2);
   ASSERT_TRUE(again.feasible()) << again.message;
-  EXPECT_DOUBLE_EQ(again.options.moving.front().times[1], 1.3);
+  EXPECT_DOUBLE_EQ(again.options.obstacle_trajectories.front().times[1], 1.3);
 }
 
-TEST(PlanInMotion, LimitsOfTheJerkHoldFromTheFirstMomentOn) {
+TEST(PlanFromVelocity, LimitsOfTheJerkHoldFromTheFirstMomentOn) {
   Config C = room(.8);
   PlanOptions options = brisk();
   options.jerk = VectorXd::Constant(1, 30.);
@@ -162,7 +162,7 @@ void expectGentle(const MotionPlan& before, double time, const MotionPlan& after
   }
 }
 
-TEST(PlanInMotion, ItGoesOnWithItsAccelerationToAnotherGoal) {
+TEST(PlanFromVelocity, ItGoesOnWithItsAccelerationToAnotherGoal) {
   const RunningGently running;
   ASSERT_TRUE(running.plan.feasible());
   for (const VectorXd& goal : {VectorXd{{-1., -1.2}}, VectorXd{{1.2, -1.}}}) {
@@ -170,7 +170,7 @@ TEST(PlanInMotion, ItGoesOnWithItsAccelerationToAnotherGoal) {
       const double time = share * running.plan.duration();
       const MotionPlan plan = running.plan.replan(running.C, time, MotionGoal(goal));
       ASSERT_TRUE(plan.feasible()) << share << plan.message;
-      EXPECT_TRUE(plan.notes.empty()) << share << " " << plan.notes.front();
+      EXPECT_TRUE(plan.warnings.empty()) << share << " " << plan.warnings.front();
       expectGoesOn(running.plan, time, plan);
       expectSmooth(plan, 1., 4.);
       expectGentle(running.plan, time, plan);
@@ -181,7 +181,7 @@ TEST(PlanInMotion, ItGoesOnWithItsAccelerationToAnotherGoal) {
   }
 }
 
-TEST(PlanInMotion, AmongWhatMovesItGoesOnWithItsAcceleration) {
+TEST(PlanFromVelocity, AmongWhatMovesItGoesOnWithItsAcceleration) {
   Config C = discAndBox();
   PlanOptions options = brisk();
   options.jerk = VectorXd::Constant(1, 30.);
@@ -192,16 +192,16 @@ TEST(PlanInMotion, AmongWhatMovesItGoesOnWithItsAcceleration) {
     for (const double share : {.03, .1, .2, .3, .4, .8}) {
       for (const double speed : {.6, 1.}) {
         const double time = share * first.duration(), begin = time - .4;
-        options.moving = {moves("cart", {{begin, poseAt(.4, -1.6)}, {begin + 2.4 / speed, poseAt(.4, .8)}})};
+        options.obstacle_trajectories = {moves("cart", {{begin, poseAt(.4, -1.6)}, {begin + 2.4 / speed, poseAt(.4, .8)}})};
         PlanOptions later = options;
-        later.moving.front().times.array() -= time;
+        later.obstacle_trajectories.front().times.array() -= time;
         const MotionPlan plan = first.replan(C, time, goal, later);
         ASSERT_TRUE(plan.feasible()) << share << " " << plan.message;
-        for (const std::string& note : plan.notes) EXPECT_EQ(note.find("without"), std::string::npos) << share;
+        for (const std::string& note : plan.warnings) EXPECT_EQ(note.find("without"), std::string::npos) << share;
         expectGoesOn(first, time, plan);
         expectSmooth(plan, 1., 4.);
         expectGentle(first, time, plan);
-        EXPECT_GE(leastOfTime(C, plan, later.moving, 5e-4), .01 - 1e-9) << share << " " << speed;
+        EXPECT_GE(leastOfTime(C, plan, later.obstacle_trajectories, 5e-4), .01 - 1e-9) << share << " " << speed;
         bent += first.at(time).acceleration.norm() > .1;
       }
     }
@@ -209,21 +209,21 @@ TEST(PlanInMotion, AmongWhatMovesItGoesOnWithItsAcceleration) {
   EXPECT_GE(bent, 12);  // of 24: there it has an acceleration
 }
 
-TEST(PlanInMotion, AmongWhatMovesAStartAccelerationIsThatOfTheMotion) {
+TEST(PlanFromVelocity, AmongWhatMovesAStartAccelerationIsThatOfTheMotion) {
   Config C = discAndBox();
   PlanOptions options = brisk();
   options.jerk = VectorXd::Constant(1, 30.);
   options.start_velocity = VectorXd{{.5, .2}};
   options.start_acceleration = VectorXd{{1.5, -1.}};
-  options.moving = {moves("cart", {{0., poseAt(.2, -1.4)}, {2.4, poseAt(.2, 1.)}})};
+  options.obstacle_trajectories = {moves("cart", {{0., poseAt(.2, -1.4)}, {2.4, poseAt(.2, 1.)}})};
   const MotionPlan plan = planMotion(C, VectorXd{{1., 0.}}, options);
   ASSERT_TRUE(plan.feasible()) << plan.message;
   EXPECT_TRUE(plan.at(0.).velocity.isApprox(options.start_velocity, 1e-9));
   EXPECT_TRUE(plan.at(0.).acceleration.isApprox(options.start_acceleration, 1e-6));
-  EXPECT_GE(leastOfTime(C, plan, options.moving, 5e-4), .01 - 1e-9);
+  EXPECT_GE(leastOfTime(C, plan, options.obstacle_trajectories, 5e-4), .01 - 1e-9);
 }
 
-TEST(PlanInMotion, TheRestOfAGentleMotionIsThatMotion) {
+TEST(PlanFromVelocity, TheRestOfAGentleMotionIsThatMotion) {
   const RunningGently running;
   const double time = .3 * running.plan.duration();
   const MotionPlan plan = running.plan.replan(running.C, time);
@@ -236,7 +236,7 @@ TEST(PlanInMotion, TheRestOfAGentleMotionIsThatMotion) {
   }
 }
 
-TEST(PlanInMotion, AStartAccelerationThatMakesNoSenseIsRefused) {
+TEST(PlanFromVelocity, AStartAccelerationThatMakesNoSenseIsRefused) {
   Config C = room(.8);
   PlanOptions options = brisk();
   options.start_velocity = VectorXd{{.5, 0.}};
@@ -245,7 +245,7 @@ TEST(PlanInMotion, AStartAccelerationThatMakesNoSenseIsRefused) {
   options.jerk = VectorXd::Constant(1, 30.);
   options.start_acceleration = VectorXd{{4.5, 0.}};
   const MotionPlan plan = planMotion(C, VectorXd{{-1., -1.}}, options, VectorXd{{-1.5, 1.2}});
-  EXPECT_EQ(plan.status, PlanStatus::start_blocked);
+  EXPECT_EQ(plan.status, PlanStatus::invalid_start);
   EXPECT_NE(plan.message.find("start acceleration of disc:0 is 4.5; its limit is 4"), std::string::npos)
       << plan.message;
   options.start_acceleration = VectorXd{{1.}};

@@ -101,16 +101,16 @@ TEST(PlanMotion, ADoorThatIsWideEnoughIsNotProvenAway) {
 
 TEST(PlanMotion, TheTimeLimitAndTheWatchEndTheProof) {
   const MotionPlan late = planMotion(roomForABox(.28), kGoal, {.time_limit = 1e-6});
-  EXPECT_EQ(late.status, PlanStatus::out_of_time) << late.message;
+  EXPECT_EQ(late.status, PlanStatus::timeout) << late.message;
   int asked = 0;
-  const MotionWatch watch = [&] { return ++asked > 200; };
+  const CancellationToken watch = [&] { return ++asked > 200; };
   const MotionPlan stopped = planMotion(roomForABox(.28), kGoal, {.evaluations = 1}, std::nullopt, watch);
   EXPECT_EQ(stopped.status, PlanStatus::cancelled) << stopped.message;
 }
 
 TEST(PlanMotion, ProofAndTimingAreLeftOutWhereNobodyAsksForThem) {
   const MotionPlan none = planMotion(roomForABox(.28), kGoal, {.evaluations = 2000, .proof = false});
-  EXPECT_EQ(none.status, PlanStatus::no_way);
+  EXPECT_EQ(none.status, PlanStatus::no_path_found);
   const MotionPlan timed = planMotion(roomForABox(.5), kGoal),
                    path = planMotion(roomForABox(.5), kGoal, {.timing = false});
   ASSERT_TRUE(path.feasible());

@@ -85,7 +85,7 @@ TEST(PlanMotions, OneThatFailsSaysWhyOnce) {
   MotionPlans plans(twoWalls(), VectorXd{{.5, -1.9}}, shortest(1000));
   const std::optional<MotionPlan> plan = plans.next();
   ASSERT_TRUE(plan);
-  EXPECT_EQ(plan->status, PlanStatus::goal_blocked);
+  EXPECT_EQ(plan->status, PlanStatus::invalid_goal);
   EXPECT_FALSE(plans.next());
   PlanOptions options = shortest(1000);
   options.start_velocity = VectorXd{{1., 0.}};

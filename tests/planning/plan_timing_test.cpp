@@ -24,7 +24,7 @@ hook(wrist): {shape: capsule, size: [0.4, 0.03], Q: [0.2, 0, -0.1], contact: 1}
 
 /// How fast the joints move points of the hook that are as far from its middle as its bound is large, in sum.
 double speedOf(const State& state, int hook, const VectorXd& change) {
-  const auto& body = state.program().body[std::size_t(hook)];
+  const auto& body = state.model().body[std::size_t(hook)];
   const Vector3d center = state.pose(hook) * body->boundCenter();
   double most = 0.;
   for (int axis = 0; axis < 6; ++axis) {

@@ -28,12 +28,12 @@ inline Config room(double door) {
 
 struct Asked {
   Config C;
-  JointSpace space{*C.program()};
+  JointSpace space{*C.model()};
   State scene = C.state();
 
-  WayRequest request(int threads = 1, std::uint64_t seed = 0) {
-    WayRequest request{
-        .demands = {&scene, &space}, .starts = {{VectorXd{{-1., 1.2}}}}, .goals = {{VectorXd{{1., 1.}}}}};
+  PathQuery request(int threads = 1, std::uint64_t seed = 0) {
+    PathQuery request{
+        .constraints = {&scene, &space}, .starts = {{VectorXd{{-1., 1.2}}}}, .goals = {{VectorXd{{1., 1.}}}}};
     request.threads = threads;
     request.seed = seed;
     return request;
@@ -55,7 +55,7 @@ inline double leastDistance(Config& C, const std::vector<VectorXd>& points) {
 
 /// Of the taut string from (-1, 1.2) to (1, 1) around both corners of a door of .5, (-+.05, .25), at the disc's radius:
 /// two tangents, two arcs, a line.
-inline double tautLength() {
+inline double tightenedLength() {
   const double to_start = std::hypot(.95, .95), to_goal = std::hypot(.95, .75), r = .2;
   const double arcs =
       1.5 * M_PI - (.75 * M_PI + std::acos(r / to_start)) + .5 * M_PI + (std::atan2(.75, .95) - std::acos(r / to_goal));

@@ -36,13 +36,13 @@ TEST(Roadmap, FindsAFreePathAndKnowsItTheSecondTime) {
   Config C = roomWithWall();
   Roadmap map(C);
   map.grow(300);
-  const RoadmapAnswer first = map.findPath(kStart, kBehindTheWall);
+  const RoadmapPath first = map.findPath(kStart, kBehindTheWall);
   ASSERT_TRUE(first.feasible()) << first.message;
   EXPECT_TRUE(isFree(C, first.path));
   EXPECT_EQ(first.path.row(0).transpose(), kStart);
   EXPECT_EQ(first.path.bottomRows(1).transpose(), kBehindTheWall);
   const int size = map.size();
-  const RoadmapAnswer second = map.findPath(kStart, kBehindTheWall);
+  const RoadmapPath second = map.findPath(kStart, kBehindTheWall);
   EXPECT_EQ(second.path, first.path);
   EXPECT_LT(second.checked, first.checked);
   EXPECT_EQ(map.size(), size);
@@ -54,7 +54,7 @@ TEST(Roadmap, AWallThatHasMovedIsSeenAfterSetScene) {
   ASSERT_TRUE(map.findPath(kStart, kBehindTheWall).feasible());
   Config moved = roomWithWall(.5);
   map.setScene(moved);
-  const RoadmapAnswer answer = map.findPath(kStart, kBehindTheWall);
+  const RoadmapPath answer = map.findPath(kStart, kBehindTheWall);
   ASSERT_TRUE(answer.feasible());
   EXPECT_TRUE(isFree(moved, answer.path));
 }
@@ -68,9 +68,9 @@ TEST(Roadmap, WhatIsSavedIsLoadedWithWhatIsKnown) {
   map.save(file);
   Roadmap same(C, .01), other(roomWithWall(.5), .01);
   same.load(file);
-  EXPECT_EQ(same.postures(), map.postures());
+  EXPECT_EQ(same.configurations(), map.configurations());
   EXPECT_EQ(same.motions(), map.motions());
-  const RoadmapAnswer answer = same.findPath(kStart, kBehindTheWall);
+  const RoadmapPath answer = same.findPath(kStart, kBehindTheWall);
   EXPECT_EQ(answer.path, path);
   other.load(file);  // another scene: nothing is known
   EXPECT_GT(other.findPath(kStart, kBehindTheWall).checked, answer.checked);

@@ -35,7 +35,7 @@ PlanOptions options(int slices, int threads = 1) {
 
 }  // namespace
 
-TEST(BendMotion, IsFasterThanCornersAndKeepsMarginLimitsAndEnds) {
+TEST(SmoothMotion, IsFasterThanCornersAndKeepsMarginLimitsAndEnds) {
   Config C = posts();
   const MotionPlan cornered = planMotion(C, kGoal, options(0)), bent = planMotion(C, kGoal, options(80));
   ASSERT_TRUE(cornered.feasible() && bent.feasible()) << bent.message;
@@ -55,13 +55,13 @@ TEST(BendMotion, IsFasterThanCornersAndKeepsMarginLimitsAndEnds) {
   }
 }
 
-TEST(BendMotion, GivesTheSameBitsAtAnyNumberOfThreads) {
+TEST(SmoothMotion, GivesTheSameBitsAtAnyNumberOfThreads) {
   const MotionPlan one = planMotion(posts(), kGoal, options(60)), two = planMotion(posts(), kGoal, options(60, 2));
   EXPECT_EQ(one.path, two.path);
   EXPECT_EQ(one.duration(), two.duration());
 }
 
-TEST(BendMotion, AStraightMotionStaysAsItIs) {
+TEST(SmoothMotion, AStraightMotionStaysAsItIs) {
   Config C = posts();
   const VectorXd goal{{-2., .5}};
   const MotionPlan plan = planMotion(C, goal, options(40));
@@ -69,20 +69,20 @@ TEST(BendMotion, AStraightMotionStaysAsItIs) {
   EXPECT_EQ(plan.path.rows(), 2);
 }
 
-TEST(BendMotion, WhoWatchesMayEndIt) {
+TEST(SmoothMotion, WhoWatchesMayEndIt) {
   Config C = posts();
   const MotionPlan plan = planMotion(C, kGoal, options(0));
   const MotionLimits limits = planLimits(C, options(0));
   const State state = C.state();
-  const JointSpace space(*C.program());
+  const JointSpace space(*C.model());
   Steering steering({.scene = &state, .space = &space, .clearance = {.margin = .02}});
   int asked = 0;
-  EXPECT_TRUE(bendMotion(C, steering, plan.timed, limits, .02, 80, [&] { return ++asked < 0; }));
+  EXPECT_TRUE(smoothMotion(C, steering, plan.timed, limits, .02, 80, [&] { return ++asked < 0; }));
   EXPECT_GT(asked, 3);
-  EXPECT_FALSE(bendMotion(C, steering, plan.timed, limits, .02, 80, [] { return true; }));
+  EXPECT_FALSE(smoothMotion(C, steering, plan.timed, limits, .02, 80, [] { return true; }));
 }
 
-TEST(BendMotion, IsForTheTimeAloneAmongWhatStandsStill) {
+TEST(SmoothMotion, IsForTheTimeAloneAmongWhatStandsStill) {
   PlanOptions by_length = options(80);
   by_length.optimize = "length";
   expectError<ValueError>([&] { planMotion(posts(), kGoal, by_length); }, {"slices is for optimize 'time'"});

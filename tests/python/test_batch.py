@@ -10,13 +10,13 @@ import kinegraph as ry
 from interrupts import interrupt_after
 
 
-def postures(C, count, seed=1):
+def configurations(C, count, seed=1):
     lower, upper = C.getJointLimits()
     return np.random.default_rng(seed).uniform(lower - 0.05, upper + 0.05, (count, C.getJointDimension()))
 
 
 def test_evalBatchGivesWhatEvalGives(panda):
-    Q, before = postures(panda, 20), panda.getJointState()
+    Q, before = configurations(panda, 20), panda.getJointState()
     y, J = panda.evalBatch(ry.FS.positionRel, ["l_gripper", "table"], Q, scale=[2.0], target=[0.1, 0.2, 0.3])
     assert y.shape == (20, 3) and J.shape == (20, 3, 7)
     np.testing.assert_array_equal(panda.getJointState(), before)
@@ -28,7 +28,7 @@ def test_evalBatchGivesWhatEvalGives(panda):
 
 
 def test_nearestPointsOfAllPairs(panda):
-    Q, pairs = postures(panda, 12), panda.getCollidablePairs()
+    Q, pairs = configurations(panda, 12), panda.getCollidablePairs()
     d, points, normals = panda.getNearestPoints(Q)
     assert d.shape == (12, 45) and points.shape == (12, 45, 2, 3) and normals.shape == (12, 45, 3)
     np.testing.assert_array_equal(d, panda.getDistances(Q))
@@ -57,7 +57,7 @@ def test_nearestPointsOfAllPairs(panda):
 
 
 def test_frameJacobiansAreThoseOfVelocities(panda):
-    Q = postures(panda, 9)
+    Q = configurations(panda, 9)
     J = panda.getFrameJacobians(Q, ["l_gripper", "table"])
     assert J.shape == (9, 2, 6, 7)
     assert (J[:, 1] == 0).all()
@@ -71,7 +71,7 @@ def test_frameJacobiansAreThoseOfVelocities(panda):
 
 
 def test_framePosesAreThoseOfEachConfiguration(panda):
-    Q = postures(panda, 10)
+    Q = configurations(panda, 10)
     X = panda.getFramePoses(Q, ["l_gripper", "table"])
     assert X.shape == (10, 2, 7)
     ids = [panda.getFrameNames().index(name) for name in ("l_gripper", "table")]
@@ -81,7 +81,7 @@ def test_framePosesAreThoseOfEachConfiguration(panda):
 
 
 def test_distancesAreThoseOfThePairs(panda):
-    Q = postures(panda, 5)
+    Q = configurations(panda, 5)
     D = panda.getDistances(Q)
     names = panda.getCollidablePairs()
     pairs = list(zip(names[::2], names[1::2]))
@@ -92,7 +92,7 @@ def test_distancesAreThoseOfThePairs(panda):
 
 
 def test_validMeansWithinLimitsAndApart(panda):
-    Q = postures(panda, 300)
+    Q = configurations(panda, 300)
     lower, upper = panda.getJointLimits()
     within = (np.clip(Q, lower - 1e-5, upper + 1e-5) == Q).all(axis=1)
     nearest = panda.getDistances(Q).min(axis=1)
@@ -105,7 +105,7 @@ def test_validMeansWithinLimitsAndApart(panda):
 
 @pytest.mark.parametrize("threads", [2, 7])
 def test_anyNumberOfThreadsGivesTheSameNumbers(panda, threads):
-    Q = postures(panda, 501)
+    Q = configurations(panda, 501)
     for call in (
         lambda n: panda.evalBatch(ry.FS.pose, ["l_gripper"], Q, threads=n)[1],
         lambda n: panda.getFramePoses(Q, ["l_gripper"], threads=n),
@@ -123,7 +123,7 @@ def reaches(panda, margin=0.0):
         panda.addFrame(f"post{i}", "table").setShape(ry.ST.capsule, [0.6, 0.05]).setContact(1).setRelativePosition(
             place
         )
-    start, end = postures(panda, 200), postures(panda, 200, seed=2)
+    start, end = configurations(panda, 200), configurations(panda, 200, seed=2)
     both = panda.isValid(start, margin=margin + 1e-3) & panda.isValid(end, margin=margin + 1e-3)
     return start[both], end[both]
 
@@ -236,7 +236,7 @@ def test_otherMistakesAreErrorsAsWell(panda):
 
 
 def test_otherThreadsRunMeanwhileAndMayChangeTheConfiguration(panda):
-    Q = postures(panda, 40000)
+    Q = configurations(panda, 40000)
     expected = panda.isValid(Q)
     results = []
     worker = threading.Thread(target=lambda: results.append(panda.isValid(Q)))

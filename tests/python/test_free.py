@@ -102,7 +102,7 @@ def test_aNoteSaysOnceWhichPairsNeverMove():
     C.isValid([[0.0]])  # an error if it warned again
     C.addFrame("far").setPosition([9.0, 0, 0])
     assert C.checkMotion([0.0], [0.1]) is None
-    assert len(C.contactNotes()) == 1 and C.contactNotes()[0] in C.report()
+    assert len(C.contactWarnings()) == 1 and C.contactWarnings()[0] in C.report()
 
 
 def test_aNoteSaysWhichObstacleIsIgnored():
@@ -112,4 +112,4 @@ def test_aNoteSaysWhichObstacleIsIgnored():
     with pytest.warns(ry.KinegraphWarning, match="'box' is near what moves and collides with nothing"):
         ry.solveIk(C, {"hand": [0.5, 0.0, 0.397]})
     C.getFrame("box").setContact(1)
-    assert C.contactNotes() == [] and not C.isValid([[0.2]])[0]
+    assert C.contactWarnings() == [] and not C.isValid([[0.2]])[0]

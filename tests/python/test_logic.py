@@ -73,7 +73,7 @@ def test_errors_have_places_and_near_names(tmp_path) -> None:
 def test_the_goal_that_nothing_makes_true_is_told_before_the_search() -> None:
     plans = search("(on cup tray)")
     assert plans.unreachable == ["(on cup tray)"]
-    assert plans.oddities[-1] == "nothing can make (on cup tray) of the goal true"
+    assert plans.diagnostics[-1] == "nothing can make (on cup tray) of the goal true"
 
 
 def test_a_scene_says_what_is_on_what() -> None:

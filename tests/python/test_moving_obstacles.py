@@ -56,13 +56,13 @@ POSES = np.array([[-0.6, 0.35, 1.1, 1, 0, 0, 0], [0.6, 0.35, 1.1, 1, 0, 0, 0], [
 def test_a_panda_keeps_clear_of_a_load_that_passes(cart: ry.Config, slower: float) -> None:
     start, goal = ends(cart)
     tracks = {"cart": (slower * TIMES, POSES)}
-    plan = ry.planMotion(cart, goal, start, margin=0.01, moving=tracks)
+    plan = ry.planMotion(cart, goal, start, margin=0.01, obstacle_trajectories=tracks)
     assert plan.feasible, plan.message
     np.testing.assert_allclose(plan.path[0], start)
     np.testing.assert_allclose(plan.path[-1], goal)
     assert leastOfTime(cart, plan, tracks) >= 0.01 - 1e-6
-    assert any("waits for" in note for note in plan.notes)
-    np.testing.assert_allclose(plan.movingAt(slower)["cart"], poseAt(slower * TIMES, POSES, slower))
+    assert any("waits for" in note for note in plan.warnings)
+    np.testing.assert_allclose(plan.obstaclesAt(slower)["cart"], poseAt(slower * TIMES, POSES, slower))
     assert plan.stages[-1]["name"] == "moving"
 
 
@@ -80,7 +80,7 @@ def test_another_arm_moves_as_its_joints_are_told() -> None:
     times = np.array([0.0, 1.0, 2.5])
     tracks = {name: (times, np.full((3, 1), first[name])) for name in right}
     tracks[right[0]] = (times, first[right[0]] + np.array([[-0.9], [0.9], [-0.9]]))
-    plan = ry.planMotion(C, goal, start, margin=0.005, moving=tracks)
+    plan = ry.planMotion(C, goal, start, margin=0.005, obstacle_trajectories=tracks)
     assert plan.feasible, plan.message
     scene = ry.Config()
     scene.addConfigurationCopy(C)
@@ -98,8 +98,8 @@ def test_what_stands_at_the_goal_for_good_is_named(cart: ry.Config) -> None:
     hand = cart.getFrame("l_gripper").getPosition()
     cart.setJointState(start)
     poses = np.array([[hand[0], 2, hand[2], 1, 0, 0, 0], [*hand, 1, 0, 0, 0]])
-    plan = ry.planMotion(cart, goal, start, moving={"cart": ([0.0, 2.0], poses)}, evaluations=3000)
-    assert plan.status == ry.PlanStatus.no_timing and "meets 'load', which stays there" in plan.message
+    plan = ry.planMotion(cart, goal, start, obstacle_trajectories={"cart": ([0.0, 2.0], poses)}, max_evaluations=3000)
+    assert plan.status == ry.PlanStatus.no_timing_found and "meets 'load', which stays there" in plan.message
 
 
 def test_tracks_that_make_no_sense_are_refused(cart: ry.Config) -> None:
@@ -112,11 +112,11 @@ def test_tracks_that_make_no_sense_are_refused(cart: ry.Config) -> None:
         ({"l_gripper": ([0.0], POSES[:1])}, "moves with q"),
     ]:
         with pytest.raises(ry.ArgumentError, match=said):
-            ry.planMotion(cart, q, moving=moving)
+            ry.planMotion(cart, q, obstacle_trajectories=moving)
     with pytest.raises(ry.ArgumentError, match="no option 'movng'; similar names: moving"):
         ry.planMotion(cart, q, movng={})
     with pytest.raises(ry.FrameNotFound):
-        ry.planMotion(cart, q, moving={"crt": ([0.0], POSES[:1])})
+        ry.planMotion(cart, q, obstacle_trajectories={"crt": ([0.0], POSES[:1])})
 
 
 def test_a_robot_on_its_way_goes_on_to_another_goal(cart: ry.Config) -> None:
@@ -150,7 +150,7 @@ def test_what_moves_lets_a_robot_go_on_with_its_acceleration(cart: ry.Config, sh
     poses = np.array([[0.8, 1.0, 1.1, 1, 0, 0, 0], [-0.1, 0.45, 1.1, 1, 0, 0, 0], [-1.2, 0.8, 1.1, 1, 0, 0, 0]])
     tracks = {"cart": (TIMES, poses)}
     for target in (None, other):
-        bend = plan.replan(cart, at=at, goal=target, moving=tracks)
+        bend = plan.replan(cart, at=at, goal=target, obstacle_trajectories=tracks)
         assert bend.feasible, bend.message
         assert not [note for note in bend.notes if "without" in note]
         for before, after, tolerance in zip(plan.at(at), bend.at(0), (1e-12, 1e-9, 1e-6), strict=True):
@@ -207,7 +207,7 @@ def test_plans_get_better_while_one_waits(cart: ry.Config) -> None:
         assert plan.feasible and leastOfTime(cart, plan, {}, 5e-3, 0.0) >= 0.01 - 1e-6
     last = ry.planMotion(cart, goal, start, threads=2, **options)
     np.testing.assert_array_equal(last.path, plans[-1].path)
-    blocked = list(ry.planMotions(cart, [0.0] * 7, improve=10))
+    blocked = list(ry.planMotions(cart, [0.0] * 7, improvement_evaluations=10))
     assert len(blocked) == 1 and not blocked[0].feasible
     with pytest.raises(ry.ArgumentError, match="planMotions"):
-        ry.planMotions(cart, goal, moving={"cart": (TIMES, POSES)})
+        ry.planMotions(cart, goal, obstacle_trajectories={"cart": (TIMES, POSES)})

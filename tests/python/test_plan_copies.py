@@ -26,7 +26,7 @@ def test_a_copy_of_a_plan_is_that_plan(column: ry.Config, copied: Callable) -> N
     plan = ry.planMotion(column, q + TURN, q - TURN, margin=0.01, jerk=60)
     again = copied(plan)
     assert again.explain() == plan.explain() and repr(again) == repr(plan) and again.stages == plan.stages
-    for name in ("path", "times", "first_way"):
+    for name in ("path", "times", "raw_path"):
         np.testing.assert_array_equal(getattr(again, name), getattr(plan, name))
     np.testing.assert_array_equal(states(again), states(plan))
     assert len(again.trees) == len(plan.trees) == 2
@@ -50,10 +50,10 @@ def test_a_copy_goes_on_as_the_plan_does(column: ry.Config) -> None:
     }
     z = column.eval(ry.FS.vectorZ, ["l_gripper"])[0]
     tilt = ry.MotionConstraint(ry.FS.vectorZ, ["l_gripper"], scale=[[0, 0, 1.0]], target=z)
-    plan = ry.planMotion(column, q + TURN, q - TURN, margin=0.01, moving=moving, jerk=60, constraints=[tilt])
+    plan = ry.planMotion(column, q + TURN, q - TURN, margin=0.01, obstacle_trajectories=moving, jerk=60, constraints=[tilt])
     again = pickle.loads(pickle.dumps(plan))
-    assert plan.feasible and again.notes == plan.notes
-    np.testing.assert_array_equal(again.movingAt(1.3)["cart"], plan.movingAt(1.3)["cart"])
+    assert plan.feasible and again.notes == plan.warnings
+    np.testing.assert_array_equal(again.obstaclesAt(1.3)["cart"], plan.obstaclesAt(1.3)["cart"])
     assert again.clearance() == plan.clearance()
     at = 0.4 * plan.duration
     ours, theirs = plan.replan(column, at=at, goal=q), again.replan(column, at=at, goal=q)
@@ -66,7 +66,7 @@ def test_a_plan_that_failed_keeps_what_it_says(column: ry.Config) -> None:
     plans = [
         ry.planMotion(column, [0.0] * 7),
         ry.planMotion(column, q, start=q + TURN, start_velocity=[99.0, 0, 0, 0, 0, 0, 0]),
-        ry.planMotion(column, q + TURN, q - TURN, evaluations=3, margin=0.02),
+        ry.planMotion(column, q + TURN, q - TURN, max_evaluations=3, margin=0.02),
     ]
     for plan in plans:
         again = pickle.loads(pickle.dumps(plan))
@@ -102,7 +102,7 @@ def test_a_copy_of_a_roadmap_grows_and_answers_as_it_does(column: ry.Config, cop
     for roadmap in (ours, theirs):
         roadmap.grow(20)
         answers.append(roadmap.findPath(q - TURN, q + 0.9 * TURN))
-    np.testing.assert_array_equal(ours.postures, theirs.postures)
+    np.testing.assert_array_equal(ours.configurations, theirs.configurations)
     np.testing.assert_array_equal(answers[0].path, answers[1].path)
     np.testing.assert_array_equal(copied(answers[0]).path, answers[0].path)
     assert answers[0].checked == answers[1].checked
@@ -113,5 +113,5 @@ def test_a_map_that_was_loaded_draws_other_postures_than_it_has(column: ry.Confi
     roadmap.save(tmp_path / "map")
     loaded = ry.Roadmap(column)
     loaded.load(tmp_path / "map")
-    np.testing.assert_array_equal(loaded.grow(10).postures, roadmap.grow(10).postures)
-    assert len(np.unique(loaded.postures, axis=0)) == 20
+    np.testing.assert_array_equal(loaded.grow(10).configurations, roadmap.grow(10).configurations)
+    assert len(np.unique(loaded.configurations, axis=0)) == 20

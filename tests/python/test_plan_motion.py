@@ -73,7 +73,7 @@ def test_a_panda_goes_around_a_column_with_a_margin(column: ry.Config) -> None:
     assert plan.feasible, plan.message
     assert leastDistance(column, plan.path) >= 0.01
     assert plan.clearance() >= 0.0099
-    assert plan.length <= np.linalg.norm(np.diff(plan.first_way, axis=0), axis=1).sum()
+    assert plan.length <= np.linalg.norm(np.diff(plan.raw_path, axis=0), axis=1).sum()
 
 
 @pytest.mark.parametrize("seed", [0, 7])
@@ -129,7 +129,7 @@ def test_a_constraint_holds_all_along(panda: ry.Config) -> None:
         panda.setJointState(plan.at(t)[0])
         worst = max(worst, np.abs(panda.eval(ry.FS.vectorZ, ["l_gripper"])[0] - z).max())
     assert worst <= 1e-3
-    assert plan.notes == []
+    assert plan.warnings == []
     assert leastDistance(panda, plan.path) >= 0
 
 
@@ -138,7 +138,7 @@ def test_a_constraint_that_is_looked_at_in_samples_alone_is_told() -> None:
     above = ry.MotionConstraint(ry.FS.distance, ["body", "left"], ry.OT.ineq)  # minus the distance
     plan = ry.planMotion(C, [1.0, 1.0, 1.57], constraints=[above])
     assert plan.feasible, plan.message
-    assert any("distance" in note and "every 0.02" in note for note in plan.notes)
+    assert any("distance" in note and "every 0.02" in note for note in plan.warnings)
 
 
 def test_a_motion_is_planned_anew_without_a_jump_of_its_acceleration() -> None:
@@ -167,7 +167,7 @@ def test_a_path_without_times_is_the_same_path() -> None:
         plan.at(0.0)
     with pytest.raises(ry.ArgumentError, match="need timing"):
         ry.planMotion(C, [1.0, 1.0, 1.57], timing=False, start_velocity=[0.1, 0, 0])
-    better = list(ry.planMotions(C, [1.0, 1.0, 1.57], timing=False, improve=2000))
+    better = list(ry.planMotions(C, [1.0, 1.0, 1.57], timing=False, improvement_evaluations=2000))
     lengths = [one.length for one in better]
     assert lengths == sorted(lengths, reverse=True)
     assert plan.view(C, pause=False) is not None
@@ -192,8 +192,8 @@ box(cart): {shape: box, size: [0.2, 0.2, 0.2], Q: [0, 0, 0.0998], contact: 1}
 """)
     plan = ry.planMotion(C, [0.5, 0.5, 0.0], [-0.5, 0.5, 0.0])  # both 0.2 mm inside of the table
     assert plan.feasible, plan.message
-    assert "the start is in contact: 'table' and 'box' overlap by 200 um; the motion first leaves it" in plan.notes
-    assert "the goal is in contact: 'table' and 'box' overlap by 200 um; the motion comes to it last" in plan.notes
+    assert "the start is in contact: 'table' and 'box' overlap by 200 um; the motion first leaves it" in plan.warnings
+    assert "the goal is in contact: 'table' and 'box' overlap by 200 um; the motion comes to it last" in plan.warnings
     assert leastDistance(C, plan.path) >= -0.0002 - 1e-6
     assert leastDistance(C, plan.path[1:-1]) >= 0
 
@@ -201,8 +201,8 @@ box(cart): {shape: box, size: [0.2, 0.2, 0.2], Q: [0, 0, 0.0998], contact: 1}
 @pytest.mark.parametrize(
     ("goal", "status", "words"),
     [
-        ([0.0, 1.0, 1.57], "goal_blocked", "the goal collides: 'left' and 'body' overlap by"),
-        ([5.0, 1.0, 1.57], "goal_blocked", "the goal is out of limits: base:0 is at 5, 3 beyond"),
+        ([0.0, 1.0, 1.57], "invalid_goal", "the goal collides: 'left' and 'body' overlap by"),
+        ([5.0, 1.0, 1.57], "invalid_goal", "the goal is out of limits: base:0 is at 5, 3 beyond"),
         ({"body": [9.0, 0.0, 0.0]}, "unreached", "the goal is out of reach: .*body"),
     ],
 )
@@ -216,12 +216,12 @@ def test_a_goal_that_cannot_be_is_told(goal: object, status: str, words: str) ->
 
 def test_a_start_that_collides_is_told() -> None:
     plan = ry.planMotion(room(), GOAL, [0.0, 1.0, 0.0])
-    assert plan.status == ry.PlanStatus.start_blocked and "the start collides: 'left' and 'body'" in plan.message
+    assert plan.status == ry.PlanStatus.invalid_start and "the start collides: 'left' and 'body'" in plan.message
 
 
 def test_where_no_way_is_found_the_message_says_what_is_in_the_way() -> None:
-    plan = ry.planMotion(room(0.31), GOAL, evaluations=3000)
-    assert plan.status in (ry.PlanStatus.no_way, ry.PlanStatus.impossible)
+    plan = ry.planMotion(room(0.31), GOAL, max_evaluations=3000)
+    assert plan.status in (ry.PlanStatus.no_path_found, ry.PlanStatus.impossible)
     assert "most motions ended at 'left'" in plan.message or "most motions ended at 'right'" in plan.message
     assert len(plan.trees) == 2 and plan.trees[0][0].shape[1] == 3
 
@@ -232,8 +232,8 @@ def test_a_picture_has_the_trees_and_the_path() -> None:
     picture = plan.picture(C)
     names = [frame.name for frame in picture.getFrames()]
     assert names[len(C.getFrames()) :] == ["start tree", "goal tree", "first way", "path"]
-    drawn = picture.getFrame("path").getMeshPoints()
-    assert np.allclose(drawn[0, :2], START[:2]) and np.allclose(drawn[-1, :2], GOAL[:2])
+    sampled = picture.getFrame("path").getMeshPoints()
+    assert np.allclose(sampled[0, :2], START[:2]) and np.allclose(sampled[-1, :2], GOAL[:2])
     assert len(C.getFrames()) == 5 and plan.obstacles == []
     with pytest.raises(ry.FrameNotFound, match="bdy"):
         plan.picture(C, "bdy")
@@ -243,7 +243,7 @@ def test_a_picture_has_the_trees_and_the_path() -> None:
 
 def test_where_there_is_no_way_the_picture_shows_what_most_motions_ended_at() -> None:
     C = room(0.31)
-    plan = ry.planMotion(C, GOAL, evaluations=3000)
+    plan = ry.planMotion(C, GOAL, max_evaluations=3000)
     worst = plan.obstacles[0]
     assert worst["name"] in ("left", "right") and worst["by"] == ["body"] and 0.3 < worst["share"] <= 1
     assert sum(met["share"] for met in plan.obstacles) == pytest.approx(1)
@@ -254,7 +254,7 @@ def test_where_there_is_no_way_the_picture_shows_what_most_motions_ended_at() ->
 
 def test_a_time_limit_ends_the_search() -> None:
     plan = ry.planMotion(room(0.31), GOAL, time_limit=0.05)
-    assert plan.status == ry.PlanStatus.out_of_time and "time limit of 0.05 s" in plan.message
+    assert plan.status == ry.PlanStatus.timeout and "time limit of 0.05 s" in plan.message
 
 
 def test_clearance_is_asked_for_and_given() -> None:
@@ -266,7 +266,7 @@ def test_clearance_is_asked_for_and_given() -> None:
 
 def test_shortcut_and_smooth_are_free_and_say_where_a_path_is_not() -> None:
     C = room()
-    rough = ry.planMotion(C, GOAL).first_way
+    rough = ry.planMotion(C, GOAL).raw_path
     short = ry.shortcut(C, rough)
     length = lambda path: np.linalg.norm(np.diff(path, axis=0), axis=1).sum()  # noqa: E731
     assert length(short) < length(rough) and leastDistance(C, short) >= 0

@@ -293,11 +293,11 @@ class OwnRobot(ry.RobotDriver):
     def info(self) -> ry.RobotInfo:
         return self._info
 
-    def read(self) -> ry.RobotReading:
+    def read(self) -> ry.RobotState:
         if self.error:
             raise self.error
         self.time += 0.01
-        return ry.RobotReading(self.time, self.q, np.zeros(len(self.q)))
+        return ry.RobotState(self.time, self.q, np.zeros(len(self.q)))
 
     def write(self, command: ry.RobotCommand) -> None:
         self.q = command.q
@@ -363,7 +363,7 @@ def test_a_driver_in_python_runs_in_real_time_beside_the_script(panda: ry.Config
 def test_a_recorded_robot_says_what_it_was_given_and_notes_what_it_is_told(panda: ry.Config) -> None:
     info = ry.RobotInfo.of(panda, "tape")
     q = panda.getJointState()
-    tape = ry.RecordedDriver(info, [ry.RobotReading(0.01 * i, q + 0.001 * i, np.zeros(7)) for i in range(5)])
+    tape = ry.RecordedDriver(info, [ry.RobotState(0.01 * i, q + 0.001 * i, np.zeros(7)) for i in range(5)])
     bot = ry.BotOp(panda, driver=tape)
     bot.sync(panda, 0.03)
     assert bot.get_q() == pytest.approx(q + 0.003)

@@ -10,7 +10,7 @@ import kinegraph as ry
 from kinegraph.cli import main
 
 
-def postures(C: ry.Config, count: int, seed: int) -> np.ndarray:
+def configurations(C: ry.Config, count: int, seed: int) -> np.ndarray:
     low, high = C.getJointLimits()
     return low + np.random.default_rng(seed).random((count, len(low))) * (high - low)
 
@@ -29,7 +29,7 @@ def test_reasons_agree_with_postures_of_another_generator(arm):
     assert "never" in kinds and "sometimes" in kinds and kinds <= {"adjacent", "always", "never", "sometimes"}
     owner = {f.name: (f.getParent().name if f.getParent() and f.getJointType() == ry.JT.none else f.name) for f in arm}
     count: dict[tuple[str, str], int] = {}
-    Q = postures(arm, 1500, 7)
+    Q = configurations(arm, 1500, 7)
     for q in Q:
         arm.setJointState(q)
         for pair in {tuple(sorted((owner[a], owner[b]))) for a, b, _ in arm.getCollisions()}:
@@ -42,7 +42,7 @@ def test_reasons_agree_with_postures_of_another_generator(arm):
 
 
 def test_what_is_left_says_the_same_of_postures(arm):
-    Q = postures(arm, 3000, 1)
+    Q = configurations(arm, 3000, 1)
     before = arm.isValid(Q)
     pairs = len(arm.getCollidablePairs())
     matrix = arm.selfCollisionMatrix(root=arm.getFrameNames()[0], apply=True)

@@ -457,7 +457,7 @@ def test_a_point_is_pulled_by_a_spring_that_is_part_of_the_state():
     C.addFrame("ball").setShape(ry.ST.sphere, [0.1]).setPosition([0, 0, 1.0]).setMass(2.0)
     C.addFrame("wall").setShape(ry.ST.box, [0.1, 0.1, 0.1]).setPosition([1, 0, 1])
     S = ry.Simulation(C)
-    assert S.getPull() is None
+    assert S.getPerturbation() is None
     S.pull("ball", [0, 0, 0], [0.3, 0, 1.2])
     for _ in range(50):
         S.step()
@@ -471,11 +471,11 @@ def test_a_point_is_pulled_by_a_spring_that_is_part_of_the_state():
     assert np.array_equal(*positions)
     # it hangs where the spring of 10 rad/s carries it: g / w^2 below the target
     assert positions[0] == pytest.approx([0.3, 0, 1.2 - 9.81 / 100], abs=1e-4)
-    assert S.getPull()["force"] == pytest.approx([0, 0, 2 * 9.81], abs=1e-2)
-    assert S.getPull()["position"] == pytest.approx(positions[0], abs=1e-3)
-    S.endPull()
+    assert S.getPerturbation()["force"] == pytest.approx([0, 0, 2 * 9.81], abs=1e-2)
+    assert S.getPerturbation()["position"] == pytest.approx(positions[0], abs=1e-3)
+    S.endPerturbation()
     S.step([], 0.1)
-    assert S.getPull() is None
+    assert S.getPerturbation() is None
     assert S.get_frameVelocities()[0, 0, 2] == pytest.approx(-0.981, abs=1e-3)  # it falls
     with pytest.raises(ry.ArgumentError, match="'wall' is fixed to the world"):
         S.pull("wall", [0, 0, 0], [0, 0, 0])

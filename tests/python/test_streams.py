@@ -66,7 +66,7 @@ def test_a_target_from_a_file_is_followed(tmp_path, scene):
     end = start + np.array([0.1, 0.1, -0.05])
     rows = [np.append(0, start), np.append(1, end)]
     path = written(tmp_path, "\n".join(",".join(map(repr, map(float, row))) for row in rows))
-    ry.drive(ik, C, "target", ry.TargetFile(path), seconds=1.2, realtime=False)
+    ry.servo(ik, C, "target", ry.TargetFile(path), seconds=1.2, realtime=False)
     assert np.linalg.norm(C.getFrame("l_gripper").getPosition() - end) < 1e-4
 
 
@@ -78,7 +78,7 @@ def test_a_gamepad_pushes_the_target(tmp_path, scene):
     pad = ry.Gamepad(str(device), speed=0.1)
     assert np.allclose(pad.velocity(), [0.1, 0, -0.05], atol=1e-5)
     start = np.array(C.getFrame("target").getPosition())
-    ry.drive(ik, C, "target", pad, seconds=0.5, realtime=False)
+    ry.servo(ik, C, "target", pad, seconds=0.5, realtime=False)
     pad.close()
     assert np.allclose(C.getFrame("target").getPosition(), start + np.array([0.05, 0, -0.025]), atol=1e-5)
     assert np.linalg.norm(C.getFrame("l_gripper").getPosition() - start - [0.05, 0, -0.025]) < 1e-3
@@ -89,23 +89,23 @@ def test_a_gamepad_pushes_the_target(tmp_path, scene):
 def test_a_function_of_time_moves_the_target_and_mistakes_are_named(scene):
     C, ik = scene
     start = np.array(C.getFrame("target").getPosition())
-    ry.drive(ik, C, "target", lambda t: start + np.array([0, 0, 0.1 * t]), seconds=0.5, realtime=False)
+    ry.servo(ik, C, "target", lambda t: start + np.array([0, 0, 0.1 * t]), seconds=0.5, realtime=False)
     assert np.linalg.norm(C.getFrame("l_gripper").getPosition() - start - [0, 0, 0.05]) < 1e-3
     with pytest.raises(ry.errors.FrameNotFound, match="target"):
-        ry.drive(ik, C, "traget", lambda t: start, seconds=1)
+        ry.servo(ik, C, "traget", lambda t: start, seconds=1)
     with pytest.raises(ry.errors.ArgumentError, match="seconds is 0"):
-        ry.drive(ik, C, "target", lambda t: start, seconds=0)
+        ry.servo(ik, C, "target", lambda t: start, seconds=0)
     with pytest.raises(ry.errors.ArgumentError, match="2 numbers; expected x y z"):
-        ry.drive(ik, C, "target", lambda t: start[:2], seconds=1, realtime=False)
+        ry.servo(ik, C, "target", lambda t: start[:2], seconds=1, realtime=False)
     with pytest.raises(TypeError, match="expected a TargetFile, a Gamepad"):
-        ry.drive(ik, C, "target", start, seconds=1)
+        ry.servo(ik, C, "target", start, seconds=1)
 
 
 def test_ctrl_c_ends_a_drive_and_other_threads_go_on_meanwhile(scene):
     C, ik = scene
     start = np.array(C.getFrame("target").getPosition())
     with pytest.raises(KeyboardInterrupt), interrupt_after(0.2):  # by a thread
-        ry.drive(ik, C, "target", lambda t: start, seconds=60)
+        ry.servo(ik, C, "target", lambda t: start, seconds=60)
 
 
 def test_the_handle_in_the_browser_moves_the_target(scene):
@@ -120,6 +120,6 @@ def test_the_handle_in_the_browser_moves_the_target(scene):
         until = time.monotonic() + 20
         while not C.viewer().hasEdits() and time.monotonic() < until:
             time.sleep(0.01)
-        ry.drive(ik, C, "target", seconds=0.5, realtime=False)
+        ry.servo(ik, C, "target", seconds=0.5, realtime=False)
     assert np.allclose(C.getFrame("target").getPosition(), pose[:3], atol=1e-6)
     assert np.linalg.norm(C.getFrame("l_gripper").getPosition() - pose[:3]) < 1e-3

@@ -7,7 +7,7 @@ import pytest
 
 import kinegraph as ry
 from kinegraph.task_check import cornersOf
-from kinegraph.task_plan import ghostScene
+from kinegraph.task_plan import failedConfiguration
 from task_scenes import families, panda_tasks, planned
 
 
@@ -132,8 +132,8 @@ def test_the_tree_of_the_search_and_a_ghost_of_what_failed() -> None:
     problem = families.walled(0)
     plan = ry.planTask(problem.C, problem.goal)
     assert plan.searchTree().startswith("(pick obj table g_gripper)")
-    scene = ghostScene(plan, problem.C)
+    scene = failedConfiguration(plan, problem.C)
     assert "ghost of g_palm" in scene.getFrameNames() and set(problem.C.getFrameNames()) < set(scene.getFrameNames())
     assert plan.view(problem.C, False) == 0
     with pytest.raises(ry.ArgumentError, match="no branch failed at a waypoint; .*beyond the reach"):
-        ghostScene(ry.planTask(families.far(0).C, "(on goal obj)"), problem.C)
+        failedConfiguration(ry.planTask(families.far(0).C, "(on goal obj)"), problem.C)

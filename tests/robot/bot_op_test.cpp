@@ -356,15 +356,15 @@ TEST(BotOp, StepsBeyondLimitsAreCutOff) {
 }
 
 TEST(BotOp, AFaultIsToldByEveryWaitingCallUntilItIsMended) {
-  RobotReading good{0., pair(0., 0.), pair(0., 0.), {}, {}, {}, {}}, wrong = good;
+  RobotState good{0., pair(0., 0.), pair(0., 0.), {}, {}, {}, {}}, wrong = good;
   wrong.error = "protective stop";
-  std::vector<RobotReading> readings;
+  std::vector<RobotState> states;
   for (int i = 0; i < 20; ++i) {
-    readings.push_back(i == 5 ? wrong : good);
-    readings.back().time = i * .01;
+    states.push_back(i == 5 ? wrong : good);
+    states.back().time = i * .01;
   }
   Config C = twoJointArm();
-  BotOp bot(C, std::make_shared<RecordedDriver>(plainRobot(), readings));
+  BotOp bot(C, std::make_shared<RecordedDriver>(plainRobot(), states));
   bot.move(row(.02, 0.), seconds(.3));
   expectError<RobotFault>([&] { bot.wait(C); }, {"was stopped: protective stop; call recover()"});
   EXPECT_EQ(bot.getFault(), "protective stop");
@@ -400,7 +400,7 @@ TEST(BotOp, DoesNotTakeARobotWithOtherJoints) {
   three.joints.push_back("arm3");
   for (VectorXd* limits : {&three.lower, &three.upper, &three.velocity, &three.acceleration, &three.effort})
     *limits = VectorXd::Constant(3, 1.);
-  const auto driver = std::make_shared<RecordedDriver>(three, std::vector<RobotReading>(), VectorXd::Zero(3));
+  const auto driver = std::make_shared<RecordedDriver>(three, std::vector<RobotState>(), VectorXd::Zero(3));
   expectError<ValueError>([&] { BotOp(C, driver); },
                           {"robot 'plain' has 3 joints; the configuration has 2: arm1, arm2"});
 }

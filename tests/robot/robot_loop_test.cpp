@@ -10,17 +10,17 @@ using namespace kinegraph;
 namespace {
 
 std::shared_ptr<RecordedDriver> obedient() {
-  return std::make_shared<RecordedDriver>(plainRobot(), std::vector<RobotReading>(), pair(0., 0.));
+  return std::make_shared<RecordedDriver>(plainRobot(), std::vector<RobotState>(), pair(0., 0.));
 }
 
-RobotReading reading(double time, double q0 = 0.) { return {time, pair(q0, 0.), pair(0., 0.), {}, {}, {}, {}}; }
+RobotState state(double time, double q0 = 0.) { return {time, pair(q0, 0.), pair(0., 0.), {}, {}, {}, {}}; }
 
 /// What goes wrong after `good` readings.
-std::shared_ptr<RecordedDriver> goesWrong(int good, const RobotReading& wrong) {
-  std::vector<RobotReading> readings;
-  for (int i = 0; i < good; ++i) readings.push_back(reading(i * .01));
-  readings.push_back(wrong);
-  return std::make_shared<RecordedDriver>(plainRobot(), readings);
+std::shared_ptr<RecordedDriver> goesWrong(int good, const RobotState& wrong) {
+  std::vector<RobotState> states;
+  for (int i = 0; i < good; ++i) states.push_back(state(i * .01));
+  states.push_back(wrong);
+  return std::make_shared<RecordedDriver>(plainRobot(), states);
 }
 
 BSpline straight(double from, double to, double start, double end) {
@@ -42,12 +42,12 @@ TEST(RobotLoop, WritesTheReferenceAtTheEndOfEachPeriod) {
     EXPECT_EQ(driver->commands()[std::size_t(i)].q, motion.eval((i + 1) * .01)) << i;
     EXPECT_EQ(driver->commands()[std::size_t(i)].velocity, motion.eval((i + 1) * .01, 1)) << i;
   }
-  EXPECT_EQ(loop.reading().q, pair(.5, 0.));
+  EXPECT_EQ(loop.state().q, pair(.5, 0.));
   EXPECT_EQ(loop.tick(), 120);
 }
 
 TEST(RobotLoop, IsStoppedByNumbersThatAreNotFinite) {
-  RobotReading wrong = reading(.05);
+  RobotState wrong = state(.05);
   wrong.q[1] = NAN;
   const auto driver = goesWrong(4, wrong);
   RobotLoop loop(driver, .01);
@@ -56,14 +56,14 @@ TEST(RobotLoop, IsStoppedByNumbersThatAreNotFinite) {
   EXPECT_NE(loop.fault().find("not finite"), std::string::npos);
   ASSERT_EQ(driver->stops().size(), 1u);
   EXPECT_EQ(driver->commands().size(), 4u);   // nothing was written after
-  EXPECT_EQ(loop.reading().q, pair(0., 0.));  // the last one that made sense
+  EXPECT_EQ(loop.state().q, pair(0., 0.));  // the last one that made sense
 }
 
 TEST(RobotLoop, IsStoppedByAnErrorOfTheRobotUntilItRecovers) {
-  RobotReading wrong = reading(.05);
+  RobotState wrong = state(.05);
   wrong.error = "joint 2: too hot";
-  std::vector<RobotReading> readings = {reading(0.), reading(.01), wrong, reading(.06, .2)};
-  const auto driver = std::make_shared<RecordedDriver>(plainRobot(), readings);
+  std::vector<RobotState> states = {state(0.), state(.01), wrong, state(.06, .2)};
+  const auto driver = std::make_shared<RecordedDriver>(plainRobot(), states);
   RobotLoop loop(driver, .01);
   loop.step();
   loop.step();
@@ -78,8 +78,8 @@ TEST(RobotLoop, IsStoppedByAnErrorOfTheRobotUntilItRecovers) {
 }
 
 TEST(RobotLoop, IsStoppedByAClockThatStandsStill) {
-  std::vector<RobotReading> readings(100, reading(1.));
-  const auto driver = std::make_shared<RecordedDriver>(plainRobot(), readings);
+  std::vector<RobotState> states(100, state(1.));
+  const auto driver = std::make_shared<RecordedDriver>(plainRobot(), states);
   RobotLoop loop(driver, .01);
   int ticks = 0;
   while (loop.mode() != LoopMode::fault && ticks < 90) loop.step(), ++ticks;
@@ -90,7 +90,7 @@ TEST(RobotLoop, IsStoppedByAClockThatStandsStill) {
 TEST(RobotLoop, IsStoppedByADriverThatThrows) {
   struct Broken : RobotDriver {
     RobotInfo info() override { return plainRobot(); }
-    RobotReading read() override { return reading(time += .01); }
+    RobotState read() override { return state(time += .01); }
     void write(const RobotCommand&) override {
       if (++writes == 3) throw RobotFault("the cable is out");
     }
@@ -106,9 +106,9 @@ TEST(RobotLoop, IsStoppedByADriverThatThrows) {
 }
 
 TEST(RobotLoop, IsStoppedWhereItDoesNotFollow) {
-  std::vector<RobotReading> readings;
-  for (int i = 0; i < 100; ++i) readings.push_back(reading(i * .01));  // stays where it is
-  const auto driver = std::make_shared<RecordedDriver>(plainRobot(), readings);
+  std::vector<RobotState> states;
+  for (int i = 0; i < 100; ++i) states.push_back(state(i * .01));  // stays where it is
+  const auto driver = std::make_shared<RecordedDriver>(plainRobot(), states);
   RobotLoop loop(driver, .01);
   loop.apply(FollowSpline{straight(0., 1., 0., 1.)});
   for (int i = 0; i < 60; ++i) loop.step();
@@ -118,10 +118,10 @@ TEST(RobotLoop, IsStoppedWhereItDoesNotFollow) {
 }
 
 TEST(RobotLoop, DoesNotBeginWithARobotThatReportsAnError) {
-  RobotReading wrong = reading(0.);
+  RobotState wrong = state(0.);
   wrong.error = "emergency stop";
   expectError<RobotFault>([&] { RobotLoop(goesWrong(0, wrong), .01); }, {"'plain' cannot be moved: emergency stop"});
-  RobotReading short_one = reading(0.);
+  RobotState short_one = state(0.);
   short_one.q = VectorXd::Zero(3);
   expectError<RobotFault>([&] { RobotLoop(goesWrong(0, short_one), .01); }, {"a q of 3 numbers; expected 2"});
 }
@@ -145,7 +145,7 @@ TEST(RobotLoop, BrakesToRestWithinItsLimits) {
   loop.apply(HoldRobot{braking});
   for (int i = 0; i < 40; ++i) loop.step();
   EXPECT_NEAR(driver->commands().back().velocity[0], 0., 1e-12);
-  EXPECT_NEAR(loop.reading().q[0], .5 + 1.5 * .3 / 3., 1e-9);
+  EXPECT_NEAR(loop.state().q[0], .5 + 1.5 * .3 / 3., 1e-9);
 }
 
 TEST(RobotLoop, DoesNotAskAStiffRobotToGiveWay) {

@@ -24,7 +24,7 @@ TEST(ReferenceGuard, LeavesAMotionWithinLimitsAsItIsToTheBit) {
   for (int tick = 1; tick <= 110; ++tick) {
     RobotCommand command = to(motion.eval(tick * .01), motion.eval(tick * .01, 1));
     const VectorXd q = command.q, velocity = command.velocity;
-    keepWithinLimits(command, last, last_velocity, robot);
+    limitCommand(command, last, last_velocity, robot);
     ASSERT_EQ(command.q, q) << tick;
     ASSERT_EQ(command.velocity, velocity) << tick;
     last = q;
@@ -40,7 +40,7 @@ TEST(ReferenceGuard, FollowsAJumpWithinLimitsAndComesToRestThere) {
   double farthest = 0.;
   for (int tick = 0; tick < 200; ++tick) {
     RobotCommand command = to(pair(.6, -.3), pair(0., 0.));
-    keepWithinLimits(command, q, velocity, robot);
+    limitCommand(command, q, velocity, robot);
     EXPECT_LE((command.q - q).cwiseAbs().maxCoeff(), .01 * 1. + 1e-12);
     EXPECT_LE((command.velocity - velocity).cwiseAbs().maxCoeff(), .01 * 5. + 1e-9) << tick;
     q = command.q;
@@ -59,7 +59,7 @@ TEST(ReferenceGuard, StopsAtTheLimitsOfJoints) {
   VectorXd q = pair(.45, 0.), velocity = pair(0., 0.);
   for (int tick = 0; tick < 50; ++tick) {
     RobotCommand command = to(pair(.9, 0.), pair(0., 0.));
-    keepWithinLimits(command, q, velocity, robot);
+    limitCommand(command, q, velocity, robot);
     q = command.q;
     velocity = command.velocity;
   }

@@ -197,14 +197,14 @@ TEST(Config, CopiesAreDeep) {
 
 TEST(Config, CopiesOfACompiledSceneCompileOnlyWhenTheyAreEdited) {
   Config original = arm();
-  const auto program = original.program();
+  const auto model = original.model();
   Config copy = original;
-  EXPECT_EQ(copy.program(), program);
+  EXPECT_EQ(copy.model(), model);
   EXPECT_EQ(copy.getJointState(), original.getJointState());
   copy.addFrame("more", "base");
-  EXPECT_NE(copy.program(), program);
-  EXPECT_EQ(copy.program()->frame_name.back(), "more");
-  EXPECT_EQ(original.program(), program);
+  EXPECT_NE(copy.model(), model);
+  EXPECT_EQ(copy.model()->frame_name.back(), "more");
+  EXPECT_EQ(original.model(), model);
   original.setJointState(original.getJointState() + VectorXd::Ones(13));
   EXPECT_NEAR((copy.getJointState() - original.getJointState()).norm(), std::sqrt(13.), 1e-12);
 }

@@ -36,7 +36,7 @@ struct Tumbling {
   Simulation simulation;
 };
 
-TEST(TurningForces, AFreeBodyKeepsItsEnergyAndItsAngularMomentum) {
+TEST(GyroscopicForces, AFreeBodyKeepsItsEnergyAndItsAngularMomentum) {
   for (const Vector3d& center : {Vector3d(0., 0., 0.), Vector3d(.03, .02, .05)}) {
     for (const double spin : {10., 40., 100.}) {
       Tumbling body(center, spin);
@@ -56,7 +56,7 @@ TEST(TurningForces, AFreeBodyKeepsItsEnergyAndItsAngularMomentum) {
   }
 }
 
-TEST(TurningForces, TheCenterOfAFreeBodyGoesStraight) {
+TEST(GyroscopicForces, TheCenterOfAFreeBodyGoesStraight) {
   Tumbling body({.03, .02, .05}, 40.);
   const Vector3d start = body.place();
   body.simulation.step({}, .01);
@@ -66,7 +66,7 @@ TEST(TurningForces, TheCenterOfAFreeBodyGoesStraight) {
   EXPECT_GT(velocity.norm(), 1.);  // that of its frame was zero
 }
 
-TEST(TurningForces, AFastTopOnAJointKeepsItsEnergy) {
+TEST(GyroscopicForces, AFastTopOnAJointKeepsItsEnergy) {
   constexpr double lean = .4, mass = .5, length = .05, weight = mass * 9.81 * length;
   const Vector3d inertia(.00205, .00205, .0016);  // about the tip
   Config C;
@@ -93,7 +93,7 @@ TEST(TurningForces, AFastTopOnAJointKeepsItsEnergy) {
   }
 }
 
-TEST(TurningForces, AFlyingBaseWithAWheelStaysInBounds) {
+TEST(GyroscopicForces, AFlyingBaseWithAWheelStaysInBounds) {
   Config C;
   C.addText(
       "base: { X: [0 0 1], multibody: true, multibody_fixedBase: false, mass: 1, inertia: [.002 .003 .004] } "
@@ -110,7 +110,7 @@ TEST(TurningForces, AFlyingBaseWithAWheelStaysInBounds) {
   }
 }
 
-TEST(TurningForces, WhatTurnsTooFastIsNamedOnce) {
+TEST(GyroscopicForces, WhatTurnsTooFastIsNamedOnce) {
   Tumbling body({0., 0., 0.}, 400.);
   body.simulation.step({}, .1);
   const std::vector<std::string> warnings = body.simulation.takeWarnings();

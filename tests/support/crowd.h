@@ -41,7 +41,7 @@ inline std::vector<Config::NearPair> measuredCollisions(const Config& config, do
   const State& state = config.state();
   for (const auto& [a, b] : config.getCollidablePairs()) {
     const double distance =
-        proximity(*state.program().body[a], state.pose(a), *state.program().body[b], state.pose(b)).distance;
+        proximity(*state.model().body[a], state.pose(a), *state.model().body[b], state.pose(b)).distance;
     if (distance <= margin) near.push_back({a, b, distance});
   }
   return near;

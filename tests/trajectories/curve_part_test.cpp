@@ -32,9 +32,9 @@ TEST(CurvePart, ALawAlongItIsOneAlongTheWhole) {
   const CurvePart part = partOf(curve, .4 * curve.length(), .9 * curve.length());
   const MotionLimits limits{VectorXd::Constant(3, 1.), VectorXd::Constant(3, 2.), {}};
   const TimedPath timed = retime(MatrixXd(), part.curve, limits);
-  const TimeLaw law = part.onWhole(timed.law());
-  for (double t = 0.; t < law.duration(); t += .01) {
-    const MotionState whole = motionAt(curve, law, t), own = timed.at(t);
+  const TimeScaling scaling = part.onWhole(timed.scaling());
+  for (double t = 0.; t < scaling.duration(); t += .01) {
+    const MotionState whole = motionAt(curve, scaling, t), own = timed.at(t);
     EXPECT_TRUE(whole.q.isApprox(own.q, 1e-9)) << t;
     EXPECT_LE((whole.velocity - own.velocity).norm(), 1e-9) << t;
   }
@@ -47,9 +47,9 @@ TEST(CurvePart, TheRestOfALawIsTheLawFromThenOn) {
     if (smooth) limits.jerk = VectorXd::Constant(3, 30.);
     const TimedPath timed = retime(MatrixXd(), curve, limits);
     for (const double time : {.1, .41 * timed.duration(), .9 * timed.duration()}) {
-      const LawPhase& phase = timed.law().phaseAt(time);
+      const ScalingPhase& phase = timed.scaling().phaseAt(time);
       const CurvePart part = partOf(curve, phase.at(time - phase.time).s, curve.length());
-      const TimeLaw rest = part.restOf(timed.law(), time);
+      const TimeScaling rest = part.restOf(timed.scaling(), time);
       EXPECT_NEAR(rest.duration(), timed.duration() - time, 1e-12);
       for (double t = 0.; t < rest.duration(); t += .01) {
         const MotionState now = motionAt(part.curve, rest, t), then = timed.at(time + t);

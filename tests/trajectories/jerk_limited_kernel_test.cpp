@@ -11,16 +11,16 @@
 namespace kinegraph {
 namespace {
 
-constexpr int kLanes = SmoothKernel::kLanes, kIntervals = 3 * kLanes, kNumbers = kIntervals + kLanes + 1;
+constexpr int kLanes = JerkLimitedKernel::kLanes, kIntervals = 3 * kLanes, kNumbers = kIntervals + kLanes + 1;
 constexpr int kPlain = 3, kAtBegin = 2, kAtEnd = 2, kRows = kPlain + kAtBegin + kAtEnd;
 
 /// Random rows of four blocks, of which the last is that of one interval again, and all that a kernel makes of them.
 struct Work {
   std::vector<double> knots, middle, roots, knot_step, middle_step, sums;
-  std::vector<SmoothKernel::Rows> rows;
-  std::vector<SmoothKernel::Block> blocks;
-  SmoothKernel::Falls falls{};
-  SmoothKernel::Sums of{};
+  std::vector<JerkLimitedKernel::Rows> rows;
+  std::vector<JerkLimitedKernel::Block> blocks;
+  JerkLimitedKernel::Falls falls{};
+  JerkLimitedKernel::Sums of{};
 
   Work() : sums(12 * kNumbers, 0.), rows(4 * kRows) {
     Rng rng(1);
@@ -29,7 +29,7 @@ struct Work {
     };
     draw(knots, .5, 2.), draw(middle, .5, 2.), draw(knot_step, -.1, .1), draw(middle_step, -.1, .1);
     for (const double b : knots) roots.push_back(1. / std::sqrt(b));
-    for (SmoothKernel::Rows& row : rows) {
+    for (JerkLimitedKernel::Rows& row : rows) {
       for (int i = 0; i < kLanes; ++i) {
         for (auto& r : row.r) r[i] = rng.uniform(-1., 1.);
         row.offset[i] = rng.uniform(-.1, .1), row.size[i] = rng.uniform(.5, 3.);
@@ -44,8 +44,8 @@ struct Work {
     for (int i = 0; i < 6; ++i) of.matrix[i] = sums.data() + (6 + i) * kNumbers;
   }
 
-  void run(const SmoothKernel& kernel) {
-    const SmoothKernel::Coefficients b{knots.data(), middle.data()}, step{knot_step.data(), middle_step.data()};
+  void run(const JerkLimitedKernel& kernel) {
+    const JerkLimitedKernel::Coefficients b{knots.data(), middle.data()}, step{knot_step.data(), middle_step.data()};
     kernel.begin(b, roots.data(), blocks.data(), 4, .01, 1e-3);
     kernel.findSteps(b, roots.data(), step, blocks.data(), 4, .01, falls);
     kernel.take(b, roots.data(), blocks.data(), 4, .5, .7, of);
@@ -53,7 +53,7 @@ struct Work {
 };
 
 bool areEqual(const Work& a, const Work& b) {
-  return std::memcmp(a.rows.data(), b.rows.data(), a.rows.size() * sizeof(SmoothKernel::Rows)) == 0 &&
+  return std::memcmp(a.rows.data(), b.rows.data(), a.rows.size() * sizeof(JerkLimitedKernel::Rows)) == 0 &&
          std::memcmp(&a.falls, &b.falls, sizeof(a.falls)) == 0 && a.sums == b.sums &&
          std::memcmp(a.of.gap, b.of.gap, sizeof(a.of.gap)) == 0 &&
          std::memcmp(a.of.missed, b.of.missed, sizeof(a.of.missed)) == 0;
@@ -61,7 +61,7 @@ bool areEqual(const Work& a, const Work& b) {
 
 }  // namespace
 
-TEST(SmoothKernel, AllWidthsGiveTheSameBits) {
+TEST(JerkLimitedKernel, AllWidthsGiveTheSameBits) {
   Work narrow;
   narrow.run(smoothKernel(2));
   for (const int width : laneWidths()) {
@@ -71,12 +71,12 @@ TEST(SmoothKernel, AllWidthsGiveTheSameBits) {
   }
 }
 
-TEST(SmoothKernel, SlacksAreWhatIsLeftOfASizeAndMultipliersFitTheBarrier) {
+TEST(JerkLimitedKernel, SlacksAreWhatIsLeftOfASizeAndMultipliersFitTheBarrier) {
   Work work;
-  const SmoothKernel::Coefficients b{work.knots.data(), work.middle.data()};
+  const JerkLimitedKernel::Coefficients b{work.knots.data(), work.middle.data()};
   smoothKernel().begin(b, work.roots.data(), work.blocks.data(), 4, .01, 1e-3);
   for (int r = 0; r < kRows; ++r) {
-    const SmoothKernel::Rows& row = work.rows[kRows + r];
+    const JerkLimitedKernel::Rows& row = work.rows[kRows + r];
     for (int i = 0; i < kLanes; ++i) {
       const int k = kLanes + i;
       const double value =
@@ -90,16 +90,16 @@ TEST(SmoothKernel, SlacksAreWhatIsLeftOfASizeAndMultipliersFitTheBarrier) {
 }
 
 /// Sums are the gradient and the matrix of what a Newton step needs: the gap's terms fall as the step says.
-TEST(SmoothKernel, AStepOfRowsWithoutRootsReachesTheBarrierToFirstOrder) {
+TEST(JerkLimitedKernel, AStepOfRowsWithoutRootsReachesTheBarrierToFirstOrder) {
   Work work;
-  for (SmoothKernel::Block& block : work.blocks) block.plain = kRows, block.at_begin = block.at_end = 0;
+  for (JerkLimitedKernel::Block& block : work.blocks) block.plain = kRows, block.at_begin = block.at_end = 0;
   for (double& by : work.knot_step) by *= 1e-4;
   for (double& by : work.middle_step) by *= 1e-4;
-  const SmoothKernel::Coefficients b{work.knots.data(), work.middle.data()},
+  const JerkLimitedKernel::Coefficients b{work.knots.data(), work.middle.data()},
       step{work.knot_step.data(), work.middle_step.data()};
   smoothKernel().begin(b, work.roots.data(), work.blocks.data(), 4, .01, 1e-3);
   smoothKernel().findSteps(b, work.roots.data(), step, work.blocks.data(), 4, .02, work.falls);
-  for (const SmoothKernel::Rows& row : work.rows) {
+  for (const JerkLimitedKernel::Rows& row : work.rows) {
     for (int side = 0; side < 2; ++side) {
       for (int i = 0; i < kLanes; ++i) {
         const double slack = row.slack[side][i], dual = row.dual[side][i];

@@ -265,7 +265,7 @@ TEST(Retime, AccelerationsKeepTheirLimitsWhereItHardlyAccelerates) {
     const TimedPath timed =
         retime(MatrixXd{{from}, {from + rng.uniform(3., 9.)}}, limitsOf(1, velocity, acceleration), options);
     ASSERT_TRUE(timed.feasible()) << timed.message;
-    for (const LawPhase& phase : timed.law().phases())
+    for (const ScalingPhase& phase : timed.scaling().phases())
       EXPECT_LE(timed.at(phase.time).acceleration.norm(), acceleration * (1. + kWithin)) << phase.time;
   }
 }
@@ -308,11 +308,11 @@ TEST(Retime, WhatItSaysWouldDoDoesAndLittleMoreDoesNot) {
 }
 
 TEST(Retime, RowsOfTheCallerHoldAtAllPlacesAndSayWhatCannotBeHeld) {
-  RowSource rows;  // s'' + s'^2 + c <= 3, with c = 1 + s
+  ConstraintSource rows;  // s'' + s'^2 + c <= 3, with c = 1 + s
   rows.low = VectorXd::Constant(1, -kNoLimit), rows.high = VectorXd::Constant(1, 3.);
   rows.names = {"shoulder"};
   rows.at = [](double s, int) {
-    return LawRows{VectorXd::Constant(1, 1.), VectorXd::Constant(1, 1.), VectorXd::Constant(1, 1. + s)};
+    return ScalingConstraints{VectorXd::Constant(1, 1.), VectorXd::Constant(1, 1.), VectorXd::Constant(1, 1. + s)};
   };
   RetimeOptions options;
   options.rows = rows;
@@ -419,7 +419,7 @@ TEST(Retime, AMotionGoesOnWithTheAccelerationThatAnotherOneHas) {
     for (const double share : {.07, .2, .5, .8}) {
       const double time = share * before.duration();
       const MotionState now = before.at(time);
-      const LawPhase& phase = before.law().phaseAt(time);
+      const ScalingPhase& phase = before.scaling().phaseAt(time);
       const CurvePart rest = partOf(before.curve(), phase.at(time - phase.time).s, before.curve().length());
       options.start_velocity = now.velocity;
       options.start_acceleration = now.acceleration;

@@ -33,7 +33,7 @@ TEST(SolveFromMany, FindsTheBetterOfTwoAnswersAndLeavesTheKomoThere) {
   EXPECT_TRUE(alone.best().feasible);
   EXPECT_NEAR(alone.best().x[1], M_PI / 2., 1e-3);
   const auto again = twoAnswers();
-  const SolveManyResult many = solveFromMany(again, drawStarts(*again, 12, 0));
+  const SolveManyResult many = solveFromMany(again, sampleStarts(*again, 12, 0));
   EXPECT_TRUE(many.best().feasible);
   EXPECT_NEAR(many.best().x[0], M_PI / 2., 1e-3);
   EXPECT_NEAR(many.best().x[1], -M_PI / 2., 1e-3);
@@ -41,17 +41,17 @@ TEST(SolveFromMany, FindsTheBetterOfTwoAnswersAndLeavesTheKomoThere) {
   EXPECT_EQ(again->path().variables(), many.best().x);
 }
 
-TEST(DrawStarts, WhatIsCalledInBetweenMayThrowAndThePathStays) {
+TEST(SampleStarts, WhatIsCalledInBetweenMayThrowAndThePathStays) {
   const auto komo = twoAnswers();
   const VectorXd before = komo->path().variables();
   int asked = 0;
-  EXPECT_THROW(drawStarts(*komo, 9, 0,
+  EXPECT_THROW(sampleStarts(*komo, 9, 0,
                           [&] {
                             if (++asked == 4) throw std::runtime_error("stop");
                           }),
                std::runtime_error);
   EXPECT_EQ(komo->path().variables(), before);
-  EXPECT_EQ(drawStarts(*komo, 3, 0).size(), 3u);
+  EXPECT_EQ(sampleStarts(*komo, 3, 0).size(), 3u);
   EXPECT_EQ(komo->path().variables(), before);
 }
 
@@ -60,7 +60,7 @@ TEST(SolveFromMany, ThreadsDoNotChangeTheAnswer) {
     std::vector<SolveManyResult> all;
     for (const int threads : {1, 3, 9}) {
       const auto komo = twoAnswers();
-      all.push_back(solveFromMany(komo, drawStarts(*komo, 9, 4), {}, {best, threads}));
+      all.push_back(solveFromMany(komo, sampleStarts(*komo, 9, 4), {}, {best, threads}));
     }
     for (int other : {1, 2}) {
       EXPECT_EQ(all[0].chosen, all[other].chosen);
@@ -75,7 +75,7 @@ TEST(SolveFromMany, ThreadsDoNotChangeTheAnswer) {
 
 TEST(SolveFromMany, TheFirstFeasibleStartSufficesIfAsked) {
   const auto komo = twoAnswers();
-  const SolveManyResult first = solveFromMany(komo, drawStarts(*komo, 5, 0), {}, {false, 1});
+  const SolveManyResult first = solveFromMany(komo, sampleStarts(*komo, 5, 0), {}, {false, 1});
   EXPECT_EQ(first.chosen, 0);
   EXPECT_TRUE(first.results[0].feasible);
   EXPECT_FALSE(first.results[1].done);
@@ -85,7 +85,7 @@ TEST(SolveFromMany, WithoutAnAnswerTheOneThatViolatesLeastIsChosen) {
   const auto komo = twoAnswers();
   komo->addObjective({}, FeatureSymbol::position, {"tip"}, ObjectiveType::eq, MatrixXd::Constant(1, 1, 10.),
                      Vector3d(-1., 1., 0.));
-  const SolveManyResult many = solveFromMany(komo, drawStarts(*komo, 4, 0));
+  const SolveManyResult many = solveFromMany(komo, sampleStarts(*komo, 4, 0));
   EXPECT_FALSE(many.best().feasible);
   for (const SolverResult& result : many.results) EXPECT_GE(result.violation, many.best().violation);
 }
@@ -93,11 +93,11 @@ TEST(SolveFromMany, WithoutAnAnswerTheOneThatViolatesLeastIsChosen) {
 TEST(SolveFromMany, DrawnStartsBeginWithThePresentPathWhichStays) {
   const auto komo = twoAnswers();
   const VectorXd before = komo->path().variables();
-  const std::vector<VectorXd> starts = drawStarts(*komo, 3, 7);
+  const std::vector<VectorXd> starts = sampleStarts(*komo, 3, 7);
   EXPECT_EQ(starts[0], before);
   EXPECT_EQ(komo->path().variables(), before);
   EXPECT_NE(starts[1], starts[2]);
-  EXPECT_EQ(drawStarts(*komo, 3, 7)[2], starts[2]);
+  EXPECT_EQ(sampleStarts(*komo, 3, 7)[2], starts[2]);
 }
 
 TEST(SolveFromMany, MistakesAreNamed) {
@@ -109,13 +109,13 @@ TEST(SolveFromMany, MistakesAreNamed) {
         solveFromMany(komo, {komo->path().variables()}, {}, {true, 0});
       },
       {"number of threads is 0"});
-  expectError<ValueError>([&] { drawStarts(*komo, 0, 0); }, {"number of starts is 0"});
+  expectError<ValueError>([&] { sampleStarts(*komo, 0, 0); }, {"number of starts is 0"});
 }
 
 TEST(SolveFromMany, AWatchThatThrowsEndsIt) {
   for (const int threads : {1, 2}) {
     const auto komo = twoAnswers();
-    const auto starts = drawStarts(*komo, 2000, 0);
+    const auto starts = sampleStarts(*komo, 2000, 0);
     const auto fail = [](int) -> bool { throw std::runtime_error("enough"); };
     EXPECT_THROW(solveFromMany(komo, starts, {}, {true, threads}, fail), std::runtime_error);
   }

@@ -10,7 +10,7 @@ import pytest
 import kinegraph as kg
 
 from . import browser as chromium
-from .program import Program
+from .program import KinematicModel
 
 
 @pytest.fixture(scope="session")
@@ -39,12 +39,12 @@ def config() -> Iterator[kg.Config]:
 
 
 @pytest.fixture
-def start(tmp_path: Path) -> Iterator[Callable[..., Program]]:
+def start(tmp_path: Path) -> Iterator[Callable[..., KinematicModel]]:
     """Starts Python programs; those that still run at the end are killed."""
-    programs: list[Program] = []
+    programs: list[KinematicModel] = []
 
-    def start_program(code: str, **environment: str) -> Program:
-        programs.append(Program(code, tmp_path, environment))
+    def start_program(code: str, **environment: str) -> KinematicModel:
+        programs.append(KinematicModel(code, tmp_path, environment))
         return programs[-1]
 
     yield start_program

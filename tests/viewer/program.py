@@ -13,7 +13,7 @@ from pathlib import Path
 PATIENCE = 60.0  # s; much more than a busy machine needs
 
 
-class Program:
+class KinematicModel:
     """Runs `code` after `import kinegraph as kg`, with KINEGRAPH_HEADLESS and the display taken away."""
 
     def __init__(self, code: str, folder: Path, environment: dict[str, str]) -> None:

@@ -15,9 +15,9 @@ import kinegraph as kg
 
 from .browser import Browser
 from .camera import HEIGHT, WIDTH, Camera
-from .program import Program
+from .program import KinematicModel
 
-Start = Callable[..., Program]
+Start = Callable[..., KinematicModel]
 PAPER = (223, 227, 234)
 LINKS = [f"l_panda_joint{i}" for i in range(1, 8)]
 

@@ -13,9 +13,9 @@ import pytest
 import kinegraph as kg
 
 from .browser import Browser
-from .program import Program
+from .program import KinematicModel
 
-Start = Callable[..., Program]
+Start = Callable[..., KinematicModel]
 
 TWO_PICTURES = "new Promise(done => requestAnimationFrame(() => requestAnimationFrame(() => done(true))))"
 

@@ -12,7 +12,7 @@ import pytest
 import kinegraph as kg
 
 from .browser import Browser
-from .program import Program
+from .program import KinematicModel
 
 SLIDER = "document.querySelector('input[type=range][aria-label=\"{}\"]')"
 
@@ -73,7 +73,7 @@ def test_a_slider_moves_the_robot_at_once_and_the_configuration_at_the_next_view
     assert not arm.viewer().hasEdits()
 
 
-def test_joints_move_while_the_program_waits_for_a_key(browser: Browser, start: Callable[..., Program]) -> None:
+def test_joints_move_while_the_program_waits_for_a_key(browser: Browser, start: Callable[..., KinematicModel]) -> None:
     program = start("""
 C = kg.Config()
 C.addFile(kg.raiPath('scenarios/pandaSingle.g'))
@@ -239,7 +239,7 @@ def test_wireframe_and_x_ray_change_what_is_seen(arm: kg.Config, browser: Browse
         assert np.abs(browser.picture()[region].astype(int) - solid).max() < 8
 
 
-def test_the_arm_follows_a_target_that_is_dragged(browser: Browser, start: Callable[..., Program]) -> None:
+def test_the_arm_follows_a_target_that_is_dragged(browser: Browser, start: Callable[..., KinematicModel]) -> None:
     program = start("""
 C = kg.Config()
 C.addFile(kg.raiPath('scenarios/pandaSingle.g'))

@@ -14,7 +14,7 @@ import pytest
 import kinegraph as kg
 
 from .browser import Browser
-from .program import Program
+from .program import KinematicModel
 
 ARM = """
 C.addFrame('base')
@@ -44,7 +44,7 @@ def komo() -> Iterator[kg.KOMO]:
     komo.view_close()
 
 
-def test_a_path_is_played_and_can_be_looked_at_slice_by_slice(browser: Browser, start: Callable[..., Program]) -> None:
+def test_a_path_is_played_and_can_be_looked_at_slice_by_slice(browser: Browser, start: Callable[..., KinematicModel]) -> None:
     path = "[[0, 0], [1, 0], [2, 1], [2, 1.5]]"
     program = start(
         PROGRAM + f"print('key', C.view_path({path}, .5), C.getJointState())\nC.view_path({path}, .1, True)"
@@ -146,7 +146,7 @@ def test_playing_a_komo_saves_pictures(komo: kg.KOMO, tmp_path: Path) -> None:
     assert files[0].read_bytes() != files[-1].read_bytes()
 
 
-def test_a_key_ends_the_playing(browser: Browser, start: Callable[..., Program]) -> None:
+def test_a_key_ends_the_playing(browser: Browser, start: Callable[..., KinematicModel]) -> None:
     program = start(
         "C = kg.Config()" + ARM + "for i in range(100): C.addFrame(f'joint{i}', 'base').setJoint(kg.JT.hingeX)\n"
         "C.view()\nC.viewer().waitForClient(60)\nC.animate()\n"  # 102 s, if nobody ends it
@@ -160,7 +160,7 @@ def test_a_key_ends_the_playing(browser: Browser, start: Callable[..., Program])
     assert program.line("key") == str(ord("y"))
 
 
-def test_looking_around_while_a_motion_plays_does_not_end_it(browser: Browser, start: Callable[..., Program]) -> None:
+def test_looking_around_while_a_motion_plays_does_not_end_it(browser: Browser, start: Callable[..., KinematicModel]) -> None:
     program = start("""
 import time
 C = kg.Config()

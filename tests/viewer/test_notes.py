@@ -24,7 +24,7 @@ def panda(config: kg.Config) -> kg.Config:
 
 
 def ignored(config: kg.Config) -> list[str]:
-    return [note for note in config.contactNotes() if "'a box'" in note]
+    return [note for note in config.contactWarnings() if "'a box'" in note]
 
 
 def test_an_obstacle_that_is_ignored_is_marked_and_the_page_says_why(panda: kg.Config, browser: Browser) -> None:

@@ -9,7 +9,7 @@ import kinegraph as kg
 
 from .browser import Browser
 from .camera import HEIGHT, WIDTH
-from .program import Program
+from .program import KinematicModel
 
 BALLS = {
     "red": ([1, 0, 0], [0.0, 0.0, 0.5]),
@@ -234,7 +234,7 @@ def test_a_new_page_begins_where_viewers_start(balls: kg.Config) -> None:
     np.testing.assert_array_equal(viewer.getCamera_pose(), start)
 
 
-def test_digits_switch_what_is_drawn_while_a_file_is_watched(browser: Browser, start: type[Program]) -> None:
+def test_digits_switch_what_is_drawn_while_a_file_is_watched(browser: Browser, start: type[KinematicModel]) -> None:
     program = start(
         "open('scene.g', 'w').write('ball: { shape: sphere, size: [.2], X: [0 0 1] }')\nkg.Config().watchFile('scene.g')"
     )

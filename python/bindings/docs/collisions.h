@@ -62,7 +62,7 @@ Args:
 Returns:
     The sum of all penetration depths, or the largest, m.)";
 
-inline constexpr char contactNotes[] =
+inline constexpr char contactWarnings[] =
     R"(What one may not expect about which shapes collide. Calls that ask whether something is free warn of it,
 once per scene.
 

@@ -67,7 +67,7 @@ Raises:
 inline constexpr char step[] = R"(Computes the velocity for the next dt seconds, and moves the scene by it.
 
 Limits and contradictions raise no error: from beyond a limit it goes back as fast as velocities allow, and distances that
-cannot be kept give way as little as possible; then status is gave_way, and message says which.
+cannot be kept give way as little as possible; then status is constraints_relaxed, and message says which.
 
 Args:
     dt: Length of the step, s.

@@ -369,7 +369,7 @@ Args:
     max_speed: Of the width, m/s.
     max_force: N.)";
 
-inline constexpr char GripperReading[] = R"(A gripper as it is.
+inline constexpr char GripperState[] = R"(A gripper as it is.
 
 Args:
     width: Of the opening, m.
@@ -397,7 +397,7 @@ Args:
 Returns:
     The info.)";
 
-inline constexpr char RobotReading[] = R"(A robot as it is.
+inline constexpr char RobotState[] = R"(A robot as it is.
 
 Args:
     time: Of the robot's clock, s. If it stands still, the robot is stopped.
@@ -405,7 +405,7 @@ Args:
     velocity: (n,) rad/s or m/s.
     effort: (n,) of its motors, N m or N; empty if unknown.
     external_effort: (n,) by what it touches; empty if unknown.
-    grippers: A GripperReading for each gripper.
+    grippers: A GripperState for each gripper.
     error: What the robot says is wrong; empty if nothing is.
 Raises:
     ArgumentError: What should be numbers is none.)";

@@ -1,6 +1,6 @@
 #pragma once
 
-/// The manual of what own_feature.cpp binds.
+/// The manual of what custom_feature.cpp binds.
 namespace kinegraph::python::docs::own_features {
 
 inline constexpr char getPositionJacobian[] =

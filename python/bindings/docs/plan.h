@@ -88,7 +88,7 @@ Returns:
 Raises:
     ArgumentError: There is no motion.)";
 
-inline constexpr char movingAt[] = R"(Where the obstacles are that move while the robot does.
+inline constexpr char obstaclesAt[] = R"(Where the obstacles are that move while the robot does.
 
 Args:
     t: s.

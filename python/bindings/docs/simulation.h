@@ -138,7 +138,7 @@ Raises:
     ArgumentError: It has no steps.
     FileError: The file cannot be written.)";
 
-inline constexpr char pull[] = R"(Pulls a point to a place, as a hand would: by a damped spring, until endPull.
+inline constexpr char pull[] = R"(Pulls a point to a place, as a hand would: by a damped spring, until endPerturbation.
 
 The force is m (w^2 (target - p) - 2 w dp/dt): p is the point, m the mass of the frame's link with all that hangs on its joints,
 w = 10 rad/s. One point at a time.
@@ -151,9 +151,9 @@ Raises:
     FrameNotFound: There is no such frame.
     ArgumentError: It is fixed to the world, or a number is not finite.)";
 
-inline constexpr char endPull[] = R"(Lets go of what is pulled.)";
+inline constexpr char endPerturbation[] = R"(Lets go of what is pulled.)";
 
-inline constexpr char getPull[] = R"(What is pulled, by pull() or on the page.
+inline constexpr char getPerturbation[] = R"(What is pulled, by pull() or on the page.
 
 Returns:
     position, target (m) and force (N) of the last inner step, each (3,), world; None if nothing is.)";

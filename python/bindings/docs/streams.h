@@ -38,7 +38,7 @@ inline constexpr char velocity[] = R"(Takes in what has happened since.
 Returns:
     Where the sticks push, m/s, shape (3,).)";
 
-inline constexpr char drive[] =
+inline constexpr char servo[] =
     R"(Steps a DiffIk while its target moves: with a file, a gamepad, a function, or the handle in the browser.
 
 Args:

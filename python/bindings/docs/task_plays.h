@@ -30,7 +30,7 @@ Raises:
     ArgumentError: There is no motion.
 )";
 
-inline constexpr char ghostScene[] =
+inline constexpr char failedConfiguration[] =
     R"(A copy of the scene in which the waypoint that the farthest branch of a search failed at stands as a red ghost.
 
 Args:

@@ -12,11 +12,11 @@ from .._core import (
     Config,
     GripperCommand,
     GripperInfo,
-    GripperReading,
+    GripperState,
     RobotCommand,
     RobotDriver,
     RobotInfo,
-    RobotReading,
+    RobotState,
 )
 
 STIFFNESS = np.array([600.0, 600.0, 600.0, 600.0, 250.0, 150.0, 50.0])  # N m/rad, panda-python's own
@@ -57,9 +57,9 @@ class _Hand:
             self._open += 1
         self._commands.put(command)
 
-    def reading(self) -> tuple[GripperReading, str]:
+    def state(self) -> tuple[GripperState, str]:
         with self._lock:
-            return GripperReading(self._width, self._open == 0), self._error
+            return GripperState(self._width, self._open == 0), self._error
 
     def clear(self) -> None:
         with self._lock:
@@ -128,16 +128,16 @@ class FrankaDriver(RobotDriver):
             self._panda.stop_controller()
         self._panda = self._controller = self._hand = None
 
-    def read(self) -> RobotReading:
+    def read(self) -> RobotState:
         """Where arm and hand are, what they feel, and what is wrong."""
         state = self._panda.get_state()
         error = str(state.current_errors) if state.current_errors else ""
         grippers = []
         if self._hand is not None:
-            reading, problem = self._hand.reading()
-            grippers, error = [reading], error or problem
+            state, problem = self._hand.state()
+            grippers, error = [state], error or problem
         time = state.time.to_sec()
-        return RobotReading(time, state.q, state.dq, state.tau_J, state.tau_ext_hat_filtered, grippers, error)
+        return RobotState(time, state.q, state.dq, state.tau_J, state.tau_ext_hat_filtered, grippers, error)
 
     def write(self, command: RobotCommand) -> None:
         """Leaves a setpoint.

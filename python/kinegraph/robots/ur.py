@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import Any
 
-from .._core import Config, RobotCommand, RobotDriver, RobotInfo, RobotReading
+from .._core import Config, RobotCommand, RobotDriver, RobotInfo, RobotState
 
 
 class UrDriver(RobotDriver):
@@ -62,10 +62,10 @@ class UrDriver(RobotDriver):
             return "protective stop"
         return "" if self._control.isProgramRunning() else "the program on the controller does not run"
 
-    def read(self) -> RobotReading:
+    def read(self) -> RobotState:
         """Where it is, and what is wrong."""
         receive = self._receive
-        return RobotReading(receive.getTimestamp(), receive.getActualQ(), receive.getActualQd(), error=self._error())
+        return RobotState(receive.getTimestamp(), receive.getActualQ(), receive.getActualQd(), error=self._error())
 
     def write(self, command: RobotCommand) -> None:
         """Goes on by a period.

@@ -13,9 +13,9 @@ namespace {
 using RowMajor = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 
 /// The feature that a function of frames computes.
-class OwnFeature final : public Feature {
+class CustomFeature final : public Feature {
  public:
-  OwnFeature(std::string name, FeatureFunction function, std::vector<int> frames, const State& scene)
+  CustomFeature(std::string name, FeatureFunction function, std::vector<int> frames, const State& scene)
       : name_(std::move(name)), function_(std::move(function)), frames_(std::move(frames)) {
     rows_ = int(function_(views(scene)).y.size());
   }
@@ -72,14 +72,14 @@ class OwnFeature final : public Feature {
   }
 
   std::vector<int> movingDofs(const State& state) const {
-    const Program& program = state.program();
-    std::vector<bool> moves(std::size_t(program.dofs), frames_.empty());
+    const KinematicModel& model = state.model();
+    std::vector<bool> moves(std::size_t(model.dofs), frames_.empty());
     for (int frame : frames_) {
-      for (int c = program.last_column[state.link(frame)]; c >= 0; c = program.column_before[c])
-        moves[std::size_t(program.column_dof[c])] = true;
+      for (int c = model.last_column[state.link(frame)]; c >= 0; c = model.column_before[c])
+        moves[std::size_t(model.column_dof[c])] = true;
     }
     std::vector<int> dofs;
-    for (int dof = 0; dof < program.dofs; ++dof) {
+    for (int dof = 0; dof < model.dofs; ++dof) {
       if (moves[std::size_t(dof)]) dofs.push_back(dof);
     }
     return dofs;
@@ -107,7 +107,7 @@ MatrixXd FrameView::getAngularJacobian() const {
 
 FeatureSource ownFeature(std::string name, FeatureFunction function) {
   auto make = [name, function = std::move(function)](const std::vector<int>& frames, const State& state) {
-    return std::make_unique<OwnFeature>(name, function, frames, state);
+    return std::make_unique<CustomFeature>(name, function, frames, state);
   };
   return {std::move(name), std::move(make)};
 }

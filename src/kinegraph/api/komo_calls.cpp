@@ -36,7 +36,7 @@ SolverResult Komo::solve(const SolverOptions& options) {
 }
 
 SolveManyResult Komo::solveFromMany(int starts, const SolveManyOptions& options, std::uint64_t seed) {
-  return kinegraph::solveFromMany(borrowed(*this), drawStarts(*this, starts, seed), {}, options);
+  return kinegraph::solveFromMany(borrowed(*this), sampleStarts(*this, starts, seed), {}, options);
 }
 
 int Komo::view(bool pause, const std::string& message) {

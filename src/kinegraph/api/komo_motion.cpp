@@ -31,12 +31,12 @@ std::vector<NearLine> nearPairs(const Objective& objective, const Config& config
   const double margin = std::max(objective.margin, aims_apart ? -objective.target[0] : 0.);
   const State& state = config.state();
   const auto concerns = [&](int frame) {
-    const std::string& name = state.program().frame_name[std::size_t(frame)];
+    const std::string& name = state.model().frame_name[std::size_t(frame)];
     return std::find(objective.frames.begin(), objective.frames.end(), name) != objective.frames.end();
   };
   std::vector<NearLine> lines;
   for (const auto& [a, b, distance] : config.getCollisions(margin - kTouch)) {
-    if (!state.program().movesApart(a, b) || lines.size() == kMost) continue;
+    if (!state.model().movesApart(a, b) || lines.size() == kMost) continue;
     if (objective.frames.empty() || concerns(a) || concerns(b)) lines.push_back(nearLine(state, a, b));
   }
   return lines;

@@ -22,14 +22,14 @@ std::vector<int> driven(const VectorXd& efforts) {
 }
 
 /// Rows of inverse dynamics along a curve: M q' s'' + (M q'' + C(q, q') q') s'^2 + gravity.
-RowSource torqueRows(const Config& config, const PathCurve& curve) {
+ConstraintSource torqueRows(const Config& config, const PathCurve& curve) {
   const VectorXd efforts = getEffortLimits(config);
   const std::vector<int> dofs = driven(efforts);
   if (dofs.empty())
     throw ValueError(
         "retime: torque is asked for, and no joint of the scene has an effort limit (the second number of "
         "ctrl_limits)");
-  RowSource rows;
+  ConstraintSource rows;
   rows.unit = " N m";
   rows.high.resize(Eigen::Index(dofs.size()));
   for (std::size_t r = 0; r < dofs.size(); ++r) rows.high[Eigen::Index(r)] = efforts[dofs[r]];
@@ -44,7 +44,7 @@ RowSource torqueRows(const Config& config, const PathCurve& curve) {
     robot->setJointState(q);
     const VectorXd rest = VectorXd::Zero(n), held = robot->inverseDynamics(rest, rest);
     const VectorXd a = robot->inverseDynamics(rest, first) - held, b = robot->inverseDynamics(first, second) - held;
-    LawRows at{VectorXd(dofs.size()), VectorXd(dofs.size()), VectorXd(dofs.size())};
+    ScalingConstraints at{VectorXd(dofs.size()), VectorXd(dofs.size()), VectorXd(dofs.size())};
     for (std::size_t r = 0; r < dofs.size(); ++r) {
       const Eigen::Index row = Eigen::Index(r);
       at.a[row] = a[dofs[r]], at.b[row] = b[dofs[r]], at.c[row] = held[dofs[r]];

@@ -16,7 +16,7 @@ using Clock = std::chrono::steady_clock;
 using Seconds = std::chrono::duration<double>;
 
 constexpr double kPicture = 1. / 30.;  // s from one to the next
-constexpr Seconds kLook(.02);          // between two looks at whether the call shall end
+constexpr Seconds kCheckPeriod(.02);          // between two looks at whether the call shall end
 
 void place(Frame& frame, const VectorXd& pose) {
   if (pose.size() != 3 && pose.size() != 7)
@@ -30,14 +30,14 @@ void place(Frame& frame, const VectorXd& pose) {
 
 void waitUntil(Clock::time_point end, const std::function<void()>& between) {
   for (auto now = Clock::now(); now < end; now = Clock::now()) {
-    std::this_thread::sleep_until(std::min(end, now + std::chrono::duration_cast<Clock::duration>(kLook)));
+    std::this_thread::sleep_until(std::min(end, now + std::chrono::duration_cast<Clock::duration>(kCheckPeriod)));
     if (between) between();
   }
 }
 
 /// `move` brings the target to where it is at a time.
 void driveBy(DiffIk& ik, Config& config, const std::function<void(double t)>& move, bool shows,
-             const DriveOptions& options) {
+             const ServoOptions& options) {
   if (!(options.seconds > 0.) || !(options.dt > 0.))
     throw ValueError(cat("drive: seconds is ", options.seconds, ", dt is ", options.dt, "; expected numbers > 0"));
   const auto begun = Clock::now();
@@ -62,20 +62,20 @@ void driveBy(DiffIk& ik, Config& config, const std::function<void(double t)>& mo
 
 }  // namespace
 
-void drive(DiffIk& ik, Config& config, const std::string& target, const TargetSource& source,
-           const DriveOptions& options) {
+void servo(DiffIk& ik, Config& config, const std::string& target, const TargetSource& source,
+           const ServoOptions& options) {
   Frame frame = config.getFrame(target);
   driveBy(
       ik, config, [&](double t) { place(frame, source(t)); }, options.show.value_or(false), options);
 }
 
-void drive(DiffIk& ik, Config& config, const std::string& target, Gamepad& gamepad, const DriveOptions& options) {
+void servo(DiffIk& ik, Config& config, const std::string& target, Gamepad& gamepad, const ServoOptions& options) {
   Frame frame = config.getFrame(target);
   const auto push = [&](double) { frame.setPosition(frame.getPosition() + options.dt * gamepad.velocity()); };
   driveBy(ik, config, push, options.show.value_or(false), options);
 }
 
-void drive(DiffIk& ik, Config& config, const std::string& target, const DriveOptions& options) {
+void servo(DiffIk& ik, Config& config, const std::string& target, const ServoOptions& options) {
   config.getFrame(target);
   driveBy(ik, config, nullptr, options.show.value_or(true), options);
 }

@@ -13,7 +13,7 @@ namespace kinegraph {
 /// Where a target is at a time in s: a position (3,) or a pose (7,). A TargetFile is one.
 using TargetSource = std::function<VectorXd(double t)>;
 
-struct DriveOptions {
+struct ServoOptions {
   double seconds = 10.;  ///< how long
   double dt = .005;      ///< s, of a step
   std::optional<bool>
@@ -28,9 +28,9 @@ struct DriveOptions {
 /// Steps a DiffIk, which has a task at the frame `target`, while that frame moves: by a file or a function, by a gamepad, or
 /// by hand in the browser. Throws ValueError for times that are not positive and for numbers that are no pose,
 /// FrameNotFound.
-void drive(DiffIk& ik, Config& config, const std::string& target, const TargetSource& source,
-           const DriveOptions& options = {});
-void drive(DiffIk& ik, Config& config, const std::string& target, Gamepad& gamepad, const DriveOptions& options = {});
-void drive(DiffIk& ik, Config& config, const std::string& target, const DriveOptions& options = {});
+void servo(DiffIk& ik, Config& config, const std::string& target, const TargetSource& source,
+           const ServoOptions& options = {});
+void servo(DiffIk& ik, Config& config, const std::string& target, Gamepad& gamepad, const ServoOptions& options = {});
+void servo(DiffIk& ik, Config& config, const std::string& target, const ServoOptions& options = {});
 
 }  // namespace kinegraph

@@ -104,7 +104,7 @@ bool SimulationView::pull(Simulation& simulation, const std::optional<RunRequest
   if (asked == pulled_) return false;
   pulled_ = asked;
   if (!asked) {
-    simulation.endPull();
+    simulation.endPerturbation();
     return true;
   }
   const Config& config = simulation.config();
@@ -125,7 +125,7 @@ void SimulationView::show(const Simulation& simulation) {
   run.factor = factor_;
   run.is_paused = is_paused_;
   run.contacts = shownContacts(simulation.getContacts());
-  if (const auto pull = simulation.getPull()) run.pull = {pull->position, pull->target, pull->force.norm()};
+  if (const auto pull = simulation.getPerturbation()) run.pull = {pull->position, pull->target, pull->force.norm()};
   viewer_->server().showRun(run);
 }
 

@@ -39,10 +39,10 @@ std::shared_ptr<NlpParameter> ofKomo(const Nlp& nlp, const std::string& name, co
     is_objective = is_objective || name == objective.name() || name == known.back();
   }
   if (is_objective) return ofObjective(nlp, objectiveNumber(nlp, name), what);
-  const Program& program = komoOf(nlp)->path().state(0).program();
-  if (program.frame_index.contains(name)) return ofFrame(nlp, name, what);
+  const KinematicModel& model = komoOf(nlp)->path().state(0).model();
+  if (model.frame_index.contains(name)) return ofFrame(nlp, name, what);
   if (name == "start") return motionStart(nlp);
-  known.insert(known.end(), program.frame_name.begin(), program.frame_name.end());
+  known.insert(known.end(), model.frame_name.begin(), model.frame_name.end());
   known.push_back("start");
   throw NameError(cat("there is no objective and no frame '", name, "'", similarHint(name, known)));
 }
@@ -77,7 +77,7 @@ MatrixXd ikGradients(const std::vector<IkResult>& results, const MatrixXd& v, in
   int size = 0;
   for (const auto& parameter : ikTargets(*makeNlp(*first))) size += parameter->size();
   MatrixXd gradients = MatrixXd::Constant(count, size, std::numeric_limits<double>::quiet_NaN());
-  forParts(int(count), 8, threads, [&](int, int from, int to) {
+  parallelFor(int(count), 8, threads, [&](int, int from, int to) {
     for (int i = from; i < to; ++i) {
       const IkResult& result = results[std::size_t(i)];
       if (!result.feasible()) continue;

@@ -52,7 +52,7 @@ std::vector<MatrixXd> TaskPlan::frames(const Config& C, double rate) const {
   return poses;
 }
 
-Config TaskPlan::ghostScene(const Config& C) const {
+Config TaskPlan::failedConfiguration(const Config& C) const {
   const TaskBranch* farthest = nullptr;
   for (const TaskBranch& branch : tree)
     if (branch.ghost && (!farthest || branch.actions.size() > farthest->actions.size())) farthest = &branch;
@@ -72,7 +72,7 @@ Config TaskPlan::ghostScene(const Config& C) const {
 }
 
 int TaskPlan::view(Config& C, bool pause) const {
-  if (path.rows() == 0) return ghostScene(C).view(pause, cat(message, "\n", searchTree()));
+  if (path.rows() == 0) return failedConfiguration(C).view(pause, cat(message, "\n", searchTree()));
   const MatrixXd before = C.getFrameState();
   play(C);
   const int key = C.view(pause, str());

@@ -7,7 +7,7 @@ std::unique_ptr<EdgeChecker> EdgeCheckers::take(const State& scene, double margi
   {
     const std::lock_guard lock(mutex_);
     std::erase_if(kept_, [&](const auto& one) {
-      return one->scene().sharedProgram() != scene.sharedProgram() ||
+      return one->scene().sharedModel() != scene.sharedModel() ||
              one->scene().sharedParameters() != scene.sharedParameters();
     });
     if (!kept_.empty()) {

@@ -106,7 +106,7 @@ const std::optional<MotionContact>& EdgeEngine::measuredHit() {
   if (last_hit_ && std::isnan(last_hit_->distance)) {
     scene_.setJoints(hit_q_.data());
     const auto a = std::size_t(last_hit_->a), b = std::size_t(last_hit_->b);
-    const auto& bodies = scene_.program().body;
+    const auto& bodies = scene_.model().body;
     last_hit_->distance =
         proximity(*bodies[a], scene_.pose(last_hit_->a), *bodies[b], scene_.pose(last_hit_->b)).distance;
   }

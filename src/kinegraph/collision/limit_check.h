@@ -18,12 +18,12 @@ struct LimitPassed {
 };
 
 /// Are all dofs within their limits, to kLimitTolerance?
-bool withinLimits(const Program& program, const double* q);
+bool withinLimits(const KinematicModel& model, const double* q);
 
 /// The first dof that the straight motion between two q brings beyond its limits by more than kLimitTolerance.
-std::optional<LimitPassed> firstLimitPassed(const Program& program, const double* from, const double* to);
+std::optional<LimitPassed> firstLimitPassed(const KinematicModel& model, const double* from, const double* to);
 
 /// The frame whose joint has a dof of q.
-int frameOfDof(const Program& program, int dof);
+int frameOfDof(const KinematicModel& model, int dof);
 
 }  // namespace kinegraph

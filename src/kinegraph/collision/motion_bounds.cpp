@@ -6,18 +6,18 @@
 
 namespace kinegraph {
 
-MotionBounds::MotionBounds(const State& scene) : program_(scene.sharedProgram()), steps_(scene.program().steps.size()) {
+MotionBounds::MotionBounds(const State& scene) : model_(scene.sharedModel()), steps_(scene.model().steps.size()) {
   for (const LaneModel::Link& link : scene.parameters().link) {
     offset_.push_back(Eigen::Map<const Vector3d>(link.p).norm());
   }
 }
 
 void MotionBounds::setMotion(const double* from, const double* to) {
-  for (const Program::Link& link : program_->links) {
+  for (const KinematicModel::Link& link : model_->links) {
     int dof = link.dof;
     for (int s = link.first_step; s < link.first_step + link.steps; ++s) {
-      steps_[std::size_t(s)] = boundOf(program_->steps[std::size_t(s)], std::abs(link.scale), dof, from, to);
-      dof += program_->steps[std::size_t(s)].dofs();
+      steps_[std::size_t(s)] = boundOf(model_->steps[std::size_t(s)], std::abs(link.scale), dof, from, to);
+      dof += model_->steps[std::size_t(s)].dofs();
     }
   }
 }
@@ -57,7 +57,7 @@ MotionBounds::StepBound MotionBounds::boundOf(const MotionStep& step, double sca
 
 /// From a link to its parent.
 void MotionBounds::climb(int index, Rates& rates) const {
-  const Program::Link& link = program_->links[std::size_t(index)];
+  const KinematicModel::Link& link = model_->links[std::size_t(index)];
   for (int s = link.first_step + link.steps - 1; s >= link.first_step; --s) {
     const StepBound& step = steps_[std::size_t(s)];
     const bool turns = step.turn > 0. && rates.reach > 0.;
@@ -72,7 +72,7 @@ void MotionBounds::climb(int index, Rates& rates) const {
 
 MotionBounds::Rates MotionBounds::ratesOf(int link, double reach, int ancestor) const {
   Rates rates{0., 0., reach};
-  for (; link != ancestor; link = program_->links[std::size_t(link)].parent) climb(link, rates);
+  for (; link != ancestor; link = model_->links[std::size_t(link)].parent) climb(link, rates);
   return rates;
 }
 
@@ -80,7 +80,7 @@ MotionBounds::Rates MotionBounds::directionOf(int index, int ancestor) const {
   Rates rates{0., 0., 1.};
   double twist = 0.;
   while (index != ancestor) {
-    const Program::Link& link = program_->links[std::size_t(index)];
+    const KinematicModel::Link& link = model_->links[std::size_t(index)];
     for (int s = link.first_step; s < link.first_step + link.steps; ++s) {
       rates.speed += steps_[std::size_t(s)].turn;
       twist += steps_[std::size_t(s)].twist;
@@ -94,7 +94,7 @@ MotionBounds::Rates MotionBounds::directionOf(int index, int ancestor) const {
 int MotionBounds::commonLink(int link_a, int link_b) const {
   while (link_a != link_b) {  // links come after their parents
     int& later = link_a > link_b ? link_a : link_b;
-    later = program_->links[std::size_t(later)].parent;
+    later = model_->links[std::size_t(later)].parent;
   }
   return link_a;
 }

@@ -48,7 +48,7 @@ class MotionBounds {
   StepBound boundOf(const MotionStep& step, double scale, int dof, const double* from, const double* to) const;
   void climb(int link, Rates& rates) const;
 
-  std::shared_ptr<const Program> program_;
+  std::shared_ptr<const KinematicModel> model_;
   std::vector<double> offset_;    ///< per link: how far its joint sits from the origin of its parent, m
   std::vector<StepBound> steps_;  ///< as the Program's
 };

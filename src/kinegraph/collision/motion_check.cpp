@@ -11,24 +11,24 @@ namespace kinegraph {
 MotionChecker::MotionChecker(const State& scene)
     : state_(scene),
       edges_(std::make_unique<EdgeEngine>(scene, 1e-5)),
-      many_(scene.program().contacts.bodies.size() > NearPairs::kFew),
+      many_(scene.model().contacts.bodies.size() > NearPairs::kFew),
       bounds_(scene),
       from_(scene.dofs()),
       change_(scene.dofs()),
       q_(scene.dofs()),
       until_(scene.dofs()) {
-  const Program& program = scene.program();
+  const KinematicModel& model = scene.model();
   if (!many_) {
-    pairs_.emplace(program, program.movingPairs());
+    pairs_.emplace(model, model.movingPairs());
     bodies_.emplace(*pairs_);
     speed_.resize(pairs_->pairs.size());
     due_.reserve(pairs_->pairs.size());
     return;
   }
   std::vector<WorldBox> boxes;
-  for (std::size_t i = 0; i < program.contacts.bodies.size(); ++i) {
-    const ContactRules::Body& body = program.contacts.bodies[i];
-    if (program.frame_link[std::size_t(body.frame)] != 0) {
+  for (std::size_t i = 0; i < model.contacts.bodies.size(); ++i) {
+    const ContactRules::Body& body = model.contacts.bodies[i];
+    if (model.frame_link[std::size_t(body.frame)] != 0) {
       moving_.push_back(int(i));
     } else {
       fixed_.push_back(int(i));
@@ -49,9 +49,9 @@ void MotionChecker::moveTo(double time) {
 }
 
 void MotionChecker::setMotion(const double* from, const double* to) {
-  const Program& program = state_.program();
-  from_ = Eigen::Map<const VectorXd>(from, program.dofs);
-  change_ = Eigen::Map<const VectorXd>(to, program.dofs) - from_;
+  const KinematicModel& model = state_.model();
+  from_ = Eigen::Map<const VectorXd>(from, model.dofs);
+  change_ = Eigen::Map<const VectorXd>(to, model.dofs) - from_;
   bounds_.setMotion(from, to);
 }
 
@@ -71,7 +71,7 @@ double MotionChecker::relativeSpeed(int pair) const {
 
 /// A bound of how far any point of a frame's body is moved.
 double MotionChecker::travelOf(int frame) const {
-  const double reach = reachOf(frame, *state_.program().body[std::size_t(frame)]);
+  const double reach = reachOf(frame, *state_.model().body[std::size_t(frame)]);
   return bounds_.ratesOf(state_.link(frame), reach).speed;
 }
 
@@ -79,7 +79,7 @@ double MotionChecker::travelOf(int frame) const {
 /// the start.
 WorldBox MotionChecker::sweptBox(const ContactRules::Body& body) const {
   const auto frame = std::size_t(body.frame);
-  const CollisionBody& shape = *state_.program().body[frame];
+  const CollisionBody& shape = *state_.model().body[frame];
   const RigidTransform X = state_.pose(body.frame);
   const Vector3d center = X * shape.boundCenter(), half = (X.R.cwiseAbs() * shape.boundHalf()).array() + shape.radius();
   constexpr double kAnywhere = 1e9;  // m
@@ -88,8 +88,8 @@ WorldBox MotionChecker::sweptBox(const ContactRules::Body& body) const {
 
 /// The pairs on different links that may come within `margin` of each other, in the order of frames.
 void MotionChecker::findPairs(double margin) {
-  const Program& program = state_.program();
-  const std::vector<ContactRules::Body>& bodies = program.contacts.bodies;
+  const KinematicModel& model = state_.model();
+  const std::vector<ContactRules::Body>& bodies = model.contacts.bodies;
   const double reach = std::max(margin, 0.) + 1e-9;
   std::vector<WorldBox> boxes;
   for (const int i : moving_) boxes.push_back(sweptBox(bodies[std::size_t(i)]));
@@ -99,7 +99,7 @@ void MotionChecker::findPairs(double margin) {
   const auto add = [&](int i, int j) {
     if (i > j) std::swap(i, j);
     const int a = bodies[std::size_t(i)].frame, b = bodies[std::size_t(j)].frame;
-    if (state_.link(a) != state_.link(b) && program.contacts.allow(std::size_t(i), std::size_t(j)))
+    if (state_.link(a) != state_.link(b) && model.contacts.allow(std::size_t(i), std::size_t(j)))
       found.emplace_back(a, b);
   };
   for (std::size_t k = 0; k < moving_.size(); ++k) {
@@ -110,7 +110,7 @@ void MotionChecker::findPairs(double margin) {
   }
   std::sort(found.begin(), found.end());
   bodies_.reset();
-  pairs_.emplace(program, found);
+  pairs_.emplace(model, found);
   bodies_.emplace(*pairs_);
   bodies_->place(state_);
 }
@@ -134,7 +134,7 @@ std::optional<MotionContact> MotionChecker::firstContact(const double* from, con
   q_.noalias() = start + contact->time * (end - start);
   state_.setJoints(q_.data());
   const auto a = std::size_t(contact->a), b = std::size_t(contact->b);
-  const auto& bodies = state_.program().body;
+  const auto& bodies = state_.model().body;
   contact->distance = proximity(*bodies[a], state_.pose(contact->a), *bodies[b], state_.pose(contact->b)).distance;
   return contact;
 }
@@ -150,7 +150,7 @@ std::optional<MotionContact> MotionChecker::firstInPieces(const double* from, co
   setMotion(from, to);
   double farthest = 0.;
   for (const int i : moving_) {
-    farthest = std::max(farthest, travelOf(state_.program().contacts.bodies[std::size_t(i)].frame));
+    farthest = std::max(farthest, travelOf(state_.model().contacts.bodies[std::size_t(i)].frame));
   }
   const int pieces = int(std::clamp(std::ceil(farthest / kPiece), 1., kMostPieces));
   const VectorXd start = from_, change = change_;

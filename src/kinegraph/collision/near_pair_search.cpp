@@ -4,15 +4,15 @@
 
 namespace kinegraph {
 
-NearPairSearch::NearPairSearch(std::shared_ptr<const Program> program, const std::vector<int>& frames)
-    : program_(std::move(program)),
+NearPairSearch::NearPairSearch(std::shared_ptr<const KinematicModel> model, const std::vector<int>& frames)
+    : model_(std::move(model)),
       frames_(frames),
-      link_pose_(program_->links.size()),
-      link_moved_(program_->links.size()) {
-  for (const ContactRules::Body& body : program_->contacts.bodies) {
+      link_pose_(model_->links.size()),
+      link_moved_(model_->links.size()) {
+  for (const ContactRules::Body& body : model_->contacts.bodies) {
     const auto frame = std::size_t(body.frame);
     const bool wanted = frames.empty() || std::find(frames.begin(), frames.end(), body.frame) != frames.end();
-    bodies_.push_back({program_->body[frame], body.frame, program_->frame_link[frame], wanted, {}});
+    bodies_.push_back({model_->body[frame], body.frame, model_->frame_link[frame], wanted, {}});
   }
   rooms_.resize(bodies_.size());
   left_box_.resize(bodies_.size());
@@ -52,7 +52,7 @@ void NearPairSearch::place(const State& state) {
 void NearPairSearch::add(int a, int b) {
   if (a > b) std::swap(a, b);
   const Body &body_a = bodies_[std::size_t(a)], &body_b = bodies_[std::size_t(b)];
-  if (!(body_a.wanted || body_b.wanted) || !program_->contacts.allow(std::size_t(a), std::size_t(b))) return;
+  if (!(body_a.wanted || body_b.wanted) || !model_->contacts.allow(std::size_t(a), std::size_t(b))) return;
   (body_a.link == 0 && body_b.link == 0 ? fixed_ : moving_).push_back({a, b});
 }
 

@@ -17,10 +17,10 @@ namespace kinegraph {
 class NearPairSearch {
  public:
   /// Of all collidable pairs, or of those that involve one of the given frames.
-  explicit NearPairSearch(std::shared_ptr<const Program> program, const std::vector<int>& frames = {});
+  explicit NearPairSearch(std::shared_ptr<const KinematicModel> model, const std::vector<int>& frames = {});
 
   /// A copy starts anew.
-  NearPairSearch(const NearPairSearch& other) : NearPairSearch(other.program_, other.frames_) {}
+  NearPairSearch(const NearPairSearch& other) : NearPairSearch(other.model_, other.frames_) {}
 
   void place(const State& state);
 
@@ -66,7 +66,7 @@ class NearPairSearch {
   void add(int a, int b);
   bool isNear(Candidate& candidate, double margin);
 
-  std::shared_ptr<const Program> program_;
+  std::shared_ptr<const KinematicModel> model_;
   std::vector<int> frames_;
   std::shared_ptr<const Parameters> parameters_;
   std::vector<RigidTransform> link_pose_;

@@ -2,14 +2,14 @@
 
 namespace kinegraph {
 
-BodyPairs::BodyPairs(const Program& program, const std::vector<std::pair<int, int>>& frame_pairs) {
+BodyPairs::BodyPairs(const KinematicModel& model, const std::vector<std::pair<int, int>>& frame_pairs) {
   static const std::shared_ptr<const CollisionBody> point = pointBody();
-  std::vector<int> place(program.frame_link.size(), -1);
+  std::vector<int> place(model.frame_link.size(), -1);
   const auto body = [&](int frame) {
     if (place[frame] < 0) {
       place[frame] = int(frames.size());
       frames.push_back(frame);
-      bodies.push_back(program.body[frame] ? program.body[frame] : point);
+      bodies.push_back(model.body[frame] ? model.body[frame] : point);
     }
     return place[frame];
   };
@@ -37,11 +37,11 @@ bool PlacedBodies::coresMayBeNear(int a, int b, double margin) const {
          mayBeWithin(body_b, poses_[b], centers_[a], body_a.boundRadius() + margin);
 }
 
-NearPairs::NearPairs(std::shared_ptr<const Program> program) : program_(std::move(program)) {
-  if (program_->contacts.bodies.size() > kFew) {
-    search_.emplace(program_);
+NearPairs::NearPairs(std::shared_ptr<const KinematicModel> model) : model_(std::move(model)) {
+  if (model_->contacts.bodies.size() > kFew) {
+    search_.emplace(model_);
   } else {
-    pairs_.emplace(*program_, program_->collidable());
+    pairs_.emplace(*model_, model_->collidable());
     bodies_.emplace(*pairs_);
   }
 }
@@ -57,8 +57,8 @@ void NearPairs::place(const State& state) {
 bool NearPairs::apart(double margin) {
   if (search_) return search_->apart(margin);
   const auto tooNear = [&](int pair) {
-    const auto [a, b] = program_->collidable()[std::size_t(pair)];
-    return program_->movesApart(a, b) && bodies_->mayBeNear(pair, margin) && bodies_->proximity(pair).distance < margin;
+    const auto [a, b] = model_->collidable()[std::size_t(pair)];
+    return model_->movesApart(a, b) && bodies_->mayBeNear(pair, margin) && bodies_->proximity(pair).distance < margin;
   };
   if (suspect_ >= 0 && tooNear(suspect_)) return false;
   for (int pair = 0; pair < bodies_->pairs(); ++pair) {

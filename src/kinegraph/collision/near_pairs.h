@@ -14,7 +14,7 @@ namespace kinegraph {
 /// Pairs of frames with shapes, and each of their bodies once.
 struct BodyPairs {
   /// Pairs of frame ids; frames without a shape count as points.
-  BodyPairs(const Program& program, const std::vector<std::pair<int, int>>& frame_pairs);
+  BodyPairs(const KinematicModel& model, const std::vector<std::pair<int, int>>& frame_pairs);
 
   std::vector<int> frames;                                   ///< ids
   std::vector<std::shared_ptr<const CollisionBody>> bodies;  ///< of those frames
@@ -81,11 +81,11 @@ class PlacedBodies {
 /// Distances of all collidable pairs of a scene, with nearest points.
 class PairDistances {
  public:
-  explicit PairDistances(std::shared_ptr<const Program> program)
-      : program_(std::move(program)), pairs_(*program_, program_->collidable()), bodies_(pairs_) {}
-  PairDistances(const PairDistances& other) : PairDistances(other.program_) {}
+  explicit PairDistances(std::shared_ptr<const KinematicModel> model)
+      : model_(std::move(model)), pairs_(*model_, model_->collidable()), bodies_(pairs_) {}
+  PairDistances(const PairDistances& other) : PairDistances(other.model_) {}
 
-  const std::shared_ptr<const Program>& program() const { return program_; }
+  const std::shared_ptr<const KinematicModel>& model() const { return model_; }
 
   /// Calls visit(i, proximity) for pair i of program()->collidable(), in turn.
   template <class Visit>
@@ -95,7 +95,7 @@ class PairDistances {
   }
 
  private:
-  std::shared_ptr<const Program> program_;
+  std::shared_ptr<const KinematicModel> model_;
   BodyPairs pairs_;
   PlacedBodies bodies_;
 };
@@ -106,8 +106,8 @@ class NearPairs {
  public:
   static constexpr std::size_t kFew = 64;  ///< bodies
 
-  explicit NearPairs(std::shared_ptr<const Program> program);
-  NearPairs(const NearPairs& other) : NearPairs(other.program_) {}
+  explicit NearPairs(std::shared_ptr<const KinematicModel> model);
+  NearPairs(const NearPairs& other) : NearPairs(other.model_) {}
 
   /// `state` must stay while this is asked.
   void place(const State& state);
@@ -122,7 +122,7 @@ class NearPairs {
     }
     bodies_->forMaybeNear(margin, [&](int pair) {
       const double distance = bodies_->proximity(pair).distance;
-      const auto [a, b] = program_->collidable()[std::size_t(pair)];
+      const auto [a, b] = model_->collidable()[std::size_t(pair)];
       if (distance <= margin) visit(a, b, distance);
     });
   }
@@ -132,7 +132,7 @@ class NearPairs {
   bool apart(double margin);
 
  private:
-  std::shared_ptr<const Program> program_;
+  std::shared_ptr<const KinematicModel> model_;
   std::optional<NearPairSearch> search_;
   std::optional<BodyPairs> pairs_;
   std::optional<PlacedBodies> bodies_;

@@ -50,8 +50,8 @@ PlacedSamples::PlacedSamples(const State& scene, const LinkBodies& bodies, const
       Q_(std::size_t(kMost * scene.dofs())),
       spheres_(bodies.groups.size()),
       placed_(bodies.bodies.size()) {
-  const Program& program = scene.program();
-  model_ = {int(program.links.size()), int(program.steps.size()), int(program.column_dof.size()), program.dofs,
+  const KinematicModel& model = scene.model();
+  model_ = {int(model.links.size()), int(model.steps.size()), int(model.column_dof.size()), model.dofs,
             parameters_->link.data(),  parameters_->step.data()};
   const std::size_t all = kMost / std::size_t(kernel_->width),
                     pose_rows = std::size_t(model_.links) * LaneMemory::kPerPose;
@@ -128,7 +128,7 @@ const std::vector<std::int64_t>& PlacedSamples::nearFixed(int group, double marg
 std::unique_ptr<PlacedSamples::Placed> PlacedSamples::unplaced(int index) const {
   auto placed = std::make_unique<Placed>();
   const LinkBodies::Body& body = bodies_->bodies[std::size_t(index)];
-  placed->offset.turn = classifyTurn(body.X_LB.R.data());
+  placed->offset.turn = classifyRotation(body.X_LB.R.data());
   std::copy_n(body.X_LB.R.data(), 9, placed->offset.R);
   std::copy_n(body.X_LB.p.data(), 3, placed->offset.p);
   const Vector3d center = body.shape->boundCenter();

@@ -21,28 +21,28 @@ double leastNorm(const Eigen::Ref<const VectorXd>& a, const Eigen::Ref<const Vec
 }  // namespace
 
 StrayBound::StrayBound(const State& scene)
-    : program_(scene.sharedProgram()),
-      body_reach_(program_->links.size(), -1.),
-      reach_(program_->steps.size()),
-      move_(program_->links.size()),
-      largest_(VectorXd::Zero(program_->dofs)) {
+    : model_(scene.sharedModel()),
+      body_reach_(model_->links.size(), -1.),
+      reach_(model_->steps.size()),
+      move_(model_->links.size()),
+      largest_(VectorXd::Zero(model_->dofs)) {
   for (const LaneModel::Link& link : scene.parameters().link)
     offset_.push_back(Eigen::Map<const Vector3d>(link.p).norm());
   const MotionBounds tree(scene);
   const auto onLink = [&](int frame) {
-    const CollisionBody& body = *program_->body[std::size_t(frame)];
+    const CollisionBody& body = *model_->body[std::size_t(frame)];
     const RigidTransform& X_LF = scene.parameters().frame_offset[std::size_t(frame)];
     const int link = scene.link(frame);
     double& reach = body_reach_[std::size_t(link)];
     reach = std::max(reach, (X_LF * body.boundCenter()).norm() + body.boundRadius());
     return link;
   };
-  for (const auto& [a, b] : program_->movingPairs()) {
+  for (const auto& [a, b] : model_->movingPairs()) {
     const int on_a = onLink(a), on_b = onLink(b), first = std::min(on_a, on_b), second = std::max(on_a, on_b);
     const auto is_it = [&](const LinkPair& pair) { return pair.a == first && pair.b == second; };
     if (std::ranges::none_of(pairs_, is_it)) pairs_.push_back({first, second, tree.commonLink(first, second)});
   }
-  has_slides_ = std::ranges::any_of(program_->steps, [](const MotionStep& step) { return step.slides(); });
+  has_slides_ = std::ranges::any_of(model_->steps, [](const MotionStep& step) { return step.slides(); });
   findReaches();
 }
 
@@ -55,14 +55,14 @@ void StrayBound::setLargest(const VectorXd& largest) {
 /// Links come after their parents, so that what is behind one is known where it is visited.
 void StrayBound::findReaches() {
   std::vector<double> behind = body_reach_;
-  for (int index = int(program_->links.size()) - 1; index > 0; --index) {
-    const Program::Link& link = program_->links[std::size_t(index)];
+  for (int index = int(model_->links.size()) - 1; index > 0; --index) {
+    const KinematicModel::Link& link = model_->links[std::size_t(index)];
     double reach = behind[std::size_t(index)];
     if (reach < 0.) continue;
     int dof = link.dof;
-    for (int s = link.first_step; s < link.first_step + link.steps; ++s) dof += program_->steps[std::size_t(s)].dofs();
+    for (int s = link.first_step; s < link.first_step + link.steps; ++s) dof += model_->steps[std::size_t(s)].dofs();
     for (int s = link.first_step + link.steps - 1; s >= link.first_step; --s) {
-      const MotionStep& step = program_->steps[std::size_t(s)];
+      const MotionStep& step = model_->steps[std::size_t(s)];
       dof -= step.dofs();
       reach_[std::size_t(s)] = reach;
       if (step.slides()) reach += std::abs(link.scale) * largest_[dof];
@@ -74,12 +74,12 @@ void StrayBound::findReaches() {
 
 /// Of what is on or behind a link, by its own joint.
 double StrayBound::moveOf(int index, const VectorXd& from, const VectorXd& to, const VectorXd& stray) const {
-  const Program::Link& link = program_->links[std::size_t(index)];
+  const KinematicModel::Link& link = model_->links[std::size_t(index)];
   const double scale = std::abs(link.scale);
   double move = 0.;
   int dof = link.dof;
   for (int s = link.first_step; s < link.first_step + link.steps; ++s) {
-    const MotionStep& step = program_->steps[std::size_t(s)];
+    const MotionStep& step = model_->steps[std::size_t(s)];
     const int dofs = step.dofs();
     if (step.slides()) {
       move += scale * std::abs(stray[dof]);
@@ -97,8 +97,8 @@ double StrayBound::moveOf(int index, const VectorXd& from, const VectorXd& to, c
 }
 
 double StrayBound::of(const VectorXd& from, const VectorXd& to, const VectorXd& stray) {
-  for (int index = 1; index < int(program_->links.size()); ++index) {
-    const int parent = program_->links[std::size_t(index)].parent;
+  for (int index = 1; index < int(model_->links.size()); ++index) {
+    const int parent = model_->links[std::size_t(index)].parent;
     move_[std::size_t(index)] = move_[std::size_t(parent)] + moveOf(index, from, to, stray);
   }
   double most = 0.;

@@ -32,7 +32,7 @@ class StrayBound {
   void findReaches();
   double moveOf(int link, const VectorXd& from, const VectorXd& to, const VectorXd& stray) const;
 
-  std::shared_ptr<const Program> program_;
+  std::shared_ptr<const KinematicModel> model_;
   std::vector<double> offset_;      ///< per link: how far its joint sits from the origin of its parent, m
   std::vector<double> body_reach_;  ///< per link: of the bodies on it, from its origin, m; negative: it has none
   std::vector<double> reach_;       ///< per step of the Program: of what is behind it, from its axis, m

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "kinegraph/geometry/distance/collision_body.h"
+
 namespace kinegraph {
 
 namespace {
@@ -12,10 +14,10 @@ constexpr double kNoProof = 1.05;  // where quaternions or circles move a body
 }  // namespace
 
 double travelOf(const State& state, const VectorXd& change, const VectorXd& spread) {
-  const Program& program = state.program();
+  const KinematicModel& model = state.model();
   double most = 0.;
-  for (std::size_t frame = 0; frame < program.body.size(); ++frame) {
-    const auto& body = program.body[frame];
+  for (std::size_t frame = 0; frame < model.body.size(); ++frame) {
+    const auto& body = model.body[frame];
     if (!body || !state.moves(int(frame))) continue;
     const Vector3d center = state.pose(int(frame)) * body->boundCenter();
     double travel = 0., moved = 0.;  // relative to the joint that is visited, by those that were before

@@ -14,7 +14,7 @@ namespace kinegraph {
 
 namespace {
 
-using Job = std::function<void(int, const JobStopped&)>;
+using Job = std::function<void(int, const CancellationToken&)>;
 using Take = std::function<bool(int)>;
 using Between = std::function<void()>;
 
@@ -100,9 +100,9 @@ class JobsAhead {
 
 }  // namespace
 
-void inOrder(int count, int threads, const Job& job, const Take& take, const Between& between) {
+void orderedParallelFor(int count, int threads, const Job& job, const Take& take, const Between& between) {
   if (threads > 1 && count > 0) return JobsAhead(count, threads, job, between).run(take);
-  const JobStopped stopped = [&] {
+  const CancellationToken stopped = [&] {
     if (between) between();
     return false;
   };

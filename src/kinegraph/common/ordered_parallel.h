@@ -6,7 +6,7 @@ namespace kinegraph {
 
 /// Whether the result of a job is still wanted: true where it is not. On the calling thread it asks `between`, which may
 /// throw.
-using JobStopped = std::function<bool()>;
+using CancellationToken = std::function<bool()>;
 
 /// Runs jobs 0 .. count-1 and has their results taken in this order, computed ahead by threads, so that what comes out
 /// does not depend on how many there are. `job(i, stopped)` leaves its result where `take(i)`, on the calling thread,
@@ -14,7 +14,7 @@ using JobStopped = std::function<bool()>;
 /// before it were taken. With one thread all run on the calling thread, one after the other. Where a job throws, the
 /// exception is passed on in place of `take(i)`. `between`, where given, is asked on the calling thread before it waits for a
 /// job, and every 20 ms while it waits; it may throw to end it. Returns when no job runs any more.
-void inOrder(int count, int threads, const std::function<void(int job, const JobStopped& stopped)>& job,
+void orderedParallelFor(int count, int threads, const std::function<void(int job, const CancellationToken& stopped)>& job,
              const std::function<bool(int job)>& take, const std::function<void()>& between = {});
 
 }  // namespace kinegraph

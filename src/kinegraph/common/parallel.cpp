@@ -103,7 +103,7 @@ class Parts {
 
 }  // namespace
 
-void forParts(int count, int part, int threads, const std::function<void(int, int, int)>& work,
+void parallelFor(int count, int part, int threads, const std::function<void(int, int, int)>& work,
               const std::function<void()>& between) {
   Parts(count, part, work, between).run(threads);
 }

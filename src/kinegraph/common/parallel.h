@@ -9,7 +9,7 @@ namespace kinegraph {
 /// are fewer workers. `between`, where given, is called on the calling thread before each of its parts, every 20 ms
 /// while it waits for the others, and once at the end; it may throw to stop: no part begins then. Where parts throw,
 /// the exception of the first of them is passed on; that of `between` comes before them.
-void forParts(int count, int part, int threads, const std::function<void(int worker, int from, int to)>& work,
+void parallelFor(int count, int part, int threads, const std::function<void(int worker, int from, int to)>& work,
               const std::function<void()>& between = {});
 
 }  // namespace kinegraph

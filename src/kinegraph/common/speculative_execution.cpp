@@ -21,22 +21,22 @@ struct AllIsOver {};
 
 }  // namespace
 
-struct WorkAhead::Item {
+struct SpeculativeExecutor::Item {
   enum class State { idle, begun, running, ended };
 
   Work work;
   State state = State::idle;
-  Wanted wanted = Wanted::surely;
+  Priority wanted = Priority::surely;
   std::atomic<bool> is_unwanted = false;
   std::exception_ptr failure;
 };
 
-class WorkAhead::Crew {
+class SpeculativeExecutor::Crew {
  public:
   Crew(int threads, std::function<void()> between) : threads_(threads), between_(std::move(between)) {}
   ~Crew() { rest(); }
 
-  void begin(const std::shared_ptr<Item>& item, Wanted wanted) {
+  void begin(const std::shared_ptr<Item>& item, Priority wanted) {
     if (threads_ < 2) return;
     {
       const std::scoped_lock lock(mutex_);
@@ -104,14 +104,14 @@ class WorkAhead::Crew {
     while (true) {
       changed_.wait(lock, [this] { return is_over_ || !queue_.empty(); });
       if (is_over_) return;
-      const std::shared_ptr<Item> item = next(Wanted::maybe);
+      const std::shared_ptr<Item> item = next(Priority::maybe);
       take(item);
       run(item, lock);
     }
   }
 
   /// What is wanted most, and at least so much.
-  std::shared_ptr<Item> next(Wanted least) const {
+  std::shared_ptr<Item> next(Priority least) const {
     const auto most = std::ranges::min_element(queue_, {}, &Item::wanted);
     return most == queue_.end() || (*most)->wanted > least ? nullptr : *most;
   }
@@ -177,17 +177,17 @@ class WorkAhead::Crew {
   std::vector<std::jthread> workers_;
 };
 
-WorkAhead::WorkAhead(int threads, std::function<void()> between)
+SpeculativeExecutor::SpeculativeExecutor(int threads, std::function<void()> between)
     : crew_(std::make_shared<Crew>(threads, std::move(between))) {}
-WorkAhead::~WorkAhead() { rest(); }
+SpeculativeExecutor::~SpeculativeExecutor() { rest(); }
 
-void WorkAhead::rest() { crew_->rest(); }
+void SpeculativeExecutor::rest() { crew_->rest(); }
 
-WorkAhead::Task::Task(std::shared_ptr<Crew> crew, Work work) : crew_(std::move(crew)), item_(std::make_shared<Item>()) {
+SpeculativeExecutor::Task::Task(std::shared_ptr<Crew> crew, Work work) : crew_(std::move(crew)), item_(std::make_shared<Item>()) {
   item_->work = std::move(work);
 }
 
-WorkAhead::Task& WorkAhead::Task::operator=(Task&& other) noexcept {
+SpeculativeExecutor::Task& SpeculativeExecutor::Task::operator=(Task&& other) noexcept {
   if (this == &other) return *this;
   if (item_) crew_->drop(item_);
   crew_ = std::move(other.crew_);
@@ -195,12 +195,12 @@ WorkAhead::Task& WorkAhead::Task::operator=(Task&& other) noexcept {
   return *this;
 }
 
-WorkAhead::Task::~Task() {
+SpeculativeExecutor::Task::~Task() {
   if (item_) crew_->drop(item_);
 }
 
-void WorkAhead::Task::begin(Wanted wanted) const { crew_->begin(item_, wanted); }
+void SpeculativeExecutor::Task::begin(Priority wanted) const { crew_->begin(item_, wanted); }
 
-void WorkAhead::Task::finish() const { crew_->finish(item_); }
+void SpeculativeExecutor::Task::finish() const { crew_->finish(item_); }
 
 }  // namespace kinegraph

@@ -10,42 +10,42 @@
 namespace kinegraph {
 
 /// How much work is wanted that is done ahead; what is wanted more is done first.
-enum class Wanted { surely, likely, maybe };
+enum class Priority { surely, likely, maybe };
 
 /// Threads that do work before it is asked for. Whoever wants results makes a Later of each, begins those that will be
 /// wanted, or may be, and gets them in an order of its own, so that what comes out does not depend on the number of threads:
 /// what nobody has begun is done on the thread that gets it, and what is not got counts as if it had not been done.
 ///
-///     WorkAhead ahead(2);
-///     Later<double> one = ahead.later<double>([](const JobStopped&) { return slow(1.); });
-///     Later<double> two = ahead.later<double>([](const JobStopped&) { return slow(2.); });
+///     SpeculativeExecutor ahead(2);
+///     Later<double> one = ahead.later<double>([](const CancellationToken&) { return slow(1.); });
+///     Later<double> two = ahead.later<double>([](const CancellationToken&) { return slow(2.); });
 ///     one.begin(), two.begin();
 ///     const double sum = one.get() + two.get();
 ///
 /// Who waits for what another thread does helps meanwhile with what is wanted as much. Work may get results that it made
 /// itself. All else is for the calling thread, which is the one that made this, or has called `rest` last.
-class WorkAhead {
+class SpeculativeExecutor {
  public:
   /// `threads`: with the calling one. `between`, where given, is asked on the calling thread whenever its work asks whether
   /// it is stopped, and every 20 ms while it waits; it may throw to end all, from the call that gets a result.
-  explicit WorkAhead(int threads, std::function<void()> between = {});
-  ~WorkAhead();  ///< as `rest`
-  WorkAhead(const WorkAhead&) = delete;
-  WorkAhead& operator=(const WorkAhead&) = delete;
+  explicit SpeculativeExecutor(int threads, std::function<void()> between = {});
+  ~SpeculativeExecutor();  ///< as `rest`
+  SpeculativeExecutor(const SpeculativeExecutor&) = delete;
+  SpeculativeExecutor& operator=(const SpeculativeExecutor&) = delete;
 
   /// Stops what runs, forgets what was begun, and lets the threads go until something is begun again. What was not got
   /// can be got still.
   void rest();
 
   template <class T>
-  class Later;
+  class Speculative;
   template <class T>
-  Later<T> later(std::function<T(const JobStopped&)> work) {
-    return Later<T>(crew_, std::move(work));
+  Speculative<T> later(std::function<T(const CancellationToken&)> work) {
+    return Speculative<T>(crew_, std::move(work));
   }
 
  private:
-  using Work = std::function<void(const JobStopped&)>;
+  using Work = std::function<void(const CancellationToken&)>;
   class Crew;
   struct Item;
 
@@ -59,7 +59,7 @@ class WorkAhead {
     ~Task();
 
     explicit operator bool() const { return item_ != nullptr; }
-    void begin(Wanted wanted) const;
+    void begin(Priority wanted) const;
     void finish() const;
 
    private:
@@ -72,12 +72,12 @@ class WorkAhead {
 
 /// A result that there will be. When this goes, it is not wanted any more: work that runs is told so.
 template <class T>
-class WorkAhead::Later {
+class SpeculativeExecutor::Speculative {
  public:
-  Later() = default;
-  Later(std::shared_ptr<Crew> crew, std::function<T(const JobStopped&)> work)
+  Speculative() = default;
+  Speculative(std::shared_ptr<Crew> crew, std::function<T(const CancellationToken&)> work)
       : result_(std::make_shared<std::optional<T>>()),
-        task_(std::move(crew), [result = result_, work = std::move(work)](const JobStopped& stopped) {
+        task_(std::move(crew), [result = result_, work = std::move(work)](const CancellationToken& stopped) {
           result->emplace(work(stopped));
         }) {}
 
@@ -85,7 +85,7 @@ class WorkAhead::Later {
 
   /// May be done from now on. Of results that are wanted alike the one that was begun first is done first. Once more: it is
   /// wanted as much as that says, and as if it were begun then.
-  void begin(Wanted wanted = Wanted::surely) const { task_.begin(wanted); }
+  void begin(Priority wanted = Priority::surely) const { task_.begin(wanted); }
 
   /// Does it, or waits for it. Throws what the work throws.
   T& get() const {
@@ -99,6 +99,6 @@ class WorkAhead::Later {
 };
 
 template <class T>
-using Later = WorkAhead::Later<T>;
+using Speculative = SpeculativeExecutor::Speculative<T>;
 
 }  // namespace kinegraph

@@ -64,7 +64,7 @@ bool isWithinEditDistance(std::string_view a, std::string_view b, double limit) 
   return other_letters <= 2. * limit && editDistance(a, b) <= limit;
 }
 
-std::vector<std::string> similarWords(std::string_view word, const std::vector<std::string>& candidates,
+std::vector<std::string> similarNames(std::string_view word, const std::vector<std::string>& candidates,
                                       std::size_t at_most) {
   std::vector<std::pair<double, std::string>> near;
   for (const std::string& candidate : candidates) {
@@ -88,7 +88,7 @@ std::vector<std::string> similarWords(std::string_view word, const std::vector<s
 }
 
 std::string similarHint(std::string_view word, const std::vector<std::string>& candidates) {
-  const std::vector<std::string> words = similarWords(word, candidates);
+  const std::vector<std::string> words = similarNames(word, candidates);
   return words.empty() ? "" : cat("; similar names: ", join(words));
 }
 

@@ -50,7 +50,7 @@ double editDistance(std::string_view a, std::string_view b);
 bool isWithinEditDistance(std::string_view a, std::string_view b, double limit);
 
 /// The candidates nearest to `word`, best first: those that a typing mistake away or that contain it.
-std::vector<std::string> similarWords(std::string_view word, const std::vector<std::string>& candidates,
+std::vector<std::string> similarNames(std::string_view word, const std::vector<std::string>& candidates,
                                       std::size_t at_most = 3);
 
 /// "; similar names: a, b", or "" if nothing is near. Appended to error messages.

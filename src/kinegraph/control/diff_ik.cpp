@@ -56,7 +56,7 @@ DiffIk::DiffIk(const Config& config, const DiffIkOptions& options)
 
 /// What follows from the structure of the scene.
 void DiffIk::prepare() {
-  program_ = config_.program();
+  program_ = config_.model();
   const int n = config_.getJointDimension();
   if (posture_.size() != n) posture_ = config_.getJointState();
   options_.validate(n);
@@ -85,9 +85,9 @@ void DiffIk::prepare() {
 }
 
 int DiffIk::addTask(const FeatureSource& feature, const std::vector<std::string>& frames, double weight, double gain,
-                    const VectorXd& target, int level) {
-  if (level == kEquality) throw ValueError(cat("DiffIk: level is ", level, "; that of equalities"));
-  return add({feature, frames, weight, gain, target, level, {}, {}, {}});
+                    const VectorXd& target, int priority) {
+  if (priority == kEquality) throw ValueError(cat("DiffIk: level is ", priority, "; that of equalities"));
+  return add({feature, frames, weight, gain, target, priority, {}, {}, {}});
 }
 
 int DiffIk::addEquality(const FeatureSource& feature, const std::vector<std::string>& frames, double gain,
@@ -104,8 +104,8 @@ int DiffIk::add(Task task) {
         cat("DiffIk: ", residual.name(), " is of order ", residual.order(), "; expected a feature of one q"));
   task.y.resize(residual.rows()), task.J.resize(residual.rows(), config_.getJointDimension());
   task.residual.push_back(std::move(residual));
-  const auto place = std::lower_bound(levels_.begin(), levels_.end(), task.level);
-  if (place == levels_.end() || *place != task.level) levels_.insert(place, task.level);
+  const auto place = std::lower_bound(priorities_.begin(), priorities_.end(), task.priority);
+  if (place == priorities_.end() || *place != task.priority) priorities_.insert(place, task.priority);
   tasks_.push_back(std::move(task));
   gave_way_.reserve(std::size_t(rows_.cols()) + tasks_.size());
   return int(tasks_.size()) - 1;
@@ -126,13 +126,13 @@ void DiffIk::setPosture(const VectorXd& q) {
 }
 
 /// Of the tasks of a level; the posture's are those of the last one.
-void DiffIk::addCosts(const VectorXd& q, int level, bool is_last) {
+void DiffIk::addCosts(const VectorXd& q, int priority, bool is_last) {
   const double pull = is_last ? options_.posture * options_.posture : 0.;
   cost_.setZero();
   cost_.diagonal().setConstant(pull + options_.damping);
   slope_ = pull * (q - posture_);
   for (Task& task : tasks_) {
-    if (task.level != level) continue;
+    if (task.priority != priority) continue;
     task.J.setZero();
     eval(config_, task.residual[0], task.y, task.J);
     cost_.noalias() += task.J.transpose() * task.J;
@@ -257,9 +257,9 @@ void DiffIk::noteActive(const ActiveSet& program) {
 
 /// What the tasks of a level want is no longer open: a reflection turns each of their rows, as far as it is open, into
 /// the last of the open directions.
-void DiffIk::giveAway(int level) {
+void DiffIk::giveAway(int priority) {
   for (const Task& task : tasks_) {
-    if (task.level != level) continue;
+    if (task.priority != priority) continue;
     for (int r = 0; r < task.J.rows() && open_count_ > 0; ++r) {
       const int k = open_count_;
       auto v = along_.head(k);
@@ -279,11 +279,11 @@ void DiffIk::giveAway(int level) {
 
 /// Level by level, each in what those before it leave open. The slack that the first one needed is that of all.
 void DiffIk::solve() {
-  const std::size_t levels = std::max<std::size_t>(levels_.size(), 1);
+  const std::size_t priorities = std::max<std::size_t>(priorities_.size(), 1);
   active_rows_.clear();
-  for (std::size_t i = 0; i < levels; ++i) {
-    const int level = levels_.empty() ? 0 : levels_[i];
-    addCosts(q_, level, i + 1 == levels);
+  for (std::size_t i = 0; i < priorities; ++i) {
+    const int priority = priorities_.empty() ? 0 : priorities_[i];
+    addCosts(q_, priority, i + 1 == priorities);
     if (i == 0) {
       if (!solveFirst()) {  // stand still, as far as accelerations allow
         change_.setZero();
@@ -292,7 +292,7 @@ void DiffIk::solve() {
       open_.setIdentity();
       open_count_ = int(open_.cols());
     } else {
-      giveAway(levels_[i - 1]);
+      giveAway(priorities_[i - 1]);
       if (open_count_ > 0) solveRemaining();
     }
   }
@@ -303,7 +303,7 @@ void DiffIk::solve() {
   }
   for (int t = 0; t < int(tasks_.size()); ++t) {
     Task& task = tasks_[std::size_t(t)];
-    if (task.level != kEquality) continue;
+    if (task.priority != kEquality) continue;
     task.y *= task.gain;
     task.y.noalias() += task.J * change_;
     const double by = task.y.lpNorm<Eigen::Infinity>();
@@ -313,7 +313,7 @@ void DiffIk::solve() {
 
 const VectorXd& DiffIk::step(double dt, bool apply) {
   if (!(dt > 0.)) throw ValueError(cat("DiffIk: dt is ", dt, "; expected a number > 0 (s)"));
-  if (config_.program() != program_) prepare();
+  if (config_.model() != program_) prepare();
   const State& state = config_.state();
   q_ = state.q();
   meanings_.clear(), gave_way_.clear();

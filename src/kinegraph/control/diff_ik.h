@@ -27,7 +27,7 @@ struct DiffIkOptions {
 
 enum class DiffIkStatus {
   solved,    ///< all limits and distances are kept
-  gave_way,  ///< some could not be, or an equality; `message()` says which
+  constraints_relaxed,  ///< some could not be, or an equality; `message()` says which
 };
 
 /// Differential inverse kinematics: joint velocities, step by step, that bring features to their targets.
@@ -52,7 +52,7 @@ class DiffIk {
   /// that one step takes away. Tasks of a higher `level` have what those of lower ones leave open; the posture comes
   /// last. Returns the task's number. Throws as makeResidual does.
   int addTask(const FeatureSource& feature, const std::vector<std::string>& frames, double weight = 1.,
-              double gain = 1., const VectorXd& target = {}, int level = 0);
+              double gain = 1., const VectorXd& target = {}, int priority = 0);
 
   /// A feature that must become zero, or `target`, before all tasks. Where limits and dampers do not allow the share
   /// `gain` of the error to be taken away in a step, it gives way as little as possible, and `message()` says so.
@@ -70,7 +70,7 @@ class DiffIk {
   void reset() { velocity_.setZero(); }
 
   const VectorXd& velocity() const { return velocity_; }
-  DiffIkStatus status() const { return gave_way_.empty() ? DiffIkStatus::solved : DiffIkStatus::gave_way; }
+  DiffIkStatus status() const { return gave_way_.empty() ? DiffIkStatus::solved : DiffIkStatus::constraints_relaxed; }
   std::vector<std::string> active() const;  ///< the limits and pairs that hold the last step back, in words
   std::string message() const;              ///< "" if solved; else what gave way, and by how much
 
@@ -80,7 +80,7 @@ class DiffIk {
     std::vector<std::string> frames;
     double weight, gain;
     VectorXd target;
-    int level;                       ///< of an equality: kEquality
+    int priority;                       ///< of an equality: kEquality
     std::vector<Residual> residual;  ///< one
     VectorXd y;
     Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor> J;
@@ -98,19 +98,19 @@ class DiffIk {
 
   void prepare();
   int add(Task task);
-  void addCosts(const VectorXd& q, int level, bool is_last);
+  void addCosts(const VectorXd& q, int priority, bool is_last);
   void addIntervals(const VectorXd& q, double dt);
   void addDampers(const State& state, double dt);
   void solve();
   bool solveFirst();
   void solveRemaining();
   void noteActive(const ActiveSet& program);
-  void giveAway(int level);
+  void giveAway(int priority);
   std::string text(const Meaning& meaning) const;
 
   Config config_;
   DiffIkOptions options_;
-  std::shared_ptr<const Program> program_;
+  std::shared_ptr<const KinematicModel> program_;
   std::vector<Task> tasks_;
   VectorXd posture_, velocity_, q_, change_, low_, high_, velocity_limit_, acceleration_limit_;
   MatrixXd limits_;
@@ -123,7 +123,7 @@ class DiffIk {
   VectorXd bounds_;
   std::vector<Meaning> meanings_;
   std::vector<GaveWay> gave_way_;
-  std::vector<int> levels_, active_rows_;  ///< ascending; rows that hold the last step back
+  std::vector<int> priorities_, active_rows_;  ///< ascending; rows that hold the last step back
   MatrixXd open_, turned_, reduced_cost_;  ///< open_: directions that are left, its first open_count_ columns
   VectorXd along_;
   int open_count_ = 0;

@@ -92,16 +92,16 @@ const std::vector<Mpc::Carried>& Mpc::carriedBy(int frame) {
   const auto [place, is_new] = carried_.try_emplace(frame);
   if (!is_new) return place->second;
   const Path& path = komo_->path();
-  const Program& program = *path.given().program;
+  const KinematicModel& model = *path.given().model;
   const auto& offsets = parameters_.front()->frame_offset;
   const RigidTransform from = offsets[std::size_t(frame)].inverse();
   for (const auto& below : path.given().tree->frames()) {
     const FrameData* parent = below->parent;
     while (parent && parent->id != frame) parent = parent->parent;
     if (!parent) continue;
-    if (program.frame_link[std::size_t(below->id)] != 0) {
+    if (model.frame_link[std::size_t(below->id)] != 0) {
       carried_.erase(frame);
-      throw ValueError(cat("Mpc: setPoses of '", program.frame_name[std::size_t(frame)],
+      throw ValueError(cat("Mpc: setPoses of '", model.frame_name[std::size_t(frame)],
                            "', which carries the joint of '", below->name,
                            "'; expected a frame without joints below it"));
     }
@@ -112,8 +112,8 @@ const std::vector<Mpc::Carried>& Mpc::carriedBy(int frame) {
 
 void Mpc::setPoses(const std::string& name, const MatrixXd& poses) {
   Path& path = komo_->path();
-  const int frame = frameId(*path.given().program, name, "Mpc"), order = path.grid().order(), T = path.grid().slices();
-  const int link = path.given().program->frame_link[std::size_t(frame)];
+  const int frame = frameId(*path.given().model, name, "Mpc"), order = path.grid().order(), T = path.grid().slices();
+  const int link = path.given().model->frame_link[std::size_t(frame)];
   if (link != 0)
     throw ValueError(cat("Mpc: setPoses of '", name, "', which joints move; expected a frame of the world"));
   if ((poses.rows() != T && poses.rows() != 1) || (poses.cols() != 7 && poses.cols() != 3) || !poses.allFinite())
@@ -133,15 +133,15 @@ void Mpc::setPoses(const std::string& name, const MatrixXd& poses) {
 }
 
 void Mpc::updateRootObjects(const Config& config) {
-  const Program& given = *komo_->path().given().program;
-  const auto program = config.program();
-  if (program->frame_name != given.frame_name || program->dofs != given.dofs)
+  const KinematicModel& given = *komo_->path().given().model;
+  const auto model = config.model();
+  if (model->frame_name != given.frame_name || model->dofs != given.dofs)
     throw ValueError(
         "Mpc: updateRootObjects needs the configuration that the KOMO was made from, with the same frames and joints");
   const auto poses = config.parameters();
   for (const auto& parameters : parameters_) {
     for (std::size_t frame = 0; frame < given.frame_link.size(); ++frame) {
-      if (given.frame_link[frame] == 0 && program->frame_link[frame] == 0)
+      if (given.frame_link[frame] == 0 && model->frame_link[frame] == 0)
         parameters->frame_offset[frame] = poses->frame_offset[frame];
     }
   }

@@ -41,29 +41,29 @@ void forEach(const Worker& first, int count, const BatchOptions& options, const 
   const auto part = [&](int worker, int from, int to) {
     for (int i = from; i < to; ++i) one(workers[worker], i);
   };
-  forParts(count, kPart, threads, part, options.between);
+  parallelFor(count, kPart, threads, part, options.between);
 }
 
 /// Calls finish(worker, first, count) after run has evaluated the rows for configurations first .. first + count - 1.
 template <class Batch, class Finish>
-void forLanes(const LaneProgram& program, int count, const BatchOptions& options, const Batch& batch,
+void forLanes(const LaneKinematics& model, int count, const BatchOptions& options, const Batch& batch,
               const Finish& finish) {
   const int threads = std::clamp(options.threads, 1, std::max(1, (count + kPart - 1) / kPart));
-  std::vector<LaneProgram::Scratch> scratch;
+  std::vector<LaneKinematics::Scratch> scratch;
   scratch.reserve(threads);
-  for (int i = 0; i < threads; ++i) scratch.emplace_back(program, options.lanes);
+  for (int i = 0; i < threads; ++i) scratch.emplace_back(model, options.lanes);
   const auto part = [&](int worker, int from, int to) {
-    program.run(scratch[worker], batch(worker, from, to - from));
+    model.run(scratch[worker], batch(worker, from, to - from));
     finish(worker, from, to - from);
   };
-  forParts(count, kPart, threads, part, options.between);
+  parallelFor(count, kPart, threads, part, options.between);
 }
 
 /// evalBatch where the feature is made of rows that kernels in lanes have.
 void evalInLanes(const State& scene, const Residual& residual, const LaneRowList& list,
                  const Eigen::Ref<const RowMatrix>& Q, Eigen::Ref<RowMatrix> y, JacobianRows* J,
                  const BatchOptions& options) {
-  const LaneProgram program(scene.program(), scene.parameters(), list);
+  const LaneKinematics model(scene.model(), scene.parameters(), list);
   const int rows = residual.rows(), raw_rows = list.rows(), n = scene.dofs();
   const bool plain = residual.scale().size() == 0 && residual.target().size() == 0, mixes = residual.mixesRows();
   RowMatrix raw_y, raw_J;  // of the configurations that each thread is at
@@ -109,7 +109,7 @@ void evalInLanes(const State& scene, const Residual& residual, const LaneRowList
       }
     }
   };
-  forLanes(program, int(Q.rows()), options, batch, finish);
+  forLanes(model, int(Q.rows()), options, batch, finish);
 }
 
 }  // namespace
@@ -147,7 +147,7 @@ void framePoses(const State& scene, const std::vector<int>& frames, const Eigen:
   checkJoints(scene, Q);
   LaneRowList list;
   for (int frame : frames) list.addPose(frame);
-  const LaneProgram program(scene.program(), scene.parameters(), list);
+  const LaneKinematics model(scene.model(), scene.parameters(), list);
   const auto batch = [&](int, int from, int count) {
     return LaneBatch{Q.data() + from * Q.outerStride(),
                      Q.outerStride(),
@@ -158,7 +158,7 @@ void framePoses(const State& scene, const std::vector<int>& frames, const Eigen:
                      0,
                      0};
   };
-  forLanes(program, int(Q.rows()), options, batch, [](int, int, int) {});
+  forLanes(model, int(Q.rows()), options, batch, [](int, int, int) {});
 }
 
 void frameJacobians(const State& scene, const std::vector<int>& frames, const Eigen::Ref<const RowMatrix>& Q,
@@ -166,19 +166,19 @@ void frameJacobians(const State& scene, const std::vector<int>& frames, const Ei
   checkJoints(scene, Q);
   LaneRowList list;
   for (int frame : frames) list.addTwist(frame);
-  const LaneProgram program(scene.program(), scene.parameters(), list);
+  const LaneKinematics model(scene.model(), scene.parameters(), list);
   const Eigen::Index stride = J.outerStride() * 6 * Eigen::Index(frames.size());
   const auto batch = [&](int, int from, int count) {
     return LaneBatch{Q.data() + from * Q.outerStride(), Q.outerStride(), count,          nullptr, 0,
                      J.data() + from * stride,          stride,          J.outerStride()};
   };
-  forLanes(program, int(Q.rows()), options, batch, [](int, int, int) {});
+  forLanes(model, int(Q.rows()), options, batch, [](int, int, int) {});
 }
 
 void pairDistances(const State& scene, const Eigen::Ref<const RowMatrix>& Q, Eigen::Ref<RowMatrix> distances,
                    const BatchOptions& options) {
   checkJoints(scene, Q);
-  forEach(std::pair(scene, PairDistances(scene.sharedProgram())), int(Q.rows()), options, [&](auto& worker, int i) {
+  forEach(std::pair(scene, PairDistances(scene.sharedModel())), int(Q.rows()), options, [&](auto& worker, int i) {
     auto& [state, pairs] = worker;
     state.setJoints(Q.row(i).data());
     pairs.forAll(state, [&](int pair, const Proximity& near) { distances(i, pair) = near.distance; });
@@ -195,8 +195,8 @@ void NearestRow::write(int pair, const Proximity& near) const {
 void nearestPoints(const State& scene, const Eigen::Ref<const RowMatrix>& Q, const NearestRow& first,
                    const BatchOptions& options) {
   checkJoints(scene, Q);
-  const std::size_t count = scene.program().collidable().size();
-  forEach(std::pair(scene, PairDistances(scene.sharedProgram())), int(Q.rows()), options, [&](auto& worker, int i) {
+  const std::size_t count = scene.model().collidable().size();
+  forEach(std::pair(scene, PairDistances(scene.sharedModel())), int(Q.rows()), options, [&](auto& worker, int i) {
     auto& [state, pairs] = worker;
     const std::size_t before = std::size_t(i) * count;
     const NearestRow row{first.distances + before, first.points + 6 * before, first.normals + 3 * before};
@@ -249,7 +249,7 @@ void areFreeInLanes(const State& scene, const Eigen::Ref<const RowMatrix>& Q, do
       count = 0;
     }
   };
-  forParts(int(Q.rows()), kPart, crew.size(), part, options.between);
+  parallelFor(int(Q.rows()), kPart, crew.size(), part, options.between);
 }
 
 }  // namespace
@@ -257,14 +257,14 @@ void areFreeInLanes(const State& scene, const Eigen::Ref<const RowMatrix>& Q, do
 void areValid(const State& scene, const Eigen::Ref<const RowMatrix>& Q, double margin, std::span<bool> valid,
               const BatchOptions& options) {
   checkJoints(scene, Q);
-  const auto limit = [&](int i) { return valid[i] = withinLimits(scene.program(), Q.row(i).data()); };
-  if (scene.program().contacts.bodies.size() <= NearPairs::kFew)
+  const auto limit = [&](int i) { return valid[i] = withinLimits(scene.model(), Q.row(i).data()); };
+  if (scene.model().contacts.bodies.size() <= NearPairs::kFew)
     return areFreeInLanes(scene, Q, margin, valid, options, limit);
   struct Worker {
     State state;
     NearPairs pairs;
   };
-  forEach(Worker{scene, NearPairs(scene.sharedProgram())}, int(Q.rows()), options, [&](Worker& worker, int i) {
+  forEach(Worker{scene, NearPairs(scene.sharedModel())}, int(Q.rows()), options, [&](Worker& worker, int i) {
     if (!limit(i)) return;
     worker.state.setJoints(Q.row(i).data());
     worker.pairs.place(worker.state);
@@ -282,10 +282,10 @@ void areMotionsFree(const State& scene, const Eigen::Ref<const RowMatrix>& from,
   const auto part = [&](int worker, int first, int end) {
     for (int i = first; i < end; ++i) {
       const double *a = from.row(i).data(), *b = to.row(i).data();
-      free[i] = withinLimits(scene.program(), a) && withinLimits(scene.program(), b) && crew.of(worker).isFree(a, b);
+      free[i] = withinLimits(scene.model(), a) && withinLimits(scene.model(), b) && crew.of(worker).isFree(a, b);
     }
   };
-  forParts(int(from.rows()), kPart, crew.size(), part, options.between);
+  parallelFor(int(from.rows()), kPart, crew.size(), part, options.between);
 }
 
 }  // namespace kinegraph

@@ -9,11 +9,11 @@ namespace kinegraph {
 
 namespace {
 
-std::vector<std::pair<int, int>> pairsOf(const Program& program, const std::vector<int>& frames, PairChoice choice) {
+std::vector<std::pair<int, int>> pairsOf(const KinematicModel& model, const std::vector<int>& frames, PairChoice choice) {
   const auto named = [&](int frame) { return std::find(frames.begin(), frames.end(), frame) != frames.end(); };
   std::vector<std::pair<int, int>> pairs;
-  for (const auto& pair : program.collidable()) {
-    if (choice == PairChoice::motion && !program.movesApart(pair.first, pair.second)) continue;
+  for (const auto& pair : model.collidable()) {
+    if (choice == PairChoice::motion && !model.movesApart(pair.first, pair.second)) continue;
     if (frames.empty() || named(pair.first) || named(pair.second)) pairs.push_back(pair);
   }
   return pairs;
@@ -35,20 +35,20 @@ void forNearOf(const BodyPairs& pairs, const State& state, double margin, const 
 
 }  // namespace
 
-CollisionPairs::CollisionPairs(const Program& program, const std::vector<int>& frames, double margin, PairChoice choice)
-    : margin_(margin), moving_bodies_(program, {}) {
-  const std::vector<std::pair<int, int>> pairs = pairsOf(program, frames, choice);
+CollisionPairs::CollisionPairs(const KinematicModel& model, const std::vector<int>& frames, double margin, PairChoice choice)
+    : margin_(margin), moving_bodies_(model, {}) {
+  const std::vector<std::pair<int, int>> pairs = pairsOf(model, frames, choice);
   std::vector<std::pair<int, int>> moving;
   for (int pair = 0; pair < int(pairs.size()); ++pair) {
     const auto [a, b] = pairs[std::size_t(pair)];
-    if (program.movesApart(a, b)) {
+    if (model.movesApart(a, b)) {
       moving_.push_back(pair);
       moving.emplace_back(a, b);
     } else {
       fixed_.push_back({pair, a, b});
     }
   }
-  moving_bodies_ = BodyPairs(program, moving);
+  moving_bodies_ = BodyPairs(model, moving);
 }
 
 std::shared_ptr<const CollisionPairs::NearFixed> CollisionPairs::nearFixed(const State& state) const {
@@ -57,7 +57,7 @@ std::shared_ptr<const CollisionPairs::NearFixed> CollisionPairs::nearFixed(const
   auto found = std::make_shared<NearFixed>();
   found->parameters = state.sharedParameters();
   for (const Pair& pair : fixed_) {
-    const CollisionBody &a = *state.program().body[pair.a], &b = *state.program().body[pair.b];
+    const CollisionBody &a = *state.model().body[pair.a], &b = *state.model().body[pair.b];
     const RigidTransform &X_LA = state.parameters().frame_offset[pair.a],
                          &X_LB = state.parameters().frame_offset[pair.b];
     const double reach = a.boundRadius() + b.boundRadius() + margin_;
@@ -78,15 +78,15 @@ void CollisionPairs::forNear(const State& state, const Visit& visit) const {
             [&](int place, int a, int b, const Proximity& near) { visit(moving_[std::size_t(place)], a, b, near); });
 }
 
-AccumulatedCollisions::AccumulatedCollisions(const std::vector<int>& frames, const Program& program, PairChoice choice,
+AccumulatedCollisions::AccumulatedCollisions(const std::vector<int>& frames, const KinematicModel& model, PairChoice choice,
                                              double margin)
     : frames_(frames), choice_(choice), margin_(margin) {
-  if (program.contacts.bodies.size() <= NearPairs::kFew) pairs_.emplace(program, frames, margin, choice);
+  if (model.contacts.bodies.size() <= NearPairs::kFew) pairs_.emplace(model, frames, margin, choice);
 }
 
 std::unique_ptr<NearPairSearch> AccumulatedCollisions::borrow(const State& state) const {
   const std::lock_guard lock(mutex_);
-  if (idle_.empty()) return std::make_unique<NearPairSearch>(state.sharedProgram(), frames_);
+  if (idle_.empty()) return std::make_unique<NearPairSearch>(state.sharedModel(), frames_);
   std::unique_ptr<NearPairSearch> search = std::move(idle_.back());
   idle_.pop_back();
   return search;
@@ -108,7 +108,7 @@ void AccumulatedCollisions::eval(std::span<const State* const> states, double, E
   search->place(state);
   for (const NearPairSearch::Near& pair : search->near(margin_)) {
     const int a = search->frame(pair.a), b = search->frame(pair.b);
-    if (choice_ == PairChoice::scene || state.program().movesApart(a, b)) add(a, b, search->proximity(pair));
+    if (choice_ == PairChoice::scene || state.model().movesApart(a, b)) add(a, b, search->proximity(pair));
   }
   const std::lock_guard lock(mutex_);
   idle_.push_back(std::move(search));

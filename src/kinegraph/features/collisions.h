@@ -19,7 +19,7 @@ enum class PairChoice { scene, motion };
 class CollisionPairs {
  public:
   /// `frames`: empty means all. Pairs count as near below `margin`, m.
-  CollisionPairs(const Program& program, const std::vector<int>& frames, double margin, PairChoice choice);
+  CollisionPairs(const KinematicModel& model, const std::vector<int>& frames, double margin, PairChoice choice);
 
   int size() const { return int(moving_.size() + fixed_.size()); }
 
@@ -55,7 +55,7 @@ class CollisionPairs {
 ///     y = sum max(0, margin - distance)      1 row, m
 class AccumulatedCollisions final : public Feature {
  public:
-  AccumulatedCollisions(const std::vector<int>& frames, const Program& program, PairChoice choice, double margin = 0.);
+  AccumulatedCollisions(const std::vector<int>& frames, const KinematicModel& model, PairChoice choice, double margin = 0.);
 
   int rows() const override { return 1; }
   void eval(std::span<const State* const> states, double tau, Eigen::Ref<VectorXd> y, JacobianRows* J) const override;
@@ -79,8 +79,8 @@ class PairCollisions final : public Feature {
  public:
   static constexpr double kFar = .1;  ///< m
 
-  PairCollisions(const std::vector<int>& frames, const Program& program, PairChoice choice, double far = kFar)
-      : far_(far), pairs_(program, frames, far, choice) {}
+  PairCollisions(const std::vector<int>& frames, const KinematicModel& model, PairChoice choice, double far = kFar)
+      : far_(far), pairs_(model, frames, far, choice) {}
 
   int rows() const override { return pairs_.size(); }
   std::optional<double> flatValue() const override { return -far_; }

@@ -8,7 +8,7 @@ namespace {
 
 const CollisionBody& bodyOf(const State& state, int frame) {
   static const std::shared_ptr<const CollisionBody> point = pointBody();
-  const auto& body = state.program().body[frame];
+  const auto& body = state.model().body[frame];
   return body ? *body : *point;
 }
 
@@ -36,16 +36,16 @@ Vector3d slopeAt(const Vector3d& before, const Vector3d& at, const Vector3d& aft
 }  // namespace
 
 void addDistanceGradient(const State& state, int a, int b, const Proximity& near, double factor, JacobianRows& J) {
-  const Program& program = state.program();
+  const KinematicModel& model = state.model();
   const Vector3d n = factor * near.rate * near.normal, turn_a = near.point_a.cross(n), turn_b = near.point_b.cross(n);
-  int column_a = program.last_column[state.link(a)], column_b = program.last_column[state.link(b)];
+  int column_a = model.last_column[state.link(a)], column_b = model.last_column[state.link(b)];
   while (column_a != column_b) {  // columns follow those above them
     int& column = std::max(column_a, column_b) == column_a ? column_a : column_b;
     const State::Twist& twist = state.twist(column);
     const bool of_a = &column == &column_a;
     const double rate = n.dot(twist.linear) + (of_a ? turn_a : turn_b).dot(twist.angular);
-    J(0, program.column_dof[column]) += of_a ? rate : -rate;
-    column = program.column_before[column];
+    J(0, model.column_dof[column]) += of_a ? rate : -rate;
+    column = model.column_before[column];
   }
 }
 

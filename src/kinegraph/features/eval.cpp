@@ -9,7 +9,7 @@ Residual makeResidual(const State& scene, const FeatureSource& feature, const st
                       const Scale& scale, const Target& target, int order) {
   std::vector<int> ids;
   ids.reserve(frames.size());
-  for (const std::string& name : frames) ids.push_back(frameId(scene.program(), name, feature.name()));
+  for (const std::string& name : frames) ids.push_back(frameId(scene.model(), name, feature.name()));
   return Residual(feature.make(ids, scene), scale.matrix(), target.vector(), order, feature.name());
 }
 

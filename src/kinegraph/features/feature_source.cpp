@@ -30,11 +30,11 @@ std::unique_ptr<Feature> FeatureSource::make(const std::vector<int>& frames, con
   if (const auto* own = std::get_if<2>(&source_)) return (*own)->make(frames, state);
   if (const FeatureRecipe* known = recipe()) return makeFeature(*known, frames);
   try {
-    return makeFeature(std::get<0>(source_), frames, state.program());
+    return makeFeature(std::get<0>(source_), frames, state.model());
   } catch (const ValueError& error) {
     if (frames.empty()) throw;
     std::vector<std::string> names;
-    for (int frame : frames) names.push_back(state.program().frame_name[frame]);
+    for (int frame : frames) names.push_back(state.model().frame_name[frame]);
     throw ValueError(cat(error.what(), " (frames: ", join(names), ")"));
   }
 }

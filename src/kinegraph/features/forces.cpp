@@ -76,14 +76,14 @@ Vector3d normalOf(const State& state, int a, int b, double tau, RowMajor* J) {
 }  // namespace
 
 Vector3d ContactForce::value(const State& state) const {
-  const auto [first, count] = state.program().frame_dofs[dofs];
+  const auto [first, count] = state.model().frame_dofs[dofs];
   if (count == 0) return Vector3d::Zero();
   if (is_free) return unit * state.q().segment<3>(first);
   return unit * state.q()[first] * state.pose(point).R.col(2);
 }
 
 void ContactForce::addJacobian(const State& state, const Factor& A, JacobianRows J) const {
-  const auto [first, count] = state.program().frame_dofs[dofs];
+  const auto [first, count] = state.model().frame_dofs[dofs];
   if (count == 0) return;
   if (is_free) {
     J.middleCols(first, 3) += unit * A;
@@ -100,7 +100,7 @@ void TotalForce::eval(std::span<const State* const> states, double, Eigen::Ref<V
   const double mass = state.parameters().frame_mass[frame_].mass;
   if (!(mass > 0.)) {
     throw ValueError(
-        cat("totalForce: '", state.program().frame_name[frame_], "' has no mass; give it `mass: ..` or call setMass"));
+        cat("totalForce: '", state.model().frame_name[frame_], "' has no mass; give it `mass: ..` or call setMass"));
   }
   const Wrench wrench(contacts_, state, frame_);
   y.head<3>() = -mass * kGravity - wrench.force;

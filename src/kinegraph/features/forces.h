@@ -14,7 +14,7 @@ struct ContactForce {
   double unit = 1.;      ///< N per unit of its dofs
   bool is_free = false;  ///< three dofs, in world axes; else one, along the z axis of `point`
 
-  bool isIn(const State& state) const { return state.program().frame_dofs[dofs].count > 0; }
+  bool isIn(const State& state) const { return state.model().frame_dofs[dofs].count > 0; }
   Vector3d value(const State& state) const;  ///< N, in the world; zero where the state has no such force
 
   using Factor = Eigen::Matrix<double, Eigen::Dynamic, 3, 0, 6, 3>;  ///< of at most 6 rows

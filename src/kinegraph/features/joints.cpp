@@ -17,10 +17,10 @@ bool JointState::addLaneRows(LaneRowList& list) const {
   return true;
 }
 
-JointLimits::JointLimits(const std::vector<int>& dofs, const Program& program) {
+JointLimits::JointLimits(const std::vector<int>& dofs, const KinematicModel& model) {
   for (int dof : dofs) {
-    if (std::isfinite(program.lower[dof]) && std::isfinite(program.upper[dof]))
-      limited_.push_back({dof, program.lower[dof], program.upper[dof]});
+    if (std::isfinite(model.lower[dof]) && std::isfinite(model.upper[dof]))
+      limited_.push_back({dof, model.lower[dof], model.upper[dof]});
   }
 }
 

@@ -23,7 +23,7 @@ class JointState final : public Feature {
 /// Two rows per limited dof: y = (lower - q, q - upper). All <= 0 inside the limits.
 class JointLimits final : public Feature {
  public:
-  JointLimits(const std::vector<int>& dofs, const Program& program);
+  JointLimits(const std::vector<int>& dofs, const KinematicModel& model);
 
   int rows() const override { return 2 * int(limited_.size()); }
   bool isLinear() const override { return true; }
@@ -41,13 +41,13 @@ class JointLimits final : public Feature {
 /// One row per group of dofs that is a quaternion (or a point on the circle): y = |q_group|^2 - 1.
 class QuaternionNorms final : public Feature {
  public:
-  explicit QuaternionNorms(std::vector<Program::DofRange> groups) : groups_(std::move(groups)) {}
+  explicit QuaternionNorms(std::vector<KinematicModel::DofRange> groups) : groups_(std::move(groups)) {}
 
   int rows() const override { return int(groups_.size()); }
   void eval(std::span<const State* const> states, double tau, Eigen::Ref<VectorXd> y, JacobianRows* J) const override;
 
  private:
-  std::vector<Program::DofRange> groups_;
+  std::vector<KinematicModel::DofRange> groups_;
 };
 
 }  // namespace kinegraph

@@ -31,7 +31,7 @@ Vector3d addCenterOfMass(const State& state, const std::vector<int>& frames, dou
     moment += mass * frameCenterOfMass(state, frame);
   });
   if (!(total > 0.)) {
-    const std::string whose = of < 0 ? "" : cat(" of '", state.program().frame_name[std::size_t(of)], "'");
+    const std::string whose = of < 0 ? "" : cat(" of '", state.model().frame_name[std::size_t(of)], "'");
     throw ValueError(cat(who, whose, ": ", frames.empty() ? "nothing that moves" : "none of the frames listed",
                          " has a mass; give them `mass: ..` or call setMass"));
   }

@@ -33,78 +33,78 @@ Made stack(std::unique_ptr<Parts>... parts) {
 }
 
 /// The dofs of the joints of these frames; all dofs if there are no frames.
-Ids dofsOf(const Ids& frames, const Program& program, const FeatureInfo& info) {
+Ids dofsOf(const Ids& frames, const KinematicModel& model, const FeatureInfo& info) {
   Ids dofs;
   if (frames.empty()) {
-    dofs.resize(program.dofs);
+    dofs.resize(model.dofs);
     std::iota(dofs.begin(), dofs.end(), 0);
   }
   for (int frame : frames) {
-    const Program::DofRange range = program.frame_dofs[frame];
+    const KinematicModel::DofRange range = model.frame_dofs[frame];
     if (range.count == 0)
-      throw ValueError(cat(info.name, ": frame '", program.frame_name[frame], "' has no active joint of its own"));
+      throw ValueError(cat(info.name, ": frame '", model.frame_name[frame], "' has no active joint of its own"));
     for (int i = 0; i < range.count; ++i) dofs.push_back(range.first + i);
   }
   return dofs;
 }
 
-const Geometry& boxOf(int frame, const Program& program, const FeatureInfo& info) {
-  const auto& geometry = program.geometry[frame];
+const Geometry& boxOf(int frame, const KinematicModel& model, const FeatureInfo& info) {
+  const auto& geometry = model.geometry[frame];
   if (!geometry || shapeKind(geometry->type).body != ShapeKind::Body::box) {
     throw ValueError(
-        cat(info.name, ": frame '", program.frame_name[frame], "' must have a shape of type ssBox or box"));
+        cat(info.name, ": frame '", model.frame_name[frame], "' must have a shape of type ssBox or box"));
   }
   return *geometry;
 }
 
 /// Extent of a shape along its own z axis, m.
-double heightOf(int frame, const Program& program) {
-  const auto& geometry = program.geometry[frame];
+double heightOf(int frame, const KinematicModel& model) {
+  const auto& geometry = model.geometry[frame];
   return geometry ? shapeHeight(geometry->type, geometry->size) : 0.;
 }
 
 // How the features of a family are made.
 
 template <Position::Kind kind>
-Made position(const FeatureInfo&, const Ids& f, const Program&) {
+Made position(const FeatureInfo&, const Ids& f, const KinematicModel&) {
   if constexpr (kind == Position::Kind::world) return std::make_unique<Position>(kind, f[0]);
   return std::make_unique<Position>(kind, f[0], f.back());
 }
 
 template <Orientation::Kind kind>
-Made orientation(const FeatureInfo&, const Ids& f, const Program&) {
+Made orientation(const FeatureInfo&, const Ids& f, const KinematicModel&) {
   if constexpr (kind == Orientation::Kind::world) return std::make_unique<Orientation>(kind, f[0]);
   return std::make_unique<Orientation>(kind, f[0], f.back());
 }
 
 template <Position::Kind of_position, Orientation::Kind of_orientation>
-Made pose(const FeatureInfo& info, const Ids& f, const Program& program) {
-  return stack(position<of_position>(info, f, program), orientation<of_orientation>(info, f, program));
+Made pose(const FeatureInfo& info, const Ids& f, const KinematicModel& model) {
+  return stack(position<of_position>(info, f, model), orientation<of_orientation>(info, f, model));
 }
 
 template <Axis::Kind kind, int which>
-Made axis(const FeatureInfo&, const Ids& f, const Program&) {
+Made axis(const FeatureInfo&, const Ids& f, const KinematicModel&) {
   if constexpr (kind == Axis::Kind::world) return std::make_unique<Axis>(kind, which, f[0]);
   return std::make_unique<Axis>(kind, which, f[0], f.back());
 }
 
 template <int of_a, int of_b>
-Made axisProduct(const FeatureInfo&, const Ids& f, const Program&) {
+Made axisProduct(const FeatureInfo&, const Ids& f, const KinematicModel&) {
   return std::make_unique<AxisProduct>(of_a, of_b, f[0], f[1]);
 }
 
 template <Witness::Kind kind>
-Made witness(const FeatureInfo&, const Ids& f, const Program&) {
+Made witness(const FeatureInfo&, const Ids& f, const KinematicModel&) {
   return std::make_unique<Witness>(kind, f[0], f[1]);
 }
 
 template <class T>
-Made oneFrame(const FeatureInfo&, const Ids& f, const Program&) {
+Made oneFrame(const FeatureInfo&, const Ids& f, const KinematicModel&) {
   return std::make_unique<T>(f[0]);
 }
 
 template <class T>
-Made twoFrames(const FeatureInfo&, const Ids& f, const Program&) {
+Made twoFrames(const FeatureInfo&, const Ids& f, const KinematicModel&) {
   return std::make_unique<T>(f[0], f[1]);
 }
 
@@ -146,22 +146,22 @@ std::vector<FeatureInfo> makeRegistry() {
       {S::scalarProductZY,         "scalarProductZY",         nullptr,       "a b",                  2, 2,  "1",                cos,    cos,      0, true,  ofFrames, "F_ScalarProduct", "z axis of a times y axis of b", axisProduct<2, 1>},
       {S::scalarProductZZ,         "scalarProductZZ",         nullptr,       "a b",                  2, 2,  "1",                cos,    cos,      0, true,  ofFrames, "F_ScalarProduct", "z axis of a times z axis of b", axisProduct<2, 2>},
       {S::gazeAt,                  "gazeAt",                  nullptr,       "object camera",        2, 2,  "2",                m,      m,        0, true,  ofFrames, "F_GazeAt", "x and y of the object as the camera sees it", [](auto&, const Ids& f, auto&) -> Made { return std::make_unique<Position>(Position::Kind::relative, f[0], f[1], 2); }},
-      {S::qItself,                 "qItself",                 "jointState",  "joints",               0, -1, "1 per dof",        joint,  joint,    0, false, ofJoints, "F_qItself", "q, or that of some joints", [](auto& info, const Ids& f, const Program& program) -> Made { return std::make_unique<JointState>(dofsOf(f, program, info)); }},
-      {S::jointLimits,             "jointLimits",             nullptr,       "joints",               0, -1, "2 per dof",        joint,  joint,    0, false, ofJoints, "F_qLimits", "lower - q, then q - upper: all at most 0 within the limits", [](auto& info, const Ids& f, const Program& program) -> Made { return std::make_unique<JointLimits>(dofsOf(f, program, info), program); }},
-      {S::qQuaternionNorms,        "qQuaternionNorms",        nullptr,       "",                     0, 0,  "1 per quaternion", none,   none,     0, false, ofScene,  "F_qQuaternionNorms", "square of its norm, minus 1", [](auto&, const Ids&, const Program& program) -> Made { return std::make_unique<QuaternionNorms>(program.unit_norms); }},
+      {S::qItself,                 "qItself",                 "jointState",  "joints",               0, -1, "1 per dof",        joint,  joint,    0, false, ofJoints, "F_qItself", "q, or that of some joints", [](auto& info, const Ids& f, const KinematicModel& model) -> Made { return std::make_unique<JointState>(dofsOf(f, model, info)); }},
+      {S::jointLimits,             "jointLimits",             nullptr,       "joints",               0, -1, "2 per dof",        joint,  joint,    0, false, ofJoints, "F_qLimits", "lower - q, then q - upper: all at most 0 within the limits", [](auto& info, const Ids& f, const KinematicModel& model) -> Made { return std::make_unique<JointLimits>(dofsOf(f, model, info), model); }},
+      {S::qQuaternionNorms,        "qQuaternionNorms",        nullptr,       "",                     0, 0,  "1 per quaternion", none,   none,     0, false, ofScene,  "F_qQuaternionNorms", "square of its norm, minus 1", [](auto&, const Ids&, const KinematicModel& model) -> Made { return std::make_unique<QuaternionNorms>(model.unit_norms); }},
       {S::distance,                "distance",                "negDistance", "a b",                  2, 2,  "1",                m,      m,        0, false, ofFrames, "F_PairCollision", "**minus** the signed distance: positive is how deep they overlap", twoFrames<NegDistance>},
       {S::pairCollision_negScalar, "pairCollision_negScalar", nullptr,       "a b",                  2, 2,  "1",                m,      m,        0, false, ofFrames, "F_PairCollision", "the same as distance", twoFrames<NegDistance>},
       {S::pairCollision_vector,    "pairCollision_vector",    nullptr,       "a b",                  2, 2,  "3",                m,      m,        0, false, ofFrames, "F_PairCollision", "from the nearest point of b to that of a", witness<Witness::Kind::vector>},
       {S::pairCollision_normal,    "pairCollision_normal",    nullptr,       "a b",                  2, 2,  "3",                unit,   unit,     0, false, ofFrames, "F_PairCollision", "the unit vector from b to a there", witness<Witness::Kind::normal>},
       {S::pairCollision_p1,        "pairCollision_p1",        nullptr,       "a b",                  2, 2,  "3",                m,      m,        0, false, ofFrames, "F_PairCollision", "the nearest point of a", witness<Witness::Kind::point_a>},
       {S::pairCollision_p2,        "pairCollision_p2",        nullptr,       "a b",                  2, 2,  "3",                m,      m,        0, false, ofFrames, "F_PairCollision", "the nearest point of b", witness<Witness::Kind::point_b>},
-      {S::accumulatedCollisions,   "accumulatedCollisions",   nullptr,       "bodies",               0, -1, "1",                m,      m,        0, false, ofScene,  "F_AccumulatedCollisions", "sum of all overlaps (of these frames)", [](auto&, const Ids& f, const Program& program) -> Made { return std::make_unique<AccumulatedCollisions>(f, program, PairChoice::scene); }},
-      {S::pairCollisions,          "pairCollisions",          nullptr,       "bodies",               0, -1, "1 per pair",       m,      m,        0, false, ofScene,  "F_PairCollisions", "how deep each pair that may collide overlaps", [](auto&, const Ids& f, const Program& program) -> Made { return std::make_unique<PairCollisions>(f, program, PairChoice::scene); }},
+      {S::accumulatedCollisions,   "accumulatedCollisions",   nullptr,       "bodies",               0, -1, "1",                m,      m,        0, false, ofScene,  "F_AccumulatedCollisions", "sum of all overlaps (of these frames)", [](auto&, const Ids& f, const KinematicModel& model) -> Made { return std::make_unique<AccumulatedCollisions>(f, model, PairChoice::scene); }},
+      {S::pairCollisions,          "pairCollisions",          nullptr,       "bodies",               0, -1, "1 per pair",       m,      m,        0, false, ofScene,  "F_PairCollisions", "how deep each pair that may collide overlaps", [](auto&, const Ids& f, const KinematicModel& model) -> Made { return std::make_unique<PairCollisions>(f, model, PairChoice::scene); }},
       {S::oppose,                  "oppose",                  nullptr,       "finger finger object", 3, 3,  "3",                m,      m,        0, false, ofFrames, "F_Oppose", "zero where the fingers face each other across the object", [](auto&, const Ids& f, auto&) -> Made { return std::make_unique<Oppose>(f[0], f[1], f[2], false); }},
       {S::opposeCentral,           "opposeCentral",           nullptr,       "finger finger object", 3, 3,  "6",                m,      unit,     0, false, ofFrames, "F_OpposeCentral", "as oppose, and zero where their normals are on one line", [](auto&, const Ids& f, auto&) -> Made { return std::make_unique<Oppose>(f[0], f[1], f[2], true); }},
-      {S::aboveBox,                "aboveBox",                nullptr,       "thing box",            2, 2,  "4",                m,      m,        0, false, ofFrames, "F_AboveBox", "all at most 0 where the thing is above the box", [](auto& info, const Ids& f, const Program& program) -> Made { return std::make_unique<BoxRegion>(BoxRegion::Kind::above, f[0], f[1], boxOf(f[1], program, info)); }},
-      {S::insideBox,               "insideBox",               nullptr,       "thing box",            2, 2,  "6",                m,      m,        0, false, ofFrames, "F_InsideBox", "all at most 0 where the thing is inside of the box", [](auto& info, const Ids& f, const Program& program) -> Made { return std::make_unique<BoxRegion>(BoxRegion::Kind::inside, f[0], f[1], boxOf(f[1], program, info)); }},
-      {S::standingAbove,           "standingAbove",           nullptr,       "thing box",            2, 2,  "1",                m,      m,        0, false, ofFrames, "F_StandingAbove", "zero where the thing stands on the box", [](auto&, const Ids& f, const Program& program) -> Made { return std::make_unique<StandingAbove>(f[0], f[1], .5 * (heightOf(f[0], program) + heightOf(f[1], program))); }},
+      {S::aboveBox,                "aboveBox",                nullptr,       "thing box",            2, 2,  "4",                m,      m,        0, false, ofFrames, "F_AboveBox", "all at most 0 where the thing is above the box", [](auto& info, const Ids& f, const KinematicModel& model) -> Made { return std::make_unique<BoxRegion>(BoxRegion::Kind::above, f[0], f[1], boxOf(f[1], model, info)); }},
+      {S::insideBox,               "insideBox",               nullptr,       "thing box",            2, 2,  "6",                m,      m,        0, false, ofFrames, "F_InsideBox", "all at most 0 where the thing is inside of the box", [](auto& info, const Ids& f, const KinematicModel& model) -> Made { return std::make_unique<BoxRegion>(BoxRegion::Kind::inside, f[0], f[1], boxOf(f[1], model, info)); }},
+      {S::standingAbove,           "standingAbove",           nullptr,       "thing box",            2, 2,  "1",                m,      m,        0, false, ofFrames, "F_StandingAbove", "zero where the thing stands on the box", [](auto&, const Ids& f, const KinematicModel& model) -> Made { return std::make_unique<StandingAbove>(f[0], f[1], .5 * (heightOf(f[0], model) + heightOf(f[1], model))); }},
       {S::angularVel,              "angularVel",              nullptr,       "a",                    1, 1,  "3",                rad_s,  rad_s,    1, false, ofFrames, "F_AngVel", "angular velocity, from two slices", oneFrame<AngularVelocity>},
       {S::linangVel,               "linangVel",               nullptr,       "a",                    1, 1,  "6",                m_s,    rad_s,    1, false, ofFrames, "F_LinAngVel", "velocity and angular velocity, from two slices", [](auto&, const Ids& f, auto&) -> Made { return stack(std::make_unique<LinearVelocity>(f[0]), std::make_unique<AngularVelocity>(f[0])); }},
       {S::AlignXWithDiff,          "AlignXWithDiff",          nullptr,       "a b",                  2, 2,  "3",                unit,   unit,     1, false, ofFrames, "F_AlignXWithDiff", "zero where b moves along the x axis of a", [](auto&, const Ids& f, auto&) -> Made { return std::make_unique<AlignWithMotion>(0, f[0], f[1]); }},
@@ -269,14 +269,14 @@ std::string featureTable() {
   return text;
 }
 
-Made makeFeature(FeatureSymbol symbol, const Ids& frames, const Program& program) {
+Made makeFeature(FeatureSymbol symbol, const Ids& frames, const KinematicModel& model) {
   const FeatureInfo& info = featureInfo(symbol);
   const int count = int(frames.size());
   if (count < info.min_frames || (info.max_frames >= 0 && count > info.max_frames)) {
     throw ValueError(cat(info.name, " takes ", framesWanted(info), ", got ", count));
   }
   if (!info.available()) throw ValueError(cat(info.name, " is ", info.value));
-  return info.make(info, frames, program);
+  return info.make(info, frames, model);
 }
 
 }  // namespace kinegraph

@@ -100,7 +100,7 @@ enum class FeatureDofs {
 /// A row of the table of features: all that is said of a feature in one place.
 struct FeatureInfo {
   using Make = std::unique_ptr<Feature> (*)(const FeatureInfo& info, const std::vector<int>& frames,
-                                            const Program& program);
+                                            const KinematicModel& model);
 
   FeatureSymbol symbol;
   std::string name;
@@ -138,6 +138,6 @@ std::string featureTable();
 
 /// The feature of that symbol for the frames with these ids. Throws ValueError for a wrong number of frames, saying how
 /// many the symbol takes, and for frames that lack what it needs (a box, a joint).
-std::unique_ptr<Feature> makeFeature(FeatureSymbol symbol, const std::vector<int>& frames, const Program& program);
+std::unique_ptr<Feature> makeFeature(FeatureSymbol symbol, const std::vector<int>& frames, const KinematicModel& model);
 
 }  // namespace kinegraph

@@ -9,14 +9,14 @@ const std::shared_ptr<Residual>& ResidualCache::get(const State& scene, FeatureS
                                                     VectorXd target, int order) {
   constexpr std::size_t kKept = 8;
   for (Entry& entry : entries_) {
-    if (entry.symbol != symbol || entry.program != scene.sharedProgram() || entry.order != order ||
+    if (entry.symbol != symbol || entry.model != scene.sharedModel() || entry.order != order ||
         entry.frames != frames)
       continue;
     entry.residual->setScale(std::move(scale));
     entry.residual->setTarget(std::move(target));
     return entry.residual;
   }
-  Entry made{scene.sharedProgram(), symbol, frames, order,
+  Entry made{scene.sharedModel(), symbol, frames, order,
              std::make_shared<Residual>(makeResidual(scene, symbol, frames, scale, target, order))};
   if (entries_.size() < kKept) return entries_.emplace_back(std::move(made)).residual;
   Entry& place = entries_[oldest_];

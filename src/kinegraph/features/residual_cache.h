@@ -23,7 +23,7 @@ class ResidualCache {
 
  private:
   struct Entry {
-    std::shared_ptr<const Program> program;
+    std::shared_ptr<const KinematicModel> model;
     FeatureSymbol symbol;
     std::vector<std::string> frames;
     int order;

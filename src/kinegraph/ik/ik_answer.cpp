@@ -195,7 +195,7 @@ std::vector<std::string> IkSearch::pairsInTheWay() const {
 
 /// Joints at limits that the targets and the near pairs push them against.
 std::vector<std::string> IkSearch::bindingLimits() {
-  const Program& program = *problem_->program;
+  const KinematicModel& model = *problem_->model;
   const int variables = problem_->variables();
   step_.resize(problem_->rows, variables);
   std::fill_n(step_.column(0), problem_->rows * variables, 0.);
@@ -213,7 +213,7 @@ std::vector<std::string> IkSearch::bindingLimits() {
     }
     const bool low = x_[v] <= problem_->lower[v] && push < -least, high = x_[v] >= problem_->upper[v] && push > least;
     if (!low && !high) continue;
-    reasons.push_back(cat("joint '", jointName(program, problem_->dofs[v]), "' is at its ", low ? "lower" : "upper",
+    reasons.push_back(cat("joint '", jointName(model, problem_->dofs[v]), "' is at its ", low ? "lower" : "upper",
                           " limit ", x_[v]));
   }
   return reasons;
@@ -221,7 +221,7 @@ std::vector<std::string> IkSearch::bindingLimits() {
 
 std::string IkSearch::pairName(int pair) const {
   const auto [a, b] = problem_->pairs[pair];
-  return cat("'", problem_->program->frame_name[a], "' and '", problem_->program->frame_name[b], "'");
+  return cat("'", problem_->model->frame_name[a], "' and '", problem_->model->frame_name[b], "'");
 }
 
 std::string IkSearch::explain() {

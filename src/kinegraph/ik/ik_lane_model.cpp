@@ -19,7 +19,7 @@ std::vector<int> framesOf(const IkProblem& problem) {
 
 IkLaneModel::IkLaneModel(const IkProblem& problem)
     : rows_(problem.rows),
-      links_(*problem.program, *problem.parameters, framesOf(problem), problem.variable, problem.variables()),
+      links_(*problem.model, *problem.parameters, framesOf(problem), problem.variable, problem.variables()),
       lower_(problem.lower.data()),
       upper_(problem.upper.data()),
       longest_(problem.longest.data()) {
@@ -39,7 +39,7 @@ void IkLaneModel::addTasks(const IkProblem& problem) {
     lane_task.placed = task.placed();
     lane_task.directed = task.pointed();
     lane_task.turned = task.turned();
-    lane_task.frame = links_.place(*problem.program, *problem.parameters, task.frame);
+    lane_task.frame = links_.place(*problem.model, *problem.parameters, task.frame);
     lane_task.first_column = int(column_.size());
     for (int index : links_.chain(lane_task.frame.link)) {
       column_.push_back({index, links_.column(index).variable, links_.column(index).turns});

@@ -72,7 +72,7 @@ void IkSearch::placeGoal(const IkProblem::Task& task, IkGoal& goal, const Vector
 /// Rows of a pose, position, rotation, direction or gaze. With a Jacobian they are those of a goal that its frame
 /// carries: seen from there, so that what moves both alike has no part in them.
 void IkSearch::measureFrame(std::size_t target, int row, bool with_jacobian) {
-  const Program& program = *problem_->program;
+  const KinematicModel& model = *problem_->model;
   const IkProblem::Task& task = problem_->tasks[target];
   IkGoal& goal = job_->goals[target];
   const RigidTransform X = state_.pose(task.frame);
@@ -103,9 +103,9 @@ void IkSearch::measureFrame(std::size_t target, int row, bool with_jacobian) {
   const Vector3d seen = !gazes ? X.p : task.reference < 0 ? goal.given.p : state_.pose(task.reference) * goal.given.p;
   const double per_distance = gazes ? 1. / std::max((seen - X.p).norm(), kBlind) : 0.;
   const auto addColumns = [&](int frame, const Vector3d& point, double sign) {
-    const int link = program.frame_link[frame];
-    for (int c = program.last_column[link]; c >= 0; c = program.column_before[c]) {
-      const int v = problem_->variable[program.column_dof[c]];
+    const int link = model.frame_link[frame];
+    for (int c = model.last_column[link]; c >= 0; c = model.column_before[c]) {
+      const int v = problem_->variable[model.column_dof[c]];
       if (v < 0) continue;
       const State::Twist& twist = state_.twist(c);
       const Vector3d velocity = twist.linear + twist.angular.cross(point);
@@ -135,7 +135,7 @@ void IkSearch::measureFeature(std::size_t target, Residual& residual, int row, b
   IkGoal& goal = job_->goals[target];
   const int rows = residual.rows();
   feature_value_.resize(rows);
-  feature_jacobian_.resize(rows, with_jacobian ? problem_->program->dofs : 0);
+  feature_jacobian_.resize(rows, with_jacobian ? problem_->model->dofs : 0);
   feature_jacobian_.setZero();
   JacobianRows J = feature_jacobian_;
   const State* state = &state_;
@@ -160,7 +160,7 @@ void IkSearch::measureFeature(std::size_t target, Residual& residual, int row, b
 
 /// The pairs nearer than the margin and a bit, with the gradients of their distances.
 void IkSearch::measureDistances() {
-  const Program& program = *problem_->program;
+  const KinematicModel& model = *problem_->model;
   const int variables = problem_->variables();
   near_.clear();
   gradients_.clear();
@@ -177,9 +177,9 @@ void IkSearch::measureDistances() {
     gradients_.resize(gradients_.size() + variables, 0.);
     double* gradient = gradients_.data() + gradients_.size() - variables;
     const auto add = [&](int frame, const Vector3d& point, double sign) {
-      const int link = program.frame_link[frame];
-      for (int c = program.last_column[link]; c >= 0; c = program.column_before[c]) {
-        const int v = problem_->variable[program.column_dof[c]];
+      const int link = model.frame_link[frame];
+      for (int c = model.last_column[link]; c >= 0; c = model.column_before[c]) {
+        const int v = problem_->variable[model.column_dof[c]];
         if (v < 0) continue;
         const State::Twist& twist = state_.twist(c);
         gradient[v] += sign * near.rate * near.normal.dot(twist.linear + twist.angular.cross(point));

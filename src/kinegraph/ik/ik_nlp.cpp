@@ -37,7 +37,7 @@ class IkNlp final : public Nlp {
   explicit IkNlp(const IkResult& result)
       : problem_(result.question->problem),
         targets_(result.question->problems[std::size_t(result.number)]),
-        state_(problem_->program, problem_->parameters) {
+        state_(problem_->model, problem_->parameters) {
     const IkProblem& problem = *problem_;
     lower_ = upper_ = result.q;
     for (int v = 0; v < problem.variables(); ++v) {
@@ -111,13 +111,13 @@ class IkNlp final : public Nlp {
     if (row >= first_cost_)
       return cat("distance from the posture, ", describeVariable(problem_->dofs[std::size_t(row - first_cost_)]).name);
     const auto [a, b] = problem_->pairs[std::size_t(near_[std::size_t(row) - task_of_.size()])];
-    return cat("distance of '", problem_->program->frame_name[std::size_t(a)], "' and '",
-               problem_->program->frame_name[std::size_t(b)], "'");
+    return cat("distance of '", problem_->model->frame_name[std::size_t(a)], "' and '",
+               problem_->model->frame_name[std::size_t(b)], "'");
   }
 
   VariableDescription describeVariable(int dof) const override {
     VariableDescription description;
-    description.name = description.frame = jointName(*problem_->program, dof);
+    description.name = description.frame = jointName(*problem_->model, dof);
     return description;
   }
 

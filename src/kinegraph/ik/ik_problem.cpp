@@ -16,14 +16,14 @@ namespace {
 constexpr double kLongestTurn = .5;  // rad
 
 /// Per dof: does it turn, so that without limits a full turn is worth trying?
-std::vector<char> turningDofs(const Program& program) {
-  std::vector<char> turns(program.dofs, 0);
-  for (std::size_t l = 1; l < program.links.size(); ++l) {
-    const Program::Link& link = program.links[l];
+std::vector<char> turningDofs(const KinematicModel& model) {
+  std::vector<char> turns(model.dofs, 0);
+  for (std::size_t l = 1; l < model.links.size(); ++l) {
+    const KinematicModel::Link& link = model.links[l];
     int dof = link.dof;
     for (int s = link.first_step; s < link.first_step + link.steps; ++s) {
-      turns[dof] = program.steps[s].turns();
-      dof += program.steps[s].dofs();
+      turns[dof] = model.steps[s].turns();
+      dof += model.steps[s].dofs();
     }
   }
   return turns;
@@ -32,13 +32,13 @@ std::vector<char> turningDofs(const Program& program) {
 }  // namespace
 
 IkProblem::IkProblem(const Config& config, const std::vector<IkTarget>& targets, const IkOptions& given)
-    : options(given), program(config.program()), parameters(config.parameters()) {
+    : options(given), model(config.model()), parameters(config.parameters()) {
   options.validate();
   if (targets.empty())
     throw ValueError("solveIk: there are no targets; expected at least one frame with a pose, position or direction");
   if (options.best && options.start_weight + options.home_weight == 0.) options.start_weight = 1.;
-  q = config.getJointState().cwiseMax(program->lower).cwiseMin(program->upper);
-  State state(program, parameters);
+  q = config.getJointState().cwiseMax(model->lower).cwiseMin(model->upper);
+  State state(model, parameters);
   state.setJoints(q.data());
   for (const IkTarget& target : targets) {
     tasks.emplace_back(state, target);
@@ -50,17 +50,17 @@ IkProblem::IkProblem(const Config& config, const std::vector<IkTarget>& targets,
   pulls = weight > 0.;
   nearest.resize(variables());
   for (int v = 0; v < variables(); ++v) {
-    const double home = program->home[dofs[v]], start = q[dofs[v]];
+    const double home = model->home[dofs[v]], start = q[dofs[v]];
     nearest[v] = pulls ? (options.start_weight * start + options.home_weight * home) / weight : start;
   }
   nearest = nearest.cwiseMax(lower).cwiseMin(upper);
   if (options.collisions) choosePairs();
-  bodies.emplace(*program, pairs);
+  bodies.emplace(*model, pairs);
 }
 
 void IkProblem::chooseVariables(const State& state) {
   // Joints that move no target stay where they are, and need no columns.
-  variable.assign(program->dofs, -1);
+  variable.assign(model->dofs, -1);
   for (const Task& task : tasks) {
     const std::vector<int> moving = task.dofs(state);
     if (moving.empty()) {
@@ -70,10 +70,10 @@ void IkProblem::chooseVariables(const State& state) {
     for (const int dof : moving) variable[dof] = 0;
   }
   // Quaternions are not kept at norm one by the steps, so it is noted where they are.
-  for (const Program::DofRange& norm : program->unit_norms) {
+  for (const KinematicModel::DofRange& norm : model->unit_norms) {
     if (variable[norm.first] == 0) norms_.emplace_back(norm.first, norm.count);
   }
-  for (int dof = 0; dof < program->dofs; ++dof) {
+  for (int dof = 0; dof < model->dofs; ++dof) {
     if (variable[dof] < 0) continue;
     variable[dof] = int(dofs.size());
     dofs.push_back(dof);
@@ -81,7 +81,7 @@ void IkProblem::chooseVariables(const State& state) {
   for (auto& norm : norms_) norm.first = variable[norm.first];
   // Steps of angles are bounded, because their linear model is good for about half a radian. Where there is no limit,
   // starting points are drawn around the present value: all angles, and a meter to both sides.
-  const std::vector<char> turns = turningDofs(*program);
+  const std::vector<char> turns = turningDofs(*model);
   lower.resize(variables());
   upper.resize(variables());
   longest.resize(variables());
@@ -89,8 +89,8 @@ void IkProblem::chooseVariables(const State& state) {
   draw_upper_.resize(variables());
   for (int v = 0; v < variables(); ++v) {
     const int dof = dofs[v];
-    lower[v] = program->lower[dof];
-    upper[v] = program->upper[dof];
+    lower[v] = model->lower[dof];
+    upper[v] = model->upper[dof];
     longest[v] = turns[dof] ? kLongestTurn : std::numeric_limits<double>::infinity();
     const double reach = turns[dof] ? std::numbers::pi : 1.;
     draw_lower_[v] = std::isfinite(lower[v]) ? lower[v] : std::min(q[dof], upper[v]) - reach;
@@ -112,22 +112,22 @@ void IkProblem::requireAtRest(const Task& task) const {
   const std::string& from = task.target.taken_from;
   if (from.empty()) return;
   int mover = -1;
-  forColumnsBetween(*program, frameId(*program, from, "solveIk"), task.reference, [&](int column) {
-    if (mover < 0 && variable[program->column_dof[column]] >= 0) mover = program->column_dof[column];
+  forColumnsBetween(*model, frameId(*model, from, "solveIk"), task.reference, [&](int column) {
+    if (mover < 0 && variable[model->column_dof[column]] >= 0) mover = model->column_dof[column];
   });
   if (mover < 0) return;
   const std::string against = task.reference < 0 ? "" : cat(" against '", task.target.relative_to, "'");
   throw ValueError(cat("solveIk: the target of ", task.name(), " is where frame '", from, "' is, which moves", against,
-                       " with joint '", jointName(*program, mover),
+                       " with joint '", jointName(*model, mover),
                        "', as the targets do; to meet it wherever it goes, ", "say relativeTo '", from,
                        "'; to go where it is now, give its pose as numbers"));
 }
 
 void IkProblem::choosePairs() {
-  const auto moves = [&](int column) { return variable[program->column_dof[column]] >= 0; };
+  const auto moves = [&](int column) { return variable[model->column_dof[column]] >= 0; };
   std::vector<std::pair<int, int>> unmoved;
-  for (const auto& pair : program->movingPairs()) {
-    const bool moved = anyColumnBetween(*program, pair.first, pair.second, moves);
+  for (const auto& pair : model->movingPairs()) {
+    const bool moved = anyColumnBetween(*model, pair.first, pair.second, moves);
     (moved ? pairs : unmoved).push_back(pair);
   }
   if (!unmoved.empty()) describeStuck(unmoved);
@@ -136,9 +136,9 @@ void IkProblem::choosePairs() {
 /// No answer can be free where other joints than the variables hold a pair too near.
 void IkProblem::describeStuck(const std::vector<std::pair<int, int>>& unmoved) {
   constexpr int kNamed = 3;
-  State state(program, parameters);
+  State state(model, parameters);
   state.setJoints(q.data());
-  const BodyPairs listed(*program, unmoved);
+  const BodyPairs listed(*model, unmoved);
   PlacedBodies placed(listed);
   placed.place(state);
   std::vector<std::string> reasons;
@@ -147,7 +147,7 @@ void IkProblem::describeStuck(const std::vector<std::pair<int, int>>& unmoved) {
     if (distance >= options.margin) return;
     const auto [a, b] = unmoved[std::size_t(pair)];
     const std::string how = distance < 0. ? cat("overlap by ", -distance, " m") : cat("are ", distance, " m apart");
-    reasons.push_back(cat("frames '", program->frame_name[a], "' and '", program->frame_name[b], "' ", how));
+    reasons.push_back(cat("frames '", model->frame_name[a], "' and '", model->frame_name[b], "' ", how));
   });
   if (reasons.empty()) return;
   const std::size_t more = reasons.size() > kNamed ? reasons.size() - kNamed : 0;
@@ -175,11 +175,11 @@ void IkProblem::normalize(double* x) const {
   }
 }
 
-const std::string& jointName(const Program& program, int dof) {
-  const auto owner = std::ranges::find_if(program.frame_dofs, [&](const Program::DofRange& range) {
+const std::string& jointName(const KinematicModel& model, int dof) {
+  const auto owner = std::ranges::find_if(model.frame_dofs, [&](const KinematicModel::DofRange& range) {
     return dof >= range.first && dof < range.first + range.count;
   });
-  return program.frame_name[std::size_t(owner - program.frame_dofs.begin())];
+  return model.frame_name[std::size_t(owner - model.frame_dofs.begin())];
 }
 
 }  // namespace kinegraph

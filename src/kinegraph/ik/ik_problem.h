@@ -29,7 +29,7 @@ struct IkProblem {
   void normalize(double* x) const;
 
   IkOptions options;
-  std::shared_ptr<const Program> program;
+  std::shared_ptr<const KinematicModel> model;
   std::shared_ptr<const Parameters> parameters;
   std::vector<Task> tasks;
   int rows = 0;
@@ -56,6 +56,6 @@ struct IkProblem {
 };
 
 /// The frame whose joint has a dof.
-const std::string& jointName(const Program& program, int dof);
+const std::string& jointName(const KinematicModel& model, int dof);
 
 }  // namespace kinegraph

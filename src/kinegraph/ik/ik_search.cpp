@@ -6,7 +6,7 @@ namespace kinegraph {
 
 IkSearch::IkSearch(std::shared_ptr<const IkProblem> problem)
     : problem_(std::move(problem)),
-      state_(problem_->program, problem_->parameters),
+      state_(problem_->model, problem_->parameters),
       placed_(*problem_->bodies),
       q_(problem_->q),
       x_(problem_->variables()),

@@ -40,16 +40,16 @@ std::string quoted(const std::vector<std::string>& frames) {
 
 /// Those of `dofs` that the rows depend on in one of some random postures.
 std::vector<int> effective(const std::vector<int>& dofs, const State& scene, Residual residual) {
-  const Program& program = scene.program();
+  const KinematicModel& model = scene.model();
   State state = scene;
   Rng rng(0);
-  std::vector<char> acts(std::size_t(program.dofs), 0);
-  Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor> J(residual.rows(), program.dofs);
+  std::vector<char> acts(std::size_t(model.dofs), 0);
+  Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor> J(residual.rows(), model.dofs);
   VectorXd y(residual.rows()), q = scene.q();
   for (int probe = 0; probe < kProbes; ++probe) {
     for (const int dof : dofs) {
       const double at = scene.q()[dof];
-      q[dof] = rng.uniform(std::max(program.lower[dof], at - 1.), std::min(program.upper[dof], at + 1.));
+      q[dof] = rng.uniform(std::max(model.lower[dof], at - 1.), std::min(model.upper[dof], at + 1.));
     }
     state.setJoints(q.data());
     J.setZero();
@@ -96,8 +96,8 @@ IkTask::IkTask(const State& scene, const IkTarget& given) : target(given) {
     residual = makeRows(scene, given);
     return;
   }
-  frame = frameId(scene.program(), given.frame, "solveIk");
-  if (!given.relative_to.empty()) reference = frameId(scene.program(), given.relative_to, "solveIk");
+  frame = frameId(scene.model(), given.frame, "solveIk");
+  if (!given.relative_to.empty()) reference = frameId(scene.model(), given.relative_to, "solveIk");
   target.axis.normalize();
 }
 
@@ -106,10 +106,10 @@ int IkTask::rows() const {
 }
 
 std::vector<int> IkTask::dofs(const State& scene) const {
-  const Program& program = scene.program();
+  const KinematicModel& model = scene.model();
   std::set<int> found;
   const auto add = [&](int a, int b) {
-    forColumnsBetween(program, a, b, [&](int column) { found.insert(program.column_dof[column]); });
+    forColumnsBetween(model, a, b, [&](int column) { found.insert(model.column_dof[column]); });
   };
   if (kind() != Kind::feature) {
     add(frame, reference);
@@ -118,14 +118,14 @@ std::vector<int> IkTask::dofs(const State& scene) const {
   const std::optional<FeatureSymbol> symbol = target.feature->source.symbol();
   const FeatureDofs which = symbol ? featureInfo(*symbol).dofs : FeatureDofs::of_scene;
   for (const std::string& name : target.feature->frames) {
-    const int id = frameId(program, name, "solveIk");
+    const int id = frameId(model, name, "solveIk");
     if (which == FeatureDofs::of_frames) add(id, -1);
     if (which != FeatureDofs::of_joints) continue;
-    const Program::DofRange& own = program.frame_dofs[std::size_t(id)];
+    const KinematicModel::DofRange& own = model.frame_dofs[std::size_t(id)];
     for (int dof = own.first; dof < own.first + own.count; ++dof) found.insert(dof);
   }
   if (which == FeatureDofs::of_scene || target.feature->frames.empty()) {
-    for (int dof = 0; dof < program.dofs; ++dof) found.insert(dof);
+    for (int dof = 0; dof < model.dofs; ++dof) found.insert(dof);
   }
   const std::vector<int> all(found.begin(), found.end());
   // A base under two arms changes nothing between their hands. Of distances and users' functions that is not known, as

@@ -92,7 +92,7 @@ std::vector<IkResult> IkSolver::solve(std::vector<std::vector<IkTarget>> given, 
   }
   const int part = std::clamp(count / (4 * threads), 1, kLargestPart);
   std::vector<std::optional<IkLanes>> searches(std::size_t(std::min(threads, count)));
-  forParts(
+  parallelFor(
       count, part, threads,
       [&](int worker, int from, int to) {
         std::optional<IkLanes>& search = searches[std::size_t(worker)];

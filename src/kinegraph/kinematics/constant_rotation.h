@@ -4,7 +4,7 @@ namespace kinegraph {
 
 /// What is special in a constant rotation R that is multiplied from the right: most are identities or of quarter turns,
 /// where column k of the product is sign[k] times column[k] of the left factor.
-struct ConstantTurn {
+struct ConstantRotation {
   enum Kind : unsigned char { none, quarters, general };
   Kind kind = none;
   unsigned char column[3] = {0, 1, 2};
@@ -12,6 +12,6 @@ struct ConstantTurn {
 };
 
 /// Of a rotation given by its columns. What misses a quarter turn by rounding (1e-15) counts as one.
-ConstantTurn classifyTurn(const double* R);
+ConstantRotation classifyRotation(const double* R);
 
 }  // namespace kinegraph

@@ -12,18 +12,18 @@ struct LinkMotions {
 };
 
 LinkMotions propagate(const State& state, const VectorXd& dq, const VectorXd* ddq, const Vector3d& gravity) {
-  const Program& program = state.program();
-  LinkMotions motions{std::vector<Motion>(program.links.size()), std::vector<Motion>(program.links.size())};
+  const KinematicModel& model = state.model();
+  LinkMotions motions{std::vector<Motion>(model.links.size()), std::vector<Motion>(model.links.size())};
   motions.acceleration[0].linear = -gravity;
-  for (std::size_t l = 1; l < program.links.size(); ++l) {
-    const Program::Link& link = program.links[l];
+  for (std::size_t l = 1; l < model.links.size(); ++l) {
+    const KinematicModel::Link& link = model.links[l];
     Motion V = motions.velocity[link.parent], A = motions.acceleration[link.parent];
     int index = link.first_column;
     for (int s = link.first_step; s < link.first_step + link.steps; ++s) {
       Motion own;  // velocity that this step adds
       double norm_rate = 0., square = 0.;
-      for (int k = 0; k < program.steps[s].dofs(); ++k, ++index) {
-        const int dof = program.column_dof[index];
+      for (int k = 0; k < model.steps[s].dofs(); ++k, ++index) {
+        const int dof = model.column_dof[index];
         own.add(dq[dof], column(state, index));
         if (ddq) A.add((*ddq)[dof], column(state, index));
         norm_rate += state.q()[dof] * dq[dof];
@@ -31,7 +31,7 @@ LinkMotions propagate(const State& state, const VectorXd& dq, const VectorXd* dd
       }
       A.add(1., carried(V, own));
       // Of a quaternion, w = 2 vec(dq q*) / |q|^2 also changes with the norm.
-      if (program.steps[s].dofs() > 1) A.add(-2. * norm_rate / std::max(square, 1e-100), own);
+      if (model.steps[s].dofs() > 1) A.add(-2. * norm_rate / std::max(square, 1e-100), own);
       V.add(1., own);
     }
     motions.velocity[l] = V;
@@ -42,21 +42,21 @@ LinkMotions propagate(const State& state, const VectorXd& dq, const VectorXd* dd
 
 VectorXd newtonEuler(const State& state, const std::vector<LinkInertia>& inertias, const VectorXd& dq,
                      const VectorXd* ddq, const Vector3d& gravity) {
-  const Program& program = state.program();
+  const KinematicModel& model = state.model();
   const LinkMotions motions = propagate(state, dq, ddq, gravity);
-  std::vector<Wrench> wrench(program.links.size());
-  VectorXd force = VectorXd::Zero(program.dofs);
-  for (std::size_t l = program.links.size() - 1; l > 0; --l) {
-    const Program::Link& link = program.links[l];
+  std::vector<Wrench> wrench(model.links.size());
+  VectorXd force = VectorXd::Zero(model.dofs);
+  for (std::size_t l = model.links.size() - 1; l > 0; --l) {
+    const KinematicModel::Link& link = model.links[l];
     const WorldInertia inertia(inertias[l], state.linkPose(int(l)));
     const Motion& V = motions.velocity[l];
     const Wrench rate = inertia.times(motions.acceleration[l]), momentum = inertia.times(V);
     wrench[l].linear += rate.linear + V.angular.cross(momentum.linear);
     wrench[l].angular += rate.angular + V.angular.cross(momentum.angular) + V.linear.cross(momentum.linear);
-    const bool last = l + 1 == program.links.size();
-    const int end = last ? int(program.column_dof.size()) : program.links[l + 1].first_column;
+    const bool last = l + 1 == model.links.size();
+    const int end = last ? int(model.column_dof.size()) : model.links[l + 1].first_column;
     for (int index = link.first_column; index < end; ++index) {
-      force[program.column_dof[index]] += power(column(state, index), wrench[l]);
+      force[model.column_dof[index]] += power(column(state, index), wrench[l]);
     }
     wrench[link.parent].linear += wrench[l].linear;
     wrench[link.parent].angular += wrench[l].angular;
@@ -87,16 +87,16 @@ VectorXd inverseDynamics(const State& state, const std::vector<LinkInertia>& ine
 
 EquationOfMotion equationOfMotion(const State& state, const std::vector<LinkInertia>& inertias,
                                   const VectorXd& velocity, const Vector3d& gravity) {
-  const Program& program = state.program();
-  EquationOfMotion equation{MatrixXd::Zero(program.dofs, program.dofs),
+  const KinematicModel& model = state.model();
+  EquationOfMotion equation{MatrixXd::Zero(model.dofs, model.dofs),
                             newtonEuler(state, inertias, velocity, nullptr, gravity)};
-  for (std::size_t l = 1; l < program.links.size(); ++l) {
+  for (std::size_t l = 1; l < model.links.size(); ++l) {
     const WorldInertia inertia(inertias[l], state.linkPose(int(l)));
     if (inertia.mass == 0. && inertia.matrix.isZero(0.)) continue;
-    for (int c = program.last_column[l]; c >= 0; c = program.column_before[c]) {
+    for (int c = model.last_column[l]; c >= 0; c = model.column_before[c]) {
       const Wrench momentum = inertia.times(column(state, c));
-      for (int d = program.last_column[l]; d >= 0; d = program.column_before[d]) {
-        equation.M(program.column_dof[c], program.column_dof[d]) += power(column(state, d), momentum);
+      for (int d = model.last_column[l]; d >= 0; d = model.column_before[d]) {
+        equation.M(model.column_dof[c], model.column_dof[d]) += power(column(state, d), momentum);
       }
     }
   }

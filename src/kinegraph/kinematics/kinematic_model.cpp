@@ -7,19 +7,19 @@
 
 namespace kinegraph {
 
-void nameFrames(Program& program, std::vector<std::string> names) {
-  program.frame_name = std::move(names);
-  for (std::size_t i = 0; i < program.frame_name.size(); ++i)
-    program.frame_index.try_emplace(program.frame_name[i], int(i));
+void nameFrames(KinematicModel& model, std::vector<std::string> names) {
+  model.frame_name = std::move(names);
+  for (std::size_t i = 0; i < model.frame_name.size(); ++i)
+    model.frame_index.try_emplace(model.frame_name[i], int(i));
 }
 
-int frameId(const Program& program, std::string_view name, std::string_view who) {
-  const auto place = program.frame_index.find(name);
-  if (place != program.frame_index.end()) return place->second;
-  throw FrameNotFound(cat(who, ": frame name '", name, "' doesn't exist", similarHint(name, program.frame_name)));
+int frameId(const KinematicModel& model, std::string_view name, std::string_view who) {
+  const auto place = model.frame_index.find(name);
+  if (place != model.frame_index.end()) return place->second;
+  throw FrameNotFound(cat(who, ": frame name '", name, "' doesn't exist", similarHint(name, model.frame_name)));
 }
 
-const std::vector<std::pair<int, int>>& Program::collidable() const {
+const std::vector<std::pair<int, int>>& KinematicModel::collidable() const {
   std::call_once(listed_, [this] {
     for (std::size_t i = 0; i < contacts.bodies.size(); ++i) {
       for (std::size_t j = i + 1; j < contacts.bodies.size(); ++j) {
@@ -30,7 +30,7 @@ const std::vector<std::pair<int, int>>& Program::collidable() const {
   return collidable_;
 }
 
-std::vector<std::pair<int, int>> Program::movingPairs() const {
+std::vector<std::pair<int, int>> KinematicModel::movingPairs() const {
   std::vector<std::size_t> moving;
   for (std::size_t i = 0; i < contacts.bodies.size(); ++i) {
     if (frame_link[std::size_t(contacts.bodies[i].frame)] != 0) moving.push_back(i);
@@ -51,58 +51,58 @@ std::vector<std::pair<int, int>> Program::movingPairs() const {
   return pairs;
 }
 
-void connectChains(Program& program) {
-  program.column_dof.clear();
-  program.column_before.clear();
-  program.last_column = {-1};  // nothing moves the world
-  program.fixed_axes = {true};
-  program.turn_dof.clear();
-  for (std::size_t l = 1; l < program.links.size(); ++l) {
-    Program::Link& link = program.links[l];
-    link.first_column = int(program.column_dof.size());
-    link.first_turn = int(program.turn_dof.size());
-    int dof = link.dof, last = program.last_column[link.parent];
-    bool fixed_axes = program.fixed_axes[std::size_t(link.parent)];
+void connectChains(KinematicModel& model) {
+  model.column_dof.clear();
+  model.column_before.clear();
+  model.last_column = {-1};  // nothing moves the world
+  model.fixed_axes = {true};
+  model.turn_dof.clear();
+  for (std::size_t l = 1; l < model.links.size(); ++l) {
+    KinematicModel::Link& link = model.links[l];
+    link.first_column = int(model.column_dof.size());
+    link.first_turn = int(model.turn_dof.size());
+    int dof = link.dof, last = model.last_column[link.parent];
+    bool fixed_axes = model.fixed_axes[std::size_t(link.parent)];
     for (int s = link.first_step; s < link.first_step + link.steps; ++s) {
-      const MotionStep& step = program.steps[s];
-      if (step.turns()) program.turn_dof.push_back(dof);
+      const MotionStep& step = model.steps[s];
+      if (step.turns()) model.turn_dof.push_back(dof);
       fixed_axes = fixed_axes && !step.orients();
       for (int i = 0; i < step.dofs(); ++i) {
-        program.column_before.push_back(last);
-        last = int(program.column_dof.size());
-        program.column_dof.push_back(dof++);
+        model.column_before.push_back(last);
+        last = int(model.column_dof.size());
+        model.column_dof.push_back(dof++);
       }
     }
-    program.last_column.push_back(last);
-    program.fixed_axes.push_back(fixed_axes);
+    model.last_column.push_back(last);
+    model.fixed_axes.push_back(fixed_axes);
   }
-  if (program.turn_dof.size() % 2 != 0) program.turn_dof.push_back(program.turn_dof.back());
+  if (model.turn_dof.size() % 2 != 0) model.turn_dof.push_back(model.turn_dof.back());
 }
 
-Parameters emptyParameters(const Program& program) {
+Parameters emptyParameters(const KinematicModel& model) {
   Parameters parameters;
-  parameters.link.resize(program.links.size());
-  parameters.step.resize(program.steps.size());
-  parameters.turn_factor.resize(program.turn_dof.size());
-  parameters.frame_offset.resize(program.frame_link.size());
-  parameters.frame_mass.resize(program.frame_link.size());
+  parameters.link.resize(model.links.size());
+  parameters.step.resize(model.steps.size());
+  parameters.turn_factor.resize(model.turn_dof.size());
+  parameters.frame_offset.resize(model.frame_link.size());
+  parameters.frame_mass.resize(model.frame_link.size());
   return parameters;
 }
 
-RigidTransform placeJoint(const Program& program, int index, const RigidTransform& X_PJ, Parameters& parameters) {
-  const Program::Link& link = program.links[index];
-  const MotionStep* const steps = program.steps.data() + link.first_step;
-  const ConstantTurn turn = classifyTurn(X_PJ.R.data());
+RigidTransform placeJoint(const KinematicModel& model, int index, const RigidTransform& X_PJ, Parameters& parameters) {
+  const KinematicModel::Link& link = model.links[index];
+  const MotionStep* const steps = model.steps.data() + link.first_step;
+  const ConstantRotation turn = classifyRotation(X_PJ.R.data());
   const bool along_axes =
       std::all_of(steps, steps + link.steps, [](const MotionStep& step) { return !step.orients(); });
-  const bool turns_axes = along_axes && turn.kind == ConstantTurn::quarters;
+  const bool turns_axes = along_axes && turn.kind == ConstantRotation::quarters;
   RigidTransform X_LJ;
   if (turns_axes) {
     X_LJ.R.setZero();
     for (int k = 0; k < 3; ++k) X_LJ.R(turn.column[k], k) = turn.sign[k];
   }
   LaneModel::Link& placed = parameters.link[index];
-  placed = {link.parent, link.first_step, link.steps, turns_axes ? ConstantTurn{} : turn, {}, {}};
+  placed = {link.parent, link.first_step, link.steps, turns_axes ? ConstantRotation{} : turn, {}, {}};
   Eigen::Map<Matrix3d>(placed.R) = turns_axes ? Matrix3d(Matrix3d::Identity()) : X_PJ.R;
   Eigen::Map<Vector3d>(placed.p) = X_PJ.p;
   const Vector3d about = X_LJ.R * link.axis;

@@ -24,7 +24,7 @@ class CollisionBody;
 /// Frames between which no active joint lies move as one *link*. Link 0 is the world with everything fixed to it. Every
 /// other link is moved, relative to its parent link, by one active joint. Links are in topological order. Where a link
 /// has its axes is up to placeJoint.
-struct Program {
+struct KinematicModel {
   struct Link {
     int parent = 0;
     int frame = -1;      ///< the frame that carries the joint
@@ -97,20 +97,20 @@ struct Parameters {
 };
 
 /// Room for all of them; frames are at the origin of their link, and weigh nothing.
-Parameters emptyParameters(const Program& program);
+Parameters emptyParameters(const KinematicModel& model);
 
 /// Lets the joint of a link sit at X_PJ on its parent link, and returns the frame of the joint, as it is behind the
 /// joint, in the link. Links have their axes such that as few as possible are turned against those of the parent while
 /// their joints rest: where X_PJ has quarter turns, the axes of the joint are turned in its stead.
-RigidTransform placeJoint(const Program& program, int link, const RigidTransform& X_PJ, Parameters& parameters);
+RigidTransform placeJoint(const KinematicModel& model, int link, const RigidTransform& X_PJ, Parameters& parameters);
 
 /// Sets `frame_name` and `frame_index`.
-void nameFrames(Program& program, std::vector<std::string> names);
+void nameFrames(KinematicModel& model, std::vector<std::string> names);
 
 /// The first frame of that name. Throws FrameNotFound with similar names; `who` is what asks for it.
-int frameId(const Program& program, std::string_view name, std::string_view who);
+int frameId(const KinematicModel& model, std::string_view name, std::string_view who);
 
 /// Fills `last_column`, `column_before`, `column_dof`, `fixed_axes` and `turn_dof` from `links` and `steps`.
-void connectChains(Program& program);
+void connectChains(KinematicModel& model);
 
 }  // namespace kinegraph

@@ -23,8 +23,8 @@ std::vector<int> framesOf(const std::vector<Block>& blocks) {
   return frames;
 }
 
-std::vector<int> everyDof(const Program& program) {
-  std::vector<int> dofs(program.dofs);
+std::vector<int> everyDof(const KinematicModel& model) {
+  std::vector<int> dofs(model.dofs);
   std::iota(dofs.begin(), dofs.end(), 0);
   return dofs;
 }
@@ -40,27 +40,27 @@ bool isBetweenFrames(Block::Kind kind) {
 
 }  // namespace
 
-LaneLinks::LaneLinks(const Program& program, const Parameters& parameters, const std::vector<int>& frames,
+LaneLinks::LaneLinks(const KinematicModel& model, const Parameters& parameters, const std::vector<int>& frames,
                      const std::vector<int>& variable, int variables)
-    : lane_link_(program.links.size(), -1), variables_(variables) {
-  std::vector<char> needed(program.links.size(), 0);
+    : lane_link_(model.links.size(), -1), variables_(variables) {
+  std::vector<char> needed(model.links.size(), 0);
   needed[0] = 1;
   for (int frame : frames) {
-    for (int l = program.frame_link[frame]; !needed[l]; l = program.links[l].parent) needed[l] = 1;
+    for (int l = model.frame_link[frame]; !needed[l]; l = model.links[l].parent) needed[l] = 1;
   }
-  for (std::size_t l = 0; l < program.links.size(); ++l) {
+  for (std::size_t l = 0; l < model.links.size(); ++l) {
     if (!needed[l]) continue;
     LaneModel::Link link = parameters.link[l];
     if (l > 0) link.parent = lane_link_[link.parent];
     link.first_step = int(step_.size());
-    for (int s = program.links[l].first_step; s < program.links[l].first_step + link.steps; ++s) {
+    for (int s = model.links[l].first_step; s < model.links[l].first_step + link.steps; ++s) {
       LaneModel::Step step = parameters.step[s];
       const int dof = step.variable;
       step.variable = variable[dof];
       step.column = int(column_.size());
       step_.push_back(step);
-      for (int k = 0; k < program.steps[s].dofs(); ++k) {
-        column_.push_back({variable[dof + k], !program.steps[s].slides()});
+      for (int k = 0; k < model.steps[s].dofs(); ++k) {
+        column_.push_back({variable[dof + k], !model.steps[s].slides()});
       }
     }
     lane_link_[l] = int(link_.size());
@@ -72,9 +72,9 @@ LaneModel LaneLinks::view() const {
   return {int(link_.size()), int(step_.size()), int(column_.size()), variables_, link_.data(), step_.data()};
 }
 
-LaneRows::Frame LaneLinks::place(const Program& program, const Parameters& parameters, int frame) const {
+LaneRows::Frame LaneLinks::place(const KinematicModel& model, const Parameters& parameters, int frame) const {
   const RigidTransform& offset = parameters.frame_offset[frame];
-  LaneRows::Frame placed{lane_link_[program.frame_link[frame]], classifyTurn(offset.R.data()), {}, {}};
+  LaneRows::Frame placed{lane_link_[model.frame_link[frame]], classifyRotation(offset.R.data()), {}, {}};
   std::copy_n(offset.R.data(), 9, placed.R);
   std::copy_n(offset.p.data(), 3, placed.p);
   return placed;
@@ -115,10 +115,10 @@ void LaneRowList::addJoint(int dof, double scale, double shift) {
   block.shift = shift;
 }
 
-LaneProgram::LaneProgram(const Program& program, const Parameters& parameters, const LaneRowList& list)
-    : links_(program, parameters, framesOf(list.blocks()), everyDof(program), program.dofs), block_(list.blocks()) {
+LaneKinematics::LaneKinematics(const KinematicModel& model, const Parameters& parameters, const LaneRowList& list)
+    : links_(model, parameters, framesOf(list.blocks()), everyDof(model), model.dofs), block_(list.blocks()) {
   const std::vector<int> frames = framesOf(block_);
-  for (int frame : frames) frame_.push_back(links_.place(program, parameters, frame));
+  for (int frame : frames) frame_.push_back(links_.place(model, parameters, frame));
   const auto slot = [&](int frame) { return frame < 0 ? 0 : int(std::ranges::find(frames, frame) - frames.begin()); };
   for (Block& block : block_) {
     if (block.kind == Block::joint) continue;
@@ -131,7 +131,7 @@ LaneProgram::LaneProgram(const Program& program, const Parameters& parameters, c
 }
 
 /// The entries of a block: those of frame a, then those of b, without what cannot change the values.
-void LaneProgram::connect(Block& block) {
+void LaneKinematics::connect(Block& block) {
   block.first_entry = int(entry_.size());
   std::vector<int> of_a = links_.chain(frame_[block.a].link), of_b;
   if (block.b >= 0) of_b = links_.chain(frame_[block.b].link);
@@ -152,14 +152,14 @@ void LaneProgram::connect(Block& block) {
   block.entries = int(entry_.size()) - block.first_entry;
 }
 
-LaneRows LaneProgram::view() const {
+LaneRows LaneKinematics::view() const {
   const int rows = block_.empty() ? 0 : block_.back().row + block_.back().rows;
   return {int(frame_.size()), int(block_.size()), rows, frame_.data(), block_.data(), entry_.data()};
 }
 
-LaneProgram::Scratch::Scratch(const LaneProgram& program, int width) {
-  const LaneModel model = program.links_.view();
-  const LaneRows rows = program.view();
+LaneKinematics::Scratch::Scratch(const LaneKinematics& kinematics, int width) {
+  const LaneModel model = kinematics.links_.view();
+  const LaneRows rows = kinematics.view();
   const int lanes = checkedLaneWidth(width);
   run_ = laneKernel(lanes);
   const auto size = [](int count) { return std::size_t(count); };

@@ -11,13 +11,13 @@ namespace kinegraph {
 class LaneLinks {
  public:
   /// `variable`: per dof of the Program, its number among the kernel's variables.
-  LaneLinks(const Program& program, const Parameters& parameters, const std::vector<int>& frames,
+  LaneLinks(const KinematicModel& model, const Parameters& parameters, const std::vector<int>& frames,
             const std::vector<int>& variable, int variables);
 
   LaneModel view() const;
 
   /// One of the frames, in its link.
-  LaneRows::Frame place(const Program& program, const Parameters& parameters, int frame) const;
+  LaneRows::Frame place(const KinematicModel& model, const Parameters& parameters, int frame) const;
 
   /// A twist column: the variable that drives it, and whether it turns. Columns of dofs without motion are in no chain.
   struct Column {
@@ -64,19 +64,19 @@ class LaneRowList {
 
 /// Rows compiled for a scene: evaluates them for many configurations, in the lanes of wide registers. Threads can share
 /// it, with a Scratch each.
-class LaneProgram {
+class LaneKinematics {
  public:
-  LaneProgram(const Program& program, const Parameters& parameters, const LaneRowList& list);
+  LaneKinematics(const KinematicModel& model, const Parameters& parameters, const LaneRowList& list);
 
   int rows() const { return view().rows; }
 
   /// Memory for one thread at a `width` of laneWidths(), 0 for the widest.
   class Scratch {
    public:
-    Scratch(const LaneProgram& program, int width);
+    Scratch(const LaneKinematics& model, int width);
 
    private:
-    friend class LaneProgram;
+    friend class LaneKinematics;
     std::vector<double> storage_;
     LaneMemory memory_;
     RunLanes run_;

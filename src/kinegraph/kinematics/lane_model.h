@@ -22,7 +22,7 @@ struct LaneModel {
   struct Link {
     int parent;
     int first_step, steps;
-    ConstantTurn turn;
+    ConstantRotation turn;
     double R[9], p[3];  ///< the base of the joint in the parent
   };
 
@@ -35,7 +35,7 @@ struct LaneModel {
 struct LaneRows {
   struct Frame {
     int link;
-    ConstantTurn turn;
+    ConstantRotation turn;
     double R[9], p[3];  ///< in its link
   };
   /// What a twist column contributes to the rows of a block.

@@ -26,26 +26,26 @@ void bound(LinkBodies::Group& group, const std::vector<LinkBodies::Body>& bodies
   }
 }
 
-int commonLink(const Program& program, int a, int b) {
+int commonLink(const KinematicModel& model, int a, int b) {
   while (a != b) {  // links come after their parents
     int& later = a > b ? a : b;
-    later = program.links[std::size_t(later)].parent;
+    later = model.links[std::size_t(later)].parent;
   }
   return a;
 }
 
 }  // namespace
 
-LinkBodies::LinkBodies(const State& scene) : program(scene.sharedProgram()) {
-  const ContactRules& contacts = program->contacts;
+LinkBodies::LinkBodies(const State& scene) : model(scene.sharedModel()) {
+  const ContactRules& contacts = model->contacts;
   for (std::size_t i = 0; i < contacts.bodies.size(); ++i) {
     const auto frame = std::size_t(contacts.bodies[i].frame);
-    const auto& shape = program->body[frame];
+    const auto& shape = model->body[frame];
     const RigidTransform& X_LB = scene.parameters().frame_offset[frame];
     bodies.push_back(
         {shape, int(frame), int(i), -1, X_LB, (X_LB * shape->boundCenter()).norm() + shape->boundRadius()});
   }
-  const auto linkOf = [&](const Body& body) { return program->frame_link[std::size_t(body.frame)]; };
+  const auto linkOf = [&](const Body& body) { return model->frame_link[std::size_t(body.frame)]; };
   std::stable_sort(bodies.begin(), bodies.end(), [&](const Body& x, const Body& y) {
     const int a = linkOf(x), b = linkOf(y);
     return a != 0 && b != 0 ? a < b : a > b;  // the world is the last
@@ -78,11 +78,11 @@ LinkBodies::LinkBodies(const State& scene) : program(scene.sharedProgram()) {
 
 void LinkBodies::appendPairs(int group_a, int group_b, std::vector<Pair>& to) const {
   const Group &a = groups[std::size_t(group_a)], &b = groups[std::size_t(group_b)];
-  const int ancestor = commonLink(*program, a.link, b.link);
+  const int ancestor = commonLink(*model, a.link, b.link);
   for (int i = a.first; i < a.last; ++i) {
     for (int j = b.first; j < b.last; ++j) {
       const Body &x = bodies[std::size_t(i)], &y = bodies[std::size_t(j)];
-      if (!program->contacts.allow(std::size_t(x.contact), std::size_t(y.contact))) continue;
+      if (!model->contacts.allow(std::size_t(x.contact), std::size_t(y.contact))) continue;
       to.push_back({i, j, ancestor, x.shape->convex() && y.shape->convex()});
     }
   }

@@ -54,7 +54,7 @@ struct LinkBodies {
   std::vector<Block> blocks;
   bool many = false;   ///< are the fixed bodies too many, so that `fixed_tree` has them and `blocks` have not?
   BoxTree fixed_tree;  ///< item i is group moving + i
-  std::shared_ptr<const Program> program;
+  std::shared_ptr<const KinematicModel> model;
 };
 
 }  // namespace kinegraph

@@ -42,7 +42,7 @@ template <class V>
 
 /// The pose at `from` times the constant one (R, p). `turn` says what is special in R.
 template <class V>
-[[gnu::always_inline]] inline Place<V> moved(const typename V::Scalar* from, const ConstantTurn& turn, const double* R,
+[[gnu::always_inline]] inline Place<V> moved(const typename V::Scalar* from, const ConstantRotation& turn, const double* R,
                                              const double* p) {
   const auto column = [from](int k) __attribute__((always_inline)) { return loadVector<V>(from + 3 * k); };
   Place<V> X;
@@ -50,11 +50,11 @@ template <class V>
   for (int k = 0; k < 3; ++k) {
     if (p[k] != 0.) X.p = X.p + p[k] * column(k);
   }
-  if (turn.kind == ConstantTurn::quarters) {
+  if (turn.kind == ConstantRotation::quarters) {
     for (int k = 0; k < 3; ++k) X.R[k] = turn.sign[k] * column(turn.column[k]);
   } else {
     for (int k = 0; k < 3; ++k) X.R[k] = column(k);
-    if (turn.kind == ConstantTurn::general) turnBy(R, X);
+    if (turn.kind == ConstantRotation::general) turnBy(R, X);
   }
   return X;
 }

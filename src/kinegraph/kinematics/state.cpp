@@ -6,18 +6,18 @@
 
 namespace kinegraph {
 
-State::State(std::shared_ptr<const Program> program, std::shared_ptr<const Parameters> parameters)
-    : program_(std::move(program)),
+State::State(std::shared_ptr<const KinematicModel> model, std::shared_ptr<const Parameters> parameters)
+    : model_(std::move(model)),
       parameters_(std::move(parameters)),
-      q_(program_->home),
-      link_pose_(program_->links.size() + 1),
-      twists_(program_->column_dof.size() + 1),
-      turns_(program_->turn_dof.size()) {
+      q_(model_->home),
+      link_pose_(model_->links.size() + 1),
+      twists_(model_->column_dof.size() + 1),
+      turns_(model_->turn_dof.size()) {
   update();
 }
 
 void State::setJoints(const double* q) {
-  q_ = Eigen::Map<const VectorXd>(q, program_->dofs);
+  q_ = Eigen::Map<const VectorXd>(q, model_->dofs);
   update();
 }
 
@@ -30,10 +30,10 @@ void State::update() {
   static_assert(sizeof(RigidTransform) == 12 * sizeof(double) && sizeof(Twist) == 6 * sizeof(double) &&
                 sizeof(Turn) == 2 * sizeof(double));
   static const UpdateState kernel = stateKernel();
-  const Program& program = *program_;
+  const KinematicModel& model = *model_;
   const Parameters& parameters = *parameters_;
-  kernel({parameters.link.data(), int(parameters.link.size()), parameters.step.data(), program.turn_dof.data(),
-          parameters.turn_factor.data(), int(program.turn_dof.size()), q_.data(),
+  kernel({parameters.link.data(), int(parameters.link.size()), parameters.step.data(), model.turn_dof.data(),
+          parameters.turn_factor.data(), int(model.turn_dof.size()), q_.data(),
           reinterpret_cast<double*>(turns_.data()), link_pose_[0].R.data(), reinterpret_cast<double*>(twists_.data())});
 }
 
@@ -50,10 +50,10 @@ void State::jacobian(int frame, const Vector3d& p_WQ, JacobianRows J) const {
   double* rows = J.data();
   const Eigen::Index stride = J.outerStride();
   const double x = p_WQ[0], y = p_WQ[1], z = p_WQ[2];
-  const int *before = program_->column_before.data(), *dof = program_->column_dof.data();
+  const int *before = model_->column_before.data(), *dof = model_->column_dof.data();
   const Twist* twists = twists_.data();
   int done = dofs();  // entries from here on; up a chain dofs mostly descend, and what lies between them is zero
-  for (int c = program_->last_column[link(frame)]; c >= 0; c = before[c]) {
+  for (int c = model_->last_column[link(frame)]; c >= 0; c = before[c]) {
     if (dof[c] >= done) {
       J.setZero();
       addPointJacobian(frame, p_WQ, 1., J.topRows(3));
@@ -78,9 +78,9 @@ void State::addPointJacobian(int frame, const Vector3d& p_WQ, double factor, Jac
   double* rows = J.data();
   const Eigen::Index stride = J.outerStride();
   const double x = p_WQ[0], y = p_WQ[1], z = p_WQ[2];
-  const int *before = program_->column_before.data(), *dof = program_->column_dof.data();
+  const int *before = model_->column_before.data(), *dof = model_->column_dof.data();
   const Twist* twists = twists_.data();
-  for (int c = program_->last_column[link(frame)]; c >= 0; c = before[c]) {
+  for (int c = model_->last_column[link(frame)]; c >= 0; c = before[c]) {
     const double *w = twists[c].angular.data(), *v = twists[c].linear.data();
     const double dx = factor * (v[0] + (w[1] * z - w[2] * y)), dy = factor * (v[1] + (w[2] * x - w[0] * z)),
                  dz = factor * (v[2] + (w[0] * y - w[1] * x));
@@ -94,9 +94,9 @@ void State::addPointJacobian(int frame, const Vector3d& p_WQ, double factor, Jac
 void State::addAngularJacobian(int frame, double factor, JacobianRows J) const {
   double* rows = J.data();
   const Eigen::Index stride = J.outerStride();
-  const int *before = program_->column_before.data(), *dof = program_->column_dof.data();
+  const int *before = model_->column_before.data(), *dof = model_->column_dof.data();
   const Twist* twists = twists_.data();
-  for (int c = program_->last_column[link(frame)]; c >= 0; c = before[c]) {
+  for (int c = model_->last_column[link(frame)]; c >= 0; c = before[c]) {
     const double* w = twists[c].angular.data();
     const double dx = factor * w[0], dy = factor * w[1], dz = factor * w[2];
     double* to = rows + dof[c];
@@ -109,11 +109,11 @@ void State::addAngularJacobian(int frame, double factor, JacobianRows J) const {
 /// `velocity(twist)` is that of what is looked at.
 template <class Velocity>
 void State::addCurvature(int frame, const Velocity& velocity, const Vector3d& weight, Eigen::Ref<MatrixXd> H) const {
-  const int *before = program_->column_before.data(), *dof = program_->column_dof.data();
+  const int *before = model_->column_before.data(), *dof = model_->column_dof.data();
   const Twist* twists = twists_.data();
   double* entries = H.data();
   const Eigen::Index stride = H.outerStride();
-  for (int d = program_->last_column[link(frame)]; d >= 0; d = before[d]) {
+  for (int d = model_->last_column[link(frame)]; d >= 0; d = before[d]) {
     const Vector3d moment = velocity(twists[d]).cross(weight);
     const double x = moment[0], y = moment[1], z = moment[2];
     const int j = dof[d];

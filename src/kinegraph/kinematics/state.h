@@ -20,13 +20,13 @@ class State {
     Vector3d angular, linear;
   };
 
-  State(std::shared_ptr<const Program> program, std::shared_ptr<const Parameters> parameters);
+  State(std::shared_ptr<const KinematicModel> model, std::shared_ptr<const Parameters> parameters);
 
-  const Program& program() const { return *program_; }
-  const std::shared_ptr<const Program>& sharedProgram() const { return program_; }
+  const KinematicModel& model() const { return *model_; }
+  const std::shared_ptr<const KinematicModel>& sharedModel() const { return model_; }
   const Parameters& parameters() const { return *parameters_; }
   const std::shared_ptr<const Parameters>& sharedParameters() const { return parameters_; }
-  int dofs() const { return program_->dofs; }
+  int dofs() const { return model_->dofs; }
 
   /// Sets q (program().dofs numbers) and computes all link poses and twists.
   void setJoints(const double* q);
@@ -38,7 +38,7 @@ class State {
   void replaceParameters(std::shared_ptr<const Parameters> parameters) { parameters_ = std::move(parameters); }
 
   const VectorXd& q() const { return q_; }
-  int link(int frame) const { return program_->frame_link[frame]; }
+  int link(int frame) const { return model_->frame_link[frame]; }
   const RigidTransform& linkPose(int link) const { return link_pose_[link]; }
 
   /// The velocity field of a twist column (see Program::last_column and Program::column_dof).
@@ -63,16 +63,16 @@ class State {
   /// Calls visit(dof, twist) for each column that moves a frame, from the frame towards the world.
   template <class Visit>
   void forTwists(int frame, const Visit& visit) const {
-    const int *before = program_->column_before.data(), *dof = program_->column_dof.data();
+    const int *before = model_->column_before.data(), *dof = model_->column_dof.data();
     const Twist* twists = twists_.data();
-    for (int c = program_->last_column[link(frame)]; c >= 0; c = before[c]) visit(dof[c], twists[c]);
+    for (int c = model_->last_column[link(frame)]; c >= 0; c = before[c]) visit(dof[c], twists[c]);
   }
 
   /// Does any dof move a frame?
-  bool moves(int frame) const { return program_->last_column[link(frame)] >= 0; }
+  bool moves(int frame) const { return model_->last_column[link(frame)] >= 0; }
 
   /// Can the second derivatives of where a frame is be told? Not where quaternions or circles move it.
-  bool hasCurvature(int frame) const { return program_->fixed_axes[std::size_t(link(frame))]; }
+  bool hasCurvature(int frame) const { return model_->fixed_axes[std::size_t(link(frame))]; }
 
   /// H += sum_i weight_i d^2 p_WQ,i / dq^2 for point Q fixed to a frame's link that hasCurvature; H is dofs x dofs, and
   /// just its lower triangle is changed. Where columns c and d move Q with velocities v, c nearer to the world: w_c x
@@ -106,7 +106,7 @@ class State {
   };
   void update();
 
-  std::shared_ptr<const Program> program_;
+  std::shared_ptr<const KinematicModel> model_;
   std::shared_ptr<const Parameters> parameters_;
   VectorXd q_;
   std::vector<RigidTransform> link_pose_;  ///< per link, and one that is no link's; see StateArrays

@@ -112,7 +112,7 @@ void updateState(const StateArrays& state) {
     const LaneModel::Link& link = links[l];
     if (link.parent != l - 1) X = loadPlace<V>(state.poses + kPerPlace * link.parent);
     X.p = X.p + ((link.p[0] * X.R[0] + link.p[1] * X.R[1]) + link.p[2] * X.R[2]);
-    if (link.turn.kind != ConstantTurn::none) turnBy(link.R, X);
+    if (link.turn.kind != ConstantRotation::none) turnBy(link.R, X);
     pose += kPerPlace;
     for (int s = 0; s < link.steps; ++s, ++step) {
       double* const twist = twists + 6 * step->column;

@@ -18,13 +18,13 @@ struct VelocityLayout {
   std::vector<char> is_quaternion;  ///< per dof: does one begin here?
   int size = 0;
 
-  explicit VelocityLayout(const Program& program)
-      : place(std::size_t(program.dofs), -1), is_quaternion(std::size_t(program.dofs), false) {
-    std::vector<char> is_inside(std::size_t(program.dofs), false);
-    for (std::size_t l = 1; l < program.links.size(); ++l) {
-      int index = program.links[l].first_column;
-      for (int s = program.links[l].first_step; s < program.links[l].first_step + program.links[l].steps; ++s) {
-        const int first = program.column_dof[index], count = program.steps[s].dofs();
+  explicit VelocityLayout(const KinematicModel& model)
+      : place(std::size_t(model.dofs), -1), is_quaternion(std::size_t(model.dofs), false) {
+    std::vector<char> is_inside(std::size_t(model.dofs), false);
+    for (std::size_t l = 1; l < model.links.size(); ++l) {
+      int index = model.links[l].first_column;
+      for (int s = model.links[l].first_step; s < model.links[l].first_step + model.links[l].steps; ++s) {
+        const int first = model.column_dof[index], count = model.steps[s].dofs();
         index += count;
         if (count != kQuaternion) continue;
         is_quaternion[std::size_t(first)] = true;
@@ -60,18 +60,18 @@ struct LinkColumns {
 };
 
 LinkColumns findColumns(const State& state, const VelocityLayout& layout, const VectorXd& v) {
-  const Program& program = state.program();
+  const KinematicModel& model = state.model();
   LinkColumns out;
-  out.of_link.resize(program.links.size());
-  out.velocity.resize(program.links.size());
-  for (std::size_t l = 1; l < program.links.size(); ++l) {
-    const Program::Link& link = program.links[l];
+  out.of_link.resize(model.links.size());
+  out.velocity.resize(model.links.size());
+  for (std::size_t l = 1; l < model.links.size(); ++l) {
+    const KinematicModel::Link& link = model.links[l];
     std::vector<int>& own = out.of_link[l];
     own = out.of_link[std::size_t(link.parent)];
     Motion V = out.velocity[std::size_t(link.parent)];
     int index = link.first_column;
     for (int s = link.first_step; s < link.first_step + link.steps; ++s) {
-      const int first = program.column_dof[index], count = program.steps[s].dofs();
+      const int first = model.column_dof[index], count = model.steps[s].dofs();
       const std::size_t begin = out.columns.size();
       if (count == kQuaternion) {
         const auto rates = quaternionRates(state.q().segment<kQuaternion>(first));
@@ -83,7 +83,7 @@ LinkColumns findColumns(const State& state, const VelocityLayout& layout, const 
       } else {
         for (int k = 0; k < count; ++k)
           out.columns.push_back(
-              {layout.place[std::size_t(program.column_dof[index + k])], column(state, index + k), {}});
+              {layout.place[std::size_t(model.column_dof[index + k])], column(state, index + k), {}});
       }
       index += count;
       for (std::size_t c = begin; c < out.columns.size(); ++c) V.add(v[out.columns[c].velocity], out.columns[c].motion);
@@ -101,13 +101,13 @@ bool weighsNothing(const LinkInertia& inertia) { return inertia.mass == 0. && in
 
 }  // namespace
 
-int velocityDimension(const Program& program) { return VelocityLayout(program).size; }
+int velocityDimension(const KinematicModel& model) { return VelocityLayout(model).size; }
 
 MatrixXd velocityMap(const State& state) {
-  const Program& program = state.program();
-  const VelocityLayout layout(program);
-  MatrixXd T = MatrixXd::Zero(program.dofs, layout.size);
-  for (int dof = 0; dof < program.dofs; ++dof) {
+  const KinematicModel& model = state.model();
+  const VelocityLayout layout(model);
+  MatrixXd T = MatrixXd::Zero(model.dofs, layout.size);
+  for (int dof = 0; dof < model.dofs; ++dof) {
     const int place = layout.place[std::size_t(dof)];
     if (layout.is_quaternion[std::size_t(dof)])
       T.block<kQuaternion, kAngular>(dof, place) = quaternionRates(state.q().segment<kQuaternion>(dof));
@@ -119,7 +119,7 @@ MatrixXd velocityMap(const State& state) {
 
 RigidBodyDynamics rigidBodyDynamics(const State& state, const std::vector<LinkInertia>& inertias, const VectorXd& v,
                                     const Vector3d& gravity) {
-  const VelocityLayout layout(state.program());
+  const VelocityLayout layout(state.model());
   if (v.size() != layout.size)
     throw ValueError(cat("rigidBodyDynamics: v has ", v.size(), " numbers; the scene has ", layout.size,
                          " velocities: one per dof, and three per quaternion"));
@@ -151,7 +151,7 @@ RigidBodyDynamics rigidBodyDynamics(const State& state, const std::vector<LinkIn
 }
 
 MatrixXd centroidalMomentumMatrix(const State& state, const std::vector<LinkInertia>& inertias) {
-  const VelocityLayout layout(state.program());
+  const VelocityLayout layout(state.model());
   const LinkColumns motions = findColumns(state, layout, VectorXd::Zero(layout.size));
   const Vector3d center = centerOfMass(state, inertias).second;
   MatrixXd A = MatrixXd::Zero(6, layout.size);

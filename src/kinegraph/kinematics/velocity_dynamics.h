@@ -18,7 +18,7 @@ struct RigidBodyDynamics {
 };
 
 /// The number nv of velocities.
-int velocityDimension(const Program& program);
+int velocityDimension(const KinematicModel& model);
 
 /// T(q). Moving along it keeps the norms of quaternions.
 MatrixXd velocityMap(const State& state);

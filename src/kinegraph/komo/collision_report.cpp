@@ -10,7 +10,7 @@ namespace {
 using FramePairs = std::vector<std::pair<int, int>>;  // ascending
 
 /// Collisions that are forbidden at a time.
-struct Forbidden {
+struct Constrained {
   bool all = false;  ///< of all shapes that may collide
   FramePairs named;  ///< some of these
   FramePairs apart;  ///< frames that keep a distance; their shapes need not be among those
@@ -35,19 +35,19 @@ Kind kindOf(const Objective& objective) {
   return keeps_apart ? Kind::apart : Kind::none;
 }
 
-void addPairs(const Program& program, const Objective& objective, Kind kind, Forbidden& to) {
+void addPairs(const KinematicModel& model, const Objective& objective, Kind kind, Constrained& to) {
   std::vector<int> ids;
-  for (const std::string& name : objective.frames) ids.push_back(frameId(program, name, objective.name()));
+  for (const std::string& name : objective.frames) ids.push_back(frameId(model, name, objective.name()));
   if (kind == Kind::apart) {
-    if (program.movesApart(ids[0], ids[1])) to.apart.emplace_back(std::minmax(ids[0], ids[1]));
+    if (model.movesApart(ids[0], ids[1])) to.apart.emplace_back(std::minmax(ids[0], ids[1]));
     return;
   }
-  const std::vector<ContactRules::Body>& bodies = program.contacts.bodies;
+  const std::vector<ContactRules::Body>& bodies = model.contacts.bodies;
   for (std::size_t i = 0; i < bodies.size(); ++i) {
     if (std::ranges::find(ids, bodies[i].frame) == ids.end()) continue;
     for (std::size_t j = 0; j < bodies.size(); ++j) {
       const int a = bodies[i].frame, b = bodies[j].frame;
-      if (j != i && program.movesApart(a, b) && program.contacts.allow(i, j)) to.named.emplace_back(std::minmax(a, b));
+      if (j != i && model.movesApart(a, b) && model.contacts.allow(i, j)) to.named.emplace_back(std::minmax(a, b));
     }
   }
 }
@@ -58,13 +58,13 @@ void sortUnique(FramePairs& pairs) {
 }
 
 /// In a slice, or on the way to it; frames are those of the slice whose Program this is.
-Forbidden forbiddenIn(const std::vector<Objective>& objectives, const Program& program, int slice, bool on_the_way) {
-  Forbidden found;
+Constrained forbiddenIn(const std::vector<Objective>& objectives, const KinematicModel& model, int slice, bool on_the_way) {
+  Constrained found;
   for (const Objective& objective : objectives) {
     if (objective.on_the_way != on_the_way || slice < objective.from || slice > objective.to) continue;
     const Kind kind = kindOf(objective);
     if (kind == Kind::all) found.all = true;
-    if (kind == Kind::named || kind == Kind::apart) addPairs(program, objective, kind, found);
+    if (kind == Kind::named || kind == Kind::apart) addPairs(model, objective, kind, found);
   }
   sortUnique(found.named);
   sortUnique(found.apart);
@@ -72,11 +72,11 @@ Forbidden forbiddenIn(const std::vector<Objective>& objectives, const Program& p
 }
 
 /// What is forbidden at both times.
-Forbidden inBoth(const Forbidden& one, const Forbidden& other) {
+Constrained inBoth(const Constrained& one, const Constrained& other) {
   const auto common = [](const FramePairs& a, const FramePairs& b, FramePairs& to) {
     std::ranges::set_intersection(a, b, std::back_inserter(to));
   };
-  Forbidden both;
+  Constrained both;
   both.all = one.all && other.all;
   if (one.all != other.all) {
     both.named = one.all ? other.named : one.named;
@@ -87,13 +87,13 @@ Forbidden inBoth(const Forbidden& one, const Forbidden& other) {
   return both;
 }
 
-Forbidden forbiddenOnMotion(const Path& path, const std::vector<Objective>& objectives, int slice) {
-  const Program& program = path.state(slice - 1).program();
-  Forbidden found = forbiddenIn(objectives, program, slice, true);
+Constrained forbiddenOnMotion(const Path& path, const std::vector<Objective>& objectives, int slice) {
+  const KinematicModel& model = path.state(slice - 1).model();
+  Constrained found = forbiddenIn(objectives, model, slice, true);
   if (path.grid().slicesPerPhase() == 1) return found;
-  Forbidden at_end = forbiddenIn(objectives, program, slice, false);
-  const Forbidden both =
-      slice == 0 ? std::move(at_end) : inBoth(forbiddenIn(objectives, program, slice - 1, false), at_end);
+  Constrained at_end = forbiddenIn(objectives, model, slice, false);
+  const Constrained both =
+      slice == 0 ? std::move(at_end) : inBoth(forbiddenIn(objectives, model, slice - 1, false), at_end);
   found.all = found.all || both.all;
   found.named.insert(found.named.end(), both.named.begin(), both.named.end());
   found.apart.insert(found.apart.end(), both.apart.begin(), both.apart.end());
@@ -102,7 +102,7 @@ Forbidden forbiddenOnMotion(const Path& path, const std::vector<Objective>& obje
 
 }  // namespace
 
-bool forbidsAnyMotion(const Path& path, const std::vector<Objective>& objectives) {
+bool constrainsAnyMotion(const Path& path, const std::vector<Objective>& objectives) {
   const bool are_waypoints = path.grid().slicesPerPhase() == 1;
   return std::ranges::any_of(objectives, [&](const Objective& objective) {
     return kindOf(objective) != Kind::none && (objective.on_the_way || !are_waypoints) &&
@@ -110,10 +110,10 @@ bool forbidsAnyMotion(const Path& path, const std::vector<Objective>& objectives
   });
 }
 
-std::vector<SliceMotion> forbiddenMotions(const Path& path, const std::vector<Objective>& objectives) {
+std::vector<SliceMotion> constrainedMotions(const Path& path, const std::vector<Objective>& objectives) {
   std::vector<SliceMotion> motions;
   for (int slice = firstMotion(path); slice < path.grid().slices(); ++slice) {
-    Forbidden forbidden = forbiddenOnMotion(path, objectives, slice);
+    Constrained forbidden = forbiddenOnMotion(path, objectives, slice);
     if (!forbidden.any()) continue;
     SliceMotion& motion = motions.emplace_back(motionInto(path, slice));
     motion.of_all = forbidden.all;
@@ -124,7 +124,7 @@ std::vector<SliceMotion> forbiddenMotions(const Path& path, const std::vector<Ob
   return motions;
 }
 
-MotionVerdict judge(const std::vector<SliceMotion>& motions, const std::function<void()>& between) {
+ValidityReport judge(const std::vector<SliceMotion>& motions, const std::function<void()>& between) {
   constexpr double kTolerance = 1e-5;  // m
   const std::vector<PathContact> contacts = contactsOf(motions, 0., kTolerance, between);
   if (contacts.empty()) return {};

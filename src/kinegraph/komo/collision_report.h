@@ -11,12 +11,12 @@ namespace kinegraph {
 // slices are waypoints, one per phase, what is said of them says nothing of the motion.
 
 /// The motions of which there is anything to say, with the pairs that count.
-std::vector<SliceMotion> forbiddenMotions(const Path& path, const std::vector<Objective>& objectives);
+std::vector<SliceMotion> constrainedMotions(const Path& path, const std::vector<Objective>& objectives);
 
 /// Is there any? Looks at no values.
-bool forbidsAnyMotion(const Path& path, const std::vector<Objective>& objectives);
+bool constrainsAnyMotion(const Path& path, const std::vector<Objective>& objectives);
 
 /// Are they free, to 1e-5 m? Names the deepest contact. `between` is called between motions, and may throw.
-MotionVerdict judge(const std::vector<SliceMotion>& motions, const std::function<void()>& between);
+ValidityReport judge(const std::vector<SliceMotion>& motions, const std::function<void()>& between);
 
 }  // namespace kinegraph

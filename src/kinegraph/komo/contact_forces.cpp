@@ -22,9 +22,9 @@ std::pair<Vector3d, Vector3d> nearestPoint(const State& state, int object, int f
 }
 
 /// The force that is demanded, on a path that does not have it yet. Throws for what does not fit.
-ContactForce readDemand(const Path& path, const ContactDemand& demand) {
+ContactForce readDemand(const Path& path, const ContactSpec& demand) {
   path.requireBuilt("addContactForceFrame");
-  const Program& before = path.state(-path.grid().order()).program();
+  const KinematicModel& before = path.state(-path.grid().order()).model();
   ContactForce contact;
   contact.object = frameId(before, demand.object, "addContactForceFrame");
   contact.from = frameId(before, demand.from, "addContactForceFrame");
@@ -56,11 +56,11 @@ Attachment forceDofs(bool is_free) {
 void startContact(Path& path, const ContactForce& contact, const Pose& X_WP, const Vector3d& normal) {
   const int start = -path.grid().order();
   for (int t = start; t < path.grid().slices(); ++t) {
-    const Program& program = path.state(t).program();
+    const KinematicModel& model = path.state(t).model();
     VectorXd q = path.state(t).q();
-    q.segment<7>(program.frame_dofs[contact.point].first) =
+    q.segment<7>(model.frame_dofs[contact.point].first) =
         (Pose(path.state(start).pose(contact.object)).inverse() * X_WP).numbers();
-    if (const auto [first, count] = program.frame_dofs[contact.dofs]; count > 0) {
+    if (const auto [first, count] = model.frame_dofs[contact.dofs]; count > 0) {
       if (contact.is_free) q.segment<3>(first) = normal;
       if (!contact.is_free) q[first] = 1.;
     }
@@ -69,7 +69,7 @@ void startContact(Path& path, const ContactForce& contact, const Pose& X_WP, con
 }
 
 /// The bodies touch at the point, its z axis is along their normals, and the force is within the cone of friction.
-void requireContact(MotionProblem& motion, const ContactDemand& demand, const ContactForce& contact,
+void requireContact(MotionProblem& motion, const ContactSpec& demand, const ContactForce& contact,
                     const std::string& name) {
   const std::string &object = demand.object, &from = demand.from;
   const auto require = [&](const FeatureSource& feature, std::vector<std::string> frames, ObjectiveType type,
@@ -95,7 +95,7 @@ void requireContact(MotionProblem& motion, const ContactDemand& demand, const Co
 
 }  // namespace
 
-std::string addContactForce(MotionProblem& motion, const ContactDemand& demand) {
+std::string addContactForce(MotionProblem& motion, const ContactSpec& demand) {
   Path& path = motion.path;
   ContactForce contact = readDemand(path, demand);
   const auto [from, to] = path.grid().select(demand.times);
@@ -108,7 +108,7 @@ std::string addContactForce(MotionProblem& motion, const ContactDemand& demand) 
   const std::string name = cat("poa_", demand.object, "_", demand.from, "_", time);
   const auto [point, normal] = nearestPoint(path.state(start), contact.object, contact.from);
   addFrameDof(path, {.name = name, .parent = demand.object, .type = JointType::free, .stable = true});
-  contact.point = frameId(path.state(start).program(), name, "addContactForceFrame");
+  contact.point = frameId(path.state(start).model(), name, "addContactForceFrame");
   contact.dofs = path.addDofs(name + "_force", from, to, forceDofs(demand.is_free));
   Pose X_WP;
   X_WP.p = point + demand.distance * normal;

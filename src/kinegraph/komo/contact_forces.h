@@ -8,7 +8,7 @@
 namespace kinegraph {
 
 /// A force at a point that is fixed on an object, in some slices.
-struct ContactDemand {
+struct ContactSpec {
   std::vector<double> times;
   std::string object, from;
   double friction;       ///< coefficient
@@ -20,6 +20,6 @@ struct ContactDemand {
 /// In the slices that its times select, `from` pushes `object` at a point where they touch, within the cone of friction.
 /// The point is a frame on the object, the same in all slices; its name is returned. Throws FrameNotFound and
 /// ValueError.
-std::string addContactForce(MotionProblem& motion, const ContactDemand& demand);
+std::string addContactForce(MotionProblem& motion, const ContactSpec& demand);
 
 }  // namespace kinegraph

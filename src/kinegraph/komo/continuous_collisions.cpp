@@ -17,7 +17,7 @@ constexpr double kEqual = 1e-9;    // and are the same
 constexpr double kMoved = .01;     // rad or m that a dof moves, at least, before a motion is looked at anew
 
 /// The margin that the motion can keep.
-double marginOf(const Objective& objective, int slice, BetweenSlices& motions) {
+double marginOf(const Objective& objective, int slice, SliceMotions& motions) {
   if (slice > 0 || objective.margin == 0.) return objective.margin;
   const double limit = objective.margin + 2. * kFreeTolerance, at_begin = motions.clearanceAtBegin(slice, limit);
   return at_begin < limit ? std::max(.5 * at_begin, 0.) : objective.margin;
@@ -25,26 +25,26 @@ double marginOf(const Objective& objective, int slice, BetweenSlices& motions) {
 
 int motionsOf(const Objective& objective) { return std::max(objective.to - objective.from + 1, 0); }
 
-bool has(const std::vector<PairInstant>& instants, const PairInstant& one, double near) {
-  return std::ranges::any_of(instants, [&](const PairInstant& other) {
+bool has(const std::vector<CollisionSample>& samples, const CollisionSample& one, double near) {
+  return std::ranges::any_of(samples, [&](const CollisionSample& other) {
     return other.a == one.a && other.b == one.b && std::abs(other.share - one.share) <= near;
   });
 }
 
 /// In place of an empty one. False if there is none.
-bool fill(std::vector<PairInstant>& instants, const PairInstant& one) {
-  const auto empty = std::ranges::find_if(instants, &PairInstant::isEmpty);
-  if (empty == instants.end()) return false;
+bool fill(std::vector<CollisionSample>& samples, const CollisionSample& one) {
+  const auto empty = std::ranges::find_if(samples, &CollisionSample::isEmpty);
+  if (empty == samples.end()) return false;
   *empty = one;
   return true;
 }
 
-void add(std::vector<PairInstant>& instants, const PairInstant& one) {
-  if (!has(instants, one, kEqual) && !fill(instants, one)) instants.push_back(one);
+void add(std::vector<CollisionSample>& samples, const CollisionSample& one) {
+  if (!has(samples, one, kEqual) && !fill(samples, one)) samples.push_back(one);
 }
 
 /// What is too near on a motion: where it comes nearest on the way, else what was found at any time.
-std::vector<MotionContact> violationsOf(BetweenSlices& motions, int slice, double margin) {
+std::vector<MotionContact> violationsOf(SliceMotions& motions, int slice, double margin) {
   const std::optional<MotionContact> hit = motions.tooNear(slice, margin);
   if (!hit) return {};
   std::vector<MotionContact> found = motions.approaches(slice, margin + kFreeTolerance);
@@ -58,14 +58,14 @@ double lackOf(const MotionContact& contact, double margin) {
 
 /// Puts what was found in place of empty instants; what violates the margin also where there are others near to it. Was
 /// there any? `lack` becomes the largest one.
-bool fillWith(const std::vector<MotionContact>& found, double margin, std::vector<PairInstant>& instants,
+bool fillWith(const std::vector<MotionContact>& found, double margin, std::vector<CollisionSample>& samples,
               double& lack) {
   bool any = false;
   for (const MotionContact& contact : found) {
     lack = std::max(lack, margin - contact.distance);
-    const PairInstant instant{contact.time, contact.a, contact.b};
+    const CollisionSample sample{contact.time, contact.a, contact.b};
     const double near = contact.distance < margin ? kEqual : kSame;
-    if (!has(instants, instant, near)) any = fill(instants, instant) || any;
+    if (!has(samples, sample, near)) any = fill(samples, sample) || any;
   }
   return any;
 }
@@ -73,22 +73,22 @@ bool fillWith(const std::vector<MotionContact>& found, double margin, std::vecto
 /// Where a motion goes right through something, the next one may do so a little earlier or later. So that it cannot,
 /// the motions around it get instants in their middle, and then in the middle of these.
 void guard(Objective& objective, int through, const MotionContact& contact) {
-  const int count = int(objective.instants.size()), reach = std::max(2, count / 8);
+  const int count = int(objective.samples.size()), reach = std::max(2, count / 8);
   for (int i = std::max(through - reach, 0); i <= std::min(through + reach, count - 1); ++i) {
-    std::vector<PairInstant>& instants = objective.instants[std::size_t(i)];
-    const auto at = [&](double share) { return PairInstant{share, contact.a, contact.b}; };
-    if (!has(instants, at(.5), 0.)) {
-      add(instants, at(.5));
+    std::vector<CollisionSample>& samples = objective.samples[std::size_t(i)];
+    const auto at = [&](double share) { return CollisionSample{share, contact.a, contact.b}; };
+    if (!has(samples, at(.5), 0.)) {
+      add(samples, at(.5));
     } else {
-      add(instants, at(.25));
-      add(instants, at(.75));
+      add(samples, at(.25));
+      add(samples, at(.75));
     }
   }
 }
 
 }  // namespace
 
-bool LookedAt::isFar(const SliceMotion& motion) const {
+bool CheckedMotion::isFar(const SliceMotion& motion) const {
   const auto moved = [](const VectorXd& a, const VectorXd& b) { return (a - b).lpNorm<Eigen::Infinity>(); };
   return from.size() == 0 || std::max(moved(from, motion.from), moved(to, motion.to)) >= kMoved;
 }
@@ -104,40 +104,40 @@ Refinement refinementOf(double lack) {
   return lack > kMuch ? Refinement::much : lack > 0. ? Refinement::little : Refinement::none;
 }
 
-double addInstants(Objective& objective, BetweenSlices& motions) {
+double addSamples(Objective& objective, SliceMotions& motions) {
   double most = 0.;
   const int count = motionsOf(objective);
-  objective.instants.resize(std::size_t(count));
+  objective.samples.resize(std::size_t(count));
   for (int i = 0; i < count; ++i) {
     const int slice = objective.from + i;
     const double margin = marginOf(objective, slice, motions);
     for (const MotionContact& contact : violationsOf(motions, slice, margin)) {
       const double lack = lackOf(contact, margin);
       most = std::max(most, lack);
-      add(objective.instants[std::size_t(i)], {contact.time, contact.a, contact.b});
+      add(objective.samples[std::size_t(i)], {contact.time, contact.a, contact.b});
       if (lack > kThrough) guard(objective, i, contact);
     }
   }
   return most;
 }
 
-std::vector<Objective> withInstants(std::vector<Objective> objectives, const Path& path) {
+std::vector<Objective> withSamples(std::vector<Objective> objectives, const Path& path) {
   MotionProbe probe(kFreeTolerance);
-  LinesBetweenSlices lines(path, probe);
+  LinearSliceMotions lines(path, probe);
   for (Objective& objective : objectives) {
-    if (objective.on_the_way) addInstants(objective, lines);
+    if (objective.on_the_way) addSamples(objective, lines);
   }
   return objectives;
 }
 
-FilledInstants fillInstants(Objective& objective, BetweenSlices& motions, bool is_solution,
-                            std::vector<LookedAt>& looked_at) {
-  FilledInstants filled;
-  looked_at.resize(objective.instants.size());
-  for (int i = 0; i < int(objective.instants.size()); ++i) {
+FilledSamples fillSamples(Objective& objective, SliceMotions& motions, bool is_solution,
+                            std::vector<CheckedMotion>& looked_at) {
+  FilledSamples filled;
+  looked_at.resize(objective.samples.size());
+  for (int i = 0; i < int(objective.samples.size()); ++i) {
     const int slice = objective.from + i;
     const SliceMotion motion = motions.motionInto(slice);
-    LookedAt& last = looked_at[std::size_t(i)];
+    CheckedMotion& last = looked_at[std::size_t(i)];
     if (!is_solution && !last.isFar(motion)) continue;
     const double margin = marginOf(objective, slice, motions);
     std::vector<MotionContact> found;
@@ -150,24 +150,24 @@ FilledInstants fillInstants(Objective& objective, BetweenSlices& motions, bool i
     }
     const double reach = margin < objective.margin ? margin : margin + objective.slack + kReserve;
     std::ranges::copy(motions.approaches(slice, reach), std::back_inserter(found));
-    if (fillWith(found, margin, objective.instants[std::size_t(i)], filled.lack)) filled.motions.push_back(i);
+    if (fillWith(found, margin, objective.samples[std::size_t(i)], filled.lack)) filled.motions.push_back(i);
   }
   return filled;
 }
 
 void keepRoom(Objective& objective, int count) {
-  objective.instants.resize(std::size_t(motionsOf(objective)));
-  for (std::vector<PairInstant>& instants : objective.instants) {
-    const auto empty = std::ranges::count_if(instants, &PairInstant::isEmpty);
-    if (empty < count) instants.resize(instants.size() + std::size_t(count - empty));
+  objective.samples.resize(std::size_t(motionsOf(objective)));
+  for (std::vector<CollisionSample>& samples : objective.samples) {
+    const auto empty = std::ranges::count_if(samples, &CollisionSample::isEmpty);
+    if (empty < count) samples.resize(samples.size() + std::size_t(count - empty));
   }
 }
 
-void addApproaches(Objective& objective, BetweenSlices& motions, double most) {
-  objective.instants.resize(std::size_t(motionsOf(objective)));
-  for (std::size_t i = 0; i < objective.instants.size(); ++i) {
+void addApproaches(Objective& objective, SliceMotions& motions, double most) {
+  objective.samples.resize(std::size_t(motionsOf(objective)));
+  for (std::size_t i = 0; i < objective.samples.size(); ++i) {
     for (const MotionContact& contact : motions.approaches(objective.from + int(i), most))
-      add(objective.instants[i], {contact.time, contact.a, contact.b});
+      add(objective.samples[i], {contact.time, contact.a, contact.b});
   }
 }
 

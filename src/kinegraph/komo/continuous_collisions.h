@@ -24,33 +24,33 @@ Refinement refinementOf(double lack);
 /// Looks at the motions to the slices of an objective that is `on_the_way`, and adds instants at which pairs are nearer
 /// than its margin. Returns by how much at most, m; 0 if there are none. Where the path begins nearer than that, the
 /// first motion keeps half of what the beginning has.
-double addInstants(Objective& objective, BetweenSlices& motions);
+double addSamples(Objective& objective, SliceMotions& motions);
 
 /// The objectives, those on the way with the instants at which the path violates them.
-std::vector<Objective> withInstants(std::vector<Objective> objectives, const Path& path);
+std::vector<Objective> withSamples(std::vector<Objective> objectives, const Path& path);
 
 /// A motion between two slices, where it was when it was looked at last.
-struct LookedAt {
+struct CheckedMotion {
   VectorXd from, to;  ///< empty: it was not yet
 
   bool isFar(const SliceMotion& motion) const;
 };
 
-struct FilledInstants {
+struct FilledSamples {
   double lack = 0.;          ///< by how much a pair is nearer than the margin, at most, m
   std::vector<int> motions;  ///< that have instants which were empty
 };
 
-/// As addInstants, while a solver is at work: in place of empty instants only, and also where pairs nearly come so
+/// As addSamples, while a solver is at work: in place of empty instants only, and also where pairs nearly come so
 /// near. Motions that have hardly moved since they were looked at are left out. `is_solution`: all are looked at, and
 /// at all times; instants are added to those that are not free.
-FilledInstants fillInstants(Objective& objective, BetweenSlices& motions, bool is_solution,
-                            std::vector<LookedAt>& looked_at);
+FilledSamples fillSamples(Objective& objective, SliceMotions& motions, bool is_solution,
+                            std::vector<CheckedMotion>& looked_at);
 
 /// As many instants that are empty for each motion.
 void keepRoom(Objective& objective, int count);
 
 /// Adds those at which pairs come nearer than `most` (m) on the way.
-void addApproaches(Objective& objective, BetweenSlices& motions, double most);
+void addApproaches(Objective& objective, SliceMotions& motions, double most);
 
 }  // namespace kinegraph

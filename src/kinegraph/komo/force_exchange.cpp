@@ -24,11 +24,11 @@ Vector3d nearest(const State& state, Witness::Kind kind, const ContactForce& con
 }
 
 /// An exchange on its way into a motion: first its dofs, then what it demands of them.
-class NewExchange {
+class NewForceExchange {
  public:
-  NewExchange(MotionProblem& motion, const ExchangeDemand& demand)
+  NewForceExchange(MotionProblem& motion, const ForceExchangeSpec& demand)
       : motion_(motion), path_(motion.path), demand_(demand), pair_({demand.object, demand.from}) {
-    path_.requireBuilt("addExchange");
+    path_.requireBuilt("addForceExchange");
     readFrames();
     readTimes();
     const auto& masses = path_.state(-path_.grid().order()).parameters().frame_mass;
@@ -48,9 +48,9 @@ class NewExchange {
 
  private:
   void readFrames() {
-    const Program& program = path_.state(-path_.grid().order()).program();
-    contact_.object = frameId(program, demand_.object, "contact");
-    contact_.from = frameId(program, demand_.from, "contact");
+    const KinematicModel& model = path_.state(-path_.grid().order()).model();
+    contact_.object = frameId(model, demand_.object, "contact");
+    contact_.from = frameId(model, demand_.from, "contact");
     if (contact_.object == contact_.from) throw ValueError(cat("contact: '", demand_.object, "' cannot push itself"));
     if (!(demand_.friction > 0.)) {
       throw ValueError(
@@ -60,7 +60,7 @@ class NewExchange {
 
   void readTimes() {
     const TimeGrid& grid = path_.grid();
-    const bool bounces = demand_.kind == Exchange::bounce;
+    const bool bounces = demand_.kind == ForceExchange::bounce;
     if (bounces && grid.order() < 2) {
       throw ValueError(cat("bounce of '", demand_.object, "' off '", demand_.from,
                            "': speeds before and after it need a KOMO with kOrder 2; this one has ", grid.order()));
@@ -75,7 +75,7 @@ class NewExchange {
 
   /// The point and the force, along the axes of the world.
   void addDofs() {
-    const Program& before = path_.state(-path_.grid().order()).program();
+    const KinematicModel& before = path_.state(-path_.grid().order()).model();
     const std::string wanted = cat("poa_", demand_.object, "_", demand_.from, "_", path_.grid().timeOf(from_));
     name_ = wanted;
     for (int count = 2; before.frame_index.contains(name_); ++count) name_ = cat(wanted, "_", count);
@@ -96,21 +96,21 @@ class NewExchange {
       const Vector3d normal = nearest(now, Witness::Kind::normal, contact_);
       const Vector3d middle =
           .5 * (nearest(now, Witness::Kind::point_a, contact_) + nearest(now, Witness::Kind::point_b, contact_));
-      q.segment<3>(now.program().frame_dofs[contact_.point].first) = X_W0.R.transpose() * (middle - X_W0.p);
-      q.segment<3>(now.program().frame_dofs[contact_.dofs].first) = kFirstForce * normal;
+      q.segment<3>(now.model().frame_dofs[contact_.point].first) = X_W0.R.transpose() * (middle - X_W0.p);
+      q.segment<3>(now.model().frame_dofs[contact_.dofs].first) = kFirstForce * normal;
       path_.setSlice(t, q.data());
     }
   }
 
   void demandKind() {
     switch (demand_.kind) {
-      case Exchange::slide:
+      case ForceExchange::slide:
         return slide();
-      case Exchange::stick:
+      case ForceExchange::stick:
         return stick();
-      case Exchange::complementary:
+      case ForceExchange::complementary:
         return complement();
-      case Exchange::bounce:
+      case ForceExchange::bounce:
         return bounce();
     }
   }
@@ -162,7 +162,7 @@ class NewExchange {
     require(force, pair_, sos, 1e-4, 0);
     const int smooth = std::min(path_.grid().order(), 2);
     if (smooth == 0) return;
-    if (demand_.kind != Exchange::bounce) require(force, pair_, sos, 1e-2, smooth, smooth);
+    if (demand_.kind != ForceExchange::bounce) require(force, pair_, sos, 1e-2, smooth, smooth);
     require(FeatureSymbol::position, {name_}, sos, 1e-2, smooth, smooth);
   }
 
@@ -185,7 +185,7 @@ class NewExchange {
 
   MotionProblem& motion_;
   Path& path_;
-  const ExchangeDemand& demand_;
+  const ForceExchangeSpec& demand_;
   std::vector<std::string> pair_;
   ContactForce contact_;
   std::string name_;
@@ -194,17 +194,17 @@ class NewExchange {
 
 }  // namespace
 
-Exchange exchangeFromName(const std::string& name) {
+ForceExchange forceExchangeFromName(const std::string& name) {
   static const std::vector<std::string> names = {"slide", "stick", "complementary", "bounce"};
   const auto place = std::find(names.begin(), names.end(), name);
   if (place == names.end())
     throw NameError(
         cat("there is no contact of kind '", name, "'", similarHint(name, names), "; there are ", join(names)));
-  return Exchange(place - names.begin());
+  return ForceExchange(place - names.begin());
 }
 
-std::string addExchange(MotionProblem& motion, const ExchangeDemand& demand) {
-  return NewExchange(motion, demand).add();
+std::string addForceExchange(MotionProblem& motion, const ForceExchangeSpec& demand) {
+  return NewForceExchange(motion, demand).add();
 }
 
 }  // namespace kinegraph

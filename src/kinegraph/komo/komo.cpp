@@ -123,17 +123,17 @@ void Komo::addControlObjective(const std::vector<double>& times, int order, doub
                                int delta_from, int delta_to) {
   path().requireBuilt("addControlObjective");
   if (order < 0) throw ValueError(cat("addControlObjective: order is ", order, "; expected 0, 1 or 2"));
-  const GivenScene& given = path().given();
-  const Program& program = *given.program;
+  const InitialConfiguration& given = path().given();
+  const KinematicModel& model = *given.model;
   std::vector<std::string> frames;
   std::vector<double> weights, home;
   for (int frame : given.joint_frames) {
-    const auto [first, count] = program.frame_dofs[frame];
-    if (given.isShared(frame) || !(program.control_weight[first] > 0.)) continue;
-    frames.push_back(program.frame_name[frame]);
+    const auto [first, count] = model.frame_dofs[frame];
+    if (given.isShared(frame) || !(model.control_weight[first] > 0.)) continue;
+    frames.push_back(model.frame_name[frame]);
     for (int i = first; i < first + count; ++i) {
-      weights.push_back(scale * program.control_weight[i]);
-      home.push_back(program.home[i]);
+      weights.push_back(scale * model.control_weight[i]);
+      home.push_back(model.home[i]);
     }
   }
   const auto vector = [](const std::vector<double>& v) {
@@ -159,7 +159,7 @@ void Komo::addQuaternionNorms(const std::vector<double>& times, double scale, bo
                    .scale = MatrixXd::Constant(1, 1, scale),
                    .order = 0,
                    .times = times,
-                   .frames_known = int(path().state(0).program().frame_dofs.size())});
+                   .frames_known = int(path().state(0).model().frame_dofs.size())});
 }
 
 void Komo::addModeSwitch(const std::vector<double>& times, SwitchMode mode, const std::vector<std::string>& frames,
@@ -195,9 +195,9 @@ std::string Komo::addFreeContactForce(const std::vector<double>& times, const st
   return kinegraph::addContactForce(motion_, {times, object, from, friction, mass, true, distance});
 }
 
-std::string Komo::addExchange(const std::vector<double>& times, const std::string& object, const std::string& from,
-                              Exchange kind, double friction) {
-  return kinegraph::addExchange(motion_, {times, object, from, kind, friction});
+std::string Komo::addForceExchange(const std::vector<double>& times, const std::string& object, const std::string& from,
+                              ForceExchange kind, double friction) {
+  return kinegraph::addForceExchange(motion_, {times, object, from, kind, friction});
 }
 
 MatrixXd Komo::getPath(const std::vector<int>& frames) const {

@@ -101,8 +101,8 @@ class Komo {
                                   double friction, double mass, double distance);
 
   /// A point that moves along both surfaces, and a force there: see exchanges.h.
-  std::string addExchange(const std::vector<double>& times, const std::string& object, const std::string& from,
-                          Exchange kind, double friction = .5);
+  std::string addForceExchange(const std::vector<double>& times, const std::string& object, const std::string& from,
+                          ForceExchange kind, double friction = .5);
 
   std::vector<Interaction> interactions() const { return motion_.contacts.interactions(motion_.path); }
 

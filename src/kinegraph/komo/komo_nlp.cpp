@@ -35,7 +35,7 @@ bool keepsRoom(const Objective& objective) {
   return objective.on_the_way && objective.feature == FeatureSymbol::pairCollisions;
 }
 
-class KomoNlp final : public Nlp, public OtherWays, public RoomForConstraints {
+class KomoNlp final : public Nlp, public InitialGuesses, public LazyConstraints {
  public:
   explicit KomoNlp(std::shared_ptr<Komo> komo) : KomoNlp(komo, komo->objectives().all()) {}
 
@@ -111,12 +111,12 @@ class KomoNlp final : public Nlp, public OtherWays, public RoomForConstraints {
     return separation_;
   }
 
-  std::shared_ptr<const LazyVerdict> motionVerdict(const VectorXd& x) override {
-    if (!forbidsAnyMotion(komo_->path(), problem_.objectives())) return nullptr;
+  std::shared_ptr<const LazyValidity> motionValidity(const VectorXd& x) override {
+    if (!constrainsAnyMotion(komo_->path(), problem_.objectives())) return nullptr;
     komo_->path().setVariables(x);
-    std::vector<SliceMotion> motions = forbiddenMotions(komo_->path(), problem_.objectives());
+    std::vector<SliceMotion> motions = constrainedMotions(komo_->path(), problem_.objectives());
     if (motions.empty()) return nullptr;
-    return std::make_shared<LazyVerdict>(
+    return std::make_shared<LazyValidity>(
         [motions = std::move(motions)](const std::function<void()>& between) { return judge(motions, between); });
   }
 
@@ -128,9 +128,9 @@ class KomoNlp final : public Nlp, public OtherWays, public RoomForConstraints {
     if (const KomoNlp* solved = separate()) {
       if (solved->free_at_.size() == x.size() && solved->free_at_ == x) return Refinement::none;
       for (std::size_t i = 0; i < objectives.size(); ++i)
-        if (objectives[i].on_the_way) objectives[i].instants = solved->problem_.objectives()[i].instants;
+        if (objectives[i].on_the_way) objectives[i].samples = solved->problem_.objectives()[i].samples;
     }
-    const double lack = addInstantsTo(objectives);
+    const double lack = addSamplesTo(objectives);
     if (lack == 0.) return Refinement::none;
     const Separation before = separation();
     takeUp(std::move(objectives));
@@ -147,11 +147,11 @@ class KomoNlp final : public Nlp, public OtherWays, public RoomForConstraints {
     komo_->path().setVariables(x);
     double lack = 0.;
     looked_at_.resize(problem_.objectives().size());
-    LinesBetweenSlices lines(komo_->path(), probe_);
+    LinearSliceMotions lines(komo_->path(), probe_);
     for (std::size_t o = 0; o < problem_.objectives().size(); ++o) {
       if (!keepsRoom(problem_.objectives()[o])) continue;
       Objective objective = problem_.objectives()[o];
-      const FilledInstants filled = fillInstants(objective, lines, is_solution, looked_at_[o]);
+      const FilledSamples filled = fillSamples(objective, lines, is_solution, looked_at_[o]);
       lack = std::max(lack, filled.lack);
       for (const int motion : filled.motions) fillMotion(o, objective, motion, phi, J, rows);
     }
@@ -159,33 +159,33 @@ class KomoNlp final : public Nlp, public OtherWays, public RoomForConstraints {
     return refinementOf(lack);
   }
 
-  WayKind wayAt(const VectorXd& x) override {
+  GuessKind guessKind(const VectorXd& x) override {
     requireStructure();
     komo_->path().setVariables(x);
-    LinesBetweenSlices lines(komo_->path(), probe_);
+    LinearSliceMotions lines(komo_->path(), probe_);
     return wayOf(lines, firstMotion(komo_->path()), komo_->slices() - 1);
   }
 
   /// A detour, with its own instants: those at which it comes near to something, so that a step does not lead through
   /// it.
-  std::optional<VectorXd> otherWay(const VectorXd& x, int number) override {
+  std::optional<VectorXd> initialGuess(const VectorXd& x, int number) override {
     std::vector<Objective> objectives = problem_.objectives();
     const auto on_the_way = std::ranges::find_if(objectives, isOnTheWay);
     if (on_the_way == objectives.end()) return std::nullopt;
     requireStructure();
     komo_->path().setVariables(x);
     const double apart = on_the_way->margin + on_the_way->slack;
-    std::optional<VectorXd> way = detour(komo_->path(), apart, probe_, number);
+    std::optional<VectorXd> way = alternativePath(komo_->path(), apart, probe_, number);
     if (!way) return std::nullopt;
     *way = way->cwiseMax(lower_).cwiseMin(upper_);
     komo_->path().setVariables(*way);
-    LinesBetweenSlices lines(komo_->path(), probe_);
+    LinearSliceMotions lines(komo_->path(), probe_);
     for (Objective& objective : objectives) {
       if (!objective.on_the_way) continue;
-      objective.instants.clear();
+      objective.samples.clear();
       addApproaches(objective, lines, kNearToDetour);
     }
-    addInstantsTo(objectives);
+    addSamplesTo(objectives);
     takeUp(std::move(objectives));
     return way;
   }
@@ -225,11 +225,11 @@ class KomoNlp final : public Nlp, public OtherWays, public RoomForConstraints {
   }
 
   /// Those at which the path violates the objectives; returns by how much, m.
-  double addInstantsTo(std::vector<Objective>& objectives) {
+  double addSamplesTo(std::vector<Objective>& objectives) {
     double lack = 0.;
-    LinesBetweenSlices lines(komo_->path(), probe_);
+    LinearSliceMotions lines(komo_->path(), probe_);
     for (Objective& objective : objectives) {
-      if (objective.on_the_way) lack = std::max(lack, addInstants(objective, lines));
+      if (objective.on_the_way) lack = std::max(lack, addSamples(objective, lines));
     }
     return lack;
   }
@@ -244,11 +244,11 @@ class KomoNlp final : public Nlp, public OtherWays, public RoomForConstraints {
       return term.objective == int(number) && term.slice == objective.from + motion;
     };
     const auto term = std::ranges::find_if(problem_.terms(), isIt);
-    const std::vector<PairInstant>&now = objective.instants[std::size_t(motion)],
-          &before = problem_.objectives()[number].instants[std::size_t(motion)];
+    const std::vector<CollisionSample>&now = objective.samples[std::size_t(motion)],
+          &before = problem_.objectives()[number].samples[std::size_t(motion)];
     for (int row = 0; row < term->rows; ++row)
       if (before[std::size_t(row)].isEmpty() && !now[std::size_t(row)].isEmpty()) rows.push_back(term->first_row + row);
-    problem_.setInstants(komo_->path(), komo_->contacts(), *term, now);
+    problem_.setSamples(komo_->path(), komo_->contacts(), *term, now);
     problem_.evaluateTerm(komo_->path(), std::size_t(term - problem_.terms().begin()), phi, J);
   }
 
@@ -271,7 +271,7 @@ class KomoNlp final : public Nlp, public OtherWays, public RoomForConstraints {
   std::shared_ptr<Komo> komo_;
   PathProblem problem_;
   MotionProbe probe_{kFreeTolerance};
-  std::vector<std::vector<LookedAt>> looked_at_;  ///< per objective, per motion
+  std::vector<std::vector<CheckedMotion>> looked_at_;  ///< per objective, per motion
   VectorXd free_at_;                              ///< where a solver found nothing to take up
   int structure_;
   Separation separation_;

@@ -25,10 +25,10 @@ bool movesAlone(M mode) {
   return mode == M::dynamic || mode == M::dynamicTrans || mode == M::quasiStatic || mode == M::magic;
 }
 
-const Program& firstProgram(const Path& path) { return path.state(-path.grid().order()).program(); }
+const KinematicModel& firstModel(const Path& path) { return path.state(-path.grid().order()).model(); }
 
 void requireFrame(const Path& path, const std::string& name, const char* call) {
-  frameId(firstProgram(path), name, call);
+  frameId(firstModel(path), name, call);
 }
 
 /// The mode just before a slice.
@@ -79,10 +79,10 @@ void addPhysics(MotionProblem& motion, M mode, const std::string& object, int fr
 }
 
 /// [parent, object], both in the scene.
-std::pair<std::string, std::string> framesOf(const Path& path, const SwitchDemand& demand) {
+std::pair<std::string, std::string> framesOf(const Path& path, const SwitchSpec& demand) {
   std::vector<std::string> frames = demand.frames;
   const bool alone = movesAlone(demand.mode);
-  if (frames.size() == 1 && alone) frames.insert(frames.begin(), path.given().program->frame_name.front());
+  if (frames.size() == 1 && alone) frames.insert(frames.begin(), path.given().model->frame_name.front());
   const std::vector<double>& times = demand.times;
   if (times.empty() || times.size() > 2 || !(times[0] >= 0.)) {
     throw ValueError("addModeSwitch: times is [from, to], both phase times; to -1 where the mode holds to the end");
@@ -105,7 +105,7 @@ bool begins(MotionProblem& motion, const char* call, double time) {
 }
 
 /// That an object does not jump, where a mode begins or where the next one takes over, is about velocities.
-void requireVelocities(const Path& path, const SwitchDemand& demand, int from, int to) {
+void requireVelocities(const Path& path, const SwitchSpec& demand, int from, int to) {
   const bool ends = demand.times.size() == 2 && demand.times[1] >= 0. && to < path.grid().slices();
   const bool at_start = demand.first && from >= 0, at_end = ends && !isDynamic(demand.mode);
   if (path.grid().order() >= 1 || isMagic(demand.mode) || (!at_start && !at_end)) return;
@@ -119,7 +119,7 @@ void requireVelocities(const Path& path, const SwitchDemand& demand, int from, i
 
 }  // namespace
 
-void addModeSwitch(MotionProblem& motion, const SwitchDemand& demand) {
+void addModeSwitch(MotionProblem& motion, const SwitchSpec& demand) {
   Path& path = motion.path;
   path.requireBuilt("addModeSwitch");
   const auto [parent, object] = framesOf(path, demand);
@@ -174,15 +174,15 @@ void addRigidSwitch(MotionProblem& motion, double time, const std::string& paren
   if (path.grid().order() >= 2) addContinuity(motion, FeatureSymbol::linangVel, {object}, 1., 2, from + 1);
 }
 
-void addFrameDof(Path& path, const FrameDemand& demand) {
+void addFrameDof(Path& path, const FrameSpec& demand) {
   path.requireBuilt("addFrameDof");
-  const Program& program = firstProgram(path);
-  if (demand.name.empty() || program.frame_index.contains(demand.name)) {
+  const KinematicModel& model = firstModel(path);
+  if (demand.name.empty() || model.frame_index.contains(demand.name)) {
     throw ValueError(cat("addFrameDof: there is a frame '", demand.name, "' already; expected a new name"));
   }
   std::string below = demand.parent;
   if (below.empty() && demand.type != JointType::none)
-    below = program.frame_index.contains("world") ? "world" : program.frame_name.front();
+    below = model.frame_index.contains("world") ? "world" : model.frame_name.front();
   if (!below.empty()) requireFrame(path, below, "addFrameDof");
   if (!demand.origin.empty()) requireFrame(path, demand.origin, "addFrameDof");
   const JointType type = demand.type;

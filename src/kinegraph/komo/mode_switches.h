@@ -10,7 +10,7 @@ namespace kinegraph {
 
 /// A mode that objects change to: from times[0] on, frames[1] hangs below frames[0] by a joint that `mode` says. Modes
 /// in which an object moves by itself take it alone, too.
-struct SwitchDemand {
+struct SwitchSpec {
   std::vector<double> times;  ///< [from, to]; `to` where a next switch takes over; negative: it holds to the end
   SwitchMode mode;
   std::vector<std::string> frames;
@@ -19,14 +19,14 @@ struct SwitchDemand {
 
 /// Changes the structure of the path, and adds what keeps the motion continuous where the mode begins and ends. Throws
 /// FrameNotFound and ValueError; leaves a warning if it begins beyond the end.
-void addModeSwitch(MotionProblem& motion, const SwitchDemand& demand);
+void addModeSwitch(MotionProblem& motion, const SwitchSpec& demand);
 
 /// From `time` on, `object` sits at `parent`, without a joint. `no_jump`: it does not jump there.
 void addRigidSwitch(MotionProblem& motion, double time, const std::string& parent, const std::string& object,
                     bool no_jump);
 
 /// A frame in all slices, with a joint whose dofs are the same in all of them (`stable`) or one set per slice.
-struct FrameDemand {
+struct FrameSpec {
   std::string name;
   std::string parent{};  ///< empty: the world
   JointType type;        ///< none: it does not move
@@ -36,6 +36,6 @@ struct FrameDemand {
 };
 
 /// Throws FrameNotFound, and ValueError for a name that is there already and for joints that cannot be added.
-void addFrameDof(Path& path, const FrameDemand& demand);
+void addFrameDof(Path& path, const FrameSpec& demand);
 
 }  // namespace kinegraph

@@ -22,15 +22,15 @@ using Made = std::unique_ptr<Feature>;
 
 /// The joints of the given configuration, or of the frames with these ids, as they are in a slice.
 Made jointsIn(const Objective& objective, const Path& path, const Ids& ids, int slice) {
-  const Program &program = path.state(slice).program(), &given = *path.given().program;
+  const KinematicModel &model = path.state(slice).model(), &given = *path.given().model;
   std::vector<JointsOfFrames::Part> parts;
   const Ids& frames = ids.empty() ? path.given().joint_frames : ids;
   parts.reserve(frames.size());
   for (int frame : frames) {
-    const int count = program.frame_dofs[frame].count;
+    const int count = model.frame_dofs[frame].count;
     const bool original = frame < int(given.frame_dofs.size());
     if (count == 0 || (ids.empty() && original && count != given.frame_dofs[frame].count)) {
-      throw ValueError(cat(objective.name(), ": the joint of frame '", program.frame_name[frame], "' ",
+      throw ValueError(cat(objective.name(), ": the joint of frame '", model.frame_name[frame], "' ",
                            ids.empty() ? "was replaced by a mode switch" : "is not there, or not active", " in slice ",
                            slice));
     }
@@ -38,9 +38,9 @@ Made jointsIn(const Objective& objective, const Path& path, const Ids& ids, int 
   }
   if (!path.layout().plain) return std::make_unique<JointsOfFrames>(std::move(parts));
   Ids dofs;
-  dofs.reserve(std::size_t(program.dofs));
+  dofs.reserve(std::size_t(model.dofs));
   for (const JointsOfFrames::Part& part : parts) {
-    for (int i = 0; i < part.count; ++i) dofs.push_back(program.frame_dofs[part.frame].first + i);
+    for (int i = 0; i < part.count; ++i) dofs.push_back(model.frame_dofs[part.frame].first + i);
   }
   return std::make_unique<JointState>(std::move(dofs));
 }
@@ -48,34 +48,34 @@ Made jointsIn(const Objective& objective, const Path& path, const Ids& ids, int 
 /// The limits of the given configuration's joints whose dofs a slice owns, and of those that all share; joints that were
 /// added are limited by bounds.
 Made limitsIn(const Path& path, int slice) {
-  const Program& program = path.state(slice).program();
+  const KinematicModel& model = path.state(slice).model();
   std::set<int> owned, dofs;
-  const auto insert = [&](const Program::DofRange& range) {
+  const auto insert = [&](const KinematicModel::DofRange& range) {
     for (int i = range.first; i < range.first + range.count; ++i) dofs.insert(i);
   };
-  for (const Program::DofRange& range : path.layout().owned[std::size_t(slice + path.grid().order())])
+  for (const KinematicModel::DofRange& range : path.layout().owned[std::size_t(slice + path.grid().order())])
     owned.insert(range.first);
   for (std::size_t frame = 0; frame < path.given().tree->frames().size(); ++frame) {
-    const Program::DofRange& range = program.frame_dofs[frame];
+    const KinematicModel::DofRange& range = model.frame_dofs[frame];
     if (range.count > 0 && owned.contains(range.first)) insert(range);
   }
-  for (int frame : path.given().shared_joints) insert(program.frame_dofs[frame]);
-  return std::make_unique<JointLimits>(Ids(dofs.begin(), dofs.end()), program);
+  for (int frame : path.given().shared_joints) insert(model.frame_dofs[frame]);
+  return std::make_unique<JointLimits>(Ids(dofs.begin(), dofs.end()), model);
 }
 
 /// The quaternions among the dofs of a slice, but for those of frames that were added after the objective: a stable
 /// frame's quaternion belongs to the slices before the start.
 Made normsIn(const Objective& objective, const Path& path, int slice) {
-  const Program& program = path.state(slice).program();
-  const auto isKnown = [&](const Program::DofRange& norm) {
-    for (int frame = objective.frames_known; frame < int(program.frame_dofs.size()); ++frame) {
-      const Program::DofRange& range = program.frame_dofs[frame];
+  const KinematicModel& model = path.state(slice).model();
+  const auto isKnown = [&](const KinematicModel::DofRange& norm) {
+    for (int frame = objective.frames_known; frame < int(model.frame_dofs.size()); ++frame) {
+      const KinematicModel::DofRange& range = model.frame_dofs[frame];
       if (norm.first >= range.first && norm.first < range.first + range.count) return false;
     }
     return true;
   };
-  std::vector<Program::DofRange> norms;
-  std::ranges::copy_if(program.unit_norms, std::back_inserter(norms), isKnown);
+  std::vector<KinematicModel::DofRange> norms;
+  std::ranges::copy_if(model.unit_norms, std::back_inserter(norms), isKnown);
   return std::make_unique<QuaternionNorms>(std::move(norms));
 }
 
@@ -95,16 +95,16 @@ Made collisionsIn(const Objective& objective, const Path& path, const Ids& ids, 
   const bool is_sum = objective.feature == FeatureSymbol::accumulatedCollisions;
   const double far = farOf(objective);
   if (objective.on_the_way) {
-    const AlongMotion::Form form = is_sum ? AlongMotion::Form::sum : AlongMotion::Form::stacked;
+    const SampledCollisions::Form form = is_sum ? SampledCollisions::Form::sum : SampledCollisions::Form::stacked;
     const auto place = std::size_t(slice - objective.from);
-    const bool has_instants = place < objective.instants.size();
-    return std::make_unique<AlongMotion>(form, is_sum ? objective.margin : far,
-                                         has_instants ? objective.instants[place] : std::vector<PairInstant>(),
+    const bool has_samples = place < objective.samples.size();
+    return std::make_unique<SampledCollisions>(form, is_sum ? objective.margin : far,
+                                         has_samples ? objective.samples[place] : std::vector<CollisionSample>(),
                                          sameDofs(path, slice), path.state(slice - 1));
   }
-  const Program& program = path.state(slice).program();
-  if (is_sum) return std::make_unique<AccumulatedCollisions>(ids, program, PairChoice::motion, objective.margin);
-  return std::make_unique<PairCollisions>(ids, program, PairChoice::motion, far);
+  const KinematicModel& model = path.state(slice).model();
+  if (is_sum) return std::make_unique<AccumulatedCollisions>(ids, model, PairChoice::motion, objective.margin);
+  return std::make_unique<PairCollisions>(ids, model, PairChoice::motion, far);
 }
 
 /// Joints and forces are those of the path, and of collisions only those count that joints part; other features are as
@@ -112,7 +112,7 @@ Made collisionsIn(const Objective& objective, const Path& path, const Ids& ids, 
 Made featureIn(const Objective& objective, const Path& path, const std::vector<ContactForce>& forces, int slice) {
   const State& state = path.state(slice);
   Ids ids;
-  for (const std::string& name : objective.frames) ids.push_back(frameId(state.program(), name, objective.name()));
+  for (const std::string& name : objective.frames) ids.push_back(frameId(state.model(), name, objective.name()));
   using S = FeatureSymbol;
   const FeatureSource& feature = objective.feature;
   if (feature == S::qItself) return jointsIn(objective, path, ids, slice);

@@ -30,7 +30,7 @@ struct Objective {
   int frames_known = -1;         ///< of qQuaternionNorms: only the first so many frames count; -1: all
 
   /// Of those motions, from that to slice `from` on.
-  std::vector<std::vector<PairInstant>> instants{};
+  std::vector<std::vector<CollisionSample>> samples{};
 
   const std::string& name() const { return feature.name(); }
 };

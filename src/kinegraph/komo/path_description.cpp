@@ -11,13 +11,13 @@ namespace kinegraph {
 namespace {
 
 /// What each dof of a program is.
-std::vector<Measure> measuresOfDofs(const Program& program) {
-  std::vector<Measure> measures(program.dofs, Measure::number);
-  for (std::size_t l = 1; l < program.links.size(); ++l) {
-    const Program::Link& link = program.links[l];
+std::vector<Measure> measuresOfDofs(const KinematicModel& model) {
+  std::vector<Measure> measures(model.dofs, Measure::number);
+  for (std::size_t l = 1; l < model.links.size(); ++l) {
+    const KinematicModel::Link& link = model.links[l];
     int dof = link.dof;
     for (int s = link.first_step; s < link.first_step + link.steps; ++s) {
-      const MotionStep& step = program.steps[s];
+      const MotionStep& step = model.steps[s];
       const Measure measure = step.slides() ? Measure::length : step.turns() ? Measure::angle : Measure::number;
       for (int i = 0; i < step.dofs(); ++i) measures[dof++] = measure;
     }
@@ -25,21 +25,21 @@ std::vector<Measure> measuresOfDofs(const Program& program) {
   return measures;
 }
 
-std::string frameOfDof(const Program& program, int dof) {
-  for (std::size_t frame = 0; frame < program.frame_dofs.size(); ++frame) {
-    const auto [first, count] = program.frame_dofs[frame];
-    if (dof >= first && dof < first + count) return program.frame_name[frame];
+std::string frameOfDof(const KinematicModel& model, int dof) {
+  for (std::size_t frame = 0; frame < model.frame_dofs.size(); ++frame) {
+    const auto [first, count] = model.frame_dofs[frame];
+    if (dof >= first && dof < first + count) return model.frame_name[frame];
   }
   return {};
 }
 
 /// The unit that all rows of an objective about joints have; number if they differ.
 Measure measureOfJoints(const Path& path, const Objective& objective, int slice) {
-  const Program& program = path.state(slice).program();
-  const std::vector<Measure> all = measuresOfDofs(program);
+  const KinematicModel& model = path.state(slice).model();
+  const std::vector<Measure> all = measuresOfDofs(model);
   std::vector<Measure> used;
   for (const std::string& name : objective.frames) {
-    const auto [first, count] = program.frame_dofs[frameId(program, name, objective.name())];
+    const auto [first, count] = model.frame_dofs[frameId(model, name, objective.name())];
     used.insert(used.end(), all.begin() + first, all.begin() + first + count);
   }
   if (used.empty()) used = all;
@@ -117,7 +117,7 @@ RowDescription describePathRow(const Path& path, const PathProblem& problem, int
 VariableDescription describePathVariable(const Path& path, int variable) {
   VariableDescription out;
   const PathLayout& layout = path.layout();
-  const Program* program = path.given().program.get();
+  const KinematicModel* model = path.given().model.get();
   int dof = -1;
   if (layout.plain) {
     out.slice = variable / path.dofs();
@@ -128,13 +128,13 @@ VariableDescription describePathVariable(const Path& path, int variable) {
       if (place == layout.column[i].end()) continue;
       dof = int(place - layout.column[i].begin());
       out.slice = int(i) - path.grid().order();
-      program = &path.state(out.slice).program();
+      model = &path.state(out.slice).model();
     }
   }
   if (dof < 0) return out;
-  out.frame = frameOfDof(*program, dof);
+  out.frame = frameOfDof(*model, dof);
   out.name = cat("joint of ", out.frame);
-  out.measure = measuresOfDofs(*program)[dof];
+  out.measure = measuresOfDofs(*model)[dof];
   return out;
 }
 
@@ -153,7 +153,7 @@ std::vector<std::string> pathRowDetails(const Path& path, const PathProblem& pro
   std::stable_sort(near.begin(), near.end(), [](const auto& a, const auto& b) { return a.distance < b.distance; });
   std::vector<std::string> pairs;
   for (const Config::NearPair& pair : near) {
-    if (!config.program()->movesApart(pair.a, pair.b)) continue;  // no joint is asked to part them
+    if (!config.model()->movesApart(pair.a, pair.b)) continue;  // no joint is asked to part them
     const std::string a = config.getFrame(pair.a).getName(), b = config.getFrame(pair.b).getName();
     const auto named = [&](const std::string& name) {
       return std::find(objective.frames.begin(), objective.frames.end(), name) != objective.frames.end();

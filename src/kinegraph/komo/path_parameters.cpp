@@ -124,7 +124,7 @@ class FramePlace final : public MovedParameter {
   FramePlace(const Nlp& nlp, const std::string& name, bool turns)
       : MovedParameter(cat(turns ? "pose of " : "position of ", name), namesOf(name, turns)) {
     const Path& path = requireKomo(nlp)->path();
-    frame_ = frameId(path.state(0).program(), name, "sensitivity");
+    frame_ = frameId(path.state(0).model(), name, "sensitivity");
     std::string joint_of;
     const auto add = [&](const SceneTree& scene) {
       const auto copy = std::make_shared<SceneTree>();
@@ -229,12 +229,12 @@ class FramePlace final : public MovedParameter {
       const auto place = std::size_t(t + path.grid().order());
       const std::size_t mode = path.modes().empty() ? 0 : std::size_t(path.modes().ofSlices()[place]);
       if (!rests_[mode]) continue;
-      if (!moved[mode]) moved[mode] = movedIn(mode, path.state(t).program(), *given_[i], number, by);
+      if (!moved[mode]) moved[mode] = movedIn(mode, path.state(t).model(), *given_[i], number, by);
       path.setParameters(t, moved[mode]);
     }
   }
 
-  std::shared_ptr<const Parameters> movedIn(std::size_t mode, const Program& program, const Parameters& given,
+  std::shared_ptr<const Parameters> movedIn(std::size_t mode, const KinematicModel& model, const Parameters& given,
                                             int number, double by) const {
     FrameData& frame = *scenes_[mode]->frames()[std::size_t(frame_)];
     frame.pose = poses_[mode];
@@ -244,7 +244,7 @@ class FramePlace final : public MovedParameter {
     else
       frame.pose.q = Quaterniond(Eigen::AngleAxisd(by, axis)) * frame.pose.q;
     const auto moved = std::make_shared<Parameters>(given);
-    updateParameters(frame, program, *moved);
+    updateParameters(frame, model, *moved);
     return moved;
   }
 
@@ -267,12 +267,12 @@ class MotionStart final : public MovedParameter {
 
  private:
   static std::vector<std::string> namesOf(const Komo& komo) {
-    const Program& program = *komo.path().given().program;
+    const KinematicModel& model = *komo.path().given().model;
     std::vector<std::string> names;
     for (const int frame : komo.path().given().joint_frames) {
-      const int count = program.frame_dofs[std::size_t(frame)].count;
+      const int count = model.frame_dofs[std::size_t(frame)].count;
       for (int i = 0; i < count; ++i)
-        names.push_back(cat("start of ", program.frame_name[std::size_t(frame)], count > 1 ? cat(", dof ", i) : ""));
+        names.push_back(cat("start of ", model.frame_name[std::size_t(frame)], count > 1 ? cat(", dof ", i) : ""));
     }
     return names;
   }

@@ -40,10 +40,10 @@ PathProblem::PathProblem(const Path& path, const Contacts& contacts, std::vector
   for (std::size_t o = 0; o < objectives_.size(); ++o) {
     const Objective& objective = objectives_[o];
     const bool varies = !layout.plain && dependsOnDofs(objective.feature);
-    std::map<const Program*, int> by_program;  // where nothing but the program matters
+    std::map<const KinematicModel*, int> by_program;  // where nothing but the program matters
     for (int t = objective.from; t <= objective.to; ++t) {
       const bool owns = objective.on_the_way || (varies && objective.feature == FeatureSymbol::jointLimits);
-      const Program* key = varies ? &path.state(t).program() : nullptr;
+      const KinematicModel* key = varies ? &path.state(t).model() : nullptr;
       auto place = by_program.find(key);
       if (place == by_program.end() || owns) {
         residuals_.push_back(residualIn(objective, path, contacts.forces(), t));
@@ -287,10 +287,10 @@ void PathProblem::evaluateTerms(const Path& path, std::span<const int> terms, Ve
   for (const int term : terms) evaluate(path, std::size_t(term), phi, J);
 }
 
-void PathProblem::setInstants(const Path& path, const Contacts& contacts, const Term& term,
-                              std::vector<PairInstant> instants) {
+void PathProblem::setSamples(const Path& path, const Contacts& contacts, const Term& term,
+                              std::vector<CollisionSample> samples) {
   Objective& objective = objectives_[std::size_t(term.objective)];
-  objective.instants[std::size_t(term.slice - objective.from)] = std::move(instants);
+  objective.samples[std::size_t(term.slice - objective.from)] = std::move(samples);
   residuals_[std::size_t(term.residual)] = residualIn(objective, path, contacts.forces(), term.slice);
 }
 

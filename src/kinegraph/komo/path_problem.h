@@ -48,7 +48,7 @@ class PathProblem {
   void evaluateTerms(const Path& path, std::span<const int> terms, VectorXd& phi, Jacobian* J);
 
   /// Of an objective on the way to a slice: other instants, as many as before.
-  void setInstants(const Path& path, const Contacts& contacts, const Term& term, std::vector<PairInstant> instants);
+  void setSamples(const Path& path, const Contacts& contacts, const Term& term, std::vector<CollisionSample> samples);
 
   /// One of the terms, by its place, after evaluating others at the same path.
   void evaluateTerm(const Path& path, std::size_t index, VectorXd& phi, Jacobian& J) { evaluate(path, index, phi, &J); }

@@ -46,7 +46,7 @@ void requireSlice(const Komo& komo, int slice) {
 }  // namespace
 
 PathErrors measurePath(const Komo& komo) {
-  PathProblem problem(komo.path(), komo.contacts(), withInstants(komo.objectives().all(), komo.path()));
+  PathProblem problem(komo.path(), komo.contacts(), withSamples(komo.objectives().all(), komo.path()));
   VectorXd phi(problem.rows());
   problem.evaluate(komo.path(), phi, nullptr);
   PathErrors errors;

@@ -400,7 +400,7 @@ std::vector<Literal> GroundProblem::literals(const FactSet& state) const {
 
 GroundProblem ground(LogicProblem problem, std::size_t most) { return Grounder(std::move(problem), most).run(); }
 
-std::vector<std::string> oddities(const GroundProblem& ground) {
+std::vector<std::string> diagnostics(const GroundProblem& ground) {
   std::set<std::string> true_somewhere;
   for (const Literal& fact : ground.facts) true_somewhere.insert(fact.predicate);
   for (const Literal& fact : ground.problem.start) true_somewhere.insert(fact.predicate);

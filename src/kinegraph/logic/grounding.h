@@ -66,6 +66,6 @@ GroundProblem ground(LogicProblem problem, std::size_t most = 2000000);
 
 /// What is odd about a problem before it is searched, each in a line with its place: predicates in preconditions that
 /// nothing can make true, rules that can never fire.
-std::vector<std::string> oddities(const GroundProblem& ground);
+std::vector<std::string> diagnostics(const GroundProblem& ground);
 
 }  // namespace kinegraph

@@ -12,7 +12,7 @@ namespace {
 
 /// Exchanges, in each pair of packs `Half` apart, the blocks off the diagonal.
 template <int Half, class S, int... Lane>
-[[gnu::always_inline]] inline void exchangeBlocks(S* packs, std::integer_sequence<int, Lane...>) {
+[[gnu::always_inline]] inline void forceExchangeBlocks(S* packs, std::integer_sequence<int, Lane...>) {
   constexpr int kCount = sizeof...(Lane);
   for (int i = 0; i < kCount; ++i) {
     if (i & Half) continue;
@@ -26,9 +26,9 @@ template <int Half, class S, int... Lane>
 template <class S>
 [[gnu::always_inline]] inline void transpose(S* packs) {
   constexpr std::make_integer_sequence<int, kWidth<S>> lanes;
-  exchangeBlocks<1>(packs, lanes);
-  if constexpr (kWidth < S >> 2) exchangeBlocks<2>(packs, lanes);
-  if constexpr (kWidth < S >> 4) exchangeBlocks<4>(packs, lanes);
+  forceExchangeBlocks<1>(packs, lanes);
+  if constexpr (kWidth < S >> 2) forceExchangeBlocks<2>(packs, lanes);
+  if constexpr (kWidth < S >> 4) forceExchangeBlocks<4>(packs, lanes);
 }
 
 template <class S>

@@ -8,9 +8,9 @@ namespace kinegraph {
 
 /// A problem that a solver works at, with empty rows: constraints that are to hold at all times of a motion and are not
 /// known yet have room there.
-class RoomForConstraints {
+class LazyConstraints {
  public:
-  virtual ~RoomForConstraints() = default;
+  virtual ~LazyConstraints() = default;
 
   virtual bool hasRoom() const = 0;
 

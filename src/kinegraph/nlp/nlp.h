@@ -113,7 +113,7 @@ class Nlp {
   virtual Separation separation() { return {}; }
 
   /// For a motion that is to be free of collisions: is it so at all times, at this x? Null for other problems.
-  virtual std::shared_ptr<const LazyVerdict> motionVerdict(const VectorXd&) { return nullptr; }
+  virtual std::shared_ptr<const LazyValidity> motionValidity(const VectorXd&) { return nullptr; }
 
   /// For constraints that are to hold at all times of a motion, of which the separate form has some: looks for others
   /// that x violates, and takes them up. `separation()` is then a new one, and `dual`, if it has the multipliers of the

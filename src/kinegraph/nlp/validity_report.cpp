@@ -2,7 +2,7 @@
 
 namespace kinegraph {
 
-const MotionVerdict& LazyVerdict::get(const std::function<void()>& between) const {
+const ValidityReport& LazyValidity::get(const std::function<void()>& between) const {
   const std::lock_guard lock(mutex_);
   if (!known_) {
     known_ = judge_(between ? between : [] {});

@@ -21,7 +21,7 @@ double shareOf(double velocity, double acceleration, double most_velocity, doubl
 
 }  // namespace
 
-EasedStart easeOff(const VectorXd& q, const VectorXd& velocity, const VectorXd& acceleration,
+AccelerationRamp rampDown(const VectorXd& q, const VectorXd& velocity, const VectorXd& acceleration,
                    const MotionLimits& limits) {
   const Eigen::Index n = q.size();
   VectorXd jerk = VectorXd::Zero(n), until = VectorXd::Zero(n);
@@ -31,8 +31,8 @@ EasedStart easeOff(const VectorXd& q, const VectorXd& velocity, const VectorXd& 
     jerk[j] = -std::copysign(shareOf(velocity[j], acceleration[j], limits.velocity[j], most) * most, acceleration[j]);
     until[j] = acceleration[j] / -jerk[j];
   }
-  EasedStart eased{{}, q, velocity + .5 * acceleration.cwiseProduct(until)};
-  const double speed = eased.velocity.norm();
+  AccelerationRamp ramp{{}, q, velocity + .5 * acceleration.cwiseProduct(until)};
+  const double speed = ramp.velocity.norm();
   std::vector<double> knots(until.begin(), until.end());
   std::sort(knots.begin(), knots.end());
   PathCurve::Parts parts{int(n), 3, speed * knots.back(), {}, {0., speed * knots.back()}, {}, {}, {}};
@@ -48,16 +48,16 @@ EasedStart easeOff(const VectorXd& q, const VectorXd& velocity, const VectorXd& 
     parts.is_line.push_back(false);
     parts.stops.push_back(false);
     for (const VectorXd& c :
-         {eased.q, VectorXd(v / speed), VectorXd(a / (2. * speed * speed)), VectorXd(j / (6. * speed * speed * speed))})
+         {ramp.q, VectorXd(v / speed), VectorXd(a / (2. * speed * speed)), VectorXd(j / (6. * speed * speed * speed))})
       parts.coefficients.insert(parts.coefficients.end(), c.begin(), c.end());
-    eased.q += step * (v + step * (.5 * a + step / 6. * j));
+    ramp.q += step * (v + step * (.5 * a + step / 6. * j));
     v += step * (a + .5 * step * j);
     a += step * j;
     time = knot;
   }
-  eased.velocity = v;
-  if (speed > kHardly * velocity.norm()) eased.curve = PathCurve::fromParts(parts);
-  return eased;
+  ramp.velocity = v;
+  if (speed > kHardly * velocity.norm()) ramp.curve = PathCurve::fromParts(parts);
+  return ramp;
 }
 
 std::vector<VectorXd> bernsteinOf(const PathCurve& curve, int piece) {

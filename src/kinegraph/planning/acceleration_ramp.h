@@ -6,7 +6,7 @@
 namespace kinegraph {
 
 /// Where a robot goes whose accelerations go to zero, each dof's at a constant jerk of its own.
-struct EasedStart {
+struct AccelerationRamp {
   PathCurve curve;  ///< its direction and its bend begin as the velocity and the acceleration say; no pieces: see below
   VectorXd q, velocity;  ///< at its end, where nothing accelerates
 };
@@ -14,7 +14,7 @@ struct EasedStart {
 /// From a posture with a velocity and an acceleration, within limits of velocity and jerk as far as they can be kept. Going
 /// along the curve at a constant ds/dt, which is |velocity| at its end, has the accelerations of the start at first. Where
 /// it would hardly move at the end, there is no curve.
-EasedStart easeOff(const VectorXd& q, const VectorXd& velocity, const VectorXd& acceleration,
+AccelerationRamp rampDown(const VectorXd& q, const VectorXd& velocity, const VectorXd& acceleration,
                    const MotionLimits& limits);
 
 /// The Bernstein coefficients of a piece of a curve.

@@ -22,7 +22,7 @@ void requireState(const VectorXd& q, int dofs, const std::string& what, const ch
 
 }  // namespace
 
-std::string lengthInWords(double length) {
+std::string formatLength(double length) {
   const double size = std::abs(length);
   char text[32];
   if (size < 1e-3) {
@@ -35,25 +35,25 @@ std::string lengthInWords(double length) {
   return text;
 }
 
-std::string pairsInWords(const Program& program, const std::vector<ClearanceCheck::Nearest>& pairs) {
+std::string describePairs(const KinematicModel& model, const std::vector<ClearanceCheck::Nearest>& pairs) {
   std::vector<std::string> words;
   for (std::size_t i = 0; i < std::min(pairs.size(), kNamed); ++i) {
     const ClearanceCheck::Nearest& pair = pairs[i];
-    words.push_back(cat("'", program.frame_name[std::size_t(pair.a)], "' and '",
-                        program.frame_name[std::size_t(pair.b)], "' ",
-                        pair.distance < 0. ? cat("overlap by ", lengthInWords(-pair.distance))
-                                           : cat("are ", lengthInWords(pair.distance), " apart")));
+    words.push_back(cat("'", model.frame_name[std::size_t(pair.a)], "' and '",
+                        model.frame_name[std::size_t(pair.b)], "' ",
+                        pair.distance < 0. ? cat("overlap by ", formatLength(-pair.distance))
+                                           : cat("are ", formatLength(pair.distance), " apart")));
   }
   if (pairs.size() > kNamed) words.push_back(cat("and ", pairs.size() - kNamed, " more pairs"));
   return join(words);
 }
 
-MotionEnd checkEnd(Steering& steering, const Program& program, const VectorXd& q, double margin,
+Endpoint checkEndpoint(Steering& steering, const KinematicModel& model, const VectorXd& q, double margin,
                    const std::string& what, const char* who) {
-  requireState(q, program.dofs, what, who);
-  MotionEnd end;
+  requireState(q, model.dofs, what, who);
+  Endpoint end;
   end.q = q;
-  end.kept = margin;
+  end.verified_margin = margin;
   const std::string beyond = steering.space().beyondLimits(q, kBeyondLimit);
   if (!beyond.empty()) {
     end.problem = cat("the ", what, " is out of limits: ", beyond);
@@ -61,9 +61,9 @@ MotionEnd checkEnd(Steering& steering, const Program& program, const VectorXd& q
   }
   steering.space().clamp(end.q);
   end.near = steering.check().nearerThan(end.q, margin + kRoom);
-  if (!end.near.empty()) end.kept = std::min(margin, end.near.front().distance);
+  if (!end.near.empty()) end.verified_margin = std::min(margin, end.near.front().distance);
   if (!end.near.empty() && end.near.front().distance < std::min(margin, 0.) + kRoom) {
-    end.problem = cat("the ", what, " collides: ", pairsInWords(program, end.near));
+    end.problem = cat("the ", what, " collides: ", describePairs(model, end.near));
   } else if (steering.isConstrained()) {
     const double violation = steering.manifold().violation(end.q);
     if (violation > steering.manifold().tolerance())
@@ -72,10 +72,10 @@ MotionEnd checkEnd(Steering& steering, const Program& program, const VectorXd& q
   return end;
 }
 
-Clearance clearanceAround(double margin, const std::vector<const MotionEnd*>& ends) {
+Clearance clearanceAround(double margin, const std::vector<const Endpoint*>& ends) {
   Clearance clearance;
   clearance.margin = margin;
-  for (const MotionEnd* end : ends) {
+  for (const Endpoint* end : ends) {
     if (end->near.empty()) continue;
     const double around = std::max(std::min(margin, end->near.front().distance - kRoom), std::min(margin, 0.));
     if (around < margin) clearance.tight.push_back({end->q, around});
@@ -83,29 +83,29 @@ Clearance clearanceAround(double margin, const std::vector<const MotionEnd*>& en
   return clearance;
 }
 
-std::vector<MetObstacle> obstaclesMet(const Program& program, const PairCounts& hits) {
+std::vector<MetObstacle> obstaclesMet(const KinematicModel& model, const PairCounts& hits) {
   std::map<int, std::pair<long, MetObstacle>> obstacles;  // by frame
   long all = 0;
   for (const auto& [pair, times] : hits) {
     // The one that moves less is the obstacle: links are numbered from the world on.
     const auto [a, b] = pair;
-    const bool a_moves_less = program.frame_link[std::size_t(a)] <= program.frame_link[std::size_t(b)];
+    const bool a_moves_less = model.frame_link[std::size_t(a)] <= model.frame_link[std::size_t(b)];
     auto& [count, met] = obstacles[a_moves_less ? a : b];
     count += times;
     all += times;
-    met.by.push_back(program.frame_name[std::size_t(a_moves_less ? b : a)]);
+    met.by.push_back(model.frame_name[std::size_t(a_moves_less ? b : a)]);
   }
   std::vector<MetObstacle> list;
   for (auto& [frame, entry] : obstacles) {
     auto& [count, met] = entry;
-    list.push_back({frame, program.frame_name[std::size_t(frame)], double(count) / double(all), std::move(met.by)});
+    list.push_back({frame, model.frame_name[std::size_t(frame)], double(count) / double(all), std::move(met.by)});
   }
   std::stable_sort(list.begin(), list.end(),
                    [](const MetObstacle& x, const MetObstacle& y) { return x.share > y.share; });
   return list;
 }
 
-std::string obstaclesInWords(const std::vector<MetObstacle>& obstacles) {
+std::string describeObstacles(const std::vector<MetObstacle>& obstacles) {
   std::vector<std::string> words;
   for (std::size_t i = 0; i < std::min(obstacles.size(), kNamed); ++i) {
     const MetObstacle& met = obstacles[i];

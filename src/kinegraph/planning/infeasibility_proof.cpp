@@ -31,9 +31,9 @@ double farthest(const Extent& box, int i, int j) {
 }
 
 /// Where a step of a joint can bring what is in a box.
-void moveExtent(Extent& box, const LaneModel::Step& step, const MotionStep& kind, int dof, const Program& program) {
+void moveExtent(Extent& box, const LaneModel::Step& step, const MotionStep& kind, int dof, const KinematicModel& model) {
   if (kind.slides()) {
-    const double a = step.factor * program.lower[dof], b = step.factor * program.upper[dof];
+    const double a = step.factor * model.lower[dof], b = step.factor * model.upper[dof];
     box.low[step.axis] += std::min(a, b);
     box.high[step.axis] += std::max(a, b);
   } else if (kind.moves()) {
@@ -51,16 +51,16 @@ void moveExtent(Extent& box, const LaneModel::Step& step, const MotionStep& kind
 
 /// All places of a point of a link, in the world.
 Extent reachOf(const State& scene, int link, const Vector3d& point) {
-  const Program& program = scene.program();
+  const KinematicModel& model = scene.model();
   Extent box{point, point};
-  for (; link != 0; link = program.links[std::size_t(link)].parent) {
-    const Program::Link& at = program.links[std::size_t(link)];
+  for (; link != 0; link = model.links[std::size_t(link)].parent) {
+    const KinematicModel::Link& at = model.links[std::size_t(link)];
     int dof = at.dof;
-    for (int s = 0; s < at.steps; ++s) dof += program.steps[std::size_t(at.first_step + s)].dofs();
+    for (int s = 0; s < at.steps; ++s) dof += model.steps[std::size_t(at.first_step + s)].dofs();
     for (int s = at.first_step + at.steps - 1; s >= at.first_step; --s) {
-      const MotionStep& kind = program.steps[std::size_t(s)];
+      const MotionStep& kind = model.steps[std::size_t(s)];
       dof -= kind.dofs();
-      moveExtent(box, scene.parameters().step[std::size_t(s)], kind, dof, program);
+      moveExtent(box, scene.parameters().step[std::size_t(s)], kind, dof, model);
     }
     const LaneModel::Link& base = scene.parameters().link[std::size_t(link)];
     const Matrix3d R = Eigen::Map<const Matrix3d>(base.R);
@@ -84,16 +84,16 @@ struct Core {
 };
 
 std::vector<Core> thickestBodies(const State& scene) {
-  const Program& program = scene.program();
+  const KinematicModel& model = scene.model();
   const auto point = pointBody();
   std::vector<Core> balls;
-  for (std::size_t frame = 0; frame < program.body.size(); ++frame) {
-    const auto& body = program.body[frame];
-    if (!body || program.frame_link[frame] == 0) continue;
+  for (std::size_t frame = 0; frame < model.body.size(); ++frame) {
+    const auto& body = model.body[frame];
+    if (!body || model.frame_link[frame] == 0) continue;
     Core ball{int(frame), body->boundCenter(), 0., {}};
-    for (const auto& [a, b] : program.movingPairs()) {
-      if (a == int(frame) && program.frame_link[std::size_t(b)] == 0) ball.obstacles.push_back(b);
-      if (b == int(frame) && program.frame_link[std::size_t(a)] == 0) ball.obstacles.push_back(a);
+    for (const auto& [a, b] : model.movingPairs()) {
+      if (a == int(frame) && model.frame_link[std::size_t(b)] == 0) ball.obstacles.push_back(b);
+      if (b == int(frame) && model.frame_link[std::size_t(a)] == 0) ball.obstacles.push_back(a);
     }
     ball.radius = -proximity(*point, {Matrix3d::Identity(), ball.center}, *body, {}).distance - kRounding;
     if (!ball.obstacles.empty() && ball.radius > 0.) balls.push_back(std::move(ball));
@@ -104,7 +104,7 @@ std::vector<Core> thickestBodies(const State& scene) {
 }
 
 Core ballOf(Core core, const std::string& name) {
-  core.words = cat("a ball of ", lengthInWords(core.radius), " inside of '", name, "'");
+  core.words = cat("a ball of ", formatLength(core.radius), " inside of '", name, "'");
   core.thicker = core.radius;
   return core;
 }
@@ -112,7 +112,7 @@ Core ballOf(Core core, const std::string& name) {
 /// More than a ball where joints turn the body about one direction of the world alone, or not at all: the body, if it looks
 /// the same then, or the upright cylinder in a box.
 std::optional<Core> uprightOf(Core core, const State& scene, const std::string& name) {
-  const std::shared_ptr<const CollisionBody>& body = scene.program().body[std::size_t(core.frame)];
+  const std::shared_ptr<const CollisionBody>& body = scene.model().body[std::size_t(core.frame)];
   if (!body->convex()) return std::nullopt;
   Vector3d axis = Vector3d::Zero();
   bool is_one = true;
@@ -137,7 +137,7 @@ std::optional<Core> uprightOf(Core core, const State& scene, const std::string& 
   const double radius = std::min(half[(along + 1) % 3], half[(along + 2) % 3]) + body->radius();
   core.body = makeCollisionBody({ShapeType::cylinder, {2. * half[along], radius}, nullptr});
   core.R = Eigen::Quaterniond::FromTwoVectors(Vector3d::UnitZ(), axis).toRotationMatrix();
-  core.words = cat("an upright cylinder of radius ", lengthInWords(radius), " inside of '", name, "'");
+  core.words = cat("an upright cylinder of radius ", formatLength(radius), " inside of '", name, "'");
   return core;
 }
 
@@ -164,7 +164,7 @@ class PlaceGrid {
   }
 
   /// Is there no path of open cells from the start's cell to one of the goals'? Notes obstacles that close cells.
-  bool separates(const VectorXd& start, const std::vector<VectorXd>& goals, const MotionWatch& watch) {
+  bool separates(const VectorXd& start, const std::vector<VectorXd>& goals, const CancellationToken& watch) {
     if (!is_possible_) return false;
     std::set<std::size_t> wanted;
     for (const VectorXd& goal : goals) wanted.insert(cellOf(goal));
@@ -227,10 +227,10 @@ class PlaceGrid {
     const double size = core_.body->boundRadius();
     const double near = core_.thicker + margin_ - .5 * edge_.norm() - kRounding - kDepth * size;
     if (near + size <= 0.) return false;
-    const Program& program = scene_.program();
+    const KinematicModel& model = scene_.model();
     const RigidTransform X_WC{core_.R, center - core_.R * core_.body->boundCenter()};
     for (const int frame : core_.obstacles) {
-      const CollisionBody& body = *program.body[std::size_t(frame)];
+      const CollisionBody& body = *model.body[std::size_t(frame)];
       const RigidTransform X = scene_.pose(frame);
       if (!mayBeWithin(body, X, center, near + size)) continue;
       if (proximity(*core_.body, X_WC, body, X).distance >= near) continue;
@@ -253,12 +253,12 @@ class PlaceGrid {
 
 }  // namespace
 
-std::string proveNoWay(const State& scene, const VectorXd& start, const std::vector<VectorXd>& goals, double margin,
-                       const MotionWatch& watch) {
-  const Program& program = scene.program();
+std::string proveInfeasible(const State& scene, const VectorXd& start, const std::vector<VectorXd>& goals, double margin,
+                       const CancellationToken& watch) {
+  const KinematicModel& model = scene.model();
   std::vector<Core> cores;
   for (const Core& body : thickestBodies(scene)) {
-    const std::string& name = program.frame_name[std::size_t(body.frame)];
+    const std::string& name = model.frame_name[std::size_t(body.frame)];
     cores.push_back(ballOf(body, name));
     if (std::optional<Core> upright = uprightOf(body, scene, name)) cores.push_back(std::move(*upright));
   }
@@ -268,10 +268,10 @@ std::string proveNoWay(const State& scene, const VectorXd& start, const std::vec
     if (!grid.separates(start, goals, watch)) continue;
     std::vector<std::string> names;
     for (const int frame : grid.closers()) {
-      if (names.size() < 4) names.push_back(cat("'", program.frame_name[std::size_t(frame)], "'"));
+      if (names.size() < 4) names.push_back(cat("'", model.frame_name[std::size_t(frame)], "'"));
     }
     return cat("there is no way: ", core.words, " does not get past ", join(names),
-               margin > 0. ? cat(" with a margin of ", lengthInWords(margin)) : "");
+               margin > 0. ? cat(" with a margin of ", formatLength(margin)) : "");
   }
   return "";
 }

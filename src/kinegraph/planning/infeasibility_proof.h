@@ -17,7 +17,7 @@ namespace kinegraph {
 /// arithmetic). A cell is closed if the ball, or what else is there, comes nearer than the margin to one obstacle that never
 /// moves wherever in the cell its center is. Where no path of open cells, corners included, joins the places, there is no way.
 /// The watch may end it.
-std::string proveNoWay(const State& scene, const VectorXd& start, const std::vector<VectorXd>& goals, double margin,
-                       const MotionWatch& watch = {});
+std::string proveInfeasible(const State& scene, const VectorXd& start, const std::vector<VectorXd>& goals, double margin,
+                       const CancellationToken& watch = {});
 
 }  // namespace kinegraph

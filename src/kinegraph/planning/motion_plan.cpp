@@ -11,20 +11,20 @@ std::string planStatusName(PlanStatus status) {
   switch (status) {
     case PlanStatus::solved:
       return "solved";
-    case PlanStatus::start_blocked:
-      return "start_blocked";
-    case PlanStatus::goal_blocked:
-      return "goal_blocked";
+    case PlanStatus::invalid_start:
+      return "invalid_start";
+    case PlanStatus::invalid_goal:
+      return "invalid_goal";
     case PlanStatus::unreached:
       return "unreached";
     case PlanStatus::impossible:
       return "impossible";
-    case PlanStatus::no_way:
-      return "no_way";
-    case PlanStatus::no_timing:
-      return "no_timing";
-    case PlanStatus::out_of_time:
-      return "out_of_time";
+    case PlanStatus::no_path_found:
+      return "no_path_found";
+    case PlanStatus::no_timing_found:
+      return "no_timing_found";
+    case PlanStatus::timeout:
+      return "timeout";
     case PlanStatus::cancelled:
       return "cancelled";
   }
@@ -37,15 +37,15 @@ MotionState MotionPlan::at(double t) const {
   return timed.at(t);
 }
 
-std::vector<VectorXd> MotionPlan::movingAt(double t) const {
+std::vector<VectorXd> MotionPlan::obstaclesAt(double t) const {
   std::vector<VectorXd> values;
-  for (std::size_t i = 0; moving && i < moving->obstacles().size(); ++i) values.push_back(moving->valuesAt(int(i), t));
+  for (std::size_t i = 0; dynamic_scene && i < dynamic_scene->obstacles().size(); ++i) values.push_back(dynamic_scene->valuesAt(int(i), t));
   return values;
 }
 
 PlanOptions MotionPlan::optionsAt(double t) const {
   PlanOptions later = options;
-  for (MovingObstacle& obstacle : later.moving) obstacle.times.array() -= t;
+  for (ObstacleTrajectory& obstacle : later.obstacle_trajectories) obstacle.times.array() -= t;
   return later;
 }
 
@@ -57,7 +57,7 @@ double MotionPlan::clearance(double most) const {
     const VectorXd from = path.row(std::max<Eigen::Index>(k - 1, 0)).transpose(), to = path.row(k).transpose();
     least = checker.clearance(from.data(), to.data(), least);
   }
-  return std::max(least, std::min(kept, most));
+  return std::max(least, std::min(verified_margin, most));
 }
 
 std::string MotionPlan::str() const {
@@ -67,17 +67,17 @@ std::string MotionPlan::str() const {
 
 std::string MotionPlan::explain() const {
   std::string text = str();
-  for (const std::string& note : notes) text += cat("\n  ", note);
+  for (const std::string& note : warnings) text += cat("\n  ", note);
   for (const PlanStage& stage : stages) {
     text += cat("\n  ", stage.name, ": ", 1e3 * stage.seconds, " ms, ", stage.evaluations, " evaluations",
                 stage.note.empty() ? "" : cat("; ", stage.note));
   }
   for (std::size_t i = 0; i < attempts.size(); ++i) {
-    const AttemptReport& attempt = attempts[i];
-    text += cat("\n  attempt ", i + 1, ": ", attempt.draws, " postures drawn, trees of ", attempt.start_nodes,
+    const SearchReport& attempt = attempts[i];
+    text += cat("\n  attempt ", i + 1, ": ", attempt.samples, " postures drawn, trees of ", attempt.start_nodes,
                 " (start) and ", attempt.goal_nodes, " (goals) postures");
   }
-  if (feasible()) text += cat("\n  clearance: ", clearance() < .1 ? lengthInWords(clearance()) : "100 mm or more");
+  if (feasible()) text += cat("\n  clearance: ", clearance() < .1 ? formatLength(clearance()) : "100 mm or more");
   return text;
 }
 

@@ -76,7 +76,7 @@ PathFinder& PathFinder::setExplicitCollisionPairs(std::vector<std::pair<std::str
   return *this;
 }
 
-SolverResult PathFinder::solve(std::uint64_t seed, const MotionWatch& watch) {
+SolverResult PathFinder::solve(std::uint64_t seed, const CancellationToken& watch) {
   if (!config_) throw ValueError("PathFinder: there is no scene; call setProblem before solve");
   if (start_.size() == 0) throw ValueError("PathFinder: there are no start and goal; call setStartGoal before solve");
   const double began = processorTime();
@@ -94,38 +94,38 @@ SolverResult PathFinder::solve(std::uint64_t seed, const MotionWatch& watch) {
 }
 
 /// No rows if there is no path; the result then says why.
-MatrixXd PathFinder::search(const State& scene, std::uint64_t seed, const MotionWatch& watch, SolverResult& result) {
-  const JointSpace space(scene.program());
+MatrixXd PathFinder::search(const State& scene, std::uint64_t seed, const CancellationToken& watch, SolverResult& result) {
+  const JointSpace space(scene.model());
   space.requireRanges(kPathFinder);
   const double margin = -options_.collisionTolerance;
-  WayRequest request{.demands = {&scene, &space, {.margin = margin}}, .starts = {}, .goals = {}};
-  Steering steering(request.demands);
+  PathQuery request{.constraints = {&scene, &space, {.margin = margin}}, .starts = {}, .goals = {}};
+  Steering steering(request.constraints);
   result.status = SolverStatus::infeasible;
-  std::vector<MotionEnd> ends;
+  std::vector<Endpoint> ends;
   for (const auto& [q, what] : {std::pair(&start_, "start"), std::pair(&goal_, "goal")}) {
-    ends.push_back(checkEnd(steering, scene.program(), *q, margin, what, kPathFinder));
+    ends.push_back(checkEndpoint(steering, scene.model(), *q, margin, what, kPathFinder));
     if (ends.back().isFree()) continue;
     result.message = ends.back().problem;
     return {};
   }
-  request.demands.clearance = clearanceAround(margin, {&ends[0], &ends[1]});
-  request.demands.clearance.guard = Clearance::kGuard;
+  request.constraints.clearance = clearanceAround(margin, {&ends[0], &ends[1]});
+  request.constraints.clearance.guard = Clearance::kGuard;
   request.starts = {ends[0].q};
   request.goals = {ends[1].q};
   request.seed = seed;
-  request.effort = kEffortPerIteration * options_.maxIters;
+  request.evaluations = kEffortPerIteration * options_.maxIters;
   request.watch = watch;
-  const Way way = searchWay(request);
-  for (const AttemptReport& attempt : way.attempts) result.evals += int(attempt.draws);
+  const Way way = searchPath(request);
+  for (const SearchReport& attempt : way.attempts) result.evals += int(attempt.samples);
   result.totalEvals = result.evals;
   if (way.points.empty()) {
     result.status = way.was_stopped ? SolverStatus::cancelled : SolverStatus::limit;
-    const std::string met = obstaclesInWords(obstaclesMet(scene.program(), way.hits));
+    const std::string met = describeObstacles(obstaclesMet(scene.model(), way.hits));
     result.message = cat(way.was_stopped ? "stopped" : "no path found", " after ", result.evals, " draws",
                          met.empty() ? "" : cat("; most motions ended at ", met));
     return {};
   }
-  Steering shortening(request.demands);
+  Steering shortening(request.constraints);
   const std::vector<VectorXd> points = shorten(shortening, way.points, {.seed = seed, .watch = watch});
   result.message = cat(way.is_line ? "the straight motion is free" : "found by trees");
   return resampleBySteps(space, space.unroll(points), options_.stepsize);

@@ -27,16 +27,16 @@ std::vector<double> spreadTimes(double end) {
   return times;
 }
 
-class PlanAmongMoving {
+class PlanAmongObstacles {
  public:
-  PlanAmongMoving(const Config& config, const MotionGoal& goal, const PlanOptions& options, const VectorXd& start,
-                  const MotionWatch& watch, const KnownCurves& known)
+  PlanAmongObstacles(const Config& config, const MotionGoal& goal, const PlanOptions& options, const VectorXd& start,
+                  const CancellationToken& watch, const KnownCurves& known)
       : goal_(goal),
         options_(options),
         start_(start),
         known_(known),
         limits_(limitsFromStart(planLimits(config, options), options)),
-        scene_(std::make_shared<const MovingScene>(config, options.moving, "planMotion")),
+        scene_(std::make_shared<const DynamicScene>(config, options.obstacle_trajectories, "planMotion")),
         still_(scene_->standing()),
         check_(*scene_, options.margin),
         watch_([this, &watch] { return (watch && watch()) || secondsSinceBegin() > options_.time_limit; }),
@@ -55,8 +55,8 @@ class PlanAmongMoving {
     if (may_improve && !best_.feasible()) tryRefuges();
     if (!best_.feasible()) best_ = std::move(failure_);
     if (best_.scene) best_.scene = std::make_shared<const State>(still_.state());  // without copies of obstacles
-    best_.moving = scene_;
-    best_.notes.insert(best_.notes.end(), notes_.begin(), notes_.end());
+    best_.dynamic_scene = scene_;
+    best_.warnings.insert(best_.warnings.end(), notes_.begin(), notes_.end());
     return std::move(best_);
   }
 
@@ -70,17 +70,17 @@ class PlanAmongMoving {
     const double most = options_.margin + 2. * Clearance::kGuard, now = check_.clearance(start_, 0., most);
     if (now >= most || now < 0.) return;
     check_.setMargin(std::max(0., now - 2. * Clearance::kGuard));
-    notes_.push_back(cat("the start is ", lengthInWords(now), " from a moving obstacle, and so the motion keeps that"));
+    notes_.push_back(cat("the start is ", formatLength(now), " from a moving obstacle, and so the motion keeps that"));
   }
 
   void tryIn(const Config& scene, std::uint64_t seed, const char* how) {
     if (watch_()) return;
     PlanOptions still = options_;
-    still.moving.clear();
+    still.obstacle_trajectories.clear();
     still.seed = seed;
-    if (was_reached_) still.evaluations = std::min(still.evaluations, kOtherEffort);
+    if (was_reached_) still.max_evaluations = std::min(still.max_evaluations, kOtherEffort);
     still.time_limit = options_.timeLeft(secondsSinceBegin());
-    MotionPlan plan = planInMotion(scene, goal_, still, start_, user_watch_, known_);
+    MotionPlan plan = planFromVelocity(scene, goal_, still, start_, user_watch_, known_);
     if (!plan.feasible()) {
       if (!was_reached_) failure_ = std::move(plan);
       return;
@@ -93,13 +93,13 @@ class PlanAmongMoving {
     const Clock::time_point began = Clock::now();
     const long before = check_.evaluations;
     if (!was_reached_) least_ = plan.duration();
-    const MovingTiming timing = timeAmongMoving(plan.timed, limits_, check_, watch_);
-    const bool fits = timing.was_found && !check_.contact(plan.timed.curve(), timing.law, limits_.acceleration);
-    plan.stages.push_back({"moving", std::chrono::duration<double>(Clock::now() - began).count(),
+    const DynamicTiming timing = timeAmongObstacles(plan.timed, limits_, check_, watch_);
+    const bool fits = timing.was_found && !check_.contact(plan.timed.curve(), timing.scaling, limits_.acceleration);
+    plan.stages.push_back({"obstacle_trajectories", std::chrono::duration<double>(Clock::now() - began).count(),
                            check_.evaluations - before, cat("a way ", how, fits ? "" : " that could not be timed")});
     if (!was_reached_) failed_goal_ = plan.path.bottomRows(1).transpose();
     if (fits) {
-      setLaw(plan, timing);
+      setScaling(plan, timing);
     } else {
       fail(plan, timing);
     }
@@ -120,15 +120,15 @@ class PlanAmongMoving {
   /// Postures to which no obstacle comes, away from each other: in turn the nearest one to the start, and the one that is
   /// the smallest detour on a straight way to the goal.
   std::vector<VectorXd> refuges(const VectorXd& goal) {
-    const JointSpace space(*still_.program());
+    const JointSpace space(*still_.model());
     const State state = still_.state();
     ClearanceCheck still(state, space, {.margin = options_.margin, .guard = Clearance::kGuard});
     Rng rng(options_.seed);
     std::vector<VectorXd> found;
     for (int i = 0; i < kDraws; ++i) {
       const double share = rng.uniform();
-      const VectorXd drawn = space.draw(rng, start_), &from = i % 4 ? start_ : goal;
-      const VectorXd q = from + share * share * space.difference(from, drawn);
+      const VectorXd sampled = space.sample(rng, start_), &from = i % 4 ? start_ : goal;
+      const VectorXd q = from + share * share * space.difference(from, sampled);
       if (isAlwaysFree(q) && still.isFree(q)) found.push_back(q);
     }
     std::vector<VectorXd> chosen;
@@ -145,45 +145,45 @@ class PlanAmongMoving {
 
   /// Ways by a posture to which no obstacle comes, to wait there.
   void tryRefuges() {
-    if (failed_goal_.size() == 0 || !JointSpace(*still_.program()).dofsWithoutRange().empty()) return;
+    if (failed_goal_.size() == 0 || !JointSpace(*still_.model()).dofsWithoutRange().empty()) return;
     PlanOptions still = options_;
-    still.moving.clear();
-    still.evaluations = std::min(still.evaluations, kOtherEffort);
+    still.obstacle_trajectories.clear();
+    still.max_evaluations = std::min(still.max_evaluations, kOtherEffort);
     KnownCurves known = known_;
     known.to_goal.clear();
     for (const VectorXd& refuge : refuges(failed_goal_)) {
       if (watch_()) return;
       still.time_limit = options_.timeLeft(secondsSinceBegin());
-      const MotionPlan aside = planInMotion(still_, MotionGoal(refuge), still, start_, user_watch_, known);
+      const MotionPlan aside = planFromVelocity(still_, MotionGoal(refuge), still, start_, user_watch_, known);
       PlanOptions at_rest = still;
       at_rest.time_limit = options_.timeLeft(secondsSinceBegin());
       at_rest.start_velocity = at_rest.start_acceleration = {};
-      MotionPlan onward = planInMotion(still_, goal_, at_rest, refuge, user_watch_, {});
+      MotionPlan onward = planFromVelocity(still_, goal_, at_rest, refuge, user_watch_, {});
       if (!aside.feasible() || !onward.feasible()) continue;
       onward.timed = inTurn(aside.timed, onward.timed);
-      onward.path = onward.first_way = onward.timed.path;
+      onward.path = onward.raw_path = onward.timed.path;
       onward.length += aside.length;
-      onward.kept = std::min(aside.kept, onward.kept);
+      onward.verified_margin = std::min(aside.verified_margin, onward.verified_margin);
       consider(std::move(onward), "by a place where nothing comes");
     }
   }
 
   // --- what comes of it --------------------------------------------------------------------------------------------
 
-  static void setLaw(MotionPlan& plan, const MovingTiming& timing) {
+  static void setScaling(MotionPlan& plan, const DynamicTiming& timing) {
     const TimedPath& timed = plan.timed;
     VectorXd times = timed.times;
-    for (Eigen::Index i = 0; i < times.size(); ++i) times[i] = timing.law.timeOf(timed.curve().marks()[std::size_t(i)]);
+    for (Eigen::Index i = 0; i < times.size(); ++i) times[i] = timing.scaling.timeOf(timed.curve().marks()[std::size_t(i)]);
     const double length = std::max(timed.curve().length(), 1e-300);
-    for (const MovingTiming::Wait& wait : timing.waits)
-      plan.notes.push_back(cat("waits for ", wait.seconds, " s from ", wait.begin, " s on, at ",
+    for (const DynamicTiming::Wait& wait : timing.waits)
+      plan.warnings.push_back(cat("waits for ", wait.seconds, " s from ", wait.begin, " s on, at ",
                                std::lround(100. * wait.place / length), " % of the way"));
-    plan.timed = TimedPath::fromParts(RetimeStatus::timed, "", timed.path, std::move(times), timed.curve(), timing.law);
+    plan.timed = TimedPath::fromParts(RetimeStatus::timed, "", timed.path, std::move(times), timed.curve(), timing.scaling);
   }
 
-  void fail(MotionPlan& plan, const MovingTiming& timing) const {
-    plan.status = watch_() ? (user_watch_ && user_watch_() ? PlanStatus::cancelled : PlanStatus::out_of_time)
-                           : PlanStatus::no_timing;
+  void fail(MotionPlan& plan, const DynamicTiming& timing) const {
+    plan.status = watch_() ? (user_watch_ && user_watch_() ? PlanStatus::cancelled : PlanStatus::timeout)
+                           : PlanStatus::no_timing_found;
     plan.message = timing.was_found ? "the timing that was found could not be verified" : timing.message;
     plan.path.resize(0, 0);
     plan.timed = {};
@@ -195,12 +195,12 @@ class PlanAmongMoving {
   const VectorXd start_;
   const KnownCurves& known_;
   const MotionLimits limits_;
-  const std::shared_ptr<const MovingScene> scene_;
+  const std::shared_ptr<const DynamicScene> scene_;
   const Config still_;  ///< the scene without obstacles
-  MovingCheck check_;
+  DynamicCheck check_;
   const Clock::time_point began_ = Clock::now();
-  const MotionWatch watch_;
-  const MotionWatch& user_watch_;
+  const CancellationToken watch_;
+  const CancellationToken& user_watch_;
   MotionPlan best_, failure_;
   VectorXd failed_goal_;  ///< where the first way ends
   std::vector<std::string> notes_;
@@ -210,9 +210,9 @@ class PlanAmongMoving {
 
 }  // namespace
 
-MotionPlan planAmongMoving(const Config& config, const MotionGoal& goal, const PlanOptions& options,
-                           const VectorXd& start, const MotionWatch& watch, const KnownCurves& known) {
-  return PlanAmongMoving(config, goal, options, start, watch, known).run();
+MotionPlan planAmongObstacles(const Config& config, const MotionGoal& goal, const PlanOptions& options,
+                           const VectorXd& start, const CancellationToken& watch, const KnownCurves& known) {
+  return PlanAmongObstacles(config, goal, options, start, watch, known).run();
 }
 
 }  // namespace kinegraph

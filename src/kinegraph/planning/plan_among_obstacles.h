@@ -4,14 +4,14 @@
 
 namespace kinegraph {
 
-/// planMotion among obstacles of which options.moving says how they move.
+/// planMotion among obstacles of which options.obstacle_trajectories says how they move.
 ///
-/// A way is planned among what stands still, and timed such that it meets no moving obstacle (timeAmongMoving). Where
+/// A way is planned among what stands still, and timed such that it meets no moving obstacle (timeAmongObstacles). Where
 /// that takes longer than the way alone, or cannot be, other ways are planned: around where obstacles will be in the
 /// end, around all places where they ever are, and with other random numbers. The one that arrives first counts. Where
 /// there is none, ways by postures to which no obstacle comes are tried: the robot steps aside, and waits there. The
 /// motion is checked at all times once more.
-MotionPlan planAmongMoving(const Config& config, const MotionGoal& goal, const PlanOptions& options,
-                           const VectorXd& start, const MotionWatch& watch, const KnownCurves& known);
+MotionPlan planAmongObstacles(const Config& config, const MotionGoal& goal, const PlanOptions& options,
+                           const VectorXd& start, const CancellationToken& watch, const KnownCurves& known);
 
 }  // namespace kinegraph

@@ -45,10 +45,10 @@ PathCurve marked(const PathCurve& curve) {
   return PathCurve::fromParts(parts);
 }
 
-class PlanInMotion {
+class PlanFromVelocity {
  public:
-  PlanInMotion(const Config& config, const MotionGoal& goal, const PlanOptions& options, const VectorXd& start,
-               const MotionWatch& watch)
+  PlanFromVelocity(const Config& config, const MotionGoal& goal, const PlanOptions& options, const VectorXd& start,
+               const CancellationToken& watch)
       : config_(config),
         goal_(goal),
         options_(options),
@@ -58,10 +58,10 @@ class PlanInMotion {
         acceleration_(options.start_acceleration),
         watch_(watch),
         limits_(limitsFromStart(planLimits(config, options), options)),
-        space_(*config.program()),
+        space_(*config.model()),
         scene_(config.state()) {
     at_rest_.start_velocity = at_rest_.start_acceleration = {};
-    at_rest_.moving.clear();
+    at_rest_.obstacle_trajectories.clear();
     best_.scene = std::make_shared<const State>(scene_);
     best_.space = std::make_shared<const JointSpace>(space_);
   }
@@ -89,10 +89,10 @@ class PlanInMotion {
       best_.status = PlanStatus::cancelled;
       best_.message = "cancelled before the motion came to rest";
     } else if (isStopped()) {
-      best_.status = PlanStatus::out_of_time;
+      best_.status = PlanStatus::timeout;
       best_.message = cat("time limit of ", options_.time_limit, " s; no way to come to rest was found");
     } else {
-      best_.status = PlanStatus::no_way;
+      best_.status = PlanStatus::no_path_found;
       best_.message = cat("the motion cannot come to rest: ", why_);
     }
   }
@@ -104,16 +104,16 @@ class PlanInMotion {
   }
 
   void tryAll(const KnownCurves& known) {
-    const Lead eased = easing();
+    const Lead ramp = easing();
     for (const double farther : kLineFactors)  // the first one finds straight motions also where there is no time
-      if (farther == kLineFactors[0] || !isStopped()) tryLine(eased, farther);
+      if (farther == kLineFactors[0] || !isStopped()) tryLine(ramp, farther);
     for (const PathCurve& curve : known.to_rest)
       if (!best_.feasible() && !isStopped()) tryLead({marked(curve), {}, "as before"});
     for (const KnownCurves::Timed& stop : known.to_stop)
-      if (!best_.feasible() && !isStopped()) tryLead({marked(stop.curve), stop.law, "as before"});
+      if (!best_.feasible() && !isStopped()) tryLead({marked(stop.curve), stop.scaling, "as before"});
   }
 
-  MotionDemands demandsAround(const std::vector<const MotionEnd*>& ends) {
+  PlanningConstraints demandsAround(const std::vector<const Endpoint*>& ends) {
     return {.scene = &scene_,
             .space = &space_,
             .clearance = clearanceAround(options_.margin, ends),
@@ -125,7 +125,7 @@ class PlanInMotion {
   bool allowed(const char* what, const VectorXd& given, const VectorXd& limits) {
     for (Eigen::Index j = 0; j < given.size(); ++j) {
       if (std::abs(given[j]) <= limits[j]) continue;
-      best_.status = PlanStatus::start_blocked;
+      best_.status = PlanStatus::invalid_start;
       best_.message =
           cat("the start ", what, " of ", space_.nameOf(int(j)), " is ", given[j], "; its limit is ", limits[j]);
       return false;
@@ -135,9 +135,9 @@ class PlanInMotion {
 
   bool looksAtStart() {
     Steering steering(demandsAround({}));
-    first_ = checkEnd(steering, *config_.program(), start_, options_.margin, "start", kStarting);
+    first_ = checkEndpoint(steering, *config_.model(), start_, options_.margin, "start", kStarting);
     if (first_.isFree()) return true;
-    best_.status = PlanStatus::start_blocked;
+    best_.status = PlanStatus::invalid_start;
     best_.message = first_.problem;
     return false;
   }
@@ -145,11 +145,11 @@ class PlanInMotion {
   /// Steering with the margins that hold around the start and other ends of the motion.
   Steering steeringTo(const std::vector<VectorXd>& others) {
     Steering loose(demandsAround({}));
-    std::vector<MotionEnd> ends;
+    std::vector<Endpoint> ends;
     for (const VectorXd& q : others)
-      ends.push_back(checkEnd(loose, *config_.program(), q, options_.margin, "goal", kStarting));
-    std::vector<const MotionEnd*> list = {&first_};
-    for (const MotionEnd& end : ends) list.push_back(&end);
+      ends.push_back(checkEndpoint(loose, *config_.model(), q, options_.margin, "goal", kStarting));
+    std::vector<const Endpoint*> list = {&first_};
+    for (const Endpoint& end : ends) list.push_back(&end);
     return Steering(demandsAround(list));
   }
 
@@ -178,7 +178,7 @@ class PlanInMotion {
   /// Where it goes first: a curve, its end, and how.
   struct Lead {
     PathCurve curve;  ///< no pieces: there is none, and its end is the start
-    TimeLaw law;      ///< that ends at rest; no phases: it is timed with what follows
+    TimeScaling scaling;      ///< that ends at rest; no phases: it is timed with what follows
     std::string how;
     VectorXd end = {}, velocity = {};  ///< of easing: there
   };
@@ -187,9 +187,9 @@ class PlanInMotion {
   Lead easing() const {
     Lead lead{{}, {}, "straight", start_, velocity_};
     if (acceleration_.size() == 0 || acceleration_.isZero(0.)) return lead;
-    const EasedStart eased = easeOff(start_, velocity_, acceleration_, limits_);
-    lead.curve = eased.curve.pieces() > 0 ? marked(eased.curve) : PathCurve();
-    lead.end = eased.q, lead.velocity = eased.velocity;
+    const AccelerationRamp ramp = rampDown(start_, velocity_, acceleration_, limits_);
+    lead.curve = ramp.curve.pieces() > 0 ? marked(ramp.curve) : PathCurve();
+    lead.end = ramp.q, lead.velocity = ramp.velocity;
     return lead;
   }
 
@@ -200,44 +200,44 @@ class PlanInMotion {
     Steering steering = steeringTo({rows.bottomRows(1).transpose()});
     if (!isFree(steering, whole, kParts)) return false;
     TimedPath timed =
-        rest.law.phases().empty() ? retime(rows, whole, limits_, timing()) : timedBy(rest.law, rows, whole);
+        rest.scaling.phases().empty() ? retime(rows, whole, limits_, timing()) : timedBy(rest.scaling, rows, whole);
     if (!timed.feasible()) return false;
     best_ = MotionPlan();
     best_.status = PlanStatus::solved;
     best_.scene = std::make_shared<const State>(scene_);
     best_.space = std::make_shared<const JointSpace>(space_);
-    best_.path = best_.first_way = rows;
+    best_.path = best_.raw_path = rows;
     best_.length = pathLength(space_, rows);
     best_.goal = 0;
     best_.margin = options_.margin;
-    best_.kept = std::min(first_.kept, steering.check().marginAt(rows.bottomRows(1).transpose()));
+    best_.verified_margin = std::min(first_.verified_margin, steering.check().marginAt(rows.bottomRows(1).transpose()));
     best_.stages.push_back({"verify", 0., steering.evaluations(), "the rest of the present motion is free"});
     for (const std::string& name : steering.manifold().sampled())
-      best_.notes.push_back(
+      best_.warnings.push_back(
           cat("the constraint ", name, " was looked at every ", Steering::kSpacing, " along the way"));
     best_.timed = std::move(timed);
     return true;
   }
 
   /// Straight on from where the accelerations are zero, so many times as far as it takes to come to rest.
-  void tryLine(const Lead& eased, double farther) {
-    if (eased.curve.pieces() == 0 && acceleration_.size() > 0 && !acceleration_.isZero(0.)) {
+  void tryLine(const Lead& ramp, double farther) {
+    if (ramp.curve.pieces() == 0 && acceleration_.size() > 0 && !acceleration_.isZero(0.)) {
       why_ = "where its accelerations are zero it hardly moves";
       return;
     }
     MatrixXd points(2, start_.size());
-    points << eased.end.transpose(),
-        (eased.end + farther * distanceToRest(eased.velocity) * eased.velocity).transpose();
+    points << ramp.end.transpose(),
+        (ramp.end + farther * distanceToRest(ramp.velocity) * ramp.velocity).transpose();
     const PathCurve line = polyline(points);
-    Lead lead = eased;
-    lead.curve = eased.curve.pieces() > 0 ? joined(eased.curve, line, false) : line;
-    tryLead(lead, &eased.curve);
+    Lead lead = ramp;
+    lead.curve = ramp.curve.pieces() > 0 ? joined(ramp.curve, line, false) : line;
+    tryLead(lead, &ramp.curve);
   }
 
   /// Plans from the end of a lead. Where it ends with a line behind `eased`, the corner may be rounded.
-  void tryLead(const Lead& lead, const PathCurve* eased = nullptr) {
+  void tryLead(const Lead& lead, const PathCurve* ramp = nullptr) {
     const VectorXd end = lead.curve.eval(lead.curve.length());
-    if (const std::string beyond = eased ? firstBeyond(lead.curve) : space_.beyondLimits(end, 0.); !beyond.empty()) {
+    if (const std::string beyond = ramp ? firstBeyond(lead.curve) : space_.beyondLimits(end, 0.); !beyond.empty()) {
       why_ = cat("going on ", lead.how, " leaves the limits: ", beyond);
       return;
     }
@@ -255,11 +255,11 @@ class PlanInMotion {
     const MatrixXd before = pointsAt(lead.curve, lead.curve.marks());
     MatrixXd rows(before.rows() + plan.path.rows() - 1, before.cols());
     rows << before, plan.path.bottomRows(plan.path.rows() - 1);
-    TimedPath timed = lead.law.phases().empty()
+    TimedPath timed = lead.scaling.phases().empty()
                           ? retime(rows, joined(lead.curve, plan.timed.curve()), limits_, timing())
-                          : inTurn(timedBy(lead.law, before, lead.curve), plan.timed);
-    if (eased) {
-      TimedPath smoother = retime(rows, rounded(*eased, rows, steering), limits_, timing());
+                          : inTurn(timedBy(lead.scaling, before, lead.curve), plan.timed);
+    if (ramp) {
+      TimedPath smoother = retime(rows, rounded(*ramp, rows, steering), limits_, timing());
       if (smoother.feasible() && (!timed.feasible() || smoother.duration() < timed.duration()))
         timed = std::move(smoother);
     }
@@ -268,22 +268,22 @@ class PlanInMotion {
       return;
     }
     if (best_.feasible() && best_.duration() <= timed.duration()) return;
-    MatrixXd first(before.rows() + plan.first_way.rows() - 1, before.cols());
-    first << before, plan.first_way.bottomRows(plan.first_way.rows() - 1);
-    plan.first_way = std::move(first);
+    MatrixXd first(before.rows() + plan.raw_path.rows() - 1, before.cols());
+    first << before, plan.raw_path.bottomRows(plan.raw_path.rows() - 1);
+    plan.raw_path = std::move(first);
     plan.length = pathLength(space_, rows);
-    plan.kept = std::min(plan.kept, first_.kept);
+    plan.verified_margin = std::min(plan.verified_margin, first_.verified_margin);
     plan.path = std::move(rows);
     plan.timed = std::move(timed);
     best_ = std::move(plan);
   }
 
   /// The lines through these points, the first of which are on an eased curve, with rounded corners.
-  PathCurve rounded(const PathCurve& eased, const MatrixXd& rows, Steering& steering) const {
+  PathCurve rounded(const PathCurve& ramp, const MatrixXd& rows, Steering& steering) const {
     const BlendOptions blends{options_.blend, limits_.limitsJerk(), freeBlends(steering)};
-    if (eased.pieces() == 0) return blendedPolyline(rows, blends);
-    const auto before = Eigen::Index(eased.marks().size()) - 1;
-    return joined(eased, blendedPolyline(rows.bottomRows(rows.rows() - before), blends), false);
+    if (ramp.pieces() == 0) return blendedPolyline(rows, blends);
+    const auto before = Eigen::Index(ramp.marks().size()) - 1;
+    return joined(ramp, blendedPolyline(rows.bottomRows(rows.rows() - before), blends), false);
   }
 
   /// What of a curve is beyond the limits of joints, in words; "" if nothing is. A polynomial keeps within its Bernstein
@@ -302,12 +302,12 @@ class PlanInMotion {
   PlanOptions at_rest_;
   const VectorXd start_, velocity_;
   const VectorXd acceleration_;
-  const MotionWatch& watch_;
+  const CancellationToken& watch_;
   const std::chrono::steady_clock::time_point began_ = std::chrono::steady_clock::now();
   const MotionLimits limits_;
   const JointSpace space_;
   const State scene_;
-  MotionEnd first_;
+  Endpoint first_;
   MotionPlan best_;
   std::string why_;
 };
@@ -326,11 +326,11 @@ MotionLimits limitsFromStart(MotionLimits limits, const PlanOptions& options) {
   return limits;
 }
 
-MotionPlan planInMotion(const Config& config, const MotionGoal& goal, const PlanOptions& options, const VectorXd& start,
-                        const MotionWatch& watch, const KnownCurves& known) {
+MotionPlan planFromVelocity(const Config& config, const MotionGoal& goal, const PlanOptions& options, const VectorXd& start,
+                        const CancellationToken& watch, const KnownCurves& known) {
   const bool at_rest = options.start_velocity.size() == 0 || options.start_velocity.isZero(0.);
   if (at_rest && known.to_goal.empty()) return planFromRest(config, goal, options, start, watch);
-  return PlanInMotion(config, goal, options, start, watch).run(known);
+  return PlanFromVelocity(config, goal, options, start, watch).run(known);
 }
 
 }  // namespace kinegraph

@@ -9,7 +9,7 @@ namespace kinegraph {
 struct KnownCurves {
   struct Timed {
     PathCurve curve;
-    TimeLaw law;  ///< that goes on as it moves now and keeps the limits; no phases: none
+    TimeScaling scaling;  ///< that goes on as it moves now and keeps the limits; no phases: none
   };
   std::vector<Timed> to_goal;      ///< all the way
   std::vector<PathCurve> to_rest;  ///< as far as it takes to come to rest, the shortest first
@@ -27,7 +27,7 @@ MotionLimits limitsFromStart(MotionLimits limits, const PlanOptions& options);
 /// the motion stops there. The fastest of these counts. Known curves to where it is at rest come last.
 ///
 /// With options.start_acceleration a curve leads to the line, on which each dof's acceleration goes to zero at a constant jerk.
-MotionPlan planInMotion(const Config& config, const MotionGoal& goal, const PlanOptions& options, const VectorXd& start,
-                        const MotionWatch& watch, const KnownCurves& known = {});
+MotionPlan planFromVelocity(const Config& config, const MotionGoal& goal, const PlanOptions& options, const VectorXd& start,
+                        const CancellationToken& watch, const KnownCurves& known = {});
 
 }  // namespace kinegraph

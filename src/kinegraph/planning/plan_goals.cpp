@@ -17,17 +17,17 @@ constexpr int kDrawsPerGoal = 4;
 class GoalFinder {
  public:
   GoalFinder(const Config& config, const VectorXd& start, Steering& steering, const PlanOptions& options,
-             const MotionWatch& watch)
+             const CancellationToken& watch)
       : config_(config), steering_(steering), options_(options), watch_(watch), start_(start) {}
 
-  GoalPostures of(const MotionGoal& goal) {
-    const int kinds = !goal.postures.empty() + !goal.targets.empty() + !goal.conditions.empty() + !goal.state.empty();
+  GoalConfigurations of(const MotionGoal& goal) {
+    const int kinds = !goal.configurations.empty() + !goal.targets.empty() + !goal.conditions.empty() + !goal.state.empty();
     if (kinds != 1)
       throw ValueError(cat(kGoalsOf, ": the goal ", kinds ? "is of several kinds" : "is empty",
                            "; expected joint vectors, targets, conditions, or the name of a joint state"));
     if (!goal.state.empty()) add(config_.getNamedState(goal.state), cat("goal '", goal.state, "'"));
-    for (std::size_t i = 0; i < goal.postures.size(); ++i)
-      add(goal.postures[i], goal.postures.size() == 1 ? "goal" : cat("goal ", i));
+    for (std::size_t i = 0; i < goal.configurations.size(); ++i)
+      add(goal.configurations[i], goal.configurations.size() == 1 ? "goal" : cat("goal ", i));
     if (!goal.targets.empty()) fromTargets(goal.targets);
     if (!goal.conditions.empty()) fromConditions(goal.conditions);
     return std::move(found_);
@@ -35,15 +35,15 @@ class GoalFinder {
 
  private:
   void add(const VectorXd& q, const std::string& what) {
-    found_.ends.push_back(checkEnd(steering_, *config_.program(), q, options_.margin, what, kGoalsOf));
+    found_.ends.push_back(checkEndpoint(steering_, *config_.model(), q, options_.margin, what, kGoalsOf));
   }
 
   bool isNew(const VectorXd& q) const {
     return std::ranges::none_of(found_.ends,
-                                [&](const MotionEnd& end) { return steering_.space().distance(end.q, q) < kSame; });
+                                [&](const Endpoint& end) { return steering_.space().distance(end.q, q) < kSame; });
   }
 
-  bool hasEnough() const { return int(found_.ends.size()) >= options_.goals || (watch_ && watch_()); }
+  bool hasEnough() const { return int(found_.ends.size()) >= options_.max_goal_samples || (watch_ && watch_()); }
 
   /// Solutions of inverse kinematics from the start, and from random postures of the joints that move the targets.
   void fromTargets(const std::vector<IkTarget>& targets) {
@@ -55,11 +55,11 @@ class GoalFinder {
     const std::vector<int> dofs = IkProblem(scene, targets, ik).dofs;
     Rng rng(options_.seed);
     std::string failure;
-    for (int i = 0; i < kDrawsPerGoal * options_.goals && !hasEnough(); ++i) {
+    for (int i = 0; i < kDrawsPerGoal * options_.max_goal_samples && !hasEnough(); ++i) {
       if (i > 0) {
-        const VectorXd drawn = steering_.space().draw(rng, start_);
+        const VectorXd sampled = steering_.space().sample(rng, start_);
         VectorXd from = start_;
-        for (const int dof : dofs) from[dof] = drawn[dof];
+        for (const int dof : dofs) from[dof] = sampled[dof];
         scene.setJointState(from);
         ik.attempts = 4;
       }
@@ -85,9 +85,9 @@ class GoalFinder {
     Rng rng(options_.seed);
     double least = std::numeric_limits<double>::infinity();
     std::string missed;
-    std::vector<MotionEnd> blocked;
-    for (int i = 0; i < 8 * kDrawsPerGoal * options_.goals && !hasEnough(); ++i) {
-      VectorXd q = i == 0 ? start_ : steering_.space().draw(rng, start_);
+    std::vector<Endpoint> blocked;
+    for (int i = 0; i < 8 * kDrawsPerGoal * options_.max_goal_samples && !hasEnough(); ++i) {
+      VectorXd q = i == 0 ? start_ : steering_.space().sample(rng, start_);
       if (!manifold.project(q)) {
         const double violation = manifold.violation(q);
         if (violation < least) missed = manifold.worst(q);
@@ -111,15 +111,15 @@ class GoalFinder {
   const Config& config_;
   Steering& steering_;
   const PlanOptions& options_;
-  const MotionWatch& watch_;
+  const CancellationToken& watch_;
   const VectorXd start_;
-  GoalPostures found_;
+  GoalConfigurations found_;
 };
 
 }  // namespace
 
-GoalPostures goalPostures(const Config& config, const MotionGoal& goal, const VectorXd& start, Steering& steering,
-                          const PlanOptions& options, const MotionWatch& watch) {
+GoalConfigurations goalConfigurations(const Config& config, const MotionGoal& goal, const VectorXd& start, Steering& steering,
+                          const PlanOptions& options, const CancellationToken& watch) {
   return GoalFinder(config, start, steering, options, watch).of(goal);
 }
 

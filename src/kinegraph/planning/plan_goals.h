@@ -8,14 +8,14 @@
 namespace kinegraph {
 
 /// The postures that a goal stands for.
-struct GoalPostures {
-  std::vector<MotionEnd> ends;  ///< one at least, in the order in which they were given or found; not all are free
+struct GoalConfigurations {
+  std::vector<Endpoint> ends;  ///< one at least, in the order in which they were given or found; not all are free
   bool was_reached = true;      ///< false: the goal is out of reach, and `message` says by how much
   std::string message;
 };
 
 /// Throws ValueError for a goal that makes no sense, FrameNotFound and NameError for names that are not there.
-GoalPostures goalPostures(const Config& config, const MotionGoal& goal, const VectorXd& start, Steering& steering,
-                          const PlanOptions& options, const MotionWatch& watch);
+GoalConfigurations goalConfigurations(const Config& config, const MotionGoal& goal, const VectorXd& start, Steering& steering,
+                          const PlanOptions& options, const CancellationToken& watch);
 
 }  // namespace kinegraph

@@ -17,15 +17,15 @@ constexpr double kCurveFactors[] = {1.05, 1.5, 2.5, 4.};
 
 /// From a start acceleration, or without it where nothing can be timed so, and then a note says it.
 MotionPlan planWith(const Config& config, const MotionGoal& goal, const PlanOptions& options, const VectorXd& start,
-                    const MotionWatch& watch, const KnownCurves& known) {
+                    const CancellationToken& watch, const KnownCurves& known) {
   const auto began = std::chrono::steady_clock::now();
   const auto plan_by = [&](const PlanOptions& by) {
-    return by.moving.empty() ? planInMotion(config, goal, by, start, watch, known)
-                             : planAmongMoving(config, goal, by, start, watch, known);
+    return by.obstacle_trajectories.empty() ? planFromVelocity(config, goal, by, start, watch, known)
+                             : planAmongObstacles(config, goal, by, start, watch, known);
   };
   MotionPlan plan = plan_by(options);
   const bool accelerates = options.start_acceleration.size() > 0 && !options.start_acceleration.isZero(0.);
-  if (accelerates && (plan.status == PlanStatus::no_way || plan.status == PlanStatus::no_timing)) {
+  if (accelerates && (plan.status == PlanStatus::no_path_found || plan.status == PlanStatus::no_timing_found)) {
     PlanOptions without = options;
     without.start_acceleration = {};
     const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - began).count();
@@ -33,7 +33,7 @@ MotionPlan planWith(const Config& config, const MotionGoal& goal, const PlanOpti
     MotionPlan other = plan_by(without);
     if (other.feasible()) {
       plan = std::move(other);
-      plan.notes.push_back("the motion begins without the start acceleration");
+      plan.warnings.push_back("the motion begins without the start acceleration");
     }
   }
   plan.options = options;
@@ -46,8 +46,8 @@ bool areSame(const MotionLimits& a, const MotionLimits& b) {
 }
 
 /// Where a motion stands still next, after `time`.
-double nextStop(const TimeLaw& law, double time, double length) {
-  for (const LawPhase& phase : law.phases())
+double nextStop(const TimeScaling& scaling, double time, double length) {
+  for (const ScalingPhase& phase : scaling.phases())
     if (phase.time > time && phase.begin.speed < 1e-9) return phase.begin.s;
   return length;
 }
@@ -61,11 +61,11 @@ KnownCurves knownCurves(const TimedPath& running, double time, double s, double 
   if (rest <= 1e-9 * curve.length()) return known;
   const auto timed = [&](double to) {
     const CurvePart part = partOf(curve, s, to);
-    return KnownCurves::Timed{part.curve, keeps ? part.restOf(running.law(), time) : TimeLaw()};
+    return KnownCurves::Timed{part.curve, keeps ? part.restOf(running.scaling(), time) : TimeScaling()};
   };
   if (!has_goal) known.to_goal.push_back(timed(curve.length()));
   if (speed == 0.) return known;
-  if (keeps) known.to_stop.push_back(timed(nextStop(running.law(), time, curve.length())));
+  if (keeps) known.to_stop.push_back(timed(nextStop(running.scaling(), time, curve.length())));
   const VectorXd tangent = curve.eval(s, 1).cwiseAbs();
   const double braking = (limits.acceleration.array() / tangent.array().max(1e-12)).minCoeff();
   const double distance = .5 * speed * speed / braking;
@@ -77,13 +77,13 @@ KnownCurves knownCurves(const TimedPath& running, double time, double s, double 
 }  // namespace
 
 MotionPlan planMotion(const Config& config, const MotionGoal& goal, const PlanOptions& options,
-                      const std::optional<VectorXd>& start, const MotionWatch& watch) {
+                      const std::optional<VectorXd>& start, const CancellationToken& watch) {
   options.validateFor(config.getJointDimension());
   return planWith(config, goal, options, start.value_or(config.getJointState()), watch, {});
 }
 
 MotionPlan MotionPlan::replan(const Config& config, double time, const std::optional<MotionGoal>& goal,
-                              const std::optional<PlanOptions>& given, const MotionWatch& watch) const {
+                              const std::optional<PlanOptions>& given, const CancellationToken& watch) const {
   if (!std::isfinite(time)) throw ValueError("replan: the time is not finite");
   const MotionState now = at(time);
   PlanOptions next = given.value_or(optionsAt(time));
@@ -94,10 +94,10 @@ MotionPlan MotionPlan::replan(const Config& config, double time, const std::opti
   if (now.q.size() != config.getJointDimension())
     throw ValueError(
         cat("replan: the running motion has ", now.q.size(), " dofs; the scene has ", config.getJointDimension()));
-  const TimeLaw& law = timed.law();
-  const double held = std::clamp(time, 0., law.duration());
-  const LawPhase& phase = law.phaseAt(held);
-  const LawState state = phase.at(held - phase.time);
+  const TimeScaling& scaling = timed.scaling();
+  const double held = std::clamp(time, 0., scaling.duration());
+  const ScalingPhase& phase = scaling.phaseAt(held);
+  const ScalingState state = phase.at(held - phase.time);
   const MotionLimits limits = planLimits(config, next);
   const KnownCurves known = knownCurves(timed, held, std::clamp(state.s, phase.begin.s, phase.end), state.speed, limits,
                                         areSame(limits, planLimits(config, options)), goal.has_value());

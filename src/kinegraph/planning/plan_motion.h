@@ -19,9 +19,9 @@ namespace kinegraph {
 /// ValueError for what makes no sense.
 ///
 /// With options.start_velocity, and options.start_acceleration, the motion begins with these, and goes straight on at first
-/// (planInMotion). Where nothing can be timed so, it begins without the acceleration, and a note says so.
-/// Among options.moving, the times keep it clear of what moves, and it waits where it has to (planAmongMoving).
+/// (planFromVelocity). Where nothing can be timed so, it begins without the acceleration, and a note says so.
+/// Among options.obstacle_trajectories, the times keep it clear of what moves, and it waits where it has to (planAmongObstacles).
 MotionPlan planMotion(const Config& config, const MotionGoal& goal, const PlanOptions& options = {},
-                      const std::optional<VectorXd>& start = std::nullopt, const MotionWatch& watch = {});
+                      const std::optional<VectorXd>& start = std::nullopt, const CancellationToken& watch = {});
 
 }  // namespace kinegraph

@@ -18,14 +18,14 @@ MotionPlans::MotionPlans(const Config& config, MotionGoal goal, PlanOptions opti
       start_(start.value_or(config_.getJointState())),
       ask_([this] { return watch_ && watch_(); }) {
   options_.validateFor(config_.getJointDimension());
-  if (!options_.moving.empty() || (options_.start_velocity.size() > 0 && !options_.start_velocity.isZero(0.)))
+  if (!options_.obstacle_trajectories.empty() || (options_.start_velocity.size() > 0 && !options_.start_velocity.isZero(0.)))
     throw ValueError("planMotions: moving obstacles and start_velocity are not known here; call planMotion");
-  if (options_.improve == 0) options_.improve = kImprove;
+  if (options_.improvement_evaluations == 0) options_.improvement_evaluations = kImprove;
 }
 
 MotionPlans::~MotionPlans() = default;
 
-std::optional<MotionPlan> MotionPlans::next(const MotionWatch& watch) {
+std::optional<MotionPlan> MotionPlans::next(const CancellationToken& watch) {
   watch_ = watch;
   std::optional<MotionPlan> plan;
   if (planner_) {

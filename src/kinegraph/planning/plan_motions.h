@@ -14,7 +14,7 @@ class Planner;
 ///     MotionPlans plans = planMotions(C, goal, {.margin = .01, .improve = 200000});
 ///     while (std::optional<MotionPlan> plan = plans.next()) C.viewPath(plan->path, plan->duration());
 ///
-/// Further ways are searched with options.improve evaluations (1000000 if that is 0), where a shorter one can be. The
+/// Further ways are searched with options.improvement_evaluations evaluations (1000000 if that is 0), where a shorter one can be. The
 /// same arguments give the same motions, at any number of threads, unless time_limit, counted from the first call on,
 /// ends it.
 class MotionPlans {
@@ -26,14 +26,14 @@ class MotionPlans {
   MotionPlans(const MotionPlans&) = delete;
 
   /// The next motion; where there is none, the first one says why. None after the last one.
-  std::optional<MotionPlan> next(const MotionWatch& watch = {});
+  std::optional<MotionPlan> next(const CancellationToken& watch = {});
 
  private:
   const Config config_;
   const MotionGoal goal_;
   PlanOptions options_;
   const VectorXd start_;
-  MotionWatch watch_, ask_;
+  CancellationToken watch_, ask_;
   std::unique_ptr<Planner> planner_;  ///< made by the first call
 };
 

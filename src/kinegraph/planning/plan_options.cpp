@@ -45,22 +45,22 @@ const OptionTable<PlanOptions>& planOptionTable() {
         "",
         "What is made small: 'time', 'length', or 'clearance' (the largest margin that is found, then the time).",
         {"time", "length", "clearance"}},
-       {"tries", &O::tries, "", "Ways that are searched and shortened; the best one counts.", Range::atLeastOne()},
+       {"restarts", &O::restarts, "", "Ways that are searched and shortened; the best one counts.", Range::atLeastOne()},
        {"blend", &O::blend, "rad or m", "By how much corners may be rounded, in every dof; 0 stops at them.",
         Range::notNegative()},
-       {"touching", &O::touching, "m",
+       {"max_start_penetration", &O::max_start_penetration, "m",
         "Depth up to which a start or goal in collision is mended: the motion first leaves, and says so.",
         Range::notNegative()},
        {"constraint_tolerance", &O::constraint_tolerance, "",
         "Violation of each row of the constraints that is allowed, in its own unit.", Range::positive()},
-       {"goals", &O::goals, "", "Most postures that are looked for where the goal is targets or conditions.",
+       {"max_goal_samples", &O::max_goal_samples, "", "Most postures that are looked for where the goal is targets or conditions.",
         Range::atLeastOne()},
-       {"evaluations", &O::evaluations, "",
+       {"max_evaluations", &O::max_evaluations, "",
         "Effort of the search of the first way, at most: looks at up to eight postures side by side, or at a motion at "
         "all times; "
         "postures that are drawn, or at which constraints are computed, count one each.",
         Range::atLeastOne()},
-       {"improve", &O::improve, "",
+       {"improvement_evaluations", &O::improvement_evaluations, "",
         "Effort that is spent on further ways after `tries`: evaluations, each round of ways to its end. planMotions "
         "takes 1000000 where this is 0.",
         Range::notNegative()},
@@ -68,10 +68,10 @@ const OptionTable<PlanOptions>& planOptionTable() {
         "Of a KOMO that bends the motion so that it accelerates less; taken if that is free and faster. 0: none, else "
         "80 are a good number. For 'time' alone, without constraints, moving obstacles and start velocity.",
         Range::notNegative()},
-       {"proof", &O::proof, "",
+       {"prove_infeasibility", &O::prove_infeasibility, "",
         "Where no way is found, a proof that there is none is looked for, up to 1.25 times the time limit; without, "
         "the "
-        "status is 'no_way' sooner."},
+        "status is 'no_path_found' sooner."},
        {"timing", &O::timing, "",
         "The motion gets times; without, there is a path alone, and `at` has nothing to say."},
        {"time_limit",
@@ -95,16 +95,16 @@ void PlanOptions::validateFor(int dofs) const {
   validateLimit(jerk, "jerk", dofs);
   if (start_velocity.size() > 0 && start_velocity.size() != dofs)
     throw ValueError(cat("planMotion: start_velocity has ", start_velocity.size(), " numbers; expected ", dofs));
-  if (!timing && (slices > 0 || !moving.empty() || start_velocity.size() > 0))
-    throw ValueError("planMotion: slices, moving obstacles and start_velocity need timing");
-  if (slices > 0 && (optimize != "time" || !constraints.empty() || !moving.empty() || start_velocity.size() > 0))
+  if (!timing && (slices > 0 || !obstacle_trajectories.empty() || start_velocity.size() > 0))
+    throw ValueError("planMotion: slices, obstacle_trajectories and start_velocity need timing");
+  if (slices > 0 && (optimize != "time" || !constraints.empty() || !obstacle_trajectories.empty() || start_velocity.size() > 0))
     throw ValueError(
-        "planMotion: slices is for optimize 'time', without constraints, moving obstacles and start_velocity");
+        "planMotion: slices is for optimize 'time', without constraints, obstacle_trajectories and start_velocity");
   if (slices == 1 || slices > kMostSlices)
     throw ValueError(cat("planMotion: slices is ", slices, "; expected 0, or 2 to ", kMostSlices));
   if (!start_velocity.allFinite()) throw ValueError("planMotion: start_velocity has numbers that are not finite");
   validateStartAcceleration(*this, dofs);
-  if (!moving.empty() && !acceleration.allFinite())
+  if (!obstacle_trajectories.empty() && !acceleration.allFinite())
     throw ValueError("planMotion: acceleration is infinite; among moving obstacles it has to be limited");
 }
 

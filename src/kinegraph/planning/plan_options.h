@@ -16,8 +16,8 @@ namespace kinegraph {
 /// conditions hold. Of the latter two, several free postures are looked for, and the motion goes to one of them.
 struct MotionGoal {
   MotionGoal() = default;
-  MotionGoal(VectorXd posture) : postures{std::move(posture)} {}
-  MotionGoal(std::vector<VectorXd> postures) : postures(std::move(postures)) {}
+  MotionGoal(VectorXd configuration) : configurations{std::move(configuration)} {}
+  MotionGoal(std::vector<VectorXd> configurations) : configurations(std::move(configurations)) {}
   MotionGoal(std::vector<IkTarget> targets) : targets(std::move(targets)) {}
   MotionGoal(std::vector<MotionConstraint> conditions) : conditions(std::move(conditions)) {}
 
@@ -28,7 +28,7 @@ struct MotionGoal {
     return goal;
   }
 
-  std::vector<VectorXd> postures;
+  std::vector<VectorXd> configurations;
   std::vector<IkTarget> targets;
   std::vector<MotionConstraint> conditions;
   std::string state;
@@ -38,13 +38,13 @@ struct MotionGoal {
 struct PlanOptions {
   double margin = 0.;
   std::string optimize = "time";
-  int tries = 4;
+  int restarts = 4;
   double blend = .05;
-  double touching = .005;
+  double max_start_penetration = .005;
   double constraint_tolerance = 1e-3;
-  int goals = 8;
-  int evaluations = 1000000;
-  int improve = 0;
+  int max_goal_samples = 8;
+  int max_evaluations = 1000000;
+  int improvement_evaluations = 0;
   int slices = 0;
   double time_limit = std::numeric_limits<double>::infinity();
   std::uint64_t seed = 0;
@@ -56,9 +56,9 @@ struct PlanOptions {
   std::vector<MotionConstraint> constraints = {};  ///< that hold all along the path
   VectorXd start_velocity = {};                    ///< dq/dt with which the motion begins, rad/s or m/s; empty: at rest
   VectorXd start_acceleration = {};                ///< d2q/dt2, with start_velocity and limits of the jerk; empty: none
-  bool proof = true;                               ///< where no way is found, a proof that there is none is looked for
+  bool prove_infeasibility = true;                               ///< where no way is found, a proof that there is none is looked for
   bool timing = true;                              ///< the path gets times; else `timed` is empty
-  std::vector<MovingObstacle> moving = {};  ///< what moves meanwhile; times count from the begin of the motion, s
+  std::vector<ObstacleTrajectory> obstacle_trajectories = {};  ///< what moves meanwhile; times count from the begin of the motion, s
 
   void validate() const;  ///< throws ValueError naming the first field that makes no sense
 

@@ -19,12 +19,12 @@ constexpr Color kBlue = {40, 110, 220, 255}, kOrange = {240, 140, 30, 255}, kGra
                 kGreen = {20, 160, 60, 255};
 
 /// One frame on each link at the end of a chain.
-std::vector<int> tips(const Program& program) {
-  std::vector<char> ends(program.links.size(), 1);
-  for (const Program::Link& link : program.links) ends[std::size_t(link.parent)] = 0;
+std::vector<int> tips(const KinematicModel& model) {
+  std::vector<char> ends(model.links.size(), 1);
+  for (const KinematicModel::Link& link : model.links) ends[std::size_t(link.parent)] = 0;
   std::vector<int> frames;
-  for (std::size_t l = 1; l < program.links.size(); ++l)
-    if (ends[l]) frames.push_back(program.links[l].frame);
+  for (std::size_t l = 1; l < model.links.size(); ++l)
+    if (ends[l]) frames.push_back(model.links[l].frame);
   return frames;
 }
 
@@ -36,9 +36,9 @@ class Drawing {
     if (config.getJointDimension() != space.dofs())
       throw ValueError(cat(who, ": the scene has ", config.getJointDimension(), " dofs; expected ", space.dofs(),
                            ", those that were planned for"));
-    const Program& program = *config.program();
-    for (const std::string& name : frames) frames_.push_back(frameId(program, name, who));
-    if (frames.empty()) frames_ = tips(program);
+    const KinematicModel& model = *config.model();
+    for (const std::string& name : frames) frames_.push_back(frameId(model, name, who));
+    if (frames.empty()) frames_ = tips(model);
   }
 
   void addMotion(const VectorXd& from, const VectorXd& to) {
@@ -64,7 +64,7 @@ class Drawing {
   }
 
   /// Puts what was added into the picture.
-  void draw(const std::string& name, const Color& color) {
+  void sample(const std::string& name, const Color& color) {
     if (points_.empty()) return;
     Frame frame = picture_.addFrame(name);
     setLines(frame, points_, {color});
@@ -87,12 +87,12 @@ Config MotionPlan::picture(const Config& config, const std::vector<std::string>&
   Drawing drawing(config, *space, frames, "MotionPlan.picture");
   for (std::size_t i = 0; i < trees.size(); ++i) {
     drawing.addTree(trees[i]);
-    drawing.draw(i == 0 ? "start tree" : "goal tree", i == 0 ? kBlue : kOrange);
+    drawing.sample(i == 0 ? "start tree" : "goal tree", i == 0 ? kBlue : kOrange);
   }
-  drawing.addPath(first_way);
-  drawing.draw("first way", kGray);
+  drawing.addPath(raw_path);
+  drawing.sample("first way", kGray);
   drawing.addPath(path);
-  drawing.draw("path", kGreen);
+  drawing.sample("path", kGreen);
   if (!feasible() && !obstacles.empty()) drawing.picture().getFrame(obstacles.front().frame).setColor({1., 0., 0.});
   return std::move(drawing.picture());
 }
@@ -100,7 +100,7 @@ Config MotionPlan::picture(const Config& config, const std::vector<std::string>&
 Config Roadmap::picture(const Config& config, const std::vector<std::string>& frames) const {
   Drawing drawing(config, *space_, frames, "Roadmap.picture");
   for (const auto& [a, b] : motionEnds()) drawing.addMotion(nodes_[std::size_t(a)], nodes_[std::size_t(b)]);
-  drawing.draw("roadmap", kBlue);
+  drawing.sample("roadmap", kBlue);
   return std::move(drawing.picture());
 }
 

@@ -71,21 +71,21 @@ bool isFree(Steering& steering, const PathCurve& curve, int parts_of_piece) {
   return true;
 }
 
-TimedPath timedBy(TimeLaw law, const MatrixXd& rows, const PathCurve& curve) {
-  std::vector<LawPhase> phases = law.phases();
-  for (LawPhase& phase : phases) phase.piece = curve.pieceAt(.5 * (phase.begin.s + phase.end));
-  law = TimeLaw(std::move(phases), law.duration());
+TimedPath timedBy(TimeScaling scaling, const MatrixXd& rows, const PathCurve& curve) {
+  std::vector<ScalingPhase> phases = scaling.phases();
+  for (ScalingPhase& phase : phases) phase.piece = curve.pieceAt(.5 * (phase.begin.s + phase.end));
+  scaling = TimeScaling(std::move(phases), scaling.duration());
   VectorXd times(Eigen::Index(curve.marks().size()));
-  for (Eigen::Index i = 0; i < times.size(); ++i) times[i] = law.timeOf(curve.marks()[std::size_t(i)]);
-  return TimedPath::fromParts(RetimeStatus::timed, "", rows, std::move(times), curve, std::move(law));
+  for (Eigen::Index i = 0; i < times.size(); ++i) times[i] = scaling.timeOf(curve.marks()[std::size_t(i)]);
+  return TimedPath::fromParts(RetimeStatus::timed, "", rows, std::move(times), curve, std::move(scaling));
 }
 
 TimedPath inTurn(const TimedPath& first, const TimedPath& second) {
   MatrixXd rows(first.path.rows() + second.path.rows() - 1, first.path.cols());
   rows << first.path, second.path.bottomRows(second.path.rows() - 1);
-  TimeLaw law = first.law();
-  law.append(CurvePart{{}, first.curve().length(), 0}.onWhole(second.law()));
-  return timedBy(std::move(law), rows, joined(first.curve(), second.curve()));
+  TimeScaling scaling = first.scaling();
+  scaling.append(CurvePart{{}, first.curve().length(), 0}.onWhole(second.scaling()));
+  return timedBy(std::move(scaling), rows, joined(first.curve(), second.curve()));
 }
 
 TimedPath timeMotion(Steering& steering, const MatrixXd& path, const MotionLimits& limits, double blend) {

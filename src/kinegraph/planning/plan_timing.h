@@ -20,7 +20,7 @@ bool isFree(Steering& steering, const PathCurve& curve, int parts);
 
 /// The motion of a law that is known along a curve, which is as `rows` at its marks; of its phases, s says on which pieces they
 /// are.
-TimedPath timedBy(TimeLaw law, const MatrixXd& rows, const PathCurve& curve);
+TimedPath timedBy(TimeScaling scaling, const MatrixXd& rows, const PathCurve& curve);
 
 /// One motion and then another one: the first ends at rest where the second begins at rest.
 TimedPath inTurn(const TimedPath& first, const TimedPath& second);

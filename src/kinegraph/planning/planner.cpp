@@ -30,17 +30,17 @@ std::string noteOf(const Way& way) {
 
 }  // namespace
 
-Planner::Planner(const Config& config, const PlanOptions& options, const MotionWatch& watch)
+Planner::Planner(const Config& config, const PlanOptions& options, const CancellationToken& watch)
     : config_(config),
       options_(options),
       limits_(planLimits(config, options)),
-      crew_(options.threads),
+      contexts_(options.threads),
       ask_(watch),
       watch_([this] { return isCancelled() || isLate(); }),
-      draws_(*config.program()) {
-  plan_.space = std::make_shared<const JointSpace>(*config.program());
+      draws_(*config.model()) {
+  plan_.space = std::make_shared<const JointSpace>(*config.model());
   plan_.scene = std::make_shared<const State>(config.state());
-  demands_ = {.scene = plan_.scene.get(),
+  planning_constraints_ = {.scene = plan_.scene.get(),
               .space = &draws_,
               .clearance = {.margin = options.margin},
               .constraints = options.constraints,
@@ -49,7 +49,7 @@ Planner::Planner(const Config& config, const PlanOptions& options, const MotionW
 
 MotionPlan Planner::run(const MotionGoal& goal, const VectorXd& start) {
   plan_.margin = options_.margin;
-  if (lookAtEnds(goal, start) && findWay()) finish();
+  if (checkEndpoints(goal, start) && findPath()) finish();
   return plan_;
 }
 
@@ -70,39 +70,39 @@ bool Planner::fail(PlanStatus status, std::string message) {
 
 bool Planner::failStopped(const std::string& message) {
   return cancelled_ ? fail(PlanStatus::cancelled, cat("cancelled; ", message))
-                    : fail(PlanStatus::out_of_time, cat("time limit of ", options_.time_limit, " s; ", message));
+                    : fail(PlanStatus::timeout, cat("time limit of ", options_.time_limit, " s; ", message));
 }
 
 // --- the ends ----------------------------------------------------------------------------------------------------
 
 /// A blocked end that only touches, or overlaps slightly, is left first.
-Planner::Gate Planner::gateOf(Steering& steering, MotionEnd end, const std::string& what) {
-  Gate gate{end, end.q};
+Planner::SearchEndpoint Planner::searchEndpoint(Steering& steering, Endpoint end, const std::string& what) {
+  SearchEndpoint gate{end, end.q};
   plan_.space->normalize(gate.inside);
-  const bool slight = !end.near.empty() && end.near.front().distance >= -options_.touching;
+  const bool slight = !end.near.empty() && end.near.front().distance >= -options_.max_start_penetration;
   if (end.isFree() || !slight) return gate;
-  const std::optional<VectorXd> inside = leaveContact(config_, steering, end, options_.margin);
+  const std::optional<VectorXd> inside = retreatFromContact(config_, steering, end, options_.margin);
   if (!inside) return gate;
-  plan_.notes.push_back(cat("the ", what, " is in contact: ", pairsInWords(*config_.program(), end.near),
+  plan_.warnings.push_back(cat("the ", what, " is in contact: ", describePairs(*config_.model(), end.near),
                             what == "start" ? "; the motion first leaves it" : "; the motion comes to it last"));
   gate.inside = *inside;
   gate.leaves = true;
   gate.deepest = end.near.front().distance - 2. * Clearance::kTolerance;
-  gate.end = checkEnd(steering, *config_.program(), *inside, options_.margin, what, kWho);
+  gate.end = checkEndpoint(steering, *config_.model(), *inside, options_.margin, what, kWho);
   gate.end.q = end.q;
   return gate;
 }
 
-bool Planner::lookAtEnds(const MotionGoal& goal, const VectorXd& start) {
-  Steering& steering = crew_.of(0, demands_);
-  start_ = gateOf(steering, checkEnd(steering, *config_.program(), start, options_.margin, "start", kWho), "start");
-  if (!start_.end.isFree()) return fail(PlanStatus::start_blocked, start_.end.problem);
-  GoalPostures postures = goalPostures(config_, goal, start_.end.q, steering, options_, watch_);
-  if (!postures.was_reached)
-    return watch_() ? failStopped(postures.message) : fail(PlanStatus::unreached, postures.message);
+bool Planner::checkEndpoints(const MotionGoal& goal, const VectorXd& start) {
+  Steering& steering = contexts_.of(0, planning_constraints_);
+  start_ = searchEndpoint(steering, checkEndpoint(steering, *config_.model(), start, options_.margin, "start", kWho), "start");
+  if (!start_.end.isFree()) return fail(PlanStatus::invalid_start, start_.end.problem);
+  GoalConfigurations configurations = goalConfigurations(config_, goal, start_.end.q, steering, options_, watch_);
+  if (!configurations.was_reached)
+    return watch_() ? failStopped(configurations.message) : fail(PlanStatus::unreached, configurations.message);
   std::string problem;
-  for (std::size_t i = 0; i < postures.ends.size(); ++i) {
-    Gate gate = gateOf(steering, postures.ends[i], "goal");
+  for (std::size_t i = 0; i < configurations.ends.size(); ++i) {
+    SearchEndpoint gate = searchEndpoint(steering, configurations.ends[i], "goal");
     if (gate.end.isFree()) {
       goals_.push_back(gate);
       goal_numbers_.push_back(int(i));
@@ -110,22 +110,22 @@ bool Planner::lookAtEnds(const MotionGoal& goal, const VectorXd& start) {
       problem = gate.end.problem;
     }
   }
-  endStage("ends", steering.evaluations(), cat(goals_.size(), " of ", postures.ends.size(), " goal postures are free"));
-  if (goals_.empty()) return fail(PlanStatus::goal_blocked, problem);
-  if (plan_.notes.size() > 3) plan_.notes.resize(3);
+  endStage("ends", steering.evaluations(), cat(goals_.size(), " of ", configurations.ends.size(), " goal postures are free"));
+  if (goals_.empty()) return fail(PlanStatus::invalid_goal, problem);
+  if (plan_.warnings.size() > 3) plan_.warnings.resize(3);
   for (const std::string& name : steering.manifold().sampled())
-    plan_.notes.push_back(cat("the constraint ", name, " was looked at every ", Steering::kSpacing, " along the way"));
+    plan_.warnings.push_back(cat("the constraint ", name, " was looked at every ", Steering::kSpacing, " along the way"));
   return true;
 }
 
 /// Around gates that keep less than the margin, it is what they keep.
 Clearance Planner::clearance(double margin) const {
-  std::vector<MotionEnd> ends;
-  for (const Gate& gate : goals_) ends.push_back(gate.end), ends.back().q = gate.inside;
+  std::vector<Endpoint> ends;
+  for (const SearchEndpoint& gate : goals_) ends.push_back(gate.end), ends.back().q = gate.inside;
   ends.push_back(start_.end);
   ends.back().q = start_.inside;
-  std::vector<const MotionEnd*> list;
-  for (const MotionEnd& end : ends) list.push_back(&end);
+  std::vector<const Endpoint*> list;
+  for (const Endpoint& end : ends) list.push_back(&end);
   Clearance clearance = clearanceAround(margin, list);
   clearance.guard = Clearance::kGuard;
   return clearance;
@@ -133,27 +133,27 @@ Clearance Planner::clearance(double margin) const {
 
 // --- the way -----------------------------------------------------------------------------------------------------
 
-WayRequest Planner::request() {
-  WayRequest request{.demands = demands_, .starts = {start_.inside}, .goals = {}};
-  for (const Gate& gate : goals_) request.goals.push_back(gate.inside);
+PathQuery Planner::request() {
+  PathQuery request{.constraints = planning_constraints_, .starts = {start_.inside}, .goals = {}};
+  for (const SearchEndpoint& gate : goals_) request.goals.push_back(gate.inside);
   request.seed = options_.seed;
-  request.effort = options_.evaluations;
+  request.evaluations = options_.max_evaluations;
   request.threads = options_.threads;
   request.watch = watch_;
-  request.steering = &crew_.of(0, demands_);
+  request.steering = &contexts_.of(0, planning_constraints_);
   return request;
 }
 
-bool Planner::findWay() {
+bool Planner::findPath() {
   Way way;
   if (options_.optimize == "clearance") way = searchWithRoom();
   if (way.points.empty()) {
-    demands_.clearance = clearance(options_.margin);
-    way = searchWay(request());
+    planning_constraints_.clearance = clearance(options_.margin);
+    way = searchPath(request());
   }
   plan_.attempts = way.attempts;
   plan_.trees = way.trees;
-  endStage("search", way.effort, noteOf(way));
+  endStage("search", way.evaluations, noteOf(way));
   if (way.points.empty()) return failSearch(way);
   improve(way);
   return true;
@@ -163,10 +163,10 @@ bool Planner::findWay() {
 Way Planner::searchWithRoom() {
   for (const double margin : kMargins) {
     if (margin <= options_.margin || watch_()) continue;
-    demands_.clearance = withEndsAt(margin);
-    WayRequest asked = request();
-    asked.effort = std::max(1l, asked.effort / 20);
-    Way way = searchWay(asked);
+    planning_constraints_.clearance = withEndsAt(margin);
+    PathQuery asked = request();
+    asked.evaluations = std::max(1l, asked.evaluations / 20);
+    Way way = searchPath(asked);
     if (way.points.empty()) continue;
     plan_.margin = margin;
     return way;
@@ -176,41 +176,41 @@ Way Planner::searchWithRoom() {
 
 /// Clearances for a larger margin than the ends were looked at with.
 Clearance Planner::withEndsAt(double margin) {
-  Steering& steering = crew_.of(0, demands_);
+  Steering& steering = contexts_.of(0, planning_constraints_);
   Clearance larger{.margin = margin, .guard = Clearance::kGuard};
-  std::vector<MotionEnd> ends;
-  for (const Gate& gate : goals_)
-    ends.push_back(checkEnd(steering, *config_.program(), gate.inside, margin, "goal", kWho));
-  ends.push_back(checkEnd(steering, *config_.program(), start_.inside, margin, "start", kWho));
-  std::vector<const MotionEnd*> list;
-  for (const MotionEnd& end : ends) list.push_back(&end);
+  std::vector<Endpoint> ends;
+  for (const SearchEndpoint& gate : goals_)
+    ends.push_back(checkEndpoint(steering, *config_.model(), gate.inside, margin, "goal", kWho));
+  ends.push_back(checkEndpoint(steering, *config_.model(), start_.inside, margin, "start", kWho));
+  std::vector<const Endpoint*> list;
+  for (const Endpoint& end : ends) list.push_back(&end);
   larger.tight = clearanceAround(margin, list).tight;
   return larger;
 }
 
 bool Planner::failSearch(const Way& way) {
-  long draws = 0;
-  for (const AttemptReport& attempt : way.attempts) draws += attempt.draws;
-  const AttemptReport last = way.attempts.empty() ? AttemptReport() : way.attempts.back();
-  plan_.obstacles = obstaclesMet(*config_.program(), way.hits);
-  const std::string met = obstaclesInWords(plan_.obstacles);
+  long samples = 0;
+  for (const SearchReport& attempt : way.attempts) samples += attempt.samples;
+  const SearchReport last = way.attempts.empty() ? SearchReport() : way.attempts.back();
+  plan_.obstacles = obstaclesMet(*config_.model(), way.hits);
+  const std::string met = describeObstacles(plan_.obstacles);
   const std::string words =
-      cat("no way found: ", way.effort, " evaluations, ", draws, " postures drawn in ", way.attempts.size(),
+      cat("no way found: ", way.evaluations, " evaluations, ", samples, " postures drawn in ", way.attempts.size(),
           " attempts; the last trees have ", last.start_nodes, " postures (start) and ", last.goal_nodes, " (goals)",
           met.empty() ? "" : cat("; most motions ended at ", met));
   if (cancelled_) return failStopped(words);
   std::vector<VectorXd> goals;
-  for (const Gate& gate : goals_) goals.push_back(gate.inside);
-  const bool tight = !demands_.clearance.tight.empty();  // then the margin does not hold everywhere
+  for (const SearchEndpoint& gate : goals_) goals.push_back(gate.inside);
+  const bool tight = !planning_constraints_.clearance.tight.empty();  // then the margin does not hold everywhere
   std::string proof;
-  if (options_.proof) {
+  if (options_.prove_infeasibility) {
     const auto is_enough = [this] { return isCancelled() || secondsSince(began_) > kProofUntil * options_.time_limit; };
-    proof = proveNoWay(*plan_.scene, start_.inside, goals, tight ? 0. : options_.margin, is_enough);
+    proof = proveInfeasible(*plan_.scene, start_.inside, goals, tight ? 0. : options_.margin, is_enough);
     endStage("prove", 0, proof.empty() ? "no proof that there is none" : "");
   }
   if (!proof.empty()) return fail(PlanStatus::impossible, cat(proof, "; ", words));
   if (way.was_stopped || cancelled_) return failStopped(words);
-  return fail(PlanStatus::no_way, words);
+  return fail(PlanStatus::no_path_found, words);
 }
 
 VectorXd Planner::weight() const {
@@ -219,14 +219,14 @@ VectorXd Planner::weight() const {
 }
 
 void Planner::improve(const Way& first) {
-  tries_ = options_.tries;
-  best_ = improveWay(first, request(),
-                     {.tries = options_.tries, .weight = weight(), .late = [this] { return isLate(); }}, crew_);
+  tries_ = options_.restarts;
+  best_ = improvePath(first, request(),
+                     {.tries = options_.restarts, .weight = weight(), .late = [this] { return isLate(); }}, contexts_);
   endStage("shorten", best_.evaluations,
-           first.is_line ? "" : cat("the best of ", options_.tries, options_.tries == 1 ? " way" : " ways"));
+           first.is_line ? "" : cat("the best of ", options_.restarts, options_.restarts == 1 ? " way" : " ways"));
   const double before = best_.cost;
   const int refinements = options_.optimize == "length" ? 2 : 0;  // each corner more takes time
-  tighten(best_, request(), weight(), refinements, crew_);
+  tighten(best_, request(), weight(), refinements, contexts_);
   endStage("tighten", best_.evaluations,
            best_.cost < before ? cat(lround(1000. * (1. - best_.cost / before)) / 10., " % shorter") : "");
 }
@@ -234,11 +234,11 @@ void Planner::improve(const Way& first) {
 /// The next round of ways.
 void Planner::improveFurther() {
   drawWhereShorter();
-  ImproveOptions options{
+  ImprovePathOptions options{
       .tries = kRoundTries, .first_try = tries_, .weight = weight(), .late = [this] { return isLate(); }};
   options.taut_below = kWorthPulling * best_.cost;
   options.refinements = options_.optimize == "length" ? 2 : 0;
-  ShortWay found = improveWay(best_.way, request(), options, crew_);
+  ShortcutResult found = improvePath(best_.way, request(), options, contexts_);
   tries_ += kRoundTries;
   further_ += std::max(found.evaluations, 1l);
   if (found.points.empty() || found.cost >= best_.cost) return;
@@ -249,7 +249,7 @@ void Planner::improveFurther() {
 void Planner::drawWhereShorter() {
   const VectorXd w = weight(), start = start_.inside;
   VectorXd lower = start, upper = start;
-  for (const Gate& gate : goals_) {
+  for (const SearchEndpoint& gate : goals_) {
     const VectorXd change = draws_.difference(start, gate.inside).cwiseProduct(w);
     const double a = .5 * best_.cost, direct = change.norm(), b2 = a * a - .25 * direct * direct;
     if (b2 < 0.) continue;
@@ -260,14 +260,14 @@ void Planner::drawWhereShorter() {
       upper[j] = std::max(upper[j], .5 * (start[j] + gate.inside[j]) + half);
     }
   }
-  draws_.drawWithin(lower, upper);
+  draws_.sampleWithin(lower, upper);
 }
 
 std::optional<MotionPlan> Planner::better() {
   if (!plan_.feasible() || best_.way.is_line) return std::nullopt;
   const bool by_length = options_.optimize == "length" || !options_.timing;
   const auto value = [&](const MotionPlan& plan) { return by_length ? plan.length : plan.duration(); };
-  while (further_ < options_.improve && !watch_()) {
+  while (further_ < options_.improvement_evaluations && !watch_()) {
     const double cost = best_.cost;
     improveFurther();
     if (best_.cost >= cost) continue;
@@ -275,7 +275,7 @@ std::optional<MotionPlan> Planner::better() {
     std::erase_if(plan_.stages, [](const PlanStage& stage) {
       return stage.name == "improve" || stage.name == "verify" || stage.name == "time" || stage.name == "bend";
     });
-    endStage("improve", further_, cat(tries_ - options_.tries, " further ways"));
+    endStage("improve", further_, cat(tries_ - options_.restarts, " further ways"));
     finish();
     if (plan_.feasible() && value(plan_) < (1. - kWorthTelling) * value(before)) return plan_;
     plan_ = std::move(before);
@@ -299,9 +299,9 @@ MatrixXd Planner::rows(const std::vector<VectorXd>& points, const Way& way) cons
 
 /// What keeps the margins without a guard.
 Steering& Planner::exactly() {
-  MotionDemands exact = demands_;
+  PlanningConstraints exact = planning_constraints_;
   exact.clearance.guard = 0.;
-  return crew_.of(0, exact);
+  return contexts_.of(0, exact);
 }
 
 /// Is each straight motion free at all times, but for those that leave and enter contacts, which are known?
@@ -318,10 +318,10 @@ bool Planner::verify(const MatrixXd& path, const Way& way, long& evaluations) {
 }
 
 /// What all of the path keeps: the margin, the least one around the ends, or the depth of a contact that is left.
-double Planner::kept() const {
+double Planner::verified_margin() const {
   double least = plan_.margin;
-  for (const Clearance::Tight& tight : demands_.clearance.tight) least = std::min(least, tight.margin);
-  for (const Gate* gate : {&start_, &goals_[std::size_t(best_.way.goal)]})
+  for (const Clearance::Tight& tight : planning_constraints_.clearance.tight) least = std::min(least, tight.margin);
+  for (const SearchEndpoint* gate : {&start_, &goals_[std::size_t(best_.way.goal)]})
     if (gate->leaves) least = std::min(least, gate->deepest);
   return least;
 }
@@ -334,13 +334,13 @@ void Planner::finish() {
     plan_.path = rows(best_.way.points, best_.way);  // as the search had verified it
     if (!verify(plan_.path, best_.way, evaluations)) {
       plan_.path.resize(0, 0);
-      fail(PlanStatus::no_way, "the way that was found could not be verified");
+      fail(PlanStatus::no_path_found, "the way that was found could not be verified");
       return;
     }
   }
-  plan_.first_way = rows(best_.way.points, best_.way);
+  plan_.raw_path = rows(best_.way.points, best_.way);
   plan_.goal = goal_numbers_[std::size_t(best_.way.goal)];
-  plan_.kept = kept();
+  plan_.verified_margin = verified_margin();
   plan_.length = pathLength(*plan_.space, plan_.path);
   endStage("verify", evaluations, is_free ? "" : "the way as it was found, since the shortened one was not free");
   if (options_.timing) {
@@ -354,10 +354,10 @@ void Planner::finish() {
 /// Takes what KOMO makes of the motion, if that is faster. Not where the motion leaves or enters contacts.
 void Planner::bend() {
   const bool leaves = start_.leaves || goals_[std::size_t(best_.way.goal)].leaves;
-  if (leaves || !plan_.timed.feasible() || !config_.program()->unit_norms.empty()) return;
+  if (leaves || !plan_.timed.feasible() || !config_.model()->unit_norms.empty()) return;
   const double before = plan_.timed.duration();
-  std::optional<BentMotion> bent =
-      bendMotion(config_, exactly(), plan_.timed, limits_, kept(), options_.slices, watch_);
+  std::optional<SmoothedMotion> bent =
+      smoothMotion(config_, exactly(), plan_.timed, limits_, verified_margin(), options_.slices, watch_);
   if (bent) {
     plan_.path = std::move(bent->path);
     plan_.timed = std::move(bent->timed);
@@ -367,7 +367,7 @@ void Planner::bend() {
 }
 
 MotionPlan planFromRest(const Config& config, const MotionGoal& goal, const PlanOptions& options, const VectorXd& start,
-                        const MotionWatch& watch) {
+                        const CancellationToken& watch) {
   Planner planner(config, options, watch);
   MotionPlan plan = planner.run(goal, start);
   while (std::optional<MotionPlan> better = planner.better()) plan = std::move(*better);

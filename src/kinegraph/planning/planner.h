@@ -21,11 +21,11 @@ namespace kinegraph {
 class Planner {
  public:
   /// All of them must stay.
-  Planner(const Config& config, const PlanOptions& options, const MotionWatch& watch);
+  Planner(const Config& config, const PlanOptions& options, const CancellationToken& watch);
 
   MotionPlan run(const MotionGoal& goal, const VectorXd& start);
 
-  /// The next motion that is better than those before, by a share of 1e-4 at least; none once options.improve evaluations
+  /// The next motion that is better than those before, by a share of 1e-4 at least; none once options.improvement_evaluations evaluations
   /// are spent, or the time is up, or where none can be better.
   std::optional<MotionPlan> better();
 
@@ -33,8 +33,8 @@ class Planner {
   using Clock = std::chrono::steady_clock;
 
   /// A start or goal as the search sees it: where it is blocked by a slight contact, the posture behind it.
-  struct Gate {
-    MotionEnd end;
+  struct SearchEndpoint {
+    Endpoint end;
     VectorXd inside;  ///< from where the search begins
     bool leaves = false;
     double deepest = 0.;  ///< of the contact that is left, m
@@ -46,12 +46,12 @@ class Planner {
   bool fail(PlanStatus status, std::string message);
   bool failStopped(const std::string& message);
 
-  Gate gateOf(Steering& steering, MotionEnd end, const std::string& what);
-  bool lookAtEnds(const MotionGoal& goal, const VectorXd& start);
+  SearchEndpoint searchEndpoint(Steering& steering, Endpoint end, const std::string& what);
+  bool checkEndpoints(const MotionGoal& goal, const VectorXd& start);
   Clearance clearance(double margin) const;
 
-  WayRequest request();
-  bool findWay();
+  PathQuery request();
+  bool findPath();
   Way searchWithRoom();
   Clearance withEndsAt(double margin);
   bool failSearch(const Way& way);
@@ -63,32 +63,32 @@ class Planner {
   MatrixXd rows(const std::vector<VectorXd>& points, const Way& way) const;
   Steering& exactly();
   bool verify(const MatrixXd& path, const Way& way, long& evaluations);
-  double kept() const;
+  double verified_margin() const;
   void finish();
   void bend();
 
   const Config& config_;
   const PlanOptions& options_;
   const MotionLimits limits_;
-  SteeringCrew crew_;
-  const MotionWatch& ask_;  ///< of the caller
-  const MotionWatch watch_;
+  SteeringContexts contexts_;
+  const CancellationToken& ask_;  ///< of the caller
+  const CancellationToken watch_;
   const Clock::time_point began_ = Clock::now();
   Clock::time_point stage_began_ = began_;
   bool cancelled_ = false;
   MotionPlan plan_;
   JointSpace draws_;  ///< from which postures are drawn
-  MotionDemands demands_;
-  Gate start_;
-  std::vector<Gate> goals_;
+  PlanningConstraints planning_constraints_;
+  SearchEndpoint start_;
+  std::vector<SearchEndpoint> goals_;
   std::vector<int> goal_numbers_;
-  ShortWay best_;
+  ShortcutResult best_;
   int tries_ = 0;     ///< ways that were searched so far
   long further_ = 0;  ///< evaluations that further ones took
 };
 
-/// What a Planner finds with all of options.improve.
+/// What a Planner finds with all of options.improvement_evaluations.
 MotionPlan planFromRest(const Config& config, const MotionGoal& goal, const PlanOptions& options, const VectorXd& start,
-                        const MotionWatch& watch);
+                        const CancellationToken& watch);
 
 }  // namespace kinegraph

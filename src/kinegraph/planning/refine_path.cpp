@@ -20,7 +20,7 @@ void requireFreePath(const Config& config, Steering& steering, const MatrixXd& p
     const auto contact = steering.check().contact(path.row(k - 1).transpose(), path.row(k).transpose());
     if (!contact) continue;
     throw ValueError(cat(who, ": the path is not free between rows ", k - 1, " and ", k, ": ",
-                         pairsInWords(*config.program(), {{steering.check().lastDistance(), contact->a, contact->b}})));
+                         describePairs(*config.model(), {{steering.check().lastDistance(), contact->a, contact->b}})));
   }
 }
 
@@ -28,7 +28,7 @@ void requireFreePath(const Config& config, Steering& steering, const MatrixXd& p
 
 MatrixXd shortcut(const Config& config, const MatrixXd& path, const RefineOptions& options) {
   const State scene = config.state();
-  const JointSpace space(scene.program());
+  const JointSpace space(scene.model());
   Steering steering({.scene = &scene, .space = &space, .clearance = {.margin = options.margin}});
   requireFreePath(config, steering, path, "shortcut");
   std::vector<VectorXd> points;
@@ -39,7 +39,7 @@ MatrixXd shortcut(const Config& config, const MatrixXd& path, const RefineOption
 MatrixXd smooth(const Config& config, const MatrixXd& path, const RefineOptions& options) {
   if (!(options.blend >= 0.)) throw ValueError(cat("smooth: blend is ", options.blend, "; expected a number >= 0"));
   const State scene = config.state();
-  const JointSpace space(scene.program());
+  const JointSpace space(scene.model());
   Steering steering({.scene = &scene, .space = &space, .clearance = {.margin = options.margin}});
   requireFreePath(config, steering, path, "smooth");
   const PathCurve curve = blendedPolyline(path, {.tolerance = options.blend, .is_free = freeBlends(steering)});

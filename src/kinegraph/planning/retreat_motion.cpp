@@ -59,14 +59,14 @@ std::optional<VectorXd> push(State state, Steering& steering, const VectorXd& fr
 }
 
 /// Do the pairs in contact never overlap more than at the end, on the way to `q`, and are all other pairs free?
-bool leavesWell(const Config& config, Steering& steering, const MotionEnd& end, const VectorXd& q, double deepest) {
-  const Program& program = *config.program();
+bool leavesWell(const Config& config, Steering& steering, const Endpoint& end, const VectorXd& q, double deepest) {
+  const KinematicModel& model = *config.model();
   std::vector<std::pair<int, int>> ids;
   std::vector<std::pair<std::string, std::string>> names;
   for (const ClearanceCheck::Nearest& pair : end.near) {
     if (pair.distance > 2. * Clearance::kGuard) continue;
     ids.emplace_back(pair.a, pair.b);
-    names.emplace_back(program.frame_name[std::size_t(pair.a)], program.frame_name[std::size_t(pair.b)]);
+    names.emplace_back(model.frame_name[std::size_t(pair.a)], model.frame_name[std::size_t(pair.b)]);
   }
   const VectorXd to = end.q + steering.space().difference(end.q, q);
   MotionChecker others(withoutPairs(config, ids).state()), these(onlyPairs(config, names, "planMotion").state());
@@ -76,7 +76,7 @@ bool leavesWell(const Config& config, Steering& steering, const MotionEnd& end, 
 
 }  // namespace
 
-std::optional<VectorXd> leaveContact(const Config& config, Steering& steering, const MotionEnd& end, double margin) {
+std::optional<VectorXd> retreatFromContact(const Config& config, Steering& steering, const Endpoint& end, double margin) {
   if (end.near.empty()) return std::nullopt;
   const double deepest = std::min(0., end.near.front().distance);
   for (const double wanted : {margin + kAway, .5 * kAway}) {

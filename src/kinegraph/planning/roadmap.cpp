@@ -19,7 +19,7 @@ constexpr char kEarlierMagic[8] = {'K', 'G', 'R', 'O', 'A', 'D', '0', '1'};  // 
 
 std::unique_ptr<Steering> steeringFor(const State& scene, const JointSpace& space, double margin) {
   return std::make_unique<Steering>(
-      MotionDemands{.scene = &scene, .space = &space, .clearance = {.margin = margin, .guard = Clearance::kGuard}});
+      PlanningConstraints{.scene = &scene, .space = &space, .clearance = {.margin = margin, .guard = Clearance::kGuard}});
 }
 
 /// FNV-1a of bytes.
@@ -45,7 +45,7 @@ T take(std::istream& in, const std::string& path) {
 
 Roadmap::Roadmap(const Config& config, double margin, std::uint64_t seed)
     : scene_(std::make_shared<const State>(config.state())),
-      space_(std::make_shared<const JointSpace>(scene_->program())),
+      space_(std::make_shared<const JointSpace>(scene_->model())),
       margin_(margin),
       rng_(seed) {
   if (!(margin >= 0.)) throw ValueError(cat("Roadmap: the margin is ", margin, "; expected a distance >= 0, in m"));
@@ -71,15 +71,15 @@ int Roadmap::addNode(const VectorXd& q) {
   return node;
 }
 
-void Roadmap::grow(int postures, const MotionWatch& watch) {
-  if (postures < 0) throw ValueError(cat("Roadmap.grow: ", postures, " postures; expected 0 or more"));
+void Roadmap::grow(int configurations, const CancellationToken& watch) {
+  if (configurations < 0) throw ValueError(cat("Roadmap.grow: ", configurations, " postures; expected 0 or more"));
   const VectorXd like = scene_->q();
-  for (long tries = 1000l * postures; postures > 0 && tries > 0; --tries) {
+  for (long tries = 1000l * configurations; configurations > 0 && tries > 0; --tries) {
     if (tries % 16 == 0 && watch && watch()) return;
-    const VectorXd q = space_->draw(rng_, like);
+    const VectorXd q = space_->sample(rng_, like);
     if (!steering_->check().isFree(q)) continue;
     addNode(q);
-    --postures;
+    --configurations;
   }
 }
 
@@ -137,7 +137,7 @@ std::vector<int> Roadmap::shortestPath(int from, int to) const {
 }
 
 /// Motions of a path that are all free: the shortest, then the next one where one of its motions turns out blocked.
-std::vector<int> Roadmap::freePath(int from, int to, const MotionWatch& watch) {
+std::vector<int> Roadmap::freePath(int from, int to, const CancellationToken& watch) {
   while (!(watch && watch())) {
     const std::vector<int> path = shortestPath(from, to);
     if (std::ranges::all_of(path, [&](int e) { return edgeIsFree(edges_[std::size_t(e)]); })) return path;
@@ -145,17 +145,17 @@ std::vector<int> Roadmap::freePath(int from, int to, const MotionWatch& watch) {
   return {};
 }
 
-RoadmapAnswer Roadmap::findPath(const VectorXd& start, const VectorXd& goal, const MotionWatch& watch) {
-  RoadmapAnswer answer;
+RoadmapPath Roadmap::findPath(const VectorXd& start, const VectorXd& goal, const CancellationToken& watch) {
+  RoadmapPath answer;
   const long before = steering_->evaluations();
   int ends[2];
   for (int i = 0; i < 2; ++i) {
-    const MotionEnd end =
-        checkEnd(*steering_, scene_->program(), i ? goal : start, margin_, i ? "goal" : "start", "Roadmap");
+    const Endpoint end =
+        checkEndpoint(*steering_, scene_->model(), i ? goal : start, margin_, i ? "goal" : "start", "Roadmap");
     const bool keeps = end.near.empty() || end.near.front().distance >= margin_ + 2. * Clearance::kGuard;
     if (!end.isFree() || !keeps) {
       answer.message = end.isFree() ? cat("the ", i ? "goal" : "start",
-                                          " does not keep the margin: ", pairsInWords(scene_->program(), end.near))
+                                          " does not keep the margin: ", describePairs(scene_->model(), end.near))
                                     : end.problem;
       return answer;
     }
@@ -184,16 +184,16 @@ RoadmapAnswer Roadmap::findPath(const VectorXd& start, const VectorXd& goal, con
 
 void Roadmap::setScene(const Config& config) {
   const auto scene = std::make_shared<const State>(config.state());
-  if (dofNames(scene->program()) != dofNames(scene_->program()))
+  if (dofNames(scene->model()) != dofNames(scene_->model()))
     throw ValueError("Roadmap.setScene: the joints of this scene are others than those of the map");
   scene_ = scene;
-  space_ = std::make_shared<const JointSpace>(scene_->program());
+  space_ = std::make_shared<const JointSpace>(scene_->model());
   steering_ = steeringFor(*scene_, *space_, margin_);
   std::ranges::fill(node_known_, Known::nothing);
   for (Edge& edge : edges_) edge.known = Known::nothing;
 }
 
-MatrixXd Roadmap::postures() const {
+MatrixXd Roadmap::configurations() const {
   MatrixXd rows(size(), space_->dofs());
   for (int i = 0; i < size(); ++i) rows.row(i) = nodes_[std::size_t(i)].transpose();
   return rows;
@@ -209,17 +209,17 @@ std::vector<std::pair<int, int>> Roadmap::motionEnds() const {
 /// A number that differs where bodies, places or limits do.
 std::uint64_t Roadmap::sceneCode() const {
   std::uint64_t code = 0xCBF29CE484222325ull;
-  const Program& program = scene_->program();
-  for (const auto& [a, b] : program.movingPairs()) {
+  const KinematicModel& model = scene_->model();
+  for (const auto& [a, b] : model.movingPairs()) {
     for (const int frame : {a, b}) {
       const RigidTransform& X = scene_->parameters().frame_offset[std::size_t(frame)];
       mix(code, X.R.data(), sizeof(double) * 9);
       mix(code, X.p.data(), sizeof(double) * 3);
-      const Geometry& shape = *program.geometry[std::size_t(frame)];
+      const Geometry& shape = *model.geometry[std::size_t(frame)];
       const int type = int(shape.type);
       mix(code, &type, sizeof type);
       mix(code, shape.size.data(), sizeof(double) * shape.size.size());
-      const double radius = program.body[std::size_t(frame)]->boundRadius();
+      const double radius = model.body[std::size_t(frame)]->boundRadius();
       mix(code, &radius, sizeof radius);
     }
   }
@@ -240,7 +240,7 @@ void Roadmap::save(const std::string& path) const {
 
 void Roadmap::save(std::ostream& out) const {
   out.write(kMagic, sizeof kMagic);
-  const std::string joints = join(dofNames(scene_->program()), "\n");
+  const std::string joints = join(dofNames(scene_->model()), "\n");
   put(out, std::uint64_t(joints.size()));
   out.write(joints.data(), std::streamsize(joints.size()));
   put(out, sceneCode());
@@ -283,11 +283,11 @@ void Roadmap::load(std::istream& in, const std::string& path) {
   std::string joints(counted("letters"), ' ');
   if (!in.read(joints.data(), std::streamsize(joints.size())))
     throw FileError(cat(path, ": the roadmap ends too early"));
-  if (joints != join(dofNames(scene_->program()), "\n"))
+  if (joints != join(dofNames(scene_->model()), "\n"))
     throw ValueError(cat("Roadmap.load: ", path, " is a map of other joints: ", joints));
   const bool same_scene = take<std::uint64_t>(in, path) == sceneCode();
   if (counted("dofs") != std::size_t(space_->dofs())) throw FileError(cat(path, ": the roadmap is damaged: dofs"));
-  std::vector<VectorXd> nodes(counted("postures"), VectorXd(space_->dofs()));
+  std::vector<VectorXd> nodes(counted("configurations"), VectorXd(space_->dofs()));
   std::vector<Known> known;
   for (VectorXd& node : nodes) {
     known.push_back(take<unsigned char>(in, path) == 1 && same_scene ? Known::is_free : Known::nothing);

@@ -13,7 +13,7 @@
 namespace kinegraph {
 
 /// What a Roadmap answers.
-struct RoadmapAnswer {
+struct RoadmapPath {
   MatrixXd path;        ///< (K, n), free at all times; no rows if there is none
   std::string message;  ///< "" if there is one, else why not
   long checked = 0;     ///< evaluations of Steering that it took; none where all was known
@@ -37,10 +37,10 @@ class Roadmap {
   explicit Roadmap(const Config& config, double margin = 0., std::uint64_t seed = 0);
 
   /// Adds that many free random postures, each with motions to the nearest ones. Throws ValueError for less than 0.
-  void grow(int postures, const MotionWatch& watch = {});
+  void grow(int configurations, const CancellationToken& watch = {});
 
   /// Throws ValueError for joint vectors of a wrong length.
-  RoadmapAnswer findPath(const VectorXd& start, const VectorXd& goal, const MotionWatch& watch = {});
+  RoadmapPath findPath(const VectorXd& start, const VectorXd& goal, const CancellationToken& watch = {});
 
   /// The scene is another one now, with the same joints; else ValueError.
   void setScene(const Config& config);
@@ -62,7 +62,7 @@ class Roadmap {
 
   int size() const { return int(nodes_.size()); }
   int motions() const { return int(edges_.size()); }
-  MatrixXd postures() const;                            ///< (N, n)
+  MatrixXd configurations() const;                            ///< (N, n)
   std::vector<std::pair<int, int>> motionEnds() const;  ///< places of postures
   double margin() const { return margin_; }
 
@@ -78,7 +78,7 @@ class Roadmap {
   bool nodeIsFree(int node);
   bool edgeIsFree(Edge& edge);
   std::vector<int> shortestPath(int from, int to) const;
-  std::vector<int> freePath(int from, int to, const MotionWatch& watch);
+  std::vector<int> freePath(int from, int to, const CancellationToken& watch);
   std::uint64_t sceneCode() const;
 
   std::shared_ptr<const State> scene_;

@@ -19,7 +19,7 @@ constexpr double kRounding = 1e-9;     // by which a joint may be beyond its lim
 
 /// From the motion's start to its end; empty where KOMO finds none that is free.
 MatrixXd solvedPath(const Config& config, const TimedPath& motion, double margin, int slices,
-                    const MotionWatch& watch) {
+                    const CancellationToken& watch) {
   Config scene(config);
   const VectorXd start = motion.at(0.).q, goal = motion.at(motion.duration()).q;
   scene.setJointState(start);
@@ -66,8 +66,8 @@ bool keepsLimits(const PathCurve& curve, const MatrixXd& limits) {
 
 }  // namespace
 
-std::optional<BentMotion> bendMotion(const Config& config, Steering& steering, const TimedPath& motion,
-                                     const MotionLimits& limits, double margin, int slices, const MotionWatch& watch) {
+std::optional<SmoothedMotion> smoothMotion(const Config& config, Steering& steering, const TimedPath& motion,
+                                     const MotionLimits& limits, double margin, int slices, const CancellationToken& watch) {
   if (!motion.feasible() || motion.duration() == 0. || margin < 0.) return std::nullopt;
   const MatrixXd path = solvedPath(config, motion, margin, slices, watch);
   if (path.rows() == 0) return std::nullopt;
@@ -78,7 +78,7 @@ std::optional<BentMotion> bendMotion(const Config& config, Steering& steering, c
   if (!isFree(steering, curve, kParts)) return std::nullopt;
   for (Eigen::Index k = 1; k < path.rows(); ++k)
     if (!steering.isFree(path.row(k - 1).transpose(), path.row(k).transpose())) return std::nullopt;
-  return BentMotion{path, std::move(timed)};
+  return SmoothedMotion{path, std::move(timed)};
 }
 
 }  // namespace kinegraph

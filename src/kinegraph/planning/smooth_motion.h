@@ -10,7 +10,7 @@
 namespace kinegraph {
 
 /// A motion as KOMO bends it.
-struct BentMotion {
+struct SmoothedMotion {
   MatrixXd path;  ///< slices, rows from start to goal
   TimedPath timed;
 };
@@ -20,7 +20,7 @@ struct BentMotion {
 /// is then timed. None if no motion is found that is free on the spline, by the margins of the Steering, keeps the limits
 /// of joints, and is faster. Straight motions from row to row of the path are free, too.
 /// Source: Toussaint, A tutorial on Newton methods for constrained trajectory optimization, 2017.
-std::optional<BentMotion> bendMotion(const Config& config, Steering& steering, const TimedPath& motion,
-                                     const MotionLimits& limits, double margin, int slices, const MotionWatch& watch);
+std::optional<SmoothedMotion> smoothMotion(const Config& config, Steering& steering, const TimedPath& motion,
+                                     const MotionLimits& limits, double margin, int slices, const CancellationToken& watch);
 
 }  // namespace kinegraph

@@ -40,13 +40,13 @@ double BotOp::get_t() {
 VectorXd BotOp::get_q() {
   ask(askQ);
   const Lock lock(mutex_);
-  return loop_->reading().q;
+  return loop_->state().q;
 }
 
 VectorXd BotOp::get_qDot() {
   ask(askVelocity);
   const Lock lock(mutex_);
-  return loop_->reading().velocity;
+  return loop_->state().velocity;
 }
 
 VectorXd BotOp::get_qHome() const { return home_; }
@@ -57,8 +57,8 @@ VectorXd BotOp::get_tauExternal() {
   VectorXd mean = VectorXd::Constant(home_.size(), std::numeric_limits<double>::quiet_NaN());
   if (external_count_ > 0) {
     mean = external_sum_ / double(external_count_);
-  } else if (loop_->reading().external_effort.size() > 0) {
-    mean = loop_->reading().external_effort;
+  } else if (loop_->state().external_effort.size() > 0) {
+    mean = loop_->state().external_effort;
   }
   external_count_ = 0;
   return mean;
@@ -125,14 +125,14 @@ double BotOp::getGripperPos(int gripper) {
   requireGripper("BotOp::getGripperPos", gripper);
   ask(askGripper);
   const Lock lock(mutex_);
-  return loop_->reading().grippers.at(std::size_t(gripper)).width;
+  return loop_->state().grippers.at(std::size_t(gripper)).width;
 }
 
 bool BotOp::gripperDone(int gripper) {
   requireGripper("BotOp::gripperDone", gripper);
   ask(askDone);
   const Lock lock(mutex_);
-  return loop_->reading().grippers.at(std::size_t(gripper)).is_done;
+  return loop_->state().grippers.at(std::size_t(gripper)).is_done;
 }
 
 // --- the simulated world -------------------------------------------------------------------------------------------------
@@ -155,7 +155,7 @@ void BotOp::update(Config& config) const {
   if (SimulatedWorld* world = loop_->driver().world()) {
     world->updateConfig(config);
   } else {
-    config.setJointState(loop_->reading().q);
+    config.setJointState(loop_->state().q);
   }
 }
 

@@ -41,7 +41,7 @@ BSpline BotOp::doneUntil(double time) const {
   const bool has_motion = loop_->mode() == LoopMode::follow || loop_->mode() == LoopMode::hold;
   if (has_motion) return cubicPart(loop_->motion(), now, time);
   MatrixXd still(2, home_.size());
-  still.rowwise() = loop_->reading().q.transpose();
+  still.rowwise() = loop_->state().q.transpose();
   VectorXd times(2);
   times << now, time;
   return BSpline(3, still, times);
@@ -75,7 +75,7 @@ void BotOp::engage(const char* call, const BSpline& motion, double from) {
 /// it is, and the motion begins there.
 void BotOp::giveWay() {
   const bool drives = loop_->mode() == LoopMode::follow || loop_->mode() == LoopMode::hold;
-  const VectorXd apart = loop_->reference(loop_->time()).row(0).transpose() - loop_->reading().q;
+  const VectorXd apart = loop_->reference(loop_->time()).row(0).transpose() - loop_->state().q;
   if (drives && apart.cwiseAbs().maxCoeff() > options_.guards.engage_distance) holdNow();
 }
 
@@ -155,11 +155,11 @@ void BotOp::follow(const BSpline& motion) {
 }
 
 void BotOp::holdNow() {
-  const VectorXd apart = loop_->reference(loop_->time()).row(0).transpose() - loop_->reading().q;
+  const VectorXd apart = loop_->reference(loop_->time()).row(0).transpose() - loop_->state().q;
   BSpline motion = loop_->braking();
   if (apart.cwiseAbs().maxCoeff() > options_.guards.engage_distance) {  // something keeps it from where it should be
     MatrixXd still(2, home_.size());
-    still.rowwise() = loop_->reading().q.transpose();
+    still.rowwise() = loop_->state().q.transpose();
     VectorXd times(2);
     times << loop_->time(), loop_->time() + loop_->period();
     motion = BSpline(1, still, times);
@@ -199,7 +199,7 @@ void BotOp::setCompliance(const MatrixXd& J, double compliance) {
 StepObservation BotOp::stepObservation() {
   ask(askObservation);
   const Lock lock(mutex_);
-  return {loop_->time(), loop_->reading().q, loop_->reading().velocity, loop_->commanded(), loop_->commandedVelocity()};
+  return {loop_->time(), loop_->state().q, loop_->state().velocity, loop_->commanded(), loop_->commandedVelocity()};
 }
 
 void BotOp::stepAction(const VectorXd& delta, const StepObservation& observation, double lambda,

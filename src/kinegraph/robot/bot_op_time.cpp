@@ -29,16 +29,16 @@ void BotOp::stepOnce(const Lock&) {
     holdNow();
     throw;
   }
-  const RobotReading& reading = loop_->reading();
-  if (reading.external_effort.size() > 0) {
+  const RobotState& state = loop_->state();
+  if (state.external_effort.size() > 0) {
     if (external_count_++ == 0) external_sum_ = VectorXd::Zero(home_.size());
-    external_sum_ += reading.external_effort;
+    external_sum_ += state.external_effort;
   }
   if (!record_) return;
   const MatrixXd reference = loop_->reference(loop_->time());
   *record_ << exact(loop_->time());
-  for (const double x : reading.q) *record_ << ' ' << exact(x);
-  for (const double x : reading.velocity) *record_ << ' ' << exact(x);
+  for (const double x : state.q) *record_ << ' ' << exact(x);
+  for (const double x : state.velocity) *record_ << ' ' << exact(x);
   for (const double x : reference.topRows(2).reshaped<Eigen::RowMajor>()) *record_ << ' ' << exact(x);
   *record_ << '\n';
 }
@@ -173,8 +173,8 @@ int BotOp::wait(Config& C, bool for_key, bool for_end, bool for_gripper, double 
     if (for_key && key) return key;
     const Lock lock(mutex_);
     if (for_end && timeToEnd() <= 0.) return 0;
-    const auto& grippers = loop_->reading().grippers;
-    const bool done = std::all_of(grippers.begin(), grippers.end(), [](const GripperReading& g) { return g.is_done; });
+    const auto& grippers = loop_->state().grippers;
+    const bool done = std::all_of(grippers.begin(), grippers.end(), [](const GripperState& g) { return g.is_done; });
     if (for_gripper && done) return 'g';
     if (!for_end && !for_gripper && !(for_key && isWatched())) return 0;
   }

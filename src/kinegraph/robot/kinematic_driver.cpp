@@ -24,13 +24,13 @@ RobotInfo KinematicDriver::info() {
   return info;
 }
 
-RobotReading KinematicDriver::read() {
-  RobotReading reading;
-  reading.time = time_;
-  reading.q = config_.getJointState();
-  reading.velocity = velocity_;
-  for (const Gripper& gripper : grippers_) reading.grippers.push_back({gripper.width, gripper.is_done});
-  return reading;
+RobotState KinematicDriver::read() {
+  RobotState state;
+  state.time = time_;
+  state.q = config_.getJointState();
+  state.velocity = velocity_;
+  for (const Gripper& gripper : grippers_) state.grippers.push_back({gripper.width, gripper.is_done});
+  return state;
 }
 
 void KinematicDriver::write(const RobotCommand& command) {

@@ -12,7 +12,7 @@ class KinematicDriver final : public RobotDriver, private SimulatedWorld {
   explicit KinematicDriver(const Config& config);
 
   RobotInfo info() override;
-  RobotReading read() override;
+  RobotState read() override;
   void write(const RobotCommand& command) override;
   void stop(const std::string& reason) override;
   void moveGripper(const GripperCommand& command) override;

@@ -2,25 +2,25 @@
 
 namespace kinegraph {
 
-RecordedDriver::RecordedDriver(RobotInfo info, std::vector<RobotReading> readings, const VectorXd& start)
-    : info_(std::move(info)), readings_(std::move(readings)), start_(start) {
-  if (readings_.empty() && std::size_t(start_.size()) != info_.joints.size())
+RecordedDriver::RecordedDriver(RobotInfo info, std::vector<RobotState> states, const VectorXd& start)
+    : info_(std::move(info)), states_(std::move(states)), start_(start) {
+  if (states_.empty() && std::size_t(start_.size()) != info_.joints.size())
     throw ValueError("RecordedDriver: expected readings, or a start with a number per joint");
 }
 
-RobotReading RecordedDriver::read() {
-  if (next_ < readings_.size()) return readings_[next_++];
-  RobotReading reading;
-  if (!readings_.empty()) {
-    reading = readings_.back();
-    reading.time += time_;
-    return reading;
+RobotState RecordedDriver::read() {
+  if (next_ < states_.size()) return states_[next_++];
+  RobotState state;
+  if (!states_.empty()) {
+    state = states_.back();
+    state.time += time_;
+    return state;
   }
-  reading.time = time_;
-  reading.q = commands_.empty() ? start_ : commands_.back().q;
-  reading.velocity = commands_.empty() ? VectorXd(VectorXd::Zero(start_.size())) : commands_.back().velocity;
-  reading.grippers.resize(info_.grippers.size());
-  return reading;
+  state.time = time_;
+  state.q = commands_.empty() ? start_ : commands_.back().q;
+  state.velocity = commands_.empty() ? VectorXd(VectorXd::Zero(start_.size())) : commands_.back().velocity;
+  state.grippers.resize(info_.grippers.size());
+  return state;
 }
 
 void RecordedDriver::moveGripper(const GripperCommand& command) {

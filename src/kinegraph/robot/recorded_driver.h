@@ -10,10 +10,10 @@ class RecordedDriver final : public RobotDriver {
  public:
   /// `readings` are given one after the other, then the last one for ever, its clock going on. Without any, the robot is
   /// where it was told to be, from `start` on. Throws ValueError if there is neither.
-  RecordedDriver(RobotInfo info, std::vector<RobotReading> readings, const VectorXd& start = {});
+  RecordedDriver(RobotInfo info, std::vector<RobotState> states, const VectorXd& start = {});
 
   RobotInfo info() override { return info_; }
-  RobotReading read() override;
+  RobotState read() override;
   void write(const RobotCommand& command) override { commands_.push_back(command); }
   void stop(const std::string& reason) override { stops_.push_back(reason); }
   void recover() override { ++recoveries_; }
@@ -27,7 +27,7 @@ class RecordedDriver final : public RobotDriver {
 
  private:
   RobotInfo info_;
-  std::vector<RobotReading> readings_;
+  std::vector<RobotState> states_;
   std::size_t next_ = 0;
   VectorXd start_;
   double time_ = 0.;

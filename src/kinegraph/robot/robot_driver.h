@@ -36,18 +36,18 @@ struct RobotInfo {
 };
 
 /// A gripper as it is.
-struct GripperReading {
+struct GripperState {
   double width = 0.;    ///< m
   bool is_done = true;  ///< it has reached the width it was told, or something holds it up
 };
 
 /// A robot as it is.
-struct RobotReading {
+struct RobotState {
   double time = 0.;          ///< of the robot's clock, s; it must go on
   VectorXd q, velocity;      ///< rad, rad/s, or with m
   VectorXd effort;           ///< of its motors, N m or N; empty if it does not measure it
   VectorXd external_effort;  ///< by what it touches; empty if it does not know
-  std::vector<GripperReading> grippers;
+  std::vector<GripperState> grippers;
   std::string error;  ///< what the robot says is wrong; empty if nothing is
 };
 
@@ -106,7 +106,7 @@ class RobotDriver {
   virtual void connect() {}
   virtual void disconnect() {}
 
-  virtual RobotReading read() = 0;
+  virtual RobotState read() = 0;
   virtual void write(const RobotCommand& command) = 0;
 
   /// Called when something is wrong, instead of `write`, until `recover`: come to rest.

@@ -32,7 +32,7 @@ RobotLoop::RobotLoop(std::shared_ptr<RobotDriver> driver, double period, const G
     driver_->disconnect();
     throw RobotFault(cat("robot '", info_.name, "' cannot be moved: ", fault_));
   }
-  restAtReading();
+  restAtState();
 }
 
 RobotLoop::~RobotLoop() {
@@ -55,8 +55,8 @@ void RobotLoop::step() {
 
 MatrixXd RobotLoop::reference(double time) const {
   if (mode_ == LoopMode::follow || mode_ == LoopMode::hold) return motion_.eval3(time);
-  MatrixXd still = MatrixXd::Zero(3, reading_.q.size());
-  still.row(0) = reading_.q.transpose();
+  MatrixXd still = MatrixXd::Zero(3, state_.q.size());
+  still.row(0) = state_.q.transpose();
   return still;
 }
 
@@ -68,25 +68,25 @@ RobotCommand RobotLoop::nextCommand() {
     command.damping = floating_damping_;
   } else {
     command.stiffness = stiffness_;
-    keepWithinLimits(command, commanded_, commanded_velocity_, info_);
+    limitCommand(command, commanded_, commanded_velocity_, info_);
   }
   commanded_ = command.q;
   commanded_velocity_ = command.velocity;
   return command;
 }
 
-void RobotLoop::look(const RobotReading& reading) {
+void RobotLoop::look(const RobotState& state) {
   const std::size_t n = info_.joints.size();
-  requireFit("q", reading.q, n, false);
-  requireFit("velocity", reading.velocity, n, false);
-  requireFit("effort", reading.effort, n, true);
-  requireFit("external_effort", reading.external_effort, n, true);
-  still_ = reading.time > reading_.time || log_.ticks == 0 ? 0. : still_ + period();
-  std::string wrong = reading.error;
-  if (!reading.q.allFinite() || !reading.velocity.allFinite()) {
+  requireFit("q", state.q, n, false);
+  requireFit("velocity", state.velocity, n, false);
+  requireFit("effort", state.effort, n, true);
+  requireFit("external_effort", state.external_effort, n, true);
+  still_ = state.time > state_.time || log_.ticks == 0 ? 0. : still_ + period();
+  std::string wrong = state.error;
+  if (!state.q.allFinite() || !state.velocity.allFinite()) {
     wrong = "its reading has numbers that are not finite";
   } else {
-    reading_ = reading;
+    state_ = state;
     if (wrong.empty() && still_ > guards_.stale_time) wrong = cat("its clock has stood still for ", still_, " s");
     if (wrong.empty()) wrong = heldUp();
   }
@@ -97,7 +97,7 @@ void RobotLoop::look(const RobotReading& reading) {
 std::string RobotLoop::heldUp() const {
   if (mode_ == LoopMode::floating || mode_ == LoopMode::fault || stiffness_.size() > 0) return {};
   for (Eigen::Index i = 0; i < commanded_.size(); ++i) {
-    const double behind = std::abs(commanded_[i] - reading_.q[i]);
+    const double behind = std::abs(commanded_[i] - state_.q[i]);
     if (behind > guards_.follow_distance)
       return cat("joint '", info_.joints[std::size_t(i)], "' is ", behind,
                  " from where it shall be; is something in its way?");
@@ -116,12 +116,12 @@ void RobotLoop::stop(const std::string& reason) {
   }
 }
 
-void RobotLoop::restAtReading() {
+void RobotLoop::restAtState() {
   const double now = time();
-  commanded_ = reading_.q;
-  commanded_velocity_ = VectorXd::Zero(reading_.q.size());
-  MatrixXd still(2, reading_.q.size());
-  still.rowwise() = reading_.q.transpose();
+  commanded_ = state_.q;
+  commanded_velocity_ = VectorXd::Zero(state_.q.size());
+  MatrixXd still(2, state_.q.size());
+  still.rowwise() = state_.q.transpose();
   VectorXd times(2);
   times << now, now + period();
   motion_.set(1, still, times);
@@ -148,9 +148,9 @@ void RobotLoop::requireReady(const char* call, const VectorXd& reference) const 
   if (mode_ == LoopMode::fault)
     throw RobotFault(cat(call, ": the robot was stopped: ", fault_, "; call recover() when that is mended"));
   for (Eigen::Index i = 0; i < reference.size(); ++i) {
-    const double apart = std::abs(reference[i] - reading_.q[i]);
+    const double apart = std::abs(reference[i] - state_.q[i]);
     if (apart <= guards_.engage_distance || mode_ == LoopMode::floating) continue;
-    throw RobotFault(cat(call, ": joint '", info_.joints[std::size_t(i)], "' is at ", reading_.q[i], ", ", apart,
+    throw RobotFault(cat(call, ": joint '", info_.joints[std::size_t(i)], "' is at ", state_.q[i], ", ", apart,
                          " from where the motion begins; call hold() first, to begin where the robot is"));
   }
 }
@@ -161,14 +161,14 @@ void RobotLoop::apply(const LoopCommand& command) {
 }
 
 void RobotLoop::requireMotion(const BSpline& motion) const {
-  if (motion.isEmpty() || motion.dimension() != reading_.q.size())
-    throw ValueError(cat("RobotLoop: a motion of ", motion.dimension(), " numbers; expected ", reading_.q.size()));
+  if (motion.isEmpty() || motion.dimension() != state_.q.size())
+    throw ValueError(cat("RobotLoop: a motion of ", motion.dimension(), " numbers; expected ", state_.q.size()));
 }
 
 void RobotLoop::applyNow(const FollowSpline& command) {
   requireMotion(command.motion);
   if (mode_ == LoopMode::fault) requireReady("RobotLoop", {});
-  if (mode_ == LoopMode::floating) restAtReading();
+  if (mode_ == LoopMode::floating) restAtState();
   mode_ = LoopMode::follow;
   motion_ = command.motion;
 }
@@ -176,7 +176,7 @@ void RobotLoop::applyNow(const FollowSpline& command) {
 void RobotLoop::applyNow(const HoldRobot& command) {
   requireMotion(command.motion);
   if (mode_ == LoopMode::fault) return;
-  if (mode_ == LoopMode::floating) restAtReading();
+  if (mode_ == LoopMode::floating) restAtState();
   mode_ = LoopMode::hold;
   motion_ = command.motion;
   stiffness_.resize(0, 0);
@@ -190,7 +190,7 @@ void RobotLoop::applyNow(const FloatRobot& command) {
 }
 
 void RobotLoop::applyNow(const SetStiffness& command) {
-  const Eigen::Index n = reading_.q.size();
+  const Eigen::Index n = state_.q.size();
   const bool fits = command.stiffness.size() == 0 || (command.stiffness.rows() == n && command.stiffness.cols() == n);
   if (!fits) throw ValueError(cat("RobotLoop: a stiffness of ", command.stiffness.rows(), " rows; expected ", n));
   if (command.stiffness.size() > 0 && !info_.compliant)
@@ -200,7 +200,7 @@ void RobotLoop::applyNow(const SetStiffness& command) {
 
 void RobotLoop::applyNow(const GripperCommand& command) {
   driver_->moveGripper(command);
-  if (const auto i = std::size_t(command.gripper); i < reading_.grippers.size()) reading_.grippers[i].is_done = false;
+  if (const auto i = std::size_t(command.gripper); i < state_.grippers.size()) state_.grippers[i].is_done = false;
 }
 
 SimulatedWorld& RobotLoop::world(const char* call) {
@@ -226,7 +226,7 @@ void RobotLoop::applyNow(const RecoverRobot&) {
   still_ = 0.;
   stiffness_.resize(0, 0);
   look(driver_->read());
-  if (mode_ != LoopMode::fault) restAtReading();
+  if (mode_ != LoopMode::fault) restAtState();
 }
 
 }  // namespace kinegraph

@@ -41,7 +41,7 @@ class RobotLoop {
   double time() const { return double(log_.ticks) * log_.period; }  ///< s since it began
   LoopMode mode() const { return mode_; }
   const std::string& fault() const { return fault_; }  ///< why it was stopped; empty if it was not
-  const RobotReading& reading() const { return reading_; }
+  const RobotState& state() const { return state_; }
   const BSpline& motion() const { return motion_; }  ///< empty unless it follows or holds
   const RobotInfo& info() const { return info_; }
   RobotInfo& info() { return info_; }
@@ -66,7 +66,7 @@ class RobotLoop {
 
  private:
   RobotCommand nextCommand();
-  void look(const RobotReading& reading);
+  void look(const RobotState& state);
   std::string heldUp() const;
   void applyNow(const FollowSpline& command);
   void applyNow(const HoldRobot& command);
@@ -77,7 +77,7 @@ class RobotLoop {
   void applyNow(const PlaceFrame& command);
   void applyNow(const RecoverRobot& command);
   void requireMotion(const BSpline& motion) const;
-  void restAtReading();
+  void restAtState();
   SimulatedWorld& world(const char* call);
 
   std::shared_ptr<RobotDriver> driver_;
@@ -86,7 +86,7 @@ class RobotLoop {
   CommandLog log_;
   LoopMode mode_ = LoopMode::hold;
   std::string fault_;
-  RobotReading reading_;
+  RobotState state_;
   double still_ = 0.;  ///< for how long the robot's clock has not moved, s
   BSpline motion_;
   VectorXd commanded_, commanded_velocity_;  ///< what was written last

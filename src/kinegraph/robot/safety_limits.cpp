@@ -12,7 +12,7 @@ constexpr double kLimitSlack = 2e-3;  // rad or m beyond a limit that checked mo
 
 }  // namespace
 
-void keepWithinLimits(RobotCommand& command, const VectorXd& last, const VectorXd& last_velocity,
+void limitCommand(RobotCommand& command, const VectorXd& last, const VectorXd& last_velocity,
                       const RobotInfo& robot) {
   const double h = command.period;
   for (Eigen::Index i = 0; i < last.size(); ++i) {

@@ -24,8 +24,8 @@ RobotInfo SimulatedDriver::info() {
   return info;
 }
 
-RobotReading SimulatedDriver::read() {
-  RobotReading reading{simulation_.get_t(),
+RobotState SimulatedDriver::read() {
+  RobotState state{simulation_.get_t(),
                        simulation_.get_q(),
                        simulation_.get_qDot(),
                        simulation_.getJointTorques(),
@@ -33,9 +33,9 @@ RobotReading SimulatedDriver::read() {
                        {},
                        {}};
   for (const SceneGripper& gripper : grippers_)
-    reading.grippers.push_back(
+    state.grippers.push_back(
         {simulation_.getGripperWidth(gripper.info.name), simulation_.gripperIsDone(gripper.info.name)});
-  return reading;
+  return state;
 }
 
 void SimulatedDriver::stop(const std::string&) {

@@ -12,7 +12,7 @@ class SimulatedDriver final : public RobotDriver, private SimulatedWorld {
   explicit SimulatedDriver(const Config& config, const SimulationOptions& options = {});
 
   RobotInfo info() override;
-  RobotReading read() override;
+  RobotState read() override;
   void write(const RobotCommand& command) override { command_ = command; }
   void stop(const std::string& reason) override;
   void moveGripper(const GripperCommand& command) override;

@@ -232,9 +232,9 @@ VectorXd Config::getJointState(const std::vector<std::string>& names) const {
 }
 
 void Config::setJointState(const VectorXd& q) {
-  const auto& program = scene_->program();
-  if (q.size() != program->dofs) {
-    throw ValueError(cat("setJointState: got ", q.size(), " numbers; the configuration has ", program->dofs,
+  const auto& model = scene_->model();
+  if (q.size() != model->dofs) {
+    throw ValueError(cat("setJointState: got ", q.size(), " numbers; the configuration has ", model->dofs,
                          " active dofs: ", join(getJointNames())));
   }
   if (!q.allFinite()) throw ValueError(cat("setJointState: numbers that are not finite: ", q.transpose()));
@@ -262,11 +262,11 @@ void Config::setJointState(const VectorXd& q, const std::vector<std::string>& na
 }
 
 std::vector<std::string> Config::getJointNames() const {
-  const auto program = scene_->program();
-  std::vector<std::string> names(program->dofs);
+  const auto model = scene_->model();
+  std::vector<std::string> names(model->dofs);
   for (const auto& frame : scene_->frames()) {
     if (!frame->joint || frame->joint->mimic) continue;
-    const Program::DofRange dofs = program->frame_dofs[frame->id];
+    const KinematicModel::DofRange dofs = model->frame_dofs[frame->id];
     for (int i = 0; i < dofs.count; ++i) {
       names[dofs.first + i] = dofs.count == 1 ? frame->name : cat(frame->name, ":", i);
     }
@@ -291,12 +291,12 @@ std::vector<std::pair<std::string, std::vector<std::string>>> Config::getJointGr
 }
 
 MatrixXd Config::getJointLimits() const {
-  const auto program = scene_->program();
-  MatrixXd limits(2, program->dofs);
-  for (int i = 0; i < program->dofs; ++i) {
-    const bool limited = std::isfinite(program->lower[i]);
-    limits(0, i) = limited ? program->lower[i] : 0.;
-    limits(1, i) = limited ? program->upper[i] : -1.;
+  const auto model = scene_->model();
+  MatrixXd limits(2, model->dofs);
+  for (int i = 0; i < model->dofs; ++i) {
+    const bool limited = std::isfinite(model->lower[i]);
+    limits(0, i) = limited ? model->lower[i] : 0.;
+    limits(1, i) = limited ? model->upper[i] : -1.;
   }
   return limits;
 }
@@ -393,11 +393,11 @@ std::optional<MotionContact> Config::checkMotion(const VectorXd& from, const Vec
   if (!std::isfinite(margin)) throw ValueError(cat("checkMotion: margin is ", margin, "; expected a distance in m"));
   if (!(tolerance > 0.))
     throw ValueError(cat("checkMotion: tolerance is ", tolerance, "; expected a distance > 0 in m"));
-  const std::optional<LimitPassed> limit = firstLimitPassed(*scene_->program(), from.data(), to.data());
+  const std::optional<LimitPassed> limit = firstLimitPassed(*scene_->model(), from.data(), to.data());
   std::optional<MotionContact> contact =
       scene_->motionChecker().firstContact(from.data(), to.data(), margin, tolerance);
   if (!limit || (contact && contact->time < limit->time)) return contact;
-  const int frame = frameOfDof(*scene_->program(), limit->dof);
+  const int frame = frameOfDof(*scene_->model(), limit->dof);
   return MotionContact{limit->time, frame, frame, -limit->beyond, limit->dof};
 }
 
@@ -405,23 +405,23 @@ std::string Config::report() const {
   constexpr std::size_t kMostNamed = 40;
   int shapes = 0;
   for (const auto& frame : scene_->frames()) shapes += frame->shape != nullptr;
-  const Program& program = *scene_->program();
+  const KinematicModel& model = *scene_->model();
   std::vector<std::string> colliding;
-  for (const ContactRules::Body& body : program.contacts.bodies) {
+  for (const ContactRules::Body& body : model.contacts.bodies) {
     if (colliding.size() == kMostNamed) break;
-    colliding.push_back(program.frame_name[std::size_t(body.frame)]);
+    colliding.push_back(model.frame_name[std::size_t(body.frame)]);
   }
-  const std::size_t count = program.contacts.bodies.size();
+  const std::size_t count = model.contacts.bodies.size();
   std::string text = cat("Configuration: q.N=", getJointDimension(), " #frames=", getFrameDimension(),
                          " #joints=", getJoints().size(), " #shapes=", shapes, " #pairs=", getCollidablePairs().size());
   if (count > 0)
     text +=
         cat("\ncollide: ", join(colliding, " "), count > kMostNamed ? cat(" and ", count - kMostNamed, " more") : "");
-  for (const std::string& note : contactNotes()) text += cat("\nnote: ", note);
+  for (const std::string& note : contactWarnings()) text += cat("\nnote: ", note);
   return text;
 }
 
-std::vector<std::string> Config::contactNotes() const { return describe(kinegraph::contactNotes(*scene_), *scene_); }
+std::vector<std::string> Config::contactWarnings() const { return describe(kinegraph::contactWarnings(*scene_), *scene_); }
 
 std::vector<std::string> Config::takeWarnings() { return std::exchange(warnings_, {}); }
 

@@ -78,7 +78,7 @@ class Config {
 
   // --- joints ----------------------------------------------------------------------------------------------------
 
-  int getJointDimension() const { return scene_->program()->dofs; }
+  int getJointDimension() const { return scene_->model()->dofs; }
   VectorXd getJointState() const { return scene_->jointState(); }
   VectorXd getJointState(const std::vector<std::string>& names) const;
 
@@ -115,7 +115,7 @@ class Config {
 
   /// What each link weighs; links as in program().
   std::vector<LinkInertia> inertias() const {
-    return collectInertias(*scene_, *scene_->program(), *scene_->parameters());
+    return collectInertias(*scene_, *scene_->model(), *scene_->parameters());
   }
 
   /// M(q) and F(q, dq) of u = M ddq + F at the present q, with gravity 9.81 m/s^2 along -z.
@@ -137,7 +137,7 @@ class Config {
   /// Pairs of frames that may collide. Both have a shape and a contact flag other than 0, they belong to different
   /// links, a negative flag -k excludes contacts with the links above within k joints, and so does `contact_exclude`
   /// with the frames that it names; there, a shape counts as that of its parent, too, if it is fixed to it.
-  std::vector<std::pair<int, int>> getCollidablePairs() const { return scene_->program()->collidable(); }
+  std::vector<std::pair<int, int>> getCollidablePairs() const { return scene_->model()->collidable(); }
 
   /// All collidable pairs whose distance is at most `margin`, by id, also those that no joint moves apart.
   std::vector<NearPair> getCollisions(double margin = 0.) const;
@@ -173,17 +173,17 @@ class Config {
 
   // --- for computing ---------------------------------------------------------------------------------------------
 
-  std::shared_ptr<const Program> program() const { return scene_->program(); }
+  std::shared_ptr<const KinematicModel> model() const { return scene_->model(); }
   std::shared_ptr<const Parameters> parameters() const { return scene_->parameters(); }
   const State& state() const { return scene_->state(); }
   const std::shared_ptr<SceneTree>& scene() const { return scene_; }
 
-  /// The numbers of frames, joints and shapes, which shapes collide, and contactNotes().
+  /// The numbers of frames, joints and shapes, which shapes collide, and contactWarnings().
   std::string report() const;
 
   /// What people may not expect about which shapes collide, a sentence each: shapes that overlap and that no joint moves
   /// apart; shapes without `contact` near what moves. Python warns of them once per scene.
-  std::vector<std::string> contactNotes() const;
+  std::vector<std::string> contactWarnings() const;
 
   /// What was odd but not wrong in what was read since the last call.
   std::vector<std::string> takeWarnings();

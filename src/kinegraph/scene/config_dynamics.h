@@ -7,7 +7,7 @@ namespace kinegraph {
 
 // The dynamics of a scene in velocities, at its present q; see kinematics/velocity_dynamics.h.
 
-inline int velocityDimension(const Config& config) { return velocityDimension(config.state().program()); }
+inline int velocityDimension(const Config& config) { return velocityDimension(config.state().model()); }
 
 inline MatrixXd velocityMap(const Config& config) { return velocityMap(config.state()); }
 

@@ -34,11 +34,11 @@ std::vector<bool> measurable(const Joint& joint) {
 }
 
 VectorXd motorLimits(SceneTree& scene, Motor motor) {
-  const auto program = scene.program();
-  VectorXd limits = VectorXd::Constant(program->dofs, kInfinity);
+  const auto model = scene.model();
+  VectorXd limits = VectorXd::Constant(model->dofs, kInfinity);
   for (const auto& frame : scene.frames()) {
     if (!frame->moves() || (frame->joint->mimic && motor == Motor::effort)) continue;
-    const Program::DofRange range = program->frame_dofs[dofSource(*frame).id];
+    const KinematicModel::DofRange range = model->frame_dofs[dofSource(*frame).id];
     const double limit = given(*frame, motor), scale = std::abs(motionScale(*frame));
     const std::vector<bool> dofs = measurable(*frame->joint);
     if (limit == kInfinity || scale == 0. || range.count != int(dofs.size())) continue;

@@ -27,32 +27,32 @@ struct Ranges {
   std::vector<char> unbounded;
 };
 
-Ranges rangesOf(const Program& program, const VectorXd& q) {
-  Ranges ranges{program.lower, program.upper, std::vector<char>(std::size_t(program.dofs), 0)};
-  std::vector<char> turns(std::size_t(program.dofs), 0);
-  for (const Program::Link& link : program.links) {
+Ranges rangesOf(const KinematicModel& model, const VectorXd& q) {
+  Ranges ranges{model.lower, model.upper, std::vector<char>(std::size_t(model.dofs), 0)};
+  std::vector<char> turns(std::size_t(model.dofs), 0);
+  for (const KinematicModel::Link& link : model.links) {
     int dof = link.dof;
     for (int s = link.first_step; s < link.first_step + link.steps; ++s) {
-      turns[std::size_t(dof)] = program.steps[std::size_t(s)].turns();
-      dof += program.steps[std::size_t(s)].dofs();
+      turns[std::size_t(dof)] = model.steps[std::size_t(s)].turns();
+      dof += model.steps[std::size_t(s)].dofs();
     }
   }
-  for (int dof = 0; dof < program.dofs; ++dof) {
+  for (int dof = 0; dof < model.dofs; ++dof) {
     if (std::isfinite(ranges.lower[dof]) && std::isfinite(ranges.upper[dof])) continue;
     const double reach = turns[std::size_t(dof)] ? std::numbers::pi : 1.;  // rad, or m around where it is
     if (!std::isfinite(ranges.lower[dof])) ranges.lower[dof] = std::min(q[dof], ranges.upper[dof]) - reach;
     if (!std::isfinite(ranges.upper[dof])) ranges.upper[dof] = std::max(q[dof], ranges.lower[dof]) + reach;
     ranges.unbounded[std::size_t(dof)] = !turns[std::size_t(dof)];
   }
-  for (const Program::DofRange& norm : program.unit_norms) {  // a direction that is drawn evenly has no limits to miss
+  for (const KinematicModel::DofRange& norm : model.unit_norms) {  // a direction that is drawn evenly has no limits to miss
     for (int dof = norm.first; dof < norm.first + norm.count; ++dof) ranges.unbounded[std::size_t(dof)] = 0;
   }
   return ranges;
 }
 
-void draw(Rng& rng, const Program& program, const Ranges& ranges, VectorXd& q) {
-  for (int dof = 0; dof < program.dofs; ++dof) q[dof] = rng.uniform(ranges.lower[dof], ranges.upper[dof]);
-  for (const Program::DofRange& norm : program.unit_norms) {
+void draw(Rng& rng, const KinematicModel& model, const Ranges& ranges, VectorXd& q) {
+  for (int dof = 0; dof < model.dofs; ++dof) q[dof] = rng.uniform(ranges.lower[dof], ranges.upper[dof]);
+  for (const KinematicModel::DofRange& norm : model.unit_norms) {
     for (int dof = norm.first; dof < norm.first + norm.count; ++dof) q[dof] = rng.normal();
     q.segment(norm.first, norm.count).normalize();
   }
@@ -67,16 +67,16 @@ bool hangsOn(const FrameData* frame, const FrameData& root) {
 class PairsOfFrames {
  public:
   PairsOfFrames(const Config& config, const std::string& root) {
-    const Program& program = *config.program();
+    const KinematicModel& model = *config.model();
     const FrameData* first = root.empty() ? nullptr : config.scene()->frames()[config.getFrame(root).id()].get();
     std::map<int, int> owner_of;
-    for (const ContactRules::Body& body : program.contacts.bodies) owner_of[body.frame] = body.owner;
+    for (const ContactRules::Body& body : model.contacts.bodies) owner_of[body.frame] = body.owner;
     std::map<std::pair<int, int>, int> numbers;
     const auto counts = [&](int frame) {
       return first ? hangsOn(config.scene()->frames()[std::size_t(frame)].get(), *first)
-                   : program.frame_link[std::size_t(frame)] != 0;
+                   : model.frame_link[std::size_t(frame)] != 0;
     };
-    for (const auto& [a, b] : program.movingPairs()) {
+    for (const auto& [a, b] : model.movingPairs()) {
       if (!counts(a) || !counts(b)) continue;
       shapes.emplace_back(a, b);
       const std::pair<int, int> owners = std::minmax(owner_of.at(a), owner_of.at(b));
@@ -90,16 +90,16 @@ class PairsOfFrames {
   std::vector<int> group;  ///< per pair of shapes: the place of its frames
 };
 
-bool adjacent(const Program& program, int a, int b) {
-  const int link_a = program.frame_link[std::size_t(a)], link_b = program.frame_link[std::size_t(b)];
-  return program.links[std::size_t(link_a)].parent == link_b || program.links[std::size_t(link_b)].parent == link_a;
+bool adjacent(const KinematicModel& model, int a, int b) {
+  const int link_a = model.frame_link[std::size_t(a)], link_b = model.frame_link[std::size_t(b)];
+  return model.links[std::size_t(link_a)].parent == link_b || model.links[std::size_t(link_b)].parent == link_a;
 }
 
 /// Per pair of frames: the postures in which it collides.
 std::vector<int> countCollisions(const Config& config, const PairsOfFrames& pairs, const Ranges& ranges,
                                  const SelfCollisionOptions& options) {
-  const auto program = config.program();
-  const BodyPairs bodies(*program, pairs.shapes);
+  const auto model = config.model();
+  const BodyPairs bodies(*model, pairs.shapes);
   struct Worker {
     State state;
     PlacedBodies placed;
@@ -107,15 +107,15 @@ std::vector<int> countCollisions(const Config& config, const PairsOfFrames& pair
     std::vector<int> counts, last;
   };
   std::vector<std::optional<Worker>> workers(std::size_t(options.threads));
-  forParts(options.samples, kPart, options.threads, [&](int number, int from, int to) {
+  parallelFor(options.samples, kPart, options.threads, [&](int number, int from, int to) {
     std::optional<Worker>& worker = workers[std::size_t(number)];
     if (!worker) {
-      worker.emplace(Worker{State(program, config.parameters()), PlacedBodies(bodies), VectorXd(program->dofs),
+      worker.emplace(Worker{State(model, config.parameters()), PlacedBodies(bodies), VectorXd(model->dofs),
                             std::vector<int>(pairs.frames.size(), 0), std::vector<int>(pairs.frames.size(), -1)});
     }
     Rng rng(options.seed + std::uint64_t(from) * 0x9E3779B97F4A7C15u);
     for (int sample = from; sample < to; ++sample) {
-      draw(rng, *program, ranges, worker->q);
+      draw(rng, *model, ranges, worker->q);
       worker->state.setJoints(worker->q.data());
       worker->placed.place(worker->state);
       worker->placed.forMaybeNear(options.margin, [&](int pair) {
@@ -168,24 +168,24 @@ std::string SelfCollisionMatrix::str() const {
 
 SelfCollisionMatrix selfCollisionMatrix(const Config& config, const SelfCollisionOptions& options) {
   options.validate();
-  const auto program = config.program();
+  const auto model = config.model();
   const PairsOfFrames pairs(config, options.root);
   if (pairs.frames.empty()) {
     throw ValueError(
         cat("selfCollisionMatrix: ", options.root.empty() ? "the scene" : cat("frame '", options.root, "'"),
             " has no two shapes that may collide and that joints move apart; give the shapes `contact`"));
   }
-  const Ranges ranges = rangesOf(*program, config.getJointState());
+  const Ranges ranges = rangesOf(*model, config.getJointState());
   const std::vector<int> counts = countCollisions(config, pairs, ranges, options);
   SelfCollisionMatrix matrix;
   matrix.samples = options.samples;
   for (std::size_t i = 0; i < counts.size(); ++i) {
     const auto [a, b] = pairs.frames[i];
     bool unbounded = false;
-    forColumnsBetween(*program, a, b, [&](int column) {
-      unbounded = unbounded || ranges.unbounded[std::size_t(program->column_dof[std::size_t(column)])];
+    forColumnsBetween(*model, a, b, [&](int column) {
+      unbounded = unbounded || ranges.unbounded[std::size_t(model->column_dof[std::size_t(column)])];
     });
-    const Reason reason = adjacent(*program, a, b)                                ? Reason::adjacent
+    const Reason reason = adjacent(*model, a, b)                                ? Reason::adjacent
                           : unbounded                                             ? Reason::sometimes
                           : counts[i] == 0                                        ? Reason::never
                           : double(counts[i]) >= options.always * options.samples ? Reason::always

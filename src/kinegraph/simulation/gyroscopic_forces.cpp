@@ -42,10 +42,10 @@ bool findTurn(const Matrix3d& I, const Vector3d& momentum, double h, Vector3d& w
 
 }  // namespace
 
-TurningForces::TurningForces(const SceneModel& scene, const mjModel& model) {
+GyroscopicForces::GyroscopicForces(const SceneModel& scene, const mjModel& model) {
   std::vector<char> is_driven(std::size_t(model.nv), false), is_listed(std::size_t(model.nv), false);
-  for (const Drive& drive : scene.drives)
-    std::fill_n(is_driven.begin() + drive.dof, drive.kind == MotionKind::quaternion ? 3 : 1, true);
+  for (const Servo& servo : scene.drives)
+    std::fill_n(is_driven.begin() + servo.dof, servo.kind == MotionKind::quaternion ? 3 : 1, true);
   for (const GripperJoint& gripper : scene.grippers) {
     for (const int dof : gripper.dof) is_driven[std::size_t(dof)] = true;
   }
@@ -72,13 +72,13 @@ TurningForces::TurningForces(const SceneModel& scene, const mjModel& model) {
     numbers->resize(std::size_t(model.nv));
 }
 
-void TurningForces::apply(mjModel& m, mjData& d, double h) {
+void GyroscopicForces::apply(mjModel& m, mjData& d, double h) {
   too_fast_ = 0;
   for (const FreeBody& free : free_) applyToFree(d, free, h);
   applyToJoints(m, d, h);
 }
 
-void TurningForces::applyToFree(mjData& d, const FreeBody& free, double h) {
+void GyroscopicForces::applyToFree(mjData& d, const FreeBody& free, double h) {
   Eigen::Map<Vector6d> applied(d.qfrc_applied + free.dof);
   applied.setZero();
   const Vector3d w = Vector(d.qvel + free.dof + 3);
@@ -108,7 +108,7 @@ void TurningForces::applyToFree(mjData& d, const FreeBody& free, double h) {
 }
 
 /// The middle (v + v')/2 by repetition, where v' is what follows without contacts and damping.
-void TurningForces::applyToJoints(const mjModel& m, mjData& d, double h) {
+void GyroscopicForces::applyToJoints(const mjModel& m, mjData& d, double h) {
   for (const int dof : joint_dofs_) d.qfrc_applied[dof] = 0.;
   double fastest = 0.;
   for (const int dof : turns_) {

@@ -21,10 +21,10 @@ namespace kinegraph {
 ///
 /// Both are the same forwards and backwards in time, so that energies oscillate with h^2 and neither grow nor fall.
 /// Source: Hairer, Lubich, Wanner, Geometric Numerical Integration, chapters V and VII.5.
-class TurningForces {
+class GyroscopicForces {
  public:
-  TurningForces() = default;
-  TurningForces(const SceneModel& scene, const mjModel& model);
+  GyroscopicForces() = default;
+  GyroscopicForces(const SceneModel& scene, const mjModel& model);
 
   /// Sets the forces of dofs without motors, in `qfrc_applied`. After the stage of velocities, and after the motors.
   void apply(mjModel& model, mjData& data, double h);

@@ -14,9 +14,9 @@ constexpr double kInfinite = std::numeric_limits<double>::infinity();
 
 class ModelIndex {
  public:
-  ModelIndex(const ModelParts& parts, const std::vector<ModelShapes::Geom>& geoms, const Program& program,
+  ModelIndex(const ModelParts& parts, const std::vector<ModelShapes::Geom>& geoms, const KinematicModel& kinematics,
              SceneModel& model)
-      : parts_(parts), geoms_(geoms), program_(program), model_(model) {}
+      : parts_(parts), geoms_(geoms), kinematics_(kinematics), model_(model) {}
 
   void index() {
     const mjModel& m = *model_.model;
@@ -72,7 +72,7 @@ class ModelIndex {
       joint.frame = frame.id;
       joint.dofs = frame.joint->dofs();
       joint.scale = motionScale(frame);
-      if (frame.joint->active) joint.first_q = program_.frame_dofs[std::size_t(frame.id)].first;
+      if (frame.joint->active) joint.first_q = kinematics_.frame_dofs[std::size_t(frame.id)].first;
       for (const auto& step : made.steps) joint.steps.push_back(indexed(m, step));
       model_.joints.push_back(joint);
       const bool gripper = isFingerJoint(frame) && !parts_.followersOf(frame).empty();
@@ -86,35 +86,35 @@ class ModelIndex {
     for (std::size_t i = 0; i < joint.steps.size(); ++i) {
       const ModelStep& step = joint.steps[i];
       if (step.dof >= 0) {
-        Drive drive;
-        drive.joint = int(model_.joints.size()) - 1;
-        drive.qpos = step.qpos;
-        drive.dof = step.dof;
-        drive.q = joint.first_q < 0 ? -1 : joint.first_q + q;
-        drive.kind = step.kind;
-        drive.scale = joint.scale;
-        setMotor(drive, frame);
-        model_.drives.push_back(drive);
+        Servo servo;
+        servo.joint = int(model_.joints.size()) - 1;
+        servo.qpos = step.qpos;
+        servo.dof = step.dof;
+        servo.q = joint.first_q < 0 ? -1 : joint.first_q + q;
+        servo.kind = step.kind;
+        servo.scale = joint.scale;
+        setMotor(servo, frame);
+        model_.drives.push_back(servo);
       }
       q += frame.joint->steps[i].dofs();
     }
   }
 
-  static void setMotor(Drive& drive, const FrameData& frame) {
+  static void setMotor(Servo& servo, const FrameData& frame) {
     const Node* node = frame.attributes->find("ctrl_limits");
     const NumberArray* limits = node ? node->value.as<NumberArray>() : nullptr;
     const auto limit = [&](std::size_t i) {
       return limits && limits->numbers.size() > i && limits->numbers[i] > 0. ? limits->numbers[i] : kInfinite;
     };
-    drive.velocity = limit(0);
-    drive.effort = std::min(limit(1), attributeNumber(frame, "motorLimit", kInfinite));
+    servo.velocity = limit(0);
+    servo.effort = std::min(limit(1), attributeNumber(frame, "motorLimit", kInfinite));
     if (frame.attributes->find("motorLambda")) {
       const double lambda = attributeNumber(frame, "motorLambda", 1.), mass = attributeNumber(frame, "motorMass", 1.);
       if (!(lambda > 0.)) throw ValueError(cat("Simulation: frame '", frame.name, "': motorLambda must be positive"));
-      drive.gains = {mass / (lambda * lambda), 2. * mass / lambda};
+      servo.gains = {mass / (lambda * lambda), 2. * mass / lambda};
     } else if (frame.attributes->find("motorKp")) {
-      drive.gains = {attributeNumber(frame, "motorKp", 0.), attributeNumber(frame, "motorKd", 0.)};
-      if (!(drive.gains->first >= 0.) || !(drive.gains->second >= 0.))
+      servo.gains = {attributeNumber(frame, "motorKp", 0.), attributeNumber(frame, "motorKd", 0.)};
+      if (!(servo.gains->first >= 0.) || !(servo.gains->second >= 0.))
         throw ValueError(cat("Simulation: frame '", frame.name, "': motorKp and motorKd must not be negative"));
     }
   }
@@ -142,7 +142,7 @@ class ModelIndex {
   const Physics& mj_ = physics();
   const ModelParts& parts_;
   const std::vector<ModelShapes::Geom>& geoms_;
-  const Program& program_;
+  const KinematicModel& kinematics_;
   SceneModel& model_;
 };
 
@@ -173,9 +173,9 @@ double motionRatio(const FrameData& follower, const FrameData& source) {
   return motionScale(follower) / motionScale(source);
 }
 
-void indexModel(const ModelParts& parts, const std::vector<ModelShapes::Geom>& geoms, const Program& program,
+void indexModel(const ModelParts& parts, const std::vector<ModelShapes::Geom>& geoms, const KinematicModel& kinematics,
                 SceneModel& model) {
-  ModelIndex(parts, geoms, program, model).index();
+  ModelIndex(parts, geoms, kinematics, model).index();
 }
 
 }  // namespace kinegraph

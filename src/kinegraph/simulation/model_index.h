@@ -35,7 +35,7 @@ bool isFingerJoint(const FrameData& frame);
 double motionRatio(const FrameData& follower, const FrameData& source);
 
 /// Fills in where the compiled model has what the scene calls bodies, geoms, joints, drives, grippers and sensors.
-void indexModel(const ModelParts& parts, const std::vector<ModelShapes::Geom>& geoms, const Program& program,
+void indexModel(const ModelParts& parts, const std::vector<ModelShapes::Geom>& geoms, const KinematicModel& kinematics,
                 SceneModel& model);
 
 }  // namespace kinegraph

@@ -129,7 +129,7 @@ void repeatCall(Simulation& simulation, const Recording::Call& call) {
     case CallKind::pull:
       return simulation.pull(call.words[0], vector(0, 3), vector(3, 3));
     case CallKind::end_pull:
-      return simulation.endPull();
+      return simulation.endPerturbation();
   }
 }
 

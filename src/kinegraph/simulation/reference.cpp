@@ -11,12 +11,12 @@ namespace {
 
 constexpr double kFarthestAhead = .05;  ///< rad or m
 
-bool isBall(const Drive& drive) { return drive.kind == MotionKind::quaternion; }
+bool isBall(const Servo& servo) { return servo.kind == MotionKind::quaternion; }
 
 /// The motion that a drive's numbers in a vector of the scene's q mean.
-double motionOf(const Drive& drive, const double* u, double near) {
-  if (drive.kind != MotionKind::circle) return drive.scale * u[drive.q];
-  const double angle = 2. * std::atan2(u[drive.q + 1], u[drive.q]);
+double motionOf(const Servo& servo, const double* u, double near) {
+  if (servo.kind != MotionKind::circle) return servo.scale * u[servo.q];
+  const double angle = 2. * std::atan2(u[servo.q + 1], u[servo.q]);
   return angle + 2. * M_PI * std::round((near - angle) / (2. * M_PI));
 }
 
@@ -61,21 +61,21 @@ void Reference::hold(const SceneModel& model, const mjtNum* qpos, const mjtNum* 
   parts_.next.assign(model.drives.size(), 0.);
   parts_.clock.mode = ControlMode::none;
   for (std::size_t i = 0; i < parts_.dofs.size(); ++i) {
-    const Drive& drive = model.drives[i];
-    if (isBall(drive)) {
-      std::copy_n(qpos + drive.qpos, 4, parts_.dofs[i].turn);
+    const Servo& servo = model.drives[i];
+    if (isBall(servo)) {
+      std::copy_n(qpos + servo.qpos, 4, parts_.dofs[i].turn);
     } else {
-      parts_.dofs[i].position = parts_.dofs[i].goal = qpos[drive.qpos];
-      parts_.dofs[i].velocity = parts_.dofs[i].rate = parts_.dofs[i].slope = qvel[drive.dof];
+      parts_.dofs[i].position = parts_.dofs[i].goal = qpos[servo.qpos];
+      parts_.dofs[i].velocity = parts_.dofs[i].rate = parts_.dofs[i].slope = qvel[servo.dof];
     }
   }
 }
 
-void Reference::courseOf(std::size_t i, const Drive& drive, double goal, double tau, const SimulationOptions& options) {
+void Reference::courseOf(std::size_t i, const Servo& servo, double goal, double tau, const SimulationOptions& options) {
   Dof& dof = parts_.dofs[i];
   dof.goal = goal;
   const double slope = (goal - dof.position) / tau;
-  if (std::abs(slope - dof.slope) > options.reference_acceleration * tau || std::abs(slope) > drive.velocity) {
+  if (std::abs(slope - dof.slope) > options.reference_acceleration * tau || std::abs(slope) > servo.velocity) {
     parts_.courses[i].path = Path::limited;
     return;
   }
@@ -89,43 +89,43 @@ void Reference::command(const SceneModel& model, const VectorXd& u, double tau, 
   parts_.clock.tau = tau;
   parts_.clock.elapsed = 0.;
   for (std::size_t i = 0; i < parts_.dofs.size(); ++i) {
-    const Drive& drive = model.drives[i];
+    const Servo& servo = model.drives[i];
     Dof& dof = parts_.dofs[i];
     Course& course = parts_.courses[i];
-    if (mode == ControlMode::none || drive.q < 0) {
+    if (mode == ControlMode::none || servo.q < 0) {
       course.path = dof.position == dof.goal ? Path::still : Path::limited;
     } else if (mode == ControlMode::position || mode == ControlMode::positionVelocity) {
-      if (isBall(drive)) {
-        std::copy_n(wxyz(unitQuaternion(u.segment<4>(drive.q), "a joint's quaternion")).data(), 4, dof.turn);
+      if (isBall(servo)) {
+        std::copy_n(wxyz(unitQuaternion(u.segment<4>(servo.q), "a joint's quaternion")).data(), 4, dof.turn);
       } else if (mode == ControlMode::position) {
-        courseOf(i, drive, motionOf(drive, u.data(), dof.position), tau, options);
+        courseOf(i, servo, motionOf(servo, u.data(), dof.position), tau, options);
       } else {
-        course = {Path::cubic, dof.position, dof.rate, drive.scale * u[model.dofs + drive.q]};
-        dof.goal = motionOf(drive, u.data(), dof.position);
+        course = {Path::cubic, dof.position, dof.rate, servo.scale * u[model.dofs + servo.q]};
+        dof.goal = motionOf(servo, u.data(), dof.position);
       }
     } else if (mode == ControlMode::velocity) {
-      course = {Path::given, dof.position, dof.velocity, drive.scale * u[drive.q]};
+      course = {Path::given, dof.position, dof.velocity, servo.scale * u[servo.q]};
     } else if (mode == ControlMode::acceleration) {
-      course = {Path::accelerated, 0., 0., drive.scale * u[drive.q]};
+      course = {Path::accelerated, 0., 0., servo.scale * u[servo.q]};
     } else if (mode == ControlMode::spline) {
       course.path = Path::still;
     } else if (mode == ControlMode::torque) {
-      parts_.torque[long(i)] = u[drive.q] / drive.scale;
+      parts_.torque[long(i)] = u[servo.q] / servo.scale;
     }
   }
 }
 
 /// The next position of a reference that nears a far goal: so fast that it can still stop there, in steps of h.
-double Reference::limitedStep(const Dof& dof, const Drive& drive, double h, const SimulationOptions& options) {
+double Reference::limitedStep(const Dof& dof, const Servo& servo, double h, const SimulationOptions& options) {
   const double a = options.reference_acceleration, left = dof.goal - dof.position, half = .5 * a * h;
-  double wanted = std::min(drive.velocity, std::sqrt(2. * a * std::abs(left) + half * half) - half);
+  double wanted = std::min(servo.velocity, std::sqrt(2. * a * std::abs(left) + half * half) - half);
   wanted = std::copysign(std::min(wanted, std::abs(left) / h), left);
   const double velocity = std::clamp(wanted, dof.velocity - a * h, dof.velocity + a * h);
   const double next = dof.position + h * velocity;
   return std::abs(dof.goal - next) <= 1e-12 ? dof.goal : next;
 }
 
-double Reference::nextPosition(std::size_t i, const Drive& drive, double h, const SimulationOptions& options) {
+double Reference::nextPosition(std::size_t i, const Servo& servo, double h, const SimulationOptions& options) {
   Dof& dof = parts_.dofs[i];
   const Course& course = parts_.courses[i];
   const double s = parts_.clock.elapsed / parts_.clock.tau;
@@ -133,7 +133,7 @@ double Reference::nextPosition(std::size_t i, const Drive& drive, double h, cons
     case Path::still:
       return dof.position;
     case Path::limited:
-      return limitedStep(dof, drive, h, options);
+      return limitedStep(dof, servo, h, options);
     case Path::given:
       return dof.goal = course.start + parts_.clock.elapsed * course.end_velocity;
     case Path::accelerated: {
@@ -154,12 +154,12 @@ double Reference::nextPosition(std::size_t i, const Drive& drive, double h, cons
 void Reference::nextOfSpline(const SceneModel& model, double time) {
   const VectorXd q = spline.eval(time - spline_start, 0);
   for (std::size_t i = 0; i < parts_.dofs.size(); ++i) {
-    const Drive& drive = model.drives[i];
-    if (drive.q < 0) continue;
-    if (isBall(drive)) {
-      std::copy_n(wxyz(unitQuaternion(q.segment<4>(drive.q), "a spline's quaternion")).data(), 4, parts_.dofs[i].turn);
+    const Servo& servo = model.drives[i];
+    if (servo.q < 0) continue;
+    if (isBall(servo)) {
+      std::copy_n(wxyz(unitQuaternion(q.segment<4>(servo.q), "a spline's quaternion")).data(), 4, parts_.dofs[i].turn);
     } else {
-      parts_.dofs[i].goal = parts_.next[i] = motionOf(drive, q.data(), parts_.dofs[i].position);
+      parts_.dofs[i].goal = parts_.next[i] = motionOf(servo, q.data(), parts_.dofs[i].position);
     }
   }
 }
@@ -169,14 +169,14 @@ void Reference::stayNear(const SceneModel& model, const mjtNum* qpos, const mjtN
     Course& course = parts_.courses[i];
     const bool accelerates = course.path == Path::accelerated;
     if (course.path != Path::given && !accelerates) continue;
-    const Drive& drive = model.drives[i];
+    const Servo& servo = model.drives[i];
     Dof& dof = parts_.dofs[i];
-    const double ahead = dof.position - qpos[drive.qpos];
+    const double ahead = dof.position - qpos[servo.qpos];
     if (std::abs(ahead) <= kFarthestAhead) continue;
     const double back = std::copysign(kFarthestAhead, ahead) - ahead;
     dof.position += back;
     course.start += back;
-    if (accelerates) dof.rate = dof.velocity = qvel[drive.dof];
+    if (accelerates) dof.rate = dof.velocity = qvel[servo.dof];
   }
 }
 

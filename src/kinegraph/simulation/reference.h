@@ -67,9 +67,9 @@ class Reference {
   /// Everything shall be where it is; its velocity is that of what brought it there.
   void hold(const SceneModel& model, const mjtNum* qpos, const mjtNum* qvel);
 
-  double next(std::size_t drive) const { return parts_.next[drive]; }  ///< position at the end of the inner step
+  double next(std::size_t servo) const { return parts_.next[servo]; }  ///< position at the end of the inner step
   const std::vector<Dof>& dofs() const { return parts_.dofs; }
-  void setDof(std::size_t drive, const Dof& dof) { parts_.dofs[drive] = dof; }
+  void setDof(std::size_t servo, const Dof& dof) { parts_.dofs[servo] = dof; }
   ControlMode mode() const { return parts_.clock.mode; }
   const VectorXd& torque() const { return parts_.torque; }  ///< per drive, of ControlMode::torque
 
@@ -80,9 +80,9 @@ class Reference {
   double spline_start = 0.;
 
  private:
-  void courseOf(std::size_t i, const Drive& drive, double goal, double tau, const SimulationOptions& options);
-  static double limitedStep(const Dof& dof, const Drive& drive, double h, const SimulationOptions& options);
-  double nextPosition(std::size_t i, const Drive& drive, double h, const SimulationOptions& options);
+  void courseOf(std::size_t i, const Servo& servo, double goal, double tau, const SimulationOptions& options);
+  static double limitedStep(const Dof& dof, const Servo& servo, double h, const SimulationOptions& options);
+  double nextPosition(std::size_t i, const Servo& servo, double h, const SimulationOptions& options);
   void nextOfSpline(const SceneModel& model, double time);
 
   Parts parts_;

@@ -24,7 +24,7 @@ class ModelMaker {
  public:
   ModelMaker(SceneTree& scene, const SimulationOptions& options, const ModelExtras& extras)
       : scene_(scene),
-        program_(*scene.program()),
+        kinematics_(*scene.model()),
         options_(options),
         extras_(extras),
         spec_(mj_.mj_makeSpec(), mj_.mj_deleteSpec),
@@ -32,7 +32,7 @@ class ModelMaker {
 
   SceneModel make() {
     model_.scene = divideScene(scene_, extras_.forces);
-    model_.dofs = program_.dofs;
+    model_.dofs = kinematics_.dofs;
     setOptions();
     addBodies();
     addShapes();
@@ -315,12 +315,12 @@ class ModelMaker {
     model_.model = PhysicsModel(mj_.mj_compile(spec_.get(), nullptr), mj_.mj_deleteModel);
     if (!model_.model) throw ValueError(cat("Simulation: ", mj_.mjs_getError(spec_.get())));
     model_.model->flg_surfacevel = 1;
-    indexModel(parts_, shapes_.geoms, program_, model_);
+    indexModel(parts_, shapes_.geoms, kinematics_, model_);
   }
 
   const Physics& mj_ = physics();
   SceneTree& scene_;
-  const Program& program_;
+  const KinematicModel& kinematics_;
   const SimulationOptions& options_;
   const ModelExtras& extras_;
   std::unique_ptr<mjSpec, decltype(&::mj_deleteSpec)> spec_;

@@ -27,7 +27,7 @@ struct ModelJoint {
 };
 
 /// A dof of the model with a motor, or three for a ball.
-struct Drive {
+struct Servo {
   int joint = 0;  ///< in SceneModel::joints
   int qpos = 0, dof = 0;
   int q = -1;  ///< first of its numbers in the scene's q, -1: none
@@ -73,7 +73,7 @@ struct SceneModel {
     double ratio;  ///< its motion per that of the source
   };
   std::vector<Follower> followers;
-  std::vector<Drive> drives;
+  std::vector<Servo> drives;
   std::vector<GripperJoint> grippers;
   int first_weld = 0, welds = 0;  ///< equalities kept for attach
   std::vector<ModelSensor> force_sensors, accelerometers;

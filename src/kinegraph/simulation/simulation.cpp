@@ -230,12 +230,12 @@ VectorXd Simulation::getReference() const {
   const World& world = *impl_->world;
   std::vector<mjtNum> positions(world.data().qpos, world.data().qpos + world.model().nq);
   for (std::size_t i = 0; i < world.scene().drives.size(); ++i) {
-    const Drive& drive = world.scene().drives[i];
+    const Servo& servo = world.scene().drives[i];
     const Reference::Dof& dof = world.reference().dofs()[i];
-    if (drive.kind == MotionKind::quaternion) {
-      std::copy_n(dof.turn, 4, &positions[std::size_t(drive.qpos)]);
+    if (servo.kind == MotionKind::quaternion) {
+      std::copy_n(dof.turn, 4, &positions[std::size_t(servo.qpos)]);
     } else {
-      positions[std::size_t(drive.qpos)] = dof.position;
+      positions[std::size_t(servo.qpos)] = dof.position;
     }
   }
   VectorXd q = VectorXd::Zero(world.scene().dofs);

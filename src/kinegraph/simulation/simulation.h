@@ -18,7 +18,7 @@
 namespace kinegraph {
 
 /// A point of a frame's link that is pulled.
-struct PulledPoint {
+struct Perturbation {
   Vector3d position, target;  ///< world, m
   Vector3d force;             ///< of the last inner step, world, N
 };
@@ -135,12 +135,12 @@ class Simulation {
                const std::optional<Vector3d>& point = std::nullopt);
   void clearPerturbations();
 
-  /// Pulls a point (in the frame's axes, m) to a place (world, m) by a damped spring, as a hand would, until endPull:
+  /// Pulls a point (in the frame's axes, m) to a place (world, m) by a damped spring, as a hand would, until endPerturbation:
   /// f = m (w^2 (target - p) - 2 w dp/dt) with w = 10 rad/s and m the mass of the frame's link with all that hangs on its
   /// joints. One point at a time. Throws FrameNotFound, and ValueError for what is fixed to the world.
   void pull(const std::string& frame, const Vector3d& point, const Vector3d& target);
-  void endPull();
-  std::optional<PulledPoint> getPull() const;
+  void endPerturbation();
+  std::optional<Perturbation> getPerturbation() const;
 
   // --- on the page -----------------------------------------------------------------------------------------------
 

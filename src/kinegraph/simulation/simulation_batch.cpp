@@ -38,7 +38,7 @@ struct SimulationBatch::Impl {
   }
   void perform(const std::function<void(int)>& work, const std::function<void()>& between) const {
     const int part = std::max(1, int(environments.size()) / (8 * threads));
-    forParts(
+    parallelFor(
         int(environments.size()), part, threads,
         [&](int, int from, int to) {
           for (int i = from; i < to; ++i) work(i);

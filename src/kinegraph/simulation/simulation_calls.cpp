@@ -277,16 +277,16 @@ void Simulation::pull(const std::string& frame, const Vector3d& point, const Vec
   impl_->note(Recording::Call::Kind::pull, std::move(numbers), {frame});
 }
 
-void Simulation::endPull() {
+void Simulation::endPerturbation() {
   if (impl_->world->pulled().body == 0) return;
   impl_->world->pull({});
   impl_->note(Recording::Call::Kind::end_pull, {});
 }
 
-std::optional<PulledPoint> Simulation::getPull() const {
+std::optional<Perturbation> Simulation::getPerturbation() const {
   const World& world = *impl_->world;
   if (world.pulled().body == 0) return std::nullopt;
-  return PulledPoint{world.pulledPoint(), world.pulled().target, world.pullForce()};
+  return Perturbation{world.pulledPoint(), world.pulled().target, world.pullForce()};
 }
 
 void Simulation::clearPerturbations() {

@@ -90,7 +90,7 @@ void Simulation::Impl::rebuild() {
   std::unique_ptr<World> next = makeWorld();
   takeFromConfig(*next);
   next->settle();
-  next->takeOver(*world, [&](int frame) {
+  next->transferState(*world, [&](int frame) {
     const auto found = std::find(before.begin(), before.end(), frames[std::size_t(frame)]);
     return found == before.end() ? -1 : int(found - before.begin());
   });

@@ -28,7 +28,7 @@ void World::setFriction(int frame, double friction) {
   }
 }
 
-void World::takeOver(const World& old, const std::function<int(int frame)>& old_frame) {
+void World::transferState(const World& old, const std::function<int(int frame)>& old_frame) {
   const SceneModel &to = *model_, &from = *old.model_;
   setTime(old.time());
   for (std::size_t i = 0; i < to.free_frames.size(); ++i) {
@@ -54,7 +54,7 @@ void World::takeOver(const World& old, const std::function<int(int frame)>& old_
   settle();
   for (std::size_t i = 0; i < to.drives.size(); ++i) {
     for (std::size_t j = 0; j < from.drives.size(); ++j) {
-      const Drive &a = to.drives[i], &b = from.drives[j];
+      const Servo &a = to.drives[i], &b = from.drives[j];
       if (joint_was[std::size_t(a.joint)] != b.joint || a.kind != b.kind) continue;
       const int first = to.joints[std::size_t(a.joint)].steps.front().dof;
       if (a.dof - first == b.dof - from.joints[std::size_t(b.joint)].steps.front().dof)
@@ -70,10 +70,10 @@ void World::takeOver(const World& old, const std::function<int(int frame)>& old_
       if (joint_was[std::size_t(to.grippers[i].joint)] == from.grippers[j].joint) grippers_[i] = old.grippers_[j];
     }
   }
-  takeOverWelds(old, old_frame);
+  transferWelds(old, old_frame);
 }
 
-void World::takeOverWelds(const World& old, const std::function<int(int frame)>& old_frame) {
+void World::transferWelds(const World& old, const std::function<int(int frame)>& old_frame) {
   const auto bodyNow = [&](int was) {
     if (was == 0) return 0;
     const std::vector<PlacedFrame>& frames = model_->scene.frames;

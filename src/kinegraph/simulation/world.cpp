@@ -39,7 +39,7 @@ World::World(std::shared_ptr<const SceneModel> model, const SimulationOptions& o
   bias_.resize(6 * std::size_t(physics_->nbody));
   wanted_.resize(std::size_t(physics_->nv));
   torque_.resize(std::size_t(physics_->nv));
-  turning_ = TurningForces(*model_, *physics_);
+  turning_ = GyroscopicForces(*model_, *physics_);
   settle();
 }
 
@@ -141,9 +141,9 @@ void World::clearPushes() { std::fill_n(data_->xfrc_applied, 6 * physics_->nbody
 
 VectorXd World::driveTorques() const {
   VectorXd torques = VectorXd::Zero(model_->dofs);
-  for (const Drive& drive : model_->drives) {
-    if (drive.q >= 0 && drive.kind != MotionKind::quaternion)
-      torques[drive.q] = drive.scale * data_->qfrc_applied[drive.dof];
+  for (const Servo& servo : model_->drives) {
+    if (servo.q >= 0 && servo.kind != MotionKind::quaternion)
+      torques[servo.q] = servo.scale * data_->qfrc_applied[servo.dof];
   }
   return torques;
 }
@@ -175,9 +175,9 @@ VectorXd World::externalTorques() const {
                          pushed.data());
   }
   VectorXd torques = VectorXd::Zero(model_->dofs);
-  for (const Drive& drive : model_->drives) {
-    if (drive.q >= 0 && drive.kind != MotionKind::quaternion)
-      torques[drive.q] = drive.scale * (d.qfrc_constraint[drive.dof] + pushed[std::size_t(drive.dof)]);
+  for (const Servo& servo : model_->drives) {
+    if (servo.q >= 0 && servo.kind != MotionKind::quaternion)
+      torques[servo.q] = servo.scale * (d.qfrc_constraint[servo.dof] + pushed[std::size_t(servo.dof)]);
   }
   return torques;
 }

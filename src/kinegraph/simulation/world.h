@@ -85,7 +85,7 @@ class World {
 
   /// Takes over what goes on in another world: the state of all frames that it had, `old_frame` being the id that a frame had
   /// there, or -1.
-  void takeOver(const World& old, const std::function<int(int frame)>& old_frame);
+  void transferState(const World& old, const std::function<int(int frame)>& old_frame);
 
   /// Forces of the last step do not help to find those of the next.
   void forgetForces();
@@ -128,7 +128,7 @@ class World {
 
  private:
   using Data = std::unique_ptr<mjData, decltype(&::mj_deleteData)>;
-  void takeOverWelds(const World& old, const std::function<int(int frame)>& old_frame);
+  void transferWelds(const World& old, const std::function<int(int frame)>& old_frame);
   void weld(int body_a, int body_b, const Pose& X_AB);
   void innerStep(double h);
   void correctContacts(double h);
@@ -154,7 +154,7 @@ class World {
   Vector3d pull_force_{0, 0, 0};
   Vector6d pushed_before_ = Vector6d::Zero();  ///< what acted on the pulled body before the spring did
   std::vector<mjtNum> bias_, wanted_, torque_;
-  TurningForces turning_;
+  GyroscopicForces turning_;
   std::set<int> too_fast_;
 };
 

@@ -37,10 +37,10 @@ void World::checkCommand(const VectorXd& u, double tau, ControlMode mode) const 
   if (!u.allFinite())
     throw ValueError(cat("Simulation.step: u_control has numbers that are not finite: ", u.transpose()));
   if (mode == ControlMode::velocity || mode == ControlMode::acceleration || mode == ControlMode::torque) {
-    for (const Drive& drive : model_->drives) {
-      if (drive.q >= 0 && (drive.kind == MotionKind::quaternion || drive.kind == MotionKind::circle))
+    for (const Servo& servo : model_->drives) {
+      if (servo.q >= 0 && (servo.kind == MotionKind::quaternion || servo.kind == MotionKind::circle))
         throw ValueError(cat("Simulation.step: mode ", controlModeName(mode),
-                             " is not for the joint whose numbers begin at ", drive.q,
+                             " is not for the joint whose numbers begin at ", servo.q,
                              ": they are those of a quaternion; use mode position"));
     }
   }
@@ -78,12 +78,12 @@ void World::step(const VectorXd& u, double tau, ControlMode mode, const std::fun
 void World::followReferences(double h) {
   mjData& d = *data_;
   for (std::size_t i = 0; i < model_->drives.size(); ++i) {
-    const Drive& drive = model_->drives[i];
-    if (drive.kind == MotionKind::quaternion) {
-      std::copy_n(reference_.dofs()[i].turn, 4, d.qpos + drive.qpos);
+    const Servo& servo = model_->drives[i];
+    if (servo.kind == MotionKind::quaternion) {
+      std::copy_n(reference_.dofs()[i].turn, 4, d.qpos + servo.qpos);
     } else {
-      d.qpos[drive.qpos] = reference_.next(i);
-      d.qvel[drive.dof] = (reference_.next(i) - reference_.dofs()[i].position) / h;
+      d.qpos[servo.qpos] = reference_.next(i);
+      d.qvel[servo.dof] = (reference_.next(i) - reference_.dofs()[i].position) / h;
     }
   }
   for (std::size_t g = 0; g < grippers_.size(); ++g) {
@@ -176,40 +176,40 @@ void World::driveMotors(double h) {
   std::fill(wanted_.begin(), wanted_.end(), 0.);
   const auto& references = reference_.dofs();
   for (std::size_t i = 0; i < model_->drives.size(); ++i) {
-    const Drive& drive = model_->drives[i];
+    const Servo& servo = model_->drives[i];
     const Reference::Dof& wanted = references[i];
-    if (drive.kind == MotionKind::quaternion) {
-      const Quaterniond now(d.qpos[drive.qpos], d.qpos[drive.qpos + 1], d.qpos[drive.qpos + 2], d.qpos[drive.qpos + 3]);
+    if (servo.kind == MotionKind::quaternion) {
+      const Quaterniond now(d.qpos[servo.qpos], d.qpos[servo.qpos + 1], d.qpos[servo.qpos + 2], d.qpos[servo.qpos + 3]);
       const Eigen::AngleAxisd turn(now.conjugate() *
                                    Quaterniond(wanted.turn[0], wanted.turn[1], wanted.turn[2], wanted.turn[3]));
       const double angle = turn.angle() > M_PI ? turn.angle() - 2. * M_PI : turn.angle();
       for (int k = 0; k < 3; ++k)
-        wanted_[std::size_t(drive.dof + k)] = w * w * angle * turn.axis()[k] - 2. * w * d.qvel[drive.dof + k];
-    } else if (!drive.gains) {
-      wanted_[std::size_t(drive.dof)] = wanted.acceleration + 2. * w * (wanted.velocity - d.qvel[drive.dof]) +
-                                        w * w * (wanted.position - d.qpos[drive.qpos]);
+        wanted_[std::size_t(servo.dof + k)] = w * w * angle * turn.axis()[k] - 2. * w * d.qvel[servo.dof + k];
+    } else if (!servo.gains) {
+      wanted_[std::size_t(servo.dof)] = wanted.acceleration + 2. * w * (wanted.velocity - d.qvel[servo.dof]) +
+                                        w * w * (wanted.position - d.qpos[servo.qpos]);
     }
   }
   physics().mj_mulM(&m, &d, torque_.data(), wanted_.data());
   const bool direct = reference_.mode() == ControlMode::torque;
   for (std::size_t i = 0; i < model_->drives.size(); ++i) {
-    const Drive& drive = model_->drives[i];
-    const int dofs = drive.kind == MotionKind::quaternion ? 3 : 1;
-    for (int k = drive.dof; k < drive.dof + dofs; ++k) {
+    const Servo& servo = model_->drives[i];
+    const int dofs = servo.kind == MotionKind::quaternion ? 3 : 1;
+    for (int k = servo.dof; k < servo.dof + dofs; ++k) {
       double torque = torque_[std::size_t(k)];
-      if (direct && drive.q >= 0) {
+      if (direct && servo.q >= 0) {
         torque = reference_.torque()[long(i)];
       } else {
-        if (drive.gains && dofs == 1) {
+        if (servo.gains && dofs == 1) {
           // stiffness and damping at the end of the step, so that no gain is too large for it
-          const double kp = drive.gains->first, kd = drive.gains->second;
-          const double error = references[i].position - d.qpos[drive.qpos], rate = references[i].velocity - d.qvel[k];
+          const double kp = servo.gains->first, kd = servo.gains->second;
+          const double error = references[i].position - d.qpos[servo.qpos], rate = references[i].velocity - d.qvel[k];
           const double inertia = d.M[m.M_rowadr[k] + m.M_rownnz[k] - 1];
           torque = (kp * (error + h * rate) + kd * rate) / (1. + (h * kd + h * h * kp) / inertia);
         }
         torque += d.qfrc_bias[k] - d.qfrc_passive[k];
       }
-      d.qfrc_applied[k] = std::clamp(torque, -drive.effort, drive.effort);
+      d.qfrc_applied[k] = std::clamp(torque, -servo.effort, servo.effort);
     }
   }
 }

@@ -195,7 +195,7 @@ SolverResult NlpSolver::solve(bool resample, Rng& rng, const EvaluationHook& hoo
   evals_ += result.evals;
   result.totalEvals = evals_;
   result.problem = problem_;
-  result.motion = problem_->motionVerdict(result.x);
+  result.motion = problem_->motionValidity(result.x);
   if (options.verbose > 0)
     std::printf("==nlp== %s: %s  %s\n", solverStatusName(result.status).c_str(), result.summary().c_str(),
                 result.str().c_str());

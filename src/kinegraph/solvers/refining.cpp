@@ -26,17 +26,17 @@ void giveUp(Nlp& nlp, double tolerance, int rounds, SolverResult& result) {
 }
 
 /// The form of a problem that takes up constraints while a solver is at work; else null.
-RoomForConstraints* roomIn(const Separation& separation) {
-  auto* room = dynamic_cast<RoomForConstraints*>(separation.problem.get());
+LazyConstraints* roomIn(const Separation& separation) {
+  auto* room = dynamic_cast<LazyConstraints*>(separation.problem.get());
   return room && room->hasRoom() ? room : nullptr;
 }
 
 /// Beginnings after the first one, which has ended at `first`.
 class NextBeginnings {
  public:
-  NextBeginnings(OtherWays* ways, WayKind kind, const VectorXd& start, const VectorXd& first)
-      : ways_(ways), again_(kind == WayKind::free ? 2 : 3), start_(start), first_(first) {
-    if (kind == WayKind::still) start_ = first;  // what leads nowhere has no detours
+  NextBeginnings(InitialGuesses* ways, GuessKind kind, const VectorXd& start, const VectorXd& first)
+      : ways_(ways), again_(kind == GuessKind::free ? 2 : 3), start_(start), first_(first) {
+    if (kind == GuessKind::still) start_ = first;  // what leads nowhere has no detours
     from_start_ = start;
   }
 
@@ -44,11 +44,11 @@ class NextBeginnings {
   VectorXd at(int number) const {
     if (!ways_ || number == again_) return from_start_;
     const int detour = number - (number > again_ ? 2 : 1);
-    return ways_->otherWay(detour % 2 == 1 ? start_ : first_, detour).value_or(from_start_);
+    return ways_->initialGuess(detour % 2 == 1 ? start_ : first_, detour).value_or(from_start_);
   }
 
  private:
-  OtherWays* ways_;
+  InitialGuesses* ways_;
   int again_;
   VectorXd start_, first_, from_start_;
 };
@@ -66,9 +66,9 @@ SolverResult NlpSolver::runRefining(Separation& separation, const EvaluationHook
     ~Restore() { options = given; }
   } restore{options};
   const VectorXd start = x;
-  OtherWays* const ways = roomIn(separation) ? dynamic_cast<OtherWays*>(problem_.get()) : nullptr;
-  const WayKind kind = ways ? ways->wayAt(start) : WayKind::free;
-  const bool may_be_cut_off = kind == WayKind::blocked && options.stopEvals > kMostEvalsOfBlocked;
+  InitialGuesses* const ways = roomIn(separation) ? dynamic_cast<InitialGuesses*>(problem_.get()) : nullptr;
+  const GuessKind kind = ways ? ways->guessKind(start) : GuessKind::free;
+  const bool may_be_cut_off = kind == GuessKind::blocked && options.stopEvals > kMostEvalsOfBlocked;
   if (may_be_cut_off) options.stopEvals = kMostEvalsOfBlocked;
   SolverResult result = runMethod(separation, watch, seen);
   if (result.status == SolverStatus::cancelled) return result;
@@ -101,7 +101,7 @@ SolverResult NlpSolver::runRefining(Separation& separation, const EvaluationHook
     }
     options.stopEvals = std::min(left, std::max(1, kMostEvalsOfOne - of_this));
     if (separation.problem) separation = problem_->separation();
-    if (RoomForConstraints* room = roomIn(separation)) room->askAtEachStep(beginnings > 1);
+    if (LazyConstraints* room = roomIn(separation)) room->askAtEachStep(beginnings > 1);
     const int evals = result.evals;
     result = runMethod(separation, watch, seen);
     of_this += result.evals;

@@ -59,7 +59,7 @@ SolveManyResult solveMany(int count, const SolveManyOptions& options, const Solv
     if (options.best || !all.results[std::size_t(i)].feasible) return;
     for (int known = sufficient; i < known && !sufficient.compare_exchange_weak(known, i);) continue;
   };
-  forParts(count, 1, std::min(options.threads, count), work, ask);
+  parallelFor(count, 1, std::min(options.threads, count), work, ask);
   for (int i = sufficient + 1; i < count; ++i)
     all.results[std::size_t(i)] = SolverResult();  // begun or not: threads decide
   all.chosen = int(std::min_element(all.results.begin(), all.results.end(), isBetter) - all.results.begin());

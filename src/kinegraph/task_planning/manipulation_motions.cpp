@@ -65,7 +65,7 @@ void ManipulationHelper::pull(const std::vector<double>& times, const std::strin
 /// A frame that stays where the gripper is in the path at a time.
 void ManipulationHelper::addReference(const std::string& name, const std::string& gripper, double time) {
   const Path& path = komo->path();
-  const Pose X_WG(path.state(path.grid().sliceAt(time)).pose(frameId(path.state(0).program(), gripper, "gripper")));
+  const Pose X_WG(path.state(path.grid().sliceAt(time)).pose(frameId(path.state(0).model(), gripper, "gripper")));
   addFrameDof(komo->path(),
               {.name = name, .type = JointType::none, .stable = true, .origin = gripper, .origin_pose = X_WG});
 }

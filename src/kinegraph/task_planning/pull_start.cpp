@@ -82,7 +82,7 @@ std::optional<VectorXd> PullStart::after(std::size_t i, const VectorXd& q, Vecto
   if (action[0] == "pick") return pick(i, q, x);
   if (action[0] == "place") return place(i, q, x);
   if (isPull(action)) return beginPull(i, q, x);
-  if (action[0] == "hook_end") return endPull(i, q, x);
+  if (action[0] == "hook_end") return endPerturbation(i, q, x);
   return std::nullopt;
 }
 
@@ -130,7 +130,7 @@ std::optional<VectorXd> PullStart::beginPull(std::size_t i, const VectorXd& q, V
 }
 
 /// Step by step, so that the arm ends as it began.
-std::optional<VectorXd> PullStart::endPull(std::size_t i, const VectorXd& q, VectorXd& x) {
+std::optional<VectorXd> PullStart::endPerturbation(std::size_t i, const VectorXd& q, VectorXd& x) {
   const TaskAction& action = actions_[i];
   std::size_t begin = i;
   while (begin > 0 && !(isPull(actions_[begin]) && actions_[begin][1] == action[1])) --begin;

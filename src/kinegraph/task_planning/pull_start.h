@@ -40,7 +40,7 @@ class PullStart {
   std::optional<VectorXd> pick(std::size_t i, const VectorXd& q, VectorXd& x);
   std::optional<VectorXd> place(std::size_t i, const VectorXd& q, VectorXd& x);
   std::optional<VectorXd> beginPull(std::size_t i, const VectorXd& q, VectorXd& x);
-  std::optional<VectorXd> endPull(std::size_t i, const VectorXd& q, VectorXd& x);
+  std::optional<VectorXd> endPerturbation(std::size_t i, const VectorXd& q, VectorXd& x);
   std::optional<Pull> pullOf(std::size_t begin, const VectorXd& x) const;
   std::optional<std::size_t> nextPullWith(const std::string& tool, std::size_t from) const;
   Pose barBehind(const TaskAction& begin, const Pose& obj, const Vector3d& way) const;

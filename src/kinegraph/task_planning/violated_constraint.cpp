@@ -9,7 +9,7 @@
 
 namespace kinegraph {
 
-std::string missedDemand(const std::shared_ptr<Komo>& komo, const std::function<void()>& between) {
+std::string violatedConstraint(const std::shared_ptr<Komo>& komo, const std::function<void()>& between) {
   const VectorXd x = komo->path().variables();
   const Explanation explanation = explain(*makeNlp(komo), x, 1e-3, between);
   if (explanation.conflicts.empty()) return "";

@@ -10,6 +10,6 @@ namespace kinegraph {
 
 /// The demand of a problem that stands in the way of the others, where its path is, in words: "cup and table overlap by
 /// 3 mm"; "" if all hold. `between`, where given, is called at every evaluation, and may throw.
-std::string missedDemand(const std::shared_ptr<Komo>& komo, const std::function<void()>& between = {});
+std::string violatedConstraint(const std::shared_ptr<Komo>& komo, const std::function<void()>& between = {});
 
 }  // namespace kinegraph

@@ -27,21 +27,21 @@ void addPiece(PathCurve::Parts& parts, const PathCurve& curve, int piece, double
 
 }  // namespace
 
-TimeLaw CurvePart::onWhole(const TimeLaw& law) const {
-  std::vector<LawPhase> phases = law.phases();
-  for (LawPhase& phase : phases) {
+TimeScaling CurvePart::onWhole(const TimeScaling& scaling) const {
+  std::vector<ScalingPhase> phases = scaling.phases();
+  for (ScalingPhase& phase : phases) {
     phase.begin.s += begin;
     phase.end += begin;
     phase.piece += first_piece;
   }
-  return {std::move(phases), law.duration()};
+  return {std::move(phases), scaling.duration()};
 }
 
-TimeLaw CurvePart::restOf(const TimeLaw& whole, double time) const {
-  TimeLaw rest;
-  const std::vector<LawPhase>& phases = whole.phases();
+TimeScaling CurvePart::restOf(const TimeScaling& whole, double time) const {
+  TimeScaling rest;
+  const std::vector<ScalingPhase>& phases = whole.phases();
   for (std::size_t i = std::size_t(&whole.phaseAt(time) - phases.data()); i < phases.size(); ++i) {
-    LawPhase phase = phases[i];
+    ScalingPhase phase = phases[i];
     const double until = i + 1 < phases.size() ? phases[i + 1].time : whole.duration();
     const double from = std::max(time, phase.time);
     if (phase.begin.s - begin >= curve.length()) break;

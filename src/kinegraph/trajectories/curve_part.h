@@ -12,11 +12,11 @@ struct CurvePart {
   int first_piece = 0;  ///< of the whole curve, the one that its first piece is of
 
   /// A law along the part as one along the whole curve.
-  TimeLaw onWhole(const TimeLaw& law) const;
+  TimeScaling onWhole(const TimeScaling& scaling) const;
 
   /// What is left of a law along the whole curve from `time` on, which is when it is where the part begins, until it is where
   /// the part ends: a law along the part.
-  TimeLaw restOf(const TimeLaw& whole, double time) const;
+  TimeScaling restOf(const TimeScaling& whole, double time) const;
 };
 
 /// From s = `from` to `to` > from, both held within the curve. Its marks are its ends. Pieces shorter than 1e-12 of the

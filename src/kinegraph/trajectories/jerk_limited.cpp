@@ -36,7 +36,7 @@ struct Section {
   SectionEnd from, to;
 };
 
-std::vector<Section> sectionsOf(const LawGrid& grid, const SquaredSpeeds& first, double start_acceleration) {
+std::vector<Section> sectionsOf(const ScalingGrid& grid, const SquaredSpeeds& first, double start_acceleration) {
   const auto endAt = [&](int place) { return SectionEnd{first.at[place] == 0., first.at[place], 0.}; };
   std::vector<Section> sections;
   int begin = 0;
@@ -66,16 +66,16 @@ LineMotionLimits limitsAlong(const double* tangent, const MotionLimits& limits) 
 /// of them near the ends where the section is at rest.
 class SectionPlaces {
  public:
-  SectionPlaces(const LawGrid& grid, const Section& section, const TimeLaw& law, const MotionLimits& limits,
-                const LawEffort& effort)
+  SectionPlaces(const ScalingGrid& grid, const Section& section, const TimeScaling& scaling, const MotionLimits& limits,
+                const ScalingBudget& effort)
       : grid_(grid), effort_(effort), begin_(grid.place(section.begin)), end_(grid.place(section.end)) {
-    const double t0 = law.timeOf(begin_), t1 = law.timeOf(end_);
-    const int count = std::max(kFewestIntervals, int(std::lround(effort.intervals * (t1 - t0) / law.duration())));
+    const double t0 = scaling.timeOf(begin_), t1 = scaling.timeOf(end_);
+    const int count = std::max(kFewestIntervals, int(std::lround(effort.intervals * (t1 - t0) / scaling.duration())));
     const double step = (t1 - t0) / count;
     for (int k = 1; k < count; ++k) {
       effort.pause(k);
       const double t = t0 + step * k;
-      const LawPhase& phase = law.phaseAt(t);
+      const ScalingPhase& phase = scaling.phaseAt(t);
       inner_.push_back(std::clamp(phase.at(t - phase.time).s, begin_, end_));
     }
     addKnots(section);
@@ -141,15 +141,15 @@ class SectionPlaces {
     }
   }
 
-  const LawGrid& grid_;
-  const LawEffort& effort_;
+  const ScalingGrid& grid_;
+  const ScalingBudget& effort_;
   double begin_, end_;
   std::vector<double> inner_;
 };
 
 /// s'^2 of a law in the middle of the intervals of a grid, lowered where the section is at rest.
-std::vector<double> startOf(const LawGrid& places, const TimeLaw& law, const Section& section,
-                            const MotionLimits& limits, const LawEffort& effort) {
+std::vector<double> startOf(const ScalingGrid& places, const TimeScaling& scaling, const Section& section,
+                            const MotionLimits& limits, const ScalingBudget& effort) {
   std::vector<double> start;
   const double edges[2] = {places.place(0), places.place(places.intervals())};
   double jerk[2];
@@ -160,7 +160,7 @@ std::vector<double> startOf(const LawGrid& places, const TimeLaw& law, const Sec
   for (int i = 0; i < places.intervals(); ++i) {
     effort.pause(i);
     const double s = places.place(i) + places.width(i) / 2.;
-    double inverse = 1. / std::max(1e-12, law.squaredSpeedAt(s));
+    double inverse = 1. / std::max(1e-12, scaling.squaredSpeedAt(s));
     for (int end = 0; end < 2; ++end) {
       if (!(end ? section.to : section.from).at_rest) continue;
       const double j = jerk[end];
@@ -186,32 +186,32 @@ struct Shares {
   bool hold() const { return std::max({most[0], most[1], most[2]}) <= 1.; }
 };
 
-Shares sharesOf(const SmoothProgram& program, const LawProof& proof, const LawEffort& effort) {
+Shares sharesOf(const JerkLimitedProgram& model, const ScalingProof& proof, const ScalingBudget& effort) {
   Shares shares;
-  for (int k = 0; k < program.count(); ++k) {
+  for (int k = 0; k < model.count(); ++k) {
     effort.pause(k);
-    shares.each.push_back(proof.shares(program.first() + k, program.at(k)));
+    shares.each.push_back(proof.shares(model.first() + k, model.at(k)));
     for (int i = 0; i < 3; ++i) shares.most[i] = std::max(shares.most[i], shares.each.back()[i]);
   }
   return shares;
 }
 
-void addProgram(TimeLaw& law, const SmoothProgram& program, const LawGrid& places, const LawEffort& effort) {
+void addProgram(TimeScaling& scaling, const JerkLimitedProgram& model, const ScalingGrid& places, const ScalingBudget& effort) {
   const auto restTime = [](double width, double b) { return 3. * width / std::sqrt(b); };
-  const int last = places.intervals() - 1, end = program.first() + program.count();
-  if (program.first() == 1) {
-    const double w = places.width(0), time = restTime(w, program.at(0)[0]);
-    law.add({0., {places.place(0), 0., 0., 6. * w / (time * time * time)}, 0., places.place(1), places.piece(0)}, time);
+  const int last = places.intervals() - 1, end = model.first() + model.count();
+  if (model.first() == 1) {
+    const double w = places.width(0), time = restTime(w, model.at(0)[0]);
+    scaling.add({0., {places.place(0), 0., 0., 6. * w / (time * time * time)}, 0., places.place(1), places.piece(0)}, time);
   }
-  for (int k = 0; k < program.count(); ++k) {
+  for (int k = 0; k < model.count(); ++k) {
     effort.pause(k);
-    const int i = program.first() + k;
-    const Quadratic b = program.at(k);
-    law.addQuadratic(places.place(i), places.place(i + 1), b[0], b[1], b[2], places.piece(i));
+    const int i = model.first() + k;
+    const Quadratic b = model.at(k);
+    scaling.addQuadratic(places.place(i), places.place(i + 1), b[0], b[1], b[2], places.piece(i));
   }
   if (end == last) {
-    const double w = places.width(last), b = program.at(program.count() - 1)[2], time = restTime(w, b);
-    law.add({0.,
+    const double w = places.width(last), b = model.at(model.count() - 1)[2], time = restTime(w, b);
+    scaling.add({0.,
              {places.place(last), std::sqrt(b), -2. * b / (3. * w), 6. * w / (time * time * time)},
              0.,
              places.place(last + 1),
@@ -221,82 +221,82 @@ void addProgram(TimeLaw& law, const SmoothProgram& program, const LawGrid& place
 }
 
 /// Where a program exceeds limits between its places, they are narrowed by as much.
-void tighten(SmoothProgram& program, const Shares& shares, const LawEffort& effort) {
-  for (int k = 0; k < program.count(); ++k) {
+void tighten(JerkLimitedProgram& model, const Shares& shares, const ScalingBudget& effort) {
+  for (int k = 0; k < model.count(); ++k) {
     effort.pause(k);
     std::array<double, 3> ratios = shares.each[std::size_t(k)];
     for (double& ratio : ratios) ratio = ratio > 1. ? ratio + kTightenMore : 1.;
-    for (const int near : {k, std::min(k + 1, program.count() - 1)}) program.tighten(near, ratios);
+    for (const int near : {k, std::min(k + 1, model.count() - 1)}) model.tighten(near, ratios);
   }
 }
 
 /// The law of a section that is curved; empty if there is none.
-TimeLaw curvedLawOnce(const LawGrid& grid, const Section& section, const TimeLaw& first, const MotionLimits& limits,
-                      const RowSource& rows, const LawEffort& effort) {
-  const LawGrid places(grid.curve(), SectionPlaces(grid, section, first, limits, effort).all(), effort);
-  const LawProof proof(places, limits);
-  SmoothProgram program(places, limits, rows, section.from, section.to, effort);
+TimeScaling curvedLawOnce(const ScalingGrid& grid, const Section& section, const TimeScaling& first, const MotionLimits& limits,
+                      const ConstraintSource& rows, const ScalingBudget& effort) {
+  const ScalingGrid places(grid.curve(), SectionPlaces(grid, section, first, limits, effort).all(), effort);
+  const ScalingProof proof(places, limits);
+  JerkLimitedProgram model(places, limits, rows, section.from, section.to, effort);
   std::vector<double> start = startOf(places, first, section, limits, effort);
   const bool may_slow_down = section.from.at_rest && section.to.at_rest;
   const double missed = may_slow_down && !rows ? kMissed : kMissedNowhere;
-  TimeLaw law;
-  program.begin(start, kFirstGap);
-  program.improve(kRoughGap, 1., kMostNewtonSteps);
-  Shares shares = sharesOf(program, proof, effort);
-  if (!shares.hold()) tighten(program, shares, effort);
-  if (!program.improve(kGap, missed, kMostNewtonSteps)) return law;
-  shares = sharesOf(program, proof, effort);
+  TimeScaling scaling;
+  model.begin(start, kFirstGap);
+  model.improve(kRoughGap, 1., kMostNewtonSteps);
+  Shares shares = sharesOf(model, proof, effort);
+  if (!shares.hold()) tighten(model, shares, effort);
+  if (!model.improve(kGap, missed, kMostNewtonSteps)) return scaling;
+  shares = sharesOf(model, proof, effort);
   for (int round = 0; !may_slow_down && round < kTightenMost && !shares.hold(); ++round) {
-    tighten(program, shares, effort);
-    for (int k = 0; k < program.count(); ++k) start[std::size_t(program.first() + k)] = program.at(k)[1];
-    program.begin(start, kNextGap);
-    if (!program.improve(kGap, missed, kMostNewtonSteps)) return law;
-    shares = sharesOf(program, proof, effort);
+    tighten(model, shares, effort);
+    for (int k = 0; k < model.count(); ++k) start[std::size_t(model.first() + k)] = model.at(k)[1];
+    model.begin(start, kNextGap);
+    if (!model.improve(kGap, missed, kMostNewtonSteps)) return scaling;
+    shares = sharesOf(model, proof, effort);
   }
-  if (!may_slow_down && !shares.hold()) return law;
-  addProgram(law, program, places, effort);
+  if (!may_slow_down && !shares.hold()) return scaling;
+  addProgram(scaling, model, places, effort);
   const double factor = std::max({1., shares.most[0], std::sqrt(shares.most[1]), std::cbrt(shares.most[2])});
-  if (factor > 1.) law.slowDown(factor);
-  return law;
+  if (factor > 1.) scaling.slowDown(factor);
+  return scaling;
 }
 
 /// The same, with half as many places as long as rounding spoils it: the condition of the matrices grows with the fourth
 /// power of their number. A law that is spoiled is slower than one of few places.
-TimeLaw curvedLaw(const LawGrid& grid, const Section& section, const TimeLaw& first, const MotionLimits& limits,
-                  const RowSource& rows, const LawEffort& effort) {
+TimeScaling curvedLaw(const ScalingGrid& grid, const Section& section, const TimeScaling& first, const MotionLimits& limits,
+                  const ConstraintSource& rows, const ScalingBudget& effort) {
   if (effort.intervals <= kSafePlaces) return curvedLawOnce(grid, section, first, limits, rows, effort);
-  LawEffort fewer{kSafePlaces, effort.between};
-  TimeLaw safe = curvedLawOnce(grid, section, first, limits, rows, fewer);
+  ScalingBudget fewer{kSafePlaces, effort.between};
+  TimeScaling safe = curvedLawOnce(grid, section, first, limits, rows, fewer);
   for (fewer.intervals = std::min(effort.intervals, kMostPlaces); fewer.intervals > kSafePlaces; fewer.intervals /= 2) {
-    TimeLaw law = curvedLawOnce(grid, section, first, limits, rows, fewer);
-    if (!law.phases().empty() && (safe.phases().empty() || law.duration() <= safe.duration())) return law;
+    TimeScaling scaling = curvedLawOnce(grid, section, first, limits, rows, fewer);
+    if (!scaling.phases().empty() && (safe.phases().empty() || scaling.duration() <= safe.duration())) return scaling;
   }
   return safe;
 }
 
 }  // namespace
 
-SmoothLaw smoothLaw(const LawGrid& grid, const SquaredSpeeds& first, double start_acceleration,
-                    const MotionLimits& limits, const RowSource& rows, const LawEffort& effort) {
-  SmoothLaw smooth;
-  const TimeLaw fast = lawOf(grid, limits, first, effort);
+JerkLimitedScaling jerkLimitedScaling(const ScalingGrid& grid, const SquaredSpeeds& first, double start_acceleration,
+                    const MotionLimits& limits, const ConstraintSource& rows, const ScalingBudget& effort) {
+  JerkLimitedScaling smooth;
+  const TimeScaling fast = scalingOf(grid, limits, first, effort);
   for (const Section& section : sectionsOf(grid, first, start_acceleration)) {
     bool is_found = true;
     if (section.end == section.begin + 1 && grid.isLine(section.begin) && section.from.acceleration == 0.) {
       const LineMotionLimits along = limitsAlong(grid.tangent(section.begin).data(), limits);
-      is_found = addDoubleS(smooth.law, grid.place(section.begin), grid.place(section.end),
+      is_found = addDoubleS(smooth.scaling, grid.place(section.begin), grid.place(section.end),
                             std::sqrt(section.from.squared_speed), std::sqrt(section.to.squared_speed), along,
                             grid.piece(section.begin));
     } else {
-      TimeLaw law = curvedLaw(grid, section, fast, limits, rows, effort);
-      is_found = !law.phases().empty();
-      smooth.law.append(law);
+      TimeScaling scaling = curvedLaw(grid, section, fast, limits, rows, effort);
+      is_found = !scaling.phases().empty();
+      smooth.scaling.append(scaling);
     }
     if (is_found) continue;
     const bool by_start = !section.from.at_rest;
-    smooth.failure = by_start              ? LawFailure::start_too_fast
-                     : !section.to.at_rest ? LawFailure::end_too_fast
-                                           : LawFailure::cannot_move;
+    smooth.failure = by_start              ? ScalingFailure::start_too_fast
+                     : !section.to.at_rest ? ScalingFailure::end_too_fast
+                                           : ScalingFailure::cannot_move;
     smooth.place = grid.place(section.begin);
     return smooth;
   }

@@ -5,9 +5,9 @@
 namespace kinegraph {
 
 /// What a law with limits of the jerk came to.
-struct SmoothLaw {
-  TimeLaw law;
-  LawFailure failure = LawFailure::none;
+struct JerkLimitedScaling {
+  TimeScaling scaling;
+  ScalingFailure failure = ScalingFailure::none;
   double place = 0.;
 };
 
@@ -26,7 +26,7 @@ struct SmoothLaw {
 /// of q' ^2 b, (q' b'/2 + q'' b) and b (...)^2 prove. A line between two stops has the seven phases that are known.
 /// Source: Verscheure, Demeulenaere, Swevers, De Schutter, Diehl, Time-optimal path tracking for robots: a convex
 /// optimization approach, 2009; Lipp, Boyd, Variations and extension of the convex-concave procedure, 2016.
-SmoothLaw smoothLaw(const LawGrid& grid, const SquaredSpeeds& first, double start_acceleration,
-                    const MotionLimits& limits, const RowSource& rows, const LawEffort& effort);
+JerkLimitedScaling jerkLimitedScaling(const ScalingGrid& grid, const SquaredSpeeds& first, double start_acceleration,
+                    const MotionLimits& limits, const ConstraintSource& rows, const ScalingBudget& effort);
 
 }  // namespace kinegraph

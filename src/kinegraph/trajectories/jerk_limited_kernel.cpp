@@ -4,7 +4,7 @@
 
 namespace kinegraph {
 
-const SmoothKernel& smoothKernel(int width) {
+const JerkLimitedKernel& smoothKernel(int width) {
   width = checkedLaneWidth(width);
 #ifdef KINEGRAPH_WIDE_LANES
   if (width == 8) return lanes::kSmoothKernelAvx512;

@@ -2,11 +2,11 @@
 
 namespace kinegraph {
 
-// The rows of a SmoothProgram, for eight intervals side by side. Numbers of intervals are in arrays that go on for
+// The rows of a JerkLimitedProgram, for eight intervals side by side. Numbers of intervals are in arrays that go on for
 // kLanes beyond the last one. Nothing in this file owns memory or has inline functions, because it is shared with code
 // for other instruction sets.
 
-struct SmoothKernel {
+struct JerkLimitedKernel {
   static constexpr int kLanes = 8;
 
   /// |r b + offset| <= size in each of eight intervals, with the slacks and multipliers of both sides, and how these
@@ -55,11 +55,11 @@ struct SmoothKernel {
 };
 
 /// That for `width` of laneWidths(), 0 for the widest.
-const SmoothKernel& smoothKernel(int width = 0);
+const JerkLimitedKernel& smoothKernel(int width = 0);
 
 namespace lanes {
 /// One per instruction set.
-extern const SmoothKernel kSmoothKernelBase, kSmoothKernelAvx2, kSmoothKernelAvx512;
+extern const JerkLimitedKernel kSmoothKernelBase, kSmoothKernelAvx2, kSmoothKernelAvx512;
 }  // namespace lanes
 
 }  // namespace kinegraph

@@ -8,6 +8,6 @@ constexpr int kLanes = 4;
 
 namespace kinegraph::lanes {
 
-const SmoothKernel kSmoothKernelAvx2 = kKernel;
+const JerkLimitedKernel kSmoothKernelAvx2 = kKernel;
 
 }  // namespace kinegraph::lanes

@@ -8,6 +8,6 @@ constexpr int kLanes = 8;
 
 namespace kinegraph::lanes {
 
-const SmoothKernel kSmoothKernelAvx512 = kKernel;
+const JerkLimitedKernel kSmoothKernelAvx512 = kKernel;
 
 }  // namespace kinegraph::lanes

@@ -8,6 +8,6 @@ constexpr int kLanes = 2;
 
 namespace kinegraph::lanes {
 
-const SmoothKernel kSmoothKernelBase = kKernel;
+const JerkLimitedKernel kSmoothKernelBase = kKernel;
 
 }  // namespace kinegraph::lanes

@@ -9,9 +9,9 @@ namespace kinegraph::lanes {
 namespace {
 
 using Lane = Pack<kLanes>;
-using Rows = SmoothKernel::Rows;
-using Block = SmoothKernel::Block;
-using Coefficients = SmoothKernel::Coefficients;
+using Rows = JerkLimitedKernel::Rows;
+using Block = JerkLimitedKernel::Block;
+using Coefficients = JerkLimitedKernel::Coefficients;
 
 enum class Root { none, at_begin, at_end };
 
@@ -134,7 +134,7 @@ template <class Visit>
 void beginAll(const Coefficients& b, const double* roots, const Block* blocks, int count, double barrier,
               double least) {
   for (int n = 0; n < count; ++n) {
-    for (int i = 0; i < SmoothKernel::kLanes; i += kLanes) {
+    for (int i = 0; i < JerkLimitedKernel::kLanes; i += kLanes) {
       const Place at(b, roots, blocks[n].first + i);
       forRows(blocks[n], [&]<Root kRoot>(Rows& rows) { beginRows<kRoot>(rows, i, at, barrier, least); });
     }
@@ -142,9 +142,9 @@ void beginAll(const Coefficients& b, const double* roots, const Block* blocks, i
 }
 
 void takeAll(const Coefficients& b, const double* roots, const Block* blocks, int count, double slack_share,
-             double dual_share, SmoothKernel::Sums& sums) {
+             double dual_share, JerkLimitedKernel::Sums& sums) {
   for (int n = 0; n < count; ++n) {
-    for (int i = 0; i < SmoothKernel::kLanes; i += kLanes) {
+    for (int i = 0; i < JerkLimitedKernel::kLanes; i += kLanes) {
       const int k = blocks[n].first + i;
       const Place at(b, roots, k);
       RowTotals sum;
@@ -161,9 +161,9 @@ void takeAll(const Coefficients& b, const double* roots, const Block* blocks, in
 }
 
 void findAllSteps(const Coefficients& b, const double* roots, const Coefficients& step, const Block* blocks, int count,
-                  double barrier, SmoothKernel::Falls& falls) {
+                  double barrier, JerkLimitedKernel::Falls& falls) {
   for (int n = 0; n < count; ++n) {
-    for (int i = 0; i < SmoothKernel::kLanes; i += kLanes) {
+    for (int i = 0; i < JerkLimitedKernel::kLanes; i += kLanes) {
       const int k = blocks[n].first + i;
       const Place at(b, roots, k);
       const Lane by[3] = {from(step.knots + k), from(step.middle + k), from(step.knots + k + 1)};
@@ -174,7 +174,7 @@ void findAllSteps(const Coefficients& b, const double* roots, const Coefficients
   }
 }
 
-constexpr SmoothKernel kKernel = {beginAll, takeAll, findAllSteps};
+constexpr JerkLimitedKernel kKernel = {beginAll, takeAll, findAllSteps};
 
 }  // namespace
 

@@ -3,28 +3,28 @@
 
 #include "kinegraph/trajectories/jerk_limited_program.h"
 
-// The interior-point steps of a SmoothProgram.
+// The interior-point steps of a JerkLimitedProgram.
 
 namespace kinegraph {
 
 namespace {
 
 constexpr double kFirstSlack = 1e-3;  // of a limit, at least
-constexpr double kStartShare = .7;    // of each limit, that the start may use
+constexpr double kStartRoom = .7;    // of each limit, that the start may use
 constexpr double kToBoundary = .95;   // of the way to where a slack ends
 constexpr int kBlocksAtOnce = 64;     // until somebody may end it
 constexpr double kFixed = 1e30;       // on the diagonal of what is given
 
 }  // namespace
 
-void SmoothProgram::placeKnots() {
+void JerkLimitedProgram::placeKnots() {
   knots_.head(count_) = right_.head(count_) * middle_.head(count_);
   knots_[count_] = 0.;
   knots_.segment(1, count_) += left_.tail(count_) * middle_.head(count_);
   roots_.head(count_ + 1) = knots_.head(count_ + 1).sqrt().inverse();
 }
 
-double SmoothProgram::duration() const {
+double JerkLimitedProgram::duration() const {
   const auto b0 = knots_.head(count_), b2 = knots_.segment(1, count_);
   const auto mean_root = (.25 * (b0 + 2. * middle_.head(count_) + b2)).sqrt().inverse();
   const double time = (width_ / 6. * (roots_.head(count_) + 4. * mean_root + roots_.segment(1, count_))).sum();
@@ -32,7 +32,7 @@ double SmoothProgram::duration() const {
 }
 
 /// Calls visit(blocks, count) for all blocks, a part after the other.
-void SmoothProgram::forParts(const std::function<void(const SmoothKernel::Block*, int)>& visit) const {
+void JerkLimitedProgram::parallelFor(const std::function<void(const JerkLimitedKernel::Block*, int)>& visit) const {
   const int count = int(blocks_.size());
   for (int n = 0; n < count; n += kBlocksAtOnce) {
     if (effort_.between) effort_.between();
@@ -41,11 +41,11 @@ void SmoothProgram::forParts(const std::function<void(const SmoothKernel::Block*
 }
 
 /// Takes all of b down until every limit leaves room: accelerations fall as b does, jerks as b^(3/2).
-void SmoothProgram::slowDown() {
+void JerkLimitedProgram::slowDown() {
   placeKnots();
   using Lanes = Eigen::Map<const Eigen::Array<double, kLanes, 1>>;
   Eigen::Array<double, kLanes, 1> factor = Eigen::Array<double, kLanes, 1>::Ones(), of_jerk = factor;
-  for (const SmoothKernel::Block& block : blocks_) {
+  for (const JerkLimitedKernel::Block& block : blocks_) {
     effort_.pause(block.first);
     const auto b0 = knots_.segment<kLanes>(block.first), b1 = middle_.segment<kLanes>(block.first),
                b2 = knots_.segment<kLanes>(block.first + 1);
@@ -54,7 +54,7 @@ void SmoothProgram::slowDown() {
     for (int r = 0; r < all; ++r) {
       const Rows& row = block.rows[r];
       const auto value = (Lanes(row.r[0]) * b0 + Lanes(row.r[1]) * b1 + Lanes(row.r[2]) * b2).abs().max(1e-300);
-      const auto room = kStartShare * (Lanes(row.size) - Lanes(row.offset).abs());
+      const auto room = kStartRoom * (Lanes(row.size) - Lanes(row.offset).abs());
       if (r < block.plain) {
         factor = factor.min(room / value);
       } else if (r < block.plain + block.at_begin) {
@@ -70,7 +70,7 @@ void SmoothProgram::slowDown() {
 }
 
 /// Rows of the jerk are taken times the root of b as it is now.
-void SmoothProgram::takeRootsNow() {
+void JerkLimitedProgram::takeRootsNow() {
   for (int k = 0; k < count_; ++k) {
     effort_.pause(k);
     for (int end = 0; end < 2; ++end) {
@@ -85,18 +85,18 @@ void SmoothProgram::takeRootsNow() {
   }
 }
 
-void SmoothProgram::begin(const std::vector<double>& start, double gap) {
+void JerkLimitedProgram::begin(const std::vector<double>& start, double gap) {
   for (int k = 0; k < count_; ++k) middle_[k] = start[std::size_t(first_ + k)];
   slowDown();
   takeRootsNow();
   barrier_ = gap * duration() / (2. * kLanes * double(rows_.size()));
-  forParts([&](const SmoothKernel::Block* blocks, int count) {
+  parallelFor([&](const JerkLimitedKernel::Block* blocks, int count) {
     smoothKernel().begin({knots_.data(), middle_.data()}, roots_.data(), blocks, count, barrier_, kFirstSlack);
   });
 }
 
 /// Adds the gradient and the symmetric matrix on the coefficients of interval k.
-void SmoothProgram::spread(int k) {
+void JerkLimitedProgram::spread(int k) {
   const double l0 = left_[k], r0 = right_[k], l1 = left_[k + 1], r1 = right_[k + 1];
   const double g[3] = {slope_[0][k], slope_[1][k], slope_[2][k]};
   double m[6];
@@ -119,7 +119,7 @@ void SmoothProgram::spread(int k) {
 }
 
 /// The duration w b^(-1/2) at both ends, and of the mean of b; and what does not let c become zero.
-void SmoothProgram::addCost() {
+void JerkLimitedProgram::addCost() {
   const auto at_begin = roots_.head(count_), at_end = roots_.segment(1, count_), middle = middle_.head(count_);
   const Array mean_root = (.25 * (knots_.head(count_) + 2. * middle + knots_.segment(1, count_))).sqrt().inverse();
   Array w0 = width_ / 6., w1 = w0;
@@ -139,7 +139,7 @@ void SmoothProgram::addCost() {
   part(matrix_[5]) += mean_curvature + .75 * w1 * end_cube * at_end.square();
 }
 
-void SmoothProgram::assemble() {
+void JerkLimitedProgram::assemble() {
   addCost();
   std::fill(band_.begin(), band_.end(), std::array<double, 3>{0., 0., 0.});
   std::fill(gradient_.begin(), gradient_.end(), 0.);
@@ -154,7 +154,7 @@ void SmoothProgram::assemble() {
 }
 
 /// middle_step_ = -band^-1 gradient, by L D L^T in place.
-void SmoothProgram::solveBand() {
+void JerkLimitedProgram::solveBand() {
   for (int k = 0; k < count_; ++k) {
     effort_.pause(k);
     auto& [d, one, two] = band_[k];
@@ -182,9 +182,9 @@ void SmoothProgram::solveBand() {
     knot_step_[k] = (k > 0 ? left_[k] * middle_step_[k - 1] : 0.) + (k < count_ ? right_[k] * middle_step_[k] : 0.);
 }
 
-SmoothProgram::Steps SmoothProgram::findSteps() {
-  SmoothKernel::Falls falls{};
-  forParts([&](const SmoothKernel::Block* blocks, int count) {
+JerkLimitedProgram::Steps JerkLimitedProgram::findSteps() {
+  JerkLimitedKernel::Falls falls{};
+  parallelFor([&](const JerkLimitedKernel::Block* blocks, int count) {
     smoothKernel().findSteps({knots_.data(), middle_.data()}, roots_.data(), {knot_step_.data(), middle_step_.data()},
                              blocks, count, barrier_, falls);
   });
@@ -194,16 +194,16 @@ SmoothProgram::Steps SmoothProgram::findSteps() {
 }
 
 /// Goes on, and sums up what the rows say of the next step.
-SmoothProgram::Gap SmoothProgram::take(const Steps& steps) {
+JerkLimitedProgram::Gap JerkLimitedProgram::take(const Steps& steps) {
   middle_ += steps.primal * middle_step_;
   placeKnots();
-  SmoothKernel::Sums sums{};
+  JerkLimitedKernel::Sums sums{};
   for (int x = 0; x < 3; ++x) {
     slope_[x].setZero(), by_barrier_[x].setZero();
     sums.slope[x] = slope_[x].data(), sums.slope_by_barrier[x] = by_barrier_[x].data();
   }
   for (int m = 0; m < 6; ++m) matrix_[m].setZero(), sums.matrix[m] = matrix_[m].data();
-  forParts([&](const SmoothKernel::Block* blocks, int count) {
+  parallelFor([&](const JerkLimitedKernel::Block* blocks, int count) {
     smoothKernel().take({knots_.data(), middle_.data()}, roots_.data(), blocks, count, steps.primal, steps.dual, sums);
   });
   Gap gap;
@@ -214,7 +214,7 @@ SmoothProgram::Gap SmoothProgram::take(const Steps& steps) {
   return gap;
 }
 
-bool SmoothProgram::improve(double gap, double missed, int most_steps) {
+bool JerkLimitedProgram::improve(double gap, double missed, int most_steps) {
   gap_ = take({0., 0.});
   for (int i = 0; i < most_steps; ++i) {
     assemble();
@@ -232,7 +232,7 @@ bool SmoothProgram::improve(double gap, double missed, int most_steps) {
   return true;
 }
 
-void SmoothProgram::tighten(int k, const std::array<double, 3>& ratios) {
+void JerkLimitedProgram::tighten(int k, const std::array<double, 3>& ratios) {
   const auto divide = [&](int r, int interval, double ratio) {
     const RowPlace place = row(r, interval);
     place.rows.size[place.lane] /= ratio;

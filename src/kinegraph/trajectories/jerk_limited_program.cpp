@@ -3,23 +3,18 @@
 #include <algorithm>
 #include <cmath>
 
+#include "kinegraph/trajectories/binomial.h"
+
 namespace kinegraph {
 
 namespace {
 
 constexpr double kGivenSpan = 1e6;  // stands for an open side of a row, in units of the other
 
-double binomial(int n, int k) {
-  if (k < 0 || k > n) return 0.;
-  double value = 1.;
-  for (int i = 0; i < k; ++i) value = value * (n - i) / (i + 1);
-  return value;
-}
-
 }  // namespace
 
-SmoothProgram::SmoothProgram(const LawGrid& grid, const MotionLimits& limits, const RowSource& rows, SectionEnd begin,
-                             SectionEnd end, const LawEffort& effort)
+JerkLimitedProgram::JerkLimitedProgram(const ScalingGrid& grid, const MotionLimits& limits, const ConstraintSource& rows, SectionEnd begin,
+                             SectionEnd end, const ScalingBudget& effort)
     : first_(begin.at_rest ? 1 : 0),
       count_(grid.intervals() - int(begin.at_rest) - int(end.at_rest)),
       ends_{begin, end},
@@ -61,7 +56,7 @@ SmoothProgram::SmoothProgram(const LawGrid& grid, const MotionLimits& limits, co
   if (rows) addGivenRows(grid, rows);
 }
 
-void SmoothProgram::addBlocks() {
+void JerkLimitedProgram::addBlocks() {
   const int blocks = (count_ + kLanes - 1) / kLanes;
   Rows none{};
   std::fill_n(none.size, kLanes, 1.);
@@ -75,8 +70,8 @@ void SmoothProgram::addBlocks() {
   }
 }
 
-SmoothProgram::RowPlace SmoothProgram::row(int r, int k) {
-  const SmoothKernel::Block& block = k == count_ ? blocks_.back() : blocks_[std::size_t(k / kLanes)];
+JerkLimitedProgram::RowPlace JerkLimitedProgram::row(int r, int k) {
+  const JerkLimitedKernel::Block& block = k == count_ ? blocks_.back() : blocks_[std::size_t(k / kLanes)];
   return {block.rows[r], k == count_ ? 0 : k % kLanes};
 }
 
@@ -86,7 +81,7 @@ SmoothProgram::RowPlace SmoothProgram::row(int r, int k) {
 ///     ((m + 1 - k) p_k (b1 - b0) + k p_k-1 (b2 - b1)) / (m + 1) + m sum_l C(2, l) C(m - 1, k - l) / C(m + 1, k) d_k-l b_l
 ///
 /// with d_k = p_k+1 - p_k.
-void SmoothProgram::addMotionRows(const LawGrid& grid, const MotionLimits& limits) {
+void JerkLimitedProgram::addMotionRows(const ScalingGrid& grid, const MotionLimits& limits) {
   const int m = grid.degree(), top = m + 1;
   double weight[8][3];
   for (int c = 0; c <= top; ++c)
@@ -130,14 +125,14 @@ void SmoothProgram::addMotionRows(const LawGrid& grid, const MotionLimits& limit
   }
 }
 
-void SmoothProgram::addGivenRows(const LawGrid& grid, const RowSource& source) {
+void JerkLimitedProgram::addGivenRows(const ScalingGrid& grid, const ConstraintSource& source) {
   const int first = int(std::find(kinds_.begin(), kinds_.end(), kGiven) - kinds_.begin());
   for (int k = 0; k <= count_; ++k) {
     effort_.pause(k);
     const bool at_end = k == count_;
     const int interval = first_ + k - int(at_end);
     const double h = width_[k - int(at_end)];
-    const LawRows at = source.at(grid.place(first_ + k), grid.piece(interval));
+    const ScalingConstraints at = source.at(grid.place(first_ + k), grid.piece(interval));
     int of_block = first;
     for (int r = 0; r < source.high.size(); ++r) {
       double low = source.low[r], high = source.high[r];
@@ -155,7 +150,7 @@ void SmoothProgram::addGivenRows(const LawGrid& grid, const RowSource& source) {
 /// Where the motion begins at rest with a constant jerk j of s, s = j t^3 / 6: the path's jerk is j (q' + 9 s q'' + 9/2 s^2
 /// q'''), its acceleration (6 j^2 s)^(1/3) (q' + 3/2 s q''). Both are j, and a power of it, times a polynomial. The answer
 /// is the largest b at the end of the interval.
-double SmoothProgram::restCap(const LawGrid& grid, const MotionLimits& limits, bool at_begin) const {
+double JerkLimitedProgram::restCap(const ScalingGrid& grid, const MotionLimits& limits, bool at_begin) const {
   const int interval = at_begin ? 0 : grid.intervals() - 1, n = grid.curve().dofs(), piece = grid.piece(interval);
   const double w = grid.width(interval), sign = at_begin ? 1. : -1.;
   double most_jerk = kOpen, cap = kOpen;
@@ -180,7 +175,7 @@ double SmoothProgram::restCap(const LawGrid& grid, const MotionLimits& limits, b
   return std::min(kMargin * cap, time > 0. ? 9. * w * w / (time * time) : kOpen);
 }
 
-void SmoothProgram::addCaps(const LawGrid& grid, const MotionLimits& limits) {
+void JerkLimitedProgram::addCaps(const ScalingGrid& grid, const MotionLimits& limits) {
   std::vector<double> caps = grid.caps(limits.velocity, effort_);
   double& begin = caps[std::size_t(first_)];
   double& end = caps[std::size_t(first_ + count_)];

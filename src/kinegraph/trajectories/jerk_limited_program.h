@@ -26,11 +26,11 @@ using Quadratic = std::array<double, 3>;
 /// The unknowns are the middle coefficients c_k; a knot is the mean of its neighbors that makes the slope continuous.
 /// Velocities and accelerations hold all along: a cap on all coefficients of b, and on the Bernstein coefficients of
 /// q' b'/2 + q'' b. Rows of the caller hold at the knots, jerks at both ends of each interval.
-class SmoothProgram {
+class JerkLimitedProgram {
  public:
   /// `effort` must stay.
-  SmoothProgram(const LawGrid& grid, const MotionLimits& limits, const RowSource& rows, SectionEnd begin,
-                SectionEnd end, const LawEffort& effort);
+  JerkLimitedProgram(const ScalingGrid& grid, const MotionLimits& limits, const ConstraintSource& rows, SectionEnd begin,
+                SectionEnd end, const ScalingBudget& effort);
 
   /// Takes the shape `start` of b, in the middle of each interval of the grid, as where `improve` begins; `gap` is how far
   /// it is thought to be from the least duration, as a share.
@@ -49,8 +49,8 @@ class SmoothProgram {
 
  private:
   using Array = Eigen::ArrayXd;
-  using Rows = SmoothKernel::Rows;
-  static constexpr int kLanes = SmoothKernel::kLanes;
+  using Rows = JerkLimitedKernel::Rows;
+  static constexpr int kLanes = JerkLimitedKernel::kLanes;
   static constexpr double kOpen = std::numeric_limits<double>::infinity();  ///< no limit
   enum Kind { kVelocity, kAcceleration, kJerk, kGiven };
 
@@ -74,15 +74,15 @@ class SmoothProgram {
   /// Row r in interval k; at the end of the last interval for k = count().
   RowPlace row(int r, int k);
   void addBlocks();
-  void addMotionRows(const LawGrid& grid, const MotionLimits& limits);
-  void addGivenRows(const LawGrid& grid, const RowSource& rows);
-  void addCaps(const LawGrid& grid, const MotionLimits& limits);
-  double restCap(const LawGrid& grid, const MotionLimits& limits, bool at_begin) const;
+  void addMotionRows(const ScalingGrid& grid, const MotionLimits& limits);
+  void addGivenRows(const ScalingGrid& grid, const ConstraintSource& rows);
+  void addCaps(const ScalingGrid& grid, const MotionLimits& limits);
+  double restCap(const ScalingGrid& grid, const MotionLimits& limits, bool at_begin) const;
   void placeKnots();
   double duration() const;
   void slowDown();
   void takeRootsNow();
-  void forParts(const std::function<void(const SmoothKernel::Block*, int)>& visit) const;
+  void parallelFor(const std::function<void(const JerkLimitedKernel::Block*, int)>& visit) const;
   void addCost();
   void assemble();
   void spread(int k);
@@ -93,7 +93,7 @@ class SmoothProgram {
   int first_, count_;
   SectionEnd ends_[2];
   double given_[2] = {0., 0.};  ///< middle coefficients of the first and last interval, where it is not at rest
-  const LawEffort& effort_;
+  const ScalingBudget& effort_;
   double rest_width_[2] = {0., 0.};
   Array width_, left_, right_;  ///< knot k = left_[k] c_(k-1) + right_[k] c_k
   Array middle_, knots_, middle_step_, knot_step_;
@@ -101,8 +101,8 @@ class SmoothProgram {
   std::vector<Kind> kinds_;  ///< of the rows of a block: velocity, acceleration, given; jerk where intervals begin, end
   int jerks_ = 0;            ///< dofs whose jerk is limited
   std::vector<Rows> rows_;
-  std::vector<SmoothKernel::Block> blocks_;     ///< the last one has what holds at the end
-  Array slope_[3], by_barrier_[3], matrix_[6];  ///< on the coefficients of each interval, see SmoothKernel::Sums
+  std::vector<JerkLimitedKernel::Block> blocks_;     ///< the last one has what holds at the end
+  Array slope_[3], by_barrier_[3], matrix_[6];  ///< on the coefficients of each interval, see JerkLimitedKernel::Sums
   std::vector<std::array<double, 3>> band_;     ///< diagonal, and one and two below it
   std::vector<double> gradient_;
   double barrier_ = 0.;

@@ -107,42 +107,42 @@ std::string along(const PathCurve& curve, double s) {
   return cat("at ", 100. * s / std::max(curve.length(), 1e-300), " % of the path");
 }
 
-std::string failureText(const SquaredSpeeds& speeds, const PathCurve& curve, const RowSource& rows) {
+std::string failureText(const SquaredSpeeds& speeds, const PathCurve& curve, const ConstraintSource& rows) {
   switch (speeds.failure) {
-    case LawFailure::start_too_fast:
+    case ScalingFailure::start_too_fast:
       return "the start velocity is above the limits, or cannot be braked within them";
-    case LawFailure::end_too_fast:
+    case ScalingFailure::end_too_fast:
       return "the end velocity is above the limits, or cannot be reached within them";
-    case LawFailure::cannot_move: {
+    case ScalingFailure::cannot_move: {
       const std::string name = speeds.row >= 0 && speeds.row < int(rows.names.size()) ? rows.names[speeds.row] : "";
       if (speeds.row < 0) return cat("no speed keeps the limits ", along(curve, speeds.place));
-      const LawRows at = rows.at(speeds.place, curve.pieceAt(speeds.place));
+      const ScalingConstraints at = rows.at(speeds.place, curve.pieceAt(speeds.place));
       return cat(name.empty() ? cat("row ", speeds.row) : cat("'", name, "'"), " cannot be held ",
                  along(curve, speeds.place), ": it takes ", at.c[speeds.row], rows.unit, " to stand still, and ",
                  rows.low[speeds.row], " to ", rows.high[speeds.row], rows.unit, " are allowed");
     }
-    case LawFailure::none:
+    case ScalingFailure::none:
       break;
   }
   return "";
 }
 
-RetimeStatus statusOf(LawFailure failure) {
+RetimeStatus statusOf(ScalingFailure failure) {
   switch (failure) {
-    case LawFailure::start_too_fast:
+    case ScalingFailure::start_too_fast:
       return RetimeStatus::start_too_fast;
-    case LawFailure::end_too_fast:
+    case ScalingFailure::end_too_fast:
       return RetimeStatus::end_too_fast;
-    case LawFailure::cannot_move:
+    case ScalingFailure::cannot_move:
       return RetimeStatus::cannot_move;
-    case LawFailure::none:
+    case ScalingFailure::none:
       break;
   }
   return RetimeStatus::timed;
 }
 
 /// Something must limit every part of the way.
-void checkLimited(const LawGrid& grid, const MotionLimits& limits, const LawEffort& effort) {
+void checkLimited(const ScalingGrid& grid, const MotionLimits& limits, const ScalingBudget& effort) {
   for (int i = 0; i < grid.intervals(); ++i) {
     effort.pause(i);
     std::vector<std::string> moving;
@@ -201,16 +201,16 @@ TimedPath retime(const MatrixXd& path, const MotionLimits& limits, const RetimeO
 namespace {
 
 /// By how much the rows of a law exceed their limits at most, each; between the places where they were asked for, too.
-VectorXd excessOf(const TimeLaw& law, const RowSource& rows, const LawEffort& effort) {
+VectorXd excessOf(const TimeScaling& scaling, const ConstraintSource& rows, const ScalingBudget& effort) {
   VectorXd excess = VectorXd::Zero(rows.high.size());
   constexpr int kParts = 6;
-  for (std::size_t i = 0; i < law.phases().size(); ++i) {
+  for (std::size_t i = 0; i < scaling.phases().size(); ++i) {
     effort.pause(int(i));
-    const LawPhase& phase = law.phases()[i];
-    const double time = (i + 1 < law.phases().size() ? law.phases()[i + 1].time : law.duration()) - phase.time;
+    const ScalingPhase& phase = scaling.phases()[i];
+    const double time = (i + 1 < scaling.phases().size() ? scaling.phases()[i + 1].time : scaling.duration()) - phase.time;
     for (int k = 0; k <= kParts; ++k) {
-      const LawState state = phase.at(time * k / kParts);
-      const LawRows at = rows.at(state.s, phase.piece);
+      const ScalingState state = phase.at(time * k / kParts);
+      const ScalingConstraints at = rows.at(state.s, phase.piece);
       const VectorXd value = at.a * state.acceleration + at.b * state.speed * state.speed + at.c;
       excess = excess.cwiseMax(value - rows.high).cwiseMax(rows.low - value);
     }
@@ -219,7 +219,7 @@ VectorXd excessOf(const TimeLaw& law, const RowSource& rows, const LawEffort& ef
 }
 
 struct Timing {
-  TimeLaw law;
+  TimeScaling scaling;
   SquaredSpeeds speeds;
 };
 
@@ -228,28 +228,28 @@ struct EndSpeeds {
   double start, end, start_acceleration;
 };
 
-Timing timingOf(const LawGrid& grid, const MotionLimits& limits, const RowSource& rows, const EndSpeeds& ends,
-                const LawEffort& effort) {
+Timing timingOf(const ScalingGrid& grid, const MotionLimits& limits, const ConstraintSource& rows, const EndSpeeds& ends,
+                const ScalingBudget& effort) {
   Timing timing;
   SquaredSpeeds& speeds = timing.speeds = fastestSpeeds(grid, limits, rows, ends.start, ends.end, effort);
-  if (speeds.failure != LawFailure::none) return timing;
+  if (speeds.failure != ScalingFailure::none) return timing;
   if (!limits.limitsJerk()) {
-    timing.law = lawOf(grid, limits, speeds, effort);
+    timing.scaling = scalingOf(grid, limits, speeds, effort);
     return timing;
   }
-  SmoothLaw smooth = smoothLaw(grid, speeds, ends.start_acceleration, limits, rows, effort);
+  JerkLimitedScaling smooth = jerkLimitedScaling(grid, speeds, ends.start_acceleration, limits, rows, effort);
   speeds.failure = smooth.failure, speeds.place = smooth.place;
-  timing.law = std::move(smooth.law);
+  timing.scaling = std::move(smooth.scaling);
   return timing;
 }
 
 /// The same with rows, whose limits are narrowed by what they exceed between the places.
-Timing timingWithRows(const LawGrid& grid, const MotionLimits& limits, const RowSource& given, const EndSpeeds& ends,
-                      const LawEffort& effort) {
-  RowSource rows = given;
+Timing timingWithRows(const ScalingGrid& grid, const MotionLimits& limits, const ConstraintSource& given, const EndSpeeds& ends,
+                      const ScalingBudget& effort) {
+  ConstraintSource rows = given;
   Timing timing = timingOf(grid, limits, rows, ends, effort);
-  for (int round = 0; round < kNarrowings && timing.speeds.failure == LawFailure::none; ++round) {
-    const VectorXd excess = excessOf(timing.law, given, effort);
+  for (int round = 0; round < kNarrowings && timing.speeds.failure == ScalingFailure::none; ++round) {
+    const VectorXd excess = excessOf(timing.scaling, given, effort);
     if ((excess.array() <= kExcess * (given.high - given.low).array().min(1e9)).all()) break;
     rows.high -= kNarrowMore * excess, rows.low += kNarrowMore * excess;
     timing = timingOf(grid, limits, rows, ends, effort);
@@ -259,7 +259,7 @@ Timing timingWithRows(const LawGrid& grid, const MotionLimits& limits, const Row
 
 /// Does a law fail by nothing but how coarse its places are?
 bool mayDoWithMore(const Timing& timing) {
-  return timing.speeds.failure == LawFailure::cannot_move && timing.speeds.row < 0;
+  return timing.speeds.failure == ScalingFailure::cannot_move && timing.speeds.row < 0;
 }
 
 }  // namespace
@@ -276,15 +276,15 @@ TimedPath retime(const MatrixXd& path, const PathCurve& curve, const MotionLimit
   ends.end = speedOf("end_velocity", options.end_velocity, curve, curve.length());
   ends.start_acceleration = startAcceleration(options, curve, limits, ends.start);
   if (curve.length() == 0.) {
-    timed.law_.add({}, 0.);
+    timed.scaling_.add({}, 0.);
     timed.times = VectorXd::Zero(path.rows());
     return timed;
   }
-  LawEffort effort{options.intervals, options.between};
+  ScalingBudget effort{options.intervals, options.between};
   Timing timing;
   for (int trial = 0; trial == 0 || (mayDoWithMore(timing) && trial < kMostTrials); ++trial) {
     if (trial > 0) effort.intervals = std::max(effort.intervals, std::min(2 * effort.intervals, kMostIntervals));
-    const LawGrid grid(timed.curve_, limits, effort, bool(options.rows));
+    const ScalingGrid grid(timed.curve_, limits, effort, bool(options.rows));
     checkLimited(grid, limits, effort);
     timing = options.rows ? timingWithRows(grid, limits, options.rows, ends, effort)
                           : timingOf(grid, limits, {}, ends, effort);
@@ -292,19 +292,19 @@ TimedPath retime(const MatrixXd& path, const PathCurve& curve, const MotionLimit
   timed.status = statusOf(timing.speeds.failure);
   timed.message = failureText(timing.speeds, timed.curve_, options.rows);
   if (!timed.feasible()) return timed;
-  timed.law_ = std::move(timing.law);
+  timed.scaling_ = std::move(timing.scaling);
   timed.times.resize(Eigen::Index(curve.marks().size()));
   for (Eigen::Index i = 0; i < timed.times.size(); ++i) {
     effort.pause(int(i));
-    timed.times[i] = timed.law_.timeOf(curve.marks()[std::size_t(i)]);
+    timed.times[i] = timed.scaling_.timeOf(curve.marks()[std::size_t(i)]);
   }
   return timed;
 }
 
-void motionAt(const PathCurve& curve, const TimeLaw& law, double t, double* q, double* velocity, double* acceleration) {
-  const double held = std::clamp(t, 0., law.duration());
-  const LawPhase& phase = law.phaseAt(held);
-  const LawState state = phase.at(held - phase.time);
+void motionAt(const PathCurve& curve, const TimeScaling& scaling, double t, double* q, double* velocity, double* acceleration) {
+  const double held = std::clamp(t, 0., scaling.duration());
+  const ScalingPhase& phase = scaling.phaseAt(held);
+  const ScalingState state = phase.at(held - phase.time);
   const double s = std::clamp(state.s, phase.begin.s, phase.end);
   curve.eval(phase.piece, s, 0, q);
   curve.eval(phase.piece, s, 2, acceleration);
@@ -315,17 +315,17 @@ void motionAt(const PathCurve& curve, const TimeLaw& law, double t, double* q, d
   }
 }
 
-MotionState motionAt(const PathCurve& curve, const TimeLaw& law, double t) {
+MotionState motionAt(const PathCurve& curve, const TimeScaling& scaling, double t) {
   const int n = curve.dofs();
   MotionState state{VectorXd(n), VectorXd(n), VectorXd(n)};
-  motionAt(curve, law, t, state.q.data(), state.velocity.data(), state.acceleration.data());
+  motionAt(curve, scaling, t, state.q.data(), state.velocity.data(), state.acceleration.data());
   return state;
 }
 
 void TimedPath::at(double t, double* q, double* velocity, double* acceleration) const {
-  if (law_.phases().empty()) throw ValueError(cat("retime: there is no motion: ", message));
+  if (scaling_.phases().empty()) throw ValueError(cat("retime: there is no motion: ", message));
   if (!(t == t)) throw ValueError("retime: at(t) has a t that is no number");
-  motionAt(curve_, law_, t, q, velocity, acceleration);
+  motionAt(curve_, scaling_, t, q, velocity, acceleration);
 }
 
 MotionState TimedPath::at(double t) const {
@@ -341,11 +341,11 @@ std::string TimedPath::str() const {
 }
 
 TimedPath TimedPath::fromParts(RetimeStatus status, std::string message, MatrixXd path, VectorXd times, PathCurve curve,
-                               TimeLaw law) {
+                               TimeScaling scaling) {
   TimedPath timed;
   timed.status = status, timed.message = std::move(message);
   timed.path = std::move(path), timed.times = std::move(times);
-  timed.curve_ = std::move(curve), timed.law_ = std::move(law);
+  timed.curve_ = std::move(curve), timed.scaling_ = std::move(scaling);
   return timed;
 }
 

@@ -25,7 +25,7 @@ struct RetimeOptions {
   VectorXd start_velocity, end_velocity;  ///< (n,), rad/s or m/s, along the path; empty: at rest
   VectorXd start_acceleration;            ///< (n,), with limits of the jerk; empty: that of a constant speed
   int intervals = 100;                    ///< of the law, on what is curved
-  RowSource rows;                         ///< further limits, such as torques; they hold at the ends of the intervals
+  ConstraintSource rows;                         ///< further limits, such as torques; they hold at the ends of the intervals
   std::function<void()> between;          ///< called now and then, and may throw to end it
 
   void validate() const;  ///< throws ValueError
@@ -49,8 +49,8 @@ struct MotionState {
 };
 
 /// The motion of a law along a curve at t s, held within 0 and the law's duration, which has phases; (n,) numbers each.
-void motionAt(const PathCurve& curve, const TimeLaw& law, double t, double* q, double* velocity, double* acceleration);
-MotionState motionAt(const PathCurve& curve, const TimeLaw& law, double t);
+void motionAt(const PathCurve& curve, const TimeScaling& scaling, double t, double* q, double* velocity, double* acceleration);
+MotionState motionAt(const PathCurve& curve, const TimeScaling& scaling, double t);
 
 /// A path and when a motion is where on it.
 class TimedPath {
@@ -61,7 +61,7 @@ class TimedPath {
   VectorXd times;  ///< (K,): when the motion is at each point, or nearest to it in a blend, s; empty without a motion
 
   bool feasible() const { return status == RetimeStatus::timed; }
-  double duration() const { return law_.duration(); }
+  double duration() const { return scaling_.duration(); }
 
   /// The motion at t s, held within 0 and duration(). Throws ValueError where there is no motion.
   MotionState at(double t) const;
@@ -70,11 +70,11 @@ class TimedPath {
   void at(double t, double* q, double* velocity, double* acceleration) const;
 
   const PathCurve& curve() const { return curve_; }
-  const TimeLaw& law() const { return law_; }
+  const TimeScaling& scaling() const { return scaling_; }
 
   /// What another one had.
   static TimedPath fromParts(RetimeStatus status, std::string message, MatrixXd path, VectorXd times, PathCurve curve,
-                             TimeLaw law);
+                             TimeScaling scaling);
 
   std::string str() const;  ///< "12 points in 2.31 s", or the status and the message
 
@@ -82,7 +82,7 @@ class TimedPath {
   friend TimedPath retime(const MatrixXd& path, const PathCurve& curve, const MotionLimits& limits,
                           const RetimeOptions& options);
   PathCurve curve_;
-  TimeLaw law_;
+  TimeScaling scaling_;
 };
 
 /// The fastest motion along a path, rows of `path` (K, n), that keeps the limits at all times.

@@ -29,18 +29,18 @@ double wayOf(double from, double to, const LineMotionLimits& limits) {
 
 /// Appends phases of constant jerk; each begins where the last one ends.
 struct PhaseAppender {
-  TimeLaw& law;
-  LawState now;
+  TimeScaling& scaling;
+  ScalingState now;
   double end;
   int piece;
 
   void add(double jerk, double time) {
     if (time <= 0.) return;
     now.jerk = jerk;
-    LawPhase phase{0., now, 0., end, piece};
+    ScalingPhase phase{0., now, 0., end, piece};
     now = phase.at(time);
     phase.end = std::min(end, now.s);
-    law.add(phase, time);
+    scaling.add(phase, time);
   }
   void add(const SpeedChange& change) {
     add(change.jerk, change.ramp);
@@ -53,7 +53,7 @@ struct PhaseAppender {
 
 }  // namespace
 
-bool addDoubleS(TimeLaw& law, double s0, double s1, double speed0, double speed1, const LineMotionLimits& limits,
+bool addDoubleS(TimeScaling& scaling, double s0, double s1, double speed0, double speed1, const LineMotionLimits& limits,
                 int piece) {
   const double way = s1 - s0;
   const auto needed = [&](double top) { return wayOf(speed0, top, limits) + wayOf(top, speed1, limits); };
@@ -69,7 +69,7 @@ bool addDoubleS(TimeLaw& law, double s0, double s1, double speed0, double speed1
     if (middle <= low || middle >= high) break;
     (needed(middle) <= way ? low : high) = middle;
   }
-  PhaseAppender phases{law, {s0, speed0, 0., 0.}, s1, piece};
+  PhaseAppender phases{scaling, {s0, speed0, 0., 0.}, s1, piece};
   phases.add(SpeedChange(speed0, low, limits));
   const double rest = way - needed(low);
   if (low > 0.) phases.add(0., rest / low);

@@ -44,7 +44,7 @@ double weightOf(const PathCurve& curve, const MotionLimits& limits, int piece, V
 
 }  // namespace
 
-LawGrid::LawGrid(const PathCurve& curve, const MotionLimits& limits, const LawEffort& effort, bool divide_lines)
+ScalingGrid::ScalingGrid(const PathCurve& curve, const MotionLimits& limits, const ScalingBudget& effort, bool divide_lines)
     : curve_(&curve), whole_lines_(!divide_lines) {
   std::vector<double> weight(std::size_t(curve.pieces()), 0.);
   VectorXd derivative(curve.dofs());
@@ -70,7 +70,7 @@ LawGrid::LawGrid(const PathCurve& curve, const MotionLimits& limits, const LawEf
   expand(effort);
 }
 
-LawGrid::LawGrid(const PathCurve& curve, std::vector<double> places, const LawEffort& effort)
+ScalingGrid::ScalingGrid(const PathCurve& curve, std::vector<double> places, const ScalingBudget& effort)
     : curve_(&curve), whole_lines_(false), places_(std::move(places)) {
   for (std::size_t i = 0; i + 1 < places_.size(); ++i) {
     effort.pause(int(i));
@@ -80,7 +80,7 @@ LawGrid::LawGrid(const PathCurve& curve, std::vector<double> places, const LawEf
   expand(effort);
 }
 
-void LawGrid::expand(const LawEffort& effort) {
+void ScalingGrid::expand(const ScalingBudget& effort) {
   const int dofs = curve_->dofs(), m = degree();
   tangents_.resize(dofs, Eigen::Index(intervals()) * (m + 1));
   for (int i = 0; i < intervals(); ++i) {
@@ -127,7 +127,7 @@ double bulge(const double* p, int dofs, int degree) {
 
 }  // namespace
 
-std::vector<double> LawGrid::caps(const VectorXd& velocity, const LawEffort& effort) const {
+std::vector<double> ScalingGrid::caps(const VectorXd& velocity, const ScalingBudget& effort) const {
   const int dofs = curve_->dofs(), m = degree(), count = intervals();
   constexpr double kNone = std::numeric_limits<double>::infinity();
   std::vector<double> caps(std::size_t(count) + 1, kNone);

@@ -20,21 +20,21 @@ struct MotionLimits {
 };
 
 /// Linear rows at a place of the curve, such as torques: low <= a s'' + b s'^2 + c <= high, (m,) each.
-struct LawRows {
+struct ScalingConstraints {
   VectorXd a, b, c;
 };
 
 /// Rows that the caller knows: `at(s, piece)` gives m of them, within limits that are the same everywhere.
-struct RowSource {
+struct ConstraintSource {
   VectorXd low, high;  ///< (m,); infinity for none
-  std::function<LawRows(double s, int piece)> at;
+  std::function<ScalingConstraints(double s, int piece)> at;
   std::vector<std::string> names;  ///< of the rows, for messages
   std::string unit;
   explicit operator bool() const { return bool(at); }
 };
 
 /// How finely a law is computed, and what is called now and then meanwhile, if anything is; it may throw to end it.
-struct LawEffort {
+struct ScalingBudget {
   int intervals = 100;
   std::function<void()> between;
 
@@ -45,16 +45,16 @@ struct LawEffort {
 };
 
 /// The places where a law is computed, and dq/ds between them as Bernstein polynomials.
-class LawGrid {
+class ScalingGrid {
  public:
   using Coefficients = Eigen::ArrayXXd;
 
   /// About `effort.intervals` of them, more where a motion within the limits will take longer; lines are one each unless
   /// `divide_lines`.
-  LawGrid(const PathCurve& curve, const MotionLimits& limits, const LawEffort& effort, bool divide_lines);
+  ScalingGrid(const PathCurve& curve, const MotionLimits& limits, const ScalingBudget& effort, bool divide_lines);
 
   /// At these places, which include all knots of the curve.
-  LawGrid(const PathCurve& curve, std::vector<double> places, const LawEffort& effort);
+  ScalingGrid(const PathCurve& curve, std::vector<double> places, const ScalingBudget& effort);
 
   const PathCurve& curve() const { return *curve_; }
   int intervals() const { return int(piece_.size()); }
@@ -75,10 +75,10 @@ class LawGrid {
   auto tangent(int i) const { return tangents_.middleCols(i * (degree() + 1), degree() + 1); }
 
   /// The largest s'^2 at each place that, interpolated, keeps the velocities between them, too; 0 where it must stop.
-  std::vector<double> caps(const VectorXd& velocity, const LawEffort& effort) const;
+  std::vector<double> caps(const VectorXd& velocity, const ScalingBudget& effort) const;
 
  private:
-  void expand(const LawEffort& effort);
+  void expand(const ScalingBudget& effort);
 
   const PathCurve* curve_;
   bool whole_lines_;

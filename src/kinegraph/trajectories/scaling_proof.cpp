@@ -92,7 +92,7 @@ double shareOf(const Polynomial& p, const Speed& speed, double most_speed) {
 
 }  // namespace
 
-LawProof::LawProof(const LawGrid& grid, const MotionLimits& limits) : grid_(grid) {
+ScalingProof::ScalingProof(const ScalingGrid& grid, const MotionLimits& limits) : grid_(grid) {
   const int dofs = grid.curve().dofs();
   for (int first = 0; first < dofs; first += kLanes) {
     Inverse inverse{Lanes::Zero(), Lanes::Zero(), Lanes::Zero()};
@@ -106,7 +106,7 @@ LawProof::LawProof(const LawGrid& grid, const MotionLimits& limits) : grid_(grid
   }
 }
 
-double LawProof::velocityShare(const Tangent& tangent, const std::array<double, 3>& b, double most_speed,
+double ScalingProof::velocityShare(const Tangent& tangent, const std::array<double, 3>& b, double most_speed,
                                const Inverse& inverse) const {
   auto q1 = tangentOf(tangent, grid_.degree());
   for (int k = 0; k <= q1.degree; ++k) q1.c[k] *= inverse.velocity;
@@ -114,7 +114,7 @@ double LawProof::velocityShare(const Tangent& tangent, const std::array<double, 
 }
 
 /// q' b'/2 + q'' b, with both derivatives by the way as a share of the interval.
-double LawProof::accelerationShare(const Tangent& tangent, const std::array<double, 3>& b,
+double ScalingProof::accelerationShare(const Tangent& tangent, const std::array<double, 3>& b,
                                    const Inverse& inverse) const {
   const auto q1 = tangentOf(tangent, grid_.degree());
   const Speed speed = speedOf(b);
@@ -126,7 +126,7 @@ double LawProof::accelerationShare(const Tangent& tangent, const std::array<doub
 }
 
 /// q''' b + 3/2 q'' b' + 1/2 q' b'', likewise, times the root of b.
-double LawProof::jerkShare(const Tangent& tangent, const std::array<double, 3>& b, double most_speed,
+double ScalingProof::jerkShare(const Tangent& tangent, const std::array<double, 3>& b, double most_speed,
                            const Inverse& inverse) const {
   const auto q1 = tangentOf(tangent, grid_.degree());
   const Speed speed = speedOf(b), slope = speed.derivative();
@@ -139,7 +139,7 @@ double LawProof::jerkShare(const Tangent& tangent, const std::array<double, 3>& 
   return shareOf(jerk, speed, most_speed);
 }
 
-std::array<double, 3> LawProof::shares(int interval, const std::array<double, 3>& b) const {
+std::array<double, 3> ScalingProof::shares(int interval, const std::array<double, 3>& b) const {
   const auto tangent = grid_.tangent(interval);
   const double most_speed = std::max({b[0], b[1], b[2]}), h = grid_.width(interval);
   std::array<double, 3> shares{};

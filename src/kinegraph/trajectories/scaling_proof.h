@@ -9,10 +9,10 @@ namespace kinegraph {
 
 /// How much of its limits a motion uses at most in an interval of a grid where s'^2 is a quadratic of s. Bounds:
 /// polynomials keep within their Bernstein coefficients. Several dofs are looked at side by side.
-class LawProof {
+class ScalingProof {
  public:
   /// `grid` must stay.
-  LawProof(const LawGrid& grid, const MotionLimits& limits);
+  ScalingProof(const ScalingGrid& grid, const MotionLimits& limits);
 
   /// Of velocity, acceleration and jerk, each as a share, for the Bernstein coefficients `b` of s'^2. Jerks are looked at
   /// where they are limited.
@@ -35,7 +35,7 @@ class LawProof {
   double jerkShare(const Tangent& tangent, const std::array<double, 3>& b, double most_speed,
                    const Inverse& inverse) const;
 
-  const LawGrid& grid_;
+  const ScalingGrid& grid_;
   std::vector<Inverse> inverse_;  ///< of kLanes dofs each
 };
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "kinegraph/trajectories/binomial.h"
 #include "kinegraph/trajectories/two_variable_program.h"
 
 namespace kinegraph {
@@ -21,7 +22,7 @@ struct LineLimits {
   double acceleration, cap;
 };
 
-LineLimits lineLimits(const LawGrid& grid, const MotionLimits& limits, int interval) {
+LineLimits lineLimits(const ScalingGrid& grid, const MotionLimits& limits, int interval) {
   const double* direction = grid.tangent(interval).data();
   LineLimits line{kUnlimited, kUnlimited};
   for (int j = 0; j < limits.velocity.size(); ++j) {
@@ -33,13 +34,6 @@ LineLimits lineLimits(const LawGrid& grid, const MotionLimits& limits, int inter
   return line;
 }
 
-double binomial(int n, int k) {
-  if (k < 0 || k > n) return 0.;
-  double value = 1.;
-  for (int i = 0; i < k; ++i) value = value * (n - i) / (i + 1);
-  return value;
-}
-
 /// A range of s'^2.
 struct Range {
   double low, high;
@@ -49,8 +43,8 @@ struct Range {
 /// The rows of all intervals in x, y, z: the Bernstein coefficients of s'^2 at the beginning, in the middle, at the end.
 class IntervalRows {
  public:
-  IntervalRows(const LawGrid& grid, const MotionLimits& limits, const RowSource& source,
-               const std::vector<double>& caps, const LawEffort& effort);
+  IntervalRows(const ScalingGrid& grid, const MotionLimits& limits, const ConstraintSource& source,
+               const std::vector<double>& caps, const ScalingBudget& effort);
 
   /// What x may be so that some z in `next` can be reached.
   Range before(int interval, const Range& next);
@@ -76,19 +70,19 @@ class IntervalRows {
   Extreme extremeBefore(int interval, double z, double sign);
   double searchBefore(int interval, const Range& next, double sign, bool& is_found);
 
-  const LawGrid& grid_;
-  const RowSource& source_;
+  const ScalingGrid& grid_;
+  const ConstraintSource& source_;
   const std::vector<double>& caps_;
   std::vector<int> limited_;  ///< dofs whose acceleration is limited
   Eigen::ArrayXXd x_, y_, z_;
   std::vector<General> general_;  ///< of all intervals, 2 per row of the caller
-  PlaneProgram program_;
-  PlaneProgram::Answer last_before_, last_after_;
+  TwoVariableProgram model_;
+  TwoVariableProgram::Answer last_before_, last_after_;
   std::vector<double> given_general_;
 };
 
-IntervalRows::IntervalRows(const LawGrid& grid, const MotionLimits& limits, const RowSource& source,
-                           const std::vector<double>& caps, const LawEffort& effort)
+IntervalRows::IntervalRows(const ScalingGrid& grid, const MotionLimits& limits, const ConstraintSource& source,
+                           const std::vector<double>& caps, const ScalingBudget& effort)
     : grid_(grid), source_(source), caps_(caps) {
   for (int j = 0; j < grid.curve().dofs(); ++j)
     if (limits.acceleration[j] < kUnlimited) limited_.push_back(j);
@@ -130,8 +124,8 @@ void IntervalRows::addInterval(int interval, const MotionLimits& limits) {
 /// a s'' + b s'^2 + c at both ends, where s'' is (y - x) / h and (z - y) / h.
 void IntervalRows::addGeneral(int interval) {
   const double h = grid_.width(interval);
-  const LawRows here = source_.at(grid_.place(interval), grid_.piece(interval));
-  const LawRows there = source_.at(grid_.place(interval + 1), grid_.piece(interval));
+  const ScalingConstraints here = source_.at(grid_.place(interval), grid_.piece(interval));
+  const ScalingConstraints there = source_.at(grid_.place(interval + 1), grid_.piece(interval));
   for (int r = 0; r < source_.high.size(); ++r) {
     const double low = source_.low[r], high = source_.high[r];
     general_.push_back({here.b[r] - here.a[r] / h, here.a[r] / h, 0., low - here.c[r], high - here.c[r]});
@@ -141,30 +135,30 @@ void IntervalRows::addGeneral(int interval) {
 
 /// Unknown are the middle and, first, one end; the other end is given.
 void IntervalRows::setProgram(int interval, bool is_before, double given) {
-  program_.u = is_before ? x_.col(interval) : z_.col(interval);
-  program_.w = y_.col(interval);
-  program_.t = (is_before ? z_.col(interval) : x_.col(interval)) * given;
+  model_.u = is_before ? x_.col(interval) : z_.col(interval);
+  model_.w = y_.col(interval);
+  model_.t = (is_before ? z_.col(interval) : x_.col(interval)) * given;
   const double cap0 = std::min(caps_[interval], kUnlimited), cap1 = std::min(caps_[interval + 1], kUnlimited);
-  program_.x_low = 0., program_.x_high = is_before ? cap0 : cap1;
-  program_.y_low = 0., program_.y_high = (cap0 + cap1) / 2.;
+  model_.x_low = 0., model_.x_high = is_before ? cap0 : cap1;
+  model_.y_low = 0., model_.y_high = (cap0 + cap1) / 2.;
   if (!source_) return;
-  program_.others.clear(), given_general_.clear();
+  model_.others.clear(), given_general_.clear();
   const std::size_t rows = 2 * std::size_t(source_.high.size());
   for (std::size_t r = std::size_t(interval) * rows; r < std::size_t(interval + 1) * rows; ++r) {
     const General& row = general_[r];
     const double other = is_before ? row.z : row.x;
-    program_.others.push_back({is_before ? row.x : row.z, row.y, other * given, row.low, row.high});
+    model_.others.push_back({is_before ? row.x : row.z, row.y, other * given, row.low, row.high});
     given_general_.push_back(other);
   }
 }
 
 IntervalRows::Extreme IntervalRows::extremeBefore(int interval, double z, double sign) {
   setProgram(interval, true, z);
-  const PlaneProgram::Answer answer =
-      program_.farthest(sign, sign * kMiddleShareBefore, sign > 0. ? &last_before_ : nullptr);
+  const TwoVariableProgram::Answer answer =
+      model_.farthest(sign, sign * kMiddleShareBefore, sign > 0. ? &last_before_ : nullptr);
   if (sign > 0.) last_before_ = answer;
   const Eigen::ArrayXd& by_z = z_.col(interval);
-  const auto growth = [&](int inequality) { return program_.signedValue(inequality, by_z, given_general_); };
+  const auto growth = [&](int inequality) { return model_.signedValue(inequality, by_z, given_general_); };
   double slope = 0.;
   for (int k = 0; k < 2; ++k) slope -= answer.multipliers[k] * growth(answer.rows[k]);
   if (answer.third >= 0) slope -= growth(answer.third);
@@ -216,8 +210,8 @@ Range IntervalRows::before(int interval, const Range& next) {
 
 bool IntervalRows::after(int interval, double x, const Range& next, double& middle, double& z) {
   setProgram(interval, false, x);
-  program_.x_low = next.low, program_.x_high = std::min(program_.x_high, next.high);
-  const PlaneProgram::Answer answer = program_.farthest(1., x > 0. ? kMiddleShare : 1., &last_after_);
+  model_.x_low = next.low, model_.x_high = std::min(model_.x_high, next.high);
+  const TwoVariableProgram::Answer answer = model_.farthest(1., x > 0. ? kMiddleShare : 1., &last_after_);
   last_after_ = answer;
   z = answer.x, middle = answer.y;
   return answer.is_feasible;
@@ -238,7 +232,7 @@ int IntervalRows::worstAtRest(int interval) const {
 /// Both passes, and where they fail.
 class TwoPasses {
  public:
-  TwoPasses(const LawGrid& grid, const MotionLimits& limits, const RowSource& source, const LawEffort& effort)
+  TwoPasses(const ScalingGrid& grid, const MotionLimits& limits, const ConstraintSource& source, const ScalingBudget& effort)
       : grid_(grid),
         limits_(limits),
         effort_(effort),
@@ -246,11 +240,11 @@ class TwoPasses {
         rows_(grid, limits, source, caps_, effort) {}
 
   SquaredSpeeds run(double start, double end) {
-    if (end > caps_.back()) return fail(LawFailure::end_too_fast);
+    if (end > caps_.back()) return fail(ScalingFailure::end_too_fast);
     if (!backwards(end)) return speeds_;
     const double slack = kSlack * std::max(1., start);
-    if (start > open_[0].high + slack) return fail(LawFailure::start_too_fast);
-    if (start < open_[0].low - slack) return fail(LawFailure::end_too_fast);
+    if (start > open_[0].high + slack) return fail(ScalingFailure::start_too_fast);
+    if (start < open_[0].low - slack) return fail(ScalingFailure::end_too_fast);
     forwards(std::clamp(start, open_[0].low, open_[0].high));
     return speeds_;
   }
@@ -261,11 +255,11 @@ class TwoPasses {
   double reach(int i) const { return 2. * grid_.width(i) * lineLimits(grid_, limits_, i).acceleration; }
 
   /// A row of the caller that forbids to stand still somewhere is the reason, where there is one.
-  SquaredSpeeds& fail(LawFailure failure) {
+  SquaredSpeeds& fail(ScalingFailure failure) {
     speeds_.failure = failure;
     for (int i = 0; i < grid_.intervals() && speeds_.row < 0; ++i) {
       speeds_.row = rows_.worstAtRest(i);
-      if (speeds_.row >= 0) speeds_.failure = LawFailure::cannot_move, speeds_.place = grid_.place(i);
+      if (speeds_.row >= 0) speeds_.failure = ScalingFailure::cannot_move, speeds_.place = grid_.place(i);
     }
     return speeds_;
   }
@@ -280,7 +274,7 @@ class TwoPasses {
       open_[i] = grid_.isLine(i) ? Range{std::max(0., next.low - reach(i)), std::min(cap, next.high + reach(i))}
                                  : rows_.before(i, next);
       if (open_[i].is_empty || open_[i].low > open_[i].high) {
-        fail(LawFailure::end_too_fast);
+        fail(ScalingFailure::end_too_fast);
         return false;
       }
     }
@@ -297,20 +291,20 @@ class TwoPasses {
       if (grid_.isLine(i)) {
         speeds_.at[i + 1] = std::min(now + reach(i), next.high);
         if (speeds_.at[i + 1] < next.low * (1. - kSlack)) {
-          fail(LawFailure::end_too_fast);
+          fail(ScalingFailure::end_too_fast);
           return;
         }
       } else if (!rows_.after(i, now, next, speeds_.middle[i], speeds_.at[i + 1]) || speeds_.middle[i] <= 0.) {
         speeds_.place = grid_.place(i);
-        fail(LawFailure::cannot_move);
+        fail(ScalingFailure::cannot_move);
         return;
       }
     }
   }
 
-  const LawGrid& grid_;
+  const ScalingGrid& grid_;
   const MotionLimits& limits_;
-  const LawEffort& effort_;
+  const ScalingBudget& effort_;
   std::vector<double> caps_;
   IntervalRows rows_;
   std::vector<Range> open_;
@@ -319,18 +313,18 @@ class TwoPasses {
 
 }  // namespace
 
-SquaredSpeeds fastestSpeeds(const LawGrid& grid, const MotionLimits& limits, const RowSource& source,
-                            double start_speed, double end_speed, const LawEffort& effort) {
+SquaredSpeeds fastestSpeeds(const ScalingGrid& grid, const MotionLimits& limits, const ConstraintSource& source,
+                            double start_speed, double end_speed, const ScalingBudget& effort) {
   return TwoPasses(grid, limits, source, effort).run(start_speed * start_speed, end_speed * end_speed);
 }
 
-TimeLaw lawOf(const LawGrid& grid, const MotionLimits& limits, const SquaredSpeeds& speeds, const LawEffort& effort) {
-  TimeLaw law;
+TimeScaling scalingOf(const ScalingGrid& grid, const MotionLimits& limits, const SquaredSpeeds& speeds, const ScalingBudget& effort) {
+  TimeScaling scaling;
   for (int i = 0; i < grid.intervals(); ++i) {
     effort.pause(i);
     const double s0 = grid.place(i), s1 = grid.place(i + 1), b0 = speeds.at[i], b1 = speeds.at[i + 1];
     if (!grid.isLine(i)) {
-      law.addQuadratic(s0, s1, b0, speeds.middle[i], b1, grid.piece(i));
+      scaling.addQuadratic(s0, s1, b0, speeds.middle[i], b1, grid.piece(i));
       continue;
     }
     const double v0 = std::sqrt(b0), v1 = std::sqrt(b1);
@@ -339,11 +333,11 @@ TimeLaw lawOf(const LawGrid& grid, const MotionLimits& limits, const SquaredSpee
     const double top = std::sqrt(peak);
     const double risen = std::min(s1, s0 + (peak - b0) / (2. * line.acceleration));
     const double falls = std::max(risen, s1 - (peak - b1) / (2. * line.acceleration));
-    if (risen > s0) law.addConstantAcceleration(s0, risen, v0, top, line.acceleration, grid.piece(i));
-    if (falls > risen) law.addConstantAcceleration(risen, falls, top, top, 0., grid.piece(i));
-    if (s1 > falls) law.addConstantAcceleration(falls, s1, top, v1, line.acceleration, grid.piece(i));
+    if (risen > s0) scaling.addConstantAcceleration(s0, risen, v0, top, line.acceleration, grid.piece(i));
+    if (falls > risen) scaling.addConstantAcceleration(risen, falls, top, top, 0., grid.piece(i));
+    if (s1 > falls) scaling.addConstantAcceleration(falls, s1, top, v1, line.acceleration, grid.piece(i));
   }
-  return law;
+  return scaling;
 }
 
 }  // namespace kinegraph

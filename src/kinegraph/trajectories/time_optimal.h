@@ -6,7 +6,7 @@
 namespace kinegraph {
 
 /// Why a curve cannot be followed as asked.
-enum class LawFailure {
+enum class ScalingFailure {
   none,
   start_too_fast,  ///< the speed at the start is above what the limits allow, or cannot be braked in time
   end_too_fast,    ///< the speed at the end is above what the limits allow, or cannot be reached
@@ -16,7 +16,7 @@ enum class LawFailure {
 /// s'^2 along a grid: quadratic in each interval, in Bernstein form at[i], middle[i], at[i + 1].
 struct SquaredSpeeds {
   std::vector<double> at, middle;
-  LawFailure failure = LawFailure::none;
+  ScalingFailure failure = ScalingFailure::none;
   double place = 0.;  ///< cannot_move: s
   int row = -1;       ///< cannot_move: of the caller's rows, the one that is missed by most when standing still
 };
@@ -28,10 +28,10 @@ struct SquaredSpeeds {
 /// in the plane for each interval; forwards, the largest b that it leaves. b is quadratic in an interval, so that s'' may
 /// follow the limits there; every acceleration is a polynomial, and keeps what its Bernstein coefficients keep. Rows of
 /// the caller hold at both ends of each interval. Where all is linear (lines), the answer is exact.
-SquaredSpeeds fastestSpeeds(const LawGrid& grid, const MotionLimits& limits, const RowSource& rows, double start_speed,
-                            double end_speed, const LawEffort& effort);
+SquaredSpeeds fastestSpeeds(const ScalingGrid& grid, const MotionLimits& limits, const ConstraintSource& rows, double start_speed,
+                            double end_speed, const ScalingBudget& effort);
 
 /// The law of these speeds. On lines it accelerates, cruises and brakes within the interval.
-TimeLaw lawOf(const LawGrid& grid, const MotionLimits& limits, const SquaredSpeeds& speeds, const LawEffort& effort);
+TimeScaling scalingOf(const ScalingGrid& grid, const MotionLimits& limits, const SquaredSpeeds& speeds, const ScalingBudget& effort);
 
 }  // namespace kinegraph

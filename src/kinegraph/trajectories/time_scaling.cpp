@@ -5,7 +5,7 @@
 
 namespace kinegraph {
 
-LawState LawPhase::at(double tau) const {
+ScalingState ScalingPhase::at(double tau) const {
   const auto& [s0, v, a, j] = begin;
   if (growth == 0.) {
     return {s0 + tau * (v + tau * (a / 2. + tau * j / 6.)), v + tau * (a + tau * j / 2.), a + tau * j, j};
@@ -20,14 +20,14 @@ LawState LawPhase::at(double tau) const {
   return {s0 + v * sine + a * C, speed, a * cosine + v * growth * sine, growth * speed};
 }
 
-double LawPhase::squaredSpeed(double s) const {
+double ScalingPhase::squaredSpeed(double s) const {
   const double way = s - begin.s;
   return begin.speed * begin.speed + way * (2. * begin.acceleration + way * growth);
 }
 
-const LawPhase& TimeLaw::phaseAt(double t) const {
+const ScalingPhase& TimeScaling::phaseAt(double t) const {
   const auto after =
-      std::upper_bound(phases_.begin(), phases_.end(), t, [](double time, const LawPhase& p) { return time < p.time; });
+      std::upper_bound(phases_.begin(), phases_.end(), t, [](double time, const ScalingPhase& p) { return time < p.time; });
   return *(after == phases_.begin() ? after : after - 1);
 }
 
@@ -35,8 +35,8 @@ namespace {
 
 /// How long a phase takes until its speed and acceleration are those of `end`. With growth g = -u^2 the point (v, a / u)
 /// turns at the rate u; with g = u^2, a + u v grows and a - u v falls with the exponential of u t.
-double timeUntil(const LawPhase& phase, const LawState& end) {
-  const LawState& begin = phase.begin;
+double timeUntil(const ScalingPhase& phase, const ScalingState& end) {
+  const ScalingState& begin = phase.begin;
   const double u = std::sqrt(std::abs(phase.growth));
   if (phase.growth == 0.) return 2. * (end.s - begin.s) / (begin.speed + end.speed);
   if (phase.growth < 0.)
@@ -47,11 +47,11 @@ double timeUntil(const LawPhase& phase, const LawState& end) {
 }
 
 /// The same; Newton's method takes off what rounding has left.
-double polishedTime(const LawPhase& phase, const LawState& end) {
+double polishedTime(const ScalingPhase& phase, const ScalingState& end) {
   double time = timeUntil(phase, end);
   constexpr int kPolishings = 2;
   for (int i = 0; i < kPolishings; ++i) {
-    const LawState there = phase.at(time);
+    const ScalingState there = phase.at(time);
     const double mean = (end.s - phase.begin.s) / time;
     if (there.speed > .1 * mean) time -= (there.s - end.s) / there.speed;
   }
@@ -60,17 +60,17 @@ double polishedTime(const LawPhase& phase, const LawState& end) {
 
 }  // namespace
 
-std::vector<LawPhase>::const_iterator TimeLaw::phaseTo(double s) const {
-  return std::lower_bound(phases_.begin(), phases_.end(), s, [](const LawPhase& p, double at) { return p.end < at; });
+std::vector<ScalingPhase>::const_iterator TimeScaling::phaseTo(double s) const {
+  return std::lower_bound(phases_.begin(), phases_.end(), s, [](const ScalingPhase& p, double at) { return p.end < at; });
 }
 
-double TimeLaw::squaredSpeedAt(double s) const {
+double TimeScaling::squaredSpeedAt(double s) const {
   const auto found = phaseTo(s);
-  const LawPhase& phase = found == phases_.end() ? phases_.back() : *found;
+  const ScalingPhase& phase = found == phases_.end() ? phases_.back() : *found;
   return std::max(0., phase.squaredSpeed(std::clamp(s, phase.begin.s, phase.end)));
 }
 
-double TimeLaw::timeOf(double s) const {
+double TimeScaling::timeOf(double s) const {
   const auto found = phaseTo(s);
   if (found == phases_.end()) return duration_;
   if (s <= found->begin.s) return found->time;
@@ -79,7 +79,7 @@ double TimeLaw::timeOf(double s) const {
   if (s >= found->end) return until;
   if (found->begin.jerk == 0.) {
     const double way = s - found->begin.s, square = found->squaredSpeed(s);
-    const LawState there{s, std::sqrt(std::max(0., square)), found->begin.acceleration + found->growth * way, 0.};
+    const ScalingState there{s, std::sqrt(std::max(0., square)), found->begin.acceleration + found->growth * way, 0.};
     const double time = polishedTime(*found, there);
     if (time >= 0. && time <= high) return found->time + time;
   }
@@ -90,21 +90,21 @@ double TimeLaw::timeOf(double s) const {
   return found->time + (low + high) / 2.;
 }
 
-void TimeLaw::add(LawPhase phase, double time) {
+void TimeScaling::add(ScalingPhase phase, double time) {
   phase.time = duration_;
   phases_.push_back(phase);
   duration_ += time;
 }
 
-void TimeLaw::addConstantAcceleration(double s0, double s1, double speed0, double speed1, double most, int piece) {
+void TimeScaling::addConstantAcceleration(double s0, double s1, double speed0, double speed1, double most, int piece) {
   const double acceleration = (speed1 - speed0) * (speed1 + speed0) / (2. * (s1 - s0));
   add({0., {s0, speed0, std::clamp(acceleration, -most, most), 0.}, 0., s1, piece}, 2. * (s1 - s0) / (speed0 + speed1));
 }
 
-void TimeLaw::addQuadratic(double s0, double s1, double first, double middle, double last, int piece) {
+void TimeScaling::addQuadratic(double s0, double s1, double first, double middle, double last, int piece) {
   const double h = s1 - s0;
   // s'' = half the slope of s'^2, which grows linearly with s
-  LawPhase phase{
+  ScalingPhase phase{
       0., {s0, std::sqrt(first), (middle - first) / h, 0.}, (first - 2. * middle + last) / (h * h), s1, piece};
   const double largest = std::max({first, middle, last});
   constexpr double kNoGrowth = 1e-13;  // of s'^2: it is linear
@@ -112,17 +112,17 @@ void TimeLaw::addQuadratic(double s0, double s1, double first, double middle, do
   add(phase, polishedTime(phase, {s1, std::sqrt(last), (last - middle) / h, 0.}));
 }
 
-void TimeLaw::append(const TimeLaw& other) {
-  for (LawPhase phase : other.phases_) {
+void TimeScaling::append(const TimeScaling& other) {
+  for (ScalingPhase phase : other.phases_) {
     phase.time += duration_;
     phases_.push_back(phase);
   }
   duration_ += other.duration_;
 }
 
-void TimeLaw::slowDown(double factor) {
+void TimeScaling::slowDown(double factor) {
   duration_ *= factor;
-  for (LawPhase& phase : phases_) {
+  for (ScalingPhase& phase : phases_) {
     phase.time *= factor;
     phase.begin.speed /= factor;
     phase.begin.acceleration /= factor * factor;

@@ -6,39 +6,39 @@
 namespace kinegraph {
 
 /// Where on a curve a motion is, and how fast: s, ds/dt, d2s/dt2, d3s/dt3.
-struct LawState {
+struct ScalingState {
   double s = 0., speed = 0., acceleration = 0., jerk = 0.;
 };
 
 /// A part of a time law, in its own time tau = t - time. Its acceleration grows with time or with the way:
 ///
 ///     s'' = acceleration + jerk tau + growth (s - s0);      jerk or growth is zero
-struct LawPhase {
+struct ScalingPhase {
   double time = 0.;  ///< when it begins, s
-  LawState begin;
+  ScalingState begin;
   double growth = 0.;  ///< 1/s^2
   double end = 0.;     ///< s where it ends
   int piece = 0;       ///< of the curve
 
-  LawState at(double tau) const;
+  ScalingState at(double tau) const;
 
   /// s'^2 at s, without a jerk.
   double squaredSpeed(double s) const;
 };
 
 /// s(t), 0 <= t <= duration(): when a motion is where on its curve.
-class TimeLaw {
+class TimeScaling {
  public:
-  TimeLaw() = default;
+  TimeScaling() = default;
 
   /// What another one had.
-  TimeLaw(std::vector<LawPhase> phases, double duration) : phases_(std::move(phases)), duration_(duration) {}
+  TimeScaling(std::vector<ScalingPhase> phases, double duration) : phases_(std::move(phases)), duration_(duration) {}
 
   double duration() const { return duration_; }
-  const std::vector<LawPhase>& phases() const { return phases_; }
+  const std::vector<ScalingPhase>& phases() const { return phases_; }
 
   /// The phase of this time, held within 0 and duration(); where two meet, the later one. There is one at least.
-  const LawPhase& phaseAt(double t) const;
+  const ScalingPhase& phaseAt(double t) const;
 
   /// When the motion is at s first.
   double timeOf(double s) const;
@@ -47,7 +47,7 @@ class TimeLaw {
   double squaredSpeedAt(double s) const;
 
   /// Appends a phase that begins now and takes `time`; it should end where the next begins.
-  void add(LawPhase phase, double time);
+  void add(ScalingPhase phase, double time);
 
   /// The phase that leads from one speed at s0 to another at s1 at constant acceleration, of which `most` is known: in brief
   /// phases rounding makes more of it.
@@ -57,15 +57,15 @@ class TimeLaw {
   void addQuadratic(double s0, double s1, double first, double middle, double last, int piece);
 
   /// Appends all phases of another law.
-  void append(const TimeLaw& other);
+  void append(const TimeScaling& other);
 
   /// Everything takes `factor` times as long.
   void slowDown(double factor);
 
  private:
-  std::vector<LawPhase>::const_iterator phaseTo(double s) const;
+  std::vector<ScalingPhase>::const_iterator phaseTo(double s) const;
 
-  std::vector<LawPhase> phases_;
+  std::vector<ScalingPhase> phases_;
   double duration_ = 0.;
 };
 

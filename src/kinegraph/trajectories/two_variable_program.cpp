@@ -15,7 +15,7 @@ constexpr int kMostPivots = 80;
 }  // namespace
 
 // Inequalities are numbered: 2 r and 2 r + 1 the upper and lower side of row r, then of the others, then of the box.
-PlaneProgram::Cut PlaneProgram::cut(int inequality) const {
+TwoVariableProgram::Cut TwoVariableProgram::cut(int inequality) const {
   const int row = inequality / 2, rows = int(u.size()), count = rows + int(others.size());
   const bool is_upper = inequality % 2 == 0;
   const double sign = is_upper ? 1. : -1.;
@@ -28,7 +28,7 @@ PlaneProgram::Cut PlaneProgram::cut(int inequality) const {
   return {0., sign, is_upper ? y_high : -y_low};
 }
 
-int PlaneProgram::mostMissed(double x, double y, double tolerance) {
+int TwoVariableProgram::mostMissed(double x, double y, double tolerance) {
   const int rows = int(u.size());
   double most = tolerance;
   int found = -1;
@@ -59,7 +59,7 @@ int PlaneProgram::mostMissed(double x, double y, double tolerance) {
   return found;
 }
 
-PlaneProgram::Answer PlaneProgram::farthest(double dx, double dy, const Answer* guess) {
+TwoVariableProgram::Answer TwoVariableProgram::farthest(double dx, double dy, const Answer* guess) {
   const int box = 2 * int(u.size() + Eigen::Index(others.size())), low = dx > 0. ? 0 : 1;
   Answer answer;
   answer.rows[0] = box + low, answer.rows[1] = box + 2 + low;
@@ -104,7 +104,7 @@ PlaneProgram::Answer PlaneProgram::farthest(double dx, double dy, const Answer* 
   return answer;
 }
 
-double PlaneProgram::signedValue(int inequality, const Eigen::ArrayXd& of_rows,
+double TwoVariableProgram::signedValue(int inequality, const Eigen::ArrayXd& of_rows,
                                  const std::vector<double>& of_others) const {
   const int row = inequality / 2, rows = int(u.size());
   const double sign = inequality % 2 == 0 ? 1. : -1.;

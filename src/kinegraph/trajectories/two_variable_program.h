@@ -12,7 +12,7 @@ struct PlaneRow {
 
 /// A linear program in the plane: |u x + w y + t| <= 1 for many rows, and further rows with limits of their own within
 /// a box.
-class PlaneProgram {
+class TwoVariableProgram {
  public:
   Eigen::ArrayXd u, w, t;        ///< of the rows with limit 1
   std::vector<PlaneRow> others;  ///< of any kind

@@ -7,7 +7,7 @@
 
 namespace kinegraph {
 
-std::vector<VectorXd> drawStarts(Komo& komo, int count, std::uint64_t seed, const std::function<void()>& between) {
+std::vector<VectorXd> sampleStarts(Komo& komo, int count, std::uint64_t seed, const std::function<void()>& between) {
   if (count < 1) throw ValueError(cat("solveFromMany: the number of starts is ", count, "; expected at least 1"));
   Rng rng(seed);
   std::vector<VectorXd> starts = {komo.path().variables()};

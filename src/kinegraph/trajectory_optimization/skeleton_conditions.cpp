@@ -75,13 +75,13 @@ class Conditions {
       case M::relPosY:
         return require(during, F::positionRel, f_, eq, entryOf(1, 1e2));
       case M::contact:
-        return void(exchange(Exchange::slide));
+        return void(exchange(ForceExchange::slide));
       case M::contactStick:
-        return void(exchange(Exchange::stick));
+        return void(exchange(ForceExchange::stick));
       case M::contactComplementary:
-        return void(exchange(Exchange::complementary));
+        return void(exchange(ForceExchange::complementary));
       case M::bounce:
-        return void(exchange(Exchange::bounce));
+        return void(exchange(ForceExchange::bounce));
       case M::push:
         return push(during);
       case M::topBoxGrasp:
@@ -138,7 +138,7 @@ class Conditions {
     return size_ = frame.getSize();
   }
 
-  std::string exchange(Exchange kind) { return komo_.addExchange({from_, to_}, f_[1], f_[0], kind); }
+  std::string exchange(ForceExchange kind) { return komo_.addForceExchange({from_, to_}, f_[1], f_[0], kind); }
 
   /// The lower one's top and what rests on it: round things lie, others stand.
   void restingOn(const std::vector<double>& during) {
@@ -180,7 +180,7 @@ class Conditions {
   }
 
   void push(const std::vector<double>& during) {
-    const std::string point = exchange(Exchange::slide);
+    const std::string point = exchange(ForceExchange::slide);
     if (const double radius = roundness(); radius > 0. && komo_.order() >= 1 && (to_ < 0. || to_ >= from_ + .8)) {
       const double margin = komo_.order() == 1 ? 0. : .2, later = 1. / komo_.path().grid().slicesPerPhase();
       const std::vector<double> times = {from_ + margin + later, to_ < 0. ? -1. : to_ - margin};

@@ -26,7 +26,7 @@ std::vector<std::pair<int, int>> segmentsOf(std::vector<int> columns) {
 
 }  // namespace
 
-SplineRows::SplineRows(const Path& path, std::shared_ptr<const SplineLayout> layout, std::vector<Objective> objectives,
+SplineConstraints::SplineConstraints(const Path& path, std::shared_ptr<const SplineLayout> layout, std::vector<Objective> objectives,
                        bool is_separate)
     : layout_(std::move(layout)),
       objectives_(std::move(objectives)),
@@ -40,7 +40,7 @@ SplineRows::SplineRows(const Path& path, std::shared_ptr<const SplineLayout> lay
   layOut(path);
 }
 
-SplineRows::SplineRows(const Path& path, const SplineRows& other, std::vector<Objective> objectives, bool is_separate)
+SplineConstraints::SplineConstraints(const Path& path, const SplineConstraints& other, std::vector<Objective> objectives, bool is_separate)
     : layout_(other.layout_),
       objectives_(std::move(objectives)),
       is_separate_(is_separate),
@@ -50,22 +50,22 @@ SplineRows::SplineRows(const Path& path, const SplineRows& other, std::vector<Ob
   layOut(path);
 }
 
-void SplineRows::layOut(const Path& path) {
+void SplineConstraints::layOut(const Path& path) {
   for (std::size_t o = 0; o < objectives_.size(); ++o) {
     Objective& objective = objectives_[o];
     keepRoom(objective, is_separate_ ? kRoomOfMotion : 0);
     for (int slice = objective.from; slice <= objective.to; ++slice) {
-      std::vector<PairInstant> instants = objective.instants[std::size_t(slice - objective.from)];
-      const int rows = is_separate_ ? int(instants.size()) : 1;
+      std::vector<CollisionSample> samples = objective.samples[std::size_t(slice - objective.from)];
+      const int rows = is_separate_ ? int(samples.size()) : 1;
       terms_.push_back({int(o), slice, rows_, rows});
-      instants_.emplace_back();
-      setInstants(path, int(terms_.size()) - 1, std::move(instants));
+      samples_.emplace_back();
+      setSamples(path, int(terms_.size()) - 1, std::move(samples));
       rows_ += rows;
     }
   }
 }
 
-SplineRows::Motion SplineRows::motionInto(const Path& path, int slice) const {
+SplineConstraints::Motion SplineConstraints::motionInto(const Path& path, int slice) const {
   Motion motion;
   std::vector<int> columns;
   const std::vector<int> all = path.dofsOf(path.given().joint_frames, slice - 1), same = sameDofs(path, slice);
@@ -96,25 +96,25 @@ SplineRows::Motion SplineRows::motionInto(const Path& path, int slice) const {
   return motion;
 }
 
-void SplineRows::setInstants(const Path& path, int number, std::vector<PairInstant> instants) {
+void SplineConstraints::setSamples(const Path& path, int number, std::vector<CollisionSample> samples) {
   const Term& term = terms_[std::size_t(number)];
   Objective& objective = objectives_[std::size_t(term.objective)];
-  objective.instants[std::size_t(term.slice - objective.from)] = instants;
-  Instants& of_term = instants_[std::size_t(number)];
+  objective.samples[std::size_t(term.slice - objective.from)] = samples;
+  Instants& of_term = samples_[std::size_t(number)];
   of_term.pairs.reset();
-  of_term.weights.assign(instants.size(), VectorXd());
-  for (std::size_t i = 0; i < instants.size(); ++i)
-    if (!instants[i].isEmpty()) of_term.weights[i] = layout_->weightsAt((term.slice + instants[i].share) * tau_);
-  if (!std::ranges::all_of(instants, &PairInstant::isEmpty))
-    of_term.pairs = std::make_unique<InstantPairs>(
-        std::move(instants), is_separate_ ? farOf(objective) : objective.margin, path.state(term.slice - 1));
+  of_term.weights.assign(samples.size(), VectorXd());
+  for (std::size_t i = 0; i < samples.size(); ++i)
+    if (!samples[i].isEmpty()) of_term.weights[i] = layout_->weightsAt((term.slice + samples[i].share) * tau_);
+  if (!std::ranges::all_of(samples, &CollisionSample::isEmpty))
+    of_term.pairs = std::make_unique<SampledPairs>(
+        std::move(samples), is_separate_ ? farOf(objective) : objective.margin, path.state(term.slice - 1));
 }
 
-const SplineRows::Term& SplineRows::termOf(int row) const {
+const SplineConstraints::Term& SplineConstraints::termOf(int row) const {
   return *std::ranges::find_if(terms_, [&](const Term& term) { return row < term.first_row + term.rows; });
 }
 
-void SplineRows::addTo(Jacobian& J) const {
+void SplineConstraints::addTo(Jacobian& J) const {
   for (const Term& term : terms_) {
     for (int row = 0; row < term.rows; ++row) {
       for (const auto& [column, width] : (*motions_)[std::size_t(term.slice)].segments) {
@@ -127,7 +127,7 @@ void SplineRows::addTo(Jacobian& J) const {
   }
 }
 
-void SplineRows::place(const Path& path, const Term& term, double share, const VectorXd& weights, VectorXd& q) const {
+void SplineConstraints::place(const Path& path, const Term& term, double share, const VectorXd& weights, VectorXd& q) const {
   const VectorXd &from = path.state(term.slice - 1).q(), &to = path.state(term.slice).q();
   const Motion& motion = (*motions_)[std::size_t(term.slice)];
   for (const OtherDof& other : motion.others) {
@@ -139,8 +139,8 @@ void SplineRows::place(const Path& path, const Term& term, double share, const V
 }
 
 /// Adds a gradient by q, times a factor, to the row by c.
-void SplineRows::spread(const Motion& motion, double share, const VectorXd& weights, double factor,
-                        const InstantPairs::Gradient& gradient) {
+void SplineConstraints::spread(const Motion& motion, double share, const VectorXd& weights, double factor,
+                        const SampledPairs::Gradient& gradient) {
   for (std::size_t d = 0; d < motion.splined.size(); ++d) {
     const double value = factor * gradient(0, motion.splined[d]);
     if (value == 0.) continue;
@@ -157,7 +157,7 @@ void SplineRows::spread(const Motion& motion, double share, const VectorXd& weig
 }
 
 /// Takes the row by c.
-void SplineRows::collect(const Motion& motion, int row, Jacobian& J) {
+void SplineConstraints::collect(const Motion& motion, int row, Jacobian& J) {
   const auto to = J.row_segments(row);
   for (std::size_t k = 0; k < motion.segments.size(); ++k) {
     auto values = row_.segment(motion.segments[k].first, motion.segments[k].second);
@@ -167,16 +167,16 @@ void SplineRows::collect(const Motion& motion, int row, Jacobian& J) {
   J.zero_row[std::size_t(row)] = 0;
 }
 
-void SplineRows::evaluate(const Path& path, const VectorXd& c, int first_row, VectorXd& phi, Jacobian* J) {
+void SplineConstraints::evaluate(const Path& path, const VectorXd& c, int first_row, VectorXd& phi, Jacobian* J) {
   for (int term = 0; term < int(terms_.size()); ++term) evaluateTerm(term, path, c, first_row, phi, J);
 }
 
-void SplineRows::evaluateTerm(int number, const Path& path, const VectorXd& c, int first_row, VectorXd& phi,
+void SplineConstraints::evaluateTerm(int number, const Path& path, const VectorXd& c, int first_row, VectorXd& phi,
                               Jacobian* J) {
   const Term& term = terms_[std::size_t(number)];
   const Objective& objective = objectives_[std::size_t(term.objective)];
   const Motion& motion = (*motions_)[std::size_t(term.slice)];
-  Instants& instants = instants_[std::size_t(number)];
+  Instants& samples = samples_[std::size_t(number)];
   const double scale = objective.scale(0, 0), aim = objective.margin + objective.slack;
   const int first = first_row + term.first_row;
   phi.segment(first, term.rows).setConstant(is_separate_ ? scale * (aim - farOf(objective)) : 0.);
@@ -187,24 +187,24 @@ void SplineRows::evaluateTerm(int number, const Path& path, const VectorXd& c, i
       J->zero_row[std::size_t(row)] = 1;
     }
   }
-  if (!instants.pairs) return;
+  if (!samples.pairs) return;
   points_ = layout_->pointsOf(c);
-  const std::vector<PairInstant>& all = objective.instants[std::size_t(term.slice - objective.from)];
+  const std::vector<CollisionSample>& all = objective.samples[std::size_t(term.slice - objective.from)];
   const auto weightsOf = [&](double share) -> const VectorXd& {
-    const auto at = std::ranges::find_if(all, [&](const PairInstant& i) { return !i.isEmpty() && i.share == share; });
-    return instants.weights[std::size_t(at - all.begin())];
+    const auto at = std::ranges::find_if(all, [&](const CollisionSample& i) { return !i.isEmpty() && i.share == share; });
+    return samples.weights[std::size_t(at - all.begin())];
   };
   const auto place_at = [&](double share, VectorXd& q) { place(path, term, share, weightsOf(share), q); };
   bool any = false;
-  const auto see = [&](int i, double distance, const InstantPairs::Gradient& gradient) {
+  const auto see = [&](int i, double distance, const SampledPairs::Gradient& gradient) {
     const int row = is_separate_ ? first + i : first;
     phi[row] = is_separate_ ? scale * (aim - distance) : phi[row] + scale * (objective.margin - distance);
     if (!J) return;
-    spread(motion, all[std::size_t(i)].share, instants.weights[std::size_t(i)], -scale, gradient);
+    spread(motion, all[std::size_t(i)].share, samples.weights[std::size_t(i)], -scale, gradient);
     if (is_separate_) collect(motion, row, *J);
     any = true;
   };
-  instants.pairs->visit(path.state(term.slice - 1).sharedParameters(), J != nullptr, place_at, see);
+  samples.pairs->visit(path.state(term.slice - 1).sharedParameters(), J != nullptr, place_at, see);
   if (J && any && !is_separate_) collect(motion, first, *J);
 }
 

@@ -14,17 +14,17 @@ namespace kinegraph {
 ///     phi = scale sum_i max(0, margin - distance_i)
 /// or, in the separate form, a row per instant,
 ///     phi_i = scale (margin + slack - distance_i)    -far, scaled, where it is far or there is none yet
-class SplineRows {
+class SplineConstraints {
  public:
   /// Rows of one objective on one motion.
   struct Term {
     int objective, slice, first_row, rows;
   };
 
-  SplineRows(const Path& path, std::shared_ptr<const SplineLayout> layout, std::vector<Objective> objectives,
+  SplineConstraints(const Path& path, std::shared_ptr<const SplineLayout> layout, std::vector<Objective> objectives,
              bool is_separate);
   /// Of the same path and layout, with other objectives or in the other form.
-  SplineRows(const Path& path, const SplineRows& other, std::vector<Objective> objectives, bool is_separate);
+  SplineConstraints(const Path& path, const SplineConstraints& other, std::vector<Objective> objectives, bool is_separate);
 
   int rows() const { return rows_; }
   const std::vector<Objective>& objectives() const { return objectives_; }
@@ -38,7 +38,7 @@ class SplineRows {
   void evaluateTerm(int term, const Path& path, const VectorXd& c, int first_row, VectorXd& phi, Jacobian* J);
 
   /// Of a term, in place of as many that it had.
-  void setInstants(const Path& path, int term, std::vector<PairInstant> instants);
+  void setSamples(const Path& path, int term, std::vector<CollisionSample> samples);
 
  private:
   struct Entry {
@@ -56,7 +56,7 @@ class SplineRows {
     std::vector<std::pair<int, int>> segments;  ///< columns of c: first, width
   };
   struct Instants {
-    std::unique_ptr<InstantPairs> pairs;  ///< null where all are empty
+    std::unique_ptr<SampledPairs> pairs;  ///< null where all are empty
     std::vector<VectorXd> weights;        ///< of control points, per instant
   };
 
@@ -64,7 +64,7 @@ class SplineRows {
   Motion motionInto(const Path& path, int slice) const;
   void place(const Path& path, const Term& term, double share, const VectorXd& weights, VectorXd& q) const;
   void spread(const Motion& motion, double share, const VectorXd& weights, double factor,
-              const InstantPairs::Gradient& gradient);
+              const SampledPairs::Gradient& gradient);
   void collect(const Motion& motion, int row, Jacobian& J);
 
   std::shared_ptr<const SplineLayout> layout_;
@@ -73,7 +73,7 @@ class SplineRows {
   double tau_;
   int rows_ = 0;
   std::vector<Term> terms_;
-  std::vector<Instants> instants_;                      ///< per term
+  std::vector<Instants> samples_;                      ///< per term
   std::shared_ptr<const std::vector<Motion>> motions_;  ///< per slice
   MatrixXd points_;                                     ///< of c
   VectorXd row_;                                        ///< of the Jacobian

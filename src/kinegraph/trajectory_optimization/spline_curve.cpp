@@ -38,7 +38,7 @@ SplineCurve::SplineCurve(const Path& path, std::shared_ptr<const SplineLayout> l
     for (const int j : layout_->splined) dofs.push_back(all[std::size_t(j)]);
     const State &state = path.state(slice - 1), &before = path.state(std::max(slice - 2, -1));
     const bool is_same =
-        slice > 0 && &state.program() == &before.program() && state.sharedParameters() == before.sharedParameters();
+        slice > 0 && &state.model() == &before.model() && state.sharedParameters() == before.sharedParameters();
     if (!is_same) bounds_.emplace_back(state);
     bound_of_.push_back(int(bounds_.size()) - 1);
   }
@@ -87,7 +87,7 @@ SliceMotion SplineCurve::line(int slice, double begin, double end) const {
   return {slice,
           whole.begin + begin * width,
           whole.begin + end * width,
-          whole.program,
+          whole.model,
           whole.parameters,
           begin == 0. ? whole.from : at(slice, begin),
           end == 1. ? whole.to : at(slice, end)};

@@ -53,7 +53,7 @@ bool SplineMotion::isFree(double margin) const {
   SplineCurve curve(path, layout);
   curve.moveTo(path, layout->map->fit(path.variables()));
   MotionProbe probe(kFreeTolerance);
-  SplineBetweenSlices motions(curve, probe);
+  SplineMotions motions(curve, probe);
   for (int slice = 0; slice < komo_->slices(); ++slice)
     if (motions.tooNear(slice, margin)) return false;
   return true;

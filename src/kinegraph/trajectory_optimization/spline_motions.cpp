@@ -18,14 +18,14 @@ double middleOf(double begin, double end) { return .5 * (begin + end); }
 
 }  // namespace
 
-std::optional<MotionContact> SplineBetweenSlices::tooNear(int slice, double margin) {
+std::optional<MotionContact> SplineMotions::tooNear(int slice, double margin) {
   const std::vector<double>& knots = curve_.knotsOn(slice);
   for (std::size_t i = 0; i + 1 < knots.size(); ++i)
     if (const auto contact = tooNear(slice, {knots[i], knots[i + 1]}, margin)) return contact;
   return std::nullopt;
 }
 
-std::optional<MotionContact> SplineBetweenSlices::tooNear(int slice, Part part, double margin) {
+std::optional<MotionContact> SplineMotions::tooNear(int slice, Part part, double margin) {
   const auto [begin, end] = part;
   const SliceMotion line = curve_.line(slice, begin, end);
   const double stray = curve_.stray(line, begin, end);
@@ -40,7 +40,7 @@ std::optional<MotionContact> SplineBetweenSlices::tooNear(int slice, Part part, 
   return tooNear(slice, {middle, end}, margin);
 }
 
-std::vector<MotionContact> SplineBetweenSlices::approaches(int slice, double most) {
+std::vector<MotionContact> SplineMotions::approaches(int slice, double most) {
   std::vector<MotionContact> all;
   const auto add = [&](MotionContact contact, double begin, double end, double same) {
     contact.time = begin + contact.time * (end - begin);
@@ -70,14 +70,14 @@ std::vector<MotionContact> SplineBetweenSlices::approaches(int slice, double mos
   return all;
 }
 
-std::vector<PathContact> SplineBetweenSlices::contacts(const SliceMotion& motion, double margin) {
+std::vector<PathContact> SplineMotions::contacts(const SliceMotion& motion, double margin) {
   std::vector<PathContact> contacts;
   const std::vector<double>& knots = curve_.knotsOn(motion.slice);
   for (std::size_t i = 0; i + 1 < knots.size(); ++i) addContacts(motion, {knots[i], knots[i + 1]}, margin, contacts);
   return contacts;
 }
 
-void SplineBetweenSlices::addContacts(const SliceMotion& motion, Part part, double margin,
+void SplineMotions::addContacts(const SliceMotion& motion, Part part, double margin,
                                       std::vector<PathContact>& contacts) {
   const auto [begin, end] = part;
   SliceMotion line = curve_.line(motion.slice, begin, end);

@@ -8,9 +8,9 @@ namespace kinegraph {
 
 /// q goes along a spline. What is proved is proved on chords, on which pairs have to be apart by so much more as the spline may
 /// stray from them; chords that are not are halved, until they hardly differ from it.
-class SplineBetweenSlices final : public BetweenSlices {
+class SplineMotions final : public SliceMotions {
  public:
-  SplineBetweenSlices(SplineCurve& curve, MotionProbe& probe) : curve_(curve), probe_(probe) {}
+  SplineMotions(SplineCurve& curve, MotionProbe& probe) : curve_(curve), probe_(probe) {}
 
   SliceMotion motionInto(int slice) const override { return curve_.motionInto(slice); }
   std::optional<MotionContact> tooNear(int slice, double margin) override;

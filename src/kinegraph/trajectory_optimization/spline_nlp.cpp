@@ -25,9 +25,9 @@ std::shared_ptr<MappedNlp> inControlPoints(const std::shared_ptr<Komo>& komo, co
   return std::make_shared<MappedNlp>(makeNlp(komo, objectivesOf(*komo, false)), layout.map, layout.lower, layout.upper);
 }
 
-MotionVerdict judge(SplineCurve& curve, const std::vector<SliceMotion>& motions, const std::function<void()>& between) {
+ValidityReport judge(SplineCurve& curve, const std::vector<SliceMotion>& motions, const std::function<void()>& between) {
   MotionProbe probe(kFreeTolerance);
-  SplineBetweenSlices spline(curve, probe);
+  SplineMotions spline(curve, probe);
   std::vector<PathContact> contacts;
   for (const SliceMotion& motion : motions) {
     if (between) between();
@@ -104,13 +104,13 @@ Separation SplineNlp::separation() {
   return separation_;
 }
 
-std::shared_ptr<const LazyVerdict> SplineNlp::motionVerdict(const VectorXd& c) {
+std::shared_ptr<const LazyValidity> SplineNlp::motionValidity(const VectorXd& c) {
   const std::vector<Objective>& objectives = komo_->objectives().all();
-  if (!forbidsAnyMotion(komo_->path(), objectives)) return nullptr;
+  if (!constrainsAnyMotion(komo_->path(), objectives)) return nullptr;
   moveTo(c);
-  std::vector<SliceMotion> motions = forbiddenMotions(komo_->path(), objectives);
+  std::vector<SliceMotion> motions = constrainedMotions(komo_->path(), objectives);
   if (motions.empty()) return nullptr;
-  return std::make_shared<LazyVerdict>(
+  return std::make_shared<LazyValidity>(
       [motions = std::move(motions), curve = curve_](const std::function<void()>& between) mutable {
         return judge(curve, motions, between);
       });
@@ -122,15 +122,15 @@ void SplineNlp::moveTo(const VectorXd& c) {
 }
 
 /// Those at which the spline violates the objectives; returns by how much, m.
-double SplineNlp::addInstantsTo(std::vector<Objective>& objectives) {
-  SplineBetweenSlices spline(curve_, probe_);
+double SplineNlp::addSamplesTo(std::vector<Objective>& objectives) {
+  SplineMotions spline(curve_, probe_);
   double lack = 0.;
-  for (Objective& objective : objectives) lack = std::max(lack, addInstants(objective, spline));
+  for (Objective& objective : objectives) lack = std::max(lack, addSamples(objective, spline));
   return lack;
 }
 
 void SplineNlp::replace(std::vector<Objective> objectives) {
-  rows_ = SplineRows(komo_->path(), rows_, std::move(objectives), is_separate_);
+  rows_ = SplineConstraints(komo_->path(), rows_, std::move(objectives), is_separate_);
   separation_ = {};
   separation_is_known_ = false;
   layOut();
@@ -143,7 +143,7 @@ Refinement SplineNlp::refine(const VectorXd& c, VectorXd& dual) {
   if (solved.free_at_.size() == c.size() && solved.free_at_ == c) return Refinement::none;
   moveTo(c);
   std::vector<Objective> objectives = solved.rows_.objectives();
-  const double lack = addInstantsTo(objectives);
+  const double lack = addSamplesTo(objectives);
   if (lack == 0.) return Refinement::none;
   replace(std::move(objectives));
   const auto& next = static_cast<const SplineNlp&>(*separation().problem);
@@ -152,12 +152,12 @@ Refinement SplineNlp::refine(const VectorXd& c, VectorXd& dual) {
 }
 
 /// Multipliers of rows of which there were fewer before.
-VectorXd SplineNlp::carriedOver(const VectorXd& dual, const SplineRows& before, const SplineRows& now) const {
+VectorXd SplineNlp::carriedOver(const VectorXd& dual, const SplineConstraints& before, const SplineConstraints& now) const {
   const int first = rowsOfSlices();
   VectorXd carried = VectorXd::Zero(first + now.rows());
   carried.head(first) = dual.head(first);
   for (std::size_t i = 0; i < now.terms().size(); ++i) {
-    const SplineRows::Term& old = before.terms()[i];
+    const SplineConstraints::Term& old = before.terms()[i];
     carried.segment(first + now.terms()[i].first_row, old.rows) = dual.segment(first + old.first_row, old.rows);
   }
   return carried;
@@ -165,22 +165,22 @@ VectorXd SplineNlp::carriedOver(const VectorXd& dual, const SplineRows& before, 
 
 Refinement SplineNlp::takeUp(const VectorXd& c, bool is_solution, VectorXd& phi, Jacobian& J, std::vector<int>& rows) {
   moveTo(c);
-  SplineBetweenSlices spline(curve_, probe_);
+  SplineMotions spline(curve_, probe_);
   double lack = 0.;
   looked_at_.resize(rows_.objectives().size());
   for (std::size_t o = 0; o < rows_.objectives().size(); ++o) {
     Objective objective = rows_.objectives()[o];
-    const FilledInstants filled = fillInstants(objective, spline, is_solution, looked_at_[o]);
+    const FilledSamples filled = fillSamples(objective, spline, is_solution, looked_at_[o]);
     lack = std::max(lack, filled.lack);
     for (int number = 0; number < int(rows_.terms().size()); ++number) {
-      const SplineRows::Term& term = rows_.terms()[std::size_t(number)];
+      const SplineConstraints::Term& term = rows_.terms()[std::size_t(number)];
       const int motion = term.slice - objective.from;
       if (term.objective != int(o) || std::ranges::find(filled.motions, motion) == filled.motions.end()) continue;
-      const std::vector<PairInstant>&before = rows_.objectives()[o].instants[std::size_t(motion)],
-            &now = objective.instants[std::size_t(motion)];
+      const std::vector<CollisionSample>&before = rows_.objectives()[o].samples[std::size_t(motion)],
+            &now = objective.samples[std::size_t(motion)];
       for (std::size_t i = 0; i < now.size(); ++i)
         if (before[i].isEmpty() && !now[i].isEmpty()) rows.push_back(rowsOfSlices() + term.first_row + int(i));
-      rows_.setInstants(komo_->path(), number, now);
+      rows_.setSamples(komo_->path(), number, now);
       rows_.evaluateTerm(number, komo_->path(), c, rowsOfSlices(), phi, &J);
     }
   }
@@ -188,28 +188,28 @@ Refinement SplineNlp::takeUp(const VectorXd& c, bool is_solution, VectorXd& phi,
   return refinementOf(lack);
 }
 
-WayKind SplineNlp::wayAt(const VectorXd& c) {
+GuessKind SplineNlp::guessKind(const VectorXd& c) {
   moveTo(c);
-  SplineBetweenSlices spline(curve_, probe_);
+  SplineMotions spline(curve_, probe_);
   return wayOf(spline, 0, komo_->slices() - 1);
 }
 
 /// The spline that is nearest to a detour of the path, with the instants at which it comes near to something.
-std::optional<VectorXd> SplineNlp::otherWay(const VectorXd& c, int number) {
+std::optional<VectorXd> SplineNlp::initialGuess(const VectorXd& c, int number) {
   std::vector<Objective> objectives = rows_.objectives();
   if (objectives.empty()) return std::nullopt;
   slices_->leaveAt(c);
   const double apart = objectives[0].margin + objectives[0].slack;
-  const std::optional<VectorXd> way = detour(komo_->path(), apart, probe_, number);
+  const std::optional<VectorXd> way = alternativePath(komo_->path(), apart, probe_, number);
   if (!way) return std::nullopt;
   VectorXd of_spline = slices_->fitted(*way);
   moveTo(of_spline);
-  SplineBetweenSlices spline(curve_, probe_);
+  SplineMotions spline(curve_, probe_);
   for (Objective& objective : objectives) {
-    objective.instants.clear();
+    objective.samples.clear();
     addApproaches(objective, spline, kNearToDetour);
   }
-  addInstantsTo(objectives);
+  addSamplesTo(objectives);
   replace(std::move(objectives));
   return of_spline;
 }
@@ -218,7 +218,7 @@ std::string SplineNlp::rowName(int row) const {
   const int own = row - rowsOfSlices();
   if (own < 0) return slices_->rowName(row);
   if (own >= rows_.rows()) return Nlp::rowName(row);
-  const SplineRows::Term& term = rows_.termOf(own);
+  const SplineConstraints::Term& term = rows_.termOf(own);
   const Objective& objective = rows_.objectives()[std::size_t(term.objective)];
   return cat(objectiveName(objective), ", row ", own - term.first_row, ", slice ", term.slice, " (",
              objectiveTypeName(objective.type), ")");
@@ -228,7 +228,7 @@ std::string SplineNlp::rowName(int row) const {
 RowDescription SplineNlp::describeRow(int row) const {
   const int own = row - rowsOfSlices();
   if (own < 0) return slices_->describeRow(row);
-  const SplineRows::Term& term = rows_.termOf(own);
+  const SplineConstraints::Term& term = rows_.termOf(own);
   const Objective& objective = rows_.objectives()[std::size_t(term.objective)];
   RowDescription out;
   out.objective = objectiveName(objective);
@@ -242,13 +242,13 @@ RowDescription SplineNlp::describeRow(int row) const {
 std::vector<std::string> SplineNlp::detailsOf(int row) const {
   const int own = row - rowsOfSlices();
   if (own < 0) return slices_->detailsOf(row);
-  const SplineRows::Term& term = rows_.termOf(own);
+  const SplineConstraints::Term& term = rows_.termOf(own);
   SplineCurve curve = curve_;
   curve.moveTo(komo_->path(), layout_->map->fit(komo_->path().variables()));
   MotionProbe probe(kFreeTolerance);
   std::vector<std::string> details;
   for (const PathContact& contact :
-       SplineBetweenSlices(curve, probe)
+       SplineMotions(curve, probe)
            .contacts(curve.motionInto(term.slice), rows_.objectives()[std::size_t(term.objective)].margin))
     details.push_back(contact.str());
   return details;

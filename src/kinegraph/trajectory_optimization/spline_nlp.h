@@ -16,7 +16,7 @@ namespace kinegraph {
 /// The problem of a SplineMotion: that of its Komo in the control points of the spline. What is to be free between slices
 /// (objectives that are `on_the_way`) is so on the spline, and verdicts are about the spline: rows for instants of it come
 /// behind those of the slices, and are taken up as those of a Komo are; see free_motion.h.
-class SplineNlp final : public Nlp, public OtherWays, public RoomForConstraints {
+class SplineNlp final : public Nlp, public InitialGuesses, public LazyConstraints {
  public:
   SplineNlp(std::shared_ptr<Komo> komo, std::shared_ptr<const SplineLayout> layout);
 
@@ -30,12 +30,12 @@ class SplineNlp final : public Nlp, public OtherWays, public RoomForConstraints 
     slices_->addCurvature(k, weights, H);
   }
   Separation separation() override;
-  std::shared_ptr<const LazyVerdict> motionVerdict(const VectorXd& c) override;
+  std::shared_ptr<const LazyValidity> motionValidity(const VectorXd& c) override;
   Refinement refine(const VectorXd& c, VectorXd& dual) override;
   bool hasRoom() const override { return is_separate_ && rows_.rows() > 0; }
   Refinement takeUp(const VectorXd& c, bool is_solution, VectorXd& phi, Jacobian& J, std::vector<int>& rows) override;
-  WayKind wayAt(const VectorXd& c) override;
-  std::optional<VectorXd> otherWay(const VectorXd& c, int number) override;
+  GuessKind guessKind(const VectorXd& c) override;
+  std::optional<VectorXd> initialGuess(const VectorXd& c, int number) override;
   VectorXd initialPoint(Rng& rng) override { return slices_->initialPoint(rng); }
   std::string rowName(int row) const override;
   RowDescription describeRow(int row) const override;
@@ -50,18 +50,18 @@ class SplineNlp final : public Nlp, public OtherWays, public RoomForConstraints 
   int rowsOfSlices() const { return int(slices_->types().size()); }
   void layOut();
   void moveTo(const VectorXd& c);
-  double addInstantsTo(std::vector<Objective>& objectives);
+  double addSamplesTo(std::vector<Objective>& objectives);
   void replace(std::vector<Objective> objectives);
-  VectorXd carriedOver(const VectorXd& dual, const SplineRows& before, const SplineRows& now) const;
+  VectorXd carriedOver(const VectorXd& dual, const SplineConstraints& before, const SplineConstraints& now) const;
 
   std::shared_ptr<Komo> komo_;
   std::shared_ptr<const SplineLayout> layout_;
   std::shared_ptr<MappedNlp> slices_;
   bool is_separate_;
-  SplineRows rows_;
+  SplineConstraints rows_;
   SplineCurve curve_;
   MotionProbe probe_{kFreeTolerance};
-  std::vector<std::vector<LookedAt>> looked_at_;  ///< per objective, per motion
+  std::vector<std::vector<CheckedMotion>> looked_at_;  ///< per objective, per motion
   VectorXd free_at_;                              ///< where a solver found nothing to take up
   VectorXd phi_;                                  ///< of the slices
   Separation separation_;

@@ -23,13 +23,13 @@ Vector4d cubicBasis(double u) {
 }  // namespace
 
 VectorXd randomJointState(const Config& config, Rng& rng) {
-  const auto program = config.program();
+  const auto program = config.model();
   VectorXd q = config.getJointState();
   for (int i = 0; i < q.size(); ++i) {
     const bool limited = std::isfinite(program->lower[i]);
     q[i] = limited ? rng.uniform(program->lower[i], program->upper[i]) : q[i] + rng.uniform(-.5, .5);
   }
-  for (const Program::DofRange& range : program->unit_norms) q.segment(range.first, range.count).normalize();
+  for (const KinematicModel::DofRange& range : program->unit_norms) q.segment(range.first, range.count).normalize();
   return q;
 }
 

@@ -92,7 +92,7 @@ bool SceneEdits::change(const Command& command) {
     if (set->joint < 0 || set->joint >= config.getJointDimension()) return false;
     setJoint(set->joint, set->value);
   } else if (std::get_if<ResetJointsCommand>(&command)) {
-    setAllJoints(config.program()->home);
+    setAllJoints(config.model()->home);
   } else if (std::get_if<RandomJointsCommand>(&command)) {
     setAllJoints(randomJointState(config, random_));
   } else if (const auto* move = std::get_if<MoveFrameCommand>(&command)) {
@@ -104,7 +104,7 @@ bool SceneEdits::change(const Command& command) {
 }
 
 void SceneEdits::setJoint(int joint, double value) {
-  const Program& program = *edited_->program();
+  const KinematicModel& program = *edited_->model();
   VectorXd q = edited_->getJointState();
   q[joint] = joints_[joint] = std::clamp(value, program.lower[joint], program.upper[joint]);
   edited_->setJointState(q);

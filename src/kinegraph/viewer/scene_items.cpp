@@ -24,13 +24,13 @@ std::vector<std::string> unitsOf(const Joint& joint) {
 bool refersToOthers(const FrameData& frame) { return frame.joint || !frame.no_contact.empty(); }
 
 std::vector<ShownJoint> jointsOf(const Config& config) {
-  const auto program = config.program();
+  const auto program = config.model();
   const std::vector<std::string> names = config.getJointNames();
   const MatrixXd limits = config.getJointLimits();
   std::vector<ShownJoint> joints(names.size());
   for (const auto& frame : config.scene()->frames()) {
     if (!frame->joint || frame->joint->mimic) continue;
-    const Program::DofRange dofs = program->frame_dofs[frame->id];
+    const KinematicModel::DofRange dofs = program->frame_dofs[frame->id];
     const std::vector<std::string> units = unitsOf(*frame->joint);
     for (int i = 0; i < dofs.count; ++i) {
       const int dof = dofs.first + i;

@@ -49,7 +49,7 @@ class ViewerServer::Impl {
     if (const auto* cursor = std::get_if<CursorCommand>(&command)) return state_->moveCursor(*cursor);
     if (const auto* viewpoint = std::get_if<ViewpointCommand>(&command)) return state_->moveCamera(*viewpoint);
     if (const auto* run = std::get_if<RunCommand>(&command)) return state_->steerRun(*run);
-    if (const auto* pull = std::get_if<PullCommand>(&command)) return state_->pull(*pull);
+    if (const auto* pull = std::get_if<PerturbCommand>(&command)) return state_->pull(*pull);
     std::optional<EditedScene> edited;
     try {
       const std::lock_guard lock(answer_mutex_);

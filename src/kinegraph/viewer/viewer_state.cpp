@@ -54,7 +54,7 @@ void ViewerState::steerRun(const RunCommand& command) {
   changed.notify_all();
 }
 
-void ViewerState::pull(const PullCommand& command) {
+void ViewerState::pull(const PerturbCommand& command) {
   {
     const std::lock_guard lock(mutex);
     if (!run.apply(command)) return;

@@ -31,7 +31,7 @@ struct ViewerState {
   void moveCursor(const CursorCommand& cursor);
   void moveCamera(const ViewpointCommand& viewpoint);
   void steerRun(const RunCommand& command);
-  void pull(const PullCommand& command);
+  void pull(const PerturbCommand& command);
   void addClient();
   void removeClient();
 

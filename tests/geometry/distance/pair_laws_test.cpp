@@ -175,7 +175,7 @@ double coalDistance(const Sample& sample, const coal::CollisionGeometry& a, cons
 
 }  // namespace
 
-TEST(PairLaws, WitnessPointsAreTheDistanceApartAlongTheUnitNormal) {
+TEST(PairScalings, WitnessPointsAreTheDistanceApartAlongTheUnitNormal) {
   for (const Sample& sample : samples(8, 1, true)) {
     const Proximity near = sample.near();
     ASSERT_TRUE(std::isfinite(near.distance) && near.point_a.allFinite() && near.point_b.allFinite()) << sample.what;
@@ -185,7 +185,7 @@ TEST(PairLaws, WitnessPointsAreTheDistanceApartAlongTheUnitNormal) {
   }
 }
 
-TEST(PairLaws, WitnessPointsLieOnTheSurfaces) {
+TEST(PairScalings, WitnessPointsLieOnTheSurfaces) {
   for (const Sample& sample : samples(8, 2, true)) {
     if (sample.grid()) continue;
     const Proximity near = sample.near();
@@ -202,7 +202,7 @@ TEST(PairLaws, WitnessPointsLieOnTheSurfaces) {
   }
 }
 
-TEST(PairLaws, SwappingTheBodiesSwapsThePointsAndTurnsTheNormal) {
+TEST(PairScalings, SwappingTheBodiesSwapsThePointsAndTurnsTheNormal) {
   for (const Sample& sample : samples(10, 3, true)) {
     const Proximity ab = sample.near(), ba = proximity(*sample.b.body, sample.X_WB, *sample.a.body, sample.X_WA);
     EXPECT_NEAR(ab.distance, ba.distance, sample.slack(ab)) << sample.what;
@@ -215,7 +215,7 @@ TEST(PairLaws, SwappingTheBodiesSwapsThePointsAndTurnsTheNormal) {
   }
 }
 
-TEST(PairLaws, MovingBothBodiesTogetherMovesThePointsWithThem) {
+TEST(PairScalings, MovingBothBodiesTogetherMovesThePointsWithThem) {
   Rng rng(5);
   for (const Sample& sample : samples(6, 5, false)) {
     const RigidTransform X = randomTransform(rng);
@@ -228,7 +228,7 @@ TEST(PairLaws, MovingBothBodiesTogetherMovesThePointsWithThem) {
   }
 }
 
-TEST(PairLaws, TheNormalAndTheWitnessPointGiveTheGradientOfTheDistance) {
+TEST(PairScalings, TheNormalAndTheWitnessPointGiveTheGradientOfTheDistance) {
   Rng rng(6);
   const double h = 1e-6;
   int used = 0, all = 0;
@@ -250,7 +250,7 @@ TEST(PairLaws, TheNormalAndTheWitnessPointGiveTheGradientOfTheDistance) {
   EXPECT_GT(used, all * 95 / 100);
 }
 
-TEST(PairLaws, NoPushAlongOtherDirectionsPartsConvexBodiesSooner) {
+TEST(PairScalings, NoPushAlongOtherDirectionsPartsConvexBodiesSooner) {
   Rng rng(7);
   for (const Sample& sample : samples(8, 7, true)) {
     const Proximity near = sample.near();
@@ -266,7 +266,7 @@ TEST(PairLaws, NoPushAlongOtherDirectionsPartsConvexBodiesSooner) {
   }
 }
 
-TEST(PairLaws, ConvexPairsAreAsFarApartAsCoalSays) {
+TEST(PairScalings, ConvexPairsAreAsFarApartAsCoalSays) {
   int apart = 0, deep = 0;
   for (const Sample& sample : samples(15, 8, false)) {
     if (!sample.a.convex() || !sample.b.convex()) continue;
@@ -290,7 +290,7 @@ TEST(PairLaws, ConvexPairsAreAsFarApartAsCoalSays) {
   EXPECT_GT(deep, 150);
 }
 
-TEST(PairLaws, ACompoundIsAsNearAsItsNearestPart) {
+TEST(PairScalings, ACompoundIsAsNearAsItsNearestPart) {
   for (const Sample& sample : samples(10, 9, false)) {
     if (sample.a.name != "pointCloud" || !sample.b.convex()) continue;
     double least = 1e9;
@@ -300,7 +300,7 @@ TEST(PairLaws, ACompoundIsAsNearAsItsNearestPart) {
   }
 }
 
-TEST(PairLaws, ADistanceGridOfABallIsTheBallToTheAccuracyOfTheGrid) {
+TEST(PairScalings, ADistanceGridOfABallIsTheBallToTheAccuracyOfTheGrid) {
   const Body ball = makeCollisionBody({ShapeType::sphere, {.2}, nullptr});
   int used = 0;
   for (const Sample& sample : samples(20, 10, false)) {

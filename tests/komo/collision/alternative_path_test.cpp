@@ -32,13 +32,13 @@ TEST(Detour, EndsWhereThePathEndsAndGoesAroundWhatIsInTheWay) {
   Komo komo = throughWall(16);
   const MatrixXd given = komo.path().joints();
   MotionProbe probe(1e-5);
-  const auto way = detour(komo.path(), .01, probe, 1), again = detour(komo.path(), .01, probe, 1);
+  const auto way = alternativePath(komo.path(), .01, probe, 1), again = alternativePath(komo.path(), .01, probe, 1);
   ASSERT_TRUE(way);
   EXPECT_EQ(*way, *again) << "the same for the same number";
-  EXPECT_NE(*way, *detour(komo.path(), .01, probe, 2));
+  EXPECT_NE(*way, *alternativePath(komo.path(), .01, probe, 2));
   EXPECT_EQ(komo.path().joints(), given) << "the path is as it was";
   for (int number = 1; number <= 8; ++number) {
-    komo.path().setVariables(*detour(komo.path(), .01, probe, number));
+    komo.path().setVariables(*alternativePath(komo.path(), .01, probe, number));
     EXPECT_EQ(komo.path().joints().row(15), given.row(15));
     EXPECT_TRUE(komo.isFree(.01 - 2e-5)) << "at all times, number " << number;
     komo.setPath(given);
@@ -63,7 +63,7 @@ TEST(Detour, KeepsWhereThePathIsAtTheEndsOfPhases) {
     komo.setPath(path);
     MotionProbe probe(1e-5);
     for (int number = 1; number <= 8; ++number) {
-      komo.path().setVariables(*detour(komo.path(), .01, probe, number));
+      komo.path().setVariables(*alternativePath(komo.path(), .01, probe, number));
       const MatrixXd found = komo.path().joints();
       for (const int t : {7, 15, 20, 23}) EXPECT_EQ(found.row(t), path.row(t)) << t;
       EXPECT_TRUE(komo.isFree(.01 - 2e-5)) << number;
@@ -81,7 +81,7 @@ TEST(Detour, KeepsHalfOfWhatAnEndKeeps) {
   komo.setPath(path);
   MotionProbe probe(1e-5);
   for (int number = 1; number <= 4; ++number) {
-    komo.path().setVariables(*detour(komo.path(), .03, probe, number));
+    komo.path().setVariables(*alternativePath(komo.path(), .03, probe, number));
     EXPECT_TRUE(komo.isFree(.005 - 2e-5)) << number;
     EXPECT_FALSE(komo.isFree(.0101));
     komo.setPath(path);
@@ -97,7 +97,7 @@ TEST(Detour, LacksLessThanThePathWhereAnEndIsBlocked) {
   const auto blocked = [&] { return komo.checkMotion(0., 1e-5).size(); };
   const std::size_t before = blocked();
   for (int number = 1; number <= 4; ++number) {
-    komo.path().setVariables(*detour(komo.path(), .01, probe, number));
+    komo.path().setVariables(*alternativePath(komo.path(), .01, probe, number));
     EXPECT_EQ(komo.path().joints().row(15), path.row(15));
     EXPECT_LE(blocked(), before);
     komo.setPath(path);
@@ -118,9 +118,9 @@ TEST(Detour, IsNoneWhereNothingCanBeBent) {
   scene.addText("base: {}\n ball (base): { joint: quatBall, shape: sphere, size: [.04], contact: 1 }");
   Komo komo(scene, 1, 8, 1);
   MotionProbe probe(1e-5);
-  EXPECT_FALSE(detour(komo.path(), .01, probe, 1));
+  EXPECT_FALSE(alternativePath(komo.path(), .01, probe, 1));
   Komo brief = throughWall(2);
-  EXPECT_FALSE(detour(brief.path(), .01, probe, 1));
+  EXPECT_FALSE(alternativePath(brief.path(), .01, probe, 1));
 }
 
 TEST(Detour, AllRefinementsTogetherKeepTheBudget) {

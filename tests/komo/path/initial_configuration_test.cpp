@@ -23,20 +23,20 @@ Config arm() {
 
 }  // namespace
 
-TEST(GivenScene, KnowsTheJointsThatMakeUpQ) {
+TEST(InitialConfiguration, KnowsTheJointsThatMakeUpQ) {
   const Config config = arm();
-  const GivenScene given(config);
+  const InitialConfiguration given(config);
   const int base = config.getFrame("base").id(), elbow = config.getFrame("elbow").id();
   EXPECT_EQ(given.joint_frames, (std::vector<int>{base, elbow}));  // the twin follows, the door does not move
   EXPECT_EQ(given.q, config.getJointState());
   EXPECT_TRUE(given.isShared(base));
   EXPECT_FALSE(given.isShared(elbow));
-  EXPECT_TRUE(GivenScene().empty());
+  EXPECT_TRUE(InitialConfiguration().empty());
 }
 
-TEST(GivenScene, StaysAsItWasGiven) {
+TEST(InitialConfiguration, StaysAsItWasGiven) {
   Config config = arm();
-  const GivenScene given(config);
+  const InitialConfiguration given(config);
   const VectorXd before = config.getJointState();
   config.setJointState(VectorXd::Zero(4));
   config.addFrame("later");
@@ -46,26 +46,26 @@ TEST(GivenScene, StaysAsItWasGiven) {
   EXPECT_NE(copy.getFrame("elbow").attributes().find("note"), nullptr);
 }
 
-TEST(GivenScene, TakesOverThePosesThatNoJointMoves) {
+TEST(InitialConfiguration, TakesOverThePosesThatNoJointMoves) {
   Config config = arm();
-  GivenScene given(config);
+  InitialConfiguration given(config);
   Config edited = config;
   edited.getFrame("stone").setPosition({0., 0., 7.});
   edited.getFrame("ring").setRelativePosition({0., 0., 3.});
   edited.setJointState(VectorXd::Zero(4));
-  given.takeOverPoses(edited);
+  given.transferPoses(edited);
   const Config now = given.config();
   EXPECT_EQ(now.getFrame("stone").getPose().p, Vector3d(0., 0., 7.));
   EXPECT_EQ(now.getFrame("ring").getRelativePose().p, Vector3d(0., 0., 3.));
   EXPECT_EQ(now.getJointState(), config.getJointState());
 }
 
-TEST(GivenScene, FramesThatHangElsewhereKeepTheirPose) {
+TEST(InitialConfiguration, FramesThatHangElsewhereKeepTheirPose) {
   Config config = arm(), edited = config;
   edited.getFrame("stone").setPosition({0., 0., 7.});
   Config moved = config;
   moved.getFrame("stone").setParent(moved.getFrame("base"));
   const Vector3d before = moved.getFrame("stone").getRelativePose().p;
-  takeOverPoses(*moved.scene(), edited);
+  transferPoses(*moved.scene(), edited);
   EXPECT_EQ(moved.getFrame("stone").getRelativePose().p, before);
 }

@@ -111,8 +111,8 @@ TEST(PathMotion, SwitchesAsTheSliceIsReached) {
   Komo komo = carriedBox();
   move(komo, {.1, .15, .1, .2, .2, .2, .2, .4, .4, .4, .4, .4});
   const SliceMotion reach = motionInto(komo.path(), 3), lay = motionInto(komo.path(), 7);
-  EXPECT_EQ(reach.program, komo.path().state(2).sharedProgram()) << "the box lies until the gripper is there";
-  EXPECT_EQ(lay.program, komo.path().state(6).sharedProgram()) << "the box is carried until it lies";
+  EXPECT_EQ(reach.model, komo.path().state(2).sharedModel()) << "the box lies until the gripper is there";
+  EXPECT_EQ(lay.model, komo.path().state(6).sharedModel()) << "the box is carried until it lies";
   EXPECT_EQ(reach.to.size(), 1);
   EXPECT_EQ(reach.to[0], .2);
   EXPECT_EQ(lay.to.size(), 8);

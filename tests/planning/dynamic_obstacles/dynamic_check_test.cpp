@@ -7,16 +7,16 @@
 namespace kinegraph {
 namespace {
 
-TEST(MovingScene, AnObstacleGoesStraightBetweenItsPosesAndStandsBeforeAndAfter) {
-  const MovingScene scene(discAndBox(), {moves("cart", {{1., poseAt(0., 0.)}, {3., poseAt(1., 2., M_PI)}})}, "test");
+TEST(DynamicScene, AnObstacleGoesStraightBetweenItsPosesAndStandsBeforeAndAfter) {
+  const DynamicScene scene(discAndBox(), {moves("cart", {{1., poseAt(0., 0.)}, {3., poseAt(1., 2., M_PI)}})}, "test");
   EXPECT_TRUE(scene.valuesAt(0, 0.).isApprox(poseAt(0., 0.)));
   EXPECT_TRUE(scene.valuesAt(0, 2.).isApprox(poseAt(.5, 1., .5 * M_PI)));
   EXPECT_TRUE(scene.valuesAt(0, 9.).isApprox(poseAt(1., 2., M_PI)));
   EXPECT_EQ(scene.breaks(), (std::vector<double>{0., 1., 3.}));
 }
 
-TEST(MovingScene, CopiesStandWhereTheObstacleIsAtTheTimesThatAreAsked) {
-  const MovingScene scene(discAndBox(), {moves("cart", {{0., poseAt(0., 0.)}, {2., poseAt(2., 0.)}})}, "test");
+TEST(DynamicScene, CopiesStandWhereTheObstacleIsAtTheTimesThatAreAsked) {
+  const DynamicScene scene(discAndBox(), {moves("cart", {{0., poseAt(0., 0.)}, {2., poseAt(2., 0.)}})}, "test");
   Config C = scene.standing({1.});
   C.setJointState(VectorXd{{1., 0.}});
   ASSERT_EQ(C.getCollisions().size(), 1u);
@@ -26,9 +26,9 @@ TEST(MovingScene, CopiesStandWhereTheObstacleIsAtTheTimesThatAreAsked) {
   EXPECT_TRUE(scene.standing().getCollidablePairs().empty());
 }
 
-TEST(MovingScene, WhatMakesNoSenseIsRefused) {
+TEST(DynamicScene, WhatMakesNoSenseIsRefused) {
   const Config C = discAndBox();
-  const auto made = [&](const MovingObstacle& obstacle) { MovingScene(C, {obstacle}, "test"); };
+  const auto made = [&](const ObstacleTrajectory& obstacle) { DynamicScene(C, {obstacle}, "test"); };
   EXPECT_THROW(made(moves("disc", {{0., poseAt(0., 0.)}})), ValueError);
   EXPECT_THROW(made(moves("world", {{0., poseAt(0., 0.)}})), ValueError);
   EXPECT_THROW(made(moves("cart", {{0., VectorXd{{1., 2.}}}})), ValueError);
@@ -37,7 +37,7 @@ TEST(MovingScene, WhatMakesNoSenseIsRefused) {
 }
 
 /// Motions around corners and obstacles that turn, as random numbers say.
-TEST(MovingCheck, WhatItCallsFreeIsFreeAndWhatItMeetsIsNear) {
+TEST(DynamicCheck, WhatItCallsFreeIsFreeAndWhatItMeetsIsNear) {
   const Config C = discAndBox();
   int free = 0, met = 0;
   for (int seed = 0; seed < 60; ++seed) {
@@ -49,10 +49,10 @@ TEST(MovingCheck, WhatItCallsFreeIsFreeAndWhatItMeetsIsNear) {
     std::vector<std::pair<double, VectorXd>> track;
     for (int k = 0; k < 4; ++k)
       track.push_back({1.3 * k, poseAt(rng.uniform(-1.5, 1.5), rng.uniform(-1.5, 1.5), rng.uniform(-3., 3.))});
-    const std::vector<MovingObstacle> obstacles = {moves("cart", track)};
-    const MovingScene scene(C, obstacles, "test");
-    MovingCheck check(scene, .01);
-    const std::optional<MovingContact> contact = check.contact(timed.curve(), timed.law(), limits.acceleration);
+    const std::vector<ObstacleTrajectory> obstacles = {moves("cart", track)};
+    const DynamicScene scene(C, obstacles, "test");
+    DynamicCheck check(scene, .01);
+    const std::optional<DynamicContact> contact = check.contact(timed.curve(), timed.scaling(), limits.acceleration);
     MotionPlan plan;
     plan.status = PlanStatus::solved;
     plan.timed = timed;
@@ -61,7 +61,7 @@ TEST(MovingCheck, WhatItCallsFreeIsFreeAndWhatItMeetsIsNear) {
       EXPECT_GE(least, .01 - 1e-9) << seed;
       ++free;
     } else {
-      EXPECT_LE(least, .01 + 3. * MovingCheck::kRoom) << seed;
+      EXPECT_LE(least, .01 + 3. * DynamicCheck::kRoom) << seed;
       ++met;
     }
   }

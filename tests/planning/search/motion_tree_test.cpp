@@ -17,7 +17,7 @@ VectorXd at(double x) { return VectorXd::Constant(1, x); }
 
 TEST(MotionTree, TheNearestNodeAndItsBranchAreFound) {
   const Config C = slider();
-  const JointSpace space(*C.program());
+  const JointSpace space(*C.model());
   MotionTree tree(space, {at(0.), at(5.)});
   const int a = tree.add(at(1.), 0, false), b = tree.add(at(2.), a, false);
   double distance = 0.;
@@ -29,7 +29,7 @@ TEST(MotionTree, TheNearestNodeAndItsBranchAreFound) {
 
 TEST(MotionTree, ACutTakesAwayAllThatHangsOnTheNode) {
   const Config C = slider();
-  const JointSpace space(*C.program());
+  const JointSpace space(*C.model());
   MotionTree tree(space, {at(0.)});
   const int a = tree.add(at(1.), 0, true), b = tree.add(at(-1.), 0, true);
   tree.add(at(2.), a, true);

@@ -8,9 +8,9 @@
 namespace kinegraph {
 namespace {
 
-TEST(SearchWay, GoesThroughADoorAndIsFreeAtAllTimes) {
+TEST(SearchPath, GoesThroughADoorAndIsFreeAtAllTimes) {
   Asked asked{room(.5)};
-  const Way way = searchWay(asked.request());
+  const Way way = searchPath(asked.request());
   ASSERT_GE(way.points.size(), 3u);
   EXPECT_FALSE(way.is_line);
   EXPECT_EQ(way.points.front(), (VectorXd{{-1., 1.2}}));
@@ -18,72 +18,72 @@ TEST(SearchWay, GoesThroughADoorAndIsFreeAtAllTimes) {
   EXPECT_GE(leastDistance(asked.C, way.points), 0.);
 }
 
-TEST(SearchWay, ThinWallsAreNotJumpedOver) {
+TEST(SearchPath, ThinWallsAreNotJumpedOver) {
   for (std::uint64_t seed = 0; seed < 5; ++seed) {
     Asked asked{room(.5)};
     for (const char* wall : {"left", "right"}) asked.C.getFrame(wall).setShape(ShapeType::box, {1e-3, 3., 1.});
     asked.C.getFrame("body").setShape(ShapeType::cylinder, {.2, .01});
     asked.scene = asked.C.state();
-    const Way way = searchWay(asked.request(1, seed));
+    const Way way = searchPath(asked.request(1, seed));
     ASSERT_FALSE(way.points.empty());
     EXPECT_GE(leastDistance(asked.C, way.points), 0.);
   }
 }
 
-TEST(SearchWay, AnswersAreTheSameBitsForAnyNumberOfThreads) {
+TEST(SearchPath, AnswersAreTheSameBitsForAnyNumberOfThreads) {
   for (std::uint64_t seed = 0; seed < 3; ++seed) {
     Asked asked{room(.42)};  // narrow: several attempts
-    WayRequest request = asked.request(1, seed);
-    const Way one = searchWay(request);
+    PathQuery request = asked.request(1, seed);
+    const Way one = searchPath(request);
     request.threads = 4;
-    const Way four = searchWay(request);
+    const Way four = searchPath(request);
     EXPECT_EQ(one.points, four.points);
-    EXPECT_EQ(one.effort, four.effort);
+    EXPECT_EQ(one.evaluations, four.evaluations);
     EXPECT_EQ(one.attempts.size(), four.attempts.size());
   }
 }
 
-TEST(SearchWay, WhereNoWayIsTheEffortIsSpentAndWhatWasMetIsKept) {
+TEST(SearchPath, WhereNoWayIsTheEffortIsSpentAndWhatWasMetIsKept) {
   Asked asked{room(.3)};
-  WayRequest request = asked.request();
-  request.effort = 3000;
-  const Way way = searchWay(request);
+  PathQuery request = asked.request();
+  request.evaluations = 3000;
+  const Way way = searchPath(request);
   EXPECT_TRUE(way.points.empty());
   EXPECT_FALSE(way.was_stopped);
   EXPECT_EQ(way.hits.size(), 2u);  // both walls
-  EXPECT_GE(way.effort, 3000);
-  EXPECT_LT(way.effort, 3200);
+  EXPECT_GE(way.evaluations, 3000);
+  EXPECT_LT(way.evaluations, 3200);
 }
 
-TEST(SearchWay, TheWatchEndsTheSearch) {
+TEST(SearchPath, TheWatchEndsTheSearch) {
   Asked asked{room(.3)};
-  WayRequest request = asked.request(2);
+  PathQuery request = asked.request(2);
   int asked_for = 0;
   request.watch = [&] { return ++asked_for > 20; };
-  const Way way = searchWay(request);
+  const Way way = searchPath(request);
   EXPECT_TRUE(way.points.empty());
   EXPECT_TRUE(way.was_stopped);
 }
 
-TEST(SearchWay, TheNearestOfSeveralGoalsThatIsFreeIsTakenByALine) {
+TEST(SearchPath, TheNearestOfSeveralGoalsThatIsFreeIsTakenByALine) {
   Asked asked{room(.5)};
-  WayRequest request = asked.request();
+  PathQuery request = asked.request();
   request.goals = {VectorXd{{1., 1.}}, VectorXd{{-1.5, -1.}}, VectorXd{{-1., 1.5}}};
-  const Way way = searchWay(request);
+  const Way way = searchPath(request);
   EXPECT_TRUE(way.is_line);
   EXPECT_EQ(way.goal, 2);
 }
 
-TEST(SearchWay, SearchesAndAnswersKeepTheMargin) {
+TEST(SearchPath, SearchesAndAnswersKeepTheMargin) {
   Asked asked{room(.6)};
-  WayRequest request = asked.request();
-  request.demands.clearance.margin = .05;
-  const Way way = searchWay(request);
+  PathQuery request = asked.request();
+  request.constraints.clearance.margin = .05;
+  const Way way = searchPath(request);
   ASSERT_FALSE(way.points.empty());
   EXPECT_GE(leastDistance(asked.C, way.points), .05);
 }
 
-TEST(SearchWay, AnEndlessJointMayTurnThroughItsSeam) {
+TEST(SearchPath, AnEndlessJointMayTurnThroughItsSeam) {
   Config C;
   C.addText(R"(
 world: {}
@@ -92,30 +92,30 @@ tip(arm): {shape: box, size: [0.1, 0.1, 0.1], Q: [1, 0, 0], contact: 1}
 post(world): {shape: box, size: [0.2, 0.2, 0.2], Q: [1, 0, 0], contact: 1}
 )");
   Asked asked{std::move(C)};
-  WayRequest request{.demands = {&asked.scene, &asked.space}, .starts = {}, .goals = {}};
+  PathQuery request{.constraints = {&asked.scene, &asked.space}, .starts = {}, .goals = {}};
   request.starts = {VectorXd{{2.}}};
   request.goals = {VectorXd{{-2.}}};
-  const Way way = searchWay(request);  // 4 rad through the post, 2.28 the other way around
+  const Way way = searchPath(request);  // 4 rad through the post, 2.28 the other way around
   ASSERT_EQ(way.points.size(), 2u);
   EXPECT_NEAR(pathLength(asked.space, asked.space.unroll(way.points)), 2. * M_PI - 4., 1e-12);
 }
 
 TEST(Shorten, LeavesTheEndsAndIsFreeAndNearlyTaut) {
   Asked asked{room(.5)};
-  WayRequest request = asked.request();
-  request.demands.clearance.guard = Clearance::kGuard;
-  const Way way = searchWay(request);
+  PathQuery request = asked.request();
+  request.constraints.clearance.guard = Clearance::kGuard;
+  const Way way = searchPath(request);
   ASSERT_FALSE(way.points.empty());
-  Steering steering(request.demands);
+  Steering steering(request.constraints);
   const std::vector<VectorXd> path = shorten(steering, way.points);
   EXPECT_EQ(path.front(), way.points.front());
   EXPECT_EQ(path.back(), way.points.back());
   EXPECT_GE(leastDistance(asked.C, path), 0.);
   const double length = pathLength(asked.space, asked.space.unroll(path));
   EXPECT_LT(length, pathLength(asked.space, asked.space.unroll(way.points)));
-  const double taut = tautLength();
-  EXPECT_GT(length, taut);
-  EXPECT_LT(length, 1.02 * taut);
+  const double tightened = tightenedLength();
+  EXPECT_GT(length, tightened);
+  EXPECT_LT(length, 1.02 * tightened);
 }
 
 }  // namespace

@@ -9,7 +9,7 @@ namespace {
 
 struct Checked {
   Config C = room(.5);
-  JointSpace space{*C.program()};
+  JointSpace space{*C.model()};
   State scene = C.state();
 
   /// How many evaluations a look at a motion takes.

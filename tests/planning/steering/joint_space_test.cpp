@@ -24,7 +24,7 @@ c(b): {joint: quatBall}
 
 TEST(JointSpace, AnEndlessJointTakesTheShorterWayAround) {
   const Config C = threeJoints();
-  const JointSpace space(*C.program());
+  const JointSpace space(*C.model());
   VectorXd from{{0., 3., 1., 0., 0., 0.}}, to{{.5, -3., 1., 0., 0., 0.}};
   const VectorXd change = space.difference(from, to);
   EXPECT_NEAR(change[0], .5, kExact);
@@ -34,7 +34,7 @@ TEST(JointSpace, AnEndlessJointTakesTheShorterWayAround) {
 
 TEST(JointSpace, BothSignsOfAQuaternionAreOneRotation) {
   const Config C = threeJoints();
-  const JointSpace space(*C.program());
+  const JointSpace space(*C.model());
   VectorXd from{{0., 0., 1., 0., 0., 0.}}, to{{0., 0., -1., 0., 0., 0.}};
   EXPECT_NEAR(space.distance(from, to), 0., kExact);
   EXPECT_TRUE(space.difference(from, to).isZero(kExact));
@@ -42,17 +42,17 @@ TEST(JointSpace, BothSignsOfAQuaternionAreOneRotation) {
 
 TEST(JointSpace, SmallRotationsAreAsFarAsTheirAngle) {
   const Config C = threeJoints();
-  const JointSpace space(*C.program());
+  const JointSpace space(*C.model());
   VectorXd from{{0., 0., 1., 0., 0., 0.}}, to{{0., 0., std::cos(.005), std::sin(.005), 0., 0.}};
   EXPECT_NEAR(space.distance(from, to), .01, 1e-6);
 }
 
 TEST(JointSpace, DrawsKeepLimitsAndLengthOne) {
   const Config C = threeJoints();
-  const JointSpace space(*C.program());
+  const JointSpace space(*C.model());
   Rng rng(1);
   for (int i = 0; i < 200; ++i) {
-    const VectorXd q = space.draw(rng, C.getJointState());
+    const VectorXd q = space.sample(rng, C.getJointState());
     EXPECT_LE(std::abs(q[0]), 1.);
     EXPECT_LE(std::abs(q[1]), M_PI);
     EXPECT_NEAR(q.tail(4).norm(), 1., 1e-12);
@@ -61,7 +61,7 @@ TEST(JointSpace, DrawsKeepLimitsAndLengthOne) {
 
 TEST(JointSpace, AnUnrolledPathCountsTurnsAndKeepsSigns) {
   const Config C = threeJoints();
-  const JointSpace space(*C.program());
+  const JointSpace space(*C.model());
   std::vector<VectorXd> points;
   for (int i = 0; i <= 8; ++i) {
     const double angle = std::remainder(i * 1.5, 2. * M_PI), sign = i % 2 ? -1. : 1.;
@@ -78,20 +78,20 @@ TEST(JointSpace, AnUnrolledPathCountsTurnsAndKeepsSigns) {
 TEST(JointSpace, AnAngleThatAMimicHalvesIsNotEndless) {
   Config C;
   C.addText("world: {}\na(world): {joint: hingeX}\nb(world): {joint: hingeY, mimic: a, joint_scale: 0.5}");
-  EXPECT_EQ(JointSpace(*C.program()).dofsWithoutRange(), std::vector<std::string>{"a"});
+  EXPECT_EQ(JointSpace(*C.model()).dofsWithoutRange(), std::vector<std::string>{"a"});
 }
 
 TEST(JointSpace, WhatSlidesWithoutLimitsIsNamed) {
   Config C;
   C.addText("world: {}\nbase(world): {joint: transXYPhi}");
-  const JointSpace space(*C.program());
+  const JointSpace space(*C.model());
   EXPECT_EQ(space.dofsWithoutRange(), (std::vector<std::string>{"base:0", "base:1"}));
   EXPECT_THROW(space.requireRanges("test"), ValueError);
 }
 
 TEST(JointSpace, TheDofFarthestBeyondItsLimitsIsTold) {
   const Config C = threeJoints();
-  const JointSpace space(*C.program());
+  const JointSpace space(*C.model());
   VectorXd q = C.getJointState();
   q[0] = 1. + 1e-6;
   EXPECT_EQ(space.beyondLimits(q, 1e-5), "");

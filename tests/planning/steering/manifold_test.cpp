@@ -27,7 +27,7 @@ side(first): {Q: [.1, .2, .3]}
 double violationAt(Config& C, const MotionConstraint& constraint, const VectorXd& q) {
   State state = C.state();
   state.setJoints(q.data());
-  const JointSpace space(state.program());
+  const JointSpace space(state.model());
   Manifold manifold(state, space, {constraint}, 1.);
   return manifold.violation(q);
 }
@@ -35,7 +35,7 @@ double violationAt(Config& C, const MotionConstraint& constraint, const VectorXd
 /// What is said to hold at all times holds at many.
 TEST(Manifold, NothingIsViolatedAlongAMotionAlongWhichItHolds) {
   Config C = arm();
-  const JointSpace space(*C.program());
+  const JointSpace space(*C.model());
   const std::vector<MotionConstraint> constraints = {
       {FeatureSymbol::position, {"tip"}},
       {FeatureSymbol::positionDiff, {"tip", "side"}},
@@ -81,7 +81,7 @@ TEST(Manifold, NothingIsViolatedAlongAMotionAlongWhichItHolds) {
 
 TEST(Manifold, WhatIsViolatedBetweenTwoPosturesThatAreLookedAtIsFound) {
   Config C = arm();
-  const JointSpace space(*C.program());
+  const JointSpace space(*C.model());
   const VectorXd from{{0., -.01, 0.}}, to{{0., .01, 0.}};  // x = .8 + cos, .05 mm larger in the middle
   C.setJointState(from);
   const VectorXd at_ends = C.eval(FeatureSymbol::position, {"tip"}).y;
@@ -93,7 +93,7 @@ TEST(Manifold, WhatIsViolatedBetweenTwoPosturesThatAreLookedAtIsFound) {
 
 TEST(Manifold, FeaturesWithoutBoundsAreTold) {
   Config C = arm();
-  const JointSpace space(*C.program());
+  const JointSpace space(*C.model());
   const MotionConstraint product{FeatureSymbol::jointLimits, {}, ObjectiveType::ineq};
   EXPECT_TRUE(Manifold(C.state(), space, {product}, 1e-3).sampled().empty());
   const MotionConstraint energy{FeatureSymbol::quaternion, {"tip"}, ObjectiveType::eq, MatrixXd{{1., 0., 0., 0.}}};

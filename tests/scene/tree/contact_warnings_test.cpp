@@ -24,29 +24,29 @@ Config arm(const std::string& box) {
 
 }  // namespace
 
-TEST(ContactNotes, NameShapesThatOverlapAtEveryQ) {
+TEST(ContactWarnings, NameShapesThatOverlapAtEveryQ) {
   const Config config = arm("contact: 1");
-  const ContactNotes notes = contactNotes(*config.scene());
+  const ContactWarnings notes = contactWarnings(*config.scene());
   ASSERT_EQ(notes.resting.size(), 1u);
   EXPECT_EQ(config.getFrame(notes.resting[0].first).getName(), "floor");
   EXPECT_EQ(config.getFrame(notes.resting[0].second).getName(), "base");
   EXPECT_TRUE(notes.passed_through.empty()) << "what is drawn around the base is not meant, nor what is far";
-  ASSERT_EQ(config.contactNotes().size(), 1u);
-  EXPECT_NE(config.contactNotes()[0].find("'floor' and 'base' overlap and no joint"), std::string::npos);
+  ASSERT_EQ(config.contactWarnings().size(), 1u);
+  EXPECT_NE(config.contactWarnings()[0].find("'floor' and 'base' overlap and no joint"), std::string::npos);
 }
 
-TEST(ContactNotes, NameShapesThatCollideWithNothing) {
+TEST(ContactWarnings, NameShapesThatCollideWithNothing) {
   const Config config = arm("");
-  const ContactNotes notes = contactNotes(*config.scene());
+  const ContactWarnings notes = contactWarnings(*config.scene());
   ASSERT_EQ(notes.passed_through.size(), 1u);
   EXPECT_EQ(config.getFrame(notes.passed_through[0]).getName(), "near");
   EXPECT_NE(config.report().find("note: 'near' is near what moves"), std::string::npos) << config.report();
   EXPECT_NE(config.report().find("collide: floor base hand"), std::string::npos) << config.report();
 }
 
-TEST(ContactNotes, SayNothingOfShapesThatAreMeant) {
+TEST(ContactWarnings, SayNothingOfShapesThatAreMeant) {
   for (const char* meant : {"simulate", "color: [1 0 0 .3]"}) {
-    EXPECT_TRUE(contactNotes(*arm(meant).scene()).passed_through.empty()) << meant;
+    EXPECT_TRUE(contactWarnings(*arm(meant).scene()).passed_through.empty()) << meant;
   }
 }
 
@@ -57,12 +57,12 @@ TEST(Shape, CopiesOfAConfigThatWasNeverUsedShareItsBodies) {
   second.addFrame("more").setShape(ShapeType::sphere, {.2});
   const int frames = original.getFrameDimension();
   for (int i = 0; i < frames; ++i) {
-    EXPECT_EQ(first.program()->body[std::size_t(i)], second.program()->body[std::size_t(i)]) << "made once";
-    EXPECT_EQ(first.program()->body[std::size_t(i)], original.program()->body[std::size_t(i)]);
+    EXPECT_EQ(first.model()->body[std::size_t(i)], second.model()->body[std::size_t(i)]) << "made once";
+    EXPECT_EQ(first.model()->body[std::size_t(i)], original.model()->body[std::size_t(i)]);
   }
   first.getFrame("hand").setShape(ShapeType::sphere, {.3});
   const auto hand = std::size_t(first.getFrame("hand").id());
-  EXPECT_NE(first.program()->body[hand], original.program()->body[hand]);
-  EXPECT_EQ(first.program()->body[hand]->radius(), .3);
-  EXPECT_EQ(second.program()->body[hand]->radius(), .1);
+  EXPECT_NE(first.model()->body[hand], original.model()->body[hand]);
+  EXPECT_EQ(first.model()->body[hand]->radius(), .3);
+  EXPECT_EQ(second.model()->body[hand]->radius(), .1);
 }

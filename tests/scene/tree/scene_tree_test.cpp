@@ -182,7 +182,7 @@ TEST(SceneTree, TheStateFollowsAnyNumberOfEditsOfPosesAndJoints) {
   SceneTree scene;
   Rng rng(5);
   grow(scene, 30, rng);
-  const std::shared_ptr<const Program> program = scene.program();
+  const std::shared_ptr<const KinematicModel> model = scene.model();
   for (int round = 0; round < 20; ++round) {
     for (int edits = round; edits > 0; --edits) {  // few, which are taken over one by one, and many
       FrameData& frame = randomFrame(scene, rng);
@@ -201,16 +201,16 @@ TEST(SceneTree, TheStateFollowsAnyNumberOfEditsOfPosesAndJoints) {
       EXPECT_TRUE(isNear(scene.worldPose(*frame), frame->worldPose()));
     }
   }
-  EXPECT_EQ(scene.program(), program) << "values do not change the structure";
+  EXPECT_EQ(scene.model(), model) << "values do not change the structure";
   scene.add("more", nullptr);
-  EXPECT_NE(scene.program(), program);
+  EXPECT_NE(scene.model(), model);
 }
 
 TEST(SceneTree, JointStatesAreThoseOfTheActiveJointsInTheOrderOfTheFrames) {
   SceneTree scene;
   Rng rng(6);
   grow(scene, 30, rng);
-  VectorXd q(scene.program()->dofs);
+  VectorXd q(scene.model()->dofs);
   for (double& x : q) x = rng.normal();
   scene.setJointState(q.data());
   EXPECT_EQ(scene.jointState(), q);
@@ -257,7 +257,7 @@ TEST(SceneTree, ABuiltSceneIsNotCompiledAtEveryQuestion) {
   SceneTree scene;
   FrameData& world = scene.add("world", nullptr);
   int compiled = 0;
-  const Program* last = nullptr;
+  const KinematicModel* last = nullptr;
   for (int i = 0; i < 1000; ++i) {
     FrameData& frame = scene.add(cat("f", i), &world);
     frame.pose.p.x() = i;
@@ -285,7 +285,7 @@ TEST(SceneTree, TheJointStateOfASceneThatIsBeingBuiltNeedsNoCompiling) {
     if (i > 0 && i % 3 == 1 && i % 5 != 0 && i % 7 != 4) EXPECT_EQ(q[q.size() - 1], i);
   }
   const VectorXd before = scene.jointState();
-  EXPECT_EQ(before.size(), scene.program()->dofs);
+  EXPECT_EQ(before.size(), scene.model()->dofs);
   EXPECT_EQ(scene.jointState(), before);
 }
 

@@ -13,13 +13,13 @@ namespace {
 /// A program of which x and the multipliers are the solution, as they fulfil the first-order conditions of a convex
 /// problem.
 struct Known {
-  QuadraticProgram program;
+  QuadraticProgram model;
   VectorXd x, multipliers;
 };
 
-Known knownProgram(int n, int equalities, int active, int inactive, Rng& rng) {
+Known knownModel(int n, int equalities, int active, int inactive, Rng& rng) {
   Known known;
-  QuadraticProgram& p = known.program;
+  QuadraticProgram& p = known.model;
   const MatrixXd root = randomMatrix(n, n, rng);
   p.H = root * root.transpose() + .1 * MatrixXd::Identity(n, n);
   const int m = equalities + active + inactive;
@@ -43,8 +43,8 @@ TEST(QuadraticProgram, IsSolvedWithItsMultipliers) {
   for (int n : {1, 2, 5, 12}) {
     for (int trial = 0; trial < 20; ++trial) {
       const int equalities = trial % (n + 1), active = (n - equalities) / 2;
-      const Known known = knownProgram(n, equalities, active, 2 * n, rng);
-      const QuadraticSolution solution = solve(known.program);
+      const Known known = knownModel(n, equalities, active, 2 * n, rng);
+      const QuadraticSolution solution = solve(known.model);
       ASSERT_EQ(solution.status, QuadraticStatus::solved) << "n " << n << " trial " << trial;
       EXPECT_TRUE(near(solution.x, known.x, 1e-8));
       EXPECT_TRUE(near(solution.multipliers, known.multipliers, 1e-6));
@@ -54,21 +54,21 @@ TEST(QuadraticProgram, IsSolvedWithItsMultipliers) {
 
 TEST(QuadraticProgram, WithoutRowsIsOneLinearSystem) {
   Rng rng(2);
-  const Known known = knownProgram(6, 0, 0, 0, rng);
-  EXPECT_TRUE(near(solve(known.program).x, known.x, 1e-9));
+  const Known known = knownModel(6, 0, 0, 0, rng);
+  EXPECT_TRUE(near(solve(known.model).x, known.x, 1e-9));
 }
 
 TEST(QuadraticProgram, TakesRowsThatDependOnOthers) {
   Rng rng(3);
-  Known known = knownProgram(4, 2, 1, 3, rng);
-  QuadraticProgram twice = known.program;  // every row two times, equalities first
+  Known known = knownModel(4, 2, 1, 3, rng);
+  QuadraticProgram twice = known.model;  // every row two times, equalities first
   twice.equalities = 4;
   twice.A.resize(12, 4);
   twice.b.resize(12);
   for (int j = 0; j < 6; ++j) {
     const int first = j < 2 ? 2 * j : 4 + 2 * (j - 2);
-    twice.A.row(first) = twice.A.row(first + 1) = known.program.A.row(j);
-    twice.b[first] = twice.b[first + 1] = known.program.b[j];
+    twice.A.row(first) = twice.A.row(first + 1) = known.model.A.row(j);
+    twice.b[first] = twice.b[first + 1] = known.model.b[j];
   }
   const QuadraticSolution solution = solve(twice);
   ASSERT_EQ(solution.status, QuadraticStatus::solved);
@@ -76,22 +76,22 @@ TEST(QuadraticProgram, TakesRowsThatDependOnOthers) {
 }
 
 TEST(QuadraticProgram, TellsThatItsConstraintsContradictEachOther) {
-  QuadraticProgram program;  // x <= -1 and x >= 1
-  program.H = MatrixXd::Identity(1, 1);
-  program.g = VectorXd::Zero(1);
-  program.A = (MatrixXd(2, 1) << 1., -1.).finished();
-  program.b = VectorXd::Ones(2);
-  EXPECT_EQ(solve(program).status, QuadraticStatus::infeasible);
-  program.equalities = 2;  // x = -1 and x = 1
-  EXPECT_EQ(solve(program).status, QuadraticStatus::infeasible);
+  QuadraticProgram model;  // x <= -1 and x >= 1
+  model.H = MatrixXd::Identity(1, 1);
+  model.g = VectorXd::Zero(1);
+  model.A = (MatrixXd(2, 1) << 1., -1.).finished();
+  model.b = VectorXd::Ones(2);
+  EXPECT_EQ(solve(model).status, QuadraticStatus::infeasible);
+  model.equalities = 2;  // x = -1 and x = 1
+  EXPECT_EQ(solve(model).status, QuadraticStatus::infeasible);
 }
 
 TEST(QuadraticProgram, TellsThatItIsNotConvex) {
-  QuadraticProgram program;
-  program.H = -MatrixXd::Identity(2, 2);
-  program.g = VectorXd::Zero(2);
-  program.A = MatrixXd::Zero(0, 2);
-  EXPECT_EQ(solve(program).status, QuadraticStatus::notConvex);
+  QuadraticProgram model;
+  model.H = -MatrixXd::Identity(2, 2);
+  model.g = VectorXd::Zero(2);
+  model.A = MatrixXd::Zero(0, 2);
+  EXPECT_EQ(solve(model).status, QuadraticStatus::notConvex);
 }
 
 }  // namespace kinegraph

@@ -17,11 +17,11 @@ namespace {
 /// A convex quadratic program made around its solution: the gradient of the cost there is a combination of that of
 /// active constraints and bounds, whose multipliers are drawn first. The cost is one f row with its Hessian, or a sum
 /// of squares.
-class KnownProgram final : public Nlp {
+class KnownModel final : public Nlp {
  public:
   VectorXd solution, multipliers;  ///< of the rows
 
-  KnownProgram(Rng& rng, bool sum_of_squares, bool degenerate) : squares_(sum_of_squares) {
+  KnownModel(Rng& rng, bool sum_of_squares, bool degenerate) : squares_(sum_of_squares) {
     const auto upTo = [&](int count) { return int(rng.uniform(0., count + 1.)); };
     const int n = 1 + upTo(9), equalities = upTo(std::max(0, n - 2)),
               active = upTo(n - 1 - std::min(n - 1, equalities)), inactive = upTo(4);
@@ -113,23 +113,23 @@ SolverOptions precise() {
 TEST(QuadraticPrograms, AreSolvedToEightDigits) {
   Rng rng(7);
   for (int i = 0; i < 400; ++i) {
-    KnownProgram program(rng, i % 2 == 0, false);
-    const SolverResult result = solveAugmentedLagrangian(program, VectorXd::Zero(program.dimension()), precise());
-    EXPECT_EQ(result.status, SolverStatus::converged) << i << ", " << program.text() << ": " << result.message;
-    EXPECT_TRUE(near(result.x, program.solution, 1e-8)) << i << ", " << program.text();
-    EXPECT_LT(program.pull(result.dual - program.multipliers).norm(), 1e-8) << i << ", " << program.text();
-    EXPECT_EQ(result.evals, 2) << "the start, and the solution: " << i << ", " << program.text();
+    KnownModel model(rng, i % 2 == 0, false);
+    const SolverResult result = solveAugmentedLagrangian(model, VectorXd::Zero(model.dimension()), precise());
+    EXPECT_EQ(result.status, SolverStatus::converged) << i << ", " << model.text() << ": " << result.message;
+    EXPECT_TRUE(near(result.x, model.solution, 1e-8)) << i << ", " << model.text();
+    EXPECT_LT(model.pull(result.dual - model.multipliers).norm(), 1e-8) << i << ", " << model.text();
+    EXPECT_EQ(result.evals, 2) << "the start, and the solution: " << i << ", " << model.text();
   }
 }
 
 TEST(QuadraticPrograms, WithRowsThatRepeatEachOtherAndConstraintsThatBarelyTouchHaveTheSameSolution) {
   Rng rng(17);
   for (int i = 0; i < 200; ++i) {
-    KnownProgram program(rng, i % 2 == 0, true);
-    const SolverResult result = solveAugmentedLagrangian(program, VectorXd::Zero(program.dimension()), precise());
-    EXPECT_TRUE(near(result.x, program.solution, 1e-8)) << i << ", " << program.text() << ": " << result.message;
-    EXPECT_LT(program.pull(result.dual - program.multipliers).norm(), 1e-8) << i << ", " << program.text();
-    EXPECT_EQ(result.evals, 2) << i << ", " << program.text();
+    KnownModel model(rng, i % 2 == 0, true);
+    const SolverResult result = solveAugmentedLagrangian(model, VectorXd::Zero(model.dimension()), precise());
+    EXPECT_TRUE(near(result.x, model.solution, 1e-8)) << i << ", " << model.text() << ": " << result.message;
+    EXPECT_LT(model.pull(result.dual - model.multipliers).norm(), 1e-8) << i << ", " << model.text();
+    EXPECT_EQ(result.evals, 2) << i << ", " << model.text();
   }
 }
 

@@ -21,7 +21,7 @@ Config handAtDoor(const std::string& handle) {
 TEST(GuidedMotion, TheHandGoesOnTheCircleOfTheHandle) {
   const Config C = handAtDoor("ssBox, size: [.02 .02 .1 .004]");
   const VectorXd q0 = C.getJointState(), q1 = Vector4d(.4 * std::cos(1.2), .4 * std::sin(1.2), 1.2, 1.2);
-  const MatrixXd rows = guidedPostures(C, q0, q1, gripConstraints(C, "gripper", "handle"));
+  const MatrixXd rows = guidedConfigurations(C, q0, q1, gripConstraints(C, "gripper", "handle"));
   ASSERT_GT(rows.rows(), 50);
   EXPECT_EQ(VectorXd(rows.row(rows.rows() - 1)), q1);
   for (Eigen::Index i = 0; i < rows.rows(); ++i) {
@@ -58,7 +58,7 @@ TEST(GuidedMotion, ASlipBetweenTwoRowsIsSeen) {
 TEST(GuidedMotion, EndsAtWhichTheHandleIsNotHeldHaveNoMotion) {
   const Config C = handAtDoor("ssBox, size: [.02 .02 .1 .004]");
   const VectorXd elsewhere = Vector4d(-.9, .9, 0., 1.2);
-  const MatrixXd rows = guidedPostures(C, C.getJointState(), elsewhere, gripConstraints(C, "gripper", "handle"));
+  const MatrixXd rows = guidedConfigurations(C, C.getJointState(), elsewhere, gripConstraints(C, "gripper", "handle"));
   EXPECT_TRUE(rows.rows() == 0 || mostSlip(C, rows, "gripper", "handle").distance > .1);
 }
 

@@ -103,11 +103,11 @@ TEST(PlanTask, WhatIsImpossibleIsProvedWithItsCause) {
   Config C = cubesOnATable(2);
   C.addFrame("far", "base", "shape: ssBox, size: [.2 .2 .01 .004], rel: [3 0 .005], logical: { is_place }");
   const TaskPlan far = planTask(C, "(on far b0)");
-  EXPECT_EQ(far.status, TaskStatus::proved_impossible);
+  EXPECT_EQ(far.status, TaskStatus::infeasible);
   EXPECT_NE(far.message.find("'far' is at least"), std::string::npos) << far.message;
   EXPECT_EQ(far.path.rows(), 0);
   const TaskPlan twice = planTask(C, "(on b1 b0) (on table b0)");
-  EXPECT_EQ(twice.status, TaskStatus::proved_impossible);
+  EXPECT_EQ(twice.status, TaskStatus::infeasible);
   EXPECT_NE(twice.message.find("no sequence of actions reaches"), std::string::npos) << twice.message;
 }
 
@@ -136,7 +136,7 @@ TEST(PlanTask, WhatHasSlippedIntoTheModelOfTheHandIsPutDown) {
 
 TEST(PlanTask, WhatIsBeyondReachWithAStickTooIsProvedSo) {
   const TaskPlan plan = planTask(stickAndBox(.95), "(on hand box)");
-  EXPECT_EQ(plan.status, TaskStatus::proved_impossible);
+  EXPECT_EQ(plan.status, TaskStatus::infeasible);
   EXPECT_NE(plan.message.find("beyond the reach of 'hand', with 'stick', too"), std::string::npos) << plan.message;
 }
 
@@ -188,7 +188,7 @@ TEST(PlanTask, PlansWithDoorsDoNotDependOnThreads) {
 TEST(PlanTask, WhyADoorCannotBeMovedIsProved) {
   const auto message = [](const Config& C, const std::string& goal) {
     const TaskPlan plan = planTask(C, goal);
-    EXPECT_EQ(plan.status, TaskStatus::proved_impossible) << plan.str();
+    EXPECT_EQ(plan.status, TaskStatus::infeasible) << plan.str();
     return plan.message;
   };
   Config C = drawerAndCup();

@@ -30,10 +30,10 @@ TEST(RunRequests, EachStepIsTakenOnceAndPauses) {
 
 TEST(RunRequests, APullLastsUntilItIsLetGo) {
   RunRequests requests;
-  EXPECT_TRUE(requests.apply(PullCommand{7, 3, {.1, .2, .3}, {1., 2., 3.}}));
+  EXPECT_TRUE(requests.apply(PerturbCommand{7, 3, {.1, .2, .3}, {1., 2., 3.}}));
   ASSERT_TRUE(requests.take().pull);
   EXPECT_EQ(*requests.take().pull, (RunRequests::Pull{7, 3, {.1, .2, .3}, {1., 2., 3.}}));
-  EXPECT_TRUE(requests.apply(PullCommand{7, -1, {}, {}}));
+  EXPECT_TRUE(requests.apply(PerturbCommand{7, -1, {}, {}}));
   EXPECT_FALSE(requests.take().pull);
 }
 
@@ -41,8 +41,8 @@ TEST(RunRequests, WhatMeansNothingChangesNothing) {
   RunRequests requests;
   EXPECT_FALSE(requests.apply(RunCommand{0}));
   EXPECT_FALSE(requests.apply(RunCommand{5}));
-  EXPECT_FALSE(requests.apply(PullCommand{1, 1, {0., 0.}, {0., 0., 0.}}));
-  EXPECT_FALSE(requests.apply(PullCommand{1, 1, {0., 0., 0.}, {0., 1e9, 0.}}));
+  EXPECT_FALSE(requests.apply(PerturbCommand{1, 1, {0., 0.}, {0., 0., 0.}}));
+  EXPECT_FALSE(requests.apply(PerturbCommand{1, 1, {0., 0., 0.}, {0., 1e9, 0.}}));
   const RunRequests now = requests.take();
   EXPECT_FALSE(now.paused || now.reset || now.steps > 0 || now.pull);
 }

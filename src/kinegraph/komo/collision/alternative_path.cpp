@@ -24,16 +24,16 @@ constexpr int kFree = int(kKnots.size()) - 2;
 
 /// The dofs of the given configuration that may be bent: no quaternions, and none that all slices share.
 std::vector<int> bendableDofs(const Path& path) {
-  const Program& program = *path.given().program;
-  std::vector<char> may(std::size_t(program.dofs), false);
+  const KinematicModel& model = *path.given().model;
+  std::vector<char> may(std::size_t(model.dofs), false);
   for (const int frame : path.given().joint_frames) {
     if (path.given().isShared(frame)) continue;
-    const auto [first, count] = program.frame_dofs[std::size_t(frame)];
+    const auto [first, count] = model.frame_dofs[std::size_t(frame)];
     std::fill_n(may.begin() + first, count, true);
   }
-  for (const auto& [first, count] : program.unit_norms) std::fill_n(may.begin() + first, count, false);
+  for (const auto& [first, count] : model.unit_norms) std::fill_n(may.begin() + first, count, false);
   std::vector<int> dofs;
-  for (int dof = 0; dof < program.dofs; ++dof)
+  for (int dof = 0; dof < model.dofs; ++dof)
     if (may[std::size_t(dof)]) dofs.push_back(dof);
   return dofs;
 }
@@ -43,12 +43,12 @@ class Ways {
  public:
   Ways(Path& path, double apart, MotionProbe& probe)
       : path_(path), apart_(apart), probe_(probe), dofs_(bendableDofs(path)), given_(path.joints()) {
-    const Program& program = *path.given().program;
+    const KinematicModel& model = *path.given().model;
     VectorXd begin = given_.row(0).transpose();
     if (firstMotion(path) == 0) begin = path.state(-1).q()(path.dofsOf(path.given().joint_frames, -1));
     const VectorXd way = given_.row(given_.rows() - 1).transpose() - begin;
     length_ = std::max(way(dofs_).norm(), .1);
-    lower_ = program.lower(dofs_), upper_ = program.upper(dofs_);
+    lower_ = model.lower(dofs_), upper_ = model.upper(dofs_);
   }
 
   int dofs() const { return int(dofs_.size()); }
@@ -103,7 +103,7 @@ class Ways {
 bool showsOneScene(const Path& path) {
   for (int slice = firstMotion(path) - 1; slice < path.grid().slices(); ++slice) {
     const State& state = path.state(slice);
-    if (state.sharedProgram() != path.given().program || state.sharedParameters() != path.state(0).sharedParameters())
+    if (state.sharedModel() != path.given().model || state.sharedParameters() != path.state(0).sharedParameters())
       return false;
   }
   return true;
@@ -133,9 +133,9 @@ std::vector<VectorXd> spread(const std::vector<VectorXd>& way, int count) {
 }
 
 /// Where configurations between two are drawn from.
-TreeRoom roomAround(const Program& program, std::vector<int> dofs, const VectorXd& from, const VectorXd& to) {
-  TreeRoom room{std::move(dofs), {}, {}};
-  room.lower = program.lower(room.dofs), room.upper = program.upper(room.dofs);
+TreeBounds roomAround(const KinematicModel& model, std::vector<int> dofs, const VectorXd& from, const VectorXd& to) {
+  TreeBounds room{std::move(dofs), {}, {}};
+  room.lower = model.lower(room.dofs), room.upper = model.upper(room.dofs);
   const double around = std::max((to - from).norm(), .1);
   for (std::size_t i = 0; i < room.dofs.size(); ++i) {
     double &lower = room.lower[Eigen::Index(i)], &upper = room.upper[Eigen::Index(i)];
@@ -152,10 +152,10 @@ std::vector<VectorXd> freeLeg(const Path& path, EdgeChecker& checker, double apa
   const double most = 20. * apart,
                kept = std::min(checker.clearance(from.data(), most), checker.clearance(to.data(), most));
   if (kept <= 0.) return {};
-  const TreeRoom room = roomAround(*path.given().program, bendableDofs(path), from, to);
+  const TreeBounds room = roomAround(*path.given().model, bendableDofs(path), from, to);
   const auto keeping = [&](double margin, int growths) {
     checker.setMargin(margin);
-    const std::vector<VectorXd> way = treeWay(checker, room, from, to, rng, growths);
+    const std::vector<VectorXd> way = treePath(checker, room, from, to, rng, growths);
     return way.empty() ? way : spread(way, end - begin);
   };
   for (const double more : kRoom) {
@@ -167,7 +167,7 @@ std::vector<VectorXd> freeLeg(const Path& path, EdgeChecker& checker, double apa
 }
 
 /// The variables of a path that is free at all times; none where trees do not find one, or where nothing moves.
-std::optional<VectorXd> freeDetour(Path& path, double apart, MotionProbe& probe, int number) {
+std::optional<VectorXd> freeAlternativePath(Path& path, double apart, MotionProbe& probe, int number) {
   if (!showsOneScene(path)) return std::nullopt;
   const int first = firstMotion(path), count = path.grid().slices(), of_phase = path.grid().slicesPerPhase();
   EdgeChecker& checker = probe.checkerOf(motionInto(path, first));
@@ -191,12 +191,12 @@ std::optional<VectorXd> freeDetour(Path& path, double apart, MotionProbe& probe,
 
 }  // namespace
 
-std::optional<VectorXd> detour(Path& path, double apart, MotionProbe& probe, int number) {
+std::optional<VectorXd> alternativePath(Path& path, double apart, MotionProbe& probe, int number) {
   if (path.grid().slices() < 3) return std::nullopt;
   const VectorXd given = path.variables();
   Ways ways(path, apart, probe);
   if (ways.dofs() == 0) return std::nullopt;
-  if (const auto free = freeDetour(path, apart, probe, number)) return free;
+  if (const auto free = freeAlternativePath(path, apart, probe, number)) return free;
   Rng rng{std::uint64_t(number)};
   const auto draw = [&](double size) {
     VectorXd drawn(ways.dofs());

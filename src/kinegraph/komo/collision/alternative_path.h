@@ -18,6 +18,6 @@ namespace kinegraph {
 /// with d linear between d(0) = 0, four postures near the ends and between them, and d(1) = 0. These are drawn at random and
 /// improved by random moves, so that sampled configurations lack as little as possible to be `apart` of everything; some
 /// obstacles may be left in the way.
-std::optional<VectorXd> detour(Path& path, double apart, MotionProbe& probe, int number);
+std::optional<VectorXd> alternativePath(Path& path, double apart, MotionProbe& probe, int number);
 
 }  // namespace kinegraph

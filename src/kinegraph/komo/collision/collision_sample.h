@@ -3,7 +3,7 @@
 namespace kinegraph {
 
 /// An instant of a motion between slices at which two shapes count; or room for one.
-struct PairInstant {
+struct CollisionSample {
   double share = 0.;   ///< of the way, in [0, 1]
   int a = -1, b = -1;  ///< frames; -1: there is none yet
 

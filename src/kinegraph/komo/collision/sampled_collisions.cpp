@@ -4,18 +4,18 @@
 
 namespace kinegraph {
 
-AlongMotion::AlongMotion(Form form, double most, std::vector<PairInstant> instants, std::vector<int> same_dofs,
+SampledCollisions::SampledCollisions(Form form, double most, std::vector<CollisionSample> samples, std::vector<int> same_dofs,
                          const State& begin)
-    : form_(form), most_(most), instants_(int(instants.size())), same_dofs_(std::move(same_dofs)) {
-  if (!std::ranges::all_of(instants, &PairInstant::isEmpty))
-    pairs_ = std::make_unique<InstantPairs>(std::move(instants), most, begin);
+    : form_(form), most_(most), samples_(int(samples.size())), same_dofs_(std::move(same_dofs)) {
+  if (!std::ranges::all_of(samples, &CollisionSample::isEmpty))
+    pairs_ = std::make_unique<SampledPairs>(std::move(samples), most, begin);
 }
 
-std::optional<double> AlongMotion::flatValue() const {
+std::optional<double> SampledCollisions::flatValue() const {
   return form_ == Form::sum ? std::nullopt : std::optional(-most_);
 }
 
-void AlongMotion::place(double s, const State& begin, const State& end, VectorXd& q) const {
+void SampledCollisions::place(double s, const State& begin, const State& end, VectorXd& q) const {
   for (std::size_t dof = 0; dof < same_dofs_.size(); ++dof) {
     const double from = begin.q()[Eigen::Index(dof)], to = same_dofs_[dof] < 0 ? from : end.q()[same_dofs_[dof]];
     q[Eigen::Index(dof)] = (1. - s) * from + s * to;
@@ -23,7 +23,7 @@ void AlongMotion::place(double s, const State& begin, const State& end, VectorXd
 }
 
 /// Adds that of -distance at q(s) to the columns of both configurations.
-void AlongMotion::spread(double s, int row, const InstantPairs::Gradient& gradient, JacobianRows& J) const {
+void SampledCollisions::spread(double s, int row, const SampledPairs::Gradient& gradient, JacobianRows& J) const {
   const Eigen::Index second = J.cols() / 2;
   for (std::size_t dof = 0; dof < same_dofs_.size(); ++dof) {
     const double value = gradient(0, Eigen::Index(dof));
@@ -34,13 +34,13 @@ void AlongMotion::spread(double s, int row, const InstantPairs::Gradient& gradie
   }
 }
 
-void AlongMotion::eval(std::span<const State* const> states, double, Eigen::Ref<VectorXd> y, JacobianRows* J) const {
+void SampledCollisions::eval(std::span<const State* const> states, double, Eigen::Ref<VectorXd> y, JacobianRows* J) const {
   const bool is_sum = form_ == Form::sum;
   y.setConstant(is_sum ? 0. : -most_);
   if (!pairs_) return;
   double share = 0.;
   const auto place_at = [&](double s, VectorXd& q) { place(share = s, *states[0], *states[1], q); };
-  const auto see = [&](int i, double distance, const InstantPairs::Gradient& gradient) {
+  const auto see = [&](int i, double distance, const SampledPairs::Gradient& gradient) {
     const int row = is_sum ? 0 : i;
     y[row] = is_sum ? y[row] + most_ - distance : -distance;
     if (J) spread(share, row, gradient, *J);

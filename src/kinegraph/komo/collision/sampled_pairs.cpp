@@ -15,17 +15,17 @@ bool areFar(const CollisionBody& a, const RigidTransform& X_WA, const CollisionB
 
 }  // namespace
 
-InstantPairs::InstantPairs(std::vector<PairInstant> instants, double most, const State& scene)
-    : instants_(std::move(instants)), most_(most), state_(scene), q_(scene.dofs()), gradient_(1, scene.dofs()) {
-  for (std::size_t i = 0; i < instants_.size(); ++i)
-    if (!instants_[i].isEmpty()) in_order_.push_back(int(i));
-  std::ranges::stable_sort(in_order_, {}, [&](int i) { return instants_[std::size_t(i)].share; });
+SampledPairs::SampledPairs(std::vector<CollisionSample> samples, double most, const State& scene)
+    : samples_(std::move(samples)), most_(most), state_(scene), q_(scene.dofs()), gradient_(1, scene.dofs()) {
+  for (std::size_t i = 0; i < samples_.size(); ++i)
+    if (!samples_[i].isEmpty()) in_order_.push_back(int(i));
+  std::ranges::stable_sort(in_order_, {}, [&](int i) { return samples_[std::size_t(i)].share; });
 }
 
-bool InstantPairs::isNear(const PairInstant& instant, bool with_gradient, double& distance) {
-  const auto& [share, a, b] = instant;
-  const CollisionBody &body_a = *state_.program().body[std::size_t(a)],
-                      &body_b = *state_.program().body[std::size_t(b)];
+bool SampledPairs::isNear(const CollisionSample& sample, bool with_gradient, double& distance) {
+  const auto& [share, a, b] = sample;
+  const CollisionBody &body_a = *state_.model().body[std::size_t(a)],
+                      &body_b = *state_.model().body[std::size_t(b)];
   const RigidTransform X_WA = state_.pose(a), X_WB = state_.pose(b);
   if (areFar(body_a, X_WA, body_b, X_WB, most_)) return false;
   const Proximity near = proximity(body_a, X_WA, body_b, X_WB);

@@ -9,14 +9,14 @@
 namespace kinegraph {
 
 /// Pairs of shapes at instants of a motion, however q goes there: how near they are.
-class InstantPairs {
+class SampledPairs {
  public:
   using Gradient = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;  ///< one row
 
   /// Pairs count that are nearer than `most`, m. `scene` is any State of the motion.
-  InstantPairs(std::vector<PairInstant> instants, double most, const State& scene);
+  SampledPairs(std::vector<CollisionSample> samples, double most, const State& scene);
 
-  int size() const { return int(instants_.size()); }
+  int size() const { return int(samples_.size()); }
   bool areAllEmpty() const { return in_order_.empty(); }
 
   /// Calls `place(share, q)`, which writes the q of a share of the way, for each instant in time, and `see(i, distance,
@@ -29,20 +29,20 @@ class InstantPairs {
     if (state_.sharedParameters() != parameters) state_.replaceParameters(parameters);
     double placed = -1.;
     for (const int i : in_order_) {
-      const PairInstant& instant = instants_[std::size_t(i)];
-      if (instant.share != placed) {
-        place(placed = instant.share, q_);
+      const CollisionSample& sample = samples_[std::size_t(i)];
+      if (sample.share != placed) {
+        place(placed = sample.share, q_);
         state_.setJoints(q_.data());
       }
       double distance;
-      if (isNear(instant, with_gradients, distance)) see(i, distance, gradient_);
+      if (isNear(sample, with_gradients, distance)) see(i, distance, gradient_);
     }
   }
 
  private:
-  bool isNear(const PairInstant& instant, bool with_gradient, double& distance);
+  bool isNear(const CollisionSample& sample, bool with_gradient, double& distance);
 
-  std::vector<PairInstant> instants_;
+  std::vector<CollisionSample> samples_;
   std::vector<int> in_order_;  ///< those that are not empty, by their shares
   double most_;
   std::mutex mutex_;

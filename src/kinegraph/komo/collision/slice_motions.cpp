@@ -8,16 +8,16 @@ constexpr double kStill = .1;  // rad or m: starts are moved by a little noise
 
 }  // namespace
 
-WayKind wayOf(BetweenSlices& motions, int from, int to) {
+GuessKind wayOf(SliceMotions& motions, int from, int to) {
   VectorXd begin;
   bool moves = false;
   for (int slice = from; slice <= to; ++slice) {
     const SliceMotion motion = motions.motionInto(slice);
     if (slice == from || motion.to.size() != begin.size()) begin = motion.from;
     moves = moves || (motion.to - begin).lpNorm<Eigen::Infinity>() > kStill;
-    if (motions.tooNear(slice, 0.)) return WayKind::blocked;
+    if (motions.tooNear(slice, 0.)) return GuessKind::blocked;
   }
-  return moves ? WayKind::free : WayKind::still;
+  return moves ? GuessKind::free : GuessKind::still;
 }
 
 }  // namespace kinegraph

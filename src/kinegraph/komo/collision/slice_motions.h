@@ -10,9 +10,9 @@ namespace kinegraph {
 
 /// How near pairs of shapes come on the motions from slice to slice, however q goes there. Times are shares of the way to a
 /// slice, in [0, 1].
-class BetweenSlices {
+class SliceMotions {
  public:
-  virtual ~BetweenSlices() = default;
+  virtual ~SliceMotions() = default;
 
   virtual SliceMotion motionInto(int slice) const = 0;  ///< with its ends; in between q may go another way
 
@@ -28,12 +28,12 @@ class BetweenSlices {
 };
 
 /// Of the motions that lead to the slices [from, to].
-WayKind wayOf(BetweenSlices& motions, int from, int to);
+GuessKind wayOf(SliceMotions& motions, int from, int to);
 
 /// q goes straight from slice to slice of a path.
-class LinesBetweenSlices final : public BetweenSlices {
+class LinearSliceMotions final : public SliceMotions {
  public:
-  LinesBetweenSlices(const Path& path, MotionProbe& probe) : path_(path), probe_(probe) {}
+  LinearSliceMotions(const Path& path, MotionProbe& probe) : path_(path), probe_(probe) {}
 
   SliceMotion motionInto(int slice) const override { return kinegraph::motionInto(path_, slice); }
   std::optional<MotionContact> tooNear(int slice, double margin) override {

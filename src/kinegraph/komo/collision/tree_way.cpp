@@ -43,7 +43,7 @@ struct Tree {
 
 class TwoTrees {
  public:
-  TwoTrees(EdgeChecker& checker, const TreeRoom& room, const VectorXd& from, const VectorXd& to, Rng& rng)
+  TwoTrees(EdgeChecker& checker, const TreeBounds& room, const VectorXd& from, const VectorXd& to, Rng& rng)
       : checker_(checker), room_(room), rng_(rng), range_(kRange * (to - from).norm()) {
     trees_[0].add(from, -1);
     trees_[1].add(to, -1);
@@ -122,7 +122,7 @@ class TwoTrees {
   }
 
   EdgeChecker& checker_;
-  const TreeRoom& room_;
+  const TreeBounds& room_;
   Rng& rng_;
   double range_;
   Tree trees_[2];
@@ -130,7 +130,7 @@ class TwoTrees {
 
 }  // namespace
 
-std::vector<VectorXd> treeWay(EdgeChecker& checker, const TreeRoom& room, const VectorXd& from, const VectorXd& to,
+std::vector<VectorXd> treePath(EdgeChecker& checker, const TreeBounds& room, const VectorXd& from, const VectorXd& to,
                               Rng& rng, int growths) {
   VectorXd rest = to - from;
   rest(room.dofs).setZero();

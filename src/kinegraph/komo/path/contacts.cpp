@@ -8,7 +8,7 @@ std::vector<Interaction> Contacts::interactions(const Path& path) const {
     const State& state = path.state(t);
     for (const ContactForce& contact : forces_) {
       if (!contact.isIn(state)) continue;
-      const std::vector<std::string>& names = state.program().frame_name;
+      const std::vector<std::string>& names = state.model().frame_name;
       list.push_back(
           {t, names[contact.object], names[contact.from], state.position(contact.point), contact.value(state)});
     }

@@ -2,9 +2,9 @@
 
 namespace kinegraph {
 
-GivenScene::GivenScene(const Config& config)
+InitialConfiguration::InitialConfiguration(const Config& config)
     : tree(config.scene()->snapshot()),
-      program(config.program()),
+      model(config.model()),
       parameters(config.parameters()),
       q(config.getJointState()),
       source_(config.scene()) {
@@ -15,14 +15,14 @@ GivenScene::GivenScene(const Config& config)
   }
 }
 
-Config GivenScene::config() const {
+Config InitialConfiguration::config() const {
   Config copy(*tree);
   copy.setJointState(q);
   restoreAttributes(copy);
   return copy;
 }
 
-void GivenScene::restoreAttributes(Config& copy) const {
+void InitialConfiguration::restoreAttributes(Config& copy) const {
   const auto& frames = copy.scene()->frames();
   for (const auto& source : source_->frames()) {
     if (source->id < int(frames.size()) && frames[source->id]->name == source->name)
@@ -30,15 +30,15 @@ void GivenScene::restoreAttributes(Config& copy) const {
   }
 }
 
-void GivenScene::takeOverPoses(const Config& config) {
+void InitialConfiguration::transferPoses(const Config& config) {
   const auto copy = std::make_shared<SceneTree>();
   copy->append(*tree, {}, false);
-  kinegraph::takeOverPoses(*copy, config);
+  kinegraph::transferPoses(*copy, config);
   tree = copy;
   parameters = config.parameters();
 }
 
-void takeOverPoses(SceneTree& target, const Config& config) {
+void transferPoses(SceneTree& target, const Config& config) {
   for (const auto& source : config.scene()->frames()) {
     FrameData& frame = *target.frames()[source->id];
     const int parent = source->parent ? source->parent->id : -1, parent_here = frame.parent ? frame.parent->id : -1;

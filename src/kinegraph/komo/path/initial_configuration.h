@@ -9,11 +9,11 @@
 namespace kinegraph {
 
 /// The configuration that a motion problem is made from, as it was then; later edits of it do not show here.
-struct GivenScene {
-  GivenScene() = default;
-  explicit GivenScene(const Config& config);
+struct InitialConfiguration {
+  InitialConfiguration() = default;
+  explicit InitialConfiguration(const Config& config);
 
-  bool empty() const { return !program; }
+  bool empty() const { return !model; }
 
   /// A copy of the scene, at the q that was given.
   Config config() const;
@@ -22,12 +22,12 @@ struct GivenScene {
   void restoreAttributes(Config& copy) const;
 
   /// Takes over the poses of frames that no joint moves. `config` has the same frames and joints.
-  void takeOverPoses(const Config& config);
+  void transferPoses(const Config& config);
 
   bool isShared(int frame) const { return shared_joints.contains(frame); }
 
   std::shared_ptr<const SceneTree> tree;  ///< without the frames' attributes
-  std::shared_ptr<const Program> program;
+  std::shared_ptr<const KinematicModel> model;
   std::shared_ptr<const Parameters> parameters;
   VectorXd q;
   std::vector<int> joint_frames;  ///< those whose joints make up q
@@ -39,6 +39,6 @@ struct GivenScene {
 
 /// The same for any scene that began as a copy of the given one: frames that hang, without a joint, below the same
 /// parent in both take over the pose that they have in `config`.
-void takeOverPoses(SceneTree& target, const Config& config);
+void transferPoses(SceneTree& target, const Config& config);
 
 }  // namespace kinegraph

@@ -14,7 +14,7 @@ constexpr std::size_t kUsualDofs = 256;
 }  // namespace
 
 void Path::setScene(const Config& config) {
-  given_ = GivenScene(config);
+  given_ = InitialConfiguration(config);
   shown_frames_.clear();
   for (const auto& frame : config.scene()->frames()) shown_frames_.push_back(frame->id);
   build();
@@ -30,7 +30,7 @@ void Path::build() {
   const std::size_t count = std::size_t(grid_.slices() + grid_.order());
   states_.clear();
   states_.reserve(count);
-  State first(given_.program, given_.parameters);
+  State first(given_.model, given_.parameters);
   first.setJoints(given_.q.data());
   for (std::size_t i = 1; i < count; ++i) states_.push_back(first);
   states_.push_back(std::move(first));
@@ -77,7 +77,7 @@ VectorXd Path::variables() const {
 
 void Path::setVariables(const VectorXd& x) {
   if (layout_.plain) {
-    for (int t = 0; t < grid_.slices(); ++t) setSlice(t, x.data() + t * given_.program->dofs);
+    for (int t = 0; t < grid_.slices(); ++t) setSlice(t, x.data() + t * given_.model->dofs);
     return;
   }
   double usual[kUsualDofs];  // solvers call this in their loop, where no memory is requested
@@ -96,13 +96,13 @@ void Path::setVariables(const VectorXd& x) {
 }
 
 std::vector<int> Path::dofsOf(const std::vector<int>& frames, int slice) const {
-  const Program& program = state(slice).program();
+  const KinematicModel& model = state(slice).model();
   std::vector<int> dofs;
   for (int frame : frames) {
-    if (frame < 0 || frame >= int(program.frame_dofs.size()) || program.frame_dofs[frame].count == 0) {
+    if (frame < 0 || frame >= int(model.frame_dofs.size()) || model.frame_dofs[frame].count == 0) {
       throw ValueError(cat("KOMO: frame ", frame, " has no active joint in slice ", slice));
     }
-    const auto [first, count] = program.frame_dofs[frame];
+    const auto [first, count] = model.frame_dofs[frame];
     for (int i = first; i < first + count; ++i) dofs.push_back(i);
   }
   return dofs;
@@ -158,9 +158,9 @@ void Path::rebuildStates() {
   states_.reserve(old.size());
   for (std::size_t i = 0; i < old.size(); ++i) {
     Mode& mode = modes_.at(i);
-    State state(mode.config.program(), mode.config.parameters());
+    State state(mode.config.model(), mode.config.parameters());
     VectorXd q = mode.config.getJointState();
-    const Program &now = state.program(), &before = old[i].program();
+    const KinematicModel &now = state.model(), &before = old[i].model();
     for (std::size_t frame = 0; frame < before.frame_dofs.size(); ++frame) {
       const auto [first, count] = now.frame_dofs[frame];
       const auto [first_before, count_before] = before.frame_dofs[frame];
@@ -231,20 +231,20 @@ void Path::addFrame(const std::string& name, const std::string& parent, JointTyp
 }
 
 void Path::updateRootObjects(const Config& config) {
-  const auto program = config.program();
-  if (program != given_.program &&
-      (program->frame_name != given_.program->frame_name || program->dofs != given_.program->dofs)) {
+  const auto model = config.model();
+  if (model != given_.model &&
+      (model->frame_name != given_.model->frame_name || model->dofs != given_.model->dofs)) {
     throw ValueError(
         "KOMO: updateRootObjects needs the configuration that the KOMO was made from, with the same frames, joints and "
         "shapes");
   }
-  if (program == given_.program && modes_.empty()) {
+  if (model == given_.model && modes_.empty()) {
     given_.tree.reset();  // so that its memory can be used again
     given_.tree = config.scene()->snapshot();
     given_.parameters = config.parameters();
   } else {
-    given_.takeOverPoses(config);
-    for (const auto& mode : modes_.list()) takeOverPoses(*mode->config.scene(), config);
+    given_.transferPoses(config);
+    for (const auto& mode : modes_.list()) transferPoses(*mode->config.scene(), config);
   }
   for (std::size_t i = 0; i < states_.size(); ++i)
     states_[i].setParameters(modes_.empty() ? given_.parameters : modes_.at(i).config.parameters());
@@ -254,12 +254,12 @@ void Path::updateRootObjects(const Config& config) {
 /// The slices before the first begin at q, with those of their joints that the given configuration has.
 void Path::moveStart(const VectorXd& q) {
   given_.q = q;
-  const Program& given = *given_.program;
+  const KinematicModel& given = *given_.model;
   for (int slice = -grid_.order(); slice < 0; ++slice) {
     VectorXd all = state(slice).q();
     for (int frame : given_.joint_frames) {
       const auto [first_given, count_given] = given.frame_dofs[std::size_t(frame)];
-      const auto [first, count] = state(slice).program().frame_dofs[std::size_t(frame)];
+      const auto [first, count] = state(slice).model().frame_dofs[std::size_t(frame)];
       const bool is_constant =
           layout_.plain || layout_.column[std::size_t(slice + grid_.order())][std::size_t(first)] < 0;
       if (count == count_given && is_constant) all.segment(first, count) = q.segment(first_given, count);
@@ -283,7 +283,7 @@ void Path::setContent(Content content) {
   bool fits = content.states.size() == count && content.mode_of.size() == count;
   if (fits) modes_ = Modes(std::move(content.modes), std::move(content.mode_of), content.next_joint);
   for (std::size_t i = 0; fits && i < count; ++i) {
-    if (!modes_.empty()) states_[i] = State(modes_.at(i).config.program(), modes_.at(i).config.parameters());
+    if (!modes_.empty()) states_[i] = State(modes_.at(i).config.model(), modes_.at(i).config.parameters());
     fits = content.states[i].size() == states_[i].dofs();
     if (fits) states_[i].setJoints(content.states[i].data());
   }

@@ -27,11 +27,11 @@ class Path {
   void requireBuilt(const char* call) const;
 
   const TimeGrid& grid() const { return grid_; }
-  const GivenScene& given() const { return given_; }
+  const InitialConfiguration& given() const { return given_; }
   const Modes& modes() const { return modes_; }
   const PathLayout& layout() const { return layout_; }
   int revision() const { return revision_; }
-  int dofs() const { return given_.program->dofs; }                      ///< of the given configuration
+  int dofs() const { return given_.model->dofs; }                      ///< of the given configuration
   const std::vector<int>& shownFrames() const { return shown_frames_; }  ///< without those that only modes need
 
   // --- states ------------------------------------------------------------------------------------------------------
@@ -105,7 +105,7 @@ class Path {
   void layOut() { layout_ = makeLayout(states_, grid_.order(), given_.shared_joints, modes_); }
   void requireSlice(int slice) const;
 
-  GivenScene given_;
+  InitialConfiguration given_;
   TimeGrid grid_;
   Modes modes_;
   std::vector<State> states_;

@@ -10,7 +10,7 @@ void JointsOfFrames::eval(std::span<const State* const> states, double, Eigen::R
   const State& state = *states[0];
   int row = 0;
   for (const Part& part : parts_) {
-    const int first = state.program().frame_dofs[part.frame].first + part.first;
+    const int first = state.model().frame_dofs[part.frame].first + part.first;
     for (int i = 0; i < part.count; ++i, ++row) {
       y[row] = state.q()[first + i];
       if (J) (*J)(row, first + i) += 1.;

@@ -15,7 +15,7 @@ namespace {
 /// Takes dofs that all slices share to all of them, from the slice that owns them.
 void spreadSharedDofs(Path& path) { path.setVariables(path.variables()); }
 
-const std::vector<Program::DofRange>& ownedDofs(const Path& path, int slice) {
+const std::vector<KinematicModel::DofRange>& ownedDofs(const Path& path, int slice) {
   return path.layout().owned[std::size_t(slice + path.grid().order())];
 }
 
@@ -31,7 +31,7 @@ VectorXd randomState(const Path& path, int slice, Config& config, Rng& rng) {
     if (slice <= 0) break;
     Joint& joint = *config.scene()->frames()[frame]->joint;
     const State& before = path.state(slice - 1);
-    const auto [first, count] = before.program().frame_dofs[frame];
+    const auto [first, count] = before.model().frame_dofs[frame];
     if (joint.dofs() != count) continue;
     homes.emplace_back(&joint, std::move(joint.home));
     joint.home = before.q().segment(first, count);
@@ -43,14 +43,14 @@ VectorXd randomState(const Path& path, int slice, Config& config, Rng& rng) {
 }
 
 /// Which dofs are rotations without limits: these take the short way round.
-std::vector<bool> endlessDofs(const Program& program) {
-  std::vector<bool> endless(std::size_t(program.dofs), false);
-  for (std::size_t l = 1; l < program.links.size(); ++l) {
-    const Program::Link& link = program.links[l];
+std::vector<bool> endlessDofs(const KinematicModel& model) {
+  std::vector<bool> endless(std::size_t(model.dofs), false);
+  for (std::size_t l = 1; l < model.links.size(); ++l) {
+    const KinematicModel::Link& link = model.links[l];
     int dof = link.dof;
     for (int s = link.first_step; s < link.first_step + link.steps; ++s) {
-      const MotionStep& motion = program.steps[s];
-      if (motion.turns() && std::isinf(program.lower[dof])) endless[std::size_t(dof)] = true;
+      const MotionStep& motion = model.steps[s];
+      if (motion.turns() && std::isinf(model.lower[dof])) endless[std::size_t(dof)] = true;
       dof += motion.dofs();
     }
   }
@@ -85,8 +85,8 @@ void writeWaypoint(Path& path, int slice, std::size_t i, const VectorXd& waypoin
 /// Fills the slices between waypoints, which are `joints` at `slices`.
 void joinWaypoints(Path& path, const std::vector<int>& slices, const std::vector<VectorXd>& joints,
                    const WaypointOptions& options) {
-  const Program& program = *path.given().program;
-  const std::vector<bool> endless = endlessDofs(program);
+  const KinematicModel& model = *path.given().model;
+  const std::vector<bool> endless = endlessDofs(model);
   int from = 0;
   VectorXd at = givenDofs(path, 0);
   for (std::size_t i = 0; i < slices.size(); ++i) {
@@ -99,7 +99,7 @@ void joinWaypoints(Path& path, const std::vector<int>& slices, const std::vector
     for (int t = from; blends && t <= to; ++t) {
       const double s = double(t - from) / (to - from), blend = .5 * (1. - std::cos(std::numbers::pi * s));
       VectorXd q = at + blend * way;
-      q += options.towards_home * std::pow(std::sin(std::numbers::pi * s), 2) * (program.home - q);
+      q += options.towards_home * std::pow(std::sin(std::numbers::pi * s), 2) * (model.home - q);
       path.setJoints(t, q);
     }
     const int end = i + 1 < slices.size() ? slices[i + 1] : path.grid().slices();

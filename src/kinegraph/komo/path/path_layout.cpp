@@ -8,14 +8,14 @@ namespace {
 
 struct DofSet {
   int frame;
-  Program::DofRange dofs;
+  KinematicModel::DofRange dofs;
 };
 
 /// The dofs of a program, joint by joint in the order of q.
-std::vector<DofSet> dofSets(const Program& program) {
+std::vector<DofSet> dofSets(const KinematicModel& model) {
   std::map<int, DofSet> by_first;  // mimicking joints repeat the dofs of another
-  for (int frame = 0; frame < int(program.frame_dofs.size()); ++frame) {
-    const Program::DofRange& dofs = program.frame_dofs[frame];
+  for (int frame = 0; frame < int(model.frame_dofs.size()); ++frame) {
+    const KinematicModel::DofRange& dofs = model.frame_dofs[frame];
     if (dofs.count > 0) by_first.try_emplace(dofs.first, DofSet{frame, dofs});
   }
   std::vector<DofSet> sets;
@@ -25,11 +25,11 @@ std::vector<DofSet> dofSets(const Program& program) {
 
 PathLayout plainLayout(const std::vector<State>& states, int prefix) {
   PathLayout layout;
-  const Program& program = states.front().program();
+  const KinematicModel& model = states.front().model();
   const int slices = int(states.size()) - prefix;
-  layout.dimension = slices * program.dofs;
-  layout.lower = program.lower.replicate(slices, 1);
-  layout.upper = program.upper.replicate(slices, 1);
+  layout.dimension = slices * model.dofs;
+  layout.lower = model.lower.replicate(slices, 1);
+  layout.upper = model.upper.replicate(slices, 1);
   return layout;
 }
 
@@ -43,13 +43,13 @@ PathLayout makeLayout(const std::vector<State>& states, int prefix, const std::s
   layout.owned.resize(states.size());
   std::vector<double> lower, upper;
   std::map<int, int> shared;  // joint -> its first column; original stable joints are -1 - frame
-  std::map<const Program*, std::vector<DofSet>> sets;
+  std::map<const KinematicModel*, std::vector<DofSet>> sets;
   for (std::size_t i = 0; i < states.size(); ++i) {
-    const Program& program = states[i].program();
-    auto [place, is_new] = sets.try_emplace(&program);
-    if (is_new) place->second = dofSets(program);
+    const KinematicModel& model = states[i].model();
+    auto [place, is_new] = sets.try_emplace(&model);
+    if (is_new) place->second = dofSets(model);
     std::vector<int>& column = layout.column[i];
-    column.assign(program.dofs, -1);
+    column.assign(model.dofs, -1);
     for (const DofSet& set : place->second) {
       const Mode::Added* added = nullptr;
       if (!modes.empty()) {
@@ -68,8 +68,8 @@ PathLayout makeLayout(const std::vector<State>& states, int prefix, const std::s
       for (int d = 0; d < set.dofs.count; ++d) {
         column[set.dofs.first + d] = first + d;
         if (!owner) continue;
-        lower.push_back(program.lower[set.dofs.first + d]);
-        upper.push_back(program.upper[set.dofs.first + d]);
+        lower.push_back(model.lower[set.dofs.first + d]);
+        upper.push_back(model.upper[set.dofs.first + d]);
       }
       if (owner) layout.owned[i].push_back(set.dofs);
     }

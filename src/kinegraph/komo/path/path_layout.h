@@ -15,7 +15,7 @@ struct PathLayout {
   int dimension = 0;
   bool plain = true;                                  ///< x is just the q of the slices from 0 on, one after the other
   std::vector<std::vector<int>> column;               ///< per slice and dof; -1: constant
-  std::vector<std::vector<Program::DofRange>> owned;  ///< per slice: its dofs that are in x at this slice
+  std::vector<std::vector<KinematicModel::DofRange>> owned;  ///< per slice: its dofs that are in x at this slice
   VectorXd lower, upper;                              ///< per entry of x
 };
 

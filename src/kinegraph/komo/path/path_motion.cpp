@@ -13,10 +13,10 @@ namespace kinegraph {
 namespace {
 
 /// The distance of a pair along a motion.
-class PairAlongMotion {
+class SampledPairCollision {
  public:
-  PairAlongMotion(const SliceMotion& motion, int a, int b)
-      : motion_(motion), pair_(*motion.program, {{a, b}}), placed_(pair_), state_(motion.program, motion.parameters) {}
+  SampledPairCollision(const SliceMotion& motion, int a, int b)
+      : motion_(motion), pair_(*motion.model, {{a, b}}), placed_(pair_), state_(motion.model, motion.parameters) {}
 
   double at(double s) {
     q_ = (1. - s) * motion_.from + s * motion_.to;
@@ -50,7 +50,7 @@ class PairAlongMotion {
 };
 
 /// Where the pair is nearest from `start` on: the best of some samples, and by golden section around it.
-std::pair<double, double> nearest(PairAlongMotion& pair, double start) {
+std::pair<double, double> nearest(SampledPairCollision& pair, double start) {
   constexpr int kSamples = 64, kSections = 25;
   constexpr double kGolden = .6180339887498949;
   const double step = (1. - start) / kSamples;
@@ -86,7 +86,7 @@ std::pair<double, double> nearest(PairAlongMotion& pair, double start) {
 std::optional<MotionContact> firstContactOf(const SliceMotion& motion, std::pair<int, int> frames, double margin,
                                             double tolerance) {
   const auto [a, b] = frames;
-  PairAlongMotion pair(motion, a, b);
+  SampledPairCollision pair(motion, a, b);
   const double speed = pair.speed();
   for (double s = 0.; s <= 1.;) {
     const double distance = pair.at(s);
@@ -99,10 +99,10 @@ std::optional<MotionContact> firstContactOf(const SliceMotion& motion, std::pair
 }
 
 PathContact describe(const SliceMotion& motion, const MotionContact& contact) {
-  PairAlongMotion pair(motion, contact.a, contact.b);
+  SampledPairCollision pair(motion, contact.a, contact.b);
   const auto [deepest, distance] = nearest(pair, contact.time);
   const auto timeOf = [&](double s) { return motion.begin + s * (motion.end - motion.begin); };
-  const std::vector<std::string>& names = motion.program->frame_name;
+  const std::vector<std::string>& names = motion.model->frame_name;
   return {motion.slice, timeOf(contact.time), names[std::size_t(contact.a)], names[std::size_t(contact.b)],
           distance,     timeOf(deepest)};
 }
@@ -110,7 +110,7 @@ PathContact describe(const SliceMotion& motion, const MotionContact& contact) {
 }  // namespace
 
 std::vector<int> sameDofs(const Path& path, int slice) {
-  const Program &before = path.state(slice - 1).program(), &now = path.state(slice).program();
+  const KinematicModel &before = path.state(slice - 1).model(), &now = path.state(slice).model();
   std::vector<int> same(std::size_t(before.dofs), -1);
   const bool one_mode = &before == &now;
   for (std::size_t frame = 0; frame < before.frame_dofs.size(); ++frame) {
@@ -136,11 +136,11 @@ SliceMotion motionInto(const Path& path, int slice) {
   SliceMotion motion{slice,
                      path.grid().timeOf(slice - 1),
                      path.grid().timeOf(slice),
-                     before.sharedProgram(),
+                     before.sharedModel(),
                      before.sharedParameters(),
                      before.q(),
                      before.q()};
-  if (&before.program() == &now.program()) {
+  if (&before.model() == &now.model()) {
     motion.to = now.q();
     return motion;
   }
@@ -158,10 +158,10 @@ std::vector<SliceMotion> motionsOf(const Path& path) {
 }
 
 MotionProbe::Scene::Scene(const SliceMotion& motion, double tolerance)
-    : program(motion.program), parameters(motion.parameters), checker(State(program, parameters), 0., tolerance) {}
+    : model(motion.model), parameters(motion.parameters), checker(State(model, parameters), 0., tolerance) {}
 
 EdgeChecker& MotionProbe::checkerOf(const SliceMotion& motion) {
-  if (!scene_ || scene_->program != motion.program || scene_->parameters != motion.parameters)
+  if (!scene_ || scene_->model != motion.model || scene_->parameters != motion.parameters)
     scene_ = std::make_unique<Scene>(motion, tolerance_);
   return scene_->checker;
 }

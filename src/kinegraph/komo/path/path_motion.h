@@ -17,7 +17,7 @@ namespace kinegraph {
 struct SliceMotion {
   int slice = 0;                ///< where it ends
   double begin = 0., end = 0.;  ///< phase times
-  std::shared_ptr<const Program> program;
+  std::shared_ptr<const KinematicModel> model;
   std::shared_ptr<const Parameters> parameters;
   VectorXd from, to;
   bool of_all = true;                        ///< does it count for all pairs that may collide and that joints part?
@@ -60,7 +60,7 @@ class MotionProbe {
  private:
   struct Scene {
     Scene(const SliceMotion& motion, double tolerance);
-    std::shared_ptr<const Program> program;
+    std::shared_ptr<const KinematicModel> model;
     std::shared_ptr<const Parameters> parameters;
     EdgeChecker checker;
   };

@@ -14,33 +14,33 @@ constexpr double kBriefest = 1e-6;  // s
 
 }  // namespace
 
-MovingCheck::MovingCheck(const MovingScene& scene, double margin)
+DynamicCheck::DynamicCheck(const DynamicScene& scene, double margin)
     : scene_(&scene), margin_(margin), state_(scene.state()), edges_(scene.state(), margin, kTolerance) {}
 
-bool MovingCheck::isFree(const VectorXd& q, double t) {
+bool DynamicCheck::isFree(const VectorXd& q, double t) {
   ++evaluations;
   edges_.setMargin(margin_);
   return edges_.isFree(scene_->at(q, t).data());
 }
 
-bool MovingCheck::staysFree(const VectorXd& q, double begin, double end) {
+bool DynamicCheck::staysFree(const VectorXd& q, double begin, double end) {
   ++evaluations;
   edges_.setMargin(margin_);
   return edges_.isFree(scene_->at(q, begin).data(), scene_->at(q, end).data());
 }
 
-double MovingCheck::clearance(const VectorXd& q, double t, double most) {
+double DynamicCheck::clearance(const VectorXd& q, double t, double most) {
   ++evaluations;
   return edges_.clearance(scene_->at(q, t).data(), most);
 }
 
-std::pair<int, int> MovingCheck::lastPair() const {
+std::pair<int, int> DynamicCheck::lastPair() const {
   const auto& hit = edges_.lastHit();
   return hit ? std::pair(hit->a, hit->b) : std::pair(0, 0);
 }
 
-MovingCheck::Moment MovingCheck::momentOf(const Piece& piece, double time) const {
-  const LawState state = piece.phase.at(time - piece.phase.time);
+DynamicCheck::Moment DynamicCheck::momentOf(const Piece& piece, double time) const {
+  const ScalingState state = piece.phase.at(time - piece.phase.time);
   const double place = std::clamp(state.s, piece.phase.begin.s, piece.phase.end);
   Moment moment{time, VectorXd(piece.curve.dofs()), place, state.acceleration};
   piece.curve.eval(piece.phase.piece, place, 0, moment.q.data());
@@ -48,7 +48,7 @@ MovingCheck::Moment MovingCheck::momentOf(const Piece& piece, double time) const
 }
 
 /// How far points of the robot may be from where they are on the chord between two moments.
-double MovingCheck::roomOf(const Piece& piece, const Moment& from, const Moment& to) {
+double DynamicCheck::roomOf(const Piece& piece, const Moment& from, const Moment& to) {
   const double share = (to.time - from.time) * (to.time - from.time) / 8.;
   const double most = std::max(std::abs(from.speedup), std::abs(to.speedup));  // between them s'' is monotone
   const VectorXd deviation = share * (piece.tangent.size() > 0 ? VectorXd(most * piece.tangent) : piece.acceleration);
@@ -63,7 +63,7 @@ double MovingCheck::roomOf(const Piece& piece, const Moment& from, const Moment&
   return travel;
 }
 
-std::optional<MovingContact> MovingCheck::contactIn(const Piece& piece, const Moment& from, const Moment& to) {
+std::optional<DynamicContact> DynamicCheck::contactIn(const Piece& piece, const Moment& from, const Moment& to) {
   const double room = roomOf(piece, from, to);
   ++evaluations;
   edges_.setMargin(margin_ + room);
@@ -71,16 +71,16 @@ std::optional<MovingContact> MovingCheck::contactIn(const Piece& piece, const Mo
   if (edges_.isFree(begin.data(), end.data())) return std::nullopt;
   if (room < kRoom || to.time - from.time < kBriefest) {
     const MotionContact& hit = *edges_.lastHit();
-    return MovingContact{piece.start + from.time, hit.a, hit.b, from.place};
+    return DynamicContact{piece.start + from.time, hit.a, hit.b, from.place};
   }
   const Moment middle = momentOf(piece, .5 * (from.time + to.time));
   if (const auto contact = contactIn(piece, from, middle)) return contact;
   return contactIn(piece, middle, to);
 }
 
-std::optional<MovingContact> MovingCheck::contact(const PathCurve& curve, const TimeLaw& law,
+std::optional<DynamicContact> DynamicCheck::contact(const PathCurve& curve, const TimeScaling& scaling,
                                                   const VectorXd& acceleration, double start) {
-  const std::vector<LawPhase>& phases = law.phases();
+  const std::vector<ScalingPhase>& phases = scaling.phases();
   for (std::size_t i = 0; i < phases.size(); ++i) {
     Piece piece{curve, phases[i], acceleration, start};
     if (curve.pieces() > 0 && curve.isLine(phases[i].piece)) {
@@ -88,9 +88,9 @@ std::optional<MovingContact> MovingCheck::contact(const PathCurve& curve, const 
       curve.eval(phases[i].piece, phases[i].begin.s, 1, piece.tangent.data());
       piece.tangent = piece.tangent.cwiseAbs();
     }
-    const double begin = phases[i].time, end = i + 1 < phases.size() ? phases[i + 1].time : law.duration();
-    const LawState& law_begin = phases[i].begin;
-    const bool waits = law_begin.speed == 0. && law_begin.acceleration == 0. && law_begin.jerk == 0.;
+    const double begin = phases[i].time, end = i + 1 < phases.size() ? phases[i + 1].time : scaling.duration();
+    const ScalingState& scaling_begin = phases[i].begin;
+    const bool waits = scaling_begin.speed == 0. && scaling_begin.acceleration == 0. && scaling_begin.jerk == 0.;
     std::vector<double> times = {begin};
     const auto add = [&](double until) {
       const double from = times.back();

@@ -11,7 +11,7 @@
 namespace kinegraph {
 
 /// Where a motion meets an obstacle that moves.
-struct MovingContact {
+struct DynamicContact {
   double time = 0.;   ///< s: until then the motion is free
   int a = 0, b = 0;   ///< frame ids of the scene
   double place = 0.;  ///< s of the curve
@@ -23,15 +23,15 @@ struct MovingContact {
 /// second derivative is at most a leaves the chord from time t to t + h by h^2 / 8 a at most: the chord is checked as
 /// EdgeChecker does, with so much more room as points of the robot may move meanwhile. Where that is not free, h is
 /// halved, until the room is less than kRoom.
-class MovingCheck {
+class DynamicCheck {
  public:
   static constexpr double kTolerance = 1e-5;  ///< m
   static constexpr double kRoom = 1e-4;       ///< m
 
   /// `scene` must stay. The margin is in m.
-  MovingCheck(const MovingScene& scene, double margin);
+  DynamicCheck(const DynamicScene& scene, double margin);
 
-  const MovingScene& scene() const { return *scene_; }
+  const DynamicScene& scene() const { return *scene_; }
   double margin() const { return margin_; }
   void setMargin(double margin) { margin_ = margin; }
 
@@ -45,7 +45,7 @@ class MovingCheck {
   double clearance(const VectorXd& q, double t, double most);
 
   /// What the motion of a law along a curve meets first, if it begins at `start` s. `acceleration`, (n,), is what it keeps.
-  std::optional<MovingContact> contact(const PathCurve& curve, const TimeLaw& law, const VectorXd& acceleration,
+  std::optional<DynamicContact> contact(const PathCurve& curve, const TimeScaling& scaling, const VectorXd& acceleration,
                                        double start = 0.);
 
   /// The pair of the last question that was answered no, ids of frames of the scene.
@@ -61,16 +61,16 @@ class MovingCheck {
   };
   struct Piece {
     const PathCurve& curve;
-    const LawPhase& phase;
+    const ScalingPhase& phase;
     const VectorXd& acceleration;
     double start;
     VectorXd tangent = {};  ///< dq/ds of a line; empty on what is curved
   };
   Moment momentOf(const Piece& piece, double time) const;
   double roomOf(const Piece& piece, const Moment& from, const Moment& to);
-  std::optional<MovingContact> contactIn(const Piece& piece, const Moment& from, const Moment& to);
+  std::optional<DynamicContact> contactIn(const Piece& piece, const Moment& from, const Moment& to);
 
-  const MovingScene* scene_;
+  const DynamicScene* scene_;
   double margin_;
   State state_;
   EdgeChecker edges_;

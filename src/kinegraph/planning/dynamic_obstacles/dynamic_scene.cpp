@@ -13,7 +13,7 @@ namespace {
 constexpr int kPose = 7;
 constexpr const char* kCarrier = "moving obstacles of a plan";
 
-void requireTrack(const MovingObstacle& obstacle, const std::string& what) {
+void requireTrack(const ObstacleTrajectory& obstacle, const std::string& what) {
   const Eigen::Index count = obstacle.times.size();
   if (count == 0) throw ValueError(cat(what, " has no times"));
   if (obstacle.values.rows() != count)
@@ -45,9 +45,9 @@ void makeInvisible(FrameData& frame) {
 
 }  // namespace
 
-MovingScene::MovingScene(const Config& config, std::vector<MovingObstacle> obstacles, const char* who)
+DynamicScene::DynamicScene(const Config& config, std::vector<ObstacleTrajectory> obstacles, const char* who)
     : obstacles_(std::move(obstacles)), config_(config), moving_(config), belongs_(config.getFrames().size(), 0) {
-  for (MovingObstacle& obstacle : obstacles_) addTrack(obstacle, who);
+  for (ObstacleTrajectory& obstacle : obstacles_) addTrack(obstacle, who);
   moving_.scene()->structureChanged();
   keepPairsWithObstacles();
   mapDofs();
@@ -55,17 +55,17 @@ MovingScene::MovingScene(const Config& config, std::vector<MovingObstacle> obsta
   breaks_.erase(std::unique(breaks_.begin(), breaks_.end()), breaks_.end());
 }
 
-void MovingScene::addTrack(MovingObstacle& obstacle, const char* who) {
+void DynamicScene::addTrack(ObstacleTrajectory& obstacle, const char* who) {
   const std::string what = cat(who, ": the moving obstacle '", obstacle.frame, "'");
   const Frame frame = config_.getFrame(obstacle.frame);
   requireTrack(obstacle, what);
   std::vector<Frame> parts = frame.getSubtree();
   parts.push_back(frame);
-  const Program& program = *config_.program();
+  const KinematicModel& model = *config_.model();
   bool collides = false;
   for (const Frame& part : parts) {
     const auto id = std::size_t(part.id());
-    if (program.frame_link[id] != 0)
+    if (model.frame_link[id] != 0)
       throw ValueError(
           cat(what,
               part == frame ? std::string(" moves with q") : cat(" carries '", part.getName(), "', which moves with q"),
@@ -102,15 +102,15 @@ void MovingScene::addTrack(MovingObstacle& obstacle, const char* who) {
 }
 
 /// What neither moves with q nor by itself is left out, and so are pairs of parts of the robot and pairs of obstacles.
-void MovingScene::keepPairsWithObstacles() {
+void DynamicScene::keepPairsWithObstacles() {
   std::vector<FrameData*> robot, moving;
-  const Program& program = *config_.program();
+  const KinematicModel& model = *config_.model();
   for (std::size_t id = 0; id < belongs_.size(); ++id) {
     FrameData& frame = moving_.getFrame(int(id)).data();
     if (!frame.shape || frame.shape->contact == 0) continue;
     if (belongs_[id]) {
       moving.push_back(&frame);
-    } else if (program.frame_link[id] != 0) {
+    } else if (model.frame_link[id] != 0) {
       robot.push_back(&frame);
     } else {
       makeInvisible(frame);
@@ -123,8 +123,8 @@ void MovingScene::keepPairsWithObstacles() {
   moving_.scene()->structureChanged();
 }
 
-void MovingScene::mapDofs() {
-  const Program &before = *config_.program(), &after = *moving_.program();
+void DynamicScene::mapDofs() {
+  const KinematicModel &before = *config_.model(), &after = *moving_.model();
   dof_.assign(std::size_t(before.dofs), 0);
   for (std::size_t id = 0; id < before.frame_dofs.size(); ++id)
     for (int i = 0; i < before.frame_dofs[id].count; ++i)
@@ -133,7 +133,7 @@ void MovingScene::mapDofs() {
     tracks_[k].first_dof = after.frame_dofs[std::size_t(carrier_[k])].first;
 }
 
-VectorXd MovingScene::rowAt(int obstacle, double t) const {
+VectorXd DynamicScene::rowAt(int obstacle, double t) const {
   const VectorXd& times = obstacles_[std::size_t(obstacle)].times;
   const MatrixXd& rows = tracks_[std::size_t(obstacle)].rows;
   const auto after = std::upper_bound(times.begin(), times.end(), t) - times.begin();
@@ -143,14 +143,14 @@ VectorXd MovingScene::rowAt(int obstacle, double t) const {
   return ((1. - share) * rows.row(after - 1) + share * rows.row(after)).transpose();
 }
 
-VectorXd MovingScene::valuesAt(int obstacle, double t) const {
+VectorXd DynamicScene::valuesAt(int obstacle, double t) const {
   VectorXd values = rowAt(obstacle, t);
   if (tracks_[std::size_t(obstacle)].is_pose) values.tail<4>().normalize();
   return values;
 }
 
-VectorXd MovingScene::at(const VectorXd& q, double t) const {
-  VectorXd all = moving_.program()->home;
+VectorXd DynamicScene::at(const VectorXd& q, double t) const {
+  VectorXd all = moving_.model()->home;
   for (std::size_t i = 0; i < dof_.size(); ++i) all[dof_[i]] = q[Eigen::Index(i)];
   for (std::size_t k = 0; k < tracks_.size(); ++k) {
     const VectorXd row = rowAt(int(k), t);
@@ -159,13 +159,13 @@ VectorXd MovingScene::at(const VectorXd& q, double t) const {
   return all;
 }
 
-VectorXd MovingScene::changeOf(const VectorXd& change) const {
-  VectorXd all = VectorXd::Zero(moving_.program()->dofs);
+VectorXd DynamicScene::changeOf(const VectorXd& change) const {
+  VectorXd all = VectorXd::Zero(moving_.model()->dofs);
   for (std::size_t i = 0; i < dof_.size(); ++i) all[dof_[i]] = change[Eigen::Index(i)];
   return all;
 }
 
-Config MovingScene::standing(const std::vector<double>& times) const {
+Config DynamicScene::standing(const std::vector<double>& times) const {
   Config scene(config_);
   for (std::size_t id = 0; id < belongs_.size(); ++id)
     if (belongs_[id]) makeInvisible(scene.getFrame(int(id)).data());

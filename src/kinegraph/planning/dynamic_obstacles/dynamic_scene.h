@@ -10,7 +10,7 @@ namespace kinegraph {
 /// What moves by itself while a robot moves: a frame of the scene, with all that hangs on it, and where it is at which
 /// time. Between two times it goes straight (a quaternion the shorter way, and normalized); before the first and after
 /// the last one it stands still. It is no part of q, and nothing of q moves it.
-struct MovingObstacle {
+struct ObstacleTrajectory {
   std::string frame;
   VectorXd times;  ///< (K,), rising, s
 
@@ -23,12 +23,12 @@ struct MovingObstacle {
 /// Where they are is part of a longer joint vector, of which the robot's q is the other part, so that a straight motion
 /// of q during a time in which each obstacle goes straight is one of that vector. The pairs that count are those of a
 /// part of the robot and of an obstacle.
-class MovingScene {
+class DynamicScene {
  public:
   /// Throws FrameNotFound, and ValueError for what makes no sense, with `who` in front.
-  MovingScene(const Config& config, std::vector<MovingObstacle> obstacles, const char* who);
+  DynamicScene(const Config& config, std::vector<ObstacleTrajectory> obstacles, const char* who);
 
-  const std::vector<MovingObstacle>& obstacles() const { return obstacles_; }
+  const std::vector<ObstacleTrajectory>& obstacles() const { return obstacles_; }
   const State& state() const { return moving_.state(); }
 
   /// When something begins, changes or ends its motion, ascending from 0 on; 0 is the first of them.
@@ -58,12 +58,12 @@ class MovingScene {
     MatrixXd rows;  ///< values with quaternions of one sign from row to row
   };
 
-  void addTrack(MovingObstacle& obstacle, const char* who);
+  void addTrack(ObstacleTrajectory& obstacle, const char* who);
   void keepPairsWithObstacles();
   void mapDofs();
   VectorXd rowAt(int obstacle, double t) const;
 
-  std::vector<MovingObstacle> obstacles_;
+  std::vector<ObstacleTrajectory> obstacles_;
   std::vector<Track> tracks_;
   Config config_, moving_;
   std::vector<char> belongs_;  ///< per frame of config_: whether it is part of an obstacle

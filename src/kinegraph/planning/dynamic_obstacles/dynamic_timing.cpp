@@ -27,21 +27,21 @@ struct FreeTime {
 
 class TimeSearch {
  public:
-  TimeSearch(const TimedPath& fastest, const MotionLimits& limits, MovingCheck& check, const MotionWatch& watch)
+  TimeSearch(const TimedPath& fastest, const MotionLimits& limits, DynamicCheck& check, const CancellationToken& watch)
       : curve_(fastest.curve()),
-        fastest_(fastest.law()),
+        fastest_(fastest.scaling()),
         limits_(limits),
         check_(check),
         watch_(watch),
         step_(std::clamp(kStepShare * fastest_.duration(), kLeastStep, kMostStep)) {
-    const std::vector<LawPhase>& phases = fastest_.phases();
+    const std::vector<ScalingPhase>& phases = fastest_.phases();
     start_speed_ = phases.front().begin.speed;
     const auto stop =
-        std::find_if(phases.begin() + 1, phases.end(), [](const LawPhase& p) { return p.begin.speed < kStill; });
+        std::find_if(phases.begin() + 1, phases.end(), [](const ScalingPhase& p) { return p.begin.speed < kStill; });
     first_stop_ = stop == phases.end() ? curve_.length() : stop->begin.s;
   }
 
-  MovingTiming run() {
+  DynamicTiming run() {
     placeStations();
     const std::vector<FreeTime>& at_goal = freeTimes(last());
     result_.met = check_.contact(curve_, fastest_, limits_.acceleration);
@@ -54,13 +54,13 @@ class TimeSearch {
     const bool stays = fastest_.duration() >= at_goal.back().begin;
     if (!result_.met && stays) {
       result_.was_found = result_.is_fastest = true;
-      result_.law = fastest_;
+      result_.scaling = fastest_;
       return std::move(result_);
     }
     if (!result_.met) {  // it comes to the goal later
       const double free_from = at_goal.back().begin;
       const auto [a, b] = blockers(last(), std::max(0., free_from - step_), free_from);
-      result_.met = MovingContact{at_goal.back().begin, a, b, curve_.length()};
+      result_.met = DynamicContact{at_goal.back().begin, a, b, curve_.length()};
     }
     if (curve_.length() > 0.) search();
     if (!result_.was_found && result_.message.empty()) result_.message = failure();
@@ -86,7 +86,7 @@ class TimeSearch {
   };
   struct Leg {
     bool was_made = false, is_possible = false;
-    TimeLaw law;
+    TimeScaling scaling;
     double suspect = 0.;  ///< when, after its beginning, it met something the last time
   };
 
@@ -175,9 +175,9 @@ class TimeSearch {
     const TimedPath timed = retime(MatrixXd(), part.curve, limits_, options);
     leg.is_possible = timed.feasible();
     if (leg.is_possible) {
-      leg.law = part.onWhole(timed.law());
+      leg.scaling = part.onWhole(timed.scaling());
     } else if (from == 0. && std::abs(to - first_stop_) <= kSame * curve_.length()) {
-      leg.law = part.onWhole(part.restOf(fastest_, 0.));  // the law that is known stops there
+      leg.scaling = part.onWhole(part.restOf(fastest_, 0.));  // the law that is known stops there
       leg.is_possible = true;
     }
     return leg;
@@ -187,7 +187,7 @@ class TimeSearch {
   double restOf(int station) {
     if (station == last()) return 0.;
     const Leg& leg = legOf(station, last());
-    return leg.is_possible ? leg.law.duration() : fastest_.duration() - passes_[std::size_t(station)];
+    return leg.is_possible ? leg.scaling.duration() : fastest_.duration() - passes_[std::size_t(station)];
   }
 
   void expand(int index) {
@@ -208,10 +208,10 @@ class TimeSearch {
   bool isFree(Leg& leg, int slower, double departure) {
     const double factor = kSlower[slower];
     ++result_.tries;
-    if (!check_.isFree(motionAt(curve_, leg.law, leg.suspect).q, departure + factor * leg.suspect)) return false;
-    TimeLaw law = leg.law;
-    if (factor != 1.) law.slowDown(factor);
-    const auto contact = check_.contact(curve_, law, limits_.acceleration, departure);
+    if (!check_.isFree(motionAt(curve_, leg.scaling, leg.suspect).q, departure + factor * leg.suspect)) return false;
+    TimeScaling scaling = leg.scaling;
+    if (factor != 1.) scaling.slowDown(factor);
+    const auto contact = check_.contact(curve_, scaling, limits_.acceleration, departure);
     if (contact) leg.suspect = (contact->time - departure) / factor;
     return !contact;
   }
@@ -244,7 +244,7 @@ class TimeSearch {
     const Node node = nodes_[std::size_t(entry.node)];
     Leg& leg = legOf(node.station, entry.to);
     if (!leg.is_possible) return false;
-    const double takes = kSlower[entry.slower] * leg.law.duration(), arrival = entry.departure + takes,
+    const double takes = kSlower[entry.slower] * leg.scaling.duration(), arrival = entry.departure + takes,
                  least = arrival + restOf(entry.to);
     if (least > entry.least) {  // what it really takes was not known
       entry.least = least;
@@ -291,11 +291,11 @@ class TimeSearch {
       const double place = places_[std::size_t(before.station)], wait = node.departure - before.arrival;
       if (wait > 0.) {
         result_.waits.push_back({before.arrival, wait, place});
-        result_.law.add({0., {place, 0., 0., 0.}, 0., place, curve_.pieceAt(place)}, wait);
+        result_.scaling.add({0., {place, 0., 0., 0.}, 0., place, curve_.pieceAt(place)}, wait);
       }
-      TimeLaw law = legOf(before.station, node.station).law;
-      if (node.slower) law.slowDown(kSlower[node.slower]);
-      result_.law.append(law);
+      TimeScaling scaling = legOf(before.station, node.station).scaling;
+      if (node.slower) scaling.slowDown(kSlower[node.slower]);
+      result_.scaling.append(scaling);
     }
   }
 
@@ -308,24 +308,24 @@ class TimeSearch {
   }
 
   std::string words(int a, int b) const {
-    const Program& program = check_.scene().state().program();
+    const KinematicModel& model = check_.scene().state().model();
     if (check_.scene().isObstacle(a)) std::swap(a, b);
-    return cat("'", program.frame_name[std::size_t(a)], "' meets '", program.frame_name[std::size_t(b)], "'");
+    return cat("'", model.frame_name[std::size_t(a)], "' meets '", model.frame_name[std::size_t(b)], "'");
   }
 
   std::string failure() const {
     if (watch_ && watch_()) return "stopped before a timing was found";
-    const MovingContact& met = *result_.met;
+    const DynamicContact& met = *result_.met;
     return cat("no timing along the way was found in ", result_.tries, " tries: without waiting, ", words(met.a, met.b),
                " at ", met.time, " s, ", std::lround(100. * met.place / std::max(curve_.length(), 1e-300)),
                " % of the way");
   }
 
   const PathCurve& curve_;
-  const TimeLaw& fastest_;
+  const TimeScaling& fastest_;
   const MotionLimits& limits_;
-  MovingCheck& check_;
-  const MotionWatch& watch_;
+  DynamicCheck& check_;
+  const CancellationToken& watch_;
   const double step_;  ///< of departures, s
   double start_speed_, first_stop_;
   std::vector<double> places_, passes_;  ///< of stations: s, and when the fastest law passes
@@ -335,13 +335,13 @@ class TimeSearch {
   std::vector<Node> nodes_;
   std::priority_queue<Entry> queue_;
   long order_ = 0;
-  MovingTiming result_;
+  DynamicTiming result_;
 };
 
 }  // namespace
 
-MovingTiming timeAmongMoving(const TimedPath& fastest, const MotionLimits& limits, MovingCheck& check,
-                             const MotionWatch& watch) {
+DynamicTiming timeAmongObstacles(const TimedPath& fastest, const MotionLimits& limits, DynamicCheck& check,
+                             const CancellationToken& watch) {
   return TimeSearch(fastest, limits, check, watch).run();
 }
 

@@ -7,7 +7,7 @@
 namespace kinegraph {
 
 /// When a robot is where on a curve, so that it meets no moving obstacle.
-struct MovingTiming {
+struct DynamicTiming {
   /// It stands still.
   struct Wait {
     double begin, seconds;  ///< s
@@ -15,9 +15,9 @@ struct MovingTiming {
   };
   bool was_found = false;
   bool is_fastest = false;  ///< nothing is in the way of the fastest law
-  TimeLaw law;
+  TimeScaling scaling;
   std::vector<Wait> waits;
-  std::optional<MovingContact> met;  ///< what the fastest law meets first
+  std::optional<DynamicContact> met;  ///< what the fastest law meets first
   std::string message;               ///< where none was found: why
   long tries = 0;                    ///< motions from one stop to another that were checked
 };
@@ -31,7 +31,7 @@ struct MovingTiming {
 /// leg that is not free at a departure is tried at later ones. Source: Phillips, Likhachev, SIPP: Safe interval path
 /// planning for dynamic environments, 2011; Kant, Zucker, Toward efficient trajectory planning: the path-velocity
 /// decomposition, 1986.
-MovingTiming timeAmongMoving(const TimedPath& fastest, const MotionLimits& limits, MovingCheck& check,
-                             const MotionWatch& watch = {});
+DynamicTiming timeAmongObstacles(const TimedPath& fastest, const MotionLimits& limits, DynamicCheck& check,
+                             const CancellationToken& watch = {});
 
 }  // namespace kinegraph

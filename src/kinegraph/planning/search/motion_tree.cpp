@@ -44,19 +44,19 @@ std::vector<int> MotionTree::branch(int i) const {
 
 void MotionTree::cut(int i) {
   std::vector<int> place(nodes_.size(), 0);  // where nodes go; -1: they are removed. Children come after their parents
-  std::size_t kept = 0;
+  std::size_t verified_margin = 0;
   for (std::size_t k = 0; k < nodes_.size(); ++k) {
     const int parent = nodes_[k].parent;
     const bool removed = int(k) == i || (parent >= 0 && place[std::size_t(parent)] < 0);
-    place[k] = removed ? -1 : int(kept);
+    place[k] = removed ? -1 : int(verified_margin);
     if (removed) continue;
-    nodes_[kept] = nodes_[k];
-    if (parent >= 0) nodes_[kept].parent = place[std::size_t(parent)];
-    std::copy_n(values_.begin() + std::ptrdiff_t(k * dofs_), dofs_, values_.begin() + std::ptrdiff_t(kept * dofs_));
-    ++kept;
+    nodes_[verified_margin] = nodes_[k];
+    if (parent >= 0) nodes_[verified_margin].parent = place[std::size_t(parent)];
+    std::copy_n(values_.begin() + std::ptrdiff_t(k * dofs_), dofs_, values_.begin() + std::ptrdiff_t(verified_margin * dofs_));
+    ++verified_margin;
   }
-  nodes_.resize(kept);
-  values_.resize(kept * dofs_);
+  nodes_.resize(verified_margin);
+  values_.resize(verified_margin * dofs_);
 }
 
 }  // namespace kinegraph

@@ -31,11 +31,11 @@ std::uint64_t attemptSeed(std::uint64_t seed, int attempt) {
 /// Attempts of all threads, and the first one that succeeded.
 class Attempts {
  public:
-  Attempts(const WayRequest& request, std::vector<long> efforts)
+  Attempts(const PathQuery& request, std::vector<long> efforts)
       : request_(request), efforts_(std::move(efforts)), results_(efforts_.size()), first_(int(efforts_.size())) {}
 
   Way run() {
-    forParts(
+    parallelFor(
         int(efforts_.size()), 1, request_.threads, [&](int worker, int i, int) { attempt(i, worker == 0); },
         [&] { askWatch(); });
     return collect();
@@ -60,7 +60,7 @@ class Attempts {
   void attempt(int i, bool asks) {
     if (stopped_ || first_ < i) return;
     std::optional<Steering> own;
-    Steering& steering = asks && request_.steering ? *request_.steering : own.emplace(request_.demands);
+    Steering& steering = asks && request_.steering ? *request_.steering : own.emplace(request_.constraints);
     steering.check().forget();
     TreeSearch search(steering, request_.starts, request_.goals,
                       {request_.range, attemptSeed(request_.seed, i), efforts_[std::size_t(i)]});
@@ -74,7 +74,7 @@ class Attempts {
       for (int first = first_; i < first && !first_.compare_exchange_weak(first, i);) {
       }
     }
-    way.attempts = {{search.draws(), search.effort(), search.nodes(false), search.nodes(true)}};
+    way.attempts = {{search.samples(), search.evaluations(), search.nodes(false), search.nodes(true)}};
     way.hits = steering.check().hits();
     way.trees = {search.tree(false), search.tree(true)};
   }
@@ -85,8 +85,8 @@ class Attempts {
     all.was_stopped = stopped_;
     for (int i = 0; i < int(results_.size()) && i <= first_; ++i) {
       Way& one = results_[std::size_t(i)].way;
-      for (const AttemptReport& report : one.attempts) {
-        all.effort += report.effort;
+      for (const SearchReport& report : one.attempts) {
+        all.evaluations += report.evaluations;
         all.attempts.push_back(report);
       }
       if (results_[std::size_t(i)].found) {
@@ -101,7 +101,7 @@ class Attempts {
     return all;
   }
 
-  const WayRequest& request_;
+  const PathQuery& request_;
   const std::vector<long> efforts_;
   std::vector<Result> results_;
   std::atomic<int> first_;
@@ -109,8 +109,8 @@ class Attempts {
 };
 
 /// The straight motions, the shortest first.
-std::optional<Way> straightWay(const WayRequest& request, Steering& steering) {
-  const JointSpace& space = *request.demands.space;
+std::optional<Way> straightWay(const PathQuery& request, Steering& steering) {
+  const JointSpace& space = *request.constraints.space;
   std::vector<std::pair<double, std::pair<int, int>>> lines;
   for (int s = 0; s < int(request.starts.size()); ++s)
     for (int g = 0; g < int(request.goals.size()); ++g)
@@ -132,22 +132,22 @@ std::optional<Way> straightWay(const WayRequest& request, Steering& steering) {
 
 }  // namespace
 
-Way searchWay(const WayRequest& request) {
-  request.demands.space->requireRanges("planMotion");
+Way searchPath(const PathQuery& request) {
+  request.constraints.space->requireRanges("planMotion");
   long spent = 0;
   if (request.tries_line) {
     std::optional<Steering> own;
-    Steering& steering = request.steering ? *request.steering : own.emplace(request.demands);
+    Steering& steering = request.steering ? *request.steering : own.emplace(request.constraints);
     const long before = steering.evaluations();
     std::optional<Way> line = straightWay(request, steering);
     spent = steering.evaluations() - before;
     if (line) {
-      line->effort = spent;
+      line->evaluations = spent;
       return std::move(*line);
     }
   }
-  Way way = Attempts(request, efforts(request.effort - spent)).run();
-  way.effort += spent;
+  Way way = Attempts(request, efforts(request.evaluations - spent)).run();
+  way.evaluations += spent;
   return way;
 }
 

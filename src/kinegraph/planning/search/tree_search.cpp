@@ -13,10 +13,10 @@ constexpr int kNearEvery = 16;  // draws; of these, those that nothing grows to 
 
 /// A posture within the radius of one of the tree's. Where all that a tree has is next to obstacles, as in a narrow passage
 /// or a space of many dofs, hardly a posture of the whole space is near enough to grow to.
-VectorXd drawNear(const MotionTree& tree, const JointSpace& space, Rng& rng) {
+VectorXd sampleNear(const MotionTree& tree, const JointSpace& space, Rng& rng) {
   const int i = std::min(int(rng.uniform(0., tree.size())), tree.size() - 1);
   const double radius = std::min(tree.node(i).radius, kFirstRadius);
-  const VectorXd from = tree.q(i), away = space.difference(from, space.draw(rng, from));
+  const VectorXd from = tree.q(i), away = space.difference(from, space.sample(rng, from));
   VectorXd q = from + rng.uniform(0., radius) / std::max(away.norm(), 1e-9) * away;
   space.clamp(q);
   space.normalize(q);
@@ -34,7 +34,7 @@ TreeSearch::TreeSearch(Steering& steering, const std::vector<VectorXd>& starts, 
       evaluations_before_(steering.evaluations()) {}
 
 bool TreeSearch::run(const std::function<bool()>& stop) {
-  while (effort() < options_.effort) {
+  while (evaluations() < options_.evaluations) {
     if (draws_ % kAskEvery == 0 && stop()) return false;
     ++draws_;
     if (grow()) return true;
@@ -45,12 +45,12 @@ bool TreeSearch::run(const std::function<bool()>& stop) {
 bool TreeSearch::grow() {
   if (trees_[growing_].size() * 2 > trees_[1 - growing_].size()) growing_ = 1 - growing_;
   MotionTree &tree = trees_[growing_], &other = trees_[1 - growing_];
-  VectorXd target = steering_.space().draw(rng_, tree.q(0));
+  VectorXd target = steering_.space().sample(rng_, tree.q(0));
   if (steering_.isConstrained() && !steering_.manifold().project(target)) return false;
   double distance = 0.;
   int near = tree.nearest(target, distance);
   if (distance > tree.node(near).radius && draws_ % kNearEvery == 0) {
-    target = drawNear(tree, steering_.space(), rng_);
+    target = sampleNear(tree, steering_.space(), rng_);
     if (steering_.isConstrained() && !steering_.manifold().project(target)) return false;
     near = tree.nearest(target, distance);
   }

@@ -21,7 +21,7 @@ class TreeSearch {
   struct Options {
     double range = 1.;       ///< longest motion that is added at once, in joint space
     std::uint64_t seed = 0;  ///< of the random postures
-    long effort = 100000;    ///< postures drawn and postures looked at, together, at most
+    long evaluations = 100000;    ///< postures drawn and postures looked at, together, at most
   };
 
   /// `steering` must stay. Starts and goals are free.
@@ -36,8 +36,8 @@ class TreeSearch {
   int start() const { return start_; }
   int goal() const { return goal_; }
 
-  long effort() const { return draws_ + steering_.evaluations() - evaluations_before_; }
-  long draws() const { return draws_; }
+  long evaluations() const { return draws_ + steering_.evaluations() - evaluations_before_; }
+  long samples() const { return draws_; }
   int nodes(bool of_goals) const { return trees_[of_goals].size(); }
   const MotionTree& tree(bool of_goals) const { return trees_[of_goals]; }
 

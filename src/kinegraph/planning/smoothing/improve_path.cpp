@@ -22,66 +22,66 @@ double costOf(const JointSpace& space, const VectorXd& weight, const std::vector
 
 }  // namespace
 
-ShortWay improveWay(const Way& first, const WayRequest& request, const ImproveOptions& options, SteeringCrew& crew) {
-  std::vector<ShortWay> candidates(std::size_t(first.is_line ? 1 : options.tries));
-  const auto pull = [&](Steering& steering, ShortWay& candidate) {
+ShortcutResult improvePath(const Way& first, const PathQuery& request, const ImprovePathOptions& options, SteeringContexts& contexts) {
+  std::vector<ShortcutResult> candidates(std::size_t(first.is_line ? 1 : options.tries));
+  const auto pull = [&](Steering& steering, ShortcutResult& candidate) {
     std::vector<VectorXd> points =
-        pullTaut(steering, candidate.points,
+        tightenPath(steering, candidate.points,
                  {.weight = options.weight, .refinements = options.refinements, .watch = options.late});
-    const double cost = costOf(*request.demands.space, options.weight, points);
+    const double cost = costOf(*request.constraints.space, options.weight, points);
     if (cost >= candidate.cost) return;
     candidate.points = std::move(points);
     candidate.cost = cost;
   };
   const auto attempt = [&](int worker, int i) {
     const int number = options.first_try + i;
-    ShortWay& candidate = candidates[std::size_t(i)];
-    Steering& steering = crew.of(worker, request.demands);
+    ShortcutResult& candidate = candidates[std::size_t(i)];
+    Steering& steering = contexts.of(worker, request.constraints);
     const long before = steering.evaluations();
-    const MotionWatch watch = worker == 0 ? request.watch : options.late;
+    const CancellationToken watch = worker == 0 ? request.watch : options.late;
     if (number == 0) {
       candidate.way = first;
     } else {
-      WayRequest other = request;
+      PathQuery other = request;
       other.seed = Rng(request.seed + std::uint64_t(number)).bits();
-      other.effort = std::min(request.effort, kTryEffort * (first.effort + 1000));
+      other.evaluations = std::min(request.evaluations, kTryEffort * (first.evaluations + 1000));
       other.threads = 1;
       other.tries_line = false;
       other.watch = watch;
       other.steering = &steering;
       if (watch && watch()) return;
-      candidate.way = searchWay(other);
+      candidate.way = searchPath(other);
       candidate.evaluations = steering.evaluations() - before;
       if (candidate.way.points.empty()) return;
     }
-    ShortenOptions shortening{.weight = options.weight, .seed = request.seed + std::uint64_t(number), .watch = watch};
+    ShortcutOptions shortening{.weight = options.weight, .seed = request.seed + std::uint64_t(number), .watch = watch};
     if (!steering.isConstrained()) {  // what is pulled taut needs little more than that its postures are joined
       shortening.cuts = kCuts;
       shortening.corners = false;
     }
     candidate.points = shorten(steering, candidate.way.points, shortening);
-    candidate.cost = costOf(*request.demands.space, options.weight, candidate.points);
+    candidate.cost = costOf(*request.constraints.space, options.weight, candidate.points);
     if (candidate.cost < options.taut_below) pull(steering, candidate);
     candidate.evaluations = steering.evaluations() - before;
   };
-  forParts(
+  parallelFor(
       int(candidates.size()), 1, request.threads, [&](int worker, int i, int) { attempt(worker, i); },
       [&] {
         if (request.watch) request.watch();
       });
   long evaluations = 0;
-  for (const ShortWay& candidate : candidates) evaluations += candidate.evaluations;
-  ShortWay best = std::move(*std::ranges::min_element(candidates, {}, &ShortWay::cost));
+  for (const ShortcutResult& candidate : candidates) evaluations += candidate.evaluations;
+  ShortcutResult best = std::move(*std::ranges::min_element(candidates, {}, &ShortcutResult::cost));
   best.evaluations = evaluations;
   return best;
 }
 
-void tighten(ShortWay& best, const WayRequest& request, const VectorXd& weight, int refinements, SteeringCrew& crew) {
-  Steering& steering = crew.of(0, request.demands);
+void tighten(ShortcutResult& best, const PathQuery& request, const VectorXd& weight, int refinements, SteeringContexts& contexts) {
+  Steering& steering = contexts.of(0, request.constraints);
   const long before = steering.evaluations();
   std::vector<VectorXd> points =
-      pullTaut(steering, best.points, {.weight = weight, .refinements = refinements, .watch = request.watch});
-  const double cost = costOf(*request.demands.space, weight, points);
+      tightenPath(steering, best.points, {.weight = weight, .refinements = refinements, .watch = request.watch});
+  const double cost = costOf(*request.constraints.space, weight, points);
   best.evaluations = steering.evaluations() - before;
   if (cost >= best.cost) return;
   best.points = std::move(points);

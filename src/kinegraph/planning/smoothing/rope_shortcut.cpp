@@ -36,9 +36,9 @@ struct Row {
   int idle = 0;      ///< rounds without a pull
 };
 
-class TautString {
+class RopeShortcut {
  public:
-  TautString(Steering& steering, const std::vector<VectorXd>& path, const TautOptions& options)
+  RopeShortcut(Steering& steering, const std::vector<VectorXd>& path, const RopeShortcutOptions& options)
       : steering_(steering), options_(options), state_(steering.check().scene()) {
     weight_ = options.weight.size() > 0 ? options.weight : VectorXd::Ones(steering.space().dofs());
     divide(path);
@@ -298,7 +298,7 @@ class TautString {
   }
 
   Steering& steering_;
-  const TautOptions& options_;
+  const RopeShortcutOptions& options_;
   State state_;
   VectorXd weight_;
   Points points_;
@@ -311,10 +311,10 @@ class TautString {
 
 }  // namespace
 
-std::vector<VectorXd> pullTaut(Steering& steering, const std::vector<VectorXd>& path, const TautOptions& options) {
+std::vector<VectorXd> tightenPath(Steering& steering, const std::vector<VectorXd>& path, const RopeShortcutOptions& options) {
   if (steering.isConstrained() || path.size() < 3) return path;
   steering.check().forget();  // which pair is met first must not depend on what was asked before
-  return TautString(steering, path, options).run();
+  return RopeShortcut(steering, path, options).run();
 }
 
 }  // namespace kinegraph

@@ -10,17 +10,17 @@ constexpr double kWorth = 1e-3;  // least gain, as a share of the length
 constexpr int kCornerRounds = 8;
 constexpr int kMostMisses = 60;  // random joints that gain nothing
 
-class Shortener {
+class Shortcutter {
  public:
-  Shortener(Steering& steering, std::vector<VectorXd> path, const ShortenOptions& options)
+  Shortcutter(Steering& steering, std::vector<VectorXd> path, const ShortcutOptions& options)
       : steering_(steering), path_(std::move(path)), options_(options), rng_(options.seed) {}
 
   std::vector<VectorXd> run() {
-    joinPostures();
+    joinConfigurations();
     joinPlaces();
     if (options_.corners) {
       cutCorners();
-      joinPostures();
+      joinConfigurations();
     }
     return std::move(path_);
   }
@@ -55,7 +55,7 @@ class Shortener {
     return true;
   }
 
-  void joinPostures() {
+  void joinConfigurations() {
     for (std::size_t i = 0; i + 2 < path_.size(); ++i) {
       if (stopped()) return;
       for (std::size_t j = path_.size() - 1; j > i + 1; --j)
@@ -148,14 +148,14 @@ class Shortener {
 
   Steering& steering_;
   std::vector<VectorXd> path_;
-  const ShortenOptions& options_;
+  const ShortcutOptions& options_;
   Rng rng_;
 };
 
 }  // namespace
 
-std::vector<VectorXd> shorten(Steering& steering, std::vector<VectorXd> path, const ShortenOptions& options) {
-  return Shortener(steering, std::move(path), options).run();
+std::vector<VectorXd> shorten(Steering& steering, std::vector<VectorXd> path, const ShortcutOptions& options) {
+  return Shortcutter(steering, std::move(path), options).run();
 }
 
 }  // namespace kinegraph

@@ -114,7 +114,7 @@ std::vector<ClearanceCheck::Nearest> ClearanceCheck::nearerThan(const VectorXd& 
   ++evaluations;
   edges_.setMargin(up_to);
   if (edges_.isFree(q.data())) return {};  // takes less
-  if (!pairs_) pairs_.emplace(state_.sharedProgram());
+  if (!pairs_) pairs_.emplace(state_.sharedModel());
   state_.setJoints(q.data());
   pairs_->place(state_);
   std::vector<Nearest> near;

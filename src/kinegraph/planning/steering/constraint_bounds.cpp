@@ -34,8 +34,8 @@ MatrixXd weightsOf(const Residual& residual) {
 
 }  // namespace
 
-RowBounds::RowBounds(const State& scene, const Residual& residual)
-    : program_(scene.sharedProgram()),
+ConstraintBounds::ConstraintBounds(const State& scene, const Residual& residual)
+    : model_(scene.sharedModel()),
       parameters_(scene.sharedParameters()),
       weights_(weightsOf(residual)),
       known_(residual.order() == 0 && residual.feature().addLaneRows(list_)) {
@@ -45,15 +45,15 @@ RowBounds::RowBounds(const State& scene, const Residual& residual)
 }
 
 /// The origin of a frame, as seen from a link that it hangs on.
-Rates RowBounds::point(const MotionBounds& bounds, int frame, int ancestor) const {
-  return bounds.ratesOf(program_->frame_link[std::size_t(frame)],
+Rates ConstraintBounds::point(const MotionBounds& bounds, int frame, int ancestor) const {
+  return bounds.ratesOf(model_->frame_link[std::size_t(frame)],
                         parameters_->frame_offset[std::size_t(frame)].p.norm(), ancestor);
 }
 
 /// The largest of a block's rows.
-Rates RowBounds::ratesOf(const LaneRows::Block& block, const MotionBounds& bounds, const VectorXd& change) const {
+Rates ConstraintBounds::ratesOf(const LaneRows::Block& block, const MotionBounds& bounds, const VectorXd& change) const {
   using Block = LaneRows::Block;
-  const auto link = [&](int frame) { return program_->frame_link[std::size_t(frame)]; };
+  const auto link = [&](int frame) { return model_->frame_link[std::size_t(frame)]; };
   const auto ancestor = [&] { return bounds.commonLink(link(block.a), link(block.b)); };
   const auto turn = [&](int frame, int of) { return bounds.directionOf(link(frame), of); };
   const auto turnBetween = [&] { return product(turn(block.a, ancestor()), turn(block.b, ancestor())); };
@@ -87,7 +87,7 @@ Rates RowBounds::ratesOf(const LaneRows::Block& block, const MotionBounds& bound
   return {kUnknown, kUnknown, kUnknown};
 }
 
-void RowBounds::eval(const MotionBounds& bounds, const VectorXd& change, Eigen::Ref<VectorXd> speed,
+void ConstraintBounds::eval(const MotionBounds& bounds, const VectorXd& change, Eigen::Ref<VectorXd> speed,
                      Eigen::Ref<VectorXd> bend) const {
   speed.setZero(), bend.setZero();
   for (const LaneRows::Block& block : list_.blocks()) {

@@ -11,9 +11,9 @@ namespace kinegraph {
 ///
 /// A row is a sum of products of points, directions and joints, whose bounds MotionBounds has; of a product a b, it is
 /// |a''| |b| + 2 |a'| |b'| + |a| |b''|. That is known of positions, directions, quaternions, poses and joints.
-class RowBounds {
+class ConstraintBounds {
  public:
-  RowBounds(const State& scene, const Residual& residual);
+  ConstraintBounds(const State& scene, const Residual& residual);
 
   /// False where nothing is known of its feature.
   bool areKnown() const { return known_; }
@@ -27,7 +27,7 @@ class RowBounds {
   Rates ratesOf(const LaneRows::Block& block, const MotionBounds& bounds, const VectorXd& change) const;
   Rates point(const MotionBounds& bounds, int frame, int ancestor) const;
 
-  std::shared_ptr<const Program> program_;
+  std::shared_ptr<const KinematicModel> model_;
   std::shared_ptr<const Parameters> parameters_;
   LaneRowList list_;
   MatrixXd weights_;  ///< of the feature's rows in those of the residual

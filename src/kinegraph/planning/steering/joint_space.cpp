@@ -13,12 +13,12 @@ namespace {
 constexpr double kTurn = 2. * M_PI;
 
 /// Which dofs nothing but turns follow, such that whole turns change nothing.
-std::vector<char> wholeTurns(const Program& program) {
-  std::vector<char> turns(std::size_t(program.dofs), 1);
-  for (const Program::Link& link : program.links) {
+std::vector<char> wholeTurns(const KinematicModel& model) {
+  std::vector<char> turns(std::size_t(model.dofs), 1);
+  for (const KinematicModel::Link& link : model.links) {
     int dof = link.dof;
     for (int s = link.first_step; s < link.first_step + link.steps; ++s) {
-      const MotionStep& step = program.steps[std::size_t(s)];
+      const MotionStep& step = model.steps[std::size_t(s)];
       const bool whole = step.turns() && link.scale == std::round(link.scale);
       for (int i = 0; i < step.dofs(); ++i, ++dof) turns[std::size_t(dof)] &= whole;
     }
@@ -27,12 +27,12 @@ std::vector<char> wholeTurns(const Program& program) {
 }
 
 /// Which dofs move something.
-std::vector<char> movingDofs(const Program& program) {
-  std::vector<char> moving(std::size_t(program.dofs), 0);
-  for (const Program::Link& link : program.links) {
+std::vector<char> movingDofs(const KinematicModel& model) {
+  std::vector<char> moving(std::size_t(model.dofs), 0);
+  for (const KinematicModel::Link& link : model.links) {
     int dof = link.dof;
     for (int s = link.first_step; s < link.first_step + link.steps; ++s) {
-      const MotionStep& step = program.steps[std::size_t(s)];
+      const MotionStep& step = model.steps[std::size_t(s)];
       for (int i = 0; i < step.dofs(); ++i, ++dof) moving[std::size_t(dof)] |= step.moves();
     }
   }
@@ -41,29 +41,29 @@ std::vector<char> movingDofs(const Program& program) {
 
 }  // namespace
 
-std::vector<std::string> dofNames(const Program& program) {
-  std::vector<std::string> names(std::size_t(program.dofs));
-  for (std::size_t frame = 0; frame < program.frame_dofs.size(); ++frame) {
-    const Program::DofRange range = program.frame_dofs[frame];
+std::vector<std::string> dofNames(const KinematicModel& model) {
+  std::vector<std::string> names(std::size_t(model.dofs));
+  for (std::size_t frame = 0; frame < model.frame_dofs.size(); ++frame) {
+    const KinematicModel::DofRange range = model.frame_dofs[frame];
     for (int i = 0; i < range.count; ++i) {
       std::string& name = names[std::size_t(range.first + i)];
       if (!name.empty()) continue;  // the frame of a joint that mimics it
-      name = range.count == 1 ? program.frame_name[frame] : cat(program.frame_name[frame], ":", i);
+      name = range.count == 1 ? model.frame_name[frame] : cat(model.frame_name[frame], ":", i);
     }
   }
   return names;
 }
 
-JointSpace::JointSpace(const Program& program)
-    : lower_(program.lower),
-      upper_(program.upper),
-      draw_lower_(program.lower),
-      draw_upper_(program.upper),
-      kinds_(std::size_t(program.dofs), Kind::ranged),
-      directions_(program.unit_norms),
-      names_(dofNames(program)) {
-  const std::vector<char> turns = wholeTurns(program), moving = movingDofs(program);
-  for (const Program::DofRange& range : directions_) {
+JointSpace::JointSpace(const KinematicModel& model)
+    : lower_(model.lower),
+      upper_(model.upper),
+      draw_lower_(model.lower),
+      draw_upper_(model.upper),
+      kinds_(std::size_t(model.dofs), Kind::ranged),
+      directions_(model.unit_norms),
+      names_(dofNames(model)) {
+  const std::vector<char> turns = wholeTurns(model), moving = movingDofs(model);
+  for (const KinematicModel::DofRange& range : directions_) {
     for (int i = 0; i < range.count; ++i) kinds_[std::size_t(range.first + i)] = Kind::direction;
     plain_ = false;
   }
@@ -94,7 +94,7 @@ VectorXd JointSpace::difference(const VectorXd& from, const VectorXd& to) const 
   for (std::size_t i = 0; i < kinds_.size(); ++i) {
     if (kinds_[i] == Kind::endless) change[Eigen::Index(i)] = std::remainder(change[Eigen::Index(i)], kTurn);
   }
-  for (const Program::DofRange& range : directions_) {
+  for (const KinematicModel::DofRange& range : directions_) {
     const auto a = from.segment(range.first, range.count), b = to.segment(range.first, range.count);
     if (a.dot(b) < 0.) change.segment(range.first, range.count) = -b - a;
   }
@@ -109,7 +109,7 @@ double JointSpace::squaredDistanceOfKinds(const double* a, const double* b) cons
     if (kinds_[i] == Kind::endless && std::abs(change) > M_PI) change = std::remainder(change, kTurn);
     square += change * change;
   }
-  for (const Program::DofRange& range : directions_) {
+  for (const KinematicModel::DofRange& range : directions_) {
     double less = 0., more = 0.;
     for (int i = range.first; i < range.first + range.count; ++i) {
       less += (b[i] - a[i]) * (b[i] - a[i]);
@@ -120,12 +120,12 @@ double JointSpace::squaredDistanceOfKinds(const double* a, const double* b) cons
   return square;
 }
 
-void JointSpace::drawWithin(const VectorXd& lower, const VectorXd& upper) {
+void JointSpace::sampleWithin(const VectorXd& lower, const VectorXd& upper) {
   draw_lower_ = lower_.cwiseMax(lower);
   draw_upper_ = upper_.cwiseMin(upper);
 }
 
-VectorXd JointSpace::draw(Rng& rng, const VectorXd& like) const {
+VectorXd JointSpace::sample(Rng& rng, const VectorXd& like) const {
   VectorXd q = like;
   for (std::size_t i = 0; i < kinds_.size(); ++i) {
     const auto dof = Eigen::Index(i);
@@ -142,7 +142,7 @@ void JointSpace::normalize(VectorXd& q) const {
   for (std::size_t i = 0; i < kinds_.size(); ++i) {
     if (kinds_[i] == Kind::endless) q[Eigen::Index(i)] = std::remainder(q[Eigen::Index(i)], kTurn);
   }
-  for (const Program::DofRange& range : directions_) {
+  for (const KinematicModel::DofRange& range : directions_) {
     auto part = q.segment(range.first, range.count);
     const double norm = part.norm();
     if (norm > 1e-9) {

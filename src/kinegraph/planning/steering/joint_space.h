@@ -16,7 +16,7 @@ namespace kinegraph {
 /// nearly.
 class JointSpace {
  public:
-  explicit JointSpace(const Program& program);
+  explicit JointSpace(const KinematicModel& model);
 
   int dofs() const { return int(kinds_.size()); }
 
@@ -41,10 +41,10 @@ class JointSpace {
   }
 
   /// From now on dofs with a range are drawn between these (per dof) and their limits.
-  void drawWithin(const VectorXd& lower, const VectorXd& upper);
+  void sampleWithin(const VectorXd& lower, const VectorXd& upper);
 
   /// Uniform within ranges; still dofs as in `like`.
-  VectorXd draw(Rng& rng, const VectorXd& like) const;
+  VectorXd sample(Rng& rng, const VectorXd& like) const;
 
   /// Puts endless dofs into [-pi, pi), and quaternions and circles at length one.
   void normalize(VectorXd& q) const;
@@ -70,7 +70,7 @@ class JointSpace {
   const VectorXd lower_, upper_;
   VectorXd draw_lower_, draw_upper_;
   std::vector<Kind> kinds_;
-  std::vector<Program::DofRange> directions_;
+  std::vector<KinematicModel::DofRange> directions_;
   std::vector<std::string> names_, without_range_;
   bool plain_ = true;
 };
@@ -79,6 +79,6 @@ class JointSpace {
 double pathLength(const JointSpace& space, const MatrixXd& path);
 
 /// "joint" or "joint:i" per dof.
-std::vector<std::string> dofNames(const Program& program);
+std::vector<std::string> dofNames(const KinematicModel& model);
 
 }  // namespace kinegraph

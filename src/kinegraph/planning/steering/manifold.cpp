@@ -32,7 +32,7 @@ Manifold::Manifold(const State& scene, const JointSpace& space, const std::vecto
           cat("planMotion: the constraint ", name, " needs several configurations; expected one of positions"));
     const bool is_equality = constraint.type == ObjectiveType::eq;
     is_equality_.insert(is_equality_.end(), std::size_t(residual.rows()), is_equality);
-    RowBounds bounds(scene, residual);
+    ConstraintBounds bounds(scene, residual);
     const bool is_bounded = bounds.areKnown() && (is_equality || residual.feature().quaternionRow() < 0);
     residuals_.push_back({std::move(residual), constraint.type, name, std::move(bounds), is_bounded});
   }

@@ -55,7 +55,7 @@ class Manifold {
     Residual residual;
     ObjectiveType type;
     std::string name;
-    RowBounds bounds;
+    ConstraintBounds bounds;
     bool is_bounded;
   };
   /// A time of a motion, and the rows there.

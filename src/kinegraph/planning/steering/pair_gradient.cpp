@@ -5,7 +5,7 @@
 namespace kinegraph {
 
 PairGradient pairGradient(const State& state, int a, int b) {
-  const auto& bodies = state.program().body;
+  const auto& bodies = state.model().body;
   const Proximity near = proximity(*bodies[std::size_t(a)], state.pose(a), *bodies[std::size_t(b)], state.pose(b));
   PairGradient pair{near.distance, VectorXd::Zero(state.dofs())};
   const auto add = [&](int frame, const Vector3d& point, double factor) {

@@ -6,7 +6,7 @@
 namespace kinegraph {
 
 /// What a motion has to keep to: one value for all threads.
-struct MotionDemands {
+struct PlanningConstraints {
   const State* scene;       ///< any State of it; must stay
   const JointSpace* space;  ///< must stay
   Clearance clearance = {};
@@ -20,9 +20,9 @@ class Steering {
  public:
   static constexpr double kSpacing = .02;  ///< between postures at which constraints are looked at first
 
-  explicit Steering(const MotionDemands& demands)
-      : check_(*demands.scene, *demands.space, demands.clearance),
-        manifold_(*demands.scene, *demands.space, demands.constraints, demands.constraint_tolerance) {}
+  explicit Steering(const PlanningConstraints& constraints)
+      : check_(*constraints.scene, *constraints.space, constraints.clearance),
+        manifold_(*constraints.scene, *constraints.space, constraints.constraints, constraints.constraint_tolerance) {}
 
   const JointSpace& space() const { return check_.space(); }
   ClearanceCheck& check() { return check_; }
@@ -54,15 +54,15 @@ class Steering {
 };
 
 /// A Steering for each worker, made when it is first asked for.
-class SteeringCrew {
+class SteeringContexts {
  public:
-  explicit SteeringCrew(int workers) : of_(std::size_t(workers)) {}
+  explicit SteeringContexts(int workers) : of_(std::size_t(workers)) {}
 
   /// For demands that differ from those before by no more than the clearance.
-  Steering& of(int worker, const MotionDemands& demands) {
+  Steering& of(int worker, const PlanningConstraints& constraints) {
     std::unique_ptr<Steering>& steering = of_[std::size_t(worker)];
-    if (!steering) steering = std::make_unique<Steering>(demands);
-    steering->check().setClearance(demands.clearance);
+    if (!steering) steering = std::make_unique<Steering>(constraints);
+    steering->check().setClearance(constraints.clearance);
     return *steering;
   }
 

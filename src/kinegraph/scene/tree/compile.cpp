@@ -26,14 +26,14 @@ std::vector<const FrameData*> topologicalOrder(const SceneTree& scene) {
 }
 
 /// Numbers the dofs in the order of the frame list and collects what belongs to each.
-void compileDofs(const SceneTree& scene, Program& program) {
+void compileDofs(const SceneTree& scene, KinematicModel& model) {
   const double inf = std::numeric_limits<double>::infinity();
   std::vector<double> lower, upper, home, weight;
-  program.frame_dofs.resize(scene.frames().size());
+  model.frame_dofs.resize(scene.frames().size());
   for (const auto& frame : scene.frames()) {
     if (!isLinkFrame(*frame) || frame->joint->mimic) continue;
     const Joint& joint = *frame->joint;
-    program.frame_dofs[frame->id] = {program.dofs, joint.dofs()};
+    model.frame_dofs[frame->id] = {model.dofs, joint.dofs()};
     for (int i = 0; i < joint.dofs(); ++i) {
       const bool limited = joint.lower.size() > 0 && joint.lower[i] <= joint.upper[i];
       lower.push_back(limited ? joint.lower[i] : -inf);
@@ -41,94 +41,94 @@ void compileDofs(const SceneTree& scene, Program& program) {
       home.push_back(joint.home[i]);
       weight.push_back(joint.control_weight);
     }
-    int first = program.dofs;
+    int first = model.dofs;
     for (const MotionStep& step : joint.steps) {
-      if (step.orients()) program.unit_norms.push_back({first, step.dofs()});
+      if (step.orients()) model.unit_norms.push_back({first, step.dofs()});
       first += step.dofs();
     }
-    program.dofs += joint.dofs();
+    model.dofs += joint.dofs();
   }
   for (const auto& frame : scene.frames()) {
-    if (isLinkFrame(*frame)) program.frame_dofs[frame->id] = program.frame_dofs[dofSource(*frame).id];
+    if (isLinkFrame(*frame)) model.frame_dofs[frame->id] = model.frame_dofs[dofSource(*frame).id];
   }
   const auto vector = [](const std::vector<double>& values) {
     return VectorXd(Eigen::Map<const VectorXd>(values.data(), Eigen::Index(values.size())));
   };
-  program.lower = vector(lower);
-  program.upper = vector(upper);
-  program.home = vector(home);
-  program.control_weight = vector(weight);
+  model.lower = vector(lower);
+  model.upper = vector(upper);
+  model.home = vector(home);
+  model.control_weight = vector(weight);
 }
 
 }  // namespace
 
-std::shared_ptr<const Program> compileProgram(const SceneTree& scene) {
-  auto program = std::make_shared<Program>();
+std::shared_ptr<const KinematicModel> compileModel(const SceneTree& scene) {
+  auto model = std::make_shared<KinematicModel>();
   const std::size_t count = scene.frames().size();
-  compileDofs(scene, *program);
-  program->links.push_back({});
-  nameFrames(*program, scene.names());
-  program->frame_link.resize(count);
+  compileDofs(scene, *model);
+  model->links.push_back({});
+  nameFrames(*model, scene.names());
+  model->frame_link.resize(count);
   for (const FrameData* frame : topologicalOrder(scene)) {
-    const int parent_link = frame->parent ? program->frame_link[frame->parent->id] : 0;
-    program->frame_link[frame->id] = parent_link;
+    const int parent_link = frame->parent ? model->frame_link[frame->parent->id] : 0;
+    model->frame_link[frame->id] = parent_link;
     if (!isLinkFrame(*frame)) continue;
-    Program::Link link;
+    KinematicModel::Link link;
     link.parent = parent_link;
     link.frame = frame->id;
-    link.first_step = int(program->steps.size());
+    link.first_step = int(model->steps.size());
     link.steps = int(frame->joint->steps.size());
-    link.dof = program->frame_dofs[frame->id].first;
+    link.dof = model->frame_dofs[frame->id].first;
     link.scale = motionScale(*frame);
     link.axis = frame->joint->axis;
-    program->steps.insert(program->steps.end(), frame->joint->steps.begin(), frame->joint->steps.end());
-    program->frame_link[frame->id] = int(program->links.size());
-    program->links.push_back(link);
+    model->steps.insert(model->steps.end(), frame->joint->steps.begin(), frame->joint->steps.end());
+    model->frame_link[frame->id] = int(model->links.size());
+    model->links.push_back(link);
   }
-  connectChains(*program);
-  program->geometry.resize(count);
-  program->body.resize(count);
+  connectChains(*model);
+  model->geometry.resize(count);
+  model->body.resize(count);
   for (const auto& frame : scene.frames()) {
     if (!frame->shape) continue;
-    program->geometry[frame->id] = frame->shape->geometry;
-    program->body[frame->id] = frame->shape->body();
+    model->geometry[frame->id] = frame->shape->geometry;
+    model->body[frame->id] = frame->shape->body();
   }
-  program->contacts = contactRules(scene);
-  return program;
+  model->contacts = contactRules(scene);
+  return model;
 }
 
 namespace {
 
 /// Its parent has been placed.
-RigidTransform placeInLink(const FrameData& frame, const Program& program, Parameters& parameters) {
+RigidTransform placeInLink(const FrameData& frame, const KinematicModel& model, Parameters& parameters) {
   const RigidTransform base = frame.parent ? parameters.frame_offset[frame.parent->id] : RigidTransform{};
-  if (isLinkFrame(frame)) return placeJoint(program, program.frame_link[frame.id], base, parameters);
+  if (isLinkFrame(frame)) return placeJoint(model, model.frame_link[frame.id], base, parameters);
   return base * frame.relativePose().transform();
 }
 
 }  // namespace
 
-void updateParameters(const FrameData& frame, const Program& program, Parameters& parameters) {
+void updateParameters(const FrameData& frame, const KinematicModel& model, Parameters& parameters) {
   RigidTransform& offset = parameters.frame_offset[frame.id];
-  const RigidTransform before = std::exchange(offset, placeInLink(frame, program, parameters));
+  const RigidTransform before = std::exchange(offset, placeInLink(frame, model, parameters));
   if (isLinkFrame(frame) && offset.R == before.R) return;  // frames below move with its link, where they are as before
-  for (const FrameData* child : frame.children) updateParameters(*child, program, parameters);
+  for (const FrameData* child : frame.children) updateParameters(*child, model, parameters);
 }
 
-std::shared_ptr<const Parameters> collectParameters(const SceneTree& scene, const Program& program) {
-  auto parameters = std::make_shared<Parameters>(emptyParameters(program));
+std::shared_ptr<const Parameters> collectParameters(const SceneTree& scene, const KinematicModel& model) {
+  auto parameters = std::make_shared<Parameters>(emptyParameters(model));
   for (const FrameData* frame : topologicalOrder(scene)) {
-    parameters->frame_offset[frame->id] = placeInLink(*frame, program, *parameters);
+    parameters->frame_offset[frame->id] = placeInLink(*frame, model, *parameters);
     if (frame->inertia) parameters->frame_mass[frame->id] = {frame->inertia->mass, frame->inertia->com};
   }
   return parameters;
 }
 
-std::vector<LinkInertia> collectInertias(const SceneTree& scene, const Program& program, const Parameters& parameters) {
-  std::vector<LinkInertia> links(program.links.size());
+std::vector<LinkInertia> collectInertias(const SceneTree& scene, const KinematicModel& model, const Parameters& parameters) {
+  std::vector<LinkInertia> links(model.links.size());
   for (const auto& frame : scene.frames()) {
     if (!frame->inertia) continue;
-    links[program.frame_link[frame->id]].add({frame->inertia->mass, frame->inertia->com, frame->inertia->matrix},
+    links[model.frame_link[frame->id]].add({frame->inertia->mass, frame->inertia->com, frame->inertia->matrix},
                                              parameters.frame_offset[frame->id]);
   }
   return links;

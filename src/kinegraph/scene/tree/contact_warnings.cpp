@@ -13,18 +13,18 @@ constexpr double kDeep = 1e-3, kNear = .05;  // m
 constexpr std::size_t kNamed = 3;
 
 std::vector<std::pair<int, int>> restingPairs(const State& state) {
-  NearPairSearch search(state.sharedProgram());
+  NearPairSearch search(state.sharedModel());
   search.place(state);
   std::vector<std::pair<int, int>> resting;
   for (const NearPairSearch::Near& near : search.near(-kDeep)) {
     const int a = search.frame(near.a), b = search.frame(near.b);
-    if (!state.program().movesApart(a, b)) resting.emplace_back(a, b);
+    if (!state.model().movesApart(a, b)) resting.emplace_back(a, b);
   }
   return resting;
 }
 
 Proximity proximityOf(const State& state, int a, int b) {
-  return proximity(*state.program().body[std::size_t(a)], state.pose(a), *state.program().body[std::size_t(b)],
+  return proximity(*state.model().body[std::size_t(a)], state.pose(a), *state.model().body[std::size_t(b)],
                    state.pose(b));
 }
 
@@ -32,11 +32,11 @@ Proximity proximityOf(const State& state, int a, int b) {
 bool isLookOfAnother(const FrameData& frame, const State& state) {
   const auto ownerOf = [](const FrameData& f) { return f.parent && !f.joint ? f.parent->id : f.id; };
   const auto& frames = frame.tree->frames();
-  for (const ContactRules::Body& body : state.program().contacts.bodies) {
+  for (const ContactRules::Body& body : state.model().contacts.bodies) {
     const FrameData& other = *frames[std::size_t(body.frame)];
     if (ownerOf(other) != ownerOf(frame) && body.frame != ownerOf(frame) && ownerOf(other) != frame.id) continue;
-    const double size = std::min(state.program().body[std::size_t(frame.id)]->boundRadius(),
-                                 state.program().body[std::size_t(other.id)]->boundRadius());
+    const double size = std::min(state.model().body[std::size_t(frame.id)]->boundRadius(),
+                                 state.model().body[std::size_t(other.id)]->boundRadius());
     if (proximityOf(state, frame.id, other.id).distance < -.1 * size) return true;
   }
   return false;
@@ -45,22 +45,22 @@ bool isLookOfAnother(const FrameData& frame, const State& state) {
 bool isOpaque(const Shape& shape) { return !shape.color || (*shape.color)[3] >= 1.; }
 
 std::vector<int> passedThrough(const SceneTree& scene, const State& state) {
-  const Program& program = state.program();
+  const KinematicModel& model = state.model();
   std::vector<int> frames;
   for (const auto& frame : scene.frames()) {
-    if (!frame->shape || frame->shape->contact != 0 || program.frame_link[std::size_t(frame->id)] != 0) continue;
+    if (!frame->shape || frame->shape->contact != 0 || model.frame_link[std::size_t(frame->id)] != 0) continue;
     if (shapeKind(frame->shape->geometry->type).is_symbol || !isOpaque(*frame->shape)) continue;
     if (frame->attributes->find("simulate")) continue;
-    const CollisionBody& shape = *program.body[std::size_t(frame->id)];
+    const CollisionBody& shape = *model.body[std::size_t(frame->id)];
     const Vector3d center = state.pose(frame->id) * shape.boundCenter();
     const auto isNear = [&](const ContactRules::Body& body) {
-      if (program.frame_link[std::size_t(body.frame)] == 0) return false;
-      const CollisionBody& other = *program.body[std::size_t(body.frame)];
+      if (model.frame_link[std::size_t(body.frame)] == 0) return false;
+      const CollisionBody& other = *model.body[std::size_t(body.frame)];
       const double reach = shape.boundRadius() + other.boundRadius() + kNear;
       if ((state.pose(body.frame) * other.boundCenter() - center).squaredNorm() > reach * reach) return false;
       return proximityOf(state, frame->id, body.frame).distance < kNear;
     };
-    const bool near = std::any_of(program.contacts.bodies.begin(), program.contacts.bodies.end(), isNear);
+    const bool near = std::any_of(model.contacts.bodies.begin(), model.contacts.bodies.end(), isNear);
     if (near && !isLookOfAnother(*frame, state)) frames.push_back(frame->id);
   }
   return frames;
@@ -75,12 +75,12 @@ std::string listed(std::vector<std::string> names) {
 
 }  // namespace
 
-ContactNotes contactNotes(SceneTree& scene) {
+ContactWarnings contactWarnings(SceneTree& scene) {
   const State& state = scene.state();
   return {restingPairs(state), passedThrough(scene, state)};
 }
 
-std::vector<std::string> describe(const ContactNotes& notes, const SceneTree& scene) {
+std::vector<std::string> describe(const ContactWarnings& notes, const SceneTree& scene) {
   const auto nameOf = [&](int frame) { return cat("'", scene.frames()[std::size_t(frame)]->name, "'"); };
   std::vector<std::string> sentences, names;
   for (const auto& [a, b] : notes.resting) names.push_back(cat(nameOf(a), " and ", nameOf(b)));

@@ -9,7 +9,7 @@
 namespace kinegraph {
 
 /// What people may not expect about which shapes of a scene collide, at its present q.
-struct ContactNotes {
+struct ContactWarnings {
   /// Pairs of frames that may collide and overlap by more than 1 mm, but no joint moves them apart: they do not count
   /// where it is asked whether a q is free.
   std::vector<std::pair<int, int>> resting;
@@ -19,9 +19,9 @@ struct ContactNotes {
   std::vector<int> passed_through;
 };
 
-ContactNotes contactNotes(SceneTree& scene);
+ContactWarnings contactWarnings(SceneTree& scene);
 
 /// A sentence for each of the two that there is anything to say about.
-std::vector<std::string> describe(const ContactNotes& notes, const SceneTree& scene);
+std::vector<std::string> describe(const ContactWarnings& notes, const SceneTree& scene);
 
 }  // namespace kinegraph

@@ -71,7 +71,7 @@ std::vector<std::string> stateNames(const SceneTree& scene, const std::string& g
 
 VectorXd namedState(SceneTree& scene, const std::string& name, const std::string& group) {
   checkGroup(scene, group);
-  const auto program = scene.program();
+  const auto model = scene.model();
   VectorXd q = scene.jointState();
   bool found = false;
   for (const auto& frame : scene.frames()) {
@@ -88,7 +88,7 @@ VectorXd namedState(SceneTree& scene, const std::string& name, const std::string
       first = values;
       first_group = of;
     });
-    const Program::DofRange dofs = program->frame_dofs[frame->id];
+    const KinematicModel::DofRange dofs = model->frame_dofs[frame->id];
     if (first.size() > 0 && dofs.count == first.size() && !frame->joint->mimic)
       q.segment(dofs.first, dofs.count) = first;
   }

@@ -167,10 +167,10 @@ FrameData* SceneTree::append(const SceneTree& other, const std::string& prefix, 
     if (copy.joint && copy.joint->mimic) copy.joint->mimic = copyOf(original.joint->mimic);
   }
   structureChanged();
-  if (first == 0 && prefix.empty() && other.program_ && other.compiled_revision_ == other.structure_revision_) {
-    program_ = other.program_;  // an equal scene
+  if (first == 0 && prefix.empty() && other.model_ && other.compiled_revision_ == other.structure_revision_) {
+    model_ = other.model_;  // an equal scene
     compiled_revision_ = kAdopted;
-    program();
+    model();
   }
   return frames_[first].get();
 }
@@ -212,9 +212,9 @@ std::shared_ptr<const SceneTree> SceneTree::snapshot() {
   return copy;
 }
 
-const std::shared_ptr<const Program>& SceneTree::program() {
+const std::shared_ptr<const KinematicModel>& SceneTree::model() {
   if (compiled_revision_ != structure_revision_) {
-    if (compiled_revision_ != kAdopted) program_ = compileProgram(*this);
+    if (compiled_revision_ != kAdopted) model_ = compileModel(*this);
     compiled_revision_ = structure_revision_;
     steps_to_parents_ = 0;
     dof_frames_.clear();
@@ -225,17 +225,17 @@ const std::shared_ptr<const Program>& SceneTree::program() {
     parameters_before_.reset();
     state_.reset();
     near_pairs_.reset();
-    q_.resize(program_->dofs);
+    q_.resize(model_->dofs);
     poses_stale_ = q_stale_ = true;
   }
-  return program_;
+  return model_;
 }
 
 const std::shared_ptr<const Parameters>& SceneTree::parameters() {
-  program();
+  model();
   if (poses_stale_ || !moved_.empty()) {
     if (poses_stale_) {
-      parameters_ = collectParameters(*this, *program_);
+      parameters_ = collectParameters(*this, *model_);
       parameters_before_.reset();
     } else {
       moveInParameters();
@@ -254,11 +254,11 @@ void SceneTree::moveInParameters() {
   std::shared_ptr<Parameters> next = std::move(parameters_before_);
   if (next && next.use_count() == 1) {
     std::atomic_thread_fence(std::memory_order_acquire);
-    for (const FrameData* frame : moved_before_) updateParameters(*frame, *program_, *next);
+    for (const FrameData* frame : moved_before_) updateParameters(*frame, *model_, *next);
   } else {
     next = std::make_shared<Parameters>(*parameters_);
   }
-  for (const FrameData* frame : moved_) updateParameters(*frame, *program_, *next);
+  for (const FrameData* frame : moved_) updateParameters(*frame, *model_, *next);
   parameters_before_ = std::const_pointer_cast<Parameters>(std::exchange(parameters_, std::move(next)));
   moved_before_.swap(moved_);
 }
@@ -266,7 +266,7 @@ void SceneTree::moveInParameters() {
 const State& SceneTree::state() {
   parameters();
   if (!state_) {
-    state_ = std::make_unique<State>(program_, parameters_);
+    state_ = std::make_unique<State>(model_, parameters_);
     q_stale_ = true;
   }
   if (q_stale_) {
@@ -281,7 +281,7 @@ const State& SceneTree::state() {
 
 NearPairs& SceneTree::nearPairs() {
   const State& now = state();
-  if (!near_pairs_) near_pairs_ = std::make_unique<NearPairs>(program_);
+  if (!near_pairs_) near_pairs_ = std::make_unique<NearPairs>(model_);
   if (bodies_stale_) near_pairs_->place(now);
   bodies_stale_ = false;
   return *near_pairs_;
@@ -311,7 +311,7 @@ void SceneTree::gatherJointState(double* q) const {
 
 VectorXd SceneTree::jointState() {
   if (compiled_revision_ == structure_revision_) {
-    VectorXd q(program_->dofs);
+    VectorXd q(model_->dofs);
     gatherJointState(q.data());
     return q;
   }
@@ -324,7 +324,7 @@ VectorXd SceneTree::jointState() {
 }
 
 void SceneTree::setJointState(const double* q) {
-  program();
+  model();
   for (FrameData* frame : dof_frames_) {
     std::copy_n(q, frame->joint->dofs(), frame->joint->q.data());
     q += frame->joint->dofs();

@@ -91,10 +91,10 @@ class SceneTree {
   std::uint64_t structureRevision() const { return structure_revision_; }
 
   /// What was compiled last, of this structure or an earlier one; null if nothing was.
-  const Program* compiled() const { return program_.get(); }
+  const KinematicModel* compiled() const { return model_.get(); }
 
   /// Compiled on demand and shared until the structure changes.
-  const std::shared_ptr<const Program>& program();
+  const std::shared_ptr<const KinematicModel>& model();
   const std::shared_ptr<const Parameters>& parameters();
   const State& state();
 
@@ -145,7 +145,7 @@ class SceneTree {
   bool poses_stale_ = true, q_stale_ = true, bodies_stale_ = true, asked_since_edit_ = false;
   std::vector<const FrameData*> moved_;  ///< since the parameters were collected
   std::vector<FrameData*> dof_frames_;   ///< those whose joints make up q, in its order
-  std::shared_ptr<const Program> program_;
+  std::shared_ptr<const KinematicModel> model_;
   std::shared_ptr<const Parameters> parameters_;
   std::shared_ptr<Parameters> parameters_before_;  ///< the last ones
   std::vector<const FrameData*> moved_before_;     ///< between these two
@@ -158,16 +158,16 @@ class SceneTree {
 };
 
 /// Compiles the structure of a scene.
-std::shared_ptr<const Program> compileProgram(const SceneTree& scene);
+std::shared_ptr<const KinematicModel> compileModel(const SceneTree& scene);
 
 /// Collects the constants that belong to a compiled Program.
-std::shared_ptr<const Parameters> collectParameters(const SceneTree& scene, const Program& program);
+std::shared_ptr<const Parameters> collectParameters(const SceneTree& scene, const KinematicModel& model);
 
 /// Brings those up to date of a frame that was moved, and of the frames that are fixed to it.
-void updateParameters(const FrameData& frame, const Program& program, Parameters& parameters);
+void updateParameters(const FrameData& frame, const KinematicModel& model, Parameters& parameters);
 
 /// What each link of a compiled Program weighs: the sum of its frames' inertias.
-std::vector<LinkInertia> collectInertias(const SceneTree& scene, const Program& program, const Parameters& parameters);
+std::vector<LinkInertia> collectInertias(const SceneTree& scene, const KinematicModel& model, const Parameters& parameters);
 
 /// Which shapes of a scene may collide; the rule is at Config::getCollidablePairs.
 ContactRules contactRules(const SceneTree& scene);

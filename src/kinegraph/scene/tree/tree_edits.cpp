@@ -118,7 +118,7 @@ void selectJointsBySubtree(SceneTree& scene, const FrameData& root) {
 int dofIndex(SceneTree& scene, const FrameData& frame) {
   if (!frame.joint) throw ValueError(cat(quoted(frame), " has no joint, so it has no place in q"));
   const FrameData& source = dofSource(frame);
-  if (source.joint->active && source.moves()) return scene.program()->frame_dofs[source.id].first;
+  if (source.joint->active && source.moves()) return scene.model()->frame_dofs[source.id].first;
   int first = 0;
   for (const auto& other : scene.frames()) {
     if (other.get() == &source) break;

@@ -31,7 +31,7 @@ struct SolverResult {
   double violation = 0.;                        ///< of the worst constraint
   SolverStatus status = SolverStatus::stalled;
   std::string message;                        ///< one line: why it stopped
-  std::shared_ptr<const LazyVerdict> motion;  ///< of what lies between the slices of a path; null: nothing to say
+  std::shared_ptr<const LazyValidity> motion;  ///< of what lies between the slices of a path; null: nothing to say
   std::shared_ptr<Nlp> problem;  ///< what NlpSolver solved, for `explain`; null from the functions that solve
 
   /// Is the motion free of collisions at all times, between the slices of the path, too? None for problems that are no

@@ -121,7 +121,7 @@ double SequentialQuadratic::curvatureAlong(const VectorXd& d) const {
 
 /// What limits directions at a point that fulfills the first-order conditions.
 Restriction SequentialQuadratic::restriction(const Step& step) const {
-  const QuadraticProgram program = makeProgram(here_.c);
+  const QuadraticProgram program = makeModel(here_.c);
   const double strong = kStrong * std::max(1e-3, gradient_.lpNorm<Eigen::Infinity>()),
                room = std::max(1., here_.x.lpNorm<Eigen::Infinity>());
   VectorXd rest = gradient_;  // what bounds have to hold
@@ -169,7 +169,7 @@ VectorXd SequentialQuadratic::onActiveRows(const VectorXd& c, const Step& step) 
 /// Follows a direction with negative curvature until the merit function is less by part of what the curvature promises,
 /// and takes the step. False if it is not; what was seen of the constraints is learnt in any case.
 bool SequentialQuadratic::descendsAlong(const VectorXd& direction, const Step& step) {
-  const QuadraticProgram program = makeProgram(here_.c);
+  const QuadraticProgram program = makeModel(here_.c);
   double length = kFirstLength * std::max(1., here_.x.lpNorm<Eigen::Infinity>());
   for (int j = equalities_; j < int(program.b.size()); ++j) {
     const double slope = program.A.row(j).dot(direction);

@@ -108,7 +108,7 @@ void SequentialQuadratic::addSquaredRows(MatrixXd& H) const {
   }
 }
 
-QuadraticProgram SequentialQuadratic::makeProgram(const VectorXd& c) const {
+QuadraticProgram SequentialQuadratic::makeModel(const VectorXd& c) const {
   const int n = nlp_.dimension(), m = int(constraints_.size());
   const int bounds =
       knows_curvature_ ? 2 * n : int(lower_.array().isFinite().count() + upper_.array().isFinite().count());
@@ -132,7 +132,7 @@ QuadraticProgram SequentialQuadratic::makeProgram(const VectorXd& c) const {
 /// relaxed: a part of their violation, as small as possible, remains.
 SequentialQuadratic::Step SequentialQuadratic::solveQuadratic(const VectorXd& c) {
   const int n = nlp_.dimension(), m = int(constraints_.size());
-  QuadraticProgram program = makeProgram(c);
+  QuadraticProgram program = makeModel(c);
   if (knows_curvature_) makeConvex(program);
   Step step;
   QuadraticSolution solution = solve(program);

@@ -32,7 +32,7 @@ class SequentialQuadratic {
   void iterate();
   void linearize(double room);
   void addSquaredRows(MatrixXd& H) const;
-  QuadraticProgram makeProgram(const VectorXd& c) const;
+  QuadraticProgram makeModel(const VectorXd& c) const;
   Step findStep();
   Step solveQuadratic(const VectorXd& c);
   bool lineSearch(const Step& step);

@@ -11,7 +11,7 @@ namespace kinegraph {
 
 ConstrainedFunction::ConstrainedFunction(Nlp& nlp)
     : nlp_(nlp),
-      room_(dynamic_cast<RoomForConstraints*>(&nlp)),
+      room_(dynamic_cast<LazyConstraints*>(&nlp)),
       lower_(nlp.lower()),
       upper_(nlp.upper()),
       last_x_(lower_),

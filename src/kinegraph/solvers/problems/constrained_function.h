@@ -54,7 +54,7 @@ class ConstrainedFunction {
   bool evaluate(EvaluatedPoint& point);
   int evals() const { return evals_; }
 
-  /// Lets the problem take up constraints (RoomForConstraints) that are violated at a point. `rows` were empty before;
+  /// Lets the problem take up constraints (LazyConstraints) that are violated at a point. `rows` were empty before;
   /// where there are any, the best point so far is this one, as nothing is known of the others.
   Refinement takeUpConstraints(EvaluatedPoint& point, bool is_solution, std::vector<int>& rows);
   bool takesUpAtEachStep() const { return room_ && room_->isAskedAtEachStep(); }
@@ -86,7 +86,7 @@ class ConstrainedFunction {
   void summarize(EvaluatedPoint& point) const;
 
   Nlp& nlp_;
-  RoomForConstraints* room_;  ///< the problem, if it is one
+  LazyConstraints* room_;  ///< the problem, if it is one
   const EvaluationHook* hook_ = nullptr;
   double tolerance_ = 0.;
   std::vector<int> costs_, constraints_;

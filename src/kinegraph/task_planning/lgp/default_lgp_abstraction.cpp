@@ -92,7 +92,7 @@ DefaultLgpAbstraction::DefaultLgpAbstraction(const Config& scene, const std::str
   };
   search_ = std::make_shared<PlanSearch>(ground(std::move(problem)), options);
   if (!search_->problem().unreachable.empty()) {
-    throw ParseError({lgp_file, 1, 1}, cat("the goal cannot be reached: ", join(oddities(search_->problem()), "; ")));
+    throw ParseError({lgp_file, 1, 1}, cat("the goal cannot be reached: ", join(diagnostics(search_->problem()), "; ")));
   }
 }
 

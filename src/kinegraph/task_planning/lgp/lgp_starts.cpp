@@ -22,7 +22,7 @@ namespace {
 
 /// From a start, or from the problem's initial point where there is none.
 SolverResult solveOnce(const std::shared_ptr<Komo>& komo, const VectorXd& start, const SolverOptions& options,
-                       std::uint64_t seed, const JobStopped& stopped) {
+                       std::uint64_t seed, const CancellationToken& stopped) {
   NlpSolver solver(makeNlp(komo), 0);
   solver.options = options;
   if (start.size() > 0) solver.setInitialization(start);
@@ -44,9 +44,9 @@ LgpSolve solveFrom(const std::shared_ptr<Komo>& komo, const std::vector<VectorXd
     for (auto& one : each) one = std::make_shared<Komo>(komo->clone());
   std::vector<SolverResult> results(starts.size());
   LgpSolve solve;
-  inOrder(
+  orderedParallelFor(
       int(starts.size()), options.threads,
-      [&](int i, const JobStopped& stopped) {
+      [&](int i, const CancellationToken& stopped) {
         results[std::size_t(i)] =
             solveOnce(each[std::size_t(i)], starts[std::size_t(i)], solver, options.seed, stopped);
       },
@@ -65,9 +65,9 @@ LgpSolve solveFrom(const std::shared_ptr<Komo>& komo, const std::vector<VectorXd
 void solveEach(const std::vector<std::shared_ptr<Komo>>& problems, const LgpOptions& options,
                const std::function<void(int problem, SolverResult result)>& take) {
   std::vector<SolverResult> results(problems.size());
-  inOrder(
+  orderedParallelFor(
       int(problems.size()), options.threads,
-      [&](int i, const JobStopped& stopped) {
+      [&](int i, const CancellationToken& stopped) {
         results[std::size_t(i)] = solveOnce(problems[std::size_t(i)], {}, options.solver, options.seed, stopped);
       },
       [&](int i) {

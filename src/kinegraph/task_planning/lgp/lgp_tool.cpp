@@ -29,9 +29,9 @@ bool isFree(const Komo& komo) {
 /// Puts a motion where waypoints of the same plan are; `x` are their variables.
 void startAlong(Komo& motion, const Komo& waypoints, const VectorXd& x) {
   const MatrixXd rows = waypoints.getPath();
-  std::vector<VectorXd> postures;
-  for (Eigen::Index i = 0; i < rows.rows(); ++i) postures.push_back(rows.row(i));
-  motion.setWaypoints(postures, {1, true, 0.});
+  std::vector<VectorXd> configurations;
+  for (Eigen::Index i = 0; i < rows.rows(); ++i) configurations.push_back(rows.row(i));
+  motion.setWaypoints(configurations, {1, true, 0.});
 
   // What all slices share is as it was found; it comes first in both problems.
   const auto sharedIn = [](const Komo& komo, const VectorXd& all) {

@@ -49,11 +49,11 @@ std::vector<MotionConstraint> gripConstraints(const Config& C, const std::string
   return all;
 }
 
-MatrixXd guidedPostures(const Config& C, const VectorXd& q0, const VectorXd& q1,
+MatrixXd guidedConfigurations(const Config& C, const VectorXd& q0, const VectorXd& q1,
                         const std::vector<MotionConstraint>& constraints) {
   Config scene = C;
   const State state = scene.scene()->state();
-  const JointSpace space(state.program());
+  const JointSpace space(state.model());
   Manifold held(state, space, constraints, kFine);
   const VectorXd way = space.difference(q0, q1);
   const int count = std::max(int(std::ceil(way.cwiseAbs().maxCoeff() / kStep)), 2) + 1;

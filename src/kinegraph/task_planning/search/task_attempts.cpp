@@ -27,11 +27,11 @@ std::shared_ptr<NlpSolver> solverOf(std::shared_ptr<Komo> komo) {
   return std::make_shared<NlpSolver>(makeNlp(std::move(komo)), 0);
 }
 
-/// The same as missedDemand; "" where it is stopped.
-std::string missed(const std::shared_ptr<Komo>& komo, const JobStopped& stopped) {
+/// The same as violatedConstraint; "" where it is stopped.
+std::string missed(const std::shared_ptr<Komo>& komo, const CancellationToken& stopped) {
   struct Stop {};
   try {
-    return missedDemand(komo, [&] {
+    return violatedConstraint(komo, [&] {
       if (stopped()) throw Stop();
     });
   } catch (const Stop&) {
@@ -54,7 +54,7 @@ struct TaskAttempt::Problem {
   const std::shared_ptr<const Config> scene;
   const std::vector<TaskAction> actions;
   const int seed;
-  const JobStopped stopped;
+  const CancellationToken stopped;
   mutable std::atomic<int> first_feasible = std::numeric_limits<int>::max();  ///< of all starts, as far as is known
 
   bool isLate() const { return settings.is_late && settings.is_late(); }
@@ -101,8 +101,8 @@ struct TaskAttempt::Choice {
   std::vector<VectorXd> drawn_;
 };
 
-TaskAttempt::TaskAttempt(WorkAhead& ahead, const Settings& settings, std::shared_ptr<const Config> scene,
-                         std::vector<TaskAction> actions, int seed, JobStopped stopped)
+TaskAttempt::TaskAttempt(SpeculativeExecutor& ahead, const Settings& settings, std::shared_ptr<const Config> scene,
+                         std::vector<TaskAction> actions, int seed, CancellationToken stopped)
     : ahead_(ahead), problem_(new Problem{settings, std::move(scene), std::move(actions), seed, std::move(stopped)}) {
   const Config own = *problem_->scene;  // which rules may ask while others copy the scene
   const auto variants = allVariants(own, problem_->actions, settings.rules, kChoices);
@@ -111,7 +111,7 @@ TaskAttempt::TaskAttempt(WorkAhead& ahead, const Settings& settings, std::shared
     choices_.push_back(std::make_shared<Choice>(variants[i], rng));
     for (std::size_t start = 0; start < kStarts; ++start)
       starts_.push_back(ahead.later<Start>([problem = problem_, choice = choices_.back(), start,
-                                            number = int(starts_.size())](const JobStopped& stopped) {
+                                            number = int(starts_.size())](const CancellationToken& stopped) {
         return solve(*problem, *choice, start, number, stopped);
       }));
   }
@@ -119,12 +119,12 @@ TaskAttempt::TaskAttempt(WorkAhead& ahead, const Settings& settings, std::shared
 
 TaskAttempt::~TaskAttempt() = default;
 
-void TaskAttempt::begin(Wanted first, Wanted others) const {
+void TaskAttempt::begin(Priority first, Priority others) const {
   for (std::size_t i = 0; i < starts_.size(); ++i) starts_[i].begin(i == 0 ? first : others);
 }
 
 TaskAttempt::Start TaskAttempt::solve(const Problem& problem, Choice& choice, std::size_t start, int number,
-                                      const JobStopped& stopped) {
+                                      const CancellationToken& stopped) {
   const auto is_wanted = [&] {
     return number <= problem.first_feasible && !stopped() && !(problem.stopped && problem.stopped());
   };
@@ -144,9 +144,9 @@ TaskAttempt::Start TaskAttempt::solve(const Problem& problem, Choice& choice, st
   return {solved.feasible, solved.evals, solved.x};
 }
 
-TaskAttempt::Found TaskAttempt::find(Wanted wanted, const std::function<void()>& at_first_failure) {
+TaskAttempt::Found TaskAttempt::find(Priority wanted, const std::function<void()>& at_first_failure) {
   Found found;
-  begin(wanted, std::max(wanted, Wanted::likely));
+  begin(wanted, std::max(wanted, Priority::likely));
   VectorXd first;  // where the first start ended
   for (std::size_t i = 0; i < starts_.size(); ++i) {
     if (i > 0 && problem_->isLate()) break;
@@ -173,12 +173,12 @@ TaskAttempt::Found TaskAttempt::find(Wanted wanted, const std::function<void()>&
 TaskCause TaskAttempt::causeOf(VectorXd x) const {
   const std::string text = planText({problem_->actions.back()});
   if (choices_.empty())
-    return std::make_shared<TaskCause::element_type>(ahead_.later<TaskFailure>([text](const JobStopped&) {
+    return std::make_shared<TaskCause::element_type>(ahead_.later<TaskFailure>([text](const CancellationToken&) {
       return TaskFailure{cat(text, ": the hand cannot hold it"), nullptr};
     }));
   return std::make_shared<TaskCause::element_type>(
       ahead_.later<TaskFailure>([text, choice = choices_[0], slice = int(problem_->actions.size()) - 1,
-                                 x = std::move(x)](const JobStopped& stopped) {
+                                 x = std::move(x)](const CancellationToken& stopped) {
         const std::scoped_lock lock(choice->mutex);
         const std::shared_ptr<Komo>& komo = choice->waypoints->m->komo;
         komo->path().setVariables(x);

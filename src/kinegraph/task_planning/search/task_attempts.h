@@ -20,7 +20,7 @@ struct TaskFailure {
 };
 
 /// A failure whose cause is found out when it is asked for, which takes as long as other work.
-using TaskCause = std::shared_ptr<const Later<TaskFailure>>;
+using TaskCause = std::shared_ptr<const Speculative<TaskFailure>>;
 
 /// Finds the waypoints of a sequence of actions: variants are tried, each from several starts, until one is feasible. Of
 /// those that are tried side by side the first in order that is feasible counts.
@@ -37,12 +37,12 @@ class TaskAttempt {
 
   /// `seed`: other waypoints for each; 0: placements and grasps begin where nothing is drawn. The scene is only copied;
   /// the settings must stay. `stopped`, which threads may ask: nobody wants the waypoints any more.
-  TaskAttempt(WorkAhead& ahead, const Settings& settings, std::shared_ptr<const Config> scene,
-              std::vector<TaskAction> actions, int seed, JobStopped stopped = {});
+  TaskAttempt(SpeculativeExecutor& ahead, const Settings& settings, std::shared_ptr<const Config> scene,
+              std::vector<TaskAction> actions, int seed, CancellationToken stopped = {});
   ~TaskAttempt();
 
   /// May be worked at from now on: the first start as much as `first` says, the others as much as `others`.
-  void begin(Wanted first, Wanted others) const;
+  void begin(Priority first, Priority others) const;
 
   struct Found {
     std::shared_ptr<TaskWaypoints> waypoints;  ///< that satisfy all that the actions ask; null: there are none
@@ -51,20 +51,20 @@ class TaskAttempt {
   };
 
   /// `at_first_failure` is called when the first start has led nowhere.
-  Found find(Wanted wanted = Wanted::surely, const std::function<void()>& at_first_failure = {});
+  Found find(Priority wanted = Priority::surely, const std::function<void()>& at_first_failure = {});
 
  private:
   struct Problem;
   struct Choice;
   struct Start;
 
-  static Start solve(const Problem& problem, Choice& choice, std::size_t start, int number, const JobStopped& stopped);
+  static Start solve(const Problem& problem, Choice& choice, std::size_t start, int number, const CancellationToken& stopped);
   TaskCause causeOf(VectorXd x) const;
 
-  WorkAhead& ahead_;
+  SpeculativeExecutor& ahead_;
   std::shared_ptr<Problem> problem_;
   std::vector<std::shared_ptr<Choice>> choices_;  ///< of variants
-  std::vector<Later<Start>> starts_;              ///< of each choice, in order
+  std::vector<Speculative<Start>> starts_;              ///< of each choice, in order
 };
 
 }  // namespace kinegraph

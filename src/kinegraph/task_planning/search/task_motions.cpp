@@ -37,9 +37,9 @@ constexpr int kPushRows = 50;  ///< by which a straight push is looked at
 
 double farthest(const VectorXd& a, const VectorXd& b) { return (a - b).cwiseAbs().maxCoeff(); }
 
-MatrixXd rowsOf(const std::vector<VectorXd>& postures) {
-  MatrixXd rows(Eigen::Index(postures.size()), postures.at(0).size());
-  for (std::size_t i = 0; i < postures.size(); ++i) rows.row(Eigen::Index(i)) = postures[i];
+MatrixXd rowsOf(const std::vector<VectorXd>& configurations) {
+  MatrixXd rows(Eigen::Index(configurations.size()), configurations.at(0).size());
+  for (std::size_t i = 0; i < configurations.size(); ++i) rows.row(Eigen::Index(i)) = configurations[i];
   return rows;
 }
 
@@ -62,26 +62,26 @@ TaskAction coming(const TaskAction& action) {
 }
 
 /// A motion in rows; the first and the last are those of the postures, to the bit.
-TimedRows rowsOf(const TimedPath& timed, const MatrixXd& postures) {
+TimedRows rowsOf(const TimedPath& timed, const MatrixXd& configurations) {
   const int count = std::max(int(std::ceil(timed.duration() / kPeriod)) + 1, 2);
-  TimedRows rows{MatrixXd(count, postures.cols()), VectorXd(count)};
+  TimedRows rows{MatrixXd(count, configurations.cols()), VectorXd(count)};
   const double step = timed.duration() / double(count - 1);
   for (int i = 0; i < count; ++i) rows.times[i] = double(i) * step;
   rows.times[count - 1] = timed.duration();
   for (int i = 0; i < count; ++i) rows.path.row(i) = timed.at(rows.times[i]).q;
-  rows.path.row(0) = postures.row(0);
-  rows.path.row(count - 1) = postures.row(postures.rows() - 1);
+  rows.path.row(0) = configurations.row(0);
+  rows.path.row(count - 1) = configurations.row(configurations.rows() - 1);
   return rows;
 }
 
 /// The rows at which postures change; it ends where the next motion begins.
-MatrixXd withoutRepeats(const MatrixXd& postures) {
+MatrixXd withoutRepeats(const MatrixXd& configurations) {
   std::vector<Eigen::Index> kept = {0};
-  for (Eigen::Index k = 1; k < postures.rows(); ++k)
-    if ((postures.row(k) - postures.row(k - 1)).cwiseAbs().maxCoeff() > kSame) kept.push_back(k);
+  for (Eigen::Index k = 1; k < configurations.rows(); ++k)
+    if ((configurations.row(k) - configurations.row(k - 1)).cwiseAbs().maxCoeff() > kSame) kept.push_back(k);
   if (kept.size() > 1) kept.pop_back();
-  kept.push_back(postures.rows() - 1);
-  return postures(kept, Eigen::all);
+  kept.push_back(configurations.rows() - 1);
+  return configurations(kept, Eigen::all);
 }
 
 VectorXd perDof(const char* name, const VectorXd& given, const VectorXd& otherwise) {
@@ -94,7 +94,7 @@ VectorXd perDof(const char* name, const VectorXd& given, const VectorXd& otherwi
 
 }  // namespace
 
-TaskMotions::TaskMotions(WorkAhead& ahead, MatrixXd limits, const std::vector<Literal>& start, std::uint64_t seed)
+TaskMotions::TaskMotions(SpeculativeExecutor& ahead, MatrixXd limits, const std::vector<Literal>& start, std::uint64_t seed)
     : ahead_(ahead),
       limits_(std::move(limits)),
       has_doors_(!wordsOf(start, "is_guided").empty()),
@@ -103,7 +103,7 @@ TaskMotions::TaskMotions(WorkAhead& ahead, MatrixXd limits, const std::vector<Li
       seed_(seed) {}
 
 TaskMotions::Found TaskMotions::between(const Config& C, const VectorXd& q0, const VectorXd& q1,
-                                        const TaskAction& action, const TaskAction& before, const JobStopped& stopped,
+                                        const TaskAction& action, const TaskAction& before, const CancellationToken& stopped,
                                         const std::function<int()>& threads) const {
   TaskMotions motions = *this;
   motions.stopped_ = stopped;
@@ -139,11 +139,11 @@ TaskMotions::Found TaskMotions::guided(const Config& C, const VectorXd& q0, cons
   Config taken = C;
   taken.setJointState(q0);
   const std::vector<MotionConstraint> grip = gripConstraints(taken, hand, handle);
-  MatrixXd postures = guidedPostures(C, q0, q1, grip);
-  if (postures.rows() == 0 || !isFree(C, postures)) {
+  MatrixXd configurations = guidedConfigurations(C, q0, q1, grip);
+  if (configurations.rows() == 0 || !isFree(C, configurations)) {
     const MotionPlan found = way(C, q0, q1, grip);
     if (!found.feasible()) return {std::nullopt, cat("no motion was found that holds '", handle, "': ", found.message)};
-    postures = found.path;
+    configurations = found.path;
   }
   const MotionLimits limits{limits_.row(0), limits_.row(1), {}};
   for (const auto& [corners, tolerance] :
@@ -151,9 +151,9 @@ TaskMotions::Found TaskMotions::guided(const Config& C, const VectorXd& q0, cons
     RetimeOptions options;
     options.corners = corners;
     if (tolerance > 0.) options.tolerance = tolerance;
-    const TimedPath timed = retime(withoutRepeats(postures), limits, options);
+    const TimedPath timed = retime(withoutRepeats(configurations), limits, options);
     if (!timed.feasible()) continue;
-    TimedRows rows = rowsOf(timed, postures);
+    TimedRows rows = rowsOf(timed, configurations);
     rows.times *= kUnhurried;
     const Slip slip = mostSlip(taken, rows.path, hand, handle);
     if (slip.distance > 1.6 * kSlip || slip.cosine < levelCosine() || !isFree(C, rows.path)) continue;
@@ -177,19 +177,19 @@ TaskMotions::Found TaskMotions::among(const Config& C, const VectorXd& q0, const
     const Vector3d up = C.getFrame(obj).getRotationMatrix().col(2);
     level.push_back({.feature = FeatureSymbol::vectorZ, .frames = {obj}, .target = up});
   }
-  Later<Way> direct;  // without leaving and coming along an axis
+  Speculative<Way> direct;  // without leaving and coming along an axis
   if (level.empty()) {
-    std::vector<VectorXd> postures = piece(C, q0, leaving(C, q0, before));
+    std::vector<VectorXd> configurations = piece(C, q0, leaving(C, q0, before));
     const std::vector<VectorXd> tail = piece(C, q1, leaving(C, q1, coming(action)));
-    if (postures.size() + tail.size() > 2) {
-      const MotionPlan found = way(C, postures.back(), tail.back(), {}, [&] {
-        direct = wayLater(C, q0, q1);
-        direct.begin(Wanted::likely);
+    if (configurations.size() + tail.size() > 2) {
+      const MotionPlan found = way(C, configurations.back(), tail.back(), {}, [&] {
+        direct = pathSpeculatively(C, q0, q1);
+        direct.begin(Priority::likely);
       });
       if (found.feasible()) {
-        for (Eigen::Index i = 0; i < found.path.rows(); ++i) postures.push_back(found.path.row(i));
-        postures.insert(postures.end(), tail.rbegin(), tail.rend());
-        return {steady(C, timed(C, rowsOf(postures)), {}), ""};
+        for (Eigen::Index i = 0; i < found.path.rows(); ++i) configurations.push_back(found.path.row(i));
+        configurations.insert(configurations.end(), tail.rbegin(), tail.rend());
+        return {steady(C, timed(C, rowsOf(configurations)), {}), ""};
       }
     }
   }
@@ -217,13 +217,13 @@ TaskMotions::Found TaskMotions::pushed(const Config& C, const VectorXd& q0, cons
   const MotionPlan found = way(C, q0, q1, line);
   if (!found.feasible()) {  // what slides touches what it slides on, which planMotion takes for a collision
     line[0].scale = MatrixXd(kTenths * aside);
-    const MatrixXd postures = guidedPostures(C, q0, q1, line);
-    if (postures.rows() > 0 && isFree(C, postures)) {
+    const MatrixXd configurations = guidedConfigurations(C, q0, q1, line);
+    if (configurations.rows() > 0 && isFree(C, configurations)) {
       RetimeOptions options;
       options.corners = Corners::spline;
-      const TimedPath smooth = retime(withoutRepeats(postures), {limits_.row(0), limits_.row(1), {}}, options);
+      const TimedPath smooth = retime(withoutRepeats(configurations), {limits_.row(0), limits_.row(1), {}}, options);
       if (smooth.feasible()) {
-        TimedRows rows = rowsOf(smooth, postures);
+        TimedRows rows = rowsOf(smooth, configurations);
         rows.times *= kUnhurried;
         if (slidesStraight(C, rows.path, obj) && isFree(C, rows.path)) return {std::move(rows), ""};
       }
@@ -237,16 +237,16 @@ MotionPlan TaskMotions::way(const Config& C, const VectorXd& start, const Vector
                             const std::vector<MotionConstraint>& constraints,
                             const std::function<void()>& at_first_failure) {
   PlanOptions options;
-  options.tries = has_doors_ ? 1 : kTries;
+  options.restarts = has_doors_ ? 1 : kTries;
   options.seed = seed_;
   options.constraints = constraints;
   options.timing = false;
   MotionPlan found;
   for (const double margin : {kMargin, 0.}) {
     options.margin = margin;
-    options.proof = margin == 0. && !at_first_failure;           // who has another way does not ask why
+    options.prove_infeasibility = margin == 0. && !at_first_failure;           // who has another way does not ask why
     const int most = has_doors_ ? kSearchBehindDoors : kSearch;  // what is shut off is soon given up
-    options.evaluations = margin == 0. ? most : most / 10;
+    options.max_evaluations = margin == 0. ? most : most / 10;
     options.threads = threads_();
     found = planMotion(C, MotionGoal(goal), options, start, stopped_);
     for (const PlanStage& stage : found.stages) evaluations_ += stage.evaluations;
@@ -257,9 +257,9 @@ MotionPlan TaskMotions::way(const Config& C, const VectorXd& start, const Vector
 }
 
 /// The same, on another thread if one is free.
-Later<TaskMotions::Way> TaskMotions::wayLater(const Config& C, const VectorXd& start, const VectorXd& goal) const {
+Speculative<TaskMotions::Way> TaskMotions::pathSpeculatively(const Config& C, const VectorXd& start, const VectorXd& goal) const {
   return ahead_.later<Way>(
-      [motions = *this, scene = std::make_shared<const Config>(C), start, goal](const JobStopped& stopped) mutable {
+      [motions = *this, scene = std::make_shared<const Config>(C), start, goal](const CancellationToken& stopped) mutable {
         motions.evaluations_ = 0;
         motions.threads_ = [] { return 1; };
         motions.stopped_ = [stopped, outer = motions.stopped_] { return stopped() || (outer && outer()); };
@@ -331,8 +331,8 @@ TimedRows TaskMotions::slower(const Config& C, TimedRows rows, const std::vector
   return rows;
 }
 
-TimedRows TaskMotions::timed(const Config& C, const MatrixXd& postures) const {
-  const MatrixXd kept = withoutRepeats(postures);
+TimedRows TaskMotions::timed(const Config& C, const MatrixXd& configurations) const {
+  const MatrixXd kept = withoutRepeats(configurations);
   const MotionLimits limits{limits_.row(0), limits_.row(1), {}};
   for (const Corners corners : {Corners::blend, Corners::stop}) {
     RetimeOptions options;
@@ -341,12 +341,12 @@ TimedRows TaskMotions::timed(const Config& C, const MatrixXd& postures) const {
     options.is_free = [&](const MatrixXd& points, double) { return isFree(C, points); };
     const TimedPath found = retime(kept, limits, options);
     if (!found.feasible()) continue;
-    const TimedRows rows = rowsOf(found, postures);
+    const TimedRows rows = rowsOf(found, configurations);
     if (isFree(C, rows.path)) return rows;
   }
   RetimeOptions stops;
   stops.corners = Corners::stop;
-  return rowsOf(retime(kept, limits, stops), postures);
+  return rowsOf(retime(kept, limits, stops), configurations);
 }
 
 MatrixXd taskMotionLimits(const Config& C, const VectorXd& velocity, const VectorXd& acceleration) {

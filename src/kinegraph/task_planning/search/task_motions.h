@@ -21,7 +21,7 @@ struct TimedRows {
 class TaskMotions {
  public:
   /// `limits`: most velocity and acceleration of each dof, 2 x n. `start`: what holds at first.
-  TaskMotions(WorkAhead& ahead, MatrixXd limits, const std::vector<Literal>& start, std::uint64_t seed);
+  TaskMotions(SpeculativeExecutor& ahead, MatrixXd limits, const std::vector<Literal>& start, std::uint64_t seed);
 
   struct Found {
     std::optional<TimedRows> motion;
@@ -33,7 +33,7 @@ class TaskMotions {
   /// empty if nothing was. `stopped` is asked now and then; true ends the search. `threads`: how many a search may take that
   /// begins now; what is found does not depend on it.
   Found between(const Config& C, const VectorXd& q0, const VectorXd& q1, const TaskAction& action,
-                const TaskAction& before, const JobStopped& stopped, const std::function<int()>& threads) const;
+                const TaskAction& before, const CancellationToken& stopped, const std::function<int()>& threads) const;
 
  private:
   struct Way {
@@ -50,20 +50,20 @@ class TaskMotions {
   MotionPlan way(const Config& C, const VectorXd& start, const VectorXd& goal,
                  const std::vector<MotionConstraint>& constraints = {},
                  const std::function<void()>& at_first_failure = {});
-  Later<Way> wayLater(const Config& C, const VectorXd& start, const VectorXd& goal) const;
+  Speculative<Way> pathSpeculatively(const Config& C, const VectorXd& start, const VectorXd& goal) const;
   MotionPlan taken(Way& way);
   std::vector<VectorXd> piece(const Config& C, const VectorXd& q, const std::optional<VectorXd>& away) const;
   std::optional<VectorXd> leaving(const Config& C, const VectorXd& q, const TaskAction& action) const;
   TimedRows steady(const Config& C, TimedRows rows, const std::vector<std::string>& carried) const;
   TimedRows slower(const Config& C, TimedRows rows, const std::vector<std::string>& objects, double most) const;
-  TimedRows timed(const Config& C, const MatrixXd& postures) const;
+  TimedRows timed(const Config& C, const MatrixXd& configurations) const;
 
-  WorkAhead& ahead_;
+  SpeculativeExecutor& ahead_;
   MatrixXd limits_;
   bool has_doors_;
   std::vector<std::string> hands_, objects_;
   std::uint64_t seed_;
-  JobStopped stopped_;
+  CancellationToken stopped_;
   std::function<int()> threads_;
   long evaluations_ = 0;  ///< so far
 };

@@ -17,7 +17,7 @@ std::string taskStatusName(TaskStatus status) {
   switch (status) {
     case TaskStatus::solved:
       return "solved";
-    case TaskStatus::proved_impossible:
+    case TaskStatus::infeasible:
       return "proved impossible";
     default:
       return "not found";

@@ -15,7 +15,7 @@ struct TaskExecution;
 
 enum class TaskStatus {
   solved,             ///< the plan passed checkTaskPlan
-  proved_impossible,  ///< no motion can do it
+  infeasible,  ///< no motion can do it
   not_found,          ///< within the effort: that is no proof
 };
 
@@ -68,7 +68,7 @@ struct TaskPlan {
   /// What was tried, as a tree: a line per action, causes behind the last one of a branch.
   std::string searchTree() const;
 
-  /// Shows the plan: its motion, or, where there is none, the tree of the search and the ghostScene. C is the scene that was
+  /// Shows the plan: its motion, or, where there is none, the tree of the search and the failedConfiguration. C is the scene that was
   /// planned in, and ends as it was. Returns the key pressed, or 0.
   int view(Config& C, bool pause = true) const;
 
@@ -81,7 +81,7 @@ struct TaskPlan {
 
   /// A copy of the scene in which the waypoint that the farthest branch failed at stands as a red ghost. Throws ValueError
   /// where no branch failed at one.
-  Config ghostScene(const Config& C) const;
+  Config failedConfiguration(const Config& C) const;
 
   /// Moves a robot along the plan; see kinegraph::execute in api/task_execution.h.
   TaskExecution execute(BotOp& bot) const;

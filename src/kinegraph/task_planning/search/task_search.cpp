@@ -170,7 +170,7 @@ std::optional<TaskPlan> TaskSearch::nextPlan() {
     if (!search_->problem().unreachable.empty()) {
       has_ended_ = true;
       const std::string missing = missingOfDoors();
-      return end(TaskStatus::proved_impossible, missing.empty() ? join(oddities(search_->problem()), "; ") : missing);
+      return end(TaskStatus::infeasible, missing.empty() ? join(diagnostics(search_->problem()), "; ") : missing);
     }
     if (proves_) {
       Actions all;
@@ -226,16 +226,16 @@ std::shared_ptr<const Config> TaskSearch::sceneIn(const Circumstances& there) co
 }
 
 /// Waypoints that may be asked for are looked for, where there are threads for that. Any thread may expect some.
-void TaskSearch::expect(const Actions& actions, const Circumstances& there, Wanted first) {
+void TaskSearch::expect(const Actions& actions, const Circumstances& there, Priority first) {
   if (options_.threads == 1) return;
   const std::scoped_lock lock(expecting_);
   auto known = expected_.find({actions, there});
   if (known == expected_.end())
     known = expected_.try_emplace({actions, there}, ahead_, settings_, sceneIn(there), actions, 0).first;
-  known->second.begin(first, Wanted::maybe);
+  known->second.begin(first, Priority::maybe);
 }
 
-void TaskSearch::expectAll(const std::vector<Actions>& all, Wanted first) {
+void TaskSearch::expectAll(const std::vector<Actions>& all, Priority first) {
   for (const Actions& actions : all) expect(actions, {}, first);
 }
 
@@ -279,12 +279,12 @@ bool TaskSearch::isKnownToFail(const Actions& actions) const {
 // --- in geometry -----------------------------------------------------------------------------------------------------
 
 /// What comes of the waypoints of a seed.
-Later<TaskTrials::Outcome> TaskSearch::outcomeOf(const Trial& trial, int seed, Wanted wanted) {
+Speculative<TaskTrials::Outcome> TaskSearch::outcomeOf(const Trial& trial, int seed, Priority wanted) {
   TaskTrials::Order order{trial.actions, trial.states, seed, wanted};
   if (seed == 0)
-    order.at_first_failure = [this, all = unknownBeginnings(trial.actions)] { expectAll(all, Wanted::maybe); };
+    order.at_first_failure = [this, all = unknownBeginnings(trial.actions)] { expectAll(all, Priority::maybe); };
   return ahead_.later<TaskTrials::Outcome>(
-      [trials = trials_, order = std::move(order)](const JobStopped& stopped) { return trials->run(order, stopped); });
+      [trials = trials_, order = std::move(order)](const CancellationToken& stopped) { return trials->run(order, stopped); });
 }
 
 /// A plan from the next waypoints that have one; none where there are no more.
@@ -294,12 +294,12 @@ std::optional<TaskPlan> TaskSearch::nextOf(Trial& trial) {
   while (trial.seed < seeds()) {
     const int seed = trial.seed++;
     if (seed == 0 && isKnownToFail(trial.actions)) break;
-    if (!later.contains(seed)) later[seed] = outcomeOf(trial, seed, Wanted::surely);
+    if (!later.contains(seed)) later[seed] = outcomeOf(trial, seed, Priority::surely);
     const int ahead = trial.found || needs_seeds_ ? options_.threads - 1 : 0;
     for (int next = seed + 1; next <= std::min(seed + ahead, seeds() - 1); ++next) {
       if (later.contains(next)) continue;
-      later[next] = outcomeOf(trial, next, Wanted::maybe);
-      later[next].begin(Wanted::maybe);
+      later[next] = outcomeOf(trial, next, Priority::maybe);
+      later[next].begin(Priority::maybe);
     }
     TaskTrials::Outcome& outcome = later[seed].get();
     evaluations_ += outcome.evaluations;
@@ -368,8 +368,8 @@ TaskPlan TaskSearch::nothing() {
   if (guessed_) return end(TaskStatus::not_found, cat("all plans in logic fail; ", firstCause()));
   for (const ImpossibleAction& proof : proofs_) addCause(proof.why);
   if (proofs_.empty() || !PlanSearch(search_->problem()).next())
-    return end(TaskStatus::proved_impossible, contradiction(problem_));
-  return end(TaskStatus::proved_impossible, neededProofs(search_->problem(), proofs_));
+    return end(TaskStatus::infeasible, contradiction(problem_));
+  return end(TaskStatus::infeasible, neededProofs(search_->problem(), proofs_));
 }
 
 /// Finds the causes out that are not known yet.

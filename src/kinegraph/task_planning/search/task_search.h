@@ -45,7 +45,7 @@ class TaskSearch {
     int seed = 0;                                          ///< of the waypoints that come next
     bool found = false;                                    ///< was there a plan?
     std::optional<TaskFailure> failure = {};               ///< of motions
-    std::map<int, Later<TaskTrials::Outcome>> later = {};  ///< by seed
+    std::map<int, Speculative<TaskTrials::Outcome>> later = {};  ///< by seed
   };
 
   /// What was tried; why it was given up is found out in the end.
@@ -68,15 +68,15 @@ class TaskSearch {
 
   // --- waypoints
   std::shared_ptr<const Config> sceneIn(const Circumstances& there) const;
-  void expect(const Actions& actions, const Circumstances& there, Wanted first);
-  void expectAll(const std::vector<Actions>& all, Wanted first);
+  void expect(const Actions& actions, const Circumstances& there, Priority first);
+  void expectAll(const std::vector<Actions>& all, Priority first);
   std::vector<Actions> unknownBeginnings(const Actions& actions) const;
   void expectNothing();
   TaskAttempt::Found waypointsOf(const Actions& actions, const Circumstances& there);
   bool isKnownToFail(const Actions& actions) const;
 
   // --- in geometry
-  Later<TaskTrials::Outcome> outcomeOf(const Trial& trial, int seed, Wanted wanted);
+  Speculative<TaskTrials::Outcome> outcomeOf(const Trial& trial, int seed, Priority wanted);
   std::optional<TaskPlan> nextOf(Trial& trial);
   void conclude(const Trial& trial);
   TaskCause causeOf(const TaskFailure& failure);
@@ -130,7 +130,7 @@ class TaskSearch {
   const std::shared_ptr<const Config> scene_;                     ///< a copy of C_ that threads share
   std::shared_ptr<const TaskTrials> trials_;
   std::mutex expecting_;
-  WorkAhead ahead_;
+  SpeculativeExecutor ahead_;
   std::map<std::pair<Actions, Circumstances>, TaskAttempt> expected_;  ///< that may be worked at
 };
 

@@ -8,7 +8,7 @@
 
 namespace kinegraph {
 
-TaskTrials::TaskTrials(WorkAhead& ahead, const TaskAttempt::Settings& settings, std::shared_ptr<const Config> scene,
+TaskTrials::TaskTrials(SpeculativeExecutor& ahead, const TaskAttempt::Settings& settings, std::shared_ptr<const Config> scene,
                        std::shared_ptr<const Config> given, MatrixXd limits, std::vector<Literal> goal,
                        std::vector<Literal> start)
     : ahead_(ahead),
@@ -20,7 +20,7 @@ TaskTrials::TaskTrials(WorkAhead& ahead, const TaskAttempt::Settings& settings, 
       start_(std::move(start)),
       motions_(ahead, limits_, start_, settings.seed) {}
 
-TaskTrials::Outcome TaskTrials::run(const Order& order, const JobStopped& stopped) const {
+TaskTrials::Outcome TaskTrials::run(const Order& order, const CancellationToken& stopped) const {
   Outcome outcome;
   TaskAttempt::Found found;
   {
@@ -62,16 +62,16 @@ TaskTrials::Motions TaskTrials::motionsBetween(const Config& C, const TaskWaypoi
 }
 
 /// The motions of all actions; up to the first for which there is none, which the outcome then tells.
-std::vector<TimedRows> TaskTrials::moved(const Config& C, const std::shared_ptr<const Motions>& parts, Wanted wanted,
-                                         const JobStopped& stopped, Outcome& outcome) const {
-  std::vector<Later<TaskMotions::Found>> later;
+std::vector<TimedRows> TaskTrials::moved(const Config& C, const std::shared_ptr<const Motions>& parts, Priority wanted,
+                                         const CancellationToken& stopped, Outcome& outcome) const {
+  std::vector<Speculative<TaskMotions::Found>> later;
   const auto left = std::make_shared<std::atomic<int>>(int(parts->size()));  // motions that nobody has ended yet
-  const std::function<int()> threads = [left, most = wanted == Wanted::surely ? settings_.threads : 1] {
+  const std::function<int()> threads = [left, most = wanted == Priority::surely ? settings_.threads : 1] {
     return std::max(most + 1 - *left, 1);
   };
   for (std::size_t i = 0; i < parts->size(); ++i) {
     later.push_back(ahead_.later<TaskMotions::Found>(
-        [motions = motions_, parts, i, stopped, left, threads](const JobStopped& unwanted) {
+        [motions = motions_, parts, i, stopped, left, threads](const CancellationToken& unwanted) {
           const Motion& motion = (*parts)[i];
           TaskMotions::Found found = motions.between(
               motion.part.config, motion.part.start, motion.part.end, motion.action, motion.before,
@@ -101,7 +101,7 @@ std::vector<TimedRows> TaskTrials::moved(const Config& C, const std::shared_ptr<
 
 /// Facts about doors that are not open and shut off what an action has to do: that is in one of them, or has a motion
 /// where they are not.
-std::vector<Literal> TaskTrials::shutBy(const Config& C, const Motion& motion, const JobStopped& stopped,
+std::vector<Literal> TaskTrials::shutBy(const Config& C, const Motion& motion, const CancellationToken& stopped,
                                         Outcome& outcome) const {
   if (isHold(motion.action) || isGuided(motion.action)) return {};
   std::vector<Literal> shut;

@@ -19,7 +19,7 @@ class TaskTrials {
  public:
   /// Scenes are only copied: the one that is planned in, and the one that was given, for the checker. `ahead` and
   /// `settings` must stay.
-  TaskTrials(WorkAhead& ahead, const TaskAttempt::Settings& settings, std::shared_ptr<const Config> scene,
+  TaskTrials(SpeculativeExecutor& ahead, const TaskAttempt::Settings& settings, std::shared_ptr<const Config> scene,
              std::shared_ptr<const Config> given, MatrixXd limits, std::vector<Literal> goal,
              std::vector<Literal> start);
 
@@ -27,7 +27,7 @@ class TaskTrials {
     std::vector<TaskAction> actions;
     std::vector<std::vector<Literal>> states;  ///< along them
     int seed = 0;
-    Wanted wanted = Wanted::surely;
+    Priority wanted = Priority::surely;
     std::function<void()> at_first_failure = {};  ///< called once the first start has led to no waypoints
   };
   struct Outcome {
@@ -36,7 +36,7 @@ class TaskTrials {
     std::optional<TaskPlan> plan;        ///< what there is to tell of these actions
     long evaluations = 0;
   };
-  Outcome run(const Order& order, const JobStopped& stopped) const;
+  Outcome run(const Order& order, const CancellationToken& stopped) const;
 
  private:
   struct Motion {
@@ -46,12 +46,12 @@ class TaskTrials {
   using Motions = std::vector<Motion>;
 
   Motions motionsBetween(const Config& C, const TaskWaypoints& waypoints) const;
-  std::vector<TimedRows> moved(const Config& C, const std::shared_ptr<const Motions>& parts, Wanted wanted,
-                               const JobStopped& stopped, Outcome& outcome) const;
-  std::vector<Literal> shutBy(const Config& C, const Motion& motion, const JobStopped& stopped, Outcome& outcome) const;
+  std::vector<TimedRows> moved(const Config& C, const std::shared_ptr<const Motions>& parts, Priority wanted,
+                               const CancellationToken& stopped, Outcome& outcome) const;
+  std::vector<Literal> shutBy(const Config& C, const Motion& motion, const CancellationToken& stopped, Outcome& outcome) const;
   TaskPlan planOf(const Config& C, const TaskWaypoints& waypoints, const std::vector<TimedRows>& rows) const;
 
-  WorkAhead& ahead_;
+  SpeculativeExecutor& ahead_;
   const TaskAttempt::Settings& settings_;
   const std::shared_ptr<const Config> scene_, given_;
   const MatrixXd limits_;

@@ -74,7 +74,7 @@ struct RunCommand {
   int what = 0;
 };
 
-struct PullCommand {
+struct PerturbCommand {
   static constexpr int kKind = 11;
   int structure = 0;
   int frame = 0;
@@ -88,7 +88,7 @@ struct NotesCommand {
 };
 
 /// What a browser asks for.
-using Command = std::variant<KeyCommand, SetJointCommand, ResetJointsCommand, RandomJointsCommand, MoveFrameCommand, NearCommand, EventCommand, CursorCommand, ViewpointCommand, RunCommand, PullCommand, NotesCommand>;
+using Command = std::variant<KeyCommand, SetJointCommand, ResetJointsCommand, RandomJointsCommand, MoveFrameCommand, NearCommand, EventCommand, CursorCommand, ViewpointCommand, RunCommand, PerturbCommand, NotesCommand>;
 
 /// Reads a binary message from a browser; nothing if it is not exactly one command.
 inline std::optional<Command> readCommand(std::string_view data) {
@@ -106,7 +106,7 @@ inline std::optional<Command> readCommand(std::string_view data) {
     case CursorCommand::kKind: return readFields<CursorCommand>(reader, &CursorCommand::frame, &CursorCommand::point, &CursorCommand::normal);
     case ViewpointCommand::kKind: return readFields<ViewpointCommand>(reader, &ViewpointCommand::pose, &ViewpointCommand::distance, &ViewpointCommand::focal, &ViewpointCommand::ortho);
     case RunCommand::kKind: return readFields<RunCommand>(reader, &RunCommand::what);
-    case PullCommand::kKind: return readFields<PullCommand>(reader, &PullCommand::structure, &PullCommand::frame, &PullCommand::point, &PullCommand::target);
+    case PerturbCommand::kKind: return readFields<PerturbCommand>(reader, &PerturbCommand::structure, &PerturbCommand::frame, &PerturbCommand::point, &PerturbCommand::target);
     case NotesCommand::kKind: return readFields<NotesCommand>(reader, &NotesCommand::structure);
   }
   return std::nullopt;

@@ -6,7 +6,7 @@
 namespace kinegraph {
 
 NearLine nearLine(const State& state, int a, int b) {
-  const Program& program = state.program();
+  const KinematicModel& program = state.model();
   const BodyPairs pairs(program, {{a, b}});
   PlacedBodies bodies(pairs);
   bodies.place(state);

@@ -41,7 +41,7 @@ bool RunRequests::apply(const RunCommand& command) {
   }
 }
 
-bool RunRequests::apply(const PullCommand& command) {
+bool RunRequests::apply(const PerturbCommand& command) {
   if (command.point.empty() && command.target.empty()) {
     pull.reset();
     return true;

@@ -7,7 +7,7 @@
 namespace kinegraph {
 
 struct RunCommand;
-struct PullCommand;
+struct PerturbCommand;
 
 /// What people ask of a simulation on the page.
 struct RunRequests {
@@ -23,7 +23,7 @@ struct RunRequests {
 
   /// False for a command that means nothing, which changes nothing.
   bool apply(const RunCommand& command);
-  bool apply(const PullCommand& command);
+  bool apply(const PerturbCommand& command);
 
   /// What is asked now. A reset, and a step, are asked for once.
   RunRequests take();

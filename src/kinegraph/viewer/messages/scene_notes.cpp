@@ -6,10 +6,10 @@ namespace kinegraph {
 
 std::vector<SceneNote> sceneNotes(const Config& config) {
   const std::shared_ptr<SceneTree> scene = config.scene();
-  const ContactNotes notes = contactNotes(*scene);
+  const ContactWarnings notes = contactWarnings(*scene);
   std::vector<SceneNote> sentences;
   if (!notes.passed_through.empty()) {
-    const ContactNotes ignored{{}, notes.passed_through};
+    const ContactWarnings ignored{{}, notes.passed_through};
     sentences.push_back({describe(ignored, *scene).front(), notes.passed_through, true});
   }
   if (!notes.resting.empty()) {

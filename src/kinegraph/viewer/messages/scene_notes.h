@@ -7,7 +7,7 @@
 
 namespace kinegraph {
 
-/// What people may not expect about which shapes collide: a sentence of Config::contactNotes.
+/// What people may not expect about which shapes collide: a sentence of Config::contactWarnings.
 struct SceneNote {
   std::string text;
   std::vector<int> frames;  ///< that it is about
