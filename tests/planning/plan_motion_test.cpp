@@ -41,7 +41,7 @@ TEST(PlanMotion, GoesThroughADoorInTimeAndKeepsTheMargin) {
 }
 
 TEST(PlanMotion, ADoorThatIsTooNarrowIsProvenToBe) {
-  const MotionPlan plan = planMotion(roomForABox(.28), kGoal, {.evaluations = 2000});
+  const MotionPlan plan = planMotion(roomForABox(.28), kGoal, {.max_evaluations = 2000});
   EXPECT_EQ(plan.status, PlanStatus::impossible);
   EXPECT_NE(plan.message.find("a ball of 150 mm inside of 'body' does not get past 'left', 'right'"), std::string::npos)
       << plan.message;
@@ -74,7 +74,7 @@ TEST(PlanMotion, WhatStandsUprightIsWiderThanTheBallInIt) {
     for (const double door : {too_narrow, wide_enough}) {
       const Config C = roomForA(body, joints, door);
       const VectorXd start{{-1., .5, 0.}}, goal{{1., 1., 0.}};
-      const MotionPlan plan = planMotion(C, goal, {.evaluations = 200}, start);
+      const MotionPlan plan = planMotion(C, goal, {.max_evaluations = 200}, start);
       if (door == too_narrow) {
         EXPECT_EQ(plan.status, PlanStatus::impossible) << body << plan.message;
         EXPECT_NE(plan.message.find("there is no way: " + words + " does not get past"), std::string::npos)
@@ -89,12 +89,12 @@ TEST(PlanMotion, WhatStandsUprightIsWiderThanTheBallInIt) {
                             "free, limits: [-2, -2, -2, -1, -1, -1, -1, 2, 2, 2, 1, 1, 1, 1]", .3);
   VectorXd start = VectorXd::Zero(7), goal = start;
   start.head<4>() << -1., .5, 0., 1., goal.head<4>() << 1., 1., 0., 1.;
-  EXPECT_NE(planMotion(C, goal, {.evaluations = 200}, start).status, PlanStatus::impossible);
+  EXPECT_NE(planMotion(C, goal, {.max_evaluations = 200}, start).status, PlanStatus::impossible);
 }
 
 TEST(PlanMotion, ADoorThatIsWideEnoughIsNotProvenAway) {
   for (const double door : {.31, .35, .4}) {
-    const MotionPlan plan = planMotion(roomForABox(door), kGoal, {.evaluations = 200});
+    const MotionPlan plan = planMotion(roomForABox(door), kGoal, {.max_evaluations = 200});
     EXPECT_NE(plan.status, PlanStatus::impossible) << door;
   }
 }
@@ -104,12 +104,12 @@ TEST(PlanMotion, TheTimeLimitAndTheWatchEndTheProof) {
   EXPECT_EQ(late.status, PlanStatus::timeout) << late.message;
   int asked = 0;
   const CancellationToken watch = [&] { return ++asked > 200; };
-  const MotionPlan stopped = planMotion(roomForABox(.28), kGoal, {.evaluations = 1}, std::nullopt, watch);
+  const MotionPlan stopped = planMotion(roomForABox(.28), kGoal, {.max_evaluations = 1}, std::nullopt, watch);
   EXPECT_EQ(stopped.status, PlanStatus::cancelled) << stopped.message;
 }
 
 TEST(PlanMotion, ProofAndTimingAreLeftOutWhereNobodyAsksForThem) {
-  const MotionPlan none = planMotion(roomForABox(.28), kGoal, {.evaluations = 2000, .proof = false});
+  const MotionPlan none = planMotion(roomForABox(.28), kGoal, {.max_evaluations = 2000, .prove_infeasibility = false});
   EXPECT_EQ(none.status, PlanStatus::no_path_found);
   const MotionPlan timed = planMotion(roomForABox(.5), kGoal),
                    path = planMotion(roomForABox(.5), kGoal, {.timing = false});

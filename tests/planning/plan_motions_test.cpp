@@ -30,7 +30,7 @@ Config twoWalls() {
 const VectorXd kOtherSide{{1.5, .9}};
 
 PlanOptions shortest(int improve) {
-  PlanOptions options{.optimize = "length", .tries = 1, .improve = improve};
+  PlanOptions options{.optimize = "length", .restarts = 1, .improvement_evaluations = improve};
   return options;
 }
 

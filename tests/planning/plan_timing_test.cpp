@@ -1,4 +1,5 @@
 #include "kinegraph/planning/plan_timing.h"
+#include "kinegraph/collision/travel_bound.h"
 
 #include <gtest/gtest.h>
 

@@ -74,7 +74,7 @@ TEST_F(SceneEditsTest, JointsStayWithinTheirLimits) {
 }
 
 TEST_F(SceneEditsTest, ResetIsHome) {
-  const VectorXd home = config.program()->home;
+  const VectorXd home = config.model()->home;
   config.setJointState(Eigen::Vector2d(1.5, .1));
   show();
   EXPECT_EQ(edits.apply(ResetJointsCommand{1})->q, home);
