@@ -48,4 +48,4 @@ step "Python and browser tests"
 step "a sample of the robots of example-robot-data (125 MB)"
 robots=$PWD/build/robots/cmeel.prefix/share
 [ -d "$robots" ] || "$tests/bin/python" -m pip install --no-deps --target build/robots example-robot-data==6.0.0
-KINEGRAPH_PACKAGE_PATH=$robots "$tests/bin/python" -m pytest -q tests/python/test_models.py tests/python/test_robots.py
+KINEGRAPH_PACKAGE_PATH=$robots "$tests/bin/python" -m pytest -q tests/python/scene/test_models.py tests/python/scene/test_robots.py

@@ -11,4 +11,4 @@ mkdir -p build
 "$venv/bin/python" -m pip install .
 "$venv/bin/python" -m pip install pytest hypothesis pin==4.1.0 example-robot-data==6.0.0 mujoco==3.17.0
 "$venv/bin/python" -m pip install --no-deps robosuite==1.5.2
-"$venv/bin/python" -m pytest -q -m "robots or models" tests/python/test_urdf.py tests/python/test_mjcf.py "$@"
+"$venv/bin/python" -m pytest -q -m "robots or models" tests/python/scene/test_urdf.py tests/python/scene/test_mjcf.py "$@"

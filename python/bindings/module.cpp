@@ -3,15 +3,15 @@
 #include <cstdlib>
 
 #include "arguments.h"
-#include "bind_tasks.h"
+#include "task_planning/bind_tasks.h"
 #include "bindings.h"
 #include "call_errors.h"
-#include "control.h"
-#include "docs/module.h"
+#include "control/control.h"
+#include "module_docs.h"
 #include "kinegraph/gfile/parser.h"
-#include "nlp_objects.h"
-#include "scene_values.h"
-#include "simulation_objects.h"
+#include "solvers/nlp_objects.h"
+#include "scene/scene_values.h"
+#include "simulation/simulation_objects.h"
 
 using namespace kinegraph::python;
 using namespace nanobind::literals;

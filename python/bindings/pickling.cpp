@@ -4,7 +4,7 @@
 #include <nanobind/stl/string.h>
 #include <nanobind/stl/vector.h>
 
-#include "feature_arguments.h"
+#include "features/feature_arguments.h"
 
 namespace kinegraph::python {
 

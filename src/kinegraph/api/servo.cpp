@@ -20,7 +20,7 @@ constexpr Seconds kCheckPeriod(.02);          // between two looks at whether th
 
 void place(Frame& frame, const VectorXd& pose) {
   if (pose.size() != 3 && pose.size() != 7)
-    throw ValueError(cat("drive: the source gives ", pose.size(), " numbers; expected x y z, or x y z qw qx qy qz"));
+    throw ValueError(cat("servo: the source gives ", pose.size(), " numbers; expected x y z, or x y z qw qx qy qz"));
   if (pose.size() == 7) {
     frame.setPose(Pose::fromNumbers(pose));
   } else {
@@ -39,7 +39,7 @@ void waitUntil(Clock::time_point end, const std::function<void()>& between) {
 void driveBy(DiffIk& ik, Config& config, const std::function<void(double t)>& move, bool shows,
              const ServoOptions& options) {
   if (!(options.seconds > 0.) || !(options.dt > 0.))
-    throw ValueError(cat("drive: seconds is ", options.seconds, ", dt is ", options.dt, "; expected numbers > 0"));
+    throw ValueError(cat("servo: seconds is ", options.seconds, ", dt is ", options.dt, "; expected numbers > 0"));
   const auto begun = Clock::now();
   double shown_at = -std::numeric_limits<double>::infinity();
   const double steps = std::round(options.seconds / options.dt);

@@ -1,0 +1,131 @@
+#include <nanobind/stl/optional.h>
+#include <nanobind/stl/string.h>
+#include <nanobind/stl/variant.h>
+#include <nanobind/stl/vector.h>
+
+#include <sstream>
+
+#include "arguments.h"
+#include "bindings.h"
+#include "planning/path_lines_docs.h"
+#include "planning/roadmap_docs.h"
+#include "features/feature_arguments.h"
+#include "kinegraph/common/text.h"
+#include "kinegraph/planning/roadmap.h"
+#include "pickling.h"
+#include "python_names.h"
+
+namespace kinegraph::python {
+
+namespace {
+
+namespace lines = docs::path_lines;
+
+/// A map, and the scene that it is of, as it was given.
+struct PyRoadmap : Roadmap {
+  PyRoadmap(std::shared_ptr<const Config> scene, double margin, std::uint64_t seed)
+      : Roadmap(*scene, margin, seed), config(std::move(scene)) {}
+  std::shared_ptr<const Config> config;
+};
+
+/// Runs without the interpreter lock, and looks for Ctrl-C.
+template <class Work>
+auto watched(const Work& work) {
+  const nb::gil_scoped_release unlock;
+  CheckInterrupts check;
+  return work([&] {
+    check();
+    return false;
+  });
+}
+
+RoadmapPath findPath(PyRoadmap& map, const Numbers& start, const Numbers& goal) {
+  return watched([&](const CancellationToken& watch) { return map.findPath(start.values, goal.values, watch); });
+}
+
+nb::tuple mapState(const PyRoadmap& map) {
+  std::ostringstream out(std::ios::binary);
+  map.save(out);
+  const std::string bytes = out.str();
+  return nb::make_tuple(PyConfig{Config(*map.config), nullptr}, map.margin(), nb::bytes(bytes.data(), bytes.size()));
+}
+
+void setMapState(PyRoadmap& map, const nb::tuple& state) {
+  PyRoadmap made(std::make_shared<const Config>(nb::cast<const PyConfig&>(state[0])), nb::cast<double>(state[1]), 0);
+  const auto bytes = nb::cast<nb::bytes>(state[2]);
+  std::istringstream in(std::string(bytes.c_str(), bytes.size()), std::ios::binary);
+  made.load(in, "Roadmap");
+  new (&map) PyRoadmap(std::move(made));
+}
+
+}  // namespace
+
+void bindRoadmap(nb::module_& m) {
+  nb::class_<RoadmapPath>(m, "RoadmapPath", "What a Roadmap answers.")
+      .def_prop_ro("feasible", &RoadmapPath::feasible, "True if there is a path. It is free at all times.")
+      .def_prop_ro(
+          "path", [](const RoadmapPath& a) { return toNumpy(a.path); }, "Postures, shape (K, n), rad or m.")
+      .def_prop_ro(
+          "message", [](const RoadmapPath& a) { return inPython(a.message); },
+          "\"\" if there is a path; else why there is none.")
+      .def_ro("checked", &RoadmapPath::checked, "Postures and motions that had to be looked at.")
+      .def("__bool__", &RoadmapPath::feasible)
+      .def("__repr__",
+           [](const RoadmapPath& a) {
+             return cat("<RoadmapPath ", a.feasible() ? cat(a.path.rows(), " postures") : inPython(a.message), ">");
+           })
+      .def("__getstate__", [](const RoadmapPath& a) { return nb::make_tuple(toNumpy(a.path), a.message, a.checked); })
+      .def(
+          "__setstate__",
+          [](RoadmapPath& a, const nb::tuple& state) {
+            new (&a) RoadmapPath{matrixFrom(state[0]), nb::cast<std::string>(state[1]), nb::cast<long>(state[2])};
+          },
+          "state"_a);
+  nb::class_<PyRoadmap>(m, "Roadmap", docs::roadmap::type)
+      .def(
+          "__init__",
+          [](PyRoadmap* self, const PyConfig& config, double margin, std::uint64_t seed) {
+            new (self) PyRoadmap(std::make_shared<const Config>(config), margin, seed);
+          },
+          "config"_a, "margin"_a = 0., "seed"_a = 0, docs::roadmap::make)
+      .def(
+          "grow",
+          [](PyRoadmap& map, int configurations) -> PyRoadmap& {
+            watched([&](const CancellationToken& watch) { map.grow(configurations, watch); });
+            return map;
+          },
+          "configurations"_a, kChain, docs::roadmap::grow)
+      .def("findPath", findPath, "start"_a, "goal"_a, docs::roadmap::findPath)
+      .def(
+          "setScene",
+          [](PyRoadmap& map, const PyConfig& config) {
+            auto scene = std::make_shared<const Config>(config);
+            map.setScene(*scene);
+            map.config = std::move(scene);
+          },
+          "config"_a, docs::roadmap::setScene)
+      .def(
+          "save", [](const PyRoadmap& map, const PathText& file) { map.save(file.text); }, "path"_a,
+          docs::roadmap::save)
+      .def("__getstate__", mapState)
+      .def("__setstate__", setMapState, "state"_a)
+      .def(
+          "load", [](PyRoadmap& map, const PathText& file) { map.load(file.text); }, "path"_a, docs::roadmap::load)
+      .def(
+          "picture",
+          [](const PyRoadmap& map, const PyConfig& config, const std::optional<FrameNames>& frames) {
+            return PyConfig{map.picture(config, frames ? toNames(*frames) : std::vector<std::string>()), nullptr};
+          },
+          "config"_a, "frames"_a = nb::none(),
+          cat(docs::roadmap::picture, lines::frames, lines::returnsPicture, lines::raises).c_str())
+      .def("__len__", &Roadmap::size)
+      .def_prop_ro("motions", &Roadmap::motions, "How many motions between postures it has.")
+      .def_prop_ro("margin", &Roadmap::margin, "m, that all collidable pairs keep.")
+      .def_prop_ro(
+          "configurations", [](const PyRoadmap& map) { return toNumpy(map.configurations()); }, "Shape (N, n), rad or m.")
+      .def("__repr__", [](const PyRoadmap& map) {
+        return cat("<Roadmap of ", map.size(), " postures and ", map.motions(), " motions>");
+      });
+}
+
+}  // namespace kinegraph::python

@@ -1,0 +1,109 @@
+#include <nanobind/stl/optional.h>
+#include <nanobind/stl/shared_ptr.h>
+#include <nanobind/stl/string.h>
+
+#include "arguments.h"
+#include "bindings.h"
+#include "simulation/simulation_docs.h"
+#include "kinegraph/common/errors.h"
+#include "kinegraph/common/text.h"
+#include "kinegraph/api/recorded_motion.h"
+#include "viewer/py_viewer.h"
+#include "simulation/simulation_objects.h"
+
+namespace kinegraph::python {
+
+namespace {
+
+/// A recording, and what shows it.
+struct PyRecording : Recording {
+  std::shared_ptr<PyViewer> viewer = {};
+};
+
+int viewRecording(PyRecording& recording, bool pause, const std::optional<std::string>& message) {
+  const ShownMotion motion = recordedMotion(recording);
+  const Config config = recording.makeConfig();
+  if (!recording.viewer) recording.viewer = std::make_shared<PyViewer>();
+  const std::shared_ptr<PyViewer> viewer = recording.viewer;
+  viewer->scene = config.scene();
+  if (!viewer->isOpen()) viewer->setTitle("Simulation");
+  if (!openPage(*viewer)) return pause ? kEscape : 0;
+  const nb::gil_scoped_release unlock;
+  return viewer->showMotion(config, motion, pause, message, interrupted);
+}
+
+}  // namespace
+
+void bindRecording(nb::module_& m, nb::class_<PySimulation>& simulation) {
+  nb::class_<PyRecording>(m, "SimulationRecording", docs::simulation::recording)
+      .def_prop_ro(
+          "times", [](const PyRecording& r) { return toNumpy(r.times.data(), r.times.size()); },
+          "s after each step, (T,).")
+      .def_prop_ro(
+          "q",
+          [](const PyRecording& r) {
+            MatrixXd path(long(r.q.size()), r.q.empty() ? 0 : r.q[0].size());
+            for (long i = 0; i < path.rows(); ++i) path.row(i) = r.q[std::size_t(i)].transpose();
+            return toNumpy(path);
+          },
+          "Joint state after each step, (T, n).")
+      .def_prop_ro(
+          "freePos",
+          [](const PyRecording& r) {
+            const std::size_t free = r.freePos.empty() ? 0 : std::size_t(r.freePos[0].rows());
+            const NewArray made = newArray(r.freePos.size(), free, 7);
+            double* at = made.data;
+            for (const MatrixXd& poses : r.freePos) {
+              for (long i = 0; i < poses.rows(); ++i) {
+                for (long k = 0; k < 7; ++k) *at++ = poses(i, k);
+              }
+            }
+            return made.array;
+          },
+          "Poses of the free frames after each step, (T, F, 7).")
+      .def_ro("isCut", &PyRecording::is_cut, "The scene's structure changed: the recording ends before that.")
+      .def(
+          "save", [](const PyRecording& r, const PathText& path) { r.save(path.text); }, "path"_a,
+          docs::simulation::save)
+      .def_static(
+          "load", [](const PathText& path) { return PyRecording{Recording::load(path.text)}; }, "path"_a,
+          docs::simulation::load)
+      .def(
+          "makeConfig", [](const PyRecording& r) { return PyConfig{r.makeConfig()}; }, docs::simulation::makeConfig)
+      .def(
+          "replay",
+          [](const PyRecording& r, nb::object config) {
+            Simulation again = r.replay(nb::cast<PyConfig&>(config));
+            return new PySimulation{std::move(config), std::move(again)};
+          },
+          "C"_a, nb::sig("def replay(self, C: Config) -> Simulation"), docs::simulation::replay)
+      .def("view", viewRecording, "pause"_a = false, "message"_a = nb::none(), docs::simulation::viewRecording)
+      .def(
+          "saveHtml", [](const PyRecording& r, const PathText& path) { r.saveHtml(path.text); }, "path"_a,
+          docs::simulation::saveHtml)
+      .def(
+          "viewer",
+          [](PyRecording& r) {
+            if (!r.viewer) r.viewer = std::make_shared<PyViewer>();
+            return r.viewer;
+          },
+          "The viewer of this recording.")
+      .def(
+          "view_close",
+          [](PyRecording& r) {
+            if (r.viewer) r.viewer->endPage();
+          },
+          "Ends the viewer.")
+      .def("__repr__", [](const PyRecording& r) {
+        return cat("<SimulationRecording of ", r.times.size(), " steps, ", r.calls.size(), " calls>");
+      });
+  using S = PySimulation;
+  simulation
+      .def(
+          "startRecording", [](S& s) { s.simulation.startRecording(); }, docs::simulation::startRecording)
+      .def(
+          "stopRecording", [](S& s) { return PyRecording{s.simulation.stopRecording()}; },
+          docs::simulation::stopRecording);
+}
+
+}  // namespace kinegraph::python

@@ -1,0 +1,87 @@
+#include <nanobind/stl/optional.h>
+#include <nanobind/stl/string.h>
+
+#include <cmath>
+#include <limits>
+
+#include "bindings.h"
+#include "simulation/simulation_docs.h"
+#include "kinegraph/common/errors.h"
+#include "kinegraph/common/text.h"
+#include "kinegraph/api/simulation_view.h"
+#include "viewer/py_viewer.h"
+#include "simulation/simulation_objects.h"
+
+namespace kinegraph::python {
+
+namespace {
+
+/// Does not hold the interpreter up while it waits.
+struct PySimulationView final : SimulationView {
+  using SimulationView::SimulationView;
+  void rest() override {
+    std::optional<nb::gil_scoped_release> unlock;
+    if (PyGILState_Check()) unlock.emplace();
+    SimulationView::rest();
+  }
+};
+
+PyConfig& configOf(PySimulation& s) { return nb::cast<PyConfig&>(s.config); }
+
+const std::shared_ptr<PyViewer>& viewerOf(PySimulation& s) {
+  PyConfig& config = configOf(s);
+  if (!config.viewer) config.viewer = std::make_shared<PyViewer>();
+  config.viewer->scene = config.scene();
+  return config.viewer;
+}
+
+/// The view of the page that C has, begun if need be; null where pages are not wanted.
+std::shared_ptr<SimulationView> liveView(PySimulation& s) {
+  const std::shared_ptr<PyViewer>& viewer = viewerOf(s);
+  if (!openPage(*viewer)) return nullptr;
+  if (auto view = SimulationView::of(s.simulation, viewer)) return view;
+  return SimulationView::begin<PySimulationView>(s.simulation, viewer, checkInterrupt);
+}
+
+int viewSimulation(PySimulation& s, bool pause, const std::optional<std::string>& message) {
+  const std::shared_ptr<SimulationView> live = liveView(s);
+  if (!live) return pause ? kEscape : 0;
+  const nb::gil_scoped_release unlock;
+  return live->view(s.simulation, pause, message);
+}
+
+int run(PySimulation& s, const std::optional<double>& seconds, double tau, double speed) {
+  const auto watcher = std::dynamic_pointer_cast<SimulationView>(s.simulation.watcher());
+  const bool can_end = watcher && viewerOf(s)->isOpen() && viewerOf(s)->waits();
+  if (!seconds && !can_end)
+    throw ValueError(
+        "Simulation.run: nobody can end it by a key: say for how many seconds, or show it by view() before");
+  const nb::gil_scoped_release unlock;
+  CheckInterrupts check;
+  return s.simulation.run(seconds.value_or(std::numeric_limits<double>::infinity()), tau, speed, [&] { check(); });
+}
+
+}  // namespace
+
+void showAsTold(PySimulation& s, const std::optional<int>& verbose) {
+  const std::shared_ptr<PyViewer>& viewer = configOf(s).viewer;
+  if (verbose ? *verbose >= 2 : viewer && viewer->isOpen()) {
+    viewSimulation(s, false, std::nullopt);
+  } else {
+    s.simulation.setWatcher(nullptr);
+  }
+}
+
+void bindSimulationView(nb::class_<PySimulation>& simulation) {
+  simulation.def("view", viewSimulation, "pause"_a = false, "message"_a = nb::none(), docs::simulation::view)
+      .def(
+          "view_close",
+          [](PySimulation& s) {
+            s.simulation.setWatcher(nullptr);
+            if (configOf(s).viewer) configOf(s).viewer->endPage();
+          },
+          docs::simulation::view_close)
+      .def("run", run, "seconds"_a = nb::none(), "tau"_a = .01, "speed"_a = 1., docs::simulation::run);
+}
+
+}  // namespace kinegraph::python

@@ -1,0 +1,175 @@
+#include <nanobind/stl/string.h>
+#include <nanobind/stl/vector.h>
+
+#include "solvers/sensitivity_docs.h"
+#include "kinegraph/common/errors.h"
+#include "kinegraph/common/text.h"
+#include "kinegraph/api/solution_parameters.h"
+#include "python_names.h"
+#include "solvers/sensitivity.h"
+
+namespace kinegraph::python {
+
+namespace {
+
+/// What is asked for, and which columns belong to each parameter.
+struct PySensitivity {
+  Sensitivity of;
+  std::vector<int> first;  ///< per parameter, and the end
+};
+
+std::vector<int> readIndices(nb::handle given) {
+  if (nb::isinstance<nb::int_>(given)) return {nb::cast<int>(given)};
+  return nb::cast<std::vector<int>>(given);
+}
+
+std::shared_ptr<NlpParameter> readPair(const Nlp& nlp, nb::handle first, nb::handle second) {
+  if (nb::isinstance<nb::str>(first)) {
+    const std::string name = nb::cast<std::string>(first);
+    if (!nb::isinstance<nb::str>(second)) {
+      if (name == "residual") return residualTargets(nlp, readIndices(second));
+      if (name == "lower" || name == "upper") return boundsOf(nlp, readIndices(second), name == "upper");
+      throw ValueError(cat("sensitivity: numbers belong to 'residual', 'lower' or 'upper', not to '", name, "'"));
+    }
+    return parameterOf(nlp, name, nb::cast<std::string>(second));
+  }
+  return parameterOf(nlp, nb::cast<int>(first), nb::cast<std::string>(second));
+}
+
+/// A number, a name, a Frame, or a tuple of one of them and a word.
+std::shared_ptr<NlpParameter> readParameter(const Nlp& nlp, nb::handle given) {
+  const auto named = [](nb::handle of) {
+    return nb::isinstance<Frame>(of) ? nb::object(nb::str(nb::cast<Frame>(of).getName().c_str())) : nb::borrow(of);
+  };
+  if (nb::isinstance<nb::tuple>(given) && nb::len(given) == 2) return readPair(nlp, named(given[0]), given[1]);
+  const nb::object one = named(given);
+  if (nb::isinstance<nb::str>(one)) return parameterOf(nlp, nb::cast<std::string>(one));
+  if (nb::isinstance<nb::int_>(one)) return parameterOf(nlp, nb::cast<int>(one));
+  throw ValueError(
+      cat("sensitivity: a parameter is of type ", nb::cast<std::string>(nb::str(given.type().attr("__name__"))),
+          "; expected the number or name of an objective, a frame, or one of them with a word in a tuple"));
+}
+
+std::vector<int> columnsOf(const NlpParameters& parameters) {
+  std::vector<int> first = {0};
+  for (const auto& parameter : parameters) first.push_back(first.back() + parameter->size());
+  return first;
+}
+
+PySensitivity ofResult(const SolverResult& result, nb::args given, bool hold_weak) {
+  if (!result.problem) return {Sensitivity(result, {}), {}};  // which says so
+  NlpParameters parameters;
+  for (nb::handle one : given) parameters.push_back(readParameter(*result.problem, one));
+  if (parameters.empty())
+    throw ValueError("sensitivity: by what? Expected objectives, frames, or others of the list in help()");
+  std::vector<int> first = columnsOf(parameters);
+  const nb::gil_scoped_release unlock;
+  return {Sensitivity(result, std::move(parameters), {hold_weak}), std::move(first)};
+}
+
+PySensitivity ofIkResult(const IkResult& result, nb::args given, bool hold_weak) {
+  const std::shared_ptr<Nlp> nlp = makeNlp(result);
+  NlpParameters parameters;
+  for (nb::handle one : given) parameters.push_back(readParameter(*nlp, one));
+  if (parameters.empty()) parameters = ikTargets(*nlp);
+  std::vector<int> first = columnsOf(parameters);
+  const nb::gil_scoped_release unlock;
+  return {Sensitivity(nlp, result.q, {}, std::move(parameters), {hold_weak}), std::move(first)};
+}
+
+const MatrixXd& jacobianOf(PySensitivity& s) {
+  const nb::gil_scoped_release unlock;
+  return s.of.jacobian();
+}
+
+Array gradientOf(PySensitivity& s, const Numbers& v) {
+  VectorXd gradient;
+  {
+    const nb::gil_scoped_release unlock;
+    gradient = s.of.gradient(v.values);
+  }
+  return toNumpy(gradient);
+}
+
+std::pair<int, int> columnsAt(const PySensitivity& s, std::ptrdiff_t index) {
+  const auto count = std::ptrdiff_t(s.first.size()) - 1, at = index < 0 ? index + count : index;
+  if (at < 0 || at >= count) throw nb::index_error(cat("parameter ", index, " of ", count).c_str());
+  return {s.first[std::size_t(at)], s.first[std::size_t(at) + 1]};
+}
+
+Array blockOf(PySensitivity& s, std::ptrdiff_t index) {
+  const auto [first, end] = columnsAt(s, index);
+  return toNumpy(MatrixXd(jacobianOf(s).middleCols(first, end - first)));
+}
+
+std::vector<std::string> textsInPython(const std::vector<std::string>& texts) {
+  std::vector<std::string> result;
+  for (const std::string& text : texts) result.push_back(inPython(text));
+  return result;
+}
+
+}  // namespace
+
+void bindSensitivity(nb::module_& m, nb::class_<SolverResult>& result) {
+  nb::class_<PySensitivity>(
+      m, "Sensitivity",
+      "How a solution x moves with p, numbers that its problem depends on: dx/dp, and gradients through it.")
+      .def_prop_ro(
+          "x", [](const PySensitivity& s) { return toNumpy(s.of.x()); }, "The solution, to rounding, shape (n,).")
+      .def_prop_ro(
+          "dual", [](const PySensitivity& s) { return toNumpy(s.of.dual()); }, "A multiplier per residual, shape (d,).")
+      .def_prop_ro(
+          "jacobian", [](PySensitivity& s) { return toNumpy(jacobianOf(s)); },
+          "dx/dp, shape (n, p). Found when first asked for.")
+      .def("gradient", gradientOf, "v"_a, docs::sensitivity::gradient)
+      .def("__len__", [](const PySensitivity& s) { return s.first.size() - 1; })
+      .def("__getitem__", blockOf, "index"_a, docs::sensitivity::block)
+      .def(
+          "columns",
+          [](const PySensitivity& s, int index) {
+            const auto [first, end] = columnsAt(s, index);
+            return nb::slice(first, end, 1);
+          },
+          "index"_a, docs::sensitivity::columns)
+      .def_prop_ro(
+          "names", [](const PySensitivity& s) { return textsInPython(s.of.names()); },
+          "What each of the p numbers is, in words.")
+      .def_prop_ro(
+          "active", [](const PySensitivity& s) { return textsInPython(s.of.active()); },
+          "The inequalities and bounds that press, in words.")
+      .def_prop_ro(
+          "weak", [](PySensitivity& s) { return textsInPython(s.of.weak()); },
+          "Those that touch without pressing: the solution has a kink there, and dx/dp is that of one side.")
+      .def_prop_ro(
+          "withoutEffect", [](PySensitivity& s) { return textsInPython(s.of.withoutEffect()); },
+          "Of `names`, those that neither costs nor active constraints depend on: dx/dp is zero.")
+      .def_prop_ro(
+          "freeDirections", [](const PySensitivity& s) { return s.of.freeDirections(); },
+          "About how many directions costs and constraints leave free; dx/dp has no part in them.")
+      .def_prop_ro(
+          "isRegular", [](PySensitivity& s) { return s.of.isRegular(); },
+          "Is dx/dp the derivative of the solution, with nothing to be said?")
+      .def_prop_ro(
+          "message", [](PySensitivity& s) { return inPython(s.of.message()); },
+          "What is to be said: kinks, free directions, saddles; \"\" if nothing.")
+      .def_prop_ro(
+          "evals", [](const PySensitivity& s) { return s.of.evals(); }, "Evaluations that it took to find x exactly.")
+      .def("__repr__", [](PySensitivity& s) {
+        const std::string message = s.of.message();
+        return cat("<Sensitivity of ", s.of.x().size(), " variables by ", s.of.size(), " numbers",
+                   message.empty() ? "" : cat(": ", inPython(message)), ">");
+      });
+  result.def(
+      "sensitivity", ofResult, "parameters"_a, nb::kw_only(), "holdWeak"_a = false,
+      nb::sig("def sensitivity(self, *parameters: int | str | Frame | tuple[int | str | Frame, str] | tuple[str, "
+              "int | collections.abc.Sequence[int]], holdWeak: bool = False) -> Sensitivity"),
+      docs::sensitivity::ofResult);
+}
+
+void bindSensitivity(nb::class_<IkResult>& result) {
+  result.def("sensitivity", ofIkResult, "targets"_a, nb::kw_only(), "holdWeak"_a = false,
+             nb::sig("def sensitivity(self, *targets: int | str | Frame, holdWeak: bool = False) -> Sensitivity"),
+             docs::sensitivity::ofIkResult);
+}
+
+}  // namespace kinegraph::python

@@ -1,0 +1,192 @@
+#include <nanobind/stl/shared_ptr.h>
+#include <nanobind/stl/string.h>
+#include <nanobind/stl/vector.h>
+
+#include <algorithm>
+#include <chrono>
+#include <deque>
+
+#include "bindings.h"
+#include "defaults.h"
+#include "solvers/solve_many_docs.h"
+#include "kinegraph/common/errors.h"
+#include "kinegraph/common/text.h"
+#include "kinegraph/trajectory_optimization/multi_start.h"
+#include "solvers/nlp_objects.h"
+#include "komo/py_komo.h"
+#include "python_names.h"
+#include "solvers/solving.h"
+
+namespace kinegraph::python {
+
+namespace {
+
+/// Looks for Ctrl-C and draws a bar, on the calling thread, while others solve.
+class Watch {
+ public:
+  Watch(const char* what, std::size_t total, int verbose) : what_(what), total_(int(total)), verbose_(verbose) {}
+
+  bool operator()(int ended) {
+    if (verbose_ > 0 && seconds() > .5) callUser([&] { draw(ended); });
+    return here_.pressedCtrlC();
+  }
+
+  /// With the interpreter lock. Says that Ctrl-C ended those that did not come to their end, and in a line how it went.
+  void finish(SolveManyResult& all) {
+    int done = 0, feasible = 0;
+    for (SolverResult& result : all.results) {
+      if (here_.wasPressed() && result.done && result.status == SolverStatus::cancelled) markInterrupted(result);
+      done += result.done;
+      feasible += result.feasible;
+    }
+    if (drawn_) draw(here_.wasPressed() ? done : total_);
+    if (here_.wasPressed() && all.best().x.size() == 0) throwKeyboardInterrupt();
+    if (verbose_ < 1) return;
+    nb::print(cat(what_, ": ", feasible, " of ", done, " are feasible, in ", seconds(), " s; the best: ", all.chosen,
+                  ", ", inPython(all.best().str()))
+                  .c_str());
+  }
+
+ private:
+  using Clock = std::chrono::steady_clock;
+  double seconds() const { return std::chrono::duration<double>(Clock::now() - start_).count(); }
+
+  void draw(int ended) {
+    drawn_ = true;
+    nb::module_::import_("kinegraph.progress").attr("drawProgress")(what_, ended, total_, seconds());
+  }
+
+  const char* what_;
+  int total_, verbose_;
+  bool drawn_ = false;
+  SolvingHere here_;
+  Clock::time_point start_ = Clock::now();
+};
+
+/// A number of starts: the present path and random ones; or an array of paths (K, T, n).
+std::vector<VectorXd> readStarts(PyKomo& komo, nb::handle given, std::uint64_t seed) {
+  if (nb::isinstance<nb::int_>(given)) return sampleStarts(komo, nb::cast<int>(given), seed, CheckInterrupts());
+  const int T = komo.slices(), n = komo.dofs();
+  const auto expected = [&] {
+    return cat("solveFromMany: starts are a number, or paths of shape (K, ", T, ", ", n, ")");
+  };
+  if (!nb::isinstance<nb::iterable>(given)) throw ValueError(expected());
+  const VectorXd before = komo.path().variables();
+  std::vector<VectorXd> starts;
+  for (nb::handle path : given) {
+    Numbers numbers;
+    if (!readNumbers(path, numbers) || numbers.rank != 2 || int(numbers.rows) != T || int(numbers.columns()) != n)
+      throw ValueError(expected());
+    komo.setPath(numbers.matrix());
+    starts.push_back(komo.path().variables());
+  }
+  komo.path().setVariables(before);
+  return starts;
+}
+
+SolveManyResult solveKomoFromMany(const std::shared_ptr<PyKomo>& komo, nb::handle starts, bool best, int threads,
+                                  std::uint64_t seed, int verbose, const SolverOptions* options) {
+  if (komo->slices() == 0) throw Error("KOMO: there is no problem yet; call setConfig and setTiming first");
+  const std::vector<VectorXd> points = readStarts(*komo, starts, seed);
+  Watch watch("solveFromMany", points.size(), verbose);
+  const SolverOptions chosen = options ? *options : startingOptions();
+  SolveManyResult all;
+  {
+    const nb::gil_scoped_release unlock;
+    all = solveFromMany(komo, points, chosen, {best, threads}, std::ref(watch));
+  }
+  watch.finish(all);
+  return all;
+}
+
+SolveManyResult solveEach(nb::iterable problems, int threads, bool best, int verbose, const SolverOptions* options) {
+  std::deque<NlpSolver> made;
+  std::vector<NlpSolver*> solvers;
+  for (nb::handle given : problems) {
+    if (nb::isinstance<NlpSolver>(given)) {
+      solvers.push_back(&nb::cast<NlpSolver&>(given));
+    } else {
+      std::shared_ptr<Nlp> nlp;
+      if (nb::isinstance<PyKomo>(given)) {
+        nlp = makeNlp(nb::cast<std::shared_ptr<PyKomo>>(given));
+      } else if (nb::isinstance<Nlp>(given)) {
+        nlp = nb::cast<std::shared_ptr<Nlp>>(given);
+      } else {
+        throw ValueError(cat("solveAll: problem ", solvers.size(), " is a ",
+                             nb::cast<std::string>(given.type().attr("__name__")),
+                             "; expected a KOMO, an NLP or an NLP_Solver"));
+      }
+      NlpSolver& solver = made.emplace_back(std::move(nlp), 0);
+      solver.options = options ? *options : startingOptions();
+      solver.options.verbose = 0;
+      solver.keeps_memory = false;  // for the next one
+      solvers.push_back(&solver);
+    }
+    addExternalMethods(*solvers.back());
+  }
+  // two problems of one KOMO would move the same path
+  for (std::size_t i = 0; i < solvers.size(); ++i) {
+    for (std::size_t j = 0; j < i; ++j) {
+      const auto komo = solvers[i]->problem() ? komoOf(*solvers[i]->problem()) : nullptr;
+      if (!komo || !solvers[j]->problem() || komoOf(*solvers[j]->problem()) != komo) continue;
+      throw ValueError(
+          cat("solveAll: problems ", j, " and ", i, " are of the same KOMO; copy.copy(komo) makes another one"));
+    }
+  }
+  Watch watch("solveAll", solvers.size(), verbose);
+  SolveManyResult all;
+  {
+    const nb::gil_scoped_release unlock;
+    all = solveAll(solvers, {best, threads}, defaults().seed, std::ref(watch));
+  }
+  watch.finish(all);
+  return all;
+}
+
+SolverResult resultAt(const SolveManyResult& all, Py_ssize_t i) {
+  const auto size = Py_ssize_t(all.results.size());
+  if (i < -size || i >= size) throw nb::index_error(cat("result ", i, " of ", size).c_str());
+  return all.results[std::size_t(i < 0 ? i + size : i)];
+}
+
+}  // namespace
+
+void bindSolveMany(nb::module_& m) {
+  nb::class_<SolveManyResult>(m, "SolverReturns",
+                              "How several problems, or one problem from several starts, were solved.")
+      .def_ro("results", &SolveManyResult::results,
+              "A SolverReturn each; done is False where an earlier one sufficed, or Ctrl-C came before.")
+      .def_ro("chosen", &SolveManyResult::chosen,
+              "Index of the best: feasible ones before infeasible ones, then by cost, or by violation.")
+      .def_prop_ro(
+          "best", [](const SolveManyResult& r) { return r.best(); }, "The SolverReturn of the best.")
+      .def_prop_ro(
+          "feasible", [](const SolveManyResult& r) { return r.best().feasible; }, "True if the best is feasible.")
+      .def("__bool__", [](const SolveManyResult& r) { return r.best().feasible; })
+      .def("__len__", [](const SolveManyResult& r) { return r.results.size(); })
+      .def("__getitem__", resultAt, "index"_a)
+      .def("__repr__",
+           [](const SolveManyResult& r) {
+             const auto feasible = std::ranges::count_if(r.results, &SolverResult::feasible);
+             return cat("<SolverReturns: ", feasible, " of ", r.results.size(), " feasible; the best: ", r.chosen, ", ",
+                        r.best().str(), ">");
+           })
+      .def("__getstate__", [](const SolveManyResult& r) { return nb::make_tuple(r.results, r.chosen); })
+      .def(
+          "__setstate__",
+          [](SolveManyResult& r, nb::tuple state) {
+            new (&r) SolveManyResult{nb::cast<std::vector<SolverResult>>(state[0]), nb::cast<int>(state[1])};
+          },
+          "state"_a);
+
+  m.def("solveAll", solveEach, "problems"_a, nb::kw_only(), "threads"_a = 1, "best"_a = true, "verbose"_a = 0,
+        "options"_a.none() = nb::none(), docs::solve_many::solveAll);
+
+  nb::object komo = nb::borrow(nb::type<PyKomo>());
+  nb::setattr(komo, "solveFromMany",
+              nb::cpp_function(solveKomoFromMany, nb::is_method(), nb::name("solveFromMany"), nb::scope(komo),
+                               "starts"_a = 8, nb::kw_only(), "best"_a = true, "threads"_a = 1, "seed"_a = 0,
+                               "verbose"_a = 0, "options"_a.none() = nb::none(), docs::solve_many::solveFromMany));
+}
+
+}  // namespace kinegraph::python

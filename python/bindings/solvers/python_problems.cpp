@@ -1,0 +1,197 @@
+#include <nanobind/stl/string.h>
+#include <nanobind/stl/vector.h>
+
+#include <limits>
+
+#include "kinegraph/common/errors.h"
+#include "kinegraph/common/text.h"
+#include "kinegraph/nlp/evaluation_sizes.h"
+#include "solvers/nlp_objects.h"
+#include "solvers/solving.h"
+
+namespace kinegraph::python {
+
+namespace {
+
+using Rows = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+/// Reads what a user's function returned: (phi, J), J dense or triplets.
+void readEvaluation(nb::handle returned, int rows, int dimension, VectorXd& phi, MatrixXd& J) {
+  const nb::tuple pair = nb::cast<nb::tuple>(nb::module_::import_("builtins").attr("tuple")(returned));
+  if (pair.size() != 2)
+    throw ValueError(cat("the problem's function returned ", pair.size(), " values; expected (phi, J)"));
+  const Numbers values = nb::cast<Numbers>(pair[0]), jacobian = nb::cast<Numbers>(pair[1]);
+  phi = values.values;
+  if (phi.size() != rows)
+    throw ValueError(
+        cat("the problem's function returned phi of size ", phi.size(), "; expected ", rows, ", one per type"));
+  const bool triplets = jacobian.rank == 2 && jacobian.columns() == 3 && int(jacobian.rows) != rows;
+  if (!triplets && jacobian.values.size() != Eigen::Index(rows) * dimension) {
+    throw ValueError(cat("the problem's function returned a Jacobian with ", jacobian.values.size(),
+                         " entries; expected ", rows, " x ", dimension));
+  }
+  J.setZero(rows, dimension);
+  if (!triplets) {
+    J = Eigen::Map<const Rows>(jacobian.values.data(), rows, dimension);
+    return;
+  }
+  for (Eigen::Index i = 0; i < jacobian.values.size(); i += 3) {
+    const double row = jacobian.values[i], column = jacobian.values[i + 1];
+    if (!(row >= 0. && row < rows && column >= 0. && column < dimension))
+      throw ValueError("a Jacobian triplet lies outside of the matrix");
+    J(Eigen::Index(row), Eigen::Index(column)) += jacobian.values[i + 2];
+  }
+}
+
+/// Calls a function of the user's. Where Ctrl-C ended it there is no value.
+void callForValue(const std::function<void()>& call) {
+  if (!callUser(call)) throw EvaluationCancelled();
+}
+
+/// Calls function(x) for phi and J.
+void evaluateFunction(const nb::object& function, const VectorXd& x, int rows, VectorXd& phi, MatrixXd& dense,
+                      Jacobian* J) {
+  const int n = int(x.size());
+  callForValue([&] { readEvaluation(function(toNumpy(x)), rows, n, phi, dense); });
+  if (J) Eigen::Map<Rows>(J->values.data(), rows, n) = dense;
+}
+
+/// Where the upper bound is below the lower one there is none.
+void openBounds(VectorXd& lower, VectorXd& upper) {
+  for (Eigen::Index i = 0; i < lower.size(); ++i) {
+    if (lower[i] <= upper[i]) continue;
+    lower[i] = -kInfinity;
+    upper[i] = kInfinity;
+  }
+}
+
+class PythonProblem final : public Nlp {
+ public:
+  explicit PythonProblem(nb::object problem) : problem_(std::move(problem)), evaluate_(problem_.attr("evaluate")) {
+    const int n = nb::cast<int>(problem_.attr("dimension"));
+    if (n < 0) throw ValueError(cat("the dimension of the problem is ", n, "; expected a number >= 0"));
+    const char* types_name = nb::hasattr(problem_, "types") ? "types" : "featureTypes";
+    for (nb::handle type : problem_.attr(types_name)) {
+      const bool is_enum = nb::isinstance<ObjectiveType>(type);
+      const int number = is_enum ? int(nb::cast<ObjectiveType>(type)) : nb::cast<int>(nb::int_(nb::borrow(type)));
+      if (number < 0 || number > int(ObjectiveType::none))
+        throw ValueError(cat("a type of the problem is ", number, "; expected values of OT"));
+      types_.push_back(ObjectiveType(number));
+    }
+    lower_ = VectorXd::Constant(n, -kInfinity);
+    upper_ = VectorXd::Constant(n, kInfinity);
+    Numbers bounds;
+    if (!nb::hasattr(problem_, "bounds") || !readNumbers(problem_.attr("bounds"), bounds) || bounds.values.size() == 0)
+      return;
+    if (bounds.rows != 2 || bounds.values.size() != 2 * n) {
+      throw ValueError(cat("the bounds of the problem are ", bounds.rows, " x ", bounds.columns(),
+                           " numbers; expected 2 x ", n, ", lower and upper"));
+    }
+    lower_ = bounds.values.head(n);
+    upper_ = bounds.values.tail(n);
+    openBounds(lower_, upper_);
+  }
+
+  ~PythonProblem() override {
+    const nb::gil_scoped_acquire lock;
+    problem_.reset();
+    evaluate_.reset();
+  }
+
+  bool mayBeCancelled() const override { return true; }
+
+  void evaluate(const VectorXd& x, VectorXd& phi, Jacobian* J) override {
+    prepareEvaluation(*this, x, phi, J);
+    evaluateFunction(evaluate_, x, int(types_.size()), phi, dense_, J);
+  }
+
+  bool addCostHessian(const VectorXd& x, MatrixXd& H) override {
+    bool has_one = false;
+    callForValue([&] {
+      Numbers given;
+      if (!nb::hasattr(problem_, "getFHessian") || !readNumbers(problem_.attr("getFHessian")(toNumpy(x)), given) ||
+          given.values.size() == 0)
+        return;
+      if (given.values.size() != H.size()) {
+        throw ValueError(cat("getFHessian returned ", given.values.size(), " numbers; expected ", H.rows(), " x ",
+                             H.cols(), ", or none"));
+      }
+      H += Eigen::Map<const Rows>(given.values.data(), H.rows(), H.cols());
+      has_one = true;
+    });
+    return has_one;
+  }
+
+  VectorXd initialPoint(Rng& rng) override {
+    Numbers given;
+    callForValue([&] {
+      if (nb::hasattr(problem_, "getInitializationSample"))
+        readNumbers(problem_.attr("getInitializationSample")(), given);
+    });
+    if (given.values.size() == 0 && dimension() > 0) return Nlp::initialPoint(rng);
+    if (given.values.size() != dimension()) {
+      throw ValueError(
+          cat("getInitializationSample returned ", given.values.size(), " numbers; expected ", dimension()));
+    }
+    return given.values;
+  }
+
+  std::string report(int verbose) const override {
+    std::string text;
+    callUser([&] {
+      if (!nb::hasattr(problem_, "report")) return;
+      const nb::object said = problem_.attr("report")(verbose);
+      if (!said.is_none()) text = nb::cast<std::string>(nb::str(said));
+    });
+    return text.empty() ? Nlp::report(verbose) : text;
+  }
+
+ private:
+  nb::object problem_, evaluate_;
+  MatrixXd dense_;
+};
+
+}  // namespace
+
+void PyNlpFactory::setDimension(int n) {
+  if (n < 0) throw ValueError(cat("NLP_Factory: the dimension is ", n, "; expected a number >= 0"));
+  lower_ = VectorXd::Constant(n, -kInfinity);
+  upper_ = VectorXd::Constant(n, kInfinity);
+}
+
+void PyNlpFactory::setBounds(const VectorXd& lower, const VectorXd& upper) {
+  const Eigen::Index n = lower_.size() > 0 ? lower_.size() : lower.size();
+  if (lower.size() == 0 && upper.size() == 0) return setDimension(int(n));
+  if (lower.size() != n || upper.size() != n) {
+    throw ValueError(cat("NLP_Factory: there are ", lower.size(), " lower and ", upper.size(),
+                         " upper bounds; expected ", n, " each"));
+  }
+  lower_ = lower;
+  upper_ = upper;
+  openBounds(lower_, upper_);
+}
+
+void PyNlpFactory::evaluate(const VectorXd& x, VectorXd& phi, Jacobian* J) {
+  prepareEvaluation(*this, x, phi, J);
+  if (!function_.is_valid()) throw Error("NLP_Factory: there is no function; call setEvalCallback first");
+  evaluateFunction(function_, x, int(types_.size()), phi, J_, J);
+}
+
+std::string PyNlpFactory::report(int) const {
+  return cat("NLP_Factory: ", dimension(), " variables, ", types_.size(), " residuals");
+}
+
+std::shared_ptr<Nlp> fromPythonProblem(nb::object problem) {
+  for (const char* name : {"dimension", "evaluate"}) {
+    if (nb::hasattr(problem, name)) continue;
+    throw ValueError(cat("the problem, a ", nb::cast<std::string>(problem.type().attr("__name__")), ", has no '", name,
+                         "'; expected dimension, types, bounds and evaluate(x) -> (phi, J)"));
+  }
+  if (!nb::hasattr(problem, "types") && !nb::hasattr(problem, "featureTypes")) {
+    throw ValueError("the problem has no 'types'; expected a list of OT, one per entry of phi");
+  }
+  return std::make_shared<PythonProblem>(std::move(problem));
+}
+
+}  // namespace kinegraph::python

@@ -1,0 +1,206 @@
+#include <nanobind/stl/optional.h>
+#include <nanobind/stl/shared_ptr.h>
+#include <nanobind/stl/string.h>
+#include <nanobind/stl/vector.h>
+
+#include "arguments.h"
+#include "task_planning/bind_tasks.h"
+#include "bindings.h"
+#include "task_planning/manipulation_docs.h"
+#include "kinegraph/common/errors.h"
+#include "kinegraph/common/text.h"
+#include "task_planning/py_manipulation.h"
+
+namespace kinegraph::python {
+
+namespace {
+
+using M = PyManipulation;
+using Name = const std::string&;
+
+/// Passes on what had no effect.
+void warn(M& m) {
+  for (const std::string& warning : m.komo->takeWarnings()) emitWarning(warning);
+}
+
+/// A call of ManipulationHelper as a method that passes warnings on.
+template <class... Arguments>
+auto method(void (ManipulationHelper::*call)(Arguments...)) {
+  return [call](M& m, Arguments... arguments) {
+    (m.*call)(std::forward<Arguments>(arguments)...);
+    warn(m);
+  };
+}
+
+Vector3d vector3(const Numbers& numbers, const char* what) {
+  if (numbers.values.size() == 3) return numbers.values;
+  throw ValueError(cat(what, " has ", numbers.values.size(), " numbers; expected 3"));
+}
+
+void bindSetups(nb::class_<M>& helper) {
+  helper
+      .def(
+          "setup_inverse_kinematics",
+          [](M& m, const PyConfig& C, double homing, bool collisions, bool limits, bool norms) {
+            m.setup_inverse_kinematics(C, homing, {collisions, limits, norms});
+          },
+          "C"_a, "homing_scale"_a = 1e-1, "accumulated_collisions"_a = true, "joint_limits"_a = true,
+          "quaternion_norms"_a = true, docs::manipulation::setup_inverse_kinematics)
+      .def(
+          "setup_sequence",
+          [](M& m, const PyConfig& C, double K, double homing, double velocity, bool collisions, bool limits,
+             bool norms) {
+            m.setup_sequence(C, K, homing, velocity, {collisions, limits, norms});
+          },
+          "C"_a, "K"_a, "homing_scale"_a = 1e-2, "velocity_scale"_a = 1e-1, "accumulated_collisions"_a = true,
+          "joint_limits"_a = true, "quaternion_norms"_a = true, docs::manipulation::setup_sequence)
+      .def(
+          "setup_motion",
+          [](M& m, const PyConfig& C, double K, int steps, double homing, double acceleration, bool collisions,
+             bool limits, bool norms) {
+            m.setup_motion(C, K, steps, homing, acceleration, {collisions, limits, norms});
+          },
+          "C"_a, "K"_a, "steps_per_phase"_a, "homing_scale"_a = 0., "acceleration_scale"_a = 1e-1,
+          "accumulated_collisions"_a = true, "joint_limits"_a = true, "quaternion_norms"_a = true,
+          docs::manipulation::setup_motion)
+      .def(
+          "setup_pick_and_place_waypoints",
+          [](M& m, const PyConfig& C, Name gripper, Name obj, double homing, double velocity, bool collisions,
+             bool limits, bool norms) {
+            m.setup_pick_and_place_waypoints(C, gripper, obj, homing, velocity, {collisions, limits, norms});
+            warn(m);
+          },
+          "C"_a, "gripper"_a, "obj"_a, "homing_scale"_a = 1e-2, "velocity_scale"_a = 1e-1,
+          "accumulated_collisions"_a = true, "joint_limits"_a = true, "quaternion_norms"_a = false,
+          docs::manipulation::setup_pick_and_place_waypoints)
+      .def(
+          "setup_point_to_point_motion",
+          [](M& m, const PyConfig& C, const Numbers& q1, double homing, double acceleration, bool collisions,
+             bool limits, bool norms) {
+            m.setup_point_to_point_motion(C, q1.values, homing, acceleration, {collisions, limits, norms});
+          },
+          "C"_a, "q1"_a, "homing_scale"_a = 1e-2, "acceleration_scale"_a = 1e-1, "accumulated_collisions"_a = true,
+          "joint_limits"_a = true, "quaternion_norms"_a = false, docs::manipulation::setup_point_to_point_motion);
+}
+
+void bindGrasps(nb::class_<M>& helper) {
+  using H = ManipulationHelper;
+  helper
+      .def(
+          "add_stable_frame",
+          [](M& m, JointType type, Name parent, Name name, const std::optional<std::string>& init, double) {
+            m.add_stable_frame(type, parent, name, init.value_or(""));
+          },
+          "jointType"_a, "parent"_a, "name"_a, "initFrame"_a = nb::none(), "markerSize"_a = -1.,
+          docs::manipulation::add_stable_frame)
+      .def("add_place_frame", method(&H::add_place_frame), "parent"_a, "obj"_a, "name"_a,
+           docs::manipulation::add_place_frame)
+      .def("snap_switch", method(&H::snap_switch), "time"_a, "parent"_a, "obj"_a, docs::manipulation::snap_switch)
+      .def("grasp_top_box", method(&H::grasp_top_box), "time"_a, "gripper"_a, "obj"_a, "grasp_direction"_a = "xz",
+           docs::manipulation::grasp_top_box)
+      .def("grasp_box", method(&H::grasp_box), "time"_a, "gripper"_a, "obj"_a, "palm"_a, "grasp_direction"_a = "x",
+           "margin"_a = .02, docs::manipulation::grasp_box)
+      .def("grasp_cylinder", method(&H::grasp_cylinder), "time"_a, "gripper"_a, "obj"_a, "palm"_a, "margin"_a = .02,
+           docs::manipulation::grasp_cylinder)
+      .def("place_box", method(&H::place_box), "time"_a, "obj"_a, "table"_a, "palm"_a, "place_direction"_a = "z",
+           "margin"_a = .02, docs::manipulation::place_box);
+}
+
+void bindMotions(nb::class_<M>& helper) {
+  const auto moving = [&](const char* name, auto call, const char* text) {
+    helper.def(
+        name,
+        [call](M& m, const Numbers& times, Name gripper, double dist) {
+          (m.*call)(times.list(), gripper, dist);
+          warn(m);
+        },
+        "time_interval"_a, "gripper"_a, "dist"_a = .03, text);
+  };
+  using H = ManipulationHelper;
+  moving("retract", &H::retract, docs::manipulation::retract);
+  moving("approach", &H::approach, docs::manipulation::approach);
+  moving("retractPush", &H::retractPush, docs::manipulation::retractPush);
+  moving("approachPush", &H::approachPush, docs::manipulation::approachPush);
+  helper
+      .def(
+          "straight_push",
+          [](M& m, const Numbers& times, Name obj, Name gripper, Name table, double scale, Name frame) {
+            m.straight_push(times.list(), obj, gripper, table, scale, frame);
+            warn(m);
+          },
+          "time_interval"_a, "obj"_a, "gripper"_a, "table"_a, "scale"_a = 1e1, "helper"_a = "",
+          docs::manipulation::straight_push)
+      .def(
+          "pull",
+          [](M& m, const Numbers& times, Name obj, Name gripper, Name table) {
+            m.pull(times.list(), obj, gripper, table);
+            warn(m);
+          },
+          "times"_a, "obj"_a, "gripper"_a, "table"_a, docs::manipulation::pull);
+}
+
+void bindConditions(nb::class_<M>& helper) {
+  helper
+      .def(
+          "no_collisions",
+          [](M& m, const Numbers& times, const std::vector<std::string>& pairs, double margin, double scale) {
+            m.no_collisions(times.list(), pairs, margin, scale);
+            warn(m);
+          },
+          "time_interval"_a, "objs"_a, "margin"_a = .001, "scale"_a = 1e1, docs::manipulation::no_collisions)
+      .def(
+          "freeze_joint",
+          [](M& m, const Numbers& times, const std::vector<std::string>& joints) {
+            m.freeze_joint(times.list(), joints);
+            warn(m);
+          },
+          "time_interval"_a, "joints"_a, docs::manipulation::freeze_joint)
+      .def(
+          "freeze_relativePose",
+          [](M& m, const Numbers& times, Name to, Name from) {
+            m.freeze_relativePose(times.list(), to, from);
+            warn(m);
+          },
+          "time_interval"_a, "obj"_a, "relFrom"_a, docs::manipulation::freeze_relativePose)
+      .def(
+          "target_position",
+          [](M& m, double time, Name obj, const Numbers& at) {
+            m.target_position(time, obj, vector3(at, "target_position: pos"));
+          },
+          "time"_a, "obj"_a, "pos"_a, docs::manipulation::target_position)
+      .def(
+          "target_relative_xy_position",
+          [](M& m, double time, Name obj, Name to, const Numbers& at) {
+            m.target_relative_xy_position(time, obj, to, at.values);
+          },
+          "time"_a, "obj"_a, "relativeTo"_a, "pos"_a, docs::manipulation::target_relative_xy_position)
+      .def(
+          "target_x_orientation",
+          [](M& m, double time, Name obj, const Numbers& x) {
+            m.target_x_orientation(time, obj, vector3(x, "target_x_orientation: x_vector"));
+          },
+          "time"_a, "obj"_a, "x_vector"_a, docs::manipulation::target_x_orientation)
+      .def(
+          "bias", [](M& m, double time, const Numbers& q, double scale) { m.bias(time, q.values, scale); }, "time"_a,
+          "qBias"_a, "scale"_a = 1., docs::manipulation::bias);
+}
+
+}  // namespace
+
+void bindManipulation(nb::module_& m) {
+  nb::class_<M> helper(m, "ManipulationHelper", nb::dynamic_attr(),
+                       "Problems of manipulation in a few calls; KOMO_ManipulationHelper solves and shows them, too.");
+  helper.def(nb::init<>(), "Without a problem; call one of the setups.")
+      .def_prop_rw(
+          "komo", &M::pyKomo, [](M& self, std::shared_ptr<PyKomo> komo) { self.komo = std::move(komo); },
+          nb::for_setter(nb::arg("komo").none()), "The KOMO; None before a setup.")
+      .def_prop_ro(
+          "x", [](const M& m) { return toNumpy(m.komo ? m.komo->path().variables() : VectorXd()); },
+          "The variables of the problem at its present path, those of stable frames first, shape (d,).");
+  bindSetups(helper);
+  bindGrasps(helper);
+  bindMotions(helper);
+  bindConditions(helper);
+}
+
+}  // namespace kinegraph::python

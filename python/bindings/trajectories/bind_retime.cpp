@@ -1,0 +1,200 @@
+#include <nanobind/stl/optional.h>
+#include <nanobind/stl/string.h>
+#include <nanobind/stl/vector.h>
+
+#include "arguments.h"
+#include "bindings.h"
+#include "trajectories/retime_docs.h"
+#include "kinegraph/common/errors.h"
+#include "kinegraph/common/text.h"
+#include "kinegraph/api/retime_robot.h"
+#include "python_names.h"
+
+namespace kinegraph::python {
+
+namespace {
+
+using MaybeNumbers = std::optional<Numbers>;
+
+/// One limit for all dofs, or one per dof; none if there is none.
+VectorXd perDof(const char* name, const MaybeNumbers& given, Eigen::Index dofs) {
+  if (!given) return {};
+  if (given->rank == 0) return VectorXd::Constant(dofs, given->values[0]);
+  if (given->rank != 1)
+    throw ValueError(cat("retime: ", name, " has rank ", given->rank, "; expected one number or one per dof"));
+  return given->values;
+}
+
+MatrixXd points(const Numbers& path) {
+  if (path.rank != 2) throw ValueError(cat("retime: the path has rank ", path.rank, "; expected shape (K, n)"));
+  return path.matrix();
+}
+
+/// What both calls take beside the limits.
+struct Request {
+  std::string corners;
+  double tolerance;
+  nb::object is_free;
+  MaybeNumbers start_velocity, end_velocity, start_acceleration;
+  int intervals;
+
+  RetimeOptions options() const {
+    RetimeOptions options;
+    options.corners = cornersOfName(corners);
+    options.tolerance = tolerance;
+    options.intervals = intervals;
+    options.between = [check = CheckInterrupts()]() mutable { check(); };
+    if (start_velocity) options.start_velocity = start_velocity->values;
+    if (end_velocity) options.end_velocity = end_velocity->values;
+    if (start_acceleration) options.start_acceleration = start_acceleration->values;
+    if (!is_free.is_none())
+      options.is_free = [asked = is_free.ptr()](const MatrixXd& blend, double deviation) {
+        const nb::gil_scoped_acquire lock;
+        return bool(nb::bool_(nb::handle(asked)(toNumpy(blend), deviation)));
+      };
+    return options;
+  }
+};
+
+TimedPath ofPath(const Numbers& path, const Numbers& velocity, const Numbers& acceleration, const MaybeNumbers& jerk,
+                 const Request& request) {
+  const MatrixXd q = points(path);
+  const MotionLimits limits{perDof("velocity", velocity, q.cols()), perDof("acceleration", acceleration, q.cols()),
+                            perDof("jerk", jerk, q.cols())};
+  const RetimeOptions options = request.options();
+  const nb::gil_scoped_release unlock;
+  return retime(q, limits, options);
+}
+
+TimedPath ofRobot(const PyConfig& config, const Numbers& path, const MaybeNumbers& velocity,
+                  const MaybeNumbers& acceleration, const MaybeNumbers& jerk, bool torque, const Request& request) {
+  const MatrixXd q = points(path);
+  const RobotLimits limits{{perDof("velocity", velocity, q.cols()), perDof("acceleration", acceleration, q.cols()),
+                            perDof("jerk", jerk, q.cols())},
+                           torque};
+  const RetimeOptions options = request.options();
+  const Config scene(config);  // as it is now
+  const nb::gil_scoped_release unlock;
+  return retime(scene, q, limits, options);
+}
+
+nb::typed<nb::tuple, Array, Array, Array> stateAt(const TimedPath& timed, const Numbers& t) {
+  const std::size_t n = std::size_t(timed.path.cols()), count = std::size_t(t.values.size());
+  if (t.rank > 1) throw ValueError(cat("retime: at(t) has t of rank ", t.rank, "; expected a number or shape (M,)"));
+  const auto make = [&] { return t.rank == 0 ? newArray(n) : newArray(count, n); };
+  NewArray q = make(), velocity = make(), acceleration = make();
+  for (std::size_t i = 0; i < count; ++i)
+    timed.at(t.values[Eigen::Index(i)], q.data + i * n, velocity.data + i * n, acceleration.data + i * n);
+  return nb::typed<nb::tuple, Array, Array, Array>(nb::make_tuple(q.array, velocity.array, acceleration.array));
+}
+
+nb::tuple timedState(const TimedPath& t) {
+  const PathCurve::Parts curve = t.curve().parts();
+  const NewArray phases = newArray(t.scaling().phases().size(), 7);
+  std::vector<int> pieces;
+  double* to = phases.data;
+  for (const ScalingPhase& p : t.scaling().phases()) {
+    for (const double value : {p.time, p.begin.s, p.begin.speed, p.begin.acceleration, p.begin.jerk, p.growth, p.end})
+      *to++ = value;
+    pieces.push_back(p.piece);
+  }
+  return nb::make_tuple(int(t.status), t.message, toNumpy(t.path), toNumpy(t.times),
+                        nb::make_tuple(curve.dofs, curve.degree, curve.length, curve.begin, curve.marks,
+                                       curve.coefficients, curve.is_line, curve.stops),
+                        phases.array, pieces, t.scaling().duration());
+}
+
+/// The phases of a time law on a curve of so many pieces.
+std::vector<ScalingPhase> phasesFrom(const VectorXd& numbers, const std::vector<int>& pieces, int of_curve) {
+  if (std::size_t(numbers.size()) != 7 * pieces.size())
+    throw ValueError(
+        cat("TimedPath: ", numbers.size(), " numbers for ", pieces.size(), " phases; expected 7 for each"));
+  std::vector<ScalingPhase> phases;
+  const double* from = numbers.data();
+  for (const int piece : pieces) {
+    if (piece < 0 || piece >= of_curve)
+      throw ValueError(cat("TimedPath: a phase on piece ", piece, " of a curve of ", of_curve, " pieces"));
+    phases.push_back({from[0], {from[1], from[2], from[3], from[4]}, from[5], from[6], piece});
+    from += 7;
+  }
+  return phases;
+}
+
+void setTimedState(TimedPath& t, const nb::tuple& state) {
+  const nb::tuple c = nb::cast<nb::tuple>(state[4]);
+  using Values = std::vector<double>;
+  using Flags = std::vector<bool>;
+  const PathCurve::Parts curve{nb::cast<int>(c[0]),    nb::cast<int>(c[1]),    nb::cast<double>(c[2]),
+                               nb::cast<Values>(c[3]), nb::cast<Values>(c[4]), nb::cast<Values>(c[5]),
+                               nb::cast<Flags>(c[6]),  nb::cast<Flags>(c[7])};
+  std::vector<ScalingPhase> scaling =
+      phasesFrom(nb::cast<Numbers>(state[5]).values, nb::cast<std::vector<int>>(state[6]), int(curve.begin.size()));
+  const auto status = RetimeStatus(nb::cast<int>(state[0]));
+  if (status == RetimeStatus::timed && scaling.empty()) throw ValueError("TimedPath: a motion without phases");
+  new (&t) TimedPath(TimedPath::fromParts(status, nb::cast<std::string>(state[1]), nb::cast<Numbers>(state[2]).matrix(),
+                                          nb::cast<Numbers>(state[3]).values, PathCurve::fromParts(curve),
+                                          {std::move(scaling), nb::cast<double>(state[7])}));
+}
+
+void bindTimedPath(nb::module_& m) {
+  nb::enum_<RetimeStatus>(m, "RetimeStatus", "How retime ended.")
+      .value("timed", RetimeStatus::timed, "There is a motion.")
+      .value("start_too_fast", RetimeStatus::start_too_fast,
+             "The start velocity is above the limits, or cannot be braked.")
+      .value("end_too_fast", RetimeStatus::end_too_fast, "The end velocity is above the limits, or cannot be reached.")
+      .value("cannot_move", RetimeStatus::cannot_move, "A torque limit holds for no speed somewhere.");
+  nb::class_<TimedPath>(m, "TimedPath", "A path, and when a motion is where on it.")
+      .def_prop_ro("feasible", &TimedPath::feasible, "True if there is a motion.")
+      .def_ro("status", &TimedPath::status, "How it ended, a RetimeStatus.")
+      .def_prop_ro(
+          "message", [](const TimedPath& t) { return inPython(t.message); },
+          "\"\" if there is a motion; else what is too fast, and what would do.")
+      .def_prop_ro(
+          "path", [](const TimedPath& t) { return toNumpy(t.path); }, "The points, shape (K, n), as given.")
+      .def_prop_ro(
+          "times", [](const TimedPath& t) { return toNumpy(t.times); },
+          "When the motion is at each point, or nearest to it in a blend, shape (K,), s; empty without a motion.")
+      .def_prop_ro("duration", &TimedPath::duration, "How long the motion takes, s.")
+      .def("at", stateAt, "t"_a, docs::retime::at)
+      .def("__bool__", &TimedPath::feasible)
+      .def("__getstate__", timedState)
+      .def("__setstate__", setTimedState)
+      .def("__repr__", [](const TimedPath& t) { return cat("<TimedPath ", inPython(t.str()), ">"); });
+}
+
+}  // namespace
+
+void bindRetime(nb::module_& m) {
+  bindTimedPath(m);
+  m.def(
+      "retime",
+      [](const PyConfig& config, const Numbers& path, const MaybeNumbers& velocity, const MaybeNumbers& acceleration,
+         const MaybeNumbers& jerk, bool torque, const std::string& corners, double tolerance,
+         const std::optional<nb::callable>& is_free, const MaybeNumbers& start_velocity,
+         const MaybeNumbers& end_velocity, int intervals, const MaybeNumbers& start_acceleration) {
+        const Request request{corners,        tolerance,    is_free ? nb::object(*is_free) : nb::none(),
+                              start_velocity, end_velocity, start_acceleration,
+                              intervals};
+        return ofRobot(config, path, velocity, acceleration, jerk, torque, request);
+      },
+      "config"_a, "path"_a, "velocity"_a = nb::none(), "acceleration"_a = nb::none(), "jerk"_a = nb::none(),
+      nb::kw_only(), "torque"_a = false, "corners"_a = "blend", "tolerance"_a = .01, "is_free"_a = nb::none(),
+      "start_velocity"_a = nb::none(), "end_velocity"_a = nb::none(), "intervals"_a = 100,
+      "start_acceleration"_a = nb::none(), docs::retime::ofRobot);
+  m.def(
+      "retime",
+      [](const Numbers& path, const Numbers& velocity, const Numbers& acceleration, const MaybeNumbers& jerk,
+         const std::string& corners, double tolerance, const std::optional<nb::callable>& is_free,
+         const MaybeNumbers& start_velocity, const MaybeNumbers& end_velocity, int intervals,
+         const MaybeNumbers& start_acceleration) {
+        const Request request{corners,        tolerance,    is_free ? nb::object(*is_free) : nb::none(),
+                              start_velocity, end_velocity, start_acceleration,
+                              intervals};
+        return ofPath(path, velocity, acceleration, jerk, request);
+      },
+      "path"_a, "velocity"_a, "acceleration"_a, "jerk"_a = nb::none(), nb::kw_only(), "corners"_a = "blend",
+      "tolerance"_a = .01, "is_free"_a = nb::none(), "start_velocity"_a = nb::none(), "end_velocity"_a = nb::none(),
+      "intervals"_a = 100, "start_acceleration"_a = nb::none(), docs::retime::ofPath);
+}
+
+}  // namespace kinegraph::python

@@ -1,0 +1,178 @@
+#include <nanobind/stl/shared_ptr.h>
+#include <nanobind/stl/string.h>
+#include <nanobind/stl/vector.h>
+
+#include "bindings.h"
+#include "viewer/pictures_docs.h"
+#include "rendering/images.h"
+#include "kinegraph/common/errors.h"
+#include "kinegraph/common/text.h"
+#include "kinegraph/rendering/framing.h"
+#include "kinegraph/viewer/draw_quad.h"
+#include "viewer/py_viewer.h"
+
+namespace kinegraph::python {
+
+namespace {
+
+/// A picture of what the viewer shows, with a text on it.
+CameraImage picture(PyViewer& viewer, const std::string& text) {
+  if (!viewer.scene) throw ValueError("this viewer shows nothing yet; call view() first");
+  const Camera camera = cameraNow(viewer);
+  const Look look = lookOfParameters();
+  RendererOptions options{.supersampling = 2, .slices = 48, .shadows = look.shadows, .floor = look.has_floor};
+  if (look.background) options.background = *look.background;
+  if (look.floor) options.floor_color = *look.floor;
+  options.lights = look.lights;
+  options.flat_colors = look.flat_colors;
+  options.wireframe = look.wireframe;
+  if (!viewer.renderer || !(options == viewer.renderer_options)) viewer.renderer.emplace(options);
+  viewer.renderer_options = options;
+  const nb::gil_scoped_release unlock;
+  CameraImage image = viewer.renderer->render(*viewer.scene, camera, viewer.visuals_only);
+  for (const auto& [id, quad] : viewer.quads) drawQuad(image.rgb, image.width, quad);
+  if (look.text && !viewer.visuals_only && !text.empty()) {
+    constexpr int kAround = 48;  // pixels, of width and height, that the text may not have
+    const int width = std::max(image.width - kAround, 1), height = std::max(image.height - kAround, 1);
+    drawLetters(image.rgb, image.width, viewer.renderer->write(text, width, height));
+  }
+  return image;
+}
+
+/// Turns the camera to a point, and moves it to where `height` m fit into the picture there.
+void focus(PyViewer& viewer, const Numbers& at, double height) {
+  if (at.values.size() != 3)
+    throw ValueError(cat("focus: the position has ", at.values.size(), " numbers; expected 3"));
+  if (!(height > 0. && std::isfinite(height)))
+    throw ValueError(cat("focus: heightAbs is ", height, "; expected m, more than 0"));
+  Camera camera = cameraNow(viewer);
+  const Vector3d point(at.values), back = camera.pose.p - point;
+  if (back.norm() < 1e-9) throw ValueError("focus: the camera is at that position");
+  camera.pose = lookAt(point + height * camera.focal_length * back.normalized(), point);
+  viewer.camera.place(camera);
+  viewer.camera_is_set = true;
+  PageCamera page = pageCameraOf(camera);
+  page.distance = height * camera.focal_length;
+  viewer.aim(page);
+}
+
+/// Pages look from there as well.
+void placeCamera(PyViewer& viewer, const Camera& camera) {
+  viewer.camera.place(camera);
+  viewer.camera_is_set = true;
+  viewer.aim(pageCameraOf(camera));
+}
+
+void setViewCamera(PyViewer& viewer, nb::handle frame) {
+  if (frame.is_none()) return placeCamera(viewer, defaultViewCamera());
+  std::optional<Frame> given;
+  if (nb::isinstance<Frame>(frame))
+    given = nb::cast<Frame>(frame);
+  else if (viewer.scene)
+    given = Frame(viewer.scene, viewer.scene->get(nb::cast<std::string>(frame), "setCamera"));
+  else
+    throw ValueError("this viewer shows nothing yet; give the frame itself, or call view() first");
+  placeCamera(viewer, cameraOf(*given));
+  viewer.camera.follow(*given);
+}
+
+void setCameraTarget(PyViewer& viewer, const Numbers& position, const Numbers& target) {
+  if (position.values.size() != 3 || target.values.size() != 3) {
+    throw ValueError("setCamera: position and target are 3 numbers each");
+  }
+  const Vector3d from(position.values), to(target.values);
+  Camera camera = cameraNow(viewer);
+  camera.pose = lookAt(from, to);
+  viewer.camera.place(camera);
+  viewer.camera_is_set = true;
+  viewer.aim({.pose = camera.pose, .distance = (to - from).norm(), .ortho_height = camera.ortho_height, .aspect = 1.});
+}
+
+/// Moves the camera to where all that is shown fills the picture. The middle of that; where there is nothing, 0.
+Array fit(PyViewer& viewer) {
+  if (!viewer.scene) throw ValueError("this viewer shows nothing yet; call view() first");
+  const Config config(viewer.scene);
+  placeCamera(viewer, fitted(cameraNow(viewer), config));
+  const std::optional<ShownBall> ball = shownBall(config);
+  return toNumpy(VectorXd(ball ? ball->center : Vector3d::Zero()));
+}
+
+}  // namespace
+
+std::string savePicture(PyViewer& viewer, const std::string& path, int count, const std::optional<std::string>& text) {
+  CameraImage image = picture(viewer, text.value_or(viewer.message()));
+  std::string file = path;
+  if (!path.ends_with(".png")) {
+    if (count >= 0) viewer.saved = count;
+    const std::string number = std::to_string(viewer.saved++);
+    file += std::string(number.size() < 6 ? 6 - number.size() : 0, '0') + number + ".png";
+  }
+  nb::module_::import_("kinegraph.png").attr("writePng")(file, rgbOf(image));
+  return file;
+}
+
+void bindPictures(nb::class_<PyViewer>& viewer) {
+  viewer
+      .def(
+          "getRgb",
+          [](PyViewer& v, bool) {
+            CameraImage image = picture(v, v.message());
+            return rgbOf(image);
+          },
+          "nonThreaded"_a = true, docs::pictures::getRgb)
+      .def(
+          "getDepth",
+          [](PyViewer& v, bool) {
+            CameraImage image = picture(v, v.message());
+            return depthOf(image);
+          },
+          "nonThreaded"_a = true, docs::pictures::getDepth)
+      .def(
+          "savePng", [](PyViewer& v, const std::string& path, int count) { return savePicture(v, path, count); },
+          "saveVideoPath"_a = "z.vid/", "count"_a = -1, docs::pictures::savePng)
+      .def("setCamera", setViewCamera, "camFrame"_a.none() = nb::none(), docs::pictures::setCamera)
+      .def("setCamera", setCameraTarget, "position"_a, "target"_a, docs::pictures::setCameraAt)
+      .def(
+          "setCameraPose",
+          [](PyViewer& v, const Numbers& pose) {
+            Camera camera = cameraNow(v);
+            camera.pose = Pose::fromNumbers(pose.values);
+            placeCamera(v, camera);
+          },
+          "pose_7d"_a, docs::pictures::setCameraPose)
+      .def(
+          "getCamera_pose", [](PyViewer& v) { return toNumpy(VectorXd(cameraNow(v).pose.numbers())); },
+          "The camera's pose, shape (7,): x y z (m) qw qx qy qz.")
+      .def(
+          "getCamera_fxycxy", [](PyViewer& v) { return fxycxyOf(cameraNow(v)); },
+          "fx, fy, cx, cy in pixels, shape (4,).")
+      .def(
+          "getCamera_focalLength",
+          [](PyViewer& v) {
+            const double f = cameraNow(v).focal_length;
+            return toNumpy(VectorXd(Vector4d(f, f, 0., 0.)));
+          },
+          "The focal length in image heights, twice, and two zeros, shape (4,).")
+      .def("focus", focus, "position_3d"_a, "heightAbs"_a = 1., docs::pictures::focus)
+      .def("fit", fit, docs::pictures::fit)
+      .def(
+          "setWindow",
+          [](PyViewer& v, const std::string& title, int width, int height) {
+            Camera camera = cameraNow(v);
+            camera.width = width;
+            camera.height = height;
+            camera.validate();
+            v.camera.resize(width, height);
+            v.setTitle(title);
+          },
+          "title"_a, "width"_a, "height"_a, docs::pictures::setWindow)
+      .def(
+          "visualsOnly",
+          [](PyViewer& v, bool yes) {
+            v.visuals_only = yes;
+            if (v.isOpen()) openPage(v);
+          },
+          "_visualsOnly"_a = true, docs::pictures::visualsOnly);
+}
+
+}  // namespace kinegraph::python

@@ -1,0 +1,188 @@
+#include <nanobind/stl/optional.h>
+#include <nanobind/stl/shared_ptr.h>
+#include <nanobind/stl/string.h>
+
+#include <algorithm>
+
+#include "arguments.h"
+#include "bindings.h"
+#include "defaults.h"
+#include "viewer/viewer_docs.h"
+#include "kinegraph/common/errors.h"
+#include "kinegraph/common/text.h"
+#include "kinegraph/viewer/motions.h"
+#include "kinegraph/viewer/recorded_page.h"
+#include "kinegraph/viewer/watch_file.h"
+#include "viewer/py_viewer.h"
+
+namespace kinegraph::python {
+
+namespace {
+
+const std::shared_ptr<PyViewer>& viewerOf(PyConfig& config) {
+  if (!config.viewer) config.viewer = std::make_shared<PyViewer>();
+  if (!config.viewer->scene) config.viewer->scene = config.scene();
+  return config.viewer;
+}
+
+/// The viewer of a configuration, which shows it from now on.
+const std::shared_ptr<PyViewer>& showIn(PyConfig& config) {
+  viewerOf(config)->scene = config.scene();
+  return config.viewer;
+}
+
+void select(PyViewer& viewer, int frame) {
+  const int count = viewer.scene ? int(viewer.scene->frames().size()) : 0;
+  if (frame < 0 || frame >= count) {
+    throw ValueError(cat("select: no frame has the ID ", frame, "; the viewer shows ", count, ", from 0 on"));
+  }
+  viewer.select(frame);
+}
+
+/// In pieces, between which people can stop it.
+bool waitForClient(PyViewer& viewer, double seconds) {
+  constexpr double kPiece = .1;  // s
+  for (double left = seconds;; left -= kPiece) {
+    if (viewer.server().waitForClient(std::clamp(left, 0., kPiece))) return true;
+    interrupted();
+    if (!(left > kPiece)) return false;
+  }
+}
+
+/// The page with what is shown inside, whether a server runs or not.
+std::string pageOf(PyViewer& viewer) {
+  return viewer.isOpen() || !viewer.scene ? viewer.recording() : recordedScene(Config(*viewer.scene));
+}
+
+constexpr int kFirstPort = 7000;
+
+int viewConfig(PyConfig& config, bool pause, const std::optional<std::string>& message, bool offscreen,
+               const std::optional<std::string>& host, const std::optional<int>& port) {
+  const std::shared_ptr<PyViewer> viewer = showIn(config);
+  if (!offscreen && (host || port)) viewer->serveAt(host.value_or("127.0.0.1"), port.value_or(kFirstPort));
+  if (!show(*viewer, message, offscreen)) return pause && !offscreen ? kEscape : 0;
+  const nb::gil_scoped_release unlock;
+  return viewer->view(config, pause, message, interrupted);
+}
+
+void animate(PyConfig& config) {
+  const std::shared_ptr<PyViewer> viewer = showIn(config);
+  if (!openPage(*viewer)) return;
+  const nb::gil_scoped_release unlock;
+  viewer->showMotion(config, jointSweep(config), false, "every joint through its limits [any key ends it]",
+                     interrupted);
+}
+
+void animateSpline(PyConfig& config, int points) {
+  const std::shared_ptr<PyViewer> viewer = showIn(config);
+  const ShownMotion motion = randomSpline(config, points, defaults().random);
+  if (!openPage(*viewer)) return;
+  const nb::gil_scoped_release unlock;
+  viewer->showMotion(config, motion, false, "a random motion [any key ends it]", interrupted);
+}
+
+int viewPath(PyConfig& config, const Numbers& path, double seconds, bool pause,
+             const std::optional<std::string>& message) {
+  const std::shared_ptr<PyViewer> viewer = showIn(config);
+  if (seconds <= 0.) throw ValueError(cat("view_path: seconds is ", seconds, "; expected more than 0"));
+  const MatrixXd states = path.matrix();
+  if (states.rows() == 0) throw ValueError("view_path: the path has no joint states");
+  ShownMotion motion = motionAlong(config, states, seconds);
+  motion.start = ShownMotion::Start::play;
+  if (!openPage(*viewer)) return pause ? kEscape : 0;
+  const nb::gil_scoped_release unlock;
+  return viewer->showMotion(config, motion, pause, message, interrupted);
+}
+
+void watch(PyConfig& config, const PathText& file) {
+  const std::string& path = file.text;
+  const std::shared_ptr<PyViewer> viewer = showIn(config);
+  viewer->setTitle(cat("ConfigView <", path, ">"));  // before there is a page
+  if (!openPage(*viewer)) {
+    config.clear();
+    config.addFile(path);
+    return;
+  }
+  const nb::object print = nb::module_::import_("builtins").attr("print");
+  const nb::gil_scoped_release unlock;
+  watchFile(
+      config, *viewer, path,
+      [&](const std::string& text) {
+        const nb::gil_scoped_acquire lock;
+        print(text, nb::arg("flush") = true);
+      },
+      interrupted);
+}
+
+/// The page in the browser.
+void bindPage(nb::class_<PyViewer>& viewer) {
+  viewer.def_prop_ro("url", &PyViewer::url, "The page's address; starts the viewer if it does not run.")
+      .def("isOpen", &PyViewer::isOpen, "True while the viewer runs.")
+      .def("serveAt", &PyViewer::serveAt, "host"_a, "port"_a = kFirstPort, docs::viewer::serveAt)
+      .def(
+          "isPatient", [](PyViewer&) { return isPatient(); },
+          "True at a terminal and over ssh: what waits for people then waits until a first browser has come.")
+      .def("clients", &PyViewer::clients, "Number of browsers that are connected.")
+      .def(
+          "waitForClient",
+          [](PyViewer& v, double seconds) {
+            const nb::gil_scoped_release unlock;
+            return waitForClient(v, seconds);
+          },
+          "seconds"_a = 10., docs::viewer::waitForClient)
+      .def("setMessage", &PyViewer::setMessage, "text"_a, docs::viewer::setMessage)
+      .def("setError", &PyViewer::setError, "text"_a, docs::viewer::setError)
+      .def("setTitle", &PyViewer::setTitle, "text"_a, docs::viewer::setTitle)
+      .def("takeKey", &PyViewer::takeKey, "The code of the key pressed since the last call, or 0.")
+      .def("hasEdits", &PyViewer::hasEdits, docs::viewer::hasEdits)
+      .def("select", select, "frame"_a, docs::viewer::select)
+      .def("asHtml", pageOf, "A web page with the scene, or the motion, that is shown. It opens without this program.")
+      .def(
+          "saveHtml",
+          [](PyViewer& v, const PathText& path) {
+            nb::module_::import_("pathlib").attr("Path")(path.text).attr("write_text")(pageOf(v),
+                                                                                       "encoding"_a = "utf-8");
+          },
+          "path"_a, docs::viewer::saveHtml)
+      .def(
+          "_repr_html_",
+          [](PyViewer& v) { return nb::module_::import_("kinegraph.notebook").attr("inlineFrame")(pageOf(v)); },
+          "What notebooks show: the scene as it is now.")
+      .def("close", &PyViewer::endPage, "Ends the viewer.");
+}
+
+/// What a Config shows.
+void bindViews(nb::class_<PyConfig>& config) {
+  config
+      .def("view", viewConfig, "pause"_a = false, "message"_a = nb::none(), "offscreen"_a = false, nb::kw_only(),
+           "host"_a = nb::none(), "port"_a = nb::none(), docs::viewer::view)
+      .def(
+          "view_close",
+          [](PyConfig& c) {
+            if (c.viewer) c.viewer->endPage();
+          },
+          "Ends the viewer; the next view() starts another.")
+      .def("viewer", viewerOf, "The viewer of this scene.")
+      .def(
+          "set_viewer", [](PyConfig& c, std::shared_ptr<PyViewer> v) { c.viewer = std::move(v); }, "viewer"_a,
+          docs::viewer::set_viewer)
+      .def("animate", animate,
+           "Plays every joint through its limits, in the browser. A key there ends it; q stays as it is.")
+      .def("animateSpline", animateSpline, "T"_a = 3, docs::viewer::animateSpline)
+      .def("view_path", viewPath, "path"_a, "seconds"_a = 3., "pause"_a = false, "message"_a = nb::none(),
+           docs::viewer::view_path)
+      .def("watchFile", watch, "filename"_a, docs::viewer::watchFile);
+}
+
+}  // namespace
+
+void bindViewer(nb::module_& m, nb::class_<PyConfig>& config) {
+  nb::class_<PyViewer> viewer(m, "ConfigurationViewer",
+                              "Shows a configuration in the browser, and makes pictures of it.");
+  bindPage(viewer);
+  bindPictures(viewer);
+  bindViewerInput(m, viewer);
+  bindViews(config);
+}
+
+}  // namespace kinegraph::python

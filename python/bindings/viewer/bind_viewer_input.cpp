@@ -1,0 +1,130 @@
+#include <nanobind/ndarray.h>
+#include <nanobind/stl/optional.h>
+#include <nanobind/stl/string.h>
+#include <nanobind/stl/vector.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "bindings.h"
+#include "viewer/viewer_input_docs.h"
+#include "kinegraph/common/errors.h"
+#include "kinegraph/common/text.h"
+#include "viewer/py_viewer.h"
+
+namespace kinegraph::python {
+
+namespace {
+
+/// Rows and columns, or rows, columns and rgb.
+template <class T>
+using Image = nb::ndarray<const T, nb::c_contig, nb::device::cpu>;
+
+constexpr int kNoFrame = 0xffffff;  // as in segmentation images
+
+/// The picture as a quad of rgb bytes; numbers are cut off below 0 and above 255, and shown as gray if there is one per
+/// pixel.
+template <class T>
+Quad quadOf(const Image<T>& image, const char* who) {
+  const bool gray = image.ndim() == 2;
+  if (!gray && (image.ndim() != 3 || image.shape(2) != 3)) {
+    std::string shape;
+    for (std::size_t i = 0; i < image.ndim(); ++i) shape += cat(i ? ", " : "", image.shape(i));
+    throw ValueError(
+        cat(who, ": the picture has shape (", shape, "); expected (height, width, 3), or (height, width) for gray"));
+  }
+  if (image.size() == 0) throw ValueError(cat(who, ": the picture has no pixels"));
+  Quad quad;
+  quad.rows = int(image.shape(0));
+  quad.columns = int(image.shape(1));
+  quad.rgb.reserve(3 * image.shape(0) * image.shape(1));
+  for (std::size_t i = 0; i < image.size(); ++i) {
+    const double value = double(image.data()[i]);
+    const auto byte = std::uint8_t(std::isnan(value) ? 0. : std::clamp(value, 0., 255.));
+    quad.rgb.insert(quad.rgb.end(), gray ? 3 : 1, byte);
+  }
+  return quad;
+}
+
+int setQuad(PyViewer& viewer, int id, const Image<std::uint8_t>& rgb, double x, double y, double height) {
+  if (id < -1) throw ValueError(cat("setQuad: id is ", id, "; expected -1 for another picture, or the id of one"));
+  if (!(std::isfinite(x) && std::isfinite(y) && std::isfinite(height) && height > 0.)) {
+    throw ValueError(cat("setQuad: x, y, h are ", x, ", ", y, ", ", height,
+                         "; expected parts of the window's height, h more than 0"));
+  }
+  Quad quad = quadOf(rgb, "setQuad");
+  quad.id = id >= 0 ? id : viewer.quads.empty() ? 0 : viewer.quads.rbegin()->first + 1;
+  quad.x = x;
+  quad.y = y;
+  quad.height = height;
+  viewer.quads[quad.id] = quad;
+  if (viewer.isOpen()) viewer.server().setQuad(quad);
+  return quad.id;
+}
+
+int viewPage(PyViewer& viewer, bool pause, const std::optional<std::string>& text, bool offscreen) {
+  if (!show(viewer, text, offscreen)) return pause && !offscreen ? kEscape : 0;
+  const nb::gil_scoped_release unlock;
+  return viewer.wait(pause, text, interrupted);
+}
+
+/// Six numbers: where the pointer is on a surface, and the surface's normal; empty until it has been on one.
+Array eventCursor(PyViewer& viewer) {
+  const std::optional<Cursor> cursor = viewer.server().cursor();
+  if (!cursor) return toNumpy(VectorXd(0));
+  VectorXd numbers(6);
+  numbers << cursor->point, cursor->normal;
+  return toNumpy(numbers);
+}
+
+int eventCursorObject(PyViewer& viewer) {
+  const std::optional<Cursor> cursor = viewer.server().cursor();
+  return cursor && cursor->frame >= 0 ? cursor->frame : kNoFrame;
+}
+
+/// A page of its own with one picture.
+struct ImageViewer : PyViewer {
+  ImageViewer() : PyViewer({.title = "ImageViewer"}) {}
+};
+
+template <class T>
+int viewImage(ImageViewer& viewer, const Image<T>& image, bool wait, double zoom) {
+  if (!(zoom > 0. && zoom <= 100.))
+    throw ValueError(cat("ImageViewer: zoom is ", zoom, "; expected more than 0 and at most 100"));
+  Quad quad = quadOf(image, "ImageViewer");
+  quad.zoom = zoom;
+  if (!openPage(viewer)) return wait ? kEscape : 0;
+  viewer.server().setQuad(quad);
+  const nb::gil_scoped_release unlock;
+  return viewer.wait(wait, std::nullopt, interrupted);
+}
+
+}  // namespace
+
+void bindViewerInput(nb::module_& m, nb::class_<PyViewer>& viewer) {
+  viewer
+      .def("view", viewPage, "pause"_a = false, "text"_a = nb::none(), "offscreen"_a = false, docs::viewer_input::view)
+      .def("setQuad", setQuad, "id"_a, "rgb"_a, "x"_a, "y"_a, "h"_a, docs::viewer_input::setQuad)
+      .def(
+          "setupEventHandler", [](PyViewer& v, bool block) { v.server().requestEvents(block); },
+          "blockDefaultHandler"_a, docs::viewer_input::setupEventHandler)
+      .def(
+          "getEvents", [](PyViewer& v) { return v.server().takeEvents(); }, docs::viewer_input::getEvents)
+      .def("getEventCursor", eventCursor, docs::viewer_input::getEventCursor)
+      .def("getEventCursorObject", eventCursorObject,
+           "The id of the frame that the pointer is on; 16777215 over the floor and the background.")
+      .def(
+          "raiseWindow", [](PyViewer& v) { openBrowser(v.url()); },
+          "Opens a page in the browser, if there is a display.")
+      .def(
+          "getGLFWWindow", [](PyViewer&) { return 0; }, "0: there is no such window.");
+
+  nb::class_<ImageViewer>(m, "ImageViewer", "Shows pictures in the browser.")
+      .def(nb::init<>(), "Shows nothing yet.")
+      .def("view", viewImage<std::uint8_t>, "img"_a, "wait"_a = false, "zoom"_a = 1., docs::viewer_input::viewImage)
+      .def("viewFloat", viewImage<float>, "img"_a, "wait"_a = false, "zoom"_a = 1., docs::viewer_input::viewFloat)
+      .def_prop_ro("url", &ImageViewer::url, "The page's address.")
+      .def("close", &ImageViewer::close, "Ends the viewer.");
+}
+
+}  // namespace kinegraph::python

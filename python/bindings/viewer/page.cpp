@@ -1,0 +1,134 @@
+#include <nanobind/stl/shared_ptr.h>
+#include <nanobind/stl/string.h>
+#include <nanobind/stl/vector.h>
+
+#include "parameters.h"
+#include "viewer/py_viewer.h"
+
+namespace kinegraph::python {
+
+namespace {
+
+bool flag(const char* name, bool otherwise) {
+  const nb::object value = parameter(name, nb::object(nb::bool_(otherwise)), "");
+  if (!PyLong_Check(value.ptr())) {  // True and False are numbers as well
+    throw ValueError(
+        cat("parameter ", name, " is ", nb::cast<std::string>(nb::repr(value)), "; expected True or False"));
+  }
+  return nb::cast<bool>(nb::bool_(value));
+}
+
+std::vector<double> numbers(const char* name) { return parameter(name, std::vector<double>(), "a list of numbers"); }
+
+/// The camera is first where a frame `camera_init` says, if there is one. True if it has just been put there.
+bool startCamera(PyViewer& viewer) {
+  FrameData* init = viewer.scene && !viewer.camera_is_set ? viewer.scene->find("camera_init") : nullptr;
+  if (!init) return false;
+  viewer.camera.place(cameraOf(Frame(viewer.scene, *init)));
+  viewer.camera_is_set = true;
+  return true;
+}
+
+/// Tells pages where to look from, if that has changed.
+void aimPage(PyViewer& viewer, bool is_new) {
+  const bool started = startCamera(viewer);
+  const Camera camera = cameraNow(viewer);
+  if (started || viewer.camera.follows()) {
+    const PageCamera page = pageCameraOf(camera);
+    const bool same = viewer.page_camera && page.pose.numbers().isApprox(viewer.page_camera->pose.numbers(), 1e-12);
+    if (is_new || !same) viewer.aim(page);
+  } else if (is_new && viewer.page_camera) {
+    viewer.aim(*viewer.page_camera);
+  }
+}
+
+}  // namespace
+
+bool interrupted() {
+  checkInterrupt();
+  return false;
+}
+
+void PyViewer::aim(const PageCamera& from) {
+  page_camera = from;
+  if (isOpen()) setCamera(from);
+}
+
+void PyViewer::endPage() {
+  close();
+  camera.place(defaultViewCamera());
+  camera_is_set = visuals_only = false;
+  page_camera.reset();
+  quads.clear();
+}
+
+Look lookOfParameters() {
+  Look look;
+  const std::vector<double> background = numbers("Render/backgroundColor"), floor = numbers("Render/floorColor");
+  const std::vector<double> lights = numbers("Render/lights");
+  if (background.size() == 3) look.background = Vector3d(background.data());
+  if (floor.size() == 3) look.floor = Vector3d(floor.data());
+  look.has_floor = floor.empty() || floor.size() == 3;
+  look.shadows = flag("Render/renderShadow", true);
+  look.text = flag("Render/renderText", true);
+  look.flat_colors = flag("Render/flatColors", false);
+  look.wireframe = flag("Render/renderPolygonLines", false);
+  if (lights.size() % 3 != 0) {
+    throw ValueError(
+        cat("parameter Render/lights has ", lights.size(), " numbers; expected 3 for each light: where it is, m"));
+  }
+  for (std::size_t i = 0; i < lights.size(); i += 3) look.lights.emplace_back(&lights[i]);
+  return look;
+}
+
+PageCamera pageCameraOf(const Camera& camera) {
+  PageCamera page{camera.pose};
+  page.focal_length = camera.focal_length;
+  page.ortho_height = camera.ortho_height;
+  page.aspect = double(camera.width) / camera.height;
+  if (camera.has_range) {
+    page.near = camera.near;
+    page.far = camera.far;
+  }
+  return page;
+}
+
+Camera cameraNow(PyViewer& viewer) {
+  startCamera(viewer);
+  FrameData* tracked = viewer.scene ? viewer.scene->find("camera_track") : nullptr;
+  const std::optional<PageCamera> moved = viewer.takeViewpoint();
+  if (tracked) {
+    viewer.camera.follow(Frame(viewer.scene, *tracked));
+    viewer.camera_is_set = true;
+  } else if (moved) {
+    Camera camera = viewer.camera.now();
+    camera.pose = moved->pose;
+    camera.focal_length = moved->focal_length;
+    camera.ortho_height = moved->ortho_height;
+    viewer.camera.place(camera);
+    viewer.camera_is_set = true;
+  }
+  return viewer.camera.now();
+}
+
+bool openPage(PyViewer& viewer) {
+  if (flag("disableGui", false)) return false;
+  viewer.setWaits(!flag("noInteractivity", false));
+  Look look = lookOfParameters();
+  look.visuals_only = viewer.visuals_only;
+  const bool is_new = !viewer.isOpen();
+  viewer.server().setLook(look);
+  if (viewer.scene) aimPage(viewer, is_new);
+  if (is_new) {
+    for (const auto& [id, quad] : viewer.quads) viewer.server().setQuad(quad);
+    nb::module_::import_("kinegraph.notebook").attr("showInline")(viewer.url());
+  }
+  return true;
+}
+
+bool show(PyViewer& viewer, const std::optional<std::string>& message, bool offscreen) {
+  if (message) viewer.noteMessage(*message);
+  return !offscreen && openPage(viewer);
+}
+
+}  // namespace kinegraph::python

@@ -1,0 +1,118 @@
+"""The pages of docs/ and README are true: their code runs and finds what they say, and their tables name what there is."""
+
+import os
+import re
+import subprocess
+import sys
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+import kinegraph as ry
+
+DOCS = Path(__file__).parent.parent.parent.parent / "docs"
+PAGES = [DOCS.parent / "README.md", *sorted(page for page in DOCS.glob("*.md") if "```python" in page.read_text())]
+
+# What the code of each page prints.
+FOUND = {
+    "README": [
+        r"feasible: 1",
+        r"<IkResult solved in 1 attempt",
+        r"False no solution in 100 attempts; at the nearest, frame 'l_gripper' misses its position by 1\.06\d* m",
+    ],
+    "conventions": [
+        r"from above: <IkResult solved in 1 attempt",
+        r"the palm is above the target by 0\.103 m",
+        r"from below: no solution .*'table' and 'l_panda_coll7' overlap",
+        r"^\[\]$",
+        r"collisions with the box: [1-9]",
+    ],
+    "dynamics": [r"^True \d+\.\d+", r"^\[ *[-+\d.e ]* -9\.81"],
+    "motion": [
+        r"\[.* 1\.962\d*e\+01\]",
+        r"^True $",
+        r"SolverStatus\.infeasible the constraints contradict each other",
+        r"If positionDiff of l_gripper, target gives way by 3\.07 m, all others can hold",
+    ],
+    "planning": [r"^solved: \d+ postures, length", r"verify: .* evaluations", r"clearance: [\d.]+ mm", r"waits for \d"],
+    "operation": [
+        r"2\.\d\d s, open by 0\.030 m",
+        r"BotOp\.move: joint '\w+' would .*; take at least \d",
+        r"the same to the bit: True",
+    ],
+    "scenes": [r"scene file 'scene.g' does not exist", r"similar names: sphere", r"\['home'\] \{'arm': \['j'\]\}"],
+    "control": [r"DiffIkStatus\.solved", r"'table' and", r"^True \d\.?\d*(e-\d+)? \d"],
+    "fleets": [r"<MapResults 200 items in", r"\d+ of 200 reached", r"20000 rows \['item', 'q', 'free', 'error'\]"],
+    "timing": [
+        r"<TimedPath 4 points in \d\.\d+ s>",
+        r"^\[ True  True\]",
+        r"'arm' cannot be held at .* -3 to 3 N m are allowed",
+    ],
+    "sensitivities": [r"^\(70, 7\) True", r"'position of box, x'", r"^True$", r"^4 .*shortest one"],
+    "simulation": [r"\(64, 7\) \(64, 1, 7\)"],
+    "tasks": [r"^solved: 4 actions", r"\(place jug l_gripper tray\)", r"\(show cup l_gripper\)", "-- feasible"],
+}
+
+
+def blocks(page, language):
+    return re.findall(rf"```{language}\n(.*?)```", page.read_text(), re.DOTALL)
+
+
+def words(text):
+    return set(re.findall(r"`(\w+)`", text))
+
+
+@pytest.mark.parametrize("page", PAGES, ids=lambda page: page.stem)
+def test_the_code_of_a_page_runs_from_top_to_bottom(page, tmp_path):
+    program = "\n".join(blocks(page, "python"))
+    run = subprocess.run(
+        [sys.executable, "-W", "error", "-c", program],
+        cwd=tmp_path,
+        env=os.environ,
+        capture_output=True,
+        text=True,
+        timeout=120,
+    )
+    assert run.returncode == 0, run.stderr
+    for found in FOUND.get(page.stem, []):
+        assert re.search(found, run.stdout, re.MULTILINE), f"{found} is not in\n{run.stdout}"
+
+
+def test_every_page_with_code_says_what_it_finds():
+    assert {
+        page.stem for page in PAGES if re.search(r"^print|^    print", "".join(blocks(page, "python")), re.M)
+    } <= set(FOUND)
+
+
+def test_the_axes_of_a_gripper_are_those_of_the_page_on_conventions():
+    for robot in ("panda/panda.g", "robotiq/robotiq.g"):
+        C = ry.Config()
+        C.addFile(ry.raiPath(robot))
+        gripper = C.getFrame("gripper")
+        fingers = [C.getFrame(name).getPosition(gripper) for name in ("finger1", "finger2")]
+        across = fingers[0] - fingers[1]
+        back = C.getFrame("palm").getPosition(gripper)
+        assert across @ [1, 0, 0] > 0.99 * np.linalg.norm(across)  # x from finger2 to finger1
+        assert back @ [0, 0, 1] > 0.99 * np.linalg.norm(back) > 0.05  # z back into the hand
+
+
+def test_the_scene_of_the_page_on_scenes_loads_without_a_warning(recwarn):
+    (scene,) = blocks(DOCS / "scenes.md", "g")
+    C = ry.Config()
+    C.addText(scene)
+    assert C.getJointNames() == ["lever"]
+    assert not recwarn.list
+
+
+def test_the_page_on_scenes_names_all_shapes_and_joints():
+    named = words((DOCS / "scenes.md").read_text())
+    assert {shape.name for shape in ry.ST} - {"none"} <= named
+    assert {joint.name for joint in ry.JT} - {"none"} <= named
+
+
+def test_the_page_on_motions_names_all_features_and_types():
+    text = (DOCS / "motion.md").read_text()
+    named = words(text)
+    assert {feature.name for feature in ry.FS} <= named
+    assert {f"OT.{kind.name}" for kind in ry.OT} - {"OT.none"} <= set(re.findall(r"`(OT\.\w+)`", text))
